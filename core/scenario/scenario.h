@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "core/scenario/scenario_spec.h"
+#include "core/simulate/simulator.h"
+
+namespace railcast {
+
+/// Reads a scenario file and every file it names, strictly: unknown, duplicate, missing and mistyped
+/// keys are errors. File names in the result are absolute.
+/// @throws InputError with a line for every fault: "file: /pointer: rule (got value)".
+[[nodiscard]] ScenarioSpec ReadScenario(const std::filesystem::path& file);
+
+/// The scenario with every default and every file's content in place. Reading it back gives the
+/// same spec.
+[[nodiscard]] std::string ResolvedScenarioJson(const ScenarioSpec& spec);
+
+/// The effects of the scenario's rung with its single switches applied.
+[[nodiscard]] EffectSet EffectsOf(const ScenarioSpec& spec);
+
+/// Builds the world of a scenario.
+[[nodiscard]] std::shared_ptr<const World> MakeWorld(const ScenarioSpec& spec);
+
+/// Builds the whole simulation of a scenario. @param num_threads 0 = all cores.
+[[nodiscard]] std::unique_ptr<Simulator> MakeSimulator(const ScenarioSpec& spec, int num_threads);
+
+}  // namespace railcast

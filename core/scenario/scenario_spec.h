@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/detect/detect_spec.h"
+#include "core/frame/labels.h"
+#include "core/frame/output_spec.h"
+#include "core/rail/world_spec.h"
+#include "core/scan/scan_spec.h"
+#include "core/scene/material.h"
+
+namespace railcast {
+
+/// Where the sensor sits on the vehicle.
+struct MountSpec {
+  std::array<double, 3> position_m{0.0, 0.0, 2.5};  ///< In the vehicle frame.
+  double yaw_deg = 0.0;    ///< Left positive.
+  double pitch_deg = 0.0;  ///< Nose down positive.
+  double roll_deg = 0.0;
+
+  bool operator==(const MountSpec&) const = default;
+};
+
+/// Section `lidar` (the published Lidar.json).
+struct LidarSpec {
+  std::string name;
+  ScanSpec scan;
+  double range_min_m = 0.5;
+  double range_max_m = 300.0;
+  MountSpec mount;
+  PlausibilitySpec plausibility;
+
+  bool operator==(const LidarSpec&) const = default;
+};
+
+/// Section `interfaces` (the published Interfaces.json): where live frames go. Read and checked
+/// now, used by `stream`.
+struct InterfacesSpec {
+  std::vector<std::string> udp{"127.0.0.1:2368"};  ///< host:port of each receiver.
+
+  bool operator==(const InterfacesSpec&) const = default;
+};
+
+/// A whole scenario: everything a run depends on besides the frame index.
+struct ScenarioSpec {
+  std::uint64_t seed = 1;
+  std::string fidelity = "plausibility";         ///< "geometry" or "plausibility".
+  std::map<std::string, bool> effects;           ///< Switches single effects on or off.
+  LidarSpec lidar;
+  WeatherSpec weather;
+  InterfacesSpec interfaces;
+  std::optional<std::string> camera;             ///< The camera section as read, kept for later.
+  WorldSpec world;
+  VehicleSpec vehicle;
+  OutputSpec output;
+  std::vector<Material> materials;               ///< Of the library the scenario names.
+  std::vector<Label> labels;                     ///< Of the label table the scenario names.
+
+  bool operator==(const ScenarioSpec&) const = default;
+};
+
+}  // namespace railcast

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/base/transform.h"
+#include "core/detect/detect_spec.h"
+#include "core/frame/frame.h"
+#include "core/frame/output_spec.h"
+#include "core/scan/scan_pattern.h"
+#include "core/scene/material.h"
+#include "core/scene/world.h"
+
+namespace railcast {
+
+/// What a simulation depends on besides the world, the scan pattern and the frame index.
+struct SimulatorSpec {
+  std::uint64_t seed = 1;
+  double range_min_m = 0.5;
+  double range_max_m = 300.0;
+  Transform vehicle_from_sensor = Transform::Identity();
+  EffectSet effects;
+  PlausibilitySpec plausibility;
+  WeatherSpec weather;
+  OutputSpec output;
+};
+
+/// Turns (scenario, frame index) into a Frame: aim, trace, detect, store, tile by tile.
+///
+/// A frame depends on its index alone, never on history or on the number of threads.
+class Simulator {
+ public:
+  Simulator(std::shared_ptr<const World> world,
+            ScanPattern pattern,
+            const MaterialLibrary& materials,
+            const SimulatorSpec& spec,
+            int num_threads);
+  ~Simulator();
+
+  /// Fills `frame`; keeps its memory where the shape stays. Not thread-safe: one caller at a time.
+  void Scan(std::uint32_t frame_index, Frame& frame);
+
+  /// For each of world().objects(), in their order: how many firings of the frame would hit it
+  /// within range if nothing else stood in the world. (Occlusion = 1 - visible / alone.)
+  [[nodiscard]] std::vector<std::uint32_t> FiringsOnObjectAlone(std::uint32_t frame_index);
+
+  [[nodiscard]] const World& world() const;
+  [[nodiscard]] const ScanPattern& pattern() const;
+  [[nodiscard]] Transform WorldFromSensor(std::int64_t time_ns) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace railcast
