@@ -35,6 +35,7 @@ struct WeatherSpec {
   double snow_rate_mmph = 0.0;
   double snow_echoes_per_mmph = 0.02;   ///< Mean detectable flakes per beam at 1 mm/h.
   double snow_range_scale_m = 5.0;      ///< Maxwell scale of their ranges (median 1.538 x).
+  double snow_intensity = 0.02;         ///< Effective reflectance that a flake shows.
 
   bool operator==(const WeatherSpec&) const = default;
 };

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/base/transform.h"
@@ -24,6 +25,8 @@ struct SimulatorSpec {
   PlausibilitySpec plausibility;
   WeatherSpec weather;
   OutputSpec output;
+  std::uint32_t snow_label{};  ///< Label of a flake that answers.
+  std::string isa;  ///< Embree's instruction set to force; empty = the best there is.
 };
 
 /// Turns (scenario, frame index) into a Frame: aim, trace, detect, store, tile by tile.
