@@ -21,6 +21,7 @@ struct alignas(64) DetectTile {
   float reflectivity[kTileSize];
 
   std::uint32_t outcome[kTileSize];  ///< An Outcome.
+  std::uint32_t is_flake[kTileSize]; ///< 1 where snow answers instead of a surface, else 0.
   float intensity[kTileSize];        ///< Effective reflectance, unattenuated; NaN if not computed.
   float power_ratio[kTileSize];      ///< Received / threshold; NaN if not computed.
   float incidence_rad[kTileSize];

@@ -61,6 +61,16 @@ void LeavePowerOut(DetectTile& tile) {
 Detector::Detector(const DetectorSpec& spec, const Kernels& kernels) {
   const auto range_min_m = static_cast<float>(spec.range_min_m);
   steps_.push_back({"hit", [=, hit = kernels.hit](DetectTile& tile) { hit(tile, range_min_m); }});
+  // First: a pulse that was never sent meets neither surface nor snow.
+  if (spec.effects.sensor_dropout && spec.plausibility.dropout_probability > 0.0) {
+    const SensorDropoutParameters parameters{
+        .seed = spec.seed,
+        .probability = static_cast<float>(spec.plausibility.dropout_probability)};
+    steps_.push_back({"sensor_dropout",
+                      [=, apply = kernels.sensor_dropout](DetectTile& tile) {
+                        apply(tile, parameters);
+                      }});
+  }
   if (spec.effects.threshold) {
     steps_.push_back(
         {"threshold", [p = MakeThreshold(spec), apply = kernels.threshold](DetectTile& tile) {
@@ -78,15 +88,6 @@ Detector::Detector(const DetectorSpec& spec, const Kernels& kernels) {
   if (spec.effects.snow && spec.weather.snow_rate_mmph > 0.0) {
     steps_.push_back({"snow", [p = MakeSnow(spec), apply = kernels.snow](DetectTile& tile) {
                         apply(tile, p);
-                      }});
-  }
-  if (spec.effects.sensor_dropout && spec.plausibility.dropout_probability > 0.0) {
-    const SensorDropoutParameters parameters{
-        .seed = spec.seed,
-        .probability = static_cast<float>(spec.plausibility.dropout_probability)};
-    steps_.push_back({"sensor_dropout",
-                      [=, apply = kernels.sensor_dropout](DetectTile& tile) {
-                        apply(tile, parameters);
                       }});
   }
   steps_.push_back(MakeMeasurement(spec, kernels));

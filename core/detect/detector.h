@@ -16,9 +16,9 @@ struct DetectorSpec {
   std::uint64_t seed = 1;
   double range_min_m = 0.5;
   double range_max_m = 300.0;
-  EffectSet effects;
-  PlausibilitySpec plausibility;
-  WeatherSpec weather;
+  EffectSet effects{};
+  PlausibilitySpec plausibility{};
+  WeatherSpec weather{};
 };
 
 /// Turns hits into returns: the effects that are on, in the order of the published model

@@ -20,6 +20,7 @@ inline void ApplyHit(DetectTile& tile, float range_min_m) {
     const bool near = before == static_cast<std::uint32_t>(Outcome::kReturned) &&
                       range_m < range_min_m;
     tile.outcome[i] = near ? static_cast<std::uint32_t>(Outcome::kNearRange) : before;
+    tile.is_flake[i] = 0;
     // NaN stays NaN.
     tile.incidence_rad[i] = Acos(tile.cos_incidence[i]);
   }

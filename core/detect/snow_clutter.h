@@ -16,7 +16,7 @@ namespace railcast::RAILCAST_ISA {
 ///
 /// A flake farther than the surface, nearer than range_min, or too weak for the threshold (with
 /// intensity snow_intensity and the fog's attenuation) does not answer; else the outcome is
-/// clutter. Beams that a near or ego surface blocks stay blocked. The publication has words only;
+/// clutter. Beams that a near or ego surface blocks, or that were never fired, stay so. The publication has words only;
 /// the Maxwell law is that of detectable particles in a diverging beam (physics.md 4.2).
 inline void ApplySnowClutter(DetectTile& tile, const SnowParameters& parameters) {
   const LaneKey key{parameters.seed, RandomUse::kSnow, tile.frame};
@@ -30,11 +30,13 @@ inline void ApplySnowClutter(DetectTile& tile, const SnowParameters& parameters)
     const std::uint32_t before = tile.outcome[i];
     const std::uint32_t blocked = static_cast<std::uint32_t>(
         before == static_cast<std::uint32_t>(Outcome::kNearRange) ||
-        before == static_cast<std::uint32_t>(Outcome::kEgo));
+        before == static_cast<std::uint32_t>(Outcome::kEgo) ||
+        before == static_cast<std::uint32_t>(Outcome::kSensorDropout));
     // A missing surface is NaN: no flake is farther than it. Bits, not branches, vectorise.
     const bool answers = ((blocked == 0U) & !(r >= tile.true_range_m[i]) & (u < p.probability) &
                           (r >= p.range_min_m) & (ratio >= 1.0F));
     tile.outcome[i] = answers ? static_cast<std::uint32_t>(Outcome::kClutter) : before;
+    tile.is_flake[i] = answers ? 1U : 0U;
     tile.true_range_m[i] = answers ? r : tile.true_range_m[i];
     tile.intensity[i] = answers ? p.intensity : tile.intensity[i];
     tile.power_ratio[i] = answers ? ratio : tile.power_ratio[i];

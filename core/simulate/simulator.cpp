@@ -156,7 +156,7 @@ void Store(const DetectTile& detect,
     const std::size_t slot = slots[i];
     const auto outcome = static_cast<Outcome>(detect.outcome[i]);
     const Surface& surface = surfaces[rays.surface[i]];
-    const bool is_clutter = outcome == Outcome::kClutter;
+    const bool is_flake = detect.is_flake[i] != 0;
     frame.x[slot] = detect.x[i];
     frame.y[slot] = detect.y[i];
     frame.z[slot] = detect.z[i];
@@ -166,11 +166,11 @@ void Store(const DetectTile& detect,
     frame.true_range_m[slot] = detect.true_range_m[i];
     frame.outcome[slot] = outcome;
     frame.return_count[slot] = HasPoint(outcome) ? 1 : 0;
-    frame.label[slot] = is_clutter ? snow_label : surface.label;
-    frame.instance[slot] = is_clutter ? 0 : surface.instance;
-    frame.material[slot] = is_clutter ? std::uint16_t{0} : surface.material;
+    frame.label[slot] = is_flake ? snow_label : surface.label;
+    frame.instance[slot] = is_flake ? 0 : surface.instance;
+    frame.material[slot] = is_flake ? std::uint16_t{0} : surface.material;
     frame.incidence_rad[slot] =
-        is_clutter ? std::numeric_limits<float>::quiet_NaN() : detect.incidence_rad[i];
+        is_flake ? std::numeric_limits<float>::quiet_NaN() : detect.incidence_rad[i];
   }
 }
 

@@ -21,12 +21,12 @@ struct SimulatorSpec {
   double range_min_m = 0.5;
   double range_max_m = 300.0;
   Transform vehicle_from_sensor = Transform::Identity();
-  EffectSet effects;
-  PlausibilitySpec plausibility;
-  WeatherSpec weather;
-  OutputSpec output;
+  EffectSet effects{};
+  PlausibilitySpec plausibility{};
+  WeatherSpec weather{};
+  OutputSpec output{};
   std::uint32_t snow_label{};  ///< Label of a flake that answers.
-  std::string isa;  ///< Embree's instruction set to force; empty = the best there is.
+  std::string isa{};  ///< Embree's instruction set to force; empty = the best there is.
 };
 
 /// Turns (scenario, frame index) into a Frame: aim, trace, detect, store, tile by tile.

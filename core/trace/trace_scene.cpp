@@ -1,10 +1,11 @@
 #include "core/trace/trace_scene.h"
 
 #include <embree3/rtcore.h>
+#include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 #include "core/base/error.h"
 #include "core/scan/scan_pattern.h"
@@ -25,7 +26,7 @@ struct TraceDevice::Handle {
 };
 
 TraceDevice::TraceDevice(const std::string& isa)
-    : handle_(std::make_shared<Handle>("threads=1" + (isa.empty() ? "" : ",isa=" + isa))) {}
+    : handle_(std::make_shared<Handle>(isa.empty() ? "" : "isa=" + isa)) {}
 
 TraceDevice::~TraceDevice() = default;
 
@@ -37,6 +38,13 @@ RTCScene NewScene(RTCDevice device) {
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
   return scene;
+}
+
+// Embree builds with the threads of the calling arena. One thread: what a ray on an edge hits depends
+// on the order of primitives in the leaves, which must not depend on how the work was shared.
+void Commit(RTCScene scene) {
+  tbb::task_arena one_thread(1);
+  one_thread.execute([scene] { rtcCommitScene(scene); });
 }
 
 void AttachPart(RTCDevice device, RTCScene scene, const Mesh& mesh, unsigned geometry_id) {
@@ -85,7 +93,7 @@ TraceModel::TraceModel(const TraceDevice& device, const Model& model)
                model.parts[i].mesh,
                static_cast<unsigned>(i));
   }
-  rtcCommitScene(handle_->scene);
+  Commit(handle_->scene);
 }
 
 TraceModel::~TraceModel() = default;
@@ -165,7 +173,7 @@ TraceScene::TraceScene(const TraceDevice& device, const std::vector<TracePlaceme
   parts->device = device.handle();
   parts->scene = NewScene(parts->device->device);
   for (const TracePlacement& placement : placements) parts->AttachInstance(placement);
-  rtcCommitScene(parts->scene);
+  Commit(parts->scene);
   parts_ = std::move(parts);
 }
 
