@@ -20,12 +20,12 @@ struct alignas(64) DetectTile {
   float cos_incidence[kTileSize];
   float reflectivity[kTileSize];
 
-  std::uint32_t outcome[kTileSize];  ///< An Outcome.
-  std::uint32_t is_flake[kTileSize]; ///< 1 where snow answers instead of a surface, else 0.
-  float intensity[kTileSize];        ///< Effective reflectance, unattenuated; NaN if not computed.
-  float power_ratio[kTileSize];      ///< Received / threshold; NaN if not computed.
+  std::uint32_t outcome[kTileSize];   ///< An Outcome.
+  std::uint32_t is_flake[kTileSize];  ///< 1 where snow answers instead of a surface, else 0.
+  float intensity[kTileSize];         ///< Effective reflectance, unattenuated; NaN if not computed.
+  float power_ratio[kTileSize];       ///< Received / threshold; NaN if not computed.
   float incidence_rad[kTileSize];
-  float range_m[kTileSize];          ///< Measured; NaN where the outcome has no point.
+  float range_m[kTileSize];  ///< Measured; NaN where the outcome has no point.
   float x[kTileSize], y[kTileSize], z[kTileSize];  ///< Measured, sensor frame; NaN likewise.
 };
 

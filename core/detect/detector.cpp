@@ -17,9 +17,9 @@ ThresholdParameters MakeThreshold(const DetectorSpec& spec) {
 RainParameters MakeRain(const DetectorSpec& spec) {
   const WeatherSpec& weather = spec.weather;
   return {.seed = spec.seed,
-          .dropout_per_m = static_cast<float>(
-              weather.rain_dropout_per_m *
-              std::pow(weather.rain_rate_mmph, weather.rain_dropout_exponent))};
+          .dropout_per_m =
+              static_cast<float>(weather.rain_dropout_per_m *
+                                 std::pow(weather.rain_rate_mmph, weather.rain_dropout_exponent))};
 }
 
 SnowParameters MakeSnow(const DetectorSpec& spec) {
@@ -66,29 +66,24 @@ Detector::Detector(const DetectorSpec& spec, const Kernels& kernels) {
     const SensorDropoutParameters parameters{
         .seed = spec.seed,
         .probability = static_cast<float>(spec.plausibility.dropout_probability)};
-    steps_.push_back({"sensor_dropout",
-                      [=, apply = kernels.sensor_dropout](DetectTile& tile) {
+    steps_.push_back({"sensor_dropout", [=, apply = kernels.sensor_dropout](DetectTile& tile) {
                         apply(tile, parameters);
                       }});
   }
   if (spec.effects.threshold) {
-    steps_.push_back(
-        {"threshold", [p = MakeThreshold(spec), apply = kernels.threshold](DetectTile& tile) {
-           apply(tile, p);
-         }});
+    steps_.push_back({"threshold", [p = MakeThreshold(spec), apply = kernels.threshold](
+                                       DetectTile& tile) { apply(tile, p); }});
   } else {
     steps_.push_back({"no threshold", &LeavePowerOut});
   }
   // An effect whose cause is absent is left out: no rain, no snow, no dropout, no work.
   if (spec.effects.rain && spec.weather.rain_rate_mmph > 0.0) {
-    steps_.push_back({"rain", [p = MakeRain(spec), apply = kernels.rain](DetectTile& tile) {
-                        apply(tile, p);
-                      }});
+    steps_.push_back(
+        {"rain", [p = MakeRain(spec), apply = kernels.rain](DetectTile& tile) { apply(tile, p); }});
   }
   if (spec.effects.snow && spec.weather.snow_rate_mmph > 0.0) {
-    steps_.push_back({"snow", [p = MakeSnow(spec), apply = kernels.snow](DetectTile& tile) {
-                        apply(tile, p);
-                      }});
+    steps_.push_back(
+        {"snow", [p = MakeSnow(spec), apply = kernels.snow](DetectTile& tile) { apply(tile, p); }});
   }
   steps_.push_back(MakeMeasurement(spec, kernels));
 }

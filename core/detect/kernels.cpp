@@ -1,7 +1,7 @@
 // Compiled once per instruction set, see CMakeLists.txt: RAILCAST_ISA names the copy. Nothing with
 // external linkage may be instantiated here besides the one function below.
-#include "core/detect/measurement.h"
 #include "core/detect/kernels.h"
+#include "core/detect/measurement.h"
 #include "core/detect/rain_dropout.h"
 #include "core/detect/sensor_dropout.h"
 #include "core/detect/snow_clutter.h"

@@ -21,17 +21,17 @@ struct Words {
 };
 
 /// The words of railcast::RandomWords, bit for bit, in a form that vectorises over lanes.
-[[nodiscard]] inline Words LaneWords(const LaneKey& key, std::uint32_t firing, std::uint32_t block) {
+[[nodiscard]] inline Words LaneWords(const LaneKey& key,
+                                     std::uint32_t firing,
+                                     std::uint32_t block) {
   Words w{firing, key.frame, static_cast<std::uint32_t>(key.use), block};
   auto k0 = static_cast<std::uint32_t>(key.seed);
   auto k1 = static_cast<std::uint32_t>(key.seed >> 32U);
   for (int round = 0; round < 10; ++round) {
     const std::uint64_t p0 = std::uint64_t{0xD2511F53U} * w.a;
     const std::uint64_t p1 = std::uint64_t{0xCD9E8D57U} * w.c;
-    w = {static_cast<std::uint32_t>(p1 >> 32U) ^ w.b ^ k0,
-         static_cast<std::uint32_t>(p1),
-         static_cast<std::uint32_t>(p0 >> 32U) ^ w.d ^ k1,
-         static_cast<std::uint32_t>(p0)};
+    w = {static_cast<std::uint32_t>(p1 >> 32U) ^ w.b ^ k0, static_cast<std::uint32_t>(p1),
+         static_cast<std::uint32_t>(p0 >> 32U) ^ w.d ^ k1, static_cast<std::uint32_t>(p0)};
     k0 += 0x9E3779B9U;
     k1 += 0xBB67AE85U;
   }

@@ -17,8 +17,8 @@ inline void ApplyHit(DetectTile& tile, float range_min_m) {
   for (std::size_t i = 0; i < tile.num_rays; ++i) {
     const float range_m = tile.true_range_m[i];
     const std::uint32_t before = tile.outcome[i];
-    const bool near = before == static_cast<std::uint32_t>(Outcome::kReturned) &&
-                      range_m < range_min_m;
+    const bool near =
+        before == static_cast<std::uint32_t>(Outcome::kReturned) && range_m < range_min_m;
     tile.outcome[i] = near ? static_cast<std::uint32_t>(Outcome::kNearRange) : before;
     tile.is_flake[i] = 0;
     // NaN stays NaN.
@@ -65,7 +65,7 @@ inline void ApplyMeasurement(DetectTile& tile, const MeasurementParameters& para
                           before == static_cast<std::uint32_t>(Outcome::kClutter);
     const bool beyond = range_m > p.range_max_m;
     const bool short_of = range_m < p.range_min_m;
-    const std::uint32_t gated = beyond ? static_cast<std::uint32_t>(Outcome::kOutOfRange)
+    const std::uint32_t gated = beyond     ? static_cast<std::uint32_t>(Outcome::kOutOfRange)
                                 : short_of ? static_cast<std::uint32_t>(Outcome::kNearRange)
                                            : before;
     const bool has_point = measured && !beyond && !short_of;

@@ -14,8 +14,8 @@ namespace railcast::RAILCAST_ISA {
 ///   P(lost) = 1 - exp(-k * RR^e * R),  k = rain_dropout_per_m, e = rain_dropout_exponent
 ///
 /// The publication has words only. The form is that of a path through independent drops; the
-/// defaults k = 3.65e-4 /m, e = 0.63 are the extinction of Marshall-Palmer rain (physics.md 4.1), so
-/// that the dropout equals the share of light that one passage of the path loses. RR in mm/h.
+/// defaults k = 3.65e-4 /m, e = 0.63 are the extinction of Marshall-Palmer rain (physics.md 4.1),
+/// so that the dropout equals the share of light that one passage of the path loses. RR in mm/h.
 inline void ApplyRainDropout(DetectTile& tile, const RainParameters& parameters) {
   const LaneKey key{parameters.seed, RandomUse::kRain, tile.frame};
   const float rate_per_m = parameters.dropout_per_m;

@@ -16,8 +16,9 @@ namespace railcast::RAILCAST_ISA {
 ///
 /// A flake farther than the surface, nearer than range_min, or too weak for the threshold (with
 /// intensity snow_intensity and the fog's attenuation) does not answer; else the outcome is
-/// clutter. Beams that a near or ego surface blocks, or that were never fired, stay so. The publication has words only;
-/// the Maxwell law is that of detectable particles in a diverging beam (physics.md 4.2).
+/// clutter. Beams that a near or ego surface blocks, or that were never fired, stay so. The
+/// publication has words only; the Maxwell law is that of detectable particles in a diverging beam
+/// (physics.md 4.2).
 inline void ApplySnowClutter(DetectTile& tile, const SnowParameters& parameters) {
   const LaneKey key{parameters.seed, RandomUse::kSnow, tile.frame};
   const SnowParameters p = parameters;  // A copy, so that no store to the tile can change it.
@@ -28,10 +29,10 @@ inline void ApplySnowClutter(DetectTile& tile, const SnowParameters& parameters)
     const float ratio = p.intensity * Exp(-p.threshold.fog_density_per_m * r) *
                         p.threshold.inverse_threshold_m2 / (r * r);
     const std::uint32_t before = tile.outcome[i];
-    const std::uint32_t blocked = static_cast<std::uint32_t>(
-        before == static_cast<std::uint32_t>(Outcome::kNearRange) ||
-        before == static_cast<std::uint32_t>(Outcome::kEgo) ||
-        before == static_cast<std::uint32_t>(Outcome::kSensorDropout));
+    const std::uint32_t blocked =
+        static_cast<std::uint32_t>(before == static_cast<std::uint32_t>(Outcome::kNearRange) ||
+                                   before == static_cast<std::uint32_t>(Outcome::kEgo) ||
+                                   before == static_cast<std::uint32_t>(Outcome::kSensorDropout));
     // A missing surface is NaN: no flake is farther than it. Bits, not branches, vectorise.
     const bool answers = ((blocked == 0U) & !(r >= tile.true_range_m[i]) & (u < p.probability) &
                           (r >= p.range_min_m) & (ratio >= 1.0F));

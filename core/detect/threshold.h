@@ -26,12 +26,11 @@ inline void ApplyThreshold(DetectTile& tile, const ThresholdParameters& paramete
     const float intensity = tile.reflectivity[i] * tile.cos_incidence[i];
     const float received = intensity * Exp(-fog_per_m * range_m);
     const float ratio = received * scale / (range_m * range_m);
-    const bool lost = tile.outcome[i] == static_cast<std::uint32_t>(Outcome::kReturned) &&
-                      !(ratio >= 1.0F);
+    const bool lost =
+        tile.outcome[i] == static_cast<std::uint32_t>(Outcome::kReturned) && !(ratio >= 1.0F);
     tile.intensity[i] = intensity;
     tile.power_ratio[i] = ratio;
-    tile.outcome[i] =
-        lost ? static_cast<std::uint32_t>(Outcome::kBelowThreshold) : tile.outcome[i];
+    tile.outcome[i] = lost ? static_cast<std::uint32_t>(Outcome::kBelowThreshold) : tile.outcome[i];
   }
 }
 

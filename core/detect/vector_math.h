@@ -16,8 +16,8 @@
 /// tests/core/detect/vector_math_test.cpp.
 namespace railcast::RAILCAST_ISA {
 
-inline constexpr float kLn2Upper = 0.693359375F;       // ln 2 in two pieces: the upper one is
-inline constexpr float kLn2Lower = -2.12194440e-4F;    // exact times any exponent.
+inline constexpr float kLn2Upper = 0.693359375F;     // ln 2 in two pieces: the upper one is
+inline constexpr float kLn2Lower = -2.12194440e-4F;  // exact times any exponent.
 
 /// Natural logarithm of a normal x > 0 (Cephes logf polynomial); error <= 2 ulp, or 1e-7 near 1.
 [[nodiscard]] inline float Log(float x) {
@@ -70,10 +70,9 @@ inline void CosSinTurn(float u, float& cosine, float& sine) {
   const float x2 = x * x;
   const float s =
       x + x * x2 * ((-1.9515295891e-4F * x2 + 8.3321608736e-3F) * x2 - 1.6666654611e-1F);
-  const float c = 1.0F - 0.5F * x2 +
-                  x2 * x2 *
-                      ((2.443315711809948e-5F * x2 - 1.388731625493765e-3F) * x2 +
-                       4.166664568298827e-2F);
+  const float c =
+      1.0F - 0.5F * x2 +
+      x2 * x2 * ((2.443315711809948e-5F * x2 - 1.388731625493765e-3F) * x2 + 4.166664568298827e-2F);
   const std::uint32_t quadrant = std::bit_cast<std::uint32_t>(shifted) & 3U;
   const bool swap = (quadrant & 1U) != 0U;
   const float c_abs = swap ? s : c;

@@ -82,7 +82,8 @@ void FiringTiles::Aim(std::size_t tile,
     if (*latest - *earliest <= poses.knot_spacing_ns()) {
       const PoseF pose = poses.At(*earliest, change);
       for (std::size_t lane = 0; lane < kPacketSize; ++lane) {
-        since_pose_ns[lane] = static_cast<float>(static_cast<std::int32_t>(time_ns[lane] - *earliest));
+        since_pose_ns[lane] =
+            static_cast<float>(static_cast<std::int32_t>(time_ns[lane] - *earliest));
       }
       AimPacket(x, y, z, since_pose_ns, pose, change, rays, first);
     } else {

@@ -17,7 +17,9 @@ class FiringTiles {
  public:
   explicit FiringTiles(const ScanPattern& pattern);
 
-  [[nodiscard]] std::size_t num_tiles() const { return (firing_.size() + kTileSize - 1) / kTileSize; }
+  [[nodiscard]] std::size_t num_tiles() const {
+    return (firing_.size() + kTileSize - 1) / kTileSize;
+  }
   [[nodiscard]] std::uint32_t duration_ns() const { return duration_ns_; }
 
   /// Fills origins, directions, shutter, range_m (= range_max_m) and surface (= nothing).
@@ -26,7 +28,9 @@ class FiringTiles {
   /// Sensor-frame direction, firing index of lane `i` of a tile, and its slot in a frame of one
   /// return per firing.
   void Describe(std::size_t tile, DetectTile& detect) const;
-  [[nodiscard]] const std::uint32_t* slots(std::size_t tile) const { return &slot_[tile * kTileSize]; }
+  [[nodiscard]] const std::uint32_t* slots(std::size_t tile) const {
+    return &slot_[tile * kTileSize];
+  }
   [[nodiscard]] const std::uint32_t* times_ns(std::size_t tile) const {
     return &time_ns_[tile * kTileSize];
   }

@@ -22,7 +22,8 @@ PoseF ToPoseF(const Transform& transform) {
 
 FramePoses::FramePoses(std::uint32_t duration_ns,
                        const std::function<Transform(std::uint32_t)>& window_from_sensor) {
-  const std::uint32_t num_intervals = std::max(1U, (duration_ns + kKnotSpacing_ns - 1) / kKnotSpacing_ns);
+  const std::uint32_t num_intervals =
+      std::max(1U, (duration_ns + kKnotSpacing_ns - 1) / kKnotSpacing_ns);
   spacing_ns_ = std::max(1U, (duration_ns + num_intervals - 1) / num_intervals);
   knots_.reserve(num_intervals + 1);
   for (std::uint32_t i = 0; i <= num_intervals; ++i) {
@@ -31,8 +32,7 @@ FramePoses::FramePoses(std::uint32_t duration_ns,
 }
 
 PoseF FramePoses::At(std::uint32_t time_ns, PoseF& change_per_ns) const {
-  const std::size_t index =
-      std::min<std::size_t>(time_ns / spacing_ns_, knots_.size() - 2);
+  const std::size_t index = std::min<std::size_t>(time_ns / spacing_ns_, knots_.size() - 2);
   const PoseF& begin = knots_[index];
   const PoseF& end = knots_[index + 1];
   const auto since_knot_ns =

@@ -17,8 +17,7 @@ void OutputAxes::Apply(const FramePoses& poses,
                        DetectTile& detect) const {
   if (target_ == Target::kSensor && !is_left_handed_) return;
   for (std::size_t i = 0; i < detect.num_rays; ++i) {
-    Vector3 point(static_cast<double>(detect.x[i]),
-                  static_cast<double>(detect.y[i]),
+    Vector3 point(static_cast<double>(detect.x[i]), static_cast<double>(detect.y[i]),
                   static_cast<double>(detect.z[i]));
     if (target_ == Target::kVehicle) point = vehicle_from_sensor_ * point;
     if (target_ == Target::kWorld) {

@@ -63,7 +63,8 @@ TracePlacement Simulator::Parts::Place(std::size_t object,
     const std::int64_t time_ns =
         num_steps == 1 ? stamp_ns
                        : stamp_ns + std::int64_t{tiles.duration_ns()} * step / (num_steps - 1);
-    const Transform window_from_object = window_from_world * world->WorldFromObject(object, time_ns);
+    const Transform window_from_object =
+        window_from_world * world->WorldFromObject(object, time_ns);
     placement.window_from_model.emplace_back(window_from_object.matrix());
   }
   return placement;
@@ -72,7 +73,8 @@ TracePlacement Simulator::Parts::Place(std::size_t object,
 std::unique_ptr<const TraceScene> Simulator::Parts::MovingScene(std::int64_t stamp_ns,
                                                                 const Window& window) const {
   std::vector<TracePlacement> placements;
-  const Vector3 sensor_window = (window.window_from_world * WorldFromSensor(stamp_ns)).translation();
+  const Vector3 sensor_window =
+      (window.window_from_world * WorldFromSensor(stamp_ns)).translation();
   const auto& objects = world->objects();
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (!objects[i].moves) continue;
@@ -121,8 +123,12 @@ Simulator::Simulator(std::shared_ptr<const World> world,
 
 Simulator::~Simulator() = default;
 
-const World& Simulator::world() const { return *parts_->world; }
-const ScanPattern& Simulator::pattern() const { return parts_->pattern; }
+const World& Simulator::world() const {
+  return *parts_->world;
+}
+const ScanPattern& Simulator::pattern() const {
+  return parts_->pattern;
+}
 Transform Simulator::WorldFromSensor(std::int64_t time_ns) const {
   return parts_->WorldFromSensor(time_ns);
 }
@@ -135,7 +141,7 @@ void Resolve(const RayTile& rays, const std::vector<Surface>& surfaces, DetectTi
   for (std::size_t i = 0; i < rays.num_rays; ++i) {
     const Surface& surface = surfaces[rays.surface[i]];
     const bool hit = rays.surface[i] != 0;
-    const Outcome outcome = !hit              ? Outcome::kNoSurface
+    const Outcome outcome = !hit             ? Outcome::kNoSurface
                             : surface.is_ego ? Outcome::kEgo
                                              : Outcome::kReturned;
     detect.true_range_m[i] = hit ? rays.range_m[i] : kNaN;
@@ -189,7 +195,8 @@ void Simulator::Scan(std::uint32_t frame_index, Frame& frame) {
   parts.PrepareNextWindow(stamp_ns, home_chunk);
   const FramePoses poses = parts.Poses(stamp_ns, window->window_from_world);
   const std::unique_ptr<const TraceScene> moving = parts.MovingScene(stamp_ns, *window);
-  const OutputAxes axes(parts.spec.output, parts.spec.vehicle_from_sensor, window->window_from_world);
+  const OutputAxes axes(parts.spec.output, parts.spec.vehicle_from_sensor,
+                        window->window_from_world);
   const auto range_max_m = static_cast<float>(parts.spec.range_max_m);
 
   const auto scan_tile = [&](std::size_t tile) {
@@ -203,17 +210,11 @@ void Simulator::Scan(std::uint32_t frame_index, Frame& frame) {
     Resolve(rays, window->surfaces, detect);
     parts.detector.Run(detect);
     axes.Apply(poses, parts.tiles.times_ns(tile), detect);
-    Store(detect,
-          rays,
-          window->surfaces,
-          parts.tiles.slots(tile),
-          parts.tiles.num_firings(tile),
-          parts.spec.snow_label,
-          frame);
+    Store(detect, rays, window->surfaces, parts.tiles.slots(tile), parts.tiles.num_firings(tile),
+          parts.spec.snow_label, frame);
   };
-  parts.arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, parts.tiles.num_tiles(), scan_tile);
-  });
+  parts.arena.execute(
+      [&] { tbb::parallel_for(std::size_t{0}, parts.tiles.num_tiles(), scan_tile); });
   parts.tiles.StoreConstants(frame);
 }
 
@@ -236,9 +237,8 @@ std::vector<std::uint32_t> Simulator::FiringsOnObjectAlone(std::uint32_t frame_i
         alone.Cast(rays);
         const std::size_t num_firings = parts.tiles.num_firings(tile);
         counts[object] += static_cast<std::uint32_t>(
-            std::count_if(rays.surface, rays.surface + num_firings, [](std::uint32_t surface) {
-              return surface != 0;
-            }));
+            std::count_if(rays.surface, rays.surface + num_firings,
+                          [](std::uint32_t surface) { return surface != 0; }));
       }
     });
   });

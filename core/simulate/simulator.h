@@ -26,7 +26,7 @@ struct SimulatorSpec {
   WeatherSpec weather{};
   OutputSpec output{};
   std::uint32_t snow_label{};  ///< Label of a flake that answers.
-  std::string isa{};  ///< Embree's instruction set to force; empty = the best there is.
+  std::string isa{};           ///< Embree's instruction set to force; empty = the best there is.
 };
 
 /// Turns (scenario, frame index) into a Frame: aim, trace, detect, store, tile by tile.

@@ -11,7 +11,9 @@ namespace {
 // Where the vehicle can be while a chunk is its home: chunks are this long at most, see World.
 constexpr double kHomeRadius_m = 60.0;
 
-Eigen::Affine3d ToAffine(const Transform& transform) { return Eigen::Affine3d(transform.matrix()); }
+Eigen::Affine3d ToAffine(const Transform& transform) {
+  return Eigen::Affine3d(transform.matrix());
+}
 
 Model WithoutTriangles(const Model& model) {
   Model bare{model.name, {}};
@@ -57,7 +59,8 @@ Surface WindowSource::MakeSurface(const Part& part, std::uint32_t instance, bool
           .is_ego = is_ego};
 }
 
-std::shared_ptr<const TraceModel> WindowSource::GetModel(const std::shared_ptr<const Model>& model) {
+std::shared_ptr<const TraceModel> WindowSource::GetModel(
+    const std::shared_ptr<const Model>& model) {
   auto& entry = models_[model.get()];
   if (entry.second == nullptr) entry = {model, std::make_shared<TraceModel>(device_, *model)};
   return entry.second;
@@ -136,7 +139,8 @@ std::shared_ptr<const Window> WindowSource::Build(int home_chunk) {
 std::shared_ptr<const Window> WindowSource::Get(int home_chunk) {
   {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return wanted_ != home_chunk || windows_.contains(home_chunk) || failure_; });
+    changed_.wait(
+        lock, [&] { return wanted_ != home_chunk || windows_.contains(home_chunk) || failure_; });
     if (failure_) std::rethrow_exception(failure_);
     if (const auto it = windows_.find(home_chunk); it != windows_.end()) {
       auto window = it->second;

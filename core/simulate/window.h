@@ -63,7 +63,8 @@ class WindowSource {
 
   [[nodiscard]] std::shared_ptr<const Window> Build(int home_chunk);
   [[nodiscard]] std::shared_ptr<const BuiltChunk> GetChunk(int chunk);
-  [[nodiscard]] std::shared_ptr<const TraceModel> GetModel(const std::shared_ptr<const Model>& model);
+  [[nodiscard]] std::shared_ptr<const TraceModel> GetModel(
+      const std::shared_ptr<const Model>& model);
   [[nodiscard]] Surface MakeSurface(const Part& part, std::uint32_t instance, bool is_ego) const;
   void AddObjects(int home_chunk, Window& window, std::vector<TracePlacement>& placements) const;
   void BuildAhead();

@@ -40,8 +40,9 @@ RTCScene NewScene(RTCDevice device) {
   return scene;
 }
 
-// Embree builds with the threads of the calling arena. One thread: what a ray on an edge hits depends
-// on the order of primitives in the leaves, which must not depend on how the work was shared.
+// Embree builds with the threads of the calling arena. One thread: what a ray on an edge hits
+// depends on the order of primitives in the leaves, which must not depend on how the work was
+// shared.
 void Commit(RTCScene scene) {
   tbb::task_arena one_thread(1);
   one_thread.execute([scene] { rtcCommitScene(scene); });
@@ -54,19 +55,11 @@ void AttachPart(RTCDevice device, RTCScene scene, const Mesh& mesh, unsigned geo
     constexpr std::size_t kTriangleBytes = 3 * sizeof(std::uint32_t);
     static_assert(sizeof(Eigen::Vector3f) == kVertexBytes);
     static_assert(sizeof(mesh.triangles[0]) == kTriangleBytes);
-    void* vertices = rtcSetNewGeometryBuffer(geometry,
-                                             RTC_BUFFER_TYPE_VERTEX,
-                                             0,
-                                             RTC_FORMAT_FLOAT3,
-                                             kVertexBytes,
-                                             mesh.vertices.size());
+    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                             kVertexBytes, mesh.vertices.size());
     std::memcpy(vertices, mesh.vertices.data(), mesh.vertices.size() * kVertexBytes);
-    void* indices = rtcSetNewGeometryBuffer(geometry,
-                                            RTC_BUFFER_TYPE_INDEX,
-                                            0,
-                                            RTC_FORMAT_UINT3,
-                                            kTriangleBytes,
-                                            mesh.triangles.size());
+    void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                            kTriangleBytes, mesh.triangles.size());
     std::memcpy(indices, mesh.triangles.data(), mesh.triangles.size() * kTriangleBytes);
   }
   rtcCommitGeometry(geometry);
@@ -88,9 +81,7 @@ TraceModel::TraceModel(const TraceDevice& device, const Model& model)
   handle_->device = device.handle();
   handle_->scene = NewScene(handle_->device->device);
   for (std::size_t i = 0; i < model.parts.size(); ++i) {
-    AttachPart(handle_->device->device,
-               handle_->scene,
-               model.parts[i].mesh,
+    AttachPart(handle_->device->device, handle_->scene, model.parts[i].mesh,
                static_cast<unsigned>(i));
   }
   Commit(handle_->scene);
@@ -107,8 +98,8 @@ struct alignas(16) RotationColumns {
 
 /// What the answer of a hit on one instance is made of.
 struct InstanceRecord {
-  RotationColumns rotation;        ///< window_from_model at shutter 0 ...
-  RotationColumns rotation_change; ///< ... and its change until shutter 1 (0 where it stands).
+  RotationColumns rotation;         ///< window_from_model at shutter 0 ...
+  RotationColumns rotation_change;  ///< ... and its change until shutter 1 (0 where it stands).
   std::uint32_t first_surface{};
   bool moves{};
 };
@@ -150,9 +141,7 @@ void TraceScene::Parts::AttachInstance(const TracePlacement& placement) {
   rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(steps.size()));
   for (std::size_t step = 0; step < steps.size(); ++step) {
     const Eigen::Matrix<float, 3, 4> matrix = steps[step].matrix().topRows<3>().cast<float>();
-    rtcSetGeometryTransform(geometry,
-                            static_cast<unsigned>(step),
-                            RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR,
+    rtcSetGeometryTransform(geometry, static_cast<unsigned>(step), RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR,
                             matrix.data());
   }
   rtcCommitGeometry(geometry);
@@ -199,9 +188,9 @@ void TraceScene::Parts::StoreHits(const RTCRayHit16& packet,
     if (instance.moves) {
       const float shutter = tile.shutter[ray];
       for (int i = 0; i < 4; ++i) {
-        normal[i] += shutter * (instance.rotation_change.x[i] * nx +
-                                instance.rotation_change.y[i] * ny +
-                                instance.rotation_change.z[i] * nz);
+        normal[i] +=
+            shutter * (instance.rotation_change.x[i] * nx + instance.rotation_change.y[i] * ny +
+                       instance.rotation_change.z[i] * nz);
       }
     }
     const float along = normal[0] * tile.direction_x[ray] + normal[1] * tile.direction_y[ray] +

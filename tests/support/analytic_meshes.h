@@ -10,14 +10,18 @@ namespace railcast {
 
 /// A square of half side `half_m` at distance `x_m`, facing -x.
 [[nodiscard]] inline Mesh MakeWall(float x_m, float half_m) {
-  return {{{x_m, -half_m, -half_m}, {x_m, half_m, -half_m}, {x_m, half_m, half_m},
+  return {{{x_m, -half_m, -half_m},
+           {x_m, half_m, -half_m},
+           {x_m, half_m, half_m},
            {x_m, -half_m, half_m}},
           {{0, 1, 2}, {0, 2, 3}}};
 }
 
 /// A square of half side `half_m` at height `z_m`, facing +z.
 [[nodiscard]] inline Mesh MakeFloor(float z_m, float half_m) {
-  return {{{-half_m, -half_m, z_m}, {half_m, -half_m, z_m}, {half_m, half_m, z_m},
+  return {{{-half_m, -half_m, z_m},
+           {half_m, -half_m, z_m},
+           {half_m, half_m, z_m},
            {-half_m, half_m, z_m}},
           {{0, 1, 2}, {0, 2, 3}}};
 }
@@ -30,10 +34,10 @@ namespace railcast {
     const double polar = std::numbers::pi * ring / rings;
     for (int sector = 0; sector < sectors; ++sector) {
       const double azimuth = 2.0 * std::numbers::pi * sector / sectors;
-      mesh.vertices.emplace_back((radius_m * Vector3(std::sin(polar) * std::cos(azimuth),
-                                                     std::sin(polar) * std::sin(azimuth),
-                                                     std::cos(polar)))
-                                     .cast<float>());
+      mesh.vertices.emplace_back(
+          (radius_m * Vector3(std::sin(polar) * std::cos(azimuth),
+                              std::sin(polar) * std::sin(azimuth), std::cos(polar)))
+              .cast<float>());
     }
   }
   const auto vertex = [&](int ring, int sector) {

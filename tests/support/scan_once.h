@@ -18,10 +18,11 @@ namespace railcast {
 [[nodiscard]] inline ScanPattern MakeRaster(double horizontal_fov_deg,
                                             double vertical_fov_deg,
                                             double angular_resolution_deg) {
-  return BuildScanPattern({.rate_hz = 10.0,
-                           .pattern = RasterSpec{.horizontal_fov_deg = horizontal_fov_deg,
-                                                 .vertical_fov_deg = vertical_fov_deg,
-                                                 .angular_resolution_deg = angular_resolution_deg}});
+  return BuildScanPattern(
+      {.rate_hz = 10.0,
+       .pattern = RasterSpec{.horizontal_fov_deg = horizontal_fov_deg,
+                             .vertical_fov_deg = vertical_fov_deg,
+                             .angular_resolution_deg = angular_resolution_deg}});
 }
 
 /// One frame of a world. Rung geometry unless the spec says otherwise.

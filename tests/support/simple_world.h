@@ -13,7 +13,7 @@ namespace railcast {
 /// constant velocity. `world_from_chunk` moves all of it.
 class SimpleWorld final : public World {
  public:
-  Model ground;                    ///< Chunk frame.
+  Model ground;  ///< Chunk frame.
   std::vector<Placement> placements;
   Transform world_from_chunk = Transform::Identity();
   Transform chunk_from_vehicle = Transform::Identity();  ///< At time 0.

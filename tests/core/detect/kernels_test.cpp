@@ -26,8 +26,7 @@ std::unique_ptr<DetectTile> MixedTile() {
     tile->direction_y[i] = 0.6F;
     tile->true_range_m[i] =
         hit ? 300.0F * UnitFloat(words[0]) : std::numeric_limits<float>::quiet_NaN();
-    tile->cos_incidence[i] =
-        hit ? UnitFloat(words[1]) : std::numeric_limits<float>::quiet_NaN();
+    tile->cos_incidence[i] = hit ? UnitFloat(words[1]) : std::numeric_limits<float>::quiet_NaN();
     tile->reflectivity[i] = hit ? UnitFloat(words[2]) : std::numeric_limits<float>::quiet_NaN();
     tile->outcome[i] = static_cast<std::uint32_t>(hit ? Outcome::kReturned : Outcome::kNoSurface);
   }

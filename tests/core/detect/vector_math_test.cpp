@@ -53,8 +53,8 @@ TEST(VectorMath, AcosIsWithinHalfAMicroradian) {
   double worst = 0.0;
   for (int i = 0; i <= kSteps; ++i) {
     const float x = static_cast<float>(i) / kSteps;
-    const double error = std::abs(static_cast<double>(baseline::Acos(x)) -
-                                  std::acos(static_cast<double>(x)));
+    const double error =
+        std::abs(static_cast<double>(baseline::Acos(x)) - std::acos(static_cast<double>(x)));
     worst = std::max(worst, error);
   }
   EXPECT_LE(worst, 5e-7);

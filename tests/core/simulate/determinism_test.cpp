@@ -35,12 +35,10 @@ std::shared_ptr<SimpleWorld> ThicketWorld() {
 }
 
 SimulatorSpec EverythingOn() {
-  SimulatorSpec spec{.seed = 42,
-                     .effects = {.threshold = true,
-                                 .rain = true,
-                                 .snow = true,
-                                 .noise = true,
-                                 .sensor_dropout = true}};
+  SimulatorSpec spec{
+      .seed = 42,
+      .effects = {
+          .threshold = true, .rain = true, .snow = true, .noise = true, .sensor_dropout = true}};
   spec.weather.rain_rate_mmph = 20.0;
   spec.weather.snow_rate_mmph = 2.0;
   spec.plausibility.dropout_probability = 0.05;

@@ -14,10 +14,9 @@ Transform BrakingInACurve(std::uint32_t time_ns) {
   const double t = time_ns * 1e-9;
   const double arc_m = 40.0 * t - t * t;
   const double heading_rad = arc_m / 300.0;
-  return MakeTransform(RotationFromYawPitchRoll(heading_rad, 0.01, 0.05),
-                       {60.0 + 300.0 * std::sin(heading_rad),
-                        300.0 * (1.0 - std::cos(heading_rad)),
-                        2.5});
+  return MakeTransform(
+      RotationFromYawPitchRoll(heading_rad, 0.01, 0.05),
+      {60.0 + 300.0 * std::sin(heading_rad), 300.0 * (1.0 - std::cos(heading_rad)), 2.5});
 }
 
 TEST(FramePoses, StayWithinATenthOfAMillimetreBetweenKnots) {
@@ -29,12 +28,11 @@ TEST(FramePoses, StayWithinATenthOfAMillimetreBetweenKnots) {
     const PoseF pose = poses.At(time_ns, change);
     const Transform truth = BrakingInACurve(time_ns);
     for (int i = 0; i < 3; ++i) {
-      worst_m = std::max(worst_m,
-                         std::abs(static_cast<double>(pose.t[i]) - truth.translation()(i)));
+      worst_m =
+          std::max(worst_m, std::abs(static_cast<double>(pose.t[i]) - truth.translation()(i)));
       for (int j = 0; j < 3; ++j) {
-        worst_rotation = std::max(
-            worst_rotation,
-            std::abs(static_cast<double>(pose.r[3 * i + j]) - truth.linear()(i, j)));
+        worst_rotation = std::max(worst_rotation, std::abs(static_cast<double>(pose.r[3 * i + j]) -
+                                                           truth.linear()(i, j)));
       }
     }
   }

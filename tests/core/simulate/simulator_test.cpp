@@ -26,8 +26,7 @@ std::shared_ptr<SimpleWorld> WorldWithWall(float distance_m, float half_m = 1000
 }
 
 std::size_t CountOutcome(const Frame& frame, Outcome outcome) {
-  return static_cast<std::size_t>(
-      std::count(frame.outcome.begin(), frame.outcome.end(), outcome));
+  return static_cast<std::size_t>(std::count(frame.outcome.begin(), frame.outcome.end(), outcome));
 }
 
 TEST(Simulator, FillsEveryFieldOfAReturn) {
@@ -61,7 +60,8 @@ TEST(Simulator, GivesEachBlockedFiringItsCause) {
   const Frame far = ScanOnce(WorldWithWall(60.0F), pattern, spec);
   EXPECT_EQ(CountOutcome(far, Outcome::kNoSurface), 100U);
   EXPECT_EQ(far.label[0], 0U);
-  EXPECT_TRUE(std::isnan(far.x[0]) && std::isnan(far.range_m[0]) && std::isnan(far.true_range_m[0]));
+  EXPECT_TRUE(std::isnan(far.x[0]) && std::isnan(far.range_m[0]) &&
+              std::isnan(far.true_range_m[0]));
 
   auto world = WorldWithWall(20.0F);
   world->AddObject(WallModel(0.2F, 100.0F), Transform::Identity(), Vector3::Zero(), true);
@@ -120,8 +120,7 @@ TEST(Simulator, RollingShutterSeesTheWallComeNearer) {
 TEST(Simulator, MovingObjectsAreSeenWhereTheyAreAtEachFiring) {
   auto world = std::make_shared<SimpleWorld>();
   world->AddObject(WallModel(0.0F, 100.0F),
-                   MakeTransform(Eigen::Matrix3d::Identity(), {50.0, 0.0, 0.0}),
-                   {-30.0, 0.0, 0.0});
+                   MakeTransform(Eigen::Matrix3d::Identity(), {50.0, 0.0, 0.0}), {-30.0, 0.0, 0.0});
   const Frame frame = ScanOnce(world, MakeRaster(60, 2, 1), {}, 3);
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
     const double time_s = 0.3 + static_cast<double>(frame.time_ns[slot]) * 1e-9;
