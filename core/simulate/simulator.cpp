@@ -1,18 +1,21 @@
 #include "core/simulate/simulator.h"
 
-#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/detect/detector.h"
 #include "core/simulate/firing_tiles.h"
 #include "core/simulate/frame_poses.h"
+#include "core/simulate/hits_and_slots.h"
 #include "core/simulate/output_axes.h"
 #include "core/simulate/window.h"
 
@@ -24,6 +27,15 @@ constexpr std::uint32_t kShutterSteps = 3;
 // How far ahead the next window is looked for.
 constexpr std::int64_t kLookAhead_ns = 4'000'000'000;
 
+/// What all tiles of a frame share.
+struct FrameContext {
+  std::uint32_t index{};
+  std::int64_t stamp_ns{};
+  std::shared_ptr<const Window> window;
+  FramePoses poses;
+  std::unique_ptr<const TraceScene> moving;  ///< Null if nothing moves within reach.
+};
+
 }  // namespace
 
 struct Simulator::Parts {
@@ -33,6 +45,8 @@ struct Simulator::Parts {
   FiringTiles tiles;
   Detector detector;
   WindowSource windows;
+  // TBB starts no more threads than there are cores unless told to.
+  tbb::global_control parallelism;
   tbb::task_arena arena;
 
   [[nodiscard]] Transform WorldFromSensor(std::int64_t time_ns) const {
@@ -45,6 +59,11 @@ struct Simulator::Parts {
   [[nodiscard]] std::unique_ptr<const TraceScene> MovingScene(std::int64_t stamp_ns,
                                                               const Window& window) const;
   void PrepareNextWindow(std::int64_t stamp_ns, int home_chunk);
+  [[nodiscard]] FrameContext Begin(std::uint32_t frame_index);
+  void TraceTile(const FrameContext& frame,
+                 std::size_t tile,
+                 RayTile& rays,
+                 DetectTile& detect) const;
 };
 
 FramePoses Simulator::Parts::Poses(std::int64_t stamp_ns,
@@ -112,13 +131,17 @@ Simulator::Simulator(std::shared_ptr<const World> world,
                      .effects = spec.effects,
                      .plausibility = spec.plausibility,
                      .weather = spec.weather});
+  const int num_workers = num_threads > 0 ? num_threads : tbb::info::default_concurrency();
   parts_.reset(new Parts{.world = world,
                          .pattern = std::move(pattern),
                          .spec = spec,
                          .tiles = std::move(tiles),
                          .detector = std::move(detector),
                          .windows{world, materials, spec.range_max_m, spec.isa},
-                         .arena{num_threads > 0 ? num_threads : tbb::task_arena::automatic}});
+                         .parallelism{tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(
+                                          std::max(num_workers, tbb::info::default_concurrency()))},
+                         .arena{num_workers}});
 }
 
 Simulator::~Simulator() = default;
@@ -133,89 +156,91 @@ Transform Simulator::WorldFromSensor(std::int64_t time_ns) const {
   return parts_->WorldFromSensor(time_ns);
 }
 
-namespace {
-
-// Hands what the rays hit to the detector.
-void Resolve(const RayTile& rays, const std::vector<Surface>& surfaces, DetectTile& detect) {
-  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-  for (std::size_t i = 0; i < rays.num_rays; ++i) {
-    const Surface& surface = surfaces[rays.surface[i]];
-    const bool hit = rays.surface[i] != 0;
-    const Outcome outcome = !hit             ? Outcome::kNoSurface
-                            : surface.is_ego ? Outcome::kEgo
-                                             : Outcome::kReturned;
-    detect.true_range_m[i] = hit ? rays.range_m[i] : kNaN;
-    detect.cos_incidence[i] = hit ? rays.cos_incidence[i] : kNaN;
-    detect.reflectivity[i] = hit ? surface.reflectivity : kNaN;
-    detect.outcome[i] = static_cast<std::uint32_t>(outcome);
-  }
+FrameContext Simulator::Parts::Begin(std::uint32_t frame_index) {
+  const std::int64_t stamp_ns = pattern.StampNs(frame_index);
+  const int home_chunk = world->HomeChunk(stamp_ns);
+  std::shared_ptr<const Window> window = windows.Get(home_chunk);
+  PrepareNextWindow(stamp_ns, home_chunk);
+  FramePoses poses = Poses(stamp_ns, window->window_from_world);
+  std::unique_ptr<const TraceScene> moving = MovingScene(stamp_ns, *window);
+  return {frame_index, stamp_ns, std::move(window), std::move(poses), std::move(moving)};
 }
 
-void Store(const DetectTile& detect,
-           const RayTile& rays,
-           const std::vector<Surface>& surfaces,
-           const std::uint32_t* slots,
-           std::size_t num_firings,
-           std::uint32_t snow_label,
-           Frame& frame) {
-  for (std::size_t i = 0; i < num_firings; ++i) {
-    const std::size_t slot = slots[i];
-    const auto outcome = static_cast<Outcome>(detect.outcome[i]);
-    const Surface& surface = surfaces[rays.surface[i]];
-    const bool is_flake = detect.is_flake[i] != 0;
-    frame.x[slot] = detect.x[i];
-    frame.y[slot] = detect.y[i];
-    frame.z[slot] = detect.z[i];
-    frame.intensity[slot] = detect.intensity[i];
-    frame.power_ratio[slot] = detect.power_ratio[i];
-    frame.range_m[slot] = detect.range_m[i];
-    frame.true_range_m[slot] = detect.true_range_m[i];
-    frame.outcome[slot] = outcome;
-    frame.return_count[slot] = HasPoint(outcome) ? 1 : 0;
-    frame.label[slot] = is_flake ? snow_label : surface.label;
-    frame.instance[slot] = is_flake ? 0 : surface.instance;
-    frame.material[slot] = is_flake ? std::uint16_t{0} : surface.material;
-    frame.incidence_rad[slot] =
-        is_flake ? std::numeric_limits<float>::quiet_NaN() : detect.incidence_rad[i];
-  }
+void Simulator::Parts::TraceTile(const FrameContext& frame,
+                                 std::size_t tile,
+                                 RayTile& rays,
+                                 DetectTile& detect) const {
+  tiles.Aim(tile, frame.poses, static_cast<float>(spec.range_max_m), rays);
+  frame.window->scene->Cast(rays);
+  if (frame.moving != nullptr) frame.moving->Cast(rays);
+  detect.frame = frame.index;
+  tiles.Describe(tile, detect);
+  ResolveHits(rays, frame.window->surfaces, detect);
 }
-
-}  // namespace
 
 void Simulator::Scan(std::uint32_t frame_index, Frame& frame) {
   Parts& parts = *parts_;
-  const std::int64_t stamp_ns = parts.pattern.StampNs(frame_index);
+  const FrameContext context = parts.Begin(frame_index);
   frame.index = frame_index;
-  frame.stamp_ns = stamp_ns;
-  frame.world_from_sensor = parts.WorldFromSensor(stamp_ns);
+  frame.stamp_ns = context.stamp_ns;
+  frame.world_from_sensor = parts.WorldFromSensor(context.stamp_ns);
   frame.Resize(parts.pattern.rows, parts.pattern.columns, 1);
-
-  const int home_chunk = parts.world->HomeChunk(stamp_ns);
-  const std::shared_ptr<const Window> window = parts.windows.Get(home_chunk);
-  parts.PrepareNextWindow(stamp_ns, home_chunk);
-  const FramePoses poses = parts.Poses(stamp_ns, window->window_from_world);
-  const std::unique_ptr<const TraceScene> moving = parts.MovingScene(stamp_ns, *window);
   const OutputAxes axes(parts.spec.output, parts.spec.vehicle_from_sensor,
-                        window->window_from_world);
-  const auto range_max_m = static_cast<float>(parts.spec.range_max_m);
+                        context.window->window_from_world);
 
   const auto scan_tile = [&](std::size_t tile) {
     RayTile rays;
     DetectTile detect;
-    parts.tiles.Aim(tile, poses, range_max_m, rays);
-    window->scene->Cast(rays);
-    if (moving != nullptr) moving->Cast(rays);
-    detect.frame = frame_index;
-    parts.tiles.Describe(tile, detect);
-    Resolve(rays, window->surfaces, detect);
+    parts.TraceTile(context, tile, rays, detect);
     parts.detector.Run(detect);
-    axes.Apply(poses, parts.tiles.times_ns(tile), detect);
-    Store(detect, rays, window->surfaces, parts.tiles.slots(tile), parts.tiles.num_firings(tile),
-          parts.spec.snow_label, frame);
+    axes.Apply(context.poses, parts.tiles.times_ns(tile), detect);
+    const SlotRange slots{parts.tiles.slots(tile), parts.tiles.num_firings(tile)};
+    StoreReturns(rays, detect, {context.window->surfaces, parts.spec.snow_label}, slots, frame);
   };
   parts.arena.execute(
       [&] { tbb::parallel_for(std::size_t{0}, parts.tiles.num_tiles(), scan_tile); });
   parts.tiles.StoreConstants(frame);
+}
+
+FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) {
+  Parts& parts = *parts_;
+  const FrameContext context = parts.Begin(frame_index);
+  const auto [tile, lane] = parts.tiles.PlaceOf(firing);
+  RayTile rays;
+  DetectTile detect;
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  for (float* unknown : {detect.intensity, detect.power_ratio, detect.range_m}) {
+    std::fill_n(unknown, kTileSize, kNaN);
+  }
+  parts.TraceTile(context, tile, rays, detect);
+  const Surface& surface = context.window->surfaces[rays.surface[lane]];
+  const Transform world_from_window = context.window->window_from_world.inverse();
+  FiringStory story{
+      .firing = firing,
+      .time_ns = parts.tiles.times_ns(tile)[lane],
+      .slot = parts.tiles.slots(tile)[lane],
+      .direction_sensor = Vector3(static_cast<double>(detect.direction_x[lane]),
+                                  static_cast<double>(detect.direction_y[lane]),
+                                  static_cast<double>(detect.direction_z[lane])),
+      .origin_world = world_from_window * Vector3(static_cast<double>(rays.origin_x[lane]),
+                                                  static_cast<double>(rays.origin_y[lane]),
+                                                  static_cast<double>(rays.origin_z[lane])),
+      .label = surface.label,
+      .instance = surface.instance,
+      .material = surface.material,
+      .reflectivity = surface.reflectivity,
+      .steps = {}};
+  for (const Detector::Step& step : parts.detector.steps()) {
+    step.apply(detect);
+    story.steps.push_back({.effect = std::string(step.effect),
+                           .outcome = static_cast<Outcome>(detect.outcome[lane]),
+                           .true_range_m = detect.true_range_m[lane],
+                           .cos_incidence = detect.cos_incidence[lane],
+                           .intensity = detect.intensity[lane],
+                           .power_ratio = detect.power_ratio[lane],
+                           .range_m = detect.range_m[lane]});
+  }
+  return story;
 }
 
 std::vector<std::uint32_t> Simulator::FiringsOnObjectAlone(std::uint32_t frame_index) {

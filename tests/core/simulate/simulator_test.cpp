@@ -151,5 +151,28 @@ TEST(Simulator, CountsTheFiringsOnAnObjectAsIfItStoodAlone) {
   EXPECT_EQ(alone[2], 0U);
 }
 
+TEST(Simulator, ExplainsAFiringAsScanMeasuredIt) {
+  SimulatorSpec spec{.effects = {.threshold = true, .rain = true, .snow = true, .noise = true}};
+  spec.weather.rain_rate_mmph = 30.0;
+  spec.weather.snow_rate_mmph = 10.0;
+  Simulator simulator(WorldWithWall(60.0F), MakeRaster(20, 10, 1), TestMaterials(), spec, 1);
+  Frame frame;
+  simulator.Scan(5, frame);
+  for (std::uint32_t firing = 0; firing < 200; ++firing) {
+    const FiringStory story = simulator.Explain(5, firing);
+    EXPECT_EQ(story.time_ns, frame.time_ns[story.slot]);
+    const FiringStory::Step& last = story.steps.back();
+    EXPECT_EQ(last.outcome, frame.outcome[story.slot]);
+    EXPECT_EQ(last.power_ratio, frame.power_ratio[story.slot]);
+    if (HasPoint(last.outcome)) {
+      EXPECT_EQ(last.range_m, frame.range_m[story.slot]);
+    }
+    EXPECT_EQ(story.material, 2);
+  }
+  std::vector<std::string> effects;
+  for (const auto& step : simulator.Explain(5, 0).steps) effects.push_back(step.effect);
+  EXPECT_EQ(effects, (std::vector<std::string>{"hit", "threshold", "rain", "snow", "noise"}));
+}
+
 }  // namespace
 }  // namespace railcast
