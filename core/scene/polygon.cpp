@@ -23,13 +23,13 @@ double TwiceArea(std::span<const Point> outline) {
   return sum;
 }
 
-/// The corners that are left and their neighbours.
+/// Clips one ear after another off the corners that are left.
 class Clipper {
  public:
   explicit Clipper(std::span<const Point> outline)
       : outline_(outline), left_(outline.size()), sign_(TwiceArea(outline) < 0.0 ? -1.0 : 1.0) {
     std::iota(left_.begin(), left_.end(), 0U);
-    // A corner flatter than rounding of the coordinates can tell is on a straight edge.
+    // A corner flatter than the rounding of coordinates can tell lies on a straight edge.
     double extent = 0.0;
     for (const Point& point : outline) extent = std::max(extent, (point - outline[0]).norm());
     flat_ = 64.0 * std::numeric_limits<double>::epsilon() * extent * extent;
@@ -39,10 +39,8 @@ class Clipper {
     std::vector<std::array<std::uint32_t, 3>> triangles;
     while (left_.size() >= 3) {
       const std::size_t i = NextEar();
-      const auto [a, b, c] = Corner(i);
-      if (std::abs(Turn(outline_[a], outline_[b], outline_[c])) > flat_) {
-        triangles.push_back({a, b, c});
-      }
+      const std::array<std::uint32_t, 3> corner = Corner(i);
+      if (std::abs(TwiceAreaOf(corner)) > flat_) triangles.push_back(corner);
       left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(i));
     }
     return triangles;
@@ -54,24 +52,27 @@ class Clipper {
     return {left_[(i + n - 1) % n], left_[i], left_[(i + 1) % n]};
   }
 
-  /// Flat corners go first; of the ears the one with the widest smallest angle would be prettier,
-  /// but any will do. Without an ear (the outline crosses itself) the first corner goes.
+  /// Flat corners go only when there is no ear: the triangles beside them keep them then, and no
+  /// crack opens towards a neighbour that has them. An outline without either crosses itself.
   [[nodiscard]] std::size_t NextEar() const {
-    for (std::size_t i = 0; i < left_.size(); ++i) {
-      const auto [a, b, c] = Corner(i);
-      if (std::abs(Turn(outline_[a], outline_[b], outline_[c])) <= flat_) return i;
-    }
     for (std::size_t i = 0; i < left_.size(); ++i) {
       if (IsEar(Corner(i))) return i;
     }
+    for (std::size_t i = 0; i < left_.size(); ++i) {
+      if (std::abs(TwiceAreaOf(Corner(i))) <= flat_) return i;
+    }
     return 0;
+  }
+
+  [[nodiscard]] double TwiceAreaOf(const std::array<std::uint32_t, 3>& corner) const {
+    return Turn(outline_[corner[0]], outline_[corner[1]], outline_[corner[2]]);
   }
 
   [[nodiscard]] bool IsEar(const std::array<std::uint32_t, 3>& corner) const {
     const Point& a = outline_[corner[0]];
     const Point& b = outline_[corner[1]];
     const Point& c = outline_[corner[2]];
-    if (sign_ * Turn(a, b, c) <= 0.0) return false;
+    if (sign_ * Turn(a, b, c) <= flat_) return false;
     for (const std::uint32_t index : left_) {
       const Point& p = outline_[index];
       if (p == a || p == b || p == c) continue;

@@ -9,9 +9,9 @@
 namespace railcast {
 
 /// Cuts a plane polygon, convex or not, into triangles of indices into `outline` by clipping ears
-/// (Meisters 1975, "Polygons have ears"). Triangles turn the way the outline does. Corners that
-/// repeat or lie on a straight edge are left out. A polygon that crosses itself has no proper cut:
-/// it gets one that uses every corner and may overlap.
+/// (Meisters 1975, "Polygons have ears"). Triangles turn the way the outline does and have an
+/// area; there are two fewer than corners, less one for each that repeats its neighbour. A polygon
+/// that crosses itself has no proper cut: it gets one that may overlap.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> TriangulatePolygon(
     std::span<const Eigen::Vector2d> outline);
 
