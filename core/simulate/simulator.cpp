@@ -259,11 +259,11 @@ std::vector<std::uint32_t> Simulator::FiringsOnObjectAlone(std::uint32_t frame_i
       for (std::size_t tile = 0; tile < parts.tiles.num_tiles(); ++tile) {
         RayTile rays;
         parts.tiles.Aim(tile, poses, range_max_m, rays);
-        alone.Cast(rays);
+        alone.CastRanges(rays);
         const std::size_t num_firings = parts.tiles.num_firings(tile);
         counts[object] += static_cast<std::uint32_t>(
-            std::count_if(rays.surface, rays.surface + num_firings,
-                          [](std::uint32_t surface) { return surface != 0; }));
+            std::count_if(rays.range_m, rays.range_m + num_firings,
+                          [&](float range_m) { return range_m < range_max_m; }));
       }
     });
   });

@@ -202,33 +202,55 @@ void TraceScene::Parts::StoreHits(const RTCRayHit16& packet,
   }
 }
 
-void TraceScene::Cast(RayTile& tile) const {
-  if (parts_->instances.empty()) return;
+namespace {
+
+void LoadRays(const RayTile& tile, std::size_t first, RTCRayHit16& packet) {
+  constexpr std::size_t kBytes = kPacketSize * sizeof(float);
+  std::memcpy(packet.ray.org_x, tile.origin_x + first, kBytes);
+  std::memcpy(packet.ray.org_y, tile.origin_y + first, kBytes);
+  std::memcpy(packet.ray.org_z, tile.origin_z + first, kBytes);
+  std::memcpy(packet.ray.dir_x, tile.direction_x + first, kBytes);
+  std::memcpy(packet.ray.dir_y, tile.direction_y + first, kBytes);
+  std::memcpy(packet.ray.dir_z, tile.direction_z + first, kBytes);
+  std::memcpy(packet.ray.time, tile.shutter + first, kBytes);
+  std::memcpy(packet.ray.tfar, tile.range_m + first, kBytes);
+  std::memset(packet.ray.tnear, 0, kBytes);
+  std::memset(packet.ray.flags, 0, kBytes);
+  std::memset(packet.ray.mask, 0xFF, kBytes);  // Debian builds Embree with ray masks on.
+  std::memset(packet.hit.geomID, 0xFF, kBytes);
+  std::memset(packet.hit.instID, 0xFF, kBytes);
+}
+
+// Traces a tile packet by packet and hands each to `store(packet, first_ray)`.
+template <typename Store>
+void TracePackets(RTCScene scene, const RayTile& tile, const Store& store) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   alignas(64) int valid[kPacketSize];
-  for (int& lane : valid) lane = -1;
-
+  std::fill_n(valid, kPacketSize, -1);
   for (std::size_t first = 0; first < tile.num_rays; first += kPacketSize) {
-    constexpr std::size_t kBytes = kPacketSize * sizeof(float);
     alignas(64) RTCRayHit16 packet;
-    std::memcpy(packet.ray.org_x, tile.origin_x + first, kBytes);
-    std::memcpy(packet.ray.org_y, tile.origin_y + first, kBytes);
-    std::memcpy(packet.ray.org_z, tile.origin_z + first, kBytes);
-    std::memcpy(packet.ray.dir_x, tile.direction_x + first, kBytes);
-    std::memcpy(packet.ray.dir_y, tile.direction_y + first, kBytes);
-    std::memcpy(packet.ray.dir_z, tile.direction_z + first, kBytes);
-    std::memcpy(packet.ray.time, tile.shutter + first, kBytes);
-    std::memcpy(packet.ray.tfar, tile.range_m + first, kBytes);
-    std::memset(packet.ray.tnear, 0, kBytes);
-    std::memset(packet.ray.flags, 0, kBytes);
-    std::memset(packet.ray.mask, 0xFF, kBytes);  // Debian builds Embree with ray masks on.
-    std::memset(packet.hit.geomID, 0xFF, kBytes);
-    std::memset(packet.hit.instID, 0xFF, kBytes);
-    rtcIntersect16(valid, parts_->scene, &context, &packet);
-    parts_->StoreHits(packet, tile, first);
+    LoadRays(tile, first, packet);
+    rtcIntersect16(valid, scene, &context, &packet);
+    store(packet, first);
   }
+}
+
+}  // namespace
+
+void TraceScene::Cast(RayTile& tile) const {
+  if (parts_->instances.empty()) return;
+  TracePackets(parts_->scene, tile, [&](const RTCRayHit16& packet, std::size_t first) {
+    parts_->StoreHits(packet, tile, first);
+  });
+}
+
+void TraceScene::CastRanges(RayTile& tile) const {
+  if (parts_->instances.empty()) return;
+  TracePackets(parts_->scene, tile, [&](const RTCRayHit16& packet, std::size_t first) {
+    std::memcpy(tile.range_m + first, packet.ray.tfar, kPacketSize * sizeof(float));
+  });
 }
 
 }  // namespace railcast

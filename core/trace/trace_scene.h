@@ -61,6 +61,10 @@ class TraceScene final : public RayCaster {
 
   void Cast(RayTile& tile) const override;
 
+  /// Lowers `range_m` as Cast does and leaves the rest alone: the raw trace, the yardstick of all
+  /// speed figures, and all that asking "does it hit?" needs.
+  void CastRanges(RayTile& tile) const;
+
  private:
   struct Parts;
   std::unique_ptr<const Parts> parts_;
