@@ -23,6 +23,7 @@ constexpr double kMastAboveMessenger_m = 0.5;
 constexpr double kThickTubeRadius_m = 0.030;
 constexpr double kThinTubeRadius_m = 0.021;
 constexpr double kSteadyArmRadius_m = 0.013;
+constexpr double kHangerRadius_m = 0.006;
 constexpr int kTubeSides = 8;
 
 constexpr double kInsulatorGap_m = 0.10;  ///< From the mast's face.
@@ -33,6 +34,9 @@ constexpr int kInsulatorSides = 10;
 /// Of the registration tube above the contact wire, and of the steady arm along it.
 constexpr double kRegistrationHeight_m = 0.40;
 constexpr double kSteadyArmLength_m = 1.0;
+constexpr double kTubeBeyondHinge_m = 0.15;
+/// Along the strut, from its hinge to where the registration tube begins.
+constexpr double kTubeRoot_m = kInsulatorGap_m + kInsulatorLength_m + 0.1;
 
 /// Draws a cantilever's tubes into its two parts.
 class CantileverPen {
@@ -138,17 +142,23 @@ Model MakeCantilever(const CatenarySpec& spec,
     pen.Clamp(hinge + Vector3(0.0, -0.02 * mast_side, 0.0), {0.06, 0.03, 0.06});
   }
 
-  // The wire pulls towards the track's middle; the steady arm holds it from the side it is on.
+  // The wire pulls towards the track's middle; the steady arm holds it from the side it is on,
+  // hinged to the registration tube, which reaches a little beyond hinge and wire.
   const Vector3 wire(0.0, stagger_m, contact_m);
-  const Vector3 arm_hinge(0.0, stagger_m + stagger_side * kSteadyArmLength_m, registration_m);
-  const Vector3 strut = head - strut_hinge;
-  const Vector3 root =
-      strut_hinge + strut * ((kInsulatorGap_m + kInsulatorLength_m + 0.1) / strut.norm());
-  const double end_y_m = std::min(mast_side * arm_hinge.y(), mast_side * stagger_m) - 0.15;
-  const Vector3 tube_end(0.0, mast_side * end_y_m, registration_m);
+  const Vector3 strut = (head - strut_hinge).normalized();
+  const Vector3 root = strut_hinge + strut * kTubeRoot_m;
+  const double room_m = std::abs(root.y() - stagger_m) - kTubeBeyondHinge_m;
+  const double arm_m =
+      stagger_side == mast_side ? std::min(kSteadyArmLength_m, room_m) : kSteadyArmLength_m;
+  const double hinge_y_m = stagger_m + stagger_side * arm_m;
+  const double innermost_m = std::min(mast_side * hinge_y_m, mast_side * stagger_m);
+  const Vector3 tube_end(0.0, mast_side * (innermost_m - kTubeBeyondHinge_m), registration_m);
+  const auto on_tube = [&](double y_m) -> Vector3 {
+    return root + (y_m - root.y()) / (tube_end.y() - root.y()) * (tube_end - root);
+  };
   pen.Tube(root, tube_end, kThinTubeRadius_m);
-  pen.Tube(head, tube_end + Vector3(0.0, 0.10 * mast_side, 0.0), 0.006);
-  pen.Tube(arm_hinge, wire + Vector3(0.0, 0.0, 0.02), kSteadyArmRadius_m);
+  pen.Tube(head, on_tube(tube_end.y() + 0.10 * mast_side), kHangerRadius_m);
+  pen.Tube(on_tube(hinge_y_m), wire + Vector3(0.0, 0.0, 0.02), kSteadyArmRadius_m);
   pen.Clamp(wire + Vector3(0.0, 0.0, 0.016), {0.04, 0.012, 0.014});
   return model;
 }

@@ -21,9 +21,11 @@ double StrongestCurvature_per_m(const Alignment& alignment,
     const double s_m = range.begin_s_m + length_m * i / num_samples;
     const double axis_per_m = alignment.At(s_m).curvature_per_m;
     const double plan_per_m = axis_per_m / (1.0 - axis_per_m * offset_m);
-    const double elevation_per_m = (alignment.At(s_m + 0.5 * kSampling_m).gradient -
-                                    alignment.At(s_m - 0.5 * kSampling_m).gradient) /
-                                   kSampling_m;
+    // Beyond its ends the line is level, whatever its gradient before.
+    const double before_s_m = std::max(0.0, s_m - 0.5 * kSampling_m);
+    const double after_s_m = std::min(alignment.length_m(), s_m + 0.5 * kSampling_m);
+    const double elevation_per_m =
+        (alignment.At(after_s_m).gradient - alignment.At(before_s_m).gradient) / kSampling_m;
     strongest_per_m = std::max(strongest_per_m, std::hypot(plan_per_m, elevation_per_m));
   }
   return strongest_per_m;

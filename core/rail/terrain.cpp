@@ -15,8 +15,8 @@ namespace {
 constexpr double kGridAlong_m = 0.5;
 constexpr double kFineAcross_m = 0.5;
 constexpr double kFineReach_m = 10.0;
-constexpr double kCoarsening = 1.08;
-constexpr double kCoarsestAcross_m = 3.0;
+constexpr double kCoarsening = 1.15;
+constexpr double kCoarsestAcross_m = 2.0;
 
 constexpr double kLevelReach_m = 4.0;  ///< From a track's axis.
 constexpr double kFullReach_m = 30.0;  ///< Where undulation has its full height.
