@@ -22,10 +22,10 @@ bool HasOpen3d() {
 // What Open3D's tensor reader finds: each attribute's name, element type and sum.
 std::string Open3dReads(const std::filesystem::path& file) {
   const std::string command =
-      "/usr/bin/python3 -c \"import open3d, numpy; c = open3d.t.io.read_point_cloud('" +
+      "/usr/bin/python3 -c \"import open3d, numpy; p = open3d.t.io.read_point_cloud('" +
       file.string() +
-      "', remove_nan_points=True); print('|'.join(sorted(k + ' ' + str(c.point[k].dtype) + ' ' + "
-      "'%.0f' % numpy.nansum(c.point[k].numpy().astype('f8')) for k in c.point)))\" 2>/dev/null";
+      "').point; print('|'.join(k + ' ' + str(p[k].dtype) + ' %.0f' % "
+      "numpy.nansum(p[k].numpy().astype('f8')) for k in dir(p) if k[0] != '_'))\" 2>/dev/null";
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(::popen(command.c_str(), "r"), ::pclose);
   std::string said;
   std::array<char, 4096> buffer{};
