@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+#include "core/frame/outcome.h"
+
+namespace railcast {
+
+/// The arithmetic type a file stores for a Frame field's element type.
+template <typename T>
+struct StoredType {
+  using Type = T;
+};
+template <>
+struct StoredType<Outcome> {
+  using Type = std::uint8_t;
+};
+
+/// The element type of a field's values.
+template <typename Values>
+using ElementOf = typename std::remove_cvref_t<Values>::value_type;
+
+/// Writes one value, converted to `Stored`, at a place of any alignment.
+template <typename Stored, typename T>
+void StoreAt(char* place, T value) {
+  const auto stored = static_cast<Stored>(value);
+  std::memcpy(place, &stored, sizeof stored);
+}
+
+}  // namespace railcast

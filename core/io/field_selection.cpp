@@ -1,0 +1,91 @@
+#include "core/io/field_selection.h"
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+#include "core/base/error.h"
+#include "core/frame/frame.h"
+
+namespace railcast {
+namespace {
+
+std::vector<std::string> TableNames() {
+  const Frame frame;
+  std::vector<std::string> names;
+  ForEachField(frame, [&](std::string_view name, std::string_view, const auto&) {
+    names.emplace_back(name);
+  });
+  return names;
+}
+
+std::string Join(const std::vector<std::string>& names, std::string_view separator) {
+  std::string text;
+  for (const std::string& name : names) {
+    if (!text.empty()) text += separator;
+    text += name;
+  }
+  return text;
+}
+
+// Levenshtein (1966): the least number of inserted, deleted or changed characters.
+std::size_t EditDistance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({changed, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+std::string UnknownField(std::string_view name, const std::vector<std::string>& valid) {
+  const auto nearest = std::min_element(
+      valid.begin(), valid.end(),
+      [&](const auto& a, const auto& b) { return EditDistance(name, a) < EditDistance(name, b); });
+  return "--fields: unknown field \"" + std::string(name) + "\", nearest is \"" + *nearest +
+         "\" (valid: " + Join(valid, ", ") + ")";
+}
+
+}  // namespace
+
+FieldSelection::FieldSelection() : names_(TableNames()) {}
+
+FieldSelection::FieldSelection(std::string_view list) {
+  const std::vector<std::string> valid = TableNames();
+  if (list == "all") {
+    names_ = valid;
+    return;
+  }
+  ErrorList errors;
+  std::set<std::string, std::less<>> asked;
+  while (true) {
+    const std::size_t comma = list.find(',');
+    const std::string name(list.substr(0, comma));
+    if (std::find(valid.begin(), valid.end(), name) == valid.end()) {
+      errors.Add(UnknownField(name, valid));
+    } else if (!asked.insert(name).second) {
+      errors.Add("--fields: field \"" + name + "\" comes twice");
+    }
+    if (comma == std::string_view::npos) break;
+    list.remove_prefix(comma + 1);
+  }
+  errors.ThrowIfAny();
+  std::copy_if(valid.begin(), valid.end(), std::back_inserter(names_),
+               [&](const auto& name) { return asked.contains(name); });
+}
+
+bool FieldSelection::Has(std::string_view name) const {
+  return std::find(names_.begin(), names_.end(), name) != names_.end();
+}
+
+std::string FieldSelection::Text() const {
+  return Join(names_, ",");
+}
+
+}  // namespace railcast

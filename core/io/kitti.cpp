@@ -1,0 +1,99 @@
+#include "core/io/kitti.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+
+#include "core/base/error.h"
+#include "core/io/field_layout.h"
+
+namespace railcast {
+namespace {
+
+// Shortest digits that give the same double back.
+std::string Digits(double value) {
+  std::array<char, 32> digits{};
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
+}
+
+// A label may share its SemanticKITTI id with another (grass and tree are both vegetation).
+std::map<std::uint16_t, const Label*> ByKittiId(const LabelTable& labels) {
+  std::map<std::uint16_t, const Label*> by_id;
+  for (const Label& label : labels.labels()) by_id.emplace(label.semantic_kitti, &label);
+  return by_id;
+}
+
+}  // namespace
+
+void EncodeKittiPoints(const Frame& frame, std::string& bytes) {
+  constexpr std::size_t kStep = 4 * sizeof(float);
+  bytes.resize(frame.num_slots() * kStep);
+  char* place = bytes.data();
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    if (!HasPoint(frame.outcome[slot])) continue;
+    const float intensity = frame.intensity[slot];
+    const std::array<float, 4> point = {frame.x[slot], frame.y[slot], frame.z[slot],
+                                        std::isnan(intensity) ? 0.0F : intensity};
+    std::memcpy(place, point.data(), kStep);
+    place += kStep;
+  }
+  bytes.resize(static_cast<std::size_t>(place - bytes.data()));
+}
+
+void EncodeKittiLabels(const Frame& frame, const LabelTable& labels, std::string& bytes) {
+  constexpr std::uint32_t kMaxInstance = 0xFFFF;
+  std::map<std::uint32_t, std::uint32_t> kitti_from_label;
+  for (const Label& label : labels.labels()) kitti_from_label[label.id] = label.semantic_kitti;
+  bytes.resize(frame.num_slots() * sizeof(std::uint32_t));
+  char* place = bytes.data();
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    if (!HasPoint(frame.outcome[slot])) continue;
+    if (frame.instance[slot] > kMaxInstance) {
+      throw InputError("--format kitti: instance must be <= 65535 (got " +
+                       std::to_string(frame.instance[slot]) + ")");
+    }
+    const auto label = kitti_from_label.find(frame.label[slot]);
+    Check(label != kitti_from_label.end(), "a frame's labels are in its label table");
+    StoreAt<std::uint32_t>(place, (frame.instance[slot] << 16U) | label->second);
+    place += sizeof(std::uint32_t);
+  }
+  bytes.resize(static_cast<std::size_t>(place - bytes.data()));
+}
+
+std::string KittiPoseLine(const Transform& first_from_sensor) {
+  std::string line;
+  for (Eigen::Index row = 0; row < 3; ++row) {
+    for (Eigen::Index column = 0; column < 4; ++column) {
+      if (!line.empty()) line += ' ';
+      line += Digits(first_from_sensor.matrix()(row, column));
+    }
+  }
+  return line + "\n";
+}
+
+std::string KittiCalibration() {
+  std::string text;
+  for (const char* name : {"P0", "P1", "P2", "P3", "Tr"}) {
+    text += std::string(name) + ": 1 0 0 0 0 1 0 0 0 0 1 0\n";
+  }
+  return text;
+}
+
+std::string SemanticKittiYaml(const LabelTable& labels) {
+  std::string names = "labels:\n";
+  std::string colours = "color_map: # bgr\n";
+  std::string learning = "learning_map: # to the nearest of SemanticKITTI's own classes\n";
+  for (const auto& [id, label] : ByKittiId(labels)) {
+    const std::string key = "  " + std::to_string(id) + ": ";
+    const auto& [red, green, blue] = label->rgb;
+    names += key + "\"" + label->name + "\"\n";
+    colours += key + "[" + std::to_string(blue) + ", " + std::to_string(green) + ", " +
+               std::to_string(red) + "]\n";
+    learning += key + std::to_string(label->semantic_kitti_nearest) + "\n";
+  }
+  return "# Classes of the .label files beside; ids above 259 are railcast's own.\n" + names +
+         colours + learning;
+}
+
+}  // namespace railcast

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include "core/base/transform.h"
+#include "core/frame/frame.h"
+#include "core/frame/labels.h"
+
+namespace railcast {
+
+/// A frame's points as a KITTI velodyne/*.bin: float32 x, y, z, remission each, only slots that
+/// have a point. Remission is the intensity as it is (retroreflectors exceed 1; nothing is
+/// clamped), 0 where the rung gives none.
+void EncodeKittiPoints(const Frame& frame, std::string& bytes);
+
+/// Their SemanticKITTI labels/*.label: uint32 each, Label::semantic_kitti below, instance above.
+/// @throws InputError if an instance exceeds 65535, which the format cannot hold.
+void EncodeKittiLabels(const Frame& frame, const LabelTable& labels, std::string& bytes);
+
+/// A line of poses.txt: the sensor's pose in the run's first sensor frame, 3 x 4 by rows. KITTI's
+/// poses are the camera's; with KittiCalibration() camera and LiDAR coincide.
+[[nodiscard]] std::string KittiPoseLine(const Transform& first_from_sensor);
+
+/// calib.txt: camera matrices of no meaning and Tr = identity.
+[[nodiscard]] std::string KittiCalibration();
+
+/// semantic-kitti-railcast.yaml: names, colours (b, g, r as SemanticKITTI has them) and the
+/// learning_map to the nearest of SemanticKITTI's own classes.
+[[nodiscard]] std::string SemanticKittiYaml(const LabelTable& labels);
+
+}  // namespace railcast

@@ -1,0 +1,146 @@
+#include "core/io/pcd_encoder.h"
+
+#include <pcl/PCLPointCloud2.h>
+#include <pcl/io/lzf.h>
+#include <pcl/io/pcd_io.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "core/base/error.h"
+#include "core/io/field_layout.h"
+
+namespace railcast {
+namespace {
+
+template <typename Stored>
+constexpr std::uint8_t PclType() {
+  if (std::is_same_v<Stored, float>) return pcl::PCLPointField::FLOAT32;
+  constexpr std::array<std::uint8_t, 5> kUnsignedBySize = {
+      0, pcl::PCLPointField::UINT8, pcl::PCLPointField::UINT16, 0, pcl::PCLPointField::UINT32};
+  return kUnsignedBySize[sizeof(Stored)];
+}
+
+// Everything of the cloud but its data.
+pcl::PCLPointCloud2 Describe(const Frame& frame, const FieldSelection& selection) {
+  pcl::PCLPointCloud2 cloud;
+  ForEachField(frame, [&](std::string_view name, std::string_view, const auto& values) {
+    if (!selection.Has(name)) return;
+    using Stored = typename StoredType<ElementOf<decltype(values)>>::Type;
+    pcl::PCLPointField field;
+    field.name = name;
+    field.offset = cloud.point_step;
+    field.datatype = PclType<Stored>();
+    field.count = 1;
+    cloud.fields.push_back(field);
+    cloud.point_step += static_cast<std::uint32_t>(sizeof(Stored));
+  });
+  cloud.width = frame.width();
+  cloud.height = frame.rows;
+  cloud.row_step = cloud.width * cloud.point_step;
+  return cloud;
+}
+
+// `to` holds num_slots() * step bytes.
+void WeaveRows(const Frame& frame, const FieldSelection& selection, std::size_t step, char* to) {
+  // So many points that the rows of a block stay in the first-level cache while the fields, one
+  // after another, are woven into them.
+  constexpr std::size_t kBlock = 256;
+  for (std::size_t first = 0; first < frame.num_slots(); first += kBlock) {
+    const std::size_t count = std::min(kBlock, frame.num_slots() - first);
+    char* place = to + first * step;
+    ForEachField(frame, [&](std::string_view name, std::string_view, const auto& values) {
+      if (!selection.Has(name)) return;
+      using Stored = typename StoredType<ElementOf<decltype(values)>>::Type;
+      const auto* from = values.data() + first;
+      for (std::size_t i = 0; i < count; ++i) StoreAt<Stored>(place + i * step, from[i]);
+      place += sizeof(Stored);
+    });
+  }
+}
+
+void AppendCompressed(const Frame& frame, const FieldSelection& selection, std::string& bytes) {
+  std::string plain;
+  ForEachField(frame, [&](std::string_view name, std::string_view, const auto& values) {
+    if (!selection.Has(name)) return;
+    const std::size_t size = values.size() * sizeof(values[0]);
+    const std::size_t begin = plain.size();
+    plain.resize(begin + size);
+    std::memcpy(plain.data() + begin, values.data(), size);
+  });
+  Check(plain.size() < std::numeric_limits<std::uint32_t>::max() / 2, "a frame is below 2 GiB");
+  // LZF adds at most one byte to 32 where nothing repeats.
+  std::string packed(plain.size() + plain.size() / 16 + 64, '\0');
+  const std::uint32_t packed_size =
+      pcl::lzfCompress(plain.data(), static_cast<std::uint32_t>(plain.size()), packed.data(),
+                       static_cast<std::uint32_t>(packed.size()));
+  Check(packed_size > 0 || plain.empty(), "LZF output fits its bound");
+  std::array<char, 8> sizes{};
+  StoreAt<std::uint32_t>(sizes.data(), packed_size);
+  StoreAt<std::uint32_t>(sizes.data() + 4, plain.size());
+  bytes.append(sizes.data(), sizes.size());
+  bytes.append(packed, 0, packed_size);
+}
+
+template <typename Stored>
+void AppendNumber(Stored value, std::string& bytes) {
+  if constexpr (std::is_floating_point_v<Stored>) {
+    // to_chars may print the sign of a NaN; readers know "nan".
+    if (std::isnan(value)) {
+      bytes += "nan";
+      return;
+    }
+  }
+  std::array<char, 24> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  bytes.append(digits.data(), end);
+}
+
+void AppendText(const Frame& frame, const FieldSelection& selection, std::string& bytes) {
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    ForEachField(frame, [&](std::string_view name, std::string_view, const auto& values) {
+      if (!selection.Has(name)) return;
+      using Stored = typename StoredType<ElementOf<decltype(values)>>::Type;
+      AppendNumber(static_cast<Stored>(values[slot]), bytes);
+      bytes += ' ';
+    });
+    bytes.back() = '\n';
+  }
+}
+
+}  // namespace
+
+void EncodePcd(const Frame& frame,
+               const FieldSelection& fields,
+               PcdEncoding encoding,
+               std::string& bytes) {
+  const pcl::PCLPointCloud2 cloud = Describe(frame, fields);
+  const Eigen::Vector4f origin = Eigen::Vector4f::Zero();
+  const Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();
+  pcl::PCDWriter writer;
+  switch (encoding) {
+    case PcdEncoding::kBinary: {
+      const std::string header =
+          writer.generateHeaderBinary(cloud, origin, orientation) + "DATA binary\n";
+      bytes.resize(header.size() + frame.num_slots() * cloud.point_step);
+      header.copy(bytes.data(), header.size());
+      WeaveRows(frame, fields, cloud.point_step, bytes.data() + header.size());
+      break;
+    }
+    case PcdEncoding::kBinaryCompressed:
+      bytes = writer.generateHeaderBinaryCompressed(cloud, origin, orientation) +
+              "DATA binary_compressed\n";
+      AppendCompressed(frame, fields, bytes);
+      break;
+    case PcdEncoding::kAscii:
+      bytes = writer.generateHeaderASCII(cloud, origin, orientation) + "DATA ascii\n";
+      AppendText(frame, fields, bytes);
+      break;
+  }
+}
+
+}  // namespace railcast

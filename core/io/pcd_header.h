@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace railcast {
+
+/// One entry of a PCD file's FIELDS, SIZE, TYPE and COUNT lines.
+struct PcdField {
+  std::string name;
+  std::uint64_t size{};   ///< Bytes of one element: 1, 2, 4 or 8.
+  char type{};            ///< 'I', 'U' or 'F'.
+  std::uint64_t count{};  ///< Elements.
+};
+
+/// The header of a PCD v0.7 (or 0.6 with the same keys) file.
+struct PcdHeader {
+  std::vector<PcdField> fields;
+  std::uint64_t width{};
+  std::uint64_t height{};
+  std::uint64_t points{};
+  std::string data;          ///< "ascii", "binary" or "binary_compressed".
+  std::size_t data_begin{};  ///< Where the points begin in the file.
+
+  /// Bytes of one point.
+  [[nodiscard]] std::uint64_t PointStep() const;
+};
+
+/// Reads the header of a PCD file held in `bytes` and checks it and the points' length against each
+/// other: a damaged file gives an error here, while PCL's reader would crash on it.
+/// @param file Named in errors.
+/// @throws InputError with one line: "file: key: rule (got value)".
+[[nodiscard]] PcdHeader CheckPcd(const std::string& file, std::string_view bytes);
+
+}  // namespace railcast

@@ -1,0 +1,41 @@
+#include "core/io/pcd_reader.h"
+
+#include <pcl/io/pcd_io.h>
+
+#include <sstream>
+#include <string>
+
+#include "core/base/error.h"
+#include "core/io/pcd_header.h"
+#include "core/io/write_file.h"
+
+namespace railcast {
+
+pcl::PCLPointCloud2 ReadPcd(const std::filesystem::path& file) {
+  const std::string bytes = ReadFileWhole(file);
+  const PcdHeader header = CheckPcd(file.string(), bytes);
+
+  pcl::PCDReader reader;
+  pcl::PCLPointCloud2 cloud;
+  Eigen::Vector4f origin;
+  Eigen::Quaternionf orientation;
+  int version = 0;
+  int data_type = 0;
+  unsigned int data_begin = 0;
+  std::istringstream stream(bytes);
+  int status =
+      reader.readHeader(stream, cloud, origin, orientation, version, data_type, data_begin);
+  if (status == 0 && header.data == "ascii") {
+    stream.clear();
+    stream.seekg(static_cast<std::streamoff>(header.data_begin));
+    status = reader.readBodyASCII(stream, cloud, version);
+  } else if (status == 0) {
+    status = reader.readBodyBinary(reinterpret_cast<const unsigned char*>(bytes.data()), cloud,
+                                   version, header.data == "binary_compressed",
+                                   static_cast<unsigned int>(header.data_begin));
+  }
+  if (status != 0) throw InputError(file.string() + ": PCL cannot read this PCD file");
+  return cloud;
+}
+
+}  // namespace railcast

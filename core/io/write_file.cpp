@@ -1,0 +1,94 @@
+#include "core/io/write_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cctype>
+#include <cerrno>
+#include <system_error>
+
+namespace railcast {
+namespace {
+
+/// An open file that is closed when it goes out of scope.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  [[nodiscard]] int number() const { return number_; }
+  /// Some file systems report a full disk only here.
+  [[nodiscard]] bool Close() {
+    const int number = number_;
+    number_ = -1;
+    return ::close(number) == 0;
+  }
+
+ private:
+  int number_;
+};
+
+bool WriteAll(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+bool HasLength(int descriptor, std::size_t length) {
+  struct stat status {};
+  if (::fstat(descriptor, &status) != 0) return false;
+  if (static_cast<std::size_t>(status.st_size) == length) return true;
+  errno = EIO;
+  return false;
+}
+
+}  // namespace
+
+InputError FileError(const std::filesystem::path& file, int error_number) {
+  std::string reason = std::generic_category().message(error_number);
+  reason[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(reason[0])));
+  return InputError(file.string() + ": " + reason);
+}
+
+void WriteFileWhole(const std::filesystem::path& file, std::string_view bytes) {
+  const std::filesystem::path unfinished = file.string() + std::string(kUnfinishedSuffix);
+  constexpr int kAccess = 0644;
+  Descriptor output(::open(unfinished.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kAccess));
+  if (output.number() < 0) throw FileError(file, errno);
+  const bool is_written = WriteAll(output.number(), bytes) &&
+                          HasLength(output.number(), bytes.size()) &&
+                          ::fsync(output.number()) == 0 && output.Close() &&
+                          ::rename(unfinished.c_str(), file.c_str()) == 0;
+  if (is_written) return;
+  const int error_number = errno;
+  ::unlink(unfinished.c_str());
+  throw FileError(file, error_number);
+}
+
+std::string ReadFileWhole(const std::filesystem::path& file) {
+  const Descriptor input(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  struct stat status {};
+  if (input.number() < 0 || ::fstat(input.number(), &status) != 0) throw FileError(file, errno);
+  std::string bytes(static_cast<std::size_t>(status.st_size), '\0');
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t count = ::read(input.number(), bytes.data() + done, bytes.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw FileError(file, errno);
+    if (count == 0) break;
+    done += static_cast<std::size_t>(count);
+  }
+  bytes.resize(done);
+  return bytes;
+}
+
+}  // namespace railcast

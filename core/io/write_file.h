@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "core/base/error.h"
+
+namespace railcast {
+
+/// "file: no space left on device": what the system said about a file, as an error of the user's.
+[[nodiscard]] InputError FileError(const std::filesystem::path& file, int error_number);
+
+/// Ends the name of a file that is still being written.
+inline constexpr std::string_view kUnfinishedSuffix = ".part";
+
+/// Writes a whole file or none: beside it first (name + kUnfinishedSuffix), checked for length,
+/// synced to the disk, then renamed over `file`.
+/// @throws InputError if the system refuses; nothing unfinished stays behind.
+void WriteFileWhole(const std::filesystem::path& file, std::string_view bytes);
+
+/// The bytes of a whole file. @throws InputError if it cannot be read.
+[[nodiscard]] std::string ReadFileWhole(const std::filesystem::path& file);
+
+}  // namespace railcast

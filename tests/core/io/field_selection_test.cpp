@@ -1,0 +1,39 @@
+#include "core/io/field_selection.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/core/io/message_of.h"
+
+namespace railcast {
+namespace {
+
+constexpr const char* kAll =
+    "x,y,z,intensity,power_ratio,range_m,time_ns,ring,column,return_index,return_count,label,"
+    "instance,outcome,true_range_m,incidence_rad,material";
+
+TEST(FieldSelection, IsEverythingByDefault) {
+  EXPECT_EQ(FieldSelection().Text(), kAll);
+  EXPECT_EQ(FieldSelection("all"), FieldSelection());
+}
+
+TEST(FieldSelection, KeepsTheTablesOrder) {
+  EXPECT_EQ(FieldSelection("label,z,x,y").Text(), "x,y,z,label");
+}
+
+TEST(FieldSelection, NamesTheNearestFieldForEveryUnknownOne) {
+  const std::string valid =
+      " (valid: x, y, z, intensity, power_ratio, range_m, time_ns, ring, column, return_index, "
+      "return_count, label, instance, outcome, true_range_m, incidence_rad, material)";
+  EXPECT_EQ(MessageOf([] { FieldSelection("x,lable,range"); }),
+            "--fields: unknown field \"lable\", nearest is \"label\"" + valid +
+                "\n--fields: unknown field \"range\", nearest is \"range_m\"" + valid);
+  EXPECT_EQ(MessageOf([] { FieldSelection("x,,y"); }),
+            "--fields: unknown field \"\", nearest is \"x\"" + valid);
+}
+
+TEST(FieldSelection, RefusesAFieldTwice) {
+  EXPECT_EQ(MessageOf([] { FieldSelection("x,y,x"); }), "--fields: field \"x\" comes twice");
+}
+
+}  // namespace
+}  // namespace railcast

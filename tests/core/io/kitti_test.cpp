@@ -1,0 +1,76 @@
+#include "core/io/kitti.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstring>
+
+#include "tests/core/io/example_frame.h"
+#include "tests/core/io/message_of.h"
+
+namespace railcast {
+namespace {
+
+std::size_t NumPoints(const Frame& frame) {
+  std::size_t count = 0;
+  for (const Outcome outcome : frame.outcome) count += HasPoint(outcome) ? 1 : 0;
+  return count;
+}
+
+TEST(KittiPoints, AreFourFloatsForEveryPoint) {
+  Frame frame = ExampleFrame(1);
+  frame.intensity[0] = std::numeric_limits<float>::quiet_NaN();  // As the geometry rung has it.
+  std::string bytes;
+  EncodeKittiPoints(frame, bytes);
+  ASSERT_EQ(bytes.size(), NumPoints(frame) * 16);
+  std::size_t point = 0;
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    if (!HasPoint(frame.outcome[slot])) continue;
+    std::array<float, 4> stored{};
+    std::memcpy(stored.data(), bytes.data() + 16 * point++, 16);
+    const float remission = slot == 0 ? 0.0F : frame.intensity[slot];
+    EXPECT_EQ(stored, (std::array{frame.x[slot], frame.y[slot], frame.z[slot], remission}));
+  }
+}
+
+TEST(KittiLabels, HoldTheClassBelowAndTheInstanceAbove) {
+  const Frame frame = ExampleFrame(1);
+  std::string bytes;
+  EncodeKittiLabels(frame, ExampleLabels(), bytes);
+  ASSERT_EQ(bytes.size(), NumPoints(frame) * 4);
+  std::size_t point = 0;
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    if (!HasPoint(frame.outcome[slot])) continue;
+    std::uint32_t stored = 0;
+    std::memcpy(&stored, bytes.data() + 4 * point++, 4);
+    EXPECT_EQ(stored & 0xFFFFU, frame.label[slot] == 12 ? 16U : 260U);
+    EXPECT_EQ(stored >> 16U, frame.instance[slot]);
+  }
+}
+
+TEST(KittiLabels, RefuseAnInstanceTheyCannotHold) {
+  Frame frame = ExampleFrame(1);
+  frame.instance[0] = 65536;
+  std::string bytes;
+  EXPECT_EQ(MessageOf([&] { EncodeKittiLabels(frame, ExampleLabels(), bytes); }),
+            "--format kitti: instance must be <= 65535 (got 65536)");
+}
+
+TEST(KittiPoseLine, IsThePoseByRows) {
+  Eigen::Matrix3d quarter_turn;
+  quarter_turn << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  EXPECT_EQ(KittiPoseLine(MakeTransform(quarter_turn, Vector3(1.5, 0.1, -3))),
+            "0 -1 0 1.5 1 0 0 0.1 0 0 1 -3\n");
+}
+
+TEST(SemanticKittiYaml, MapsOurClassesToTheNearestOriginals) {
+  EXPECT_EQ(SemanticKittiYaml(ExampleLabels()),
+            "# Classes of the .label files beside; ids above 259 are railcast's own.\n"
+            "labels:\n  0: \"unlabeled\"\n  16: \"wagon\"\n  260: \"rail\"\n"
+            "color_map: # bgr\n  0: [0, 0, 0]\n  16: [0, 94, 213]\n  260: [0, 159, 230]\n"
+            "learning_map: # to the nearest of SemanticKITTI's own classes\n"
+            "  0: 0\n  16: 16\n  260: 49\n");
+}
+
+}  // namespace
+}  // namespace railcast

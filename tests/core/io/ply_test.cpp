@@ -1,0 +1,128 @@
+#include "core/io/ply_encoder.h"
+
+#include <gtest/gtest.h>
+#include <pcl/conversions.h>
+#include <pcl/io/ply_io.h>
+#include <pcl/point_types.h>
+
+#include <cstring>
+
+#include "core/io/ply_reader.h"
+#include "core/io/write_file.h"
+#include "tests/core/io/example_frame.h"
+#include "tests/core/io/message_of.h"
+#include "tests/core/io/temporary_directory.h"
+
+namespace railcast {
+namespace {
+
+std::vector<std::size_t> SlotsWithPoint(const Frame& frame) {
+  std::vector<std::size_t> slots;
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    if (HasPoint(frame.outcome[slot])) slots.push_back(slot);
+  }
+  return slots;
+}
+
+template <typename T>
+std::vector<T> Column(const pcl::PCLPointCloud2& cloud, const std::string& name) {
+  std::vector<T> values;
+  for (const pcl::PCLPointField& field : cloud.fields) {
+    if (field.name != name) continue;
+    for (std::size_t point = 0; point < cloud.width; ++point) {
+      T value{};
+      std::memcpy(&value, &cloud.data[point * cloud.point_step + field.offset], sizeof value);
+      values.push_back(value);
+    }
+  }
+  return values;
+}
+
+template <typename T, typename Values>
+std::vector<T> Picked(const Frame& frame, const Values& values) {
+  std::vector<T> picked;
+  for (const std::size_t slot : SlotsWithPoint(frame))
+    picked.push_back(static_cast<T>(values[slot]));
+  return picked;
+}
+
+TEST(EncodePly, GivesPclsReaderItsPointsAndLabels) {
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "frame.ply";
+  const Frame frame = ExampleFrame(2);
+  std::string bytes;
+  EncodePly(frame, FieldSelection(), PlyFlavour::kPcl, bytes);
+  WriteFileWhole(file, bytes);
+
+  pcl::PCLPointCloud2 by_pcl;
+  ASSERT_EQ(pcl::io::loadPLYFile(file.string(), by_pcl), 0);
+  for (const pcl::PCLPointCloud2& cloud : {by_pcl, ReadPly(file)}) {
+    EXPECT_EQ(Column<float>(cloud, "x"), Picked<float>(frame, frame.x));
+    EXPECT_EQ(Column<float>(cloud, "intensity"), Picked<float>(frame, frame.intensity));
+    EXPECT_EQ(Column<std::uint32_t>(cloud, "time_ns"), Picked<std::uint32_t>(frame, frame.time_ns));
+    EXPECT_EQ(Column<std::uint16_t>(cloud, "ring"), Picked<std::uint16_t>(frame, frame.ring));
+    EXPECT_EQ(Column<std::uint8_t>(cloud, "outcome"), Picked<std::uint8_t>(frame, frame.outcome));
+    EXPECT_EQ(Column<std::uint16_t>(cloud, "material"),
+              Picked<std::uint16_t>(frame, frame.material));
+  }
+  pcl::PointCloud<pcl::PointXYZL> labelled;
+  pcl::fromPCLPointCloud2(by_pcl, labelled);
+  const auto slots = SlotsWithPoint(frame);
+  ASSERT_EQ(labelled.size(), slots.size());
+  for (std::size_t i = 0; i < slots.size(); ++i)
+    EXPECT_EQ(labelled[i].label, frame.label[slots[i]]);
+}
+
+TEST(EncodePly, GivesCloudCompareOnlyTypesThatOpen3dKeepsToo) {
+  std::string bytes;
+  EncodePly(ExampleFrame(0), FieldSelection("x,y,z,intensity,time_ns,ring,label,instance,outcome"),
+            PlyFlavour::kCloudCompare, bytes);
+  EXPECT_EQ(bytes.substr(0, bytes.find("end_header")),
+            "ply\nformat binary_little_endian 1.0\nelement vertex 12\n"
+            "property float x\nproperty float y\nproperty float z\n"
+            "property float scalar_intensity\nproperty double scalar_time_ns\n"
+            "property int scalar_ring\nproperty int scalar_label\nproperty int scalar_instance\n"
+            "property int scalar_outcome\n");
+}
+
+TEST(EncodePly, KeepsTheValuesInTheCloudCompareFlavour) {
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "frame.ply";
+  const Frame frame = ExampleFrame(2);
+  std::string bytes;
+  EncodePly(frame, FieldSelection(), PlyFlavour::kCloudCompare, bytes);
+  WriteFileWhole(file, bytes);
+  pcl::PCLPointCloud2 by_pcl;
+  ASSERT_EQ(pcl::io::loadPLYFile(file.string(), by_pcl), 0);
+  for (const pcl::PCLPointCloud2& cloud : {by_pcl, ReadPly(file)}) {
+    EXPECT_EQ(Column<double>(cloud, "scalar_time_ns"), Picked<double>(frame, frame.time_ns));
+    EXPECT_EQ(Column<std::int32_t>(cloud, "scalar_label"),
+              Picked<std::int32_t>(frame, frame.label));
+    EXPECT_EQ(Column<float>(cloud, "scalar_range_m"), Picked<float>(frame, frame.range_m));
+  }
+}
+
+TEST(EncodePly, RefusesWhatAPlyViewerCannotUse) {
+  std::string bytes;
+  Frame frame = ExampleFrame(0);
+  EXPECT_EQ(
+      MessageOf([&] { EncodePly(frame, FieldSelection("x,y,label"), PlyFlavour::kPcl, bytes); }),
+      "--fields: a PLY file needs x, y and z (got x,y,label)");
+  frame.label[0] = 0x80000000U;
+  EXPECT_EQ(
+      MessageOf([&] { EncodePly(frame, FieldSelection(), PlyFlavour::kCloudCompare, bytes); }),
+      "--format ply-cloudcompare: label must be < 2147483648 (got 2147483648)");
+}
+
+TEST(EncodePly, AllowsAFrameWithoutAPoint) {
+  const TemporaryDirectory directory;
+  Frame frame = ExampleFrame(0);
+  frame.outcome.assign(frame.num_slots(), Outcome::kNoSurface);
+  std::string bytes;
+  EncodePly(frame, FieldSelection(), PlyFlavour::kPcl, bytes);
+  WriteFileWhole(directory.path() / "empty.ply", bytes);
+  EXPECT_EQ(ReadPly(directory.path() / "empty.ply").width, 0U);
+}
+
+}  // namespace
+}  // namespace railcast
