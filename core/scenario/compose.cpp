@@ -57,6 +57,7 @@ std::unique_ptr<Simulator> MakeSimulator(const ScenarioSpec& spec, int num_threa
   simulator.plausibility = spec.lidar.plausibility;
   simulator.weather = spec.weather;
   simulator.output = spec.output;
+  simulator.snow_label = LabelTable(spec.labels).Id("snow");
   return std::make_unique<Simulator>(MakeWorld(spec), MakePattern(spec),
                                      MaterialLibrary(spec.materials), simulator, num_threads);
 }
