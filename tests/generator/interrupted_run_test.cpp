@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <thread>
 
 #include "core/io/write_file.h"
@@ -18,19 +19,35 @@ namespace railcast {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
-// Runs the example in a process of its own and kills it after a while.
-void RunAndKill(const SequenceSpec& spec, std::chrono::microseconds after) {
+void MakeExampleFrameSlowly(std::uint32_t index,
+                            Frame& frame,
+                            std::vector<ObjectInFrame>& objects) {
+  MakeExampleFrame(index, frame, objects);
+  std::this_thread::sleep_for(std::chrono::microseconds(300));
+}
+
+// Runs the example in a process of its own and kills it a while after frames.jsonl has so many
+// bytes: in the middle of some step of some frame.
+void RunAndKill(const SequenceSpec& spec,
+                std::uint64_t frames_bytes,
+                std::chrono::microseconds delay) {
   const pid_t child = ::fork();
   ASSERT_GE(child, 0);
   if (child == 0) {
-    (void)RunSequence(spec, MakeExampleFrame, NoHooks());
+    (void)RunSequence(spec, MakeExampleFrameSlowly, NoHooks());
     ::_exit(0);
   }
-  std::this_thread::sleep_for(after);
-  ::kill(child, SIGKILL);
-  ::waitpid(child, nullptr, 0);
+  std::error_code no_file_yet;
+  const fs::path frames = spec.directory / "frames.jsonl";
+  while (::waitpid(child, nullptr, WNOHANG) == 0) {
+    const std::uintmax_t size = fs::file_size(frames, no_file_yet);
+    if (no_file_yet || size < frames_bytes) continue;
+    std::this_thread::sleep_for(delay);
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    return;
+  }
 }
 
 class InterruptedRun : public testing::TestWithParam<const char*> {
@@ -45,14 +62,14 @@ class InterruptedRun : public testing::TestWithParam<const char*> {
 };
 
 TEST_P(InterruptedRun, GivesTheSameBytesHoweverOftenItIsKilled) {
-  const auto begin = Clock::now();
   const auto expected = Undisturbed();
-  const auto whole = std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - begin);
-  constexpr int kTrials = 20;
-  for (int trial = 0; trial < kTrials; ++trial) {
+  const std::uint64_t whole = expected.at("frames.jsonl").size();
+  constexpr std::uint64_t kTrials = 20;
+  for (std::uint64_t trial = 0; trial < kTrials; ++trial) {
     const TemporaryDirectory directory;
-    RunAndKill(Spec(directory.path()), whole * trial / kTrials);
-    RunAndKill(Spec(directory.path()), whole * (kTrials - trial) / (2 * kTrials));
+    const std::chrono::microseconds delay(37 * trial);
+    RunAndKill(Spec(directory.path()), whole * trial / kTrials / 3, delay);
+    RunAndKill(Spec(directory.path()), whole * (trial + kTrials) / kTrials / 3, delay);
     const auto result = RunSequence(Spec(directory.path()), MakeExampleFrame, NoHooks());
     EXPECT_TRUE(result.is_complete);
     ASSERT_EQ(Contents(directory.path()), expected) << "trial " << trial;
