@@ -1,21 +1,15 @@
 #include "core/io/kitti.h"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 
 #include "core/base/error.h"
 #include "core/io/field_layout.h"
+#include "core/io/number_text.h"
 
 namespace railcast {
 namespace {
-
-// Shortest digits that give the same double back.
-std::string Digits(double value) {
-  std::array<char, 32> digits{};
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
-}
 
 // A label may share its SemanticKITTI id with another (grass and tree are both vegetation).
 std::map<std::uint16_t, const Label*> ByKittiId(const LabelTable& labels) {
@@ -66,7 +60,7 @@ std::string KittiPoseLine(const Transform& first_from_sensor) {
   for (Eigen::Index row = 0; row < 3; ++row) {
     for (Eigen::Index column = 0; column < 4; ++column) {
       if (!line.empty()) line += ' ';
-      line += Digits(first_from_sensor.matrix()(row, column));
+      line += NumberText(first_from_sensor.matrix()(row, column));
     }
   }
   return line + "\n";

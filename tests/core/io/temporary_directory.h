@@ -8,11 +8,15 @@
 
 namespace railcast {
 
-/// A new directory that goes away with its contents.
+/// A new directory that goes away with its contents; in memory where the system has it, since tests
+/// need no disk to be waited for.
 class TemporaryDirectory {
  public:
   TemporaryDirectory() {
-    std::string name = (std::filesystem::temp_directory_path() / "railcast_test_XXXXXX").string();
+    const std::filesystem::path memory = "/dev/shm";
+    const auto parent =
+        std::filesystem::exists(memory) ? memory : std::filesystem::temp_directory_path();
+    std::string name = (parent / "railcast_test_XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("mkdtemp failed");
     path_ = name;
   }

@@ -1,0 +1,82 @@
+#include "generator/frame_record.h"
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.h"
+#include "generator/counts_json.h"
+
+namespace railcast {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+FrameRecord Parse(const Json& line) {
+  FrameRecord record;
+  record.frame = line.at("frame").get<std::uint32_t>();
+  record.stamp_ns = line.at("stamp_ns").get<std::int64_t>();
+  for (const Json& file : line.at("files")) {
+    record.files.push_back({file.at("name").get<std::string>(),
+                            file.at("bytes").get<std::uint64_t>(),
+                            file.at("xxh3").get<std::string>()});
+  }
+  record.records_hash = line.at("records_xxh3").get<std::string>();
+  record.counts.points = line.at("points").get<std::uint64_t>();
+  for (std::size_t i = 0; i < kOutcomeNames.size(); ++i) {
+    record.counts.outcomes[i] =
+        line.at("outcomes").at(std::string(kOutcomeNames[i])).get<std::uint64_t>();
+  }
+  record.counts.points_per_label =
+      line.at("points_per_label").get<std::map<std::string, std::uint64_t>>();
+  return record;
+}
+
+}  // namespace
+
+void FrameCounts::Add(const FrameCounts& other) {
+  points += other.points;
+  for (std::size_t i = 0; i < outcomes.size(); ++i) outcomes[i] += other.outcomes[i];
+  for (const auto& [label, count] : other.points_per_label) points_per_label[label] += count;
+}
+
+FrameCounts CountFrame(const Frame& frame, const LabelTable& labels) {
+  FrameCounts counts;
+  std::map<std::uint32_t, std::uint64_t> points_per_id;
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    const Outcome outcome = frame.outcome[slot];
+    // A firing's own outcome is that of its first slot; the others only say whether they hold one
+    // more return.
+    if (slot % frame.returns == 0) ++counts.outcomes[static_cast<std::size_t>(outcome)];
+    if (!HasPoint(outcome)) continue;
+    ++counts.points;
+    ++points_per_id[frame.label[slot]];
+  }
+  for (const auto& [id, count] : points_per_id) {
+    const Label* label = labels.Find(id);
+    Check(label != nullptr, "a frame's labels are in its label table");
+    counts.points_per_label[label->name] = count;
+  }
+  return counts;
+}
+
+std::string FrameLine(const FrameRecord& record) {
+  Json files = Json::array();
+  for (const WrittenFile& file : record.files) {
+    files.push_back({{"name", file.name}, {"bytes", file.size}, {"xxh3", file.hash}});
+  }
+  Json line = {{"frame", record.frame},
+               {"stamp_ns", record.stamp_ns},
+               {"files", files},
+               {"records_xxh3", record.records_hash}};
+  PutCounts(record.counts, line);
+  return line.dump() + "\n";
+}
+
+std::optional<FrameRecord> ParseFrameLine(std::string_view line) {
+  try {
+    return Parse(Json::parse(line));
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace railcast

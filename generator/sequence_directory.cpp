@@ -1,0 +1,184 @@
+#include "generator/sequence_directory.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/units.h"
+#include "core/io/content_hash.h"
+#include "core/io/kitti.h"
+#include "core/io/number_text.h"
+#include "core/io/write_file.h"
+#include "generator/counts_json.h"
+#include "generator/sequence_progress.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kRunFile = "run.json";
+constexpr const char* kManifestFile = "manifest.json";
+
+void CreateDirectories(const fs::path& directory) {
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (error) throw FileError(directory, error.value());
+}
+
+void RemoveUnfinished(const fs::path& directory) {
+  for (const auto& entry : fs::recursive_directory_iterator(directory)) {
+    if (entry.path().extension() == kUnfinishedSuffix) fs::remove(entry.path());
+  }
+}
+
+}  // namespace
+
+SequenceDirectory::SequenceDirectory(SequenceSpec spec) : spec_(std::move(spec)) {
+  CreateDirectories(spec_.directory);
+  lock_ = ::open(spec_.directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ < 0) throw FileError(spec_.directory, errno);
+  try {
+    Open();
+  } catch (...) {
+    ::close(lock_);
+    throw;
+  }
+}
+
+SequenceDirectory::~SequenceDirectory() {
+  ::close(lock_);
+}
+
+void SequenceDirectory::Open() {
+  if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+    throw InputError(spec_.directory.string() + ": another run is writing here");
+  }
+  const fs::path run_file = spec_.directory / kRunFile;
+  if (fs::exists(run_file)) {
+    CheckSameRun(spec_, ReadFileWhole(run_file));
+  } else {
+    for (const auto& entry : fs::directory_iterator(spec_.directory)) {
+      // A run that was stopped before its first file was whole.
+      if (entry.path().filename() == std::string(kRunFile) + std::string(kUnfinishedSuffix))
+        continue;
+      throw InputError(spec_.directory.string() + ": holds files that are no run of railcast (" +
+                       entry.path().filename().string() + "); choose another --out");
+    }
+    WriteFileWhole(run_file, RunJson(spec_));
+  }
+  is_complete_ = fs::exists(spec_.directory / kManifestFile);
+  Resume();
+}
+
+void SequenceDirectory::Resume() {
+  if (!is_complete_) {
+    WriteFixedFiles();
+    RemoveUnfinished(spec_.directory);
+  }
+  const SequenceProgress progress = FindProgress(spec_);
+  num_done_ = progress.num_done;
+  counts_ = progress.counts;
+  if (num_done_ > 0) first_pose_ = ParsePoseLine(progress.first_pose_line);
+  if (is_complete_) {
+    if (num_done_ == spec_.num_frames) return;
+    throw InputError(spec_.directory.string() + ": is complete, but frame " +
+                     std::to_string(spec_.start_frame + num_done_) +
+                     " was changed or removed; delete manifest.json to make it anew");
+  }
+  const std::vector<LineFileName> names = LineFileNames(spec_.files.format);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    line_files_.emplace_back(spec_.directory / names[i].name, progress.keep_bytes[i]);
+    if (progress.keep_bytes[i] == 0) line_files_.back().Append(names[i].header);
+  }
+}
+
+void SequenceDirectory::WriteFixedFiles() {
+  WriteFileWhole(spec_.directory / "scenario.resolved.json", spec_.scenario_json);
+  WriteFileWhole(spec_.directory / "labels.json", LabelsJson(spec_.files.labels));
+  if (spec_.files.format != FrameFormat::kKitti) {
+    CreateDirectories(spec_.directory / "frames");
+    return;
+  }
+  CreateDirectories(spec_.directory / "sequences/00/velodyne");
+  CreateDirectories(spec_.directory / "sequences/00/labels");
+  WriteFileWhole(spec_.directory / "sequences/00/calib.txt", KittiCalibration());
+  WriteFileWhole(spec_.directory / "semantic-kitti-railcast.yaml",
+                 SemanticKittiYaml(spec_.files.labels));
+}
+
+std::vector<std::string> SequenceDirectory::RecordLines(const Frame& frame,
+                                                        const std::vector<ObjectInFrame>& objects) {
+  const PoseRecord pose(frame.stamp_ns, frame.world_from_sensor);
+  if (!first_pose_) first_pose_ = pose;
+  std::vector<std::string> lines = {PoseLine(pose), ObjectsLine(frame, objects)};
+  if (spec_.files.format == FrameFormat::kKitti) {
+    // Both from what poses.csv says, so that a resumed run computes with the same numbers.
+    lines.push_back(
+        KittiPoseLine(first_pose_->WorldFromSensor().inverse() * pose.WorldFromSensor()));
+    lines.push_back(NumberText(SecondsFromNs(pose.stamp_ns - first_pose_->stamp_ns)) + "\n");
+  }
+  return lines;
+}
+
+void SequenceDirectory::Write(const Frame& frame, const std::vector<ObjectInFrame>& objects) {
+  Check(frame.index == spec_.start_frame + num_done_, "frames are written in their order");
+  const bool is_kitti = spec_.files.format == FrameFormat::kKitti;
+  EncodeFrameFiles(frame, spec_.files, is_kitti ? num_done_ : frame.index, frame_files_);
+
+  FrameRecord record;
+  record.frame = frame.index;
+  record.stamp_ns = frame.stamp_ns;
+  record.counts = CountFrame(frame, spec_.files.labels);
+  for (const FrameFile& file : frame_files_) {
+    record.files.push_back({file.name, file.bytes.size(), ContentHash(file.bytes)});
+    WriteFileWhole(spec_.directory / file.name, file.bytes);
+  }
+  const std::vector<std::string> lines = RecordLines(frame, objects);
+  std::string all_lines;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    line_files_[i].Append(lines[i]);
+    all_lines += lines[i];
+  }
+  record.records_hash = ContentHash(all_lines);
+  line_files_.back().Append(FrameLine(record));
+  counts_.Add(record.counts);
+  ++num_done_;
+}
+
+void SequenceDirectory::Finish() {
+  Check(num_done_ == spec_.num_frames, "only a complete run has a manifest");
+  for (LineFile& file : line_files_) file.Sync();
+  WriteFileWhole(spec_.directory / kManifestFile, ManifestJson());
+  is_complete_ = true;
+}
+
+std::string SequenceDirectory::ManifestJson() const {
+  nlohmann::ordered_json manifest = {{"version", spec_.version},
+                                     {"seed", spec_.seed},
+                                     {"format", FrameFormatName(spec_.files.format)},
+                                     {"start_frame", spec_.start_frame},
+                                     {"num_frames", spec_.num_frames}};
+  PutCounts(counts_, manifest);
+  // frames.jsonl names the hash of every frame's files: these hashes are over all there is.
+  std::string all;
+  nlohmann::ordered_json files = nlohmann::ordered_json::object();
+  std::vector<std::string> names = {kRunFile, "scenario.resolved.json", "labels.json"};
+  for (const LineFileName& file : LineFileNames(spec_.files.format)) names.push_back(file.name);
+  for (const std::string& name : names) {
+    const std::string hash = ContentHash(ReadFileWhole(spec_.directory / name));
+    files[name] = hash;
+    all += hash;
+  }
+  manifest["files_xxh3"] = files;
+  manifest["all_xxh3"] = ContentHash(all);
+  return manifest.dump(2) + "\n";
+}
+
+}  // namespace railcast

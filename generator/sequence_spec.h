@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "core/io/frame_files.h"
+
+namespace railcast {
+
+/// Everything that a sequence directory's bytes depend on.
+struct SequenceSpec {
+  std::filesystem::path directory;
+  std::string version;        ///< Of railcast.
+  std::string scenario_json;  ///< Resolved, with the command line's seed and rung in it.
+  std::uint64_t seed{};       ///< The scenario's, for the manifest.
+  FrameFileSpec files;
+  std::uint32_t start_frame{};
+  std::uint32_t num_frames{};
+};
+
+/// run.json: names the run that a directory belongs to, from its first moment on.
+[[nodiscard]] std::string RunJson(const SequenceSpec& spec);
+
+/// @throws InputError that names the first difference if `run_json`, found in the directory, is
+///   another run's.
+void CheckSameRun(const SequenceSpec& spec, const std::string& run_json);
+
+/// labels.json in the form the scenario reader reads.
+[[nodiscard]] std::string LabelsJson(const LabelTable& labels);
+
+}  // namespace railcast

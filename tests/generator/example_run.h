@@ -1,0 +1,58 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <thread>
+
+#include "core/io/write_file.h"
+#include "generator/run_sequence.h"
+#include "tests/core/io/example_frame.h"
+
+namespace railcast {
+
+/// A run of `num_frames` example frames, from frame 3 on.
+inline SequenceSpec ExampleRun(const std::filesystem::path& directory,
+                               const std::string& format = "pcd",
+                               std::uint32_t num_frames = 6) {
+  SequenceSpec spec;
+  spec.directory = directory;
+  spec.version = "0.1.0";
+  spec.scenario_json = "{\"seed\": 5}\n";
+  spec.seed = 5;
+  spec.files = {ParseFrameFormat(format), FieldSelection(), ExampleLabels()};
+  spec.start_frame = 3;
+  spec.num_frames = num_frames;
+  return spec;
+}
+
+inline void MakeExampleFrame(std::uint32_t index,
+                             Frame& frame,
+                             std::vector<ObjectInFrame>& objects) {
+  frame = ExampleFrame(index);
+  ObjectInFrame wagon{"wagon_1", "open_wagon", "wagon", 3};
+  wagon.size_m = Vector3(10.0, 2.9, 3.1);
+  wagon.world_from_box.translation() = Vector3(80.0 - 0.1 * index, 1.5, 1.6);
+  wagon.points = 4;
+  wagon.firings_visible = 6;
+  wagon.firings_alone = 8;
+  objects.push_back(wagon);
+}
+
+inline SequenceHooks NoHooks() {
+  return {[](std::uint32_t, std::uint32_t) {}, [] { return false; }};
+}
+
+/// Every file below a directory, by name, with its bytes.
+inline std::map<std::string, std::string> Contents(const std::filesystem::path& directory) {
+  std::map<std::string, std::string> contents;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(directory)) {
+    if (!entry.is_regular_file()) continue;
+    contents[std::filesystem::relative(entry.path(), directory).string()] =
+        ReadFileWhole(entry.path());
+  }
+  return contents;
+}
+
+}  // namespace railcast

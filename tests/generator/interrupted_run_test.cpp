@@ -1,0 +1,148 @@
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <thread>
+
+#include "core/io/write_file.h"
+#include "generator/run_sequence.h"
+#include "tests/core/io/temporary_directory.h"
+#include "tests/generator/example_run.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+void MakeExampleFrameSlowly(std::uint32_t index,
+                            Frame& frame,
+                            std::vector<ObjectInFrame>& objects) {
+  MakeExampleFrame(index, frame, objects);
+  std::this_thread::sleep_for(std::chrono::microseconds(300));
+}
+
+// Runs the example in a process of its own and kills it a while after frames.jsonl has so many
+// bytes: in the middle of some step of some frame.
+void RunAndKill(const SequenceSpec& spec,
+                std::uint64_t frames_bytes,
+                std::chrono::microseconds delay) {
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    (void)RunSequence(spec, MakeExampleFrameSlowly, NoHooks());
+    ::_exit(0);
+  }
+  std::error_code no_file_yet;
+  const fs::path frames = spec.directory / "frames.jsonl";
+  while (::waitpid(child, nullptr, WNOHANG) == 0) {
+    const std::uintmax_t size = fs::file_size(frames, no_file_yet);
+    if (no_file_yet || size < frames_bytes) continue;
+    std::this_thread::sleep_for(delay);
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    return;
+  }
+}
+
+class InterruptedRun : public testing::TestWithParam<const char*> {
+ protected:
+  // What the run gives when nothing disturbs it.
+  std::map<std::string, std::string> Undisturbed() {
+    const TemporaryDirectory directory;
+    (void)RunSequence(Spec(directory.path()), MakeExampleFrame, NoHooks());
+    return Contents(directory.path());
+  }
+  SequenceSpec Spec(const fs::path& directory) { return ExampleRun(directory, GetParam(), 40); }
+};
+
+TEST_P(InterruptedRun, GivesTheSameBytesHoweverOftenItIsKilled) {
+  const auto expected = Undisturbed();
+  const std::uint64_t whole = expected.at("frames.jsonl").size();
+  constexpr std::uint64_t kTrials = 20;
+  for (std::uint64_t trial = 0; trial < kTrials; ++trial) {
+    const TemporaryDirectory directory;
+    const std::chrono::microseconds delay(37 * trial);
+    RunAndKill(Spec(directory.path()), whole * trial / kTrials / 3, delay);
+    RunAndKill(Spec(directory.path()), whole * (trial + kTrials) / kTrials / 3, delay);
+    const auto result = RunSequence(Spec(directory.path()), MakeExampleFrame, NoHooks());
+    EXPECT_TRUE(result.is_complete);
+    ASSERT_EQ(Contents(directory.path()), expected) << "trial " << trial;
+  }
+}
+
+TEST_P(InterruptedRun, ContinuesAfterAStopBetweenFrames) {
+  const TemporaryDirectory directory;
+  std::uint32_t last_done = 0;
+  const SequenceHooks stop_after_five = {
+      [&](std::uint32_t num_done, std::uint32_t) { last_done = num_done; },
+      [&] { return last_done >= 5; }};
+  const auto first = RunSequence(Spec(directory.path()), MakeExampleFrame, stop_after_five);
+  EXPECT_FALSE(first.is_complete);
+  EXPECT_EQ(first.num_done, 6U);  // The one under way was written too.
+  EXPECT_FALSE(fs::exists(directory.path() / "manifest.json"));
+  std::uint32_t num_made = 0;
+  const FrameSource counting = [&](std::uint32_t index, Frame& frame, auto& objects) {
+    ++num_made;
+    MakeExampleFrame(index, frame, objects);
+  };
+  const auto second = RunSequence(Spec(directory.path()), counting, NoHooks());
+  EXPECT_EQ(second.num_resumed, 6U);
+  EXPECT_EQ(num_made, 34U);
+  EXPECT_EQ(Contents(directory.path()), Undisturbed());
+}
+
+// What may be left in a directory when the machine, not only the program, stops.
+TEST_P(InterruptedRun, DropsWhateverIsNotWhole) {
+  const auto expected = Undisturbed();
+  const std::string frame_7 =
+      GetParam() == std::string("kitti") ? "sequences/00/labels/000007.label" : "frames/000010.pcd";
+  const std::vector<std::function<void(const fs::path&)>> damages = {
+      [](const fs::path& d) {
+        fs::resize_file(d / "frames.jsonl", fs::file_size(d / "frames.jsonl") - 5);
+      },
+      [](const fs::path& d) { fs::resize_file(d / "frames.jsonl", 0); },
+      [](const fs::path& d) { fs::resize_file(d / "poses.csv", 100); },
+      [](const fs::path& d) {
+        fs::resize_file(d / "objects.jsonl", fs::file_size(d / "objects.jsonl") / 2);
+      },
+      [](const fs::path& d) { fs::remove(d / "poses.csv"); },
+      [&](const fs::path& d) { fs::remove(d / frame_7); },
+      [&](const fs::path& d) { fs::resize_file(d / frame_7, 40); },
+      [&](const fs::path& d) {
+        WriteFileWhole(d / frame_7, std::string(fs::file_size(d / frame_7), '\0'));
+      },
+      [&](const fs::path& d) { WriteFileWhole(d / (frame_7 + ".part"), "half"); },
+      [](const fs::path& d) { fs::remove(d / "labels.json"); },
+  };
+  for (std::size_t i = 0; i < damages.size(); ++i) {
+    const TemporaryDirectory directory;
+    (void)RunSequence(Spec(directory.path()), MakeExampleFrame, NoHooks());
+    fs::remove(directory.path() / "manifest.json");
+    damages[i](directory.path());
+    (void)RunSequence(Spec(directory.path()), MakeExampleFrame, NoHooks());
+    EXPECT_EQ(Contents(directory.path()), expected) << "damage " << i;
+  }
+}
+
+TEST_P(InterruptedRun, KeepsWhatWasWrittenWhenAFrameCannotBeMade) {
+  const TemporaryDirectory directory;
+  const FrameSource failing = [](std::uint32_t index, Frame& frame, auto& objects) {
+    if (index == 8) throw std::runtime_error("no frame 8");
+    MakeExampleFrame(index, frame, objects);
+  };
+  EXPECT_THROW((void)RunSequence(Spec(directory.path()), failing, NoHooks()), std::runtime_error);
+  const auto result = RunSequence(Spec(directory.path()), MakeExampleFrame, NoHooks());
+  EXPECT_EQ(result.num_resumed, 5U);
+  EXPECT_EQ(Contents(directory.path()), Undisturbed());
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, InterruptedRun, testing::Values("pcd", "kitti"));
+
+}  // namespace
+}  // namespace railcast

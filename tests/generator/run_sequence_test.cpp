@@ -1,0 +1,156 @@
+#include "generator/run_sequence.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/io/content_hash.h"
+#include "tests/core/io/message_of.h"
+#include "tests/core/io/temporary_directory.h"
+#include "tests/generator/example_run.h"
+
+namespace railcast {
+namespace {
+
+std::string RunMessage(const SequenceSpec& spec) {
+  return MessageOf([&] { (void)RunSequence(spec, MakeExampleFrame, NoHooks()); });
+}
+
+TEST(RunSequence, WritesEverythingThatASequenceHolds) {
+  const TemporaryDirectory directory;
+  const auto result =
+      RunSequence(ExampleRun(directory.path(), "pcd", 2), MakeExampleFrame, NoHooks());
+  EXPECT_TRUE(result.is_complete);
+  EXPECT_EQ(result.num_done, 2U);
+  std::vector<std::string> names;
+  for (const auto& [name, bytes] : Contents(directory.path())) names.push_back(name);
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"frames.jsonl", "frames/000003.pcd", "frames/000004.pcd",
+                                      "labels.json", "manifest.json", "objects.jsonl", "poses.csv",
+                                      "run.json", "scenario.resolved.json"}));
+}
+
+TEST(RunSequence, WritesKittisLayoutNumberedFromZero) {
+  const TemporaryDirectory directory;
+  (void)RunSequence(ExampleRun(directory.path(), "kitti", 2), MakeExampleFrame, NoHooks());
+  const auto contents = Contents(directory.path());
+  for (const char* name : {"velodyne/000000.bin", "velodyne/000001.bin", "labels/000000.label",
+                           "labels/000001.label", "calib.txt"}) {
+    EXPECT_TRUE(contents.contains(std::string("sequences/00/") + name)) << name;
+  }
+  EXPECT_TRUE(contents.contains("semantic-kitti-railcast.yaml"));
+  EXPECT_EQ(contents.at("sequences/00/times.txt"), "0\n0.1\n");
+  const std::string& poses = contents.at("sequences/00/poses.txt");
+  double first = 0.0;
+  std::istringstream(poses) >> first;
+  EXPECT_NEAR(first, 1.0, 1e-15);
+  EXPECT_EQ(std::count(poses.begin(), poses.end(), '\n'), 2);
+}
+
+TEST(RunSequence, NamesTheHashOfEveryFrameFile) {
+  const TemporaryDirectory directory;
+  (void)RunSequence(ExampleRun(directory.path()), MakeExampleFrame, NoHooks());
+  const auto contents = Contents(directory.path());
+  std::istringstream lines(contents.at("frames.jsonl"));
+  std::string line;
+  std::uint32_t index = 3;
+  while (std::getline(lines, line)) {
+    const auto record = ParseFrameLine(line);
+    ASSERT_TRUE(record.has_value());
+    EXPECT_EQ(record->frame, index++);
+    ASSERT_EQ(record->files.size(), 1U);
+    const std::string& bytes = contents.at(record->files[0].name);
+    EXPECT_EQ(record->files[0].hash, ContentHash(bytes));
+    EXPECT_EQ(record->files[0].size, bytes.size());
+  }
+  EXPECT_EQ(index, 9U);
+}
+
+TEST(RunSequence, TotalsItsFramesInTheManifest) {
+  const TemporaryDirectory directory;
+  const auto result = RunSequence(ExampleRun(directory.path()), MakeExampleFrame, NoHooks());
+  FrameCounts expected;
+  for (std::uint32_t index = 3; index < 9; ++index) {
+    expected.Add(CountFrame(ExampleFrame(index), ExampleLabels()));
+  }
+  EXPECT_EQ(result.counts, expected);
+  const auto manifest = nlohmann::json::parse(Contents(directory.path()).at("manifest.json"));
+  EXPECT_EQ(manifest.at("seed"), 5);
+  EXPECT_EQ(manifest.at("version"), "0.1.0");
+  EXPECT_EQ(manifest.at("num_frames"), 6);
+  EXPECT_EQ(manifest.at("points"), expected.points);
+  EXPECT_EQ(manifest.at("outcomes").at("returned"), expected.outcomes[0]);
+  EXPECT_EQ(manifest.at("points_per_label").at("wagon"), expected.points_per_label.at("wagon"));
+}
+
+TEST(RunSequence, HasNothingToDoInACompleteDirectory) {
+  const TemporaryDirectory directory;
+  (void)RunSequence(ExampleRun(directory.path()), MakeExampleFrame, NoHooks());
+  const auto before = Contents(directory.path());
+  const auto result = RunSequence(ExampleRun(directory.path()), MakeExampleFrame, NoHooks());
+  EXPECT_TRUE(result.was_complete);
+  EXPECT_EQ(result.num_done, 6U);
+  EXPECT_EQ(Contents(directory.path()), before);
+}
+
+TEST(RunSequence, NoticesAChangedFrameInACompleteDirectory) {
+  const TemporaryDirectory directory;
+  (void)RunSequence(ExampleRun(directory.path()), MakeExampleFrame, NoHooks());
+  std::filesystem::remove(directory.path() / "frames/000005.pcd");
+  EXPECT_EQ(RunMessage(ExampleRun(directory.path())),
+            directory.path().string() +
+                ": is complete, but frame 5 was changed or removed; delete manifest.json to make "
+                "it anew");
+}
+
+TEST(RunSequence, RefusesTheDirectoryOfAnotherRun) {
+  const TemporaryDirectory directory;
+  const SequenceSpec first = ExampleRun(directory.path());
+  (void)RunSequence(first, MakeExampleFrame, NoHooks());
+  const std::string place = directory.path().string() + ": ";
+  SequenceSpec other = first;
+  other.scenario_json = "{\"seed\": 5, \"fidelity\": \"geometry\"}\n";
+  EXPECT_EQ(RunMessage(other), place + "holds a run of another scenario; choose another --out");
+  other = first;
+  other.seed = 6;
+  EXPECT_EQ(RunMessage(other),
+            place + "holds another run: its seed is 5 (got 6); choose another --out");
+  other = ExampleRun(directory.path(), "ply");
+  EXPECT_EQ(RunMessage(other),
+            place + "holds another run: its format is pcd (got ply); choose another --out");
+  other = first;
+  other.start_frame = 0;
+  EXPECT_EQ(RunMessage(other),
+            place + "holds another run: its start_frame is 3 (got 0); choose another --out");
+  other = first;
+  other.num_frames = 7;
+  EXPECT_EQ(RunMessage(other),
+            place + "holds another run: its num_frames is 6 (got 7); choose another --out");
+  other = first;
+  other.files.fields = FieldSelection("x,y,z");
+  EXPECT_NE(RunMessage(other).find("(got x,y,z); choose another --out"), std::string::npos);
+}
+
+TEST(RunSequence, RefusesADirectoryWithOtherThings) {
+  const TemporaryDirectory directory;
+  WriteFileWhole(directory.path() / "letter.txt", "dear");
+  EXPECT_EQ(RunMessage(ExampleRun(directory.path())),
+            directory.path().string() +
+                ": holds files that are no run of railcast (letter.txt); choose another --out");
+  EXPECT_EQ(RunMessage(ExampleRun(directory.path() / "letter.txt")),
+            (directory.path() / "letter.txt").string() + ": not a directory");
+}
+
+TEST(RunSequence, RefusesADirectoryThatIsBeingWritten) {
+  const TemporaryDirectory directory;
+  std::string said;
+  const FrameSource starts_another = [&](std::uint32_t index, Frame& frame, auto& objects) {
+    if (said.empty()) said = RunMessage(ExampleRun(directory.path()));
+    MakeExampleFrame(index, frame, objects);
+  };
+  (void)RunSequence(ExampleRun(directory.path()), starts_another, NoHooks());
+  EXPECT_EQ(said, directory.path().string() + ": another run is writing here");
+}
+
+}  // namespace
+}  // namespace railcast
