@@ -25,7 +25,7 @@ run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix} --component core)
 # What is installed must work on a machine that has neither the sources nor the build.
 file(GLOB_RECURSE package_files ${prefix}/*.cmake)
 foreach(package_file IN LISTS package_files)
-  file(STRINGS ${package_file} leaks REGEX "${SOURCE_DIR}|${BUILD_DIR}")
+  file(STRINGS ${package_file} leaks REGEX "[\"; ](${SOURCE_DIR}|${BUILD_DIR})/")
   if(leaks)
     message(FATAL_ERROR "${package_file} names this build's folders: ${leaks}")
   endif()
