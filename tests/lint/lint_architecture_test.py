@@ -113,6 +113,13 @@ class PublicHeaders(unittest.TestCase):
         }), ["core/scenario/scenario.h:1: public headers include the standard library and Eigen "
              "only (nlohmann/json.hpp)"])
 
+    def test_those_of_core_io_may_include_pcl_as_well(self):
+        self.assertEqual(faults_of({
+            "core/io/CMakeLists.txt": public("pcd_reader.h"),
+            "core/io/pcd_reader.h": "#include <pcl/PCLPointCloud2.h>\n#include <zlib.h>\n",
+        }), ["core/io/pcd_reader.h:2: public headers include the standard library and Eigen only "
+             "(zlib.h)"])
+
     def test_they_include_no_private_header(self):
         self.assertEqual(faults_of({
             "core/base/CMakeLists.txt": "target_sources(x PRIVATE b.cpp)\n" + public("a.h"),
