@@ -179,7 +179,7 @@ TEST_F(Screenshot, SaysWhereItCannotWrite) {
   const Result result =
       Execute("xvfb-run -a " RAILCAST_VIEW " --screenshot /no/such/out.png " + PathOf("cloud.pcd"));
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_EQ(result.output, "error: /no/such/out.png: cannot be written\n");
+  EXPECT_EQ(result.output, "error: /no/such/out.png: no such file or directory\n");
 }
 
 TEST_F(RailcastView, SaysHowToRunWithoutADisplay) {
@@ -192,10 +192,13 @@ TEST_F(RailcastView, SaysHowToRunWithoutADisplay) {
 
 TEST_F(RailcastView, NamesFilesThatCannotBeShown) {
   Write("notes.txt", "hello\n");
+  Write("garbage.pcd", "this is no cloud\n");
   Write("empty/readme", "");
   Write("run/frames/000000.pcd", "");
   const std::pair<std::string, std::string> cases[] = {
       {PathOf("gone.pcd"), PathOf("gone.pcd") + ": no such file or directory"},
+      {PathOf("garbage.pcd"),
+       PathOf("garbage.pcd") + ": is no PCD file: a header line begins with none of its keys"},
       {PathOf("notes.txt"), PathOf("notes.txt") + ": must be a .pcd or .ply file"},
       {PathOf("empty"), PathOf("empty") + ": is no sequence directory (it has no frames/)"},
       {PathOf("run") + " --frame 3", PathOf("run/frames") + ": has no frame 000003"}};
