@@ -45,15 +45,16 @@ class RailcastView : public testing::Test {
     std::ofstream(folder_ / name) << text;
   }
 
-  /// Two upright squares of 2 x 2 m at x = 40 m: label 1 straight ahead, label 2 5 m to the left.
-  void WriteSquares(const std::string& name) const {
-    std::string points;
-    int num_points = 0;
+  /// Two upright squares of 2 x 2 m at `x_m`: label 1 straight ahead, label 2 5 m to the left; and
+  /// a point 80 m nearer.
+  void WriteSquares(const std::string& name, int x_m = 40) const {
+    std::string points = std::to_string(x_m - 80) + " 0 0 0\n";
+    int num_points = 1;
     for (int iy = -20; iy <= 20; ++iy) {
       for (int iz = -20; iz <= 20; ++iz) {
         for (int label = 1; label <= 2; ++label) {
-          points += "40 " + std::to_string(0.05 * iy + 5.0 * (label - 1)) + ' ' +
-                    std::to_string(0.05 * iz) + ' ' + std::to_string(label) + '\n';
+          points += std::to_string(x_m) + ' ' + std::to_string(0.05 * iy + 5.0 * (label - 1)) +
+                    ' ' + std::to_string(0.05 * iz) + ' ' + std::to_string(label) + '\n';
           ++num_points;
         }
       }
@@ -172,6 +173,15 @@ TEST_F(Screenshot, ShowsTheChosenFrameOfASequenceWithItsLabels) {
   WriteLabels("run/labels.json");
   Draw("--frame 7 " + PathOf("run"));
   EXPECT_EQ(At(0.0, Above_px(0.0)), kRed);
+}
+
+TEST_F(Screenshot, LooksAtACloudInWorldCoordinatesFromItsMiddle) {
+  WriteSquares("cloud.pcd", 5000);  // The middle is at (4960, 2.5, 0).
+  WriteLabels("labels.json");
+  Draw(PathOf("cloud.pcd"));
+  EXPECT_EQ(At(2.5 * metre_px_, Above_px(0.0)), kRed);
+  EXPECT_EQ(At(-2.5 * metre_px_, Above_px(0.0)), kGreen);
+  EXPECT_EQ(At(0.0, Above_px(0.0)), kBackground);
 }
 
 TEST_F(Screenshot, SaysWhereItCannotWrite) {
