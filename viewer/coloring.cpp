@@ -69,7 +69,8 @@ std::vector<double> RangesOf(const Cloud& cloud) {
   std::vector<double> ranges_m(cloud.size());
   for (std::size_t i = 0; i < ranges_m.size(); ++i) {
     const float* const p = &cloud.positions_m[3 * i];
-    ranges_m[i] = std::hypot(double{p[0]}, double{p[1]}, double{p[2]});
+    ranges_m[i] =
+        std::hypot(static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2]));
   }
   return ranges_m;
 }
