@@ -34,10 +34,11 @@ def velodyne_lasers(path):
     """
     lasers = {}
     for entry in re.findall(r"\{(.*?)\}", path.read_text(), re.DOTALL):
-        field = lambda name: float(re.search(name + r":\s*([-+.\deE]+)", entry).group(1))
-        azimuth_deg = round(-math.degrees(field("rot_correction")), 3)
-        elevation_deg = round(math.degrees(field("vert_correction")), 3)
-        lasers[int(field("laser_id"))] = (elevation_deg + 0.0, azimuth_deg + 0.0)
+        fields = {name: float(value) for name, value in re.findall(r"(\w+):\s*([-+.\deE]+)", entry)}
+        # Adding 0.0 turns -0.0 into 0.0.
+        elevation_deg = round(math.degrees(fields["vert_correction"]), 3) + 0.0
+        azimuth_deg = round(-math.degrees(fields["rot_correction"]), 3) + 0.0
+        lasers[int(fields["laser_id"])] = (elevation_deg, azimuth_deg)
     return [lasers[i] for i in range(len(lasers))]
 
 

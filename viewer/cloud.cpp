@@ -5,10 +5,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <span>
 
 #include "core/base/error.h"
-#include "viewer/cloud_source.h"
+#include "viewer/point_file.h"
 
 namespace railcast {
 namespace {
@@ -103,6 +102,9 @@ Cloud ReadCloud(const std::filesystem::path& file) {
 
 std::filesystem::path FindCloudFile(const std::filesystem::path& source,
                                     std::optional<std::uint32_t> frame) {
+  if (!std::filesystem::exists(source)) {
+    throw InputError(source.string() + ": no such file or directory");
+  }
   if (!std::filesystem::is_directory(source)) return source;
   const std::filesystem::path directory = source / "frames";
   if (!std::filesystem::is_directory(directory)) {

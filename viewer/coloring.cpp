@@ -69,7 +69,8 @@ std::vector<double> RangesOf(const Cloud& cloud) {
   std::vector<double> ranges_m(cloud.size());
   for (std::size_t i = 0; i < ranges_m.size(); ++i) {
     const float* const p = &cloud.positions_m[3 * i];
-    ranges_m[i] = std::hypot(double{p[0]}, double{p[1]}, double{p[2]});
+    ranges_m[i] =
+        std::hypot(static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2]));
   }
   return ranges_m;
 }
@@ -77,7 +78,7 @@ std::vector<double> RangesOf(const Cloud& cloud) {
 std::vector<double> HeightsOf(const Cloud& cloud) {
   std::vector<double> heights_m(cloud.size());
   for (std::size_t i = 0; i < heights_m.size(); ++i) {
-    heights_m[i] = double{cloud.positions_m[3 * i + 2]};
+    heights_m[i] = static_cast<double>(cloud.positions_m[3 * i + 2]);
   }
   return heights_m;
 }
@@ -88,7 +89,7 @@ ScalarColoring OnScale(std::vector<double> values, std::string title) {
                        [](double v) { return std::isfinite(v); });
   std::ranges::sort(sorted);
   ScalarColoring coloring{
-      .values = std::move(values), .lowest = 0.0, .highest = 1.0, .title = title};
+      .values = std::move(values), .lowest = 0.0, .highest = 1.0, .title = std::move(title)};
   if (!sorted.empty()) {
     const std::size_t one_percent = sorted.size() / 100;
     coloring.lowest = sorted[one_percent];

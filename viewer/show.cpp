@@ -6,9 +6,8 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
-#include <fstream>
-
 #include "core/base/error.h"
+#include "core/io/write_file.h"
 #include "viewer/view.h"
 
 namespace railcast {
@@ -24,10 +23,8 @@ void WriteScreenshot(vtkRenderWindow& window, const std::filesystem::path& file)
   writer->WriteToMemoryOn();
   writer->Write();
   vtkUnsignedCharArray* const bytes = writer->GetResult();
-  std::ofstream stream(file, std::ios::binary);
-  stream.write(reinterpret_cast<const char*>(bytes->GetPointer(0)), bytes->GetNumberOfTuples());
-  stream.close();
-  if (!stream) throw InputError(file.string() + ": cannot be written");
+  const auto size = static_cast<std::size_t>(bytes->GetNumberOfTuples());
+  WriteFileWhole(file, {reinterpret_cast<const char*>(bytes->GetPointer(0)), size});
 }
 
 void ShowWindow(vtkRenderWindow& window) {

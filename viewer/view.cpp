@@ -90,8 +90,8 @@ std::array<double, 3> OriginOf(const Cloud& cloud) {
       lowest = std::min(lowest, cloud.positions_m[i]);
       highest = std::max(highest, cloud.positions_m[i]);
     }
-    middle_m[axis] = 0.5 * (double{lowest} + double{highest});
-    const double size_m = double{highest} - double{lowest};
+    middle_m[axis] = 0.5 * (static_cast<double>(lowest) + static_cast<double>(highest));
+    const double size_m = static_cast<double>(highest) - static_cast<double>(lowest);
     if (std::abs(middle_m[axis]) > std::max(2.0 * size_m, 300.0)) surrounds = false;
   }
   return surrounds ? std::array<double, 3>{} : middle_m;

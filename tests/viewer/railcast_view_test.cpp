@@ -45,15 +45,16 @@ class RailcastView : public testing::Test {
     std::ofstream(folder_ / name) << text;
   }
 
-  /// Two upright squares of 2 x 2 m at x = 40 m: label 1 straight ahead, label 2 5 m to the left.
-  void WriteSquares(const std::string& name) const {
-    std::string points;
-    int num_points = 0;
+  /// Two upright squares of 2 x 2 m at `x_m`: label 1 straight ahead, label 2 5 m to the left; and
+  /// a point 80 m nearer.
+  void WriteSquares(const std::string& name, int x_m = 40) const {
+    std::string points = std::to_string(x_m - 80) + " 0 0 0\n";
+    int num_points = 1;
     for (int iy = -20; iy <= 20; ++iy) {
       for (int iz = -20; iz <= 20; ++iz) {
         for (int label = 1; label <= 2; ++label) {
-          points += "40 " + std::to_string(0.05 * iy + 5.0 * (label - 1)) + ' ' +
-                    std::to_string(0.05 * iz) + ' ' + std::to_string(label) + '\n';
+          points += std::to_string(x_m) + ' ' + std::to_string(0.05 * iy + 5.0 * (label - 1)) +
+                    ' ' + std::to_string(0.05 * iz) + ' ' + std::to_string(label) + '\n';
           ++num_points;
         }
       }
@@ -108,13 +109,13 @@ class Screenshot : public RailcastView {
 
   // The camera is at (-1, 0, 0.3) and looks at (60, 0, -1.5) with 36 deg from bottom to top.
   static constexpr double kTilt = 1.8 / 61.0;
-  const double pixels_per_tangent_ = 240.0 / std::tan(18.0 * std::numbers::pi / 180.0);
-  /// The pixel row of the plane's point at height z, the pixels for one metre, at x = 40 m.
-  double Above_px(double z_m) const {
+  static double PixelsPerTangent() { return 240.0 / std::tan(18.0 * std::numbers::pi / 180.0); }
+  // Of the plane at x = 40 m: how far above the centre its axis is at a height, and one metre.
+  double PixelsAbove(double z_m) const {
     const double angle_rad = std::atan((z_m - 0.3) / 41.0) + std::atan(kTilt);
-    return pixels_per_tangent_ * std::tan(angle_rad);
+    return PixelsPerTangent() * std::tan(angle_rad);
   }
-  const double metre_px_ = pixels_per_tangent_ / 41.0;
+  static double MetreInPixels() { return PixelsPerTangent() / 41.0; }
 
  private:
   vtkSmartPointer<vtkImageData> image_;
@@ -144,16 +145,16 @@ TEST_F(Screenshot, ShowsBlocksInTheirLabelsColoursWhereTheyAre) {
   Draw(PathOf("cloud.pcd"));
   for (const double dz : {-0.9, 0.0, 0.9}) {
     for (const double dy : {-0.9, 0.0, 0.9}) {
-      EXPECT_EQ(At(dy * metre_px_, Above_px(dz)), kRed) << dy << ' ' << dz;
-      EXPECT_EQ(At((dy - 5.0) * metre_px_, Above_px(dz)), kGreen) << dy << ' ' << dz;
+      EXPECT_EQ(At(dy * MetreInPixels(), PixelsAbove(dz)), kRed) << dy << ' ' << dz;
+      EXPECT_EQ(At((dy - 5.0) * MetreInPixels(), PixelsAbove(dz)), kGreen) << dy << ' ' << dz;
     }
   }
   for (const double outside : {-1.3, 1.3}) {
-    EXPECT_EQ(At(0.0, Above_px(outside)), kBackground);
-    EXPECT_EQ(At(outside * metre_px_, Above_px(0.0)), kBackground);
-    EXPECT_EQ(At((outside - 5.0) * metre_px_, Above_px(0.0)), kBackground);
+    EXPECT_EQ(At(0.0, PixelsAbove(outside)), kBackground);
+    EXPECT_EQ(At(outside * MetreInPixels(), PixelsAbove(0.0)), kBackground);
+    EXPECT_EQ(At((outside - 5.0) * MetreInPixels(), PixelsAbove(0.0)), kBackground);
   }
-  EXPECT_EQ(At(5.0 * metre_px_, Above_px(0.0)), kBackground);
+  EXPECT_EQ(At(5.0 * MetreInPixels(), PixelsAbove(0.0)), kBackground);
 }
 
 TEST_F(Screenshot, ShowsHeightOnTheScale) {
@@ -162,7 +163,7 @@ TEST_F(Screenshot, ShowsHeightOnTheScale) {
   // The block is 36 px high. A point covers 1 px to all sides of its own pixel, which is up to half
   // a pixel off, and so is ours: 2 px of 36.
   for (const double z_m : {-0.9, -0.5, 0.0, 0.5, 0.9}) {
-    EXPECT_NEAR(PlaceOnScale(At(0.0, Above_px(z_m))), 0.5 + 0.5 * z_m, 2.0 / 36.0) << z_m;
+    EXPECT_NEAR(PlaceOnScale(At(0.0, PixelsAbove(z_m))), 0.5 + 0.5 * z_m, 2.0 / 36.0) << z_m;
   }
 }
 
@@ -171,7 +172,16 @@ TEST_F(Screenshot, ShowsTheChosenFrameOfASequenceWithItsLabels) {
   WriteSquares("run/frames/000007.pcd");
   WriteLabels("run/labels.json");
   Draw("--frame 7 " + PathOf("run"));
-  EXPECT_EQ(At(0.0, Above_px(0.0)), kRed);
+  EXPECT_EQ(At(0.0, PixelsAbove(0.0)), kRed);
+}
+
+TEST_F(Screenshot, LooksAtACloudInWorldCoordinatesFromItsMiddle) {
+  WriteSquares("cloud.pcd", 5000);  // The middle is at (4960, 2.5, 0).
+  WriteLabels("labels.json");
+  Draw(PathOf("cloud.pcd"));
+  EXPECT_EQ(At(2.5 * MetreInPixels(), PixelsAbove(0.0)), kRed);
+  EXPECT_EQ(At(-2.5 * MetreInPixels(), PixelsAbove(0.0)), kGreen);
+  EXPECT_EQ(At(0.0, PixelsAbove(0.0)), kBackground);
 }
 
 TEST_F(Screenshot, SaysWhereItCannotWrite) {
@@ -179,7 +189,7 @@ TEST_F(Screenshot, SaysWhereItCannotWrite) {
   const Result result =
       Execute("xvfb-run -a " RAILCAST_VIEW " --screenshot /no/such/out.png " + PathOf("cloud.pcd"));
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_EQ(result.output, "error: /no/such/out.png: cannot be written\n");
+  EXPECT_EQ(result.output, "error: /no/such/out.png: no such file or directory\n");
 }
 
 TEST_F(RailcastView, SaysHowToRunWithoutADisplay) {
@@ -192,10 +202,13 @@ TEST_F(RailcastView, SaysHowToRunWithoutADisplay) {
 
 TEST_F(RailcastView, NamesFilesThatCannotBeShown) {
   Write("notes.txt", "hello\n");
+  Write("garbage.pcd", "this is no cloud\n");
   Write("empty/readme", "");
   Write("run/frames/000000.pcd", "");
   const std::pair<std::string, std::string> cases[] = {
       {PathOf("gone.pcd"), PathOf("gone.pcd") + ": no such file or directory"},
+      {PathOf("garbage.pcd"),
+       PathOf("garbage.pcd") + ": is no PCD file: a header line begins with none of its keys"},
       {PathOf("notes.txt"), PathOf("notes.txt") + ": must be a .pcd or .ply file"},
       {PathOf("empty"), PathOf("empty") + ": is no sequence directory (it has no frames/)"},
       {PathOf("run") + " --frame 3", PathOf("run/frames") + ": has no frame 000003"}};

@@ -43,8 +43,8 @@ TEST_F(FiringTable, GivesOneRowInTheOrderOfTheFile) {
   EXPECT_EQ(pattern.columns, 3U);
   EXPECT_EQ(pattern.column, (std::vector<std::uint32_t>{0, 1, 2}));
   EXPECT_EQ(pattern.time_ns, (std::vector<std::uint32_t>{0, 12500, 12500}));
-  EXPECT_NEAR(Azimuth_deg(pattern, 1), -20.5, kFloatAngle_deg);
-  EXPECT_NEAR(Elevation_deg(pattern, 1), 7.25, kFloatAngle_deg);
+  EXPECT_NEAR(AzimuthInDegrees(pattern, 1), -20.5, kFloatAngle_deg);
+  EXPECT_NEAR(ElevationInDegrees(pattern, 1), 7.25, kFloatAngle_deg);
 }
 
 TEST_F(FiringTable, NamesLineAndColumnOfWhatIsNoNumber) {

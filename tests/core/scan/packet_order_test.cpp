@@ -25,11 +25,11 @@ Extent ExtentOfPacket(const ScanPattern& pattern, std::size_t packet) {
   for (std::size_t lane = 0; lane < kPacketSize; ++lane) {
     const std::uint32_t i = pattern.packet_order[packet * kPacketSize + lane];
     const double azimuth_deg =
-        std::remainder(Azimuth_deg(pattern, i) - Azimuth_deg(pattern, first), 360.0);
+        std::remainder(AzimuthInDegrees(pattern, i) - AzimuthInDegrees(pattern, first), 360.0);
     left_deg = std::max(left_deg, azimuth_deg);
     right_deg = std::min(right_deg, azimuth_deg);
-    low_deg = std::min(low_deg, Elevation_deg(pattern, i));
-    high_deg = std::max(high_deg, Elevation_deg(pattern, i));
+    low_deg = std::min(low_deg, ElevationInDegrees(pattern, i));
+    high_deg = std::max(high_deg, ElevationInDegrees(pattern, i));
   }
   return {left_deg - right_deg, high_deg - low_deg};
 }
@@ -110,6 +110,7 @@ TEST(PacketOrder, KeepsPacketsOfAScatteredTableTogether) {
   // A Lissajous figure, 40 x 20 deg: neighbours in time are no neighbours in angle.
   const std::string file = testing::TempDir() + "lissajous.csv";
   constexpr int kFirings = 10000;
+  constexpr std::size_t kPackets = kFirings / kPacketSize;
   {
     std::ofstream table(file);
     table << "azimuth_deg,elevation_deg,time_us\n";
@@ -122,12 +123,12 @@ TEST(PacketOrder, KeepsPacketsOfAScatteredTableTogether) {
   const ScanPattern pattern = BuildScanPattern({.rate_hz = 10.0, .pattern = FiringTableSpec{file}});
   ExpectEveryFiringOnce(pattern);
   double sum_deg = 0.0;
-  for (std::size_t packet = 0; packet < kFirings / kPacketSize; ++packet) {
+  for (std::size_t packet = 0; packet < kPackets; ++packet) {
     const Extent extent = ExtentOfPacket(pattern, packet);
     sum_deg += std::max(extent.azimuth_deg, extent.elevation_deg);
   }
   // 16 firings of 10000 cover, on average, a square of sqrt(16 x 800 / 10000) = 1.13 deg.
-  EXPECT_LT(sum_deg / (kFirings / kPacketSize), 2.0 * 1.13);
+  EXPECT_LT(sum_deg, 2.0 * 1.13 * kPackets);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "core/base/transform.h"
 #include "core/base/units.h"
 #include "core/scan/scan_pattern.h"
 
@@ -13,18 +14,21 @@ namespace railcast {
 /// A unit vector's components err by at most 2^-25 each, so its angles by some 1e-7 rad.
 inline constexpr double kFloatAngle_deg = 1e-5;
 
-/// Left positive, 0 = forward, in (-180, 180].
-inline double Azimuth_deg(const ScanPattern& pattern, std::size_t i) {
-  const double x = pattern.direction_x[i];
-  const double y = pattern.direction_y[i];
-  return DegFromRad(std::atan2(y, x));
+inline Vector3 Direction(const ScanPattern& pattern, std::size_t i) {
+  return Eigen::Vector3f(pattern.direction_x[i], pattern.direction_y[i], pattern.direction_z[i])
+      .cast<double>();
 }
 
-inline double Elevation_deg(const ScanPattern& pattern, std::size_t i) {
-  const double x = pattern.direction_x[i];
-  const double y = pattern.direction_y[i];
-  const double z = pattern.direction_z[i];
-  return DegFromRad(std::atan2(z, std::hypot(x, y)));
+/// Degrees, left positive, 0 = forward, in (-180, 180].
+inline double AzimuthInDegrees(const ScanPattern& pattern, std::size_t i) {
+  const Vector3 direction = Direction(pattern, i);
+  return DegFromRad(std::atan2(direction.y(), direction.x()));
+}
+
+/// Degrees, up positive.
+inline double ElevationInDegrees(const ScanPattern& pattern, std::size_t i) {
+  const Vector3 direction = Direction(pattern, i);
+  return DegFromRad(std::atan2(direction.z(), direction.head<2>().norm()));
 }
 
 /// What BuildScanPattern complains of; "none" if nothing.

@@ -24,8 +24,8 @@ TEST(RasterPattern, HasThePublishedNumberOfBeams) {
 TEST(RasterPattern, AimsThroughTheCentresOfTheCells) {
   const ScanPattern pattern = BuildScanPattern(Published());
   for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
-    ASSERT_NEAR(Azimuth_deg(pattern, i), 29.875 - 0.25 * pattern.column[i], kFloatAngle_deg);
-    ASSERT_NEAR(Elevation_deg(pattern, i), -14.875 + 0.25 * pattern.row[i], kFloatAngle_deg);
+    ASSERT_NEAR(AzimuthInDegrees(pattern, i), 29.875 - 0.25 * pattern.column[i], kFloatAngle_deg);
+    ASSERT_NEAR(ElevationInDegrees(pattern, i), -14.875 + 0.25 * pattern.row[i], kFloatAngle_deg);
   }
 }
 
@@ -53,10 +53,8 @@ TEST(RasterPattern, FiresRowsFromTheBottomWhereAskedTo) {
 TEST(RasterPattern, HasDirectionsOfUnitLength) {
   const ScanPattern pattern = BuildScanPattern(Published());
   for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
-    const double x = pattern.direction_x[i];
-    const double y = pattern.direction_y[i];
-    const double z = pattern.direction_z[i];
-    ASSERT_NEAR(x * x + y * y + z * z, 1.0, 1.2e-7);  // 2 x three roundings of at most 2^-25.
+    ASSERT_NEAR(Direction(pattern, i).squaredNorm(), 1.0,
+                1.2e-7);  // 2 x three roundings of at most 2^-25.
   }
 }
 

@@ -143,11 +143,8 @@ TEST_P(SensorTable, FillsEveryCellOnceWithDirectionsOfUnitLengthThatRiseWithTheR
   std::vector<double> elevation_deg(pattern.rows);
   for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
     ++num_in_cell[std::size_t{pattern.row[i]} * pattern.columns + pattern.column[i]];
-    elevation_deg[pattern.row[i]] = Elevation_deg(pattern, i);
-    const double x = pattern.direction_x[i];
-    const double y = pattern.direction_y[i];
-    const double z = pattern.direction_z[i];
-    ASSERT_NEAR(x * x + y * y + z * z, 1.0, 1.2e-7);
+    elevation_deg[pattern.row[i]] = ElevationInDegrees(pattern, i);
+    ASSERT_NEAR(Direction(pattern, i).squaredNorm(), 1.0, 1.2e-7);
   }
   EXPECT_TRUE(std::ranges::all_of(num_in_cell, [](int count) { return count == 1; }));
   EXPECT_TRUE(std::ranges::is_sorted(elevation_deg));
@@ -168,7 +165,7 @@ TEST(SensorTables, Vlp16TurnsByTheAngleOfTwoCyclesFromBlockToBlock) {
   EXPECT_NEAR(kBlock_deg, 0.398, 5e-4);
   for (std::size_t block = 1; block < 904; ++block) {
     const double turned_deg =
-        Azimuth_deg(pattern, 32 * (block - 1)) - Azimuth_deg(pattern, 32 * block);
+        AzimuthInDegrees(pattern, 32 * (block - 1)) - AzimuthInDegrees(pattern, 32 * block);
     ASSERT_NEAR(std::remainder(turned_deg, 360.0), kBlock_deg, 2.0 * kFloatAngle_deg);
   }
 }

@@ -21,7 +21,7 @@ std::string FaultsOf(const SpinningSpec& spec) {
   return FaultsOf(ScanSpec{.rate_hz = 10.0, .pattern = spec});
 }
 
-double Wrapped_deg(double angle_deg) {
+double Wrapped(double angle_deg) {
   return std::remainder(angle_deg, 360.0);
 }
 
@@ -31,7 +31,7 @@ TEST(SpinningPattern, SortsRowsByElevationFromTheLowest) {
   EXPECT_EQ(pattern.columns, 1000U);
   constexpr double kElevations_deg[] = {-10.0, 0.0, 5.0};
   for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
-    ASSERT_NEAR(Elevation_deg(pattern, i), kElevations_deg[pattern.row[i]], kFloatAngle_deg);
+    ASSERT_NEAR(ElevationInDegrees(pattern, i), kElevations_deg[pattern.row[i]], kFloatAngle_deg);
   }
 }
 
@@ -51,7 +51,7 @@ TEST(SpinningPattern, AimsWhereTheRotorIsAtTheFiringsOwnTime) {
   constexpr double kOffsets_deg[] = {1.5, -2.0, 0.0};
   for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
     const double clockwise_deg = 3600.0 * 1e-9 * pattern.time_ns[i] + kOffsets_deg[pattern.row[i]];
-    ASSERT_NEAR(Wrapped_deg(Azimuth_deg(pattern, i) + clockwise_deg), 0.0, kFloatAngle_deg);
+    ASSERT_NEAR(Wrapped(AzimuthInDegrees(pattern, i) + clockwise_deg), 0.0, kFloatAngle_deg);
   }
 }
 
@@ -60,9 +60,9 @@ TEST(SpinningPattern, TurnsLeftFromItsStartWhereAskedTo) {
   spec.rotation = "counterclockwise";
   spec.start_azimuth_deg = 30.0;
   const ScanPattern pattern = BuildScanPattern({.rate_hz = 10.0, .pattern = spec});
-  EXPECT_NEAR(Azimuth_deg(pattern, 0), 30.0, kFloatAngle_deg);
-  EXPECT_NEAR(Azimuth_deg(pattern, 1), 30.0 + 0.09 + 1.5, kFloatAngle_deg);
-  EXPECT_NEAR(Azimuth_deg(pattern, 3), 30.36, kFloatAngle_deg);
+  EXPECT_NEAR(AzimuthInDegrees(pattern, 0), 30.0, kFloatAngle_deg);
+  EXPECT_NEAR(AzimuthInDegrees(pattern, 1), 30.0 + 0.09 + 1.5, kFloatAngle_deg);
+  EXPECT_NEAR(AzimuthInDegrees(pattern, 3), 30.36, kFloatAngle_deg);
 }
 
 TEST(SpinningPattern, RefusesChannelsThatCannotBe) {
