@@ -47,6 +47,21 @@ bool CoversFromAbove(const Mesh& mesh,
   return least > 0.0 || most < 0.0;
 }
 
+/// Of grass, whose roots (blades below z = 0) do not count.
+double AreaAboveGround_m2(const Mesh& mesh) {
+  double sum_m2 = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vector3 pa = mesh.vertices[a].cast<double>();
+    const Vector3 pb = mesh.vertices[b].cast<double>();
+    const Vector3 pc = mesh.vertices[c].cast<double>();
+    const double lowest_m = std::min({pa.z(), pb.z(), pc.z()});
+    const double highest_m = std::max({pa.z(), pb.z(), pc.z()});
+    const double share = std::min(1.0, highest_m / (highest_m - lowest_m));
+    sum_m2 += 0.5 * (pb - pa).cross(pc - pa).norm() * share;
+  }
+  return sum_m2;
+}
+
 TEST_F(PlantModelsTest, AreMadeOfFewAndSoundTriangles) {
   ASSERT_EQ(Trees().size(), 4U);
   for (const TreeModel& tree : Trees()) {
@@ -133,6 +148,7 @@ TEST_F(PlantModelsTest, HaveGrassOf15To40CentimetresOnItsPatch) {
     for (std::size_t tip = 4; tip < mesh.vertices.size(); tip += 5) {
       EXPECT_GE(mesh.vertices[tip].z(), 0.15F - 1e-6F);
     }
+    EXPECT_NEAR(AreaAboveGround_m2(mesh) / (kGrassPatch_m * kGrassPatch_m), 0.35, 0.05);
   }
 }
 
