@@ -22,7 +22,7 @@ namespace {
 /// Length, width, height.
 Vector3 RequiredSize(const ObjectSpec& spec) {
   if (!spec.size_m) Fail("size_m: required for type \"" + spec.type + "\"");
-  const Vector3 size_m((*spec.size_m)[0], (*spec.size_m)[1], (*spec.size_m)[2]);
+  Vector3 size_m((*spec.size_m)[0], (*spec.size_m)[1], (*spec.size_m)[2]);
   if (!(size_m.array() > 0.0).all() || !size_m.allFinite()) {
     Fail("size_m: must be > 0 (got " + NumberText(size_m.x()) + ", " + NumberText(size_m.y()) +
          ", " + NumberText(size_m.z()) + ")");

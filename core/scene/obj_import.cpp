@@ -273,7 +273,7 @@ Mesh ReadObj(const std::filesystem::path& file, double unit_m, bool y_up) {
   if (!in || !std::filesystem::is_regular_file(file, ignored)) {
     throw InputError(file.string() + ": must be a file that can be read");
   }
-  constexpr double kLargest = std::numeric_limits<float>::max();
+  constexpr auto kLargest = static_cast<double>(std::numeric_limits<float>::max());
   std::istringstream sifted(ObjSieve(file, kLargest / std::max(1.0, unit_m)).Sift(in));
   SoupImporter soup;
   OpenMesh::IO::Options options;
