@@ -5,8 +5,8 @@
 
 namespace railcast {
 
-/// Freight wagons of 5700 to 6600 triangles each. Frame: origin in the middle of the wagon at top of
-/// rail, x along it, y left, z up; metres. The flanges reach kFlangeHeight_m below the origin.
+/// Freight wagons of 5700 to 6600 triangles each. Frame: origin in the middle of the wagon at top
+/// of rail, x along it, y left, z up; metres. The flanges reach kFlangeHeight_m below the origin.
 /// Dimensions: physics.md 7.3 (DB Cargo's wagon catalogue, UIC standard parts).
 
 /// Eaos: high-sided open wagon. 14.04 over buffers, pivots 9.0 apart, floor 1.24 above top of rail,

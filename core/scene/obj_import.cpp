@@ -18,7 +18,6 @@
 namespace railcast {
 namespace {
 
-constexpr double kLargest = std::numeric_limits<float>::max();
 constexpr std::string_view kBlanks = " \t\r\v\f";
 
 std::string_view NextToken(std::string_view& rest) {
@@ -42,7 +41,7 @@ std::optional<Number> Parse(std::string_view token) {
 /// its shared reader keeps no state, opens no other file and has nothing to print.
 class ObjSieve {
  public:
-  explicit ObjSieve(const std::filesystem::path& file) : file_(file) {}
+  ObjSieve(const std::filesystem::path& file, double largest) : file_(file), largest_(largest) {}
 
   std::string Sift(std::istream& in) {
     std::string line;
@@ -83,7 +82,7 @@ class ObjSieve {
     for (int axis = 0; axis < 3; ++axis) {
       const std::string_view token = NextToken(rest);
       const std::optional<double> number = Parse<double>(token);
-      if (!number || !(std::abs(*number) <= kLargest)) {
+      if (!number || !(std::abs(*number) <= largest_)) {
         Fail("a vertex must have three finite coordinates", token);
       }
       Keep(token);
@@ -124,6 +123,7 @@ class ObjSieve {
   }
 
   const std::filesystem::path& file_;
+  double largest_;  ///< Coordinate that is finite in float32, also in metres.
   std::string sifted_;
   int line_ = 1;
   int next_line_ = 1;
@@ -273,7 +273,8 @@ Mesh ReadObj(const std::filesystem::path& file, double unit_m, bool y_up) {
   if (!in || !std::filesystem::is_regular_file(file, ignored)) {
     throw InputError(file.string() + ": must be a file that can be read");
   }
-  std::istringstream sifted(ObjSieve(file).Sift(in));
+  constexpr auto kLargest = static_cast<double>(std::numeric_limits<float>::max());
+  std::istringstream sifted(ObjSieve(file, kLargest / std::max(1.0, unit_m)).Sift(in));
   SoupImporter soup;
   OpenMesh::IO::Options options;
   const bool read = OpenMesh::IO::OBJReader().read(sifted, soup, options);

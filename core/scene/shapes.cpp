@@ -167,8 +167,8 @@ Mesh MakeEllipsoid(const Vector3& centre_m, const Vector3& half_axes_m, int num_
   Mesh mesh = MakeLathe(profile, num_sides);
   // The lathe turns about x; a body looks better with its poles up and down.
   for (Eigen::Vector3f& vertex : mesh.vertices) {
-    const Vector3 unit(vertex.y(), vertex.z(), vertex.x());
-    vertex = (centre_m + half_axes_m.cwiseProduct(unit)).cast<float>();
+    const Eigen::Vector3f unit(vertex.y(), vertex.z(), vertex.x());
+    vertex = (centre_m + half_axes_m.cwiseProduct(unit.cast<double>())).cast<float>();
   }
   return mesh;
 }

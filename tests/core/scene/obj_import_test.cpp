@@ -133,6 +133,8 @@ TEST_F(ReadObjTest, RefusesACoordinateThatIsNoFiniteNumber) {
   EXPECT_EQ(Complaint("# x\nv 0 1e39 0\n"), rule + "\"1e39\")");
   EXPECT_EQ(Complaint("# x\nv 0 1,5 0\n"), rule + "\"1,5\")");
   EXPECT_EQ(Complaint("# x\nv 0 1\n"), rule + "\"\")");
+  // Finite in kilometres, not in metres.
+  EXPECT_THROW((void)ReadObj(Write("v 0 1e38 0\n"), 1000.0, false), InputError);
 }
 
 /// One row of mesh_report.csv, which an independent reader made.
