@@ -54,8 +54,8 @@ TEST(CheckWorld, KeepsTheGroundInsideTheTightestCurve) {
   WorldSpec world;
   world.terrain.half_width_m = 300.0;
   EXPECT_THAT(Faults(world),
-              ElementsAre("/world/terrain/half_width_m: must be > 0 and less than the line's "
-                          "tightest radius of 300 m (got 300)"));
+              ElementsAre("/world/terrain/half_width_m: must be less than the line's tightest "
+                          "radius of 300 m (got 300)"));
 }
 
 TEST(CheckWorld, KeepsObjectsOnTheirTrack) {
