@@ -1,10 +1,12 @@
 #include "core/rail/object_models.h"
 
+#include <algorithm>
 #include <array>
 #include <string>
 
 #include "core/base/error.h"
 #include "core/rail/model_parts.h"
+#include "core/rail/number_text.h"
 #include "core/rail/person.h"
 #include "core/rail/rolling_stock.h"
 #include "core/scene/obj_import.h"
@@ -13,16 +15,17 @@
 namespace railcast {
 namespace {
 
-[[noreturn]] void Fail(const ObjectSpec& spec, const std::string& rule) {
-  throw InputError("object \"" + spec.name + "\": " + rule);
+[[noreturn]] void Fail(const std::string& line) {
+  throw InputError(line);
 }
 
 /// Length, width, height.
 Vector3 RequiredSize(const ObjectSpec& spec) {
-  if (!spec.size_m) Fail(spec, "size_m: required for type \"" + spec.type + "\"");
+  if (!spec.size_m) Fail("size_m: required for type \"" + spec.type + "\"");
   const Vector3 size_m((*spec.size_m)[0], (*spec.size_m)[1], (*spec.size_m)[2]);
   if (!(size_m.array() > 0.0).all() || !size_m.allFinite()) {
-    Fail(spec, "size_m: must be > 0");
+    Fail("size_m: must be > 0 (got " + NumberText(size_m.x()) + ", " + NumberText(size_m.y()) +
+         ", " + NumberText(size_m.z()) + ")");
   }
   return size_m;
 }
@@ -35,8 +38,8 @@ Mesh MakeStandingBox(const Vector3& size_m) {
 Mesh MakePole(const ObjectSpec& spec) {
   const Vector3 size_m = RequiredSize(spec);
   if (size_m.x() != size_m.y()) {
-    Fail(spec, "size_m: a pole must have one diameter (got " + std::to_string(size_m.x()) +
-                   " and " + std::to_string(size_m.y()) + ")");
+    Fail("size_m: a pole must have one diameter (got " + NumberText(size_m.x()) + " and " +
+         NumberText(size_m.y()) + ")");
   }
   constexpr int kSides = 16;
   const std::array<Vector3, 2> axis = {Vector3::Zero(), Vector3(0, 0, size_m.z())};
@@ -44,9 +47,9 @@ Mesh MakePole(const ObjectSpec& spec) {
 }
 
 Mesh MakeFromFile(const ObjectSpec& spec) {
-  if (!spec.file) Fail(spec, "file: required for type \"mesh\"");
+  if (!spec.file) Fail("file: required for type \"mesh\"");
   if (spec.up != "y" && spec.up != "z") {
-    Fail(spec, "up: must be \"y\" or \"z\" (got \"" + spec.up + "\")");
+    Fail("up: must be \"y\" or \"z\" (got \"" + spec.up + "\")");
   }
   Mesh mesh = ReadObj(*spec.file, spec.unit_m, spec.up == "y");
   Eigen::AlignedBox3d box;
@@ -56,7 +59,7 @@ Mesh MakeFromFile(const ObjectSpec& spec) {
   if (spec.size_m) {
     const Vector3 size_m = RequiredSize(spec);
     if (!(box.sizes().array() > 0.0).all()) {
-      Fail(spec, "size_m: cannot stretch a mesh that is flat");
+      Fail("size_m: cannot stretch a mesh that is flat");
     }
     scale = size_m.cwiseQuotient(box.sizes());
   }
@@ -67,7 +70,7 @@ Mesh MakeFromFile(const ObjectSpec& spec) {
 }
 
 Model MakeWagon(const ObjectSpec& spec, const RailSurfaces& surfaces) {
-  if (spec.size_m) Fail(spec, "size_m: a wagon has its own");
+  if (spec.size_m) Fail("size_m: a wagon has its own");
   if (spec.type == "open_wagon") return MakeOpenWagon(surfaces);
   if (spec.type == "flat_wagon") return MakeFlatWagon(surfaces);
   return MakeTankWagon(surfaces);
@@ -81,8 +84,8 @@ SurfaceClass DefaultSurface(const ObjectSpec& spec, const RailSurfaces& surfaces
   if (spec.type == "open_wagon" || spec.type == "flat_wagon" || spec.type == "tank_wagon") {
     return surfaces.wagon_body;
   }
-  Fail(spec, "type: must be box, pole, person, open_wagon, flat_wagon, tank_wagon or mesh (got \"" +
-                 spec.type + "\")");
+  Fail("type: must be box, pole, person, open_wagon, flat_wagon, tank_wagon or mesh (got \"" +
+       spec.type + "\")");
 }
 
 Model MakeByType(const ObjectSpec& spec, const RailSurfaces& surfaces) {
@@ -103,6 +106,17 @@ Model MakeByType(const ObjectSpec& spec, const RailSurfaces& surfaces) {
   return model;
 }
 
+std::uint16_t MaterialOf(const ObjectSpec& spec, const MaterialLibrary& materials) {
+  const std::vector<Material>& all = materials.materials();
+  const auto it = std::find_if(all.begin(), all.end(), [&](const Material& material) {
+    return material.name == *spec.material;
+  });
+  if (it == all.end()) {
+    Fail("material: must be in the material library (got \"" + *spec.material + "\")");
+  }
+  return static_cast<std::uint16_t>(it - all.begin());
+}
+
 }  // namespace
 
 std::shared_ptr<const Model> MakeObjectModel(const ObjectSpec& spec,
@@ -113,7 +127,7 @@ std::shared_ptr<const Model> MakeObjectModel(const ObjectSpec& spec,
   model.name = spec.name;
   for (Part& part : model.parts) {
     if (spec.label) part.label = ObjectLabel(spec, surfaces, labels);
-    if (spec.material) part.material = materials.Index(*spec.material);
+    if (spec.material) part.material = MaterialOf(spec, materials);
   }
   return std::make_shared<const Model>(std::move(model));
 }
@@ -125,7 +139,7 @@ std::uint32_t ObjectLabel(const ObjectSpec& spec,
   if (!spec.label) return of_type;
   const Label* label = labels.Find(*spec.label);
   if (label == nullptr) {
-    Fail(spec, "label: must be in the label table (got \"" + *spec.label + "\")");
+    Fail("label: must be in the label table (got \"" + *spec.label + "\")");
   }
   return label->id;
 }

@@ -22,7 +22,7 @@ namespace railcast {
 /// `label` and `material` of the spec, where given, hold for all parts.
 ///
 /// @pre ObjectSpec::file is absolute or relative to the working directory.
-/// @throws InputError, one line: `object "name": rule (got value)`, or what ReadObj says.
+/// @throws InputError, one line `key: rule (got value)` or what ReadObj says.
 [[nodiscard]] std::shared_ptr<const Model> MakeObjectModel(const ObjectSpec& spec,
                                                            const RailSurfaces& surfaces,
                                                            const LabelTable& labels,

@@ -20,13 +20,13 @@ void AddOpenWagonSide(double side, const RailSurfaces& surfaces, Model& wagon) {
     MeshOf(surfaces.wagon_body, wagon).Append(MakeSideBlock(side, min_m, max_m));
   };
   add({-6.46, 1.38, 1.20}, {6.46, 1.41, 3.30});  // Sheet.
-  add({-6.52, 1.37, 3.22}, {6.52, 1.50, 3.34});  // Top chord.
+  add({-6.56, 1.38, 3.22}, {6.56, 1.50, 3.34});  // Top chord.
   for (const double x_m : {-5.3, -1.1, 0.0, 1.1, 5.3}) {
     add({x_m - 0.06, 1.41, 1.0}, {x_m + 0.06, 1.49, 3.22});
   }
   for (const double end : kBothSides) {
-    const double corner_m = end * 6.46;
-    add({corner_m - 0.08, 1.37, 1.0}, {corner_m + 0.08, 1.50, 3.30});
+    const double corner_m = end * 6.48;
+    add({corner_m - 0.08, 1.38, 1.0}, {corner_m + 0.08, 1.50, 3.30});
     const double middle_m = end * kDoorMiddle_m;
     for (const double edge : {-kDoorHalfWidth_m - 0.08, kDoorHalfWidth_m + 0.08}) {
       add({middle_m + edge - 0.07, 1.41, 1.0}, {middle_m + edge + 0.07, 1.50, 3.22});

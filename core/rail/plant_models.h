@@ -31,7 +31,7 @@ inline constexpr double kGrassPatch_m = 2.0;
 /// spherically distributed normals (G = 0.5, physics.md 3). Their number is leaf area index times
 /// the crown's projection over the area of a leaf. To stay below 20 000 triangles a tree, the index
 /// is 3.2 (closed stands have 3 to 5) and the leaves are at the large end of what grows beside a
-/// line. Crowns let through a fifth to a half of the beams from above.
+/// line. Of vertical beams 18 to 26 % pass through the crowns (measured); exp(-G index) is 20 %.
 ///
 /// A patch of grass has 640 blades in tufts, 15 to 40 cm high, 8 to 14 mm wide and of 3 triangles:
 /// a leaf area index of about 0.4, so that the ground shows through, where a meadow has 1 to 4.

@@ -1,57 +1,17 @@
 #include "tests/core/rail/test_line.h"
 
-#include <array>
 #include <utility>
 
 #include "core/rail/catenary.h"
 #include "core/rail/terrain.h"
 #include "core/rail/track_structure.h"
+#include "tests/core/rail/test_tables.h"
 
 namespace railcast {
-namespace {
-
-RailSurfaces MakeSurfaces() {
-  std::vector<Label> labels;
-  for (const char* name :
-       {"rail", "sleeper", "ballast", "ground", "grass", "tree", "contact_wire", "messenger_wire",
-        "dropper", "mast", "cantilever", "wagon", "person", "pole", "object"}) {
-    Label label;
-    label.id = static_cast<std::uint32_t>(labels.size() + 1);
-    label.name = name;
-    labels.push_back(label);
-  }
-  std::vector<Material> materials;
-  for (const char* name : {"rail_head",
-                           "rail_side",
-                           "rusty_steel",
-                           "concrete",
-                           "wood",
-                           "ballast",
-                           "soil",
-                           "grass",
-                           "leaf",
-                           "bark",
-                           "copper_wire",
-                           "bronze_wire",
-                           "galvanised_steel",
-                           "ceramic",
-                           "wagon_paint",
-                           "wheel_steel",
-                           "tank_paint",
-                           "skin",
-                           "clothing",
-                           "grey_paint"}) {
-    materials.push_back({name, 0.3});
-  }
-  return {LabelTable(std::move(labels)), MaterialLibrary(materials)};
-}
-
-}  // namespace
-
 TestLine::TestLine(WorldSpec spec, std::uint64_t seed)
     : spec_(std::move(spec)),
       alignment_(spec_.alignment),
-      surfaces_(MakeSurfaces()),
+      surfaces_(TestSurfaces()),
       seed_(seed),
       plan_(spec_, alignment_),
       models_(MakeInfrastructureModels(spec_, surfaces_)) {}

@@ -1,0 +1,56 @@
+#include "tests/core/rail/model_checks.h"
+
+#include <algorithm>
+
+namespace railcast {
+namespace {
+
+const Mesh* FindMesh(const Model& model, const SurfaceClass& surface) {
+  for (const Part& part : model.parts) {
+    if (part.material == surface.material && part.label == surface.label) return &part.mesh;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::vector<Vector3> VerticesOf(const Model& model, const SurfaceClass& surface) {
+  std::vector<Vector3> vertices;
+  if (const Mesh* mesh = FindMesh(model, surface)) {
+    for (const Eigen::Vector3f& vertex : mesh->vertices) vertices.push_back(vertex.cast<double>());
+  }
+  return vertices;
+}
+
+std::vector<double> LongestEdges_m(const Model& model, const SurfaceClass& surface) {
+  std::vector<double> lengths_m;
+  if (const Mesh* mesh = FindMesh(model, surface)) {
+    for (const auto& [a, b, c] : mesh->triangles) {
+      const Eigen::Vector3f& pa = mesh->vertices[a];
+      const Eigen::Vector3f& pb = mesh->vertices[b];
+      const Eigen::Vector3f& pc = mesh->vertices[c];
+      lengths_m.push_back(
+          static_cast<double>(std::max({(pb - pa).norm(), (pc - pb).norm(), (pa - pc).norm()})));
+    }
+  }
+  return lengths_m;
+}
+
+std::size_t CountBadTriangles(const Model& model) {
+  std::size_t count = 0;
+  for (const Part& part : model.parts) {
+    const auto& vertices = part.mesh.vertices;
+    for (const auto& [a, b, c] : part.mesh.triangles) {
+      if (std::max({a, b, c}) >= vertices.size()) {
+        ++count;
+        continue;
+      }
+      const Vector3 ab = (vertices[b] - vertices[a]).cast<double>();
+      const Vector3 ac = (vertices[c] - vertices[a]).cast<double>();
+      if (!(ab.cross(ac).norm() > 0.0) || !vertices[a].allFinite()) ++count;
+    }
+  }
+  return count;
+}
+
+}  // namespace railcast

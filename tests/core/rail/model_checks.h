@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/rail/rail_surfaces.h"
+#include "core/scene/mesh.h"
+
+namespace railcast {
+
+/// The vertices of a model's part of that surface; empty if it has none.
+[[nodiscard]] std::vector<Vector3> VerticesOf(const Model& model, const SurfaceClass& surface);
+
+/// The longest edge of every triangle of that surface.
+[[nodiscard]] std::vector<double> LongestEdges_m(const Model& model, const SurfaceClass& surface);
+
+/// Triangles with an index out of range, a coordinate that is no number, or no area.
+[[nodiscard]] std::size_t CountBadTriangles(const Model& model);
+
+}  // namespace railcast

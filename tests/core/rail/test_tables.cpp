@@ -1,0 +1,52 @@
+#include "tests/core/rail/test_tables.h"
+
+#include <utility>
+#include <vector>
+
+namespace railcast {
+
+LabelTable TestLabels() {
+  std::vector<Label> labels;
+  for (const char* name :
+       {"rail", "sleeper", "ballast", "ground", "grass", "tree", "contact_wire", "messenger_wire",
+        "dropper", "mast", "cantilever", "wagon", "person", "pole", "object"}) {
+    Label label;
+    label.id = static_cast<std::uint32_t>(labels.size() + 1);
+    label.name = name;
+    labels.push_back(label);
+  }
+  return LabelTable(std::move(labels));
+}
+
+MaterialLibrary TestMaterials() {
+  std::vector<Material> materials;
+  for (const char* name : {"rail_head",
+                           "rail_side",
+                           "rusty_steel",
+                           "concrete",
+                           "wood",
+                           "ballast",
+                           "soil",
+                           "grass",
+                           "leaf",
+                           "bark",
+                           "copper_wire",
+                           "bronze_wire",
+                           "galvanised_steel",
+                           "ceramic",
+                           "wagon_paint",
+                           "wheel_steel",
+                           "tank_paint",
+                           "skin",
+                           "clothing",
+                           "grey_paint"}) {
+    materials.push_back({name, 0.3});
+  }
+  return MaterialLibrary(materials);
+}
+
+RailSurfaces TestSurfaces() {
+  return {TestLabels(), TestMaterials()};
+}
+
+}  // namespace railcast
