@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/rail/catenary.h"
-#include "tests/core/rail/scenario_files.h"
+#include "tests/core/rail/test_tables.h"
 
 namespace railcast {
 namespace {
@@ -43,7 +43,7 @@ VehicleSpec MovingVehicle() {
 }
 
 RailWorld Make(const WorldSpec& world, const VehicleSpec& vehicle) {
-  return RailWorld(world, vehicle, ReadLabels(), ReadMaterials(), 7);
+  return RailWorld(world, vehicle, TestLabels(), TestMaterials(), 7);
 }
 
 std::string FaultOf(const WorldSpec& world, const VehicleSpec& vehicle) {
@@ -101,11 +101,11 @@ TEST(RailWorld, NumbersItsObjectsAndPutsTheVehicleLast) {
   ASSERT_EQ(world.objects().size(), 3U);
   const SceneObject& wagon = world.objects()[0];
   EXPECT_EQ(wagon.instance, 1U);
-  EXPECT_EQ(wagon.label, ReadLabels().Id("wagon"));
+  EXPECT_EQ(wagon.label, TestLabels().Id("wagon"));
   EXPECT_FALSE(wagon.moves);
   const SceneObject& walker = world.objects()[1];
   EXPECT_EQ(walker.instance, 2U);
-  EXPECT_EQ(walker.label, ReadLabels().Id("person"));
+  EXPECT_EQ(walker.label, TestLabels().Id("person"));
   EXPECT_TRUE(walker.moves);
   const SceneObject& ego = world.objects()[2];
   EXPECT_EQ(ego.name, "ego");
@@ -196,8 +196,8 @@ TEST(RailWorld, ReportsTheFaultsOfAllObjectsTogether) {
   WorldSpec world = CurvedWorld();
   world.objects = {Object("a", "box", 10.0), Object("b", "tram", 10.0)};
   EXPECT_EQ(FaultOf(world, {}),
-            "/world/objects/0: object \"a\": size_m: required for type \"box\"\n"
-            "/world/objects/1: object \"b\": type: must be box, pole, person, open_wagon, "
+            "/world/objects/0: size_m: required for type \"box\"\n"
+            "/world/objects/1: type: must be box, pole, person, open_wagon, "
             "flat_wagon, tank_wagon or mesh (got \"tram\")");
 }
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "core/rail/alignment.h"
-#include "tests/core/rail/scenario_files.h"
+#include "tests/core/rail/alignment_files.h"
 
 namespace railcast {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/core/rail/scenario_files.h"
+#include "tests/core/rail/alignment_files.h"
 
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -62,29 +62,6 @@ AlignmentSpec ReadTtobench(const std::filesystem::path& path) {
     spec.speed_limits_kmph.push_back({row[0], row[1]});
   }
   return spec;
-}
-
-LabelTable ReadLabels() {
-  std::ifstream stream(RAILCAST_SOURCE_DIR "/scenarios/labels.json");
-  const json file = json::parse(stream);
-  std::vector<Label> labels;
-  for (const json& row : file["labels"]) {
-    Label label;
-    label.id = row["id"];
-    label.name = row["name"];
-    labels.push_back(label);
-  }
-  return LabelTable(std::move(labels));
-}
-
-MaterialLibrary ReadMaterials() {
-  std::ifstream stream(RAILCAST_SOURCE_DIR "/scenarios/materials/railway.json");
-  const json file = json::parse(stream);
-  std::vector<Material> materials;
-  for (const json& row : file["materials"]) {
-    materials.push_back({row["name"], row["reflectivity"]});
-  }
-  return MaterialLibrary(materials);
 }
 
 }  // namespace railcast
