@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 #include "core/base/error.h"
+#include "core/rail/number_text.h"
 
 namespace railcast {
 namespace {
@@ -93,12 +93,9 @@ void CheckSystemHeight(const CatenarySpec& spec) {
       kWireWeight_n_per_m * spec.max_span_m * spec.max_span_m / (8.0 * kMessengerTension_n);
   const double needed_m = sag_m - kContactPresag * spec.max_span_m + kShortestDropper_m;
   if (spec.system_height_m >= needed_m) return;
-  std::array<char, 160> line{};
-  std::snprintf(line.data(), line.size(),
-                "/catenary/system_height_m: must be >= %.3f, the messenger's sag over max_span_m "
-                "= %g and a shortest dropper (got %g)",
-                needed_m, spec.max_span_m, spec.system_height_m);
-  throw InputError(line.data());
+  throw InputError("/catenary/system_height_m: must be >= " + NumberText(needed_m) +
+                   ", the messenger's sag over max_span_m and a shortest dropper (got " +
+                   NumberText(spec.system_height_m) + ")");
 }
 
 /// Whether a mast there is clear of all tracks but its own.

@@ -1,11 +1,15 @@
 #include "core/rail/rail_world.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/base/units.h"
@@ -37,14 +41,15 @@ struct Ways {
   std::vector<TrackPath> objects;  ///< In the order of RailWorld::objects().
 };
 
-std::optional<SpeedProfile> MakeProfile(const MotionSpec& motion,
-                                        double start_s_m,
-                                        const std::string& place,
-                                        ErrorList& errors) {
+// What `make` returns; or nothing, and the lines of its error with `place` put before them.
+template <typename Make>
+auto Attempt(const std::string& place, ErrorList& errors, Make make)
+    -> std::optional<decltype(make())> {
   try {
-    return SpeedProfile(motion, start_s_m);
+    return make();
   } catch (const InputError& error) {
-    AddBelow(place, error, errors);
+    std::istringstream lines(error.what());
+    for (std::string line; std::getline(lines, line);) errors.Add(place + line);
     return std::nullopt;
   }
 }
@@ -61,23 +66,22 @@ TrackPose PoseOf(const ObjectSpec& object, const WorldSpec& world) {
 // All faults of the line, the places on it and the speed profiles are reported together.
 Ways MakeWays(const WorldSpec& world, const VehicleSpec& vehicle) {
   ErrorList errors;
-  std::optional<Alignment> alignment;
-  LineMeasures line{std::numeric_limits<double>::infinity(),
-                    std::numeric_limits<double>::infinity()};
-  try {
-    alignment.emplace(world.alignment);
-    line = {alignment->length_m(), alignment->tightest_radius_m()};
-  } catch (const InputError& error) {
-    AddBelow("/world/alignment", error, errors);
-  }
+  const auto alignment =
+      Attempt("/world/alignment", errors, [&] { return Alignment(world.alignment); });
+  // Without a line there is nothing to be beyond of.
+  constexpr double kEndless_m = std::numeric_limits<double>::infinity();
+  const LineMeasures line =
+      alignment ? LineMeasures{alignment->length_m(), alignment->tightest_radius_m()}
+                : LineMeasures{kEndless_m, kEndless_m};
   CheckWorld(world, vehicle, line, errors);
-  const auto vehicle_profile =
-      MakeProfile(vehicle.motion, vehicle.start_s_m, "/vehicle/motion", errors);
+  const auto vehicle_profile = Attempt(
+      "/vehicle/motion", errors, [&] { return SpeedProfile(vehicle.motion, vehicle.start_s_m); });
   std::vector<std::optional<SpeedProfile>> profiles;
   for (std::size_t i = 0; i < world.objects.size(); ++i) {
     const ObjectSpec& object = world.objects[i];
-    profiles.push_back(MakeProfile(object.motion.value_or(MotionSpec{}), object.s_m,
-                                   "/world/objects/" + std::to_string(i) + "/motion", errors));
+    profiles.push_back(Attempt("/world/objects/" + std::to_string(i) + "/motion", errors, [&] {
+      return SpeedProfile(object.motion.value_or(MotionSpec{}), object.s_m);
+    }));
   }
   errors.ThrowIfAny();
 
@@ -91,45 +95,24 @@ Ways MakeWays(const WorldSpec& world, const VehicleSpec& vehicle) {
   return ways;
 }
 
-CatenaryPlan MakeCatenaryPlan(const WorldSpec& world, const Alignment& alignment) {
-  try {
-    return {world, alignment};
-  } catch (const InputError& error) {
-    ErrorList errors;
-    AddBelow("/world", error, errors);
-    errors.ThrowIfAny();
-    throw;
-  }
+/// What a scenario's objects are made from.
+struct Tables {
+  const RailSurfaces& surfaces;
+  const LabelTable& labels;
+  const MaterialLibrary& materials;
+};
+
+SceneObject MakeObject(const ObjectSpec& spec, const TrackPath& path, const Tables& tables) {
+  return {.name = spec.name,
+          .type = spec.type,
+          .label = ObjectLabel(spec, tables.surfaces, tables.labels),
+          .model = MakeObjectModel(spec, tables.surfaces, tables.labels, tables.materials),
+          .moves = path.moves()};
 }
 
-/// In the order of the spec; whether they move is not said yet.
-std::vector<SceneObject> MakeObjects(const WorldSpec& world,
-                                     const RailSurfaces& surfaces,
-                                     const LabelTable& labels,
-                                     const MaterialLibrary& materials) {
-  ErrorList errors;
-  std::vector<SceneObject> objects;
-  for (std::size_t i = 0; i < world.objects.size(); ++i) {
-    const ObjectSpec& spec = world.objects[i];
-    try {
-      objects.push_back({.name = spec.name,
-                         .type = spec.type,
-                         .label = ObjectLabel(spec, surfaces, labels),
-                         .instance = static_cast<std::uint32_t>(i + 1),
-                         .model = MakeObjectModel(spec, surfaces, labels, materials)});
-    } catch (const InputError& error) {
-      AddBelow("/world/objects/" + std::to_string(i) + ": ", error, errors);
-    }
-  }
-  errors.ThrowIfAny();
-  return objects;
-}
-
-SceneObject MakeEgo(const VehicleSpec& vehicle,
-                    const RailSurfaces& surfaces,
-                    const LabelTable& labels) {
-  const std::uint32_t label = labels.Id("ego");
-  Model model{"ego", {{{}, surfaces.box.material, label}}};
+SceneObject MakeEgo(const VehicleSpec& vehicle, const TrackPath& path, const Tables& tables) {
+  const std::uint32_t label = tables.labels.Id("ego");
+  Model model{"ego", {{{}, tables.surfaces.box.material, label}}};
   for (const std::array<double, 6>& box : vehicle.ego_boxes_m) {
     model.parts.front().mesh.Append(
         MakeBox({Vector3(box[0], box[1], box[2]), Vector3(box[3], box[4], box[5])}));
@@ -138,6 +121,7 @@ SceneObject MakeEgo(const VehicleSpec& vehicle,
           .type = "ego",
           .label = label,
           .model = std::make_shared<const Model>(std::move(model)),
+          .moves = path.moves(),
           .is_ego = true};
 }
 
@@ -162,18 +146,28 @@ RailWorld::RailWorld(const WorldSpec& world,
                      std::uint64_t seed) {
   Ways ways = MakeWays(world, vehicle);
   const RailSurfaces surfaces(labels, materials);
-  std::vector<SceneObject> objects = MakeObjects(world, surfaces, labels, materials);
-  for (std::size_t i = 0; i < objects.size(); ++i) objects[i].moves = ways.objects[i].moves();
+  const Tables tables{surfaces, labels, materials};
+  ErrorList errors;
+  std::vector<SceneObject> objects;
+  for (std::size_t i = 0; i < world.objects.size(); ++i) {
+    auto object = Attempt("/world/objects/" + std::to_string(i) + ": ", errors,
+                          [&] { return MakeObject(world.objects[i], ways.objects[i], tables); });
+    if (object) objects.push_back(std::move(*object));
+  }
+  auto catenary_plan =
+      Attempt("/world", errors, [&] { return CatenaryPlan(world, ways.alignment); });
+  errors.ThrowIfAny();
+
   if (!vehicle.ego_boxes_m.empty()) {
-    objects.push_back(MakeEgo(vehicle, surfaces, labels));
-    objects.back().instance = static_cast<std::uint32_t>(objects.size());
-    objects.back().moves = ways.vehicle.moves();
+    objects.push_back(MakeEgo(vehicle, ways.vehicle, tables));
     ways.objects.push_back(ways.vehicle);
   }
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    objects[i].instance = static_cast<std::uint32_t>(i + 1);
+  }
   ChunkGrid grid(ways.alignment, kChunkLength_m, world.terrain.half_width_m);
-  CatenaryPlan catenary_plan = MakeCatenaryPlan(world, ways.alignment);
   parts_ = std::make_unique<const Parts>(
-      Parts{world, seed, surfaces, std::move(ways), std::move(grid), std::move(catenary_plan),
+      Parts{world, seed, surfaces, std::move(ways), std::move(grid), std::move(*catenary_plan),
             MakeInfrastructureModels(world, surfaces), MakePlantModels(surfaces, seed),
             std::move(objects)});
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <sstream>
 
 #include "core/rail/catenary.h"
 #include "core/rail/number_text.h"
@@ -132,21 +131,16 @@ const TrackSpec* FindTrack(const WorldSpec& world, const std::string& name) {
   return found == world.tracks.end() ? nullptr : &*found;
 }
 
-void AddBelow(const std::string& place, const InputError& error, ErrorList& errors) {
-  std::istringstream lines(error.what());
-  for (std::string line; std::getline(lines, line);) errors.Add(place + line);
-}
-
 void CheckWorld(const WorldSpec& world,
                 const VehicleSpec& vehicle,
                 const LineMeasures& line,
                 ErrorList& errors) {
   const double half_width_m = world.terrain.half_width_m;
-  if (!(half_width_m > 0.0 && half_width_m < line.tightest_radius_m)) {
-    errors.Add(
-        "/world/terrain/half_width_m: must be > 0 and less than the line's tightest radius "
-        "of " +
-        NumberText(line.tightest_radius_m) + " m" + Got(half_width_m));
+  if (!(half_width_m > 0.0)) {
+    errors.Add("/world/terrain/half_width_m: must be > 0" + Got(half_width_m));
+  } else if (!(half_width_m < line.tightest_radius_m)) {
+    errors.Add("/world/terrain/half_width_m: must be less than the line's tightest radius of " +
+               NumberText(line.tightest_radius_m) + " m" + Got(half_width_m));
   }
   if (world.tracks.empty()) {
     errors.Add("/world/tracks: must have at least one track (got none)");

@@ -21,9 +21,6 @@ void CheckWorld(const WorldSpec& world,
                 const LineMeasures& line,
                 ErrorList& errors);
 
-/// Every line of `error` with `place` put before it.
-void AddBelow(const std::string& place, const InputError& error, ErrorList& errors);
-
 /// The track of that name, or null.
 [[nodiscard]] const TrackSpec* FindTrack(const WorldSpec& world, const std::string& name);
 

@@ -9,7 +9,7 @@ LabelTable TestLabels() {
   std::vector<Label> labels;
   for (const char* name :
        {"rail", "sleeper", "ballast", "ground", "grass", "tree", "contact_wire", "messenger_wire",
-        "dropper", "mast", "cantilever", "wagon", "person", "pole", "object"}) {
+        "dropper", "mast", "cantilever", "wagon", "person", "pole", "object", "ego"}) {
     Label label;
     label.id = static_cast<std::uint32_t>(labels.size() + 1);
     label.name = name;

@@ -1,0 +1,138 @@
+// Tracks, contact line and ground together: what holds for every chunk.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tests/core/rail/alignment_files.h"
+#include "tests/core/rail/test_line.h"
+
+namespace railcast {
+namespace {
+
+WorldSpec RealLineOfTwoTracks() {
+  WorldSpec spec;
+  spec.alignment = ReadStGallenWil();
+  spec.tracks.push_back(spec.tracks[0]);
+  spec.tracks[1].name = "second";
+  spec.tracks[1].offset_m = -4.0;
+  spec.tracks[1].sleeper = "wood";
+  return spec;
+}
+
+void ExpectSoundTriangles(const Mesh& mesh, const std::string& name) {
+  // A tenth of a millimetre squared.
+  constexpr double kLeastArea_m2 = 1e-8;
+  double least_m2 = 1.0;
+  bool is_finite = true;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vector3 corner = mesh.vertices[a].cast<double>();
+    const Vector3 normal =
+        (mesh.vertices[b].cast<double>() - corner).cross(mesh.vertices[c].cast<double>() - corner);
+    is_finite = is_finite && normal.allFinite();
+    least_m2 = std::min(least_m2, 0.5 * normal.norm());
+  }
+  EXPECT_TRUE(is_finite) << name;
+  EXPECT_GT(least_m2, kLeastArea_m2) << name;
+}
+
+TEST(ChunkGeometry, HasOnlyFiniteTrianglesThatAreNoSlivers) {
+  const TestLine line(RealLineOfTwoTracks());
+  for (const int chunk_index : {0, 1, 46, 250, 590}) {
+    const Chunk chunk = line.Build(chunk_index);
+    EXPECT_GT(chunk.ground.num_triangles(), 40000U);
+    for (const Part& part : chunk.ground.parts) {
+      ExpectSoundTriangles(part.mesh, "label " + std::to_string(part.label));
+    }
+    for (const Placement& placement : chunk.placements) {
+      EXPECT_TRUE(placement.chunk_from_model.matrix().allFinite());
+    }
+  }
+  for (const auto& model :
+       {line.models().concrete_sleeper, line.models().wood_sleeper, line.models().mast,
+        line.models().cantilevers[0].wire_left, line.models().cantilevers[1].wire_right}) {
+    for (const Part& part : model->parts) ExpectSoundTriangles(part.mesh, model->name);
+  }
+}
+
+TEST(ChunkGeometry, IsTheSameEveryTime) {
+  const TestLine line(RealLineOfTwoTracks());
+  const TestLine again(RealLineOfTwoTracks());
+  const Chunk first = line.Build(47);
+  const Chunk second = again.Build(47);
+  ASSERT_EQ(first.ground.parts.size(), second.ground.parts.size());
+  for (std::size_t i = 0; i < first.ground.parts.size(); ++i) {
+    EXPECT_EQ(first.ground.parts[i].mesh.vertices, second.ground.parts[i].mesh.vertices);
+    EXPECT_EQ(first.ground.parts[i].mesh.triangles, second.ground.parts[i].mesh.triangles);
+  }
+  ASSERT_EQ(first.placements.size(), second.placements.size());
+  for (std::size_t i = 0; i < first.placements.size(); ++i) {
+    EXPECT_EQ(first.placements[i].chunk_from_model.matrix(),
+              second.placements[i].chunk_from_model.matrix());
+    EXPECT_EQ(first.placements[i].instance, second.placements[i].instance);
+  }
+}
+
+TEST(ChunkGeometry, ChangesWithTheSeedOnlyWhereItIsRandom) {
+  const TestLine line(StraightLine(300.0), 1);
+  const TestLine other(StraightLine(300.0), 2);
+  const Chunk first = line.Build(2);
+  const Chunk second = other.Build(2);
+  const auto& surfaces = line.surfaces();
+  for (const SurfaceClass& surface : {surfaces.ballast, surfaces.ground}) {
+    EXPECT_NE(MeshOfSurface(first, surface).vertices, MeshOfSurface(second, surface).vertices);
+  }
+  for (const SurfaceClass& surface : {surfaces.rail_head, surfaces.contact_wire}) {
+    EXPECT_EQ(MeshOfSurface(first, surface).vertices, MeshOfSurface(second, surface).vertices);
+  }
+}
+
+/// In the level frame of the axis at chainage `s_m`, those within a millimetre of its plane x = 0.
+std::vector<Vector3> PointsAtSeam(const TestLine& line,
+                                  int chunk_index,
+                                  const SurfaceClass& surface,
+                                  double s_m) {
+  const AxisPoint axis = line.alignment().At(s_m);
+  const Transform seam_from_chunk =
+      MakeTransform(RotationFromYawPitchRoll(axis.heading_rad, 0.0, 0.0), axis.position_m)
+          .inverse() *
+      line.WorldFromChunk(chunk_index);
+  std::vector<Vector3> points;
+  for (const Eigen::Vector3f& vertex : MeshOfSurface(line.Build(chunk_index), surface).vertices) {
+    const Vector3 point = seam_from_chunk * vertex.cast<double>();
+    if (std::abs(point.x()) < 1e-3) points.push_back(point);
+  }
+  return points;
+}
+
+// Both chunks sample the same functions 1 mm of chainage apart: at d left of an axis of radius R
+// the gap is 1 - d / R mm. Heights differ by slope times 1 mm, float32 by 0.01 mm.
+TEST(ChunkGeometry, OverlapsItsNeighbourByAMillimetre) {
+  const TestLine line(CantedArc(500.0, 400.0));
+  const auto& surfaces = line.surfaces();
+  for (const SurfaceClass& surface :
+       {surfaces.rail_head, surfaces.rail_side, surfaces.ballast, surfaces.ground}) {
+    const auto ends = PointsAtSeam(line, 3, surface, 200.0);
+    const auto begins = PointsAtSeam(line, 4, surface, 200.0);
+    EXPECT_GT(ends.size(), 8U);
+    for (const Vector3& end : ends) {
+      EXPECT_GT(end.x(), 0.0);
+      double nearest_m = std::numeric_limits<double>::infinity();
+      for (const Vector3& begin : begins) nearest_m = std::min(nearest_m, (end - begin).norm());
+      // At the seam's row, whether a neighbouring cell is drawn may differ where ballast hides in
+      // the ground or ground below the ballast.
+      const bool is_hidden =
+          surface.label == surfaces.ballast.label
+              ? end.z() < -0.6
+              : surface.label == surfaces.ground.label && end.z() < -0.7 && std::abs(end.y()) < 4.0;
+      if (is_hidden) continue;
+      EXPECT_LT(nearest_m, 1.5 * kChunkOverlap_m) << end.transpose();
+    }
+    for (const Vector3& begin : begins) EXPECT_LT(begin.x(), 0.0);
+  }
+}
+
+}  // namespace
+}  // namespace railcast

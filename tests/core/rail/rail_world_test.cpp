@@ -1,0 +1,205 @@
+#include "core/rail/rail_world.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/error.h"
+#include "core/rail/catenary.h"
+#include "tests/core/rail/test_tables.h"
+
+namespace railcast {
+namespace {
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+WorldSpec CurvedWorld() {
+  WorldSpec world;
+  world.alignment.course = AlignmentElementsSpec{
+      {{"straight", 200.0, {}}, {"clothoid", 100.0, {}}, {"arc", 325.0, 400.0}}};
+  world.alignment.gradients_permil = {{0.0, 5.0}};
+  world.alignment.speed_limits_kmph = {{0.0, 80.0}};
+  TrackSpec second;
+  second.name = "second";
+  second.offset_m = 4.0;
+  world.tracks.push_back(second);
+  return world;
+}
+
+ObjectSpec Object(const std::string& name, const std::string& type, double s_m) {
+  ObjectSpec object;
+  object.name = name;
+  object.type = type;
+  object.s_m = s_m;
+  return object;
+}
+
+VehicleSpec MovingVehicle() {
+  VehicleSpec vehicle;
+  vehicle.start_s_m = 30.0;
+  vehicle.motion.profile = {{0.0, std::nullopt, 20.0}};
+  return vehicle;
+}
+
+RailWorld Make(const WorldSpec& world, const VehicleSpec& vehicle) {
+  return RailWorld(world, vehicle, TestLabels(), TestMaterials(), 7);
+}
+
+std::string FaultOf(const WorldSpec& world, const VehicleSpec& vehicle) {
+  try {
+    Make(world, vehicle);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+Eigen::AlignedBox3d BoundsOf(const Chunk& chunk) {
+  Eigen::AlignedBox3d box = chunk.ground.Bounds();
+  for (const Placement& placement : chunk.placements) {
+    for (const Part& part : placement.model->parts) {
+      for (const Eigen::Vector3f& vertex : part.mesh.vertices) {
+        box.extend(placement.chunk_from_model * vertex.cast<double>());
+      }
+    }
+  }
+  return box;
+}
+
+TEST(RailWorld, MovesTheVehicleAlongItsTrack) {
+  VehicleSpec vehicle = MovingVehicle();
+  vehicle.track = "second";
+  const RailWorld world = Make(CurvedWorld(), vehicle);
+  EXPECT_TRUE(world.WorldFromVehicle(20 * kSecond_ns)
+                  .isApprox(world.alignment().WorldFromTrack(430.0, 4.0), 1e-12));
+  EXPECT_EQ(world.HomeChunk(0), 0);
+  EXPECT_EQ(world.HomeChunk(1 * kSecond_ns), 1);
+  EXPECT_EQ(world.HomeChunk(20 * kSecond_ns), 8);
+}
+
+TEST(RailWorld, LetsAVehicleInReverseLookWhereItGoes) {
+  VehicleSpec vehicle = MovingVehicle();
+  vehicle.start_s_m = 400.0;
+  vehicle.motion.reverse = true;
+  const RailWorld world = Make(CurvedWorld(), vehicle);
+  const Transform before = world.WorldFromVehicle(0);
+  const Transform after = world.WorldFromVehicle(kSecond_ns);
+  const Vector3 way = (after.translation() - before.translation()).normalized();
+  EXPECT_GT(way.dot(before.linear().col(0)), 0.99);
+  EXPECT_TRUE(
+      before.linear().col(2).isApprox(world.alignment().WorldFromTrack(400.0).linear().col(2)));
+}
+
+TEST(RailWorld, NumbersItsObjectsAndPutsTheVehicleLast) {
+  WorldSpec spec = CurvedWorld();
+  spec.objects = {Object("wagon", "open_wagon", 100.0), Object("walker", "person", 120.0)};
+  spec.objects[1].motion = MotionSpec{{{0.0, std::nullopt, 1.5}}};
+  VehicleSpec vehicle = MovingVehicle();
+  vehicle.ego_boxes_m = {{-4.0, -1.5, 0.2, 0.5, 1.5, 2.0}, {-4.0, -1.5, 2.0, -1.0, 1.5, 4.0}};
+  const RailWorld world = Make(spec, vehicle);
+  ASSERT_EQ(world.objects().size(), 3U);
+  const SceneObject& wagon = world.objects()[0];
+  EXPECT_EQ(wagon.instance, 1U);
+  EXPECT_EQ(wagon.label, TestLabels().Id("wagon"));
+  EXPECT_FALSE(wagon.moves);
+  const SceneObject& walker = world.objects()[1];
+  EXPECT_EQ(walker.instance, 2U);
+  EXPECT_EQ(walker.label, TestLabels().Id("person"));
+  EXPECT_TRUE(walker.moves);
+  const SceneObject& ego = world.objects()[2];
+  EXPECT_EQ(ego.name, "ego");
+  EXPECT_EQ(ego.instance, 3U);
+  EXPECT_TRUE(ego.is_ego);
+  EXPECT_TRUE(ego.moves);
+  EXPECT_EQ(ego.model->num_triangles(), 24U);
+  EXPECT_TRUE(ego.model->Bounds().min().isApprox(Vector3(-4.0, -1.5, 0.2), 1e-6));
+  EXPECT_TRUE(
+      world.WorldFromObject(2, kSecond_ns).isApprox(world.WorldFromVehicle(kSecond_ns), 1e-12));
+}
+
+TEST(RailWorld, PlacesObjectsByTheirTrack) {
+  WorldSpec spec = CurvedWorld();
+  spec.objects = {Object("wagon", "tank_wagon", 500.0), Object("walker", "person", 500.0)};
+  spec.objects[0].track = "second";
+  spec.objects[1].d_m = -2.0;
+  spec.objects[1].heading_deg = 90.0;
+  const RailWorld world = Make(spec, {});
+  const Alignment& alignment = world.alignment();
+  EXPECT_TRUE(world.WorldFromObject(0, 0).isApprox(alignment.WorldFromTrack(500.0, 4.0), 1e-12));
+  const Transform world_from_walker = world.WorldFromObject(1, 0);
+  EXPECT_TRUE(world_from_walker.translation().isApprox(
+      alignment.WorldFromTrack(500.0, -2.0).translation(), 1e-12));
+  EXPECT_TRUE(world_from_walker.linear().col(2).isApprox(Vector3::UnitZ(), 1e-12));
+  EXPECT_NEAR(
+      world_from_walker.linear().col(0).dot(alignment.WorldFromTrack(500.0).linear().col(0)), 0.0,
+      0.01);  // Across the track, but for its gradient and cant.
+}
+
+TEST(RailWorld, FillsEveryChunkWithGroundTracksAndMasts) {
+  const RailWorld world = Make(CurvedWorld(), {});
+  const int last = world.HomeChunk(3600 * kSecond_ns) + 12;
+  bool has_mast = false;
+  for (int chunk = 0; chunk <= last; ++chunk) {
+    const Chunk built = world.BuildChunk(chunk);
+    const Eigen::AlignedBox3d box = BoundsOf(built);
+    const double length_m = chunk == last ? 25.0 : 50.0;
+    EXPECT_NEAR(box.sizes().x(), length_m, 20.0) << chunk;
+    EXPECT_NEAR(box.sizes().y(), 160.0, 20.0) << chunk;
+    for (const Placement& placement : built.placements) {
+      has_mast = has_mast || placement.instance >= kFirstMastInstance;
+    }
+  }
+  EXPECT_TRUE(has_mast);
+}
+
+TEST(RailWorld, BuildsTheSameChunkEveryTime) {
+  const RailWorld world = Make(CurvedWorld(), {});
+  const RailWorld again = Make(CurvedWorld(), {});
+  const Chunk first = world.BuildChunk(5);
+  const Chunk second = again.BuildChunk(5);
+  ASSERT_EQ(first.ground.parts.size(), second.ground.parts.size());
+  for (std::size_t i = 0; i < first.ground.parts.size(); ++i) {
+    EXPECT_EQ(first.ground.parts[i].mesh.vertices, second.ground.parts[i].mesh.vertices);
+    EXPECT_EQ(first.ground.parts[i].mesh.triangles, second.ground.parts[i].mesh.triangles);
+  }
+  ASSERT_EQ(first.placements.size(), second.placements.size());
+  for (std::size_t i = 0; i < first.placements.size(); ++i) {
+    EXPECT_EQ(first.placements[i].chunk_from_model.matrix(),
+              second.placements[i].chunk_from_model.matrix());
+  }
+}
+
+TEST(RailWorld, ReachesAllChunksThatABeamMayHit) {
+  const RailWorld world = Make(CurvedWorld(), {});
+  // From chunk 0: 100 m of range, 10 m to the sensor, 8 m of overhang, 7.5 m of slack.
+  EXPECT_THAT(world.ChunksInReach(0, 100.0), testing::ElementsAre(0, 1, 2, 3));
+}
+
+TEST(RailWorld, ReportsTheFaultsOfLinePlacesAndProfilesTogether) {
+  WorldSpec world = CurvedWorld();
+  world.alignment.gradients_permil = {{3.0, 1.0}};
+  world.objects = {Object("a", "person", 10.0), Object("b", "person", 10.0)};
+  world.objects[0].motion = MotionSpec{{{0.0, std::nullopt, -1.0}}};
+  world.objects[1].track = "third";
+  VehicleSpec vehicle = MovingVehicle();
+  vehicle.motion.profile.push_back({std::nullopt, 50.0, 1.0});
+  EXPECT_EQ(
+      FaultOf(world, vehicle),
+      "/world/alignment/gradients_permil/0/s_m: must be 0, the beginning of the line (got 3)\n"
+      "/world/objects/1/track: must be one of \"main\", \"second\" (got \"third\")\n"
+      "/vehicle/motion/profile/1: must be at a time_s like the first point (got s_m)\n"
+      "/world/objects/0/motion/profile/0/speed_mps: must be >= 0 (got -1)");
+}
+
+TEST(RailWorld, ReportsTheFaultsOfAllObjectsTogether) {
+  WorldSpec world = CurvedWorld();
+  world.objects = {Object("a", "box", 10.0), Object("b", "tram", 10.0)};
+  EXPECT_EQ(FaultOf(world, {}),
+            "/world/objects/0: size_m: required for type \"box\"\n"
+            "/world/objects/1: type: must be box, pole, person, open_wagon, "
+            "flat_wagon, tank_wagon or mesh (got \"tram\")");
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,106 @@
+#include "core/rail/world_check.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace railcast {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+constexpr LineMeasures kLine{.length_m = 1000.0, .tightest_radius_m = 300.0};
+
+std::vector<std::string> Faults(const WorldSpec& world, const VehicleSpec& vehicle = {}) {
+  ErrorList errors;
+  CheckWorld(world, vehicle, kLine, errors);
+  return errors.lines();
+}
+
+ObjectSpec Box(const std::string& name, double s_m) {
+  ObjectSpec object;
+  object.name = name;
+  object.type = "box";
+  object.s_m = s_m;
+  return object;
+}
+
+TEST(CheckWorld, AcceptsTheDefaults) {
+  EXPECT_THAT(Faults({}), IsEmpty());
+}
+
+TEST(CheckWorld, WantsATrack) {
+  WorldSpec world;
+  world.tracks.clear();
+  EXPECT_THAT(Faults(world), ElementsAre("/world/tracks: must have at least one track (got none)"));
+}
+
+TEST(CheckWorld, KeepsTracksOnTheLineAndItsGround) {
+  WorldSpec world;
+  TrackSpec siding{.name = "main", .offset_m = -90.0, .start_s_m = 1000.0, .end_s_m = 1200.0};
+  world.tracks.push_back(siding);
+  EXPECT_THAT(
+      Faults(world),
+      ElementsAre("/world/tracks/1/name: must be unique (got \"main\")",
+                  "/world/tracks/1/offset_m: must lie within the ground's half width of 80 m "
+                  "(got -90)",
+                  "/world/tracks/1/start_s_m: must be >= 0 and less than the line's length of "
+                  "1000 m (got 1000)",
+                  "/world/tracks/1/end_s_m: must be greater than start_s_m and at most the line's "
+                  "length of 1000 m (got 1200)"));
+}
+
+TEST(CheckWorld, KeepsTheGroundInsideTheTightestCurve) {
+  WorldSpec world;
+  world.terrain.half_width_m = 300.0;
+  EXPECT_THAT(Faults(world),
+              ElementsAre("/world/terrain/half_width_m: must be less than the line's tightest "
+                          "radius of 300 m (got 300)"));
+}
+
+TEST(CheckWorld, KeepsObjectsOnTheirTrack) {
+  WorldSpec world;
+  world.tracks.push_back({.name = "siding", .offset_m = 4.5, .start_s_m = 100.0, .end_s_m = 400.0});
+  world.objects = {Box("a", 1000.5), Box("b", 50.0), Box("c", 10.0), Box("d", 10.0)};
+  world.objects[1].track = "siding";
+  world.objects[2].track = "sidng";
+  world.objects[3].d_m = 81.0;
+  EXPECT_THAT(
+      Faults(world),
+      ElementsAre("/world/objects/0/s_m: must lie on track \"main\", from 0 to 1000 m (got 1000.5)",
+                  "/world/objects/1/s_m: must lie on track \"siding\", from 100 to 400 m (got 50)",
+                  "/world/objects/2/track: must be one of \"main\", \"siding\" (got \"sidng\")",
+                  "/world/objects/3/d_m: must lie within the ground's half width of 80 m "
+                  "(got 81)"));
+}
+
+TEST(CheckWorld, WantsUniqueObjectNames) {
+  WorldSpec world;
+  world.objects = {Box("a", 1.0), Box("a", 2.0), Box("ego", 3.0)};
+  EXPECT_THAT(Faults(world),
+              ElementsAre("/world/objects/1/name: must be unique (got \"a\")",
+                          "/world/objects/2/name: must be unique, and ego is the vehicle itself "
+                          "(got \"ego\")"));
+}
+
+TEST(CheckWorld, LeavesInstanceIdsForMasts) {
+  WorldSpec world;
+  for (int i = 0; i < 999; ++i) world.objects.push_back(Box(std::to_string(i), 1.0));
+  EXPECT_THAT(Faults(world), ElementsAre("/world/objects: must be at most 998 (got 999)"));
+}
+
+TEST(CheckWorld, KeepsTheVehicleOnItsTrackAndItsBoxesFull) {
+  VehicleSpec vehicle;
+  vehicle.start_s_m = -5.0;
+  vehicle.ego_boxes_m = {{0, 0, 0, 1, 1, 1}, {0, 1, 0, 1, 1, 1}};
+  EXPECT_THAT(
+      Faults({}, vehicle),
+      ElementsAre("/vehicle/start_s_m: must lie on track \"main\", from 0 to 1000 m (got -5)",
+                  "/vehicle/ego_boxes_m/1/4: must be greater than the box's least of 1 (got 1)"));
+  vehicle.track = "none";
+  EXPECT_THAT(Faults({}, vehicle),
+              testing::Contains("/vehicle/track: must be one of \"main\" (got \"none\")"));
+}
+
+}  // namespace
+}  // namespace railcast
