@@ -8,6 +8,26 @@
 
 namespace railcast {
 
+// Every spec has one description: `Describe(archive, spec)` names each field's key, value, meaning
+// and rule (json_rules.h). Three archives visit it, so that reading, writing and the published
+// schema cannot drift apart: JsonReader fills the spec, JsonWriter writes the resolved scenario,
+// SchemaWriter makes the schema. An archive has:
+//
+//   Required(key, value, meaning, rule)   a field that must be given
+//   Optional(key, value, meaning, rule)   one that keeps the struct's default; std::optional: absent
+//   Alternative(key, value, {other_key, factor}, meaning, rule)  another way to give other_key
+//   RequiredLibrary(key, list, meaning)   a list, or a file that holds it under the same key
+//   Opaque(key, text, meaning)            any object, kept as text
+//   Switches(key, map, meaning, names)    an object of flags
+//   Ensure(key, holds, rule)              a rule across fields, about the value of `key`
+//   Unique(list_key, list, key, member)   the list's elements differ in a member
+//
+// A value may be a bool, an unsigned integer, a double, a string, an array, a vector, an optional,
+// a struct with a description, or a variant of such structs told apart by "type" (kTypeName).
+//
+// To add a field: add it, with its default, to the struct; add one line to its description; write
+// the schemas anew (tests/core/scenario/scenario_schema_test.cpp says how).
+
 template <class Archive>
 void Describe(Archive& a, InterfacesSpec& s) {
   a.Optional("udp", s.udp, "host:port of each receiver of live frames.", HostAndPort());

@@ -14,7 +14,7 @@
 
 namespace railcast {
 
-/// Fills one object's struct: the visitor that reads (see describe.h).
+/// Fills one object's struct: the visitor that reads (see describe_scenario.h).
 class JsonReader {
  public:
   JsonReader(JsonSource& source, Node object, std::vector<Member> members);

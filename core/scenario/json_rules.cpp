@@ -89,6 +89,7 @@ std::string Unknown(std::string_view kind,
   const std::string unknown = "unknown " + std::string(kind) + ", ";
   if (valid.empty()) return unknown + "there is none";
   std::vector<std::size_t> distances;
+  distances.reserve(valid.size());
   for (const std::string& other : valid) distances.push_back(EditDistance(name, other));
   const auto least = std::min_element(distances.begin(), distances.end());
   // More than half of the letters wrong is no typing error.

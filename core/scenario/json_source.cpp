@@ -61,7 +61,7 @@ std::optional<Node> JsonSource::Open(const fs::path& file) {
     errors_.Add(file.string() + ": " + obstacle);
     return std::nullopt;
   }
-  const std::optional<Node> root =
+  std::optional<Node> root =
       Load({fs::absolute(file).lexically_normal(), shown, nullptr, {}}, "");
   if (!root || !CheckRoot(*root)) return std::nullopt;
   return root;
@@ -123,7 +123,7 @@ std::optional<Node> JsonSource::FileRoot(const Node& node) {
   const std::string shown = ShownName(node);
   std::string chain = shown;
   for (const SourceFile* file = node.file; file != nullptr; file = file->named_by) {
-    chain = file->shown + " -> " + chain;
+    chain.insert(0, file->shown + " -> ");
     if (fs::equivalent(file->absolute, *absolute)) {
       FaultWithoutValue(node, "includes itself: " + chain);
       return std::nullopt;

@@ -30,7 +30,7 @@ void ReadValue(JsonSource& source, const Node& node, std::string& value, Existin
 
 template <std::unsigned_integral T>
 void ReadValue(JsonSource& source, const Node& node, T& value, const Limits& limits) {
-  const auto at_least = static_cast<std::uint64_t>(limits.at_least.value_or(0.0));
+  const std::uint64_t at_least = limits.at_least ? static_cast<std::uint64_t>(*limits.at_least) : 0;
   const auto whole = ReadWhole(source, node, at_least, std::numeric_limits<T>::max());
   if (whole) value = static_cast<T>(*whole);
 }

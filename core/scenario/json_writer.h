@@ -13,7 +13,7 @@
 
 namespace railcast {
 
-/// Makes one object of a struct: the visitor that writes (see describe.h). Every value is written,
+/// Makes one object of a struct: the visitor that writes (see describe_scenario.h). Every value is written,
 /// except those that are absent.
 class JsonWriter {
  public:

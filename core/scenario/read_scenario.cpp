@@ -10,6 +10,7 @@ namespace {
 template <class T>
 std::vector<std::string> NamesOf(const std::vector<T>& values) {
   std::vector<std::string> names;
+  names.reserve(values.size());
   for (const T& value : values) names.push_back(value.name);
   return names;
 }
