@@ -9,6 +9,8 @@
 
 namespace railcast {
 
+class RailWorld;
+
 /// Reads a scenario file and every file it names, strictly: unknown, duplicate, missing and mistyped
 /// keys are errors. File names in the result are absolute.
 /// @throws InputError with a line for every fault: "file: /pointer: rule (got value)".
@@ -22,7 +24,7 @@ namespace railcast {
 [[nodiscard]] EffectSet EffectsOf(const ScenarioSpec& spec);
 
 /// Builds the world of a scenario.
-[[nodiscard]] std::shared_ptr<const World> MakeWorld(const ScenarioSpec& spec);
+[[nodiscard]] std::shared_ptr<const RailWorld> MakeWorld(const ScenarioSpec& spec);
 
 /// Builds the whole simulation of a scenario. @param num_threads 0 = all cores.
 [[nodiscard]] std::unique_ptr<Simulator> MakeSimulator(const ScenarioSpec& spec, int num_threads);
