@@ -3,6 +3,7 @@
 #include <iostream>
 #include <string>
 
+#include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/rail/rail_world.h"
 #include "core/scan/scan_pattern.h"
@@ -53,22 +54,26 @@ void PrintJumps(const Alignment& alignment) {
             << alignment.tightest_radius_m() << " m, " << alignment.smoothed_jumps().size()
             << " jumps smoothed\n";
   for (const SmoothedJump& jump : alignment.smoothed_jumps()) {
+    const char* unit = jump.quantity == "gradient" ? " permil" : " 1/m";
     std::cout << "  " << jump.quantity << " at s " << jump.s_m << " m: from " << jump.before
-              << " to " << jump.after << " over " << jump.length_m << " m\n";
+              << " to " << jump.after << unit << " over " << jump.length_m << " m\n";
   }
 }
 
 }  // namespace
 
 int CheckCommand(const std::filesystem::path& file) {
+  ErrorList faults;
+  for (const std::string& fault : CheckScenario(file)) faults.Add(fault);
+  faults.ThrowIfAny();
   const ScenarioSpec scenario = ReadScenario(file);
   const ScanPattern pattern = BuildScanPattern(scenario.lidar.scan);
   const auto world = MakeWorld(scenario);
   const SceneAudit audit = AuditScene(*world, MaterialLibrary(scenario.materials),
                                       pattern.StampNs(0), scenario.lidar.range_max_m);
   std::cout << std::setprecision(10) << ResolvedScenarioJson(scenario) << "\n";
-  PrintRates(pattern);
   PrintJumps(world->alignment());
+  PrintRates(pattern);
   PrintAudit(audit);
   PrintObjects(*world, LabelTable(scenario.labels));
   if (scenario.camera) std::cout << "camera: read and kept for later; nothing uses it yet\n";

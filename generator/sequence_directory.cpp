@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/number_text.h"
 #include "core/base/units.h"
 #include "core/io/content_hash.h"
 #include "core/io/kitti.h"
-#include "core/io/number_text.h"
 #include "core/io/write_file.h"
 #include "generator/counts_json.h"
 #include "generator/sequence_progress.h"

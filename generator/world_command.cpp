@@ -3,7 +3,7 @@
 #include <numeric>
 
 #include "core/base/error.h"
-#include "core/io/number_text.h"
+#include "core/base/number_text.h"
 #include "core/io/write_file.h"
 #include "core/rail/rail_world.h"
 #include "core/scan/scan_pattern.h"

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/number_text.h"
 #include "core/io/field_layout.h"
-#include "core/io/number_text.h"
 
 namespace railcast {
 namespace {

@@ -5,8 +5,8 @@
 #include <map>
 
 #include "core/base/error.h"
+#include "core/base/number_text.h"
 #include "core/io/field_layout.h"
-#include "core/io/number_text.h"
 
 namespace railcast {
 namespace {

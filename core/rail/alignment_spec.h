@@ -20,7 +20,7 @@ struct CurvatureSection {
 
 /// A surveyed line: curvature by chainage, as alignment files publish it.
 struct AlignmentSectionsSpec {
-  double length_m{};  ///< Chainage of the end; after the last section's start.
+  double length_m{};                       ///< Chainage of the end; after the last section's start.
   std::vector<CurvatureSection> sections;  ///< The first at chainage 0.
 
   bool operator==(const AlignmentSectionsSpec&) const = default;
@@ -41,7 +41,9 @@ struct AlignmentElementsSpec {
   bool operator==(const AlignmentElementsSpec&) const = default;
 };
 
-/// Plan points (x, y) joined by a spline whose curvature is continuous.
+/// Plan points (x, y) joined by a natural cubic spline, whose curvature is continuous. The points
+/// are in a plan frame of their own: the alignment's origin_m and heading_deg say where its origin
+/// lies and how its x axis points, so with both at their defaults the points are world coordinates.
 struct AlignmentSplineSpec {
   std::vector<std::array<double, 2>> points_m;
 
@@ -61,8 +63,10 @@ struct AlignmentSpec {
   std::variant<AlignmentSectionsSpec, AlignmentElementsSpec, AlignmentSplineSpec> course;
   std::string attribution;  ///< Where the figures come from; carried along.
 
-  std::array<double, 3> origin_m{0, 0, 0};  ///< World position of chainage 0.
-  double heading_deg = 0.0;                 ///< At chainage 0, counterclockwise from east.
+  std::array<double, 3> origin_m{0, 0, 0};  ///< World position of chainage 0 (of a spline: of its
+                                            ///< points' origin; its height is chainage 0's).
+  double heading_deg = 0.0;  ///< At chainage 0, counterclockwise from east (of a spline: of its
+                             ///< points' x axis).
 
   std::vector<ChainageValue> gradients_permil;   ///< Empty = level.
   std::vector<ChainageValue> speed_limits_kmph;  ///< Empty = no cant.

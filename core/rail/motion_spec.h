@@ -15,8 +15,9 @@ struct SpeedPoint {
 };
 
 /// How something moves along a track: constant acceleration between the points, constant speed
-/// after the last. A profile is all in time or all in chainage; empty stands still. `reverse` runs
-/// against the chainage.
+/// after the last and before the first. A profile is all in time or all in chainage; empty stands
+/// still. `reverse` runs against the chainage: the sensor's own vehicle then looks that way too, an
+/// object looks where its heading says.
 struct MotionSpec {
   std::vector<SpeedPoint> profile;
   bool reverse = false;

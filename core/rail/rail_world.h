@@ -11,11 +11,16 @@
 namespace railcast {
 
 /// The railway world of a scenario. Chunks are kChunkLength_m of the line each, from chainage 0.
+///
+/// Objects have instance ids 1, 2, ... in the order of the spec; the vehicle's own boxes, if it has
+/// any, are one further object "ego" after them; masts follow from kFirstMastInstance on. Beyond
+/// the ends of the line everything that moves goes on straight and level.
 class RailWorld final : public World {
  public:
   static constexpr double kChunkLength_m = 50.0;
 
-  /// @throws InputError if the specs contradict each other or a mesh cannot be read.
+  /// @throws InputError if the specs contradict each other or a mesh cannot be read. Lines read
+  ///   "/world/objects/3/track: rule (got value)", pointers into the scenario.
   RailWorld(const WorldSpec& world,
             const VehicleSpec& vehicle,
             const LabelTable& labels,

@@ -58,7 +58,8 @@ struct VegetationSpec {
   bool operator==(const VegetationSpec&) const = default;
 };
 
-/// Something placed by track coordinates.
+/// Something placed by track coordinates. Wagons follow gradient and cant; everything else stands
+/// upright. What moves keeps its distance from its track; its speed is that of its chainage.
 struct ObjectSpec {
   std::string name;   ///< Unique.
   std::string type;   ///< "box", "pole", "person", "open_wagon", "flat_wagon", "tank_wagon", "mesh".

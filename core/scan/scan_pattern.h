@@ -14,7 +14,7 @@ inline constexpr std::size_t kPacketSize = 16;
 /// The fixed firings of one frame: a sensor is a table of directions and times.
 ///
 /// Immutable after construction, so one pattern may serve many threads. All per-firing arrays have
-/// num_firings() elements in order of time (ties: by row).
+/// num_firings() elements in order of time (ties: by row, then by column).
 struct ScanPattern {
   double rate_hz{};
   std::uint32_t rows{};
@@ -35,8 +35,10 @@ struct ScanPattern {
   [[nodiscard]] std::int64_t StampNs(std::uint32_t frame_index) const;
 };
 
-/// @throws InputError if the spec makes no firing, a cell count is not whole, a frame lasts longer
-///   than 1 / rate_hz or 4.29 s (time_ns is 32 bits), or the firing table cannot be read.
+/// @throws InputError if the spec makes no firing or more than 2^24, a cell count is not whole, a
+///   frame lasts longer than 1 / rate_hz or 4.29 s (time_ns is 32 bits), or the firing table cannot
+///   be read. A line for every fault, with pointers relative to the scan object:
+///   "/pattern/cycle_us: must be > 0 (got -1)"; those of a table name its file and line.
 [[nodiscard]] ScanPattern BuildScanPattern(const ScanSpec& spec);
 
 }  // namespace railcast

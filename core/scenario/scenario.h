@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/scenario/scenario_spec.h"
 #include "core/simulate/simulator.h"
@@ -11,8 +12,8 @@ namespace railcast {
 
 class RailWorld;
 
-/// Reads a scenario file and every file it names, strictly: unknown, duplicate, missing and mistyped
-/// keys are errors. File names in the result are absolute.
+/// Reads a scenario file and every file it names, strictly: unknown, duplicate, missing and
+/// mistyped keys are errors. File names in the result are absolute.
 /// @throws InputError with a line for every fault: "file: /pointer: rule (got value)".
 [[nodiscard]] ScenarioSpec ReadScenario(const std::filesystem::path& file);
 
@@ -23,10 +24,17 @@ class RailWorld;
 /// The effects of the scenario's rung with its single switches applied.
 [[nodiscard]] EffectSet EffectsOf(const ScenarioSpec& spec);
 
+/// Every fault of a scenario: those of its files or, if there are none, those that show when its
+/// scan pattern and its world are built. Empty if the scenario can run.
+[[nodiscard]] std::vector<std::string> CheckScenario(const std::filesystem::path& file);
+
 /// Builds the world of a scenario.
+/// @throws InputError as CheckScenario() lists.
 [[nodiscard]] std::shared_ptr<const RailWorld> MakeWorld(const ScenarioSpec& spec);
 
-/// Builds the whole simulation of a scenario. @param num_threads 0 = all cores.
+/// Builds the whole simulation of a scenario.
+/// @throws InputError as CheckScenario() lists.
+/// @param num_threads 0 = all cores.
 [[nodiscard]] std::unique_ptr<Simulator> MakeSimulator(const ScenarioSpec& spec, int num_threads);
 
 }  // namespace railcast

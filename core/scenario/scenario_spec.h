@@ -12,6 +12,7 @@
 #include "core/frame/output_spec.h"
 #include "core/rail/world_spec.h"
 #include "core/scan/scan_spec.h"
+#include "core/scenario/scenario_sources.h"
 #include "core/scene/material.h"
 
 namespace railcast {
@@ -19,8 +20,8 @@ namespace railcast {
 /// Where the sensor sits on the vehicle.
 struct MountSpec {
   std::array<double, 3> position_m{0.0, 0.0, 2.5};  ///< In the vehicle frame.
-  double yaw_deg = 0.0;    ///< Left positive.
-  double pitch_deg = 0.0;  ///< Nose down positive.
+  double yaw_deg = 0.0;                             ///< Left positive.
+  double pitch_deg = 0.0;                           ///< Nose down positive.
   double roll_deg = 0.0;
 
   bool operator==(const MountSpec&) const = default;
@@ -49,17 +50,18 @@ struct InterfacesSpec {
 /// A whole scenario: everything a run depends on besides the frame index.
 struct ScenarioSpec {
   std::uint64_t seed = 1;
-  std::string fidelity = "plausibility";         ///< "geometry" or "plausibility".
-  std::map<std::string, bool> effects;           ///< Switches single effects on or off.
+  std::string fidelity = "plausibility";  ///< "geometry" or "plausibility".
+  std::map<std::string, bool> effects;    ///< Switches single effects on or off.
   LidarSpec lidar;
   WeatherSpec weather;
   InterfacesSpec interfaces;
-  std::optional<std::string> camera;             ///< The camera section as read, kept for later.
+  std::optional<std::string> camera;  ///< The camera section as read, kept for later.
   WorldSpec world;
   VehicleSpec vehicle;
   OutputSpec output;
-  std::vector<Material> materials;               ///< Of the library the scenario names.
-  std::vector<Label> labels;                     ///< Of the label table the scenario names.
+  std::vector<Material> materials;  ///< Of the library the scenario names.
+  std::vector<Label> labels;        ///< Of the label table the scenario names.
+  ScenarioSources sources;          ///< Where all this was written.
 
   bool operator==(const ScenarioSpec&) const = default;
 };

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/base/transform.h"
@@ -20,10 +21,37 @@ struct SimulatorSpec {
   double range_min_m = 0.5;
   double range_max_m = 300.0;
   Transform vehicle_from_sensor = Transform::Identity();
-  EffectSet effects;
-  PlausibilitySpec plausibility;
-  WeatherSpec weather;
-  OutputSpec output;
+  EffectSet effects{};
+  PlausibilitySpec plausibility{};
+  WeatherSpec weather{};
+  OutputSpec output{};
+  std::uint32_t snow_label{};  ///< Label of a flake that answers.
+  std::string isa{};           ///< Embree's instruction set to force; empty = the best there is.
+};
+
+/// One firing's way from hit to return, for `railcast-generate trace`.
+struct FiringStory {
+  std::uint32_t firing{};
+  std::uint32_t time_ns{};  ///< Since the stamp.
+  std::uint32_t slot{};
+  Vector3 direction_sensor;
+  Vector3 origin_world;
+  std::uint32_t label{};  ///< Of the surface hit, like the three after it; 0 = none.
+  std::uint32_t instance{};
+  std::uint16_t material{};
+  float reflectivity{};
+
+  /// The firing after one effect. NaN = not known yet.
+  struct Step {
+    std::string effect;
+    Outcome outcome{};
+    float true_range_m{};
+    float cos_incidence{};
+    float intensity{};
+    float power_ratio{};
+    float range_m{};
+  };
+  std::vector<Step> steps;
 };
 
 /// Turns (scenario, frame index) into a Frame: aim, trace, detect, store, tile by tile.
@@ -44,6 +72,10 @@ class Simulator {
   /// For each of world().objects(), in their order: how many firings of the frame would hit it
   /// within range if nothing else stood in the world. (Occlusion = 1 - visible / alone.)
   [[nodiscard]] std::vector<std::uint32_t> FiringsOnObjectAlone(std::uint32_t frame_index);
+
+  /// Replays one firing, with the packet and the random numbers it has in `Scan`.
+  /// @pre firing < pattern().num_firings()
+  [[nodiscard]] FiringStory Explain(std::uint32_t frame_index, std::uint32_t firing);
 
   [[nodiscard]] const World& world() const;
   [[nodiscard]] const ScanPattern& pattern() const;

@@ -1,0 +1,32 @@
+#include "core/detect/kernels.h"
+
+namespace railcast {
+
+namespace baseline {
+Kernels MakeKernels();
+}
+#ifdef RAILCAST_X86_KERNELS
+namespace avx2 {
+Kernels MakeKernels();
+}
+namespace avx512 {
+Kernels MakeKernels();
+}
+#endif
+
+const std::vector<Kernels>& AvailableKernels() {
+  static const std::vector<Kernels> kernels = [] {
+    std::vector<Kernels> available{baseline::MakeKernels()};
+#ifdef RAILCAST_X86_KERNELS
+    if (__builtin_cpu_supports("avx2")) available.push_back(avx2::MakeKernels());
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+        __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl")) {
+      available.push_back(avx512::MakeKernels());
+    }
+#endif
+    return available;
+  }();
+  return kernels;
+}
+
+}  // namespace railcast

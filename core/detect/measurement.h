@@ -1,0 +1,82 @@
+// See vector_math.h for why this header has no `#pragma once`.
+#ifndef RAILCAST_DETECT_MEASUREMENT_H_
+#define RAILCAST_DETECT_MEASUREMENT_H_
+
+#include <limits>
+
+#include "core/detect/detect_tile.h"
+#include "core/detect/effect_parameters.h"
+#include "core/detect/lane_random.h"
+#include "core/frame/outcome.h"
+
+namespace railcast::RAILCAST_ISA {
+
+/// What the trace alone decides: no_surface, near_range, ego (already set by the caller where the
+/// surface is the vehicle's) or returned; and the incidence angle.
+inline void ApplyHit(DetectTile& tile, float range_min_m) {
+  for (std::size_t i = 0; i < tile.num_rays; ++i) {
+    const float range_m = tile.true_range_m[i];
+    const std::uint32_t before = tile.outcome[i];
+    const bool near =
+        before == static_cast<std::uint32_t>(Outcome::kReturned) && range_m < range_min_m;
+    tile.outcome[i] = near ? static_cast<std::uint32_t>(Outcome::kNearRange) : before;
+    tile.is_flake[i] = 0;
+    // NaN stays NaN.
+    tile.incidence_rad[i] = Acos(tile.cos_incidence[i]);
+  }
+}
+
+/// Effect `noise` and the last step of every rung: the measured position.
+///
+///   sigma = noise_sigma0 + noise_sigma1 * R
+///   isotropic (as published): position = R * direction + sigma * (n1, n2, n3), n ~ N(0, 1)
+///   beam:                     position = (R + sigma * n1) * direction
+///
+/// R is the true range; the measured range is |position|. Without noise position = R * direction.
+/// Measured ranges outside the gate [range_min, range_max] become near_range or out_of_range.
+template <NoiseShape kShape>
+inline void ApplyMeasurement(DetectTile& tile, const MeasurementParameters& parameters) {
+  const LaneKey key{parameters.seed, RandomUse::kNoise, tile.frame};
+  const MeasurementParameters p = parameters;  // A copy: no store to the tile can change it.
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  for (std::size_t i = 0; i < tile.num_rays; ++i) {
+    const float true_range_m = tile.true_range_m[i];
+    float range_m = true_range_m;
+    float x = true_range_m * tile.direction_x[i];
+    float y = true_range_m * tile.direction_y[i];
+    float z = true_range_m * tile.direction_z[i];
+    if constexpr (kShape != NoiseShape::kNone) {
+      const float sigma_m = p.sigma0_m + p.sigma1 * true_range_m;
+      const Normals n = LaneNormals(LaneWords(key, tile.firing[i], 0));
+      if constexpr (kShape == NoiseShape::kIsotropic) {
+        x += sigma_m * n.a;
+        y += sigma_m * n.b;
+        z += sigma_m * n.c;
+        range_m = std::sqrt(x * x + y * y + z * z);
+      } else {
+        range_m += sigma_m * n.a;
+        x = range_m * tile.direction_x[i];
+        y = range_m * tile.direction_y[i];
+        z = range_m * tile.direction_z[i];
+      }
+    }
+    const std::uint32_t before = tile.outcome[i];
+    const bool measured = before == static_cast<std::uint32_t>(Outcome::kReturned) ||
+                          before == static_cast<std::uint32_t>(Outcome::kClutter);
+    const bool beyond = range_m > p.range_max_m;
+    const bool short_of = range_m < p.range_min_m;
+    const std::uint32_t gated = beyond     ? static_cast<std::uint32_t>(Outcome::kOutOfRange)
+                                : short_of ? static_cast<std::uint32_t>(Outcome::kNearRange)
+                                           : before;
+    const bool has_point = measured && !beyond && !short_of;
+    tile.outcome[i] = measured ? gated : before;
+    tile.range_m[i] = has_point ? range_m : kNaN;
+    tile.x[i] = has_point ? x : kNaN;
+    tile.y[i] = has_point ? y : kNaN;
+    tile.z[i] = has_point ? z : kNaN;
+  }
+}
+
+}  // namespace railcast::RAILCAST_ISA
+
+#endif  // RAILCAST_DETECT_MEASUREMENT_H_

@@ -1,0 +1,49 @@
+// See vector_math.h for why this header has no `#pragma once`.
+#ifndef RAILCAST_DETECT_SNOW_CLUTTER_H_
+#define RAILCAST_DETECT_SNOW_CLUTTER_H_
+
+#include "core/detect/detect_tile.h"
+#include "core/detect/effect_parameters.h"
+#include "core/detect/lane_random.h"
+#include "core/frame/outcome.h"
+
+namespace railcast::RAILCAST_ISA {
+
+/// Effect `snow`: flakes near the sensor that answer into empty beams or instead of a surface.
+///
+///   P(a flake answers) = 1 - exp(-snow_echoes_per_mmph * S)            (Poisson, S in mm/h)
+///   its range r ~ Maxwell(snow_range_scale): scale * sqrt(n1^2 + n2^2 + n3^2), n ~ N(0, 1)
+///
+/// A flake farther than the surface, nearer than range_min, or too weak for the threshold (with
+/// intensity snow_intensity and the fog's attenuation) does not answer; else the outcome is
+/// clutter. Beams that a near or ego surface blocks, or that were never fired, stay so. The
+/// publication has words only; the Maxwell law is that of detectable particles in a diverging beam
+/// (physics.md 4.2).
+inline void ApplySnowClutter(DetectTile& tile, const SnowParameters& parameters) {
+  const LaneKey key{parameters.seed, RandomUse::kSnow, tile.frame};
+  const SnowParameters p = parameters;  // A copy, so that no store to the tile can change it.
+  for (std::size_t i = 0; i < tile.num_rays; ++i) {
+    const float u = LaneUnit(LaneWords(key, tile.firing[i], 0).a);
+    const Normals n = LaneNormals(LaneWords(key, tile.firing[i], 1));
+    const float r = p.range_scale_m * std::sqrt(n.a * n.a + n.b * n.b + n.c * n.c);
+    const float ratio = p.intensity * Exp(-p.threshold.fog_density_per_m * r) *
+                        p.threshold.inverse_threshold_m2 / (r * r);
+    const std::uint32_t before = tile.outcome[i];
+    const std::uint32_t blocked =
+        static_cast<std::uint32_t>(before == static_cast<std::uint32_t>(Outcome::kNearRange) ||
+                                   before == static_cast<std::uint32_t>(Outcome::kEgo) ||
+                                   before == static_cast<std::uint32_t>(Outcome::kSensorDropout));
+    // A missing surface is NaN: no flake is farther than it. Bits, not branches, vectorise.
+    const bool answers = ((blocked == 0U) & !(r >= tile.true_range_m[i]) & (u < p.probability) &
+                          (r >= p.range_min_m) & (ratio >= 1.0F));
+    tile.outcome[i] = answers ? static_cast<std::uint32_t>(Outcome::kClutter) : before;
+    tile.is_flake[i] = answers ? 1U : 0U;
+    tile.true_range_m[i] = answers ? r : tile.true_range_m[i];
+    tile.intensity[i] = answers ? p.intensity : tile.intensity[i];
+    tile.power_ratio[i] = answers ? ratio : tile.power_ratio[i];
+  }
+}
+
+}  // namespace railcast::RAILCAST_ISA
+
+#endif  // RAILCAST_DETECT_SNOW_CLUTTER_H_

@@ -1,0 +1,90 @@
+#include "core/scan/scan_pattern.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "core/scan/firing.h"
+#include "core/scan/packet_order.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kNsPerS = 1e9;
+
+FiringGrid MakeFirings(const ScanSpec& spec, ErrorList& errors) {
+  if (const auto* raster = std::get_if<RasterSpec>(&spec.pattern)) {
+    return RasterFirings(*raster, spec.rate_hz, errors);
+  }
+  if (const auto* spinning = std::get_if<SpinningSpec>(&spec.pattern)) {
+    return SpinningFirings(*spinning, spec.rate_hz, errors);
+  }
+  return TableFirings(std::get<FiringTableSpec>(spec.pattern), errors);
+}
+
+/// @param last_ns Time of the last firing.
+void CheckLength(double rate_hz, std::int64_t last_ns, ErrorList& errors) {
+  if (static_cast<double>(last_ns) >= kNsPerS / rate_hz) {
+    errors.Add(Fault("/pattern", "the last firing must come before 1 / rate_hz",
+                     static_cast<double>(last_ns) / kNsPerS));
+  }
+  if (last_ns > std::numeric_limits<std::uint32_t>::max()) {
+    errors.Add(Fault("/pattern", "the last firing must come before 4.29 s",
+                     static_cast<double>(last_ns) / kNsPerS));
+  }
+}
+
+}  // namespace
+
+std::string Fault(std::string_view place, std::string_view rule, double got) {
+  std::array<char, 32> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), got).ptr;
+  std::string line(place);
+  line.append(": ").append(rule).append(" (got ").append(digits.data(), end).append(")");
+  return line;
+}
+
+std::int64_t ScanPattern::StampNs(std::uint32_t frame_index) const {
+  const std::uint64_t frames_ns = frame_index * std::uint64_t{1'000'000'000};
+  if (rate_hz == std::floor(rate_hz)) {
+    const auto rate = static_cast<std::uint64_t>(rate_hz);
+    return static_cast<std::int64_t>((frames_ns + rate / 2) / rate);
+  }
+  // 64 bits of mantissa hold frames_ns exactly, so that only the quotient is rounded.
+  return std::llround(static_cast<long double>(frames_ns) / static_cast<long double>(rate_hz));
+}
+
+ScanPattern BuildScanPattern(const ScanSpec& spec) {
+  ErrorList errors;
+  if (!(spec.rate_hz >= 0.01 && spec.rate_hz <= 1e6)) {
+    errors.Add(Fault("/rate_hz", "must be >= 0.01 and <= 1000000", spec.rate_hz));
+  }
+  FiringGrid grid = MakeFirings(spec, errors);
+  errors.ThrowIfAny();
+  std::ranges::sort(grid.firings, {}, [](const Firing& firing) {
+    return std::tuple(firing.time_ns, firing.row, firing.column);
+  });
+  CheckLength(spec.rate_hz, grid.firings.back().time_ns, errors);
+  errors.ThrowIfAny();
+
+  ScanPattern pattern;
+  pattern.rate_hz = spec.rate_hz;
+  pattern.rows = grid.rows;
+  pattern.columns = grid.columns;
+  for (const Firing& firing : grid.firings) {
+    const double horizontal = std::cos(firing.elevation_rad);
+    pattern.direction_x.push_back(static_cast<float>(horizontal * std::cos(firing.azimuth_rad)));
+    pattern.direction_y.push_back(static_cast<float>(horizontal * std::sin(firing.azimuth_rad)));
+    pattern.direction_z.push_back(static_cast<float>(std::sin(firing.elevation_rad)));
+    pattern.time_ns.push_back(static_cast<std::uint32_t>(firing.time_ns));
+    pattern.row.push_back(firing.row);
+    pattern.column.push_back(firing.column);
+  }
+  pattern.packet_order = PacketOrder(grid);
+  return pattern;
+}
+
+}  // namespace railcast

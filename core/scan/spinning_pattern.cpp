@@ -1,0 +1,112 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/base/units.h"
+#include "core/scan/firing.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kFullTurn_deg = 360.0;
+constexpr double kNsPerUs = 1e3;
+constexpr double kUsPerS = 1e6;
+/// Cycles may fill the period exactly: 1800 x 55.5555556 us is a hair more than 100 ms.
+constexpr double kFullPeriodTolerance = 1e-6;
+
+void CheckChannel(const ChannelSpec& channel,
+                  const std::string& place,
+                  double cycle_us,
+                  ErrorList& errors) {
+  if (!(std::abs(channel.elevation_deg) <= 90.0)) {
+    errors.Add(Fault(place + "/elevation_deg", "must be >= -90 and <= 90", channel.elevation_deg));
+  }
+  if (!(std::abs(channel.azimuth_deg) <= kFullTurn_deg)) {
+    errors.Add(Fault(place + "/azimuth_deg", "must be >= -360 and <= 360", channel.azimuth_deg));
+  }
+  if (!(channel.time_us >= 0.0 && channel.time_us < cycle_us)) {
+    errors.Add(Fault(place + "/time_us", "must be >= 0 and < cycle_us", channel.time_us));
+  }
+}
+
+void CheckChannels(const SpinningSpec& spec, ErrorList& errors) {
+  const std::vector<ChannelSpec>& channels = spec.channels;
+  if (channels.empty()) {
+    errors.Add("/pattern/channels: must have at least one channel (got 0)");
+    return;
+  }
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    CheckChannel(channels[i], "/pattern/channels/" + std::to_string(i), spec.cycle_us, errors);
+  }
+  const double first_us = std::ranges::min(channels, {}, &ChannelSpec::time_us).time_us;
+  if (first_us > 0.0) {
+    errors.Add(Fault("/pattern/channels", "the earliest time_us must be 0", first_us));
+  }
+}
+
+void CheckSpec(const SpinningSpec& spec, double rate_hz, ErrorList& errors) {
+  if (spec.rotation != "clockwise" && spec.rotation != "counterclockwise") {
+    errors.Add("/pattern/rotation: must be \"clockwise\" or \"counterclockwise\" (got \"" +
+               spec.rotation + "\")");
+  }
+  if (!(std::abs(spec.start_azimuth_deg) <= kFullTurn_deg)) {
+    errors.Add(
+        Fault("/pattern/start_azimuth_deg", "must be >= -360 and <= 360", spec.start_azimuth_deg));
+  }
+  if (!(spec.cycle_us > 0.0 && std::isfinite(spec.cycle_us))) {
+    errors.Add(Fault("/pattern/cycle_us", "must be > 0", spec.cycle_us));
+    return;
+  }
+  CheckChannels(spec, errors);
+  if (spec.columns == 0) errors.Add("/pattern/columns: must be > 0 (got 0)");
+  const double scan_us = spec.columns * spec.cycle_us;
+  if (scan_us * rate_hz > kUsPerS * (1.0 + kFullPeriodTolerance)) {
+    errors.Add(Fault("/pattern/columns", "columns x cycle_us must be <= 1 / rate_hz", scan_us));
+  }
+  const double num_firings = static_cast<double>(spec.channels.size()) * spec.columns;
+  if (num_firings > static_cast<double>(kMaxNumFirings) || spec.channels.size() > 65536) {
+    errors.Add(Fault("/pattern", "must have at most 16777216 firings", num_firings));
+  }
+}
+
+/// The row of each channel: its rank in elevation, from the lowest.
+std::vector<std::uint16_t> RowsByElevation(const std::vector<ChannelSpec>& channels) {
+  std::vector<std::size_t> by_elevation(channels.size());
+  std::iota(by_elevation.begin(), by_elevation.end(), std::size_t{0});
+  std::ranges::stable_sort(by_elevation, {},
+                           [&](std::size_t i) { return channels[i].elevation_deg; });
+  std::vector<std::uint16_t> rows(channels.size());
+  for (std::size_t rank = 0; rank < rows.size(); ++rank) {
+    rows[by_elevation[rank]] = static_cast<std::uint16_t>(rank);
+  }
+  return rows;
+}
+
+}  // namespace
+
+FiringGrid SpinningFirings(const SpinningSpec& spec, double rate_hz, ErrorList& errors) {
+  CheckSpec(spec, rate_hz, errors);
+  if (!errors.empty()) return {};
+
+  const std::vector<std::uint16_t> rows = RowsByElevation(spec.channels);
+  const double left_positive = spec.rotation == "clockwise" ? -1.0 : 1.0;
+  FiringGrid grid{
+      .rows = static_cast<std::uint32_t>(rows.size()), .columns = spec.columns, .firings = {}};
+  grid.firings.reserve(rows.size() * spec.columns);
+  for (std::uint32_t column = 0; column < spec.columns; ++column) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const ChannelSpec& channel = spec.channels[i];
+      const double time_us = column * spec.cycle_us + channel.time_us;
+      const double rotor_deg = spec.start_azimuth_deg + kFullTurn_deg * rate_hz * time_us / kUsPerS;
+      grid.firings.push_back(
+          {.azimuth_rad = RadFromDeg(left_positive * (rotor_deg + channel.azimuth_deg)),
+           .elevation_rad = RadFromDeg(channel.elevation_deg),
+           .time_ns = std::llround(time_us * kNsPerUs),
+           .row = rows[i],
+           .column = column});
+    }
+  }
+  return grid;
+}
+
+}  // namespace railcast

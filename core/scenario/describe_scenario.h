@@ -1,0 +1,64 @@
+#pragma once
+
+#include "core/scenario/describe_lidar.h"
+#include "core/scenario/describe_weather.h"
+#include "core/scenario/describe_world.h"
+#include "core/scenario/effect_names.h"
+#include "core/scenario/scenario_spec.h"
+
+namespace railcast {
+
+template <class Archive>
+void Describe(Archive& a, InterfacesSpec& s) {
+  a.Optional("udp", s.udp, "host:port of each receiver of live frames.", HostAndPort());
+}
+
+template <class Archive>
+void Describe(Archive& a, OutputSpec& s) {
+  a.Optional("frame", s.frame, "Frame of reference of the points.",
+             OneOf({"sensor", "vehicle", "world"}));
+  a.Optional("handedness", s.handedness, "left: y is negated, as Unreal has it.",
+             OneOf({"right", "left"}));
+}
+
+template <class Archive>
+void Describe(Archive& a, Material& s) {
+  a.Required("name", s.name, "Unique.", NonEmptyString());
+  a.Required("reflectivity", s.reflectivity, "Diffuse, at 905 nm; 1 = white Lambertian.",
+             Within(0, 100));
+  a.Ensure("name", s.name != "none", "must not be \"none\": that is the material of nothing");
+}
+
+template <class Archive>
+void Describe(Archive& a, Label& s) {
+  a.Required("id", s.id, "Unique; 0 = nothing was hit.");
+  a.Required("name", s.name, "Unique.", NonEmptyString());
+  a.Required("rgb", s.rgb, "Colour, 0 to 255 each.");
+  a.Required("whu_railway3d", s.whu_railway3d, "Class name in WHU-Railway3D.");
+  a.Required("osdar23", s.osdar23, "Class name in OSDaR23; empty where none fits.");
+  a.Required("semantic_kitti", s.semantic_kitti, "Id written to .label files.");
+  a.Required("semantic_kitti_nearest", s.semantic_kitti_nearest,
+             "The nearest of SemanticKITTI's own ids.");
+}
+
+template <class Archive>
+void Describe(Archive& a, ScenarioSpec& s) {
+  a.Optional("seed", s.seed, "Of all random numbers.");
+  a.Optional("fidelity", s.fidelity, "Rung of the fidelity ladder.",
+             OneOf({"geometry", "plausibility"}));
+  a.Switches("effects", s.effects, "Switches this effect on or off.", EffectNames());
+  a.Required("lidar", s.lidar, "The sensor.");
+  a.Optional("weather", s.weather, "The weather.");
+  a.Optional("interfaces", s.interfaces, "Where live frames go.");
+  a.Opaque("camera", s.camera, "Any object; kept for later.");
+  a.Required("world", s.world, "The railway and what stands on it.");
+  a.Optional("vehicle", s.vehicle, "The sensor's own vehicle.");
+  a.Optional("output", s.output, "Axes of the points.");
+  a.RequiredLibrary("materials", s.materials, "What surfaces are made of.");
+  a.RequiredLibrary("labels", s.labels, "What things are called.");
+  a.Unique("materials", s.materials, "name", &Material::name);
+  a.Unique("labels", s.labels, "id", &Label::id);
+  a.Unique("labels", s.labels, "name", &Label::name);
+}
+
+}  // namespace railcast

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "core/detect/detect_spec.h"
+#include "core/scenario/json_rules.h"
+
+namespace railcast {
+
+/// The published system gives rain as an intensity from 0 to 1. Intensity 1 is 50 mm/h, where rain
+/// is called violent; in between the rate grows in proportion.
+inline constexpr double kRainAtFullIntensity_mmph = 50.0;
+
+template <class Archive>
+void Describe(Archive& a, WeatherSpec& s) {
+  a.Optional("fog_density_per_m", s.fog_density_per_m, "Extinction, applied one way as published.",
+             NonNegative());
+  a.Optional("rain_rate_mmph", s.rain_rate_mmph, "Rain in mm/h.", NonNegative());
+  a.Alternative("rain_intensity", s.rain_rate_mmph, {"rain_rate_mmph", kRainAtFullIntensity_mmph},
+                "The published intensity, instead of rain_rate_mmph: 1 is 50 mm/h.", Within(0, 1));
+  a.Optional("rain_dropout_per_m", s.rain_dropout_per_m, "Rain dropout rate at 1 mm/h.",
+             NonNegative());
+  a.Optional("rain_dropout_exponent", s.rain_dropout_exponent, "Its growth with the rain rate.",
+             NonNegative());
+  a.Optional("snow_rate_mmph", s.snow_rate_mmph, "Snow in mm/h of water.", NonNegative());
+  a.Optional("snow_echoes_per_mmph", s.snow_echoes_per_mmph,
+             "Mean detectable flakes per beam at 1 mm/h.", NonNegative());
+  a.Optional("snow_range_scale_m", s.snow_range_scale_m,
+             "Maxwell scale of their ranges; the median is 1.538 times this.", Positive());
+}
+
+}  // namespace railcast

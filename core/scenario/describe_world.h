@@ -1,0 +1,133 @@
+#pragma once
+
+#include <algorithm>
+
+#include "core/rail/world_spec.h"
+#include "core/scenario/describe_alignment.h"
+#include "core/scenario/json_rules.h"
+
+namespace railcast {
+
+template <class Archive>
+void Describe(Archive& a, TrackSpec& s) {
+  a.Optional("name", s.name, "Objects and the vehicle name their track by it.", NonEmptyString());
+  a.Optional("offset_m", s.offset_m, "From the alignment, left positive.", Within(-1000, 1000));
+  a.Optional("start_s_m", s.start_s_m, "Chainage where the track begins.", NonNegative());
+  a.Optional("end_s_m", s.end_s_m, "Chainage where it ends; absent = the end of the line.");
+  a.Optional("sleeper", s.sleeper, "Kind of sleeper.", OneOf({"concrete", "wood"}));
+  a.Optional("electrified", s.electrified, "Whether it has a contact line.");
+  a.Ensure("end_s_m", !s.end_s_m || *s.end_s_m > s.start_s_m, "must be > start_s_m");
+}
+
+template <class Archive>
+void Describe(Archive& a, CatenarySpec& s) {
+  a.Optional("enabled", s.enabled, "Whether there is any.");
+  a.Optional("contact_height_m", s.contact_height_m, "Above top of rail.", Within(4, 8));
+  a.Optional("system_height_m", s.system_height_m,
+             "Messenger wire above contact wire at a support.", PositiveUpTo(4));
+  a.Optional("max_span_m", s.max_span_m, "Shorter in curves.", Within(10, 100));
+  a.Optional("stagger_m", s.stagger_m, "Of the contact wire at supports.", Within(0, 1));
+  a.Optional("dropper_spacing_m", s.dropper_spacing_m, "About.", Within(1, 50));
+  a.Optional("mast_distance_m", s.mast_distance_m, "Face to track axis.", Within(1.5, 20));
+}
+
+template <class Archive>
+void Describe(Archive& a, TerrainSpec& s) {
+  a.Optional("half_width_m", s.half_width_m, "Of the ground strip; less than the tightest radius.",
+             Within(5, 1000));
+  a.Optional("roughness_sigma_m", s.roughness_sigma_m,
+             "Standard deviation of the ground's small heights.", Within(0, 1));
+  a.Optional("roughness_wavelength_m", s.roughness_wavelength_m, "Their correlation length.",
+             Within(0.1, 100));
+  a.Optional("undulation_sigma_m", s.undulation_sigma_m, "Slow rise and fall away from the track.",
+             Within(0, 20));
+}
+
+template <class Archive>
+void Describe(Archive& a, VegetationSpec& s) {
+  a.Optional("trees_per_hectare", s.trees_per_hectare, "0 = none.", Within(0, 5000));
+  a.Optional("tree_min_distance_m", s.tree_min_distance_m, "From the outermost track axis.",
+             NonNegative());
+  a.Optional("tree_height_min_m", s.tree_height_min_m, "Of the smallest.", PositiveUpTo(60));
+  a.Optional("tree_height_max_m", s.tree_height_max_m, "Of the tallest.", PositiveUpTo(60));
+  a.Optional("grass", s.grass, "Whether there is any.");
+  a.Optional("grass_min_distance_m", s.grass_min_distance_m, "From the outermost track axis.",
+             NonNegative());
+  a.Optional("grass_max_distance_m", s.grass_max_distance_m, "From the outermost track axis.",
+             NonNegative());
+  a.Ensure("tree_height_min_m", s.tree_height_min_m <= s.tree_height_max_m,
+           "must be <= tree_height_max_m");
+  a.Ensure("grass_min_distance_m", s.grass_min_distance_m <= s.grass_max_distance_m,
+           "must be <= grass_max_distance_m");
+}
+
+template <class Archive>
+void Describe(Archive& a, SpeedPoint& s) {
+  a.Optional("time_s", s.time_s, "Simulation time, or ...", NonNegative());
+  a.Optional("s_m", s.s_m, "... chainage.");
+  a.Required("speed_mps", s.speed_mps, "Speed there.", Within(0, 200));
+  a.Ensure("", s.time_s.has_value() != s.s_m.has_value(), "must have either time_s or s_m");
+}
+
+template <class Archive>
+void Describe(Archive& a, MotionSpec& s) {
+  a.Required("profile", s.profile,
+             "Constant acceleration between the points; all by time or all by chainage.");
+  a.Optional("reverse", s.reverse, "Runs against the chainage.");
+  const auto by_time = [](const SpeedPoint& point) { return point.time_s.has_value(); };
+  a.Ensure("profile",
+           std::all_of(s.profile.begin(), s.profile.end(), by_time) ||
+               std::none_of(s.profile.begin(), s.profile.end(), by_time),
+           "must be all by time_s or all by s_m");
+}
+
+template <class Archive>
+void Describe(Archive& a, ObjectSpec& s) {
+  a.Required("name", s.name, "Unique.", NonEmptyString());
+  a.Required("type", s.type, "What it is.",
+             OneOf({"box", "pole", "person", "open_wagon", "flat_wagon", "tank_wagon", "mesh"}));
+  a.Optional("track", s.track, "The track whose coordinates it is placed in.");
+  a.Required("s_m", s.s_m, "Chainage of its middle, at time 0 where it moves.");
+  a.Optional("d_m", s.d_m, "Left of the track's axis.", Within(-1000, 1000));
+  a.Optional("h_m", s.h_m, "Above top of rail.", Within(-1000, 1000));
+  a.Optional("heading_deg", s.heading_deg, "Turned left against the chainage's direction.");
+  a.Optional("size_m", s.size_m,
+             "Length, width, height. Required for box and pole; scales a person or mesh.",
+             Positive());
+  a.Optional("file", s.file, "Of a mesh: OBJ.", ExistingFile());
+  a.Optional("up", s.up, "Of a mesh: its upward axis.", OneOf({"y", "z"}));
+  a.Optional("unit_m", s.unit_m, "Of a mesh: metres per file unit.", Positive());
+  a.Optional("label", s.label, "Overrides the type's; of the label table.");
+  a.Optional("material", s.material, "Overrides the type's; of the materials.");
+  a.Optional("motion", s.motion, "Along its track; absent = stands.");
+
+  const bool has_own_size = s.type.ends_with("_wagon");
+  const bool needs_size = s.type == "box" || s.type == "pole";
+  a.Ensure("size_m", s.size_m || !needs_size, "must be given for type \"" + s.type + '"');
+  a.Ensure("size_m", !s.size_m || !has_own_size, "must not be given for type \"" + s.type + '"');
+  a.Ensure("file", s.file || s.type != "mesh", "must be given for type \"mesh\"");
+  a.Ensure("file", !s.file || s.type == "mesh", "must be given for type \"mesh\" only");
+}
+
+template <class Archive>
+void Describe(Archive& a, WorldSpec& s) {
+  a.Required("alignment", s.alignment, "The axis of the line.");
+  a.Optional("tracks", s.tracks, "Parallel to the alignment.", NonEmptyList());
+  a.Optional("catenary", s.catenary, "Overhead contact line.");
+  a.Optional("terrain", s.terrain, "The ground.");
+  a.Optional("vegetation", s.vegetation, "Trees and grass.");
+  a.Optional("objects", s.objects, "Things placed by track coordinates.");
+  a.Unique("tracks", s.tracks, "name", &TrackSpec::name);
+  a.Unique("objects", s.objects, "name", &ObjectSpec::name);
+}
+
+template <class Archive>
+void Describe(Archive& a, VehicleSpec& s) {
+  a.Optional("track", s.track, "The track that it runs on.");
+  a.Optional("start_s_m", s.start_s_m, "Chainage of its origin at time 0.");
+  a.Optional("motion", s.motion, "Along its track; absent = stands.");
+  a.Optional("ego_boxes_m", s.ego_boxes_m,
+             "Its body in the vehicle frame: min x, y, z, max x, y, z.");
+}
+
+}  // namespace railcast

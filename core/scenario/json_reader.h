@@ -1,0 +1,189 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/scenario/json_values.h"
+
+namespace railcast {
+
+/// Fills one object's struct: the visitor that reads (see describe.h).
+class JsonReader {
+ public:
+  JsonReader(JsonSource& source, Node object, std::vector<Member> members);
+
+  template <class T, class Rule = Anything>
+  void Required(std::string_view key, T& value, const char* doc, const Rule& rule = {});
+  template <class T, class Rule = Anything>
+  void Optional(std::string_view key, T& value, const char* doc, const Rule& rule = {});
+
+  void Alternative(std::string_view key,
+                   double& value,
+                   const Multiple& multiple,
+                   const char* doc,
+                   const Limits& limits);
+  template <class T>
+  void RequiredLibrary(std::string_view key, std::vector<T>& values, const char* doc);
+  void Opaque(std::string_view key, std::optional<std::string>& text, const char* doc);
+  void Switches(std::string_view key,
+                std::map<std::string, bool>& switches,
+                const char* doc,
+                const std::vector<std::string>& names);
+
+  void Ensure(std::string_view key, bool holds, const std::string& rule);
+  template <class T, class V>
+  void Unique(std::string_view key, const std::vector<T>& values, std::string_view of, V T::*which);
+
+  /// Faults every key that was not described.
+  void Finish();
+
+ private:
+  [[nodiscard]] const Node* Find(std::string_view key) const;
+  [[nodiscard]] bool has_faults() const {
+    return source_.errors().lines().size() > num_faults_before_;
+  }
+
+  JsonSource& source_;
+  Node object_;
+  std::vector<Member> members_;
+  std::vector<std::string> keys_;  // Described so far.
+  std::size_t num_faults_before_;
+};
+
+/// Fills a struct from the members of its object.
+template <class T>
+void ReadMembers(JsonSource& source, const Node& object, std::vector<Member> members, T& value) {
+  JsonReader reader(source, object, std::move(members));
+  Describe(reader, value);
+  reader.Finish();
+}
+
+template <class T, std::size_t kCount, class Rule>
+void ReadValue(JsonSource& source,
+               const Node& node,
+               std::array<T, kCount>& values,
+               const Rule& rule) {
+  if (!CheckListOf(source, node, kCount)) return;
+  for (std::size_t i = 0; i < kCount; ++i) ReadValue(source, node.Child(i), values[i], rule);
+}
+
+template <class T, class Rule>
+void ReadValue(JsonSource& source, const Node& node, std::optional<T>& value, const Rule& rule) {
+  T given{};
+  ReadValue(source, node, given, rule);
+  value = std::move(given);
+}
+
+template <class Rule>
+void ReadValue(JsonSource& source,
+               const Node& node,
+               std::vector<std::string>& values,
+               const Rule& rule) {
+  if (!CheckListOfAtLeast(source, node, 0)) return;
+  values.assign(node.json->size(), {});
+  for (std::size_t i = 0; i < values.size(); ++i) ReadValue(source, node.Child(i), values[i], rule);
+}
+
+template <class T>
+void ReadValue(JsonSource& source, const Node& node, std::vector<T>& values, Anything) {
+  ReadValue(source, node, values, AtLeastElements{0});
+}
+
+template <class T>
+void ReadValue(JsonSource& source,
+               const Node& node,
+               std::vector<T>& values,
+               const AtLeastElements& rule) {
+  if (!CheckListOfAtLeast(source, node, rule.count)) return;
+  values.assign(node.json->size(), {});
+  for (std::size_t i = 0; i < values.size(); ++i) ReadElement(source, node.Child(i), values[i]);
+}
+
+/// An element of a list is written in place: it may not be a file.
+template <class T>
+void ReadElement(JsonSource& source, const Node& node, T& value) {
+  if constexpr (kIsArray<T>) {
+    ReadValue(source, node, value, Anything{});
+  } else if (auto members = source.PlainMembers(node)) {
+    ReadMembers(source, node, std::move(*members), value);
+  }
+}
+
+/// One of several structs, told apart by "type". Written in place: a type may have a "file".
+template <class... Ts>
+void ReadValue(JsonSource& source, const Node& node, std::variant<Ts...>& value, Anything) {
+  const auto members = source.PlainMembers(node);
+  if (!members) return;
+  if (!node.json->contains("type")) return source.Missing(node, "type");
+  std::string type;
+  const std::vector<std::string> names{kTypeName<Ts>...};
+  ReadValue(source, node.Child("type"), type, OneOf(names));
+  const auto read_if = [&]<class T>(T alternative) {
+    if (type != kTypeName<T>) return;
+    JsonReader reader(source, node, *members);
+    reader.Required("type", type, "", Anything{});
+    Describe(reader, alternative);
+    reader.Finish();
+    value = std::move(alternative);
+  };
+  (read_if(Ts{}), ...);
+}
+
+/// A struct with a description. Its object may be a file, or name one for what it lacks.
+template <class T>
+requires(std::is_aggregate_v<T> &&
+         !kIsArray<T>) void ReadValue(JsonSource& source, const Node& node, T& value, Anything) {
+  if (auto members = source.Members(node)) ReadMembers(source, node, std::move(*members), value);
+}
+
+template <class T, class Rule>
+void JsonReader::Required(std::string_view key, T& value, const char* doc, const Rule& rule) {
+  if (Find(key) == nullptr) source_.Missing(object_, key);
+  Optional(key, value, doc, rule);
+}
+
+template <class T, class Rule>
+void JsonReader::Optional(std::string_view key, T& value, const char* /*doc*/, const Rule& rule) {
+  keys_.emplace_back(key);
+  if (const Node* node = Find(key)) ReadValue(source_, *node, value, rule);
+}
+
+template <class T>
+void JsonReader::RequiredLibrary(std::string_view key, std::vector<T>& values, const char* doc) {
+  const Node* node = Find(key);
+  if (node == nullptr || !node->json->is_string())
+    return Required(key, values, doc, NonEmptyList());
+  keys_.emplace_back(key);
+  const auto root = source_.FileRoot(*node);
+  if (!root || !source_.CheckRoot(*root)) return;
+  JsonReader reader(source_, *root, source_.PlainMembers(*root).value());
+  reader.Required(key, values, doc, NonEmptyList());
+  reader.Finish();
+  source_.sources().Add(node->resolved_pointer, root->file->shown, PointerStep(key));
+}
+
+template <class T, class V>
+void JsonReader::Unique(std::string_view key,
+                        const std::vector<T>& values,
+                        std::string_view of,
+                        V T::*which) {
+  if (has_faults()) return;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto same = [&](const T& other) { return other.*which == values[i].*which; };
+    if (std::none_of(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(i), same))
+      continue;
+    const std::string pointer =
+        object_.resolved_pointer + PointerStep(key) + "/" + std::to_string(i) + PointerStep(of);
+    source_.errors().Add(source_.sources().Place(pointer) + ": must be unique (got " +
+                         Json(values[i].*which).dump() + ")");
+  }
+}
+
+}  // namespace railcast

@@ -1,0 +1,100 @@
+#include "core/scenario/json_rules.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+namespace railcast {
+namespace {
+
+// 0.5 as "0.5", 360 as "360".
+std::string Number(double value) {
+  std::string text = nlohmann::json(value).dump();
+  if (text.ends_with(".0")) text.resize(text.size() - 2);
+  return text;
+}
+
+std::string Quoted(std::string_view name) {
+  return '"' + std::string(name) + '"';
+}
+
+// Levenshtein's distance.
+std::size_t EditDistance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::optional<std::string> Broken(const Limits& limits, double value) {
+  const bool holds = (!limits.above || value > *limits.above) &&
+                     (!limits.at_least || value >= *limits.at_least) &&
+                     (!limits.at_most || value <= *limits.at_most);
+  if (holds) return std::nullopt;
+  std::string rule = "must be";
+  if (limits.above) rule += " > " + Number(*limits.above);
+  if (limits.at_least) rule += " >= " + Number(*limits.at_least);
+  if (limits.at_most) {
+    rule += (limits.above || limits.at_least ? " and <= " : " <= ") + Number(*limits.at_most);
+  }
+  return rule;
+}
+
+std::optional<std::string> Broken(const Choices& choices, std::string_view value) {
+  const auto& names = choices.names;
+  if (std::find(names.begin(), names.end(), value) != names.end()) return std::nullopt;
+  return "must be " + InWords(names);
+}
+
+std::optional<std::string> Broken(NonEmptyString, std::string_view value) {
+  if (!value.empty()) return std::nullopt;
+  return "must not be empty";
+}
+
+std::optional<std::string> Broken(HostAndPort, std::string_view value) {
+  const std::size_t colon = value.rfind(':');
+  if (colon != std::string_view::npos && colon > 0) {
+    const std::string_view digits = value.substr(colon + 1);
+    std::uint16_t port = 0;
+    const auto [end, error] = std::from_chars(digits.begin(), digits.end(), port);
+    if (error == std::errc() && end == digits.end() && port > 0) return std::nullopt;
+  }
+  return "must be host:port with a port from 1 to 65535";
+}
+
+std::string InWords(const std::vector<std::string>& names) {
+  std::string words;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) words += i + 1 == names.size() ? " or " : ", ";
+    words += Quoted(names[i]);
+  }
+  return words;
+}
+
+std::string Unknown(std::string_view kind,
+                    std::string_view name,
+                    const std::vector<std::string>& valid) {
+  const std::string unknown = "unknown " + std::string(kind) + ", ";
+  if (valid.empty()) return unknown + "there is none";
+  std::vector<std::size_t> distances;
+  for (const std::string& other : valid) distances.push_back(EditDistance(name, other));
+  const auto least = std::min_element(distances.begin(), distances.end());
+  // More than half of the letters wrong is no typing error.
+  if (2 * *least > name.size()) return unknown + "must be " + InWords(valid);
+  const auto index = static_cast<std::size_t>(least - distances.begin());
+  return unknown + "the nearest is " + Quoted(valid[index]);
+}
+
+}  // namespace railcast

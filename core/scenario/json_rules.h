@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace railcast {
+
+// What a value must be besides its type. A description gives each field at most one of these; the
+// reader enforces it, the schema states it.
+
+struct Anything {};
+
+/// Of a number, or of each number in an array.
+struct Limits {
+  std::optional<double> above{};
+  std::optional<double> at_least{};
+  std::optional<double> at_most{};
+};
+[[nodiscard]] inline Limits Positive() {
+  return {.above = 0.0};
+}
+[[nodiscard]] inline Limits NonNegative() {
+  return {.at_least = 0.0};
+}
+[[nodiscard]] inline Limits AtLeast(double value) {
+  return {.at_least = value};
+}
+[[nodiscard]] inline Limits Within(double at_least, double at_most) {
+  return {.at_least = at_least, .at_most = at_most};
+}
+[[nodiscard]] inline Limits PositiveUpTo(double at_most) {
+  return {.above = 0.0, .at_most = at_most};
+}
+
+/// Of a string.
+struct Choices {
+  std::vector<std::string> names;
+};
+[[nodiscard]] inline Choices OneOf(std::vector<std::string> names) {
+  return {std::move(names)};
+}
+struct NonEmptyString {};
+/// host:port. Of a string, or of each string in a list.
+struct HostAndPort {};
+/// Names a file, relative to the one that it is written in; becomes absolute.
+struct ExistingFile {};
+
+/// Of a list.
+struct AtLeastElements {
+  std::size_t count{};
+};
+[[nodiscard]] inline AtLeastElements NonEmptyList() {
+  return {1};
+}
+
+/// How an alternative key gives another key's value.
+struct Multiple {
+  const char* of_key{};
+  double factor{};
+};
+
+/// The "type" by which a struct is told apart from others in its place; each description of such a
+/// struct specialises it.
+template <class T>
+inline constexpr const char* kTypeName = nullptr;
+
+template <class T>
+inline constexpr bool kIsArray = false;
+template <class T, std::size_t kCount>
+inline constexpr bool kIsArray<std::array<T, kCount>> = true;
+
+/// The rule in words, "must be > 0 and <= 360", if the value breaks it.
+[[nodiscard]] std::optional<std::string> Broken(const Limits& limits, double value);
+[[nodiscard]] std::optional<std::string> Broken(const Choices& choices, std::string_view value);
+[[nodiscard]] std::optional<std::string> Broken(NonEmptyString, std::string_view value);
+[[nodiscard]] std::optional<std::string> Broken(HostAndPort, std::string_view value);
+
+/// `"a", "b" or "c"`.
+[[nodiscard]] std::string InWords(const std::vector<std::string>& names);
+
+/// What to say about a key, or a `kind` of name, that is none of `valid`: names the nearest one
+/// (fewest insertions, deletions and replacements of a letter), or all if none is near.
+[[nodiscard]] std::string Unknown(std::string_view kind,
+                                  std::string_view name,
+                                  const std::vector<std::string>& valid);
+
+}  // namespace railcast

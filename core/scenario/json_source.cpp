@@ -1,0 +1,180 @@
+#include "core/scenario/json_source.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The value as the user wrote it, cut where it is long.
+std::string Got(const Json& value) {
+  constexpr std::size_t kMaxLength = 60;
+  std::string text = value.dump(-1, ' ', true);
+  if (text.size() > kMaxLength) text = text.substr(0, kMaxLength) + "...";
+  return std::string(" (got ").append(text).append(")");
+}
+
+std::string Place(const Node& node) {
+  return node.pointer.empty() ? node.file->shown : node.file->shown + ": " + node.pointer;
+}
+
+// The file that a string names, as the user knows it.
+std::string ShownName(const Node& node) {
+  const fs::path name = node.json->get<std::string>();
+  return (fs::path(node.file->shown).parent_path() / name).lexically_normal().string();
+}
+
+// Whether a key belongs to the file, not to the object that is its root.
+bool IsOfFile(const Node& node, const std::string& key) {
+  return node.pointer.empty() && (key == "version" || key == "$schema");
+}
+
+// Why a file cannot be read; empty if it can.
+std::string Obstacle(const fs::path& file) {
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (!fs::exists(status)) return "no such file";
+  if (fs::is_directory(status)) return "must be a file, not a directory";
+  if (!fs::is_regular_file(status)) return "must be a regular file";
+  if (!std::ifstream(file)) return "cannot be read";
+  return "";
+}
+
+}  // namespace
+
+Node Node::Child(std::string_view key) const {
+  const std::string step = PointerStep(key);
+  return {&json->at(std::string(key)), file, pointer + step, resolved_pointer + step};
+}
+
+Node Node::Child(std::size_t index) const {
+  const std::string step = PointerStep(std::to_string(index));
+  return {&json->at(index), file, pointer + step, resolved_pointer + step};
+}
+
+std::optional<Node> JsonSource::Open(const fs::path& file) {
+  const std::string shown = file.lexically_normal().string();
+  if (const std::string obstacle = Obstacle(file); !obstacle.empty()) {
+    errors_.Add(file.string() + ": " + obstacle);
+    return std::nullopt;
+  }
+  const std::optional<Node> root =
+      Load({fs::absolute(file).lexically_normal(), shown, nullptr, {}}, "");
+  if (!root || !CheckRoot(*root)) return std::nullopt;
+  return root;
+}
+
+std::optional<std::vector<Member>> JsonSource::Members(const Node& node) {
+  const bool is_name = node.json->is_string();
+  if (!is_name && !(node.json->is_object() && node.json->contains("file"))) {
+    return PlainMembers(node);
+  }
+  // A base's keys stand, in the resolved scenario, where the object does that names it.
+  Node name = is_name ? node : node.Child("file");
+  name.resolved_pointer = node.resolved_pointer;
+  const std::optional<Node> root = FileRoot(name);
+  if (!root || !CheckRoot(*root)) return std::nullopt;
+  std::optional<std::vector<Member>> members = Members(*root);
+  if (!members || is_name) return members;
+  for (const auto& [key, value] : node.json->items()) {
+    if (key == "file" || IsOfFile(node, key)) continue;
+    const Node child = node.Child(key);
+    sources_.Add(child.resolved_pointer, child.file->shown, child.pointer);
+    std::erase_if(*members, [&key = key](const Member& member) { return member.key == key; });
+    members->push_back({key, child});
+  }
+  return members;
+}
+
+std::optional<std::vector<Member>> JsonSource::PlainMembers(const Node& node) {
+  if (!node.json->is_object()) {
+    Fault(node, "must be an object");
+    return std::nullopt;
+  }
+  std::vector<Member> members;
+  for (const auto& [key, value] : node.json->items()) {
+    if (IsOfFile(node, key)) continue;
+    members.push_back({key, node.Child(key)});
+  }
+  return members;
+}
+
+std::optional<fs::path> JsonSource::FileNamedBy(const Node& node) {
+  if (!node.json->is_string()) {
+    Fault(node, "must be the name of a file");
+    return std::nullopt;
+  }
+  const fs::path name = node.json->get<std::string>();
+  const fs::path absolute = (node.file->absolute.parent_path() / name).lexically_normal();
+  if (const std::string obstacle = Obstacle(absolute); !obstacle.empty()) {
+    Fault(node, obstacle);
+    return std::nullopt;
+  }
+  sources_.AddFile(absolute.string(), ShownName(node));
+  return absolute;
+}
+
+std::optional<Node> JsonSource::FileRoot(const Node& node) {
+  const std::optional<fs::path> absolute = FileNamedBy(node);
+  if (!absolute) return std::nullopt;
+  const std::string shown = ShownName(node);
+  std::string chain = shown;
+  for (const SourceFile* file = node.file; file != nullptr; file = file->named_by) {
+    chain = file->shown + " -> " + chain;
+    if (fs::equivalent(file->absolute, *absolute)) {
+      FaultWithoutValue(node, "includes itself: " + chain);
+      return std::nullopt;
+    }
+  }
+  return Load({*absolute, shown, node.file, {}}, node.resolved_pointer);
+}
+
+void JsonSource::Fault(const Node& node, const std::string& rule) {
+  errors_.Add(Place(node) + ": " + rule + Got(*node.json));
+}
+
+void JsonSource::FaultWithoutValue(const Node& node, const std::string& rule) {
+  errors_.Add(Place(node) + ": " + rule);
+}
+
+void JsonSource::Missing(const Node& object, std::string_view key) {
+  errors_.Add(object.file->shown + ": " + object.pointer + PointerStep(key) + ": missing");
+}
+
+std::optional<Node> JsonSource::Load(SourceFile file, std::string resolved_pointer) {
+  std::ifstream stream(file.absolute, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  JsonText parsed = ParseJson(text);
+  if (!parsed.json) {
+    errors_.Add(file.shown + ": " + parsed.syntax_error);
+    return std::nullopt;
+  }
+  for (const std::string& pointer : parsed.duplicate_keys) {
+    errors_.Add(file.shown + ": " + pointer + ": duplicate key");
+  }
+  sources_.Add(resolved_pointer, file.shown, "");
+  file.root = std::move(*parsed.json);
+  files_.push_back(std::move(file));
+  return Node{&files_.back().root, &files_.back(), "", std::move(resolved_pointer)};
+}
+
+bool JsonSource::CheckRoot(const Node& root) {
+  if (!root.json->is_object()) {
+    Fault(root, "must be an object");
+    return false;
+  }
+  if (!root.json->contains("version")) {
+    Missing(root, "version");
+  } else if (root.json->at("version") != 1) {
+    Fault(root.Child("version"), "must be 1");
+  }
+  if (root.json->contains("$schema") && !root.json->at("$schema").is_string()) {
+    Fault(root.Child("$schema"), "must be a string");
+  }
+  return true;
+}
+
+}  // namespace railcast

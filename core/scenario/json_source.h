@@ -1,0 +1,77 @@
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/scenario/json_text.h"
+#include "core/scenario/scenario_sources.h"
+
+namespace railcast {
+
+/// A file while a scenario is read.
+struct SourceFile {
+  std::filesystem::path absolute;
+  std::string shown;             ///< As the user knows it.
+  const SourceFile* named_by{};  ///< The file that includes it; null for the scenario itself.
+  Json root;
+};
+
+/// A JSON value and where it stands.
+struct Node {
+  const Json* json{};
+  const SourceFile* file{};
+  std::string pointer;           ///< In the file.
+  std::string resolved_pointer;  ///< In the resolved scenario.
+
+  [[nodiscard]] Node Child(std::string_view key) const;
+  [[nodiscard]] Node Child(std::size_t index) const;
+};
+
+struct Member {
+  std::string key;
+  Node value;
+};
+
+/// Reads the files of one scenario, and gathers their faults and where things were written.
+///
+/// An object may be given as the name of a file that holds it ("sensors/vlp16.json"), or as an
+/// object whose key "file" names a file with the keys that the object itself lacks. Names are
+/// relative to the file that they are written in. Every such file is an object with "version": 1.
+class JsonSource {
+ public:
+  /// The scenario's root, or nothing if it cannot be read.
+  [[nodiscard]] std::optional<Node> Open(const std::filesystem::path& file);
+
+  /// The members of an object, whichever way it is given. Nothing if that is faulty.
+  [[nodiscard]] std::optional<std::vector<Member>> Members(const Node& node);
+  /// The same of an object that may not be a file: part of a list, or with a "file" of its own.
+  [[nodiscard]] std::optional<std::vector<Member>> PlainMembers(const Node& node);
+
+  /// The absolute name of the file that the string `node` names; nothing if there is no such file.
+  [[nodiscard]] std::optional<std::filesystem::path> FileNamedBy(const Node& node);
+  /// What that file holds.
+  [[nodiscard]] std::optional<Node> FileRoot(const Node& node);
+  /// Faults of a file's "version" and "$schema". @return Whether the root is an object.
+  bool CheckRoot(const Node& root);
+
+  void Fault(const Node& node, const std::string& rule);  ///< Ends with the value.
+  void FaultWithoutValue(const Node& node, const std::string& rule);
+  void Missing(const Node& object, std::string_view key);
+
+  [[nodiscard]] ErrorList& errors() { return errors_; }
+  [[nodiscard]] ScenarioSources& sources() { return sources_; }
+
+ private:
+  std::optional<Node> Load(SourceFile file, std::string resolved_pointer);
+
+  ErrorList errors_;
+  ScenarioSources sources_;
+  std::deque<SourceFile> files_;  // Nodes point into it; a deque does not move its elements.
+};
+
+}  // namespace railcast

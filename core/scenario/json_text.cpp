@@ -1,0 +1,152 @@
+#include "core/scenario/json_text.h"
+
+#include <algorithm>
+
+namespace railcast {
+namespace {
+
+constexpr std::size_t kMaxDepth = 64;
+
+// "line 3, column 7" of the last byte read.
+std::string LineAndColumn(const std::string& text, std::size_t num_read) {
+  const std::size_t num_whole = std::min(num_read, text.size());
+  const std::string_view before =
+      std::string_view(text).substr(0, num_whole == 0 ? 0 : num_whole - 1);
+  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+  const std::size_t line_break = before.rfind('\n');
+  const std::size_t line_begin = line_break == std::string_view::npos ? 0 : line_break + 1;
+  return "line " + std::to_string(line) + ", column " +
+         std::to_string(before.size() - line_begin + 1);
+}
+
+// nlohmann's messages are "[json.exception...] parse error at line 1, column 2: <what> - <why>;
+// last read: '<raw text>'; expected <token>". We give the place ourselves and leave the raw text
+// out, which may be no UTF-8.
+std::string Reason(const std::string& what) {
+  if (what.find("ill-formed UTF-8") != std::string::npos) return "not UTF-8";
+  if (what.find("number overflow") != std::string::npos) return "number too large for a double";
+  std::string reason = what;
+  const std::size_t begin = reason.find("syntax error");
+  if (begin != std::string::npos) reason.erase(0, begin);
+  const std::size_t last_read = reason.find("; last read: '");
+  if (last_read != std::string::npos) {
+    const std::size_t expected = reason.rfind("; expected ");
+    const bool has_expected = expected != std::string::npos && expected > last_read;
+    reason.erase(last_read, has_expected ? expected - last_read : std::string::npos);
+  }
+  return reason;
+}
+
+// Builds the tree, as nlohmann's own handler does, and notes duplicate keys, which that one takes
+// silently.
+class TreeBuilder {
+ public:
+  explicit TreeBuilder(const std::string& text) : text_(text) {}
+
+  bool null() { return Leaf(nullptr); }
+  bool boolean(bool value) { return Leaf(value); }
+  bool number_integer(Json::number_integer_t value) { return Leaf(value); }
+  bool number_unsigned(Json::number_unsigned_t value) { return Leaf(value); }
+  bool number_float(Json::number_float_t value, const std::string&) { return Leaf(value); }
+  bool string(std::string& value) { return Leaf(std::move(value)); }
+  bool binary(Json::binary_t&) { return false; }
+
+  bool start_object(std::size_t) { return Push(Json::object()); }
+  bool start_array(std::size_t) { return Push(Json::array()); }
+  bool end_object() { return Pop(); }
+  bool end_array() { return Pop(); }
+
+  bool key(std::string& name) {
+    key_ = name;
+    if (open_.back()->contains(name))
+      result_.duplicate_keys.push_back(pointer_ + PointerStep(name));
+    return true;
+  }
+
+  bool parse_error(std::size_t num_read, const std::string&, const std::exception& error) {
+    result_.syntax_error = LineAndColumn(text_, num_read) + ": " + Reason(error.what());
+    return false;
+  }
+
+  JsonText Result() {
+    if (result_.syntax_error.empty()) result_.json = std::move(root_);
+    return std::move(result_);
+  }
+
+ private:
+  Json* Insert(Json value) {
+    if (open_.empty()) {
+      root_ = std::move(value);
+      return &root_;
+    }
+    Json& parent = *open_.back();
+    if (parent.is_array()) {
+      parent.push_back(std::move(value));
+      return &parent.back();
+    }
+    return &(parent[key_] = std::move(value));
+  }
+
+  bool Leaf(Json value) {
+    Insert(std::move(value));
+    return true;
+  }
+
+  bool Push(Json value) {
+    if (open_.size() == kMaxDepth) {
+      result_.syntax_error = "nested deeper than " + std::to_string(kMaxDepth) + " levels";
+      return false;
+    }
+    lengths_.push_back(pointer_.size());
+    if (!open_.empty()) {
+      const Json& parent = *open_.back();
+      pointer_ += PointerStep(parent.is_array() ? std::to_string(parent.size()) : key_);
+    }
+    open_.push_back(Insert(std::move(value)));
+    return true;
+  }
+
+  bool Pop() {
+    open_.pop_back();
+    pointer_.resize(lengths_.back());
+    lengths_.pop_back();
+    return true;
+  }
+
+  const std::string& text_;
+  JsonText result_;
+  Json root_;
+  std::vector<Json*> open_;  // A parent does not grow while a child is open, so these stay valid.
+  std::vector<std::size_t> lengths_;
+  std::string pointer_;
+  std::string key_;
+};
+
+}  // namespace
+
+std::string PointerStep(std::string_view key) {
+  std::string step = "/";
+  for (const char c : key) {
+    if (c == '~') {
+      step += "~0";
+    } else if (c == '/') {
+      step += "~1";
+    } else {
+      step += c;
+    }
+  }
+  return step;
+}
+
+JsonText ParseJson(const std::string& text) {
+  if (text.starts_with("\xEF\xBB\xBF")) {
+    JsonText result;
+    result.syntax_error = "line 1, column 1: starts with a byte order mark; save as plain UTF-8";
+    return result;
+  }
+  TreeBuilder builder(text);
+  Json::sax_parse(text, &builder);
+  return builder.Result();
+}
+
+}  // namespace railcast

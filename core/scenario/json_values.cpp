@@ -1,0 +1,96 @@
+#include "core/scenario/json_values.h"
+
+#include <cmath>
+
+namespace railcast {
+namespace {
+
+// Doubles hold every whole number up to here.
+constexpr double kMaxExactWhole = 0x1p53;
+
+template <class Rule>
+void ReadString(JsonSource& source, const Node& node, std::string& value, const Rule& rule) {
+  if (!node.json->is_string()) return source.Fault(node, "must be a string");
+  const auto text = node.json->get<std::string>();
+  if (const auto broken = Broken(rule, text)) return source.Fault(node, *broken);
+  value = text;
+}
+
+std::optional<std::uint64_t> WholeNumber(const Json& json) {
+  if (json.is_number_unsigned()) return json.get<std::uint64_t>();
+  if (!json.is_number_float()) return std::nullopt;
+  const auto number = json.get<double>();  // 1808.0 is as whole as 1808.
+  if (number < 0.0 || number > kMaxExactWhole || number != std::floor(number)) return std::nullopt;
+  return static_cast<std::uint64_t>(number);
+}
+
+}  // namespace
+
+void ReadValue(JsonSource& source, const Node& node, bool& value, Anything) {
+  if (!node.json->is_boolean()) return source.Fault(node, "must be true or false");
+  value = node.json->get<bool>();
+}
+
+void ReadValue(JsonSource& source, const Node& node, double& value, Anything) {
+  ReadValue(source, node, value, Limits{});
+}
+
+void ReadValue(JsonSource& source, const Node& node, double& value, const Limits& limits) {
+  if (!node.json->is_number()) return source.Fault(node, "must be a number");
+  const auto number = node.json->get<double>();
+  if (const auto broken = Broken(limits, number)) return source.Fault(node, *broken);
+  value = number;
+}
+
+void ReadValue(JsonSource& source, const Node& node, std::string& value, Anything) {
+  if (!node.json->is_string()) return source.Fault(node, "must be a string");
+  value = node.json->get<std::string>();
+}
+
+void ReadValue(JsonSource& source, const Node& node, std::string& value, NonEmptyString rule) {
+  ReadString(source, node, value, rule);
+}
+
+void ReadValue(JsonSource& source, const Node& node, std::string& value, const Choices& choices) {
+  ReadString(source, node, value, choices);
+}
+
+void ReadValue(JsonSource& source, const Node& node, std::string& value, HostAndPort rule) {
+  ReadString(source, node, value, rule);
+}
+
+void ReadValue(JsonSource& source, const Node& node, std::string& value, ExistingFile) {
+  if (const auto file = source.FileNamedBy(node)) value = file->string();
+}
+
+std::optional<std::uint64_t> ReadWhole(JsonSource& source,
+                                       const Node& node,
+                                       std::uint64_t at_least,
+                                       std::uint64_t at_most) {
+  const auto whole = WholeNumber(*node.json);
+  if (whole && *whole >= at_least && *whole <= at_most) return whole;
+  source.Fault(node, "must be a whole number from " + std::to_string(at_least) + " to " +
+                         std::to_string(at_most));
+  return std::nullopt;
+}
+
+bool CheckListOf(JsonSource& source, const Node& node, std::size_t count) {
+  if (node.json->is_array() && node.json->size() == count) return true;
+  source.Fault(node, "must be a list of " + std::to_string(count) + " values");
+  return false;
+}
+
+bool CheckListOfAtLeast(JsonSource& source, const Node& node, std::size_t count) {
+  if (!node.json->is_array()) {
+    source.Fault(node, "must be a list");
+    return false;
+  }
+  if (node.json->size() < count) {
+    source.Fault(node, count == 1 ? "must not be empty"
+                                  : "must have at least " + std::to_string(count) + " elements");
+    return false;
+  }
+  return true;
+}
+
+}  // namespace railcast

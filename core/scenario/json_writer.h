@@ -1,0 +1,90 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/scenario/json_rules.h"
+#include "core/scenario/json_text.h"
+
+namespace railcast {
+
+/// Makes one object of a struct: the visitor that writes (see describe.h). Every value is written,
+/// except those that are absent.
+class JsonWriter {
+ public:
+  template <class T, class Rule = Anything>
+  void Required(std::string_view key, T& value, const char* /*doc*/, const Rule& = {}) {
+    object_[std::string(key)] = Write(value);
+  }
+  template <class T, class Rule = Anything>
+  void Optional(std::string_view key, T& value, const char* /*doc*/, const Rule& = {}) {
+    object_[std::string(key)] = Write(value);
+  }
+  template <class T, class Rule = Anything>
+  void Optional(std::string_view key, std::optional<T>& value, const char* doc, const Rule& = {}) {
+    if (value) Optional(key, *value, doc);
+  }
+  template <class T>
+  void RequiredLibrary(std::string_view key, std::vector<T>& values, const char* doc) {
+    Required(key, values, doc);
+  }
+  void Opaque(std::string_view key, const std::optional<std::string>& text, const char* /*doc*/) {
+    if (text) object_[std::string(key)] = Json::parse(*text);
+  }
+  void Switches(std::string_view key,
+                const std::map<std::string, bool>& switches,
+                const char* /*doc*/,
+                const std::vector<std::string>& /*names*/) {
+    object_[std::string(key)] = switches;
+  }
+
+  // The writer has nothing to say about other spellings and about rules.
+  void Alternative(std::string_view, double, const Multiple&, const char*, const Limits&) {}
+  void Ensure(std::string_view, bool, const std::string&) {}
+  template <class T, class V>
+  void Unique(std::string_view, const std::vector<T>&, std::string_view, V T::*) {}
+
+  template <class T>
+  [[nodiscard]] static Json Write(T& value);
+
+ private:
+  template <class... Ts>
+  [[nodiscard]] static Json WriteVariant(std::variant<Ts...>& value);
+
+  Json object_ = Json::object();
+};
+
+template <class T>
+Json JsonWriter::Write(T& value) {
+  if constexpr (requires { value.valueless_by_exception(); }) {
+    return WriteVariant(value);
+  } else if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::string>) {
+    return value;
+  } else if constexpr (requires { value.begin(); }) {
+    Json list = Json::array();
+    for (auto& element : value) list.push_back(Write(element));
+    return list;
+  } else {
+    JsonWriter writer;
+    Describe(writer, value);
+    return std::move(writer.object_);
+  }
+}
+
+template <class... Ts>
+Json JsonWriter::WriteVariant(std::variant<Ts...>& value) {
+  return std::visit(
+      []<class T>(T& alternative) {
+        Json json = {{"type", kTypeName<T>}};
+        json.update(Write(alternative));
+        return json;
+      },
+      value);
+}
+
+}  // namespace railcast

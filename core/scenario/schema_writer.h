@@ -1,0 +1,162 @@
+#pragma once
+
+#include <concepts>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/scenario/json_rules.h"
+#include "core/scenario/json_text.h"
+#include "core/scenario/json_writer.h"
+
+namespace railcast {
+
+/// States a rule in JSON Schema's words, as far as it has any.
+void AddRule(Json& schema, Anything);
+void AddRule(Json& schema, const Limits& limits);
+void AddRule(Json& schema, const Choices& choices);
+void AddRule(Json& schema, NonEmptyString);
+void AddRule(Json& schema, HostAndPort);
+void AddRule(Json& schema, ExistingFile);
+void AddRule(Json& schema, const AtLeastElements& rule);
+
+/// Makes the JSON Schema (draft 2020-12) of a struct's object: the visitor that documents (see
+/// describe.h). Rules across fields cannot be said there.
+class SchemaWriter {
+ public:
+  template <class T, class Rule = Anything>
+  void Required(std::string_view key, T& value, const char* doc, const Rule& rule = {}) {
+    Add(key, doc, SchemaOf(value, rule));
+    required_.push_back(std::string(key));
+  }
+  template <class T, class Rule = Anything>
+  void Optional(std::string_view key, T& value, const char* doc, const Rule& rule = {}) {
+    Json schema = SchemaOf(value, rule);
+    if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::string> || kIsArray<T>) {
+      schema["default"] = JsonWriter::Write(value);
+    }
+    Add(key, doc, std::move(schema));
+  }
+  void Alternative(std::string_view key,
+                   double& value,
+                   const Multiple& multiple,
+                   const char* doc,
+                   const Limits& limits);
+  template <class T>
+  void RequiredLibrary(std::string_view key, std::vector<T>& values, const char* doc) {
+    Add(key, doc, {{"anyOf", {FileNameSchema(), SchemaOf(values, NonEmptyList())}}});
+    required_.push_back(std::string(key));
+  }
+  void Opaque(std::string_view key, const std::optional<std::string>&, const char* doc);
+  void Switches(std::string_view key,
+                const std::map<std::string, bool>&,
+                const char* doc,
+                const std::vector<std::string>& names);
+  void Ensure(std::string_view, bool, const std::string&) {}
+  template <class T, class V>
+  void Unique(std::string_view, const std::vector<T>&, std::string_view, V T::*) {}
+
+  /// The schema of an object written in place.
+  [[nodiscard]] Json PlainObject() const;
+  /// The schema of an object that may name a file for what it lacks.
+  [[nodiscard]] Json ObjectWithBase() const;
+  /// The schema of a file with that object. @param title What editors call it.
+  [[nodiscard]] Json File(const std::string& title) const;
+
+ private:
+  [[nodiscard]] static Json FileNameSchema();
+  void Add(std::string_view key, const char* doc, Json schema);
+
+  template <class T, class Rule>
+  [[nodiscard]] static Json SchemaOf(T& value, const Rule& rule);
+  template <class T, class Rule>
+  [[nodiscard]] static Json SchemaOf(std::optional<T>&, const Rule& rule) {
+    T value{};
+    return SchemaOf(value, rule);
+  }
+  template <class T, std::size_t kCount, class Rule>
+  [[nodiscard]] static Json SchemaOf(std::array<T, kCount>& values, const Rule& rule) {
+    return {{"type", "array"},
+            {"items", SchemaOf(values[0], rule)},
+            {"minItems", kCount},
+            {"maxItems", kCount}};
+  }
+  template <class T, class Rule>
+  [[nodiscard]] static Json SchemaOf(std::vector<T>&, const Rule& rule);
+  template <class... Ts>
+  [[nodiscard]] static Json SchemaOf(std::variant<Ts...>&, Anything);
+  template <class T>
+  [[nodiscard]] static Json SchemaOfElement();
+
+  Json properties_ = Json::object();
+  std::vector<std::string> required_;
+  std::vector<std::string> exclusive_;  // Two keys that may not both be given.
+};
+
+template <class T, class Rule>
+Json SchemaWriter::SchemaOf(T& value, const Rule& rule) {
+  if constexpr (std::is_class_v<T> && !std::is_same_v<T, std::string>) {
+    SchemaWriter writer;
+    Describe(writer, value);
+    return {{"anyOf", {FileNameSchema(), writer.ObjectWithBase()}}};
+  } else {
+    Json schema;
+    if constexpr (std::is_same_v<T, bool>) {
+      schema = {{"type", "boolean"}};
+    } else if constexpr (std::unsigned_integral<T>) {
+      schema = {{"type", "integer"}, {"minimum", 0}, {"maximum", std::numeric_limits<T>::max()}};
+    } else if constexpr (std::is_arithmetic_v<T>) {
+      schema = {{"type", "number"}};
+    } else {
+      schema = {{"type", "string"}};
+    }
+    AddRule(schema, rule);
+    return schema;
+  }
+}
+
+template <class T>
+Json SchemaWriter::SchemaOfElement() {
+  T value{};
+  if constexpr (kIsArray<T>) {
+    return SchemaOf(value, Anything{});
+  } else {
+    SchemaWriter writer;
+    Describe(writer, value);
+    return writer.PlainObject();
+  }
+}
+
+template <class T, class Rule>
+Json SchemaWriter::SchemaOf(std::vector<T>&, const Rule& rule) {
+  Json schema = {{"type", "array"}};
+  if constexpr (std::is_same_v<T, std::string>) {
+    T value;
+    schema["items"] = SchemaOf(value, rule);
+  } else {
+    schema["items"] = SchemaOfElement<T>();
+    AddRule(schema, rule);
+  }
+  return schema;
+}
+
+template <class... Ts>
+Json SchemaWriter::SchemaOf(std::variant<Ts...>&, Anything) {
+  Json alternatives = Json::array();
+  const auto add = [&]<class T>(T alternative) {
+    SchemaWriter writer;
+    writer.properties_["type"] = {{"const", kTypeName<T>}};
+    writer.required_.emplace_back("type");
+    Describe(writer, alternative);
+    alternatives.push_back(writer.PlainObject());
+  };
+  (add(Ts{}), ...);
+  return {{"oneOf", alternatives}};
+}
+
+}  // namespace railcast

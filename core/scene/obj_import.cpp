@@ -1,0 +1,286 @@
+#include "core/scene/obj_import.h"
+
+#include <OpenMesh/Core/IO/importer/BaseImporter.hh>
+#include <OpenMesh/Core/IO/reader/OBJReader.hh>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <string_view>
+
+#include "core/base/error.h"
+#include "core/scene/polygon.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kLargest = std::numeric_limits<float>::max();
+constexpr std::string_view kBlanks = " \t\r\v\f";
+
+std::string_view NextToken(std::string_view& rest) {
+  rest.remove_prefix(std::min(rest.find_first_not_of(kBlanks), rest.size()));
+  const std::string_view token = rest.substr(0, rest.find_first_of(kBlanks));
+  rest.remove_prefix(token.size());
+  return token;
+}
+
+template <typename Number>
+std::optional<Number> Parse(std::string_view token) {
+  if (token.starts_with('+')) token.remove_prefix(1);
+  Number number{};
+  const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), number);
+  if (error != std::errc{} || end != token.data() + token.size()) return std::nullopt;
+  return number;
+}
+
+/// Copies the `v` and `f` lines of a file, and of `f` the vertex indices only, after a check that
+/// OpenMesh will read each of them as it is meant. What OpenMesh gets holds no material, so that
+/// its shared reader keeps no state, opens no other file and has nothing to print.
+class ObjSieve {
+ public:
+  explicit ObjSieve(const std::filesystem::path& file) : file_(file) {}
+
+  std::string Sift(std::istream& in) {
+    std::string line;
+    while (ReadLogicalLine(in, line)) {
+      std::string_view rest = line;
+      const std::string_view keyword = NextToken(rest);
+      if (keyword == "v") SiftVertex(rest);
+      if (keyword == "f") SiftFace(rest);
+    }
+    // OpenMesh reads all vertices first: a face may name vertices that come after it.
+    if (highest_index_ > num_vertices_) {
+      line_ = highest_index_line_;
+      FailIndex(std::to_string(highest_index_));
+    }
+    return std::move(sifted_);
+  }
+
+ private:
+  /// A backslash at the end joins a line to the next.
+  bool ReadLogicalLine(std::istream& in, std::string& line) {
+    line_ = next_line_;
+    line.clear();
+    std::string piece;
+    bool any = false;
+    while (std::getline(in, piece)) {
+      any = true;
+      ++next_line_;
+      if (piece.ends_with('\r')) piece.pop_back();
+      line += piece;
+      if (!line.ends_with('\\')) return true;
+      line.back() = ' ';
+    }
+    return any;
+  }
+
+  void SiftVertex(std::string_view rest) {
+    sifted_ += 'v';
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::string_view token = NextToken(rest);
+      const std::optional<double> number = Parse<double>(token);
+      if (!number || !(std::abs(*number) <= kLargest)) {
+        Fail("a vertex must have three finite coordinates", token);
+      }
+      Keep(token);
+    }
+    sifted_ += '\n';
+    ++num_vertices_;
+  }
+
+  void SiftFace(std::string_view rest) {
+    sifted_ += 'f';
+    for (std::string_view token = NextToken(rest); !token.empty() && token.front() != '#';
+         token = NextToken(rest)) {
+      const std::string_view index = token.substr(0, token.find('/'));
+      const std::optional<int> number = Parse<int>(index);
+      if (!number) Fail("a face must name vertices by number", token);
+      if (*number == 0 || *number < -num_vertices_) FailIndex(index);
+      if (*number > highest_index_) {
+        highest_index_ = *number;
+        highest_index_line_ = line_;
+      }
+      Keep(index);
+    }
+    sifted_ += '\n';
+  }
+
+  void Keep(std::string_view token) {
+    sifted_ += ' ';
+    sifted_ += token;
+  }
+
+  [[noreturn]] void FailIndex(std::string_view index) const {
+    Fail("a face must name one of the " + std::to_string(num_vertices_) + " vertices", index);
+  }
+
+  [[noreturn]] void Fail(const std::string& rule, std::string_view got) const {
+    throw InputError(file_.string() + ": line " + std::to_string(line_) + ": " + rule + " (got \"" +
+                     std::string(got) + "\")");
+  }
+
+  const std::filesystem::path& file_;
+  std::string sifted_;
+  int line_ = 1;
+  int next_line_ = 1;
+  int num_vertices_ = 0;
+  int highest_index_ = 0;
+  int highest_index_line_ = 0;
+};
+
+/// Collects what OpenMesh reads without asking whether it is a manifold. Everything but vertices
+/// and faces is passed over.
+class SoupImporter final : public OpenMesh::IO::BaseImporter {
+ public:
+  using VertexHandle = OpenMesh::VertexHandle;
+  using FaceHandle = OpenMesh::FaceHandle;
+  using HalfedgeHandle = OpenMesh::HalfedgeHandle;
+  using EdgeHandle = OpenMesh::EdgeHandle;
+
+  VertexHandle add_vertex(const OpenMesh::Vec3f& point) override {
+    return add_vertex(OpenMesh::Vec3d(point));
+  }
+  VertexHandle add_vertex(const OpenMesh::Vec3d& point) override {
+    points_.emplace_back(point[0], point[1], point[2]);
+    return VertexHandle(static_cast<int>(points_.size()) - 1);
+  }
+  FaceHandle add_face(const VHandles& corners) override {
+    faces_.emplace_back();
+    for (const VertexHandle corner : corners) {
+      faces_.back().push_back(static_cast<std::uint32_t>(corner.idx()));
+    }
+    return FaceHandle(static_cast<int>(faces_.size()) - 1);
+  }
+  size_t n_vertices() const override { return points_.size(); }
+  size_t n_faces() const override { return faces_.size(); }
+  size_t n_edges() const override { return 0; }
+
+  const std::vector<Vector3>& points() const { return points_; }
+  const std::vector<std::vector<std::uint32_t>>& faces() const { return faces_; }
+
+  VertexHandle add_vertex() override { return VertexHandle(); }
+  HalfedgeHandle add_edge(VertexHandle, VertexHandle) override { return HalfedgeHandle(); }
+  FaceHandle add_face(HalfedgeHandle) override { return FaceHandle(); }
+  void add_face_texcoords(FaceHandle, VertexHandle, const std::vector<OpenMesh::Vec2f>&) override {}
+  void add_face_texcoords(FaceHandle, VertexHandle, const std::vector<OpenMesh::Vec3f>&) override {}
+  void set_face_texindex(FaceHandle, int) override {}
+  void set_point(VertexHandle, const OpenMesh::Vec3f&) override {}
+  void set_halfedge(VertexHandle, HalfedgeHandle) override {}
+  void set_normal(VertexHandle, const OpenMesh::Vec3f&) override {}
+  void set_normal(VertexHandle, const OpenMesh::Vec3d&) override {}
+  void set_color(VertexHandle, const OpenMesh::Vec3uc&) override {}
+  void set_color(VertexHandle, const OpenMesh::Vec4uc&) override {}
+  void set_color(VertexHandle, const OpenMesh::Vec3f&) override {}
+  void set_color(VertexHandle, const OpenMesh::Vec4f&) override {}
+  void set_texcoord(VertexHandle, const OpenMesh::Vec2f&) override {}
+  void set_status(VertexHandle, const OpenMesh::Attributes::StatusInfo&) override {}
+  void set_next(HalfedgeHandle, HalfedgeHandle) override {}
+  void set_face(HalfedgeHandle, FaceHandle) override {}
+  void request_face_texcoords2D() override {}
+  void set_texcoord(HalfedgeHandle, const OpenMesh::Vec2f&) override {}
+  void set_texcoord(VertexHandle, const OpenMesh::Vec3f&) override {}
+  void set_texcoord(HalfedgeHandle, const OpenMesh::Vec3f&) override {}
+  void set_status(HalfedgeHandle, const OpenMesh::Attributes::StatusInfo&) override {}
+  void set_color(EdgeHandle, const OpenMesh::Vec3uc&) override {}
+  void set_color(EdgeHandle, const OpenMesh::Vec4uc&) override {}
+  void set_color(EdgeHandle, const OpenMesh::Vec3f&) override {}
+  void set_color(EdgeHandle, const OpenMesh::Vec4f&) override {}
+  void set_status(EdgeHandle, const OpenMesh::Attributes::StatusInfo&) override {}
+  void set_normal(FaceHandle, const OpenMesh::Vec3f&) override {}
+  void set_normal(FaceHandle, const OpenMesh::Vec3d&) override {}
+  void set_color(FaceHandle, const OpenMesh::Vec3uc&) override {}
+  void set_color(FaceHandle, const OpenMesh::Vec4uc&) override {}
+  void set_color(FaceHandle, const OpenMesh::Vec3f&) override {}
+  void set_color(FaceHandle, const OpenMesh::Vec4f&) override {}
+  void set_status(FaceHandle, const OpenMesh::Attributes::StatusInfo&) override {}
+  void add_texture_information(int, std::string) override {}
+
+ private:
+  std::vector<Vector3> points_;
+  std::vector<std::vector<std::uint32_t>> faces_;
+};
+
+/// Twice the area of a polygon times its mean normal (Newell).
+Vector3 NewellNormal(const std::vector<Vector3>& points, const std::vector<std::uint32_t>& face) {
+  Vector3 normal = Vector3::Zero();
+  for (std::size_t i = 1; i + 1 < face.size(); ++i) {
+    const Vector3& origin = points[face[0]];
+    normal += (points[face[i]] - origin).cross(points[face[i + 1]] - origin);
+  }
+  return normal;
+}
+
+/// The face's triangles, as indices into `points`.
+std::vector<std::array<std::uint32_t, 3>> Triangulate(const std::vector<Vector3>& points,
+                                                      const std::vector<std::uint32_t>& face) {
+  if (face.size() == 3) return {{face[0], face[1], face[2]}};
+  // Seen along its mean normal.
+  const Vector3 normal = NewellNormal(points, face);
+  const Eigen::Quaterniond plan_from_file =
+      Eigen::Quaterniond::FromTwoVectors(normal, Vector3::UnitZ());
+  std::vector<Eigen::Vector2d> outline;
+  for (const std::uint32_t corner : face) {
+    const Vector3 offset = plan_from_file * (points[corner] - points[face[0]]);
+    outline.emplace_back(offset.head<2>());
+  }
+  std::vector<std::array<std::uint32_t, 3>> triangles = TriangulatePolygon(outline);
+  for (auto& triangle : triangles) {
+    for (std::uint32_t& corner : triangle) corner = face[corner];
+  }
+  return triangles;
+}
+
+/// The soup of `points` and their triangles, without triangles that have no area in float32.
+Mesh MakeSoup(const SoupImporter& soup, double unit_m, bool y_up) {
+  constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
+  std::vector<Eigen::Vector3f> positions;
+  positions.reserve(soup.points().size());
+  for (const Vector3& p : soup.points()) {
+    const Vector3 z_up = y_up ? Vector3(p.x(), -p.z(), p.y()) : p;
+    positions.emplace_back((unit_m * z_up).cast<float>());
+  }
+  Mesh mesh;
+  std::vector<std::uint32_t> new_index(positions.size(), kUnused);
+  for (const auto& face : soup.faces()) {
+    for (auto triangle : Triangulate(soup.points(), face)) {
+      const Vector3 a = positions[triangle[0]].cast<double>();
+      const Vector3 b = positions[triangle[1]].cast<double>();
+      const Vector3 c = positions[triangle[2]].cast<double>();
+      if ((b - a).cross(c - a).isZero(0.0)) continue;
+      for (std::uint32_t& corner : triangle) {
+        std::uint32_t& index = new_index[corner];
+        if (index == kUnused) {
+          index = static_cast<std::uint32_t>(mesh.vertices.size());
+          mesh.vertices.push_back(positions[corner]);
+        }
+        corner = index;
+      }
+      mesh.triangles.push_back(triangle);
+    }
+  }
+  return mesh;
+}
+
+}  // namespace
+
+Mesh ReadObj(const std::filesystem::path& file, double unit_m, bool y_up) {
+  std::error_code ignored;
+  std::ifstream in(file, std::ios::binary);
+  if (!in || !std::filesystem::is_regular_file(file, ignored)) {
+    throw InputError(file.string() + ": must be a file that can be read");
+  }
+  std::istringstream sifted(ObjSieve(file).Sift(in));
+  SoupImporter soup;
+  OpenMesh::IO::Options options;
+  const bool read = OpenMesh::IO::OBJReader().read(sifted, soup, options);
+  Check(read, "OpenMesh reads what was sifted");
+  Mesh mesh = MakeSoup(soup, unit_m, y_up);
+  if (mesh.triangles.empty()) throw InputError(file.string() + ": holds no triangle");
+  return mesh;
+}
+
+}  // namespace railcast

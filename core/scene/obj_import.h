@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+
+#include "core/scene/mesh.h"
+
+namespace railcast {
+
+/// Reads a Wavefront OBJ file as a triangle soup: nothing need be manifold or closed, faces may
+/// have any number of corners (plane, convex or not), negative indices and groups are understood;
+/// normals, texture coordinates, materials, lines and points are passed over.
+///
+/// Lengths become metres (`unit_m` metres per file unit). A file that is `y_up` is turned a quarter
+/// about x: its y becomes z and its z becomes -y. Otherwise the file's axes and origin are kept.
+/// Triangles without an area (in float32) and vertices that no triangle uses are left out.
+///
+/// Files are parsed by OpenMesh, which drops what it cannot read and so shifts all later indices;
+/// therefore every line is checked first.
+///
+/// @throws InputError, one line "file: rule" or "file: line N: rule (got value)" per file, if it
+///   cannot be read, a coordinate is no finite number, an index points at no vertex, or no triangle
+///   is left.
+[[nodiscard]] Mesh ReadObj(const std::filesystem::path& file, double unit_m, bool y_up);
+
+}  // namespace railcast

@@ -1,0 +1,138 @@
+#include "core/simulate/firing_tiles.h"
+
+#include <algorithm>
+
+#include "core/base/error.h"
+
+namespace railcast {
+
+FiringTiles::FiringTiles(const ScanPattern& pattern) : num_firings_(pattern.num_firings()) {
+  Check(num_firings_ == std::size_t{pattern.rows} * pattern.columns, "every slot has a firing");
+  slot_time_ns_.resize(num_firings_);
+  slot_column_.resize(num_firings_);
+  slot_row_.resize(num_firings_);
+  for (std::size_t i = 0; i < num_firings_; ++i) {
+    const std::size_t slot = std::size_t{pattern.row[i]} * pattern.columns + pattern.column[i];
+    slot_time_ns_[slot] = pattern.time_ns[i];
+    slot_column_[slot] = pattern.column[i];
+    slot_row_[slot] = pattern.row[i];
+    duration_ns_ = std::max(duration_ns_, pattern.time_ns[i]);
+  }
+  for (const std::uint32_t i : pattern.packet_order) {
+    firing_.push_back(i);
+    slot_.push_back(pattern.row[i] * pattern.columns + pattern.column[i]);
+    time_ns_.push_back(pattern.time_ns[i]);
+    x_.push_back(pattern.direction_x[i]);
+    y_.push_back(pattern.direction_y[i]);
+    z_.push_back(pattern.direction_z[i]);
+  }
+  Check(firing_.size() % kPacketSize == 0, "packets are full");
+}
+
+std::size_t FiringTiles::num_firings(std::size_t tile) const {
+  return std::min(kTileSize, num_firings_ - std::min(num_firings_, tile * kTileSize));
+}
+
+namespace {
+
+// One packet whose firings are near in time: a pose and its slope serve all lanes.
+void AimPacket(const float* direction_x,
+               const float* direction_y,
+               const float* direction_z,
+               const float* since_pose_ns,
+               const PoseF& pose,
+               const PoseF& change,
+               RayTile& rays,
+               std::size_t first) {
+  for (std::size_t lane = 0; lane < kPacketSize; ++lane) {
+    const float t = since_pose_ns[lane];
+    const float x = direction_x[lane];
+    const float y = direction_y[lane];
+    const float z = direction_z[lane];
+    const std::size_t ray = first + lane;
+    rays.direction_x[ray] = (pose.r[0] + t * change.r[0]) * x + (pose.r[1] + t * change.r[1]) * y +
+                            (pose.r[2] + t * change.r[2]) * z;
+    rays.direction_y[ray] = (pose.r[3] + t * change.r[3]) * x + (pose.r[4] + t * change.r[4]) * y +
+                            (pose.r[5] + t * change.r[5]) * z;
+    rays.direction_z[ray] = (pose.r[6] + t * change.r[6]) * x + (pose.r[7] + t * change.r[7]) * y +
+                            (pose.r[8] + t * change.r[8]) * z;
+    rays.origin_x[ray] = pose.t[0] + t * change.t[0];
+    rays.origin_y[ray] = pose.t[1] + t * change.t[1];
+    rays.origin_z[ray] = pose.t[2] + t * change.t[2];
+  }
+}
+
+}  // namespace
+
+void FiringTiles::Aim(std::size_t tile,
+                      const FramePoses& poses,
+                      float range_max_m,
+                      RayTile& rays) const {
+  const std::size_t begin = tile * kTileSize;
+  rays.num_rays = std::min(kTileSize, firing_.size() - begin);
+  const float per_duration = duration_ns_ == 0 ? 0.0F : 1.0F / static_cast<float>(duration_ns_);
+  for (std::size_t first = 0; first < rays.num_rays; first += kPacketSize) {
+    const std::uint32_t* time_ns = &time_ns_[begin + first];
+    const auto [earliest, latest] = std::minmax_element(time_ns, time_ns + kPacketSize);
+    const float* x = &x_[begin + first];
+    const float* y = &y_[begin + first];
+    const float* z = &z_[begin + first];
+    PoseF change{};
+    alignas(64) float since_pose_ns[kPacketSize];
+    if (*latest - *earliest <= poses.knot_spacing_ns()) {
+      const PoseF pose = poses.At(*earliest, change);
+      for (std::size_t lane = 0; lane < kPacketSize; ++lane) {
+        since_pose_ns[lane] =
+            static_cast<float>(static_cast<std::int32_t>(time_ns[lane] - *earliest));
+      }
+      AimPacket(x, y, z, since_pose_ns, pose, change, rays, first);
+    } else {
+      // A slow or scattered pattern: every lane its own pose.
+      std::fill_n(since_pose_ns, kPacketSize, 0.0F);
+      for (std::size_t lane = 0; lane < kPacketSize; ++lane) {
+        RayTile one;
+        const PoseF pose = poses.At(time_ns[lane], change);
+        AimPacket(x, y, z, since_pose_ns, pose, change, one, 0);
+        rays.direction_x[first + lane] = one.direction_x[lane];
+        rays.direction_y[first + lane] = one.direction_y[lane];
+        rays.direction_z[first + lane] = one.direction_z[lane];
+        rays.origin_x[first + lane] = one.origin_x[lane];
+        rays.origin_y[first + lane] = one.origin_y[lane];
+        rays.origin_z[first + lane] = one.origin_z[lane];
+      }
+    }
+    for (std::size_t lane = 0; lane < kPacketSize; ++lane) {
+      rays.shutter[first + lane] = static_cast<float>(time_ns[lane]) * per_duration;
+      rays.range_m[first + lane] = range_max_m;
+      rays.cos_incidence[first + lane] = 0.0F;
+      rays.surface[first + lane] = 0;
+    }
+  }
+}
+
+void FiringTiles::Describe(std::size_t tile, DetectTile& detect) const {
+  const std::size_t begin = tile * kTileSize;
+  detect.num_rays = std::min(kTileSize, firing_.size() - begin);
+  std::copy_n(&firing_[begin], detect.num_rays, detect.firing);
+  std::copy_n(&x_[begin], detect.num_rays, detect.direction_x);
+  std::copy_n(&y_[begin], detect.num_rays, detect.direction_y);
+  std::copy_n(&z_[begin], detect.num_rays, detect.direction_z);
+}
+
+void FiringTiles::StoreConstants(Frame& frame) const {
+  for (std::size_t slot = 0; slot < num_firings_; ++slot) {
+    frame.time_ns[slot] = slot_time_ns_[slot];
+    frame.ring[slot] = slot_row_[slot];
+    frame.column[slot] = slot_column_[slot];
+    frame.return_index[slot] = 0;
+  }
+}
+
+FiringTiles::Place FiringTiles::PlaceOf(std::uint32_t firing) const {
+  const auto it = std::find(firing_.begin(), firing_.end(), firing);
+  Check(it != firing_.end(), "every firing is traced");
+  const auto index = static_cast<std::size_t>(it - firing_.begin());
+  return {index / kTileSize, index % kTileSize};
+}
+
+}  // namespace railcast

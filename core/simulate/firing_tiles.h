@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/detect/detect_tile.h"
+#include "core/frame/frame.h"
+#include "core/scan/scan_pattern.h"
+#include "core/simulate/frame_poses.h"
+#include "core/trace/ray_tile.h"
+
+namespace railcast {
+
+/// A scan pattern in the order in which it is traced: packets of 16 firings, tiles of packets.
+class FiringTiles {
+ public:
+  explicit FiringTiles(const ScanPattern& pattern);
+
+  [[nodiscard]] std::size_t num_tiles() const {
+    return (firing_.size() + kTileSize - 1) / kTileSize;
+  }
+  [[nodiscard]] std::uint32_t duration_ns() const { return duration_ns_; }
+
+  /// Fills origins, directions, shutter, range_m (= range_max_m) and surface (= nothing).
+  void Aim(std::size_t tile, const FramePoses& poses, float range_max_m, RayTile& rays) const;
+
+  /// Sensor-frame direction, firing index of lane `i` of a tile, and its slot in a frame of one
+  /// return per firing.
+  void Describe(std::size_t tile, DetectTile& detect) const;
+  [[nodiscard]] const std::uint32_t* slots(std::size_t tile) const {
+    return &slot_[tile * kTileSize];
+  }
+  [[nodiscard]] const std::uint32_t* times_ns(std::size_t tile) const {
+    return &time_ns_[tile * kTileSize];
+  }
+
+  /// How many lanes of the tile are firings; the rest fill up its last packet.
+  [[nodiscard]] std::size_t num_firings(std::size_t tile) const;
+
+  /// The fields of a frame that are the same in every frame.
+  void StoreConstants(Frame& frame) const;
+
+  /// The tile and lane in which a firing is traced.
+  struct Place {
+    std::size_t tile{};
+    std::size_t lane{};
+  };
+  [[nodiscard]] Place PlaceOf(std::uint32_t firing) const;
+
+ private:
+  std::size_t num_firings_;
+  std::uint32_t duration_ns_{};
+  // In the order of tracing.
+  std::vector<std::uint32_t> firing_, slot_, time_ns_;
+  std::vector<float> x_, y_, z_;
+  // In the order of slots.
+  std::vector<std::uint32_t> slot_time_ns_, slot_column_;
+  std::vector<std::uint16_t> slot_row_;
+};
+
+}  // namespace railcast

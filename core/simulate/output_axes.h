@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/base/transform.h"
+#include "core/detect/detect_tile.h"
+#include "core/frame/output_spec.h"
+#include "core/simulate/frame_poses.h"
+
+namespace railcast {
+
+/// Puts measured points into the axes that the scenario asks for.
+class OutputAxes {
+ public:
+  OutputAxes(const OutputSpec& spec,
+             const Transform& vehicle_from_sensor,
+             const Transform& window_from_world);
+
+  /// Rewrites x, y, z of a tile from the sensor's axes. World coordinates take the pose at each
+  /// lane's own time, `time_ns` since the stamp, so that motion does not distort them.
+  void Apply(const FramePoses& poses, const std::uint32_t* time_ns, DetectTile& detect) const;
+
+ private:
+  enum class Target { kSensor, kVehicle, kWorld };
+
+  Target target_ = Target::kSensor;
+  bool is_left_handed_;
+  Transform vehicle_from_sensor_;
+  Transform world_from_window_;
+};
+
+}  // namespace railcast

@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# Installs what the build needs, then builds the release preset: build.sh [TARGET...], default all.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source scripts/packages.sh
+
+install_packages "${build_packages[@]}"
+
+launcher=()
+if command -v ccache >/dev/null; then
+  launcher=(-D CMAKE_C_COMPILER_LAUNCHER=ccache -D CMAKE_CXX_COMPILER_LAUNCHER=ccache)
+fi
+cmake --preset release "${launcher[@]}"
+cmake --build --preset release --target "${@:-all}"

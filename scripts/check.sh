@@ -1,0 +1,80 @@
+#!/usr/bin/env bash
+# Everything a change must pass before it lands.
+#
+#   check.sh            format, architecture, build, tests
+#   check.sh --fast     format and architecture only: seconds, no build
+#   check.sh --tidy     all of it, and clang-tidy over the sources that differ from main
+#   check.sh --tidy-all the same over every source: minutes
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source scripts/packages.sh
+
+usage() {
+  sed -n '2,/^set /{/^# \?/s///p}' "${BASH_SOURCE[0]}"
+}
+
+check_format() {
+  echo "== format"
+  local unformatted
+  unformatted=$(git ls-files --cached --others --exclude-standard '*.h' '*.cpp' |
+    xargs --no-run-if-empty clang-format-14 --dry-run 2>&1 |
+    sed -n 's/^\([^:]*\):[0-9]*:[0-9]*: .*clang-format.*/\1/p' | sort --unique)
+  if [[ -n "$unformatted" ]]; then
+    printf 'error: run clang-format-14 -i %s\n' "${unformatted//$'\n'/ }" >&2
+    return 1
+  fi
+}
+
+check_architecture() {
+  echo "== architecture"
+  scripts/lint_architecture.py
+}
+
+# check_tidy GIT-LIST-COMMAND...: clang-tidy over the sources that the command names and that are
+# part of the build.
+check_tidy() {
+  echo "== clang-tidy"
+  "$@" | sort --unique | while read -r file; do
+    if [[ -f "$file" ]] && grep --quiet --fixed-strings "\"$PWD/$file\"" \
+      build/release/compile_commands.json; then
+      echo "$file"
+    fi
+  done | xargs --no-run-if-empty --max-args=1 --max-procs="$(nproc)" \
+    clang-tidy-14 -p build/release --quiet 2> >(grep -v ' warnings\? generated' >&2)
+}
+
+all_sources() {
+  git ls-files --cached --others --exclude-standard '*.cpp'
+}
+
+changed_sources() {
+  git diff --name-only "$(git merge-base main HEAD)" -- '*.cpp'
+  git ls-files --others --exclude-standard '*.cpp'
+}
+
+mode="${1:-}"
+case "$mode" in
+  "" | --fast | --tidy | --tidy-all) ;;
+  --help)
+    usage
+    exit
+    ;;
+  *)
+    usage >&2
+    exit 2
+    ;;
+esac
+
+install_packages "${check_packages[@]}"
+check_format
+check_architecture
+if [[ "$mode" == --fast ]]; then
+  exit
+fi
+echo "== build and tests"
+scripts/test.sh
+case "$mode" in
+  --tidy) check_tidy changed_sources ;;
+  --tidy-all) check_tidy all_sources ;;
+esac
+echo "All checks passed."

@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+"""Writes scenarios/sensors/*.json from published calibration files.
+
+usage: make_sensor_tables.py DATA_DIR OUT_DIR
+
+DATA_DIR holds velodyne_calibration/ (of ros-drivers/velodyne) and lidar_packets_nebula/calibration/
+(of tier4/nebula). scenarios/sensors/README.md names the source of every other figure.
+"""
+
+import csv
+import json
+import math
+import pathlib
+import re
+import sys
+
+# Pandar64: microseconds from the firing of channels 1 to 64 to the end of their block (Hesai,
+# Pandar64 user manual, appendix "Absolute time of point cloud data").
+PANDAR64_BEFORE_END_US = [
+    23.180, 21.876, 20.572, 19.268, 17.964, 16.660, 11.444, 46.796, 7.532, 36.956, 50.732,
+    54.668, 40.892, 44.828, 31.052, 34.988, 48.764, 52.700, 38.924, 42.860, 29.084, 33.020,
+    46.796, 25.148, 36.956, 50.732, 27.116, 40.892, 44.828, 31.052, 34.988, 48.764, 25.148,
+    38.924, 42.860, 29.084, 33.020, 52.700, 6.228, 54.668, 15.356, 27.116, 10.140, 23.180,
+    4.924, 21.876, 14.052, 17.964, 8.836, 19.268, 3.620, 20.572, 12.748, 16.660, 7.532,
+    11.444, 6.228, 15.356, 10.140, 4.924, 3.620, 14.052, 8.836, 12.748,
+]
+
+
+def velodyne_lasers(path):
+    """(elevation, azimuth) in degrees of each laser, in laser order.
+
+    The true azimuth is the block's minus rot_correction. Laser numbers and angles are found by
+    pattern, which spares a YAML library.
+    """
+    lasers = {}
+    for entry in re.findall(r"\{(.*?)\}", path.read_text(), re.DOTALL):
+        field = lambda name: float(re.search(name + r":\s*([-+.\deE]+)", entry).group(1))
+        azimuth_deg = round(-math.degrees(field("rot_correction")), 3)
+        elevation_deg = round(math.degrees(field("vert_correction")), 3)
+        lasers[int(field("laser_id"))] = (elevation_deg + 0.0, azimuth_deg + 0.0)
+    return [lasers[i] for i in range(len(lasers))]
+
+
+def hesai_lasers(path):
+    rows = csv.DictReader(path.open())
+    return [(float(row["Elevation"]), float(row["Azimuth"])) for row in rows]
+
+
+def write_sensor(path, name, lasers, times_us, cycle_us, columns, detection):
+    section = {
+        "version": 1,
+        "name": name,
+        "scan": {
+            "rate_hz": 10,
+            "pattern": {
+                "type": "spinning",
+                "cycle_us": cycle_us,
+                "columns": columns,
+                "rotation": "clockwise",
+                "start_azimuth_deg": 0.0,
+                "channels": "CHANNELS",
+            },
+        },
+    }
+    section.update(detection)
+    channels = [
+        json.dumps({"elevation_deg": elevation, "azimuth_deg": azimuth, "time_us": round(time, 3)})
+        for (elevation, azimuth), time in zip(lasers, times_us, strict=True)
+    ]
+    one_a_line = "[\n        " + ",\n        ".join(channels) + "\n      ]"
+    text = json.dumps(section, indent=2).replace('"CHANNELS"', one_a_line)
+    path.write_text(text + "\n")
+
+
+def detection(range_min_m, range_max_m, range_at_10_percent_m, noise_sigma0_m):
+    return {
+        "range_min_m": range_min_m,
+        "range_max_m": range_max_m,
+        "plausibility": {
+            "reference_threshold": 0.1,
+            "reference_range_m": range_at_10_percent_m,
+            "noise_sigma0_m": noise_sigma0_m,
+            "noise_sigma1": 0.0001,
+        },
+    }
+
+
+def main():
+    data = pathlib.Path(sys.argv[1])
+    out = pathlib.Path(sys.argv[2])
+    velodyne = data / "velodyne_calibration" / "ros-drivers"
+    hesai = data / "lidar_packets_nebula" / "calibration"
+
+    write_sensor(out / "vlp16.json", "VLP-16", velodyne_lasers(velodyne / "VLP16db.yaml"),
+                 [2.304 * i for i in range(16)], 55.296, 1808, detection(0.5, 100.0, 50.0, 0.01))
+    write_sensor(out / "hdl32e.json", "HDL-32E", velodyne_lasers(velodyne / "32db.yaml"),
+                 [1.152 * i for i in range(32)], 46.08, 2170, detection(0.5, 100.0, 50.0, 0.007))
+    write_sensor(out / "vlp32c.json", "VLP-32C", velodyne_lasers(velodyne / "VeloView-VLP-32C.yaml"),
+                 [2.304 * (i // 2) for i in range(32)], 55.296, 1808,
+                 detection(0.5, 200.0, 90.0, 0.01))
+    # Groups of eight fire together; after the eighth group a slot of maintenance, after the
+    # sixteenth three.
+    write_sensor(out / "vls128.json", "VLS-128", velodyne_lasers(velodyne / "VLS128.yaml"),
+                 [2.665 * (i // 8 + i // 64) for i in range(128)], 53.3, 1876,
+                 detection(0.5, 245.0, 220.0, 0.01))
+    earliest_us = max(PANDAR64_BEFORE_END_US)
+    write_sensor(out / "pandar64.json", "Pandar64", hesai_lasers(hesai / "Pandar64.csv"),
+                 [earliest_us - before_us for before_us in PANDAR64_BEFORE_END_US],
+                 55.5555555556, 1800, detection(0.3, 200.0, 200.0, 0.01))
+
+
+if __name__ == "__main__":
+    main()

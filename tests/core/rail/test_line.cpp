@@ -1,0 +1,105 @@
+#include "tests/core/rail/test_line.h"
+
+#include <array>
+#include <utility>
+
+#include "core/rail/catenary.h"
+#include "core/rail/terrain.h"
+#include "core/rail/track_structure.h"
+
+namespace railcast {
+namespace {
+
+RailSurfaces MakeSurfaces() {
+  std::vector<Label> labels;
+  for (const char* name :
+       {"rail", "sleeper", "ballast", "ground", "grass", "tree", "contact_wire", "messenger_wire",
+        "dropper", "mast", "cantilever", "wagon", "person", "pole", "object"}) {
+    Label label;
+    label.id = static_cast<std::uint32_t>(labels.size() + 1);
+    label.name = name;
+    labels.push_back(label);
+  }
+  std::vector<Material> materials;
+  for (const char* name : {"rail_head",
+                           "rail_side",
+                           "rusty_steel",
+                           "concrete",
+                           "wood",
+                           "ballast",
+                           "soil",
+                           "grass",
+                           "leaf",
+                           "bark",
+                           "copper_wire",
+                           "bronze_wire",
+                           "galvanised_steel",
+                           "ceramic",
+                           "wagon_paint",
+                           "wheel_steel",
+                           "tank_paint",
+                           "skin",
+                           "clothing",
+                           "grey_paint"}) {
+    materials.push_back({name, 0.3});
+  }
+  return {LabelTable(std::move(labels)), MaterialLibrary(materials)};
+}
+
+}  // namespace
+
+TestLine::TestLine(WorldSpec spec, std::uint64_t seed)
+    : spec_(std::move(spec)),
+      alignment_(spec_.alignment),
+      surfaces_(MakeSurfaces()),
+      seed_(seed),
+      plan_(spec_, alignment_),
+      models_(MakeInfrastructureModels(spec_, surfaces_)) {}
+
+Transform TestLine::WorldFromChunk(int chunk) const {
+  const AxisPoint middle = alignment_.At((chunk + 0.5) * kChunkLength_m);
+  return MakeTransform(RotationFromYawPitchRoll(middle.heading_rad, 0.0, 0.0), middle.position_m);
+}
+
+ChunkContext TestLine::Context(int chunk) const {
+  return {.spec = spec_,
+          .alignment = alignment_,
+          .surfaces = surfaces_,
+          .seed = seed_,
+          .chunk = chunk,
+          .begin_s_m = chunk * kChunkLength_m,
+          .end_s_m = (chunk + 1) * kChunkLength_m,
+          .chunk_from_world = WorldFromChunk(chunk).inverse()};
+}
+
+Chunk TestLine::Build(int chunk) const {
+  Chunk built;
+  const ChunkContext context = Context(chunk);
+  AddTracks(context, models_, built);
+  AddCatenary(context, plan_, models_, built);
+  AddTerrain(context, built);
+  return built;
+}
+
+WorldSpec StraightLine(double length_m) {
+  WorldSpec spec;
+  spec.alignment.course = AlignmentElementsSpec{{{"straight", length_m, std::nullopt}}};
+  return spec;
+}
+
+WorldSpec CantedArc(double length_m, double radius_m) {
+  WorldSpec spec;
+  spec.alignment.course = AlignmentElementsSpec{{{"arc", length_m, radius_m}}};
+  // Far above the equilibrium speed: cant at its maximum.
+  spec.alignment.speed_limits_kmph = {{0.0, 200.0}};
+  return spec;
+}
+
+Mesh MeshOfSurface(const Chunk& chunk, const SurfaceClass& surface) {
+  for (const Part& part : chunk.ground.parts) {
+    if (part.material == surface.material && part.label == surface.label) return part.mesh;
+  }
+  return {};
+}
+
+}  // namespace railcast

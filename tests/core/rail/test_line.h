@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/rail/catenary_plan.h"
+#include "core/rail/chunk_context.h"
+#include "core/rail/infrastructure_models.h"
+#include "core/rail/rail_surfaces.h"
+#include "core/scene/world.h"
+
+namespace railcast {
+
+/// A line with all that builders need, in chunks of 50 m.
+class TestLine {
+ public:
+  static constexpr double kChunkLength_m = 50.0;
+
+  explicit TestLine(WorldSpec spec, std::uint64_t seed = 1);
+
+  [[nodiscard]] const WorldSpec& spec() const { return spec_; }
+  [[nodiscard]] const Alignment& alignment() const { return alignment_; }
+  [[nodiscard]] const RailSurfaces& surfaces() const { return surfaces_; }
+  [[nodiscard]] const CatenaryPlan& plan() const { return plan_; }
+  [[nodiscard]] const InfrastructureModels& models() const { return models_; }
+
+  [[nodiscard]] ChunkContext Context(int chunk) const;
+  [[nodiscard]] Transform WorldFromChunk(int chunk) const;
+  /// Tracks, contact line and ground.
+  [[nodiscard]] Chunk Build(int chunk) const;
+
+ private:
+  WorldSpec spec_;
+  Alignment alignment_;
+  RailSurfaces surfaces_;
+  std::uint64_t seed_;
+  CatenaryPlan plan_;
+  InfrastructureModels models_;
+};
+
+/// A level straight of one track.
+[[nodiscard]] WorldSpec StraightLine(double length_m);
+
+/// An arc of one track, with its full cant from beginning to end.
+[[nodiscard]] WorldSpec CantedArc(double length_m, double radius_m);
+
+/// The chunk's mesh of that surface; empty if it has none.
+[[nodiscard]] Mesh MeshOfSurface(const Chunk& chunk, const SurfaceClass& surface);
+
+}  // namespace railcast

@@ -1,0 +1,106 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/core/scan/pattern_angles.h"
+
+namespace railcast {
+namespace {
+
+/// Writes a table for one test and removes it afterwards.
+class FiringTable : public testing::Test {
+ protected:
+  ~FiringTable() override { std::filesystem::remove(file_); }
+
+  ScanSpec Write(const std::string& text, double rate_hz = 10.0) const {
+    std::ofstream(file_, std::ios::binary) << text;
+    return {.rate_hz = rate_hz, .pattern = FiringTableSpec{file_}};
+  }
+
+  /// The faults, with the file's name shortened to "table.csv".
+  std::string FaultsOfText(const std::string& text) const {
+    std::string faults = FaultsOf(Write(text));
+    for (std::size_t at = 0; (at = faults.find(file_, at)) != std::string::npos;) {
+      faults.replace(at, file_.size(), "table.csv");
+    }
+    return faults;
+  }
+
+ private:
+  const std::string file_ =
+      testing::TempDir() + testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv";
+};
+
+constexpr char kHeader[] = "azimuth_deg,elevation_deg,time_us\n";
+
+TEST_F(FiringTable, GivesOneRowInTheOrderOfTheFile) {
+  const ScanPattern pattern = BuildScanPattern(
+      Write("azimuth_deg,elevation_deg,time_us\r\n10,-5,0\r\n -20.5 , 7.25 ,12.5\r\n0,0,12.5"));
+  ASSERT_EQ(pattern.num_firings(), 3U);
+  EXPECT_EQ(pattern.rows, 1U);
+  EXPECT_EQ(pattern.columns, 3U);
+  EXPECT_EQ(pattern.column, (std::vector<std::uint32_t>{0, 1, 2}));
+  EXPECT_EQ(pattern.time_ns, (std::vector<std::uint32_t>{0, 12500, 12500}));
+  EXPECT_NEAR(Azimuth_deg(pattern, 1), -20.5, kFloatAngle_deg);
+  EXPECT_NEAR(Elevation_deg(pattern, 1), 7.25, kFloatAngle_deg);
+}
+
+TEST_F(FiringTable, NamesLineAndColumnOfWhatIsNoNumber) {
+  EXPECT_EQ(FaultsOfText(std::string(kHeader) + "0,0,0\nabc,1,2x\n1,nan,3\n,0,4\n"),
+            "table.csv:3: azimuth_deg: not a number (got \"abc\")\n"
+            "table.csv:3: time_us: not a number (got \"2x\")\n"
+            "table.csv:4: elevation_deg: must be finite (got \"nan\")\n"
+            "table.csv:5: azimuth_deg: not a number (got \"\")");
+}
+
+TEST_F(FiringTable, RefusesLinesOfAnotherLength) {
+  EXPECT_EQ(FaultsOfText(std::string(kHeader) + "0,0,0\n1,2\n1,2,3,4\n\n"),
+            "table.csv:3: must have 3 values (got 2)\n"
+            "table.csv:4: must have 3 values (got 4)\n"
+            "table.csv:5: must have 3 values (got 1)");
+}
+
+TEST_F(FiringTable, RefusesTimesThatDecreaseOrDoNotStartAtZero) {
+  EXPECT_EQ(FaultsOfText(std::string(kHeader) + "0,0,1\n0,0,5\n0,0,4.5\n"),
+            "table.csv:2: time_us: the first must be 0 (got 1)\n"
+            "table.csv:4: time_us: must not decrease (got 4.5)");
+}
+
+TEST_F(FiringTable, RefusesAnglesThatCannotBe) {
+  EXPECT_EQ(FaultsOfText(std::string(kHeader) + "361,-91,0\n"),
+            "table.csv:2: azimuth_deg: must be >= -360 and <= 360 (got 361)\n"
+            "table.csv:2: elevation_deg: must be >= -90 and <= 90 (got -91)");
+}
+
+TEST_F(FiringTable, RefusesFramesLongerThanThePeriodAnd32BitsOfNanoseconds) {
+  EXPECT_EQ(FaultsOfText(std::string(kHeader) + "0,0,0\n0,0,100000\n"),
+            "/pattern: the last firing must come before 1 / rate_hz (got 0.1)");
+  EXPECT_EQ(FaultsOfText(std::string(kHeader) + "0,0,0\n0,0,1e30\n"),
+            "table.csv:3: time_us: must be <= 4294967 (got 1e+30)");
+}
+
+TEST_F(FiringTable, RefusesFilesWithoutHeaderOrFirings) {
+  EXPECT_EQ(FaultsOfText(""),
+            "table.csv:1: must be \"azimuth_deg,elevation_deg,time_us\" (got \"\")");
+  EXPECT_EQ(FaultsOfText("azimuth,elevation,time\n0,0,0\n"),
+            "table.csv:1: must be \"azimuth_deg,elevation_deg,time_us\" "
+            "(got \"azimuth,elevation,time\")");
+  EXPECT_EQ(FaultsOfText(kHeader), "table.csv: must have at least one firing (got 0)");
+}
+
+TEST_F(FiringTable, RefusesAMissingFile) {
+  EXPECT_EQ(FaultsOf({.rate_hz = 10.0, .pattern = FiringTableSpec{"no/such.csv"}}),
+            "/pattern/file: cannot be read (got \"no/such.csv\")");
+}
+
+TEST_F(FiringTable, StopsAfterTwentyFaults) {
+  std::string text = kHeader;
+  for (int i = 0; i < 100; ++i) text += "x,0,0\n";
+  const std::string faults = FaultsOf(Write(text));
+  EXPECT_EQ(std::ranges::count(faults, '\n'), 19);
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,35 @@
+#include "core/scan/scan_pattern.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace railcast {
+namespace {
+
+std::int64_t StampNs(double rate_hz, std::uint32_t frame_index) {
+  ScanPattern pattern;
+  pattern.rate_hz = rate_hz;
+  return pattern.StampNs(frame_index);
+}
+
+TEST(ScanPattern, StampsFramesOnePeriodApart) {
+  EXPECT_EQ(StampNs(10.0, 0), 0);
+  EXPECT_EQ(StampNs(10.0, 1), 100'000'000);
+  EXPECT_EQ(StampNs(10.0, 36000), 3'600'000'000'000);
+}
+
+TEST(ScanPattern, StampsDoNotDriftWhereThePeriodIsNoWholeNumberOfNanoseconds) {
+  EXPECT_EQ(StampNs(3.0, 1), 333'333'333);
+  EXPECT_EQ(StampNs(3.0, 2), 666'666'667);
+  EXPECT_EQ(StampNs(3.0, 3'000'000'000), 1'000'000'000'000'000'000);
+}
+
+TEST(ScanPattern, StampsAreExactForBrokenRates) {
+  EXPECT_EQ(StampNs(12.5, 1), 80'000'000);
+  EXPECT_EQ(StampNs(12.5, 4'000'000'001), 320'000'000'080'000'000);
+  EXPECT_EQ(StampNs(0.5, std::numeric_limits<std::uint32_t>::max()), 8'589'934'590'000'000'000);
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,177 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+
+#include "tests/core/scan/pattern_angles.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kTable_deg = 1e-3;  // The tables' own last digit.
+
+/// What a scenario reader makes of a sensor's scan.
+ScanSpec ReadSensor(const std::string& name) {
+  std::ifstream file(std::string(RAILCAST_SOURCE_DIR "/scenarios/sensors/") + name + ".json");
+  const nlohmann::json scan = nlohmann::json::parse(file).at("scan");
+  const nlohmann::json& pattern = scan.at("pattern");
+  SpinningSpec spec{.channels = {},
+                    .cycle_us = pattern.at("cycle_us"),
+                    .columns = pattern.at("columns"),
+                    .rotation = pattern.at("rotation"),
+                    .start_azimuth_deg = pattern.at("start_azimuth_deg")};
+  for (const nlohmann::json& channel : pattern.at("channels")) {
+    spec.channels.push_back({.elevation_deg = channel.at("elevation_deg"),
+                             .azimuth_deg = channel.at("azimuth_deg"),
+                             .time_us = channel.at("time_us")});
+  }
+  return {.rate_hz = scan.at("rate_hz"), .pattern = spec};
+}
+
+std::vector<ChannelSpec> ChannelsOf(const std::string& name) {
+  return std::get<SpinningSpec>(ReadSensor(name).pattern).channels;
+}
+
+std::string ReadText(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+double FieldOf(const std::string& entry, const std::string& name) {
+  std::smatch found;
+  EXPECT_TRUE(std::regex_search(entry, found, std::regex(name + R"(:\s*([-+.\deE]+))")));
+  return std::stod(found[1]);
+}
+
+struct Calibration {
+  const char* sensor;
+  const char* file;
+  double cycle_us;
+  std::uint32_t columns;
+};
+
+void PrintTo(const Calibration& calibration, std::ostream* out) {
+  *out << calibration.sensor;
+}
+
+class VelodyneTable : public testing::TestWithParam<Calibration> {};
+
+TEST_P(VelodyneTable, AgreesWithThePublishedCalibration) {
+  const std::filesystem::path file =
+      std::filesystem::path(RAILCAST_SHARED_DATA_DIR "/velodyne_calibration/ros-drivers") /
+      GetParam().file;
+  if (!exists(file)) GTEST_SKIP() << file << " is not there";
+  const std::vector<ChannelSpec> channels = ChannelsOf(GetParam().sensor);
+  const std::string text = ReadText(file);
+  const std::regex entries(R"(\{([^}]*)\})");
+  std::size_t num_lasers = 0;
+  for (std::sregex_iterator entry(text.begin(), text.end(), entries), end; entry != end; ++entry) {
+    const auto laser = static_cast<std::size_t>(FieldOf((*entry)[1], "laser_id"));
+    ASSERT_LT(laser, channels.size());
+    EXPECT_NEAR(channels[laser].elevation_deg, DegFromRad(FieldOf((*entry)[1], "vert_correction")),
+                kTable_deg);
+    EXPECT_NEAR(channels[laser].azimuth_deg, -DegFromRad(FieldOf((*entry)[1], "rot_correction")),
+                kTable_deg);
+    ++num_lasers;
+  }
+  EXPECT_EQ(num_lasers, channels.size());
+}
+
+INSTANTIATE_TEST_SUITE_P(SensorTables,
+                         VelodyneTable,
+                         testing::Values(Calibration{"vlp16", "VLP16db.yaml", 55.296, 1808},
+                                         Calibration{"hdl32e", "32db.yaml", 46.08, 2170},
+                                         Calibration{"vlp32c", "VeloView-VLP-32C.yaml", 55.296,
+                                                     1808},
+                                         Calibration{"vls128", "VLS128.yaml", 53.3, 1876}),
+                         [](const auto& test) { return std::string(test.param.sensor); });
+
+TEST(PandarTable, AgreesWithThePublishedCalibration) {
+  std::ifstream file(RAILCAST_SHARED_DATA_DIR "/lidar_packets_nebula/calibration/Pandar64.csv");
+  if (!file) GTEST_SKIP() << "Pandar64.csv is not there";
+  const std::vector<ChannelSpec> channels = ChannelsOf("pandar64");
+  std::string line;
+  std::getline(file, line);
+  std::size_t num_lasers = 0;
+  for (; std::getline(file, line); ++num_lasers) {
+    unsigned id = 0;
+    double elevation_deg = 0.0;
+    double azimuth_deg = 0.0;
+    ASSERT_EQ(std::sscanf(line.c_str(), "%u,%lf,%lf", &id, &elevation_deg, &azimuth_deg), 3);
+    EXPECT_NEAR(channels.at(id - 1).elevation_deg, elevation_deg, kTable_deg);
+    EXPECT_NEAR(channels.at(id - 1).azimuth_deg, azimuth_deg, kTable_deg);
+  }
+  EXPECT_EQ(num_lasers, channels.size());
+}
+
+TEST(PandarTable, FiresChannelsInPairsWithinTheCycle) {
+  // From 54.668 us to 3.620 us before the end of the block.
+  std::map<double, int> num_at_us;
+  for (const ChannelSpec& channel : ChannelsOf("pandar64")) ++num_at_us[channel.time_us];
+  EXPECT_EQ(num_at_us.size(), 32U);
+  EXPECT_EQ(num_at_us.begin()->first, 0.0);
+  EXPECT_EQ(num_at_us.rbegin()->first, 51.048);
+  for (const auto& [time_us, count] : num_at_us) EXPECT_EQ(count, 2) << time_us;
+}
+
+class SensorTable : public testing::TestWithParam<Calibration> {};
+
+TEST_P(SensorTable, MakesAWholeTurnWithinThePeriod) {
+  const ScanSpec spec = ReadSensor(GetParam().sensor);
+  const auto& spinning = std::get<SpinningSpec>(spec.pattern);
+  const ScanPattern pattern = BuildScanPattern(spec);
+  EXPECT_EQ(pattern.columns, GetParam().columns);
+  EXPECT_EQ(pattern.num_firings(), spinning.channels.size() * GetParam().columns);
+  EXPECT_NEAR(spinning.cycle_us, GetParam().cycle_us, 1e-9);
+  EXPECT_TRUE(std::ranges::is_sorted(pattern.time_ns));
+  EXPECT_EQ(pattern.time_ns.front(), 0U);
+  EXPECT_LT(pattern.time_ns.back(), 100'000'000U);
+  // Another cycle would not fit.
+  EXPECT_GT((pattern.columns + 1) * spinning.cycle_us, 1e5);
+}
+
+TEST_P(SensorTable, FillsEveryCellOnceWithDirectionsOfUnitLengthThatRiseWithTheRow) {
+  const ScanPattern pattern = BuildScanPattern(ReadSensor(GetParam().sensor));
+  std::vector<int> num_in_cell(std::size_t{pattern.rows} * pattern.columns);
+  std::vector<double> elevation_deg(pattern.rows);
+  for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
+    ++num_in_cell[std::size_t{pattern.row[i]} * pattern.columns + pattern.column[i]];
+    elevation_deg[pattern.row[i]] = Elevation_deg(pattern, i);
+    const double x = pattern.direction_x[i];
+    const double y = pattern.direction_y[i];
+    const double z = pattern.direction_z[i];
+    ASSERT_NEAR(x * x + y * y + z * z, 1.0, 1.2e-7);
+  }
+  EXPECT_TRUE(std::ranges::all_of(num_in_cell, [](int count) { return count == 1; }));
+  EXPECT_TRUE(std::ranges::is_sorted(elevation_deg));
+}
+
+INSTANTIATE_TEST_SUITE_P(SensorTables,
+                         SensorTable,
+                         testing::Values(Calibration{"vlp16", "", 55.296, 1808},
+                                         Calibration{"hdl32e", "", 46.08, 2170},
+                                         Calibration{"vlp32c", "", 55.296, 1808},
+                                         Calibration{"pandar64", "", 1e6 / 18000.0, 1800},
+                                         Calibration{"vls128", "", 53.3, 1876}),
+                         [](const auto& test) { return std::string(test.param.sensor); });
+
+TEST(SensorTables, Vlp16TurnsByTheAngleOfTwoCyclesFromBlockToBlock) {
+  const ScanPattern pattern = BuildScanPattern(ReadSensor("vlp16"));
+  constexpr double kBlock_deg = 2.0 * 55.296e-6 * 3600.0;  // A real capture: 0.398 deg a block.
+  EXPECT_NEAR(kBlock_deg, 0.398, 5e-4);
+  for (std::size_t block = 1; block < 904; ++block) {
+    const double turned_deg =
+        Azimuth_deg(pattern, 32 * (block - 1)) - Azimuth_deg(pattern, 32 * block);
+    ASSERT_NEAR(std::remainder(turned_deg, 360.0), kBlock_deg, 2.0 * kFloatAngle_deg);
+  }
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,121 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/core/scan/pattern_angles.h"
+
+namespace railcast {
+namespace {
+
+/// Three channels out of order; 1000 cycles of 100 us fill a turn at 10 Hz: 0.36 deg a cycle.
+SpinningSpec ThreeChannels() {
+  return {.channels = {{.elevation_deg = 5.0, .azimuth_deg = 0.0, .time_us = 0.0},
+                       {.elevation_deg = -10.0, .azimuth_deg = 1.5, .time_us = 25.0},
+                       {.elevation_deg = 0.0, .azimuth_deg = -2.0, .time_us = 25.0}},
+          .cycle_us = 100.0,
+          .columns = 1000};
+}
+
+std::string FaultsOf(const SpinningSpec& spec) {
+  return FaultsOf(ScanSpec{.rate_hz = 10.0, .pattern = spec});
+}
+
+double Wrapped_deg(double angle_deg) {
+  return std::remainder(angle_deg, 360.0);
+}
+
+TEST(SpinningPattern, SortsRowsByElevationFromTheLowest) {
+  const ScanPattern pattern = BuildScanPattern({.rate_hz = 10.0, .pattern = ThreeChannels()});
+  EXPECT_EQ(pattern.rows, 3U);
+  EXPECT_EQ(pattern.columns, 1000U);
+  constexpr double kElevations_deg[] = {-10.0, 0.0, 5.0};
+  for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
+    ASSERT_NEAR(Elevation_deg(pattern, i), kElevations_deg[pattern.row[i]], kFloatAngle_deg);
+  }
+}
+
+TEST(SpinningPattern, OrdersFiringsByTimeThenRow) {
+  const ScanPattern pattern = BuildScanPattern({.rate_hz = 10.0, .pattern = ThreeChannels()});
+  constexpr std::uint16_t kRows[] = {2, 0, 1};
+  constexpr std::uint32_t kTimes_ns[] = {0, 25000, 25000};
+  for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
+    ASSERT_EQ(pattern.row[i], kRows[i % 3]);
+    ASSERT_EQ(pattern.column[i], i / 3);
+    ASSERT_EQ(pattern.time_ns[i], 100000 * (i / 3) + kTimes_ns[i % 3]);
+  }
+}
+
+TEST(SpinningPattern, AimsWhereTheRotorIsAtTheFiringsOwnTime) {
+  const ScanPattern pattern = BuildScanPattern({.rate_hz = 10.0, .pattern = ThreeChannels()});
+  constexpr double kOffsets_deg[] = {1.5, -2.0, 0.0};
+  for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
+    const double clockwise_deg = 3600.0 * 1e-9 * pattern.time_ns[i] + kOffsets_deg[pattern.row[i]];
+    ASSERT_NEAR(Wrapped_deg(Azimuth_deg(pattern, i) + clockwise_deg), 0.0, kFloatAngle_deg);
+  }
+}
+
+TEST(SpinningPattern, TurnsLeftFromItsStartWhereAskedTo) {
+  SpinningSpec spec = ThreeChannels();
+  spec.rotation = "counterclockwise";
+  spec.start_azimuth_deg = 30.0;
+  const ScanPattern pattern = BuildScanPattern({.rate_hz = 10.0, .pattern = spec});
+  EXPECT_NEAR(Azimuth_deg(pattern, 0), 30.0, kFloatAngle_deg);
+  EXPECT_NEAR(Azimuth_deg(pattern, 1), 30.0 + 0.09 + 1.5, kFloatAngle_deg);
+  EXPECT_NEAR(Azimuth_deg(pattern, 3), 30.36, kFloatAngle_deg);
+}
+
+TEST(SpinningPattern, RefusesChannelsThatCannotBe) {
+  SpinningSpec spec = ThreeChannels();
+  spec.channels[0].elevation_deg = 91.0;
+  spec.channels[1].time_us = 100.0;
+  spec.channels[2].azimuth_deg = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(FaultsOf(spec),
+            "/pattern/channels/0/elevation_deg: must be >= -90 and <= 90 (got 91)\n"
+            "/pattern/channels/1/time_us: must be >= 0 and < cycle_us (got 100)\n"
+            "/pattern/channels/2/azimuth_deg: must be >= -360 and <= 360 (got nan)");
+}
+
+TEST(SpinningPattern, RefusesPatternsWithoutFirings) {
+  SpinningSpec spec = ThreeChannels();
+  spec.channels.clear();
+  spec.columns = 0;
+  EXPECT_EQ(FaultsOf(spec),
+            "/pattern/channels: must have at least one channel (got 0)\n"
+            "/pattern/columns: must be > 0 (got 0)");
+}
+
+TEST(SpinningPattern, RefusesTurnsThatLastLongerThanThePeriod) {
+  SpinningSpec spec = ThreeChannels();
+  spec.columns = 1001;
+  EXPECT_EQ(FaultsOf(spec),
+            "/pattern/columns: columns x cycle_us must be <= 1 / rate_hz (got 100100)");
+}
+
+TEST(SpinningPattern, RefusesWhatIsNoRotationNoCycleAndNoStart) {
+  SpinningSpec spec = ThreeChannels();
+  spec.rotation = "left";
+  spec.start_azimuth_deg = 400.0;
+  spec.cycle_us = 0.0;
+  EXPECT_EQ(FaultsOf(spec),
+            "/pattern/rotation: must be \"clockwise\" or \"counterclockwise\" (got \"left\")\n"
+            "/pattern/start_azimuth_deg: must be >= -360 and <= 360 (got 400)\n"
+            "/pattern/cycle_us: must be > 0 (got 0)");
+}
+
+TEST(SpinningPattern, RefusesACycleThatStartsWithoutAFiring) {
+  SpinningSpec spec = ThreeChannels();
+  spec.channels[0].time_us = 10.0;
+  EXPECT_EQ(FaultsOf(spec), "/pattern/channels: the earliest time_us must be 0 (got 10)");
+}
+
+TEST(SpinningPattern, RefusesHugePatterns) {
+  SpinningSpec spec = ThreeChannels();
+  spec.cycle_us = 0.01;
+  spec.columns = 10'000'000;
+  spec.channels = {{}, {}};
+  EXPECT_EQ(FaultsOf(spec), "/pattern: must have at most 16777216 firings (got 2e+07)");
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,24 @@
+#include <gtest/gtest.h>
+
+#include "core/scenario/scenario.h"
+#include "tests/core/scenario/malformed_case.h"
+
+namespace railcast {
+namespace {
+
+class MalformedBuild : public testing::TestWithParam<MalformedCase> {};
+
+TEST_P(MalformedBuild, GivesExactlyTheExpectedLines) {
+  std::filesystem::current_path(ScenariosDir());
+  std::string lines;
+  for (const std::string& line : CheckScenario(GetParam().file)) lines += line + '\n';
+  EXPECT_EQ(lines, GetParam().expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenarios,
+                         MalformedBuild,
+                         testing::ValuesIn(MalformedCases("build")),
+                         [](const auto& test) { return NameOf(test.param); });
+
+}  // namespace
+}  // namespace railcast

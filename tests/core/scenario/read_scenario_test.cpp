@@ -1,0 +1,113 @@
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "core/scenario/scenario.h"
+#include "tests/core/scenario/scenario_files.h"
+
+namespace railcast {
+namespace {
+
+// A scenario in a folder of its own, on top of the smallest shipped one.
+std::string OnMinimal(const std::string& sections) {
+  return R"({"version": 1, "file": ")" + (ScenariosDir() / "minimal.json").string() + R"(", )" +
+         sections + "}";
+}
+
+std::string FaultsOf(const std::filesystem::path& file) {
+  try {
+    static_cast<void>(ReadScenario(file));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ReadScenario, TakesDefaultsFromTheSpecs) {
+  const ScenarioSpec spec = ReadScenario(ScenariosDir() / "minimal.json");
+  EXPECT_EQ(spec.seed, ScenarioSpec().seed);
+  EXPECT_EQ(spec.weather, WeatherSpec());
+  EXPECT_EQ(spec.world.tracks, WorldSpec().tracks);
+  EXPECT_EQ(spec.lidar.mount, MountSpec());
+  EXPECT_FALSE(spec.camera.has_value());
+}
+
+TEST(ReadScenario, LetsAnObjectReplaceKeysOfTheFileItNames) {
+  const TemporaryFolder folder;
+  const ScenarioSpec base = ReadScenario(ScenariosDir() / "minimal.json");
+  const ScenarioSpec spec = ReadScenario(folder.Write(
+      "a.json",
+      OnMinimal(R"("lidar": {"file": ")" + (ScenariosDir() / "sensors/vir2rail.json").string() +
+                R"(", "range_max_m": 120, "mount": {"yaw_deg": 10}})")));
+  EXPECT_EQ(spec.lidar.range_max_m, 120.0);
+  EXPECT_EQ(spec.lidar.mount.yaw_deg, 10.0);
+  EXPECT_EQ(spec.lidar.mount.position_m, MountSpec().position_m);
+  EXPECT_EQ(spec.lidar.scan, base.lidar.scan);
+  EXPECT_EQ(spec.world, base.world);
+}
+
+TEST(ReadScenario, LetsAFileNameTheNextOne) {
+  const TemporaryFolder folder;
+  folder.Write("fog.json", R"({"version": 1, "fog_density_per_m": 0.02, "rain_rate_mmph": 3})");
+  folder.Write("wet_fog.json", R"({"version": 1, "file": "fog.json", "rain_rate_mmph": 9})");
+  const ScenarioSpec spec =
+      ReadScenario(folder.Write("a.json", OnMinimal(R"("weather": "wet_fog.json")")));
+  EXPECT_EQ(spec.weather.fog_density_per_m, 0.02);
+  EXPECT_EQ(spec.weather.rain_rate_mmph, 9.0);
+}
+
+TEST(ReadScenario, ReportsTheFaultsOfEveryFileAtOnce) {
+  const TemporaryFolder folder;
+  const auto weather = folder.Write("weather.json", R"({"version": 1, "snow_rate_mmph": -1})");
+  const auto file = folder.Write(
+      "a.json",
+      OnMinimal(R"("weather": "weather.json", "fidelity": "high", "output": {"fram": 1})"));
+  EXPECT_EQ(FaultsOf(file),
+            file.string() +
+                ": /fidelity: must be \"geometry\" or \"plausibility\" (got \"high\")\n" +
+                weather.string() + ": /snow_rate_mmph: must be >= 0 (got -1)\n" + file.string() +
+                ": /output/fram: unknown key, the nearest is \"frame\"");
+}
+
+TEST(ReadScenario, LocatesAFaultInTheObjectThatReplacesAFilesKey) {
+  const TemporaryFolder folder;
+  folder.Write("weather.json", R"({"version": 1, "snow_rate_mmph": -1, "fog_density_per_m": -2})");
+  const auto file = folder.Write(
+      "a.json", OnMinimal(R"("weather": {"file": "weather.json", "snow_rate_mmph": -3})"));
+  EXPECT_EQ(FaultsOf(file), file.parent_path().string() +
+                                "/weather.json: /fog_density_per_m: must be >= 0 (got -2)\n" +
+                                file.string() + ": /weather/snow_rate_mmph: must be >= 0 (got -3)");
+}
+
+TEST(ReadScenario, ResolvesFileNamesAgainstTheFileThatHoldsThem) {
+  const TemporaryFolder folder;
+  const auto table = folder.Write("rosette.csv", "");
+  folder.Write("lidar.json",
+               R"({"version": 1, "scan": {"rate_hz": 10,
+                   "pattern": {"type": "table", "file": "rosette.csv"}}})");
+  const auto file = folder.Write("a.json", OnMinimal(R"("lidar": "lidar.json")"));
+  std::filesystem::current_path("/");
+  const ScenarioSpec spec = ReadScenario(file.relative_path());
+  EXPECT_EQ(std::get<FiringTableSpec>(spec.lidar.scan.pattern).file, table.string());
+}
+
+TEST(ReadScenario, NamesAMissingFileAsItWasGiven) {
+  EXPECT_EQ(FaultsOf("no/such/scenario.json"), "no/such/scenario.json: no such file");
+  EXPECT_EQ(FaultsOf("/"), "/: must be a file, not a directory");
+}
+
+TEST(ReadScenario, ReadsEverySensorOfTheCatalogue) {
+  const TemporaryFolder folder;
+  for (const auto& sensor : JsonFilesIn(ScenariosDir() / "sensors")) {
+    const auto file = folder.Write("a.json", OnMinimal(R"("lidar": ")" + sensor.string() + '"'));
+    EXPECT_EQ(FaultsOf(file), "") << sensor;
+  }
+}
+
+TEST(ReadScenario, KeepsWholeNumbersThatNoDoubleHolds) {
+  const TemporaryFolder folder;
+  const auto file = folder.Write("a.json", OnMinimal(R"("seed": 18446744073709551615)"));
+  EXPECT_EQ(ReadScenario(file).seed, 18446744073709551615ULL);
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+
+#include "core/scenario/scenario.h"
+#include "tests/core/scenario/scenario_files.h"
+
+namespace railcast {
+namespace {
+
+class ShippedScenario : public testing::TestWithParam<std::filesystem::path> {};
+
+TEST_P(ShippedScenario, ReadsBackFromItsResolvedJson) {
+  const ScenarioSpec spec = ReadScenario(GetParam());
+  const TemporaryFolder folder;
+  const std::string resolved = ResolvedScenarioJson(spec);
+  const ScenarioSpec again = ReadScenario(folder.Write("resolved.json", resolved));
+  EXPECT_EQ(again, spec);
+  EXPECT_EQ(ResolvedScenarioJson(again), resolved);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenarios,
+                         ShippedScenario,
+                         testing::ValuesIn(ShippedScenarios()),
+                         [](const auto& test) { return test.param.stem().string(); });
+
+// Every field away from its default, so that one that is not written is missed.
+ScenarioSpec UnusualScenario(const std::string& mesh_file) {
+  ScenarioSpec spec;
+  spec.seed = 0xFFFF'FFFF'FFFF'FFFFULL;
+  spec.fidelity = "geometry";
+  spec.effects = {{"rain", true}, {"noise", false}};
+  spec.lidar = {
+      "odd",
+      {12.5, SpinningSpec{{{-1.5, 0.1, 0}, {2.25, -0.1, 1.5}}, 50.1, 7, "counterclockwise", 12.0}},
+      1.25,
+      99.5,
+      {{1, 2, 3}, 4, 5, 6},
+      {0.2, 150, 0.02, 2e-4, "beam", 0.125}};
+  spec.weather = {0.01, 3, 4e-4, 0.7, 5, 0.03, 6};
+  spec.interfaces.udp = {"localhost:1", "[::1]:65535"};
+  spec.camera = R"({"b":1,"a":[2.5,null]})";
+  spec.world.alignment = {AlignmentSplineSpec{{{0, 0}, {100, 0.1}}},
+                          "a survey",
+                          {1, 2, 3},
+                          45,
+                          {{0, 1.5}},
+                          {{0, 80}},
+                          10,
+                          11,
+                          12,
+                          13,
+                          14};
+  spec.world.tracks = {{"a", 1, 2, 3.0, "wood", false}, {"b", -4, 0, {}, "concrete", true}};
+  spec.world.catenary = {false, 5.4, 1.7, 60, 0.3, 7, 3.2};
+  spec.world.terrain = {70, 0.03, 1.9, 0.5};
+  spec.world.vegetation = {30, 8, 5, 13, false, 3.5, 8.5};
+  spec.world.objects = {{"x",
+                         "mesh",
+                         "b",
+                         1,
+                         2,
+                         3,
+                         4,
+                         {{5, 6, 7}},
+                         mesh_file,
+                         "y",
+                         0.001,
+                         "rail",
+                         "soil",
+                         MotionSpec{{{{}, 8.0, 9}}, true}}};
+  spec.vehicle.track = "b";
+  spec.vehicle.start_s_m = 10;
+  spec.vehicle.motion.profile = {{1.0, {}, 2}, {3.0, {}, 0}};
+  spec.vehicle.motion.reverse = true;
+  spec.vehicle.ego_boxes_m = {{-1, -2, -3, 1, 2, 3}};
+  spec.output = {"world", "left"};
+  spec.materials = {{"soil", 0.25}};
+  spec.labels = {{1, "rail", {1, 2, 3}, "Rails", "track", 260, 49}};
+  return spec;
+}
+
+TEST(ResolvedScenario, HoldsEveryField) {
+  const TemporaryFolder folder;
+  const ScenarioSpec spec = UnusualScenario(folder.Write("x.obj", "").string());
+  const auto file = folder.Write("resolved.json", ResolvedScenarioJson(spec));
+  EXPECT_EQ(ReadScenario(file), spec);
+}
+
+TEST(ResolvedScenario, HoldsOtherCoursesAndPatterns) {
+  const TemporaryFolder folder;
+  ScenarioSpec spec = UnusualScenario(folder.Write("x.obj", "").string());
+  spec.lidar.scan.pattern = FiringTableSpec{folder.Write("x.csv", "").string()};
+  spec.world.alignment.course =
+      AlignmentElementsSpec{{{"straight", 10, {}}, {"clothoid", 11, {}}, {"arc", 12, -300.0}}};
+  EXPECT_EQ(ReadScenario(folder.Write("resolved.json", ResolvedScenarioJson(spec))), spec);
+  spec.lidar.scan.pattern = RasterSpec{60, 30, 0.5, "rows"};
+  spec.world.alignment.course = AlignmentSectionsSpec{500, {{0, {}, 300.0}, {50, 300.0, -300.0}}};
+  EXPECT_EQ(ReadScenario(folder.Write("resolved.json", ResolvedScenarioJson(spec))), spec);
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,49 @@
+#include "core/scenario/scenario_sources.h"
+
+#include <gtest/gtest.h>
+
+namespace railcast {
+namespace {
+
+ScenarioSources LidarFromAFile() {
+  ScenarioSources sources;
+  sources.Add("", "demo.json", "");
+  sources.Add("/lidar", "sensors/vlp16.json", "");
+  sources.Add("/lidar/mount", "demo.json", "/lidar/mount");
+  sources.AddFile("/home/anna/rosette.csv", "rosette.csv");
+  return sources;
+}
+
+TEST(ScenarioSources, NameTheFileThatAValueStandsIn) {
+  const ScenarioSources sources = LidarFromAFile();
+  EXPECT_EQ(sources.Place("/seed"), "demo.json: /seed");
+  EXPECT_EQ(sources.Place("/lidar/scan/rate_hz"), "sensors/vlp16.json: /scan/rate_hz");
+  EXPECT_EQ(sources.Place("/lidar/mount/yaw_deg"), "demo.json: /lidar/mount/yaw_deg");
+  EXPECT_EQ(sources.Place("/lidar"), "sensors/vlp16.json");
+}
+
+TEST(ScenarioSources, DoNotMistakeAKeyForOneThatItBeginsWith) {
+  EXPECT_EQ(LidarFromAFile().Place("/lidar2/scan"), "demo.json: /lidar2/scan");
+}
+
+TEST(ScenarioSources, LocateABuildersPointerInItsFile) {
+  EXPECT_EQ(LidarFromAFile().Locate("/pattern/columns: must be > 0 (got 0)", "/lidar/scan"),
+            "sensors/vlp16.json: /scan/pattern/columns: must be > 0 (got 0)");
+}
+
+TEST(ScenarioSources, ShowAFileAsTheUserKnowsIt) {
+  EXPECT_EQ(LidarFromAFile().Locate("/home/anna/rosette.csv:3: must have 3 values", "/lidar/scan"),
+            "rosette.csv:3: must have 3 values");
+}
+
+TEST(ScenarioSources, PutALineWithoutAPlaceWhereItsSpecStands) {
+  EXPECT_EQ(LidarFromAFile().Locate("labels: the table must hold \"rail\"", ""),
+            "demo.json: labels: the table must hold \"rail\"");
+}
+
+TEST(ScenarioSources, LeaveThePointerWhereNothingWasRead) {
+  EXPECT_EQ(ScenarioSources().Place("/world/tracks/0"), "/world/tracks/0");
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,57 @@
+"""Validates the published schemas, the shipped files by them, and that faults do not pass."""
+
+import json
+import pathlib
+import sys
+
+try:
+    from jsonschema import Draft202012Validator
+except ImportError:
+    print("skipped: Debian's python3-jsonschema is not installed")
+    sys.exit(77)
+
+scenarios = pathlib.Path(sys.argv[1])
+validators = {}
+for file in sorted((scenarios / "schema").glob("*.schema.json")):
+    schema = json.loads(file.read_text())
+    Draft202012Validator.check_schema(schema)
+    validators[file.name.removesuffix(".schema.json")] = Draft202012Validator(schema)
+
+SHIPPED = {
+    "scenario": ["*.json"],
+    "lidar": ["sensors/*.json", "published/Lidar.json"],
+    "weather": ["weather/*.json", "published/Weather.json"],
+    "interfaces": ["published/Interfaces.json"],
+    "alignment": ["alignments/*.json"],
+    "materials": ["materials/*.json"],
+    "labels": ["labels.json"],
+}
+# Faults within one value, which a schema can state.
+REFUSED = """unknown_key unknown_section unknown_key_in_list missing_keys missing_key_nested
+missing_type unknown_type string_for_number null_for_number number_for_flag list_for_object
+wrong_length fraction_for_whole negative_range not_a_choice unknown_effect no_channels no_tracks
+wrong_version no_version rain_twice""".split()
+
+num_failures = 0
+
+
+def fail(message):
+    global num_failures
+    num_failures += 1
+    print(message)
+
+
+num_files = 0
+for kind, patterns in SHIPPED.items():
+    for file in sorted(f for pattern in patterns for f in scenarios.glob(pattern)):
+        if kind == "scenario" and file.name == "labels.json":
+            continue
+        num_files += 1
+        for error in validators[kind].iter_errors(json.loads(file.read_text())):
+            fail(f"{file}: {error.json_path}: {error.message[:200]}")
+for name in REFUSED:
+    file = scenarios / "malformed" / "read" / f"{name}.json"
+    if validators["scenario"].is_valid(json.loads(file.read_text())):
+        fail(f"{file}: passes")
+print(f"{len(validators)} schemas, {num_files} files, {len(REFUSED)} faults: {num_failures} failures")
+sys.exit(num_failures > 0)

@@ -1,0 +1,64 @@
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "tests/support/analytic_meshes.h"
+#include "tests/support/scan_once.h"
+#include "tests/support/simple_world.h"
+
+namespace railcast {
+namespace {
+
+// A wall at x = 50 in a chunk that is turned to the left by a quarter and moved by (100, 200, 0):
+// in the world it stands at y = 250.
+std::shared_ptr<SimpleWorld> TurnedWorld() {
+  auto world = std::make_shared<SimpleWorld>();
+  world->ground.parts = {{MakeWall(50.0F, 500.0F), 1, 1}};
+  world->world_from_chunk =
+      MakeTransform(RotationFromYawPitchRoll(std::numbers::pi / 2, 0, 0), {100.0, 200.0, 0.0});
+  world->velocity_chunk_mps = {15.0, 0.0, 0.0};
+  return world;
+}
+
+SimulatorSpec WithAxes(const char* frame, const char* handedness) {
+  SimulatorSpec spec;
+  spec.vehicle_from_sensor =
+      MakeTransform(RotationFromYawPitchRoll(0.1, 0.05, 0.0), {2.0, 0.5, 3.0});
+  spec.output = {frame, handedness};
+  return spec;
+}
+
+TEST(OutputAxes, VehicleAxesAreMovedByTheMounting) {
+  const ScanPattern pattern = MakeRaster(40, 10, 1);
+  const Frame sensor = ScanOnce(TurnedWorld(), pattern, WithAxes("sensor", "right"));
+  const Frame vehicle = ScanOnce(TurnedWorld(), pattern, WithAxes("vehicle", "right"));
+  const Transform& vehicle_from_sensor = WithAxes("", "").vehicle_from_sensor;
+  for (std::size_t slot = 0; slot < sensor.num_slots(); ++slot) {
+    const Vector3 moved =
+        vehicle_from_sensor *
+        Eigen::Vector3f(sensor.x[slot], sensor.y[slot], sensor.z[slot]).cast<double>();
+    EXPECT_NEAR(static_cast<double>(vehicle.x[slot]), moved.x(), 1e-5);
+    EXPECT_NEAR(static_cast<double>(vehicle.y[slot]), moved.y(), 1e-5);
+    EXPECT_NEAR(static_cast<double>(vehicle.z[slot]), moved.z(), 1e-5);
+  }
+}
+
+TEST(OutputAxes, WorldAxesShowTheWallWithoutMotionDistortion) {
+  const Frame world = ScanOnce(TurnedWorld(), MakeRaster(40, 10, 1), WithAxes("world", "right"));
+  for (std::size_t slot = 0; slot < world.num_slots(); ++slot) {
+    EXPECT_NEAR(static_cast<double>(world.y[slot]), 250.0, 1e-4);
+  }
+}
+
+TEST(OutputAxes, LeftHandednessNegatesY) {
+  const ScanPattern pattern = MakeRaster(40, 10, 1);
+  const Frame right = ScanOnce(TurnedWorld(), pattern, WithAxes("sensor", "right"));
+  const Frame left = ScanOnce(TurnedWorld(), pattern, WithAxes("sensor", "left"));
+  for (std::size_t slot = 0; slot < right.num_slots(); ++slot) {
+    EXPECT_EQ(left.x[slot], right.x[slot]);
+    EXPECT_EQ(left.y[slot], -right.y[slot]);
+  }
+}
+
+}  // namespace
+}  // namespace railcast

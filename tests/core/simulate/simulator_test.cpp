@@ -1,0 +1,178 @@
+#include "core/simulate/simulator.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/analytic_meshes.h"
+#include "tests/support/scan_once.h"
+#include "tests/support/simple_world.h"
+
+namespace railcast {
+namespace {
+
+constexpr std::uint32_t kWallLabel = 7;
+
+std::shared_ptr<const Model> WallModel(float distance_m, float half_m, std::uint16_t material = 2) {
+  return std::make_shared<Model>(
+      Model{"wall", {{MakeWall(distance_m, half_m), material, kWallLabel}}});
+}
+
+std::shared_ptr<SimpleWorld> WorldWithWall(float distance_m, float half_m = 1000.0F) {
+  auto world = std::make_shared<SimpleWorld>();
+  world->ground = *WallModel(distance_m, half_m);
+  return world;
+}
+
+std::size_t CountOutcome(const Frame& frame, Outcome outcome) {
+  return static_cast<std::size_t>(std::count(frame.outcome.begin(), frame.outcome.end(), outcome));
+}
+
+TEST(Simulator, FillsEveryFieldOfAReturn) {
+  const Frame frame = ScanOnce(WorldWithWall(20.0F), MakeRaster(10, 10, 1));
+  ASSERT_EQ(frame.num_slots(), 100U);
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    const double x = static_cast<double>(frame.x[slot]);
+    const double range = static_cast<double>(frame.range_m[slot]);
+    EXPECT_NEAR(x, 20.0, 1e-5);
+    EXPECT_NEAR(static_cast<double>(frame.incidence_rad[slot]), std::acos(20.0 / range), 2e-4);
+    EXPECT_EQ(frame.outcome[slot], Outcome::kReturned);
+    EXPECT_EQ(frame.true_range_m[slot], frame.range_m[slot]);
+    EXPECT_EQ(frame.label[slot], kWallLabel);
+    EXPECT_EQ(frame.material[slot], 2);
+    EXPECT_EQ(frame.return_count[slot], 1);
+    EXPECT_EQ(frame.ring[slot], slot / 10);
+    EXPECT_EQ(frame.column[slot], slot % 10);
+    EXPECT_EQ(frame.time_ns[slot], 10'000'000U * (slot % 10));
+    EXPECT_TRUE(std::isnan(frame.intensity[slot]));
+    EXPECT_TRUE(std::isnan(frame.power_ratio[slot]));
+  }
+  // Row 0 looks down, column 0 looks left.
+  EXPECT_LT(frame.z.front(), 0.0F);
+  EXPECT_GT(frame.y.front(), 0.0F);
+}
+
+TEST(Simulator, GivesEachBlockedFiringItsCause) {
+  const ScanPattern pattern = MakeRaster(10, 10, 1);
+  const SimulatorSpec spec{.range_min_m = 1.0, .range_max_m = 50.0};
+  EXPECT_EQ(CountOutcome(ScanOnce(WorldWithWall(0.5F), pattern, spec), Outcome::kNearRange), 100U);
+  const Frame far = ScanOnce(WorldWithWall(60.0F), pattern, spec);
+  EXPECT_EQ(CountOutcome(far, Outcome::kNoSurface), 100U);
+  EXPECT_EQ(far.label[0], 0U);
+  EXPECT_TRUE(std::isnan(far.x[0]) && std::isnan(far.range_m[0]) &&
+              std::isnan(far.true_range_m[0]));
+
+  auto world = WorldWithWall(20.0F);
+  world->AddObject(WallModel(0.2F, 100.0F), Transform::Identity(), Vector3::Zero(), true);
+  const Frame ego = ScanOnce(world, pattern, spec);
+  EXPECT_EQ(CountOutcome(ego, Outcome::kEgo), 100U);
+  EXPECT_TRUE(std::isnan(ego.x[0]));
+  EXPECT_NEAR(static_cast<double>(ego.true_range_m[45]), 0.2, 1e-3);
+}
+
+TEST(Simulator, ThresholdUsesReflectivityIncidenceAndFog) {
+  SimulatorSpec spec{.effects = {.threshold = true}};
+  spec.weather.fog_density_per_m = 0.005;
+  const Frame frame = ScanOnce(WorldWithWall(100.0F), MakeRaster(40, 10, 1), spec);
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    const double range = static_cast<double>(frame.true_range_m[slot]);
+    const double intensity = 0.5 * 100.0 / range;
+    const double ratio = intensity * std::exp(-0.005 * range) / (0.1 * std::pow(range / 200.0, 2));
+    EXPECT_NEAR(static_cast<double>(frame.intensity[slot]), intensity, 1e-6);
+    EXPECT_NEAR(static_cast<double>(frame.power_ratio[slot]) / ratio, 1.0, 1e-5);
+    EXPECT_EQ(frame.outcome[slot], ratio >= 1.0 ? Outcome::kReturned : Outcome::kBelowThreshold);
+  }
+}
+
+TEST(Simulator, AFrameKeepsTheTruthOfWhatWasNotDetected) {
+  SimulatorSpec spec{.effects = {.threshold = true}};
+  spec.plausibility.reference_threshold = 1e6;
+  const Frame frame = ScanOnce(WorldWithWall(100.0F), MakeRaster(10, 10, 1), spec);
+  EXPECT_EQ(CountOutcome(frame, Outcome::kBelowThreshold), 100U);
+  EXPECT_TRUE(std::isnan(frame.range_m[55]));
+  EXPECT_NEAR(static_cast<double>(frame.true_range_m[55]), 100.0, 0.1);
+  EXPECT_EQ(frame.label[55], kWallLabel);
+}
+
+TEST(Simulator, ReadsTheInstanceOfTheObjectInFront) {
+  auto world = WorldWithWall(50.0F);
+  world->AddObject(WallModel(0.0F, 2.0F, 1),
+                   MakeTransform(Eigen::Matrix3d::Identity(), {20.0, 0.0, 0.0}));
+  const Frame frame = ScanOnce(world, MakeRaster(20, 2, 1));
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    const bool in_front = std::abs(frame.y[slot] / frame.x[slot]) < 0.1F;
+    EXPECT_EQ(frame.instance[slot], in_front ? 1U : 0U);
+    EXPECT_EQ(frame.material[slot], in_front ? 1 : 2);
+  }
+}
+
+TEST(Simulator, RollingShutterSeesTheWallComeNearer) {
+  auto world = WorldWithWall(50.0F);
+  world->velocity_chunk_mps = {20.0, 0.0, 0.0};
+  const Frame frame = ScanOnce(world, MakeRaster(60, 2, 1));
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    const double travelled_m = 20.0 * static_cast<double>(frame.time_ns[slot]) * 1e-9;
+    EXPECT_NEAR(static_cast<double>(frame.x[slot]), 50.0 - travelled_m, 1e-4);
+  }
+}
+
+TEST(Simulator, MovingObjectsAreSeenWhereTheyAreAtEachFiring) {
+  auto world = std::make_shared<SimpleWorld>();
+  world->AddObject(WallModel(0.0F, 100.0F),
+                   MakeTransform(Eigen::Matrix3d::Identity(), {50.0, 0.0, 0.0}), {-30.0, 0.0, 0.0});
+  const Frame frame = ScanOnce(world, MakeRaster(60, 2, 1), {}, 3);
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    const double time_s = 0.3 + static_cast<double>(frame.time_ns[slot]) * 1e-9;
+    EXPECT_NEAR(static_cast<double>(frame.x[slot]), 50.0 - 30.0 * time_s, 1e-4);
+    EXPECT_EQ(frame.instance[slot], 1U);
+  }
+}
+
+TEST(Simulator, CountsTheFiringsOnAnObjectAsIfItStoodAlone) {
+  auto world = std::make_shared<SimpleWorld>();
+  world->AddObject(WallModel(0.0F, 2.0F), MakeTransform(Eigen::Matrix3d::Identity(), {20, 0, 0}));
+  world->AddObject(WallModel(0.0F, 2.0F), MakeTransform(Eigen::Matrix3d::Identity(), {40, 0, 0}));
+  world->AddObject(WallModel(0.0F, 2.0F), MakeTransform(Eigen::Matrix3d::Identity(), {400, 0, 0}));
+  Simulator simulator(world, MakeRaster(30, 30, 0.5), TestMaterials(), {}, 2);
+  const auto alone = simulator.FiringsOnObjectAlone(0);
+  Frame frame;
+  simulator.Scan(0, frame);
+  ASSERT_EQ(alone.size(), 3U);
+  const auto visible = [&](std::uint32_t instance) {
+    return std::count(frame.instance.begin(), frame.instance.end(), instance);
+  };
+  // Half angles atan(2/20) = 5.7 deg: 22 cells a side; atan(2/40) = 2.9 deg: 12 cells; the first
+  // hides the second; the third is out of range.
+  EXPECT_EQ(alone[0], 22U * 22U);
+  EXPECT_EQ(visible(1), 22 * 22);
+  EXPECT_EQ(alone[1], 12U * 12U);
+  EXPECT_EQ(visible(2), 0);
+  EXPECT_EQ(alone[2], 0U);
+}
+
+TEST(Simulator, ExplainsAFiringAsScanMeasuredIt) {
+  SimulatorSpec spec{.effects = {.threshold = true, .rain = true, .snow = true, .noise = true}};
+  spec.weather.rain_rate_mmph = 30.0;
+  spec.weather.snow_rate_mmph = 10.0;
+  Simulator simulator(WorldWithWall(60.0F), MakeRaster(20, 10, 1), TestMaterials(), spec, 1);
+  Frame frame;
+  simulator.Scan(5, frame);
+  for (std::uint32_t firing = 0; firing < 200; ++firing) {
+    const FiringStory story = simulator.Explain(5, firing);
+    EXPECT_EQ(story.time_ns, frame.time_ns[story.slot]);
+    const FiringStory::Step& last = story.steps.back();
+    EXPECT_EQ(last.outcome, frame.outcome[story.slot]);
+    EXPECT_EQ(last.power_ratio, frame.power_ratio[story.slot]);
+    if (HasPoint(last.outcome)) {
+      EXPECT_EQ(last.range_m, frame.range_m[story.slot]);
+    }
+    EXPECT_EQ(story.material, 2);
+  }
+  std::vector<std::string> effects;
+  for (const auto& step : simulator.Explain(5, 0).steps) effects.push_back(step.effect);
+  EXPECT_EQ(effects, (std::vector<std::string>{"hit", "threshold", "rain", "snow", "noise"}));
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,226 @@
+"""Each test plants a small tree and reads what scripts/lint_architecture.py says of it."""
+
+import contextlib
+import io
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+import lint_architecture  # noqa: E402 (found through the line above)
+
+
+def faults_of(files):
+    """The faults of a tree with these files: {name: text}."""
+    with tempfile.TemporaryDirectory() as folder:
+        plant(pathlib.Path(folder), files)
+        return lint_architecture.lint(pathlib.Path(folder))
+
+
+def plant(root, files):
+    for name, text in files.items():
+        path = root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+
+
+def public(*headers):
+    return f"target_sources(x PUBLIC FILE_SET HEADERS BASE_DIRS ${{X}} FILES {' '.join(headers)})\n"
+
+
+class IncludeDirection(unittest.TestCase):
+
+    def test_a_folder_of_core_may_include_itself_and_those_before_it(self):
+        self.assertEqual(faults_of({
+            "core/base/units.h": "",
+            "core/scan/scan_spec.h": "",
+            "core/scan/scan_pattern.h":
+                '#include "core/base/units.h"\n#include "core/scan/scan_spec.h"\n',
+        }), [])
+
+    def test_a_folder_of_core_may_not_include_one_after_it(self):
+        self.assertEqual(faults_of({
+            "core/rail/line.cpp": '\n#include "core/trace/tracer.h"\n',
+            "core/trace/tracer.h": "",
+        }), ["core/rail/line.cpp:2: core/rail comes before core/trace and includes nothing of it "
+             "(core/trace/tracer.h)"])
+
+    def test_an_unknown_folder_of_core_needs_a_place_in_the_order(self):
+        self.assertEqual(faults_of({"core/misc/a.cpp": '#include "core/base/error.h"\n'}), [
+            "core/misc/a.cpp:1: misc has no place in the order of core's folders "
+            "(core/base/error.h)"])
+
+    def test_programs_share_core_and_nothing_else(self):
+        self.assertEqual(faults_of({
+            "viewer/main.cpp": '#include "core/frame/frame.h"\n#include "analysis/stats.h"\n',
+            "core/simulate/simulator.cpp": '#include "generator/sequence.h"\n',
+        }), [
+            "core/simulate/simulator.cpp:1: core includes no generator (generator/sequence.h)",
+            "viewer/main.cpp:2: viewer includes no analysis (analysis/stats.h)"])
+
+    def test_tests_may_include_everything(self):
+        self.assertEqual(faults_of({
+            "tests/all_test.cpp": '#include "viewer/a.h"\n#include "core/io/b.h"\n'
+                                  '#include <pcl/io/pcd_io.h>\n#include <OpenMesh/Core/IO/MeshIO.hh>\n',
+        }), [])
+
+    def test_our_own_files_are_included_from_the_root(self):
+        self.assertEqual(faults_of({"core/base/error.cpp": '#include "error.h"\n'}), [
+            'core/base/error.cpp:1: our own files are included from the root ("error.h")'])
+
+
+class Libraries(unittest.TestCase):
+
+    def test_each_library_stays_where_it_belongs(self):
+        self.assertEqual(faults_of({
+            "core/trace/tracer.cpp": "#include <embree3/rtcore.h>\n",
+            "core/scene/obj_reader.cpp": "#include <OpenMesh/Core/IO/MeshIO.hh>\n",
+            "core/scenario/json_reader.h": "#include <nlohmann/json.hpp>\n",
+            "core/io/pcd.cpp": "#include <pcl/io/pcd_io.h>\n",
+            "viewer/main.cpp": "#include <vtkRenderer.h>\n#include <CLI/CLI.hpp>\n",
+        }), [])
+
+    def test_a_library_elsewhere_is_a_fault(self):
+        for include, owners in {
+            "embree3/rtcore.h": "core/trace and tests include Embree",
+            "OpenMesh/Core/IO/MeshIO.hh": "core/scene and tests include OpenMesh",
+            "nlohmann/json.hpp": "core/scenario, core/io, generator, analysis and tests include "
+                                 "nlohmann",
+            "pcl/point_types.h": "core/io, generator, analysis, viewer and tests include PCL",
+            "vtkRenderer.h": "viewer and tests include VTK",
+            "CLI/CLI.hpp": "generator, analysis, viewer and tests include CLI11",
+        }.items():
+            with self.subTest(include):
+                self.assertEqual(faults_of({"core/rail/a.cpp": f"#include <{include}>\n"}),
+                                 [f"core/rail/a.cpp:1: only {owners} ({include})"])
+
+
+class PublicHeaders(unittest.TestCase):
+
+    def test_they_include_the_standard_library_eigen_and_each_other(self):
+        self.assertEqual(faults_of({
+            "core/base/CMakeLists.txt": public("a.h", "b.h"),
+            "core/base/a.h": "#include <vector>\n#include <Eigen/Core>\n",
+            "core/base/b.h": '#include "core/base/a.h"\n',
+        }), [])
+
+    def test_they_include_no_other_library_even_where_it_belongs(self):
+        self.assertEqual(faults_of({
+            "core/scenario/CMakeLists.txt": public("scenario.h"),
+            "core/scenario/scenario.h": "#include <nlohmann/json.hpp>\n",
+        }), ["core/scenario/scenario.h:1: public headers include the standard library and Eigen "
+             "only (nlohmann/json.hpp)"])
+
+    def test_those_of_core_io_may_include_pcl_as_well(self):
+        self.assertEqual(faults_of({
+            "core/io/CMakeLists.txt": public("pcd_reader.h"),
+            "core/io/pcd_reader.h": "#include <pcl/PCLPointCloud2.h>\n#include <zlib.h>\n",
+        }), ["core/io/pcd_reader.h:2: public headers include the standard library and Eigen only "
+             "(zlib.h)"])
+
+    def test_they_include_no_private_header(self):
+        self.assertEqual(faults_of({
+            "core/base/CMakeLists.txt": "target_sources(x PRIVATE b.cpp)\n" + public("a.h"),
+            "core/base/a.h": '#include "core/base/b.h"\n',
+            "core/base/b.h": "",
+        }), ["core/base/a.h:1: a public header includes no private one (core/base/b.h)"])
+
+
+class Cycles(unittest.TestCase):
+
+    def test_a_circle_of_includes_is_named_once(self):
+        self.assertEqual(faults_of({
+            "core/base/a.h": '#include "core/base/b.h"\n',
+            "core/base/b.h": '#include "core/base/c.h"\n',
+            "core/base/c.h": '\n#include "core/base/a.h"\n',
+        }), ["core/base/c.h:2: includes make no circle "
+             "(core/base/a.h -> core/base/b.h -> core/base/c.h -> core/base/a.h)"])
+
+    def test_two_ways_to_the_same_header_are_no_circle(self):
+        self.assertEqual(faults_of({
+            "core/base/a.h": '#include "core/base/b.h"\n#include "core/base/c.h"\n',
+            "core/base/b.h": '#include "core/base/d.h"\n',
+            "core/base/c.h": '#include "core/base/d.h"\n',
+            "core/base/d.h": "",
+        }), [])
+
+
+class Units(unittest.TestCase):
+
+    def names_flagged(self, declaration):
+        faults = faults_of({"core/base/a.h": f"#pragma once\n\nstruct A {{\n{declaration}\n}};\n"})
+        for fault in faults:
+            self.assertTrue(fault.startswith("core/base/a.h:4: a dimensional name ends in its unit"))
+        return [fault.rpartition("(")[2][:-1] for fault in faults]
+
+    def test_a_dimensional_name_without_its_unit_is_a_fault(self):
+        for declaration, names in {
+            "  double range = 3.0;": ["range"],
+            "  float max_speed_{};": ["max_speed_"],
+            "  double speed_limit() const;": ["speed_limit"],
+            "  std::vector<float> ranges;": ["ranges"],
+            "  std::optional<std::array<double, 3>> lengths;": ["lengths"],
+            "  void Move(int count, const double& distance);": ["distance"],
+            "  double height, width_m, angle;": ["height", "angle"],
+        }.items():
+            with self.subTest(declaration):
+                self.assertEqual(self.names_flagged(declaration), names)
+
+    def test_units_and_shares_of_like_are_enough(self):
+        for declaration in (
+            "  double range_min_m = 0.5;",
+            "  double incidence_angle_rad{};",
+            "  float rain_rate_mmph_;",
+            "  double rain_dropout_rate_exponent = 0.63;",
+            "  std::vector<double> heights_m;",
+            "  double SpeedLimit_mps(double time_s) const;",
+        ):
+            with self.subTest(declaration):
+                self.assertEqual(self.names_flagged(declaration), [])
+
+    def test_counts_comments_and_other_words_are_left_alone(self):
+        for declaration in (
+            "  int num_ranges;",
+            "  // A double range is two of them.",
+            "  double orange = 1.0;",
+            "  double reflectivity{};  ///< A double time;",
+        ):
+            with self.subTest(declaration):
+                self.assertEqual(self.names_flagged(declaration), [])
+
+
+class Sizes(unittest.TestCase):
+
+    def test_five_hundred_lines_are_allowed_and_one_more_is_not(self):
+        self.assertEqual(faults_of({
+            "core/base/a.cpp": "\n" * 500,
+            "core/base/b.cpp": "\n" * 501,
+        }), ["core/base/b.cpp:500: a file has at most 500 lines (501)"])
+
+
+class CommandLine(unittest.TestCase):
+
+    def run_on(self, files):
+        out, err = io.StringIO(), io.StringIO()
+        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(out), \
+                contextlib.redirect_stderr(err):
+            plant(pathlib.Path(folder), files)
+            status = lint_architecture.main(["lint_architecture.py", folder])
+        return status, out.getvalue(), err.getvalue()
+
+    def test_long_files_are_listed_longest_first_and_are_no_fault(self):
+        self.assertEqual(self.run_on({
+            "core/base/a.cpp": "\n" * 301,
+            "core/base/b.cpp": "\n" * 400,
+            "core/base/c.cpp": "\n" * 300,
+        }), (0, "long: core/base/b.cpp: 400 lines\nlong: core/base/a.cpp: 301 lines\n", ""))
+
+    def test_faults_go_to_standard_error_and_fail(self):
+        self.assertEqual(self.run_on({"core/base/a.h": "double time;\n"}), (
+            1, "", "core/base/a.h:1: a dimensional name ends in its unit (time)\n"))
+
+
+if __name__ == "__main__":
+    unittest.main()

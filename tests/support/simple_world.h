@@ -1,0 +1,62 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "core/base/units.h"
+#include "core/scene/world.h"
+
+namespace railcast {
+
+/// A world of one chunk for analytic scenes: its ground, its objects, and a vehicle that moves at a
+/// constant velocity. `world_from_chunk` moves all of it.
+class SimpleWorld final : public World {
+ public:
+  Model ground;  ///< Chunk frame.
+  std::vector<Placement> placements;
+  Transform world_from_chunk = Transform::Identity();
+  Transform chunk_from_vehicle = Transform::Identity();  ///< At time 0.
+  Vector3 velocity_chunk_mps = Vector3::Zero();
+
+  /// Adds an object that stands at `chunk_from_object` or moves away from it.
+  void AddObject(std::shared_ptr<const Model> model,
+                 const Transform& chunk_from_object,
+                 const Vector3& object_velocity_mps = Vector3::Zero(),
+                 bool is_ego = false) {
+    const auto instance = static_cast<std::uint32_t>(objects_.size() + 1);
+    objects_.push_back({.name = "object" + std::to_string(instance),
+                        .type = "mesh",
+                        .label = model->parts.empty() ? 0 : model->parts[0].label,
+                        .instance = instance,
+                        .model = std::move(model),
+                        .moves = !object_velocity_mps.isZero(0.0),
+                        .is_ego = is_ego});
+    object_places_.emplace_back(chunk_from_object, object_velocity_mps);
+  }
+
+  [[nodiscard]] Transform WorldFromVehicle(std::int64_t time_ns) const override {
+    return Moved(chunk_from_vehicle, velocity_chunk_mps, time_ns);
+  }
+  [[nodiscard]] int HomeChunk(std::int64_t) const override { return 0; }
+  [[nodiscard]] std::vector<int> ChunksInReach(int, double) const override { return {0}; }
+  [[nodiscard]] Transform WorldFromChunk(int) const override { return world_from_chunk; }
+  [[nodiscard]] Chunk BuildChunk(int) const override { return {ground, placements}; }
+  [[nodiscard]] const std::vector<SceneObject>& objects() const override { return objects_; }
+  [[nodiscard]] Transform WorldFromObject(std::size_t object, std::int64_t time_ns) const override {
+    return Moved(object_places_[object].first, object_places_[object].second, time_ns);
+  }
+
+ private:
+  [[nodiscard]] Transform Moved(Transform chunk_from_thing,
+                                const Vector3& velocity_mps,
+                                std::int64_t time_ns) const {
+    chunk_from_thing.pretranslate(velocity_mps * SecondsFromNs(time_ns));
+    return world_from_chunk * chunk_from_thing;
+  }
+
+  std::vector<SceneObject> objects_;
+  std::vector<std::pair<Transform, Vector3>> object_places_;
+};
+
+}  // namespace railcast

@@ -1,0 +1,229 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGReader.h>
+#include <vtkSmartPointer.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include "viewer/coloring.h"
+
+namespace railcast {
+namespace {
+
+struct Result {
+  int exit_code{};
+  std::string output;
+};
+
+Result Execute(const std::string& command) {
+  Result result;
+  FILE* const pipe = popen((command + " 2>&1").c_str(), "r");
+  std::array<char, 256> text{};
+  while (std::fgets(text.data(), text.size(), pipe) != nullptr) result.output += text.data();
+  result.exit_code = WEXITSTATUS(pclose(pipe));
+  return result;
+}
+
+/// A folder for one test, removed afterwards.
+class RailcastView : public testing::Test {
+ protected:
+  RailcastView() { std::filesystem::create_directories(folder_); }
+  ~RailcastView() override { std::filesystem::remove_all(folder_); }
+
+  std::string PathOf(const std::string& name) const { return folder_ / name; }
+
+  void Write(const std::string& name, const std::string& text) const {
+    std::filesystem::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name) << text;
+  }
+
+  /// Two upright squares of 2 x 2 m at x = 40 m: label 1 straight ahead, label 2 5 m to the left.
+  void WriteSquares(const std::string& name) const {
+    std::string points;
+    int num_points = 0;
+    for (int iy = -20; iy <= 20; ++iy) {
+      for (int iz = -20; iz <= 20; ++iz) {
+        for (int label = 1; label <= 2; ++label) {
+          points += "40 " + std::to_string(0.05 * iy + 5.0 * (label - 1)) + ' ' +
+                    std::to_string(0.05 * iz) + ' ' + std::to_string(label) + '\n';
+          ++num_points;
+        }
+      }
+    }
+    points += "nan nan nan 0\n";
+    ++num_points;
+    const std::string count = std::to_string(num_points);
+    Write(name,
+          "VERSION 0.7\nFIELDS x y z label\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH " +
+              count + "\nHEIGHT 1\nPOINTS " + count + "\nDATA ascii\n" + points);
+  }
+
+  void WriteLabels(const std::string& name) const {
+    Write(name, R"({"labels": [{"id": 1, "name": "red", "rgb": [255, 0, 0]},)"
+                R"( {"id": 2, "name": "green", "rgb": [0, 255, 0]}]})");
+  }
+
+ private:
+  const std::filesystem::path folder_ =
+      testing::TempDir() + testing::UnitTest::GetInstance()->current_test_info()->name();
+};
+
+/// The tests that draw need a display; Xvfb is one without a screen.
+class Screenshot : public RailcastView {
+ protected:
+  void SetUp() override {
+    if (std::system("command -v xvfb-run >/dev/null") != 0) GTEST_SKIP() << "xvfb-run is missing";
+  }
+
+  /// Draws 640 x 480 from the driver's place.
+  void Draw(const std::string& arguments) {
+    const Result result = Execute("xvfb-run -a " RAILCAST_VIEW
+                                  " --size 640x480 --camera driver"
+                                  " --screenshot " +
+                                  PathOf("out.png") + ' ' + arguments);
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+    vtkNew<vtkPNGReader> reader;
+    reader->SetFileName(PathOf("out.png").c_str());
+    reader->Update();
+    image_ = reader->GetOutput();
+    ASSERT_EQ(image_->GetDimensions()[0], 640);
+    ASSERT_EQ(image_->GetDimensions()[1], 480);
+  }
+
+  /// The colour at a number of pixels to the right of and above the picture's centre.
+  Rgb At(double right_px, double above_px) const {
+    const int x = static_cast<int>(std::lround(320 + right_px));
+    const int y = static_cast<int>(std::lround(240 + above_px));
+    const auto* const pixel = static_cast<const unsigned char*>(image_->GetScalarPointer(x, y, 0));
+    return {pixel[0], pixel[1], pixel[2]};
+  }
+
+  // The camera is at (-1, 0, 0.3) and looks at (60, 0, -1.5) with 36 deg from bottom to top.
+  static constexpr double kTilt = 1.8 / 61.0;
+  const double pixels_per_tangent_ = 240.0 / std::tan(18.0 * std::numbers::pi / 180.0);
+  /// The pixel row of the plane's point at height z, the pixels for one metre, at x = 40 m.
+  double Above_px(double z_m) const {
+    const double angle_rad = std::atan((z_m - 0.3) / 41.0) + std::atan(kTilt);
+    return pixels_per_tangent_ * std::tan(angle_rad);
+  }
+  const double metre_px_ = pixels_per_tangent_ / 41.0;
+
+ private:
+  vtkSmartPointer<vtkImageData> image_;
+};
+
+/// Where on the scale a colour is.
+double PlaceOnScale(const Rgb& rgb) {
+  const auto distance = [&](int step) {
+    const Rgb other = ScaleColor(step / 1000.0);
+    return std::abs(rgb[0] - other[0]) + std::abs(rgb[1] - other[1]) + std::abs(rgb[2] - other[2]);
+  };
+  int nearest = 0;
+  for (int step = 1; step <= 1000; ++step) {
+    if (distance(step) < distance(nearest)) nearest = step;
+  }
+  EXPECT_LE(distance(nearest), 3);
+  return nearest / 1000.0;
+}
+
+constexpr Rgb kRed = {255, 0, 0};
+constexpr Rgb kGreen = {0, 255, 0};
+constexpr Rgb kBackground = {26, 26, 28};
+
+TEST_F(Screenshot, ShowsBlocksInTheirLabelsColoursWhereTheyAre) {
+  WriteSquares("cloud.pcd");
+  WriteLabels("labels.json");
+  Draw(PathOf("cloud.pcd"));
+  for (const double dz : {-0.9, 0.0, 0.9}) {
+    for (const double dy : {-0.9, 0.0, 0.9}) {
+      EXPECT_EQ(At(dy * metre_px_, Above_px(dz)), kRed) << dy << ' ' << dz;
+      EXPECT_EQ(At((dy - 5.0) * metre_px_, Above_px(dz)), kGreen) << dy << ' ' << dz;
+    }
+  }
+  for (const double outside : {-1.3, 1.3}) {
+    EXPECT_EQ(At(0.0, Above_px(outside)), kBackground);
+    EXPECT_EQ(At(outside * metre_px_, Above_px(0.0)), kBackground);
+    EXPECT_EQ(At((outside - 5.0) * metre_px_, Above_px(0.0)), kBackground);
+  }
+  EXPECT_EQ(At(5.0 * metre_px_, Above_px(0.0)), kBackground);
+}
+
+TEST_F(Screenshot, ShowsHeightOnTheScale) {
+  WriteSquares("cloud.pcd");
+  Draw("--color-by height " + PathOf("cloud.pcd"));
+  // The block is 36 px high. A point covers 1 px to all sides of its own pixel, which is up to half
+  // a pixel off, and so is ours: 2 px of 36.
+  for (const double z_m : {-0.9, -0.5, 0.0, 0.5, 0.9}) {
+    EXPECT_NEAR(PlaceOnScale(At(0.0, Above_px(z_m))), 0.5 + 0.5 * z_m, 2.0 / 36.0) << z_m;
+  }
+}
+
+TEST_F(Screenshot, ShowsTheChosenFrameOfASequenceWithItsLabels) {
+  Write("run/frames/000000.pcd", "not read");
+  WriteSquares("run/frames/000007.pcd");
+  WriteLabels("run/labels.json");
+  Draw("--frame 7 " + PathOf("run"));
+  EXPECT_EQ(At(0.0, Above_px(0.0)), kRed);
+}
+
+TEST_F(Screenshot, SaysWhereItCannotWrite) {
+  WriteSquares("cloud.pcd");
+  const Result result =
+      Execute("xvfb-run -a " RAILCAST_VIEW " --screenshot /no/such/out.png " + PathOf("cloud.pcd"));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.output, "error: /no/such/out.png: cannot be written\n");
+}
+
+TEST_F(RailcastView, SaysHowToRunWithoutADisplay) {
+  WriteSquares("cloud.pcd");
+  const Result result = Execute("env -u DISPLAY " RAILCAST_VIEW " " + PathOf("cloud.pcd"));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.output,
+            "error: no display: on a machine without one, run xvfb-run -a railcast-view ...\n");
+}
+
+TEST_F(RailcastView, NamesFilesThatCannotBeShown) {
+  Write("notes.txt", "hello\n");
+  Write("empty/readme", "");
+  Write("run/frames/000000.pcd", "");
+  const std::pair<std::string, std::string> cases[] = {
+      {PathOf("gone.pcd"), PathOf("gone.pcd") + ": no such file or directory"},
+      {PathOf("notes.txt"), PathOf("notes.txt") + ": must be a .pcd or .ply file"},
+      {PathOf("empty"), PathOf("empty") + ": is no sequence directory (it has no frames/)"},
+      {PathOf("run") + " --frame 3", PathOf("run/frames") + ": has no frame 000003"}};
+  for (const auto& [arguments, fault] : cases) {
+    const Result result = Execute(RAILCAST_VIEW " " + arguments);
+    EXPECT_EQ(result.exit_code, 1) << arguments;
+    EXPECT_EQ(result.output, "error: " + fault + "\n");
+  }
+}
+
+TEST_F(RailcastView, NamesFieldsThatAreMissing) {
+  WriteSquares("cloud.pcd");
+  const Result result = Execute(RAILCAST_VIEW " --color-by intensity " + PathOf("cloud.pcd"));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.output,
+            "error: " + PathOf("cloud.pcd") + ": has no field intensity to color by\n");
+}
+
+TEST_F(RailcastView, EndsWithTwoAfterAWrongCommandLine) {
+  WriteSquares("cloud.pcd");
+  for (const char* const arguments : {"", "--color-by taste ", "--camera moon ", "--size 10x10 ",
+                                      "--size wide ", "--frame 1 ", "--frame -1 "}) {
+    const std::string source = *arguments == '\0' ? "" : PathOf("cloud.pcd");
+    EXPECT_EQ(Execute(RAILCAST_VIEW " " + (arguments + source)).exit_code, 2) << arguments;
+  }
+  EXPECT_EQ(Execute(RAILCAST_VIEW " --help").exit_code, 0);
+  EXPECT_EQ(Execute(RAILCAST_VIEW " --version").exit_code, 0);
+}
+
+}  // namespace
+}  // namespace railcast
