@@ -105,7 +105,7 @@ int SequenceCommand(const SequenceOptions& options) {
   const SequenceResult result = RunSequence(spec, MakeSource(*simulator, spec.files.labels), hooks);
   std::cout << Summary(spec, result);
   if (result.is_complete) return kExitSuccess;
-  std::cerr << "interrupted; the same command continues after frame "
+  std::cerr << "interrupted; the same command continues with frame "
             << spec.start_frame + result.num_done << "\n";
   return kExitInterrupted;
 }
