@@ -3,7 +3,7 @@
 #include <array>
 
 #include "core/base/error.h"
-#include "core/io/number_text.h"
+#include "core/base/number_text.h"
 #include "core/io/text_cursor.h"
 
 namespace railcast {

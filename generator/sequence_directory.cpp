@@ -5,15 +5,17 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <thread>
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/number_text.h"
 #include "core/base/units.h"
 #include "core/io/content_hash.h"
 #include "core/io/kitti.h"
-#include "core/io/number_text.h"
 #include "core/io/write_file.h"
 #include "generator/counts_json.h"
 #include "generator/sequence_progress.h"
@@ -30,6 +32,17 @@ void CreateDirectories(const fs::path& directory) {
   std::error_code error;
   fs::create_directories(directory, error);
   if (error) throw FileError(directory, error.value());
+}
+
+// A run that was killed a moment ago may still hold the lock while the system clears it away.
+bool Lock(int directory) {
+  constexpr int kTries = 20;
+  constexpr std::chrono::milliseconds kPause(50);
+  for (int i = 0; i < kTries; ++i) {
+    if (::flock(directory, LOCK_EX | LOCK_NB) == 0) return true;
+    std::this_thread::sleep_for(kPause);
+  }
+  return false;
 }
 
 void RemoveUnfinished(const fs::path& directory) {
@@ -57,7 +70,7 @@ SequenceDirectory::~SequenceDirectory() {
 }
 
 void SequenceDirectory::Open() {
-  if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+  if (!Lock(lock_)) {
     throw InputError(spec_.directory.string() + ": another run is writing here");
   }
   const fs::path run_file = spec_.directory / kRunFile;

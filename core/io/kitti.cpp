@@ -5,17 +5,26 @@
 #include <map>
 
 #include "core/base/error.h"
+#include "core/base/number_text.h"
 #include "core/io/field_layout.h"
-#include "core/io/number_text.h"
 
 namespace railcast {
 namespace {
 
-// A label may share its SemanticKITTI id with another (grass and tree are both vegetation).
-std::map<std::uint16_t, const Label*> ByKittiId(const LabelTable& labels) {
-  std::map<std::uint16_t, const Label*> by_id;
-  for (const Label& label : labels.labels()) by_id.emplace(label.semantic_kitti, &label);
-  return by_id;
+struct KittiClass {
+  std::string names;  // Several of our labels may share it: grass and tree are both vegetation.
+  const Label* first{};
+};
+
+std::map<std::uint16_t, KittiClass> KittiClasses(const LabelTable& labels) {
+  std::map<std::uint16_t, KittiClass> classes;
+  for (const Label& label : labels.labels()) {
+    KittiClass& entry = classes[label.semantic_kitti];
+    if (entry.first == nullptr) entry.first = &label;
+    if (!entry.names.empty()) entry.names += '/';
+    entry.names += label.name;
+  }
+  return classes;
 }
 
 }  // namespace
@@ -78,13 +87,13 @@ std::string SemanticKittiYaml(const LabelTable& labels) {
   std::string names = "labels:\n";
   std::string colours = "color_map: # bgr\n";
   std::string learning = "learning_map: # to the nearest of SemanticKITTI's own classes\n";
-  for (const auto& [id, label] : ByKittiId(labels)) {
+  for (const auto& [id, entry] : KittiClasses(labels)) {
     const std::string key = "  " + std::to_string(id) + ": ";
-    const auto& [red, green, blue] = label->rgb;
-    names += key + "\"" + label->name + "\"\n";
+    const auto& [red, green, blue] = entry.first->rgb;
+    names += key + "\"" + entry.names + "\"\n";
     colours += key + "[" + std::to_string(blue) + ", " + std::to_string(green) + ", " +
                std::to_string(red) + "]\n";
-    learning += key + std::to_string(label->semantic_kitti_nearest) + "\n";
+    learning += key + std::to_string(entry.first->semantic_kitti_nearest) + "\n";
   }
   return "# Classes of the .label files beside; ids above 259 are railcast's own.\n" + names +
          colours + learning;

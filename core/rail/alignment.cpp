@@ -8,10 +8,10 @@
 #include <variant>
 
 #include "core/base/error.h"
+#include "core/base/number_text.h"
 #include "core/base/units.h"
 #include "core/rail/alignment_course.h"
 #include "core/rail/cant.h"
-#include "core/rail/number_text.h"
 #include "core/rail/piecewise_linear.h"
 #include "core/rail/plan_course.h"
 #include "core/rail/plan_spline.h"

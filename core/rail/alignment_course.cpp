@@ -3,7 +3,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/rail/number_text.h"
+#include "core/base/number_text.h"
 
 namespace railcast {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
+#include "core/base/number_text.h"
 #include "core/rail/alignment_course.h"
 #include "core/rail/gauss_legendre.h"
-#include "core/rail/number_text.h"
 
 namespace railcast {
 namespace {

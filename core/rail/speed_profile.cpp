@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "core/rail/number_text.h"
+#include "core/base/number_text.h"
 
 namespace railcast {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
+#include "core/base/number_text.h"
 #include "core/rail/catenary.h"
-#include "core/rail/number_text.h"
 
 namespace railcast {
 namespace {

@@ -39,7 +39,7 @@ Transform VehicleFromSensor(const MountSpec& mount) {
 
 }  // namespace
 
-std::shared_ptr<const World> MakeWorld(const ScenarioSpec& spec) {
+std::shared_ptr<const RailWorld> MakeWorld(const ScenarioSpec& spec) {
   // The world has two specs, so its pointers are the scenario's: "/world/..." and "/vehicle/...".
   return Located(spec, "", [&] {
     return std::make_shared<const RailWorld>(spec.world, spec.vehicle, LabelTable(spec.labels),

@@ -10,6 +10,8 @@
 
 namespace railcast {
 
+class RailWorld;
+
 /// Reads a scenario file and every file it names, strictly: unknown, duplicate, missing and
 /// mistyped keys are errors. File names in the result are absolute.
 /// @throws InputError with a line for every fault: "file: /pointer: rule (got value)".
@@ -28,7 +30,7 @@ namespace railcast {
 
 /// Builds the world of a scenario.
 /// @throws InputError as CheckScenario() lists.
-[[nodiscard]] std::shared_ptr<const World> MakeWorld(const ScenarioSpec& spec);
+[[nodiscard]] std::shared_ptr<const RailWorld> MakeWorld(const ScenarioSpec& spec);
 
 /// Builds the whole simulation of a scenario.
 /// @throws InputError as CheckScenario() lists.

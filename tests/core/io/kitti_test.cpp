@@ -63,6 +63,15 @@ TEST(KittiPoseLine, IsThePoseByRows) {
             "0 -1 0 1.5 1 0 0 0.1 0 0 1 -3\n");
 }
 
+TEST(SemanticKittiYaml, NamesAllLabelsThatShareAClass) {
+  std::vector<Label> labels(2);
+  labels[0].name = "grass";
+  labels[1].name = "tree";
+  labels[0].semantic_kitti = labels[1].semantic_kitti = 70;
+  EXPECT_NE(SemanticKittiYaml(LabelTable(labels)).find("labels:\n  70: \"grass/tree\"\n"),
+            std::string::npos);
+}
+
 TEST(SemanticKittiYaml, MapsOurClassesToTheNearestOriginals) {
   EXPECT_EQ(SemanticKittiYaml(ExampleLabels()),
             "# Classes of the .label files beside; ids above 259 are railcast's own.\n"

@@ -6,7 +6,7 @@
 
 namespace railcast {
 
-/// The shortest digits that give the same number back.
+/// The shortest text that reads back as the same number: 29556.1, not 29556.100000.
 template <typename Number>
 [[nodiscard]] std::string NumberText(Number number) {
   std::array<char, 32> digits{};

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace railcast {
+
+/// Exit statuses of railcast-generate; a usage error gives 2.
+inline constexpr int kExitSuccess = 0;
+inline constexpr int kExitFailure = 1;
+inline constexpr int kExitUsage = 2;
+inline constexpr int kExitInterrupted = 130;  ///< As shells report a program ended by Ctrl-C.
+
+/// Options of `railcast-generate sequence`.
+struct SequenceOptions {
+  std::filesystem::path scenario;
+  std::filesystem::path out;
+  std::uint32_t num_frames = 10;
+  std::uint32_t start_frame = 0;
+  std::string format = "pcd";
+  std::string fields = "all";
+  std::optional<std::uint64_t> seed;    ///< Overrides the scenario's.
+  std::optional<std::string> fidelity;  ///< Overrides the scenario's.
+  int num_threads = 0;                  ///< 0 = all cores.
+  bool is_verbose = false;
+};
+
+/// Makes a sequence directory, or finishes an interrupted one.
+/// @throws InputError on bad input.
+[[nodiscard]] int SequenceCommand(const SequenceOptions& options);
+
+/// Prints the resolved scenario, what follows from it and what its scene holds.
+/// @throws InputError with every fault of the scenario.
+[[nodiscard]] int CheckCommand(const std::filesystem::path& scenario);
+
+/// Options of `railcast-generate world`.
+struct WorldOptions {
+  std::filesystem::path scenario;
+  std::filesystem::path out;       ///< *.ply or *.obj.
+  std::optional<double> from_s_m;  ///< Chainage; both or none.
+  std::optional<double> to_s_m;
+  bool is_verbose = false;
+};
+
+/// Writes the scene as triangles: the given stretch of the line, or the window of frame 0.
+/// @throws InputError on bad input.
+[[nodiscard]] int WorldCommand(const WorldOptions& options);
+
+}  // namespace railcast

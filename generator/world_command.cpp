@@ -1,0 +1,69 @@
+#include <cmath>
+#include <iostream>
+#include <numeric>
+
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/io/write_file.h"
+#include "core/rail/rail_world.h"
+#include "core/scan/scan_pattern.h"
+#include "core/scenario/scenario.h"
+#include "generator/commands.h"
+#include "generator/world_export.h"
+
+namespace railcast {
+namespace {
+
+int ChunkAt(double s_m) {
+  return static_cast<int>(std::floor(s_m / RailWorld::kChunkLength_m));
+}
+
+std::vector<int> ChunksBetween(double from_s_m, double to_s_m, double length_m) {
+  if (!(from_s_m >= 0.0 && from_s_m < to_s_m && to_s_m <= length_m)) {
+    throw InputError("--from-s, --to-s: must be 0 <= from < to <= " + NumberText(length_m) +
+                     " (got " + NumberText(from_s_m) + ", " + NumberText(to_s_m) + ")");
+  }
+  // A chunk that only begins where the stretch ends is no part of it.
+  const int last = static_cast<int>(std::ceil(to_s_m / RailWorld::kChunkLength_m)) - 1;
+  std::vector<int> chunks(static_cast<std::size_t>(last - ChunkAt(from_s_m) + 1));
+  std::iota(chunks.begin(), chunks.end(), ChunkAt(from_s_m));
+  return chunks;
+}
+
+}  // namespace
+
+int WorldCommand(const WorldOptions& options) {
+  const std::string extension = options.out.extension().string();
+  if (extension != ".ply" && extension != ".obj") {
+    throw InputError("--out: must end in .ply or .obj (got " + options.out.string() + ")");
+  }
+  if (options.from_s_m.has_value() != options.to_s_m.has_value()) {
+    throw InputError("--from-s, --to-s: must be given both or not at all");
+  }
+  const ScenarioSpec scenario = ReadScenario(options.scenario);
+  const auto world = MakeWorld(scenario);
+  const std::int64_t time_ns = BuildScanPattern(scenario.lidar.scan).StampNs(0);
+  const std::vector<int> chunks =
+      options.from_s_m
+          ? ChunksBetween(*options.from_s_m, *options.to_s_m, world->alignment().length_m())
+          : world->ChunksInReach(world->HomeChunk(time_ns), scenario.lidar.range_max_m);
+  const ExportedWorld exported = ExportWorld(*world, chunks, RailWorld::kChunkLength_m, time_ns);
+
+  const LabelTable labels(scenario.labels);
+  WriteFileWhole(options.out,
+                 extension == ".ply"
+                     ? EncodePlyMesh(exported, labels)
+                     : EncodeObjMesh(exported, labels, MaterialLibrary(scenario.materials)));
+  std::size_t num_triangles = 0;
+  for (const Part& part : exported.parts) {
+    num_triangles += part.mesh.triangles.size();
+    if (!options.is_verbose) continue;
+    std::cerr << labels.Find(part.label)->name << ": " << part.mesh.triangles.size()
+              << " triangles\n";
+  }
+  std::cout << num_triangles << " triangles of " << chunks.size() << " chunks in "
+            << options.out.string() << "\n";
+  return kExitSuccess;
+}
+
+}  // namespace railcast

@@ -1,0 +1,179 @@
+#include "generator/world_export.h"
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/io/field_layout.h"
+
+namespace railcast {
+namespace {
+
+using PartKey = std::pair<std::uint32_t, std::uint16_t>;  // Label, material.
+
+class Gatherer {
+ public:
+  void Add(const Model& model, const Eigen::Affine3d& export_from_model) {
+    for (const Part& part : model.parts) {
+      Mesh& mesh = meshes_[{part.label, part.material}];
+      const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
+      for (const Eigen::Vector3f& vertex : part.mesh.vertices) {
+        mesh.vertices.emplace_back((export_from_model * vertex.cast<double>()).cast<float>());
+      }
+      for (const auto& [a, b, c] : part.mesh.triangles) {
+        mesh.triangles.push_back({a + base, b + base, c + base});
+      }
+    }
+  }
+
+  [[nodiscard]] std::vector<Part> TakeParts() {
+    std::vector<Part> parts;
+    for (auto& [key, mesh] : meshes_) parts.push_back({std::move(mesh), key.second, key.first});
+    return parts;
+  }
+
+ private:
+  std::map<PartKey, Mesh> meshes_;
+};
+
+bool StandsIn(const Transform& chunk_from_object, double chunk_length_m) {
+  return std::abs(chunk_from_object.translation().x()) <= chunk_length_m / 2 &&
+         std::abs(chunk_from_object.translation().y()) <= chunk_length_m * 4;
+}
+
+std::string TransformText(const Transform& transform) {
+  std::string text;
+  for (Eigen::Index row = 0; row < 3; ++row) {
+    for (Eigen::Index column = 0; column < 4; ++column) {
+      text += ' ';
+      text += NumberText(transform.matrix()(row, column));
+    }
+  }
+  return text;
+}
+
+const Label& LabelOf(const Part& part, const LabelTable& labels) {
+  const Label* label = labels.Find(part.label);
+  Check(label != nullptr, "a part's label is in the label table");
+  return *label;
+}
+
+void AppendVertices(const Part& part, std::string& bytes) {
+  for (const Eigen::Vector3f& vertex : part.mesh.vertices) {
+    const std::array<float, 3> position = {vertex.x(), vertex.y(), vertex.z()};
+    std::array<char, sizeof position> stored{};
+    std::memcpy(stored.data(), position.data(), sizeof position);
+    bytes.append(stored.data(), stored.size());
+  }
+}
+
+void AppendFaces(const Part& part, const Label& label, std::uint32_t base, std::string& bytes) {
+  constexpr std::size_t kFaceSize = 1 + 3 * 4 + 3 + 4 + 4;
+  std::array<char, kFaceSize> stored{};
+  stored[0] = 3;
+  std::memcpy(&stored[13], label.rgb.data(), 3);
+  StoreAt<std::int32_t>(&stored[16], part.label);
+  StoreAt<std::int32_t>(&stored[20], part.material);
+  for (const auto& triangle : part.mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      StoreAt<std::int32_t>(&stored[1 + 4 * i], base + triangle[i]);
+    }
+    bytes.append(stored.data(), stored.size());
+  }
+}
+
+}  // namespace
+
+ExportedWorld ExportWorld(const World& world,
+                          const std::vector<int>& chunks,
+                          double chunk_length_m,
+                          std::int64_t time_ns) {
+  ExportedWorld exported;
+  exported.world_from_export = world.WorldFromChunk(chunks.front());
+  const Transform export_from_world = exported.world_from_export.inverse();
+  Gatherer gatherer;
+  std::vector<bool> is_taken(world.objects().size(), false);
+  for (const int index : chunks) {
+    const Transform world_from_chunk = world.WorldFromChunk(index);
+    const Transform export_from_chunk = export_from_world * world_from_chunk;
+    const Chunk chunk = world.BuildChunk(index);
+    gatherer.Add(chunk.ground, Eigen::Affine3d(export_from_chunk));
+    for (const Placement& placement : chunk.placements) {
+      gatherer.Add(*placement.model, export_from_chunk * placement.chunk_from_model);
+    }
+    for (std::size_t i = 0; i < is_taken.size(); ++i) {
+      const Transform world_from_object = world.WorldFromObject(i, time_ns);
+      if (is_taken[i] ||
+          !StandsIn(world_from_chunk.inverse() * world_from_object, chunk_length_m)) {
+        continue;
+      }
+      is_taken[i] = true;
+      gatherer.Add(*world.objects()[i].model,
+                   Eigen::Affine3d(export_from_world * world_from_object));
+    }
+  }
+  exported.parts = gatherer.TakeParts();
+  return exported;
+}
+
+std::string EncodePlyMesh(const ExportedWorld& exported, const LabelTable& labels) {
+  std::size_t num_vertices = 0;
+  std::size_t num_faces = 0;
+  for (const Part& part : exported.parts) {
+    num_vertices += part.mesh.vertices.size();
+    num_faces += part.mesh.triangles.size();
+  }
+  std::string bytes = "ply\nformat binary_little_endian 1.0\ncomment world_from_export" +
+                      TransformText(exported.world_from_export) + "\nelement vertex " +
+                      std::to_string(num_vertices) +
+                      "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
+                      std::to_string(num_faces) +
+                      "\nproperty list uchar int vertex_indices\nproperty uchar red\n"
+                      "property uchar green\nproperty uchar blue\nproperty int label\n"
+                      "property int material\nend_header\n";
+  for (const Part& part : exported.parts) AppendVertices(part, bytes);
+  std::uint32_t base = 0;
+  for (const Part& part : exported.parts) {
+    AppendFaces(part, LabelOf(part, labels), base, bytes);
+    base += static_cast<std::uint32_t>(part.mesh.vertices.size());
+  }
+  return bytes;
+}
+
+std::string EncodeObjMesh(const ExportedWorld& exported,
+                          const LabelTable& labels,
+                          const MaterialLibrary& materials) {
+  std::string text = "# world_from_export" + TransformText(exported.world_from_export) + "\n";
+  std::uint32_t base = 1;  // OBJ counts from 1.
+  const Label* current = nullptr;
+  for (const Part& part : exported.parts) {
+    const Label& label = LabelOf(part, labels);
+    if (&label != current) text += "o " + label.name + "\n";
+    current = &label;
+    text += "usemtl " + materials.materials().at(part.material).name + "\n";
+    for (const Eigen::Vector3f& vertex : part.mesh.vertices) {
+      text += 'v';
+      for (const float value : {vertex.x(), vertex.y(), vertex.z()}) {
+        text += ' ';
+        text += NumberText(value);
+      }
+      text += '\n';
+    }
+    for (const auto& triangle : part.mesh.triangles) {
+      text += 'f';
+      for (const std::uint32_t index : triangle) {
+        text += ' ';
+        text += NumberText(base + index);
+      }
+      text += '\n';
+    }
+    base += static_cast<std::uint32_t>(part.mesh.vertices.size());
+  }
+  return text;
+}
+
+}  // namespace railcast
