@@ -13,14 +13,14 @@ namespace railcast {
 // schema cannot drift apart: JsonReader fills the spec, JsonWriter writes the resolved scenario,
 // SchemaWriter makes the schema. An archive has:
 //
-//   Required(key, value, meaning, rule)   a field that must be given
-//   Optional(key, value, meaning, rule)   one that keeps the struct's default; std::optional: absent
-//   Alternative(key, value, {other_key, factor}, meaning, rule)  another way to give other_key
-//   RequiredLibrary(key, list, meaning)   a list, or a file that holds it under the same key
-//   Opaque(key, text, meaning)            any object, kept as text
-//   Switches(key, map, meaning, names)    an object of flags
-//   Ensure(key, holds, rule)              a rule across fields, about the value of `key`
-//   Unique(list_key, list, key, member)   the list's elements differ in a member
+// - Required(key, value, meaning, rule): must be given
+// - Optional(key, value, meaning, rule): keeps the struct's default; a std::optional stays absent
+// - Alternative(key, value, {other_key, factor}, meaning, rule): another way to give other_key
+// - RequiredLibrary(key, list, meaning): a list, or a file that holds it under the same key
+// - Opaque(key, text, meaning): any object, kept as text
+// - Switches(key, map, meaning, names): an object of flags
+// - Ensure(key, holds, rule): a rule across fields, about the value of `key`
+// - Unique(list_key, list, key, member): the list's elements differ in a member
 //
 // A value may be a bool, an unsigned integer, a double, a string, an array, a vector, an optional,
 // a struct with a description, or a variant of such structs told apart by "type" (kTypeName).

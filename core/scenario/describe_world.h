@@ -105,6 +105,8 @@ void Describe(Archive& a, ObjectSpec& s) {
   const bool needs_size = s.type == "box" || s.type == "pole";
   a.Ensure("size_m", s.size_m || !needs_size, "must be given for type \"" + s.type + '"');
   a.Ensure("size_m", !s.size_m || !has_own_size, "must not be given for type \"" + s.type + '"');
+  a.Ensure("size_m", s.type != "pole" || !s.size_m || (*s.size_m)[0] == (*s.size_m)[1],
+           "must have the same length and width for type \"pole\"");
   a.Ensure("file", s.file || s.type != "mesh", "must be given for type \"mesh\"");
   a.Ensure("file", !s.file || s.type == "mesh", "must be given for type \"mesh\" only");
 }

@@ -61,8 +61,7 @@ std::optional<Node> JsonSource::Open(const fs::path& file) {
     errors_.Add(file.string() + ": " + obstacle);
     return std::nullopt;
   }
-  std::optional<Node> root =
-      Load({fs::absolute(file).lexically_normal(), shown, nullptr, {}}, "");
+  std::optional<Node> root = Load({fs::absolute(file).lexically_normal(), shown, nullptr, {}}, "");
   if (!root || !CheckRoot(*root)) return std::nullopt;
   return root;
 }

@@ -13,8 +13,8 @@
 
 namespace railcast {
 
-/// Makes one object of a struct: the visitor that writes (see describe_scenario.h). Every value is written,
-/// except those that are absent.
+/// Makes one object of a struct: the visitor that writes (see describe_scenario.h). Every value is
+/// written, except those that are absent.
 class JsonWriter {
  public:
   template <class T, class Rule = Anything>

@@ -1,5 +1,7 @@
 #include "core/scenario/scenario_sources.h"
 
+#include <algorithm>
+
 namespace railcast {
 namespace {
 
@@ -36,17 +38,23 @@ std::string ScenarioSources::Place(std::string_view resolved_pointer) const {
 
 std::string ScenarioSources::Locate(std::string_view line,
                                     std::string_view resolved_pointer) const {
+  const bool names_file = std::any_of(files_.begin(), files_.end(), [&](const File& file) {
+    return line.starts_with(file.absolute);
+  });
+  std::string located(line);
+  if (!names_file) {
+    // Without a pointer of its own, a line is about the whole spec.
+    const std::size_t end = line.starts_with('/') ? std::min(line.find(": "), line.size()) : 0;
+    const std::string place = Place(std::string(resolved_pointer).append(line.substr(0, end)));
+    located = place + (end == 0 ? ": " : "") + std::string(line.substr(end));
+  }
   for (const File& file : files_) {
-    if (line.starts_with(file.absolute)) {
-      return file.shown + std::string(line.substr(file.absolute.size()));
+    for (std::size_t at = located.find(file.absolute); at != std::string::npos;
+         at = located.find(file.absolute, at + file.shown.size())) {
+      located.replace(at, file.absolute.size(), file.shown);
     }
   }
-  const std::size_t end = line.starts_with('/') ? line.find(": ") : 0;
-  if (end == 0 || end == std::string_view::npos) {
-    return Place(resolved_pointer) + ": " + std::string(line);
-  }
-  return Place(std::string(resolved_pointer) + std::string(line.substr(0, end))) +
-         std::string(line.substr(end));
+  return located;
 }
 
 }  // namespace railcast

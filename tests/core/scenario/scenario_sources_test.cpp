@@ -34,6 +34,8 @@ TEST(ScenarioSources, LocateABuildersPointerInItsFile) {
 TEST(ScenarioSources, ShowAFileAsTheUserKnowsIt) {
   EXPECT_EQ(LidarFromAFile().Locate("/home/anna/rosette.csv:3: must have 3 values", "/lidar/scan"),
             "rosette.csv:3: must have 3 values");
+  EXPECT_EQ(LidarFromAFile().Locate("/pattern: /home/anna/rosette.csv: is empty", "/lidar/scan"),
+            "sensors/vlp16.json: /scan/pattern: rosette.csv: is empty");
 }
 
 TEST(ScenarioSources, PutALineWithoutAPlaceWhereItsSpecStands) {
