@@ -21,15 +21,15 @@ namespace {
 
 const std::string scenarios = std::string(RAILCAST_SOURCE_DIR) + "/scenarios/";
 
-struct Run {
+struct Ended {
   int status{};
   std::string said;  // On stdout and stderr together.
 };
 
-Run Generate(const std::string& arguments) {
+Ended Generate(const std::string& arguments) {
   const std::string command = std::string(RAILCAST_GENERATE) + " " + arguments + " 2>&1";
   FILE* pipe = ::popen(command.c_str(), "r");
-  Run run;
+  Ended run;
   std::array<char, 4096> buffer{};
   std::size_t count = 0;
   while ((count = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0) {
@@ -42,7 +42,7 @@ Run Generate(const std::string& arguments) {
 TEST(RailcastGenerate, ExplainsItself) {
   EXPECT_EQ(Generate("--version").said, "railcast " RAILCAST_VERSION "\n");
   for (const char* command : {"", "sequence ", "check ", "world "}) {
-    const Run run = Generate(std::string(command) + "--help");
+    const Ended run = Generate(std::string(command) + "--help");
     EXPECT_EQ(run.status, 0);
     EXPECT_NE(run.said.find("Usage:"), std::string::npos);
   }
@@ -60,16 +60,16 @@ TEST(RailcastGenerate, ExitsWithTwoOnWrongUsage) {
 TEST(RailcastGenerate, ExitsWithOneAndOneLineOnBadInput) {
   const TemporaryDirectory directory;
   const std::string out = " --out " + directory.path().string();
-  const Run missing = Generate("sequence /no/such.json" + out);
+  const Ended missing = Generate("sequence /no/such.json" + out);
   EXPECT_EQ(missing.status, 1);
   EXPECT_EQ(missing.said, "/no/such.json: no such file\n");
-  const Run fields = Generate("sequence " + scenarios + "minimal.json --fields labl" + out);
+  const Ended fields = Generate("sequence " + scenarios + "minimal.json --fields labl" + out);
   EXPECT_EQ(fields.status, 1);
   EXPECT_EQ(fields.said.find("--fields: unknown field \"labl\", nearest is \"label\""), 0U);
-  const Run world = Generate("world " + scenarios + "minimal.json --out a.stl");
+  const Ended world = Generate("world " + scenarios + "minimal.json --out a.stl");
   EXPECT_EQ(world.status, 1);
   EXPECT_EQ(world.said, "--out: must end in .ply or .obj (got a.stl)\n");
-  const Run stretch =
+  const Ended stretch =
       Generate("world " + scenarios + "minimal.json --from-s 5 --to-s 1 --out a.ply");
   EXPECT_EQ(stretch.said, "--from-s, --to-s: must be 0 <= from < to <= 1000 (got 5, 1)\n");
 }
@@ -79,7 +79,7 @@ TEST(RailcastGenerate, GivesTheSameBytesForAnyNumberOfThreads) {
   const std::string command =
       "sequence " + scenarios + "minimal.json --frames 2 --out " + directory.path().string() + "/";
   for (const char* threads : {"1", "2", "8"}) {
-    const Run run = Generate(command + threads + " --threads " + threads);
+    const Ended run = Generate(command + threads + " --threads " + threads);
     EXPECT_EQ(run.status, 0) << run.said;
     EXPECT_NE(run.said.find("2 of 2 frames in "), std::string::npos);
   }
@@ -127,7 +127,7 @@ TEST(RailcastGenerate, StopsAfterAFrameOnCtrlCAndContinues) {
 }
 
 TEST(RailcastGenerate, ChecksAScenario) {
-  const Run run = Generate("check " + scenarios + "st_gallen_approach.json");
+  const Ended run = Generate("check " + scenarios + "st_gallen_approach.json");
   EXPECT_EQ(run.status, 0);
   for (const char* text : {"firings per frame    28800 (120 rows x 240 columns)",
                            "frame period         0.1 s", "points per second    at most 288000",
@@ -139,7 +139,7 @@ TEST(RailcastGenerate, ChecksAScenario) {
 TEST(RailcastGenerate, WritesTheSceneAsAMesh) {
   const TemporaryDirectory directory;
   const std::string file = (directory.path() / "world.ply").string();
-  const Run run =
+  const Ended run =
       Generate("world " + scenarios + "minimal.json --from-s 400 --to-s 450 --out " + file);
   EXPECT_EQ(run.status, 0);
   EXPECT_NE(run.said.find(" triangles of 1 chunks in " + file), std::string::npos);
