@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/base/error.h"
-#include "core/rail/number_text.h"
+#include "core/base/number_text.h"
 
 namespace railcast {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/rail/model_parts.h"
-#include "core/rail/number_text.h"
+#include "core/base/number_text.h"
 #include "core/rail/person.h"
 #include "core/rail/rolling_stock.h"
 #include "core/scene/obj_import.h"
