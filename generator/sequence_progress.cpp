@@ -45,7 +45,7 @@ bool HasContent(const std::filesystem::path& directory, const WrittenFile& file)
 std::optional<FrameRecord> NextWhole(const SequenceSpec& spec,
                                      std::uint32_t frame,
                                      const std::vector<LineWalk>& walks) {
-  const auto record = ParseFrameLine(walks.back().Next());
+  auto record = ParseFrameLine(walks.back().Next());
   if (!record || record->frame != frame) return std::nullopt;
   std::string records;
   for (std::size_t i = 0; i + 1 < walks.size(); ++i) records += walks[i].Next();

@@ -44,8 +44,10 @@ void CheckSameRun(const SequenceSpec& spec, const std::string& run_json) {
     if (key == "scenario_xxh3") {
       throw InputError(place + "holds a run of another scenario; choose another --out");
     }
-    throw InputError(place + "holds another run: its " + key + " is " + Text(other) + " (got " +
-                     Text(value) + "); choose another --out");
+    std::string line = place;
+    line += "holds another run: its " + key + " is " + Text(other);
+    line += " (got " + Text(value) + "); choose another --out";
+    throw InputError(line);
   }
 }
 
