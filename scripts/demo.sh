@@ -19,7 +19,7 @@ cat <<TEXT
 
 Look at
   $PWD/out/demo.png              the cloud, coloured by label
-  $PWD/out/demo/frames/          50 labelled point clouds, PCD: pcl_viewer, CloudCompare, Open3D
+  $PWD/out/demo/frames/          50 labelled point clouds, PCD: pcl_viewer, Open3D
   $PWD/out/demo/objects.jsonl    every object's box, points and occlusion, a line per frame
   $PWD/out/demo/poses.csv        where the sensor was
   $PWD/out/demo/manifest.json    version, seed and counts

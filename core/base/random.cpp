@@ -4,8 +4,11 @@
 
 namespace railcast {
 
-std::array<std::uint32_t, 4> RandomWords(
-    std::uint64_t seed, RandomUse use, std::uint32_t frame, std::uint32_t item, std::uint32_t block) {
+std::array<std::uint32_t, 4> RandomWords(std::uint64_t seed,
+                                         RandomUse use,
+                                         std::uint32_t frame,
+                                         std::uint32_t item,
+                                         std::uint32_t block) {
   const r123::Philox4x32::ctr_type counter = {
       {item, frame, static_cast<std::uint32_t>(use), block}};
   const r123::Philox4x32::key_type key = {

@@ -5,7 +5,8 @@
 
 namespace railcast {
 
-/// What a random number is for. Part of its key, so that a change in one effect never moves another.
+/// What a random number is for. Part of its key, so that a change in one effect never moves
+/// another.
 enum class RandomUse : std::uint32_t {
   kSensorDropout = 1,
   kRain = 2,

@@ -7,11 +7,13 @@ namespace railcast {
 /// Frames of reference, all right-handed, metres, double precision:
 /// - `world`: east, north, up.
 /// - `track`: chainage s along the axis, lateral d (left positive), height h above top of rail.
-/// - `vehicle`: x forward, y left, z up; origin on the track axis at top of rail below the first axle.
+/// - `vehicle`: x forward, y left, z up; origin on the track axis at top of rail below the first
+/// axle.
 /// - `sensor`: x forward, y left, z up; origin at the optical centre.
 /// - `chunk`: a piece of the line; origin on the axis at its middle, x along the heading there,
 ///   z up (parallel to the world's).
-/// - `window`: the chunk frame of the chunk the vehicle is in; everything traced is expressed in it,
+/// - `window`: the chunk frame of the chunk the vehicle is in; everything traced is expressed in
+/// it,
 ///   so that float32 stays close to the origin.
 ///
 /// A transform is named `<to>_from_<from>`, so that a product reads like dominoes:

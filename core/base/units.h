@@ -11,7 +11,9 @@ namespace railcast {
 [[nodiscard]] constexpr double DegFromRad(double angle_rad) {
   return angle_rad * (180.0 / std::numbers::pi);
 }
-[[nodiscard]] constexpr double MpsFromKmph(double speed_kmph) { return speed_kmph / 3.6; }
+[[nodiscard]] constexpr double MpsFromKmph(double speed_kmph) {
+  return speed_kmph / 3.6;
+}
 [[nodiscard]] constexpr double SecondsFromNs(std::int64_t time_ns) {
   return static_cast<double>(time_ns) * 1e-9;
 }

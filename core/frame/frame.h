@@ -17,31 +17,31 @@ namespace railcast {
 /// x, y, z are in the frame that `output.frame` names (the sensor's at the firing's own time by
 /// default: rolling shutter as a real sensor delivers it).
 struct Frame {
-  std::uint32_t index{};                                     ///< Frame number in the run.
-  std::int64_t stamp_ns{};                                   ///< Simulation time of firing 0.
-  Transform world_from_sensor = Transform::Identity();       ///< At the stamp.
-  std::uint32_t rows{};                                      ///< Channels.
-  std::uint32_t columns{};                                   ///< Azimuth steps.
-  std::uint32_t returns{1};                                  ///< Slots per firing.
+  std::uint32_t index{};                                ///< Frame number in the run.
+  std::int64_t stamp_ns{};                              ///< Simulation time of firing 0.
+  Transform world_from_sensor = Transform::Identity();  ///< At the stamp.
+  std::uint32_t rows{};                                 ///< Channels.
+  std::uint32_t columns{};                              ///< Azimuth steps.
+  std::uint32_t returns{1};                             ///< Slots per firing.
 
   // The measurement.
-  std::vector<float> x, y, z;                ///< m
-  std::vector<float> intensity;              ///< Effective reflectance; NaN in rung geometry.
-  std::vector<float> power_ratio;            ///< Received power / threshold; NaN in rung geometry.
-  std::vector<float> range_m;                ///< Measured.
-  std::vector<std::uint32_t> time_ns;        ///< Since the stamp.
-  std::vector<std::uint16_t> ring;           ///< Channel, 0 the lowest.
-  std::vector<std::uint32_t> column;         ///< Azimuth index.
+  std::vector<float> x, y, z;          ///< m
+  std::vector<float> intensity;        ///< Effective reflectance; NaN in rung geometry.
+  std::vector<float> power_ratio;      ///< Received power / threshold; NaN in rung geometry.
+  std::vector<float> range_m;          ///< Measured.
+  std::vector<std::uint32_t> time_ns;  ///< Since the stamp.
+  std::vector<std::uint16_t> ring;     ///< Channel, 0 the lowest.
+  std::vector<std::uint32_t> column;   ///< Azimuth index.
   std::vector<std::uint8_t> return_index;
   std::vector<std::uint8_t> return_count;
 
   // The truth: what the beam hit first, whether or not it was detected.
-  std::vector<std::uint32_t> label;          ///< Of labels.json; 0 = nothing was hit.
-  std::vector<std::uint32_t> instance;       ///< 0 = stuff; see SceneObject::instance.
+  std::vector<std::uint32_t> label;     ///< Of labels.json; 0 = nothing was hit.
+  std::vector<std::uint32_t> instance;  ///< 0 = stuff; see SceneObject::instance.
   std::vector<Outcome> outcome;
-  std::vector<float> true_range_m;           ///< Before noise.
-  std::vector<float> incidence_rad;          ///< Between the beam and the surface normal.
-  std::vector<std::uint16_t> material;       ///< Index into the material library; 0 = none.
+  std::vector<float> true_range_m;      ///< Before noise.
+  std::vector<float> incidence_rad;     ///< Between the beam and the surface normal.
+  std::vector<std::uint16_t> material;  ///< Index into the material library; 0 = none.
 
   [[nodiscard]] std::uint32_t width() const { return columns * returns; }
   [[nodiscard]] std::size_t num_slots() const { return std::size_t{rows} * width(); }

@@ -7,14 +7,14 @@
 namespace railcast {
 
 const Label* LabelTable::Find(std::string_view name) const {
-  const auto it = std::find_if(
-      labels_.begin(), labels_.end(), [&](const Label& label) { return label.name == name; });
+  const auto it = std::find_if(labels_.begin(), labels_.end(),
+                               [&](const Label& label) { return label.name == name; });
   return it == labels_.end() ? nullptr : &*it;
 }
 
 const Label* LabelTable::Find(std::uint32_t id) const {
-  const auto it = std::find_if(
-      labels_.begin(), labels_.end(), [&](const Label& label) { return label.id == id; });
+  const auto it = std::find_if(labels_.begin(), labels_.end(),
+                               [&](const Label& label) { return label.id == id; });
   return it == labels_.end() ? nullptr : &*it;
 }
 

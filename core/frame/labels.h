@@ -12,12 +12,12 @@ namespace railcast {
 /// One class of our label table and its counterparts in published data sets.
 struct Label {
   std::uint32_t id{};
-  std::string name;                      ///< Lower snake case, unique.
-  std::array<std::uint8_t, 3> rgb{};     ///< Colour-blind safe where the count allows.
-  std::string whu_railway3d;             ///< Class name in WHU-Railway3D; "Others" where none fits.
-  std::string osdar23;                   ///< Class name in OSDaR23; empty where none fits.
-  std::uint16_t semantic_kitti{};          ///< Id written to .label files: SemanticKITTI's own
-                                           ///< where a class fits, above 259 where none does.
+  std::string name;                   ///< Lower snake case, unique.
+  std::array<std::uint8_t, 3> rgb{};  ///< Colour-blind safe where the count allows.
+  std::string whu_railway3d;          ///< Class name in WHU-Railway3D; "Others" where none fits.
+  std::string osdar23;                ///< Class name in OSDaR23; empty where none fits.
+  std::uint16_t semantic_kitti{};     ///< Id written to .label files: SemanticKITTI's own
+                                      ///< where a class fits, above 259 where none does.
   std::uint16_t semantic_kitti_nearest{};  ///< The nearest of SemanticKITTI's own ids.
 
   bool operator==(const Label&) const = default;

@@ -21,15 +21,8 @@ enum class Outcome : std::uint8_t {
 };
 
 inline constexpr std::array<std::string_view, 9> kOutcomeNames = {
-    "returned",
-    "no_surface",
-    "out_of_range",
-    "below_threshold",
-    "rain_absorbed",
-    "clutter",
-    "near_range",
-    "ego",
-    "sensor_dropout",
+    "returned", "no_surface", "out_of_range", "below_threshold", "rain_absorbed",
+    "clutter",  "near_range", "ego",          "sensor_dropout",
 };
 
 [[nodiscard]] constexpr std::string_view OutcomeName(Outcome outcome) {

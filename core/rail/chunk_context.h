@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "core/base/transform.h"
-#include "core/rail/alignment.h"
+#include "core/rail/line/alignment.h"
 #include "core/rail/rail_surfaces.h"
 #include "core/rail/world_spec.h"
 

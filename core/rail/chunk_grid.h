@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/base/transform.h"
-#include "core/rail/alignment.h"
+#include "core/rail/line/alignment.h"
 
 namespace railcast {
 

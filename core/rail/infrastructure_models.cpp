@@ -1,7 +1,7 @@
 #include "core/rail/infrastructure_models.h"
 
-#include "core/rail/catenary_models.h"
-#include "core/rail/sleeper_models.h"
+#include "core/rail/catenary/catenary_models.h"
+#include "core/rail/track/sleeper_models.h"
 
 namespace railcast {
 

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "core/frame/labels.h"
-#include "core/rail/alignment.h"
+#include "core/rail/line/alignment.h"
 #include "core/rail/world_spec.h"
 #include "core/scene/material.h"
 #include "core/scene/world.h"

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "core/base/number_text.h"
-#include "core/rail/catenary.h"
+#include "core/rail/catenary/catenary.h"
 
 namespace railcast {
 namespace {

@@ -6,19 +6,19 @@
 #include <string>
 #include <vector>
 
-#include "core/rail/alignment_spec.h"
-#include "core/rail/motion_spec.h"
+#include "core/rail/line/alignment_spec.h"
+#include "core/rail/line/motion_spec.h"
 
 namespace railcast {
 
 /// A track parallel to the alignment. Track 0 is usually "main" at offset 0.
 struct TrackSpec {
   std::string name = "main";
-  double offset_m = 0.0;  ///< Lateral, left positive.
-  double start_s_m = 0.0;                ///< The track exists from here ...
-  std::optional<double> end_s_m;         ///< ... to here; absent = the end of the line.
-  std::string sleeper = "concrete";      ///< "concrete" (B70) or "wood".
-  bool electrified = true;               ///< Whether it has a contact line.
+  double offset_m = 0.0;             ///< Lateral, left positive.
+  double start_s_m = 0.0;            ///< The track exists from here ...
+  std::optional<double> end_s_m;     ///< ... to here; absent = the end of the line.
+  std::string sleeper = "concrete";  ///< "concrete" (B70) or "wood".
+  bool electrified = true;           ///< Whether it has a contact line.
 
   bool operator==(const TrackSpec&) const = default;
 };
@@ -38,21 +38,21 @@ struct CatenarySpec {
 };
 
 struct TerrainSpec {
-  double half_width_m = 80.0;          ///< Of the ground strip; less than the tightest radius.
-  double roughness_sigma_m = 0.04;     ///< Of the ground beside the ballast.
-  double roughness_wavelength_m = 2.0; ///< Correlation length.
-  double undulation_sigma_m = 0.6;     ///< Slow rise and fall away from the track.
+  double half_width_m = 80.0;           ///< Of the ground strip; less than the tightest radius.
+  double roughness_sigma_m = 0.04;      ///< Of the ground beside the ballast.
+  double roughness_wavelength_m = 2.0;  ///< Correlation length.
+  double undulation_sigma_m = 0.6;      ///< Slow rise and fall away from the track.
 
   bool operator==(const TerrainSpec&) const = default;
 };
 
 struct VegetationSpec {
   double trees_per_hectare = 40.0;
-  double tree_min_distance_m = 9.0;    ///< From the outermost axis.
+  double tree_min_distance_m = 9.0;  ///< From the outermost axis.
   double tree_height_min_m = 6.0;
   double tree_height_max_m = 14.0;
   bool grass = true;
-  double grass_min_distance_m = 3.6;   ///< From the outermost axis.
+  double grass_min_distance_m = 3.6;  ///< From the outermost axis.
   double grass_max_distance_m = 9.0;
 
   bool operator==(const VegetationSpec&) const = default;
@@ -61,20 +61,20 @@ struct VegetationSpec {
 /// Something placed by track coordinates. Wagons follow gradient and cant; everything else stands
 /// upright. What moves keeps its distance from its track; its speed is that of its chainage.
 struct ObjectSpec {
-  std::string name;   ///< Unique.
-  std::string type;   ///< "box", "pole", "person", "open_wagon", "flat_wagon", "tank_wagon", "mesh".
+  std::string name;  ///< Unique.
+  std::string type;  ///< "box", "pole", "person", "open_wagon", "flat_wagon", "tank_wagon", "mesh".
   std::string track = "main";
-  double s_m{};             ///< Chainage of the object's middle (at time 0 where it moves).
-  double d_m{};             ///< Left of the track's axis.
-  double h_m{};             ///< Above top of rail.
-  double heading_deg{};     ///< Turned left against the direction of the chainage.
+  double s_m{};          ///< Chainage of the object's middle (at time 0 where it moves).
+  double d_m{};          ///< Left of the track's axis.
+  double h_m{};          ///< Above top of rail.
+  double heading_deg{};  ///< Turned left against the direction of the chainage.
   /// Length, width, height: required for "box"; diameter, diameter, height for "pole"; for "person"
   /// and "mesh" scales to this height or size where given. Wagons have their own.
   std::optional<std::array<double, 3>> size_m;
-  std::optional<std::string> file;      ///< Of "mesh": OBJ, metres, z up unless `up` says otherwise.
-  std::string up = "z";                 ///< Of "mesh": "y" or "z".
-  double unit_m = 1.0;                  ///< Of "mesh": metres per file unit.
-  std::optional<std::string> label;     ///< Overrides the type's.
+  std::optional<std::string> file;   ///< Of "mesh": OBJ, metres, z up unless `up` says otherwise.
+  std::string up = "z";              ///< Of "mesh": "y" or "z".
+  double unit_m = 1.0;               ///< Of "mesh": metres per file unit.
+  std::optional<std::string> label;  ///< Overrides the type's.
   std::optional<std::string> material;  ///< Overrides the type's.
   std::optional<MotionSpec> motion;     ///< Absent = stands.
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/rail/alignment_spec.h"
+#include "core/rail/line/alignment_spec.h"
 #include "core/scenario/json_rules.h"
 
 namespace railcast {

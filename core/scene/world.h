@@ -19,13 +19,13 @@ struct Chunk {
 
 /// A thing with a name, a box and an instance id of its own: wagon, person, pole, ...
 struct SceneObject {
-  std::string name;        ///< Unique.
-  std::string type;        ///< As the scenario says: "box", "open_wagon", "person", ...
-  std::uint32_t label{};   ///< Of the whole object; its parts may have finer ones.
+  std::string name;       ///< Unique.
+  std::string type;       ///< As the scenario says: "box", "open_wagon", "person", ...
+  std::uint32_t label{};  ///< Of the whole object; its parts may have finer ones.
   std::uint32_t instance{};
   std::shared_ptr<const Model> model;
-  bool moves{};            ///< Whether world_from_object depends on time.
-  bool is_ego{};           ///< Part of the sensor's own vehicle: blocks beams, gives no points.
+  bool moves{};   ///< Whether world_from_object depends on time.
+  bool is_ego{};  ///< Part of the sensor's own vehicle: blocks beams, gives no points.
 };
 
 /// All that the simulator asks of a world. Everything is a function of its arguments, so that any
@@ -44,7 +44,8 @@ class World {
   [[nodiscard]] virtual Chunk BuildChunk(int chunk) const = 0;
 
   [[nodiscard]] virtual const std::vector<SceneObject>& objects() const = 0;
-  [[nodiscard]] virtual Transform WorldFromObject(std::size_t object, std::int64_t time_ns) const = 0;
+  [[nodiscard]] virtual Transform WorldFromObject(std::size_t object,
+                                                  std::int64_t time_ns) const = 0;
 };
 
 }  // namespace railcast

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/core/rail/alignment_files.h"
+#include "tests/core/rail/line/alignment_files.h"
 #include "tests/core/rail/test_line.h"
 
 namespace railcast {

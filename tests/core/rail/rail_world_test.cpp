@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
-#include "core/rail/catenary.h"
+#include "core/rail/catenary/catenary.h"
 #include "tests/core/rail/test_tables.h"
 
 namespace railcast {

@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "core/rail/catenary.h"
-#include "core/rail/terrain.h"
-#include "core/rail/track_structure.h"
+#include "core/rail/catenary/catenary.h"
+#include "core/rail/land/terrain.h"
+#include "core/rail/track/track_structure.h"
 #include "tests/core/rail/test_tables.h"
 
 namespace railcast {

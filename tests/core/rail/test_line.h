@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/rail/catenary_plan.h"
+#include "core/rail/catenary/catenary_plan.h"
 #include "core/rail/chunk_context.h"
 #include "core/rail/infrastructure_models.h"
 #include "core/rail/rail_surfaces.h"

@@ -1,0 +1,232 @@
+#include "core/rail/catenary/catenary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/rail/catenary/catenary_models.h"
+#include "core/rail/model_parts.h"
+#include "core/rail/track/sweep.h"
+#include "core/scene/shapes.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kContactRadius_m = 0.006;
+constexpr double kMessengerRadius_m = 0.0045;
+constexpr double kDropperRadius_m = 0.00225;
+constexpr int kWireSides = 16;
+constexpr int kDropperSides = 8;
+
+constexpr double kWireTolerance_m = 2e-3;
+/// The contact wire follows the track's vertical curves: at 2000 m, chords of 5 m are within 1.6
+/// mm.
+constexpr double kContactChord_m = 5.0;
+
+/// The wires of one track between two supports, in world coordinates.
+class Span {
+ public:
+  Span(const ChunkContext& context,
+       const TrackSpec& track,
+       const CatenarySupport& first,
+       const CatenarySupport& last)
+      : alignment_(context.alignment), first_s_m_(first.s_m), length_m_(last.s_m - first.s_m) {
+    const CatenarySpec& spec = context.spec.catenary;
+    const auto wire = [&](const CatenarySupport& support) -> Vector3 {
+      return WorldFromSupport(alignment_, context.spec, track, support.s_m) *
+             Vector3(0.0, support.stagger_m, spec.contact_height_m);
+    };
+    first_m_ = wire(first);
+    last_m_ = wire(last);
+    system_height_m_ = spec.system_height_m;
+  }
+
+  [[nodiscard]] double first_s_m() const { return first_s_m_; }
+  [[nodiscard]] double length_m() const { return length_m_; }
+
+  [[nodiscard]] Vector3 Contact(double fraction) const {
+    const auto axis_height_m = [&](double at) {
+      return alignment_.At(first_s_m_ + at * length_m_).position_m.z();
+    };
+    const double along_track_m =
+        axis_height_m(fraction) - std::lerp(axis_height_m(0.0), axis_height_m(1.0), fraction);
+    return Chord(fraction) +
+           Vector3(0.0, 0.0, along_track_m - Parabola(fraction) * kContactPresag * length_m_);
+  }
+
+  [[nodiscard]] Vector3 Messenger(double fraction) const {
+    const double sag_m = kWireWeight_n_per_m * length_m_ * length_m_ / (8.0 * kMessengerTension_n);
+    return Chord(fraction) + Vector3(0.0, 0.0, system_height_m_ - Parabola(fraction) * sag_m);
+  }
+
+ private:
+  /// 0 at the supports, 1 in the middle.
+  static double Parabola(double fraction) { return 4.0 * fraction * (1.0 - fraction); }
+  [[nodiscard]] Vector3 Chord(double fraction) const {
+    return first_m_ + fraction * (last_m_ - first_m_);
+  }
+
+  const Alignment& alignment_;
+  double first_s_m_;
+  double length_m_;
+  Vector3 first_m_;
+  Vector3 last_m_;
+  double system_height_m_{};
+};
+
+/// A span's wire as a polyline with corners at whole multiples of 1 / num_chords.
+template <typename Curve>
+class Polyline {
+ public:
+  Polyline(Curve curve, double length_m, double chord_m)
+      : curve_(std::move(curve)), num_chords_(std::ceil(length_m / chord_m)) {}
+
+  /// A point of the polyline, not of the curve.
+  [[nodiscard]] Vector3 At(double fraction) const {
+    const double corner = std::clamp(std::floor(fraction * num_chords_), 0.0, num_chords_ - 1.0);
+    const Vector3 a = curve_(corner / num_chords_);
+    const Vector3 b = curve_((corner + 1.0) / num_chords_);
+    return a + (fraction * num_chords_ - corner) * (b - a);
+  }
+
+  /// Its stretch between two fractions. A corner so near to an end that the piece would be a sliver
+  /// gives way to it.
+  [[nodiscard]] std::vector<Vector3> Between(double first, double last) const {
+    constexpr double kSliver = 0.01;  // Of a chord.
+    std::vector<Vector3> points_m{At(first)};
+    for (double corner = std::ceil(first * num_chords_ + kSliver);
+         corner < last * num_chords_ - kSliver; corner += 1.0) {
+      points_m.push_back(curve_(corner / num_chords_));
+    }
+    points_m.push_back(At(last));
+    return points_m;
+  }
+
+ private:
+  Curve curve_;
+  double num_chords_;
+};
+
+void AddWiresOfSpan(const ChunkContext& context, const Span& span, std::vector<Wire>& wires) {
+  const double messenger_chord_m =
+      std::sqrt(8.0 * kWireTolerance_m * kMessengerTension_n / kWireWeight_n_per_m);
+  const Polyline contact([&](double at) { return span.Contact(at); }, span.length_m(),
+                         kContactChord_m);
+  const Polyline messenger([&](double at) { return span.Messenger(at); }, span.length_m(),
+                           messenger_chord_m);
+
+  const auto fraction = [&](double s_m) { return (s_m - span.first_s_m()) / span.length_m(); };
+  const double first = std::max(0.0, fraction(context.begin_s_m - 0.5 * kChunkOverlap_m));
+  const double last = std::min(1.0, fraction(context.end_s_m + 0.5 * kChunkOverlap_m));
+  // What is shorter than the overlap is the neighbour's.
+  if ((last - first) * span.length_m() <= kChunkOverlap_m) return;
+  const RailSurfaces& surfaces = context.surfaces;
+  wires.push_back({surfaces.contact_wire, kContactRadius_m, contact.Between(first, last)});
+  wires.push_back({surfaces.messenger_wire, kMessengerRadius_m, messenger.Between(first, last)});
+
+  const double spacing_m = context.spec.catenary.dropper_spacing_m;
+  const auto num_droppers = static_cast<int>(std::ceil(span.length_m() / spacing_m));
+  for (int i = 0; i < num_droppers; ++i) {
+    const double at = (i + 0.5) / num_droppers;
+    const double s_m = span.first_s_m() + at * span.length_m();
+    if (s_m < context.begin_s_m || s_m >= context.end_s_m) continue;
+    wires.push_back({surfaces.dropper, kDropperRadius_m, {contact.At(at), messenger.At(at)}});
+  }
+}
+
+/// The supports of the spans that touch the chunk.
+struct SupportRange {
+  std::size_t first{};
+  std::size_t end{};
+};
+
+SupportRange SupportsAround(const ChunkContext& context, const CatenaryPlan& plan) {
+  const auto& supports = plan.supports();
+  const auto at_or_after = [&](double s_m) {
+    const auto found = std::lower_bound(
+        supports.begin(), supports.end(), s_m,
+        [](const CatenarySupport& support, double chainage_m) { return support.s_m < chainage_m; });
+    return static_cast<std::size_t>(found - supports.begin());
+  };
+  const std::size_t begin = at_or_after(context.begin_s_m);
+  const std::size_t end = at_or_after(context.end_s_m);
+  return {.first = begin == 0 ? 0 : begin - 1, .end = std::min(end + 1, supports.size())};
+}
+
+bool Reaches(const TrackSpec& track, const CatenarySupport& support, const Alignment& alignment) {
+  return track.electrified && track.start_s_m <= support.s_m &&
+         support.s_m <= TrackEnd_m(track, alignment);
+}
+
+void AddSupport(const ChunkContext& context,
+                const CatenarySupport& support,
+                const InfrastructureModels& models,
+                std::uint32_t number,
+                Chunk& chunk) {
+  const auto num_tracks = static_cast<std::uint32_t>(context.spec.tracks.size());
+  for (std::uint32_t track = 0; track < num_tracks; ++track) {
+    const TrackSpec& spec = context.spec.tracks[track];
+    if (!Reaches(spec, support, context.alignment)) continue;
+    const Transform chunk_from_support =
+        context.chunk_from_world *
+        WorldFromSupport(context.alignment, context.spec, spec, support.s_m);
+    const std::uint32_t instance = kFirstMastInstance + number * num_tracks + track;
+    const Transform chunk_from_mast =
+        chunk_from_support * Eigen::Translation3d(MastFoot_m(MastSiteOf(context.spec, track)));
+    const CantileverPair& pair = models.cantilevers[track];
+    chunk.placements.push_back({.model = models.mast,
+                                .chunk_from_model = Eigen::Affine3d(chunk_from_mast),
+                                .instance = instance});
+    chunk.placements.push_back({.model = support.stagger_m > 0.0 ? pair.wire_left : pair.wire_right,
+                                .chunk_from_model = Eigen::Affine3d(chunk_from_support),
+                                .instance = instance});
+  }
+}
+
+/// The corners' radius at which a tube's corners and faces are equally far from the true surface.
+double CornerRadius_m(double radius_m, int num_sides) {
+  return 2.0 * radius_m / (1.0 + std::cos(std::numbers::pi / num_sides));
+}
+
+}  // namespace
+
+std::vector<Wire> WiresInChunk(const ChunkContext& context, const CatenaryPlan& plan) {
+  std::vector<Wire> wires;
+  const SupportRange around = SupportsAround(context, plan);
+  for (const TrackSpec& track : context.spec.tracks) {
+    for (std::size_t i = around.first; i + 1 < around.end; ++i) {
+      const CatenarySupport& first = plan.supports()[i];
+      const CatenarySupport& last = plan.supports()[i + 1];
+      if (!Reaches(track, first, context.alignment)) continue;
+      if (!Reaches(track, last, context.alignment)) continue;
+      AddWiresOfSpan(context, Span(context, track, first, last), wires);
+    }
+  }
+  for (Wire& wire : wires) {
+    for (Vector3& point : wire.points_m) point = context.chunk_from_world * point;
+  }
+  return wires;
+}
+
+void AddCatenary(const ChunkContext& context,
+                 const CatenaryPlan& plan,
+                 const InfrastructureModels& models,
+                 Chunk& chunk) {
+  const SupportRange around = SupportsAround(context, plan);
+  for (std::size_t i = around.first; i < around.end; ++i) {
+    const CatenarySupport& support = plan.supports()[i];
+    // The line's last support stands at its very end, which no chunk has within.
+    const bool is_last_of_line = i + 1 == plan.supports().size() && support.s_m == context.end_s_m;
+    if (support.s_m < context.begin_s_m || (support.s_m >= context.end_s_m && !is_last_of_line)) {
+      continue;
+    }
+    AddSupport(context, support, models, static_cast<std::uint32_t>(i), chunk);
+  }
+  for (const Wire& wire : WiresInChunk(context, plan)) {
+    const int num_sides = wire.radius_m == kDropperRadius_m ? kDropperSides : kWireSides;
+    MeshOf(wire.surface, chunk.ground)
+        .Append(MakeTube(wire.points_m, CornerRadius_m(wire.radius_m, num_sides), num_sides));
+  }
+}
+
+}  // namespace railcast

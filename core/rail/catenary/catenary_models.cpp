@@ -1,0 +1,166 @@
+#include "core/rail/catenary/catenary_models.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "core/rail/model_parts.h"
+#include "core/scene/shapes.h"
+
+namespace railcast {
+namespace {
+
+// HEB 240 (EN 10365).
+constexpr double kDepth_m = 0.240;
+constexpr double kWidth_m = 0.240;
+constexpr double kWeb_m = 0.010;
+constexpr double kFlange_m = 0.017;
+
+constexpr double kMastHeight_m = 8.0;
+constexpr double kMastAboveMessenger_m = 0.5;
+
+constexpr double kThickTubeRadius_m = 0.030;
+constexpr double kThinTubeRadius_m = 0.021;
+constexpr double kSteadyArmRadius_m = 0.013;
+constexpr double kHangerRadius_m = 0.006;
+constexpr int kTubeSides = 8;
+
+constexpr double kInsulatorGap_m = 0.10;  ///< From the mast's face.
+constexpr double kInsulatorLength_m = 0.50;
+constexpr double kInsulatorRadius_m = 0.055;
+constexpr int kInsulatorSides = 10;
+
+/// Of the registration tube above the contact wire, and of the steady arm along it.
+constexpr double kRegistrationHeight_m = 0.40;
+constexpr double kSteadyArmLength_m = 1.0;
+constexpr double kTubeBeyondHinge_m = 0.15;
+/// Along the strut, from its hinge to where the registration tube begins.
+constexpr double kTubeRoot_m = kInsulatorGap_m + kInsulatorLength_m + 0.1;
+
+/// Draws a cantilever's tubes into its two parts.
+class CantileverPen {
+ public:
+  CantileverPen(const RailSurfaces& surfaces, Model& model) : surfaces_(surfaces), model_(model) {}
+
+  void Tube(const Vector3& from_m, const Vector3& to_m, double radius_m) {
+    const std::array<Vector3, 2> line_m{from_m, to_m};
+    MeshOf(surfaces_.cantilever, model_).Append(MakeTube(line_m, radius_m, kTubeSides));
+  }
+
+  /// A tube whose first metre, at the mast, holds an insulator with five sheds.
+  void InsulatedTube(const Vector3& mast_m, const Vector3& to_m, double radius_m) {
+    Tube(mast_m, to_m, radius_m);
+    const Vector3 along = (to_m - mast_m).normalized();
+    constexpr int kSheds = 5;
+    std::vector<Vector3> line_m;
+    std::vector<double> radii_m;
+    for (int i = 0; i <= 2 * kSheds; ++i) {
+      line_m.emplace_back(mast_m +
+                          along * (kInsulatorGap_m + kInsulatorLength_m * i / (2.0 * kSheds)));
+      radii_m.push_back(i % 2 == 1 ? kInsulatorRadius_m : 0.7 * kInsulatorRadius_m);
+    }
+    MeshOf(surfaces_.insulator, model_).Append(MakeTube(line_m, radii_m, kInsulatorSides));
+  }
+
+  void Clamp(const Vector3& middle_m, const Vector3& half_size_m) {
+    MeshOf(surfaces_.cantilever, model_)
+        .Append(MakeBox({middle_m - half_size_m, middle_m + half_size_m}));
+  }
+
+ private:
+  const RailSurfaces& surfaces_;
+  Model& model_;
+};
+
+}  // namespace
+
+Model MakeMast(const CatenarySpec& spec, const RailSurfaces& surfaces) {
+  const double top_m =
+      std::max(kMastHeight_m, spec.contact_height_m + spec.system_height_m + kMastAboveMessenger_m);
+  constexpr double kBlockTop_m = -0.50;
+  constexpr double kBlockBottom_m = -1.70;
+  constexpr double kBlockHalfWidth_m = 0.40;
+  constexpr double kX = 0.5 * kWidth_m;
+  constexpr double kY = 0.5 * kDepth_m;
+  constexpr double kWebX = 0.5 * kWeb_m;
+  constexpr double kWebY = 0.5 * kDepth_m - kFlange_m;
+  // An extrusion runs along x over (y, z). Upright, its x is the mast's z; its y and z are the
+  // mast's x and y.
+  const std::array<Eigen::Vector2d, 12> section_m{{{kX, kY},
+                                                   {-kX, kY},
+                                                   {-kX, kWebY},
+                                                   {-kWebX, kWebY},
+                                                   {-kWebX, -kWebY},
+                                                   {-kX, -kWebY},
+                                                   {-kX, -kY},
+                                                   {kX, -kY},
+                                                   {kX, -kWebY},
+                                                   {kWebX, -kWebY},
+                                                   {kWebX, kWebY},
+                                                   {kX, kWebY}}};
+  Eigen::Matrix3d mast_from_extrusion;
+  mast_from_extrusion << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+
+  Model model{.name = "mast", .parts = {}};
+  MeshOf(surfaces.mast, model)
+      .Append(MakeExtrusion(section_m, kBlockTop_m, top_m),
+              MakeTransform(mast_from_extrusion, Vector3::Zero()));
+  const SurfaceClass block{.material = surfaces.sleeper_concrete.material,
+                           .label = surfaces.mast.label};
+  MeshOf(block, model)
+      .Append(MakeBox({Vector3(-kBlockHalfWidth_m, -kBlockHalfWidth_m, kBlockBottom_m),
+                       Vector3(kBlockHalfWidth_m, kBlockHalfWidth_m, kBlockTop_m)}));
+  return model;
+}
+
+Vector3 MastFoot_m(const MastSite& site) {
+  return {0.0, (site.on_left ? 1.0 : -1.0) * (site.distance_m + 0.5 * kDepth_m), 0.0};
+}
+
+Model MakeCantilever(const CatenarySpec& spec,
+                     const MastSite& site,
+                     double stagger_m,
+                     const RailSurfaces& surfaces) {
+  Model model{.name = "cantilever", .parts = {}};
+  CantileverPen pen(surfaces, model);
+  const double mast_side = site.on_left ? 1.0 : -1.0;
+  const double stagger_side = stagger_m < 0.0 ? -1.0 : 1.0;
+  const double face_m = mast_side * site.distance_m;
+  const double contact_m = spec.contact_height_m;
+  const double registration_m = contact_m + kRegistrationHeight_m;
+
+  // Tubes end below the messenger, so that its clamp holds it.
+  const Vector3 messenger(0.0, stagger_m, contact_m + spec.system_height_m);
+  const Vector3 head = messenger - Vector3(0.0, 0.0, 0.075);
+  const Vector3 top_hinge(0.0, face_m, head.z());
+  const Vector3 strut_hinge(0.0, face_m, registration_m + 0.10);
+  pen.InsulatedTube(top_hinge, head, kThinTubeRadius_m);
+  pen.InsulatedTube(strut_hinge, head, kThickTubeRadius_m);
+  pen.Clamp(messenger - Vector3(0.0, 0.0, 0.04), {0.05, 0.03, 0.05});
+  for (const Vector3& hinge : {top_hinge, strut_hinge}) {
+    pen.Clamp(hinge + Vector3(0.0, -0.02 * mast_side, 0.0), {0.06, 0.03, 0.06});
+  }
+
+  // The wire pulls towards the track's middle; the steady arm holds it from the side it is on,
+  // hinged to the registration tube, which reaches a little beyond hinge and wire.
+  const Vector3 wire(0.0, stagger_m, contact_m);
+  const Vector3 strut = (head - strut_hinge).normalized();
+  const Vector3 root = strut_hinge + strut * kTubeRoot_m;
+  const double room_m = std::abs(root.y() - stagger_m) - kTubeBeyondHinge_m;
+  const double arm_m =
+      stagger_side == mast_side ? std::min(kSteadyArmLength_m, room_m) : kSteadyArmLength_m;
+  const double hinge_y_m = stagger_m + stagger_side * arm_m;
+  const double innermost_m = std::min(mast_side * hinge_y_m, mast_side * stagger_m);
+  const Vector3 tube_end(0.0, mast_side * (innermost_m - kTubeBeyondHinge_m), registration_m);
+  const auto on_tube = [&](double y_m) -> Vector3 {
+    return root + (y_m - root.y()) / (tube_end.y() - root.y()) * (tube_end - root);
+  };
+  pen.Tube(root, tube_end, kThinTubeRadius_m);
+  pen.Tube(head, on_tube(tube_end.y() + 0.10 * mast_side), kHangerRadius_m);
+  pen.Tube(on_tube(hinge_y_m), wire + Vector3(0.0, 0.0, 0.02), kSteadyArmRadius_m);
+  pen.Clamp(wire + Vector3(0.0, 0.0, 0.016), {0.04, 0.012, 0.014});
+  return model;
+}
+
+}  // namespace railcast

@@ -1,0 +1,162 @@
+#include "core/rail/catenary/catenary_plan.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+
+namespace railcast {
+namespace {
+
+constexpr std::size_t kStepsOfASpan = 26;
+constexpr double kLateralMargin_m = 0.05;
+constexpr double kShortestDropper_m = 0.3;
+constexpr double kMastHalfDepth_m = 0.12;
+constexpr double kClearanceFromAxis_m = 2.2;
+/// A line's last span may be this short; what is left beyond has no wire.
+constexpr double kShortestSpan_m = 5.0;
+
+/// The axis from a support on, every max_span / 26.
+struct Course {
+  std::array<double, kStepsOfASpan + 1> curvature_per_m{};
+  /// c(s): of a pantograph's middle, beside the tangent at the support.
+  std::array<double, kStepsOfASpan + 1> lateral_m{};
+};
+
+Course CourseFrom(double s_m, const CatenarySpec& spec, const Alignment& alignment) {
+  const double step_m = spec.max_span_m / static_cast<double>(kStepsOfASpan);
+  Course course;
+  double heading_rad = 0.0;
+  double axis_m = 0.0;
+  double previous_per_m = 0.0;
+  for (std::size_t i = 0; i <= kStepsOfASpan; ++i) {
+    const AxisPoint axis = alignment.At(s_m + step_m * static_cast<double>(i));
+    if (i > 0) {
+      // Exact for curvature that changes linearly over the step.
+      axis_m += heading_rad * step_m +
+                (2.0 * previous_per_m + axis.curvature_per_m) * step_m * step_m / 6.0;
+      heading_rad += 0.5 * (previous_per_m + axis.curvature_per_m) * step_m;
+    }
+    previous_per_m = axis.curvature_per_m;
+    course.curvature_per_m[i] = axis.curvature_per_m;
+    course.lateral_m[i] = axis_m - spec.contact_height_m * std::sin(axis.cant_rad);
+  }
+  return course;
+}
+
+bool StaysWithin(const Course& course,
+                 std::size_t num_steps,
+                 double first_stagger_m,
+                 double last_stagger_m,
+                 double limit_m) {
+  const double first_m = course.lateral_m[0] + first_stagger_m;
+  const double last_m = course.lateral_m[num_steps] + last_stagger_m;
+  for (std::size_t i = 0; i <= num_steps; ++i) {
+    const double fraction = static_cast<double>(i) / static_cast<double>(num_steps);
+    if (std::abs(std::lerp(first_m, last_m, fraction) - course.lateral_m[i]) > limit_m)
+      return false;
+  }
+  return true;
+}
+
+/// Towards the outside of a curve; nothing where the line is straight enough to alternate.
+std::optional<double> StaggerInCurve(const CatenarySpec& spec, double curvature_per_m) {
+  const double rise_m = spec.max_span_m * spec.max_span_m * std::abs(curvature_per_m) / 8.0;
+  if (rise_m <= 0.5 * spec.stagger_m) return std::nullopt;
+  return curvature_per_m > 0.0 ? -spec.stagger_m : spec.stagger_m;
+}
+
+CatenarySupport NextSupport(const CatenarySupport& support,
+                            const CatenarySpec& spec,
+                            const Alignment& alignment) {
+  // The rise comes from rounding when a span at the limit is compared with the limit itself.
+  const double limit_m = spec.stagger_m + kLateralMargin_m + 1e-9;
+  const Course course = CourseFrom(support.s_m, spec, alignment);
+  for (std::size_t num_steps = kStepsOfASpan; num_steps > 0; --num_steps) {
+    const double s_m = support.s_m + spec.max_span_m * static_cast<double>(num_steps) /
+                                         static_cast<double>(kStepsOfASpan);
+    const std::optional<double> outside_m = StaggerInCurve(spec, course.curvature_per_m[num_steps]);
+    const double stagger_m = outside_m.value_or(-support.stagger_m);
+    if (StaysWithin(course, num_steps, support.stagger_m, stagger_m, limit_m)) {
+      return {.s_m = s_m, .stagger_m = stagger_m};
+    }
+  }
+  Check(false, "a wire between neighbouring samples is within its staggers");
+  return support;
+}
+
+void CheckSystemHeight(const CatenarySpec& spec) {
+  const double sag_m =
+      kWireWeight_n_per_m * spec.max_span_m * spec.max_span_m / (8.0 * kMessengerTension_n);
+  const double needed_m = sag_m - kContactPresag * spec.max_span_m + kShortestDropper_m;
+  if (spec.system_height_m >= needed_m) return;
+  throw InputError("/catenary/system_height_m: must be >= " + NumberText(needed_m) +
+                   ", the messenger's sag over max_span_m and a shortest dropper (got " +
+                   NumberText(spec.system_height_m) + ")");
+}
+
+/// Whether a mast there is clear of all tracks but its own.
+bool IsClear(const WorldSpec& spec, std::size_t own_track, double mast_d_m) {
+  for (std::size_t i = 0; i < spec.tracks.size(); ++i) {
+    if (i == own_track) continue;
+    if (std::abs(spec.tracks[i].offset_m - mast_d_m) < kClearanceFromAxis_m) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+MastSite MastSiteOf(const WorldSpec& spec, std::size_t track) {
+  const double offset_m = spec.tracks[track].offset_m;
+  const double to_mast_m = spec.catenary.mast_distance_m + kMastHalfDepth_m;
+  bool is_leftmost = spec.tracks.size() > 1;
+  double to_next_m = 0.0;
+  for (const TrackSpec& other : spec.tracks) {
+    if (other.offset_m > offset_m) is_leftmost = false;
+    const double distance_m = offset_m - other.offset_m;
+    if (distance_m > 0.0 && (to_next_m == 0.0 || distance_m < to_next_m)) to_next_m = distance_m;
+  }
+  for (const bool on_left : {is_leftmost, !is_leftmost}) {
+    if (IsClear(spec, track, offset_m + (on_left ? to_mast_m : -to_mast_m))) {
+      return {.on_left = on_left, .distance_m = spec.catenary.mast_distance_m};
+    }
+  }
+  return {.on_left = false, .distance_m = 0.5 * to_next_m - kMastHalfDepth_m};
+}
+
+CatenaryPlan::CatenaryPlan(const WorldSpec& spec, const Alignment& alignment) {
+  const bool any_electrified =
+      std::any_of(spec.tracks.begin(), spec.tracks.end(),
+                  [](const TrackSpec& track) { return track.electrified; });
+  if (!spec.catenary.enabled || !any_electrified) return;
+  CheckSystemHeight(spec.catenary);
+  const double first_m = StaggerInCurve(spec.catenary, alignment.At(0.0).curvature_per_m)
+                             .value_or(spec.catenary.stagger_m);
+  supports_.push_back({.s_m = 0.0, .stagger_m = first_m});
+  while (true) {
+    CatenarySupport next = NextSupport(supports_.back(), spec.catenary, alignment);
+    if (next.s_m >= alignment.length_m()) {
+      const double left_m = alignment.length_m() - supports_.back().s_m;
+      next.s_m = alignment.length_m();
+      if (left_m >= kShortestSpan_m) supports_.push_back(next);
+      return;
+    }
+    supports_.push_back(next);
+  }
+}
+
+Transform WorldFromSupport(const Alignment& alignment,
+                           const WorldSpec& spec,
+                           const TrackSpec& track,
+                           double s_m) {
+  const double height_m = spec.catenary.contact_height_m;
+  const Vector3 contact_m =
+      alignment.WorldFromTrack(s_m, track.offset_m) * Vector3(0.0, 0.0, height_m);
+  return MakeTransform(RotationFromYawPitchRoll(alignment.At(s_m).heading_rad, 0.0, 0.0),
+                       contact_m - height_m * Vector3::UnitZ());
+}
+
+}  // namespace railcast

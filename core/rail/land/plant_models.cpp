@@ -1,0 +1,320 @@
+#include "core/rail/land/plant_models.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <string>
+
+#include "core/base/random.h"
+#include "core/base/units.h"
+#include "core/rail/model_parts.h"
+#include "core/scene/shapes.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kTurn_rad = 2.0 * std::numbers::pi;
+constexpr double kGoldenAngle_rad = 2.39996;  ///< Between the leaves of many plants.
+constexpr double kRoot_m = 0.3;
+
+/// The shape of one plant draws its numbers in order.
+class Dice {
+ public:
+  Dice(std::uint64_t seed, std::uint32_t plant) : seed_(seed), plant_(plant) {}
+
+  double Uniform(double low, double high) {
+    if (next_ % 4 == 0) words_ = RandomWords(seed_, RandomUse::kPlantShape, plant_, next_ / 4);
+    return low + (high - low) * static_cast<double>(UnitFloat(words_[next_++ % 4]));
+  }
+  /// Uniform on the unit sphere (Archimedes).
+  Vector3 Direction() {
+    const double z = Uniform(-1.0, 1.0);
+    const double azimuth_rad = Uniform(0.0, kTurn_rad);
+    const double radius = std::sqrt(1.0 - z * z);
+    return {radius * std::cos(azimuth_rad), radius * std::sin(azimuth_rad), z};
+  }
+  /// Within a ball, denser towards its middle.
+  Vector3 Offset(double radius_m) { return Uniform(0.0, radius_m) * Direction(); }
+
+ private:
+  std::uint64_t seed_;
+  std::uint32_t plant_;
+  std::uint32_t next_ = 0;
+  std::array<std::uint32_t, 4> words_{};
+};
+
+struct TreeForm {
+  std::string name;
+  double height_m{};
+  double crown_base_m{};
+  double crown_radius_m{};
+  double trunk_radius_m{};
+};
+
+/// What bears leaves.
+struct Twig {
+  Vector3 begin_m;
+  Vector3 end_m;
+};
+
+struct Leaf {
+  double length_m{};
+  double width_m{};
+  double scatter_m{};  ///< About its twig.
+  double along{};      ///< 1 = lies along the twig, 0 = any way.
+};
+
+constexpr double kLeafAreaIndex = 3.2;
+constexpr Leaf kBroadLeaf{.length_m = 0.09, .width_m = 0.08, .scatter_m = 0.28, .along = 0.0};
+constexpr Leaf kNeedleShoot{.length_m = 0.11, .width_m = 0.05, .scatter_m = 0.14, .along = 0.5};
+
+/// A unit vector at a right angle, any way round.
+Vector3 PerpendicularTo(const Vector3& direction, Dice& dice) {
+  Vector3 other = direction.cross(dice.Direction());
+  while (other.norm() < 0.1) other = direction.cross(dice.Direction());
+  return other.normalized();
+}
+
+void AddLeaf(const Twig& twig, const Leaf& leaf, Dice& dice, Mesh& leaves) {
+  const Vector3 along = twig.end_m - twig.begin_m;
+  const Vector3 middle_m =
+      twig.begin_m + dice.Uniform(0.0, 1.0) * along + dice.Offset(leaf.scatter_m);
+  const Vector3 tip =
+      (leaf.along * along.normalized() + (1.0 - leaf.along) * dice.Direction()).normalized();
+  const double size = dice.Uniform(0.8, 1.2);
+  const Vector3 half_length_m = 0.5 * size * leaf.length_m * tip;
+  const Vector3 half_width_m = 0.5 * size * leaf.width_m * PerpendicularTo(tip, dice);
+  const auto first = static_cast<std::uint32_t>(leaves.vertices.size());
+  leaves.vertices.emplace_back((middle_m - half_length_m - half_width_m).cast<float>());
+  leaves.vertices.emplace_back((middle_m - half_length_m + half_width_m).cast<float>());
+  leaves.vertices.emplace_back((middle_m + half_length_m).cast<float>());
+  leaves.triangles.push_back({first, first + 1, first + 2});
+}
+
+/// Every piece of a twig bears as many leaves as any other of its length.
+Mesh MakeLeaves(const TreeForm& form, std::span<const Twig> twigs, const Leaf& leaf, Dice& dice) {
+  const double projection_m2 = std::numbers::pi * form.crown_radius_m * form.crown_radius_m;
+  const double leaf_m2 = 0.5 * leaf.length_m * leaf.width_m;
+  const double num_leaves = kLeafAreaIndex * projection_m2 / leaf_m2;
+  double length_m = 0.0;
+  for (const Twig& twig : twigs) length_m += (twig.end_m - twig.begin_m).norm();
+  Mesh leaves;
+  double due = 0.0;
+  for (const Twig& twig : twigs) {
+    due += num_leaves * (twig.end_m - twig.begin_m).norm() / length_m;
+    for (; due >= 1.0; due -= 1.0) AddLeaf(twig, leaf, dice, leaves);
+  }
+  return leaves;
+}
+
+/// A tube that tapers evenly.
+Mesh MakeStem(std::span<const Vector3> line, double foot_radius_m, double tip_radius_m, int sides) {
+  std::vector<double> radii_m;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const double t = static_cast<double>(i) / static_cast<double>(line.size() - 1);
+    radii_m.push_back(foot_radius_m + t * (tip_radius_m - foot_radius_m));
+  }
+  return MakeTube(line, radii_m, sides);
+}
+
+/// From below the ground to `top_m`, wandering by `wander_m` every metre.
+std::vector<Vector3> TrunkLine(double top_m, double wander_m, Dice& dice) {
+  std::vector<Vector3> line = {{0, 0, -kRoot_m}, {0, 0, 0}};
+  const int num_pieces = static_cast<int>(std::ceil(top_m));
+  for (int i = 1; i <= num_pieces; ++i) {
+    line.emplace_back(line.back().x() + dice.Uniform(-wander_m, wander_m),
+                      line.back().y() + dice.Uniform(-wander_m, wander_m), top_m * i / num_pieces);
+  }
+  return line;
+}
+
+/// Where the trunk is at a height above the ground.
+Vector3 OnTrunk(const std::vector<Vector3>& line, double height_m) {
+  std::size_t i = 1;
+  while (i + 2 < line.size() && line[i + 1].z() < height_m) ++i;
+  const double t = (height_m - line[i].z()) / (line[i + 1].z() - line[i].z());
+  return line[i] + t * (line[i + 1] - line[i]);
+}
+
+Vector3 Slanting(double azimuth_rad, double elevation_rad) {
+  return {std::cos(elevation_rad) * std::cos(azimuth_rad),
+          std::cos(elevation_rad) * std::sin(azimuth_rad), std::sin(elevation_rad)};
+}
+
+/// How far it is from a point within the crown's ellipsoid to its surface.
+double ReachInCrown(const TreeForm& form, const Vector3& from_m, const Vector3& direction) {
+  const double half_height_m = 0.5 * (form.height_m - form.crown_base_m);
+  const Vector3 scale(1.0 / form.crown_radius_m, 1.0 / form.crown_radius_m, 1.0 / half_height_m);
+  const Vector3 p = scale.cwiseProduct(from_m - Vector3(0, 0, form.crown_base_m + half_height_m));
+  const Vector3 d = scale.cwiseProduct(direction);
+  const double b = p.dot(d);
+  const double discriminant = b * b - d.squaredNorm() * (p.squaredNorm() - 1.0);
+  if (discriminant <= 0.0) return 0.0;
+  return std::max(0.0, (std::sqrt(discriminant) - b) / d.squaredNorm());
+}
+
+Model MakeBroadleaf(const TreeForm& form, const RailSurfaces& surfaces, Dice dice) {
+  constexpr int kNumBranches = 26;
+  constexpr int kTwigsPerBranch = 6;
+  Mesh wood;
+  std::vector<Twig> twigs;
+  const std::vector<Vector3> trunk = TrunkLine(0.93 * form.height_m, 0.07, dice);
+  wood.Append(MakeStem(trunk, form.trunk_radius_m, 0.02, 8));
+  for (int i = 0; i < kNumBranches; ++i) {
+    const double t = (i + 0.5) / kNumBranches;
+    const double foot_z_m = form.crown_base_m + t * (0.92 * form.height_m - form.crown_base_m);
+    const Vector3 foot_m = OnTrunk(trunk, foot_z_m);
+    const double elevation_rad = RadFromDeg(10.0 + 50.0 * t + dice.Uniform(-10.0, 10.0));
+    const double azimuth_rad = kGoldenAngle_rad * i + dice.Uniform(-0.4, 0.4);
+    const Vector3 direction = Slanting(azimuth_rad, elevation_rad);
+    const double length_m =
+        std::max(0.5, dice.Uniform(0.75, 0.98) * ReachInCrown(form, foot_m, direction));
+    const Vector3 middle_m = foot_m + 0.5 * length_m * direction + dice.Offset(0.08 * length_m);
+    const Vector3 tip_m = foot_m + length_m * direction + Vector3(0, 0, 0.10 * length_m);
+    const std::vector<Vector3> branch = {foot_m, middle_m, tip_m};
+    wood.Append(MakeStem(branch, 0.012 + 0.012 * length_m, 0.006, 5));
+    twigs.push_back({middle_m, tip_m});
+    for (int k = 0; k < kTwigsPerBranch; ++k) {
+      const double along = 0.3 + 0.7 * (k + 0.5) / kTwigsPerBranch;
+      const Vector3 at_m = along < 0.5 ? foot_m + 2.0 * along * (middle_m - foot_m)
+                                       : middle_m + (2.0 * along - 1.0) * (tip_m - middle_m);
+      const Vector3 sideways = PerpendicularTo(direction, dice);
+      const Vector3 twig_direction = (0.6 * direction + 0.8 * sideways).normalized();
+      const double reach_m = ReachInCrown(form, at_m, twig_direction);
+      const double twig_m =
+          std::clamp(0.45 * length_m * dice.Uniform(0.7, 1.3), 0.2, std::max(0.25, reach_m));
+      const Twig twig{at_m, at_m + twig_m * twig_direction};
+      wood.Append(MakeStem(std::array{twig.begin_m, twig.end_m}, 0.007, 0.003, 3));
+      twigs.push_back(twig);
+    }
+  }
+  Model tree{.name = form.name, .parts = {}};
+  MeshOf(surfaces.bark, tree) = std::move(wood);
+  MeshOf(surfaces.leaf, tree) = MakeLeaves(form, twigs, kBroadLeaf, dice);
+  return tree;
+}
+
+/// Shoots on both sides of a spruce's branch, shorter towards its tip, hanging a little.
+void AddSideShoots(const Vector3& foot_m,
+                   const Vector3& tip_m,
+                   Dice& dice,
+                   std::vector<Twig>& twigs) {
+  constexpr double kSpacing_m = 0.16;
+  const Vector3 along = tip_m - foot_m;
+  const double length_m = along.norm();
+  const Vector3 left = Vector3::UnitZ().cross(along).normalized();
+  for (double at_m = 0.2 * length_m; at_m < length_m; at_m += kSpacing_m) {
+    for (const double side : {-1.0, 1.0}) {
+      const double shoot_m = 0.1 + 0.40 * (length_m - at_m) * dice.Uniform(0.7, 1.1);
+      const Vector3 direction =
+          (0.6 * along / length_m + side * 0.8 * left + Vector3(0, 0, dice.Uniform(-0.35, 0.0)))
+              .normalized();
+      const Vector3 begin_m = foot_m + along * (at_m / length_m);
+      twigs.push_back({begin_m, begin_m + shoot_m * direction});
+    }
+  }
+}
+
+Model MakeSpruce(const TreeForm& form, const RailSurfaces& surfaces, Dice dice) {
+  constexpr int kBranchesPerWhorl = 5;
+  constexpr double kWhorlSpacing_m = 0.36;
+  Mesh wood;
+  std::vector<Twig> twigs;
+  const std::vector<Vector3> trunk = TrunkLine(form.height_m - 0.15, 0.01, dice);
+  wood.Append(MakeStem(trunk, form.trunk_radius_m, 0.01, 8));
+  const double crown_m = form.height_m - form.crown_base_m;
+  for (double z_m = form.crown_base_m; z_m < form.height_m - 0.25; z_m += kWhorlSpacing_m) {
+    const double t = (z_m - form.crown_base_m) / crown_m;
+    const double first_azimuth_rad = dice.Uniform(0.0, kTurn_rad);
+    for (int i = 0; i < kBranchesPerWhorl; ++i) {
+      const Vector3 foot_m = OnTrunk(trunk, z_m + dice.Uniform(-0.5, 0.5) * kWhorlSpacing_m);
+      const double azimuth_rad =
+          first_azimuth_rad + kTurn_rad * i / kBranchesPerWhorl + dice.Uniform(-0.25, 0.25);
+      const double length_m =
+          (0.25 + (form.crown_radius_m - 0.25) * (1.0 - t)) * dice.Uniform(0.75, 1.0);
+      const double elevation_rad = RadFromDeg(-18.0 + 60.0 * t * t + dice.Uniform(-6.0, 6.0));
+      const Vector3 tip_m = foot_m + length_m * Slanting(azimuth_rad, elevation_rad);
+      wood.Append(MakeStem(std::array{foot_m, tip_m}, 0.008 + 0.008 * length_m, 0.004, 3));
+      twigs.push_back({foot_m + 0.3 * (tip_m - foot_m), tip_m});
+      AddSideShoots(foot_m, tip_m, dice, twigs);
+    }
+  }
+  const Vector3 top_m(trunk.back().x(), trunk.back().y(), form.height_m);
+  twigs.push_back({OnTrunk(trunk, form.height_m - 0.7), top_m});
+  Model tree{.name = form.name, .parts = {}};
+  MeshOf(surfaces.bark, tree) = std::move(wood);
+  MeshOf(surfaces.leaf, tree) = MakeLeaves(form, twigs, kNeedleShoot, dice);
+  return tree;
+}
+
+/// A blade of two pieces that leans over towards its tip.
+void AddBlade(const Vector3& foot_m, double height_m, Dice& dice, Mesh& grass) {
+  const double azimuth_rad = dice.Uniform(0.0, kTurn_rad);
+  const double lean = dice.Uniform(0.1, 0.6);
+  const Vector3 over = lean * height_m * Vector3(std::cos(azimuth_rad), std::sin(azimuth_rad), 0.0);
+  const double twist_rad = dice.Uniform(0.0, kTurn_rad);
+  const Vector3 half_width_m =
+      0.5 * dice.Uniform(0.008, 0.014) * Vector3(std::cos(twist_rad), std::sin(twist_rad), 0.0);
+  const Vector3 middle_m = foot_m + 0.25 * over + Vector3(0, 0, 0.6 * height_m);
+  const Vector3 tip_m = foot_m + over + Vector3(0, 0, height_m);
+  const Vector3 root_m = foot_m - Vector3(0, 0, 0.5 * kRoot_m);
+  const auto first = static_cast<std::uint32_t>(grass.vertices.size());
+  for (const Vector3& corner :
+       {Vector3(root_m - half_width_m), Vector3(root_m + half_width_m),
+        Vector3(middle_m - half_width_m), Vector3(middle_m + half_width_m), tip_m}) {
+    grass.vertices.emplace_back(corner.cast<float>());
+  }
+  grass.triangles.push_back({first, first + 1, first + 3});
+  grass.triangles.push_back({first, first + 3, first + 2});
+  grass.triangles.push_back({first + 2, first + 3, first + 4});
+}
+
+Model MakeGrass(const std::string& name, const RailSurfaces& surfaces, Dice dice) {
+  constexpr int kNumTufts = 80;
+  constexpr int kBladesPerTuft = 8;
+  constexpr double kTuftRadius_m = 0.07;
+  constexpr double kReach_m = 0.5 * kGrassPatch_m;
+  Model patch{.name = name, .parts = {}};
+  Mesh& grass = MeshOf(surfaces.grass, patch);
+  for (int tuft = 0; tuft < kNumTufts; ++tuft) {
+    const double x_m = dice.Uniform(-kReach_m, kReach_m);
+    const double y_m = dice.Uniform(-kReach_m, kReach_m);
+    const double height_m = dice.Uniform(0.20, 0.40);
+    for (int blade = 0; blade < kBladesPerTuft; ++blade) {
+      const Vector3 foot_m(x_m + dice.Uniform(-kTuftRadius_m, kTuftRadius_m),
+                           y_m + dice.Uniform(-kTuftRadius_m, kTuftRadius_m), 0.0);
+      AddBlade(foot_m, std::max(0.15, height_m * dice.Uniform(0.6, 1.0)), dice, grass);
+    }
+  }
+  return patch;
+}
+
+TreeModel Measured(Model model) {
+  const double height_m = model.Bounds().max().z();
+  return {std::make_shared<const Model>(std::move(model)), height_m};
+}
+
+}  // namespace
+
+PlantModels MakePlantModels(const RailSurfaces& surfaces, std::uint64_t seed) {
+  std::uint32_t plant = 0;
+  PlantModels plants;
+  const std::vector<TreeForm> broadleaves = {{"broadleaf_low", 7.5, 1.6, 2.1, 0.10},
+                                             {"broadleaf_high", 11.0, 2.8, 2.3, 0.14}};
+  for (const TreeForm& form : broadleaves) {
+    plants.broadleaves.push_back(Measured(MakeBroadleaf(form, surfaces, Dice(seed, plant++))));
+  }
+  const std::vector<TreeForm> spruces = {{"spruce_low", 7.0, 0.6, 1.6, 0.09},
+                                         {"spruce_high", 12.0, 1.4, 2.0, 0.15}};
+  for (const TreeForm& form : spruces) {
+    plants.conifers.push_back(Measured(MakeSpruce(form, surfaces, Dice(seed, plant++))));
+  }
+  for (const char* name : {"grass_a", "grass_b", "grass_c"}) {
+    plants.grass.push_back(
+        std::make_shared<const Model>(MakeGrass(name, surfaces, Dice(seed, plant++))));
+  }
+  return plants;
+}
+
+}  // namespace railcast

@@ -1,0 +1,136 @@
+#include "core/rail/land/terrain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/rail/land/noise_field.h"
+#include "core/rail/model_parts.h"
+#include "core/rail/track/cross_section.h"
+#include "core/rail/track/sweep.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kGridAlong_m = 0.5;
+constexpr double kFineAcross_m = 0.5;
+constexpr double kFineReach_m = 10.0;
+constexpr double kCoarsening = 1.15;
+constexpr double kCoarsestAcross_m = 2.0;
+
+constexpr double kLevelReach_m = 4.0;  ///< From a track's axis.
+constexpr double kFullReach_m = 30.0;  ///< Where undulation has its full height.
+constexpr double kLongWave_m = 30.0;
+constexpr double kShortWave_m = 12.0;
+constexpr double kLongWaveShare = 0.8;  ///< Of the variance.
+
+/// Of ballast, over which the ground below it becomes smooth.
+constexpr double kSmoothBelow_m = 0.25;
+/// Ground lower than this below the ballast at all corners of a cell is left out.
+constexpr double kHiddenBelow_m = 0.35;
+
+/// The random part of the ground's height.
+class Relief {
+ public:
+  explicit Relief(const ChunkContext& context)
+      : spec_(context.spec.terrain),
+        roughness_(context.seed, RandomUse::kGroundRoughness, 0),
+        long_wave_(context.seed, RandomUse::kGroundRoughness, 1),
+        short_wave_(context.seed, RandomUse::kGroundRoughness, 2) {}
+
+  [[nodiscard]] double Height_m(const CrossSection& section, double s_m, double d_m) const {
+    const double ballast_m = section.BallastHeight_m(d_m) - section.FormationHeight_m(d_m);
+    const double rough = std::clamp(1.0 - ballast_m / kSmoothBelow_m, 0.0, 1.0);
+    const double along = s_m / spec_.roughness_wavelength_m;
+    const double across = d_m / spec_.roughness_wavelength_m;
+    return rough * spec_.roughness_sigma_m * roughness_.At(along, across) +
+           Undulation_m(section.DistanceFromTracks_m(d_m), s_m, d_m);
+  }
+
+ private:
+  [[nodiscard]] double Undulation_m(double distance_m, double s_m, double d_m) const {
+    const double t =
+        std::clamp((distance_m - kLevelReach_m) / (kFullReach_m - kLevelReach_m), 0.0, 1.0);
+    if (t == 0.0) return 0.0;
+    const double fade = t * t * (3.0 - 2.0 * t);
+    const double waves =
+        std::sqrt(kLongWaveShare) * long_wave_.At(s_m / kLongWave_m, d_m / kLongWave_m) +
+        std::sqrt(1.0 - kLongWaveShare) * short_wave_.At(s_m / kShortWave_m, d_m / kShortWave_m);
+    return fade * spec_.undulation_sigma_m * waves;
+  }
+
+  const TerrainSpec& spec_;
+  NoiseField roughness_;
+  NoiseField long_wave_;
+  NoiseField short_wave_;
+};
+
+/// Outwards from `d_m` to the strip's edge, which is the last; `side` is +1 to the left.
+std::vector<double> LinesOutwards(double d_m, double side, double half_width_m) {
+  std::vector<double> lines_m;
+  double step_m = kFineAcross_m;
+  for (double distance_m = side * d_m + step_m; distance_m < half_width_m - 0.5 * step_m;
+       distance_m += step_m) {
+    lines_m.push_back(side * distance_m);
+    step_m = std::min(kCoarsestAcross_m, kCoarsening * step_m);
+  }
+  lines_m.push_back(side * half_width_m);
+  return lines_m;
+}
+
+/// The grid's lateral positions from right to left: a function of the spec alone.
+std::vector<double> LateralLines(const WorldSpec& spec) {
+  const double edge_m = spec.terrain.half_width_m;
+  const auto [right, left] = std::minmax_element(
+      spec.tracks.begin(), spec.tracks.end(),
+      [](const TrackSpec& a, const TrackSpec& b) { return a.offset_m < b.offset_m; });
+  const double least_m = std::max(right->offset_m - kFineReach_m, -edge_m + kFineAcross_m);
+  const double most_m = std::min(left->offset_m + kFineReach_m, edge_m - kFineAcross_m);
+  std::vector<double> lines_m;
+  for (auto i = static_cast<std::int64_t>(std::ceil(least_m / kFineAcross_m));
+       static_cast<double>(i) * kFineAcross_m <= most_m; ++i) {
+    lines_m.push_back(static_cast<double>(i) * kFineAcross_m);
+  }
+  if (lines_m.empty()) lines_m.push_back(0.0);
+  const std::vector<double> to_the_right_m = LinesOutwards(lines_m.front(), -1.0, edge_m);
+  const std::vector<double> to_the_left_m = LinesOutwards(lines_m.back(), 1.0, edge_m);
+  lines_m.insert(lines_m.begin(), to_the_right_m.rbegin(), to_the_right_m.rend());
+  lines_m.insert(lines_m.end(), to_the_left_m.begin(), to_the_left_m.end());
+  return lines_m;
+}
+
+Vector3 PointOf(const CrossSection& section, const Relief& relief, double s_m, double d_m) {
+  return section.PointAt(d_m, section.FormationHeight_m(d_m) + relief.Height_m(section, s_m, d_m));
+}
+
+}  // namespace
+
+Vector3 GroundPoint(const ChunkContext& context, double s_m, double d_m) {
+  return PointOf(CrossSection(context, s_m), Relief(context), s_m, d_m);
+}
+
+void AddTerrain(const ChunkContext& context, Chunk& chunk) {
+  const ChainageRange range{.begin_s_m = context.begin_s_m - 0.5 * kChunkOverlap_m,
+                            .end_s_m = context.end_s_m + 0.5 * kChunkOverlap_m};
+  const Relief relief(context);
+  const std::vector<double> lines_m = LateralLines(context.spec);
+  std::vector<Vector3> points_m;
+  std::vector<bool> is_hidden;
+  for (const double s_m : GridStations(range, kGridAlong_m)) {
+    const CrossSection section(context, s_m);
+    for (const double d_m : lines_m) {
+      points_m.push_back(PointOf(section, relief, s_m, d_m));
+      is_hidden.push_back(section.BallastHeight_m(d_m) - section.FormationHeight_m(d_m) >
+                          kHiddenBelow_m);
+    }
+  }
+  const std::size_t num_columns = lines_m.size();
+  const auto keeps = [&](std::size_t row, std::size_t column) {
+    const std::size_t corner = row * num_columns + column;
+    return !(is_hidden[corner] && is_hidden[corner + 1] && is_hidden[corner + num_columns] &&
+             is_hidden[corner + num_columns + 1]);
+  };
+  MeshOf(context.surfaces.ground, chunk.ground).Append(MeshOfGrid(points_m, num_columns, keeps));
+}
+
+}  // namespace railcast

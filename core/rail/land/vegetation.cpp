@@ -1,0 +1,156 @@
+#include "core/rail/land/vegetation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "core/base/random.h"
+#include "core/rail/land/terrain.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kTurn_rad = 2.0 * std::numbers::pi;
+constexpr std::array<double, 2> kBothSides = {-1.0, 1.0};
+
+double Uniform(std::uint32_t word, double low, double high) {
+  return low + (high - low) * static_cast<double>(UnitFloat(word));
+}
+
+/// Lateral positions on one side of the line, both measured outwards: `side` * d.
+struct Strip {
+  double side{};  ///< 1 left, -1 right.
+  double inner_m{};
+  double outer_m{};
+
+  [[nodiscard]] double width_m() const { return outer_m - inner_m; }
+};
+
+/// Beyond the outermost track on that side, and not beyond the ground.
+Strip StripBeyondTracks(const WorldSpec& spec, double side, double least_m, double most_m) {
+  double outermost_m = side * spec.tracks.front().offset_m;
+  for (const TrackSpec& track : spec.tracks) {
+    outermost_m = std::max(outermost_m, side * track.offset_m);
+  }
+  return {.side = side,
+          .inner_m = outermost_m + least_m,
+          .outer_m = std::min(outermost_m + most_m, spec.terrain.half_width_m)};
+}
+
+/// Upright at a place on the ground.
+Eigen::Affine3d Planted(const Vector3& ground_m, double yaw_rad, double scale) {
+  return Eigen::Translation3d(ground_m) * Eigen::AngleAxisd(yaw_rad, Vector3::UnitZ()) *
+         Eigen::Scaling(scale);
+}
+
+Placement MakeTree(const PlantModels& plants,
+                   double height_m,
+                   const Vector3& ground_m,
+                   const std::array<std::uint32_t, 4>& words) {
+  const std::vector<TreeModel>& kind =
+      UnitFloat(words[0]) < 0.5F ? plants.broadleaves : plants.conifers;
+  const auto misfit = [&](const TreeModel& tree) {
+    return std::abs(std::log(height_m / tree.height_m));
+  };
+  const TreeModel& tree = *std::min_element(
+      kind.begin(), kind.end(),
+      [&](const TreeModel& a, const TreeModel& b) { return misfit(a) < misfit(b); });
+  return {.model = tree.model,
+          .chunk_from_model =
+              Planted(ground_m, Uniform(words[1], 0.0, kTurn_rad), height_m / tree.height_m),
+          .instance = 0};
+}
+
+/// In a strip of even width the chainages of a Poisson process have exponential gaps. Where the
+/// line curves, the strip is longer outside and shorter inside by the factor 1 - curvature * d; the
+/// process is drawn for the largest such factor and thinned to the true one (Lewis, Shedler 1979).
+void AddTrees(const ChunkContext& context,
+              const PlantModels& plants,
+              const Strip& strip,
+              Chunk& chunk) {
+  constexpr double kHectare_m2 = 1e4;
+  const VegetationSpec& spec = context.spec.vegetation;
+  const double largest_factor =
+      1.0 + context.spec.terrain.half_width_m / context.alignment.tightest_radius_m();
+  const double trees_per_m =
+      spec.trees_per_hectare / kHectare_m2 * strip.width_m() * largest_factor;
+  if (!(trees_per_m > 0.0)) return;
+  const auto chunk_key = static_cast<std::uint32_t>(context.chunk);
+  const std::uint32_t side_key = strip.side > 0.0 ? 1U : 0U;
+  double s_m = context.begin_s_m;
+  for (std::uint32_t i = 0;; ++i) {
+    const std::uint32_t item = 2U * i + side_key;
+    const auto where = RandomWords(context.seed, RandomUse::kTreePlacement, chunk_key, item, 0);
+    const auto which = RandomWords(context.seed, RandomUse::kTreePlacement, chunk_key, item, 1);
+    s_m -= std::log1p(-Uniform(where[0], 0.0, 1.0)) / trees_per_m;
+    if (s_m >= context.end_s_m) return;
+    const double d_m = strip.side * Uniform(where[1], strip.inner_m, strip.outer_m);
+    const double factor = 1.0 - context.alignment.At(s_m).curvature_per_m * d_m;
+    if (Uniform(where[2], 0.0, largest_factor) >= factor) continue;
+    const double height_m = Uniform(where[3], spec.tree_height_min_m, spec.tree_height_max_m);
+    chunk.placements.push_back(MakeTree(plants, height_m, GroundPoint(context, s_m, d_m), which));
+  }
+}
+
+/// A patch on the slope that the ground has over its size.
+Eigen::Affine3d LaidOut(const ChunkContext& context, double s_m, double d_m, double yaw_rad) {
+  constexpr double kReach_m = 0.35 * kGrassPatch_m;
+  const Vector3 back_m = GroundPoint(context, s_m - kReach_m, d_m);
+  const Vector3 ahead_m = GroundPoint(context, s_m + kReach_m, d_m);
+  const Vector3 right_m = GroundPoint(context, s_m, d_m - kReach_m);
+  const Vector3 left_m = GroundPoint(context, s_m, d_m + kReach_m);
+  const Vector3 normal = (ahead_m - back_m).cross(left_m - right_m).normalized();
+  Eigen::Matrix3d rotation;
+  rotation.col(2) = normal;
+  rotation.col(0) = (ahead_m - back_m - normal * normal.dot(ahead_m - back_m)).normalized();
+  rotation.col(1) = normal.cross(rotation.col(0));
+  const Vector3 middle_m = 0.25 * (back_m + ahead_m + right_m + left_m);
+  return Eigen::Translation3d(middle_m) * rotation * Eigen::AngleAxisd(yaw_rad, Vector3::UnitZ());
+}
+
+void AddGrass(const ChunkContext& context,
+              const PlantModels& plants,
+              const Strip& strip,
+              Chunk& chunk) {
+  if (strip.width_m() < kGrassPatch_m) return;
+  const int num_rows = static_cast<int>(std::lround(strip.width_m() / kGrassPatch_m));
+  const double first_m = strip.inner_m + 0.5 * kGrassPatch_m;
+  const double spacing_m = num_rows > 1 ? (strip.width_m() - kGrassPatch_m) / (num_rows - 1) : 0.0;
+  const auto first_along = static_cast<std::int64_t>(std::ceil(context.begin_s_m / kGrassPatch_m));
+  const std::uint32_t side_key = strip.side > 0.0 ? 1U : 0U;
+  for (std::int64_t along = first_along;; ++along) {
+    const double s_m = static_cast<double>(along) * kGrassPatch_m;
+    if (s_m >= context.end_s_m) return;
+    for (int row = 0; row < num_rows; ++row) {
+      const auto item = 2U * static_cast<std::uint32_t>(row) + side_key;
+      const auto words = RandomWords(context.seed, RandomUse::kGrassPlacement,
+                                     static_cast<std::uint32_t>(along), item);
+      // Any quarter turn keeps the patch on its square; a little more hides the repetition.
+      const double yaw_rad =
+          0.25 * kTurn_rad * std::floor(Uniform(words[0], 0.0, 4.0)) + Uniform(words[1], -0.2, 0.2);
+      const auto& model = plants.grass[words[2] % plants.grass.size()];
+      const double d_m = strip.side * (first_m + spacing_m * row);
+      chunk.placements.push_back(
+          {.model = model, .chunk_from_model = LaidOut(context, s_m, d_m, yaw_rad), .instance = 0});
+    }
+  }
+}
+
+}  // namespace
+
+void AddVegetation(const ChunkContext& context, const PlantModels& plants, Chunk& chunk) {
+  const VegetationSpec& spec = context.spec.vegetation;
+  const double edge_m = context.spec.terrain.half_width_m;
+  for (const double side : kBothSides) {
+    AddTrees(context, plants,
+             StripBeyondTracks(context.spec, side, spec.tree_min_distance_m, 2.0 * edge_m), chunk);
+    if (!spec.grass) continue;
+    AddGrass(
+        context, plants,
+        StripBeyondTracks(context.spec, side, spec.grass_min_distance_m, spec.grass_max_distance_m),
+        chunk);
+  }
+}
+
+}  // namespace railcast

@@ -1,0 +1,148 @@
+#include "core/rail/line/alignment_course.h"
+
+#include <cmath>
+#include <optional>
+
+#include "core/base/number_text.h"
+
+namespace railcast {
+namespace {
+
+PiecewiseLinear Straight() {
+  return {{LinearPiece{}}, 1.0};
+}
+
+double CurvatureOfRadius(const std::optional<double>& radius_m) {
+  return radius_m ? 1.0 / *radius_m : 0.0;
+}
+
+void CheckRadius(const std::optional<double>& radius_m,
+                 const std::string& pointer,
+                 ErrorList& errors) {
+  if (radius_m && !(std::abs(*radius_m) >= kSmallestRadius_m)) {
+    errors.Add(pointer + ": must be at least " + NumberText(kSmallestRadius_m) +
+               " m, negative to the right, absent where straight (got " + NumberText(*radius_m) +
+               ")");
+  }
+}
+
+// Chainages must start at 0, ascend strictly and stay before the end.
+template <typename Item>
+void CheckChainages(const std::vector<Item>& items,
+                    double length_m,
+                    const std::string& pointer,
+                    ErrorList& errors) {
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const double s_m = items[i].s_m;
+    const auto add = [&](const std::string& rule) {
+      errors.Add(pointer + "/" + std::to_string(i) + "/s_m: " + rule + " (got " + NumberText(s_m) +
+                 ")");
+    };
+    if (i == 0) {
+      if (s_m != 0.0) add("must be 0, the beginning of the line");
+    } else if (!(s_m > items[i - 1].s_m)) {
+      add("must be greater than " + NumberText(items[i - 1].s_m) + " before it");
+    }
+    if (!(s_m < length_m)) {
+      add("must be less than the line's length of " + NumberText(length_m) + " m");
+    }
+  }
+}
+
+void CheckElement(const std::vector<AlignmentElement>& elements, std::size_t i, ErrorList& errors) {
+  const AlignmentElement& element = elements[i];
+  const std::string pointer = "/course/elements/" + std::to_string(i);
+  if (!(element.length_m > 0.0)) {
+    errors.Add(pointer + "/length_m: must be > 0 (got " + NumberText(element.length_m) + ")");
+  }
+  if (element.type == "arc") {
+    if (!element.radius_m) {
+      errors.Add(pointer + "/radius_m: is required for an arc (got none)");
+    }
+    CheckRadius(element.radius_m, pointer + "/radius_m", errors);
+    return;
+  }
+  if (element.type != "straight" && element.type != "clothoid") {
+    errors.Add(pointer + "/type: must be straight, clothoid or arc (got \"" + element.type + "\")");
+  }
+  if (element.radius_m) {
+    errors.Add(pointer + "/radius_m: is for arcs only (got " + NumberText(*element.radius_m) + ")");
+  }
+  if (element.type == "clothoid" && i > 0 && elements[i - 1].type == "clothoid") {
+    errors.Add(pointer + "/type: must not be clothoid after a clothoid (put an arc or a straight " +
+               "between them)");
+  }
+}
+
+// Of a straight or an arc; 0 beyond either end.
+double ConstantCurvature(const std::vector<AlignmentElement>& elements, std::size_t i) {
+  return i < elements.size() ? CurvatureOfRadius(elements[i].radius_m) : 0.0;
+}
+
+}  // namespace
+
+PiecewiseLinear CurvatureOf(const AlignmentSectionsSpec& course, ErrorList& errors) {
+  const std::size_t num_faults = errors.lines().size();
+  if (!(course.length_m > 0.0)) {
+    errors.Add("/course/length_m: must be > 0 (got " + NumberText(course.length_m) + ")");
+  }
+  if (course.sections.empty()) {
+    errors.Add("/course/sections: must have at least one section (got none)");
+  }
+  CheckChainages(course.sections, course.length_m, "/course/sections", errors);
+  for (std::size_t i = 0; i < course.sections.size(); ++i) {
+    const std::string pointer = "/course/sections/" + std::to_string(i);
+    CheckRadius(course.sections[i].radius_start_m, pointer + "/radius_start_m", errors);
+    CheckRadius(course.sections[i].radius_end_m, pointer + "/radius_end_m", errors);
+  }
+  if (errors.lines().size() > num_faults) return Straight();
+
+  std::vector<LinearPiece> pieces;
+  pieces.reserve(course.sections.size());
+  for (const CurvatureSection& section : course.sections) {
+    pieces.push_back({section.s_m, CurvatureOfRadius(section.radius_start_m),
+                      CurvatureOfRadius(section.radius_end_m)});
+  }
+  return {std::move(pieces), course.length_m};
+}
+
+PiecewiseLinear CurvatureOf(const AlignmentElementsSpec& course, ErrorList& errors) {
+  const std::size_t num_faults = errors.lines().size();
+  if (course.elements.empty()) {
+    errors.Add("/course/elements: must have at least one element (got none)");
+  }
+  for (std::size_t i = 0; i < course.elements.size(); ++i) CheckElement(course.elements, i, errors);
+  if (errors.lines().size() > num_faults) return Straight();
+
+  std::vector<LinearPiece> pieces;
+  pieces.reserve(course.elements.size());
+  double s_m = 0.0;
+  for (std::size_t i = 0; i < course.elements.size(); ++i) {
+    const bool is_clothoid = course.elements[i].type == "clothoid";
+    // Wraps round to "beyond the end" for the first element's neighbour.
+    const std::size_t before = is_clothoid ? i - 1 : i;
+    const std::size_t after = is_clothoid ? i + 1 : i;
+    pieces.push_back({s_m, ConstantCurvature(course.elements, before),
+                      ConstantCurvature(course.elements, after)});
+    s_m += course.elements[i].length_m;
+  }
+  return {std::move(pieces), s_m};
+}
+
+PiecewiseLinear StepsOf(const std::vector<ChainageValue>& values,
+                        double length_m,
+                        double otherwise,
+                        const std::string& pointer,
+                        ErrorList& errors) {
+  const std::size_t num_faults = errors.lines().size();
+  CheckChainages(values, length_m, pointer, errors);
+  if (values.empty() || errors.lines().size() > num_faults) {
+    return {{{0.0, otherwise, otherwise}}, length_m};
+  }
+  std::vector<LinearPiece> pieces;
+  pieces.reserve(values.size());
+  for (const ChainageValue& step : values) pieces.push_back({step.s_m, step.value, step.value});
+  return {std::move(pieces), length_m};
+}
+
+}  // namespace railcast

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/base/transform.h"
+#include "core/rail/line/alignment.h"
+#include "core/rail/line/speed_profile.h"
+
+namespace railcast {
+
+/// Where something stands across a track, and how.
+struct TrackPose {
+  double d_m{};          ///< From the alignment's axis, left positive.
+  double h_m{};          ///< Above top of rail.
+  double heading_rad{};  ///< Turned left against the direction of the chainage.
+  bool is_upright{};     ///< Its z is the world's; else it follows gradient and cant.
+};
+
+/// The way of something along the line.
+class TrackPath {
+ public:
+  TrackPath(const TrackPose& pose, SpeedProfile profile);
+
+  [[nodiscard]] const TrackPose& pose() const { return pose_; }
+  [[nodiscard]] bool moves() const { return profile_.moves(); }
+  [[nodiscard]] double ChainageAt(std::int64_t time_ns) const;
+  [[nodiscard]] Transform WorldFromObject(const Alignment& alignment, std::int64_t time_ns) const;
+
+ private:
+  TrackPose pose_;
+  SpeedProfile profile_;
+};
+
+}  // namespace railcast

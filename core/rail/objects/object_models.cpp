@@ -1,0 +1,147 @@
+#include "core/rail/objects/object_models.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/rail/model_parts.h"
+#include "core/rail/objects/person.h"
+#include "core/rail/objects/rolling_stock.h"
+#include "core/scene/obj_import.h"
+#include "core/scene/shapes.h"
+
+namespace railcast {
+namespace {
+
+[[noreturn]] void Fail(const std::string& line) {
+  throw InputError(line);
+}
+
+/// Length, width, height.
+Vector3 RequiredSize(const ObjectSpec& spec) {
+  if (!spec.size_m) Fail("size_m: required for type \"" + spec.type + "\"");
+  Vector3 size_m((*spec.size_m)[0], (*spec.size_m)[1], (*spec.size_m)[2]);
+  if (!(size_m.array() > 0.0).all() || !size_m.allFinite()) {
+    Fail("size_m: must be > 0 (got " + NumberText(size_m.x()) + ", " + NumberText(size_m.y()) +
+         ", " + NumberText(size_m.z()) + ")");
+  }
+  return size_m;
+}
+
+Mesh MakeStandingBox(const Vector3& size_m) {
+  return MakeBox(Eigen::AlignedBox3d(Vector3(-0.5 * size_m.x(), -0.5 * size_m.y(), 0.0),
+                                     Vector3(0.5 * size_m.x(), 0.5 * size_m.y(), size_m.z())));
+}
+
+Mesh MakePole(const ObjectSpec& spec) {
+  const Vector3 size_m = RequiredSize(spec);
+  if (size_m.x() != size_m.y()) {
+    Fail("size_m: a pole must have one diameter (got " + NumberText(size_m.x()) + " and " +
+         NumberText(size_m.y()) + ")");
+  }
+  constexpr int kSides = 16;
+  const std::array<Vector3, 2> axis = {Vector3::Zero(), Vector3(0, 0, size_m.z())};
+  return MakeTube(axis, 0.5 * size_m.x(), kSides);
+}
+
+Mesh MakeFromFile(const ObjectSpec& spec) {
+  if (!spec.file) Fail("file: required for type \"mesh\"");
+  if (spec.up != "y" && spec.up != "z") {
+    Fail("up: must be \"y\" or \"z\" (got \"" + spec.up + "\")");
+  }
+  Mesh mesh = ReadObj(*spec.file, spec.unit_m, spec.up == "y");
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3f& vertex : mesh.vertices) box.extend(vertex.cast<double>());
+  const Vector3 foot_m(box.center().x(), box.center().y(), box.min().z());
+  Vector3 scale = Vector3::Ones();
+  if (spec.size_m) {
+    const Vector3 size_m = RequiredSize(spec);
+    if (!(box.sizes().array() > 0.0).all()) {
+      Fail("size_m: cannot stretch a mesh that is flat");
+    }
+    scale = size_m.cwiseQuotient(box.sizes());
+  }
+  for (Eigen::Vector3f& vertex : mesh.vertices) {
+    vertex = scale.cwiseProduct(vertex.cast<double>() - foot_m).cast<float>();
+  }
+  return mesh;
+}
+
+Model MakeWagon(const ObjectSpec& spec, const RailSurfaces& surfaces) {
+  if (spec.size_m) Fail("size_m: a wagon has its own");
+  if (spec.type == "open_wagon") return MakeOpenWagon(surfaces);
+  if (spec.type == "flat_wagon") return MakeFlatWagon(surfaces);
+  return MakeTankWagon(surfaces);
+}
+
+/// What a type is by default; for wagons and persons only the label counts.
+SurfaceClass DefaultSurface(const ObjectSpec& spec, const RailSurfaces& surfaces) {
+  if (spec.type == "box" || spec.type == "mesh") return surfaces.box;
+  if (spec.type == "pole") return surfaces.pole;
+  if (spec.type == "person") return surfaces.clothing;
+  if (spec.type == "open_wagon" || spec.type == "flat_wagon" || spec.type == "tank_wagon") {
+    return surfaces.wagon_body;
+  }
+  Fail("type: must be box, pole, person, open_wagon, flat_wagon, tank_wagon or mesh (got \"" +
+       spec.type + "\")");
+}
+
+Model MakeByType(const ObjectSpec& spec, const RailSurfaces& surfaces) {
+  const SurfaceClass surface = DefaultSurface(spec, surfaces);
+  if (spec.type == "person") {
+    return MakePerson(surfaces, spec.size_m ? RequiredSize(spec).z() : kPersonHeight_m);
+  }
+  Model model;
+  if (spec.type == "box") {
+    MeshOf(surface, model) = MakeStandingBox(RequiredSize(spec));
+  } else if (spec.type == "pole") {
+    MeshOf(surface, model) = MakePole(spec);
+  } else if (spec.type == "mesh") {
+    MeshOf(surface, model) = MakeFromFile(spec);
+  } else {
+    model = MakeWagon(spec, surfaces);
+  }
+  return model;
+}
+
+std::uint16_t MaterialOf(const ObjectSpec& spec, const MaterialLibrary& materials) {
+  const std::vector<Material>& all = materials.materials();
+  const auto it = std::find_if(all.begin(), all.end(), [&](const Material& material) {
+    return material.name == *spec.material;
+  });
+  if (it == all.end()) {
+    Fail("material: must be in the material library (got \"" + *spec.material + "\")");
+  }
+  return static_cast<std::uint16_t>(it - all.begin());
+}
+
+}  // namespace
+
+std::shared_ptr<const Model> MakeObjectModel(const ObjectSpec& spec,
+                                             const RailSurfaces& surfaces,
+                                             const LabelTable& labels,
+                                             const MaterialLibrary& materials) {
+  Model model = MakeByType(spec, surfaces);
+  model.name = spec.name;
+  for (Part& part : model.parts) {
+    if (spec.label) part.label = ObjectLabel(spec, surfaces, labels);
+    if (spec.material) part.material = MaterialOf(spec, materials);
+  }
+  return std::make_shared<const Model>(std::move(model));
+}
+
+std::uint32_t ObjectLabel(const ObjectSpec& spec,
+                          const RailSurfaces& surfaces,
+                          const LabelTable& labels) {
+  const std::uint32_t of_type = DefaultSurface(spec, surfaces).label;
+  if (!spec.label) return of_type;
+  const Label* label = labels.Find(*spec.label);
+  if (label == nullptr) {
+    Fail("label: must be in the label table (got \"" + *spec.label + "\")");
+  }
+  return label->id;
+}
+
+}  // namespace railcast

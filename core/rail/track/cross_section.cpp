@@ -1,0 +1,108 @@
+#include "core/rail/track/cross_section.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/error.h"
+#include "core/rail/track/sweep.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kBallastBelowSleeperTop_m = 0.020;
+constexpr double kBallastSlope = 1.0 / 1.5;
+
+/// Where the ballast is shallower around a sleeper.
+constexpr double kSleeperHollow_m = 0.020;
+constexpr double kSleeperHollowReach_m = 0.2;
+
+/// Between the rails: the ballast follows a concrete sleeper's low middle.
+constexpr double kMiddleEnd_m = 0.45;
+constexpr double kSeatBegin_m = 0.60;
+
+double ClosenessToASleeper(double s_m) {
+  const double distance_m = std::abs(s_m - kSleeperSpacing_m * std::round(s_m / kSleeperSpacing_m));
+  return std::max(0.0, 1.0 - distance_m / kSleeperHollowReach_m);
+}
+
+}  // namespace
+
+SleeperSeat SeatOf(const std::string& sleeper) {
+  // B70: 214 mm high below the rail on a 10 mm pad, 175 mm in the middle. Wood: level, below a
+  // baseplate 18 mm thick.
+  if (sleeper == "concrete") return {.top_m = -0.182, .middle_drop_m = 0.039};
+  Check(sleeper == "wood", "a sleeper is of concrete or wood");
+  return {.top_m = -0.190, .middle_drop_m = 0.0};
+}
+
+CrossSection::CrossSection(const ChunkContext& context, double s_m)
+    : sleeper_closeness_(ClosenessToASleeper(s_m)) {
+  Check(!context.spec.tracks.empty(), "a line has a track");
+  const AxisPoint axis = context.alignment.At(s_m);
+  const Transform world_from_axis =
+      MakeTransform(RotationFromYawPitchRoll(axis.heading_rad, 0.0, 0.0), axis.position_m);
+  chunk_from_axis_ = context.chunk_from_world * world_from_axis;
+  for (const TrackSpec& track : context.spec.tracks) {
+    const Transform world_from_track = context.alignment.WorldFromTrack(s_m, track.offset_m);
+    const Vector3 middle_m = world_from_axis.inverse() * world_from_track.translation();
+    const double end_s_m = TrackEnd_m(track, context.alignment);
+    tracks_.push_back({.d_m = middle_m.y(),
+                       .height_m = middle_m.z(),
+                       .cant_rad = axis.cant_rad,
+                       .beyond_end_m = std::max({0.0, track.start_s_m - s_m, s_m - end_s_m}),
+                       .seat = SeatOf(track.sleeper)});
+  }
+  std::sort(tracks_.begin(), tracks_.end(),
+            [](const TrackHere& a, const TrackHere& b) { return a.d_m < b.d_m; });
+}
+
+double CrossSection::FormationHeight_m(double d_m) const {
+  const auto left = std::find_if(tracks_.begin(), tracks_.end(),
+                                 [&](const TrackHere& track) { return track.d_m > d_m; });
+  if (left == tracks_.begin()) return left->height_m - kFormationDepth_m;
+  const auto right = left - 1;
+  if (left == tracks_.end()) return right->height_m - kFormationDepth_m;
+  const double fraction = (d_m - right->d_m) / (left->d_m - right->d_m);
+  return std::lerp(right->height_m, left->height_m, fraction) - kFormationDepth_m;
+}
+
+double CrossSection::BallastHeight_m(double d_m) const {
+  double height_m = -std::numeric_limits<double>::infinity();
+  for (const TrackHere& track : tracks_) {
+    // From a shoulder the slope needs about 0.8 m to the formation.
+    constexpr double kReach_m = 3.0;
+    const double beyond_m = std::max(std::abs(d_m - track.d_m) - kShoulder_m, track.beyond_end_m);
+    if (beyond_m < kReach_m) height_m = std::max(height_m, BallastHeightOf(track, d_m));
+  }
+  return height_m;
+}
+
+double CrossSection::BallastHeightOf(const TrackHere& track, double d_m) const {
+  const double lateral_m = (d_m - track.d_m) / std::cos(track.cant_rad);
+  const double on_top_m = std::clamp(lateral_m, -kShoulder_m, kShoulder_m);
+  const double beyond_m = std::max(std::abs(lateral_m - on_top_m), track.beyond_end_m);
+  const double seat_fraction =
+      std::clamp((std::abs(on_top_m) - kMiddleEnd_m) / (kSeatBegin_m - kMiddleEnd_m), 0.0, 1.0);
+  const double sleeper_fraction = std::clamp(
+      (kShoulder_m - std::abs(on_top_m)) / (kShoulder_m - kSleeperHalfLength_m), 0.0, 1.0);
+  const double top_m = track.seat.top_m - (1.0 - seat_fraction) * track.seat.middle_drop_m -
+                       kBallastBelowSleeperTop_m -
+                       sleeper_fraction * sleeper_closeness_ * kSleeperHollow_m;
+  return track.height_m + top_m * std::cos(track.cant_rad) + on_top_m * std::sin(track.cant_rad) -
+         beyond_m * kBallastSlope;
+}
+
+double CrossSection::DistanceFromTracks_m(double d_m) const {
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const TrackHere& track : tracks_) {
+    nearest_m = std::min(nearest_m, std::abs(d_m - track.d_m));
+  }
+  return nearest_m;
+}
+
+Vector3 CrossSection::PointAt(double d_m, double height_m) const {
+  return chunk_from_axis_ * Vector3(0.0, d_m, height_m);
+}
+
+}  // namespace railcast

@@ -1,0 +1,85 @@
+#include "core/rail/catenary/catenary_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/error.h"
+#include "tests/core/rail/line/alignment_files.h"
+#include "tests/core/rail/test_line.h"
+
+namespace railcast {
+namespace {
+
+TEST(CatenaryPlan, AlternatesStaggerOverFullSpansOnAStraight) {
+  const WorldSpec spec = StraightLine(1000.0);
+  const CatenaryPlan plan(spec, Alignment(spec.alignment));
+  // 15 spans of 65 m and the rest.
+  ASSERT_EQ(plan.supports().size(), 17U);
+  for (std::size_t i = 0; i < 16; ++i) {
+    EXPECT_NEAR(plan.supports()[i].s_m, 65.0 * static_cast<double>(i), 1e-9);
+    EXPECT_EQ(plan.supports()[i].stagger_m, i % 2 == 0 ? 0.4 : -0.4);
+  }
+  EXPECT_EQ(plan.supports().back().s_m, 1000.0);
+}
+
+TEST(CatenaryPlan, HoldsWiresOutsideOfACurveOverSpansThatTheFormulaGives) {
+  for (const double radius_m : {180.0, 300.0, -500.0, 900.0}) {
+    const WorldSpec spec = CantedArc(1000.0, radius_m);
+    const CatenaryPlan plan(spec, Alignment(spec.alignment));
+    const double longest_m = std::sqrt(8.0 * std::abs(radius_m) * (2.0 * 0.4 + 0.05));
+    const double expected_m = 2.5 * std::floor(std::min(longest_m, 65.0) / 2.5);
+    ASSERT_GT(plan.supports().size(), 10U);
+    EXPECT_NEAR(plan.supports()[5].s_m - plan.supports()[4].s_m, expected_m, 1e-9) << radius_m;
+    EXPECT_EQ(plan.supports()[5].stagger_m, radius_m > 0.0 ? -0.4 : 0.4) << radius_m;
+  }
+}
+
+TEST(CatenaryPlan, IsEmptyWithoutAContactLine) {
+  WorldSpec spec = StraightLine(1000.0);
+  spec.catenary.enabled = false;
+  EXPECT_TRUE(CatenaryPlan(spec, Alignment(spec.alignment)).supports().empty());
+  spec.catenary.enabled = true;
+  spec.tracks[0].electrified = false;
+  EXPECT_TRUE(CatenaryPlan(spec, Alignment(spec.alignment)).supports().empty());
+}
+
+TEST(CatenaryPlan, RefusesASystemHeightThatTheSagUsesUp) {
+  WorldSpec spec = StraightLine(1000.0);
+  spec.catenary.max_span_m = 80.0;
+  spec.catenary.system_height_m = 1.2;
+  const Alignment alignment(spec.alignment);
+  try {
+    const CatenaryPlan plan(spec, alignment);
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    // 13 * 80^2 / 80000 - 0.08 + 0.3.
+    EXPECT_STREQ(error.what(),
+                 "/catenary/system_height_m: must be >= 1.26, the messenger's sag over max_span_m "
+                 "and a shortest dropper (got 1.2)");
+  }
+}
+
+TEST(MastSiteOf, IsOnTheRightOfASingleTrackAndOutsideOfTwo) {
+  WorldSpec spec = StraightLine(100.0);
+  EXPECT_FALSE(MastSiteOf(spec, 0).on_left);
+  spec.tracks.push_back(spec.tracks[0]);
+  spec.tracks[1].offset_m = 4.0;
+  EXPECT_FALSE(MastSiteOf(spec, 0).on_left);
+  EXPECT_TRUE(MastSiteOf(spec, 1).on_left);
+  EXPECT_EQ(MastSiteOf(spec, 1).distance_m, spec.catenary.mast_distance_m);
+}
+
+TEST(MastSiteOf, IsHalfWayToTheNextTrackWhereNeitherSideIsFree) {
+  WorldSpec spec = StraightLine(100.0);
+  for (const double offset_m : {4.5, 9.0}) {
+    spec.tracks.push_back(spec.tracks[0]);
+    spec.tracks.back().offset_m = offset_m;
+  }
+  const MastSite site = MastSiteOf(spec, 1);
+  EXPECT_FALSE(site.on_left);
+  EXPECT_NEAR(site.distance_m + 0.12, 2.25, 1e-12);
+}
+
+}  // namespace
+}  // namespace railcast

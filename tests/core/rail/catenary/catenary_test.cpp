@@ -1,0 +1,166 @@
+#include "core/rail/catenary/catenary.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "tests/core/rail/line/alignment_files.h"
+#include "tests/core/rail/test_line.h"
+
+namespace railcast {
+namespace {
+
+/// Of the wire of that surface at chainage `s_m` of a straight from west to east.
+Vector3 WireAt(const TestLine& line, const SurfaceClass& surface, double s_m) {
+  const int chunk = static_cast<int>(std::floor(s_m / TestLine::kChunkLength_m));
+  for (const Wire& wire : WiresInChunk(line.Context(chunk), line.plan())) {
+    if (wire.surface.label != surface.label || wire.surface.material != surface.material) continue;
+    for (std::size_t i = 0; i + 1 < wire.points_m.size(); ++i) {
+      const Vector3 a = line.WorldFromChunk(chunk) * wire.points_m[i];
+      const Vector3 b = line.WorldFromChunk(chunk) * wire.points_m[i + 1];
+      if (a.x() <= s_m && s_m < b.x()) return a + (s_m - a.x()) / (b.x() - a.x()) * (b - a);
+    }
+  }
+  ADD_FAILURE() << "no wire at " << s_m;
+  return Vector3::Zero();
+}
+
+TEST(AddCatenary, HangsTheContactWireAtItsHeightAndPresag) {
+  const TestLine line(StraightLine(1000.0));
+  const SurfaceClass& contact = line.surfaces().contact_wire;
+  EXPECT_NEAR(WireAt(line, contact, 130.0).z(), 5.5, 1e-9);
+  EXPECT_NEAR(WireAt(line, contact, 130.0).y(), 0.4, 1e-9);
+  EXPECT_NEAR(WireAt(line, contact, 195.0).y(), -0.4, 1e-9);
+  // In the middle, where chords of 5 m are 0.4 mm above the parabola.
+  EXPECT_NEAR(WireAt(line, contact, 162.5).z(), 5.5 - 0.065, 0.5e-3);
+  EXPECT_NEAR(WireAt(line, contact, 162.5).y(), 0.0, 1e-9);
+}
+
+TEST(AddCatenary, HangsTheMessengerOnItsParabola) {
+  const TestLine line(StraightLine(1000.0));
+  const SurfaceClass& messenger = line.surfaces().messenger_wire;
+  EXPECT_NEAR(WireAt(line, messenger, 130.0).z(), 7.3, 1e-9);
+  for (const double x_m : {10.0, 20.0, 32.5, 60.0}) {
+    const double sag_m = 13.0 * x_m * (65.0 - x_m) / (2.0 * 10e3);
+    EXPECT_NEAR(WireAt(line, messenger, 130.0 + x_m).z(), 7.3 - sag_m, 2e-3) << x_m;
+  }
+}
+
+TEST(AddCatenary, JoinsContactWireAndMessengerByDroppers) {
+  const TestLine line(StraightLine(1000.0));
+  int num_droppers = 0;
+  for (int chunk = 0; chunk < 13; ++chunk) {  // Ten whole spans of 65 m.
+    for (const Wire& wire : WiresInChunk(line.Context(chunk), line.plan())) {
+      if (wire.surface.label != line.surfaces().dropper.label) continue;
+      ++num_droppers;
+      const Vector3 foot = line.WorldFromChunk(chunk) * wire.points_m.front();
+      const Vector3 head = line.WorldFromChunk(chunk) * wire.points_m.back();
+      EXPECT_LT((foot - WireAt(line, line.surfaces().contact_wire, foot.x())).norm(), 1e-6);
+      EXPECT_LT((head - WireAt(line, line.surfaces().messenger_wire, head.x())).norm(), 1e-6);
+      EXPECT_GT((head - foot).norm(), 0.5);
+    }
+  }
+  EXPECT_EQ(num_droppers, 10 * 9);  // ceil(65 / 8) each.
+}
+
+/// The chainage at which the track frame's plane x = 0 holds the point.
+double ChainageOf(const Alignment& alignment, const Vector3& world_m, double near_s_m) {
+  double s_m = near_s_m;
+  for (int i = 0; i < 6; ++i) s_m += (alignment.WorldFromTrack(s_m).inverse() * world_m).x();
+  return s_m;
+}
+
+TEST(AddCatenary, KeepsTheContactWireAboveThePantographAllAlongARealLine) {
+  WorldSpec spec;
+  spec.alignment = ReadStGallenWil();
+  const TestLine line(spec);
+  double widest_m = 0.0;
+  double lowest_m = 10.0;
+  double highest_m = 0.0;
+  const int num_chunks = static_cast<int>(line.alignment().length_m() / TestLine::kChunkLength_m);
+  for (int chunk = 0; chunk < num_chunks; ++chunk) {
+    const Transform world_from_chunk = line.WorldFromChunk(chunk);
+    for (const Wire& wire : WiresInChunk(line.Context(chunk), line.plan())) {
+      if (wire.surface.label != line.surfaces().contact_wire.label) continue;
+      for (const Vector3& point : wire.points_m) {
+        const Vector3 world_m = world_from_chunk * point;
+        const double s_m =
+            ChainageOf(line.alignment(), world_m, (chunk + 0.5) * TestLine::kChunkLength_m);
+        const Vector3 track_m = line.alignment().WorldFromTrack(s_m).inverse() * world_m;
+        widest_m = std::max(widest_m, std::abs(track_m.y()));
+        lowest_m = std::min(lowest_m, track_m.z());
+        highest_m = std::max(highest_m, track_m.z());
+      }
+    }
+  }
+  // The plan allows 0.45 m at its samples, 2.5 m apart.
+  EXPECT_LE(widest_m, 0.47);
+  EXPECT_GT(widest_m, 0.40);
+  // Presag, and up to 0.45 m beside a canted axis.
+  EXPECT_GT(lowest_m, 5.5 - 0.065 - 0.05);
+  EXPECT_LT(highest_m, 5.5 + 0.05);
+}
+
+TEST(AddCatenary, CutsTheSameWireAtAChunksEndAndTheNextOnesBegin) {
+  const TestLine line(CantedArc(1000.0, 300.0));
+  const auto ends = [&](int chunk, bool last) {
+    std::vector<Vector3> points;
+    for (const Wire& wire : WiresInChunk(line.Context(chunk), line.plan())) {
+      if (wire.surface.label == line.surfaces().dropper.label) continue;
+      points.push_back(line.WorldFromChunk(chunk) *
+                       (last ? wire.points_m.back() : wire.points_m.front()));
+    }
+    return points;
+  };
+  // The last stretch of each chunk overlaps the first of the next by 1 mm.
+  const auto before = ends(4, true);
+  const auto after = ends(5, false);
+  int num_pairs = 0;
+  for (const Vector3& end : before) {
+    for (const Vector3& begin : after) {
+      if ((end - begin).norm() > 0.1) continue;
+      ++num_pairs;
+      EXPECT_NEAR((end - begin).norm(), kChunkOverlap_m, 0.05e-3);
+    }
+  }
+  EXPECT_EQ(num_pairs, 2);
+}
+
+TEST(AddCatenary, NumbersMastsAlongTheWholeLine) {
+  const TestLine line(StraightLine(1000.0));
+  std::set<std::uint32_t> instances;
+  std::size_t num_masts = 0;
+  for (int chunk_index = 0; chunk_index < 20; ++chunk_index) {
+    Chunk chunk;
+    AddCatenary(line.Context(chunk_index), line.plan(), line.models(), chunk);
+    for (const Placement& placement : chunk.placements) {
+      if (placement.model != line.models().mast) continue;
+      ++num_masts;
+      instances.insert(placement.instance);
+      EXPECT_NEAR(
+          (line.WorldFromChunk(chunk_index) * Vector3(placement.chunk_from_model.translation()))
+              .y(),
+          -(3.3 + 0.12), 1e-9);
+    }
+  }
+  EXPECT_EQ(num_masts, line.plan().supports().size());
+  EXPECT_EQ(instances.size(), num_masts);
+  EXPECT_EQ(*instances.begin(), kFirstMastInstance);
+  EXPECT_EQ(*instances.rbegin(), kFirstMastInstance + num_masts - 1);
+}
+
+TEST(AddCatenary, HoldsTheWiresWithItsCantilevers) {
+  const TestLine line(StraightLine(1000.0));
+  const Eigen::AlignedBox3d left = line.models().cantilevers[0].wire_left->Bounds();
+  // From the mast's face on the right to the steady arm's hinge, a metre left of the wire, and the
+  // end of its tube; from the contact wire's clamp to the messenger's.
+  EXPECT_NEAR(left.min().y(), -3.3, 0.02);
+  EXPECT_NEAR(left.max().y(), 0.4 + 1.0 + 0.15, 0.03);
+  EXPECT_NEAR(left.min().z(), 5.5, 0.01);
+  EXPECT_NEAR(left.max().z(), 7.3, 0.03);
+}
+
+}  // namespace
+}  // namespace railcast

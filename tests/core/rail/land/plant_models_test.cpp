@@ -1,0 +1,164 @@
+#include "core/rail/land/plant_models.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "tests/core/rail/model_checks.h"
+#include "tests/core/rail/test_tables.h"
+
+namespace railcast {
+namespace {
+
+class PlantModelsTest : public testing::Test {
+ protected:
+  [[nodiscard]] std::vector<TreeModel> Trees() const {
+    std::vector<TreeModel> trees = plants_.broadleaves;
+    trees.insert(trees.end(), plants_.conifers.begin(), plants_.conifers.end());
+    return trees;
+  }
+
+  const RailSurfaces surfaces_ = TestSurfaces();
+  const PlantModels plants_ = MakePlantModels(surfaces_, 42);
+};
+
+const Mesh& LeavesOf(const Model& tree, const RailSurfaces& surfaces) {
+  return std::find_if(tree.parts.begin(), tree.parts.end(),
+                      [&](const Part& part) { return part.material == surfaces.leaf.material; })
+      ->mesh;
+}
+
+bool CoversFromAbove(const Mesh& mesh,
+                     const std::array<std::uint32_t, 3>& triangle,
+                     double x,
+                     double y) {
+  double least = 1.0;
+  double most = -1.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector3 a = mesh.vertices[triangle[i]].cast<double>();
+    const Vector3 b = mesh.vertices[triangle[(i + 1) % 3]].cast<double>();
+    const double turn = (b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x());
+    least = i == 0 ? turn : std::min(least, turn);
+    most = i == 0 ? turn : std::max(most, turn);
+  }
+  return least > 0.0 || most < 0.0;
+}
+
+/// Of grass, whose roots (blades below z = 0) do not count.
+double AreaAboveGround_m2(const Mesh& mesh) {
+  double sum_m2 = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vector3 pa = mesh.vertices[a].cast<double>();
+    const Vector3 pb = mesh.vertices[b].cast<double>();
+    const Vector3 pc = mesh.vertices[c].cast<double>();
+    const double lowest_m = std::min({pa.z(), pb.z(), pc.z()});
+    const double highest_m = std::max({pa.z(), pb.z(), pc.z()});
+    const double share = std::min(1.0, highest_m / (highest_m - lowest_m));
+    sum_m2 += 0.5 * (pb - pa).cross(pc - pa).norm() * share;
+  }
+  return sum_m2;
+}
+
+TEST_F(PlantModelsTest, AreMadeOfFewAndSoundTriangles) {
+  ASSERT_EQ(Trees().size(), 4U);
+  for (const TreeModel& tree : Trees()) {
+    EXPECT_LE(tree.model->num_triangles(), 20000U) << tree.model->name;
+    EXPECT_EQ(CountBadTriangles(*tree.model), 0U) << tree.model->name;
+  }
+  ASSERT_EQ(plants_.grass.size(), 3U);
+  for (const auto& patch : plants_.grass) {
+    EXPECT_LE(patch->num_triangles(), 2500U);
+    EXPECT_EQ(CountBadTriangles(*patch), 0U);
+  }
+}
+
+TEST_F(PlantModelsTest, HaveLeavesOfTheSizeOfLeaves) {
+  for (const TreeModel& tree : Trees()) {
+    std::vector<double> edges_m = LongestEdges_m(*tree.model, surfaces_.leaf);
+    std::sort(edges_m.begin(), edges_m.end());
+    EXPECT_GT(edges_m.front(), 0.05) << tree.model->name;
+    EXPECT_LT(edges_m[edges_m.size() / 2], 0.12) << tree.model->name;
+    EXPECT_LT(edges_m.back(), 0.15) << tree.model->name;
+  }
+}
+
+TEST_F(PlantModelsTest, HaveTheStatedLeafAreaIndex) {
+  const std::vector<double> crown_radii_m = {2.1, 2.3, 1.6, 2.0};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Mesh& leaves = LeavesOf(*Trees()[i].model, surfaces_);
+    double area_m2 = 0.0;
+    for (const auto& [a, b, c] : leaves.triangles) {
+      const Vector3 ab = (leaves.vertices[b] - leaves.vertices[a]).cast<double>();
+      const Vector3 ac = (leaves.vertices[c] - leaves.vertices[a]).cast<double>();
+      area_m2 += 0.5 * ab.cross(ac).norm();
+    }
+    const double projection_m2 = std::numbers::pi * crown_radii_m[i] * crown_radii_m[i];
+    // Sizes are uniform within 20 %: their mean square is 1 + 0.2^2 / 3 = 1.0133.
+    EXPECT_NEAR(area_m2 / projection_m2, 1.0133 * 3.2, 0.05) << Trees()[i].model->name;
+  }
+}
+
+TEST_F(PlantModelsTest, LetAsMuchLightThroughTheirCrownsAsTheLeafAreaSays) {
+  const std::vector<double> crown_radii_m = {2.1, 2.3, 1.6, 2.0};
+  for (std::size_t tree = 0; tree < 4; ++tree) {
+    const Mesh& leaves = LeavesOf(*Trees()[tree].model, surfaces_);
+    int num_through = 0;
+    constexpr int kNumBeams = 1000;
+    for (int i = 0; i < kNumBeams; ++i) {
+      // Evenly over the inner three quarters of the crown's radius (Vogel's spiral).
+      const double radius_m = 0.75 * crown_radii_m[tree] * std::sqrt((i + 0.5) / kNumBeams);
+      const double x_m = radius_m * std::cos(2.4 * i);
+      const double y_m = radius_m * std::sin(2.4 * i);
+      if (std::none_of(leaves.triangles.begin(), leaves.triangles.end(), [&](const auto& triangle) {
+            return CoversFromAbove(leaves, triangle, x_m, y_m);
+          })) {
+        ++num_through;
+      }
+    }
+    const double gap_fraction = static_cast<double>(num_through) / kNumBeams;
+    // Leaves anywhere in the crown let exp(-0.5 * 3.2) = 0.20 through (Beer, Lambert); crowding
+    // about twigs lets more, the crown's rim is thinner than its middle.
+    EXPECT_GT(gap_fraction, 0.12) << Trees()[tree].model->name;
+    EXPECT_LT(gap_fraction, 0.40) << Trees()[tree].model->name;
+  }
+}
+
+TEST_F(PlantModelsTest, GrowFromBelowTheGroundToTheirHeight) {
+  const std::vector<double> heights_m = {7.5, 11.0, 7.0, 12.0};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const TreeModel tree = Trees()[i];
+    EXPECT_NEAR(tree.height_m, heights_m[i], 0.05 * heights_m[i]);
+    EXPECT_DOUBLE_EQ(tree.height_m, tree.model->Bounds().max().z());
+    EXPECT_NEAR(tree.model->Bounds().min().z(), -0.3, 1e-6);
+    EXPECT_GT(LeavesOf(*tree.model, surfaces_).vertices.front().z(), 0.1F);
+  }
+}
+
+TEST_F(PlantModelsTest, HaveGrassOf15To40CentimetresOnItsPatch) {
+  for (const auto& patch : plants_.grass) {
+    const Eigen::AlignedBox3d box = patch->Bounds();
+    EXPECT_LE(box.max().z(), 0.40);
+    EXPECT_LT(box.min().z(), 0.0);
+    // Feet stand up to a tuft's radius beyond the square, and tips lean over by 0.6 * 0.4 m.
+    EXPECT_LT(box.max().cwiseAbs().head<2>().maxCoeff(), 1.0 + 0.07 + 0.24 + 0.01);
+    const Mesh& mesh = patch->parts.front().mesh;
+    for (std::size_t tip = 4; tip < mesh.vertices.size(); tip += 5) {
+      EXPECT_GE(mesh.vertices[tip].z(), 0.15F - 1e-6F);
+    }
+    EXPECT_NEAR(AreaAboveGround_m2(mesh) / (kGrassPatch_m * kGrassPatch_m), 0.35, 0.05);
+  }
+}
+
+TEST_F(PlantModelsTest, DependOnTheSeedAlone) {
+  const PlantModels again = MakePlantModels(surfaces_, 42);
+  const PlantModels other = MakePlantModels(surfaces_, 43);
+  const auto& vertices = plants_.conifers[0].model->parts[1].mesh.vertices;
+  EXPECT_EQ(vertices, again.conifers[0].model->parts[1].mesh.vertices);
+  EXPECT_NE(vertices, other.conifers[0].model->parts[1].mesh.vertices);
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,166 @@
+#include "core/rail/land/vegetation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/rail/land/terrain.h"
+#include "tests/core/rail/test_line.h"
+#include "tests/core/rail/test_tables.h"
+
+namespace railcast {
+namespace {
+
+const PlantModels& Plants() {
+  static const PlantModels plants = MakePlantModels(TestSurfaces(), 1);
+  return plants;
+}
+
+bool IsGrass(const Placement& placement) {
+  return std::find(Plants().grass.begin(), Plants().grass.end(), placement.model) !=
+         Plants().grass.end();
+}
+
+double HeightOf(const Placement& tree) {
+  return tree.model->Bounds().max().z() * tree.chunk_from_model.linear().col(2).norm();
+}
+
+std::vector<Placement> Plant(const TestLine& line, int chunk) {
+  Chunk built;
+  AddVegetation(line.Context(chunk), Plants(), built);
+  return built.placements;
+}
+
+/// A line without grass, whose terrain is cheap.
+WorldSpec Forest(WorldSpec spec, double trees_per_hectare) {
+  spec.vegetation.grass = false;
+  spec.vegetation.trees_per_hectare = trees_per_hectare;
+  return spec;
+}
+
+void AddTrack(const std::string& name, double offset_m, WorldSpec& spec) {
+  TrackSpec track;
+  track.name = name;
+  track.offset_m = offset_m;
+  spec.tracks.push_back(track);
+}
+
+TEST(AddVegetation, PlantsTreesAtTheirDensityAsAPoissonProcess) {
+  constexpr int kNumChunks = 200;
+  const TestLine line(Forest(StraightLine(kNumChunks * TestLine::kChunkLength_m), 40.0));
+  // Two strips from 9 to 80 m: 28.4 trees a chunk.
+  constexpr double kMean = 40e-4 * TestLine::kChunkLength_m * 2.0 * 71.0;
+  double sum = 0.0;
+  double sum_of_squares = 0.0;
+  for (int chunk = 0; chunk < kNumChunks; ++chunk) {
+    const auto count = static_cast<double>(Plant(line, chunk).size());
+    sum += count;
+    sum_of_squares += (count - kMean) * (count - kMean);
+  }
+  EXPECT_NEAR(sum, kMean * kNumChunks, 5.0 * std::sqrt(kMean * kNumChunks));
+  // The variance of a Poisson count is its mean; the estimate's own is about 2 mean^2 / n.
+  EXPECT_NEAR(sum_of_squares / kNumChunks, kMean, 5.0 * kMean * std::sqrt(2.0 / kNumChunks));
+}
+
+TEST(AddVegetation, KeepsTheDensityInsideAndOutsideOfACurve) {
+  constexpr int kNumChunks = 20;
+  constexpr double kRadius_m = 300.0;
+  const TestLine line(Forest(CantedArc(kNumChunks * TestLine::kChunkLength_m, kRadius_m), 400.0));
+  double inside = 0.0;
+  double outside = 0.0;
+  for (int chunk = 0; chunk < kNumChunks; ++chunk) {
+    const Vector3 centre_m =
+        line.WorldFromChunk(chunk).inverse() *
+        (line.alignment().WorldFromTrack(0.0).translation() + Vector3(0, kRadius_m, 0));
+    for (const Placement& tree : Plant(line, chunk)) {
+      const Vector3 arm_m = tree.chunk_from_model.translation() - centre_m;
+      (arm_m.head<2>().norm() < kRadius_m ? inside : outside) += 1.0;
+    }
+  }
+  // Rings between 9 and 80 m from the axis, over 1000 m of it.
+  const double angle_rad = kNumChunks * TestLine::kChunkLength_m / kRadius_m;
+  const double expected_inside = 0.04 * angle_rad * (291.0 * 291.0 - 220.0 * 220.0) / 2.0;
+  const double expected_outside = 0.04 * angle_rad * (380.0 * 380.0 - 309.0 * 309.0) / 2.0;
+  EXPECT_NEAR(inside, expected_inside, 5.0 * std::sqrt(expected_inside));
+  EXPECT_NEAR(outside, expected_outside, 5.0 * std::sqrt(expected_outside));
+}
+
+TEST(AddVegetation, KeepsTreesOffTheTracksAndOnTheChunksGround) {
+  WorldSpec spec = Forest(StraightLine(500.0), 400.0);
+  AddTrack("left", 4.0, spec);
+  AddTrack("right", -8.5, spec);
+  const TestLine line(spec);
+  for (int chunk = 0; chunk < 10; ++chunk) {
+    for (const Placement& tree : Plant(line, chunk)) {
+      const Vector3 at_m = tree.chunk_from_model.translation();
+      EXPECT_TRUE(at_m.y() >= 4.0 + 9.0 || at_m.y() <= -8.5 - 9.0) << at_m.transpose();
+      EXPECT_LE(std::abs(at_m.y()), 80.0);
+      EXPECT_LE(std::abs(at_m.x()), 0.5 * TestLine::kChunkLength_m);
+      const double s_m = (chunk + 0.5) * TestLine::kChunkLength_m + at_m.x();
+      EXPECT_NEAR(at_m.z(), GroundPoint(line.Context(chunk), s_m, at_m.y()).z(), 1e-6);
+      EXPECT_GE(HeightOf(tree), 6.0 - 1e-9);
+      EXPECT_LE(HeightOf(tree), 14.0 + 1e-9);
+      EXPECT_EQ(tree.instance, 0U);
+    }
+  }
+}
+
+TEST(AddVegetation, PlantsWhatTheSeedAndTheChunkSay) {
+  const WorldSpec spec = StraightLine(500.0);
+  const TestLine line(spec, 7);
+  const auto poses = [](const std::vector<Placement>& placements) {
+    std::vector<Eigen::Matrix4d> all;
+    for (const Placement& p : placements) all.push_back(p.chunk_from_model.matrix());
+    return all;
+  };
+  EXPECT_EQ(poses(Plant(line, 3)), poses(Plant(TestLine(spec, 7), 3)));
+  EXPECT_NE(poses(Plant(line, 3)), poses(Plant(line, 4)));
+  EXPECT_NE(poses(Plant(line, 3)), poses(Plant(TestLine(spec, 8), 3)));
+}
+
+TEST(AddVegetation, FillsTheStripsBesideTheTracksWithGrass) {
+  WorldSpec spec = StraightLine(500.0);
+  spec.vegetation.trees_per_hectare = 0.0;
+  AddTrack("left", 4.0, spec);
+  const TestLine line(spec);
+  const std::vector<Placement> patches = Plant(line, 2);
+  EXPECT_EQ(patches.size(), 25U * 3U * 2U);  // Every 2 m; three rows in 5.4 m; both sides.
+  for (const Placement& patch : patches) {
+    ASSERT_TRUE(IsGrass(patch));
+    const double d_m = patch.chunk_from_model.translation().y();
+    const double beyond_m = std::max(d_m - 4.0, -d_m);
+    EXPECT_GE(beyond_m, 3.6 + 1.0 - 1e-9);
+    EXPECT_LE(beyond_m, 9.0 - 1.0 + 1e-9);
+    for (const Eigen::Vector3f& vertex : patch.model->parts.front().mesh.vertices) {
+      const double y_m = (patch.chunk_from_model * vertex.cast<double>()).y();
+      // A turned corner, and tips leaning out by 0.24 m, stay clear of the ballast's foot at 2.6 m.
+      EXPECT_GT(std::max(y_m - 4.0, -y_m), 2.9);
+    }
+  }
+}
+
+TEST(AddVegetation, RootsGrassInTheGround) {
+  WorldSpec spec = StraightLine(500.0);
+  spec.vegetation.trees_per_hectare = 0.0;
+  const TestLine line(spec);
+  const ChunkContext context = line.Context(2);
+  for (const Placement& patch : Plant(line, 2)) {
+    for (const Eigen::Vector3f& vertex : patch.model->parts.front().mesh.vertices) {
+      if (vertex.z() > -0.14F) continue;  // Only the roots, 0.15 m deep.
+      const Vector3 root_m = patch.chunk_from_model * vertex.cast<double>();
+      const double s_m = 2.5 * TestLine::kChunkLength_m + root_m.x();
+      ASSERT_LT(root_m.z(), GroundPoint(context, s_m, root_m.y()).z()) << root_m.transpose();
+    }
+  }
+}
+
+TEST(AddVegetation, GrowsNothingWhereTheSpecHasNoRoom) {
+  WorldSpec spec = StraightLine(500.0);
+  spec.vegetation.grass_max_distance_m = spec.vegetation.grass_min_distance_m + 1.9;
+  spec.vegetation.tree_min_distance_m = spec.terrain.half_width_m + 1.0;
+  EXPECT_TRUE(Plant(TestLine(spec), 0).empty());
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,123 @@
+#include "core/rail/line/speed_profile.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+
+namespace railcast {
+namespace {
+
+SpeedPoint AtTime(double time_s, double speed_mps) {
+  return {time_s, std::nullopt, speed_mps};
+}
+SpeedPoint AtChainage(double s_m, double speed_mps) {
+  return {std::nullopt, s_m, speed_mps};
+}
+
+std::string FaultOf(const MotionSpec& motion, double start_s_m = 0.0) {
+  try {
+    const SpeedProfile profile(motion, start_s_m);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(SpeedProfile, StandsWithoutPoints) {
+  const SpeedProfile profile({}, 120.0);
+  EXPECT_FALSE(profile.moves());
+  EXPECT_EQ(profile.At(1000.0).s_m, 120.0);
+  EXPECT_EQ(profile.At(1000.0).speed_mps, 0.0);
+}
+
+TEST(SpeedProfile, AcceleratesConstantlyBetweenTimes) {
+  const SpeedProfile profile({{AtTime(0, 2), AtTime(10, 12), AtTime(20, 12)}}, 100.0);
+  EXPECT_TRUE(profile.moves());
+  // s = 100 + 2 t + t^2 / 2
+  EXPECT_DOUBLE_EQ(profile.At(4.0).s_m, 100.0 + 8.0 + 8.0);
+  EXPECT_DOUBLE_EQ(profile.At(4.0).speed_mps, 6.0);
+  EXPECT_DOUBLE_EQ(profile.At(10.0).s_m, 170.0);
+  EXPECT_DOUBLE_EQ(profile.At(15.0).s_m, 230.0);
+}
+
+TEST(SpeedProfile, KeepsItsSpeedAfterTheLastPoint) {
+  const SpeedProfile profile({{AtTime(0, 0), AtTime(10, 8)}}, 0.0);
+  EXPECT_DOUBLE_EQ(profile.At(30.0).s_m, 40.0 + 160.0);
+  EXPECT_DOUBLE_EQ(profile.At(30.0).speed_mps, 8.0);
+}
+
+TEST(SpeedProfile, KeepsTheFirstSpeedUntilTheFirstPoint) {
+  const SpeedProfile by_time({{AtTime(5, 10), AtTime(15, 0)}}, 0.0);
+  EXPECT_DOUBLE_EQ(by_time.At(3.0).s_m, 30.0);
+  EXPECT_DOUBLE_EQ(by_time.At(15.0).s_m, 50.0 + 50.0);
+  const SpeedProfile by_chainage({{AtChainage(50, 10), AtChainage(100, 0)}}, 0.0);
+  EXPECT_DOUBLE_EQ(by_chainage.At(3.0).s_m, 30.0);
+  EXPECT_DOUBLE_EQ(by_chainage.At(15.0).s_m, 100.0);
+}
+
+TEST(SpeedProfile, BrakesToAStopAtTheGivenChainage) {
+  const SpeedProfile profile({{AtChainage(1000, 20), AtChainage(1200, 0)}}, 1000.0);
+  // v^2 = 2 a s: 1 m/s^2 for 20 s.
+  EXPECT_DOUBLE_EQ(profile.At(5.0).speed_mps, 15.0);
+  EXPECT_DOUBLE_EQ(profile.At(5.0).s_m, 1000.0 + 100.0 - 12.5);
+  EXPECT_DOUBLE_EQ(profile.At(20.0).s_m, 1200.0);
+  EXPECT_DOUBLE_EQ(profile.At(500.0).s_m, 1200.0);
+  EXPECT_DOUBLE_EQ(profile.At(500.0).speed_mps, 0.0);
+}
+
+TEST(SpeedProfile, StartsFromRestTowardsAChainage) {
+  const SpeedProfile profile({{AtChainage(0, 0), AtChainage(50, 10), AtChainage(150, 10)}}, 0.0);
+  EXPECT_DOUBLE_EQ(profile.At(5.0).speed_mps, 5.0);
+  EXPECT_DOUBLE_EQ(profile.At(10.0).s_m, 50.0);
+  EXPECT_DOUBLE_EQ(profile.At(12.0).s_m, 70.0);
+}
+
+TEST(SpeedProfile, RunsAgainstTheChainageInReverse) {
+  const SpeedProfile profile({{AtChainage(500, 10), AtChainage(400, 0)}, true}, 500.0);
+  EXPECT_TRUE(profile.reverse());
+  EXPECT_DOUBLE_EQ(profile.At(10.0).s_m, 425.0);
+  EXPECT_DOUBLE_EQ(profile.At(10.0).speed_mps, 5.0);
+  EXPECT_DOUBLE_EQ(profile.At(20.0).s_m, 400.0);
+}
+
+TEST(SpeedProfile, DoesNotMoveWhenAllSpeedsAreZero) {
+  EXPECT_FALSE(SpeedProfile({{AtTime(0, 0), AtTime(9, 0)}}, 7.0).moves());
+}
+
+TEST(SpeedProfile, RefusesTimesThatDoNotIncrease) {
+  EXPECT_EQ(FaultOf({{AtTime(0, 1), AtTime(5, 2), AtTime(5, 3)}}),
+            "/profile/2/time_s: must be greater than 5 of the point before it (got 5)");
+  EXPECT_EQ(FaultOf({{AtTime(-1, 1)}}), "/profile/0/time_s: must be >= 0 (got -1)");
+}
+
+TEST(SpeedProfile, RefusesChainagesAgainstTheDirectionOfTravel) {
+  EXPECT_EQ(FaultOf({{AtChainage(10, 1), AtChainage(9.5, 2)}}),
+            "/profile/1/s_m: must be greater than 10 of the point before it (got 9.5)");
+  EXPECT_EQ(FaultOf({{AtChainage(10, 1), AtChainage(11, 2)}, true}, 10.0),
+            "/profile/1/s_m: must be less than 10 of the point before it (got 11)");
+  EXPECT_EQ(FaultOf({{AtChainage(10, 1)}}, 20.0),
+            "/profile/0/s_m: must not be behind the start at 20 m (got 10)");
+}
+
+TEST(SpeedProfile, RefusesAChainageThatIsNeverReached) {
+  EXPECT_EQ(FaultOf({{AtChainage(0, 5), AtChainage(50, 0), AtChainage(60, 0)}}),
+            "/profile/2/s_m: is never reached, the speed being 0 up to it and at it (got 60)");
+  EXPECT_EQ(FaultOf({{AtChainage(10, 0), AtChainage(20, 4)}}),
+            "/profile/0/s_m: is never reached, the speed being 0 up to it and at it (got 10)");
+}
+
+TEST(SpeedProfile, RefusesAMixOfTimesAndChainages) {
+  EXPECT_EQ(FaultOf({{AtTime(0, 1), AtChainage(50, 2), {}}}),
+            "/profile/1: must be at a time_s like the first point (got s_m)\n"
+            "/profile/2: must have exactly one of time_s and s_m (got none)");
+  EXPECT_EQ(FaultOf({{{1.0, 2.0, 3.0}}}),
+            "/profile/0: must have exactly one of time_s and s_m (got both)");
+}
+
+TEST(SpeedProfile, RefusesANegativeSpeed) {
+  EXPECT_EQ(FaultOf({{AtTime(0, -2)}}), "/profile/0/speed_mps: must be >= 0 (got -2)");
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,159 @@
+#include "core/rail/track/track_structure.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/rail/track/cross_section.h"
+#include "core/rail/track/rail_section.h"
+#include "tests/core/rail/test_line.h"
+
+namespace railcast {
+namespace {
+
+/// Where the edge a-b meets the plane in which coordinate `axis` is `value`.
+std::optional<Vector3> CutEdge(const Vector3& a, const Vector3& b, int axis, double value) {
+  if ((a[axis] < value) == (b[axis] < value)) return std::nullopt;
+  return a + (value - a[axis]) / (b[axis] - a[axis]) * (b - a);
+}
+
+/// Between the inner faces of the rails at chainage `s_m`, 14 mm below the top of rail, as the
+/// triangles have it.
+double GaugeOfMesh(const TestLine& line, int chunk_index, double s_m) {
+  Chunk chunk;
+  AddTracks(line.Context(chunk_index), line.models(), chunk);
+  Mesh rails = MeshOfSurface(chunk, line.surfaces().rail_side);
+  rails.Append(MeshOfSurface(chunk, line.surfaces().rail_head));
+  const Transform track_from_chunk =
+      line.alignment().WorldFromTrack(s_m).inverse() * line.WorldFromChunk(chunk_index);
+  double left_m = 1.0;
+  double right_m = -1.0;
+  for (const auto& triangle : rails.triangles) {
+    std::vector<Vector3> cut;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vector3 a = track_from_chunk * rails.vertices[triangle[i]].cast<double>();
+      const Vector3 b = track_from_chunk * rails.vertices[triangle[(i + 1) % 3]].cast<double>();
+      if (const auto point = CutEdge(a, b, 0, 0.0)) cut.push_back(*point);
+    }
+    if (cut.size() != 2) continue;
+    const auto point = CutEdge(cut[0], cut[1], 2, -kGaugeDepth_m);
+    if (!point) continue;
+    if (point->y() > 0.0) left_m = std::min(left_m, point->y());
+    if (point->y() < 0.0) right_m = std::max(right_m, point->y());
+  }
+  return left_m - right_m;
+}
+
+TEST(AddTracks, LaysRailsAtGaugeOnAStraight) {
+  const TestLine line(StraightLine(300.0));
+  for (const double s_m : {100.4, 113.77, 149.3}) {
+    EXPECT_NEAR(GaugeOfMesh(line, 2, s_m), kGauge_m, 0.01e-3) << s_m;
+  }
+}
+
+TEST(AddTracks, LaysRailsAtGaugeInACantedCurve) {
+  const TestLine line(CantedArc(300.0, -300.0));
+  // 150 mm of cant on a gauge of 1.5 m between rail heads.
+  ASSERT_NEAR(line.alignment().At(120.0).cant_rad, 0.1, 0.002);
+  // Chords of both rails are off their arcs by up to 1 mm to the same side; the plane of the cut is
+  // perpendicular to the arc and not to the chord.
+  for (const double s_m : {100.4, 113.77, 149.3}) {
+    EXPECT_NEAR(GaugeOfMesh(line, 2, s_m), kGauge_m, 0.1e-3) << s_m;
+  }
+}
+
+TEST(AddTracks, SetsASleeperEverySixtyCentimetresOfTheWholeLine) {
+  const TestLine line(StraightLine(300.0));
+  std::vector<double> chainages_m;
+  for (int chunk_index = 0; chunk_index < 6; ++chunk_index) {
+    Chunk chunk;
+    AddTracks(line.Context(chunk_index), line.models(), chunk);
+    for (const Placement& placement : chunk.placements) {
+      EXPECT_EQ(placement.model, line.models().concrete_sleeper);
+      chainages_m.push_back(
+          (line.WorldFromChunk(chunk_index) * Vector3(placement.chunk_from_model.translation()))
+              .x());
+    }
+  }
+  // The line's end belongs to no chunk.
+  ASSERT_EQ(chainages_m.size(), 500U);
+  for (std::size_t k = 0; k < chainages_m.size(); ++k) {
+    EXPECT_NEAR(chainages_m[k], kSleeperSpacing_m * static_cast<double>(k), 1e-9);
+  }
+}
+
+TEST(AddTracks, TiltsSleepersWithTheCant) {
+  const TestLine line(CantedArc(300.0, 400.0));
+  Chunk chunk;
+  AddTracks(line.Context(1), line.models(), chunk);
+  ASSERT_FALSE(chunk.placements.empty());
+  const Eigen::Matrix3d rotation = chunk.placements[3].chunk_from_model.linear();
+  // A left curve: the right side is raised.
+  EXPECT_NEAR(rotation(2, 1), std::sin(line.alignment().At(60.0).cant_rad), 1e-9);
+  EXPECT_LT(rotation(2, 1), -0.09);
+}
+
+/// Counts, for each edge between two positions, how many more triangles run it one way than the
+/// other. Zero everywhere is a closed surface.
+bool IsClosed(const Mesh& mesh) {
+  using Position = std::array<float, 3>;
+  std::map<std::pair<Position, Position>, int> balance;
+  const auto position = [&](std::uint32_t vertex) {
+    const Eigen::Vector3f& v = mesh.vertices[vertex];
+    return Position{v.x(), v.y(), v.z()};
+  };
+  for (const auto& triangle : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Position a = position(triangle[i]);
+      const Position b = position(triangle[(i + 1) % 3]);
+      a < b ? ++balance[{a, b}] : --balance[{b, a}];
+    }
+  }
+  return std::all_of(balance.begin(), balance.end(),
+                     [](const auto& edge) { return edge.second == 0; });
+}
+
+TEST(AddTracks, ClosesRailsWhereTheTrackBeginsAndEnds) {
+  WorldSpec spec = CantedArc(300.0, 400.0);
+  spec.tracks[0].start_s_m = 57.3;
+  spec.tracks[0].end_s_m = 92.1;
+  const TestLine line(spec);
+  Chunk chunk;
+  AddTracks(line.Context(1), line.models(), chunk);
+  Mesh rails = MeshOfSurface(chunk, line.surfaces().rail_side);
+  EXPECT_FALSE(IsClosed(rails));
+  rails.Append(MeshOfSurface(chunk, line.surfaces().rail_head));
+  EXPECT_TRUE(IsClosed(rails));
+
+  Chunk next;
+  AddTracks(line.Context(2), line.models(), next);
+  EXPECT_TRUE(next.ground.parts.empty());
+  EXPECT_TRUE(next.placements.empty());
+}
+
+TEST(AddTracks, MakesOnlyClosedSleepers) {
+  const TestLine line(StraightLine(100.0));
+  for (const auto& model : {line.models().concrete_sleeper, line.models().wood_sleeper}) {
+    for (const Part& part : model->parts) EXPECT_TRUE(IsClosed(part.mesh)) << model->name;
+  }
+}
+
+TEST(AddTracks, RestsRailsOnTheirSeats) {
+  const TestLine line(StraightLine(100.0));
+  const Eigen::AlignedBox3d concrete = line.models().concrete_sleeper->Bounds();
+  EXPECT_NEAR(concrete.sizes().y(), 2.6, 1e-6);
+  EXPECT_NEAR(concrete.sizes().x(), 0.3, 1e-6);
+  // Fastenings end 0.1 m above the seat, 10 mm below the foot.
+  EXPECT_NEAR(concrete.max().z(), RailFootMiddle_m().y() - 0.010 + 0.100, 5e-3);
+  EXPECT_NEAR(SeatOf("concrete").top_m, RailFootMiddle_m().y() - 0.010, 0.2e-3);
+  EXPECT_NEAR(line.models().wood_sleeper->Bounds().min().z(), -0.190 - 0.160, 1e-6);
+}
+
+}  // namespace
+}  // namespace railcast
