@@ -48,4 +48,15 @@ struct WorldOptions {
 /// @throws InputError on bad input.
 [[nodiscard]] int WorldCommand(const WorldOptions& options);
 
+/// Options of `railcast-generate trace`.
+struct TraceOptions {
+  std::filesystem::path scenario;
+  std::uint32_t frame = 0;
+  std::uint32_t firing = 0;
+};
+
+/// Replays one firing and prints what each effect made of it.
+/// @throws InputError on bad input.
+[[nodiscard]] int TraceCommand(const TraceOptions& options);
+
 }  // namespace railcast

@@ -9,6 +9,7 @@
 namespace {
 
 using railcast::SequenceOptions;
+using railcast::TraceOptions;
 using railcast::WorldOptions;
 
 void AddSequence(CLI::App& app, SequenceOptions& options, std::function<int()>& command) {
@@ -56,6 +57,18 @@ void AddWorld(CLI::App& app, WorldOptions& options, std::function<int()>& comman
   world->callback([&] { command = [&] { return railcast::WorldCommand(options); }; });
 }
 
+void AddTrace(CLI::App& app, TraceOptions& options, std::function<int()>& command) {
+  CLI::App* trace = app.add_subcommand("trace", "Replay one firing and print each effect's doing");
+  trace->add_option("SCENARIO", options.scenario, "Scenario file")->required();
+  trace->add_option("--frame", options.frame, "Number of the frame")
+      ->check(CLI::Range(0, 1'000'000'000))
+      ->capture_default_str();
+  trace->add_option("--firing", options.firing, "Number of the firing in the order of time")
+      ->required()
+      ->check(CLI::Range(0, 1'000'000'000));
+  trace->callback([&] { command = [&] { return railcast::TraceCommand(options); }; });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -71,10 +84,12 @@ int main(int argc, char** argv) {
   SequenceOptions sequence;
   std::filesystem::path checked_scenario;
   WorldOptions world;
+  TraceOptions trace;
   std::function<int()> command;
   AddSequence(app, sequence, command);
   AddCheck(app, checked_scenario, command);
   AddWorld(app, world, command);
+  AddTrace(app, trace, command);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

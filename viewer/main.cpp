@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "core/scenario/scenario.h"
 #include "viewer/cloud.h"
 #include "viewer/coloring.h"
 #include "viewer/label_file.h"
@@ -55,7 +56,7 @@ void AddOptions(CLI::App& app, Options& options) {
 Coloring ColorFile(const Cloud& cloud, const std::filesystem::path& file, std::string color_by) {
   if (color_by.empty()) color_by = cloud.fields.contains("label") ? "label" : "height";
   const auto label_file = FindLabelFile(file);
-  const LabelTable labels = label_file ? ReadLabelFile(*label_file) : LabelTable();
+  const LabelTable labels = label_file ? ReadLabelTable(*label_file) : LabelTable();
   try {
     return ColorCloud(cloud, color_by, labels);
   } catch (const InputError& error) {

@@ -61,6 +61,18 @@ void Describe(Archive& a, Label& s) {
              "The nearest of SemanticKITTI's own ids.");
 }
 
+// A label table as a file of its own.
+struct LabelFile {
+  std::vector<Label> labels;
+};
+
+template <class Archive>
+void Describe(Archive& a, LabelFile& s) {
+  a.Required("labels", s.labels, "What things are called.", NonEmptyList());
+  a.Unique("labels", s.labels, "id", &Label::id);
+  a.Unique("labels", s.labels, "name", &Label::name);
+}
+
 template <class Archive>
 void Describe(Archive& a, ScenarioSpec& s) {
   a.Optional("seed", s.seed, "Of all random numbers.");

@@ -25,6 +25,8 @@ void Describe(Archive& a, WeatherSpec& s) {
              "Mean detectable flakes per beam at 1 mm/h.", NonNegative());
   a.Optional("snow_range_scale_m", s.snow_range_scale_m,
              "Maxwell scale of their ranges; the median is 1.538 times this.", Positive());
+  a.Optional("snow_intensity", s.snow_intensity, "Effective reflectance that a flake shows.",
+             NonNegative());
 }
 
 }  // namespace railcast

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "core/scenario/describe_scenario.h"
 #include "core/scenario/json_reader.h"
@@ -48,6 +49,14 @@ ScenarioSpec ReadScenario(const std::filesystem::path& file) {
   source.errors().ThrowIfAny();
   spec.sources = std::move(source.sources());
   return spec;
+}
+
+LabelTable ReadLabelTable(const std::filesystem::path& file) {
+  JsonSource source;
+  LabelFile table;
+  if (const auto root = source.Open(file)) ReadValue(source, *root, table, Anything{});
+  source.errors().ThrowIfAny();
+  return LabelTable(std::move(table.labels));
 }
 
 }  // namespace railcast

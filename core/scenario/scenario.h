@@ -17,6 +17,10 @@ class RailWorld;
 /// @throws InputError with a line for every fault: "file: /pointer: rule (got value)".
 [[nodiscard]] ScenarioSpec ReadScenario(const std::filesystem::path& file);
 
+/// Reads a label table (labels.json of a scenario or of a sequence), as strictly.
+/// @throws InputError with a line for every fault.
+[[nodiscard]] LabelTable ReadLabelTable(const std::filesystem::path& file);
+
 /// The scenario with every default and every file's content in place. Reading it back gives the
 /// same spec.
 [[nodiscard]] std::string ResolvedScenarioJson(const ScenarioSpec& spec);

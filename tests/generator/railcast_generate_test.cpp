@@ -41,7 +41,7 @@ Ended Generate(const std::string& arguments) {
 
 TEST(RailcastGenerate, ExplainsItself) {
   EXPECT_EQ(Generate("--version").said, "railcast " RAILCAST_VERSION "\n");
-  for (const char* command : {"", "sequence ", "check ", "world "}) {
+  for (const char* command : {"", "sequence ", "check ", "world ", "trace "}) {
     const Ended run = Generate(std::string(command) + "--help");
     EXPECT_EQ(run.status, 0);
     EXPECT_NE(run.said.find("Usage:"), std::string::npos);
@@ -55,6 +55,18 @@ TEST(RailcastGenerate, ExitsWithTwoOnWrongUsage) {
   EXPECT_EQ(Generate("sequence a.json --out b --format las").status, 2);
   EXPECT_EQ(Generate("sequence a.json --out b --frames 0").status, 2);
   EXPECT_EQ(Generate("sequence a.json --out b --fidelity best").status, 2);
+}
+
+TEST(RailcastGenerate, ReplaysOneFiringEffectByEffect) {
+  const Ended run = Generate("trace " + scenarios + "minimal.json --frame 3 --firing 0");
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.said.find("frame 3 firing 0 at 0 ns, slot 0\n"), 0U);
+  for (const char* effect : {"\nhit ", "\nthreshold ", "\nnoise "}) {
+    EXPECT_NE(run.said.find(effect), std::string::npos) << effect;
+  }
+  const Ended beyond = Generate("trace " + scenarios + "minimal.json --firing 28800");
+  EXPECT_EQ(beyond.status, 1);
+  EXPECT_EQ(beyond.said, "--firing: must be < 28800, the firings of a frame (got 28800)\n");
 }
 
 TEST(RailcastGenerate, ExitsWithOneAndOneLineOnBadInput) {

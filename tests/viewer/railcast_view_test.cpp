@@ -68,8 +68,11 @@ class RailcastView : public testing::Test {
   }
 
   void WriteLabels(const std::string& name) const {
-    Write(name, R"({"labels": [{"id": 1, "name": "red", "rgb": [255, 0, 0]},)"
-                R"( {"id": 2, "name": "green", "rgb": [0, 255, 0]}]})");
+    Write(name, R"({"version": 1, "labels": [
+      {"id": 1, "name": "red", "rgb": [255, 0, 0], "whu_railway3d": "Others", "osdar23": "",
+       "semantic_kitti": 0, "semantic_kitti_nearest": 0},
+      {"id": 2, "name": "green", "rgb": [0, 255, 0], "whu_railway3d": "Others", "osdar23": "",
+       "semantic_kitti": 0, "semantic_kitti_nearest": 0}]})");
   }
 
  private:

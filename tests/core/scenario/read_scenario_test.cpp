@@ -109,5 +109,26 @@ TEST(ReadScenario, KeepsWholeNumbersThatNoDoubleHolds) {
   EXPECT_EQ(ReadScenario(file).seed, 18446744073709551615ULL);
 }
 
+TEST(ReadLabelTable, ReadsTheShippedTable) {
+  const LabelTable labels =
+      ReadLabelTable(std::filesystem::path(RAILCAST_SOURCE_DIR) / "scenarios/labels.json");
+  EXPECT_EQ(labels.Id("unlabeled"), 0U);
+  EXPECT_EQ(labels.Id("rail"), 1U);
+  EXPECT_EQ(labels.Find("wagon")->osdar23, "wagons");
+}
+
+TEST(ReadLabelTable, NamesEveryFault) {
+  const TemporaryFolder folder;
+  const auto file = folder.Write("labels.json", R"({"version": 1, "labels": []})");
+  try {
+    static_cast<void>(ReadLabelTable(file));
+    FAIL() << "expected InputError";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("labels.json: /labels: must not be empty"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace railcast

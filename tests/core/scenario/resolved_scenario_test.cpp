@@ -35,7 +35,7 @@ ScenarioSpec UnusualScenario(const std::string& mesh_file) {
       99.5,
       {{1, 2, 3}, 4, 5, 6},
       {0.2, 150, 0.02, 2e-4, "beam", 0.125}};
-  spec.weather = {0.01, 3, 4e-4, 0.7, 5, 0.03, 6};
+  spec.weather = {0.01, 3, 4e-4, 0.7, 5, 0.03, 6, 0.04};
   spec.interfaces.udp = {"localhost:1", "[::1]:65535"};
   spec.camera = R"({"b":1,"a":[2.5,null]})";
   spec.world.alignment = {AlignmentSplineSpec{{{0, 0}, {100, 0.1}}},

@@ -1,0 +1,73 @@
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <string>
+
+#include "core/base/error.h"
+#include "core/scenario/scenario.h"
+#include "generator/commands.h"
+
+namespace railcast {
+namespace {
+
+std::string LabelName(const LabelTable& labels, std::uint32_t id) {
+  const Label* label = labels.Find(id);
+  return label == nullptr ? std::to_string(id) : label->name;
+}
+
+// Absence reads better as a dash than as nan.
+void PrintValue(float value, int width) {
+  std::cout << std::setw(width);
+  if (std::isnan(value)) {
+    std::cout << "-";
+  } else {
+    std::cout << static_cast<double>(value);
+  }
+}
+
+void PrintSteps(const std::vector<FiringStory::Step>& steps) {
+  std::cout << std::left << std::setw(16) << "after" << std::setw(17) << "outcome" << std::right
+            << std::setw(14) << "true_range_m" << std::setw(15) << "cos_incidence" << std::setw(12)
+            << "intensity" << std::setw(13) << "power_ratio" << std::setw(12) << "range_m\n";
+  for (const FiringStory::Step& step : steps) {
+    std::cout << std::left << std::setw(16) << step.effect << std::setw(17)
+              << OutcomeName(step.outcome) << std::right;
+    PrintValue(step.true_range_m, 14);
+    PrintValue(step.cos_incidence, 15);
+    PrintValue(step.intensity, 12);
+    PrintValue(step.power_ratio, 13);
+    PrintValue(step.range_m, 11);
+    std::cout << "\n";
+  }
+}
+
+}  // namespace
+
+int TraceCommand(const TraceOptions& options) {
+  const ScenarioSpec scenario = ReadScenario(options.scenario);
+  const auto simulator = MakeSimulator(scenario, 1);
+  const std::size_t num_firings = simulator->pattern().num_firings();
+  if (options.firing >= num_firings) {
+    throw InputError("--firing: must be < " + std::to_string(num_firings) +
+                     ", the firings of a frame (got " + std::to_string(options.firing) + ")");
+  }
+  const FiringStory story = simulator->Explain(options.frame, options.firing);
+  const MaterialLibrary materials(scenario.materials);
+  std::cout << "frame " << options.frame << " firing " << story.firing << " at " << story.time_ns
+            << " ns, slot " << story.slot << "\n"
+            << "from world " << std::fixed << std::setprecision(3) << story.origin_world.transpose()
+            << " along sensor " << std::setprecision(6) << story.direction_sensor.transpose()
+            << "\n"
+            << std::defaultfloat;
+  if (story.label == 0) {
+    std::cout << "hits nothing\n";
+  } else {
+    std::cout << "hits " << LabelName(LabelTable(scenario.labels), story.label) << ", instance "
+              << story.instance << ", material " << materials.materials()[story.material].name
+              << " (reflectivity " << static_cast<double>(story.reflectivity) << ")\n";
+  }
+  PrintSteps(story.steps);
+  return kExitSuccess;
+}
+
+}  // namespace railcast
