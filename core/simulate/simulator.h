@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -76,6 +77,16 @@ class Simulator {
   /// Replays one firing, with the packet and the random numbers it has in `Scan`.
   /// @pre firing < pattern().num_firings()
   [[nodiscard]] FiringStory Explain(std::uint32_t frame_index, std::uint32_t firing);
+
+  /// Changes what follows the trace; scenes stay. Speed and accuracy studies compare effect sets on
+  /// one scene in one process this way.
+  void UseEffects(const EffectSet& effects, const WeatherSpec& weather);
+  /// @param num_threads 0 = all cores.
+  void UseThreads(int num_threads);
+
+  /// The raw trace of a frame, the yardstick of all speed figures: its rays aimed beforehand, every
+  /// call traces them by packets of 16 and keeps the ranges. Valid as long as the simulator.
+  [[nodiscard]] std::function<void()> MakeRawTrace(std::uint32_t frame_index);
 
   [[nodiscard]] const World& world() const;
   [[nodiscard]] const ScanPattern& pattern() const;

@@ -1,0 +1,116 @@
+#include "core/simulate/frame_scene.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace railcast {
+namespace {
+
+// Moving things are interpolated linearly between this many places in a frame.
+constexpr std::uint32_t kShutterSteps = 3;
+
+// How far ahead, and in what steps, the next window is looked for: at 80 m/s a step is shorter than
+// a chunk.
+constexpr std::int64_t kLookAhead_ns = 4'000'000'000;
+constexpr std::int64_t kLookAheadStep_ns = 500'000'000;
+
+double RadiusAboutOrigin(const Model& model) {
+  double radius_m = 0.0;
+  for (const Part& part : model.parts) {
+    for (const Eigen::Vector3f& vertex : part.mesh.vertices) {
+      radius_m = std::max(radius_m, vertex.cast<double>().norm());
+    }
+  }
+  return radius_m;
+}
+
+}  // namespace
+
+void FrameScene::Cast(RayTile& rays) const {
+  window->scene->Cast(rays);
+  if (moving != nullptr) moving->Cast(rays);
+}
+
+void FrameScene::CastRanges(RayTile& rays) const {
+  window->scene->CastRanges(rays);
+  if (moving != nullptr) moving->CastRanges(rays);
+}
+
+FrameScenes::FrameScenes(std::shared_ptr<const World> world,
+                         const MaterialLibrary& materials,
+                         const FrameSceneSpec& spec)
+    : world_(std::move(world)),
+      spec_(spec),
+      windows_(world_, materials, spec.range_max_m, spec.isa) {
+  for (const SceneObject& object : world_->objects()) {
+    object_radii_m_.push_back(RadiusAboutOrigin(*object.model));
+  }
+}
+
+FrameScene FrameScenes::At(std::uint32_t index, std::int64_t stamp_ns) {
+  const int home_chunk = world_->HomeChunk(stamp_ns);
+  std::shared_ptr<const Window> window = windows_.Get(home_chunk);
+  PrepareNextWindow(stamp_ns, home_chunk);
+  std::unique_ptr<const TraceScene> moving = MovingScene(stamp_ns, *window);
+  FramePoses poses(spec_.duration_ns, [&](std::uint32_t time_ns) {
+    return window->window_from_world * WorldFromSensor(stamp_ns + time_ns);
+  });
+  return {index, stamp_ns, std::move(window), std::move(moving), std::move(poses)};
+}
+
+TracePlacement FrameScenes::Place(std::size_t object,
+                                  std::int64_t stamp_ns,
+                                  const Transform& window_from_world) const {
+  TracePlacement placement{windows_.object_model(object), {}, windows_.object_surface(object)};
+  const std::uint32_t num_steps = world_->objects()[object].moves ? kShutterSteps : 1;
+  for (std::uint32_t step = 0; step < num_steps; ++step) {
+    const std::int64_t since_stamp_ns =
+        num_steps == 1 ? 0 : std::int64_t{spec_.duration_ns} * step / (num_steps - 1);
+    const Transform window_from_object =
+        window_from_world * world_->WorldFromObject(object, stamp_ns + since_stamp_ns);
+    placement.window_from_model.emplace_back(window_from_object.matrix());
+  }
+  return placement;
+}
+
+std::unique_ptr<const TraceScene> FrameScenes::MovingScene(std::int64_t stamp_ns,
+                                                           const Window& window) const {
+  std::vector<TracePlacement> placements;
+  const auto sensor_window = [&](std::int64_t time_ns) -> Vector3 {
+    return (window.window_from_world * WorldFromSensor(time_ns)).translation();
+  };
+  const Vector3 begin = sensor_window(stamp_ns);
+  const double travel_m = (sensor_window(stamp_ns + spec_.duration_ns) - begin).norm();
+  const auto& objects = world_->objects();
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (!objects[i].moves) continue;
+    TracePlacement placement = Place(i, stamp_ns, window.window_from_world);
+    const auto& steps = placement.window_from_model;
+    const double object_travel_m =
+        (steps.back().translation() - steps.front().translation()).norm();
+    const double reach_m = spec_.range_max_m + object_radii_m_[i] + travel_m + object_travel_m;
+    if ((steps.front().translation() - begin).norm() > reach_m) continue;
+    placements.push_back(std::move(placement));
+  }
+  if (placements.empty()) return nullptr;
+  return std::make_unique<TraceScene>(windows_.device(), placements);
+}
+
+std::unique_ptr<const TraceScene> FrameScenes::Alone(std::size_t object,
+                                                     const FrameScene& frame) const {
+  return std::make_unique<TraceScene>(
+      windows_.device(),
+      std::vector{Place(object, frame.stamp_ns, frame.window->window_from_world)});
+}
+
+void FrameScenes::PrepareNextWindow(std::int64_t stamp_ns, int home_chunk) {
+  for (std::int64_t ahead_ns = kLookAheadStep_ns; ahead_ns <= kLookAhead_ns;
+       ahead_ns += kLookAheadStep_ns) {
+    const int next = world_->HomeChunk(stamp_ns + ahead_ns);
+    if (next == home_chunk) continue;
+    windows_.Prepare(next);
+    return;
+  }
+}
+
+}  // namespace railcast

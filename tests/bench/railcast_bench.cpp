@@ -1,0 +1,196 @@
+// Speed of the published scan in the demo scene, all rows interleaved in one process.
+//
+//   railcast-bench [--benchmark_filter=demo] [other options of Google Benchmark]
+//
+// Rows are <what>/<scene>/threads:<n>. What: raw_trace (Embree's packets of 16, rays aimed
+// beforehand, ranges kept), sets of effects complete to a filled Frame, and the same written as PCD
+// to tmpfs. Scenes: the demo, and the demo without some of its parts. Ratios to the raw trace of
+// the same scene and threads are printed at the end: read these, machines are noisy.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/io/frame_files.h"
+#include "core/io/write_file.h"
+#include "core/scenario/scenario.h"
+
+namespace railcast {
+namespace {
+
+// The vehicle stays in one chunk for these, so that every row sees the same window.
+constexpr std::uint32_t kNumFrames = 8;
+
+/// A scene ready to be scanned in any way.
+struct Bench {
+  explicit Bench(const ScenarioSpec& scenario)
+      : spec(scenario), simulator(MakeSimulator(scenario, 1)) {
+    for (std::uint32_t i = 0; i < kNumFrames; ++i) {
+      raw_traces.push_back(simulator->MakeRawTrace(i));
+    }
+    files.labels = LabelTable(scenario.labels);
+  }
+
+  ScenarioSpec spec;
+  std::unique_ptr<Simulator> simulator;
+  std::vector<std::function<void()>> raw_traces;
+  Frame frame;
+  FrameFileSpec files;
+  std::vector<FrameFile> encoded;
+};
+
+using Work = std::function<void(Bench&, std::uint32_t frame)>;
+
+void ScanFrame(Bench& bench, std::uint32_t frame) {
+  bench.simulator->Scan(frame, bench.frame);
+}
+
+void ScanAndWrite(Bench& bench, std::uint32_t frame) {
+  ScanFrame(bench, frame);
+  EncodeFrameFiles(bench.frame, bench.files, frame, bench.encoded);
+  WriteFileWhole("/dev/shm/railcast_bench.pcd", bench.encoded.front().bytes);
+}
+
+struct Row {
+  std::string what;
+  EffectSet effects;
+  bool rain = false;  ///< Else the weather is dry.
+  bool snow = false;
+  Work work;
+};
+
+std::vector<Row> Rows() {
+  const EffectSet all{.threshold = true, .rain = true, .snow = true, .noise = true};
+  return {
+      {"raw_trace", {}, false, false, [](Bench& b, std::uint32_t f) { b.raw_traces[f](); }},
+      {"geometry", {}, false, false, &ScanFrame},
+      {"threshold", {.threshold = true}, false, false, &ScanFrame},
+      {"threshold+noise", {.threshold = true, .noise = true}, false, false, &ScanFrame},
+      {"plausibility", all, true, false, &ScanFrame},
+      {"plausibility_in_snow", all, true, true, &ScanFrame},
+      {"geometry_pcd", {}, false, false, &ScanAndWrite},
+      {"plausibility_pcd", all, true, false, &ScanAndWrite},
+  };
+}
+
+void Run(benchmark::State& state, Bench& bench, const Row& row, int num_threads) {
+  using Clock = std::chrono::steady_clock;
+  WeatherSpec weather = bench.spec.weather;
+  weather.rain_rate_mmph = row.rain ? 2.0 : 0.0;
+  weather.snow_rate_mmph = row.snow ? 2.0 : 0.0;
+  bench.simulator->UseThreads(num_threads);
+  bench.simulator->UseEffects(row.effects, weather);
+  row.work(bench, 0);  // Warms caches; the rows before it ran on other memory.
+  std::vector<double> times_ms;
+  std::uint32_t frame = 0;
+  for (auto _ : state) {
+    const auto begin = Clock::now();
+    row.work(bench, frame);
+    const std::chrono::duration<double> elapsed_s = Clock::now() - begin;
+    state.SetIterationTime(elapsed_s.count());
+    times_ms.push_back(elapsed_s.count() * 1e3);
+    frame = (frame + 1) % kNumFrames;
+  }
+  std::sort(times_ms.begin(), times_ms.end());
+  const auto quantile = [&](double q) {
+    return times_ms[static_cast<std::size_t>(q * static_cast<double>(times_ms.size() - 1))];
+  };
+  state.counters["p50_ms"] = quantile(0.5);
+  state.counters["p99_ms"] = quantile(0.99);
+}
+
+/// Prints as usual, and keeps the medians for the ratios.
+class RatioReporter : public benchmark::ConsoleReporter {
+ public:
+  void ReportRuns(const std::vector<Run>& runs) override {
+    ConsoleReporter::ReportRuns(runs);
+    for (const Run& run : runs) {
+      if (run.aggregate_name != "median") continue;
+      const auto p99 = run.counters.find("p99_ms");
+      rows_[run.run_name.function_name] = {run.counters.at("p50_ms").value, p99->second.value};
+      order_.push_back(run.run_name.function_name);
+    }
+  }
+
+  void Finalize() override {
+    std::printf("\n%-44s %10s %10s %12s\n", "median over the repetitions", "p50 ms", "p99 ms",
+                "x raw_trace");
+    for (const std::string& name : order_) {
+      const auto raw = rows_.find("raw_trace" + name.substr(name.find('/')));
+      std::printf("%-44s %10.3f %10.3f", name.c_str(), rows_[name].p50_ms, rows_[name].p99_ms);
+      if (raw != rows_.end()) std::printf(" %12.3f", rows_[name].p50_ms / raw->second.p50_ms);
+      std::printf("\n");
+    }
+  }
+
+ private:
+  struct Times {
+    double p50_ms{};
+    double p99_ms{};
+  };
+  std::map<std::string, Times> rows_;
+  std::vector<std::string> order_;
+};
+
+std::map<std::string, ScenarioSpec> Scenes() {
+  const ScenarioSpec demo =
+      ReadScenario(std::filesystem::path(RAILCAST_SCENARIOS_DIR) / "st_gallen_approach.json");
+  std::map<std::string, ScenarioSpec> scenes{{"demo", demo}};
+  const auto without = [&](const std::string& name, const std::function<void(WorldSpec&)>& edit) {
+    ScenarioSpec scene = demo;
+    edit(scene.world);
+    scenes.emplace("demo-without-" + name, std::move(scene));
+  };
+  without("grass", [](WorldSpec& world) { world.vegetation.grass = false; });
+  without("trees", [](WorldSpec& world) { world.vegetation.trees_per_hectare = 0.0; });
+  without("wires", [](WorldSpec& world) { world.catenary.enabled = false; });
+  without("objects", [](WorldSpec& world) { world.objects.clear(); });
+  without("second-track", [](WorldSpec& world) {
+    world.tracks.resize(1);
+    std::erase_if(world.objects, [](const ObjectSpec& object) { return object.track != "main"; });
+  });
+  return scenes;
+}
+
+}  // namespace
+}  // namespace railcast
+
+int main(int argc, char** argv) {
+  std::vector<char*> arguments(argv, argv + argc);
+  // Before the user's, so that those win.
+  std::string defaults[] = {"--benchmark_enable_random_interleaving=true",
+                            "--benchmark_repetitions=15", "--benchmark_min_time=0.1",
+                            "--benchmark_report_aggregates_only=true"};
+  for (std::string& option : defaults) arguments.insert(arguments.begin() + 1, option.data());
+  int count = static_cast<int>(arguments.size());
+  benchmark::Initialize(&count, arguments.data());
+  if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
+
+  std::map<std::string, std::shared_ptr<railcast::Bench>> benches;
+  for (const auto& [scene, spec] : railcast::Scenes()) {
+    const auto bench = std::make_shared<railcast::Bench>(spec);
+    for (const railcast::Row& row : railcast::Rows()) {
+      if (scene != "demo" && row.what != "raw_trace") continue;
+      for (const int num_threads : {1, 2}) {
+        const std::string name = row.what + "/" + scene + "/threads:" + std::to_string(num_threads);
+        benchmark::RegisterBenchmark(
+            name.c_str(),
+            [=](benchmark::State& state) { railcast::Run(state, *bench, row, num_threads); })
+            ->UseManualTime()
+            ->Unit(benchmark::kMillisecond);
+      }
+    }
+  }
+  railcast::RatioReporter reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  benchmark::Shutdown();
+  std::filesystem::remove("/dev/shm/railcast_bench.pcd");
+  return 0;
+}
