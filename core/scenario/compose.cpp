@@ -47,7 +47,9 @@ std::shared_ptr<const RailWorld> MakeWorld(const ScenarioSpec& spec) {
   });
 }
 
-std::unique_ptr<Simulator> MakeSimulator(const ScenarioSpec& spec, int num_threads) {
+std::unique_ptr<Simulator> MakeSimulator(const ScenarioSpec& spec,
+                                         int num_threads,
+                                         const std::string& isa) {
   SimulatorSpec simulator;
   simulator.seed = spec.seed;
   simulator.range_min_m = spec.lidar.range_min_m;
@@ -57,6 +59,7 @@ std::unique_ptr<Simulator> MakeSimulator(const ScenarioSpec& spec, int num_threa
   simulator.plausibility = spec.lidar.plausibility;
   simulator.weather = spec.weather;
   simulator.output = spec.output;
+  simulator.isa = isa;
   simulator.snow_label = LabelTable(spec.labels).Id("snow");
   return std::make_unique<Simulator>(MakeWorld(spec), MakePattern(spec),
                                      MaterialLibrary(spec.materials), simulator, num_threads);

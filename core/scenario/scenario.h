@@ -39,6 +39,9 @@ class RailWorld;
 /// Builds the whole simulation of a scenario.
 /// @throws InputError as CheckScenario() lists.
 /// @param num_threads 0 = all cores.
-[[nodiscard]] std::unique_ptr<Simulator> MakeSimulator(const ScenarioSpec& spec, int num_threads);
+/// @param isa Embree's instruction set to force ("sse4.2", "avx2", "avx512"); empty = the best.
+[[nodiscard]] std::unique_ptr<Simulator> MakeSimulator(const ScenarioSpec& spec,
+                                                       int num_threads,
+                                                       const std::string& isa = {});
 
 }  // namespace railcast
