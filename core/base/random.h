@@ -17,7 +17,6 @@ enum class RandomUse : std::uint32_t {
   kTreePlacement = 102,
   kGrassPlacement = 103,
   kPlantShape = 104,
-  kMastVariation = 105,
 };
 
 /// Four independent, uniform 32-bit words that depend on the key and on nothing else.

@@ -22,6 +22,7 @@
 #include "core/rail/land/vegetation.h"
 #include "core/rail/line/track_path.h"
 #include "core/rail/objects/object_models.h"
+#include "core/rail/standing_height.h"
 #include "core/rail/track/track_structure.h"
 #include "core/rail/world_check.h"
 #include "core/scene/shapes.h"
@@ -59,7 +60,7 @@ bool FollowsTrack(const ObjectSpec& object) {
 }
 
 TrackPose PoseOf(const ObjectSpec& object, const WorldSpec& world) {
-  return {FindTrack(world, object.track)->offset_m + object.d_m, object.h_m,
+  return {FindTrack(world, object.track)->offset_m + object.d_m, object.h_m.value_or(0.0),
           RadFromDeg(object.heading_deg), !FollowsTrack(object)};
 }
 
@@ -125,6 +126,11 @@ SceneObject MakeEgo(const VehicleSpec& vehicle, const TrackPath& path, const Tab
           .is_ego = true};
 }
 
+Eigen::AlignedBox2d FootprintOf(const Model& model) {
+  const Eigen::AlignedBox3d bounds_m = model.Bounds();
+  return {bounds_m.min().head<2>(), bounds_m.max().head<2>()};
+}
+
 }  // namespace
 
 struct RailWorld::Parts {
@@ -137,6 +143,14 @@ struct RailWorld::Parts {
   InfrastructureModels infrastructure;
   PlantModels plants;
   std::vector<SceneObject> objects;
+  /// By object: what it covers of the ground it stands on; empty where its height is given.
+  std::vector<std::optional<Eigen::AlignedBox2d>> footprints_m;
+
+  /// With `chunk_from_world` the identity, builders work in world coordinates.
+  [[nodiscard]] ChunkContext ContextOf(int chunk, const Transform& chunk_from_world) const {
+    return {world, ways.alignment,      surfaces,          seed,
+            chunk, grid.BeginOf(chunk), grid.EndOf(chunk), chunk_from_world};
+  }
 };
 
 RailWorld::RailWorld(const WorldSpec& world,
@@ -162,14 +176,19 @@ RailWorld::RailWorld(const WorldSpec& world,
     objects.push_back(MakeEgo(vehicle, ways.vehicle, tables));
     ways.objects.push_back(ways.vehicle);
   }
+  std::vector<std::optional<Eigen::AlignedBox2d>> footprints_m;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     objects[i].instance = static_cast<std::uint32_t>(i + 1);
+    const bool stands_on_ground =
+        !objects[i].is_ego && !world.objects[i].h_m && !FollowsTrack(world.objects[i]);
+    footprints_m.push_back(stands_on_ground ? std::optional(FootprintOf(*objects[i].model))
+                                            : std::nullopt);
   }
   ChunkGrid grid(ways.alignment, kChunkLength_m, world.terrain.half_width_m);
   parts_ = std::make_unique<const Parts>(
       Parts{world, seed, surfaces, std::move(ways), std::move(grid), std::move(*catenary_plan),
             MakeInfrastructureModels(world, surfaces), MakePlantModels(surfaces, seed),
-            std::move(objects)});
+            std::move(objects), std::move(footprints_m)});
 }
 
 RailWorld::~RailWorld() = default;
@@ -196,14 +215,8 @@ Transform RailWorld::WorldFromChunk(int chunk) const {
 }
 
 Chunk RailWorld::BuildChunk(int chunk) const {
-  const ChunkContext context{parts_->world,
-                             parts_->ways.alignment,
-                             parts_->surfaces,
-                             parts_->seed,
-                             chunk,
-                             parts_->grid.BeginOf(chunk),
-                             parts_->grid.EndOf(chunk),
-                             parts_->grid.WorldFromChunk(chunk).inverse()};
+  const ChunkContext context =
+      parts_->ContextOf(chunk, parts_->grid.WorldFromChunk(chunk).inverse());
   Chunk built;
   built.ground.name = "chunk " + std::to_string(chunk);
   AddTerrain(context, built);
@@ -218,7 +231,16 @@ const std::vector<SceneObject>& RailWorld::objects() const {
 }
 
 Transform RailWorld::WorldFromObject(std::size_t object, std::int64_t time_ns) const {
-  return parts_->ways.objects.at(object).WorldFromObject(parts_->ways.alignment, time_ns);
+  const TrackPath& path = parts_->ways.objects.at(object);
+  Transform world_from_object = path.WorldFromObject(parts_->ways.alignment, time_ns);
+  if (const auto& area_m = parts_->footprints_m[object]) {
+    const double s_m = path.ChainageAt(time_ns);
+    const Footprint footprint{s_m, path.pose().d_m, path.pose().heading_rad, *area_m};
+    const int chunk = parts_->grid.ChunkAt(s_m);
+    world_from_object.translation().z() =
+        StandingHeight_m(parts_->ContextOf(chunk, Transform::Identity()), footprint);
+  }
+  return world_from_object;
 }
 
 }  // namespace railcast

@@ -64,9 +64,11 @@ struct ObjectSpec {
   std::string name;  ///< Unique.
   std::string type;  ///< "box", "pole", "person", "open_wagon", "flat_wagon", "tank_wagon", "mesh".
   std::string track = "main";
-  double s_m{};          ///< Chainage of the object's middle (at time 0 where it moves).
-  double d_m{};          ///< Left of the track's axis.
-  double h_m{};          ///< Above top of rail.
+  double s_m{};  ///< Chainage of the object's middle (at time 0 where it moves).
+  double d_m{};  ///< Left of the track's axis.
+  /// Of its foot, above top of rail. Absent: wagons stand on the rails, all else on the ground or
+  /// the ballast below it.
+  std::optional<double> h_m;
   double heading_deg{};  ///< Turned left against the direction of the chainage.
   /// Length, width, height: required for "box"; diameter, diameter, height for "pole"; for "person"
   /// and "mesh" scales to this height or size where given. Wagons have their own.

@@ -89,7 +89,9 @@ void Describe(Archive& a, ObjectSpec& s) {
   a.Optional("track", s.track, "The track whose coordinates it is placed in.");
   a.Required("s_m", s.s_m, "Chainage of its middle, at time 0 where it moves.");
   a.Optional("d_m", s.d_m, "Left of the track's axis.", Within(-1000, 1000));
-  a.Optional("h_m", s.h_m, "Above top of rail.", Within(-1000, 1000));
+  a.Optional("h_m", s.h_m,
+             "Above top of rail; absent: wagons stand on the rails, all else on the ground.",
+             Within(-1000, 1000));
   a.Optional("heading_deg", s.heading_deg, "Turned left against the chainage's direction.");
   a.Optional("size_m", s.size_m,
              "Length, width, height. Required for box and pole; scales a person or mesh.",

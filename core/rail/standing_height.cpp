@@ -1,0 +1,42 @@
+#include "core/rail/standing_height.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/rail/land/terrain.h"
+#include "core/rail/track/cross_section.h"
+
+namespace railcast {
+namespace {
+
+double SurfaceHeight_m(const ChunkContext& context, double s_m, double d_m) {
+  const CrossSection section(context, s_m);
+  Vector3 surface = GroundPoint(context, s_m, d_m);
+  const double ballast_m = section.BallastHeight_m(d_m);
+  if (std::isfinite(ballast_m)) {
+    const Vector3 ballast = section.PointAt(d_m, ballast_m);
+    if (ballast.z() > surface.z()) surface = ballast;
+  }
+  return (context.chunk_from_world.inverse() * surface).z();
+}
+
+}  // namespace
+
+double StandingHeight_m(const ChunkContext& context, const Footprint& footprint) {
+  const Eigen::Rotation2Dd turn(footprint.heading_rad);
+  double lowest_m = std::numeric_limits<double>::infinity();
+  const auto stand_at = [&](const Eigen::Vector2d& point_m) {
+    const Eigen::Vector2d offset_m = turn * point_m;
+    lowest_m = std::min(lowest_m, SurfaceHeight_m(context, footprint.s_m + offset_m.x(),
+                                                  footprint.d_m + offset_m.y()));
+  };
+  stand_at(footprint.area_m.center());
+  for (const auto corner : {Eigen::AlignedBox2d::BottomLeft, Eigen::AlignedBox2d::BottomRight,
+                            Eigen::AlignedBox2d::TopLeft, Eigen::AlignedBox2d::TopRight}) {
+    stand_at(footprint.area_m.corner(corner));
+  }
+  return lowest_m;
+}
+
+}  // namespace railcast
