@@ -228,7 +228,6 @@ TEST(WindowSource, MayBeAskedByManyThreadsAtOnce) {
     }
   };
   std::vector<std::thread> threads;
-  threads.reserve(4);
   for (int first = 0; first < 4; ++first) threads.emplace_back(ask, first);
   for (std::thread& thread : threads) thread.join();
 }
