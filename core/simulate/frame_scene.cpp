@@ -62,10 +62,19 @@ FrameScene FrameScenes::At(std::uint32_t index, std::int64_t stamp_ns) {
   std::shared_ptr<const Window> window = windows_.Get(home_chunk);
   PrepareNextWindow(stamp_ns, home_chunk);
   std::unique_ptr<const TraceScene> moving = MovingScene(stamp_ns, *window);
-  FramePoses poses(spec_.duration_ns, [&](std::uint32_t time_ns) {
-    return window->window_from_world * WorldFromSensor(stamp_ns + time_ns);
+  FrameScene scene;
+  scene.index = index;
+  scene.stamp_ns = stamp_ns;
+  scene.poses = PosesIn(window->window_from_world, stamp_ns);
+  scene.window = std::move(window);
+  scene.moving = std::move(moving);
+  return scene;
+}
+
+FramePoses FrameScenes::PosesIn(const Transform& window_from_world, std::int64_t stamp_ns) const {
+  return FramePoses(spec_.duration_ns, [&](std::uint32_t time_ns) {
+    return window_from_world * WorldFromSensor(stamp_ns + time_ns);
   });
-  return {index, stamp_ns, std::move(window), std::move(moving), std::move(poses)};
 }
 
 TracePlacement FrameScenes::Place(std::size_t object,

@@ -15,14 +15,14 @@
 namespace railcast {
 
 /// What the rays of one frame come from and are cast into.
-struct FrameScene {
+struct FrameScene final : public RayCaster {
   std::uint32_t index{};
   std::int64_t stamp_ns{};
   std::shared_ptr<const Window> window;      ///< What stands.
   std::unique_ptr<const TraceScene> moving;  ///< What moves; null if nothing does within reach.
   FramePoses poses;                          ///< Of the sensor, in the window.
 
-  void Cast(RayTile& rays) const;
+  void Cast(RayTile& rays) const override;
   void CastRanges(RayTile& rays) const;
 };
 
@@ -43,6 +43,9 @@ class FrameScenes {
 
   /// Waits for the window where it is not ready, and has the next one prepared.
   [[nodiscard]] FrameScene At(std::uint32_t index, std::int64_t stamp_ns);
+
+  /// The sensor's poses during a frame, in any window.
+  [[nodiscard]] FramePoses PosesIn(const Transform& window_from_world, std::int64_t stamp_ns) const;
 
   /// An object of world().objects() where it is in a frame, and nothing else.
   struct LoneObject {
