@@ -28,6 +28,7 @@ bool IsSame(T a, T b) {
   if constexpr (std::is_floating_point_v<T>) {
     if (std::isnan(a) && std::isnan(b)) return true;
   }
+  // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): -0 is not 0 here.
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 

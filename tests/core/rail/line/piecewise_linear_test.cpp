@@ -12,7 +12,7 @@ PiecewiseLinear Example() {
   return {{{0.0, 1.0, 1.0}, {10.0, 3.0, 1.0}, {30.0, 1.0, 1.0}}, 40.0};
 }
 
-PiecewiseLinear Steps(std::vector<std::pair<double, double>> steps, double end_s_m) {
+PiecewiseLinear Steps(const std::vector<std::pair<double, double>>& steps, double end_s_m) {
   std::vector<LinearPiece> pieces;
   for (const auto& [s_m, value] : steps) pieces.push_back({s_m, value, value});
   return {std::move(pieces), end_s_m};
