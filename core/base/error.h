@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 #include <string>
+#include <unordered_set>
+#include <utility>
 #include <vector>
 
 namespace railcast {
@@ -15,10 +17,12 @@ class InputError : public std::runtime_error {
   explicit InputError(const std::string& lines) : std::runtime_error(lines) {}
 };
 
-/// Gathers faults so that a file's errors are reported all at once.
+/// Gathers faults so that a file's errors are reported all at once, each of them once.
 class ErrorList {
  public:
-  void Add(std::string line) { lines_.push_back(std::move(line)); }
+  void Add(std::string line) {
+    if (seen_.insert(line).second) lines_.push_back(std::move(line));
+  }
 
   [[nodiscard]] bool empty() const { return lines_.empty(); }
   [[nodiscard]] const std::vector<std::string>& lines() const { return lines_; }
@@ -28,6 +32,7 @@ class ErrorList {
 
  private:
   std::vector<std::string> lines_;
+  std::unordered_set<std::string> seen_;
 };
 
 /// Aborts with the place if an assumption of ours (never of the user's) is broken. Always on.

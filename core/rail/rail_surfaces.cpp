@@ -2,11 +2,15 @@
 
 #include <string_view>
 
-namespace railcast {
+#include "core/base/attempt.h"
 
+namespace railcast {
 RailSurfaces::RailSurfaces(const LabelTable& labels, const MaterialLibrary& materials) {
+  ErrorList errors;
   const auto surface = [&](std::string_view material, std::string_view label) {
-    return SurfaceClass{materials.Index(material), labels.Id(label)};
+    const auto index = Attempt("", errors, [&] { return materials.Index(material); });
+    const auto id = Attempt("", errors, [&] { return labels.Id(label); });
+    return SurfaceClass{index.value_or(0), id.value_or(0)};
   };
   rail_head = surface("rail_head", "rail");
   rail_side = surface("rail_side", "rail");
@@ -32,6 +36,7 @@ RailSurfaces::RailSurfaces(const LabelTable& labels, const MaterialLibrary& mate
   clothing = surface("clothing", "person");
   pole = surface("galvanised_steel", "pole");
   box = surface("grey_paint", "object");
+  errors.ThrowIfAny();
 }
 
 }  // namespace railcast

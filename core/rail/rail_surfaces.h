@@ -22,7 +22,9 @@ struct RailSurfaces {
   SurfaceClass wagon_body, wagon_frame, wheel, tank;
   SurfaceClass skin, clothing, pole, box;
 
-  /// @throws InputError if the tables lack a name.
+  /// Material and label 0 everywhere, for what is built only to be checked.
+  RailSurfaces() = default;
+  /// @throws InputError with a line for every name that the tables lack.
   RailSurfaces(const LabelTable& labels, const MaterialLibrary& materials);
 };
 

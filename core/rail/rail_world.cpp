@@ -2,17 +2,12 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
-#include <numbers>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "core/base/error.h"
-#include "core/base/units.h"
 #include "core/rail/catenary/catenary.h"
 #include "core/rail/catenary/catenary_plan.h"
 #include "core/rail/chunk_context.h"
@@ -21,10 +16,9 @@
 #include "core/rail/land/terrain.h"
 #include "core/rail/land/vegetation.h"
 #include "core/rail/line/track_path.h"
-#include "core/rail/objects/object_models.h"
 #include "core/rail/standing_height.h"
 #include "core/rail/track/track_structure.h"
-#include "core/rail/world_check.h"
+#include "core/rail/world_draft.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {
@@ -40,85 +34,21 @@ struct Ways {
   std::vector<TrackPath> objects;  ///< In the order of RailWorld::objects().
 };
 
-// What `make` returns; or nothing, and the lines of its error with `place` put before them.
-template <typename Make>
-auto Attempt(const std::string& place, ErrorList& errors, Make make)
-    -> std::optional<decltype(make())> {
-  try {
-    return make();
-  } catch (const InputError& error) {
-    std::istringstream lines(error.what());
-    for (std::string line; std::getline(lines, line);) errors.Add(place + line);
-    return std::nullopt;
-  }
+bool StandsOnGround(const ObjectSpec& object) {
+  return !object.h_m && !object.type.ends_with("_wagon");
 }
 
-bool FollowsTrack(const ObjectSpec& object) {
-  return object.type == "open_wagon" || object.type == "flat_wagon" || object.type == "tank_wagon";
-}
-
-TrackPose PoseOf(const ObjectSpec& object, const WorldSpec& world) {
-  return {FindTrack(world, object.track)->offset_m + object.d_m, object.h_m.value_or(0.0),
-          RadFromDeg(object.heading_deg), !FollowsTrack(object)};
-}
-
-// All faults of the line, the places on it and the speed profiles are reported together.
-Ways MakeWays(const WorldSpec& world, const VehicleSpec& vehicle) {
-  ErrorList errors;
-  const auto alignment =
-      Attempt("/world/alignment", errors, [&] { return Alignment(world.alignment); });
-  // Without a line there is nothing to be beyond of.
-  constexpr double kEndless_m = std::numeric_limits<double>::infinity();
-  const LineMeasures line =
-      alignment ? LineMeasures{alignment->length_m(), alignment->tightest_radius_m()}
-                : LineMeasures{kEndless_m, kEndless_m};
-  CheckWorld(world, vehicle, line, errors);
-  const auto vehicle_profile = Attempt(
-      "/vehicle/motion", errors, [&] { return SpeedProfile(vehicle.motion, vehicle.start_s_m); });
-  std::vector<std::optional<SpeedProfile>> profiles;
-  for (std::size_t i = 0; i < world.objects.size(); ++i) {
-    const ObjectSpec& object = world.objects[i];
-    profiles.push_back(Attempt("/world/objects/" + std::to_string(i) + "/motion", errors, [&] {
-      return SpeedProfile(object.motion.value_or(MotionSpec{}), object.s_m);
-    }));
-  }
-  errors.ThrowIfAny();
-
-  // A vehicle looks where it goes.
-  const double heading_rad = vehicle.motion.reverse ? std::numbers::pi : 0.0;
-  const TrackPose pose{FindTrack(world, vehicle.track)->offset_m, 0.0, heading_rad, false};
-  Ways ways{*alignment, TrackPath(pose, *vehicle_profile), {}};
-  for (std::size_t i = 0; i < world.objects.size(); ++i) {
-    ways.objects.emplace_back(PoseOf(world.objects[i], world), *profiles[i]);
-  }
-  return ways;
-}
-
-/// What a scenario's objects are made from.
-struct Tables {
-  const RailSurfaces& surfaces;
-  const LabelTable& labels;
-  const MaterialLibrary& materials;
-};
-
-SceneObject MakeObject(const ObjectSpec& spec, const TrackPath& path, const Tables& tables) {
-  return {.name = spec.name,
-          .type = spec.type,
-          .label = ObjectLabel(spec, tables.surfaces, tables.labels),
-          .model = MakeObjectModel(spec, tables.surfaces, tables.labels, tables.materials),
-          .moves = path.moves()};
-}
-
-SceneObject MakeEgo(const VehicleSpec& vehicle, const TrackPath& path, const Tables& tables) {
-  const std::uint32_t label = tables.labels.Id("ego");
-  Model model{"ego", {{{}, tables.surfaces.box.material, label}}};
+SceneObject MakeEgo(const VehicleSpec& vehicle,
+                    const TrackPath& path,
+                    const SurfaceClass& surface) {
+  Model model{"ego", {{{}, surface.material, surface.label}}};
   for (const std::array<double, 6>& box : vehicle.ego_boxes_m) {
     model.parts.front().mesh.Append(
         MakeBox({Vector3(box[0], box[1], box[2]), Vector3(box[3], box[4], box[5])}));
   }
   return {.name = "ego",
           .type = "ego",
-          .label = label,
+          .label = surface.label,
           .model = std::make_shared<const Model>(std::move(model)),
           .moves = path.moves(),
           .is_ego = true};
@@ -156,37 +86,29 @@ RailWorld::RailWorld(const WorldSpec& world,
                      const LabelTable& labels,
                      const MaterialLibrary& materials,
                      std::uint64_t seed) {
-  Ways ways = MakeWays(world, vehicle);
-  const RailSurfaces surfaces(labels, materials);
-  const Tables tables{surfaces, labels, materials};
-  ErrorList errors;
-  std::vector<SceneObject> objects;
-  for (std::size_t i = 0; i < world.objects.size(); ++i) {
-    auto object = Attempt("/world/objects/" + std::to_string(i) + ": ", errors,
-                          [&] { return MakeObject(world.objects[i], ways.objects[i], tables); });
-    if (object) objects.push_back(std::move(*object));
-  }
-  auto catenary_plan =
-      Attempt("/world", errors, [&] { return CatenaryPlan(world, ways.alignment); });
-  errors.ThrowIfAny();
+  WorldFaults faults;
+  WorldDraft draft = DraftWorld({world, vehicle, labels, materials}, faults);
+  faults.errors.ThrowIfAny();
 
+  const RailSurfaces surfaces = *draft.surfaces;
+  Ways ways{*draft.alignment, *draft.vehicle_path, std::move(draft.object_paths)};
+  std::vector<SceneObject> objects = std::move(draft.objects);
   if (!vehicle.ego_boxes_m.empty()) {
-    objects.push_back(MakeEgo(vehicle, ways.vehicle, tables));
+    objects.push_back(MakeEgo(vehicle, ways.vehicle, {surfaces.box.material, labels.Id("ego")}));
     ways.objects.push_back(ways.vehicle);
   }
   std::vector<std::optional<Eigen::AlignedBox2d>> footprints_m;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     objects[i].instance = static_cast<std::uint32_t>(i + 1);
-    const bool stands_on_ground =
-        !objects[i].is_ego && !world.objects[i].h_m && !FollowsTrack(world.objects[i]);
+    const bool stands_on_ground = !objects[i].is_ego && StandsOnGround(world.objects[i]);
     footprints_m.push_back(stands_on_ground ? std::optional(FootprintOf(*objects[i].model))
                                             : std::nullopt);
   }
   ChunkGrid grid(ways.alignment, kChunkLength_m, world.terrain.half_width_m);
   parts_ = std::make_unique<const Parts>(
-      Parts{world, seed, surfaces, std::move(ways), std::move(grid), std::move(*catenary_plan),
-            MakeInfrastructureModels(world, surfaces), MakePlantModels(surfaces, seed),
-            std::move(objects), std::move(footprints_m)});
+      Parts{world, seed, surfaces, std::move(ways), std::move(grid),
+            std::move(*draft.catenary_plan), MakeInfrastructureModels(world, surfaces),
+            MakePlantModels(surfaces, seed), std::move(objects), std::move(footprints_m)});
 }
 
 RailWorld::~RailWorld() = default;

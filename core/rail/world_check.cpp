@@ -22,27 +22,64 @@ std::string Item(const char* list, std::size_t index) {
   return list + std::to_string(index);
 }
 
+constexpr const char* kHalfWidth = "/world/terrain/half_width_m";
+
+std::string PointerOf(const TrackSpec& track, const WorldSpec& world) {
+  return Item("/world/tracks/", static_cast<std::size_t>(&track - world.tracks.data()));
+}
+
+// "from 0 to 1000 m".
+std::string Stretch(double begin_s_m, double end_s_m) {
+  return "from " + NumberText(begin_s_m) +
+         (std::isinf(end_s_m) ? " m on" : " to " + NumberText(end_s_m) + " m");
+}
+
 void CheckTrack(const WorldSpec& world,
                 std::size_t index,
                 const LineMeasures& line,
-                ErrorList& errors) {
+                WorldFaults& faults) {
   const TrackSpec& track = world.tracks[index];
   const std::string place = Item("/world/tracks/", index);
-  if (FindTrack(world, track.name) != &track) {
-    errors.Add(place + "/name: must be unique (got " + Quoted(track.name) + ")");
+  if (faults.AreKnown({place + "/name"}) && FindTrack(world, track.name) != &track) {
+    faults.Add(place + "/name", "must be unique (got " + Quoted(track.name) + ")");
   }
-  if (!(std::abs(track.offset_m) < world.terrain.half_width_m)) {
-    errors.Add(place + "/offset_m: must lie within the ground's half width of " +
-               NumberText(world.terrain.half_width_m) + " m" + Got(track.offset_m));
+  if (faults.AreKnown({place + "/offset_m", kHalfWidth}) &&
+      !(std::abs(track.offset_m) < world.terrain.half_width_m)) {
+    faults.Add(place + "/offset_m", "must lie within the ground's half width of " +
+                                        NumberText(world.terrain.half_width_m) + " m" +
+                                        Got(track.offset_m));
   }
+  if (!faults.AreKnown({place + "/start_s_m", place + "/end_s_m"})) return;
   if (!(track.start_s_m >= 0.0 && track.start_s_m < line.length_m)) {
-    errors.Add(place + "/start_s_m: must be >= 0 and less than the line's length of " +
-               NumberText(line.length_m) + " m" + Got(track.start_s_m));
+    faults.Add(place + "/start_s_m", "must be >= 0 and less than the line's length of " +
+                                         NumberText(line.length_m) + " m" + Got(track.start_s_m));
   }
   if (track.end_s_m && !(*track.end_s_m > track.start_s_m && *track.end_s_m <= line.length_m)) {
-    errors.Add(place +
-               "/end_s_m: must be greater than start_s_m and at most the line's length of " +
-               NumberText(line.length_m) + " m" + Got(*track.end_s_m));
+    faults.Add(place + "/end_s_m",
+               "must be greater than start_s_m and at most the line's length of " +
+                   NumberText(line.length_m) + " m" + Got(*track.end_s_m));
+  }
+}
+
+// A track's distance from those before it in the list.
+void CheckDistance(const WorldSpec& world,
+                   std::size_t index,
+                   const LineMeasures& line,
+                   WorldFaults& faults) {
+  const TrackSpec& track = world.tracks[index];
+  const std::string place = Item("/world/tracks/", index);
+  for (std::size_t i = 0; i < index; ++i) {
+    const TrackSpec& other = world.tracks[i];
+    if (!faults.AreKnown({place, Item("/world/tracks/", i)})) continue;
+    const double begin_s_m = std::max(track.start_s_m, other.start_s_m);
+    const double end_s_m =
+        std::min(track.end_s_m.value_or(line.length_m), other.end_s_m.value_or(line.length_m));
+    if (!(begin_s_m < end_s_m)) continue;
+    if (std::abs(track.offset_m - other.offset_m) >= kLeastTrackDistance_m) continue;
+    faults.Add(place + "/offset_m", "must be at least " + NumberText(kLeastTrackDistance_m) +
+                                        " m from track " + Quoted(other.name) + " at " +
+                                        NumberText(other.offset_m) + " m, beside which it runs " +
+                                        Stretch(begin_s_m, end_s_m) + Got(track.offset_m));
   }
 }
 
@@ -54,24 +91,36 @@ struct TrackPlace {
   double s_m{};
 };
 
+bool AreNamesKnown(const WorldSpec& world, const WorldFaults& faults) {
+  for (std::size_t i = 0; i < world.tracks.size(); ++i) {
+    if (!faults.AreKnown({Item("/world/tracks/", i) + "/name"})) return false;
+  }
+  return true;
+}
+
+// @return The track, if it is known.
 const TrackSpec* CheckPlace(const WorldSpec& world,
                             const TrackPlace& place,
                             const LineMeasures& line,
-                            ErrorList& errors) {
+                            WorldFaults& faults) {
+  if (!faults.AreKnown({place.track_pointer})) return nullptr;
   const TrackSpec* track = FindTrack(world, place.track);
   if (track == nullptr) {
+    if (!AreNamesKnown(world, faults)) return nullptr;
     std::string names;
     for (const TrackSpec& known : world.tracks) {
       names += (names.empty() ? "" : ", ") + Quoted(known.name);
     }
-    errors.Add(place.track_pointer + ": must be one of " + names + " (got " + Quoted(place.track) +
-               ")");
+    faults.Add(place.track_pointer,
+               "must be one of " + names + " (got " + Quoted(place.track) + ")");
     return nullptr;
   }
+  const std::string pointer = PointerOf(*track, world);
   const double end_s_m = track->end_s_m.value_or(line.length_m);
-  if (!(place.s_m >= track->start_s_m && place.s_m <= end_s_m)) {
-    errors.Add(place.chainage_pointer + ": must lie on track " + Quoted(track->name) + ", from " +
-               NumberText(track->start_s_m) + " to " + NumberText(end_s_m) + " m" + Got(place.s_m));
+  if (faults.AreKnown({place.chainage_pointer, pointer + "/start_s_m", pointer + "/end_s_m"}) &&
+      !(place.s_m >= track->start_s_m && place.s_m <= end_s_m)) {
+    faults.Add(place.chainage_pointer, "must lie on track " + Quoted(track->name) + ", " +
+                                           Stretch(track->start_s_m, end_s_m) + Got(place.s_m));
   }
   return track;
 }
@@ -79,47 +128,63 @@ const TrackSpec* CheckPlace(const WorldSpec& world,
 void CheckObject(const WorldSpec& world,
                  std::size_t index,
                  const LineMeasures& line,
-                 ErrorList& errors) {
+                 WorldFaults& faults) {
   const ObjectSpec& object = world.objects[index];
   const std::string pointer = Item("/world/objects/", index);
   const TrackPlace place{pointer + "/track", pointer + "/s_m", object.track, object.s_m};
-  const TrackSpec* track = CheckPlace(world, place, line, errors);
+  const TrackSpec* track = CheckPlace(world, place, line, faults);
   if (track == nullptr) return;
-  const double from_axis_m = std::abs(track->offset_m + object.d_m);
-  if (!(from_axis_m <= world.terrain.half_width_m)) {
-    errors.Add(pointer + "/d_m: must lie within the ground's half width of " +
-               NumberText(world.terrain.half_width_m) + " m" + Got(object.d_m));
+  const double from_axis_m = track->offset_m + object.d_m;
+  if (faults.AreKnown({pointer + "/d_m", PointerOf(*track, world) + "/offset_m", kHalfWidth}) &&
+      !(std::abs(from_axis_m) <= world.terrain.half_width_m)) {
+    faults.Add(pointer + "/d_m", "must put it within the ground's half width of " +
+                                     NumberText(world.terrain.half_width_m) +
+                                     " m (got track offset " + NumberText(track->offset_m) +
+                                     " + d_m " + NumberText(object.d_m) + " = " +
+                                     NumberText(from_axis_m) + ")");
   }
 }
 
-void CheckNames(const WorldSpec& world, ErrorList& errors) {
+void CheckNames(const WorldSpec& world, WorldFaults& faults) {
   // The instance ids from there on are the masts'; one is the vehicle's own.
   constexpr std::size_t kMaxObjects = kFirstMastInstance - 2;
   if (world.objects.size() > kMaxObjects) {
-    errors.Add("/world/objects: must be at most " + std::to_string(kMaxObjects) + " (got " +
-               std::to_string(world.objects.size()) + ")");
+    faults.errors.Add("/world/objects: must be at most " + std::to_string(kMaxObjects) + " (got " +
+                      std::to_string(world.objects.size()) + ")");
   }
   std::set<std::string> names{"ego"};
   for (std::size_t i = 0; i < world.objects.size(); ++i) {
     const std::string& name = world.objects[i].name;
-    if (!names.insert(name).second) {
-      errors.Add(Item("/world/objects/", i) + "/name: must be unique" +
-                 (name == "ego" ? ", and ego is the vehicle itself" : "") + " (got " +
-                 Quoted(name) + ")");
+    const std::string pointer = Item("/world/objects/", i) + "/name";
+    if (!faults.AreKnown({pointer}) || names.insert(name).second) continue;
+    faults.Add(pointer, std::string("must be unique") +
+                            (name == "ego" ? ", and ego is the vehicle itself" : "") + " (got " +
+                            Quoted(name) + ")");
+  }
+}
+
+void CheckEgoBoxes(const VehicleSpec& vehicle, WorldFaults& faults) {
+  for (std::size_t i = 0; i < vehicle.ego_boxes_m.size(); ++i) {
+    const std::array<double, 6>& box = vehicle.ego_boxes_m[i];
+    const std::string pointer = Item("/vehicle/ego_boxes_m/", i) + "/";
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::string least = pointer + std::to_string(axis);
+      const std::string most = pointer + std::to_string(axis + 3);
+      if (!faults.AreKnown({least, most}) || box[axis] < box[axis + 3]) continue;
+      faults.Add(most, "must be greater than the box's least of " + NumberText(box[axis]) +
+                           Got(box[axis + 3]));
     }
   }
 }
 
-void CheckEgoBoxes(const VehicleSpec& vehicle, ErrorList& errors) {
-  for (std::size_t i = 0; i < vehicle.ego_boxes_m.size(); ++i) {
-    const std::array<double, 6>& box = vehicle.ego_boxes_m[i];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (!(box[axis] < box[axis + 3])) {
-        errors.Add(Item("/vehicle/ego_boxes_m/", i) + "/" + std::to_string(axis + 3) +
-                   ": must be greater than the box's least of " + NumberText(box[axis]) +
-                   Got(box[axis + 3]));
-      }
-    }
+void CheckHalfWidth(const WorldSpec& world, const LineMeasures& line, WorldFaults& faults) {
+  const double half_width_m = world.terrain.half_width_m;
+  if (!faults.AreKnown({kHalfWidth})) return;
+  if (!(half_width_m > 0.0)) {
+    faults.Add(kHalfWidth, "must be > 0" + Got(half_width_m));
+  } else if (!(half_width_m < line.tightest_radius_m)) {
+    faults.Add(kHalfWidth, "must be less than the line's tightest radius of " +
+                               NumberText(line.tightest_radius_m) + " m" + Got(half_width_m));
   }
 }
 
@@ -134,24 +199,19 @@ const TrackSpec* FindTrack(const WorldSpec& world, const std::string& name) {
 void CheckWorld(const WorldSpec& world,
                 const VehicleSpec& vehicle,
                 const LineMeasures& line,
-                ErrorList& errors) {
-  const double half_width_m = world.terrain.half_width_m;
-  if (!(half_width_m > 0.0)) {
-    errors.Add("/world/terrain/half_width_m: must be > 0" + Got(half_width_m));
-  } else if (!(half_width_m < line.tightest_radius_m)) {
-    errors.Add("/world/terrain/half_width_m: must be less than the line's tightest radius of " +
-               NumberText(line.tightest_radius_m) + " m" + Got(half_width_m));
-  }
+                WorldFaults& faults) {
+  CheckHalfWidth(world, line, faults);
   if (world.tracks.empty()) {
-    errors.Add("/world/tracks: must have at least one track (got none)");
+    faults.Add("/world/tracks", "must have at least one track (got none)");
     return;  // Everything below would complain about its track.
   }
-  for (std::size_t i = 0; i < world.tracks.size(); ++i) CheckTrack(world, i, line, errors);
-  for (std::size_t i = 0; i < world.objects.size(); ++i) CheckObject(world, i, line, errors);
-  CheckNames(world, errors);
+  for (std::size_t i = 0; i < world.tracks.size(); ++i) CheckTrack(world, i, line, faults);
+  for (std::size_t i = 1; i < world.tracks.size(); ++i) CheckDistance(world, i, line, faults);
+  for (std::size_t i = 0; i < world.objects.size(); ++i) CheckObject(world, i, line, faults);
+  CheckNames(world, faults);
   CheckPlace(world, {"/vehicle/track", "/vehicle/start_s_m", vehicle.track, vehicle.start_s_m},
-             line, errors);
-  CheckEgoBoxes(vehicle, errors);
+             line, faults);
+  CheckEgoBoxes(vehicle, faults);
 }
 
 }  // namespace railcast

@@ -1,9 +1,12 @@
-#include <sstream>
+#include <optional>
+#include <utility>
 
-#include "core/base/error.h"
+#include "core/base/attempt.h"
 #include "core/base/units.h"
 #include "core/rail/rail_world.h"
+#include "core/rail/world_draft.h"
 #include "core/scan/scan_pattern.h"
+#include "core/scenario/build_faults.h"
 #include "core/scenario/scenario.h"
 
 namespace railcast {
@@ -12,22 +15,22 @@ namespace {
 // Builds something from the spec that stands at `pointer` of the scenario, and lets its faults name
 // the file that the spec was read from.
 template <class Builder>
-auto Located(const ScenarioSpec& spec, std::string_view pointer, const Builder& build) {
-  try {
-    return build();
-  } catch (const InputError& error) {
-    ErrorList located;
-    std::istringstream lines(error.what());
-    for (std::string line; std::getline(lines, line);) {
-      located.Add(spec.sources.Locate(line, pointer));
-    }
-    located.ThrowIfAny();
-    throw;
-  }
+auto Located(const ScenarioSpec& spec,
+             std::string_view pointer,
+             ErrorList& errors,
+             const Builder& build) {
+  ErrorList faults;
+  auto built = Attempt("", faults, build);
+  for (const std::string& line : faults.lines()) errors.Add(spec.sources.Locate(line, pointer));
+  return built;
 }
 
-ScanPattern MakePattern(const ScenarioSpec& spec) {
-  return Located(spec, "/lidar/scan", [&] { return BuildScanPattern(spec.lidar.scan); });
+std::optional<ScanPattern> TryPattern(const ScenarioSpec& spec, ErrorList& errors) {
+  return Located(spec, "/lidar/scan", errors, [&] { return BuildScanPattern(spec.lidar.scan); });
+}
+
+std::optional<std::uint32_t> TrySnowLabel(const ScenarioSpec& spec, ErrorList& errors) {
+  return Located(spec, "", errors, [&] { return LabelTable(spec.labels).Id("snow"); });
 }
 
 Transform VehicleFromSensor(const MountSpec& mount) {
@@ -39,17 +42,43 @@ Transform VehicleFromSensor(const MountSpec& mount) {
 
 }  // namespace
 
-std::shared_ptr<const RailWorld> MakeWorld(const ScenarioSpec& spec) {
+void AddBuildFaults(const ScenarioSpec& spec, const UnknownPlaces& unknown, ErrorList& errors) {
+  if (unknown.IsKnown("/lidar/scan/pattern")) {
+    // Times are 32 bits of nanoseconds: what breaks a rule at this rate does so at every rate.
+    constexpr double kSlowestRate_hz = 1e9 / 4'294'967'295.0;
+    ScenarioSpec known = spec;
+    if (!unknown.IsKnown("/lidar/scan/rate_hz")) known.lidar.scan.rate_hz = kSlowestRate_hz;
+    static_cast<void>(TryPattern(known, errors));
+  }
+  const LabelTable labels(spec.labels);
+  const MaterialLibrary materials(spec.materials);
+  WorldFaults faults{{}, unknown};
+  static_cast<void>(DraftWorld({spec.world, spec.vehicle, labels, materials}, faults));
   // The world has two specs, so its pointers are the scenario's: "/world/..." and "/vehicle/...".
-  return Located(spec, "", [&] {
+  for (const std::string& line : faults.errors.lines()) errors.Add(spec.sources.Locate(line, ""));
+  if (unknown.IsKnown("/labels")) static_cast<void>(TrySnowLabel(spec, errors));
+}
+
+std::shared_ptr<const RailWorld> MakeWorld(const ScenarioSpec& spec) {
+  ErrorList errors;
+  const auto make = [&] {
     return std::make_shared<const RailWorld>(spec.world, spec.vehicle, LabelTable(spec.labels),
                                              MaterialLibrary(spec.materials), spec.world.seed);
-  });
+  };
+  const auto world = Located(spec, "", errors, make);
+  errors.ThrowIfAny();
+  return *world;
 }
 
 std::unique_ptr<Simulator> MakeSimulator(const ScenarioSpec& spec,
                                          int num_threads,
                                          const std::string& isa) {
+  ErrorList errors;
+  auto pattern = TryPattern(spec, errors);
+  const auto world = Attempt("", errors, [&] { return MakeWorld(spec); });
+  const auto snow_label = TrySnowLabel(spec, errors);
+  errors.ThrowIfAny();
+
   SimulatorSpec simulator;
   simulator.seed = spec.seed;
   simulator.range_min_m = spec.lidar.range_min_m;
@@ -60,27 +89,16 @@ std::unique_ptr<Simulator> MakeSimulator(const ScenarioSpec& spec,
   simulator.weather = spec.weather;
   simulator.output = spec.output;
   simulator.isa = isa;
-  simulator.snow_label = LabelTable(spec.labels).Id("snow");
-  return std::make_unique<Simulator>(MakeWorld(spec), MakePattern(spec),
-                                     MaterialLibrary(spec.materials), simulator, num_threads);
+  simulator.snow_label = *snow_label;
+  return std::make_unique<Simulator>(*world, std::move(*pattern), MaterialLibrary(spec.materials),
+                                     simulator, num_threads);
 }
 
 std::vector<std::string> CheckScenario(const std::filesystem::path& file) {
-  std::vector<std::string> faults;
-  const auto gather = [&](const auto& build) {
-    try {
-      build();
-    } catch (const InputError& error) {
-      std::istringstream lines(error.what());
-      for (std::string line; std::getline(lines, line);) faults.push_back(line);
-    }
-  };
-  gather([&] {
-    const ScenarioSpec spec = ReadScenario(file);
-    gather([&] { static_cast<void>(MakePattern(spec)); });
-    gather([&] { static_cast<void>(MakeWorld(spec)); });
-  });
-  return faults;
+  ErrorList errors;
+  const auto spec = Attempt("", errors, [&] { return ReadScenario(file); });
+  if (spec) AddBuildFaults(*spec, {}, errors);
+  return errors.lines();
 }
 
 }  // namespace railcast

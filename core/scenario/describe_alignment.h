@@ -18,8 +18,8 @@ void Describe(Archive& a, CurvatureSection& s) {
   a.Optional("radius_start_m", s.radius_start_m,
              "Left positive, right negative; absent = straight.");
   a.Optional("radius_end_m", s.radius_end_m, "Left positive, right negative; absent = straight.");
-  a.Ensure("radius_start_m", s.radius_start_m != 0.0, "must not be 0");
-  a.Ensure("radius_end_m", s.radius_end_m != 0.0, "must not be 0");
+  a.Ensure({"radius_start_m"}, s.radius_start_m != 0.0, "must not be 0");
+  a.Ensure({"radius_end_m"}, s.radius_end_m != 0.0, "must not be 0");
 }
 
 template <class Archive>
@@ -34,9 +34,10 @@ void Describe(Archive& a, AlignmentElement& s) {
              OneOf({"straight", "clothoid", "arc"}));
   a.Required("length_m", s.length_m, "Length.", Positive());
   a.Optional("radius_m", s.radius_m, "Of an arc only: left positive, right negative.");
-  a.Ensure("radius_m", s.radius_m != 0.0, "must not be 0");
-  a.Ensure("radius_m", s.type != "arc" || s.radius_m.has_value(), "must be given for an arc");
-  a.Ensure("radius_m", s.type == "arc" || !s.radius_m, "must be given for an arc only");
+  a.Ensure({"radius_m"}, s.radius_m != 0.0, "must not be 0");
+  a.Ensure({"radius_m", "type"}, s.type != "arc" || s.radius_m.has_value(),
+           "must be given for an arc");
+  a.Ensure({"radius_m", "type"}, s.type == "arc" || !s.radius_m, "must be given for an arc only");
 }
 
 template <class Archive>

@@ -55,7 +55,8 @@ void Describe(Archive& a, ScanSpec& s) {
 
 template <class Archive>
 void Describe(Archive& a, MountSpec& s) {
-  a.Optional("position_m", s.position_m, "In the vehicle frame: forward, left, up.");
+  a.Optional("position_m", s.position_m, "In the vehicle frame: forward, left, up.",
+             Within(-50, 50));
   a.Optional("yaw_deg", s.yaw_deg, "Left positive.");
   a.Optional("pitch_deg", s.pitch_deg, "Nose down positive.");
   a.Optional("roll_deg", s.roll_deg, "Right side down positive.");
@@ -84,7 +85,7 @@ void Describe(Archive& a, LidarSpec& s) {
   a.Optional("range_max_m", s.range_max_m, "Farther things give no point.", PositiveUpTo(10'000));
   a.Optional("mount", s.mount, "Where the sensor sits on the vehicle.");
   a.Optional("plausibility", s.plausibility, "Parameters of the published model.");
-  a.Ensure("range_min_m", s.range_min_m < s.range_max_m, "must be < range_max_m");
+  a.Ensure({"range_min_m", "range_max_m"}, s.range_min_m < s.range_max_m, "must be < range_max_m");
 }
 
 }  // namespace railcast

@@ -19,7 +19,8 @@ namespace railcast {
 // - RequiredLibrary(key, list, meaning): a list, or a file that holds it under the same key
 // - Opaque(key, text, meaning): any object, kept as text
 // - Switches(key, map, meaning, names): an object of flags
-// - Ensure(key, holds, rule): a rule across fields, about the value of `key`
+// - Ensure(keys, holds, rule): a rule across the fields of `keys`, about the value of the first,
+//   or about the whole object where that is ""
 // - Unique(list_key, list, key, member): the list's elements differ in a member
 //
 // A value may be a bool, an unsigned integer, a double, a string, an array, a vector, an optional,
@@ -49,7 +50,7 @@ void Describe(Archive& a, Material& s) {
   a.Required("name", s.name, "Unique.", NonEmptyString());
   a.Required("reflectivity", s.reflectivity, "Diffuse, at 905 nm; 1 = white Lambertian.",
              Within(0, 100));
-  a.Ensure("name", s.name != "none", "must not be \"none\": that is the material of nothing");
+  a.Ensure({"name"}, s.name != "none", "must not be \"none\": that is the material of nothing");
 }
 
 template <class Archive>

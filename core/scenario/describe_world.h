@@ -16,7 +16,7 @@ void Describe(Archive& a, TrackSpec& s) {
   a.Optional("end_s_m", s.end_s_m, "Chainage where it ends; absent = the end of the line.");
   a.Optional("sleeper", s.sleeper, "Kind of sleeper.", OneOf({"concrete", "wood"}));
   a.Optional("electrified", s.electrified, "Whether it has a contact line.");
-  a.Ensure("end_s_m", !s.end_s_m || *s.end_s_m > s.start_s_m, "must be > start_s_m");
+  a.Ensure({"end_s_m", "start_s_m"}, !s.end_s_m || *s.end_s_m > s.start_s_m, "must be > start_s_m");
 }
 
 template <class Archive>
@@ -55,10 +55,10 @@ void Describe(Archive& a, VegetationSpec& s) {
              NonNegative());
   a.Optional("grass_max_distance_m", s.grass_max_distance_m, "From the outermost track axis.",
              NonNegative());
-  a.Ensure("tree_height_min_m", s.tree_height_min_m <= s.tree_height_max_m,
+  a.Ensure({"tree_height_min_m", "tree_height_max_m"}, s.tree_height_min_m <= s.tree_height_max_m,
            "must be <= tree_height_max_m");
-  a.Ensure("grass_min_distance_m", s.grass_min_distance_m <= s.grass_max_distance_m,
-           "must be <= grass_max_distance_m");
+  a.Ensure({"grass_min_distance_m", "grass_max_distance_m"},
+           s.grass_min_distance_m <= s.grass_max_distance_m, "must be <= grass_max_distance_m");
 }
 
 template <class Archive>
@@ -66,16 +66,18 @@ void Describe(Archive& a, SpeedPoint& s) {
   a.Optional("time_s", s.time_s, "Simulation time, or ...", NonNegative());
   a.Optional("s_m", s.s_m, "... chainage.");
   a.Required("speed_mps", s.speed_mps, "Speed there.", Within(0, 200));
-  a.Ensure("", s.time_s.has_value() != s.s_m.has_value(), "must have either time_s or s_m");
+  a.Ensure({"", "time_s", "s_m"}, s.time_s.has_value() != s.s_m.has_value(),
+           "must have either time_s or s_m");
 }
 
 template <class Archive>
 void Describe(Archive& a, MotionSpec& s) {
   a.Required("profile", s.profile,
-             "Constant acceleration between the points; all by time or all by chainage.");
+             "Constant acceleration between the points; all by time or all by chainage.",
+             AtLeastElements{1, "; leave motion out to stand still"});
   a.Optional("reverse", s.reverse, "Runs against the chainage.");
   const auto by_time = [](const SpeedPoint& point) { return point.time_s.has_value(); };
-  a.Ensure("profile",
+  a.Ensure({"profile"},
            std::all_of(s.profile.begin(), s.profile.end(), by_time) ||
                std::none_of(s.profile.begin(), s.profile.end(), by_time),
            "must be all by time_s or all by s_m");
@@ -105,12 +107,13 @@ void Describe(Archive& a, ObjectSpec& s) {
 
   const bool has_own_size = s.type.ends_with("_wagon");
   const bool needs_size = s.type == "box" || s.type == "pole";
-  a.Ensure("size_m", s.size_m || !needs_size, "must be given for type \"" + s.type + '"');
-  a.Ensure("size_m", !s.size_m || !has_own_size, "must not be given for type \"" + s.type + '"');
-  a.Ensure("size_m", s.type != "pole" || !s.size_m || (*s.size_m)[0] == (*s.size_m)[1],
+  a.Ensure({"size_m", "type"}, s.size_m || !needs_size, "must be given for type \"" + s.type + '"');
+  a.Ensure({"size_m", "type"}, !s.size_m || !has_own_size,
+           "must not be given for type \"" + s.type + '"');
+  a.Ensure({"size_m", "type"}, s.type != "pole" || !s.size_m || (*s.size_m)[0] == (*s.size_m)[1],
            "must have the same length and width for type \"pole\"");
-  a.Ensure("file", s.file || s.type != "mesh", "must be given for type \"mesh\"");
-  a.Ensure("file", !s.file || s.type == "mesh", "must be given for type \"mesh\" only");
+  a.Ensure({"file", "type"}, s.file || s.type != "mesh", "must be given for type \"mesh\"");
+  a.Ensure({"file", "type"}, !s.file || s.type == "mesh", "must be given for type \"mesh\" only");
 }
 
 template <class Archive>
@@ -130,7 +133,10 @@ template <class Archive>
 void Describe(Archive& a, VehicleSpec& s) {
   a.Optional("track", s.track, "The track that it runs on.");
   a.Optional("start_s_m", s.start_s_m, "Chainage of its origin at time 0.");
-  a.Optional("motion", s.motion, "Along its track; absent = stands.");
+  std::optional<MotionSpec> motion;
+  if (s.motion != MotionSpec{}) motion = s.motion;
+  a.Optional("motion", motion, "Along its track; absent = stands.");
+  if (motion) s.motion = *motion;
   a.Optional("ego_boxes_m", s.ego_boxes_m,
              "Its body in the vehicle frame: min x, y, z, max x, y, z.");
 }

@@ -1,12 +1,11 @@
 #include "core/scenario/json_reader.h"
 
+#include <set>
+
 namespace railcast {
 
-JsonReader::JsonReader(JsonSource& source, Node object, std::vector<Member> members)
-    : source_(source),
-      object_(std::move(object)),
-      members_(std::move(members)),
-      num_faults_before_(source.errors().lines().size()) {}
+JsonReader::JsonReader(JsonSource& source, Node object, MemberList list)
+    : source_(source), object_(std::move(object)), list_(std::move(list)) {}
 
 void JsonReader::Alternative(std::string_view key,
                              double& value,
@@ -27,7 +26,8 @@ void JsonReader::Opaque(std::string_view key, std::optional<std::string>& text, 
   keys_.emplace_back(key);
   const Node* node = Find(key);
   if (node == nullptr) return;
-  const auto root = node->json->is_string() ? source_.FileRoot(*node) : *node;
+  const auto root =
+      node->json->is_string() ? source_.FileRoot(*node, node->resolved_pointer) : *node;
   if (!root) return;
   if (!root->json->is_object()) return source_.Fault(*root, "must be an object");
   text = root->json->dump();
@@ -40,9 +40,9 @@ void JsonReader::Switches(std::string_view key,
   keys_.emplace_back(key);
   const Node* node = Find(key);
   if (node == nullptr) return;
-  auto members = source_.Members(*node);
-  if (!members) return;
-  JsonReader reader(source_, *node, std::move(*members));
+  auto list = source_.Members(*node);
+  if (!list) return;
+  JsonReader reader(source_, *node, std::move(*list));
   for (const std::string& name : names) {
     if (reader.Find(name) != nullptr) reader.Optional(name, switches[name], doc);
   }
@@ -50,26 +50,56 @@ void JsonReader::Switches(std::string_view key,
   reader.Finish();
 }
 
-void JsonReader::Ensure(std::string_view key, bool holds, const std::string& rule) {
-  if (holds || has_faults()) return;
-  if (key.empty()) return source_.FaultWithoutValue(object_, rule);
-  if (const Node* node = Find(key)) return source_.Fault(*node, rule);
-  Node absent = object_;
-  absent.pointer += PointerStep(key);
-  source_.FaultWithoutValue(absent, rule);
+void JsonReader::Ensure(const std::vector<std::string>& keys, bool holds, const std::string& rule) {
+  if (!holds) broken_rules_.push_back({keys, rule});
 }
 
 void JsonReader::Finish() {
-  for (const Member& member : members_) {
+  std::vector<const Member*> strangers;
+  std::set<std::string> meant;
+  for (const Member& member : list_.members) {
     if (std::find(keys_.begin(), keys_.end(), member.key) != keys_.end()) continue;
-    source_.FaultWithoutValue(member.value, Unknown("key", member.key, keys_));
+    strangers.push_back(&member);
+    if (const auto nearest = Nearest(member.key, keys_)) meant.insert(*nearest);
+  }
+  // A required key that is misspelt is not missing as well.
+  for (const std::string& key : missing_) {
+    if (!meant.contains(key)) source_.Missing(object_, key);
+  }
+  for (const Member* stranger : strangers) {
+    source_.FaultWithoutValue(stranger->value, Unknown("key", stranger->key, keys_));
+  }
+  const bool is_complete = list_.is_complete && strangers.empty();
+  // The key that was not understood, or the file that was not read, may have been about any of
+  // those that are left out.
+  for (const std::string& key : keys_) {
+    if (is_complete || Find(key) != nullptr) continue;
+    source_.unknown().Add(object_.resolved_pointer + PointerStep(key));
+  }
+  for (const auto& [keys, rule] : broken_rules_) {
+    const auto is_known = [&](const std::string& key) { return IsKnown(key); };
+    if (!std::all_of(keys.begin(), keys.end(), is_known)) continue;
+    if (keys.front().empty()) {
+      source_.FaultWithoutValue(object_, rule);
+    } else if (const Node* node = Find(keys.front())) {
+      source_.Fault(*node, rule);
+    } else {
+      Node absent = object_;
+      absent.pointer += PointerStep(keys.front());
+      absent.resolved_pointer += PointerStep(keys.front());
+      source_.FaultWithoutValue(absent, rule);
+    }
   }
 }
 
+bool JsonReader::IsKnown(std::string_view key) const {
+  return source_.unknown().IsKnown(object_.resolved_pointer + PointerStep(key));
+}
+
 const Node* JsonReader::Find(std::string_view key) const {
-  const auto it = std::find_if(members_.begin(), members_.end(),
+  const auto it = std::find_if(list_.members.begin(), list_.members.end(),
                                [&](const Member& member) { return member.key == key; });
-  return it == members_.end() ? nullptr : &it->value;
+  return it == list_.members.end() ? nullptr : &it->value;
 }
 
 }  // namespace railcast

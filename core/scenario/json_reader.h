@@ -17,7 +17,7 @@ namespace railcast {
 /// Fills one object's struct: the visitor that reads (see describe_scenario.h).
 class JsonReader {
  public:
-  JsonReader(JsonSource& source, Node object, std::vector<Member> members);
+  JsonReader(JsonSource& source, Node object, MemberList list);
 
   template <class T, class Rule = Anything>
   void Required(std::string_view key, T& value, const char* doc, const Rule& rule = {});
@@ -37,30 +37,35 @@ class JsonReader {
                 const char* doc,
                 const std::vector<std::string>& names);
 
-  void Ensure(std::string_view key, bool holds, const std::string& rule);
+  void Ensure(const std::vector<std::string>& keys, bool holds, const std::string& rule);
   template <class T, class V>
   void Unique(std::string_view key, const std::vector<T>& values, std::string_view of, V T::*which);
 
-  /// Faults every key that was not described.
+  /// Faults every required key that is missing, every key that was not described, and what broke a
+  /// rule across fields.
   void Finish();
 
  private:
   [[nodiscard]] const Node* Find(std::string_view key) const;
-  [[nodiscard]] bool has_faults() const {
-    return source_.errors().lines().size() > num_faults_before_;
-  }
+  [[nodiscard]] bool IsKnown(std::string_view key) const;
+
+  struct BrokenRule {
+    std::vector<std::string> keys;
+    std::string rule;
+  };
 
   JsonSource& source_;
   Node object_;
-  std::vector<Member> members_;
+  MemberList list_;
   std::vector<std::string> keys_;  // Described so far.
-  std::size_t num_faults_before_;
+  std::vector<std::string> missing_;
+  std::vector<BrokenRule> broken_rules_;
 };
 
 /// Fills a struct from the members of its object.
 template <class T>
-void ReadMembers(JsonSource& source, const Node& object, std::vector<Member> members, T& value) {
-  JsonReader reader(source, object, std::move(members));
+void ReadMembers(JsonSource& source, const Node& object, MemberList list, T& value) {
+  JsonReader reader(source, object, std::move(list));
   Describe(reader, value);
   reader.Finish();
 }
@@ -86,7 +91,7 @@ void ReadValue(JsonSource& source,
                const Node& node,
                std::vector<std::string>& values,
                const Rule& rule) {
-  if (!CheckListOfAtLeast(source, node, 0)) return;
+  if (!CheckListOfAtLeast(source, node, {})) return;
   values.assign(node.json->size(), {});
   for (std::size_t i = 0; i < values.size(); ++i) ReadValue(source, node.Child(i), values[i], rule);
 }
@@ -101,7 +106,7 @@ void ReadValue(JsonSource& source,
                const Node& node,
                std::vector<T>& values,
                const AtLeastElements& rule) {
-  if (!CheckListOfAtLeast(source, node, rule.count)) return;
+  if (!CheckListOfAtLeast(source, node, rule)) return;
   values.assign(node.json->size(), {});
   for (std::size_t i = 0; i < values.size(); ++i) ReadElement(source, node.Child(i), values[i]);
 }
@@ -111,23 +116,23 @@ template <class T>
 void ReadElement(JsonSource& source, const Node& node, T& value) {
   if constexpr (kIsArray<T>) {
     ReadValue(source, node, value, Anything{});
-  } else if (auto members = source.PlainMembers(node)) {
-    ReadMembers(source, node, std::move(*members), value);
+  } else if (auto list = source.PlainMembers(node)) {
+    ReadMembers(source, node, std::move(*list), value);
   }
 }
 
 /// One of several structs, told apart by "type". Written in place: a type may have a "file".
 template <class... Ts>
 void ReadValue(JsonSource& source, const Node& node, std::variant<Ts...>& value, Anything) {
-  const auto members = source.PlainMembers(node);
-  if (!members) return;
+  const auto list = source.PlainMembers(node);
+  if (!list) return;
   if (!node.json->contains("type")) return source.Missing(node, "type");
   std::string type;
   const std::vector<std::string> names{kTypeName<Ts>...};
   ReadValue(source, node.Child("type"), type, OneOf(names));
   const auto read_if = [&]<class T>(T alternative) {
     if (type != kTypeName<T>) return;
-    JsonReader reader(source, node, *members);
+    JsonReader reader(source, node, *list);
     reader.Required("type", type, "", Anything{});
     Describe(reader, alternative);
     reader.Finish();
@@ -140,12 +145,12 @@ void ReadValue(JsonSource& source, const Node& node, std::variant<Ts...>& value,
 template <class T>
 requires(std::is_aggregate_v<T> &&
          !kIsArray<T>) void ReadValue(JsonSource& source, const Node& node, T& value, Anything) {
-  if (auto members = source.Members(node)) ReadMembers(source, node, std::move(*members), value);
+  if (auto list = source.Members(node)) ReadMembers(source, node, std::move(*list), value);
 }
 
 template <class T, class Rule>
 void JsonReader::Required(std::string_view key, T& value, const char* doc, const Rule& rule) {
-  if (Find(key) == nullptr) source_.Missing(object_, key);
+  if (Find(key) == nullptr && list_.is_complete) missing_.emplace_back(key);
   Optional(key, value, doc, rule);
 }
 
@@ -161,7 +166,8 @@ void JsonReader::RequiredLibrary(std::string_view key, std::vector<T>& values, c
   if (node == nullptr || !node->json->is_string())
     return Required(key, values, doc, NonEmptyList());
   keys_.emplace_back(key);
-  const auto root = source_.FileRoot(*node);
+  // The file holds the list under its key, as this object does when it holds the list itself.
+  const auto root = source_.FileRoot(*node, object_.resolved_pointer);
   if (!root || !source_.CheckRoot(*root)) return;
   JsonReader reader(source_, *root, source_.PlainMembers(*root).value());
   reader.Required(key, values, doc, NonEmptyList());
@@ -174,15 +180,19 @@ void JsonReader::Unique(std::string_view key,
                         const std::vector<T>& values,
                         std::string_view of,
                         V T::*which) {
-  if (has_faults()) return;
+  const std::string list = object_.resolved_pointer + PointerStep(key) + "/";
+  const auto place = [&](std::size_t i) { return list + std::to_string(i) + PointerStep(of); };
+  std::vector<V> seen;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto same = [&](const T& other) { return other.*which == values[i].*which; };
-    if (std::none_of(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(i), same))
+    if (!source_.unknown().IsKnown(place(i))) continue;
+    const V& value = values[i].*which;
+    if (std::find(seen.begin(), seen.end(), value) == seen.end()) {
+      seen.push_back(value);
       continue;
-    const std::string pointer =
-        object_.resolved_pointer + PointerStep(key) + "/" + std::to_string(i) + PointerStep(of);
-    source_.errors().Add(source_.sources().Place(pointer) + ": must be unique (got " +
-                         Json(values[i].*which).dump() + ")");
+    }
+    source_.errors().Add(source_.sources().Place(place(i)) + ": must be unique (got " +
+                         Json(value).dump() + ")");
+    source_.unknown().Add(place(i));
   }
 }
 

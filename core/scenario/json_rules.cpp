@@ -83,19 +83,26 @@ std::string InWords(const std::vector<std::string>& names) {
   return words;
 }
 
+std::optional<std::string> Nearest(std::string_view name, const std::vector<std::string>& valid) {
+  std::optional<std::string> nearest;
+  // More than half of the letters wrong is no typing error.
+  std::size_t distance = name.size() / 2 + 1;
+  for (const std::string& other : valid) {
+    const std::size_t to_other = EditDistance(name, other);
+    if (to_other >= distance) continue;
+    distance = to_other;
+    nearest = other;
+  }
+  return nearest;
+}
+
 std::string Unknown(std::string_view kind,
                     std::string_view name,
                     const std::vector<std::string>& valid) {
   const std::string unknown = "unknown " + std::string(kind) + ", ";
   if (valid.empty()) return unknown + "there is none";
-  std::vector<std::size_t> distances;
-  distances.reserve(valid.size());
-  for (const std::string& other : valid) distances.push_back(EditDistance(name, other));
-  const auto least = std::min_element(distances.begin(), distances.end());
-  // More than half of the letters wrong is no typing error.
-  if (2 * *least > name.size()) return unknown + "must be " + InWords(valid);
-  const auto index = static_cast<std::size_t>(least - distances.begin());
-  return unknown + "the nearest is " + Quoted(valid[index]);
+  const std::optional<std::string> nearest = Nearest(name, valid);
+  return unknown + (nearest ? "the nearest is " + Quoted(*nearest) : "must be " + InWords(valid));
 }
 
 }  // namespace railcast

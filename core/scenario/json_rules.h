@@ -52,9 +52,10 @@ struct ExistingFile {};
 /// Of a list.
 struct AtLeastElements {
   std::size_t count{};
+  const char* instead = "";  ///< What to do instead of giving none.
 };
 [[nodiscard]] inline AtLeastElements NonEmptyList() {
-  return {1};
+  return {.count = 1};
 }
 
 /// How an alternative key gives another key's value.
@@ -82,8 +83,13 @@ inline constexpr bool kIsArray<std::array<T, kCount>> = true;
 /// `"a", "b" or "c"`.
 [[nodiscard]] std::string InWords(const std::vector<std::string>& names);
 
-/// What to say about a key, or a `kind` of name, that is none of `valid`: names the nearest one
-/// (fewest insertions, deletions and replacements of a letter), or all if none is near.
+/// The valid name that is nearest (fewest insertions, deletions and replacements of a letter), if
+/// at most half of the letters are wrong.
+[[nodiscard]] std::optional<std::string> Nearest(std::string_view name,
+                                                 const std::vector<std::string>& valid);
+
+/// What to say about a key, or a `kind` of name, that is none of `valid`: names the nearest one, or
+/// all if none is near.
 [[nodiscard]] std::string Unknown(std::string_view kind,
                                   std::string_view name,
                                   const std::vector<std::string>& valid);

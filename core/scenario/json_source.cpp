@@ -66,39 +66,39 @@ std::optional<Node> JsonSource::Open(const fs::path& file) {
   return root;
 }
 
-std::optional<std::vector<Member>> JsonSource::Members(const Node& node) {
+std::optional<MemberList> JsonSource::Members(const Node& node) {
   const bool is_name = node.json->is_string();
   if (!is_name && !(node.json->is_object() && node.json->contains("file"))) {
     return PlainMembers(node);
   }
   // A base's keys stand, in the resolved scenario, where the object does that names it.
-  Node name = is_name ? node : node.Child("file");
-  name.resolved_pointer = node.resolved_pointer;
-  const std::optional<Node> root = FileRoot(name);
-  if (!root || !CheckRoot(*root)) return std::nullopt;
-  std::optional<std::vector<Member>> members = Members(*root);
-  if (!members || is_name) return members;
+  std::optional<MemberList> list;
+  const auto root = FileRoot(is_name ? node : node.Child("file"), node.resolved_pointer);
+  if (root && CheckRoot(*root)) list = Members(*root);
+  if (is_name) return list;
+  // The object's own keys are read even if those of its base are not.
+  if (!list) list = MemberList{{}, false};
   for (const auto& [key, value] : node.json->items()) {
     if (key == "file" || IsOfFile(node, key)) continue;
     const Node child = node.Child(key);
     sources_.Add(child.resolved_pointer, child.file->shown, child.pointer);
-    std::erase_if(*members, [&key = key](const Member& member) { return member.key == key; });
-    members->push_back({key, child});
+    std::erase_if(list->members, [&key = key](const Member& member) { return member.key == key; });
+    list->members.push_back({key, child});
   }
-  return members;
+  return list;
 }
 
-std::optional<std::vector<Member>> JsonSource::PlainMembers(const Node& node) {
+std::optional<MemberList> JsonSource::PlainMembers(const Node& node) {
   if (!node.json->is_object()) {
     Fault(node, "must be an object");
     return std::nullopt;
   }
-  std::vector<Member> members;
+  MemberList list;
   for (const auto& [key, value] : node.json->items()) {
     if (IsOfFile(node, key)) continue;
-    members.push_back({key, node.Child(key)});
+    list.members.push_back({key, node.Child(key)});
   }
-  return members;
+  return list;
 }
 
 std::optional<fs::path> JsonSource::FileNamedBy(const Node& node) {
@@ -116,7 +116,7 @@ std::optional<fs::path> JsonSource::FileNamedBy(const Node& node) {
   return absolute;
 }
 
-std::optional<Node> JsonSource::FileRoot(const Node& node) {
+std::optional<Node> JsonSource::FileRoot(const Node& node, std::string resolved_pointer) {
   const std::optional<fs::path> absolute = FileNamedBy(node);
   if (!absolute) return std::nullopt;
   const std::string shown = ShownName(node);
@@ -128,19 +128,23 @@ std::optional<Node> JsonSource::FileRoot(const Node& node) {
       return std::nullopt;
     }
   }
-  return Load({*absolute, shown, node.file, {}}, node.resolved_pointer);
+  auto root = Load({*absolute, shown, node.file, {}}, std::move(resolved_pointer));
+  if (!root) unknown_.Add(node.resolved_pointer);
+  return root;
 }
 
 void JsonSource::Fault(const Node& node, const std::string& rule) {
-  errors_.Add(Place(node) + ": " + rule + Got(*node.json));
+  FaultWithoutValue(node, rule + Got(*node.json));
 }
 
 void JsonSource::FaultWithoutValue(const Node& node, const std::string& rule) {
   errors_.Add(Place(node) + ": " + rule);
+  unknown_.Add(node.resolved_pointer);
 }
 
 void JsonSource::Missing(const Node& object, std::string_view key) {
   errors_.Add(object.file->shown + ": " + object.pointer + PointerStep(key) + ": missing");
+  unknown_.Add(object.resolved_pointer + PointerStep(key));
 }
 
 std::optional<Node> JsonSource::Load(SourceFile file, std::string resolved_pointer) {
@@ -153,6 +157,7 @@ std::optional<Node> JsonSource::Load(SourceFile file, std::string resolved_point
   }
   for (const std::string& pointer : parsed.duplicate_keys) {
     errors_.Add(file.shown + ": " + pointer + ": duplicate key");
+    unknown_.Add(resolved_pointer + pointer);
   }
   sources_.Add(resolved_pointer, file.shown, "");
   file.root = std::move(*parsed.json);

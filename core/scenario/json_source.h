@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/unknown_places.h"
 #include "core/scenario/json_text.h"
 #include "core/scenario/scenario_sources.h"
 
@@ -37,6 +38,12 @@ struct Member {
   Node value;
 };
 
+/// An object's members, whichever way it is given.
+struct MemberList {
+  std::vector<Member> members;
+  bool is_complete = true;  ///< False if a file with more of them could not be read.
+};
+
 /// Reads the files of one scenario, and gathers their faults and where things were written.
 ///
 /// An object may be given as the name of a file that holds it ("sensors/vlp16.json"), or as an
@@ -48,14 +55,14 @@ class JsonSource {
   [[nodiscard]] std::optional<Node> Open(const std::filesystem::path& file);
 
   /// The members of an object, whichever way it is given. Nothing if that is faulty.
-  [[nodiscard]] std::optional<std::vector<Member>> Members(const Node& node);
+  [[nodiscard]] std::optional<MemberList> Members(const Node& node);
   /// The same of an object that may not be a file: part of a list, or with a "file" of its own.
-  [[nodiscard]] std::optional<std::vector<Member>> PlainMembers(const Node& node);
+  [[nodiscard]] std::optional<MemberList> PlainMembers(const Node& node);
 
   /// The absolute name of the file that the string `node` names; nothing if there is no such file.
   [[nodiscard]] std::optional<std::filesystem::path> FileNamedBy(const Node& node);
-  /// What that file holds.
-  [[nodiscard]] std::optional<Node> FileRoot(const Node& node);
+  /// What that file holds, which stands at `resolved_pointer` in the resolved scenario.
+  [[nodiscard]] std::optional<Node> FileRoot(const Node& node, std::string resolved_pointer);
   /// Faults of a file's "version" and "$schema". @return Whether the root is an object.
   bool CheckRoot(const Node& root);
 
@@ -64,12 +71,15 @@ class JsonSource {
   void Missing(const Node& object, std::string_view key);
 
   [[nodiscard]] ErrorList& errors() { return errors_; }
+  /// By pointers in the resolved scenario.
+  [[nodiscard]] UnknownPlaces& unknown() { return unknown_; }
   [[nodiscard]] ScenarioSources& sources() { return sources_; }
 
  private:
   std::optional<Node> Load(SourceFile file, std::string resolved_pointer);
 
   ErrorList errors_;
+  UnknownPlaces unknown_;
   ScenarioSources sources_;
   std::deque<SourceFile> files_;  // Nodes point into it; a deque does not move its elements.
 };

@@ -144,6 +144,11 @@ JsonText ParseJson(const std::string& text) {
     result.syntax_error = "line 1, column 1: starts with a byte order mark; save as plain UTF-8";
     return result;
   }
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
+    JsonText result;
+    result.syntax_error = "is empty";
+    return result;
+  }
   TreeBuilder builder(text);
   Json::sax_parse(text, &builder);
   return builder.Result();

@@ -80,14 +80,15 @@ bool CheckListOf(JsonSource& source, const Node& node, std::size_t count) {
   return false;
 }
 
-bool CheckListOfAtLeast(JsonSource& source, const Node& node, std::size_t count) {
+bool CheckListOfAtLeast(JsonSource& source, const Node& node, const AtLeastElements& rule) {
   if (!node.json->is_array()) {
     source.Fault(node, "must be a list");
     return false;
   }
-  if (node.json->size() < count) {
-    source.Fault(node, count == 1 ? "must not be empty"
-                                  : "must have at least " + std::to_string(count) + " elements");
+  if (node.json->size() < rule.count) {
+    source.Fault(node, rule.count == 1
+                           ? std::string("must not be empty") + rule.instead
+                           : "must have at least " + std::to_string(rule.count) + " elements");
     return false;
   }
   return true;

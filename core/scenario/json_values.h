@@ -42,6 +42,6 @@ void ReadValue(JsonSource& source, const Node& node, T& value, Anything) {
 
 /// Whether the node is a list of exactly, or of at least, `count` elements.
 bool CheckListOf(JsonSource& source, const Node& node, std::size_t count);
-bool CheckListOfAtLeast(JsonSource& source, const Node& node, std::size_t count);
+bool CheckListOfAtLeast(JsonSource& source, const Node& node, const AtLeastElements& rule);
 
 }  // namespace railcast

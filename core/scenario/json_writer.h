@@ -45,7 +45,7 @@ class JsonWriter {
 
   // The writer has nothing to say about other spellings and about rules.
   void Alternative(std::string_view, double, const Multiple&, const char*, const Limits&) {}
-  void Ensure(std::string_view, bool, const std::string&) {}
+  void Ensure(const std::vector<std::string>&, bool, const std::string&) {}
   template <class T, class V>
   void Unique(std::string_view, const std::vector<T>&, std::string_view, V T::*) {}
 

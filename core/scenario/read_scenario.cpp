@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/scenario/build_faults.h"
 #include "core/scenario/describe_scenario.h"
 #include "core/scenario/json_reader.h"
 #include "core/scenario/scenario.h"
@@ -8,25 +9,38 @@
 namespace railcast {
 namespace {
 
-template <class T>
-std::vector<std::string> NamesOf(const std::vector<T>& values) {
+/// The names that a list gives to its elements.
+struct Names {
   std::vector<std::string> names;
-  names.reserve(values.size());
-  for (const T& value : values) names.push_back(value.name);
-  return names;
+  bool are_known = true;  ///< All of them.
+};
+
+template <class T>
+Names NamesOf(const std::string& list, const std::vector<T>& values, const UnknownPlaces& unknown) {
+  Names result;
+  result.are_known = !values.empty();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    result.names.push_back(values[i].name);
+    if (!unknown.IsKnown(list + "/" + std::to_string(i) + "/name")) result.are_known = false;
+  }
+  return result;
 }
 
 // Names in one section that another section must hold.
-void CheckReferences(const ScenarioSpec& spec, const ScenarioSources& sources, ErrorList& errors) {
+void CheckReferences(const ScenarioSpec& spec, JsonSource& source) {
+  UnknownPlaces& unknown = source.unknown();
   const auto check = [&](const std::string& object, const std::string& kind,
-                         const std::string& name, const std::vector<std::string>& known) {
-    if (std::find(known.begin(), known.end(), name) != known.end()) return;
-    errors.Add(sources.Place(object + "/" + kind) + ": " + Unknown(kind, name, known) + " (got \"" +
-               name + "\")");
+                         const std::string& name, const Names& known) {
+    const std::string pointer = object + "/" + kind;
+    if (!unknown.IsKnown(pointer) || !known.are_known) return;
+    if (std::find(known.names.begin(), known.names.end(), name) != known.names.end()) return;
+    source.errors().Add(source.sources().Place(pointer) + ": " + Unknown(kind, name, known.names) +
+                        " (got \"" + name + "\")");
+    unknown.Add(pointer);
   };
-  const std::vector<std::string> tracks = NamesOf(spec.world.tracks);
-  const std::vector<std::string> labels = NamesOf(spec.labels);
-  const std::vector<std::string> materials = NamesOf(spec.materials);
+  const Names tracks = NamesOf("/world/tracks", spec.world.tracks, unknown);
+  const Names labels = NamesOf("/labels", spec.labels, unknown);
+  const Names materials = NamesOf("/materials", spec.materials, unknown);
   check("/vehicle", "track", spec.vehicle.track, tracks);
   for (std::size_t i = 0; i < spec.world.objects.size(); ++i) {
     const ObjectSpec& object = spec.world.objects[i];
@@ -44,10 +58,11 @@ ScenarioSpec ReadScenario(const std::filesystem::path& file) {
   ScenarioSpec spec;
   if (const auto root = source.Open(file)) {
     ReadValue(source, *root, spec, Anything{});
-    if (source.errors().empty()) CheckReferences(spec, source.sources(), source.errors());
+    CheckReferences(spec, source);
+    spec.sources = source.sources();
+    if (!source.errors().empty()) AddBuildFaults(spec, source.unknown(), source.errors());
   }
   source.errors().ThrowIfAny();
-  spec.sources = std::move(source.sources());
   return spec;
 }
 

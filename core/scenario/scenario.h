@@ -14,7 +14,9 @@ class RailWorld;
 
 /// Reads a scenario file and every file it names, strictly: unknown, duplicate, missing and
 /// mistyped keys are errors. File names in the result are absolute.
-/// @throws InputError with a line for every fault: "file: /pointer: rule (got value)".
+/// @throws InputError with a line for every fault: "file: /pointer: rule (got value)". If there is
+///   any, what is sound is built on trial, so that the faults that show then come along; what
+///   merely follows from another fault is left out.
 [[nodiscard]] ScenarioSpec ReadScenario(const std::filesystem::path& file);
 
 /// Reads a label table (labels.json of a scenario or of a sequence), as strictly.
@@ -28,8 +30,8 @@ class RailWorld;
 /// The effects of the scenario's rung with its single switches applied.
 [[nodiscard]] EffectSet EffectsOf(const ScenarioSpec& spec);
 
-/// Every fault of a scenario: those of its files or, if there are none, those that show when its
-/// scan pattern and its world are built. Empty if the scenario can run.
+/// Every fault of a scenario: those of its files, and those that show when its scan pattern and its
+/// world are built. Empty if the scenario can run.
 [[nodiscard]] std::vector<std::string> CheckScenario(const std::filesystem::path& file);
 
 /// Builds the world of a scenario.

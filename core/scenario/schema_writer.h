@@ -57,7 +57,7 @@ class SchemaWriter {
                 const std::map<std::string, bool>&,
                 const char* doc,
                 const std::vector<std::string>& names);
-  void Ensure(std::string_view, bool, const std::string&) {}
+  void Ensure(const std::vector<std::string>&, bool, const std::string&) {}
   template <class T, class V>
   void Unique(std::string_view, const std::vector<T>&, std::string_view, V T::*) {}
 

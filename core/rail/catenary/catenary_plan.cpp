@@ -88,14 +88,10 @@ CatenarySupport NextSupport(const CatenarySupport& support,
   return support;
 }
 
-void CheckSystemHeight(const CatenarySpec& spec) {
-  const double sag_m =
-      kWireWeight_n_per_m * spec.max_span_m * spec.max_span_m / (8.0 * kMessengerTension_n);
-  const double needed_m = sag_m - kContactPresag * spec.max_span_m + kShortestDropper_m;
-  if (spec.system_height_m >= needed_m) return;
-  throw InputError("/catenary/system_height_m: must be >= " + NumberText(needed_m) +
-                   ", the messenger's sag over max_span_m and a shortest dropper (got " +
-                   NumberText(spec.system_height_m) + ")");
+bool HasContactLine(const WorldSpec& spec) {
+  return spec.catenary.enabled &&
+         std::any_of(spec.tracks.begin(), spec.tracks.end(),
+                     [](const TrackSpec& track) { return track.electrified; });
 }
 
 /// Whether a mast there is clear of all tracks but its own.
@@ -127,12 +123,21 @@ MastSite MastSiteOf(const WorldSpec& spec, std::size_t track) {
   return {.on_left = false, .distance_m = 0.5 * to_next_m - kMastHalfDepth_m};
 }
 
+void CheckSystemHeight(const WorldSpec& world) {
+  if (!HasContactLine(world)) return;
+  const CatenarySpec& spec = world.catenary;
+  const double sag_m =
+      kWireWeight_n_per_m * spec.max_span_m * spec.max_span_m / (8.0 * kMessengerTension_n);
+  const double needed_m = sag_m - kContactPresag * spec.max_span_m + kShortestDropper_m;
+  if (spec.system_height_m >= needed_m) return;
+  throw InputError("/catenary/system_height_m: must be >= " + NumberText(needed_m) +
+                   ", the messenger's sag over max_span_m and a shortest dropper (got " +
+                   NumberText(spec.system_height_m) + ")");
+}
+
 CatenaryPlan::CatenaryPlan(const WorldSpec& spec, const Alignment& alignment) {
-  const bool any_electrified =
-      std::any_of(spec.tracks.begin(), spec.tracks.end(),
-                  [](const TrackSpec& track) { return track.electrified; });
-  if (!spec.catenary.enabled || !any_electrified) return;
-  CheckSystemHeight(spec.catenary);
+  if (!HasContactLine(spec)) return;
+  CheckSystemHeight(spec);
   const double first_m = StaggerInCurve(spec.catenary, alignment.At(0.0).curvature_per_m)
                              .value_or(spec.catenary.stagger_m);
   supports_.push_back({.s_m = 0.0, .stagger_m = first_m});

@@ -31,6 +31,10 @@ struct MastSite {
 /// than 2.2 m to the mast's; and half way to the next track on the right if neither side is free.
 [[nodiscard]] MastSite MastSiteOf(const WorldSpec& spec, std::size_t track);
 
+/// @throws InputError if the messenger would sag to less than 0.3 m above the contact wire:
+///   "/catenary/system_height_m: rule (got value)", relative to the world's JSON object.
+void CheckSystemHeight(const WorldSpec& world);
+
 /// The supports of the contact line, placed once for the whole line; 16 bytes for each.
 ///
 /// The wire between two supports is straight in plan. With a_0, a_1 the staggers, the wire is at
@@ -43,8 +47,7 @@ struct MastSite {
 /// share the supports.
 class CatenaryPlan {
  public:
-  /// @throws InputError if the messenger would sag to less than 0.3 m above the contact wire:
-  ///   "/catenary/system_height_m: rule (got value)", relative to the world's JSON object.
+  /// @throws InputError as CheckSystemHeight() does.
   CatenaryPlan(const WorldSpec& spec, const Alignment& alignment);
 
   /// Ascending; empty without a contact line.

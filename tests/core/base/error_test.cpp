@@ -18,6 +18,12 @@ TEST(ErrorList, ThrowsEveryLineAtOnce) {
   }
 }
 
+TEST(ErrorList, KeepsEachLineOnce) {
+  ErrorList errors;
+  for (const char* line : {"a", "b", "a"}) errors.Add(line);
+  EXPECT_EQ(errors.lines(), (std::vector<std::string>{"a", "b"}));
+}
+
 TEST(CheckDeathTest, NamesPlaceAndAssumption) {
   EXPECT_DEATH(Check(false, "sum is one"), "error_test.cpp:[0-9]+: broken assumption: sum is one");
 }

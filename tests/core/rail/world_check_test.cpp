@@ -12,9 +12,9 @@ using testing::IsEmpty;
 constexpr LineMeasures kLine{.length_m = 1000.0, .tightest_radius_m = 300.0};
 
 std::vector<std::string> Faults(const WorldSpec& world, const VehicleSpec& vehicle = {}) {
-  ErrorList errors;
-  CheckWorld(world, vehicle, kLine, errors);
-  return errors.lines();
+  WorldFaults faults;
+  CheckWorld(world, vehicle, kLine, faults);
+  return faults.errors.lines();
 }
 
 ObjectSpec Box(const std::string& name, double s_m) {
@@ -70,8 +70,46 @@ TEST(CheckWorld, KeepsObjectsOnTheirTrack) {
       ElementsAre("/world/objects/0/s_m: must lie on track \"main\", from 0 to 1000 m (got 1000.5)",
                   "/world/objects/1/s_m: must lie on track \"siding\", from 100 to 400 m (got 50)",
                   "/world/objects/2/track: must be one of \"main\", \"siding\" (got \"sidng\")",
-                  "/world/objects/3/d_m: must lie within the ground's half width of 80 m "
-                  "(got 81)"));
+                  "/world/objects/3/d_m: must put it within the ground's half width of 80 m "
+                  "(got track offset 0 + d_m 81 = 81)"));
+}
+
+TEST(CheckWorld, AddsTheTracksOffsetToTheObjects) {
+  WorldSpec world;
+  world.tracks.push_back({.name = "siding", .offset_m = 4.5, .end_s_m = {}});
+  world.objects = {Box("a", 10.0), Box("b", 10.0)};
+  world.objects[0].d_m = world.objects[1].d_m = 78.0;
+  world.objects[1].track = "siding";
+  EXPECT_THAT(Faults(world),
+              ElementsAre("/world/objects/1/d_m: must put it within the ground's half width of "
+                          "80 m (got track offset 4.5 + d_m 78 = 82.5)"));
+}
+
+TEST(CheckWorld, KeepsTracksBesideEachOtherThreeMetresApart) {
+  WorldSpec world;
+  world.tracks.push_back({.name = "left", .offset_m = 3.0, .end_s_m = 500.0});
+  world.tracks.push_back({.name = "beyond", .offset_m = 3.5, .start_s_m = 500.0, .end_s_m = {}});
+  EXPECT_THAT(Faults(world), IsEmpty());
+  world.tracks.push_back({.name = "both", .offset_m = 5.5, .start_s_m = 400.0, .end_s_m = {}});
+  EXPECT_THAT(
+      Faults(world),
+      ElementsAre("/world/tracks/3/offset_m: must be at least 3 m from track \"left\" at 3 m, "
+                  "beside which it runs from 400 to 500 m (got 5.5)"));
+}
+
+TEST(CheckWorld, SaysNothingOfWhatFollowsFromAnUnknownValue) {
+  WorldSpec world;
+  world.tracks.push_back({.name = "siding", .offset_m = 4.5, .end_s_m = 400.0});
+  world.objects = {Box("a", 450.0), Box("b", 1200.0)};
+  world.objects[0].track = "siding";
+  world.objects[1].d_m = 90.0;
+  WorldFaults faults;
+  faults.unknown.Add("/world/tracks/1/end_s_m");
+  faults.unknown.Add("/world/terrain/half_width_m");
+  CheckWorld(world, {}, kLine, faults);
+  EXPECT_THAT(faults.errors.lines(),
+              ElementsAre("/world/objects/1/s_m: must lie on track \"main\", from 0 to 1000 m "
+                          "(got 1200)"));
 }
 
 TEST(CheckWorld, WantsUniqueObjectNames) {

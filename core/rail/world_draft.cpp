@@ -1,0 +1,148 @@
+#include "core/rail/world_draft.h"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "core/base/attempt.h"
+#include "core/base/units.h"
+#include "core/rail/line/speed_profile.h"
+#include "core/rail/objects/object_models.h"
+
+namespace railcast {
+namespace {
+
+bool FollowsTrack(const ObjectSpec& object) {
+  return object.type.ends_with("_wagon");
+}
+
+// The line, if its course is known, without the rest that is not.
+std::optional<Alignment> DraftAlignment(const WorldSpec& world, WorldFaults& faults) {
+  const std::string place = "/world/alignment";
+  if (!faults.AreKnown({place + "/course"})) return std::nullopt;
+  AlignmentSpec known = world.alignment;
+  if (!faults.AreKnown({place + "/gradients_permil"})) known.gradients_permil.clear();
+  if (!faults.AreKnown({place + "/speed_limits_kmph"})) known.speed_limits_kmph.clear();
+  if (auto alignment = Attempt(place, faults.errors, [&] { return Alignment(known); })) {
+    return alignment;
+  }
+  // Whatever else is wrong with a line, its course alone says how long and how tight it is.
+  AlignmentSpec bare;
+  bare.course = known.course;
+  ErrorList known_faults;
+  return Attempt("", known_faults, [&] { return Alignment(bare); });
+}
+
+/// Something that moves, or stands, along a track.
+struct Mover {
+  std::string motion_pointer;
+  std::string chainage_pointer;
+  const MotionSpec& motion;
+  double s_m{};
+};
+
+std::optional<SpeedProfile> DraftProfile(const Mover& mover, WorldFaults& faults) {
+  const auto& points = mover.motion.profile;
+  const bool is_by_chainage = !points.empty() && points.front().s_m.has_value();
+  if (!faults.AreKnown({mover.motion_pointer})) return std::nullopt;
+  if (is_by_chainage && !faults.AreKnown({mover.chainage_pointer})) return std::nullopt;
+  return Attempt(mover.motion_pointer, faults.errors,
+                 [&] { return SpeedProfile(mover.motion, mover.s_m); });
+}
+
+std::optional<TrackPath> DraftVehicle(const WorldSource& source, WorldFaults& faults) {
+  const VehicleSpec& vehicle = source.vehicle;
+  auto profile = DraftProfile(
+      {"/vehicle/motion", "/vehicle/start_s_m", vehicle.motion, vehicle.start_s_m}, faults);
+  const TrackSpec* track = FindTrack(source.world, vehicle.track);
+  if (!profile || track == nullptr) return std::nullopt;
+  // A vehicle looks where it goes.
+  const double heading_rad = vehicle.motion.reverse ? std::numbers::pi : 0.0;
+  return TrackPath({track->offset_m, 0.0, heading_rad, false}, std::move(*profile));
+}
+
+std::optional<TrackPath> DraftPath(const WorldSpec& world, std::size_t index, WorldFaults& faults) {
+  const ObjectSpec& object = world.objects[index];
+  const std::string place = "/world/objects/" + std::to_string(index);
+  const MotionSpec motion = object.motion.value_or(MotionSpec{});
+  auto profile = DraftProfile({place + "/motion", place + "/s_m", motion, object.s_m}, faults);
+  const TrackSpec* track = FindTrack(world, object.track);
+  if (!profile || track == nullptr) return std::nullopt;
+  const TrackPose pose{track->offset_m + object.d_m, object.h_m.value_or(0.0),
+                       RadFromDeg(object.heading_deg), !FollowsTrack(object)};
+  return TrackPath(pose, std::move(*profile));
+}
+
+// Without surfaces, label or material, which only its own faults need, a shape can still be made.
+std::optional<SceneObject> DraftObject(const WorldSource& source,
+                                       std::size_t index,
+                                       const std::optional<RailSurfaces>& surfaces,
+                                       WorldFaults& faults) {
+  ObjectSpec known = source.world.objects[index];
+  const std::string place = "/world/objects/" + std::to_string(index);
+  if (!faults.AreKnown({place + "/type", place + "/size_m", place + "/file", place + "/up",
+                        place + "/unit_m"})) {
+    return std::nullopt;
+  }
+  if (!faults.AreKnown({place + "/label", "/labels"})) known.label.reset();
+  if (!faults.AreKnown({place + "/material", "/materials"})) known.material.reset();
+  const RailSurfaces these = surfaces.value_or(RailSurfaces());
+  return Attempt(place + ": ", faults.errors, [&] {
+    return SceneObject{.name = known.name,
+                       .type = known.type,
+                       .label = ObjectLabel(known, these, source.labels),
+                       .model = MakeObjectModel(known, these, source.labels, source.materials)};
+  });
+}
+
+std::optional<CatenaryPlan> DraftCatenary(const WorldSpec& world,
+                                          const std::optional<Alignment>& alignment,
+                                          WorldFaults& faults) {
+  if (!faults.AreKnown({"/world/catenary"})) return std::nullopt;
+  for (std::size_t i = 0; i < world.tracks.size(); ++i) {
+    const std::string place = "/world/tracks/" + std::to_string(i);
+    if (!faults.AreKnown({place + "/electrified"})) return std::nullopt;
+  }
+  const auto make = [&]() -> std::optional<CatenaryPlan> {
+    CheckSystemHeight(world);
+    if (!alignment) return std::nullopt;
+    return CatenaryPlan(world, *alignment);
+  };
+  return Attempt("/world", faults.errors, make).value_or(std::nullopt);
+}
+
+}  // namespace
+
+WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
+  const WorldSpec& world = source.world;
+  WorldDraft draft;
+  draft.alignment = DraftAlignment(world, faults);
+  // Without a line there is nothing to be beyond of.
+  constexpr double kEndless_m = std::numeric_limits<double>::infinity();
+  const LineMeasures line = draft.alignment ? LineMeasures{draft.alignment->length_m(),
+                                                           draft.alignment->tightest_radius_m()}
+                                            : LineMeasures{kEndless_m, kEndless_m};
+  CheckWorld(world, source.vehicle, line, faults);
+  if (faults.AreKnown({"/labels", "/materials"})) {
+    draft.surfaces =
+        Attempt("", faults.errors, [&] { return RailSurfaces(source.labels, source.materials); });
+    if (!source.vehicle.ego_boxes_m.empty()) {
+      Attempt("", faults.errors, [&] { return source.labels.Id("ego"); });
+    }
+  }
+  draft.vehicle_path = DraftVehicle(source, faults);
+  for (std::size_t i = 0; i < world.objects.size(); ++i) {
+    auto path = DraftPath(world, i, faults);
+    auto object = DraftObject(source, i, draft.surfaces, faults);
+    if (!path || !object) continue;
+    object->moves = path->moves();
+    draft.object_paths.push_back(std::move(*path));
+    draft.objects.push_back(std::move(*object));
+  }
+  draft.catenary_plan = DraftCatenary(world, draft.alignment, faults);
+  return draft;
+}
+
+}  // namespace railcast
