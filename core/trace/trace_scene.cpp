@@ -56,14 +56,15 @@ void AttachPart(RTCDevice device, RTCScene scene, const Mesh& mesh, unsigned geo
     auto* vertices = static_cast<Corner*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                 sizeof(Corner), mesh.vertices.size()));
-    std::transform(mesh.vertices.begin(), mesh.vertices.end(), vertices,
-                   [](const Eigen::Vector3f& vertex) {
-                     return Corner{vertex.x(), vertex.y(), vertex.z()};
-                   });
     using Triangle = std::array<std::uint32_t, 3>;
     auto* triangles = static_cast<Triangle*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                 sizeof(Triangle), mesh.triangles.size()));
+    Check(vertices != nullptr && triangles != nullptr, "there is memory for the triangles");
+    std::transform(mesh.vertices.begin(), mesh.vertices.end(), vertices,
+                   [](const Eigen::Vector3f& vertex) {
+                     return Corner{vertex.x(), vertex.y(), vertex.z()};
+                   });
     std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles);
   }
   rtcCommitGeometry(geometry);
