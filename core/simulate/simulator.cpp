@@ -115,6 +115,8 @@ void Simulator::Scan(std::uint32_t frame_index, Frame& frame) {
   frame.index = frame_index;
   frame.stamp_ns = scene.stamp_ns;
   frame.world_from_sensor = parts.scenes.WorldFromSensor(scene.stamp_ns);
+  frame.duration_ns = parts.tiles.duration_ns();
+  frame.world_from_sensor_end = parts.scenes.WorldFromSensor(scene.stamp_ns + frame.duration_ns);
   frame.Resize(parts.pattern.rows, parts.pattern.columns, 1);
   const Window& window = *scene.window;
   const OutputAxes axes(parts.spec.output, parts.spec.vehicle_from_sensor,
