@@ -12,17 +12,16 @@ build_packages=(
   libembree-dev
   libgmock-dev
   libgtest-dev
-  libhwy-dev
   libopenmesh-dev
   libpcl-dev
   librandom123-dev
   libtbb-dev
   libvtk9-dev
+  libx11-dev
   libxxhash-dev
   ninja-build
   nlohmann-json3-dev
   pkg-config
-  zlib1g-dev
 )
 
 # To draw pictures on a machine without a display.

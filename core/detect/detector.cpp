@@ -29,7 +29,9 @@ SnowParameters MakeSnow(const DetectorSpec& spec) {
           .probability = static_cast<float>(-std::expm1(-mean_echoes)),
           .range_scale_m = static_cast<float>(weather.snow_range_scale_m),
           .range_min_m = static_cast<float>(spec.range_min_m),
-          .intensity = static_cast<float>(weather.snow_intensity),
+          .intensity = spec.effects.threshold ? static_cast<float>(weather.snow_intensity)
+                                              : std::numeric_limits<float>::quiet_NaN(),
+          .has_threshold = spec.effects.threshold,
           .threshold = MakeThreshold(spec)};
 }
 

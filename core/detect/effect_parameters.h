@@ -20,7 +20,8 @@ struct SnowParameters {
   float probability{};  ///< That a flake answers.
   float range_scale_m{};
   float range_min_m{};
-  float intensity{};
+  float intensity{};     ///< NaN without the threshold: then no power is computed ...
+  bool has_threshold{};  ///< ... and no flake is too weak.
   ThresholdParameters threshold;
 };
 

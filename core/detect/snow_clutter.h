@@ -14,11 +14,11 @@ namespace railcast::RAILCAST_ISA {
 ///   P(a flake answers) = 1 - exp(-snow_echoes_per_mmph * S)            (Poisson, S in mm/h)
 ///   its range r ~ Maxwell(snow_range_scale): scale * sqrt(n1^2 + n2^2 + n3^2), n ~ N(0, 1)
 ///
-/// A flake farther than the surface, nearer than range_min, or too weak for the threshold (with
-/// intensity snow_intensity and the fog's attenuation) does not answer; else the outcome is
-/// clutter. Beams that a near or ego surface blocks, or that were never fired, stay so. The
-/// publication has words only; the Maxwell law is that of detectable particles in a diverging beam
-/// (physics.md 4.2).
+/// A flake farther than the surface, nearer than range_min, or too weak for the threshold (if that
+/// is on; with intensity snow_intensity and the fog's attenuation) does not answer; else the
+/// outcome is clutter. Beams that a near or ego surface blocks, or that were never fired, stay so.
+/// The publication has words only; the Maxwell law is that of detectable particles in a diverging
+/// beam (physics.md 4.2).
 inline void ApplySnowClutter(DetectTile& tile, const SnowParameters& parameters) {
   const LaneKey key{parameters.seed, RandomUse::kSnow, tile.frame};
   const SnowParameters p = parameters;  // A copy, so that no store to the tile can change it.
@@ -35,7 +35,7 @@ inline void ApplySnowClutter(DetectTile& tile, const SnowParameters& parameters)
                                    before == static_cast<std::uint32_t>(Outcome::kSensorDropout));
     // A missing surface is NaN: no flake is farther than it. Bits, not branches, vectorise.
     const bool answers = ((blocked == 0U) & !(r >= tile.true_range_m[i]) & (u < p.probability) &
-                          (r >= p.range_min_m) & (ratio >= 1.0F));
+                          (r >= p.range_min_m) & ((ratio >= 1.0F) | !p.has_threshold));
     tile.outcome[i] = answers ? static_cast<std::uint32_t>(Outcome::kClutter) : before;
     tile.is_flake[i] = answers ? 1U : 0U;
     tile.true_range_m[i] = answers ? r : tile.true_range_m[i];

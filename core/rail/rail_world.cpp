@@ -30,8 +30,6 @@
 namespace railcast {
 namespace {
 
-// From the vehicle's origin, which the home chunk is chosen by, to its sensor.
-constexpr double kSensorReach_m = 10.0;
 // Of crowns and cantilevers beyond the ground of the chunk they belong to.
 constexpr double kOverhang_m = 8.0;
 
@@ -215,7 +213,7 @@ int RailWorld::HomeChunk(std::int64_t time_ns) const {
 
 std::vector<int> RailWorld::ChunksInReach(int home_chunk, double range_m) const {
   const double aside_m = std::abs(parts_->ways.vehicle.pose().d_m);
-  return parts_->grid.WithinReach(home_chunk, range_m + kSensorReach_m + aside_m + kOverhang_m);
+  return parts_->grid.WithinReach(home_chunk, range_m + aside_m + kOverhang_m);
 }
 
 Transform RailWorld::WorldFromChunk(int chunk) const {

@@ -84,6 +84,9 @@ struct ObjectSpec {
 };
 
 struct WorldSpec {
+  /// Of the world's shape: relief, stones, plants; the scenario's own seed is for the sensor and
+  /// the weather.
+  std::uint64_t seed = 1;
   AlignmentSpec alignment;
   std::vector<TrackSpec> tracks{TrackSpec{}};
   CatenarySpec catenary;

@@ -43,7 +43,7 @@ std::shared_ptr<const RailWorld> MakeWorld(const ScenarioSpec& spec) {
   // The world has two specs, so its pointers are the scenario's: "/world/..." and "/vehicle/...".
   return Located(spec, "", [&] {
     return std::make_shared<const RailWorld>(spec.world, spec.vehicle, LabelTable(spec.labels),
-                                             MaterialLibrary(spec.materials), spec.seed);
+                                             MaterialLibrary(spec.materials), spec.world.seed);
   });
 }
 

@@ -39,6 +39,9 @@ void Describe(Archive& a, OutputSpec& s) {
              OneOf({"sensor", "vehicle", "world"}));
   a.Optional("handedness", s.handedness, "left: y is negated, as Unreal has it.",
              OneOf({"right", "left"}));
+  a.Optional("origin_m", s.origin_m,
+             "Subtracted from world coordinates, which float32 holds to 1 mm only within 8 km.",
+             Within(-1e8, 1e8));
 }
 
 template <class Archive>
@@ -75,7 +78,7 @@ void Describe(Archive& a, LabelFile& s) {
 
 template <class Archive>
 void Describe(Archive& a, ScenarioSpec& s) {
-  a.Optional("seed", s.seed, "Of all random numbers.");
+  a.Optional("seed", s.seed, "Of the sensor's and the weather's random numbers.");
   a.Optional("fidelity", s.fidelity, "Rung of the fidelity ladder.",
              OneOf({"geometry", "plausibility"}));
   a.Switches("effects", s.effects, "Switches this effect on or off.", EffectNames());

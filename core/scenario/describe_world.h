@@ -115,6 +115,7 @@ void Describe(Archive& a, ObjectSpec& s) {
 
 template <class Archive>
 void Describe(Archive& a, WorldSpec& s) {
+  a.Optional("seed", s.seed, "Of the world's shape: relief, stones, plants.");
   a.Required("alignment", s.alignment, "The axis of the line.");
   a.Optional("tracks", s.tracks, "Parallel to the alignment.", NonEmptyList());
   a.Optional("catenary", s.catenary, "Overhead contact line.");

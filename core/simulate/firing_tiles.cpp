@@ -35,20 +35,25 @@ std::size_t FiringTiles::num_firings(std::size_t tile) const {
 
 namespace {
 
+/// Firings of one packet: kPacketSize values each.
+struct PacketFirings {
+  const float* direction_x;
+  const float* direction_y;
+  const float* direction_z;
+  const float* since_pose_ns;
+};
+
 // One packet whose firings are near in time: a pose and its slope serve all lanes.
-void AimPacket(const float* direction_x,
-               const float* direction_y,
-               const float* direction_z,
-               const float* since_pose_ns,
+void AimPacket(const PacketFirings& firings,
                const PoseF& pose,
                const PoseF& change,
                RayTile& rays,
                std::size_t first) {
   for (std::size_t lane = 0; lane < kPacketSize; ++lane) {
-    const float t = since_pose_ns[lane];
-    const float x = direction_x[lane];
-    const float y = direction_y[lane];
-    const float z = direction_z[lane];
+    const float t = firings.since_pose_ns[lane];
+    const float x = firings.direction_x[lane];
+    const float y = firings.direction_y[lane];
+    const float z = firings.direction_z[lane];
     const std::size_t ray = first + lane;
     rays.direction_x[ray] = (pose.r[0] + t * change.r[0]) * x + (pose.r[1] + t * change.r[1]) * y +
                             (pose.r[2] + t * change.r[2]) * z;
@@ -74,25 +79,24 @@ void FiringTiles::Aim(std::size_t tile,
   for (std::size_t first = 0; first < rays.num_rays; first += kPacketSize) {
     const std::uint32_t* time_ns = &time_ns_[begin + first];
     const auto [earliest, latest] = std::minmax_element(time_ns, time_ns + kPacketSize);
-    const float* x = &x_[begin + first];
-    const float* y = &y_[begin + first];
-    const float* z = &z_[begin + first];
     PoseF change{};
     alignas(64) float since_pose_ns[kPacketSize];
+    const PacketFirings firings{&x_[begin + first], &y_[begin + first], &z_[begin + first],
+                                since_pose_ns};
     if (*latest - *earliest <= poses.knot_spacing_ns()) {
       const PoseF pose = poses.At(*earliest, change);
       for (std::size_t lane = 0; lane < kPacketSize; ++lane) {
         since_pose_ns[lane] =
             static_cast<float>(static_cast<std::int32_t>(time_ns[lane] - *earliest));
       }
-      AimPacket(x, y, z, since_pose_ns, pose, change, rays, first);
+      AimPacket(firings, pose, change, rays, first);
     } else {
       // A slow or scattered pattern: every lane its own pose.
       std::fill_n(since_pose_ns, kPacketSize, 0.0F);
       for (std::size_t lane = 0; lane < kPacketSize; ++lane) {
         RayTile one;
         const PoseF pose = poses.At(time_ns[lane], change);
-        AimPacket(x, y, z, since_pose_ns, pose, change, one, 0);
+        AimPacket(firings, pose, change, one, 0);
         rays.direction_x[first + lane] = one.direction_x[lane];
         rays.direction_y[first + lane] = one.direction_y[lane];
         rays.direction_z[first + lane] = one.direction_z[lane];

@@ -20,6 +20,8 @@ struct PoseF {
 /// a dt^2 / 8 = 0.025 mm between knots, a turn of 0.1 rad/s the rotation by 1e-7.
 class FramePoses {
  public:
+  /// Stands still in the window's origin.
+  FramePoses() : FramePoses(0, [](std::uint32_t) { return Transform::Identity(); }) {}
   /// @param window_from_sensor Pose at a time in nanoseconds since the stamp.
   FramePoses(std::uint32_t duration_ns,
              const std::function<Transform(std::uint32_t)>& window_from_sensor);

@@ -1,15 +1,44 @@
 #include "core/simulate/output_axes.h"
 
+#include <iomanip>
+#include <sstream>
+
+#include "core/base/error.h"
+
 namespace railcast {
+
+namespace {
+
+// Float32 has steps of 0.5 mm below this, of 1 mm and more beyond.
+constexpr double kMillimetreReach_m = 8192.0;
+
+void CheckReach(const Vector3& origin_m, const Vector3& sensor_m) {
+  if ((sensor_m - origin_m).cwiseAbs().maxCoeff() <= kMillimetreReach_m) return;
+  std::ostringstream fault;
+  fault
+      << "/output/origin_m: must lie within 8192 m of the sensor, since float32 loses millimetres "
+         "beyond (got ["
+      << origin_m.x() << ", " << origin_m.y() << ", " << origin_m.z() << "], sensor at ["
+      << std::fixed << std::setprecision(0) << sensor_m.x() << ", " << sensor_m.y() << ", "
+      << sensor_m.z() << "])";
+  throw InputError(fault.str());
+}
+
+}  // namespace
 
 OutputAxes::OutputAxes(const OutputSpec& spec,
                        const Transform& vehicle_from_sensor,
-                       const Transform& window_from_world)
+                       const Transform& window_from_world,
+                       const Transform& world_from_sensor)
     : is_left_handed_(spec.handedness == "left"),
       vehicle_from_sensor_(vehicle_from_sensor),
-      world_from_window_(window_from_world.inverse()) {
+      output_from_window_(window_from_world.inverse()) {
   if (spec.frame == "vehicle") target_ = Target::kVehicle;
-  if (spec.frame == "world") target_ = Target::kWorld;
+  if (spec.frame != "world") return;
+  target_ = Target::kWorld;
+  const Vector3 origin_m(spec.origin_m[0], spec.origin_m[1], spec.origin_m[2]);
+  CheckReach(origin_m, world_from_sensor.translation());
+  output_from_window_.pretranslate(-origin_m);
 }
 
 void OutputAxes::Apply(const FramePoses& poses,
@@ -25,7 +54,7 @@ void OutputAxes::Apply(const FramePoses& poses,
       const PoseF pose = poses.At(time_ns[i], change);
       Eigen::Map<const Eigen::Matrix<float, 3, 3, Eigen::RowMajor>> rotation(pose.r);
       Eigen::Map<const Eigen::Vector3f> translation(pose.t);
-      point = world_from_window_ *
+      point = output_from_window_ *
               (rotation.cast<double>() * point + translation.cast<double>()).eval();
     }
     detect.x[i] = static_cast<float>(point.x());

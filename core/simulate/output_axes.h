@@ -12,9 +12,13 @@ namespace railcast {
 /// Puts measured points into the axes that the scenario asks for.
 class OutputAxes {
  public:
+  /// @param world_from_sensor At the stamp.
+  /// @throws InputError if the output is in world coordinates so far from its origin that float32
+  ///   would lose millimetres.
   OutputAxes(const OutputSpec& spec,
              const Transform& vehicle_from_sensor,
-             const Transform& window_from_world);
+             const Transform& window_from_world,
+             const Transform& world_from_sensor);
 
   /// Rewrites x, y, z of a tile from the sensor's axes. World coordinates take the pose at each
   /// lane's own time, `time_ns` since the stamp, so that motion does not distort them.
@@ -26,7 +30,7 @@ class OutputAxes {
   Target target_ = Target::kSensor;
   bool is_left_handed_;
   Transform vehicle_from_sensor_;
-  Transform world_from_window_;
+  Transform output_from_window_;  ///< World axes about the output's origin.
 };
 
 }  // namespace railcast

@@ -6,6 +6,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <utility>
 
@@ -16,6 +17,21 @@
 #include "core/simulate/output_axes.h"
 
 namespace railcast {
+namespace {
+
+/// What the tiles of one frame are traced with.
+struct CastFrame {
+  std::uint32_t index{};
+  const FramePoses& poses;
+  const RayCaster& caster;
+  const std::vector<Surface>& surfaces;
+};
+
+CastFrame CastOf(const FrameScene& scene) {
+  return {scene.index, scene.poses, scene, scene.window->surfaces};
+}
+
+}  // namespace
 
 struct Simulator::Parts {
   ScanPattern pattern;
@@ -31,16 +47,17 @@ struct Simulator::Parts {
     return scenes.At(frame_index, pattern.StampNs(frame_index));
   }
   /// Aims, casts and resolves a tile: all that comes before detection.
-  void TraceTile(const FrameScene& scene,
+  void TraceTile(const CastFrame& frame,
                  std::size_t tile,
                  RayTile& rays,
                  DetectTile& detect) const {
-    tiles.Aim(tile, scene.poses, range_max_m(), rays);
-    scene.Cast(rays);
-    detect.frame = scene.index;
+    tiles.Aim(tile, frame.poses, range_max_m(), rays);
+    frame.caster.Cast(rays);
+    detect.frame = frame.index;
     tiles.Describe(tile, detect);
-    ResolveHits(rays, scene.window->surfaces, detect);
+    ResolveHits(rays, frame.surfaces, detect);
   }
+  void Scan(const CastFrame& cast, const Transform& window_from_world, Frame& frame);
   /// Calls `work(tile)` for every tile, on the run's threads.
   template <typename Work>
   void ForEachTile(const Work& work) {
@@ -109,29 +126,39 @@ void Simulator::UseEffects(const EffectSet& effects, const WeatherSpec& weather)
   parts_->detector = Detector(DetectorSpecOf(parts_->spec));
 }
 
-void Simulator::Scan(std::uint32_t frame_index, Frame& frame) {
-  Parts& parts = *parts_;
-  const FrameScene scene = parts.SceneOf(frame_index);
-  frame.index = frame_index;
-  frame.stamp_ns = scene.stamp_ns;
-  frame.world_from_sensor = parts.scenes.WorldFromSensor(scene.stamp_ns);
-  frame.duration_ns = parts.tiles.duration_ns();
-  frame.world_from_sensor_end = parts.scenes.WorldFromSensor(scene.stamp_ns + frame.duration_ns);
-  frame.Resize(parts.pattern.rows, parts.pattern.columns, 1);
-  const Window& window = *scene.window;
-  const OutputAxes axes(parts.spec.output, parts.spec.vehicle_from_sensor,
-                        window.window_from_world);
+void Simulator::Parts::Scan(const CastFrame& cast,
+                            const Transform& window_from_world,
+                            Frame& frame) {
+  frame.index = cast.index;
+  frame.stamp_ns = pattern.StampNs(cast.index);
+  frame.world_from_sensor = scenes.WorldFromSensor(frame.stamp_ns);
+  frame.duration_ns = tiles.duration_ns();
+  frame.world_from_sensor_end = scenes.WorldFromSensor(frame.stamp_ns + frame.duration_ns);
+  frame.Resize(pattern.rows, pattern.columns, 1);
+  const OutputAxes axes(spec.output, spec.vehicle_from_sensor, window_from_world,
+                        frame.world_from_sensor);
 
-  parts.ForEachTile([&](std::size_t tile) {
+  ForEachTile([&](std::size_t tile) {
     RayTile rays;
     DetectTile detect;
-    parts.TraceTile(scene, tile, rays, detect);
-    parts.detector.Run(detect);
-    axes.Apply(scene.poses, parts.tiles.times_ns(tile), detect);
-    const SlotRange slots{parts.tiles.slots(tile), parts.tiles.num_firings(tile)};
-    StoreReturns(rays, detect, {window.surfaces, parts.spec.snow_label}, slots, frame);
+    TraceTile(cast, tile, rays, detect);
+    detector.Run(detect);
+    axes.Apply(cast.poses, tiles.times_ns(tile), detect);
+    const SlotRange slots{tiles.slots(tile), tiles.num_firings(tile)};
+    StoreReturns(rays, detect, {cast.surfaces, spec.snow_label}, slots, frame);
   });
-  parts.tiles.StoreConstants(frame);
+  tiles.StoreConstants(frame);
+}
+
+void Simulator::Scan(std::uint32_t frame_index, Frame& frame) {
+  const FrameScene scene = parts_->SceneOf(frame_index);
+  parts_->Scan(CastOf(scene), scene.window->window_from_world, frame);
+}
+
+void Simulator::Scan(std::uint32_t frame_index, const HostScene& host, Frame& frame) {
+  const FramePoses poses =
+      parts_->scenes.PosesIn(host.window_from_world, parts_->pattern.StampNs(frame_index));
+  parts_->Scan({frame_index, poses, host.caster, host.surfaces}, host.window_from_world, frame);
 }
 
 FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) {
@@ -144,7 +171,7 @@ FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) 
   for (float* unknown : {detect.intensity, detect.power_ratio, detect.range_m}) {
     std::fill_n(unknown, kTileSize, kNaN);
   }
-  parts.TraceTile(scene, tile, rays, detect);
+  parts.TraceTile(CastOf(scene), tile, rays, detect);
   const Surface& surface = scene.window->surfaces[rays.surface[lane]];
   const Transform world_from_window = scene.window->window_from_world.inverse();
   FiringStory story{
@@ -190,24 +217,46 @@ std::function<void()> Simulator::MakeRawTrace(std::uint32_t frame_index) {
   };
 }
 
+namespace {
+
+// Whether any ray of the tile may pass through the object's sphere. Generous by half a metre, since
+// float32 loses that much in squares of 300 m and more.
+bool MayMeet(const RayTile& rays, const FrameScenes::LoneObject& lone) {
+  const float reach_m = lone.radius_m + 0.5F;
+  for (std::size_t i = 0; i < rays.num_rays; ++i) {
+    const Eigen::Vector3f to_center =
+        lone.center_window_m -
+        Eigen::Vector3f(rays.origin_x[i], rays.origin_y[i], rays.origin_z[i]);
+    const float along_m = to_center.dot(
+        Eigen::Vector3f(rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]));
+    if (along_m >= -reach_m && to_center.squaredNorm() - along_m * along_m <= reach_m * reach_m) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
 std::vector<std::uint32_t> Simulator::FiringsOnObjectAlone(std::uint32_t frame_index) {
   Parts& parts = *parts_;
   const FrameScene scene = parts.SceneOf(frame_index);
+  const std::vector<FrameScenes::LoneObject> lone_objects = parts.scenes.LoneObjects(scene);
   const float range_max_m = parts.range_max_m();
-  std::vector<std::uint32_t> counts(world().objects().size(), 0);
-  const auto count_hits = [&](std::size_t object) {
-    const auto alone = parts.scenes.Alone(object, scene);
-    for (std::size_t tile = 0; tile < parts.tiles.num_tiles(); ++tile) {
-      RayTile rays;
-      parts.tiles.Aim(tile, scene.poses, range_max_m, rays);
-      alone->CastRanges(rays);
-      counts[object] += static_cast<std::uint32_t>(
+  std::vector<std::atomic<std::uint32_t>> counts(world().objects().size());
+  parts.ForEachTile([&](std::size_t tile) {
+    RayTile rays;
+    parts.tiles.Aim(tile, scene.poses, range_max_m, rays);
+    for (const FrameScenes::LoneObject& lone : lone_objects) {
+      if (!MayMeet(rays, lone)) continue;
+      std::fill_n(rays.range_m, kTileSize, range_max_m);
+      lone.scene->CastRanges(rays);
+      counts[lone.object] += static_cast<std::uint32_t>(
           std::count_if(rays.range_m, rays.range_m + parts.tiles.num_firings(tile),
                         [&](float range_m) { return range_m < range_max_m; }));
     }
-  };
-  parts.arena.execute([&] { tbb::parallel_for(std::size_t{0}, counts.size(), count_hits); });
-  return counts;
+  });
+  return {counts.begin(), counts.end()};
 }
 
 }  // namespace railcast

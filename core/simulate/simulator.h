@@ -13,6 +13,8 @@
 #include "core/scan/scan_pattern.h"
 #include "core/scene/material.h"
 #include "core/scene/world.h"
+#include "core/trace/ray_tile.h"
+#include "core/trace/surface.h"
 
 namespace railcast {
 
@@ -55,6 +57,13 @@ struct FiringStory {
   std::vector<Step> steps;
 };
 
+/// A scene that a host program traces itself, with things and surfaces of its own.
+struct HostScene {
+  const RayCaster& caster;               ///< Its rays are in a window of the host's choice: metres,
+  Transform window_from_world;           ///< origin near the sensor, so that float32 is exact.
+  const std::vector<Surface>& surfaces;  ///< What the caster's indices mean; 0 = nothing.
+};
+
 /// Turns (scenario, frame index) into a Frame: aim, trace, detect, store, tile by tile.
 ///
 /// A frame depends on its index alone, never on history or on the number of threads.
@@ -69,6 +78,9 @@ class Simulator {
 
   /// Fills `frame`; keeps its memory where the shape stays. Not thread-safe: one caller at a time.
   void Scan(std::uint32_t frame_index, Frame& frame);
+
+  /// The same with a scene that the host traces; of the world only the vehicle's way counts.
+  void Scan(std::uint32_t frame_index, const HostScene& host, Frame& frame);
 
   /// For each of world().objects(), in their order: how many firings of the frame would hit it
   /// within range if nothing else stood in the world. (Occlusion = 1 - visible / alone.)

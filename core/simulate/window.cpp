@@ -8,8 +8,9 @@
 namespace railcast {
 namespace {
 
-// Where the vehicle can be while a chunk is its home: chunks are this long at most, see World.
-constexpr double kHomeRadius_m = 60.0;
+// Where a sensor can be while a chunk is its home: in a chunk of less than 100 m, on a track up to
+// 1 km beside the line. An object too many costs an entry of the scene, one too few is missed.
+constexpr double kHomeRadius_m = 1100.0;
 
 Eigen::Affine3d ToAffine(const Transform& transform) {
   return Eigen::Affine3d(transform.matrix());
@@ -67,16 +68,21 @@ std::shared_ptr<const TraceModel> WindowSource::GetModel(
 }
 
 std::shared_ptr<const WindowSource::BuiltChunk> WindowSource::GetChunk(int chunk) {
-  auto& built = chunks_[chunk];
-  if (built == nullptr) {
-    Chunk made = world_->BuildChunk(chunk);
-    auto fresh = std::make_shared<BuiltChunk>();
-    fresh->ground = std::make_shared<TraceModel>(device_, made.ground);
-    fresh->ground_surfaces = WithoutTriangles(made.ground);
-    fresh->placements = std::move(made.placements);
-    built = std::move(fresh);
-  }
-  return built;
+  if (const auto it = chunks_.find(chunk); it != chunks_.end()) return it->second;
+  Chunk made = world_->BuildChunk(chunk);
+  auto built = std::make_shared<BuiltChunk>();
+  built->ground = std::make_shared<TraceModel>(device_, made.ground);
+  built->ground_surfaces = WithoutTriangles(made.ground);
+  built->placements = std::move(made.placements);
+  return chunks_.emplace(chunk, std::move(built)).first->second;
+}
+
+void WindowSource::KeepOnly(const std::vector<int>& chunks) {
+  std::erase_if(chunks_, [&](const auto& entry) {
+    return !std::binary_search(chunks.begin(), chunks.end(), entry.first);
+  });
+  // What neither the world nor a chunk holds will not be asked for again.
+  std::erase_if(models_, [](const auto& entry) { return entry.second.first.use_count() == 1; });
 }
 
 void WindowSource::AddObjects(int home_chunk,
@@ -87,9 +93,10 @@ void WindowSource::AddObjects(int home_chunk,
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (objects[i].moves) continue;
     const Transform world_from_object = world_->WorldFromObject(i, 0);
-    const double radius_m = objects[i].model->Bounds().diagonal().norm();
-    const double distance_m = (world_from_object.translation() - home_world).norm();
-    if (distance_m > range_max_m_ + kHomeRadius_m + radius_m) continue;
+    const Eigen::AlignedBox3d box = objects[i].model->Bounds();
+    if (box.isEmpty()) continue;
+    const double distance_m = (world_from_object * box.center() - home_world).norm();
+    if (distance_m > range_max_m_ + kHomeRadius_m + 0.5 * box.diagonal().norm()) continue;
     placements.push_back({object_models_[i],
                           {ToAffine(window.window_from_world * world_from_object)},
                           object_surfaces_[i]});
@@ -113,6 +120,7 @@ std::shared_ptr<const Window> WindowSource::Build(int home_chunk) {
     return first;
   };
   const std::vector<int> chunks = world_->ChunksInReach(home_chunk, range_max_m_);
+  KeepOnly(chunks);
   for (const int index : chunks) {
     const auto chunk = GetChunk(index);
     const Transform window_from_chunk = window->window_from_world * world_->WorldFromChunk(index);
@@ -130,37 +138,50 @@ std::shared_ptr<const Window> WindowSource::Build(int home_chunk) {
     }
   }
   window->scene = std::make_unique<TraceScene>(device_, placements);
-  std::erase_if(chunks_, [&](const auto& entry) {
-    return !std::binary_search(chunks.begin(), chunks.end(), entry.first);
-  });
   return window;
 }
 
+WindowSource::WindowTask WindowSource::Remember(int home_chunk) {
+  WindowTask task([this, home_chunk] {
+    const std::lock_guard building(build_mutex_);
+    return Build(home_chunk);
+  });
+  windows_.emplace(home_chunk, task.get_future().share());
+  return task;
+}
+
+void WindowSource::ForgetOthers() {
+  std::erase_if(windows_, [&](const auto& entry) {
+    return entry.first != in_use_ && entry.first != prepared_;
+  });
+}
+
 std::shared_ptr<const Window> WindowSource::Get(int home_chunk) {
+  std::optional<WindowTask> build;
+  FutureWindow window;
   {
-    std::unique_lock lock(mutex_);
-    changed_.wait(
-        lock, [&] { return wanted_ != home_chunk || windows_.contains(home_chunk) || failure_; });
-    if (failure_) std::rethrow_exception(failure_);
-    if (const auto it = windows_.find(home_chunk); it != windows_.end()) {
-      auto window = it->second;
-      std::erase_if(windows_, [&](const auto& entry) {
-        return entry.first != home_chunk && entry.first != wanted_;
-      });
-      return window;
-    }
+    const std::lock_guard lock(mutex_);
+    in_use_ = home_chunk;
+    ForgetOthers();
+    if (!windows_.contains(home_chunk)) build = Remember(home_chunk);
+    window = windows_.at(home_chunk);
   }
-  const std::lock_guard building(build_mutex_);
-  auto window = Build(home_chunk);
-  const std::lock_guard lock(mutex_);
-  windows_ = {{home_chunk, window}};
-  return window;
+  if (build) (*build)();
+  try {
+    return window.get();
+  } catch (...) {
+    const std::lock_guard lock(mutex_);
+    windows_.erase(home_chunk);
+    throw;
+  }
 }
 
 void WindowSource::Prepare(int home_chunk) {
   const std::lock_guard lock(mutex_);
-  if (windows_.contains(home_chunk) || wanted_) return;
-  wanted_ = home_chunk;
+  if (ahead_ || windows_.contains(home_chunk)) return;
+  prepared_ = home_chunk;
+  ForgetOthers();
+  ahead_ = Remember(home_chunk);
   changed_.notify_all();
 }
 
@@ -170,23 +191,12 @@ void WindowSource::BuildAhead() {
   setpriority(PRIO_PROCESS, 0, kNice);
   std::unique_lock lock(mutex_);
   while (true) {
-    changed_.wait(lock, [&] { return stopping_ || wanted_; });
+    changed_.wait(lock, [&] { return stopping_ || ahead_; });
     if (stopping_) return;
-    const int home_chunk = *wanted_;
-    std::shared_ptr<const Window> window;
-    std::exception_ptr failure;
     lock.unlock();
-    try {
-      const std::lock_guard building(build_mutex_);
-      window = Build(home_chunk);
-    } catch (...) {
-      failure = std::current_exception();
-    }
+    (*ahead_)();
     lock.lock();
-    if (window != nullptr) windows_.emplace(home_chunk, std::move(window));
-    failure_ = failure;
-    wanted_.reset();
-    changed_.notify_all();
+    ahead_.reset();
   }
 }
 

@@ -2,7 +2,7 @@
 
 #include <condition_variable>
 #include <cstdint>
-#include <exception>
+#include <future>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -27,9 +27,10 @@ struct Window {
   std::unique_ptr<const TraceScene> scene;
 };
 
-/// Makes windows: now when asked, or ahead of need on a thread of its own.
+/// Makes windows: now when asked, or ahead of need on a thread of its own. Thread-safe.
 ///
-/// Memory holds the window in use and the one being prepared, and the chunks of these two.
+/// Memory holds two windows, the one in use and the one prepared, and besides them the chunks and
+/// models of the window built last.
 class WindowSource {
  public:
   WindowSource(std::shared_ptr<const World> world,
@@ -40,9 +41,12 @@ class WindowSource {
   WindowSource(const WindowSource&) = delete;
   WindowSource& operator=(const WindowSource&) = delete;
 
-  /// The window of a home chunk; builds it or waits for it where it is not ready.
+  /// The window of a home chunk, from now on the one in use; builds it or waits for it where it is
+  /// not ready. Throws what building it threw, here or in the background, and forgets it: the next
+  /// call tries again.
   [[nodiscard]] std::shared_ptr<const Window> Get(int home_chunk);
-  /// Begins to build a window in the background unless it is there or on its way.
+  /// Begins to build a window in the background. Does nothing if that window is there or on its
+  /// way, or while another is on its way.
   void Prepare(int home_chunk);
 
   [[nodiscard]] const TraceDevice& device() const { return device_; }
@@ -61,12 +65,18 @@ class WindowSource {
     std::vector<Placement> placements;
   };
 
+  using FutureWindow = std::shared_future<std::shared_ptr<const Window>>;
+  using WindowTask = std::packaged_task<std::shared_ptr<const Window>()>;
+
   [[nodiscard]] std::shared_ptr<const Window> Build(int home_chunk);
   [[nodiscard]] std::shared_ptr<const BuiltChunk> GetChunk(int chunk);
+  void KeepOnly(const std::vector<int>& chunks);
   [[nodiscard]] std::shared_ptr<const TraceModel> GetModel(
       const std::shared_ptr<const Model>& model);
   [[nodiscard]] Surface MakeSurface(const Part& part, std::uint32_t instance, bool is_ego) const;
   void AddObjects(int home_chunk, Window& window, std::vector<TracePlacement>& placements) const;
+  [[nodiscard]] WindowTask Remember(int home_chunk);
+  void ForgetOthers();
   void BuildAhead();
 
   std::shared_ptr<const World> world_;
@@ -85,9 +95,10 @@ class WindowSource {
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::map<int, std::shared_ptr<const Window>> windows_;
-  std::exception_ptr failure_;
-  std::optional<int> wanted_;
+  std::map<int, FutureWindow> windows_;  // Of in_use_ and prepared_.
+  std::optional<int> in_use_;
+  std::optional<int> prepared_;
+  std::optional<WindowTask> ahead_;  // Waits for the builder, or is being built by it.
   bool stopping_ = false;
   std::thread builder_;
 };

@@ -4,6 +4,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -51,16 +52,19 @@ void Commit(RTCScene scene) {
 void AttachPart(RTCDevice device, RTCScene scene, const Mesh& mesh, unsigned geometry_id) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   if (!mesh.triangles.empty()) {
-    constexpr std::size_t kVertexBytes = 3 * sizeof(float);
-    constexpr std::size_t kTriangleBytes = 3 * sizeof(std::uint32_t);
-    static_assert(sizeof(Eigen::Vector3f) == kVertexBytes);
-    static_assert(sizeof(mesh.triangles[0]) == kTriangleBytes);
-    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                             kVertexBytes, mesh.vertices.size());
-    std::memcpy(vertices, mesh.vertices.data(), mesh.vertices.size() * kVertexBytes);
-    void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                            kTriangleBytes, mesh.triangles.size());
-    std::memcpy(indices, mesh.triangles.data(), mesh.triangles.size() * kTriangleBytes);
+    using Corner = std::array<float, 3>;
+    auto* vertices = static_cast<Corner*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                sizeof(Corner), mesh.vertices.size()));
+    std::transform(mesh.vertices.begin(), mesh.vertices.end(), vertices,
+                   [](const Eigen::Vector3f& vertex) {
+                     return Corner{vertex.x(), vertex.y(), vertex.z()};
+                   });
+    using Triangle = std::array<std::uint32_t, 3>;
+    auto* triangles = static_cast<Triangle*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                sizeof(Triangle), mesh.triangles.size()));
+    std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles);
   }
   rtcCommitGeometry(geometry);
   rtcAttachGeometryByID(scene, geometry, geometry_id);

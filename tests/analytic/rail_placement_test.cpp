@@ -87,6 +87,8 @@ TEST(RailPlacement, TwentyNineKilometresDownTheLineRailsWiresAndWagonsAreTheSame
   here.world.alignment.course = AlignmentElementsSpec{{{"straight", 40'000.0, std::nullopt}}};
   here.world.vegetation.trees_per_hectare = 0.0;
   here.world.vegetation.grass = false;
+  // The ground is rougher here than there: nothing may stand on it.
+  for (ObjectSpec& object : here.world.objects) object.h_m = object.h_m.value_or(0.0);
   ScenarioSpec there = here;
   there.vehicle.start_s_m += kFarther_m;
   for (ObjectSpec& object : there.world.objects) object.s_m += kFarther_m;

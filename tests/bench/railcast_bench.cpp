@@ -106,6 +106,12 @@ void Run(benchmark::State& state, Bench& bench, const Row& row, int num_threads)
   state.counters["p99_ms"] = quantile(0.99);
 }
 
+/// The rows in the order of registration; random interleaving loses it.
+std::vector<std::string>& RowNames() {
+  static std::vector<std::string> names;
+  return names;
+}
+
 /// Prints as usual, and keeps the medians for the ratios.
 class RatioReporter : public benchmark::ConsoleReporter {
  public:
@@ -115,17 +121,18 @@ class RatioReporter : public benchmark::ConsoleReporter {
       if (run.aggregate_name != "median") continue;
       const auto p99 = run.counters.find("p99_ms");
       rows_[run.run_name.function_name] = {run.counters.at("p50_ms").value, p99->second.value};
-      order_.push_back(run.run_name.function_name);
     }
   }
 
   void Finalize() override {
     std::printf("\n%-44s %10s %10s %12s\n", "median over the repetitions", "p50 ms", "p99 ms",
                 "x raw_trace");
-    for (const std::string& name : order_) {
+    for (const std::string& name : RowNames()) {
+      const auto row = rows_.find(name);
+      if (row == rows_.end()) continue;
       const auto raw = rows_.find("raw_trace" + name.substr(name.find('/')));
-      std::printf("%-44s %10.3f %10.3f", name.c_str(), rows_[name].p50_ms, rows_[name].p99_ms);
-      if (raw != rows_.end()) std::printf(" %12.3f", rows_[name].p50_ms / raw->second.p50_ms);
+      std::printf("%-44s %10.3f %10.3f", name.c_str(), row->second.p50_ms, row->second.p99_ms);
+      if (raw != rows_.end()) std::printf(" %12.3f", row->second.p50_ms / raw->second.p50_ms);
       std::printf("\n");
     }
   }
@@ -136,7 +143,6 @@ class RatioReporter : public benchmark::ConsoleReporter {
     double p99_ms{};
   };
   std::map<std::string, Times> rows_;
-  std::vector<std::string> order_;
 };
 
 std::map<std::string, ScenarioSpec> Scenes() {

@@ -202,6 +202,20 @@ TEST(SnowClutter, InjectsIntoEmptyBeamsWithMaxwellRanges) {
   EXPECT_LE(worst, 1.95 / std::sqrt(m));
 }
 
+TEST(SnowClutter, HasNoPowerWithoutTheThresholdAndIsSubjectToItWithIt) {
+  for (const bool threshold : {false, true}) {
+    DetectorSpec spec = SnowSpec();
+    spec.effects.threshold = threshold;
+    // Flakes are detectable up to sqrt(0.02 / 0.1) * 10 m = 4.47 m.
+    spec.plausibility.reference_range_m = 10.0;
+    double farthest_m = 0.0;
+    for (const Answer& answer : Detect(spec, [](std::uint32_t) { return std::nan(""); })) {
+      if (answer.outcome == Outcome::kClutter) farthest_m = std::max(farthest_m, answer.range_m);
+    }
+    EXPECT_EQ(farthest_m <= 10.0 * std::sqrt(0.2), threshold);
+  }
+}
+
 TEST(SnowClutter, ReplacesOnlyReturnsFartherThanTheFlake) {
   constexpr double kWall_m = 9.0;
   const auto answers = Detect(SnowSpec(), [](std::uint32_t) { return kWall_m; });

@@ -188,8 +188,9 @@ Transform Alignment::WorldFromTrack(double s_m, double d_m, double h_m) const {
   const AxisPoint axis = At(s_m);
   const Eigen::Matrix3d world_from_track =
       RotationFromYawPitchRoll(axis.heading_rad, -std::atan(axis.gradient), axis.cant_rad);
+  const Vector3 left(-std::sin(axis.heading_rad), std::cos(axis.heading_rad), 0.0);
   return MakeTransform(world_from_track,
-                       axis.position_m + world_from_track * Vector3(0.0, d_m, h_m));
+                       axis.position_m + d_m * left + h_m * world_from_track.col(2));
 }
 
 }  // namespace railcast

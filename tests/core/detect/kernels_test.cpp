@@ -38,7 +38,7 @@ void RunAll(const Kernels& kernels, DetectTile& tile) {
   kernels.hit(tile, 0.5F);
   kernels.threshold(tile, threshold);
   kernels.rain(tile, {7, 0.002F});
-  kernels.snow(tile, {7, 0.3F, 8.0F, 0.5F, 0.02F, threshold});
+  kernels.snow(tile, {7, 0.3F, 8.0F, 0.5F, 0.02F, true, threshold});
   kernels.sensor_dropout(tile, {7, 0.1F});
   kernels.measure_isotropic(tile, {7, 0.02F, 1e-4F, 0.5F, 280.0F});
 }

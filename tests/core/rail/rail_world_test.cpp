@@ -128,8 +128,8 @@ TEST(RailWorld, PlacesObjectsByTheirTrack) {
   const Alignment& alignment = world.alignment();
   EXPECT_TRUE(world.WorldFromObject(0, 0).isApprox(alignment.WorldFromTrack(500.0, 4.0), 1e-12));
   const Transform world_from_walker = world.WorldFromObject(1, 0);
-  EXPECT_TRUE(world_from_walker.translation().isApprox(
-      alignment.WorldFromTrack(500.0, -2.0).translation(), 1e-12));
+  EXPECT_TRUE(world_from_walker.translation().head<2>().isApprox(
+      alignment.WorldFromTrack(500.0, -2.0).translation().head<2>(), 1e-12));
   EXPECT_TRUE(world_from_walker.linear().col(2).isApprox(Vector3::UnitZ(), 1e-12));
   EXPECT_NEAR(
       world_from_walker.linear().col(0).dot(alignment.WorldFromTrack(500.0).linear().col(0)), 0.0,

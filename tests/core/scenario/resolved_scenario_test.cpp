@@ -38,6 +38,7 @@ ScenarioSpec UnusualScenario(const std::string& mesh_file) {
   spec.weather = {0.01, 3, 4e-4, 0.7, 5, 0.03, 6, 0.04};
   spec.interfaces.udp = {"localhost:1", "[::1]:65535"};
   spec.camera = R"({"b":1,"a":[2.5,null]})";
+  spec.world.seed = 0xFFFF'FFFF'FFFF'FFFEULL;
   spec.world.alignment = {AlignmentSplineSpec{{{0, 0}, {100, 0.1}}},
                           "a survey",
                           {1, 2, 3},
@@ -72,7 +73,7 @@ ScenarioSpec UnusualScenario(const std::string& mesh_file) {
   spec.vehicle.motion.profile = {{1.0, {}, 2}, {3.0, {}, 0}};
   spec.vehicle.motion.reverse = true;
   spec.vehicle.ego_boxes_m = {{-1, -2, -3, 1, 2, 3}};
-  spec.output = {"world", "left"};
+  spec.output = {"world", "left", {1e6, -2, 3.5}};
   spec.materials = {{"soil", 0.25}};
   spec.labels = {{1, "rail", {1, 2, 3}, "Rails", "track", 260, 49}};
   return spec;

@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "core/base/error.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/scan_once.h"
 #include "tests/support/simple_world.h"
@@ -58,6 +59,33 @@ TEST(OutputAxes, LeftHandednessNegatesY) {
     EXPECT_EQ(left.x[slot], right.x[slot]);
     EXPECT_EQ(left.y[slot], -right.y[slot]);
   }
+}
+
+TEST(OutputAxes, WorldCoordinatesAreTakenAboutTheOriginThatIsGiven) {
+  SimulatorSpec spec = WithAxes("world", "right");
+  spec.output.origin_m = {60.0, 240.0, -1.0};
+  const Frame world = ScanOnce(TurnedWorld(), MakeRaster(40, 10, 1), spec);
+  for (std::size_t slot = 0; slot < world.num_slots(); ++slot) {
+    EXPECT_NEAR(static_cast<double>(world.y[slot]), 10.0, 1e-5);
+  }
+}
+
+TEST(OutputAxes, WorldCoordinatesFarFromTheOriginAreRefused) {
+  auto world = TurnedWorld();
+  world->world_from_chunk.translation() = Vector3(6e5, 5.3e6, 400.0);
+  SimulatorSpec spec = WithAxes("world", "right");
+  const ScanPattern pattern = MakeRaster(40, 10, 1);
+  try {
+    static_cast<void>(ScanOnce(world, pattern, spec));
+    FAIL() << "expected InputError";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "/output/origin_m: must lie within 8192 m of the sensor, since float32 loses "
+                 "millimetres beyond (got [0, 0, 0], sensor at [600000, 5300002, 403])");
+  }
+  spec.output.origin_m = {6e5, 5.3e6, 400.0};
+  const Frame frame = ScanOnce(world, pattern, spec);
+  EXPECT_NEAR(static_cast<double>(frame.y[55]), 50.0, 1e-4);
 }
 
 }  // namespace

@@ -126,14 +126,23 @@ TEST(Alignment, LimitsCantToItsMaximum) {
   EXPECT_NEAR(alignment.At(250.0).cant_rad, -std::asin(150.0 / 1500.0), 1e-12);
 }
 
+TEST(Alignment, PutsTracksSideBySideAtOneHeight) {
+  const Alignment line(LeftCurve(400.0));
+  const Transform axis = line.WorldFromTrack(250.0);
+  const Transform second = line.WorldFromTrack(250.0, 4.0);
+  EXPECT_NEAR(second.translation().z(), axis.translation().z(), 1e-12);
+  EXPECT_NEAR((second.translation() - axis.translation()).norm(), 4.0, 1e-12);
+  EXPECT_TRUE(second.linear().isApprox(axis.linear(), 1e-12));
+}
+
 TEST(Alignment, LeansIntoTheCurve) {
   // The outer rail is the higher one: the right rail in a left curve.
   const Alignment left(LeftCurve(400.0));
-  EXPECT_GT(left.WorldFromTrack(250.0, -0.75).translation().z(), 0.06);
-  EXPECT_LT(left.WorldFromTrack(250.0, 0.75).translation().z(), -0.06);
+  EXPECT_GT((left.WorldFromTrack(250.0) * Vector3(0.0, -0.75, 0.0)).z(), 0.06);
+  EXPECT_LT((left.WorldFromTrack(250.0) * Vector3(0.0, 0.75, 0.0)).z(), -0.06);
   const Alignment right(LeftCurve(-400.0));
-  EXPECT_LT(right.WorldFromTrack(250.0, -0.75).translation().z(), -0.06);
-  EXPECT_GT(right.WorldFromTrack(250.0, 0.75).translation().z(), 0.06);
+  EXPECT_LT((right.WorldFromTrack(250.0) * Vector3(0.0, -0.75, 0.0)).z(), -0.06);
+  EXPECT_GT((right.WorldFromTrack(250.0) * Vector3(0.0, 0.75, 0.0)).z(), 0.06);
 }
 
 TEST(Alignment, RampsCantWithoutAStep) {

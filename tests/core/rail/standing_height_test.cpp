@@ -1,0 +1,98 @@
+#include "core/rail/standing_height.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/rail/rail_world.h"
+#include "tests/core/rail/test_line.h"
+#include "tests/core/rail/test_tables.h"
+
+namespace railcast {
+namespace {
+
+/// The highest point of the mesh straight above or below (x, y); minus infinity if there is none.
+double TopAt(const Mesh& mesh, const Transform& world_from_mesh, const Eigen::Vector2d& at_m) {
+  double top_m = -std::numeric_limits<double>::infinity();
+  for (const auto& triangle : mesh.triangles) {
+    const auto corner = [&](int i) -> Vector3 {
+      return world_from_mesh * mesh.vertices[triangle[static_cast<std::size_t>(i)]].cast<double>();
+    };
+    Eigen::Matrix3d corners;
+    corners << corner(0), corner(1), corner(2);
+    Eigen::Matrix3d plan = corners;
+    plan.row(2).setOnes();
+    if (std::abs(plan.determinant()) < 1e-9) continue;
+    const Vector3 weights = plan.inverse() * Vector3(at_m.x(), at_m.y(), 1.0);
+    if (weights.minCoeff() < 0.0) continue;
+    top_m = std::max(top_m, corners.row(2).dot(weights));
+  }
+  return top_m;
+}
+
+/// Of the surfaces that the chunk draws.
+double DrawnHeight_m(const TestLine& line, int chunk, const Eigen::Vector2d& at_m) {
+  const Chunk built = line.Build(chunk);
+  const Transform world_from_chunk = line.WorldFromChunk(chunk);
+  return std::max(TopAt(MeshOfSurface(built, line.surfaces().ground), world_from_chunk, at_m),
+                  TopAt(MeshOfSurface(built, line.surfaces().ballast), world_from_chunk, at_m));
+}
+
+// Ballast has grains of sigma 20 mm on a grid of 0.2 m and, in the model, dips around sleepers;
+// ground roughness has waves of 2 m on a grid of 0.5 m and wider.
+TEST(StandingHeight, IsThatOfTheDrawnSurfaceOnTheTrackBesideItAndInTheField) {
+  for (const WorldSpec& spec : {StraightLine(300.0), CantedArc(300.0, 400.0)}) {
+    const TestLine line(spec);
+    ChunkContext context = line.Context(2);
+    context.chunk_from_world = Transform::Identity();
+    for (const double d_m : {0.0, 2.0, 2.6, -3.2, 5.0, -9.0, 14.0, 40.0}) {
+      const double s_m = 122.3;
+      const Footprint point{s_m, d_m, 0.0, {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}};
+      const Vector3 place = line.alignment().WorldFromTrack(s_m, d_m).translation();
+      EXPECT_NEAR(StandingHeight_m(context, point), DrawnHeight_m(line, 2, place.head<2>()), 0.08)
+          << d_m;
+    }
+  }
+}
+
+TEST(StandingHeight, TakesTheLowestCornerOnASlope) {
+  const TestLine line(StraightLine(300.0));
+  ChunkContext context = line.Context(2);
+  context.chunk_from_world = Transform::Identity();
+  // Across the ballast's slope of 1:1.5.
+  const Footprint wide{122.3, 2.0, 0.0, {Eigen::Vector2d(-0.1, -0.2), Eigen::Vector2d(0.1, 0.2)}};
+  const Footprint lower{122.3, 2.2, 0.0, {Eigen::Vector2d(-0.1, 0.0), Eigen::Vector2d(0.1, 0.0)}};
+  EXPECT_NEAR(StandingHeight_m(context, wide), StandingHeight_m(context, lower), 1e-9);
+  // Turned by a quarter it reaches as far to the side as it is long.
+  Footprint turned = wide;
+  turned.heading_rad = std::numbers::pi / 2.0;
+  EXPECT_GT(StandingHeight_m(context, turned), StandingHeight_m(context, wide) + 0.05);
+}
+
+TEST(RailWorld, StandsObjectsOnTheGroundUnlessAHeightIsGiven) {
+  WorldSpec spec = StraightLine(300.0);
+  for (const double h_m : {0.0, 1.5}) {
+    ObjectSpec object;
+    object.name = h_m == 0.0 ? "standing" : "hanging";
+    object.type = "person";
+    object.s_m = 120.0;
+    object.d_m = -8.0;
+    if (h_m > 0.0) object.h_m = h_m;
+    spec.objects.push_back(object);
+  }
+  ObjectSpec wagon = spec.objects.front();
+  wagon.name = "wagon";
+  wagon.type = "flat_wagon";
+  spec.objects.push_back(wagon);
+  const RailWorld world(spec, {}, TestLabels(), TestMaterials(), 1);
+  const double top_of_rail_m = world.alignment().At(120.0).position_m.z();
+  EXPECT_NEAR(world.WorldFromObject(0, 0).translation().z(), top_of_rail_m - 0.7, 0.25);
+  EXPECT_NEAR(world.WorldFromObject(1, 0).translation().z(), top_of_rail_m + 1.5, 1e-9);
+  EXPECT_NEAR(world.WorldFromObject(2, 0).translation().z(), top_of_rail_m, 1e-9);
+}
+
+}  // namespace
+}  // namespace railcast

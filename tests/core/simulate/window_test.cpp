@@ -1,0 +1,262 @@
+#include "core/simulate/window.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "tests/support/analytic_meshes.h"
+#include "tests/support/scan_once.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kChunkLength_m = 50.0;
+constexpr double kRange_m = 100.0;  // Two chunks to either side of home.
+constexpr int kNumChunks = 30;
+
+/// A straight line of chunks: each has ground and a post with a label of its own, and a tree that
+/// all share or, on request, one of its own. Counts what it builds; one chunk may be broken.
+class LineWorld final : public World {
+ public:
+  bool own_trees = false;
+  std::atomic<int> broken_chunk = -1;
+  std::atomic<int> delay_ms = 0;
+  mutable std::atomic<int> num_built[kNumChunks] = {};
+  mutable std::atomic<int> num_windows = 0;
+  mutable std::weak_ptr<const Model> tree_of_chunk_0;
+
+  [[nodiscard]] Transform WorldFromVehicle(std::int64_t) const override {
+    return Transform::Identity();
+  }
+  [[nodiscard]] int HomeChunk(std::int64_t) const override { return 0; }
+  [[nodiscard]] std::vector<int> ChunksInReach(int home_chunk, double range_m) const override {
+    ++num_windows;
+    std::vector<int> chunks;
+    for (int chunk = 0; chunk < kNumChunks; ++chunk) {
+      if (std::abs(chunk - home_chunk) * kChunkLength_m <= range_m) chunks.push_back(chunk);
+    }
+    return chunks;
+  }
+  [[nodiscard]] Transform WorldFromChunk(int chunk) const override {
+    return MakeTransform(Eigen::Matrix3d::Identity(), {kChunkLength_m * chunk, 0.0, 0.0});
+  }
+  [[nodiscard]] Chunk BuildChunk(int chunk) const override {
+    ++num_built[chunk];
+    std::this_thread::sleep_for(std::chrono::milliseconds(delay_ms));
+    if (chunk == broken_chunk) throw std::runtime_error("broken " + std::to_string(chunk));
+    const auto label = static_cast<std::uint32_t>(100 + chunk);
+    const float post_m = 0.5F + 0.1F * static_cast<float>(chunk);
+    Chunk built{{"ground", {{MakeFloor(-2.0F, 25.0F), 1, 1}, {MakeWall(9.0F, post_m), 2, label}}},
+                {}};
+    const auto tree = own_trees ? MakeTree() : tree_;
+    if (chunk == 0) tree_of_chunk_0 = tree;
+    Eigen::Affine3d chunk_from_tree(Eigen::Translation3d(0.0, 5.0 + 0.3 * chunk, 0.0));
+    built.placements.push_back({tree, chunk_from_tree, 0});
+    return built;
+  }
+  [[nodiscard]] const std::vector<SceneObject>& objects() const override { return objects_; }
+  [[nodiscard]] Transform WorldFromObject(std::size_t, std::int64_t) const override {
+    return Transform::Identity();
+  }
+
+  void AddStandingObject(std::shared_ptr<const Model> model) {
+    objects_.push_back({.name = "thing", .type = "mesh", .instance = 1, .model = std::move(model)});
+  }
+
+ private:
+  static std::shared_ptr<const Model> MakeTree() {
+    return std::make_shared<const Model>(Model{"tree", {{MakeCylinder(1.0, 6.0, 8), 1, 2}}});
+  }
+
+  std::shared_ptr<const Model> tree_ = MakeTree();
+  std::vector<SceneObject> objects_;
+};
+
+struct Line {
+  std::shared_ptr<LineWorld> world = std::make_shared<LineWorld>();
+  WindowSource windows{world, TestMaterials(), kRange_m, ""};
+};
+
+/// What a fan of rays from the home chunk's origin sees: range, label, instance.
+using View = std::vector<std::tuple<float, std::uint32_t, std::uint32_t>>;
+
+View LookAround(const Window& window) {
+  RayTile rays{};
+  rays.num_rays = kTileSize;
+  for (std::size_t i = 0; i < kTileSize; ++i) {
+    const double azimuth_rad = 2.0 * std::numbers::pi * static_cast<double>(i) / kTileSize;
+    rays.direction_x[i] = static_cast<float>(std::cos(azimuth_rad));
+    rays.direction_y[i] = static_cast<float>(std::sin(azimuth_rad));
+    rays.range_m[i] = static_cast<float>(kRange_m);
+  }
+  window.scene->Cast(rays);
+  View view;
+  for (std::size_t i = 0; i < kTileSize; ++i) {
+    const Surface& surface = window.surfaces[rays.surface[i]];
+    view.emplace_back(rays.range_m[i], surface.label, surface.instance);
+  }
+  return view;
+}
+
+std::size_t NumHits(const View& view) {
+  return static_cast<std::size_t>(std::count_if(
+      view.begin(), view.end(), [](const auto& seen) { return std::get<1>(seen) != 0; }));
+}
+
+std::vector<std::uint32_t> Labels(const Window& window) {
+  std::vector<std::uint32_t> labels;
+  for (const Surface& surface : window.surfaces) labels.push_back(surface.label);
+  return labels;
+}
+
+void WaitUntil(const std::function<bool()>& is_done) {
+  while (!is_done()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+TEST(WindowSource, AWindowDoesNotDependOnThoseBeforeIt) {
+  Line line;
+  for (const int home : {0, 1, 2, 12, 11, 10, 9, 10, 25, 2, 2, 29, 0}) {
+    const auto window = line.windows.Get(home);
+    line.windows.Prepare((home + 1) % kNumChunks);
+    const auto fresh = Line().windows.Get(home);
+    EXPECT_EQ(Labels(*window), Labels(*fresh)) << home;
+    EXPECT_EQ(LookAround(*window), LookAround(*fresh)) << home;
+    EXPECT_GT(NumHits(LookAround(*window)), 10U) << home;
+    EXPECT_TRUE(window->window_from_world.isApprox(line.world->WorldFromChunk(home).inverse()));
+  }
+}
+
+TEST(WindowSource, DrivingForwardBuildsEachChunkAndEachWindowOnce) {
+  Line line;
+  for (int home = 0; home < 20; ++home) {
+    for (int frame = 0; frame < 5; ++frame) {
+      EXPECT_NE(line.windows.Get(home), nullptr);
+      line.windows.Prepare(home + 1);
+      WaitUntil([&] { return line.world->num_windows >= home + 2; });
+    }
+  }
+  EXPECT_NE(line.windows.Get(20), nullptr);
+  EXPECT_EQ(line.world->num_windows, 21);
+  for (int chunk = 0; chunk <= 22; ++chunk) EXPECT_EQ(line.world->num_built[chunk], 1) << chunk;
+}
+
+TEST(WindowSource, WhatIsOutOfReachIsForgotten) {
+  auto world = std::make_shared<LineWorld>();
+  world->own_trees = true;
+  WindowSource windows(world, TestMaterials(), kRange_m, "");
+  std::weak_ptr<const Window> first = windows.Get(0);
+  EXPECT_FALSE(world->tree_of_chunk_0.expired());
+  EXPECT_FALSE(first.expired());
+  EXPECT_NE(windows.Get(10), nullptr);
+  EXPECT_TRUE(world->tree_of_chunk_0.expired());
+  EXPECT_TRUE(first.expired());
+  EXPECT_NE(windows.Get(0), nullptr);
+  EXPECT_EQ(world->num_built[0], 2);
+}
+
+TEST(WindowSource, KeepsOnlyTheWindowInUseAndTheLastPrepared) {
+  Line line;
+  std::weak_ptr<const Window> in_use = line.windows.Get(0);
+  for (const int ahead : {5, 10, 15}) {
+    const int before = line.world->num_windows;
+    WaitUntil([&] {
+      line.windows.Prepare(ahead);  // Not taken while the one before is on its way.
+      return line.world->num_windows > before;
+    });
+  }
+  EXPECT_FALSE(in_use.expired());
+  EXPECT_NE(line.windows.Get(15), nullptr);
+  EXPECT_EQ(line.world->num_windows, 4);
+  EXPECT_TRUE(in_use.expired());
+  EXPECT_NE(line.windows.Get(10), nullptr);
+  EXPECT_EQ(line.world->num_windows, 5);
+}
+
+TEST(WindowSource, AFailureReachesTheCallerAndTheNextCallTriesAgain) {
+  Line line;
+  line.world->broken_chunk = 6;
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    try {
+      EXPECT_EQ(line.windows.Get(5), nullptr);
+      ADD_FAILURE() << "chunk 6 is broken";
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(), "broken 6");
+    }
+  }
+  EXPECT_NE(line.windows.Get(3), nullptr);
+  line.world->broken_chunk = -1;
+  EXPECT_EQ(LookAround(*line.windows.Get(5)), LookAround(*Line().windows.Get(5)));
+}
+
+TEST(WindowSource, AFailureInTheBackgroundReachesThoseAloneWhoWantThatWindow) {
+  Line line;
+  const View view = LookAround(*line.windows.Get(3));
+  line.world->broken_chunk = 6;
+  for (int frame = 0; frame < 5; ++frame) {
+    line.windows.Prepare(4);
+    WaitUntil([&] { return line.world->num_built[6] == 1; });
+    EXPECT_EQ(LookAround(*line.windows.Get(3)), view);
+  }
+  EXPECT_THROW(static_cast<void>(line.windows.Get(4)), std::runtime_error);
+  EXPECT_EQ(line.world->num_built[6], 1);
+  line.world->broken_chunk = -1;
+  EXPECT_EQ(LookAround(*line.windows.Get(4)), LookAround(*Line().windows.Get(4)));
+}
+
+TEST(WindowSource, MayBeAskedByManyThreadsAtOnce) {
+  std::map<int, View> expected;
+  for (const int home : {0, 1, 2, 3, 20}) expected[home] = LookAround(*Line().windows.Get(home));
+  Line line;
+  const auto ask = [&](int first) {
+    for (int i = 0; i < 25; ++i) {
+      const int home = (first + i) % 5 == 4 ? 20 : (first + i) % 5;
+      line.windows.Prepare((first + 2 * i) % 4);
+      EXPECT_EQ(LookAround(*line.windows.Get(home)), expected[home]);
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int first = 0; first < 4; ++first) threads.emplace_back(ask, first);
+  for (std::thread& thread : threads) thread.join();
+}
+
+TEST(WindowSource, AWindowOnItsWayIsWaitedForAndNotBuiltTwice) {
+  Line line;
+  line.world->delay_ms = 20;
+  line.windows.Prepare(10);
+  EXPECT_NE(line.windows.Get(10), nullptr);
+  EXPECT_EQ(line.world->num_windows, 1);
+}
+
+TEST(WindowSource, MayBeDestroyedWhileAWindowIsOnItsWay) {
+  Line line;
+  line.world->delay_ms = 20;
+  line.windows.Prepare(10);
+}
+
+// A mesh in coordinates of its own: its origin is far from here, its geometry is not.
+TEST(WindowSource, AnObjectIsWhereItsGeometryIsAndNotItsOrigin) {
+  auto world = std::make_shared<LineWorld>();
+  world->AddStandingObject(std::make_shared<const Model>(
+      Model{"thing", {{MakeWall(static_cast<float>(29 * kChunkLength_m) + 5.0F, 2.0F), 1, 7}}}));
+  WindowSource windows(world, TestMaterials(), kRange_m, "");
+  const auto [range_m, label, instance] = LookAround(*windows.Get(29)).front();
+  EXPECT_NEAR(range_m, 5.0F, 1e-4F);  // Half a unit in the last place of 1455 m is 6e-5.
+  EXPECT_EQ(label, 7U);
+  EXPECT_EQ(instance, 1U);
+}
+
+}  // namespace
+}  // namespace railcast
