@@ -100,10 +100,11 @@ TEST(FilesPage, SaysThatPointsOfAStandingSceneLieInTheirOutputBoxesAsTheyAre) {
       "    xyz = np.stack([mine[axis] for axis in 'xyz'], axis=1)\n"
       "    thing['world'] = thing['output']\n"
       "    print(thing['name'], len(mine), in_box(xyz, mine['time_ns'], thing, 0.005).sum())\n";
-  for (const char* frame : {"sensor", "vehicle", "world"}) {
-    for (const char* handedness : {"right", "left"}) {
-      const std::string output = R"({"frame": ")" + std::string(frame) + R"(", "handedness": ")" +
-                                 std::string(handedness) + "\"}";
+  for (const char* axes :
+       {R"("sensor")", R"("vehicle")", R"("world", "origin_m": [800, 500, 2])"}) {
+    for (const char* handedness : {R"("right")", R"("left")"}) {
+      const std::string output =
+          R"({"frame": )" + std::string(axes) + R"(, "handedness": )" + handedness + "}";
       SCOPED_TRACE(output);
       ExpectAllPointsInTheirBoxes(RunThePage(CurveWithTraffic(output, false), check_output_boxes));
     }
