@@ -1,7 +1,5 @@
 #include "generator/track_limits.h"
 
-#include <algorithm>
-#include <ranges>
 #include <string>
 
 #include "core/base/error.h"
@@ -13,6 +11,23 @@ namespace {
 
 // What stops exactly at the end of its track is still on it, whatever the last digit says.
 constexpr double kTolerance_m = 1e-3;
+
+// The first frame that something has left its track in. Nothing turns round: what has left stays
+// away. @pre It has in `last_frame`.
+template <typename Predicate>
+std::uint32_t FirstBeyond(std::uint32_t first_frame,
+                          std::uint32_t last_frame,
+                          const Predicate& is_on_track) {
+  while (first_frame < last_frame) {
+    const std::uint32_t middle = first_frame + (last_frame - first_frame) / 2;
+    if (is_on_track(middle)) {
+      first_frame = middle + 1;
+    } else {
+      last_frame = middle;
+    }
+  }
+  return first_frame;
+}
 
 }  // namespace
 
@@ -31,9 +46,7 @@ void CheckStaysOnTracks(const ScenarioSpec& scenario,
       return s_m >= track.start_s_m - kTolerance_m && s_m <= end_s_m + kTolerance_m;
     };
     if (is_on_track(last_frame)) return;
-    // Nothing turns round: what has left stays away.
-    const auto frames = std::views::iota(first_frame, last_frame + 1);
-    const std::uint32_t frame = *std::ranges::partition_point(frames, is_on_track);
+    const std::uint32_t frame = FirstBeyond(first_frame, last_frame, is_on_track);
     errors.Add(scenario.sources.Place(pointer) + ": leaves track \"" + track.name + "\", from " +
                NumberText(track.start_s_m) + " to " + NumberText(end_s_m) + " m, at frame " +
                std::to_string(frame) + " (" +

@@ -73,7 +73,7 @@ std::vector<std::filesystem::path> FrameFiles(const std::filesystem::path& direc
 
 /// "000012", or "50 frames, 000000 to 000049". @pre `files` is not empty.
 std::string NamesOf(const std::vector<std::filesystem::path>& files) {
-  const std::string first = files.front().stem().string();
+  std::string first = files.front().stem().string();
   if (files.size() == 1) return first;
   return std::to_string(files.size()) + " frames, " + first + " to " + files.back().stem().string();
 }

@@ -33,7 +33,7 @@ std::string CurveWithTraffic(const std::string& output, bool moves) {
   return R"({
     "version": 1, "fidelity": "geometry",
     "lidar": {"file": ")" +
-         kScenarios + R"(sensors/vir2rail.json",
+         scenarios_folder + R"(sensors/vir2rail.json",
               "mount": {"position_m": [2, 0.5, 2.5], "yaw_deg": 10, "pitch_deg": 3}},
     "world": {
       "alignment": {"course": {"type": "elements", "elements": [
@@ -51,9 +51,9 @@ std::string CurveWithTraffic(const std::string& output, bool moves) {
     "output": )" +
          output + R"(,
     "materials": ")" +
-         kScenarios + R"(materials/railway.json",
+         scenarios_folder + R"(materials/railway.json",
     "labels": ")" +
-         kScenarios + R"(labels.json"
+         scenarios_folder + R"(labels.json"
   })";
 }
 

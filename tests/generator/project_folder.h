@@ -7,7 +7,7 @@
 
 namespace railcast {
 
-inline const std::string kScenarios = std::string(RAILCAST_SOURCE_DIR) + "/scenarios/";
+inline const std::string scenarios_folder = std::string(RAILCAST_SOURCE_DIR) + "/scenarios/";
 
 /// A pyramid of 2 m, to be named by a scenario.
 inline constexpr const char* kPyramidObj =
@@ -33,8 +33,8 @@ inline std::filesystem::path MakeProject(const std::filesystem::path& folder) {
       "objects": [{"name": "rock", "type": "mesh", "file": "rock.obj", "s_m": 450, "d_m": 2}]
     },
     "vehicle": {"start_s_m": 400},
-    "materials": ")" + kScenarios + R"(materials/railway.json",
-    "labels": ")" + kScenarios + R"(labels.json"
+    "materials": ")" + scenarios_folder + R"(materials/railway.json",
+    "labels": ")" + scenarios_folder + R"(labels.json"
   })");
   return folder / "scenario.json";
 }

@@ -39,13 +39,13 @@ TEST(RailcastGenerate, ExitsWithTwoOnWrongUsage) {
 }
 
 TEST(RailcastGenerate, ReplaysOneFiringEffectByEffect) {
-  const Ended run = Generate("trace " + kScenarios + "minimal.json --frame 3 --firing 0");
+  const Ended run = Generate("trace " + scenarios_folder + "minimal.json --frame 3 --firing 0");
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.said.find("frame 3 firing 0 at 0 ns, slot 0\n"), 0U);
   for (const char* effect : {"\nhit ", "\nthreshold ", "\nnoise "}) {
     EXPECT_NE(run.said.find(effect), std::string::npos) << effect;
   }
-  const Ended beyond = Generate("trace " + kScenarios + "minimal.json --firing 28800");
+  const Ended beyond = Generate("trace " + scenarios_folder + "minimal.json --firing 28800");
   EXPECT_EQ(beyond.status, 1);
   EXPECT_EQ(beyond.said, "--firing: must be < 28800, the firings of a frame (got 28800)\n");
 }
@@ -56,27 +56,28 @@ TEST(RailcastGenerate, ExitsWithOneAndOneLineOnBadInput) {
   const Ended missing = Generate("sequence /no/such.json" + out);
   EXPECT_EQ(missing.status, 1);
   EXPECT_EQ(missing.said, "/no/such.json: no such file\n");
-  const Ended fields = Generate("sequence " + kScenarios + "minimal.json --fields labl" + out);
+  const Ended fields =
+      Generate("sequence " + scenarios_folder + "minimal.json --fields labl" + out);
   EXPECT_EQ(fields.status, 1);
   EXPECT_EQ(fields.said.find("--fields: unknown field \"labl\", nearest is \"label\""), 0U);
   const Ended kitti =
-      Generate("sequence " + kScenarios + "minimal.json --format kitti --fields x,y,z" + out);
+      Generate("sequence " + scenarios_folder + "minimal.json --format kitti --fields x,y,z" + out);
   EXPECT_EQ(kitti.status, 1);
   EXPECT_EQ(
       kitti.said,
       "--fields: KITTI's are fixed, so it must be left out with --format kitti (got x,y,z)\n");
-  const Ended world = Generate("world " + kScenarios + "minimal.json --out a.stl");
+  const Ended world = Generate("world " + scenarios_folder + "minimal.json --out a.stl");
   EXPECT_EQ(world.status, 1);
   EXPECT_EQ(world.said, "--out: must end in .ply or .obj (got a.stl)\n");
   const Ended stretch =
-      Generate("world " + kScenarios + "minimal.json --from-s 5 --to-s 1 --out a.ply");
+      Generate("world " + scenarios_folder + "minimal.json --from-s 5 --to-s 1 --out a.ply");
   EXPECT_EQ(stretch.said, "--from-s, --to-s: must be 0 <= from < to <= 1000 (got 5, 1)\n");
 }
 
 TEST(RailcastGenerate, GivesTheSameBytesForAnyNumberOfThreads) {
   const TemporaryDirectory directory;
-  const std::string command =
-      "sequence " + kScenarios + "minimal.json --frames 2 --out " + directory.path().string() + "/";
+  const std::string command = "sequence " + scenarios_folder + "minimal.json --frames 2 --out " +
+                              directory.path().string() + "/";
   for (const char* threads : {"1", "2", "8"}) {
     const Ended run = Generate(command + threads + " --threads " + threads);
     EXPECT_EQ(run.status, 0) << run.said;
@@ -144,8 +145,8 @@ TEST(RailcastGenerate, RefusesToLeaveTheTrackBeforeTheFirstFrame) {
 
 TEST(RailcastGenerate, StartsAtAnyFrame) {
   const TemporaryDirectory directory;
-  const std::string command =
-      "sequence " + kScenarios + "st_gallen_approach.json --out " + directory.path().string() + "/";
+  const std::string command = "sequence " + scenarios_folder + "st_gallen_approach.json --out " +
+                              directory.path().string() + "/";
   ASSERT_EQ(Generate(command + "all --frames 3").status, 0);
   ASSERT_EQ(Generate(command + "last --frames 1 --start-frame 2").status, 0);
   EXPECT_EQ(ReadFileWhole(directory.path() / "all/frames/000002.pcd"),
@@ -155,7 +156,7 @@ TEST(RailcastGenerate, StartsAtAnyFrame) {
 TEST(RailcastGenerate, StopsAfterAFrameOnCtrlCAndContinues) {
   const TemporaryDirectory directory;
   const std::string out = (directory.path() / "run").string();
-  const std::string file = kScenarios + "minimal.json";
+  const std::string file = scenarios_folder + "minimal.json";
   const pid_t child = ::fork();
   if (child == 0) {
     ::execl(RAILCAST_GENERATE, RAILCAST_GENERATE, "sequence", file.c_str(), "--out", out.c_str(),
@@ -178,7 +179,7 @@ TEST(RailcastGenerate, StopsAfterAFrameOnCtrlCAndContinues) {
 }
 
 TEST(RailcastGenerate, ChecksAScenario) {
-  const Ended run = Generate("check " + kScenarios + "st_gallen_approach.json");
+  const Ended run = Generate("check " + scenarios_folder + "st_gallen_approach.json");
   EXPECT_EQ(run.status, 0);
   for (const char* text : {"firings per frame    28800 (120 rows x 240 columns)",
                            "frame period         0.1 s", "points per second    at most 288000",
@@ -191,7 +192,7 @@ TEST(RailcastGenerate, WritesTheSceneAsAMesh) {
   const TemporaryDirectory directory;
   const std::string file = (directory.path() / "world.ply").string();
   const Ended run =
-      Generate("world " + kScenarios + "minimal.json --from-s 400 --to-s 450 --out " + file);
+      Generate("world " + scenarios_folder + "minimal.json --from-s 400 --to-s 450 --out " + file);
   EXPECT_EQ(run.status, 0);
   EXPECT_NE(run.said.find(" triangles of 1 chunks in " + file), std::string::npos);
   const auto megabytes = static_cast<double>(std::filesystem::file_size(file)) * 1e-6;
