@@ -4,16 +4,34 @@
 
 #include "core/base/error.h"
 #include "generator/counts_json.h"
+#include "generator/pose_record.h"
 
 namespace railcast {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json ScanEndJson(const ScanEnd& end) {
+  const Vector3& position_m = end.position_m;
+  const Eigen::Quaterniond& turn = end.rotation;
+  return {{"time_ns", end.time_ns},
+          {"position_m", {position_m.x(), position_m.y(), position_m.z()}},
+          {"quaternion_xyzw", {turn.x(), turn.y(), turn.z(), turn.w()}}};
+}
+
+ScanEnd ParseScanEnd(const Json& end) {
+  const auto position_m = end.at("position_m").get<std::array<double, 3>>();
+  const auto turn = end.at("quaternion_xyzw").get<std::array<double, 4>>();
+  return {end.at("time_ns").get<std::uint32_t>(),
+          Vector3(position_m[0], position_m[1], position_m[2]),
+          Eigen::Quaterniond(turn[3], turn[0], turn[1], turn[2])};
+}
+
 FrameRecord Parse(const Json& line) {
   FrameRecord record;
   record.frame = line.at("frame").get<std::uint32_t>();
   record.stamp_ns = line.at("stamp_ns").get<std::int64_t>();
+  record.scan_end = ParseScanEnd(line.at("scan_end"));
   for (const Json& file : line.at("files")) {
     record.files.push_back({file.at("name").get<std::string>(),
                             file.at("bytes").get<std::uint64_t>(),
@@ -58,6 +76,15 @@ FrameCounts CountFrame(const Frame& frame, const LabelTable& labels) {
   return counts;
 }
 
+ScanEnd ScanEndOf(const Frame& frame) {
+  ScanEnd end{frame.duration_ns, frame.world_from_sensor_end.translation(),
+              Eigen::Quaterniond(frame.world_from_sensor_end.linear())};
+  if (end.rotation.dot(CanonicalRotation(frame.world_from_sensor)) < 0.0) {
+    end.rotation.coeffs() = -end.rotation.coeffs();
+  }
+  return end;
+}
+
 std::string FrameLine(const FrameRecord& record) {
   Json files = Json::array();
   for (const WrittenFile& file : record.files) {
@@ -65,6 +92,7 @@ std::string FrameLine(const FrameRecord& record) {
   }
   Json line = {{"frame", record.frame},
                {"stamp_ns", record.stamp_ns},
+               {"scan_end", ScanEndJson(record.scan_end)},
                {"files", files},
                {"records_xxh3", record.records_hash}};
   PutCounts(record.counts, line);

@@ -34,10 +34,24 @@ struct WrittenFile {
   bool operator==(const WrittenFile&) const = default;
 };
 
+/// Where the sensor was at a frame's last firing.
+struct ScanEnd {
+  std::uint32_t time_ns{};               ///< Since the stamp.
+  Vector3 position_m = Vector3::Zero();  ///< World.
+  /// Of the two quaternions that mean the same, the one nearer to that of poses.csv, so that what
+  /// lies between can be interpolated.
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+
+  bool operator==(const ScanEnd&) const = default;
+};
+
+[[nodiscard]] ScanEnd ScanEndOf(const Frame& frame);
+
 /// A line of frames.jsonl: the proof that a frame is complete.
 struct FrameRecord {
   std::uint32_t frame{};
   std::int64_t stamp_ns{};
+  ScanEnd scan_end;
   std::vector<WrittenFile> files;
   std::string records_hash;  ///< Of the frame's lines in the directory's other files.
   FrameCounts counts;

@@ -1,16 +1,19 @@
 #include <signal.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
 #include <iostream>
 
 #include "core/base/error.h"
+#include "core/rail/rail_world.h"
 #include "core/scenario/scenario.h"
 #include "generator/commands.h"
-#include "generator/object_record.h"
+#include "generator/object_survey.h"
 #include "generator/run_sequence.h"
+#include "generator/scenario_identity.h"
 #include "generator/summary.h"
+#include "generator/terminal_line.h"
+#include "generator/track_limits.h"
 
 namespace railcast {
 namespace {
@@ -47,41 +50,44 @@ SequenceSpec MakeSpec(const SequenceOptions& options, const ScenarioSpec& scenar
   spec.directory = options.out;
   spec.version = RAILCAST_VERSION;
   spec.scenario_json = ResolvedScenarioJson(scenario);
+  spec.identity = IdentityOf(scenario);
   spec.seed = scenario.seed;
   spec.files.format = ParseFrameFormat(options.format);
   spec.files.fields = FieldSelection(options.fields);
+  if (options.format == "kitti" && options.fields != "all") {
+    throw InputError(
+        "--fields: KITTI's are fixed, so it must be left out with --format kitti (got " +
+        options.fields + ")");
+  }
   spec.files.labels = LabelTable(scenario.labels);
+  spec.materials = MaterialLibrary(scenario.materials);
   spec.start_frame = options.start_frame;
   spec.num_frames = options.num_frames;
   return spec;
 }
 
-FrameSource MakeSource(Simulator& simulator, const LabelTable& labels) {
-  return [&simulator, &labels](std::uint32_t index, Frame& frame,
+FrameSource MakeSource(Simulator& simulator, const ObjectSurvey& survey) {
+  return [&simulator, &survey](std::uint32_t index, Frame& frame,
                                std::vector<ObjectInFrame>& objects) {
     simulator.Scan(index, frame);
-    objects =
-        DescribeObjects(simulator.world(), labels, frame, simulator.FiringsOnObjectAlone(index));
+    objects = survey.Describe(frame, simulator.FiringsOnObjectAlone(index));
   };
 }
 
-// Rewrites one line of a terminal; silent elsewhere.
 class ProgressDisplay {
  public:
   void Show(std::uint32_t num_done, std::uint32_t num_frames) {
-    if (!is_terminal_) return;
     if (!num_resumed_) {
       num_resumed_ = num_done;
       begin_ = std::chrono::steady_clock::now();
     }
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
-    // CR: to the line's begin. ESC [K: clear to its end.
-    std::cerr << "\r\033[K" << ProgressLine(num_done, num_frames, *num_resumed_, elapsed.count())
-              << (num_done == num_frames ? "\n" : "") << std::flush;
+    line_.Show(ProgressLine(num_done, num_frames, *num_resumed_, elapsed.count()));
+    if (num_done == num_frames) line_.End();
   }
 
  private:
-  bool is_terminal_ = ::isatty(STDERR_FILENO) == 1;
+  TerminalLine line_;
   std::optional<std::uint32_t> num_resumed_;
   std::chrono::steady_clock::time_point begin_;
 };
@@ -97,12 +103,18 @@ int SequenceCommand(const SequenceOptions& options) {
     std::cerr << "made the simulator: " << simulator->pattern().num_firings()
               << " firings a frame, " << simulator->world().objects().size() << " objects\n";
   }
+  // The simulator's world is the one that the scenario describes.
+  CheckStaysOnTracks(scenario, dynamic_cast<const RailWorld&>(simulator->world()),
+                     simulator->pattern(), spec.start_frame,
+                     spec.start_frame + spec.num_frames - 1);
+  const ObjectSurvey survey(simulator->world(), spec.files.labels, scenario.lidar.range_max_m,
+                            scenario.output);
   StopAfterThisFrameOnSignals();
   ProgressDisplay display;
   const SequenceHooks hooks = {
       [&](std::uint32_t num_done, std::uint32_t num_frames) { display.Show(num_done, num_frames); },
       [] { return stop_requested.load(); }};
-  const SequenceResult result = RunSequence(spec, MakeSource(*simulator, spec.files.labels), hooks);
+  const SequenceResult result = RunSequence(spec, MakeSource(*simulator, survey), hooks);
   std::cout << Summary(spec, result);
   if (result.is_complete) return kExitSuccess;
   std::cerr << "interrupted; the same command continues with frame "

@@ -115,6 +115,7 @@ void SequenceDirectory::Resume() {
 void SequenceDirectory::WriteFixedFiles() {
   WriteFileWhole(spec_.directory / "scenario.resolved.json", spec_.scenario_json);
   WriteFileWhole(spec_.directory / "labels.json", LabelsJson(spec_.files.labels));
+  WriteFileWhole(spec_.directory / "materials.json", MaterialsJson(spec_.materials));
   if (spec_.files.format != FrameFormat::kKitti) {
     CreateDirectories(spec_.directory / "frames");
     return;
@@ -148,6 +149,7 @@ void SequenceDirectory::Write(const Frame& frame, const std::vector<ObjectInFram
   FrameRecord record;
   record.frame = frame.index;
   record.stamp_ns = frame.stamp_ns;
+  record.scan_end = ScanEndOf(frame);
   record.counts = CountFrame(frame, spec_.files.labels);
   for (const FrameFile& file : frame_files_) {
     record.files.push_back({file.name, file.bytes.size(), ContentHash(file.bytes)});
@@ -179,10 +181,11 @@ std::string SequenceDirectory::ManifestJson() const {
                                      {"start_frame", spec_.start_frame},
                                      {"num_frames", spec_.num_frames}};
   PutCounts(counts_, manifest);
-  // frames.jsonl names the hash of every frame's files: these hashes are over all there is.
+  // frames.jsonl names the hash of every frame's files: these hashes are over all there is but the
+  // resolved scenario, which says where files lie. run.json has the hash of what it means.
   std::string all;
   nlohmann::ordered_json files = nlohmann::ordered_json::object();
-  std::vector<std::string> names = {kRunFile, "scenario.resolved.json", "labels.json"};
+  std::vector<std::string> names = {kRunFile, "labels.json", "materials.json"};
   for (const LineFileName& file : LineFileNames(spec_.files.format)) names.push_back(file.name);
   for (const std::string& name : names) {
     const std::string hash = ContentHash(ReadFileWhole(spec_.directory / name));

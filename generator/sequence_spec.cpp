@@ -1,9 +1,9 @@
 #include "generator/sequence_spec.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
-#include "core/io/content_hash.h"
 
 namespace railcast {
 namespace {
@@ -11,15 +11,34 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json RunObject(const SequenceSpec& spec) {
-  // The order in which a difference is looked for: a different seed also makes the scenario differ.
+  Json inputs = Json::array();
+  for (const InputFile& input : spec.identity.inputs) {
+    inputs.push_back({{"name", input.name}, {"xxh3", input.hash}});
+  }
+  // The order in which a difference is looked for: a different seed, or another content of a file,
+  // also makes the scenario differ.
   Json run = {{"version", spec.version},
               {"seed", spec.seed},
-              {"scenario_xxh3", ContentHash(spec.scenario_json)},
+              {"inputs", inputs},
+              {"scenario_xxh3", spec.identity.scenario_hash},
               {"format", FrameFormatName(spec.files.format)}};
   if (spec.files.format != FrameFormat::kKitti) run["fields"] = spec.files.fields.Text();
   run["start_frame"] = spec.start_frame;
   run["num_frames"] = spec.num_frames;
   return run;
+}
+
+// What differs if the scenario does: the content of a file, where all else about them is the same.
+std::string ScenarioDifference(const Json& found, const Json& ours) {
+  const bool has_same_names =
+      found.is_array() && std::equal(found.begin(), found.end(), ours.begin(), ours.end(),
+                                     [](const Json& theirs, const Json& own) {
+                                       return theirs.is_object() &&
+                                              theirs.value("name", Json()) == own.at("name");
+                                     });
+  if (!has_same_names || found == ours) return "holds a run of another scenario";
+  const auto changed = std::mismatch(ours.begin(), ours.end(), found.begin()).first;
+  return "holds a run with another content of " + changed->at("name").get<std::string>();
 }
 
 std::string Text(const Json& value) {
@@ -41,8 +60,9 @@ void CheckSameRun(const SequenceSpec& spec, const std::string& run_json) {
   for (const auto& [key, value] : ours.items()) {
     const Json other = found.value(key, Json());
     if (other == value) continue;
-    if (key == "scenario_xxh3") {
-      throw InputError(place + "holds a run of another scenario; choose another --out");
+    if (key == "inputs" || key == "scenario_xxh3") {
+      throw InputError(place + ScenarioDifference(found.value("inputs", Json()), ours["inputs"]) +
+                       "; choose another --out");
     }
     std::string line = place;
     line += "holds another run: its " + key + " is " + Text(other);
@@ -63,6 +83,15 @@ std::string LabelsJson(const LabelTable& labels) {
                     {"semantic_kitti_nearest", label.semantic_kitti_nearest}});
   }
   return Json{{"version", 1}, {"labels", list}}.dump(2) + "\n";
+}
+
+std::string MaterialsJson(const MaterialLibrary& materials) {
+  Json list = Json::array();
+  for (const Material& material : materials.materials()) {
+    list.push_back(
+        {{"id", list.size()}, {"name", material.name}, {"reflectivity", material.reflectivity}});
+  }
+  return Json{{"version", 1}, {"materials", list}}.dump(2) + "\n";
 }
 
 }  // namespace railcast

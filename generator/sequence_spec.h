@@ -5,6 +5,8 @@
 #include <string>
 
 #include "core/io/frame_files.h"
+#include "core/scene/material.h"
+#include "generator/scenario_identity.h"
 
 namespace railcast {
 
@@ -13,8 +15,10 @@ struct SequenceSpec {
   std::filesystem::path directory;
   std::string version;        ///< Of railcast.
   std::string scenario_json;  ///< Resolved, with the command line's seed and rung in it.
+  ScenarioIdentity identity;  ///< What of it the bytes depend on: not where its files lie.
   std::uint64_t seed{};       ///< The scenario's, for the manifest.
   FrameFileSpec files;
+  MaterialLibrary materials;
   std::uint32_t start_frame{};
   std::uint32_t num_frames{};
 };
@@ -28,5 +32,8 @@ void CheckSameRun(const SequenceSpec& spec, const std::string& run_json);
 
 /// labels.json in the form the scenario reader reads.
 [[nodiscard]] std::string LabelsJson(const LabelTable& labels);
+
+/// materials.json: the materials by the ids that frames carry; 0 is none.
+[[nodiscard]] std::string MaterialsJson(const MaterialLibrary& materials);
 
 }  // namespace railcast

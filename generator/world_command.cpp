@@ -1,6 +1,9 @@
 #include <cmath>
+#include <iomanip>
 #include <iostream>
 #include <numeric>
+#include <sstream>
+#include <string>
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
@@ -9,6 +12,7 @@
 #include "core/scan/scan_pattern.h"
 #include "core/scenario/scenario.h"
 #include "generator/commands.h"
+#include "generator/terminal_line.h"
 #include "generator/world_export.h"
 
 namespace railcast {
@@ -30,6 +34,26 @@ std::vector<int> ChunksBetween(double from_s_m, double to_s_m, double length_m) 
   return chunks;
 }
 
+std::size_t CountTriangles(const ExportedWorld& exported) {
+  std::size_t count = 0;
+  for (const Part& part : exported.parts) count += part.mesh.triangles.size();
+  return count;
+}
+
+void SayTriangles(const ExportedWorld& exported, const LabelTable& labels) {
+  for (const Part& part : exported.parts) {
+    std::cerr << labels.Find(part.label)->name << ": " << part.mesh.triangles.size()
+              << " triangles\n";
+  }
+}
+
+// "23.4 MB"
+std::string SizeText(std::size_t num_bytes) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1) << static_cast<double>(num_bytes) * 1e-6 << " MB";
+  return text.str();
+}
+
 }  // namespace
 
 int WorldCommand(const WorldOptions& options) {
@@ -47,20 +71,21 @@ int WorldCommand(const WorldOptions& options) {
       options.from_s_m
           ? ChunksBetween(*options.from_s_m, *options.to_s_m, world->alignment().length_m())
           : world->ChunksInReach(world->HomeChunk(time_ns), scenario.lidar.range_max_m);
-  const ExportedWorld exported = ExportWorld(*world, chunks, RailWorld::kChunkLength_m, time_ns);
+  const TerminalLine line;
+  const ExportedWorld exported = ExportWorld(
+      *world, chunks, RailWorld::kChunkLength_m, time_ns, [&](std::size_t num_gathered) {
+        line.Show("chunk " + std::to_string(num_gathered) + " of " + std::to_string(chunks.size()));
+      });
+  line.End();
 
   const LabelTable labels(scenario.labels);
-  WriteFileWhole(options.out,
-                 extension == ".ply"
-                     ? EncodePlyMesh(exported, labels)
-                     : EncodeObjMesh(exported, labels, MaterialLibrary(scenario.materials)));
-  std::size_t num_triangles = 0;
-  for (const Part& part : exported.parts) {
-    num_triangles += part.mesh.triangles.size();
-    if (!options.is_verbose) continue;
-    std::cerr << labels.Find(part.label)->name << ": " << part.mesh.triangles.size()
-              << " triangles\n";
-  }
+  const std::string bytes =
+      extension == ".ply" ? EncodePlyMesh(exported, labels)
+                          : EncodeObjMesh(exported, labels, MaterialLibrary(scenario.materials));
+  if (options.is_verbose) SayTriangles(exported, labels);
+  const std::size_t num_triangles = CountTriangles(exported);
+  std::cerr << "writing " << num_triangles << " triangles, " << SizeText(bytes.size()) << "\n";
+  WriteFileWhole(options.out, bytes);
   std::cout << num_triangles << " triangles of " << chunks.size() << " chunks in "
             << options.out.string() << "\n";
   return kExitSuccess;

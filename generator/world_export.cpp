@@ -91,12 +91,14 @@ void AppendFaces(const Part& part, const Label& label, std::uint32_t base, std::
 ExportedWorld ExportWorld(const World& world,
                           const std::vector<int>& chunks,
                           double chunk_length_m,
-                          std::int64_t time_ns) {
+                          std::int64_t time_ns,
+                          const std::function<void(std::size_t)>& on_progress) {
   ExportedWorld exported;
   exported.world_from_export = world.WorldFromChunk(chunks.front());
   const Transform export_from_world = exported.world_from_export.inverse();
   Gatherer gatherer;
   std::vector<bool> is_taken(world.objects().size(), false);
+  std::size_t num_gathered = 0;
   for (const int index : chunks) {
     const Transform world_from_chunk = world.WorldFromChunk(index);
     const Transform export_from_chunk = export_from_world * world_from_chunk;
@@ -115,6 +117,7 @@ ExportedWorld ExportWorld(const World& world,
       gatherer.Add(*world.objects()[i].model,
                    Eigen::Affine3d(export_from_world * world_from_object));
     }
+    on_progress(++num_gathered);
   }
   exported.parts = gatherer.TakeParts();
   return exported;

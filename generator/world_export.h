@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,10 +20,13 @@ struct ExportedWorld {
 
 /// Gathers what stands in `chunks` (of `chunk_length_m` each) and the objects that are there at
 /// that time, in the frame of the first of the chunks. @pre `chunks` is not empty.
-[[nodiscard]] ExportedWorld ExportWorld(const World& world,
-                                        const std::vector<int>& chunks,
-                                        double chunk_length_m,
-                                        std::int64_t time_ns);
+/// @param on_progress Called with the number of chunks gathered so far.
+[[nodiscard]] ExportedWorld ExportWorld(
+    const World& world,
+    const std::vector<int>& chunks,
+    double chunk_length_m,
+    std::int64_t time_ns,
+    const std::function<void(std::size_t)>& on_progress = [](std::size_t) {});
 
 /// Binary little-endian PLY: float vertices, faces with label, material and the label's colour. A
 /// comment holds world_from_export by rows.

@@ -71,6 +71,13 @@ std::vector<std::filesystem::path> FrameFiles(const std::filesystem::path& direc
   return files;
 }
 
+/// "000012", or "50 frames, 000000 to 000049". @pre `files` is not empty.
+std::string NamesOf(const std::vector<std::filesystem::path>& files) {
+  std::string first = files.front().stem().string();
+  if (files.size() == 1) return first;
+  return std::to_string(files.size()) + " frames, " + first + " to " + files.back().stem().string();
+}
+
 }  // namespace
 
 Cloud ReadCloud(const std::filesystem::path& file) {
@@ -116,7 +123,10 @@ std::filesystem::path FindCloudFile(const std::filesystem::path& source,
   std::array<char, 16> stem{};
   std::snprintf(stem.data(), stem.size(), "%06u", *frame);
   const auto found = std::ranges::find(files, stem.data(), &std::filesystem::path::stem);
-  if (found == files.end()) throw InputError(directory.string() + ": has no frame " + stem.data());
+  if (found == files.end()) {
+    throw InputError(directory.string() + ": has no frame " + stem.data() + " (it has " +
+                     NamesOf(files) + ")");
+  }
   return *found;
 }
 

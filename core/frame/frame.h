@@ -20,9 +20,13 @@ struct Frame {
   std::uint32_t index{};                                ///< Frame number in the run.
   std::int64_t stamp_ns{};                              ///< Simulation time of firing 0.
   Transform world_from_sensor = Transform::Identity();  ///< At the stamp.
-  std::uint32_t rows{};                                 ///< Channels.
-  std::uint32_t columns{};                              ///< Azimuth steps.
-  std::uint32_t returns{1};                             ///< Slots per firing.
+  /// At the last firing. Over one scan the pose changes nearly linearly: what lies between is
+  /// interpolated.
+  Transform world_from_sensor_end = Transform::Identity();
+  std::uint32_t duration_ns{};  ///< From the stamp to the last firing.
+  std::uint32_t rows{};         ///< Channels.
+  std::uint32_t columns{};      ///< Azimuth steps.
+  std::uint32_t returns{1};     ///< Slots per firing.
 
   // The measurement.
   std::vector<float> x, y, z;          ///< m

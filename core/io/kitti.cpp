@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/base/number_text.h"
 #include "core/io/field_layout.h"
+#include "core/io/scan_motion.h"
 
 namespace railcast {
 namespace {
@@ -32,11 +33,15 @@ std::map<std::uint16_t, KittiClass> KittiClasses(const LabelTable& labels) {
 void EncodeKittiPoints(const Frame& frame, std::string& bytes) {
   constexpr std::size_t kStep = 4 * sizeof(float);
   bytes.resize(frame.num_slots() * kStep);
+  const ScanMotion motion(frame);
   char* place = bytes.data();
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
     if (!HasPoint(frame.outcome[slot])) continue;
     const float intensity = frame.intensity[slot];
-    const std::array<float, 4> point = {frame.x[slot], frame.y[slot], frame.z[slot],
+    const Vector3 point_m(static_cast<double>(frame.x[slot]), static_cast<double>(frame.y[slot]),
+                          static_cast<double>(frame.z[slot]));
+    const Eigen::Vector3f at_stamp_m = motion.AtStamp(point_m, frame.time_ns[slot]).cast<float>();
+    const std::array<float, 4> point = {at_stamp_m.x(), at_stamp_m.y(), at_stamp_m.z(),
                                         std::isnan(intensity) ? 0.0F : intensity};
     std::memcpy(place, point.data(), kStep);
     place += kStep;

@@ -9,8 +9,9 @@
 namespace railcast {
 
 /// A frame's points as a KITTI velodyne/*.bin: float32 x, y, z, remission each, only slots that
-/// have a point. Remission is the intensity as it is (retroreflectors exceed 1; nothing is
-/// clamped), 0 where the rung gives none.
+/// have a point. KITTI's clouds are free of the sensor's motion and have no time field, so points
+/// are moved to the sensor's axes at the stamp (ScanMotion). Remission is the intensity as it is
+/// (retroreflectors exceed 1; nothing is clamped), 0 where the rung gives none.
 void EncodeKittiPoints(const Frame& frame, std::string& bytes);
 
 /// Their SemanticKITTI labels/*.label: uint32 each, Label::semantic_kitti below, instance above.

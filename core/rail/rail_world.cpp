@@ -117,6 +117,14 @@ const Alignment& RailWorld::alignment() const {
   return parts_->ways.alignment;
 }
 
+double RailWorld::VehicleChainage_m(std::int64_t time_ns) const {
+  return parts_->ways.vehicle.ChainageAt(time_ns);
+}
+
+double RailWorld::ObjectChainage_m(std::size_t object, std::int64_t time_ns) const {
+  return parts_->ways.objects.at(object).ChainageAt(time_ns);
+}
+
 Transform RailWorld::WorldFromVehicle(std::int64_t time_ns) const {
   return parts_->ways.vehicle.WorldFromObject(parts_->ways.alignment, time_ns);
 }

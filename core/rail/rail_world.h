@@ -30,6 +30,11 @@ class RailWorld final : public World {
 
   [[nodiscard]] const Alignment& alignment() const;
 
+  /// Where along its track the vehicle's origin is; beyond the track's ends too.
+  [[nodiscard]] double VehicleChainage_m(std::int64_t time_ns) const;
+  /// The same of objects()[object].
+  [[nodiscard]] double ObjectChainage_m(std::size_t object, std::int64_t time_ns) const;
+
   [[nodiscard]] Transform WorldFromVehicle(std::int64_t time_ns) const override;
   [[nodiscard]] int HomeChunk(std::int64_t time_ns) const override;
   [[nodiscard]] std::vector<int> ChunksInReach(int home_chunk, double range_m) const override;

@@ -132,6 +132,8 @@ void Simulator::Parts::Scan(const CastFrame& cast,
   frame.index = cast.index;
   frame.stamp_ns = pattern.StampNs(cast.index);
   frame.world_from_sensor = scenes.WorldFromSensor(frame.stamp_ns);
+  frame.duration_ns = tiles.duration_ns();
+  frame.world_from_sensor_end = scenes.WorldFromSensor(frame.stamp_ns + frame.duration_ns);
   frame.Resize(pattern.rows, pattern.columns, 1);
   const OutputAxes axes(spec.output, spec.vehicle_from_sensor, window_from_world,
                         frame.world_from_sensor);

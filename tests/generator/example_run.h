@@ -20,8 +20,10 @@ inline SequenceSpec ExampleRun(const std::filesystem::path& directory,
   spec.directory = directory;
   spec.version = "0.1.0";
   spec.scenario_json = "{\"seed\": 5}\n";
+  spec.identity = {"5ce0a410", {{"wagon.obj", "0b1ec7"}, {"table.csv", "7ab1e"}}};
   spec.seed = 5;
   spec.files = {ParseFrameFormat(format), FieldSelection(), ExampleLabels()};
+  spec.materials = MaterialLibrary({{"ballast", 0.25}, {"rail_head", 0.08}});
   spec.start_frame = 3;
   spec.num_frames = num_frames;
   return spec;

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
+#include "generator/pose_record.h"
 #include "tests/core/io/example_frame.h"
 
 namespace railcast {
@@ -28,10 +32,31 @@ TEST(CountFrame, CountsAFiringWithTwoReturnsOnceAndItsPointsTwice) {
   EXPECT_EQ(counts.points, 2U);
 }
 
+// Near half a turn the canonical quaternions of stamp and end have opposite signs.
+TEST(ScanEndOf, HasTheQuaternionNearerToTheOneAtTheStamp) {
+  constexpr double kHalfTurn_rad = std::numbers::pi;
+  Frame frame;
+  frame.duration_ns = 99'750'000;
+  for (const double turn_rad : {-0.02, 0.02}) {
+    frame.world_from_sensor =
+        MakeTransform(RotationFromYawPitchRoll(kHalfTurn_rad - turn_rad, 0, 0), Vector3(1, 2, 3));
+    frame.world_from_sensor_end =
+        MakeTransform(RotationFromYawPitchRoll(kHalfTurn_rad + turn_rad, 0, 0), Vector3(4, 2, 3));
+    const ScanEnd end = ScanEndOf(frame);
+    EXPECT_EQ(end.time_ns, 99'750'000U);
+    EXPECT_EQ(end.position_m, Vector3(4, 2, 3));
+    // They are half of 2 turn_rad apart.
+    EXPECT_NEAR(end.rotation.dot(CanonicalRotation(frame.world_from_sensor)), std::cos(turn_rad),
+                1e-12);
+  }
+}
+
 TEST(FrameLine, ReadsBack) {
   FrameRecord record;
   record.frame = 7;
   record.stamp_ns = 700'000'000;
+  record.scan_end = {99'750'000, Vector3(5.3e6 + 1.0 / 3.0, 6e5, 0.1),
+                     Eigen::Quaterniond(-0.1, 0.7, -0.5, 1.0 / 7.0)};
   record.files = {{"frames/000007.pcd", 1234, "0123456789abcdef"}};
   record.records_hash = "fedcba9876543210";
   record.counts = CountFrame(ExampleFrame(7), ExampleLabels());

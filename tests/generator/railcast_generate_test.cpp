@@ -3,10 +3,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <thread>
 
@@ -15,29 +14,11 @@
 #include "core/io/write_file.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/example_run.h"
+#include "tests/generator/project_folder.h"
+#include "tests/generator/run_command.h"
 
 namespace railcast {
 namespace {
-
-const std::string scenarios = std::string(RAILCAST_SOURCE_DIR) + "/scenarios/";
-
-struct Ended {
-  int status{};
-  std::string said;  // On stdout and stderr together.
-};
-
-Ended Generate(const std::string& arguments) {
-  const std::string command = std::string(RAILCAST_GENERATE) + " " + arguments + " 2>&1";
-  FILE* pipe = ::popen(command.c_str(), "r");
-  Ended run;
-  std::array<char, 4096> buffer{};
-  std::size_t count = 0;
-  while ((count = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0) {
-    run.said.append(buffer.data(), count);
-  }
-  run.status = WEXITSTATUS(::pclose(pipe));
-  return run;
-}
 
 TEST(RailcastGenerate, ExplainsItself) {
   EXPECT_EQ(Generate("--version").said, "railcast " RAILCAST_VERSION "\n");
@@ -58,13 +39,13 @@ TEST(RailcastGenerate, ExitsWithTwoOnWrongUsage) {
 }
 
 TEST(RailcastGenerate, ReplaysOneFiringEffectByEffect) {
-  const Ended run = Generate("trace " + scenarios + "minimal.json --frame 3 --firing 0");
+  const Ended run = Generate("trace " + scenarios_folder + "minimal.json --frame 3 --firing 0");
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.said.find("frame 3 firing 0 at 0 ns, slot 0\n"), 0U);
   for (const char* effect : {"\nhit ", "\nthreshold ", "\nnoise "}) {
     EXPECT_NE(run.said.find(effect), std::string::npos) << effect;
   }
-  const Ended beyond = Generate("trace " + scenarios + "minimal.json --firing 28800");
+  const Ended beyond = Generate("trace " + scenarios_folder + "minimal.json --firing 28800");
   EXPECT_EQ(beyond.status, 1);
   EXPECT_EQ(beyond.said, "--firing: must be < 28800, the firings of a frame (got 28800)\n");
 }
@@ -75,21 +56,28 @@ TEST(RailcastGenerate, ExitsWithOneAndOneLineOnBadInput) {
   const Ended missing = Generate("sequence /no/such.json" + out);
   EXPECT_EQ(missing.status, 1);
   EXPECT_EQ(missing.said, "/no/such.json: no such file\n");
-  const Ended fields = Generate("sequence " + scenarios + "minimal.json --fields labl" + out);
+  const Ended fields =
+      Generate("sequence " + scenarios_folder + "minimal.json --fields labl" + out);
   EXPECT_EQ(fields.status, 1);
   EXPECT_EQ(fields.said.find("--fields: unknown field \"labl\", nearest is \"label\""), 0U);
-  const Ended world = Generate("world " + scenarios + "minimal.json --out a.stl");
+  const Ended kitti =
+      Generate("sequence " + scenarios_folder + "minimal.json --format kitti --fields x,y,z" + out);
+  EXPECT_EQ(kitti.status, 1);
+  EXPECT_EQ(
+      kitti.said,
+      "--fields: KITTI's are fixed, so it must be left out with --format kitti (got x,y,z)\n");
+  const Ended world = Generate("world " + scenarios_folder + "minimal.json --out a.stl");
   EXPECT_EQ(world.status, 1);
   EXPECT_EQ(world.said, "--out: must end in .ply or .obj (got a.stl)\n");
   const Ended stretch =
-      Generate("world " + scenarios + "minimal.json --from-s 5 --to-s 1 --out a.ply");
+      Generate("world " + scenarios_folder + "minimal.json --from-s 5 --to-s 1 --out a.ply");
   EXPECT_EQ(stretch.said, "--from-s, --to-s: must be 0 <= from < to <= 1000 (got 5, 1)\n");
 }
 
 TEST(RailcastGenerate, GivesTheSameBytesForAnyNumberOfThreads) {
   const TemporaryDirectory directory;
-  const std::string command =
-      "sequence " + scenarios + "minimal.json --frames 2 --out " + directory.path().string() + "/";
+  const std::string command = "sequence " + scenarios_folder + "minimal.json --frames 2 --out " +
+                              directory.path().string() + "/";
   for (const char* threads : {"1", "2", "8"}) {
     const Ended run = Generate(command + threads + " --threads " + threads);
     EXPECT_EQ(run.status, 0) << run.said;
@@ -103,10 +91,62 @@ TEST(RailcastGenerate, GivesTheSameBytesForAnyNumberOfThreads) {
   EXPECT_EQ(cloud.height, 120U);
 }
 
+TEST(RailcastGenerate, GivesTheSameManifestWhereverTheProjectLies) {
+  const TemporaryDirectory directory;
+  for (const char* place : {"here", "there"}) {
+    const std::string scenario = MakeProject(directory.path() / place / "project").string();
+    const Ended run = Generate("sequence " + scenario + " --frames 2 --out " +
+                               (directory.path() / place / "out").string());
+    EXPECT_EQ(run.status, 0) << run.said;
+  }
+  auto here = Contents(directory.path() / "here/out");
+  auto there = Contents(directory.path() / "there/out");
+  // It alone names the folders.
+  EXPECT_NE(here.extract("scenario.resolved.json").mapped(),
+            there.extract("scenario.resolved.json").mapped());
+  EXPECT_EQ(here, there);
+}
+
+TEST(RailcastGenerate, ResumesAMovedProjectButNotOneWithAChangedMesh) {
+  const TemporaryDirectory directory;
+  const std::string scenario = MakeProject(directory.path() / "old").string();
+  const std::string out = " --frames 2 --out " + (directory.path() / "out").string();
+  ASSERT_EQ(Generate("sequence " + scenario + out).status, 0);
+  std::filesystem::remove(directory.path() / "out/manifest.json");
+  std::filesystem::rename(directory.path() / "old", directory.path() / "new");
+  const std::string moved = "sequence " + (directory.path() / "new/scenario.json").string() + out;
+  WriteFileWhole(directory.path() / "new/rock.obj", std::string(kPyramidObj) + "f 1 2 3\n");
+  const Ended changed = Generate(moved);
+  EXPECT_EQ(changed.status, 1);
+  EXPECT_EQ(changed.said, (directory.path() / "out").string() +
+                              ": holds a run with another content of rock.obj; choose another "
+                              "--out\n");
+  WriteFileWhole(directory.path() / "new/rock.obj", kPyramidObj);
+  EXPECT_EQ(Generate(moved).status, 0);
+}
+
+TEST(RailcastGenerate, RefusesToLeaveTheTrackBeforeTheFirstFrame) {
+  const TemporaryDirectory directory;
+  const std::string file = (directory.path() / "scenario.json").string();
+  std::string scenario = ReadFileWhole(MakeProject(directory.path()));
+  const std::string start = "{\"start_s_m\": 400}";
+  scenario.replace(scenario.find(start), start.size(),
+                   "{\"start_s_m\": 990, \"motion\": {\"profile\": "
+                   "[{\"time_s\": 0, \"speed_mps\": 20}]}}");
+  WriteFileWhole(file, scenario);
+  const auto out = directory.path() / "out";
+  const Ended run = Generate("sequence " + file + " --out " + out.string());
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(run.said, file +
+                          ": /vehicle/motion: leaves track \"main\", from 0 to 1000 m, at frame "
+                          "6 (0.6 s)\n");
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
 TEST(RailcastGenerate, StartsAtAnyFrame) {
   const TemporaryDirectory directory;
-  const std::string command =
-      "sequence " + scenarios + "st_gallen_approach.json --out " + directory.path().string() + "/";
+  const std::string command = "sequence " + scenarios_folder + "st_gallen_approach.json --out " +
+                              directory.path().string() + "/";
   ASSERT_EQ(Generate(command + "all --frames 3").status, 0);
   ASSERT_EQ(Generate(command + "last --frames 1 --start-frame 2").status, 0);
   EXPECT_EQ(ReadFileWhole(directory.path() / "all/frames/000002.pcd"),
@@ -116,7 +156,7 @@ TEST(RailcastGenerate, StartsAtAnyFrame) {
 TEST(RailcastGenerate, StopsAfterAFrameOnCtrlCAndContinues) {
   const TemporaryDirectory directory;
   const std::string out = (directory.path() / "run").string();
-  const std::string file = scenarios + "minimal.json";
+  const std::string file = scenarios_folder + "minimal.json";
   const pid_t child = ::fork();
   if (child == 0) {
     ::execl(RAILCAST_GENERATE, RAILCAST_GENERATE, "sequence", file.c_str(), "--out", out.c_str(),
@@ -139,7 +179,7 @@ TEST(RailcastGenerate, StopsAfterAFrameOnCtrlCAndContinues) {
 }
 
 TEST(RailcastGenerate, ChecksAScenario) {
-  const Ended run = Generate("check " + scenarios + "st_gallen_approach.json");
+  const Ended run = Generate("check " + scenarios_folder + "st_gallen_approach.json");
   EXPECT_EQ(run.status, 0);
   for (const char* text : {"firings per frame    28800 (120 rows x 240 columns)",
                            "frame period         0.1 s", "points per second    at most 288000",
@@ -152,9 +192,17 @@ TEST(RailcastGenerate, WritesTheSceneAsAMesh) {
   const TemporaryDirectory directory;
   const std::string file = (directory.path() / "world.ply").string();
   const Ended run =
-      Generate("world " + scenarios + "minimal.json --from-s 400 --to-s 450 --out " + file);
+      Generate("world " + scenarios_folder + "minimal.json --from-s 400 --to-s 450 --out " + file);
   EXPECT_EQ(run.status, 0);
   EXPECT_NE(run.said.find(" triangles of 1 chunks in " + file), std::string::npos);
+  const auto megabytes = static_cast<double>(std::filesystem::file_size(file)) * 1e-6;
+  std::istringstream first_line(run.said);
+  std::string writing, triangles;
+  std::size_t num_triangles = 0;
+  double said_megabytes = 0.0;
+  first_line >> writing >> num_triangles >> triangles >> said_megabytes;
+  EXPECT_EQ(writing + " " + triangles, "writing triangles,");
+  EXPECT_NEAR(said_megabytes, megabytes, 0.05);
   EXPECT_GT(ReadPly(file).width, 1000U);
 }
 

@@ -24,10 +24,37 @@ TEST(RunSequence, WritesEverythingThatASequenceHolds) {
   EXPECT_EQ(result.num_done, 2U);
   std::vector<std::string> names;
   for (const auto& [name, bytes] : Contents(directory.path())) names.push_back(name);
-  EXPECT_EQ(names,
-            (std::vector<std::string>{"frames.jsonl", "frames/000003.pcd", "frames/000004.pcd",
-                                      "labels.json", "manifest.json", "objects.jsonl", "poses.csv",
-                                      "run.json", "scenario.resolved.json"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"frames.jsonl", "frames/000003.pcd",
+                                             "frames/000004.pcd", "labels.json", "manifest.json",
+                                             "materials.json", "objects.jsonl", "poses.csv",
+                                             "run.json", "scenario.resolved.json"}));
+}
+
+TEST(RunSequence, NamesMaterialsByTheIdsThatFramesCarry) {
+  const TemporaryDirectory directory;
+  (void)RunSequence(ExampleRun(directory.path(), "pcd", 1), MakeExampleFrame, NoHooks());
+  const auto contents = Contents(directory.path());
+  const auto materials = nlohmann::json::parse(contents.at("materials.json")).at("materials");
+  EXPECT_EQ(materials, nlohmann::json::parse(R"([
+    {"id": 0, "name": "none", "reflectivity": 0.0},
+    {"id": 1, "name": "ballast", "reflectivity": 0.25},
+    {"id": 2, "name": "rail_head", "reflectivity": 0.08}])"));
+  EXPECT_EQ(
+      nlohmann::json::parse(contents.at("manifest.json")).at("files_xxh3").at("materials.json"),
+      ContentHash(contents.at("materials.json")));
+}
+
+TEST(RunSequence, DependsOnWhatTheScenarioMeansNotOnWhereItsFilesLie) {
+  const TemporaryDirectory here;
+  const TemporaryDirectory there;
+  SequenceSpec spec = ExampleRun(here.path());
+  (void)RunSequence(spec, MakeExampleFrame, NoHooks());
+  spec.directory = there.path();
+  spec.scenario_json = "{\"seed\": 5, \"file\": \"/elsewhere/wagon.obj\"}\n";
+  (void)RunSequence(spec, MakeExampleFrame, NoHooks());
+  EXPECT_EQ(Contents(there.path()).at("manifest.json"), Contents(here.path()).at("manifest.json"));
+  spec.directory = here.path();
+  EXPECT_TRUE(RunSequence(spec, MakeExampleFrame, NoHooks()).was_complete);
 }
 
 TEST(RunSequence, WritesKittisLayoutNumberedFromZero) {
@@ -109,8 +136,15 @@ TEST(RunSequence, RefusesTheDirectoryOfAnotherRun) {
   (void)RunSequence(first, MakeExampleFrame, NoHooks());
   const std::string place = directory.path().string() + ": ";
   SequenceSpec other = first;
-  other.scenario_json = "{\"seed\": 5, \"fidelity\": \"geometry\"}\n";
+  other.identity.scenario_hash = "7e0";
   EXPECT_EQ(RunMessage(other), place + "holds a run of another scenario; choose another --out");
+  other.identity.inputs.pop_back();
+  EXPECT_EQ(RunMessage(other), place + "holds a run of another scenario; choose another --out");
+  other = first;
+  other.identity.scenario_hash = "7e0";
+  other.identity.inputs[1].hash = "c4a49ed";
+  EXPECT_EQ(RunMessage(other),
+            place + "holds a run with another content of table.csv; choose another --out");
   other = first;
   other.seed = 6;
   EXPECT_EQ(RunMessage(other),

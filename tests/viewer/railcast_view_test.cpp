@@ -208,13 +208,18 @@ TEST_F(RailcastView, NamesFilesThatCannotBeShown) {
   Write("garbage.pcd", "this is no cloud\n");
   Write("empty/readme", "");
   Write("run/frames/000000.pcd", "");
+  Write("run/frames/000002.pcd", "");
+  Write("short/frames/000005.pcd", "");
   const std::pair<std::string, std::string> cases[] = {
       {PathOf("gone.pcd"), PathOf("gone.pcd") + ": no such file or directory"},
       {PathOf("garbage.pcd"),
        PathOf("garbage.pcd") + ": is no PCD file: a header line begins with none of its keys"},
       {PathOf("notes.txt"), PathOf("notes.txt") + ": must be a .pcd or .ply file"},
       {PathOf("empty"), PathOf("empty") + ": is no sequence directory (it has no frames/)"},
-      {PathOf("run") + " --frame 3", PathOf("run/frames") + ": has no frame 000003"}};
+      {PathOf("run") + " --frame 3",
+       PathOf("run/frames") + ": has no frame 000003 (it has 2 frames, 000000 to 000002)"},
+      {PathOf("short") + " --frame 3",
+       PathOf("short/frames") + ": has no frame 000003 (it has 000005)"}};
   for (const auto& [arguments, fault] : cases) {
     const Result result = Execute(RAILCAST_VIEW " " + arguments);
     EXPECT_EQ(result.exit_code, 1) << arguments;

@@ -28,6 +28,8 @@ inline Frame ExampleFrame(std::uint32_t index, std::uint32_t rows = 6, std::uint
   frame.stamp_ns = 100'000'000LL * index;
   frame.world_from_sensor = MakeTransform(RotationFromYawPitchRoll(0.1 + 0.01 * index, 0.02, -0.03),
                                           Vector3(5.3e6 + 0.1 * index, 6e5, 412.25));
+  frame.world_from_sensor_end = frame.world_from_sensor;
+  frame.duration_ns = 80'000'000U * (rows * columns - 1);
   for (std::uint32_t slot = 0; slot < frame.num_slots(); ++slot) {
     const auto words = RandomWords(7, RandomUse::kNoise, index, slot);
     const auto outcome = static_cast<Outcome>(slot % kOutcomeNames.size());

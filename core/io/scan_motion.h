@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/base/transform.h"
+#include "core/frame/frame.h"
+
+namespace railcast {
+
+/// The sensor's motion during one scan, for undoing it (motion compensation, de-skewing).
+///
+/// Between the stamp and the last firing the position is interpolated linearly and the rotation at
+/// a constant rate. At 10 Hz an acceleration of 2 m/s^2 makes that wrong by a dt^2 / 8 = 2.5 mm in
+/// the middle of the scan.
+class ScanMotion {
+ public:
+  explicit ScanMotion(const Frame& frame);
+
+  /// A point in the sensor's axes at `time_ns` since the stamp, in its axes at the stamp.
+  [[nodiscard]] Vector3 AtStamp(const Vector3& point_m, std::uint32_t time_ns) const;
+
+ private:
+  double scans_per_ns_;
+  Vector3 travel_m_;  ///< From the stamp to the last firing, in the sensor's axes there.
+  Eigen::AngleAxisd turn_;
+};
+
+}  // namespace railcast

@@ -1,0 +1,64 @@
+#include "generator/track_limits.h"
+
+#include <string>
+
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/rail/world_check.h"
+
+namespace railcast {
+namespace {
+
+// What stops exactly at the end of its track is still on it, whatever the last digit says.
+constexpr double kTolerance_m = 1e-3;
+
+// The first frame that something has left its track in. Nothing turns round: what has left stays
+// away. @pre It has in `last_frame`.
+template <typename Predicate>
+std::uint32_t FirstBeyond(std::uint32_t first_frame,
+                          std::uint32_t last_frame,
+                          const Predicate& is_on_track) {
+  while (first_frame < last_frame) {
+    const std::uint32_t middle = first_frame + (last_frame - first_frame) / 2;
+    if (is_on_track(middle)) {
+      first_frame = middle + 1;
+    } else {
+      last_frame = middle;
+    }
+  }
+  return first_frame;
+}
+
+}  // namespace
+
+void CheckStaysOnTracks(const ScenarioSpec& scenario,
+                        const RailWorld& world,
+                        const ScanPattern& pattern,
+                        std::uint32_t first_frame,
+                        std::uint32_t last_frame) {
+  ErrorList errors;
+  const auto examine = [&](const std::string& pointer, const std::string& track_name,
+                           const auto& chainage_m) {
+    const TrackSpec& track = *FindTrack(scenario.world, track_name);
+    const double end_s_m = track.end_s_m.value_or(world.alignment().length_m());
+    const auto is_on_track = [&](std::uint32_t frame) {
+      const double s_m = chainage_m(pattern.StampNs(frame) + pattern.time_ns.back());
+      return s_m >= track.start_s_m - kTolerance_m && s_m <= end_s_m + kTolerance_m;
+    };
+    if (is_on_track(last_frame)) return;
+    const std::uint32_t frame = FirstBeyond(first_frame, last_frame, is_on_track);
+    errors.Add(scenario.sources.Place(pointer) + ": leaves track \"" + track.name + "\", from " +
+               NumberText(track.start_s_m) + " to " + NumberText(end_s_m) + " m, at frame " +
+               std::to_string(frame) + " (" +
+               NumberText(static_cast<double>(pattern.StampNs(frame)) / 1e9) + " s)");
+  };
+  examine("/vehicle/motion", scenario.vehicle.track,
+          [&](std::int64_t time_ns) { return world.VehicleChainage_m(time_ns); });
+  for (std::size_t i = 0; i < scenario.world.objects.size(); ++i) {
+    examine("/world/objects/" + std::to_string(i) + "/motion", scenario.world.objects[i].track,
+            [&](std::int64_t time_ns) { return world.ObjectChainage_m(i, time_ns); });
+  }
+  errors.ThrowIfAny();
+}
+
+}  // namespace railcast

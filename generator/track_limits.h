@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/rail/rail_world.h"
+#include "core/scan/scan_pattern.h"
+#include "core/scenario/scenario_spec.h"
+
+namespace railcast {
+
+/// @throws InputError if the vehicle or an object leaves its track before the end of frame
+///   `last_frame`, a line for each: "file: /vehicle/motion: leaves track "main", from 0 to 1000 m,
+///   at frame 54 (5.4 s)".
+/// @param world Of the scenario.
+void CheckStaysOnTracks(const ScenarioSpec& scenario,
+                        const RailWorld& world,
+                        const ScanPattern& pattern,
+                        std::uint32_t first_frame,
+                        std::uint32_t last_frame);
+
+}  // namespace railcast

@@ -1,0 +1,115 @@
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <string>
+
+#include "core/io/write_file.h"
+#include "tests/core/io/temporary_directory.h"
+#include "tests/generator/project_folder.h"
+#include "tests/generator/run_command.h"
+
+namespace railcast {
+namespace {
+
+// The Python of docs/files.md between its line `begin` and the end of that block.
+std::string PythonOfThePage(const std::string& begin) {
+  const std::string page = ReadFileWhole(std::string(RAILCAST_SOURCE_DIR) + "/docs/files.md");
+  const std::size_t at = page.find("```python\n" + begin);
+  if (at == std::string::npos) return "raise SystemExit('docs/files.md has no such block')\n";
+  const std::size_t first = page.find('\n', at) + 1;
+  return page.substr(first, page.find("```", first) - first);
+}
+
+bool HasNumpy() {
+  return RunCommand("/usr/bin/python3 -c 'import numpy'").status == 0;
+}
+
+// A vehicle and wagons in a curve to the left: one stands, one goes ahead, one comes towards it.
+std::string CurveWithTraffic(const std::string& output, bool moves) {
+  const auto motion = [&](const char* speed_mps, const char* more = "") {
+    return R"("motion": {"profile": [{"time_s": 0, "speed_mps": )" +
+           std::string(moves ? speed_mps : "0") + "}]" + more + "}";
+  };
+  return R"({
+    "version": 1, "fidelity": "geometry",
+    "lidar": {"file": ")" +
+         scenarios_folder + R"(sensors/vir2rail.json",
+              "mount": {"position_m": [2, 0.5, 2.5], "yaw_deg": 10, "pitch_deg": 3}},
+    "world": {
+      "alignment": {"course": {"type": "elements", "elements": [
+        {"type": "arc", "length_m": 2000, "radius_m": 900}]}},
+      "tracks": [{"name": "main"}, {"name": "second", "offset_m": 4.0}],
+      "objects": [
+        {"name": "parked", "type": "open_wagon", "s_m": 1080, "d_m": -4.5},
+        {"name": "ahead", "type": "flat_wagon", "s_m": 1040, )" +
+         motion("25") + R"(},
+        {"name": "coming", "type": "tank_wagon", "track": "second", "s_m": 1070, )" +
+         motion("30", R"(, "reverse": true)") + R"(}]
+    },
+    "vehicle": {"start_s_m": 1000, )" +
+         motion("40") + R"(},
+    "output": )" +
+         output + R"(,
+    "materials": ")" +
+         scenarios_folder + R"(materials/railway.json",
+    "labels": ")" +
+         scenarios_folder + R"(labels.json"
+  })";
+}
+
+// What Python of the page, and `more` after it, print in a folder where `out` is a sequence of that
+// scenario.
+std::string RunThePage(const std::string& scenario, const std::string& more) {
+  const TemporaryDirectory directory;
+  const std::string folder = directory.path().string();
+  WriteFileWhole(directory.path() / "scenario.json", scenario);
+  const Ended made =
+      Generate("sequence " + folder + "/scenario.json --frames 2 --out " + folder + "/out");
+  EXPECT_EQ(made.status, 0) << made.said;
+  WriteFileWhole(directory.path() / "page.py",
+                 PythonOfThePage("import numpy as np\n") + PythonOfThePage("import json\n") + more);
+  const Ended run = RunCommand("cd " + folder + " && /usr/bin/python3 -W ignore page.py");
+  EXPECT_EQ(run.status, 0) << run.said;
+  return run.said;
+}
+
+// Lines of name, points, points in the box; the last of each name counts.
+void ExpectAllPointsInTheirBoxes(const std::string& said) {
+  for (const std::string name : {"parked", "ahead", "coming"}) {
+    const std::size_t at = said.rfind(name + " ");
+    ASSERT_NE(at, std::string::npos) << said;
+    std::istringstream line(said.substr(at + name.size()));
+    int num_points = 0;
+    int num_in_box = 0;
+    line >> num_points >> num_in_box;
+    EXPECT_GT(num_points, 50) << said;
+    EXPECT_EQ(num_in_box, num_points) << said;
+  }
+}
+
+TEST(FilesPage, ShowsHowPointsOfAMovingSceneComeToLieInTheirBoxes) {
+  if (!HasNumpy()) GTEST_SKIP() << "/usr/bin/python3 has no numpy";
+  ExpectAllPointsInTheirBoxes(RunThePage(CurveWithTraffic(R"({"frame": "sensor"})", true), ""));
+}
+
+TEST(FilesPage, SaysThatPointsOfAStandingSceneLieInTheirOutputBoxesAsTheyAre) {
+  if (!HasNumpy()) GTEST_SKIP() << "/usr/bin/python3 has no numpy";
+  const std::string check_output_boxes =
+      "for thing in lines('objects')[k]['objects']:\n"
+      "    mine = points[points['instance'] == thing['instance']]\n"
+      "    xyz = np.stack([mine[axis] for axis in 'xyz'], axis=1)\n"
+      "    thing['world'] = thing['output']\n"
+      "    print(thing['name'], len(mine), in_box(xyz, mine['time_ns'], thing, 0.005).sum())\n";
+  for (const char* axes :
+       {R"("sensor")", R"("vehicle")", R"("world", "origin_m": [800, 500, 2])"}) {
+    for (const char* handedness : {R"("right")", R"("left")"}) {
+      const std::string output =
+          R"({"frame": )" + std::string(axes) + R"(, "handedness": )" + handedness + "}";
+      SCOPED_TRACE(output);
+      ExpectAllPointsInTheirBoxes(RunThePage(CurveWithTraffic(output, false), check_output_boxes));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace railcast
