@@ -1,82 +1,54 @@
-#include <algorithm>
-#include <iomanip>
 #include <iostream>
 #include <string>
 
 #include "core/base/error.h"
-#include "core/base/units.h"
+#include "core/io/write_file.h"
 #include "core/rail/rail_world.h"
+#include "core/rail/world_check.h"
 #include "core/scan/scan_pattern.h"
 #include "core/scenario/scenario.h"
+#include "generator/check_report.h"
 #include "generator/commands.h"
-#include "generator/scene_audit.h"
 
 namespace railcast {
 namespace {
 
-void PrintRates(const ScanPattern& pattern) {
-  const auto num_firings = static_cast<double>(pattern.num_firings());
-  const std::uint32_t duration_ns =
-      *std::max_element(pattern.time_ns.begin(), pattern.time_ns.end());
-  std::cout << "rates\n  firings per frame    " << pattern.num_firings() << " (" << pattern.rows
-            << " rows x " << pattern.columns << " columns)\n  frame period         "
-            << 1.0 / pattern.rate_hz << " s\n  first to last firing " << SecondsFromNs(duration_ns)
-            << " s\n  points per second    at most " << num_firings * pattern.rate_hz << "\n";
-}
+void PrintReport(const ScenarioSpec& scenario, bool is_verbose) {
+  const ScanPattern pattern = BuildScanPattern(scenario.lidar.scan);
+  const auto world = MakeWorld(scenario);
+  const MaterialLibrary materials(scenario.materials);
+  const LabelTable labels(scenario.labels);
+  const TrackSpec& track = *FindTrack(scenario.world, scenario.vehicle.track);
+  const double range_m = scenario.lidar.range_max_m;
+  const auto& mount_m = scenario.lidar.mount.position_m;
+  const Surroundings around =
+      LookAround(world, materials, {mount_m[0], mount_m[1], mount_m[2]}, range_m);
+  const double length_m = world->alignment().length_m();
 
-void PrintAudit(const SceneAudit& audit) {
-  std::cout << "scene of frame 0\n  chunks               " << audit.num_chunks << " around chunk "
-            << audit.home_chunk << "\n  surfaces             " << audit.ground_triangles
-            << " triangles\n  things               " << audit.num_placements << " places for "
-            << audit.num_models << " models: " << audit.placed_triangles << " triangles, "
-            << audit.model_triangles << " of them stored\n  objects              "
-            << audit.object_triangles << " triangles\n  materials           ";
-  for (const std::string& material : audit.materials) std::cout << " " << material;
-  std::cout << "\n";
-}
-
-void PrintObjects(const World& world, const LabelTable& labels) {
-  std::cout << "objects\n";
-  for (const SceneObject& object : world.objects()) {
-    const Label* label = labels.Find(object.label);
-    std::cout << "  " << object.instance << " " << object.name << ": " << object.type << ", label "
-              << (label == nullptr ? std::to_string(object.label) : label->name) << ", "
-              << object.model->num_triangles() << " triangles, "
-              << (object.is_ego  ? "own vehicle"
-                  : object.moves ? "moves"
-                                 : "stands")
-              << "\n";
-  }
-}
-
-void PrintJumps(const Alignment& alignment) {
-  std::cout << "line: " << alignment.length_m() << " m, tightest radius "
-            << alignment.tightest_radius_m() << " m, " << alignment.smoothed_jumps().size()
-            << " jumps smoothed\n";
-  for (const SmoothedJump& jump : alignment.smoothed_jumps()) {
-    const char* unit = jump.quantity == "gradient" ? " permil" : " 1/m";
-    std::cout << "  " << jump.quantity << " at s " << jump.s_m << " m: from " << jump.before
-              << " to " << jump.after << unit << " over " << jump.length_m << " m\n";
-  }
+  std::cout << SensorText(scenario.lidar, pattern) << LineText(world->alignment(), is_verbose)
+            << VehicleText(track.name, FindVehicleWay(scenario.vehicle, track, length_m),
+                           pattern.rate_hz)
+            << EffectsText(scenario) << OutputText(scenario.output, around.position_world)
+            << SurroundingsText(around, *world, labels)
+            << SceneText(AuditScene(*world, materials, pattern.StampNs(0), range_m))
+            << ObjectsText(*world, labels);
+  if (scenario.camera) std::cout << "camera    read and kept for later; nothing uses it yet\n";
 }
 
 }  // namespace
 
-int CheckCommand(const std::filesystem::path& file) {
+int CheckCommand(const CheckOptions& options) {
   ErrorList faults;
-  for (const std::string& fault : CheckScenario(file)) faults.Add(fault);
+  for (const std::string& fault : CheckScenario(options.scenario)) faults.Add(fault);
   faults.ThrowIfAny();
-  const ScenarioSpec scenario = ReadScenario(file);
-  const ScanPattern pattern = BuildScanPattern(scenario.lidar.scan);
-  const auto world = MakeWorld(scenario);
-  const SceneAudit audit = AuditScene(*world, MaterialLibrary(scenario.materials),
-                                      pattern.StampNs(0), scenario.lidar.range_max_m);
-  std::cout << std::setprecision(10) << ResolvedScenarioJson(scenario) << "\n";
-  PrintJumps(world->alignment());
-  PrintRates(pattern);
-  PrintAudit(audit);
-  PrintObjects(*world, LabelTable(scenario.labels));
-  if (scenario.camera) std::cout << "camera: read and kept for later; nothing uses it yet\n";
+  const ScenarioSpec scenario = ReadScenario(options.scenario);
+  if (options.resolved == "-") {
+    std::cout << ResolvedScenarioJson(scenario);
+    return kExitSuccess;
+  }
+  if (options.resolved) WriteFileWhole(*options.resolved, ResolvedScenarioJson(scenario));
+  PrintReport(scenario, options.is_verbose);
+  if (options.resolved) std::cout << "resolved scenario in " << *options.resolved << "\n";
   return kExitSuccess;
 }
 

@@ -31,9 +31,17 @@ struct SequenceOptions {
 /// @throws InputError on bad input.
 [[nodiscard]] int SequenceCommand(const SequenceOptions& options);
 
-/// Prints the resolved scenario, what follows from it and what its scene holds.
+/// Options of `railcast-generate check`.
+struct CheckOptions {
+  std::filesystem::path scenario;
+  std::optional<std::string> resolved;  ///< File for the resolved scenario; "-" = stdout.
+  bool is_verbose = false;
+};
+
+/// Prints what follows from a scenario and what its scene holds; or, to stdout, the resolved
+/// scenario alone.
 /// @throws InputError with every fault of the scenario.
-[[nodiscard]] int CheckCommand(const std::filesystem::path& scenario);
+[[nodiscard]] int CheckCommand(const CheckOptions& options);
 
 /// Options of `railcast-generate world`.
 struct WorldOptions {

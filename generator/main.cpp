@@ -8,6 +8,7 @@
 
 namespace {
 
+using railcast::CheckOptions;
 using railcast::SequenceOptions;
 using railcast::TraceOptions;
 using railcast::WorldOptions;
@@ -40,12 +41,15 @@ void AddSequence(CLI::App& app, SequenceOptions& options, std::function<int()>& 
   sequence->callback([&] { command = [&] { return railcast::SequenceCommand(options); }; });
 }
 
-void AddCheck(CLI::App& app, std::filesystem::path& scenario, std::function<int()>& command) {
+void AddCheck(CLI::App& app, CheckOptions& options, std::function<int()>& command) {
   CLI::App* check = app.add_subcommand(
       "check",
       "Report every error of a scenario, or what follows from it and what its scene holds");
-  check->add_option("SCENARIO", scenario, "Scenario file")->required();
-  check->callback([&] { command = [&] { return railcast::CheckCommand(scenario); }; });
+  check->add_option("SCENARIO", options.scenario, "Scenario file")->required();
+  check->add_option("--resolved", options.resolved,
+                    "File for the scenario with every default and included file in place; - writes "
+                    "it, and nothing else, to stdout");
+  check->callback([&] { command = [&] { return railcast::CheckCommand(options); }; });
 }
 
 void AddWorld(CLI::App& app, WorldOptions& options, std::function<int()>& command) {
@@ -80,14 +84,14 @@ int main(int argc, char** argv) {
       "Exit status: 0 success, 1 bad input or failed run, 2 usage, 130 interrupted (the same\n"
       "command continues).");
   bool is_verbose = false;
-  app.add_flag("-v,--verbose", is_verbose, "Say more on stderr");
+  app.add_flag("-v,--verbose", is_verbose, "Say more");
   SequenceOptions sequence;
-  std::filesystem::path checked_scenario;
+  CheckOptions check;
   WorldOptions world;
   TraceOptions trace;
   std::function<int()> command;
   AddSequence(app, sequence, command);
-  AddCheck(app, checked_scenario, command);
+  AddCheck(app, check, command);
   AddWorld(app, world, command);
   AddTrace(app, trace, command);
   try {
@@ -95,7 +99,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? railcast::kExitSuccess : railcast::kExitUsage;
   }
-  sequence.is_verbose = world.is_verbose = is_verbose;
+  sequence.is_verbose = check.is_verbose = world.is_verbose = is_verbose;
   try {
     return command();
   } catch (const railcast::InputError& error) {

@@ -1,10 +1,33 @@
 #include "generator/scene_audit.h"
 
+#include <algorithm>
+#include <limits>
+
+#include "core/scan/scan_pattern.h"
+#include "core/simulate/simulator.h"
+
 namespace railcast {
 namespace {
 
 void AddMaterials(const Model& model, const MaterialLibrary& library, std::set<std::string>& used) {
   for (const Part& part : model.parts) used.insert(library.materials().at(part.material).name);
+}
+
+// All directions within a microsecond.
+ScanPattern AllAround() {
+  return BuildScanPattern({1e6, RasterSpec{360.0, 180.0, 1.0, "columns"}});
+}
+
+// The nearest of a frame's slots from `begin` to before `end`.
+std::optional<Sighting> NearestOf(const Frame& frame, std::size_t begin, std::size_t end) {
+  std::optional<Sighting> nearest;
+  for (std::size_t slot = begin; slot < end; ++slot) {
+    const auto range_m = static_cast<double>(frame.true_range_m[slot]);
+    if (range_m < (nearest ? nearest->range_m : std::numeric_limits<double>::infinity())) {
+      nearest = {range_m, frame.label[slot], frame.instance[slot]};
+    }
+  }
+  return nearest;
 }
 
 }  // namespace
@@ -37,6 +60,30 @@ SceneAudit AuditScene(const World& world,
     AddMaterials(*object.model, materials, audit.materials);
   }
   return audit;
+}
+
+Surroundings LookAround(const std::shared_ptr<const World>& world,
+                        const MaterialLibrary& materials,
+                        const Vector3& position_vehicle,
+                        double range_m) {
+  SimulatorSpec spec;
+  spec.range_min_m = 0.0;
+  spec.range_max_m = range_m;
+  spec.vehicle_from_sensor =
+      MakeTransform(world->WorldFromVehicle(0).linear().transpose(), position_vehicle);
+  Simulator simulator(world, AllAround(), materials, spec, 1);
+  Frame frame;
+  simulator.Scan(0, frame);
+
+  Surroundings around;
+  around.position_world = frame.world_from_sensor.translation();
+  around.nearest = NearestOf(frame, 0, frame.num_slots());
+  around.below = NearestOf(frame, 0, frame.width());
+  around.above = NearestOf(frame, frame.num_slots() - frame.width(), frame.num_slots());
+  const std::uint32_t first = frame.instance.front();
+  const auto is_first = [&](std::uint32_t instance) { return instance == first; };
+  if (std::all_of(frame.instance.begin(), frame.instance.end(), is_first)) around.inside = first;
+  return around;
 }
 
 }  // namespace railcast

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -29,5 +31,27 @@ struct SceneAudit {
                                     const MaterialLibrary& materials,
                                     std::int64_t time_ns,
                                     double range_m);
+
+/// A surface that a sensor sees first in some direction.
+struct Sighting {
+  double range_m{};
+  std::uint32_t label{};
+  std::uint32_t instance{};
+};
+
+/// What is around a sensor at time 0.
+struct Surroundings {
+  Vector3 position_world;
+  std::optional<Sighting> nearest;  ///< Of beams a degree apart in all directions.
+  std::optional<Sighting> below;    ///< Within half a degree of straight down.
+  std::optional<Sighting> above;    ///< Within half a degree of straight up.
+  std::uint32_t inside{};           ///< The instance that all beams hit, if there is one such.
+};
+
+/// Looks from a place in the vehicle frame to `range_m` in all directions.
+[[nodiscard]] Surroundings LookAround(const std::shared_ptr<const World>& world,
+                                      const MaterialLibrary& materials,
+                                      const Vector3& position_vehicle,
+                                      double range_m);
 
 }  // namespace railcast

@@ -12,6 +12,11 @@ inline constexpr const char* kTypeName<AlignmentElementsSpec> = "elements";
 template <>
 inline constexpr const char* kTypeName<AlignmentSplineSpec> = "spline";
 
+/// Longer lines are taken for a slip; shorter elements would vanish against a long line's chainage.
+[[nodiscard]] inline Limits LengthOfLine() {
+  return Within(1e-3, 1e7);
+}
+
 template <class Archive>
 void Describe(Archive& a, CurvatureSection& s) {
   a.Required("s_m", s.s_m, "Chainage of the start.", NonNegative());
@@ -24,7 +29,7 @@ void Describe(Archive& a, CurvatureSection& s) {
 
 template <class Archive>
 void Describe(Archive& a, AlignmentSectionsSpec& s) {
-  a.Required("length_m", s.length_m, "Chainage of the end.", Positive());
+  a.Required("length_m", s.length_m, "Chainage of the end.", LengthOfLine());
   a.Required("sections", s.sections, "The first at chainage 0.", NonEmptyList());
 }
 
@@ -32,7 +37,7 @@ template <class Archive>
 void Describe(Archive& a, AlignmentElement& s) {
   a.Required("type", s.type, "A clothoid leads from the curvature before it to the one after it.",
              OneOf({"straight", "clothoid", "arc"}));
-  a.Required("length_m", s.length_m, "Length.", Positive());
+  a.Required("length_m", s.length_m, "Length.", LengthOfLine());
   a.Optional("radius_m", s.radius_m, "Of an arc only: left positive, right negative.");
   a.Ensure({"radius_m"}, s.radius_m != 0.0, "must not be 0");
   a.Ensure({"radius_m", "type"}, s.type != "arc" || s.radius_m.has_value(),

@@ -97,7 +97,7 @@ void Describe(Archive& a, ObjectSpec& s) {
   a.Optional("heading_deg", s.heading_deg, "Turned left against the chainage's direction.");
   a.Optional("size_m", s.size_m,
              "Length, width, height. Required for box and pole; scales a person or mesh.",
-             Positive());
+             Within(1e-3, 1000));
   a.Optional("file", s.file, "Of a mesh: OBJ.", ExistingFile());
   a.Optional("up", s.up, "Of a mesh: its upward axis.", OneOf({"y", "z"}));
   a.Optional("unit_m", s.unit_m, "Of a mesh: metres per file unit.", Positive());

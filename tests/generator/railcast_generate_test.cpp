@@ -181,11 +181,25 @@ TEST(RailcastGenerate, StopsAfterAFrameOnCtrlCAndContinues) {
 TEST(RailcastGenerate, ChecksAScenario) {
   const Ended run = Generate("check " + scenarios_folder + "st_gallen_approach.json");
   EXPECT_EQ(run.status, 0);
-  for (const char* text : {"firings per frame    28800 (120 rows x 240 columns)",
-                           "frame period         0.1 s", "points per second    at most 288000",
-                           "curvature at s ", "foul_wagon: open_wagon, label wagon"}) {
+  for (const char* text :
+       {"28800 firings a frame (120 rows x 240 columns)", "at most 288000 points/s",
+        "7 curvature jumps smoothed", "152 gradient steps smoothed", "(-v lists them)",
+        "foul_wagon: open_wagon, label wagon"}) {
     EXPECT_NE(run.said.find(text), std::string::npos) << text;
   }
+  EXPECT_EQ(run.said.find("curvature at s "), std::string::npos);
+  const Ended verbose = Generate("check -v " + scenarios + "st_gallen_approach.json");
+  EXPECT_NE(verbose.said.find("curvature at s "), std::string::npos);
+}
+
+TEST(RailcastGenerate, PrintsAResolvedScenarioThatReadsBackTheSame) {
+  const TemporaryDirectory directory;
+  const std::string file = (directory.path() / "resolved.json").string();
+  const Ended first = Generate("check " + scenarios + "minimal.json --resolved -");
+  EXPECT_EQ(first.status, 0);
+  EXPECT_EQ(Generate("check " + scenarios + "minimal.json --resolved " + file).status, 0);
+  EXPECT_EQ(ReadFileWhole(file), first.said);
+  EXPECT_EQ(Generate("check " + file + " --resolved -").said, first.said);
 }
 
 TEST(RailcastGenerate, WritesTheSceneAsAMesh) {

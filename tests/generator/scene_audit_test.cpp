@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "core/base/units.h"
+#include "core/scene/shapes.h"
 #include "tests/support/simple_world.h"
 
 namespace railcast {
@@ -33,6 +37,49 @@ TEST(AuditScene, CountsWhatIsStoredAndWhatIsSeen) {
   EXPECT_EQ(audit.placed_triangles, 310U);
   EXPECT_EQ(audit.object_triangles, 12U);
   EXPECT_EQ(audit.materials, (std::set<std::string>{"leaf", "paint", "soil"}));
+}
+
+// A square plate of 40 m, 2 m below the vehicle.
+Model Plate() {
+  return {"plate",
+          {{{{{-20, -20, -2}, {20, -20, -2}, {20, 20, -2}, {-20, 20, -2}}, {{0, 1, 2}, {0, 2, 3}}},
+            1,
+            7}}};
+}
+
+std::shared_ptr<const Model> Box(double half_size_m) {
+  const Vector3 corner_m = Vector3::Constant(half_size_m);
+  return std::make_shared<const Model>(Model{"box", {{MakeBox({-corner_m, corner_m}), 2, 9}}});
+}
+
+const MaterialLibrary two_materials({{"soil", 0.25}, {"paint", 0.3}});
+
+TEST(LookAround, SeesTheGroundBelowAndNothingAbove) {
+  const auto world = std::make_shared<SimpleWorld>();
+  world->ground = Plate();
+  // Up a slope: below is where a plumb line points.
+  world->chunk_from_vehicle =
+      MakeTransform(RotationFromYawPitchRoll(0.0, -0.1, 0.0), Vector3::Zero());
+  const Surroundings around = LookAround(world, two_materials, Vector3(0, 0, 1), 100.0);
+  const double height_m = 2.0 + std::cos(0.1);
+  // Straight down within half a degree, in float32.
+  EXPECT_NEAR(around.below->range_m, height_m / std::sin(RadFromDeg(89.5)), 1e-5);
+  EXPECT_EQ(around.below->label, 7U);
+  EXPECT_EQ(around.nearest->range_m, around.below->range_m);
+  EXPECT_FALSE(around.above);
+  EXPECT_EQ(around.inside, 0U);
+  EXPECT_NEAR(around.position_world.z(), std::cos(0.1), 1e-12);
+}
+
+TEST(LookAround, TellsWhatTheSensorIsInside) {
+  const auto world = std::make_shared<SimpleWorld>();
+  world->ground = Plate();
+  world->AddObject(Box(0.5), Transform::Identity());
+  world->AddObject(Box(3.0), Transform::Identity());
+  const Surroundings around = LookAround(world, two_materials, Vector3(0, 0, 1), 100.0);
+  EXPECT_EQ(around.inside, 0U);  // Between the two boxes.
+  EXPECT_EQ(around.below->instance, 1U);
+  EXPECT_EQ(LookAround(world, two_materials, Vector3(0, 0.1, 0), 100.0).inside, 1U);
 }
 
 }  // namespace
