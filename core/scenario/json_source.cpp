@@ -62,6 +62,7 @@ std::optional<Node> JsonSource::Open(const fs::path& file) {
     return std::nullopt;
   }
   std::optional<Node> root = Load({fs::absolute(file).lexically_normal(), shown, nullptr, {}}, "");
+  if (root) sources_.Add("", shown, "");
   if (!root || !CheckRoot(*root)) return std::nullopt;
   return root;
 }
@@ -74,6 +75,7 @@ std::optional<MemberList> JsonSource::Members(const Node& node) {
   // A base's keys stand, in the resolved scenario, where the object does that names it.
   std::optional<MemberList> list;
   const auto root = FileRoot(is_name ? node : node.Child("file"), node.resolved_pointer);
+  if (root) sources_.Add(root->resolved_pointer, root->file->shown, "");
   if (root && CheckRoot(*root)) list = Members(*root);
   if (is_name) return list;
   // The object's own keys are read even if those of its base are not.
@@ -159,7 +161,6 @@ std::optional<Node> JsonSource::Load(SourceFile file, std::string resolved_point
     errors_.Add(file.shown + ": " + pointer + ": duplicate key");
     unknown_.Add(resolved_pointer + pointer);
   }
-  sources_.Add(resolved_pointer, file.shown, "");
   file.root = std::move(*parsed.json);
   files_.push_back(std::move(file));
   return Node{&files_.back().root, &files_.back(), "", std::move(resolved_pointer)};

@@ -38,7 +38,8 @@ class World {
 
   /// The chunk whose frame is the window's at that time: the one the vehicle is in.
   [[nodiscard]] virtual int HomeChunk(std::int64_t time_ns) const = 0;
-  /// The chunks that come within `range_m` of a vehicle's origin anywhere in `home_chunk`, ascending.
+  /// The chunks that come within `range_m` of a vehicle's origin anywhere in `home_chunk`,
+  /// ascending.
   [[nodiscard]] virtual std::vector<int> ChunksInReach(int home_chunk, double range_m) const = 0;
   [[nodiscard]] virtual Transform WorldFromChunk(int chunk) const = 0;
   [[nodiscard]] virtual Chunk BuildChunk(int chunk) const = 0;

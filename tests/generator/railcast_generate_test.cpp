@@ -188,16 +188,16 @@ TEST(RailcastGenerate, ChecksAScenario) {
     EXPECT_NE(run.said.find(text), std::string::npos) << text;
   }
   EXPECT_EQ(run.said.find("curvature at s "), std::string::npos);
-  const Ended verbose = Generate("check -v " + scenarios + "st_gallen_approach.json");
+  const Ended verbose = Generate("check -v " + scenarios_folder + "st_gallen_approach.json");
   EXPECT_NE(verbose.said.find("curvature at s "), std::string::npos);
 }
 
 TEST(RailcastGenerate, PrintsAResolvedScenarioThatReadsBackTheSame) {
   const TemporaryDirectory directory;
   const std::string file = (directory.path() / "resolved.json").string();
-  const Ended first = Generate("check " + scenarios + "minimal.json --resolved -");
+  const Ended first = Generate("check " + scenarios_folder + "minimal.json --resolved -");
   EXPECT_EQ(first.status, 0);
-  EXPECT_EQ(Generate("check " + scenarios + "minimal.json --resolved " + file).status, 0);
+  EXPECT_EQ(Generate("check " + scenarios_folder + "minimal.json --resolved " + file).status, 0);
   EXPECT_EQ(ReadFileWhole(file), first.said);
   EXPECT_EQ(Generate("check " + file + " --resolved -").said, first.said);
 }

@@ -51,8 +51,8 @@ class Alignment {
   [[nodiscard]] const std::vector<SmoothedJump>& smoothed_jumps() const;
 
   /// The track frame at chainage `s_m`: x along the axis, y left, z up, with gradient and cant; its
-  /// origin `d_m` left of the axis and level with it, and `h_m` above top of rail. So tracks side by
-  /// side lie at one height and each leans about its own axis, as in a real double track.
+  /// origin `d_m` left of the axis and level with it, and `h_m` above top of rail. So tracks side
+  /// by side lie at one height and each leans about its own axis, as in a real double track.
   [[nodiscard]] Transform WorldFromTrack(double s_m, double d_m = 0.0, double h_m = 0.0) const;
 
  private:

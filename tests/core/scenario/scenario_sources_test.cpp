@@ -1,6 +1,11 @@
 #include "core/scenario/scenario_sources.h"
+#include "core/scenario/scenario.h"
 
 #include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/scenario/scenario.h"
 
 namespace railcast {
 namespace {
@@ -45,6 +50,15 @@ TEST(ScenarioSources, PutALineWithoutAPlaceWhereItsSpecStands) {
 
 TEST(ScenarioSources, LeaveThePointerWhereNothingWasRead) {
   EXPECT_EQ(ScenarioSources().Place("/world/tracks/0"), "/world/tracks/0");
+}
+
+TEST(ScenarioSources, ALibrarysFileIsNoPlaceOfOtherSections) {
+  const ScenarioSpec spec = ReadScenario(std::filesystem::path(RAILCAST_SOURCE_DIR) /
+                                         "scenarios/st_gallen_approach.json");
+  EXPECT_NE(spec.sources.Place("/vehicle/motion").find("st_gallen_approach.json: /vehicle/motion"),
+            std::string::npos);
+  EXPECT_NE(spec.sources.Place("/labels/3/id").find("labels.json: /labels/3/id"),
+            std::string::npos);
 }
 
 }  // namespace
