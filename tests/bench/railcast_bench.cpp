@@ -161,6 +161,13 @@ std::map<std::string, ScenarioSpec> Scenes() {
   without("trees", [](WorldSpec& world) { world.vegetation.trees_per_hectare = 0.0; });
   without("wires", [](WorldSpec& world) { world.catenary.enabled = false; });
   without("objects", [](WorldSpec& world) { world.objects.clear(); });
+  // Rails, sleepers and ballast end under the vehicle, and with them goes what stands on them:
+  // compare with demo-without-objects.
+  without("objects-and-tracks", [](WorldSpec& world) {
+    world.objects.clear();
+    world.tracks.resize(1);
+    world.tracks.front().end_s_m = 2191.0;
+  });
   without("second-track", [](WorldSpec& world) {
     world.tracks.resize(1);
     std::erase_if(world.objects, [](const ObjectSpec& object) { return object.track != "main"; });
