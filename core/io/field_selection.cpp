@@ -1,9 +1,9 @@
 #include "core/io/field_selection.h"
 
 #include <algorithm>
-#include <numeric>
 #include <set>
 
+#include "core/base/edit_distance.h"
 #include "core/base/error.h"
 #include "core/frame/frame.h"
 
@@ -26,22 +26,6 @@ std::string Join(const std::vector<std::string>& names, std::string_view separat
     text += name;
   }
   return text;
-}
-
-// Levenshtein (1966): the least number of inserted, deleted or changed characters.
-std::size_t EditDistance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({changed, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row[b.size()];
 }
 
 std::string UnknownField(std::string_view name, const std::vector<std::string>& valid) {

@@ -4,7 +4,8 @@
 #include <charconv>
 #include <cstdint>
 #include <nlohmann/json.hpp>
-#include <numeric>
+
+#include "core/base/edit_distance.h"
 
 namespace railcast {
 namespace {
@@ -18,22 +19,6 @@ std::string Number(double value) {
 
 std::string Quoted(std::string_view name) {
   return '"' + std::string(name) + '"';
-}
-
-// Levenshtein's distance.
-std::size_t EditDistance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
 }
 
 }  // namespace
