@@ -22,9 +22,12 @@ PoseF ToPoseF(const Transform& transform) {
 
 FramePoses::FramePoses(std::uint32_t duration_ns,
                        const std::function<Transform(std::uint32_t)>& window_from_sensor) {
-  const std::uint32_t num_intervals =
-      std::max(1U, (duration_ns + kKnotSpacing_ns - 1) / kKnotSpacing_ns);
-  spacing_ns_ = std::max(1U, (duration_ns + num_intervals - 1) / num_intervals);
+  // 64 bits: a pattern may last nearly all that 32 hold.
+  const std::uint64_t duration = duration_ns;
+  const auto num_intervals = static_cast<std::uint32_t>(
+      std::max<std::uint64_t>(1, (duration + kKnotSpacing_ns - 1) / kKnotSpacing_ns));
+  spacing_ns_ = static_cast<std::uint32_t>(
+      std::max<std::uint64_t>(1, (duration + num_intervals - 1) / num_intervals));
   knots_.reserve(num_intervals + 1);
   for (std::uint32_t i = 0; i <= num_intervals; ++i) {
     knots_.push_back(ToPoseF(window_from_sensor(i * spacing_ns_)));

@@ -10,7 +10,7 @@ namespace {
 
 // Moving things are interpolated linearly between places this far apart in time: at 2 m/s^2 across
 // the line of motion that bends the path by a dt^2 / 8 = 0.6 mm.
-constexpr std::uint32_t kShutterStep_ns = 50'000'000;
+constexpr std::int64_t kShutterStep_ns = 50'000'000;
 
 // Faster than any train: how far the vehicle may get from its place at the stamp within a frame.
 constexpr double kSpeedMax_mps = 200.0;
@@ -81,13 +81,12 @@ TracePlacement FrameScenes::Place(std::size_t object,
                                   std::int64_t stamp_ns,
                                   const Transform& window_from_world) const {
   TracePlacement placement{windows_.object_model(object), {}, windows_.object_surface(object)};
-  const std::uint32_t num_steps =
-      world_->objects()[object].moves
-          ? 1 + std::max(1U, (spec_.duration_ns + kShutterStep_ns - 1) / kShutterStep_ns)
-          : 1;
-  for (std::uint32_t step = 0; step < num_steps; ++step) {
-    const std::int64_t since_stamp_ns =
-        num_steps == 1 ? 0 : std::int64_t{spec_.duration_ns} * step / (num_steps - 1);
+  const std::int64_t duration_ns = spec_.duration_ns;
+  const bool moves = world_->objects()[object].moves;
+  const std::int64_t num_intervals =
+      moves ? std::max<std::int64_t>(1, (duration_ns + kShutterStep_ns - 1) / kShutterStep_ns) : 0;
+  for (std::int64_t step = 0; step <= num_intervals; ++step) {
+    const std::int64_t since_stamp_ns = moves ? duration_ns * step / num_intervals : 0;
     const Transform window_from_object =
         window_from_world * world_->WorldFromObject(object, stamp_ns + since_stamp_ns);
     placement.window_from_model.emplace_back(window_from_object.matrix());

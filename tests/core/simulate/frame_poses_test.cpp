@@ -51,6 +51,18 @@ TEST(FramePoses, SlopeIsTheVelocity) {
   EXPECT_NEAR(static_cast<double>(change.t[0]) * 1e9, 20.0, 1e-3);
 }
 
+TEST(FramePoses, PatternsOfSecondsKeepTheirKnots) {
+  constexpr std::uint32_t kLongest_ns = 4'290'000'000U;
+  const FramePoses poses(kLongest_ns, [](std::uint32_t time_ns) {
+    const double t = time_ns * 1e-9;
+    return MakeTransform(Eigen::Matrix3d::Identity(), {t * t, 0.0, 0.0});
+  });
+  EXPECT_LE(poses.knot_spacing_ns(), 10'000'000U);
+  PoseF change{};
+  EXPECT_NEAR(static_cast<double>(poses.At(2'145'000'000U, change).t[0]), 2.145 * 2.145, 1e-4);
+  EXPECT_NEAR(static_cast<double>(poses.At(kLongest_ns, change).t[0]), 4.29 * 4.29, 1e-4);
+}
+
 TEST(FramePoses, AFlashHasOnePose) {
   const FramePoses poses(0, [](std::uint32_t) {
     return MakeTransform(Eigen::Matrix3d::Identity(), {1.0, 2.0, 3.0});

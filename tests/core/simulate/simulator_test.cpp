@@ -117,6 +117,22 @@ TEST(Simulator, RollingShutterSeesTheWallComeNearer) {
   }
 }
 
+// Packets of a slow pattern spread over more time than lies between two poses.
+TEST(Simulator, SlowPatternsGiveEveryFiringItsOwnPose) {
+  auto world = WorldWithWall(50.0F);
+  world->velocity_chunk_mps = {5.0, 0.0, 0.0};
+  const ScanPattern pattern = BuildScanPattern(
+      {.rate_hz = 0.5,
+       .pattern = RasterSpec{
+           .horizontal_fov_deg = 60, .vertical_fov_deg = 4, .angular_resolution_deg = 1}});
+  const Frame frame = ScanOnce(world, pattern);
+  EXPECT_GT(frame.time_ns[59], 1'900'000'000U);
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    const double travelled_m = 5.0 * static_cast<double>(frame.time_ns[slot]) * 1e-9;
+    EXPECT_NEAR(static_cast<double>(frame.x[slot]), 50.0 - travelled_m, 1e-4);
+  }
+}
+
 TEST(Simulator, MovingObjectsAreSeenWhereTheyAreAtEachFiring) {
   auto world = std::make_shared<SimpleWorld>();
   world->AddObject(WallModel(0.0F, 100.0F),
