@@ -6,43 +6,17 @@
 #include <span>
 #include <string>
 
-#include "core/base/random.h"
 #include "core/base/units.h"
+#include "core/rail/land/grass_patch.h"
+#include "core/rail/land/plant_dice.h"
 #include "core/rail/model_parts.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {
 namespace {
 
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 constexpr double kGoldenAngle_rad = 2.39996;  ///< Between the leaves of many plants.
 constexpr double kRoot_m = 0.3;
-
-/// The shape of one plant draws its numbers in order.
-class Dice {
- public:
-  Dice(std::uint64_t seed, std::uint32_t plant) : seed_(seed), plant_(plant) {}
-
-  double Uniform(double low, double high) {
-    if (next_ % 4 == 0) words_ = RandomWords(seed_, RandomUse::kPlantShape, plant_, next_ / 4);
-    return low + (high - low) * static_cast<double>(UnitFloat(words_[next_++ % 4]));
-  }
-  /// Uniform on the unit sphere (Archimedes).
-  Vector3 Direction() {
-    const double z = Uniform(-1.0, 1.0);
-    const double azimuth_rad = Uniform(0.0, kTurn_rad);
-    const double radius = std::sqrt(1.0 - z * z);
-    return {radius * std::cos(azimuth_rad), radius * std::sin(azimuth_rad), z};
-  }
-  /// Within a ball, denser towards its middle.
-  Vector3 Offset(double radius_m) { return Uniform(0.0, radius_m) * Direction(); }
-
- private:
-  std::uint64_t seed_;
-  std::uint32_t plant_;
-  std::uint32_t next_ = 0;
-  std::array<std::uint32_t, 4> words_{};
-};
 
 struct TreeForm {
   std::string name;
@@ -70,13 +44,13 @@ constexpr Leaf kBroadLeaf{.length_m = 0.09, .width_m = 0.08, .scatter_m = 0.28, 
 constexpr Leaf kNeedleShoot{.length_m = 0.11, .width_m = 0.05, .scatter_m = 0.14, .along = 0.5};
 
 /// A unit vector at a right angle, any way round.
-Vector3 PerpendicularTo(const Vector3& direction, Dice& dice) {
+Vector3 PerpendicularTo(const Vector3& direction, PlantDice& dice) {
   Vector3 other = direction.cross(dice.Direction());
   while (other.norm() < 0.1) other = direction.cross(dice.Direction());
   return other.normalized();
 }
 
-void AddLeaf(const Twig& twig, const Leaf& leaf, Dice& dice, Mesh& leaves) {
+void AddLeaf(const Twig& twig, const Leaf& leaf, PlantDice& dice, Mesh& leaves) {
   const Vector3 along = twig.end_m - twig.begin_m;
   const Vector3 middle_m =
       twig.begin_m + dice.Uniform(0.0, 1.0) * along + dice.Offset(leaf.scatter_m);
@@ -93,7 +67,10 @@ void AddLeaf(const Twig& twig, const Leaf& leaf, Dice& dice, Mesh& leaves) {
 }
 
 /// Every piece of a twig bears as many leaves as any other of its length.
-Mesh MakeLeaves(const TreeForm& form, std::span<const Twig> twigs, const Leaf& leaf, Dice& dice) {
+Mesh MakeLeaves(const TreeForm& form,
+                std::span<const Twig> twigs,
+                const Leaf& leaf,
+                PlantDice& dice) {
   const double projection_m2 = std::numbers::pi * form.crown_radius_m * form.crown_radius_m;
   const double leaf_m2 = 0.5 * leaf.length_m * leaf.width_m;
   const double num_leaves = kLeafAreaIndex * projection_m2 / leaf_m2;
@@ -119,7 +96,7 @@ Mesh MakeStem(std::span<const Vector3> line, double foot_radius_m, double tip_ra
 }
 
 /// From below the ground to `top_m`, wandering by `wander_m` every metre.
-std::vector<Vector3> TrunkLine(double top_m, double wander_m, Dice& dice) {
+std::vector<Vector3> TrunkLine(double top_m, double wander_m, PlantDice& dice) {
   std::vector<Vector3> line = {{0, 0, -kRoot_m}, {0, 0, 0}};
   const int num_pieces = static_cast<int>(std::ceil(top_m));
   for (int i = 1; i <= num_pieces; ++i) {
@@ -154,7 +131,7 @@ double ReachInCrown(const TreeForm& form, const Vector3& from_m, const Vector3& 
   return std::max(0.0, (std::sqrt(discriminant) - b) / d.squaredNorm());
 }
 
-Model MakeBroadleaf(const TreeForm& form, const RailSurfaces& surfaces, Dice dice) {
+Model MakeBroadleaf(const TreeForm& form, const RailSurfaces& surfaces, PlantDice dice) {
   constexpr int kNumBranches = 26;
   constexpr int kTwigsPerBranch = 6;
   Mesh wood;
@@ -198,7 +175,7 @@ Model MakeBroadleaf(const TreeForm& form, const RailSurfaces& surfaces, Dice dic
 /// Shoots on both sides of a spruce's branch, shorter towards its tip, hanging a little.
 void AddSideShoots(const Vector3& foot_m,
                    const Vector3& tip_m,
-                   Dice& dice,
+                   PlantDice& dice,
                    std::vector<Twig>& twigs) {
   constexpr double kSpacing_m = 0.16;
   const Vector3 along = tip_m - foot_m;
@@ -216,7 +193,7 @@ void AddSideShoots(const Vector3& foot_m,
   }
 }
 
-Model MakeSpruce(const TreeForm& form, const RailSurfaces& surfaces, Dice dice) {
+Model MakeSpruce(const TreeForm& form, const RailSurfaces& surfaces, PlantDice dice) {
   constexpr int kBranchesPerWhorl = 5;
   constexpr double kWhorlSpacing_m = 0.36;
   Mesh wood;
@@ -248,48 +225,6 @@ Model MakeSpruce(const TreeForm& form, const RailSurfaces& surfaces, Dice dice) 
   return tree;
 }
 
-/// A blade of two pieces that leans over towards its tip.
-void AddBlade(const Vector3& foot_m, double height_m, Dice& dice, Mesh& grass) {
-  const double azimuth_rad = dice.Uniform(0.0, kTurn_rad);
-  const double lean = dice.Uniform(0.1, 0.6);
-  const Vector3 over = lean * height_m * Vector3(std::cos(azimuth_rad), std::sin(azimuth_rad), 0.0);
-  const double twist_rad = dice.Uniform(0.0, kTurn_rad);
-  const Vector3 half_width_m =
-      0.5 * dice.Uniform(0.008, 0.014) * Vector3(std::cos(twist_rad), std::sin(twist_rad), 0.0);
-  const Vector3 middle_m = foot_m + 0.25 * over + Vector3(0, 0, 0.6 * height_m);
-  const Vector3 tip_m = foot_m + over + Vector3(0, 0, height_m);
-  const Vector3 root_m = foot_m - Vector3(0, 0, 0.5 * kRoot_m);
-  const auto first = static_cast<std::uint32_t>(grass.vertices.size());
-  for (const Vector3& corner :
-       {Vector3(root_m - half_width_m), Vector3(root_m + half_width_m),
-        Vector3(middle_m - half_width_m), Vector3(middle_m + half_width_m), tip_m}) {
-    grass.vertices.emplace_back(corner.cast<float>());
-  }
-  grass.triangles.push_back({first, first + 1, first + 3});
-  grass.triangles.push_back({first, first + 3, first + 2});
-  grass.triangles.push_back({first + 2, first + 3, first + 4});
-}
-
-Model MakeGrass(const std::string& name, const RailSurfaces& surfaces, Dice dice) {
-  constexpr int kNumTufts = 80;
-  constexpr int kBladesPerTuft = 8;
-  constexpr double kTuftRadius_m = 0.07;
-  constexpr double kReach_m = 0.5 * kGrassPatch_m;
-  Model patch{.name = name, .parts = {}};
-  Mesh& grass = MeshOf(surfaces.grass, patch);
-  for (int tuft = 0; tuft < kNumTufts; ++tuft) {
-    const double x_m = dice.Uniform(-kReach_m, kReach_m);
-    const double y_m = dice.Uniform(-kReach_m, kReach_m);
-    const double height_m = dice.Uniform(0.20, 0.40);
-    for (int blade = 0; blade < kBladesPerTuft; ++blade) {
-      const Vector3 foot_m(x_m + dice.Uniform(-kTuftRadius_m, kTuftRadius_m),
-                           y_m + dice.Uniform(-kTuftRadius_m, kTuftRadius_m), 0.0);
-      AddBlade(foot_m, std::max(0.15, height_m * dice.Uniform(0.6, 1.0)), dice, grass);
-    }
-  }
-  return patch;
-}
-
 TreeModel Measured(Model model) {
   const double height_m = model.Bounds().max().z();
   return {std::make_shared<const Model>(std::move(model)), height_m};
@@ -303,16 +238,16 @@ PlantModels MakePlantModels(const RailSurfaces& surfaces, std::uint64_t seed) {
   const std::vector<TreeForm> broadleaves = {{"broadleaf_low", 7.5, 1.6, 2.1, 0.10},
                                              {"broadleaf_high", 11.0, 2.8, 2.3, 0.14}};
   for (const TreeForm& form : broadleaves) {
-    plants.broadleaves.push_back(Measured(MakeBroadleaf(form, surfaces, Dice(seed, plant++))));
+    plants.broadleaves.push_back(Measured(MakeBroadleaf(form, surfaces, PlantDice(seed, plant++))));
   }
   const std::vector<TreeForm> spruces = {{"spruce_low", 7.0, 0.6, 1.6, 0.09},
                                          {"spruce_high", 12.0, 1.4, 2.0, 0.15}};
   for (const TreeForm& form : spruces) {
-    plants.conifers.push_back(Measured(MakeSpruce(form, surfaces, Dice(seed, plant++))));
+    plants.conifers.push_back(Measured(MakeSpruce(form, surfaces, PlantDice(seed, plant++))));
   }
   for (const char* name : {"grass_a", "grass_b", "grass_c"}) {
     plants.grass.push_back(
-        std::make_shared<const Model>(MakeGrass(name, surfaces, Dice(seed, plant++))));
+        std::make_shared<const Model>(MakeGrassPatch(name, surfaces, PlantDice(seed, plant++))));
   }
   return plants;
 }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/rail/land/grass_patch.h"
 #include "core/rail/rail_surfaces.h"
 #include "core/scene/mesh.h"
 
@@ -22,8 +23,6 @@ struct PlantModels {
   std::vector<std::shared_ptr<const Model>> grass;  ///< Square patches of kGrassPatch_m.
 };
 
-inline constexpr double kGrassPatch_m = 2.0;
-
 /// Two broad-leaved trees (7.5 and 11 m), two spruces (7 and 12 m) and three patches of grass.
 ///
 /// Trees are trunk, branches and twigs as tapering tubes, and single leaves: triangles of about
@@ -32,9 +31,6 @@ inline constexpr double kGrassPatch_m = 2.0;
 /// the crown's projection over the area of a leaf. To stay below 20 000 triangles a tree, the index
 /// is 3.2 (closed stands have 3 to 5) and the leaves are at the large end of what grows beside a
 /// line. Of vertical beams 18 to 26 % pass through the crowns (measured); exp(-G index) is 20 %.
-///
-/// A patch of grass has 640 blades in tufts, 15 to 40 cm high, 8 to 14 mm wide and of 3 triangles:
-/// a leaf area index of about 0.4, so that the ground shows through, where a meadow has 1 to 4.
 [[nodiscard]] PlantModels MakePlantModels(const RailSurfaces& surfaces, std::uint64_t seed);
 
 }  // namespace railcast
