@@ -4,6 +4,7 @@
 #include "core/io/pcd_header.h"
 #include "core/io/pcd_reader.h"
 #include "core/io/write_file.h"
+#include "tests/core/io/damage.h"
 #include "tests/core/io/example_frame.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
@@ -15,12 +16,6 @@ std::string Example(PcdEncoding encoding) {
   std::string bytes;
   EncodePcd(ExampleFrame(0, 2, 3), FieldSelection("x,y,z,label"), encoding, bytes);
   return bytes;
-}
-
-std::string Replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t place = text.find(from);
-  EXPECT_NE(place, std::string::npos) << from;
-  return text.replace(place, from.size(), to);
 }
 
 std::string Message(const std::string& bytes) {
@@ -111,9 +106,7 @@ TEST(ReadPcd, SurvivesEveryFlippedByte) {
        {PcdEncoding::kBinary, PcdEncoding::kBinaryCompressed, PcdEncoding::kAscii}) {
     const std::string sound = Example(encoding);
     for (std::size_t place = 0; place < sound.size(); ++place) {
-      std::string damaged = sound;
-      damaged[place] = static_cast<char>(damaged[place] ^ 0x15);
-      WriteFileWhole(file, damaged);
+      WriteFileWhole(file, Flipped(sound, place));
       const std::string message = MessageOf([&] { (void)ReadPcd(file); });
       // Some flips only change a value, a name or a comment.
       EXPECT_TRUE(message == "no error" || message.find(file.string() + ": ") == 0U) << message;

@@ -4,6 +4,7 @@
 #include "core/io/ply_header.h"
 #include "core/io/ply_reader.h"
 #include "core/io/write_file.h"
+#include "tests/core/io/damage.h"
 #include "tests/core/io/example_frame.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
@@ -15,12 +16,6 @@ std::string Example() {
   std::string bytes;
   EncodePly(ExampleFrame(0, 2, 9), FieldSelection("x,y,z,label"), PlyFlavour::kPcl, bytes);
   return bytes;
-}
-
-std::string Replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t place = text.find(from);
-  EXPECT_NE(place, std::string::npos) << from;
-  return text.replace(place, from.size(), to);
 }
 
 std::string Message(const std::string& bytes) {
@@ -73,9 +68,7 @@ TEST(ReadPly, SurvivesEveryTruncationAndFlippedByte) {
   for (std::size_t place = 0; place < sound.size(); ++place) {
     WriteFileWhole(file, sound.substr(0, place));
     EXPECT_EQ(MessageOf([&] { (void)ReadPly(file); }).find(file.string() + ": "), 0U) << place;
-    std::string damaged = sound;
-    damaged[place] = static_cast<char>(damaged[place] ^ 0x15);
-    WriteFileWhole(file, damaged);
+    WriteFileWhole(file, Flipped(sound, place));
     const std::string message = MessageOf([&] { (void)ReadPly(file); });
     EXPECT_TRUE(message == "no error" || message.find(file.string() + ": ") == 0U) << message;
   }

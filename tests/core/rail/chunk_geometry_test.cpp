@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "tests/core/rail/line/alignment_files.h"
+#include "tests/core/rail/model_checks.h"
 #include "tests/core/rail/test_line.h"
 
 namespace railcast {
@@ -60,19 +61,7 @@ TEST(ChunkGeometry, HasOnlyFiniteTrianglesThatAreNoSlivers) {
 TEST(ChunkGeometry, IsTheSameEveryTime) {
   const TestLine line(RealLineOfTwoTracks());
   const TestLine again(RealLineOfTwoTracks());
-  const Chunk first = line.Build(47);
-  const Chunk second = again.Build(47);
-  ASSERT_EQ(first.ground.parts.size(), second.ground.parts.size());
-  for (std::size_t i = 0; i < first.ground.parts.size(); ++i) {
-    EXPECT_EQ(first.ground.parts[i].mesh.vertices, second.ground.parts[i].mesh.vertices);
-    EXPECT_EQ(first.ground.parts[i].mesh.triangles, second.ground.parts[i].mesh.triangles);
-  }
-  ASSERT_EQ(first.placements.size(), second.placements.size());
-  for (std::size_t i = 0; i < first.placements.size(); ++i) {
-    EXPECT_EQ(first.placements[i].chunk_from_model.matrix(),
-              second.placements[i].chunk_from_model.matrix());
-    EXPECT_EQ(first.placements[i].instance, second.placements[i].instance);
-  }
+  ExpectSameChunk(line.Build(47), again.Build(47));
 }
 
 TEST(ChunkGeometry, ChangesWithTheSeedOnlyWhereItIsRandom) {

@@ -1,5 +1,7 @@
 #include "tests/core/rail/model_checks.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 
 namespace railcast {
@@ -51,6 +53,20 @@ std::size_t CountBadTriangles(const Model& model) {
     }
   }
   return count;
+}
+
+void ExpectSameChunk(const Chunk& first, const Chunk& second) {
+  ASSERT_EQ(first.ground.parts.size(), second.ground.parts.size());
+  for (std::size_t i = 0; i < first.ground.parts.size(); ++i) {
+    EXPECT_EQ(first.ground.parts[i].mesh.vertices, second.ground.parts[i].mesh.vertices);
+    EXPECT_EQ(first.ground.parts[i].mesh.triangles, second.ground.parts[i].mesh.triangles);
+  }
+  ASSERT_EQ(first.placements.size(), second.placements.size());
+  for (std::size_t i = 0; i < first.placements.size(); ++i) {
+    EXPECT_EQ(first.placements[i].chunk_from_model.matrix(),
+              second.placements[i].chunk_from_model.matrix());
+    EXPECT_EQ(first.placements[i].instance, second.placements[i].instance);
+  }
 }
 
 }  // namespace railcast

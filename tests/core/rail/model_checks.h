@@ -5,6 +5,7 @@
 
 #include "core/rail/rail_surfaces.h"
 #include "core/scene/mesh.h"
+#include "core/scene/world.h"
 
 namespace railcast {
 
@@ -16,5 +17,8 @@ namespace railcast {
 
 /// Triangles with an index out of range, a coordinate that is no number, or no area.
 [[nodiscard]] std::size_t CountBadTriangles(const Model& model);
+
+/// Expects the same bytes of ground, and the same models' places and instances.
+void ExpectSameChunk(const Chunk& first, const Chunk& second);
 
 }  // namespace railcast

@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/rail/catenary/catenary.h"
+#include "tests/core/rail/model_checks.h"
 #include "tests/core/rail/test_tables.h"
 
 namespace railcast {
@@ -156,23 +157,12 @@ TEST(RailWorld, FillsEveryChunkWithGroundTracksAndMasts) {
 TEST(RailWorld, BuildsTheSameChunkEveryTime) {
   const RailWorld world = Make(CurvedWorld(), {});
   const RailWorld again = Make(CurvedWorld(), {});
-  const Chunk first = world.BuildChunk(5);
-  const Chunk second = again.BuildChunk(5);
-  ASSERT_EQ(first.ground.parts.size(), second.ground.parts.size());
-  for (std::size_t i = 0; i < first.ground.parts.size(); ++i) {
-    EXPECT_EQ(first.ground.parts[i].mesh.vertices, second.ground.parts[i].mesh.vertices);
-    EXPECT_EQ(first.ground.parts[i].mesh.triangles, second.ground.parts[i].mesh.triangles);
-  }
-  ASSERT_EQ(first.placements.size(), second.placements.size());
-  for (std::size_t i = 0; i < first.placements.size(); ++i) {
-    EXPECT_EQ(first.placements[i].chunk_from_model.matrix(),
-              second.placements[i].chunk_from_model.matrix());
-  }
+  ExpectSameChunk(world.BuildChunk(5), again.BuildChunk(5));
 }
 
 TEST(RailWorld, ReachesAllChunksThatABeamMayHit) {
   const RailWorld world = Make(CurvedWorld(), {});
-  // From chunk 0: 100 m of range, 10 m to the sensor, 8 m of overhang, 7.5 m of slack.
+  // From chunk 0: 100 m of range, 8 m of overhang, 7.5 m of slack.
   EXPECT_THAT(world.ChunksInReach(0, 100.0), testing::ElementsAre(0, 1, 2, 3));
 }
 
