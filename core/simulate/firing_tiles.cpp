@@ -124,12 +124,10 @@ void FiringTiles::Describe(std::size_t tile, DetectTile& detect) const {
 }
 
 void FiringTiles::StoreConstants(Frame& frame) const {
-  for (std::size_t slot = 0; slot < num_firings_; ++slot) {
-    frame.time_ns[slot] = slot_time_ns_[slot];
-    frame.ring[slot] = slot_row_[slot];
-    frame.column[slot] = slot_column_[slot];
-    frame.return_index[slot] = 0;
-  }
+  std::copy(slot_time_ns_.begin(), slot_time_ns_.end(), frame.time_ns.begin());
+  std::copy(slot_row_.begin(), slot_row_.end(), frame.ring.begin());
+  std::copy(slot_column_.begin(), slot_column_.end(), frame.column.begin());
+  std::fill(frame.return_index.begin(), frame.return_index.end(), std::uint8_t{0});
 }
 
 FiringTiles::Place FiringTiles::PlaceOf(std::uint32_t firing) const {
