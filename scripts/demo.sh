@@ -12,7 +12,7 @@ rm -rf out/demo out/demo.png
 mkdir -p out
 build/release/generator/railcast-generate sequence scenarios/st_gallen_approach.json \
   --out out/demo --frames 50
-xvfb-run --auto-servernum --server-args="-screen 0 1920x1080x24" \
+xvfb-run --auto-servernum --server-args="-noreset -screen 0 1920x1080x24" \
   build/release/viewer/railcast-view out/demo --color-by label --screenshot out/demo.png
 
 cat <<TEXT

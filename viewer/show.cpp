@@ -38,7 +38,8 @@ void ShowWindow(vtkRenderWindow& window) {
 
 DisplayConnection::DisplayConnection() : display_(XOpenDisplay(nullptr)) {
   if (display_ == nullptr) {
-    throw InputError("no display: on a machine without one, run xvfb-run -a railcast-view ...");
+    throw InputError(
+        "no display: on a machine without one, run xvfb-run -a -s -noreset railcast-view ...");
   }
 }
 

@@ -80,6 +80,10 @@ class RailcastView : public testing::Test {
       testing::TempDir() + testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
+// A server that resets when its last client leaves signals xvfb-run once more, and on a busy
+// machine xvfb-run takes that signal for a failed clean-up: hence -noreset.
+constexpr char kOnADisplay[] = "xvfb-run -a -s '-noreset -screen 0 1280x1024x24' " RAILCAST_VIEW;
+
 /// The tests that draw need a display; Xvfb is one without a screen.
 class Screenshot : public RailcastView {
  protected:
@@ -89,7 +93,7 @@ class Screenshot : public RailcastView {
 
   /// Draws 640 x 480 from the driver's place.
   void Draw(const std::string& arguments) {
-    const Result result = Execute("xvfb-run -a " RAILCAST_VIEW
+    const Result result = Execute(std::string(kOnADisplay) +
                                   " --size 640x480 --camera driver"
                                   " --screenshot " +
                                   PathOf("out.png") + ' ' + arguments);
@@ -190,7 +194,7 @@ TEST_F(Screenshot, LooksAtACloudInWorldCoordinatesFromItsMiddle) {
 TEST_F(Screenshot, SaysWhereItCannotWrite) {
   WriteSquares("cloud.pcd");
   const Result result =
-      Execute("xvfb-run -a " RAILCAST_VIEW " --screenshot /no/such/out.png " + PathOf("cloud.pcd"));
+      Execute(kOnADisplay + (" --screenshot /no/such/out.png " + PathOf("cloud.pcd")));
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.output, "error: /no/such/out.png: no such file or directory\n");
 }
@@ -200,7 +204,8 @@ TEST_F(RailcastView, SaysHowToRunWithoutADisplay) {
   const Result result = Execute("env -u DISPLAY " RAILCAST_VIEW " " + PathOf("cloud.pcd"));
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.output,
-            "error: no display: on a machine without one, run xvfb-run -a railcast-view ...\n");
+            "error: no display: on a machine without one, run xvfb-run -a -s -noreset "
+            "railcast-view ...\n");
 }
 
 TEST_F(RailcastView, NamesFilesThatCannotBeShown) {
