@@ -4,14 +4,14 @@
 
 namespace railcast {
 
-Mesh& MeshOf(const SurfaceClass& surface, Model& model) {
+Part& PartOf(const SurfaceClass& surface, Model& model) {
   const auto part =
       std::find_if(model.parts.begin(), model.parts.end(), [&](const Part& candidate) {
         return candidate.material == surface.material && candidate.label == surface.label;
       });
-  if (part != model.parts.end()) return part->mesh;
+  if (part != model.parts.end()) return *part;
   model.parts.push_back({.mesh = {}, .material = surface.material, .label = surface.label});
-  return model.parts.back().mesh;
+  return model.parts.back();
 }
 
 }  // namespace railcast

@@ -5,8 +5,11 @@
 
 namespace railcast {
 
-/// The mesh of the model's part of that surface, which is added where there is none yet.
+/// The model's part of that surface, which is added where there is none yet.
 /// The reference holds until the next part is added.
-[[nodiscard]] Mesh& MeshOf(const SurfaceClass& surface, Model& model);
+[[nodiscard]] Part& PartOf(const SurfaceClass& surface, Model& model);
+[[nodiscard]] inline Mesh& MeshOf(const SurfaceClass& surface, Model& model) {
+  return PartOf(surface, model).mesh;
+}
 
 }  // namespace railcast

@@ -35,6 +35,8 @@ struct LidarSpec {
   double range_max_m = 300.0;
   MountSpec mount;
   PlausibilitySpec plausibility;
+  BeamSpec beam{};
+  ReceiverSpec receiver{};
 
   bool operator==(const LidarSpec&) const = default;
 };

@@ -25,6 +25,7 @@ struct Part {
   Mesh mesh;
   std::uint16_t material{};  ///< Index into the material library.
   std::uint32_t label{};     ///< Id in the label table.
+  bool is_wire = false;      ///< Tubes that Chunk::wires describes as polylines.
 };
 
 /// Geometry that may stand in many places.

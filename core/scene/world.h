@@ -10,11 +10,22 @@
 
 namespace railcast {
 
+/// A stretch of one thin conductor: a polyline, round in section.
+struct Wire {
+  std::uint16_t material{};
+  std::uint32_t label{};
+  double radius_m{};
+  std::vector<Vector3> points_m;  ///< In the frame of the chunk; at least two.
+};
+
 /// A piece of the world that never moves, in its own frame: `ground` belongs to this chunk alone,
 /// `placements` stand on it.
 struct Chunk {
   Model ground;
   std::vector<Placement> placements;
+  /// What `ground` holds once more as tubes, in parts that are `is_wire`: casters see the tubes,
+  /// effect thin_conductors the polylines.
+  std::vector<Wire> wires{};
 };
 
 /// A thing with a name, a box and an instance id of its own: wagon, person, pole, ...

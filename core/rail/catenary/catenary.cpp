@@ -121,8 +121,12 @@ void AddWiresOfSpan(const ChunkContext& context, const Span& span, std::vector<W
   // What is shorter than the overlap is the neighbour's.
   if ((last - first) * span.length_m() <= kChunkOverlap_m) return;
   const RailSurfaces& surfaces = context.surfaces;
-  wires.push_back({surfaces.contact_wire, kContactRadius_m, contact.Between(first, last)});
-  wires.push_back({surfaces.messenger_wire, kMessengerRadius_m, messenger.Between(first, last)});
+  const auto add = [&](const SurfaceClass& surface, double radius_m,
+                       std::vector<Vector3> points_m) {
+    wires.push_back({surface.material, surface.label, radius_m, std::move(points_m)});
+  };
+  add(surfaces.contact_wire, kContactRadius_m, contact.Between(first, last));
+  add(surfaces.messenger_wire, kMessengerRadius_m, messenger.Between(first, last));
 
   const double spacing_m = context.spec.catenary.dropper_spacing_m;
   const auto num_droppers = static_cast<int>(std::ceil(span.length_m() / spacing_m));
@@ -130,7 +134,7 @@ void AddWiresOfSpan(const ChunkContext& context, const Span& span, std::vector<W
     const double at = (i + 0.5) / num_droppers;
     const double s_m = span.first_s_m() + at * span.length_m();
     if (s_m < context.begin_s_m || s_m >= context.end_s_m) continue;
-    wires.push_back({surfaces.dropper, kDropperRadius_m, {contact.At(at), messenger.At(at)}});
+    add(surfaces.dropper, kDropperRadius_m, {contact.At(at), messenger.At(at)});
   }
 }
 
@@ -222,10 +226,12 @@ void AddCatenary(const ChunkContext& context,
     }
     AddSupport(context, support, models, static_cast<std::uint32_t>(i), chunk);
   }
-  for (const Wire& wire : WiresInChunk(context, plan)) {
+  chunk.wires = WiresInChunk(context, plan);
+  for (const Wire& wire : chunk.wires) {
     const int num_sides = wire.radius_m == kDropperRadius_m ? kDropperSides : kWireSides;
-    MeshOf(wire.surface, chunk.ground)
-        .Append(MakeTube(wire.points_m, CornerRadius_m(wire.radius_m, num_sides), num_sides));
+    Part& part = PartOf({wire.material, wire.label}, chunk.ground);
+    part.is_wire = true;
+    part.mesh.Append(MakeTube(wire.points_m, CornerRadius_m(wire.radius_m, num_sides), num_sides));
   }
 }
 

@@ -9,13 +9,6 @@
 
 namespace railcast {
 
-/// A stretch of one conductor: a polyline in the chunk's frame.
-struct Wire {
-  SurfaceClass surface;
-  double radius_m{};
-  std::vector<Vector3> points_m;
-};
-
 /// Every conductor of the chunk (physics.md 7.2), cut half the overlap beyond its ends:
 /// - contact wire, 12 mm: from support to support straight in plan, at contact height above the
 ///   track with a sag of span / 1000;

@@ -35,7 +35,14 @@ ScenarioSpec UnusualScenario(const std::string& mesh_file) {
       99.5,
       {{1, 2, 3}, 4, 5, 6},
       {0.2, 150, 0.02, 2e-4, "beam", 0.125}};
-  spec.weather = {0.01, 3, 4e-4, 0.7, 5, 0.03, 6, 0.04};
+  spec.weather.fog_density_per_m = 0.01;
+  spec.weather.rain_rate_mmph = 3;
+  spec.weather.rain_dropout_per_m = 4e-4;
+  spec.weather.rain_dropout_exponent = 0.7;
+  spec.weather.snow_rate_mmph = 5;
+  spec.weather.snow_echoes_per_mmph = 0.03;
+  spec.weather.snow_range_scale_m = 6;
+  spec.weather.snow_intensity = 0.04;
   spec.interfaces.udp = {"localhost:1", "[::1]:65535"};
   spec.camera = R"({"b":1,"a":[2.5,null]})";
   spec.world.seed = 0xFFFF'FFFF'FFFF'FFFEULL;

@@ -16,7 +16,7 @@ namespace {
 Vector3 WireAt(const TestLine& line, const SurfaceClass& surface, double s_m) {
   const int chunk = static_cast<int>(std::floor(s_m / TestLine::kChunkLength_m));
   for (const Wire& wire : WiresInChunk(line.Context(chunk), line.plan())) {
-    if (wire.surface.label != surface.label || wire.surface.material != surface.material) continue;
+    if (wire.label != surface.label || wire.material != surface.material) continue;
     for (std::size_t i = 0; i + 1 < wire.points_m.size(); ++i) {
       const Vector3 a = line.WorldFromChunk(chunk) * wire.points_m[i];
       const Vector3 b = line.WorldFromChunk(chunk) * wire.points_m[i + 1];
@@ -53,7 +53,7 @@ TEST(AddCatenary, JoinsContactWireAndMessengerByDroppers) {
   int num_droppers = 0;
   for (int chunk = 0; chunk < 13; ++chunk) {  // Ten whole spans of 65 m.
     for (const Wire& wire : WiresInChunk(line.Context(chunk), line.plan())) {
-      if (wire.surface.label != line.surfaces().dropper.label) continue;
+      if (wire.label != line.surfaces().dropper.label) continue;
       ++num_droppers;
       const Vector3 foot = line.WorldFromChunk(chunk) * wire.points_m.front();
       const Vector3 head = line.WorldFromChunk(chunk) * wire.points_m.back();
@@ -83,7 +83,7 @@ TEST(AddCatenary, KeepsTheContactWireAboveThePantographAllAlongARealLine) {
   for (int chunk = 0; chunk < num_chunks; ++chunk) {
     const Transform world_from_chunk = line.WorldFromChunk(chunk);
     for (const Wire& wire : WiresInChunk(line.Context(chunk), line.plan())) {
-      if (wire.surface.label != line.surfaces().contact_wire.label) continue;
+      if (wire.label != line.surfaces().contact_wire.label) continue;
       for (const Vector3& point : wire.points_m) {
         const Vector3 world_m = world_from_chunk * point;
         const double s_m =
@@ -108,7 +108,7 @@ TEST(AddCatenary, CutsTheSameWireAtAChunksEndAndTheNextOnesBegin) {
   const auto ends = [&](int chunk, bool last) {
     std::vector<Vector3> points;
     for (const Wire& wire : WiresInChunk(line.Context(chunk), line.plan())) {
-      if (wire.surface.label == line.surfaces().dropper.label) continue;
+      if (wire.label == line.surfaces().dropper.label) continue;
       points.push_back(line.WorldFromChunk(chunk) *
                        (last ? wire.points_m.back() : wire.points_m.front()));
     }
