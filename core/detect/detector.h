@@ -2,12 +2,16 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string_view>
 #include <vector>
 
+#include "core/detect/clutter.h"
 #include "core/detect/detect_spec.h"
 #include "core/detect/detect_tile.h"
+#include "core/detect/echo_tiles.h"
 #include "core/detect/kernels.h"
+#include "core/scene/material.h"
 
 namespace railcast {
 
@@ -16,32 +20,54 @@ struct DetectorSpec {
   std::uint64_t seed = 1;
   double range_min_m = 0.5;
   double range_max_m = 300.0;
+  std::uint32_t num_channels = 1;
   EffectSet effects{};
   PlausibilitySpec plausibility{};
+  BeamSpec beam{};
+  ReceiverSpec receiver{};
   WeatherSpec weather{};
+  SurfaceOptics snow{};  ///< Of what covers surfaces.
+  ClutterLabels labels{};
 };
 
-/// Turns hits into returns: the effects that are on, in the order of the published model
-/// (threshold, rain, snow, then noise on all points). Immutable; thread-safe.
+/// One effect's pass over a tile.
+struct EffectStep {
+  std::string_view effect;
+  std::function<void(DetectTile&)> apply;
+};
+
+/// Called after each effect, with its name.
+using EffectObserver = std::function<void(std::string_view effect)>;
+
+/// Whether any effect of the physical rungs is on.
+[[nodiscard]] bool IsPhysical(const EffectSet& effects);
+
+/// Turns hits into returns: the effects that are on. The published ones in the published order
+/// (threshold, rain, snow, then noise on all points); the physical ones in the order of physics
+/// (surface response, pulse stretch, extinction, clutter, sunlight, detection, then range and
+/// noise). Immutable; thread-safe.
 class Detector {
  public:
   /// @param kernels The instruction set's loops; the result does not depend on the choice.
   explicit Detector(const DetectorSpec& spec, const Kernels& kernels = AvailableKernels().back());
+  // Its steps point into it.
+  Detector(Detector&&) = default;
+  Detector& operator=(Detector&&) = default;
 
-  /// One effect's pass over a tile.
-  struct Step {
-    std::string_view effect;
-    std::function<void(DetectTile&)> apply;
-  };
-  /// The passes of this detector in their order; `Run` makes them all.
-  [[nodiscard]] const std::vector<Step>& steps() const { return steps_; }
-
-  /// Expects firing, direction, true_range_m, cos_incidence, reflectivity and outcome (no_surface,
-  /// ego or returned), and fills the rest.
-  void Run(DetectTile& tile) const;
+  /// Surface and air: expects all of a DetectTile that comes before `outcome`, and outcome
+  /// (no_surface, ego or returned); fills intensity and power_ratio. Every component of a wide beam
+  /// passes through these effects by itself.
+  void Respond(DetectTile& tile, const EffectObserver& observer = {}) const;
+  /// Receiver: expects intensity and power_ratio too, adds what answers without a surface, and
+  /// fills the rest.
+  void Detect(EchoTiles& echoes, const EffectObserver& observer = {}) const;
 
  private:
-  std::vector<Step> steps_;
+  std::vector<EffectStep> optics_;
+  std::vector<EffectStep> receiver_;
+  bool is_physical_;
+  std::vector<float> channel_bias_m_;
+  Clutter clutter_;
 };
 
 }  // namespace railcast

@@ -5,6 +5,8 @@
 #include <cstdint>
 
 #include "core/base/random.h"
+#include "core/detect/detect_tile.h"
+#include "core/detect/effect_parameters.h"
 #include "core/detect/vector_math.h"
 
 namespace railcast::RAILCAST_ISA {
@@ -41,6 +43,15 @@ struct Words {
 /// UnitFloat, converted by way of a signed integer: older instruction sets have no other way.
 [[nodiscard]] inline float LaneUnit(std::uint32_t word) {
   return static_cast<float>(static_cast<std::int32_t>(word >> 8U)) * 0x1p-24F;
+}
+
+/// One uniform number in [0, 1) for each lane's firing.
+inline void DrawUniforms(const DetectTile& tile, const DrawKey& draw, float* uniforms) {
+  const LaneKey key{draw.seed, draw.use, tile.frame};
+  const std::uint32_t block = draw.block;
+  for (std::size_t i = 0; i < tile.num_rays; ++i) {
+    uniforms[i] = LaneUnit(LaneWords(key, tile.firing[i], block).a);
+  }
 }
 
 struct Normals {

@@ -20,7 +20,6 @@ inline void ApplyHit(DetectTile& tile, float range_min_m) {
     const bool near =
         before == static_cast<std::uint32_t>(Outcome::kReturned) && range_m < range_min_m;
     tile.outcome[i] = near ? static_cast<std::uint32_t>(Outcome::kNearRange) : before;
-    tile.is_flake[i] = 0;
     // NaN stays NaN.
     tile.incidence_rad[i] = Acos(tile.cos_incidence[i]);
   }
@@ -32,11 +31,19 @@ inline void ApplyHit(DetectTile& tile, float range_min_m) {
 ///   isotropic (as published): position = R * direction + sigma * (n1, n2, n3), n ~ N(0, 1)
 ///   beam:                     position = (R + sigma * n1) * direction
 ///
+/// Effects `range_noise` and `channel_bias`, kSignal, on all physical rungs (physics.md 5):
+///
+///   position = (R + shift of the peak + bias of the channel + sigma * n1) * direction
+///   sigma    = hypot(range_noise_floor, range_noise_scale / sqrt(2 SNR)),  SNR = SNR_t x power
+///   ratio
+///
 /// R is the true range; the measured range is |position|. Without noise position = R * direction.
 /// Measured ranges outside the gate [range_min, range_max] become near_range or out_of_range.
 template <NoiseShape kShape>
 inline void ApplyMeasurement(DetectTile& tile, const MeasurementParameters& parameters) {
-  const LaneKey key{parameters.seed, RandomUse::kNoise, tile.frame};
+  constexpr RandomUse kUse =
+      kShape == NoiseShape::kSignal ? RandomUse::kRangeNoise : RandomUse::kNoise;
+  const LaneKey key{parameters.seed, kUse, tile.frame};
   const MeasurementParameters p = parameters;  // A copy: no store to the tile can change it.
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
   for (std::size_t i = 0; i < tile.num_rays; ++i) {
@@ -46,14 +53,21 @@ inline void ApplyMeasurement(DetectTile& tile, const MeasurementParameters& para
     float y = true_range_m * tile.direction_y[i];
     float z = true_range_m * tile.direction_z[i];
     if constexpr (kShape != NoiseShape::kNone) {
-      const float sigma_m = p.sigma0_m + p.sigma1 * true_range_m;
-      const Normals n = LaneNormals(LaneWords(key, tile.firing[i], 0));
+      float sigma_m = p.sigma0_m + p.sigma1 * true_range_m;
+      if constexpr (kShape == NoiseShape::kSignal) {
+        const float snr = p.snr_at_threshold * tile.power_ratio[i];
+        sigma_m = std::sqrt(p.sigma0_m * p.sigma0_m + p.scale_m * p.scale_m / (2.0F * snr));
+      }
+      const Normals n = LaneNormals(LaneWords(key, tile.firing[i], tile.echo[i]));
       if constexpr (kShape == NoiseShape::kIsotropic) {
         x += sigma_m * n.a;
         y += sigma_m * n.b;
         z += sigma_m * n.c;
         range_m = std::sqrt(x * x + y * y + z * z);
       } else {
+        if constexpr (kShape == NoiseShape::kSignal) {
+          range_m += tile.peak_shift_m[i] + p.channel_bias_m[tile.channel[i]];
+        }
         range_m += sigma_m * n.a;
         x = range_m * tile.direction_x[i];
         y = range_m * tile.direction_y[i];

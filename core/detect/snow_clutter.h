@@ -37,7 +37,7 @@ inline void ApplySnowClutter(DetectTile& tile, const SnowParameters& parameters)
     const bool answers = ((blocked == 0U) & !(r >= tile.true_range_m[i]) & (u < p.probability) &
                           (r >= p.range_min_m) & ((ratio >= 1.0F) | !p.has_threshold));
     tile.outcome[i] = answers ? static_cast<std::uint32_t>(Outcome::kClutter) : before;
-    tile.is_flake[i] = answers ? 1U : 0U;
+    tile.clutter[i] = answers ? p.label : tile.clutter[i];
     tile.true_range_m[i] = answers ? r : tile.true_range_m[i];
     tile.intensity[i] = answers ? p.intensity : tile.intensity[i];
     tile.power_ratio[i] = answers ? ratio : tile.power_ratio[i];

@@ -95,6 +95,19 @@ inline void CosSinTurn(float u, float& cosine, float& sine) {
   return std::sqrt(rest < 0.0F ? 0.0F : rest) * p;
 }
 
+/// Distribution function of the standard normal (Abramowitz and Stegun 7.1.26); error <= 2e-7.
+[[nodiscard]] inline float NormalCdf(float x) {
+  const float z = std::fabs(x) * 0.70710678F;
+  const float t = 1.0F / (1.0F + 0.3275911F * z);
+  float p = 1.061405429F;
+  p = p * t - 1.453152027F;
+  p = p * t + 1.421413741F;
+  p = p * t - 0.284496736F;
+  p = p * t + 0.254829592F;
+  const float upper_tail = 0.5F * p * t * Exp(-z * z);
+  return x < 0.0F ? upper_tail : 1.0F - upper_tail;
+}
+
 }  // namespace railcast::RAILCAST_ISA
 
 #endif  // RAILCAST_DETECT_VECTOR_MATH_H_

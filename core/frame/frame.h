@@ -46,6 +46,7 @@ struct Frame {
   std::vector<float> true_range_m;      ///< Before noise.
   std::vector<float> incidence_rad;     ///< Between the beam and the surface normal.
   std::vector<std::uint16_t> material;  ///< Index into the material library; 0 = none.
+  std::vector<float> footprint_share;   ///< Of the beam in this echo; NaN on rungs without beams.
 
   [[nodiscard]] std::uint32_t width() const { return columns * returns; }
   [[nodiscard]] std::size_t num_slots() const { return std::size_t{rows} * width(); }
@@ -75,6 +76,7 @@ void ForEachField(F& frame, Visitor&& visit) {
   visit("true_range_m", "m", frame.true_range_m);
   visit("incidence_rad", "rad", frame.incidence_rad);
   visit("material", "", frame.material);
+  visit("footprint_share", "", frame.footprint_share);
 }
 
 }  // namespace railcast

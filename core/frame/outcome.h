@@ -6,8 +6,8 @@
 
 namespace railcast {
 
-/// What became of one firing. Every firing has exactly one, also those without a point: this is
-/// what makes dropout analysis exact.
+/// What became of one firing. Every firing has exactly one, in its first slot, also those without a
+/// point: this is what makes dropout analysis exact.
 enum class Outcome : std::uint8_t {
   kReturned = 0,        ///< A surface returned.
   kNoSurface = 1,       ///< Nothing within range_max_m.
@@ -18,11 +18,12 @@ enum class Outcome : std::uint8_t {
   kNearRange = 6,       ///< Blocked by something nearer than range_min_m.
   kEgo = 7,             ///< Blocked by the vehicle itself.
   kSensorDropout = 8,   ///< The sensor missed the pulse.
+  kNoFurtherEcho = 9,   ///< Of a second or third slot: nothing more came back.
 };
 
-inline constexpr std::array<std::string_view, 9> kOutcomeNames = {
+inline constexpr std::array<std::string_view, 10> kOutcomeNames = {
     "returned", "no_surface", "out_of_range", "below_threshold", "rain_absorbed",
-    "clutter",  "near_range", "ego",          "sensor_dropout",
+    "clutter",  "near_range", "ego",          "sensor_dropout", "no_further_echo",
 };
 
 [[nodiscard]] constexpr std::string_view OutcomeName(Outcome outcome) {

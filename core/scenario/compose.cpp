@@ -89,7 +89,9 @@ std::unique_ptr<Simulator> MakeSimulator(const ScenarioSpec& spec,
   simulator.weather = spec.weather;
   simulator.output = spec.output;
   simulator.isa = isa;
-  simulator.snow_label = *snow_label;
+  simulator.beam = spec.lidar.beam;
+  simulator.receiver = spec.lidar.receiver;
+  simulator.clutter_labels.snow = *snow_label;
   return std::make_unique<Simulator>(*world, std::move(*pattern), MaterialLibrary(spec.materials),
                                      simulator, num_threads);
 }

@@ -4,6 +4,18 @@
 
 namespace railcast {
 
+SurfaceOptics OpticsAt(const Material& material, int) {
+  return {static_cast<float>(material.reflectivity),
+          static_cast<float>(material.facet_slope_deg * 3.14159265 / 180.0),
+          static_cast<float>(material.specular_f0),
+          static_cast<float>(material.specular_roughness),
+          static_cast<float>(material.retroreflectance)};
+}
+
+SurfaceOptics WetOptics(const SurfaceOptics& dry, double, int) {
+  return dry;
+}
+
 MaterialLibrary::MaterialLibrary(const std::vector<Material>& materials) : MaterialLibrary() {
   materials_.insert(materials_.end(), materials.begin(), materials.end());
 }

@@ -23,6 +23,18 @@ struct Material {
   bool operator==(const Material&) const = default;
 };
 
+/// A surface's optics at one wavelength, in one condition.
+struct SurfaceOptics {
+  float diffuse{};             ///< Of Oren-Nayar's facets.
+  float facet_slope_rad{};     ///< Oren-Nayar's sigma.
+  float specular_f0{};         ///< GGX lobe at normal incidence.
+  float specular_roughness{};  ///< GGX's alpha.
+  float retroreflectance{};
+};
+
+[[nodiscard]] SurfaceOptics OpticsAt(const Material& material, int wavelength_nm);
+[[nodiscard]] SurfaceOptics WetOptics(const SurfaceOptics& dry, double wetness, int wavelength_nm);
+
 /// The materials of a scenario. Index 0 is "none": the material of nothing.
 class MaterialLibrary {
  public:

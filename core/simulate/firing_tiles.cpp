@@ -22,6 +22,7 @@ FiringTiles::FiringTiles(const ScanPattern& pattern) : num_firings_(pattern.num_
     firing_.push_back(i);
     slot_.push_back(pattern.row[i] * pattern.columns + pattern.column[i]);
     time_ns_.push_back(pattern.time_ns[i]);
+    channel_.push_back(pattern.row[i]);
     x_.push_back(pattern.direction_x[i]);
     y_.push_back(pattern.direction_y[i]);
     z_.push_back(pattern.direction_z[i]);
@@ -108,8 +109,10 @@ void FiringTiles::Aim(std::size_t tile,
     for (std::size_t lane = 0; lane < kPacketSize; ++lane) {
       rays.shutter[first + lane] = static_cast<float>(time_ns[lane]) * per_duration;
       rays.range_m[first + lane] = range_max_m;
-      rays.cos_incidence[first + lane] = 0.0F;
       rays.surface[first + lane] = 0;
+      rays.normal_x[first + lane] = 0.0F;
+      rays.normal_y[first + lane] = 0.0F;
+      rays.normal_z[first + lane] = 0.0F;
     }
   }
 }
@@ -121,13 +124,25 @@ void FiringTiles::Describe(std::size_t tile, DetectTile& detect) const {
   std::copy_n(&x_[begin], detect.num_rays, detect.direction_x);
   std::copy_n(&y_[begin], detect.num_rays, detect.direction_y);
   std::copy_n(&z_[begin], detect.num_rays, detect.direction_z);
+  std::copy_n(&channel_[begin], detect.num_rays, detect.channel);
 }
 
 void FiringTiles::StoreConstants(Frame& frame) const {
-  std::copy(slot_time_ns_.begin(), slot_time_ns_.end(), frame.time_ns.begin());
-  std::copy(slot_row_.begin(), slot_row_.end(), frame.ring.begin());
-  std::copy(slot_column_.begin(), slot_column_.end(), frame.column.begin());
-  std::fill(frame.return_index.begin(), frame.return_index.end(), std::uint8_t{0});
+  const std::uint32_t returns = frame.returns;
+  if (returns == 1) {
+    std::copy(slot_time_ns_.begin(), slot_time_ns_.end(), frame.time_ns.begin());
+    std::copy(slot_row_.begin(), slot_row_.end(), frame.ring.begin());
+    std::copy(slot_column_.begin(), slot_column_.end(), frame.column.begin());
+    std::fill(frame.return_index.begin(), frame.return_index.end(), std::uint8_t{0});
+    return;
+  }
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    const std::size_t firing = slot / returns;
+    frame.time_ns[slot] = slot_time_ns_[firing];
+    frame.ring[slot] = slot_row_[firing];
+    frame.column[slot] = slot_column_[firing];
+    frame.return_index[slot] = static_cast<std::uint8_t>(slot % returns);
+  }
 }
 
 FiringTiles::Place FiringTiles::PlaceOf(std::uint32_t firing) const {

@@ -25,9 +25,9 @@ class FiringTiles {
   /// Fills origins, directions, shutter, range_m (= range_max_m) and surface (= nothing).
   void Aim(std::size_t tile, const FramePoses& poses, float range_max_m, RayTile& rays) const;
 
-  /// Sensor-frame direction, firing index of lane `i` of a tile, and its slot in a frame of one
-  /// return per firing.
+  /// Sensor-frame direction, firing index and channel of a tile's lanes.
   void Describe(std::size_t tile, DetectTile& detect) const;
+  /// The lanes' slots in a frame of one return per firing.
   [[nodiscard]] const std::uint32_t* slots(std::size_t tile) const {
     return &slot_[tile * kTileSize];
   }
@@ -52,7 +52,7 @@ class FiringTiles {
   std::size_t num_firings_;
   std::uint32_t duration_ns_{};
   // In the order of tracing.
-  std::vector<std::uint32_t> firing_, slot_, time_ns_;
+  std::vector<std::uint32_t> firing_, slot_, time_ns_, channel_;
   std::vector<float> x_, y_, z_;
   // In the order of slots.
   std::vector<std::uint32_t> slot_time_ns_, slot_column_;

@@ -43,24 +43,34 @@ OutputAxes::OutputAxes(const OutputSpec& spec,
 
 void OutputAxes::Apply(const FramePoses& poses,
                        const std::uint32_t* time_ns,
-                       DetectTile& detect) const {
+                       EchoTiles& echoes) const {
   if (target_ == Target::kSensor && !is_left_handed_) return;
-  for (std::size_t i = 0; i < detect.num_rays; ++i) {
-    Vector3 point(static_cast<double>(detect.x[i]), static_cast<double>(detect.y[i]),
-                  static_cast<double>(detect.z[i]));
-    if (target_ == Target::kVehicle) point = vehicle_from_sensor_ * point;
-    if (target_ == Target::kWorld) {
-      PoseF change{};
-      const PoseF pose = poses.At(time_ns[i], change);
-      Eigen::Map<const Eigen::Matrix<float, 3, 3, Eigen::RowMajor>> rotation(pose.r);
-      Eigen::Map<const Eigen::Vector3f> translation(pose.t);
-      point = output_from_window_ *
-              (rotation.cast<double>() * point + translation.cast<double>()).eval();
-    }
-    detect.x[i] = static_cast<float>(point.x());
-    detect.y[i] = static_cast<float>(is_left_handed_ ? -point.y() : point.y());
-    detect.z[i] = static_cast<float>(point.z());
+  for (std::size_t i = 0; i < echoes.first.num_rays; ++i) {
+    Apply(poses, time_ns[i], {echoes.first, i});
   }
+  for (std::size_t i = 0; i < echoes.num_more(); ++i) {
+    Apply(poses, time_ns[echoes.beam_of(i)], echoes.more(i));
+  }
+}
+
+void OutputAxes::Apply(const FramePoses& poses,
+                       std::uint32_t time_ns,
+                       const EchoTiles::Place& echo) const {
+  const auto& [tile, lane] = echo;
+  Vector3 point(static_cast<double>(tile.x[lane]), static_cast<double>(tile.y[lane]),
+                static_cast<double>(tile.z[lane]));
+  if (target_ == Target::kVehicle) point = vehicle_from_sensor_ * point;
+  if (target_ == Target::kWorld) {
+    PoseF change{};
+    const PoseF pose = poses.At(time_ns, change);
+    Eigen::Map<const Eigen::Matrix<float, 3, 3, Eigen::RowMajor>> rotation(pose.r);
+    Eigen::Map<const Eigen::Vector3f> translation(pose.t);
+    point =
+        output_from_window_ * (rotation.cast<double>() * point + translation.cast<double>()).eval();
+  }
+  tile.x[lane] = static_cast<float>(point.x());
+  tile.y[lane] = static_cast<float>(is_left_handed_ ? -point.y() : point.y());
+  tile.z[lane] = static_cast<float>(point.z());
 }
 
 }  // namespace railcast

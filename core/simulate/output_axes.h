@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "core/base/transform.h"
-#include "core/detect/detect_tile.h"
+#include "core/detect/echo_tiles.h"
 #include "core/frame/output_spec.h"
 #include "core/simulate/frame_poses.h"
 
@@ -20,11 +20,13 @@ class OutputAxes {
              const Transform& window_from_world,
              const Transform& world_from_sensor);
 
-  /// Rewrites x, y, z of a tile from the sensor's axes. World coordinates take the pose at each
-  /// lane's own time, `time_ns` since the stamp, so that motion does not distort them.
-  void Apply(const FramePoses& poses, const std::uint32_t* time_ns, DetectTile& detect) const;
+  /// Rewrites x, y, z of all echoes from the sensor's axes. World coordinates take the pose at each
+  /// firing's own time, `time_ns` since the stamp, so that motion does not distort them.
+  void Apply(const FramePoses& poses, const std::uint32_t* time_ns, EchoTiles& echoes) const;
 
  private:
+  void Apply(const FramePoses& poses, std::uint32_t time_ns, const EchoTiles::Place& echo) const;
+
   enum class Target { kSensor, kVehicle, kWorld };
 
   Target target_ = Target::kSensor;

@@ -1,5 +1,6 @@
 #include "core/simulate/simulator.h"
 
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
@@ -10,35 +11,32 @@
 #include <limits>
 #include <utility>
 
-#include "core/detect/detector.h"
+#include "core/simulate/beam_tracer.h"
 #include "core/simulate/firing_tiles.h"
 #include "core/simulate/frame_scene.h"
-#include "core/simulate/hits_and_slots.h"
 #include "core/simulate/output_axes.h"
+#include "core/simulate/returns.h"
 
 namespace railcast {
 namespace {
 
-/// What the tiles of one frame are traced with.
-struct CastFrame {
-  std::uint32_t index{};
-  const FramePoses& poses;
-  const RayCaster& caster;
-  const std::vector<Surface>& surfaces;
-};
-
 CastFrame CastOf(const FrameScene& scene) {
-  return {scene.index, scene.poses, scene, scene.window->surfaces};
+  return {scene.index, scene.poses, scene, scene.window->surfaces, scene.window->window_from_world};
 }
+
+using WorkOfThreads = tbb::enumerable_thread_specific<BeamTracer::Work>;
 
 }  // namespace
 
 struct Simulator::Parts {
   ScanPattern pattern;
   SimulatorSpec spec;
+  std::vector<Material> materials;
   FiringTiles tiles;
   FrameScenes scenes;
-  Detector detector;
+  std::unique_ptr<const BeamTracer> tracer;
+  std::unique_ptr<WorkOfThreads> work;
+  std::vector<RayTile> centers;  // Of one frame; empty if tiles need none but their own.
   std::unique_ptr<tbb::global_control> parallelism;
   tbb::task_arena arena;
 
@@ -46,37 +44,15 @@ struct Simulator::Parts {
   [[nodiscard]] FrameScene SceneOf(std::uint32_t frame_index) {
     return scenes.At(frame_index, pattern.StampNs(frame_index));
   }
-  /// Aims, casts and resolves a tile: all that comes before detection.
-  void TraceTile(const CastFrame& frame,
-                 std::size_t tile,
-                 RayTile& rays,
-                 DetectTile& detect) const {
-    tiles.Aim(tile, frame.poses, range_max_m(), rays);
-    frame.caster.Cast(rays);
-    detect.frame = frame.index;
-    tiles.Describe(tile, detect);
-    ResolveHits(rays, frame.surfaces, detect);
-  }
-  void Scan(const CastFrame& cast, const Transform& window_from_world, Frame& frame);
+  void UseSpec();
+  void TraceAllCenters(const CastFrame& cast);
+  void Scan(const CastFrame& cast, Frame& frame);
   /// Calls `work(tile)` for every tile, on the run's threads.
-  template <typename Work>
-  void ForEachTile(const Work& work) {
-    arena.execute([&] { tbb::parallel_for(std::size_t{0}, tiles.num_tiles(), work); });
+  template <typename Job>
+  void ForEachTile(const Job& job) {
+    arena.execute([&] { tbb::parallel_for(std::size_t{0}, tiles.num_tiles(), job); });
   }
 };
-
-namespace {
-
-DetectorSpec DetectorSpecOf(const SimulatorSpec& spec) {
-  return {.seed = spec.seed,
-          .range_min_m = spec.range_min_m,
-          .range_max_m = spec.range_max_m,
-          .effects = spec.effects,
-          .plausibility = spec.plausibility,
-          .weather = spec.weather};
-}
-
-}  // namespace
 
 Simulator::Simulator(std::shared_ptr<const World> world,
                      ScanPattern pattern,
@@ -90,11 +66,15 @@ Simulator::Simulator(std::shared_ptr<const World> world,
                                   .isa = spec.isa};
   parts_.reset(new Parts{.pattern = std::move(pattern),
                          .spec = spec,
+                         .materials = materials.materials(),
                          .tiles = std::move(tiles),
                          .scenes{std::move(world), materials, scene_spec},
-                         .detector = Detector(DetectorSpecOf(spec)),
+                         .tracer{},
+                         .work{},
+                         .centers{},
                          .parallelism{},
                          .arena{}});
+  parts_->UseSpec();
   UseThreads(num_threads);
 }
 
@@ -120,85 +100,105 @@ void Simulator::UseThreads(int num_threads) {
   parts_->arena.initialize(num_workers);
 }
 
+void Simulator::Parts::UseSpec() {
+  tracer = std::make_unique<const BeamTracer>(spec, materials, pattern);
+  work = std::make_unique<WorkOfThreads>(
+      [tracer = tracer.get()] { return BeamTracer::Work(*tracer); });
+  centers.resize(tracer->needs_all_centers() ? tiles.num_tiles() : 0);
+}
+
 void Simulator::UseEffects(const EffectSet& effects, const WeatherSpec& weather) {
   parts_->spec.effects = effects;
   parts_->spec.weather = weather;
-  parts_->detector = Detector(DetectorSpecOf(parts_->spec));
+  parts_->UseSpec();
 }
 
-void Simulator::Parts::Scan(const CastFrame& cast,
-                            const Transform& window_from_world,
-                            Frame& frame) {
+void Simulator::Parts::TraceAllCenters(const CastFrame& cast) {
+  if (!tracer->needs_all_centers()) return;
+  ForEachTile([&](std::size_t tile) {
+    tracer->TraceCenters(cast, tiles, tile, centers[tile], work->local().echoes.first);
+  });
+}
+
+void Simulator::Parts::Scan(const CastFrame& cast, Frame& frame) {
   frame.index = cast.index;
   frame.stamp_ns = pattern.StampNs(cast.index);
   frame.world_from_sensor = scenes.WorldFromSensor(frame.stamp_ns);
   frame.duration_ns = tiles.duration_ns();
   frame.world_from_sensor_end = scenes.WorldFromSensor(frame.stamp_ns + frame.duration_ns);
-  frame.Resize(pattern.rows, pattern.columns, 1);
-  const OutputAxes axes(spec.output, spec.vehicle_from_sensor, window_from_world,
+  const ReturnMode mode =
+      ReturnModeOf(tracer->has_beams() ? spec.receiver.return_mode : "strongest");
+  frame.Resize(pattern.rows, pattern.columns, NumReturns(mode));
+  const OutputAxes axes(spec.output, spec.vehicle_from_sensor, cast.window_from_world,
                         frame.world_from_sensor);
+  const ReturnStore store(mode, tracer->has_beams());
 
+  TraceAllCenters(cast);
   ForEachTile([&](std::size_t tile) {
-    RayTile rays;
-    DetectTile detect;
-    TraceTile(cast, tile, rays, detect);
-    detector.Run(detect);
-    axes.Apply(cast.poses, tiles.times_ns(tile), detect);
-    const SlotRange slots{tiles.slots(tile), tiles.num_firings(tile)};
-    StoreReturns(rays, detect, {cast.surfaces, spec.snow_label}, slots, frame);
+    BeamTracer::Work& mine = work->local();
+    if (centers.empty()) {
+      tracer->TraceCenters(cast, tiles, tile, mine.rays, mine.echoes.first);
+    }
+    tracer->MakeEchoes(cast, tiles, tile, centers, mine);
+    tracer->detector().Detect(mine.echoes);
+    axes.Apply(cast.poses, tiles.times_ns(tile), mine.echoes);
+    store.Store(mine.echoes, cast.surfaces, {tiles.slots(tile), tiles.num_firings(tile)}, frame);
   });
   tiles.StoreConstants(frame);
 }
 
 void Simulator::Scan(std::uint32_t frame_index, Frame& frame) {
   const FrameScene scene = parts_->SceneOf(frame_index);
-  parts_->Scan(CastOf(scene), scene.window->window_from_world, frame);
+  parts_->Scan(CastOf(scene), frame);
 }
 
 void Simulator::Scan(std::uint32_t frame_index, const HostScene& host, Frame& frame) {
   const FramePoses poses =
       parts_->scenes.PosesIn(host.window_from_world, parts_->pattern.StampNs(frame_index));
-  parts_->Scan({frame_index, poses, host.caster, host.surfaces}, host.window_from_world, frame);
+  parts_->Scan({frame_index, poses, host.caster, host.surfaces, host.window_from_world}, frame);
 }
 
 FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) {
   Parts& parts = *parts_;
   const FrameScene scene = parts.SceneOf(frame_index);
+  const CastFrame cast = CastOf(scene);
   const auto [tile, lane] = parts.tiles.PlaceOf(firing);
-  RayTile rays;
-  DetectTile detect;
+  BeamTracer::Work work(*parts.tracer);
+  DetectTile& first = work.echoes.first;
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-  for (float* unknown : {detect.intensity, detect.power_ratio, detect.range_m}) {
+  for (float* unknown : {first.intensity, first.power_ratio, first.range_m}) {
     std::fill_n(unknown, kTileSize, kNaN);
   }
-  parts.TraceTile(CastOf(scene), tile, rays, detect);
-  const Surface& surface = scene.window->surfaces[rays.surface[lane]];
+  FiringStory story;
+  const auto record = [&](std::string_view effect) {
+    story.steps.push_back({.effect = std::string(effect),
+                           .outcome = static_cast<Outcome>(first.outcome[lane]),
+                           .true_range_m = first.true_range_m[lane],
+                           .cos_incidence = first.cos_incidence[lane],
+                           .intensity = first.intensity[lane],
+                           .power_ratio = first.power_ratio[lane],
+                           .range_m = first.range_m[lane]});
+  };
+  parts.TraceAllCenters(cast);
+  if (parts.centers.empty()) parts.tracer->TraceCenters(cast, parts.tiles, tile, work.rays, first);
+  const RayTile& rays = parts.centers.empty() ? work.rays : parts.centers[tile];
+  parts.tracer->MakeEchoes(cast, parts.tiles, tile, parts.centers, work, record);
+  parts.tracer->detector().Detect(work.echoes, record);
+  const Surface& surface = scene.window->surfaces[first.surface[lane]];
   const Transform world_from_window = scene.window->window_from_world.inverse();
-  FiringStory story{
-      .firing = firing,
-      .time_ns = parts.tiles.times_ns(tile)[lane],
-      .slot = parts.tiles.slots(tile)[lane],
-      .direction_sensor = Vector3(static_cast<double>(detect.direction_x[lane]),
-                                  static_cast<double>(detect.direction_y[lane]),
-                                  static_cast<double>(detect.direction_z[lane])),
-      .origin_world = world_from_window * Vector3(static_cast<double>(rays.origin_x[lane]),
-                                                  static_cast<double>(rays.origin_y[lane]),
-                                                  static_cast<double>(rays.origin_z[lane])),
-      .label = surface.label,
-      .instance = surface.instance,
-      .material = surface.material,
-      .reflectivity = surface.reflectivity,
-      .steps = {}};
-  for (const Detector::Step& step : parts.detector.steps()) {
-    step.apply(detect);
-    story.steps.push_back({.effect = std::string(step.effect),
-                           .outcome = static_cast<Outcome>(detect.outcome[lane]),
-                           .true_range_m = detect.true_range_m[lane],
-                           .cos_incidence = detect.cos_incidence[lane],
-                           .intensity = detect.intensity[lane],
-                           .power_ratio = detect.power_ratio[lane],
-                           .range_m = detect.range_m[lane]});
-  }
+  story.firing = firing;
+  story.time_ns = parts.tiles.times_ns(tile)[lane];
+  story.slot = parts.tiles.slots(tile)[lane];
+  story.direction_sensor = Vector3(static_cast<double>(first.direction_x[lane]),
+                                   static_cast<double>(first.direction_y[lane]),
+                                   static_cast<double>(first.direction_z[lane]));
+  story.origin_world = world_from_window * Vector3(static_cast<double>(rays.origin_x[lane]),
+                                                   static_cast<double>(rays.origin_y[lane]),
+                                                   static_cast<double>(rays.origin_z[lane]));
+  story.label = surface.label;
+  story.instance = surface.instance;
+  story.material = surface.material;
+  story.reflectivity = surface.reflectivity;
   return story;
 }
 

@@ -7,30 +7,15 @@
 #include <vector>
 
 #include "core/base/transform.h"
-#include "core/detect/detect_spec.h"
 #include "core/frame/frame.h"
-#include "core/frame/output_spec.h"
 #include "core/scan/scan_pattern.h"
 #include "core/scene/material.h"
 #include "core/scene/world.h"
+#include "core/simulate/simulator_spec.h"
 #include "core/trace/ray_tile.h"
 #include "core/trace/surface.h"
 
 namespace railcast {
-
-/// What a simulation depends on besides the world, the scan pattern and the frame index.
-struct SimulatorSpec {
-  std::uint64_t seed = 1;
-  double range_min_m = 0.5;
-  double range_max_m = 300.0;
-  Transform vehicle_from_sensor = Transform::Identity();
-  EffectSet effects{};
-  PlausibilitySpec plausibility{};
-  WeatherSpec weather{};
-  OutputSpec output{};
-  std::uint32_t snow_label{};  ///< Label of a flake that answers.
-  std::string isa{};           ///< Embree's instruction set to force; empty = the best there is.
-};
 
 /// One firing's way from hit to return, for `railcast-generate trace`.
 struct FiringStory {

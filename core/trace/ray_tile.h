@@ -12,7 +12,7 @@ inline constexpr std::size_t kTileSize = 256;
 /// Rays and what they hit, in the window frame. Struct of arrays.
 ///
 /// A caster looks for a surface nearer than `range_m` and, if it finds one, lowers `range_m` and
-/// sets `cos_incidence` and `surface`; else it leaves all three alone. So several casters may
+/// sets `surface` and the normal; else it leaves all of them alone. So several casters may
 /// follow each other, and a ray starts with its greatest range and surface 0.
 struct alignas(64) RayTile {
   std::size_t num_rays{};  ///< A multiple of kPacketSize.
@@ -22,8 +22,9 @@ struct alignas(64) RayTile {
   float shutter[kTileSize];  ///< When in the frame the ray is cast: 0 = stamp, 1 = last firing.
 
   float range_m[kTileSize];
-  float cos_incidence[kTileSize];    ///< |direction . surface normal|, in [0, 1].
   std::uint32_t surface[kTileSize];  ///< Index into a surface table; 0 = nothing.
+  /// Of the surface hit: any length but 0, either side. 0 where nothing is hit.
+  float normal_x[kTileSize], normal_y[kTileSize], normal_z[kTileSize];
 };
 
 /// Finds the first surface along rays. Railcast's own is TraceScene; a host program may bring its

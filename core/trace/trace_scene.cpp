@@ -198,11 +198,10 @@ void TraceScene::Parts::StoreHits(const RTCRayHit16& packet,
                        instance.rotation_change.z[i] * nz);
       }
     }
-    const float along = normal[0] * tile.direction_x[ray] + normal[1] * tile.direction_y[ray] +
-                        normal[2] * tile.direction_z[ray];
-    const float square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
     tile.range_m[ray] = packet.ray.tfar[lane];
-    tile.cos_incidence[ray] = std::min(std::fabs(along) / std::sqrt(square), 1.0F);
+    tile.normal_x[ray] = normal[0];
+    tile.normal_y[ray] = normal[1];
+    tile.normal_z[ray] = normal[2];
     tile.surface[ray] = instance.first_surface + geometry;
   }
 }

@@ -29,7 +29,8 @@ struct Answer {
 std::vector<Answer> Detect(const DetectorSpec& spec,
                            const std::function<double(std::uint32_t)>& range_m) {
   const Detector detector(spec);
-  auto tile = std::make_unique<DetectTile>();
+  auto echoes = std::make_unique<EchoTiles>();
+  DetectTile* const tile = &echoes->first;
   std::vector<Answer> answers;
   answers.reserve(kNumFirings);
   for (std::uint32_t first = 0; first < kNumFirings; first += kTileSize) {
@@ -42,12 +43,13 @@ std::vector<Answer> Detect(const DetectorSpec& spec,
       tile->direction_y[i] = 0.64F;
       tile->direction_z[i] = 0.48F;
       tile->true_range_m[i] = static_cast<float>(range);
+      tile->echo[i] = 0;
       tile->cos_incidence[i] = 1.0F;
       tile->reflectivity[i] = 0.5F;
       tile->outcome[i] =
           static_cast<std::uint32_t>(std::isnan(range) ? Outcome::kNoSurface : Outcome::kReturned);
     }
-    detector.Run(*tile);
+    detector.Detect(*echoes);
     for (std::uint32_t i = 0; i < kTileSize; ++i) {
       answers.push_back({static_cast<Outcome>(tile->outcome[i]),
                          static_cast<double>(tile->true_range_m[i]),

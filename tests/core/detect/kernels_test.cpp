@@ -33,14 +33,22 @@ std::unique_ptr<DetectTile> MixedTile() {
   return tile;
 }
 
+MeasurementParameters Measurement(float sigma0_m, float sigma1) {
+  return {.seed = 7,
+          .sigma0_m = sigma0_m,
+          .sigma1 = sigma1,
+          .range_min_m = 0.5F,
+          .range_max_m = 280.0F};
+}
+
 void RunAll(const Kernels& kernels, DetectTile& tile) {
   const ThresholdParameters threshold{400'000.0F, 0.002F};
   kernels.hit(tile, 0.5F);
   kernels.threshold(tile, threshold);
   kernels.rain(tile, {7, 0.002F});
-  kernels.snow(tile, {7, 0.3F, 8.0F, 0.5F, 0.02F, true, threshold});
+  kernels.snow(tile, {7, 0.3F, 8.0F, 0.5F, 0.02F, true, 24, threshold});
   kernels.sensor_dropout(tile, {7, 0.1F});
-  kernels.measure_isotropic(tile, {7, 0.02F, 1e-4F, 0.5F, 280.0F});
+  kernels.measure_isotropic(tile, Measurement(0.02F, 1e-4F));
 }
 
 TEST(Kernels, GiveTheSameBitsOnEveryInstructionSet) {
@@ -59,7 +67,7 @@ TEST(Kernels, GiveTheSameBitsOnEveryInstructionSet) {
 
 TEST(Kernels, LeaveFiringsWithoutASurfaceWithoutAPoint) {
   const auto tile = MixedTile();
-  AvailableKernels().back().measure_exact(*tile, {7, 0, 0, 0.5F, 280.0F});
+  AvailableKernels().back().measure_exact(*tile, Measurement(0.0F, 0.0F));
   for (std::size_t i = 0; i < kTileSize; i += 5) {
     EXPECT_EQ(tile->outcome[i], static_cast<std::uint32_t>(Outcome::kNoSurface));
     EXPECT_TRUE(std::isnan(tile->x[i]));

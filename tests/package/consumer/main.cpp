@@ -49,7 +49,7 @@ class WallCaster final : public railcast::RayCaster {
           (static_cast<float>(kWallDistance_m) - rays.origin_x[i]) / rays.direction_x[i];
       if (!(range_m > 0.0F && range_m < rays.range_m[i])) continue;
       rays.range_m[i] = range_m;
-      rays.cos_incidence[i] = rays.direction_x[i];
+      rays.normal_x[i] = -1.0F;
       rays.surface[i] = 1;
     }
   }

@@ -1,0 +1,51 @@
+#include "core/detect/beam_optics.h"
+
+#include <cmath>
+
+namespace railcast {
+namespace {
+
+constexpr double kSpeedOfLight_m_per_ns = 0.299792458;
+
+// A quarter of the full angle, in radians.
+double SigmaOf_rad(double divergence_mrad) {
+  return 1e-3 * divergence_mrad / 4.0;
+}
+
+}  // namespace
+
+double PulseSigma_m(const BeamSpec& beam) {
+  const double full_width_at_half_maximum = 2.0 * std::sqrt(2.0 * std::log(2.0));
+  return 0.5 * kSpeedOfLight_m_per_ns * beam.pulse_length_ns / full_width_at_half_maximum;
+}
+
+double HorizontalSigma_rad(const BeamSpec& beam) {
+  return SigmaOf_rad(beam.divergence_mrad[0]);
+}
+
+double VerticalSigma_rad(const BeamSpec& beam) {
+  return SigmaOf_rad(beam.divergence_mrad[1]);
+}
+
+LaneOptics LaneOpticsOf(const SurfaceOptics& optics) {
+  const float s2 = optics.facet_slope_rad * optics.facet_slope_rad;
+  return {.diffuse = optics.diffuse,
+          .a = optics.diffuse * (1.0F - 0.5F * s2 / (s2 + 0.33F)),
+          .b = optics.diffuse * (0.45F * s2 / (s2 + 0.09F)),
+          .f0 = optics.specular_f0,
+          .alpha2 = optics.specular_roughness * optics.specular_roughness,
+          .retro = optics.retroreflectance};
+}
+
+std::vector<LaneOptics> OpticsTable(const std::vector<Material>& materials,
+                                    int wavelength_nm,
+                                    double wetness) {
+  std::vector<LaneOptics> table;
+  for (const Material& material : materials) {
+    const SurfaceOptics dry = OpticsAt(material, wavelength_nm);
+    table.push_back(LaneOpticsOf(wetness > 0.0 ? WetOptics(dry, wetness, wavelength_nm) : dry));
+  }
+  return table;
+}
+
+}  // namespace railcast

@@ -1,0 +1,164 @@
+#include "core/detect/clutter.h"
+
+#include <cmath>
+#include <limits>
+
+#include "core/base/random.h"
+#include "core/detect/lane_random.h"
+#include "core/frame/outcome.h"
+
+namespace railcast {
+namespace {
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+/// An echo without a surface.
+struct Answer {
+  std::uint32_t label{};
+  std::uint32_t echo{};
+  float range_m{};
+  float power_ratio{};
+  float intensity{};
+};
+
+EchoTiles::Place AddEcho(std::size_t beam, const Answer& answer, EchoTiles& echoes) {
+  const EchoTiles::Place place = echoes.Add(beam, answer.echo);
+  const auto [tile, lane] = place;
+  tile.surface[lane] = 0;
+  tile.true_range_m[lane] = answer.range_m;
+  tile.cos_incidence[lane] = kNaN;
+  tile.spread_m[lane] = 0.0F;
+  tile.share[lane] = kNaN;
+  tile.peak_shift_m[lane] = 0.0F;
+  tile.reflectivity[lane] = 0.0F;
+  tile.outcome[lane] = static_cast<std::uint32_t>(Outcome::kClutter);
+  tile.clutter[lane] = answer.label;
+  tile.intensity[lane] = answer.intensity;
+  tile.power_ratio[lane] = answer.power_ratio;
+  return place;
+}
+
+// Whether the pulse leaves at all, and how far it gets unhindered.
+bool Reaches(const DetectTile& first, std::size_t beam, float range_m) {
+  // A missing surface is NaN: nothing is farther than it.
+  return first.outcome[beam] != static_cast<std::uint32_t>(Outcome::kEgo) &&
+         !(range_m >= first.true_range_m[beam]);
+}
+
+}  // namespace
+
+Clutter::Clutter(const ClutterSpec& spec, const Kernels& kernels)
+    : spec_(spec), uniforms_(kernels.uniforms) {
+  const double range_m = spec.receiver.range_at_10_percent_m;
+  power_min_ = 0.1 / (range_m * range_m);
+  if (spec.effects.clutter && spec.weather.rain_rate_mmph > 0.0) {
+    drops_ = MakePopulation(RainDropSizes(spec.weather), kDropReflectance, spec.labels.rain,
+                            EchoTiles::kFirstDrop);
+  }
+  if (spec.effects.clutter && spec.weather.snow_rate_mmph > 0.0) {
+    flakes_ = MakePopulation(SnowFlakeSizes(spec.weather), kFlakeReflectance, spec.labels.snow,
+                             EchoTiles::kFirstFlake);
+  }
+  if (spec.effects.fog_echo) {
+    fog_echo_ = FogEchoOf(spec.weather, spec.beam);
+    const double loss = std::exp(-2.0 * FogExtinction_per_m(spec.weather) * fog_echo_.range_m);
+    fog_ratio_ = fog_echo_.intensity * loss / (fog_echo_.range_m * fog_echo_.range_m * power_min_);
+    // What is weaker than a third of the threshold is detected once in 1e3 at most.
+    has_fog_echo_ = fog_ratio_ > 0.3 && fog_echo_.range_m >= spec.range_min_m;
+  }
+  if (spec.effects.sunlight) {
+    false_alarm_probability_ = static_cast<float>(FalseAlarmProbability(spec.weather.sun));
+  }
+}
+
+Clutter::Population Clutter::MakePopulation(const ParticleSizes& sizes,
+                                            double reflectance,
+                                            std::uint32_t label,
+                                            std::uint32_t first_echo) const {
+  Population population;
+  population.echoes = ParticleEchoesOf(sizes, reflectance, spec_.beam, power_min_);
+  population.label = label;
+  population.first_echo = first_echo;
+  const double mean = population.echoes.mean_count * spec_.receiver.clutter_gain;
+  population.is_on = mean > 0.0;
+  double probability = std::exp(-mean);
+  double at_most = probability;
+  for (std::size_t n = 0; n < kMostParticles; ++n) {
+    population.at_most[n] = static_cast<float>(at_most);
+    probability *= mean / static_cast<double>(n + 1);
+    at_most += probability;
+  }
+  return population;
+}
+
+void Clutter::AddParticles(const Population& population, EchoTiles& echoes) const {
+  if (!population.is_on) return;
+  const DetectTile& first = echoes.first;
+  // One key for the count, one for each particle's range and size.
+  const auto words_of = [&](std::size_t beam, std::uint32_t block) {
+    return RandomWords(spec_.seed, RandomUse::kClutter, first.frame, first.firing[beam], block);
+  };
+  alignas(64) float counts[kTileSize];
+  uniforms_(first, {spec_.seed, RandomUse::kClutter, 2 * population.first_echo}, counts);
+  const auto range_scale_m = static_cast<float>(population.echoes.range_scale_m);
+  const auto b = static_cast<float>(population.echoes.least_diameter_per_m2);
+  for (std::size_t beam = 0; beam < first.num_rays; ++beam) {
+    for (std::uint32_t n = 0; n < kMostParticles && counts[beam] >= population.at_most[n]; ++n) {
+      const std::uint32_t block = 2 * (population.first_echo + n) + 1;
+      const auto places = words_of(beam, block);
+      const auto normals = baseline::LaneNormals({places[0], places[1], places[2], places[3]});
+      const float r = range_scale_m * std::sqrt(normals.a * normals.a + normals.b * normals.b +
+                                                normals.c * normals.c);
+      if (static_cast<double>(r) < spec_.range_min_m || !Reaches(first, beam, r)) continue;
+      // Diameters beyond the least that answers are exponential; power goes with their square.
+      const float v = UnitFloat(words_of(beam, block + 1)[0]);
+      const float diameter = 1.0F - baseline::Log(1.0F - v) / (b * r * r);
+      const float ratio = diameter * diameter;
+      AddEcho(beam,
+              {population.label, population.first_echo + n, r, ratio,
+               ratio * static_cast<float>(power_min_) * r * r},
+              echoes);
+    }
+  }
+}
+
+void Clutter::AddFogEchoes(EchoTiles& echoes) const {
+  const auto range_m = static_cast<float>(fog_echo_.range_m);
+  for (std::size_t beam = 0; beam < echoes.first.num_rays; ++beam) {
+    if (!Reaches(echoes.first, beam, range_m)) continue;
+    AddEcho(beam,
+            {spec_.labels.fog, EchoTiles::kFogEcho, range_m, static_cast<float>(fog_ratio_),
+             static_cast<float>(fog_echo_.intensity)},
+            echoes);
+  }
+}
+
+void Clutter::Add(EchoTiles& echoes) const {
+  AddParticles(drops_, echoes);
+  AddParticles(flakes_, echoes);
+  if (has_fog_echo_) AddFogEchoes(echoes);
+}
+
+void Clutter::AddFalseAlarms(EchoTiles& echoes) const {
+  if (false_alarm_probability_ <= 0.0F) return;
+  const DetectTile& first = echoes.first;
+  alignas(64) float alarms[kTileSize];
+  uniforms_(first, {spec_.seed, RandomUse::kFalseAlarm, 0}, alarms);
+  for (std::size_t beam = 0; beam < first.num_rays; ++beam) {
+    if (alarms[beam] >= false_alarm_probability_) continue;
+    const auto words =
+        RandomWords(spec_.seed, RandomUse::kFalseAlarm, first.frame, first.firing[beam], 1);
+    const auto range_m = static_cast<float>(
+        std::lerp(spec_.range_min_m, spec_.range_max_m, static_cast<double>(UnitFloat(words[0]))));
+    const Answer alarm{spec_.labels.false_alarm, EchoTiles::kFalseAlarm, range_m, 1.0F,
+                       static_cast<float>(power_min_) * range_m * range_m};
+    const auto [tile, lane] = AddEcho(beam, alarm, echoes);
+    tile.incidence_rad[lane] = kNaN;
+    tile.range_m[lane] = range_m;
+    tile.x[lane] = range_m * tile.direction_x[lane];
+    tile.y[lane] = range_m * tile.direction_y[lane];
+    tile.z[lane] = range_m * tile.direction_z[lane];
+  }
+}
+
+}  // namespace railcast

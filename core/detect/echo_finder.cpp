@@ -1,0 +1,171 @@
+#include "core/detect/echo_finder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/detect/beam_optics.h"
+
+namespace railcast {
+namespace {
+
+// Weaker echoes are detected once in a thousand at most.
+constexpr float kLeastRatio = 0.3F;
+
+// Peaks nearer than this, in pulse sigmas, are one that was climbed to twice.
+constexpr float kSamePeak = 0.5F;
+
+bool IsNearer(const Component& a, const Component& b) {
+  return a.range_m != b.range_m ? a.range_m < b.range_m : a.surface < b.surface;
+}
+
+// The part of `components` between two ranges, as one echo at `peak`.
+Echo Gather(const WavePeak& peak, const Component* begin, const Component* end) {
+  Echo echo{.peak_range_m = peak.range_m, .power_ratio = peak.value};
+  // The surface that sends most: sums by surface, in the order of first appearance.
+  float most = -1.0F;
+  for (const Component* c = begin; c != end; ++c) {
+    echo.share += c->share;
+    echo.intensity += c->intensity;
+    const bool is_counted = std::any_of(
+        begin, c, [&](const Component& before) { return before.surface == c->surface; });
+    if (is_counted) continue;
+    float power = 0.0F;
+    float weight = 0.0F;
+    float range_m = 0.0F;
+    float cosine = 0.0F;
+    for (const Component* same = c; same != end; ++same) {
+      if (same->surface != c->surface) continue;
+      power += same->power_ratio;
+      weight += same->share;
+      range_m += same->share * same->range_m;
+      cosine += same->share * same->cos_incidence;
+    }
+    if (power <= most) continue;
+    most = power;
+    echo.surface = c->surface;
+    echo.true_range_m = range_m / weight;
+    echo.cos_incidence = cosine / weight;
+    echo.reflectivity = c->reflectivity;
+  }
+  return echo;
+}
+
+}  // namespace
+
+EchoFinder::EchoFinder(const BeamSpec& beam,
+                       bool has_stretch,
+                       bool is_sampled,
+                       const Kernels& kernels)
+    : pulse_sigma_m_(static_cast<float>(PulseSigma_m(beam))),
+      has_stretch_(has_stretch),
+      is_sampled_(is_sampled),
+      kernels_(kernels) {}
+
+void EchoFinder::MakeWave(const std::vector<Component>& components) {
+  const std::size_t size = (components.size() + kWaveLanes - 1) / kWaveLanes * kWaveLanes;
+  range_m_.assign(size, components.front().range_m);
+  peak_.assign(size, 0.0F);
+  inverse_variance_.assign(size, 1.0F);
+  const float pulse2 = pulse_sigma_m_ * pulse_sigma_m_;
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    const float spread_m = has_stretch_ ? components[i].spread_m : 0.0F;
+    range_m_[i] = components[i].range_m;
+    peak_[i] = components[i].power_ratio;
+    inverse_variance_[i] = 1.0F / (pulse2 + spread_m * spread_m);
+  }
+  wave_ = {size, range_m_.data(), peak_.data(), inverse_variance_.data()};
+}
+
+void EchoFinder::AddPeak(const WavePeak& peak) {
+  const bool is_known = std::any_of(peaks_.begin(), peaks_.end(), [&](const WavePeak& known) {
+    return std::fabs(known.range_m - peak.range_m) < kSamePeak * pulse_sigma_m_;
+  });
+  if (!is_known) peaks_.push_back(peak);
+}
+
+void EchoFinder::ClimbToPeaks(const std::vector<Component>& components) {
+  // From the mean of every stretch of components that is at most one pulse sigma long: a maximum
+  // draws from farther than that.
+  std::size_t begin = 0;
+  while (begin < components.size()) {
+    float power = 0.0F;
+    float moment = 0.0F;
+    std::size_t end = begin;
+    while (end < components.size() &&
+           components[end].range_m - components[begin].range_m <= pulse_sigma_m_) {
+      power += components[end].power_ratio;
+      moment += components[end].power_ratio * (components[end].range_m - components[begin].range_m);
+      ++end;
+    }
+    if (power > 0.0F) {
+      AddPeak(kernels_.climb_wave(wave_, components[begin].range_m + moment / power));
+    }
+    begin = end;
+  }
+}
+
+void EchoFinder::SamplePeaks(const std::vector<Component>& components) {
+  const float step_m = 0.125F * pulse_sigma_m_;
+  const float margin_m = 2.0F * pulse_sigma_m_;
+  std::size_t begin = 0;
+  while (begin < components.size()) {
+    // Components whose windows overlap are sampled together.
+    std::size_t end = begin + 1;
+    while (end < components.size() &&
+           components[end].range_m - components[end - 1].range_m <= 2.0F * margin_m) {
+      ++end;
+    }
+    const float first_m = components[begin].range_m - margin_m;
+    const float length_m = components[end - 1].range_m + margin_m - first_m;
+    const auto num_samples = static_cast<std::size_t>(length_m / step_m) + 2;
+    samples_.resize(num_samples);
+    kernels_.sample_wave(wave_, first_m, step_m, num_samples, samples_.data());
+    for (std::size_t k = 1; k + 1 < num_samples; ++k) {
+      const float y = samples_[k];
+      if (!(y > samples_[k - 1] && y >= samples_[k + 1] && samples_[k + 1] > 0.0F)) continue;
+      const float left = std::log(samples_[k - 1] / y);
+      const float right = std::log(samples_[k + 1] / y);
+      const float offset = 0.5F * (left - right) / (left + right);
+      peaks_.push_back({first_m + step_m * (static_cast<float>(k) + offset),
+                        y * std::exp(-0.25F * (left - right) * offset)});
+    }
+    begin = end;
+  }
+}
+
+void EchoFinder::Find(std::vector<Component>& components, std::vector<Echo>& echoes) {
+  echoes.clear();
+  peaks_.clear();
+  if (components.empty()) return;
+  std::sort(components.begin(), components.end(), &IsNearer);
+  MakeWave(components);
+  if (is_sampled_) {
+    SamplePeaks(components);
+  } else {
+    ClimbToPeaks(components);
+  }
+  if (peaks_.empty()) return;
+  std::sort(peaks_.begin(), peaks_.end(),
+            [](const WavePeak& a, const WavePeak& b) { return a.range_m < b.range_m; });
+  const float strongest =
+      std::max_element(peaks_.begin(), peaks_.end(), [](const WavePeak& a, const WavePeak& b) {
+        return a.value < b.value;
+      })->value;
+  const float least = std::min(strongest, kLeastRatio);
+  std::erase_if(peaks_, [&](const WavePeak& peak) { return peak.value < least; });
+  // Every component belongs to the nearest peak.
+  const Component* begin = components.data();
+  const Component* const last = begin + components.size();
+  for (std::size_t i = 0; i < peaks_.size(); ++i) {
+    const Component* end = last;
+    if (i + 1 < peaks_.size()) {
+      const float middle_m = 0.5F * (peaks_[i].range_m + peaks_[i + 1].range_m);
+      end = std::partition_point(begin, last,
+                                 [&](const Component& c) { return c.range_m < middle_m; });
+    }
+    if (begin != end) echoes.push_back(Gather(peaks_[i], begin, end));
+    begin = end;
+  }
+}
+
+}  // namespace railcast

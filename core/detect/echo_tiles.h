@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/detect/detect_tile.h"
+
+namespace railcast {
+
+/// The echoes of one tile of firings. Lane i of `first` is the first echo of firing i, or says why
+/// it has none; further echoes stand in `more`, in the order in which they were added.
+class EchoTiles {
+ public:
+  // Numbers of the echoes within a firing, part of their random keys. Surfaces count from 0.
+  static constexpr std::uint32_t kFalseAlarm = 98;
+  static constexpr std::uint32_t kFogEcho = 99;
+  static constexpr std::uint32_t kFirstDrop = 100;
+  static constexpr std::uint32_t kFirstFlake = 200;
+
+  DetectTile first;
+
+  /// An echo: its tile and its lane there.
+  struct Place {
+    DetectTile& tile;
+    std::size_t lane;
+  };
+
+  void ClearMore() { num_more_ = 0; }
+  /// Adds an echo of firing `beam`, a lane of `first`, and gives it that firing's name and
+  /// direction; all else is the caller's to set.
+  Place Add(std::size_t beam, std::uint32_t echo) {
+    const std::size_t tile_index = num_more_ / kTileSize;
+    const std::size_t lane = num_more_ % kTileSize;
+    if (tile_index == more_.size()) more_.push_back(std::make_unique<DetectTile>());
+    if (num_more_ == beam_.size()) beam_.resize(beam_.size() + kTileSize);
+    DetectTile& tile = *more_[tile_index];
+    tile.num_rays = lane + 1;
+    tile.frame = first.frame;
+    tile.firing[lane] = first.firing[beam];
+    tile.echo[lane] = echo;
+    tile.channel[lane] = first.channel[beam];
+    tile.direction_x[lane] = first.direction_x[beam];
+    tile.direction_y[lane] = first.direction_y[beam];
+    tile.direction_z[lane] = first.direction_z[beam];
+    beam_[num_more_++] = static_cast<std::uint32_t>(beam);
+    return {tile, lane};
+  }
+
+  [[nodiscard]] std::size_t num_more() const { return num_more_; }
+  /// @pre i < num_more()
+  [[nodiscard]] Place more(std::size_t i) { return {*more_[i / kTileSize], i % kTileSize}; }
+  [[nodiscard]] std::size_t beam_of(std::size_t i) const { return beam_[i]; }
+
+  /// Calls `apply(DetectTile&)` on every tile that has lanes in use.
+  template <typename Apply>
+  void ForEachTile(const Apply& apply) {
+    apply(first);
+    for (std::size_t begin = 0; begin < num_more_; begin += kTileSize) {
+      apply(*more_[begin / kTileSize]);
+    }
+  }
+
+ private:
+  std::vector<std::unique_ptr<DetectTile>> more_;  // Kept from tile to tile.
+  std::vector<std::uint32_t> beam_;
+  std::size_t num_more_{};
+};
+
+}  // namespace railcast

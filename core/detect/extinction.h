@@ -1,0 +1,21 @@
+// See vector_math.h for why this header has no `#pragma once`.
+#ifndef RAILCAST_DETECT_EXTINCTION_H_
+#define RAILCAST_DETECT_EXTINCTION_H_
+
+#include "core/detect/detect_tile.h"
+#include "core/detect/vector_math.h"
+
+namespace railcast::RAILCAST_ISA {
+
+/// Effect `extinction`: the air takes its part there and back, power x exp(-2 alpha R). The
+/// coefficient alpha is that of fog, rain and snow together (core/detect/weather_optics.h).
+inline void ApplyExtinction(DetectTile& tile, float extinction_per_m) {
+  const float both_ways_per_m = 2.0F * extinction_per_m;
+  for (std::size_t i = 0; i < tile.num_rays; ++i) {
+    tile.power_ratio[i] *= Exp(-both_ways_per_m * tile.true_range_m[i]);
+  }
+}
+
+}  // namespace railcast::RAILCAST_ISA
+
+#endif  // RAILCAST_DETECT_EXTINCTION_H_

@@ -1,0 +1,197 @@
+#include "core/detect/footprint.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+#include "core/base/random.h"
+#include "core/detect/beam_optics.h"
+#include "core/frame/outcome.h"
+#include "core/scan/scan_pattern.h"
+
+namespace railcast {
+namespace {
+
+// As many as a packet of rays: of all numbers the cheapest for its size.
+constexpr std::size_t kAdaptiveSubRays = 16;
+
+Component ComponentOf(const DetectTile& hits, std::size_t lane) {
+  return {.range_m = hits.true_range_m[lane],
+          .spread_m = hits.spread_m[lane],
+          .power_ratio = hits.power_ratio[lane],
+          .share = hits.share[lane],
+          .intensity = hits.intensity[lane],
+          .cos_incidence = hits.cos_incidence[lane],
+          .reflectivity = hits.reflectivity[lane],
+          .surface = hits.surface[lane]};
+}
+
+}  // namespace
+
+Footprint::Footprint(const FootprintSpec& spec, const Kernels& kernels)
+    : spec_(spec),
+      pulse_variance_m2_(static_cast<float>(PulseSigma_m(spec.beam) * PulseSigma_m(spec.beam))),
+      kernels_(kernels),
+      finder_(spec.beam, spec.effects.pulse_stretch, spec.effects.sampled_waveform, kernels) {
+  const auto count = spec.effects.dense_footprint
+                         ? static_cast<std::size_t>(spec.beam.reference_rays)
+                         : kAdaptiveSubRays;
+  const double golden_rad = std::numbers::pi * (3.0 - std::sqrt(5.0));
+  for (std::size_t k = 0; k < count; ++k) {
+    // Quantiles of the radius, in standard deviations (Rayleigh's distribution). The central ray
+    // stands for the innermost part.
+    const double u = (static_cast<double>(k) + 1.5) / static_cast<double>(count + 1);
+    const double radius = std::sqrt(-2.0 * std::log1p(-u));
+    const double angle_rad = golden_rad * static_cast<double>(k);
+    pattern_.push_back({static_cast<float>(radius * std::cos(angle_rad)),
+                        static_cast<float>(radius * std::sin(angle_rad))});
+  }
+}
+
+// The central ray answered for the whole beam; here it is one cell of it, with less spread.
+Component Footprint::CentralCell(const DetectTile& first, std::size_t lane) const {
+  Component cell = ComponentOf(first, lane);
+  const float share = cell_share();
+  const float whole_spread2 = cell.spread_m * cell.spread_m;
+  cell.share *= share;
+  cell.intensity *= share;
+  cell.power_ratio *= share;
+  cell.spread_m *= std::sqrt(share);
+  if (spec_.effects.pulse_stretch) {
+    cell.power_ratio *= std::sqrt((pulse_variance_m2_ + whole_spread2) /
+                                  (pulse_variance_m2_ + share * whole_spread2));
+  }
+  return cell;
+}
+
+void Footprint::FlushBatch(const WideBeams& beams, std::size_t num_rays) {
+  if (num_rays == 0) return;
+  RayTile& rays = batch_.rays;
+  DetectTile& hits = batch_.hits;
+  // The last packet is filled up with its last ray.
+  while (num_rays % kPacketSize != 0) {
+    const std::size_t last = num_rays - 1;
+    for (float* values : {rays.origin_x, rays.origin_y, rays.origin_z, rays.direction_x,
+                          rays.direction_y, rays.direction_z, rays.shutter}) {
+      values[num_rays] = values[last];
+    }
+    ++num_rays;
+  }
+  rays.num_rays = num_rays;
+  std::fill_n(rays.range_m, num_rays, static_cast<float>(spec_.range_max_m));
+  std::fill_n(rays.surface, num_rays, 0U);
+  for (float* values : {rays.normal_x, rays.normal_y, rays.normal_z}) {
+    std::fill_n(values, num_rays, 0.0F);
+  }
+  beams.caster.Cast(rays);
+
+  hits.num_rays = num_rays;
+  ResolveHits(rays, beams.table, hits);
+  kernels_.incidence(rays, hits);
+  BeamFrame cell = beams.frame;
+  const float scale = std::sqrt(cell_share());
+  cell.sigma_h_rad *= scale;
+  cell.sigma_v_rad *= scale;
+  kernels_.spread(rays, cell, hits);
+  std::fill_n(hits.share, num_rays, cell_share());
+  beams.detector.Respond(hits);
+}
+
+void Footprint::TraceSubRays(const WideBeams& beams, const EchoTiles& echoes) {
+  sub_components_.clear();
+  RayTile& rays = batch_.rays;
+  std::size_t num_rays = 0;
+  const auto flush = [&] {
+    FlushBatch(beams, num_rays);
+    const DetectTile& hits = batch_.hits;
+    for (std::size_t i = 0; i < num_rays; ++i) sub_components_.push_back(ComponentOf(hits, i));
+    num_rays = 0;
+  };
+  const BeamFrame& frame = beams.frame;
+  for (const std::uint32_t lane : wide_lanes_) {
+    const float dx = beams.rays.direction_x[lane];
+    const float dy = beams.rays.direction_y[lane];
+    const float dz = beams.rays.direction_z[lane];
+    float hx = frame.up[1] * dz - frame.up[2] * dy;
+    float hy = frame.up[2] * dx - frame.up[0] * dz;
+    float hz = frame.up[0] * dy - frame.up[1] * dx;
+    const float per_length = 1.0F / std::sqrt(hx * hx + hy * hy + hz * hz + 1e-20F);
+    hx *= per_length;
+    hy *= per_length;
+    hz *= per_length;
+    const float vx = dy * hz - dz * hy;
+    const float vy = dz * hx - dx * hz;
+    const float vz = dx * hy - dy * hx;
+    const auto words = RandomWords(spec_.seed, RandomUse::kFootprint, echoes.first.frame,
+                                   echoes.first.firing[lane]);
+    const float turn_rad = 2.0F * std::numbers::pi_v<float> * UnitFloat(words[0]);
+    const float cosine = std::cos(turn_rad);
+    const float sine = std::sin(turn_rad);
+    for (const Offset& offset : pattern_) {
+      const float h = frame.sigma_h_rad * (cosine * offset.h_rad - sine * offset.v_rad);
+      const float v = frame.sigma_v_rad * (sine * offset.h_rad + cosine * offset.v_rad);
+      const float x = dx + h * hx + v * vx;
+      const float y = dy + h * hy + v * vy;
+      const float z = dz + h * hz + v * vz;
+      const float per_norm = 1.0F / std::sqrt(x * x + y * y + z * z);
+      rays.origin_x[num_rays] = beams.rays.origin_x[lane];
+      rays.origin_y[num_rays] = beams.rays.origin_y[lane];
+      rays.origin_z[num_rays] = beams.rays.origin_z[lane];
+      rays.direction_x[num_rays] = x * per_norm;
+      rays.direction_y[num_rays] = y * per_norm;
+      rays.direction_z[num_rays] = z * per_norm;
+      rays.shutter[num_rays] = beams.rays.shutter[lane];
+      if (++num_rays == kTileSize) flush();
+    }
+  }
+  flush();
+}
+
+void Footprint::StoreEchoes(std::size_t lane, EchoTiles& echoes) const {
+  std::uint32_t number = 0;
+  for (const Echo& echo : found_) {
+    const EchoTiles::Place place =
+        number == 0 ? EchoTiles::Place{echoes.first, lane} : echoes.Add(lane, number);
+    const auto [tile, i] = place;
+    tile.surface[i] = echo.surface;
+    tile.true_range_m[i] = echo.true_range_m;
+    tile.peak_shift_m[i] = echo.peak_range_m - echo.true_range_m;
+    tile.cos_incidence[i] = echo.cos_incidence;
+    tile.spread_m[i] = 0.0F;
+    tile.share[i] = echo.share;
+    tile.reflectivity[i] = echo.reflectivity;
+    tile.outcome[i] = static_cast<std::uint32_t>(Outcome::kReturned);
+    tile.clutter[i] = kNoClutter;
+    tile.intensity[i] = echo.intensity;
+    tile.power_ratio[i] = echo.power_ratio;
+    ++number;
+  }
+}
+
+void Footprint::Resolve(const WideBeams& beams, EchoTiles& echoes) {
+  wide_lanes_.clear();
+  for (std::size_t lane = 0; lane < echoes.first.num_rays; ++lane) {
+    if (beams.needs_sub_rays[lane] != 0) wide_lanes_.push_back(static_cast<std::uint32_t>(lane));
+  }
+  TraceSubRays(beams, echoes);
+  const std::size_t count = pattern_.size();
+  const auto range_min_m = static_cast<float>(spec_.range_min_m);
+  for (std::size_t k = 0; k < wide_lanes_.size(); ++k) {
+    const std::size_t lane = wide_lanes_[k];
+    components_.clear();
+    // What lies near or belongs to the vehicle blocks its part of the beam and sends nothing.
+    const Component* const begin = sub_components_.data() + k * count;
+    const auto sends = [&](const Component& c) {
+      return c.surface != 0 && c.range_m >= range_min_m && !beams.table.surfaces[c.surface].is_ego;
+    };
+    std::copy_if(begin, begin + count, std::back_inserter(components_), sends);
+    const Component center = CentralCell(echoes.first, lane);
+    if (sends(center)) components_.push_back(center);
+    if (components_.empty()) continue;  // The central ray says why.
+    finder_.Find(components_, found_);
+    StoreEchoes(lane, echoes);
+  }
+}
+
+}  // namespace railcast

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/detect/detector.h"
+#include "core/detect/echo_finder.h"
+#include "core/detect/echo_tiles.h"
+#include "core/detect/hits.h"
+#include "core/detect/kernels.h"
+#include "core/trace/ray_tile.h"
+
+namespace railcast {
+
+/// What wide beams depend on.
+struct FootprintSpec {
+  std::uint64_t seed{};
+  double range_min_m{};
+  double range_max_m{};
+  EffectSet effects;
+  BeamSpec beam;
+};
+
+/// A tile of wide beams, their central rays traced.
+struct WideBeams {
+  const RayTile& rays;
+  const BeamFrame& frame;
+  const RayCaster& caster;
+  const SurfaceTable& table;
+  const Detector& detector;
+  const std::uint8_t* needs_sub_rays;  ///< By lane.
+};
+
+/// Effects `footprint` and `dense_footprint`: what a beam of finite width meets.
+///
+/// The beam's profile is Gaussian, so a sub-ray of equal weight goes to every quantile of it, the
+/// angle growing by the golden one (Vogel's spiral), turned by a random angle for each firing. Each
+/// sub-ray stands for a cell of the beam, whose slope spreads its range. A beam whose neighbourhood
+/// is smooth is its central ray, with the whole beam's spread.
+///
+/// Not thread-safe: keeps its working memory.
+class Footprint {
+ public:
+  Footprint(const FootprintSpec& spec, const Kernels& kernels);
+
+  /// Splits the tile's beams into echoes. @pre `echoes.first` holds the central rays' hits, and
+  /// Detector::Respond has been applied to it.
+  void Resolve(const WideBeams& beams, EchoTiles& echoes);
+
+  /// Sub-rays of one beam where they are needed.
+  [[nodiscard]] std::size_t num_sub_rays() const { return pattern_.size(); }
+
+ private:
+  struct Offset {
+    float h_rad{};
+    float v_rad{};
+  };
+  /// A run of sub-rays under way: the tile of rays that is being filled, and whose they are.
+  struct Batch {
+    RayTile rays;
+    DetectTile hits;
+  };
+
+  void TraceSubRays(const WideBeams& beams, const EchoTiles& echoes);
+  void FlushBatch(const WideBeams& beams, std::size_t num_rays);
+  void StoreEchoes(std::size_t lane, EchoTiles& echoes) const;
+  /// Of the beam: what a sub-ray or the central one stands for.
+  [[nodiscard]] float cell_share() const { return 1.0F / static_cast<float>(pattern_.size() + 1); }
+  [[nodiscard]] Component CentralCell(const DetectTile& first, std::size_t lane) const;
+
+  FootprintSpec spec_;
+  float pulse_variance_m2_;
+  std::vector<Offset> pattern_;
+  Kernels kernels_;
+  EchoFinder finder_;
+  Batch batch_;
+  std::vector<std::uint32_t> wide_lanes_;  // Those that need sub-rays.
+  std::vector<Component> sub_components_;  // num_sub_rays() for each of them.
+  std::vector<Component> components_;
+  std::vector<Echo> found_;
+};
+
+}  // namespace railcast

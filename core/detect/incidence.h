@@ -1,0 +1,67 @@
+// See vector_math.h for why this header has no `#pragma once`.
+#ifndef RAILCAST_DETECT_INCIDENCE_H_
+#define RAILCAST_DETECT_INCIDENCE_H_
+
+#include <cmath>
+
+#include "core/detect/detect_tile.h"
+#include "core/detect/effect_parameters.h"
+#include "core/trace/ray_tile.h"
+
+namespace railcast::RAILCAST_ISA {
+
+/// How steeply the rays meet what they hit: cos_incidence, NaN where nothing was hit. Lane i of
+/// `tile` is lane i of `rays`.
+inline void ApplyIncidence(const RayTile& rays, DetectTile& tile) {
+  for (std::size_t i = 0; i < tile.num_rays; ++i) {
+    const float nx = rays.normal_x[i];
+    const float ny = rays.normal_y[i];
+    const float nz = rays.normal_z[i];
+    const float along =
+        nx * rays.direction_x[i] + ny * rays.direction_y[i] + nz * rays.direction_z[i];
+    // Without a hit the normal is 0: 0 / 0 is the NaN that is wanted.
+    const float cosine = std::fabs(along) / std::sqrt(nx * nx + ny * ny + nz * nz);
+    tile.cos_incidence[i] = cosine > 1.0F ? 1.0F : cosine;
+  }
+}
+
+/// What the beam's width adds: normal_up and spread_m, the standard deviation of the range over the
+/// beam's profile on the tangent plane:
+///
+///   spread = R / |n.d| * hypot(sigma_h n.h, sigma_v n.v)
+///
+/// with n the surface normal, d the beam, h = up x d and v = d x h its horizontal and vertical axes
+/// (unit length). From the plane's range R n.d / n.(d + a h + b v), linear in the small angles a,
+/// b.
+inline void ApplySpread(const RayTile& rays, const BeamFrame& beam, DetectTile& tile) {
+  const BeamFrame b = beam;  // A copy: no store to the tile can change it.
+  for (std::size_t i = 0; i < tile.num_rays; ++i) {
+    const float nx = rays.normal_x[i];
+    const float ny = rays.normal_y[i];
+    const float nz = rays.normal_z[i];
+    const float dx = rays.direction_x[i];
+    const float dy = rays.direction_y[i];
+    const float dz = rays.direction_z[i];
+    const float hx = b.up[1] * dz - b.up[2] * dy;
+    const float hy = b.up[2] * dx - b.up[0] * dz;
+    const float hz = b.up[0] * dy - b.up[1] * dx;
+    const float vx = dy * hz - dz * hy;
+    const float vy = dz * hx - dx * hz;
+    const float vz = dx * hy - dy * hx;
+    // A beam along `up` has no horizontal axis; it gets no spread rather than a NaN.
+    const float h2 = hx * hx + hy * hy + hz * hz + 1e-20F;
+    const float along = nx * dx + ny * dy + nz * dz;
+    const float slope_h = b.sigma_h_rad * (nx * hx + ny * hy + nz * hz);
+    const float slope_v = b.sigma_v_rad * (nx * vx + ny * vy + nz * vz);
+    const float n2 = nx * nx + ny * ny + nz * nz;
+    const float slope2 =
+        (slope_h * slope_h + slope_v * slope_v) / (h2 * (along * along + 1e-12F * n2));
+    tile.spread_m[i] = rays.range_m[i] * std::sqrt(slope2);
+    tile.normal_up[i] =
+        std::fabs(nx * b.vertical[0] + ny * b.vertical[1] + nz * b.vertical[2]) / std::sqrt(n2);
+  }
+}
+
+}  // namespace railcast::RAILCAST_ISA
+
+#endif  // RAILCAST_DETECT_INCIDENCE_H_

@@ -1,0 +1,65 @@
+// See vector_math.h for why this header has no `#pragma once`.
+#ifndef RAILCAST_DETECT_SURFACE_RESPONSE_H_
+#define RAILCAST_DETECT_SURFACE_RESPONSE_H_
+
+#include <cmath>
+
+#include "core/detect/detect_tile.h"
+#include "core/detect/effect_parameters.h"
+
+namespace railcast::RAILCAST_ISA {
+
+/// GGX lobe seen from where the light comes from, with Smith's shadowing both ways: the effective
+/// reflectance pi F0 D G / (4 cos) (Walter et al. 2007, "Microfacet models for refraction through
+/// rough surfaces", eqs. 33, 34; the half vector is the beam itself, so Fresnel's term is F0).
+[[nodiscard]] inline float MonostaticGgx(float cosine, float f0, float alpha2) {
+  const float c2 = cosine * cosine;
+  const float d = c2 * (alpha2 - 1.0F) + 1.0F;
+  const float g = cosine + std::sqrt(alpha2 + (1.0F - alpha2) * c2);
+  return f0 * alpha2 * cosine / (g * g * d * d);
+}
+
+/// Effect `surface_response`: the effective reflectance of the surface at its incidence,
+///
+///   diffuse   rho (A cos + B sin^2)              Oren and Nayar 1994, seen from the source
+///   specular  pi F0 D_ggx G / (4 cos)
+///   retro     rho_retro cos^5                    half of it at 30 deg of entrance
+///
+/// and the received power it gives, over the least detectable one: share rho / R^2 / P_min with
+/// P_min = 0.1 / R0^2, R0 the data sheet's range at 10 %. Off: Lambert's rho cos.
+///
+/// Snow (part of effect `surface_condition`) covers its share of faces less steep than 45 deg.
+inline void ApplyResponse(DetectTile& tile, const ResponseParameters& parameters) {
+  const ResponseParameters p = parameters;  // A copy: no store to the tile can change it.
+  constexpr float kCos45 = 0.70710678F;
+  for (std::size_t i = 0; i < tile.num_rays; ++i) {
+    const float c = tile.cos_incidence[i];
+    const float c2 = c * c;
+    float rho = tile.reflectivity[i] * c;
+    if (!p.is_lambert) {
+      rho = tile.diffuse_a[i] * c + tile.diffuse_b[i] * (1.0F - c2) +
+            MonostaticGgx(c, tile.specular_f0[i], tile.specular_alpha2[i]) +
+            tile.retro[i] * c2 * c2 * c;
+    }
+    const float covered = tile.normal_up[i] >= kCos45 ? p.snow_cover : 0.0F;
+    rho += covered * (p.snow_a * c + p.snow_b * (1.0F - c2) - rho);
+    const float range_m = tile.true_range_m[i];
+    tile.intensity[i] = tile.share[i] * rho;
+    tile.power_ratio[i] = tile.share[i] * rho * p.inverse_power_m2 / (range_m * range_m);
+  }
+}
+
+/// Effect `pulse_stretch`: a surface that slants through the beam answers over a longer time, so
+/// that the echo's peak is lower: power x s / hypot(s, spread), s the pulse's sigma in metres of
+/// range (Gaussian pulse, Gaussian beam).
+inline void ApplyPulseStretch(DetectTile& tile, float pulse_sigma_m) {
+  const float s2 = pulse_sigma_m * pulse_sigma_m;
+  for (std::size_t i = 0; i < tile.num_rays; ++i) {
+    const float spread2 = tile.spread_m[i] * tile.spread_m[i];
+    tile.power_ratio[i] *= std::sqrt(s2 / (s2 + spread2));
+  }
+}
+
+}  // namespace railcast::RAILCAST_ISA
+
+#endif  // RAILCAST_DETECT_SURFACE_RESPONSE_H_

@@ -1,0 +1,141 @@
+#include "core/simulate/beam_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/units.h"
+#include "core/detect/beam_optics.h"
+
+namespace railcast {
+namespace {
+
+// Beams this near to the sun's centre see nothing but it.
+constexpr double kBlindingAngle_deg = 1.0;
+
+DetectorSpec DetectorSpecOf(const SimulatorSpec& spec,
+                            const std::vector<Material>& materials,
+                            const ScanPattern& pattern) {
+  return {.seed = spec.seed,
+          .range_min_m = spec.range_min_m,
+          .range_max_m = spec.range_max_m,
+          .num_channels = pattern.rows,
+          .effects = spec.effects,
+          .plausibility = spec.plausibility,
+          .beam = spec.beam,
+          .receiver = spec.receiver,
+          .weather = spec.weather,
+          .snow = OpticsAt(materials[spec.snow_material], spec.beam.wavelength_nm),
+          .labels = spec.clutter_labels};
+}
+
+Vector3 DirectionOf(const SunSpec& sun) {
+  const double azimuth_rad = RadFromDeg(sun.azimuth_deg);
+  const double elevation_rad = RadFromDeg(sun.elevation_deg);
+  return {std::cos(elevation_rad) * std::cos(azimuth_rad),
+          std::cos(elevation_rad) * std::sin(azimuth_rad), std::sin(elevation_rad)};
+}
+
+}  // namespace
+
+BeamTracer::BeamTracer(const SimulatorSpec& spec,
+                       const std::vector<Material>& materials,
+                       const ScanPattern& pattern)
+    : effects_(spec.effects),
+      is_physical_(IsPhysical(spec.effects)),
+      pointing_{.seed = spec.seed,
+                .sigma_rad = static_cast<float>(RadFromDeg(spec.receiver.pointing_jitter_deg))},
+      is_sun_up_(spec.effects.sunlight && spec.weather.sun.illuminance_klx > 0.0),
+      to_sun_world_(DirectionOf(spec.weather.sun)),
+      footprint_spec_{.seed = spec.seed,
+                      .range_min_m = spec.range_min_m,
+                      .range_max_m = spec.range_max_m,
+                      .effects = spec.effects,
+                      .beam = spec.beam},
+      detector_(DetectorSpecOf(spec, materials, pattern)),
+      kernels_(AvailableKernels().back()) {
+  beam_.sigma_h_rad = static_cast<float>(HorizontalSigma_rad(spec.beam));
+  beam_.sigma_v_rad = static_cast<float>(VerticalSigma_rad(spec.beam));
+  if (is_physical_) {
+    optics_ = OpticsTable(materials, spec.beam.wavelength_nm,
+                          spec.effects.surface_condition ? spec.weather.wetness : 0.0);
+  }
+  const bool has_width = beam_.sigma_h_rad > 0.0F || beam_.sigma_v_rad > 0.0F;
+  if (spec.effects.footprint && has_width) {
+    needs_.emplace(pattern, spec.beam, spec.effects.dense_footprint);
+  }
+}
+
+BeamFrame BeamTracer::BeamFrameOf(const CastFrame& frame,
+                                  const FiringTiles& tiles,
+                                  std::size_t tile) const {
+  BeamFrame beam = beam_;
+  PoseF change{};
+  const PoseF pose = frame.poses.At(tiles.times_ns(tile)[0], change);
+  const Vector3 vertical = frame.window_from_world.linear().col(2);
+  for (int i = 0; i < 3; ++i) {
+    beam.up[i] = pose.r[3 * i + 2];
+    beam.vertical[i] = static_cast<float>(vertical[i]);
+  }
+  return beam;
+}
+
+void BeamTracer::TraceCenters(const CastFrame& frame,
+                              const FiringTiles& tiles,
+                              std::size_t tile,
+                              RayTile& rays,
+                              DetectTile& first) const {
+  tiles.Aim(tile, frame.poses, static_cast<float>(footprint_spec_.range_max_m), rays);
+  if (effects_.pointing_jitter && pointing_.sigma_rad > 0.0F) {
+    first.frame = frame.index;
+    tiles.Describe(tile, first);
+    kernels_.pointing(rays, first, BeamFrameOf(frame, tiles, tile), pointing_);
+  }
+  frame.caster.Cast(rays);
+}
+
+void BeamTracer::Blind(const CastFrame& frame, const RayTile& rays, EchoTiles& echoes) const {
+  const Eigen::Vector3f to_sun = (frame.window_from_world.linear() * to_sun_world_).cast<float>();
+  const auto least_cosine = static_cast<float>(std::cos(RadFromDeg(kBlindingAngle_deg)));
+  const auto is_blind = [&](std::size_t beam) {
+    return rays.direction_x[beam] * to_sun.x() + rays.direction_y[beam] * to_sun.y() +
+               rays.direction_z[beam] * to_sun.z() >
+           least_cosine;
+  };
+  for (std::size_t i = 0; i < echoes.first.num_rays; ++i) {
+    if (is_blind(i)) echoes.first.power_ratio[i] = 0.0F;
+  }
+  for (std::size_t i = 0; i < echoes.num_more(); ++i) {
+    const auto [tile, lane] = echoes.more(i);
+    if (is_blind(echoes.beam_of(i))) tile.power_ratio[lane] = 0.0F;
+  }
+}
+
+void BeamTracer::MakeEchoes(const CastFrame& frame,
+                            const FiringTiles& tiles,
+                            std::size_t tile,
+                            const std::vector<RayTile>& centers,
+                            Work& work,
+                            const EffectObserver& observer) const {
+  const RayTile& rays = needs_ ? centers[tile] : work.rays;
+  EchoTiles& echoes = work.echoes;
+  DetectTile& first = echoes.first;
+  echoes.ClearMore();
+  first.frame = frame.index;
+  tiles.Describe(tile, first);
+  const SurfaceTable table{frame.surfaces, optics_};
+  ResolveHits(rays, table, first);
+  kernels_.incidence(rays, first);
+  if (!is_physical_) return;
+  const BeamFrame beam = BeamFrameOf(frame, tiles, tile);
+  kernels_.spread(rays, beam, first);
+  detector_.Respond(first, observer);
+  if (needs_) {
+    std::uint8_t needs_sub_rays[kTileSize];
+    needs_->Mark(tile, centers, needs_sub_rays);
+    work.footprint.Resolve({rays, beam, frame.caster, table, detector_, needs_sub_rays}, echoes);
+    if (observer) observer("footprint");
+  }
+  if (is_sun_up_) Blind(frame, rays, echoes);
+}
+
+}  // namespace railcast

@@ -1,0 +1,200 @@
+#include "core/simulate/returns.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/frame/outcome.h"
+
+namespace railcast {
+namespace {
+
+using Place = EchoTiles::Place;
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+Outcome OutcomeOf(const Place& echo) {
+  return static_cast<Outcome>(echo.tile.outcome[echo.lane]);
+}
+float PowerOf(const Place& echo) {
+  return echo.tile.power_ratio[echo.lane];
+}
+float RangeOf(const Place& echo) {
+  return echo.tile.range_m[echo.lane];
+}
+
+void StoreEcho(const Place& echo,
+               const std::vector<Surface>& surfaces,
+               bool has_shares,
+               std::size_t slot,
+               Frame& frame) {
+  const auto& [tile, lane] = echo;
+  const Surface& surface = surfaces[tile.surface[lane]];
+  const bool is_clutter = tile.clutter[lane] != kNoClutter;
+  frame.x[slot] = tile.x[lane];
+  frame.y[slot] = tile.y[lane];
+  frame.z[slot] = tile.z[lane];
+  frame.intensity[slot] = tile.intensity[lane];
+  frame.power_ratio[slot] = tile.power_ratio[lane];
+  frame.range_m[slot] = tile.range_m[lane];
+  frame.true_range_m[slot] = tile.true_range_m[lane];
+  frame.outcome[slot] = OutcomeOf(echo);
+  frame.label[slot] = is_clutter ? tile.clutter[lane] : surface.label;
+  frame.instance[slot] = is_clutter ? 0 : surface.instance;
+  frame.material[slot] = is_clutter ? std::uint16_t{0} : surface.material;
+  frame.incidence_rad[slot] = is_clutter ? kNaN : tile.incidence_rad[lane];
+  frame.footprint_share[slot] = has_shares ? tile.share[lane] : kNaN;
+}
+
+void StoreNothing(std::size_t slot, Frame& frame) {
+  for (auto* values :
+       {&frame.x, &frame.y, &frame.z, &frame.intensity, &frame.power_ratio, &frame.range_m,
+        &frame.true_range_m, &frame.incidence_rad, &frame.footprint_share}) {
+    (*values)[slot] = kNaN;
+  }
+  frame.outcome[slot] = Outcome::kNoFurtherEcho;
+  frame.label[slot] = 0;
+  frame.instance[slot] = 0;
+  frame.material[slot] = 0;
+}
+
+/// One echo of a firing.
+struct Candidate {
+  DetectTile* tile{};
+  std::size_t lane{};
+
+  [[nodiscard]] Place place() const { return {*tile, lane}; }
+};
+
+bool IsStronger(const Candidate& a, const Candidate& b) {
+  return PowerOf(a.place()) > PowerOf(b.place());
+}
+bool IsNearer(const Candidate& a, const Candidate& b) {
+  return RangeOf(a.place()) < RangeOf(b.place());
+}
+bool IsFarther(const Candidate& a, const Candidate& b) {
+  return IsNearer(b, a);
+}
+
+// Moves the best of candidates [first, end) to `first`; earlier ones win ties.
+template <typename IsBetter>
+void BringFirst(std::vector<Candidate>& echoes, std::size_t first, const IsBetter& is_better) {
+  if (first >= echoes.size()) return;
+  const auto from = echoes.begin() + static_cast<std::ptrdiff_t>(first);
+  // max_element keeps the first of equals.
+  const auto best = std::max_element(
+      from, echoes.end(), [&](const Candidate& a, const Candidate& b) { return is_better(b, a); });
+  std::iter_swap(from, best);
+}
+
+// Puts the echoes that the mode reports in front, in the order of their slots.
+void Choose(ReturnMode mode, std::vector<Candidate>& detected) {
+  switch (mode) {
+    case ReturnMode::kStrongest:
+      BringFirst(detected, 0, &IsStronger);
+      return;
+    case ReturnMode::kFirst:
+      BringFirst(detected, 0, &IsNearer);
+      return;
+    case ReturnMode::kLast:
+      BringFirst(detected, 0, &IsFarther);
+      return;
+    case ReturnMode::kDual:
+    case ReturnMode::kTriple:
+      break;
+  }
+  if (detected.empty()) return;
+  BringFirst(detected, 0, &IsStronger);
+  // What is nearer or farther than all that were chosen before; else the next strongest.
+  const auto is_beyond = [&](std::size_t slot, const auto& is_further) {
+    return slot < detected.size() &&
+           std::all_of(detected.begin(), detected.begin() + static_cast<std::ptrdiff_t>(slot),
+                       [&](const Candidate& chosen) { return is_further(detected[slot], chosen); });
+  };
+  BringFirst(detected, 1, &IsFarther);
+  if (!is_beyond(1, IsFarther)) BringFirst(detected, 1, &IsStronger);
+  if (mode == ReturnMode::kDual) return;
+  BringFirst(detected, 2, &IsNearer);
+  if (!is_beyond(2, IsNearer)) BringFirst(detected, 2, &IsStronger);
+}
+
+// What a firing would have been that has no return.
+Place Missed(const std::vector<Candidate>& all) {
+  const auto best =
+      std::max_element(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
+        const bool a_lost =
+            OutcomeOf(a.place()) == Outcome::kBelowThreshold && a.tile->clutter[a.lane] == kNoClutter;
+        const bool b_lost =
+            OutcomeOf(b.place()) == Outcome::kBelowThreshold && b.tile->clutter[b.lane] == kNoClutter;
+        return a_lost == b_lost ? PowerOf(a.place()) < PowerOf(b.place()) : b_lost;
+      });
+  return OutcomeOf(best->place()) == Outcome::kBelowThreshold ? best->place() : all.front().place();
+}
+
+}  // namespace
+
+ReturnMode ReturnModeOf(std::string_view name) {
+  if (name == "first") return ReturnMode::kFirst;
+  if (name == "last") return ReturnMode::kLast;
+  if (name == "dual") return ReturnMode::kDual;
+  if (name == "triple") return ReturnMode::kTriple;
+  Check(name == "strongest", "a return mode has a name");
+  return ReturnMode::kStrongest;
+}
+
+std::uint32_t NumReturns(ReturnMode mode) {
+  return mode == ReturnMode::kTriple ? 3 : mode == ReturnMode::kDual ? 2 : 1;
+}
+
+void ReturnStore::Store(EchoTiles& echoes,
+                        const std::vector<Surface>& surfaces,
+                        const SlotRange& slots,
+                        Frame& frame) const {
+  const std::uint32_t num_returns = frame.returns;
+  if (echoes.num_more() == 0 && num_returns == 1) {
+    for (std::size_t i = 0; i < slots.num_firings; ++i) {
+      const std::size_t slot = slots.slots[i];
+      StoreEcho({echoes.first, i}, surfaces, has_shares_, slot, frame);
+      frame.return_count[slot] = HasPoint(frame.outcome[slot]) ? 1 : 0;
+    }
+    return;
+  }
+  // The further echoes of each firing, as chains.
+  constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+  std::array<std::uint32_t, kTileSize> head;
+  head.fill(kNone);
+  std::vector<std::uint32_t> next(echoes.num_more());
+  for (std::size_t i = echoes.num_more(); i-- > 0;) {
+    next[i] = std::exchange(head[echoes.beam_of(i)], static_cast<std::uint32_t>(i));
+  }
+  std::vector<Candidate> all;
+  std::vector<Candidate> detected;
+  for (std::size_t i = 0; i < slots.num_firings; ++i) {
+    all.assign(1, {&echoes.first, i});
+    for (std::uint32_t k = head[i]; k != kNone; k = next[k]) {
+      const Place place = echoes.more(k);
+      all.push_back({&place.tile, place.lane});
+    }
+    detected.clear();
+    std::copy_if(all.begin(), all.end(), std::back_inserter(detected),
+                 [](const Candidate& echo) { return HasPoint(OutcomeOf(echo.place())); });
+    Choose(mode_, detected);
+    const std::size_t first_slot = std::size_t{slots.slots[i]} * num_returns;
+    const std::size_t count = std::min<std::size_t>(detected.size(), num_returns);
+    for (std::size_t r = 0; r < num_returns; ++r) {
+      const std::size_t slot = first_slot + r;
+      frame.return_count[slot] = static_cast<std::uint8_t>(count);
+      if (r < count) {
+        StoreEcho(detected[r].place(), surfaces, has_shares_, slot, frame);
+      } else if (r == 0) {
+        StoreEcho(Missed(all), surfaces, has_shares_, slot, frame);
+      } else {
+        StoreNothing(slot, frame);
+      }
+    }
+  }
+}
+
+}  // namespace railcast
