@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/error.h"
+
 namespace railcast {
 namespace {
 
@@ -18,8 +20,31 @@ Eigen::Affine3d ToAffine(const Transform& transform) {
 
 Model WithoutTriangles(const Model& model) {
   Model bare{model.name, {}};
-  for (const Part& part : model.parts) bare.parts.push_back({{}, part.material, part.label});
+  for (const Part& part : model.parts) {
+    bare.parts.push_back({{}, part.material, part.label, part.is_wire});
+  }
   return bare;
+}
+
+/// Which part of the ground holds the wire's tube.
+std::uint32_t PartOfWire(const Wire& wire, const Model& ground) {
+  const auto part = std::find_if(ground.parts.begin(), ground.parts.end(), [&](const Part& tubes) {
+    return tubes.is_wire && tubes.material == wire.material && tubes.label == wire.label;
+  });
+  Check(part != ground.parts.end(), "the ground holds every wire as a tube");
+  return static_cast<std::uint32_t>(part - ground.parts.begin());
+}
+
+void AddWires(const std::vector<Wire>& wires,
+              const Transform& window_from_chunk,
+              const Model& ground,
+              std::uint32_t ground_surface,
+              WireSet& set) {
+  for (const Wire& wire : wires) {
+    std::vector<Vector3> points_m = wire.points_m;
+    for (Vector3& point : points_m) point = window_from_chunk * point;
+    set.Add(points_m, wire.radius_m, ground_surface + PartOfWire(wire, ground));
+  }
 }
 
 }  // namespace
@@ -74,6 +99,7 @@ std::shared_ptr<const WindowSource::BuiltChunk> WindowSource::GetChunk(int chunk
   built->ground = std::make_shared<TraceModel>(device_, made.ground);
   built->ground_surfaces = WithoutTriangles(made.ground);
   built->placements = std::move(made.placements);
+  built->wires = std::move(made.wires);
   return chunks_.emplace(chunk, std::move(built)).first->second;
 }
 
@@ -124,8 +150,10 @@ std::shared_ptr<const Window> WindowSource::Build(int home_chunk) {
   for (const int index : chunks) {
     const auto chunk = GetChunk(index);
     const Transform window_from_chunk = window->window_from_world * world_->WorldFromChunk(index);
-    placements.push_back(
-        {chunk->ground, {ToAffine(window_from_chunk)}, surfaces_of(chunk->ground_surfaces, 0)});
+    const std::uint32_t ground_surface = surfaces_of(chunk->ground_surfaces, 0);
+    placements.push_back({chunk->ground, {ToAffine(window_from_chunk)}, ground_surface});
+    AddWires(chunk->wires, window_from_chunk, chunk->ground_surfaces, ground_surface,
+             window->wires);
     for (const Placement& placement : chunk->placements) {
       const auto key = std::pair(placement.model.get(), placement.instance);
       auto it = shared.find(key);

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/detect/wire_set.h"
 #include "core/scene/material.h"
 #include "core/scene/world.h"
 #include "core/trace/surface.h"
@@ -25,6 +26,7 @@ struct Window {
   Transform window_from_world;
   std::vector<Surface> surfaces;  ///< 0 = nothing, then the objects' parts, then the chunks'.
   std::unique_ptr<const TraceScene> scene;
+  WireSet wires;  ///< What `scene` holds as tubes, once more.
 };
 
 /// Makes windows: now when asked, or ahead of need on a thread of its own. Thread-safe.
@@ -63,6 +65,7 @@ class WindowSource {
     std::shared_ptr<const TraceModel> ground;
     Model ground_surfaces;  // Parts without triangles.
     std::vector<Placement> placements;
+    std::vector<Wire> wires;
   };
 
   using FutureWindow = std::shared_future<std::shared_ptr<const Window>>;

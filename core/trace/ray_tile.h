@@ -9,13 +9,19 @@ namespace railcast {
 /// cache, a whole number of packets.
 inline constexpr std::size_t kTileSize = 256;
 
+/// What a tile's rays can hit.
+inline constexpr std::uint32_t kAllSurfaces = 0xFFFFFFFFU;
+inline constexpr std::uint32_t kWireSurfaces = 0x2U;  ///< Parts that are `is_wire`; others are 0x1.
+inline constexpr std::uint32_t kAllButWires = ~kWireSurfaces;
+
 /// Rays and what they hit, in the window frame. Struct of arrays.
 ///
 /// A caster looks for a surface nearer than `range_m` and, if it finds one, lowers `range_m` and
 /// sets `surface` and the normal; else it leaves all of them alone. So several casters may
 /// follow each other, and a ray starts with its greatest range and surface 0.
 struct alignas(64) RayTile {
-  std::size_t num_rays{};  ///< A multiple of kPacketSize.
+  std::size_t num_rays{};             ///< A multiple of kPacketSize.
+  std::uint32_t mask = kAllSurfaces;  ///< Or kAllButWires, where those are found apart.
 
   float origin_x[kTileSize], origin_y[kTileSize], origin_z[kTileSize];           ///< m
   float direction_x[kTileSize], direction_y[kTileSize], direction_z[kTileSize];  ///< Unit length.

@@ -49,7 +49,8 @@ void Commit(RTCScene scene) {
   one_thread.execute([scene] { rtcCommitScene(scene); });
 }
 
-void AttachPart(RTCDevice device, RTCScene scene, const Mesh& mesh, unsigned geometry_id) {
+void AttachPart(RTCDevice device, RTCScene scene, const Part& part, unsigned geometry_id) {
+  const Mesh& mesh = part.mesh;
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   if (!mesh.triangles.empty()) {
     using Corner = std::array<float, 3>;
@@ -67,6 +68,7 @@ void AttachPart(RTCDevice device, RTCScene scene, const Mesh& mesh, unsigned geo
                    });
     std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles);
   }
+  rtcSetGeometryMask(geometry, part.is_wire ? kWireSurfaces : 0x1U);
   rtcCommitGeometry(geometry);
   rtcAttachGeometryByID(scene, geometry, geometry_id);
   rtcReleaseGeometry(geometry);
@@ -86,8 +88,7 @@ TraceModel::TraceModel(const TraceDevice& device, const Model& model)
   handle_->device = device.handle();
   handle_->scene = NewScene(handle_->device->device);
   for (std::size_t i = 0; i < model.parts.size(); ++i) {
-    AttachPart(handle_->device->device, handle_->scene, model.parts[i].mesh,
-               static_cast<unsigned>(i));
+    AttachPart(handle_->device->device, handle_->scene, model.parts[i], static_cast<unsigned>(i));
   }
   Commit(handle_->scene);
 }
@@ -220,7 +221,7 @@ void LoadRays(const RayTile& tile, std::size_t first, RTCRayHit16& packet) {
   std::memcpy(packet.ray.tfar, tile.range_m + first, kBytes);
   std::memset(packet.ray.tnear, 0, kBytes);
   std::memset(packet.ray.flags, 0, kBytes);
-  std::memset(packet.ray.mask, 0xFF, kBytes);  // Debian builds Embree with ray masks on.
+  std::fill_n(packet.ray.mask, kPacketSize, tile.mask);  // Debian's Embree has ray masks on.
   std::memset(packet.hit.geomID, 0xFF, kBytes);
   std::memset(packet.hit.instID, 0xFF, kBytes);
 }

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/scene/shapes.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/scan_once.h"
 
@@ -32,6 +33,7 @@ constexpr int kNumChunks = 30;
 class LineWorld final : public World {
  public:
   bool own_trees = false;
+  bool has_wires = false;
   std::atomic<int> broken_chunk = -1;
   std::atomic<int> delay_ms = 0;
   mutable std::atomic<int> num_built[kNumChunks] = {};
@@ -61,6 +63,7 @@ class LineWorld final : public World {
     const float post_m = 0.5F + 0.1F * static_cast<float>(chunk);
     Chunk built{{"ground", {{MakeFloor(-2.0F, 25.0F), 1, 1}, {MakeWall(9.0F, post_m), 2, label}}},
                 {}};
+    if (has_wires) AddWire(chunk, built);
     const auto tree = own_trees ? MakeTree() : tree_;
     if (chunk == 0) tree_of_chunk_0 = tree;
     Eigen::Affine3d chunk_from_tree(Eigen::Translation3d(0.0, 5.0 + 0.3 * chunk, 0.0));
@@ -77,6 +80,15 @@ class LineWorld final : public World {
   }
 
  private:
+  /// A bent wire, longer in each chunk, whose tube is the ground's part 3; part 2 has the same
+  /// material and label and is none.
+  static void AddWire(int chunk, Chunk& built) {
+    constexpr std::uint32_t kWireLabel = 50;
+    const Wire wire{2, kWireLabel, 0.006, {{0, 1, 5}, {10, 2, 4.5}, {20.0 + chunk, 1, 5}}};
+    built.ground.parts.push_back({MakeWall(20.0F, 0.1F), 2, kWireLabel});
+    built.ground.parts.push_back({MakeTube(wire.points_m, 0.006, 4), 2, kWireLabel, true});
+    built.wires.push_back(wire);
+  }
   static std::shared_ptr<const Model> MakeTree() {
     return std::make_shared<const Model>(Model{"tree", {{MakeCylinder(1.0, 6.0, 8), 1, 2}}});
   }
@@ -256,6 +268,31 @@ TEST(WindowSource, AnObjectIsWhereItsGeometryIsAndNotItsOrigin) {
   EXPECT_NEAR(range_m, 5.0F, 1e-4F);  // Half a unit in the last place of 1455 m is 6e-5.
   EXPECT_EQ(label, 7U);
   EXPECT_EQ(instance, 1U);
+}
+
+TEST(WindowSource, AWindowListsTheWiresOfItsChunksWhereTheirTubesAre) {
+  Line line;
+  line.world->has_wires = true;
+  const auto window = line.windows.Get(10);
+  ASSERT_EQ(window->wires.segments.size(), 2U * 5U);  // Chunks 8 to 12.
+  for (int i = 0; i < 5; ++i) {
+    const int chunk = 8 + i;
+    const double x_m = kChunkLength_m * (chunk - 10);
+    const auto at = static_cast<std::size_t>(2 * i);
+    const WireSegment& first = window->wires.segments[at];
+    const WireSegment& second = window->wires.segments[at + 1];
+    EXPECT_TRUE(first.begin_m.isApprox(Vector3(x_m, 1.0, 5.0).cast<float>()));
+    EXPECT_TRUE(first.end_m.isApprox(Vector3(x_m + 10.0, 2.0, 4.5).cast<float>()));
+    EXPECT_EQ(second.begin_m, first.end_m);
+    EXPECT_TRUE(second.end_m.isApprox(Vector3(x_m + 20.0 + chunk, 1.0, 5.0).cast<float>()));
+    EXPECT_EQ(first.radius_m, 0.006F);
+    EXPECT_EQ(second.surface, first.surface);
+    // The tube's, not that of the part alike which is no wire; that one comes right before it.
+    EXPECT_EQ(window->surfaces[first.surface].label, 50U);
+    EXPECT_EQ(window->surfaces[first.surface].material, 2U);
+    EXPECT_EQ(window->surfaces[first.surface - 1].label, 50U);
+    EXPECT_EQ(window->surfaces[first.surface - 2].label, static_cast<std::uint32_t>(100 + chunk));
+  }
 }
 
 }  // namespace

@@ -1,0 +1,181 @@
+#include "core/detect/wire_in_beam.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/detect/normal_table.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kNear_m = 0.01;
+constexpr double kLeastSigma_rad = 1e-7;
+constexpr double kLeastShare = 1e-12;  // Of a part: below the tables' error.
+constexpr double kRangeStep = 1.2;     // Linear pictures hold to a few per cent up to this.
+
+// Depth of the lit half of a cylinder's section over its radius, sqrt(1 - u^2) with u even in
+// (-1, 1), weighted with itself, which is the cosine that a Lambertian answers with.
+constexpr double kMeanDepth = 8.0 / (3.0 * std::numbers::pi);
+constexpr double kDepthVariance = 0.75 - kMeanDepth * kMeanDepth;
+
+/// A point of the axis as the beam sees it.
+struct Sight {
+  double across{};  ///< Along the wire's image, in sigmas from the beam's middle.
+  double inverse_depth_per_m{};
+};
+
+/// The image of a wire's axis in the plane across the beam, divided by the sigmas.
+struct Image {
+  Sight begin, end;             ///< begin.across < end.across.
+  double distance{};            ///< Of the line from the beam's middle.
+  double direction[2]{};        ///< Of the line, unit length: horizontal, vertical.
+  double sigma_h{}, sigma_v{};  ///< rad
+  Vector3 axis;                 ///< Of the wire, unit length: horizontal, vertical, along the beam.
+
+  [[nodiscard]] double InverseDepthAt_per_m(double across) const {
+    const double slope_per_m =
+        (end.inverse_depth_per_m - begin.inverse_depth_per_m) / (end.across - begin.across);
+    return begin.inverse_depth_per_m + slope_per_m * (across - begin.across);
+  }
+};
+
+/// Mean and variance of a standard normal variable in [begin, end], and the share that is there.
+struct TruncatedNormal {
+  double share{}, mean{}, variance{};
+};
+
+TruncatedNormal TruncateNormal(double begin, double end) {
+  const double share = NormalShare(begin, end);
+  const double middle = 0.5 * (begin + end);
+  const double width = end - begin;
+  // Too narrow for differences of the tables: uniform.
+  if (width < 0.02) return {share, middle, width * width / 12.0};
+  if (share < kLeastShare) return {};
+  const double at_begin = NormalDensity(begin);
+  const double at_end = NormalDensity(end);
+  const double mean = (at_begin - at_end) / share;
+  const double variance = 1.0 + (begin * at_begin - end * at_end) / share - mean * mean;
+  return {share, std::clamp(mean, begin, end), std::max(variance, 0.0)};
+}
+
+/// The wire's share, range and spread between two points of its image, as if these were near.
+WireInBeam FindPart(const Image& image, const Sight& begin, const Sight& end, double radius_m) {
+  const TruncatedNormal along = TruncateNormal(begin.across, end.across);
+  if (along.share < kLeastShare) return {};
+  const double x =
+      image.sigma_h * (image.direction[0] * along.mean - image.direction[1] * image.distance);
+  const double y =
+      image.sigma_v * (image.direction[1] * along.mean + image.direction[0] * image.distance);
+  const double inverse_depth_per_m = image.InverseDepthAt_per_m(along.mean);
+  const Vector3 sight(x, y, 1.0);
+  const double axis_m = sight.norm() / inverse_depth_per_m;
+  const double sin_axis = std::min(1.0, sight.normalized().cross(image.axis).norm());
+
+  // The beam's sigma along the normal of the image, which undoing the division turns.
+  const double run_x = image.sigma_h * image.direction[0];
+  const double run_y = image.sigma_v * image.direction[1];
+  const double sigma_across = image.sigma_h * image.sigma_v / std::hypot(run_x, run_y);
+  const double half_width = radius_m / axis_m / sigma_across;
+  const double share =
+      NormalShare(image.distance - half_width, image.distance + half_width) * along.share;
+
+  // At most the axis' distance from the sensor, if that is almost within the wire.
+  const double depth_m = std::min(radius_m / std::max(sin_axis, 1e-12), axis_m);
+  const double change = std::fabs(end.inverse_depth_per_m - begin.inverse_depth_per_m) /
+                        (end.across - begin.across) / inverse_depth_per_m;
+  const double slope_variance_m2 = axis_m * axis_m * change * change * along.variance;
+  return {.share = share,
+          .range_m = axis_m - kMeanDepth * depth_m,
+          .spread_m = std::sqrt(slope_variance_m2 + kDepthVariance * depth_m * depth_m),
+          .sin_axis = sin_axis};
+}
+
+/// Sum of parts: moments weighted with the shares.
+class PartSum {
+ public:
+  void Add(const WireInBeam& part) {
+    share_ += part.share;
+    range_m_ += part.share * part.range_m;
+    sin_axis_ += part.share * part.sin_axis;
+    const double second_m2 = part.range_m * part.range_m + part.spread_m * part.spread_m;
+    range_square_m2_ += part.share * second_m2;
+  }
+  [[nodiscard]] WireInBeam Mean() const {
+    if (!(share_ > 0.0)) return {};
+    const double range_m = range_m_ / share_;
+    const double variance_m2 = range_square_m2_ / share_ - range_m * range_m;
+    return {.share = share_,
+            .range_m = range_m,
+            .spread_m = std::sqrt(std::max(variance_m2, 0.0)),
+            .sin_axis = sin_axis_ / share_};
+  }
+
+ private:
+  double share_{}, range_m_{}, range_square_m2_{}, sin_axis_{};
+};
+
+/// Cuts what the beam sees where the range has changed by kRangeStep.
+WireInBeam AddParts(const Image& image, const Sight& begin, const Sight& end, double radius_m) {
+  const bool comes_nearer = end.inverse_depth_per_m > begin.inverse_depth_per_m;
+  const double step = comes_nearer ? kRangeStep : 1.0 / kRangeStep;
+  PartSum sum;
+  Sight from = begin;
+  while (from.across < end.across) {
+    Sight to = end;
+    const double next_per_m = from.inverse_depth_per_m * step;
+    if (comes_nearer ? next_per_m < end.inverse_depth_per_m
+                     : next_per_m > end.inverse_depth_per_m) {
+      const double fraction = (next_per_m - begin.inverse_depth_per_m) /
+                              (end.inverse_depth_per_m - begin.inverse_depth_per_m);
+      to = {begin.across + fraction * (end.across - begin.across), next_per_m};
+    }
+    sum.Add(FindPart(image, from, to, radius_m));
+    from = to;
+  }
+  return sum.Mean();
+}
+
+/// Coordinates in the beam: horizontal, vertical, along it.
+Vector3 InBeam(const WideBeam& beam, const Eigen::Vector3f& point_m) {
+  const Vector3 from_origin_m = point_m.cast<double>() - beam.origin_m;
+  return {from_origin_m.dot(beam.horizontal), from_origin_m.dot(beam.vertical),
+          from_origin_m.dot(beam.direction)};
+}
+
+}  // namespace
+
+WireInBeam FindWireInBeam(const WideBeam& beam, const WireSegment& wire) {
+  Vector3 begin_m = InBeam(beam, wire.begin_m);
+  Vector3 end_m = InBeam(beam, wire.end_m);
+  if (begin_m.z() > end_m.z()) std::swap(begin_m, end_m);
+  if (!(end_m.z() > kNear_m)) return {};
+  const Vector3 run_m = end_m - begin_m;
+  if (begin_m.z() < kNear_m) begin_m += (kNear_m - begin_m.z()) / run_m.z() * run_m;
+
+  Image image;
+  image.axis = run_m.normalized();
+  image.sigma_h = std::max(beam.sigma_horizontal_rad, kLeastSigma_rad);
+  image.sigma_v = std::max(beam.sigma_vertical_rad, kLeastSigma_rad);
+  const Eigen::Vector2d sigmas(image.sigma_h, image.sigma_v);
+  const Eigen::Vector2d first = (begin_m.head<2>() / begin_m.z()).cwiseQuotient(sigmas);
+  const Eigen::Vector2d last = (end_m.head<2>() / end_m.z()).cwiseQuotient(sigmas);
+  const double length = (last - first).norm();
+  if (!(length > 1e-12)) return {};  // Seen end-on.
+  const Eigen::Vector2d direction = (last - first) / length;
+  image.direction[0] = direction.x();
+  image.direction[1] = direction.y();
+  image.distance = direction.x() * first.y() - direction.y() * first.x();
+  image.begin = {direction.dot(first), 1.0 / begin_m.z()};
+  image.end = {direction.dot(first) + length, 1.0 / end_m.z()};
+
+  if (image.begin.across >= kNormalReach || image.end.across <= -kNormalReach) return {};
+  Sight from = image.begin;
+  Sight to = image.end;
+  if (from.across < -kNormalReach)
+    from = {-kNormalReach, image.InverseDepthAt_per_m(-kNormalReach)};
+  if (to.across > kNormalReach) to = {kNormalReach, image.InverseDepthAt_per_m(kNormalReach)};
+  return AddParts(image, from, to, wire.radius_m);
+}
+
+}  // namespace railcast

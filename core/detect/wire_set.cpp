@@ -1,0 +1,44 @@
+#include "core/detect/wire_set.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "core/base/error.h"
+
+namespace railcast {
+namespace {
+
+// A span of contact wire is long beside a tile's cone, so one sphere for all of it rejects little.
+constexpr std::size_t kGroupSegments = 8;
+
+WireGroup SphereAround(const std::vector<WireSegment>& segments, std::size_t first) {
+  const std::size_t end = segments.size();
+  WireGroup group{.center_m = 0.5F * (segments[first].begin_m + segments[end - 1].end_m),
+                  .radius_m = 0.0F,
+                  .first_segment = static_cast<std::uint32_t>(first),
+                  .num_segments = static_cast<std::uint32_t>(end - first)};
+  for (std::size_t i = first; i < end; ++i) {
+    const float distance_m = std::max((segments[i].begin_m - group.center_m).norm(),
+                                      (segments[i].end_m - group.center_m).norm());
+    group.radius_m = std::max(group.radius_m, distance_m + segments[i].radius_m);
+  }
+  return group;
+}
+
+}  // namespace
+
+void WireSet::Add(const std::vector<Vector3>& points_m, double radius_m, std::uint32_t surface) {
+  Check(points_m.size() >= 2, "a wire has two ends");
+  std::size_t first = segments.size();
+  for (std::size_t i = 1; i < points_m.size(); ++i) {
+    segments.push_back({.begin_m = points_m[i - 1].cast<float>(),
+                        .end_m = points_m[i].cast<float>(),
+                        .radius_m = static_cast<float>(radius_m),
+                        .surface = surface});
+    if (segments.size() - first < kGroupSegments && i + 1 < points_m.size()) continue;
+    groups.push_back(SphereAround(segments, first));
+    first = segments.size();
+  }
+}
+
+}  // namespace railcast

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "core/base/transform.h"
+
+namespace railcast {
+
+/// A straight piece of a wire, round in section, in the window frame.
+struct WireSegment {
+  Eigen::Vector3f begin_m;
+  Eigen::Vector3f end_m;
+  float radius_m{};
+  std::uint32_t surface{};  ///< Index into the window's surfaces.
+};
+
+/// Segments that follow each other, and a sphere that holds them: most beams pass all of it.
+struct WireGroup {
+  Eigen::Vector3f center_m;
+  float radius_m{};
+  std::uint32_t first_segment{};
+  std::uint32_t num_segments{};
+};
+
+/// The thin conductors of a window.
+struct WireSet {
+  std::vector<WireSegment> segments;
+  std::vector<WireGroup> groups;
+
+  /// Adds a polyline of at least two points in the window frame.
+  void Add(const std::vector<Vector3>& points_m, double radius_m, std::uint32_t surface);
+};
+
+}  // namespace railcast

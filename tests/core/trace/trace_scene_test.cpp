@@ -1,0 +1,98 @@
+#include "core/trace/trace_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include "tests/support/analytic_meshes.h"
+
+namespace railcast {
+namespace {
+
+constexpr float kWall_m = 20.0F;
+constexpr float kTube_m = 0.2F;
+constexpr float kRangeMax_m = 50.0F;
+
+/// Part 0 is a wall, part 1 an upright wire before it, part 2 a ball beside it that is no wire.
+Model WallBehindAWire() {
+  Mesh wire;
+  wire.Append(MakeCylinder(static_cast<double>(kTube_m), 8.0, 16),
+              MakeTransform(Eigen::Matrix3d::Identity(), {10.0, 0.0, 0.0}));
+  Mesh ball;
+  ball.Append(MakeSphere(1.0, 16, 16),
+              MakeTransform(Eigen::Matrix3d::Identity(), {10.0, 3.0, 0.0}));
+  return {"model",
+          {{MakeWall(kWall_m, 9.0F), 1, 1},
+           {.mesh = wire, .material = 1, .label = 2, .is_wire = true},
+           {ball, 1, 3}}};
+}
+
+/// A fan of rays to the left and right of forward.
+RayTile MakeFan(std::uint32_t mask) {
+  RayTile rays{};
+  rays.num_rays = kTileSize;
+  rays.mask = mask;
+  for (std::size_t i = 0; i < kTileSize; ++i) {
+    const float y = 0.8F * ((static_cast<float>(i) + 0.5F) / kTileSize - 0.5F);
+    const float scale = 1.0F / std::sqrt(1.0F + y * y);
+    rays.direction_x[i] = scale;
+    rays.direction_y[i] = y * scale;
+    rays.range_m[i] = kRangeMax_m;
+  }
+  return rays;
+}
+
+struct Scene {
+  TraceDevice device;
+  std::shared_ptr<const TraceModel> model = std::make_shared<TraceModel>(device, WallBehindAWire());
+  TraceScene scene{device, {{model, {Eigen::Affine3d::Identity()}, 1}}};
+};
+
+TEST(TraceScene, RaysForAllButWiresSeeWhatIsBehindAWire) {
+  const Scene scene;
+  RayTile all = MakeFan(kAllSurfaces);
+  RayTile no_wires = MakeFan(kAllButWires);
+  scene.scene.Cast(all);
+  scene.scene.Cast(no_wires);
+  std::size_t num_on_wire = 0;
+  for (std::size_t i = 0; i < kTileSize; ++i) {
+    EXPECT_NE(no_wires.surface[i], 2U);
+    if (all.surface[i] != 2) continue;
+    ++num_on_wire;
+    EXPECT_EQ(no_wires.surface[i], 1U);
+    EXPECT_NEAR(no_wires.range_m[i], kWall_m / no_wires.direction_x[i], 1e-4F);
+  }
+  // The tube is 0.4 m wide at 10 m: 0.04 of the fan's 0.8, +-1 ray.
+  EXPECT_NEAR(static_cast<double>(num_on_wire), 0.04 / 0.8 * kTileSize, 1.0);
+}
+
+TEST(TraceScene, TheMaskChangesNoBitWhereNoWireIsInTheWay) {
+  const Scene scene;
+  RayTile all = MakeFan(kAllSurfaces);
+  RayTile no_wires = MakeFan(kAllButWires);
+  scene.scene.Cast(all);
+  scene.scene.Cast(no_wires);
+  std::size_t num_on_ball = 0;
+  for (std::size_t i = 0; i < kTileSize; ++i) {
+    if (all.surface[i] == 2) continue;
+    num_on_ball += all.surface[i] == 3 ? 1U : 0U;
+    EXPECT_EQ(all.surface[i], no_wires.surface[i]);
+    EXPECT_EQ(std::memcmp(&all.range_m[i], &no_wires.range_m[i], sizeof(float)), 0);
+  }
+  EXPECT_GT(num_on_ball, 30U);
+}
+
+TEST(TraceScene, RangesAloneObeyTheMaskToo) {
+  const Scene scene;
+  RayTile full = MakeFan(kAllButWires);
+  RayTile ranges = MakeFan(kAllButWires);
+  scene.scene.Cast(full);
+  scene.scene.CastRanges(ranges);
+  EXPECT_EQ(std::memcmp(full.range_m, ranges.range_m, sizeof full.range_m), 0);
+}
+
+}  // namespace
+}  // namespace railcast
