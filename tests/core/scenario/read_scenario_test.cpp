@@ -106,6 +106,17 @@ TEST(ReadScenario, ReadsEverySensorOfTheCatalogue) {
   }
 }
 
+// Two models of one sensor: the data sheet's figure is the same.
+TEST(ReadScenario, GivesEverySensorOneRangeAtTenPercent) {
+  const TemporaryFolder folder;
+  for (const auto& sensor : JsonFilesIn(ScenariosDir() / "sensors")) {
+    const auto file = folder.Write("a.json", OnMinimal(R"("lidar": ")" + sensor.string() + '"'));
+    const LidarSpec lidar = ReadScenario(file).lidar;
+    EXPECT_EQ(lidar.receiver.range_at_10_percent_m, lidar.plausibility.reference_range_m) << sensor;
+    EXPECT_EQ(lidar.plausibility.reference_threshold, 0.1) << sensor;
+  }
+}
+
 TEST(ReadScenario, ReadsEveryRung) {
   const TemporaryFolder folder;
   for (const std::string& rung : RungNames()) {
