@@ -1,5 +1,7 @@
 #include "core/scenario/effects.h"
 
+#include <initializer_list>
+
 #include "core/base/error.h"
 #include "core/scenario/effect_names.h"
 #include "core/scenario/json_rules.h"
