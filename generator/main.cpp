@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "core/base/error.h"
+#include "core/scenario/effects.h"
 #include "generator/commands.h"
 
 namespace {
@@ -37,7 +38,7 @@ void AddSequence(CLI::App& app, SequenceOptions& options, std::function<int()>& 
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   sequence->add_option("--fidelity", options.fidelity, "Instead of the scenario's")
-      ->check(CLI::IsMember({"geometry", "plausibility"}));
+      ->check(CLI::IsMember(railcast::RungNames()));
   sequence->callback([&] { command = [&] { return railcast::SequenceCommand(options); }; });
 }
 

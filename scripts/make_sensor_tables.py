@@ -73,7 +73,7 @@ def write_sensor(path, name, lasers, times_us, cycle_us, columns, detection):
     path.write_text(text + "\n")
 
 
-def detection(range_min_m, range_max_m, range_at_10_percent_m, noise_sigma0_m):
+def detection(range_min_m, range_max_m, range_at_10_percent_m, noise_sigma0_m, divergence_mrad):
     return {
         "range_min_m": range_min_m,
         "range_max_m": range_max_m,
@@ -82,6 +82,11 @@ def detection(range_min_m, range_max_m, range_at_10_percent_m, noise_sigma0_m):
             "reference_range_m": range_at_10_percent_m,
             "noise_sigma0_m": noise_sigma0_m,
             "noise_sigma1": 0.0001,
+        },
+        "beam": {"wavelength_nm": 905, "divergence_mrad": divergence_mrad},
+        "receiver": {
+            "range_at_10_percent_m": range_at_10_percent_m,
+            "range_noise_floor_m": noise_sigma0_m,
         },
     }
 
@@ -93,21 +98,23 @@ def main():
     hesai = data / "lidar_packets_nebula" / "calibration"
 
     write_sensor(out / "vlp16.json", "VLP-16", velodyne_lasers(velodyne / "VLP16db.yaml"),
-                 [2.304 * i for i in range(16)], 55.296, 1808, detection(0.5, 100.0, 50.0, 0.01))
+                 [2.304 * i for i in range(16)], 55.296, 1808,
+                 detection(0.5, 100.0, 50.0, 0.01, [3.0, 1.5]))
     write_sensor(out / "hdl32e.json", "HDL-32E", velodyne_lasers(velodyne / "32db.yaml"),
-                 [1.152 * i for i in range(32)], 46.08, 2170, detection(0.5, 100.0, 50.0, 0.007))
+                 [1.152 * i for i in range(32)], 46.08, 2170,
+                 detection(0.5, 100.0, 50.0, 0.007, [2.8, 2.8]))
     write_sensor(out / "vlp32c.json", "VLP-32C", velodyne_lasers(velodyne / "VeloView-VLP-32C.yaml"),
                  [2.304 * (i // 2) for i in range(32)], 55.296, 1808,
-                 detection(0.5, 200.0, 90.0, 0.01))
+                 detection(0.5, 200.0, 90.0, 0.01, [3.0, 1.5]))
     # Groups of eight fire together; after the eighth group a slot of maintenance, after the
     # sixteenth three.
     write_sensor(out / "vls128.json", "VLS-128", velodyne_lasers(velodyne / "VLS128.yaml"),
                  [2.665 * (i // 8 + i // 64) for i in range(128)], 53.3, 1876,
-                 detection(0.5, 245.0, 220.0, 0.01))
+                 detection(0.5, 245.0, 220.0, 0.01, [3.0, 1.5]))
     earliest_us = max(PANDAR64_BEFORE_END_US)
     write_sensor(out / "pandar64.json", "Pandar64", hesai_lasers(hesai / "Pandar64.csv"),
                  [earliest_us - before_us for before_us in PANDAR64_BEFORE_END_US],
-                 55.5555555556, 1800, detection(0.3, 200.0, 200.0, 0.01))
+                 55.5555555556, 1800, detection(0.3, 200.0, 200.0, 0.01, [3.0, 1.5]))
 
 
 if __name__ == "__main__":

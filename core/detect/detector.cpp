@@ -8,6 +8,7 @@
 #include "core/base/random.h"
 #include "core/detect/beam_optics.h"
 #include "core/detect/lane_random.h"
+#include "core/detect/surface_response.h"
 #include "core/detect/weather_optics.h"
 
 namespace railcast {
@@ -102,26 +103,6 @@ void LeavePowerOut(DetectTile& tile) {
   std::fill_n(tile.power_ratio, tile.num_rays, kNaN);
 }
 
-std::vector<EffectStep> MakeOptics(const DetectorSpec& spec, const Kernels& kernels) {
-  std::vector<EffectStep> steps;
-  if (!IsPhysical(spec.effects)) return steps;
-  steps.push_back({"surface_response", [p = MakeResponse(spec), apply = kernels.response](
-                                           DetectTile& tile) { apply(tile, p); }});
-  if (spec.effects.pulse_stretch) {
-    const auto sigma_m = static_cast<float>(PulseSigma_m(spec.beam));
-    steps.push_back({"pulse_stretch", [=, apply = kernels.pulse_stretch](DetectTile& tile) {
-                       apply(tile, sigma_m);
-                     }});
-  }
-  const double extinction_per_m = Extinction_per_m(spec.weather, spec.beam.wavelength_nm);
-  if (spec.effects.extinction && extinction_per_m > 0.0) {
-    steps.push_back(
-        {"extinction", [alpha = static_cast<float>(extinction_per_m),
-                        apply = kernels.extinction](DetectTile& tile) { apply(tile, alpha); }});
-  }
-  return steps;
-}
-
 // What the published model does between hit and measurement. An effect whose cause is absent is
 // left out: no rain, no snow, no work.
 void AddPublishedSteps(const DetectorSpec& spec,
@@ -207,10 +188,41 @@ bool IsPhysical(const EffectSet& effects) {
 }
 
 Detector::Detector(const DetectorSpec& spec, const Kernels& kernels)
-    : optics_(MakeOptics(spec, kernels)),
+    : response_(MakeResponse(spec)),
+      pulse_sigma_m_(static_cast<float>(PulseSigma_m(spec.beam))),
+      has_stretch_(spec.effects.pulse_stretch),
+      extinction_per_m_(spec.effects.extinction
+                            ? static_cast<float>(
+                                  Extinction_per_m(spec.weather, spec.beam.wavelength_nm))
+                            : 0.0F),
       channel_bias_m_(MakeChannelBias(spec)),
       clutter_(ClutterSpecOf(spec), kernels) {
+  if (IsPhysical(spec.effects)) AddOptics(kernels);
   receiver_ = MakeReceiver(spec, channel_bias_m_, kernels);
+}
+
+void Detector::AddOptics(const Kernels& kernels) {
+  optics_.push_back({"surface_response", [p = response_, apply = kernels.response](
+                                             DetectTile& tile) { apply(tile, p); }});
+  if (has_stretch_) {
+    optics_.push_back({"pulse_stretch", [sigma_m = pulse_sigma_m_, apply = kernels.pulse_stretch](
+                                            DetectTile& tile) { apply(tile, sigma_m); }});
+  }
+  if (extinction_per_m_ > 0.0F) {
+    optics_.push_back({"extinction", [alpha = extinction_per_m_, apply = kernels.extinction](
+                                         DetectTile& tile) { apply(tile, alpha); }});
+  }
+}
+
+float Detector::Reflectance(const LaneOptics& optics, float cosine) const {
+  if (response_.is_lambert) return optics.diffuse * cosine;
+  return baseline::EffectiveReflectance(optics, cosine);
+}
+
+float Detector::PowerRatio(float intensity, float range_m, float spread_m) const {
+  float ratio = intensity * response_.inverse_power_m2 / (range_m * range_m);
+  if (has_stretch_) ratio *= pulse_sigma_m_ / std::hypot(pulse_sigma_m_, spread_m);
+  return ratio * baseline::Exp(-2.0F * extinction_per_m_ * range_m);
 }
 
 void Detector::Respond(DetectTile& tile, const EffectObserver& observer) const {

@@ -6,10 +6,12 @@
 #include <string_view>
 #include <vector>
 
+#include "core/detect/beam_optics.h"
 #include "core/detect/clutter.h"
 #include "core/detect/detect_spec.h"
 #include "core/detect/detect_tile.h"
 #include "core/detect/echo_tiles.h"
+#include "core/detect/effect_parameters.h"
 #include "core/detect/kernels.h"
 #include "core/scene/material.h"
 
@@ -58,14 +60,26 @@ class Detector {
   /// (no_surface, ego or returned); fills intensity and power_ratio. Every component of a wide beam
   /// passes through these effects by itself.
   void Respond(DetectTile& tile, const EffectObserver& observer = {}) const;
+  /// The same of one thing alone, without stretch: a wire, which no ray has hit.
+  /// @param cosine Of the incidence.
+  [[nodiscard]] float Reflectance(const LaneOptics& optics, float cosine) const;
+  /// Power over the least detectable one.
+  /// @param intensity Share of the beam x effective reflectance.
+  [[nodiscard]] float PowerRatio(float intensity, float range_m, float spread_m) const;
+
   /// Receiver: expects intensity and power_ratio too, adds what answers without a surface, and
   /// fills the rest.
   void Detect(EchoTiles& echoes, const EffectObserver& observer = {}) const;
 
  private:
+  void AddOptics(const Kernels& kernels);
+
+  ResponseParameters response_;
+  float pulse_sigma_m_;
+  bool has_stretch_;
+  float extinction_per_m_;
   std::vector<EffectStep> optics_;
   std::vector<EffectStep> receiver_;
-  bool is_physical_;
   std::vector<float> channel_bias_m_;
   Clutter clutter_;
 };

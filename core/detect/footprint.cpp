@@ -7,6 +7,7 @@
 
 #include "core/base/random.h"
 #include "core/detect/beam_optics.h"
+#include "core/detect/cylinder_mean.h"
 #include "core/frame/outcome.h"
 #include "core/scan/scan_pattern.h"
 
@@ -79,6 +80,7 @@ void Footprint::FlushBatch(const WideBeams& beams, std::size_t num_rays) {
     ++num_rays;
   }
   rays.num_rays = num_rays;
+  rays.mask = beams.rays.mask;
   std::fill_n(rays.range_m, num_rays, static_cast<float>(spec_.range_max_m));
   std::fill_n(rays.surface, num_rays, 0U);
   for (float* values : {rays.normal_x, rays.normal_y, rays.normal_z}) {
@@ -169,25 +171,97 @@ void Footprint::StoreEchoes(std::size_t lane, EchoTiles& echoes) const {
   }
 }
 
+void Footprint::GatherParts(const EchoTiles& echoes,
+                            std::size_t lane,
+                            const Component* sub_components) {
+  beam_parts_.clear();
+  if (sub_components == nullptr) {
+    beam_parts_.push_back(ComponentOf(echoes.first, lane));
+    return;
+  }
+  beam_parts_.assign(sub_components, sub_components + pattern_.size());
+  beam_parts_.push_back(CentralCell(echoes.first, lane));
+}
+
+void Footprint::AddWires(const WideBeams& beams,
+                         const WireCapture* begin,
+                         const WireCapture* end) {
+  // Captures come by range: each dims what lies behind it.
+  for (const WireCapture* capture = begin; capture != end; ++capture) {
+    if (!(capture->range_m >= static_cast<float>(spec_.range_min_m) &&
+          capture->range_m < static_cast<float>(spec_.range_max_m))) {
+      continue;
+    }
+    float visible = 1.0F;
+    for (const Component& part : beam_parts_) {
+      if (part.surface != 0 && part.range_m < capture->range_m) visible -= part.share;
+    }
+    // The shares of rays add up to 1 but for rounding.
+    const float share = capture->share * std::max(visible, 0.0F);
+    for (Component& part : components_) {
+      if (part.range_m < capture->range_m) continue;
+      part.share *= 1.0F - capture->share;
+      part.power_ratio *= 1.0F - capture->share;
+      part.intensity *= 1.0F - capture->share;
+    }
+    const LaneOptics& optics =
+        beams.table.optics[beams.table.surfaces[capture->surface].material];
+    const double reflectance =
+        CylinderMean(static_cast<double>(capture->sin_axis), [&](double cosine) {
+          return static_cast<double>(
+              beams.detector.Reflectance(optics, static_cast<float>(cosine)));
+        });
+    const float intensity = share * static_cast<float>(reflectance);
+    wires_.push_back(
+        {.range_m = capture->range_m,
+         .spread_m = capture->spread_m,
+         .power_ratio =
+             beams.detector.PowerRatio(intensity, capture->range_m, capture->spread_m),
+         .share = share,
+         .intensity = intensity,
+         .cos_incidence = capture->sin_axis,
+         .reflectivity = optics.diffuse,
+         .surface = capture->surface});
+  }
+}
+
 void Footprint::Resolve(const WideBeams& beams, EchoTiles& echoes) {
   wide_lanes_.clear();
-  for (std::size_t lane = 0; lane < echoes.first.num_rays; ++lane) {
+  for (std::size_t lane = 0; beams.needs_sub_rays != nullptr && lane < echoes.first.num_rays;
+       ++lane) {
     if (beams.needs_sub_rays[lane] != 0) wide_lanes_.push_back(static_cast<std::uint32_t>(lane));
   }
   TraceSubRays(beams, echoes);
-  const std::size_t count = pattern_.size();
-  const auto range_min_m = static_cast<float>(spec_.range_min_m);
-  for (std::size_t k = 0; k < wide_lanes_.size(); ++k) {
-    const std::size_t lane = wide_lanes_[k];
-    components_.clear();
+  captures_.clear();
+  if (beams.wires != nullptr) {
+    const BeamFrame& frame = beams.frame;
+    CaptureWires(beams.rays,
+                 {.up_window = {frame.up[0], frame.up[1], frame.up[2]},
+                  .sigma_horizontal_rad = static_cast<double>(frame.sigma_h_rad),
+                  .sigma_vertical_rad = static_cast<double>(frame.sigma_v_rad)},
+                 *beams.wires, captures_);
+  }
+  std::size_t wide = 0;
+  const WireCapture* capture = captures_.data();
+  const WireCapture* const last_capture = capture + captures_.size();
+  for (std::size_t lane = 0; lane < echoes.first.num_rays; ++lane) {
+    const WireCapture* const first_capture = capture;
+    while (capture != last_capture && capture->lane == lane) ++capture;
+    const bool is_wide = wide < wide_lanes_.size() && wide_lanes_[wide] == lane;
+    if (!is_wide && first_capture == capture) continue;
+    GatherParts(echoes, lane,
+                is_wide ? sub_components_.data() + wide++ * pattern_.size() : nullptr);
     // What lies near or belongs to the vehicle blocks its part of the beam and sends nothing.
-    const Component* const begin = sub_components_.data() + k * count;
-    const auto sends = [&](const Component& c) {
-      return c.surface != 0 && c.range_m >= range_min_m && !beams.table.surfaces[c.surface].is_ego;
-    };
-    std::copy_if(begin, begin + count, std::back_inserter(components_), sends);
-    const Component center = CentralCell(echoes.first, lane);
-    if (sends(center)) components_.push_back(center);
+    components_.clear();
+    std::copy_if(beam_parts_.begin(), beam_parts_.end(), std::back_inserter(components_),
+                 [&](const Component& part) {
+                   return part.surface != 0 &&
+                          part.range_m >= static_cast<float>(spec_.range_min_m) &&
+                          !beams.table.surfaces[part.surface].is_ego;
+                 });
+    wires_.clear();
+    AddWires(beams, first_capture, capture);
+    components_.insert(components_.end(), wires_.begin(), wires_.end());
     if (components_.empty()) continue;  // The central ray says why.
     finder_.Find(components_, found_);
     StoreEchoes(lane, echoes);

@@ -9,6 +9,8 @@
 #include "core/detect/echo_tiles.h"
 #include "core/detect/hits.h"
 #include "core/detect/kernels.h"
+#include "core/detect/thin_conductors.h"
+#include "core/detect/wire_set.h"
 #include "core/trace/ray_tile.h"
 
 namespace railcast {
@@ -29,7 +31,8 @@ struct WideBeams {
   const RayCaster& caster;
   const SurfaceTable& table;
   const Detector& detector;
-  const std::uint8_t* needs_sub_rays;  ///< By lane.
+  const WireSet* wires;                ///< Null unless they are found apart from the rays.
+  const std::uint8_t* needs_sub_rays;  ///< By lane; null if no beam does.
 };
 
 /// Effects `footprint` and `dense_footprint`: what a beam of finite width meets.
@@ -38,6 +41,9 @@ struct WideBeams {
 /// angle growing by the golden one (Vogel's spiral), turned by a random angle for each firing. Each
 /// sub-ray stands for a cell of the beam, whose slope spreads its range. A beam whose neighbourhood
 /// is smooth is its central ray, with the whole beam's spread.
+///
+/// Effect `thin_conductors`: wires in closed form (thin_conductors.h), in front of as much as lies
+/// behind them; what of them lies behind the sub-rays' surfaces is hidden, in proportion.
 ///
 /// Not thread-safe: keeps its working memory.
 class Footprint {
@@ -62,6 +68,8 @@ class Footprint {
     DetectTile hits;
   };
 
+  void GatherParts(const EchoTiles& echoes, std::size_t lane, const Component* sub_components);
+  void AddWires(const WideBeams& beams, const WireCapture* begin, const WireCapture* end);
   void TraceSubRays(const WideBeams& beams, const EchoTiles& echoes);
   void FlushBatch(const WideBeams& beams, std::size_t num_rays);
   void StoreEchoes(std::size_t lane, EchoTiles& echoes) const;
@@ -77,7 +85,10 @@ class Footprint {
   Batch batch_;
   std::vector<std::uint32_t> wide_lanes_;  // Those that need sub-rays.
   std::vector<Component> sub_components_;  // num_sub_rays() for each of them.
-  std::vector<Component> components_;
+  std::vector<WireCapture> captures_;
+  std::vector<Component> beam_parts_;  // All that rays say of one beam, in the way or not.
+  std::vector<Component> wires_;
+  std::vector<Component> components_;  // What of it sends light back, wires included.
   std::vector<Echo> found_;
 };
 

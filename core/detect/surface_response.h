@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/detect/beam_optics.h"
 #include "core/detect/detect_tile.h"
 #include "core/detect/effect_parameters.h"
 
@@ -19,13 +20,19 @@ namespace railcast::RAILCAST_ISA {
   return f0 * alpha2 * cosine / (g * g * d * d);
 }
 
-/// Effect `surface_response`: the effective reflectance of the surface at its incidence,
+/// A surface's answer as a share of a white Lambertian's at normal incidence:
 ///
 ///   diffuse   rho (A cos + B sin^2)              Oren and Nayar 1994, seen from the source
 ///   specular  pi F0 D_ggx G / (4 cos)
 ///   retro     rho_retro cos^5                    half of it at 30 deg of entrance
-///
-/// and the received power it gives, over the least detectable one: share rho / R^2 / P_min with
+[[nodiscard]] inline float EffectiveReflectance(const LaneOptics& optics, float cosine) {
+  const float c2 = cosine * cosine;
+  return optics.a * cosine + optics.b * (1.0F - c2) +
+         MonostaticGgx(cosine, optics.f0, optics.alpha2) + optics.retro * c2 * c2 * cosine;
+}
+
+/// Effect `surface_response`: the effective reflectance of the surface at its incidence, and the
+/// received power it gives, over the least detectable one: share rho / R^2 / P_min with
 /// P_min = 0.1 / R0^2, R0 the data sheet's range at 10 %. Off: Lambert's rho cos.
 ///
 /// Snow (part of effect `surface_condition`) covers its share of faces less steep than 45 deg.
@@ -37,9 +44,9 @@ inline void ApplyResponse(DetectTile& tile, const ResponseParameters& parameters
     const float c2 = c * c;
     float rho = tile.reflectivity[i] * c;
     if (!p.is_lambert) {
-      rho = tile.diffuse_a[i] * c + tile.diffuse_b[i] * (1.0F - c2) +
-            MonostaticGgx(c, tile.specular_f0[i], tile.specular_alpha2[i]) +
-            tile.retro[i] * c2 * c2 * c;
+      rho = EffectiveReflectance({tile.reflectivity[i], tile.diffuse_a[i], tile.diffuse_b[i],
+                                  tile.specular_f0[i], tile.specular_alpha2[i], tile.retro[i]},
+                                 c);
     }
     const float covered = tile.normal_up[i] >= kCos45 ? p.snow_cover : 0.0F;
     rho += covered * (p.snow_a * c + p.snow_b * (1.0F - c2) - rho);

@@ -77,6 +77,7 @@ std::unique_ptr<Simulator> MakeSimulator(const ScenarioSpec& spec,
   auto pattern = TryPattern(spec, errors);
   const auto world = Attempt("", errors, [&] { return MakeWorld(spec); });
   const auto snow_label = TrySnowLabel(spec, errors);
+  const auto effects = Located(spec, "", errors, [&] { return EffectsOf(spec); });
   errors.ThrowIfAny();
 
   SimulatorSpec simulator;
@@ -84,7 +85,7 @@ std::unique_ptr<Simulator> MakeSimulator(const ScenarioSpec& spec,
   simulator.range_min_m = spec.lidar.range_min_m;
   simulator.range_max_m = spec.lidar.range_max_m;
   simulator.vehicle_from_sensor = VehicleFromSensor(spec.lidar.mount);
-  simulator.effects = EffectsOf(spec);
+  simulator.effects = *effects;
   simulator.plausibility = spec.lidar.plausibility;
   simulator.weather = spec.weather;
   simulator.output = spec.output;

@@ -78,6 +78,42 @@ void Describe(Archive& a, PlausibilitySpec& s) {
 }
 
 template <class Archive>
+void Describe(Archive& a, BeamSpec& s) {
+  a.Optional("wavelength_nm", s.wavelength_nm, "905 stands for 850 to 950.",
+             OneNumberOf({905, 1550}));
+  // 1 degree is 17.453 mrad.
+  a.Optional("divergence_mrad", s.divergence_mrad,
+             "Full angle between the 1/e^2 points of the Gaussian profile: horizontal, vertical. "
+             "0 = a ray.",
+             Within(0, 17.5));
+  a.Optional("pulse_length_ns", s.pulse_length_ns,
+             "Full width at half maximum of the pulse as received.", Within(0.5, 100));
+  a.Optional("reference_rays", s.reference_rays, "Sub-rays a beam of effect dense_footprint.",
+             Within(16, 4096));
+}
+
+template <class Archive>
+void Describe(Archive& a, ReceiverSpec& s) {
+  a.Optional("range_at_10_percent_m", s.range_at_10_percent_m,
+             "Of the data sheet: where a facing Lambertian of 10 % is just detected.",
+             PositiveUpTo(10'000));
+  a.Optional("snr_at_threshold", s.snr_at_threshold, "Amplitude signal-to-noise ratio there.",
+             PositiveUpTo(100));
+  a.Optional("return_mode", s.return_mode, "Which echoes of a beam are reported.",
+             OneOf({"strongest", "first", "last", "dual", "triple"}));
+  a.Optional("range_noise_floor_m", s.range_noise_floor_m,
+             "Standard deviation of the range where the signal is strong.", Within(0, 10));
+  a.Optional("range_noise_scale_m", s.range_noise_scale_m,
+             "sigma = hypot(floor, this / sqrt(2 SNR)).", Within(0, 10));
+  a.Optional("channel_bias_sigma_m", s.channel_bias_sigma_m,
+             "Standard deviation of the channels' constant range errors.", Within(0, 10));
+  a.Optional("pointing_jitter_deg", s.pointing_jitter_deg,
+             "Standard deviation of a beam's direction, in each of two directions.", Within(0, 1));
+  a.Optional("clutter_gain", s.clutter_gain,
+             "Multiplies the mean number of echoes of drops and flakes.", Within(0, 10));
+}
+
+template <class Archive>
 void Describe(Archive& a, LidarSpec& s) {
   a.Optional("name", s.name, "Of the sensor.");
   a.Required("scan", s.scan, "The firings of a frame.");
@@ -85,6 +121,8 @@ void Describe(Archive& a, LidarSpec& s) {
   a.Optional("range_max_m", s.range_max_m, "Farther things give no point.", PositiveUpTo(10'000));
   a.Optional("mount", s.mount, "Where the sensor sits on the vehicle.");
   a.Optional("plausibility", s.plausibility, "Parameters of the published model.");
+  a.Optional("beam", s.beam, "The laser beam of the physical rungs.");
+  a.Optional("receiver", s.receiver, "The receiver of the physical rungs.");
   a.Ensure({"range_min_m", "range_max_m"}, s.range_min_m < s.range_max_m, "must be < range_max_m");
 }
 

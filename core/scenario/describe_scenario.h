@@ -4,6 +4,7 @@
 #include "core/scenario/describe_weather.h"
 #include "core/scenario/describe_world.h"
 #include "core/scenario/effect_names.h"
+#include "core/scenario/effects.h"
 #include "core/scenario/scenario_spec.h"
 
 namespace railcast {
@@ -50,6 +51,17 @@ void Describe(Archive& a, Material& s) {
   a.Required("name", s.name, "Unique.", NonEmptyString());
   a.Required("reflectivity", s.reflectivity, "Diffuse, at 905 nm; 1 = white Lambertian.",
              Within(0, 100));
+  a.Optional("reflectivity_1550nm", s.reflectivity_1550nm,
+             "The same at 1550 nm; absent = as at 905 nm.", Within(0, 100));
+  a.Optional("facet_slope_deg", s.facet_slope_deg,
+             "Oren-Nayar's sigma: roughness of the diffuse part; 0 = Lambertian.", Within(0, 60));
+  a.Optional("specular_f0", s.specular_f0,
+             "Reflectance of the GGX lobe at normal incidence, 905 nm.", Within(0, 1));
+  a.Optional("specular_f0_1550nm", s.specular_f0_1550nm,
+             "The same at 1550 nm; absent = as at 905 nm.", Within(0, 1));
+  a.Optional("specular_roughness", s.specular_roughness, "GGX's alpha.", Within(0.01, 1));
+  a.Optional("retroreflectance", s.retroreflectance,
+             "Of a retroreflector, as a multiple of a white Lambertian.", Within(0, 10'000));
   a.Ensure({"name"}, s.name != "none", "must not be \"none\": that is the material of nothing");
 }
 
@@ -80,9 +92,10 @@ void Describe(Archive& a, LabelFile& s) {
 template <class Archive>
 void Describe(Archive& a, ScenarioSpec& s) {
   a.Optional("seed", s.seed, "Of the sensor's and the weather's random numbers.");
-  a.Optional("fidelity", s.fidelity, "Rung of the fidelity ladder.",
-             OneOf({"geometry", "plausibility"}));
+  a.Optional("fidelity", s.fidelity, "Rung of the fidelity ladder.", OneOf(RungNames()));
   a.Switches("effects", s.effects, "Switches this effect on or off.", EffectNames());
+  const auto conflict = ConflictIn(SwitchedEffects(s));
+  a.Ensure({"effects", "fidelity"}, !conflict, conflict.value_or(""));
   a.Required("lidar", s.lidar, "The sensor.");
   a.Optional("weather", s.weather, "The weather.");
   a.Optional("interfaces", s.interfaces, "Where live frames go.");

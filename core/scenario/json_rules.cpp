@@ -21,6 +21,15 @@ std::string Quoted(std::string_view name) {
   return '"' + std::string(name) + '"';
 }
 
+std::string Alternatives(const std::vector<std::string>& names) {
+  std::string words;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) words += i + 1 == names.size() ? " or " : ", ";
+    words += names[i];
+  }
+  return words;
+}
+
 }  // namespace
 
 std::optional<std::string> Broken(const Limits& limits, double value) {
@@ -35,6 +44,14 @@ std::optional<std::string> Broken(const Limits& limits, double value) {
     rule += (limits.above || limits.at_least ? " and <= " : " <= ") + Number(*limits.at_most);
   }
   return rule;
+}
+
+std::optional<std::string> Broken(const NumberChoices& choices, int value) {
+  const auto& numbers = choices.numbers;
+  if (std::find(numbers.begin(), numbers.end(), value) != numbers.end()) return std::nullopt;
+  std::vector<std::string> names;
+  for (const int number : numbers) names.push_back(std::to_string(number));
+  return "must be " + Alternatives(names);
 }
 
 std::optional<std::string> Broken(const Choices& choices, std::string_view value) {
@@ -60,12 +77,9 @@ std::optional<std::string> Broken(HostAndPort, std::string_view value) {
 }
 
 std::string InWords(const std::vector<std::string>& names) {
-  std::string words;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (i > 0) words += i + 1 == names.size() ? " or " : ", ";
-    words += Quoted(names[i]);
-  }
-  return words;
+  std::vector<std::string> quoted;
+  for (const std::string& name : names) quoted.push_back(Quoted(name));
+  return Alternatives(quoted);
 }
 
 std::optional<std::string> Nearest(std::string_view name, const std::vector<std::string>& valid) {

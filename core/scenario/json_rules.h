@@ -36,6 +36,14 @@ struct Limits {
   return {.above = 0.0, .at_most = at_most};
 }
 
+/// Of a whole number.
+struct NumberChoices {
+  std::vector<int> numbers;
+};
+[[nodiscard]] inline NumberChoices OneNumberOf(std::vector<int> numbers) {
+  return {std::move(numbers)};
+}
+
 /// Of a string.
 struct Choices {
   std::vector<std::string> names;
@@ -76,6 +84,7 @@ inline constexpr bool kIsArray<std::array<T, kCount>> = true;
 
 /// The rule in words, "must be > 0 and <= 360", if the value breaks it.
 [[nodiscard]] std::optional<std::string> Broken(const Limits& limits, double value);
+[[nodiscard]] std::optional<std::string> Broken(const NumberChoices& choices, int value);
 [[nodiscard]] std::optional<std::string> Broken(const Choices& choices, std::string_view value);
 [[nodiscard]] std::optional<std::string> Broken(NonEmptyString, std::string_view value);
 [[nodiscard]] std::optional<std::string> Broken(HostAndPort, std::string_view value);

@@ -16,7 +16,7 @@ void ReadString(JsonSource& source, const Node& node, std::string& value, const 
   value = text;
 }
 
-std::optional<std::uint64_t> WholeNumber(const Json& json) {
+std::optional<std::uint64_t> WholeNumberOf(const Json& json) {
   if (json.is_number_unsigned()) return json.get<std::uint64_t>();
   if (!json.is_number_float()) return std::nullopt;
   const auto number = json.get<double>();  // 1808.0 is as whole as 1808.
@@ -39,6 +39,15 @@ void ReadValue(JsonSource& source, const Node& node, double& value, const Limits
   if (!node.json->is_number()) return source.Fault(node, "must be a number");
   const auto number = node.json->get<double>();
   if (const auto broken = Broken(limits, number)) return source.Fault(node, *broken);
+  value = number;
+}
+
+void ReadValue(JsonSource& source, const Node& node, int& value, const NumberChoices& choices) {
+  const auto whole = WholeNumberOf(*node.json);
+  const bool fits = whole && *whole <= std::numeric_limits<int>::max();
+  // 0 is no choice of anything, so what is no whole number breaks the rule as well.
+  const int number = fits ? static_cast<int>(*whole) : 0;
+  if (const auto broken = Broken(choices, number)) return source.Fault(node, *broken);
   value = number;
 }
 
@@ -67,7 +76,7 @@ std::optional<std::uint64_t> ReadWhole(JsonSource& source,
                                        const Node& node,
                                        std::uint64_t at_least,
                                        std::uint64_t at_most) {
-  const auto whole = WholeNumber(*node.json);
+  const auto whole = WholeNumberOf(*node.json);
   if (whole && *whole >= at_least && *whole <= at_most) return whole;
   source.Fault(node, "must be a whole number from " + std::to_string(at_least) + " to " +
                          std::to_string(at_most));

@@ -16,6 +16,7 @@ namespace railcast {
 void ReadValue(JsonSource& source, const Node& node, bool& value, Anything);
 void ReadValue(JsonSource& source, const Node& node, double& value, Anything);
 void ReadValue(JsonSource& source, const Node& node, double& value, const Limits& limits);
+void ReadValue(JsonSource& source, const Node& node, int& value, const NumberChoices& choices);
 void ReadValue(JsonSource& source, const Node& node, std::string& value, Anything);
 void ReadValue(JsonSource& source, const Node& node, std::string& value, NonEmptyString rule);
 void ReadValue(JsonSource& source, const Node& node, std::string& value, const Choices& choices);
@@ -28,14 +29,21 @@ void ReadValue(JsonSource& source, const Node& node, std::string& value, Existin
                                                      std::uint64_t at_least,
                                                      std::uint64_t at_most);
 
-template <std::unsigned_integral T>
+/// A whole number. No spec has a negative one.
+template <class T>
+concept WholeNumber = std::integral<T> && !std::same_as<T, bool>;
+
+template <WholeNumber T>
 void ReadValue(JsonSource& source, const Node& node, T& value, const Limits& limits) {
+  constexpr std::uint64_t kMost = std::numeric_limits<T>::max();
   const std::uint64_t at_least = limits.at_least ? static_cast<std::uint64_t>(*limits.at_least) : 0;
-  const auto whole = ReadWhole(source, node, at_least, std::numeric_limits<T>::max());
+  const std::uint64_t at_most =
+      limits.at_most ? static_cast<std::uint64_t>(*limits.at_most) : kMost;
+  const auto whole = ReadWhole(source, node, at_least, at_most);
   if (whole) value = static_cast<T>(*whole);
 }
 
-template <std::unsigned_integral T>
+template <WholeNumber T>
 void ReadValue(JsonSource& source, const Node& node, T& value, Anything) {
   ReadValue(source, node, value, Limits{});
 }

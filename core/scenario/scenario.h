@@ -28,6 +28,8 @@ class RailWorld;
 [[nodiscard]] std::string ResolvedScenarioJson(const ScenarioSpec& spec);
 
 /// The effects of the scenario's rung with its single switches applied.
+/// @throws InputError if two of them do not go together, as can happen to a scenario whose rung was
+///   changed after reading.
 [[nodiscard]] EffectSet EffectsOf(const ScenarioSpec& spec);
 
 /// Every fault of a scenario: those of its files, and those that show when its scan pattern and its

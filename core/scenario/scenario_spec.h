@@ -52,7 +52,7 @@ struct InterfacesSpec {
 /// A whole scenario: everything a run depends on besides the frame index.
 struct ScenarioSpec {
   std::uint64_t seed = 1;
-  std::string fidelity = "plausibility";  ///< "geometry" or "plausibility".
+  std::string fidelity = "plausibility";  ///< A rung of RungNames().
   std::map<std::string, bool> effects;    ///< Switches single effects on or off.
   LidarSpec lidar;
   WeatherSpec weather;

@@ -10,6 +10,10 @@ void AddRule(Json& schema, const Limits& limits) {
   if (limits.at_most) schema["maximum"] = *limits.at_most;
 }
 
+void AddRule(Json& schema, const NumberChoices& choices) {
+  schema["enum"] = choices.numbers;
+}
+
 void AddRule(Json& schema, const Choices& choices) {
   schema["enum"] = choices.names;
 }

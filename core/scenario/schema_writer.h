@@ -19,6 +19,7 @@ namespace railcast {
 /// States a rule in JSON Schema's words, as far as it has any.
 void AddRule(Json& schema, Anything);
 void AddRule(Json& schema, const Limits& limits);
+void AddRule(Json& schema, const NumberChoices& choices);
 void AddRule(Json& schema, const Choices& choices);
 void AddRule(Json& schema, NonEmptyString);
 void AddRule(Json& schema, HostAndPort);
@@ -108,7 +109,7 @@ Json SchemaWriter::SchemaOf(T& value, const Rule& rule) {
     Json schema;
     if constexpr (std::is_same_v<T, bool>) {
       schema = {{"type", "boolean"}};
-    } else if constexpr (std::unsigned_integral<T>) {
+    } else if constexpr (std::integral<T>) {
       schema = {{"type", "integer"}, {"minimum", 0}, {"maximum", std::numeric_limits<T>::max()}};
     } else if constexpr (std::is_arithmetic_v<T>) {
       schema = {{"type", "number"}};

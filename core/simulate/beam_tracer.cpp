@@ -90,6 +90,7 @@ void BeamTracer::TraceCenters(const CastFrame& frame,
     tiles.Describe(tile, first);
     kernels_.pointing(rays, first, BeamFrameOf(frame, tiles, tile), pointing_);
   }
+  rays.mask = effects_.thin_conductors ? kAllButWires : kAllSurfaces;
   frame.caster.Cast(rays);
 }
 
@@ -129,10 +130,11 @@ void BeamTracer::MakeEchoes(const CastFrame& frame,
   const BeamFrame beam = BeamFrameOf(frame, tiles, tile);
   kernels_.spread(rays, beam, first);
   detector_.Respond(first, observer);
-  if (needs_) {
+  if (needs_ || effects_.thin_conductors) {
     std::uint8_t needs_sub_rays[kTileSize];
-    needs_->Mark(tile, centers, needs_sub_rays);
-    work.footprint.Resolve({rays, beam, frame.caster, table, detector_, needs_sub_rays}, echoes);
+    if (needs_) needs_->Mark(tile, centers, needs_sub_rays);
+    const WireSet* const wires = effects_.thin_conductors ? frame.wires : nullptr;
+    work.footprint.Resolve({rays, beam, frame.caster, table, detector_, wires, needs_ ? needs_sub_rays : nullptr}, echoes);
     if (observer) observer("footprint");
   }
   if (is_sun_up_) Blind(frame, rays, echoes);

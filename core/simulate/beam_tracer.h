@@ -24,6 +24,7 @@ struct CastFrame {
   const FramePoses& poses;
   const RayCaster& caster;
   const std::vector<Surface>& surfaces;
+  const WireSet* wires{};  ///< Null if the caster's owner has none.
   Transform window_from_world;
 };
 

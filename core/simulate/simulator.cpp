@@ -21,7 +21,8 @@ namespace railcast {
 namespace {
 
 CastFrame CastOf(const FrameScene& scene) {
-  return {scene.index, scene.poses, scene, scene.window->surfaces, scene.window->window_from_world};
+  return {scene.index, scene.poses, scene, scene.window->surfaces, &scene.window->wires,
+          scene.window->window_from_world};
 }
 
 using WorkOfThreads = tbb::enumerable_thread_specific<BeamTracer::Work>;
@@ -155,7 +156,7 @@ void Simulator::Scan(std::uint32_t frame_index, Frame& frame) {
 void Simulator::Scan(std::uint32_t frame_index, const HostScene& host, Frame& frame) {
   const FramePoses poses =
       parts_->scenes.PosesIn(host.window_from_world, parts_->pattern.StampNs(frame_index));
-  parts_->Scan({frame_index, poses, host.caster, host.surfaces, host.window_from_world}, frame);
+  parts_->Scan({frame_index, poses, host.caster, host.surfaces, nullptr, host.window_from_world}, frame);
 }
 
 FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "core/base/error.h"
 #include "core/scenario/scenario.h"
 #include "tests/core/scenario/scenario_files.h"
 
@@ -42,6 +43,24 @@ TEST(MakeSimulator, PutsTheSensorWhereTheMountSays) {
   EXPECT_LT((vehicle_from_sensor.translation() - Vector3(2.0, 0.5, 3.0)).norm(), kRoundOff_m);
   EXPECT_LT((vehicle_from_sensor.linear() * Vector3::UnitX() - Vector3::UnitY()).norm(),
             kRoundOff_m);
+}
+
+TEST(MakeSimulator, NamesTheFileWhoseEffectsDoNotFitAnotherRung) {
+  const TemporaryFolder folder;
+  const auto file = folder.Write("a.json", R"({"version": 1, "file": ")" +
+                                               (ScenariosDir() / "minimal.json").string() +
+                                               R"(", "effects": {"rain": true}})");
+  ScenarioSpec spec = ReadScenario(file);
+  spec.fidelity = "surface";
+  try {
+    static_cast<void>(MakeSimulator(spec, 1));
+    FAIL() << "expected InputError";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.what(),
+              file.string() +
+                  R"(: /effects: "rain" of the published model and "surface_response" of physics )"
+                  "must not both be on");
+  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/scenario/effects.h"
 #include "core/scenario/scenario.h"
 #include "tests/core/scenario/scenario_files.h"
 
@@ -61,11 +62,13 @@ TEST(ReadScenario, ReportsTheFaultsOfEveryFileAtOnce) {
   const auto file = folder.Write(
       "a.json",
       OnMinimal(R"("weather": "weather.json", "fidelity": "high", "output": {"fram": 1})"));
-  EXPECT_EQ(FaultsOf(file),
-            file.string() +
-                ": /fidelity: must be \"geometry\" or \"plausibility\" (got \"high\")\n" +
-                weather.string() + ": /snow_rate_mmph: must be >= 0 (got -1)\n" + file.string() +
-                ": /output/fram: unknown key, the nearest is \"frame\"");
+  EXPECT_EQ(
+      FaultsOf(file),
+      file.string() +
+          ": /fidelity: must be \"geometry\", \"plausibility\", \"surface\", \"footprint\" or "
+          "\"reference\" (got \"high\")\n" +
+          weather.string() + ": /snow_rate_mmph: must be >= 0 (got -1)\n" + file.string() +
+          ": /output/fram: unknown key, the nearest is \"frame\"");
 }
 
 TEST(ReadScenario, LocatesAFaultInTheObjectThatReplacesAFilesKey) {
@@ -101,6 +104,32 @@ TEST(ReadScenario, ReadsEverySensorOfTheCatalogue) {
     const auto file = folder.Write("a.json", OnMinimal(R"("lidar": ")" + sensor.string() + '"'));
     EXPECT_EQ(FaultsOf(file), "") << sensor;
   }
+}
+
+// Two models of one sensor: the data sheet's figure is the same.
+TEST(ReadScenario, GivesEverySensorOneRangeAtTenPercent) {
+  const TemporaryFolder folder;
+  for (const auto& sensor : JsonFilesIn(ScenariosDir() / "sensors")) {
+    const auto file = folder.Write("a.json", OnMinimal(R"("lidar": ")" + sensor.string() + '"'));
+    const LidarSpec lidar = ReadScenario(file).lidar;
+    EXPECT_EQ(lidar.receiver.range_at_10_percent_m, lidar.plausibility.reference_range_m) << sensor;
+    EXPECT_EQ(lidar.plausibility.reference_threshold, 0.1) << sensor;
+  }
+}
+
+TEST(ReadScenario, ReadsEveryRung) {
+  const TemporaryFolder folder;
+  for (const std::string& rung : RungNames()) {
+    const auto file = folder.Write("a.json", OnMinimal(R"("fidelity": ")" + rung + '"'));
+    EXPECT_EQ(EffectsOf(ReadScenario(file)), EffectsOfRung(rung)) << rung;
+  }
+}
+
+TEST(ReadScenario, TakesVisibilityInPlaceOfFogDensity) {
+  const TemporaryFolder folder;
+  const auto file = folder.Write("a.json", OnMinimal(R"("weather": {"visibility_m": 100})"));
+  EXPECT_EQ(ReadScenario(file).weather.visibility_m, 100.0);
+  EXPECT_EQ(ReadScenario(file).weather.fog_density_per_m, 0.0);
 }
 
 TEST(ReadScenario, KeepsWholeNumbersThatNoDoubleHolds) {

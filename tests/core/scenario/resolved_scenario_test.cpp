@@ -34,15 +34,22 @@ ScenarioSpec UnusualScenario(const std::string& mesh_file) {
       1.25,
       99.5,
       {{1, 2, 3}, 4, 5, 6},
-      {0.2, 150, 0.02, 2e-4, "beam", 0.125}};
+      {0.2, 150, 0.02, 2e-4, "beam", 0.125},
+      {1550, {0.5, 0.25}, 3.5, 128},
+      {90, 6, "dual", 0.01, 0.2, 0.02, 0.03, 0.4}};
   spec.weather.fog_density_per_m = 0.01;
   spec.weather.rain_rate_mmph = 3;
+  spec.weather.rain_drop_sizes = "drizzle";
   spec.weather.rain_dropout_per_m = 4e-4;
   spec.weather.rain_dropout_exponent = 0.7;
   spec.weather.snow_rate_mmph = 5;
+  spec.weather.snow_type = "wet";
   spec.weather.snow_echoes_per_mmph = 0.03;
   spec.weather.snow_range_scale_m = 6;
   spec.weather.snow_intensity = 0.04;
+  spec.weather.wetness = 0.5;
+  spec.weather.snow_cover = 0.75;
+  spec.weather.sun = {80, 45, 20};
   spec.interfaces.udp = {"localhost:1", "[::1]:65535"};
   spec.camera = R"({"b":1,"a":[2.5,null]})";
   spec.world.seed = 0xFFFF'FFFF'FFFF'FFFEULL;
@@ -81,7 +88,7 @@ ScenarioSpec UnusualScenario(const std::string& mesh_file) {
   spec.vehicle.motion.reverse = true;
   spec.vehicle.ego_boxes_m = {{-1, -2, -3, 1, 2, 3}};
   spec.output = {"world", "left", {1e6, -2, 3.5}};
-  spec.materials = {{"soil", 0.25}};
+  spec.materials = {{"soil", 0.25, 0.3, 20, 0.02, 0.03, 0.15, 570}};
   spec.labels = {{1, "rail", {1, 2, 3}, "Rails", "track", 260, 49}};
   return spec;
 }
@@ -91,6 +98,14 @@ TEST(ResolvedScenario, HoldsEveryField) {
   const ScenarioSpec spec = UnusualScenario(folder.Write("x.obj", "").string());
   const auto file = folder.Write("resolved.json", ResolvedScenarioJson(spec));
   EXPECT_EQ(ReadScenario(file), spec);
+}
+
+TEST(ResolvedScenario, HoldsTheVisibilityInsteadOfTheFogDensity) {
+  const TemporaryFolder folder;
+  ScenarioSpec spec = UnusualScenario(folder.Write("x.obj", "").string());
+  spec.weather.fog_density_per_m = 0.0;
+  spec.weather.visibility_m = 120;
+  EXPECT_EQ(ReadScenario(folder.Write("resolved.json", ResolvedScenarioJson(spec))), spec);
 }
 
 TEST(ResolvedScenario, HoldsOtherCoursesAndPatterns) {
