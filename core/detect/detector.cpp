@@ -191,10 +191,9 @@ Detector::Detector(const DetectorSpec& spec, const Kernels& kernels)
     : response_(MakeResponse(spec)),
       pulse_sigma_m_(static_cast<float>(PulseSigma_m(spec.beam))),
       has_stretch_(spec.effects.pulse_stretch),
-      extinction_per_m_(spec.effects.extinction
-                            ? static_cast<float>(
-                                  Extinction_per_m(spec.weather, spec.beam.wavelength_nm))
-                            : 0.0F),
+      extinction_per_m_(spec.effects.extinction ? static_cast<float>(Extinction_per_m(
+                                                      spec.weather, spec.beam.wavelength_nm))
+                                                : 0.0F),
       channel_bias_m_(MakeChannelBias(spec)),
       clutter_(ClutterSpecOf(spec), kernels) {
   if (IsPhysical(spec.effects)) AddOptics(kernels);

@@ -183,9 +183,7 @@ void Footprint::GatherParts(const EchoTiles& echoes,
   beam_parts_.push_back(CentralCell(echoes.first, lane));
 }
 
-void Footprint::AddWires(const WideBeams& beams,
-                         const WireCapture* begin,
-                         const WireCapture* end) {
+void Footprint::AddWires(const WideBeams& beams, const WireCapture* begin, const WireCapture* end) {
   // Captures come by range: each dims what lies behind it.
   for (const WireCapture* capture = begin; capture != end; ++capture) {
     if (!(capture->range_m >= static_cast<float>(spec_.range_min_m) &&
@@ -204,8 +202,7 @@ void Footprint::AddWires(const WideBeams& beams,
       part.power_ratio *= 1.0F - capture->share;
       part.intensity *= 1.0F - capture->share;
     }
-    const LaneOptics& optics =
-        beams.table.optics[beams.table.surfaces[capture->surface].material];
+    const LaneOptics& optics = beams.table.optics[beams.table.surfaces[capture->surface].material];
     const double reflectance =
         CylinderMean(static_cast<double>(capture->sin_axis), [&](double cosine) {
           return static_cast<double>(
@@ -215,8 +212,7 @@ void Footprint::AddWires(const WideBeams& beams,
     wires_.push_back(
         {.range_m = capture->range_m,
          .spread_m = capture->spread_m,
-         .power_ratio =
-             beams.detector.PowerRatio(intensity, capture->range_m, capture->spread_m),
+         .power_ratio = beams.detector.PowerRatio(intensity, capture->range_m, capture->spread_m),
          .share = share,
          .intensity = intensity,
          .cos_incidence = capture->sin_axis,

@@ -3,6 +3,7 @@
 
 #include "core/base/attempt.h"
 #include "core/base/units.h"
+#include "core/detect/detector.h"
 #include "core/rail/rail_world.h"
 #include "core/rail/world_draft.h"
 #include "core/scan/scan_pattern.h"
@@ -29,8 +30,27 @@ std::optional<ScanPattern> TryPattern(const ScenarioSpec& spec, ErrorList& error
   return Located(spec, "/lidar/scan", errors, [&] { return BuildScanPattern(spec.lidar.scan); });
 }
 
-std::optional<std::uint32_t> TrySnowLabel(const ScenarioSpec& spec, ErrorList& errors) {
-  return Located(spec, "", errors, [&] { return LabelTable(spec.labels).Id("snow"); });
+// What the effects call things by name, besides the world.
+struct EffectNamesInUse {
+  ClutterLabels labels;
+  std::uint16_t snow_material{};
+};
+
+std::optional<EffectNamesInUse> TryNames(const ScenarioSpec& spec, ErrorList& errors) {
+  return Located(spec, "", errors, [&] {
+    const LabelTable labels(spec.labels);
+    EffectNamesInUse names;
+    names.labels.snow = labels.Id("snow");
+    if (IsPhysical(EffectsOf(spec))) {
+      names.labels.rain = labels.Id("rain");
+      names.labels.fog = labels.Id("fog");
+      names.labels.false_alarm = labels.Id("false_alarm");
+    }
+    if (spec.weather.snow_cover > 0.0) {
+      names.snow_material = MaterialLibrary(spec.materials).Index("snow");
+    }
+    return names;
+  });
 }
 
 Transform VehicleFromSensor(const MountSpec& mount) {
@@ -56,7 +76,7 @@ void AddBuildFaults(const ScenarioSpec& spec, const UnknownPlaces& unknown, Erro
   static_cast<void>(DraftWorld({spec.world, spec.vehicle, labels, materials}, faults));
   // The world has two specs, so its pointers are the scenario's: "/world/..." and "/vehicle/...".
   for (const std::string& line : faults.errors.lines()) errors.Add(spec.sources.Locate(line, ""));
-  if (unknown.IsKnown("/labels")) static_cast<void>(TrySnowLabel(spec, errors));
+  if (unknown.IsKnown("/labels")) static_cast<void>(TryNames(spec, errors));
 }
 
 std::shared_ptr<const RailWorld> MakeWorld(const ScenarioSpec& spec) {
@@ -76,8 +96,8 @@ std::unique_ptr<Simulator> MakeSimulator(const ScenarioSpec& spec,
   ErrorList errors;
   auto pattern = TryPattern(spec, errors);
   const auto world = Attempt("", errors, [&] { return MakeWorld(spec); });
-  const auto snow_label = TrySnowLabel(spec, errors);
   const auto effects = Located(spec, "", errors, [&] { return EffectsOf(spec); });
+  const auto names = effects ? TryNames(spec, errors) : std::nullopt;
   errors.ThrowIfAny();
 
   SimulatorSpec simulator;
@@ -92,7 +112,8 @@ std::unique_ptr<Simulator> MakeSimulator(const ScenarioSpec& spec,
   simulator.isa = isa;
   simulator.beam = spec.lidar.beam;
   simulator.receiver = spec.lidar.receiver;
-  simulator.clutter_labels.snow = *snow_label;
+  simulator.clutter_labels = names->labels;
+  simulator.snow_material = names->snow_material;
   return std::make_unique<Simulator>(*world, std::move(*pattern), MaterialLibrary(spec.materials),
                                      simulator, num_threads);
 }

@@ -134,7 +134,9 @@ void BeamTracer::MakeEchoes(const CastFrame& frame,
     std::uint8_t needs_sub_rays[kTileSize];
     if (needs_) needs_->Mark(tile, centers, needs_sub_rays);
     const WireSet* const wires = effects_.thin_conductors ? frame.wires : nullptr;
-    work.footprint.Resolve({rays, beam, frame.caster, table, detector_, wires, needs_ ? needs_sub_rays : nullptr}, echoes);
+    work.footprint.Resolve(
+        {rays, beam, frame.caster, table, detector_, wires, needs_ ? needs_sub_rays : nullptr},
+        echoes);
     if (observer) observer("footprint");
   }
   if (is_sun_up_) Blind(frame, rays, echoes);

@@ -124,10 +124,10 @@ void Choose(ReturnMode mode, std::vector<Candidate>& detected) {
 Place Missed(const std::vector<Candidate>& all) {
   const auto best =
       std::max_element(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
-        const bool a_lost =
-            OutcomeOf(a.place()) == Outcome::kBelowThreshold && a.tile->clutter[a.lane] == kNoClutter;
-        const bool b_lost =
-            OutcomeOf(b.place()) == Outcome::kBelowThreshold && b.tile->clutter[b.lane] == kNoClutter;
+        const bool a_lost = OutcomeOf(a.place()) == Outcome::kBelowThreshold &&
+                            a.tile->clutter[a.lane] == kNoClutter;
+        const bool b_lost = OutcomeOf(b.place()) == Outcome::kBelowThreshold &&
+                            b.tile->clutter[b.lane] == kNoClutter;
         return a_lost == b_lost ? PowerOf(a.place()) < PowerOf(b.place()) : b_lost;
       });
   return OutcomeOf(best->place()) == Outcome::kBelowThreshold ? best->place() : all.front().place();

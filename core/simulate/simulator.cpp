@@ -21,7 +21,11 @@ namespace railcast {
 namespace {
 
 CastFrame CastOf(const FrameScene& scene) {
-  return {scene.index, scene.poses, scene, scene.window->surfaces, &scene.window->wires,
+  return {scene.index,
+          scene.poses,
+          scene,
+          scene.window->surfaces,
+          &scene.window->wires,
           scene.window->window_from_world};
 }
 
@@ -108,9 +112,12 @@ void Simulator::Parts::UseSpec() {
   centers.resize(tracer->needs_all_centers() ? tiles.num_tiles() : 0);
 }
 
-void Simulator::UseEffects(const EffectSet& effects, const WeatherSpec& weather) {
-  parts_->spec.effects = effects;
-  parts_->spec.weather = weather;
+const SimulatorSpec& Simulator::spec() const {
+  return parts_->spec;
+}
+
+void Simulator::Use(const SimulatorSpec& spec) {
+  parts_->spec = spec;
   parts_->UseSpec();
 }
 
@@ -156,7 +163,8 @@ void Simulator::Scan(std::uint32_t frame_index, Frame& frame) {
 void Simulator::Scan(std::uint32_t frame_index, const HostScene& host, Frame& frame) {
   const FramePoses poses =
       parts_->scenes.PosesIn(host.window_from_world, parts_->pattern.StampNs(frame_index));
-  parts_->Scan({frame_index, poses, host.caster, host.surfaces, nullptr, host.window_from_world}, frame);
+  parts_->Scan({frame_index, poses, host.caster, host.surfaces, nullptr, host.window_from_world},
+               frame);
 }
 
 FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) {

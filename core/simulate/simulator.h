@@ -75,9 +75,11 @@ class Simulator {
   /// @pre firing < pattern().num_firings()
   [[nodiscard]] FiringStory Explain(std::uint32_t frame_index, std::uint32_t firing);
 
-  /// Changes what follows the trace; scenes stay. Speed and accuracy studies compare effect sets on
-  /// one scene in one process this way.
-  void UseEffects(const EffectSet& effects, const WeatherSpec& weather);
+  [[nodiscard]] const SimulatorSpec& spec() const;
+  /// Changes seed, effects, plausibility, beam, receiver and weather; scenes stay. Speed and
+  /// accuracy studies compare effect sets on one scene in one process this way.
+  /// @pre The rest of `spec` is as it was.
+  void Use(const SimulatorSpec& spec);
   /// @param num_threads 0 = all cores.
   void UseThreads(int num_threads);
 

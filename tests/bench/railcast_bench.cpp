@@ -83,11 +83,12 @@ std::vector<Row> Rows() {
 
 void Run(benchmark::State& state, Bench& bench, const Row& row, int num_threads) {
   using Clock = std::chrono::steady_clock;
-  WeatherSpec weather = bench.spec.weather;
-  weather.rain_rate_mmph = row.rain ? 2.0 : 0.0;
-  weather.snow_rate_mmph = row.snow ? 2.0 : 0.0;
+  SimulatorSpec spec = bench.simulator->spec();
+  spec.effects = row.effects;
+  spec.weather.rain_rate_mmph = row.rain ? 2.0 : 0.0;
+  spec.weather.snow_rate_mmph = row.snow ? 2.0 : 0.0;
   bench.simulator->UseThreads(num_threads);
-  bench.simulator->UseEffects(row.effects, weather);
+  bench.simulator->Use(spec);
   row.work(bench, 0);  // Warms caches; the rows before it ran on other memory.
   std::vector<double> times_ms;
   std::uint32_t frame = 0;
