@@ -219,6 +219,49 @@ TEST(RandomNumbers, SwitchingNoiseMovesPointsAndNothingElse) {
   EXPECT_NE(all.x, frame.x);
 }
 
+/// Which beams an effect takes, by itself, of a sphere 40 m around; less the mean, over the
+/// standard deviation. Of noise: which measured ranges are too long.
+std::vector<double> TakenBy(bool EffectSet::*effect, std::uint32_t frame_index) {
+  auto world = std::make_shared<SimpleWorld>();
+  world->ground.parts = {{MakeSphere(40.0, 90, 180), 3, 1}};
+  SimulatorSpec spec = AllOn();
+  spec.effects = {};
+  spec.effects.*effect = true;
+  const Frame frame = ScanOnce(world, MakeRaster(60, 30, 0.25), spec, frame_index);
+  std::vector<double> taken;
+  double mean = 0.0;
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    const bool is_taken =
+        frame.outcome[slot] != Outcome::kReturned || frame.range_m[slot] > frame.true_range_m[slot];
+    taken.push_back(is_taken ? 1.0 : 0.0);
+    mean += taken.back() / static_cast<double>(frame.num_slots());
+  }
+  EXPECT_GT(mean, 0.05);
+  for (double& value : taken) value = (value - mean) / std::sqrt(mean * (1.0 - mean));
+  return taken;
+}
+
+TEST(RandomNumbers, OfAFramesEffectsBeamsAndSuccessorAreUncorrelated) {
+  const std::array effects = {&EffectSet::rain, &EffectSet::snow, &EffectSet::noise,
+                              &EffectSet::sensor_dropout};
+  for (const auto effect : effects) {
+    const std::vector<double> taken = TakenBy(effect, 4);
+    const double bound = kNumSigmas / std::sqrt(static_cast<double>(taken.size()));
+    const auto correlation = [&](const std::vector<double>& other, std::size_t shift) {
+      double sum = 0.0;
+      for (std::size_t i = 0; i + shift < taken.size(); ++i) sum += taken[i] * other[i + shift];
+      return sum / static_cast<double>(taken.size());
+    };
+    EXPECT_LE(std::abs(correlation(taken, 1)), bound);    // The neighbour in the row.
+    EXPECT_LE(std::abs(correlation(taken, 240)), bound);  // The neighbour in the column.
+    EXPECT_LE(std::abs(correlation(TakenBy(effect, 5), 0)), bound);
+    for (const auto other : effects) {
+      if (other == effect) continue;
+      EXPECT_LE(std::abs(correlation(TakenBy(other, 4), 0)), bound);
+    }
+  }
+}
+
 /// The noise of each beam from one generator that its effects share in turn: those switched on
 /// draw.
 std::vector<double> NoiseOfSharedGenerator(bool with_rain) {
