@@ -73,10 +73,10 @@ TEST(CoplanarFaces, HaveTheSameLabelOnEveryRunAtAnyNumberOfThreads) {
 
 std::vector<Ray> Fan() {
   std::vector<Ray> rays;
-  for (int i = 0; i < 20'000; ++i) {
-    const double x_m = 2.0 + 58.0 * (i % 200) / 200.0;
-    const double y_m = -28.0 + 56.0 * (i / 200) / 100.0;
-    rays.push_back(RayThrough(Vector3::Zero(), {x_m, y_m, -2.0}));
+  for (int row = 0; row < 100; ++row) {
+    for (int column = 0; column < 200; ++column) {
+      rays.push_back(RayThrough(Vector3::Zero(), {2.0 + 0.29 * column, 0.56 * row - 28.0, -2.0}));
+    }
   }
   return rays;
 }

@@ -49,14 +49,17 @@ std::uint64_t CountEscapes(const RayCaster& caster,
       std::plus<>());
 }
 
-const Eigen::AlignedBox3d kBox(Vector3(-5.1, -2.3, -1.7), Vector3(4.9, 2.2, 3.1));
+Eigen::AlignedBox3d Box() {
+  return {Vector3(-5.1, -2.3, -1.7), Vector3(4.9, 2.2, 3.1)};
+}
 
 /// From a place inside the box: any way, at an edge, at a corner, at a diagonal of a face.
 Ray AimInBox(std::uint64_t beam) {
   const auto [u, v, w, t] = Uniforms(beam);
   const Vector3 origin_m(std::lerp(-4.0, 4.0, u), std::lerp(-2.0, 2.0, v), std::lerp(-1.0, 3.0, w));
-  const Vector3 low = kBox.min();
-  const Vector3 high = kBox.max();
+  const Eigen::AlignedBox3d box = Box();
+  const Vector3& low = box.min();
+  const Vector3& high = box.max();
   const auto corner = [&](std::uint64_t i) {
     return Vector3(i & 1U ? high.x() : low.x(), i & 2U ? high.y() : low.y(),
                    i & 4U ? high.z() : low.z());
@@ -80,7 +83,7 @@ Ray AimInBox(std::uint64_t beam) {
 
 TEST(EdgesAndSeams, AClosedBoxLetsNoBeamEscape) {
   const TraceDevice device;
-  const auto scene = SceneOf(device, Model{"box", {{MakeBox(kBox), 1, 1}}});
+  const auto scene = SceneOf(device, Model{"box", {{MakeBox(Box()), 1, 1}}});
   EXPECT_EQ(CountEscapes(*scene, NumBeams(), AimInBox), 0U);
 }
 
@@ -188,9 +191,9 @@ TEST(EdgesAndSeams, MeshesThatShareTheirCornersInOneFrameHaveNoSeam) {
 // nothing behind, and never a range that is no number.
 TEST(EdgesAndSeams, ABeamAlongAnEdgeEndsWithinTheBox) {
   const TraceDevice device;
-  const auto scene = SceneOf(device, Model{"box", {{MakeBox(kBox), 1, 1}}});
-  const Eigen::Vector3f low = kBox.min().cast<float>();
-  const Eigen::Vector3f high = kBox.max().cast<float>();
+  const auto scene = SceneOf(device, Model{"box", {{MakeBox(Box()), 1, 1}}});
+  const Eigen::Vector3f low = Box().min().cast<float>();
+  const Eigen::Vector3f high = Box().max().cast<float>();
   std::vector<Ray> rays;
   for (int axis = 0; axis < 3; ++axis) {
     for (unsigned corner = 0; corner < 8; ++corner) {

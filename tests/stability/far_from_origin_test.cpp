@@ -37,8 +37,9 @@ Model Track() {
   return model;
 }
 
-const Transform kChunkFromSensor =
-    MakeTransform(RotationFromYawPitchRoll(0.01, 0.1, 0.02), {-3.0, 0.2, 2.5});
+Transform ChunkFromSensor() {
+  return MakeTransform(RotationFromYawPitchRoll(0.01, 0.1, 0.02), {-3.0, 0.2, 2.5});
+}
 
 /// What a beam found.
 struct Answer {
@@ -46,18 +47,12 @@ struct Answer {
   std::uint32_t label{};  ///< 0 = nothing.
 };
 
-Vector3 DirectionOf(const ScanPattern& pattern, std::size_t i) {
-  return Eigen::Vector3f(pattern.direction_x[i], pattern.direction_y[i], pattern.direction_z[i])
-      .cast<double>()
-      .normalized();
-}
-
 std::vector<Answer> Truth(const Model& track, const ScanPattern& pattern) {
   std::vector<Answer> answers;
   for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
     const auto hit =
-        SearchTriangles<double>(track.parts, Transform::Identity(), kChunkFromSensor.translation(),
-                                kChunkFromSensor.linear() * DirectionOf(pattern, i));
+        SearchTriangles<double>(track.parts, Transform::Identity(), ChunkFromSensor().translation(),
+                                ChunkFromSensor().linear() * DirectionOf(pattern, i));
     answers.push_back({hit.range_m, hit.range_m <= 300.0 ? hit.part + 1 : 0});
   }
   return answers;
@@ -69,7 +64,7 @@ std::vector<Answer> Ours(const Model& track,
   auto world = std::make_shared<SimpleWorld>();
   world->ground = track;
   world->world_from_chunk = world_from_chunk;
-  world->chunk_from_vehicle = kChunkFromSensor;
+  world->chunk_from_vehicle = ChunkFromSensor();
   const Frame frame = ScanOnce(world, pattern);
   std::vector<Answer> answers;
   for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
@@ -90,7 +85,7 @@ std::vector<Answer> Naive(Model track,
   }
   const TraceDevice device;
   const auto scene = SceneOf(device, track);
-  const Transform world_from_sensor = world_from_chunk * kChunkFromSensor;
+  const Transform world_from_sensor = world_from_chunk * ChunkFromSensor();
   std::vector<Ray> rays;
   for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
     rays.push_back({world_from_sensor.translation().cast<float>(),

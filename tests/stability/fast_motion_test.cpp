@@ -43,7 +43,7 @@ Frame Scan(const Passage& passage, const ScanPattern& pattern) {
   world->velocity_chunk_mps = {passage.sensor_mps, 0.0, 0.0};
   world->AddObject(std::make_shared<Model>(Model{"train", {{MakeBox(passage.train_m), 2, 1}}}),
                    Transform::Identity(), {-passage.train_mps, 0.0, 0.0});
-  const Frame frame = ScanOnce(world, pattern, {}, kFrame);
+  Frame frame = ScanOnce(world, pattern, {}, kFrame);
   ExpectSoundSlots(frame, 0.5F, 300.0F);
   return frame;
 }
@@ -72,9 +72,7 @@ Errors Compare(const Passage& passage, const ScanPattern& pattern) {
   Errors errors;
   for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
     const std::size_t slot = pattern.row[i] * pattern.columns + pattern.column[i];
-    const Vector3 direction =
-        Vector3(pattern.direction_x[i], pattern.direction_y[i], pattern.direction_z[i])
-            .normalized();
+    const Vector3 direction = DirectionOf(pattern, i);
     const double time_s = stamp_s + SecondsFromNs(pattern.time_ns[i]);
     const auto truth_m = Entry_m(passage.SeenAt(time_s, 0.0), direction);
     const auto surely_m = Entry_m(passage.SeenAt(time_s, -kTolerance_m), direction);
@@ -112,8 +110,12 @@ void ExpectSeenAtItsOwnTime(const char* name, const Passage& passage, const Scan
   EXPECT_GT(wrong_share, 0.03);
 }
 
-const Eigen::AlignedBox3d kAhead(Vector3(80.0, -1.5, -2.0), Vector3(105.0, 1.5, 2.0));
-const Eigen::AlignedBox3d kBeside(Vector3(8.0, 2.1, -2.0), Vector3(33.0, 5.1, 2.0));
+Eigen::AlignedBox3d Ahead() {
+  return {Vector3(80.0, -1.5, -2.0), Vector3(105.0, 1.5, 2.0)};
+}
+Eigen::AlignedBox3d BesideFrom(double x_m) {
+  return {Vector3(x_m, 2.1, -2.0), Vector3(x_m + 25.0, 5.1, 2.0)};
+}
 
 /// Rows fire one after the other, from the lowest to the highest.
 ScanPattern RowsInTurn() {
@@ -134,22 +136,21 @@ ScanPattern Spinning() {
 
 TEST(FastMotion, ATrainPassingAt300KmphIsSeenWhereItIsAtEachFiring) {
   const double speed_mps = MpsFromKmph(300.0);
-  ExpectSeenAtItsOwnTime("raster ahead", {0.0, speed_mps, kAhead}, RowsInTurn());
-  ExpectSeenAtItsOwnTime("spinning beside", {0.0, speed_mps, kBeside}, Spinning());
+  ExpectSeenAtItsOwnTime("raster ahead", {0.0, speed_mps, Ahead()}, RowsInTurn());
+  ExpectSeenAtItsOwnTime("spinning beside", {0.0, speed_mps, BesideFrom(8.0)}, Spinning());
 }
 
 TEST(FastMotion, TwoTrainsClosingAt600KmphAreToo) {
   const double speed_mps = MpsFromKmph(300.0);
-  ExpectSeenAtItsOwnTime("raster ahead", {speed_mps, speed_mps, kAhead}, RowsInTurn());
-  const Eigen::AlignedBox3d farther(Vector3(20.0, 2.1, -2.0), Vector3(45.0, 5.1, 2.0));
-  ExpectSeenAtItsOwnTime("spinning beside", {speed_mps, speed_mps, farther}, Spinning());
+  ExpectSeenAtItsOwnTime("raster ahead", {speed_mps, speed_mps, Ahead()}, RowsInTurn());
+  ExpectSeenAtItsOwnTime("spinning beside", {speed_mps, speed_mps, BesideFrom(20.0)}, Spinning());
 }
 
 // The train's front, an upright plane, appears sheared by closing speed times the time from the
 // first to the last row that meets it.
 TEST(FastMotion, AnUprightFrontIsShearedBySpeedTimesTime) {
   const double speed_mps = MpsFromKmph(300.0);
-  const Passage passage{speed_mps, speed_mps, kAhead};
+  const Passage passage{speed_mps, speed_mps, Ahead()};
   const ScanPattern pattern = RowsInTurn();
   const Frame frame = Scan(passage, pattern);
   const std::size_t lowest = frame.width() / 2;

@@ -28,12 +28,13 @@ constexpr std::array kIncidences_deg = {80.0, 85.0, 88.0, 89.0, 89.5, 89.9, 89.9
 constexpr double kRange_m = 100.0;
 
 /// The surfaces lie oblique in their chunk, as on a slope in a curve: z = 0 would hide rounding.
-const Transform kChunkFromSurface =
-    MakeTransform(RotationFromYawPitchRoll(0.3, -0.025, 0.03), {0.7, -0.4, -1.7});
+Transform ChunkFromSurface() {
+  return MakeTransform(RotationFromYawPitchRoll(0.3, -0.025, 0.03), {0.7, -0.4, -1.7});
+}
 
 Mesh InChunk(const Mesh& surface) {
   Mesh mesh;
-  mesh.Append(surface, kChunkFromSurface);
+  mesh.Append(surface, ChunkFromSurface());
   return mesh;
 }
 
@@ -78,16 +79,13 @@ Errors Compare(const Mesh& surface,
                     {0.3, aim_y_m, kRange_m * std::sin(pitch_rad)});
   auto world = std::make_shared<SimpleWorld>();
   world->ground.parts = {{InChunk(surface), 2, 2}};
-  world->chunk_from_vehicle = kChunkFromSurface * surface_from_sensor;
+  world->chunk_from_vehicle = ChunkFromSurface() * surface_from_sensor;
   const Frame frame = ScanOnce(world, pattern);
   ExpectSoundSlots(frame, 0.5F, 300.0F);
   Errors errors;
   for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
     const std::size_t slot = pattern.row[i] * pattern.columns + pattern.column[i];
-    const Vector3 direction =
-        surface_from_sensor.linear() *
-        Vector3(pattern.direction_x[i], pattern.direction_y[i], pattern.direction_z[i])
-            .normalized();
+    const Vector3 direction = surface_from_sensor.linear() * DirectionOf(pattern, i);
     const Meeting truth = closed_form(surface_from_sensor.translation(), direction);
     if (std::isnan(truth.range_m) || frame.label[slot] == 0) {
       errors.num_disagreeing += std::isnan(truth.range_m) != (frame.label[slot] == 0) ? 1 : 0;

@@ -17,8 +17,9 @@ namespace railcast {
 namespace {
 
 /// The wall's plane x = 0 stands oblique and 50 m away, so that no coordinate is a round number.
-const Transform kWindowFromWall =
-    MakeTransform(RotationFromYawPitchRoll(0.4, 0.1, 0.3), {50.0, 0.7, -0.4});
+Transform WindowFromWall() {
+  return MakeTransform(RotationFromYawPitchRoll(0.4, 0.1, 0.3), {50.0, 0.7, -0.4});
+}
 
 /// Parts 0 and 1 in turn, sliver by sliver; part k has label k + 1.
 class SliverWall {
@@ -44,7 +45,7 @@ class SliverWall {
 /// Upright strips, `width_m` wide, two slivers each, 2 m of them side by side.
 SliverWall Strips(double width_m,
                   double aspect,
-                  const Transform& mesh_from_wall = kWindowFromWall) {
+                  const Transform& mesh_from_wall = WindowFromWall()) {
   SliverWall wall(mesh_from_wall);
   const double half_m = 0.5 * aspect * width_m;
   const int count = static_cast<int>(std::lround(2.0 / width_m));
@@ -61,7 +62,7 @@ constexpr double kFanRadius_m = 10.0;
 
 /// Slivers about one apex, `width_m` wide at the rim.
 SliverWall FanOf(double width_m, int count) {
-  SliverWall wall(kWindowFromWall);
+  SliverWall wall(WindowFromWall());
   const auto rim = [&](int i) {
     const double angle_rad = (i - 0.5 * count) * width_m / kFanRadius_m;
     return Eigen::Vector2d(kFanRadius_m * std::cos(angle_rad), kFanRadius_m * std::sin(angle_rad));
@@ -87,9 +88,9 @@ int PartAt(double across, double width_m) {
 }
 
 Aimed AimAt(const Eigen::Vector2d& place_m, int part) {
-  return {
-      RayThrough(Vector3(0.1, -0.2, 0.3), kWindowFromWall * Vector3(0.0, place_m.x(), place_m.y())),
-      part};
+  return {RayThrough(Vector3(0.1, -0.2, 0.3),
+                     WindowFromWall() * Vector3(0.0, place_m.x(), place_m.y())),
+          part};
 }
 
 constexpr std::uint32_t kNumBeams = 20'000;
@@ -122,9 +123,9 @@ std::vector<Aimed> AtFan(double width_m, int count) {
 }
 
 double RangeOf(const Ray& ray) {
-  const Vector3 normal = kWindowFromWall.linear().col(0);
+  const Vector3 normal = WindowFromWall().linear().col(0);
   const Vector3 direction = ray.direction.cast<double>();
-  return normal.dot(kWindowFromWall.translation() - ray.origin_m.cast<double>()) /
+  return normal.dot(WindowFromWall().translation() - ray.origin_m.cast<double>()) /
          normal.dot(direction);
 }
 
@@ -187,9 +188,8 @@ double WorstIncidence_rad(const std::shared_ptr<SimpleWorld>& world) {
   for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
     const std::size_t slot = pattern.row[i] * pattern.columns + pattern.column[i];
     if (frame.label[slot] == 0) continue;
-    const Vector3 direction(pattern.direction_x[i], pattern.direction_y[i], pattern.direction_z[i]);
     const double truth_rad =
-        std::acos(std::abs(direction.normalized().dot(kWindowFromWall.linear().col(0))));
+        std::acos(std::abs(DirectionOf(pattern, i).dot(WindowFromWall().linear().col(0))));
     worst_rad =
         std::max(worst_rad, std::abs(static_cast<double>(frame.incidence_rad[slot]) - truth_rad));
   }
@@ -204,7 +204,7 @@ TEST(SkinnyTriangles, LeanWhereTheirModelIsFarFromItsOrigin) {
   far->ground = Strips(1e-3, 1e5).model();
   auto own = std::make_shared<SimpleWorld>();
   own->AddObject(std::make_shared<Model>(Strips(1e-3, 1e5, Transform::Identity()).model()),
-                 kWindowFromWall);
+                 WindowFromWall());
   const double far_rad = WorstIncidence_rad(far);
   const double own_rad = WorstIncidence_rad(own);
   std::cout << "incidence on slivers of 1 mm, error: 50 m from the model's origin " << 1e3 * far_rad
