@@ -135,6 +135,7 @@ TEST(Returns, StandAtRowTimesWidthPlusColumnTimesReturns) {
     EXPECT_EQ(frame.outcome[slot] == Outcome::kNoFurtherEcho, is_second_of_none) << slot;
   }
   EXPECT_EQ(frame.outcome[0], Outcome::kNoSurface);
+  EXPECT_TRUE(std::isnan(frame.footprint_share[0]));
   EXPECT_EQ(frame.return_count[0], 0);
 }
 
