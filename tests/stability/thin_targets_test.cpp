@@ -99,6 +99,47 @@ TEST(ThinTargets, AWireGivesEveryBeamItsShareAtAnyRange) {
   }
 }
 
+TEST(ThinTargets, AWireDimsTheWallBehindItAndHidesBehindAWallInFront) {
+  const ScanPattern pattern = MakeRaster(0.2, 0.2, 0.02);
+  for (const double wall_m : {90.0, 110.0}) {
+    auto world = WireAcross(100.0);
+    world->ground.parts.push_back({MakeWall(static_cast<float>(wall_m), 20.0F), kGrey, 8});
+    SimulatorSpec spec = Spec(kBeam);
+    spec.receiver.return_mode = "dual";
+    const Frame frame = ScanOnce(world, pattern, spec);
+    std::size_t num_seen = 0;
+    for (std::size_t slot = 0; slot < frame.num_slots(); slot += 2) {
+      ASSERT_EQ(frame.label[slot], 8U) << "the wall is the stronger";
+      const std::size_t firing = std::size_t{frame.column[slot]} * pattern.rows + frame.ring[slot];
+      // Where the wire is too weak for an echo of its own, its light counts as the wall's: up to
+      // 0.01 of the beam, of which it answers with pi / 4.
+      const bool is_seen = frame.return_count[slot] == 2;
+      const double share = is_seen ? ShareOfWire(DirectionOf(pattern, firing), 100.0) : 0.0;
+      num_seen += is_seen ? 1 : 0;
+      ASSERT_NEAR(static_cast<double>(frame.footprint_share[slot]), 1.0 - share, 1e-3);
+      ASSERT_NEAR(static_cast<double>(frame.intensity[slot]), kReflectance * (1.0 - share), 1.5e-3);
+    }
+    EXPECT_EQ(num_seen > 20, wall_m > 100.0) << num_seen;
+  }
+}
+
+TEST(ThinTargets, AWireLosesPowerInFogAsAnythingDoes) {
+  SimulatorSpec spec = Spec(kBeam);
+  spec.effects.extinction = true;
+  spec.weather.visibility_m = 200.0;
+  const Frame frame = ScanOnce(WireAcross(100.0), MakeRaster(0.2, 0.2, 0.02), spec);
+  std::size_t checked = 0;
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    if (frame.label[slot] != 7) continue;
+    const double range_m = static_cast<double>(frame.true_range_m[slot]);
+    const double expected = static_cast<double>(frame.intensity[slot]) * 4e5 / (range_m * range_m) *
+                            std::exp(-2.0 * std::log(20.0) / 200.0 * range_m);
+    ASSERT_NEAR(static_cast<double>(frame.power_ratio[slot]) / expected, 1.0, 1e-4);
+    ++checked;
+  }
+  EXPECT_GT(checked, 50U);
+}
+
 // The share of columns in which any of the beams meets the wire.
 double ShareOfColumnsThatHit(const Frame& frame) {
   std::vector<bool> is_hit(frame.columns);

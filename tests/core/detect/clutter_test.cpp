@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "core/detect/weather_optics.h"
@@ -150,6 +152,19 @@ TEST(Clutter, DropsStayWhereTheyAreWhateverElseIsOn) {
   }
   EXPECT_GT(rain.size(), 3000U);
   EXPECT_EQ(rain, only_rain);
+}
+
+// One number for two echoes would be one draw for both.
+TEST(Clutter, GivesEveryDropAndFlakeOfAFiringItsOwnNumber) {
+  DetectorSpec spec = RainSpec(1.0);
+  spec.weather.snow_rate_mmph = 2.0;
+  FacingBeams beams;
+  beams.num_firings = 1U << 12U;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> numbers;
+  const auto clutter = ClutterOf(DetectFacing(spec, beams));
+  for (const FacingEcho& echo : clutter) numbers.insert({echo.firing, echo.echo});
+  EXPECT_EQ(numbers.size(), clutter.size());
+  EXPECT_GT(clutter.size(), 10'000U);
 }
 
 TEST(Clutter, ComesFromNothingWithoutWeather) {

@@ -93,10 +93,10 @@ TEST(Returns, ReportTheEchoThatTheModeAsksFor) {
 
 TEST(Returns, GiveTheSecondStrongestWhereTheStrongestIsLast) {
   const std::vector<HandMade> echoes = {{40.0F, 9.0F, Outcome::kReturned, 1},
-                                        {10.0F, 2.0F, Outcome::kReturned, 2},
-                                        {20.0F, 5.0F, Outcome::kReturned, 3}};
-  EXPECT_EQ(Chosen(ReturnMode::kDual, echoes), (Surfaces{1, 3}));
-  EXPECT_EQ(Chosen(ReturnMode::kTriple, echoes), (Surfaces{1, 3, 2}));
+                                        {10.0F, 5.0F, Outcome::kReturned, 2},
+                                        {20.0F, 2.0F, Outcome::kReturned, 3}};
+  EXPECT_EQ(Chosen(ReturnMode::kDual, echoes), (Surfaces{1, 2}));
+  EXPECT_EQ(Chosen(ReturnMode::kTriple, echoes), (Surfaces{1, 2, 3}));
 }
 
 TEST(Returns, GiveTheNextStrongestWhereTheFirstIsTakenAlready) {
