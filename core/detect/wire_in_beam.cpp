@@ -10,6 +10,7 @@ namespace railcast {
 namespace {
 
 constexpr double kNear_m = 0.01;
+constexpr double kNoticed = 4.0;  // Sigmas; there is 3e-5 of the beam outside on a side.
 constexpr double kLeastSigma_rad = 1e-7;
 constexpr double kLeastShare = 1e-12;  // Of a part: below the tables' error.
 constexpr double kRangeStep = 1.2;     // Linear pictures hold to a few per cent up to this.
@@ -75,7 +76,8 @@ WireInBeam FindPart(const Image& image, const Sight& begin, const Sight& end, do
   // The beam's sigma along the normal of the image, which undoing the division turns.
   const double run_x = image.sigma_h * image.direction[0];
   const double run_y = image.sigma_v * image.direction[1];
-  const double sigma_across = image.sigma_h * image.sigma_v / std::hypot(run_x, run_y);
+  const double sigma_across =
+      image.sigma_h * image.sigma_v / std::sqrt(run_x * run_x + run_y * run_y);
   const double half_width = radius_m / axis_m / sigma_across;
   const double share =
       NormalShare(image.distance - half_width, image.distance + half_width) * along.share;
@@ -169,7 +171,12 @@ WireInBeam FindWireInBeam(const WideBeam& beam, const WireSegment& wire) {
   image.begin = {direction.dot(first), 1.0 / begin_m.z()};
   image.end = {direction.dot(first) + length, 1.0 / end_m.z()};
 
-  if (image.begin.across >= kNormalReach || image.end.across <= -kNormalReach) return {};
+  if (image.begin.across > kNoticed || image.end.across < -kNoticed) return {};
+  const double nearest_per_m =
+      std::max(image.begin.inverse_depth_per_m, image.end.inverse_depth_per_m);
+  const double half_width_max =
+      static_cast<double>(wire.radius_m) * nearest_per_m / sigmas.minCoeff();
+  if (std::fabs(image.distance) > kNoticed + half_width_max) return {};
   Sight from = image.begin;
   Sight to = image.end;
   if (from.across < -kNormalReach)

@@ -42,8 +42,8 @@ struct WireInBeam {
 /// are added.
 ///
 /// Validity: radius < 0.1 range. The cut ends are not seen. What is less than 1 cm in front of the
-/// sensor is left out, and what is beyond six sigma (2e-9 of the beam). A sigma below 1e-7 rad
-/// counts as that: a ray, which the wire catches whole or not at all.
+/// sensor is left out, and a wire that lies beyond four sigmas (3e-5 of the beam) is missed. A
+/// sigma below 1e-7 rad counts as that: a ray, which the wire catches whole or not at all.
 [[nodiscard]] WireInBeam FindWireInBeam(const WideBeam& beam, const WireSegment& wire);
 
 }  // namespace railcast
