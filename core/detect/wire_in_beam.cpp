@@ -10,7 +10,6 @@ namespace railcast {
 namespace {
 
 constexpr double kNear_m = 0.01;
-constexpr double kNoticed = 4.0;  // Sigmas; there is 3e-5 of the beam outside on a side.
 constexpr double kLeastSigma_rad = 1e-7;
 constexpr double kLeastShare = 1e-12;  // Of a part: below the tables' error.
 constexpr double kRangeStep = 1.2;     // Linear pictures hold to a few per cent up to this.
@@ -107,7 +106,7 @@ class PartSum {
     if (!(share_ > 0.0)) return {};
     const double range_m = range_m_ / share_;
     const double variance_m2 = range_square_m2_ / share_ - range_m * range_m;
-    return {.share = share_,
+    return {.share = std::min(share_, 1.0),  // Sums round.
             .range_m = range_m,
             .spread_m = std::sqrt(std::max(variance_m2, 0.0)),
             .sin_axis = sin_axis_ / share_};
@@ -171,12 +170,12 @@ WireInBeam FindWireInBeam(const WideBeam& beam, const WireSegment& wire) {
   image.begin = {direction.dot(first), 1.0 / begin_m.z()};
   image.end = {direction.dot(first) + length, 1.0 / end_m.z()};
 
-  if (image.begin.across > kNoticed || image.end.across < -kNoticed) return {};
+  if (image.begin.across > kNormalReach || image.end.across < -kNormalReach) return {};
   const double nearest_per_m =
       std::max(image.begin.inverse_depth_per_m, image.end.inverse_depth_per_m);
   const double half_width_max =
       static_cast<double>(wire.radius_m) * nearest_per_m / sigmas.minCoeff();
-  if (std::fabs(image.distance) > kNoticed + half_width_max) return {};
+  if (std::fabs(image.distance) > kNormalReach + half_width_max) return {};
   Sight from = image.begin;
   Sight to = image.end;
   if (from.across < -kNormalReach)

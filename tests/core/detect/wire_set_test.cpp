@@ -24,7 +24,8 @@ TEST(WireSet, EverySegmentIsInsideTheBallOfItsGroupAndInOneGroup) {
     for (std::uint32_t i = group.first_segment; i < next; ++i) {
       const WireSegment& segment = wires.segments[i];
       for (const Eigen::Vector3f& end_m : {segment.begin_m, segment.end_m}) {
-        EXPECT_LE((end_m - group.ball.center_m).norm() + segment.radius_m, group.ball.radius_m * 1.000001F);
+        EXPECT_LE((end_m - group.ball.center_m).norm() + segment.radius_m,
+                  group.ball.radius_m * 1.000001F);
       }
     }
   }
