@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <tuple>
 
+#include "core/detect/beam_bounds.h"
 #include "core/detect/wire_in_beam.h"
 #include "core/scan/scan_pattern.h"
 
@@ -12,102 +13,17 @@ namespace railcast {
 namespace {
 
 // Almost all beams pass almost all wires, so that most of the work is to say no. Three sieves, each
-// of which lets through whatever might be captured: the cone round a tile against balls round
-// wires, the cones round its packets against what a segment looks like from there, and single beams
+// of which lets through whatever might be captured: a pyramid round the tile against balls round
+// wires, cones round its packets against what a segment looks like from there, and single beams
 // against the segment itself.
-// Angles are bounded by chords between unit vectors, which add up like angles.
 
 // Outside four sigmas of the nearest point of a wire's image there is 3e-5 of the beam.
 constexpr double kSieveSigmas = 4.0;
 // For rounding, and for the difference of tangents, angles and chords in beams of some degrees.
 constexpr double kSieveSlack = 1.05;
 constexpr double kSieveSlack_rad = 2e-6;
-constexpr float kSieveSlack_m = 1e-3F;  // Rounding of coordinates up to 1 km is below 1e-4 m.
-constexpr float kEverywhere_m = 1e6F;
-constexpr float kAnyChord = 4.0F;  // Lets everything through.
 
 constexpr std::size_t kNumPackets = kTileSize / kPacketSize;
-
-/// Beams as one cone from the middle of their origins.
-struct Cone {
-  Eigen::Vector3f origin_m;
-  Eigen::Vector3f direction;
-  float spread_m{};        ///< The farthest of the origins from their middle, and slack.
-  float chord{};           ///< From the middle direction to where a beam may capture something.
-  float cosine{}, sine{};  ///< Of the angle of that.
-
-  void SetChord(float to) {
-    chord = to;
-    cosine = 1.0F - 0.5F * chord * chord;  // chord = 2 sin(angle / 2)
-    sine = std::sqrt(std::max(0.0F, 1.0F - cosine * cosine));
-    if (cosine > 0.1F) return;
-    // Beams all round: the cone that holds everything.
-    direction = Eigen::Vector3f::UnitX();
-    spread_m = kEverywhere_m;
-    chord = kAnyChord;
-    cosine = 0.0F;
-    sine = 1.0F;
-  }
-};
-
-/// @param reach Chord to a beam's middle within which it captures something.
-Cone BoundPacket(const RayTile& rays, std::size_t first, float reach) {
-  const auto origin_m = [&](std::size_t i) {
-    return Eigen::Vector3f(rays.origin_x[i], rays.origin_y[i], rays.origin_z[i]);
-  };
-  const auto direction = [&](std::size_t i) {
-    return Eigen::Vector3f(rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]);
-  };
-  Eigen::Vector3f origins = Eigen::Vector3f::Zero();
-  Eigen::Vector3f directions = Eigen::Vector3f::Zero();
-  for (std::size_t i = first; i < first + kPacketSize; ++i) {
-    origins += origin_m(i);
-    directions += direction(i);
-  }
-  Cone cone;
-  cone.origin_m = origins / static_cast<float>(kPacketSize);
-  cone.direction = directions.normalized();
-  float origin_square = 0.0F;
-  float direction_square = 0.0F;
-  for (std::size_t i = first; i < first + kPacketSize; ++i) {
-    origin_square = std::max(origin_square, (origin_m(i) - cone.origin_m).squaredNorm());
-    direction_square = std::max(direction_square, (direction(i) - cone.direction).squaredNorm());
-  }
-  cone.spread_m = std::sqrt(origin_square) + kSieveSlack_m;
-  cone.SetChord(std::sqrt(direction_square) + reach);
-  return cone;
-}
-
-/// A cone round others.
-Cone BoundCones(const Cone* cones, std::size_t num_cones) {
-  Cone all = cones[0];
-  for (std::size_t i = 1; i < num_cones; ++i) {
-    all.origin_m += cones[i].origin_m;
-    all.direction += cones[i].direction;
-  }
-  all.origin_m /= static_cast<float>(num_cones);
-  all.direction.normalize();
-  float chord = 0.0F;
-  for (std::size_t i = 0; i < num_cones; ++i) {
-    const float apart_m = (cones[i].origin_m - all.origin_m).norm();
-    all.spread_m = std::max(all.spread_m, apart_m + cones[i].spread_m);
-    chord = std::max(chord, (cones[i].direction - all.direction).norm() + cones[i].chord);
-  }
-  all.SetChord(chord);
-  return all;
-}
-
-/// Whether the beams may capture something in the ball. In the plane of the ball's middle and the
-/// cone's axis, that middle's distance from the cone's surface is across cos - along sin.
-bool MayCapture(const Cone& cone, const WireBall& ball) {
-  const Eigen::Vector3f from_cone_m = ball.center_m - cone.origin_m;
-  const float radius_m = ball.radius_m + cone.spread_m;
-  const float along_m = from_cone_m.dot(cone.direction);
-  const float across_square_m2 = from_cone_m.squaredNorm() - along_m * along_m;
-  const float bound_m = radius_m + along_m * cone.sine;
-  return along_m + radius_m >= 0.0F &&
-         across_square_m2 * cone.cosine * cone.cosine <= bound_m * bound_m;
-}
 
 /// A segment as an arc of directions from a cone's origin: the part of a great circle's plane (its
 /// normal) between two others (their normals, pointing inwards).
@@ -129,18 +45,18 @@ float DistanceToOrigin_m(const Eigen::Vector3f& begin_m, const Eigen::Vector3f& 
   return (begin_m + at * run_m).norm();
 }
 
-/// A segment as a disc of directions from a cone's origin: much less than its ball, where it runs
+/// A segment as a disc of directions from a tile's origin: much less than its ball, where it runs
 /// away from the sensor.
 struct WireDisc {
   Eigen::Vector3f direction;
   float chord{};
 };
 
-WireDisc BoundByDisc(const WireSegment& wire, const Cone& cone) {
-  const Eigen::Vector3f begin_m = wire.begin_m - cone.origin_m;
-  const Eigen::Vector3f end_m = wire.end_m - cone.origin_m;
+WireDisc BoundByDisc(const WireSegment& wire, const BeamPyramid& beams) {
+  const Eigen::Vector3f begin_m = wire.begin_m - beams.origin_m;
+  const Eigen::Vector3f end_m = wire.end_m - beams.origin_m;
   const float distance_m = DistanceToOrigin_m(begin_m, end_m - begin_m);
-  const float aside_m = wire.radius_m + cone.spread_m;
+  const float aside_m = wire.radius_m + beams.spread_m;
   if (distance_m < kNearest * aside_m) return {Eigen::Vector3f::UnitX(), kAnyChord};
   const Eigen::Vector3f begin = begin_m.normalized();
   const Eigen::Vector3f end = end_m.normalized();
@@ -149,7 +65,7 @@ WireDisc BoundByDisc(const WireSegment& wire, const Cone& cone) {
                       kAsideChord * aside_m / distance_m};
 }
 
-WireArc BoundByArc(const WireSegment& wire, const Cone& cone, float beam_reach) {
+WireArc BoundByArc(const WireSegment& wire, const BeamCone& cone, float beam_reach) {
   WireArc arc{Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero(), kAnyChord};
   const Eigen::Vector3f begin_m = wire.begin_m - cone.origin_m;
   const Eigen::Vector3f end_m = wire.end_m - cone.origin_m;
@@ -227,8 +143,8 @@ struct Tile {
   const RayTile& rays;
   const BeamShape& shape;
   float reach{};
-  Cone cone;
-  Cone packets[kNumPackets];
+  BeamPyramid beams;
+  BeamCone packets[kNumPackets];
   /// The same once more, struct of arrays.
   float packet_x[kNumPackets], packet_y[kNumPackets], packet_z[kNumPackets];
   float packet_chord[kNumPackets];
@@ -240,14 +156,14 @@ Tile PrepareTile(const RayTile& rays, const BeamShape& shape) {
   Tile tile{rays, shape, static_cast<float>(reach), {}, {}, {}, {}, {}, {}};
   const std::size_t num_packets = rays.num_rays / kPacketSize;
   for (std::size_t i = 0; i < num_packets; ++i) {
-    const Cone cone = BoundPacket(rays, i * kPacketSize, tile.reach);
+    const BeamCone cone = BoundPacket(rays, i * kPacketSize, tile.reach);
     tile.packets[i] = cone;
     tile.packet_x[i] = cone.direction.x();
     tile.packet_y[i] = cone.direction.y();
     tile.packet_z[i] = cone.direction.z();
     tile.packet_chord[i] = cone.chord;
   }
-  tile.cone = BoundCones(tile.packets, num_packets);
+  tile.beams = BoundCones(tile.packets, num_packets);
   return tile;
 }
 
@@ -265,7 +181,7 @@ void FindPacketDepths(const Tile& tile, const WireDisc& disc, float depths[kNumP
 
 void CaptureSegment(const Tile& tile, const WireSegment& wire, std::vector<WireCapture>& captures) {
   alignas(64) float packet_depths[kNumPackets];
-  FindPacketDepths(tile, BoundByDisc(wire, tile.cone), packet_depths);
+  FindPacketDepths(tile, BoundByDisc(wire, tile.beams), packet_depths);
   for (std::size_t packet = 0; packet < tile.rays.num_rays / kPacketSize; ++packet) {
     if (packet_depths[packet] < 0.0F) continue;
     const WireArc arc = BoundByArc(wire, tile.packets[packet], tile.reach);
@@ -288,9 +204,9 @@ void CaptureWires(const RayTile& rays,
   const auto old_size = static_cast<std::ptrdiff_t>(captures.size());
   const Tile tile = PrepareTile(rays, beam);
   for (const WireGroup& group : wires.groups) {
-    if (!MayCapture(tile.cone, group.ball)) continue;
+    if (!MayCapture(tile.beams, group.ball)) continue;
     for (std::uint32_t i = group.first_segment; i < group.end_segment; ++i) {
-      if (!MayCapture(tile.cone, wires.balls[i])) continue;
+      if (!MayCapture(tile.beams, wires.balls[i])) continue;
       CaptureSegment(tile, wires.segments[i], captures);
     }
   }

@@ -10,6 +10,7 @@ namespace railcast {
 namespace {
 
 constexpr double kNear_m = 0.01;
+constexpr double kNoticedSigmas = 4.0;
 constexpr double kLeastSigma_rad = 1e-7;
 constexpr double kLeastShare = 1e-12;  // Of a part: below the tables' error.
 constexpr double kRangeStep = 1.2;     // Linear pictures hold to a few per cent up to this.
@@ -175,7 +176,7 @@ WireInBeam FindWireInBeam(const WideBeam& beam, const WireSegment& wire) {
       std::max(image.begin.inverse_depth_per_m, image.end.inverse_depth_per_m);
   const double half_width_max =
       static_cast<double>(wire.radius_m) * nearest_per_m / sigmas.minCoeff();
-  if (std::fabs(image.distance) > kNormalReach + half_width_max) return {};
+  if (std::fabs(image.distance) > kNoticedSigmas + half_width_max) return {};
   Sight from = image.begin;
   Sight to = image.end;
   if (from.across < -kNormalReach)

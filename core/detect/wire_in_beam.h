@@ -43,8 +43,9 @@ struct WireInBeam {
 /// are added.
 ///
 /// Validity: radius < 0.1 range. An end is cut along the line of sight, and its face not seen. What
-/// is less than 1 cm in front of the sensor is left out, and what is beyond six sigmas (2e-9 of the
-/// beam). A sigma below 1e-7 rad counts as that: a ray, which the wire catches whole or not at all.
+/// is less than 1 cm in front of the sensor is left out, and a wire that passes the beam's middle
+/// at more than four sigmas (3e-5 of the beam). A sigma below 1e-7 rad counts as that: a ray, which
+/// the wire catches whole or not at all.
 [[nodiscard]] WireInBeam FindWireInBeam(const WideBeam& beam, const WireSegment& wire);
 
 }  // namespace railcast

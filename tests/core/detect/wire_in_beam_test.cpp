@@ -13,7 +13,7 @@
 namespace railcast {
 namespace {
 
-constexpr int kNumSamples = 2'000'000;
+constexpr int kNumSamples = 1'000'000;
 constexpr double kMilli = 1e-3;
 // 3.0 x 1.5 mrad full angle between the 1/e^2 points.
 constexpr double kSigmaWide_rad = 0.75 * kMilli;
