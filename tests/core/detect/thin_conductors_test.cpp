@@ -28,16 +28,17 @@ void SetRay(RayTile& rays, std::size_t i, const Vector3& origin_m, const Vector3
   rays.direction_z[i] = static_cast<float>(direction.z());
 }
 
-/// 16 x 16 beams 4 mrad apart round a point, from a sensor that moves 0.5 m meanwhile.
-std::unique_ptr<RayTile> RasterTowards(const Vector3& target_m) {
+/// Columns of beams 4 mrad apart round a point, from a sensor that moves 0.5 m meanwhile.
+std::unique_ptr<RayTile> RasterTowards(const Vector3& target_m, std::size_t num_columns = 16) {
   auto rays = std::make_unique<RayTile>();
   rays->num_rays = kTileSize;
   const Vector3 forward = target_m.normalized();
   const Vector3 left = Vector3::UnitZ().cross(forward).normalized();
   for (std::size_t i = 0; i < kTileSize; ++i) {
-    const double x = 0.004 * (static_cast<double>(i % 16) - 7.3);
-    const double y = 0.004 * (static_cast<double>(i / 16) - 7.4);
-    SetRay(*rays, i, {0.5 * static_cast<double>(i) / kTileSize, 0.0, 0.0},
+    const double x = 0.004 * (static_cast<double>(i % num_columns) - 7.3);
+    const double y = 0.004 * (static_cast<double>(i / num_columns) - 7.4);
+    const double time = static_cast<double>(i) / kTileSize - 0.5;
+    SetRay(*rays, i, {0.4 * time, 0.3 * time, 0.0},
            (forward + x * left + y * forward.cross(left)).normalized());
   }
   return rays;
@@ -138,15 +139,17 @@ TEST(CaptureWires, FindsWhatEveryBeamAgainstEverySegmentFinds) {
   for (const Vector3& target_m :
        {Vector3(60, 0, 3), Vector3(20, 0, 3), Vector3(200, 2, 3), Vector3(-30, 4, 4),
         Vector3(1, 5, 1), Vector3(0.1, 0.1, 3), Vector3(5, -20, -8)}) {
-    for (const double scale : {0.0, 0.3, 1.0, 6.0}) {  // Up to 1 deg full angle.
-      const BeamShape shape{Eigen::Vector3f::UnitZ(), scale * kSigmaH_rad, scale * kSigmaV_rad};
-      const auto rays = RasterTowards(target_m);
-      const auto captures = Capture(*rays, wires, shape);
-      ExpectSame(captures, CaptureSlowly(*rays, shape, wires));
-      num_found += captures.size();
+    for (const std::size_t num_columns : {16, 4, 128}) {
+      const auto rays = RasterTowards(target_m, num_columns);
+      for (const double scale : {0.0, 0.3, 1.0, 6.0}) {  // Up to 1 deg full angle.
+        const BeamShape shape{Eigen::Vector3f::UnitZ(), scale * kSigmaH_rad, scale * kSigmaV_rad};
+        const auto captures = Capture(*rays, wires, shape);
+        ExpectSame(captures, CaptureSlowly(*rays, shape, wires));
+        num_found += captures.size();
+      }
     }
   }
-  EXPECT_GT(num_found, 2000U);
+  EXPECT_GT(num_found, 6000U);
   const auto scattered = ScatteredRays();
   const BeamShape wide{Eigen::Vector3f::UnitZ(), 6.0 * kSigmaH_rad, 6.0 * kSigmaV_rad};
   const auto captures = Capture(*scattered, wires, wide);
