@@ -74,7 +74,7 @@ BeamPyramid BoundCones(const BeamCone* cones, std::size_t num_cones) {
   const Eigen::Vector3f side =
       across.norm() > 1e-6F ? across.normalized() : beams.direction.unitOrthogonal();
   const Eigen::Vector3f axes[2] = {side, side.cross(beams.direction)};
-  for (int axis = 0; axis < 2; ++axis) {
+  for (std::size_t axis = 0; axis < 2; ++axis) {
     float min = 0.0F;
     float max = 0.0F;
     for (std::size_t i = 0; i < num_cones; ++i) {

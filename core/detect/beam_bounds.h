@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 
 #include "core/detect/wire_set.h"
@@ -27,8 +28,8 @@ struct BeamCone {
 struct BeamPyramid {
   Eigen::Vector3f origin_m;
   Eigen::Vector3f direction;
-  Eigen::Vector3f outward[4];  ///< Normals of the planes; 0 = no plane.
-  float spread_m{};            ///< As that of a cone.
+  std::array<Eigen::Vector3f, 4> outward;  ///< Normals of the planes; 0 = no plane.
+  float spread_m{};                        ///< As that of a cone.
 };
 
 [[nodiscard]] BeamPyramid BoundCones(const BeamCone* cones, std::size_t num_cones);

@@ -107,14 +107,15 @@ void FindDepths(const RayTile& rays,
 }
 
 WideBeam BeamOfLane(const RayTile& rays, std::size_t lane, const BeamShape& shape) {
-  WideBeam beam{
-      .origin_m = Vector3(rays.origin_x[lane], rays.origin_y[lane], rays.origin_z[lane]),
-      .direction = Vector3(rays.direction_x[lane], rays.direction_y[lane], rays.direction_z[lane])
-                       .normalized(),
-      .horizontal = {},
-      .vertical = {},
-      .sigma_horizontal_rad = shape.sigma_horizontal_rad,
-      .sigma_vertical_rad = shape.sigma_vertical_rad};
+  const Eigen::Vector3f origin_m(rays.origin_x[lane], rays.origin_y[lane], rays.origin_z[lane]);
+  const Eigen::Vector3f direction(rays.direction_x[lane], rays.direction_y[lane],
+                                  rays.direction_z[lane]);
+  WideBeam beam{.origin_m = origin_m.cast<double>(),
+                .direction = direction.cast<double>().normalized(),
+                .horizontal = {},
+                .vertical = {},
+                .sigma_horizontal_rad = shape.sigma_horizontal_rad,
+                .sigma_vertical_rad = shape.sigma_vertical_rad};
   const Vector3 up = shape.up_window.cast<double>();
   const Vector3 horizontal = up.cross(beam.direction);
   // A beam along the sensor's axis has no horizontal: any will do, always the same.

@@ -172,17 +172,17 @@ WireInBeam FindWireInBeam(const WideBeam& beam, const WireSegment& wire) {
   image.end = {direction.dot(first) + length, 1.0 / end_m.z()};
 
   if (image.begin.across > kNormalReach || image.end.across < -kNormalReach) return {};
+  const auto radius_m = static_cast<double>(wire.radius_m);
   const double nearest_per_m =
       std::max(image.begin.inverse_depth_per_m, image.end.inverse_depth_per_m);
-  const double half_width_max =
-      static_cast<double>(wire.radius_m) * nearest_per_m / sigmas.minCoeff();
+  const double half_width_max = radius_m * nearest_per_m / sigmas.minCoeff();
   if (std::fabs(image.distance) > kNoticedSigmas + half_width_max) return {};
   Sight from = image.begin;
   Sight to = image.end;
   if (from.across < -kNormalReach)
     from = {-kNormalReach, image.InverseDepthAt_per_m(-kNormalReach)};
   if (to.across > kNormalReach) to = {kNormalReach, image.InverseDepthAt_per_m(kNormalReach)};
-  return AddParts(image, from, to, wire.radius_m);
+  return AddParts(image, from, to, radius_m);
 }
 
 }  // namespace railcast
