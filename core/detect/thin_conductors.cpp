@@ -108,10 +108,11 @@ void FindDepths(const RayTile& rays,
 
 WideBeam BeamOfLane(const RayTile& rays, std::size_t lane, const BeamShape& shape) {
   const Eigen::Vector3f origin_m(rays.origin_x[lane], rays.origin_y[lane], rays.origin_z[lane]);
-  const Eigen::Vector3f direction(rays.direction_x[lane], rays.direction_y[lane],
-                                  rays.direction_z[lane]);
+  const Vector3 direction =
+      Eigen::Vector3f(rays.direction_x[lane], rays.direction_y[lane], rays.direction_z[lane])
+          .cast<double>();
   WideBeam beam{.origin_m = origin_m.cast<double>(),
-                .direction = direction.cast<double>().normalized(),
+                .direction = direction.normalized(),
                 .horizontal = {},
                 .vertical = {},
                 .sigma_horizontal_rad = shape.sigma_horizontal_rad,

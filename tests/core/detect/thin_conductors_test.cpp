@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kSigmaH_rad = 0.75e-3;
 constexpr double kSigmaV_rad = 0.375e-3;
-const BeamShape kShape{Eigen::Vector3f::UnitZ(), kSigmaH_rad, kSigmaV_rad};
+const BeamShape vlp16_beam{Eigen::Vector3f::UnitZ(), kSigmaH_rad, kSigmaV_rad};
 
 void SetRay(RayTile& rays, std::size_t i, const Vector3& origin_m, const Vector3& direction) {
   rays.origin_x[i] = static_cast<float>(origin_m.x());
@@ -36,12 +36,22 @@ std::unique_ptr<RayTile> RasterTowards(const Vector3& target_m, std::size_t num_
   const Vector3 left = Vector3::UnitZ().cross(forward).normalized();
   for (std::size_t i = 0; i < kTileSize; ++i) {
     const double x = 0.004 * (static_cast<double>(i % num_columns) - 7.3);
-    const double y = 0.004 * (static_cast<double>(i / num_columns) - 7.4);
+    const std::size_t row = i / num_columns;
+    const double y = 0.004 * (static_cast<double>(row) - 7.4);
     const double time = static_cast<double>(i) / kTileSize - 0.5;
     SetRay(*rays, i, {0.4 * time, 0.3 * time, 0.0},
            (forward + x * left + y * forward.cross(left)).normalized());
   }
   return rays;
+}
+
+Vector3 OriginOf(const RayTile& rays, std::size_t i) {
+  return Eigen::Vector3f(rays.origin_x[i], rays.origin_y[i], rays.origin_z[i]).cast<double>();
+}
+
+Vector3 DirectionOf(const RayTile& rays, std::size_t i) {
+  return Eigen::Vector3f(rays.direction_x[i], rays.direction_y[i], rays.direction_z[i])
+      .cast<double>();
 }
 
 /// Beams in any direction from anywhere within some metres.
@@ -88,13 +98,12 @@ std::vector<WireCapture> CaptureSlowly(const RayTile& rays,
                                        const WireSet& wires) {
   std::vector<WireCapture> captures;
   for (std::uint32_t i = 0; i < rays.num_rays; ++i) {
-    WideBeam beam{
-        .origin_m = Vector3(rays.origin_x[i], rays.origin_y[i], rays.origin_z[i]),
-        .direction = Vector3(rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]),
-        .horizontal = {},
-        .vertical = {},
-        .sigma_horizontal_rad = shape.sigma_horizontal_rad,
-        .sigma_vertical_rad = shape.sigma_vertical_rad};
+    WideBeam beam{.origin_m = OriginOf(rays, i),
+                  .direction = DirectionOf(rays, i),
+                  .horizontal = {},
+                  .vertical = {},
+                  .sigma_horizontal_rad = shape.sigma_horizontal_rad,
+                  .sigma_vertical_rad = shape.sigma_vertical_rad};
     beam.direction.normalize();
     beam.horizontal = shape.up_window.cast<double>().cross(beam.direction).normalized();
     beam.vertical = beam.direction.cross(beam.horizontal);
@@ -115,7 +124,7 @@ std::vector<WireCapture> CaptureSlowly(const RayTile& rays,
 
 std::vector<WireCapture> Capture(const RayTile& rays,
                                  const WireSet& wires,
-                                 const BeamShape& shape = kShape) {
+                                 const BeamShape& shape = vlp16_beam) {
   std::vector<WireCapture> captures;
   CaptureWires(rays, shape, wires, captures);
   return captures;
@@ -139,7 +148,7 @@ TEST(CaptureWires, FindsWhatEveryBeamAgainstEverySegmentFinds) {
   for (const Vector3& target_m :
        {Vector3(60, 0, 3), Vector3(20, 0, 3), Vector3(200, 2, 3), Vector3(-30, 4, 4),
         Vector3(1, 5, 1), Vector3(0.1, 0.1, 3), Vector3(5, -20, -8)}) {
-    for (const std::size_t num_columns : {16, 4, 128}) {
+    for (const std::size_t num_columns : {16U, 4U, 128U}) {
       const auto rays = RasterTowards(target_m, num_columns);
       for (const double scale : {0.0, 0.3, 1.0, 6.0}) {  // Up to 1 deg full angle.
         const BeamShape shape{Eigen::Vector3f::UnitZ(), scale * kSigmaH_rad, scale * kSigmaV_rad};
@@ -168,8 +177,7 @@ TEST(CaptureWires, ABeamsCapturesDoNotDependOnItsTile) {
   const auto is_raster = [](std::uint32_t lane) { return lane % 4 == 0; };
   for (std::uint32_t i = 0; i < kTileSize; ++i) {
     if (!is_raster(i)) continue;
-    SetRay(*mixed, i, {raster->origin_x[i], raster->origin_y[i], raster->origin_z[i]},
-           {raster->direction_x[i], raster->direction_y[i], raster->direction_z[i]});
+    SetRay(*mixed, i, OriginOf(*raster, i), DirectionOf(*raster, i));
   }
   const auto keep = [&](std::vector<WireCapture> captures) {
     std::erase_if(captures, [&](const WireCapture& c) { return !is_raster(c.lane); });
@@ -189,7 +197,7 @@ TEST(CaptureWires, TwoWiresInABeamAreTwoCapturesTheNearerFirst) {
     SetRay(*rays, i, Vector3::Zero(), Vector3(i == 5 ? 1.0 : -1.0, 0.0, 0.0));
   }
   std::vector<WireCapture> captures(1);  // What is there stays.
-  CaptureWires(*rays, kShape, wires, captures);
+  CaptureWires(*rays, vlp16_beam, wires, captures);
   ASSERT_EQ(captures.size(), 3U);
   EXPECT_EQ(captures[1].lane, 5U);
   EXPECT_EQ(captures[2].lane, 5U);
@@ -216,8 +224,7 @@ TEST(CaptureWires, TurningEverythingChangesNothing) {
     auto turned = std::make_unique<RayTile>();
     turned->num_rays = kTileSize;
     for (std::size_t i = 0; i < kTileSize; ++i) {
-      SetRay(*turned, i, turn * Vector3(rays->origin_x[i], rays->origin_y[i], rays->origin_z[i]),
-             turn * Vector3(rays->direction_x[i], rays->direction_y[i], rays->direction_z[i]));
+      SetRay(*turned, i, turn * OriginOf(*rays, i), turn * DirectionOf(*rays, i));
     }
     WireSet turned_wires;
     for (const auto& line : lines) turned_wires.Add({turn * line[0], turn * line[1]}, 6e-3, 1);
