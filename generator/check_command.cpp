@@ -9,6 +9,7 @@
 #include "core/scenario/scenario.h"
 #include "generator/check_report.h"
 #include "generator/commands.h"
+#include "generator/effects_report.h"
 
 namespace railcast {
 namespace {
