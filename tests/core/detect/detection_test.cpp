@@ -10,10 +10,12 @@ namespace railcast {
 namespace {
 
 constexpr std::uint32_t kNumDraws = 1U << 18U;
-constexpr DetectionParameters kSmooth{.seed = 11, .snr_at_threshold = 5.0F, .is_smooth = true};
+constexpr DetectionParameters kParameters{.seed = 11, .snr_at_threshold = 5.0F};
+constexpr auto kSmooth = &baseline::ApplyDetection<true>;
+constexpr auto kHard = &baseline::ApplyDetection<false>;
 
 // How many of kNumDraws firings of that power are detected.
-double CountDetected(float power_ratio, const DetectionParameters& parameters) {
+double CountDetected(float power_ratio, decltype(kSmooth) detect) {
   auto tile = std::make_unique<DetectTile>();
   tile->num_rays = kTileSize;
   double count = 0.0;
@@ -23,7 +25,7 @@ double CountDetected(float power_ratio, const DetectionParameters& parameters) {
       tile->power_ratio[i] = power_ratio;
       tile->outcome[i] = static_cast<std::uint32_t>(Outcome::kReturned);
     }
-    baseline::ApplyDetection(*tile, parameters);
+    detect(*tile, kParameters);
     for (std::size_t i = 0; i < kTileSize; ++i) {
       count += tile->outcome[i] == static_cast<std::uint32_t>(Outcome::kReturned) ? 1.0 : 0.0;
     }
@@ -48,10 +50,9 @@ TEST(Detection, IsCertainFarAboveTheThresholdAndNeverHappensWithoutPower) {
 }
 
 TEST(Detection, IsHardWithoutTheProbability) {
-  const DetectionParameters hard{.seed = 11, .snr_at_threshold = 5.0F};
-  EXPECT_EQ(CountDetected(1.0F, hard), kNumDraws);
-  EXPECT_EQ(CountDetected(std::nextafter(1.0F, 0.0F), hard), 0.0);
-  EXPECT_EQ(CountDetected(std::numeric_limits<float>::quiet_NaN(), hard), 0.0);
+  EXPECT_EQ(CountDetected(1.0F, kHard), kNumDraws);
+  EXPECT_EQ(CountDetected(std::nextafter(1.0F, 0.0F), kHard), 0.0);
+  EXPECT_EQ(CountDetected(std::numeric_limits<float>::quiet_NaN(), kHard), 0.0);
 }
 
 TEST(Detection, LosesClutterTooAndLeavesOtherOutcomesAlone) {
@@ -60,7 +61,7 @@ TEST(Detection, LosesClutterTooAndLeavesOtherOutcomesAlone) {
                             Outcome::kSensorDropout};
   tile.num_rays = 4;
   for (std::size_t i = 0; i < 4; ++i) tile.outcome[i] = static_cast<std::uint32_t>(before[i]);
-  baseline::ApplyDetection(tile, {.seed = 1, .snr_at_threshold = 5.0F});
+  kHard(tile, kParameters);
   EXPECT_EQ(static_cast<Outcome>(tile.outcome[0]), Outcome::kBelowThreshold);
   for (std::size_t i = 1; i < 4; ++i) {
     EXPECT_EQ(static_cast<Outcome>(tile.outcome[i]), before[i]);
