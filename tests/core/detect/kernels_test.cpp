@@ -100,7 +100,8 @@ std::vector<float> RunPhysics(const Kernels& kernels, RayTile& rays, DetectTile&
   kernels.pulse_stretch(tile, 0.32F);
   kernels.extinction(tile, 0.004F);
   kernels.sunlight(tile, {2.0F});
-  kernels.detection(tile, {7, 5.0F, true});
+  kernels.detection(tile, {7, 5.0F});
+  kernels.smooth_detection(tile, {7, 5.0F});
   kernels.hit(tile, 0.5F);
   MeasurementParameters measurement = Measurement(0.015F, 0.0F);
   const std::vector<float> bias_m(kTileSize, 0.01F);
@@ -110,7 +111,7 @@ std::vector<float> RunPhysics(const Kernels& kernels, RayTile& rays, DetectTile&
   kernels.measure_by_signal(tile, measurement);
   const EchoWave wave{32, rays.range_m, tile.share, tile.specular_f0};
   for (float from_m = 10.0F; from_m < 300.0F; from_m += 10.0F) {
-    const WavePeak peak = kernels.climb_wave(wave, from_m);
+    const WavePeak peak = kernels.climb_wave(wave, from_m, {});
     values.push_back(peak.range_m);
     values.push_back(peak.value);
   }
