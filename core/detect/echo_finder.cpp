@@ -97,9 +97,10 @@ void EchoFinder::ClimbToPeaks(const std::vector<Component>& components) {
       ++end;
     }
     if (power > 0.0F) {
-      const WaveKnown known{peaks_.data(), peaks_.size(), 2.0F * pulse_sigma_m_};
+      // Two equal pulses that just part, 2 sigma from each other, peak 1 sigma from either.
+      const WaveKnown known{peaks_.data(), peaks_.size(), pulse_sigma_m_};
       AddPeak(kernels_.climb_wave(wave_, begin_m + moment / power, known));
-    };
+    }
     begin = end;
   }
 }

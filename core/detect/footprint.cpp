@@ -68,9 +68,8 @@ Footprint::Footprint(const FootprintSpec& spec, const Kernels& kernels)
               kernels) {}
 
 // The central ray answered for the whole beam; here it is one cell of it, with less spread.
-Component Footprint::CentralCell(const DetectTile& first, std::size_t lane) const {
+Component Footprint::CentralCell(const DetectTile& first, std::size_t lane, float share) const {
   Component cell = ComponentOf(first, lane);
-  const float share = pattern_.central_share;
   const float whole_spread2 = cell.spread_m * cell.spread_m;
   cell.share *= share;
   cell.intensity *= share;
@@ -200,7 +199,9 @@ void Footprint::GatherParts(const EchoTiles& echoes,
     return;
   }
   beam_parts_.assign(sub_components, sub_components + pattern_.sub_rays.size());
-  if (pattern_.central_share > 0.0F) beam_parts_.push_back(CentralCell(echoes.first, lane));
+  if (pattern_.central_share > 0.0F) {
+    beam_parts_.push_back(CentralCell(echoes.first, lane, pattern_.central_share));
+  }
 }
 
 void Footprint::AddWires(const WideBeams& beams, const WireCapture* begin, const WireCapture* end) {
@@ -277,6 +278,12 @@ void Footprint::Resolve(const WideBeams& beams, EchoTiles& echoes) {
                           part.range_m >= static_cast<float>(spec_.range_min_m) &&
                           !beams.table.surfaces[part.surface].is_ego;
                  });
+    if (is_wide && components_.empty() &&
+        echoes.first.outcome[lane] == static_cast<std::uint32_t>(Outcome::kReturned)) {
+      // What the central ray alone meets is thin: it fills no more than a sub-ray's cell.
+      const float share = 1.0F / static_cast<float>(pattern_.sub_rays.size() + 1);
+      components_.push_back(CentralCell(echoes.first, lane, share));
+    }
     wires_.clear();
     AddWires(beams, first_capture, capture);
     components_.insert(components_.end(), wires_.begin(), wires_.end());

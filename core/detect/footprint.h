@@ -71,7 +71,7 @@ class Footprint {
   void TraceSubRays(const WideBeams& beams, const EchoTiles& echoes);
   void FlushBatch(const WideBeams& beams, std::size_t num_rays);
   void StoreEchoes(std::size_t lane, EchoTiles& echoes) const;
-  [[nodiscard]] Component CentralCell(const DetectTile& first, std::size_t lane) const;
+  [[nodiscard]] Component CentralCell(const DetectTile& first, std::size_t lane, float share) const;
 
   FootprintSpec spec_;
   float pulse_variance_m2_;

@@ -23,7 +23,7 @@ enum class Outcome : std::uint8_t {
 
 inline constexpr std::array<std::string_view, 10> kOutcomeNames = {
     "returned", "no_surface", "out_of_range", "below_threshold", "rain_absorbed",
-    "clutter",  "near_range", "ego",          "sensor_dropout", "no_further_echo",
+    "clutter",  "near_range", "ego",          "sensor_dropout",  "no_further_echo",
 };
 
 [[nodiscard]] constexpr std::string_view OutcomeName(Outcome outcome) {

@@ -11,11 +11,10 @@ namespace {
 
 constexpr std::uint32_t kNumDraws = 1U << 18U;
 constexpr DetectionParameters kParameters{.seed = 11, .snr_at_threshold = 5.0F};
-constexpr auto kSmooth = &baseline::ApplyDetection<true>;
-constexpr auto kHard = &baseline::ApplyDetection<false>;
 
 // How many of kNumDraws firings of that power are detected.
-double CountDetected(float power_ratio, decltype(kSmooth) detect) {
+template <bool kIsSmooth>
+double CountDetected(float power_ratio) {
   auto tile = std::make_unique<DetectTile>();
   tile->num_rays = kTileSize;
   double count = 0.0;
@@ -25,7 +24,7 @@ double CountDetected(float power_ratio, decltype(kSmooth) detect) {
       tile->power_ratio[i] = power_ratio;
       tile->outcome[i] = static_cast<std::uint32_t>(Outcome::kReturned);
     }
-    detect(*tile, kParameters);
+    baseline::ApplyDetection<kIsSmooth>(*tile, kParameters);
     for (std::size_t i = 0; i < kTileSize; ++i) {
       count += tile->outcome[i] == static_cast<std::uint32_t>(Outcome::kReturned) ? 1.0 : 0.0;
     }
@@ -36,23 +35,23 @@ double CountDetected(float power_ratio, decltype(kSmooth) detect) {
 TEST(Detection, ProbabilityIsThatOfNoiseOfTheAmplitudesOwnSize) {
   for (const double ratio : {0.5, 0.8, 1.0, 1.2, 1.5}) {
     const double p = 0.5 * std::erfc(-5.0 * (ratio - 1.0) / std::sqrt(2.0));
-    EXPECT_NEAR(CountDetected(static_cast<float>(ratio), kSmooth), p * kNumDraws,
+    EXPECT_NEAR(CountDetected<true>(static_cast<float>(ratio)), p * kNumDraws,
                 4.0 * std::sqrt(p * (1.0 - p) * kNumDraws))
         << ratio;
   }
 }
 
 TEST(Detection, IsCertainFarAboveTheThresholdAndNeverHappensWithoutPower) {
-  EXPECT_EQ(CountDetected(1e30F, kSmooth), kNumDraws);
-  EXPECT_EQ(CountDetected(std::numeric_limits<float>::quiet_NaN(), kSmooth), 0.0);
+  EXPECT_EQ(CountDetected<true>(1e30F), kNumDraws);
+  EXPECT_EQ(CountDetected<true>(std::numeric_limits<float>::quiet_NaN()), 0.0);
   // Phi(-5) = 2.9e-7: one in three and a half million.
-  EXPECT_LE(CountDetected(0.0F, kSmooth), 1.0);
+  EXPECT_LE(CountDetected<true>(0.0F), 1.0);
 }
 
 TEST(Detection, IsHardWithoutTheProbability) {
-  EXPECT_EQ(CountDetected(1.0F, kHard), kNumDraws);
-  EXPECT_EQ(CountDetected(std::nextafter(1.0F, 0.0F), kHard), 0.0);
-  EXPECT_EQ(CountDetected(std::numeric_limits<float>::quiet_NaN(), kHard), 0.0);
+  EXPECT_EQ(CountDetected<false>(1.0F), kNumDraws);
+  EXPECT_EQ(CountDetected<false>(std::nextafter(1.0F, 0.0F)), 0.0);
+  EXPECT_EQ(CountDetected<false>(std::numeric_limits<float>::quiet_NaN()), 0.0);
 }
 
 TEST(Detection, LosesClutterTooAndLeavesOtherOutcomesAlone) {
@@ -61,7 +60,7 @@ TEST(Detection, LosesClutterTooAndLeavesOtherOutcomesAlone) {
                             Outcome::kSensorDropout};
   tile.num_rays = 4;
   for (std::size_t i = 0; i < 4; ++i) tile.outcome[i] = static_cast<std::uint32_t>(before[i]);
-  kHard(tile, kParameters);
+  baseline::ApplyDetection<false>(tile, kParameters);
   EXPECT_EQ(static_cast<Outcome>(tile.outcome[0]), Outcome::kBelowThreshold);
   for (std::size_t i = 1; i < 4; ++i) {
     EXPECT_EQ(static_cast<Outcome>(tile.outcome[i]), before[i]);

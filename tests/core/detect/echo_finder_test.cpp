@@ -18,7 +18,8 @@ const auto kSigma_m = static_cast<float>(PulseSigma_m(kBeam));
 std::vector<Echo> Find(std::vector<Component> components,
                        bool is_sampled,
                        bool has_stretch = true) {
-  EchoFinder finder(kBeam, has_stretch, is_sampled, 0.3F, AvailableKernels().back());
+  constexpr float kLeastRatio = 0.3F;
+  EchoFinder finder(kBeam, has_stretch, is_sampled, kLeastRatio, AvailableKernels().back());
   std::vector<Echo> echoes;
   finder.Find(components, echoes);
   return echoes;

@@ -100,8 +100,8 @@ std::vector<float> RunPhysics(const Kernels& kernels, RayTile& rays, DetectTile&
   kernels.pulse_stretch(tile, 0.32F);
   kernels.extinction(tile, 0.004F);
   kernels.sunlight(tile, {2.0F});
-  kernels.smooth_detection(tile, {7, 5.0F});
   kernels.detection(tile, {7, 5.0F});
+  kernels.smooth_detection(tile, {7, 5.0F});
   kernels.hit(tile, 0.5F);
   MeasurementParameters measurement = Measurement(0.015F, 0.0F);
   const std::vector<float> bias_m(kTileSize, 0.01F);
