@@ -12,7 +12,7 @@ import re
 import sys
 
 # A folder of core includes only itself and folders before it.
-CORE_ORDER = "base frame scene rail scan trace detect simulate scenario io".split()
+CORE_ORDER = "base frame scene rail scan trace detect simulate scenario fidelity io".split()
 # They share core, and nothing else.
 PROGRAMS = ("generator", "analysis", "viewer")
 TREES = ("core", *PROGRAMS, "tests", "scripts")
