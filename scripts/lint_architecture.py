@@ -21,7 +21,8 @@ TREES = ("core", *PROGRAMS, "tests", "scripts")
 LIBRARY_OWNERS = {
     "Embree": (r"embree\d/", ("core/trace",)),
     "OpenMesh": (r"OpenMesh/", ("core/scene",)),
-    "nlohmann": (r"nlohmann/", ("core/scenario", "core/io", "generator", "analysis")),
+    "nlohmann": (r"nlohmann/",
+                 ("core/scenario", "core/fidelity", "core/io", "generator", "analysis")),
     "PCL": (r"pcl/", ("core/io", "generator", "analysis", "viewer")),
     "VTK": (r"vtk[A-Z]\w+\.h$", ("viewer",)),
     "CLI11": (r"CLI/", PROGRAMS),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "core/base/error.h"
 #include "core/fidelity/yardstick.h"
@@ -11,7 +12,7 @@ namespace railcast {
 namespace {
 
 constexpr int kScansPerRound = 3;
-// A row as slow as this is scanned once a round, without a scan before to warm the caches.
+// A row as slow as this is scanned once a round: caches that are warm would change little.
 constexpr double kSlow_ms = 250.0;
 // A row needs no more than this in all, beyond one scan of each frame.
 constexpr double kEnough_ms = 10'000.0;
@@ -27,33 +28,35 @@ class Stopwatch {
  public:
   Stopwatch(const SimulatorSpec& spec, Simulator& simulator) : spec_(spec), simulator_(simulator) {}
 
-  // One round of all rows on one frame.
+  // One round of all rows on one frame. @pre The first is the raw trace.
   void Round(std::uint32_t frame,
              const std::function<void()>& raw_trace,
-             int round,
+             bool is_first_round,
              std::vector<RowResult>& results) {
+    double raw_ms = 0.0;
     for (RowResult& result : results) {
       const bool is_raw = result.row.group == RowGroup::kRawTrace;
       if (!is_raw) simulator_.Use(SpecOfRow(result.row, spec_));
       const std::function<void()> scan = [&] { simulator_.Scan(frame, frame_); };
-      TimeRow(is_raw ? raw_trace : scan, round, result.times_ms);
+      const bool has_enough =
+          std::accumulate(result.times_ms.begin(), result.times_ms.end(), 0.0) > kEnough_ms;
+      if (has_enough && !is_first_round) continue;
+      std::vector<double> times_ms = TimesOf(is_raw ? raw_trace : scan);
+      result.times_ms.insert(result.times_ms.end(), times_ms.begin(), times_ms.end());
+      std::sort(times_ms.begin(), times_ms.end());
+      const double median_ms = times_ms[times_ms.size() / 2];
+      if (is_raw) raw_ms = median_ms;
+      result.ratios.push_back(median_ms / raw_ms);
     }
   }
 
  private:
-  static void TimeRow(const std::function<void()>& work, int round, std::vector<double>& times_ms) {
-    double total_ms = 0.0;
-    for (const double time_ms : times_ms) total_ms += time_ms;
-    if (round > 0 && total_ms > kEnough_ms) return;
-    const bool is_slow = !times_ms.empty() && times_ms.back() > kSlow_ms;
-    if (!is_slow) {
-      const double first_ms = Time_ms(work);  // Caches are another row's.
-      if (first_ms > kSlow_ms) {
-        times_ms.push_back(first_ms);
-        return;
-      }
-    }
-    for (int i = 0; i < (is_slow ? 1 : kScansPerRound); ++i) times_ms.push_back(Time_ms(work));
+  static std::vector<double> TimesOf(const std::function<void()>& work) {
+    const double first_ms = Time_ms(work);  // Caches are another row's.
+    if (first_ms > kSlow_ms) return {first_ms};
+    std::vector<double> times_ms;
+    for (int i = 0; i < kScansPerRound; ++i) times_ms.push_back(Time_ms(work));
+    return times_ms;
   }
 
   const SimulatorSpec& spec_;
@@ -75,6 +78,12 @@ double RowResult::TimeQuantile_ms(double q) const {
   Check(!times_ms.empty(), "a row has been timed");
   const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(times_ms.size())));
   return times_ms[std::max<std::size_t>(rank, 1) - 1];
+}
+
+double RowResult::ratio() const {
+  std::vector<double> sorted = ratios;
+  std::sort(sorted.begin(), sorted.end());
+  return sorted[sorted.size() / 2];
 }
 
 std::vector<RowResult> MeasureFrontier(const FrontierPlan& plan,
@@ -102,7 +111,7 @@ std::vector<RowResult> MeasureFrontier(const FrontierPlan& plan,
     const std::function<void()> raw_trace = simulator.MakeRawTrace(frame);
     for (int round = 0; round < plan.num_rounds; ++round) {
       advance("timing frame " + std::to_string(frame), 0.5 / plan.num_rounds);
-      stopwatch.Round(frame, raw_trace, round, results);
+      stopwatch.Round(frame, raw_trace, round == 0, results);
     }
     simulator.UseThreads(0);
     advance("reference of frame " + std::to_string(frame), 0.4);
@@ -122,7 +131,6 @@ std::vector<RowResult> MeasureFrontier(const FrontierPlan& plan,
     if (results[i].row.group != RowGroup::kRawTrace) {
       results[i].difference = comparisons[i].Result();
     }
-    results[i].ratio = results[i].p50_ms() / results.front().p50_ms();
   }
   return results;
 }

@@ -25,12 +25,16 @@ struct FrontierPlan {
 /// Of one row: times over all frames and rounds, and what is wrong with its frames.
 struct RowResult {
   FrontierRow row;
-  std::vector<double> times_ms;               ///< Per frame, sorted.
+  std::vector<double> times_ms;               ///< Of single frames, sorted at last.
   std::optional<FrameDifference> difference;  ///< None of the raw trace.
-  double ratio{};                             ///< Median time / the raw trace's.
+  /// Median time / the raw trace's of the same round, for each round that timed it.
+  std::vector<double> ratios;
 
   [[nodiscard]] double p50_ms() const { return TimeQuantile_ms(0.5); }
   [[nodiscard]] double p99_ms() const { return TimeQuantile_ms(0.99); }
+  /// The median over the rounds. Machines change their speed; the raw trace of the same second
+  /// does, too.
+  [[nodiscard]] double ratio() const;
 
  private:
   [[nodiscard]] double TimeQuantile_ms(double q) const;

@@ -41,7 +41,7 @@ std::string FrontierTable(const std::vector<RowResult>& results) {
                      "        %  found %  found %\n";
   for (const RowResult& result : results) {
     text += Name(result.row.name) + Padded("%9.2f", result.p50_ms()) +
-            Padded("%9.2f", result.p99_ms()) + Padded("%9.2f", result.ratio);
+            Padded("%9.2f", result.p99_ms()) + Padded("%9.2f", result.ratio());
     if (result.difference) {
       const FrameDifference& d = *result.difference;
       text += Percent(d.reference_echoes.share()) + Percent(d.echoes.share()) +
