@@ -6,6 +6,7 @@
 build_packages=(
   cmake
   g++
+  gnuplot-nox
   libbenchmark-dev
   libcli11-dev
   libeigen3-dev

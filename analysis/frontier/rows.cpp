@@ -26,6 +26,8 @@ const char* RowGroupName(RowGroup group) {
       return "raw_trace";
     case RowGroup::kLadder:
       return "ladder";
+    case RowGroup::kBetween:
+      return "between";
     case RowGroup::kBruteForce:
       return "brute_force";
     case RowGroup::kReference:
@@ -45,7 +47,7 @@ std::vector<FrontierRow> AllFrontierRows() {
       {"surface", RowGroup::kLadder, surface},
       {"surface+thin_conductors", RowGroup::kLadder,
        With(surface, &EffectSet::thin_conductors, true)},
-      {"footprint-thin_conductors", RowGroup::kLadder, sampled_wires},
+      {"footprint-thin_conductors", RowGroup::kBetween, sampled_wires},
       {"footprint", RowGroup::kLadder, footprint},
   };
   for (const int sub_rays : kBruteForceSubRays) {

@@ -12,7 +12,8 @@ namespace railcast {
 /// Which line of the chart a row belongs to.
 enum class RowGroup {
   kRawTrace,    ///< The yardstick of time: rays and nothing else.
-  kLadder,      ///< The rungs, and what lies between them.
+  kLadder,      ///< The rungs, and surface with wires.
+  kBetween,     ///< A rung without one of its effects.
   kBruteForce,  ///< The same number of sub-rays in every beam, wires by their triangles.
   kReference,   ///< The yardstick of accuracy with fewer sub-rays.
 };

@@ -27,6 +27,10 @@ struct Echoes {
   std::vector<float> ranges_m;
 };
 
+bool IsSurface(const Frame& frame, std::size_t slot) {
+  return frame.outcome[slot] == Outcome::kReturned;
+}
+
 // The nearest-rank quantile.
 double Quantile(std::vector<float>& values, double q) {
   const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(values.size())));
@@ -103,7 +107,7 @@ void FrameComparison::AddFiring(const Frame& reference, const Frame& other, std:
   for (std::size_t k = 0; k < theirs.slots.size(); ++k) {
     const bool is_matched = std::any_of(matches.begin(), matches.end(),
                                         [k](const auto& match) { return match.second == k; });
-    sums_.echoes.Count(is_matched);
+    if (IsSurface(other, theirs.slots[k])) sums_.echoes.Count(is_matched);
     sums_.echoes_per_label[other.label[theirs.slots[k]]].Count(is_matched);
   }
   const auto is_thin = [&](std::uint32_t label) {
@@ -115,18 +119,16 @@ void FrameComparison::AddFiring(const Frame& reference, const Frame& other, std:
     const auto match =
         std::find_if(matches.begin(), matches.end(), [i](const auto& m) { return m.first == i; });
     const bool is_matched = match != matches.end();
-    sums_.reference_echoes.Count(is_matched);
     sums_.reference_echoes_per_label[reference.label[slot]].Count(is_matched);
+    if (!IsSurface(reference, slot)) continue;
+    sums_.reference_echoes.Count(is_matched);
     const float share = reference.footprint_share[slot];
     if (is_thin(reference.label[slot]) && share >= kLeastThinShare) {
       sums_.thin.Count(is_matched && is_thin(other.label[theirs.slots[match->second]]));
     }
     // In every mode of several returns the first slot is the strongest.
     const bool is_strongest = slot % reference.returns == 0;
-    if (!is_strongest && share >= kLeastSecondShare &&
-        reference.outcome[slot] == Outcome::kReturned) {
-      sums_.second.Count(is_matched);
-    }
+    if (!is_strongest && share >= kLeastSecondShare) sums_.second.Count(is_matched);
     if (is_matched) AddMatched(reference, slot, other, theirs.slots[match->second]);
   }
 }

@@ -68,12 +68,15 @@ struct FrameDifference {
     std::uint64_t num_returned{};
   };
 
+  // Surfaces' echoes only: drops, flakes and fog echo by the same draws on both sides, and would
+  // hide what differs. Either may be matched by any echo.
   Matched reference_echoes;  ///< Their share() is the recall.
   Matched echoes;            ///< Of the other; their share() is the precision.
+  // All echoes, clutter included.
   std::map<std::uint32_t, Matched> reference_echoes_per_label;  ///< By the reference's label.
   std::map<std::uint32_t, Matched> echoes_per_label;            ///< By the other's label.
   ErrorQuantiles range_m;                                       ///< Of matched echoes.
-  ErrorQuantiles intensity;  ///< Relative, of matched echoes where both have one.
+  ErrorQuantiles intensity;  ///< Relative, of the same where both have one.
   /// Equal bins up to range_max_m by the true range of the reference's first slot.
   std::array<RangeBin, kNumRangeBins> range_bins{};
   /// Mean over the bins with firings of the absolute difference in the share of firings with at

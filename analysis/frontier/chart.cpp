@@ -1,0 +1,133 @@
+#include "analysis/frontier/chart.h"
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "analysis/frontier/pareto.h"
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/io/write_file.h"
+
+namespace railcast {
+namespace {
+
+constexpr std::size_t kNumPanels = 4;
+constexpr int kExitNotFound = 127;  // Of a shell.
+
+// Text in double quotes, as gnuplot reads it. Enhanced text is off.
+std::string Quoted(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + "\"";
+}
+
+// What stands beside a point: brute force is its number of rays.
+std::string PointLabel(const FrontierRow& row) {
+  return row.group == RowGroup::kBruteForce ? row.name.substr(row.name.rfind('_') + 1) : row.name;
+}
+
+// One line of the chart as a named data block: ratio, error, label.
+std::string DataBlock(const std::string& name,
+                      RowGroup group,
+                      const FrontierError& error,
+                      const std::vector<RowResult>& results) {
+  struct Point {
+    double ratio{};
+    std::string line;
+  };
+  std::vector<Point> points;
+  for (const RowResult& result : results) {
+    if (result.row.group != group || !result.difference) continue;
+    const double value = error.scale * error.of(*result.difference);
+    if (std::isnan(value)) continue;
+    points.push_back({result.ratio(), NumberText(result.ratio()) + " " + NumberText(value) + " " +
+                                          Quoted(PointLabel(result.row)) + "\n"});
+  }
+  // Lines run from left to right.
+  std::stable_sort(points.begin(), points.end(),
+                   [](const Point& a, const Point& b) { return a.ratio < b.ratio; });
+  std::string text = "$" + name + " << EOD\n";
+  for (const Point& point : points) text += point.line;
+  // A block without a point is an error of gnuplot's.
+  if (points.empty()) text += "NaN NaN \"\"\n";
+  return text + "EOD\n";
+}
+
+// The bytes that a command line of the shell writes to stdout.
+std::string OutputOf(const std::string& command) {
+  FILE* const pipe = ::popen(command.c_str(), "r");
+  Check(pipe != nullptr, "a pipe can be opened");
+  std::string bytes;
+  std::array<char, 65536> buffer{};
+  std::size_t count = 0;
+  while ((count = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0) {
+    bytes.append(buffer.data(), count);
+  }
+  const int status = ::pclose(pipe);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kExitNotFound) {
+    throw InputError("gnuplot: not found; install gnuplot-nox (the numbers are written)");
+  }
+  if (status != 0 || bytes.empty()) {
+    throw InputError("gnuplot: failed (the numbers are written)");
+  }
+  return bytes;
+}
+
+// A word of the shell.
+std::string ShellWord(const std::string& text) {
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
+}  // namespace
+
+std::string ChartScript(const std::vector<RowResult>& results, const std::string& title) {
+  std::string text =
+      "# gnuplot -e 'set terminal svg size 1200,900' this > frontier.svg\n"
+      "set multiplot layout 2,2 title " +
+      Quoted(title) +
+      "\n"
+      "set logscale x 2\n"
+      "set xlabel 'time per frame / raw trace'\n"
+      "set grid\n"
+      "set key top right\n"
+      "set offsets graph 0.05, graph 0.15, graph 0.08, graph 0.05\n";
+  for (std::size_t i = 0; i < kNumPanels; ++i) {
+    const FrontierError& error = kFrontierErrors[i];
+    text += DataBlock("ladder", RowGroup::kLadder, error, results) +
+            DataBlock("between", RowGroup::kBetween, error, results) +
+            DataBlock("brute", RowGroup::kBruteForce, error, results);
+    text += std::string("set ylabel ") + Quoted(error.title) +
+            "\n"
+            "set yrange [0:*]\n"
+            "plot $brute using 1:2 with linespoints lc rgb '#d55e00' pt 5 ps 0.8 "
+            "title 'brute force, rays a beam', \\\n"
+            "  $brute using 1:2:3 with labels offset 0.8,0.7 left tc rgb '#d55e00' notitle, \\\n"
+            "  $ladder using 1:2 with linespoints lc rgb '#0072b2' pt 7 ps 0.9 lw 2 "
+            "title 'railcast', \\\n"
+            "  $ladder using 1:2:3 with labels offset 0.8,0.7 left tc rgb '#0072b2' notitle, \\\n"
+            "  $between using 1:2 with points lc rgb '#56b4e9' pt 6 ps 0.9 notitle, \\\n"
+            "  $between using 1:2:3 with labels offset 0.8,-0.7 left tc rgb '#56b4e9' notitle\n";
+  }
+  return text + "unset multiplot\n";
+}
+
+void DrawChart(const std::filesystem::path& script, const std::filesystem::path& picture) {
+  const auto draw = [&](const std::string& terminal, const std::string& ending) {
+    const std::string command = "gnuplot -e \"set terminal " + terminal + "\" " +
+                                ShellWord(script.string()) + " 2>/dev/null";
+    WriteFileWhole(picture.string() + ending, OutputOf(command));
+  };
+  draw("svg noenhanced size 1200,900 background '#ffffff' font 'sans,12'", ".svg");
+  draw("pngcairo noenhanced size 1200,900 font 'sans,10'", ".png");
+}
+
+}  // namespace railcast

@@ -1,0 +1,88 @@
+#include "analysis/frontier/pareto.h"
+
+#include <cmath>
+
+namespace railcast {
+namespace {
+
+// Whether a has at most b's time and error, and less of one of them.
+bool Beats(const RowResult& a, const RowResult& b, const FrontierError& error) {
+  if (!a.difference || !b.difference) return false;
+  const double error_a = error.of(*a.difference);
+  const double error_b = error.of(*b.difference);
+  if (std::isnan(error_a) || std::isnan(error_b)) return false;
+  const double time_a = a.ratio();
+  const double time_b = b.ratio();
+  return time_a <= time_b && error_a <= error_b && (time_a < time_b || error_a < error_b);
+}
+
+bool IsOurs(const RowResult& result) {
+  return result.row.group == RowGroup::kLadder || result.row.group == RowGroup::kBetween;
+}
+
+bool IsCandidate(const RowResult& result, const FrontierError& error) {
+  return (IsOurs(result) || result.row.group == RowGroup::kBruteForce) && result.difference &&
+         !std::isnan(error.of(*result.difference));
+}
+
+}  // namespace
+
+const std::vector<FrontierError> kFrontierErrors = {
+    {"missed_share", "echoes missed, %", 100.0,
+     [](const FrameDifference& d) { return 1.0 - d.reference_echoes.share(); }},
+    {"range_median_m", "range error, median, mm", 1e3,
+     [](const FrameDifference& d) { return d.range_m.median; }},
+    {"thin_missed_share", "wires missed, %", 100.0,
+     [](const FrameDifference& d) { return 1.0 - d.thin.share(); }},
+    {"second_missed_share", "second surfaces missed, %", 100.0,
+     [](const FrameDifference& d) { return 1.0 - d.second.share(); }},
+    {"false_share", "false echoes, %", 100.0,
+     [](const FrameDifference& d) { return 1.0 - d.echoes.share(); }},
+    {"range_p95_m", "range error, 95th percentile, mm", 1e3,
+     [](const FrameDifference& d) { return d.range_m.p95; }},
+    {"intensity_median", "intensity error, median, %", 100.0,
+     [](const FrameDifference& d) { return d.intensity.median; }},
+    {"intensity_p95", "intensity error, 95th percentile, %", 100.0,
+     [](const FrameDifference& d) { return d.intensity.p95; }},
+    {"dropout_error", "dropout error, %", 100.0,
+     [](const FrameDifference& d) { return d.dropout_error; }},
+};
+
+std::vector<bool> ParetoFront(const std::vector<RowResult>& results, const FrontierError& error) {
+  std::vector<bool> is_on_front;
+  for (const RowResult& result : results) {
+    bool is_unbeaten = IsCandidate(result, error);
+    for (const RowResult& other : results) {
+      if (IsCandidate(other, error) && Beats(other, result, error)) is_unbeaten = false;
+    }
+    is_on_front.push_back(is_unbeaten);
+  }
+  return is_on_front;
+}
+
+std::vector<Defeat> FindDefeats(const std::vector<RowResult>& results) {
+  std::vector<Defeat> defeats;
+  for (const FrontierError& error : kFrontierErrors) {
+    for (const RowResult& brute_force : results) {
+      if (brute_force.row.group != RowGroup::kBruteForce) continue;
+      for (const RowResult& ours : results) {
+        if (IsOurs(ours) && Beats(brute_force, ours, error)) {
+          defeats.push_back({brute_force.row.name, ours.row.name, error.name});
+        }
+      }
+    }
+  }
+  return defeats;
+}
+
+std::string DefeatsText(const std::vector<Defeat>& defeats) {
+  if (defeats.empty())
+    return "no row of brute force is faster and more accurate than one of ours\n";
+  std::string text = "faster and more accurate than a row of ours:\n";
+  for (const Defeat& defeat : defeats) {
+    text += "  " + defeat.error + ": " + defeat.brute_force + " beats " + defeat.ours + "\n";
+  }
+  return text;
+}
+
+}  // namespace railcast
