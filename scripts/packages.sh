@@ -6,7 +6,6 @@
 build_packages=(
   cmake
   g++
-  gnuplot-nox
   libbenchmark-dev
   libcli11-dev
   libeigen3-dev
@@ -27,6 +26,7 @@ build_packages=(
 
 # To draw pictures on a machine without a display.
 display_packages=(
+  gnuplot-nox
   xauth
   xvfb
 )

@@ -16,6 +16,9 @@ namespace railcast {
 namespace {
 
 constexpr std::size_t kNumPanels = 4;
+// Colour-blind safe (Okabe and Ito).
+const std::string kLadderColor = "#0072b2";
+const std::string kBruteForceColor = "#d55e00";
 constexpr int kExitNotFound = 127;  // Of a shell.
 
 // Text in double quotes, as gnuplot reads it. Enhanced text is off.
@@ -28,12 +31,41 @@ std::string Quoted(const std::string& text) {
   return quoted + "\"";
 }
 
-// What stands beside a point: brute force is its number of rays.
-std::string PointLabel(const FrontierRow& row) {
-  return row.group == RowGroup::kBruteForce ? row.name.substr(row.name.rfind('_') + 1) : row.name;
+// What stands beside a point and where, in characters from it. The first rungs lie close together,
+// at little more than one raw trace: two go to the left, where the axis has room.
+struct PointLabel {
+  std::string text;
+  double right{};
+  double up{};
+  bool is_on_the_left = false;
+};
+
+PointLabel LabelOf(const FrontierRow& row) {
+  if (row.name == "geometry") return {row.name, -0.8, -0.9, true};
+  if (row.name == "plausibility") return {row.name, -0.8, 0.9, true};
+  if (row.name == "surface") return {row.name, 0.4, 0.9};
+  if (row.name == "surface+thin_conductors") return {"surface + wires", 0.8, -0.7};
+  if (row.name == "footprint") return {row.name, -0.8, -0.8, true};
+  return {row.name.substr(row.name.rfind('_') + 1), 0.8, 0.7};  // Brute force: rays a beam.
 }
 
-// One line of the chart as a named data block: ratio, error, label.
+std::string Labels(const FrontierError& error, const std::vector<RowResult>& results) {
+  std::string text = "unset label\n";
+  for (const RowResult& result : results) {
+    const bool is_brute_force = result.row.group == RowGroup::kBruteForce;
+    if (!is_brute_force && result.row.group != RowGroup::kLadder) continue;
+    const double value = error.scale * error.of(*result.difference);
+    if (std::isnan(value)) continue;
+    const PointLabel label = LabelOf(result.row);
+    text += "set label " + Quoted(label.text) + " at " + NumberText(result.ratio()) + "," +
+            NumberText(value) + " offset " + NumberText(label.right) + "," + NumberText(label.up) +
+            (label.is_on_the_left ? " right" : " left") + " textcolor rgb '" +
+            (is_brute_force ? kBruteForceColor : kLadderColor) + "'\n";
+  }
+  return text;
+}
+
+// One line of the chart as a named data block: ratio, error.
 std::string DataBlock(const std::string& name,
                       RowGroup group,
                       const FrontierError& error,
@@ -47,8 +79,7 @@ std::string DataBlock(const std::string& name,
     if (result.row.group != group || !result.difference) continue;
     const double value = error.scale * error.of(*result.difference);
     if (std::isnan(value)) continue;
-    points.push_back({result.ratio(), NumberText(result.ratio()) + " " + NumberText(value) + " " +
-                                          Quoted(PointLabel(result.row)) + "\n"});
+    points.push_back({result.ratio(), NumberText(result.ratio()) + " " + NumberText(value) + "\n"});
   }
   // Lines run from left to right.
   std::stable_sort(points.begin(), points.end(),
@@ -56,7 +87,7 @@ std::string DataBlock(const std::string& name,
   std::string text = "$" + name + " << EOD\n";
   for (const Point& point : points) text += point.line;
   // A block without a point is an error of gnuplot's.
-  if (points.empty()) text += "NaN NaN \"\"\n";
+  if (points.empty()) text += "NaN NaN\n";
   return text + "EOD\n";
 }
 
@@ -99,23 +130,24 @@ std::string ChartScript(const std::vector<RowResult>& results, const std::string
       "set xlabel 'time per frame / raw trace'\n"
       "set grid\n"
       "set key top right\n"
-      "set offsets graph 0.05, graph 0.15, graph 0.08, graph 0.05\n";
+      "set xrange [0.5:*]\n"
+      "set offsets 0, graph 0.08, graph 0.12, graph 0.1\n";
   for (std::size_t i = 0; i < kNumPanels; ++i) {
     const FrontierError& error = kFrontierErrors[i];
     text += DataBlock("ladder", RowGroup::kLadder, error, results) +
             DataBlock("between", RowGroup::kBetween, error, results) +
-            DataBlock("brute", RowGroup::kBruteForce, error, results);
+            DataBlock("brute", RowGroup::kBruteForce, error, results) + Labels(error, results);
     text += std::string("set ylabel ") + Quoted(error.title) +
-            "\n"
-            "set yrange [0:*]\n"
-            "plot $brute using 1:2 with linespoints lc rgb '#d55e00' pt 5 ps 0.8 "
-            "title 'brute force, rays a beam', \\\n"
-            "  $brute using 1:2:3 with labels offset 0.8,0.7 left tc rgb '#d55e00' notitle, \\\n"
-            "  $ladder using 1:2 with linespoints lc rgb '#0072b2' pt 7 ps 0.9 lw 2 "
-            "title 'railcast', \\\n"
-            "  $ladder using 1:2:3 with labels offset 0.8,0.7 left tc rgb '#0072b2' notitle, \\\n"
-            "  $between using 1:2 with points lc rgb '#56b4e9' pt 6 ps 0.9 notitle, \\\n"
-            "  $between using 1:2:3 with labels offset 0.8,-0.7 left tc rgb '#56b4e9' notitle\n";
+            "\nset yrange [0:*]\n"
+            "plot $brute using 1:2 with linespoints linecolor rgb '" +
+            kBruteForceColor +
+            "' pointtype 5 pointsize 0.8 title 'brute force, rays a beam', \\\n"
+            "  $ladder using 1:2 with linespoints linecolor rgb '" +
+            kLadderColor +
+            "' pointtype 7 pointsize 0.9 linewidth 2 title 'railcast', \\\n"
+            "  $between using 1:2 with points linecolor rgb '" +
+            kLadderColor +
+            "' pointtype 6 pointsize 1.2 title 'footprint without thin_conductors'\n";
   }
   return text + "unset multiplot\n";
 }

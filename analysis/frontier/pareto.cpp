@@ -16,12 +16,8 @@ bool Beats(const RowResult& a, const RowResult& b, const FrontierError& error) {
   return time_a <= time_b && error_a <= error_b && (time_a < time_b || error_a < error_b);
 }
 
-bool IsOurs(const RowResult& result) {
-  return result.row.group == RowGroup::kLadder || result.row.group == RowGroup::kBetween;
-}
-
 bool IsCandidate(const RowResult& result, const FrontierError& error) {
-  return (IsOurs(result) || result.row.group == RowGroup::kBruteForce) && result.difference &&
+  return result.row.group != RowGroup::kReference && result.difference &&
          !std::isnan(error.of(*result.difference));
 }
 
@@ -66,7 +62,7 @@ std::vector<Defeat> FindDefeats(const std::vector<RowResult>& results) {
     for (const RowResult& brute_force : results) {
       if (brute_force.row.group != RowGroup::kBruteForce) continue;
       for (const RowResult& ours : results) {
-        if (IsOurs(ours) && Beats(brute_force, ours, error)) {
+        if (ours.row.group == RowGroup::kLadder && Beats(brute_force, ours, error)) {
           defeats.push_back({brute_force.row.name, ours.row.name, error.name});
         }
       }
@@ -76,9 +72,8 @@ std::vector<Defeat> FindDefeats(const std::vector<RowResult>& results) {
 }
 
 std::string DefeatsText(const std::vector<Defeat>& defeats) {
-  if (defeats.empty())
-    return "no row of brute force is faster and more accurate than one of ours\n";
-  std::string text = "faster and more accurate than a row of ours:\n";
+  if (defeats.empty()) return "no row of brute force is faster and more accurate than a rung\n";
+  std::string text = "faster and more accurate than a rung:\n";
   for (const Defeat& defeat : defeats) {
     text += "  " + defeat.error + ": " + defeat.brute_force + " beats " + defeat.ours + "\n";
   }

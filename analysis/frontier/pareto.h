@@ -25,7 +25,8 @@ extern const std::vector<FrontierError> kFrontierErrors;
 [[nodiscard]] std::vector<bool> ParetoFront(const std::vector<RowResult>& results,
                                             const FrontierError& error);
 
-/// A row of brute force that is faster and more accurate than a row of ours.
+/// A row of brute force that is faster and more accurate than a rung of ours (group kLadder: a rung
+/// without one of its effects is offered to nobody).
 struct Defeat {
   std::string brute_force;
   std::string ours;

@@ -8,6 +8,7 @@
 #include "core/rail/world_draft.h"
 #include "core/scan/scan_pattern.h"
 #include "core/scenario/build_faults.h"
+#include "core/scenario/effect_names.h"
 #include "core/scenario/scenario.h"
 
 namespace railcast {
@@ -41,7 +42,8 @@ std::optional<EffectNamesInUse> TryNames(const ScenarioSpec& spec, ErrorList& er
     const LabelTable labels(spec.labels);
     EffectNamesInUse names;
     names.labels.snow = labels.Id("snow");
-    if (IsPhysical(EffectsOf(spec))) {
+    // Whether they go together is said where they are read.
+    if (IsPhysical(SwitchedEffects(spec))) {
       names.labels.rain = labels.Id("rain");
       names.labels.fog = labels.Id("fog");
       names.labels.false_alarm = labels.Id("false_alarm");

@@ -65,8 +65,8 @@ TEST(ReadScenario, ReportsTheFaultsOfEveryFileAtOnce) {
   EXPECT_EQ(
       FaultsOf(file),
       file.string() +
-          ": /fidelity: must be \"geometry\", \"plausibility\", \"surface\", \"footprint\" or "
-          "\"reference\" (got \"high\")\n" +
+          ": /fidelity: must be \"geometry\", \"plausibility\", \"surface\", \"footprint\", "
+          "\"reference\" or \"auto\" (got \"high\")\n" +
           weather.string() + ": /snow_rate_mmph: must be >= 0 (got -1)\n" + file.string() +
           ": /output/fram: unknown key, the nearest is \"frame\"");
 }
