@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # Counts what each effect costs, for core/fidelity/effect_costs.h: instructions per firing of
-# Simulator::Scan (less the making of the scene) on frame 0 of a scenario, rung footprint, one
+# Simulator::Scan (less the making of the scene) on frame 0 of a scenario where every effect has work, rung footprint, one
 # thread; then what is saved without each effect. Needs valgrind; a run takes about a minute.
 #
 #   measure_effect_costs.sh [SCENARIO] [RAILCAST_GENERATE]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-scenario="$(realpath "${1:-scenarios/open_line.json}")"
+scenario="$(realpath "${1:-scenarios/forest_rain.json}")"
 generate="$(realpath "${2:-build/release/generator/railcast-generate}")"
 work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT

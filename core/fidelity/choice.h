@@ -6,26 +6,11 @@
 #include <vector>
 
 #include "core/detect/detect_spec.h"
-#include "core/fidelity/frame_comparison.h"
+#include "core/fidelity/deviation.h"
 #include "core/scenario/scenario_spec.h"
 #include "core/simulate/simulator.h"
 
 namespace railcast {
-
-/// By how much frames differ from the reference's, in the terms of ToleranceSpec.
-struct Deviation {
-  double range_m{};
-  double missed_share{};
-  double false_share{};
-  double thin_missed_share{};
-  double intensity{};  ///< Infinite if the echoes have none.
-
-  bool operator==(const Deviation&) const = default;
-};
-
-[[nodiscard]] Deviation DeviationOf(const FrameDifference& difference);
-/// Whether none of the five is beyond its limit.
-[[nodiscard]] bool IsWithin(const Deviation& deviation, const ToleranceSpec& tolerance);
 
 /// What fidelity `auto` came to, and why.
 struct FidelityChoice {
@@ -63,13 +48,9 @@ using ChoiceProgress = std::function<void(double done)>;
 
 /// Finds the cheapest effects that stay within the scenario's tolerance.
 ///
-/// On sample frames (3, at 0, 1 and 2 s) each effect of the rung `footprint` is left out by itself.
-/// Of the sets whose deviations, added up, stay within the tolerance, the cheapest is taken, by the
-/// fixed costs of effect_costs.h, and then measured as a whole, since effects work on each other:
-/// while it is beyond the tolerance, the effect that was missed most is put back. Where all effects
-/// together are beyond a limit (the reference has many more rays), the set may be worse than them
-/// by a tenth of that limit. At last the choice is measured on frames that had no part in it (at
-/// 0.5, 1.5 and 2.5 s).
+/// On sample frames (3, at 0, 1 and 2 s) the effects of the rung `footprint` are searched as
+/// effect_search.h says, by the fixed costs of effect_costs.h. Then the choice is measured on
+/// frames that had no part in it (at 0.5, 1.5 and 2.5 s).
 ///
 /// What the user switches on or off stays so. Effects that change statistics at little cost
 /// (`sensor_dropout`, `clutter`, `fog_echo`, `sunlight`, `range_noise`, `channel_bias`,

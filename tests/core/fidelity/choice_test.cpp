@@ -82,13 +82,9 @@ TEST(ChooseFidelity, KeepsAllThatMattersAtNoTolerance) {
   EXPECT_TRUE(choice.effects.thin_conductors);
   EXPECT_TRUE(choice.effects.surface_response);
   EXPECT_TRUE(choice.effects.detection);
-  // Whatever is left out takes nothing away.
-  for (const Deviation& d : {choice.deviation}) {
-    EXPECT_LE(d.range_m, choice.full_deviation.range_m);
-    EXPECT_LE(d.missed_share, choice.full_deviation.missed_share);
-    EXPECT_LE(d.false_share, choice.full_deviation.false_share);
-    EXPECT_LE(d.thin_missed_share, choice.full_deviation.thin_missed_share);
-    EXPECT_LE(d.intensity, choice.full_deviation.intensity);
+  // What is left out takes nothing away.
+  for (const DeviationQuantity& quantity : kDeviationQuantities) {
+    EXPECT_LE(choice.deviation.*quantity.value, choice.full_deviation.*quantity.value);
   }
 }
 
@@ -144,23 +140,6 @@ TEST(ChooseFidelity, LeavesTheSimulatorAsItWas) {
   const auto simulator = MakeSimulator(scenario, 0);
   static_cast<void>(ChooseFidelity(*simulator, scenario, [](double) {}));
   EXPECT_EQ(simulator->spec().effects, EffectsOfRung("footprint"));
-}
-
-TEST(Deviation, IsInfiniteWithoutAnyIntensity) {
-  FrameDifference difference;
-  difference.echoes = {4, 2};
-  difference.reference_echoes = {5, 2};
-  const Deviation deviation = DeviationOf(difference);
-  EXPECT_TRUE(std::isinf(deviation.intensity));
-  EXPECT_EQ(deviation.false_share, 0.5);
-  EXPECT_EQ(deviation.missed_share, 1.0 - 2.0 / 5.0);
-  EXPECT_FALSE(IsWithin(deviation, {.missed_share = 1.0, .false_share = 1.0, .intensity = 1e9}));
-}
-
-TEST(Deviation, IsWithinUpToTheLimit) {
-  const Deviation deviation{.range_m = 0.02};
-  EXPECT_TRUE(IsWithin(deviation, {.range_m = 0.02}));
-  EXPECT_FALSE(IsWithin(deviation, {.range_m = 0.019}));
 }
 
 }  // namespace
