@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Counts what each effect costs, for core/fidelity/effect_costs.h: instructions per firing of
-# Simulator::Scan (less the making of the scene) on frame 0 of a scenario where every effect has work, rung footprint, one
-# thread; then what is saved without each effect. Needs valgrind; a run takes about a minute.
+# Simulator::Scan, less the making of the scene, on frame 0 of a scenario that gives every effect
+# work, rung footprint, one thread; then what is saved without each effect. Needs valgrind; a run
+# takes about a minute.
 #
 #   measure_effect_costs.sh [SCENARIO] [RAILCAST_GENERATE]
 set -euo pipefail

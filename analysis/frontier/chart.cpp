@@ -9,7 +9,6 @@
 
 #include "analysis/frontier/pareto.h"
 #include "core/base/error.h"
-#include "core/base/number_text.h"
 #include "core/io/write_file.h"
 
 namespace railcast {
@@ -29,6 +28,13 @@ std::string Quoted(const std::string& text) {
     quoted += c;
   }
   return quoted + "\"";
+}
+
+// To six digits: a chart shows no more.
+std::string Short(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.6g", value);
+  return text.data();
 }
 
 // What stands beside a point and where, in characters from it. The first rungs lie close together,
@@ -57,8 +63,8 @@ std::string Labels(const FrontierError& error, const std::vector<RowResult>& res
     const double value = error.scale * error.of(*result.difference);
     if (std::isnan(value)) continue;
     const PointLabel label = LabelOf(result.row);
-    text += "set label " + Quoted(label.text) + " at " + NumberText(result.ratio()) + "," +
-            NumberText(value) + " offset " + NumberText(label.right) + "," + NumberText(label.up) +
+    text += "set label " + Quoted(label.text) + " at " + Short(result.ratio()) + "," +
+            Short(value) + " offset " + Short(label.right) + "," + Short(label.up) +
             (label.is_on_the_left ? " right" : " left") + " textcolor rgb '" +
             (is_brute_force ? kBruteForceColor : kLadderColor) + "'\n";
   }
@@ -79,7 +85,7 @@ std::string DataBlock(const std::string& name,
     if (result.row.group != group || !result.difference) continue;
     const double value = error.scale * error.of(*result.difference);
     if (std::isnan(value)) continue;
-    points.push_back({result.ratio(), NumberText(result.ratio()) + " " + NumberText(value) + "\n"});
+    points.push_back({result.ratio(), Short(result.ratio()) + " " + Short(value) + "\n"});
   }
   // Lines run from left to right.
   std::stable_sort(points.begin(), points.end(),
@@ -89,6 +95,25 @@ std::string DataBlock(const std::string& name,
   // A block without a point is an error of gnuplot's.
   if (points.empty()) text += "NaN NaN\n";
   return text + "EOD\n";
+}
+
+/// Where the axes end.
+struct Ends {
+  double right = 1.0;  ///< The largest ratio.
+  double top = 0.0;    ///< The largest error.
+};
+
+Ends EndsOf(const FrontierError& error, const std::vector<RowResult>& results) {
+  Ends ends;
+  for (const RowResult& result : results) {
+    if (!result.difference || result.row.group == RowGroup::kReference) continue;
+    const double value = error.scale * error.of(*result.difference);
+    if (std::isnan(value)) continue;
+    ends.right = std::max(ends.right, result.ratio());
+    ends.top = std::max(ends.top, value);
+  }
+  if (ends.top == 0.0) ends.top = 1.0;
+  return ends;
 }
 
 // The bytes that a command line of the shell writes to stdout.
@@ -130,16 +155,20 @@ std::string ChartScript(const std::vector<RowResult>& results, const std::string
       "set xlabel 'time per frame / raw trace'\n"
       "set grid\n"
       "set key top right\n"
-      "set xrange [0.5:*]\n"
-      "set offsets 0, graph 0.08, graph 0.12, graph 0.1\n";
+      "set samples 2\n";
   for (std::size_t i = 0; i < kNumPanels; ++i) {
     const FrontierError& error = kFrontierErrors[i];
+    const Ends ends = EndsOf(error, results);
     text += DataBlock("ladder", RowGroup::kLadder, error, results) +
             DataBlock("between", RowGroup::kBetween, error, results) +
             DataBlock("brute", RowGroup::kBruteForce, error, results) + Labels(error, results);
     text += std::string("set ylabel ") + Quoted(error.title) +
-            "\nset yrange [0:*]\n"
-            "plot $brute using 1:2 with linespoints linecolor rgb '" +
+            // Room for labels on all sides.
+            "\nset xrange [0.5:" + Short(1.3 * ends.right) + "]\nset yrange [" +
+            Short(-0.1 * ends.top) + ":" + Short(1.2 * ends.top) +
+            "]\n"
+            // Without the function gnuplot fails where no row has this error.
+            "plot NaN notitle, $brute using 1:2 with linespoints linecolor rgb '" +
             kBruteForceColor +
             "' pointtype 5 pointsize 0.8 title 'brute force, rays a beam', \\\n"
             "  $ladder using 1:2 with linespoints linecolor rgb '" +
