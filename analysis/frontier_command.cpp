@@ -38,7 +38,8 @@ int FrontierCommand(const FrontierOptions& options) {
   plan.num_threads = options.num_threads;
   const ScenarioSpec scenario = ReadForFrontier(options);
   const auto simulator = MakeSimulator(scenario, options.num_threads);
-  plan.frames = SampleFrames(simulator->pattern(), options.num_frames);
+  constexpr double kFrameSpacing_s = 1.0;
+  plan.frames = SampleFrames(scenario, *simulator, options.num_frames, kFrameSpacing_s);
   std::filesystem::create_directories(options.out);
   // The choice takes about a tenth of the time.
   constexpr double kRowsShare = 0.9;

@@ -15,8 +15,9 @@
 namespace railcast {
 namespace {
 
-constexpr int kNumSampleFrames = 3;
-constexpr int kNumHeldBackFrames = 3;
+// Every second one is held back.
+constexpr int kNumFrames = 6;
+constexpr double kFrameSpacing_s = 0.5;
 
 using Effect = bool EffectSet::*;
 
@@ -118,6 +119,13 @@ class Comparer {
     return DeviationOf(comparison.Result());
   }
 
+  /// Without any there is nothing to compare.
+  [[nodiscard]] bool HasReferenceEchoes() const {
+    return std::any_of(references_.begin(), references_.end(), [](const Frame& frame) {
+      return std::count(frame.outcome.begin(), frame.outcome.end(), Outcome::kReturned) > 0;
+    });
+  }
+
  private:
   void Scan(std::uint32_t index, const EffectSet& effects, Frame& frame) {
     SimulatorSpec spec = spec_;
@@ -140,16 +148,19 @@ FidelityChoice ChooseFidelity(Simulator& simulator,
                               const ChoiceProgress& on_progress) {
   Check(scenario.fidelity == kAutoFidelity, "there is something to choose");
   FidelityChoice choice;
-  const Candidates candidates = FindCandidates(scenario, choice);
+  Candidates candidates = FindCandidates(scenario, choice);
   const EffectSet reference = ReferenceOf(candidates.full);
   // References take nearly all of the time.
   constexpr double kSampleShare = 0.45;
   constexpr double kMeasureShare = 0.1;
   on_progress(0.0);
   Comparer comparer(simulator, scenario);
-  choice.sample_frames = SampleFrames(simulator.pattern(), kNumSampleFrames);
+  const auto frames = SampleFrames(scenario, simulator, kNumFrames, kFrameSpacing_s);
+  for (std::size_t i = 0; i < frames.size(); i += 2) choice.sample_frames.push_back(frames[i]);
   comparer.UseFrames(choice.sample_frames, reference);
   on_progress(kSampleShare);
+  choice.has_echoes = comparer.HasReferenceEchoes();
+  if (!choice.has_echoes) candidates.all.clear();
   const EffectSearchResult found =
       FindCheapestEffects(candidates.full, candidates.all, scenario.tolerance,
                           [&](const EffectSet& effects) { return comparer.Measure(effects); });
@@ -164,10 +175,10 @@ FidelityChoice ChooseFidelity(Simulator& simulator,
     choice.measured.push_back({NameOf(effect), found.effects.*effect, found.without[i]});
   }
   on_progress(kSampleShare + kMeasureShare);
-  for (const std::uint32_t frame : SampleFrames(simulator.pattern(), kNumHeldBackFrames, 0.5)) {
-    comparer.UseFrames({frame}, reference);
+  for (std::size_t i = 1; i < frames.size(); i += 2) {
+    comparer.UseFrames({frames[i]}, reference);
     const Deviation deviation = comparer.Measure(choice.effects);
-    choice.held_back.push_back({frame, deviation, IsWithin(deviation, scenario.tolerance)});
+    choice.held_back.push_back({frames[i], deviation, IsWithin(deviation, scenario.tolerance)});
   }
   return choice;
 }

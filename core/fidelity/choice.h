@@ -21,6 +21,7 @@ struct FidelityChoice {
   double instructions{};       ///< Estimated, per firing, of `effects` (effect_costs.h).
   double full_instructions{};  ///< Of all effects that were chosen from.
   std::vector<std::uint32_t> sample_frames;
+  bool has_echoes{};  ///< The reference has any there; if not, nothing was left out.
 
   /// An effect that was measured.
   struct Measured {
@@ -48,9 +49,9 @@ using ChoiceProgress = std::function<void(double done)>;
 
 /// Finds the cheapest effects that stay within the scenario's tolerance.
 ///
-/// On sample frames (3, at 0, 1 and 2 s) the effects of the rung `footprint` are searched as
-/// effect_search.h says, by the fixed costs of effect_costs.h. Then the choice is measured on
-/// frames that had no part in it (at 0.5, 1.5 and 2.5 s).
+/// On sample frames (3, at 0, 1 and 2 s; nearer where the track ends before) the effects of the
+/// rung `footprint` are searched as effect_search.h says, by the fixed costs of effect_costs.h.
+/// Then the choice is measured on frames that had no part in it (3, halfway between).
 ///
 /// What the user switches on or off stays so. Effects that change statistics at little cost
 /// (`sensor_dropout`, `clutter`, `fog_echo`, `sunlight`, `range_noise`, `channel_bias`,

@@ -73,6 +73,7 @@ std::string ChoiceText(const FidelityChoice& choice, const ToleranceSpec& tolera
   if (!choice.is_within_tolerance) {
     text += "  beyond the tolerance, as all effects together are\n";
   }
+  if (!choice.has_echoes) text += "  the reference has no echo to compare with: all are kept\n";
   for (const FidelityChoice::Measured& measured : choice.measured) {
     if (measured.is_kept) continue;
     text += "  without " + measured.effect +
@@ -112,6 +113,7 @@ std::string ChoiceJson(const FidelityChoice& choice, const ToleranceSpec& t) {
                      {"kept_unmeasured", choice.kept},
                      {"left_out_without_cause", choice.without_cause},
                      {"sample_frames", choice.sample_frames},
+                     {"has_echoes", choice.has_echoes},
                      {"held_back", held_back},
                      {"held_back_beyond_tolerance", NumBeyond(choice)}};
   return json.dump(2);

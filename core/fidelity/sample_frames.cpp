@@ -3,17 +3,32 @@
 #include <algorithm>
 #include <cmath>
 
-namespace railcast {
+#include "core/rail/rail_world.h"
+#include "core/rail/world_check.h"
 
-std::vector<std::uint32_t> SampleFrames(const ScanPattern& pattern,
+namespace railcast {
+namespace {
+
+bool IsOnTrack(const ScenarioSpec& scenario, const Simulator& simulator, std::uint32_t frame) {
+  const auto* const world = dynamic_cast<const RailWorld*>(&simulator.world());
+  const TrackSpec* const track = FindTrack(scenario.world, scenario.vehicle.track);
+  if (world == nullptr || track == nullptr) return true;  // A host's world has no tracks.
+  const double s_m = world->VehicleChainage_m(simulator.pattern().StampNs(frame));
+  return s_m >= track->start_s_m && s_m <= track->end_s_m.value_or(world->alignment().length_m());
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> SampleFrames(const ScenarioSpec& scenario,
+                                        const Simulator& simulator,
                                         int num_frames,
-                                        double offset_s) {
+                                        double spacing_s) {
+  const auto num_steps = static_cast<std::uint32_t>(num_frames - 1);
+  const double frames_apart = std::max(1.0, std::round(spacing_s * simulator.pattern().rate_hz));
+  auto step = static_cast<std::uint32_t>(frames_apart);
+  while (step > 1 && !IsOnTrack(scenario, simulator, num_steps * step)) step /= 2;
   std::vector<std::uint32_t> frames;
-  for (int i = 0; i < num_frames; ++i) {
-    const auto frame = static_cast<std::uint32_t>(std::lround((i + offset_s) * pattern.rate_hz));
-    // A slow sensor has less than a frame a second.
-    frames.push_back(frames.empty() ? frame : std::max(frame, frames.back() + 1));
-  }
+  for (std::uint32_t i = 0; i <= num_steps; ++i) frames.push_back(i * step);
   return frames;
 }
 

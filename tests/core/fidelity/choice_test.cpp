@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/fidelity/choice_report.h"
+#include "core/fidelity/sample_frames.h"
 #include "core/scenario/effects.h"
 #include "core/scenario/scenario.h"
 #include "tests/core/scenario/scenario_files.h"
@@ -14,6 +15,7 @@ namespace railcast {
 namespace {
 
 using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -22,12 +24,16 @@ struct Line {
   bool has_wires = true;
   std::string mount = "{}";
   std::string more = "";  ///< Keys of the scenario.
+  std::string start_s_m = "400";
 };
 
 ScenarioSpec Read(const Line& line) {
   const TemporaryFolder folder;
   const std::string scenarios = ScenariosDir().string();
-  return ReadScenario(folder.Write("scenario.json", R"({
+  return ReadScenario(folder
+                          .Write(
+                              "scenario.json",
+                              R"({
     "version": 1,
     "fidelity": "auto",
     "lidar": {
@@ -41,12 +47,13 @@ ScenarioSpec Read(const Line& line) {
         "course": {"type": "elements", "elements": [{"type": "straight", "length_m": 1000}]}
       },
       "catenary": {"enabled": )" + (line.has_wires ? "true" : "false") +
-                                                        R"(},
+                                  R"(},
       "terrain": {"roughness_sigma_m": 0.01},
       "vegetation": {"trees_per_hectare": 0, "grass": false}
     },
-    "vehicle": {"start_s_m": 400, "motion": {"profile": [{"time_s": 0, "speed_mps": 10}]}},)" +
-                                                        line.more + R"(
+    "vehicle": {"start_s_m": )" + line.start_s_m +
+                                  R"(, "motion": {"profile": [{"time_s": 0, "speed_mps": 10}]}},)" +
+                                  line.more + R"(
     "materials": ")" + scenarios + R"(/materials/railway.json",
     "labels": ")" + scenarios + R"(/labels.json"})"));
 }
@@ -135,11 +142,34 @@ TEST(ChooseFidelity, IsNotMadeOnTheFramesItIsCheckedWith) {
   }
 }
 
+TEST(ChooseFidelity, KeepsAllWhereNothingIsSeen) {
+  const FidelityChoice choice =
+      Choose(Read({.has_wires = false, .mount = R"({"pitch_deg": -80})"}));
+  EXPECT_FALSE(choice.has_echoes);
+  EXPECT_TRUE(choice.effects.footprint);
+  EXPECT_THAT(ChoiceText(choice, {}), HasSubstr("no echo to compare with: all are kept\n"));
+}
+
 TEST(ChooseFidelity, LeavesTheSimulatorAsItWas) {
   const ScenarioSpec scenario = Read({.has_wires = false, .mount = kSideways});
   const auto simulator = MakeSimulator(scenario, 0);
   static_cast<void>(ChooseFidelity(*simulator, scenario, [](double) {}));
   EXPECT_EQ(simulator->spec().effects, EffectsOfRung("footprint"));
+}
+
+std::vector<std::uint32_t> FramesFrom(const std::string& start_s_m) {
+  const ScenarioSpec scenario = Read({.start_s_m = start_s_m});
+  return SampleFrames(scenario, *MakeSimulator(scenario, 1), 3, 1.0);
+}
+
+TEST(SampleFrames, AreSoManySecondsApart) {
+  EXPECT_THAT(FramesFrom("400"), ElementsAre(0, 10, 20));
+}
+
+TEST(SampleFrames, AreNearerWhereTheTrackEndsBefore) {
+  // 10 m/s, 5 m to go: half a second, so 20 and 10 frames are too many and 4 are not.
+  EXPECT_THAT(FramesFrom("995"), ElementsAre(0, 2, 4));
+  EXPECT_THAT(FramesFrom("1000"), ElementsAre(0, 1, 2));
 }
 
 }  // namespace
