@@ -17,6 +17,9 @@ namespace {
 // As many as a packet of rays: of all numbers the cheapest for its size.
 constexpr std::size_t kAdaptiveSubRays = 16;
 
+// Weaker echoes are detected once in a thousand at most.
+constexpr float kLeastRatio = 0.3F;
+
 Component ComponentOf(const DetectTile& hits, std::size_t lane) {
   return {.range_m = hits.true_range_m[lane],
           .spread_m = hits.spread_m[lane],

@@ -10,6 +10,7 @@ namespace railcast {
 namespace {
 
 constexpr double kNear_m = 0.01;
+constexpr double kNoticedSigmas = 4.0;
 constexpr double kLeastSigma_rad = 1e-7;
 constexpr double kLeastShare = 1e-12;  // Of a part: below the tables' error.
 constexpr double kRangeStep = 1.2;     // Linear pictures hold to a few per cent up to this.
@@ -75,7 +76,8 @@ WireInBeam FindPart(const Image& image, const Sight& begin, const Sight& end, do
   // The beam's sigma along the normal of the image, which undoing the division turns.
   const double run_x = image.sigma_h * image.direction[0];
   const double run_y = image.sigma_v * image.direction[1];
-  const double sigma_across = image.sigma_h * image.sigma_v / std::hypot(run_x, run_y);
+  const double sigma_across =
+      image.sigma_h * image.sigma_v / std::sqrt(run_x * run_x + run_y * run_y);
   const double half_width = radius_m / axis_m / sigma_across;
   const double share =
       NormalShare(image.distance - half_width, image.distance + half_width) * along.share;
@@ -105,7 +107,7 @@ class PartSum {
     if (!(share_ > 0.0)) return {};
     const double range_m = range_m_ / share_;
     const double variance_m2 = range_square_m2_ / share_ - range_m * range_m;
-    return {.share = share_,
+    return {.share = std::min(share_, 1.0),  // Sums round.
             .range_m = range_m,
             .spread_m = std::sqrt(std::max(variance_m2, 0.0)),
             .sin_axis = sin_axis_ / share_};
@@ -169,13 +171,18 @@ WireInBeam FindWireInBeam(const WideBeam& beam, const WireSegment& wire) {
   image.begin = {direction.dot(first), 1.0 / begin_m.z()};
   image.end = {direction.dot(first) + length, 1.0 / end_m.z()};
 
-  if (image.begin.across >= kNormalReach || image.end.across <= -kNormalReach) return {};
+  if (image.begin.across > kNormalReach || image.end.across < -kNormalReach) return {};
+  const auto radius_m = static_cast<double>(wire.radius_m);
+  const double nearest_per_m =
+      std::max(image.begin.inverse_depth_per_m, image.end.inverse_depth_per_m);
+  const double half_width_max = radius_m * nearest_per_m / sigmas.minCoeff();
+  if (std::fabs(image.distance) > kNoticedSigmas + half_width_max) return {};
   Sight from = image.begin;
   Sight to = image.end;
   if (from.across < -kNormalReach)
     from = {-kNormalReach, image.InverseDepthAt_per_m(-kNormalReach)};
   if (to.across > kNormalReach) to = {kNormalReach, image.InverseDepthAt_per_m(kNormalReach)};
-  return AddParts(image, from, to, wire.radius_m);
+  return AddParts(image, from, to, radius_m);
 }
 
 }  // namespace railcast

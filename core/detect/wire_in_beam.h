@@ -18,8 +18,9 @@ struct WideBeam {
 
 /// What a beam meets of a straight piece of wire.
 struct WireInBeam {
-  double share{};     ///< Of the beam's power that falls on it; 0 = it misses.
-  double range_m{};   ///< Mean of the lit surface, weighted with a Lambertian's answer.
+  double share{};  ///< Of the beam's power that falls on it; 0 = it misses.
+  double
+      range_m{};  ///< Mean of the lit surface, weighted round the section as a Lambertian answers.
   double spread_m{};  ///< Standard deviation of the same.
   double sin_axis{};  ///< Sine between the wire's axis and the line of sight, in [0, 1].
 };
@@ -41,9 +42,10 @@ struct WireInBeam {
 /// 1). Where the range changes by more than a fifth within the beam, the piece is cut and the parts
 /// are added.
 ///
-/// Validity: radius < 0.1 range. The cut ends are not seen. What is less than 1 cm in front of the
-/// sensor is left out, and what is beyond six sigma (2e-9 of the beam). A sigma below 1e-7 rad
-/// counts as that: a ray, which the wire catches whole or not at all.
+/// Validity: radius < 0.1 range. An end is cut along the line of sight, and its face not seen. What
+/// is less than 1 cm in front of the sensor is left out, and a wire that passes the beam's middle
+/// at more than four sigmas (3e-5 of the beam). A sigma below 1e-7 rad counts as that: a ray, which
+/// the wire catches whole or not at all.
 [[nodiscard]] WireInBeam FindWireInBeam(const WideBeam& beam, const WireSegment& wire);
 
 }  // namespace railcast

@@ -8,19 +8,23 @@
 namespace railcast {
 namespace {
 
-// A span of contact wire is long beside a tile's cone, so one sphere for all of it rejects little.
+// A span of contact wire is long beside a tile's cone, so one ball for all of it rejects little.
 constexpr std::size_t kGroupSegments = 8;
 
-WireGroup SphereAround(const std::vector<WireSegment>& segments, std::size_t first) {
+WireBall BallAround(const WireSegment& wire) {
+  return {0.5F * (wire.begin_m + wire.end_m),
+          0.5F * (wire.end_m - wire.begin_m).norm() + wire.radius_m};
+}
+
+WireGroup MakeGroup(const std::vector<WireSegment>& segments, std::size_t first) {
   const std::size_t end = segments.size();
-  WireGroup group{.center_m = 0.5F * (segments[first].begin_m + segments[end - 1].end_m),
-                  .radius_m = 0.0F,
+  WireGroup group{.ball = {0.5F * (segments[first].begin_m + segments[end - 1].end_m), 0.0F},
                   .first_segment = static_cast<std::uint32_t>(first),
-                  .num_segments = static_cast<std::uint32_t>(end - first)};
+                  .end_segment = static_cast<std::uint32_t>(end)};
   for (std::size_t i = first; i < end; ++i) {
-    const float distance_m = std::max((segments[i].begin_m - group.center_m).norm(),
-                                      (segments[i].end_m - group.center_m).norm());
-    group.radius_m = std::max(group.radius_m, distance_m + segments[i].radius_m);
+    const float distance_m = std::max((segments[i].begin_m - group.ball.center_m).norm(),
+                                      (segments[i].end_m - group.ball.center_m).norm());
+    group.ball.radius_m = std::max(group.ball.radius_m, distance_m + segments[i].radius_m);
   }
   return group;
 }
@@ -35,8 +39,9 @@ void WireSet::Add(const std::vector<Vector3>& points_m, double radius_m, std::ui
                         .end_m = points_m[i].cast<float>(),
                         .radius_m = static_cast<float>(radius_m),
                         .surface = surface});
+    balls.push_back(BallAround(segments.back()));
     if (segments.size() - first < kGroupSegments && i + 1 < points_m.size()) continue;
-    groups.push_back(SphereAround(segments, first));
+    groups.push_back(MakeGroup(segments, first));
     first = segments.size();
   }
 }

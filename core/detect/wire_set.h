@@ -16,17 +16,23 @@ struct WireSegment {
   std::uint32_t surface{};  ///< Index into the window's surfaces.
 };
 
-/// Segments that follow each other, and a sphere that holds them: most beams pass all of it.
-struct WireGroup {
+/// A ball that holds wires, their radii included.
+struct WireBall {
   Eigen::Vector3f center_m;
   float radius_m{};
+};
+
+/// Segments that follow each other, and a ball that holds them: most beams pass all of it.
+struct WireGroup {
+  WireBall ball;
   std::uint32_t first_segment{};
-  std::uint32_t num_segments{};
+  std::uint32_t end_segment{};
 };
 
 /// The thin conductors of a window.
 struct WireSet {
   std::vector<WireSegment> segments;
+  std::vector<WireBall> balls;  ///< One round each segment.
   std::vector<WireGroup> groups;
 
   /// Adds a polyline of at least two points in the window frame.

@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/base/transform.h"
 #include "core/frame/frame.h"
 #include "core/scan/scan_pattern.h"
 #include "core/scene/material.h"
@@ -23,6 +24,14 @@ namespace railcast {
        .pattern = RasterSpec{.horizontal_fov_deg = horizontal_fov_deg,
                              .vertical_fov_deg = vertical_fov_deg,
                              .angular_resolution_deg = angular_resolution_deg}});
+}
+
+/// A firing's direction in the sensor frame, of unit length in double: float32 is to 6e-8 only.
+[[nodiscard]] inline Vector3 DirectionOf(const ScanPattern& pattern, std::size_t firing) {
+  return Eigen::Vector3f(pattern.direction_x[firing], pattern.direction_y[firing],
+                         pattern.direction_z[firing])
+      .cast<double>()
+      .normalized();
 }
 
 /// One frame of a world. Rung geometry unless the spec says otherwise.

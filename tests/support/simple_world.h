@@ -10,7 +10,7 @@
 namespace railcast {
 
 /// A world of one chunk for analytic scenes: its ground, its objects, and a vehicle that moves at a
-/// constant velocity. `world_from_chunk` moves all of it.
+/// constant velocity and turns at a constant rate. `world_from_chunk` moves all of it.
 class SimpleWorld final : public World {
  public:
   Model ground;  ///< Chunk frame.
@@ -18,6 +18,7 @@ class SimpleWorld final : public World {
   Transform world_from_chunk = Transform::Identity();
   Transform chunk_from_vehicle = Transform::Identity();  ///< At time 0.
   Vector3 velocity_chunk_mps = Vector3::Zero();
+  double yaw_rate_radps = 0.0;  ///< Of the vehicle about its own z, left positive.
 
   /// Adds an object that stands at `chunk_from_object` or moves away from it.
   void AddObject(std::shared_ptr<const Model> model,
@@ -36,7 +37,9 @@ class SimpleWorld final : public World {
   }
 
   [[nodiscard]] Transform WorldFromVehicle(std::int64_t time_ns) const override {
-    return Moved(chunk_from_vehicle, velocity_chunk_mps, time_ns);
+    const double yaw_rad = yaw_rate_radps * SecondsFromNs(time_ns);
+    const Transform turned = chunk_from_vehicle * Eigen::AngleAxisd(yaw_rad, Vector3::UnitZ());
+    return Moved(turned, velocity_chunk_mps, time_ns);
   }
   [[nodiscard]] int HomeChunk(std::int64_t) const override { return 0; }
   [[nodiscard]] std::vector<int> ChunksInReach(int, double) const override { return {0}; }

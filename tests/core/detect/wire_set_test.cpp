@@ -7,7 +7,7 @@
 namespace railcast {
 namespace {
 
-TEST(WireSet, EverySegmentIsInsideTheSphereOfItsGroupAndInOneGroup) {
+TEST(WireSet, EverySegmentIsInsideTheBallOfItsGroupAndInOneGroup) {
   WireSet wires;
   for (const int num_points : {2, 3, 9, 10, 40}) {
     std::vector<Vector3> points_m;
@@ -20,11 +20,12 @@ TEST(WireSet, EverySegmentIsInsideTheSphereOfItsGroupAndInOneGroup) {
   std::uint32_t next = 0;
   for (const WireGroup& group : wires.groups) {
     EXPECT_EQ(group.first_segment, next);
-    next += group.num_segments;
+    next = group.end_segment;
     for (std::uint32_t i = group.first_segment; i < next; ++i) {
       const WireSegment& segment = wires.segments[i];
       for (const Eigen::Vector3f& end_m : {segment.begin_m, segment.end_m}) {
-        EXPECT_LE((end_m - group.center_m).norm() + segment.radius_m, group.radius_m * 1.000001F);
+        EXPECT_LE((end_m - group.ball.center_m).norm() + segment.radius_m,
+                  group.ball.radius_m * 1.000001F);
       }
     }
   }

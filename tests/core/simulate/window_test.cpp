@@ -278,7 +278,7 @@ TEST(WindowSource, AWindowListsTheWiresOfItsChunksWhereTheirTubesAre) {
   for (int i = 0; i < 5; ++i) {
     const int chunk = 8 + i;
     const double x_m = kChunkLength_m * (chunk - 10);
-    const auto at = static_cast<std::size_t>(2 * i);
+    const std::size_t at = 2 * static_cast<std::size_t>(i);
     const WireSegment& first = window->wires.segments[at];
     const WireSegment& second = window->wires.segments[at + 1];
     EXPECT_TRUE(first.begin_m.isApprox(Vector3(x_m, 1.0, 5.0).cast<float>()));

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <memory>
 #include <vector>
 
@@ -80,7 +80,7 @@ TEST(TraceScene, TheMaskChangesNoBitWhereNoWireIsInTheWay) {
     if (all.surface[i] == 2) continue;
     num_on_ball += all.surface[i] == 3 ? 1U : 0U;
     EXPECT_EQ(all.surface[i], no_wires.surface[i]);
-    EXPECT_EQ(std::memcmp(&all.range_m[i], &no_wires.range_m[i], sizeof(float)), 0);
+    EXPECT_EQ(all.range_m[i], no_wires.range_m[i]);
   }
   EXPECT_GT(num_on_ball, 30U);
 }
@@ -91,7 +91,7 @@ TEST(TraceScene, RangesAloneObeyTheMaskToo) {
   RayTile ranges = MakeFan(kAllButWires);
   scene.scene.Cast(full);
   scene.scene.CastRanges(ranges);
-  EXPECT_EQ(std::memcmp(full.range_m, ranges.range_m, sizeof full.range_m), 0);
+  EXPECT_TRUE(std::equal(full.range_m, full.range_m + kTileSize, ranges.range_m));
 }
 
 }  // namespace

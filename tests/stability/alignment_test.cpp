@@ -1,0 +1,223 @@
+// Where a line's geometry breaks: curves as tight as the gauge, cusps, elements without length, and
+// sums over a thousand kilometres.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/rail/line/alignment.h"
+#include "core/rail/line/alignment_course.h"
+#include "core/rail/track/rail_section.h"
+#include "core/rail/track/sweep.h"
+
+namespace railcast {
+namespace {
+
+AlignmentSpec LineOf(std::vector<AlignmentElement> elements) {
+  AlignmentSpec spec;
+  spec.course = AlignmentElementsSpec{std::move(elements)};
+  return spec;
+}
+
+AlignmentSpec SplineOf(std::vector<std::array<double, 2>> points_m) {
+  AlignmentSpec spec;
+  spec.course = AlignmentSplineSpec{std::move(points_m)};
+  return spec;
+}
+
+std::string FaultOf(const AlignmentSpec& spec) {
+  try {
+    const Alignment alignment(spec);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(AlignmentAtItsLimits, RefusesARadiusNearTheGauge) {
+  const auto fault = [](const std::string& got) {
+    return "/course/elements/0/radius_m: must be at least 10 m, negative to the right, absent "
+           "where "
+           "straight (got " +
+           got + ")";
+  };
+  EXPECT_EQ(FaultOf(LineOf({{"arc", 5.0, kGauge_m}})), fault("1.435"));
+  EXPECT_EQ(FaultOf(LineOf({{"arc", 5.0, -0.5 * kGauge_m}})), fault("-0.7175"));
+  EXPECT_EQ(FaultOf(LineOf({{"arc", 5.0, 9.999}})), fault("9.999"));
+  EXPECT_EQ(FaultOf(LineOf({{"arc", 5.0, 0.0}})), fault("0"));
+  EXPECT_EQ(FaultOf(LineOf({{"arc", 5.0, std::nan("")}})), fault("nan"));
+  EXPECT_EQ(FaultOf(LineOf({{"arc", 5.0, 10.0}})), "none");
+}
+
+// Sixteen metres of the tightest curve there may be: chords of 2.5 m, as on a straight, would be
+// 75 mm off it; ours keep their millimetre, and the gauge.
+TEST(AlignmentAtItsLimits, TheTightestCurveKeepsItsGaugeAndItsChords) {
+  const Alignment alignment(LineOf({{"arc", 16.0, 10.0}}));
+  const Vector3 centre_m(0.0, 10.0, 0.0);
+  for (const double side : {-1.0, 1.0}) {
+    const double offset_m = side * 0.5 * kGauge_m;
+    const auto stations = SweepStations(alignment, {0.0, 16.0}, offset_m, 1e-3, 2.5);
+    Vector3 before_m = alignment.WorldFromTrack(0.0, offset_m).translation();
+    for (std::size_t i = 1; i < stations.size(); ++i) {
+      const Vector3 place_m = alignment.WorldFromTrack(stations[i], offset_m).translation();
+      EXPECT_NEAR((place_m - centre_m).norm(), 10.0 - offset_m, 1e-9);
+      EXPECT_GE((0.5 * (before_m + place_m) - centre_m).norm(), 10.0 - offset_m - 1.001e-3);
+      before_m = place_m;
+    }
+  }
+  const double radius_m = 10.0 + 0.5 * kGauge_m;
+  EXPECT_GT(radius_m - std::sqrt(radius_m * radius_m - 1.25 * 1.25), 0.07);
+}
+
+TEST(AlignmentAtItsLimits, RefusesCuspsOfASpline) {
+  const std::string fault =
+      "/course/points_m/0: the spline must not have a cusp between this point and the next, its "
+      "radius be at least 10 m (got ";
+  // There and back on one line: the turning point is a cusp without a width.
+  EXPECT_EQ(FaultOf(SplineOf({{0.0, 0.0}, {100.0, 0.0}, {50.0, 0.0}})), fault + "0)");
+  // The same with a width of 1 mm, 1 cm, 10 cm: a hairpin of nanometres, of micrometres.
+  for (const double width_m : {1e-3, 1e-2, 1e-1}) {
+    const std::string got = FaultOf(SplineOf({{0.0, 0.0}, {100.0, 0.0}, {50.0, width_m}}));
+    EXPECT_EQ(got.find(fault), 0U) << got;
+  }
+}
+
+TEST(AlignmentAtItsLimits, RefusesElementsWithoutLength) {
+  EXPECT_EQ(FaultOf(LineOf({{"straight", 100.0, {}}, {"straight", 0.0, {}}})),
+            "/course/elements/1/length_m: must be > 0 (got 0)");
+  EXPECT_EQ(FaultOf(LineOf({{"straight", 100.0, {}}, {"arc", -1.0, 300.0}})),
+            "/course/elements/1/length_m: must be > 0 (got -1)");
+  EXPECT_EQ(FaultOf(LineOf({{"straight", 100.0, {}}, {"straight", std::nan(""), {}}})),
+            "/course/elements/1/length_m: must be > 0 (got nan)");
+}
+
+// The shortest element that a scenario may have, 1 mm, at the end of the longest line: harmless.
+TEST(AlignmentAtItsLimits, AnElementOfAMillimetreAfterAThousandKilometresIsHarmless) {
+  const Alignment line(LineOf({{"straight", 1e6, {}},
+                               {"clothoid", 1e-3, {}},
+                               {"arc", 1e-3, 500.0},
+                               {"arc", 100.0, 500.0}}));
+  EXPECT_NEAR(line.length_m(), 1e6 + 100.002, 1e-9);
+  const AxisPoint end = line.At(line.length_m());
+  EXPECT_NEAR(end.heading_rad, (100.0 + 1.5e-3) / 500.0, 1e-12);
+  EXPECT_TRUE(end.position_m.allFinite());
+}
+
+/// Straight, clothoid, arc, clothoid, to the left and to the right in turn: 1,000 km and 4,000
+/// elements.
+std::vector<AlignmentElement> ThousandKilometres() {
+  std::vector<AlignmentElement> elements;
+  for (int i = 0; i < 1000; ++i) {
+    const double radius_m = (i % 2 == 0 ? 1.0 : -1.0) * (400.0 + 3.7 * (i % 211));
+    elements.push_back({"straight", 400.0, {}});
+    elements.push_back({"clothoid", 120.0, {}});
+    elements.push_back({"arc", 360.0, radius_m});
+    elements.push_back({"clothoid", 120.0, {}});
+  }
+  return elements;
+}
+
+double CurvatureOf(const AlignmentElement& element) {
+  return element.radius_m ? 1.0 / *element.radius_m : 0.0;
+}
+
+TEST(AlignmentAtItsLimits, ChainageIsArcLengthToAMillimetreOverAThousandKilometres) {
+  const Alignment line(LineOf(ThousandKilometres()));
+  EXPECT_EQ(line.length_m(), 1e6);
+  constexpr int kNumSteps = 1'250'000;
+  constexpr double kStep_m = 0.8;
+  long double sum_m = 0.0L;
+  float sum_in_float_m = 0.0F;
+  double worst_m = 0.0;
+  Vector3 before_m = line.At(0.0).position_m;
+  for (int i = 1; i <= kNumSteps; ++i) {
+    const Vector3 position_m = line.At(i * kStep_m).position_m;
+    const double chord_m = (position_m - before_m).head<2>().norm();
+    // An arc of curvature k is longer than its chord by chord^3 k^2 / 24, and by 5e-15 m more.
+    const double curvature_per_m = line.At((i - 0.5) * kStep_m).curvature_per_m;
+    const double arc_m = chord_m + std::pow(chord_m, 3) * std::pow(curvature_per_m, 2) / 24.0;
+    sum_m += static_cast<long double>(arc_m);
+    sum_in_float_m += static_cast<float>(arc_m);
+    worst_m = std::max(worst_m, std::abs(static_cast<double>(sum_m) - i * kStep_m));
+    before_m = position_m;
+  }
+  const double float_error_m = std::abs(static_cast<double>(sum_in_float_m) - 1e6);
+  std::cout << "arc length of 1,000 km: ours off by " << 1e3 * worst_m
+            << " mm, summed in float32 by " << float_error_m << " m\n";
+  EXPECT_LE(worst_m, 1e-3);
+  EXPECT_GT(float_error_m, 1.0);
+}
+
+struct PlanEnd {
+  long double x_m{};
+  long double y_m{};
+  long double heading_rad{};
+};
+
+/// The end of the line by Simpson's rule in long double, steps of 0.5 m: (0.5 / 400)^4 / 2880 of
+/// the length is 1e-9 m in all.
+PlanEnd ByLongDouble(const std::vector<AlignmentElement>& elements) {
+  PlanEnd end;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const bool is_clothoid = elements[i].type == "clothoid";
+    const auto length_m = static_cast<long double>(elements[i].length_m);
+    const auto begin_per_m =
+        static_cast<long double>(CurvatureOf(elements[is_clothoid ? i - 1 : i]));
+    const auto after_per_m = static_cast<long double>(is_clothoid && i + 1 < elements.size()
+                                                          ? CurvatureOf(elements[i + 1])
+                                                      : is_clothoid ? 0.0
+                                                                    : CurvatureOf(elements[i]));
+    const auto heading_rad = [&](long double s_m) {
+      return end.heading_rad +
+             (begin_per_m + 0.5L * (after_per_m - begin_per_m) * s_m / length_m) * s_m;
+    };
+    const auto num_steps = static_cast<int>(2.0 * elements[i].length_m);
+    const long double step_m = length_m / static_cast<long double>(num_steps);
+    for (int step = 0; step < num_steps; ++step) {
+      for (const auto& [part, weight] : {std::pair{0.0L, 1.0L}, {0.5L, 4.0L}, {1.0L, 1.0L}}) {
+        const long double angle_rad = heading_rad((static_cast<long double>(step) + part) * step_m);
+        end.x_m += weight * step_m / 6.0L * std::cos(angle_rad);
+        end.y_m += weight * step_m / 6.0L * std::sin(angle_rad);
+      }
+    }
+    end.heading_rad = heading_rad(length_m);
+  }
+  return end;
+}
+
+/// The end of the line as a simple simulator walks there: a step of 1 m along the heading, then the
+/// curvature turns it.
+template <typename Real>
+Eigen::Matrix<Real, 2, 1> ByEuler(const Alignment& line) {
+  Eigen::Matrix<Real, 2, 1> place(0, 0);
+  Real heading_rad = 0;
+  for (int i = 0; i < 1'000'000; ++i) {
+    place += Eigen::Matrix<Real, 2, 1>(std::cos(heading_rad), std::sin(heading_rad));
+    heading_rad += static_cast<Real>(line.At(i).curvature_per_m);
+  }
+  return place;
+}
+
+TEST(AlignmentAtItsLimits, TheEndOfAThousandKilometresIsRightToAMicrometre) {
+  const Alignment line(LineOf(ThousandKilometres()));
+  const PlanEnd truth = ByLongDouble(ThousandKilometres());
+  const Vector3 truth_m(static_cast<double>(truth.x_m), static_cast<double>(truth.y_m), 0.0);
+  const AxisPoint end = line.At(line.length_m());
+  const double ours_m = (end.position_m - truth_m).norm();
+  const double euler_m = (ByEuler<double>(line) - truth_m.head<2>()).norm();
+  const double float_m = (ByEuler<float>(line).cast<double>() - truth_m.head<2>()).norm();
+  std::cout << "end of 1,000 km: ours off by " << 1e6 * ours_m << " um, Euler's steps of 1 m by "
+            << euler_m << " m, in float32 by " << float_m << " m\n";
+  EXPECT_NEAR(end.heading_rad, static_cast<double>(truth.heading_rad), 1e-12);
+  EXPECT_LE(ours_m, 1e-6);
+  EXPECT_GT(euler_m, 0.1);
+  EXPECT_GT(float_m, 10.0);
+}
+
+}  // namespace
+}  // namespace railcast
