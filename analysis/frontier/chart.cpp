@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::size_t kNumPanels = 4;
 // Colour-blind safe (Okabe and Ito).
-const std::string kLadderColor = "#0072b2";
-const std::string kBruteForceColor = "#d55e00";
+constexpr const char* kLadderColor = "#0072b2";
+constexpr const char* kBruteForceColor = "#d55e00";
 constexpr int kExitNotFound = 127;  // Of a shell.
 
 // Text in double quotes, as gnuplot reads it. Enhanced text is off.
@@ -162,7 +162,7 @@ std::string ChartScript(const std::vector<RowResult>& results, const std::string
     text += DataBlock("ladder", RowGroup::kLadder, error, results) +
             DataBlock("between", RowGroup::kBetween, error, results) +
             DataBlock("brute", RowGroup::kBruteForce, error, results) + Labels(error, results);
-    text += std::string("set ylabel ") + Quoted(error.title) +
+    text += "set ylabel " + Quoted(error.title) +
             // Room for labels on all sides.
             "\nset xrange [0.5:" + Short(1.3 * ends.right) + "]\nset yrange [" +
             Short(-0.1 * ends.top) + ":" + Short(1.2 * ends.top) +

@@ -23,27 +23,6 @@ bool IsCandidate(const RowResult& result, const FrontierError& error) {
 
 }  // namespace
 
-const std::vector<FrontierError> kFrontierErrors = {
-    {"missed_share", "echoes missed, %", 100.0,
-     [](const FrameDifference& d) { return 1.0 - d.reference_echoes.share(); }},
-    {"range_median_m", "range error, median, mm", 1e3,
-     [](const FrameDifference& d) { return d.range_m.median; }},
-    {"thin_missed_share", "wires missed, %", 100.0,
-     [](const FrameDifference& d) { return 1.0 - d.thin.share(); }},
-    {"second_missed_share", "second surfaces missed, %", 100.0,
-     [](const FrameDifference& d) { return 1.0 - d.second.share(); }},
-    {"false_share", "false echoes, %", 100.0,
-     [](const FrameDifference& d) { return 1.0 - d.echoes.share(); }},
-    {"range_p95_m", "range error, 95th percentile, mm", 1e3,
-     [](const FrameDifference& d) { return d.range_m.p95; }},
-    {"intensity_median", "intensity error, median, %", 100.0,
-     [](const FrameDifference& d) { return d.intensity.median; }},
-    {"intensity_p95", "intensity error, 95th percentile, %", 100.0,
-     [](const FrameDifference& d) { return d.intensity.p95; }},
-    {"dropout_error", "dropout error, %", 100.0,
-     [](const FrameDifference& d) { return d.dropout_error; }},
-};
-
 std::vector<bool> ParetoFront(const std::vector<RowResult>& results, const FrontierError& error) {
   std::vector<bool> is_on_front;
   for (const RowResult& result : results) {

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <cstddef>
+#include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -16,12 +17,36 @@ struct FrontierError {
   double (*of)(const FrameDifference& difference);
 };
 
+/// Share of what is missed; NaN if there is nothing to miss.
+[[nodiscard]] inline double MissedShare(const Matched& matched) {
+  return matched.num == 0 ? std::numeric_limits<double>::quiet_NaN() : 1.0 - matched.share();
+}
+
 /// Of the files. The first four are the charts' panels.
-extern const std::vector<FrontierError> kFrontierErrors;
+inline constexpr std::array<FrontierError, 9> kFrontierErrors{{
+    {"missed_share", "echoes missed, %", 100.0,
+     [](const FrameDifference& d) { return MissedShare(d.reference_echoes); }},
+    {"range_median_m", "range error, median, mm", 1e3,
+     [](const FrameDifference& d) { return d.range_m.median; }},
+    {"thin_missed_share", "wires missed, %", 100.0,
+     [](const FrameDifference& d) { return MissedShare(d.thin); }},
+    {"second_missed_share", "second surfaces missed, %", 100.0,
+     [](const FrameDifference& d) { return MissedShare(d.second); }},
+    {"false_share", "false echoes, %", 100.0,
+     [](const FrameDifference& d) { return MissedShare(d.echoes); }},
+    {"range_p95_m", "range error, 95th percentile, mm", 1e3,
+     [](const FrameDifference& d) { return d.range_m.p95; }},
+    {"intensity_median", "intensity error, median, %", 100.0,
+     [](const FrameDifference& d) { return d.intensity.median; }},
+    {"intensity_p95", "intensity error, 95th percentile, %", 100.0,
+     [](const FrameDifference& d) { return d.intensity.p95; }},
+    {"dropout_error", "dropout error, %", 100.0,
+     [](const FrameDifference& d) { return d.dropout_error; }},
+}};
 
 /// For one error: which rows no other row beats, that is, none is as fast and as accurate and
-/// better in one of both. The raw trace, and rows without this error (NaN), are no part of it. The
-/// references are: false, since nobody would make frames with them.
+/// better in one of both. The raw trace, the references (nobody would make frames with them) and
+/// rows without this error have no part in it.
 [[nodiscard]] std::vector<bool> ParetoFront(const std::vector<RowResult>& results,
                                             const FrontierError& error);
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "analysis/frontier/pareto.h"
+
 namespace railcast {
 namespace {
 
@@ -19,6 +21,9 @@ std::string Padded(const char* format, double value) {
 
 std::string Percent(double share) {
   return Padded("%9.2f", 100.0 * share);
+}
+std::string Percent(const Matched& found) {
+  return Percent(1.0 - MissedShare(found));
 }
 std::string Millimetres(double value_m) {
   return Padded("%9.2f", 1e3 * value_m);
@@ -44,10 +49,9 @@ std::string FrontierTable(const std::vector<RowResult>& results) {
             Padded("%9.2f", result.p99_ms()) + Padded("%9.2f", result.ratio());
     if (result.difference) {
       const FrameDifference& d = *result.difference;
-      text += Percent(d.reference_echoes.share()) + Percent(d.echoes.share()) +
-              Millimetres(d.range_m.median) + Millimetres(d.range_m.p95) +
-              Percent(d.intensity.median) + Percent(d.dropout_error) + Percent(d.thin.share()) +
-              Percent(d.second.share());
+      text += Percent(d.reference_echoes) + Percent(d.echoes) + Millimetres(d.range_m.median) +
+              Millimetres(d.range_m.p95) + Percent(d.intensity.median) + Percent(d.dropout_error) +
+              Percent(d.thin) + Percent(d.second);
     }
     text += "\n";
   }

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string_view>
-
 #include "core/detect/detect_spec.h"
 
 namespace railcast {
