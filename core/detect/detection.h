@@ -25,24 +25,26 @@ inline void ApplySunlight(DetectTile& tile, const SunlightParameters& parameters
 /// `detection_probability` the edge is soft: noise of the amplitude's own size decides,
 ///
 ///   P(detected) = Phi(SNR - SNR_t),  SNR = SNR_t x power ratio
+template <bool kIsSmooth>
 inline void ApplyDetection(DetectTile& tile, const DetectionParameters& parameters) {
   const LaneKey key{parameters.seed, RandomUse::kDetection, tile.frame};
   const DetectionParameters p = parameters;  // A copy: no store to the tile can change it.
+  constexpr auto kReturned = static_cast<std::uint32_t>(Outcome::kReturned);
+  constexpr auto kClutter = static_cast<std::uint32_t>(Outcome::kClutter);
+  constexpr auto kBelowThreshold = static_cast<std::uint32_t>(Outcome::kBelowThreshold);
   for (std::size_t i = 0; i < tile.num_rays; ++i) {
     const float ratio = tile.power_ratio[i];
+    // NaN is not detected.
     bool detected = ratio >= 1.0F;
-    if (p.is_smooth) {
+    if constexpr (kIsSmooth) {
       const float u = LaneUnit(LaneWords(key, tile.firing[i], tile.echo[i]).a);
-      // Far above the threshold Phi is 1 to float32; below -20 Exp's argument would leave its
-      // range for no gain. NaN stays undetected.
+      // Beyond 9 sigma Phi is 1 to float32.
       const float excess = p.snr_at_threshold * (ratio - 1.0F);
-      const float bounded = excess > 9.0F ? 9.0F : excess;
-      detected = u < NormalCdf(bounded);
+      detected = u < NormalCdf(excess > 9.0F ? 9.0F : excess);
     }
-    const bool answers = tile.outcome[i] == static_cast<std::uint32_t>(Outcome::kReturned) ||
-                         tile.outcome[i] == static_cast<std::uint32_t>(Outcome::kClutter);
-    tile.outcome[i] = answers && !detected ? static_cast<std::uint32_t>(Outcome::kBelowThreshold)
-                                           : tile.outcome[i];
+    const std::uint32_t before = tile.outcome[i];
+    const bool answers = (before == kReturned) | (before == kClutter);
+    tile.outcome[i] = answers & !detected ? kBelowThreshold : before;
   }
 }
 

@@ -134,12 +134,10 @@ void AddPhysicalSteps(const DetectorSpec& spec,
   }
   if (spec.effects.detection) {
     const DetectionParameters parameters{
-        .seed = spec.seed,
-        .snr_at_threshold = static_cast<float>(spec.receiver.snr_at_threshold),
-        .is_smooth = spec.effects.detection_probability};
-    steps.push_back({"detection", [=, apply = kernels.detection](DetectTile& tile) {
-                       apply(tile, parameters);
-                     }});
+        .seed = spec.seed, .snr_at_threshold = static_cast<float>(spec.receiver.snr_at_threshold)};
+    auto* const apply =
+        spec.effects.detection_probability ? kernels.smooth_detection : kernels.detection;
+    steps.push_back({"detection", [=](DetectTile& tile) { apply(tile, parameters); }});
   }
 }
 

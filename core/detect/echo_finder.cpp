@@ -8,9 +8,6 @@
 namespace railcast {
 namespace {
 
-// Weaker echoes are detected once in a thousand at most.
-constexpr float kLeastRatio = 0.3F;
-
 // Peaks nearer than this, in pulse sigmas, are one that was climbed to twice.
 constexpr float kSamePeak = 0.5F;
 
@@ -55,10 +52,12 @@ Echo Gather(const WavePeak& peak, const Component* begin, const Component* end) 
 EchoFinder::EchoFinder(const BeamSpec& beam,
                        bool has_stretch,
                        bool is_sampled,
+                       float least_ratio,
                        const Kernels& kernels)
     : pulse_sigma_m_(static_cast<float>(PulseSigma_m(beam))),
       has_stretch_(has_stretch),
       is_sampled_(is_sampled),
+      least_ratio_(least_ratio),
       kernels_(kernels) {}
 
 void EchoFinder::MakeWave(const std::vector<Component>& components) {
@@ -88,18 +87,19 @@ void EchoFinder::ClimbToPeaks(const std::vector<Component>& components) {
   // draws from farther than that.
   std::size_t begin = 0;
   while (begin < components.size()) {
+    const float begin_m = components[begin].range_m;
     float power = 0.0F;
     float moment = 0.0F;
     std::size_t end = begin;
-    while (end < components.size() &&
-           components[end].range_m - components[begin].range_m <= pulse_sigma_m_) {
+    while (end < components.size() && components[end].range_m - begin_m <= pulse_sigma_m_) {
       power += components[end].power_ratio;
-      moment += components[end].power_ratio * (components[end].range_m - components[begin].range_m);
+      moment += components[end].power_ratio * (components[end].range_m - begin_m);
       ++end;
     }
     if (power > 0.0F) {
-      AddPeak(kernels_.climb_wave(wave_, components[begin].range_m + moment / power));
-    }
+      const WaveKnown known{peaks_.data(), peaks_.size(), 2.0F * pulse_sigma_m_};
+      AddPeak(kernels_.climb_wave(wave_, begin_m + moment / power, known));
+    };
     begin = end;
   }
 }
@@ -151,7 +151,7 @@ void EchoFinder::Find(std::vector<Component>& components, std::vector<Echo>& ech
       std::max_element(peaks_.begin(), peaks_.end(), [](const WavePeak& a, const WavePeak& b) {
         return a.value < b.value;
       })->value;
-  const float least = std::min(strongest, kLeastRatio);
+  const float least = std::min(strongest, least_ratio_);
   std::erase_if(peaks_, [&](const WavePeak& peak) { return peak.value < least; });
   // Every component belongs to the nearest peak.
   const Component* begin = components.data();

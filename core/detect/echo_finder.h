@@ -41,10 +41,14 @@ class EchoFinder {
   /// @param is_sampled Effect `sampled_waveform`: samples the wave at an eighth of the pulse's
   ///   sigma and looks for local maxima, refined by a parabola through the logarithms; else climbs
   ///   to each maximum by closed forms.
-  EchoFinder(const BeamSpec& beam, bool has_stretch, bool is_sampled, const Kernels& kernels);
+  EchoFinder(const BeamSpec& beam,
+             bool has_stretch,
+             bool is_sampled,
+             float least_ratio,
+             const Kernels& kernels);
 
-  /// Echoes by range, at least one if there is a component with power; those after the strongest
-  /// with at least a third of the threshold. Sorts `components` by range.
+  /// Echoes by range: the strongest, and all that reach `least_ratio` of the least detectable
+  /// power. Sorts `components` by range.
   void Find(std::vector<Component>& components, std::vector<Echo>& echoes);
 
  private:
@@ -56,6 +60,7 @@ class EchoFinder {
   float pulse_sigma_m_;
   bool has_stretch_;
   bool is_sampled_;
+  float least_ratio_;
   const Kernels& kernels_;
   std::vector<float> range_m_, peak_, inverse_variance_;
   EchoWave wave_;

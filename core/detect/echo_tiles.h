@@ -20,6 +20,7 @@ class EchoTiles {
   static constexpr std::uint32_t kFirstFlake = 200;
 
   DetectTile first;
+  float mixed_share[kTileSize];  ///< Of each firing's beam, as Frame::mixed_share has it.
 
   /// An echo: its tile and its lane there.
   struct Place {

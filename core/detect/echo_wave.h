@@ -22,4 +22,13 @@ struct WavePeak {
   float value{};
 };
 
+/// Where a climb need not go once more.
+struct WaveKnown {
+  const WavePeak* peaks{};
+  std::size_t num_peaks{};
+  /// A climb that heads for a known peak no farther away than this ends there: two pulses that near
+  /// have no valley between them.
+  float reach_m{};
+};
+
 }  // namespace railcast

@@ -86,7 +86,6 @@ struct SunlightParameters {
 struct DetectionParameters {
   std::uint64_t seed{};
   float snr_at_threshold{};
-  bool is_smooth{};
 };
 
 }  // namespace railcast

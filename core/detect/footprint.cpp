@@ -14,8 +14,29 @@
 namespace railcast {
 namespace {
 
-// As many as a packet of rays: of all numbers the cheapest for its size.
-constexpr std::size_t kAdaptiveSubRays = 16;
+// Surfaces farther apart than this are two.
+constexpr float kSurfaceGap_m = 0.5F;
+
+// The share of a beam that is not in the largest of its surfaces. Sorts the parts by range, those
+// of the sky last.
+float MixedShare(std::vector<Component>& parts) {
+  std::sort(parts.begin(), parts.end(), [](const Component& a, const Component& b) {
+    const bool a_hits = a.surface != 0;
+    const bool b_hits = b.surface != 0;
+    return a_hits != b_hits ? a_hits : a_hits && a.range_m < b.range_m;
+  });
+  float total = 0.0F;
+  float largest = 0.0F;
+  float share = 0.0F;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const bool begins = i == 0 || (parts[i].surface == 0) != (parts[i - 1].surface == 0) ||
+                        parts[i].range_m - parts[i - 1].range_m > kSurfaceGap_m;
+    share = begins ? parts[i].share : share + parts[i].share;
+    total += parts[i].share;
+    largest = std::max(largest, share);
+  }
+  return std::max(total - largest, 0.0F);
+}
 
 // Weaker echoes are detected once in a thousand at most.
 constexpr float kLeastRatio = 0.3F;
@@ -36,27 +57,20 @@ Component ComponentOf(const DetectTile& hits, std::size_t lane) {
 Footprint::Footprint(const FootprintSpec& spec, const Kernels& kernels)
     : spec_(spec),
       pulse_variance_m2_(static_cast<float>(PulseSigma_m(spec.beam) * PulseSigma_m(spec.beam))),
+      pattern_(spec.effects.dense_footprint
+                   ? DenseSubRays(static_cast<std::size_t>(spec.beam.reference_rays))
+                   : RingSubRays()),
       kernels_(kernels),
-      finder_(spec.beam, spec.effects.pulse_stretch, spec.effects.sampled_waveform, kernels) {
-  const auto count = spec.effects.dense_footprint
-                         ? static_cast<std::size_t>(spec.beam.reference_rays)
-                         : kAdaptiveSubRays;
-  const double golden_rad = std::numbers::pi * (3.0 - std::sqrt(5.0));
-  for (std::size_t k = 0; k < count; ++k) {
-    // Quantiles of the radius, in standard deviations (Rayleigh's distribution). The central ray
-    // stands for the innermost part.
-    const double u = (static_cast<double>(k) + 1.5) / static_cast<double>(count + 1);
-    const double radius = std::sqrt(-2.0 * std::log1p(-u));
-    const double angle_rad = golden_rad * static_cast<double>(k);
-    pattern_.push_back({static_cast<float>(radius * std::cos(angle_rad)),
-                        static_cast<float>(radius * std::sin(angle_rad))});
-  }
-}
+      finder_(spec.beam,
+              spec.effects.pulse_stretch,
+              spec.effects.sampled_waveform,
+              spec.effects.detection ? kLeastRatio : 0.0F,
+              kernels) {}
 
 // The central ray answered for the whole beam; here it is one cell of it, with less spread.
 Component Footprint::CentralCell(const DetectTile& first, std::size_t lane) const {
   Component cell = ComponentOf(first, lane);
-  const float share = cell_share();
+  const float share = pattern_.central_share;
   const float whole_spread2 = cell.spread_m * cell.spread_m;
   cell.share *= share;
   cell.intensity *= share;
@@ -80,6 +94,8 @@ void Footprint::FlushBatch(const WideBeams& beams, std::size_t num_rays) {
                           rays.direction_y, rays.direction_z, rays.shutter}) {
       values[num_rays] = values[last];
     }
+    batch_.share[num_rays] = batch_.share[last];
+    batch_.cell_size[num_rays] = batch_.cell_size[last];
     ++num_rays;
   }
   rays.num_rays = num_rays;
@@ -94,12 +110,11 @@ void Footprint::FlushBatch(const WideBeams& beams, std::size_t num_rays) {
   hits.num_rays = num_rays;
   ResolveHits(rays, beams.table, hits);
   kernels_.incidence(rays, hits);
-  BeamFrame cell = beams.frame;
-  const float scale = std::sqrt(cell_share());
-  cell.sigma_h_rad *= scale;
-  cell.sigma_v_rad *= scale;
-  kernels_.spread(rays, cell, hits);
-  std::fill_n(hits.share, num_rays, cell_share());
+  kernels_.spread(rays, beams.frame, hits);
+  for (std::size_t i = 0; i < num_rays; ++i) {
+    hits.share[i] = batch_.share[i];
+    hits.spread_m[i] *= batch_.cell_size[i];
+  }
   beams.detector.Respond(hits);
 }
 
@@ -133,9 +148,9 @@ void Footprint::TraceSubRays(const WideBeams& beams, const EchoTiles& echoes) {
     const float turn_rad = 2.0F * std::numbers::pi_v<float> * UnitFloat(words[0]);
     const float cosine = std::cos(turn_rad);
     const float sine = std::sin(turn_rad);
-    for (const Offset& offset : pattern_) {
-      const float h = frame.sigma_h_rad * (cosine * offset.h_rad - sine * offset.v_rad);
-      const float v = frame.sigma_v_rad * (sine * offset.h_rad + cosine * offset.v_rad);
+    for (const SubRay& sub_ray : pattern_.sub_rays) {
+      const float h = frame.sigma_h_rad * (cosine * sub_ray.h - sine * sub_ray.v);
+      const float v = frame.sigma_v_rad * (sine * sub_ray.h + cosine * sub_ray.v);
       const float x = dx + h * hx + v * vx;
       const float y = dy + h * hy + v * vy;
       const float z = dz + h * hz + v * vz;
@@ -147,6 +162,8 @@ void Footprint::TraceSubRays(const WideBeams& beams, const EchoTiles& echoes) {
       rays.direction_y[num_rays] = y * per_norm;
       rays.direction_z[num_rays] = z * per_norm;
       rays.shutter[num_rays] = beams.rays.shutter[lane];
+      batch_.share[num_rays] = sub_ray.share;
+      batch_.cell_size[num_rays] = std::sqrt(sub_ray.share);
       if (++num_rays == kTileSize) flush();
     }
   }
@@ -182,8 +199,8 @@ void Footprint::GatherParts(const EchoTiles& echoes,
     beam_parts_.push_back(ComponentOf(echoes.first, lane));
     return;
   }
-  beam_parts_.assign(sub_components, sub_components + pattern_.size());
-  beam_parts_.push_back(CentralCell(echoes.first, lane));
+  beam_parts_.assign(sub_components, sub_components + pattern_.sub_rays.size());
+  if (pattern_.central_share > 0.0F) beam_parts_.push_back(CentralCell(echoes.first, lane));
 }
 
 void Footprint::AddWires(const WideBeams& beams, const WireCapture* begin, const WireCapture* end) {
@@ -199,11 +216,13 @@ void Footprint::AddWires(const WideBeams& beams, const WireCapture* begin, const
     }
     // The shares of rays add up to 1 but for rounding.
     const float share = capture->share * std::max(visible, 0.0F);
-    for (Component& part : components_) {
-      if (part.range_m < capture->range_m) continue;
-      part.share *= 1.0F - capture->share;
-      part.power_ratio *= 1.0F - capture->share;
-      part.intensity *= 1.0F - capture->share;
+    for (std::vector<Component>* parts : {&components_, &beam_parts_}) {
+      for (Component& part : *parts) {
+        if (part.surface != 0 && part.range_m < capture->range_m) continue;
+        part.share *= 1.0F - capture->share;
+        part.power_ratio *= 1.0F - capture->share;
+        part.intensity *= 1.0F - capture->share;
+      }
     }
     const LaneOptics& optics = beams.table.optics[beams.table.surfaces[capture->surface].material];
     const double reflectance =
@@ -249,7 +268,7 @@ void Footprint::Resolve(const WideBeams& beams, EchoTiles& echoes) {
     const bool is_wide = wide < wide_lanes_.size() && wide_lanes_[wide] == lane;
     if (!is_wide && first_capture == capture) continue;
     GatherParts(echoes, lane,
-                is_wide ? sub_components_.data() + wide++ * pattern_.size() : nullptr);
+                is_wide ? sub_components_.data() + wide++ * pattern_.sub_rays.size() : nullptr);
     // What lies near or belongs to the vehicle blocks its part of the beam and sends nothing.
     components_.clear();
     std::copy_if(beam_parts_.begin(), beam_parts_.end(), std::back_inserter(components_),
@@ -261,6 +280,8 @@ void Footprint::Resolve(const WideBeams& beams, EchoTiles& echoes) {
     wires_.clear();
     AddWires(beams, first_capture, capture);
     components_.insert(components_.end(), wires_.begin(), wires_.end());
+    beam_parts_.insert(beam_parts_.end(), wires_.begin(), wires_.end());
+    echoes.mixed_share[lane] = MixedShare(beam_parts_);
     if (components_.empty()) continue;  // The central ray says why.
     finder_.Find(components_, found_);
     StoreEchoes(lane, echoes);

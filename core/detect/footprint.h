@@ -9,6 +9,7 @@
 #include "core/detect/echo_tiles.h"
 #include "core/detect/hits.h"
 #include "core/detect/kernels.h"
+#include "core/detect/sub_ray_pattern.h"
 #include "core/detect/thin_conductors.h"
 #include "core/detect/wire_set.h"
 #include "core/trace/ray_tile.h"
@@ -37,9 +38,8 @@ struct WideBeams {
 
 /// Effects `footprint` and `dense_footprint`: what a beam of finite width meets.
 ///
-/// The beam's profile is Gaussian, so a sub-ray of equal weight goes to every quantile of it, the
-/// angle growing by the golden one (Vogel's spiral), turned by a random angle for each firing. Each
-/// sub-ray stands for a cell of the beam, whose slope spreads its range. A beam whose neighbourhood
+/// Each sub-ray (sub_ray_pattern.h, turned by a random angle for each firing) stands for a cell of
+/// the beam, whose slope spreads its range. A beam whose neighbourhood
 /// is smooth is its central ray, with the whole beam's spread.
 ///
 /// Effect `thin_conductors`: wires in closed form (thin_conductors.h), in front of as much as lies
@@ -55,17 +55,15 @@ class Footprint {
   void Resolve(const WideBeams& beams, EchoTiles& echoes);
 
   /// Sub-rays of one beam where they are needed.
-  [[nodiscard]] std::size_t num_sub_rays() const { return pattern_.size(); }
+  [[nodiscard]] std::size_t num_sub_rays() const { return pattern_.sub_rays.size(); }
 
  private:
-  struct Offset {
-    float h_rad{};
-    float v_rad{};
-  };
   /// A run of sub-rays under way: the tile of rays that is being filled, and whose they are.
   struct Batch {
     RayTile rays;
     DetectTile hits;
+    float share[kTileSize];      ///< Of each ray's beam.
+    float cell_size[kTileSize];  ///< Its square root: the cell's size in the beam's.
   };
 
   void GatherParts(const EchoTiles& echoes, std::size_t lane, const Component* sub_components);
@@ -73,13 +71,11 @@ class Footprint {
   void TraceSubRays(const WideBeams& beams, const EchoTiles& echoes);
   void FlushBatch(const WideBeams& beams, std::size_t num_rays);
   void StoreEchoes(std::size_t lane, EchoTiles& echoes) const;
-  /// Of the beam: what a sub-ray or the central one stands for.
-  [[nodiscard]] float cell_share() const { return 1.0F / static_cast<float>(pattern_.size() + 1); }
   [[nodiscard]] Component CentralCell(const DetectTile& first, std::size_t lane) const;
 
   FootprintSpec spec_;
   float pulse_variance_m2_;
-  std::vector<Offset> pattern_;
+  SubRayPattern pattern_;
   Kernels kernels_;
   EchoFinder finder_;
   Batch batch_;

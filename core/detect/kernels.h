@@ -29,8 +29,9 @@ struct Kernels {
   void (*extinction)(DetectTile&, float extinction_per_m);
   void (*sunlight)(DetectTile&, const SunlightParameters&);
   void (*detection)(DetectTile&, const DetectionParameters&);
+  void (*smooth_detection)(DetectTile&, const DetectionParameters&);
 
-  WavePeak (*climb_wave)(const EchoWave&, float from_m);
+  WavePeak (*climb_wave)(const EchoWave&, float from_m, const WaveKnown&);
   void (*sample_wave)(
       const EchoWave&, float first_m, float step_m, std::size_t num_samples, float* samples);
 

@@ -46,6 +46,13 @@ inline void ApplyMeasurement(DetectTile& tile, const MeasurementParameters& para
   const LaneKey key{parameters.seed, kUse, tile.frame};
   const MeasurementParameters p = parameters;  // A copy: no store to the tile can change it.
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  // Apart, since a table that might be part of the tile keeps the loop from vectorising.
+  alignas(64) float shift_m[kTileSize];
+  if constexpr (kShape == NoiseShape::kSignal) {
+    for (std::size_t i = 0; i < tile.num_rays; ++i) {
+      shift_m[i] = tile.peak_shift_m[i] + p.channel_bias_m[tile.channel[i]];
+    }
+  }
   for (std::size_t i = 0; i < tile.num_rays; ++i) {
     const float true_range_m = tile.true_range_m[i];
     float range_m = true_range_m;
@@ -66,7 +73,7 @@ inline void ApplyMeasurement(DetectTile& tile, const MeasurementParameters& para
         range_m = std::sqrt(x * x + y * y + z * z);
       } else {
         if constexpr (kShape == NoiseShape::kSignal) {
-          range_m += tile.peak_shift_m[i] + p.channel_bias_m[tile.channel[i]];
+          range_m += shift_m[i];
         }
         range_m += sigma_m * n.a;
         x = range_m * tile.direction_x[i];

@@ -1,7 +1,6 @@
 #include "core/detect/sub_ray_pattern.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 namespace railcast {
@@ -19,29 +18,27 @@ void Add(double radius, double angle_rad, double share, SubRayPattern& pattern) 
                               static_cast<float>(share)});
 }
 
-int Env(const char* name, int otherwise) {
-  const char* text = std::getenv(name);
-  return text != nullptr ? std::atoi(text) : otherwise;
-}
-
 }  // namespace
 
 SubRayPattern RingSubRays() {
-  const int kOuter = Env("RC_OUT", 7);
-  const int kMiddle = Env("RC_MID", 5);
-  constexpr double kOuterShare = 0.30;
-  constexpr double kCentralShare = 0.14;
-  constexpr double kMiddleShare = 1.0 - kOuterShare - kCentralShare;
-  SubRayPattern pattern;
-  pattern.central_share = static_cast<float>(kCentralShare);
-  const auto add_ring = [&](int count, double share_outside, double share, double turn) {
-    const double radius = RadiusOutsideOf(share_outside + 0.5 * share);
-    for (int k = 0; k < count; ++k) {
-      Add(radius, 2.0 * std::numbers::pi * (k + turn) / count, share / count, pattern);
-    }
+  // 16 in all: a packet, and as many components as are summed at once.
+  struct Ring {
+    int count;
+    double share;
   };
-  add_ring(kMiddle, kOuterShare, kMiddleShare, 0.0);
-  add_ring(kOuter, 0.0, kOuterShare, 0.5);
+  constexpr Ring kRings[] = {{8, 0.30}, {6, 0.56}, {2, 0.14}};
+  SubRayPattern pattern;
+  double share_outside = 0.0;
+  double turn = 0.0;  // In steps between rays: each ring's rays stand between its neighbour's.
+  for (const Ring& ring : kRings) {
+    const double radius = RadiusOutsideOf(share_outside + 0.5 * ring.share);
+    for (int k = 0; k < ring.count; ++k) {
+      Add(radius, 2.0 * std::numbers::pi * (k + turn) / ring.count, ring.share / ring.count,
+          pattern);
+    }
+    share_outside += ring.share;
+    turn += 0.5;
+  }
   return pattern;
 }
 

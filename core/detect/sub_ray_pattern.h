@@ -12,14 +12,14 @@ struct SubRay {
   float share{};
 };
 
-/// A beam's sub-rays besides its central ray. All shares add up to 1.
+/// A beam's sub-rays. All shares add up to 1.
 struct SubRayPattern {
   std::vector<SubRay> sub_rays;
-  float central_share{};
+  float central_share{};  ///< Of the central ray, which has been traced already; 0 = not used.
 };
 
-/// Few sub-rays that miss little: two rings about the central ray, each at the median radius of the
-/// part of the beam that it stands for. The outer ring, of 30 % at 1.95 standard deviations, is so
+/// Few sub-rays that miss little: three rings, each at the median radius of the part of the beam
+/// that it stands for. The outer ring, of 30 % at 1.95 standard deviations, is so
 /// dense that no straight edge which takes 5 % of the beam or more passes between its rays.
 [[nodiscard]] SubRayPattern RingSubRays();
 

@@ -14,13 +14,15 @@ namespace railcast::RAILCAST_ISA {
 struct WaveSums {
   float value;   ///< w(r)
   float weight;  ///< sum of w_i / variance_i
-  float moment;  ///< sum of w_i / variance_i x (r_i - r)
+  float moment;  ///< sum of w_i / variance_i x (r_i - r) = w'(r)
+  float bend;    ///< sum of w_i / variance_i^2 x (r_i - r)^2; w''(r) = bend - weight
 };
 
 [[nodiscard]] inline WaveSums SumWave(const EchoWave& wave, float range_m) {
   float value[kWaveLanes] = {};
   float weight[kWaveLanes] = {};
   float moment[kWaveLanes] = {};
+  float bend[kWaveLanes] = {};
   for (std::size_t first = 0; first < wave.size; first += kWaveLanes) {
     const float* r = wave.range_m + first;
     const float* peak = wave.peak + first;
@@ -28,9 +30,11 @@ struct WaveSums {
     for (std::size_t i = 0; i < kWaveLanes; ++i) {
       const float ahead_m = r[i] - range_m;
       const float part = peak[i] * Exp(-0.5F * ahead_m * ahead_m * inverse[i]);
+      const float slope = part * inverse[i] * ahead_m;
       value[i] += part;
       weight[i] += part * inverse[i];
-      moment[i] += part * inverse[i] * ahead_m;
+      moment[i] += slope;
+      bend[i] += slope * inverse[i] * ahead_m;
     }
   }
   WaveSums sums{};
@@ -38,23 +42,39 @@ struct WaveSums {
     sums.value += value[i];
     sums.weight += weight[i];
     sums.moment += moment[i];
+    sums.bend += bend[i];
   }
   return sums;
 }
 
-/// Climbs to the nearest maximum of w(r) = sum peak_i exp(-(r - r_i)^2 / 2 variance_i) by mean
-/// shift: the derivative vanishes where r is the mean of r_i weighted by w_i / variance_i, and the
-/// step to that mean never overshoots a maximum (Comaniciu and Meer 2002).
-[[nodiscard]] inline WavePeak ClimbWave(const EchoWave& wave, float from_m) {
+/// Climbs to a maximum of w(r) = sum peak_i exp(-(r - r_i)^2 / 2 variance_i): by Newton's step
+/// where w bends down and the step is short, else by mean shift, to the mean of r_i weighted by w_i
+/// / variance_i, which never overshoots a maximum (Comaniciu and Meer 2002).
+[[nodiscard]] inline WavePeak ClimbWave(const EchoWave& wave,
+                                        float from_m,
+                                        const WaveKnown& known) {
   constexpr int kMaxSteps = 40;
-  constexpr float kStill_m = 1e-4F;
+  // A Newton step squares the error: after one this short less than 0.1 mm is left.
+  constexpr float kStill_m = 3e-3F;
+  // A Newton step is trusted up to this many times the mean shift, which is always too short.
+  constexpr float kTrust = 4.0F;
   float range_m = from_m;
   WaveSums sums = SumWave(wave, range_m);
+  for (std::size_t i = 0; i < known.num_peaks; ++i) {
+    const float ahead_m = known.peaks[i].range_m - range_m;
+    const bool is_near = ahead_m < known.reach_m && ahead_m > -known.reach_m;
+    if (is_near && (ahead_m > 0.0F) == (sums.moment > 0.0F)) return known.peaks[i];
+  }
   for (int step = 0; step < kMaxSteps && sums.weight > 0.0F; ++step) {
-    const float shift_m = sums.moment / sums.weight;
+    const float mean_shift_m = sums.moment / sums.weight;
+    const float bend_down = sums.weight - sums.bend;
+    const bool is_newton = bend_down * kTrust > sums.weight;
+    const float shift_m = is_newton ? sums.moment / bend_down : mean_shift_m;
     range_m += shift_m;
+    if (is_newton && shift_m < kStill_m && shift_m > -kStill_m) {
+      return {range_m, sums.value + 0.5F * sums.moment * shift_m};
+    }
     sums = SumWave(wave, range_m);
-    if (shift_m < kStill_m && shift_m > -kStill_m) break;
   }
   return {range_m, sums.value};
 }

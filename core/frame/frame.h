@@ -47,6 +47,9 @@ struct Frame {
   std::vector<float> incidence_rad;     ///< Between the beam and the surface normal.
   std::vector<std::uint16_t> material;  ///< Index into the material library; 0 = none.
   std::vector<float> footprint_share;   ///< Of the beam in this echo; NaN on rungs without beams.
+  /// Of the beam beside the surface that takes most of it, 0.5 m or more apart or in the sky: what
+  /// makes a pixel mixed. NaN likewise.
+  std::vector<float> mixed_share;
 
   [[nodiscard]] std::uint32_t width() const { return columns * returns; }
   [[nodiscard]] std::size_t num_slots() const { return std::size_t{rows} * width(); }
@@ -77,6 +80,7 @@ void ForEachField(F& frame, Visitor&& visit) {
   visit("incidence_rad", "rad", frame.incidence_rad);
   visit("material", "", frame.material);
   visit("footprint_share", "", frame.footprint_share);
+  visit("mixed_share", "", frame.mixed_share);
 }
 
 }  // namespace railcast

@@ -130,6 +130,7 @@ void BeamTracer::MakeEchoes(const CastFrame& frame,
   const BeamFrame beam = BeamFrameOf(frame, tiles, tile);
   kernels_.spread(rays, beam, first);
   detector_.Respond(first, observer);
+  std::fill_n(echoes.mixed_share, first.num_rays, 0.0F);
   if (needs_ || effects_.thin_conductors) {
     std::uint8_t needs_sub_rays[kTileSize];
     if (needs_) needs_->Mark(tile, centers, needs_sub_rays);

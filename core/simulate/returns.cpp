@@ -48,6 +48,18 @@ void StoreEcho(const Place& echo,
   frame.footprint_share[slot] = has_shares ? tile.share[lane] : kNaN;
 }
 
+void StoreMixedShares(const EchoTiles& echoes,
+                      bool has_shares,
+                      const SlotRange& slots,
+                      Frame& frame) {
+  const std::size_t num_returns = frame.returns;
+  for (std::size_t i = 0; i < slots.num_firings; ++i) {
+    const std::size_t first_slot = slots.slots[i] * num_returns;
+    std::fill_n(frame.mixed_share.begin() + static_cast<std::ptrdiff_t>(first_slot), num_returns,
+                has_shares ? echoes.mixed_share[i] : kNaN);
+  }
+}
+
 void StoreNothing(std::size_t slot, Frame& frame) {
   for (auto* values :
        {&frame.x, &frame.y, &frame.z, &frame.intensity, &frame.power_ratio, &frame.range_m,
@@ -153,6 +165,7 @@ void ReturnStore::Store(EchoTiles& echoes,
                         const SlotRange& slots,
                         Frame& frame) const {
   const std::uint32_t num_returns = frame.returns;
+  StoreMixedShares(echoes, has_shares_, slots, frame);
   if (echoes.num_more() == 0 && num_returns == 1) {
     for (std::size_t i = 0; i < slots.num_firings; ++i) {
       const std::size_t slot = slots.slots[i];

@@ -2,41 +2,41 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace railcast {
 namespace {
 
-float Env(const char* name, float otherwise) {
-  const char* text = std::getenv(name);
-  return text != nullptr ? static_cast<float>(std::atof(text)) : otherwise;
-}
+// What a neighbour may be off the plane: the roughness of ballast nearby, float32 and chords of a
+// millimetre, ...
+constexpr float kStep_m = 0.01F;
+constexpr float kStepPerRange = 3e-4F;
+// ... or along its own ray the gap from which on two surfaces are counted.
+constexpr float kGap_m = 0.5F;
 
-// Whether ray b does not hit the plane that ray a has hit.
+// Whether ray b passes the plane that ray a has hit, or ends before it.
 bool Differs(const RayTile& a, std::size_t i, const RayTile& b, std::size_t j) {
-  static const float kStep = Env("RC_STEP", 0.05F);
-  static const float kSlope = Env("RC_SLOPE", 0.001F);
-  static const float kRange = Env("RC_RANGE", 1e9F);
   if ((a.surface[i] == 0) != (b.surface[j] == 0)) return true;
   if (a.surface[i] == 0) return false;
-  const float x = b.range_m[j] * b.direction_x[j] - a.range_m[i] * a.direction_x[i];
-  const float y = b.range_m[j] * b.direction_y[j] - a.range_m[i] * a.direction_y[i];
-  const float z = b.range_m[j] * b.direction_z[j] - a.range_m[i] * a.direction_z[i];
   const float nx = a.normal_x[i];
   const float ny = a.normal_y[i];
   const float nz = a.normal_z[i];
-  const float off = std::fabs(nx * x + ny * y + nz * z) / std::sqrt(nx * nx + ny * ny + nz * nz);
-  const float along =
-      std::fabs(nx * b.direction_x[j] + ny * b.direction_y[j] + nz * b.direction_z[j]) /
-      std::sqrt(nx * nx + ny * ny + nz * nz);
-  return off > kStep + kSlope * a.range_m[i] || off > kRange * along;
+  const float dx = b.direction_x[j];
+  const float dy = b.direction_y[j];
+  const float dz = b.direction_z[j];
+  const float x = b.range_m[j] * dx - a.range_m[i] * a.direction_x[i];
+  const float y = b.range_m[j] * dy - a.range_m[i] * a.direction_y[i];
+  const float z = b.range_m[j] * dz - a.range_m[i] * a.direction_z[i];
+  // Both times the normal's length.
+  const float off = std::fabs(nx * x + ny * y + nz * z);
+  const float slope = std::fabs(nx * dx + ny * dy + nz * dz);
+  const float length = std::sqrt(nx * nx + ny * ny + nz * nz);
+  return off > (kStep_m + kStepPerRange * a.range_m[i]) * length && off > kGap_m * slope;
 }
 
 }  // namespace
 
 SubRayNeeds::SubRayNeeds(const ScanPattern& pattern, const BeamSpec& beam, bool everywhere)
     : everywhere_(everywhere) {
-  static_cast<void>(beam);
   if (everywhere) return;
   const std::size_t num_slots = std::size_t{pattern.rows} * pattern.columns;
   std::vector<std::uint32_t> place(num_slots);

@@ -21,6 +21,7 @@
 
 #include "core/io/frame_files.h"
 #include "core/io/write_file.h"
+#include "core/scenario/effects.h"
 #include "core/scenario/scenario.h"
 
 namespace railcast {
@@ -69,6 +70,9 @@ struct Row {
 
 std::vector<Row> Rows() {
   const EffectSet all{.threshold = true, .rain = true, .snow = true, .noise = true};
+  const EffectSet surface = EffectsOfRung("surface");
+  EffectSet surface_and_wires = surface;
+  surface_and_wires.thin_conductors = true;
   return {
       {"raw_trace", {}, false, false, [](Bench& b, std::uint32_t f) { b.raw_traces[f](); }},
       {"geometry", {}, false, false, &ScanFrame},
@@ -76,6 +80,11 @@ std::vector<Row> Rows() {
       {"threshold+noise", {.threshold = true, .noise = true}, false, false, &ScanFrame},
       {"plausibility", all, true, false, &ScanFrame},
       {"plausibility_in_snow", all, true, true, &ScanFrame},
+      {"surface", surface, true, false, &ScanFrame},
+      {"surface_in_snow", surface, true, true, &ScanFrame},
+      {"surface+thin_conductors", surface_and_wires, true, false, &ScanFrame},
+      {"footprint", EffectsOfRung("footprint"), true, false, &ScanFrame},
+      {"reference", EffectsOfRung("reference"), true, false, &ScanFrame},
       {"geometry_pcd", {}, false, false, &ScanAndWrite},
       {"plausibility_pcd", all, true, false, &ScanAndWrite},
   };
