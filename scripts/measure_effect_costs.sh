@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
 # Counts what each effect costs, for core/fidelity/effect_costs.h: instructions per firing of
-# Simulator::Scan, less the making of the scene, on frame 0 of a scenario that gives every effect
-# work, rung footprint, one thread; then what is saved without each effect. Needs valgrind; a run
-# takes about a minute.
+# Simulator::Scan, less the making of the scene, on frame 0 of scenarios/open_line.json in heavy rain
+# (so that every effect has work), rung footprint, one thread; then what is saved without each
+# effect. Needs valgrind; takes some ten minutes.
 #
-#   measure_effect_costs.sh [SCENARIO] [RAILCAST_GENERATE]
+#   measure_effect_costs.sh [RAILCAST_GENERATE]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-scenario="$(realpath "${1:-scenarios/forest_rain.json}")"
-generate="$(realpath "${2:-build/release/generator/railcast-generate}")"
+scenario="$PWD/scenarios/open_line.json"
+weather="$PWD/scenarios/weather/heavy_rain.json"
+generate="$(realpath "${1:-build/release/generator/railcast-generate}")"
 work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
 
@@ -17,8 +18,8 @@ instructions() {
   local name="$1" rung="$2" effects="" effect
   shift 2
   for effect in "$@"; do effects+="${effects:+, }\"$effect\": false"; done
-  printf '{"version": 1, "file": "%s", "fidelity": "%s", "effects": {%s}}\n' \
-    "$scenario" "$rung" "$effects" >"$work/scenario.json"
+  printf '{"version": 1, "file": "%s", "weather": "%s", "fidelity": "%s", "effects": {%s}}\n' \
+    "$scenario" "$weather" "$rung" "$effects" >"$work/scenario.json"
   rm -rf "$work/out"
   valgrind --tool=callgrind --callgrind-out-file=/dev/null \
     --toggle-collect='railcast::Simulator::Parts::Scan*' \
