@@ -21,11 +21,13 @@ double Growth(const Deviation& without, const Deviation& full, const DeviationQu
   return std::isnan(growth) ? 0.0 : std::max(growth, 0.0);
 }
 
-ToleranceSpec ReachableLimits(ToleranceSpec tolerance, const Deviation& full) {
-  constexpr double kLittle = 0.1;  // Of the limit.
+// What a set must keep to on the sample frames, so that others are within the tolerance, too.
+ToleranceSpec SearchLimits(ToleranceSpec tolerance, const Deviation& full) {
+  constexpr double kMargin = 0.8;
+  constexpr double kLittle = 0.02;  // Of a limit that all effects together hardly reach.
   for (const DeviationQuantity& quantity : kDeviationQuantities) {
     double& limit = tolerance.*quantity.limit;
-    limit = std::max(limit, full.*quantity.value + kLittle * limit);
+    limit = std::max(kMargin * limit, full.*quantity.value + kLittle * limit);
   }
   return tolerance;
 }
@@ -91,7 +93,7 @@ EffectSearchResult FindCheapestEffects(const EffectSet& full,
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     result.without.push_back(measure(remaining(1U << i)));
   }
-  const ToleranceSpec limits = ReachableLimits(tolerance, result.full_deviation);
+  const ToleranceSpec limits = SearchLimits(tolerance, result.full_deviation);
   EffectBits left_out = PredictLeftOut(result, candidates, limits);
   result.deviation = measure(remaining(left_out));
   while (left_out != 0 && !IsWithin(result.deviation, limits)) {

@@ -21,9 +21,9 @@ struct EffectSearchResult {
 ///
 /// Each candidate is left out by itself. Of the sets whose changes, added up, stay within the
 /// limits, the cheapest is measured as a whole, since effects work on each other. While it is
-/// beyond a limit, that effect is put back which brings it nearest. A limit that all effects
-/// together are beyond (the reference has many more rays) gives way: they may be exceeded by a
-/// tenth of it.
+/// beyond a limit, that effect is put back which brings it nearest. The limits are 0.8 of the
+/// tolerance, for frames differ. Where all effects together are beyond that (the reference has many
+/// more rays) a set may exceed them by 0.02 of the tolerance.
 /// @param candidates At most 16; all of them on in `full`.
 /// @param measure The deviation of a set; called one at a time.
 [[nodiscard]] EffectSearchResult FindCheapestEffects(

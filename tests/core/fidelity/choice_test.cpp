@@ -95,13 +95,12 @@ TEST(ChooseFidelity, KeepsAllThatMattersAtNoTolerance) {
   }
 }
 
-TEST(ChooseFidelity, TakesTheCheapestPhysicsIfAnythingGoes) {
+TEST(ChooseFidelity, LeavesOutTheDearestIfAnythingGoes) {
   const ScenarioSpec scenario = Read({.more = R"("tolerance": {"range_m": 100, "missed_share": 1,
       "false_share": 1, "thin_missed_share": 1, "intensity": 1000},)"});
   const FidelityChoice choice = Choose(scenario);
   EXPECT_FALSE(choice.effects.footprint);
   EXPECT_FALSE(choice.effects.thin_conductors);
-  EXPECT_FALSE(choice.effects.surface_response);
   EXPECT_LT(choice.instructions, choice.full_instructions);
   EXPECT_TRUE(choice.is_within_tolerance);
 }
