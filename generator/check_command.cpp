@@ -12,6 +12,7 @@
 #include "generator/check_report.h"
 #include "generator/chosen_fidelity.h"
 #include "generator/commands.h"
+#include "generator/effects_report.h"
 
 namespace railcast {
 namespace {

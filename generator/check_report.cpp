@@ -11,32 +11,18 @@
 #include "core/base/number_text.h"
 #include "core/base/units.h"
 #include "core/scenario/scenario.h"
+#include "generator/report_line.h"
 
 namespace railcast {
 namespace {
 
-constexpr int kHeadWidth = 10;
 // Of a frame: a moment found by bisection may lie just before a frame that it falls on.
 constexpr double kRoundOff = 1e-6;
-
-// A line of a paragraph; only the first has a head.
-std::string Line(std::string_view head, const std::string& text) {
-  std::ostringstream line;
-  line << std::left << std::setw(kHeadWidth) << head << text << "\n";
-  return line.str();
-}
 
 // To so many digits behind the point.
 std::string Rounded(double value, int num_digits) {
   std::ostringstream text;
   text << std::fixed << std::setprecision(num_digits) << value;
-  return text.str();
-}
-
-// To four digits.
-std::string Short(double value) {
-  std::ostringstream text;
-  text << std::setprecision(4) << value;
   return text.str();
 }
 
@@ -61,13 +47,13 @@ std::string JumpsText(const std::vector<SmoothedJump>& all,
   for (const SmoothedJump& jump : all) {
     if (jump.quantity == quantity) jumps.push_back(jump);
   }
-  if (jumps.empty()) return Line("", "no " + kind + "s");
+  if (jumps.empty()) return ReportLine("", "no " + kind + "s");
   const auto largest =
       std::max_element(jumps.begin(), jumps.end(),
                        [](const auto& a, const auto& b) { return HeightOf(a) < HeightOf(b); });
-  return Line("", std::to_string(jumps.size()) + " " + kind + (jumps.size() == 1 ? "" : "s") +
-                      " smoothed, the largest of " + Short(HeightOf(*largest)) + UnitOf(*largest) +
-                      " at s " + Rounded(largest->s_m, 1) + " m");
+  return ReportLine("", std::to_string(jumps.size()) + " " + kind + (jumps.size() == 1 ? "" : "s") +
+                            " smoothed, the largest of " + Short(HeightOf(*largest)) +
+                            UnitOf(*largest) + " at s " + Rounded(largest->s_m, 1) + " m");
 }
 
 std::string WayPointText(const WayPoint& point, double rate_hz) {
@@ -91,101 +77,76 @@ std::string SensorText(const LidarSpec& lidar, const ScanPattern& pattern) {
       *std::max_element(pattern.time_ns.begin(), pattern.time_ns.end());
   const auto num_firings = static_cast<double>(pattern.num_firings());
   const std::string name = lidar.name.empty() ? "" : lidar.name + ": ";
-  return Line("sensor", name + std::to_string(pattern.num_firings()) + " firings a frame (" +
-                            std::to_string(pattern.rows) + " rows x " +
-                            std::to_string(pattern.columns) + " columns), range " +
-                            NumberText(lidar.range_min_m) + " to " + NumberText(lidar.range_max_m) +
-                            " m") +
-         Line("", NumberText(pattern.rate_hz) + " frames/s, each fired within " +
-                      Short(SecondsFromNs(duration_ns)) + " s; at most " +
-                      Rounded(num_firings * pattern.rate_hz, 0) + " points/s");
+  return ReportLine("sensor", name + std::to_string(pattern.num_firings()) + " firings a frame (" +
+                                  std::to_string(pattern.rows) + " rows x " +
+                                  std::to_string(pattern.columns) + " columns), range " +
+                                  NumberText(lidar.range_min_m) + " to " +
+                                  NumberText(lidar.range_max_m) + " m") +
+         ReportLine("", NumberText(pattern.rate_hz) + " frames/s, each fired within " +
+                            Short(SecondsFromNs(duration_ns)) + " s; at most " +
+                            Rounded(num_firings * pattern.rate_hz, 0) + " points/s");
 }
 
 std::string LineText(const Alignment& alignment, bool is_verbose) {
   const double radius_m = alignment.tightest_radius_m();
   const std::vector<SmoothedJump>& jumps = alignment.smoothed_jumps();
-  std::string text = Line(
+  std::string text = ReportLine(
       "line",
       Rounded(alignment.length_m(), 1) + " m, " +
           (std::isinf(radius_m) ? "straight" : "tightest radius " + Rounded(radius_m, 1) + " m"));
   if (jumps.empty()) return text;
   text += JumpsText(jumps, "curvature", "curvature jump");
   text += JumpsText(jumps, "gradient", "gradient step");
-  if (!is_verbose) return text + Line("", "(-v lists them)");
+  if (!is_verbose) return text + ReportLine("", "(-v lists them)");
   for (const SmoothedJump& jump : jumps) {
-    text += Line("", "  " + jump.quantity + " at s " + NumberText(jump.s_m) + " m: from " +
-                         Short(jump.before) + " to " + Short(jump.after) + UnitOf(jump) + " over " +
-                         Short(jump.length_m) + " m");
+    text += ReportLine("", "  " + jump.quantity + " at s " + NumberText(jump.s_m) + " m: from " +
+                               Short(jump.before) + " to " + Short(jump.after) + UnitOf(jump) +
+                               " over " + Short(jump.length_m) + " m");
   }
   return text;
 }
 
 std::string VehicleText(const std::string& track, const VehicleWay& way, double rate_hz) {
   const auto speed = [](const WayPoint& point) { return Short(point.speed_mps) + " m/s"; };
-  std::string text = Line("vehicle", "starts on track \"" + track + "\" at s " +
-                                         Rounded(way.start.s_m, 2) + " m with " + speed(way.start));
+  std::string text =
+      ReportLine("vehicle", "starts on track \"" + track + "\" at s " + Rounded(way.start.s_m, 2) +
+                                " m with " + speed(way.start));
   // One that lies at the start says no more than the start.
   if (way.profile_end && way.profile_end->time_s > 0.0) {
     const bool stops = way.profile_end->speed_mps == 0.0;
-    text +=
-        Line("", "reaches the end of its speed profile " + WayPointText(*way.profile_end, rate_hz) +
-                     (stops ? ", and stands" : ", and goes on with " + speed(*way.profile_end)));
+    text += ReportLine(
+        "", "reaches the end of its speed profile " + WayPointText(*way.profile_end, rate_hz) +
+                (stops ? ", and stands" : ", and goes on with " + speed(*way.profile_end)));
   }
-  return text + Line("", way.track_end ? "reaches the end of its track " +
-                                             WayPointText(*way.track_end, rate_hz)
-                                       : "never reaches the end of its track");
-}
-
-std::string EffectsText(const ScenarioSpec& scenario) {
-  const EffectSet effects = EffectsOf(scenario);
-  const PlausibilitySpec& model = scenario.lidar.plausibility;
-  const WeatherSpec& weather = scenario.weather;
-  std::string text = Line("rung", scenario.fidelity);
-  const auto add = [&](const std::string& name, bool is_on, const std::string& parameters) {
-    text += Line("", name + (is_on ? ": " + parameters : ": off"));
-  };
-  const auto number = [](double value) { return NumberText(value); };
-  add("threshold", effects.threshold,
-      number(model.reference_threshold) + " at " + number(model.reference_range_m) + " m, fog " +
-          number(weather.fog_density_per_m) + " per m");
-  add("rain", effects.rain,
-      number(weather.rain_rate_mmph) + " mm/h, dropout " + number(weather.rain_dropout_per_m) +
-          " per m x rate^" + number(weather.rain_dropout_exponent));
-  add("snow", effects.snow,
-      number(weather.snow_rate_mmph) + " mm/h, " + number(weather.snow_echoes_per_mmph) +
-          " flakes a beam per mm/h, range scale " + number(weather.snow_range_scale_m) +
-          " m, intensity " + number(weather.snow_intensity));
-  add("noise", effects.noise,
-      "sigma " + number(model.noise_sigma0_m) + " m + " + Short(model.noise_sigma1) + " x range, " +
-          (model.noise_shape == "beam" ? "along the beam" : "isotropic"));
-  add("sensor_dropout", effects.sensor_dropout, "probability " + number(model.dropout_probability));
-  return text;
+  return text + ReportLine("", way.track_end ? "reaches the end of its track " +
+                                                   WayPointText(*way.track_end, rate_hz)
+                                             : "never reaches the end of its track");
 }
 
 std::string SceneText(const SceneAudit& audit) {
   std::string materials;
   for (const std::string& material : audit.materials) materials += " " + material;
   const auto count = [](std::size_t value) { return std::to_string(value); };
-  return Line("scene", "at frame 0: " + count(audit.num_chunks) + " chunks around chunk " +
-                           std::to_string(audit.home_chunk)) +
-         Line("", "surfaces: " + count(audit.ground_triangles) + " triangles") +
-         Line("", "things: " + count(audit.num_placements) + " places for " +
-                      count(audit.num_models) + " models: " + count(audit.placed_triangles) +
-                      " triangles, " + count(audit.model_triangles) + " of them stored") +
-         Line("", "objects: " + count(audit.object_triangles) + " triangles") +
-         Line("", "materials:" + materials);
+  return ReportLine("scene", "at frame 0: " + count(audit.num_chunks) + " chunks around chunk " +
+                                 std::to_string(audit.home_chunk)) +
+         ReportLine("", "surfaces: " + count(audit.ground_triangles) + " triangles") +
+         ReportLine("", "things: " + count(audit.num_placements) + " places for " +
+                            count(audit.num_models) + " models: " + count(audit.placed_triangles) +
+                            " triangles, " + count(audit.model_triangles) + " of them stored") +
+         ReportLine("", "objects: " + count(audit.object_triangles) + " triangles") +
+         ReportLine("", "materials:" + materials);
 }
 
 std::string ObjectsText(const World& world, const LabelTable& labels) {
   std::string text;
   for (const SceneObject& object : world.objects()) {
     const char* const motion = object.is_ego ? "own vehicle" : object.moves ? "moves" : "stands";
-    text += Line(text.empty() ? "objects" : "",
-                 std::to_string(object.instance) + " " + object.name + ": " + object.type +
-                     ", label " + LabelName(labels, object.label) + ", " +
-                     std::to_string(object.model->num_triangles()) + " triangles, " + motion);
+    text += ReportLine(text.empty() ? "objects" : "",
+                       std::to_string(object.instance) + " " + object.name + ": " + object.type +
+                           ", label " + LabelName(labels, object.label) + ", " +
+                           std::to_string(object.model->num_triangles()) + " triangles, " + motion);
   }
-  return text.empty() ? Line("objects", "none") : text;
+  return text.empty() ? ReportLine("objects", "none") : text;
 }
 
 std::string SurroundingsText(const Surroundings& around,
@@ -195,14 +156,14 @@ std::string SurroundingsText(const Surroundings& around,
   const auto sight = [&](const std::optional<Sighting>& sighting, const char* otherwise) {
     return sighting ? SightingText(*sighting, world, labels) : std::string(otherwise);
   };
-  std::string text =
-      Line("around", "at frame 0 the sensor is at world " + Rounded(position_m.x(), 2) + " " +
-                         Rounded(position_m.y(), 2) + " " + Rounded(position_m.z(), 2) + " m");
-  text += Line("", "below it: " + sight(around.below, "nothing; is it under the ground?"));
-  text += Line("", "above it: " + sight(around.above, "nothing"));
-  text += Line("", "nearest: " + sight(around.nearest, "nothing"));
+  std::string text = ReportLine(
+      "around", "at frame 0 the sensor is at world " + Rounded(position_m.x(), 2) + " " +
+                    Rounded(position_m.y(), 2) + " " + Rounded(position_m.z(), 2) + " m");
+  text += ReportLine("", "below it: " + sight(around.below, "nothing; is it under the ground?"));
+  text += ReportLine("", "above it: " + sight(around.above, "nothing"));
+  text += ReportLine("", "nearest: " + sight(around.nearest, "nothing"));
   if (around.inside != 0) {
-    text += Line("", "it is INSIDE what is nearest: every beam ends there");
+    text += ReportLine("", "it is INSIDE what is nearest: every beam ends there");
   }
   return text;
 }
@@ -215,10 +176,10 @@ std::string OutputText(const OutputSpec& output, const Vector3& sensor_world) {
   const float step_m =
       std::nextafter(largest_m, std::numeric_limits<float>::infinity()) - largest_m;
   constexpr float kFine_m = 1e-3F;
-  return Line("output", "world coordinates: float32 has steps of " +
-                            Short(1e3 * static_cast<double>(step_m)) +
-                            " mm where the sensor starts" +
-                            (step_m > kFine_m ? "; put output.origin_m near there" : ""));
+  return ReportLine("output", "world coordinates: float32 has steps of " +
+                                  Short(1e3 * static_cast<double>(step_m)) +
+                                  " mm where the sensor starts" +
+                                  (step_m > kFine_m ? "; put output.origin_m near there" : ""));
 }
 
 }  // namespace railcast

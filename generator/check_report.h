@@ -23,9 +23,6 @@ namespace railcast {
                                       const VehicleWay& way,
                                       double rate_hz);
 
-/// The rung and its effects with their parameters.
-[[nodiscard]] std::string EffectsText(const ScenarioSpec& scenario);
-
 [[nodiscard]] std::string SceneText(const SceneAudit& audit);
 
 [[nodiscard]] std::string ObjectsText(const World& world, const LabelTable& labels);

@@ -89,7 +89,15 @@ std::string MaterialsJson(const MaterialLibrary& materials) {
   Json list = Json::array();
   for (const Material& material : materials.materials()) {
     list.push_back(
-        {{"id", list.size()}, {"name", material.name}, {"reflectivity", material.reflectivity}});
+        {{"id", list.size()},
+         {"name", material.name},
+         {"reflectivity", material.reflectivity},
+         {"reflectivity_1550nm", material.reflectivity_1550nm.value_or(material.reflectivity)},
+         {"facet_slope_deg", material.facet_slope_deg},
+         {"specular_f0", material.specular_f0},
+         {"specular_f0_1550nm", material.specular_f0_1550nm.value_or(material.specular_f0)},
+         {"specular_roughness", material.specular_roughness},
+         {"retroreflectance", material.retroreflectance}});
   }
   return Json{{"version", 1}, {"materials", list}}.dump(2) + "\n";
 }

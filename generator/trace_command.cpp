@@ -28,11 +28,11 @@ void PrintValue(float value, int width) {
 }
 
 void PrintSteps(const std::vector<FiringStory::Step>& steps) {
-  std::cout << std::left << std::setw(16) << "after" << std::setw(17) << "outcome" << std::right
+  std::cout << std::left << std::setw(18) << "after" << std::setw(17) << "outcome" << std::right
             << std::setw(14) << "true_range_m" << std::setw(15) << "cos_incidence" << std::setw(12)
             << "intensity" << std::setw(13) << "power_ratio" << std::setw(12) << "range_m\n";
   for (const FiringStory::Step& step : steps) {
-    std::cout << std::left << std::setw(16) << step.effect << std::setw(17)
+    std::cout << std::left << std::setw(18) << step.effect << std::setw(17)
               << OutcomeName(step.outcome) << std::right;
     PrintValue(step.true_range_m, 14);
     PrintValue(step.cos_incidence, 15);
@@ -40,6 +40,23 @@ void PrintSteps(const std::vector<FiringStory::Step>& steps) {
     PrintValue(step.power_ratio, 13);
     PrintValue(step.range_m, 11);
     std::cout << "\n";
+  }
+}
+
+void PrintEchoes(const std::vector<FiringStory::Echo>& echoes, const LabelTable& labels) {
+  std::cout << std::left << std::setw(18) << "echo" << std::setw(17) << "outcome" << std::right
+            << std::setw(14) << "true_range_m" << std::setw(15) << "share" << std::setw(25)
+            << "power_ratio" << std::setw(11) << "range_m"
+            << "  slot\n";
+  for (const FiringStory::Echo& echo : echoes) {
+    std::cout << std::left << std::setw(18)
+              << (echo.label == 0 ? "nothing" : LabelName(labels, echo.label)) << std::setw(17)
+              << OutcomeName(echo.outcome) << std::right;
+    PrintValue(echo.true_range_m, 14);
+    PrintValue(echo.footprint_share, 15);
+    PrintValue(echo.power_ratio, 25);
+    PrintValue(echo.range_m, 11);
+    std::cout << "  " << (echo.slot ? std::to_string(*echo.slot) : "none") << "\n";
   }
 }
 
@@ -70,6 +87,7 @@ int TraceCommand(const TraceOptions& options) {
               << " (reflectivity " << static_cast<double>(story.reflectivity) << ")\n";
   }
   PrintSteps(story.steps);
+  if (story.echoes.size() > 1) PrintEchoes(story.echoes, LabelTable(scenario.labels));
   return kExitSuccess;
 }
 

@@ -29,9 +29,10 @@ double VerticalSigma_rad(const BeamSpec& beam) {
 
 LaneOptics LaneOpticsOf(const SurfaceOptics& optics) {
   const float s2 = optics.facet_slope_rad * optics.facet_slope_rad;
+  const float below = optics.diffuse * (1.0F - optics.specular_f0);
   return {.diffuse = optics.diffuse,
-          .a = optics.diffuse * (1.0F - 0.5F * s2 / (s2 + 0.33F)),
-          .b = optics.diffuse * (0.45F * s2 / (s2 + 0.09F)),
+          .a = below * (1.0F - 0.5F * s2 / (s2 + 0.33F)),
+          .b = below * (0.45F * s2 / (s2 + 0.09F)),
           .f0 = optics.specular_f0,
           .alpha2 = optics.specular_roughness * optics.specular_roughness,
           .retro = optics.retroreflectance};

@@ -15,9 +15,10 @@ namespace railcast {
 [[nodiscard]] double HorizontalSigma_rad(const BeamSpec& beam);
 [[nodiscard]] double VerticalSigma_rad(const BeamSpec& beam);
 
-/// A surface's optics as the effects' loops want them: a = diffuse x A and b = diffuse x B of Oren
-/// and Nayar's qualitative model (1994), seen from the source: rho (A cos + B sin^2) with
-///   A = 1 - 0.5 s^2 / (s^2 + 0.33),  B = 0.45 s^2 / (s^2 + 0.09),  s the facet slope in radians.
+/// A surface's optics as the effects' loops want them: a = d A and b = d B of Oren and Nayar's
+/// qualitative model (1994), seen from the source: d (A cos + B sin^2) with
+///   A = 1 - 0.5 s^2 / (s^2 + 0.33),  B = 0.45 s^2 / (s^2 + 0.09),  s the facet slope in radians,
+///   d = diffuse (1 - F0): what the surface reflects at once never reaches what scatters below.
 struct LaneOptics {
   float diffuse{};
   float a{};

@@ -3,9 +3,11 @@
 #define RAILCAST_DETECT_INCIDENCE_H_
 
 #include <cmath>
+#include <limits>
 
 #include "core/detect/detect_tile.h"
 #include "core/detect/effect_parameters.h"
+#include "core/detect/vector_math.h"
 #include "core/trace/ray_tile.h"
 
 namespace railcast::RAILCAST_ISA {
@@ -13,20 +15,24 @@ namespace railcast::RAILCAST_ISA {
 /// How steeply the rays meet what they hit: cos_incidence, NaN where nothing was hit. Lane i of
 /// `tile` is lane i of `rays`.
 inline void ApplyIncidence(const RayTile& rays, DetectTile& tile) {
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
   for (std::size_t i = 0; i < tile.num_rays; ++i) {
     const float nx = rays.normal_x[i];
     const float ny = rays.normal_y[i];
     const float nz = rays.normal_z[i];
     const float along =
         nx * rays.direction_x[i] + ny * rays.direction_y[i] + nz * rays.direction_z[i];
-    // Without a hit the normal is 0: 0 / 0 is the NaN that is wanted.
-    const float cosine = std::fabs(along) / std::sqrt(nx * nx + ny * ny + nz * nz);
-    tile.cos_incidence[i] = cosine > 1.0F ? 1.0F : cosine;
+    const float n2 = nx * nx + ny * ny + nz * nz;
+    const float cosine = std::fabs(along) / std::sqrt(n2);
+    const float bounded = cosine > 1.0F ? 1.0F : cosine;
+    // Without a hit the normal is 0. Not 0 / 0: that NaN has another sign than the one of the
+    // range, and which of the two a product takes depends on the instruction set.
+    tile.cos_incidence[i] = n2 > 0.0F ? bounded : kNaN;
   }
 }
 
 /// What the beam's width adds: normal_up and spread_m, the standard deviation of the range over the
-/// beam's profile on the tangent plane:
+/// beam's profile on the tangent plane; both 0 where nothing was hit:
 ///
 ///   spread = R / |n.d| * hypot(sigma_h n.h, sigma_v n.v)
 ///
@@ -56,9 +62,9 @@ inline void ApplySpread(const RayTile& rays, const BeamFrame& beam, DetectTile& 
     const float n2 = nx * nx + ny * ny + nz * nz;
     const float slope2 =
         (slope_h * slope_h + slope_v * slope_v) / (h2 * (along * along + 1e-12F * n2));
-    tile.spread_m[i] = rays.range_m[i] * std::sqrt(slope2);
-    tile.normal_up[i] =
-        std::fabs(nx * b.vertical[0] + ny * b.vertical[1] + nz * b.vertical[2]) / std::sqrt(n2);
+    const float up = std::fabs(nx * b.vertical[0] + ny * b.vertical[1] + nz * b.vertical[2]);
+    tile.spread_m[i] = n2 > 0.0F ? rays.range_m[i] * std::sqrt(slope2) : 0.0F;
+    tile.normal_up[i] = n2 > 0.0F ? up / std::sqrt(n2) : 0.0F;
   }
 }
 

@@ -28,10 +28,10 @@ inline void ApplyPointing(RayTile& rays,
     const float hx = b.up[1] * dz - b.up[2] * dy;
     const float hy = b.up[2] * dx - b.up[0] * dz;
     const float hz = b.up[0] * dy - b.up[1] * dx;
-    const float per_length = 1.0F / std::sqrt(hx * hx + hy * hy + hz * hz + 1e-20F);
+    const float inverse_norm = 1.0F / std::sqrt(hx * hx + hy * hy + hz * hz + 1e-20F);
     const Normals n = LaneNormals(LaneWords(key, tile.firing[i], 0));
-    const float h = sigma_rad * n.a * per_length;
-    const float v = sigma_rad * n.b * per_length;
+    const float h = sigma_rad * n.a * inverse_norm;
+    const float v = sigma_rad * n.b * inverse_norm;
     const float x = dx + h * hx + v * (dy * hz - dz * hy);
     const float y = dy + h * hy + v * (dz * hx - dx * hz);
     const float z = dz + h * hz + v * (dx * hy - dy * hx);

@@ -95,7 +95,7 @@ inline void CosSinTurn(float u, float& cosine, float& sine) {
   return std::sqrt(rest < 0.0F ? 0.0F : rest) * p;
 }
 
-/// Distribution function of the standard normal (Abramowitz and Stegun 7.1.26); error <= 2e-7.
+/// Distribution function of the standard normal (Abramowitz and Stegun 7.1.26); error <= 4e-7.
 [[nodiscard]] inline float NormalCdf(float x) {
   const float z = std::fabs(x) * 0.70710678F;
   const float t = 1.0F / (1.0F + 0.3275911F * z);

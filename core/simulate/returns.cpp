@@ -45,7 +45,8 @@ void StoreEcho(const Place& echo,
   frame.instance[slot] = is_clutter ? 0 : surface.instance;
   frame.material[slot] = is_clutter ? std::uint16_t{0} : surface.material;
   frame.incidence_rad[slot] = is_clutter ? kNaN : tile.incidence_rad[lane];
-  frame.footprint_share[slot] = has_shares ? tile.share[lane] : kNaN;
+  // Nothing has no share, nor has what stands in the air.
+  frame.footprint_share[slot] = has_shares && tile.surface[lane] != 0 ? tile.share[lane] : kNaN;
 }
 
 void StoreMixedShares(const EchoTiles& echoes,
@@ -158,6 +159,27 @@ ReturnMode ReturnModeOf(std::string_view name) {
 
 std::uint32_t NumReturns(ReturnMode mode) {
   return mode == ReturnMode::kTriple ? 3 : mode == ReturnMode::kDual ? 2 : 1;
+}
+
+std::vector<Place> EchoesOf(EchoTiles& echoes, std::size_t beam) {
+  std::vector<Place> all{{echoes.first, beam}};
+  for (std::size_t i = 0; i < echoes.num_more(); ++i) {
+    if (echoes.beam_of(i) == beam) all.push_back(echoes.more(i));
+  }
+  return all;
+}
+
+std::vector<Place> ReturnsOf(ReturnMode mode, EchoTiles& echoes, std::size_t beam) {
+  std::vector<Candidate> detected;
+  for (const Place& echo : EchoesOf(echoes, beam)) {
+    if (HasPoint(OutcomeOf(echo))) detected.push_back({&echo.tile, echo.lane});
+  }
+  Choose(mode, detected);
+  std::vector<Place> returns;
+  for (std::size_t r = 0; r < detected.size() && r < NumReturns(mode); ++r) {
+    returns.push_back(detected[r].place());
+  }
+  return returns;
 }
 
 void ReturnStore::Store(EchoTiles& echoes,

@@ -24,6 +24,14 @@ enum class ReturnMode {
 [[nodiscard]] ReturnMode ReturnModeOf(std::string_view name);
 [[nodiscard]] std::uint32_t NumReturns(ReturnMode mode);
 
+/// All echoes of one firing: the first one, then the further ones.
+/// @param beam A lane of `echoes.first`.
+[[nodiscard]] std::vector<EchoTiles::Place> EchoesOf(EchoTiles& echoes, std::size_t beam);
+/// Those of them that become returns, in the order of their slots.
+[[nodiscard]] std::vector<EchoTiles::Place> ReturnsOf(ReturnMode mode,
+                                                      EchoTiles& echoes,
+                                                      std::size_t beam);
+
 /// Where a tile's firings go in a frame of one return. Lanes after num_firings fill up a packet:
 /// not stored.
 struct SlotRange {

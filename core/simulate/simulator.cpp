@@ -29,6 +29,30 @@ CastFrame CastOf(const FrameScene& scene) {
           scene.window->window_from_world};
 }
 
+void TellEchoes(const std::vector<Surface>& surfaces,
+                ReturnMode mode,
+                std::size_t beam,
+                EchoTiles& echoes,
+                FiringStory& story) {
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  const auto returns = ReturnsOf(mode, echoes, beam);
+  for (const auto& [tile, lane] : EchoesOf(echoes, beam)) {
+    const bool is_clutter = tile.clutter[lane] != kNoClutter;
+    story.echoes.push_back(
+        {.label = is_clutter ? tile.clutter[lane] : surfaces[tile.surface[lane]].label,
+         .true_range_m = tile.true_range_m[lane],
+         .range_m = tile.range_m[lane],
+         .power_ratio = tile.power_ratio[lane],
+         .footprint_share = tile.surface[lane] != 0 ? tile.share[lane] : kNaN,
+         .outcome = static_cast<Outcome>(tile.outcome[lane]),
+         .slot = {}});
+    for (std::uint32_t r = 0; r < returns.size(); ++r) {
+      const bool is_this = &returns[r].tile == &tile && returns[r].lane == lane;
+      if (is_this) story.echoes.back().slot = story.slot + r;
+    }
+  }
+}
+
 using WorkOfThreads = tbb::enumerable_thread_specific<BeamTracer::Work>;
 
 }  // namespace
@@ -45,6 +69,9 @@ struct Simulator::Parts {
   std::unique_ptr<tbb::global_control> parallelism;
   tbb::task_arena arena;
 
+  [[nodiscard]] ReturnMode return_mode() const {
+    return ReturnModeOf(tracer->has_beams() ? spec.receiver.return_mode : "strongest");
+  }
   [[nodiscard]] float range_max_m() const { return static_cast<float>(spec.range_max_m); }
   [[nodiscard]] FrameScene SceneOf(std::uint32_t frame_index) {
     return scenes.At(frame_index, pattern.StampNs(frame_index));
@@ -134,8 +161,7 @@ void Simulator::Parts::Scan(const CastFrame& cast, Frame& frame) {
   frame.world_from_sensor = scenes.WorldFromSensor(frame.stamp_ns);
   frame.duration_ns = tiles.duration_ns();
   frame.world_from_sensor_end = scenes.WorldFromSensor(frame.stamp_ns + frame.duration_ns);
-  const ReturnMode mode =
-      ReturnModeOf(tracer->has_beams() ? spec.receiver.return_mode : "strongest");
+  const ReturnMode mode = return_mode();
   frame.Resize(pattern.rows, pattern.columns, NumReturns(mode));
   const OutputAxes axes(spec.output, spec.vehicle_from_sensor, cast.window_from_world,
                         frame.world_from_sensor);
@@ -197,7 +223,7 @@ FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) 
   const Transform world_from_window = scene.window->window_from_world.inverse();
   story.firing = firing;
   story.time_ns = parts.tiles.times_ns(tile)[lane];
-  story.slot = parts.tiles.slots(tile)[lane];
+  story.slot = parts.tiles.slots(tile)[lane] * NumReturns(parts.return_mode());
   story.direction_sensor = Vector3(static_cast<double>(first.direction_x[lane]),
                                    static_cast<double>(first.direction_y[lane]),
                                    static_cast<double>(first.direction_z[lane]));
@@ -208,6 +234,7 @@ FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) 
   story.instance = surface.instance;
   story.material = surface.material;
   story.reflectivity = surface.reflectivity;
+  TellEchoes(scene.window->surfaces, parts.return_mode(), lane, work.echoes, story);
   return story;
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,11 +18,12 @@
 
 namespace railcast {
 
-/// One firing's way from hit to return, for `railcast-generate trace`.
+/// One firing's way from hit to return, for `railcast-generate trace`. Its steps are those of the
+/// first echo.
 struct FiringStory {
   std::uint32_t firing{};
   std::uint32_t time_ns{};  ///< Since the stamp.
-  std::uint32_t slot{};
+  std::uint32_t slot{};     ///< Of its first return.
   Vector3 direction_sensor;
   Vector3 origin_world;
   std::uint32_t label{};  ///< Of the surface hit, like the three after it; 0 = none.
@@ -40,6 +42,19 @@ struct FiringStory {
     float range_m{};
   };
   std::vector<Step> steps;
+
+  /// What came back, or was too weak to; also that nothing did. NaN = none or not known.
+  struct Echo {
+    std::uint32_t label{};  ///< Of the surface or of the clutter.
+    float true_range_m{};
+    float range_m{};
+    float power_ratio{};
+    float footprint_share{};
+    Outcome outcome{};
+    std::optional<std::uint32_t> slot;  ///< Where it stands in the frame, if it is a return.
+  };
+  /// All echoes in the order in which they were found: surfaces by range, then clutter.
+  std::vector<Echo> echoes;
 };
 
 /// A scene that a host program traces itself, with things and surfaces of its own.

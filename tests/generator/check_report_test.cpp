@@ -64,19 +64,6 @@ TEST(CheckReport, NamesTheFrameThatAMomentFallsOn) {
             "          reaches the end of its track after 60.00 s (frame 600), at s 1000.00 m\n");
 }
 
-TEST(CheckReport, StatesTheEffectsThatAreOn) {
-  ScenarioSpec scenario;
-  scenario.effects = {{"snow", false}, {"sensor_dropout", false}};
-  scenario.weather.rain_rate_mmph = 4.0;
-  EXPECT_EQ(EffectsText(scenario),
-            "rung      plausibility\n"
-            "          threshold: 0.1 at 200 m, fog 0 per m\n"
-            "          rain: 4 mm/h, dropout 0.000365 per m x rate^0.63\n"
-            "          snow: off\n"
-            "          noise: sigma 0.01 m + 0.0001 x range, isotropic\n"
-            "          sensor_dropout: off\n");
-}
-
 TEST(CheckReport, WarnsOfCoarseWorldCoordinates) {
   const Vector3 far_m(5.3e6, 6e5, 400.0);
   EXPECT_EQ(OutputText({"sensor", "right", {0, 0, 0}}, far_m), "");

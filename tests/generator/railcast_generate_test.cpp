@@ -66,6 +66,18 @@ TEST(RailcastGenerate, ReplaysOneFiringEffectByEffect) {
   EXPECT_EQ(beyond.said, "--firing: must be < 28800, the firings of a frame (got 28800)\n");
 }
 
+TEST(RailcastGenerate, ListsTheEchoesOfAFiringThatHasMoreThanOne) {
+  const TemporaryDirectory directory;
+  WriteFileWhole(directory.path() / "fog.json",
+                 R"({"version": 1, "fidelity": "surface", "file": ")" + scenarios_folder +
+                     R"(minimal.json", "weather": {"visibility_m": 100}})");
+  const Ended run =
+      Generate("trace " + (directory.path() / "fog.json").string() + " --frame 3 --firing 0");
+  EXPECT_EQ(run.status, 0) << run.said;
+  EXPECT_NE(run.said.find("\necho "), std::string::npos) << run.said;
+  EXPECT_NE(run.said.find("\nfog "), std::string::npos) << run.said;
+}
+
 TEST(RailcastGenerate, ExitsWithOneAndOneLineOnBadInput) {
   const TemporaryDirectory directory;
   const std::string out = " --out " + directory.path().string();

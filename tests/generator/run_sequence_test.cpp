@@ -36,9 +36,15 @@ TEST(RunSequence, NamesMaterialsByTheIdsThatFramesCarry) {
   const auto contents = Contents(directory.path());
   const auto materials = nlohmann::json::parse(contents.at("materials.json")).at("materials");
   EXPECT_EQ(materials, nlohmann::json::parse(R"([
-    {"id": 0, "name": "none", "reflectivity": 0.0},
-    {"id": 1, "name": "ballast", "reflectivity": 0.25},
-    {"id": 2, "name": "rail_head", "reflectivity": 0.08}])"));
+    {"id": 0, "name": "none", "reflectivity": 0.0, "reflectivity_1550nm": 0.0,
+     "facet_slope_deg": 0.0, "specular_f0": 0.0, "specular_f0_1550nm": 0.0,
+     "specular_roughness": 0.3, "retroreflectance": 0.0},
+    {"id": 1, "name": "ballast", "reflectivity": 0.25, "reflectivity_1550nm": 0.25,
+     "facet_slope_deg": 0.0, "specular_f0": 0.0, "specular_f0_1550nm": 0.0,
+     "specular_roughness": 0.3, "retroreflectance": 0.0},
+    {"id": 2, "name": "rail_head", "reflectivity": 0.08, "reflectivity_1550nm": 0.08,
+     "facet_slope_deg": 0.0, "specular_f0": 0.0, "specular_f0_1550nm": 0.0,
+     "specular_roughness": 0.3, "retroreflectance": 0.0}])"));
   EXPECT_EQ(
       nlohmann::json::parse(contents.at("manifest.json")).at("files_xxh3").at("materials.json"),
       ContentHash(contents.at("materials.json")));

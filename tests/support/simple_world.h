@@ -15,6 +15,7 @@ class SimpleWorld final : public World {
  public:
   Model ground;  ///< Chunk frame.
   std::vector<Placement> placements;
+  std::vector<Wire> wires;  ///< What `ground` holds as tubes.
   Transform world_from_chunk = Transform::Identity();
   Transform chunk_from_vehicle = Transform::Identity();  ///< At time 0.
   Vector3 velocity_chunk_mps = Vector3::Zero();
@@ -44,7 +45,7 @@ class SimpleWorld final : public World {
   [[nodiscard]] int HomeChunk(std::int64_t) const override { return 0; }
   [[nodiscard]] std::vector<int> ChunksInReach(int, double) const override { return {0}; }
   [[nodiscard]] Transform WorldFromChunk(int) const override { return world_from_chunk; }
-  [[nodiscard]] Chunk BuildChunk(int) const override { return {ground, placements}; }
+  [[nodiscard]] Chunk BuildChunk(int) const override { return {ground, placements, wires}; }
   [[nodiscard]] const std::vector<SceneObject>& objects() const override { return objects_; }
   [[nodiscard]] Transform WorldFromObject(std::size_t object, std::int64_t time_ns) const override {
     return Moved(object_places_[object].first, object_places_[object].second, time_ns);

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "core/base/random.h"
 #include "core/frame/outcome.h"
@@ -61,6 +62,95 @@ TEST(Kernels, GiveTheSameBitsOnEveryInstructionSet) {
     // Bits, so that a NaN equals itself; the padding was made zero with the tile.
     // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
     EXPECT_EQ(std::memcmp(tile.get(), expected.get(), sizeof(DetectTile)), 0) << kernels.isa;
+  }
+  if (all.size() == 1) GTEST_SKIP() << "this machine runs only the baseline instruction set";
+}
+
+// Rays that hit planes of all slopes, or nothing.
+std::unique_ptr<RayTile> MixedRays() {
+  auto rays = std::make_unique<RayTile>();
+  std::memset(static_cast<void*>(rays.get()), 0, sizeof(RayTile));
+  rays->num_rays = kTileSize;
+  for (std::uint32_t i = 0; i < kTileSize; ++i) {
+    const auto words = RandomWords(98, RandomUse::kNoise, 0, i);
+    const float azimuth_rad = UnitFloat(words[0]);
+    const bool hit = i % 5 != 0;
+    rays->direction_x[i] = 0.8F * std::cos(azimuth_rad);
+    rays->direction_y[i] = 0.8F * std::sin(azimuth_rad);
+    rays->direction_z[i] = i % 2 == 0 ? 0.6F : -0.6F;
+    rays->range_m[i] = hit ? 300.0F * UnitFloat(words[1]) : 300.0F;
+    rays->normal_x[i] = hit ? UnitFloat(words[1]) - 0.5F : 0.0F;
+    rays->normal_y[i] = hit ? UnitFloat(words[2]) - 0.5F : 0.0F;
+    rays->normal_z[i] = hit ? UnitFloat(words[3]) : 0.0F;
+  }
+  return rays;
+}
+
+// Every kernel of the physical rungs in its order; returns the bits that are not in the tiles.
+std::vector<float> RunPhysics(const Kernels& kernels, RayTile& rays, DetectTile& tile) {
+  BeamFrame beam;
+  beam.sigma_h_rad = 7.5e-4F;
+  beam.sigma_v_rad = 3.75e-4F;
+  std::vector<float> values(kTileSize);
+  kernels.pointing(rays, tile, beam, {7, 2e-4F});
+  kernels.uniforms(tile, {7, RandomUse::kClutter, 200}, values.data());
+  kernels.incidence(rays, tile);
+  kernels.spread(rays, beam, tile);
+  kernels.response(tile, {false, 400'000.0F, 0.3F, 0.9F, 0.1F});
+  kernels.pulse_stretch(tile, 0.32F);
+  kernels.extinction(tile, 0.004F);
+  kernels.sunlight(tile, {2.0F});
+  kernels.detection(tile, {7, 5.0F, true});
+  kernels.hit(tile, 0.5F);
+  MeasurementParameters measurement = Measurement(0.015F, 0.0F);
+  const std::vector<float> bias_m(kTileSize, 0.01F);
+  measurement.scale_m = 0.1F;
+  measurement.snr_at_threshold = 5.0F;
+  measurement.channel_bias_m = bias_m.data();
+  kernels.measure_by_signal(tile, measurement);
+  const EchoWave wave{32, rays.range_m, tile.share, tile.specular_f0};
+  for (float from_m = 10.0F; from_m < 300.0F; from_m += 10.0F) {
+    const WavePeak peak = kernels.climb_wave(wave, from_m);
+    values.push_back(peak.range_m);
+    values.push_back(peak.value);
+  }
+  values.resize(values.size() + 1000);
+  kernels.sample_wave(wave, 0.0F, 0.3F, 1000, &values[values.size() - 1000]);
+  return values;
+}
+
+// The optics that physics wants on top.
+std::unique_ptr<DetectTile> MixedPhysicalTile() {
+  auto tile = MixedTile();
+  for (std::uint32_t i = 0; i < kTileSize; ++i) {
+    const auto words = RandomWords(97, RandomUse::kNoise, 0, i);
+    tile->channel[i] = i;
+    tile->share[i] = UnitFloat(words[0]);
+    tile->diffuse_a[i] = tile->reflectivity[i] * 0.8F;
+    tile->diffuse_b[i] = tile->reflectivity[i] * 0.3F;
+    tile->specular_f0[i] = UnitFloat(words[1]);
+    tile->specular_alpha2[i] = UnitFloat(words[2]);
+    tile->retro[i] = i % 7 == 0 ? 1000.0F : 0.0F;
+    tile->peak_shift_m[i] = 0.1F * UnitFloat(words[3]);
+  }
+  return tile;
+}
+
+TEST(Kernels, OfPhysicsGiveTheSameBitsOnEveryInstructionSet) {
+  const auto& all = AvailableKernels();
+  const auto expected_rays = MixedRays();
+  const auto expected = MixedPhysicalTile();
+  const auto expected_values = RunPhysics(all.front(), *expected_rays, *expected);
+  for (const Kernels& kernels : all) {
+    const auto rays = MixedRays();
+    const auto tile = MixedPhysicalTile();
+    const auto values = RunPhysics(kernels, *rays, *tile);
+    // NOLINTBEGIN(bugprone-suspicious-memory-comparison): as above.
+    EXPECT_EQ(std::memcmp(rays.get(), expected_rays.get(), sizeof(RayTile)), 0) << kernels.isa;
+    EXPECT_EQ(std::memcmp(tile.get(), expected.get(), sizeof(DetectTile)), 0) << kernels.isa;
+    // NOLINTEND(bugprone-suspicious-memory-comparison)
+    EXPECT_EQ(std::memcmp(values.data(), expected_values.data(), values.size() * sizeof(float)), 0)
+        << kernels.isa;
   }
   if (all.size() == 1) GTEST_SKIP() << "this machine runs only the baseline instruction set";
 }

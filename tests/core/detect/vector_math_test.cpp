@@ -60,6 +60,23 @@ TEST(VectorMath, AcosIsWithinHalfAMicroradian) {
   EXPECT_LE(worst, 5e-7);
 }
 
+TEST(VectorMath, NormalCdfIsWithinFourTenMillionths) {
+  double worst = 0.0;
+  for (int i = 0; i <= kSteps; ++i) {
+    const float x = -20.0F + 30.0F * static_cast<float>(i) / kSteps;
+    const double truth = 0.5 * std::erfc(-static_cast<double>(x) / std::numbers::sqrt2);
+    worst = std::max(worst, std::abs(static_cast<double>(baseline::NormalCdf(x)) - truth));
+  }
+  EXPECT_LE(worst, 4e-7);
+}
+
+TEST(VectorMath, NormalCdfStaysWithinZeroAndOne) {
+  for (const float x : {-1e6F, -40.0F, -6.0F, 0.0F, 6.0F, 40.0F, 1e6F}) {
+    EXPECT_GE(baseline::NormalCdf(x), 0.0F) << x;
+    EXPECT_LE(baseline::NormalCdf(x), 1.0F) << x;
+  }
+}
+
 TEST(LaneWords, AreRandom123sBitForBit) {
   for (std::uint32_t firing = 0; firing < 1000; ++firing) {
     const std::uint64_t seed = 0x123456789ABCDEF0ULL + firing;

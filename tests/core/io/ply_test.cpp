@@ -78,7 +78,7 @@ TEST(EncodePly, GivesCloudCompareOnlyTypesThatOpen3dKeepsToo) {
   EncodePly(ExampleFrame(0), FieldSelection("x,y,z,intensity,time_ns,ring,label,instance,outcome"),
             PlyFlavour::kCloudCompare, bytes);
   EXPECT_EQ(bytes.substr(0, bytes.find("end_header")),
-            "ply\nformat binary_little_endian 1.0\nelement vertex 12\n"
+            "ply\nformat binary_little_endian 1.0\nelement vertex 11\n"
             "property float x\nproperty float y\nproperty float z\n"
             "property float scalar_intensity\nproperty double scalar_time_ns\n"
             "property int scalar_ring\nproperty int scalar_label\nproperty int scalar_instance\n"

@@ -190,5 +190,41 @@ TEST(Simulator, ExplainsAFiringAsScanMeasuredIt) {
   EXPECT_EQ(effects, (std::vector<std::string>{"hit", "threshold", "rain", "snow", "noise"}));
 }
 
+TEST(Simulator, ExplainsEveryEchoWithTheSlotItHasInTheFrame) {
+  SimulatorSpec spec{.seed = 2,
+                     .effects = {.surface_response = true,
+                                 .extinction = true,
+                                 .detection = true,
+                                 .detection_probability = true,
+                                 .clutter = true,
+                                 .range_noise = true,
+                                 .footprint = true}};
+  spec.weather.rain_rate_mmph = 50.0;
+  spec.receiver.clutter_gain = 1.0;
+  spec.receiver.return_mode = "triple";
+  auto world = WorldWithWall(60.0F);
+  world->AddObject(WallModel(0.0F, 2.0F, 1),
+                   MakeTransform(Eigen::Matrix3d::Identity(), {20.0, 0.0, 0.0}));
+  Simulator simulator(world, MakeRaster(20, 10, 0.5), TestMaterials(), spec, 1);
+  Frame frame;
+  simulator.Scan(5, frame);
+  std::size_t num_echoes = 0;
+  for (std::uint32_t firing = 0; firing < 800; ++firing) {
+    const FiringStory story = simulator.Explain(5, firing);
+    std::size_t num_slots = 0;
+    for (const FiringStory::Echo& echo : story.echoes) {
+      if (!echo.slot) continue;
+      ++num_slots;
+      ASSERT_EQ(echo.outcome, frame.outcome[*echo.slot]);
+      ASSERT_EQ(echo.range_m, frame.range_m[*echo.slot]);
+      ASSERT_EQ(echo.power_ratio, frame.power_ratio[*echo.slot]);
+      ASSERT_EQ(echo.label, frame.label[*echo.slot]);
+    }
+    ASSERT_EQ(num_slots, frame.return_count[story.slot]);
+    num_echoes += story.echoes.size();
+  }
+  EXPECT_GT(num_echoes, 1200U);
+}
+
 }  // namespace
 }  // namespace railcast

@@ -1,0 +1,160 @@
+#include "core/detect/echo_finder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "core/base/random.h"
+#include "core/detect/beam_optics.h"
+
+namespace railcast {
+namespace {
+
+const BeamSpec kBeam;
+const auto kSigma_m = static_cast<float>(PulseSigma_m(kBeam));
+
+std::vector<Echo> Find(std::vector<Component> components,
+                       bool is_sampled,
+                       bool has_stretch = true) {
+  EchoFinder finder(kBeam, has_stretch, is_sampled, AvailableKernels().back());
+  std::vector<Echo> echoes;
+  finder.Find(components, echoes);
+  return echoes;
+}
+
+Component At(float range_m, float power_ratio = 10.0F, std::uint32_t surface = 1) {
+  return {.range_m = range_m,
+          .power_ratio = power_ratio,
+          .share = 0.25F,
+          .intensity = 0.1F,
+          .cos_incidence = 1.0F,
+          .reflectivity = 0.5F,
+          .surface = surface};
+}
+
+float ShareOf(const std::vector<Echo>& echoes) {
+  return std::accumulate(echoes.begin(), echoes.end(), 0.0F,
+                         [](float sum, const Echo& echo) { return sum + echo.share; });
+}
+
+TEST(EchoFinder, GivesASingleComponentBackExactly) {
+  Component component = At(42.5F, 7.0F, 3);
+  component.spread_m = 0.4F;
+  const auto echoes = Find({component}, false);
+  ASSERT_EQ(echoes.size(), 1U);
+  EXPECT_EQ(echoes[0].peak_range_m, 42.5F);
+  EXPECT_EQ(echoes[0].true_range_m, 42.5F);
+  EXPECT_EQ(echoes[0].power_ratio, 7.0F);
+  EXPECT_EQ(echoes[0].share, 0.25F);
+  EXPECT_EQ(echoes[0].surface, 3U);
+}
+
+TEST(EchoFinder, SampledFindsASingleComponentToATenthOfAMillimetre) {
+  for (float range_m = 42.0F; range_m < 42.1F; range_m += 0.007F) {
+    const auto echoes = Find({At(range_m)}, true);
+    ASSERT_EQ(echoes.size(), 1U);
+    EXPECT_NEAR(static_cast<double>(echoes[0].peak_range_m), static_cast<double>(range_m), 1e-4);
+    EXPECT_NEAR(static_cast<double>(echoes[0].power_ratio), 10.0, 1e-3);
+  }
+}
+
+TEST(EchoFinder, FindsNothingInNothing) {
+  EXPECT_TRUE(Find({}, false).empty());
+  EXPECT_TRUE(Find({}, true).empty());
+}
+
+// The sum of two equal Gaussians has two maxima exactly where they are more than 2 sigma apart.
+TEST(EchoFinder, ResolvesTwoEqualPulsesAboveTwoSigmaAndMeltsThemBelow) {
+  for (const bool is_sampled : {false, true}) {
+    EXPECT_EQ(Find({At(30.0F), At(30.0F + 2.2F * kSigma_m, 10.0F, 2)}, is_sampled).size(), 2U);
+    EXPECT_EQ(Find({At(30.0F), At(30.0F + 1.8F * kSigma_m, 10.0F, 2)}, is_sampled).size(), 1U);
+  }
+}
+
+TEST(EchoFinder, ResolvesFarPulsesEachAtItsOwnRangeAndPower) {
+  for (const bool is_sampled : {false, true}) {
+    const auto echoes = Find({At(30.0F), At(40.0F, 2.0F, 2), At(35.0F, 5.0F, 3)}, is_sampled);
+    ASSERT_EQ(echoes.size(), 3U);
+    EXPECT_NEAR(static_cast<double>(echoes[0].peak_range_m), 30.0, 1e-4);
+    EXPECT_NEAR(static_cast<double>(echoes[1].peak_range_m), 35.0, 1e-4);
+    EXPECT_NEAR(static_cast<double>(echoes[2].power_ratio), 2.0, 2e-4);
+    EXPECT_EQ(echoes[1].surface, 3U);
+  }
+}
+
+// Nearer than a sigma the peak is the mean of both, by power, to third order in the distance.
+TEST(EchoFinder, PutsAMixedPixelBetweenItsSurfaces) {
+  for (const bool is_sampled : {false, true}) {
+    const float step_m = 0.3F * kSigma_m;
+    const auto echoes = Find({At(30.0F, 3.0F, 1), At(30.0F + step_m, 9.0F, 2)}, is_sampled);
+    ASSERT_EQ(echoes.size(), 1U);
+    EXPECT_NEAR(static_cast<double>(echoes[0].peak_range_m),
+                static_cast<double>(30.0F + 0.75F * step_m), 2e-3);
+    EXPECT_EQ(echoes[0].true_range_m, 30.0F + step_m);
+    EXPECT_EQ(echoes[0].surface, 2U);
+    EXPECT_EQ(echoes[0].share, 0.5F);
+  }
+}
+
+TEST(EchoFinder, KeepsTheStrongestEchoHoweverWeakAndDropsOthersBelowAThird) {
+  EXPECT_EQ(Find({At(30.0F, 0.01F)}, false).size(), 1U);
+  EXPECT_EQ(Find({At(30.0F, 0.2F), At(40.0F, 5.0F)}, false).size(), 1U);
+  EXPECT_EQ(Find({At(30.0F, 0.4F), At(40.0F, 5.0F)}, false).size(), 2U);
+}
+
+TEST(EchoFinder, GivesTheStretchedComponentLessSay) {
+  Component stretched = At(30.0F);
+  stretched.spread_m = 1.0F;
+  const std::vector<Component> both{stretched, At(30.0F + 0.5F * kSigma_m, 10.0F, 2)};
+  const auto with = Find(both, false, true);
+  const auto without = Find(both, false, false);
+  EXPECT_GT(with[0].peak_range_m, without[0].peak_range_m + 0.05F * kSigma_m);
+}
+
+// Lists of 1 to 40 components within 6 m, a few surfaces, all powers and spreads.
+std::vector<Component> RandomComponents(std::uint32_t item) {
+  const auto words = RandomWords(3, RandomUse::kNoise, 1, item);
+  std::vector<Component> components;
+  const std::uint32_t count = 1 + words[0] % 40;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto w = RandomWords(3, RandomUse::kNoise, 2 + i, item);
+    Component component = At(50.0F + 1.5F * static_cast<float>(w[0] % 5), 0.0F, 1 + w[0] % 5);
+    component.range_m += 0.1F * UnitFloat(w[1]);
+    component.power_ratio = 0.2F + 5.0F * UnitFloat(w[2]);
+    component.spread_m = 0.2F * UnitFloat(w[3]);
+    component.share = 1.0F / static_cast<float>(count);
+    components.push_back(component);
+  }
+  return components;
+}
+
+TEST(EchoFinder, ClimbsToThePeaksThatSamplesFind) {
+  for (std::uint32_t item = 0; item < 3000; ++item) {
+    const auto components = RandomComponents(item);
+    const auto climbed = Find(components, false);
+    const auto sampled = Find(components, true);
+    ASSERT_EQ(climbed.size(), sampled.size()) << item;
+    for (std::size_t i = 0; i < climbed.size(); ++i) {
+      ASSERT_NEAR(static_cast<double>(climbed[i].peak_range_m),
+                  static_cast<double>(sampled[i].peak_range_m), 1e-3)
+          << item;
+      ASSERT_NEAR(static_cast<double>(climbed[i].power_ratio / sampled[i].power_ratio), 1.0, 1e-3)
+          << item;
+      ASSERT_EQ(climbed[i].surface, sampled[i].surface) << item;
+    }
+  }
+}
+
+TEST(EchoFinder, LosesNoShareOfTheBeam) {
+  for (std::uint32_t item = 0; item < 300; ++item) {
+    for (const bool is_sampled : {false, true}) {
+      ASSERT_NEAR(static_cast<double>(ShareOf(Find(RandomComponents(item), is_sampled))), 1.0,
+                  1e-5);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace railcast

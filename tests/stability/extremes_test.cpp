@@ -1,0 +1,300 @@
+// The ends of every parameter, on all physical rungs: sound frames, whole beams, and weather that
+// only ever takes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/simulate/simulator.h"
+#include "tests/support/analytic_meshes.h"
+#include "tests/support/frame_checks.h"
+#include "tests/support/scan_once.h"
+#include "tests/support/simple_world.h"
+
+namespace railcast {
+namespace {
+
+constexpr std::uint16_t kSoil = 1;
+constexpr std::uint16_t kPaint = 2;
+constexpr std::uint16_t kSheet = 3;
+constexpr std::uint16_t kBlack = 4;
+constexpr std::uint16_t kSnow = 5;
+
+MaterialLibrary Materials() {
+  return MaterialLibrary(
+      {{.name = "soil", .reflectivity = 0.25, .facet_slope_deg = 20.0},
+       {.name = "paint", .reflectivity = 0.5, .specular_f0 = 0.04, .specular_roughness = 0.2},
+       {.name = "sheet", .reflectivity = 0.2, .retroreflectance = 570.0},
+       {.name = "black", .reflectivity = 0.0},
+       {.name = "snow", .reflectivity = 0.9}});
+}
+
+EffectSet RungOf(const std::string& name) {
+  EffectSet effects{.sensor_dropout = true,
+                    .surface_response = true,
+                    .surface_condition = true,
+                    .extinction = true,
+                    .pulse_stretch = true,
+                    .detection = true,
+                    .detection_probability = true,
+                    .clutter = true,
+                    .fog_echo = true,
+                    .sunlight = true,
+                    .range_noise = true,
+                    .channel_bias = true,
+                    .pointing_jitter = true};
+  effects.footprint = name != "surface";
+  effects.thin_conductors = name == "footprint";
+  effects.dense_footprint = effects.sampled_waveform = name == "reference";
+  return effects;
+}
+const std::string kRungs[] = {"surface", "footprint", "reference"};
+
+// Of 6 mm radius, 3 m above the sensor along x.
+Mesh LevelTube(float begin_m, float end_m) {
+  Mesh tube = MakeCylinder(0.006, 0.5 * static_cast<double>(end_m - begin_m), 16);
+  for (auto& vertex : tube.vertices) {
+    vertex = {0.5F * (begin_m + end_m) + vertex.z(), vertex.x(), 3.0F + vertex.y()};
+  }
+  return tube;
+}
+
+// Ground, walls near and far, a black one, a sheet, poles, and a wire overhead.
+std::shared_ptr<SimpleWorld> MixedWorld() {
+  auto world = std::make_shared<SimpleWorld>();
+  const auto place = [](Mesh mesh, const Eigen::Vector3f& offset_m) {
+    for (auto& vertex : mesh.vertices) vertex += offset_m;
+    return mesh;
+  };
+  Mesh poles;
+  for (int i = 1; i <= 12; ++i) {
+    poles.Append(place(MakeCylinder(0.04 * i, 4.0, 12),
+                       {8.0F * static_cast<float>(i), i % 2 == 0 ? 3.0F : -3.0F, 0.0F}));
+  }
+  world->ground.parts = {{MakeFloor(-2.0F, 400.0F), kSoil, 2},
+                         {poles, kPaint, 3},
+                         {place(MakeWall(30.0F, 2.0F), {0, 6, 0}), kPaint, 4},
+                         {place(MakeWall(150.0F, 8.0F), {0, -20, 0}), kPaint, 5},
+                         {place(MakeWall(25.0F, 1.0F), {0, -6, 0}), kSheet, 6},
+                         {place(MakeWall(20.0F, 1.0F), {0, 8, 0}), kBlack, 7},
+                         {LevelTube(5.0F, 200.0F), kPaint, 9, true},
+                         {place(MakeWall(0.3F, 0.02F), {0, 0.1F, 0}), kPaint, 8}};
+  world->wires = {{.material = kPaint,
+                   .label = 9,
+                   .radius_m = 0.006,
+                   .points_m = {Vector3(5, 0, 3), Vector3(200, 0, 3)}}};
+  return world;
+}
+
+struct Setting {
+  std::string name;
+  SimulatorSpec spec;
+  ScanPattern pattern = MakeRaster(40.0, 16.0, 0.5);
+};
+
+Setting Base() {
+  Setting setting;
+  setting.spec.seed = 3;
+  setting.spec.snow_material = kSnow;
+  setting.spec.receiver.return_mode = "triple";
+  return setting;
+}
+
+std::vector<Setting> Settings() {
+  std::vector<Setting> settings;
+  const auto add = [&](const std::string& name, const std::function<void(Setting&)>& change) {
+    settings.push_back(Base());
+    settings.back().name = name;
+    change(settings.back());
+  };
+  add("visibility 1 m", [](Setting& s) { s.spec.weather.visibility_m = 1.0; });
+  add("visibility 1 mm", [](Setting& s) { s.spec.weather.visibility_m = 1e-3; });
+  add("rain 200 mm/h", [](Setting& s) { s.spec.weather.rain_rate_mmph = 200.0; });
+  add("snow 50 mm/h", [](Setting& s) { s.spec.weather.snow_rate_mmph = 50.0; });
+  add("rain of a trace", [](Setting& s) { s.spec.weather.rain_rate_mmph = 1e-6; });
+  add("most clutter", [](Setting& s) {
+    s.spec.weather.rain_rate_mmph = 200.0;
+    s.spec.weather.snow_rate_mmph = 20.0;
+    s.spec.receiver.clutter_gain = 10.0;
+  });
+  add("a ray", [](Setting& s) { s.spec.beam.divergence_mrad = {0.0, 0.0}; });
+  add("a line", [](Setting& s) { s.spec.beam.divergence_mrad = {17.453, 0.0}; });
+  add("1 degree", [](Setting& s) { s.spec.beam.divergence_mrad = {17.453, 17.453}; });
+  add("shortest pulse", [](Setting& s) { s.spec.beam.pulse_length_ns = 0.5; });
+  add("longest pulse", [](Setting& s) { s.spec.beam.pulse_length_ns = 100.0; });
+  add("one beam", [](Setting& s) { s.pattern = MakeRaster(1.0, 1.0, 1.0); });
+  add("range 1 m", [](Setting& s) { s.spec.range_max_m = 1.0; });
+  add("range 10 km", [](Setting& s) {
+    s.spec.range_max_m = 10'000.0;
+    s.spec.receiver.range_at_10_percent_m = 10'000.0;
+  });
+  for (const double rate_hz : {1.0, 200.0}) {
+    add("rate " + std::to_string(rate_hz), [&](Setting& s) {
+      s.pattern = BuildScanPattern({rate_hz, RasterSpec{40.0, 16.0, 0.5, "columns"}});
+    });
+  }
+  add("sun in the face", [](Setting& s) {
+    s.spec.weather.sun = {.illuminance_klx = 150.0, .azimuth_deg = 0.0, .elevation_deg = 0.0};
+  });
+  add("soaked and white", [](Setting& s) {
+    s.spec.weather.wetness = 1.0;
+    s.spec.weather.snow_cover = 1.0;
+  });
+  add("noise of 10 m", [](Setting& s) {
+    s.spec.receiver.range_noise_floor_m = 10.0;
+    s.spec.receiver.range_noise_scale_m = 10.0;
+    s.spec.receiver.channel_bias_sigma_m = 10.0;
+    s.spec.receiver.pointing_jitter_deg = 1.0;
+  });
+  return settings;
+}
+
+Frame Scan(const Setting& setting, const std::string& rung) {
+  SimulatorSpec spec = setting.spec;
+  spec.effects = RungOf(rung);
+  Simulator simulator(MixedWorld(), setting.pattern, Materials(), spec, 0);
+  Frame frame;
+  simulator.Scan(2, frame);
+  return frame;
+}
+
+// Beyond what holds on every rung: powers and shares are no less than nothing, and the surfaces of
+// one beam take no more than all of it.
+void ExpectSoundBeams(const Frame& frame, const SimulatorSpec& spec) {
+  ExpectSoundSlots(frame, static_cast<float>(spec.range_min_m),
+                   static_cast<float>(spec.range_max_m));
+  for (std::size_t first = 0; first < frame.num_slots(); first += frame.returns) {
+    double share = 0.0;
+    for (std::size_t slot = first; slot < first + frame.returns; ++slot) {
+      const bool is_seen = frame.outcome[slot] == Outcome::kReturned ||
+                           frame.outcome[slot] == Outcome::kBelowThreshold;
+      if (!is_seen || frame.material[slot] == 0) continue;
+      ASSERT_GE(frame.power_ratio[slot], 0.0F);
+      ASSERT_TRUE(std::isfinite(frame.power_ratio[slot]));
+      ASSERT_GE(frame.intensity[slot], 0.0F);
+      ASSERT_GE(frame.footprint_share[slot], 0.0F);
+      share += static_cast<double>(frame.footprint_share[slot]);
+    }
+    ASSERT_LE(share, 1.0 + 1e-5);
+  }
+}
+
+TEST(Extremes, GiveSoundFramesOnEveryRung) {
+  for (const Setting& setting : Settings()) {
+    for (const std::string& rung : kRungs) {
+      SCOPED_TRACE(setting.name + " on " + rung);
+      const Frame frame = Scan(setting, rung);
+      ExpectSoundBeams(frame, setting.spec);
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+TEST(Extremes, AllOfABeamMeetsAWallThatFillsIt) {
+  auto world = std::make_shared<SimpleWorld>();
+  world->ground.parts = {{MakeWall(20.0F, 100.0F), kPaint, 1}};
+  for (const double divergence_mrad : {0.0, 3.0, 17.453}) {
+    for (const int num_rays : {16, 256, 1000}) {
+      SimulatorSpec spec{.effects = {.surface_response = true,
+                                     .footprint = true,
+                                     .dense_footprint = true,
+                                     .sampled_waveform = true}};
+      spec.beam.divergence_mrad = {divergence_mrad, divergence_mrad};
+      spec.beam.reference_rays = num_rays;
+      Simulator simulator(world, MakeRaster(10.0, 10.0, 1.0), Materials(), spec, 0);
+      Frame frame;
+      simulator.Scan(0, frame);
+      for (const float share : frame.footprint_share) {
+        // Each addition may round by half a step of 6e-8.
+        ASSERT_NEAR(static_cast<double>(share), 1.0, 6e-8 * (num_rays + 1)) << num_rays;
+      }
+    }
+  }
+}
+
+TEST(Extremes, NothingReturnsFromABlackSurface) {
+  for (const std::string& rung : kRungs) {
+    auto world = std::make_shared<SimpleWorld>();
+    world->ground.parts = {{MakeWall(5.0F, 100.0F), kBlack, 1}};
+    // At night one firing in a million is a false alarm.
+    Simulator simulator(world, MakeRaster(10.0, 10.0, 0.5), Materials(), {.effects = RungOf(rung)},
+                        0);
+    Frame frame;
+    simulator.Scan(0, frame);
+    // Phi(-5) of them are detected nevertheless: 3e-7.
+    EXPECT_EQ(std::count(frame.outcome.begin(), frame.outcome.end(), Outcome::kBelowThreshold), 400)
+        << rung;
+    EXPECT_EQ(*std::max_element(frame.power_ratio.begin(), frame.power_ratio.end()), 0.0F) << rung;
+  }
+}
+
+// One of the weather's parameters from nothing to its end.
+struct Ramp {
+  std::string name;
+  std::function<void(WeatherSpec&, double)> set;
+  std::vector<double> values;
+};
+
+std::vector<Ramp> Ramps() {
+  return {
+      {"rain",
+       [](WeatherSpec& w, double v) { w.rain_rate_mmph = v; },
+       {0, 0.1, 1, 5, 10, 25, 50, 100, 200}},
+      {"fog",
+       [](WeatherSpec& w, double v) { w.fog_density_per_m = v; },
+       {0, 1e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1, 0.3, 3}},
+      {"dry snow",
+       [](WeatherSpec& w, double v) { w.snow_rate_mmph = v; },
+       {0, 0.1, 0.5, 1, 2.5, 5, 10, 50}},
+      {"wetness", [](WeatherSpec& w, double v) { w.wetness = v; }, {0, 0.1, 0.3, 0.5, 0.7, 0.9, 1}},
+      {"sun",
+       [](WeatherSpec& w, double v) { w.sun.illuminance_klx = v; },
+       {0, 1, 10, 30, 60, 100, 150}}};
+}
+
+// The last echo is reported, so that drops, which lie in front, take no surface's place.
+TEST(Extremes, MoreWeatherNeverGivesMoreSurfaceReturns) {
+  for (const std::string& rung : kRungs) {
+    for (const Ramp& ramp : Ramps()) {
+      std::vector<std::size_t> counts;
+      for (const double value : ramp.values) {
+        Setting setting = Base();
+        setting.spec.receiver.return_mode = "last";
+        setting.spec.receiver.range_at_10_percent_m = 100.0;
+        ramp.set(setting.spec.weather, value);
+        const Frame frame = Scan(setting, rung);
+        counts.push_back(static_cast<std::size_t>(
+            std::count(frame.outcome.begin(), frame.outcome.end(), Outcome::kReturned)));
+      }
+      EXPECT_TRUE(std::is_sorted(counts.rbegin(), counts.rend())) << rung << ", " << ramp.name;
+      EXPECT_LT(counts.back(), counts.front()) << rung << ", " << ramp.name;
+    }
+  }
+}
+
+// As many firings as a pattern may have is 2^24; a frame of ten million takes a gigabyte.
+TEST(Extremes, TenMillionBeamsMakeOneSoundFrame) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "too slow under a sanitizer";
+#endif
+  auto world = std::make_shared<SimpleWorld>();
+  world->ground.parts = {{MakeFloor(-2.0F, 400.0F), kSoil, 2}};
+  SimulatorSpec spec{.effects = RungOf("surface")};
+  Simulator simulator(world, MakeRaster(360.0, 69.5, 0.05), Materials(), spec, 0);
+  ASSERT_GE(simulator.pattern().num_firings(), 10'000'000U);
+  Frame frame;
+  simulator.Scan(0, frame);
+  ExpectSoundBeams(frame, spec);
+  // What looks down more than half a degree meets ground within the range.
+  const auto num_below = static_cast<std::ptrdiff_t>(7200) * (1390 / 2 - 10);
+  EXPECT_GT(std::count_if(frame.label.begin(), frame.label.end(),
+                          [](std::uint32_t label) { return label == 2; }),
+            num_below);
+}
+
+}  // namespace
+}  // namespace railcast

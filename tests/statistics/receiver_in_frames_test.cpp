@@ -1,0 +1,204 @@
+// Pointing, sun, dropout and the independence of effects through the whole simulator.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "core/base/units.h"
+#include "core/simulate/simulator.h"
+#include "tests/support/analytic_meshes.h"
+#include "tests/support/frame_bytes.h"
+#include "tests/support/scan_once.h"
+#include "tests/support/simple_world.h"
+
+namespace railcast {
+namespace {
+
+// A wall at 50 m on the right of the x axis alone, and ground.
+std::shared_ptr<SimpleWorld> HalfAWall() {
+  auto world = std::make_shared<SimpleWorld>();
+  world->ground.parts = {
+      {{{{50, -60, -30}, {50, 0, -30}, {50, 0, 30}, {50, -60, 30}}, {{0, 1, 2}, {0, 2, 3}}}, 2, 1}};
+  return world;
+}
+
+std::shared_ptr<SimpleWorld> WallAndGround() {
+  auto world = HalfAWall();
+  world->ground.parts.push_back({MakeFloor(-2.0F, 300.0F), 1, 2});
+  return world;
+}
+
+EffectSet Surface() {
+  return {.sensor_dropout = true,
+          .surface_response = true,
+          .surface_condition = true,
+          .extinction = true,
+          .pulse_stretch = true,
+          .detection = true,
+          .detection_probability = true,
+          .clutter = true,
+          .fog_echo = true,
+          .sunlight = true,
+          .range_noise = true,
+          .channel_bias = true,
+          .pointing_jitter = true};
+}
+
+// A beam aimed beside the edge by an angle a hits with the probability Phi(a / sigma).
+TEST(PointingJitter, ScattersBeamsOverAnEdgeByTheNormalLaw) {
+  SimulatorSpec spec{.effects = {.pointing_jitter = true}};
+  spec.receiver.pointing_jitter_deg = 0.05;
+  const ScanPattern pattern = MakeRaster(0.4, 2.0, 0.02);
+  Simulator simulator(HalfAWall(), pattern, TestMaterials(), spec, 0);
+  std::vector<double> hits(pattern.columns);
+  Frame frame;
+  constexpr std::uint32_t kNumFrames = 40;
+  for (std::uint32_t index = 0; index < kNumFrames; ++index) {
+    simulator.Scan(index, frame);
+    for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+      if (frame.outcome[slot] == Outcome::kReturned) hits[slot % pattern.columns] += 1.0;
+    }
+  }
+  const double n = double{kNumFrames} * pattern.rows;  // 4000
+  for (std::uint32_t column = 0; column < pattern.columns; ++column) {
+    // Column 0 is the leftmost; the wall is on the right.
+    const double beside_deg = 0.02 * (column + 0.5) - 0.2;
+    const double p = 0.5 * std::erfc(-beside_deg / 0.05 / std::sqrt(2.0));
+    EXPECT_NEAR(hits[column], n * p, 4.0 * std::sqrt(n * p * (1.0 - p)) + 1.0) << column;
+  }
+}
+
+TEST(PointingJitter, LeavesTheReportedDirectionAsItWas) {
+  SimulatorSpec spec{.effects = {.pointing_jitter = true}};
+  spec.receiver.pointing_jitter_deg = 0.5;
+  const ScanPattern pattern = MakeRaster(10.0, 2.0, 0.5);
+  const Frame jittered = ScanOnce(WallAndGround(), pattern, spec);
+  std::size_t checked = 0;
+  for (std::size_t slot = 0; slot < jittered.num_slots(); ++slot) {
+    if (!HasPoint(jittered.outcome[slot])) continue;
+    const double azimuth_deg = 4.75 - 0.5 * static_cast<double>(slot % pattern.columns);
+    EXPECT_NEAR(DegFromRad(std::atan2(static_cast<double>(jittered.y[slot]),
+                                      static_cast<double>(jittered.x[slot]))),
+                azimuth_deg, 1e-4);
+    ++checked;
+  }
+  EXPECT_GT(checked, 30U);
+}
+
+TEST(Sunlight, BlindsTheBeamsWithinADegreeOfTheSun) {
+  SimulatorSpec spec{.effects = {.detection = true, .sunlight = true}};
+  spec.weather.sun = {.illuminance_klx = 100.0, .azimuth_deg = -10.0, .elevation_deg = 3.0};
+  const ScanPattern pattern = MakeRaster(10.0, 10.0, 0.1);
+  auto world = std::make_shared<SimpleWorld>();
+  world->ground.parts = {{MakeWall(50.0F, 100.0F), 2, 1}};
+  // The sun is in the world: turn the vehicle, so that it stands 2 deg left, 3 deg up for it.
+  world->chunk_from_vehicle.linear() = RotationFromYawPitchRoll(RadFromDeg(-12.0), 0.0, 0.0);
+  const Frame frame = ScanOnce(world, pattern, spec);
+  const Vector3 to_sun(std::cos(RadFromDeg(3.0)) * std::cos(RadFromDeg(2.0)),
+                       std::cos(RadFromDeg(3.0)) * std::sin(RadFromDeg(2.0)),
+                       std::sin(RadFromDeg(3.0)));
+  std::size_t num_blind = 0;
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    const std::uint32_t firing = pattern.columns * frame.ring[slot] + frame.column[slot];
+    const double azimuth_rad = RadFromDeg(4.95 - 0.1 * static_cast<double>(frame.column[slot]));
+    const double elevation_rad = RadFromDeg(-4.95 + 0.1 * static_cast<double>(frame.ring[slot]));
+    const Vector3 beam(std::cos(elevation_rad) * std::cos(azimuth_rad),
+                       std::cos(elevation_rad) * std::sin(azimuth_rad), std::sin(elevation_rad));
+    const double angle_deg = DegFromRad(std::acos(std::min(1.0, beam.dot(to_sun))));
+    if (frame.outcome[slot] == Outcome::kClutter) continue;  // A false alarm.
+    if (std::abs(angle_deg - 1.0) < 0.01) continue;          // float32 at the edge
+    EXPECT_EQ(frame.outcome[slot], angle_deg < 1.0 ? Outcome::kBelowThreshold : Outcome::kReturned)
+        << firing;
+    num_blind += frame.outcome[slot] == Outcome::kBelowThreshold ? 1 : 0;
+  }
+  // A disc of 1 deg in cells of 0.1 deg: 314.
+  EXPECT_NEAR(static_cast<double>(num_blind), 314.0, 15.0);
+}
+
+SimulatorSpec Downpour() {
+  SimulatorSpec spec{.seed = 9, .effects = Surface()};
+  spec.plausibility.dropout_probability = 0.18;
+  spec.weather.rain_rate_mmph = 50.0;
+  spec.weather.visibility_m = 200.0;
+  spec.weather.wetness = 1.0;
+  spec.receiver.clutter_gain = 1.0;
+  // The strongest echo would be the fog's in every beam.
+  spec.receiver.return_mode = "last";
+  return spec;
+}
+
+TEST(SensorDropout, HitsTheSameFiringsWhateverElseIsOn) {
+  const ScanPattern pattern = MakeRaster(40.0, 20.0, 0.25);
+  SimulatorSpec spec = Downpour();
+  spec.effects.sunlight = false;  // A missed pulse can still be a false alarm.
+  const Frame all = ScanOnce(WallAndGround(), pattern, spec);
+  spec.effects = {.sensor_dropout = true};
+  const Frame alone = ScanOnce(WallAndGround(), pattern, spec);
+  double count = 0.0;
+  for (std::size_t slot = 0; slot < all.num_slots(); ++slot) {
+    ASSERT_EQ(all.outcome[slot] == Outcome::kSensorDropout,
+              alone.outcome[slot] == Outcome::kSensorDropout)
+        << slot;
+    count += alone.outcome[slot] == Outcome::kSensorDropout ? 1.0 : 0.0;
+  }
+  const double n = static_cast<double>(all.num_slots());
+  EXPECT_NEAR(count, 0.18 * n, 4.0 * std::sqrt(n * 0.18 * 0.82));
+}
+
+// Without its cause an effect changes not one bit.
+TEST(Effects, ChangeNothingWithoutTheirCause) {
+  const ScanPattern pattern = MakeRaster(40.0, 20.0, 0.5);
+  SimulatorSpec spec{.effects = Surface()};
+  spec.effects.sunlight = false;  // It has false alarms at night, too: one in a million.
+  const std::string all = FrameBytes(ScanOnce(WallAndGround(), pattern, spec));
+  for (bool EffectSet::*effect :
+       {&EffectSet::sensor_dropout, &EffectSet::surface_condition, &EffectSet::extinction,
+        &EffectSet::clutter, &EffectSet::fog_echo}) {
+    SimulatorSpec fewer = spec;
+    fewer.effects.*effect = false;
+    EXPECT_EQ(FrameBytes(ScanOnce(WallAndGround(), pattern, fewer)), all);
+  }
+  EffectSet moves = Surface();
+  moves.sunlight = moves.range_noise = false;
+  EXPECT_NE(FrameBytes(ScanOnce(WallAndGround(), pattern, {.effects = moves})), all);
+}
+
+// Slots that return from a surface in both frames: how many, and whether they agree in `field`.
+std::size_t CountSameWhereBothReturn(const Frame& a,
+                                     const Frame& b,
+                                     const std::vector<float> Frame::*field) {
+  std::size_t count = 0;
+  for (std::size_t slot = 0; slot < a.num_slots(); ++slot) {
+    if (a.outcome[slot] != Outcome::kReturned || b.outcome[slot] != Outcome::kReturned) continue;
+    EXPECT_EQ((a.*field)[slot], (b.*field)[slot]) << slot;
+    ++count;
+  }
+  return count;
+}
+
+TEST(Effects, LeaveTheDrawsOfOthersAlone) {
+  const ScanPattern pattern = MakeRaster(40.0, 20.0, 0.5);
+  const Frame all = ScanOnce(WallAndGround(), pattern, Downpour());
+  // What adds echoes or decides on detection moves no point of a surface that returns either way.
+  for (bool EffectSet::*effect : {&EffectSet::clutter, &EffectSet::fog_echo,
+                                  &EffectSet::detection_probability, &EffectSet::sensor_dropout}) {
+    SimulatorSpec fewer = Downpour();
+    fewer.effects.*effect = false;
+    const Frame frame = ScanOnce(WallAndGround(), pattern, fewer);
+    EXPECT_NE(FrameBytes(frame), FrameBytes(all));
+    EXPECT_GT(CountSameWhereBothReturn(all, frame, &Frame::range_m), 100U);
+  }
+  // What moves points leaves detection as it was.
+  SimulatorSpec still = Downpour();
+  still.effects.range_noise = still.effects.channel_bias = false;
+  const Frame exact = ScanOnce(WallAndGround(), pattern, still);
+  EXPECT_EQ(exact.outcome, all.outcome);
+  EXPECT_EQ(CountSameWhereBothReturn(all, exact, &Frame::power_ratio),
+            static_cast<std::size_t>(
+                std::count(all.outcome.begin(), all.outcome.end(), Outcome::kReturned)));
+}
+
+}  // namespace
+}  // namespace railcast
