@@ -2,12 +2,15 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "core/fidelity/choice_report.h"
 #include "core/io/write_file.h"
 #include "core/rail/rail_world.h"
 #include "core/rail/world_check.h"
 #include "core/scan/scan_pattern.h"
+#include "core/scenario/effects.h"
 #include "core/scenario/scenario.h"
 #include "generator/check_report.h"
+#include "generator/chosen_fidelity.h"
 #include "generator/commands.h"
 #include "generator/effects_report.h"
 
@@ -33,6 +36,10 @@ void PrintReport(const ScenarioSpec& scenario, bool is_verbose) {
             << SurroundingsText(around, *world, labels)
             << SceneText(AuditScene(*world, materials, pattern.StampNs(0), range_m))
             << ObjectsText(*world, labels);
+  if (scenario.fidelity == kAutoFidelity) {
+    const auto simulator = MakeSimulator(scenario, 0);
+    std::cout << ChoiceText(UseChosenFidelity(*simulator, scenario), scenario.tolerance);
+  }
   if (scenario.camera) std::cout << "camera    read and kept for later; nothing uses it yet\n";
 }
 

@@ -38,7 +38,7 @@ void AddSequence(CLI::App& app, SequenceOptions& options, std::function<int()>& 
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   sequence->add_option("--fidelity", options.fidelity, "Instead of the scenario's")
-      ->check(CLI::IsMember(railcast::RungNames()));
+      ->check(CLI::IsMember(railcast::FidelityNames()));
   sequence->callback([&] { command = [&] { return railcast::SequenceCommand(options); }; });
 }
 

@@ -5,8 +5,11 @@
 #include <iostream>
 
 #include "core/base/error.h"
+#include "core/fidelity/choice_report.h"
 #include "core/rail/rail_world.h"
+#include "core/scenario/effects.h"
 #include "core/scenario/scenario.h"
+#include "generator/chosen_fidelity.h"
 #include "generator/commands.h"
 #include "generator/object_survey.h"
 #include "generator/run_sequence.h"
@@ -96,7 +99,7 @@ class ProgressDisplay {
 
 int SequenceCommand(const SequenceOptions& options) {
   const ScenarioSpec scenario = ReadWithOverrides(options);
-  const SequenceSpec spec = MakeSpec(options, scenario);
+  SequenceSpec spec = MakeSpec(options, scenario);
   if (options.is_verbose) std::cerr << "read " << options.scenario.string() << "\n";
   const auto simulator = MakeSimulator(scenario, options.num_threads);
   if (options.is_verbose) {
@@ -107,6 +110,11 @@ int SequenceCommand(const SequenceOptions& options) {
   CheckStaysOnTracks(scenario, dynamic_cast<const RailWorld&>(simulator->world()),
                      simulator->pattern(), spec.start_frame,
                      spec.start_frame + spec.num_frames - 1);
+  if (scenario.fidelity == kAutoFidelity) {
+    const FidelityChoice choice = UseChosenFidelity(*simulator, scenario);
+    spec.fidelity_choice_json = ChoiceJson(choice, scenario.tolerance);
+    std::cout << ChoiceText(choice, scenario.tolerance) << std::flush;
+  }
   const ObjectSurvey survey(simulator->world(), spec.files.labels, scenario.lidar.range_max_m,
                             scenario.output);
   StopAfterThisFrameOnSignals();

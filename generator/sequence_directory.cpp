@@ -180,6 +180,9 @@ std::string SequenceDirectory::ManifestJson() const {
                                      {"format", FrameFormatName(spec_.files.format)},
                                      {"start_frame", spec_.start_frame},
                                      {"num_frames", spec_.num_frames}};
+  if (!spec_.fidelity_choice_json.empty()) {
+    manifest["fidelity_choice"] = nlohmann::ordered_json::parse(spec_.fidelity_choice_json);
+  }
   PutCounts(counts_, manifest);
   // frames.jsonl names the hash of every frame's files: these hashes are over all there is but the
   // resolved scenario, which says where files lie. run.json has the hash of what it means.

@@ -13,10 +13,11 @@ namespace railcast {
 /// Everything that a sequence directory's bytes depend on.
 struct SequenceSpec {
   std::filesystem::path directory;
-  std::string version;        ///< Of railcast.
-  std::string scenario_json;  ///< Resolved, with the command line's seed and rung in it.
-  ScenarioIdentity identity;  ///< What of it the bytes depend on: not where its files lie.
-  std::uint64_t seed{};       ///< The scenario's, for the manifest.
+  std::string version;               ///< Of railcast.
+  std::string scenario_json;         ///< Resolved, with the command line's seed and rung in it.
+  ScenarioIdentity identity;         ///< What of it the bytes depend on: not where its files lie.
+  std::uint64_t seed{};              ///< The scenario's, for the manifest.
+  std::string fidelity_choice_json;  ///< What fidelity auto came to; empty unless it was asked.
   FrameFileSpec files;
   MaterialLibrary materials;
   std::uint32_t start_frame{};

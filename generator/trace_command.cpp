@@ -4,7 +4,9 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "core/scenario/effects.h"
 #include "core/scenario/scenario.h"
+#include "generator/chosen_fidelity.h"
 #include "generator/commands.h"
 
 namespace railcast {
@@ -68,6 +70,7 @@ int TraceCommand(const TraceOptions& options) {
     throw InputError("--firing: must be < " + std::to_string(num_firings) +
                      ", the firings of a frame (got " + std::to_string(options.firing) + ")");
   }
+  if (scenario.fidelity == kAutoFidelity) UseChosenFidelity(*simulator, scenario);
   const FiringStory story = simulator->Explain(options.frame, options.firing);
   const MaterialLibrary materials(scenario.materials);
   std::cout << "frame " << options.frame << " firing " << story.firing << " at " << story.time_ns

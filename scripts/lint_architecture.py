@@ -12,7 +12,7 @@ import re
 import sys
 
 # A folder of core includes only itself and folders before it.
-CORE_ORDER = "base frame scene rail scan trace detect simulate scenario io".split()
+CORE_ORDER = "base frame scene rail scan trace detect simulate scenario fidelity io".split()
 # They share core, and nothing else.
 PROGRAMS = ("generator", "analysis", "viewer")
 TREES = ("core", *PROGRAMS, "tests", "scripts")
@@ -21,7 +21,8 @@ TREES = ("core", *PROGRAMS, "tests", "scripts")
 LIBRARY_OWNERS = {
     "Embree": (r"embree\d/", ("core/trace",)),
     "OpenMesh": (r"OpenMesh/", ("core/scene",)),
-    "nlohmann": (r"nlohmann/", ("core/scenario", "core/io", "generator", "analysis")),
+    "nlohmann": (r"nlohmann/",
+                 ("core/scenario", "core/fidelity", "core/io", "generator", "analysis")),
     "PCL": (r"pcl/", ("core/io", "generator", "analysis", "viewer")),
     "VTK": (r"vtk[A-Z]\w+\.h$", ("viewer",)),
     "CLI11": (r"CLI/", PROGRAMS),

@@ -26,6 +26,7 @@ build_packages=(
 
 # To draw pictures on a machine without a display.
 display_packages=(
+  gnuplot-nox
   xauth
   xvfb
 )

@@ -42,6 +42,7 @@ std::optional<EffectNamesInUse> TryNames(const ScenarioSpec& spec, ErrorList& er
     const LabelTable labels(spec.labels);
     EffectNamesInUse names;
     names.labels.snow = labels.Id("snow");
+    // Whether they go together is said where they are read.
     if (IsPhysical(SwitchedEffects(spec))) {
       names.labels.rain = labels.Id("rain");
       names.labels.fog = labels.Id("fog");

@@ -36,6 +36,19 @@ void Describe(Archive& a, InterfacesSpec& s) {
 }
 
 template <class Archive>
+void Describe(Archive& a, ToleranceSpec& s) {
+  a.Optional("range_m", s.range_m, "Median error of the ranges of echoes, before noise.",
+             NonNegative());
+  a.Optional("missed_share", s.missed_share, "Of the reference's echoes.", Within(0, 1));
+  a.Optional("false_share", s.false_share, "Of the echoes: those that the reference lacks.",
+             Within(0, 1));
+  a.Optional("thin_missed_share", s.thin_missed_share, "Of the reference's echoes of wires.",
+             Within(0, 1));
+  a.Optional("intensity", s.intensity, "Median relative error of the echoes' intensities.",
+             NonNegative());
+}
+
+template <class Archive>
 void Describe(Archive& a, OutputSpec& s) {
   a.Optional("frame", s.frame, "Frame of reference of the points.",
              OneOf({"sensor", "vehicle", "world"}));
@@ -92,7 +105,10 @@ void Describe(Archive& a, LabelFile& s) {
 template <class Archive>
 void Describe(Archive& a, ScenarioSpec& s) {
   a.Optional("seed", s.seed, "Of the sensor's and the weather's random numbers.");
-  a.Optional("fidelity", s.fidelity, "Rung of the fidelity ladder.", OneOf(RungNames()));
+  a.Optional("fidelity", s.fidelity,
+             "Rung of the fidelity ladder, or auto: no more than the scene needs.",
+             OneOf(FidelityNames()));
+  a.Optional("tolerance", s.tolerance, "What fidelity auto may differ from the reference.");
   a.Switches("effects", s.effects, "Switches this effect on or off.", EffectNames());
   const auto conflict = ConflictIn(SwitchedEffects(s));
   a.Ensure({"effects", "fidelity"}, !conflict, conflict.value_or(""));

@@ -41,9 +41,10 @@ inline constexpr std::pair<const char*, bool EffectSet::*> kEffects[] = {
   return names;
 }
 
-/// The effects of a scenario's rung with its switches applied, whether they go together or not.
+/// The effects of a scenario's rung with its switches applied, whether they go together or not. Of
+/// `auto` they are those that are chosen from.
 [[nodiscard]] inline EffectSet SwitchedEffects(const ScenarioSpec& spec) {
-  EffectSet effects = EffectsOfRung(spec.fidelity);
+  EffectSet effects = EffectsOfRung(spec.fidelity == kAutoFidelity ? "footprint" : spec.fidelity);
   for (const auto& [name, effect] : kEffects) {
     const auto it = spec.effects.find(name);
     if (it != spec.effects.end()) effects.*effect = it->second;

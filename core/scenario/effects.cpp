@@ -75,6 +75,12 @@ std::vector<std::string> RungNames() {
   return names;
 }
 
+std::vector<std::string> FidelityNames() {
+  std::vector<std::string> names = RungNames();
+  names.emplace_back(kAutoFidelity);
+  return names;
+}
+
 EffectSet EffectsOfRung(std::string_view rung) {
   for (const Rung& known : kRungs) {
     if (rung == known.name) return known.effects;

@@ -12,6 +12,13 @@ namespace railcast {
 /// The rungs of the fidelity ladder, from the cheapest to the dearest.
 [[nodiscard]] std::vector<std::string> RungNames();
 
+/// A scenario's fidelity that is no rung: `footprint`, less what the scene does not need
+/// (core/fidelity/choice.h).
+inline constexpr std::string_view kAutoFidelity = "auto";
+
+/// What a scenario may name as its fidelity: the rungs, and `auto`.
+[[nodiscard]] std::vector<std::string> FidelityNames();
+
 /// The effects that a rung stands for.
 /// @throws InputError if there is no such rung.
 [[nodiscard]] EffectSet EffectsOfRung(std::string_view rung);

@@ -41,6 +41,17 @@ struct LidarSpec {
   bool operator==(const LidarSpec&) const = default;
 };
 
+/// Section `tolerance`: by how much fidelity `auto` may differ from the reference.
+struct ToleranceSpec {
+  double range_m = 0.01;            ///< Median error of matched echoes, before range noise.
+  double missed_share = 0.05;       ///< Of the reference's echoes.
+  double false_share = 0.05;        ///< Of the echoes: those that the reference lacks.
+  double thin_missed_share = 0.05;  ///< Of the reference's echoes of wires.
+  double intensity = 0.05;          ///< Median relative error of matched echoes.
+
+  bool operator==(const ToleranceSpec&) const = default;
+};
+
 /// Section `interfaces` (the published Interfaces.json): where live frames go. Read and checked
 /// now, used by `stream`.
 struct InterfacesSpec {
@@ -52,7 +63,8 @@ struct InterfacesSpec {
 /// A whole scenario: everything a run depends on besides the frame index.
 struct ScenarioSpec {
   std::uint64_t seed = 1;
-  std::string fidelity = "plausibility";  ///< A rung of RungNames().
+  std::string fidelity = "plausibility";  ///< One of FidelityNames().
+  ToleranceSpec tolerance;                ///< Of fidelity `auto`.
   std::map<std::string, bool> effects;    ///< Switches single effects on or off.
   LidarSpec lidar;
   WeatherSpec weather;

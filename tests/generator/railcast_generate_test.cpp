@@ -38,6 +38,22 @@ TEST(RailcastGenerate, ExitsWithTwoOnWrongUsage) {
   EXPECT_EQ(Generate("sequence a.json --out b --fidelity best").status, 2);
 }
 
+TEST(RailcastGenerate, RecordsWhatFidelityAutoChose) {
+  const TemporaryDirectory directory;
+  const std::string scenario = MakeProject(directory.path() / "project").string();
+  const auto manifest_of = [&](const std::string& threads) {
+    const auto out = directory.path() / ("out" + threads);
+    const Ended run = Generate("sequence " + scenario + " --fidelity auto --frames 1 --threads " +
+                               threads + " --out " + out.string());
+    EXPECT_EQ(run.status, 0);
+    EXPECT_EQ(run.said.find("fidelity auto uses "), 0U) << run.said;
+    return ReadFileWhole(out / "manifest.json");
+  };
+  const std::string manifest = manifest_of("1");
+  EXPECT_NE(manifest.find("\"fidelity_choice\": {\n    \"effects\": ["), std::string::npos);
+  EXPECT_EQ(manifest_of("2"), manifest);
+}
+
 TEST(RailcastGenerate, ReplaysOneFiringEffectByEffect) {
   const Ended run = Generate("trace " + scenarios_folder + "minimal.json --frame 3 --firing 0");
   EXPECT_EQ(run.status, 0);

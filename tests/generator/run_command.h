@@ -1,30 +1,10 @@
 #pragma once
 
-#include <sys/wait.h>
-
-#include <array>
-#include <cstdio>
 #include <string>
 
+#include "tests/support/run_command.h"
+
 namespace railcast {
-
-struct Ended {
-  int status{};
-  std::string said;  ///< On stdout and stderr together.
-};
-
-/// Runs a command line of the shell.
-inline Ended RunCommand(const std::string& command) {
-  FILE* pipe = ::popen(("{ " + command + "; } 2>&1").c_str(), "r");
-  Ended run;
-  std::array<char, 4096> buffer{};
-  std::size_t count = 0;
-  while ((count = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0) {
-    run.said.append(buffer.data(), count);
-  }
-  run.status = WEXITSTATUS(::pclose(pipe));
-  return run;
-}
 
 /// Runs railcast-generate.
 inline Ended Generate(const std::string& arguments) {

@@ -86,8 +86,8 @@ class Libraries(unittest.TestCase):
         for include, owners in {
             "embree3/rtcore.h": "core/trace and tests include Embree",
             "OpenMesh/Core/IO/MeshIO.hh": "core/scene and tests include OpenMesh",
-            "nlohmann/json.hpp": "core/scenario, core/io, generator, analysis and tests include "
-                                 "nlohmann",
+            "nlohmann/json.hpp": "core/scenario, core/fidelity, core/io, generator, analysis and "
+                                 "tests include nlohmann",
             "pcl/point_types.h": "core/io, generator, analysis, viewer and tests include PCL",
             "vtkRenderer.h": "viewer and tests include VTK",
             "CLI/CLI.hpp": "generator, analysis, viewer and tests include CLI11",

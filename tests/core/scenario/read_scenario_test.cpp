@@ -62,13 +62,12 @@ TEST(ReadScenario, ReportsTheFaultsOfEveryFileAtOnce) {
   const auto file = folder.Write(
       "a.json",
       OnMinimal(R"("weather": "weather.json", "fidelity": "high", "output": {"fram": 1})"));
-  EXPECT_EQ(
-      FaultsOf(file),
-      file.string() +
-          ": /fidelity: must be \"geometry\", \"plausibility\", \"surface\", \"footprint\" or "
-          "\"reference\" (got \"high\")\n" +
-          weather.string() + ": /snow_rate_mmph: must be >= 0 (got -1)\n" + file.string() +
-          ": /output/fram: unknown key, the nearest is \"frame\"");
+  EXPECT_EQ(FaultsOf(file),
+            file.string() +
+                ": /fidelity: must be \"geometry\", \"plausibility\", \"surface\", \"footprint\", "
+                "\"reference\" or \"auto\" (got \"high\")\n" +
+                weather.string() + ": /snow_rate_mmph: must be >= 0 (got -1)\n" + file.string() +
+                ": /output/fram: unknown key, the nearest is \"frame\"");
 }
 
 TEST(ReadScenario, LocatesAFaultInTheObjectThatReplacesAFilesKey) {

@@ -1,0 +1,138 @@
+#include "analysis/frontier/measure.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include "core/base/error.h"
+#include "core/fidelity/yardstick.h"
+
+namespace railcast {
+namespace {
+
+constexpr int kScansPerRound = 3;
+// A row as slow as this is scanned once a round: caches that are warm would change little.
+constexpr double kSlow_ms = 250.0;
+// A row needs no more than this in all, beyond one scan of each frame.
+constexpr double kEnough_ms = 10'000.0;
+
+double Time_ms(const std::function<void()>& work) {
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+      .count();
+}
+
+class Stopwatch {
+ public:
+  Stopwatch(const SimulatorSpec& spec, Simulator& simulator) : spec_(spec), simulator_(simulator) {}
+
+  // One round of all rows on one frame. @pre The first is the raw trace.
+  void Round(std::uint32_t frame,
+             const std::function<void()>& raw_trace,
+             bool is_first_round,
+             std::vector<RowResult>& results) {
+    double raw_ms = 0.0;
+    for (RowResult& result : results) {
+      const bool is_raw = result.row.group == RowGroup::kRawTrace;
+      if (!is_raw) simulator_.Use(SpecOfRow(result.row, spec_));
+      const std::function<void()> scan = [&] { simulator_.Scan(frame, frame_); };
+      const bool has_enough =
+          std::accumulate(result.times_ms.begin(), result.times_ms.end(), 0.0) > kEnough_ms;
+      if (has_enough && !is_first_round) continue;
+      std::vector<double> times_ms = TimesOf(is_raw ? raw_trace : scan);
+      result.times_ms.insert(result.times_ms.end(), times_ms.begin(), times_ms.end());
+      std::sort(times_ms.begin(), times_ms.end());
+      const double median_ms = times_ms[times_ms.size() / 2];
+      if (is_raw) raw_ms = median_ms;
+      result.ratios.push_back(median_ms / raw_ms);
+    }
+  }
+
+ private:
+  static std::vector<double> TimesOf(const std::function<void()>& work) {
+    const double first_ms = Time_ms(work);  // Caches are another row's.
+    if (first_ms > kSlow_ms) return {first_ms};
+    std::vector<double> times_ms;
+    for (int i = 0; i < kScansPerRound; ++i) times_ms.push_back(Time_ms(work));
+    return times_ms;
+  }
+
+  const SimulatorSpec& spec_;
+  Simulator& simulator_;
+  Frame frame_;
+};
+
+// Errors are of all echoes, and before range noise.
+SimulatorSpec ComparedSpec(const FrontierRow& row, const SimulatorSpec& scenario) {
+  SimulatorSpec spec = SpecOfRow(row, scenario);
+  spec.effects = WithoutRangeErrors(spec.effects);
+  spec.receiver.return_mode = "triple";
+  return spec;
+}
+
+}  // namespace
+
+double RowResult::TimeQuantile_ms(double q) const {
+  Check(!times_ms.empty(), "a row has been timed");
+  const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(times_ms.size())));
+  return times_ms[std::max<std::size_t>(rank, 1) - 1];
+}
+
+double RowResult::ratio() const {
+  std::vector<double> sorted = ratios;
+  std::sort(sorted.begin(), sorted.end());
+  return sorted[sorted.size() / 2];
+}
+
+std::vector<RowResult> MeasureFrontier(const FrontierPlan& plan,
+                                       const ScenarioSpec& scenario,
+                                       Simulator& simulator,
+                                       const FrontierProgress& on_progress) {
+  const SimulatorSpec spec = simulator.spec();
+  std::vector<RowResult> results;
+  for (const FrontierRow& row : plan.rows) results.push_back({row, {}, {}, {}});
+  const ComparisonSpec comparison = MakeComparisonSpec(
+      scenario.lidar.beam, scenario.lidar.range_max_m, LabelTable(scenario.labels));
+  std::vector<FrameComparison> comparisons(results.size(), FrameComparison(comparison));
+  const FrontierRow yardstick{"yardstick", RowGroup::kReference, YardstickEffects(),
+                              plan.yardstick_rays};
+  Stopwatch stopwatch(spec, simulator);
+  Frame reference;
+  Frame other;
+  double done = 0.0;
+  const auto advance = [&](const std::string& what, double steps) {
+    on_progress(what, done);
+    done += steps / static_cast<double>(plan.frames.size());
+  };
+  for (const std::uint32_t frame : plan.frames) {
+    simulator.UseThreads(plan.num_threads);
+    const std::function<void()> raw_trace = simulator.MakeRawTrace(frame);
+    for (int round = 0; round < plan.num_rounds; ++round) {
+      advance("timing frame " + std::to_string(frame), 0.5 / plan.num_rounds);
+      stopwatch.Round(frame, raw_trace, round == 0, results);
+    }
+    simulator.UseThreads(0);
+    advance("reference of frame " + std::to_string(frame), 0.4);
+    simulator.Use(ComparedSpec(yardstick, spec));
+    simulator.Scan(frame, reference);
+    advance("errors of frame " + std::to_string(frame), 0.1);
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      if (results[i].row.group == RowGroup::kRawTrace) continue;
+      simulator.Use(ComparedSpec(results[i].row, spec));
+      simulator.Scan(frame, other);
+      comparisons[i].Add(reference, other);
+    }
+  }
+  simulator.Use(spec);
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    std::sort(results[i].times_ms.begin(), results[i].times_ms.end());
+    if (results[i].row.group != RowGroup::kRawTrace) {
+      results[i].difference = comparisons[i].Result();
+    }
+  }
+  return results;
+}
+
+}  // namespace railcast

@@ -1,0 +1,93 @@
+#include "analysis/frontier/rows.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "core/base/error.h"
+#include "core/scenario/effects.h"
+
+namespace railcast {
+namespace {
+
+EffectSet With(EffectSet effects, bool EffectSet::*effect, bool is_on) {
+  effects.*effect = is_on;
+  return effects;
+}
+
+// With the central ray: 4, 7, 19 and 64 rays a beam.
+constexpr int kBruteForceSubRays[] = {3, 6, 18, 63};
+constexpr int kReferenceSubRays[] = {16, 64, 256};
+
+}  // namespace
+
+const char* RowGroupName(RowGroup group) {
+  switch (group) {
+    case RowGroup::kRawTrace:
+      return "raw_trace";
+    case RowGroup::kLadder:
+      return "ladder";
+    case RowGroup::kBetween:
+      return "between";
+    case RowGroup::kBruteForce:
+      return "brute_force";
+    case RowGroup::kReference:
+      break;
+  }
+  return "reference";
+}
+
+std::vector<FrontierRow> AllFrontierRows() {
+  const EffectSet surface = EffectsOfRung("surface");
+  const EffectSet footprint = EffectsOfRung("footprint");
+  const EffectSet sampled_wires = With(footprint, &EffectSet::thin_conductors, false);
+  std::vector<FrontierRow> rows = {
+      {"raw_trace", RowGroup::kRawTrace},
+      {"geometry", RowGroup::kLadder, EffectsOfRung("geometry")},
+      {"plausibility", RowGroup::kLadder, EffectsOfRung("plausibility")},
+      {"surface", RowGroup::kLadder, surface},
+      {"surface+thin_conductors", RowGroup::kLadder,
+       With(surface, &EffectSet::thin_conductors, true)},
+      {"footprint-thin_conductors", RowGroup::kBetween, sampled_wires},
+      {"footprint", RowGroup::kLadder, footprint},
+  };
+  for (const int sub_rays : kBruteForceSubRays) {
+    rows.push_back({"brute_force_" + std::to_string(sub_rays + 1), RowGroup::kBruteForce,
+                    With(sampled_wires, &EffectSet::dense_footprint, true), sub_rays});
+  }
+  for (const int sub_rays : kReferenceSubRays) {
+    rows.push_back({"reference_" + std::to_string(sub_rays), RowGroup::kReference,
+                    EffectsOfRung("reference"), sub_rays});
+  }
+  return rows;
+}
+
+std::vector<FrontierRow> ChooseFrontierRows(const std::string& names) {
+  std::vector<FrontierRow> rows = AllFrontierRows();
+  if (names == "all") return rows;
+  std::vector<std::string> wanted = {"raw_trace"};
+  std::istringstream list(names);
+  for (std::string name; std::getline(list, name, ',');) {
+    const auto is_called = [&](const FrontierRow& row) { return row.name == name; };
+    if (std::none_of(rows.begin(), rows.end(), is_called)) {
+      std::string line = "--rows: must be all, or of";
+      for (const FrontierRow& row : rows) line += ' ' + row.name;
+      throw InputError(line + " (got " + name + ")");
+    }
+    wanted.push_back(name);
+  }
+  std::erase_if(rows, [&](const FrontierRow& row) {
+    return std::find(wanted.begin(), wanted.end(), row.name) == wanted.end();
+  });
+  return rows;
+}
+
+SimulatorSpec SpecOfRow(const FrontierRow& row, const SimulatorSpec& scenario) {
+  SimulatorSpec spec = scenario;
+  spec.effects = row.effects;
+  if (row.sub_rays) spec.beam.reference_rays = *row.sub_rays;
+  spec.plausibility.reference_threshold = 0.1;
+  spec.plausibility.reference_range_m = scenario.receiver.range_at_10_percent_m;
+  return spec;
+}
+
+}  // namespace railcast

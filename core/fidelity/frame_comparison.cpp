@@ -1,0 +1,166 @@
+#include "core/fidelity/frame_comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "core/base/error.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kSpeedOfLight_mps = 299'792'458.0;
+constexpr float kLeastThinShare = 0.02F;
+constexpr float kLeastSecondShare = 0.05F;
+
+// A firing's echoes: their slots and measured ranges.
+struct Echoes {
+  Echoes(const Frame& frame, std::size_t firing) {
+    for (std::size_t r = 0; r < frame.returns; ++r) {
+      const std::size_t slot = firing * frame.returns + r;
+      if (!HasPoint(frame.outcome[slot])) continue;
+      slots.push_back(slot);
+      ranges_m.push_back(frame.range_m[slot]);
+    }
+  }
+  std::vector<std::size_t> slots;
+  std::vector<float> ranges_m;
+};
+
+bool IsSurface(const Frame& frame, std::size_t slot) {
+  return frame.outcome[slot] == Outcome::kReturned;
+}
+
+// The nearest-rank quantile.
+double Quantile(std::vector<float>& values, double q) {
+  const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(values.size())));
+  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(rank, 1) - 1);
+  std::nth_element(values.begin(), nth, values.end());
+  return static_cast<double>(*nth);
+}
+
+ErrorQuantiles QuantilesOf(std::vector<float> errors) {
+  if (errors.empty()) return {};
+  return {Quantile(errors, 0.5), Quantile(errors, 0.95)};
+}
+
+double DropoutError(const decltype(FrameDifference::range_bins)& bins) {
+  double sum = 0.0;
+  int num_bins = 0;
+  for (const FrameDifference::RangeBin& bin : bins) {
+    if (bin.num_firings == 0) continue;
+    const auto difference =
+        static_cast<double>(bin.num_returned) - static_cast<double>(bin.num_reference_returned);
+    sum += std::abs(difference) / static_cast<double>(bin.num_firings);
+    ++num_bins;
+  }
+  return num_bins == 0 ? 0.0 : sum / num_bins;
+}
+
+}  // namespace
+
+ComparisonSpec MakeComparisonSpec(const BeamSpec& beam,
+                                  double range_max_m,
+                                  const LabelTable& labels) {
+  ComparisonSpec spec;
+  spec.match_distance_m = static_cast<float>(kSpeedOfLight_mps * beam.pulse_length_ns * 1e-9 / 4.0);
+  spec.range_max_m = static_cast<float>(range_max_m);
+  for (const char* name : {"contact_wire", "messenger_wire", "dropper"}) {
+    if (const Label* label = labels.Find(name)) spec.thin_labels.push_back(label->id);
+  }
+  return spec;
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> MatchEchoes(const std::vector<float>& reference_m,
+                                                             const std::vector<float>& other_m,
+                                                             float match_distance_m) {
+  std::vector<std::tuple<float, std::size_t, std::size_t>> candidates;
+  for (std::size_t i = 0; i < reference_m.size(); ++i) {
+    for (std::size_t k = 0; k < other_m.size(); ++k) {
+      const float distance_m = std::abs(reference_m[i] - other_m[k]);
+      if (distance_m < match_distance_m) candidates.emplace_back(distance_m, i, k);
+    }
+  }
+  std::sort(candidates.begin(), candidates.end());
+  std::vector<std::pair<std::size_t, std::size_t>> matches;
+  for (const auto& [distance_m, i, k] : candidates) {
+    const bool is_taken = std::any_of(
+        matches.begin(), matches.end(),
+        [i = i, k = k](const auto& match) { return match.first == i || match.second == k; });
+    if (!is_taken) matches.emplace_back(i, k);
+  }
+  return matches;
+}
+
+void FrameComparison::Add(const Frame& reference, const Frame& other) {
+  const std::size_t num_firings = reference.num_slots() / reference.returns;
+  Check(num_firings == other.num_slots() / other.returns, "both frames have the same firings");
+  for (std::size_t i = 0; i < num_firings; ++i) AddFiring(reference, other, i);
+}
+
+void FrameComparison::AddFiring(const Frame& reference, const Frame& other, std::size_t firing) {
+  const Echoes ours(reference, firing);
+  const Echoes theirs(other, firing);
+  AddRangeBin(reference.true_range_m[firing * reference.returns], !ours.slots.empty(),
+              !theirs.slots.empty());
+  const auto matches = MatchEchoes(ours.ranges_m, theirs.ranges_m, spec_.match_distance_m);
+  for (std::size_t k = 0; k < theirs.slots.size(); ++k) {
+    const bool is_matched = std::any_of(matches.begin(), matches.end(),
+                                        [k](const auto& match) { return match.second == k; });
+    if (IsSurface(other, theirs.slots[k])) sums_.echoes.Count(is_matched);
+    sums_.echoes_per_label[other.label[theirs.slots[k]]].Count(is_matched);
+  }
+  const auto is_thin = [&](std::uint32_t label) {
+    return std::find(spec_.thin_labels.begin(), spec_.thin_labels.end(), label) !=
+           spec_.thin_labels.end();
+  };
+  for (std::size_t i = 0; i < ours.slots.size(); ++i) {
+    const std::size_t slot = ours.slots[i];
+    const auto match =
+        std::find_if(matches.begin(), matches.end(), [i](const auto& m) { return m.first == i; });
+    const bool is_matched = match != matches.end();
+    sums_.reference_echoes_per_label[reference.label[slot]].Count(is_matched);
+    if (!IsSurface(reference, slot)) continue;
+    sums_.reference_echoes.Count(is_matched);
+    const float share = reference.footprint_share[slot];
+    if (is_thin(reference.label[slot]) && share >= kLeastThinShare) {
+      sums_.thin.Count(is_matched && is_thin(other.label[theirs.slots[match->second]]));
+    }
+    // In every mode of several returns the first slot is the strongest.
+    const bool is_strongest = slot % reference.returns == 0;
+    if (!is_strongest && share >= kLeastSecondShare) sums_.second.Count(is_matched);
+    if (is_matched) AddMatched(reference, slot, other, theirs.slots[match->second]);
+  }
+}
+
+void FrameComparison::AddMatched(const Frame& reference,
+                                 std::size_t slot,
+                                 const Frame& other,
+                                 std::size_t match) {
+  range_errors_m_.push_back(std::abs(reference.range_m[slot] - other.range_m[match]));
+  const float expected = reference.intensity[slot];
+  const float found = other.intensity[match];
+  if (expected > 0.0F && std::isfinite(found)) {
+    intensity_errors_.push_back(std::abs(found - expected) / expected);
+  }
+}
+
+void FrameComparison::AddRangeBin(float true_range_m, bool has_reference_return, bool has_return) {
+  if (!(true_range_m >= 0.0F && true_range_m <= spec_.range_max_m)) return;
+  constexpr std::size_t kNumBins = FrameDifference::kNumRangeBins;
+  const float place = true_range_m / spec_.range_max_m * static_cast<float>(kNumBins);
+  auto& bin = sums_.range_bins[std::min(static_cast<std::size_t>(place), kNumBins - 1)];
+  ++bin.num_firings;
+  bin.num_reference_returned += has_reference_return ? 1 : 0;
+  bin.num_returned += has_return ? 1 : 0;
+}
+
+FrameDifference FrameComparison::Result() const {
+  FrameDifference result = sums_;
+  result.range_m = QuantilesOf(range_errors_m_);
+  result.intensity = QuantilesOf(intensity_errors_);
+  result.dropout_error = DropoutError(sums_.range_bins);
+  return result;
+}
+
+}  // namespace railcast

@@ -1,0 +1,22 @@
+#include "generator/chosen_fidelity.h"
+
+#include <cmath>
+#include <string>
+
+#include "generator/terminal_line.h"
+
+namespace railcast {
+
+FidelityChoice UseChosenFidelity(Simulator& simulator, const ScenarioSpec& scenario) {
+  const TerminalLine line;
+  FidelityChoice choice = ChooseFidelity(simulator, scenario, [&](double done) {
+    line.Show("choosing effects: " + std::to_string(std::lround(100.0 * done)) + " %");
+  });
+  line.End();
+  SimulatorSpec spec = simulator.spec();
+  spec.effects = choice.effects;
+  simulator.Use(spec);
+  return choice;
+}
+
+}  // namespace railcast

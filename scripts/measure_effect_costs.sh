@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# Counts what each effect costs, for core/fidelity/effect_costs.h: instructions per firing of
+# Simulator::Scan, less the making of the scene, on frame 0 of scenarios/open_line.json in heavy rain
+# (so that every effect has work), rung footprint, one thread; then what is saved without each
+# effect. Needs valgrind; takes some ten minutes.
+#
+#   measure_effect_costs.sh [RAILCAST_GENERATE]
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+scenario="$PWD/scenarios/open_line.json"
+weather="$PWD/scenarios/weather/heavy_rain.json"
+generate="$(realpath "${1:-build/release/generator/railcast-generate}")"
+work="$(mktemp -d)"
+trap 'rm -rf "$work"' EXIT
+
+# instructions NAME RUNG EFFECT...: per firing, with the effects switched off.
+instructions() {
+  local name="$1" rung="$2" effects="" effect
+  shift 2
+  for effect in "$@"; do effects+="${effects:+, }\"$effect\": false"; done
+  printf '{"version": 1, "file": "%s", "weather": "%s", "fidelity": "%s", "effects": {%s}}\n' \
+    "$scenario" "$weather" "$rung" "$effects" >"$work/scenario.json"
+  rm -rf "$work/out"
+  valgrind --tool=callgrind --callgrind-out-file=/dev/null \
+    --toggle-collect='railcast::Simulator::Parts::Scan*' \
+    "$generate" sequence "$work/scenario.json" --frames 1 --threads 1 --out "$work/out" \
+    >"$work/said" 2>"$work/counted"
+  local firings collected
+  firings="$(sed -n 's/^firings by outcome (\([0-9]*\)).*/\1/p' "$work/said")"
+  collected="$(sed -n 's/.*Collected : *\([0-9]*\).*/\1/p' "$work/counted")"
+  printf '%s %s\n' "$name" "$((collected / firings))"
+}
+
+instructions geometry geometry
+all="$(instructions footprint footprint)"
+echo "$all"
+for effect in surface_response surface_condition extinction pulse_stretch detection \
+  detection_probability footprint thin_conductors; do
+  without="$(instructions "without_$effect" footprint "$effect")"
+  echo "$without: $effect costs $((${all#* } - ${without#* }))"
+done

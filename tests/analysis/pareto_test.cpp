@@ -1,0 +1,67 @@
+#include "analysis/frontier/pareto.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/analysis/made_results.h"
+
+namespace railcast {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+const FrontierError& Missed() {
+  return kFrontierErrors.front();
+}
+
+TEST(ParetoFront, HoldsWhatNothingElseBeats) {
+  const std::vector<RowResult> results = {MadeResult("raw_trace", RowGroup::kRawTrace, 1.0, 0),
+                                          MadeResult("a", RowGroup::kLadder, 1.1, 30),
+                                          MadeResult("b", RowGroup::kLadder, 2.0, 40),
+                                          MadeResult("c", RowGroup::kBruteForce, 3.0, 20),
+                                          MadeResult("d", RowGroup::kBetween, 3.0, 10),
+                                          MadeResult("e", RowGroup::kReference, 2.5, 0)};
+  EXPECT_THAT(ParetoFront(results, Missed()), ElementsAre(false, true, false, false, true, false));
+}
+
+TEST(ParetoFront, HoldsBothOfTwoEquals) {
+  const std::vector<RowResult> results = {MadeResult("a", RowGroup::kLadder, 2.0, 30),
+                                          MadeResult("b", RowGroup::kLadder, 2.0, 30)};
+  EXPECT_THAT(ParetoFront(results, Missed()), ElementsAre(true, true));
+}
+
+TEST(ParetoFront, LeavesOutWhatHasNoSuchError) {
+  const auto intensity = std::find_if(
+      kFrontierErrors.begin(), kFrontierErrors.end(),
+      [](const FrontierError& error) { return std::string(error.name) == "intensity_median"; });
+  EXPECT_THAT(ParetoFront({MadeResult("a", RowGroup::kLadder, 1.0, 0)}, *intensity),
+              ElementsAre(false));
+}
+
+TEST(FindDefeats, NamesBruteForceThatIsFasterAndMoreAccurate) {
+  const std::vector<RowResult> results = {MadeResult("surface", RowGroup::kLadder, 2.0, 30),
+                                          MadeResult("footprint", RowGroup::kLadder, 5.0, 10),
+                                          MadeResult("between", RowGroup::kBetween, 9.0, 90),
+                                          MadeResult("brute_4", RowGroup::kBruteForce, 4.0, 9)};
+  const std::vector<Defeat> defeats = FindDefeats(results);
+  ASSERT_FALSE(defeats.empty());
+  EXPECT_EQ(defeats[0].brute_force, "brute_4");
+  EXPECT_EQ(defeats[0].ours, "footprint");
+  EXPECT_EQ(defeats[0].error, "missed_share");
+  EXPECT_THAT(DefeatsText({defeats[0]}),
+              "faster and more accurate than a rung:\n  missed_share: brute_4 beats footprint\n");
+}
+
+TEST(FindDefeats, FindsNoneWhereBruteForceIsSlowerOrWorse) {
+  const std::vector<RowResult> results = {MadeResult("footprint", RowGroup::kLadder, 3.0, 10),
+                                          MadeResult("brute_4", RowGroup::kBruteForce, 2.0, 20),
+                                          MadeResult("brute_64", RowGroup::kBruteForce, 20.0, 2)};
+  std::vector<Defeat> missed = FindDefeats(results);
+  std::erase_if(missed, [](const Defeat& defeat) { return defeat.error != "missed_share"; });
+  EXPECT_THAT(missed, IsEmpty());
+  EXPECT_EQ(DefeatsText({}), "no row of brute force is faster and more accurate than a rung\n");
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,87 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/io/write_file.h"
+#include "tests/core/scenario/scenario_files.h"
+#include "tests/support/run_command.h"
+
+namespace railcast {
+namespace {
+
+using testing::HasSubstr;
+using Json = nlohmann::json;
+
+Ended Analyze(const std::string& arguments) {
+  return RunCommand(std::string(RAILCAST_ANALYZE) + " " + arguments);
+}
+
+// A straight line that few beams look at.
+std::filesystem::path WriteScenario(const TemporaryFolder& folder) {
+  const std::string scenarios = ScenariosDir().string();
+  return folder.Write("scenario.json", R"({
+    "version": 1,
+    "lidar": {"scan": {"rate_hz": 10, "pattern": {"type": "raster", "horizontal_fov_deg": 20,
+              "vertical_fov_deg": 40, "angular_resolution_deg": 0.5}}},
+    "world": {
+      "alignment": {
+        "course": {"type": "elements", "elements": [{"type": "straight", "length_m": 1000}]}
+      },
+      "vegetation": {"trees_per_hectare": 0, "grass": false}
+    },
+    "vehicle": {"start_s_m": 400},
+    "materials": ")" + scenarios + R"(/materials/railway.json",
+    "labels": ")" + scenarios + R"(/labels.json"})");
+}
+
+TEST(RailcastAnalyze, KnowsItsVersionAndItsUse) {
+  EXPECT_EQ(Analyze("--version").said, "railcast " RAILCAST_VERSION "\n");
+  EXPECT_THAT(Analyze("frontier --help").said, HasSubstr("--rows"));
+  EXPECT_EQ(Analyze("").status, 2);
+  EXPECT_EQ(Analyze("frontier").status, 2);
+  EXPECT_EQ(Analyze("frontier a.json --out b --frames 0").status, 2);
+}
+
+TEST(RailcastAnalyze, NamesAnUnknownRowAndAMissingScenario) {
+  EXPECT_EQ(Analyze("frontier a.json --out /tmp/none --rows best").status, 1);
+  const Ended missing = Analyze("frontier /no/such.json --out /tmp/none");
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_THAT(missing.said, HasSubstr("/no/such.json"));
+}
+
+TEST(RailcastAnalyze, ChartsAScenario) {
+  const TemporaryFolder folder;
+  const auto scenario = WriteScenario(folder);
+  const auto out = scenario.parent_path() / "out";
+  const Ended run = Analyze("frontier " + scenario.string() + " --out " + out.string() +
+                            " --frames 1 --rows footprint,brute_force_4");
+  ASSERT_EQ(run.status, 0) << run.said;
+  EXPECT_THAT(run.said, HasSubstr("fidelity auto uses "));
+  const Json json = Json::parse(ReadFileWhole(out / "frontier.json"));
+  ASSERT_EQ(json["rows"].size(), 3U);
+  // Brute force of 4 rays misses more wires than closed forms do.
+  EXPECT_GT(json["rows"][2]["errors"]["thin_recall"]["num"], 0);
+  EXPECT_GT(json["rows"][1]["errors"]["thin_recall"]["share"],
+            json["rows"][2]["errors"]["thin_recall"]["share"]);
+  for (const char* name : {"frontier.csv", "frontier.png", "frontier.svg", "frontier.gnuplot"}) {
+    EXPECT_TRUE(std::filesystem::exists(out / name)) << name;
+  }
+}
+
+TEST(RailcastAnalyze, LeavesTheNumbersWhereGnuplotIsMissing) {
+  const TemporaryFolder folder;
+  const auto scenario = WriteScenario(folder);
+  const auto out = scenario.parent_path() / "out";
+  const Ended run = RunCommand("PATH=/nowhere " RAILCAST_ANALYZE " frontier " + scenario.string() +
+                               " --out " + out.string() + " --frames 1 --rows geometry");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.said, testing::EndsWith("gnuplot: not found; install gnuplot-nox (the numbers "
+                                          "are written)\n"));
+  EXPECT_TRUE(std::filesystem::exists(out / "frontier.json"));
+  EXPECT_FALSE(std::filesystem::exists(out / "frontier.png"));
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,71 @@
+#include "analysis/frontier/rows.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "core/scenario/effects.h"
+
+namespace railcast {
+namespace {
+
+using testing::ElementsAre;
+
+std::vector<std::string> NamesOf(const std::vector<FrontierRow>& rows) {
+  std::vector<std::string> names;
+  for (const FrontierRow& row : rows) names.push_back(row.name);
+  return names;
+}
+
+TEST(FrontierRows, AreSoundSetsOfEffects) {
+  for (const FrontierRow& row : AllFrontierRows()) {
+    EXPECT_EQ(ConflictIn(row.effects), std::nullopt) << row.name;
+  }
+}
+
+TEST(FrontierRows, OfBruteForceHaveTheirNamesNumberOfRays) {
+  int num_rows = 0;
+  for (const FrontierRow& row : AllFrontierRows()) {
+    if (row.group != RowGroup::kBruteForce) continue;
+    EXPECT_EQ(row.name, "brute_force_" + std::to_string(row.sub_rays.value() + 1));
+    EXPECT_TRUE(row.effects.dense_footprint);
+    EXPECT_FALSE(row.effects.thin_conductors);
+    EXPECT_FALSE(row.effects.sampled_waveform);
+    ++num_rows;
+  }
+  EXPECT_EQ(num_rows, 4);
+}
+
+TEST(FrontierRows, CanBeChosenAndKeepTheRawTrace) {
+  EXPECT_THAT(NamesOf(ChooseFrontierRows("footprint,surface")),
+              ElementsAre("raw_trace", "surface", "footprint"));
+  EXPECT_EQ(NamesOf(ChooseFrontierRows("all")), NamesOf(AllFrontierRows()));
+}
+
+TEST(FrontierRows, AreNamedWhereOneIsUnknown) {
+  try {
+    static_cast<void>(ChooseFrontierRows("surface,best"));
+    FAIL() << "expected InputError";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "--rows: must be all, or of raw_trace geometry plausibility surface "
+                 "surface+thin_conductors footprint-thin_conductors footprint brute_force_4 "
+                 "brute_force_7 brute_force_19 brute_force_64 reference_16 reference_64 "
+                 "reference_256 (got best)");
+  }
+}
+
+TEST(SpecOfRow, GivesThePublishedModelThePhysicalThreshold) {
+  SimulatorSpec scenario;
+  scenario.receiver.range_at_10_percent_m = 140.0;
+  scenario.beam.reference_rays = 77;
+  const SimulatorSpec spec =
+      SpecOfRow({"plausibility", RowGroup::kLadder, EffectsOfRung("plausibility")}, scenario);
+  EXPECT_EQ(spec.plausibility.reference_threshold, 0.1);
+  EXPECT_EQ(spec.plausibility.reference_range_m, 140.0);
+  EXPECT_EQ(spec.effects, EffectsOfRung("plausibility"));
+  EXPECT_EQ(spec.beam.reference_rays, 77);
+}
+
+}  // namespace
+}  // namespace railcast
