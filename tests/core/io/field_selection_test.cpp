@@ -9,7 +9,7 @@ namespace {
 
 constexpr const char* kAll =
     "x,y,z,intensity,power_ratio,range_m,time_ns,ring,column,return_index,return_count,label,"
-    "instance,outcome,true_range_m,incidence_rad,material,footprint_share";
+    "instance,outcome,true_range_m,incidence_rad,material,footprint_share,mixed_share";
 
 TEST(FieldSelection, IsEverythingByDefault) {
   EXPECT_EQ(FieldSelection().Text(), kAll);
@@ -24,7 +24,7 @@ TEST(FieldSelection, NamesTheNearestFieldForEveryUnknownOne) {
   const std::string valid =
       " (valid: x, y, z, intensity, power_ratio, range_m, time_ns, ring, column, return_index, "
       "return_count, label, instance, outcome, true_range_m, incidence_rad, material, "
-      "footprint_share)";
+      "footprint_share, mixed_share)";
   EXPECT_EQ(MessageOf([] { FieldSelection("x,lable,range"); }),
             "--fields: unknown field \"lable\", nearest is \"label\"" + valid +
                 "\n--fields: unknown field \"range\", nearest is \"range_m\"" + valid);
