@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "core/base/transform.h"
 
 namespace railcast {
 namespace {
@@ -33,44 +36,72 @@ bool Differs(const RayTile& a, std::size_t i, const RayTile& b, std::size_t j) {
   return off > (kStep_m + kStepPerRange * a.range_m[i]) * length && off > kGap_m * slope;
 }
 
+// Where firings stand in the grid, and which way they look.
+class Grid {
+ public:
+  explicit Grid(const ScanPattern& pattern)
+      : pattern_(pattern), place_(std::size_t{pattern.rows} * pattern.columns) {
+    for (std::size_t k = pattern.packet_order.size(); k-- > 0;) {
+      const std::uint32_t firing = pattern.packet_order[k];
+      place_[SlotOf(pattern.row[firing], pattern.column[firing])] = static_cast<std::uint32_t>(k);
+    }
+  }
+
+  /// Where in the order of tracing the firing at a place of the grid is; nothing outside it.
+  [[nodiscard]] std::optional<std::uint32_t> At(std::int64_t row, std::int64_t column) const {
+    if (row < 0 || row >= pattern_.rows || column < 0 || column >= pattern_.columns) return {};
+    return place_[SlotOf(row, column)];
+  }
+
+  [[nodiscard]] double Angle_rad(std::size_t k, std::size_t other) const {
+    // The chord: exact enough, and good to the last bit of float32 directions.
+    return (DirectionOf(k) - DirectionOf(other)).norm();
+  }
+
+ private:
+  [[nodiscard]] std::size_t SlotOf(std::int64_t row, std::int64_t column) const {
+    return static_cast<std::size_t>(row) * pattern_.columns + static_cast<std::size_t>(column);
+  }
+  [[nodiscard]] Vector3 DirectionOf(std::size_t k) const {
+    const std::uint32_t firing = pattern_.packet_order[k];
+    return {static_cast<double>(pattern_.direction_x[firing]),
+            static_cast<double>(pattern_.direction_y[firing]),
+            static_cast<double>(pattern_.direction_z[firing])};
+  }
+
+  const ScanPattern& pattern_;
+  std::vector<std::uint32_t> place_;
+};
+
 }  // namespace
 
 SubRayNeeds::SubRayNeeds(const ScanPattern& pattern, const BeamSpec& beam, bool everywhere)
     : everywhere_(everywhere) {
   if (everywhere) return;
-  const std::size_t num_slots = std::size_t{pattern.rows} * pattern.columns;
-  std::vector<std::uint32_t> place(num_slots);
-  const auto slot_of = [&](std::uint32_t firing) {
-    return std::size_t{pattern.row[firing]} * pattern.columns + pattern.column[firing];
-  };
+  const Grid grid(pattern);
+  const double widest_rad = 1e-3 * std::max(beam.divergence_mrad[0], beam.divergence_mrad[1]);
+  // Half the 1/e^2 width: where firings stand closer, what takes a part of the beam shows there.
+  const double wanted_rad = 0.5 * widest_rad;
+  // A neighbour farther away than this says nothing about the beam.
+  const double reach_rad = 6.0 * widest_rad;
   const std::size_t num_traced = pattern.packet_order.size();
-  for (std::size_t k = num_traced; k-- > 0;) {
-    place[slot_of(pattern.packet_order[k])] = static_cast<std::uint32_t>(k);
-  }
-  // No farther away than this many beam widths, or a neighbour says nothing about the beam.
-  const double reach_rad = 1e-3 * 6.0 * std::max(beam.divergence_mrad[0], beam.divergence_mrad[1]);
-  const auto least_cosine = static_cast<float>(std::cos(reach_rad));
   neighbours_.reserve(num_traced * kNumNeighbours);
   for (std::size_t k = 0; k < num_traced; ++k) {
     const std::uint32_t firing = pattern.packet_order[k];
-    const auto row = static_cast<std::int64_t>(pattern.row[firing]);
-    const auto column = static_cast<std::int64_t>(pattern.column[firing]);
+    const auto at = [&](std::int64_t row_steps, std::int64_t column_steps) {
+      return grid.At(pattern.row[firing] + row_steps, pattern.column[firing] + column_steps);
+    };
     for (std::int64_t dr = -1; dr <= 1; ++dr) {
       for (std::int64_t dc = -1; dc <= 1; ++dc) {
         if (dr == 0 && dc == 0) continue;
-        const std::int64_t r = row + dr;
-        const std::int64_t c = column + dc;
-        auto neighbour = static_cast<std::uint32_t>(k);
-        if (r >= 0 && r < pattern.rows && c >= 0 && c < pattern.columns) {
-          const std::uint32_t there =
-              place[static_cast<std::size_t>(r) * pattern.columns + static_cast<std::size_t>(c)];
-          const std::uint32_t other = pattern.packet_order[there];
-          const float cosine = pattern.direction_x[firing] * pattern.direction_x[other] +
-                               pattern.direction_y[firing] * pattern.direction_y[other] +
-                               pattern.direction_z[firing] * pattern.direction_z[other];
-          if (cosine >= least_cosine) neighbour = there;
+        auto neighbour = at(dr, dc);
+        if (neighbour) {
+          const double step_rad = std::max(grid.Angle_rad(k, *neighbour), 1e-3 * wanted_rad);
+          const auto num_steps = static_cast<std::int64_t>(wanted_rad / step_rad);
+          if (num_steps > 1) neighbour = at(num_steps * dr, num_steps * dc);
         }
-        neighbours_.push_back(neighbour);
+        const bool is_near = neighbour && grid.Angle_rad(k, *neighbour) <= reach_rad;
+        neighbours_.push_back(is_near ? *neighbour : static_cast<std::uint32_t>(k));
       }
     }
   }

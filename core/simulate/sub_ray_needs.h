@@ -11,7 +11,8 @@
 namespace railcast {
 
 /// Which beams one ray cannot stand for: those whose neighbours' central rays do not lie on the
-/// plane that their own has hit.
+/// plane that their own has hit. Neighbours are the next firings of the grid, or those half a
+/// beam's width away where firings stand closer.
 class SubRayNeeds {
  public:
   /// @param everywhere Effect dense_footprint: every beam.

@@ -52,6 +52,7 @@ inline Frame ExampleFrame(std::uint32_t index, std::uint32_t rows = 6, std::uint
     frame.incidence_rad[slot] = UnitFloat(words[1]);
     frame.material[slot] = static_cast<std::uint16_t>(words[2] >> 16U);
     frame.footprint_share[slot] = has_point ? UnitFloat(words[1]) : kNaN;
+    frame.mixed_share[slot] = has_point ? UnitFloat(words[0]) : kNaN;
   }
   return frame;
 }

@@ -9,8 +9,7 @@ namespace {
 
 constexpr const char* kAll =
     "x,y,z,intensity,power_ratio,range_m,time_ns,ring,column,return_index,return_count,label,"
-    "instance,outcome,true_range_m,incidence_rad,material,footprint_share,"
-    "mixed_share";
+    "instance,outcome,true_range_m,incidence_rad,material,footprint_share,mixed_share";
 
 TEST(FieldSelection, IsEverythingByDefault) {
   EXPECT_EQ(FieldSelection().Text(), kAll);
