@@ -100,7 +100,6 @@ TEST(ChooseFidelity, LeavesOutTheDearestIfAnythingGoes) {
       "false_share": 1, "thin_missed_share": 1, "intensity": 1000},)"});
   const FidelityChoice choice = Choose(scenario);
   EXPECT_FALSE(choice.effects.footprint);
-  EXPECT_FALSE(choice.effects.thin_conductors);
   EXPECT_LT(choice.instructions, choice.full_instructions);
   EXPECT_TRUE(choice.is_within_tolerance);
 }
