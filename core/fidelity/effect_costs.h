@@ -21,8 +21,8 @@ inline constexpr double kInstructionsOfGeometry = 3413.0;
 /// differ from scene to scene, but hardly in their order, and the order is what decides.
 inline constexpr EffectCost kEffectCosts[] = {
     {&EffectSet::surface_response, 246.0}, {&EffectSet::surface_condition, 10.0},
-    {&EffectSet::extinction, 10.0},        {&EffectSet::pulse_stretch, 10.0},
-    {&EffectSet::detection, 10.0},         {&EffectSet::detection_probability, 10.0},
+    {&EffectSet::extinction, 30.0},        {&EffectSet::pulse_stretch, 10.0},
+    {&EffectSet::detection, 35.0},         {&EffectSet::detection_probability, 55.0},
     {&EffectSet::footprint, 24379.0},      {&EffectSet::thin_conductors, 125.0},
 };
 
