@@ -55,6 +55,7 @@ Json ErrorsOf(const FrameDifference& d, const LabelTable& labels) {
   errors["recall"] = ObjectOf(d.reference_echoes);
   errors["precision"] = ObjectOf(d.echoes);
   errors["thin_recall"] = ObjectOf(d.thin);
+  errors["further_echo_recall"] = ObjectOf(d.further);
   errors["second_surface_recall"] = ObjectOf(d.second);
   errors["recall_per_label"] = PerLabel(d.reference_echoes_per_label, labels);
   errors["precision_per_label"] = PerLabel(d.echoes_per_label, labels);

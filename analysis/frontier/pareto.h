@@ -23,7 +23,7 @@ struct FrontierError {
 }
 
 /// Of the files. The first four are the charts' panels.
-inline constexpr std::array<FrontierError, 9> kFrontierErrors{{
+inline constexpr std::array<FrontierError, 10> kFrontierErrors{{
     {"missed_share", "echoes missed, %", 100.0,
      [](const FrameDifference& d) { return MissedShare(d.reference_echoes); }},
     {"range_median_m", "range error, median, mm", 1e3,
@@ -32,6 +32,8 @@ inline constexpr std::array<FrontierError, 9> kFrontierErrors{{
      [](const FrameDifference& d) { return MissedShare(d.thin); }},
     {"second_missed_share", "second surfaces missed, %", 100.0,
      [](const FrameDifference& d) { return MissedShare(d.second); }},
+    {"further_missed_share", "further echoes missed, %", 100.0,
+     [](const FrameDifference& d) { return MissedShare(d.further); }},
     {"false_share", "false echoes, %", 100.0,
      [](const FrameDifference& d) { return MissedShare(d.echoes); }},
     {"range_p95_m", "range error, 95th percentile, mm", 1e3,

@@ -40,10 +40,10 @@ std::string Name(const std::string& name) {
 std::string FrontierTable(const std::vector<RowResult>& results) {
   std::string text = Name("") +
                      "      p50      p99     time   recall   precis.   range    range   intens."
-                     "  dropout    wires   second\n" +
+                     "  dropout    wires  further   second\n" +
                      Name("") +
                      "       ms       ms    x raw        %        %    p50 mm   p95 mm    p50 %"
-                     "        %  found %  found %\n";
+                     "        %  found %  found %  found %\n";
   for (const RowResult& result : results) {
     text += Name(result.row.name) + Padded("%9.2f", result.p50_ms()) +
             Padded("%9.2f", result.p99_ms()) + Padded("%9.2f", result.ratio());
@@ -51,7 +51,7 @@ std::string FrontierTable(const std::vector<RowResult>& results) {
       const FrameDifference& d = *result.difference;
       text += Percent(d.reference_echoes) + Percent(d.echoes) + Millimetres(d.range_m.median) +
               Millimetres(d.range_m.p95) + Percent(d.intensity.median) + Percent(d.dropout_error) +
-              Percent(d.thin) + Percent(d.second);
+              Percent(d.thin) + Percent(d.further) + Percent(d.second);
     }
     text += "\n";
   }

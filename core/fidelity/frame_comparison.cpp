@@ -12,6 +12,7 @@ namespace {
 constexpr double kSpeedOfLight_mps = 299'792'458.0;
 constexpr float kLeastThinShare = 0.02F;
 constexpr float kLeastSecondShare = 0.05F;
+constexpr float kLeastMixedShare = 1e-3F;  // Less is rounding.
 
 // A firing's echoes: their slots and measured ranges.
 struct Echoes {
@@ -110,6 +111,10 @@ void FrameComparison::AddFiring(const Frame& reference, const Frame& other, std:
     if (IsSurface(other, theirs.slots[k])) sums_.echoes.Count(is_matched);
     sums_.echoes_per_label[other.label[theirs.slots[k]]].Count(is_matched);
   }
+  const std::size_t first_slot = firing * reference.returns;
+  if (reference.mixed_share[first_slot] >= kLeastSecondShare) {
+    sums_.second.Count(other.mixed_share[firing * other.returns] > kLeastMixedShare);
+  }
   const auto is_thin = [&](std::uint32_t label) {
     return std::find(spec_.thin_labels.begin(), spec_.thin_labels.end(), label) !=
            spec_.thin_labels.end();
@@ -128,8 +133,8 @@ void FrameComparison::AddFiring(const Frame& reference, const Frame& other, std:
     }
     // In every mode of several returns the first slot is the strongest.
     const bool is_strongest = slot % reference.returns == 0;
-    if (!is_strongest && share >= kLeastSecondShare) sums_.second.Count(is_matched);
-    if (is_matched) AddMatched(reference, slot, other, theirs.slots[match->second]);
+    if (!is_strongest && share >= kLeastSecondShare) sums_.further.Count(is_matched);
+    if (is_strongest && is_matched) AddMatched(reference, slot, other, theirs.slots[match->second]);
   }
 }
 

@@ -75,7 +75,8 @@ struct FrameDifference {
   // All echoes, clutter included.
   std::map<std::uint32_t, Matched> reference_echoes_per_label;  ///< By the reference's label.
   std::map<std::uint32_t, Matched> echoes_per_label;            ///< By the other's label.
-  ErrorQuantiles range_m;                                       ///< Of matched echoes.
+  /// Of firings' strongest echoes in the reference that are matched.
+  ErrorQuantiles range_m;
   ErrorQuantiles intensity;  ///< Relative, of the same where both have one.
   /// Equal bins up to range_max_m by the true range of the reference's first slot.
   std::array<RangeBin, kNumRangeBins> range_bins{};
@@ -85,6 +86,9 @@ struct FrameDifference {
   /// The reference's echoes of wires with at least 2 % of the beam; matched by an echo of a wire.
   Matched thin;
   /// The reference's surface echoes with at least 5 % of the beam that are not the strongest.
+  Matched further;
+  /// The reference's firings with at least 5 % of the beam beside their main surface (0.5 m or more
+  /// apart or in the sky); matched if the other's beam meets anything beside its main surface.
   Matched second;
 };
 

@@ -53,7 +53,7 @@ TEST(FrontierJson, HoldsNumbersAndCircumstances) {
 TEST(FrontierCsv, LeavesEmptyWhatARowLacks) {
   const std::string csv = FrontierCsv(Results());
   EXPECT_THAT(csv, testing::StartsWith("row,group,p50_ms,p99_ms,ratio_to_raw_trace,missed_share,"));
-  EXPECT_THAT(csv, testing::HasSubstr("raw_trace,raw_trace,10,10,1,,,,,,,,,\n"));
+  EXPECT_THAT(csv, testing::HasSubstr("raw_trace,raw_trace,10,10,1,,,,,,,,,,\n"));
   EXPECT_THAT(csv, testing::HasSubstr("footprint,ladder,40,90,4,"));
 }
 

@@ -35,6 +35,7 @@ struct MadeEcho {
     frame.intensity[slot] = echo.intensity;
     frame.footprint_share[slot] = echo.share;
     frame.outcome[slot] = echo.outcome;
+    frame.mixed_share[slot] = 0.0F;
   }
   return frame;
 }

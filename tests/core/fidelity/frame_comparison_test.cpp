@@ -66,7 +66,8 @@ TEST(FrameComparison, FindsNothingBetweenEqualFrames) {
   EXPECT_EQ(d.reference_echoes, (Matched{3, 3}));
   EXPECT_EQ(d.echoes, (Matched{3, 3}));
   EXPECT_EQ(d.thin, (Matched{1, 1}));
-  EXPECT_EQ(d.second, (Matched{1, 1}));
+  EXPECT_EQ(d.further, (Matched{1, 1}));
+  EXPECT_EQ(d.second, (Matched{0, 0}));
   EXPECT_EQ(d.range_m.p95, 0.0);
   EXPECT_EQ(d.intensity.p95, 0.0);
   EXPECT_EQ(d.dropout_error, 0.0);
@@ -128,12 +129,31 @@ TEST(FrameComparison, FindsAWireByAnEchoOfAnyWire) {
   EXPECT_EQ(d.thin, (Matched{3, 1}));
 }
 
-TEST(FrameComparison, CountsSecondSurfacesWithTwentiethOfTheBeam) {
+TEST(FrameComparison, CountsFurtherEchoesWithATwentiethOfTheBeam) {
   const FrameDifference d =
       Compare({{{10.0F}, {12.0F, 3, 0.2F, 0.06F}, {14.0F, 3, 0.2F, 0.04F}}, {{10.0F}, {12.0F}}},
               {{{12.0F}}, {{10.0F}}}, 1);
-  EXPECT_EQ(d.second, (Matched{2, 1}));
+  EXPECT_EQ(d.further, (Matched{2, 1}));
   EXPECT_EQ(d.reference_echoes, (Matched{5, 2}));
+}
+
+TEST(FrameComparison, CountsSecondSurfacesByWhatLiesBesideTheMainOne) {
+  Frame reference = MakeEchoFrame({{{10.0F}}, {{10.0F}}, {{10.0F}}, {}}, 3);
+  Frame other = MakeEchoFrame({{{10.0F}}, {{10.0F}}, {{10.0F}}, {}}, 1);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float shares[][2] = {{0.05F, 0.01F}, {0.3F, 0.0F}, {0.04F, 0.5F}, {0.5F, nan}};
+  for (std::size_t firing = 0; firing < 4; ++firing) {
+    for (std::size_t r = 0; r < 3; ++r) reference.mixed_share[3 * firing + r] = shares[firing][0];
+    other.mixed_share[firing] = shares[firing][1];
+  }
+  FrameComparison comparison({0.375F, 100.0F, {}});
+  comparison.Add(reference, other);
+  EXPECT_EQ(comparison.Result().second, (Matched{3, 1}));
+}
+
+TEST(FrameComparison, TakesErrorsOfTheStrongestEchoesOnly) {
+  const FrameDifference d = Compare({{{10.0F}, {12.0F}}}, {{{10.1F}, {12.2F}}});
+  EXPECT_NEAR(d.range_m.p95, 0.1, 1e-6);
 }
 
 TEST(FrameComparison, LeavesClutterToTheLabels) {
