@@ -37,14 +37,16 @@ struct WaveSums {
       bend[i] += slope * inverse[i] * ahead_m;
     }
   }
-  WaveSums sums{};
-  for (std::size_t i = 0; i < kWaveLanes; ++i) {
-    sums.value += value[i];
-    sums.weight += weight[i];
-    sums.moment += moment[i];
-    sums.bend += bend[i];
+  // Halves onto halves: fewer additions wait for each other than one after another would.
+  for (std::size_t half = kWaveLanes / 2; half > 0; half /= 2) {
+    for (std::size_t i = 0; i < half; ++i) {
+      value[i] += value[i + half];
+      weight[i] += weight[i + half];
+      moment[i] += moment[i + half];
+      bend[i] += bend[i + half];
+    }
   }
-  return sums;
+  return {value[0], weight[0], moment[0], bend[0]};
 }
 
 /// Climbs to a maximum of w(r) = sum peak_i exp(-(r - r_i)^2 / 2 variance_i): by Newton's step
