@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "analysis/frontier/pareto.h"
 #include "core/base/error.h"
@@ -47,8 +48,8 @@ struct PointLabel {
 };
 
 PointLabel LabelOf(const FrontierRow& row) {
-  if (row.name == "geometry") return {row.name, -0.8, -0.9, true};
-  if (row.name == "plausibility") return {row.name, -0.8, 0.9, true};
+  if (row.name == "geometry") return {row.name, -0.8, 0.9, true};
+  if (row.name == "plausibility") return {row.name, -0.8, -0.9, true};
   if (row.name == "surface") return {row.name, 0.4, 0.9};
   if (row.name == "surface+thin_conductors") return {"surface + wires", 0.8, -0.7};
   if (row.name == "footprint") return {row.name, -0.8, -0.8, true};
@@ -57,12 +58,22 @@ PointLabel LabelOf(const FrontierRow& row) {
 
 std::string Labels(const FrontierError& error, const std::vector<RowResult>& results) {
   std::string text = "unset label\n";
+  // Geometry and plausibility stand close together: the label of the upper one goes up.
+  double lowest_left = std::numeric_limits<double>::infinity();
+  for (const RowResult& result : results) {
+    if (result.difference && LabelOf(result.row).is_on_the_left && result.row.name != "footprint") {
+      lowest_left = std::min(lowest_left, error.scale * error.of(*result.difference));
+    }
+  }
   for (const RowResult& result : results) {
     const bool is_brute_force = result.row.group == RowGroup::kBruteForce;
     if (!is_brute_force && result.row.group != RowGroup::kLadder) continue;
     const double value = error.scale * error.of(*result.difference);
     if (std::isnan(value)) continue;
-    const PointLabel label = LabelOf(result.row);
+    PointLabel label = LabelOf(result.row);
+    if (label.is_on_the_left && result.row.name != "footprint") {
+      label.up = value > lowest_left ? 0.9 : -0.9;
+    }
     text += "set label " + Quoted(label.text) + " at " + Short(result.ratio()) + "," +
             Short(value) + " offset " + Short(label.right) + "," + Short(label.up) +
             (label.is_on_the_left ? " right" : " left") + " textcolor rgb '" +

@@ -1,19 +1,36 @@
 #include "analysis/frontier/pareto.h"
 
 #include <cmath>
+#include <optional>
 
 namespace railcast {
 namespace {
 
+// Both rows' times and errors, if they have any.
+struct Standing {
+  double time_a{}, time_b{}, error_a{}, error_b{};
+};
+
+std::optional<Standing> Compare(const RowResult& a,
+                                const RowResult& b,
+                                const FrontierError& error) {
+  if (!a.difference || !b.difference) return {};
+  const Standing standing{a.ratio(), b.ratio(), error.of(*a.difference), error.of(*b.difference)};
+  if (std::isnan(standing.error_a) || std::isnan(standing.error_b)) return {};
+  return standing;
+}
+
+// Whether a is faster and more accurate than b.
+bool Defeats(const RowResult& a, const RowResult& b, const FrontierError& error) {
+  const auto s = Compare(a, b, error);
+  return s && s->time_a < s->time_b && s->error_a < s->error_b;
+}
+
 // Whether a has at most b's time and error, and less of one of them.
 bool Beats(const RowResult& a, const RowResult& b, const FrontierError& error) {
-  if (!a.difference || !b.difference) return false;
-  const double error_a = error.of(*a.difference);
-  const double error_b = error.of(*b.difference);
-  if (std::isnan(error_a) || std::isnan(error_b)) return false;
-  const double time_a = a.ratio();
-  const double time_b = b.ratio();
-  return time_a <= time_b && error_a <= error_b && (time_a < time_b || error_a < error_b);
+  const auto s = Compare(a, b, error);
+  return s && s->time_a <= s->time_b && s->error_a <= s->error_b &&
+         (s->time_a < s->time_b || s->error_a < s->error_b);
 }
 
 bool IsCandidate(const RowResult& result, const FrontierError& error) {
@@ -41,7 +58,7 @@ std::vector<Defeat> FindDefeats(const std::vector<RowResult>& results) {
     for (const RowResult& brute_force : results) {
       if (brute_force.row.group != RowGroup::kBruteForce) continue;
       for (const RowResult& ours : results) {
-        if (ours.row.group == RowGroup::kLadder && Beats(brute_force, ours, error)) {
+        if (ours.row.group == RowGroup::kLadder && Defeats(brute_force, ours, error)) {
           defeats.push_back({brute_force.row.name, ours.row.name, error.name});
         }
       }

@@ -22,8 +22,8 @@ struct ComparisonSpec {
   std::vector<std::uint32_t> thin_labels;  ///< Of wires.
 };
 
-/// Half of the least distance between two echoes that a pulse separates: c pulse_length / 4, with
-/// 5 ns 0.375 m. Thin labels are those of contact wires, messenger wires and droppers, as far as
+/// Half of the pulse's length: c pulse_length / 4, with 5 ns 0.375 m (two equal echoes part from
+/// 0.64 m on). Thin labels are those of contact wires, messenger wires and droppers, as far as
 /// the table has them.
 [[nodiscard]] ComparisonSpec MakeComparisonSpec(const BeamSpec& beam,
                                                 double range_max_m,

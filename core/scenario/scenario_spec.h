@@ -46,8 +46,8 @@ struct ToleranceSpec {
   double range_m = 0.01;            ///< Median error of matched echoes, before range noise.
   double missed_share = 0.1;       ///< Of the reference's echoes.
   double false_share = 0.1;        ///< Of the echoes: those that the reference lacks.
-  double thin_missed_share = 0.05;  ///< Of the reference's echoes of wires.
-  double intensity = 0.05;          ///< Median relative error of matched echoes.
+  double thin_missed_share = 0.1;  ///< Of the reference's echoes of wires.
+  double intensity = 0.1;          ///< Median relative error of matched echoes.
 
   bool operator==(const ToleranceSpec&) const = default;
 };

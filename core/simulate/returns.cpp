@@ -46,18 +46,17 @@ void StoreEcho(const Place& echo,
   frame.material[slot] = is_clutter ? std::uint16_t{0} : surface.material;
   frame.incidence_rad[slot] = is_clutter ? kNaN : tile.incidence_rad[lane];
   // Nothing has no share, nor has what stands in the air.
-  frame.footprint_share[slot] = has_shares && tile.surface[lane] != 0 ? tile.share[lane] : kNaN;
+  if (has_shares) {
+    frame.footprint_share[slot] = tile.surface[lane] != 0 ? tile.share[lane] : kNaN;
+  }
 }
 
-void StoreMixedShares(const EchoTiles& echoes,
-                      bool has_shares,
-                      const SlotRange& slots,
-                      Frame& frame) {
+void StoreMixedShares(const EchoTiles& echoes, const SlotRange& slots, Frame& frame) {
   const std::size_t num_returns = frame.returns;
   for (std::size_t i = 0; i < slots.num_firings; ++i) {
     const std::size_t first_slot = slots.slots[i] * num_returns;
     std::fill_n(frame.mixed_share.begin() + static_cast<std::ptrdiff_t>(first_slot), num_returns,
-                has_shares ? echoes.mixed_share[i] : kNaN);
+                echoes.mixed_share[i]);
   }
 }
 
@@ -187,7 +186,7 @@ void ReturnStore::Store(EchoTiles& echoes,
                         const SlotRange& slots,
                         Frame& frame) const {
   const std::uint32_t num_returns = frame.returns;
-  StoreMixedShares(echoes, has_shares_, slots, frame);
+  if (has_shares_) StoreMixedShares(echoes, slots, frame);
   if (echoes.num_more() == 0 && num_returns == 1) {
     for (std::size_t i = 0; i < slots.num_firings; ++i) {
       const std::size_t slot = slots.slots[i];

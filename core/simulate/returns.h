@@ -44,7 +44,8 @@ struct SlotRange {
 /// the central ray says.
 class ReturnStore {
  public:
-  /// @param has_shares Whether beams have a width: else footprint_share is NaN.
+  /// @param has_shares Whether beams have a width: else footprint_share and mixed_share are left
+  ///   alone.
   ReturnStore(ReturnMode mode, bool has_shares) : mode_(mode), has_shares_(has_shares) {}
 
   void Store(EchoTiles& echoes,

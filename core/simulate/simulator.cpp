@@ -179,6 +179,11 @@ void Simulator::Parts::Scan(const CastFrame& cast, Frame& frame) {
     store.Store(mine.echoes, cast.surfaces, {tiles.slots(tile), tiles.num_firings(tile)}, frame);
   });
   tiles.StoreConstants(frame);
+  if (!tracer->has_beams()) {
+    constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+    std::fill(frame.footprint_share.begin(), frame.footprint_share.end(), kNaN);
+    std::fill(frame.mixed_share.begin(), frame.mixed_share.end(), kNaN);
+  }
 }
 
 void Simulator::Scan(std::uint32_t frame_index, Frame& frame) {
