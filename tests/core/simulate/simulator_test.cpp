@@ -95,6 +95,17 @@ TEST(Simulator, AFrameKeepsTheTruthOfWhatWasNotDetected) {
   EXPECT_EQ(frame.label[55], kWallLabel);
 }
 
+TEST(Simulator, TellsTheBeamsShareOnlyWhereBeamsHaveAWidth) {
+  const ScanPattern pattern = MakeRaster(10, 10, 1);
+  for (const EffectSet& effects : {EffectSet{}, EffectSet{.threshold = true}}) {
+    const Frame frame = ScanOnce(WorldWithWall(20.0F), pattern, {.effects = effects});
+    EXPECT_TRUE(std::isnan(frame.footprint_share[55]) && std::isnan(frame.mixed_share[55]));
+  }
+  const Frame wide = ScanOnce(WorldWithWall(20.0F), pattern, {.effects = {.footprint = true}});
+  EXPECT_NEAR(static_cast<double>(wide.footprint_share[55]), 1.0, 1e-6);
+  EXPECT_NEAR(static_cast<double>(wide.mixed_share[55]), 0.0, 1e-6);
+}
+
 TEST(Simulator, ReadsTheInstanceOfTheObjectInFront) {
   auto world = WorldWithWall(50.0F);
   world->AddObject(WallModel(0.0F, 2.0F, 1),
