@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 
 #include "analysis/frontier/pareto.h"
 #include "core/base/error.h"
@@ -59,21 +58,21 @@ PointLabel LabelOf(const FrontierRow& row) {
 std::string Labels(const FrontierError& error, const std::vector<RowResult>& results) {
   std::string text = "unset label\n";
   // Geometry and plausibility stand close together: the label of the upper one goes up.
-  double lowest_left = std::numeric_limits<double>::infinity();
+  std::array<double, 2> left{};
   for (const RowResult& result : results) {
-    if (result.difference && LabelOf(result.row).is_on_the_left && result.row.name != "footprint") {
-      lowest_left = std::min(lowest_left, error.scale * error.of(*result.difference));
-    }
+    if (!result.difference) continue;
+    if (result.row.name == "geometry") left[0] = error.of(*result.difference);
+    if (result.row.name == "plausibility") left[1] = error.of(*result.difference);
   }
+  const double up_of_geometry = left[0] > left[1] ? 0.9 : -0.9;
   for (const RowResult& result : results) {
     const bool is_brute_force = result.row.group == RowGroup::kBruteForce;
     if (!is_brute_force && result.row.group != RowGroup::kLadder) continue;
     const double value = error.scale * error.of(*result.difference);
     if (std::isnan(value)) continue;
     PointLabel label = LabelOf(result.row);
-    if (label.is_on_the_left && result.row.name != "footprint") {
-      label.up = value > lowest_left ? 0.9 : -0.9;
-    }
+    if (result.row.name == "geometry") label.up = up_of_geometry;
+    if (result.row.name == "plausibility") label.up = -up_of_geometry;
     text += "set label " + Quoted(label.text) + " at " + Short(result.ratio()) + "," +
             Short(value) + " offset " + Short(label.right) + "," + Short(label.up) +
             (label.is_on_the_left ? " right" : " left") + " textcolor rgb '" +
