@@ -43,7 +43,7 @@ struct LidarSpec {
 
 /// Section `tolerance`: by how much fidelity `auto` may differ from the reference.
 struct ToleranceSpec {
-  double range_m = 0.01;            ///< Median error of matched echoes, before range noise.
+  double range_m = 0.01;           ///< Median error of matched echoes, before range noise.
   double missed_share = 0.1;       ///< Of the reference's echoes.
   double false_share = 0.1;        ///< Of the echoes: those that the reference lacks.
   double thin_missed_share = 0.1;  ///< Of the reference's echoes of wires.

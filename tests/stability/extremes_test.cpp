@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/scenario/effects.h"
 #include "core/simulate/simulator.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/frame_checks.h"
@@ -31,26 +32,6 @@ MaterialLibrary Materials() {
        {.name = "sheet", .reflectivity = 0.2, .retroreflectance = 570.0},
        {.name = "black", .reflectivity = 0.0},
        {.name = "snow", .reflectivity = 0.9}});
-}
-
-EffectSet RungOf(const std::string& name) {
-  EffectSet effects{.sensor_dropout = true,
-                    .surface_response = true,
-                    .surface_condition = true,
-                    .extinction = true,
-                    .pulse_stretch = true,
-                    .detection = true,
-                    .detection_probability = true,
-                    .clutter = true,
-                    .fog_echo = true,
-                    .sunlight = true,
-                    .range_noise = true,
-                    .channel_bias = true,
-                    .pointing_jitter = true};
-  effects.footprint = name != "surface";
-  effects.thin_conductors = name == "footprint";
-  effects.dense_footprint = effects.sampled_waveform = name == "reference";
-  return effects;
 }
 const std::string kRungs[] = {"surface", "footprint", "reference"};
 
@@ -155,7 +136,7 @@ std::vector<Setting> Settings() {
 
 Frame Scan(const Setting& setting, const std::string& rung) {
   SimulatorSpec spec = setting.spec;
-  spec.effects = RungOf(rung);
+  spec.effects = EffectsOfRung(rung);
   Simulator simulator(MixedWorld(), setting.pattern, Materials(), spec, 0);
   Frame frame;
   simulator.Scan(2, frame);
@@ -221,8 +202,8 @@ TEST(Extremes, NothingReturnsFromABlackSurface) {
     auto world = std::make_shared<SimpleWorld>();
     world->ground.parts = {{MakeWall(5.0F, 100.0F), kBlack, 1}};
     // At night one firing in a million is a false alarm.
-    Simulator simulator(world, MakeRaster(10.0, 10.0, 0.5), Materials(), {.effects = RungOf(rung)},
-                        0);
+    Simulator simulator(world, MakeRaster(10.0, 10.0, 0.5), Materials(),
+                        {.effects = EffectsOfRung(rung)}, 0);
     Frame frame;
     simulator.Scan(0, frame);
     // Phi(-5) of them are detected nevertheless: 3e-7.
@@ -283,7 +264,7 @@ TEST(Extremes, TenMillionBeamsMakeOneSoundFrame) {
 #endif
   auto world = std::make_shared<SimpleWorld>();
   world->ground.parts = {{MakeFloor(-2.0F, 400.0F), kSoil, 2}};
-  SimulatorSpec spec{.effects = RungOf("surface")};
+  SimulatorSpec spec{.effects = EffectsOfRung("surface")};
   Simulator simulator(world, MakeRaster(360.0, 69.5, 0.05), Materials(), spec, 0);
   ASSERT_GE(simulator.pattern().num_firings(), 10'000'000U);
   Frame frame;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/units.h"
+#include "core/scenario/effects.h"
 #include "core/simulate/simulator.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/frame_bytes.h"
@@ -31,19 +32,7 @@ std::shared_ptr<SimpleWorld> WallAndGround() {
 }
 
 EffectSet Surface() {
-  return {.sensor_dropout = true,
-          .surface_response = true,
-          .surface_condition = true,
-          .extinction = true,
-          .pulse_stretch = true,
-          .detection = true,
-          .detection_probability = true,
-          .clutter = true,
-          .fog_echo = true,
-          .sunlight = true,
-          .range_noise = true,
-          .channel_bias = true,
-          .pointing_jitter = true};
+  return EffectsOfRung("surface");
 }
 
 // A beam aimed beside the edge by an angle a hits with the probability Phi(a / sigma).
