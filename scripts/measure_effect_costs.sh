@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Counts what each effect costs, for core/fidelity/effect_costs.h: instructions per firing of
-# Simulator::Scan, less the making of the scene, on frame 0 of scenarios/open_line.json in heavy rain
-# (so that every effect has work), rung footprint, one thread; then what is saved without each
-# effect. Needs valgrind; takes some ten minutes.
+# Counts what each rung and each effect costs, for the README and core/fidelity/effect_costs.h:
+# instructions per firing of Simulator::Scan, less the making of the scene, on frame 0 of
+# scenarios/open_line.json in heavy rain (so that every effect has work), one thread; then what is
+# saved without each effect of the rung footprint. Needs valgrind; takes some ten minutes.
 #
 #   measure_effect_costs.sh [RAILCAST_GENERATE]
 set -euo pipefail
@@ -31,7 +31,7 @@ instructions() {
   printf '%s %s\n' "$name" "$((collected / firings))"
 }
 
-instructions geometry geometry
+for rung in geometry plausibility surface reference; do instructions "$rung" "$rung"; done
 all="$(instructions footprint footprint)"
 echo "$all"
 for effect in surface_response surface_condition extinction pulse_stretch detection \
