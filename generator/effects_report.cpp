@@ -96,7 +96,7 @@ std::string DetectionProbabilityText(const ScenarioSpec& scenario) {
 std::string ClutterText(const ScenarioSpec& scenario) {
   const WeatherSpec& weather = scenario.weather;
   const ReceiverSpec& receiver = scenario.lidar.receiver;
-  const double power_min = 0.1 / std::pow(receiver.range_at_10_percent_m, 2);
+  const double power_min = LeastPower(receiver);
   const auto text = [&](const ParticleSizes& sizes, double reflectance) {
     const ParticleEchoes echoes =
         ParticleEchoesOf(sizes, reflectance, scenario.lidar.beam, power_min);

@@ -14,9 +14,18 @@ double SigmaOf_rad(double divergence_mrad) {
 
 }  // namespace
 
+double PulseLength_m(const BeamSpec& beam) {
+  return 0.5 * kSpeedOfLight_m_per_ns * beam.pulse_length_ns;
+}
+
 double PulseSigma_m(const BeamSpec& beam) {
   const double full_width_at_half_maximum = 2.0 * std::sqrt(2.0 * std::log(2.0));
-  return 0.5 * kSpeedOfLight_m_per_ns * beam.pulse_length_ns / full_width_at_half_maximum;
+  return PulseLength_m(beam) / full_width_at_half_maximum;
+}
+
+double LeastPower(const ReceiverSpec& receiver) {
+  const double range_m = receiver.range_at_10_percent_m;
+  return 0.1 / (range_m * range_m);
 }
 
 double HorizontalSigma_rad(const BeamSpec& beam) {

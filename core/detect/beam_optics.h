@@ -7,9 +7,16 @@
 
 namespace railcast {
 
-/// Standard deviation of the received pulse in metres of range: c x pulse length / 2, full width at
-/// half maximum, over 2 sqrt(2 ln 2).
+/// The pulse's length in metres of range, there and back: c x pulse length / 2, full width at half
+/// maximum.
+[[nodiscard]] double PulseLength_m(const BeamSpec& beam);
+
+/// Standard deviation of the received pulse in metres of range: its length over 2 sqrt(2 ln 2).
 [[nodiscard]] double PulseSigma_m(const BeamSpec& beam);
+
+/// The least detectable power, m^-2, as reflectance over range squared: 10 % at the data sheet's
+/// range (physics.md 0).
+[[nodiscard]] double LeastPower(const ReceiverSpec& receiver);
 
 /// Standard deviations of the beam's Gaussian profile: a quarter of the full 1/e^2 angle.
 [[nodiscard]] double HorizontalSigma_rad(const BeamSpec& beam);

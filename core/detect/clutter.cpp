@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/base/random.h"
+#include "core/detect/beam_optics.h"
 #include "core/detect/lane_random.h"
 #include "core/frame/outcome.h"
 
@@ -47,10 +48,9 @@ bool Reaches(const DetectTile& first, std::size_t beam, float range_m) {
 
 }  // namespace
 
-Clutter::Clutter(const ClutterSpec& spec, const Kernels& kernels)
+Clutter::Clutter(const DetectorSpec& spec, const Kernels& kernels)
     : spec_(spec), uniforms_(kernels.uniforms) {
-  const double range_m = spec.receiver.range_at_10_percent_m;
-  power_min_ = 0.1 / (range_m * range_m);
+  power_min_ = LeastPower(spec.receiver);
   if (spec.effects.clutter && spec.weather.rain_rate_mmph > 0.0) {
     drops_ = MakePopulation(RainDropSizes(spec.weather), kDropReflectance, spec.labels.rain,
                             EchoTiles::kFirstDrop);

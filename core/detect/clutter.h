@@ -4,32 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/detect/detect_spec.h"
+#include "core/detect/detector_spec.h"
 #include "core/detect/echo_tiles.h"
 #include "core/detect/kernels.h"
 #include "core/detect/weather_optics.h"
 
 namespace railcast {
-
-/// What clutter is called.
-struct ClutterLabels {
-  std::uint32_t rain{};
-  std::uint32_t snow{};
-  std::uint32_t fog{};
-  std::uint32_t false_alarm{};
-};
-
-/// What clutter depends on.
-struct ClutterSpec {
-  std::uint64_t seed{};
-  double range_min_m{};
-  double range_max_m{};
-  EffectSet effects;
-  BeamSpec beam;
-  ReceiverSpec receiver;
-  WeatherSpec weather;
-  ClutterLabels labels;
-};
 
 /// Effects `clutter`, `fog_echo` and the false alarms of `sunlight`: echoes that no surface sends,
 /// also in beams that meet none. Immutable; thread-safe.
@@ -41,7 +21,7 @@ struct ClutterSpec {
 /// threshold. Which of a firing's echoes become returns, the return mode decides.
 class Clutter {
  public:
-  Clutter(const ClutterSpec& spec, const Kernels& kernels);
+  Clutter(const DetectorSpec& spec, const Kernels& kernels);
 
   /// Adds drops, flakes and fog. @pre `echoes.first` knows its true ranges and outcomes.
   void Add(EchoTiles& echoes) const;
@@ -66,7 +46,7 @@ class Clutter {
   void AddParticles(const Population& population, EchoTiles& echoes) const;
   void AddFogEchoes(EchoTiles& echoes) const;
 
-  ClutterSpec spec_;
+  DetectorSpec spec_;
   decltype(Kernels::uniforms) uniforms_;
   double power_min_{};
   Population drops_;

@@ -44,10 +44,9 @@ SnowParameters MakeSnow(const DetectorSpec& spec) {
 }
 
 ResponseParameters MakeResponse(const DetectorSpec& spec) {
-  const double range_m = spec.receiver.range_at_10_percent_m;
   const LaneOptics snow = LaneOpticsOf(spec.snow);
   return {.is_lambert = !spec.effects.surface_response,
-          .inverse_power_m2 = static_cast<float>(range_m * range_m / 0.1),
+          .inverse_power_m2 = static_cast<float>(1.0 / LeastPower(spec.receiver)),
           .snow_cover =
               spec.effects.surface_condition ? static_cast<float>(spec.weather.snow_cover) : 0.0F,
           .snow_a = snow.a,
@@ -162,17 +161,6 @@ std::vector<EffectStep> MakeReceiver(const DetectorSpec& spec,
   return steps;
 }
 
-ClutterSpec ClutterSpecOf(const DetectorSpec& spec) {
-  return {.seed = spec.seed,
-          .range_min_m = spec.range_min_m,
-          .range_max_m = spec.range_max_m,
-          .effects = spec.effects,
-          .beam = spec.beam,
-          .receiver = spec.receiver,
-          .weather = spec.weather,
-          .labels = spec.labels};
-}
-
 }  // namespace
 
 bool IsPhysical(const EffectSet& effects) {
@@ -193,7 +181,7 @@ Detector::Detector(const DetectorSpec& spec, const Kernels& kernels)
                                                       spec.weather, spec.beam.wavelength_nm))
                                                 : 0.0F),
       channel_bias_m_(MakeChannelBias(spec)),
-      clutter_(ClutterSpecOf(spec), kernels) {
+      clutter_(spec, kernels) {
   if (IsPhysical(spec.effects)) AddOptics(kernels);
   receiver_ = MakeReceiver(spec, channel_bias_m_, kernels);
 }

@@ -8,29 +8,13 @@
 
 #include "core/detect/beam_optics.h"
 #include "core/detect/clutter.h"
-#include "core/detect/detect_spec.h"
 #include "core/detect/detect_tile.h"
+#include "core/detect/detector_spec.h"
 #include "core/detect/echo_tiles.h"
 #include "core/detect/effect_parameters.h"
 #include "core/detect/kernels.h"
-#include "core/scene/material.h"
 
 namespace railcast {
-
-/// What a Detector depends on.
-struct DetectorSpec {
-  std::uint64_t seed = 1;
-  double range_min_m = 0.5;
-  double range_max_m = 300.0;
-  std::uint32_t num_channels = 1;
-  EffectSet effects{};
-  PlausibilitySpec plausibility{};
-  BeamSpec beam{};
-  ReceiverSpec receiver{};
-  WeatherSpec weather{};
-  SurfaceOptics snow{};  ///< Of what covers surfaces.
-  ClutterLabels labels{};
-};
 
 /// One effect's pass over a tile.
 struct EffectStep {

@@ -54,7 +54,7 @@ Component ComponentOf(const DetectTile& hits, std::size_t lane) {
 
 }  // namespace
 
-Footprint::Footprint(const FootprintSpec& spec, const Kernels& kernels)
+Footprint::Footprint(const DetectorSpec& spec, const Kernels& kernels)
     : spec_(spec),
       pulse_variance_m2_(static_cast<float>(PulseSigma_m(spec.beam) * PulseSigma_m(spec.beam))),
       pattern_(spec.effects.dense_footprint

@@ -16,15 +16,6 @@
 
 namespace railcast {
 
-/// What wide beams depend on.
-struct FootprintSpec {
-  std::uint64_t seed{};
-  double range_min_m{};
-  double range_max_m{};
-  EffectSet effects;
-  BeamSpec beam;
-};
-
 /// A tile of wide beams, their central rays traced.
 struct WideBeams {
   const RayTile& rays;
@@ -48,14 +39,11 @@ struct WideBeams {
 /// Not thread-safe: keeps its working memory.
 class Footprint {
  public:
-  Footprint(const FootprintSpec& spec, const Kernels& kernels);
+  Footprint(const DetectorSpec& spec, const Kernels& kernels);
 
   /// Splits the tile's beams into echoes. @pre `echoes.first` holds the central rays' hits, and
   /// Detector::Respond has been applied to it.
   void Resolve(const WideBeams& beams, EchoTiles& echoes);
-
-  /// Sub-rays of one beam where they are needed.
-  [[nodiscard]] std::size_t num_sub_rays() const { return pattern_.sub_rays.size(); }
 
  private:
   /// A run of sub-rays under way: the tile of rays that is being filled, and whose they are.
@@ -73,14 +61,14 @@ class Footprint {
   void StoreEchoes(std::size_t lane, EchoTiles& echoes) const;
   [[nodiscard]] Component CentralCell(const DetectTile& first, std::size_t lane, float share) const;
 
-  FootprintSpec spec_;
+  DetectorSpec spec_;
   float pulse_variance_m2_;
   SubRayPattern pattern_;
   Kernels kernels_;
   EchoFinder finder_;
   Batch batch_;
   std::vector<std::uint32_t> wide_lanes_;  // Those that need sub-rays.
-  std::vector<Component> sub_components_;  // num_sub_rays() for each of them.
+  std::vector<Component> sub_components_;  // The pattern's, for each of them.
   std::vector<WireCapture> captures_;
   std::vector<Component> beam_parts_;  // All that rays say of one beam, in the way or not.
   std::vector<Component> wires_;

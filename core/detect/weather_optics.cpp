@@ -4,10 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/detect/beam_optics.h"
+
 namespace railcast {
 namespace {
 
-constexpr double kSpeedOfLight_m_per_ns = 0.299792458;
 constexpr double kDbPerKmOf1PerM = 4343.0;  // 10 log10(e) per km.
 
 }  // namespace
@@ -67,8 +68,7 @@ FogEcho FogEchoOf(const WeatherSpec& weather, const BeamSpec& beam) {
   constexpr double kOverlapBegin_m = 1.0;
   constexpr double kOverlapEnd_m = 3.0;
   const double extinction = FogExtinction_per_m(weather);
-  const double pulse_m = 0.5 * kSpeedOfLight_m_per_ns * beam.pulse_length_ns;
-  const double reflectance = std::numbers::pi * extinction / kLidarRatio_sr * pulse_m;
+  const double reflectance = std::numbers::pi * extinction / kLidarRatio_sr * PulseLength_m(beam);
   // (r - b) e^(-2 alpha r) / r^2 peaks where 1 / (r - b) = 2 alpha + 2 / r.
   const double b = kOverlapBegin_m;
   const double p = 1.0 - 2.0 * extinction * b;

@@ -5,11 +5,11 @@
 #include <tuple>
 
 #include "core/base/error.h"
+#include "core/detect/beam_optics.h"
 
 namespace railcast {
 namespace {
 
-constexpr double kSpeedOfLight_mps = 299'792'458.0;
 constexpr float kLeastThinShare = 0.02F;
 constexpr float kLeastSecondShare = 0.05F;
 constexpr float kLeastMixedShare = 1e-3F;  // Less is rounding.
@@ -64,7 +64,7 @@ ComparisonSpec MakeComparisonSpec(const BeamSpec& beam,
                                   double range_max_m,
                                   const LabelTable& labels) {
   ComparisonSpec spec;
-  spec.match_distance_m = static_cast<float>(kSpeedOfLight_mps * beam.pulse_length_ns * 1e-9 / 4.0);
+  spec.match_distance_m = static_cast<float>(0.5 * PulseLength_m(beam));
   spec.range_max_m = static_cast<float>(range_max_m);
   for (const char* name : {"contact_wire", "messenger_wire", "dropper"}) {
     if (const Label* label = labels.Find(name)) spec.thin_labels.push_back(label->id);

@@ -40,18 +40,13 @@ Vector3 DirectionOf(const SunSpec& sun) {
 BeamTracer::BeamTracer(const SimulatorSpec& spec,
                        const std::vector<Material>& materials,
                        const ScanPattern& pattern)
-    : effects_(spec.effects),
-      is_physical_(IsPhysical(spec.effects)),
+    : is_physical_(IsPhysical(spec.effects)),
       pointing_{.seed = spec.seed,
                 .sigma_rad = static_cast<float>(RadFromDeg(spec.receiver.pointing_jitter_deg))},
       is_sun_up_(spec.effects.sunlight && spec.weather.sun.illuminance_klx > 0.0),
       to_sun_world_(DirectionOf(spec.weather.sun)),
-      footprint_spec_{.seed = spec.seed,
-                      .range_min_m = spec.range_min_m,
-                      .range_max_m = spec.range_max_m,
-                      .effects = spec.effects,
-                      .beam = spec.beam},
-      detector_(DetectorSpecOf(spec, materials, pattern)),
+      spec_(DetectorSpecOf(spec, materials, pattern)),
+      detector_(spec_),
       kernels_(AvailableKernels().back()) {
   beam_.sigma_h_rad = static_cast<float>(HorizontalSigma_rad(spec.beam));
   beam_.sigma_v_rad = static_cast<float>(VerticalSigma_rad(spec.beam));
@@ -84,13 +79,13 @@ void BeamTracer::TraceCenters(const CastFrame& frame,
                               std::size_t tile,
                               RayTile& rays,
                               DetectTile& first) const {
-  tiles.Aim(tile, frame.poses, static_cast<float>(footprint_spec_.range_max_m), rays);
-  if (effects_.pointing_jitter && pointing_.sigma_rad > 0.0F) {
+  tiles.Aim(tile, frame.poses, static_cast<float>(spec_.range_max_m), rays);
+  if (spec_.effects.pointing_jitter && pointing_.sigma_rad > 0.0F) {
     first.frame = frame.index;
     tiles.Describe(tile, first);
     kernels_.pointing(rays, first, BeamFrameOf(frame, tiles, tile), pointing_);
   }
-  rays.mask = effects_.thin_conductors ? kAllButWires : kAllSurfaces;
+  rays.mask = spec_.effects.thin_conductors ? kAllButWires : kAllSurfaces;
   frame.caster.Cast(rays);
 }
 
@@ -131,10 +126,10 @@ void BeamTracer::MakeEchoes(const CastFrame& frame,
   kernels_.spread(rays, beam, first);
   detector_.Respond(first, observer);
   std::fill_n(echoes.mixed_share, first.num_rays, 0.0F);
-  if (needs_ || effects_.thin_conductors) {
+  if (needs_ || spec_.effects.thin_conductors) {
     std::uint8_t needs_sub_rays[kTileSize];
     if (needs_) needs_->Mark(tile, centers, needs_sub_rays);
-    const WireSet* const wires = effects_.thin_conductors ? frame.wires : nullptr;
+    const WireSet* const wires = spec_.effects.thin_conductors ? frame.wires : nullptr;
     work.footprint.Resolve(
         {rays, beam, frame.caster, table, detector_, wires, needs_ ? needs_sub_rays : nullptr},
         echoes);

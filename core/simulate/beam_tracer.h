@@ -37,8 +37,7 @@ class BeamTracer {
 
   /// What one thread works in.
   struct Work {
-    explicit Work(const BeamTracer& tracer)
-        : footprint(tracer.footprint_spec_, AvailableKernels().back()) {}
+    explicit Work(const BeamTracer& tracer) : footprint(tracer.spec_, AvailableKernels().back()) {}
 
     RayTile rays;
     EchoTiles echoes;
@@ -73,13 +72,12 @@ class BeamTracer {
                                       std::size_t tile) const;
   void Blind(const CastFrame& frame, const RayTile& rays, EchoTiles& echoes) const;
 
-  EffectSet effects_;
   bool is_physical_;
   BeamFrame beam_;
   PointingParameters pointing_;
   bool is_sun_up_;
   Vector3 to_sun_world_;
-  FootprintSpec footprint_spec_;
+  DetectorSpec spec_;
   std::vector<LaneOptics> optics_;
   Detector detector_;
   Kernels kernels_;

@@ -4,8 +4,7 @@
 #include <string>
 
 #include "core/base/transform.h"
-#include "core/detect/clutter.h"
-#include "core/detect/detect_spec.h"
+#include "core/detect/detector_spec.h"
 #include "core/frame/output_spec.h"
 
 namespace railcast {
