@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/base/random.h"
+#include "core/detect/beam_axes.h"
 #include "core/detect/beam_optics.h"
 #include "core/detect/cylinder_mean.h"
 #include "core/frame/outcome.h"
@@ -129,37 +130,27 @@ void Footprint::TraceSubRays(const WideBeams& beams, const EchoTiles& echoes) {
   };
   const BeamFrame& frame = beams.frame;
   for (const std::uint32_t lane : wide_lanes_) {
-    const float dx = beams.rays.direction_x[lane];
-    const float dy = beams.rays.direction_y[lane];
-    const float dz = beams.rays.direction_z[lane];
-    float hx = frame.up[1] * dz - frame.up[2] * dy;
-    float hy = frame.up[2] * dx - frame.up[0] * dz;
-    float hz = frame.up[0] * dy - frame.up[1] * dx;
-    const float per_length = 1.0F / std::sqrt(hx * hx + hy * hy + hz * hz + 1e-20F);
-    hx *= per_length;
-    hy *= per_length;
-    hz *= per_length;
-    const float vx = dy * hz - dz * hy;
-    const float vy = dz * hx - dx * hz;
-    const float vz = dx * hy - dy * hx;
+    const baseline::Direction d{beams.rays.direction_x[lane], beams.rays.direction_y[lane],
+                                beams.rays.direction_z[lane]};
+    const baseline::BeamAxes axes = baseline::AxesOf(d, frame);
+    const float per_unit = 1.0F / baseline::LengthOf(axes);
+    const float sigma_h = frame.sigma_h_rad * per_unit;
+    const float sigma_v = frame.sigma_v_rad * per_unit;
     const auto words = RandomWords(spec_.seed, RandomUse::kFootprint, echoes.first.frame,
                                    echoes.first.firing[lane]);
     const float turn_rad = 2.0F * std::numbers::pi_v<float> * UnitFloat(words[0]);
     const float cosine = std::cos(turn_rad);
     const float sine = std::sin(turn_rad);
     for (const SubRay& sub_ray : pattern_.sub_rays) {
-      const float h = frame.sigma_h_rad * (cosine * sub_ray.h - sine * sub_ray.v);
-      const float v = frame.sigma_v_rad * (sine * sub_ray.h + cosine * sub_ray.v);
-      const float x = dx + h * hx + v * vx;
-      const float y = dy + h * hy + v * vy;
-      const float z = dz + h * hz + v * vz;
-      const float per_norm = 1.0F / std::sqrt(x * x + y * y + z * z);
+      const float h = sigma_h * (cosine * sub_ray.h - sine * sub_ray.v);
+      const float v = sigma_v * (sine * sub_ray.h + cosine * sub_ray.v);
+      const baseline::Direction aim = baseline::Beside(d, axes, h, v);
       rays.origin_x[num_rays] = beams.rays.origin_x[lane];
       rays.origin_y[num_rays] = beams.rays.origin_y[lane];
       rays.origin_z[num_rays] = beams.rays.origin_z[lane];
-      rays.direction_x[num_rays] = x * per_norm;
-      rays.direction_y[num_rays] = y * per_norm;
-      rays.direction_z[num_rays] = z * per_norm;
+      rays.direction_x[num_rays] = aim.x;
+      rays.direction_y[num_rays] = aim.y;
+      rays.direction_z[num_rays] = aim.z;
       rays.shutter[num_rays] = beams.rays.shutter[lane];
       batch_.share[num_rays] = sub_ray.share;
       batch_.cell_size[num_rays] = std::sqrt(sub_ray.share);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/detect/beam_axes.h"
 #include "core/detect/detect_tile.h"
 #include "core/detect/effect_parameters.h"
 #include "core/detect/vector_math.h"
@@ -48,20 +49,13 @@ inline void ApplySpread(const RayTile& rays, const BeamFrame& beam, DetectTile& 
     const float dx = rays.direction_x[i];
     const float dy = rays.direction_y[i];
     const float dz = rays.direction_z[i];
-    const float hx = b.up[1] * dz - b.up[2] * dy;
-    const float hy = b.up[2] * dx - b.up[0] * dz;
-    const float hz = b.up[0] * dy - b.up[1] * dx;
-    const float vx = dy * hz - dz * hy;
-    const float vy = dz * hx - dx * hz;
-    const float vz = dx * hy - dy * hx;
-    // A beam along `up` has no horizontal axis; it gets no spread rather than a NaN.
-    const float h2 = hx * hx + hy * hy + hz * hz + 1e-20F;
+    const BeamAxes axes = AxesOf({dx, dy, dz}, b);
     const float along = nx * dx + ny * dy + nz * dz;
-    const float slope_h = b.sigma_h_rad * (nx * hx + ny * hy + nz * hz);
-    const float slope_v = b.sigma_v_rad * (nx * vx + ny * vy + nz * vz);
+    const float slope_h = b.sigma_h_rad * (nx * axes.h.x + ny * axes.h.y + nz * axes.h.z);
+    const float slope_v = b.sigma_v_rad * (nx * axes.v.x + ny * axes.v.y + nz * axes.v.z);
     const float n2 = nx * nx + ny * ny + nz * nz;
     const float slope2 =
-        (slope_h * slope_h + slope_v * slope_v) / (h2 * (along * along + 1e-12F * n2));
+        (slope_h * slope_h + slope_v * slope_v) / (axes.length2 * (along * along + 1e-12F * n2));
     const float up = std::fabs(nx * b.vertical[0] + ny * b.vertical[1] + nz * b.vertical[2]);
     tile.spread_m[i] = n2 > 0.0F ? rays.range_m[i] * std::sqrt(slope2) : 0.0F;
     tile.normal_up[i] = n2 > 0.0F ? up / std::sqrt(n2) : 0.0F;
