@@ -25,12 +25,14 @@ class LiveRun {
   }
 
   std::vector<LiveRecord> Run() {
-    while (!IsOver() && (spec_.lockstep ? hooks_.await_step() : AwaitBegin())) {
-      if (hooks_.begin_frames(NextStampNs())) {
+    while (!IsOver() && (spec_.lockstep || AwaitBegin())) {
+      const NextFrames next = hooks_.begin_frames(NextStampNs());
+      if (next == NextFrames::kStop) break;
+      if (next == NextFrames::kReset) {
         Restart();
-        continue;
+      } else {
+        MakeFrames();
       }
-      MakeFrames();
     }
     queue_.Flush();
     for (std::size_t i = 0; i < sensors_.size(); ++i) {

@@ -31,21 +31,27 @@ enum class Pacing {
   kBurst,   ///< A frame's datagrams at once, as soon as it is made.
 };
 
+enum class NextFrames {
+  kMake,
+  kReset,  ///< The run begins anew with all sensors' frame 0.
+  kStop,
+};
+
 /// What a run asks of its surroundings, always from its own thread.
 struct LiveHooks {
   std::function<bool()> is_stopped = [] { return false; };
-  /// Before frames that begin at this simulation time are made: commands take effect here.
-  /// @return Whether the run begins anew with all sensors' frame 0.
-  std::function<bool(std::int64_t stamp_ns)> begin_frames = [](std::int64_t) { return false; };
+  /// Before frames that begin at this simulation time are made: commands take effect here. In
+  /// lockstep it waits until they are asked for.
+  std::function<NextFrames(std::int64_t stamp_ns)> begin_frames = [](std::int64_t) {
+    return NextFrames::kMake;
+  };
   /// After they were made, and in lockstep also sent.
   std::function<void(std::int64_t stamp_ns)> end_frames = [](std::int64_t) {};
-  /// In lockstep: waits for leave to go on; false if the run has been stopped meanwhile.
-  std::function<bool()> await_step;
 };
 
 struct LiveRunSpec {
   Pacing pacing = Pacing::kSpread;
-  bool lockstep = false;  ///< Frames are made when asked for, not when their time has come.
+  bool lockstep = false;  ///< Frames are made when begin_frames says so, not at their time.
   std::optional<std::int64_t> duration_ns;  ///< Of simulation time; absent = until stopped.
 };
 

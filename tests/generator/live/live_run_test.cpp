@@ -174,7 +174,7 @@ TEST(LiveRun, TakesSeveralSensorsInTheOrderOfTheirStamps) {
   LiveHooks hooks;
   hooks.begin_frames = [&](std::int64_t stamp_ns) {
     stamps_ns.push_back(stamp_ns);
-    return false;
+    return NextFrames::kMake;
   };
   const auto records =
       RunLive(Lasting(kSecond_ns / 5), {slow.Live("slow"), fast.Live("fast")}, hooks, clock);
@@ -183,13 +183,15 @@ TEST(LiveRun, TakesSeveralSensorsInTheOrderOfTheirStamps) {
   EXPECT_EQ(stamps_ns, (std::vector<std::int64_t>{0, 50'000'000, 100'000'000, 150'000'000}));
 }
 
-TEST(LiveRun, WaitsForEveryStepInLockstep) {
+TEST(LiveRun, SendsEachFrameBeforeTheNextStepInLockstep) {
   JumpingClock clock;
   TinySensor sensor(10.0, clock);
   int num_steps = 0;
   std::vector<std::size_t> num_sent_after_step;
   LiveHooks hooks;
-  hooks.await_step = [&] { return num_steps++ < 4; };
+  hooks.begin_frames = [&](std::int64_t) {
+    return num_steps++ < 4 ? NextFrames::kMake : NextFrames::kStop;
+  };
   hooks.end_frames = [&](std::int64_t) { num_sent_after_step.push_back(sensor.sent.size()); };
   LiveRunSpec spec;
   spec.lockstep = true;
@@ -207,7 +209,7 @@ TEST(LiveRun, BeginsAnewOnReset) {
   hooks.begin_frames = [&](std::int64_t stamp_ns) {
     const bool reset = !was_reset && stamp_ns == 300'000'000;
     was_reset = was_reset || reset;
-    return reset;
+    return reset ? NextFrames::kReset : NextFrames::kMake;
   };
   const auto records = RunLive(Lasting(kSecond_ns / 2), {sensor.Live("a")}, hooks, clock);
   EXPECT_EQ(sensor.made, (std::vector<std::uint32_t>{0, 1, 2, 0, 1, 2, 3, 4}));
