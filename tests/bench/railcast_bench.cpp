@@ -3,8 +3,8 @@
 //   railcast-bench [--benchmark_filter=demo] [other options of Google Benchmark]
 //
 // Rows are <what>/<scene>/threads:<n>. What: raw_trace (Embree's packets of 16, rays aimed
-// beforehand, ranges kept), sets of effects complete to a filled Frame, and the same written as PCD
-// to tmpfs. Scenes: the demo, and the demo without some of its parts. Ratios to the raw trace of
+// beforehand, ranges kept), sets of effects complete to a filled Frame, the same written as PCD to
+// tmpfs, and finished frames encoded as datagrams of the railcast protocol. Scenes: the demo, and the demo without some of its parts. Ratios to the raw trace of
 // the same scene and threads are printed at the end: read these, machines are noisy.
 #include <benchmark/benchmark.h>
 
@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "core/io/frame_files.h"
+#include "core/io/stream/stream_encoder.h"
 #include "core/io/write_file.h"
 #include "core/scenario/effects.h"
 #include "core/scenario/scenario.h"
@@ -38,14 +39,19 @@ struct Bench {
       raw_traces.push_back(simulator->MakeRawTrace(i));
     }
     files.labels = LabelTable(scenario.labels);
+    for (std::uint32_t i = 0; i < kNumFrames; ++i) simulator->Scan(i, scanned.emplace_back());
+    stream = std::make_unique<StreamEncoder>(BuildScanPattern(scenario.lidar.scan), StreamSpec{});
   }
 
   ScenarioSpec spec;
   std::unique_ptr<Simulator> simulator;
   std::vector<std::function<void()>> raw_traces;
+  std::vector<Frame> scanned;  ///< With the scenario's own effects and weather.
   Frame frame;
   FrameFileSpec files;
   std::vector<FrameFile> encoded;
+  std::unique_ptr<StreamEncoder> stream;
+  Datagrams datagrams;
 };
 
 using Work = std::function<void(Bench&, std::uint32_t frame)>;
@@ -58,6 +64,11 @@ void ScanAndWrite(Bench& bench, std::uint32_t frame) {
   ScanFrame(bench, frame);
   EncodeFrameFiles(bench.frame, bench.files, frame, bench.encoded);
   WriteFileWhole("/dev/shm/railcast_bench.pcd", bench.encoded.front().bytes);
+}
+
+void EncodeDatagrams(Bench& bench, std::uint32_t frame) {
+  bench.datagrams.Clear();
+  bench.stream->Encode(bench.scanned[frame], bench.datagrams);
 }
 
 struct Row {
@@ -87,6 +98,7 @@ std::vector<Row> Rows() {
       {"reference", EffectsOfRung("reference"), true, false, &ScanFrame},
       {"geometry_pcd", {}, false, false, &ScanAndWrite},
       {"plausibility_pcd", all, true, false, &ScanAndWrite},
+      {"encode_stream", {}, false, false, &EncodeDatagrams},
   };
 }
 
