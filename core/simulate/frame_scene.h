@@ -68,6 +68,7 @@ class FrameScenes {
   [[nodiscard]] std::vector<LoneObject> LoneObjects(const FrameScene& frame) const;
 
   [[nodiscard]] const World& world() const { return *world_; }
+  [[nodiscard]] const std::shared_ptr<const World>& shared_world() const { return world_; }
   [[nodiscard]] Transform WorldFromSensor(std::int64_t time_ns) const {
     return world_->WorldFromVehicle(time_ns) * spec_.vehicle_from_sensor;
   }

@@ -121,6 +121,9 @@ Simulator::~Simulator() = default;
 const World& Simulator::world() const {
   return parts_->scenes.world();
 }
+const std::shared_ptr<const World>& Simulator::shared_world() const {
+  return parts_->scenes.shared_world();
+}
 const ScanPattern& Simulator::pattern() const {
   return parts_->pattern;
 }

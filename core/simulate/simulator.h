@@ -115,7 +115,9 @@ class Simulator {
   /// call traces them by packets of 16 and keeps the ranges. Valid as long as the simulator.
   [[nodiscard]] std::function<void()> MakeRawTrace(std::uint32_t frame_index);
 
+  /// The one in use.
   [[nodiscard]] const World& world() const;
+  [[nodiscard]] const std::shared_ptr<const World>& shared_world() const;
   [[nodiscard]] const ScanPattern& pattern() const;
   [[nodiscard]] Transform WorldFromSensor(std::int64_t time_ns) const;
 
