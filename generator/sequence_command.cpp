@@ -3,13 +3,16 @@
 #include <atomic>
 #include <chrono>
 #include <iostream>
+#include <optional>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/fidelity/choice_report.h"
-#include "core/rail/rail_world.h"
+#include "core/scenario/command_log.h"
 #include "core/scenario/effects.h"
 #include "core/scenario/scenario.h"
 #include "generator/chosen_fidelity.h"
+#include "generator/commanded_run.h"
 #include "generator/commands.h"
 #include "generator/object_survey.h"
 #include "generator/run_sequence.h"
@@ -34,7 +37,13 @@ void StopAfterThisFrameOnSignals() {
   ::sigaction(SIGTERM, &action, nullptr);
 }
 
-ScenarioSpec ReadWithOverrides(const SequenceOptions& options) {
+// The whole scenario, of which a log is, and the one sensor that the frames are of.
+struct Scenarios {
+  ScenarioSpec whole;
+  ScenarioSpec of_sensor;
+};
+
+Scenarios ReadWithOverrides(const SequenceOptions& options) {
   ScenarioSpec scenario = ReadScenario(options.scenario);
   if (options.seed) scenario.seed = *options.seed;
   if (options.fidelity) scenario.fidelity = *options.fidelity;
@@ -45,7 +54,22 @@ ScenarioSpec ReadWithOverrides(const SequenceOptions& options) {
                      ": /output: must be right-handed sensor coordinates for --format kitti (got " +
                      scenario.output.handedness + "-handed " + scenario.output.frame + ")");
   }
-  return scenario;
+  ScenarioSpec of_sensor = PickSensor(scenario, options.sensor);
+  return {std::move(scenario), std::move(of_sensor)};
+}
+
+// What the log says since its last reset.
+CommandLog ReadLog(const SequenceOptions& options, const ScenarioSpec& whole) {
+  const std::string scenario_hash = IdentityOf(whole).scenario_hash;
+  if (!options.commands) return {scenario_hash, {}};
+  CommandLog log = ReadCommandLog(*options.commands);
+  if (log.scenario_xxh3 != scenario_hash) {
+    throw InputError(options.commands->string() +
+                     ": is the log of another scenario, or of another --seed or --fidelity "
+                     "(its scenario_xxh3 is " +
+                     log.scenario_xxh3 + ", got " + scenario_hash + ")");
+  }
+  return log;
 }
 
 SequenceSpec MakeSpec(const SequenceOptions& options, const ScenarioSpec& scenario) {
@@ -69,13 +93,27 @@ SequenceSpec MakeSpec(const SequenceOptions& options, const ScenarioSpec& scenar
   return spec;
 }
 
-FrameSource MakeSource(Simulator& simulator, const ObjectSurvey& survey) {
-  return [&simulator, &survey](std::uint32_t index, Frame& frame,
-                               std::vector<ObjectInFrame>& objects) {
+/// Makes the frames of a run and what they show.
+class SurveyedRun {
+ public:
+  SurveyedRun(CommandedRun& run, const LabelTable& labels) : run_(run), labels_(labels) {}
+
+  void Make(std::uint32_t index, Frame& frame, std::vector<ObjectInFrame>& objects) {
+    Simulator& simulator = run_.At(0, index);
     simulator.Scan(index, frame);
-    objects = survey.Describe(frame, simulator.FiringsOnObjectAlone(index));
-  };
-}
+    if (simulator.shared_world() != world_) {
+      world_ = simulator.shared_world();
+      survey_.emplace(*world_, labels_, simulator.spec().range_max_m, simulator.spec().output);
+    }
+    objects = survey_->Describe(frame, simulator.FiringsOnObjectAlone(index));
+  }
+
+ private:
+  CommandedRun& run_;
+  const LabelTable& labels_;
+  std::shared_ptr<const World> world_;
+  std::optional<ObjectSurvey> survey_;
+};
 
 class ProgressDisplay {
  public:
@@ -98,31 +136,39 @@ class ProgressDisplay {
 }  // namespace
 
 int SequenceCommand(const SequenceOptions& options) {
-  const ScenarioSpec scenario = ReadWithOverrides(options);
+  const auto [whole, scenario] = ReadWithOverrides(options);
+  const CommandLog log = ReadLog(options, whole);
   SequenceSpec spec = MakeSpec(options, scenario);
+  // A log that says nothing makes the same run as none.
+  if (!log.commands.empty()) spec.commands_jsonl = CommandLogText(log);
   if (options.is_verbose) std::cerr << "read " << options.scenario.string() << "\n";
   const auto simulator = MakeSimulator(scenario, options.num_threads);
   if (options.is_verbose) {
     std::cerr << "made the simulator: " << simulator->pattern().num_firings()
-              << " firings a frame, " << simulator->world().objects().size() << " objects\n";
+              << " firings a frame, " << simulator->world().objects().size() << " objects, "
+              << log.commands.size() << " commands\n";
   }
-  // The simulator's world is the one that the scenario describes.
-  CheckStaysOnTracks(scenario, dynamic_cast<const RailWorld&>(simulator->world()),
-                     simulator->pattern(), spec.start_frame,
+  CommandedRun run(scenario, {simulator.get()});
+  run.Apply(log.commands);
+  CheckStaysOnTracks(run, simulator->pattern(), spec.start_frame,
                      spec.start_frame + spec.num_frames - 1);
   if (scenario.fidelity == kAutoFidelity) {
     const FidelityChoice choice = UseChosenFidelity(*simulator, scenario);
     spec.fidelity_choice_json = ChoiceJson(choice, scenario.tolerance);
     std::cout << ChoiceText(choice, scenario.tolerance) << std::flush;
   }
-  const ObjectSurvey survey(simulator->world(), spec.files.labels, scenario.lidar.range_max_m,
-                            scenario.output);
+  SurveyedRun frames(run, spec.files.labels);
   StopAfterThisFrameOnSignals();
   ProgressDisplay display;
   const SequenceHooks hooks = {
       [&](std::uint32_t num_done, std::uint32_t num_frames) { display.Show(num_done, num_frames); },
       [] { return stop_requested.load(); }};
-  const SequenceResult result = RunSequence(spec, MakeSource(*simulator, survey), hooks);
+  const SequenceResult result = RunSequence(
+      spec,
+      [&](std::uint32_t index, Frame& frame, std::vector<ObjectInFrame>& objects) {
+        frames.Make(index, frame, objects);
+      },
+      hooks);
   std::cout << Summary(spec, result);
   if (result.is_complete) return kExitSuccess;
   std::cerr << "interrupted; the same command continues with frame "

@@ -69,4 +69,32 @@ void CheckStaysOnTracks(const ScenarioSpec& scenario,
   errors.ThrowIfAny();
 }
 
+void CheckStaysOnTracks(const CommandedRun& run,
+                        const ScanPattern& pattern,
+                        std::uint32_t first_frame,
+                        std::uint32_t last_frame) {
+  // The first frame, up to the one after the last, that is stamped at that time or later.
+  const auto first_at = [&](std::int64_t time_ns) {
+    std::uint32_t begin = first_frame;
+    std::uint32_t end = last_frame + 1;
+    while (begin < end) {
+      const std::uint32_t middle = begin + (end - begin) / 2;
+      if (pattern.StampNs(middle) < time_ns) {
+        begin = middle + 1;
+      } else {
+        end = middle;
+      }
+    }
+    return begin;
+  };
+  const std::vector<CommandedRun::State>& states = run.states();
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const std::uint32_t begin = i == 0 ? first_frame : first_at(states[i].time_ns);
+    const std::uint32_t end =
+        i + 1 < states.size() ? first_at(states[i + 1].time_ns) : last_frame + 1;
+    if (begin >= end) continue;
+    CheckStaysOnTracks(run.scenario(), *states[i].world, pattern, begin, end - 1);
+  }
+}
+
 }  // namespace railcast

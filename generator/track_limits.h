@@ -5,6 +5,7 @@
 #include "core/rail/rail_world.h"
 #include "core/scan/scan_pattern.h"
 #include "core/scenario/scenario_spec.h"
+#include "generator/commanded_run.h"
 
 namespace railcast {
 
@@ -15,6 +16,12 @@ namespace railcast {
 ///   "command: the vehicle leaves track ...".
 void CheckStaysOnTracks(const ScenarioSpec& scenario,
                         const RailWorld& world,
+                        const ScanPattern& pattern,
+                        std::uint32_t first_frame,
+                        std::uint32_t last_frame);
+
+/// The same of a run's worlds, each for the frames that it holds for.
+void CheckStaysOnTracks(const CommandedRun& run,
                         const ScanPattern& pattern,
                         std::uint32_t first_frame,
                         std::uint32_t last_frame);
