@@ -52,7 +52,7 @@ ScenarioSpec PickSensor(const ScenarioSpec& spec, const std::optional<std::strin
     throw InputError("sensor: must be " + InWords(names) + " (got \"" + *name + "\")");
   }
   if (!name && names.size() > 1) {
-    throw InputError("sensor: must be named, as " + InWords(names) + ": the scenario has several");
+    throw InputError("sensor: must be " + InWords(names) + " (got none of the scenario's sensors)");
   }
   if (spec.lidars.empty()) return spec;
   const auto index = static_cast<std::size_t>(
