@@ -7,6 +7,8 @@
 
 #include "core/base/attempt.h"
 #include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/base/units.h"
 #include "core/scenario/scenario.h"
 #include "generator/track_limits.h"
 
@@ -60,16 +62,16 @@ void CommandedRun::Reset() {
 }
 
 void CommandedRun::Apply(const Command& command, std::int64_t time_ns) {
-  Check(time_ns >= states_.back().time_ns, "commands come by rising time");
   if (std::holds_alternative<railcast::Reset>(command)) return Reset();
+  Check(time_ns >= states_.back().time_ns, "commands come by rising time");
   if (std::holds_alternative<Step>(command)) return;
   State changed = states_.back();
   changed.time_ns = time_ns;
   ErrorList faults;
-  Attempt("command: ", faults, [&] {
+  static_cast<void>(Attempt("command: ", faults, [&] {
     std::visit(Effect{scenario_, time_ns, changed}, command);
     return true;
-  });
+  }));
   faults.ThrowIfAny();
   // Of several at one time the last holds, and no frame sees those before it.
   if (states_.back().time_ns == time_ns) states_.pop_back();
@@ -77,7 +79,15 @@ void CommandedRun::Apply(const Command& command, std::int64_t time_ns) {
 }
 
 void CommandedRun::Apply(const std::vector<TimedCommand>& commands) {
-  for (const TimedCommand& timed : commands) Apply(timed.command, timed.time_ns);
+  for (const TimedCommand& timed : commands) {
+    ErrorList faults;
+    const std::string place = "at " + NumberText(SecondsFromNs(timed.time_ns)) + " s: ";
+    static_cast<void>(Attempt(place, faults, [&] {
+      Apply(timed.command, timed.time_ns);
+      return true;
+    }));
+    faults.ThrowIfAny();
+  }
 }
 
 void CommandedRun::ForgetBefore(std::int64_t time_ns) {

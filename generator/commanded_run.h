@@ -21,9 +21,10 @@ class CommandedRun {
   CommandedRun(ScenarioSpec scenario, std::vector<Simulator*> simulators);
 
   /// Lets a command take effect. Step changes nothing; Reset is Reset().
-  /// @pre time_ns >= 0, and not less than that of the command before it.
+  /// @pre time_ns >= 0, and not less than that of the command before it unless that is Reset.
   /// @throws InputError "command: /object/track: rule (got value)"; nothing has changed then.
   void Apply(const Command& command, std::int64_t time_ns);
+  /// The same of a log; its lines begin with "at 1.5 s: ".
   void Apply(const std::vector<TimedCommand>& commands);
   /// Back to the scenario alone; times begin anew.
   void Reset();

@@ -1,11 +1,9 @@
-#include <signal.h>
-
-#include <atomic>
 #include <chrono>
 #include <iostream>
 #include <optional>
 #include <utility>
 
+#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/fidelity/choice_report.h"
 #include "core/scenario/command_log.h"
@@ -17,25 +15,13 @@
 #include "generator/object_survey.h"
 #include "generator/run_sequence.h"
 #include "generator/scenario_identity.h"
+#include "generator/stop_signal.h"
 #include "generator/summary.h"
 #include "generator/terminal_line.h"
 #include "generator/track_limits.h"
 
 namespace railcast {
 namespace {
-
-// A signal handler can reach nothing else.
-std::atomic<bool> stop_requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
-
-void StopAfterThisFrameOnSignals() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { stop_requested = true; };
-  // A second Ctrl-C ends the program at once; the directory can be resumed all the same.
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
-}
 
 // The whole scenario, of which a log is, and the one sensor that the frames are of.
 struct Scenarios {
@@ -58,17 +44,20 @@ Scenarios ReadWithOverrides(const SequenceOptions& options) {
   return {std::move(scenario), std::move(of_sensor)};
 }
 
-// What the log says since its last reset.
-CommandLog ReadLog(const SequenceOptions& options, const ScenarioSpec& whole) {
-  const std::string scenario_hash = IdentityOf(whole).scenario_hash;
-  if (!options.commands) return {scenario_hash, {}};
-  CommandLog log = ReadCommandLog(*options.commands);
-  if (log.scenario_xxh3 != scenario_hash) {
+// What the log says since its last reset. It may be of all the scenario's sensors or of this one.
+CommandLog ReadLog(const SequenceOptions& options, const Scenarios& scenarios) {
+  CommandLog log;
+  if (!options.commands) return log;
+  log = ReadCommandLog(*options.commands);
+  const std::string whole = IdentityOf(scenarios.whole).scenario_hash;
+  if (log.scenario_xxh3 != whole &&
+      log.scenario_xxh3 != IdentityOf(scenarios.of_sensor).scenario_hash) {
     throw InputError(options.commands->string() +
-                     ": is the log of another scenario, or of another --seed or --fidelity "
-                     "(its scenario_xxh3 is " +
-                     log.scenario_xxh3 + ", got " + scenario_hash + ")");
+                     ": must be the log of this scenario with this --seed and --fidelity, " +
+                     whole + " (got that of " + log.scenario_xxh3 + ")");
   }
+  // So that a log of all sensors and one of this one make the same run.
+  log.scenario_xxh3 = whole;
   return log;
 }
 
@@ -136,8 +125,9 @@ class ProgressDisplay {
 }  // namespace
 
 int SequenceCommand(const SequenceOptions& options) {
-  const auto [whole, scenario] = ReadWithOverrides(options);
-  const CommandLog log = ReadLog(options, whole);
+  const Scenarios scenarios = ReadWithOverrides(options);
+  const ScenarioSpec& scenario = scenarios.of_sensor;
+  const CommandLog log = ReadLog(options, scenarios);
   SequenceSpec spec = MakeSpec(options, scenario);
   // A log that says nothing makes the same run as none.
   if (!log.commands.empty()) spec.commands_jsonl = CommandLogText(log);
@@ -149,7 +139,12 @@ int SequenceCommand(const SequenceOptions& options) {
               << log.commands.size() << " commands\n";
   }
   CommandedRun run(scenario, {simulator.get()});
-  run.Apply(log.commands);
+  ErrorList faults;
+  static_cast<void>(Attempt(options.commands.value_or("").string() + ": ", faults, [&] {
+    run.Apply(log.commands);
+    return true;
+  }));
+  faults.ThrowIfAny();
   CheckStaysOnTracks(run, simulator->pattern(), spec.start_frame,
                      spec.start_frame + spec.num_frames - 1);
   if (scenario.fidelity == kAutoFidelity) {
@@ -158,11 +153,12 @@ int SequenceCommand(const SequenceOptions& options) {
     std::cout << ChoiceText(choice, scenario.tolerance) << std::flush;
   }
   SurveyedRun frames(run, spec.files.labels);
-  StopAfterThisFrameOnSignals();
+  // Whatever ends the program, the directory can be resumed.
+  CatchStopSignals();
   ProgressDisplay display;
   const SequenceHooks hooks = {
       [&](std::uint32_t num_done, std::uint32_t num_frames) { display.Show(num_done, num_frames); },
-      [] { return stop_requested.load(); }};
+      StopRequested};
   const SequenceResult result = RunSequence(
       spec,
       [&](std::uint32_t index, Frame& frame, std::vector<ObjectInFrame>& objects) {

@@ -1,0 +1,159 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <future>
+#include <numeric>
+#include <set>
+#include <string>
+#include <thread>
+
+#include "core/io/net/udp_receiver.h"
+#include "core/io/net/udp_sender.h"
+#include "tests/core/io/message_of.h"
+
+namespace railcast {
+namespace {
+
+constexpr Endpoint kAnyLoopbackPort{0x7F000001, 0};
+constexpr int kPatience_ms = 10'000;
+
+// Datagrams of these sizes, each full of its own number.
+Datagrams MakeDatagrams(const std::vector<std::uint16_t>& sizes) {
+  Datagrams datagrams;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    datagrams.items.push_back({.offset = datagrams.bytes.size(), .size = sizes[i]});
+    datagrams.bytes.insert(datagrams.bytes.end(), sizes[i], static_cast<char>(i));
+  }
+  return datagrams;
+}
+
+std::vector<std::string> ReceiveAll(UdpReceiver& receiver, std::size_t count) {
+  std::vector<std::string> received;
+  while (received.size() < count) {
+    const auto next = receiver.Receive(kPatience_ms);
+    if (!next) break;
+    received.emplace_back(next->bytes.begin(), next->bytes.end());
+  }
+  return received;
+}
+
+std::vector<std::string> Expected(const Datagrams& datagrams) {
+  std::vector<std::string> expected;
+  for (const Datagrams::Item& item : datagrams.items) {
+    const auto bytes = datagrams.BytesOf(item);
+    expected.emplace_back(bytes.begin(), bytes.end());
+  }
+  return expected;
+}
+
+TEST(UdpSender, DeliversDatagramsOfAnySizesWholeAndInOrder) {
+  UdpReceiver receiver(kAnyLoopbackPort);
+  UdpSender sender({receiver.at()}, 1);
+  const Datagrams datagrams = MakeDatagrams({10, 10, 10, 3, 1400, 7, 7, 9, 1206, 1206, 512});
+  sender.Send(datagrams, datagrams.items);
+  EXPECT_EQ(ReceiveAll(receiver, datagrams.items.size()), Expected(datagrams));
+  EXPECT_EQ(sender.counts().sent, datagrams.items.size());
+  EXPECT_EQ(sender.counts().refused, 0U);
+}
+
+TEST(UdpSender, CutsRunsThatAreLongerThanTheKernelTakes) {
+  UdpReceiver receiver(kAnyLoopbackPort);
+  UdpSender sender({receiver.at()}, 1);
+  // 65,507 bytes hold 46 of the large ones; 64 is the limit for the small ones.
+  std::vector<std::uint16_t> sizes(47, 1400);
+  sizes.insert(sizes.end(), 65, 20);
+  sizes.push_back(1);
+  const Datagrams datagrams = MakeDatagrams(sizes);
+  sender.Send(datagrams, datagrams.items);
+  EXPECT_EQ(ReceiveAll(receiver, sizes.size()), Expected(datagrams));
+}
+
+TEST(UdpSender, ServesEveryReceiver) {
+  UdpReceiver first(kAnyLoopbackPort);
+  UdpReceiver second(kAnyLoopbackPort);
+  UdpSender sender({first.at(), second.at()}, 1);
+  const Datagrams datagrams = MakeDatagrams({5, 5, 5});
+  sender.Send(datagrams, datagrams.items);
+  EXPECT_EQ(ReceiveAll(first, 3), Expected(datagrams));
+  EXPECT_EQ(ReceiveAll(second, 3), Expected(datagrams));
+  EXPECT_EQ(sender.counts().sent, 6U);
+}
+
+TEST(UdpSender, SendsPositionsToTheirOwnPort) {
+  UdpReceiver data(kAnyLoopbackPort);
+  UdpReceiver position(kAnyLoopbackPort);
+  UdpSender sender({data.at()}, position.at().port);
+  Datagrams datagrams = MakeDatagrams({4, 4, 4});
+  datagrams.items[1].port = DatagramPort::kPosition;
+  sender.Send(datagrams, datagrams.items);
+  const auto expected = Expected(datagrams);
+  EXPECT_EQ(ReceiveAll(data, 2), (std::vector{expected[0], expected[2]}));
+  EXPECT_EQ(ReceiveAll(position, 1), (std::vector{expected[1]}));
+}
+
+TEST(UdpSender, NeverWaitsForAReceiverThatDoesNotRead) {
+  UdpReceiver receiver(kAnyLoopbackPort);
+  UdpSender sender({receiver.at()}, 1);
+  // More than any receive buffer holds: what does not fit is lost there, and sending goes on.
+  const Datagrams datagrams = MakeDatagrams(std::vector<std::uint16_t>(1000, 1400));
+  for (int i = 0; i < 100; ++i) sender.Send(datagrams, datagrams.items);
+  EXPECT_EQ(sender.counts().sent + sender.counts().refused, 100'000U);
+}
+
+TEST(UdpSender, NeverMindsAReceiverThatIsGone) {
+  Endpoint gone;
+  {
+    UdpReceiver receiver(kAnyLoopbackPort);
+    gone = receiver.at();
+  }
+  UdpReceiver alive(kAnyLoopbackPort);
+  UdpSender sender({gone, alive.at()}, 1);
+  const Datagrams datagrams = MakeDatagrams({8, 8});
+  for (int i = 0; i < 50; ++i) sender.Send(datagrams, datagrams.items);
+  EXPECT_EQ(ReceiveAll(alive, 100).size(), 100U);
+}
+
+TEST(UdpSender, BroadcastsOnlyWhereAskedByName) {
+  EXPECT_NO_THROW(UdpSender({Endpoint{0xFFFFFFFF, 2368}}, 1));
+  EXPECT_EQ(MessageOf([] {
+              return UdpSender({Endpoint{0x7FFFFFFF, 2368}}, 1).counts();
+            }),
+            "must be no network's broadcast address; 255.255.255.255 is one (got "
+            "127.255.255.255:2368)");
+}
+
+TEST(UdpReceiver, RefusesAPortThatIsTaken) {
+  UdpReceiver first(kAnyLoopbackPort);
+  EXPECT_EQ(MessageOf([&] { return UdpReceiver(first.at()).at(); }),
+            "cannot listen: Address already in use (got " + EndpointText(first.at()) + ")");
+}
+
+TEST(UdpReceiver, GivesNothingWhenNothingComes) {
+  UdpReceiver receiver(kAnyLoopbackPort);
+  EXPECT_FALSE(receiver.Receive(1).has_value());
+}
+
+TEST(UdpReceiver, IsInterruptedWhileItWaits) {
+  UdpReceiver receiver(kAnyLoopbackPort);
+  auto waiting = std::async(std::launch::async, [&] { return receiver.Receive(-1).has_value(); });
+  receiver.Interrupt();
+  ASSERT_EQ(waiting.wait_for(std::chrono::seconds(10)), std::future_status::ready);
+  EXPECT_FALSE(waiting.get());
+  EXPECT_FALSE(receiver.Receive(-1).has_value());
+}
+
+TEST(UdpReceiver, AnswersWhoAsked) {
+  UdpReceiver server(kAnyLoopbackPort);
+  UdpReceiver client(kAnyLoopbackPort);
+  const std::string question = "?";
+  client.Answer(question, server.at());
+  const auto asked = server.Receive(kPatience_ms);
+  ASSERT_TRUE(asked.has_value());
+  EXPECT_EQ(asked->from, client.at());
+  const std::string answer = "!";
+  server.Answer(answer, asked->from);
+  EXPECT_EQ(ReceiveAll(client, 1), std::vector<std::string>{"!"});
+}
+
+}  // namespace
+}  // namespace railcast
