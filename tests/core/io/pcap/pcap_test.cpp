@@ -193,7 +193,7 @@ TEST(PcapReader, SaysWhereAFileIsDamaged) {
   EXPECT_EQ(said(""), "truncated dump file; tried to read 4 file header bytes, only got 0");
   EXPECT_EQ(said("this is no capture, far from it"), "unknown file format");
   EXPECT_EQ(said(sound.substr(0, 20)),
-            "truncated dump file; tried to read 24 file header bytes, only got 20");
+            "truncated dump file; tried to read 24 file header bytes, only got 16");
   EXPECT_EQ(said(sound.substr(0, 24 + 5)),
             "packet 0: truncated dump file; tried to read 16 header bytes, only got 5");
   EXPECT_EQ(said(sound.substr(0, 24 + 16 + 1248 + 16 + 100)),

@@ -62,16 +62,16 @@ TEST(CalibrationXml, SaysWhatIsWrongWithAFile) {
   EXPECT_EQ(Said("<a><b></a>"), "db.xml: line 1: must be XML (mismatched tag)");
   EXPECT_EQ(Said("<a/>"), "db.xml: must have a <px> with id_ 0");
   EXPECT_EQ(SaidWith("<id_>63</id_>", "<id_>5</id_>"),
-            "db.xml: line 1015: every id_ must be there once (got \"5\")");
+            "db.xml: line 902: every id_ must be there once (got \"5\")");
   EXPECT_EQ(SaidWith("<id_>0</id_>", "<id_>64</id_>"),
-            "db.xml: line 19: id_ must be 0 to 63 (got \"64\")");
-  EXPECT_EQ(SaidWith("<id_>0</id_>", ""), "db.xml: line 19: id_ must be 0 to 63 (got \"nan\")");
+            "db.xml: line 20: id_ must be 0 to 63 (got \"64\")");
+  EXPECT_EQ(SaidWith("<id_>0</id_>", ""), "db.xml: line 20: id_ must be 0 to 63 (got \"nan\")");
   EXPECT_EQ(SaidWith("<vertCorrection_>-8.769<", "<vertCorrection_>-98.769<"),
-            "db.xml: line 19: vertCorrection_ must be >= -90 and <= 90 (got \"-98.769\")");
+            "db.xml: line 20: vertCorrection_ must be >= -90 and <= 90 (got \"-98.769\")");
   EXPECT_EQ(SaidWith("<rotCorrection_>-7.156<", "<rotCorrection_>7,1<"),
-            "db.xml: line 10: rotCorrection_ must be a number (got \"7,1\")");
+            "db.xml: line 11: rotCorrection_ must be a number (got \"7,1\")");
   EXPECT_EQ(SaidWith("<rotCorrection_>-7.156<", "<rotCorrection_>inf<"),
-            "db.xml: line 10: rotCorrection_ must be a number (got \"inf\")");
+            "db.xml: line 11: rotCorrection_ must be a number (got \"inf\")");
   EXPECT_EQ(SaidWith("0.2</distLSB_>", "0.4</distLSB_>"),
             "db.xml: line 5: distLSB_ must be 0.2 (got \"0.4\")");
   EXPECT_EQ(Said(std::string((1U << 20U) + 1, ' ')),

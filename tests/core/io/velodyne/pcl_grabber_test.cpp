@@ -29,6 +29,8 @@
 namespace railcast {
 namespace {
 
+constexpr std::uint32_t kLoopback = 0x7F000001;
+
 using Sweep = pcl::PointCloud<pcl::PointXYZI>;
 
 /// Which points PCL must make of a turn: the slot, and the azimuth that it takes for it.
@@ -253,11 +255,11 @@ TEST_P(PclGrabber, ReadsCapturesOfSimulatedScans) {
 TEST_P(PclGrabber, HearsOurPacketsOnLoopback) {
   const std::vector<Frame> frames = MadeFrames(format(), scan());
   const Datagrams datagrams = EncodeAll(format(), scan(), frames);
-  const std::uint16_t port = UdpReceiver(ParseEndpoint("127.0.0.1:0", 0)).at().port;
+  const std::uint16_t port = UdpReceiver(Endpoint{kLoopback, 0}).at().port;
   const auto grabber = GrabberOfPort(format(), CalibrationFile(), port);
   Sweeps sweeps(*grabber);
   grabber->start();
-  UdpSender sender({Endpoint{0x7F000001, port}}, port);
+  UdpSender sender({Endpoint{kLoopback, port}}, port);
   for (const Datagrams::Item& item : datagrams.items) {
     sender.Send(datagrams, {&item, 1});
     // Paced by the receiver itself: its buffer holds 92 packets.

@@ -12,11 +12,11 @@ constexpr std::int64_t kDay_ns = 86'400 * kSecond_ns;
 
 TEST(GprmcSentence, CountsFromTheFirstOfJanuary2000) {
   // Checksums: exclusive or of all characters between $ and *.
-  EXPECT_EQ(GprmcSentence(0), "$GPRMC,000000,V,,,,,,,010100,,,N*44\r\n");
-  EXPECT_EQ(GprmcSentence(kDay_ns - 1), "$GPRMC,235959,V,,,,,,,010100,,,N*4E\r\n");
-  EXPECT_EQ(GprmcSentence(kDay_ns), "$GPRMC,000000,V,,,,,,,020100,,,N*47\r\n");
+  EXPECT_EQ(GprmcSentence(0), "$GPRMC,000000,V,,,,,,,010100,,,N*53\r\n");
+  EXPECT_EQ(GprmcSentence(kDay_ns - 1), "$GPRMC,235959,V,,,,,,,010100,,,N*52\r\n");
+  EXPECT_EQ(GprmcSentence(kDay_ns), "$GPRMC,000000,V,,,,,,,020100,,,N*50\r\n");
   EXPECT_EQ(GprmcSentence(59 * kDay_ns + 3'661 * kSecond_ns),
-            "$GPRMC,010101,V,,,,,,,290200,,,N*4C\r\n");
+            "$GPRMC,010101,V,,,,,,,290200,,,N*5B\r\n");
 }
 
 TEST(GprmcSentence, HasTheChecksumOfItsText) {
@@ -40,7 +40,7 @@ TEST(PositionPacket, SaysClockPulseAndSentenceWhereDecodersLook) {
   ASSERT_EQ(packet.size(), 512U);
   EXPECT_EQ(LoadAt<std::uint32_t>(packet.data() + 0xC6), 17'000'000U);
   EXPECT_EQ(packet[0xCA], 2);
-  EXPECT_EQ(std::string(packet.data() + 0xCE), "$GPRMC,010017,V,,,,,,,020100,,,N*41\r\n");
+  EXPECT_EQ(std::string(packet.data() + 0xCE), "$GPRMC,010017,V,,,,,,,020100,,,N*57\r\n");
 }
 
 }  // namespace

@@ -52,7 +52,10 @@ TEST(VelodyneEncoder, CompletesWithTheNextFrameWhatAFrameLeaves) {
 
 TEST(VelodyneEncoder, WritesBlocksAsTheManualShowsThem) {
   const MadeScan scan(ReadSensor("vlp16"));
-  const Frame frame = scan.MakeFrame(0);
+  Frame frame = scan.MakeFrame(0);
+  // Laser 2 looks 13 deg down: row 1. The second half of a block is the next column.
+  frame.range_m[1 * 1808 + 6] = 40.0F;
+  frame.range_m[1 * 1808 + 7] = 41.25F;
   const Datagrams datagrams = EncodeAll("vlp16", scan, {frame});
   const auto packet = DataPackets(datagrams)[0];
   ASSERT_EQ(packet.size(), 1206U);
@@ -65,9 +68,8 @@ TEST(VelodyneEncoder, WritesBlocksAsTheManualShowsThem) {
   EXPECT_EQ(TimeIn(packet), 0U);
   EXPECT_EQ(static_cast<unsigned char>(packet[1204]), 0x37);
   EXPECT_EQ(static_cast<unsigned char>(packet[1205]), 0x22);
-  // Laser 2 looks 13 deg down: row 1. The second half of a block is the next column.
-  EXPECT_NEAR(DistanceIn(packet, 3, 2) * 0.002, frame.range_m[1 * 1808 + 6], 0.00101);
-  EXPECT_NEAR(DistanceIn(packet, 3, 18) * 0.002, frame.range_m[1 * 1808 + 7], 0.00101);
+  EXPECT_EQ(DistanceIn(packet, 3, 2), 20'000);
+  EXPECT_EQ(DistanceIn(packet, 3, 18), 20'625);
 }
 
 TEST(VelodyneEncoder, PutsTheUpperHalfOfHdl64eIntoBlocksOfTheirOwn) {
