@@ -1,6 +1,3 @@
-#include <signal.h>
-
-#include <atomic>
 #include <chrono>
 #include <iostream>
 
@@ -14,25 +11,13 @@
 #include "generator/object_survey.h"
 #include "generator/run_sequence.h"
 #include "generator/scenario_identity.h"
+#include "generator/stop_signal.h"
 #include "generator/summary.h"
 #include "generator/terminal_line.h"
 #include "generator/track_limits.h"
 
 namespace railcast {
 namespace {
-
-// A signal handler can reach nothing else.
-std::atomic<bool> stop_requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
-
-void StopAfterThisFrameOnSignals() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { stop_requested = true; };
-  // A second Ctrl-C ends the program at once; the directory can be resumed all the same.
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
-}
 
 ScenarioSpec ReadWithOverrides(const SequenceOptions& options) {
   ScenarioSpec scenario = ReadScenario(options.scenario);
@@ -117,11 +102,12 @@ int SequenceCommand(const SequenceOptions& options) {
   }
   const ObjectSurvey survey(simulator->world(), spec.files.labels, scenario.lidar.range_max_m,
                             scenario.output);
-  StopAfterThisFrameOnSignals();
+  // Whatever ends the program, the directory can be resumed.
+  CatchStopSignals();
   ProgressDisplay display;
   const SequenceHooks hooks = {
       [&](std::uint32_t num_done, std::uint32_t num_frames) { display.Show(num_done, num_frames); },
-      [] { return stop_requested.load(); }};
+      StopRequested};
   const SequenceResult result = RunSequence(spec, MakeSource(*simulator, survey), hooks);
   std::cout << Summary(spec, result);
   if (result.is_complete) return kExitSuccess;

@@ -10,9 +10,11 @@ build_packages=(
   libcli11-dev
   libeigen3-dev
   libembree-dev
+  libexpat1-dev
   libgmock-dev
   libgtest-dev
   libopenmesh-dev
+  libpcap-dev
   libpcl-dev
   librandom123-dev
   libtbb-dev

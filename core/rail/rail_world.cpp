@@ -1,5 +1,6 @@
 #include "core/rail/rail_world.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -8,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/error.h"
 #include "core/rail/catenary/catenary.h"
 #include "core/rail/catenary/catenary_plan.h"
 #include "core/rail/chunk_context.h"
@@ -18,6 +20,7 @@
 #include "core/rail/line/track_path.h"
 #include "core/rail/standing_height.h"
 #include "core/rail/track/track_structure.h"
+#include "core/rail/world_check.h"
 #include "core/rail/world_draft.h"
 #include "core/scene/shapes.h"
 
@@ -26,13 +29,6 @@ namespace {
 
 // Of crowns and cantilevers beyond the ground of the chunk they belong to.
 constexpr double kOverhang_m = 8.0;
-
-/// The line and the ways along it.
-struct Ways {
-  Alignment alignment;
-  TrackPath vehicle;
-  std::vector<TrackPath> objects;  ///< In the order of RailWorld::objects().
-};
 
 bool StandsOnGround(const ObjectSpec& object) {
   return !object.h_m && !object.type.ends_with("_wagon");
@@ -59,27 +55,57 @@ Eigen::AlignedBox2d FootprintOf(const Model& model) {
   return {bounds_m.min().head<2>(), bounds_m.max().head<2>()};
 }
 
+/// Where an object is; the vehicle's own boxes are where the vehicle is.
+struct ObjectWay {
+  std::optional<TrackPath> path;
+  /// What it covers of the ground it stands on; absent where its height is given.
+  std::optional<Eigen::AlignedBox2d> footprint_m;
+  const TrackSpec* track{};  ///< Of the line's spec.
+};
+
 }  // namespace
 
-struct RailWorld::Parts {
+/// What no command changes.
+struct RailWorld::Line {
   WorldSpec world;
+  VehicleSpec vehicle;
+  LabelTable labels;
+  MaterialLibrary materials;
   std::uint64_t seed{};
-  RailSurfaces surfaces;
-  Ways ways;
+  std::optional<RailSurfaces> surfaces;
+  Alignment alignment;
   ChunkGrid grid;
   CatenaryPlan catenary_plan;
   InfrastructureModels infrastructure;
   PlantModels plants;
-  std::vector<SceneObject> objects;
-  /// By object: what it covers of the ground it stands on; empty where its height is given.
-  std::vector<std::optional<Eigen::AlignedBox2d>> footprints_m;
 
   /// With `chunk_from_world` the identity, builders work in world coordinates.
   [[nodiscard]] ChunkContext ContextOf(int chunk, const Transform& chunk_from_world) const {
-    return {world, ways.alignment,      surfaces,          seed,
+    return {world, alignment,           *surfaces,         seed,
             chunk, grid.BeginOf(chunk), grid.EndOf(chunk), chunk_from_world};
   }
+  [[nodiscard]] LineMeasures Measures() const {
+    return {alignment.length_m(), alignment.tightest_radius_m()};
+  }
 };
+
+/// The objects and the ways of all that moves.
+struct RailWorld::Things {
+  TrackPath vehicle;
+  bool has_changed_vehicle_speed = false;
+  // Shared, since most commands change only the vehicle's way.
+  std::shared_ptr<const std::vector<SceneObject>> objects;
+  std::shared_ptr<const std::vector<ObjectWay>> ways;  ///< In their order.
+  std::uint32_t next_instance = 1;
+
+  [[nodiscard]] const TrackPath& PathOf(std::size_t object) const {
+    const std::optional<TrackPath>& path = ways->at(object).path;
+    return path ? *path : vehicle;
+  }
+};
+
+RailWorld::RailWorld(std::shared_ptr<const Line> line, std::shared_ptr<const Things> things)
+    : line_(std::move(line)), things_(std::move(things)) {}
 
 RailWorld::RailWorld(const WorldSpec& world,
                      const VehicleSpec& vehicle,
@@ -90,83 +116,181 @@ RailWorld::RailWorld(const WorldSpec& world,
   WorldDraft draft = DraftWorld({world, vehicle, labels, materials}, faults);
   faults.errors.ThrowIfAny();
 
-  const RailSurfaces surfaces = *draft.surfaces;
-  Ways ways{*draft.alignment, *draft.vehicle_path, std::move(draft.object_paths)};
+  const RailSurfaces& surfaces = *draft.surfaces;
+  const Alignment& alignment = *draft.alignment;
+  line_ = std::make_shared<const Line>(
+      Line{world, vehicle, labels, materials, seed, surfaces, alignment,
+           ChunkGrid(alignment, kChunkLength_m, world.terrain.half_width_m),
+           std::move(*draft.catenary_plan), MakeInfrastructureModels(world, surfaces),
+           MakePlantModels(surfaces, seed)});
+
   std::vector<SceneObject> objects = std::move(draft.objects);
-  if (!vehicle.ego_boxes_m.empty()) {
-    objects.push_back(MakeEgo(vehicle, ways.vehicle, {surfaces.box.material, labels.Id("ego")}));
-    ways.objects.push_back(ways.vehicle);
-  }
-  std::vector<std::optional<Eigen::AlignedBox2d>> footprints_m;
+  std::vector<ObjectWay> ways;
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    objects[i].instance = static_cast<std::uint32_t>(i + 1);
-    const bool stands_on_ground = !objects[i].is_ego && StandsOnGround(world.objects[i]);
-    footprints_m.push_back(stands_on_ground ? std::optional(FootprintOf(*objects[i].model))
-                                            : std::nullopt);
+    const ObjectSpec& object = world.objects[i];
+    ways.push_back(
+        {std::move(draft.object_paths[i]),
+         StandsOnGround(object) ? std::optional(FootprintOf(*objects[i].model)) : std::nullopt,
+         FindTrack(line_->world, object.track)});
   }
-  ChunkGrid grid(ways.alignment, kChunkLength_m, world.terrain.half_width_m);
-  parts_ = std::make_unique<const Parts>(
-      Parts{world, seed, surfaces, std::move(ways), std::move(grid),
-            std::move(*draft.catenary_plan), MakeInfrastructureModels(world, surfaces),
-            MakePlantModels(surfaces, seed), std::move(objects), std::move(footprints_m)});
+  if (!vehicle.ego_boxes_m.empty()) {
+    objects.push_back(
+        MakeEgo(vehicle, *draft.vehicle_path, {surfaces.box.material, labels.Id("ego")}));
+    ways.push_back({{}, {}, FindTrack(line_->world, vehicle.track)});
+  }
+  std::uint32_t next_instance = 1;
+  for (SceneObject& object : objects) object.instance = next_instance++;
+  things_ = std::make_shared<const Things>(
+      Things{*draft.vehicle_path, false,
+             std::make_shared<const std::vector<SceneObject>>(std::move(objects)),
+             std::make_shared<const std::vector<ObjectWay>>(std::move(ways)), next_instance});
 }
 
 RailWorld::~RailWorld() = default;
 
+std::shared_ptr<const RailWorld> RailWorld::WithVehicleSpeed(std::int64_t from_ns,
+                                                             double speed_mps,
+                                                             double acceleration_mps2) const {
+  Things changed = *things_;
+  changed.vehicle = changed.vehicle.WithSpeedFrom(from_ns, speed_mps, acceleration_mps2);
+  changed.has_changed_vehicle_speed = true;
+  const auto standing_ego = [](const SceneObject& object) {
+    return object.is_ego && !object.moves;
+  };
+  if (std::any_of(changed.objects->begin(), changed.objects->end(), standing_ego)) {
+    auto objects = std::make_shared<std::vector<SceneObject>>(*changed.objects);
+    // From now on it may be anywhere, also where it comes to stand again.
+    std::find_if(objects->begin(), objects->end(), standing_ego)->moves = true;
+    changed.objects = std::move(objects);
+  }
+  return std::shared_ptr<const RailWorld>(
+      new RailWorld(line_, std::make_shared<const Things>(std::move(changed))));
+}
+
+std::shared_ptr<const RailWorld> RailWorld::WithObject(const ObjectSpec& object,
+                                                       std::int64_t from_ns) const {
+  const std::string pointer = "/object";
+  WorldFaults faults;
+  CheckObject(line_->world, object, pointer, line_->Measures(), faults);
+  const auto has_its_name = [&](const SceneObject& other) { return other.name == object.name; };
+  if (object.name == "ego" || std::any_of(objects().begin(), objects().end(), has_its_name)) {
+    faults.Add(pointer + "/name",
+               std::string("must be unique") +
+                   (object.name == "ego" ? ", and ego is the vehicle itself" : "") + " (got \"" +
+                   object.name + "\")");
+  }
+  if (things_->next_instance >= kFirstMastInstance) {
+    faults.Add(pointer, "must be one of at most " + std::to_string(kFirstMastInstance - 1) +
+                            " objects of a run, those that were removed included");
+  }
+  auto path = DraftPath(line_->world, object, pointer, from_ns, faults);
+  auto made =
+      DraftObject(object, pointer, {line_->surfaces, line_->labels, line_->materials}, faults);
+  faults.errors.ThrowIfAny();
+
+  Things changed = *things_;
+  made->moves = path->moves();
+  made->instance = changed.next_instance++;
+  auto ways = std::make_shared<std::vector<ObjectWay>>(*changed.ways);
+  ways->push_back({std::move(*path),
+                   StandsOnGround(object) ? std::optional(FootprintOf(*made->model)) : std::nullopt,
+                   FindTrack(line_->world, object.track)});
+  auto objects = std::make_shared<std::vector<SceneObject>>(*changed.objects);
+  objects->push_back(std::move(*made));
+  changed.ways = std::move(ways);
+  changed.objects = std::move(objects);
+  return std::shared_ptr<const RailWorld>(
+      new RailWorld(line_, std::make_shared<const Things>(std::move(changed))));
+}
+
+std::shared_ptr<const RailWorld> RailWorld::WithoutObject(const std::string& name) const {
+  const auto found = std::find_if(
+      objects().begin(), objects().end(),
+      [&](const SceneObject& object) { return !object.is_ego && object.name == name; });
+  if (found == objects().end()) {
+    throw InputError("/name: must be the name of an object that is there (got \"" + name + "\")");
+  }
+  const auto index = found - objects().begin();
+  Things changed = *things_;
+  auto ways = std::make_shared<std::vector<ObjectWay>>(*changed.ways);
+  ways->erase(ways->begin() + index);
+  auto objects = std::make_shared<std::vector<SceneObject>>(*changed.objects);
+  objects->erase(objects->begin() + index);
+  changed.ways = std::move(ways);
+  changed.objects = std::move(objects);
+  return std::shared_ptr<const RailWorld>(
+      new RailWorld(line_, std::make_shared<const Things>(std::move(changed))));
+}
+
 const Alignment& RailWorld::alignment() const {
-  return parts_->ways.alignment;
+  return line_->alignment;
+}
+
+const TrackSpec& RailWorld::vehicle_track() const {
+  return *FindTrack(line_->world, line_->vehicle.track);
+}
+
+bool RailWorld::has_changed_vehicle_speed() const {
+  return things_->has_changed_vehicle_speed;
+}
+
+double RailWorld::VehicleSpeed_mps(std::int64_t time_ns) const {
+  return things_->vehicle.SpeedAt_mps(time_ns);
 }
 
 double RailWorld::VehicleChainage_m(std::int64_t time_ns) const {
-  return parts_->ways.vehicle.ChainageAt(time_ns);
+  return things_->vehicle.ChainageAt(time_ns);
+}
+
+const TrackSpec& RailWorld::object_track(std::size_t object) const {
+  return *things_->ways->at(object).track;
 }
 
 double RailWorld::ObjectChainage_m(std::size_t object, std::int64_t time_ns) const {
-  return parts_->ways.objects.at(object).ChainageAt(time_ns);
+  return things_->PathOf(object).ChainageAt(time_ns);
 }
 
 Transform RailWorld::WorldFromVehicle(std::int64_t time_ns) const {
-  return parts_->ways.vehicle.WorldFromObject(parts_->ways.alignment, time_ns);
+  return things_->vehicle.WorldFromObject(line_->alignment, time_ns);
 }
 
 int RailWorld::HomeChunk(std::int64_t time_ns) const {
-  return parts_->grid.ChunkAt(parts_->ways.vehicle.ChainageAt(time_ns));
+  return line_->grid.ChunkAt(things_->vehicle.ChainageAt(time_ns));
 }
 
 std::vector<int> RailWorld::ChunksInReach(int home_chunk, double range_m) const {
-  const double aside_m = std::abs(parts_->ways.vehicle.pose().d_m);
-  return parts_->grid.WithinReach(home_chunk, range_m + aside_m + kOverhang_m);
+  const double aside_m = std::abs(things_->vehicle.pose().d_m);
+  return line_->grid.WithinReach(home_chunk, range_m + aside_m + kOverhang_m);
 }
 
 Transform RailWorld::WorldFromChunk(int chunk) const {
-  return parts_->grid.WorldFromChunk(chunk);
+  return line_->grid.WorldFromChunk(chunk);
 }
 
 Chunk RailWorld::BuildChunk(int chunk) const {
-  const ChunkContext context =
-      parts_->ContextOf(chunk, parts_->grid.WorldFromChunk(chunk).inverse());
+  const ChunkContext context = line_->ContextOf(chunk, line_->grid.WorldFromChunk(chunk).inverse());
   Chunk built;
   built.ground.name = "chunk " + std::to_string(chunk);
   AddTerrain(context, built);
-  AddTracks(context, parts_->infrastructure, built);
-  AddCatenary(context, parts_->catenary_plan, parts_->infrastructure, built);
-  AddVegetation(context, parts_->plants, built);
+  AddTracks(context, line_->infrastructure, built);
+  AddCatenary(context, line_->catenary_plan, line_->infrastructure, built);
+  AddVegetation(context, line_->plants, built);
   return built;
 }
 
 const std::vector<SceneObject>& RailWorld::objects() const {
-  return parts_->objects;
+  return *things_->objects;
 }
 
 Transform RailWorld::WorldFromObject(std::size_t object, std::int64_t time_ns) const {
-  const TrackPath& path = parts_->ways.objects.at(object);
-  Transform world_from_object = path.WorldFromObject(parts_->ways.alignment, time_ns);
-  if (const auto& area_m = parts_->footprints_m[object]) {
+  const TrackPath& path = things_->PathOf(object);
+  Transform world_from_object = path.WorldFromObject(line_->alignment, time_ns);
+  if (const auto& area_m = things_->ways->at(object).footprint_m) {
     const double s_m = path.ChainageAt(time_ns);
     const Footprint footprint{s_m, path.pose().d_m, path.pose().heading_rad, *area_m};
-    const int chunk = parts_->grid.ChunkAt(s_m);
+    const int chunk = line_->grid.ChunkAt(s_m);
     world_from_object.translation().z() =
-        StandingHeight_m(parts_->ContextOf(chunk, Transform::Identity()), footprint);
+        StandingHeight_m(line_->ContextOf(chunk, Transform::Identity()), footprint);
   }
   return world_from_object;
 }

@@ -125,26 +125,6 @@ const TrackSpec* CheckPlace(const WorldSpec& world,
   return track;
 }
 
-void CheckObject(const WorldSpec& world,
-                 std::size_t index,
-                 const LineMeasures& line,
-                 WorldFaults& faults) {
-  const ObjectSpec& object = world.objects[index];
-  const std::string pointer = Item("/world/objects/", index);
-  const TrackPlace place{pointer + "/track", pointer + "/s_m", object.track, object.s_m};
-  const TrackSpec* track = CheckPlace(world, place, line, faults);
-  if (track == nullptr) return;
-  const double from_axis_m = track->offset_m + object.d_m;
-  if (faults.AreKnown({pointer + "/d_m", PointerOf(*track, world) + "/offset_m", kHalfWidth}) &&
-      !(std::abs(from_axis_m) <= world.terrain.half_width_m)) {
-    faults.Add(pointer + "/d_m", "must put it within the ground's half width of " +
-                                     NumberText(world.terrain.half_width_m) +
-                                     " m (got track offset " + NumberText(track->offset_m) +
-                                     " + d_m " + NumberText(object.d_m) + " = " +
-                                     NumberText(from_axis_m) + ")");
-  }
-}
-
 void CheckNames(const WorldSpec& world, WorldFaults& faults) {
   // The instance ids from there on are the masts'; one is the vehicle's own.
   constexpr std::size_t kMaxObjects = kFirstMastInstance - 2;
@@ -196,6 +176,25 @@ const TrackSpec* FindTrack(const WorldSpec& world, const std::string& name) {
   return found == world.tracks.end() ? nullptr : &*found;
 }
 
+void CheckObject(const WorldSpec& world,
+                 const ObjectSpec& object,
+                 const std::string& pointer,
+                 const LineMeasures& line,
+                 WorldFaults& faults) {
+  const TrackPlace place{pointer + "/track", pointer + "/s_m", object.track, object.s_m};
+  const TrackSpec* track = CheckPlace(world, place, line, faults);
+  if (track == nullptr) return;
+  const double from_axis_m = track->offset_m + object.d_m;
+  if (faults.AreKnown({pointer + "/d_m", PointerOf(*track, world) + "/offset_m", kHalfWidth}) &&
+      !(std::abs(from_axis_m) <= world.terrain.half_width_m)) {
+    faults.Add(pointer + "/d_m", "must put it within the ground's half width of " +
+                                     NumberText(world.terrain.half_width_m) +
+                                     " m (got track offset " + NumberText(track->offset_m) +
+                                     " + d_m " + NumberText(object.d_m) + " = " +
+                                     NumberText(from_axis_m) + ")");
+  }
+}
+
 void CheckWorld(const WorldSpec& world,
                 const VehicleSpec& vehicle,
                 const LineMeasures& line,
@@ -207,7 +206,9 @@ void CheckWorld(const WorldSpec& world,
   }
   for (std::size_t i = 0; i < world.tracks.size(); ++i) CheckTrack(world, i, line, faults);
   for (std::size_t i = 1; i < world.tracks.size(); ++i) CheckDistance(world, i, line, faults);
-  for (std::size_t i = 0; i < world.objects.size(); ++i) CheckObject(world, i, line, faults);
+  for (std::size_t i = 0; i < world.objects.size(); ++i) {
+    CheckObject(world, world.objects[i], Item("/world/objects/", i), line, faults);
+  }
   CheckNames(world, faults);
   CheckPlace(world, {"/vehicle/track", "/vehicle/start_s_m", vehicle.track, vehicle.start_s_m},
              line, faults);

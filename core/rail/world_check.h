@@ -45,6 +45,13 @@ void CheckWorld(const WorldSpec& world,
                 const LineMeasures& line,
                 WorldFaults& faults);
 
+/// Faults of one object's place, as lines that begin with `pointer`.
+void CheckObject(const WorldSpec& world,
+                 const ObjectSpec& object,
+                 const std::string& pointer,
+                 const LineMeasures& line,
+                 WorldFaults& faults);
+
 /// The track of that name, or null.
 [[nodiscard]] const TrackSpec* FindTrack(const WorldSpec& world, const std::string& name);
 

@@ -63,40 +63,6 @@ std::optional<TrackPath> DraftVehicle(const WorldSource& source, WorldFaults& fa
   return TrackPath({track->offset_m, 0.0, heading_rad, false}, std::move(*profile));
 }
 
-std::optional<TrackPath> DraftPath(const WorldSpec& world, std::size_t index, WorldFaults& faults) {
-  const ObjectSpec& object = world.objects[index];
-  const std::string place = "/world/objects/" + std::to_string(index);
-  const MotionSpec motion = object.motion.value_or(MotionSpec{});
-  auto profile = DraftProfile({place + "/motion", place + "/s_m", motion, object.s_m}, faults);
-  const TrackSpec* track = FindTrack(world, object.track);
-  if (!profile || track == nullptr) return std::nullopt;
-  const TrackPose pose{track->offset_m + object.d_m, object.h_m.value_or(0.0),
-                       RadFromDeg(object.heading_deg), !FollowsTrack(object)};
-  return TrackPath(pose, std::move(*profile));
-}
-
-// Without surfaces, label or material, which only its own faults need, a shape can still be made.
-std::optional<SceneObject> DraftObject(const WorldSource& source,
-                                       std::size_t index,
-                                       const std::optional<RailSurfaces>& surfaces,
-                                       WorldFaults& faults) {
-  ObjectSpec known = source.world.objects[index];
-  const std::string place = "/world/objects/" + std::to_string(index);
-  if (!faults.AreKnown({place + "/type", place + "/size_m", place + "/file", place + "/up",
-                        place + "/unit_m"})) {
-    return std::nullopt;
-  }
-  if (!faults.AreKnown({place + "/label", "/labels"})) known.label.reset();
-  if (!faults.AreKnown({place + "/material", "/materials"})) known.material.reset();
-  const RailSurfaces these = surfaces.value_or(RailSurfaces());
-  return Attempt(place + ": ", faults.errors, [&] {
-    return SceneObject{.name = known.name,
-                       .type = known.type,
-                       .label = ObjectLabel(known, these, source.labels),
-                       .model = MakeObjectModel(known, these, source.labels, source.materials)};
-  });
-}
-
 std::optional<CatenaryPlan> DraftCatenary(const WorldSpec& world,
                                           const std::optional<Alignment>& alignment,
                                           WorldFaults& faults) {
@@ -114,6 +80,40 @@ std::optional<CatenaryPlan> DraftCatenary(const WorldSpec& world,
 }
 
 }  // namespace
+
+std::optional<TrackPath> DraftPath(const WorldSpec& world,
+                                   const ObjectSpec& object,
+                                   const std::string& pointer,
+                                   std::int64_t begin_ns,
+                                   WorldFaults& faults) {
+  const MotionSpec motion = object.motion.value_or(MotionSpec{});
+  auto profile = DraftProfile({pointer + "/motion", pointer + "/s_m", motion, object.s_m}, faults);
+  const TrackSpec* track = FindTrack(world, object.track);
+  if (!profile || track == nullptr) return std::nullopt;
+  const TrackPose pose{track->offset_m + object.d_m, object.h_m.value_or(0.0),
+                       RadFromDeg(object.heading_deg), !FollowsTrack(object)};
+  return TrackPath(pose, std::move(*profile), begin_ns);
+}
+
+std::optional<SceneObject> DraftObject(const ObjectSpec& object,
+                                       const std::string& pointer,
+                                       const ObjectTables& tables,
+                                       WorldFaults& faults) {
+  ObjectSpec known = object;
+  if (!faults.AreKnown({pointer + "/type", pointer + "/size_m", pointer + "/file", pointer + "/up",
+                        pointer + "/unit_m"})) {
+    return std::nullopt;
+  }
+  if (!faults.AreKnown({pointer + "/label", "/labels"})) known.label.reset();
+  if (!faults.AreKnown({pointer + "/material", "/materials"})) known.material.reset();
+  const RailSurfaces these = tables.surfaces.value_or(RailSurfaces());
+  return Attempt(pointer + ": ", faults.errors, [&] {
+    return SceneObject{.name = known.name,
+                       .type = known.type,
+                       .label = ObjectLabel(known, these, tables.labels),
+                       .model = MakeObjectModel(known, these, tables.labels, tables.materials)};
+  });
+}
 
 WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
   const WorldSpec& world = source.world;
@@ -133,9 +133,11 @@ WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
     }
   }
   draft.vehicle_path = DraftVehicle(source, faults);
+  const ObjectTables tables{draft.surfaces, source.labels, source.materials};
   for (std::size_t i = 0; i < world.objects.size(); ++i) {
-    auto path = DraftPath(world, i, faults);
-    auto object = DraftObject(source, i, draft.surfaces, faults);
+    const std::string pointer = "/world/objects/" + std::to_string(i);
+    auto path = DraftPath(world, world.objects[i], pointer, 0, faults);
+    auto object = DraftObject(world.objects[i], pointer, tables, faults);
     if (!path || !object) continue;
     object->moves = path->moves();
     draft.object_paths.push_back(std::move(*path));

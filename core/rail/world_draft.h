@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/frame/labels.h"
@@ -23,6 +25,14 @@ struct WorldSource {
   const MaterialLibrary& materials;
 };
 
+/// What objects are made with. Without surfaces, which only their own faults lack, a shape can
+/// still be made.
+struct ObjectTables {
+  const std::optional<RailSurfaces>& surfaces;
+  const LabelTable& labels;
+  const MaterialLibrary& materials;
+};
+
 /// The parts of a world, as far as their specs are sound: all of them if there was no fault.
 struct WorldDraft {
   std::optional<Alignment> alignment;
@@ -32,6 +42,18 @@ struct WorldDraft {
   std::vector<SceneObject> objects;
   std::optional<CatenaryPlan> catenary_plan;
 };
+
+/// What is not known of `object` is left out; its faults begin with `pointer`.
+[[nodiscard]] std::optional<TrackPath> DraftPath(const WorldSpec& world,
+                                                 const ObjectSpec& object,
+                                                 const std::string& pointer,
+                                                 std::int64_t begin_ns,
+                                                 WorldFaults& faults);
+/// The same of what it is; without `moves` and `instance`.
+[[nodiscard]] std::optional<SceneObject> DraftObject(const ObjectSpec& object,
+                                                     const std::string& pointer,
+                                                     const ObjectTables& tables,
+                                                     WorldFaults& faults);
 
 /// Makes what can be made and adds every fault that shows in doing so. What `faults` does not know
 /// is left out, and so is what depends on it.

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/base/units.h"
+#include "core/scan/channel_rows.h"
 #include "core/scan/firing.h"
 
 namespace railcast {
@@ -67,19 +67,6 @@ void CheckSpec(const SpinningSpec& spec, double rate_hz, ErrorList& errors) {
   if (num_firings > static_cast<double>(kMaxNumFirings) || spec.channels.size() > 65536) {
     errors.Add(Fault("/pattern", "must have at most 16777216 firings", num_firings));
   }
-}
-
-/// The row of each channel: its rank in elevation, from the lowest.
-std::vector<std::uint16_t> RowsByElevation(const std::vector<ChannelSpec>& channels) {
-  std::vector<std::size_t> by_elevation(channels.size());
-  std::iota(by_elevation.begin(), by_elevation.end(), std::size_t{0});
-  std::ranges::stable_sort(by_elevation, {},
-                           [&](std::size_t i) { return channels[i].elevation_deg; });
-  std::vector<std::uint16_t> rows(channels.size());
-  for (std::size_t rank = 0; rank < rows.size(); ++rank) {
-    rows[by_elevation[rank]] = static_cast<std::uint16_t>(rank);
-  }
-  return rows;
 }
 
 }  // namespace

@@ -27,11 +27,6 @@ std::string ShownName(const Node& node) {
   return (fs::path(node.file->shown).parent_path() / name).lexically_normal().string();
 }
 
-// Whether a key belongs to the file, not to the object that is its root.
-bool IsOfFile(const Node& node, const std::string& key) {
-  return node.pointer.empty() && (key == "version" || key == "$schema");
-}
-
 // Why a file cannot be read; empty if it can.
 std::string Obstacle(const fs::path& file) {
   std::error_code error;
@@ -65,6 +60,16 @@ std::optional<Node> JsonSource::Open(const fs::path& file) {
   if (root) sources_.Add("", shown, "");
   if (!root || !CheckRoot(*root)) return std::nullopt;
   return root;
+}
+
+std::optional<Node> JsonSource::OpenText(const std::string& text, const std::string& shown) {
+  may_read_files_ = false;
+  return Parse(text, {{}, shown, nullptr, {}}, "");
+}
+
+// Whether a key belongs to the file, not to the object that is its root.
+bool JsonSource::IsOfFile(const Node& node, const std::string& key) const {
+  return may_read_files_ && node.pointer.empty() && (key == "version" || key == "$schema");
 }
 
 std::optional<MemberList> JsonSource::Members(const Node& node) {
@@ -104,6 +109,10 @@ std::optional<MemberList> JsonSource::PlainMembers(const Node& node) {
 }
 
 std::optional<fs::path> JsonSource::FileNamedBy(const Node& node) {
+  if (!may_read_files_) {
+    Fault(node, "must not name a file");
+    return std::nullopt;
+  }
   if (!node.json->is_string()) {
     Fault(node, "must be the name of a file");
     return std::nullopt;
@@ -152,6 +161,12 @@ void JsonSource::Missing(const Node& object, std::string_view key) {
 std::optional<Node> JsonSource::Load(SourceFile file, std::string resolved_pointer) {
   std::ifstream stream(file.absolute, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  return Parse(text, std::move(file), std::move(resolved_pointer));
+}
+
+std::optional<Node> JsonSource::Parse(const std::string& text,
+                                      SourceFile file,
+                                      std::string resolved_pointer) {
   JsonText parsed = ParseJson(text);
   if (!parsed.json) {
     errors_.Add(file.shown + ": " + parsed.syntax_error);

@@ -54,6 +54,10 @@ class JsonSource {
   /// The scenario's root, or nothing if it cannot be read.
   [[nodiscard]] std::optional<Node> Open(const std::filesystem::path& file);
 
+  /// The root of a text that came from outside, or nothing if it is no JSON. From then on no value
+  /// may name a file: whoever sent the text must not make us read any.
+  [[nodiscard]] std::optional<Node> OpenText(const std::string& text, const std::string& shown);
+
   /// The members of an object, whichever way it is given. Nothing if that is faulty.
   [[nodiscard]] std::optional<MemberList> Members(const Node& node);
   /// The same of an object that may not be a file: part of a list, or with a "file" of its own.
@@ -77,7 +81,10 @@ class JsonSource {
 
  private:
   std::optional<Node> Load(SourceFile file, std::string resolved_pointer);
+  std::optional<Node> Parse(const std::string& text, SourceFile file, std::string resolved_pointer);
+  [[nodiscard]] bool IsOfFile(const Node& node, const std::string& key) const;
 
+  bool may_read_files_ = true;
   ErrorList errors_;
   UnknownPlaces unknown_;
   ScenarioSources sources_;

@@ -4,8 +4,10 @@
 //
 // Rows are <what>/<scene>/threads:<n>. What: raw_trace (Embree's packets of 16, rays aimed
 // beforehand, ranges kept), sets of effects complete to a filled Frame, the same written as PCD to
-// tmpfs, and finished frames encoded as datagrams of the railcast protocol. Scenes: the demo, and the demo without some of its parts. Ratios to the raw trace of
-// the same scene and threads are printed at the end: read these, machines are noisy.
+// tmpfs, the same encoded in the railcast protocol and sent to a listener on loopback, and finished
+// frames encoded and sent alone. Scenes: the demo, and the demo without some of its parts. Ratios
+// to the raw trace of the same scene and threads are printed at the end: read these, machines are
+// noisy.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -16,10 +18,13 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "core/io/frame_files.h"
+#include "core/io/net/udp_receiver.h"
+#include "core/io/net/udp_sender.h"
 #include "core/io/stream/stream_encoder.h"
 #include "core/io/write_file.h"
 #include "core/scenario/effects.h"
@@ -30,6 +35,25 @@ namespace {
 
 // The vehicle stays in one chunk for these, so that every row sees the same window.
 constexpr std::uint32_t kNumFrames = 8;
+
+/// Takes what is sent to it, as a client on the same machine does.
+class Listener {
+ public:
+  Listener() : thread_([this] { Listen(); }) {}
+  ~Listener() {
+    receiver_.Interrupt();
+    thread_.join();
+  }
+  [[nodiscard]] const Endpoint& at() const { return receiver_.at(); }
+
+ private:
+  void Listen() {
+    while (!receiver_.is_interrupted()) static_cast<void>(receiver_.Receive(-1));
+  }
+
+  UdpReceiver receiver_{{0x7F000001, 0}};
+  std::thread thread_;
+};
 
 /// A scene ready to be scanned in any way.
 struct Bench {
@@ -52,6 +76,8 @@ struct Bench {
   std::vector<FrameFile> encoded;
   std::unique_ptr<StreamEncoder> stream;
   Datagrams datagrams;
+  Listener listener;
+  UdpSender sender{{listener.at()}, 1};
 };
 
 using Work = std::function<void(Bench&, std::uint32_t frame)>;
@@ -69,6 +95,18 @@ void ScanAndWrite(Bench& bench, std::uint32_t frame) {
 void EncodeDatagrams(Bench& bench, std::uint32_t frame) {
   bench.datagrams.Clear();
   bench.stream->Encode(bench.scanned[frame], bench.datagrams);
+}
+
+void Send(Bench& bench, std::uint32_t frame) {
+  EncodeDatagrams(bench, frame);
+  bench.sender.Send(bench.datagrams, bench.datagrams.items);
+}
+
+void ScanAndSend(Bench& bench, std::uint32_t frame) {
+  ScanFrame(bench, frame);
+  bench.datagrams.Clear();
+  bench.stream->Encode(bench.frame, bench.datagrams);
+  bench.sender.Send(bench.datagrams, bench.datagrams.items);
 }
 
 struct Row {
@@ -99,6 +137,8 @@ std::vector<Row> Rows() {
       {"geometry_pcd", {}, false, false, &ScanAndWrite},
       {"plausibility_pcd", all, true, false, &ScanAndWrite},
       {"encode_stream", {}, false, false, &EncodeDatagrams},
+      {"send_stream", {}, false, false, &Send},
+      {"plausibility_stream", all, true, false, &ScanAndSend},
   };
 }
 

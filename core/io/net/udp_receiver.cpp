@@ -71,6 +71,11 @@ void UdpReceiver::Interrupt() const {
   static_cast<void>(!::write(wake_, &one, sizeof one));
 }
 
+bool UdpReceiver::is_interrupted() const {
+  pollfd wake{wake_, POLLIN, 0};
+  return ::poll(&wake, 1, 0) > 0;
+}
+
 void UdpReceiver::Answer(std::span<const char> bytes, const Endpoint& to) const {
   const sockaddr_in address = SocketAddressOf(to);
   ::sendto(socket_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&address),

@@ -28,8 +28,9 @@ class UdpReceiver {
   };
   /// The next datagram; nothing after `timeout_ms` without one, or once interrupted.
   [[nodiscard]] std::optional<Received> Receive(int timeout_ms);
-  /// Ends the current and every later Receive at once. Thread-safe; for signal handlers too.
+  /// Ends the current and every later Receive at once. Thread-safe, and safe in a signal handler.
   void Interrupt() const;
+  [[nodiscard]] bool is_interrupted() const;
 
   /// Answers from this port; what the kernel does not take at once is lost, as on a network.
   void Answer(std::span<const char> bytes, const Endpoint& to) const;

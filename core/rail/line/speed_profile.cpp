@@ -1,6 +1,7 @@
 #include "core/rail/line/speed_profile.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "core/base/error.h"
@@ -110,6 +111,23 @@ SpeedProfile::SpeedProfile(const MotionSpec& motion, double start_s_m)
     last.acceleration_mps2 = (next.speed_mps - last.speed_mps) / duration_s;
     corners_.push_back(next);
   }
+}
+
+SpeedProfile SpeedProfile::WithSpeedFrom(double time_s,
+                                         double speed_mps,
+                                         double acceleration_mps2) const {
+  const State now = At(time_s);
+  Corner change{time_s, direction_ * (now.s_m - start_s_m_), now.speed_mps, 0.0};
+  const double difference_mps = speed_mps - now.speed_mps;
+  SpeedProfile changed = *this;
+  changed.corners_ = {change};
+  if (difference_mps == 0.0) return changed;
+  const double duration_s = std::abs(difference_mps) / acceleration_mps2;
+  changed.corners_.front().acceleration_mps2 = std::copysign(acceleration_mps2, difference_mps);
+  changed.corners_.push_back({time_s + duration_s,
+                              change.travelled_m + 0.5 * (now.speed_mps + speed_mps) * duration_s,
+                              speed_mps, 0.0});
+  return changed;
 }
 
 SpeedProfile::State SpeedProfile::At(double time_s) const {

@@ -23,7 +23,17 @@ class SpeedProfile {
   ///   read "/profile/2/s_m: rule (got value)", relative to the motion's JSON object.
   SpeedProfile(const MotionSpec& motion, double start_s_m);
 
-  /// @pre time_s >= 0.
+  /// The same way up to `time_s`, and from then on another speed: approached at a constant
+  /// acceleration, then kept, in the same direction.
+  ///
+  /// It is for times from `time_s` on: what was before is left out, so that a profile which is
+  /// changed again and again does not grow.
+  /// @pre time_s >= 0, speed_mps >= 0, acceleration_mps2 > 0 (also to slow down).
+  [[nodiscard]] SpeedProfile WithSpeedFrom(double time_s,
+                                           double speed_mps,
+                                           double acceleration_mps2) const;
+
+  /// @pre time_s >= 0, and not before that of the last change.
   [[nodiscard]] State At(double time_s) const;
   /// Whether it ever leaves its place.
   [[nodiscard]] bool moves() const;

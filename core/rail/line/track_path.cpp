@@ -6,11 +6,24 @@
 
 namespace railcast {
 
-TrackPath::TrackPath(const TrackPose& pose, SpeedProfile profile)
-    : pose_(pose), profile_(std::move(profile)) {}
+TrackPath::TrackPath(const TrackPose& pose, SpeedProfile profile, std::int64_t begin_ns)
+    : pose_(pose), profile_(std::move(profile)), begin_ns_(begin_ns) {}
+
+TrackPath TrackPath::WithSpeedFrom(std::int64_t from_ns,
+                                   double speed_mps,
+                                   double acceleration_mps2) const {
+  return TrackPath(
+      pose_,
+      profile_.WithSpeedFrom(SecondsFromNs(from_ns - begin_ns_), speed_mps, acceleration_mps2),
+      begin_ns_);
+}
+
+double TrackPath::SpeedAt_mps(std::int64_t time_ns) const {
+  return profile_.At(SecondsFromNs(time_ns - begin_ns_)).speed_mps;
+}
 
 double TrackPath::ChainageAt(std::int64_t time_ns) const {
-  return profile_.At(SecondsFromNs(time_ns)).s_m;
+  return profile_.At(SecondsFromNs(time_ns - begin_ns_)).s_m;
 }
 
 Transform TrackPath::WorldFromObject(const Alignment& alignment, std::int64_t time_ns) const {

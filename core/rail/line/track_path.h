@@ -19,16 +19,24 @@ struct TrackPose {
 /// The way of something along the line.
 class TrackPath {
  public:
-  TrackPath(const TrackPose& pose, SpeedProfile profile);
+  /// @param begin_ns When the profile's time is 0.
+  TrackPath(const TrackPose& pose, SpeedProfile profile, std::int64_t begin_ns = 0);
+
+  /// For times from `from_ns` on: see SpeedProfile::WithSpeedFrom.
+  [[nodiscard]] TrackPath WithSpeedFrom(std::int64_t from_ns,
+                                        double speed_mps,
+                                        double acceleration_mps2) const;
 
   [[nodiscard]] const TrackPose& pose() const { return pose_; }
   [[nodiscard]] bool moves() const { return profile_.moves(); }
+  [[nodiscard]] double SpeedAt_mps(std::int64_t time_ns) const;
   [[nodiscard]] double ChainageAt(std::int64_t time_ns) const;
   [[nodiscard]] Transform WorldFromObject(const Alignment& alignment, std::int64_t time_ns) const;
 
  private:
   TrackPose pose_;
   SpeedProfile profile_;
+  std::int64_t begin_ns_;
 };
 
 }  // namespace railcast

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace railcast {
+
+/// What the brightest byte stands for: an ideal retroreflector, as seen along its normal.
+inline constexpr float kIdealRetroreflector = 1000.0F;
+
+/// The reflectivity byte of a frame's intensity (1 = white Lambertian at normal incidence).
+///
+/// 0 to 100 are diffuse reflectors in percent. 101 to 255 are retroreflectors, for which the
+/// vendor states an order but no law; ours is logarithmic, 51 steps a decade:
+/// 101 + floor(154 log10(intensity) / 3), 255 from kIdealRetroreflector on. NaN is 0.
+[[nodiscard]] inline std::uint8_t ReflectivityByte(float intensity) {
+  constexpr float kWhite = 100.0F;
+  // Also where the intensity is NaN.
+  if (!(intensity > 0.0F)) return 0;
+  if (intensity <= 1.0F) return static_cast<std::uint8_t>(intensity * kWhite + 0.5F);
+  const float share = std::log10(std::min(intensity, kIdealRetroreflector)) / 3.0F;
+  return static_cast<std::uint8_t>(101.0F + 154.0F * std::min(share, 1.0F));
+}
+
+}  // namespace railcast

@@ -1,0 +1,213 @@
+#include "core/io/velodyne/velodyne_decoder.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/base/units.h"
+#include "core/io/velodyne/velodyne_packet.h"
+#include "core/scan/channel_rows.h"
+
+namespace railcast {
+namespace {
+
+/// A turn of more is cut: a rotor that stands still must not fill the memory. The densest real one
+/// (VLP-32C, dual, 5 Hz) has 232 thousand.
+constexpr std::size_t kMaxTurnPoints = std::size_t{1} << 20U;
+constexpr double kFullTurn_deg = 360.0;
+
+std::string Refusal(const std::string& rule, std::size_t got) {
+  return rule + " (got " + NumberText(got) + ")";
+}
+
+std::uint16_t FlagOf(const char* block) {
+  return LoadAt<std::uint16_t>(block);
+}
+std::uint16_t AzimuthOf(const char* block) {
+  return LoadAt<std::uint16_t>(block + kAzimuthPlace);
+}
+
+bool IsDual(const VelodyneModel& model, std::span<const char> payload) {
+  return model.has_mode_and_id && static_cast<std::uint8_t>(payload[kModePlace]) == kDualMode;
+}
+
+std::optional<std::string> RefuseEnd(const VelodyneModel& model, const char* packet) {
+  const auto time_us = LoadAt<std::uint32_t>(packet + kTimePlace);
+  if (time_us >= kUsPerHour)
+    return Refusal("microseconds past the hour must be < 3600000000", time_us);
+  if (!model.has_mode_and_id) return std::nullopt;
+  const auto id = LoadAt<std::uint8_t>(packet + kModelPlace);
+  if (id != model.id) {
+    return Refusal("model must be " + NumberText(model.id) + ", " + std::string(model.name), id);
+  }
+  const auto mode = LoadAt<std::uint8_t>(packet + kModePlace);
+  if (mode < kStrongestMode || mode > kDualMode) {
+    return Refusal("return mode must be 55, 56 or 57", mode);
+  }
+  return std::nullopt;
+}
+
+// What is no packet of this model.
+std::optional<std::string> Refuse(const VelodyneModel& model, std::span<const char> payload) {
+  if (payload.size() != kVelodynePacketSize) {
+    return Refusal("must be 1206 bytes", payload.size());
+  }
+  if (auto refusal = RefuseEnd(model, payload.data())) return refusal;
+  const std::size_t in_group = model.blocks_per_cycle() * (IsDual(model, payload) ? 2U : 1U);
+  for (std::size_t i = 0; i < kBlocksPerPacket; ++i) {
+    const char* const block = payload.data() + i * kBlockSize;
+    const bool is_upper = i % model.blocks_per_cycle() == 1;
+    if (FlagOf(block) != (is_upper ? kUpperBlockFlag : kLowerBlockFlag)) {
+      return Refusal("block " + NumberText(i) + ": flag must be " + (is_upper ? "56831" : "61183"),
+                     FlagOf(block));
+    }
+    if (AzimuthOf(block) >= kAzimuthUnitsPerTurn) {
+      return Refusal("block " + NumberText(i) + ": azimuth must be <= 35999", AzimuthOf(block));
+    }
+    const char* const first = payload.data() + i / in_group * in_group * kBlockSize;
+    if (AzimuthOf(block) != AzimuthOf(first)) {
+      return Refusal("block " + NumberText(i) + ": azimuth must be that of its pair",
+                     AzimuthOf(block));
+    }
+  }
+  return std::nullopt;
+}
+
+// From the median step between groups of blocks: a gap between two scans is none of its concern.
+double SpeedDegPerUs(std::span<const char> payload, std::size_t in_group, double group_us) {
+  std::array<std::int64_t, kBlocksPerPacket> steps{};
+  std::size_t num_steps = 0;
+  for (std::size_t i = in_group; i < kBlocksPerPacket; i += in_group) {
+    const std::int64_t step = AzimuthOf(payload.data() + i * kBlockSize) -
+                              AzimuthOf(payload.data() + (i - in_group) * kBlockSize);
+    steps[num_steps++] = step < 0 ? step + kAzimuthUnitsPerTurn : step;
+  }
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(num_steps / 2);
+  std::nth_element(steps.begin(), middle, steps.begin() + static_cast<std::ptrdiff_t>(num_steps));
+  return static_cast<double>(*middle) * kAzimuthUnit_deg / group_us;
+}
+
+std::vector<LaserCalibration> TableOf(const VelodyneModel& model) {
+  Check(!model.has_own_angles, "the model's angles are in its data sheet");
+  std::vector<LaserCalibration> table;
+  for (const ChannelSpec& laser : model.lasers) {
+    table.push_back({.elevation_deg = laser.elevation_deg, .azimuth_deg = laser.azimuth_deg});
+  }
+  return table;
+}
+
+}  // namespace
+
+VelodyneDecoder::VelodyneDecoder(const VelodyneModel& model)
+    : VelodyneDecoder(model, TableOf(model)) {}
+
+VelodyneDecoder::VelodyneDecoder(const VelodyneModel& model,
+                                 const std::vector<LaserCalibration>& calibration)
+    : model_(model) {
+  Check(calibration.size() == model.lasers.size(), "every laser has a calibration");
+  std::vector<ChannelSpec> channels = model.lasers;
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    channels[i].elevation_deg = calibration[i].elevation_deg;
+  }
+  const std::vector<std::uint16_t> rows = RowsByElevation(channels);
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    const double elevation_rad = RadFromDeg(calibration[i].elevation_deg);
+    lasers_.push_back({.sin_elevation = std::sin(elevation_rad),
+                       .cos_elevation = std::cos(elevation_rad),
+                       .azimuth_deg = calibration[i].azimuth_deg,
+                       .time_us = model.lasers[i].time_us,
+                       .calibration = calibration[i],
+                       .ring = rows[i]});
+  }
+}
+
+std::int64_t VelodyneDecoder::PacketNs(std::uint32_t us_past_hour) {
+  if (!last_packet_us_) last_packet_us_ = us_past_hour;
+  // The nearest time that has these microseconds: packets may come late, too.
+  std::int64_t since_last_us = (us_past_hour - *last_packet_us_ % kUsPerHour) % kUsPerHour;
+  if (since_last_us > kUsPerHour / 2) since_last_us -= kUsPerHour;
+  if (since_last_us < -kUsPerHour / 2) since_last_us += kUsPerHour;
+  *last_packet_us_ += since_last_us;
+  return *last_packet_us_ * 1000;
+}
+
+std::optional<std::string> VelodyneDecoder::Decode(std::span<const char> payload,
+                                                   std::vector<VelodyneTurn>& turns) {
+  if (auto refusal = Refuse(model_, payload)) return refusal;
+  const bool is_dual = IsDual(model_, payload);
+  const std::size_t in_group = model_.blocks_per_cycle() * (is_dual ? 2U : 1U);
+  const double group_us = static_cast<double>(model_.cycles_per_block()) * model_.cycle_us;
+  const double speed_deg_per_us = SpeedDegPerUs(payload, in_group, group_us);
+  const std::int64_t packet_ns = PacketNs(LoadAt<std::uint32_t>(payload.data() + kTimePlace));
+  for (std::size_t i = 0; i < kBlocksPerPacket; i += in_group) {
+    const char* const blocks = payload.data() + i * kBlockSize;
+    const double since_packet_us = static_cast<double>(i / in_group) * group_us;
+    const Group group{.blocks = blocks,
+                      .azimuth = AzimuthOf(blocks),
+                      .time_ns = packet_ns + std::llround(since_packet_us * 1e3),
+                      .is_dual = is_dual};
+    const bool is_new_turn = last_azimuth_ && group.azimuth < *last_azimuth_;
+    if (is_new_turn || turn_.points.size() >= kMaxTurnPoints) turns.push_back(TakeUnfinished());
+    if (!last_azimuth_) turn_.stamp_ns = group.time_ns;
+    last_azimuth_ = group.azimuth;
+    DecodeGroup(group, speed_deg_per_us);
+  }
+  return std::nullopt;
+}
+
+VelodyneTurn VelodyneDecoder::TakeUnfinished() {
+  last_azimuth_.reset();
+  return std::exchange(turn_, {});
+}
+
+void VelodyneDecoder::DecodeGroup(const Group& group, double speed_deg_per_us) {
+  const std::size_t num_cycles = model_.cycles_per_block();
+  for (std::size_t cycle = 0; cycle < num_cycles; ++cycle) {
+    for (std::size_t i = 0; i < lasers_.size(); ++i) {
+      const std::size_t index = cycle * lasers_.size() + i;
+      const char* const place = group.blocks + index / kLasersPerBlock * kBlockSize +
+                                kReturnsPlace + index % kLasersPerBlock * kReturnSize;
+      const double since_group_us =
+          static_cast<double>(cycle) * model_.cycle_us + lasers_[i].time_us;
+      const double azimuth_deg = group.azimuth * kAzimuthUnit_deg +
+                                 speed_deg_per_us * since_group_us + lasers_[i].azimuth_deg;
+      VelodynePoint point{};
+      point.time_ns = group.time_ns - turn_.stamp_ns + std::llround(since_group_us * 1e3);
+      point.ring = lasers_[i].ring;
+      point.laser = static_cast<std::uint8_t>(i);
+      AddPoint(place, point, azimuth_deg);
+      if (!group.is_dual) continue;
+      const char* const other = place + kBlockSize;
+      if (std::equal(place, place + kReturnSize, other)) continue;
+      point.return_index = 1;
+      AddPoint(other, point, azimuth_deg);
+    }
+  }
+}
+
+void VelodyneDecoder::AddPoint(const char* place, VelodynePoint point, double azimuth_deg) {
+  const auto distance = LoadAt<std::uint16_t>(place);
+  if (distance == 0) return;
+  const Laser& laser = lasers_[point.laser];
+  const double range_m = distance * model_.distance_unit_m + laser.calibration.range_offset_m;
+  const double in_turn_deg = azimuth_deg - kFullTurn_deg * std::floor(azimuth_deg / kFullTurn_deg);
+  const double azimuth_rad = RadFromDeg(in_turn_deg);
+  const double sin_azimuth = std::sin(azimuth_rad);
+  const double cos_azimuth = std::cos(azimuth_rad);
+  const double horizontal_m = range_m * laser.cos_elevation;
+  const double left_m = laser.calibration.horizontal_offset_m;
+  point.range_m = static_cast<float>(range_m);
+  point.azimuth_rad = static_cast<float>(azimuth_rad);
+  point.x = static_cast<float>(horizontal_m * cos_azimuth + left_m * sin_azimuth);
+  point.y = static_cast<float>(left_m * cos_azimuth - horizontal_m * sin_azimuth);
+  point.z = static_cast<float>(range_m * laser.sin_elevation + laser.calibration.vertical_offset_m);
+  point.intensity = LoadAt<std::uint8_t>(place + sizeof distance);
+  turn_.points.push_back(point);
+}
+
+}  // namespace railcast

@@ -1,0 +1,182 @@
+#include "core/io/velodyne/velodyne_encoder.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include "core/base/error.h"
+#include "core/io/field_layout.h"
+#include "core/io/velodyne/position_packet.h"
+#include "core/io/velodyne/reflectivity.h"
+#include "core/io/velodyne/velodyne_fit.h"
+#include "core/io/velodyne/velodyne_model.h"
+#include "core/io/velodyne/velodyne_packet.h"
+#include "core/scan/channel_rows.h"
+
+namespace railcast {
+namespace {
+
+constexpr std::int64_t kNsPerS = 1'000'000'000;
+
+/// What a packet says of one return; zeros if there is none.
+struct CodedReturn {
+  std::uint16_t distance{};
+  std::uint8_t reflectivity{};
+};
+
+void Store(const CodedReturn& coded, char* place) {
+  StoreAt<std::uint16_t>(place, coded.distance);
+  StoreAt<std::uint8_t>(place + sizeof(std::uint16_t), coded.reflectivity);
+}
+
+/// The azimuth of every column, in the packets' units.
+std::vector<std::uint16_t> ColumnAzimuths(const SpinningSpec& pattern, double rate_hz) {
+  std::vector<std::uint16_t> azimuths;
+  for (std::uint32_t column = 0; column < pattern.columns; ++column) {
+    const double turns = rate_hz * column * pattern.cycle_us * 1e-6;
+    const std::int64_t units =
+        std::llround((pattern.start_azimuth_deg + 360.0 * turns) / kAzimuthUnit_deg);
+    const std::int64_t in_turn = units % kAzimuthUnitsPerTurn;
+    azimuths.push_back(
+        static_cast<std::uint16_t>(in_turn < 0 ? in_turn + kAzimuthUnitsPerTurn : in_turn));
+  }
+  return azimuths;
+}
+
+class VelodyneEncoder final : public FrameEncoder {
+ public:
+  VelodyneEncoder(const VelodyneFormat& format,
+                  const SpinningSpec& pattern,
+                  double rate_hz,
+                  std::uint8_t mode)
+      : model_(*format.model),
+        is_dual_(format.is_dual),
+        rows_(RowsByElevation(pattern.channels)),
+        azimuths_(ColumnAzimuths(pattern, rate_hz)) {
+    const auto [first, last] =
+        std::ranges::minmax_element(pattern.channels, {}, &ChannelSpec::time_us);
+    first_row_ = rows_[static_cast<std::size_t>(first - pattern.channels.begin())];
+    last_row_ = rows_[static_cast<std::size_t>(last - pattern.channels.begin())];
+    if (model_.has_mode_and_id) {
+      packet_[kModePlace] = static_cast<char>(mode);
+      packet_[kModelPlace] = static_cast<char>(model_.id);
+    }
+  }
+
+  void Encode(const Frame& frame, Datagrams& datagrams) override {
+    Check(frame.rows == rows_.size() && frame.columns == azimuths_.size(),
+          "the frame is the scan's");
+    Check(frame.returns == 1 || (is_dual_ && frame.returns == 2), "frames have the mode's returns");
+    if (!next_position_ns_) {
+      next_position_ns_ = (frame.stamp_ns + kNsPerS - 1) / kNsPerS * kNsPerS;
+    }
+    const auto step = static_cast<std::uint32_t>(model_.cycles_per_block());
+    for (std::uint32_t column = 0; column < frame.columns; column += step) {
+      EncodeCycles(frame, column, column + step);
+      if (num_blocks_ == kBlocksPerPacket) AppendPacket(datagrams);
+    }
+  }
+
+ private:
+  [[nodiscard]] static std::int64_t FiringNs(const Frame& frame,
+                                             std::size_t row,
+                                             std::size_t column) {
+    return frame.stamp_ns + frame.time_ns[row * frame.width() + column * frame.returns];
+  }
+
+  // The blocks of one azimuth: those of a firing cycle, or one block with two cycles.
+  void EncodeCycles(const Frame& frame, std::uint32_t column, std::uint32_t end) {
+    const std::size_t num_blocks = model_.blocks_per_cycle() * (is_dual_ ? 2U : 1U);
+    if (num_blocks_ == 0) first_ns_ = FiringNs(frame, first_row_, column);
+    last_ns_ = FiringNs(frame, last_row_, end - 1);
+    char* const blocks = packet_.data() + num_blocks_ * kBlockSize;
+    for (std::size_t i = 0; i < num_blocks; ++i) {
+      const bool is_upper = i % model_.blocks_per_cycle() == 1;
+      StoreAt<std::uint16_t>(blocks + i * kBlockSize, is_upper ? kUpperBlockFlag : kLowerBlockFlag);
+      StoreAt<std::uint16_t>(blocks + i * kBlockSize + kAzimuthPlace, azimuths_[column]);
+    }
+    std::size_t place_in_block = 0;
+    for (std::uint32_t c = column; c < end; ++c) {
+      for (std::size_t laser = 0; laser < rows_.size(); ++laser, ++place_in_block) {
+        const std::size_t block = place_in_block / kLasersPerBlock;
+        char* const place = blocks + block * kBlockSize + kReturnsPlace +
+                            place_in_block % kLasersPerBlock * kReturnSize;
+        StoreFiring(frame, rows_[laser] * std::size_t{frame.width()} + c * frame.returns, place);
+      }
+    }
+    num_blocks_ += num_blocks;
+  }
+
+  [[nodiscard]] CodedReturn CodeReturn(const Frame& frame, std::size_t slot) const {
+    const double distance = static_cast<double>(frame.range_m[slot]) / model_.distance_unit_m + 0.5;
+    // Also where there is no return: NaN.
+    if (!(distance >= 1.0 && distance < 65536.0)) return {};
+    return {static_cast<std::uint16_t>(distance), ReflectivityByte(frame.intensity[slot])};
+  }
+
+  void StoreFiring(const Frame& frame, std::size_t slot, char* place) const {
+    const CodedReturn strongest = CodeReturn(frame, slot);
+    if (!is_dual_) {
+      Store(strongest, place);
+      return;
+    }
+    // The second slot has the last return if that is another, else the second strongest, which is
+    // nearer: in both cases the even block has the farther one, the odd block the nearer.
+    const CodedReturn other = frame.returns == 2 ? CodeReturn(frame, slot + 1) : CodedReturn{};
+    CodedReturn farther = strongest;
+    CodedReturn nearer = other;
+    if (nearer.distance > farther.distance) std::swap(nearer, farther);
+    if (nearer.distance == 0) nearer = farther;
+    Store(farther, place);
+    Store(nearer, place + kBlockSize);
+  }
+
+  void AppendPacket(Datagrams& datagrams) {
+    for (; *next_position_ns_ <= last_ns_; *next_position_ns_ += kNsPerS) {
+      AppendPositionPacket(*next_position_ns_, datagrams);
+    }
+    StoreAt<std::uint32_t>(packet_.data() + kTimePlace, MicrosecondsPastHour(first_ns_));
+    datagrams.items.push_back({.offset = datagrams.bytes.size(),
+                               .size = kVelodynePacketSize,
+                               .port = DatagramPort::kData,
+                               .due_ns = last_ns_});
+    datagrams.bytes.insert(datagrams.bytes.end(), packet_.begin(), packet_.end());
+    num_blocks_ = 0;
+  }
+
+  const VelodyneModel& model_;
+  bool is_dual_;
+  std::vector<std::uint16_t> rows_;  // Of each laser.
+  std::vector<std::uint16_t> azimuths_;
+  std::size_t first_row_{};  // Fires first in a cycle.
+  std::size_t last_row_{};
+
+  // The packet under construction.
+  std::array<char, kVelodynePacketSize> packet_{};
+  std::size_t num_blocks_{};
+  std::int64_t first_ns_{};
+  std::int64_t last_ns_{};
+  std::optional<std::int64_t> next_position_ns_;
+};
+
+std::uint8_t ModeByte(std::string_view return_mode) {
+  if (return_mode == "dual") return kDualMode;
+  return return_mode == "last" ? kLastMode : kStrongestMode;
+}
+
+}  // namespace
+
+std::unique_ptr<FrameEncoder> MakeVelodyneEncoder(std::string_view format,
+                                                  const ScanSpec& scan,
+                                                  std::string_view return_mode) {
+  const VelodyneFormat found = FindVelodyneFormat(format);
+  CheckFits(found, scan, return_mode);
+  return std::make_unique<VelodyneEncoder>(found, std::get<SpinningSpec>(scan.pattern),
+                                           scan.rate_hz, ModeByte(return_mode));
+}
+
+}  // namespace railcast

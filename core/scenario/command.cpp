@@ -1,0 +1,127 @@
+#include "core/scenario/command.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/scenario/command_reading.h"
+#include "core/scenario/describe_command.h"
+#include "core/scenario/json_reader.h"
+#include "core/scenario/json_writer.h"
+
+namespace railcast {
+namespace {
+
+template <class Alternatives>
+struct Names;
+template <class... Ts>
+struct Names<std::variant<Ts...>> {
+  static std::vector<std::string> All() { return {kCommandName<Ts>...}; }
+
+  // Calls `read` with a value of the type of that name.
+  template <class Reading>
+  static void With(const std::string& name, const Reading& read) {
+    const auto read_if = [&]<class T>(T value) {
+      if (name == kCommandName<T>) read(std::move(value));
+    };
+    (read_if(Ts{}), ...);
+  }
+};
+
+constexpr double kMaxId = 0x1p53;  // JSON's numbers are doubles to most programs.
+
+// A hostile line may have hundreds of faults; who sent it needs the first few.
+std::vector<std::string> FirstFew(std::vector<std::string> faults) {
+  constexpr std::size_t kMaxFaults = 8;
+  constexpr std::size_t kMaxLength = 300;
+  if (faults.size() > kMaxFaults) {
+    const std::size_t num_more = faults.size() - kMaxFaults;
+    faults.resize(kMaxFaults);
+    faults.push_back("command: " + std::to_string(num_more) + " more");
+  }
+  for (std::string& fault : faults) {
+    if (fault.size() <= kMaxLength) continue;
+    std::size_t end = kMaxLength;
+    // Not within a letter of several bytes.
+    while (end > 0 && (static_cast<unsigned char>(fault[end]) & 0xC0U) == 0x80U) --end;
+    fault = fault.substr(0, end) + "...";
+  }
+  return faults;
+}
+
+// A mesh is read from a file, which whoever sends commands must not choose.
+bool PlacesMesh(JsonSource& source, const Node& command) {
+  if (!command.json->contains("object")) return false;
+  const Node object = command.Child("object");
+  if (!object.json->is_object() || object.json->value("type", Json()) != "mesh") return false;
+  source.Fault(object.Child("type"), "must be no mesh, since a command reads no files");
+  return true;
+}
+
+}  // namespace
+
+std::optional<Command> ReadCommandObject(JsonSource& source,
+                                         const Node& object,
+                                         std::optional<std::uint64_t>& id) {
+  auto list = source.PlainMembers(object);
+  if (!list) return std::nullopt;
+  const std::size_t num_faults = source.errors().lines().size();
+  JsonReader reader(source, object, std::move(*list));
+  reader.Optional("id", id, "Comes back in the acknowledgement.", Limits{.at_most = kMaxId});
+  if (source.errors().lines().size() > num_faults) id.reset();
+  // Without a name, what else the object should hold is not known.
+  if (!object.json->contains("command")) {
+    source.Missing(object, "command");
+    return std::nullopt;
+  }
+  std::string name;
+  reader.Required("command", name, "What to do.", OneOf(Names<Command>::All()));
+  if (name.empty() || PlacesMesh(source, object)) return std::nullopt;
+  std::optional<Command> command;
+  Names<Command>::With(name, [&](auto value) {
+    Describe(reader, value);
+    command = std::move(value);
+  });
+  reader.Finish();
+  if (source.errors().lines().size() > num_faults) return std::nullopt;
+  return command;
+}
+
+CommandLine ReadCommand(std::string_view line) {
+  CommandLine result;
+  if (line.ends_with('\n')) line.remove_suffix(1);
+  if (line.size() > kMaxCommandBytes) {
+    result.faults.push_back("command: must be at most " + std::to_string(kMaxCommandBytes) +
+                            " bytes long (got " + std::to_string(line.size()) + ")");
+    return result;
+  }
+  JsonSource source;
+  if (const auto root = source.OpenText(std::string(line), "command")) {
+    result.command = ReadCommandObject(source, *root, result.id);
+  }
+  result.faults = FirstFew(source.errors().lines());
+  if (!result.faults.empty()) result.command.reset();
+  return result;
+}
+
+std::string CommandName(const Command& command) {
+  return std::visit([]<class T>(const T&) { return kCommandName<T>; }, command);
+}
+
+Json CommandJson(const Command& command, std::optional<std::uint64_t> id) {
+  Json json = Json::object();
+  if (id) json["id"] = *id;
+  json["command"] = CommandName(command);
+  std::visit(
+      [&](auto value) {  // A copy: descriptions are shared with the reader, which fills values.
+        const Json keys = JsonWriter::Write(value);
+        json.update(keys);
+      },
+      command);
+  return json;
+}
+
+std::string WriteCommand(const Command& command, std::optional<std::uint64_t> id) {
+  return CommandJson(command, id).dump();
+}
+
+}  // namespace railcast

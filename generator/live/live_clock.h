@@ -1,0 +1,49 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+
+namespace railcast {
+
+/// What a live run goes by.
+class LiveClock {
+ public:
+  virtual ~LiveClock() = default;
+
+  /// Nanoseconds since a moment of its own; never goes back.
+  [[nodiscard]] virtual std::int64_t NowNs() const = 0;
+  /// Waits for `changed`, at longest until a time.
+  virtual void WaitUntil(std::int64_t time_ns,
+                         std::condition_variable& changed,
+                         std::unique_lock<std::mutex>& lock) = 0;
+  /// Whether it stands still but for being waited for: then a run is in one thread and takes no
+  /// longer than its work.
+  [[nodiscard]] virtual bool jumps() const = 0;
+};
+
+/// The machine's monotonic clock.
+class MonotonicClock final : public LiveClock {
+ public:
+  [[nodiscard]] std::int64_t NowNs() const override;
+  void WaitUntil(std::int64_t time_ns,
+                 std::condition_variable& changed,
+                 std::unique_lock<std::mutex>& lock) override;
+  [[nodiscard]] bool jumps() const override { return false; }
+};
+
+/// A clock that jumps to whatever is waited for.
+class JumpingClock final : public LiveClock {
+ public:
+  [[nodiscard]] std::int64_t NowNs() const override { return now_ns_; }
+  void WaitUntil(std::int64_t time_ns,
+                 std::condition_variable& changed,
+                 std::unique_lock<std::mutex>& lock) override;
+  [[nodiscard]] bool jumps() const override { return true; }
+  void JumpTo(std::int64_t time_ns);
+
+ private:
+  std::int64_t now_ns_ = 0;
+};
+
+}  // namespace railcast

@@ -1,0 +1,146 @@
+#include "generator/live/live_run.h"
+
+#include <algorithm>
+#include <condition_variable>
+#include <mutex>
+#include <utility>
+
+namespace railcast {
+namespace {
+
+// How soon a waiting run notices that it is stopped.
+constexpr std::int64_t kPatience_ns = 50'000'000;
+
+class LiveRun {
+ public:
+  LiveRun(const LiveRunSpec& spec,
+          const std::vector<LiveSensor>& sensors,
+          const LiveHooks& hooks,
+          LiveClock& clock)
+      : spec_(spec), sensors_(sensors), hooks_(hooks), clock_(clock), queue_(clock, SendersOf()) {
+    for (const LiveSensor& sensor : sensors) {
+      records_.push_back({.name = sensor.name, .period_ns = sensor.period_ns});
+    }
+    Restart();
+  }
+
+  std::vector<LiveRecord> Run() {
+    while (!IsOver() && (spec_.lockstep || AwaitBegin())) {
+      const NextFrames next = hooks_.begin_frames(NextStampNs());
+      if (next == NextFrames::kStop) break;
+      if (next == NextFrames::kReset) {
+        Restart();
+      } else {
+        MakeFrames();
+      }
+    }
+    queue_.Flush();
+    for (std::size_t i = 0; i < sensors_.size(); ++i) {
+      records_[i].sent = queue_.record(i);
+      records_[i].late_frames += records_[i].sent.late_frames;
+    }
+    return std::move(records_);
+  }
+
+ private:
+  [[nodiscard]] std::vector<DatagramQueue::Send> SendersOf() const {
+    std::vector<DatagramQueue::Send> senders;
+    for (const LiveSensor& sensor : sensors_) senders.push_back(sensor.send);
+    return senders;
+  }
+
+  void Restart() {
+    next_.assign(sensors_.size(), 0);
+    clock_from_stamp_ns_ = clock_.NowNs() - NextStampNs();
+  }
+
+  [[nodiscard]] std::int64_t NextStampNs(std::size_t sensor) const {
+    return sensors_[sensor].stamp_ns(next_[sensor]);
+  }
+
+  /// Of whichever sensor's frame comes next.
+  [[nodiscard]] std::int64_t NextStampNs() const {
+    std::int64_t stamp_ns = NextStampNs(0);
+    for (std::size_t i = 1; i < sensors_.size(); ++i) {
+      stamp_ns = std::min(stamp_ns, NextStampNs(i));
+    }
+    return stamp_ns;
+  }
+
+  [[nodiscard]] bool IsOver() const {
+    return hooks_.is_stopped() || (spec_.duration_ns && NextStampNs() >= *spec_.duration_ns);
+  }
+
+  [[nodiscard]] bool AwaitBegin() {
+    const std::int64_t begin_ns = clock_from_stamp_ns_ + NextStampNs();
+    queue_.SendUntil(begin_ns);
+    std::mutex mutex;
+    std::condition_variable never;
+    std::unique_lock lock(mutex);
+    while (clock_.NowNs() < begin_ns) {
+      if (hooks_.is_stopped()) return false;
+      clock_.WaitUntil(std::min(begin_ns, clock_.NowNs() + kPatience_ns), never, lock);
+    }
+    return true;
+  }
+
+  void MakeFrames() {
+    const std::int64_t stamp_ns = NextStampNs();
+    for (std::size_t i = 0; i < sensors_.size(); ++i) {
+      if (NextStampNs(i) == stamp_ns) MakeFrame(i, stamp_ns);
+    }
+    if (spec_.lockstep) queue_.Flush();
+    hooks_.end_frames(stamp_ns, records_);
+  }
+
+  void MakeFrame(std::size_t sensor, std::int64_t stamp_ns) {
+    LiveRecord& record = records_[sensor];
+    OutgoingFrame outgoing = queue_.Take(sensor);
+    const std::int64_t begin_ns = clock_.NowNs();
+    sensors_[sensor].make(next_[sensor]++, outgoing.datagrams);
+    const std::int64_t end_ns = clock_.NowNs();
+    record.compute.Add(end_ns - begin_ns);
+    ++record.frames;
+    SetPace(sensor, stamp_ns, end_ns, outgoing);
+    queue_.Put(sensor, std::move(outgoing));
+  }
+
+  void SetPace(std::size_t sensor,
+               std::int64_t stamp_ns,
+               std::int64_t made_ns,
+               OutgoingFrame& outgoing) {
+    LiveRecord& record = records_[sensor];
+    const std::int64_t deadline_ns = clock_from_stamp_ns_ + stamp_ns + record.period_ns;
+    outgoing.is_burst = spec_.pacing == Pacing::kBurst;
+    outgoing.deadline_ns.reset();
+    if (outgoing.is_burst) {
+      outgoing.clock_from_due_ns = made_ns;
+      if (!spec_.lockstep) outgoing.deadline_ns = deadline_ns;
+    } else if (spec_.lockstep) {
+      outgoing.clock_from_due_ns = made_ns - stamp_ns;
+    } else {
+      outgoing.clock_from_due_ns = clock_from_stamp_ns_ + record.period_ns;
+      if (made_ns > deadline_ns) ++record.late_frames;
+    }
+  }
+
+  const LiveRunSpec& spec_;
+  const std::vector<LiveSensor>& sensors_;
+  const LiveHooks& hooks_;
+  LiveClock& clock_;
+  DatagramQueue queue_;
+  std::vector<LiveRecord> records_;
+  std::vector<std::uint32_t> next_;  ///< Frame, by sensor.
+  std::int64_t clock_from_stamp_ns_{};
+};
+
+}  // namespace
+
+std::vector<LiveRecord> RunLive(const LiveRunSpec& spec,
+                                const std::vector<LiveSensor>& sensors,
+                                const LiveHooks& hooks,
+                                LiveClock& clock) {
+  return LiveRun(spec, sensors, hooks, clock).Run();
+}
+
+}  // namespace railcast

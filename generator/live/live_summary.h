@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "generator/live/live_run.h"
+
+namespace railcast {
+
+/// What a sensor's receivers got.
+struct DeliveryCounts {
+  std::uint64_t sent{};     ///< Datagrams, counted once for each receiver.
+  std::uint64_t refused{};  ///< By the kernel: a full queue or no way there.
+};
+
+/// What the user reads after a live run: for each sensor frames, late ones and datagrams, and
+/// quantiles of computing, sending and lateness.
+/// @param delivered By sensor, as `records`.
+[[nodiscard]] std::string LiveSummary(const std::vector<LiveRecord>& records,
+                                      const std::vector<DeliveryCounts>& delivered);
+
+/// "12.3 s, 123 frames, 0 late": one line, without its end.
+[[nodiscard]] std::string LiveProgress(std::int64_t stamp_ns,
+                                       std::uint64_t frames,
+                                       std::uint64_t late_frames);
+
+}  // namespace railcast

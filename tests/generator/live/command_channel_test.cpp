@@ -1,0 +1,153 @@
+#include "generator/live/command_channel.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace railcast {
+namespace {
+
+constexpr Endpoint kAnyLoopbackPort{0x7F000001, 0};
+constexpr Endpoint kLoopbackPeer{0x7F000001, 0};
+constexpr int kPatience_ms = 10'000;
+/// Long enough for what is on its way over loopback to arrive.
+constexpr int kSilence_ms = 100;
+
+/// Who sends commands.
+class Controller {
+ public:
+  explicit Controller(const CommandChannel& channel) : channel_(channel.at()) {}
+
+  void Say(const std::string& text) { port_.Answer(text, channel_); }
+  /// Empty if none comes.
+  [[nodiscard]] std::string Hear(int timeout_ms = kPatience_ms) {
+    const auto received = port_.Receive(timeout_ms);
+    return received ? std::string(received->bytes.begin(), received->bytes.end()) : "";
+  }
+
+ private:
+  UdpReceiver port_{kAnyLoopbackPort};
+  Endpoint channel_;
+};
+
+TEST(CommandChannel, AnswersACommandWhenItTookEffect) {
+  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
+  Controller controller(channel);
+  controller.Say("{\"id\": 7, \"command\": \"set_speed\", \"speed_mps\": 10}\n");
+  const auto request = channel.Next(kPatience_ms);
+  ASSERT_TRUE(request.has_value());
+  EXPECT_EQ(request->command, Command(SetSpeed{.speed_mps = 10}));
+  EXPECT_EQ(controller.Hear(kSilence_ms), "");
+  channel.Acknowledge(*request, 300'000'000);
+  EXPECT_EQ(controller.Hear(),
+            "{\"id\":7,\"ok\":true,\"command\":\"set_speed\",\"time_ns\":300000000}\n");
+}
+
+TEST(CommandChannel, TakesSeveralCommandsInOneDatagram) {
+  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
+  Controller controller(channel);
+  controller.Say("{\"command\": \"stop\"}\n\n{\"command\": \"step\"}\n{\"command\": \"reset\"}");
+  EXPECT_EQ(channel.Next(kPatience_ms)->command, Command(Stop{}));
+  EXPECT_EQ(channel.Next(kPatience_ms)->command, Command(Step{}));
+  EXPECT_EQ(channel.Next(kPatience_ms)->command, Command(Reset{}));
+  EXPECT_FALSE(channel.Next(0).has_value());
+}
+
+TEST(CommandChannel, DoesARepeatedCommandOnceAndAnswersItEachTime) {
+  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
+  Controller controller(channel);
+  const std::string step = "{\"id\": 1, \"command\": \"step\"}";
+  controller.Say(step);
+  controller.Say(step);
+  const auto request = channel.Next(kPatience_ms);
+  ASSERT_TRUE(request.has_value());
+  EXPECT_FALSE(channel.Next(kSilence_ms).has_value());
+  channel.Acknowledge(*request, 0);
+  const std::string answer = controller.Hear();
+  EXPECT_EQ(answer, "{\"id\":1,\"ok\":true,\"command\":\"step\",\"time_ns\":0}\n");
+  controller.Say(step);
+  EXPECT_EQ(controller.Hear(), answer);
+  EXPECT_FALSE(channel.Next(0).has_value());
+}
+
+TEST(CommandChannel, DoesTheSameIdOfAnotherPort) {
+  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
+  Controller first(channel);
+  Controller second(channel);
+  first.Say("{\"id\": 1, \"command\": \"stop\"}");
+  second.Say("{\"id\": 1, \"command\": \"stop\"}");
+  EXPECT_TRUE(channel.Next(kPatience_ms).has_value());
+  EXPECT_TRUE(channel.Next(kPatience_ms).has_value());
+}
+
+TEST(CommandChannel, SaysWhatIsWrongWithACommand) {
+  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
+  Controller controller(channel);
+  controller.Say("{\"id\": 3, \"command\": \"set_speed\", \"speed_mps\": -1}");
+  const std::string answer = controller.Hear();
+  EXPECT_EQ(answer.find("{\"id\":3,\"ok\":false,\"faults\":["), 0U) << answer;
+  EXPECT_NE(answer.find("/speed_mps: must be"), std::string::npos) << answer;
+  EXPECT_FALSE(channel.Next(0).has_value());
+}
+
+TEST(CommandChannel, SaysWhyACommandHadNoEffect) {
+  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
+  Controller controller(channel);
+  controller.Say("{\"id\": 4, \"command\": \"remove_object\", \"name\": \"ghost\"}");
+  const auto request = channel.Next(kPatience_ms);
+  ASSERT_TRUE(request.has_value());
+  channel.Refuse(*request, {"/name: there is no such object (got \"ghost\")"});
+  EXPECT_EQ(controller.Hear(),
+            "{\"id\":4,\"ok\":false,\"faults\":[\"/name: there is no such object (got "
+            "\\\"ghost\\\")\"]}\n");
+}
+
+TEST(CommandChannel, HearsNobodyButItsPeer) {
+  constexpr Endpoint kElsewhere{0x7F000002, 0};
+  CommandChannel channel(kAnyLoopbackPort, kElsewhere);
+  Controller stranger(channel);
+  stranger.Say("{\"id\": 1, \"command\": \"stop\"}");
+  EXPECT_EQ(stranger.Hear(kSilence_ms), "");
+  EXPECT_FALSE(channel.Next(0).has_value());
+  EXPECT_EQ(channel.num_strangers(), 1U);
+}
+
+TEST(CommandChannel, HearsOnlyThePortItWasTold) {
+  UdpReceiver peer(kAnyLoopbackPort);
+  CommandChannel channel(kAnyLoopbackPort, peer.at());
+  Controller stranger(channel);
+  stranger.Say("{\"command\": \"stop\"}");
+  EXPECT_FALSE(channel.Next(kSilence_ms).has_value());
+  const std::string stop = "{\"command\": \"stop\"}";
+  peer.Answer(stop, channel.at());
+  EXPECT_TRUE(channel.Next(kPatience_ms).has_value());
+}
+
+TEST(CommandChannel, KeepsHearingAfterWhatIsNoCommand) {
+  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
+  Controller controller(channel);
+  controller.Say(std::string(60'000, '['));
+  controller.Say(std::string("\0\xff\xfe{\"id\":", 9));
+  controller.Say(std::string(30'000, '\n'));
+  controller.Say("");
+  controller.Say("{\"command\": \"stop\"}");
+  EXPECT_EQ(channel.Next(kPatience_ms)->command, Command(Stop{}));
+}
+
+TEST(CommandChannel, RefusesMoreThanItCanHold) {
+  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
+  Controller controller(channel);
+  std::string many;
+  for (std::size_t i = 0; i < CommandChannel::kMaxRequests; ++i) many += "{\"command\":\"stop\"}\n";
+  controller.Say(many);
+  controller.Say("{\"id\": 9, \"command\": \"stop\"}");
+  const std::string answer = controller.Hear();
+  EXPECT_EQ(answer.find("{\"id\":9,\"ok\":false,\"faults\":[\"too many commands wait"), 0U)
+      << answer;
+  for (std::size_t i = 0; i < CommandChannel::kMaxRequests; ++i) {
+    ASSERT_TRUE(channel.Next(0).has_value());
+  }
+}
+
+}  // namespace
+}  // namespace railcast
