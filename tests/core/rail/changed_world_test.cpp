@@ -128,8 +128,8 @@ TEST(ChangedWorld, PutsAnObjectWhereAScenarioWouldPutIt) {
 
 TEST(ChangedWorld, KeepsItsChunks) {
   const auto world = Make();
-  const auto changed = world->WithObject(Object("a", "person", 200.0), 0)
-                           ->WithVehicleSpeed(kSecond_ns, 0.0, 1.0);
+  const auto changed =
+      world->WithObject(Object("a", "person", 200.0), 0)->WithVehicleSpeed(kSecond_ns, 0.0, 1.0);
   EXPECT_EQ(changed->ChunksInReach(3, 100.0), world->ChunksInReach(3, 100.0));
   const Chunk chunk = changed->BuildChunk(3);
   const Chunk before = world->BuildChunk(3);
