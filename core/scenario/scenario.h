@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -15,6 +16,10 @@ class RailWorld;
 
 /// How live frames may be packed: "railcast", "vlp16", ...
 [[nodiscard]] std::vector<std::string> ProtocolNames();
+/// The UDP port that a protocol's receivers listen at unless told otherwise.
+[[nodiscard]] std::uint16_t DefaultPort(const std::string& protocol);
+/// Its receivers; if it names none, the one at loopback and the protocol's own port.
+[[nodiscard]] std::vector<std::string> ReceiversOf(const SensorInterface& interface);
 
 /// Reads a scenario file and every file it names, strictly: unknown, duplicate, missing and
 /// mistyped keys are errors. File names in the result are absolute.

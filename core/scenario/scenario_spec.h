@@ -57,7 +57,7 @@ struct SensorInterface {
   std::string sensor;                 ///< Its name.
   std::string protocol = "railcast";  ///< One of ProtocolNames().
   std::vector<std::string>
-      udp;  ///< host:port of each receiver; empty = loopback at the protocol's port.
+      udp;  ///< host:port of each receiver; see ReceiversOf().
 
   bool operator==(const SensorInterface&) const = default;
 };

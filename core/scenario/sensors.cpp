@@ -14,17 +14,21 @@ bool Holds(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// Where its frames go; sensors without receivers of their own share their protocol's own port,
-// which is one for all of Velodyne's.
-std::vector<std::string> ReceiversOf(const SensorInterface& interface) {
-  if (!interface.udp.empty()) return interface.udp;
-  return {interface.protocol == "railcast" ? "railcast's own port" : "Velodyne's own port"};
-}
-
 }  // namespace
 
 std::vector<std::string> ProtocolNames() {
   return {"railcast", "vlp16", "vlp16-dual", "hdl32e", "vlp32c", "hdl64e"};
+}
+
+std::uint16_t DefaultPort(const std::string& protocol) {
+  constexpr std::uint16_t kVelodynePort = 2368;
+  constexpr std::uint16_t kRailcastPort = 27400;
+  return protocol == "railcast" ? kRailcastPort : kVelodynePort;
+}
+
+std::vector<std::string> ReceiversOf(const SensorInterface& interface) {
+  if (!interface.udp.empty()) return interface.udp;
+  return {"127.0.0.1:" + std::to_string(DefaultPort(interface.protocol))};
 }
 
 std::vector<SensorPlace> SensorsOf(const ScenarioSpec& spec) {

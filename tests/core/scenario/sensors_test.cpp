@@ -84,7 +84,7 @@ TEST(Sensors, SendEachToReceiversOfItsOwn) {
   EXPECT_EQ(fault({{"front", "vlp16", {"127.0.0.1:2368"}}, {"roof", "vlp16", {"127.0.0.1:2369"}}}),
             "");
   EXPECT_EQ(fault({{"front", "hdl32e", {}}, {"roof", "vlp16", {}}}),
-            "must give each sensor receivers of its own, \"roof\" others than Velodyne's own port");
+            "must give each sensor receivers of its own, \"roof\" others than 127.0.0.1:2368");
   EXPECT_EQ(fault({{"front", "railcast", {"10.0.0.1:9"}}, {"roof", "vlp16", {"10.0.0.1:9"}}}),
             "must give each sensor receivers of its own, \"roof\" others than 10.0.0.1:9");
   EXPECT_EQ(fault({{"front", "railcast", {}}}), "must name each sensor once, \"roof\" too");
