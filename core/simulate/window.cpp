@@ -136,6 +136,8 @@ std::shared_ptr<const Window> WindowSource::Build(int home_chunk, const Standing
   {
     const std::lock_guard lock(mutex_);
     if (IsWanted(home_chunk)) chunks_[home_chunk].swap(chunks);
+    // Not before: this window shares most of its chunks with the one it follows.
+    std::erase_if(chunks_, [&](const auto& entry) { return !IsWanted(entry.first); });
   }
   chunks.clear();
   store_->ForgetUnusedModels();
@@ -150,7 +152,6 @@ WindowSource::WindowTask WindowSource::Remember(int home_chunk) {
 
 void WindowSource::ForgetOthers() {
   std::erase_if(windows_, [&](const auto& entry) { return !IsWanted(entry.first); });
-  std::erase_if(chunks_, [&](const auto& entry) { return !IsWanted(entry.first); });
 }
 
 std::shared_ptr<const Window> WindowSource::Get(int home_chunk) {

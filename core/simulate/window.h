@@ -88,8 +88,8 @@ class WindowSource {
   std::mutex mutex_;
   std::condition_variable changed_;
   Standing standing_;
-  std::map<int, FutureWindow> windows_;  // Of in_use_ and prepared_, as chunks_.
-  std::map<int, Chunks> chunks_;
+  std::map<int, FutureWindow> windows_;  // Of in_use_ and prepared_.
+  std::map<int, Chunks> chunks_;         // The same, and of earlier ones until the next is built.
   std::optional<int> in_use_;
   std::optional<int> prepared_;
   std::optional<WindowTask> ahead_;  // Waits for the builder, or is being built by it.
