@@ -72,6 +72,7 @@ class WindowSource {
   void AddChunks(const Chunks& chunks,
                  Window& window,
                  std::vector<TracePlacement>& placements) const;
+  void KeepChunks(int home_chunk, Chunks chunks);
   [[nodiscard]] WindowTask Remember(int home_chunk);
   [[nodiscard]] bool IsWanted(int home_chunk) const {
     return home_chunk == in_use_ || home_chunk == prepared_;
