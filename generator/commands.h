@@ -22,9 +22,11 @@ struct SequenceOptions {
   std::uint32_t start_frame = 0;
   std::string format = "pcd";
   std::string fields = "all";
-  std::optional<std::uint64_t> seed;    ///< Overrides the scenario's.
-  std::optional<std::string> fidelity;  ///< Overrides the scenario's.
-  int num_threads = 0;                  ///< 0 = all cores.
+  std::optional<std::uint64_t> seed;              ///< Overrides the scenario's.
+  std::optional<std::string> fidelity;            ///< Overrides the scenario's.
+  std::optional<std::string> sensor;              ///< Of several, which one.
+  std::optional<std::filesystem::path> commands;  ///< A live run's log, to be replayed.
+  int num_threads = 0;                            ///< 0 = all cores.
   bool is_verbose = false;
 };
 
@@ -85,6 +87,7 @@ struct WorldOptions {
 /// Options of `railcast-generate trace`.
 struct TraceOptions {
   std::filesystem::path scenario;
+  std::optional<std::string> sensor;  ///< Of several, which one.
   std::uint32_t frame = 0;
   std::uint32_t firing = 0;
 };

@@ -40,6 +40,9 @@ void AddSequence(CLI::App& app, SequenceOptions& options, std::function<int()>& 
       ->capture_default_str();
   sequence->add_option("--fidelity", options.fidelity, "Instead of the scenario's")
       ->check(CLI::IsMember(railcast::FidelityNames()));
+  sequence->add_option("--sensor", options.sensor, "Which of the scenario's sensors");
+  sequence->add_option("--commands", options.commands,
+                       "Replay this log of a live run: same scenario, same frames");
   sequence->callback([&] { command = [&] { return railcast::SequenceCommand(options); }; });
 }
 
@@ -71,8 +74,9 @@ void AddStream(CLI::App& app, StreamOptions& options, std::function<int()>& comm
                      "fast as it can be made");
   stream->add_option("--calibration", options.calibration,
                      "Protocol hdl64e: calibration file to write for receivers");
-  stream->add_option("--commands-port", options.commands_port,
-                     "UDP port where commands are heard, JSON lines; default: none are")
+  stream
+      ->add_option("--commands-port", options.commands_port,
+                   "UDP port where commands are heard, JSON lines; default: none are")
       ->check(CLI::Range(1, 65535));
   stream->add_option("--commands-from", options.commands_from,
                      "HOST or HOST:PORT whose commands are heard; default: this machine");
@@ -113,6 +117,7 @@ void AddWorld(CLI::App& app, WorldOptions& options, std::function<int()>& comman
 void AddTrace(CLI::App& app, TraceOptions& options, std::function<int()>& command) {
   CLI::App* trace = app.add_subcommand("trace", "Replay one firing and print each effect's doing");
   trace->add_option("SCENARIO", options.scenario, "Scenario file")->required();
+  trace->add_option("--sensor", options.sensor, "Which of the scenario's sensors");
   trace->add_option("--frame", options.frame, "Number of the frame")
       ->check(CLI::Range(0, 1'000'000'000))
       ->capture_default_str();

@@ -47,12 +47,26 @@ def hesai_lasers(path):
     return [(float(row["Elevation"]), float(row["Azimuth"])) for row in rows]
 
 
-def write_sensor(path, name, lasers, times_us, cycle_us, columns, detection):
+def hdl64e_lasers(path):
+    """(elevation, azimuth) in degrees of each laser, in laser order.
+
+    The file has a laser's figures in alphabetical order: laser_id, rot_correction, vert_correction.
+    """
+    lasers = {}
+    for entry in path.read_text().split("\n- ")[1:]:
+        fields = {name: float(value)
+                  for name, value in re.findall(r"(\w+): ([-+.\deE]+)\n", entry + "\n")}
+        lasers[int(fields["laser_id"])] = (round(math.degrees(fields["vert_correction"]), 3),
+                                           round(-math.degrees(fields["rot_correction"]), 3))
+    return [lasers[i] for i in range(len(lasers))]
+
+
+def write_sensor(path, name, lasers, times_us, cycle_us, columns, detection, rate_hz=10):
     section = {
         "version": 1,
         "name": name,
         "scan": {
-            "rate_hz": 10,
+            "rate_hz": rate_hz,
             "pattern": {
                 "type": "spinning",
                 "cycle_us": cycle_us,
@@ -100,12 +114,20 @@ def main():
     write_sensor(out / "vlp16.json", "VLP-16", velodyne_lasers(velodyne / "VLP16db.yaml"),
                  [2.304 * i for i in range(16)], 55.296, 1808,
                  detection(0.5, 100.0, 50.0, 0.01, [3.0, 1.5]))
+    write_sensor(out / "vlp16_20hz.json", "VLP-16 at 20 Hz",
+                 velodyne_lasers(velodyne / "VLP16db.yaml"), [2.304 * i for i in range(16)], 55.296,
+                 904, {"file": "vlp16.json"}, rate_hz=20)
     write_sensor(out / "hdl32e.json", "HDL-32E", velodyne_lasers(velodyne / "32db.yaml"),
                  [1.152 * i for i in range(32)], 46.08, 2170,
                  detection(0.5, 100.0, 50.0, 0.007, [2.8, 2.8]))
     write_sensor(out / "vlp32c.json", "VLP-32C", velodyne_lasers(velodyne / "VeloView-VLP-32C.yaml"),
                  [2.304 * (i // 2) for i in range(32)], 55.296, 1808,
                  detection(0.5, 200.0, 90.0, 0.01, [3.0, 1.5]))
+    # Two halves fire at once, each in groups of four.
+    write_sensor(out / "hdl64e.json", "HDL-64E S2",
+                 hdl64e_lasers(velodyne / "64e_s2.1-sztaki.yaml"),
+                 [6.0 * (i % 32 // 4) + (0.0, 1.26, 2.46, 3.66)[i % 4] for i in range(64)], 48.0,
+                 2083, detection(0.5, 120.0, 50.0, 0.02, [2.0, 2.0]))
     # Groups of eight fire together; after the eighth group a slot of maintenance, after the
     # sixteenth three.
     write_sensor(out / "vls128.json", "VLS-128", velodyne_lasers(velodyne / "VLS128.yaml"),

@@ -68,7 +68,7 @@ class Collector {
                path_.starts_with(kLaserPath)) {
       if (double* const figure = FigureOf(laser_, name)) Read(name, *figure);
     }
-    path_.resize(path_.size() - name.size() - 1);
+    path_.erase(path_.size() - name.size() - 1);
     text_.clear();
   }
 

@@ -41,7 +41,8 @@ std::string GprmcSentence(std::int64_t time_ns) {
   for (const char* c = text.data(); *c != '\0'; ++c) checksum ^= static_cast<unsigned char>(*c);
   std::array<char, 8> end{};
   std::snprintf(end.data(), end.size(), "*%02X\r\n", checksum & 0xFFU);
-  return "$" + std::string(text.data()) + end.data();
+  std::string sentence("$");
+  return sentence.append(text.data()).append(end.data());
 }
 
 void AppendPositionPacket(std::int64_t time_ns, Datagrams& datagrams) {

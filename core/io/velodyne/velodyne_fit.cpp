@@ -10,6 +10,10 @@
 namespace railcast {
 namespace {
 
+std::string Quoted(std::string_view text) {
+  return std::string("\"").append(text).append("\"");
+}
+
 /// Says what is wrong with the scan, for one format.
 class Fit {
  public:
@@ -20,7 +24,7 @@ class Fit {
     const auto* const pattern = std::get_if<SpinningSpec>(&scan.pattern);
     if (pattern == nullptr) Fail("/scan/pattern/type", "must be \"spinning\"");
     if (pattern->rotation != "clockwise") {
-      Fail("/scan/pattern/rotation", "must be \"clockwise\"", "\"" + pattern->rotation + "\"");
+      Fail("/scan/pattern/rotation", "must be \"clockwise\"", Quoted(pattern->rotation));
     }
     if (pattern->channels.size() != model_.lasers.size()) {
       Fail("/scan/pattern/channels",
@@ -79,7 +83,7 @@ class Fit {
 void CheckFits(const VelodyneFormat& format, const ScanSpec& scan, std::string_view return_mode) {
   const Fit fit(format);
   fit.CheckPattern(scan);
-  const std::string got = "\"" + std::string(return_mode) + "\"";
+  const std::string got = Quoted(return_mode);
   if (format.is_dual && return_mode != "dual") {
     fit.Fail("/receiver/return_mode", "must be \"dual\"", got);
   }

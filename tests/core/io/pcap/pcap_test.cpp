@@ -1,0 +1,219 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/io/pcap/pcap_reader.h"
+#include "core/io/pcap/pcap_writer.h"
+#include "core/io/write_file.h"
+#include "tests/core/io/message_of.h"
+#include "tests/core/io/small_disk.h"
+#include "tests/core/io/temporary_directory.h"
+
+namespace railcast {
+namespace {
+
+constexpr std::int64_t kEpoch_ns = 946'684'800'000'000'000;
+
+/// Three datagrams: 1206 bytes, 512 for the position port, an empty one.
+Datagrams ExampleDatagrams() {
+  Datagrams datagrams;
+  datagrams.bytes.resize(1206 + 512);
+  for (std::size_t i = 0; i < datagrams.bytes.size(); ++i) {
+    datagrams.bytes[i] = static_cast<char>(i * 7);
+  }
+  datagrams.items = {{0, 1206, DatagramPort::kData, 1'327'123},
+                     {1206, 512, DatagramPort::kPosition, 1'000'000'000},
+                     {1718, 0, DatagramPort::kData, 86'400'000'001'000}};
+  return datagrams;
+}
+
+void WriteExample(const std::filesystem::path& file) {
+  const Datagrams datagrams = ExampleDatagrams();
+  PcapWriter writer(file, 2368, 8308);
+  writer.Write(datagrams, datagrams.items);
+  writer.Finish();
+}
+
+std::string ReadAll(const std::filesystem::path& file) {
+  return MessageOf([&] {
+    PcapReader reader(file);
+    while (reader.Next()) {
+    }
+  });
+}
+
+TEST(Pcap, ReadsBackWhatItWrote) {
+  const TemporaryDirectory directory;
+  WriteExample(directory.path() / "a.pcap");
+  EXPECT_FALSE(exists(directory.path() / "a.pcap.part"));
+  const Datagrams datagrams = ExampleDatagrams();
+  PcapReader reader(directory.path() / "a.pcap");
+  for (const Datagrams::Item& item : datagrams.items) {
+    const auto datagram = reader.Next();
+    ASSERT_TRUE(datagram);
+    EXPECT_TRUE(std::ranges::equal(datagram->payload, datagrams.BytesOf(item)));
+    const std::uint16_t port = item.port == DatagramPort::kData ? 2368 : 8308;
+    EXPECT_EQ(datagram->source_port, port);
+    EXPECT_EQ(datagram->destination_port, port);
+    EXPECT_EQ(datagram->time_ns, kEpoch_ns + item.due_ns / 1000 * 1000);
+  }
+  EXPECT_FALSE(reader.Next());
+}
+
+TEST(PcapWriter, WritesTheHeadersThatDecodersSkip) {
+  const TemporaryDirectory directory;
+  WriteExample(directory.path() / "a.pcap");
+  const std::string bytes = ReadFileWhole(directory.path() / "a.pcap");
+  ASSERT_EQ(bytes.size(), 24U + 3 * (16 + 42) + 1206 + 512);
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
+  const auto bytes_at = [&](std::size_t place, std::size_t size) {
+    std::vector<int> values;
+    for (std::size_t i = 0; i < size; ++i) values.push_back(byte(place + i));
+    return values;
+  };
+  EXPECT_THAT(bytes_at(0, 8), testing::ElementsAre(0xD4, 0xC3, 0xB2, 0xA1, 2, 0, 4, 0));
+  EXPECT_THAT(bytes_at(20, 4), testing::ElementsAre(1, 0, 0, 0));  // Ethernet.
+  constexpr std::size_t kIp = 24 + 16 + 14;
+  EXPECT_THAT(bytes_at(kIp - 2, 4), testing::ElementsAre(0x08, 0x00, 0x45, 0x00));
+  EXPECT_EQ(256 * byte(kIp + 2) + byte(kIp + 3), 1206 + 28);
+  EXPECT_EQ(byte(kIp + 9), 17);
+  EXPECT_THAT(bytes_at(kIp + 12, 8), testing::ElementsAre(192, 168, 1, 201, 255, 255, 255, 255));
+  EXPECT_THAT(bytes_at(kIp + 20, 8),
+              testing::ElementsAre(0x09, 0x40, 0x09, 0x40, 0x04, 0xBE, 0x00, 0x00));
+  // The sum over a sound header is all ones (RFC 1071).
+  unsigned sum = 0;
+  for (std::size_t i = 0; i < 20; i += 2) sum += 256U * byte(kIp + i) + byte(kIp + i + 1);
+  EXPECT_EQ((sum & 0xFFFFU) + (sum >> 16U), 0xFFFFU);
+}
+
+TEST(PcapWriter, LeavesWholePacketsWhereItIsInterrupted) {
+  const TemporaryDirectory directory;
+  const Datagrams datagrams = ExampleDatagrams();
+  {
+    PcapWriter writer(directory.path() / "a.pcap", 2368, 8308);
+    writer.Write(datagrams, datagrams.items);
+    // What a kill would leave now.
+    PcapReader reader(directory.path() / "a.pcap.part");
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(reader.Next());
+    EXPECT_FALSE(reader.Next());
+  }
+  EXPECT_FALSE(exists(directory.path() / "a.pcap"));
+  EXPECT_EQ(ReadAll(directory.path() / "a.pcap.part"), "no error");
+}
+
+TEST(PcapWriter, SaysThatTheDiskIsFull) {
+  const TemporaryDirectory directory;
+  const auto result = RunOnSmallDisk(directory.path(), [](const std::filesystem::path& disk) {
+    const Datagrams datagrams = ExampleDatagrams();
+    return MessageOf([&] {
+      PcapWriter writer(disk / "a.pcap", 2368, 8308);
+      for (int i = 0; i < 1000; ++i) writer.Write(datagrams, datagrams.items);
+      writer.Finish();
+    });
+  });
+  if (!result.was_run) GTEST_SKIP() << "no mount namespace here: a tmpfs cannot be mounted";
+  EXPECT_EQ(result.said, (directory.path() / "a.pcap").string() + ": no space left on device");
+}
+
+TEST(PcapWriter, SaysThatItsFileCannotBeMade) {
+  EXPECT_EQ(MessageOf([] { const PcapWriter writer("/no/such/place/a.pcap", 2368, 8308); }),
+            "/no/such/place/a.pcap: no such file or directory");
+}
+
+/// A frame around "abc", sent from port 1 to port 2.
+std::vector<char> MadeEthernetFrame(const std::string& tags = {}, const std::string& options = {}) {
+  std::string ip = std::string("\x45\0\0\0\0\0\0\0\x40\x11\0\0\x7F\0\0\1\x7F\0\0\1", 20) + options +
+                   std::string("\0\1\0\2\0\x0B\0\0abc", 11);
+  ip[0] = static_cast<char>(0x40U + 5 + options.size() / 4);
+  ip[3] = static_cast<char>(ip.size());
+  const std::string frame =
+      std::string(12, '\xAA') + tags + std::string("\x08\0", 2) + ip + "padding";
+  return {frame.begin(), frame.end()};
+}
+
+std::string PayloadOf(const std::vector<char>& frame) {
+  const auto found = FindDatagram(frame);
+  if (!found) return "nothing";
+  EXPECT_EQ(found->source_port, 1);
+  EXPECT_EQ(found->destination_port, 2);
+  return {found->payload.begin(), found->payload.end()};
+}
+
+TEST(FindDatagram, SkipsTagsOptionsAndPadding) {
+  const std::string tag("\x81\x00\x00\x05", 4);
+  const std::string service_tag("\x88\xA8\x00\x05", 4);
+  EXPECT_EQ(PayloadOf(MadeEthernetFrame()), "abc");
+  EXPECT_EQ(PayloadOf(MadeEthernetFrame(tag)), "abc");
+  EXPECT_EQ(PayloadOf(MadeEthernetFrame(service_tag + tag)), "abc");
+  EXPECT_EQ(PayloadOf(MadeEthernetFrame(tag + tag + tag)), "nothing");
+  EXPECT_EQ(PayloadOf(MadeEthernetFrame("", "optionsoptionsoptionsoptions")), "abc");
+}
+
+TEST(FindDatagram, FindsNothingInWhatIsNoWholeDatagram) {
+  const std::vector<char> sound = MadeEthernetFrame();
+  // Cut anywhere before the padding.
+  for (std::size_t size = 0; size + 7 < sound.size(); ++size) {
+    EXPECT_EQ(PayloadOf({sound.begin(), sound.begin() + static_cast<std::ptrdiff_t>(size)}),
+              "nothing")
+        << size;
+  }
+  const auto with = [&](std::size_t place, int value) {
+    std::vector<char> frame = sound;
+    frame[place] = static_cast<char>(value);
+    return PayloadOf(frame);
+  };
+  EXPECT_EQ(with(13, 0x06), "nothing");  // ARP.
+  EXPECT_EQ(with(14, 0x65), "nothing");  // IP version 6.
+  EXPECT_EQ(with(14, 0x44), "nothing");  // Header of 16 bytes.
+  EXPECT_EQ(with(14, 0x4F), "nothing");  // Header of 60 bytes.
+  EXPECT_EQ(with(16, 0x7F), "nothing");  // Longer than the frame.
+  EXPECT_EQ(with(20, 0x20), "nothing");  // First of several fragments.
+  EXPECT_EQ(with(21, 0x01), "nothing");  // A later fragment.
+  EXPECT_EQ(with(23, 6), "nothing");     // TCP.
+  EXPECT_EQ(with(39, 7), "nothing");     // Shorter than UDP's header.
+  EXPECT_EQ(with(39, 12), "nothing");    // Longer than the packet.
+}
+
+TEST(PcapReader, SaysWhereAFileIsDamaged) {
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "a.pcap";
+  WriteExample(file);
+  const std::string sound = ReadFileWhole(file);
+  const auto said = [&](const std::string& bytes) {
+    WriteFileWhole(file, bytes);
+    std::string text = ReadAll(file);
+    EXPECT_TRUE(text == "no error" || text.starts_with(file.string() + ": ")) << text;
+    return text == "no error" ? text : text.substr(file.string().size() + 2);
+  };
+  EXPECT_EQ(said(""), "truncated dump file; tried to read 4 file header bytes, only got 0");
+  EXPECT_EQ(said("this is no capture, far from it"), "unknown file format");
+  EXPECT_EQ(said(sound.substr(0, 20)),
+            "truncated dump file; tried to read 24 file header bytes, only got 16");
+  EXPECT_EQ(said(sound.substr(0, 24 + 5)),
+            "packet 0: truncated dump file; tried to read 16 header bytes, only got 5");
+  EXPECT_EQ(said(sound.substr(0, 24 + 16 + 1248 + 16 + 100)),
+            "packet 1: truncated dump file; tried to read 554 captured bytes, only got 100");
+  std::string other_link = sound;
+  other_link[20] = 113;
+  EXPECT_EQ(said(other_link), "must be a capture of Ethernet frames (got LINUX_SLL)");
+  std::string cut = sound;
+  cut[24 + 12 + 1] = 9;  // 2528 bytes on the wire.
+  EXPECT_EQ(said(cut), "no error") << "the datagram is there in full";
+  // The capture kept 100 bytes of a frame.
+  std::string snapped = sound.substr(0, 24 + 16 + 100);
+  snapped[24 + 8] = 100;
+  snapped[24 + 9] = 0;
+  EXPECT_EQ(said(snapped), "packet 0: must be captured whole (got 100 of 1248 bytes)");
+  std::string huge = sound;
+  huge[24 + 11] = 0x7F;
+  EXPECT_THAT(said(huge), testing::StartsWith("packet 0: invalid packet capture length"));
+  EXPECT_EQ(ReadAll("/no/such/place/a.pcap"), "/no/such/place/a.pcap: no such file or directory");
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,47 @@
+#include "core/io/velodyne/position_packet.h"
+
+#include <gtest/gtest.h>
+
+#include "core/io/velodyne/velodyne_packet.h"
+
+namespace railcast {
+namespace {
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr std::int64_t kDay_ns = 86'400 * kSecond_ns;
+
+TEST(GprmcSentence, CountsFromTheFirstOfJanuary2000) {
+  // Checksums: exclusive or of all characters between $ and *.
+  EXPECT_EQ(GprmcSentence(0), "$GPRMC,000000,V,,,,,,,010100,,,N*53\r\n");
+  EXPECT_EQ(GprmcSentence(kDay_ns - 1), "$GPRMC,235959,V,,,,,,,010100,,,N*52\r\n");
+  EXPECT_EQ(GprmcSentence(kDay_ns), "$GPRMC,000000,V,,,,,,,020100,,,N*50\r\n");
+  EXPECT_EQ(GprmcSentence(59 * kDay_ns + 3'661 * kSecond_ns),
+            "$GPRMC,010101,V,,,,,,,290200,,,N*5B\r\n");
+}
+
+TEST(GprmcSentence, HasTheChecksumOfItsText) {
+  for (std::int64_t hour = 0; hour < 24 * 400; hour += 7) {
+    const std::string sentence = GprmcSentence(hour * 3'600 * kSecond_ns);
+    const std::size_t star = sentence.find('*');
+    ASSERT_EQ(star + 5, sentence.size());
+    unsigned checksum = 0;
+    for (const char c : sentence.substr(1, star - 1)) checksum ^= static_cast<unsigned char>(c);
+    EXPECT_EQ(std::stoul(sentence.substr(star + 1, 2), nullptr, 16), checksum) << sentence;
+  }
+}
+
+TEST(PositionPacket, SaysClockPulseAndSentenceWhereDecodersLook) {
+  Datagrams datagrams;
+  datagrams.bytes.resize(10);
+  AppendPositionPacket(25 * 3'600 * kSecond_ns + 17 * kSecond_ns, datagrams);
+  ASSERT_EQ(datagrams.items.size(), 1U);
+  EXPECT_EQ(datagrams.items[0].port, DatagramPort::kPosition);
+  const auto packet = datagrams.BytesOf(datagrams.items[0]);
+  ASSERT_EQ(packet.size(), 512U);
+  EXPECT_EQ(LoadAt<std::uint32_t>(packet.data() + 0xC6), 17'000'000U);
+  EXPECT_EQ(packet[0xCA], 2);
+  EXPECT_EQ(std::string(packet.data() + 0xCE), "$GPRMC,010017,V,,,,,,,020100,,,N*57\r\n");
+}
+
+}  // namespace
+}  // namespace railcast

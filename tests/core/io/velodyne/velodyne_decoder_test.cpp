@@ -1,0 +1,198 @@
+#include "core/io/velodyne/velodyne_decoder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "core/io/field_layout.h"
+#include "core/io/velodyne/reflectivity.h"
+#include "tests/core/io/velodyne/made_scan.h"
+#include "tests/support/sensor_file.h"
+
+namespace railcast {
+namespace {
+
+VelodyneDecoder DecoderOf(std::string_view format, const MadeScan& scan) {
+  const VelodyneModel& model = *FindVelodyneFormat(format).model;
+  if (!model.has_own_angles) return VelodyneDecoder(model);
+  return {model, ReadCalibrationXml(CalibrationXml(scan.spinning()), "db.xml")};
+}
+
+std::vector<VelodyneTurn> DecodeAll(VelodyneDecoder& decoder, const Datagrams& datagrams) {
+  std::vector<VelodyneTurn> turns;
+  for (const auto& packet : DataPackets(datagrams)) {
+    EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt);
+  }
+  return turns;
+}
+
+/// A slot of a frame that must become a point.
+struct Expected {
+  std::size_t slot{};
+  std::size_t laser{};
+  std::uint8_t return_index{};
+};
+
+/// The slots that packets hold, in the order of the packets.
+std::vector<Expected> PointsOf(const Frame& frame,
+                               const MadeScan& scan,
+                               const VelodyneModel& model) {
+  std::vector<Expected> points;
+  const auto units = [&](std::size_t slot) {
+    const double distance = std::floor(double{frame.range_m[slot]} / model.distance_unit_m + 0.5);
+    return distance < 65536.0 ? distance : 0.0;  // And for NaN.
+  };
+  for (std::uint32_t column = 0; column < frame.columns; ++column) {
+    for (std::size_t laser = 0; laser < scan.num_lasers(); ++laser) {
+      const std::size_t slot =
+          scan.RowOf(laser) * std::size_t{frame.width()} + column * frame.returns;
+      std::vector<std::size_t> slots;
+      for (std::size_t r = 0; r < frame.returns; ++r) {
+        if (units(slot + r) > 0.0) slots.push_back(slot + r);
+      }
+      std::ranges::sort(slots, [&](std::size_t a, std::size_t b) { return units(a) > units(b); });
+      for (std::size_t i = 0; i < slots.size(); ++i) {
+        points.push_back({slots[i], laser, static_cast<std::uint8_t>(i)});
+      }
+    }
+  }
+  return points;
+}
+
+class DecodedFormat : public testing::TestWithParam<const char*> {};
+
+TEST_P(DecodedFormat, GivesBackTheFramesThatWereEncoded) {
+  const std::string_view format = GetParam();
+  const MadeScan scan(ReadSensor(std::string(SensorOf(format))));
+  const VelodyneModel& model = *FindVelodyneFormat(format).model;
+  const std::uint32_t returns = format == "vlp16-dual" ? 2 : 1;
+  std::vector<Frame> frames;
+  for (std::uint32_t i = 0; i < 3; ++i) frames.push_back(scan.MakeFrame(i, returns));
+  VelodyneDecoder decoder = DecoderOf(format, scan);
+  const auto turns = DecodeAll(decoder, EncodeAll(format, scan, frames));
+  ASSERT_EQ(turns.size(), 2U);  // The third ends with a fourth.
+  // A packet over two frames has one time and one speed: what lies between the frames is missing.
+  const double gap_us =
+      1e6 / scan.spec().rate_hz - scan.spinning().columns * scan.spinning().cycle_us;
+  const std::int64_t time_tolerance_ns = 1001 + std::lround(1e3 * gap_us);
+  // Azimuths are rounded to 0.01 deg, the steps between blocks too.
+  constexpr double kAzimuthTolerance_deg = 0.02;
+  for (std::size_t t = 0; t < turns.size(); ++t) {
+    const Frame& frame = frames[t];
+    const auto expected = PointsOf(frame, scan, model);
+    const auto& points = turns[t].points;
+    ASSERT_EQ(points.size(), expected.size());
+    EXPECT_LT(std::abs(turns[t].stamp_ns - frame.stamp_ns), time_tolerance_ns);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const std::size_t slot = expected[i].slot;
+      ASSERT_EQ(points[i].laser, expected[i].laser);
+      ASSERT_EQ(points[i].ring, frame.ring[slot]);
+      ASSERT_EQ(points[i].return_index, expected[i].return_index);
+      ASSERT_EQ(points[i].intensity, ReflectivityByte(frame.intensity[slot]));
+      ASSERT_NEAR(points[i].range_m, frame.range_m[slot], 0.5 * model.distance_unit_m + 2e-5);
+      ASSERT_LT(std::abs(points[i].time_ns - frame.time_ns[slot]), time_tolerance_ns);
+      const double azimuth_deg = DegFromRad(static_cast<double>(points[i].azimuth_rad));
+      ASSERT_LT(std::abs(std::remainder(azimuth_deg - MadeScan::AzimuthOf(frame, slot), 360.0)),
+                kAzimuthTolerance_deg);
+      const Vector3 decoded_m(points[i].x, points[i].y, points[i].z);
+      const Vector3 true_m(frame.x[slot], frame.y[slot], frame.z[slot]);
+      ASSERT_LT((decoded_m - true_m).norm(),
+                model.distance_unit_m + true_m.norm() * RadFromDeg(kAzimuthTolerance_deg));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(VelodyneDecoder,
+                         DecodedFormat,
+                         testing::Values("vlp16", "vlp16-dual", "hdl32e", "vlp32c", "hdl64e"),
+                         [](const auto& test) {
+                           std::string name = test.param;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+/// A sound VLP-16 packet.
+std::vector<char> SoundPacket(std::string_view format = "vlp16") {
+  const MadeScan scan(ReadSensor(std::string(SensorOf(format))));
+  const Datagrams datagrams = EncodeAll(format, scan, {scan.MakeFrame(0)});
+  const auto packet = DataPackets(datagrams)[0];
+  return {packet.begin(), packet.end()};
+}
+
+std::string Refusal(std::string_view format, std::span<const char> packet) {
+  const MadeScan scan(ReadSensor(std::string(SensorOf(format))));
+  VelodyneDecoder decoder = DecoderOf(format, scan);
+  std::vector<VelodyneTurn> turns;
+  const std::string refusal = decoder.Decode(packet, turns).value_or("");
+  if (!refusal.empty()) {
+    EXPECT_TRUE(turns.empty());
+    EXPECT_TRUE(decoder.TakeUnfinished().points.empty());
+  }
+  return refusal;
+}
+
+template <typename Number>
+std::string RefusalWith(std::string_view format, std::size_t place, Number number) {
+  std::vector<char> packet = SoundPacket(format);
+  StoreAt<Number>(packet.data() + place, number);
+  return Refusal(format, packet);
+}
+
+TEST(VelodyneDecoder, RefusesWhatIsNoPacketOfItsModel) {
+  std::vector<char> packet = SoundPacket();
+  EXPECT_EQ(Refusal("vlp16", packet), "");
+  EXPECT_EQ(Refusal("vlp16", {}), "must be 1206 bytes (got 0)");
+  EXPECT_EQ(Refusal("vlp16", std::span(packet).first(1205)), "must be 1206 bytes (got 1205)");
+  packet.push_back('\0');
+  EXPECT_EQ(Refusal("vlp16", packet), "must be 1206 bytes (got 1207)");
+  EXPECT_EQ(RefusalWith<std::uint8_t>("vlp16", 1205, 0x21), "model must be 34, VLP-16 (got 33)");
+  EXPECT_EQ(RefusalWith<std::uint8_t>("vlp16", 1204, 0x36),
+            "return mode must be 55, 56 or 57 (got 54)");
+  EXPECT_EQ(RefusalWith<std::uint16_t>("vlp16", 700, 0xDDFF),
+            "block 7: flag must be 61183 (got 56831)");
+  EXPECT_EQ(RefusalWith<std::uint16_t>("vlp16", 302, 36000),
+            "block 3: azimuth must be <= 35999 (got 36000)");
+  EXPECT_EQ(RefusalWith<std::uint32_t>("vlp16", 1200, 3'600'000'000U),
+            "microseconds past the hour must be < 3600000000 (got 3600000000)");
+  EXPECT_EQ(RefusalWith<std::uint16_t>("vlp16-dual", 302, 77),
+            "block 3: azimuth must be that of its pair (got 77)");
+  EXPECT_EQ(RefusalWith<std::uint16_t>("hdl64e", 500, 0xEEFF),
+            "block 5: flag must be 56831 (got 61183)");
+}
+
+TEST(VelodyneDecoder, CountsOnOverTheHour) {
+  std::vector<char> packet = SoundPacket();
+  VelodyneDecoder decoder(*FindVelodyneFormat("vlp16").model);
+  std::vector<VelodyneTurn> turns;
+  // Every packet begins at azimuth 0, so that each is a turn.
+  for (const std::uint32_t time_us : {3'599'900'000U, 0U, 100'000U, 50'000U, 2'000'000'000U}) {
+    StoreAt<std::uint32_t>(packet.data() + 1200, time_us);
+    EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt);
+  }
+  turns.push_back(decoder.TakeUnfinished());
+  std::vector<std::int64_t> stamps_us;
+  for (const VelodyneTurn& turn : turns) stamps_us.push_back(turn.stamp_ns / 1000);
+  // The fourth came late; half an hour and more ahead is taken for behind.
+  EXPECT_THAT(stamps_us, testing::ElementsAre(3'599'900'000, 3'600'000'000, 3'600'100'000,
+                                              3'600'050'000, 2'000'000'000));
+}
+
+TEST(VelodyneDecoder, CutsTheTurnOfARotorThatStandsStill) {
+  std::vector<char> packet = SoundPacket();
+  for (std::size_t block = 0; block < 12; ++block) {
+    StoreAt<std::uint16_t>(packet.data() + block * kBlockSize + kAzimuthPlace, 100);
+  }
+  VelodyneDecoder decoder(*FindVelodyneFormat("vlp16").model);
+  std::vector<VelodyneTurn> turns;
+  for (int i = 0; turns.empty() && i < 10'000; ++i) {
+    ASSERT_EQ(decoder.Decode(packet, turns), std::nullopt);
+  }
+  ASSERT_EQ(turns.size(), 1U);
+  EXPECT_LT(turns[0].points.size(), (std::size_t{1} << 20U) + 32);
+}
+
+}  // namespace
+}  // namespace railcast
