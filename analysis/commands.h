@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace railcast {
@@ -13,6 +14,7 @@ inline constexpr int kExitUsage = 2;
 /// Options of `railcast-analyze frontier`.
 struct FrontierOptions {
   std::filesystem::path scenario;
+  std::optional<std::string> sensor;  ///< Of several, which one.
   std::filesystem::path out;
   int num_frames = 4;
   int num_threads = 1;

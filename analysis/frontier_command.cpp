@@ -18,7 +18,7 @@ namespace {
 
 // The rows bring their own effects; what is not needed is asked of all there are.
 ScenarioSpec ReadForFrontier(const FrontierOptions& options) {
-  ScenarioSpec scenario = ReadScenario(options.scenario);
+  ScenarioSpec scenario = PickSensor(ReadScenario(options.scenario), options.sensor);
   scenario.fidelity = kAutoFidelity;
   scenario.effects.clear();
   return scenario;

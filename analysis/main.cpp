@@ -22,6 +22,7 @@ void AddFrontier(CLI::App& app, FrontierOptions& options, std::function<int()>& 
   frontier->add_option("--threads", options.num_threads, "Of the timing; 0 = all cores")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
+  frontier->add_option("--sensor", options.sensor, "Which of the scenario's sensors");
   frontier->add_option("--rows", options.rows, "Rows separated by commas, or all")
       ->capture_default_str();
   frontier->callback([&] { command = [&] { return railcast::FrontierCommand(options); }; });

@@ -1,5 +1,8 @@
 #include <iostream>
+#include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/fidelity/choice_report.h"
@@ -13,33 +16,68 @@
 #include "generator/chosen_fidelity.h"
 #include "generator/commands.h"
 #include "generator/effects_report.h"
+#include "generator/report_line.h"
 
 namespace railcast {
 namespace {
 
-void PrintReport(const ScenarioSpec& scenario, bool is_verbose) {
-  const ScanPattern pattern = BuildScanPattern(scenario.lidar.scan);
-  const auto world = MakeWorld(scenario);
-  const MaterialLibrary materials(scenario.materials);
-  const LabelTable labels(scenario.labels);
-  const TrackSpec& track = *FindTrack(scenario.world, scenario.vehicle.track);
-  const double range_m = scenario.lidar.range_max_m;
-  const auto& mount_m = scenario.lidar.mount.position_m;
-  const Surroundings around =
-      LookAround(world, materials, {mount_m[0], mount_m[1], mount_m[2]}, range_m);
-  const double length_m = world->alignment().length_m();
+/// What follows from a scenario with one sensor.
+class Report {
+ public:
+  Report(const ScenarioSpec& scenario, std::shared_ptr<const RailWorld> world)
+      : scenario_(scenario),
+        world_(std::move(world)),
+        pattern_(BuildScanPattern(scenario.lidar.scan)),
+        materials_(scenario.materials) {}
 
-  std::cout << SensorText(scenario.lidar, pattern) << LineText(world->alignment(), is_verbose)
-            << VehicleText(track.name, FindVehicleWay(scenario.vehicle, track, length_m),
-                           pattern.rate_hz)
-            << EffectsText(scenario) << OutputText(scenario.output, around.position_world)
-            << SurroundingsText(around, *world, labels)
-            << SceneText(AuditScene(*world, materials, pattern.StampNs(0), range_m))
-            << ObjectsText(*world, labels);
-  if (scenario.fidelity == kAutoFidelity) {
-    const auto simulator = MakeSimulator(scenario, 0);
-    std::cout << ChoiceText(UseChosenFidelity(*simulator, scenario), scenario.tolerance);
+  [[nodiscard]] std::string Sensor() const { return SensorText(scenario_.lidar, pattern_); }
+
+  [[nodiscard]] std::string Line(bool is_verbose) const {
+    const TrackSpec& track = *FindTrack(scenario_.world, scenario_.vehicle.track);
+    const double length_m = world_->alignment().length_m();
+    return LineText(world_->alignment(), is_verbose) +
+           VehicleText(track.name, FindVehicleWay(scenario_.vehicle, track, length_m),
+                       pattern_.rate_hz);
   }
+
+  [[nodiscard]] std::string WhatItSees() const {
+    const double range_m = scenario_.lidar.range_max_m;
+    const auto& mount_m = scenario_.lidar.mount.position_m;
+    const Surroundings around =
+        LookAround(world_, materials_, {mount_m[0], mount_m[1], mount_m[2]}, range_m);
+    return EffectsText(scenario_) + OutputText(scenario_.output, around.position_world) +
+           SurroundingsText(around, *world_, LabelTable(scenario_.labels)) +
+           SceneText(AuditScene(*world_, materials_, pattern_.StampNs(0), range_m));
+  }
+
+  [[nodiscard]] std::string Choice() const {
+    if (scenario_.fidelity != kAutoFidelity) return "";
+    const auto simulator = MakeSimulator(scenario_, 0);
+    return ChoiceText(UseChosenFidelity(*simulator, scenario_), scenario_.tolerance);
+  }
+
+ private:
+  const ScenarioSpec& scenario_;
+  std::shared_ptr<const RailWorld> world_;
+  ScanPattern pattern_;
+  MaterialLibrary materials_;
+};
+
+void PrintReport(const ScenarioSpec& scenario, bool is_verbose) {
+  const std::shared_ptr<const RailWorld> world = MakeWorld(scenario);
+  const std::vector<std::string> sensors = SensorNames(scenario);
+  std::string choices;
+  for (const std::string& sensor : sensors) {
+    const ScenarioSpec picked = PickSensor(scenario, sensor);
+    const Report report(picked, world);
+    std::cout << report.Sensor();
+    if (sensor == sensors.front()) std::cout << report.Line(is_verbose);
+    std::cout << report.WhatItSees();
+    if (sensors.size() > 1) choices += ReportLine("sensor", sensor);
+    choices += report.Choice();
+  }
+  std::cout << ObjectsText(*world, LabelTable(scenario.labels));
+  if (scenario.fidelity == kAutoFidelity) std::cout << choices;
   if (scenario.camera) std::cout << "camera    read and kept for later; nothing uses it yet\n";
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace railcast {
 
@@ -21,15 +22,42 @@ struct SequenceOptions {
   std::uint32_t start_frame = 0;
   std::string format = "pcd";
   std::string fields = "all";
-  std::optional<std::uint64_t> seed;    ///< Overrides the scenario's.
-  std::optional<std::string> fidelity;  ///< Overrides the scenario's.
-  int num_threads = 0;                  ///< 0 = all cores.
+  std::optional<std::uint64_t> seed;              ///< Overrides the scenario's.
+  std::optional<std::string> fidelity;            ///< Overrides the scenario's.
+  std::optional<std::string> sensor;              ///< Of several, which one.
+  std::optional<std::filesystem::path> commands;  ///< A live run's log, to be replayed.
+  int num_threads = 0;                            ///< 0 = all cores.
   bool is_verbose = false;
 };
 
 /// Makes a sequence directory, or finishes an interrupted one.
 /// @throws InputError on bad input.
 [[nodiscard]] int SequenceCommand(const SequenceOptions& options);
+
+/// Options of `railcast-generate stream`.
+struct StreamOptions {
+  std::filesystem::path scenario;
+  std::optional<std::string> sensor;    ///< Absent = all.
+  std::vector<std::string> to;          ///< HOST:PORT, instead of the scenario's.
+  std::optional<std::string> protocol;  ///< Instead of the scenario's.
+  std::string fields = "x,y,z,intensity,ring,time_ns,label,instance";  ///< Of protocol railcast.
+  bool has_all_slots = false;                                          ///< Likewise.
+  std::string pacing = "spread";
+  std::optional<std::filesystem::path> pcap;
+  std::optional<std::filesystem::path> calibration;  ///< Of protocol hdl64e.
+  bool lockstep = false;
+  std::optional<std::uint16_t> commands_port;
+  std::optional<std::string> commands_from;  ///< HOST or HOST:PORT; absent = this machine.
+  std::optional<std::filesystem::path> commands_log;
+  std::optional<double> duration_s;     ///< Of simulation time; absent = until stopped.
+  std::optional<std::uint64_t> seed;    ///< Overrides the scenario's.
+  std::optional<std::string> fidelity;  ///< Overrides the scenario's.
+  int num_threads = 0;                  ///< 0 = all cores.
+};
+
+/// Sends frames live, as they would come from real sensors, until stopped.
+/// @throws InputError on bad input.
+[[nodiscard]] int StreamCommand(const StreamOptions& options);
 
 /// Options of `railcast-generate check`.
 struct CheckOptions {
@@ -59,6 +87,7 @@ struct WorldOptions {
 /// Options of `railcast-generate trace`.
 struct TraceOptions {
   std::filesystem::path scenario;
+  std::optional<std::string> sensor;  ///< Of several, which one.
   std::uint32_t frame = 0;
   std::uint32_t firing = 0;
 };

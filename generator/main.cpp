@@ -11,6 +11,7 @@ namespace {
 
 using railcast::CheckOptions;
 using railcast::SequenceOptions;
+using railcast::StreamOptions;
 using railcast::TraceOptions;
 using railcast::WorldOptions;
 
@@ -39,7 +40,57 @@ void AddSequence(CLI::App& app, SequenceOptions& options, std::function<int()>& 
       ->capture_default_str();
   sequence->add_option("--fidelity", options.fidelity, "Instead of the scenario's")
       ->check(CLI::IsMember(railcast::FidelityNames()));
+  sequence->add_option("--sensor", options.sensor, "Which of the scenario's sensors");
+  sequence->add_option("--commands", options.commands,
+                       "Replay this log of a live run: same scenario, same frames");
   sequence->callback([&] { command = [&] { return railcast::SequenceCommand(options); }; });
+}
+
+void AddStream(CLI::App& app, StreamOptions& options, std::function<int()>& command) {
+  CLI::App* stream = app.add_subcommand(
+      "stream", "Send frames over UDP as they would come from real sensors, until Ctrl-C");
+  stream->add_option("SCENARIO", options.scenario, "Scenario file")->required();
+  stream->add_option("--sensor", options.sensor, "This one of several; default: all");
+  stream
+      ->add_option("--to", options.to,
+                   "HOST:PORT of a receiver, repeated for several; default: the scenario's, else "
+                   "this machine. Everybody on the network is 255.255.255.255")
+      ->allow_extra_args(false);
+  stream->add_option("--protocol", options.protocol, "Instead of the scenario's")
+      ->check(CLI::IsMember({"railcast", "vlp16", "vlp16-dual", "hdl32e", "vlp32c", "hdl64e"}));
+  stream
+      ->add_option("--fields", options.fields,
+                   "Protocol railcast: fields separated by commas, or all")
+      ->capture_default_str();
+  stream->add_flag("--all-slots", options.has_all_slots,
+                   "Protocol railcast: also what did not return");
+  stream
+      ->add_option("--pacing", options.pacing,
+                   "spread: each datagram when its last firing is; burst: a frame at once")
+      ->check(CLI::IsMember({"spread", "burst"}))
+      ->capture_default_str();
+  stream->add_option("--pcap", options.pcap,
+                     "Capture file to write; without --to nothing is sent, and it is written as "
+                     "fast as it can be made");
+  stream->add_option("--calibration", options.calibration,
+                     "Protocol hdl64e: calibration file to write for receivers");
+  stream->add_option("--commands-port", options.commands_port,
+                     "UDP port where commands are heard, JSON lines; default: none are")
+      ->check(CLI::Range(1, 65535));
+  stream->add_option("--commands-from", options.commands_from,
+                     "HOST or HOST:PORT whose commands are heard; default: this machine");
+  stream->add_option("--commands-log", options.commands_log,
+                     "File to write for `sequence --commands`");
+  stream->add_flag("--lockstep", options.lockstep, "Each frame waits for command step");
+  stream->add_option("--duration", options.duration_s, "Seconds of simulation; default: no end")
+      ->check(CLI::Range(1e-3, 1e9));
+  stream->add_option("--seed", options.seed, "Instead of the scenario's");
+  stream->add_option("--threads", options.num_threads, "0 = all cores")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  stream->add_option("--fidelity", options.fidelity, "Instead of the scenario's")
+      ->check(CLI::IsMember(railcast::FidelityNames()));
+  stream->callback([&] { command = [&] { return railcast::StreamCommand(options); }; });
 }
 
 void AddCheck(CLI::App& app, CheckOptions& options, std::function<int()>& command) {
@@ -65,6 +116,7 @@ void AddWorld(CLI::App& app, WorldOptions& options, std::function<int()>& comman
 void AddTrace(CLI::App& app, TraceOptions& options, std::function<int()>& command) {
   CLI::App* trace = app.add_subcommand("trace", "Replay one firing and print each effect's doing");
   trace->add_option("SCENARIO", options.scenario, "Scenario file")->required();
+  trace->add_option("--sensor", options.sensor, "Which of the scenario's sensors");
   trace->add_option("--frame", options.frame, "Number of the frame")
       ->check(CLI::Range(0, 1'000'000'000))
       ->capture_default_str();
@@ -87,11 +139,13 @@ int main(int argc, char** argv) {
   bool is_verbose = false;
   app.add_flag("-v,--verbose", is_verbose, "Say more");
   SequenceOptions sequence;
+  StreamOptions stream;
   CheckOptions check;
   WorldOptions world;
   TraceOptions trace;
   std::function<int()> command;
   AddSequence(app, sequence, command);
+  AddStream(app, stream, command);
   AddCheck(app, check, command);
   AddWorld(app, world, command);
   AddTrace(app, trace, command);

@@ -26,9 +26,13 @@ ScenarioIdentity IdentityOf(const ScenarioSpec& scenario) {
   };
 
   ScenarioSpec anywhere = scenario;
-  if (auto* table = std::get_if<FiringTableSpec>(&anywhere.lidar.scan.pattern)) {
-    replace_by_content(table->file);
-  }
+  const auto replace_table = [&](LidarSpec& lidar) {
+    if (auto* table = std::get_if<FiringTableSpec>(&lidar.scan.pattern)) {
+      replace_by_content(table->file);
+    }
+  };
+  replace_table(anywhere.lidar);
+  for (LidarSpec& lidar : anywhere.lidars) replace_table(lidar);
   for (ObjectSpec& object : anywhere.world.objects) {
     if (object.file) replace_by_content(*object.file);
   }

@@ -1,19 +1,21 @@
-#include <signal.h>
-
-#include <atomic>
 #include <chrono>
 #include <iostream>
+#include <optional>
+#include <utility>
 
+#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/fidelity/choice_report.h"
-#include "core/rail/rail_world.h"
+#include "core/scenario/command_log.h"
 #include "core/scenario/effects.h"
 #include "core/scenario/scenario.h"
 #include "generator/chosen_fidelity.h"
+#include "generator/commanded_run.h"
 #include "generator/commands.h"
 #include "generator/object_survey.h"
 #include "generator/run_sequence.h"
 #include "generator/scenario_identity.h"
+#include "generator/stop_signal.h"
 #include "generator/summary.h"
 #include "generator/terminal_line.h"
 #include "generator/track_limits.h"
@@ -21,20 +23,13 @@
 namespace railcast {
 namespace {
 
-// A signal handler can reach nothing else.
-std::atomic<bool> stop_requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
+// The whole scenario, of which a log is, and the one sensor that the frames are of.
+struct Scenarios {
+  ScenarioSpec whole;
+  ScenarioSpec of_sensor;
+};
 
-void StopAfterThisFrameOnSignals() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { stop_requested = true; };
-  // A second Ctrl-C ends the program at once; the directory can be resumed all the same.
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
-}
-
-ScenarioSpec ReadWithOverrides(const SequenceOptions& options) {
+Scenarios ReadWithOverrides(const SequenceOptions& options) {
   ScenarioSpec scenario = ReadScenario(options.scenario);
   if (options.seed) scenario.seed = *options.seed;
   if (options.fidelity) scenario.fidelity = *options.fidelity;
@@ -45,7 +40,25 @@ ScenarioSpec ReadWithOverrides(const SequenceOptions& options) {
                      ": /output: must be right-handed sensor coordinates for --format kitti (got " +
                      scenario.output.handedness + "-handed " + scenario.output.frame + ")");
   }
-  return scenario;
+  ScenarioSpec of_sensor = PickSensor(scenario, options.sensor);
+  return {std::move(scenario), std::move(of_sensor)};
+}
+
+// What the log says since its last reset. It may be of all the scenario's sensors or of this one.
+CommandLog ReadLog(const SequenceOptions& options, const Scenarios& scenarios) {
+  CommandLog log;
+  if (!options.commands) return log;
+  log = ReadCommandLog(*options.commands);
+  const std::string whole = IdentityOf(scenarios.whole).scenario_hash;
+  if (log.scenario_xxh3 != whole &&
+      log.scenario_xxh3 != IdentityOf(scenarios.of_sensor).scenario_hash) {
+    throw InputError(options.commands->string() +
+                     ": must be the log of this scenario with this --seed and --fidelity, " +
+                     whole + " (got that of " + log.scenario_xxh3 + ")");
+  }
+  // So that a log of all sensors and one of this one make the same run.
+  log.scenario_xxh3 = whole;
+  return log;
 }
 
 SequenceSpec MakeSpec(const SequenceOptions& options, const ScenarioSpec& scenario) {
@@ -69,13 +82,27 @@ SequenceSpec MakeSpec(const SequenceOptions& options, const ScenarioSpec& scenar
   return spec;
 }
 
-FrameSource MakeSource(Simulator& simulator, const ObjectSurvey& survey) {
-  return [&simulator, &survey](std::uint32_t index, Frame& frame,
-                               std::vector<ObjectInFrame>& objects) {
+/// Makes the frames of a run and what they show.
+class SurveyedRun {
+ public:
+  SurveyedRun(CommandedRun& run, const LabelTable& labels) : run_(run), labels_(labels) {}
+
+  void Make(std::uint32_t index, Frame& frame, std::vector<ObjectInFrame>& objects) {
+    Simulator& simulator = run_.At(0, index);
     simulator.Scan(index, frame);
-    objects = survey.Describe(frame, simulator.FiringsOnObjectAlone(index));
-  };
-}
+    if (simulator.shared_world() != world_) {
+      world_ = simulator.shared_world();
+      survey_.emplace(*world_, labels_, simulator.spec().range_max_m, simulator.spec().output);
+    }
+    objects = survey_->Describe(frame, simulator.FiringsOnObjectAlone(index));
+  }
+
+ private:
+  CommandedRun& run_;
+  const LabelTable& labels_;
+  std::shared_ptr<const World> world_;
+  std::optional<ObjectSurvey> survey_;
+};
 
 class ProgressDisplay {
  public:
@@ -98,31 +125,46 @@ class ProgressDisplay {
 }  // namespace
 
 int SequenceCommand(const SequenceOptions& options) {
-  const ScenarioSpec scenario = ReadWithOverrides(options);
+  const Scenarios scenarios = ReadWithOverrides(options);
+  const ScenarioSpec& scenario = scenarios.of_sensor;
+  const CommandLog log = ReadLog(options, scenarios);
   SequenceSpec spec = MakeSpec(options, scenario);
+  // A log that says nothing makes the same run as none.
+  if (!log.commands.empty()) spec.commands_jsonl = CommandLogText(log);
   if (options.is_verbose) std::cerr << "read " << options.scenario.string() << "\n";
   const auto simulator = MakeSimulator(scenario, options.num_threads);
   if (options.is_verbose) {
     std::cerr << "made the simulator: " << simulator->pattern().num_firings()
-              << " firings a frame, " << simulator->world().objects().size() << " objects\n";
+              << " firings a frame, " << simulator->world().objects().size() << " objects, "
+              << log.commands.size() << " commands\n";
   }
-  // The simulator's world is the one that the scenario describes.
-  CheckStaysOnTracks(scenario, dynamic_cast<const RailWorld&>(simulator->world()),
-                     simulator->pattern(), spec.start_frame,
+  CommandedRun run(scenario, {simulator.get()});
+  ErrorList faults;
+  static_cast<void>(Attempt(options.commands.value_or("").string() + ": ", faults, [&] {
+    run.Apply(log.commands);
+    return true;
+  }));
+  faults.ThrowIfAny();
+  CheckStaysOnTracks(run, simulator->pattern(), spec.start_frame,
                      spec.start_frame + spec.num_frames - 1);
   if (scenario.fidelity == kAutoFidelity) {
     const FidelityChoice choice = UseChosenFidelity(*simulator, scenario);
     spec.fidelity_choice_json = ChoiceJson(choice, scenario.tolerance);
     std::cout << ChoiceText(choice, scenario.tolerance) << std::flush;
   }
-  const ObjectSurvey survey(simulator->world(), spec.files.labels, scenario.lidar.range_max_m,
-                            scenario.output);
-  StopAfterThisFrameOnSignals();
+  SurveyedRun frames(run, spec.files.labels);
+  // Whatever ends the program, the directory can be resumed.
+  CatchStopSignals();
   ProgressDisplay display;
   const SequenceHooks hooks = {
       [&](std::uint32_t num_done, std::uint32_t num_frames) { display.Show(num_done, num_frames); },
-      [] { return stop_requested.load(); }};
-  const SequenceResult result = RunSequence(spec, MakeSource(*simulator, survey), hooks);
+      StopRequested};
+  const SequenceResult result = RunSequence(
+      spec,
+      [&](std::uint32_t index, Frame& frame, std::vector<ObjectInFrame>& objects) {
+        frames.Make(index, frame, objects);
+      },
+      hooks);
   std::cout << Summary(spec, result);
   if (result.is_complete) return kExitSuccess;
   std::cerr << "interrupted; the same command continues with frame "

@@ -26,6 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kRunFile = "run.json";
+constexpr const char* kCommandsFile = "commands.jsonl";
 constexpr const char* kManifestFile = "manifest.json";
 
 void CreateDirectories(const fs::path& directory) {
@@ -116,6 +117,9 @@ void SequenceDirectory::WriteFixedFiles() {
   WriteFileWhole(spec_.directory / "scenario.resolved.json", spec_.scenario_json);
   WriteFileWhole(spec_.directory / "labels.json", LabelsJson(spec_.files.labels));
   WriteFileWhole(spec_.directory / "materials.json", MaterialsJson(spec_.materials));
+  if (!spec_.commands_jsonl.empty()) {
+    WriteFileWhole(spec_.directory / kCommandsFile, spec_.commands_jsonl);
+  }
   if (spec_.files.format != FrameFormat::kKitti) {
     CreateDirectories(spec_.directory / "frames");
     return;
@@ -189,6 +193,7 @@ std::string SequenceDirectory::ManifestJson() const {
   std::string all;
   nlohmann::ordered_json files = nlohmann::ordered_json::object();
   std::vector<std::string> names = {kRunFile, "labels.json", "materials.json"};
+  if (!spec_.commands_jsonl.empty()) names.push_back(kCommandsFile);
   for (const LineFileName& file : LineFileNames(spec_.files.format)) names.push_back(file.name);
   for (const std::string& name : names) {
     const std::string hash = ContentHash(ReadFileWhole(spec_.directory / name));

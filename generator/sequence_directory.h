@@ -18,8 +18,8 @@ namespace railcast {
 ///
 /// Layout: `frames/NNNNNN.*` (kitti: KITTI's own, numbered from 0 because line n of poses.txt
 /// belongs to file n), `poses.csv`, `objects.jsonl`, `frames.jsonl`, `scenario.resolved.json`,
-/// `labels.json`, `materials.json`, `run.json` (whose run this is) and, once complete,
-/// `manifest.json`.
+/// `labels.json`, `materials.json`, `commands.jsonl` (if it replays any), `run.json` (whose run
+/// this is) and, once complete, `manifest.json`.
 ///
 /// A frame counts as done when its line in frames.jsonl is whole and its files and lines have the
 /// hashes that line names. Whatever else an interrupted run left behind is dropped on opening, so

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "core/io/content_hash.h"
 
 namespace railcast {
 namespace {
@@ -21,7 +22,9 @@ Json RunObject(const SequenceSpec& spec) {
               {"seed", spec.seed},
               {"inputs", inputs},
               {"scenario_xxh3", spec.identity.scenario_hash},
+              {"commands_xxh3", ContentHash(spec.commands_jsonl)},
               {"format", FrameFormatName(spec.files.format)}};
+  if (spec.commands_jsonl.empty()) run.erase("commands_xxh3");
   if (spec.files.format != FrameFormat::kKitti) run["fields"] = spec.files.fields.Text();
   run["start_frame"] = spec.start_frame;
   run["num_frames"] = spec.num_frames;
@@ -57,12 +60,18 @@ void CheckSameRun(const SequenceSpec& spec, const std::string& run_json) {
   const std::string place = spec.directory.string() + ": ";
   if (!found.is_object()) throw InputError(place + "holds a run.json that is not railcast's");
   const Json ours = RunObject(spec);
+  if (found.contains("commands_xxh3") && spec.commands_jsonl.empty()) {
+    throw InputError(place + "holds a run with commands; choose another --out");
+  }
   for (const auto& [key, value] : ours.items()) {
     const Json other = found.value(key, Json());
     if (other == value) continue;
     if (key == "inputs" || key == "scenario_xxh3") {
       throw InputError(place + ScenarioDifference(found.value("inputs", Json()), ours["inputs"]) +
                        "; choose another --out");
+    }
+    if (key == "commands_xxh3") {
+      throw InputError(place + "holds a run with other commands; choose another --out");
     }
     std::string line = place;
     line += "holds another run: its " + key + " is " + Text(other);

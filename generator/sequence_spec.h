@@ -16,6 +16,7 @@ struct SequenceSpec {
   std::string version;               ///< Of railcast.
   std::string scenario_json;         ///< Resolved, with the command line's seed and rung in it.
   ScenarioIdentity identity;         ///< What of it the bytes depend on: not where its files lie.
+  std::string commands_jsonl;        ///< CommandLogText of what is replayed; empty if nothing is.
   std::uint64_t seed{};              ///< The scenario's, for the manifest.
   std::string fidelity_choice_json;  ///< What fidelity auto came to; empty unless it was asked.
   FrameFileSpec files;

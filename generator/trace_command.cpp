@@ -63,7 +63,7 @@ void PrintEchoes(const std::vector<FiringStory::Echo>& echoes, const LabelTable&
 }  // namespace
 
 int TraceCommand(const TraceOptions& options) {
-  const ScenarioSpec scenario = ReadScenario(options.scenario);
+  const ScenarioSpec scenario = PickSensor(ReadScenario(options.scenario), options.sensor);
   const auto simulator = MakeSimulator(scenario, 1);
   const std::size_t num_firings = simulator->pattern().num_firings();
   if (options.firing >= num_firings) {

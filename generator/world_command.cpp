@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -9,7 +10,6 @@
 #include "core/base/number_text.h"
 #include "core/io/write_file.h"
 #include "core/rail/rail_world.h"
-#include "core/scan/scan_pattern.h"
 #include "core/scenario/scenario.h"
 #include "generator/commands.h"
 #include "generator/terminal_line.h"
@@ -66,14 +66,18 @@ int WorldCommand(const WorldOptions& options) {
   }
   const ScenarioSpec scenario = ReadScenario(options.scenario);
   const auto world = MakeWorld(scenario);
-  const std::int64_t time_ns = BuildScanPattern(scenario.lidar.scan).StampNs(0);
+  constexpr std::int64_t kBegin_ns = 0;
+  double range_max_m = 0.0;
+  for (const std::string& sensor : SensorNames(scenario)) {
+    range_max_m = std::max(range_max_m, PickSensor(scenario, sensor).lidar.range_max_m);
+  }
   const std::vector<int> chunks =
       options.from_s_m
           ? ChunksBetween(*options.from_s_m, *options.to_s_m, world->alignment().length_m())
-          : world->ChunksInReach(world->HomeChunk(time_ns), scenario.lidar.range_max_m);
+          : world->ChunksInReach(world->HomeChunk(kBegin_ns), range_max_m);
   const TerminalLine line;
   const ExportedWorld exported = ExportWorld(
-      *world, chunks, RailWorld::kChunkLength_m, time_ns, [&](std::size_t num_gathered) {
+      *world, chunks, RailWorld::kChunkLength_m, kBegin_ns, [&](std::size_t num_gathered) {
         line.Show("chunk " + std::to_string(num_gathered) + " of " + std::to_string(chunks.size()));
       });
   line.End();

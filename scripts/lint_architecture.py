@@ -113,7 +113,7 @@ def lint_library_include(source, included):
     for library, (pattern, owners) in LIBRARY_OWNERS.items():
         if re.match(pattern, included) and not any(is_within(source.folder, o) for o in owners):
             yield f"only {', '.join(owners)} and tests include {library} ({included})"
-    allowed = PUBLIC_IO_LIBRARIES if source.folder == "core/io" else PUBLIC_LIBRARIES
+    allowed = PUBLIC_IO_LIBRARIES if is_within(source.folder, "core/io") else PUBLIC_LIBRARIES
     if source.is_public and not allowed.match(included):
         yield f"public headers include the standard library and Eigen only ({included})"
 

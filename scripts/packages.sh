@@ -24,6 +24,7 @@ build_packages=(
   ninja-build
   nlohmann-json3-dev
   pkg-config
+  zlib1g-dev
 )
 
 # To draw pictures on a machine without a display.
@@ -40,6 +41,7 @@ test_packages=(
   python3-jsonschema
   python3-numpy
   python3-open3d
+  tshark
 )
 
 # What scripts/check.sh calls.

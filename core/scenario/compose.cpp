@@ -10,6 +10,7 @@
 #include "core/scenario/build_faults.h"
 #include "core/scenario/effect_names.h"
 #include "core/scenario/scenario.h"
+#include "core/scenario/sensors.h"
 
 namespace railcast {
 namespace {
@@ -27,8 +28,11 @@ auto Located(const ScenarioSpec& spec,
   return built;
 }
 
-std::optional<ScanPattern> TryPattern(const ScenarioSpec& spec, ErrorList& errors) {
-  return Located(spec, "/lidar/scan", errors, [&] { return BuildScanPattern(spec.lidar.scan); });
+std::optional<ScanPattern> TryPattern(const ScenarioSpec& spec,
+                                      const std::string& sensor_pointer,
+                                      const ScanSpec& scan,
+                                      ErrorList& errors) {
+  return Located(spec, sensor_pointer + "/scan", errors, [&] { return BuildScanPattern(scan); });
 }
 
 // What the effects call things by name, besides the world.
@@ -65,12 +69,13 @@ Transform VehicleFromSensor(const MountSpec& mount) {
 }  // namespace
 
 void AddBuildFaults(const ScenarioSpec& spec, const UnknownPlaces& unknown, ErrorList& errors) {
-  if (unknown.IsKnown("/lidar/scan/pattern")) {
+  for (const auto& [lidar, pointer] : SensorsOf(spec)) {
+    if (!unknown.IsKnown(pointer + "/scan/pattern")) continue;
     // Times are 32 bits of nanoseconds: what breaks a rule at this rate does so at every rate.
     constexpr double kSlowestRate_hz = 1e9 / 4'294'967'295.0;
-    ScenarioSpec known = spec;
-    if (!unknown.IsKnown("/lidar/scan/rate_hz")) known.lidar.scan.rate_hz = kSlowestRate_hz;
-    static_cast<void>(TryPattern(known, errors));
+    ScanSpec known = lidar.scan;
+    if (!unknown.IsKnown(pointer + "/scan/rate_hz")) known.rate_hz = kSlowestRate_hz;
+    static_cast<void>(TryPattern(spec, pointer, known, errors));
   }
   const LabelTable labels(spec.labels);
   const MaterialLibrary materials(spec.materials);
@@ -92,32 +97,57 @@ std::shared_ptr<const RailWorld> MakeWorld(const ScenarioSpec& spec) {
   return *world;
 }
 
-std::unique_ptr<Simulator> MakeSimulator(const ScenarioSpec& spec,
-                                         int num_threads,
-                                         const std::string& isa) {
+std::vector<std::unique_ptr<Simulator>> MakeSimulators(const ScenarioSpec& spec,
+                                                       int num_threads,
+                                                       const std::string& isa) {
   ErrorList errors;
-  auto pattern = TryPattern(spec, errors);
+  const std::vector<SensorPlace> sensors = SensorsOf(spec);
+  std::vector<std::optional<ScanPattern>> patterns;
+  for (const auto& [lidar, pointer] : sensors) {
+    patterns.push_back(TryPattern(spec, pointer, lidar.scan, errors));
+  }
   const auto world = Attempt("", errors, [&] { return MakeWorld(spec); });
   const auto effects = Located(spec, "", errors, [&] { return EffectsOf(spec); });
   const auto names = effects ? TryNames(spec, errors) : std::nullopt;
   errors.ThrowIfAny();
 
-  SimulatorSpec simulator;
-  simulator.seed = spec.seed;
-  simulator.range_min_m = spec.lidar.range_min_m;
-  simulator.range_max_m = spec.lidar.range_max_m;
-  simulator.vehicle_from_sensor = VehicleFromSensor(spec.lidar.mount);
-  simulator.effects = *effects;
-  simulator.plausibility = spec.lidar.plausibility;
-  simulator.weather = spec.weather;
-  simulator.output = spec.output;
-  simulator.isa = isa;
-  simulator.beam = spec.lidar.beam;
-  simulator.receiver = spec.lidar.receiver;
-  simulator.clutter_labels = names->labels;
-  simulator.snow_material = names->snow_material;
-  return std::make_unique<Simulator>(*world, std::move(*pattern), MaterialLibrary(spec.materials),
-                                     simulator, num_threads);
+  const MaterialLibrary materials(spec.materials);
+  const auto store = std::make_shared<SceneStore>(*world, materials, isa);
+  std::vector<std::unique_ptr<Simulator>> simulators;
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    const LidarSpec& lidar = sensors[i].lidar;
+    const SimulatorSpec simulator{.seed = spec.seed,
+                                  .range_min_m = lidar.range_min_m,
+                                  .range_max_m = lidar.range_max_m,
+                                  .vehicle_from_sensor = VehicleFromSensor(lidar.mount),
+                                  .effects = *effects,
+                                  .plausibility = lidar.plausibility,
+                                  .beam = lidar.beam,
+                                  .receiver = lidar.receiver,
+                                  .weather = spec.weather,
+                                  .output = spec.output,
+                                  .clutter_labels = names->labels,
+                                  .snow_material = names->snow_material,
+                                  .isa = isa};
+    simulators.push_back(std::make_unique<Simulator>(store, std::move(*patterns[i]), materials,
+                                                     simulator, num_threads));
+  }
+  return simulators;
+}
+
+std::unique_ptr<Simulator> MakeSimulator(const ScenarioSpec& spec,
+                                         int num_threads,
+                                         const std::string& isa) {
+  return std::move(MakeSimulators(PickSensor(spec, {}), num_threads, isa).front());
+}
+
+void UseWeather(const ScenarioSpec& scenario, const WeatherSpec& weather, SimulatorSpec& spec) {
+  if (weather.snow_cover > 0.0) {
+    spec.snow_material = MaterialLibrary(scenario.materials).Index("snow");
+  } else {
+    spec.snow_material = 0;
+  }
+  spec.weather = weather;
 }
 
 std::vector<std::string> CheckScenario(const std::filesystem::path& file) {

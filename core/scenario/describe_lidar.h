@@ -113,6 +113,9 @@ void Describe(Archive& a, ReceiverSpec& s) {
              "Multiplies the mean number of echoes of drops and flakes.", Within(0, 10));
 }
 
+template <>
+inline constexpr bool kElementMayBeFile<LidarSpec> = true;
+
 template <class Archive>
 void Describe(Archive& a, LidarSpec& s) {
   a.Optional("name", s.name, "Of the sensor.");

@@ -5,7 +5,9 @@
 #include "core/scenario/describe_world.h"
 #include "core/scenario/effect_names.h"
 #include "core/scenario/effects.h"
+#include "core/scenario/scenario.h"
 #include "core/scenario/scenario_spec.h"
+#include "core/scenario/sensors.h"
 
 namespace railcast {
 
@@ -31,8 +33,22 @@ namespace railcast {
 // the schemas anew (tests/core/scenario/scenario_schema_test.cpp says how).
 
 template <class Archive>
+void Describe(Archive& a, SensorInterface& s) {
+  a.Required("sensor", s.sensor, "Name of the sensor.", NonEmptyString());
+  a.Optional("protocol", s.protocol, "How its live frames are packed.", OneOf(ProtocolNames()));
+  a.Optional("udp", s.udp,
+             "host:port of each receiver; empty = loopback at the protocol's own port.",
+             HostAndPort());
+}
+
+template <class Archive>
 void Describe(Archive& a, InterfacesSpec& s) {
-  a.Optional("udp", s.udp, "host:port of each receiver of live frames.", HostAndPort());
+  a.Optional("udp", s.udp,
+             "host:port of each receiver of live frames; empty = loopback at the protocol's own "
+             "port.",
+             HostAndPort());
+  a.Optional("protocol", s.protocol, "How live frames are packed.", OneOf(ProtocolNames()));
+  a.Optional("sensors", s.sensors, "Instead, with lidars: each sensor once.");
 }
 
 template <class Archive>
@@ -112,9 +128,22 @@ void Describe(Archive& a, ScenarioSpec& s) {
   a.Switches("effects", s.effects, "Switches this effect on or off.", EffectNames());
   const auto conflict = ConflictIn(SwitchedEffects(s));
   a.Ensure({"effects", "fidelity"}, !conflict, conflict.value_or(""));
-  a.Required("lidar", s.lidar, "The sensor.");
+  std::optional<LidarSpec> lidar;
+  if (s.lidar != LidarSpec{}) lidar = s.lidar;
+  a.Optional("lidar", lidar, "The sensor, or ...");
+  if (lidar) s.lidar = *lidar;
+  a.Optional("lidars", s.lidars, "... several, each with a name of its own.");
+  a.Ensure({"", "lidar", "lidars"}, lidar.has_value() == s.lidars.empty(),
+           "must have either lidar or lidars");
+  const auto has_name = [](const LidarSpec& sensor) { return !sensor.name.empty(); };
+  a.Ensure({"", "lidars"}, std::all_of(s.lidars.begin(), s.lidars.end(), has_name),
+           "must have a name for each of its lidars");
+  a.Unique("lidars", s.lidars, "name", &LidarSpec::name);
   a.Optional("weather", s.weather, "The weather.");
   a.Optional("interfaces", s.interfaces, "Where live frames go.");
+  const std::string fault =
+      InterfacesFault(s.interfaces, s.lidars.empty() ? std::vector<std::string>() : SensorNames(s));
+  a.Ensure({"interfaces", "lidar", "lidars"}, fault.empty(), "sensors " + fault);
   a.Opaque("camera", s.camera, "Any object; kept for later.");
   a.Required("world", s.world, "The railway and what stands on it.");
   a.Optional("vehicle", s.vehicle, "The sensor's own vehicle.");

@@ -111,10 +111,12 @@ void ReadValue(JsonSource& source,
   for (std::size_t i = 0; i < values.size(); ++i) ReadElement(source, node.Child(i), values[i]);
 }
 
-/// An element of a list is written in place: it may not be a file.
+/// An element of a list is written in place: most may not be a file.
 template <class T>
 void ReadElement(JsonSource& source, const Node& node, T& value) {
   if constexpr (kIsArray<T>) {
+    ReadValue(source, node, value, Anything{});
+  } else if constexpr (kElementMayBeFile<T>) {
     ReadValue(source, node, value, Anything{});
   } else if (auto list = source.PlainMembers(node)) {
     ReadMembers(source, node, std::move(*list), value);

@@ -82,6 +82,11 @@ inline constexpr bool kIsArray = false;
 template <class T, std::size_t kCount>
 inline constexpr bool kIsArray<std::array<T, kCount>> = true;
 
+/// Whether an element of a list may be, or build on, a file: elements have no room for that where
+/// they have a "file" of their own.
+template <class T>
+inline constexpr bool kElementMayBeFile = false;
+
 /// The rule in words, "must be > 0 and <= 360", if the value breaks it.
 [[nodiscard]] std::optional<std::string> Broken(const Limits& limits, double value);
 [[nodiscard]] std::optional<std::string> Broken(const NumberChoices& choices, int value);

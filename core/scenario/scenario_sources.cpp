@@ -20,6 +20,21 @@ void ScenarioSources::AddFile(std::string absolute, std::string shown) {
   files_.push_back({std::move(absolute), std::move(shown)});
 }
 
+void ScenarioSources::Rename(std::string_view from, const std::string& to) {
+  const std::size_t num_entries = entries_.size();
+  Entry root;
+  for (std::size_t i = 0; i < num_entries; ++i) {
+    const Entry& entry = entries_[i];
+    if (entry.resolved_pointer.empty()) root = entry;
+    if (!Holds(from, entry.resolved_pointer)) continue;
+    Entry renamed = entry;
+    renamed.resolved_pointer = to + entry.resolved_pointer.substr(from.size());
+    entries_.push_back(std::move(renamed));
+  }
+  // What has no entry of its own stands where the scenario's file has it.
+  entries_.insert(entries_.begin(), {to, root.file, root.pointer + std::string(from)});
+}
+
 std::string ScenarioSources::Place(std::string_view resolved_pointer) const {
   // The deepest entry wins; of several at one place, the last: a section's base file, if it names
   // a base itself, is entered before that one.

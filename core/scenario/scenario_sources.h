@@ -17,6 +17,9 @@ class ScenarioSources {
   /// Some file is shown to the user as `shown`: relative if the user gave relative names.
   void AddFile(std::string absolute, std::string shown);
 
+  /// What stood at and below `from` in the resolved scenario stands at `to` now.
+  void Rename(std::string_view from, const std::string& to);
+
   /// "file: /pointer" of a value; the bare pointer where no file is known.
   [[nodiscard]] std::string Place(std::string_view resolved_pointer) const;
 

@@ -52,10 +52,20 @@ struct ToleranceSpec {
   bool operator==(const ToleranceSpec&) const = default;
 };
 
-/// Section `interfaces` (the published Interfaces.json): where live frames go. Read and checked
-/// now, used by `stream`.
+/// Where live frames of one of several sensors go, and how they are packed.
+struct SensorInterface {
+  std::string sensor;                 ///< Its name.
+  std::string protocol = "railcast";  ///< One of ProtocolNames().
+  std::vector<std::string> udp;       ///< host:port of each receiver; see ReceiversOf().
+
+  bool operator==(const SensorInterface&) const = default;
+};
+
+/// Section `interfaces` (the published Interfaces.json): where live frames go.
 struct InterfacesSpec {
-  std::vector<std::string> udp{"127.0.0.1:2368"};  ///< host:port of each receiver.
+  std::vector<std::string> udp;          ///< Of an only sensor, as SensorInterface::udp.
+  std::string protocol = "railcast";     ///< Likewise.
+  std::vector<SensorInterface> sensors;  ///< Of several sensors: empty, or one for each.
 
   bool operator==(const InterfacesSpec&) const = default;
 };
@@ -66,7 +76,8 @@ struct ScenarioSpec {
   std::string fidelity = "plausibility";  ///< One of FidelityNames().
   ToleranceSpec tolerance;                ///< Of fidelity `auto`.
   std::map<std::string, bool> effects;    ///< Switches single effects on or off.
-  LidarSpec lidar;
+  LidarSpec lidar;                        ///< The only sensor, ...
+  std::vector<LidarSpec> lidars;          ///< ... or several, each with a name.
   WeatherSpec weather;
   InterfacesSpec interfaces;
   std::optional<std::string> camera;  ///< The camera section as read, kept for later.

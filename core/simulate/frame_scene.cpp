@@ -1,6 +1,7 @@
 #include "core/simulate/frame_scene.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "core/base/units.h"
@@ -20,16 +21,6 @@ constexpr double kSpeedMax_mps = 200.0;
 constexpr std::int64_t kLookAhead_ns = 4'000'000'000;
 constexpr std::int64_t kLookAheadStep_ns = 500'000'000;
 
-double RadiusAboutOrigin(const Model& model) {
-  double radius_m = 0.0;
-  for (const Part& part : model.parts) {
-    for (const Eigen::Vector3f& vertex : part.mesh.vertices) {
-      radius_m = std::max(radius_m, vertex.cast<double>().norm());
-    }
-  }
-  return radius_m;
-}
-
 // From the vehicle's place at the stamp to anything a beam of the frame may hit.
 double ReachOf(const FrameSceneSpec& spec) {
   return spec.range_max_m + spec.vehicle_from_sensor.translation().norm() +
@@ -48,13 +39,38 @@ void FrameScene::CastRanges(RayTile& rays) const {
   if (moving != nullptr) moving->CastRanges(rays);
 }
 
-FrameScenes::FrameScenes(std::shared_ptr<const World> world,
-                         const MaterialLibrary& materials,
-                         const FrameSceneSpec& spec)
-    : world_(std::move(world)), spec_(spec), windows_(world_, materials, ReachOf(spec), spec.isa) {
-  for (const SceneObject& object : world_->objects()) {
-    object_radii_m_.push_back(RadiusAboutOrigin(*object.model));
+FrameScenes::FrameScenes(std::shared_ptr<SceneStore> store, const FrameSceneSpec& spec)
+    : store_(std::move(store)), spec_(spec), windows_(store_, ReachOf(spec)) {
+  UseWorld(store_->world());
+}
+
+void FrameScenes::UseWorld(std::shared_ptr<const World> world) {
+  if (world == world_) return;
+  std::map<std::uint32_t, std::size_t> known;  // By instance.
+  const std::vector<SceneObject>& first = store_->world()->objects();
+  for (std::size_t i = 0; i < first.size(); ++i) known.emplace(first[i].instance, i);
+
+  std::vector<Object> objects;
+  std::vector<Surface> more_surfaces;
+  std::vector<std::size_t> standing;
+  for (const SceneObject& object : world->objects()) {
+    const auto found = known.find(object.instance);
+    if (found != known.end() && first[found->second].model == object.model) {
+      const std::size_t i = found->second;
+      const bool stands = !object.moves && !first[i].moves;
+      if (stands) standing.push_back(i);
+      objects.push_back({windows_.object(i), windows_.object_surface(i), true, stands});
+      continue;
+    }
+    objects.push_back({store_->MakeObject(object), static_cast<std::uint32_t>(more_surfaces.size()),
+                       false, false});
+    const std::vector<Surface>& surfaces = objects.back().stored.surfaces;
+    more_surfaces.insert(more_surfaces.end(), surfaces.begin(), surfaces.end());
   }
+  windows_.UseStanding(std::move(standing));
+  objects_ = std::move(objects);
+  more_surfaces_ = std::move(more_surfaces);
+  world_ = std::move(world);
 }
 
 FrameScene FrameScenes::At(std::uint32_t index, std::int64_t stamp_ns) {
@@ -66,6 +82,11 @@ FrameScene FrameScenes::At(std::uint32_t index, std::int64_t stamp_ns) {
   scene.index = index;
   scene.stamp_ns = stamp_ns;
   scene.poses = PosesIn(window->window_from_world, stamp_ns);
+  if (!more_surfaces_.empty()) {
+    scene.more_surfaces = window->surfaces;
+    scene.more_surfaces.insert(scene.more_surfaces.end(), more_surfaces_.begin(),
+                               more_surfaces_.end());
+  }
   scene.window = std::move(window);
   scene.moving = std::move(moving);
   return scene;
@@ -79,8 +100,9 @@ FramePoses FrameScenes::PosesIn(const Transform& window_from_world, std::int64_t
 
 TracePlacement FrameScenes::Place(std::size_t object,
                                   std::int64_t stamp_ns,
-                                  const Transform& window_from_world) const {
-  TracePlacement placement{windows_.object_model(object), {}, windows_.object_surface(object)};
+                                  const Window& window) const {
+  TracePlacement placement{
+      objects_[object].stored.model, {}, FirstSurface(objects_[object], window)};
   const std::int64_t duration_ns = spec_.duration_ns;
   const bool moves = world_->objects()[object].moves;
   const std::int64_t num_intervals =
@@ -88,7 +110,7 @@ TracePlacement FrameScenes::Place(std::size_t object,
   for (std::int64_t step = 0; step <= num_intervals; ++step) {
     const std::int64_t since_stamp_ns = moves ? duration_ns * step / num_intervals : 0;
     const Transform window_from_object =
-        window_from_world * world_->WorldFromObject(object, stamp_ns + since_stamp_ns);
+        window.window_from_world * world_->WorldFromObject(object, stamp_ns + since_stamp_ns);
     placement.window_from_model.emplace_back(window_from_object.matrix());
   }
   return placement;
@@ -101,37 +123,36 @@ bool FrameScenes::IsInReach(const TracePlacement& placement,
   const double travel_m = (steps.back().translation() - steps.front().translation()).norm() +
                           kSpeedMax_mps * SecondsFromNs(spec_.duration_ns);
   return (steps.front().translation() - sensor_window_m).norm() <=
-         spec_.range_max_m + object_radii_m_[object] + travel_m;
+         spec_.range_max_m + objects_[object].stored.radius_m + travel_m;
 }
 
 std::unique_ptr<const TraceScene> FrameScenes::MovingScene(std::int64_t stamp_ns,
                                                            const Window& window) const {
   std::vector<TracePlacement> placements;
   const Vector3 sensor_window_m = SensorInWindow(stamp_ns, window);
-  const auto& objects = world_->objects();
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    if (!objects[i].moves) continue;
-    TracePlacement placement = Place(i, stamp_ns, window.window_from_world);
+  for (std::size_t i = 0; i < objects_.size(); ++i) {
+    if (objects_[i].is_in_windows) continue;
+    TracePlacement placement = Place(i, stamp_ns, window);
     if (IsInReach(placement, i, sensor_window_m)) placements.push_back(std::move(placement));
   }
   if (placements.empty()) return nullptr;
-  return std::make_unique<TraceScene>(windows_.device(), placements);
+  return std::make_unique<TraceScene>(store_->device(), placements);
 }
 
 std::vector<FrameScenes::LoneObject> FrameScenes::LoneObjects(const FrameScene& frame) const {
   std::vector<LoneObject> lone;
   const Vector3 sensor_window_m = SensorInWindow(frame.stamp_ns, *frame.window);
   for (std::size_t i = 0; i < world_->objects().size(); ++i) {
-    TracePlacement placement = Place(i, frame.stamp_ns, frame.window->window_from_world);
+    TracePlacement placement = Place(i, frame.stamp_ns, *frame.window);
     if (!IsInReach(placement, i, sensor_window_m)) continue;
     const auto& steps = placement.window_from_model;
     const Vector3 begin_m = steps.front().translation();
     const Vector3 end_m = steps.back().translation();
-    lone.push_back(
-        {.object = i,
-         .scene = std::make_unique<TraceScene>(windows_.device(), std::vector{placement}),
-         .center_window_m = (0.5 * (begin_m + end_m)).cast<float>(),
-         .radius_m = static_cast<float>(object_radii_m_[i] + 0.5 * (end_m - begin_m).norm())});
+    lone.push_back({.object = i,
+                    .scene = std::make_unique<TraceScene>(store_->device(), std::vector{placement}),
+                    .center_window_m = (0.5 * (begin_m + end_m)).cast<float>(),
+                    .radius_m = static_cast<float>(objects_[i].stored.radius_m +
+                                                   0.5 * (end_m - begin_m).norm())});
   }
   return lone;
 }

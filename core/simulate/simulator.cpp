@@ -21,12 +21,8 @@ namespace railcast {
 namespace {
 
 CastFrame CastOf(const FrameScene& scene) {
-  return {scene.index,
-          scene.poses,
-          scene,
-          scene.window->surfaces,
-          &scene.window->wires,
-          scene.window->window_from_world};
+  return {scene.index,      scene.poses,          scene,
+          scene.surfaces(), &scene.window->wires, scene.window->window_from_world};
 }
 
 void TellEchoes(const std::vector<Surface>& surfaces,
@@ -90,17 +86,27 @@ Simulator::Simulator(std::shared_ptr<const World> world,
                      ScanPattern pattern,
                      const MaterialLibrary& materials,
                      const SimulatorSpec& spec,
+                     int num_threads)
+    : Simulator(std::make_shared<SceneStore>(std::move(world), materials, spec.isa),
+                std::move(pattern),
+                materials,
+                spec,
+                num_threads) {}
+
+Simulator::Simulator(std::shared_ptr<SceneStore> store,
+                     ScanPattern pattern,
+                     const MaterialLibrary& materials,
+                     const SimulatorSpec& spec,
                      int num_threads) {
   FiringTiles tiles(pattern);
   const FrameSceneSpec scene_spec{.range_max_m = spec.range_max_m,
                                   .vehicle_from_sensor = spec.vehicle_from_sensor,
-                                  .duration_ns = tiles.duration_ns(),
-                                  .isa = spec.isa};
+                                  .duration_ns = tiles.duration_ns()};
   parts_.reset(new Parts{.pattern = std::move(pattern),
                          .spec = spec,
                          .materials = materials.materials(),
                          .tiles = std::move(tiles),
-                         .scenes{std::move(world), materials, scene_spec},
+                         .scenes{std::move(store), scene_spec},
                          .tracer{},
                          .work{},
                          .centers{},
@@ -114,6 +120,9 @@ Simulator::~Simulator() = default;
 
 const World& Simulator::world() const {
   return parts_->scenes.world();
+}
+const std::shared_ptr<const World>& Simulator::shared_world() const {
+  return parts_->scenes.shared_world();
 }
 const ScanPattern& Simulator::pattern() const {
   return parts_->pattern;
@@ -146,6 +155,10 @@ const SimulatorSpec& Simulator::spec() const {
 void Simulator::Use(const SimulatorSpec& spec) {
   parts_->spec = spec;
   parts_->UseSpec();
+}
+
+void Simulator::UseWorld(std::shared_ptr<const World> world) {
+  parts_->scenes.UseWorld(std::move(world));
 }
 
 void Simulator::Parts::TraceAllCenters(const CastFrame& cast) {
@@ -224,7 +237,7 @@ FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) 
   const RayTile& rays = parts.centers.empty() ? work.rays : parts.centers[tile];
   parts.tracer->MakeEchoes(cast, parts.tiles, tile, parts.centers, work, record);
   parts.tracer->detector().Detect(work.echoes, record);
-  const Surface& surface = scene.window->surfaces[first.surface[lane]];
+  const Surface& surface = scene.surfaces()[first.surface[lane]];
   const Transform world_from_window = scene.window->window_from_world.inverse();
   story.firing = firing;
   story.time_ns = parts.tiles.times_ns(tile)[lane];
@@ -239,7 +252,7 @@ FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) 
   story.instance = surface.instance;
   story.material = surface.material;
   story.reflectivity = surface.reflectivity;
-  TellEchoes(scene.window->surfaces, parts.return_mode(), lane, work.echoes, story);
+  TellEchoes(scene.surfaces(), parts.return_mode(), lane, work.echoes, story);
   return story;
 }
 

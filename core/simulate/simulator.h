@@ -12,6 +12,7 @@
 #include "core/scan/scan_pattern.h"
 #include "core/scene/material.h"
 #include "core/scene/world.h"
+#include "core/simulate/scene_store.h"
 #include "core/simulate/simulator_spec.h"
 #include "core/trace/ray_tile.h"
 #include "core/trace/surface.h"
@@ -74,6 +75,14 @@ class Simulator {
             const MaterialLibrary& materials,
             const SimulatorSpec& spec,
             int num_threads);
+  /// One sensor of several: what stands is built once for all that are given the same store. Each
+  /// gives the frames that it gives alone.
+  /// @param store Of the same materials, and of spec.isa.
+  Simulator(std::shared_ptr<SceneStore> store,
+            ScanPattern pattern,
+            const MaterialLibrary& materials,
+            const SimulatorSpec& spec,
+            int num_threads);
   ~Simulator();
 
   /// Fills `frame`; keeps its memory where the shape stays. Not thread-safe: one caller at a time.
@@ -95,6 +104,10 @@ class Simulator {
   /// accuracy studies compare effect sets on one scene in one process this way.
   /// @pre The rest of `spec` is as it was.
   void Use(const SimulatorSpec& spec);
+  /// Changes the world to one that differs from that of the constructor in the vehicle's way and in
+  /// objects only. Chunks, models and, as long as no object of that world that stands is gone,
+  /// windows stay. Frames do not depend on the worlds in between.
+  void UseWorld(std::shared_ptr<const World> world);
   /// @param num_threads 0 = all cores.
   void UseThreads(int num_threads);
 
@@ -102,7 +115,9 @@ class Simulator {
   /// call traces them by packets of 16 and keeps the ranges. Valid as long as the simulator.
   [[nodiscard]] std::function<void()> MakeRawTrace(std::uint32_t frame_index);
 
+  /// The one in use.
   [[nodiscard]] const World& world() const;
+  [[nodiscard]] const std::shared_ptr<const World>& shared_world() const;
   [[nodiscard]] const ScanPattern& pattern() const;
   [[nodiscard]] Transform WorldFromSensor(std::int64_t time_ns) const;
 

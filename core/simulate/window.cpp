@@ -18,14 +18,6 @@ Eigen::Affine3d ToAffine(const Transform& transform) {
   return Eigen::Affine3d(transform.matrix());
 }
 
-Model WithoutTriangles(const Model& model) {
-  Model bare{model.name, {}};
-  for (const Part& part : model.parts) {
-    bare.parts.push_back({{}, part.material, part.label, part.is_wire});
-  }
-  return bare;
-}
-
 /// Which part of the ground holds the wire's tube.
 std::uint32_t PartOfWire(const Wire& wire, const Model& ground) {
   const auto part = std::find_if(ground.parts.begin(), ground.parts.end(), [&](const Part& tubes) {
@@ -49,22 +41,18 @@ void AddWires(const std::vector<Wire>& wires,
 
 }  // namespace
 
-WindowSource::WindowSource(std::shared_ptr<const World> world,
-                           const MaterialLibrary& materials,
-                           double range_max_m,
-                           const std::string& isa)
-    : world_(std::move(world)),
-      materials_(materials.materials()),
-      range_max_m_(range_max_m),
-      device_(isa) {
+WindowSource::WindowSource(std::shared_ptr<SceneStore> store, double range_max_m)
+    : store_(std::move(store)), range_max_m_(range_max_m) {
   fixed_surfaces_.emplace_back();
-  for (const SceneObject& object : world_->objects()) {
-    object_models_.push_back(GetModel(object.model));
+  std::vector<std::size_t> standing;
+  for (const SceneObject& object : store_->world()->objects()) {
+    if (!object.moves) standing.push_back(objects_.size());
+    objects_.push_back(store_->MakeObject(object));
     object_surfaces_.push_back(static_cast<std::uint32_t>(fixed_surfaces_.size()));
-    for (const Part& part : object.model->parts) {
-      fixed_surfaces_.push_back(MakeSurface(part, object.instance, object.is_ego));
-    }
+    const std::vector<Surface>& surfaces = objects_.back().surfaces;
+    fixed_surfaces_.insert(fixed_surfaces_.end(), surfaces.begin(), surfaces.end());
   }
+  standing_ = std::make_shared<const std::vector<std::size_t>>(std::move(standing));
   builder_ = std::thread([this] { BuildAhead(); });
 }
 
@@ -77,111 +65,92 @@ WindowSource::~WindowSource() {
   builder_.join();
 }
 
-Surface WindowSource::MakeSurface(const Part& part, std::uint32_t instance, bool is_ego) const {
-  return {.label = part.label,
-          .instance = instance,
-          .reflectivity = static_cast<float>(materials_[part.material].reflectivity),
-          .material = part.material,
-          .is_ego = is_ego};
-}
-
-std::shared_ptr<const TraceModel> WindowSource::GetModel(
-    const std::shared_ptr<const Model>& model) {
-  auto& entry = models_[model.get()];
-  if (entry.second == nullptr) entry = {model, std::make_shared<TraceModel>(device_, *model)};
-  return entry.second;
-}
-
-std::shared_ptr<const WindowSource::BuiltChunk> WindowSource::GetChunk(int chunk) {
-  if (const auto it = chunks_.find(chunk); it != chunks_.end()) return it->second;
-  Chunk made = world_->BuildChunk(chunk);
-  auto built = std::make_shared<BuiltChunk>();
-  built->ground = std::make_shared<TraceModel>(device_, made.ground);
-  built->ground_surfaces = WithoutTriangles(made.ground);
-  built->placements = std::move(made.placements);
-  built->wires = std::move(made.wires);
-  return chunks_.emplace(chunk, std::move(built)).first->second;
-}
-
-void WindowSource::KeepOnly(const std::vector<int>& chunks) {
-  std::erase_if(chunks_, [&](const auto& entry) {
-    return !std::binary_search(chunks.begin(), chunks.end(), entry.first);
-  });
-  // What neither the world nor a chunk holds will not be asked for again.
-  std::erase_if(models_, [](const auto& entry) { return entry.second.first.use_count() == 1; });
+void WindowSource::UseStanding(std::vector<std::size_t> objects) {
+  const std::lock_guard lock(mutex_);
+  if (*standing_ == objects) return;
+  standing_ = std::make_shared<const std::vector<std::size_t>>(std::move(objects));
+  windows_.clear();
 }
 
 void WindowSource::AddObjects(int home_chunk,
+                              const std::vector<std::size_t>& standing,
                               Window& window,
                               std::vector<TracePlacement>& placements) const {
-  const Vector3 home_world = world_->WorldFromChunk(home_chunk).translation();
-  const auto& objects = world_->objects();
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    if (objects[i].moves) continue;
-    const Transform world_from_object = world_->WorldFromObject(i, 0);
-    const Eigen::AlignedBox3d box = objects[i].model->Bounds();
+  const World& world = *store_->world();
+  const Vector3 home_world = world.WorldFromChunk(home_chunk).translation();
+  for (const std::size_t i : standing) {
+    const Transform world_from_object = world.WorldFromObject(i, 0);
+    const Eigen::AlignedBox3d box = world.objects()[i].model->Bounds();
     if (box.isEmpty()) continue;
     const double distance_m = (world_from_object * box.center() - home_world).norm();
     if (distance_m > range_max_m_ + kHomeRadius_m + 0.5 * box.diagonal().norm()) continue;
-    placements.push_back({object_models_[i],
+    placements.push_back({objects_[i].model,
                           {ToAffine(window.window_from_world * world_from_object)},
                           object_surfaces_[i]});
   }
 }
 
-std::shared_ptr<const Window> WindowSource::Build(int home_chunk) {
-  auto window = std::make_shared<Window>();
-  window->window_from_world = world_->WorldFromChunk(home_chunk).inverse();
-  window->surfaces = fixed_surfaces_;
-  std::vector<TracePlacement> placements;
-  AddObjects(home_chunk, *window, placements);
-
+void WindowSource::AddChunks(const Chunks& chunks,
+                             Window& window,
+                             std::vector<TracePlacement>& placements) const {
   // Things without an instance id of their own share their model's surfaces.
   std::map<std::pair<const Model*, std::uint32_t>, std::uint32_t> shared;
   const auto surfaces_of = [&](const Model& model, std::uint32_t instance) {
-    const auto first = static_cast<std::uint32_t>(window->surfaces.size());
+    const auto first = static_cast<std::uint32_t>(window.surfaces.size());
     for (const Part& part : model.parts) {
-      window->surfaces.push_back(MakeSurface(part, instance, false));
+      window.surfaces.push_back(store_->MakeSurface(part, instance, false));
     }
     return first;
   };
-  const std::vector<int> chunks = world_->ChunksInReach(home_chunk, range_max_m_);
-  KeepOnly(chunks);
-  for (const int index : chunks) {
-    const auto chunk = GetChunk(index);
-    const Transform window_from_chunk = window->window_from_world * world_->WorldFromChunk(index);
+  for (const auto& [index, chunk] : chunks) {
+    const Transform window_from_chunk =
+        window.window_from_world * store_->world()->WorldFromChunk(index);
     const std::uint32_t ground_surface = surfaces_of(chunk->ground_surfaces, 0);
     placements.push_back({chunk->ground, {ToAffine(window_from_chunk)}, ground_surface});
-    AddWires(chunk->wires, window_from_chunk, chunk->ground_surfaces, ground_surface,
-             window->wires);
+    AddWires(chunk->wires, window_from_chunk, chunk->ground_surfaces, ground_surface, window.wires);
     for (const Placement& placement : chunk->placements) {
       const auto key = std::pair(placement.model.get(), placement.instance);
       auto it = shared.find(key);
       if (it == shared.end()) {
         it = shared.emplace(key, surfaces_of(*placement.model, placement.instance)).first;
       }
-      placements.push_back({GetModel(placement.model),
+      placements.push_back({store_->GetModel(placement.model),
                             {ToAffine(window_from_chunk) * placement.chunk_from_model},
                             it->second});
     }
   }
-  window->scene = std::make_unique<TraceScene>(device_, placements);
+}
+
+std::shared_ptr<const Window> WindowSource::Build(int home_chunk, const Standing& standing) {
+  auto window = std::make_shared<Window>();
+  window->window_from_world = store_->world()->WorldFromChunk(home_chunk).inverse();
+  window->surfaces = fixed_surfaces_;
+  std::vector<TracePlacement> placements;
+  AddObjects(home_chunk, *standing, *window, placements);
+  Chunks chunks;
+  for (const int index : store_->world()->ChunksInReach(home_chunk, range_max_m_)) {
+    chunks.emplace(index, store_->GetChunk(index));
+  }
+  AddChunks(chunks, *window, placements);
+  window->scene = std::make_unique<TraceScene>(store_->device(), placements);
+  {
+    const std::lock_guard lock(mutex_);
+    if (IsWanted(home_chunk)) chunks_[home_chunk].swap(chunks);
+  }
+  chunks.clear();
+  store_->ForgetUnusedModels();
   return window;
 }
 
 WindowSource::WindowTask WindowSource::Remember(int home_chunk) {
-  WindowTask task([this, home_chunk] {
-    const std::lock_guard building(build_mutex_);
-    return Build(home_chunk);
-  });
+  WindowTask task([this, home_chunk, standing = standing_] { return Build(home_chunk, standing); });
   windows_.emplace(home_chunk, task.get_future().share());
   return task;
 }
 
 void WindowSource::ForgetOthers() {
-  std::erase_if(windows_, [&](const auto& entry) {
-    return entry.first != in_use_ && entry.first != prepared_;
-  });
+  std::erase_if(windows_, [&](const auto& entry) { return !IsWanted(entry.first); });
+  std::erase_if(chunks_, [&](const auto& entry) { return !IsWanted(entry.first); });
 }
 
 std::shared_ptr<const Window> WindowSource::Get(int home_chunk) {

@@ -7,21 +7,18 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <string>
 #include <thread>
-#include <utility>
 #include <vector>
 
 #include "core/detect/wire_set.h"
-#include "core/scene/material.h"
-#include "core/scene/world.h"
+#include "core/simulate/scene_store.h"
 #include "core/trace/surface.h"
 #include "core/trace/trace_scene.h"
 
 namespace railcast {
 
 /// Everything that stands within reach of the vehicle while it is in one chunk, in that chunk's
-/// frame. A function of the home chunk alone.
+/// frame. A function of the home chunk and of which objects stand.
 struct Window {
   Transform window_from_world;
   std::vector<Surface> surfaces;  ///< 0 = nothing, then the objects' parts, then the chunks'.
@@ -31,14 +28,11 @@ struct Window {
 
 /// Makes windows: now when asked, or ahead of need on a thread of its own. Thread-safe.
 ///
-/// Memory holds two windows, the one in use and the one prepared, and besides them the chunks and
-/// models of the window built last.
+/// Memory holds two windows, the one in use and the one prepared, and their chunks.
 class WindowSource {
  public:
-  WindowSource(std::shared_ptr<const World> world,
-               const MaterialLibrary& materials,
-               double range_max_m,
-               const std::string& isa);
+  /// Objects are those of the store's world; all of them stand that do not move.
+  WindowSource(std::shared_ptr<SceneStore> store, double range_max_m);
   ~WindowSource();
   WindowSource(const WindowSource&) = delete;
   WindowSource& operator=(const WindowSource&) = delete;
@@ -51,54 +45,51 @@ class WindowSource {
   /// way, or while another is on its way.
   void Prepare(int home_chunk);
 
-  [[nodiscard]] const TraceDevice& device() const { return device_; }
-  /// Objects ready to be traced, and the index of the surface of their first part.
-  [[nodiscard]] const std::shared_ptr<const TraceModel>& object_model(std::size_t object) const {
-    return object_models_[object];
+  /// Which of the objects stand in the windows from now on, ascending. Where that changes, windows
+  /// are made anew, of chunks and models that are there.
+  /// @pre None of them moves.
+  void UseStanding(std::vector<std::size_t> objects);
+
+  [[nodiscard]] const SceneStore::StoredObject& object(std::size_t object) const {
+    return objects_[object];
   }
+  /// The index of the surface of an object's first part, in every window.
   [[nodiscard]] std::uint32_t object_surface(std::size_t object) const {
     return object_surfaces_[object];
   }
 
  private:
-  struct BuiltChunk {
-    std::shared_ptr<const TraceModel> ground;
-    Model ground_surfaces;  // Parts without triangles.
-    std::vector<Placement> placements;
-    std::vector<Wire> wires;
-  };
-
   using FutureWindow = std::shared_future<std::shared_ptr<const Window>>;
   using WindowTask = std::packaged_task<std::shared_ptr<const Window>()>;
+  using Standing = std::shared_ptr<const std::vector<std::size_t>>;
+  using Chunks = std::map<int, std::shared_ptr<const SceneStore::BuiltChunk>>;
 
-  [[nodiscard]] std::shared_ptr<const Window> Build(int home_chunk);
-  [[nodiscard]] std::shared_ptr<const BuiltChunk> GetChunk(int chunk);
-  void KeepOnly(const std::vector<int>& chunks);
-  [[nodiscard]] std::shared_ptr<const TraceModel> GetModel(
-      const std::shared_ptr<const Model>& model);
-  [[nodiscard]] Surface MakeSurface(const Part& part, std::uint32_t instance, bool is_ego) const;
-  void AddObjects(int home_chunk, Window& window, std::vector<TracePlacement>& placements) const;
+  [[nodiscard]] std::shared_ptr<const Window> Build(int home_chunk, const Standing& standing);
+  void AddObjects(int home_chunk,
+                  const std::vector<std::size_t>& standing,
+                  Window& window,
+                  std::vector<TracePlacement>& placements) const;
+  void AddChunks(const Chunks& chunks,
+                 Window& window,
+                 std::vector<TracePlacement>& placements) const;
   [[nodiscard]] WindowTask Remember(int home_chunk);
+  [[nodiscard]] bool IsWanted(int home_chunk) const {
+    return home_chunk == in_use_ || home_chunk == prepared_;
+  }
   void ForgetOthers();
   void BuildAhead();
 
-  std::shared_ptr<const World> world_;
-  std::vector<Material> materials_;
+  std::shared_ptr<SceneStore> store_;
   double range_max_m_;
-  TraceDevice device_;
-  std::vector<std::shared_ptr<const TraceModel>> object_models_;
+  std::vector<SceneStore::StoredObject> objects_;
   std::vector<std::uint32_t> object_surfaces_;
   std::vector<Surface> fixed_surfaces_;  // Nothing and the objects' parts.
 
-  // Only the thread that builds (one at a time, build_mutex_) touches these.
-  std::mutex build_mutex_;
-  std::map<int, std::shared_ptr<const BuiltChunk>> chunks_;
-  std::map<const Model*, std::pair<std::shared_ptr<const Model>, std::shared_ptr<const TraceModel>>>
-      models_;
-
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::map<int, FutureWindow> windows_;  // Of in_use_ and prepared_.
+  Standing standing_;
+  std::map<int, FutureWindow> windows_;  // Of in_use_ and prepared_, as chunks_.
+  std::map<int, Chunks> chunks_;
   std::optional<int> in_use_;
   std::optional<int> prepared_;
   std::optional<WindowTask> ahead_;  // Waits for the builder, or is being built by it.

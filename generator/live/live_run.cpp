@@ -90,7 +90,7 @@ class LiveRun {
       if (NextStampNs(i) == stamp_ns) MakeFrame(i, stamp_ns);
     }
     if (spec_.lockstep) queue_.Flush();
-    hooks_.end_frames(stamp_ns);
+    hooks_.end_frames(stamp_ns, records_);
   }
 
   void MakeFrame(std::size_t sensor, std::int64_t stamp_ns) {

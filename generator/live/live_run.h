@@ -31,6 +31,17 @@ enum class Pacing {
   kBurst,   ///< A frame's datagrams at once, as soon as it is made.
 };
 
+/// What became of one sensor's frames.
+struct LiveRecord {
+  std::string name;
+  std::int64_t period_ns{};
+  std::uint64_t frames{};
+  /// Not made, in bursts also sent, when their own period ended. None in lockstep.
+  std::uint64_t late_frames{};
+  DurationHistogram compute{};  ///< Scanning and encoding, by frame.
+  SentRecord sent{};
+};
+
 enum class NextFrames {
   kMake,
   kReset,  ///< The run begins anew with all sensors' frame 0.
@@ -45,25 +56,16 @@ struct LiveHooks {
   std::function<NextFrames(std::int64_t stamp_ns)> begin_frames = [](std::int64_t) {
     return NextFrames::kMake;
   };
-  /// After they were made, and in lockstep also sent.
-  std::function<void(std::int64_t stamp_ns)> end_frames = [](std::int64_t) {};
+  /// After they were made, and in lockstep also sent. The records, by sensor, are not final: what
+  /// was sent is not in them.
+  std::function<void(std::int64_t stamp_ns, const std::vector<LiveRecord>&)> end_frames =
+      [](std::int64_t, const std::vector<LiveRecord>&) {};
 };
 
 struct LiveRunSpec {
   Pacing pacing = Pacing::kSpread;
   bool lockstep = false;  ///< Frames are made when begin_frames says so, not at their time.
   std::optional<std::int64_t> duration_ns;  ///< Of simulation time; absent = until stopped.
-};
-
-/// What became of one sensor's frames.
-struct LiveRecord {
-  std::string name;
-  std::int64_t period_ns{};
-  std::uint64_t frames{};
-  /// Not made, in bursts also sent, when their own period ended. None in lockstep.
-  std::uint64_t late_frames{};
-  DurationHistogram compute{};  ///< Scanning and encoding, by frame.
-  SentRecord sent{};
 };
 
 /// Makes and sends frames at their rate until the duration is over or the run is stopped.

@@ -3,9 +3,11 @@
 //   railcast-bench [--benchmark_filter=demo] [other options of Google Benchmark]
 //
 // Rows are <what>/<scene>/threads:<n>. What: raw_trace (Embree's packets of 16, rays aimed
-// beforehand, ranges kept), sets of effects complete to a filled Frame, and the same written as PCD
-// to tmpfs. Scenes: the demo, and the demo without some of its parts. Ratios to the raw trace of
-// the same scene and threads are printed at the end: read these, machines are noisy.
+// beforehand, ranges kept), sets of effects complete to a filled Frame, the same written as PCD to
+// tmpfs, the same encoded in the railcast protocol and sent to a listener on loopback, and finished
+// frames encoded and sent alone. Scenes: the demo, and the demo without some of its parts. Ratios
+// to the raw trace of the same scene and threads are printed at the end: read these, machines are
+// noisy.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -16,10 +18,14 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "core/io/frame_files.h"
+#include "core/io/net/udp_receiver.h"
+#include "core/io/net/udp_sender.h"
+#include "core/io/stream/stream_encoder.h"
 #include "core/io/write_file.h"
 #include "core/scenario/effects.h"
 #include "core/scenario/scenario.h"
@@ -30,6 +36,25 @@ namespace {
 // The vehicle stays in one chunk for these, so that every row sees the same window.
 constexpr std::uint32_t kNumFrames = 8;
 
+/// Takes what is sent to it, as a client on the same machine does.
+class Listener {
+ public:
+  Listener() : thread_([this] { Listen(); }) {}
+  ~Listener() {
+    receiver_.Interrupt();
+    thread_.join();
+  }
+  [[nodiscard]] const Endpoint& at() const { return receiver_.at(); }
+
+ private:
+  void Listen() {
+    while (!receiver_.is_interrupted()) static_cast<void>(receiver_.Receive(-1));
+  }
+
+  UdpReceiver receiver_{{0x7F000001, 0}};
+  std::thread thread_;
+};
+
 /// A scene ready to be scanned in any way.
 struct Bench {
   explicit Bench(const ScenarioSpec& scenario)
@@ -38,14 +63,21 @@ struct Bench {
       raw_traces.push_back(simulator->MakeRawTrace(i));
     }
     files.labels = LabelTable(scenario.labels);
+    for (std::uint32_t i = 0; i < kNumFrames; ++i) simulator->Scan(i, scanned.emplace_back());
+    stream = std::make_unique<StreamEncoder>(BuildScanPattern(scenario.lidar.scan), StreamSpec{});
   }
 
   ScenarioSpec spec;
   std::unique_ptr<Simulator> simulator;
   std::vector<std::function<void()>> raw_traces;
+  std::vector<Frame> scanned;  ///< With the scenario's own effects and weather.
   Frame frame;
   FrameFileSpec files;
   std::vector<FrameFile> encoded;
+  std::unique_ptr<StreamEncoder> stream;
+  Datagrams datagrams;
+  Listener listener;
+  UdpSender sender{{listener.at()}, 1};
 };
 
 using Work = std::function<void(Bench&, std::uint32_t frame)>;
@@ -58,6 +90,23 @@ void ScanAndWrite(Bench& bench, std::uint32_t frame) {
   ScanFrame(bench, frame);
   EncodeFrameFiles(bench.frame, bench.files, frame, bench.encoded);
   WriteFileWhole("/dev/shm/railcast_bench.pcd", bench.encoded.front().bytes);
+}
+
+void EncodeDatagrams(Bench& bench, std::uint32_t frame) {
+  bench.datagrams.Clear();
+  bench.stream->Encode(bench.scanned[frame], bench.datagrams);
+}
+
+void Send(Bench& bench, std::uint32_t frame) {
+  EncodeDatagrams(bench, frame);
+  bench.sender.Send(bench.datagrams, bench.datagrams.items);
+}
+
+void ScanAndSend(Bench& bench, std::uint32_t frame) {
+  ScanFrame(bench, frame);
+  bench.datagrams.Clear();
+  bench.stream->Encode(bench.frame, bench.datagrams);
+  bench.sender.Send(bench.datagrams, bench.datagrams.items);
 }
 
 struct Row {
@@ -87,6 +136,9 @@ std::vector<Row> Rows() {
       {"reference", EffectsOfRung("reference"), true, false, &ScanFrame},
       {"geometry_pcd", {}, false, false, &ScanAndWrite},
       {"plausibility_pcd", all, true, false, &ScanAndWrite},
+      {"encode_stream", {}, false, false, &EncodeDatagrams},
+      {"send_stream", {}, false, false, &Send},
+      {"plausibility_stream", all, true, false, &ScanAndSend},
   };
 }
 

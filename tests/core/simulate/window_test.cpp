@@ -99,7 +99,7 @@ class LineWorld final : public World {
 
 struct Line {
   std::shared_ptr<LineWorld> world = std::make_shared<LineWorld>();
-  WindowSource windows{world, TestMaterials(), kRange_m, ""};
+  WindowSource windows{std::make_shared<SceneStore>(world, TestMaterials()), kRange_m};
 };
 
 /// What a fan of rays from the home chunk's origin sees: range, label, instance.
@@ -168,7 +168,7 @@ TEST(WindowSource, DrivingForwardBuildsEachChunkAndEachWindowOnce) {
 TEST(WindowSource, WhatIsOutOfReachIsForgotten) {
   auto world = std::make_shared<LineWorld>();
   world->own_trees = true;
-  WindowSource windows(world, TestMaterials(), kRange_m, "");
+  WindowSource windows(std::make_shared<SceneStore>(world, TestMaterials()), kRange_m);
   std::weak_ptr<const Window> first = windows.Get(0);
   EXPECT_FALSE(world->tree_of_chunk_0.expired());
   EXPECT_FALSE(first.expired());
@@ -263,7 +263,7 @@ TEST(WindowSource, AnObjectIsWhereItsGeometryIsAndNotItsOrigin) {
   auto world = std::make_shared<LineWorld>();
   world->AddStandingObject(std::make_shared<const Model>(
       Model{"thing", {{MakeWall(static_cast<float>(29 * kChunkLength_m) + 5.0F, 2.0F), 1, 7}}}));
-  WindowSource windows(world, TestMaterials(), kRange_m, "");
+  WindowSource windows(std::make_shared<SceneStore>(world, TestMaterials()), kRange_m);
   const auto [range_m, label, instance] = LookAround(*windows.Get(29)).front();
   EXPECT_NEAR(range_m, 5.0F, 1e-4F);  // Half a unit in the last place of 1455 m is 6e-5.
   EXPECT_EQ(label, 7U);

@@ -192,7 +192,7 @@ TEST(LiveRun, SendsEachFrameBeforeTheNextStepInLockstep) {
   hooks.begin_frames = [&](std::int64_t) {
     return num_steps++ < 4 ? NextFrames::kMake : NextFrames::kStop;
   };
-  hooks.end_frames = [&](std::int64_t) { num_sent_after_step.push_back(sensor.sent.size()); };
+  hooks.end_frames = [&](std::int64_t, const std::vector<LiveRecord>&) { num_sent_after_step.push_back(sensor.sent.size()); };
   LiveRunSpec spec;
   spec.lockstep = true;
   const auto records = RunLive(spec, {sensor.Live("a")}, hooks, clock);

@@ -1,0 +1,145 @@
+#include "core/io/stream/frame_assembler.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace railcast {
+namespace {
+
+constexpr std::size_t kMaxOpenFrames = 2;
+constexpr std::size_t kMaxGivenFrames = 8;
+constexpr std::uint32_t kMaxStrays = 16;
+
+}  // namespace
+
+std::uint64_t StreamCounts::num_refused() const {
+  return std::accumulate(refused.begin(), refused.end(), std::uint64_t{0});
+}
+
+void FrameAssembler::Take(std::span<const char> bytes, std::vector<ReceivedFrame>& frames) {
+  StreamFault fault{};
+  const auto datagram = CheckStreamDatagram(bytes, fault);
+  if (!datagram) {
+    ++counts_.refused[static_cast<std::size_t>(fault)];
+    return;
+  }
+  Place place = PlaceOf(*datagram);
+  if (place == Place::kElsewhere) {
+    if (!BeginsAnew(*datagram)) {
+      ++counts_.stray_packets;
+      return;
+    }
+    Flush(frames);
+    if (has_run_) ++counts_.restarts;
+    has_run_ = true;
+    run_ = datagram->run;
+    sensor_ = datagram->sensor;
+    given_.clear();
+    furthest_ = {};
+    place = Place::kHere;
+  }
+  num_strays_ = 0;
+  if (place == Place::kPast) {
+    CountPast(*datagram);
+  } else {
+    Store(*datagram, frames);
+  }
+}
+
+void FrameAssembler::Flush(std::vector<ReceivedFrame>& frames) {
+  while (!open_.empty()) GiveFirst(frames);
+}
+
+bool FrameAssembler::BeginsAnew(const StreamDatagram& datagram) {
+  // Serial numbers (RFC 1982): larger also where they wrap.
+  const bool is_later_run = static_cast<std::int32_t>(datagram.run - run_) > 0;
+  return !has_run_ || (datagram.sensor == sensor_ && is_later_run) || ++num_strays_ == kMaxStrays;
+}
+
+FrameAssembler::Place FrameAssembler::PlaceOf(const StreamDatagram& datagram) const {
+  if (!has_run_ || datagram.run != run_ || datagram.sensor != sensor_) return Place::kElsewhere;
+  if (given_.empty() || datagram.frame > given_.back().number) return Place::kHere;
+  const std::uint32_t behind = given_.back().number - datagram.frame;
+  return behind > kMaxGivenFrames ? Place::kElsewhere : Place::kPast;
+}
+
+void FrameAssembler::CountPast(const StreamDatagram& datagram) {
+  ++counts_.received_packets;
+  const auto given = std::ranges::find(given_, datagram.frame, &GivenFrame::number);
+  const bool is_copy = given != given_.end() && datagram.packet < given->had_packet.size() &&
+                       given->had_packet[datagram.packet];
+  ++(is_copy ? counts_.duplicate_packets : counts_.late_packets);
+}
+
+void FrameAssembler::Store(const StreamDatagram& datagram, std::vector<ReceivedFrame>& frames) {
+  const auto [at, is_new] = open_.try_emplace(datagram.frame);
+  OpenFrame& open = at->second;
+  if (is_new) {
+    open.header.assign(datagram.header.begin(), datagram.header.end());
+    open.points_each = datagram.points_each;
+    open.has_packet.resize(datagram.num_packets);
+  } else if (!DescribeOneFrame(open.header, datagram.header) ||
+             open.points_each != datagram.points_each) {
+    ++counts_.refused[static_cast<std::size_t>(StreamFault::kDisagrees)];
+    return;
+  }
+  ++counts_.received_packets;
+  if (open.has_packet[datagram.packet]) {
+    ++counts_.duplicate_packets;
+    return;
+  }
+  const std::pair place(datagram.frame, datagram.packet);
+  if (place < furthest_) ++counts_.reordered_packets;
+  furthest_ = std::max(furthest_, place);
+  open.has_packet[datagram.packet] = true;
+  open.arrivals.push_back({datagram.packet, open.points.size(), datagram.points.size()});
+  open.points.insert(open.points.end(), datagram.points.begin(), datagram.points.end());
+  if (open.arrivals.size() == open.has_packet.size()) {
+    while (!open_.empty() && open_.begin()->first <= datagram.frame) GiveFirst(frames);
+  }
+  while (open_.size() > kMaxOpenFrames) GiveFirst(frames);
+}
+
+void FrameAssembler::GiveFirst(std::vector<ReceivedFrame>& frames) {
+  const auto first = open_.begin();
+  if (!given_.empty()) counts_.missing_frames += first->first - given_.back().number - 1;
+  const ReceivedFrame& frame = frames.emplace_back(Assemble(first->second));
+  ++(frame.is_complete() ? counts_.complete_frames : counts_.incomplete_frames);
+  counts_.lost_packets += frame.num_lost_packets();
+  given_.push_back({first->first, std::move(first->second.has_packet)});
+  if (given_.size() > kMaxGivenFrames) given_.pop_front();
+  open_.erase(first);
+}
+
+ReceivedFrame FrameAssembler::Assemble(OpenFrame& open) {
+  ReceivedFrame frame;
+  frame.header = ReadStreamHeader(open.header);
+  frame.num_packets = static_cast<std::uint32_t>(open.has_packet.size());
+  if (std::ranges::is_sorted(open.arrivals, {}, &Arrival::packet)) {
+    frame.points = std::move(open.points);
+  } else {
+    std::ranges::sort(open.arrivals, {}, &Arrival::packet);
+    frame.points.reserve(open.points.size());
+    for (const Arrival& arrival : open.arrivals) {
+      const auto begin = open.points.begin() + static_cast<std::ptrdiff_t>(arrival.offset);
+      frame.points.insert(frame.points.end(), begin,
+                          begin + static_cast<std::ptrdiff_t>(arrival.size));
+    }
+  }
+  std::uint32_t next = 0;
+  const auto lose = [&](std::uint32_t end) {
+    if (next == end) return;
+    frame.lost_packets.push_back({next, end - next});
+    const std::uint32_t first_point = next * open.points_each;
+    const std::uint32_t end_point = std::min(end * open.points_each, frame.header.num_points);
+    frame.lost_points.push_back({first_point, end_point - first_point});
+  };
+  for (const Arrival& arrival : open.arrivals) {
+    lose(arrival.packet);
+    next = arrival.packet + 1;
+  }
+  lose(frame.num_packets);
+  return frame;
+}
+
+}  // namespace railcast

@@ -1,0 +1,192 @@
+#include "core/io/stream/stream_datagram.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/io/stream/stream_layout.h"
+
+namespace railcast {
+namespace {
+
+using namespace stream_layout;
+
+using PoseValues = std::array<double, kNumPoseValues>;
+
+bool IsChecksumRight(std::span<const char> bytes) {
+  const std::size_t checked = bytes.size() - kTrailerSize;
+  const auto crc = ::crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data()), checked);
+  return Get<std::uint32_t>(&bytes[checked]) == crc;
+}
+
+bool IsName(std::string_view name) {
+  return !name.empty() && std::ranges::all_of(name, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  });
+}
+
+struct WireField {
+  StreamType type{};
+  std::string_view name;
+};
+
+// Takes the next field off `list`; nothing if there is no whole and valid one.
+std::optional<WireField> TakeField(std::span<const char>& list) {
+  constexpr std::size_t kBeforeName = 2;
+  if (list.size() < kBeforeName) return std::nullopt;
+  const auto type = static_cast<StreamType>(Get<std::uint8_t>(list.data()));
+  const std::size_t length = Get<std::uint8_t>(&list[1]);
+  if (SizeOf(type) == 0 || list.size() < kBeforeName + length) return std::nullopt;
+  const std::string_view name(list.data() + kBeforeName, length);
+  list = list.subspan(kBeforeName + length);
+  if (!IsName(name)) return std::nullopt;
+  return WireField{type, name};
+}
+
+bool AreFieldsRight(std::span<const char> header) {
+  const std::size_t num_fields = Get<std::uint16_t>(&header[kNumFieldsAt]);
+  if (num_fields == 0 || num_fields > kMaxStreamFields) return false;
+  std::array<std::string_view, kMaxStreamFields> names;
+  std::span<const char> list = header.subspan(kFieldsAt);
+  std::size_t point_size = 0;
+  for (std::size_t i = 0; i < num_fields; ++i) {
+    const auto field = TakeField(list);
+    const auto before = std::span(names).first(i);
+    if (!field || std::ranges::find(before, field->name) != before.end()) return false;
+    names[i] = field->name;
+    point_size += SizeOf(field->type);
+  }
+  return list.empty() && point_size == Get<std::uint16_t>(&header[kPointSizeAt]);
+}
+
+// How many points each datagram of the frame but the last has; nothing if the counts contradict.
+std::optional<std::uint16_t> PointsEach(const StreamDatagram& datagram) {
+  const char* const header = datagram.header.data();
+  const std::uint64_t total = Get<std::uint32_t>(header + kFramePointsAt);
+  const std::uint64_t first = Get<std::uint32_t>(header + kFirstPointAt);
+  const std::uint64_t here = datagram.num_points;
+  if (datagram.packet >= datagram.num_packets) return std::nullopt;
+  const std::uint64_t num_full = datagram.num_packets - 1U;
+  std::uint64_t each = here;
+  if (datagram.packet == num_full) {
+    if (first + here != total) return std::nullopt;
+    if (num_full > 0) each = first / num_full;
+  }
+  const bool is_placed = first == each * datagram.packet;
+  const bool is_counted = num_full == 0 || (each * num_full < total && total <= each * (num_full + 1));
+  // `each` exceeds a datagram's points where a last one lies about `first`.
+  if (!is_placed || !is_counted || each > kMaxStreamDatagram) return std::nullopt;
+  return static_cast<std::uint16_t>(each);
+}
+
+// The slots of a frame bound its points. Each product fits into 64 bits.
+bool FitsIntoSlots(const char* header) {
+  const std::uint64_t cells =
+      std::uint64_t{Get<std::uint32_t>(header + kRowsAt)} * Get<std::uint32_t>(header + kColumnsAt);
+  const std::uint64_t returns = Get<std::uint16_t>(header + kReturnsAt);
+  const std::uint64_t total = Get<std::uint32_t>(header + kFramePointsAt);
+  if (cells == 0 || returns == 0) return false;
+  const bool has_all = (Get<std::uint8_t>(header + kFlagsAt) & kAllSlotsFlag) != 0;
+  if (cells > 0xFFFFFFFF) return !has_all;
+  return has_all ? cells * returns == total : cells * returns >= total;
+}
+
+bool IsPose(const PoseValues& pose) {
+  // 1e-6: float32 digits.
+  constexpr double kNormTolerance = 1e-6;
+  const double norm2 =
+      pose[3] * pose[3] + pose[4] * pose[4] + pose[5] * pose[5] + pose[6] * pose[6];
+  return std::ranges::all_of(pose, [](double value) { return std::isfinite(value); }) &&
+         std::abs(norm2 - 1.0) < kNormTolerance;
+}
+
+Transform MakePose(const PoseValues& pose) {
+  const Eigen::Quaterniond rotation(pose[6], pose[3], pose[4], pose[5]);
+  return MakeTransform(rotation.normalized().toRotationMatrix(), {pose[0], pose[1], pose[2]});
+}
+
+// From here on, the bytes are those that the sender meant.
+std::optional<StreamFault> FaultOfWhole(std::span<const char> bytes) {
+  if (bytes.size() < kFieldsAt + kTrailerSize || bytes.size() > kMaxStreamDatagram) {
+    return StreamFault::kSize;
+  }
+  if (Get<std::array<char, 4>>(bytes.data()) != kMagic) return StreamFault::kMagic;
+  if (Get<std::uint8_t>(&bytes[kVersionAt]) != kVersion) return StreamFault::kVersion;
+  if (!IsChecksumRight(bytes)) return StreamFault::kChecksum;
+  if (Get<std::uint8_t>(&bytes[kFlagsAt]) > kAllSlotsFlag) return StreamFault::kVersion;
+  const std::size_t header_size = Get<std::uint16_t>(&bytes[kHeaderSizeAt]);
+  const std::size_t points_size = std::size_t{Get<std::uint16_t>(&bytes[kDatagramPointsAt])} *
+                                  Get<std::uint16_t>(&bytes[kPointSizeAt]);
+  if (header_size < kFieldsAt || header_size + points_size + kTrailerSize != bytes.size()) {
+    return StreamFault::kSize;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<StreamDatagram> CheckStreamDatagram(std::span<const char> bytes, StreamFault& fault) {
+  const auto refuse = [&](StreamFault why) {
+    fault = why;
+    return std::nullopt;
+  };
+  if (const auto why = FaultOfWhole(bytes)) return refuse(*why);
+  StreamDatagram datagram;
+  datagram.header = bytes.first(Get<std::uint16_t>(&bytes[kHeaderSizeAt]));
+  datagram.points =
+      bytes.subspan(datagram.header.size(), bytes.size() - datagram.header.size() - kTrailerSize);
+  const char* const header = datagram.header.data();
+  datagram.run = Get<std::uint32_t>(header + kRunAt);
+  datagram.sensor = Get<std::uint16_t>(header + kSensorAt);
+  datagram.frame = Get<std::uint32_t>(header + kFrameAt);
+  datagram.packet = Get<std::uint16_t>(header + kPacketAt);
+  datagram.num_packets = Get<std::uint16_t>(header + kNumPacketsAt);
+  datagram.num_points = Get<std::uint16_t>(header + kDatagramPointsAt);
+  if (!AreFieldsRight(datagram.header)) return refuse(StreamFault::kFields);
+  const auto points_each = PointsEach(datagram);
+  if (!points_each || !FitsIntoSlots(header)) return refuse(StreamFault::kCounts);
+  datagram.points_each = *points_each;
+  for (const std::size_t at : {kPoseAt, kEndPoseAt}) {
+    if (!IsPose(Get<PoseValues>(header + at))) return refuse(StreamFault::kPose);
+  }
+  return datagram;
+}
+
+bool DescribeOneFrame(std::span<const char> header_a, std::span<const char> header_b) {
+  if (header_a.size() != header_b.size()) return false;
+  const auto same = [&](std::size_t begin, std::size_t end) {
+    return std::equal(header_a.begin() + static_cast<std::ptrdiff_t>(begin),
+                      header_a.begin() + static_cast<std::ptrdiff_t>(end),
+                      header_b.begin() + static_cast<std::ptrdiff_t>(begin));
+  };
+  return same(0, kDatagramPointsAt) && same(kFrameAt, kPacketAt) &&
+         same(kNumPacketsAt, kFirstPointAt) && same(kRowsAt, header_a.size());
+}
+
+StreamHeader ReadStreamHeader(std::span<const char> header) {
+  StreamHeader read;
+  const char* const from = header.data();
+  read.has_all_slots = (Get<std::uint8_t>(from + kFlagsAt) & kAllSlotsFlag) != 0;
+  read.run = Get<std::uint32_t>(from + kRunAt);
+  read.sensor = Get<std::uint16_t>(from + kSensorAt);
+  read.frame = Get<std::uint32_t>(from + kFrameAt);
+  read.stamp_ns = Get<std::int64_t>(from + kStampAt);
+  read.duration_ns = Get<std::uint32_t>(from + kDurationAt);
+  read.num_points = Get<std::uint32_t>(from + kFramePointsAt);
+  read.rows = Get<std::uint32_t>(from + kRowsAt);
+  read.columns = Get<std::uint32_t>(from + kColumnsAt);
+  read.returns = Get<std::uint16_t>(from + kReturnsAt);
+  read.point_size = Get<std::uint16_t>(from + kPointSizeAt);
+  read.world_from_sensor = MakePose(Get<PoseValues>(from + kPoseAt));
+  read.world_from_sensor_end = MakePose(Get<PoseValues>(from + kEndPoseAt));
+  std::uint16_t offset = 0;
+  std::span<const char> list = header.subspan(kFieldsAt);
+  while (const auto field = TakeField(list)) {
+    read.fields.push_back({std::string(field->name), field->type, offset});
+    offset = static_cast<std::uint16_t>(offset + SizeOf(field->type));
+  }
+  return read;
+}
+
+}  // namespace railcast

@@ -1,0 +1,168 @@
+#include "core/io/stream/stream_encoder.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+#include <string>
+
+#include "core/base/error.h"
+#include "core/io/field_layout.h"
+#include "core/io/stream/stream_format.h"
+#include "core/io/stream/stream_layout.h"
+
+namespace railcast {
+namespace {
+
+using namespace stream_layout;
+
+template <typename Stored>
+constexpr StreamType TypeOf() {
+  if constexpr (std::is_same_v<Stored, float>) return StreamType::kF32;
+  if constexpr (std::is_same_v<Stored, std::uint8_t>) return StreamType::kU8;
+  if constexpr (std::is_same_v<Stored, std::uint16_t>) return StreamType::kU16;
+  if constexpr (std::is_same_v<Stored, std::uint32_t>) return StreamType::kU32;
+}
+
+void PutPose(char* place, const Transform& world_from_sensor) {
+  const Eigen::Quaterniond q(world_from_sensor.linear());
+  const Vector3 position_m = world_from_sensor.translation();
+  const std::array<double, kNumPoseValues> values = {
+      position_m.x(), position_m.y(), position_m.z(), q.x(), q.y(), q.z(), q.w()};
+  Put(place, values);
+}
+
+template <std::size_t size>
+void GatherValues(const char* values,
+                  std::span<const std::uint32_t> slots,
+                  std::size_t step,
+                  char* to) {
+  for (const std::uint32_t slot : slots) {
+    std::memcpy(to, values + std::size_t{slot} * size, size);
+    to += step;
+  }
+}
+
+}  // namespace
+
+StreamEncoder::StreamEncoder(const ScanPattern& pattern, const StreamSpec& spec)
+    : spec_(spec), rows_(pattern.rows), columns_(pattern.columns) {
+  cells_.reserve(pattern.num_firings());
+  for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
+    cells_.push_back(std::uint32_t{pattern.row[i]} * columns_ + pattern.column[i]);
+  }
+  header_.resize(kFieldsAt);
+  const Frame no_frame;
+  ForEachField(no_frame, [&](std::string_view name, std::string_view, const auto& values) {
+    if (!spec_.fields.Has(name)) return;
+    using Stored = typename StoredType<ElementOf<decltype(values)>>::Type;
+    static_assert(sizeof(Stored) == sizeof(ElementOf<decltype(values)>));
+    header_.push_back(static_cast<char>(TypeOf<Stored>()));
+    header_.push_back(static_cast<char>(name.size()));
+    header_.insert(header_.end(), name.begin(), name.end());
+    point_size_ += sizeof(Stored);
+  });
+  char* const header = header_.data();
+  Put(header + kMagicAt, kMagic);
+  Put(header + kVersionAt, kVersion);
+  Put<std::uint8_t>(header + kFlagsAt, spec.has_all_slots ? kAllSlotsFlag : 0);
+  Put(header + kHeaderSizeAt, static_cast<std::uint16_t>(header_.size()));
+  Put(header + kRunAt, spec.run);
+  Put(header + kSensorAt, spec.sensor);
+  Put(header + kPointSizeAt, static_cast<std::uint16_t>(point_size_));
+  Put(header + kNumFieldsAt, static_cast<std::uint16_t>(spec.fields.names().size()));
+}
+
+void StreamEncoder::FindSources(const Frame& frame) {
+  sources_.clear();
+  std::size_t offset = 0;
+  ForEachField(frame, [&](std::string_view name, std::string_view, const auto& values) {
+    if (!spec_.fields.Has(name)) return;
+    const std::size_t size = sizeof(ElementOf<decltype(values)>);
+    sources_.push_back({reinterpret_cast<const char*>(values.data()), size, offset});
+    offset += size;
+  });
+}
+
+void StreamEncoder::ChooseSlots(const Frame& frame) {
+  slots_.resize(frame.num_slots());
+  std::size_t count = 0;
+  for (const std::uint32_t cell : cells_) {
+    for (std::uint32_t r = 0; r < frame.returns; ++r) {
+      const std::uint32_t slot = cell * frame.returns + r;
+      slots_[count] = slot;
+      count += spec_.has_all_slots || HasPoint(frame.outcome[slot]) ? 1 : 0;
+    }
+  }
+  slots_.resize(count);
+}
+
+void StreamEncoder::WriteFrameHeader(const Frame& frame) {
+  char* const header = header_.data();
+  Put(header + kFrameAt, frame.index);
+  Put(header + kStampAt, frame.stamp_ns);
+  Put(header + kDurationAt, frame.duration_ns);
+  Put(header + kFramePointsAt, static_cast<std::uint32_t>(slots_.size()));
+  Put(header + kRowsAt, frame.rows);
+  Put(header + kColumnsAt, frame.columns);
+  Put(header + kReturnsAt, static_cast<std::uint16_t>(frame.returns));
+  PutPose(header + kPoseAt, frame.world_from_sensor);
+  PutPose(header + kEndPoseAt, frame.world_from_sensor_end);
+}
+
+void StreamEncoder::WriteDatagram(std::size_t first, std::size_t count, char* datagram) const {
+  std::memcpy(datagram, header_.data(), header_.size());
+  Put(datagram + kDatagramPointsAt, static_cast<std::uint16_t>(count));
+  Put(datagram + kFirstPointAt, static_cast<std::uint32_t>(first));
+  const std::span slots = std::span(slots_).subspan(first, count);
+  char* const points = datagram + header_.size();
+  for (const FieldSource& source : sources_) {
+    char* const to = points + source.offset;
+    if (source.size == 4) {
+      GatherValues<4>(source.values, slots, point_size_, to);
+    } else if (source.size == 2) {
+      GatherValues<2>(source.values, slots, point_size_, to);
+    } else {
+      GatherValues<1>(source.values, slots, point_size_, to);
+    }
+  }
+  const std::size_t checked = header_.size() + count * point_size_;
+  const auto crc = ::crc32_z(0, reinterpret_cast<const unsigned char*>(datagram), checked);
+  Put(datagram + checked, static_cast<std::uint32_t>(crc));
+}
+
+void StreamEncoder::Encode(const Frame& frame, Datagrams& datagrams) {
+  Check(frame.rows == rows_ && frame.columns == columns_, "frames are of the encoder's pattern");
+  const std::size_t overhead = header_.size() + kTrailerSize;
+  const std::size_t points_each = (kMaxStreamDatagram - overhead) / point_size_;
+  constexpr std::size_t kMaxPackets = std::numeric_limits<std::uint16_t>::max();
+  if (frame.num_slots() > kMaxPackets * points_each) {
+    throw InputError("stream: a frame must fit into 65535 datagrams (got " +
+                     std::to_string(frame.num_slots()) + " slots of " +
+                     std::to_string(point_size_) + " bytes); send fewer fields");
+  }
+  FindSources(frame);
+  ChooseSlots(frame);
+  WriteFrameHeader(frame);
+  const std::size_t num_points = slots_.size();
+  const std::size_t num_packets = std::max<std::size_t>(1, (num_points + points_each - 1) / points_each);
+  Put(header_.data() + kNumPacketsAt, static_cast<std::uint16_t>(num_packets));
+  std::size_t offset = datagrams.bytes.size();
+  datagrams.bytes.resize(offset + num_packets * overhead + num_points * point_size_);
+  for (std::size_t packet = 0; packet < num_packets; ++packet) {
+    const std::size_t first = packet * points_each;
+    const std::size_t count = std::min(points_each, num_points - first);
+    Put(header_.data() + kPacketAt, static_cast<std::uint16_t>(packet));
+    WriteDatagram(first, count, datagrams.bytes.data() + offset);
+    const std::uint32_t last_ns =
+        count == 0 ? frame.duration_ns : frame.time_ns[slots_[first + count - 1]];
+    const std::size_t size = overhead + count * point_size_;
+    datagrams.items.push_back({offset, static_cast<std::uint16_t>(size), DatagramPort::kData,
+                               frame.stamp_ns + std::int64_t{last_ns}});
+    offset += size;
+  }
+}
+
+}  // namespace railcast

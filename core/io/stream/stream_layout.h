@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace railcast::stream_layout {
+
+// Values are copied to and from the wire as they are.
+static_assert(std::endian::native == std::endian::little);
+
+inline constexpr std::array<char, 4> kMagic = {'R', 'C', 'S', 'T'};
+inline constexpr std::uint8_t kVersion = 1;
+inline constexpr std::uint8_t kAllSlotsFlag = 1;
+
+/// Where each part of a datagram's header is; docs/stream.md explains them.
+inline constexpr std::size_t kMagicAt = 0;
+inline constexpr std::size_t kVersionAt = 4;
+inline constexpr std::size_t kFlagsAt = 5;
+inline constexpr std::size_t kHeaderSizeAt = 6;
+inline constexpr std::size_t kRunAt = 8;
+inline constexpr std::size_t kSensorAt = 12;
+inline constexpr std::size_t kDatagramPointsAt = 14;
+inline constexpr std::size_t kFrameAt = 16;
+inline constexpr std::size_t kPacketAt = 20;
+inline constexpr std::size_t kNumPacketsAt = 22;
+inline constexpr std::size_t kStampAt = 24;
+inline constexpr std::size_t kDurationAt = 32;
+inline constexpr std::size_t kFramePointsAt = 36;
+inline constexpr std::size_t kFirstPointAt = 40;
+inline constexpr std::size_t kRowsAt = 44;
+inline constexpr std::size_t kColumnsAt = 48;
+inline constexpr std::size_t kReturnsAt = 52;
+inline constexpr std::size_t kPointSizeAt = 54;
+inline constexpr std::size_t kPoseAt = 56;
+inline constexpr std::size_t kEndPoseAt = 112;
+inline constexpr std::size_t kNumFieldsAt = 168;
+inline constexpr std::size_t kFieldsAt = 170;
+
+inline constexpr std::size_t kNumPoseValues = 7;  ///< x y z qx qy qz qw, f64 each.
+inline constexpr std::size_t kTrailerSize = 4;    ///< CRC-32 of all bytes before it.
+
+template <typename T>
+void Put(char* place, T value) {
+  std::memcpy(place, &value, sizeof value);
+}
+
+template <typename T>
+[[nodiscard]] T Get(const char* place) {
+  T value;
+  std::memcpy(&value, place, sizeof value);
+  return value;
+}
+
+}  // namespace railcast::stream_layout

@@ -1,0 +1,99 @@
+#include "core/scenario/sensors.h"
+
+#include <algorithm>
+#include <set>
+
+#include "core/base/error.h"
+#include "core/scenario/json_rules.h"
+#include "core/scenario/scenario.h"
+
+namespace railcast {
+namespace {
+
+bool Holds(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+std::vector<std::string> ProtocolNames() {
+  return {"railcast", "vlp16", "vlp16-dual", "hdl32e", "vlp32c", "hdl64e"};
+}
+
+std::uint16_t DefaultPort(const std::string& protocol) {
+  constexpr std::uint16_t kVelodynePort = 2368;
+  constexpr std::uint16_t kRailcastPort = 2369;
+  return protocol == "railcast" ? kRailcastPort : kVelodynePort;
+}
+
+std::vector<std::string> ReceiversOf(const SensorInterface& interface) {
+  if (!interface.udp.empty()) return interface.udp;
+  return {"127.0.0.1:" + std::to_string(DefaultPort(interface.protocol))};
+}
+
+std::vector<SensorPlace> SensorsOf(const ScenarioSpec& spec) {
+  if (spec.lidars.empty()) return {{spec.lidar, "/lidar"}};
+  std::vector<SensorPlace> sensors;
+  for (const LidarSpec& lidar : spec.lidars) {
+    sensors.push_back({lidar, "/lidars/" + std::to_string(sensors.size())});
+  }
+  return sensors;
+}
+
+std::vector<std::string> SensorNames(const ScenarioSpec& spec) {
+  std::vector<std::string> names;
+  for (const SensorPlace& sensor : SensorsOf(spec)) names.push_back(sensor.lidar.name);
+  return names;
+}
+
+ScenarioSpec PickSensor(const ScenarioSpec& spec, const std::optional<std::string>& name) {
+  const std::vector<std::string> names = SensorNames(spec);
+  if (name && !Holds(names, *name)) {
+    throw InputError("sensor: must be " + InWords(names) + " (got \"" + *name + "\")");
+  }
+  if (!name && names.size() > 1) {
+    throw InputError("sensor: must be " + InWords(names) + " (got none of the scenario's sensors)");
+  }
+  if (spec.lidars.empty()) return spec;
+  const auto index = static_cast<std::size_t>(
+      name ? std::find(names.begin(), names.end(), *name) - names.begin() : 0);
+  ScenarioSpec picked = spec;
+  picked.lidar = spec.lidars[index];
+  picked.lidars.clear();
+  picked.sources.Rename("/lidars/" + std::to_string(index), "/lidar");
+  for (const SensorInterface& interface : spec.interfaces.sensors) {
+    if (interface.sensor != picked.lidar.name) continue;
+    picked.interfaces.protocol = interface.protocol;
+    picked.interfaces.udp = interface.udp;
+  }
+  picked.interfaces.sensors.clear();
+  return picked;
+}
+
+std::string InterfacesFault(const InterfacesSpec& interfaces,
+                            const std::vector<std::string>& sensors) {
+  if (interfaces.sensors.empty()) return "";
+  if (sensors.empty()) return "must be left out with \"lidar\", which has but one sensor";
+  std::set<std::string> named;
+  std::set<std::string> receivers;
+  for (const SensorInterface& interface : interfaces.sensors) {
+    if (!Holds(sensors, interface.sensor)) {
+      return "must name sensors of the scenario, " + InWords(sensors) + ", not \"" +
+             interface.sensor + '"';
+    }
+    if (!named.insert(interface.sensor).second) {
+      return "must name each sensor once, \"" + interface.sensor + "\" too";
+    }
+    for (const std::string& receiver : ReceiversOf(interface)) {
+      if (receivers.insert(receiver).second) continue;
+      return "must give each sensor receivers of its own, \"" + interface.sensor +
+             "\" others than " + receiver;
+    }
+  }
+  for (const std::string& sensor : sensors) {
+    if (!named.contains(sensor)) return "must name each sensor once, \"" + sensor + "\" too";
+  }
+  return "";
+}
+
+}  // namespace railcast

@@ -1,0 +1,80 @@
+#include "core/simulate/scene_store.h"
+
+#include <algorithm>
+
+namespace railcast {
+namespace {
+
+Model WithoutTriangles(const Model& model) {
+  Model bare{model.name, {}};
+  for (const Part& part : model.parts) {
+    bare.parts.push_back({{}, part.material, part.label, part.is_wire});
+  }
+  return bare;
+}
+
+double RadiusAboutOrigin(const Model& model) {
+  double radius_m = 0.0;
+  for (const Part& part : model.parts) {
+    for (const Eigen::Vector3f& vertex : part.mesh.vertices) {
+      radius_m = std::max(radius_m, vertex.cast<double>().norm());
+    }
+  }
+  return radius_m;
+}
+
+}  // namespace
+
+SceneStore::SceneStore(std::shared_ptr<const World> world,
+                       const MaterialLibrary& materials,
+                       const std::string& isa)
+    : world_(std::move(world)), materials_(materials.materials()), device_(isa) {}
+
+std::shared_ptr<const SceneStore::BuiltChunk> SceneStore::GetChunk(int chunk) {
+  const std::lock_guard lock(chunks_mutex_);
+  std::weak_ptr<const BuiltChunk>& entry = chunks_[chunk];
+  if (auto built = entry.lock()) return built;
+  Chunk made = world_->BuildChunk(chunk);
+  auto built = std::make_shared<BuiltChunk>();
+  built->ground = std::make_shared<TraceModel>(device_, made.ground);
+  built->ground_surfaces = WithoutTriangles(made.ground);
+  built->placements = std::move(made.placements);
+  built->wires = std::move(made.wires);
+  entry = built;
+  return built;
+}
+
+std::shared_ptr<const TraceModel> SceneStore::GetModel(const std::shared_ptr<const Model>& model) {
+  {
+    const std::lock_guard lock(models_mutex_);
+    const auto found = models_.find(model.get());
+    if (found != models_.end()) return found->second.second;
+  }
+  // Nobody waits for a model that only another needs; two who need it at once may both build it.
+  auto built = std::make_shared<const TraceModel>(device_, *model);
+  const std::lock_guard lock(models_mutex_);
+  return models_.try_emplace(model.get(), model, std::move(built)).first->second.second;
+}
+
+void SceneStore::ForgetUnusedModels() {
+  const std::lock_guard lock(models_mutex_);
+  std::erase_if(models_, [](const auto& entry) { return entry.second.first.use_count() == 1; });
+}
+
+SceneStore::StoredObject SceneStore::MakeObject(const SceneObject& object) {
+  StoredObject stored{GetModel(object.model), {}, RadiusAboutOrigin(*object.model)};
+  for (const Part& part : object.model->parts) {
+    stored.surfaces.push_back(MakeSurface(part, object.instance, object.is_ego));
+  }
+  return stored;
+}
+
+Surface SceneStore::MakeSurface(const Part& part, std::uint32_t instance, bool is_ego) const {
+  return {.label = part.label,
+          .instance = instance,
+          .reflectivity = static_cast<float>(materials_[part.material].reflectivity),
+          .material = part.material,
+          .is_ego = is_ego};
+}
+
+}  // namespace railcast

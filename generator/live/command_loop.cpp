@@ -1,0 +1,65 @@
+#include "generator/live/command_loop.h"
+
+#include "core/base/error.h"
+#include "core/scenario/command_log.h"
+
+namespace railcast {
+namespace {
+
+// How soon a waiting run notices that it is stopped.
+constexpr int kPatience_ms = 50;
+
+}  // namespace
+
+CommandLoop::CommandLoop(CommandedRun& run,
+                         CommandChannel& channel,
+                         bool lockstep,
+                         const std::optional<std::filesystem::path>& log_file,
+                         const std::string& scenario_xxh3)
+    : run_(run), channel_(channel), lockstep_(lockstep) {
+  if (!log_file) return;
+  log_.emplace(*log_file, 0);
+  log_->Append(CommandLogHeader(scenario_xxh3));
+}
+
+NextFrames CommandLoop::BeginFrames(std::int64_t stamp_ns,
+                                    const std::function<bool()>& is_stopped) {
+  while (!is_stopped()) {
+    const auto request = channel_.Next(lockstep_ ? kPatience_ms : 0);
+    if (!request && !lockstep_) return NextFrames::kMake;
+    if (!request) continue;
+    if (lockstep_ && std::holds_alternative<Step>(request->command)) {
+      step_ = request;
+      return NextFrames::kMake;
+    }
+    if (Handle(*request, stamp_ns)) return NextFrames::kReset;
+  }
+  return NextFrames::kStop;
+}
+
+bool CommandLoop::Handle(const CommandRequest& request, std::int64_t stamp_ns) {
+  if (std::holds_alternative<Step>(request.command)) {
+    channel_.Refuse(request, {"command: step is for --lockstep; this run goes on by itself"});
+    return false;
+  }
+  const bool is_reset = std::holds_alternative<Reset>(request.command);
+  const std::int64_t time_ns = is_reset ? 0 : stamp_ns;
+  try {
+    run_.Apply(request.command, time_ns);
+  } catch (const InputError& error) {
+    channel_.Refuse(request, {error.what()});
+    return false;
+  }
+  if (log_) log_->Append(CommandLogLine({time_ns, request.command}));
+  channel_.Acknowledge(request, time_ns);
+  return is_reset;
+}
+
+void CommandLoop::EndFrames(std::int64_t stamp_ns) {
+  run_.ForgetBefore(stamp_ns);
+  if (!step_) return;
+  channel_.Acknowledge(*step_, stamp_ns);
+  step_.reset();
+}
+
+}  // namespace railcast

@@ -1,0 +1,82 @@
+#include "generator/live/live_streams.h"
+
+#include "core/scenario/effects.h"
+#include "core/scenario/scenario.h"
+#include "generator/chosen_fidelity.h"
+
+namespace railcast {
+namespace {
+
+std::vector<Simulator*> Pointers(const std::vector<std::unique_ptr<Simulator>>& simulators) {
+  std::vector<Simulator*> pointers;
+  for (const auto& simulator : simulators) pointers.push_back(simulator.get());
+  return pointers;
+}
+
+}  // namespace
+
+LiveStreams::LiveStreams(const ScenarioSpec& scenario,
+                         const std::vector<SensorStreamSpec>& streams,
+                         int num_threads,
+                         std::uint32_t run)
+    : simulators_(MakeSimulators(scenario, num_threads)),
+      commanded_(scenario, Pointers(simulators_)),
+      frames_(streams.size()),
+      run_(run) {
+  for (std::size_t i = 0; i < streams.size(); ++i) {
+    const ScenarioSpec alone = PickSensor(scenario, streams[i].name);
+    streams_.push_back(
+        std::make_unique<SensorStream>(streams[i], alone, simulators_[i]->pattern(), run));
+  }
+}
+
+void LiveStreams::WarmUp() {
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    if (commanded_.scenario().fidelity == kAutoFidelity) {
+      const ScenarioSpec alone = PickSensor(commanded_.scenario(), streams_[i]->spec().name);
+      static_cast<void>(UseChosenFidelity(*simulators_[i], alone));
+    }
+    commanded_.At(i, 0).Scan(0, frames_[i]);
+  }
+}
+
+void LiveStreams::MakeFrame(std::size_t sensor, std::uint32_t frame, Datagrams& datagrams) {
+  commanded_.At(sensor, frame).Scan(frame, frames_[sensor]);
+  streams_[sensor]->Encode(frames_[sensor], datagrams);
+}
+
+std::vector<LiveSensor> LiveStreams::Sensors() {
+  std::vector<LiveSensor> sensors;
+  for (std::size_t i = 0; i < streams_.size(); ++i) {
+    const ScanPattern& pattern = simulators_[i]->pattern();
+    SensorStream& stream = *streams_[i];
+    sensors.push_back(
+        {.name = stream.spec().name,
+         .period_ns = pattern.StampNs(1),
+         .stamp_ns = [&pattern](std::uint32_t frame) { return pattern.StampNs(frame); },
+         .make = [this, i](std::uint32_t frame,
+                           Datagrams& datagrams) { MakeFrame(i, frame, datagrams); },
+         .send = [&stream](const Datagrams& datagrams,
+                           std::span<const Datagrams::Item> items) {
+           stream.Send(datagrams, items);
+         }});
+  }
+  return sensors;
+}
+
+void LiveStreams::Restart() {
+  ++run_;
+  for (const auto& stream : streams_) stream->Restart(run_);
+}
+
+void LiveStreams::Finish() {
+  for (const auto& stream : streams_) stream->Finish();
+}
+
+std::vector<DeliveryCounts> LiveStreams::Delivered() const {
+  std::vector<DeliveryCounts> delivered;
+  for (const auto& stream : streams_) delivered.push_back(stream->delivered());
+  return delivered;
+}
+
+}  // namespace railcast

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/frame/frame.h"
+#include "core/io/datagrams.h"
+#include "core/io/field_selection.h"
+#include "core/io/net/endpoint.h"
+#include "core/io/net/udp_sender.h"
+#include "core/io/pcap/pcap_writer.h"
+#include "core/scan/scan_pattern.h"
+#include "core/scenario/scenario_spec.h"
+#include "generator/live/live_summary.h"
+
+namespace railcast {
+
+/// How a sensor's frames leave.
+struct SensorStreamSpec {
+  std::string name;
+  std::uint16_t sensor{};  ///< Its number on the vehicle.
+  std::string protocol = "railcast";
+  std::vector<Endpoint> to;
+  std::optional<std::filesystem::path> pcap;
+  FieldSelection fields;  ///< Of protocol railcast, like the next.
+  bool has_all_slots{};
+};
+
+/// The port that receivers of a protocol listen to.
+[[nodiscard]] std::uint16_t DefaultPort(const std::string& protocol);
+
+/// Encodes one sensor's frames and hands them to its receivers and to a capture file.
+class SensorStream {
+ public:
+  /// @param scenario With this sensor as its only one.
+  /// @param run Tells this start of the sensor from others in protocol railcast.
+  /// @throws InputError if the sensor does not speak the protocol, a receiver cannot be sent to or
+  ///   the file cannot be made.
+  SensorStream(SensorStreamSpec spec,
+               const ScenarioSpec& scenario,
+               const ScanPattern& pattern,
+               std::uint32_t run);
+
+  [[nodiscard]] const SensorStreamSpec& spec() const { return spec_; }
+
+  void Encode(const Frame& frame, Datagrams& datagrams) { encoder_->Encode(frame, datagrams); }
+  /// Begins anew with frame 0.
+  void Restart(std::uint32_t run);
+
+  /// May be called from another thread than the others.
+  void Send(const Datagrams& datagrams, std::span<const Datagrams::Item> items);
+
+  /// Completes the capture file. @throws InputError if the system refuses.
+  void Finish();
+  [[nodiscard]] DeliveryCounts delivered() const;
+
+ private:
+  [[nodiscard]] std::unique_ptr<FrameEncoder> MakeEncoder(std::uint32_t run) const;
+
+  SensorStreamSpec spec_;
+  LidarSpec lidar_;
+  ScanPattern pattern_;
+  std::unique_ptr<FrameEncoder> encoder_;
+  std::unique_ptr<UdpSender> sender_;    ///< Null if nobody receives.
+  std::unique_ptr<PcapWriter> capture_;  ///< Null if nothing is written.
+};
+
+}  // namespace railcast

@@ -1,0 +1,28 @@
+#include "generator/stop_signal.h"
+
+#include <signal.h>
+
+#include <atomic>
+
+namespace railcast {
+namespace {
+
+// A signal handler can reach nothing else.
+std::atomic<bool> stop_requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+}  // namespace
+
+void CatchStopSignals() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { stop_requested = true; };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+}
+
+bool StopRequested() {
+  return stop_requested;
+}
+
+}  // namespace railcast

@@ -1,0 +1,208 @@
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/io/velodyne/calibration_xml.h"
+#include "core/io/write_file.h"
+#include "core/scenario/scenario.h"
+#include "generator/commands.h"
+#include "generator/live/command_loop.h"
+#include "generator/live/live_streams.h"
+#include "generator/scenario_identity.h"
+#include "generator/stop_signal.h"
+#include "generator/terminal_line.h"
+
+namespace railcast {
+namespace {
+
+/// Without a receiver nothing has to wait for its time.
+bool IsOffline(const StreamOptions& options) {
+  return options.pcap && options.to.empty();
+}
+
+template <typename Work>
+auto AsOption(const std::string& option, Work&& work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    throw InputError(option + ": " + error.what());
+  }
+}
+
+ScenarioSpec ReadWithOverrides(const StreamOptions& options) {
+  ScenarioSpec scenario = ReadScenario(options.scenario);
+  if (options.sensor) scenario = PickSensor(scenario, options.sensor);
+  if (options.seed) scenario.seed = *options.seed;
+  if (options.fidelity) scenario.fidelity = *options.fidelity;
+  return scenario;
+}
+
+void CheckOptions(const StreamOptions& options, std::size_t num_sensors) {
+  const auto needs_one_sensor = [&](const std::string& option, bool is_given) {
+    if (!is_given || num_sensors == 1) return;
+    throw InputError(option + ": is for one sensor, to be named by --sensor (got " +
+                     std::to_string(num_sensors) + " sensors)");
+  };
+  needs_one_sensor("--to", !options.to.empty());
+  needs_one_sensor("--protocol", options.protocol.has_value());
+  needs_one_sensor("--pcap", options.pcap.has_value());
+  const auto needs_commands_port = [&](const std::string& option, bool is_given) {
+    if (is_given && !options.commands_port) {
+      throw InputError(option + ": needs --commands-port (got none)");
+    }
+  };
+  needs_commands_port("--lockstep", options.lockstep);
+  needs_commands_port("--commands-log", options.commands_log.has_value());
+  needs_commands_port("--commands-from", options.commands_from.has_value());
+  if (IsOffline(options) && !options.duration_s && !options.lockstep) {
+    throw InputError("--pcap: needs --duration where nobody receives, --to (got none)");
+  }
+}
+
+std::vector<Endpoint> ReceiversOf(const StreamOptions& options,
+                                  const InterfacesSpec& interfaces,
+                                  const std::string& protocol) {
+  const bool is_told = !options.to.empty();
+  const std::string place = is_told ? "--to" : "/interfaces/udp";
+  std::vector<Endpoint> receivers;
+  for (const std::string& to : is_told ? options.to : interfaces.udp) {
+    receivers.push_back(AsOption(place, [&] { return ParseEndpoint(to, DefaultPort(protocol)); }));
+  }
+  if (receivers.empty()) receivers.push_back(ParseEndpoint("127.0.0.1", DefaultPort(protocol)));
+  return receivers;
+}
+
+std::vector<SensorStreamSpec> PlanStreams(const StreamOptions& options,
+                                          const ScenarioSpec& scenario) {
+  std::vector<SensorStreamSpec> streams;
+  for (const std::string& name : SensorNames(scenario)) {
+    const InterfacesSpec interfaces = PickSensor(scenario, name).interfaces;
+    const std::string protocol = options.protocol.value_or(interfaces.protocol);
+    streams.push_back({.name = name,
+                       .sensor = static_cast<std::uint16_t>(streams.size()),
+                       .protocol = protocol,
+                       .to = IsOffline(options) ? std::vector<Endpoint>{}
+                                                : ReceiversOf(options, interfaces, protocol),
+                       .pcap = options.pcap,
+                       .fields = FieldSelection(options.fields),
+                       .has_all_slots = options.has_all_slots});
+  }
+  return streams;
+}
+
+void WriteCalibration(const std::filesystem::path& file,
+                      const ScenarioSpec& scenario,
+                      const std::vector<SensorStreamSpec>& streams) {
+  if (streams.size() != 1 || streams.front().protocol != "hdl64e") {
+    throw InputError("--calibration: is for one sensor of protocol hdl64e (got " +
+                     (streams.size() == 1 ? streams.front().protocol
+                                          : std::to_string(streams.size()) + " sensors") +
+                     ")");
+  }
+  // Streams of this protocol exist, so the scan spins.
+  const ScenarioSpec alone = PickSensor(scenario, streams.front().name);
+  WriteFileWhole(file, CalibrationXml(std::get<SpinningSpec>(alone.lidar.scan.pattern)));
+}
+
+/// Tells this start from those before; what nobody hears live is the same each time.
+std::uint32_t RunNumber(const StreamOptions& options) {
+  if (IsOffline(options)) return 0;
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return static_cast<std::uint32_t>(std::chrono::duration_cast<std::chrono::seconds>(now).count());
+}
+
+std::string Describe(const std::vector<SensorStreamSpec>& streams) {
+  std::string text;
+  for (const SensorStreamSpec& stream : streams) {
+    text += stream.name + ": " + stream.protocol;
+    for (const Endpoint& to : stream.to) text += " to " + EndpointText(to);
+    if (stream.pcap) text += " into " + stream.pcap->string();
+    text += "\n";
+  }
+  return text;
+}
+
+LiveRunSpec RunSpecOf(const StreamOptions& options) {
+  LiveRunSpec spec;
+  spec.pacing = options.pacing == "burst" ? Pacing::kBurst : Pacing::kSpread;
+  spec.lockstep = options.lockstep;
+  if (options.duration_s) spec.duration_ns = std::llround(1e9 * *options.duration_s);
+  return spec;
+}
+
+std::unique_ptr<CommandChannel> OpenChannel(const StreamOptions& options) {
+  if (!options.commands_port) return nullptr;
+  Endpoint peer = AsOption("--commands-from",
+                           [&] { return ParseEndpoint(options.commands_from.value_or("127.0.0.1"), 0); });
+  // Whoever hears only this machine cannot be reached from elsewhere.
+  const std::uint32_t any_address = 0;
+  const std::uint32_t loopback = 0x7F000001;
+  const Endpoint at{peer.is_loopback() ? loopback : any_address, *options.commands_port};
+  auto channel = AsOption("--commands-port",
+                          [&] { return std::make_unique<CommandChannel>(at, peer); });
+  std::cout << "commands at " << EndpointText(channel->at()) << "\n";
+  return channel;
+}
+
+}  // namespace
+
+int StreamCommand(const StreamOptions& options) {
+  const ScenarioSpec scenario = ReadWithOverrides(options);
+  CheckOptions(options, SensorNames(scenario).size());
+  const std::vector<SensorStreamSpec> plan = PlanStreams(options, scenario);
+  LiveStreams streams(scenario, plan, options.num_threads, RunNumber(options));
+  if (options.calibration) WriteCalibration(*options.calibration, scenario, plan);
+  const auto channel = OpenChannel(options);
+  std::optional<CommandLoop> commands;
+  if (channel) {
+    commands.emplace(streams.commanded_run(), *channel, options.lockstep, options.commands_log,
+                     IdentityOf(scenario).scenario_hash);
+  }
+  CatchStopSignals();
+  streams.WarmUp();
+  std::cout << Describe(plan) << std::flush;
+
+  // A vehicle at the end of its track ends the run, but not before its summary.
+  std::string fault;
+  TerminalLine line;
+  LiveHooks hooks;
+  hooks.is_stopped = StopRequested;
+  hooks.begin_frames = [&](std::int64_t stamp_ns) {
+    const NextFrames next =
+        commands ? commands->BeginFrames(stamp_ns, StopRequested) : NextFrames::kMake;
+    if (next == NextFrames::kReset) streams.Restart();
+    if (next != NextFrames::kMake) return next;
+    try {
+      streams.commanded_run().CheckAt(stamp_ns);
+    } catch (const InputError& error) {
+      fault = error.what();
+      return NextFrames::kStop;
+    }
+    return next;
+  };
+  hooks.end_frames = [&](std::int64_t stamp_ns, const std::vector<LiveRecord>& records) {
+    if (commands) commands->EndFrames(stamp_ns);
+    std::uint64_t num_late = 0;
+    for (const LiveRecord& record : records) num_late += record.late_frames;
+    line.Show(LiveProgress(stamp_ns, records.front().frames, num_late));
+  };
+  MonotonicClock monotonic;
+  JumpingClock jumping;
+  LiveClock& clock = IsOffline(options) ? static_cast<LiveClock&>(jumping) : monotonic;
+  const auto records = RunLive(RunSpecOf(options), streams.Sensors(), hooks, clock);
+  line.End();
+  streams.Finish();
+  std::cout << LiveSummary(records, streams.Delivered());
+  if (channel && channel->num_strangers() > 0) {
+    std::cout << "commands of others than the peer: " << channel->num_strangers() << ", dropped\n";
+  }
+  if (fault.empty()) return kExitSuccess;
+  std::cerr << fault << "\n";
+  return kExitFailure;
+}
+
+}  // namespace railcast

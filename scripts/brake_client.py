@@ -1,0 +1,222 @@
+#!/usr/bin/env python3
+"""Drives a simulated train on sight: finds the nearest obstacle on its track and brakes.
+
+Speaks to `railcast-generate stream SCENARIO --commands-port PORT`, whose points must be in vehicle
+axes (`output.frame` is "vehicle") on track that is straight as far as the sensor sees. An obstacle
+is where enough points lie close together inside the structure gauge, frame after frame. Prints where
+it was detected, how far the train still ran and what gap is left; exit status 1 if none is.
+"""
+
+import argparse
+import collections
+import json
+import math
+import random
+import socket
+import sys
+
+from receive_stream import read_datagram
+
+# Half the structure gauge of lines with 15 kV (EBO, Anlage 1). Ballast, rails and sleepers stay
+# below the box, the contact wire above it.
+GAUGE_HALF_WIDTH_M = 1.43
+GAUGE_BOTTOM_M = 0.35
+GAUGE_TOP_M = 4.5
+
+OBSTACLE_LENGTH_M = 1.0  # Points this near along the track are one thing.
+STANDSTILL_MPS = 0.02
+PATIENCE_S = 5.0
+
+
+class Frame:
+    """What has arrived of a frame."""
+
+    def __init__(self, header):
+        self.key = (header.run, header.frame)
+        self.num_packets = header.packets
+        self.stamp_s = header.stamp_ns * 1e-9
+        self.position_m = (header.x, header.y, header.z)
+        self.points_of_packet = {}
+
+    def is_whole(self):
+        return len(self.points_of_packet) == self.num_packets
+
+    def points(self):
+        return [point for points in self.points_of_packet.values() for point in points]
+
+
+class Train:
+    """The simulated train: its sensor's frames, and what it can be told."""
+
+    def __init__(self, options):
+        self.stream = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.stream.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 24)
+        self.stream.bind(options.stream)
+        self.stream.settimeout(PATIENCE_S)
+        self.controls = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.controls.settimeout(0.5)
+        self.to = options.commands
+        self.is_lockstep = options.lockstep
+        self.next_id = random.randrange(1 << 40)
+        self.num_lost = 0
+
+    def tell(self, command):
+        """Sends a command until it is answered, and gives the answer."""
+        self.next_id += 1
+        line = json.dumps({"id": self.next_id, **command}).encode()
+        for _ in range(20):
+            self.controls.sendto(line, self.to)
+            try:
+                while True:
+                    answer = json.loads(self.controls.recv(65536))
+                    if answer.get("id") == self.next_id:
+                        if not answer["ok"]:
+                            sys.exit("refused: " + "; ".join(answer["faults"]))
+                        return answer
+            except (socket.timeout, ConnectionRefusedError):
+                pass
+        sys.exit(f"no answer from {self.to[0]}:{self.to[1]}")
+
+    def frames(self):
+        """Gives one frame after the other as soon as it is whole; others are counted as lost."""
+        frame = None
+        if self.is_lockstep:
+            self.tell({"command": "step"})
+        while True:
+            try:
+                header, points = read_datagram(self.stream.recv(2048))
+            except socket.timeout:
+                sys.exit(f"no datagram for {PATIENCE_S:g} s")
+            if frame is None or (header.run, header.frame) != frame.key:
+                self.num_lost += frame is not None and not frame.is_whole()
+                frame = Frame(header)
+            frame.points_of_packet[header.packet] = points
+            if frame.is_whole():
+                yield frame
+                if self.is_lockstep:
+                    self.tell({"command": "step"})
+
+
+def nearest_obstacle(points, front_m, min_points):
+    """The distance ahead of the train's front at which enough points lie together, or None."""
+    along = sorted(point["x"] - front_m for point in points
+                   if point["x"] > front_m and abs(point["y"]) < GAUGE_HALF_WIDTH_M
+                   and GAUGE_BOTTOM_M < point["z"] < GAUGE_TOP_M)
+    for first, last in zip(along, along[min_points - 1:]):
+        if last - first <= OBSTACLE_LENGTH_M:
+            return first
+    return None
+
+
+class Lookout:
+    """Tells an obstacle from points that drops, flakes and noise make: it stays where it is."""
+
+    def __init__(self, min_frames):
+        self.places = collections.deque(maxlen=min_frames)
+
+    def confirm(self, travelled_m, distance_m):
+        """The distance of an obstacle seen here in frame after frame, or None."""
+        self.places.append(None if distance_m is None else travelled_m + distance_m)
+        if len(self.places) < self.places.maxlen or None in self.places:
+            return None
+        if max(self.places) - min(self.places) > OBSTACLE_LENGTH_M:
+            return None
+        return distance_m
+
+
+class Drive:
+    """One approach: looks out, brakes when there is an obstacle, and measures what comes of it."""
+
+    def __init__(self, train, options):
+        self.train = train
+        self.options = options
+        self.lookout = Lookout(options.min_frames)
+        self.speed_mps = 0.0
+        self.travelled_m = 0.0
+        self.obstacle_at_m = None  # Of the train's front, as travelled_m.
+        self.braked_at_m = None
+        self.braked_speed_mps = None
+        self.detected_m = None
+
+    def run(self):
+        """Whether there was an obstacle; the train stands then."""
+        before = None
+        for frame in self.train.frames():
+            if before is not None:
+                step_m = math.dist(frame.position_m, before.position_m)
+                self.travelled_m += step_m
+                self.speed_mps = step_m / (frame.stamp_s - before.stamp_s)
+            before = frame
+            self.look(frame)
+            if self.braked_at_m is not None and self.speed_mps < STANDSTILL_MPS:
+                return True
+            if self.travelled_m > self.options.max_travel:
+                return False
+        return False
+
+    def look(self, frame):
+        seen_m = nearest_obstacle(frame.points(), self.options.front, self.options.min_points)
+        distance_m = self.lookout.confirm(self.travelled_m, seen_m)
+        if distance_m is None:
+            return
+        self.obstacle_at_m = self.travelled_m + distance_m
+        if self.braked_at_m is None:
+            self.train.tell({"command": "brake", "deceleration_mps2": self.options.deceleration})
+            self.detected_m = distance_m
+            self.braked_at_m = self.travelled_m
+            self.braked_speed_mps = self.speed_mps
+
+    def report(self):
+        return (f"detected at {self.detected_m:.1f} m with {self.braked_speed_mps:.2f} m/s, "
+                f"braking distance {self.travelled_m - self.braked_at_m:.1f} m, "
+                f"gap left {self.obstacle_at_m - self.travelled_m:.1f} m")
+
+
+def endpoint(text):
+    host, port = text.rsplit(":", 1)
+    return host, int(port)
+
+
+def weather(file):
+    with open(file, encoding="utf-8") as text:
+        section = json.load(text)
+    return {key: value for key, value in section.items() if key not in ("$schema", "version")}
+
+
+def parse():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--stream", type=endpoint, default="127.0.0.1:27400", metavar="HOST:PORT",
+                        help="where frames are listened for")
+    parser.add_argument("--commands", type=endpoint, default="127.0.0.1:27401",
+                        metavar="HOST:PORT", help="where the simulation hears commands")
+    parser.add_argument("--lockstep", action="store_true",
+                        help="lets frames come one by one (stream --lockstep)")
+    parser.add_argument("--weather", type=weather, metavar="FILE",
+                        help="a weather section to set first")
+    parser.add_argument("--deceleration", type=float, default=1.0, help="m/s2 (default: 1)")
+    parser.add_argument("--front", type=float, default=2.0,
+                        help="m from the vehicle's origin to its front (default: 2)")
+    parser.add_argument("--min-points", type=int, default=4,
+                        help="together that make an obstacle (default: 4)")
+    parser.add_argument("--min-frames", type=int, default=3,
+                        help="one after the other that confirm it (default: 3)")
+    parser.add_argument("--max-travel", type=float, default=1000.0,
+                        help="m after which the drive ends without an obstacle (default: 1000)")
+    return parser.parse_args()
+
+
+def main():
+    options = parse()
+    train = Train(options)
+    if options.weather is not None:
+        train.tell({"command": "set_weather", "weather": options.weather})
+    drive = Drive(train, options)
+    if not drive.run():
+        print(f"no obstacle within {drive.travelled_m:.0f} m")
+        return 1
+    print(drive.report() + (f"; {train.num_lost} frames lost" if train.num_lost else ""))
+    return 0 if drive.obstacle_at_m > drive.travelled_m else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

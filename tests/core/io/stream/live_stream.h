@@ -1,0 +1,54 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/io/net/udp_sender.h"
+#include "tests/core/io/stream/stream_example.h"
+
+namespace railcast {
+
+inline constexpr Endpoint kAnyLoopbackPort = {0x7F000001, 0};
+
+/// Sends example frames to a port of this machine.
+class LiveStream {
+ public:
+  explicit LiveStream(const Endpoint& to, const StreamSpec& spec = {})
+      : encoder_(StreamPattern(), spec), sender_({to}, 0) {}
+
+  void Send(std::uint32_t index) {
+    datagrams_.Clear();
+    encoder_.Encode(StreamFrame(index), datagrams_);
+    sender_.Send(datagrams_, datagrams_.items);
+  }
+
+  /// All but one of the frame's datagrams.
+  void SendWithout(std::uint32_t index, std::size_t lost) {
+    datagrams_.Clear();
+    encoder_.Encode(StreamFrame(index), datagrams_);
+    const std::span<const Datagrams::Item> items = datagrams_.items;
+    sender_.Send(datagrams_, items.first(lost));
+    sender_.Send(datagrams_, items.subspan(lost + 1));
+  }
+
+ private:
+  StreamEncoder encoder_;
+  UdpSender sender_;
+  Datagrams datagrams_;
+};
+
+/// Whether something comes to be true; the wait is long, since a loaded machine may sleep.
+inline bool Eventually(const std::function<bool()>& is_true) {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::seconds(20);
+  while (!is_true()) {
+    if (Clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return true;
+}
+
+}  // namespace railcast

@@ -1,0 +1,128 @@
+#include "core/io/stream/stream_datagram.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+#include "core/base/random.h"
+#include "tests/core/io/stream/stream_example.h"
+
+namespace railcast {
+namespace {
+
+std::string FaultOf(const std::string& datagram) {
+  StreamFault fault{};
+  if (CheckStreamDatagram(datagram, fault)) return "none";
+  return std::string(kStreamFaultNames[static_cast<std::size_t>(fault)]);
+}
+
+/// The first of several datagrams of a frame.
+std::string First() {
+  return DatagramsOf(StreamFrame(1)).front();
+}
+
+TEST(CheckStreamDatagram, TakesWhatTheEncoderSends) {
+  for (const std::string& datagram : DatagramsOf(StreamFrame(1))) {
+    EXPECT_EQ(FaultOf(datagram), "none");
+  }
+}
+
+TEST(CheckStreamDatagram, RefusesEveryTruncation) {
+  const std::string whole = First();
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    EXPECT_NE(FaultOf(whole.substr(0, size)), "none") << size;
+    if (size < 4) continue;
+    std::string sealed = whole.substr(0, size);
+    Seal(sealed);
+    EXPECT_EQ(FaultOf(sealed), "size") << size;
+  }
+}
+
+TEST(CheckStreamDatagram, RefusesMoreBytesThanItSaysOrMayHave) {
+  std::string longer = First() + "x";
+  Seal(longer);
+  EXPECT_EQ(FaultOf(longer), "size");
+  EXPECT_EQ(FaultOf(std::string(1401, 'x')), "size");
+  EXPECT_EQ(FaultOf(std::string(65'507, 'x')), "size");
+}
+
+TEST(CheckStreamDatagram, RefusesEverySingleWrongBit) {
+  const std::string whole = First();
+  for (std::size_t bit = 0; bit < whole.size() * 8; ++bit) {
+    std::string damaged = whole;
+    damaged[bit / 8] = static_cast<char>(damaged[bit / 8] ^ (1 << bit % 8));
+    const std::string fault = FaultOf(damaged);
+    const std::string expected = bit < 32 ? "magic" : bit < 40 ? "version" : "checksum";
+    EXPECT_EQ(fault, expected) << bit;
+  }
+}
+
+TEST(CheckStreamDatagram, RefusesOtherVersionsAndFlags) {
+  EXPECT_EQ(FaultOf(With<std::uint8_t>(First(), 4, 2)), "version");
+  EXPECT_EQ(FaultOf(With<std::uint8_t>(First(), 5, 2)), "version");
+}
+
+TEST(CheckStreamDatagram, RefusesSizesThatDoNotAddUp) {
+  EXPECT_EQ(FaultOf(With<std::uint16_t>(First(), 6, 169)), "size");     // header_size
+  EXPECT_EQ(FaultOf(With<std::uint16_t>(First(), 6, 65'535)), "size");  // header_size
+  EXPECT_EQ(FaultOf(With<std::uint16_t>(First(), 14, 1)), "size");      // points
+  EXPECT_EQ(FaultOf(With<std::uint16_t>(First(), 54, 29)), "size");     // point_size
+}
+
+TEST(CheckStreamDatagram, RefusesFieldListsThatAreNone) {
+  const std::string first = First();
+  EXPECT_EQ(FaultOf(With<std::uint16_t>(first, 168, 0)), "fields");       // No field.
+  EXPECT_EQ(FaultOf(With<std::uint16_t>(first, 168, 7)), "fields");       // One is not counted.
+  EXPECT_EQ(FaultOf(With<std::uint16_t>(first, 168, 65'535)), "fields");  // More than there are.
+  EXPECT_EQ(FaultOf(With<std::uint8_t>(first, 170, 8)), "fields");        // float64 is no type.
+  EXPECT_EQ(FaultOf(With<std::uint8_t>(first, 170, 4)), "fields");        // Not point_size.
+  EXPECT_EQ(FaultOf(With<std::uint8_t>(first, 171, 0)), "fields");        // No name.
+  EXPECT_EQ(FaultOf(With<std::uint8_t>(first, 171, 255)), "fields");      // A name past the list.
+  EXPECT_EQ(FaultOf(With<char>(first, 172, '\x1b')), "fields");           // No letter.
+  EXPECT_EQ(FaultOf(With<char>(first, 172, 'y')), "fields");              // Twice.
+}
+
+TEST(CheckStreamDatagram, RefusesCountsThatContradictEachOther) {
+  const std::string first = First();
+  EXPECT_EQ(FaultOf(With<std::uint16_t>(first, 22, 0)), "counts");   // No packet.
+  EXPECT_EQ(FaultOf(With<std::uint16_t>(first, 22, 1)), "counts");   // Points without packets.
+  EXPECT_EQ(FaultOf(With<std::uint16_t>(first, 22, 500)), "counts");  // Packets without points.
+  EXPECT_EQ(FaultOf(With<std::uint16_t>(first, 20, 1)), "counts");   // Not where it begins.
+  EXPECT_EQ(FaultOf(With<std::uint16_t>(first, 20, 900)), "counts");  // Beyond the last packet.
+  EXPECT_EQ(FaultOf(With<std::uint32_t>(first, 40, 1)), "counts");   // First point.
+  EXPECT_EQ(FaultOf(With<std::uint32_t>(first, 36, 0)), "counts");   // Points of the frame.
+  EXPECT_EQ(FaultOf(With<std::uint32_t>(first, 36, 0xFFFFFFFF)), "counts");
+  EXPECT_EQ(FaultOf(With<std::uint32_t>(first, 44, 0)), "counts");  // Rows.
+  EXPECT_EQ(FaultOf(With<std::uint32_t>(first, 44, 1)), "counts");  // More points than slots.
+  EXPECT_EQ(FaultOf(With<std::uint16_t>(first, 52, 0)), "counts");  // Returns.
+  EXPECT_EQ(FaultOf(With<std::uint8_t>(first, 5, 1)), "counts");    // All slots: these are fewer.
+}
+
+TEST(CheckStreamDatagram, RefusesPosesThatAreNone) {
+  const std::string first = First();
+  EXPECT_EQ(FaultOf(With(first, 56, std::numeric_limits<double>::infinity())), "pose");
+  EXPECT_EQ(FaultOf(With(first, 112, std::nan(""))), "pose");
+  EXPECT_EQ(FaultOf(With(first, 104, 7.0)), "pose");
+  EXPECT_EQ(FaultOf(With(first, 160, std::numeric_limits<double>::max())), "pose");
+}
+
+TEST(CheckStreamDatagram, SurvivesWhatever) {
+  const std::string first = First();
+  int num_taken = 0;
+  for (std::uint32_t i = 0; i < 20'000; ++i) {
+    std::string hostile = first;
+    const auto words = RandomWords(3, RandomUse::kNoise, 0, i);
+    const std::size_t at = words[0] % 224;
+    hostile[at] = static_cast<char>(words[1]);
+    hostile[(at + words[2] % 4) % 224] = static_cast<char>(words[3]);
+    Seal(hostile);
+    if (FaultOf(hostile) == "none") ++num_taken;
+  }
+  // Some changes are sound: stamps, poses' last digits, numbers of frames and runs.
+  EXPECT_GT(num_taken, 1000);
+  EXPECT_LT(num_taken, 15'000);
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "core/io/stream/frame_assembler.h"
+#include "core/io/stream/stream_encoder.h"
+#include "core/scan/scan_pattern.h"
+#include "tests/core/io/example_frame.h"
+
+namespace railcast {
+
+inline constexpr std::uint32_t kStreamRows = 16;
+inline constexpr std::uint32_t kStreamColumns = 300;
+inline constexpr std::uint32_t kFiringSpacing_ns = 50'000;
+
+/// Firings column by column, all rows of a column one after the other: not the order of slots.
+inline ScanPattern StreamPattern(std::uint32_t rows = kStreamRows,
+                                 std::uint32_t columns = kStreamColumns) {
+  ScanPattern pattern;
+  pattern.rate_hz = 10.0;
+  pattern.rows = rows;
+  pattern.columns = columns;
+  for (std::uint32_t column = 0; column < columns; ++column) {
+    for (std::uint32_t row = 0; row < rows; ++row) {
+      pattern.time_ns.push_back(kFiringSpacing_ns * (column * rows + row));
+      pattern.row.push_back(static_cast<std::uint16_t>(row));
+      pattern.column.push_back(column);
+    }
+  }
+  return pattern;
+}
+
+/// An example frame whose firings have the times of StreamPattern.
+inline Frame StreamFrame(std::uint32_t index,
+                         std::uint32_t rows = kStreamRows,
+                         std::uint32_t columns = kStreamColumns) {
+  Frame frame = ExampleFrame(index, rows, columns);
+  frame.duration_ns = kFiringSpacing_ns * (rows * columns - 1);
+  for (std::uint32_t slot = 0; slot < frame.num_slots(); ++slot) {
+    frame.time_ns[slot] = kFiringSpacing_ns * (slot % columns * rows + slot / columns);
+  }
+  return frame;
+}
+
+/// One scan's datagrams, each by itself.
+inline std::vector<std::string> DatagramsOf(const Frame& frame, const StreamSpec& spec = {}) {
+  StreamEncoder encoder(StreamPattern(frame.rows, frame.columns), spec);
+  Datagrams datagrams;
+  encoder.Encode(frame, datagrams);
+  std::vector<std::string> split;
+  for (const Datagrams::Item& item : datagrams.items) {
+    const auto bytes = datagrams.BytesOf(item);
+    split.emplace_back(bytes.begin(), bytes.end());
+  }
+  return split;
+}
+
+/// Makes the CRC right again: what somebody would do who means harm.
+inline void Seal(std::string& datagram) {
+  const std::size_t checked = datagram.size() - 4;
+  const auto crc = static_cast<std::uint32_t>(
+      ::crc32(0, reinterpret_cast<const unsigned char*>(datagram.data()),
+              static_cast<unsigned>(checked)));
+  std::memcpy(datagram.data() + checked, &crc, sizeof crc);
+}
+
+/// The datagram with another value at a place of its header.
+template <typename T>
+std::string With(std::string datagram, std::size_t at, T value) {
+  std::memcpy(datagram.data() + at, &value, sizeof value);
+  Seal(datagram);
+  return datagram;
+}
+
+/// The frames that an assembler gives for these.
+inline std::vector<ReceivedFrame> Feed(FrameAssembler& assembler,
+                                       const std::vector<std::string>& datagrams) {
+  std::vector<ReceivedFrame> frames;
+  for (const std::string& datagram : datagrams) assembler.Take(datagram, frames);
+  return frames;
+}
+
+/// All that a frame sends, where nothing is lost.
+inline ReceivedFrame ReceiveWhole(const Frame& frame, const StreamSpec& spec = {}) {
+  FrameAssembler assembler;
+  auto frames = Feed(assembler, DatagramsOf(frame, spec));
+  EXPECT_EQ(frames.size(), 1U);
+  EXPECT_EQ(assembler.counts().num_refused(), 0U);
+  if (frames.empty()) return {};
+  return std::move(frames.front());
+}
+
+}  // namespace railcast
