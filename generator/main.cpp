@@ -74,8 +74,9 @@ void AddStream(CLI::App& app, StreamOptions& options, std::function<int()>& comm
                      "fast as it can be made");
   stream->add_option("--calibration", options.calibration,
                      "Protocol hdl64e: calibration file to write for receivers");
-  stream->add_option("--commands-port", options.commands_port,
-                     "UDP port where commands are heard, JSON lines; default: none are")
+  stream
+      ->add_option("--commands-port", options.commands_port,
+                   "UDP port where commands are heard, JSON lines; default: none are")
       ->check(CLI::Range(1, 65535));
   stream->add_option("--commands-from", options.commands_from,
                      "HOST or HOST:PORT whose commands are heard; default: this machine");

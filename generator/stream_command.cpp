@@ -41,7 +41,7 @@ ScenarioSpec ReadWithOverrides(const StreamOptions& options) {
   return scenario;
 }
 
-void CheckOptions(const StreamOptions& options, std::size_t num_sensors) {
+void CheckOptionsTogether(const StreamOptions& options, std::size_t num_sensors) {
   const auto needs_one_sensor = [&](const std::string& option, bool is_given) {
     if (!is_given || num_sensors == 1) return;
     throw InputError(option + ": is for one sensor, to be named by --sensor (got " +
@@ -136,14 +136,15 @@ LiveRunSpec RunSpecOf(const StreamOptions& options) {
 
 std::unique_ptr<CommandChannel> OpenChannel(const StreamOptions& options) {
   if (!options.commands_port) return nullptr;
-  Endpoint peer = AsOption("--commands-from",
-                           [&] { return ParseEndpoint(options.commands_from.value_or("127.0.0.1"), 0); });
+  Endpoint peer = AsOption("--commands-from", [&] {
+    return ParseEndpoint(options.commands_from.value_or("127.0.0.1"), 0);
+  });
   // Whoever hears only this machine cannot be reached from elsewhere.
   const std::uint32_t any_address = 0;
   const std::uint32_t loopback = 0x7F000001;
   const Endpoint at{peer.is_loopback() ? loopback : any_address, *options.commands_port};
-  auto channel = AsOption("--commands-port",
-                          [&] { return std::make_unique<CommandChannel>(at, peer); });
+  auto channel =
+      AsOption("--commands-port", [&] { return std::make_unique<CommandChannel>(at, peer); });
   std::cout << "commands at " << EndpointText(channel->at()) << "\n";
   return channel;
 }
@@ -152,7 +153,7 @@ std::unique_ptr<CommandChannel> OpenChannel(const StreamOptions& options) {
 
 int StreamCommand(const StreamOptions& options) {
   const ScenarioSpec scenario = ReadWithOverrides(options);
-  CheckOptions(options, SensorNames(scenario).size());
+  CheckOptionsTogether(options, SensorNames(scenario).size());
   const std::vector<SensorStreamSpec> plan = PlanStreams(options, scenario);
   LiveStreams streams(scenario, plan, options.num_threads, RunNumber(options));
   if (options.calibration) WriteCalibration(*options.calibration, scenario, plan);
@@ -166,8 +167,6 @@ int StreamCommand(const StreamOptions& options) {
   streams.WarmUp();
   std::cout << Describe(plan) << std::flush;
 
-  // A vehicle at the end of its track ends the run, but not before its summary.
-  std::string fault;
   TerminalLine line;
   LiveHooks hooks;
   hooks.is_stopped = StopRequested;
@@ -175,13 +174,6 @@ int StreamCommand(const StreamOptions& options) {
     const NextFrames next =
         commands ? commands->BeginFrames(stamp_ns, StopRequested) : NextFrames::kMake;
     if (next == NextFrames::kReset) streams.Restart();
-    if (next != NextFrames::kMake) return next;
-    try {
-      streams.commanded_run().CheckAt(stamp_ns);
-    } catch (const InputError& error) {
-      fault = error.what();
-      return NextFrames::kStop;
-    }
     return next;
   };
   hooks.end_frames = [&](std::int64_t stamp_ns, const std::vector<LiveRecord>& records) {
@@ -193,15 +185,15 @@ int StreamCommand(const StreamOptions& options) {
   MonotonicClock monotonic;
   JumpingClock jumping;
   LiveClock& clock = IsOffline(options) ? static_cast<LiveClock&>(jumping) : monotonic;
-  const auto records = RunLive(RunSpecOf(options), streams.Sensors(), hooks, clock);
+  const LiveResult result = RunLive(RunSpecOf(options), streams.Sensors(), hooks, clock);
   line.End();
   streams.Finish();
-  std::cout << LiveSummary(records, streams.Delivered());
+  std::cout << LiveSummary(result.records, streams.Delivered());
   if (channel && channel->num_strangers() > 0) {
     std::cout << "commands of others than the peer: " << channel->num_strangers() << ", dropped\n";
   }
-  if (fault.empty()) return kExitSuccess;
-  std::cerr << fault << "\n";
+  if (!result.fault) return kExitSuccess;
+  std::cerr << *result.fault << "\n";
   return kExitFailure;
 }
 

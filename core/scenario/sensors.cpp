@@ -22,7 +22,7 @@ std::vector<std::string> ProtocolNames() {
 
 std::uint16_t DefaultPort(const std::string& protocol) {
   constexpr std::uint16_t kVelodynePort = 2368;
-  constexpr std::uint16_t kRailcastPort = 2369;
+  constexpr std::uint16_t kRailcastPort = 27400;
   return protocol == "railcast" ? kRailcastPort : kVelodynePort;
 }
 

@@ -5,6 +5,8 @@
 #include <mutex>
 #include <utility>
 
+#include "core/base/error.h"
+
 namespace railcast {
 namespace {
 
@@ -24,22 +26,20 @@ class LiveRun {
     Restart();
   }
 
-  std::vector<LiveRecord> Run() {
-    while (!IsOver() && (spec_.lockstep || AwaitBegin())) {
-      const NextFrames next = hooks_.begin_frames(NextStampNs());
-      if (next == NextFrames::kStop) break;
-      if (next == NextFrames::kReset) {
-        Restart();
-      } else {
-        MakeFrames();
-      }
+  LiveResult Run() {
+    LiveResult result;
+    try {
+      MakeAll();
+    } catch (const InputError& error) {
+      result.fault = error.what();
     }
     queue_.Flush();
     for (std::size_t i = 0; i < sensors_.size(); ++i) {
       records_[i].sent = queue_.record(i);
       records_[i].late_frames += records_[i].sent.late_frames;
     }
-    return std::move(records_);
+    result.records = std::move(records_);
+    return result;
   }
 
  private:
@@ -47,6 +47,18 @@ class LiveRun {
     std::vector<DatagramQueue::Send> senders;
     for (const LiveSensor& sensor : sensors_) senders.push_back(sensor.send);
     return senders;
+  }
+
+  void MakeAll() {
+    while (!IsOver() && (spec_.lockstep || AwaitBegin())) {
+      const NextFrames next = hooks_.begin_frames(NextStampNs());
+      if (next == NextFrames::kStop) return;
+      if (next == NextFrames::kReset) {
+        Restart();
+      } else {
+        MakeFrames();
+      }
+    }
   }
 
   void Restart() {
@@ -136,10 +148,10 @@ class LiveRun {
 
 }  // namespace
 
-std::vector<LiveRecord> RunLive(const LiveRunSpec& spec,
-                                const std::vector<LiveSensor>& sensors,
-                                const LiveHooks& hooks,
-                                LiveClock& clock) {
+LiveResult RunLive(const LiveRunSpec& spec,
+                   const std::vector<LiveSensor>& sensors,
+                   const LiveHooks& hooks,
+                   LiveClock& clock) {
   return LiveRun(spec, sensors, hooks, clock).Run();
 }
 

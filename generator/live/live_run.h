@@ -68,16 +68,21 @@ struct LiveRunSpec {
   std::optional<std::int64_t> duration_ns;  ///< Of simulation time; absent = until stopped.
 };
 
-/// Makes and sends frames at their rate until the duration is over or the run is stopped.
+struct LiveResult {
+  std::vector<LiveRecord> records;   ///< By sensor.
+  std::optional<std::string> fault;  ///< Why the next frame could not be made, if that ended it.
+};
+
+/// Makes and sends frames at their rate until the duration is over, the run is stopped or a
+/// frame cannot be made (InputError). What was made is sent in any case.
 ///
 /// Frame n of a sensor begins at simulation time stamp_ns(n) and is made in the period that begins
 /// at the same time of the clock, counted from the run's start: deadlines are absolute, so nothing
 /// adds up. A frame that is late is made and sent all the same, whole; the following ones go on as
 /// fast as they can until they have caught up.
-/// @return By sensor.
-[[nodiscard]] std::vector<LiveRecord> RunLive(const LiveRunSpec& spec,
-                                              const std::vector<LiveSensor>& sensors,
-                                              const LiveHooks& hooks,
-                                              LiveClock& clock);
+[[nodiscard]] LiveResult RunLive(const LiveRunSpec& spec,
+                                 const std::vector<LiveSensor>& sensors,
+                                 const LiveHooks& hooks,
+                                 LiveClock& clock);
 
 }  // namespace railcast

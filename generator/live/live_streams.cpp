@@ -56,10 +56,9 @@ std::vector<LiveSensor> LiveStreams::Sensors() {
          .stamp_ns = [&pattern](std::uint32_t frame) { return pattern.StampNs(frame); },
          .make = [this, i](std::uint32_t frame,
                            Datagrams& datagrams) { MakeFrame(i, frame, datagrams); },
-         .send = [&stream](const Datagrams& datagrams,
-                           std::span<const Datagrams::Item> items) {
-           stream.Send(datagrams, items);
-         }});
+         .send = [&stream](
+                     const Datagrams& datagrams,
+                     std::span<const Datagrams::Item> items) { stream.Send(datagrams, items); }});
   }
   return sensors;
 }

@@ -3,26 +3,24 @@
 #include <utility>
 
 #include "core/io/stream/stream_encoder.h"
-#include "core/io/stream/stream_format.h"
 #include "core/io/velodyne/velodyne_encoder.h"
+#include "core/scenario/scenario.h"
 
 namespace railcast {
 namespace {
 
-constexpr std::uint16_t kVelodynePort = 2368;
 constexpr std::uint16_t kPositionPort = 8308;
 
 }  // namespace
-
-std::uint16_t DefaultPort(const std::string& protocol) {
-  return protocol == "railcast" ? kStreamPort : kVelodynePort;
-}
 
 SensorStream::SensorStream(SensorStreamSpec spec,
                            const ScenarioSpec& scenario,
                            const ScanPattern& pattern,
                            std::uint32_t run)
-    : spec_(std::move(spec)), lidar_(scenario.lidar), pattern_(pattern), encoder_(MakeEncoder(run)) {
+    : spec_(std::move(spec)),
+      lidar_(scenario.lidar),
+      pattern_(pattern),
+      encoder_(MakeEncoder(run)) {
   if (!spec_.to.empty()) sender_ = std::make_unique<UdpSender>(spec_.to, kPositionPort);
   if (spec_.pcap) {
     capture_ =

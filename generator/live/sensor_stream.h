@@ -30,9 +30,6 @@ struct SensorStreamSpec {
   bool has_all_slots{};
 };
 
-/// The port that receivers of a protocol listen to.
-[[nodiscard]] std::uint16_t DefaultPort(const std::string& protocol);
-
 /// Encodes one sensor's frames and hands them to its receivers and to a capture file.
 class SensorStream {
  public:

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "core/base/error.h"
+
 namespace railcast {
 namespace {
 
@@ -63,6 +65,15 @@ struct TinySensor {
   std::vector<Sent> sent;
 };
 
+std::vector<LiveRecord> RecordsOf(const LiveRunSpec& spec,
+                                  const std::vector<LiveSensor>& sensors,
+                                  const LiveHooks& hooks,
+                                  LiveClock& clock) {
+  LiveResult result = RunLive(spec, sensors, hooks, clock);
+  EXPECT_EQ(result.fault, std::nullopt);
+  return std::move(result.records);
+}
+
 LiveRunSpec Lasting(std::int64_t duration_ns) {
   return {.duration_ns = duration_ns};
 }
@@ -72,7 +83,7 @@ TEST(LiveRun, KeepsItsStampsForADay) {
   for (const double rate_hz : {10.0, 30.0}) {
     JumpingClock clock;
     TinySensor sensor(rate_hz, clock);
-    const auto records = RunLive(Lasting(kDay_ns), {sensor.Live("a")}, {}, clock);
+    const auto records = RecordsOf(Lasting(kDay_ns), {sensor.Live("a")}, {}, clock);
     const auto num_frames = static_cast<std::uint64_t>(86'400.0 * rate_hz);
     EXPECT_EQ(records.front().frames, num_frames);
     EXPECT_EQ(records.front().late_frames, 0U);
@@ -93,7 +104,7 @@ TEST(LiveRun, SpreadsDatagramsOnePeriodAfterTheirFirings) {
   MonotonicClock clock;
   TinySensor sensor(50.0, clock);
   const std::int64_t begin_ns = clock.NowNs();
-  const auto records = RunLive(Lasting(kSecond_ns / 5), {sensor.Live("a")}, {}, clock);
+  const auto records = RecordsOf(Lasting(kSecond_ns / 5), {sensor.Live("a")}, {}, clock);
   EXPECT_EQ(records.front().frames, 10U);
   EXPECT_EQ(records.front().sent.datagrams, 20U);
   EXPECT_EQ(records.front().sent.bytes, 80U);
@@ -108,7 +119,7 @@ TEST(LiveRun, SendsABurstAsSoonAsItIsMade) {
   TinySensor sensor(10.0, clock);
   LiveRunSpec spec = Lasting(kSecond_ns);
   spec.pacing = Pacing::kBurst;
-  const auto records = RunLive(spec, {sensor.Live("a")}, {}, clock);
+  const auto records = RecordsOf(spec, {sensor.Live("a")}, {}, clock);
   EXPECT_EQ(records.front().late_frames, 0U);
   ASSERT_EQ(sensor.sent.size(), 20U);
   for (const TinySensor::Sent& sent : sensor.sent) {
@@ -145,7 +156,7 @@ TEST(LiveRun, CountsLateFramesAndSendsThemWhole) {
     sensor.work = [&](std::uint32_t) { clock.JumpTo(clock.NowNs() + sensor.StampNs(1) * 3 / 2); };
     LiveRunSpec spec = Lasting(kSecond_ns);
     spec.pacing = pacing;
-    const auto records = RunLive(spec, {sensor.Live("a")}, {}, clock);
+    const auto records = RecordsOf(spec, {sensor.Live("a")}, {}, clock);
     EXPECT_EQ(records.front().frames, 10U);
     EXPECT_EQ(records.front().late_frames, 10U);
     ASSERT_EQ(sensor.sent.size(), 20U);
@@ -159,7 +170,7 @@ TEST(LiveRun, CatchesUpAfterAStall) {
   sensor.work = [&](std::uint32_t frame) {
     if (frame == 5) clock.JumpTo(clock.NowNs() + 3 * sensor.StampNs(1));
   };
-  const auto records = RunLive(Lasting(3 * kSecond_ns), {sensor.Live("a")}, {}, clock);
+  const auto records = RecordsOf(Lasting(3 * kSecond_ns), {sensor.Live("a")}, {}, clock);
   EXPECT_EQ(records.front().frames, 30U);
   // Frame 5 ends where frame 8 begins: 7 is just in time.
   EXPECT_EQ(records.front().late_frames, 2U);
@@ -192,10 +203,12 @@ TEST(LiveRun, SendsEachFrameBeforeTheNextStepInLockstep) {
   hooks.begin_frames = [&](std::int64_t) {
     return num_steps++ < 4 ? NextFrames::kMake : NextFrames::kStop;
   };
-  hooks.end_frames = [&](std::int64_t, const std::vector<LiveRecord>&) { num_sent_after_step.push_back(sensor.sent.size()); };
+  hooks.end_frames = [&](std::int64_t, const std::vector<LiveRecord>&) {
+    num_sent_after_step.push_back(sensor.sent.size());
+  };
   LiveRunSpec spec;
   spec.lockstep = true;
-  const auto records = RunLive(spec, {sensor.Live("a")}, hooks, clock);
+  const auto records = RecordsOf(spec, {sensor.Live("a")}, hooks, clock);
   EXPECT_EQ(records.front().frames, 4U);
   EXPECT_EQ(records.front().late_frames, 0U);
   EXPECT_EQ(num_sent_after_step, (std::vector<std::size_t>{2, 4, 6, 8}));
@@ -211,7 +224,7 @@ TEST(LiveRun, BeginsAnewOnReset) {
     was_reset = was_reset || reset;
     return reset ? NextFrames::kReset : NextFrames::kMake;
   };
-  const auto records = RunLive(Lasting(kSecond_ns / 2), {sensor.Live("a")}, hooks, clock);
+  const auto records = RecordsOf(Lasting(kSecond_ns / 2), {sensor.Live("a")}, hooks, clock);
   EXPECT_EQ(sensor.made, (std::vector<std::uint32_t>{0, 1, 2, 0, 1, 2, 3, 4}));
   EXPECT_EQ(records.front().late_frames, 0U);
 }
@@ -221,8 +234,20 @@ TEST(LiveRun, StopsAfterTheFrameInTheMakingAndSendsWhatWasMade) {
   TinySensor sensor(100.0, clock);
   LiveHooks hooks;
   hooks.is_stopped = [&] { return sensor.made.size() == 3; };
-  const auto records = RunLive({}, {sensor.Live("a")}, hooks, clock);
+  const auto records = RecordsOf({}, {sensor.Live("a")}, hooks, clock);
   EXPECT_EQ(records.front().frames, 3U);
+  EXPECT_EQ(sensor.sent.size(), 6U);
+}
+
+TEST(LiveRun, SendsWhatWasMadeBeforeAFrameThatCannotBe) {
+  JumpingClock clock;
+  TinySensor sensor(10.0, clock);
+  sensor.work = [](std::uint32_t frame) {
+    if (frame == 3) throw InputError("the track ends");
+  };
+  const LiveResult result = RunLive({}, {sensor.Live("a")}, {}, clock);
+  EXPECT_EQ(result.fault, "the track ends");
+  EXPECT_EQ(result.records.front().frames, 3U);
   EXPECT_EQ(sensor.sent.size(), 6U);
 }
 
