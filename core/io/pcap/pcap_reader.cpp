@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cerrno>
+#include <limits>
 #include <utility>
 
 #include "core/base/error.h"
@@ -13,6 +14,7 @@
 namespace railcast {
 namespace {
 
+constexpr std::int64_t kNsPerS = 1'000'000'000;
 constexpr std::size_t kEthernetSize = 14;
 constexpr std::size_t kVlanTagSize = 4;
 constexpr std::size_t kMaxVlanTags = 2;
@@ -119,8 +121,14 @@ std::optional<CapturedDatagram> PcapReader::Next() {
                        " of " + NumberText(header->len) + " bytes)");
     }
     if (!datagram) continue;
+    // pcapng's clocks have more bits than int64_t has nanoseconds.
+    constexpr std::int64_t kMaxTime_s = std::numeric_limits<std::int64_t>::max() / kNsPerS - 1;
+    if (header->ts.tv_sec < 0 || header->ts.tv_sec > kMaxTime_s) {
+      throw InputError(place + "must be captured before the year 2262 (got " +
+                       NumberText(header->ts.tv_sec) + " s since 1970)");
+    }
     // With this precision the microseconds are nanoseconds.
-    datagram->time_ns = header->ts.tv_sec * std::int64_t{1'000'000'000} + header->ts.tv_usec;
+    datagram->time_ns = header->ts.tv_sec * kNsPerS + header->ts.tv_usec;
     return datagram;
   }
 }

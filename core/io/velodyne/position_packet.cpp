@@ -32,8 +32,9 @@ std::string GprmcSentence(std::int64_t time_ns) {
   const std::chrono::hh_mm_ss clock(time - midnight);
   // Two digits each, whatever the type says.
   const auto two = [](auto number) { return static_cast<unsigned>(number) % 100U; };
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "GPRMC,%02u%02u%02u,V,,,,,,,%02u%02u%02u,,,N",
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(),
+                "GPRMC,%02u%02u%02u,V,0000.0000,N,00000.0000,E,000.0,000.0,%02u%02u%02u,000.0,E,N",
                 two(clock.hours().count()), two(clock.minutes().count()),
                 two(clock.seconds().count()), two(static_cast<unsigned>(date.day())),
                 two(static_cast<unsigned>(date.month())), two(static_cast<int>(date.year())));

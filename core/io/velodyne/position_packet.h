@@ -14,7 +14,8 @@ inline constexpr std::int64_t kSimulationEpoch_s = 946'684'800;
 [[nodiscard]] std::uint32_t MicrosecondsPastHour(std::int64_t time_ns);
 
 /// The NMEA sentence of the second that `time_ns` lies in, with its checksum and line end: time and
-/// date alone, marked as not valid ("V"), since the simulated world has no place on Earth.
+/// date. The simulated world has no place on Earth: 0 N 0 E, marked as no fix ("V"). Left empty,
+/// velodyne_decoder for one would not read the time either.
 [[nodiscard]] std::string GprmcSentence(std::int64_t time_ns);
 
 /// Appends the 512 bytes that a sensor sends from port 8308: its clock (byte 0xC6), a locked pulse

@@ -117,8 +117,8 @@ VelodyneDecoder::VelodyneDecoder(const VelodyneModel& model,
   const std::vector<std::uint16_t> rows = RowsByElevation(channels);
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const double elevation_rad = RadFromDeg(calibration[i].elevation_deg);
-    lasers_.push_back({.sin_elevation = std::sin(elevation_rad),
-                       .cos_elevation = std::cos(elevation_rad),
+    lasers_.push_back({.sine = std::sin(elevation_rad),
+                       .cosine = std::cos(elevation_rad),
                        .azimuth_deg = calibration[i].azimuth_deg,
                        .time_us = model.lasers[i].time_us,
                        .calibration = calibration[i],
@@ -199,13 +199,13 @@ void VelodyneDecoder::AddPoint(const char* place, VelodynePoint point, double az
   const double azimuth_rad = RadFromDeg(in_turn_deg);
   const double sin_azimuth = std::sin(azimuth_rad);
   const double cos_azimuth = std::cos(azimuth_rad);
-  const double horizontal_m = range_m * laser.cos_elevation;
+  const double horizontal_m = range_m * laser.cosine;
   const double left_m = laser.calibration.horizontal_offset_m;
   point.range_m = static_cast<float>(range_m);
   point.azimuth_rad = static_cast<float>(azimuth_rad);
   point.x = static_cast<float>(horizontal_m * cos_azimuth + left_m * sin_azimuth);
   point.y = static_cast<float>(left_m * cos_azimuth - horizontal_m * sin_azimuth);
-  point.z = static_cast<float>(range_m * laser.sin_elevation + laser.calibration.vertical_offset_m);
+  point.z = static_cast<float>(range_m * laser.sine + laser.calibration.vertical_offset_m);
   point.intensity = LoadAt<std::uint8_t>(place + sizeof distance);
   turn_.points.push_back(point);
 }

@@ -52,8 +52,8 @@ class VelodyneDecoder {
 
  private:
   struct Laser {
-    double sin_elevation{};
-    double cos_elevation{};
+    double sine{};  ///< Of the elevation.
+    double cosine{};
     double azimuth_deg{};
     double time_us{};
     LaserCalibration calibration;

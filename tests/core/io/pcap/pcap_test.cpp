@@ -212,6 +212,11 @@ TEST(PcapReader, SaysWhereAFileIsDamaged) {
   std::string huge = sound;
   huge[24 + 11] = 0x7F;
   EXPECT_THAT(said(huge), testing::StartsWith("packet 0: invalid packet capture length"));
+  // pcapng counts in 64 bits: the fuzzer's 4.6e12 s.
+  EXPECT_EQ(
+      said(ReadFileWhole(RAILCAST_SOURCE_DIR "/tests/fuzz/corpus/velodyne/capture_ng_in_far_future")
+               .substr(1)),
+      "packet 0: must be captured before the year 2262 (got 4611686018427 s since 1970)");
   EXPECT_EQ(ReadAll("/no/such/place/a.pcap"), "/no/such/place/a.pcap: no such file or directory");
 }
 

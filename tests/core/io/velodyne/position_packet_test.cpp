@@ -12,11 +12,14 @@ constexpr std::int64_t kDay_ns = 86'400 * kSecond_ns;
 
 TEST(GprmcSentence, CountsFromTheFirstOfJanuary2000) {
   // Checksums: exclusive or of all characters between $ and *.
-  EXPECT_EQ(GprmcSentence(0), "$GPRMC,000000,V,,,,,,,010100,,,N*53\r\n");
-  EXPECT_EQ(GprmcSentence(kDay_ns - 1), "$GPRMC,235959,V,,,,,,,010100,,,N*52\r\n");
-  EXPECT_EQ(GprmcSentence(kDay_ns), "$GPRMC,000000,V,,,,,,,020100,,,N*50\r\n");
+  EXPECT_EQ(GprmcSentence(0),
+            "$GPRMC,000000,V,0000.0000,N,00000.0000,E,000.0,000.0,010100,000.0,E,N*03\r\n");
+  EXPECT_EQ(GprmcSentence(kDay_ns - 1),
+            "$GPRMC,235959,V,0000.0000,N,00000.0000,E,000.0,000.0,010100,000.0,E,N*02\r\n");
+  EXPECT_EQ(GprmcSentence(kDay_ns),
+            "$GPRMC,000000,V,0000.0000,N,00000.0000,E,000.0,000.0,020100,000.0,E,N*00\r\n");
   EXPECT_EQ(GprmcSentence(59 * kDay_ns + 3'661 * kSecond_ns),
-            "$GPRMC,010101,V,,,,,,,290200,,,N*5B\r\n");
+            "$GPRMC,010101,V,0000.0000,N,00000.0000,E,000.0,000.0,290200,000.0,E,N*0B\r\n");
 }
 
 TEST(GprmcSentence, HasTheChecksumOfItsText) {
@@ -40,7 +43,8 @@ TEST(PositionPacket, SaysClockPulseAndSentenceWhereDecodersLook) {
   ASSERT_EQ(packet.size(), 512U);
   EXPECT_EQ(LoadAt<std::uint32_t>(packet.data() + 0xC6), 17'000'000U);
   EXPECT_EQ(packet[0xCA], 2);
-  EXPECT_EQ(std::string(packet.data() + 0xCE), "$GPRMC,010017,V,,,,,,,020100,,,N*57\r\n");
+  EXPECT_EQ(std::string(packet.data() + 0xCE),
+            "$GPRMC,010017,V,0000.0000,N,00000.0000,E,000.0,000.0,020100,000.0,E,N*07\r\n");
 }
 
 }  // namespace

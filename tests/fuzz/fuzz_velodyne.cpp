@@ -1,0 +1,93 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/io/pcap/pcap_reader.h"
+#include "core/io/velodyne/calibration_xml.h"
+#include "core/io/velodyne/velodyne_decoder.h"
+
+namespace railcast {
+namespace {
+
+constexpr std::array<std::string_view, 4> kFormats = {"vlp16", "hdl32e", "vlp32c", "hdl64e"};
+
+VelodyneDecoder MakeDecoder(std::string_view format) {
+  const VelodyneModel& model = *FindVelodyneFormat(format).model;
+  if (!model.has_own_angles) return VelodyneDecoder(model);
+  return {model, std::vector<LaserCalibration>(model.lasers.size(), {.elevation_deg = 1.0})};
+}
+
+void CheckTurn(const VelodyneTurn& turn) {
+  Check(turn.points.size() <= (std::size_t{1} << 20U) + 64, "a turn has an end");
+  for (const VelodynePoint& point : turn.points) {
+    Check(point.range_m > 0.0F && point.range_m < 263.0F, "a range is within the format");
+    Check(point.azimuth_rad >= 0.0F && point.azimuth_rad < 6.2832F, "an azimuth is of one turn");
+    Check(std::isfinite(point.x + point.y + point.z), "a point is somewhere");
+    Check(point.laser < 64 && point.ring < 64 && point.return_index < 2, "a laser is one of 64");
+  }
+}
+
+// One after another, the last as short as it is.
+void DecodePackets(std::string_view format, std::span<const char> bytes) {
+  VelodyneDecoder decoder = MakeDecoder(format);
+  std::vector<VelodyneTurn> turns;
+  while (!bytes.empty()) {
+    const auto packet = bytes.first(std::min(bytes.size(), kVelodynePacketSize));
+    (void)decoder.Decode(packet, turns);
+    bytes = bytes.subspan(packet.size());
+  }
+  turns.push_back(decoder.TakeUnfinished());
+  std::ranges::for_each(turns, CheckTurn);
+}
+
+void ReadCapture(std::span<const char> bytes) {
+  std::FILE* const stream =
+      ::fmemopen(const_cast<char*>(bytes.data()), bytes.size(), "rb");  // "r" does not write.
+  if (stream == nullptr) return;
+  std::vector<VelodyneDecoder> decoders;
+  for (const std::string_view format : kFormats) decoders.push_back(MakeDecoder(format));
+  std::vector<VelodyneTurn> turns;
+  try {
+    PcapReader reader(stream, "fuzz");
+    while (const auto datagram = reader.Next()) {
+      for (VelodyneDecoder& decoder : decoders) (void)decoder.Decode(datagram->payload, turns);
+    }
+  } catch (const InputError&) {
+  }
+  std::ranges::for_each(turns, CheckTurn);
+}
+
+void ReadCalibration(std::span<const char> bytes) {
+  try {
+    const auto calibration = ReadCalibrationXml({bytes.data(), bytes.size()}, "fuzz");
+    Check(calibration.size() == 64, "every laser is calibrated");
+    for (const LaserCalibration& laser : calibration) {
+      Check(std::abs(laser.elevation_deg) <= 90.0, "an elevation is one");
+    }
+  } catch (const InputError&) {
+  }
+}
+
+}  // namespace
+}  // namespace railcast
+
+/// What libFuzzer calls. The first byte says what the others are: 0 to 3 packets of a model, p a
+/// capture, anything else a calibration file.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  const std::span bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
+  if (data[0] >= '0' && data[0] <= '3') {
+    railcast::DecodePackets(railcast::kFormats.at(data[0] - std::size_t{'0'}), bytes);
+  } else if (data[0] == 'p') {
+    railcast::ReadCapture(bytes);
+  } else {
+    railcast::ReadCalibration(bytes);
+  }
+  return 0;
+}
