@@ -24,6 +24,8 @@ GAUGE_BOTTOM_M = 0.35
 GAUGE_TOP_M = 4.5
 
 OBSTACLE_LENGTH_M = 1.0  # Points this near along the track are one thing.
+# Drops and flakes return from the first metres: nothing new is looked for there.
+NEAREST_M = 6.0
 STANDSTILL_MPS = 0.02
 PATIENCE_S = 5.0
 
@@ -162,8 +164,11 @@ class Drive:
     def look(self, frame):
         ahead_m = things_ahead(frame.points(), self.options.front, self.options.min_points)
         places_m = [self.travelled_m + distance_m for distance_m in ahead_m]
-        if self.braked_at_m is not None:
-            # What stands by now: drops and fog stand still, too, once the train does.
+        if self.braked_at_m is None:
+            places_m = [place_m for place_m in places_m
+                        if place_m - self.travelled_m > NEAREST_M]
+        else:
+            # Drops and fog stand still, too, once the train does.
             places_m = [place_m for place_m in places_m
                         if abs(place_m - self.obstacle_at_m) < 3.0 * OBSTACLE_LENGTH_M]
         place_m = self.lookout.nearest(places_m)
