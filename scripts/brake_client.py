@@ -2,9 +2,10 @@
 """Drives a simulated train on sight: finds the nearest obstacle on its track and brakes.
 
 Speaks to `railcast-generate stream SCENARIO --commands-port PORT`, whose points must be in vehicle
-axes (`output.frame` is "vehicle") on track that is straight as far as the sensor sees. An obstacle
-is where enough points lie close together inside the structure gauge, frame after frame. Prints where
-it was detected, how far the train still ran and what gap is left; exit status 1 if none is.
+axes (`output.frame` is "vehicle") on track that is straight as far as the sensor sees. An
+obstacle is where enough points lie close together inside the structure gauge, frame after frame.
+Prints where it was detected, how far the train still ran and what gap is left; exit status 1 if
+none is.
 """
 
 import argparse
@@ -15,7 +16,7 @@ import random
 import socket
 import sys
 
-from receive_stream import HEADER, read_datagram
+from receive_stream import read_datagram
 
 # Half the structure gauge of lines with 15 kV (EBO, Anlage 1). Ballast, rails and sleepers stay
 # below the box, the contact wire above it.
@@ -33,16 +34,18 @@ PATIENCE_S = 5.0
 class Frame:
     """What has arrived of a frame: points as (x, y, z)."""
 
-    def __init__(self, key, num_packets, head):
-        self.key = key
-        self.num_packets = num_packets
+    def __init__(self, head):
+        self.run, self.number, self.num_packets = head[4], head[7], head[9]
         self.stamp_s = head[10] * 1e-9
         self.position_m = head[18:21]
         self.points_of_packet = {}
 
-    def add(self, packet, names, points):
+    def has(self, head):
+        return (head[4], head[7]) == (self.run, self.number)
+
+    def add(self, head, names, points):
         x, y, z = (names.index(axis) for axis in "xyz")
-        self.points_of_packet[packet] = [(point[x], point[y], point[z]) for point in points]
+        self.points_of_packet[head[8]] = [(point[x], point[y], point[z]) for point in points]
 
     def is_whole(self):
         return len(self.points_of_packet) == self.num_packets
@@ -93,11 +96,11 @@ class Train:
                 datagram = self.stream.recv(2048)
             except socket.timeout:
                 sys.exit(f"no datagram for {PATIENCE_S:g} s")
-            run, number, packet, num_packets, names, points = read_datagram(datagram)
-            if frame is None or (run, number) != frame.key:
+            head, names, points = read_datagram(datagram)
+            if frame is None or not frame.has(head):
                 self.num_lost += frame is not None and not frame.is_whole()
-                frame = Frame((run, number), num_packets, HEADER.unpack_from(datagram))
-            frame.add(packet, names, points)
+                frame = Frame(head)
+            frame.add(head, names, points)
             if frame.is_whole():
                 yield frame
                 if self.is_lockstep:
@@ -105,7 +108,7 @@ class Train:
 
 
 def things_ahead(points, front_m, min_points):
-    """How far ahead of the train's front things stand in the gauge: where enough points lie together."""
+    """How far ahead of the train's front enough points lie together in the gauge."""
     along = sorted(x - front_m for x, y, z in points
                    if x > front_m and abs(y) < GAUGE_HALF_WIDTH_M
                    and GAUGE_BOTTOM_M < z < GAUGE_TOP_M)

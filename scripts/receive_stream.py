@@ -5,24 +5,21 @@ import math
 import socket
 import struct
 import zlib
-
 HEADER = struct.Struct("<4sBBHIHHIHHqIIIIIHH7d7dH")  # The table in docs/stream.md, in its order.
 TYPES = {2: "B", 4: "H", 6: "I", 7: "f"}  # u8, u16, u32, f32
 
 
 def read_datagram(datagram):
-    """Raises ValueError, KeyError, IndexError or struct.error where it is none of ours."""
-    if datagram[:5] != b"RCST\x01" or zlib.crc32(datagram[:-4]).to_bytes(4, "little") != datagram[-4:]:
+    """Header, field names, points. What is none of ours raises one of the errors caught below."""
+    crc = zlib.crc32(datagram[:-4]).to_bytes(4, "little")
+    if datagram[:5] != b"RCST\x01" or datagram[-4:] != crc:
         raise ValueError("another protocol, or damaged")
     head = HEADER.unpack_from(datagram)
-    _, _, _, header_size, run, _, _, frame, packet, num_packets = head[:10]
     names, types, at = [], "<", HEADER.size
     for _ in range(head[-1]):
-        types, end = types + TYPES[datagram[at]], at + 2 + datagram[at + 1]
-        names.append(datagram[at + 2:end].decode("ascii"))
-        at = end
-    points = list(struct.iter_unpack(types, datagram[header_size:-4]))
-    return run, frame, packet, num_packets, names, points
+        names.append(datagram[at + 2:at + 2 + datagram[at + 1]].decode("ascii"))
+        types, at = types + TYPES[datagram[at]], at + 2 + datagram[at + 1]
+    return head, names, list(struct.iter_unpack(types, datagram[head[3]:-4]))
 
 
 def report(number, packets, num_packets, axes):
@@ -44,16 +41,16 @@ def main():
     current, last, frames, left = None, -1, {}, arguments.frames
     while left:
         try:
-            run, frame, packet, num_packets, names, points = read_datagram(listener.recv(65536))
+            head, names, points = read_datagram(listener.recv(65536))
             axes = [names.index(axis) for axis in "xyz"]
         except (ValueError, KeyError, IndexError, struct.error):
             continue
+        run, frame, packet, num_packets = head[4], *head[7:10]
         if run != current or frame + 8 < last:  # The sender began anew.
             current, last, frames = run, -1, {}
         if frame > last:
-            packets = frames.setdefault(frame, ({}, num_packets, axes))[0]
-            packets[packet] = points
-            over = frame if len(packets) == num_packets else -1
+            frames.setdefault(frame, ({}, num_packets, axes))[0][packet] = points
+            over = frame if len(frames[frame][0]) == num_packets else -1
             while left and frames and (min(frames) <= over or len(frames) > 2):
                 last, left = min(frames), left - 1
                 report(last, *frames.pop(last))
