@@ -52,7 +52,7 @@ void CheckOptionsTogether(const StreamOptions& options, std::size_t num_sensors)
   needs_one_sensor("--pcap", options.pcap.has_value());
   const auto needs_commands_port = [&](const std::string& option, bool is_given) {
     if (is_given && !options.commands_port) {
-      throw InputError(option + ": needs --commands-port (got none)");
+      throw InputError(option + ": needs --commands-port, where commands are heard (got none)");
     }
   };
   needs_commands_port("--lockstep", options.lockstep);

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/base/error.h"
 #include "core/io/stream/stream_encoder.h"
 #include "core/io/velodyne/velodyne_encoder.h"
 #include "core/scenario/scenario.h"
@@ -21,7 +22,13 @@ SensorStream::SensorStream(SensorStreamSpec spec,
       lidar_(scenario.lidar),
       pattern_(pattern),
       encoder_(MakeEncoder(run)) {
-  if (!spec_.to.empty()) sender_ = std::make_unique<UdpSender>(spec_.to, kPositionPort);
+  if (!spec_.to.empty()) {
+    try {
+      sender_ = std::make_unique<UdpSender>(spec_.to, kPositionPort);
+    } catch (const InputError& error) {
+      throw InputError("receivers of " + spec_.name + ": " + error.what());
+    }
+  }
   if (spec_.pcap) {
     capture_ =
         std::make_unique<PcapWriter>(*spec_.pcap, DefaultPort(spec_.protocol), kPositionPort);
