@@ -188,7 +188,7 @@ int StreamCommand(const StreamOptions& options) {
   const LiveResult result = RunLive(RunSpecOf(options), streams.Sensors(), hooks, clock);
   line.End();
   streams.Finish();
-  std::cout << LiveSummary(result.records, streams.Delivered());
+  std::cout << LiveSummary(result.records, streams.Delivered(), !clock.jumps());
   if (channel && channel->num_strangers() > 0) {
     std::cout << "commands of others than the peer: " << channel->num_strangers() << ", dropped\n";
   }

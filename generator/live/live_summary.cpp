@@ -24,7 +24,8 @@ void PutQuantiles(std::string_view head, const DurationHistogram& times, std::os
 }  // namespace
 
 std::string LiveSummary(const std::vector<LiveRecord>& records,
-                        const std::vector<DeliveryCounts>& delivered) {
+                        const std::vector<DeliveryCounts>& delivered,
+                        bool has_times) {
   std::ostringstream text;
   for (std::size_t i = 0; i < records.size(); ++i) {
     const LiveRecord& record = records[i];
@@ -32,6 +33,7 @@ std::string LiveSummary(const std::vector<LiveRecord>& records,
          << ", " << record.late_frames << " late; " << record.sent.datagrams << " datagrams, "
          << record.sent.bytes << " bytes; to receivers " << delivered[i].sent << " sent, "
          << delivered[i].refused << " refused\n";
+    if (!has_times) continue;
     text << "  " << std::left << std::setw(kHeadWidth) << "" << std::right;
     for (const std::string_view head : {"p50", "p95", "p99", "max"}) {
       text << std::setw(kNumberWidth) << head;

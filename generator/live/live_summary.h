@@ -17,8 +17,10 @@ struct DeliveryCounts {
 /// What the user reads after a live run: for each sensor frames, late ones and datagrams, and
 /// quantiles of computing, sending and lateness.
 /// @param delivered By sensor, as `records`.
+/// @param has_times Whether the run's clock measured anything: one that jumps does not.
 [[nodiscard]] std::string LiveSummary(const std::vector<LiveRecord>& records,
-                                      const std::vector<DeliveryCounts>& delivered);
+                                      const std::vector<DeliveryCounts>& delivered,
+                                      bool has_times);
 
 /// "12.3 s, 123 frames, 0 late": one line, without its end.
 [[nodiscard]] std::string LiveProgress(std::int64_t stamp_ns,

@@ -12,12 +12,15 @@ TEST(LiveSummary, TellsFramesDatagramsAndQuantiles) {
   record.sent.bytes = 16'800;
   for (int i = 0; i < 3; ++i) record.sent.send.Add(250'000);
   record.sent.lateness.Add(0);
-  EXPECT_EQ(LiveSummary({record}, {{24, 0}}),
+  EXPECT_EQ(LiveSummary({record}, {{24, 0}}, true),
             "front: 3 frames, 1 late; 12 datagrams, 16800 bytes; to receivers 24 sent, 0 refused\n"
             "                   p50       p95       p99       max\n"
             "  compute        2.014     5.000     5.000     5.000 ms\n"
             "  send           0.250     0.250     0.250     0.250 ms\n"
             "  lateness       0.000     0.000     0.000     0.000 ms\n");
+  EXPECT_EQ(LiveSummary({record}, {{24, 0}}, false),
+            "front: 3 frames, 1 late; 12 datagrams, 16800 bytes; to receivers 24 sent, 0 "
+            "refused\n");
 }
 
 TEST(LiveProgress, IsOneLine) {
