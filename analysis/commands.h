@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -24,5 +25,17 @@ struct FrontierOptions {
 /// Charts speed against accuracy on a scenario.
 /// @throws InputError on bad input.
 [[nodiscard]] int FrontierCommand(const FrontierOptions& options);
+
+/// Options of `railcast-analyze receive`.
+struct ReceiveOptions {
+  std::string at = "127.0.0.1:27400";
+  std::optional<double> duration_s;
+  std::optional<std::uint64_t> num_frames;
+  std::filesystem::path out;  ///< Empty: nothing is kept.
+};
+
+/// Counts a live stream in the railcast protocol, and keeps it if asked to, until a signal ends it.
+/// @throws InputError on bad input.
+[[nodiscard]] int ReceiveCommand(const ReceiveOptions& options);
 
 }  // namespace railcast

@@ -9,6 +9,7 @@
 namespace {
 
 using railcast::FrontierOptions;
+using railcast::ReceiveOptions;
 
 void AddFrontier(CLI::App& app, FrontierOptions& options, std::function<int()>& command) {
   CLI::App* frontier = app.add_subcommand(
@@ -28,6 +29,19 @@ void AddFrontier(CLI::App& app, FrontierOptions& options, std::function<int()>& 
   frontier->callback([&] { command = [&] { return railcast::FrontierCommand(options); }; });
 }
 
+void AddReceive(CLI::App& app, ReceiveOptions& options, std::function<int()>& command) {
+  CLI::App* receive = app.add_subcommand(
+      "receive", "Listen to a live stream: what arrives, and what is lost; until Ctrl-C");
+  receive->add_option("HOST:PORT", options.at, "Where to listen; 0.0.0.0 hears other machines, too")
+      ->capture_default_str();
+  receive->add_option("--duration", options.duration_s, "End after so many seconds")
+      ->check(CLI::PositiveNumber);
+  receive->add_option("--frames", options.num_frames, "End after so many frames")
+      ->check(CLI::PositiveNumber);
+  receive->add_option("--out", options.out, "Directory for frames/*.pcd and frames.csv");
+  receive->callback([&] { command = [&] { return railcast::ReceiveCommand(options); }; });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -37,8 +51,10 @@ int main(int argc, char** argv) {
   app.fallthrough();
   app.footer("Exit status: 0 success, 1 bad input or failed run, 2 usage.");
   FrontierOptions frontier;
+  ReceiveOptions receive;
   std::function<int()> command;
   AddFrontier(app, frontier, command);
+  AddReceive(app, receive, command);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -80,13 +80,12 @@ std::string NamesOf(const std::vector<std::filesystem::path>& files) {
 
 }  // namespace
 
-Cloud ReadCloud(const std::filesystem::path& file) {
-  const pcl::PCLPointCloud2 points = ReadPointFile(file);
+Cloud MakeCloud(const pcl::PCLPointCloud2& points, const std::string& place) {
   std::array<std::vector<double>, 3> axes;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::string name(1, "xyz"[axis]);
     const pcl::PCLPointField* const field = FindField(points, name);
-    if (field == nullptr) throw InputError(file.string() + ": has no field " + name);
+    if (field == nullptr) throw InputError(place + ": has no field " + name);
     axes[axis] = LoadField(points, *field);
   }
   std::map<std::string, std::vector<double>> scalars;
@@ -105,6 +104,10 @@ Cloud ReadCloud(const std::filesystem::path& file) {
     for (const auto& [name, values] : scalars) cloud.fields[name].push_back(values[i]);
   }
   return cloud;
+}
+
+Cloud ReadCloud(const std::filesystem::path& file) {
+  return MakeCloud(ReadPointFile(file), file.string());
 }
 
 std::filesystem::path FindCloudFile(const std::filesystem::path& source,

@@ -7,6 +7,11 @@
 #include <string>
 #include <vector>
 
+// Its header does not go with X11's.
+namespace pcl {
+struct PCLPointCloud2;
+}
+
 namespace railcast {
 
 /// The points of one file. Slots without a position (NaN) are left out.
@@ -17,6 +22,10 @@ struct Cloud {
 
   [[nodiscard]] std::size_t size() const { return positions_m.size() / 3; }
 };
+
+/// @param place Where the points are from, for faults.
+/// @throws InputError with one line if there is no x, y, z.
+[[nodiscard]] Cloud MakeCloud(const pcl::PCLPointCloud2& points, const std::string& place);
 
 /// @param file .pcd or .ply, ours or another's; scalar_label counts as label, as CloudCompare has
 /// it.

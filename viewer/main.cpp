@@ -1,12 +1,15 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <string>
+#include <string_view>
 
 #include "core/base/error.h"
+#include "core/io/stream/stream_clouds.h"
 #include "core/scenario/scenario.h"
 #include "viewer/cloud.h"
 #include "viewer/coloring.h"
 #include "viewer/label_file.h"
+#include "viewer/live_frames.h"
 #include "viewer/view.h"
 
 namespace railcast {
@@ -39,7 +42,8 @@ std::array<int, 2> ParseSize(const std::string& text) {
 }
 
 void AddOptions(CLI::App& app, Options& options) {
-  app.add_option("source", options.source, "A .pcd or .ply file, or a sequence directory")
+  app.add_option("source", options.source,
+                 "A .pcd or .ply file, a sequence directory, or udp://HOST:PORT")
       ->required();
   app.add_option("--screenshot", options.screenshot, "Write a PNG instead of opening a window");
   app.add_option("--color-by", options.color_by, "Default: label where there is one, else height")
@@ -53,15 +57,74 @@ void AddOptions(CLI::App& app, Options& options) {
   app.set_version_flag("--version", RAILCAST_VERSION);
 }
 
-Coloring ColorFile(const Cloud& cloud, const std::filesystem::path& file, std::string color_by) {
+constexpr std::string_view kLivePrefix = "udp://";
+
+bool IsLive(const Options& options) {
+  return options.source.string().starts_with(kLivePrefix);
+}
+
+/// @param place Where the cloud is from, for faults.
+Coloring ColorPlaced(const Cloud& cloud,
+                     const std::string& place,
+                     std::string color_by,
+                     const LabelTable& labels) {
   if (color_by.empty()) color_by = cloud.fields.contains("label") ? "label" : "height";
-  const auto label_file = FindLabelFile(file);
-  const LabelTable labels = label_file ? ReadLabelTable(*label_file) : LabelTable();
   try {
     return ColorCloud(cloud, color_by, labels);
   } catch (const InputError& error) {
-    throw InputError(file.string() + ": " + error.what());
+    throw InputError(place + ": " + error.what());
   }
+}
+
+Coloring ColorFile(const Cloud& cloud,
+                   const std::filesystem::path& file,
+                   const std::string& color_by) {
+  const auto label_file = FindLabelFile(file);
+  return ColorPlaced(cloud, file.string(), color_by,
+                     label_file ? ReadLabelTable(*label_file) : LabelTable());
+}
+
+struct LivePicture {
+  Cloud cloud;
+  Coloring coloring;
+  ViewSpec spec;
+};
+
+/// A stream names no label table: labels are shown by their numbers.
+LivePicture MakeLivePicture(const ReceivedFrame& frame,
+                            const Options& options,
+                            const std::array<int, 2>& size_px) {
+  const std::string place = options.source.string();
+  LivePicture picture;
+  picture.cloud = MakeCloud(MakePclCloud(frame), place);
+  picture.coloring = ColorPlaced(picture.cloud, place, options.color_by, LabelTable());
+  picture.spec = {.size_px = size_px,
+                  .camera = options.camera,
+                  .caption = place + "  frame " + std::to_string(frame.header.frame) + "  " +
+                             std::to_string(picture.cloud.size()) + " points"};
+  if (!frame.is_complete()) {
+    picture.spec.caption += "  " + std::to_string(frame.num_lost_packets()) + " packets lost";
+  }
+  return picture;
+}
+
+void RunLive(const Options& options, const std::array<int, 2>& size_px) {
+  const DisplayConnection display;
+  LiveFrames frames(ParseEndpoint(options.source.string().substr(kLivePrefix.size()), kStreamPort));
+  std::fprintf(stderr, "listening at %s\n", EndpointText(frames.at()).c_str());
+  LivePicture picture = MakeLivePicture(*frames.WaitForWhole(), options, size_px);
+  const auto window = MakeView(picture.cloud, picture.coloring, picture.spec);
+  if (!options.screenshot.empty()) {
+    WriteScreenshot(*window, options.screenshot);
+    return;
+  }
+  ShowWindow(*window, [&] {
+    const auto frame = frames.TakeLatest();
+    if (!frame) return false;
+    picture = MakeLivePicture(*frame, options, size_px);
+    ReplaceCloud(*window, picture.cloud, picture.coloring, picture.spec);
+    return true;
+  });
 }
 
 void Run(const Options& options, const std::array<int, 2>& size_px) {
@@ -88,14 +151,18 @@ int Main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     size_px = ParseSize(options.size);
-    if (options.frame && std::filesystem::is_regular_file(options.source)) {
-      throw CLI::ValidationError("--frame", "is for a sequence directory, not a file");
+    if (options.frame && (IsLive(options) || std::filesystem::is_regular_file(options.source))) {
+      throw CLI::ValidationError("--frame", "is for a sequence directory, not a file or stream");
     }
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   try {
-    Run(options, size_px);
+    if (IsLive(options)) {
+      RunLive(options, size_px);
+    } else {
+      Run(options, size_px);
+    }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return 1;

@@ -10,6 +10,7 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
+#include <vtkRendererCollection.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 #include <vtkUnsignedCharArray.h>
@@ -108,6 +109,15 @@ void PlaceCamera(vtkRenderer& renderer, const Cloud& cloud, const std::string& c
   renderer.ResetCameraClippingRange();
 }
 
+void Fill(vtkRenderer& renderer,
+          const Cloud& cloud,
+          const Coloring& coloring,
+          const ViewSpec& spec) {
+  renderer.AddActor(MakePoints(cloud, coloring, spec.size_px[1]));
+  AddLegend(renderer, coloring, spec.size_px);
+  renderer.AddActor2D(MakeCaption(spec.caption, spec.size_px[1]));
+}
+
 }  // namespace
 
 vtkSmartPointer<vtkRenderWindow> MakeView(const Cloud& cloud,
@@ -115,9 +125,7 @@ vtkSmartPointer<vtkRenderWindow> MakeView(const Cloud& cloud,
                                           const ViewSpec& spec) {
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(kBackground[0], kBackground[1], kBackground[2]);
-  renderer->AddActor(MakePoints(cloud, coloring, spec.size_px[1]));
-  AddLegend(*renderer, coloring, spec.size_px);
-  renderer->AddActor2D(MakeCaption(spec.caption, spec.size_px[1]));
+  Fill(*renderer, cloud, coloring, spec);
   PlaceCamera(*renderer, cloud, spec.camera);
 
   auto window = vtkSmartPointer<vtkRenderWindow>::New();
@@ -126,6 +134,16 @@ vtkSmartPointer<vtkRenderWindow> MakeView(const Cloud& cloud,
   window->SetWindowName("railcast-view");
   window->AddRenderer(renderer);
   return window;
+}
+
+void ReplaceCloud(vtkRenderWindow& window,
+                  const Cloud& cloud,
+                  const Coloring& coloring,
+                  const ViewSpec& spec) {
+  vtkRenderer& renderer = *window.GetRenderers()->GetFirstRenderer();
+  renderer.RemoveAllViewProps();
+  Fill(renderer, cloud, coloring, spec);
+  renderer.ResetCameraClippingRange();
 }
 
 }  // namespace railcast

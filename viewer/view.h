@@ -5,6 +5,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "viewer/cloud.h"
@@ -27,12 +28,23 @@ struct ViewSpec {
                                                         const Coloring& coloring,
                                                         const ViewSpec& spec);
 
+/// Puts another cloud, legend and caption into a window of MakeView. The camera stays.
+void ReplaceCloud(vtkRenderWindow& window,
+                  const Cloud& cloud,
+                  const Coloring& coloring,
+                  const ViewSpec& spec);
+
 /// Renders out of sight and writes a PNG.
 /// @throws InputError if the file cannot be written.
 void WriteScreenshot(vtkRenderWindow& window, const std::filesystem::path& file);
 
 /// Shows the window until the user closes it.
 void ShowWindow(vtkRenderWindow& window);
+
+/// Likewise, and calls `update` some 30 times a second; draws anew where it says that it changed
+/// the window.
+/// @throws What `update` throws; the window is closed then.
+void ShowWindow(vtkRenderWindow& window, const std::function<bool()>& update);
 
 /// A connection to the X server, to be held for as long as anything is drawn: VTK ends the process
 /// where there is no server, and a server that loses its last client may be away for a moment.

@@ -26,7 +26,7 @@ struct StreamCounts {
   std::uint64_t reordered_packets{};  ///< Behind one that was sent after them, and still in time.
   std::uint64_t lost_packets{};       ///< Of incomplete frames; those of missing ones are unknown.
   std::uint64_t stray_packets{};  ///< Sound ones of another run or sensor, or of a frame long past.
-  std::uint64_t restarts{};           ///< Frame numbers began anew.
+  std::uint64_t restarts{};       ///< Frame numbers began anew.
   std::array<std::uint64_t, kStreamFaultNames.size()> refused{};  ///< By StreamFault.
 
   [[nodiscard]] std::uint64_t num_refused() const;
@@ -84,7 +84,7 @@ class FrameAssembler {
   std::uint16_t sensor_{};
   std::uint32_t num_strays_{};  ///< In a row.
   std::map<std::uint32_t, OpenFrame> open_;
-  std::deque<GivenFrame> given_;  ///< The last ones.
+  std::deque<GivenFrame> given_;                      ///< The last ones.
   std::pair<std::uint32_t, std::uint16_t> furthest_;  ///< Frame and packet.
 };
 

@@ -55,7 +55,8 @@ std::optional<std::vector<std::size_t>> SlotsOf(const ReceivedFrame& received, c
     if ((*ring)[i] >= frame.rows || (*column)[i] >= frame.columns || (*echo)[i] >= frame.returns) {
       return std::nullopt;
     }
-    slots[i] = (std::size_t{(*ring)[i]} * frame.columns + (*column)[i]) * frame.returns + (*echo)[i];
+    slots[i] =
+        (std::size_t{(*ring)[i]} * frame.columns + (*column)[i]) * frame.returns + (*echo)[i];
     if (is_taken[slots[i]]) return std::nullopt;
     is_taken[slots[i]] = true;
   }

@@ -74,7 +74,8 @@ std::optional<std::uint16_t> PointsEach(const StreamDatagram& datagram) {
     if (num_full > 0) each = first / num_full;
   }
   const bool is_placed = first == each * datagram.packet;
-  const bool is_counted = num_full == 0 || (each * num_full < total && total <= each * (num_full + 1));
+  const bool is_counted =
+      num_full == 0 || (each * num_full < total && total <= each * (num_full + 1));
   // `each` exceeds a datagram's points where a last one lies about `first`.
   if (!is_placed || !is_counted || each > kMaxStreamDatagram) return std::nullopt;
   return static_cast<std::uint16_t>(each);

@@ -147,7 +147,8 @@ void StreamEncoder::Encode(const Frame& frame, Datagrams& datagrams) {
   ChooseSlots(frame);
   WriteFrameHeader(frame);
   const std::size_t num_points = slots_.size();
-  const std::size_t num_packets = std::max<std::size_t>(1, (num_points + points_each - 1) / points_each);
+  const std::size_t num_packets =
+      std::max<std::size_t>(1, (num_points + points_each - 1) / points_each);
   Put(header_.data() + kNumPacketsAt, static_cast<std::uint16_t>(num_packets));
   std::size_t offset = datagrams.bytes.size();
   datagrams.bytes.resize(offset + num_packets * overhead + num_points * point_size_);

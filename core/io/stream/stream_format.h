@@ -53,8 +53,8 @@ struct StreamHeader {
   std::uint32_t num_points{};   ///< Of the frame, whether or not they arrived.
   std::uint32_t rows{};
   std::uint32_t columns{};
-  std::uint16_t returns{};     ///< Slots per firing.
-  std::uint16_t point_size{};  ///< In bytes.
+  std::uint16_t returns{};                                  ///< Slots per firing.
+  std::uint16_t point_size{};                               ///< In bytes.
   Transform world_from_sensor = Transform::Identity();      ///< At the stamp.
   Transform world_from_sensor_end = Transform::Identity();  ///< At the last firing.
   std::vector<StreamField> fields;  ///< In the order in which a point's bytes hold them.

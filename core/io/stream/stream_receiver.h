@@ -57,7 +57,7 @@ class StreamReceiver {
   FrameAssembler assembler_;
   std::deque<ReceivedFrame> waiting_;
   std::uint64_t dropped_frames_{};
-  bool has_ended_ = false;  ///< No further frame will wait.
+  bool has_ended_ = false;   ///< No further frame will wait.
   std::mutex thread_mutex_;  ///< Of the thread: who joins it.
   std::thread thread_;
 };

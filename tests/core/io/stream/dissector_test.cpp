@@ -42,8 +42,8 @@ std::string Capture(const std::vector<std::string>& datagrams, std::uint16_t por
       Append(bytes, BigEndian(half));
     }
     for (int address = 0; address < 2; ++address) Append(bytes, std::uint32_t{0x0100007F});
-    for (const std::size_t half : {std::size_t{50'000}, std::size_t{port}, 8 + datagram.size(),
-                                   std::size_t{0}}) {
+    for (const std::size_t half :
+         {std::size_t{50'000}, std::size_t{port}, 8 + datagram.size(), std::size_t{0}}) {
       Append(bytes, BigEndian(half));
     }
     bytes += datagram;
@@ -64,10 +64,9 @@ class Dissector : public testing::Test {
     const TemporaryDirectory directory;
     const std::string file = directory.path() / "capture.pcap";
     WriteFileWhole(file, Capture(datagrams, port));
-    const Ended run = RunCommand("tshark -X lua_script:" RAILCAST_SOURCE_DIR
-                                 "/scripts/railcast.lua -r " +
-                                 file + " " + arguments + " 2>" +
-                                 (directory.path() / "errors").string());
+    const Ended run =
+        RunCommand("tshark -X lua_script:" RAILCAST_SOURCE_DIR "/scripts/railcast.lua -r " + file +
+                   " " + arguments + " 2>" + (directory.path() / "errors").string());
     EXPECT_EQ(run.status, 0) << ReadFileWhole(directory.path() / "errors");
     EXPECT_THAT(run.said, testing::Not(HasSubstr("Lua Error")));
     return run.said;
@@ -134,7 +133,8 @@ TEST_F(Dissector, SurvivesDatagramsThatContradictThemselves) {
   EXPECT_EQ(std::ranges::count(said, '\n'), 8);
   const std::string detail = Show(hostile, "-O railcast");
   std::size_t num_found = 0;
-  for (std::size_t at = 0; (at = detail.find("Expert Info (Error/Malformed)", at)) != std::string::npos;) {
+  for (std::size_t at = 0;
+       (at = detail.find("Expert Info (Error/Malformed)", at)) != std::string::npos;) {
     ++num_found;
     ++at;
   }

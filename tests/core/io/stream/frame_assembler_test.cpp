@@ -87,9 +87,11 @@ TEST(FrameAssembler, ReportsEveryPacketAndPointThatWasLost) {
   EXPECT_EQ(frames[0].lost_packets, (Ranges{{2, 2}, {last, 1}}));
   const std::uint32_t each = 39;  // (1400 - 222 - 4) / 30
   const std::uint32_t num_points = whole.header.num_points;
-  EXPECT_EQ(frames[0].lost_points, (Ranges{{2 * each, 2 * each}, {last * each, num_points - last * each}}));
+  EXPECT_EQ(frames[0].lost_points,
+            (Ranges{{2 * each, 2 * each}, {last * each, num_points - last * each}}));
   std::vector<char> kept(whole.points.begin(), whole.points.begin() + 2 * each * 30);
-  kept.insert(kept.end(), whole.points.begin() + 4 * each * 30, whole.points.begin() + last * each * 30);
+  kept.insert(kept.end(), whole.points.begin() + 4 * each * 30,
+              whole.points.begin() + last * each * 30);
   EXPECT_EQ(frames[0].points, kept);
   EXPECT_EQ(assembler.counts().incomplete_frames, 1U);
   EXPECT_EQ(assembler.counts().lost_packets, 3U);
@@ -215,10 +217,10 @@ TEST(FrameAssembler, RefusesDatagramsThatDisagreeWithTheFirst) {
   const auto datagrams = DatagramsOf(StreamFrame(0));
   FrameAssembler assembler;
   Feed(assembler, {datagrams[0]});
-  Feed(assembler, {With<std::int64_t>(datagrams[1], 24, 77),      // Stamp.
-                   With<std::uint32_t>(datagrams[1], 48, 9999),   // Columns.
-                   With<double>(datagrams[1], 56, 1.0),           // Place.
-                   With<char>(datagrams[1], 172, 'q')});          // Field x is now q.
+  Feed(assembler, {With<std::int64_t>(datagrams[1], 24, 77),     // Stamp.
+                   With<std::uint32_t>(datagrams[1], 48, 9999),  // Columns.
+                   With<double>(datagrams[1], 56, 1.0),          // Place.
+                   With<char>(datagrams[1], 172, 'q')});         // Field x is now q.
   EXPECT_EQ(assembler.counts().refused[static_cast<std::size_t>(StreamFault::kDisagrees)], 4U);
   EXPECT_EQ(Feed(assembler, {datagrams.begin() + 1, datagrams.end()}).size(), 1U);
   EXPECT_EQ(assembler.counts().complete_frames, 1U);
@@ -251,7 +253,9 @@ TEST(FrameAssembler, NeverGivesAWrongPointAndCountsEverything) {
   std::uint32_t item = 0;
   for (const std::string& datagram : DatagramsOfFrames(0, kNumFrames - 1)) {
     const auto words = RandomWords(5, RandomUse::kNoise, 0, item++);
-    const auto share = [&](int i) { return static_cast<double>(UnitFloat(words[static_cast<std::size_t>(i)])); };
+    const auto share = [&](int i) {
+      return static_cast<double>(UnitFloat(words[static_cast<std::size_t>(i)]));
+    };
     const double delay = share(1) < 0.05 ? 40.0 * share(2) : 0.0;
     if (share(0) < 0.01) continue;
     arriving.push_back({static_cast<double>(item) + delay, datagram});

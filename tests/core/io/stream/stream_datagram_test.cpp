@@ -85,13 +85,13 @@ TEST(CheckStreamDatagram, RefusesFieldListsThatAreNone) {
 
 TEST(CheckStreamDatagram, RefusesCountsThatContradictEachOther) {
   const std::string first = First();
-  EXPECT_EQ(FaultOf(With<std::uint16_t>(first, 22, 0)), "counts");   // No packet.
-  EXPECT_EQ(FaultOf(With<std::uint16_t>(first, 22, 1)), "counts");   // Points without packets.
+  EXPECT_EQ(FaultOf(With<std::uint16_t>(first, 22, 0)), "counts");    // No packet.
+  EXPECT_EQ(FaultOf(With<std::uint16_t>(first, 22, 1)), "counts");    // Points without packets.
   EXPECT_EQ(FaultOf(With<std::uint16_t>(first, 22, 500)), "counts");  // Packets without points.
-  EXPECT_EQ(FaultOf(With<std::uint16_t>(first, 20, 1)), "counts");   // Not where it begins.
+  EXPECT_EQ(FaultOf(With<std::uint16_t>(first, 20, 1)), "counts");    // Not where it begins.
   EXPECT_EQ(FaultOf(With<std::uint16_t>(first, 20, 900)), "counts");  // Beyond the last packet.
-  EXPECT_EQ(FaultOf(With<std::uint32_t>(first, 40, 1)), "counts");   // First point.
-  EXPECT_EQ(FaultOf(With<std::uint32_t>(first, 36, 0)), "counts");   // Points of the frame.
+  EXPECT_EQ(FaultOf(With<std::uint32_t>(first, 40, 1)), "counts");    // First point.
+  EXPECT_EQ(FaultOf(With<std::uint32_t>(first, 36, 0)), "counts");    // Points of the frame.
   EXPECT_EQ(FaultOf(With<std::uint32_t>(first, 36, 0xFFFFFFFF)), "counts");
   EXPECT_EQ(FaultOf(With<std::uint32_t>(first, 44, 0)), "counts");  // Rows.
   EXPECT_EQ(FaultOf(With<std::uint32_t>(first, 44, 1)), "counts");  // More points than slots.

@@ -63,9 +63,8 @@ inline std::vector<std::string> DatagramsOf(const Frame& frame, const StreamSpec
 /// Makes the CRC right again: what somebody would do who means harm.
 inline void Seal(std::string& datagram) {
   const std::size_t checked = datagram.size() - 4;
-  const auto crc = static_cast<std::uint32_t>(
-      ::crc32(0, reinterpret_cast<const unsigned char*>(datagram.data()),
-              static_cast<unsigned>(checked)));
+  const auto crc = static_cast<std::uint32_t>(::crc32(
+      0, reinterpret_cast<const unsigned char*>(datagram.data()), static_cast<unsigned>(checked)));
   std::memcpy(datagram.data() + checked, &crc, sizeof crc);
 }
 

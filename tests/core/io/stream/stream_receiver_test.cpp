@@ -30,8 +30,7 @@ TEST(StreamReceiver, KeepsTheLatestFramesForASlowConsumer) {
   LiveStream stream(receiver.at());
   for (std::uint32_t index = 0; index < 10; ++index) {
     stream.Send(index);
-    ASSERT_TRUE(
-        Eventually([&] { return receiver.counts().stream.complete_frames == index + 1; }));
+    ASSERT_TRUE(Eventually([&] { return receiver.counts().stream.complete_frames == index + 1; }));
   }
   EXPECT_EQ(receiver.counts().dropped_frames, 10 - StreamReceiver::kMaxWaitingFrames);
   for (std::uint32_t index = 10 - StreamReceiver::kMaxWaitingFrames; index < 10; ++index) {

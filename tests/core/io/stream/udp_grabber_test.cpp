@@ -87,8 +87,8 @@ TEST(UdpGrabber, ServesAnyClientOfPcl) {
   }
   const Transform pose = StreamFrame(9).world_from_sensor;
   EXPECT_EQ(points->sensor_origin_.head<3>(), pose.translation().cast<float>());
-  EXPECT_TRUE(points->sensor_orientation_.toRotationMatrix().isApprox(
-      pose.linear().cast<float>(), 1e-6F));
+  EXPECT_TRUE(
+      points->sensor_orientation_.toRotationMatrix().isApprox(pose.linear().cast<float>(), 1e-6F));
   grabber.stop();
   EXPECT_FALSE(grabber.isRunning());
 }

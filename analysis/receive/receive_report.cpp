@@ -1,0 +1,56 @@
+#include "analysis/receive/receive_report.h"
+
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
+namespace railcast {
+namespace {
+
+std::uint64_t PointsEach(const ReceivedTotals& totals) {
+  return totals.frames == 0 ? 0 : totals.points / totals.frames;
+}
+
+std::string RateText(const ReceivedTotals& totals) {
+  if (totals.frames < 2) return "no rate yet";
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2) << totals.rate_hz() << " Hz";
+  return text.str();
+}
+
+}  // namespace
+
+double ReceivedTotals::rate_hz() const {
+  if (frames < 2) return std::numeric_limits<double>::quiet_NaN();
+  return static_cast<double>(frames - 1) / (last_s - first_s);
+}
+
+std::string ReceiveProgress(const ReceivedTotals& totals, const StreamReceiver::Counts& counts) {
+  std::ostringstream text;
+  text << totals.frames << " frames, " << PointsEach(totals) << " points each, " << RateText(totals)
+       << ", " << counts.stream.lost_packets << " packets lost";
+  return text.str();
+}
+
+std::string ReceiveSummary(const ReceivedTotals& totals, const StreamReceiver::Counts& counts) {
+  const StreamCounts& stream = counts.stream;
+  std::ostringstream text;
+  text << "frames: " << stream.complete_frames << " complete, " << stream.incomplete_frames
+       << " incomplete, " << stream.missing_frames << " missing, " << counts.dropped_frames
+       << " dropped here; " << RateText(totals) << "\n";
+  text << "packets: " << stream.received_packets << " received, " << stream.lost_packets
+       << " lost, " << stream.duplicate_packets << " duplicate, " << stream.reordered_packets
+       << " reordered, " << stream.late_packets << " late, " << stream.stray_packets << " stray, "
+       << stream.num_refused() << " refused\n";
+  text << "points: " << totals.points << ", " << PointsEach(totals) << " a frame\n";
+  if (stream.restarts > 0) text << "restarts of the sender: " << stream.restarts << "\n";
+  if (stream.num_refused() == 0) return text.str();
+  text << "refused for:";
+  for (std::size_t i = 0; i < stream.refused.size(); ++i) {
+    if (stream.refused[i] > 0) text << " " << kStreamFaultNames[i] << " " << stream.refused[i];
+  }
+  text << "\n";
+  return text.str();
+}
+
+}  // namespace railcast

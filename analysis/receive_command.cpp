@@ -1,0 +1,119 @@
+#include <signal.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "analysis/commands.h"
+#include "analysis/receive/receive_report.h"
+#include "analysis/receive/received_files.h"
+#include "core/io/stream/udp_grabber.h"
+
+namespace railcast {
+namespace {
+
+double Now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// SIGINT and SIGTERM wait until they are asked for: the threads that come after inherit this.
+class HeldSignals {
+ public:
+  HeldSignals() {
+    ::sigemptyset(&signals_);
+    ::sigaddset(&signals_, SIGINT);
+    ::sigaddset(&signals_, SIGTERM);
+    ::pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
+  }
+  /// Whether one comes within 20 ms.
+  [[nodiscard]] bool Wait() const {
+    constexpr long kWait_ns = 20'000'000;
+    const timespec wait{0, kWait_ns};
+    return ::sigtimedwait(&signals_, nullptr, &wait) > 0;
+  }
+
+ private:
+  sigset_t signals_{};
+};
+
+/// Counts the frames of a grabber, and keeps them if asked to. The grabber's thread gives them.
+class FrameCounter {
+ public:
+  explicit FrameCounter(const ReceiveOptions& options) : max_frames_(options.num_frames) {
+    if (!options.out.empty()) files_.emplace(options.out);
+  }
+
+  void Take(const ReceivedFrame& frame) {
+    const std::lock_guard lock(mutex_);
+    if (IsDoneLocked()) return;
+    try {
+      if (files_) files_->Write(frame);
+    } catch (const std::exception&) {
+      fault_ = std::current_exception();
+      return;
+    }
+    totals_.last_s = Now_s();
+    if (totals_.frames == 0) totals_.first_s = totals_.last_s;
+    ++totals_.frames;
+    totals_.points += frame.num_points();
+  }
+
+  [[nodiscard]] bool is_done() const {
+    const std::lock_guard lock(mutex_);
+    return IsDoneLocked();
+  }
+  [[nodiscard]] ReceivedTotals totals() const {
+    const std::lock_guard lock(mutex_);
+    return totals_;
+  }
+  void ThrowIfFailed() const {
+    if (fault_) std::rethrow_exception(fault_);
+  }
+
+ private:
+  [[nodiscard]] bool IsDoneLocked() const {
+    return fault_ || (max_frames_ && totals_.frames >= *max_frames_);
+  }
+
+  const std::optional<std::uint64_t> max_frames_;
+  mutable std::mutex mutex_;
+  std::optional<ReceivedFiles> files_;
+  ReceivedTotals totals_;
+  std::exception_ptr fault_;
+};
+
+}  // namespace
+
+int ReceiveCommand(const ReceiveOptions& options) {
+  const HeldSignals signals;
+  FrameCounter counter(options);
+  UdpGrabber grabber(ParseEndpoint(options.at, kStreamPort));
+  grabber.registerCallback(std::function(
+      [&](const std::shared_ptr<const ReceivedFrame>& frame) { counter.Take(*frame); }));
+  grabber.start();
+  std::cout << "listening at " << EndpointText(grabber.at()) << std::endl;
+
+  const bool is_terminal = ::isatty(STDERR_FILENO) == 1;
+  const double begin_s = Now_s();
+  const double end_s =
+      begin_s + options.duration_s.value_or(std::numeric_limits<double>::infinity());
+  double next_line_s = begin_s + 1.0;
+  while (!counter.is_done() && Now_s() < end_s && !signals.Wait()) {
+    if (!is_terminal || Now_s() < next_line_s) continue;
+    std::cerr << ReceiveProgress(counter.totals(), grabber.counts()) << "\n";
+    next_line_s += 1.0;
+  }
+  grabber.stop();
+  counter.ThrowIfFailed();
+  std::cout << ReceiveSummary(counter.totals(), grabber.counts());
+  return kExitSuccess;
+}
+
+}  // namespace railcast

@@ -1,0 +1,108 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include "core/io/net/udp_receiver.h"
+#include "core/io/pcd_reader.h"
+#include "core/io/stream/stream_clouds.h"
+#include "core/io/write_file.h"
+#include "tests/core/io/stream/listening_program.h"
+#include "tests/core/io/stream/live_stream.h"
+#include "tests/core/io/temporary_directory.h"
+#include "tests/support/run_command.h"
+
+namespace railcast {
+namespace {
+
+using testing::HasSubstr;
+using testing::MatchesRegex;
+
+std::string Receive() {
+  return RAILCAST_ANALYZE " receive " + EndpointText(OwnEndpoint()) + " ";
+}
+
+TEST(ReceiveCommand, CountsFramesAndPackets) {
+  ListeningProgram program(Receive() + "--frames 4");
+  LiveStream stream(program.at());
+  stream.Send(0);
+  stream.SendWithout(1, 3);
+  stream.Send(2);
+  stream.Send(4);
+  EXPECT_THAT(program.Rest(),
+              MatchesRegex("frames: 3 complete, 1 incomplete, 1 missing, 0 dropped here; .* Hz\n"
+                           "packets: 99 received, 1 lost, 0 duplicate, 0 reordered, 0 late, "
+                           "0 stray, 0 refused\n"
+                           "points: 3801, 950 a frame\n"));
+  EXPECT_EQ(program.ExitStatus(), 0);
+}
+
+TEST(ReceiveCommand, EndsAtASignalWithItsSummary) {
+  ListeningProgram program(Receive());
+  LiveStream(program.at()).Send(0);
+  program.Interrupt();
+  EXPECT_THAT(program.Rest(), HasSubstr("missing, 0 dropped here; no rate yet\n"));
+  EXPECT_EQ(program.ExitStatus(), 0);
+}
+
+TEST(ReceiveCommand, EndsAfterItsDurationWithoutAnySender) {
+  ListeningProgram program(Receive() + "--duration 0.1");
+  EXPECT_THAT(program.Rest(), HasSubstr("frames: 0 complete, 0 incomplete, 0 missing"));
+  EXPECT_EQ(program.ExitStatus(), 0);
+}
+
+TEST(ReceiveCommand, KeepsFramesWithTheirPoses) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path out = directory.path() / "kept";
+  const std::string command = Receive() + "--frames 2 --out " + out.string();
+  {
+    ListeningProgram program(command);
+    LiveStream stream(program.at());
+    stream.Send(7);
+    stream.SendWithout(8, 0);
+    stream.Send(9);
+    EXPECT_THAT(program.Rest(), HasSubstr("1 incomplete"));
+  }
+  const pcl::PCLPointCloud2 kept = ReadPcd(out / "frames/000000.pcd");
+  const pcl::PCLPointCloud2 sent = MakePclCloud(ReceiveWhole(StreamFrame(7)));
+  EXPECT_EQ(kept.data, sent.data);
+  ASSERT_EQ(kept.fields.size(), sent.fields.size());
+  for (std::size_t i = 0; i < kept.fields.size(); ++i) {
+    EXPECT_EQ(kept.fields[i].name, sent.fields[i].name);
+  }
+  EXPECT_EQ(ReadPcd(out / "frames/000001.pcd").width, 921U);
+  std::istringstream lines(ReadFileWhole(out / "frames.csv"));
+  std::string head;
+  std::string first;
+  std::string second;
+  std::getline(lines, head);
+  std::getline(lines, first);
+  std::getline(lines, second);
+  // Frame 7's place is (5.3e6 + 0.7, 6e5, 412.25) m; 17 digits are all of a double.
+  EXPECT_THAT(first, MatchesRegex("frames/000000.pcd,0,7,700000000,5300000.7[0-9]*,600000,412.25,"
+                                  ".*,960,0"));
+  EXPECT_THAT(second, MatchesRegex("frames/000001.pcd,0,8,800000000,.*,921,39"));
+  const Ended again = RunCommand(command);
+  EXPECT_EQ(again.status, 1);
+  EXPECT_EQ(again.said,
+            (out / "frames.csv").string() + ": must not exist: a recording is there already\n");
+}
+
+TEST(ReceiveCommand, NamesWhatItCannotListenToOrWrite) {
+  const std::string analyze = RAILCAST_ANALYZE;
+  EXPECT_EQ(RunCommand(analyze + " receive 127.0.0.1:99999").status, 1);
+  EXPECT_EQ(RunCommand(analyze + " receive --frames 0").status, 2);
+  EXPECT_EQ(RunCommand(analyze + " receive --duration -1").status, 2);
+  const Ended nowhere = RunCommand(analyze + " receive --out /proc/no");
+  EXPECT_EQ(nowhere.status, 1);
+  EXPECT_THAT(nowhere.said, HasSubstr("/proc/no"));
+  UdpReceiver taken(kAnyLoopbackPort);
+  const std::string at = EndpointText(taken.at());
+  EXPECT_EQ(RunCommand(analyze + " receive " + at).said,
+            "cannot listen: Address already in use (got " + at + ")\n");
+}
+
+}  // namespace
+}  // namespace railcast

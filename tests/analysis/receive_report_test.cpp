@@ -1,0 +1,53 @@
+#include "analysis/receive/receive_report.h"
+
+#include <gtest/gtest.h>
+
+namespace railcast {
+namespace {
+
+ReceivedTotals Totals() {
+  return {.frames = 21, .points = 21 * 16'000, .first_s = 100.0, .last_s = 102.5};
+}
+
+StreamReceiver::Counts Counts() {
+  StreamReceiver::Counts counts;
+  counts.stream.complete_frames = 20;
+  counts.stream.incomplete_frames = 1;
+  counts.stream.missing_frames = 2;
+  counts.stream.received_packets = 8620;
+  counts.stream.lost_packets = 3;
+  counts.stream.duplicate_packets = 4;
+  counts.stream.reordered_packets = 5;
+  counts.stream.late_packets = 6;
+  counts.stream.stray_packets = 7;
+  counts.dropped_frames = 8;
+  return counts;
+}
+
+TEST(ReceiveReport, SumsUpWhatCameAndWhatDidNot) {
+  EXPECT_EQ(ReceiveSummary(Totals(), Counts()),
+            "frames: 20 complete, 1 incomplete, 2 missing, 8 dropped here; 8.00 Hz\n"
+            "packets: 8620 received, 3 lost, 4 duplicate, 5 reordered, 6 late, 7 stray, 0 refused\n"
+            "points: 336000, 16000 a frame\n");
+}
+
+TEST(ReceiveReport, SaysWhyDatagramsWereRefusedAndThatTheSenderBeganAnew) {
+  StreamReceiver::Counts counts;
+  counts.stream.restarts = 1;
+  counts.stream.refused[static_cast<std::size_t>(StreamFault::kMagic)] = 2;
+  counts.stream.refused[static_cast<std::size_t>(StreamFault::kChecksum)] = 1;
+  EXPECT_EQ(ReceiveSummary({}, counts),
+            "frames: 0 complete, 0 incomplete, 0 missing, 0 dropped here; no rate yet\n"
+            "packets: 0 received, 0 lost, 0 duplicate, 0 reordered, 0 late, 0 stray, 3 refused\n"
+            "points: 0, 0 a frame\n"
+            "restarts of the sender: 1\n"
+            "refused for: magic 2 checksum 1\n");
+}
+
+TEST(ReceiveReport, TellsHowItGoes) {
+  EXPECT_EQ(ReceiveProgress(Totals(), Counts()),
+            "21 frames, 16000 points each, 8.00 Hz, 3 packets lost");
+}
+
+}  // namespace
+}  // namespace railcast

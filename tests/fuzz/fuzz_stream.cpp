@@ -1,0 +1,95 @@
+#include <zlib.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/io/stream/frame_assembler.h"
+#include "core/io/stream/stream_clouds.h"
+
+namespace railcast {
+namespace {
+
+std::uint64_t Sum(const std::vector<IndexRange>& ranges) {
+  std::uint64_t sum = 0;
+  std::uint64_t end = 0;
+  for (const IndexRange& range : ranges) {
+    Check(range.first >= end && range.count > 0, "ranges rise and are not empty");
+    end = std::uint64_t{range.first} + range.count;
+    sum += range.count;
+  }
+  return sum;
+}
+
+void CheckFrame(const ReceivedFrame& frame) {
+  const StreamHeader& header = frame.header;
+  Check(frame.points.size() == frame.num_points() * header.point_size, "points are whole");
+  Check(frame.num_points() + Sum(frame.lost_points) == header.num_points,
+        "every point is here or lost");
+  Check(Sum(frame.lost_packets) < frame.num_packets, "a frame has at least a packet");
+  std::size_t offset = 0;
+  for (const StreamField& field : header.fields) {
+    Check(field.offset == offset, "fields are without gap");
+    offset += SizeOf(field.type);
+  }
+  Check(offset == header.point_size, "fields fill a point");
+  const pcl::PCLPointCloud2 cloud = MakePclCloud(frame);
+  Check(cloud.data.size() == std::size_t{cloud.width} * cloud.point_step, "a cloud is whole");
+  const auto made = MakeFrame(frame);
+  if (made) Check(made->num_slots() == frame.num_points(), "a frame is made of all its slots");
+}
+
+void Seal(std::string& datagram) {
+  constexpr std::size_t kCrcSize = 4;
+  if (datagram.size() < kCrcSize) return;
+  const std::size_t checked = datagram.size() - kCrcSize;
+  const auto crc = static_cast<std::uint32_t>(
+      ::crc32_z(0, reinterpret_cast<const unsigned char*>(datagram.data()), checked));
+  std::memcpy(datagram.data() + checked, &crc, kCrcSize);
+}
+
+void Assemble(std::span<const char> bytes) {
+  constexpr unsigned kSealed = 0x8000;
+  const std::size_t num_bytes = bytes.size();
+  FrameAssembler assembler;
+  std::vector<ReceivedFrame> frames;
+  std::uint64_t num_datagrams = 0;
+  while (bytes.size() >= 2) {
+    std::uint16_t head = 0;
+    std::memcpy(&head, bytes.data(), sizeof head);
+    const auto part = bytes.subspan(2, std::min<std::size_t>(bytes.size() - 2, head & ~kSealed));
+    std::string datagram(part.begin(), part.end());
+    if ((head & kSealed) != 0) Seal(datagram);
+    assembler.Take(datagram, frames);
+    ++num_datagrams;
+    bytes = bytes.subspan(2 + part.size());
+  }
+  assembler.Flush(frames);
+  std::size_t num_kept = 0;
+  std::uint64_t num_lost = 0;
+  for (const ReceivedFrame& frame : frames) {
+    CheckFrame(frame);
+    num_kept += frame.points.size();
+    num_lost += Sum(frame.lost_packets);
+  }
+  const StreamCounts& counts = assembler.counts();
+  Check(num_kept <= num_bytes, "memory is for what arrived");
+  Check(counts.received_packets + counts.stray_packets + counts.num_refused() == num_datagrams,
+        "every datagram is counted once");
+  Check(counts.complete_frames + counts.incomplete_frames == frames.size(), "frames are counted");
+  Check(counts.lost_packets == num_lost, "losses are counted");
+}
+
+}  // namespace
+}  // namespace railcast
+
+/// What libFuzzer calls: datagrams, each after its length in 15 bits; the 16th bit makes its CRC
+/// right, which chance never would.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  railcast::Assemble(std::span(reinterpret_cast<const char*>(data), size));
+  return 0;
+}
