@@ -183,6 +183,24 @@ TEST(VelodyneDecoder, CountsOnOverTheHour) {
                                               3'600'050'000, 2'000'000'000));
 }
 
+TEST(VelodyneDecoder, SurvivesAClockThatLeaps) {
+  std::vector<char> packet = SoundPacket();
+  VelodyneDecoder decoder(*FindVelodyneFormat("vlp16").model);
+  std::vector<VelodyneTurn> turns;
+  std::int64_t last_ns = 0;
+  for (std::uint32_t i = 0; i < 25'000; ++i) {
+    // Each is 29.9 minutes after the one before: 12,458 hours in all.
+    StoreAt<std::uint32_t>(packet.data() + 1200,
+                           static_cast<std::uint32_t>(i * 1'794'000'000ULL % 3'600'000'000ULL));
+    ASSERT_EQ(decoder.Decode(packet, turns), std::nullopt);
+    if (turns.empty()) continue;
+    last_ns = std::max(last_ns, turns.back().stamp_ns);
+    turns.clear();
+  }
+  EXPECT_GT(last_ns, 9'999 * 3'600'000'000'000);
+  EXPECT_LT(last_ns, 10'001 * 3'600'000'000'000);
+}
+
 TEST(VelodyneDecoder, CutsTheTurnOfARotorThatStandsStill) {
   std::vector<char> packet = SoundPacket();
   for (std::size_t block = 0; block < 12; ++block) {
