@@ -24,6 +24,8 @@ LIBRARY_OWNERS = {
     "nlohmann": (r"nlohmann/",
                  ("core/scenario", "core/fidelity", "core/io", "generator", "analysis")),
     "PCL": (r"pcl/", ("core/io", "generator", "analysis", "viewer")),
+    "libpcap": (r"pcap/", ("core/io",)),
+    "Expat": (r"expat\.h$", ("core/io",)),
     "VTK": (r"vtk[A-Z]\w+\.h$", ("viewer",)),
     "CLI11": (r"CLI/", PROGRAMS),
     "spdlog": (r"spdlog/", PROGRAMS),

@@ -111,6 +111,13 @@ class Collector {
       Fail("rotCorrection_ must be >= -360 and <= 360", NumberText(laser_.rotation_deg));
       return;
     }
+    for (const double offset_cm :
+         {laser_.range_offset_cm, laser_.vertical_offset_cm, laser_.horizontal_offset_cm}) {
+      constexpr double kMaxOffset_cm = 1000.0;
+      if (std::abs(offset_cm) <= kMaxOffset_cm) continue;
+      Fail("corrections of distance and place must be >= -1000 and <= 1000", NumberText(offset_cm));
+      return;
+    }
     auto& laser = lasers_[static_cast<std::size_t>(laser_.id)];
     if (laser) Fail("every id_ must be there once", NumberText(laser_.id));
     laser = {.elevation_deg = laser_.elevation_deg,

@@ -127,7 +127,11 @@ VelodyneDecoder::VelodyneDecoder(const VelodyneModel& model,
 }
 
 std::int64_t VelodyneDecoder::PacketNs(std::uint32_t us_past_hour) {
-  if (!last_packet_us_) last_packet_us_ = us_past_hour;
+  // A clock that leaps ahead with every packet must not run out of bits.
+  constexpr std::int64_t kMostHours = 10'000;
+  if (!last_packet_us_ || std::abs(*last_packet_us_) > kMostHours * kUsPerHour) {
+    last_packet_us_ = us_past_hour;
+  }
   // The nearest time that has these microseconds: packets may come late, too.
   std::int64_t since_last_us = (us_past_hour - *last_packet_us_ % kUsPerHour) % kUsPerHour;
   if (since_last_us > kUsPerHour / 2) since_last_us -= kUsPerHour;

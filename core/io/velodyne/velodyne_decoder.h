@@ -26,7 +26,8 @@ struct VelodynePoint {
 
 /// What one turn of the rotor saw, in order of time.
 struct VelodyneTurn {
-  /// Of its first firing, since the start of the hour in which the first packet was sent.
+  /// Of its first firing, since the start of the hour in which the first packet was sent; counted
+  /// anew after 10,000 hours.
   std::int64_t stamp_ns{};
   std::vector<VelodynePoint> points;
 };

@@ -68,6 +68,9 @@ TEST(CalibrationXml, SaysWhatIsWrongWithAFile) {
   EXPECT_EQ(SaidWith("<id_>0</id_>", ""), "db.xml: line 20: id_ must be 0 to 63 (got \"nan\")");
   EXPECT_EQ(SaidWith("<vertCorrection_>-8.769<", "<vertCorrection_>-98.769<"),
             "db.xml: line 20: vertCorrection_ must be >= -90 and <= 90 (got \"-98.769\")");
+  EXPECT_EQ(SaidWith("<distCorrection_>0<", "<distCorrection_>1e300<"),
+            "db.xml: line 20: corrections of distance and place must be >= -1000 and <= 1000 (got "
+            "\"1e+300\")");
   EXPECT_EQ(SaidWith("<rotCorrection_>-7.156<", "<rotCorrection_>7,1<"),
             "db.xml: line 11: rotCorrection_ must be a number (got \"7,1\")");
   EXPECT_EQ(SaidWith("<rotCorrection_>-7.156<", "<rotCorrection_>inf<"),

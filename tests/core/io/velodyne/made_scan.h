@@ -54,7 +54,7 @@ class MadeScan {
     frame.duration_ns = pattern_.time_ns.back();
     for (std::size_t i = 0; i < pattern_.num_firings(); ++i) {
       const std::size_t first =
-          pattern_.row[i] * std::size_t{frame.width()} + pattern_.column[i] * returns;
+          pattern_.row[i] * std::size_t{frame.width()} + std::size_t{pattern_.column[i]} * returns;
       for (std::size_t slot = first; slot < first + returns; ++slot) {
         const auto words =
             RandomWords(7, RandomUse::kNoise, index, static_cast<std::uint32_t>(slot));

@@ -55,7 +55,8 @@ std::vector<Expected> PclPoints(std::string_view format, const MadeScan& scan, c
     return scan.AzimuthUnits(static_cast<std::uint32_t>(group % groups_per_frame) * step);
   };
   const auto distance = [&](std::size_t slot) {
-    const double units = std::floor(double{frame.range_m[slot]} / model.distance_unit_m + 0.5);
+    const double units =
+        std::floor(static_cast<double>(frame.range_m[slot]) / model.distance_unit_m + 0.5);
     return units < 65536.0 ? units : 0.0;  // And for NaN.
   };
   std::vector<Expected> points;
@@ -69,7 +70,7 @@ std::vector<Expected> PclPoints(std::string_view format, const MadeScan& scan, c
       const double own_deg =
           model.has_own_angles ? scan.spinning().channels[laser].azimuth_deg : 0.0;
       const std::size_t slot =
-          scan.RowOf(laser) * std::size_t{frame.width()} + column * frame.returns;
+          scan.RowOf(laser) * std::size_t{frame.width()} + std::size_t{column} * frame.returns;
       std::vector<std::size_t> slots = {slot};
       if (frame.returns == 2) slots.push_back(slot + 1);
       std::erase_if(slots, [&](std::size_t s) { return distance(s) == 0.0; });
@@ -106,9 +107,9 @@ void ExpectFrame(const Sweep& sweep,
   const double azimuth_tolerance_deg = 360.0 * scan.spec().rate_hz * last_us * 1e-6 + 0.02;
   for (std::size_t i = 0; i < sweep.size(); ++i) {
     // PCL: x right, y forward.
-    const double x = sweep[i].x;
-    const double y = sweep[i].y;
-    const double z = sweep[i].z;
+    const auto x = static_cast<double>(sweep[i].x);
+    const auto y = static_cast<double>(sweep[i].y);
+    const auto z = static_cast<double>(sweep[i].z);
     const double range_m = std::sqrt(x * x + y * y + z * z);
     const std::size_t slot = expected[i].slot;
     ASSERT_NEAR(range_m, frame.range_m[slot], range_tolerance_m);

@@ -17,7 +17,9 @@
 namespace railcast {
 namespace {
 
-const std::filesystem::path kCaptures = RAILCAST_SHARED_DATA_DIR "/lidar_packets_nebula";
+std::filesystem::path CaptureFile(const char* name) {
+  return std::filesystem::path(RAILCAST_SHARED_DATA_DIR "/lidar_packets_nebula") / name;
+}
 constexpr double kHalfTurn_deg = 180.0;
 
 std::vector<VelodyneTurn> DecodeCapture(const std::filesystem::path& file,
@@ -41,7 +43,8 @@ struct Measured {
 };
 
 Measured MeasuredOf(const pcl::PointXYZ& point, const VelodyneModel& model) {
-  const Vector3 place_m(double{point.x}, double{point.y}, double{point.z});
+  const Vector3 place_m(static_cast<double>(point.x), static_cast<double>(point.y),
+                        static_cast<double>(point.z));
   const double range_m = place_m.norm();
   const double elevation_deg = DegFromRad(std::asin(place_m.z() / range_m));
   const auto laser = std::ranges::min_element(model.lasers, {}, [&](const ChannelSpec& channel) {
@@ -76,7 +79,7 @@ std::pair<double, double> LeftOver_deg(double their_deg,
   const double late_us =
       ours.return_index * model.cycle_us * static_cast<double>(model.cycles_per_block());
   const double apart_deg =
-      their_deg - kTurn_deg_per_us * late_us - DegFromRad(double{ours.azimuth_rad});
+      their_deg - kTurn_deg_per_us * late_us - DegFromRad(static_cast<double>(ours.azimuth_rad));
   const double earlier_us = 2.304 * ours.laser - our_time_us;
   const double turned_deg = Difference_deg(apart_deg, kTurn_deg_per_us * earlier_us);
   double still_deg = kHalfTurn_deg;
@@ -95,7 +98,7 @@ Comparison Compare(const pcl::PointCloud<pcl::PointXYZ>& theirs,
   constexpr double kTolerance_deg = 0.04;
   std::map<std::pair<std::uint8_t, long>, std::vector<VelodynePoint>> by_measurement;
   for (const VelodynePoint& point : ours) {
-    const long distance = std::lround(double{point.range_m} / model.distance_unit_m);
+    const long distance = std::lround(static_cast<double>(point.range_m) / model.distance_unit_m);
     by_measurement[{point.laser, distance}].push_back(point);
   }
   std::size_t num_last_block = 0;
@@ -113,7 +116,7 @@ Comparison Compare(const pcl::PointCloud<pcl::PointXYZ>& theirs,
       is_last_block = turned_deg >= kTolerance_deg;
       const Eigen::Vector3f apart_m(candidate.x - point.x, candidate.y - point.y,
                                     candidate.z - point.z);
-      nearest_mm = 1e3 * double{apart_m.norm()};
+      nearest_mm = 1e3 * static_cast<double>(apart_m.norm());
     }
     if (nearest_deg == kTolerance_deg) continue;
     num_last_block += is_last_block ? 1U : 0U;
@@ -141,12 +144,12 @@ std::ostream& operator<<(std::ostream& out, const Comparison& c) {
 }
 
 TEST(RealCapture, DecodesVlp16InDualModeAsNebulaDoes) {
-  const auto file = kCaptures / "vlp16_dual.pcap";
+  const auto file = CaptureFile("vlp16_dual.pcap");
   if (!exists(file)) GTEST_SKIP() << file << " is not there";
   const VelodyneModel& model = *FindVelodyneFormat("vlp16").model;
   const auto turns = DecodeCapture(file, model);
   pcl::PointCloud<pcl::PointXYZ> theirs;
-  ASSERT_EQ(pcl::io::loadPCDFile((kCaptures / "vlp16_dual_decoded.pcd").string(), theirs), 0);
+  ASSERT_EQ(pcl::io::loadPCDFile(CaptureFile("vlp16_dual_decoded.pcd").string(), theirs), 0);
   ASSERT_EQ(theirs.size(), 14'831U);
   // Four turns, and the first firings of a fifth; the published cloud is the fourth.
   ASSERT_EQ(turns.size(), 5U);
@@ -158,12 +161,12 @@ TEST(RealCapture, DecodesVlp16InDualModeAsNebulaDoes) {
 }
 
 TEST(RealCapture, DecodesVlp32cAsNebulaDoes) {
-  const auto file = kCaptures / "vlp32c_single.pcap";
+  const auto file = CaptureFile("vlp32c_single.pcap");
   if (!exists(file)) GTEST_SKIP() << file << " is not there";
   const VelodyneModel& model = *FindVelodyneFormat("vlp32c").model;
   const auto turns = DecodeCapture(file, model);
   pcl::PointCloud<pcl::PointXYZ> theirs;
-  ASSERT_EQ(pcl::io::loadPCDFile((kCaptures / "vlp32c_single_decoded.pcd").string(), theirs), 0);
+  ASSERT_EQ(pcl::io::loadPCDFile(CaptureFile("vlp32c_single_decoded.pcd").string(), theirs), 0);
   ASSERT_EQ(theirs.size(), 26'216U);
   // The sensor looked from 270 to 93 deg; the published cloud is the first such sector, in which
   // the azimuth passes 0.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/base/transform.h"
 #include "core/io/field_layout.h"
 #include "core/io/velodyne/reflectivity.h"
 #include "tests/core/io/velodyne/made_scan.h"
@@ -42,13 +43,14 @@ std::vector<Expected> PointsOf(const Frame& frame,
                                const VelodyneModel& model) {
   std::vector<Expected> points;
   const auto units = [&](std::size_t slot) {
-    const double distance = std::floor(double{frame.range_m[slot]} / model.distance_unit_m + 0.5);
+    const double distance =
+        std::floor(static_cast<double>(frame.range_m[slot]) / model.distance_unit_m + 0.5);
     return distance < 65536.0 ? distance : 0.0;  // And for NaN.
   };
   for (std::uint32_t column = 0; column < frame.columns; ++column) {
     for (std::size_t laser = 0; laser < scan.num_lasers(); ++laser) {
       const std::size_t slot =
-          scan.RowOf(laser) * std::size_t{frame.width()} + column * frame.returns;
+          scan.RowOf(laser) * std::size_t{frame.width()} + std::size_t{column} * frame.returns;
       std::vector<std::size_t> slots;
       for (std::size_t r = 0; r < frame.returns; ++r) {
         if (units(slot + r) > 0.0) slots.push_back(slot + r);
@@ -97,10 +99,11 @@ TEST_P(DecodedFormat, GivesBackTheFramesThatWereEncoded) {
       const double azimuth_deg = DegFromRad(static_cast<double>(points[i].azimuth_rad));
       ASSERT_LT(std::abs(std::remainder(azimuth_deg - MadeScan::AzimuthOf(frame, slot), 360.0)),
                 kAzimuthTolerance_deg);
-      const Vector3 decoded_m(points[i].x, points[i].y, points[i].z);
-      const Vector3 true_m(frame.x[slot], frame.y[slot], frame.z[slot]);
-      ASSERT_LT((decoded_m - true_m).norm(),
-                model.distance_unit_m + true_m.norm() * RadFromDeg(kAzimuthTolerance_deg));
+      const Eigen::Vector3f decoded_m(points[i].x, points[i].y, points[i].z);
+      const Eigen::Vector3f true_m(frame.x[slot], frame.y[slot], frame.z[slot]);
+      ASSERT_LT(static_cast<double>((decoded_m - true_m).norm()),
+                model.distance_unit_m +
+                    static_cast<double>(true_m.norm()) * RadFromDeg(kAzimuthTolerance_deg));
     }
   }
 }
@@ -126,7 +129,7 @@ std::string Refusal(std::string_view format, std::span<const char> packet) {
   const MadeScan scan(ReadSensor(std::string(SensorOf(format))));
   VelodyneDecoder decoder = DecoderOf(format, scan);
   std::vector<VelodyneTurn> turns;
-  const std::string refusal = decoder.Decode(packet, turns).value_or("");
+  std::string refusal = decoder.Decode(packet, turns).value_or("");
   if (!refusal.empty()) {
     EXPECT_TRUE(turns.empty());
     EXPECT_TRUE(decoder.TakeUnfinished().points.empty());
@@ -178,6 +181,24 @@ TEST(VelodyneDecoder, CountsOnOverTheHour) {
   // The fourth came late; half an hour and more ahead is taken for behind.
   EXPECT_THAT(stamps_us, testing::ElementsAre(3'599'900'000, 3'600'000'000, 3'600'100'000,
                                               3'600'050'000, 2'000'000'000));
+}
+
+TEST(VelodyneDecoder, SurvivesAClockThatLeaps) {
+  std::vector<char> packet = SoundPacket();
+  VelodyneDecoder decoder(*FindVelodyneFormat("vlp16").model);
+  std::vector<VelodyneTurn> turns;
+  std::int64_t last_ns = 0;
+  for (std::uint32_t i = 0; i < 25'000; ++i) {
+    // Each is 29.9 minutes after the one before: 12,458 hours in all.
+    StoreAt<std::uint32_t>(packet.data() + 1200,
+                           static_cast<std::uint32_t>(i * 1'794'000'000ULL % 3'600'000'000ULL));
+    ASSERT_EQ(decoder.Decode(packet, turns), std::nullopt);
+    if (turns.empty()) continue;
+    last_ns = std::max(last_ns, turns.back().stamp_ns);
+    turns.clear();
+  }
+  EXPECT_GT(last_ns, 9'999 * 3'600'000'000'000);
+  EXPECT_LT(last_ns, 10'001 * 3'600'000'000'000);
 }
 
 TEST(VelodyneDecoder, CutsTheTurnOfARotorThatStandsStill) {
