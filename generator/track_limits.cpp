@@ -1,6 +1,9 @@
 #include "generator/track_limits.h"
 
+#include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
@@ -28,6 +31,51 @@ std::uint32_t FirstBeyond(std::uint32_t first_frame,
   return first_frame;
 }
 
+/// Where something may be, and where it is.
+struct Traveller {
+  std::string place;  ///< How a line about it begins.
+  const TrackSpec& track;
+  double end_s_m{};
+  std::function<double(std::int64_t)> chainage_m;
+
+  [[nodiscard]] bool IsOnTrack(std::int64_t time_ns) const {
+    const double s_m = chainage_m(time_ns);
+    return s_m >= track.start_s_m - kTolerance_m && s_m <= end_s_m + kTolerance_m;
+  }
+  [[nodiscard]] std::string Leaves(const std::string& when) const {
+    return place + " leaves track \"" + track.name + "\", from " + NumberText(track.start_s_m) +
+           " to " + NumberText(end_s_m) + " m, at " + when;
+  }
+};
+
+std::string SecondsText(std::int64_t time_ns) {
+  return NumberText(static_cast<double>(time_ns) / 1e9) + " s";
+}
+
+std::vector<Traveller> TravellersOf(const ScenarioSpec& scenario, const RailWorld& world) {
+  std::vector<Traveller> travellers;
+  const auto add = [&](const std::string& place, const TrackSpec& track, auto chainage_m) {
+    const double end_s_m = track.end_s_m.value_or(world.alignment().length_m());
+    travellers.push_back({place, track, end_s_m, std::move(chainage_m)});
+  };
+  add(world.has_changed_vehicle_speed() ? "command: the vehicle"
+                                        : scenario.sources.Place("/vehicle/motion") + ":",
+      world.vehicle_track(),
+      [&world](std::int64_t time_ns) { return world.VehicleChainage_m(time_ns); });
+  for (std::size_t i = 0; i < world.objects().size(); ++i) {
+    const SceneObject& object = world.objects()[i];
+    if (object.is_ego) continue;
+    // Instance ids are those of the scenario's order, and go on from there.
+    const bool is_placed = object.instance > scenario.world.objects.size();
+    const std::string pointer = "/world/objects/" + std::to_string(object.instance - 1) + "/motion";
+    add(is_placed ? "command: object \"" + object.name + '"'
+                  : scenario.sources.Place(pointer) + ":",
+        world.object_track(i),
+        [&world, i](std::int64_t time_ns) { return world.ObjectChainage_m(i, time_ns); });
+  }
+  return travellers;
+}
+
 }  // namespace
 
 void CheckStaysOnTracks(const ScenarioSpec& scenario,
@@ -36,35 +84,25 @@ void CheckStaysOnTracks(const ScenarioSpec& scenario,
                         std::uint32_t first_frame,
                         std::uint32_t last_frame) {
   ErrorList errors;
-  const auto examine = [&](const std::string& place, const TrackSpec& track,
-                           const auto& chainage_m) {
-    const double end_s_m = track.end_s_m.value_or(world.alignment().length_m());
+  for (const Traveller& traveller : TravellersOf(scenario, world)) {
     const auto is_on_track = [&](std::uint32_t frame) {
-      const double s_m = chainage_m(pattern.StampNs(frame) + pattern.time_ns.back());
-      return s_m >= track.start_s_m - kTolerance_m && s_m <= end_s_m + kTolerance_m;
+      return traveller.IsOnTrack(pattern.StampNs(frame) + pattern.time_ns.back());
     };
-    if (is_on_track(last_frame)) return;
+    if (is_on_track(last_frame)) continue;
     const std::uint32_t frame = FirstBeyond(first_frame, last_frame, is_on_track);
-    errors.Add(place + " leaves track \"" + track.name + "\", from " + NumberText(track.start_s_m) +
-               " to " + NumberText(end_s_m) + " m, at frame " + std::to_string(frame) + " (" +
-               NumberText(static_cast<double>(pattern.StampNs(frame)) / 1e9) + " s)");
-  };
-  examine(world.has_changed_vehicle_speed() ? "command: the vehicle"
-                                            : scenario.sources.Place("/vehicle/motion") + ":",
-          world.vehicle_track(),
-          [&](std::int64_t time_ns) { return world.VehicleChainage_m(time_ns); });
-  const std::size_t num_of_scenario = scenario.world.objects.size();
-  for (std::size_t i = 0; i < world.objects().size(); ++i) {
-    const SceneObject& object = world.objects()[i];
-    if (object.is_ego) continue;
-    // Instance ids are those of the scenario's order, and go on from there.
-    const bool is_placed = object.instance > num_of_scenario;
-    examine(is_placed ? "command: object \"" + object.name + '"'
-                      : scenario.sources.Place("/world/objects/" +
-                                               std::to_string(object.instance - 1) + "/motion") +
-                            ":",
-            world.object_track(i),
-            [&](std::int64_t time_ns) { return world.ObjectChainage_m(i, time_ns); });
+    errors.Add(traveller.Leaves("frame " + std::to_string(frame) + " (" +
+                                SecondsText(pattern.StampNs(frame)) + ")"));
+  }
+  errors.ThrowIfAny();
+}
+
+void CheckStaysOnTracks(const ScenarioSpec& scenario,
+                        const RailWorld& world,
+                        std::int64_t begin_ns,
+                        std::int64_t end_ns) {
+  ErrorList errors;
+  for (const Traveller& traveller : TravellersOf(scenario, world)) {
+    if (!traveller.IsOnTrack(end_ns)) errors.Add(traveller.Leaves(SecondsText(begin_ns)));
   }
   errors.ThrowIfAny();
 }

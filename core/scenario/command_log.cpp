@@ -75,7 +75,10 @@ CommandLog ReadCommandLog(const std::filesystem::path& file) {
     if (stream.eof()) throw InputError(place + ": must end in a line break");
     JsonSource source;
     const auto root = source.OpenText(line, place);
-    if (root && number == 1) {
+    if (root && number == 1 &&
+        !(root->json->is_object() && root->json->contains("railcast_commands"))) {
+      source.FaultWithoutValue(*root, R"(must be {"railcast_commands": 1, "scenario_xxh3": ...})");
+    } else if (root && number == 1) {
       Header header;
       if (auto list = source.PlainMembers(*root)) {
         ReadMembers(source, *root, std::move(*list), header);

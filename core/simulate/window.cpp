@@ -133,13 +133,24 @@ std::shared_ptr<const Window> WindowSource::Build(int home_chunk, const Standing
   }
   AddChunks(chunks, *window, placements);
   window->scene = std::make_unique<TraceScene>(store_->device(), placements);
-  {
-    const std::lock_guard lock(mutex_);
-    if (IsWanted(home_chunk)) chunks_[home_chunk].swap(chunks);
-  }
-  chunks.clear();
+  KeepChunks(home_chunk, std::move(chunks));
   store_->ForgetUnusedModels();
   return window;
+}
+
+void WindowSource::KeepChunks(int home_chunk, Chunks chunks) {
+  std::vector<Chunks> unwanted;  // Freed when the lock is.
+  const std::lock_guard lock(mutex_);
+  if (IsWanted(home_chunk)) chunks_[home_chunk].swap(chunks);
+  // Not before now: a window shares most of its chunks with the one it follows.
+  for (auto it = chunks_.begin(); it != chunks_.end();) {
+    if (IsWanted(it->first)) {
+      ++it;
+    } else {
+      unwanted.push_back(std::move(it->second));
+      it = chunks_.erase(it);
+    }
+  }
 }
 
 WindowSource::WindowTask WindowSource::Remember(int home_chunk) {
@@ -150,7 +161,6 @@ WindowSource::WindowTask WindowSource::Remember(int home_chunk) {
 
 void WindowSource::ForgetOthers() {
   std::erase_if(windows_, [&](const auto& entry) { return !IsWanted(entry.first); });
-  std::erase_if(chunks_, [&](const auto& entry) { return !IsWanted(entry.first); });
 }
 
 std::shared_ptr<const Window> WindowSource::Get(int home_chunk) {

@@ -72,6 +72,7 @@ class WindowSource {
   void AddChunks(const Chunks& chunks,
                  Window& window,
                  std::vector<TracePlacement>& placements) const;
+  void KeepChunks(int home_chunk, Chunks chunks);
   [[nodiscard]] WindowTask Remember(int home_chunk);
   [[nodiscard]] bool IsWanted(int home_chunk) const {
     return home_chunk == in_use_ || home_chunk == prepared_;
@@ -88,8 +89,8 @@ class WindowSource {
   std::mutex mutex_;
   std::condition_variable changed_;
   Standing standing_;
-  std::map<int, FutureWindow> windows_;  // Of in_use_ and prepared_, as chunks_.
-  std::map<int, Chunks> chunks_;
+  std::map<int, FutureWindow> windows_;  // Of in_use_ and prepared_.
+  std::map<int, Chunks> chunks_;         // The same, and of earlier ones until the next is built.
   std::optional<int> in_use_;
   std::optional<int> prepared_;
   std::optional<WindowTask> ahead_;  // Waits for the builder, or is being built by it.

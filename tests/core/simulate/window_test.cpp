@@ -270,6 +270,37 @@ TEST(WindowSource, AnObjectIsWhereItsGeometryIsAndNotItsOrigin) {
   EXPECT_EQ(instance, 1U);
 }
 
+TEST(WindowSource, MakesWindowsAnewOfTheChunksItHasWhereWhatStandsChanges) {
+  const auto world = std::make_shared<LineWorld>();
+  world->AddStandingObject(
+      std::make_shared<const Model>(Model{"thing", {{MakeWall(3.0F, 1.0F), 1, 77}}}));
+  WindowSource windows(std::make_shared<SceneStore>(world, TestMaterials()), kRange_m);
+  const View with = LookAround(*windows.Get(0));
+  windows.Prepare(1);
+  windows.UseStanding({});
+  const View without = LookAround(*windows.Get(0));
+  EXPECT_NE(without, with);
+  windows.UseStanding({0});
+  EXPECT_EQ(LookAround(*windows.Get(0)), with);
+  static_cast<void>(windows.Get(1));
+  static_cast<void>(windows.Get(2));
+  for (int chunk = 0; chunk <= 4; ++chunk) EXPECT_EQ(world->num_built[chunk], 1) << chunk;
+}
+
+TEST(SceneStore, BuildsChunksOnceForSensorsOfDifferentReach) {
+  const auto world = std::make_shared<LineWorld>();
+  const auto store = std::make_shared<SceneStore>(world, TestMaterials());
+  WindowSource far(store, kRange_m);
+  WindowSource near(store, kChunkLength_m);
+  const auto far_window = far.Get(10);
+  const auto near_window = near.Get(10);
+  for (int chunk = 8; chunk <= 12; ++chunk) EXPECT_EQ(world->num_built[chunk], 1) << chunk;
+  WindowSource alone(std::make_shared<SceneStore>(world, TestMaterials()), kChunkLength_m);
+  EXPECT_EQ(LookAround(*near_window), LookAround(*alone.Get(10)));
+  EXPECT_EQ(Labels(*near_window), Labels(*alone.Get(10)));
+  EXPECT_NE(Labels(*near_window), Labels(*far_window));
+}
+
 TEST(WindowSource, AWindowListsTheWiresOfItsChunksWhereTheirTubesAre) {
   Line line;
   line.world->has_wires = true;

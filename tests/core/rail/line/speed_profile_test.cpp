@@ -119,5 +119,42 @@ TEST(SpeedProfile, RefusesANegativeSpeed) {
   EXPECT_EQ(FaultOf({{AtTime(0, -2)}}), "/profile/0/speed_mps: must be >= 0 (got -2)");
 }
 
+TEST(SpeedProfile, ChangesToAnotherSpeedAtAConstantRateAndKeepsIt) {
+  const SpeedProfile profile({{AtTime(0, 10)}}, 100.0);
+  const SpeedProfile faster = profile.WithSpeedFrom(4.0, 16.0, 2.0);
+  // 40 m at 10 m/s, then 10 t + t^2 for 3 s, then 16 m/s.
+  EXPECT_DOUBLE_EQ(faster.At(4.0).s_m, profile.At(4.0).s_m);
+  EXPECT_DOUBLE_EQ(faster.At(5.0).s_m, 140.0 + 10.0 + 1.0);
+  EXPECT_DOUBLE_EQ(faster.At(5.0).speed_mps, 12.0);
+  EXPECT_DOUBLE_EQ(faster.At(7.0).s_m, 140.0 + 30.0 + 9.0);
+  EXPECT_DOUBLE_EQ(faster.At(9.0).s_m, 179.0 + 32.0);
+  EXPECT_DOUBLE_EQ(faster.At(9.0).speed_mps, 16.0);
+}
+
+TEST(SpeedProfile, BrakesToAStandstillAfterItsBrakingDistanceInEitherDirection) {
+  for (const bool reverse : {false, true}) {
+    const SpeedProfile profile({{AtTime(0, 12)}, reverse}, 500.0);
+    const SpeedProfile braked = profile.WithSpeedFrom(1.0, 0.0, 0.8);
+    // v^2 / (2 a) = 90 m within 15 s.
+    const double sign = reverse ? -1.0 : 1.0;
+    EXPECT_DOUBLE_EQ(braked.At(16.0).s_m, 500.0 + sign * (12.0 + 90.0));
+    EXPECT_DOUBLE_EQ(braked.At(1000.0).s_m, 500.0 + sign * 102.0);
+    EXPECT_EQ(braked.At(1000.0).speed_mps, 0.0);
+    EXPECT_EQ(braked.reverse(), reverse);
+  }
+}
+
+TEST(SpeedProfile, MayBeChangedWhileItChanges) {
+  const SpeedProfile profile({{AtTime(0, 0), AtTime(10, 10)}}, 0.0);
+  const SpeedProfile braked = profile.WithSpeedFrom(4.0, 0.0, 2.0);
+  // 8 m and 4 m/s are reached at 4 s; 4 m more are needed to stop.
+  EXPECT_DOUBLE_EQ(braked.At(6.0).s_m, 12.0);
+  EXPECT_DOUBLE_EQ(braked.At(20.0).s_m, 12.0);
+  const SpeedProfile again = braked.WithSpeedFrom(5.0, 3.0, 1.0);
+  // At 5 s: 11 m and 2 m/s; 1 s later 3 m/s.
+  EXPECT_DOUBLE_EQ(again.At(6.0).s_m, 13.5);
+  EXPECT_DOUBLE_EQ(again.At(8.0).s_m, 19.5);
+}
+
 }  // namespace
 }  // namespace railcast

@@ -1,0 +1,90 @@
+#include "core/scenario/command_log.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "core/base/error.h"
+#include "tests/core/scenario/scenario_files.h"
+
+namespace railcast {
+namespace {
+
+constexpr const char* kHeader = "{\"railcast_commands\":1,\"scenario_xxh3\":\"5ce0a410\"}\n";
+
+class CommandLogFile : public testing::Test {
+ protected:
+  CommandLog Read(const std::string& text) const {
+    return ReadCommandLog(folder_.Write("log.jsonl", text));
+  }
+  // What is said of the log, without the name of its file.
+  std::string FaultOf(const std::string& text) const {
+    try {
+      static_cast<void>(Read(text));
+    } catch (const InputError& error) {
+      const std::string said = error.what();
+      return said.substr(said.find("log.jsonl: ") + 11);
+    }
+    return "none";
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(CommandLogFile, IsReadAsItIsWritten) {
+  PlaceObject place;
+  place.object.name = "bob";
+  place.object.type = "person";
+  place.object.s_m = 2240.1;
+  const CommandLog log{"5ce0a410",
+                       {{0, SetSpeed{11.1, 0.3}},
+                        {1'500'000'001, place},
+                        {1'500'000'001, Stop{}},
+                        {9'000'000'000'000'000, RemoveObject{"bob"}}}};
+  const std::string text = CommandLogText(log);
+  EXPECT_EQ(text.find(kHeader), 0U);
+  EXPECT_EQ(Read(text), log);
+  EXPECT_EQ(CommandLogText(Read(text)), text);
+}
+
+TEST_F(CommandLogFile, IsEmptyWhereNothingWasCommanded) {
+  EXPECT_EQ(Read(kHeader), (CommandLog{"5ce0a410", {}}));
+}
+
+TEST_F(CommandLogFile, SaysWhatCameAfterTheLastReset) {
+  std::string text = kHeader;
+  text += CommandLogLine({5'000'000'000, Brake{}});
+  text += CommandLogLine({0, Reset{}});
+  text += CommandLogLine({100'000'000, Stop{}});
+  EXPECT_EQ(Read(text), (CommandLog{"5ce0a410", {{100'000'000, Stop{}}}}));
+}
+
+TEST_F(CommandLogFile, LeavesStepsOut) {
+  EXPECT_EQ(CommandLogLine({0, Step{}}), "");
+  const std::string step = "{\"time_ns\": 3, \"command\": {\"command\": \"step\"}}\n";
+  EXPECT_EQ(Read(kHeader + step).commands.size(), 0U);
+}
+
+TEST_F(CommandLogFile, SaysWhatIsWrongAndWhere) {
+  EXPECT_EQ(FaultOf(""), "is empty");
+  EXPECT_EQ(FaultOf("{\"time_ns\": 0, \"command\": {\"command\": \"stop\"}}\n"),
+            "line 1: must be {\"railcast_commands\": 1, \"scenario_xxh3\": ...}");
+  EXPECT_EQ(FaultOf(std::string(kHeader) + "{\"time_ns\": 0}\n"), "line 2: /command: missing");
+  EXPECT_EQ(
+      FaultOf(std::string(kHeader) + "{\"time_ns\": -1, \"command\": {\"command\": \"stop\"}}\n"),
+      "line 2: /time_ns: must be a whole number from 0 to 3200000000000000000 (got -1)");
+  EXPECT_EQ(FaultOf(std::string(kHeader) +
+                    "{\"time_ns\": 0, \"command\": {\"command\": \"set_speed\"}}\n"),
+            "line 2: /command/speed_mps: missing");
+  const std::string torn = "{\"time_ns\": 0, \"command\": {\"command\": \"stop\"}}";
+  EXPECT_EQ(FaultOf(kHeader + torn), "line 2: must end in a line break");
+  EXPECT_EQ(FaultOf(kHeader + CommandLogLine({7, Stop{}}) + CommandLogLine({6, Stop{}})),
+            "line 3: /time_ns: must be at least 7, that of the command before it (got 6)");
+  EXPECT_EQ(FaultOf(std::string(kHeader) +
+                    "{\"time_ns\": 0, \"when\": 1, \"command\": {\"command\": \"stop\"}}\n"),
+            "line 2: /when: unknown key, must be \"time_ns\" or \"command\"");
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,154 @@
+#include "core/scenario/command.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace railcast {
+namespace {
+
+std::vector<Command> OneOfEach() {
+  PlaceObject place;
+  place.object.name = "bob \"the\" builder \xC3\xA4";
+  place.object.type = "person";
+  place.object.s_m = 2240.25;
+  place.object.d_m = -0.1;
+  place.object.h_m = 0.0;
+  place.object.size_m = {0.5, 0.5, 1.9};
+  place.object.material = "clothing";
+  place.object.motion = MotionSpec{{{0.0, std::nullopt, 1.25}}, true};
+  SetWeather weather;
+  weather.weather.visibility_m = 80.0;
+  weather.weather.snow_rate_mmph = 1.5;
+  weather.weather.sun.illuminance_klx = 60.0;
+  return {SetSpeed{11.1, 0.3},   Brake{0.7}, Stop{}, place,
+          RemoveObject{"wagon"}, weather,    Step{}, Reset{}};
+}
+
+// The faults of a line, one after the other.
+std::string FaultsOf(const std::string& line) {
+  const CommandLine read = ReadCommand(line);
+  EXPECT_EQ(read.command.has_value(), read.faults.empty());
+  std::string faults;
+  for (const std::string& fault : read.faults) faults += (faults.empty() ? "" : "\n") + fault;
+  return faults;
+}
+
+TEST(Command, IsReadAsItIsWritten) {
+  for (const Command& command : OneOfEach()) {
+    const std::string line = WriteCommand(command, 9'007'199'254'740'992U);
+    const CommandLine read = ReadCommand(line);
+    ASSERT_TRUE(read.faults.empty()) << line << "\n" << read.faults.front();
+    EXPECT_EQ(*read.command, command) << line;
+    EXPECT_EQ(read.id, 9'007'199'254'740'992U);
+    EXPECT_EQ(WriteCommand(*read.command, read.id), line);
+  }
+}
+
+TEST(Command, TakesDefaultsForWhatIsLeftOut) {
+  const CommandLine speed = ReadCommand(R"({"id": 7, "command": "set_speed", "speed_mps": 10})");
+  EXPECT_EQ(speed.command, Command(SetSpeed{10.0, 0.5}));
+  EXPECT_EQ(speed.id, 7U);
+  const CommandLine brake = ReadCommand("{\"command\": \"brake\"}\n");
+  EXPECT_EQ(brake.command, Command(Brake{0.5}));
+  EXPECT_EQ(brake.id, std::nullopt);
+  const CommandLine weather =
+      ReadCommand(R"({"command": "set_weather", "weather": {"rain_intensity": 0.5}})");
+  WeatherSpec rain;
+  rain.rain_rate_mmph = 25.0;
+  EXPECT_EQ(weather.command, Command(SetWeather{rain}));
+}
+
+TEST(Command, IsWrittenOnOneLine) {
+  EXPECT_EQ(WriteCommand(SetSpeed{10.0, 0.5}, 7),
+            R"({"id":7,"command":"set_speed","speed_mps":10.0,"acceleration_mps2":0.5})");
+  EXPECT_EQ(WriteCommand(Stop{}), R"({"command":"stop"})");
+}
+
+TEST(Command, SaysWhatIsWrongWithALine) {
+  EXPECT_EQ(FaultsOf(""), "command: is empty");
+  EXPECT_EQ(FaultsOf("[]"), "command: must be an object (got [])");
+  EXPECT_EQ(FaultsOf("{}"), "command: /command: missing");
+  EXPECT_EQ(FaultsOf(R"({"command": "dance"})"),
+            "command: /command: must be \"set_speed\", \"brake\", \"stop\", \"place_object\", "
+            "\"remove_object\", \"set_weather\", \"step\" or \"reset\" (got \"dance\")");
+  EXPECT_EQ(FaultsOf(R"({"command": "set_speed"})"), "command: /speed_mps: missing");
+  EXPECT_EQ(FaultsOf(R"({"command": "set_speed", "speed_mps": -1})"),
+            "command: /speed_mps: must be >= 0 and <= 200 (got -1)");
+  EXPECT_EQ(FaultsOf(R"({"command": "set_speed", "speed_mps": "fast"})"),
+            "command: /speed_mps: must be a number (got \"fast\")");
+  EXPECT_EQ(FaultsOf(R"({"command": "set_speed", "speed_mps": 1, "speed_mps": 2})"),
+            "command: /speed_mps: duplicate key");
+  EXPECT_EQ(FaultsOf(R"({"command": "brake", "decelaration_mps2": 1})"),
+            "command: /decelaration_mps2: unknown key, the nearest is \"deceleration_mps2\"");
+  EXPECT_EQ(FaultsOf(R"({"command": "stop", "version": 1})"),
+            "command: /version: unknown key, must be \"id\" or \"command\"");
+  EXPECT_EQ(FaultsOf(R"({"command": "brake", "deceleration_mps2": 0})"),
+            "command: /deceleration_mps2: must be > 0 and <= 10 (got 0)");
+  EXPECT_EQ(FaultsOf(R"({"command": "place_object", "object": {"name": "a", "type": "box",
+                         "s_m": 1}})"),
+            "command: /object/size_m: must be given for type \"box\"");
+  EXPECT_EQ(FaultsOf("{\"command\": \"stop\"} {}"),
+            "command: line 1, column 21: syntax error while parsing value - unexpected '{'; "
+            "expected end of input");
+}
+
+TEST(Command, KeepsTheIdOfAFaultyLineForTheAnswer) {
+  EXPECT_EQ(ReadCommand(R"({"id": 5, "command": "dance"})").id, 5U);
+  EXPECT_EQ(ReadCommand(R"({"id": 5, "command": "set_speed"})").id, 5U);
+  const CommandLine broken = ReadCommand(R"({"id": -5, "command": "stop"})");
+  EXPECT_EQ(broken.id, std::nullopt);
+  EXPECT_EQ(broken.faults, (std::vector<std::string>{
+                               "command: /id: must be a whole number from 0 to 9007199254740992 "
+                               "(got -5)"}));
+}
+
+// A peer must not make the simulator read files, nor learn from its answers which there are.
+TEST(Command, NamesNoFiles) {
+  EXPECT_EQ(
+      FaultsOf(R"({"command": "place_object", "object": {"name": "a", "type": "mesh",
+                         "s_m": 1, "file": "/etc/passwd"}})"),
+      "command: /object/type: must be no mesh, since a command reads no files (got \"mesh\")");
+  EXPECT_EQ(FaultsOf(R"({"command": "place_object", "object": "/etc/passwd"})"),
+            "command: /object: must not name a file (got \"/etc/passwd\")");
+  EXPECT_EQ(FaultsOf(R"({"command": "set_weather", "weather": "/etc/passwd"})"),
+            "command: /weather: must not name a file (got \"/etc/passwd\")");
+  EXPECT_EQ(FaultsOf(R"({"command": "set_weather", "weather": {"file": "/no/such/file"}})"),
+            "command: /weather/file: must not name a file (got \"/no/such/file\")");
+  EXPECT_EQ(FaultsOf(R"({"command": "set_weather", "weather": {"sun": "/etc/passwd"}})"),
+            "command: /weather/sun: must not name a file (got \"/etc/passwd\")");
+  EXPECT_EQ(FaultsOf(R"({"command": "place_object", "object": {"name": "a", "type": "person",
+                         "s_m": 1, "motion": "/etc/passwd"}})"),
+            "command: /object/motion: must not name a file (got \"/etc/passwd\")");
+}
+
+TEST(Command, SurvivesHostileLines) {
+  EXPECT_EQ(FaultsOf(std::string(65'507, '[')),
+            "command: must be at most 8192 bytes long (got 65507)");
+  EXPECT_EQ(FaultsOf(std::string(8000, '[')), "command: nested deeper than 64 levels");
+  EXPECT_EQ(FaultsOf("{\"command\": \"sto\xFFp\"}").find("command: line 1, column "), 0U);
+  EXPECT_EQ(FaultsOf(R"({"command": "set_speed", "speed_mps": 1e999})"),
+            "command: line 1, column 43: number too large for a double");
+  EXPECT_EQ(FaultsOf(R"({"id": 1e300, "command": "stop"})"),
+            "command: /id: must be a whole number from 0 to 9007199254740992 (got 1e+300)");
+  EXPECT_EQ(FaultsOf(std::string("\0{}", 3)).find("command: line 1, column 1: "), 0U);
+}
+
+TEST(Command, AnswersManyFaultsInFewWords) {
+  std::string line = R"({"command": "stop")";
+  for (int i = 0; i < 500; ++i) line += ", \"k" + std::to_string(i) + "\": 1";
+  const CommandLine read = ReadCommand(line + "}");
+  EXPECT_EQ(read.faults.size(), 9U);
+  EXPECT_EQ(read.faults.back(), "command: 492 more");
+  // Letters of two bytes: none is cut in half.
+  std::string name;
+  for (int i = 0; i < 1000; ++i) name += "\xC3\xA4";
+  const CommandLine cut = ReadCommand("{\"command\": \"stop\", \"" + name + "\": 1}");
+  ASSERT_EQ(cut.faults.size(), 1U);
+  EXPECT_LE(cut.faults.front().size(), 303U);
+  EXPECT_TRUE(cut.faults.front().ends_with("\xA4..."));
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,100 @@
+#include "core/scenario/sensors.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/scenario/scenario.h"
+#include "tests/core/scenario/scenario_files.h"
+
+namespace railcast {
+namespace {
+
+ScenarioSpec TwoSensors() {
+  return ReadScenario(ScenariosDir() / "two_sensors.json");
+}
+
+std::string PickFault(const std::optional<std::string>& name) {
+  try {
+    static_cast<void>(PickSensor(TwoSensors(), name));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(Sensors, AreReadFromAList) {
+  const ScenarioSpec spec = TwoSensors();
+  EXPECT_EQ(SensorNames(spec), (std::vector<std::string>{"front", "roof"}));
+  EXPECT_EQ(spec.lidar, LidarSpec());
+  const LidarSpec vlp16 = [] {
+    ScenarioSpec minimal = ReadScenario(ScenariosDir() / "minimal.json");
+    return minimal.lidar;
+  }();
+  // Each may build on a file.
+  EXPECT_EQ(spec.lidars[0].receiver, vlp16.receiver);
+  EXPECT_EQ(spec.lidars[0].mount.position_m[0], 2.2);
+  EXPECT_EQ(spec.lidars[1].range_max_m, 100.0);
+}
+
+TEST(Sensors, OneOfThemMakesAScenarioOfItsOwn) {
+  const ScenarioSpec spec = TwoSensors();
+  const ScenarioSpec roof = PickSensor(spec, "roof");
+  EXPECT_EQ(roof.lidar, spec.lidars[1]);
+  EXPECT_TRUE(roof.lidars.empty());
+  EXPECT_EQ(SensorNames(roof), (std::vector<std::string>{"roof"}));
+  EXPECT_EQ(roof.interfaces.protocol, "vlp16");
+  EXPECT_TRUE(roof.interfaces.sensors.empty());
+  EXPECT_EQ(roof.world, spec.world);
+  EXPECT_EQ(PickSensor(roof, std::nullopt), roof);
+}
+
+TEST(Sensors, MustBeNamedWhereThereAreSeveral) {
+  EXPECT_EQ(PickFault(std::nullopt),
+            "sensor: must be \"front\" or \"roof\" (got none of the scenario's sensors)");
+  EXPECT_EQ(PickFault("side"), "sensor: must be \"front\" or \"roof\" (got \"side\")");
+  EXPECT_EQ(PickFault("front"), "none");
+}
+
+TEST(Sensors, FaultsOfOneThatWasPickedNameItsPlace) {
+  const ScenarioSpec roof = PickSensor(TwoSensors(), "roof");
+  const std::string file = (ScenariosDir() / "two_sensors.json").string();
+  EXPECT_EQ(roof.sources.Place("/lidar/mount/yaw_deg"), file + ": /lidars/1/mount/yaw_deg");
+  const std::string sensor = (ScenariosDir() / "sensors/vlp16.json").string();
+  EXPECT_EQ(roof.sources.Place("/lidar/scan/rate_hz"), sensor + ": /scan/rate_hz");
+  EXPECT_EQ(roof.sources.Place("/vehicle/motion"), file + ": /vehicle/motion");
+}
+
+TEST(Sensors, ResolveToWhatTheyWereReadFrom) {
+  const TemporaryFolder folder;
+  const ScenarioSpec spec = TwoSensors();
+  EXPECT_EQ(ReadScenario(folder.Write("resolved.json", ResolvedScenarioJson(spec))), spec);
+}
+
+TEST(Sensors, SendEachToReceiversOfItsOwn) {
+  const std::vector<std::string> two = {"front", "roof"};
+  const auto fault = [&](const std::vector<SensorInterface>& sensors) {
+    return InterfacesFault({{}, "railcast", sensors}, two);
+  };
+  EXPECT_EQ(fault({}), "");
+  EXPECT_EQ(fault({{"front", "railcast", {}}, {"roof", "vlp16", {}}}), "");
+  EXPECT_EQ(fault({{"front", "vlp16", {"127.0.0.1:2368"}}, {"roof", "vlp16", {"127.0.0.1:2369"}}}),
+            "");
+  EXPECT_EQ(fault({{"front", "hdl32e", {}}, {"roof", "vlp16", {}}}),
+            "must give each sensor receivers of its own, \"roof\" others than 127.0.0.1:2368");
+  EXPECT_EQ(fault({{"front", "railcast", {"10.0.0.1:9"}}, {"roof", "vlp16", {"10.0.0.1:9"}}}),
+            "must give each sensor receivers of its own, \"roof\" others than 10.0.0.1:9");
+  EXPECT_EQ(fault({{"front", "railcast", {}}}), "must name each sensor once, \"roof\" too");
+  EXPECT_EQ(fault({{"front", "railcast", {}}, {"front", "vlp16", {}}}),
+            "must name each sensor once, \"front\" too");
+  EXPECT_EQ(fault({{"side", "railcast", {}}, {"roof", "vlp16", {}}}),
+            "must name sensors of the scenario, \"front\" or \"roof\", not \"side\"");
+  EXPECT_EQ(InterfacesFault({{}, "railcast", {{"a", "railcast", {}}}}, {}),
+            "must be left out with \"lidar\", which has but one sensor");
+}
+
+}  // namespace
+}  // namespace railcast
