@@ -25,7 +25,10 @@ GAUGE_BOTTOM_M = 0.35
 GAUGE_TOP_M = 4.5
 
 OBSTACLE_LENGTH_M = 1.0  # Points this near along the track are one thing.
-# Drops and flakes return from the first metres: nothing new is looked for there.
+# Drops and flakes are scattered: less than this share of what even a small thing would give.
+SMALLEST_M2 = 0.25
+LEAST_SHARE = 0.3
+# Fog stands in the first metres like a wall: nothing new is looked for there.
 NEAREST_M = 6.0
 STANDSTILL_MPS = 0.02
 PATIENCE_S = 5.0
@@ -107,13 +110,25 @@ class Train:
                     self.tell({"command": "step"})
 
 
-def things_ahead(points, front_m, min_points):
+def points_wanted(distance_m, options):
+    """How many points make a thing: a share of those that a small one would get if all returned."""
+    side_rad = math.radians(options.resolution)
+    hits = SMALLEST_M2 / (max(distance_m, 1.0) * side_rad) ** 2
+    return max(options.min_points, math.ceil(LEAST_SHARE * hits))
+
+
+def things_ahead(points, options):
     """How far ahead of the train's front enough points lie together in the gauge."""
-    along = sorted(x - front_m for x, y, z in points
-                   if x > front_m and abs(y) < GAUGE_HALF_WIDTH_M
+    along = sorted(x - options.front for x, y, z in points
+                   if x > options.front and abs(y) < GAUGE_HALF_WIDTH_M
                    and GAUGE_BOTTOM_M < z < GAUGE_TOP_M)
-    return [first for first, last in zip(along, along[min_points - 1:])
-            if last - first <= OBSTACLE_LENGTH_M]
+    ahead, end = [], 0
+    for first, distance_m in enumerate(along):
+        while end < len(along) and along[end] <= distance_m + OBSTACLE_LENGTH_M:
+            end += 1
+        if end - first >= points_wanted(distance_m, options):
+            ahead.append(distance_m)
+    return ahead
 
 
 class Lookout:
@@ -165,7 +180,7 @@ class Drive:
         return False
 
     def look(self, frame):
-        ahead_m = things_ahead(frame.points(), self.options.front, self.options.min_points)
+        ahead_m = things_ahead(frame.points(), self.options)
         places_m = [self.travelled_m + distance_m for distance_m in ahead_m]
         if self.braked_at_m is None:
             places_m = [place_m for place_m in places_m
@@ -214,8 +229,10 @@ def parse():
     parser.add_argument("--deceleration", type=float, default=1.0, help="m/s2 (default: 1)")
     parser.add_argument("--front", type=float, default=2.0,
                         help="m from the vehicle's origin to its front (default: 2)")
+    parser.add_argument("--resolution", type=float, default=0.25,
+                        help="deg between the sensor's beams (default: 0.25)")
     parser.add_argument("--min-points", type=int, default=4,
-                        help="together that make an obstacle (default: 4)")
+                        help="together that make an obstacle far away (default: 4)")
     parser.add_argument("--min-frames", type=int, default=3,
                         help="one after the other that confirm it (default: 3)")
     parser.add_argument("--max-travel", type=float, default=1000.0,
