@@ -15,7 +15,7 @@ import random
 import socket
 import sys
 
-from receive_stream import read_datagram
+from receive_stream import HEADER, read_datagram
 
 # Half the structure gauge of lines with 15 kV (EBO, Anlage 1). Ballast, rails and sleepers stay
 # below the box, the contact wire above it.
@@ -24,19 +24,25 @@ GAUGE_BOTTOM_M = 0.35
 GAUGE_TOP_M = 4.5
 
 OBSTACLE_LENGTH_M = 1.0  # Points this near along the track are one thing.
+# Drops and flakes return from the first metres: nothing new is looked for there.
+NEAREST_M = 6.0
 STANDSTILL_MPS = 0.02
 PATIENCE_S = 5.0
 
 
 class Frame:
-    """What has arrived of a frame."""
+    """What has arrived of a frame: points as (x, y, z)."""
 
-    def __init__(self, header):
-        self.key = (header.run, header.frame)
-        self.num_packets = header.packets
-        self.stamp_s = header.stamp_ns * 1e-9
-        self.position_m = (header.x, header.y, header.z)
+    def __init__(self, key, num_packets, head):
+        self.key = key
+        self.num_packets = num_packets
+        self.stamp_s = head[10] * 1e-9
+        self.position_m = head[18:21]
         self.points_of_packet = {}
+
+    def add(self, packet, names, points):
+        x, y, z = (names.index(axis) for axis in "xyz")
+        self.points_of_packet[packet] = [(point[x], point[y], point[z]) for point in points]
 
     def is_whole(self):
         return len(self.points_of_packet) == self.num_packets
@@ -84,44 +90,45 @@ class Train:
             self.tell({"command": "step"})
         while True:
             try:
-                header, points = read_datagram(self.stream.recv(2048))
+                datagram = self.stream.recv(2048)
             except socket.timeout:
                 sys.exit(f"no datagram for {PATIENCE_S:g} s")
-            if frame is None or (header.run, header.frame) != frame.key:
+            run, number, packet, num_packets, names, points = read_datagram(datagram)
+            if frame is None or (run, number) != frame.key:
                 self.num_lost += frame is not None and not frame.is_whole()
-                frame = Frame(header)
-            frame.points_of_packet[header.packet] = points
+                frame = Frame((run, number), num_packets, HEADER.unpack_from(datagram))
+            frame.add(packet, names, points)
             if frame.is_whole():
                 yield frame
                 if self.is_lockstep:
                     self.tell({"command": "step"})
 
 
-def nearest_obstacle(points, front_m, min_points):
-    """The distance ahead of the train's front at which enough points lie together, or None."""
-    along = sorted(point["x"] - front_m for point in points
-                   if point["x"] > front_m and abs(point["y"]) < GAUGE_HALF_WIDTH_M
-                   and GAUGE_BOTTOM_M < point["z"] < GAUGE_TOP_M)
-    for first, last in zip(along, along[min_points - 1:]):
-        if last - first <= OBSTACLE_LENGTH_M:
-            return first
-    return None
+def things_ahead(points, front_m, min_points):
+    """How far ahead of the train's front things stand in the gauge: where enough points lie together."""
+    along = sorted(x - front_m for x, y, z in points
+                   if x > front_m and abs(y) < GAUGE_HALF_WIDTH_M
+                   and GAUGE_BOTTOM_M < z < GAUGE_TOP_M)
+    return [first for first, last in zip(along, along[min_points - 1:])
+            if last - first <= OBSTACLE_LENGTH_M]
 
 
 class Lookout:
-    """Tells an obstacle from points that drops, flakes and noise make: it stays where it is."""
+    """Tells an obstacle from what drops, fog and noise feign: it stays where it is."""
 
     def __init__(self, min_frames):
-        self.places = collections.deque(maxlen=min_frames)
+        self.seen = collections.deque(maxlen=min_frames)
 
-    def confirm(self, travelled_m, distance_m):
-        """The distance of an obstacle seen here in frame after frame, or None."""
-        self.places.append(None if distance_m is None else travelled_m + distance_m)
-        if len(self.places) < self.places.maxlen or None in self.places:
+    def nearest(self, places_m):
+        """The nearest of these places at which something was in all the last frames, or None."""
+        self.seen.append(places_m)
+        if len(self.seen) < self.seen.maxlen:
             return None
-        if max(self.places) - min(self.places) > OBSTACLE_LENGTH_M:
-            return None
-        return distance_m
+        for place_m in places_m:
+            if all(any(abs(place_m - other) <= 0.5 * OBSTACLE_LENGTH_M for other in others)
+                   for others in self.seen):
+                return place_m
+        return None
 
 
 class Drive:
@@ -155,14 +162,22 @@ class Drive:
         return False
 
     def look(self, frame):
-        seen_m = nearest_obstacle(frame.points(), self.options.front, self.options.min_points)
-        distance_m = self.lookout.confirm(self.travelled_m, seen_m)
-        if distance_m is None:
+        ahead_m = things_ahead(frame.points(), self.options.front, self.options.min_points)
+        places_m = [self.travelled_m + distance_m for distance_m in ahead_m]
+        if self.braked_at_m is None:
+            places_m = [place_m for place_m in places_m
+                        if place_m - self.travelled_m > NEAREST_M]
+        else:
+            # Drops and fog stand still, too, once the train does.
+            places_m = [place_m for place_m in places_m
+                        if abs(place_m - self.obstacle_at_m) < 3.0 * OBSTACLE_LENGTH_M]
+        place_m = self.lookout.nearest(places_m)
+        if place_m is None:
             return
-        self.obstacle_at_m = self.travelled_m + distance_m
+        self.obstacle_at_m = place_m
         if self.braked_at_m is None:
             self.train.tell({"command": "brake", "deceleration_mps2": self.options.deceleration})
-            self.detected_m = distance_m
+            self.detected_m = place_m - self.travelled_m
             self.braked_at_m = self.travelled_m
             self.braked_speed_mps = self.speed_mps
 

@@ -12,8 +12,7 @@ TYPES = {2: "B", 4: "H", 6: "I", 7: "f"}  # u8, u16, u32, f32
 
 def read_datagram(datagram):
     """Raises ValueError, KeyError, IndexError or struct.error where it is none of ours."""
-    crc = int.from_bytes(datagram[-4:], "little")
-    if datagram[:5] != b"RCST\x01" or zlib.crc32(datagram[:-4]) != crc:
+    if datagram[:5] != b"RCST\x01" or zlib.crc32(datagram[:-4]).to_bytes(4, "little") != datagram[-4:]:
         raise ValueError("another protocol, or damaged")
     head = HEADER.unpack_from(datagram)
     _, _, _, header_size, run, _, _, frame, packet, num_packets = head[:10]
@@ -22,8 +21,8 @@ def read_datagram(datagram):
         types, end = types + TYPES[datagram[at]], at + 2 + datagram[at + 1]
         names.append(datagram[at + 2:end].decode("ascii"))
         at = end
-    points = struct.iter_unpack(types, datagram[header_size:-4])
-    return run, frame, packet, num_packets, names, list(points)
+    points = list(struct.iter_unpack(types, datagram[header_size:-4]))
+    return run, frame, packet, num_packets, names, points
 
 
 def report(number, packets, num_packets, axes):
@@ -33,28 +32,32 @@ def report(number, packets, num_packets, axes):
           f"nearest {nearest:.2f} m", flush=True)
 
 
-parser = argparse.ArgumentParser(description=__doc__)
-parser.add_argument("at", nargs="?", default="127.0.0.1:27400", metavar="HOST:PORT")
-parser.add_argument("--frames", type=int, default=-1, help="how many; default: until Ctrl-C")
-arguments = parser.parse_args()
-host, _, port = arguments.at.rpartition(":")
-listener = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-listener.bind((host, int(port)))
-print("listening at %s:%d" % listener.getsockname(), flush=True)
-current, last, frames, left = None, -1, {}, arguments.frames
-while left:
-    try:
-        run, frame, packet, num_packets, names, points = read_datagram(listener.recv(65536))
-        axes = [names.index(axis) for axis in "xyz"]
-    except (ValueError, KeyError, IndexError, struct.error):
-        continue
-    if run != current or frame + 8 < last:  # The sender began anew.
-        current, last, frames = run, -1, {}
-    if frame > last:
-        packets = frames.setdefault(frame, ({}, num_packets, axes))[0]
-        packets[packet] = points
-        # A frame is over with its last packet, or when a later one is over or two have begun.
-        over = frame if len(packets) == num_packets else -1
-        while left and frames and (min(frames) <= over or len(frames) > 2):
-            last, left = min(frames), left - 1
-            report(last, *frames.pop(last))
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("at", nargs="?", default="127.0.0.1:27400", metavar="HOST:PORT")
+    parser.add_argument("--frames", type=int, default=-1, help="how many; default: until Ctrl-C")
+    arguments = parser.parse_args()
+    host, _, port = arguments.at.rpartition(":")
+    listener = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    listener.bind((host, int(port)))
+    print("listening at %s:%d" % listener.getsockname(), flush=True)
+    current, last, frames, left = None, -1, {}, arguments.frames
+    while left:
+        try:
+            run, frame, packet, num_packets, names, points = read_datagram(listener.recv(65536))
+            axes = [names.index(axis) for axis in "xyz"]
+        except (ValueError, KeyError, IndexError, struct.error):
+            continue
+        if run != current or frame + 8 < last:  # The sender began anew.
+            current, last, frames = run, -1, {}
+        if frame > last:
+            packets = frames.setdefault(frame, ({}, num_packets, axes))[0]
+            packets[packet] = points
+            over = frame if len(packets) == num_packets else -1
+            while left and frames and (min(frames) <= over or len(frames) > 2):
+                last, left = min(frames), left - 1
+                report(last, *frames.pop(last))
+
+
+if __name__ == "__main__":
+    main()

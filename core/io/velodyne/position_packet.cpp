@@ -3,7 +3,6 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
-#include <cstring>
 
 #include "core/io/field_layout.h"
 #include "core/io/velodyne/velodyne_packet.h"
@@ -53,7 +52,7 @@ void AppendPositionPacket(std::int64_t time_ns, Datagrams& datagrams) {
   StoreAt<std::uint32_t>(packet + kClockPlace, MicrosecondsPastHour(time_ns));
   packet[kPulsePlace] = kPulseLocked;
   const std::string sentence = GprmcSentence(time_ns);
-  std::memcpy(packet + kSentencePlace, sentence.data(), sentence.size());
+  sentence.copy(packet + kSentencePlace, sentence.size());
   datagrams.items.push_back({.offset = offset,
                              .size = kPositionPacketSize,
                              .port = DatagramPort::kPosition,

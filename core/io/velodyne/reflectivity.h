@@ -18,7 +18,7 @@ inline constexpr float kIdealRetroreflector = 1000.0F;
   constexpr float kWhite = 100.0F;
   // Also where the intensity is NaN.
   if (!(intensity > 0.0F)) return 0;
-  if (intensity <= 1.0F) return static_cast<std::uint8_t>(intensity * kWhite + 0.5F);
+  if (intensity <= 1.0F) return static_cast<std::uint8_t>(std::lround(intensity * kWhite));
   const float share = std::log10(std::min(intensity, kIdealRetroreflector)) / 3.0F;
   return static_cast<std::uint8_t>(101.0F + 154.0F * std::min(share, 1.0F));
 }

@@ -146,7 +146,8 @@ std::optional<std::string> VelodyneDecoder::Decode(std::span<const char> payload
   const std::int64_t packet_ns = PacketNs(LoadAt<std::uint32_t>(payload.data() + kTimePlace));
   for (std::size_t i = 0; i < kBlocksPerPacket; i += in_group) {
     const char* const blocks = payload.data() + i * kBlockSize;
-    const double since_packet_us = static_cast<double>(i / in_group) * group_us;
+    const std::size_t group_index = i / in_group;
+    const double since_packet_us = static_cast<double>(group_index) * group_us;
     const Group group{.blocks = blocks,
                       .azimuth = AzimuthOf(blocks),
                       .time_ns = packet_ns + std::llround(since_packet_us * 1e3),

@@ -105,7 +105,9 @@ class VelodyneEncoder final : public FrameEncoder {
         const std::size_t block = place_in_block / kLasersPerBlock;
         char* const place = blocks + block * kBlockSize + kReturnsPlace +
                             place_in_block % kLasersPerBlock * kReturnSize;
-        StoreFiring(frame, rows_[laser] * std::size_t{frame.width()} + c * frame.returns, place);
+        StoreFiring(frame,
+                    rows_[laser] * std::size_t{frame.width()} + std::size_t{c} * frame.returns,
+                    place);
       }
     }
     num_blocks_ += num_blocks;

@@ -63,9 +63,10 @@ VelodyneModel Vlp32c() {
                       .cycle_us = 55.296,
                       .lasers = {}};
   for (std::size_t laser = 0; laser < kElevations_deg.size(); ++laser) {
+    const std::size_t pair = laser / 2;
     model.lasers.push_back({.elevation_deg = kElevations_deg[laser],
                             .azimuth_deg = kAzimuths_deg[laser],
-                            .time_us = 2.304 * static_cast<double>(laser / 2)});
+                            .time_us = 2.304 * static_cast<double>(pair)});
   }
   return model;
 }
@@ -82,10 +83,11 @@ VelodyneModel Hdl64e() {
                       .lasers = {}};
   for (std::size_t laser = 0; laser < 64; ++laser) {
     const std::size_t in_block = laser % kLasersPerBlock;
+    const std::size_t group = in_block / 4;
     model.lasers.push_back(
         {.elevation_deg = 0.0,
          .azimuth_deg = 0.0,
-         .time_us = 6.0 * static_cast<double>(in_block / 4) + kInGroup_us[in_block % 4]});
+         .time_us = 6.0 * static_cast<double>(group) + kInGroup_us[in_block % 4]});
   }
   return model;
 }
@@ -93,14 +95,14 @@ VelodyneModel Hdl64e() {
 }  // namespace
 
 VelodyneFormat FindVelodyneFormat(std::string_view name) {
-  static const VelodyneModel kVlp16 = Vlp16();
-  static const VelodyneModel kHdl32e = Hdl32e();
-  static const VelodyneModel kVlp32c = Vlp32c();
-  static const VelodyneModel kHdl64e = Hdl64e();
+  static const VelodyneModel vlp16 = Vlp16();
+  static const VelodyneModel hdl32e = Hdl32e();
+  static const VelodyneModel vlp32c = Vlp32c();
+  static const VelodyneModel hdl64e = Hdl64e();
   for (const VelodyneFormat& format :
-       {VelodyneFormat{"vlp16", &kVlp16, false}, VelodyneFormat{"vlp16-dual", &kVlp16, true},
-        VelodyneFormat{"hdl32e", &kHdl32e, false}, VelodyneFormat{"vlp32c", &kVlp32c, false},
-        VelodyneFormat{"hdl64e", &kHdl64e, false}}) {
+       {VelodyneFormat{"vlp16", &vlp16, false}, VelodyneFormat{"vlp16-dual", &vlp16, true},
+        VelodyneFormat{"hdl32e", &hdl32e, false}, VelodyneFormat{"vlp32c", &vlp32c, false},
+        VelodyneFormat{"hdl64e", &hdl64e, false}}) {
     if (format.name == name) return format;
   }
   throw InputError("must be vlp16, vlp16-dual, hdl32e, vlp32c or hdl64e (got \"" +
