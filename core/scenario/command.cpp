@@ -29,6 +29,13 @@ struct Names<std::variant<Ts...>> {
 
 constexpr double kMaxId = 0x1p53;  // JSON's numbers are doubles to most programs.
 
+bool IsControl(char letter) {
+  const auto code = static_cast<unsigned char>(letter);
+  constexpr unsigned char kSpace = 0x20;
+  constexpr unsigned char kDelete = 0x7F;
+  return code < kSpace || code == kDelete;
+}
+
 // A hostile line may have hundreds of faults; who sent it needs the first few.
 std::vector<std::string> FirstFew(std::vector<std::string> faults) {
   constexpr std::size_t kMaxFaults = 8;
@@ -39,6 +46,8 @@ std::vector<std::string> FirstFew(std::vector<std::string> faults) {
     faults.push_back("command: " + std::to_string(num_more) + " more");
   }
   for (std::string& fault : faults) {
+    // A key may hold anything, but a fault is one line.
+    std::replace_if(fault.begin(), fault.end(), IsControl, '?');
     if (fault.size() <= kMaxLength) continue;
     std::size_t end = kMaxLength;
     // Not within a letter of several bytes.

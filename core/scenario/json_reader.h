@@ -114,9 +114,7 @@ void ReadValue(JsonSource& source,
 /// An element of a list is written in place: most may not be a file.
 template <class T>
 void ReadElement(JsonSource& source, const Node& node, T& value) {
-  if constexpr (kIsArray<T>) {
-    ReadValue(source, node, value, Anything{});
-  } else if constexpr (kElementMayBeFile<T>) {
+  if constexpr (kIsArray<T> || kElementMayBeFile<T>) {
     ReadValue(source, node, value, Anything{});
   } else if (auto list = source.PlainMembers(node)) {
     ReadMembers(source, node, std::move(*list), value);

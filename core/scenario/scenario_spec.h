@@ -56,8 +56,7 @@ struct ToleranceSpec {
 struct SensorInterface {
   std::string sensor;                 ///< Its name.
   std::string protocol = "railcast";  ///< One of ProtocolNames().
-  std::vector<std::string>
-      udp;  ///< host:port of each receiver; see ReceiversOf().
+  std::vector<std::string> udp;       ///< host:port of each receiver; see ReceiversOf().
 
   bool operator==(const SensorInterface&) const = default;
 };

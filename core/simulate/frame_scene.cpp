@@ -71,6 +71,7 @@ void FrameScenes::UseWorld(std::shared_ptr<const World> world) {
   objects_ = std::move(objects);
   more_surfaces_ = std::move(more_surfaces);
   world_ = std::move(world);
+  store_->ForgetUnusedModels();
 }
 
 FrameScene FrameScenes::At(std::uint32_t index, std::int64_t stamp_ns) {

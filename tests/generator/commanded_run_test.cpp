@@ -224,6 +224,19 @@ TEST(CommandedRun, StartsAnewWhenItIsReset) {
   EXPECT_EQ(run.commanded.StateAt(0).world->objects().back().instance, 4U);
 }
 
+TEST(CommandedRun, KeepsNothingOfAnObjectThatIsGone) {
+  OwnedRun run;
+  run.commanded.Apply(Place("bob", 420.0), 0);
+  static_cast<void>(run.Scan(0, 0));
+  static_cast<void>(run.Scan(1, 0));
+  const std::weak_ptr<const Model> model = run.commanded.StateAt(0).world->objects().back().model;
+  run.commanded.Apply(Reset{}, 0);
+  static_cast<void>(run.Scan(0, 0));
+  EXPECT_FALSE(model.expired());
+  static_cast<void>(run.Scan(1, 0));
+  EXPECT_TRUE(model.expired());
+}
+
 TEST(CommandedRun, RefusesACommandAndChangesNothing) {
   OwnedRun run;
   run.commanded.Apply(Place("bob", 420.0), kFrame_ns);

@@ -135,6 +135,11 @@ TEST(Command, SurvivesHostileLines) {
   EXPECT_EQ(FaultsOf(std::string("\0{}", 3)).find("command: line 1, column 1: "), 0U);
 }
 
+TEST(Command, SaysEachFaultOnOneLine) {
+  EXPECT_EQ(FaultsOf(R"({"command": "stop", "a\nb\u0000\u001b": 1})"),
+            "command: /a?b??: unknown key, must be \"id\" or \"command\"");
+}
+
 TEST(Command, AnswersManyFaultsInFewWords) {
   std::string line = R"({"command": "stop")";
   for (int i = 0; i < 500; ++i) line += ", \"k" + std::to_string(i) + "\": 1";

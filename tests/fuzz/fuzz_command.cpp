@@ -1,0 +1,37 @@
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "core/base/error.h"
+#include "core/scenario/command.h"
+
+namespace railcast {
+namespace {
+
+void ReadLine(std::string_view line) {
+  const CommandLine read = ReadCommand(line);
+  Check(read.command.has_value() == read.faults.empty(), "a line is a command or has a fault");
+  Check(read.faults.size() <= 9, "faults are few");
+  for (const std::string& fault : read.faults) {
+    Check(fault.starts_with("command: ") && fault.size() <= 303, "a fault is short");
+    Check(fault.find('\n') == std::string::npos, "a fault is one line");
+  }
+  if (!read.command) return;
+  const std::string written = WriteCommand(*read.command, read.id);
+  Check(written.find('\n') == std::string::npos, "a command is one line");
+  const CommandLine again = ReadCommand(written);
+  // What was short may be long with every default in place.
+  if (written.size() > kMaxCommandBytes) return;
+  Check(again.faults.empty(), "what is written can be read");
+  Check(again.command == read.command && again.id == read.id, "and says the same");
+}
+
+}  // namespace
+}  // namespace railcast
+
+/// What libFuzzer calls: a datagram of the command channel, or a line of a log's command.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  railcast::ReadLine({reinterpret_cast<const char*>(data), size});
+  return 0;
+}
