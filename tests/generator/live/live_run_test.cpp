@@ -188,7 +188,7 @@ TEST(LiveRun, TakesSeveralSensorsInTheOrderOfTheirStamps) {
     return NextFrames::kMake;
   };
   const auto records =
-      RunLive(Lasting(kSecond_ns / 5), {slow.Live("slow"), fast.Live("fast")}, hooks, clock);
+      RecordsOf(Lasting(kSecond_ns / 5), {slow.Live("slow"), fast.Live("fast")}, hooks, clock);
   EXPECT_EQ(records[0].frames, 2U);
   EXPECT_EQ(records[1].frames, 4U);
   EXPECT_EQ(stamps_ns, (std::vector<std::int64_t>{0, 50'000'000, 100'000'000, 150'000'000}));
