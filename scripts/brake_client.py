@@ -31,6 +31,7 @@ LEAST_SHARE = 0.3
 # Fog stands in the first metres like a wall: nothing new is looked for there.
 NEAREST_M = 6.0
 STANDSTILL_MPS = 0.02
+AXES_FLAGS, VEHICLE_AXES = 0b1110, 0b0010  # docs/stream.md
 PATIENCE_S = 5.0
 
 
@@ -100,6 +101,8 @@ class Train:
             except socket.timeout:
                 sys.exit(f"no datagram for {PATIENCE_S:g} s")
             head, names, points = read_datagram(datagram)
+            if head[2] & AXES_FLAGS != VEHICLE_AXES:
+                sys.exit("the points are not in vehicle axes: set the scenario's output.frame")
             if frame is None or not frame.has(head):
                 self.num_lost += frame is not None and not frame.is_whole()
                 frame = Frame(head)

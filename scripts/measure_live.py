@@ -36,11 +36,17 @@ class Bench:
         self.folder = folder
 
     def scenario(self, lidar):
-        """The demo scenario with another sensor, on a longer drive."""
+        """The demo scenario with another sensor, a longer drive, and nothing in its way."""
+        demo = json.loads((SCENARIOS / "st_gallen_approach.json").read_text(encoding="utf-8"))
+        world = demo["world"]
+        world["alignment"] = str(SCENARIOS / world["alignment"])
+        world["objects"] = [each for each in world["objects"]
+                            if "motion" not in each and each["name"] != "foul_wagon"]
         file = self.folder / "scenario.json"
         file.write_text(json.dumps({
             "version": 1, "file": str(SCENARIOS / "st_gallen_approach.json"), "lidar": lidar,
-            "vehicle": {"track": "main", "start_s_m": 2190,
+            "world": world,
+            "vehicle": {"start_s_m": 2190,
                         "motion": {"profile": [{"time_s": 0, "speed_mps": 11.1}]}}}))
         return file
 

@@ -5,33 +5,29 @@
 #include "core/base/error.h"
 #include "core/io/stream/stream_encoder.h"
 #include "core/io/velodyne/velodyne_encoder.h"
+#include "core/io/velodyne/velodyne_packet.h"
 #include "core/scenario/scenario.h"
 
 namespace railcast {
-namespace {
-
-constexpr std::uint16_t kPositionPort = 8308;
-
-}  // namespace
-
 SensorStream::SensorStream(SensorStreamSpec spec,
                            const ScenarioSpec& scenario,
                            const ScanPattern& pattern,
                            std::uint32_t run)
     : spec_(std::move(spec)),
       lidar_(scenario.lidar),
+      output_(scenario.output),
       pattern_(pattern),
       encoder_(MakeEncoder(run)) {
   if (!spec_.to.empty()) {
     try {
-      sender_ = std::make_unique<UdpSender>(spec_.to, kPositionPort);
+      sender_ = std::make_unique<UdpSender>(spec_.to, kVelodynePositionPort);
     } catch (const InputError& error) {
       throw InputError("receivers of " + spec_.name + ": " + error.what());
     }
   }
   if (spec_.pcap) {
-    capture_ =
-        std::make_unique<PcapWriter>(*spec_.pcap, DefaultPort(spec_.protocol), kPositionPort);
+    capture_ = std::make_unique<PcapWriter>(*spec_.pcap, DefaultPort(spec_.protocol),
+                                            kVelodynePositionPort);
   }
 }
 
@@ -41,6 +37,7 @@ std::unique_ptr<FrameEncoder> SensorStream::MakeEncoder(std::uint32_t run) const
   }
   return std::make_unique<StreamEncoder>(pattern_, StreamSpec{.fields = spec_.fields,
                                                               .has_all_slots = spec_.has_all_slots,
+                                                              .output = output_,
                                                               .sensor = spec_.sensor,
                                                               .run = run});
 }

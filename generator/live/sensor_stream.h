@@ -60,6 +60,7 @@ class SensorStream {
 
   SensorStreamSpec spec_;
   LidarSpec lidar_;
+  OutputSpec output_;
   ScanPattern pattern_;
   std::unique_ptr<FrameEncoder> encoder_;
   std::unique_ptr<UdpSender> sender_;    ///< Null if nobody receives.

@@ -115,7 +115,9 @@ std::optional<StreamFault> FaultOfWhole(std::span<const char> bytes) {
   if (Get<std::array<char, 4>>(bytes.data()) != kMagic) return StreamFault::kMagic;
   if (Get<std::uint8_t>(&bytes[kVersionAt]) != kVersion) return StreamFault::kVersion;
   if (!IsChecksumRight(bytes)) return StreamFault::kChecksum;
-  if (Get<std::uint8_t>(&bytes[kFlagsAt]) > kAllSlotsFlag) return StreamFault::kVersion;
+  const auto flags = Get<std::uint8_t>(&bytes[kFlagsAt]);
+  const bool has_axes = (flags >> kAxesShift & kAxesMask) <= static_cast<int>(StreamAxes::kWorld);
+  if (flags > kAllFlags || !has_axes) return StreamFault::kVersion;
   const std::size_t header_size = Get<std::uint16_t>(&bytes[kHeaderSizeAt]);
   const std::size_t points_size = std::size_t{Get<std::uint16_t>(&bytes[kDatagramPointsAt])} *
                                   Get<std::uint16_t>(&bytes[kPointSizeAt]);
@@ -168,7 +170,10 @@ bool DescribeOneFrame(std::span<const char> header_a, std::span<const char> head
 StreamHeader ReadStreamHeader(std::span<const char> header) {
   StreamHeader read;
   const char* const from = header.data();
-  read.has_all_slots = (Get<std::uint8_t>(from + kFlagsAt) & kAllSlotsFlag) != 0;
+  const auto flags = Get<std::uint8_t>(from + kFlagsAt);
+  read.has_all_slots = (flags & kAllSlotsFlag) != 0;
+  read.axes = static_cast<StreamAxes>(flags >> kAxesShift & kAxesMask);
+  read.is_left_handed = (flags & kLeftHandedFlag) != 0;
   read.run = Get<std::uint32_t>(from + kRunAt);
   read.sensor = Get<std::uint16_t>(from + kSensorAt);
   read.frame = Get<std::uint32_t>(from + kFrameAt);

@@ -26,6 +26,16 @@ constexpr StreamType TypeOf() {
   if constexpr (std::is_same_v<Stored, std::uint32_t>) return StreamType::kU32;
 }
 
+std::uint8_t FlagsOf(const StreamSpec& spec) {
+  const auto axes = spec.output.frame == "world"     ? StreamAxes::kWorld
+                    : spec.output.frame == "vehicle" ? StreamAxes::kVehicle
+                                                     : StreamAxes::kSensor;
+  unsigned flags = static_cast<unsigned>(axes) << kAxesShift;
+  if (spec.has_all_slots) flags |= kAllSlotsFlag;
+  if (spec.output.handedness == "left") flags |= kLeftHandedFlag;
+  return static_cast<std::uint8_t>(flags);
+}
+
 void PutPose(char* place, const Transform& world_from_sensor) {
   const Eigen::Quaterniond q(world_from_sensor.linear());
   const Vector3 position_m = world_from_sensor.translation();
@@ -67,7 +77,7 @@ StreamEncoder::StreamEncoder(const ScanPattern& pattern, const StreamSpec& spec)
   char* const header = header_.data();
   Put(header + kMagicAt, kMagic);
   Put(header + kVersionAt, kVersion);
-  Put<std::uint8_t>(header + kFlagsAt, spec.has_all_slots ? kAllSlotsFlag : 0);
+  Put(header + kFlagsAt, FlagsOf(spec));
   Put(header + kHeaderSizeAt, static_cast<std::uint16_t>(header_.size()));
   Put(header + kRunAt, spec.run);
   Put(header + kSensorAt, spec.sensor);

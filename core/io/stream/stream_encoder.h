@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/frame/output_spec.h"
 #include "core/io/datagrams.h"
 #include "core/io/field_selection.h"
 #include "core/scan/scan_pattern.h"
@@ -13,6 +14,7 @@ namespace railcast {
 struct StreamSpec {
   FieldSelection fields{"x,y,z,intensity,ring,time_ns,label,instance"};
   bool has_all_slots = false;  ///< Else only the returned points are sent.
+  OutputSpec output{};         ///< Of the frames.
   std::uint16_t sensor{};      ///< Of the vehicle.
   std::uint32_t run{};         ///< Larger at each restart: frame numbers begin anew.
 };

@@ -42,9 +42,14 @@ struct StreamField {
   std::uint16_t offset{};  ///< In a point's bytes.
 };
 
+/// In whose axes points are (OutputSpec::frame).
+enum class StreamAxes : std::uint8_t { kSensor = 0, kVehicle = 1, kWorld = 2 };
+
 /// What all datagrams of a frame say alike.
 struct StreamHeader {
   bool has_all_slots{};    ///< Else only the returned points are sent.
+  StreamAxes axes{};       ///< Of x, y, z; the world's less OutputSpec::origin_m.
+  bool is_left_handed{};   ///< y is negated.
   std::uint32_t run{};     ///< Another one: the sender began anew, and so do frame numbers.
   std::uint16_t sensor{};  ///< Of the vehicle.
   std::uint32_t frame{};

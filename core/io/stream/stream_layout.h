@@ -13,7 +13,13 @@ static_assert(std::endian::native == std::endian::little);
 
 inline constexpr std::array<char, 4> kMagic = {'R', 'C', 'S', 'T'};
 inline constexpr std::uint8_t kVersion = 1;
+
+// Of the flags: whether all slots are sent, two bits that are a StreamAxes, and handedness.
 inline constexpr std::uint8_t kAllSlotsFlag = 1;
+inline constexpr unsigned kAxesShift = 1;
+inline constexpr std::uint8_t kAxesMask = 3;
+inline constexpr std::uint8_t kLeftHandedFlag = 8;
+inline constexpr std::uint8_t kAllFlags = 15;
 
 /// Where each part of a datagram's header is; docs/stream.md explains them.
 inline constexpr std::size_t kMagicAt = 0;

@@ -136,12 +136,15 @@ void UdpGrabber::Emit(const std::shared_ptr<const ReceivedFrame>& frame) {
           axes, [&](std::string_view axis) { return Sends(header, axis, StreamType::kF32); })) {
     return;
   }
-  EmitPoints<pcl::PointXYZ>(*cloud, header.world_from_sensor);
+  // In other axes than the sensor's there is no such pose.
+  const bool has_pose = header.axes == StreamAxes::kSensor && !header.is_left_handed;
+  const Transform pose = has_pose ? header.world_from_sensor : Transform::Identity();
+  EmitPoints<pcl::PointXYZ>(*cloud, pose);
   if (Sends(header, "intensity", StreamType::kF32)) {
-    EmitPoints<pcl::PointXYZI>(*cloud, header.world_from_sensor);
+    EmitPoints<pcl::PointXYZI>(*cloud, pose);
   }
   if (Sends(header, "label", StreamType::kU32)) {
-    EmitPoints<pcl::PointXYZL>(*cloud, header.world_from_sensor);
+    EmitPoints<pcl::PointXYZL>(*cloud, pose);
   }
 }
 

@@ -28,7 +28,8 @@ namespace railcast {
 ///
 /// Clouds hold the points that arrived, also of incomplete frames. header.stamp is in microseconds,
 /// header.seq the frame number; sensor_origin_ and sensor_orientation_ are the pose at the stamp in
-/// the world, float32 as PCL has them (the ReceivedFrame's is double).
+/// the world, float32 as PCL has them (the ReceivedFrame's is double); the identity where points
+/// are in other axes than the sensor's.
 ///
 /// A callback that is too slow loses frames (counts().dropped_frames), never memory.
 class UdpGrabber : public pcl::Grabber {

@@ -60,7 +60,8 @@ TEST(CheckStreamDatagram, RefusesEverySingleWrongBit) {
 
 TEST(CheckStreamDatagram, RefusesOtherVersionsAndFlags) {
   EXPECT_EQ(FaultOf(With<std::uint8_t>(First(), 4, 2)), "version");
-  EXPECT_EQ(FaultOf(With<std::uint8_t>(First(), 5, 2)), "version");
+  EXPECT_EQ(FaultOf(With<std::uint8_t>(First(), 5, 6)), "version");   // No such axes.
+  EXPECT_EQ(FaultOf(With<std::uint8_t>(First(), 5, 16)), "version");  // No such flag.
 }
 
 TEST(CheckStreamDatagram, RefusesSizesThatDoNotAddUp) {

@@ -65,6 +65,20 @@ TEST(StreamEncoder, SaysWhatTheFrameIs) {
   EXPECT_EQ(header.world_from_sensor_end.translation(), frame.world_from_sensor_end.translation());
 }
 
+TEST(StreamEncoder, SaysWhoseAxesItsPointsAreIn) {
+  const auto header_of = [](const std::string& frame, const std::string& handedness) {
+    StreamSpec spec;
+    spec.output.frame = frame;
+    spec.output.handedness = handedness;
+    return ReceiveWhole(StreamFrame(1), spec).header;
+  };
+  EXPECT_EQ(header_of("sensor", "right").axes, StreamAxes::kSensor);
+  EXPECT_EQ(header_of("vehicle", "right").axes, StreamAxes::kVehicle);
+  EXPECT_EQ(header_of("world", "left").axes, StreamAxes::kWorld);
+  EXPECT_TRUE(header_of("world", "left").is_left_handed);
+  EXPECT_FALSE(header_of("world", "right").is_left_handed);
+}
+
 TEST(StreamEncoder, FillsDatagramsOfOneSizeUpTo1400Bytes) {
   const Datagrams datagrams = EncodeOne(StreamFrame(0));
   ASSERT_GT(datagrams.items.size(), 3U);

@@ -93,6 +93,18 @@ TEST(UdpGrabber, ServesAnyClientOfPcl) {
   EXPECT_FALSE(grabber.isRunning());
 }
 
+TEST(UdpGrabber, GivesNoPoseForPointsInOtherAxes) {
+  UdpGrabber grabber(kAnyLoopbackPort);
+  Client<Xyz> xyz(grabber);
+  grabber.start();
+  StreamSpec spec;
+  spec.output.frame = "vehicle";
+  LiveStream(grabber.at(), spec).Send(9);
+  const auto points = xyz.WaitFor(1);
+  EXPECT_EQ(points->sensor_origin_, Eigen::Vector4f::Zero());
+  EXPECT_TRUE(points->sensor_orientation_.isApprox(Eigen::Quaternionf::Identity()));
+}
+
 TEST(UdpGrabber, GivesNoIntensityThatWasNotSent) {
   UdpGrabber grabber(kAnyLoopbackPort);
   Client<Xyz> xyz(grabber);

@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# Approaches a standing wagon and a person in clear air, rain and fog, and prints what comes of it:
+# the table of docs/live.md. Every run is in lockstep and gives the same figures each time.
+#
+# Usage: scripts/brake_runs.sh [BUILD_DIR]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+build=${1:-build/release}
+
+for scenario in brake_wagon brake_person; do
+  for weather in clear heavy_rain thick_fog; do
+    "$build/generator/railcast-generate" stream "scenarios/$scenario.json" --lockstep \
+      --fields x,y,z --commands-port 27401 >/dev/null &
+    simulation=$!
+    trap 'kill "$simulation" 2>/dev/null' EXIT
+    options=()
+    [[ $weather == clear ]] || options=(--weather "scenarios/weather/$weather.json")
+    printf '%-13s %-11s ' "$scenario" "$weather"
+    scripts/brake_client.py --lockstep "${options[@]}" || true
+    kill -INT "$simulation"
+    wait "$simulation"
+  done
+done
