@@ -102,14 +102,6 @@ const CommandedRun::State& CommandedRun::StateAt(std::int64_t time_ns) const {
   return *(after - 1);
 }
 
-void CommandedRun::CheckAt(std::int64_t time_ns) const {
-  std::int64_t duration_ns = 0;
-  for (const Simulator* simulator : simulators_) {
-    duration_ns = std::max<std::int64_t>(duration_ns, simulator->pattern().time_ns.back());
-  }
-  CheckStaysOnTracks(scenario_, *StateAt(time_ns).world, time_ns, time_ns + duration_ns);
-}
-
 Simulator& CommandedRun::At(std::size_t sensor, std::uint32_t frame_index) {
   Simulator& simulator = *simulators_.at(sensor);
   const State& state = StateAt(simulator.pattern().StampNs(frame_index));

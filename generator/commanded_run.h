@@ -37,10 +37,6 @@ class CommandedRun {
   /// @throws InputError if the vehicle or an object leaves its track in that frame.
   [[nodiscard]] Simulator& At(std::size_t sensor, std::uint32_t frame_index);
 
-  /// @throws InputError if the vehicle or an object leaves its track in a frame that a sensor
-  ///   begins at `time_ns`; then At() throws too.
-  void CheckAt(std::int64_t time_ns) const;
-
   /// What holds for frames stamped at `time_ns`.
   struct State {
     std::int64_t time_ns{};  ///< Since when.

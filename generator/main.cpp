@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/scenario/effects.h"
+#include "core/scenario/scenario.h"
 #include "generator/commands.h"
 
 namespace {
@@ -57,7 +58,7 @@ void AddStream(CLI::App& app, StreamOptions& options, std::function<int()>& comm
                    "this machine. Everybody on the network is 255.255.255.255")
       ->allow_extra_args(false);
   stream->add_option("--protocol", options.protocol, "Instead of the scenario's")
-      ->check(CLI::IsMember({"railcast", "vlp16", "vlp16-dual", "hdl32e", "vlp32c", "hdl64e"}));
+      ->check(CLI::IsMember(railcast::ProtocolNames()));
   stream
       ->add_option("--fields", options.fields,
                    "Protocol railcast: fields separated by commas, or all")

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <iostream>
@@ -69,11 +70,26 @@ std::vector<Endpoint> ReceiversOf(const StreamOptions& options,
   const bool is_told = !options.to.empty();
   const std::string place = is_told ? "--to" : "/interfaces/udp";
   std::vector<Endpoint> receivers;
-  for (const std::string& to : is_told ? options.to : interfaces.udp) {
+  for (const std::string& to : ReceiversOf({{}, protocol, is_told ? options.to : interfaces.udp})) {
     receivers.push_back(AsOption(place, [&] { return ParseEndpoint(to, DefaultPort(protocol)); }));
   }
-  if (receivers.empty()) receivers.push_back(ParseEndpoint("127.0.0.1", DefaultPort(protocol)));
   return receivers;
+}
+
+/// A receiver takes datagrams of one sensor.
+void CheckPortsDiffer(const std::vector<SensorStreamSpec>& streams) {
+  for (std::size_t i = 0; i < streams.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      for (const Endpoint& to : streams[i].to) {
+        if (std::find(streams[j].to.begin(), streams[j].to.end(), to) == streams[j].to.end()) {
+          continue;
+        }
+        throw InputError("/interfaces/sensors: each sensor must have receivers of its own (got " +
+                         EndpointText(to) + " for " + streams[j].name + " and " + streams[i].name +
+                         ")");
+      }
+    }
+  }
 }
 
 std::vector<SensorStreamSpec> PlanStreams(const StreamOptions& options,
@@ -91,6 +107,7 @@ std::vector<SensorStreamSpec> PlanStreams(const StreamOptions& options,
                        .fields = FieldSelection(options.fields),
                        .has_all_slots = options.has_all_slots});
   }
+  CheckPortsDiffer(streams);
   return streams;
 }
 
@@ -111,8 +128,10 @@ void WriteCalibration(const std::filesystem::path& file,
 /// Tells this start from those before; what nobody hears live is the same each time.
 std::uint32_t RunNumber(const StreamOptions& options) {
   if (IsOffline(options)) return 0;
+  // In milliseconds, so that however many resets there were, a later start has a later number.
   const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return static_cast<std::uint32_t>(std::chrono::duration_cast<std::chrono::seconds>(now).count());
+  return static_cast<std::uint32_t>(
+      std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
 }
 
 std::string Describe(const std::vector<SensorStreamSpec>& streams) {
@@ -120,7 +139,8 @@ std::string Describe(const std::vector<SensorStreamSpec>& streams) {
   for (const SensorStreamSpec& stream : streams) {
     text += stream.name + ": " + stream.protocol;
     for (const Endpoint& to : stream.to) text += " to " + EndpointText(to);
-    if (stream.pcap) text += " into " + stream.pcap->string();
+    if (stream.to.empty()) text += " to nobody";
+    if (stream.pcap) text += ", into " + stream.pcap->string();
     text += "\n";
   }
   return text;
@@ -187,6 +207,7 @@ int StreamCommand(const StreamOptions& options) {
   LiveClock& clock = IsOffline(options) ? static_cast<LiveClock&>(jumping) : monotonic;
   const LiveResult result = RunLive(RunSpecOf(options), streams.Sensors(), hooks, clock);
   line.End();
+  if (commands) commands->End(result.fault.value_or("the run has ended"));
   streams.Finish();
   std::cout << LiveSummary(result.records, streams.Delivered(), !clock.jumps());
   if (channel && channel->num_strangers() > 0) {

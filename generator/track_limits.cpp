@@ -96,17 +96,6 @@ void CheckStaysOnTracks(const ScenarioSpec& scenario,
   errors.ThrowIfAny();
 }
 
-void CheckStaysOnTracks(const ScenarioSpec& scenario,
-                        const RailWorld& world,
-                        std::int64_t begin_ns,
-                        std::int64_t end_ns) {
-  ErrorList errors;
-  for (const Traveller& traveller : TravellersOf(scenario, world)) {
-    if (!traveller.IsOnTrack(end_ns)) errors.Add(traveller.Leaves(SecondsText(begin_ns)));
-  }
-  errors.ThrowIfAny();
-}
-
 void CheckStaysOnTracks(const CommandedRun& run,
                         const ScanPattern& pattern,
                         std::uint32_t first_frame,

@@ -20,12 +20,6 @@ void CheckStaysOnTracks(const ScenarioSpec& scenario,
                         std::uint32_t first_frame,
                         std::uint32_t last_frame);
 
-/// The same between two moments: "... at 5.4 s".
-void CheckStaysOnTracks(const ScenarioSpec& scenario,
-                        const RailWorld& world,
-                        std::int64_t begin_ns,
-                        std::int64_t end_ns);
-
 /// The same of a run's worlds, each for the frames that it holds for.
 void CheckStaysOnTracks(const CommandedRun& run,
                         const ScanPattern& pattern,

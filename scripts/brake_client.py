@@ -13,8 +13,11 @@ import collections
 import json
 import math
 import random
+import select
 import socket
+import struct
 import sys
+import time
 
 from receive_stream import read_datagram
 
@@ -32,7 +35,8 @@ LEAST_SHARE = 0.3
 NEAREST_M = 6.0
 STANDSTILL_MPS = 0.02
 AXES_FLAGS, VEHICLE_AXES = 0b1110, 0b0010  # docs/stream.md
-PATIENCE_S = 5.0
+PATIENCE_S = 60.0
+RETRY_S = 0.5
 
 
 class Frame:
@@ -44,8 +48,13 @@ class Frame:
         self.position_m = head[18:21]
         self.points_of_packet = {}
 
-    def has(self, head):
-        return (head[4], head[7]) == (self.run, self.number)
+    def is_before(self, head):
+        return (self.run, self.number) < (head[4], head[7])
+
+    def lacks(self, head):
+        """Whether this datagram is one of its own that is not there yet."""
+        is_own = (self.run, self.number) == (head[4], head[7])
+        return is_own and head[8] not in self.points_of_packet
 
     def add(self, head, names, points):
         x, y, z = (names.index(axis) for axis in "xyz")
@@ -65,52 +74,79 @@ class Train:
         self.stream = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self.stream.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 24)
         self.stream.bind(options.stream)
-        self.stream.settimeout(PATIENCE_S)
         self.controls = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        self.controls.settimeout(0.5)
         self.to = options.commands
         self.is_lockstep = options.lockstep
         self.next_id = random.randrange(1 << 40)
+        self.coming = None  # The frame whose datagrams arrive.
+        self.whole = collections.deque()
         self.num_lost = 0
 
     def tell(self, command):
-        """Sends a command until it is answered, and gives the answer."""
+        """Sends a command until it is answered, and reads the stream meanwhile."""
         self.next_id += 1
         line = json.dumps({"id": self.next_id, **command}).encode()
-        for _ in range(20):
+        end_s = time.monotonic() + PATIENCE_S
+        while time.monotonic() < end_s:
             self.controls.sendto(line, self.to)
-            try:
-                while True:
-                    answer = json.loads(self.controls.recv(65536))
-                    if answer.get("id") == self.next_id:
-                        if not answer["ok"]:
-                            sys.exit("refused: " + "; ".join(answer["faults"]))
-                        return answer
-            except (socket.timeout, ConnectionRefusedError):
-                pass
+            again_s = time.monotonic() + RETRY_S
+            while time.monotonic() < again_s:
+                if self.receive(RETRY_S):
+                    return
         sys.exit(f"no answer from {self.to[0]}:{self.to[1]}")
 
     def frames(self):
         """Gives one frame after the other as soon as it is whole; others are counted as lost."""
-        frame = None
-        if self.is_lockstep:
-            self.tell({"command": "step"})
-        while True:
-            try:
-                datagram = self.stream.recv(2048)
-            except socket.timeout:
-                sys.exit(f"no datagram for {PATIENCE_S:g} s")
+        end_s = time.monotonic() + PATIENCE_S
+        while time.monotonic() < end_s:
+            if self.is_lockstep:
+                # Answered when the frame has been sent: what is not here soon was lost.
+                self.tell({"command": "step"})
+                while not self.whole and self.has_more():
+                    self.receive(RETRY_S)
+            else:
+                self.receive(RETRY_S)
+            while self.whole:
+                yield self.whole.popleft()
+                end_s = time.monotonic() + PATIENCE_S
+        sys.exit(f"no whole frame for {PATIENCE_S:g} s")
+
+    def has_more(self):
+        return bool(select.select([self.stream], [], [], RETRY_S)[0])
+
+    def receive(self, timeout_s):
+        """Takes what has come from either side. Whether the last command's answer was there."""
+        is_answered = False
+        for port in select.select([self.stream, self.controls], [], [], timeout_s)[0]:
+            data = port.recv(65536)
+            if port is self.stream:
+                self.take(data)
+            else:
+                is_answered = self.is_answer(data)
+        return is_answered
+
+    def is_answer(self, data):
+        answer = json.loads(data)
+        if answer.get("id") != self.next_id:
+            return False
+        if not answer["ok"]:
+            sys.exit("refused: " + "; ".join(answer["faults"]))
+        return True
+
+    def take(self, datagram):
+        try:
             head, names, points = read_datagram(datagram)
-            if head[2] & AXES_FLAGS != VEHICLE_AXES:
-                sys.exit("the points are not in vehicle axes: set the scenario's output.frame")
-            if frame is None or not frame.has(head):
-                self.num_lost += frame is not None and not frame.is_whole()
-                frame = Frame(head)
-            frame.add(head, names, points)
-            if frame.is_whole():
-                yield frame
-                if self.is_lockstep:
-                    self.tell({"command": "step"})
+        except (ValueError, KeyError, IndexError, struct.error):
+            return
+        if head[2] & AXES_FLAGS != VEHICLE_AXES:
+            sys.exit("the points are not in vehicle axes: set the scenario's output.frame")
+        if self.coming is None or self.coming.is_before(head):
+            self.num_lost += self.coming is not None and not self.coming.is_whole()
+            self.coming = Frame(head)
+        if self.coming.lacks(head):
+            self.coming.add(head, names, points)
+            if self.coming.is_whole():
+                self.whole.append(self.coming)
 
 
 def points_wanted(distance_m, options):

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -23,6 +24,18 @@ std::string FaultAnswer(std::optional<std::uint64_t> id, const std::vector<std::
   answer["faults"] = faults;
   // A fault may quote what is no UTF-8.
   return answer.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+/// Those that are not empty.
+std::vector<std::string_view> LinesOf(std::span<const char> bytes) {
+  std::vector<std::string_view> lines;
+  std::string_view text(bytes.data(), bytes.size());
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    if (end > 0) lines.push_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
 }
 
 }  // namespace
@@ -70,32 +83,39 @@ void CommandChannel::Listen() {
     if (!received) continue;
     const bool is_peer = received->from.address == peer_.address &&
                          (peer_.port == 0 || received->from.port == peer_.port);
-    const std::lock_guard lock(mutex_);
     if (!is_peer) {
+      const std::lock_guard lock(mutex_);
       ++num_strangers_;
       continue;
     }
-    std::string_view text(received->bytes.data(), received->bytes.size());
-    while (!text.empty()) {
-      const std::size_t end = std::min(text.find('\n'), text.size());
-      if (end > 0) Hear(text.substr(0, end), received->from);
-      text.remove_prefix(std::min(end + 1, text.size()));
+    const std::vector<std::string_view> lines = LinesOf(received->bytes);
+    if (lines.size() > kMaxLines) {
+      receiver_.Answer(
+          FaultAnswer({}, {"a datagram must have at most " + std::to_string(kMaxLines) +
+                           " lines (got " + std::to_string(lines.size()) + ")"}),
+          received->from);
+      continue;
+    }
+    for (const std::string_view text : lines) {
+      // Unlocked: the run must not wait for a long one.
+      const CommandLine line = ReadCommand(text);
+      const std::lock_guard lock(mutex_);
+      Hear(line, received->from);
     }
   }
 }
 
-void CommandChannel::Hear(std::string_view line, const Endpoint& from) {
-  CommandLine read = ReadCommand(line);
-  if (read.id && IsRepeated(from, *read.id)) return;
-  if (!read.command) {
-    Send(from, read.id, FaultAnswer(read.id, read.faults));
+void CommandChannel::Hear(const CommandLine& line, const Endpoint& from) {
+  if (line.id && IsRepeated(from, *line.id)) return;
+  if (!line.command) {
+    Send(from, line.id, FaultAnswer(line.id, line.faults));
   } else if (requests_.size() == kMaxRequests) {
-    Send(from, read.id,
-         FaultAnswer(read.id, {"too many commands wait (got one more than " +
+    Send(from, line.id,
+         FaultAnswer(line.id, {"too many commands wait (got one more than " +
                                std::to_string(kMaxRequests) + ")"}));
   } else {
-    if (read.id) answers_.push_back({from, *read.id, std::nullopt});
-    requests_.push_back({from, read.id, std::move(*read.command)});
+    if (line.id) Remember(from, *line.id, std::nullopt);
+    requests_.push_back({from, line.id, *line.command});
     arrived_.notify_all();
   }
 }
@@ -120,9 +140,19 @@ void CommandChannel::Send(const Endpoint& to,
   if (waiting != answers_.end()) {
     waiting->text = text;
   } else {
-    answers_.push_back({to, *id, text});
+    Remember(to, *id, text);
   }
-  while (answers_.size() > kMaxAnswers && answers_.front().text) answers_.pop_front();
+}
+
+void CommandChannel::Remember(const Endpoint& to,
+                              std::uint64_t id,
+                              std::optional<std::string> text) {
+  answers_.push_back({to, id, std::move(text)});
+  if (answers_.size() <= kMaxAnswers) return;
+  // Those that wait are at most kMaxRequests, and needed.
+  const auto oldest = std::find_if(answers_.begin(), answers_.end(),
+                                   [](const Answer& each) { return each.text.has_value(); });
+  if (oldest != answers_.end()) answers_.erase(oldest);
 }
 
 }  // namespace railcast

@@ -31,6 +31,9 @@ class CommandChannel {
   static constexpr std::size_t kMaxAnswers = 256;
   /// More that wait are refused.
   static constexpr std::size_t kMaxRequests = 1024;
+  /// A datagram of more lines is refused as a whole, with one answer: so it keeps nobody busy, and
+  /// whoever forges its sender makes no flood of answers.
+  static constexpr std::size_t kMaxLines = 64;
 
   /// @param peer Whose commands are heard: an address, of any port where that is 0. What others
   ///   send is dropped without an answer.
@@ -61,10 +64,11 @@ class CommandChannel {
   };
 
   void Listen();
-  void Hear(std::string_view line, const Endpoint& from);
+  void Hear(const CommandLine& line, const Endpoint& from);
   /// Whether the peer sent this id before; then it is answered as it was.
   [[nodiscard]] bool IsRepeated(const Endpoint& from, std::uint64_t id);
   void Send(const Endpoint& to, std::optional<std::uint64_t> id, const std::string& text);
+  void Remember(const Endpoint& to, std::uint64_t id, std::optional<std::string> text);
 
   UdpReceiver receiver_;
   Endpoint peer_;

@@ -1,5 +1,7 @@
 #include "generator/live/command_loop.h"
 
+#include <utility>
+
 #include "core/base/error.h"
 #include "core/scenario/command_log.h"
 
@@ -18,23 +20,34 @@ CommandLoop::CommandLoop(CommandedRun& run,
                          const std::string& scenario_xxh3)
     : run_(run), channel_(channel), lockstep_(lockstep) {
   if (!log_file) return;
+  if (std::filesystem::exists(*log_file)) {
+    throw InputError("--commands-log: must not be there yet (got " + log_file->string() + ")");
+  }
   log_.emplace(*log_file, 0);
   log_->Append(CommandLogHeader(scenario_xxh3));
 }
 
 NextFrames CommandLoop::BeginFrames(std::int64_t stamp_ns,
                                     const std::function<bool()>& is_stopped) {
-  while (!is_stopped()) {
+  for (int i = 0; lockstep_ || i < kMaxPerFrame; ++i) {
+    if (is_stopped()) return NextFrames::kStop;
     const auto request = channel_.Next(lockstep_ ? kPatience_ms : 0);
-    if (!request && !lockstep_) return NextFrames::kMake;
+    if (!request && !lockstep_) break;
     if (!request) continue;
     if (lockstep_ && std::holds_alternative<Step>(request->command)) {
       step_ = request;
-      return NextFrames::kMake;
+      break;
     }
     if (Handle(*request, stamp_ns)) return NextFrames::kReset;
   }
-  return NextFrames::kStop;
+  return NextFrames::kMake;
+}
+
+void CommandLoop::End(const std::string& reason) {
+  std::optional<CommandRequest> waiting = std::move(step_);
+  step_.reset();
+  if (!waiting) waiting = channel_.Next(0);
+  for (; waiting; waiting = channel_.Next(0)) channel_.Refuse(*waiting, {reason});
 }
 
 bool CommandLoop::Handle(const CommandRequest& request, std::int64_t stamp_ns) {

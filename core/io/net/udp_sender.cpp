@@ -20,7 +20,17 @@ namespace {
 constexpr std::size_t kMaxSegments = 64;
 constexpr std::size_t kMaxRunBytes = 65'507;
 
+/// Whether a kernel, or a way out, may say so that knows no GSO.
+bool SaysNoGso(int error_number) {
+  return error_number == EINVAL || error_number == EIO || error_number == EMSGSIZE ||
+         error_number == ENOPROTOOPT || error_number == EOPNOTSUPP;
+}
+
 void CheckReachable(const Endpoint& to) {
+  constexpr std::uint32_t kFirstMulticast = 0xE0000000;
+  if (to.address >= kFirstMulticast && !to.is_broadcast()) {
+    throw InputError("must be one host, or 255.255.255.255 for all (got " + EndpointText(to) + ")");
+  }
   // Connecting a socket of its own asks the routing table and sends nothing.
   const int probe = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   const int yes = 1;
@@ -106,11 +116,10 @@ void UdpSender::SendRun(const char* bytes,
       counts_.sent += num_datagrams;
       return;
     }
-    if (errno == EAGAIN || errno == ENOBUFS) {
+    if (!SaysNoGso(errno)) {
       counts_.refused += num_datagrams;
       return;
     }
-    // This kernel or this way out has no GSO; one by one tells what is really wrong.
     has_gso_ = false;
   }
   for (std::size_t offset = 0; offset < size; offset += segment_size) {

@@ -14,7 +14,7 @@ namespace railcast {
 /// The railcast protocol, version 1: docs/stream.md describes it byte by byte.
 
 inline constexpr std::uint16_t kStreamPort = 27400;
-/// Fits into an Ethernet frame with room for tunnels, so that no datagram is ever fragmented.
+/// Fits into an Ethernet frame: no datagram is fragmented there.
 inline constexpr std::size_t kMaxStreamDatagram = 1400;
 inline constexpr std::size_t kMaxStreamFields = 64;
 
