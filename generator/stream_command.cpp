@@ -64,13 +64,14 @@ void CheckOptionsTogether(const StreamOptions& options, std::size_t num_sensors)
   }
 }
 
-std::vector<Endpoint> ReceiversOf(const StreamOptions& options,
+std::vector<Endpoint> EndpointsOf(const StreamOptions& options,
                                   const InterfacesSpec& interfaces,
                                   const std::string& protocol) {
   const bool is_told = !options.to.empty();
   const std::string place = is_told ? "--to" : "/interfaces/udp";
+  const SensorInterface interface { {}, protocol, is_told ? options.to : interfaces.udp };
   std::vector<Endpoint> receivers;
-  for (const std::string& to : ReceiversOf({{}, protocol, is_told ? options.to : interfaces.udp})) {
+  for (const std::string& to : ReceiversOf(interface)) {
     receivers.push_back(AsOption(place, [&] { return ParseEndpoint(to, DefaultPort(protocol)); }));
   }
   return receivers;
@@ -102,7 +103,7 @@ std::vector<SensorStreamSpec> PlanStreams(const StreamOptions& options,
                        .sensor = static_cast<std::uint16_t>(streams.size()),
                        .protocol = protocol,
                        .to = IsOffline(options) ? std::vector<Endpoint>{}
-                                                : ReceiversOf(options, interfaces, protocol),
+                                                : EndpointsOf(options, interfaces, protocol),
                        .pcap = options.pcap,
                        .fields = FieldSelection(options.fields),
                        .has_all_slots = options.has_all_slots});

@@ -5,7 +5,8 @@ Usage: measure_live.py BUILD_DIR [steady|clients|limits]... [--seconds S]
 
 steady: the published scan at 10 and 20 Hz, spread and in bursts: frames lost and late, lateness.
 clients: VLP-16 at 20 Hz and HDL-32E at 10 Hz into PCL's own grabbers.
-limits: the highest rate that each rung sustains without a late frame.
+limits: the highest rate that each rung sustains without a late frame, in one of three tries: virtual
+machines stand still for tens of milliseconds now and then.
 """
 
 import argparse
@@ -104,12 +105,12 @@ def clients(bench, seconds):
 
 def limits(bench, seconds):
     for rung in RUNGS:
-        low_hz, high_hz = 1.0, 512.0
-        while high_hz / low_hz > 1.05:
+        low_hz, high_hz = 4.0, 128.0
+        while high_hz / low_hz > 1.1:
             rate_hz = (low_hz * high_hz) ** 0.5
-            sent, _ = bench.stream_and_receive(bench.published(rate_hz), seconds, "--fidelity",
-                                               rung)
-            if sent["late"] == 0:
+            scenario = bench.published(rate_hz)
+            if any(bench.stream_and_receive(scenario, seconds, "--fidelity", rung)[0]["late"] == 0
+                   for _ in range(3)):
                 low_hz = rate_hz
             else:
                 high_hz = rate_hz

@@ -140,7 +140,7 @@ std::unique_ptr<const TraceScene> FrameScenes::MovingScene(std::int64_t stamp_ns
   return std::make_unique<TraceScene>(store_->device(), placements);
 }
 
-std::vector<FrameScenes::LoneObject> FrameScenes::LoneObjects(const FrameScene& frame) const {
+std::vector<LoneObject> FrameScenes::LoneObjects(const FrameScene& frame) const {
   std::vector<LoneObject> lone;
   const Vector3 sensor_window_m = SensorInWindow(frame.stamp_ns, *frame.window);
   for (std::size_t i = 0; i < world_->objects().size(); ++i) {

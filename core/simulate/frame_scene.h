@@ -6,6 +6,7 @@
 
 #include "core/scene/world.h"
 #include "core/simulate/frame_poses.h"
+#include "core/simulate/lone_object.h"
 #include "core/simulate/window.h"
 #include "core/trace/ray_tile.h"
 #include "core/trace/trace_scene.h"
@@ -57,13 +58,6 @@ class FrameScenes {
   /// The sensor's poses during a frame, in any window.
   [[nodiscard]] FramePoses PosesIn(const Transform& window_from_world, std::int64_t stamp_ns) const;
 
-  /// An object of world().objects() where it is in a frame, and nothing else.
-  struct LoneObject {
-    std::size_t object{};
-    std::unique_ptr<const TraceScene> scene;
-    Eigen::Vector3f center_window_m;  ///< Of a sphere that holds it throughout the frame.
-    float radius_m{};
-  };
   /// Those of the objects that are within range of the frame's sensor.
   [[nodiscard]] std::vector<LoneObject> LoneObjects(const FrameScene& frame) const;
 

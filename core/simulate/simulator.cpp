@@ -271,43 +271,17 @@ std::function<void()> Simulator::MakeRawTrace(std::uint32_t frame_index) {
   };
 }
 
-namespace {
-
-// Whether any ray of the tile may pass through the object's sphere. Generous by half a metre, since
-// float32 loses that much in squares of 300 m and more.
-bool MayMeet(const RayTile& rays, const FrameScenes::LoneObject& lone) {
-  const float reach_m = lone.radius_m + 0.5F;
-  for (std::size_t i = 0; i < rays.num_rays; ++i) {
-    const Eigen::Vector3f to_center =
-        lone.center_window_m -
-        Eigen::Vector3f(rays.origin_x[i], rays.origin_y[i], rays.origin_z[i]);
-    const float along_m = to_center.dot(
-        Eigen::Vector3f(rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]));
-    if (along_m >= -reach_m && to_center.squaredNorm() - along_m * along_m <= reach_m * reach_m) {
-      return true;
-    }
-  }
-  return false;
-}
-
-}  // namespace
-
 std::vector<std::uint32_t> Simulator::FiringsOnObjectAlone(std::uint32_t frame_index) {
   Parts& parts = *parts_;
   const FrameScene scene = parts.SceneOf(frame_index);
-  const std::vector<FrameScenes::LoneObject> lone_objects = parts.scenes.LoneObjects(scene);
+  const std::vector<LoneObject> lone_objects = parts.scenes.LoneObjects(scene);
   const float range_max_m = parts.range_max_m();
   std::vector<std::atomic<std::uint32_t>> counts(world().objects().size());
   parts.ForEachTile([&](std::size_t tile) {
     RayTile rays;
     parts.tiles.Aim(tile, scene.poses, range_max_m, rays);
-    for (const FrameScenes::LoneObject& lone : lone_objects) {
-      if (!MayMeet(rays, lone)) continue;
-      std::fill_n(rays.range_m, kTileSize, range_max_m);
-      lone.scene->CastRanges(rays);
-      counts[lone.object] += static_cast<std::uint32_t>(
-          std::count_if(rays.range_m, rays.range_m + parts.tiles.num_firings(tile),
-                        [&](float range_m) { return range_m < range_max_m; }));
+    for (const LoneObject& lone : lone_objects) {
+      counts[lone.object] += lone.CountHits(rays, parts.tiles.num_firings(tile), range_max_m);
     }
   });
   return {counts.begin(), counts.end()};
