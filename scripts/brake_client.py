@@ -33,6 +33,7 @@ SMALLEST_M2 = 0.25
 LEAST_SHARE = 0.3
 # Fog stands in the first metres like a wall: nothing new is looked for there.
 NEAREST_M = 6.0
+CLOSE_M = 2.0  # Nearer, its place is not measured any more.
 STANDSTILL_MPS = 0.02
 AXES_FLAGS, VEHICLE_AXES = 0b1110, 0b0010  # docs/stream.md
 PATIENCE_S = 60.0
@@ -224,10 +225,12 @@ class Drive:
         if self.braked_at_m is None:
             places_m = [place_m for place_m in places_m
                         if place_m - self.travelled_m > NEAREST_M]
+        elif self.obstacle_at_m - self.travelled_m < CLOSE_M:
+            return  # Whoever runs into something sees its far side next.
         else:
             # Drops and fog stand still, too, once the train does.
             places_m = [place_m for place_m in places_m
-                        if abs(place_m - self.obstacle_at_m) < 3.0 * OBSTACLE_LENGTH_M]
+                        if abs(place_m - self.obstacle_at_m) < OBSTACLE_LENGTH_M]
         place_m = self.lookout.nearest(places_m)
         if place_m is None:
             return
