@@ -24,6 +24,8 @@ std::uint16_t ParsePort(std::string_view text, std::string_view whole) {
 }
 
 std::uint32_t ParseHost(const std::string& host, std::string_view whole) {
+  // A minimal system has no /etc/hosts that knows it (RFC 6761, 6.3).
+  if (host == "localhost") return INADDR_LOOPBACK;
   in_addr address{};
   if (::inet_pton(AF_INET, host.c_str(), &address) == 1) return ntohl(address.s_addr);
   addrinfo hints{};
