@@ -8,7 +8,6 @@
 #include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/number_text.h"
-#include "core/base/units.h"
 #include "core/scenario/scenario.h"
 #include "generator/track_limits.h"
 
@@ -67,12 +66,7 @@ void CommandedRun::Apply(const Command& command, std::int64_t time_ns) {
   if (std::holds_alternative<Step>(command)) return;
   State changed = states_.back();
   changed.time_ns = time_ns;
-  ErrorList faults;
-  static_cast<void>(Attempt("command: ", faults, [&] {
-    std::visit(Effect{scenario_, time_ns, changed}, command);
-    return true;
-  }));
-  faults.ThrowIfAny();
+  AtPlace("command: ", [&] { std::visit(Effect{scenario_, time_ns, changed}, command); });
   // Of several at one time the last holds, and no frame sees those before it.
   if (states_.back().time_ns == time_ns) states_.pop_back();
   states_.push_back(std::move(changed));
@@ -80,13 +74,8 @@ void CommandedRun::Apply(const Command& command, std::int64_t time_ns) {
 
 void CommandedRun::Apply(const std::vector<TimedCommand>& commands) {
   for (const TimedCommand& timed : commands) {
-    ErrorList faults;
-    const std::string place = "at " + NumberText(SecondsFromNs(timed.time_ns)) + " s: ";
-    static_cast<void>(Attempt(place, faults, [&] {
-      Apply(timed.command, timed.time_ns);
-      return true;
-    }));
-    faults.ThrowIfAny();
+    AtPlace("at " + SecondsText(timed.time_ns) + ": ",
+            [&] { Apply(timed.command, timed.time_ns); });
   }
 }
 

@@ -139,12 +139,7 @@ int SequenceCommand(const SequenceOptions& options) {
               << log.commands.size() << " commands\n";
   }
   CommandedRun run(scenario, {simulator.get()});
-  ErrorList faults;
-  static_cast<void>(Attempt(options.commands.value_or("").string() + ": ", faults, [&] {
-    run.Apply(log.commands);
-    return true;
-  }));
-  faults.ThrowIfAny();
+  AtPlace(options.commands.value_or("").string() + ": ", [&] { run.Apply(log.commands); });
   CheckStaysOnTracks(run, simulator->pattern(), spec.start_frame,
                      spec.start_frame + spec.num_frames - 1);
   if (scenario.fidelity == kAutoFidelity) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/io/velodyne/calibration_xml.h"
 #include "core/io/write_file.h"
@@ -13,6 +14,7 @@
 #include "generator/commands.h"
 #include "generator/live/command_loop.h"
 #include "generator/live/live_streams.h"
+#include "generator/live/live_summary.h"
 #include "generator/scenario_identity.h"
 #include "generator/stop_signal.h"
 #include "generator/terminal_line.h"
@@ -23,15 +25,6 @@ namespace {
 /// Without a receiver nothing has to wait for its time.
 bool IsOffline(const StreamOptions& options) {
   return options.pcap && options.to.empty();
-}
-
-template <typename Work>
-auto AsOption(const std::string& option, Work&& work) {
-  try {
-    return work();
-  } catch (const InputError& error) {
-    throw InputError(option + ": " + error.what());
-  }
 }
 
 ScenarioSpec ReadWithOverrides(const StreamOptions& options) {
@@ -68,11 +61,11 @@ std::vector<Endpoint> EndpointsOf(const StreamOptions& options,
                                   const InterfacesSpec& interfaces,
                                   const std::string& protocol) {
   const bool is_told = !options.to.empty();
-  const std::string place = is_told ? "--to" : "/interfaces/udp";
+  const std::string place = is_told ? "--to: " : "/interfaces/udp: ";
   const SensorInterface interface { {}, protocol, is_told ? options.to : interfaces.udp };
   std::vector<Endpoint> receivers;
   for (const std::string& to : ReceiversOf(interface)) {
-    receivers.push_back(AsOption(place, [&] { return ParseEndpoint(to, DefaultPort(protocol)); }));
+    receivers.push_back(AtPlace(place, [&] { return ParseEndpoint(to, DefaultPort(protocol)); }));
   }
   return receivers;
 }
@@ -157,7 +150,7 @@ LiveRunSpec RunSpecOf(const StreamOptions& options) {
 
 std::unique_ptr<CommandChannel> OpenChannel(const StreamOptions& options) {
   if (!options.commands_port) return nullptr;
-  Endpoint peer = AsOption("--commands-from", [&] {
+  Endpoint peer = AtPlace("--commands-from: ", [&] {
     return ParseEndpoint(options.commands_from.value_or("127.0.0.1"), 0);
   });
   // Whoever hears only this machine cannot be reached from elsewhere.
@@ -165,7 +158,7 @@ std::unique_ptr<CommandChannel> OpenChannel(const StreamOptions& options) {
   const std::uint32_t loopback = 0x7F000001;
   const Endpoint at{peer.is_loopback() ? loopback : any_address, *options.commands_port};
   auto channel =
-      AsOption("--commands-port", [&] { return std::make_unique<CommandChannel>(at, peer); });
+      AtPlace("--commands-port: ", [&] { return std::make_unique<CommandChannel>(at, peer); });
   std::cout << "commands at " << EndpointText(channel->at()) << "\n";
   return channel;
 }

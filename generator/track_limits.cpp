@@ -33,7 +33,7 @@ std::uint32_t FirstBeyond(std::uint32_t first_frame,
 
 /// Where something may be, and where it is.
 struct Traveller {
-  std::string place;  ///< How a line about it begins.
+  std::function<std::string()> place;  ///< How a line about it begins; hardly ever asked for.
   const TrackSpec& track;
   double end_s_m{};
   std::function<double(std::int64_t)> chainage_m;
@@ -43,34 +43,37 @@ struct Traveller {
     return s_m >= track.start_s_m - kTolerance_m && s_m <= end_s_m + kTolerance_m;
   }
   [[nodiscard]] std::string Leaves(const std::string& when) const {
-    return place + " leaves track \"" + track.name + "\", from " + NumberText(track.start_s_m) +
+    return place() + " leaves track \"" + track.name + "\", from " + NumberText(track.start_s_m) +
            " to " + NumberText(end_s_m) + " m, at " + when;
   }
 };
 
-std::string SecondsText(std::int64_t time_ns) {
-  return NumberText(static_cast<double>(time_ns) / 1e9) + " s";
-}
-
 std::vector<Traveller> TravellersOf(const ScenarioSpec& scenario, const RailWorld& world) {
   std::vector<Traveller> travellers;
-  const auto add = [&](const std::string& place, const TrackSpec& track, auto chainage_m) {
+  const auto add = [&](auto place, const TrackSpec& track, auto chainage_m) {
     const double end_s_m = track.end_s_m.value_or(world.alignment().length_m());
-    travellers.push_back({place, track, end_s_m, std::move(chainage_m)});
+    travellers.push_back({std::move(place), track, end_s_m, std::move(chainage_m)});
   };
-  add(world.has_changed_vehicle_speed() ? "command: the vehicle"
-                                        : scenario.sources.Place("/vehicle/motion") + ":",
+  add(
+      [&scenario, &world] {
+        return world.has_changed_vehicle_speed() ? "command: the vehicle"
+                                                 : scenario.sources.Place("/vehicle/motion") + ":";
+      },
       world.vehicle_track(),
       [&world](std::int64_t time_ns) { return world.VehicleChainage_m(time_ns); });
   for (std::size_t i = 0; i < world.objects().size(); ++i) {
     const SceneObject& object = world.objects()[i];
     if (object.is_ego) continue;
-    // Instance ids are those of the scenario's order, and go on from there.
-    const bool is_placed = object.instance > scenario.world.objects.size();
-    const std::string pointer = "/world/objects/" + std::to_string(object.instance - 1) + "/motion";
-    add(is_placed ? "command: object \"" + object.name + '"'
-                  : scenario.sources.Place(pointer) + ":",
-        world.object_track(i),
+    const auto place = [&scenario, &object] {
+      // Instance ids are those of the scenario's order, and go on from there.
+      if (object.instance > scenario.world.objects.size()) {
+        return "command: object \"" + object.name + '"';
+      }
+      return scenario.sources.Place("/world/objects/" + std::to_string(object.instance - 1) +
+                                    "/motion") +
+             ":";
+    };
+    add(place, world.object_track(i),
         [&world, i](std::int64_t time_ns) { return world.ObjectChainage_m(i, time_ns); });
   }
   return travellers;

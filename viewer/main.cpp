@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/io/stream/stream_clouds.h"
 #include "core/scenario/scenario.h"
@@ -69,11 +70,7 @@ Coloring ColorPlaced(const Cloud& cloud,
                      std::string color_by,
                      const LabelTable& labels) {
   if (color_by.empty()) color_by = cloud.fields.contains("label") ? "label" : "height";
-  try {
-    return ColorCloud(cloud, color_by, labels);
-  } catch (const InputError& error) {
-    throw InputError(place + ": " + error.what());
-  }
+  return AtPlace(place + ": ", [&] { return ColorCloud(cloud, color_by, labels); });
 }
 
 Coloring ColorFile(const Cloud& cloud,

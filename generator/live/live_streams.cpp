@@ -72,8 +72,8 @@ void LiveStreams::Finish() {
   for (const auto& stream : streams_) stream->Finish();
 }
 
-std::vector<DeliveryCounts> LiveStreams::Delivered() const {
-  std::vector<DeliveryCounts> delivered;
+std::vector<UdpSender::Counts> LiveStreams::Delivered() const {
+  std::vector<UdpSender::Counts> delivered;
   for (const auto& stream : streams_) delivered.push_back(stream->delivered());
   return delivered;
 }

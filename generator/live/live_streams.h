@@ -9,7 +9,6 @@
 #include "core/simulate/simulator.h"
 #include "generator/commanded_run.h"
 #include "generator/live/live_run.h"
-#include "generator/live/live_summary.h"
 #include "generator/live/sensor_stream.h"
 
 namespace railcast {
@@ -40,7 +39,7 @@ class LiveStreams {
   /// Completes capture files. @throws InputError if the system refuses.
   void Finish();
   /// By sensor. @pre Nothing is being sent.
-  [[nodiscard]] std::vector<DeliveryCounts> Delivered() const;
+  [[nodiscard]] std::vector<UdpSender::Counts> Delivered() const;
 
  private:
   void MakeFrame(std::size_t sensor, std::uint32_t frame, Datagrams& datagrams);

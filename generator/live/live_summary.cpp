@@ -4,11 +4,12 @@
 #include <sstream>
 #include <string_view>
 
+#include "core/base/units.h"
+
 namespace railcast {
 namespace {
 
 constexpr double kNsPerMs = 1e6;
-constexpr double kNsPerS = 1e9;
 constexpr int kHeadWidth = 10;
 constexpr int kNumberWidth = 10;
 
@@ -24,7 +25,7 @@ void PutQuantiles(std::string_view head, const DurationHistogram& times, std::os
 }  // namespace
 
 std::string LiveSummary(const std::vector<LiveRecord>& records,
-                        const std::vector<DeliveryCounts>& delivered,
+                        const std::vector<UdpSender::Counts>& delivered,
                         bool has_times) {
   std::ostringstream text;
   for (std::size_t i = 0; i < records.size(); ++i) {
@@ -48,8 +49,8 @@ std::string LiveSummary(const std::vector<LiveRecord>& records,
 
 std::string LiveProgress(std::int64_t stamp_ns, std::uint64_t frames, std::uint64_t late_frames) {
   std::ostringstream text;
-  text << std::fixed << std::setprecision(1) << static_cast<double>(stamp_ns) / kNsPerS << " s, "
-       << frames << (frames == 1 ? " frame" : " frames") << ", " << late_frames << " late";
+  text << std::fixed << std::setprecision(1) << SecondsFromNs(stamp_ns) << " s, " << frames
+       << (frames == 1 ? " frame" : " frames") << ", " << late_frames << " late";
   return text.str();
 }
 

@@ -4,22 +4,17 @@
 #include <string>
 #include <vector>
 
+#include "core/io/net/udp_sender.h"
 #include "generator/live/live_run.h"
 
 namespace railcast {
 
-/// What a sensor's receivers got.
-struct DeliveryCounts {
-  std::uint64_t sent{};     ///< Datagrams, counted once for each receiver.
-  std::uint64_t refused{};  ///< By the kernel: a full queue or no way there.
-};
-
 /// What the user reads after a live run: for each sensor frames, late ones and datagrams, and
 /// quantiles of computing, sending and lateness.
-/// @param delivered By sensor, as `records`.
+/// @param delivered To its receivers, by sensor, as `records`.
 /// @param has_times Whether the run's clock measured anything: one that jumps does not.
 [[nodiscard]] std::string LiveSummary(const std::vector<LiveRecord>& records,
-                                      const std::vector<DeliveryCounts>& delivered,
+                                      const std::vector<UdpSender::Counts>& delivered,
                                       bool has_times);
 
 /// "12.3 s, 123 frames, 0 late": one line, without its end.

@@ -2,13 +2,14 @@
 
 #include <utility>
 
-#include "core/base/error.h"
+#include "core/base/attempt.h"
 #include "core/io/stream/stream_encoder.h"
 #include "core/io/velodyne/velodyne_encoder.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "core/scenario/scenario.h"
 
 namespace railcast {
+
 SensorStream::SensorStream(SensorStreamSpec spec,
                            const ScenarioSpec& scenario,
                            const ScanPattern& pattern,
@@ -19,11 +20,8 @@ SensorStream::SensorStream(SensorStreamSpec spec,
       pattern_(pattern),
       encoder_(MakeEncoder(run)) {
   if (!spec_.to.empty()) {
-    try {
-      sender_ = std::make_unique<UdpSender>(spec_.to, kVelodynePositionPort);
-    } catch (const InputError& error) {
-      throw InputError("receivers of " + spec_.name + ": " + error.what());
-    }
+    sender_ = AtPlace("receivers of " + spec_.name + ": ",
+                      [&] { return std::make_unique<UdpSender>(spec_.to, kVelodynePositionPort); });
   }
   if (spec_.pcap) {
     capture_ = std::make_unique<PcapWriter>(*spec_.pcap, DefaultPort(spec_.protocol),
@@ -55,9 +53,8 @@ void SensorStream::Finish() {
   if (capture_) capture_->Finish();
 }
 
-DeliveryCounts SensorStream::delivered() const {
-  if (!sender_) return {};
-  return {sender_->counts().sent, sender_->counts().refused};
+UdpSender::Counts SensorStream::delivered() const {
+  return sender_ ? sender_->counts() : UdpSender::Counts{};
 }
 
 }  // namespace railcast

@@ -15,7 +15,6 @@
 #include "core/io/pcap/pcap_writer.h"
 #include "core/scan/scan_pattern.h"
 #include "core/scenario/scenario_spec.h"
-#include "generator/live/live_summary.h"
 
 namespace railcast {
 
@@ -34,6 +33,7 @@ struct SensorStreamSpec {
 class SensorStream {
  public:
   /// @param scenario With this sensor as its only one.
+  /// @param pattern Of its frames; must outlive the stream.
   /// @param run Tells this start of the sensor from others in protocol railcast.
   /// @throws InputError if the sensor does not speak the protocol, a receiver cannot be sent to or
   ///   the file cannot be made.
@@ -53,7 +53,8 @@ class SensorStream {
 
   /// Completes the capture file. @throws InputError if the system refuses.
   void Finish();
-  [[nodiscard]] DeliveryCounts delivered() const;
+  /// What its receivers got.
+  [[nodiscard]] UdpSender::Counts delivered() const;
 
  private:
   [[nodiscard]] std::unique_ptr<FrameEncoder> MakeEncoder(std::uint32_t run) const;
@@ -61,7 +62,7 @@ class SensorStream {
   SensorStreamSpec spec_;
   LidarSpec lidar_;
   OutputSpec output_;
-  ScanPattern pattern_;
+  const ScanPattern& pattern_;
   std::unique_ptr<FrameEncoder> encoder_;
   std::unique_ptr<UdpSender> sender_;    ///< Null if nobody receives.
   std::unique_ptr<PcapWriter> capture_;  ///< Null if nothing is written.

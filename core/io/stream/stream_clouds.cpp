@@ -12,20 +12,11 @@
 namespace railcast {
 namespace {
 
-template <typename T>
-constexpr StreamType kStreamType = StreamType::kF32;
-template <>
-constexpr StreamType kStreamType<std::uint8_t> = StreamType::kU8;
-template <>
-constexpr StreamType kStreamType<std::uint16_t> = StreamType::kU16;
-template <>
-constexpr StreamType kStreamType<std::uint32_t> = StreamType::kU32;
-
 /// One field of all points that arrived; empty if it was not sent with that type.
 template <typename T>
 std::optional<std::vector<T>> ReadField(const ReceivedFrame& received, std::string_view name) {
   const StreamField* const field = received.header.Find(name);
-  if (field == nullptr || field->type != kStreamType<T>) return std::nullopt;
+  if (field == nullptr || field->type != kStreamTypeOf<T>) return std::nullopt;
   std::vector<T> values(received.num_points());
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = received.At<T>(*field, i);
   return values;

@@ -18,14 +18,6 @@ namespace {
 
 using namespace stream_layout;
 
-template <typename Stored>
-constexpr StreamType TypeOf() {
-  if constexpr (std::is_same_v<Stored, float>) return StreamType::kF32;
-  if constexpr (std::is_same_v<Stored, std::uint8_t>) return StreamType::kU8;
-  if constexpr (std::is_same_v<Stored, std::uint16_t>) return StreamType::kU16;
-  if constexpr (std::is_same_v<Stored, std::uint32_t>) return StreamType::kU32;
-}
-
 std::uint8_t FlagsOf(const StreamSpec& spec) {
   const auto axes = spec.output.frame == "world"     ? StreamAxes::kWorld
                     : spec.output.frame == "vehicle" ? StreamAxes::kVehicle
@@ -69,7 +61,7 @@ StreamEncoder::StreamEncoder(const ScanPattern& pattern, const StreamSpec& spec)
     if (!spec_.fields.Has(name)) return;
     using Stored = typename StoredType<ElementOf<decltype(values)>>::Type;
     static_assert(sizeof(Stored) == sizeof(ElementOf<decltype(values)>));
-    header_.push_back(static_cast<char>(TypeOf<Stored>()));
+    header_.push_back(static_cast<char>(kStreamTypeOf<Stored>));
     header_.push_back(static_cast<char>(name.size()));
     header_.insert(header_.end(), name.begin(), name.end());
     point_size_ += sizeof(Stored);

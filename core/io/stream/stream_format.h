@@ -21,6 +21,18 @@ inline constexpr std::size_t kMaxStreamFields = 64;
 /// How a field's value is stored. The codes are those of pcl::PCLPointField and ROS's PointField.
 enum class StreamType : std::uint8_t { kU8 = 2, kU16 = 4, kU32 = 6, kF32 = 7 };
 
+/// The code of a C++ type; only these four have one.
+template <typename T>
+inline constexpr StreamType kStreamTypeOf = T::has_no_code;
+template <>
+inline constexpr StreamType kStreamTypeOf<std::uint8_t> = StreamType::kU8;
+template <>
+inline constexpr StreamType kStreamTypeOf<std::uint16_t> = StreamType::kU16;
+template <>
+inline constexpr StreamType kStreamTypeOf<std::uint32_t> = StreamType::kU32;
+template <>
+inline constexpr StreamType kStreamTypeOf<float> = StreamType::kF32;
+
 /// In bytes; 0 if `type` is none of the codes.
 [[nodiscard]] constexpr std::uint16_t SizeOf(StreamType type) {
   switch (type) {
