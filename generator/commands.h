@@ -40,8 +40,8 @@ struct StreamOptions {
   std::optional<std::string> sensor;    ///< Absent = all.
   std::vector<std::string> to;          ///< HOST:PORT, instead of the scenario's.
   std::optional<std::string> protocol;  ///< Instead of the scenario's.
-  std::string fields = "x,y,z,intensity,ring,time_ns,label,instance";  ///< Of protocol railcast.
-  bool has_all_slots = false;                                          ///< Likewise.
+  std::optional<std::string> fields;    ///< Of protocol railcast, instead of its default.
+  bool has_all_slots = false;           ///< Likewise.
   std::string pacing = "spread";
   std::optional<std::filesystem::path> pcap;
   std::optional<std::filesystem::path> calibration;  ///< Of protocol hdl64e.

@@ -59,10 +59,9 @@ void AddStream(CLI::App& app, StreamOptions& options, std::function<int()>& comm
       ->allow_extra_args(false);
   stream->add_option("--protocol", options.protocol, "Instead of the scenario's")
       ->check(CLI::IsMember(railcast::ProtocolNames()));
-  stream
-      ->add_option("--fields", options.fields,
-                   "Protocol railcast: fields separated by commas, or all")
-      ->capture_default_str();
+  stream->add_option("--fields", options.fields,
+                     "Protocol railcast: fields separated by commas, or all; default: "
+                     "x,y,z,intensity,ring,time_ns,label,instance");
   stream->add_flag("--all-slots", options.has_all_slots,
                    "Protocol railcast: also what did not return");
   stream

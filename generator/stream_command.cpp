@@ -8,6 +8,7 @@
 
 #include "core/base/attempt.h"
 #include "core/base/error.h"
+#include "core/io/stream/stream_encoder.h"
 #include "core/io/velodyne/calibration_xml.h"
 #include "core/io/write_file.h"
 #include "core/scenario/scenario.h"
@@ -92,16 +93,24 @@ std::vector<SensorStreamSpec> PlanStreams(const StreamOptions& options,
   for (const std::string& name : SensorNames(scenario)) {
     const InterfacesSpec interfaces = PickSensor(scenario, name).interfaces;
     const std::string protocol = options.protocol.value_or(interfaces.protocol);
-    streams.push_back({.name = name,
-                       .sensor = static_cast<std::uint16_t>(streams.size()),
-                       .protocol = protocol,
-                       .to = IsOffline(options) ? std::vector<Endpoint>{}
-                                                : EndpointsOf(options, interfaces, protocol),
-                       .pcap = options.pcap,
-                       .fields = FieldSelection(options.fields),
-                       .has_all_slots = options.has_all_slots});
+    streams.push_back(
+        {.name = name,
+         .sensor = static_cast<std::uint16_t>(streams.size()),
+         .protocol = protocol,
+         .to = IsOffline(options) ? std::vector<Endpoint>{}
+                                  : EndpointsOf(options, interfaces, protocol),
+         .pcap = options.pcap,
+         .fields = options.fields ? FieldSelection(*options.fields) : StreamSpec{}.fields,
+         .has_all_slots = options.has_all_slots});
   }
   CheckPortsDiffer(streams);
+  const bool has_fields = std::any_of(streams.begin(), streams.end(), [](const auto& stream) {
+    return stream.protocol == "railcast";
+  });
+  if (!has_fields && (options.fields || options.has_all_slots)) {
+    throw InputError(std::string(options.fields ? "--fields" : "--all-slots") +
+                     ": is for protocol railcast (got " + streams.front().protocol + ")");
+  }
   return streams;
 }
 

@@ -6,7 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source scripts/packages.sh
 
 install_packages "${build_packages[@]}" "${display_packages[@]}"
-scripts/build.sh railcast-generate railcast-view
+scripts/build.sh railcast-generate railcast-analyze railcast-view
 
 rm -rf out/demo out/demo.png
 mkdir -p out

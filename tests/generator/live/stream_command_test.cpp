@@ -6,7 +6,10 @@
 #include <vector>
 
 #include "core/io/stream/stream_receiver.h"
+#include "core/io/velodyne/velodyne_model.h"
+#include "core/io/velodyne/velodyne_packet.h"
 #include "core/io/write_file.h"
+#include "core/scenario/scenario.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/live/live_process.h"
 
@@ -134,6 +137,15 @@ TEST(Stream, SendsSeveralSensorsOfOneVehicleByOneClock) {
   }
 }
 
+TEST(Stream, KnowsTheProtocolsAndPortsThatScenariosName) {
+  EXPECT_EQ(DefaultPort("railcast"), kStreamPort);
+  for (const std::string& protocol : ProtocolNames()) {
+    if (protocol == "railcast") continue;
+    EXPECT_EQ(FindVelodyneFormat(protocol).name, protocol);
+    EXPECT_EQ(DefaultPort(protocol), kVelodyneDataPort);
+  }
+}
+
 TEST(Stream, SaysWhichOptionsDoNotGoTogether) {
   const TemporaryDirectory folder;
   const std::string scenario = CoarseScenario(folder.path());
@@ -158,6 +170,10 @@ TEST(Stream, SaysWhichOptionsDoNotGoTogether) {
       "receivers of coarse: must be no network's broadcast address; 255.255.255.255 is one (got "
       "127.255.255.255:9)\n");
   EXPECT_NE(fault(scenario + " --protocol vlp16").find("must be \"spinning\""), std::string::npos);
+  EXPECT_EQ(fault(scenario + " --protocol vlp16 --fields x"),
+            "--fields: is for protocol railcast (got vlp16)\n");
+  EXPECT_EQ(fault(scenario + " --protocol hdl32e --all-slots"),
+            "--all-slots: is for protocol railcast (got hdl32e)\n");
   EXPECT_EQ(fault(scenario + " --calibration a"),
             "--calibration: is for one sensor of protocol hdl64e (got railcast)\n");
 }
