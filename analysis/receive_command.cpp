@@ -110,9 +110,11 @@ int ReceiveCommand(const ReceiveOptions& options) {
     std::cerr << ReceiveProgress(counter.totals(), grabber.counts()) << "\n";
     next_line_s += 1.0;
   }
+  // Asked before it stops: of a frame that is still coming, nothing is lost.
+  const UdpGrabber::Counts counts = grabber.counts();
   grabber.stop();
   counter.ThrowIfFailed();
-  std::cout << ReceiveSummary(counter.totals(), grabber.counts());
+  std::cout << ReceiveSummary(counter.totals(), counts);
   return kExitSuccess;
 }
 
