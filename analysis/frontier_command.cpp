@@ -1,4 +1,8 @@
+#include <filesystem>
 #include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
 
 #include "analysis/commands.h"
 #include "analysis/frontier/chart.h"
@@ -16,6 +20,15 @@
 namespace railcast {
 namespace {
 
+struct FrontierOptions {
+  std::filesystem::path scenario;
+  std::optional<std::string> sensor;  // Of several, which one.
+  std::filesystem::path out;
+  int num_frames = 4;
+  int num_threads = 1;
+  std::string rows = "all";
+};
+
 // The rows bring their own effects; what is not needed is asked of all there are.
 ScenarioSpec ReadForFrontier(const FrontierOptions& options) {
   ScenarioSpec scenario = PickSensor(ReadScenario(options.scenario), options.sensor);
@@ -30,9 +43,7 @@ std::string Head(const FrontierPlan& plan) {
          " thread(s), errors against " + std::to_string(plan.yardstick_rays) + " sub-rays a beam";
 }
 
-}  // namespace
-
-int FrontierCommand(const FrontierOptions& options) {
+int RunFrontier(const FrontierOptions& options) {
   FrontierPlan plan;
   plan.rows = ChooseFrontierRows(options.rows);
   plan.num_threads = options.num_threads;
@@ -69,6 +80,28 @@ int FrontierCommand(const FrontierOptions& options) {
   DrawChart(options.out / "frontier.gnuplot", options.out / "frontier");
   std::cout << "frontier.json, .csv, .svg, .png in " << options.out.string() << "\n";
   return kExitSuccess;
+}
+
+}  // namespace
+
+void AddFrontier(CLI::App& app, Command& command) {
+  const auto options = std::make_shared<FrontierOptions>();
+  CLI::App* frontier = app.add_subcommand(
+      "frontier", "Chart time against accuracy: the rungs, brute force, and the reference");
+  frontier->add_option("SCENARIO", options->scenario, "Scenario file")->required();
+  frontier->add_option("--out", options->out, "Directory for frontier.json, .csv, .svg, .png")
+      ->required();
+  frontier->add_option("--frames", options->num_frames, "How many sample frames, a second apart")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  frontier->add_option("--threads", options->num_threads, "Of the timing; 0 = all cores")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  frontier->add_option("--sensor", options->sensor, "Which of the scenario's sensors");
+  frontier->add_option("--rows", options->rows, "Rows separated by commas, or all")
+      ->capture_default_str();
+  frontier->callback(
+      [&command, options] { command = [options] { return RunFrontier(*options); }; });
 }
 
 }  // namespace railcast

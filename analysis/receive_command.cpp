@@ -4,12 +4,14 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 
 #include "analysis/commands.h"
 #include "analysis/receive/receive_report.h"
@@ -18,6 +20,13 @@
 
 namespace railcast {
 namespace {
+
+struct ReceiveOptions {
+  std::string at = "127.0.0.1:27400";
+  std::optional<double> duration_s;
+  std::optional<std::uint64_t> num_frames;
+  std::filesystem::path out;  // Empty: nothing is kept.
+};
 
 double Now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -89,9 +98,7 @@ class FrameCounter {
   std::exception_ptr fault_;
 };
 
-}  // namespace
-
-int ReceiveCommand(const ReceiveOptions& options) {
+int RunReceive(const ReceiveOptions& options) {
   const HeldSignals signals;
   FrameCounter counter(options);
   UdpGrabber grabber(ParseEndpoint(options.at, kStreamPort));
@@ -116,6 +123,23 @@ int ReceiveCommand(const ReceiveOptions& options) {
   counter.ThrowIfFailed();
   std::cout << ReceiveSummary(counter.totals(), counts);
   return kExitSuccess;
+}
+
+}  // namespace
+
+void AddReceive(CLI::App& app, Command& command) {
+  const auto options = std::make_shared<ReceiveOptions>();
+  CLI::App* receive = app.add_subcommand(
+      "receive", "Listen to a live stream: what arrives, and what is lost; until Ctrl-C");
+  receive
+      ->add_option("HOST:PORT", options->at, "Where to listen; 0.0.0.0 hears other machines, too")
+      ->capture_default_str();
+  receive->add_option("--duration", options->duration_s, "End after so many seconds")
+      ->check(CLI::PositiveNumber);
+  receive->add_option("--frames", options->num_frames, "End after so many frames")
+      ->check(CLI::PositiveNumber);
+  receive->add_option("--out", options->out, "Directory for frames/*.pcd and frames.csv");
+  receive->callback([&command, options] { command = [options] { return RunReceive(*options); }; });
 }
 
 }  // namespace railcast

@@ -7,6 +7,7 @@ build_packages=(
   cmake
   g++
   libbenchmark-dev
+  libboost-dev
   libcli11-dev
   libeigen3-dev
   libembree-dev

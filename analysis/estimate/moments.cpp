@@ -1,0 +1,50 @@
+#include "analysis/estimate/moments.h"
+
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+
+namespace railcast {
+namespace {
+
+constexpr double kTail = 0.5 * (1.0 - kConfidence);
+
+}  // namespace
+
+void Moments::Add(double sample) {
+  if (std::isnan(sample)) return;
+  ++num_;
+  const double distance = sample - mean_;
+  mean_ += distance / static_cast<double>(num_);
+  squares_ += distance * (sample - mean_);
+}
+
+void Moments::Add(const Moments& other) {
+  if (other.num_ == 0) return;
+  const auto ours = static_cast<double>(num_);
+  const auto theirs = static_cast<double>(other.num_);
+  const double distance = other.mean_ - mean_;
+  num_ += other.num_;
+  mean_ += distance * theirs / (ours + theirs);
+  squares_ += other.squares_ + distance * distance * ours * theirs / (ours + theirs);
+}
+
+Estimate Moments::Mean() const {
+  if (num_ < kMinSamples) return NotEnough(num_);
+  const auto n = static_cast<double>(num_);
+  const boost::math::students_t distribution(n - 1.0);
+  const double half =
+      boost::math::quantile(distribution, 1.0 - kTail) * std::sqrt(squares_ / (n - 1.0) / n);
+  return {mean_, mean_ - half, mean_ + half, num_};
+}
+
+Estimate Moments::StandardDeviation() const {
+  if (num_ < kMinSamples) return NotEnough(num_);
+  const double degrees = static_cast<double>(num_) - 1.0;
+  const boost::math::chi_squared distribution(degrees);
+  return {std::sqrt(squares_ / degrees),
+          std::sqrt(squares_ / boost::math::quantile(distribution, 1.0 - kTail)),
+          std::sqrt(squares_ / boost::math::quantile(distribution, kTail)), num_};
+}
+
+}  // namespace railcast

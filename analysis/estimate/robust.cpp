@@ -1,0 +1,61 @@
+#include "analysis/estimate/robust.h"
+
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+
+namespace railcast {
+namespace {
+
+constexpr double kTail = 0.5 * (1.0 - kConfidence);
+constexpr double kMadToSigma = 1.4826;
+constexpr double kMadEfficiency = 0.3675;
+
+double Nth(std::vector<double>& samples, std::size_t n) {
+  const auto place = samples.begin() + static_cast<std::ptrdiff_t>(n);
+  std::nth_element(samples.begin(), place, samples.end());
+  return *place;
+}
+
+// @pre samples is not empty.
+double PlainMedian(std::vector<double>& samples) {
+  const std::size_t half = samples.size() / 2;
+  const double upper = Nth(samples, half);
+  if (samples.size() % 2 == 1) return upper;
+  const double lower =
+      *std::max_element(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(half));
+  return 0.5 * (lower + upper);
+}
+
+}  // namespace
+
+Estimate Median(std::vector<double>& samples) {
+  std::erase_if(samples, [](double sample) { return std::isnan(sample); });
+  if (samples.size() < kMinSamples) return NotEnough(samples.size());
+  const double z = boost::math::quantile(boost::math::normal(), 1.0 - kTail);
+  const auto n = static_cast<double>(samples.size());
+  // The number of samples below the true median is binomial(n, 1/2). Ranks from 1.
+  const double reach = 0.5 * z * std::sqrt(n);
+  const auto low = static_cast<std::size_t>(std::max(1.0, std::floor(0.5 * n - reach)));
+  const auto high = static_cast<std::size_t>(std::min(n, std::ceil(0.5 * n + reach) + 1.0));
+  const double low_end = Nth(samples, low - 1);
+  const double high_end = Nth(samples, high - 1);
+  return {PlainMedian(samples), low_end, high_end, samples.size()};
+}
+
+Estimate RobustScale(std::vector<double>& samples) {
+  std::erase_if(samples, [](double sample) { return std::isnan(sample); });
+  if (samples.size() < kMinSamples) return NotEnough(samples.size());
+  const double median = PlainMedian(samples);
+  std::vector<double> distances;
+  distances.reserve(samples.size());
+  for (const double sample : samples) distances.push_back(std::abs(sample - median));
+  const double scale = kMadToSigma * PlainMedian(distances);
+  const double degrees = kMadEfficiency * (static_cast<double>(samples.size()) - 1.0);
+  const boost::math::chi_squared distribution(degrees);
+  return {scale, scale * std::sqrt(degrees / boost::math::quantile(distribution, 1.0 - kTail)),
+          scale * std::sqrt(degrees / boost::math::quantile(distribution, kTail)), samples.size()};
+}
+
+}  // namespace railcast
