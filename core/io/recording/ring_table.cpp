@@ -216,8 +216,7 @@ std::uint32_t CloseColumns(std::vector<TablePoint>& points) {
   seen.reserve(points.size());
   for (const TablePoint& point : points) seen.push_back(point.column);
   std::ranges::sort(seen);
-  const auto rest = std::ranges::unique(seen);
-  seen.erase(rest.begin(), rest.end());
+  seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
   for (TablePoint& point : points) {
     point.column = std::ranges::lower_bound(seen, point.column) - seen.begin();
   }
