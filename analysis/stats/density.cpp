@@ -137,8 +137,8 @@ Table CurveTable(const NamedCurves& curves) {
     for (std::size_t i = 0; i < curve->size(); ++i) {
       const Density::Count& count = (*curve)[i];
       if (count.num_points == 0) continue;
-      table.rows.push_back({name, std::sqrt(FineRangeBins().low(i) * FineRangeBins().high(i)),
-                            count.area_m2, PerArea(count), PerSolidAngle(count)});
+      table.rows.push_back(
+          {name, count.range_m(), count.area_m2, PerArea(count), PerSolidAngle(count)});
     }
   }
   return table;
@@ -162,9 +162,9 @@ Chart CurveChart(NamedCurves curves) {
   for (const auto& [name, curve] : curves) {
     ChartSeries series{name, SeriesStyle::kLinePoints, {}};
     for (std::size_t i = 0; i < curve->size(); ++i) {
-      const Estimate density = PerArea((*curve)[i]);
-      const double range_m = std::sqrt(FineRangeBins().low(i) * FineRangeBins().high(i));
-      if (density.is_enough()) series.points.push_back(PointAt(range_m, density));
+      const Density::Count& count = (*curve)[i];
+      const Estimate density = PerArea(count);
+      if (density.is_enough()) series.points.push_back(PointAt(count.range_m(), density));
     }
     if (!series.points.empty()) chart.series.push_back(std::move(series));
   }
@@ -174,9 +174,11 @@ Chart CurveChart(NamedCurves curves) {
 }  // namespace
 
 void Density::Count::Add(const Count& other) {
+  num_firings += other.num_firings;
   num_points += other.num_points;
   area_m2 += other.area_m2;
   solid_angle_sr += other.solid_angle_sr;
+  sum_of_logs += other.sum_of_logs;
 }
 
 PowerLaw Density::LawOf(const Curve& curve) {
@@ -185,8 +187,7 @@ PowerLaw Density::LawOf(const Curve& curve) {
     const Count& count = curve[i];
     if (count.num_points < kMinSamples || !(count.area_m2 > 0.0)) continue;
     const auto num = static_cast<double>(count.num_points);
-    points.push_back({std::sqrt(FineRangeBins().low(i) * FineRangeBins().high(i)),
-                      num / count.area_m2, 1.0 / std::sqrt(num)});
+    points.push_back({count.range_m(), num / count.area_m2, 1.0 / std::sqrt(num)});
   }
   return FitPowerLaw(points);
 }
@@ -213,8 +214,8 @@ void Density::AddFromTruth(const RecordedFrame& recorded, const ScanTable& scan)
     constexpr double kLeastCosine = 1e-4;
     if (!(solid_angle_sr > 0.0) || !(cosine > kLeastCosine)) continue;
     AddTo(by_label_, frame.label[slot], range_m,
-          {frame.outcome[slot] == Outcome::kReturned ? 1U : 0U,
-           solid_angle_sr * range_m * range_m / cosine, solid_angle_sr});
+          {1, frame.outcome[slot] == Outcome::kReturned ? 1U : 0U,
+           solid_angle_sr * range_m * range_m / cosine, solid_angle_sr, std::log(range_m)});
   }
 }
 
@@ -227,7 +228,7 @@ void Density::AddFromPoints(const Frame& frame, const ScanTable& scan) {
       const auto area_m2 = around.Area_m2();
       if (!area_m2 || !(area_m2->norm() > 0.0)) continue;
       AddTo(by_attitude_, AttitudeOf(*area_m2), around.range_m(),
-            {1, area_m2->norm(), solid_angle_sr});
+            {1, 1, area_m2->norm(), solid_angle_sr, std::log(around.range_m())});
     }
   }
 }

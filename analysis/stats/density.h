@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -33,10 +34,16 @@ class Density {
 
   /// In one bin of range, on one kind of surface.
   struct Count {
-    std::uint64_t num_points{};
+    std::uint64_t num_firings{};  ///< That met the surface, ...
+    std::uint64_t num_points{};   ///< ... and their points.
     double area_m2{};
     double solid_angle_sr{};
+    double sum_of_logs{};  ///< Of the firings, in metres.
 
+    /// Geometric mean of the firings' ranges, which may lie anywhere in a bin.
+    [[nodiscard]] double range_m() const {
+      return std::exp(sum_of_logs / static_cast<double>(num_firings));
+    }
     void Add(const Count& other);
   };
   /// By bin of FineRangeBins().
