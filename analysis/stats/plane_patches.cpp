@@ -133,9 +133,7 @@ struct Window {
 Window WindowOf(const ScanTable& scan) {
   constexpr double kFineRow_rad = 0.6 * std::numbers::pi / 180.0;
   constexpr double kHalfWidth_rad = kFineRow_rad;
-  std::vector<double> heights_rad = scan.row_height_rad;
-  const Estimate height = Median(heights_rad);
-  const bool is_fine = height.is_enough() && height.value < kFineRow_rad && scan.rows >= 5;
+  const bool is_fine = scan.row_step_rad < kFineRow_rad && scan.rows >= 5;
   const double columns = std::round(kHalfWidth_rad / scan.column_step_rad);
   return {is_fine ? 2U : 1U,
           static_cast<std::size_t>(std::clamp(columns, is_fine ? 2.0 : 4.0, 6.0))};

@@ -138,8 +138,10 @@ std::optional<ScanTable> TableOf(const DirectionGrid& grid) {
   }
   table.column_step_rad = MedianStep(table.column_azimuth_rad);
   table.row_height_rad = Heights(table.elevation_rad);
-  const bool has_rows = std::ranges::any_of(table.row_height_rad, [](double h) { return h > 0.0; });
-  if (!(table.column_step_rad > 0.0) || !has_rows) return std::nullopt;
+  std::vector<double> heights_rad = table.row_height_rad;
+  std::erase_if(heights_rad, [](double height_rad) { return std::isnan(height_rad); });
+  table.row_step_rad = MedianOf(heights_rad);
+  if (!(table.column_step_rad > 0.0 && table.row_step_rad > 0.0)) return std::nullopt;
   return table;
 }
 

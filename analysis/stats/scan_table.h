@@ -24,7 +24,8 @@ struct ScanTable {
   std::vector<double> row_azimuth_rad;     ///< Of each row, added to the column's.
   std::vector<double> column_azimuth_rad;  ///< Left positive, unwrapped; NaN = not known.
   double column_step_rad{};                ///< Median distance of neighbouring columns, > 0.
-  std::vector<double> row_height_rad;      ///< Elevation that a row stands for.
+  std::vector<double> row_height_rad;      ///< Elevation that a row stands for; NaN = not known.
+  double row_step_rad{};                   ///< Their median, > 0.
 
   /// Unit vector in the sensor's axes; NaN where it is not known.
   [[nodiscard]] std::array<double, 3> Direction(std::size_t row, std::size_t column) const;
