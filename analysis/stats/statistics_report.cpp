@@ -1,11 +1,18 @@
 #include "analysis/stats/statistics_report.h"
 
+#include <filesystem>
 #include <utility>
 
 #include "analysis/stats/bins.h"
 
 namespace railcast {
 namespace {
+
+// The last part of the path: "demo" of "out/demo/".
+std::string NameOf(const std::filesystem::path& source) {
+  const std::filesystem::path path = source.lexically_normal();
+  return (path.has_filename() ? path.filename() : path.parent_path().filename()).string();
+}
 
 std::string SourcesText(const std::vector<RecordingInfo>& sources) {
   std::string text;
@@ -80,7 +87,8 @@ Report MakeStatisticsReport(const Statistics& statistics,
                             const std::string& command) {
   const Names names(sources.front());
   Report report;
-  report.title = "Statistics of " + sources.front().source.string();
+  report.title = "Statistics of " + NameOf(sources.front().source);
+  if (sources.size() > 1) report.title += " and " + std::to_string(sources.size() - 1) + " more";
   report.command = command;
   report.facts.emplace_back("Source", SourcesText(sources));
   report.facts.emplace_back("Frames", std::to_string(statistics.coverage.num_frames()));
