@@ -59,7 +59,8 @@ Estimate RobustScale(std::vector<double>& samples) {
   std::erase_if(samples, [](double sample) { return std::isnan(sample); });
   if (samples.size() < kMinSamples) return NotEnough(samples.size());
   const double degrees = kMadEfficiency * (static_cast<double>(samples.size()) - 1.0);
-  const double scale = PlainRobustScale(samples);
+  std::vector<double> distances = samples;
+  const double scale = PlainRobustScale(distances);
   const boost::math::chi_squared distribution(degrees);
   return {scale, scale * std::sqrt(degrees / boost::math::quantile(distribution, 1.0 - kTail)),
           scale * std::sqrt(degrees / boost::math::quantile(distribution, kTail)), samples.size()};
