@@ -6,13 +6,27 @@
 
 namespace railcast {
 
+/// Ranks of order statistics, from 1.
+struct RankInterval {
+  std::uint64_t low{};
+  std::uint64_t high{};
+};
+
+/// Those between which the true median lies with 95 %, for any distribution: how many of `num`
+/// samples are below it is binomial (normal approximation).
+[[nodiscard]] RankInterval MedianRanks(std::uint64_t num);
+
 /// The median, with the interval between order statistics that holds for any distribution (David
 /// and Nagaraja 2003, Order Statistics, 7.1). NaN is no sample; the order of `samples` is lost.
 [[nodiscard]] Estimate Median(std::vector<double>& samples);
 
+/// The figure of RobustScale() alone, of any number of samples; NaN of none. None may be NaN; their
+/// values are lost.
+[[nodiscard]] double PlainRobustScale(std::vector<double>& samples);
+
 /// A robust standard deviation: 1.4826 x the median distance from the median, which up to half of
-/// the samples cannot spoil. The interval is that of normal samples: 37 % as efficient as the
-/// plain one (Rousseeuw and Croux 1993, JASA 88).
+/// the samples cannot spoil. The interval is that of normal samples: 37 % as
+/// efficient as the plain one (Rousseeuw and Croux 1993, JASA 88).
 [[nodiscard]] Estimate RobustScale(std::vector<double>& samples);
 
 }  // namespace railcast
