@@ -1,5 +1,7 @@
 #include "analysis/detectability/braking.h"
 
+#include <cmath>
+
 #include "core/base/error.h"
 #include "core/base/number_text.h"
 
@@ -9,11 +11,11 @@ Stop StopOf(const BrakingSpec& braking, double speed_mps, double gradient) {
   constexpr double kGravity_mps2 = 9.80665;
   const double deceleration_mps2 = braking.deceleration_mps2 + kGravity_mps2 * gradient;
   if (!(deceleration_mps2 > 0.0)) {
-    constexpr double kPermil = 1000.0;
-    throw InputError("deceleration: must be > " + NumberText(-kGravity_mps2 * gradient) +
-                     " m/s2, or the train cannot stop at a gradient of " +
-                     NumberText(kPermil * gradient) + " permil (got " +
-                     NumberText(braking.deceleration_mps2) + ")");
+    const auto rounded = [](double value) { return std::round(1e3 * value) / 1e3; };
+    constexpr double kPermil = 1e3;
+    throw InputError("cannot stop: deceleration + g x gradient must be > 0 (got " +
+                     NumberText(rounded(deceleration_mps2)) + " m/s2 at " +
+                     NumberText(rounded(kPermil * gradient)) + " permil)");
   }
   return {.distance_m =
               speed_mps * braking.reaction_s + speed_mps * speed_mps / (2.0 * deceleration_mps2),

@@ -17,7 +17,7 @@ struct Stop {
 
 /// s = v t_r + v^2 / (2 (a + g i)), t = t_r + v / (a + g i); i is the gradient, rise per way,
 /// negative downhill (constant deceleration; g = 9.80665 m/s2).
-/// @throws InputError "deceleration: rule (got value)" if a + g i <= 0: the train cannot stop.
+/// @throws InputError "cannot stop: rule (got value)" if a + g i <= 0.
 [[nodiscard]] Stop StopOf(const BrakingSpec& braking, double speed_mps, double gradient);
 
 }  // namespace railcast
