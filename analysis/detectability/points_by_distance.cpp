@@ -89,8 +89,8 @@ Chart PointsChart(const std::vector<DetectRun>& runs,
   chart.key = KeyOf(verdict.name);
   chart.title = "Points on " + verdict.name + " against distance";
   chart.caption =
-      "Means of 10 m with their intervals; a gap is a bin without points or with too "
-      "few frames. Detected where the upright line is right of the needed one: in time.";
+      "Means of 10 m with their intervals; a gap is a bin without points or with too few "
+      "frames. In time: the detection stands to the right of what is needed.";
   chart.x = {.title = "Distance", .unit = "m"};
   chart.y = {.title = "Points a frame", .unit = "", .is_log = true};
   ChartSeries points{verdict.name, SeriesStyle::kLinePoints, {}};
