@@ -140,8 +140,9 @@ DetectRun DetectInRun(std::filesystem::path source,
   DetectRun run{
       .source = std::move(source), .seed = seed, .courses = std::move(courses), .detections = {}};
   for (const auto& [name, course] : run.courses.objects) {
+    const ObjectCourse& of_object = course;  // A lambda cannot hold a binding.
     run.detections[name] = AtPlace(run.source.string() + ": object " + name + ": ", [&] {
-      return DetectObject(course, spec.rule, spec.braking, spec.speed_mps);
+      return DetectObject(of_object, spec.rule, spec.braking, spec.speed_mps);
     });
   }
   return run;

@@ -80,12 +80,12 @@ std::optional<std::string> Refuse(std::span<const char> payload) {
 
 // The packet's end, since 1970.
 std::int64_t PacketNs(std::span<const char> payload) {
-  const auto date = [&](std::size_t i) { return int{ByteAt(payload, kPandar64DatePlace + i)}; };
+  const auto date = [&](std::size_t i) { return ByteAt(payload, kPandar64DatePlace + i); };
   const std::chrono::year_month_day day(std::chrono::year(1900 + date(0)),
-                                        std::chrono::month(static_cast<unsigned>(date(1))),
-                                        std::chrono::day(static_cast<unsigned>(date(2))));
+                                        std::chrono::month(date(1)), std::chrono::day(date(2)));
   const std::int64_t days = day.ok() ? std::chrono::sys_days(day).time_since_epoch().count() : 0;
-  const std::int64_t seconds = 86'400 * days + 3600 * date(3) + 60 * date(4) + date(5);
+  const std::int64_t hours = 24 * days + date(3);
+  const std::int64_t seconds = 3600 * hours + std::int64_t{60} * date(4) + date(5);
   const auto time_us = LoadAt<std::uint32_t>(payload.data() + kPandar64TimePlace);
   return (seconds * kUsPerSecond + time_us) * 1000;
 }

@@ -49,7 +49,10 @@ std::optional<std::uint64_t> WholeNumber(Value value, std::uint64_t limit) {
   } else if constexpr (std::is_signed_v<Value>) {
     if (value < Value{0}) return std::nullopt;
   }
-  const auto whole = static_cast<std::uint64_t>(value);
+  // Not negative here, whatever its type.
+  const auto whole = static_cast<std::uint64_t>(
+      static_cast<std::conditional_t<std::is_same_v<Value, std::int8_t>, std::uint8_t, Value>>(
+          value));
   return whole <= limit ? std::optional(whole) : std::nullopt;
 }
 

@@ -37,7 +37,8 @@ struct FrameLines {
 };
 
 std::filesystem::path CloudFileOf(const FrameLine& line, const std::string& place) {
-  for (const std::filesystem::path file : line.files) {
+  for (const std::string& name : line.files) {
+    std::filesystem::path file = name;
     if (file.extension() == ".pcd" || file.extension() == ".ply") return file;
   }
   throw InputError(place + ": files: must name a .pcd or .ply file");
