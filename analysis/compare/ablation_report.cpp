@@ -1,6 +1,7 @@
 #include "analysis/compare/ablation_report.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "analysis/compare/compare_report.h"
 #include "analysis/report/joined.h"
@@ -26,13 +27,18 @@ std::uint64_t NumChanged(const EffectStudy& study) {
   return study.beams.num_beams - study.beams.num_identical;
 }
 
-// Those that change most come first.
-std::vector<const EffectStudy*> ByChange(const std::vector<EffectStudy>& studies) {
+std::uint64_t NumOutcomeChanged(const EffectStudy& study) {
+  return study.beams.num_outcome_changed;
+}
+
+// The largest number comes first.
+std::vector<const EffectStudy*> Sorted(
+    const std::vector<EffectStudy>& studies,
+    const std::function<std::uint64_t(const EffectStudy&)>& num) {
   std::vector<const EffectStudy*> sorted;
   for (const EffectStudy& study : studies) sorted.push_back(&study);
-  std::stable_sort(sorted.begin(), sorted.end(), [](const EffectStudy* a, const EffectStudy* b) {
-    return NumChanged(*a) > NumChanged(*b);
-  });
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [&](const EffectStudy* a, const EffectStudy* b) { return num(*a) > num(*b); });
   return sorted;
 }
 
@@ -122,32 +128,47 @@ Section EffectsSection(const std::vector<EffectStudy>& studies) {
       "Each effect is switched by itself, all others staying as they are, with the same seed: its "
       "draws are its own, so that beams which it leaves alone are the same in every bit. Intervals "
       "of shares take beams as independent."};
-  const std::vector<const EffectStudy*> sorted = ByChange(studies);
+  const std::vector<const EffectStudy*> sorted = Sorted(studies, NumChanged);
   section.charts = {ChangedChart(sorted), ReturnsChart(sorted)};
   section.tables = {EffectsTable(studies)};
   return section;
+}
+
+// Of the effects that change most.
+Chart RangeChart(const std::vector<EffectStudy>& studies,
+                 const std::string& key,
+                 const std::string& title,
+                 std::uint64_t BeamChanges::RangeBin::*num_changed) {
+  Chart chart = {key, title, "", {"Range", "m", true, {}}, {"Share of beams", "%", false, {}}, {}};
+  const auto sum = [&](const EffectStudy& study) {
+    std::uint64_t num = 0;
+    for (const BeamChanges::RangeBin& bin : study.beams.range_bins) num += bin.*num_changed;
+    return num;
+  };
+  for (const EffectStudy* const study : Sorted(studies, sum)) {
+    if (sum(*study) == 0 || chart.series.size() == kMaxLines) break;
+    ChartSeries series{NameOf(*study), SeriesStyle::kLinePoints, {}};
+    for (std::size_t bin = 0; bin < RangeBins().size(); ++bin) {
+      const BeamChanges::RangeBin& counts = study->beams.range_bins[bin];
+      if (counts.num_beams == 0) continue;
+      series.points.push_back(
+          PointAt(RangeBins().middle(bin), Percentage(counts.*num_changed, counts.num_beams)));
+    }
+    chart.series.push_back(std::move(series));
+  }
+  if (chart.series.size() == kMaxLines) chart.caption = "The seven effects that change most beams.";
+  return chart;
 }
 
 Section RangeSection(const std::vector<EffectStudy>& studies) {
   Section section;
   section.key = "by_range";
   section.title = "By range";
-  section.paragraphs = {"Changed beams of all that meet a surface at this range."};
-  Chart chart = {"changed_by_range",       "Changed beams against range",      "",
-                 {"Range", "m", true, {}}, {"Share of beams", "%", false, {}}, {}};
-  for (const EffectStudy* const study : ByChange(studies)) {
-    if (NumChanged(*study) == 0 || chart.series.size() == kMaxLines) break;
-    ChartSeries series{NameOf(*study), SeriesStyle::kLinePoints, {}};
-    for (std::size_t bin = 0; bin < RangeBins().size(); ++bin) {
-      const BeamChanges::RangeBin& counts = study->beams.range_bins[bin];
-      if (counts.num_beams == 0) continue;
-      series.points.push_back(
-          PointAt(RangeBins().middle(bin), Percentage(counts.num_changed, counts.num_beams)));
-    }
-    chart.series.push_back(std::move(series));
-  }
-  if (chart.series.size() == kMaxLines) chart.caption = "The seven effects that change most beams.";
-  section.charts = {std::move(chart)};
+  section.paragraphs = {"Shares of the beams that meet a surface at this range."};
+  section.charts = {RangeChart(studies, "outcome_by_range", "Beams with another outcome",
+                               &BeamChanges::RangeBin::num_outcome_changed),
+                    RangeChart(studies, "changed_by_range", "Beams that change at all",
+                               &BeamChanges::RangeBin::num_changed)};
   Table table = {"changed_by_range", "Changed beams by range", "", {{"range_m", "Range", "m"}}, {}};
   for (const EffectStudy& study : studies) {
     table.columns.push_back({study.effect + "_percent", InWords(study.effect), "%"});
@@ -232,7 +253,7 @@ Chart CloudChart(const std::vector<EffectStudy>& studies,
                  {"", "", false, {}},
                  {title, unit, false, {}},
                  {{"", SeriesStyle::kBars, {}}}};
-  for (const EffectStudy* const study : ByChange(studies)) {
+  for (const EffectStudy* const study : Sorted(studies, NumChanged)) {
     const Cell mean = MeanOverPairs(study->clouds, metric);
     const auto x = static_cast<double>(chart.x.categories.size());
     chart.x.categories.push_back(NameOf(*study));
@@ -281,10 +302,10 @@ Report MakeAblationReport(const std::vector<EffectStudy>& studies,
   report.facts = facts;
   report.command = command;
   constexpr std::size_t kMaxHeadlines = 6;
-  for (const EffectStudy* const study : ByChange(studies)) {
-    if (report.headlines.size() == kMaxHeadlines) break;
+  for (const EffectStudy* const study : Sorted(studies, NumOutcomeChanged)) {
+    if (NumOutcomeChanged(*study) == 0 || report.headlines.size() == kMaxHeadlines) break;
     report.headlines.push_back(
-        {Joined({"Outcome changed by ", NameOf(*study)}), "% of beams",
+        {Joined({"Beams with another outcome by ", NameOf(*study)}), "%",
          Percentage(study->beams.num_outcome_changed, study->beams.num_beams)});
   }
   report.sections = {EffectsSection(studies), RangeSection(studies), OutcomesSection(studies),

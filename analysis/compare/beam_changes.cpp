@@ -62,9 +62,10 @@ void BeamChanges::Add(const Frame& without, const Frame& with) {
       is_identical = is_identical && IsSameReturn(without, with, slot);
       AddReturn(without, with, slot, *this);
     }
+    const bool is_same_outcome = without.outcome[first] == with.outcome[first];
     ++num_beams;
     num_identical += is_identical ? 1 : 0;
-    num_outcome_changed += without.outcome[first] != with.outcome[first] ? 1 : 0;
+    num_outcome_changed += is_same_outcome ? 0 : 1;
     ++transitions[static_cast<std::size_t>(without.outcome[first])]
                  [static_cast<std::size_t>(with.outcome[first])];
     const float true_range_m = std::isfinite(without.true_range_m[first])
@@ -73,6 +74,7 @@ void BeamChanges::Add(const Frame& without, const Frame& with) {
     if (const auto bin = RangeBins().Find(static_cast<double>(true_range_m))) {
       ++range_bins[*bin].num_beams;
       range_bins[*bin].num_changed += is_identical ? 0 : 1;
+      range_bins[*bin].num_outcome_changed += is_same_outcome ? 0 : 1;
     }
   }
 }

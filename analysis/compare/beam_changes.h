@@ -16,6 +16,7 @@ struct BeamChanges {
   struct RangeBin {
     std::uint64_t num_beams{};
     std::uint64_t num_changed{};  ///< Not identical.
+    std::uint64_t num_outcome_changed{};
   };
 
   BeamChanges();

@@ -168,7 +168,9 @@ std::optional<AxisRange> RangeOfX(const Chart& chart) {
   }
   for (const ChartSeries& series : chart.series) {
     for (const ChartPoint& point : series.points) {
-      if (HasPlace(point.x, chart.x.is_log)) extent.Add(point.x);
+      if (HasPlace(point.x, chart.x.is_log) && HasPlace(point.y, chart.y.is_log)) {
+        extent.Add(point.x);
+      }
     }
   }
   if (extent.is_empty()) return std::nullopt;
