@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   railcast::Command command;
   railcast::AddFrontier(app, command);
   railcast::AddStats(app, command);
+  railcast::AddCompare(app, command);
   railcast::AddReceive(app, command);
   try {
     app.parse(argc, argv);
