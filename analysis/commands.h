@@ -16,6 +16,8 @@ using Command = std::function<int()>;
 
 // Each adds one command with its options; if the command line names it, `command` becomes it.
 
+/// From how far objects are detected, against the way that a train needs to stop.
+void AddDetect(CLI::App& app, Command& command);
 /// Charts speed against accuracy on a scenario.
 void AddFrontier(CLI::App& app, Command& command);
 /// Dropout, density, noise, intensity and coverage of recordings, ours or anybody's.
