@@ -13,7 +13,7 @@ namespace {
 
 // Beyond these, labels have a power of ten.
 constexpr double kLargestLabel = 1e6;
-constexpr double kSmallestLabel = 1e-3;
+constexpr double kSmallestLabel = 1e-4;
 // Between the outermost points and the ends of the axis.
 constexpr double kMargin = 0.05;
 // Values that come this near to 0, as a share of the largest, are shown with it.

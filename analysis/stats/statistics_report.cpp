@@ -1,11 +1,18 @@
 #include "analysis/stats/statistics_report.h"
 
+#include <filesystem>
 #include <utility>
 
 #include "analysis/stats/bins.h"
 
 namespace railcast {
 namespace {
+
+// The last part of the path: "demo" of "out/demo/".
+std::string NameOf(const std::filesystem::path& source) {
+  const std::filesystem::path path = source.lexically_normal();
+  return (path.has_filename() ? path.filename() : path.parent_path().filename()).string();
+}
 
 std::string SourcesText(const std::vector<RecordingInfo>& sources) {
   std::string text;
@@ -25,20 +32,33 @@ void AddScenarioFacts(const ScenarioSpec& scenario, Report& report) {
   report.facts.emplace_back("Seed", std::to_string(scenario.seed));
 }
 
-// Of the bin with the most flat pieces of surface: the best known figure.
-void AddNoiseHeadline(const Noise& noise, Report& report) {
-  std::size_t best = 0;
-  for (std::size_t i = 0; i < noise.planes().size(); ++i) {
-    if (noise.planes()[i].range_sigmas_m.num() > noise.planes()[best].range_sigmas_m.num())
-      best = i;
-  }
-  if (noise.planes().empty()) return;
+void AddNoiseHeadline(std::string title, std::size_t bin, const Estimate& sigma_m, Report& report) {
   constexpr double kMm = 1e3;
-  std::string title = "Range noise on planes, ";
-  title += RangeBins().Name(best);
+  title += ", ";
+  title += RangeBins().Name(bin);
   title += " m";
-  report.headlines.push_back(
-      {std::move(title), "mm", Scaled(noise.planes()[best].RobustRangeSigma_m(), kMm)});
+  report.headlines.push_back({std::move(title), "mm", Scaled(sigma_m, kMm)});
+}
+
+// Of the bin with the most samples: the best known figure. The truth's, where there is any.
+void AddNoiseHeadline(const Noise& noise, Report& report) {
+  const auto best_of = [](const auto& bins, auto num) {
+    std::size_t best = 0;
+    for (std::size_t i = 0; i < bins.size(); ++i) {
+      if (num(bins[i]) > num(bins[best])) best = i;
+    }
+    return best;
+  };
+  const auto& truth = noise.truth();
+  const auto& planes = noise.planes();
+  if (!truth.empty()) {
+    const std::size_t bin = best_of(truth, [](const Noise::Truth& t) { return t.errors_m.num(); });
+    AddNoiseHeadline("Range noise", bin, truth[bin].RobustSigma_m(), report);
+  } else if (!planes.empty()) {
+    const std::size_t bin =
+        best_of(planes, [](const Noise::Planes& p) { return p.range_sigmas_m.num(); });
+    AddNoiseHeadline("Range noise on planes", bin, planes[bin].RobustRangeSigma_m(), report);
+  }
 }
 
 // Of the surface with the most points.
@@ -67,7 +87,8 @@ Report MakeStatisticsReport(const Statistics& statistics,
                             const std::string& command) {
   const Names names(sources.front());
   Report report;
-  report.title = "Statistics of " + sources.front().source.string();
+  report.title = "Statistics of " + NameOf(sources.front().source);
+  if (sources.size() > 1) report.title += " and " + std::to_string(sources.size() - 1) + " more";
   report.command = command;
   report.facts.emplace_back("Source", SourcesText(sources));
   report.facts.emplace_back("Frames", std::to_string(statistics.coverage.num_frames()));
