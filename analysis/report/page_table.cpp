@@ -11,7 +11,7 @@ namespace railcast {
 namespace {
 
 // What a page of paper takes, in letters.
-constexpr std::size_t kPaperWidth = 115;
+constexpr std::size_t kPaperWidth = 150;
 // Between two cells, in letters.
 constexpr std::size_t kCellGap = 2;
 
