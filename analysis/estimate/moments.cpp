@@ -3,6 +3,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <limits>
 
 namespace railcast {
 namespace {
@@ -27,6 +28,10 @@ void Moments::Add(const Moments& other) {
   num_ += other.num_;
   mean_ += distance * theirs / (ours + theirs);
   squares_ += other.squares_ + distance * distance * ours * theirs / (ours + theirs);
+}
+
+double Moments::PlainMean() const {
+  return num_ == 0 ? std::numeric_limits<double>::quiet_NaN() : mean_;
 }
 
 Estimate Moments::Mean() const {

@@ -15,6 +15,8 @@ class Moments {
   void Add(const Moments& other);
 
   [[nodiscard]] std::uint64_t num() const { return num_; }
+  /// Of any number of samples, without an interval; NaN of none.
+  [[nodiscard]] double PlainMean() const;
   /// With Student's interval: exact for normal samples, good for many of any kind.
   [[nodiscard]] Estimate Mean() const;
   /// Unbiased variance's root, with the chi-squared interval: for normal samples only.

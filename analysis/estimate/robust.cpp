@@ -30,18 +30,21 @@ double PlainMedian(std::vector<double>& samples) {
 
 }  // namespace
 
+RankInterval MedianRanks(std::uint64_t num) {
+  const double z = boost::math::quantile(boost::math::normal(), 1.0 - kTail);
+  const auto n = static_cast<double>(num);
+  const double reach = 0.5 * z * std::sqrt(n);
+  return {static_cast<std::uint64_t>(std::max(1.0, std::floor(0.5 * n - reach))),
+          static_cast<std::uint64_t>(std::min(n, std::ceil(0.5 * n + reach) + 1.0))};
+}
+
 Estimate Median(std::vector<double>& samples) {
   std::erase_if(samples, [](double sample) { return std::isnan(sample); });
   if (samples.size() < kMinSamples) return NotEnough(samples.size());
-  const double z = boost::math::quantile(boost::math::normal(), 1.0 - kTail);
-  const auto n = static_cast<double>(samples.size());
-  // The number of samples below the true median is binomial(n, 1/2). Ranks from 1.
-  const double reach = 0.5 * z * std::sqrt(n);
-  const auto low = static_cast<std::size_t>(std::max(1.0, std::floor(0.5 * n - reach)));
-  const auto high = static_cast<std::size_t>(std::min(n, std::ceil(0.5 * n + reach) + 1.0));
-  const double low_end = Nth(samples, low - 1);
-  const double high_end = Nth(samples, high - 1);
-  return {PlainMedian(samples), low_end, high_end, samples.size()};
+  const RankInterval ranks = MedianRanks(samples.size());
+  const double low = Nth(samples, ranks.low - 1);
+  const double high = Nth(samples, ranks.high - 1);
+  return {PlainMedian(samples), low, high, samples.size()};
 }
 
 Estimate RobustScale(std::vector<double>& samples) {

@@ -6,6 +6,16 @@
 
 namespace railcast {
 
+/// Ranks of order statistics, from 1.
+struct RankInterval {
+  std::uint64_t low{};
+  std::uint64_t high{};
+};
+
+/// Those between which the true median lies with 95 %, for any distribution: how many of `num`
+/// samples are below it is binomial (normal approximation).
+[[nodiscard]] RankInterval MedianRanks(std::uint64_t num);
+
 /// The median, with the interval between order statistics that holds for any distribution (David
 /// and Nagaraja 2003, Order Statistics, 7.1). NaN is no sample; the order of `samples` is lost.
 [[nodiscard]] Estimate Median(std::vector<double>& samples);

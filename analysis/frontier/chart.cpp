@@ -1,13 +1,11 @@
 #include "analysis/frontier/chart.h"
 
-#include <sys/wait.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "analysis/frontier/pareto.h"
+#include "analysis/report/gnuplot.h"
 #include "core/base/error.h"
 #include "core/io/write_file.h"
 
@@ -18,24 +16,6 @@ constexpr std::size_t kNumPanels = 4;
 // Colour-blind safe (Okabe and Ito).
 constexpr const char* kLadderColor = "#0072b2";
 constexpr const char* kBruteForceColor = "#d55e00";
-constexpr int kExitNotFound = 127;  // Of a shell.
-
-// Text in double quotes, as gnuplot reads it. Enhanced text is off.
-std::string Quoted(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    quoted += c;
-  }
-  return quoted + "\"";
-}
-
-// To six digits: a chart shows no more.
-std::string Short(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
-}
 
 // What stands beside a point and where, in characters from it. The first rungs lie close together,
 // at little more than one raw trace: two go to the left, where the axis has room.
@@ -73,10 +53,10 @@ std::string Labels(const FrontierError& error, const std::vector<RowResult>& res
     PointLabel label = LabelOf(result.row);
     if (result.row.name == "geometry") label.up = up_of_geometry;
     if (result.row.name == "plausibility") label.up = -up_of_geometry;
-    text += "set label " + Quoted(label.text) + " at " + Short(result.ratio()) + "," +
-            Short(value) + " offset " + Short(label.right) + "," + Short(label.up) +
-            (label.is_on_the_left ? " right" : " left") + " textcolor rgb '" +
-            (is_brute_force ? kBruteForceColor : kLadderColor) + "'\n";
+    text += "set label " + GnuplotQuoted(label.text) + " at " + GnuplotNumber(result.ratio()) +
+            "," + GnuplotNumber(value) + " offset " + GnuplotNumber(label.right) + "," +
+            GnuplotNumber(label.up) + (label.is_on_the_left ? " right" : " left") +
+            " textcolor rgb '" + (is_brute_force ? kBruteForceColor : kLadderColor) + "'\n";
   }
   return text;
 }
@@ -95,7 +75,8 @@ std::string DataBlock(const std::string& name,
     if (result.row.group != group || !result.difference) continue;
     const double value = error.scale * error.of(*result.difference);
     if (std::isnan(value)) continue;
-    points.push_back({result.ratio(), Short(result.ratio()) + " " + Short(value) + "\n"});
+    points.push_back(
+        {result.ratio(), GnuplotNumber(result.ratio()) + " " + GnuplotNumber(value) + "\n"});
   }
   // Lines run from left to right.
   std::stable_sort(points.begin(), points.end(),
@@ -126,40 +107,13 @@ Ends EndsOf(const FrontierError& error, const std::vector<RowResult>& results) {
   return ends;
 }
 
-// The bytes that a command line of the shell writes to stdout.
-std::string OutputOf(const std::string& command) {
-  FILE* const pipe = ::popen(command.c_str(), "r");
-  Check(pipe != nullptr, "a pipe can be opened");
-  std::string bytes;
-  std::array<char, 65536> buffer{};
-  std::size_t count = 0;
-  while ((count = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0) {
-    bytes.append(buffer.data(), count);
-  }
-  const int status = ::pclose(pipe);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == kExitNotFound) {
-    throw InputError("gnuplot: not found; install gnuplot-nox (the numbers are written)");
-  }
-  if (status != 0 || bytes.empty()) {
-    throw InputError("gnuplot: failed (the numbers are written)");
-  }
-  return bytes;
-}
-
-// A word of the shell.
-std::string ShellWord(const std::string& text) {
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
-}
-
 }  // namespace
 
 std::string ChartScript(const std::vector<RowResult>& results, const std::string& title) {
   std::string text =
       "# gnuplot -e 'set terminal svg size 1200,900' this > frontier.svg\n"
       "set multiplot layout 2,2 title " +
-      Quoted(title) +
+      GnuplotQuoted(title) +
       "\n"
       "set logscale x 2\n"
       "set xlabel 'time per frame / raw trace'\n"
@@ -172,10 +126,10 @@ std::string ChartScript(const std::vector<RowResult>& results, const std::string
     text += DataBlock("ladder", RowGroup::kLadder, error, results) +
             DataBlock("between", RowGroup::kBetween, error, results) +
             DataBlock("brute", RowGroup::kBruteForce, error, results) + Labels(error, results);
-    text += "set ylabel " + Quoted(error.title) +
+    text += "set ylabel " + GnuplotQuoted(error.title) +
             // Room for labels on all sides.
-            "\nset xrange [0.5:" + Short(1.3 * ends.right) + "]\nset yrange [" +
-            Short(-0.1 * ends.top) + ":" + Short(1.2 * ends.top) +
+            "\nset xrange [0.5:" + GnuplotNumber(1.3 * ends.right) + "]\nset yrange [" +
+            GnuplotNumber(-0.1 * ends.top) + ":" + GnuplotNumber(1.2 * ends.top) +
             "]\n"
             // Without the function gnuplot fails where no row has this error.
             "plot NaN notitle, $brute using 1:2 with linespoints linecolor rgb '" +
@@ -193,9 +147,10 @@ std::string ChartScript(const std::vector<RowResult>& results, const std::string
 
 void DrawChart(const std::filesystem::path& script, const std::filesystem::path& picture) {
   const auto draw = [&](const std::string& terminal, const std::string& ending) {
-    const std::string command = "gnuplot -e \"set terminal " + terminal + "\" " +
-                                ShellWord(script.string()) + " 2>/dev/null";
-    WriteFileWhole(picture.string() + ending, OutputOf(command));
+    const std::string bytes = GnuplotOutput(script, "set terminal " + terminal);
+    // gnuplot can draw nothing and call it success.
+    if (bytes.empty()) throw InputError("gnuplot: failed (the numbers are written)");
+    WriteFileWhole(picture.string() + ending, bytes);
   };
   draw("svg noenhanced size 1200,900 background '#ffffff' font 'sans,12'", ".svg");
   draw("pngcairo noenhanced size 1200,900 font 'sans,10'", ".png");

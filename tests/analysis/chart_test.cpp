@@ -30,11 +30,12 @@ TEST(ChartScript, DrawsOurRungsFromLeftToRight) {
 }
 
 TEST(ChartScript, CallsBruteForceByItsRays) {
-  EXPECT_THAT(ChartScript(Results(), "title"), HasSubstr("set label \"7\" at 4,20 "));
+  EXPECT_THAT(ChartScript(Results(), "title"), HasSubstr("set label '7' at 4,20 "));
 }
 
 TEST(ChartScript, QuotesTheTitle) {
-  EXPECT_THAT(ChartScript(Results(), R"(a "b" \c)"), HasSubstr(R"(title "a \"b\" \\c")"));
+  EXPECT_THAT(ChartScript(Results(), R"(a "b" \c, it's `d`)"),
+              HasSubstr(R"(title 'a "b" \c, it''s `d`')"));
 }
 
 TEST(DrawChart, MakesAPngAndAnSvg) {

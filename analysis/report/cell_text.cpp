@@ -1,0 +1,142 @@
+#include "analysis/report/cell_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "analysis/report/joined.h"
+
+namespace railcast {
+namespace {
+
+// Beyond these, numbers are written with a power of ten.
+constexpr double kLargest = 1e9;
+constexpr double kSmallest = 1e-4;
+// Of figures that say nothing of their accuracy.
+constexpr int kPlainDigits = 4;
+// Of half an interval's width; the figure itself ends at the same place.
+constexpr int kIntervalDigits = 2;
+// More would claim what nobody has measured.
+constexpr int kMaxDigits = 7;
+
+// The place of the first digit: 0 of 1 to 9.99, -1 of 0.1 to 0.999.
+int Magnitude(double value) {
+  return static_cast<int>(std::floor(std::log10(std::abs(value))));
+}
+
+std::string Printed(const char* format, int digits, double value) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), format, digits, value);
+  return text.data();
+}
+
+std::string WithSeparators(const std::string& number) {
+  const std::size_t first = number.find_first_of("0123456789");
+  const std::size_t end = std::min(number.find('.'), number.size());
+  std::string text = number.substr(0, first);
+  for (std::size_t i = first; i < end; ++i) {
+    if (i > first && (end - i) % 3 == 0) text += ',';
+    text += number[i];
+  }
+  return text += number.substr(end);
+}
+
+// To a number of decimals, which may be negative: then the digits before the point are rounded.
+std::string Rounded(double value, int decimals) {
+  const double step = std::pow(10.0, -decimals);
+  const double rounded = decimals < 0 ? std::round(value / step) * step : value;
+  const std::string text = Printed("%.*f", std::max(decimals, 0), rounded);
+  // No "-0.00".
+  const bool is_zero = text.find_first_of("123456789") == std::string::npos;
+  return WithSeparators(is_zero && text[0] == '-' ? text.substr(1) : text);
+}
+
+bool IsBeyond(double value) {
+  return value != 0.0 && (std::abs(value) >= kLargest || std::abs(value) < kSmallest);
+}
+
+std::string Plain(double value) {
+  if (std::isinf(value)) return value > 0.0 ? "infinite" : "-infinite";
+  if (value == 0.0) return "0";
+  if (IsBeyond(value)) return Printed("%.*e", kPlainDigits - 1, value);
+  // A count is shown whole, and so is a number that needs fewer digits.
+  if (value == std::round(value)) return Rounded(value, 0);
+  const std::string text = Rounded(value, std::max(0, kPlainDigits - 1 - Magnitude(value)));
+  if (text.find('.') == std::string::npos) return text;
+  const std::string trimmed = text.substr(0, text.find_last_not_of('0') + 1);
+  return trimmed.back() == '.' ? trimmed.substr(0, trimmed.size() - 1) : trimmed;
+}
+
+std::string Interval(const std::string& low, const std::string& high) {
+  return Joined({"[", low, ", ", high, "]"});
+}
+
+CellText EstimateText(const Estimate& estimate) {
+  CellText text;
+  text.is_number = true;
+  text.samples = "n = " + CountText(estimate.num);
+  if (!estimate.is_enough()) {
+    text.value = "not enough";
+    text.is_absent = true;
+    return text;
+  }
+  const double half_width = (estimate.high - estimate.low) / 2.0;
+  if (!std::isfinite(half_width)) {
+    text.value = Plain(estimate.value);
+    return text;
+  }
+  const double largest =
+      std::max({std::abs(estimate.low), std::abs(estimate.value), std::abs(estimate.high)});
+  if (half_width <= 0.0 || IsBeyond(largest)) {
+    text.value = Plain(estimate.value);
+    text.interval = Interval(Plain(estimate.low), Plain(estimate.high));
+    return text;
+  }
+  const int decimals =
+      std::min(kIntervalDigits - 1 - Magnitude(half_width), kMaxDigits - 1 - Magnitude(largest));
+  text.value = Rounded(estimate.value, decimals);
+  text.interval = Interval(Rounded(estimate.low, decimals), Rounded(estimate.high, decimals));
+  return text;
+}
+
+}  // namespace
+
+std::string CountText(std::uint64_t count) {
+  return WithSeparators(std::to_string(count));
+}
+
+CellText TextOf(const Cell& cell) {
+  if (const auto* const estimate = std::get_if<Estimate>(&cell)) return EstimateText(*estimate);
+  CellText text;
+  if (const auto* const words = std::get_if<std::string>(&cell)) {
+    text.value = *words;
+    return text;
+  }
+  text.is_number = true;
+  if (const auto* const count = std::get_if<std::uint64_t>(&cell)) {
+    text.value = CountText(*count);
+    return text;
+  }
+  const double value = std::get<double>(cell);
+  text.is_absent = std::isnan(value);
+  text.value = text.is_absent ? "-" : Plain(value);
+  return text;
+}
+
+std::string LineOf(const CellText& text) {
+  if (text.is_absent) {
+    return text.samples.empty() ? text.value : text.value + " (" + text.samples + ")";
+  }
+  std::string line = text.value;
+  if (!text.interval.empty()) line += " " + text.interval;
+  if (!text.samples.empty()) line += ", " + text.samples;
+  return line;
+}
+
+std::string WithUnit(const std::string& title, const std::string& unit) {
+  if (unit.empty()) return title;
+  return title.empty() ? unit : title + " (" + unit + ")";
+}
+
+}  // namespace railcast

@@ -1,0 +1,130 @@
+#include "analysis/report/chart_script.h"
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "analysis/report/axis.h"
+#include "analysis/report/cell_text.h"
+#include "analysis/report/chart_series.h"
+#include "analysis/report/gnuplot.h"
+#include "analysis/report/joined.h"
+
+namespace railcast {
+namespace {
+
+constexpr int kWidth_px = 640;
+constexpr int kHeight_px = 380;
+constexpr int kEmptyHeight_px = 200;
+constexpr int kRowHeight_px = 26;  // Of a bar's category where bars lie.
+constexpr int kFrameHeight_px = 110;
+// More letters do not fit below an axis.
+constexpr std::size_t kMaxLettersBelow = 70;
+constexpr std::size_t kMaxNameLetters = 36;
+constexpr std::size_t kMaxLyingCategories = 40;
+constexpr std::size_t kMaxLabelsBelow = 20;
+
+bool HasLongCategories(const Chart& chart) {
+  std::size_t num_letters = 0;
+  for (const std::string& name : chart.x.categories) num_letters += name.size() + 2;
+  return num_letters > kMaxLettersBelow && chart.x.categories.size() <= kMaxLyingCategories;
+}
+
+// "set xtics (...)" and the like.
+std::string Tics(const std::string& axis, const std::vector<AxisTick>& ticks) {
+  std::string text = "set " + axis + "tics nomirror scale 0.4 (";
+  for (std::size_t i = 0; i < ticks.size(); ++i) {
+    if (i > 0) text += ", ";
+    text += GnuplotQuoted(ticks[i].label) + " " + GnuplotNumber(ticks[i].at);
+  }
+  return text + ")\n";
+}
+
+// A name that leaves room for what it names; tables have it in full.
+std::string Shortened(const std::string& name) {
+  if (name.size() <= kMaxNameLetters) return name;
+  std::size_t end = kMaxNameLetters - 1;
+  // Not within a character of UTF-8.
+  while ((static_cast<unsigned char>(name[end]) >> 6) == 2) --end;
+  return Joined({name.substr(0, end), "…"});
+}
+
+std::vector<AxisTick> CategoryTicks(const std::vector<std::string>& names, bool is_lying) {
+  const std::size_t stride = is_lying ? 1 : 1 + (names.size() - 1) / kMaxLabelsBelow;
+  std::vector<AxisTick> ticks;
+  for (std::size_t i = 0; i < names.size(); i += stride) {
+    ticks.push_back({static_cast<double>(i), Shortened(names[i])});
+  }
+  return ticks;
+}
+
+// `axis` is gnuplot's: "x" or "y".
+std::string AxisText(const std::string& axis,
+                     const ChartAxis& ours,
+                     const AxisRange& range,
+                     bool is_lying) {
+  constexpr int kNumTicks = 6;
+  std::string text =
+      "set " + axis + "label " + GnuplotQuoted(WithUnit(ours.title, ours.unit)) + "\n";
+  const bool goes_down = is_lying && !ours.categories.empty();
+  text += "set " + axis + "range [" + GnuplotNumber(goes_down ? range.high : range.low) + ":" +
+          GnuplotNumber(goes_down ? range.low : range.high) + "]\n";
+  if (ours.is_log) text += "set logscale " + axis + "\n";
+  return text + Tics(axis, ours.categories.empty() ? TicksIn(range, ours.is_log, kNumTicks)
+                                                   : CategoryTicks(ours.categories, is_lying));
+}
+
+std::string AxesText(const Drawing& drawing) {
+  const Chart& chart = drawing.chart;
+  const bool lies = drawing.is_lying;
+  return AxisText(lies ? "y" : "x", chart.x, drawing.x, lies) +
+         AxisText(lies ? "x" : "y", chart.y, drawing.y, lies) + "set grid " + (lies ? "x" : "y") +
+         "tics back linetype 1 linewidth 0.8 linecolor rgb '" + kGridColor + "'\n";
+}
+
+int HeightOf_px(const Drawing& drawing) {
+  if (!drawing.is_lying) return kHeight_px;
+  const int rows_px = kRowHeight_px * static_cast<int>(drawing.chart.x.categories.size());
+  return std::max(kHeight_px / 2, kFrameHeight_px + rows_px);
+}
+
+// Of a chart without a point.
+std::string EmptyAxesText(const Chart& chart) {
+  return "set xlabel " + GnuplotQuoted(WithUnit(chart.x.title, chart.x.unit)) + "\nset ylabel " +
+         GnuplotQuoted(WithUnit(chart.y.title, chart.y.unit)) +
+         "\nset xrange [0:1]\nset yrange [0:1]\nunset xtics\nunset ytics\nset label 1 'not enough "
+         "data' at graph 0.5, 0.5 center textcolor rgb '" +
+         kMutedColor + "'\n";
+}
+
+}  // namespace
+
+std::string DrawingOf(const Chart& chart,
+                      const std::filesystem::path& svg,
+                      const std::filesystem::path& png) {
+  const std::optional<AxisRange> x = RangeOfX(chart);
+  const std::optional<AxisRange> y = RangeOfY(chart);
+  const bool is_empty = !x || !y;
+  const Drawing drawing =
+      is_empty ? Drawing{chart, {}, {}, false, {}}
+               : Drawing{chart, *x, *y, HasLongCategories(chart), SortedPlaces(chart)};
+  const PlotText plot = PlotOf(drawing);
+  const int height_px = is_empty ? kEmptyHeight_px : HeightOf_px(drawing);
+  const auto output = [&](int scale, const std::filesystem::path& file) {
+    return Joined({" size ", std::to_string(scale * kWidth_px), ",",
+                   std::to_string(scale * height_px), "\nset output ", GnuplotQuoted(file.string()),
+                   "\n", plot.command});
+  };
+  return Joined({"reset\n", plot.data, "set border ", drawing.is_lying ? "2" : "1",
+                 " linewidth 1 linecolor rgb '#000000'\n"
+                 "set key outside top left Left reverse horizontal samplen 1.5 height 0.5\n"
+                 "set samples 2\n",
+                 is_empty ? EmptyAxesText(chart) : AxesText(drawing),
+                 "set terminal svg noenhanced rounded font 'sans-serif,14'", output(1, svg),
+                 "set title ", GnuplotQuoted(chart.title),
+                 "\nset terminal pngcairo noenhanced rounded fontscale 2 linewidth 2 pointscale 2 "
+                 "font 'sans-serif,10'",
+                 output(2, png), "set output\n"});
+}
+
+}  // namespace railcast

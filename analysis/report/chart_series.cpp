@@ -1,0 +1,218 @@
+#include "analysis/report/chart_series.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/report/gnuplot.h"
+
+namespace railcast {
+namespace {
+
+// Of what a place has, how much its bars take together.
+constexpr double kBarsShare = 0.8;
+constexpr double kHistogramShare = 0.96;
+constexpr std::size_t kManyPoints = 60;
+constexpr std::array<int, 7> kPointTypes = {7, 5, 9, 13, 11, 15, 7};
+
+std::size_t CountBars(const Chart& chart) {
+  return static_cast<std::size_t>(
+      std::count_if(chart.series.begin(), chart.series.end(),
+                    [](const ChartSeries& s) { return s.style == SeriesStyle::kBars; }));
+}
+
+// Numbers of one line, in gnuplot's order of axes.
+std::string Line(const std::vector<double>& numbers) {
+  std::string line;
+  for (const double number : numbers) line += GnuplotNumber(number) + " ";
+  line.back() = '\n';
+  return line;
+}
+
+// A number on the axis, its end where it lies beyond.
+double Clamped(double y, const Drawing& drawing) {
+  if (std::isnan(y)) return y;
+  return std::clamp(y, drawing.y.low, drawing.y.high);
+}
+
+bool IsDrawn(const ChartPoint& point, const Chart& chart) {
+  return HasPlace(point.x, chart.x.is_log) && HasPlace(point.y, chart.y.is_log);
+}
+
+bool HasInterval(const ChartPoint& point) {
+  return std::isfinite(point.low) && std::isfinite(point.high);
+}
+
+// Where series number `bar` of the chart's bars stands at x.
+AxisRange BarOf(double x, std::size_t bar, const Drawing& drawing) {
+  const Chart& chart = drawing.chart;
+  const bool is_log = chart.x.is_log;
+  AxisRange place =
+      chart.x.categories.empty() ? BarAt(x, drawing.places, is_log) : AxisRange{x - 0.5, x + 0.5};
+  const auto num = static_cast<double>(CountBars(chart));
+  const double share = chart.x.categories.empty() ? kHistogramShare : kBarsShare;
+  const double begin = (1.0 - share) / 2.0 + share * static_cast<double>(bar) / num;
+  const double end = begin + share / num;
+  const auto at = [&](double part) {
+    return is_log ? place.low * std::pow(place.high / place.low, part)
+                  : place.low + part * (place.high - place.low);
+  };
+  return {at(begin), at(end)};
+}
+
+// The plot elements of one series and the data blocks that they use.
+struct SeriesParts {
+  std::string data;
+  std::vector<std::string> back;   ///< Bands and bars: behind everything.
+  std::vector<std::string> front;  ///< Lines, points, intervals.
+};
+
+std::string BlockName(std::size_t series) {
+  std::string name = "s";
+  return name += std::to_string(series);
+}
+
+std::string Block(const std::string& name, const std::string& lines) {
+  return "$" + name + " << EOD\n" + lines + "EOD\n";
+}
+
+// Two numbers, x and y, as two columns of an upright or a lying chart.
+std::string Columns(const Drawing& drawing) {
+  return drawing.is_lying ? " using 2:1" : " using 1:2";
+}
+
+std::string TitleOf(const ChartSeries& series) {
+  return series.title.empty() ? " notitle" : " title " + GnuplotQuoted(series.title);
+}
+
+// An interval as a thin line at x, without caps.
+std::string Whisker(double x, const ChartPoint& point, const Drawing& drawing) {
+  const double low = Clamped(point.low, drawing);
+  const double high = Clamped(point.high, drawing);
+  return drawing.is_lying ? Line({low, x, high - low, 0.0}) : Line({x, low, 0.0, high - low});
+}
+
+SeriesParts BarParts(const ChartSeries& series,
+                     std::size_t bar,
+                     const std::string& name,
+                     const std::string& color,
+                     const Drawing& drawing) {
+  SeriesParts parts;
+  std::string bars, whiskers;
+  const double base = drawing.chart.y.is_log ? drawing.y.low : Clamped(0.0, drawing);
+  for (const ChartPoint& point : series.points) {
+    if (!IsDrawn(point, drawing.chart)) continue;
+    const AxisRange place = BarOf(point.x, bar, drawing);
+    const double low = std::min(base, point.y);
+    const double high = std::max(base, point.y);
+    bars += drawing.is_lying ? Line({high, point.x, low, high, place.low, place.high})
+                             : Line({point.x, high, place.low, place.high, low, high});
+    const double middle =
+        drawing.chart.x.is_log ? std::sqrt(place.low * place.high) : (place.low + place.high) / 2.0;
+    if (HasInterval(point)) whiskers += Whisker(middle, point, drawing);
+  }
+  if (!bars.empty()) {
+    parts.data += Block(name + "b", bars);
+    parts.back.push_back("$" + name + "b using 1:2:3:4:5:6 with boxxyerror fillstyle solid 0.85 " +
+                         "noborder linecolor rgb '" + color + "'" + TitleOf(series));
+  }
+  if (!whiskers.empty()) {
+    parts.data += Block(name + "w", whiskers);
+    parts.front.push_back("$" + name + "w using 1:2:3:4 with vectors nohead linewidth 1.2 " +
+                          "linecolor rgb '#000000' notitle");
+  }
+  return parts;
+}
+
+// The points between two gaps; gnuplot ends lines and bands at empty lines.
+struct CurveText {
+  std::string points, band, whiskers;
+};
+
+CurveText CurveOf(const ChartSeries& series, const Drawing& drawing) {
+  CurveText text;
+  const bool has_line = series.style != SeriesStyle::kPoints;
+  const auto is_band_point = [&](std::size_t i) {
+    return i < series.points.size() && IsDrawn(series.points[i], drawing.chart) &&
+           HasInterval(series.points[i]);
+  };
+  for (std::size_t i = 0; i < series.points.size(); ++i) {
+    const ChartPoint& point = series.points[i];
+    if (!IsDrawn(point, drawing.chart)) {
+      text.points += "\n";
+      text.band += "\n";
+      continue;
+    }
+    text.points += Line({point.x, point.y});
+    if (!is_band_point(i)) {
+      text.band += "\n";
+      continue;
+    }
+    // A band needs two points in a row and upright axes.
+    const bool has_neighbour = (i > 0 && is_band_point(i - 1)) || is_band_point(i + 1);
+    if (has_line && has_neighbour && !drawing.is_lying) {
+      text.band += Line({point.x, Clamped(point.low, drawing), Clamped(point.high, drawing)});
+    } else {
+      text.whiskers += Whisker(point.x, point, drawing);
+      text.band += "\n";
+    }
+  }
+  return text;
+}
+
+SeriesParts CurveParts(const ChartSeries& series,
+                       std::size_t index,
+                       const std::string& color,
+                       const Drawing& drawing) {
+  SeriesParts parts;
+  const std::string name = BlockName(index);
+  const CurveText curve = CurveOf(series, drawing);
+  const std::string paint = " linecolor rgb '" + color + "'";
+  if (curve.band.find_first_not_of('\n') != std::string::npos) {
+    parts.data += Block(name + "i", curve.band);
+    parts.back.push_back("$" + name +
+                         "i using 1:2:3 with filledcurves fillstyle solid 0.2 noborder" + paint +
+                         " notitle");
+  }
+  if (!curve.whiskers.empty()) {
+    parts.data += Block(name + "w", curve.whiskers);
+    parts.front.push_back("$" + name + "w using 1:2:3:4 with vectors nohead linewidth 1.2" + paint +
+                          " notitle");
+  }
+  if (curve.points.find_first_not_of('\n') == std::string::npos) return parts;
+  parts.data += Block(name + "p", curve.points);
+  const std::string size = series.points.size() > kManyPoints ? "0.35" : "0.6";
+  const std::string dots = " pointtype " + std::to_string(kPointTypes[index % kPointTypes.size()]) +
+                           " pointsize " + size;
+  // Colours that come again have another dash.
+  const std::string line =
+      " linewidth 2 dashtype " + std::to_string(index / kSeriesColors.size() + 1);
+  std::string how = " with linespoints" + line + dots;
+  if (series.style == SeriesStyle::kLine) how = " with lines" + line;
+  if (series.style == SeriesStyle::kPoints) how = " with points" + dots;
+  parts.front.push_back("$" + name + "p" + Columns(drawing) + how + paint + TitleOf(series));
+  return parts;
+}
+
+}  // namespace
+
+PlotText PlotOf(const Drawing& drawing) {
+  std::string data;
+  std::vector<std::string> back, front;
+  std::size_t bar = 0;
+  for (std::size_t i = 0; i < drawing.chart.series.size(); ++i) {
+    const ChartSeries& series = drawing.chart.series[i];
+    const std::string color = kSeriesColors[i % kSeriesColors.size()];
+    SeriesParts parts = series.style == SeriesStyle::kBars
+                            ? BarParts(series, bar++, BlockName(i), color, drawing)
+                            : CurveParts(series, i, color, drawing);
+    data += parts.data;
+    back.insert(back.end(), parts.back.begin(), parts.back.end());
+    front.insert(front.end(), parts.front.begin(), parts.front.end());
+  }
+  back.insert(back.end(), front.begin(), front.end());
+  std::string plot = "plot NaN notitle";
+  for (const std::string& part : back) plot += ", \\\n  " + part;
+  return {data, plot + "\n"};
+}
+
+}  // namespace railcast

@@ -1,0 +1,59 @@
+#include "analysis/report/output.h"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <map>
+#include <string>
+
+#include "analysis/report/draw.h"
+#include "analysis/report/files.h"
+#include "analysis/report/page.h"
+#include "analysis/report/text.h"
+#include "core/io/write_file.h"
+
+namespace railcast {
+namespace {
+
+void WriteTables(const Report& report, const std::filesystem::path& folder) {
+  for (const Section& section : report.sections) {
+    for (const Table& table : section.tables) {
+      std::filesystem::create_directories(folder);
+      WriteFileWhole(folder / (table.key + ".csv"), TableCsv(table));
+    }
+  }
+}
+
+void WriteFiles(const Report& report, const std::filesystem::path& out, const std::string& json) {
+  std::filesystem::create_directories(out);
+  WriteFileWhole(out / json, ReportJson(report));
+  WriteTables(report, out / "csv");
+  // The drawings come last: all else can do without gnuplot.
+  WriteFileWhole(out / "report.html", ReportPage(report, {}));
+  WriteFileWhole(out / "report.html", ReportPage(report, DrawCharts(report, out / "charts")));
+}
+
+}  // namespace
+
+void AddReportOptions(CLI::App& command, ReportOutput& output) {
+  CLI::Option_group* const where = command.add_option_group("Report");
+  where->add_option("--out", output.out,
+                    "Directory for report.html, the same as JSON and CSV, and the charts");
+  where
+      ->add_option_function<std::string>(
+          "--format", [&output](const std::string&) { output.is_text = true; },
+          "text: print the report on the terminal")
+      ->check(CLI::IsMember({"text"}));
+  where->require_option(1, 0);
+}
+
+void EmitReport(const Report& report, const ReportOutput& output, std::string_view name) {
+  if (output.is_text) std::cout << ReportText(report) << std::flush;
+  if (output.out.empty()) return;
+  const std::string json = std::string(name) + ".json";
+  WriteFiles(report, output.out, json);
+  if (!output.is_text) std::cout << HeadlinesText(report);
+  std::cout << "report.html, " << json << ", csv/ and charts/ in " << output.out.string() << "\n"
+            << std::flush;
+}
+
+}  // namespace railcast

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "analysis/report/report.h"
+
+namespace CLI {
+class App;
+}
+
+namespace railcast {
+
+/// Where a report goes: into files, onto the terminal, or both.
+struct ReportOutput {
+  std::filesystem::path out;  ///< Directory; empty: no files.
+  bool is_text = false;       ///< Whether stdout gets the whole report.
+};
+
+/// Adds --out DIR and --format text, of which at least one must be given.
+void AddReportOptions(CLI::App& command, ReportOutput& output);
+
+/// Writes DIR/report.html, DIR/`name`.json, DIR/csv/TABLE.csv and DIR/charts/CHART.svg and .png,
+/// and prints the report, or without --format text its headlines and where the files lie.
+/// @throws InputError if a file cannot be written, or if gnuplot is missing: then the page has no
+/// charts and all else is there.
+void EmitReport(const Report& report, const ReportOutput& output, std::string_view name);
+
+}  // namespace railcast

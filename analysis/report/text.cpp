@@ -1,0 +1,135 @@
+#include "analysis/report/text.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "analysis/report/cell_text.h"
+#include "analysis/report/joined.h"
+
+namespace railcast {
+namespace {
+
+constexpr std::size_t kWidth = 100;
+constexpr const char* kGap = "  ";
+
+// Characters, not bytes: those of UTF-8 that begin one.
+std::size_t WidthOf(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) >> 6) != 2; }));
+}
+
+std::string Padded(const std::string& text, std::size_t width, bool is_on_the_right) {
+  const std::string spaces(width - std::min(width, WidthOf(text)), ' ');
+  return is_on_the_right ? spaces + text : text + spaces;
+}
+
+std::string Underlined(const std::string& text, char line) {
+  return Joined({text, "\n", std::string(WidthOf(text), line), "\n"});
+}
+
+// Broken at spaces.
+std::string Paragraph(const std::string& text) {
+  std::istringstream words(text);
+  std::string lines;
+  std::size_t width = 0;
+  for (std::string word; words >> word;) {
+    const std::size_t added = WidthOf(word);
+    if (width > 0 && width + 1 + added > kWidth) {
+      lines += '\n';
+      width = 0;
+    }
+    if (width > 0) lines += ' ';
+    lines += word;
+    width += added + (width > 0 ? 1 : 0);
+  }
+  return lines += '\n';
+}
+
+// One column of a table, ready to be set: cells in one width each.
+struct TextColumn {
+  std::string title;
+  bool is_number = false;
+  std::vector<std::string> cells;
+};
+
+// Estimates line up part by part.
+TextColumn ColumnOf(const Table& table, std::size_t index) {
+  TextColumn column;
+  column.title = WithUnit(table.columns[index].title, table.columns[index].unit);
+  std::vector<CellText> texts;
+  std::size_t value_width = 0, interval_width = 0, samples_width = 0;
+  for (const std::vector<Cell>& row : table.rows) {
+    texts.push_back(TextOf(row[index]));
+    const CellText& text = texts.back();
+    column.is_number = column.is_number || text.is_number;
+    if (text.is_absent) continue;
+    value_width = std::max(value_width, WidthOf(text.value));
+    interval_width = std::max(interval_width, WidthOf(text.interval));
+    samples_width = std::max(samples_width, WidthOf(text.samples));
+  }
+  for (const CellText& text : texts) {
+    if (text.samples.empty() || text.is_absent) {
+      column.cells.push_back(LineOf(text));
+      continue;
+    }
+    // The comma stands behind the interval, if there is one.
+    const std::string interval = text.interval.empty() ? "" : Joined({" ", text.interval});
+    column.cells.push_back(Joined({Padded(text.value, value_width, true),
+                                   Padded(Joined({interval, ","}), interval_width + 2, false), " ",
+                                   Padded(text.samples, samples_width, false)}));
+  }
+  return column;
+}
+
+std::string TableText(const Table& table) {
+  std::string text = table.title + "\n";
+  if (!table.note.empty()) text += Paragraph(table.note);
+  std::vector<std::string> lines(table.rows.size() + 1);
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const TextColumn column = ColumnOf(table, i);
+    std::size_t width = WidthOf(column.title);
+    for (const std::string& cell : column.cells) width = std::max(width, WidthOf(cell));
+    lines[0] += Joined({kGap, Padded(column.title, width, column.is_number)});
+    for (std::size_t row = 0; row < column.cells.size(); ++row) {
+      lines[row + 1] += Joined({kGap, Padded(column.cells[row], width, column.is_number)});
+    }
+  }
+  for (const std::string& line : lines) {
+    text += line.substr(0, line.find_last_not_of(' ') + 1);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string PairsText(const std::vector<std::pair<std::string, std::string>>& pairs) {
+  std::size_t width = 0;
+  for (const auto& [name, value] : pairs) width = std::max(width, WidthOf(name));
+  std::string text;
+  for (const auto& [name, value] : pairs) {
+    text += Joined({kGap, Padded(name, width, false), kGap, value, "\n"});
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string HeadlinesText(const Report& report) {
+  std::vector<std::pair<std::string, std::string>> lines;
+  for (const Headline& headline : report.headlines) {
+    lines.emplace_back(WithUnit(headline.title, headline.unit), LineOf(TextOf(headline.value)));
+  }
+  return PairsText(lines);
+}
+
+std::string ReportText(const Report& report) {
+  std::string text = Joined({Underlined(report.title, '='), PairsText(report.facts),
+                             report.headlines.empty() ? "" : "\n", HeadlinesText(report)});
+  for (const Section& section : report.sections) {
+    text += Joined({"\n", Underlined(section.title, '-')});
+    for (const std::string& paragraph : section.paragraphs) text += Paragraph(paragraph);
+    for (const Table& table : section.tables) text += Joined({"\n", TableText(table)});
+  }
+  return text;
+}
+
+}  // namespace railcast

@@ -1,0 +1,49 @@
+#include "analysis/stats/bins.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/number_text.h"
+
+namespace railcast {
+
+Bins::Bins(std::vector<double> edges) : edges_(std::move(edges)) {}
+
+std::optional<std::size_t> Bins::Find(double value) const {
+  if (!(value >= edges_.front() && value < edges_.back())) return std::nullopt;
+  const auto above = std::upper_bound(edges_.begin(), edges_.end(), value);
+  return static_cast<std::size_t>(above - edges_.begin()) - 1;
+}
+
+std::string Bins::Name(std::size_t bin) const {
+  std::string name = NumberText(low(bin));
+  name += " to ";
+  name += NumberText(high(bin));
+  return name;
+}
+
+const Bins& RangeBins() {
+  static const Bins bins({0.0, 2.0, 5.0, 10.0, 15.0, 20.0, 30.0, 40.0, 50.0, 60.0, 80.0, 100.0,
+                          125.0, 150.0, 200.0, 250.0, 300.0, 500.0});
+  return bins;
+}
+
+const Bins& FineRangeBins() {
+  static const Bins bins([] {
+    constexpr int kBinsAnOctave = 4;
+    constexpr int kOctaves = 9;
+    std::vector<double> edges;
+    for (int i = 0; i <= kBinsAnOctave * kOctaves; ++i) {
+      edges.push_back(std::exp2(static_cast<double>(i) / kBinsAnOctave));
+    }
+    return edges;
+  }());
+  return bins;
+}
+
+const Bins& IncidenceBins() {
+  static const Bins bins({0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0});
+  return bins;
+}
+
+}  // namespace railcast

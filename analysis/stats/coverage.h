@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "analysis/estimate/moments.h"
+#include "analysis/report/report.h"
+#include "analysis/stats/names.h"
+#include "analysis/stats/scan_table.h"
+#include "core/io/recording/recording.h"
+
+namespace railcast {
+
+/// Where the points are: how many a frame, by label, ring and azimuth, and how much ground they
+/// touch.
+class Coverage {
+ public:
+  /// @param scan Null if the frame is no grid.
+  void Add(const RecordedFrame& recorded, const ScanTable* scan);
+  void Add(const Coverage& other);
+
+  [[nodiscard]] std::uint64_t num_frames() const { return points_.num(); }
+  [[nodiscard]] std::uint64_t num_points() const { return num_points_; }
+  /// Mean over frames.
+  [[nodiscard]] Estimate PointsPerFrame() const { return points_.Mean(); }
+  /// Squares of 1 m, seen from above, with at least one point; mean over frames.
+  [[nodiscard]] Estimate OccupiedCells() const { return cells_.Mean(); }
+  [[nodiscard]] Section MakeSection(const Names& names) const;
+
+ private:
+  struct Ring {
+    Moments elevation_deg;
+    std::uint64_t num_firings{};
+    std::uint64_t num_points{};
+  };
+
+  std::uint64_t num_points_{};
+  Moments points_, cells_;  ///< Per frame.
+  std::vector<Ring> rings_;
+  std::vector<std::uint64_t> sectors_;       ///< Points by azimuth, 5 deg each from -180.
+  std::map<std::uint32_t, Moments> labels_;  ///< Points per frame.
+};
+
+}  // namespace railcast

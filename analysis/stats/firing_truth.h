@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "core/frame/frame.h"
+#include "core/io/recording/recording.h"
+
+namespace railcast {
+
+/// Whether a recording says what became of each firing: then dropout is counted, not estimated.
+[[nodiscard]] inline bool HasOutcomes(const RecordedFrame& recorded) {
+  return recorded.is_grid && recorded.Has("outcome");
+}
+
+/// Whether the first slot of a firing says which surface the beam met. Where clutter answered, it
+/// does not.
+[[nodiscard]] inline bool KnowsSurface(const Frame& frame, std::size_t slot) {
+  return frame.outcome[slot] != Outcome::kClutter && std::isfinite(frame.true_range_m[slot]);
+}
+
+}  // namespace railcast

@@ -1,0 +1,135 @@
+#include "analysis/stats/holes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/stats/bins.h"
+#include "analysis/stats/headings.h"
+
+namespace railcast {
+namespace {
+
+constexpr float kRelativeTolerance = 0.05F;
+constexpr float kTolerance_m = 0.1F;
+
+float Range_m(const Frame& frame, std::size_t row, std::size_t column) {
+  return frame.range_m[row * frame.width() + column * frame.returns];
+}
+
+void AddTo(std::vector<Holes::Count>& sums, const std::vector<Holes::Count>& others) {
+  if (sums.size() < others.size()) sums.resize(others.size());
+  for (std::size_t i = 0; i < others.size(); ++i) sums[i].Add(others[i]);
+}
+
+bool HasPoints(const Frame& frame, std::size_t column) {
+  for (std::size_t row = 0; row < frame.rows; ++row) {
+    if (std::isfinite(Range_m(frame, row, column))) return true;
+  }
+  return false;
+}
+
+Table CountTable(const std::vector<Holes::Count>& counts, const Bins* bins) {
+  Table table;
+  table.columns = {{}, {"expected", "Expected", ""}, {"holes", "Holes", ""}};
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const auto& [num_expected, num_missing] = counts[i];
+    if (num_expected == 0) continue;
+    table.rows.push_back({bins == nullptr ? std::to_string(i) : bins->Name(i), num_expected,
+                          Proportion(num_missing, num_expected)});
+  }
+  return table;
+}
+
+}  // namespace
+
+void Holes::Add(const RecordedFrame& recorded) {
+  const Frame& frame = recorded.frame;
+  if (!recorded.is_grid || frame.columns < 3) return;
+  by_range_.resize(RangeBins().size());
+  by_ring_.resize(std::max<std::size_t>(by_ring_.size(), frame.rows));
+  std::vector<bool> has_points(frame.columns);
+  for (std::size_t column = 0; column < frame.columns; ++column) {
+    has_points[column] = HasPoints(frame, column);
+  }
+  for (std::size_t row = 0; row < frame.rows; ++row) {
+    for (std::size_t column = 0; column < frame.columns; ++column) {
+      if (!has_points[column]) continue;
+      ++num_firings_;
+      num_points_ += std::isfinite(Range_m(frame, row, column)) ? 1 : 0;
+      const bool is_inside = column > 0 && column + 1 < frame.columns;
+      if (is_inside) AddFiring(frame, row, column);
+    }
+  }
+}
+
+void Holes::AddFiring(const Frame& frame, std::size_t row, std::size_t column) {
+  const float left_m = Range_m(frame, row, column - 1);
+  const float right_m = Range_m(frame, row, column + 1);
+  const float mean_m = 0.5F * (left_m + right_m);
+  const float tolerance_m = std::max(kTolerance_m, kRelativeTolerance * mean_m);
+  // Also where one of them is NaN.
+  if (!(std::abs(left_m - right_m) < tolerance_m)) return;
+  const Count count{1, std::isfinite(Range_m(frame, row, column)) ? 0U : 1U};
+  all_.Add(count);
+  by_ring_[row].Add(count);
+  if (const auto bin = RangeBins().Find(static_cast<double>(mean_m))) by_range_[*bin].Add(count);
+}
+
+void Holes::Add(const Holes& other) {
+  num_firings_ += other.num_firings_;
+  num_points_ += other.num_points_;
+  all_.Add(other.all_);
+  AddTo(by_range_, other.by_range_);
+  AddTo(by_ring_, other.by_ring_);
+}
+
+Section Holes::MakeSection() const {
+  Section section;
+  section.key = "holes";
+  section.title = "Dropout, estimated";
+  section.paragraphs = {
+      "From the points alone, as for any sensor: a firing whose two neighbours in its ring lie on "
+      "one surface (ranges within 5 % or 0.1 m) should have met it, too; without a point it is a "
+      "hole. Exact if losses are independent of each other, a lower bound where they cluster: "
+      "dark, "
+      "far and grazing patches. Columns without any point count as never fired, so that half a "
+      "turn "
+      "is not half a loss."};
+
+  Table fill;
+  fill.key = "grid";
+  fill.title = "The grid";
+  fill.columns = {{"figure", "Figure", ""}, {"num", "Firings", ""}, {"share", "Share", ""}};
+  fill.rows = {
+      {std::string("firings with a point (the rest: sky, too far, lost)"), num_firings_, Filled()},
+      {std::string("holes among firings between two points of one surface"), all_.num_expected,
+       Share()}};
+  section.tables.push_back(std::move(fill));
+  Table by_range = CountTable(by_range_, &RangeBins());
+  by_range.key = "holes_by_range";
+  by_range.title = "Holes by range";
+  by_range.columns.front() = {"range_m", "Range of the neighbours", "m"};
+  section.tables.push_back(std::move(by_range));
+  Table by_ring = CountTable(by_ring_, nullptr);
+  by_ring.key = "holes_by_ring";
+  by_ring.title = "Holes by ring";
+  by_ring.columns.front() = {"ring", "Ring", ""};
+  section.tables.push_back(std::move(by_ring));
+
+  Chart chart;
+  chart.key = "holes_by_range";
+  chart.title = "Holes in surfaces against range";
+  chart.caption = "Share of the firings between two points of one surface that have none.";
+  chart.x = {"Range", "m"};
+  chart.y = {"Holes", ""};
+  ChartSeries series{"holes", SeriesStyle::kLinePoints, {}};
+  for (std::size_t i = 0; i < by_range_.size(); ++i) {
+    series.points.push_back(PointAt(
+        RangeBins().middle(i), Proportion(by_range_[i].num_missing, by_range_[i].num_expected)));
+  }
+  chart.series.push_back(std::move(series));
+  section.charts.push_back(std::move(chart));
+  return section;
+}
+
+}  // namespace railcast

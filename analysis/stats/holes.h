@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "analysis/report/report.h"
+#include "core/io/recording/recording.h"
+
+namespace railcast {
+
+/// Dropout estimated from the points alone, for grids that do not say why a slot is empty.
+///
+/// A firing whose two neighbours in its ring lie on one surface (their ranges differ by less than
+/// 5 %, and 0.1 m are always allowed) should have met that surface, too; if it has no point, it is
+/// a hole. The share of holes among such firings is the dropout if losses are independent of each
+/// other; where they cluster (dark, far or grazing patches) it is a lower bound. Columns without
+/// any point are taken for firings never made: a sensor that is set to half a turn has lost
+/// nothing in the other half.
+class Holes {
+ public:
+  /// Frames that are no grids are passed over.
+  void Add(const RecordedFrame& recorded);
+  void Add(const Holes& other);
+
+  struct Count {
+    std::uint64_t num_expected{};
+    std::uint64_t num_missing{};
+
+    void Add(const Count& other) {
+      num_expected += other.num_expected;
+      num_missing += other.num_missing;
+    }
+  };
+
+  [[nodiscard]] bool is_empty() const { return num_firings_ == 0; }
+  [[nodiscard]] Estimate Share() const { return Proportion(all_.num_missing, all_.num_expected); }
+  /// Share of the firings with a point, sky and all.
+  [[nodiscard]] Estimate Filled() const { return Proportion(num_points_, num_firings_); }
+  [[nodiscard]] Section MakeSection() const;
+
+ private:
+  void AddFiring(const Frame& frame, std::size_t row, std::size_t column);
+
+  std::uint64_t num_firings_{};  ///< In columns with points.
+  std::uint64_t num_points_{};
+  Count all_;
+  std::vector<Count> by_range_, by_ring_;
+};
+
+}  // namespace railcast

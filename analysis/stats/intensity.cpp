@@ -1,0 +1,140 @@
+#include "analysis/stats/intensity.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "analysis/stats/bins.h"
+#include "analysis/stats/headings.h"
+
+namespace railcast {
+namespace {
+
+using Sum = Intensity::Sum;
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+void AddAll(std::vector<Sum>& sums, const std::vector<Sum>& others) {
+  if (sums.size() < others.size()) sums.resize(others.size());
+  for (std::size_t i = 0; i < others.size(); ++i) sums[i].Add(others[i]);
+}
+
+/// Rows of a table: how each is called and what was summed.
+using NamedSums = std::vector<std::pair<std::string, const Sum*>>;
+
+NamedSums InBins(const std::vector<Sum>& sums, const Bins& bins) {
+  NamedSums named;
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    if (sums[i].plain.num() > 0) named.emplace_back(bins.Name(i), &sums[i]);
+  }
+  return named;
+}
+
+Table MakeTable(const char* key, const char* title, TableColumn first, const NamedSums& sums) {
+  Table table;
+  table.key = key;
+  table.title = title;
+  table.columns = {std::move(first),
+                   {"mean", "Mean", ""},
+                   {"median", "Median", ""},
+                   {"deviation", "Standard deviation", ""}};
+  for (const auto& [name, sum] : sums) {
+    // Intensities are not normal: no interval for their deviation.
+    table.rows.push_back(
+        {name, sum->plain.Mean(), sum->robust.Median(), sum->plain.StandardDeviation().value});
+  }
+  return table;
+}
+
+Chart MakeChart(const char* key,
+                const char* title,
+                ChartAxis x,
+                const std::vector<Sum>& sums,
+                const Bins& bins) {
+  Chart chart;
+  chart.key = key;
+  chart.title = title;
+  chart.x = std::move(x);
+  chart.y = {"Intensity", ""};
+  ChartSeries mean{"mean", SeriesStyle::kLinePoints, {}};
+  ChartSeries median{"median", SeriesStyle::kLinePoints, {}};
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    mean.points.push_back(PointAt(bins.middle(i), sums[i].plain.Mean()));
+    median.points.push_back(PointAt(bins.middle(i), sums[i].robust.Median()));
+  }
+  chart.series = {std::move(mean), std::move(median)};
+  return chart;
+}
+
+}  // namespace
+
+void Intensity::Sum::Add(double intensity) {
+  plain.Add(intensity);
+  robust.Add(intensity);
+}
+
+void Intensity::Sum::Add(const Sum& other) {
+  plain.Add(other.plain);
+  robust.Add(other.robust);
+}
+
+void Intensity::Add(const RecordedFrame& recorded, const std::vector<PlanePatch>& patches) {
+  if (!recorded.Has("intensity")) return;
+  const Frame& frame = recorded.frame;
+  has_true_incidence_ = recorded.Has("incidence_rad");
+  by_range_.resize(RangeBins().size());
+  by_incidence_.resize(IncidenceBins().size());
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    if (!std::isfinite(frame.range_m[slot])) continue;
+    const auto intensity = static_cast<double>(frame.intensity[slot]);
+    all_.Add(intensity);
+    const auto bin = RangeBins().Find(static_cast<double>(frame.range_m[slot]));
+    if (bin) by_range_[*bin].Add(intensity);
+    if (recorded.Has("label")) by_label_[frame.label[slot]].Add(intensity);
+    if (!has_true_incidence_) continue;
+    const double incidence_deg = kDegrees * static_cast<double>(frame.incidence_rad[slot]);
+    if (const auto place = IncidenceBins().Find(incidence_deg))
+      by_incidence_[*place].Add(intensity);
+  }
+  if (has_true_incidence_) return;
+  for (const PlanePatch& patch : patches) {
+    const auto bin = IncidenceBins().Find(kDegrees * patch.incidence_rad);
+    if (bin) by_incidence_[*bin].Add(patch.intensity);
+  }
+}
+
+void Intensity::Add(const Intensity& other) {
+  has_true_incidence_ = has_true_incidence_ || other.has_true_incidence_;
+  all_.Add(other.all_);
+  AddAll(by_range_, other.by_range_);
+  AddAll(by_incidence_, other.by_incidence_);
+  for (const auto& [label, sum] : other.by_label_) by_label_[label].Add(sum);
+}
+
+Section Intensity::MakeSection(const Names& names) const {
+  Section section;
+  section.key = "intensity";
+  section.title = "Intensity";
+  section.paragraphs.emplace_back(has_true_incidence_
+                                      ? "Of points, as recorded; incidence is the truth's."
+                                      : "Of points, as recorded. Incidence is that of flat pieces "
+                                        "of surface: their samples are "
+                                        "pieces, and none is met under 60 deg or more.");
+  section.charts = {MakeChart("intensity_by_range", "Intensity against range", {"Range", "m"},
+                              by_range_, RangeBins()),
+                    MakeChart("intensity_by_incidence", "Intensity against incidence",
+                              {"Incidence", "deg"}, by_incidence_, IncidenceBins())};
+  section.tables = {
+      MakeTable("intensity_by_range", "Intensity by range", {"range_m", "Range", "m"},
+                InBins(by_range_, RangeBins())),
+      MakeTable("intensity_by_incidence", "Intensity by incidence",
+                {"incidence_deg", "Incidence", "deg"}, InBins(by_incidence_, IncidenceBins()))};
+  if (!by_label_.empty()) {
+    NamedSums labels;
+    for (const auto& [label, sum] : by_label_) labels.emplace_back(names.OfLabel(label), &sum);
+    section.tables.push_back(
+        MakeTable("intensity_by_label", "Intensity by label", {"label", "Label", ""}, labels));
+  }
+  return section;
+}
+
+}  // namespace railcast

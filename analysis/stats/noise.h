@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "analysis/estimate/log_histogram.h"
+#include "analysis/estimate/moments.h"
+#include "analysis/report/report.h"
+#include "analysis/stats/plane_patches.h"
+#include "core/io/recording/recording.h"
+
+namespace railcast {
+
+/// Range noise against range: from flat pieces of surface, and from the truth where frames have it.
+///
+/// From planes: the standard deviation of points about a fitted plane. Along the beams it is the
+/// range noise if the sensor errs along its beams; square to the plane it is the noise if positions
+/// err alike in all directions (as the published model has it). Roughness of the surface counts as
+/// noise: the estimate is an upper bound on rough ground. Plain: all patches' squares pooled.
+/// Robust: the median over patches, which rough or bent ones cannot spoil.
+class Noise {
+ public:
+  void Add(const RecordedFrame& recorded, const std::vector<PlanePatch>& patches);
+  void Add(const Noise& other);
+
+  /// In one bin of range.
+  struct Planes {
+    double degrees{};
+    double range_squares_m2{};
+    double plane_squares_m2{};
+    std::uint64_t num_points{};
+    std::uint64_t num_outliers{};
+    LogHistogram range_sigmas_m;  ///< Of patches, each corrected for its few degrees of freedom.
+    LogHistogram plane_sigmas_m;
+
+    void Add(const Planes& other);
+    /// Pooled over the patches; not enough below kMinSamples patches.
+    [[nodiscard]] Estimate RangeSigma_m() const;
+    [[nodiscard]] Estimate PlaneSigma_m() const;
+    [[nodiscard]] Estimate RobustRangeSigma_m() const { return range_sigmas_m.Median(); }
+    [[nodiscard]] Estimate RobustPlaneSigma_m() const { return plane_sigmas_m.Median(); }
+  };
+  /// Measured less true range of the points on surfaces, in one bin of range.
+  struct Truth {
+    Moments errors_m;
+    LogHistogram magnitudes_m;  ///< Of the errors.
+
+    void Add(const Truth& other);
+    /// 1.4826 x the median magnitude.
+    [[nodiscard]] Estimate RobustSigma_m() const;
+  };
+
+  /// By bin of RangeBins().
+  [[nodiscard]] const std::vector<Planes>& planes() const { return planes_; }
+  /// Empty without the truth.
+  [[nodiscard]] const std::vector<Truth>& truth() const { return truth_; }
+  [[nodiscard]] Section MakeSection() const;
+
+ private:
+  std::vector<Planes> planes_;
+  std::vector<Truth> truth_;
+};
+
+}  // namespace railcast

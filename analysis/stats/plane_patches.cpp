@@ -1,0 +1,225 @@
+#include "analysis/stats/plane_patches.h"
+
+#include <pcl/common/point_tests.h>
+#include <pcl/kdtree/kdtree_flann.h>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+#include <pcl/sample_consensus/ransac.h>
+#include <pcl/sample_consensus/sac_model_plane.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "analysis/estimate/robust.h"
+#include "core/base/transform.h"
+
+namespace railcast {
+namespace {
+
+constexpr std::size_t kLeastPoints = 12;
+constexpr std::size_t kNearestPoints = 25;
+constexpr double kMostIncidence_rad = std::numbers::pi / 3.0;
+
+using Points = std::vector<Vector3>;
+
+/// A plane through `middle`.
+struct Plane {
+  Vector3 middle = Vector3::Zero();
+  Vector3 normal = Vector3::UnitZ();
+};
+
+// Least squares: the direction in which the points vary least.
+Plane FitPlane(const Points& points) {
+  Plane plane;
+  for (const Vector3& point : points) plane.middle += point;
+  plane.middle /= static_cast<double>(points.size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Vector3& point : points) {
+    const Vector3 from_middle = point - plane.middle;
+    spread += from_middle * from_middle.transpose();
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(spread);
+  plane.normal = solver.eigenvectors().col(0);
+  return plane;
+}
+
+// The plane that most points agree on. Relative to their middle, since PCL computes in float32.
+std::optional<Plane> AgreedPlane(const Points& points, double range_m) {
+  // Wide enough for the noise of any sensor we know; the next step looks closer.
+  const double threshold_m = 0.05 + 5e-4 * range_m;
+  constexpr int kMaxTries = 60;
+  Plane plane;
+  for (const Vector3& point : points) plane.middle += point;
+  plane.middle /= static_cast<double>(points.size());
+  const auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
+  for (const Vector3& point : points) {
+    const Eigen::Vector3f near = (point - plane.middle).cast<float>();
+    cloud->emplace_back(near.x(), near.y(), near.z());
+  }
+  const auto model = std::make_shared<pcl::SampleConsensusModelPlane<pcl::PointXYZ>>(cloud);
+  pcl::RandomSampleConsensus<pcl::PointXYZ> consensus(model, threshold_m);
+  consensus.setMaxIterations(kMaxTries);
+  if (!consensus.computeModel()) return std::nullopt;
+  Eigen::VectorXf found;
+  consensus.getModelCoefficients(found);
+  plane.normal = found.head<3>().cast<double>().normalized();
+  plane.middle -= plane.normal * static_cast<double>(found[3]);
+  return plane;
+}
+
+// Those within 5 robust standard deviations of the plane.
+Points WithoutOutliers(const Points& points, const Plane& plane) {
+  constexpr double kMostDeviations = 5.0;
+  constexpr double kLeastScale_m = 1e-5;  // Float32 coordinates at 100 m.
+  std::vector<double> distances_m;
+  const auto distance_m = [&](const Vector3& p) { return plane.normal.dot(p - plane.middle); };
+  for (const Vector3& point : points) distances_m.push_back(distance_m(point));
+  const Estimate scale = RobustScale(distances_m);
+  const double most_m = kMostDeviations * std::max(scale.value, kLeastScale_m);
+  Points kept;
+  for (const Vector3& point : points) {
+    if (std::abs(distance_m(point)) <= most_m) kept.push_back(point);
+  }
+  return kept;
+}
+
+// @param points At least kLeastPoints.
+std::optional<PlanePatch> MakePatch(const Points& points) {
+  constexpr double kLeastShare = 0.8;
+  const auto agreed = AgreedPlane(points, points[points.size() / 2].norm());
+  if (!agreed) return std::nullopt;
+  Plane plane = *agreed;
+  Points kept;
+  for (int pass = 0; pass < 2; ++pass) {
+    kept = WithoutOutliers(points, plane);
+    const auto num = static_cast<double>(kept.size());
+    const bool is_enough =
+        kept.size() >= kLeastPoints && num >= kLeastShare * static_cast<double>(points.size());
+    if (!is_enough) return std::nullopt;
+    plane = FitPlane(kept);
+  }
+  PlanePatch patch;
+  const double cosine = std::abs(plane.normal.dot(plane.middle.normalized()));
+  patch.incidence_rad = std::acos(std::min(1.0, cosine));
+  if (patch.incidence_rad >= kMostIncidence_rad) return std::nullopt;
+  patch.range_m = plane.middle.norm();
+  patch.num_points = kept.size();
+  patch.num_outliers = points.size() - kept.size();
+  for (const Vector3& point : kept) {
+    const double square_m = plane.normal.dot(point - plane.middle);
+    const double along_m = square_m / plane.normal.dot(point.normalized());
+    patch.plane_squares_m2 += square_m * square_m;
+    patch.range_squares_m2 += along_m * along_m;
+  }
+  return patch;
+}
+
+Vector3 PointAt(const Frame& frame, std::size_t slot) {
+  return {static_cast<double>(frame.x[slot]), static_cast<double>(frame.y[slot]),
+          static_cast<double>(frame.z[slot])};
+}
+
+/// Half sizes of a neighbourhood in the grid.
+struct Window {
+  std::size_t rows{};
+  std::size_t columns{};
+};
+
+// About 25 points, about as high as wide as far as the grid allows.
+Window WindowOf(const ScanTable& scan) {
+  constexpr double kFineRow_rad = 0.6 * std::numbers::pi / 180.0;
+  constexpr double kHalfWidth_rad = kFineRow_rad;
+  std::vector<double> heights_rad = scan.row_height_rad;
+  const Estimate height = Median(heights_rad);
+  const bool is_fine = height.is_enough() && height.value < kFineRow_rad && scan.rows >= 5;
+  const double columns = std::round(kHalfWidth_rad / scan.column_step_rad);
+  return {is_fine ? 2U : 1U,
+          static_cast<std::size_t>(std::clamp(columns, is_fine ? 2.0 : 4.0, 6.0))};
+}
+
+/// Collects a neighbourhood's points and the mean of their intensities.
+struct Gathered {
+  Points points;
+  double intensity_sum{};
+
+  void Add(const Frame& frame, std::size_t slot) {
+    if (!std::isfinite(frame.range_m[slot])) return;
+    points.push_back(PointAt(frame, slot));
+    intensity_sum += static_cast<double>(frame.intensity[slot]);
+  }
+  [[nodiscard]] std::optional<PlanePatch> Fit() const {
+    if (points.size() < kLeastPoints) return std::nullopt;
+    std::optional<PlanePatch> patch = MakePatch(points);
+    if (patch) patch->intensity = intensity_sum / static_cast<double>(points.size());
+    return patch;
+  }
+};
+
+std::vector<PlanePatch> FindInGrid(const Frame& frame, const ScanTable& scan) {
+  const Window half = WindowOf(scan);
+  const std::size_t height = 2 * half.rows + 1;
+  const std::size_t width = 2 * half.columns + 1;
+  std::vector<PlanePatch> patches;
+  if (frame.rows < height || frame.columns < width) return patches;
+  const std::size_t num_rows = frame.rows - height + 1;
+  const std::size_t num_columns = frame.columns - width + 1;
+  // Steps of the golden ratio spread any number of places evenly over the places there are.
+  constexpr double kGolden = 0.6180339887498949;
+  const std::size_t num_places = num_rows * num_columns;
+  // Places without a flat neighbourhood cost little, so that more are tried than wanted.
+  constexpr std::size_t kTries = 6 * kMaxPatches;
+  for (std::size_t i = 0; i < std::min(kTries, num_places) && patches.size() < kMaxPatches; ++i) {
+    const double turn = kGolden * static_cast<double>(i + 1 + kTries * (frame.index % 1024U));
+    const auto place =
+        static_cast<std::size_t>((turn - std::floor(turn)) * static_cast<double>(num_places));
+    const std::size_t row = place / num_columns;
+    const std::size_t column = place % num_columns;
+    Gathered gathered;
+    for (std::size_t r = row; r < row + height; ++r) {
+      for (std::size_t c = column; c < column + width; ++c) {
+        gathered.Add(frame, r * frame.width() + c * frame.returns);
+      }
+    }
+    if (gathered.points.size() * 4 < height * width * 3) continue;
+    if (const auto patch = gathered.Fit()) patches.push_back(*patch);
+  }
+  return patches;
+}
+
+std::vector<PlanePatch> FindInCloud(const Frame& frame) {
+  const auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
+  std::vector<std::size_t> slots;
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    if (!std::isfinite(frame.range_m[slot])) continue;
+    cloud->emplace_back(frame.x[slot], frame.y[slot], frame.z[slot]);
+    slots.push_back(slot);
+  }
+  std::vector<PlanePatch> patches;
+  if (slots.size() < kNearestPoints) return patches;
+  pcl::KdTreeFLANN<pcl::PointXYZ> tree;
+  tree.setInputCloud(cloud);
+  const std::size_t stride = std::max<std::size_t>(1, slots.size() / kMaxPatches);
+  std::vector<int> found;
+  std::vector<float> squares_m2;
+  for (std::size_t i = frame.index % stride; i < slots.size(); i += stride) {
+    tree.nearestKSearch(static_cast<int>(i), static_cast<int>(kNearestPoints), found, squares_m2);
+    Gathered gathered;
+    for (const int k : found) gathered.Add(frame, slots[static_cast<std::size_t>(k)]);
+    if (const auto patch = gathered.Fit()) patches.push_back(*patch);
+  }
+  return patches;
+}
+
+}  // namespace
+
+std::vector<PlanePatch> FindPlanePatches(const RecordedFrame& recorded, const ScanTable* scan) {
+  if (!recorded.is_grid) return FindInCloud(recorded.frame);
+  if (scan == nullptr) return {};
+  return FindInGrid(recorded.frame, *scan);
+}
+
+}  // namespace railcast

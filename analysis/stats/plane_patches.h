@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "analysis/stats/scan_table.h"
+#include "core/io/recording/recording.h"
+
+namespace railcast {
+
+/// A small piece of surface that is flat, as far as the noise shows.
+struct PlanePatch {
+  double range_m{};          ///< Mean of its points.
+  double incidence_rad{};    ///< At its middle.
+  double intensity{};        ///< Mean; NaN if the points have none.
+  std::size_t num_points{};  ///< Without outliers.
+  std::size_t num_outliers{};
+  /// Sums of squared distances from the plane over num_points - 3 degrees of freedom: along the
+  /// beams, and square to the plane.
+  double range_squares_m2{};
+  double plane_squares_m2{};
+
+  [[nodiscard]] double degrees() const { return static_cast<double>(num_points) - 3.0; }
+};
+
+/// At most kMaxPatches of a frame, so that the time does not grow with its points.
+inline constexpr std::size_t kMaxPatches = 150;
+
+/// Finds planes in neighbourhoods of about 25 points, spread evenly over the frame (other places in
+/// every frame): RANSAC (Fischler and Bolles 1981) to be safe from outliers and edges, then least
+/// squares on the points within 5 robust standard deviations. Kept are those with at least 12
+/// points, less than a fifth of them outliers, met under less than 60 deg.
+///
+/// Neighbours are those of the grid; without one, the nearest in space.
+/// @param scan Null if the frame is no grid.
+[[nodiscard]] std::vector<PlanePatch> FindPlanePatches(const RecordedFrame& recorded,
+                                                       const ScanTable* scan);
+
+}  // namespace railcast

@@ -1,0 +1,183 @@
+#include "analysis/stats/scan_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace railcast {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+double Wrapped(double angle_rad) {
+  return std::remainder(angle_rad, 2.0 * std::numbers::pi);
+}
+
+// NaN if there is none. The order is lost.
+double MedianOf(std::vector<double>& values) {
+  if (values.empty()) return kNaN;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Straight lines between the known values; the ends stay unknown.
+void FillGaps(std::vector<double>& values) {
+  std::size_t known = values.size();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isnan(values[i])) continue;
+    for (std::size_t k = known + 1; known < values.size() && k < i; ++k) {
+      const double share = static_cast<double>(k - known) / static_cast<double>(i - known);
+      values[k] = values[known] + share * (values[i] - values[known]);
+    }
+    known = i;
+  }
+}
+
+/// Directions of a grid's firings; NaN where there is none.
+struct DirectionGrid {
+  DirectionGrid(std::uint32_t num_rows, std::uint32_t num_columns)
+      : rows(num_rows),
+        columns(num_columns),
+        azimuth_rad(std::size_t{rows} * columns, kNaN),
+        elevation_rad(azimuth_rad) {}
+
+  void Set(std::size_t place, double x, double y, double z) {
+    azimuth_rad[place] = std::atan2(y, x);
+    elevation_rad[place] = std::atan2(z, std::hypot(x, y));
+  }
+
+  std::uint32_t rows, columns;
+  std::vector<double> azimuth_rad, elevation_rad;
+};
+
+void FindElevations(const DirectionGrid& grid, ScanTable& table) {
+  table.elevation_rad.resize(grid.rows);
+  std::vector<double> values;
+  for (std::size_t row = 0; row < grid.rows; ++row) {
+    values.clear();
+    for (std::size_t column = 0; column < grid.columns; ++column) {
+      const double elevation_rad = grid.elevation_rad[row * grid.columns + column];
+      if (!std::isnan(elevation_rad)) values.push_back(elevation_rad);
+    }
+    table.elevation_rad[row] = MedianOf(values);
+  }
+  FillGaps(table.elevation_rad);
+}
+
+// Columns from the rows' offsets, one after another, so that full turns do not matter.
+void FindColumns(const DirectionGrid& grid, ScanTable& table) {
+  table.column_azimuth_rad.assign(grid.columns, kNaN);
+  double last_rad = kNaN;
+  std::vector<double> values;
+  for (std::size_t column = 0; column < grid.columns; ++column) {
+    values.clear();
+    for (std::size_t row = 0; row < grid.rows; ++row) {
+      const double azimuth_rad = grid.azimuth_rad[row * grid.columns + column];
+      if (std::isnan(azimuth_rad)) continue;
+      const double own_rad = azimuth_rad - table.row_azimuth_rad[row];
+      if (std::isnan(last_rad)) last_rad = own_rad;
+      values.push_back(Wrapped(own_rad - last_rad));
+    }
+    if (values.empty()) continue;
+    last_rad += MedianOf(values);
+    table.column_azimuth_rad[column] = last_rad;
+  }
+  FillGaps(table.column_azimuth_rad);
+}
+
+void FindRowOffsets(const DirectionGrid& grid, ScanTable& table) {
+  std::vector<double> values;
+  for (std::size_t row = 0; row < grid.rows; ++row) {
+    values.clear();
+    for (std::size_t column = 0; column < grid.columns; ++column) {
+      const double azimuth_rad = grid.azimuth_rad[row * grid.columns + column];
+      if (std::isnan(azimuth_rad)) continue;
+      values.push_back(Wrapped(azimuth_rad - table.column_azimuth_rad[column]));
+    }
+    if (!values.empty()) table.row_azimuth_rad[row] = MedianOf(values);
+  }
+}
+
+double MedianStep(const std::vector<double>& azimuths_rad) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < azimuths_rad.size(); ++i) {
+    const double step_rad = std::abs(azimuths_rad[i] - azimuths_rad[i - 1]);
+    if (!std::isnan(step_rad)) steps.push_back(step_rad);
+  }
+  return MedianOf(steps);
+}
+
+// Half of the way to the neighbours on both sides; at the ends twice that to the only one.
+std::vector<double> Heights(const std::vector<double>& elevations_rad) {
+  std::vector<double> heights(elevations_rad.size(), kNaN);
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    double sum = 0.0;
+    int num = 0;
+    for (const std::size_t k : {i - 1, i + 1}) {
+      if (k >= heights.size() || std::isnan(elevations_rad[k] - elevations_rad[i])) continue;
+      sum += std::abs(elevations_rad[k] - elevations_rad[i]);
+      ++num;
+    }
+    if (num > 0) heights[i] = sum / num;
+  }
+  return heights;
+}
+
+std::optional<ScanTable> TableOf(const DirectionGrid& grid) {
+  constexpr int kPasses = 3;
+  ScanTable table;
+  table.rows = grid.rows;
+  table.columns = grid.columns;
+  table.row_azimuth_rad.assign(grid.rows, 0.0);
+  FindElevations(grid, table);
+  for (int pass = 0; pass < kPasses; ++pass) {
+    FindColumns(grid, table);
+    FindRowOffsets(grid, table);
+  }
+  table.column_step_rad = MedianStep(table.column_azimuth_rad);
+  table.row_height_rad = Heights(table.elevation_rad);
+  const bool has_rows = std::ranges::any_of(table.row_height_rad, [](double h) { return h > 0.0; });
+  if (!(table.column_step_rad > 0.0) || !has_rows) return std::nullopt;
+  return table;
+}
+
+}  // namespace
+
+std::array<double, 3> ScanTable::Direction(std::size_t row, std::size_t column) const {
+  const double azimuth_rad = column_azimuth_rad[column] + row_azimuth_rad[row];
+  const double level = std::cos(elevation_rad[row]);
+  return {level * std::cos(azimuth_rad), level * std::sin(azimuth_rad),
+          std::sin(elevation_rad[row])};
+}
+
+double ScanTable::SolidAngle_sr(std::size_t row) const {
+  return std::cos(elevation_rad[row]) * row_height_rad[row] * column_step_rad;
+}
+
+std::optional<ScanTable> MakeScanTable(const Frame& frame) {
+  if (frame.rows < 2 || frame.columns < 2) return std::nullopt;
+  DirectionGrid grid(frame.rows, frame.columns);
+  for (std::size_t place = 0; place < grid.azimuth_rad.size(); ++place) {
+    const std::size_t slot = place * frame.returns;
+    if (!std::isfinite(frame.range_m[slot])) continue;
+    grid.Set(place, static_cast<double>(frame.x[slot]), static_cast<double>(frame.y[slot]),
+             static_cast<double>(frame.z[slot]));
+  }
+  return TableOf(grid);
+}
+
+std::optional<ScanTable> MakeScanTable(const ScanPattern& pattern) {
+  if (pattern.rows < 2 || pattern.columns < 2) return std::nullopt;
+  DirectionGrid grid(pattern.rows, pattern.columns);
+  for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
+    grid.Set(std::size_t{pattern.row[i]} * pattern.columns + pattern.column[i],
+             static_cast<double>(pattern.direction_x[i]),
+             static_cast<double>(pattern.direction_y[i]),
+             static_cast<double>(pattern.direction_z[i]));
+  }
+  return TableOf(grid);
+}
+
+}  // namespace railcast

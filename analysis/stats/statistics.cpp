@@ -1,0 +1,105 @@
+#include "analysis/stats/statistics.h"
+
+#include <tbb/info.h>
+#include <tbb/parallel_pipeline.h>
+
+#include <optional>
+#include <utility>
+
+#include "analysis/stats/plane_patches.h"
+#include "core/scan/scan_pattern.h"
+
+namespace railcast {
+namespace {
+
+using Reader = Recording::FrameReader;
+
+/// Frames that follow each other: pairs do not overlap, so that temporal noise has independent
+/// samples.
+struct PairOfReaders {
+  Reader first;
+  std::optional<Reader> second;
+};
+
+// Of a sequence of ours, from its scenario: exact, and once for all frames.
+std::optional<ScanTable> FixedScanTable(const RecordingInfo& info) {
+  if (!info.scenario) return std::nullopt;
+  return MakeScanTable(BuildScanPattern(info.scenario->lidar.scan));
+}
+
+std::optional<ScanTable> ScanTableOf(const RecordedFrame& recorded,
+                                     const std::optional<ScanTable>& fixed) {
+  if (!recorded.is_grid) return std::nullopt;
+  const bool fits =
+      fixed && fixed->rows == recorded.frame.rows && fixed->columns == recorded.frame.columns;
+  return fits ? fixed : MakeScanTable(recorded.frame);
+}
+
+const ScanTable* PointerTo(const std::optional<ScanTable>& table) {
+  return table ? &*table : nullptr;
+}
+
+Statistics MeasurePair(const PairOfReaders& readers, const std::optional<ScanTable>& fixed) {
+  Statistics statistics;
+  const RecordedFrame first = readers.first();
+  const auto first_scan = ScanTableOf(first, fixed);
+  statistics.Add(first, PointerTo(first_scan));
+  if (!readers.second) return statistics;
+  const RecordedFrame second = (*readers.second)();
+  const auto second_scan = ScanTableOf(second, fixed);
+  statistics.Add(second, PointerTo(second_scan));
+  statistics.temporal_noise.Add(first, second, PointerTo(first_scan), PointerTo(second_scan));
+  return statistics;
+}
+
+}  // namespace
+
+void Statistics::Add(const RecordedFrame& recorded, const ScanTable* scan) {
+  const std::vector<PlanePatch> patches = FindPlanePatches(recorded, scan);
+  dropout.Add(recorded);
+  holes.Add(recorded);
+  density.Add(recorded, scan);
+  noise.Add(recorded, patches);
+  intensity.Add(recorded, patches);
+  coverage.Add(recorded, scan);
+  objects.Add(recorded);
+}
+
+void Statistics::Add(const Statistics& other) {
+  dropout.Add(other.dropout);
+  holes.Add(other.holes);
+  density.Add(other.density);
+  noise.Add(other.noise);
+  temporal_noise.Add(other.temporal_noise);
+  intensity.Add(other.intensity);
+  coverage.Add(other.coverage);
+  objects.Add(other.objects);
+}
+
+Statistics MeasureStatistics(Recording& recording, const StatisticsProgress& on_progress) {
+  const std::optional<ScanTable> fixed = FixedScanTable(recording.info());
+  Statistics all;
+  // As many pairs at once as keep all cores busy; more would only take memory.
+  const auto max_pairs = static_cast<std::size_t>(2 * tbb::info::default_concurrency());
+  const auto read = tbb::make_filter<void, PairOfReaders>(
+      tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) -> PairOfReaders {
+        auto first = recording.Next();
+        if (!first) {
+          control.stop();
+          return {};
+        }
+        return {std::move(*first), recording.Next()};
+      });
+  const auto measure = tbb::make_filter<PairOfReaders, Statistics>(
+      tbb::filter_mode::parallel,
+      [&](const PairOfReaders& readers) { return MeasurePair(readers, fixed); });
+  const auto sum = tbb::make_filter<Statistics, void>(tbb::filter_mode::serial_in_order,
+                                                      [&](const Statistics& statistics) {
+                                                        all.Add(statistics);
+                                                        on_progress(all.coverage.num_frames());
+                                                      });
+  tbb::parallel_pipeline(max_pairs, read & measure & sum);
+  return all;
+}
+
+}  // namespace railcast

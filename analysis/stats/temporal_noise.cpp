@@ -1,0 +1,196 @@
+#include "analysis/stats/temporal_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "analysis/stats/bins.h"
+#include "analysis/stats/headings.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kMadToSigma = 1.4826;
+constexpr double kMostBend_m = 0.3;
+constexpr double kMostSlope_m = 0.3;  // A column's step.
+
+bool HasMoved(const RecordedFrame& earlier, const RecordedFrame& later) {
+  const Transform motion =
+      earlier.frame.world_from_sensor.inverse() * later.frame.world_from_sensor;
+  constexpr double kStill_m = 1e-4;
+  constexpr double kStill_rad = 1e-6;
+  return motion.translation().norm() > kStill_m ||
+         Eigen::AngleAxisd(motion.linear()).angle() > kStill_rad;
+}
+
+double Range_m(const Frame& frame, std::size_t row, std::size_t column) {
+  return static_cast<double>(frame.range_m[row * frame.width() + column * frame.returns]);
+}
+
+/// How the range goes on from one column to the next; nothing where it bends or points are missing.
+std::optional<double> Slope_m(const Frame& frame, std::size_t row, std::size_t column) {
+  if (column == 0 || column + 1 >= frame.columns) return std::nullopt;
+  const double left_m = Range_m(frame, row, column - 1);
+  const double right_m = Range_m(frame, row, column + 1);
+  const double bend_m = Range_m(frame, row, column) - 0.5 * (left_m + right_m);
+  const double slope_m = 0.5 * (right_m - left_m);
+  // Also where one of them is NaN.
+  if (!(std::abs(bend_m) < kMostBend_m && std::abs(slope_m) < kMostSlope_m)) return std::nullopt;
+  return slope_m;
+}
+
+/// Columns of the earlier frame by azimuth.
+class ColumnFinder {
+ public:
+  explicit ColumnFinder(const ScanTable& scan) {
+    for (std::size_t column = 0; column < scan.columns; ++column) {
+      const double azimuth_rad = scan.column_azimuth_rad[column];
+      if (!std::isnan(azimuth_rad)) places_.emplace_back(Turned(azimuth_rad), column);
+    }
+    std::sort(places_.begin(), places_.end());
+  }
+  struct Found {
+    std::size_t column{};
+    double offset_rad{};  ///< Of the azimuth asked for, from this column's.
+  };
+  [[nodiscard]] std::optional<Found> Nearest(double azimuth_rad) const {
+    if (places_.empty()) return std::nullopt;
+    const auto above = std::lower_bound(places_.begin(), places_.end(),
+                                        std::pair(Turned(azimuth_rad), std::size_t{0}));
+    const auto& high = above == places_.end() ? places_.front() : *above;
+    const auto& low = above == places_.begin() ? places_.back() : *std::prev(above);
+    const double to_high_rad = Wrapped(azimuth_rad - high.first);
+    const double to_low_rad = Wrapped(azimuth_rad - low.first);
+    if (std::abs(to_high_rad) < std::abs(to_low_rad)) return Found{high.second, to_high_rad};
+    return Found{low.second, to_low_rad};
+  }
+
+ private:
+  static double Wrapped(double angle_rad) {
+    return std::remainder(angle_rad, 2.0 * std::numbers::pi);
+  }
+  // In [0, 2 pi).
+  static double Turned(double angle_rad) {
+    const double wrapped_rad = Wrapped(angle_rad);
+    return wrapped_rad < 0.0 ? wrapped_rad + 2.0 * std::numbers::pi : wrapped_rad;
+  }
+
+  std::vector<std::pair<double, std::size_t>> places_;
+};
+
+}  // namespace
+
+Estimate TemporalNoise::Bin::Sigma_m() const {
+  return Scaled(differences_m.StandardDeviation(), 1.0 / std::numbers::sqrt2);
+}
+
+Estimate TemporalNoise::Bin::RobustSigma_m() const {
+  return Scaled(magnitudes_m.Median(), kMadToSigma / std::numbers::sqrt2);
+}
+
+void TemporalNoise::Add(const RecordedFrame& earlier,
+                        const RecordedFrame& later,
+                        const ScanTable* earlier_scan,
+                        const ScanTable* later_scan) {
+  if (earlier_scan == nullptr || later_scan == nullptr) return;
+  const Frame& a = earlier.frame;
+  const Frame& b = later.frame;
+  if (a.rows != b.rows) return;
+  if (earlier.has_pose && later.has_pose) {
+    if (HasMoved(earlier, later)) {
+      ++num_moved_;
+      return;
+    }
+  } else {
+    ++num_without_pose_;
+  }
+  ++num_pairs_;
+  bins_.resize(RangeBins().size());
+  const ColumnFinder finder(*earlier_scan);
+  // The rotor's sense: azimuth per column.
+  const auto& azimuths_rad = earlier_scan->column_azimuth_rad;
+  const double step_rad =
+      earlier_scan->column_step_rad *
+      (azimuths_rad.size() > 1 && azimuths_rad.back() < azimuths_rad.front() ? -1.0 : 1.0);
+  for (std::size_t column = 0; column < b.columns; ++column) {
+    const double azimuth_rad = later_scan->column_azimuth_rad[column];
+    if (std::isnan(azimuth_rad)) continue;
+    const auto found = finder.Nearest(azimuth_rad);
+    if (!found || std::abs(found->offset_rad) > 0.5 * earlier_scan->column_step_rad) continue;
+    const double offset = found->offset_rad / step_rad;  // In columns.
+    for (std::size_t row = 0; row < b.rows; ++row) {
+      const auto slope_m = Slope_m(a, row, found->column);
+      const auto later_slope_m = Slope_m(b, row, column);
+      if (!slope_m || !later_slope_m) continue;
+      const double range_m = Range_m(a, row, found->column);
+      const double difference_m =
+          Range_m(b, row, column) - range_m - offset * 0.5 * (*slope_m + *later_slope_m);
+      const auto bin = RangeBins().Find(range_m);
+      if (!bin) continue;
+      bins_[*bin].differences_m.Add(difference_m);
+      bins_[*bin].magnitudes_m.Add(std::abs(difference_m));
+    }
+  }
+}
+
+void TemporalNoise::Add(const TemporalNoise& other) {
+  num_pairs_ += other.num_pairs_;
+  num_moved_ += other.num_moved_;
+  num_without_pose_ += other.num_without_pose_;
+  if (bins_.size() < other.bins_.size()) bins_.resize(other.bins_.size());
+  for (std::size_t i = 0; i < other.bins_.size(); ++i) {
+    bins_[i].differences_m.Add(other.bins_[i].differences_m);
+    bins_[i].magnitudes_m.Add(other.bins_[i].magnitudes_m);
+  }
+}
+
+Section TemporalNoise::MakeSection() const {
+  constexpr double kMm = 1e3;
+  Section section;
+  section.key = "temporal_noise";
+  section.title = "Temporal noise";
+  std::string found = std::to_string(num_pairs_);
+  found += " pairs of frames took part";
+  if (num_moved_ > 0) {
+    found += "; in ";
+    found += std::to_string(num_moved_);
+    found += " more the sensor moved";
+  }
+  found += ".";
+  section.paragraphs.push_back(std::move(found));
+  if (num_without_pose_ > 0) {
+    section.paragraphs.emplace_back(
+        "The recording does not say how the sensor moved: it is taken to stand. What differs from "
+        "frame to frame is noise only if that is true.");
+  }
+  if (num_pairs_ == 0) {
+    section.paragraphs.emplace_back("Not enough: it takes two frames from one place.");
+    return section;
+  }
+  Table table;
+  table.key = "temporal_noise";
+  table.title = "Range noise between frames of a standing sensor";
+  table.note = "Standard deviation of the differences of paired firings / sqrt(2).";
+  table.columns = {{"range_m", "Range", "m"},
+                   {"sigma_mm", "Standard deviation", "mm"},
+                   {"robust_sigma_mm", "Standard deviation, robust", "mm"}};
+  Chart chart;
+  chart.key = "temporal_noise_by_range";
+  chart.title = "Temporal noise against range";
+  chart.x = {"Range", "m"};
+  chart.y = {"Standard deviation", "mm"};
+  ChartSeries robust{"robust", SeriesStyle::kLinePoints, {}};
+  for (std::size_t i = 0; i < bins_.size(); ++i) {
+    const Estimate robust_mm = Scaled(bins_[i].RobustSigma_m(), kMm);
+    robust.points.push_back(PointAt(RangeBins().middle(i), robust_mm));
+    if (bins_[i].differences_m.num() == 0) continue;
+    table.rows.push_back({RangeBins().Name(i), Scaled(bins_[i].Sigma_m(), kMm), robust_mm});
+  }
+  chart.series.push_back(std::move(robust));
+  section.tables.push_back(std::move(table));
+  section.charts.push_back(std::move(chart));
+  return section;
+}
+
+}  // namespace railcast

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "analysis/estimate/log_histogram.h"
+#include "analysis/estimate/moments.h"
+#include "analysis/report/report.h"
+#include "analysis/stats/scan_table.h"
+#include "core/io/recording/recording.h"
+
+namespace railcast {
+
+/// Range noise from what changes between two frames of a sensor that stands.
+///
+/// Firings of the same ring with azimuths less than half a column apart are paired, and the range
+/// is corrected for the slope between them; only places that are flat enough for that (neighbours
+/// within 0.3 m of a straight line) take part. sigma = standard deviation of the differences /
+/// sqrt(2). Pairs of frames do not overlap, so that their samples are independent. What moves in
+/// the scene spoils the plain figure and not the robust one.
+class TemporalNoise {
+ public:
+  /// Two frames that follow each other.
+  /// @param scan Of `later` (of both, where the pattern is fixed); null if it is no grid.
+  void Add(const RecordedFrame& earlier,
+           const RecordedFrame& later,
+           const ScanTable* earlier_scan,
+           const ScanTable* later_scan);
+  void Add(const TemporalNoise& other);
+
+  /// In one bin of range.
+  struct Bin {
+    Moments differences_m;
+    LogHistogram magnitudes_m;
+
+    [[nodiscard]] Estimate Sigma_m() const;
+    [[nodiscard]] Estimate RobustSigma_m() const;
+  };
+
+  [[nodiscard]] std::uint64_t num_pairs() const { return num_pairs_; }
+  [[nodiscard]] std::uint64_t num_moved() const { return num_moved_; }
+  /// By bin of RangeBins(); empty without pairs.
+  [[nodiscard]] const std::vector<Bin>& bins() const { return bins_; }
+  [[nodiscard]] Section MakeSection() const;
+
+ private:
+  std::uint64_t num_pairs_{};         ///< Of frames, that took part.
+  std::uint64_t num_moved_{};         ///< Of frames between which the sensor moved.
+  std::uint64_t num_without_pose_{};  ///< Of num_pairs_: taken for standing.
+  std::vector<Bin> bins_;
+};
+
+}  // namespace railcast

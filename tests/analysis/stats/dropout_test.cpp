@@ -1,0 +1,146 @@
+#include "analysis/stats/dropout.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "analysis/stats/holes.h"
+#include "tests/analysis/recorded_frames.h"
+#include "tests/support/analytic_meshes.h"
+#include "tests/support/scan_once.h"
+#include "tests/support/simple_world.h"
+
+namespace railcast {
+namespace {
+
+// A wall at 20 m that fills the lower half of the view; above it is the sky.
+std::shared_ptr<SimpleWorld> WallAndSky() {
+  auto world = std::make_shared<SimpleWorld>();
+  world->ground.parts = {
+      {{{{20, -30, -30}, {20, 30, -30}, {20, 30, 0}, {20, -30, 0}}, {{0, 1, 2}, {0, 2, 3}}}, 2, 7}};
+  return world;
+}
+
+Frame ScanWithDropout(double probability, std::uint32_t index = 0) {
+  SimulatorSpec spec{.effects = {.sensor_dropout = true}};
+  spec.plausibility.dropout_probability = probability;
+  return ScanOnce(WallAndSky(), MakeRaster(60.0, 30.0, 0.25), spec, index);
+}
+
+const Table& TableOf(const Section& section, const std::string& key) {
+  for (const Table& table : section.tables) {
+    if (table.key == key) return table;
+  }
+  throw std::out_of_range(key);
+}
+
+TEST(Dropout, IsTheShareOfBeamsThatMetASurfaceAndBroughtNothingBack) {
+  Dropout dropout;
+  dropout.Add(Record(ScanWithDropout(0.1)));
+  const Estimate share = dropout.Share();
+  // Half of the 28,800 beams go into the sky, and have nothing to lose.
+  EXPECT_NEAR(static_cast<double>(share.num), 14400.0, 240.0);
+  // Four standard errors, and the interval is two of them to both sides.
+  EXPECT_NEAR(share.value, 0.1, 0.01);
+  EXPECT_NEAR(share.high - share.low, 4.0 * std::sqrt(0.09 / 14400.0), 0.001);
+}
+
+TEST(Dropout, NamesItsCauses) {
+  SimulatorSpec spec{.effects = {.threshold = true, .sensor_dropout = true}};
+  spec.plausibility.dropout_probability = 0.05;
+  // Reflectivity 0.5 at 20 m is seen up to an incidence of acos(0.8) = 37 deg, here 27 deg at most;
+  // the whole wall is too dark for a threshold of 0.6.
+  spec.plausibility.reference_threshold = 0.6;
+  spec.plausibility.reference_range_m = 20.0;
+  Dropout dropout;
+  dropout.Add(Record(ScanOnce(WallAndSky(), MakeRaster(60.0, 30.0, 0.25), spec)));
+  EXPECT_EQ(dropout.Share().value, 1.0);
+  const Section section = dropout.MakeSection(Names(RecordingInfo{}));
+  const Table& labels = TableOf(section, "dropout_by_label");
+  ASSERT_EQ(labels.columns.size(), 5U);
+  EXPECT_EQ(labels.columns[3].key, "below_threshold");
+  EXPECT_EQ(labels.columns[4].key, "sensor_dropout");
+  ASSERT_EQ(labels.rows.size(), 1U);
+  EXPECT_EQ(std::get<std::string>(labels.rows[0][0]), "7");
+  const auto below = std::get<Estimate>(labels.rows[0][3]);
+  const auto missed = std::get<Estimate>(labels.rows[0][4]);
+  EXPECT_NEAR(below.value + missed.value, 1.0, 1e-12);
+  EXPECT_GT(below.value, 0.9);
+}
+
+TEST(Dropout, OfPartsIsThatOfTheWhole) {
+  Dropout whole, parts, second;
+  whole.Add(Record(ScanWithDropout(0.1, 0)));
+  whole.Add(Record(ScanWithDropout(0.1, 1)));
+  parts.Add(Record(ScanWithDropout(0.1, 0)));
+  second.Add(Record(ScanWithDropout(0.1, 1)));
+  parts.Add(second);
+  EXPECT_EQ(parts.Share().value, whole.Share().value);
+  EXPECT_EQ(parts.Share().num, whole.Share().num);
+  const Names names{RecordingInfo{}};
+  for (const Table& table : whole.MakeSection(names).tables) {
+    EXPECT_EQ(TableOf(parts.MakeSection(names), table.key).rows.size(), table.rows.size());
+  }
+}
+
+TEST(Dropout, IsNotCountedWithoutOutcomes) {
+  Dropout dropout;
+  dropout.Add(RecordPointsOnly(ScanWithDropout(0.1)));
+  EXPECT_TRUE(dropout.is_empty());
+  EXPECT_FALSE(dropout.Share().is_enough());
+}
+
+TEST(Dropout, OfNothingIsNoNumber) {
+  const Frame frame = ScanOnce(std::make_shared<SimpleWorld>(), MakeRaster(60.0, 30.0, 0.25));
+  Dropout dropout;
+  dropout.Add(Record(frame));
+  EXPECT_FALSE(dropout.Share().is_enough());
+  EXPECT_EQ(dropout.Share().num, 0U);
+}
+
+TEST(Holes, RecoverTheDropoutOfIndependentLosses) {
+  for (const double probability : {0.02, 0.18, 0.45}) {
+    Holes holes;
+    holes.Add(RecordPointsOnly(ScanWithDropout(probability)));
+    const Estimate share = holes.Share();
+    const double variance = probability * (1.0 - probability);
+    EXPECT_NEAR(share.value, probability,
+                4.0 * std::sqrt(variance / static_cast<double>(share.num)));
+    EXPECT_GT(share.num, 1000U);
+  }
+}
+
+TEST(Holes, AreNotInTheSky) {
+  Holes holes;
+  holes.Add(RecordPointsOnly(ScanWithDropout(0.0)));
+  EXPECT_EQ(holes.Share().value, 0.0);
+  EXPECT_NEAR(holes.Filled().value, 0.5, 0.01);
+}
+
+TEST(Holes, AreNotWhereNoBeamWasFired) {
+  // A turn of which half was recorded: the other columns hold no point.
+  Frame frame = ScanWithDropout(0.0);
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    if (slot % frame.width() >= frame.width() / 2) frame.range_m[slot] = std::nanf("");
+  }
+  Holes holes;
+  holes.Add(RecordPointsOnly(frame));
+  EXPECT_EQ(holes.Share().value, 0.0);
+  EXPECT_NEAR(holes.Filled().value, 0.5, 0.01);
+}
+
+TEST(Holes, OfAFrameWithoutAPointOrAGridAreNoNumber) {
+  Frame frame = ScanWithDropout(0.0);
+  for (float& range_m : frame.range_m) range_m = std::nanf("");
+  Holes holes;
+  holes.Add(RecordPointsOnly(frame));
+  EXPECT_FALSE(holes.Share().is_enough());
+  RecordedFrame cloud = RecordPointsOnly(ScanWithDropout(0.0));
+  cloud.is_grid = false;
+  holes.Add(cloud);
+  EXPECT_TRUE(holes.is_empty());
+}
+
+}  // namespace
+}  // namespace railcast

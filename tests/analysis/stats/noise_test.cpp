@@ -1,0 +1,231 @@
+#include "analysis/stats/noise.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+
+#include "analysis/stats/bins.h"
+#include "analysis/stats/intensity.h"
+#include "analysis/stats/temporal_noise.h"
+#include "core/base/random.h"
+#include "tests/analysis/recorded_frames.h"
+#include "tests/support/analytic_meshes.h"
+#include "tests/support/scan_once.h"
+#include "tests/support/simple_world.h"
+
+namespace railcast {
+namespace {
+
+constexpr int kNumFrames = 20;
+
+ScanPattern Raster() {
+  return MakeRaster(60.0, 30.0, 0.25);
+}
+
+/// A wall at `x_m` that fills the view, scanned with noise of `sigma_m` at any range.
+class NoisyWall {
+ public:
+  NoisyWall(float x_m, double sigma_m, const std::string& shape)
+      : simulator_(MakeWorld(x_m), Raster(), TestMaterials(), SpecOf(sigma_m, shape), 0) {}
+
+  Frame Scan(std::uint32_t index) {
+    Frame frame;
+    simulator_.Scan(index, frame);
+    return frame;
+  }
+
+ private:
+  static std::shared_ptr<SimpleWorld> MakeWorld(float x_m) {
+    auto world = std::make_shared<SimpleWorld>();
+    world->ground.parts = {{MakeWall(x_m, 2.0F * x_m), 2, 1}};
+    return world;
+  }
+  static SimulatorSpec SpecOf(double sigma_m, const std::string& shape) {
+    SimulatorSpec spec{.effects = {.threshold = true, .noise = true}};
+    spec.plausibility.noise_sigma0_m = sigma_m;
+    spec.plausibility.noise_sigma1 = 0.0;
+    spec.plausibility.noise_shape = shape;
+    return spec;
+  }
+
+  Simulator simulator_;
+};
+
+Noise MeasureNoise(NoisyWall& wall, double outlier_share = 0.0) {
+  Noise noise;
+  const auto scan = MakeScanTable(Raster());
+  for (std::uint32_t index = 0; index < kNumFrames; ++index) {
+    Frame frame = wall.Scan(index);
+    for (std::uint32_t slot = 0; slot < frame.num_slots(); ++slot) {
+      const auto words = RandomWords(9, RandomUse::kNoise, index, slot);
+      if (static_cast<double>(UnitFloat(words[0])) >= outlier_share) continue;
+      const float scale = 0.5F + UnitFloat(words[1]);
+      for (auto* field : {&frame.x, &frame.y, &frame.z, &frame.range_m}) (*field)[slot] *= scale;
+    }
+    const RecordedFrame recorded = Record(std::move(frame));
+    noise.Add(recorded, FindPlanePatches(recorded, &*scan));
+  }
+  return noise;
+}
+
+const Noise::Planes& PlanesAt(const Noise& noise, double range_m) {
+  return noise.planes()[RangeBins().Find(range_m).value()];
+}
+
+class RangeNoise : public testing::TestWithParam<double> {};
+
+TEST_P(RangeNoise, AlongTheBeamsIsRecoveredWithinFivePercent) {
+  const double sigma_m = GetParam();
+  NoisyWall wall(25.0F, sigma_m, "beam");
+  const Noise::Planes bin = PlanesAt(MeasureNoise(wall), 25.0);
+  ASSERT_GT(bin.range_sigmas_m.num(), 500U);
+  EXPECT_NEAR(bin.RangeSigma_m().value / sigma_m, 1.0, 0.05);
+  EXPECT_NEAR(bin.RobustRangeSigma_m().value / sigma_m, 1.0, 0.05);
+}
+
+TEST_P(RangeNoise, AlikeInAllDirectionsIsThatSquareToThePlane) {
+  const double sigma_m = GetParam();
+  NoisyWall wall(25.0F, sigma_m, "isotropic");
+  const Noise::Planes bin = PlanesAt(MeasureNoise(wall), 25.0);
+  EXPECT_NEAR(bin.PlaneSigma_m().value / sigma_m, 1.0, 0.05);
+  EXPECT_NEAR(bin.RobustPlaneSigma_m().value / sigma_m, 1.0, 0.05);
+}
+
+TEST_P(RangeNoise, IsExactFromTheTruth) {
+  const double sigma_m = GetParam();
+  NoisyWall wall(25.0F, sigma_m, "beam");
+  const Noise noise = MeasureNoise(wall);
+  const Noise::Truth& bin = noise.truth()[RangeBins().Find(25.0).value()];
+  // Four standard errors of 300,000 samples and more.
+  EXPECT_NEAR(bin.errors_m.StandardDeviation().value / sigma_m, 1.0, 0.006);
+  EXPECT_NEAR(bin.RobustSigma_m().value / sigma_m, 1.0, 0.015);
+  EXPECT_NEAR(bin.errors_m.Mean().value / sigma_m, 0.0, 0.01);
+}
+
+INSTANTIATE_TEST_SUITE_P(FromMillimetresToDecimetres,
+                         RangeNoise,
+                         testing::Values(0.002, 0.015, 0.06));
+
+TEST(Noise, StandsOnePointInTwentyGoneWild) {
+  NoisyWall wall(25.0F, 0.015, "beam");
+  const Noise::Planes bin = PlanesAt(MeasureNoise(wall, 0.05), 25.0);
+  ASSERT_GT(bin.range_sigmas_m.num(), 100U);
+  EXPECT_NEAR(bin.RobustRangeSigma_m().value / 0.015, 1.0, 0.05);
+  EXPECT_GT(bin.num_outliers, 0U);
+}
+
+TEST(Noise, WithoutAGridComesFromNeighboursInSpace) {
+  NoisyWall wall(25.0F, 0.015, "beam");
+  Noise noise;
+  for (std::uint32_t index = 0; index < 3; ++index) {
+    RecordedFrame recorded = RecordPointsOnly(wall.Scan(index));
+    recorded.is_grid = false;
+    noise.Add(recorded, FindPlanePatches(recorded, nullptr));
+  }
+  EXPECT_NEAR(PlanesAt(noise, 25.0).RobustRangeSigma_m().value / 0.015, 1.0, 0.1);
+  EXPECT_TRUE(noise.truth().empty());
+}
+
+TEST(Noise, OfTooFewPointsIsNoNumber) {
+  NoisyWall wall(25.0F, 0.015, "beam");
+  const auto scan = MakeScanTable(Raster());
+  for (const std::size_t num_points : {0U, 1U, 2U, 11U}) {
+    Frame frame = wall.Scan(0);
+    for (std::size_t slot = num_points; slot < frame.num_slots(); ++slot) {
+      frame.range_m[slot] = frame.x[slot] = frame.y[slot] = frame.z[slot] = std::nanf("");
+    }
+    for (const bool is_grid : {true, false}) {
+      RecordedFrame recorded = RecordPointsOnly(frame);
+      recorded.is_grid = is_grid;
+      EXPECT_TRUE(FindPlanePatches(recorded, is_grid ? &*scan : nullptr).empty());
+    }
+  }
+  Noise noise;
+  noise.Add(RecordPointsOnly(wall.Scan(0)), {});
+  EXPECT_FALSE(PlanesAt(noise, 25.0).RangeSigma_m().is_enough());
+  EXPECT_FALSE(PlanesAt(noise, 25.0).RobustRangeSigma_m().is_enough());
+}
+
+TEST(TemporalNoise, IsRecoveredWithinFivePercent) {
+  NoisyWall wall(25.0F, 0.015, "beam");
+  const auto scan = MakeScanTable(Raster());
+  TemporalNoise noise;
+  for (std::uint32_t index = 0; index < 10; index += 2) {
+    noise.Add(Record(wall.Scan(index)), Record(wall.Scan(index + 1)), &*scan, &*scan);
+  }
+  const TemporalNoise::Bin& bin = noise.bins()[RangeBins().Find(25.0).value()];
+  EXPECT_NEAR(bin.Sigma_m().value / 0.015, 1.0, 0.05);
+  EXPECT_NEAR(bin.RobustSigma_m().value / 0.015, 1.0, 0.05);
+  EXPECT_EQ(noise.num_pairs(), 5U);
+}
+
+// A capture's turns begin anywhere: here the second frame's columns lie 0.4 columns beside the
+// first one's, on a wall so slanted that this alone is 40 mm.
+TEST(TemporalNoise, CorrectsForColumnsBesideEachOther) {
+  NoisyWall wall(25.0F, 0.015, "beam");
+  const auto scan = MakeScanTable(Raster());
+  auto slanted = std::make_shared<SimpleWorld>();
+  slanted->ground.parts = {
+      {{{{20, 20, -20}, {40, -20, -20}, {40, -20, 20}, {20, 20, 20}}, {{0, 1, 2}, {0, 2, 3}}},
+       2,
+       1}};
+  SimulatorSpec spec{.effects = {.threshold = true, .noise = true}};
+  spec.plausibility.noise_sigma0_m = 0.015;
+  spec.plausibility.noise_sigma1 = 0.0;
+  spec.plausibility.noise_shape = "beam";
+  const Frame first = ScanOnce(slanted, MakeRaster(40.0, 20.0, 0.25), spec, 0);
+  // The sensor turned by 0.1 deg, and its points turned back: as if its columns stood elsewhere.
+  const Eigen::AngleAxisd turn(0.1 * 3.141592653589793 / 180.0, Vector3::UnitZ());
+  spec.vehicle_from_sensor = Transform::Identity();
+  spec.vehicle_from_sensor.rotate(turn);
+  Frame second = ScanOnce(slanted, MakeRaster(40.0, 20.0, 0.25), spec, 1);
+  for (std::size_t slot = 0; slot < second.num_slots(); ++slot) {
+    const Vector3 turned =
+        turn * Vector3(static_cast<double>(second.x[slot]), static_cast<double>(second.y[slot]),
+                       static_cast<double>(second.z[slot]));
+    second.x[slot] = static_cast<float>(turned.x());
+    second.y[slot] = static_cast<float>(turned.y());
+  }
+  TemporalNoise noise;
+  const auto first_scan = MakeScanTable(first);
+  const auto second_scan = MakeScanTable(second);
+  noise.Add(RecordPointsOnly(first), RecordPointsOnly(second), &*first_scan, &*second_scan);
+  ASSERT_EQ(noise.num_pairs(), 1U);
+  const TemporalNoise::Bin& bin = noise.bins()[RangeBins().Find(28.0).value()];
+  ASSERT_GT(bin.differences_m.num(), 1000U);
+  EXPECT_NEAR(bin.Sigma_m().value / 0.015, 1.0, 0.07);
+  EXPECT_NEAR(bin.differences_m.Mean().value, 0.0, 0.002);
+}
+
+TEST(TemporalNoise, TakesNoPartOfFramesBetweenWhichTheSensorMoved) {
+  NoisyWall wall(25.0F, 0.015, "beam");
+  const auto scan = MakeScanTable(Raster());
+  Frame second = wall.Scan(1);
+  second.world_from_sensor.translate(Vector3(0.01, 0, 0));
+  TemporalNoise noise;
+  noise.Add(Record(wall.Scan(0)), Record(second), &*scan, &*scan);
+  EXPECT_EQ(noise.num_pairs(), 0U);
+  EXPECT_EQ(noise.num_moved(), 1U);
+  EXPECT_TRUE(noise.bins().empty());
+}
+
+TEST(Intensity, OfALambertianFallsWithTheCosine) {
+  NoisyWall wall(25.0F, 0.002, "beam");
+  const RecordedFrame recorded = Record(wall.Scan(0));
+  const auto scan = MakeScanTable(Raster());
+  Intensity exact, from_planes;
+  exact.Add(recorded, {});
+  const RecordedFrame points = RecordPointsOnly(recorded.frame);
+  from_planes.Add(points, FindPlanePatches(points, &*scan));
+  const std::size_t bin = IncidenceBins().Find(25.0).value();
+  // Reflectivity 0.5; the bin's mean lies between those at its ends.
+  for (const Intensity* intensity : {&exact, &from_planes}) {
+    const Estimate mean = intensity->by_incidence()[bin].plain.Mean();
+    EXPECT_GT(mean.value, 0.5 * std::cos(30.0 * 3.14159265 / 180.0));
+    EXPECT_LT(mean.value, 0.5 * std::cos(20.0 * 3.14159265 / 180.0));
+  }
+}
+
+}  // namespace
+}  // namespace railcast

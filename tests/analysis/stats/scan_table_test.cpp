@@ -1,0 +1,80 @@
+#include "analysis/stats/scan_table.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+
+#include "tests/support/analytic_meshes.h"
+#include "tests/support/scan_once.h"
+#include "tests/support/sensor_file.h"
+#include "tests/support/simple_world.h"
+
+namespace railcast {
+namespace {
+
+class ScanTableOf : public testing::TestWithParam<std::string> {};
+
+// Inside a sphere every firing has a point: the table from points is that of the pattern.
+TEST_P(ScanTableOf, PointsIsThatOfThePattern) {
+  const ScanPattern pattern = BuildScanPattern(ReadSensor(GetParam()));
+  auto world = std::make_shared<SimpleWorld>();
+  world->ground.parts = {{MakeSphere(20.0, 24, 48), 2, 1}};
+  const auto from_points = MakeScanTable(ScanOnce(world, pattern));
+  const auto from_pattern = MakeScanTable(pattern);
+  ASSERT_TRUE(from_points && from_pattern);
+  for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
+    const Vector3 direction = DirectionOf(pattern, i);
+    for (const auto& table : {from_points, from_pattern}) {
+      const auto found = table->Direction(pattern.row[i], pattern.column[i]);
+      ASSERT_NEAR((Vector3(found[0], found[1], found[2]) - direction).norm(), 0.0, 2e-6);
+    }
+  }
+  EXPECT_NEAR(from_points->column_step_rad, from_pattern->column_step_rad, 1e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sensors,
+                         ScanTableOf,
+                         testing::Values("vlp16", "vlp32c", "pandar64", "hdl32e"));
+
+TEST(ScanTable, OfARasterHasItsSolidAngles) {
+  const auto table = MakeScanTable(MakeRaster(60.0, 30.0, 0.25));
+  ASSERT_TRUE(table);
+  double sum_sr = 0.0;
+  for (std::size_t row = 0; row < table->rows; ++row) {
+    sum_sr += table->SolidAngle_sr(row) * table->columns;
+  }
+  // All of the field of view: azimuth x (sin top - sin bottom).
+  const double expected_sr = std::numbers::pi / 3.0 * 2.0 * std::sin(std::numbers::pi / 12.0);
+  EXPECT_NEAR(sum_sr / expected_sr, 1.0, 1e-4);
+}
+
+TEST(ScanTable, FillsGapsBetweenWhatIsKnown) {
+  auto world = std::make_shared<SimpleWorld>();
+  world->ground.parts = {{MakeWall(20.0F, 40.0F), 2, 1}};
+  const ScanPattern pattern = MakeRaster(60.0, 30.0, 0.25);
+  Frame frame = ScanOnce(world, pattern);
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    const std::size_t row = slot / frame.width();
+    const std::size_t column = slot % frame.width();
+    if ((row > 40 && row < 60) || (column > 100 && column < 140)) {
+      frame.range_m[slot] = std::nanf("");
+    }
+  }
+  const auto table = MakeScanTable(frame);
+  const auto truth = MakeScanTable(pattern);
+  ASSERT_TRUE(table);
+  EXPECT_NEAR(table->elevation_rad[50], truth->elevation_rad[50], 1e-6);
+  EXPECT_NEAR(table->column_azimuth_rad[120], truth->column_azimuth_rad[120], 1e-6);
+}
+
+TEST(ScanTable, OfAListOfFiringsIsNone) {
+  Frame frame;
+  frame.Resize(1, 100, 1);
+  EXPECT_FALSE(MakeScanTable(frame));
+}
+
+}  // namespace
+}  // namespace railcast
