@@ -55,13 +55,20 @@ struct GroupOutlook {
   GroupState state = GroupState::kFew;
   double bound = std::numeric_limits<double>::quiet_NaN();  ///< ... this, at 95 %.
   double start = std::numeric_limits<double>::quiet_NaN();  ///< Of kSeen: about where theta is.
+  double evidence{};  ///< Of kSeen: log likelihood over that of no threshold.
   std::uint64_t num{};
 };
 
+/// All groups at one extinction: the given one, or else the best of a few.
+struct Outlook {
+  std::vector<GroupOutlook> groups;
+  double extinction_per_m{};
+};
+
 /// Looks at each group by itself: is there a power above which a share returns that is the same for
-/// all (free), and below which nothing does? The best such place against none, by likelihood.
-/// Extinction counts if it is given.
-[[nodiscard]] std::vector<GroupOutlook> LookAtGroups(const DetectionProblem& problem);
+/// all (free), and below which nothing does, or of a smooth threshold less than half of that share?
+/// The best such place against none, by likelihood.
+[[nodiscard]] Outlook LookAtGroups(const DetectionProblem& problem);
 
 /// Fitted parameters: thetas of the groups in kSeen (others: NaN), extinction, and for the smooth
 /// threshold the logarithm of the SNR at the threshold, with the covariance of their errors.
@@ -86,12 +93,12 @@ inline constexpr double kWrongShare = 1e-3;
 /// and extinction (>= 0), which for a place has the coverage it states (Pitman 1939). Exact but for
 /// a grid over the extinction.
 [[nodiscard]] DetectionFit FitHardThreshold(const DetectionProblem& problem,
-                                            const std::vector<GroupOutlook>& outlooks);
+                                            const Outlook& outlook);
 
 /// The smooth threshold of physics: P(detected) = Phi(SNR_t (power - 1)), by maximum likelihood:
 /// Fisher's scoring, which is iterated least squares with the weights 1 / (P (1 - P)), damped as
 /// Levenberg and Marquardt do. Covariance: the inverse of Fisher's information.
 [[nodiscard]] DetectionFit FitSmoothThreshold(const DetectionProblem& problem,
-                                              const std::vector<GroupOutlook>& outlooks);
+                                              const Outlook& outlook);
 
 }  // namespace railcast

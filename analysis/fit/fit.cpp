@@ -149,7 +149,15 @@ void FitNoise(std::vector<Trial>& trials,
     return;
   }
   result.noise_by_power = BinNoise(trials, inverse_snr, inverse_snr);
-  AddSignalNoise(FitSignalNoise(result.noise_by_power), result);
+  SignalNoise noise = FitSignalNoise(result.noise_by_power);
+  if (noise.scale_m.is_enough()) {
+    // scale^2 is a slope x SNR.
+    const double value_m = noise.scale_m.value;
+    const double share = 1.96 * 0.5 * result.log_snr_error * value_m;
+    noise.scale_m.low = std::max(0.0, value_m - std::hypot(value_m - noise.scale_m.low, share));
+    noise.scale_m.high = value_m + std::hypot(noise.scale_m.high - value_m, share);
+  }
+  AddSignalNoise(noise, result);
 }
 
 }  // namespace

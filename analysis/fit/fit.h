@@ -56,6 +56,8 @@ struct FitResult {
   std::vector<NoiseBin> noise_by_power;  ///< Rung surface only.
   double extinction_per_m{};             ///< As fitted or given.
   double snr_at_threshold = std::numeric_limits<double>::quiet_NaN();
+  /// Standard error of the logarithm of the signal-to-noise ratios that follow from the above.
+  double log_snr_error = std::numeric_limits<double>::quiet_NaN();
   std::uint64_t num_trials{};
   std::uint64_t num_lost{};
   std::uint64_t num_elsewhere{};

@@ -1,5 +1,6 @@
 #include "analysis/fit/fit_threshold.h"
 
+#include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <cstdio>
@@ -10,8 +11,11 @@
 namespace railcast {
 namespace {
 
-// What is known to a factor of two only, at 95 %, is not known.
-constexpr double kMaxLogError = 0.35;
+// Of what the likelihood leaves open by more than 20 % either way its interval is not to be
+// trusted.
+constexpr double kMaxLogError = 0.1;
+// The SNR at the threshold is known by the slope of a curve only: a factor of two either way.
+constexpr double kMaxLogSnrError = 0.35;
 // Carried by the float32 fields.
 constexpr double kMinLogError = 1e-5;
 constexpr std::uint32_t kNoGroup = ThresholdGroups::kNoGroup;
@@ -41,6 +45,20 @@ Estimate Exponential(double x, double error, double power, std::uint64_t num) {
   return {std::exp(power * x), std::exp(power * (x - half)), std::exp(power * (x + half)), num};
 }
 
+// Of SNR at the threshold x power, over the groups that are seen.
+double LogSnrError(const SettledThreshold& settled) {
+  if (!settled.is_seen) return std::numeric_limits<double>::quiet_NaN();
+  const Eigen::MatrixXd& covariance = settled.detection.covariance;
+  const Eigen::Index snr = settled.detection.snr_place();
+  double variance = 0.0, num = 0.0;
+  for (Eigen::Index g = 0; g < settled.detection.theta.size(); ++g) {
+    if (std::isnan(settled.detection.theta[g])) continue;
+    variance += covariance(g, g) + 2.0 * covariance(g, snr);
+    num += 1.0;
+  }
+  return std::sqrt(std::max(0.0, covariance(snr, snr) + variance / num));
+}
+
 // "at least 143 m": in three digits.
 std::string Bound(const std::string& words, double bound, const std::string& unit) {
   char digits[32];
@@ -61,6 +79,10 @@ double BoundTheta(const GroupOutlook& outlook, const FitSettings& settings) {
 const char* const kTogether =
     "not identified: beams are lost at about one range only, so that threshold and extinction "
     "cannot be told apart; give --extinction-per-m";
+
+const char* WhyVague(const FitSettings& settings) {
+  return settings.extinction_per_m ? "not identified: too few beams near the threshold" : kTogether;
+}
 
 FittedParameter ThresholdParameter(const SettledThreshold& settled,
                                    const FitSettings& settings,
@@ -83,7 +105,7 @@ FittedParameter ThresholdParameter(const SettledThreshold& settled,
     parameter.remark = Bound("given:", *settings.range_at_10_percent_m, " m");
     return parameter;
   }
-  const GroupOutlook& outlook = settled.outlooks[0];
+  const GroupOutlook& outlook = settled.outlook.groups[0];
   parameter.estimate = NotEnough(outlook.num);
   const double bound_m =
       std::exp(0.5 * BoundTheta(outlook, settings)) * std::sqrt(kDataSheetReflectance);
@@ -103,7 +125,7 @@ FittedParameter ThresholdParameter(const SettledThreshold& settled,
   }
   const double error = std::hypot(settled.log_inverse_power_error, ScaleError(settled, result));
   if (!(error < kMaxLogError)) {
-    parameter.remark = kTogether;
+    parameter.remark = WhyVague(settings);
     return parameter;
   }
   parameter.estimate = Exponential(settled.log_inverse_power, error, 0.5, outlook.num);
@@ -119,14 +141,14 @@ FittedParameter SnrParameter(const SettledThreshold& settled) {
                             "not identified: no beams are lost to the threshold"};
   if (!settled.is_seen) return parameter;
   std::uint64_t num = 0;
-  for (const GroupOutlook& outlook : settled.outlooks) {
+  for (const GroupOutlook& outlook : settled.outlook.groups) {
     if (outlook.state == GroupState::kSeen) num += outlook.num;
   }
   const Eigen::Index place = settled.detection.snr_place();
   const double error = std::sqrt(settled.detection.covariance(place, place));
   parameter.estimate = NotEnough(num);
   parameter.remark = "not identified: too few beams near the threshold";
-  if (!(error < kMaxLogError)) return parameter;
+  if (!(error < kMaxLogSnrError)) return parameter;
   parameter.estimate = Exponential(settled.detection.log_snr, error, 1.0, num);
   parameter.remark.clear();
   return parameter;
@@ -147,7 +169,7 @@ FittedParameter AirParameter(const SettledThreshold& settled, const FitSettings&
     return parameter;
   }
   std::uint64_t num = 0;
-  for (const GroupOutlook& outlook : settled.outlooks) {
+  for (const GroupOutlook& outlook : settled.outlook.groups) {
     if (outlook.state == GroupState::kSeen) num += outlook.num;
   }
   const Eigen::Index place = settled.detection.extinction_place();
@@ -198,7 +220,7 @@ void FillOwnGroup(const SettledThreshold& settled,
                   const ShapedAnswer& facing,
                   std::size_t group,
                   SurfaceFit& surface) {
-  const GroupOutlook& outlook = settled.outlooks[group];
+  const GroupOutlook& outlook = settled.outlook.groups[group];
   const bool has_scale = !std::isnan(settled.log_inverse_power_error);
   const double inverse_power = std::exp(settled.log_inverse_power);
   surface.reflectance = surface.facing_range_m = NotEnough(outlook.num);
@@ -223,7 +245,7 @@ void FillOwnGroup(const SettledThreshold& settled,
   const double theta = settled.detection.theta[place];
   const double error = std::sqrt(covariance(place, place));
   if (!(error < kMaxLogError)) {
-    surface.remark = kTogether;
+    surface.remark = WhyVague(settings);
     return;
   }
   surface.power_at_1m = std::exp(theta);
@@ -269,8 +291,8 @@ void FillSurfaces(const SettledThreshold& settled,
       surface.power_at_1m = inverse_power * reflectance;
       surface.lobe_scale = inverse_power;
       const double all = inverse_power * (reflectance * facing.diffuse + facing.lobe);
-      surface.facing_range_m =
-          Exponential(std::log(all), settled.log_inverse_power_error, 0.5, settled.outlooks[0].num);
+      surface.facing_range_m = Exponential(std::log(all), settled.log_inverse_power_error, 0.5,
+                                           settled.outlook.groups[0].num);
     }
   }
 }
@@ -286,6 +308,7 @@ void FitThreshold(const std::vector<Trial>& trials,
   if (settings.is_physical) {
     const FittedParameter snr = SnrParameter(settled);
     result.snr_at_threshold = snr.estimate.value;
+    result.log_snr_error = LogSnrError(settled);
     result.parameters.push_back(snr);
   }
   result.parameters.push_back(AirParameter(settled, settings));

@@ -101,26 +101,50 @@ GroupOutlook LookAt(std::vector<Step> steps, bool is_smooth) {
     return outlook;
   }
   outlook.state = GroupState::kSeen;
+  outlook.evidence = split.gain;
   outlook.start = steps[std::min(split.num_above, steps.size() - 1)].needed;
   return outlook;
 }
 
-}  // namespace
-
-std::vector<GroupOutlook> LookAtGroups(const DetectionProblem& problem) {
+Outlook LookAtExtinction(const DetectionProblem& problem, double extinction_per_m) {
   std::vector<std::vector<Step>> groups(problem.num_groups);
-  const double per_m = problem.air_ways * problem.extinction_per_m.value_or(0.0);
   for (const DetectionTrial& trial : problem.trials) {
-    const double missing = std::exp(per_m * trial.range_m) - trial.lobe;
+    const double air = problem.air_ways * extinction_per_m * trial.range_m;
+    const double missing = std::exp(air) - trial.lobe;
     // Its lobe alone is detected: it says nothing of theta.
     if (missing <= 0.0) continue;
     groups[trial.group].push_back({std::log(missing / trial.gain), trial.is_returned});
   }
-  std::vector<GroupOutlook> outlooks;
+  Outlook outlook;
+  outlook.extinction_per_m = extinction_per_m;
   for (std::vector<Step>& group : groups) {
-    outlooks.push_back(LookAt(std::move(group), problem.is_smooth));
+    outlook.groups.push_back(LookAt(std::move(group), problem.is_smooth));
   }
-  return outlooks;
+  return outlook;
+}
+
+double EvidenceOf(const Outlook& outlook) {
+  double evidence = 0.0;
+  for (const GroupOutlook& group : outlook.groups) evidence += group.evidence;
+  return evidence;
+}
+
+}  // namespace
+
+Outlook LookAtGroups(const DetectionProblem& problem) {
+  if (problem.extinction_per_m) return LookAtExtinction(problem, *problem.extinction_per_m);
+  // A smooth threshold's likelihood leads from clear air to where it should.
+  if (problem.is_smooth) return LookAtExtinction(problem, 0.0);
+  constexpr double kThinnest_per_m = 3e-4;
+  constexpr double kDensest_per_m = 0.1;
+  constexpr double kStep = 1.5;
+  Outlook best = LookAtExtinction(problem, 0.0);
+  for (double at_per_m = kThinnest_per_m; at_per_m < kDensest_per_m; at_per_m *= kStep) {
+    Outlook outlook = LookAtExtinction(problem, at_per_m);
+    // Where the trials cannot tell, clear air is the better guess.
+    if (EvidenceOf(outlook) > EvidenceOf(best) + kEvidence) best = std::move(outlook);
+  }
+  return best;
 }
 
 }  // namespace railcast

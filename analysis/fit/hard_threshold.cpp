@@ -49,10 +49,10 @@ Posterior Integrate(std::vector<Step>& steps) {
 
 class HardThreshold {
  public:
-  HardThreshold(const DetectionProblem& problem, const std::vector<GroupOutlook>& outlooks)
-      : problem_(problem), outlooks_(outlooks), groups_(problem.num_groups) {
+  HardThreshold(const DetectionProblem& problem, const Outlook& outlook)
+      : problem_(problem), outlook_(outlook), groups_(problem.num_groups) {
     for (const DetectionTrial& trial : problem.trials) {
-      if (outlooks[trial.group].state != GroupState::kSeen) continue;
+      if (outlook.groups[trial.group].state != GroupState::kSeen) continue;
       const double survival = std::clamp(problem.loss.Survival(trial.range_m), 0.0, 1.0);
       const double chance = trial.is_returned ? survival : 1.0 - survival;
       const double above = std::max(chance, kWrongShare);
@@ -79,7 +79,7 @@ class HardThreshold {
 
  private:
   const DetectionProblem& problem_;
-  const std::vector<GroupOutlook>& outlooks_;
+  const Outlook& outlook_;
   std::vector<std::vector<std::pair<DetectionTrial, double>>> groups_;
 };
 
@@ -137,9 +137,8 @@ Mixture Search(const HardThreshold& model) {
 
 }  // namespace
 
-DetectionFit FitHardThreshold(const DetectionProblem& problem,
-                              const std::vector<GroupOutlook>& outlooks) {
-  const HardThreshold model(problem, outlooks);
+DetectionFit FitHardThreshold(const DetectionProblem& problem, const Outlook& outlook) {
+  const HardThreshold model(problem, outlook);
   const Mixture mixture =
       problem.extinction_per_m ? Evaluate(model, {*problem.extinction_per_m}) : Search(model);
   const auto num_groups = static_cast<Eigen::Index>(problem.num_groups);
@@ -169,7 +168,7 @@ DetectionFit FitHardThreshold(const DetectionProblem& problem,
   fit.covariance = square / mass;
   fit.covariance = (0.5 * (fit.covariance + fit.covariance.transpose())).eval();
   for (Eigen::Index g = 0; g < num_groups; ++g) {
-    const auto state = outlooks[static_cast<std::size_t>(g)].state;
+    const auto state = outlook.groups[static_cast<std::size_t>(g)].state;
     if (state == GroupState::kSeen) fit.theta[g] = mean[g];
   }
   fit.extinction_per_m = mean[num_groups];

@@ -17,6 +17,9 @@ ScaleSource ScaleSourceOf(const FitSettings& settings) {
 constexpr double kUsualRange_m = 200.0;
 // Far above the threshold: with an SNR of 5 there, 3e-7 of the beams are lost to it.
 constexpr double kStrongPower = 2.0;
+// What the truth leaves open of pulse stretch: 1 % of the power either way at most, of a few trials
+// (analysis/fit/truth_stretch.h).
+constexpr double kStretchLogError = 0.002;
 constexpr std::uint32_t kNoGroup = ThresholdGroups::kNoGroup;
 
 double LeastPowerInverse(double range_at_10_percent_m) {
@@ -89,22 +92,21 @@ Cast CastTrials(const std::vector<Trial>& trials,
 
 // Those that the threshold has no part in.
 std::vector<StrongTrial> StrongTrials(const Cast& cast,
-                                      const std::vector<GroupOutlook>& outlooks,
+                                      const Outlook& outlook,
                                       const DetectionFit* fit,
                                       const DetectionProblem& problem) {
   std::vector<StrongTrial> strong;
-  const double extinction_per_m =
-      fit ? fit->extinction_per_m : problem.extinction_per_m.value_or(0.0);
+  const double extinction_per_m = fit ? fit->extinction_per_m : outlook.extinction_per_m;
   const auto add = [&](const DetectionTrial& trial) {
-    const GroupOutlook& outlook = outlooks[trial.group];
-    double theta = outlook.state == GroupState::kNeverLost ? outlook.bound : outlook.start;
-    const bool is_seen = outlook.state == GroupState::kSeen;
+    const GroupOutlook& group = outlook.groups[trial.group];
+    double theta = group.state == GroupState::kNeverLost ? group.bound : group.start;
+    const bool is_seen = group.state == GroupState::kSeen;
     if (is_seen && fit) theta = fit->theta[static_cast<Eigen::Index>(trial.group)];
     const double power = (std::exp(theta) * trial.gain + trial.lobe) *
                          std::exp(-problem.air_ways * extinction_per_m * trial.range_m);
     // Of groups that are never lost the bound is that of the weakest.
     const bool is_strong =
-        outlook.state == GroupState::kNeverLost ? power >= 1.0 - 1e-9 : power >= kStrongPower;
+        group.state == GroupState::kNeverLost ? power >= 1.0 - 1e-9 : power >= kStrongPower;
     if (is_strong) strong.push_back({trial.range_m, trial.is_returned});
   };
   for (const DetectionTrial& trial : cast.trials) add(trial);
@@ -134,19 +136,23 @@ SettledThreshold SettleThreshold(const std::vector<Trial>& trials,
     Cast cast =
         CastTrials(trials, surfaces, settings, result, settled.groups, settled.log_inverse_power);
     problem.trials = std::move(cast.trials);
-    settled.outlooks = LookAtGroups(problem);
+    settled.outlook = LookAtGroups(problem);
     cast.trials = problem.trials;
     const DetectionFit* before = round > 0 && settled.is_seen ? &settled.detection : nullptr;
     settled.loss =
-        FitRandomLoss(StrongTrials(cast, settled.outlooks, before, problem), !settings.is_physical);
+        FitRandomLoss(StrongTrials(cast, settled.outlook, before, problem), !settings.is_physical);
     problem.loss = settled.loss.loss();
     settled.is_seen =
-        std::any_of(settled.outlooks.begin(), settled.outlooks.end(),
-                    [](const GroupOutlook& outlook) { return outlook.state == GroupState::kSeen; });
+        std::any_of(settled.outlook.groups.begin(), settled.outlook.groups.end(),
+                    [](const GroupOutlook& group) { return group.state == GroupState::kSeen; });
     if (!settled.is_seen) break;
-    settled.detection = settings.is_physical ? FitSmoothThreshold(problem, settled.outlooks)
-                                             : FitHardThreshold(problem, settled.outlooks);
-    if (has_scale_group && settled.outlooks[0].state == GroupState::kSeen) {
+    settled.detection = settings.is_physical ? FitSmoothThreshold(problem, settled.outlook)
+                                             : FitHardThreshold(problem, settled.outlook);
+    if (settings.is_physical) {
+      settled.detection.covariance.diagonal().head(settled.detection.theta.size()).array() +=
+          kStretchLogError * kStretchLogError;
+    }
+    if (has_scale_group && settled.outlook.groups[0].state == GroupState::kSeen) {
       settled.log_inverse_power = settled.detection.theta[0];
       settled.log_inverse_power_error = std::sqrt(settled.detection.covariance(0, 0));
     }

@@ -27,7 +27,7 @@ struct ThresholdGroups {
 /// What detection comes to, before it is put in words.
 struct SettledThreshold {
   ThresholdGroups groups;
-  std::vector<GroupOutlook> outlooks;
+  Outlook outlook;
   RandomLossFit loss;
   DetectionFit detection;  ///< If `is_seen`.
   bool is_seen{};          ///< Whether any group loses beams to the threshold, but not all.

@@ -26,8 +26,8 @@ struct Scores {
 
 class SmoothThreshold {
  public:
-  SmoothThreshold(const DetectionProblem& problem, const std::vector<GroupOutlook>& outlooks)
-      : problem_(problem), outlooks_(outlooks) {}
+  SmoothThreshold(const DetectionProblem& problem, const Outlook& outlook)
+      : problem_(problem), outlook_(outlook) {}
 
   [[nodiscard]] Scores At(const Eigen::VectorXd& parameters) const {
     const auto num_groups = static_cast<Eigen::Index>(problem_.num_groups);
@@ -36,7 +36,7 @@ class SmoothThreshold {
     Scores scores{0.0, Eigen::VectorXd::Zero(num_groups + 2),
                   Eigen::MatrixXd::Zero(num_groups + 2, num_groups + 2)};
     for (const DetectionTrial& trial : problem_.trials) {
-      if (outlooks_[trial.group].state != GroupState::kSeen) continue;
+      if (outlook_.groups[trial.group].state != GroupState::kSeen) continue;
       const auto g = static_cast<Eigen::Index>(trial.group);
       const double air = std::exp(-problem_.air_ways * extinction_per_m * trial.range_m);
       const double diffuse = std::exp(parameters[g]) * trial.gain * air;
@@ -63,11 +63,48 @@ class SmoothThreshold {
     return scores;
   }
 
+  /// Variance of one group's theta under a flat prior, all else as it is. Where trials are scarce
+  /// about the threshold the likelihood is a plateau, of which the information says nothing.
+  [[nodiscard]] double VarianceOf(Eigen::Index group, const Eigen::VectorXd& parameters) const {
+    constexpr int kNumPoints = 61;
+    constexpr double kReach = 3.0;
+    constexpr double kNegligible = -10.0;
+    double low = parameters[group] - kReach;
+    double high = parameters[group] + kReach;
+    double mean = 0.0, variance = 0.0;
+    // First the whole reach, then what has any likelihood.
+    for (int round = 0; round < 3; ++round) {
+      const double step = (high - low) / (kNumPoints - 1);
+      std::vector<double> heights(kNumPoints);
+      for (int i = 0; i < kNumPoints; ++i) {
+        heights[static_cast<std::size_t>(i)] = LogLikelihood(group, low + i * step, parameters);
+      }
+      const double highest = *std::max_element(heights.begin(), heights.end());
+      double mass = 0.0, first = 0.0, second = 0.0;
+      int from = kNumPoints, to = 0;
+      for (int i = 0; i < kNumPoints; ++i) {
+        const double height = heights[static_cast<std::size_t>(i)] - highest;
+        if (height < kNegligible) continue;
+        from = std::min(from, i);
+        to = i;
+        mass += std::exp(height);
+        first += std::exp(height) * i;
+        second += std::exp(height) * i * i;
+      }
+      mean = first / mass;
+      variance = (second / mass - mean * mean) * step * step;
+      high = low + std::min(kNumPoints - 1, to + 1) * step;
+      low += std::max(0, from - 1) * step;
+    }
+    return variance;
+  }
+
   /// Which parameters are free.
   [[nodiscard]] std::vector<Eigen::Index> Free(bool is_extinction_free) const {
     std::vector<Eigen::Index> free;
-    for (std::size_t g = 0; g < outlooks_.size(); ++g) {
-      if (outlooks_[g].state == GroupState::kSeen) free.push_back(static_cast<Eigen::Index>(g));
+    for (std::size_t g = 0; g < outlook_.groups.size(); ++g) {
+      if (outlook_.groups[g].state == GroupState::kSeen)
+        free.push_back(static_cast<Eigen::Index>(g));
     }
     const auto num_groups = static_cast<Eigen::Index>(problem_.num_groups);
     if (is_extinction_free) free.push_back(num_groups);
@@ -76,14 +113,34 @@ class SmoothThreshold {
   }
 
  private:
+  [[nodiscard]] double LogLikelihood(Eigen::Index group,
+                                     double theta,
+                                     const Eigen::VectorXd& parameters) const {
+    const double extinction_per_m = parameters[parameters.size() - 2];
+    const double snr = std::exp(parameters[parameters.size() - 1]);
+    double sum = 0.0;
+    for (const DetectionTrial& trial : problem_.trials) {
+      if (static_cast<Eigen::Index>(trial.group) != group) continue;
+      const double air = std::exp(-problem_.air_ways * extinction_per_m * trial.range_m);
+      const double power = (std::exp(theta) * trial.gain + trial.lobe) * air;
+      const double p = Chance(trial, snr * (power - 1.0));
+      sum += std::log(trial.is_returned ? p : 1.0 - p);
+    }
+    return sum;
+  }
+  [[nodiscard]] double Chance(const DetectionTrial& trial, double excess) const {
+    return kWrongShare +
+           problem_.loss.Survival(trial.range_m) * (1.0 - 2.0 * kWrongShare) * NormalShare(excess);
+  }
+
   const DetectionProblem& problem_;
-  const std::vector<GroupOutlook>& outlooks_;
+  const Outlook& outlook_;
 };
 
-// Climbs to the maximum; the inverse information of the free parameters.
-Eigen::MatrixXd Climb(const SmoothThreshold& model,
-                      const std::vector<Eigen::Index>& free,
-                      Eigen::VectorXd& parameters) {
+// Climbs to the maximum.
+void Climb(const SmoothThreshold& model,
+           const std::vector<Eigen::Index>& free,
+           Eigen::VectorXd& parameters) {
   constexpr int kMaxRounds = 60;
   constexpr double kMostAirAtATime_per_m = 0.02;
   const Eigen::Index problem_extinction = parameters.size() - 2;
@@ -112,7 +169,12 @@ Eigen::MatrixXd Climb(const SmoothThreshold& model,
     damping = std::max(1e-9, 0.1 * damping);
     if (gained < 1e-9) break;
   }
-  const Eigen::MatrixXd information = scores.information(free, free);
+}
+
+Eigen::MatrixXd InverseInformation(const SmoothThreshold& model,
+                                   const std::vector<Eigen::Index>& free,
+                                   const Eigen::VectorXd& parameters) {
+  const Eigen::MatrixXd information = model.At(parameters).information(free, free);
   const Eigen::Index size = information.rows();
   return (information + 1e-12 * Eigen::MatrixXd::Identity(size, size))
       .ldlt()
@@ -121,31 +183,38 @@ Eigen::MatrixXd Climb(const SmoothThreshold& model,
 
 }  // namespace
 
-DetectionFit FitSmoothThreshold(const DetectionProblem& problem,
-                                const std::vector<GroupOutlook>& outlooks) {
-  const SmoothThreshold model(problem, outlooks);
+DetectionFit FitSmoothThreshold(const DetectionProblem& problem, const Outlook& outlook) {
+  const SmoothThreshold model(problem, outlook);
   const auto num_groups = static_cast<Eigen::Index>(problem.num_groups);
   Eigen::VectorXd parameters = Eigen::VectorXd::Zero(num_groups + 2);
   for (Eigen::Index g = 0; g < num_groups; ++g) {
-    const GroupOutlook& outlook = outlooks[static_cast<std::size_t>(g)];
-    if (outlook.state == GroupState::kSeen) parameters[g] = outlook.start;
+    const GroupOutlook& group = outlook.groups[static_cast<std::size_t>(g)];
+    if (group.state == GroupState::kSeen) parameters[g] = group.start;
   }
-  parameters[num_groups] = problem.extinction_per_m.value_or(0.0);
+  parameters[num_groups] = outlook.extinction_per_m;
   constexpr double kUsualSnr = 5.0;
   parameters[num_groups + 1] = std::log(kUsualSnr);
 
   DetectionFit fit;
   fit.covariance = Eigen::MatrixXd::Zero(num_groups + 2, num_groups + 2);
-  std::vector<Eigen::Index> free = model.Free(!problem.extinction_per_m);
-  fit.covariance(free, free) = Climb(model, free, parameters);
+  const std::vector<Eigen::Index> free = model.Free(!problem.extinction_per_m);
+  Climb(model, free, parameters);
   if (!problem.extinction_per_m && parameters[num_groups] < 0.0) {
-    // Air does not amplify. The errors stay those of a fit that left it free: they are the wider.
+    // Air does not amplify.
     parameters[num_groups] = 0.0;
     Climb(model, model.Free(false), parameters);
   }
+  // The extinction counts as free at its edge, too: the errors of the others are the wider for it.
+  fit.covariance(free, free) = InverseInformation(model, free, parameters);
+  const Eigen::VectorXd information = model.At(parameters).information.diagonal();
+  for (const Eigen::Index g : free) {
+    if (g >= num_groups) continue;
+    const double wider = model.VarianceOf(g, parameters) - 1.0 / information[g];
+    fit.covariance(g, g) += std::max(0.0, wider);
+  }
   fit.theta = Eigen::VectorXd::Constant(num_groups, std::numeric_limits<double>::quiet_NaN());
   for (Eigen::Index g = 0; g < num_groups; ++g) {
-    if (outlooks[static_cast<std::size_t>(g)].state == GroupState::kSeen) {
+    if (outlook.groups[static_cast<std::size_t>(g)].state == GroupState::kSeen) {
       fit.theta[g] = parameters[g];
     }
   }

@@ -1,31 +1,17 @@
 #include "analysis/fit/truth_trials.h"
 
-#include <algorithm>
 #include <cmath>
 
-#include "core/detect/beam_optics.h"
+#include "analysis/fit/truth_stretch.h"
 
 namespace railcast {
 namespace {
 
 constexpr double kGateMargin_m = 1.0;
-constexpr double kMaxStretchDoubt = 0.04;
 // Of a surface whose beam also meets others.
 constexpr float kWholeBeam = 0.999F;
 // Nearer to grazing the truth's float32 angle gives no cosine.
 constexpr double kMinCosine = 0.01;
-
-float StretchOf(double range_m, double cosine, const BeamSpec& beam) {
-  const double pulse_m = PulseSigma_m(beam);
-  const double slope = range_m * std::sqrt(1.0 - cosine * cosine) / cosine;
-  const auto left = [&](double sigma_rad) {
-    return pulse_m / std::hypot(pulse_m, slope * sigma_rad);
-  };
-  const auto [low, high] =
-      std::minmax(left(HorizontalSigma_rad(beam)), left(VerticalSigma_rad(beam)));
-  if (high - low > kMaxStretchDoubt * high) return std::numeric_limits<float>::quiet_NaN();
-  return static_cast<float>(0.5 * (low + high));
-}
 
 }  // namespace
 
@@ -38,6 +24,7 @@ void ForEachTruthTrial(const RecordedFrame& recorded,
                        const SensorFacts& facts,
                        const TrialTaker& take) {
   const Frame& frame = recorded.frame;
+  const TruthStretch stretch(facts.beam, facts.scan);
   const bool has_materials = recorded.Has("material");
   const bool has_outcomes = recorded.Has("outcome");
   for (std::size_t slot = 0; slot < frame.num_slots(); slot += frame.returns) {
@@ -56,7 +43,7 @@ void ForEachTruthTrial(const RecordedFrame& recorded,
     Trial trial;
     trial.expected_m = static_cast<float>(expected_m);
     trial.cos_incidence = static_cast<float>(cosine);
-    trial.stretch = StretchOf(expected_m, cosine, facts.beam);
+    trial.stretch = static_cast<float>(stretch.At(frame, slot));
     trial.surface = static_cast<std::uint16_t>(surface);
     trial.channel = frame.ring[slot];
     if (!std::isnan(frame.range_m[slot])) {

@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 
 #include "analysis/fit/trial.h"
+#include "analysis/stats/scan_table.h"
 #include "core/detect/detect_spec.h"
 #include "core/io/recording/recording.h"
 
@@ -13,7 +15,8 @@ namespace railcast {
 struct SensorFacts {
   double range_min_m = 0.5;
   double range_max_m = std::numeric_limits<double>::infinity();
-  BeamSpec beam;  ///< Width and pulse, for pulse stretch.
+  BeamSpec beam;                    ///< Width and pulse, for pulse stretch.
+  const ScanTable* scan = nullptr;  ///< Where the firings of a grid look; null = not known.
 };
 
 /// Takes a trial and its slot.
@@ -29,9 +32,6 @@ using TrialTaker = std::function<void(const Trial&, std::size_t slot)>;
 ///
 /// Left out: what is expected within 1 m of the range gate's ends, firings whose point is clutter
 /// (it hides what they should have met), and surfaces that share a beam with others.
-///
-/// `stretch` depends on which way a surface slants: the truth says only by how much. Where that
-/// leaves more than 4 % of the power open, it is NaN; else the middle.
 /// @pre HasTruth(frame)
 void ForEachTruthTrial(const RecordedFrame& recorded,
                        const SensorFacts& facts,
