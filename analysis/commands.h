@@ -18,6 +18,8 @@ using Command = std::function<int()>;
 
 /// Charts speed against accuracy on a scenario.
 void AddFrontier(CLI::App& app, Command& command);
+/// Dropout, density, noise, intensity and coverage of recordings, ours or anybody's.
+void AddStats(CLI::App& app, Command& command);
 /// Counts a live stream in the railcast protocol, and keeps it if asked to, until a signal ends it.
 void AddReceive(CLI::App& app, Command& command);
 

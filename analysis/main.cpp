@@ -1,3 +1,5 @@
+#include <pcl/console/print.h>
+
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
@@ -6,6 +8,8 @@
 #include "core/base/error.h"
 
 int main(int argc, char** argv) {
+  // What PCL says of single neighbourhoods is no news: what matters is in the figures.
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
   CLI::App app("LiDAR simulation for railways: what frames are worth");
   app.set_version_flag("--version", "railcast " RAILCAST_VERSION);
   app.require_subcommand(1);
@@ -13,6 +17,7 @@ int main(int argc, char** argv) {
   app.footer("Exit status: 0 success, 1 bad input or failed run, 2 usage.");
   railcast::Command command;
   railcast::AddFrontier(app, command);
+  railcast::AddStats(app, command);
   railcast::AddReceive(app, command);
   try {
     app.parse(argc, argv);

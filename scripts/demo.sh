@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds railcast, simulates 50 frames of an on-sight approach on the
-# St.Gallen - Wil line into out/demo and draws one of them: out/demo.png.
+# St.Gallen - Wil line into out/demo, draws one of them (out/demo.png) and measures them all
+# (out/stats).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source scripts/packages.sh
@@ -8,17 +9,19 @@ source scripts/packages.sh
 install_packages "${build_packages[@]}" "${display_packages[@]}"
 scripts/build.sh railcast-generate railcast-analyze railcast-view
 
-rm -rf out/demo out/demo.png
+rm -rf out/demo out/demo.png out/stats
 mkdir -p out
 build/release/generator/railcast-generate sequence scenarios/st_gallen_approach.json \
   --out out/demo --frames 50
 xvfb-run --auto-servernum --server-args="-noreset -screen 0 1920x1080x24" \
   build/release/viewer/railcast-view out/demo --color-by label --screenshot out/demo.png
+build/release/analysis/railcast-analyze stats out/demo --out out/stats
 
 cat <<TEXT
 
 Look at
   $PWD/out/demo.png              the cloud, coloured by label
+  $PWD/out/stats/report.html     dropout, density, noise, intensity: open it in a browser
   $PWD/out/demo/frames/          50 labelled point clouds, PCD: pcl_viewer, Open3D
   $PWD/out/demo/objects.jsonl    every object's box, points and occlusion, a line per frame
   $PWD/out/demo/poses.csv        where the sensor was

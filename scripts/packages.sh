@@ -38,6 +38,8 @@ display_packages=(
 # What the tests call: readers and validators that are not ours.
 test_packages=(
   "${display_packages[@]}"
+  chromium
+  poppler-utils
   python3
   python3-jsonschema
   python3-numpy

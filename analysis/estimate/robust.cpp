@@ -4,6 +4,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
+#include <limits>
 
 namespace railcast {
 namespace {
@@ -47,15 +48,19 @@ Estimate Median(std::vector<double>& samples) {
   return {PlainMedian(samples), low, high, samples.size()};
 }
 
+double PlainRobustScale(std::vector<double>& samples) {
+  if (samples.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const double median = PlainMedian(samples);
+  for (double& sample : samples) sample = std::abs(sample - median);
+  return kMadToSigma * PlainMedian(samples);
+}
+
 Estimate RobustScale(std::vector<double>& samples) {
   std::erase_if(samples, [](double sample) { return std::isnan(sample); });
   if (samples.size() < kMinSamples) return NotEnough(samples.size());
-  const double median = PlainMedian(samples);
-  std::vector<double> distances;
-  distances.reserve(samples.size());
-  for (const double sample : samples) distances.push_back(std::abs(sample - median));
-  const double scale = kMadToSigma * PlainMedian(distances);
   const double degrees = kMadEfficiency * (static_cast<double>(samples.size()) - 1.0);
+  std::vector<double> distances = samples;
+  const double scale = PlainRobustScale(distances);
   const boost::math::chi_squared distribution(degrees);
   return {scale, scale * std::sqrt(degrees / boost::math::quantile(distribution, 1.0 - kTail)),
           scale * std::sqrt(degrees / boost::math::quantile(distribution, kTail)), samples.size()};

@@ -20,9 +20,13 @@ struct RankInterval {
 /// and Nagaraja 2003, Order Statistics, 7.1). NaN is no sample; the order of `samples` is lost.
 [[nodiscard]] Estimate Median(std::vector<double>& samples);
 
+/// The figure of RobustScale() alone, of any number of samples; NaN of none. None may be NaN; their
+/// values are lost.
+[[nodiscard]] double PlainRobustScale(std::vector<double>& samples);
+
 /// A robust standard deviation: 1.4826 x the median distance from the median, which up to half of
-/// the samples cannot spoil. The interval is that of normal samples: 37 % as efficient as the
-/// plain one (Rousseeuw and Croux 1993, JASA 88).
+/// the samples cannot spoil. The interval is that of normal samples: 37 % as
+/// efficient as the plain one (Rousseeuw and Croux 1993, JASA 88).
 [[nodiscard]] Estimate RobustScale(std::vector<double>& samples);
 
 }  // namespace railcast

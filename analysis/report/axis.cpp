@@ -13,7 +13,7 @@ namespace {
 
 // Beyond these, labels have a power of ten.
 constexpr double kLargestLabel = 1e6;
-constexpr double kSmallestLabel = 1e-3;
+constexpr double kSmallestLabel = 1e-4;
 // Between the outermost points and the ends of the axis.
 constexpr double kMargin = 0.05;
 // Values that come this near to 0, as a share of the largest, are shown with it.
@@ -168,7 +168,9 @@ std::optional<AxisRange> RangeOfX(const Chart& chart) {
   }
   for (const ChartSeries& series : chart.series) {
     for (const ChartPoint& point : series.points) {
-      if (HasPlace(point.x, chart.x.is_log)) extent.Add(point.x);
+      // A place without a figure is nothing to show, unless a gap is between two.
+      const bool has_figure = HasPlace(point.y, chart.y.is_log);
+      if (has_figure && HasPlace(point.x, chart.x.is_log)) extent.Add(point.x);
     }
   }
   if (extent.is_empty()) return std::nullopt;

@@ -58,6 +58,7 @@ main { min-width: 0; }
 .unit { color: var(--muted); font-weight: 400; }
 .card .interval { display: block; min-height: 1.4em; color: var(--muted); font-size: 0.8rem;
   line-height: 1.4; }
+.samples { white-space: nowrap; }
 .absent { color: var(--muted); font-style: italic; }
 .card .absent .figure { font-size: 1.05rem; font-weight: 400; letter-spacing: 0; line-height: 2; }
 section { margin-top: 2.6rem; scroll-margin-top: 1rem; }
@@ -104,8 +105,8 @@ footer p { margin: 0.25rem 0; }
 
 constexpr const char* kPaper = R"(@page { margin: 14mm 12mm; }
 @media print {
-  :root { color-scheme: light; --ground: #ffffff; }
-  body { font-size: 10pt; }
+  :root { color-scheme: light; --ground: #ffffff; font-size: 12px; }
+  body { font-size: 1rem; }
   header, .page, footer { max-width: none; padding-inline: 0; }
   header { padding-top: 0; }
   .page { display: block; }

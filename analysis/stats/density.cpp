@@ -38,40 +38,38 @@ void AddAll(std::map<Key, Density::Curve>& sums, const std::map<Key, Density::Cu
   }
 }
 
-/// The points around a place of the grid, if all are there and on one surface.
-class Neighbourhood {
- public:
-  Neighbourhood(const Frame& frame, std::size_t row, std::size_t column)
-      : frame_(frame),
-        middle_(At(row, column)),
-        left_(At(row, column - 1)),
-        right_(At(row, column + 1)),
-        below_(At(row - 1, column)),
-        above_(At(row + 1, column)) {}
+Vector3 PointIn(const Frame& frame, std::size_t row, std::size_t column) {
+  const std::size_t slot = row * frame.width() + column * frame.returns;
+  return {static_cast<double>(frame.x[slot]), static_cast<double>(frame.y[slot]),
+          static_cast<double>(frame.z[slot])};
+}
 
-  /// Nothing if points are missing or the ranges jump: the middle must lie between its neighbours
-  /// as on a plane (1 / range is linear in the angles), to 5 %.
-  [[nodiscard]] std::optional<Vector3> Area_m2() const {
-    if (!IsBetween(left_, right_) || !IsBetween(below_, above_)) return std::nullopt;
-    return Vector3(0.5 * (right_ - left_).cross(0.5 * (above_ - below_)));
-  }
-  [[nodiscard]] double range_m() const { return middle_.norm(); }
+/// Whether a point lies between two others as on a plane (1 / range is linear in the angles), to
+/// 5 %; not where one of them is missing.
+bool IsBetween(const Vector3& middle, const Vector3& one, const Vector3& other) {
+  constexpr double kTolerance = 0.05;
+  const double expected_per_m = 0.5 * (1.0 / one.norm() + 1.0 / other.norm());
+  return std::abs(expected_per_m * middle.norm() - 1.0) < kTolerance;
+}
 
- private:
-  [[nodiscard]] Vector3 At(std::size_t row, std::size_t column) const {
-    const std::size_t slot = row * frame_.width() + column * frame_.returns;
-    return {static_cast<double>(frame_.x[slot]), static_cast<double>(frame_.y[slot]),
-            static_cast<double>(frame_.z[slot])};
-  }
-  [[nodiscard]] bool IsBetween(const Vector3& one, const Vector3& other) const {
-    constexpr double kTolerance = 0.05;
-    const double expected_per_m = 0.5 * (1.0 / one.norm() + 1.0 / other.norm());
-    return std::abs(expected_per_m * middle_.norm() - 1.0) < kTolerance;
-  }
-
-  const Frame& frame_;
-  Vector3 middle_, left_, right_, below_, above_;
-};
+/// The area that a point stands for, as a vector along the surface's normal; nothing if not all of
+/// its neighbours are there, on the same surface. @pre Not in the first or last row or column.
+std::optional<Vector3> Area_m2(const Frame& frame,
+                               const ScanTable& scan,
+                               std::size_t row,
+                               std::size_t column) {
+  const Vector3 middle = PointIn(frame, row, column);
+  const Vector3 left = PointIn(frame, row, column - 1);
+  const Vector3 right = PointIn(frame, row, column + 1);
+  if (!IsBetween(middle, left, right)) return std::nullopt;
+  const auto column_below = scan.ColumnBeside(row, column, row - 1);
+  const auto column_above = scan.ColumnBeside(row, column, row + 1);
+  if (!column_below || !column_above) return std::nullopt;
+  const Vector3 below = PointIn(frame, row - 1, *column_below);
+  const Vector3 above = PointIn(frame, row + 1, *column_above);
+  if (!IsBetween(middle, below, above)) return std::nullopt;
+  return Vector3(0.5 * (right - left).cross(0.5 * (above - below)));
+}
 
 std::string AttitudeOf(const Vector3& normal) {
   constexpr double kLevel_rad = 20.0 * kDegree;
@@ -224,11 +222,11 @@ void Density::AddFromPoints(const Frame& frame, const ScanTable& scan) {
     const double solid_angle_sr = scan.SolidAngle_sr(row);
     if (!(solid_angle_sr > 0.0)) continue;
     for (std::size_t column = 1; column + 1 < frame.columns; ++column) {
-      const Neighbourhood around(frame, row, column);
-      const auto area_m2 = around.Area_m2();
+      const auto area_m2 = Area_m2(frame, scan, row, column);
       if (!area_m2 || !(area_m2->norm() > 0.0)) continue;
-      AddTo(by_attitude_, AttitudeOf(*area_m2), around.range_m(),
-            {1, 1, area_m2->norm(), solid_angle_sr, std::log(around.range_m())});
+      const double range_m = PointIn(frame, row, column).norm();
+      AddTo(by_attitude_, AttitudeOf(*area_m2), range_m,
+            {1, 1, area_m2->norm(), solid_angle_sr, std::log(range_m)});
     }
   }
 }

@@ -51,7 +51,8 @@ Plane FitPlane(const Points& points) {
 std::optional<Plane> AgreedPlane(const Points& points, double range_m) {
   // Wide enough for the noise of any sensor we know; the next step looks closer.
   const double threshold_m = 0.05 + 5e-4 * range_m;
-  constexpr int kMaxTries = 60;
+  // Where four points in five agree, half of all triples do: 20 all miss once in a million times.
+  constexpr int kMaxTries = 20;
   Plane plane;
   for (const Vector3& point : points) plane.middle += point;
   plane.middle /= static_cast<double>(points.size());
@@ -78,13 +79,23 @@ Points WithoutOutliers(const Points& points, const Plane& plane) {
   std::vector<double> distances_m;
   const auto distance_m = [&](const Vector3& p) { return plane.normal.dot(p - plane.middle); };
   for (const Vector3& point : points) distances_m.push_back(distance_m(point));
-  const Estimate scale = RobustScale(distances_m);
-  const double most_m = kMostDeviations * std::max(scale.value, kLeastScale_m);
+  const double most_m = kMostDeviations * std::max(PlainRobustScale(distances_m), kLeastScale_m);
   Points kept;
   for (const Vector3& point : points) {
     if (std::abs(distance_m(point)) <= most_m) kept.push_back(point);
   }
   return kept;
+}
+
+// A crown of a tree has a plane through it, too; no sensor errs by so much.
+bool IsFlat(const Points& points, const Plane& plane) {
+  const double most_m = 0.1 + 5e-4 * plane.middle.norm();
+  double squares_m2 = 0.0;
+  for (const Vector3& point : points) {
+    const double distance_m = plane.normal.dot(point - plane.middle);
+    squares_m2 += distance_m * distance_m;
+  }
+  return squares_m2 < most_m * most_m * static_cast<double>(points.size());
 }
 
 // @param points At least kLeastPoints.
@@ -102,6 +113,7 @@ std::optional<PlanePatch> MakePatch(const Points& points) {
     if (!is_enough) return std::nullopt;
     plane = FitPlane(kept);
   }
+  if (!IsFlat(kept, plane)) return std::nullopt;
   PlanePatch patch;
   const double cosine = std::abs(plane.normal.dot(plane.middle.normalized()));
   patch.incidence_rad = std::acos(std::min(1.0, cosine));
@@ -133,9 +145,7 @@ struct Window {
 Window WindowOf(const ScanTable& scan) {
   constexpr double kFineRow_rad = 0.6 * std::numbers::pi / 180.0;
   constexpr double kHalfWidth_rad = kFineRow_rad;
-  std::vector<double> heights_rad = scan.row_height_rad;
-  const Estimate height = Median(heights_rad);
-  const bool is_fine = height.is_enough() && height.value < kFineRow_rad && scan.rows >= 5;
+  const bool is_fine = scan.row_step_rad < kFineRow_rad && scan.rows >= 5;
   const double columns = std::round(kHalfWidth_rad / scan.column_step_rad);
   return {is_fine ? 2U : 1U,
           static_cast<std::size_t>(std::clamp(columns, is_fine ? 2.0 : 4.0, 6.0))};
@@ -181,7 +191,8 @@ std::vector<PlanePatch> FindInGrid(const Frame& frame, const ScanTable& scan) {
     Gathered gathered;
     for (std::size_t r = row; r < row + height; ++r) {
       for (std::size_t c = column; c < column + width; ++c) {
-        gathered.Add(frame, r * frame.width() + c * frame.returns);
+        const auto beside = scan.ColumnBeside(row + half.rows, c, r);
+        if (beside) gathered.Add(frame, r * frame.width() + *beside * frame.returns);
       }
     }
     if (gathered.points.size() * 4 < height * width * 3) continue;

@@ -29,7 +29,8 @@ inline constexpr std::size_t kMaxPatches = 150;
 /// Finds planes in neighbourhoods of about 25 points, spread evenly over the frame (other places in
 /// every frame): RANSAC (Fischler and Bolles 1981) to be safe from outliers and edges, then least
 /// squares on the points within 5 robust standard deviations. Kept are those with at least 12
-/// points, less than a fifth of them outliers, met under less than 60 deg.
+/// points, less than a fifth of them outliers, met under less than 60 deg, and with deviations of
+/// less than 0.1 m + 0.5 mm a metre of range: more is no flat surface.
 ///
 /// Neighbours are those of the grid; without one, the nearest in space.
 /// @param scan Null if the frame is no grid.

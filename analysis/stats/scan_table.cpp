@@ -125,6 +125,23 @@ std::vector<double> Heights(const std::vector<double>& elevations_rad) {
   return heights;
 }
 
+// What the columns' azimuths say of their order.
+void FindTurn(ScanTable& table) {
+  const auto is_known = [](double azimuth_rad) { return !std::isnan(azimuth_rad); };
+  const auto& azimuths_rad = table.column_azimuth_rad;
+  const auto first = std::find_if(azimuths_rad.begin(), azimuths_rad.end(), is_known);
+  const auto last = std::find_if(azimuths_rad.rbegin(), azimuths_rad.rend(), is_known);
+  const double span_rad = *last - *first;
+  const double gap_rad = 2.0 * std::numbers::pi - std::abs(span_rad);
+  // A frame's last columns may be short of the turn, or a little beyond it.
+  constexpr double kMostSteps = 3.0;
+  table.is_full_turn = std::abs(gap_rad) < kMostSteps * table.column_step_rad;
+  const double step_rad = std::copysign(table.column_step_rad, span_rad);
+  for (const double azimuth_rad : table.row_azimuth_rad) {
+    table.row_shift.push_back(std::llround(azimuth_rad / step_rad));
+  }
+}
+
 std::optional<ScanTable> TableOf(const DirectionGrid& grid) {
   constexpr int kPasses = 3;
   ScanTable table;
@@ -138,8 +155,11 @@ std::optional<ScanTable> TableOf(const DirectionGrid& grid) {
   }
   table.column_step_rad = MedianStep(table.column_azimuth_rad);
   table.row_height_rad = Heights(table.elevation_rad);
-  const bool has_rows = std::ranges::any_of(table.row_height_rad, [](double h) { return h > 0.0; });
-  if (!(table.column_step_rad > 0.0) || !has_rows) return std::nullopt;
+  std::vector<double> heights_rad = table.row_height_rad;
+  std::erase_if(heights_rad, [](double height_rad) { return std::isnan(height_rad); });
+  table.row_step_rad = MedianOf(heights_rad);
+  if (!(table.column_step_rad > 0.0 && table.row_step_rad > 0.0)) return std::nullopt;
+  FindTurn(table);
   return table;
 }
 

@@ -168,6 +168,11 @@ Section TemporalNoise::MakeSection() const {
     section.paragraphs.emplace_back("Not enough: it takes two frames from one place.");
     return section;
   }
+  if (num_pairs_ < kMinSamples) {
+    section.paragraphs.emplace_back(
+        "Few pairs: their firings are many, but they share a few moments. What changes more slowly "
+        "(warming up, vibration) is not in these intervals.");
+  }
   Table table;
   table.key = "temporal_noise";
   table.title = "Range noise between frames of a standing sensor";

@@ -150,7 +150,11 @@ void CheckBinary(const HeaderReader& reader, const PcdHeader& header, std::strin
   }
 }
 
-void CheckCompressed(const HeaderReader& reader, const PcdHeader& header, std::string_view data) {
+/// @param scratch Where the points go.
+void CheckCompressed(const HeaderReader& reader,
+                     const PcdHeader& header,
+                     std::string_view data,
+                     std::string& scratch) {
   std::uint32_t packed = 0;
   std::uint32_t plain = 0;
   if (data.size() < sizeof packed + sizeof plain)
@@ -167,7 +171,10 @@ void CheckCompressed(const HeaderReader& reader, const PcdHeader& header, std::s
     reader.Fail("POINTS: " + std::to_string(header.points) + " need " + std::to_string(expected) +
                 " bytes, the compressed data hold " + std::to_string(plain));
   }
-  std::string scratch(plain, '\0');
+  // Three bytes of LZF stand for 264 at most: what claims more must not be given memory.
+  constexpr std::uint32_t kMaxRatio = 88;
+  if (plain / kMaxRatio > packed) reader.Fail("DATA: the compressed data are damaged");
+  scratch.resize(plain);
   const char* begin = data.data() + sizeof packed + sizeof plain;
   if (pcl::lzfDecompress(begin, packed, scratch.data(), plain) != plain) {
     reader.Fail("DATA: the compressed data are damaged");
@@ -182,7 +189,7 @@ std::uint64_t PcdHeader::PointStep() const {
   return step;
 }
 
-PcdHeader CheckPcd(const std::string& file, std::string_view bytes) {
+PcdHeader CheckPcd(const std::string& file, std::string_view bytes, std::string* plain) {
   const HeaderReader reader(file, bytes);
   PcdHeader header;
   header.fields = ReadFields(reader);
@@ -211,7 +218,8 @@ PcdHeader CheckPcd(const std::string& file, std::string_view bytes) {
   } else if (header.data == "binary") {
     CheckBinary(reader, header, points);
   } else if (header.data == "binary_compressed") {
-    CheckCompressed(reader, header, points);
+    std::string scratch;
+    CheckCompressed(reader, header, points, plain != nullptr ? *plain : scratch);
   } else {
     reader.Fail("DATA: must be ascii, binary or binary_compressed");
   }

@@ -32,7 +32,11 @@ struct PcdHeader {
 /// Reads the header of a PCD file held in `bytes` and checks it and the points' length against each
 /// other: a damaged file gives an error here, while PCL's reader would crash on it.
 /// @param file Named in errors.
+/// @param plain Where the points of a compressed file go: each field for all points, one after
+///   another.
 /// @throws InputError with one line: "file: key: rule (got value)".
-[[nodiscard]] PcdHeader CheckPcd(const std::string& file, std::string_view bytes);
+[[nodiscard]] PcdHeader CheckPcd(const std::string& file,
+                                 std::string_view bytes,
+                                 std::string* plain = nullptr);
 
 }  // namespace railcast

@@ -82,11 +82,14 @@ void ParsePoints(const std::string& file, std::string_view text, pcl::PCLPointCl
 }  // namespace
 
 pcl::PCLPointCloud2 ReadPly(const std::filesystem::path& file) {
-  const std::string bytes = ReadFileWhole(file);
-  const PlyHeader header = CheckPly(file.string(), bytes);
+  return ParsePly(file.string(), ReadFileWhole(file));
+}
+
+pcl::PCLPointCloud2 ParsePly(const std::string& file, const std::string& bytes) {
+  const PlyHeader header = CheckPly(file, bytes);
   pcl::PCLPointCloud2 cloud = Describe(header);
   if (header.is_ascii) {
-    ParsePoints(file.string(), std::string_view(bytes).substr(header.points_begin), cloud);
+    ParsePoints(file, std::string_view(bytes).substr(header.points_begin), cloud);
   } else if (!cloud.data.empty()) {
     std::memcpy(cloud.data.data(), bytes.data() + header.points_begin, cloud.data.size());
   }

@@ -3,6 +3,7 @@
 #include <pcl/PCLPointCloud2.h>
 
 #include <filesystem>
+#include <string>
 
 namespace railcast {
 
@@ -15,5 +16,8 @@ namespace railcast {
 /// number of points.
 /// @throws InputError with one line if the file cannot be read or is damaged.
 [[nodiscard]] pcl::PCLPointCloud2 ReadPly(const std::filesystem::path& file);
+
+/// The same of a file held in `bytes`. @param file Named in errors.
+[[nodiscard]] pcl::PCLPointCloud2 ParsePly(const std::string& file, const std::string& bytes);
 
 }  // namespace railcast

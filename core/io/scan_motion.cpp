@@ -15,4 +15,10 @@ Vector3 ScanMotion::AtStamp(const Vector3& point_m, std::uint32_t time_ns) const
   return Eigen::AngleAxisd(share * turn_.angle(), turn_.axis()) * point_m + share * travel_m_;
 }
 
+Vector3 ScanMotion::AtFiring(const Vector3& point_at_stamp_m, std::uint32_t time_ns) const {
+  const double share = time_ns * scans_per_ns_;
+  return Eigen::AngleAxisd(-share * turn_.angle(), turn_.axis()) *
+         (point_at_stamp_m - share * travel_m_);
+}
+
 }  // namespace railcast

@@ -18,6 +18,8 @@ class ScanMotion {
 
   /// A point in the sensor's axes at `time_ns` since the stamp, in its axes at the stamp.
   [[nodiscard]] Vector3 AtStamp(const Vector3& point_m, std::uint32_t time_ns) const;
+  /// The other way: a point in its axes at the stamp, in those at `time_ns` since.
+  [[nodiscard]] Vector3 AtFiring(const Vector3& point_at_stamp_m, std::uint32_t time_ns) const;
 
  private:
   double scans_per_ns_;

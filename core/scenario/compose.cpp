@@ -59,14 +59,14 @@ std::optional<EffectNamesInUse> TryNames(const ScenarioSpec& spec, ErrorList& er
   });
 }
 
+}  // namespace
+
 Transform VehicleFromSensor(const MountSpec& mount) {
   return MakeTransform(
       RotationFromYawPitchRoll(RadFromDeg(mount.yaw_deg), RadFromDeg(mount.pitch_deg),
                                RadFromDeg(mount.roll_deg)),
       {mount.position_m[0], mount.position_m[1], mount.position_m[2]});
 }
-
-}  // namespace
 
 void AddBuildFaults(const ScenarioSpec& spec, const UnknownPlaces& unknown, ErrorList& errors) {
   for (const auto& [lidar, pointer] : SensorsOf(spec)) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/transform.h"
 #include "core/scenario/scenario_spec.h"
 #include "core/simulate/simulator.h"
 
@@ -35,6 +36,9 @@ class RailWorld;
 /// The scenario with every default and every file's content in place. Reading it back gives the
 /// same spec.
 [[nodiscard]] std::string ResolvedScenarioJson(const ScenarioSpec& spec);
+
+/// Where a sensor so mounted is on its vehicle.
+[[nodiscard]] Transform VehicleFromSensor(const MountSpec& mount);
 
 /// The effects of the scenario's rung with its single switches applied.
 /// @throws InputError if two of them do not go together, as can happen to a scenario whose rung was

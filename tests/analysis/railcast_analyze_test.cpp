@@ -5,36 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "core/io/write_file.h"
-#include "tests/core/scenario/scenario_files.h"
-#include "tests/support/run_command.h"
+#include "tests/analysis/analyze_program.h"
 
 namespace railcast {
 namespace {
 
 using testing::HasSubstr;
 using Json = nlohmann::json;
-
-Ended Analyze(const std::string& arguments) {
-  return RunCommand(std::string(RAILCAST_ANALYZE) + " " + arguments);
-}
-
-// A straight line that few beams look at.
-std::filesystem::path WriteScenario(const TemporaryFolder& folder) {
-  const std::string scenarios = ScenariosDir().string();
-  return folder.Write("scenario.json", R"({
-    "version": 1,
-    "lidar": {"scan": {"rate_hz": 10, "pattern": {"type": "raster", "horizontal_fov_deg": 20,
-              "vertical_fov_deg": 40, "angular_resolution_deg": 0.5}}},
-    "world": {
-      "alignment": {
-        "course": {"type": "elements", "elements": [{"type": "straight", "length_m": 1000}]}
-      },
-      "vegetation": {"trees_per_hectare": 0, "grass": false}
-    },
-    "vehicle": {"start_s_m": 400},
-    "materials": ")" + scenarios + R"(/materials/railway.json",
-    "labels": ")" + scenarios + R"(/labels.json"})");
-}
 
 TEST(RailcastAnalyze, KnowsItsVersionAndItsUse) {
   EXPECT_EQ(Analyze("--version").said, "railcast " RAILCAST_VERSION "\n");

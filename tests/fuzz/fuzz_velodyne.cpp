@@ -23,9 +23,9 @@ VelodyneDecoder MakeDecoder(std::string_view format) {
   return {model, std::vector<LaserCalibration>(model.lasers.size(), {.elevation_deg = 1.0})};
 }
 
-void CheckTurn(const VelodyneTurn& turn) {
+void CheckTurn(const SensorTurn& turn) {
   Check(turn.points.size() <= (std::size_t{1} << 20U) + 64, "a turn has an end");
-  for (const VelodynePoint& point : turn.points) {
+  for (const TurnPoint& point : turn.points) {
     Check(point.range_m > 0.0F && point.range_m < 263.0F, "a range is within the format");
     Check(point.azimuth_rad >= 0.0F && point.azimuth_rad < 6.2832F, "an azimuth is of one turn");
     Check(std::isfinite(point.x + point.y + point.z), "a point is somewhere");
@@ -36,7 +36,7 @@ void CheckTurn(const VelodyneTurn& turn) {
 // One after another, the last as short as it is.
 void DecodePackets(std::string_view format, std::span<const char> bytes) {
   VelodyneDecoder decoder = MakeDecoder(format);
-  std::vector<VelodyneTurn> turns;
+  std::vector<SensorTurn> turns;
   while (!bytes.empty()) {
     const auto packet = bytes.first(std::min(bytes.size(), kVelodynePacketSize));
     (void)decoder.Decode(packet, turns);
@@ -52,7 +52,7 @@ void ReadCapture(std::span<const char> bytes) {
   if (stream == nullptr) return;
   std::vector<VelodyneDecoder> decoders;
   for (const std::string_view format : kFormats) decoders.push_back(MakeDecoder(format));
-  std::vector<VelodyneTurn> turns;
+  std::vector<SensorTurn> turns;
   try {
     PcapReader reader(stream, "fuzz");
     while (const auto datagram = reader.Next()) {

@@ -23,4 +23,11 @@ inline constexpr float kIdealRetroreflector = 1000.0F;
   return static_cast<std::uint8_t>(101.0F + 154.0F * std::min(share, 1.0F));
 }
 
+/// The intensity that a reflectivity byte stands for: the middle of those that have it.
+[[nodiscard]] inline float IntensityOfByte(std::uint8_t reflectivity) {
+  if (reflectivity <= 100) return static_cast<float>(reflectivity) / 100.0F;
+  if (reflectivity == 255) return kIdealRetroreflector;
+  return std::pow(10.0F, 3.0F * (static_cast<float>(reflectivity) - 100.5F) / 154.0F);
+}
+
 }  // namespace railcast

@@ -19,6 +19,8 @@ namespace {
 /// A turn of more is cut: a rotor that stands still must not fill the memory. The densest real one
 /// (VLP-32C, dual, 5 Hz) has 232 thousand.
 constexpr std::size_t kMaxTurnPoints = std::size_t{1} << 20U;
+/// Nor may one that sees nothing. The most of a real one (HDL-32E, 5 Hz) are 4340.
+constexpr std::size_t kMaxTurnColumns = std::size_t{1} << 14U;
 constexpr double kFullTurn_deg = 360.0;
 
 std::string Refusal(const std::string& rule, std::size_t got) {
@@ -141,7 +143,7 @@ std::int64_t VelodyneDecoder::PacketNs(std::uint32_t us_past_hour) {
 }
 
 std::optional<std::string> VelodyneDecoder::Decode(std::span<const char> payload,
-                                                   std::vector<VelodyneTurn>& turns) {
+                                                   std::vector<SensorTurn>& turns) {
   if (auto refusal = Refuse(model_, payload)) return refusal;
   const bool is_dual = IsDual(model_, payload);
   const std::size_t in_group = model_.blocks_per_cycle() * (is_dual ? 2U : 1U);
@@ -157,7 +159,10 @@ std::optional<std::string> VelodyneDecoder::Decode(std::span<const char> payload
                       .time_ns = packet_ns + std::llround(since_packet_us * 1e3),
                       .is_dual = is_dual};
     const bool is_new_turn = last_azimuth_ && group.azimuth < *last_azimuth_;
-    if (is_new_turn || turn_.points.size() >= kMaxTurnPoints) turns.push_back(TakeUnfinished());
+    if (is_new_turn || turn_.points.size() >= kMaxTurnPoints ||
+        turn_.num_columns() >= kMaxTurnColumns) {
+      turns.push_back(TakeUnfinished());
+    }
     if (!last_azimuth_) turn_.stamp_ns = group.time_ns;
     last_azimuth_ = group.azimuth;
     DecodeGroup(group, speed_deg_per_us);
@@ -165,24 +170,28 @@ std::optional<std::string> VelodyneDecoder::Decode(std::span<const char> payload
   return std::nullopt;
 }
 
-VelodyneTurn VelodyneDecoder::TakeUnfinished() {
+SensorTurn VelodyneDecoder::TakeUnfinished() {
   last_azimuth_.reset();
   return std::exchange(turn_, {});
 }
 
 void VelodyneDecoder::DecodeGroup(const Group& group, double speed_deg_per_us) {
   const std::size_t num_cycles = model_.cycles_per_block();
+  turn_.is_dual = turn_.is_dual || group.is_dual;
   for (std::size_t cycle = 0; cycle < num_cycles; ++cycle) {
+    const auto column = static_cast<std::uint32_t>(turn_.num_columns());
+    const double cycle_us = static_cast<double>(cycle) * model_.cycle_us;
+    turn_.column_time_ns.push_back(group.time_ns - turn_.stamp_ns + std::llround(cycle_us * 1e3));
     for (std::size_t i = 0; i < lasers_.size(); ++i) {
       const std::size_t index = cycle * lasers_.size() + i;
       const char* const place = group.blocks + index / kLasersPerBlock * kBlockSize +
                                 kReturnsPlace + index % kLasersPerBlock * kReturnSize;
-      const double since_group_us =
-          static_cast<double>(cycle) * model_.cycle_us + lasers_[i].time_us;
+      const double since_group_us = cycle_us + lasers_[i].time_us;
       const double azimuth_deg = group.azimuth * kAzimuthUnit_deg +
                                  speed_deg_per_us * since_group_us + lasers_[i].azimuth_deg;
-      VelodynePoint point{};
+      TurnPoint point{};
       point.time_ns = group.time_ns - turn_.stamp_ns + std::llround(since_group_us * 1e3);
+      point.column = column;
       point.ring = lasers_[i].ring;
       point.laser = static_cast<std::uint8_t>(i);
       AddPoint(place, point, azimuth_deg);
@@ -195,7 +204,7 @@ void VelodyneDecoder::DecodeGroup(const Group& group, double speed_deg_per_us) {
   }
 }
 
-void VelodyneDecoder::AddPoint(const char* place, VelodynePoint point, double azimuth_deg) {
+void VelodyneDecoder::AddPoint(const char* place, TurnPoint point, double azimuth_deg) {
   const auto distance = LoadAt<std::uint16_t>(place);
   if (distance == 0) return;
   const Laser& laser = lasers_[point.laser];

@@ -70,6 +70,28 @@ TEST(ScanTable, FillsGapsBetweenWhatIsKnown) {
   EXPECT_NEAR(table->column_azimuth_rad[120], truth->column_azimuth_rad[120], 1e-6);
 }
 
+TEST(ScanTable, KnowsWhoLooksIntoTheSameDirection) {
+  // Pandar64's rows look up to 5.2 deg beside each other, to both sides.
+  const ScanPattern pattern = BuildScanPattern(ReadSensor("pandar64"));
+  const auto table = MakeScanTable(pattern);
+  ASSERT_TRUE(table);
+  EXPECT_TRUE(table->is_full_turn);
+  for (std::size_t row = 1; row < table->rows; ++row) {
+    for (const std::size_t column : {0U, 17U, 900U, 1790U, 1799U}) {
+      const auto beside = table->ColumnBeside(row, column, row - 1);
+      ASSERT_TRUE(beside);
+      const auto here = table->Direction(row, column);
+      const auto there = table->Direction(row - 1, *beside);
+      const double between_rad = std::atan2(here[1], here[0]) - std::atan2(there[1], there[0]);
+      ASSERT_LT(std::abs(std::remainder(between_rad, 2.0 * std::numbers::pi)),
+                1.01 * table->column_step_rad);
+    }
+  }
+  const auto raster = MakeScanTable(MakeRaster(60.0, 30.0, 0.25));
+  EXPECT_FALSE(raster->is_full_turn);
+  EXPECT_EQ(raster->ColumnBeside(5, 0, 6), 0U);
+}
+
 TEST(ScanTable, OfAListOfFiringsIsNone) {
   Frame frame;
   frame.Resize(1, 100, 1);

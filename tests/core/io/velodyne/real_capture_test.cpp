@@ -22,11 +22,11 @@ std::filesystem::path CaptureFile(const char* name) {
 }
 constexpr double kHalfTurn_deg = 180.0;
 
-std::vector<VelodyneTurn> DecodeCapture(const std::filesystem::path& file,
-                                        const VelodyneModel& model) {
+std::vector<SensorTurn> DecodeCapture(const std::filesystem::path& file,
+                                      const VelodyneModel& model) {
   PcapReader reader(file);
   VelodyneDecoder decoder(model);
-  std::vector<VelodyneTurn> turns;
+  std::vector<SensorTurn> turns;
   while (const auto datagram = reader.Next()) {
     EXPECT_EQ(datagram->destination_port, kVelodyneDataPort);
     EXPECT_EQ(decoder.Decode(datagram->payload, turns), std::nullopt);
@@ -72,7 +72,7 @@ struct Comparison {
 /// Nebula turns a laser's azimuth by 2.304 us x laser (VLP-32C too, whose lasers fire in pairs),
 /// and not at all in the last block of a packet. Gives the difference left under either rule.
 std::pair<double, double> LeftOver_deg(double their_deg,
-                                       const VelodynePoint& ours,
+                                       const TurnPoint& ours,
                                        const VelodyneModel& model) {
   constexpr double kTurn_deg_per_us = 3600e-6;  // Both captures: 600 rpm.
   const double our_time_us = model.lasers[ours.laser].time_us;
@@ -91,13 +91,13 @@ std::pair<double, double> LeftOver_deg(double their_deg,
 }
 
 Comparison Compare(const pcl::PointCloud<pcl::PointXYZ>& theirs,
-                   const std::vector<VelodynePoint>& ours,
+                   const std::vector<TurnPoint>& ours,
                    const VelodyneModel& model) {
   // Azimuths are rounded to 0.01 deg by the packet and by them, and so is the step to the next
   // block, from which they take the speed.
   constexpr double kTolerance_deg = 0.04;
-  std::map<std::pair<std::uint8_t, long>, std::vector<VelodynePoint>> by_measurement;
-  for (const VelodynePoint& point : ours) {
+  std::map<std::pair<std::uint8_t, long>, std::vector<TurnPoint>> by_measurement;
+  for (const TurnPoint& point : ours) {
     const long distance = std::lround(static_cast<double>(point.range_m) / model.distance_unit_m);
     by_measurement[{point.laser, distance}].push_back(point);
   }
@@ -109,7 +109,7 @@ Comparison Compare(const pcl::PointCloud<pcl::PointXYZ>& theirs,
     double nearest_deg = kTolerance_deg;
     double nearest_mm = 0.0;
     bool is_last_block = false;
-    for (const VelodynePoint& candidate : by_measurement[{measured.laser, measured.distance}]) {
+    for (const TurnPoint& candidate : by_measurement[{measured.laser, measured.distance}]) {
       const auto [turned_deg, still_deg] = LeftOver_deg(measured.azimuth_deg, candidate, model);
       if (std::min(turned_deg, still_deg) >= nearest_deg) continue;
       nearest_deg = std::min(turned_deg, still_deg);
@@ -171,9 +171,9 @@ TEST(RealCapture, DecodesVlp32cAsNebulaDoes) {
   // The sensor looked from 270 to 93 deg; the published cloud is the first such sector, in which
   // the azimuth passes 0.
   constexpr std::int64_t kHalfTurn_ns = 50'000'000;
-  std::vector<VelodynePoint> sector = turns[0].points;
+  std::vector<TurnPoint> sector = turns[0].points;
   std::ranges::copy_if(turns[1].points, std::back_inserter(sector),
-                       [](const VelodynePoint& point) { return point.time_ns < kHalfTurn_ns; });
+                       [](const TurnPoint& point) { return point.time_ns < kHalfTurn_ns; });
   const Comparison comparison = Compare(theirs, sector, model);
   EXPECT_EQ(comparison.matched_share, 1.0) << comparison;
   EXPECT_LT(comparison.last_block_share, 1.0 / 12.0) << comparison;

@@ -22,8 +22,8 @@ VelodyneDecoder DecoderOf(std::string_view format, const MadeScan& scan) {
   return {model, ReadCalibrationXml(CalibrationXml(scan.spinning()), "db.xml")};
 }
 
-std::vector<VelodyneTurn> DecodeAll(VelodyneDecoder& decoder, const Datagrams& datagrams) {
-  std::vector<VelodyneTurn> turns;
+std::vector<SensorTurn> DecodeAll(VelodyneDecoder& decoder, const Datagrams& datagrams) {
+  std::vector<SensorTurn> turns;
   for (const auto& packet : DataPackets(datagrams)) {
     EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt);
   }
@@ -128,7 +128,7 @@ std::vector<char> SoundPacket(std::string_view format = "vlp16") {
 std::string Refusal(std::string_view format, std::span<const char> packet) {
   const MadeScan scan(ReadSensor(std::string(SensorOf(format))));
   VelodyneDecoder decoder = DecoderOf(format, scan);
-  std::vector<VelodyneTurn> turns;
+  std::vector<SensorTurn> turns;
   std::string refusal = decoder.Decode(packet, turns).value_or("");
   if (!refusal.empty()) {
     EXPECT_TRUE(turns.empty());
@@ -169,7 +169,7 @@ TEST(VelodyneDecoder, RefusesWhatIsNoPacketOfItsModel) {
 TEST(VelodyneDecoder, CountsOnOverTheHour) {
   std::vector<char> packet = SoundPacket();
   VelodyneDecoder decoder(*FindVelodyneFormat("vlp16").model);
-  std::vector<VelodyneTurn> turns;
+  std::vector<SensorTurn> turns;
   // Every packet begins at azimuth 0, so that each is a turn.
   for (const std::uint32_t time_us : {3'599'900'000U, 0U, 100'000U, 50'000U, 2'000'000'000U}) {
     StoreAt<std::uint32_t>(packet.data() + 1200, time_us);
@@ -177,7 +177,7 @@ TEST(VelodyneDecoder, CountsOnOverTheHour) {
   }
   turns.push_back(decoder.TakeUnfinished());
   std::vector<std::int64_t> stamps_us;
-  for (const VelodyneTurn& turn : turns) stamps_us.push_back(turn.stamp_ns / 1000);
+  for (const SensorTurn& turn : turns) stamps_us.push_back(turn.stamp_ns / 1000);
   // The fourth came late; half an hour and more ahead is taken for behind.
   EXPECT_THAT(stamps_us, testing::ElementsAre(3'599'900'000, 3'600'000'000, 3'600'100'000,
                                               3'600'050'000, 2'000'000'000));
@@ -186,7 +186,7 @@ TEST(VelodyneDecoder, CountsOnOverTheHour) {
 TEST(VelodyneDecoder, SurvivesAClockThatLeaps) {
   std::vector<char> packet = SoundPacket();
   VelodyneDecoder decoder(*FindVelodyneFormat("vlp16").model);
-  std::vector<VelodyneTurn> turns;
+  std::vector<SensorTurn> turns;
   std::int64_t last_ns = 0;
   for (std::uint32_t i = 0; i < 25'000; ++i) {
     // Each is 29.9 minutes after the one before: 12,458 hours in all.
@@ -207,7 +207,7 @@ TEST(VelodyneDecoder, CutsTheTurnOfARotorThatStandsStill) {
     StoreAt<std::uint16_t>(packet.data() + block * kBlockSize + kAzimuthPlace, 100);
   }
   VelodyneDecoder decoder(*FindVelodyneFormat("vlp16").model);
-  std::vector<VelodyneTurn> turns;
+  std::vector<SensorTurn> turns;
   for (int i = 0; turns.empty() && i < 10'000; ++i) {
     ASSERT_EQ(decoder.Decode(packet, turns), std::nullopt);
   }

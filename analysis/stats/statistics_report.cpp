@@ -1,0 +1,126 @@
+#include "analysis/stats/statistics_report.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "analysis/stats/bins.h"
+
+namespace railcast {
+namespace {
+
+// The last part of the path: "demo" of "out/demo/".
+std::string NameOf(const std::filesystem::path& source) {
+  const std::filesystem::path path = source.lexically_normal();
+  return (path.has_filename() ? path.filename() : path.parent_path().filename()).string();
+}
+
+std::string SourcesText(const std::vector<RecordingInfo>& sources) {
+  std::string text;
+  for (const RecordingInfo& info : sources) {
+    if (!text.empty()) text += ", ";
+    text += info.source.string();
+    text += " (";
+    text += info.kind;
+    text += ")";
+  }
+  return text;
+}
+
+void AddScenarioFacts(const ScenarioSpec& scenario, Report& report) {
+  if (!scenario.lidar.name.empty()) report.facts.emplace_back("Sensor", scenario.lidar.name);
+  report.facts.emplace_back("Fidelity", scenario.fidelity);
+  report.facts.emplace_back("Seed", std::to_string(scenario.seed));
+}
+
+void AddNoiseHeadline(std::string title, std::size_t bin, const Estimate& sigma_m, Report& report) {
+  constexpr double kMm = 1e3;
+  title += ", ";
+  title += RangeBins().Name(bin);
+  title += " m";
+  report.headlines.push_back({std::move(title), "mm", Scaled(sigma_m, kMm)});
+}
+
+// Of the bin with the most samples: the best known figure. The truth's, where there is any.
+void AddNoiseHeadline(const Noise& noise, Report& report) {
+  const auto best_of = [](const auto& bins, auto num) {
+    std::size_t best = 0;
+    for (std::size_t i = 0; i < bins.size(); ++i) {
+      if (num(bins[i]) > num(bins[best])) best = i;
+    }
+    return best;
+  };
+  const auto& truth = noise.truth();
+  const auto& planes = noise.planes();
+  if (!truth.empty()) {
+    const std::size_t bin = best_of(truth, [](const Noise::Truth& t) { return t.errors_m.num(); });
+    AddNoiseHeadline("Range noise", bin, truth[bin].RobustSigma_m(), report);
+  } else if (!planes.empty()) {
+    const std::size_t bin =
+        best_of(planes, [](const Noise::Planes& p) { return p.range_sigmas_m.num(); });
+    AddNoiseHeadline("Range noise on planes", bin, planes[bin].RobustRangeSigma_m(), report);
+  }
+}
+
+// Of the surface with the most points.
+template <typename Curves, typename Name>
+void AddDensityHeadline(const Curves& curves, Name name, Report& report) {
+  const Density::Curve* best = nullptr;
+  std::string best_name;
+  std::uint64_t most = 0;
+  for (const auto& [key, curve] : curves) {
+    std::uint64_t num = 0;
+    for (const Density::Count& count : curve) num += count.num_points;
+    if (num <= most) continue;
+    most = num;
+    best = &curve;
+    best_name = name(key);
+  }
+  if (best == nullptr) return;
+  report.headlines.push_back(
+      {"Exponent of density against range, " + best_name, "", Density::LawOf(*best).exponent});
+}
+
+}  // namespace
+
+Report MakeStatisticsReport(const Statistics& statistics,
+                            const std::vector<RecordingInfo>& sources,
+                            const std::string& command) {
+  const Names names(sources.front());
+  Report report;
+  report.title = "Statistics of " + NameOf(sources.front().source);
+  if (sources.size() > 1) report.title += " and " + std::to_string(sources.size() - 1) + " more";
+  report.command = command;
+  report.facts.emplace_back("Source", SourcesText(sources));
+  report.facts.emplace_back("Frames", std::to_string(statistics.coverage.num_frames()));
+  report.facts.emplace_back("Points", std::to_string(statistics.coverage.num_points()));
+  if (sources.front().scenario) AddScenarioFacts(*sources.front().scenario, report);
+
+  report.headlines.push_back({"Points a frame", "", statistics.coverage.PointsPerFrame()});
+  const bool is_exact = !statistics.dropout.is_empty();
+  if (is_exact) report.headlines.push_back({"Dropout, exact", "", statistics.dropout.Share()});
+  if (!statistics.holes.is_empty()) {
+    report.headlines.push_back({"Dropout, estimated from holes", "", statistics.holes.Share()});
+  }
+  AddNoiseHeadline(statistics.noise, report);
+  AddDensityHeadline(
+      statistics.density.by_label(), [&](std::uint32_t id) { return names.OfLabel(id); }, report);
+  AddDensityHeadline(
+      statistics.density.by_attitude(), [](const std::string& attitude) { return attitude; },
+      report);
+
+  if (is_exact) report.sections.push_back(statistics.dropout.MakeSection(names));
+  if (!statistics.holes.is_empty()) report.sections.push_back(statistics.holes.MakeSection());
+  if (!statistics.density.is_empty()) {
+    report.sections.push_back(statistics.density.MakeSection(names));
+  }
+  if (!statistics.objects.is_empty()) report.sections.push_back(statistics.objects.MakeSection());
+  report.sections.push_back(statistics.noise.MakeSection());
+  report.sections.push_back(statistics.temporal_noise.MakeSection());
+  if (!statistics.intensity.is_empty()) {
+    report.sections.push_back(statistics.intensity.MakeSection(names));
+  }
+  report.sections.push_back(statistics.coverage.MakeSection(names));
+  return report;
+}
+
+}  // namespace railcast

@@ -1,0 +1,87 @@
+#include <tbb/global_control.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "analysis/commands.h"
+#include "analysis/progress_line.h"
+#include "analysis/report/output.h"
+#include "analysis/stats/statistics.h"
+#include "analysis/stats/statistics_report.h"
+#include "core/base/error.h"
+#include "core/io/recording/recording.h"
+
+namespace railcast {
+namespace {
+
+struct StatsOptions {
+  std::vector<std::filesystem::path> sources;
+  int num_threads = 0;
+  ReportOutput output;
+};
+
+// Labels and materials are counted by their numbers: they must mean the same everywhere.
+void CheckSameNames(const RecordingInfo& first, const RecordingInfo& other) {
+  if (other.labels.labels() == first.labels.labels() && other.materials == first.materials) return;
+  throw InputError(other.source.string() + ": must have the same labels and materials as " +
+                   first.source.string());
+}
+
+std::string CommandText(const StatsOptions& options) {
+  std::string text = "railcast-analyze stats";
+  for (const std::filesystem::path& source : options.sources) text += " " + source.string();
+  if (!options.output.out.empty()) text += " --out " + options.output.out.string();
+  return text;
+}
+
+int RunStats(const StatsOptions& options) {
+  const auto num_threads = options.num_threads > 0
+                               ? static_cast<std::size_t>(options.num_threads)
+                               : std::size_t{std::thread::hardware_concurrency()};
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, num_threads);
+  std::vector<std::unique_ptr<Recording>> recordings;
+  std::vector<RecordingInfo> infos;
+  for (const std::filesystem::path& source : options.sources) {
+    recordings.push_back(OpenRecording(source));
+    infos.push_back(recordings.back()->info());
+    CheckSameNames(infos.front(), infos.back());
+  }
+  std::size_t num_frames = 0;  // 0: not known.
+  for (const RecordingInfo& info : infos) num_frames += info.num_frames.value_or(0);
+
+  Statistics all;
+  const ProgressLine progress;
+  for (const auto& recording : recordings) {
+    const std::uint64_t before = all.coverage.num_frames();
+    all.Add(MeasureStatistics(*recording, [&](std::size_t num) {
+      const auto done = static_cast<double>(before + num);
+      if (num_frames > 0) progress.Show("frames", done / static_cast<double>(num_frames));
+    }));
+  }
+  progress.End();
+  EmitReport(MakeStatisticsReport(all, infos, CommandText(options)), options.output, "stats");
+  return kExitSuccess;
+}
+
+}  // namespace
+
+void AddStats(CLI::App& app, Command& command) {
+  const auto options = std::make_shared<StatsOptions>();
+  CLI::App* stats = app.add_subcommand(
+      "stats", "Dropout, density against range, noise, intensity and coverage of point clouds");
+  stats
+      ->add_option("SOURCE", options->sources,
+                   "Sequence directory, .pcd or .ply file, directory of such, or .pcap capture of "
+                   "VLP-16, HDL-32E, VLP-32C or Pandar64; several are summed up")
+      ->required();
+  stats->add_option("--threads", options->num_threads, "0 = all cores")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  AddReportOptions(*stats, options->output);
+  stats->callback([&command, options] { command = [options] { return RunStats(*options); }; });
+}
+
+}  // namespace railcast

@@ -1,0 +1,96 @@
+#include "core/io/recording/capture_recording.h"
+
+#include <cerrno>
+#include <deque>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/io/pcap/pcap_reader.h"
+#include "core/io/recording/capture_sensor.h"
+#include "core/io/write_file.h"
+
+namespace railcast {
+namespace {
+
+class CaptureRecording : public Recording {
+ public:
+  CaptureRecording(std::FILE* stream, const std::string& name, CaptureSensor sensor)
+      : reader_(stream, name),
+        shape_(std::make_shared<const TurnShape>(std::move(sensor.shape))),
+        decoder_(std::move(sensor.decoder)) {
+    info_.source = name;
+    info_.kind = "capture of " + std::string(sensor.name);
+  }
+
+  [[nodiscard]] const RecordingInfo& info() const override { return info_; }
+
+  [[nodiscard]] std::optional<FrameReader> Next() override {
+    while (turns_.empty() && !is_at_end_) TakePacket();
+    if (turns_.empty()) return std::nullopt;
+    auto turn = std::make_shared<const SensorTurn>(std::move(turns_.front()));
+    turns_.pop_front();
+    const std::uint32_t index = num_frames_++;
+    return [shape = shape_, turn = std::move(turn), index,
+            name = info_.source.string() + ": turn " + NumberText(index)] {
+      RecordedFrame recorded = MakeTurnFrame(*turn, *shape, name);
+      recorded.frame.index = index;
+      return recorded;
+    };
+  }
+
+ private:
+  // What is no packet of the sensor leaves the decoder as it was.
+  void TakePacket() {
+    std::vector<SensorTurn> turns;
+    const auto datagram = reader_.Next();
+    std::visit(
+        [&](auto& decoder) {
+          if (datagram) (void)decoder.Decode(datagram->payload, turns);
+          if (!datagram) turns.push_back(decoder.TakeUnfinished());
+        },
+        decoder_);
+    is_at_end_ = !datagram;
+    for (SensorTurn& turn : turns) {
+      if (turn.num_columns() > 0) turns_.push_back(std::move(turn));
+    }
+  }
+
+  RecordingInfo info_;
+  PcapReader reader_;
+  std::shared_ptr<const TurnShape> shape_;
+  std::variant<VelodyneDecoder, Pandar64Decoder> decoder_;
+  std::deque<SensorTurn> turns_;
+  std::uint32_t num_frames_{};
+  bool is_at_end_ = false;
+};
+
+CaptureSensor FindSensor(std::FILE* stream, const std::string& name) {
+  PcapReader reader(stream, name);
+  SensorFinder finder;
+  while (const auto datagram = reader.Next()) {
+    if (auto sensor = finder.Look(datagram->payload)) return std::move(*sensor);
+  }
+  throw InputError(name + ": must be a capture of VLP-16, HDL-32E, VLP-32C or Pandar64 (" +
+                   finder.Findings() + ")");
+}
+
+}  // namespace
+
+std::unique_ptr<Recording> OpenCapture(const std::function<std::FILE*()>& open,
+                                       const std::string& name) {
+  CaptureSensor sensor = FindSensor(open(), name);
+  return std::make_unique<CaptureRecording>(open(), name, std::move(sensor));
+}
+
+std::unique_ptr<Recording> OpenCapture(const std::filesystem::path& file) {
+  return OpenCapture(
+      [&file] {
+        std::FILE* const stream = std::fopen(file.c_str(), "rbe");
+        if (stream == nullptr) throw FileError(file, errno);
+        return stream;
+      },
+      file.string());
+}
+
+}  // namespace railcast

@@ -1,0 +1,81 @@
+#include "core/io/recording/capture_sensor.h"
+
+#include <array>
+
+#include "core/base/number_text.h"
+#include "core/io/hesai/pandar64_packet.h"
+#include "core/io/velodyne/velodyne_packet.h"
+
+namespace railcast {
+namespace {
+
+constexpr std::array<std::string_view, 3> kVelodyneFormats = {"vlp16", "hdl32e", "vlp32c"};
+
+struct OtherModel {
+  std::uint8_t id{};
+  std::string_view name;
+};
+constexpr std::array<OtherModel, 4> kOtherModels = {
+    {{0x23, "VLP-32A or VLP-32B"}, {0x24, "Puck Hi-Res"}, {0x31, "Velarray"}, {0xA1, "VLS-128"}}};
+
+std::optional<CaptureSensor> VelodyneOf(std::span<const char> payload) {
+  for (const std::string_view name : kVelodyneFormats) {
+    const VelodyneModel& model = *FindVelodyneFormat(name).model;
+    std::vector<SensorTurn> turns;
+    if (VelodyneDecoder(model).Decode(payload, turns)) continue;
+    return CaptureSensor{.name = model.name,
+                         .shape = ShapeOfTurns(model.lasers, IntensityBytes::kVelodyne),
+                         .decoder = VelodyneDecoder(model)};
+  }
+  return std::nullopt;
+}
+
+std::optional<CaptureSensor> HesaiOf(std::span<const char> payload) {
+  std::vector<SensorTurn> turns;
+  if (Pandar64Decoder().Decode(payload, turns)) return std::nullopt;
+  return CaptureSensor{.name = "Pandar64",
+                       .shape = ShapeOfTurns(Pandar64Channels(), IntensityBytes::kPercent),
+                       .decoder = Pandar64Decoder()};
+}
+
+/// Of a sensor that we know but cannot decode; empty if it is none.
+std::string NameOfStranger(std::span<const char> payload) {
+  if (payload.size() >= kPandar64HeaderSize &&
+      LoadAt<std::uint16_t>(payload.data()) == kHesaiFlag) {
+    return "packets of " + NumberText(payload.size()) + " bytes of a Hesai sensor";
+  }
+  if (payload.size() != kVelodynePacketSize ||
+      LoadAt<std::uint16_t>(payload.data()) != kLowerBlockFlag) {
+    return {};
+  }
+  const auto id = LoadAt<std::uint8_t>(payload.data() + kModelPlace);
+  for (const OtherModel& model : kOtherModels) {
+    if (model.id == id) return std::string(model.name);
+  }
+  if (LoadAt<std::uint16_t>(payload.data() + kBlockSize) == kUpperBlockFlag) {
+    return "HDL-64E, whose packets lack its calibration";
+  }
+  return "Velodyne packets of model byte " + NumberText(id);
+}
+
+}  // namespace
+
+std::optional<CaptureSensor> SensorFinder::Look(std::span<const char> payload) {
+  if (num_datagrams_++ == 0) first_size_ = payload.size();
+  if (payload.size() == kVelodynePacketSize) {
+    if (auto sensor = VelodyneOf(payload)) return sensor;
+  } else if (payload.size() == kPandar64PacketSize) {
+    if (auto sensor = HesaiOf(payload)) return sensor;
+  }
+  if (stranger_.empty()) stranger_ = NameOfStranger(payload);
+  return std::nullopt;
+}
+
+std::string SensorFinder::Findings() const {
+  if (!stranger_.empty()) return "got " + stranger_;
+  if (num_datagrams_ == 0) return "got no UDP datagram";
+  return "got " + NumberText(num_datagrams_) + " UDP datagrams, the first of " +
+         NumberText(first_size_) + " bytes";
+}
+
+}  // namespace railcast

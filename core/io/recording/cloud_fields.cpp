@@ -1,0 +1,196 @@
+#include "core/io/recording/cloud_fields.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <type_traits>
+
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/io/field_layout.h"
+
+namespace railcast {
+namespace {
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+/// What others call a field of ours, where it means the same.
+struct Alias {
+  std::string_view ours;
+  std::string_view theirs;
+};
+constexpr std::array<Alias, 7> kAliases = {{
+    {"intensity", "reflectivity"},
+    {"intensity", "remission"},
+    {"intensity", "Intensity"},
+    {"ring", "channel"},
+    {"ring", "laser"},
+    {"ring", "line"},
+    {"label", "Label"},
+}};
+
+[[noreturn]] void FailValue(const std::string& name,
+                            const std::string& field,
+                            std::uint64_t limit,
+                            double got) {
+  throw InputError(name + ": " + field + ": must be a whole number from 0 to " + NumberText(limit) +
+                   " (got " + NumberText(got) + ")");
+}
+
+/// The value as a whole number up to `limit`; nothing if it is none.
+template <typename Value>
+std::optional<std::uint64_t> WholeNumber(Value value, std::uint64_t limit) {
+  if constexpr (std::is_floating_point_v<Value>) {
+    // NaN fails the first comparison; 2^53 is more than any limit.
+    if (!(value >= Value{0}) || value > Value{0x1p53} || value != std::floor(value)) {
+      return std::nullopt;
+    }
+  } else if constexpr (std::is_signed_v<Value>) {
+    if (value < Value{0}) return std::nullopt;
+  }
+  const auto whole = static_cast<std::uint64_t>(value);
+  return whole <= limit ? std::optional(whole) : std::nullopt;
+}
+
+template <typename Field>
+constexpr std::uint64_t LimitOf() {
+  if constexpr (std::is_same_v<Field, Outcome>) {
+    return kOutcomeNames.size() - 1;
+  } else {
+    return std::numeric_limits<Field>::max();
+  }
+}
+
+// The same type on both sides needs no check, and most files are ours.
+template <typename Field, typename Value>
+Field Convert(Value value, const PointColumn& column, const std::string& name) {
+  if constexpr (std::is_same_v<Field, Value> || std::is_same_v<Field, float>) {
+    return static_cast<Field>(value);
+  } else {
+    const auto whole = WholeNumber(value, LimitOf<Field>());
+    if (!whole) FailValue(name, column.name, LimitOf<Field>(), static_cast<double>(value));
+    return static_cast<Field>(*whole);
+  }
+}
+
+template <typename Field>
+void CopyColumn(const PointTable& table,
+                const PointColumn& column,
+                const SlotPlan& plan,
+                const std::string& name,
+                std::vector<Field>& values) {
+  Field* const out = values.data();
+  const std::uint32_t* const slots = plan.slots.empty() ? nullptr : plan.slots.data();
+  if (slots == nullptr) {
+    VisitColumn(table, column,
+                [&](std::size_t i, auto value) { out[i] = Convert<Field>(value, column, name); });
+    return;
+  }
+  VisitColumn(table, column, [&](std::size_t i, auto value) {
+    if (slots[i] != kNoSlot) out[slots[i]] = Convert<Field>(value, column, name);
+  });
+}
+
+template <typename Values>
+void FillAbsent(Values& values) {
+  using Value = ElementOf<Values>;
+  std::ranges::fill(values, std::is_same_v<Value, float> ? static_cast<Value>(kNaN) : Value{});
+}
+
+// What is computed in a grid anyway.
+bool IsIndex(std::string_view name) {
+  return name == "ring" || name == "column" || name == "return_index" || name == "return_count";
+}
+
+void MarkEmptySlots(Frame& frame, bool has_range) {
+  for (std::size_t i = 0; i < frame.num_slots(); ++i) {
+    const float x = frame.x[i];
+    const float y = frame.y[i];
+    const float z = frame.z[i];
+    const float range_m = std::sqrt(x * x + y * y + z * z);
+    if (std::isfinite(range_m) && range_m > 0.0F) {
+      if (!has_range || !std::isfinite(frame.range_m[i])) frame.range_m[i] = range_m;
+    } else {
+      frame.x[i] = frame.y[i] = frame.z[i] = frame.range_m[i] = kNaN;
+    }
+  }
+}
+
+void FillGridIndices(Frame& frame) {
+  std::size_t slot = 0;
+  for (std::uint32_t row = 0; row < frame.rows; ++row) {
+    for (std::uint32_t column = 0; column < frame.columns; ++column) {
+      std::uint8_t count = 0;
+      for (std::uint32_t r = 0; r < frame.returns; ++r) count += !std::isnan(frame.x[slot + r]);
+      for (std::uint32_t r = 0; r < frame.returns; ++r, ++slot) {
+        frame.ring[slot] = static_cast<std::uint16_t>(row);
+        frame.column[slot] = column;
+        frame.return_index[slot] = static_cast<std::uint8_t>(r);
+        frame.return_count[slot] = count;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+const PointColumn* FindFieldOf(const PointTable& table, std::string_view name) {
+  if (const PointColumn* const own = table.Find(name)) return own;
+  for (const Alias& alias : kAliases) {
+    if (alias.ours != name) continue;
+    if (const PointColumn* const theirs = table.Find(alias.theirs)) return theirs;
+  }
+  return nullptr;
+}
+
+const PointColumn& NeedFieldOf(const PointTable& table,
+                               std::string_view field,
+                               const std::string& name) {
+  const PointColumn* const column = FindFieldOf(table, field);
+  if (column != nullptr) return *column;
+  throw InputError(name + ": has no field " + std::string(field));
+}
+
+std::vector<std::uint32_t> LoadIndices(const PointTable& table,
+                                       const PointColumn& column,
+                                       std::uint32_t limit,
+                                       const std::string& name) {
+  std::vector<std::uint32_t> indices(table.num_points());
+  VisitColumn(table, column, [&](std::size_t i, auto value) {
+    const auto whole = WholeNumber(value, limit);
+    if (!whole) FailValue(name, column.name, limit, static_cast<double>(value));
+    indices[i] = static_cast<std::uint32_t>(*whole);
+  });
+  return indices;
+}
+
+std::vector<float> LoadFloats(const PointTable& table, const PointColumn& column) {
+  std::vector<float> values(table.num_points());
+  VisitColumn(table, column,
+              [&](std::size_t i, auto value) { values[i] = static_cast<float>(value); });
+  return values;
+}
+
+void FillFrame(const PointTable& table, const SlotPlan& plan, RecordedFrame& recorded) {
+  for (const char* axis : {"x", "y", "z"}) (void)NeedFieldOf(table, axis, recorded.name);
+  Frame& frame = recorded.frame;
+  frame.Resize(plan.rows, plan.columns, plan.returns);
+  recorded.is_grid = plan.is_grid;
+  ForEachField(frame, [&](std::string_view name, std::string_view, auto& values) {
+    if (plan.is_grid && IsIndex(name)) return;
+    const PointColumn* const column = FindFieldOf(table, name);
+    // Some slots may be no point's.
+    if (column == nullptr || !plan.slots.empty()) FillAbsent(values);
+    if (column == nullptr) return;
+    CopyColumn(table, *column, plan, recorded.name, values);
+    recorded.fields.emplace(name);
+  });
+  MarkEmptySlots(frame, recorded.Has("range_m"));
+  recorded.fields.emplace("range_m");
+  if (!plan.is_grid) return;
+  FillGridIndices(frame);
+  recorded.fields.insert({"ring", "column", "return_index", "return_count"});
+}
+
+}  // namespace railcast

@@ -1,0 +1,146 @@
+#include "core/io/recording/cloud_frame.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <type_traits>
+
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/io/recording/cloud_fields.h"
+#include "core/io/recording/ring_table.h"
+#include "core/io/recording/slot_plans.h"
+
+namespace railcast {
+namespace {
+
+constexpr std::array<std::string_view, 4> kTimeNames = {"t", "time", "timestamp", "time_stamp"};
+// A scan of 1 to 50 Hz.
+constexpr double kMinScan_s = 0.02;
+constexpr double kMaxScan_s = 1.0;
+constexpr double kNsPerS = 1e9;
+
+bool IsFloating(NumberType type) {
+  return type == NumberType::kFloat || type == NumberType::kDouble;
+}
+
+/// Nanoseconds since the first point, if the unit is certain.
+std::optional<std::vector<double>> LoadTimes_ns(const PointTable& table,
+                                                const PointColumn& column) {
+  std::vector<double> times(table.num_points());
+  double first = std::numeric_limits<double>::infinity();
+  double last = -first;
+  VisitColumn(table, column, [&](std::size_t i, auto value) {
+    times[i] = static_cast<double>(value);
+    first = std::min(first, times[i]);
+    last = std::max(last, times[i]);
+  });
+  const double ns_per_unit = IsFloating(column.type) ? kNsPerS : 1.0;
+  const double span_s = (last - first) * ns_per_unit / kNsPerS;
+  if (!(span_s >= kMinScan_s && span_s <= kMaxScan_s)) return std::nullopt;
+  for (double& time : times) {
+    if (std::isnan(time)) return std::nullopt;
+    time = (time - first) * ns_per_unit;
+  }
+  return times;
+}
+
+// Of files that have no time_ns.
+void FillForeignTime(const PointTable& table, const SlotPlan& plan, RecordedFrame& recorded) {
+  for (const std::string_view name : kTimeNames) {
+    const PointColumn* const column = table.Find(name);
+    const auto times_ns = column != nullptr ? LoadTimes_ns(table, *column) : std::nullopt;
+    if (!times_ns) continue;
+    for (std::size_t i = 0; i < times_ns->size(); ++i) {
+      const auto slot = plan.slots.empty() ? static_cast<std::uint32_t>(i) : plan.slots[i];
+      if (slot == kNoSlot) continue;
+      recorded.frame.time_ns[slot] = static_cast<std::uint32_t>(std::llround((*times_ns)[i]));
+    }
+    recorded.fields.emplace("time_ns");
+    return;
+  }
+}
+
+/// Slots of a firing in an organised file of ours.
+std::uint32_t ReturnsOf(const PointTable& table, const std::string& name) {
+  const PointColumn* const return_index = table.Find("return_index");
+  if (return_index == nullptr) return 1;
+  const auto indices = LoadIndices(table, *return_index, 2, name);
+  const std::uint32_t returns = *std::ranges::max_element(indices) + 1;
+  if (table.width % returns == 0) return returns;
+  throw InputError(name + ": return_index: WIDTH must be a multiple of its returns (got " +
+                   NumberText(table.width) + " of " + NumberText(returns) + ")");
+}
+
+std::vector<std::uint32_t> LoadRings(const PointTable& table, const std::string& name) {
+  const PointColumn* const ring = FindFieldOf(table, "ring");
+  if (ring == nullptr) return {};
+  return LoadIndices(table, *ring, std::numeric_limits<std::uint16_t>::max(), name);
+}
+
+SlotPlan PlanOf(const PointTable& table, const std::string& name) {
+  const bool is_ours = table.Find("ring") != nullptr && table.Find("column") != nullptr;
+  if (table.height > 1) {
+    return is_ours ? OrganisedPlan(table, ReturnsOf(table, name)) : SortedRowsPlan(table);
+  }
+  if (is_ours) return PlacedPlan(table, name, std::nullopt);
+  const PointPositions positions{.x = LoadFloats(table, *table.Find("x")),
+                                 .y = LoadFloats(table, *table.Find("y")),
+                                 .z = LoadFloats(table, *table.Find("z"))};
+  const std::vector<std::uint32_t> rings = LoadRings(table, name);
+  if (auto plan = MakeRingTable(positions, rings)) return std::move(*plan);
+  return LoosePlan(table);
+}
+
+/// The scan's own times, where slots have no point to say theirs.
+void FillScanTimes(const ScanPattern& pattern, Frame& frame) {
+  for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
+    const std::size_t first = (std::size_t{pattern.row[i]} * frame.columns + pattern.column[i]) *
+                              std::size_t{frame.returns};
+    std::fill_n(frame.time_ns.begin() + static_cast<std::ptrdiff_t>(first), frame.returns,
+                pattern.time_ns[i]);
+  }
+}
+
+}  // namespace
+
+RecordedFrame MakeCloudFrame(const PointTable& table, const std::string& name) {
+  RecordedFrame recorded;
+  recorded.name = name;
+  for (const char* axis : {"x", "y", "z"}) (void)NeedFieldOf(table, axis, name);
+  const SlotPlan plan = PlanOf(table, name);
+  FillFrame(table, plan, recorded);
+  if (!recorded.Has("time_ns")) FillForeignTime(table, plan, recorded);
+  const std::vector<std::uint32_t>& times_ns = recorded.frame.time_ns;
+  if (!times_ns.empty()) recorded.frame.duration_ns = *std::ranges::max_element(times_ns);
+  return recorded;
+}
+
+RecordedFrame MakeScanFrame(const PointTable& table,
+                            const std::string& name,
+                            const ScanPattern& pattern,
+                            bool is_organised) {
+  RecordedFrame recorded;
+  recorded.name = name;
+  for (const char* axis : {"x", "y", "z"}) (void)NeedFieldOf(table, axis, name);
+  if (is_organised) {
+    if (table.height != pattern.rows || table.width % pattern.columns != 0 ||
+        table.width / pattern.columns > 3 || table.width == 0) {
+      throw InputError(name + ": WIDTH x HEIGHT: must be " + NumberText(pattern.columns) +
+                       " per return x " + NumberText(pattern.rows) +
+                       ", as the scenario says (got " + NumberText(table.width) + " x " +
+                       NumberText(table.height) + ")");
+    }
+    FillFrame(table, OrganisedPlan(table, table.width / pattern.columns), recorded);
+  } else if (table.Find("ring") != nullptr && table.Find("column") != nullptr) {
+    FillFrame(table, PlacedPlan(table, name, ScanShape{pattern.rows, pattern.columns}), recorded);
+    if (recorded.Has("time_ns")) FillScanTimes(pattern, recorded.frame);
+  } else {
+    FillFrame(table, LoosePlan(table), recorded);
+  }
+  return recorded;
+}
+
+}  // namespace railcast

@@ -1,0 +1,184 @@
+#include "core/io/recording/cloud_recording.h"
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/io/recording/cloud_frame.h"
+#include "core/io/recording/line_reader.h"
+#include "core/io/recording/point_table.h"
+#include "core/io/recording/sequence_lines.h"
+#include "core/io/text_cursor.h"
+
+namespace railcast {
+namespace {
+
+bool IsDigit(char letter) {
+  return std::isdigit(static_cast<unsigned char>(letter)) != 0;
+}
+
+/// Takes the digits at the front, without leading zeros.
+std::string_view TakeDigits(std::string_view& text) {
+  const auto end = std::ranges::find_if_not(text, IsDigit);
+  std::string_view digits = text.substr(0, static_cast<std::size_t>(end - text.begin()));
+  text.remove_prefix(digits.size());
+  digits.remove_prefix(std::min(digits.find_first_not_of('0'), digits.size()));
+  return digits;
+}
+
+/// Numbers in names by their value, all else by its letters.
+bool ComesBefore(std::string_view a, std::string_view b) {
+  while (!a.empty() && !b.empty()) {
+    if (IsDigit(a.front()) && IsDigit(b.front())) {
+      const std::string_view a_digits = TakeDigits(a);
+      const std::string_view b_digits = TakeDigits(b);
+      if (a_digits.size() != b_digits.size()) return a_digits.size() < b_digits.size();
+      if (a_digits != b_digits) return a_digits < b_digits;
+    } else {
+      if (a.front() != b.front()) return a.front() < b.front();
+      a.remove_prefix(1);
+      b.remove_prefix(1);
+    }
+  }
+  return a.size() < b.size();
+}
+
+RecordedFrame ReadCloudFrame(const std::filesystem::path& file, std::uint32_t index) {
+  RecordedFrame recorded = MakeCloudFrame(ReadPointTable(file), file.string());
+  recorded.frame.index = index;
+  return recorded;
+}
+
+class CloudRecording : public Recording {
+ public:
+  CloudRecording(const std::filesystem::path& source,
+                 const std::string& kind,
+                 std::vector<std::filesystem::path> files)
+      : files_(std::move(files)) {
+    info_.source = source;
+    info_.kind = kind;
+    info_.num_frames = files_.size();
+  }
+
+  [[nodiscard]] const RecordingInfo& info() const override { return info_; }
+
+  [[nodiscard]] std::optional<FrameReader> Next() override {
+    if (next_ == files_.size()) return std::nullopt;
+    const std::size_t index = next_++;
+    return [file = files_[index], index] {
+      return ReadCloudFrame(file, static_cast<std::uint32_t>(index));
+    };
+  }
+
+ private:
+  RecordingInfo info_;
+  std::vector<std::filesystem::path> files_;
+  std::size_t next_{};
+};
+
+/// A line of frames.csv.
+struct ReceivedLine {
+  std::filesystem::path file;
+  std::uint32_t frame{};
+  std::int64_t stamp_ns{};
+  Transform world_from_sensor = Transform::Identity();
+};
+
+ReceivedLine ParseReceivedLine(const PlacedLine& line) {
+  constexpr std::size_t kNumWords = 13;  // file,run,frame,stamp_ns,x,y,z,qx,qy,qz,qw,points,lost
+  std::vector<std::string_view> words;
+  std::string_view rest = line.text;
+  while (words.size() < kNumWords) {
+    const std::size_t end = rest.find(',');
+    words.push_back(rest.substr(0, end));
+    if (end == std::string_view::npos) break;
+    rest.remove_prefix(end + 1);
+  }
+  const auto fail = [&] {
+    throw InputError(line.place + ": must be a line as railcast-analyze receive writes it");
+  };
+  if (words.size() != kNumWords) fail();
+  const auto frame = ParseNumber<std::uint32_t>(words[2]);
+  const auto stamp_ns = ParseNumber<std::int64_t>(words[3]);
+  std::vector<double> pose;
+  for (std::size_t i = 4; i < 11; ++i) {
+    if (const auto number = ParseNumber<double>(words[i])) pose.push_back(*number);
+  }
+  if (!frame || !stamp_ns || pose.size() != 7) fail();
+  return {.file = words[0],
+          .frame = *frame,
+          .stamp_ns = *stamp_ns,
+          .world_from_sensor = MakePose(pose, line.place)};
+}
+
+RecordedFrame ReadReceivedFrame(const std::filesystem::path& directory, const PlacedLine& line) {
+  const ReceivedLine parsed = ParseReceivedLine(line);
+  RecordedFrame recorded = ReadCloudFrame(directory / parsed.file, parsed.frame);
+  recorded.frame.stamp_ns = parsed.stamp_ns;
+  recorded.frame.world_from_sensor = parsed.world_from_sensor;
+  // The stream does not say where the scan ended.
+  recorded.frame.world_from_sensor_end = parsed.world_from_sensor;
+  recorded.has_pose = true;
+  return recorded;
+}
+
+class ReceivedRecording : public Recording {
+ public:
+  explicit ReceivedRecording(const std::filesystem::path& directory)
+      : lines_(directory / "frames.csv") {
+    info_.source = directory;
+    info_.kind = "received stream";
+    info_.num_frames = std::max<std::size_t>(1, CountLines(directory / "frames.csv")) - 1;
+    (void)lines_.Need();  // The names of its columns.
+  }
+
+  [[nodiscard]] const RecordingInfo& info() const override { return info_; }
+
+  [[nodiscard]] std::optional<FrameReader> Next() override {
+    auto line = lines_.Next();
+    if (!line) return std::nullopt;
+    return [directory = info_.source, line = std::move(*line)] {
+      return ReadReceivedFrame(directory, line);
+    };
+  }
+
+ private:
+  RecordingInfo info_;
+  LineReader lines_;
+};
+
+}  // namespace
+
+bool IsCloudFile(const std::filesystem::path& file) {
+  const std::filesystem::path extension = file.extension();
+  return extension == ".pcd" || extension == ".ply" || extension == ".bin";
+}
+
+std::vector<std::filesystem::path> CloudFilesIn(const std::filesystem::path& directory) {
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(directory, error)) {
+    if (IsCloudFile(entry.path())) files.push_back(entry.path());
+  }
+  std::ranges::sort(files, [](const std::filesystem::path& a, const std::filesystem::path& b) {
+    const std::string a_name = a.filename().string();
+    const std::string b_name = b.filename().string();
+    if (ComesBefore(a_name, b_name)) return true;
+    return !ComesBefore(b_name, a_name) && a_name < b_name;
+  });
+  return files;
+}
+
+std::unique_ptr<Recording> OpenClouds(const std::filesystem::path& source,
+                                      const std::string& kind,
+                                      std::vector<std::filesystem::path> files) {
+  return std::make_unique<CloudRecording>(source, kind, std::move(files));
+}
+
+std::unique_ptr<Recording> OpenReceived(const std::filesystem::path& directory) {
+  return std::make_unique<ReceivedRecording>(directory);
+}
+
+}  // namespace railcast

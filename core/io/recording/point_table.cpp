@@ -1,0 +1,187 @@
+#include "core/io/recording/point_table.h"
+
+#include <pcl/PCLPointField.h>
+
+#include <algorithm>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/io/pcd_header.h"
+#include "core/io/ply_reader.h"
+#include "core/io/text_cursor.h"
+#include "core/io/write_file.h"
+
+namespace railcast {
+namespace {
+
+constexpr std::string_view kCloudComparePrefix = "scalar_";
+
+NumberType TypeOf(const PcdField& field) {
+  if (field.type == 'F') return field.size == 4 ? NumberType::kFloat : NumberType::kDouble;
+  const bool is_signed = field.type == 'I';
+  switch (field.size) {
+    case 1:
+      return is_signed ? NumberType::kInt8 : NumberType::kUint8;
+    case 2:
+      return is_signed ? NumberType::kInt16 : NumberType::kUint16;
+    case 4:
+      return is_signed ? NumberType::kInt32 : NumberType::kUint32;
+    default:
+      return is_signed ? NumberType::kInt64 : NumberType::kUint64;
+  }
+}
+
+NumberType TypeOf(std::uint8_t pcl_type) {
+  switch (pcl_type) {
+    case pcl::PCLPointField::INT8:
+      return NumberType::kInt8;
+    case pcl::PCLPointField::UINT8:
+      return NumberType::kUint8;
+    case pcl::PCLPointField::INT16:
+      return NumberType::kInt16;
+    case pcl::PCLPointField::UINT16:
+      return NumberType::kUint16;
+    case pcl::PCLPointField::INT32:
+      return NumberType::kInt32;
+    case pcl::PCLPointField::UINT32:
+      return NumberType::kUint32;
+    case pcl::PCLPointField::FLOAT32:
+      return NumberType::kFloat;
+    default:
+      return NumberType::kDouble;
+  }
+}
+
+/// Points one after another, fields in order. @pre CheckPcd has found the text sound.
+std::string PackAscii(std::string_view text, const PcdHeader& header) {
+  std::string packed(header.points * header.PointStep(), '\0');
+  char* place = packed.data();
+  while (const auto line = TakeLine(text)) {
+    const auto words = Words(*line);
+    std::size_t word = 0;
+    if (words.empty()) continue;
+    for (const PcdField& field : header.fields) {
+      VisitNumberType(TypeOf(field), [&](auto zero) {
+        for (std::uint64_t i = 0; i < field.count; ++i, place += sizeof zero) {
+          using Value = decltype(zero);
+          // As CheckPcd does: what no float can hold becomes infinite.
+          using Parsed = std::conditional_t<std::is_floating_point_v<Value>, double, Value>;
+          const auto value = static_cast<Value>(ParseNumber<Parsed>(words[word++]).value_or(0));
+          std::memcpy(place, &value, sizeof value);
+        }
+      });
+    }
+  }
+  return packed;
+}
+
+/// @param begin Of the points in the table's bytes. @param is_planar Whether each field has its
+/// values together.
+void AddColumns(const PcdHeader& header,
+                std::size_t begin,
+                bool is_planar,
+                std::vector<PointColumn>& columns) {
+  std::size_t offset = 0;
+  for (const PcdField& field : header.fields) {
+    const std::size_t size = field.size * field.count;
+    columns.push_back({.name = field.name,
+                       .type = TypeOf(field),
+                       .offset = begin + (is_planar ? header.points * offset : offset),
+                       .step = is_planar ? size : header.PointStep()});
+    offset += size;
+  }
+}
+
+}  // namespace
+
+const PointColumn* PointTable::Find(std::string_view name) const {
+  const auto is_it = [name](const PointColumn& column) {
+    std::string_view own = column.name;
+    if (own.starts_with(kCloudComparePrefix)) own.remove_prefix(kCloudComparePrefix.size());
+    return own == name;
+  };
+  const auto found = std::ranges::find_if(columns, is_it);
+  return found == columns.end() ? nullptr : &*found;
+}
+
+PointTable ParsePcdTable(const std::string& file, std::string bytes) {
+  PointTable table;
+  std::string plain;
+  const PcdHeader header = CheckPcd(file, bytes, &plain);
+  table.width = static_cast<std::uint32_t>(header.width);
+  table.height = static_cast<std::uint32_t>(header.height);
+  if (header.data == "binary") {
+    table.bytes = std::move(bytes);
+    AddColumns(header, header.data_begin, false, table.columns);
+  } else if (header.data == "ascii") {
+    table.bytes = PackAscii(std::string_view(bytes).substr(header.data_begin), header);
+    AddColumns(header, 0, false, table.columns);
+  } else {
+    table.bytes = std::move(plain);
+    AddColumns(header, 0, true, table.columns);
+  }
+  return table;
+}
+
+PointTable ParsePlyTable(const std::string& file, const std::string& bytes) {
+  const pcl::PCLPointCloud2 cloud = ParsePly(file, bytes);
+  PointTable table;
+  table.width = cloud.width;
+  table.height = 1;
+  for (const pcl::PCLPointField& field : cloud.fields) {
+    table.columns.push_back({.name = field.name,
+                             .type = TypeOf(field.datatype),
+                             .offset = field.offset,
+                             .step = cloud.point_step});
+  }
+  table.bytes.assign(cloud.data.begin(), cloud.data.end());
+  return table;
+}
+
+PointTable ParseKittiTable(const std::string& file,
+                           std::string bytes,
+                           const std::optional<std::string>& labels) {
+  constexpr std::size_t kStep = 4 * sizeof(float);
+  const std::size_t num_points = bytes.size() / kStep;
+  if (bytes.size() % kStep != 0 || num_points > std::numeric_limits<std::uint32_t>::max()) {
+    throw InputError(file + ": must have 16 bytes for each point (got " + NumberText(bytes.size()) +
+                     ")");
+  }
+  if (labels && labels->size() != num_points * sizeof(std::uint32_t)) {
+    throw InputError(file + ": its .label file must have " +
+                     NumberText(num_points * sizeof(std::uint32_t)) + " bytes (got " +
+                     NumberText(labels->size()) + ")");
+  }
+  PointTable table{.width = static_cast<std::uint32_t>(num_points),
+                   .height = 1,
+                   .columns = {},
+                   .bytes = std::move(bytes)};
+  std::size_t offset = 0;
+  for (const char* name : {"x", "y", "z", "intensity"}) {
+    table.columns.push_back({name, NumberType::kFloat, offset, kStep});
+    offset += sizeof(float);
+  }
+  if (!labels) return table;
+  const std::size_t begin = table.bytes.size();
+  table.columns.push_back({"label", NumberType::kUint16, begin, sizeof(std::uint32_t)});
+  table.columns.push_back({"instance", NumberType::kUint16, begin + 2, sizeof(std::uint32_t)});
+  table.bytes += *labels;
+  return table;
+}
+
+PointTable ReadPointTable(const std::filesystem::path& file) {
+  if (file.extension() == ".bin") {
+    auto labels = file.parent_path().parent_path() / "labels" / file.filename();
+    labels.replace_extension(".label");
+    return ParseKittiTable(file.string(), ReadFileWhole(file),
+                           exists(labels) ? std::optional(ReadFileWhole(labels)) : std::nullopt);
+  }
+  if (file.extension() == ".pcd") return ParsePcdTable(file.string(), ReadFileWhole(file));
+  if (file.extension() == ".ply") return ParsePlyTable(file.string(), ReadFileWhole(file));
+  throw InputError(file.string() + ": must be a .pcd, .ply or .bin file");
+}
+
+}  // namespace railcast

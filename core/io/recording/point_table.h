@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace railcast {
+
+/// How a number is stored.
+enum class NumberType : std::uint8_t {
+  kInt8,
+  kUint8,
+  kInt16,
+  kUint16,
+  kInt32,
+  kUint32,
+  kInt64,
+  kUint64,
+  kFloat,
+  kDouble
+};
+
+/// One number of every point, or the first of a field that has several.
+struct PointColumn {
+  std::string name;
+  NumberType type{};
+  std::size_t offset{};  ///< Of the first point's.
+  std::size_t step{};    ///< From one point's to the next.
+};
+
+/// The points of a cloud file as they are stored, not converted.
+struct PointTable {
+  std::uint32_t width{};
+  std::uint32_t height{};
+  std::vector<PointColumn> columns;
+  std::string bytes;  ///< The whole file, or its points alone: offsets say which.
+
+  [[nodiscard]] std::size_t num_points() const { return std::size_t{width} * height; }
+  /// A field of this name, or of `scalar_` and this name, as CloudCompare has it; null if none.
+  [[nodiscard]] const PointColumn* Find(std::string_view name) const;
+};
+
+/// A .pcd file held in `bytes`, of any encoding. @param file Named in errors.
+/// @throws InputError with one line if it is damaged.
+[[nodiscard]] PointTable ParsePcdTable(const std::string& file, std::string bytes);
+/// A .ply file held in `bytes`, ASCII or binary little-endian.
+/// @throws InputError with one line if it is damaged.
+[[nodiscard]] PointTable ParsePlyTable(const std::string& file, const std::string& bytes);
+
+/// KITTI's velodyne/*.bin held in `bytes`: float32 x, y, z, remission of each point. With `labels`,
+/// SemanticKITTI's .label: uint32 each, label below, instance above; they become fields, too.
+/// @throws InputError with one line if the lengths do not fit.
+[[nodiscard]] PointTable ParseKittiTable(const std::string& file,
+                                         std::string bytes,
+                                         const std::optional<std::string>& labels);
+
+/// A .bin file takes its labels from ../labels, if they are there.
+/// @throws InputError with one line if the file is no .pcd, .ply or .bin, cannot be read or is
+///   damaged.
+[[nodiscard]] PointTable ReadPointTable(const std::filesystem::path& file);
+
+/// Calls `visit` with a zero of the type.
+template <typename Visitor>
+void VisitNumberType(NumberType type, Visitor&& visit) {
+  switch (type) {
+    case NumberType::kInt8:
+      return visit(std::int8_t{});
+    case NumberType::kUint8:
+      return visit(std::uint8_t{});
+    case NumberType::kInt16:
+      return visit(std::int16_t{});
+    case NumberType::kUint16:
+      return visit(std::uint16_t{});
+    case NumberType::kInt32:
+      return visit(std::int32_t{});
+    case NumberType::kUint32:
+      return visit(std::uint32_t{});
+    case NumberType::kInt64:
+      return visit(std::int64_t{});
+    case NumberType::kUint64:
+      return visit(std::uint64_t{});
+    case NumberType::kFloat:
+      return visit(float{});
+    case NumberType::kDouble:
+      return visit(double{});
+  }
+}
+
+/// Calls `visit(point, value)` for every point, value in the type that is stored.
+template <typename Visitor>
+void VisitColumn(const PointTable& table, const PointColumn& column, Visitor&& visit) {
+  VisitNumberType(column.type, [&](auto zero) {
+    const char* place = table.bytes.data() + column.offset;
+    const std::size_t num_points = table.num_points();
+    for (std::size_t i = 0; i < num_points; ++i, place += column.step) {
+      auto value = zero;
+      std::memcpy(&value, place, sizeof value);
+      visit(i, value);
+    }
+  });
+}
+
+}  // namespace railcast

@@ -1,0 +1,46 @@
+#include "core/io/recording/recording.h"
+
+#include <cerrno>
+
+#include "core/base/error.h"
+#include "core/io/recording/capture_recording.h"
+#include "core/io/recording/cloud_recording.h"
+#include "core/io/recording/sequence_recording.h"
+#include "core/io/write_file.h"
+
+namespace railcast {
+namespace {
+
+/// Where the clouds of a directory may be: beside each other, or as we, received streams and KITTI
+/// keep them.
+std::unique_ptr<Recording> OpenDirectory(const std::filesystem::path& directory) {
+  const std::filesystem::path kitti = directory / "sequences" / "00" / "velodyne";
+  const bool is_sequence = exists(directory / "frames.jsonl");
+  if (is_sequence && !exists(kitti)) return OpenSequence(directory);
+  if (exists(directory / "frames.csv")) return OpenReceived(directory);
+  for (const auto& place : {directory, directory / "frames", directory / "velodyne", kitti}) {
+    auto files = CloudFilesIn(place);
+    if (files.empty()) continue;
+    const bool is_kitti = files.front().extension() == ".bin";
+    return OpenClouds(directory, is_kitti ? "KITTI sequence" : "directory of point clouds",
+                      std::move(files));
+  }
+  throw InputError(directory.string() +
+                   ": must be a sequence or hold .pcd, .ply or .bin files (got neither)");
+}
+
+}  // namespace
+
+std::unique_ptr<Recording> OpenRecording(const std::filesystem::path& source) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(source, error);
+  if (!exists(status)) throw FileError(source, error ? error.value() : ENOENT);
+  if (is_directory(status)) return OpenDirectory(source);
+  const std::filesystem::path extension = source.extension();
+  if (extension == ".pcap" || extension == ".pcapng") return OpenCapture(source);
+  if (IsCloudFile(source)) return OpenClouds(source, "point cloud file", {source});
+  throw InputError(source.string() +
+                   ": must be a directory or a .pcd, .ply, .bin, .pcap or .pcapng file");
+}
+
+}  // namespace railcast

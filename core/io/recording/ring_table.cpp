@@ -1,0 +1,271 @@
+#include "core/io/recording/ring_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <tuple>
+#include <utility>
+
+#include "core/io/recording/elevation_rings.h"
+
+namespace railcast {
+namespace {
+
+/// Neighbours of a ring farther apart, in turns, say nothing about the sense of rotation.
+constexpr double kMaxFollow_turns = 0.02;
+/// Closer ones are returns of one firing.
+constexpr double kMinStep_turns = 1e-5;
+/// The same, when the step is known.
+constexpr double kSameFiringShare = 0.02;
+/// From what share of second points on they are second returns.
+constexpr double kMinSecondShare = 0.02;
+/// A table with less than one slot in so many filled is none.
+constexpr std::size_t kMaxSlotsPerPoint = 16;
+
+/// A point while the table is made.
+struct TablePoint {
+  std::uint32_t index{};  ///< In the file.
+  std::uint32_t row{};
+  double turns{};  ///< Azimuth in the sense of rotation, in [0, 1).
+  double range_m{};
+  std::int64_t column{};
+};
+
+double WrappedTurns(double turns) {
+  const double wrapped = turns - std::floor(turns);
+  return wrapped < 1.0 ? wrapped : 0.0;  // A tiny negative number rounds to 1.
+}
+
+/// Rows by rising median elevation from ring numbers of any kind.
+std::vector<std::uint32_t> RowsOf(std::span<const std::uint32_t> rings,
+                                  std::span<const double> elevations_rad) {
+  std::map<std::uint32_t, std::vector<double>> by_ring;
+  for (std::size_t i = 0; i < rings.size(); ++i) by_ring[rings[i]].push_back(elevations_rad[i]);
+  std::vector<std::pair<double, std::uint32_t>> order;
+  for (auto& [ring, values] : by_ring) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    order.emplace_back(*middle, ring);
+  }
+  std::ranges::sort(order);
+  std::map<std::uint32_t, std::uint32_t> row_of_ring;
+  for (const auto& [elevation_rad, ring] : order) {
+    row_of_ring.emplace(ring, static_cast<std::uint32_t>(row_of_ring.size()));
+  }
+  std::vector<std::uint32_t> rows;
+  rows.reserve(rings.size());
+  for (const std::uint32_t ring : rings) rows.push_back(row_of_ring.at(ring));
+  return rows;
+}
+
+/// Whether most neighbours of a row follow each other counterclockwise. @pre In the file's order,
+/// azimuths counterclockwise.
+bool IsCounterclockwise(const std::vector<TablePoint>& points, std::size_t num_rows) {
+  constexpr double kNone = -1.0;
+  std::vector<double> last_turns(num_rows, kNone);
+  std::int64_t balance = 0;
+  for (const TablePoint& point : points) {
+    double& last = last_turns[point.row];
+    if (last != kNone) {
+      const double step = std::remainder(point.turns - last, 1.0);
+      if (std::abs(step) < kMaxFollow_turns && step != 0.0) balance += step > 0.0 ? 1 : -1;
+    }
+    last = point.turns;
+  }
+  return balance > 0;
+}
+
+/// Turns the azimuths so that 0 is behind the widest gap.
+void StartBehindWidestGap(std::vector<TablePoint>& points) {
+  std::vector<double> sorted;
+  sorted.reserve(points.size());
+  for (const TablePoint& point : points) sorted.push_back(point.turns);
+  std::ranges::sort(sorted);
+  double widest = sorted.front() + 1.0 - sorted.back();
+  double start = sorted.front();
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    if (sorted[i] - sorted[i - 1] <= widest) continue;
+    widest = sorted[i] - sorted[i - 1];
+    start = sorted[i];
+  }
+  for (TablePoint& point : points) point.turns = WrappedTurns(point.turns - start);
+}
+
+/// The usual step between neighbours; 0 if there are none. @pre Sorted by row and azimuth.
+double StepOf(const std::vector<TablePoint>& points) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const double step = points[i].turns - points[i - 1].turns;
+    if (points[i].row == points[i - 1].row && step > kMinStep_turns) steps.push_back(step);
+  }
+  if (steps.empty()) return 0.0;
+  const auto quartile = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 4);
+  std::ranges::nth_element(steps, quartile);
+  const double usual = *quartile;
+  double sum = 0.0;
+  std::size_t num = 0;
+  for (const double step : steps) {
+    if (std::abs(step - usual) > 0.5 * usual) continue;
+    sum += step;
+    ++num;
+  }
+  return sum / static_cast<double>(num);
+}
+
+/// The rising numbers nearest to `values` in the sense of least squares: neighbours that fall are
+/// pooled (pool adjacent violators; Ayer et al. 1955, Ann. Math. Stat. 26).
+std::vector<double> RisingFit(const std::vector<double>& values) {
+  struct Pool {
+    double sum{};
+    std::size_t num{};
+    [[nodiscard]] double mean() const { return sum / static_cast<double>(num); }
+  };
+  std::vector<Pool> pools;
+  for (const double value : values) {
+    pools.push_back({value, 1});
+    while (pools.size() > 1 && pools[pools.size() - 2].mean() >= pools.back().mean()) {
+      const Pool last = pools.back();
+      pools.pop_back();
+      pools.back().sum += last.sum;
+      pools.back().num += last.num;
+    }
+  }
+  std::vector<double> fit;
+  for (const Pool& pool : pools) fit.insert(fit.end(), pool.num, pool.mean());
+  return fit;
+}
+
+/// The middle of numbers that lie about whole ones.
+double MeanFraction(const std::vector<double>& values) {
+  double sine = 0.0;
+  double cosine = 0.0;
+  for (const double value : values) {
+    sine += std::sin(2.0 * std::numbers::pi * value);
+    cosine += std::cos(2.0 * std::numbers::pi * value);
+  }
+  return std::atan2(sine, cosine) / (2.0 * std::numbers::pi);
+}
+
+/// The columns of one ring's points. @pre Sorted by azimuth.
+void AssignColumns(std::span<TablePoint> ring, double step) {
+  std::vector<std::size_t> firings;  // Of each point.
+  std::vector<double> places;        // Of each firing: its column, less its number.
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const bool is_same = i > 0 && ring[i].turns - ring[i - 1].turns < kSameFiringShare * step;
+    if (!is_same) places.push_back(ring[i].turns / step - static_cast<double>(places.size()));
+    firings.push_back(places.size() - 1);
+  }
+  const double fraction = MeanFraction(places);
+  for (double& place : places) place -= fraction;
+  const std::vector<double> fit = RisingFit(places);
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    ring[i].column = std::llround(fit[firings[i]]) + static_cast<std::int64_t>(firings[i]);
+  }
+}
+
+/// @pre Sorted by row and azimuth.
+void AssignColumns(std::vector<TablePoint>& points, double step) {
+  for (std::size_t begin = 0; begin < points.size();) {
+    std::size_t end = begin;
+    while (end < points.size() && points[end].row == points[begin].row) ++end;
+    AssignColumns(std::span(points).subspan(begin, end - begin), step);
+    begin = end;
+  }
+}
+
+/// Numbers the columns that have a point anew, from 0. @returns How many there are.
+std::uint32_t CloseColumns(std::vector<TablePoint>& points) {
+  std::vector<std::int64_t> seen;
+  seen.reserve(points.size());
+  for (const TablePoint& point : points) seen.push_back(point.column);
+  std::ranges::sort(seen);
+  const auto rest = std::ranges::unique(seen);
+  seen.erase(rest.begin(), rest.end());
+  for (TablePoint& point : points) {
+    point.column = std::ranges::lower_bound(seen, point.column) - seen.begin();
+  }
+  return static_cast<std::uint32_t>(seen.size());
+}
+
+bool IsSameCell(const TablePoint& a, const TablePoint& b) {
+  return a.row == b.row && a.column == b.column;
+}
+
+/// The slot of each point, points of one cell from the nearest on. @pre Sorted by cell and range.
+SlotPlan PlanOf(const std::vector<TablePoint>& points,
+                std::uint32_t rows,
+                std::uint32_t columns,
+                std::size_t num_file_points) {
+  std::size_t num_seconds = 0;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    num_seconds += IsSameCell(points[i - 1], points[i]);
+  const bool has_seconds =
+      static_cast<double>(num_seconds) >= kMinSecondShare * static_cast<double>(points.size());
+  SlotPlan plan{.rows = rows,
+                .columns = columns,
+                .returns = has_seconds ? 2U : 1U,
+                .slots = std::vector(num_file_points, kNoSlot),
+                .is_grid = true};
+  std::uint32_t in_cell = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    in_cell = i > 0 && IsSameCell(points[i - 1], points[i]) ? in_cell + 1 : 0;
+    if (in_cell >= plan.returns) continue;
+    const auto column = static_cast<std::uint32_t>(points[i].column);
+    plan.slots[points[i].index] = (points[i].row * columns + column) * plan.returns + in_cell;
+  }
+  return plan;
+}
+
+}  // namespace
+
+bool PointPositions::IsPoint(std::size_t i) const {
+  const float squared = x[i] * x[i] + y[i] * y[i] + z[i] * z[i];
+  return std::isfinite(squared) && squared > 0.0F;
+}
+
+std::optional<SlotPlan> MakeRingTable(const PointPositions& positions,
+                                      std::span<const std::uint32_t> rings) {
+  std::vector<TablePoint> points;
+  std::vector<std::uint32_t> ring_of_point;
+  std::vector<double> elevations_rad;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (!positions.IsPoint(i)) continue;
+    const auto x = static_cast<double>(positions.x[i]);
+    const auto y = static_cast<double>(positions.y[i]);
+    const auto z = static_cast<double>(positions.z[i]);
+    const double horizontal_m = std::hypot(x, y);
+    elevations_rad.push_back(std::atan2(z, horizontal_m));
+    if (!rings.empty()) ring_of_point.push_back(rings[i]);
+    points.push_back({.index = static_cast<std::uint32_t>(i),
+                      .turns = WrappedTurns(std::atan2(y, x) / (2.0 * std::numbers::pi)),
+                      .range_m = std::hypot(horizontal_m, z)});
+  }
+  if (points.empty()) return std::nullopt;
+  if (rings.empty()) {
+    auto found = RingsByElevation(elevations_rad);
+    if (!found) return std::nullopt;
+    ring_of_point = std::move(*found);
+  }
+  const std::vector<std::uint32_t> rows = RowsOf(ring_of_point, elevations_rad);
+  const std::uint32_t num_rows = *std::ranges::max_element(rows) + 1;
+  if (num_rows > kMaxRings) return std::nullopt;
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].row = rows[i];
+  if (!IsCounterclockwise(points, num_rows)) {
+    for (TablePoint& point : points) point.turns = WrappedTurns(-point.turns);
+  }
+  StartBehindWidestGap(points);
+  std::ranges::stable_sort(
+      points, {}, [](const TablePoint& point) { return std::pair(point.row, point.turns); });
+  const double step = StepOf(points);
+  if (step <= 0.0) return std::nullopt;
+  AssignColumns(points, step);
+  const std::uint32_t num_columns = CloseColumns(points);
+  if (std::size_t{num_rows} * num_columns > kMaxSlotsPerPoint * points.size()) return std::nullopt;
+  std::ranges::stable_sort(points, {}, [](const TablePoint& point) {
+    return std::tuple(point.row, point.column, point.range_m);
+  });
+  return PlanOf(points, num_rows, num_columns, positions.size());
+}
+
+}  // namespace railcast

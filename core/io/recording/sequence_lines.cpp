@@ -1,0 +1,119 @@
+#include "core/io/recording/sequence_lines.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/io/text_cursor.h"
+
+namespace railcast {
+namespace {
+
+using Json = nlohmann::json;
+
+/// What `read` makes of a line of JSON, and of what it throws.
+template <typename Read>
+auto ReadJsonLine(const std::string& line, const std::string& place, const Read& read)
+    -> decltype(read(Json{})) {
+  try {
+    return read(Json::parse(line));
+  } catch (const Json::exception& error) {
+    throw InputError(place + ": is damaged: " + error.what());
+  }
+}
+
+Transform PoseOf(const Json& position_m, const Json& quaternion, const std::string& place) {
+  auto numbers = position_m.get<std::vector<double>>();
+  const auto turn = quaternion.get<std::vector<double>>();
+  numbers.insert(numbers.end(), turn.begin(), turn.end());
+  return MakePose(numbers, place);
+}
+
+RecordedObject ObjectOf(const Json& json, const std::string& place) {
+  RecordedObject object{.name = json.at("name"),
+                        .type = json.at("type"),
+                        .label = json.at("label"),
+                        .instance = json.at("instance"),
+                        .points = json.at("points"),
+                        .firings_visible = json.at("firings_visible"),
+                        .firings_alone = json.at("firings_alone")};
+  const Json& box = json.at("sensor");
+  const auto size_m = box.at("size_m").get<std::array<double, 3>>();
+  object.size_m = Vector3(size_m[0], size_m[1], size_m[2]);
+  object.sensor_from_box = PoseOf(box.at("center_m"), box.at("quaternion_xyzw"), place);
+  return object;
+}
+
+}  // namespace
+
+Transform MakePose(const std::vector<double>& numbers, const std::string& place) {
+  if (numbers.size() != 7) {
+    throw InputError(place + ": a pose must have seven numbers (got " + NumberText(numbers.size()) +
+                     ")");
+  }
+  for (const double number : numbers) {
+    if (!std::isfinite(number)) throw InputError(place + ": a pose must be finite");
+  }
+  const Eigen::Quaterniond turn(numbers[6], numbers[3], numbers[4], numbers[5]);
+  constexpr double kTolerance = 1e-3;
+  if (std::abs(turn.norm() - 1.0) > kTolerance) {
+    throw InputError(place + ": a quaternion must have length 1 (got " + NumberText(turn.norm()) +
+                     ")");
+  }
+  return MakeTransform(turn.normalized().toRotationMatrix(),
+                       Vector3(numbers[0], numbers[1], numbers[2]));
+}
+
+FrameLine ParseFrameLine(const std::string& line, const std::string& place) {
+  return ReadJsonLine(line, place, [&](const Json& json) {
+    const Json& end = json.at("scan_end");
+    FrameLine result{.frame = json.at("frame"),
+                     .stamp_ns = json.at("stamp_ns"),
+                     .duration_ns = end.at("time_ns"),
+                     .files = {}};
+    result.world_from_sensor_end = PoseOf(end.at("position_m"), end.at("quaternion_xyzw"), place);
+    for (const Json& file : json.at("files")) result.files.push_back(file.at("name"));
+    return result;
+  });
+}
+
+Transform ParsePose(std::string_view line, std::int64_t stamp_ns, const std::string& place) {
+  std::vector<double> numbers;
+  bool is_stamp = true;
+  while (!line.empty()) {
+    const std::size_t end = line.find(',');
+    const std::string_view word = line.substr(0, end);
+    line.remove_prefix(end == std::string_view::npos ? line.size() : end + 1);
+    if (is_stamp) {
+      const auto stamp = ParseNumber<std::int64_t>(word);
+      if (stamp != stamp_ns) {
+        throw InputError(place + ": stamp_ns: must be " + NumberText(stamp_ns) +
+                         ", as in frames.jsonl (got " + std::string(word) + ")");
+      }
+      is_stamp = false;
+      continue;
+    }
+    const auto number = ParseNumber<double>(word);
+    if (!number) throw InputError(place + ": must be numbers (got " + std::string(word) + ")");
+    numbers.push_back(*number);
+  }
+  return MakePose(numbers, place);
+}
+
+std::vector<RecordedObject> ParseObjectsLine(const std::string& line,
+                                             std::uint32_t frame,
+                                             const std::string& place) {
+  return ReadJsonLine(line, place, [&](const Json& json) {
+    const std::uint32_t got = json.at("frame");
+    if (got != frame) {
+      throw InputError(place + ": frame: must be " + NumberText(frame) +
+                       ", as in frames.jsonl (got " + NumberText(got) + ")");
+    }
+    std::vector<RecordedObject> objects;
+    for (const Json& object : json.at("objects")) objects.push_back(ObjectOf(object, place));
+    return objects;
+  });
+}
+
+}  // namespace railcast

@@ -1,0 +1,148 @@
+#include "core/io/recording/slot_plans.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/io/recording/ring_table.h"
+
+namespace railcast {
+namespace {
+
+constexpr std::uint32_t kMaxReturns = 3;
+constexpr std::uint32_t kMaxRows = 1U << 16U;
+constexpr std::size_t kMaxSpareSlots = std::size_t{1} << 20U;
+
+PointPositions LoadPositions(const PointTable& table) {
+  return {.x = LoadFloats(table, *table.Find("x")),
+          .y = LoadFloats(table, *table.Find("y")),
+          .z = LoadFloats(table, *table.Find("z"))};
+}
+
+/// NaN for a row without a point.
+std::vector<double> RowElevations(const PointTable& table) {
+  const PointPositions positions = LoadPositions(table);
+  std::vector<double> elevations_rad;
+  std::size_t i = 0;
+  for (std::uint32_t row = 0; row < table.height; ++row) {
+    double sum_rad = 0.0;
+    std::size_t num = 0;
+    for (std::uint32_t column = 0; column < table.width; ++column, ++i) {
+      if (!positions.IsPoint(i)) continue;
+      sum_rad += static_cast<double>(
+          std::atan2(positions.z[i], std::hypot(positions.x[i], positions.y[i])));
+      ++num;
+    }
+    elevations_rad.push_back(num > 0 ? sum_rad / static_cast<double>(num) : std::nan(""));
+  }
+  return elevations_rad;
+}
+
+/// The rows as stored, or from the last on if most elevations fall.
+std::vector<std::uint32_t> RowsInSense(const std::vector<double>& elevations_rad) {
+  std::vector<std::uint32_t> rows(elevations_rad.size());
+  std::iota(rows.begin(), rows.end(), 0U);
+  std::int64_t balance = 0;
+  double last_rad = std::nan("");
+  for (const double elevation_rad : elevations_rad) {
+    if (elevation_rad > last_rad) ++balance;
+    if (elevation_rad < last_rad) --balance;
+    if (!std::isnan(elevation_rad)) last_rad = elevation_rad;
+  }
+  if (balance < 0) std::ranges::reverse(rows);
+  return rows;
+}
+
+std::uint32_t LargestOf(const std::vector<std::uint32_t>& values) {
+  return values.empty() ? 0 : *std::ranges::max_element(values);
+}
+
+ScanShape ShapeOf(const std::vector<std::uint32_t>& rings,
+                  const std::vector<std::uint32_t>& columns,
+                  std::uint32_t returns,
+                  const std::string& name) {
+  if (rings.empty()) return {};
+  const std::uint64_t num_rows = std::uint64_t{LargestOf(rings)} + 1;
+  const std::uint64_t num_columns = std::uint64_t{LargestOf(columns)} + 1;
+  if (num_rows * num_columns * returns > kMaxSpareSlots + rings.size()) {
+    throw InputError(name + ": ring, column: must make no more than " +
+                     NumberText(kMaxSpareSlots + rings.size()) + " slots (got " +
+                     NumberText(num_rows) + " x " + NumberText(num_columns) + " x " +
+                     NumberText(returns) + ")");
+  }
+  return {static_cast<std::uint32_t>(num_rows), static_cast<std::uint32_t>(num_columns)};
+}
+
+}  // namespace
+
+SlotPlan OrganisedPlan(const PointTable& table, std::uint32_t returns) {
+  return {.rows = table.height,
+          .columns = table.width / returns,
+          .returns = returns,
+          .slots = {},
+          .is_grid = true};
+}
+
+SlotPlan SortedRowsPlan(const PointTable& table) {
+  SlotPlan plan = OrganisedPlan(table, 1);
+  const std::vector<double> elevations_rad = RowElevations(table);
+  const std::vector<std::uint32_t> stored = RowsInSense(elevations_rad);
+  std::vector<std::pair<double, std::uint32_t>> order;
+  double last_rad = -std::numeric_limits<double>::infinity();
+  for (const std::uint32_t row : stored) {
+    if (!std::isnan(elevations_rad[row])) last_rad = elevations_rad[row];
+    order.emplace_back(last_rad, row);
+  }
+  std::ranges::stable_sort(order, {}, &std::pair<double, std::uint32_t>::first);
+  plan.slots.resize(table.num_points());
+  for (std::uint32_t row = 0; row < table.height; ++row) {
+    const auto begin = plan.slots.begin() +
+                       static_cast<std::ptrdiff_t>(std::size_t{order[row].second} * table.width);
+    std::iota(begin, begin + table.width, row * table.width);
+  }
+  return plan;
+}
+
+SlotPlan PlacedPlan(const PointTable& table,
+                    const std::string& name,
+                    const std::optional<ScanShape>& shape) {
+  const std::uint32_t most_rows = shape ? shape->rows : kMaxRows;
+  const std::uint32_t most_columns = shape ? shape->columns : kNoSlot;
+  const auto rings = LoadIndices(table, NeedFieldOf(table, "ring", name), most_rows - 1, name);
+  const auto columns =
+      LoadIndices(table, NeedFieldOf(table, "column", name), most_columns - 1, name);
+  const PointColumn* const return_index = table.Find("return_index");
+  const auto returns = return_index != nullptr
+                           ? LoadIndices(table, *return_index, kMaxReturns - 1, name)
+                           : std::vector<std::uint32_t>(table.num_points(), 0);
+  SlotPlan plan{.returns = LargestOf(returns) + 1, .slots = {}, .is_grid = true};
+  const ScanShape found = shape ? *shape : ShapeOf(rings, columns, plan.returns, name);
+  plan.rows = found.rows;
+  plan.columns = found.columns;
+  std::vector<bool> is_taken(std::size_t{plan.rows} * plan.columns * plan.returns);
+  for (std::size_t i = 0; i < table.num_points(); ++i) {
+    const std::uint32_t slot = (rings[i] * plan.columns + columns[i]) * plan.returns + returns[i];
+    if (is_taken[slot]) {
+      throw InputError(name + ": point " + NumberText(i) +
+                       ": must be the only one of its ring, column and return_index (got " +
+                       NumberText(rings[i]) + ", " + NumberText(columns[i]) + ", " +
+                       NumberText(returns[i]) + ")");
+    }
+    is_taken[slot] = true;
+    plan.slots.push_back(slot);
+  }
+  return plan;
+}
+
+SlotPlan LoosePlan(const PointTable& table) {
+  const PointPositions positions = LoadPositions(table);
+  SlotPlan plan{.rows = 1, .returns = 1, .slots = {}, .is_grid = false};
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    plan.slots.push_back(positions.IsPoint(i) ? plan.columns++ : kNoSlot);
+  }
+  return plan;
+}
+
+}  // namespace railcast

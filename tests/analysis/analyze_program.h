@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "tests/core/scenario/scenario_files.h"
+#include "tests/support/run_command.h"
+
+namespace railcast {
+
+inline Ended Analyze(const std::string& arguments) {
+  return RunCommand(std::string(RAILCAST_ANALYZE) + " " + arguments);
+}
+
+/// A straight line that few beams look at. @param more Further keys, each with a comma after it.
+inline std::filesystem::path WriteScenario(const TemporaryFolder& folder,
+                                           const std::string& more = {}) {
+  const std::string scenarios = ScenariosDir().string();
+  return folder.Write("scenario.json", R"({
+    "version": 1,)" + more + R"(
+    "lidar": {"scan": {"rate_hz": 10, "pattern": {"type": "raster", "horizontal_fov_deg": 20,
+              "vertical_fov_deg": 40, "angular_resolution_deg": 0.5}}},
+    "world": {
+      "alignment": {
+        "course": {"type": "elements", "elements": [{"type": "straight", "length_m": 1000}]}
+      },
+      "vegetation": {"trees_per_hectare": 0, "grass": false}
+    },
+    "vehicle": {"start_s_m": 400},
+    "materials": ")" + scenarios + R"(/materials/railway.json",
+    "labels": ")" + scenarios + R"(/labels.json"})");
+}
+
+}  // namespace railcast

@@ -1,0 +1,153 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "analysis/report/axis.h"
+#include "analysis/report/draw.h"
+#include "analysis/report/svg.h"
+#include "core/base/error.h"
+#include "core/io/write_file.h"
+#include "tests/analysis/report/made_report.h"
+#include "tests/core/scenario/scenario_files.h"
+
+namespace railcast {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+using enum SeriesStyle;
+
+std::vector<std::string> Labels(const AxisRange& range, bool is_log) {
+  std::vector<std::string> labels;
+  for (const AxisTick& tick : TicksIn(range, is_log, 6)) labels.push_back(tick.label);
+  return labels;
+}
+
+// The SVG of one chart, as it is drawn.
+std::string Drawn(Chart chart, const TemporaryFolder& folder) {
+  chart.key = "chart";
+  Report report;
+  report.sections.push_back({"s", "S", {}, {std::move(chart)}, {}});
+  const auto here = folder.Write("here", "").parent_path() / "charts";
+  const auto svgs = DrawCharts(report, here);
+  EXPECT_THAT(ReadFileWhole(here / "chart.png"), StartsWith("\x89PNG\r\n"));
+  EXPECT_EQ(ReadFileWhole(here / "chart.svg"), svgs.at("chart"));
+  return svgs.at("chart");
+}
+
+std::ptrdiff_t CountOf(const std::string& text, const std::string& part) {
+  std::ptrdiff_t num = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++num;
+  return num;
+}
+
+TEST(AxisTicks, AreRoundNumbers) {
+  EXPECT_THAT(Labels({0.0, 10.5}, false), ElementsAre("0", "2", "4", "6", "8", "10"));
+  EXPECT_THAT(Labels({-0.011, 0.012}, false),
+              ElementsAre("−0.010", "−0.005", "0", "0.005", "0.010"));
+  EXPECT_THAT(Labels({0.0, 12.7}, false), ElementsAre("0", "2.5", "5.0", "7.5", "10.0", "12.5"));
+  EXPECT_THAT(Labels({0.0, 5200.0}, false),
+              ElementsAre("0", "1,000", "2,000", "3,000", "4,000", "5,000"));
+  EXPECT_THAT(Labels({0.0, 5.2e7}, false),
+              ElementsAre("0", "10⁷", "2×10⁷", "3×10⁷", "4×10⁷", "5×10⁷"));
+}
+
+TEST(AxisTicks, OfLogarithmsAreDecadesOrTheirParts) {
+  EXPECT_THAT(Labels({0.9, 60.0}, true), ElementsAre("1", "2", "5", "10", "20", "50"));
+  EXPECT_THAT(Labels({1e-5, 1.0}, true), ElementsAre("10⁻⁵", "0.0001", "0.001", "0.01", "0.1", "1"));
+}
+
+TEST(AxisRange, BeginsAtZeroWhereValuesComeNear) {
+  const Chart near = {"", "", "", {}, {}, {{"", kLine, {{0, 1}, {1, 10}}}}};
+  EXPECT_EQ(RangeOfY(near)->low, 0.0);
+  const Chart far = {"", "", "", {}, {}, {{"", kLine, {{0, 9}, {1, 10}}}}};
+  EXPECT_GT(RangeOfY(far)->low, 8.0);
+  const Chart bars = {"", "", "", {}, {}, {{"", kBars, {{0, 9}, {1, 10}}}}};
+  EXPECT_EQ(RangeOfY(bars)->low, 0.0);
+}
+
+TEST(AxisRange, IsNotStretchedByOneHugeInterval) {
+  const Chart chart = {"", "", "", {}, {}, {{"", kPoints, {{0, 1, -900, 900}, {1, 2, 1.9, 2.1}}}}};
+  EXPECT_LT(RangeOfY(chart)->high, 5.0);
+  EXPECT_GT(RangeOfY(chart)->low, -2.0);
+}
+
+TEST(AxisRange, IsNoneWithoutAPointThatHasAPlace) {
+  EXPECT_FALSE(RangeOfY({"", "", "", {}, {}, {{"", kLine, {{0, kNoFigure}}}}}));
+  EXPECT_FALSE(RangeOfY({"", "", "", {}, {"", "", true, {}}, {{"", kLine, {{1, 0}, {2, -1}}}}}));
+  EXPECT_FALSE(RangeOfX({"", "", "", {}, {}, {}}));
+}
+
+TEST(BarAt, ReachesHalfwayToItsNeighbours) {
+  EXPECT_EQ(BarAt(2.0, {1.0, 2.0, 3.0}, false).low, 1.5);
+  EXPECT_EQ(BarAt(3.0, {1.0, 2.0, 3.0}, false).high, 3.5);
+  EXPECT_NEAR(BarAt(10.0, {1.0, 10.0, 100.0}, true).high, 31.6, 0.1);
+}
+
+TEST(DrawCharts, DrawsOneElementForEveryPoint) {
+  const TemporaryFolder folder;
+  const std::string svg = Drawn(
+      {"", "", "", {}, {}, {{"", kPoints, {{0, 1}, {1, 2}, {2, kNoFigure}, {3, 5}}}}}, folder);
+  EXPECT_EQ(CountOf(svg, " color='#0072b2'"), 3);
+}
+
+TEST(DrawCharts, SaysThatThereIsNotEnoughData) {
+  const TemporaryFolder folder;
+  for (const Chart& chart : MadeCharts()) {
+    const bool is_empty = chart.key == "empty" || chart.key == "all_absent";
+    EXPECT_EQ(Drawn(chart, folder).find("not enough data") != std::string::npos, is_empty)
+        << chart.key;
+  }
+}
+
+TEST(DrawCharts, DrawsNothingThatIsNoNumber) {
+  const TemporaryFolder folder;
+  for (const Chart& chart : MadeCharts()) {
+    EXPECT_THAT(Drawn(chart, folder), Not(HasSubstr("nan"))) << chart.key;
+  }
+}
+
+TEST(DrawCharts, SetsTextAsItIs) {
+  const TemporaryFolder folder;
+  Chart chart = {"",
+                 "",
+                 "",
+                 {"a_1^2 & <b>", "m", false, {}},
+                 {"it's `date` {/Symbol a}", "", false, {}},
+                 {{"@macro $(x) \\n \"q\"", kLine, {{0, 1}, {1, 2}}}}};
+  const std::string svg = Drawn(chart, folder);
+  EXPECT_THAT(svg, HasSubstr("a_1^2 &amp; &lt;b> (m)"));
+  EXPECT_THAT(svg, HasSubstr("it's `date` {/Symbol a}"));
+  EXPECT_THAT(svg, HasSubstr("@macro $(x) \\n \"q\""));
+}
+
+TEST(DrawCharts, PutsLongNamesInFull) {
+  const TemporaryFolder folder;
+  const std::string svg = Drawn(MadeCharts()[4], folder);
+  EXPECT_THAT(svg, HasSubstr("<text>sensor_dropout</text>"));
+  EXPECT_THAT(svg, HasSubstr("a name that is far longer"));
+}
+
+TEST(DrawCharts, DrawsNothingWithoutCharts) {
+  EXPECT_TRUE(DrawCharts({}, "/no/such/folder").empty());
+}
+
+TEST(CleanSvg, TakesTheColourOfTheTextAround) {
+  EXPECT_EQ(CleanSvg("<g fill=\"none\" color=\"black\" stroke=\"currentColor\"><path "
+                     "stroke='rgb(  0,   0,   0)'/><polygon fill = 'rgb(  0, 114, 178)'/></g>",
+                     "a"),
+            "<g fill=\"none\" stroke=\"currentColor\"><path "
+            "stroke='currentColor'/><polygon fill='#0072b2'/></g>");
+}
+
+TEST(CleanSvg, KeepsNamesOfTwoChartsApart) {
+  EXPECT_EQ(CleanSvg("<path id='gpPt0'/><use xlink:href='#gpPt0'/><title>t</title>", "a"),
+            "<path id='a-gpPt0'/><use xlink:href='#a-gpPt0'/>");
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,78 @@
+#include "analysis/report/output.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <CLI/CLI.hpp>
+
+#include "core/io/write_file.h"
+#include "tests/analysis/report/made_report.h"
+#include "tests/core/scenario/scenario_files.h"
+
+namespace railcast {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+ReportOutput Parsed(const std::string& arguments) {
+  CLI::App app;
+  app.fallthrough();
+  app.require_subcommand(1);
+  ReportOutput output;
+  CLI::App* const command = app.add_subcommand("stats", "");
+  std::vector<std::string> sources;
+  command->add_option("SOURCE", sources);
+  AddReportOptions(*command, output);
+  app.parse("stats " + arguments, false);
+  return output;
+}
+
+TEST(ReportOptions, WantFilesOrText) {
+  EXPECT_EQ(Parsed("--out here a b").out, "here");
+  EXPECT_FALSE(Parsed("--out here").is_text);
+  EXPECT_TRUE(Parsed("--format text").is_text);
+  EXPECT_TRUE(Parsed("a --out here --format text").is_text);
+  EXPECT_THROW(Parsed(""), CLI::ParseError);
+  EXPECT_THROW(Parsed("--format html"), CLI::ParseError);
+}
+
+TEST(EmitReport, WritesEveryFile) {
+  const TemporaryFolder folder;
+  const auto out = folder.Write("here", "").parent_path() / "a new/folder";
+  testing::internal::CaptureStdout();
+  EmitReport(MadeReport(), {out, false}, "made");
+  const std::string said = testing::internal::GetCapturedStdout();
+  EXPECT_THAT(said, HasSubstr("12.34 [11.90, 12.78], n = 4,512"));
+  EXPECT_THAT(said, HasSubstr("report.html, made.json, csv/ and charts/ in " + out.string()));
+  EXPECT_THAT(said, Not(HasSubstr("Beams without")));
+  EXPECT_THAT(ReadFileWhole(out / "report.html"), HasSubstr("<svg class=\"chart\""));
+  EXPECT_THAT(ReadFileWhole(out / "csv/dropout_by_range.csv"), HasSubstr("dropout_low"));
+  for (const Chart& chart : MadeCharts()) {
+    EXPECT_TRUE(std::filesystem::exists(out / "charts" / (chart.key + ".svg"))) << chart.key;
+    EXPECT_TRUE(std::filesystem::exists(out / "charts" / (chart.key + ".png"))) << chart.key;
+  }
+}
+
+TEST(EmitReport, PrintsAndWritesNoFiles) {
+  testing::internal::CaptureStdout();
+  EmitReport(MadeReport(), {{}, true}, "made");
+  const std::string said = testing::internal::GetCapturedStdout();
+  EXPECT_THAT(said, HasSubstr("Beams without"));
+  EXPECT_THAT(said, Not(HasSubstr("made.json")));
+}
+
+TEST(EmitReport, GivesTheSameBytesAgain) {
+  const TemporaryFolder folder;
+  const auto here = folder.Write("here", "").parent_path();
+  testing::internal::CaptureStdout();
+  EmitReport(MadeReport(), {here / "a", false}, "made");
+  EmitReport(MadeReport(), {here / "b", false}, "made");
+  testing::internal::GetCapturedStdout();
+  for (const char* const name : {"report.html", "made.json", "charts/lines.png"}) {
+    EXPECT_EQ(ReadFileWhole(here / "a" / name), ReadFileWhole(here / "b" / name)) << name;
+  }
+}
+
+}  // namespace
+}  // namespace railcast

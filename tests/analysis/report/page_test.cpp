@@ -1,0 +1,72 @@
+#include "analysis/report/page.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "tests/analysis/report/made_report.h"
+
+namespace railcast {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+std::string MadePage() {
+  return ReportPage(MadeReport(), {{"lines", "<?xml?>\n<svg width=\"1\"><path/></svg>"}});
+}
+
+TEST(ReportPage, EscapesWhatUsersName) {
+  const std::string page = MadePage();
+  EXPECT_THAT(page,
+              HasSubstr("<title>Statistics of &lt;out/demo&gt; &amp; &quot;more&quot;</title>"));
+  EXPECT_THAT(page, HasSubstr("<dd>VLP-16 &lt;script&gt;alert(1)&lt;/script&gt;</dd>"));
+  EXPECT_THAT(page, HasSubstr("no &quot;surface&quot;, &lt;b&gt;bold&lt;/b&gt;</th>"));
+  EXPECT_THAT(page, HasSubstr("<code>railcast-analyze stats &#39;out/demo&#39; --out &lt;dir&gt;"));
+  EXPECT_THAT(page, HasSubstr("Bands are the 95 % intervals &lt;of each&gt;.\""));
+  EXPECT_THAT(page, Not(HasSubstr("<b>")));
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+}
+
+TEST(ReportPage, SplitsEstimatesSoThatTheyLineUp) {
+  const std::string page = MadePage();
+  EXPECT_THAT(page, HasSubstr("<td class=\"number\">12.34</td><td class=\"interval\">[11.90, 12.78]"
+                              "</td><td class=\"samples\">n = 4,512</td>"));
+  EXPECT_THAT(page, HasSubstr("<th scope=\"col\" colspan=\"3\" class=\"number\">Dropout"));
+}
+
+TEST(ReportPage, SaysWhatIsAbsent) {
+  const std::string page = MadePage();
+  EXPECT_THAT(page, HasSubstr("<td class=\"absent\" colspan=\"3\">not enough (n = 3)</td>"));
+  EXPECT_THAT(page, HasSubstr("<td class=\"absent\">-</td>"));
+  // The word "nan" alone, in any case.
+  EXPECT_FALSE(std::regex_search(page, std::regex("\\bnan\\b", std::regex::icase)));
+}
+
+TEST(ReportPage, AsksForNothingFromAnywhere) {
+  const std::string page = MadePage();
+  EXPECT_THAT(page, HasSubstr("default-src 'none'"));
+  EXPECT_FALSE(std::regex_search(page, std::regex("(src|href)=\"(?!#|data:)")));
+  EXPECT_THAT(page, Not(HasSubstr("url(")));
+  EXPECT_THAT(page, Not(HasSubstr("@import")));
+}
+
+TEST(ReportPage, PutsChartsInWithoutTheirFilesHead) {
+  const std::string page = MadePage();
+  EXPECT_THAT(page, HasSubstr("<svg class=\"chart\" role=\"img\" aria-label=\"Lines keep a gap"));
+  EXPECT_THAT(page, Not(HasSubstr("<?xml")));
+}
+
+TEST(ReportPage, LinksEverySection) {
+  const std::string page = MadePage();
+  EXPECT_THAT(page, HasSubstr("<a href=\"#section-words\">Words &amp; nothing else</a>"));
+  EXPECT_THAT(page, HasSubstr("<section id=\"section-words\">"));
+}
+
+TEST(ReportPage, CanBeOfAnEmptyReport) {
+  EXPECT_THAT(ReportPage({}, {}), HasSubstr("</html>"));
+}
+
+}  // namespace
+}  // namespace railcast

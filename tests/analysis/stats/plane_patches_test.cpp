@@ -1,0 +1,84 @@
+#include "analysis/stats/plane_patches.h"
+
+#include <gtest/gtest.h>
+#include <pcl/common/centroid.h>
+#include <pcl/common/eigen.h>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
+#include <cmath>
+#include <memory>
+
+#include "tests/analysis/recorded_frames.h"
+#include "tests/support/analytic_meshes.h"
+#include "tests/support/scan_once.h"
+#include "tests/support/simple_world.h"
+
+namespace railcast {
+namespace {
+
+// 5 x 5 beams on a wall: one neighbourhood.
+Frame ScanFewBeams(double sigma_m) {
+  auto world = std::make_shared<SimpleWorld>();
+  world->ground.parts = {{MakeWall(20.0F, 10.0F), 2, 1}};
+  SimulatorSpec spec{.effects = {.threshold = true, .noise = true}};
+  spec.plausibility.noise_sigma0_m = sigma_m;
+  spec.plausibility.noise_sigma1 = 0.0;
+  return ScanOnce(world, MakeRaster(1.25, 1.25, 0.25), spec);
+}
+
+TEST(PlanePatches, HaveTheSpreadThatPclFinds) {
+  const RecordedFrame recorded = Record(ScanFewBeams(0.01));
+  const auto scan = MakeScanTable(recorded.frame);
+  ASSERT_TRUE(scan);
+  const auto patches = FindPlanePatches(recorded, &*scan);
+  ASSERT_EQ(patches.size(), 1U);
+  ASSERT_EQ(patches[0].num_points, 25U);
+  pcl::PointCloud<pcl::PointXYZ> cloud;
+  for (std::size_t slot = 0; slot < 25; ++slot) {
+    cloud.emplace_back(recorded.frame.x[slot], recorded.frame.y[slot], recorded.frame.z[slot]);
+  }
+  Eigen::Matrix3d spread;
+  Eigen::Vector4d middle;
+  pcl::computeMeanAndCovarianceMatrix(cloud, spread, middle);
+  double smallest = 0.0;
+  Eigen::Vector3d normal;
+  pcl::eigen33(spread, smallest, normal);
+  EXPECT_NEAR(patches[0].plane_squares_m2 / (25.0 * smallest), 1.0, 1e-4);
+  EXPECT_NEAR(patches[0].range_m, 20.0, 0.02);
+}
+
+TEST(PlanePatches, AreNotFoundAcrossAnEdge) {
+  Frame frame = ScanFewBeams(0.01);
+  // A step of 2 m through the middle column.
+  for (std::size_t slot = 0; slot < 25; ++slot) {
+    if (slot % 5 < 2) continue;
+    for (auto* field : {&frame.x, &frame.y, &frame.z, &frame.range_m}) (*field)[slot] *= 1.1F;
+  }
+  const RecordedFrame recorded = Record(std::move(frame));
+  const auto scan = MakeScanTable(recorded.frame);
+  EXPECT_TRUE(FindPlanePatches(recorded, &*scan).empty());
+}
+
+TEST(PlanePatches, LeaveOutWhatLiesFarOff) {
+  Frame frame = ScanFewBeams(0.01);
+  for (auto* field : {&frame.x, &frame.y, &frame.z, &frame.range_m}) (*field)[7] *= 0.8F;
+  const RecordedFrame recorded = Record(std::move(frame));
+  const auto scan = MakeScanTable(recorded.frame);
+  const auto patches = FindPlanePatches(recorded, &*scan);
+  ASSERT_EQ(patches.size(), 1U);
+  EXPECT_EQ(patches[0].num_outliers, 1U);
+  EXPECT_LT(std::sqrt(patches[0].plane_squares_m2 / patches[0].degrees()), 0.02);
+}
+
+TEST(PlanePatches, AreNoneOnWhatIsMetAlmostEdgeOn) {
+  auto world = std::make_shared<SimpleWorld>();
+  world->ground.parts = {{MakeFloor(-2.0F, 100.0F), 2, 1}};
+  const RecordedFrame recorded = Record(ScanOnce(world, MakeRaster(30.0, 30.0, 0.5)));
+  const auto scan = MakeScanTable(recorded.frame);
+  // The steepest beam of 15 deg meets the ground under 75 deg.
+  EXPECT_TRUE(FindPlanePatches(recorded, &*scan).empty());
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,168 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/io/write_file.h"
+#include "tests/analysis/analyze_program.h"
+
+namespace railcast {
+namespace {
+
+using testing::HasSubstr;
+using Json = nlohmann::json;
+
+const std::string kCaptures = RAILCAST_SHARED_DATA_DIR "/lidar_packets_nebula/";
+
+std::filesystem::path MakeSequence(const TemporaryFolder& folder, const std::string& options) {
+  const auto scenario = WriteScenario(folder, R"("weather": {"rain_rate_mmph": 40},)");
+  const auto out = scenario.parent_path() / "sequence";
+  const Ended run = RunCommand(RAILCAST_GENERATE " sequence " + scenario.string() + " --out " +
+                               out.string() + " --frames 11 " + options);
+  if (run.status != 0) throw std::runtime_error(run.said);
+  return out;
+}
+
+const Json& TableOf(const Json& stats, const std::string& key) {
+  for (const Json& section : stats.at("sections")) {
+    for (const Json& table : section.at("tables")) {
+      if (table.at("key") == key) return table;
+    }
+  }
+  throw std::out_of_range(key);
+}
+
+TEST(StatsCommand, CountsTheOutcomesThatTheSequenceCounted) {
+  const TemporaryFolder folder;
+  const auto sequence = MakeSequence(folder, "");
+  const auto out = sequence.parent_path() / "out";
+  const Ended run = Analyze("stats " + sequence.string() + " --out " + out.string());
+  ASSERT_EQ(run.status, 0) << run.said;
+  std::map<std::string, std::uint64_t> expected;
+  std::ifstream lines(sequence / "frames.jsonl");
+  for (std::string line; std::getline(lines, line);) {
+    const Json record = Json::parse(line);
+    for (const auto& [outcome, num] : record["outcomes"].items()) {
+      if (num > 0) expected[outcome] += num.get<std::uint64_t>();
+    }
+  }
+  ASSERT_GT(expected["rain_absorbed"], 100U);
+  const Json stats = Json::parse(ReadFileWhole(out / "stats.json"));
+  std::map<std::string, std::uint64_t> found;
+  for (const Json& row : TableOf(stats, "outcomes")["rows"]) {
+    std::string outcome = row["outcome"];
+    std::replace(outcome.begin(), outcome.end(), ' ', '_');
+    found[outcome] = row["firings"];
+  }
+  EXPECT_EQ(found, expected);
+  EXPECT_TRUE(std::filesystem::exists(out / "report.html"));
+  EXPECT_TRUE(std::filesystem::exists(out / "csv" / "dropout_by_range.csv"));
+  EXPECT_TRUE(std::filesystem::exists(out / "charts" / "dropout_by_range.svg"));
+}
+
+TEST(StatsCommand, GivesTheSameFiguresAtAnyNumberOfThreads) {
+  const TemporaryFolder folder;
+  const auto sequence = MakeSequence(folder, "");
+  const auto json_of = [&](const std::string& threads) {
+    const auto out = sequence.parent_path() / "out";
+    const Ended run =
+        Analyze("stats " + sequence.string() + " --out " + out.string() + " --threads " + threads);
+    EXPECT_EQ(run.status, 0) << run.said;
+    return ReadFileWhole(out / "stats.json");
+  };
+  EXPECT_EQ(json_of("1"), json_of("2"));
+}
+
+TEST(StatsCommand, EstimatesWhatFilesWithoutOutcomesDoNotSay) {
+  const TemporaryFolder folder;
+  const auto sequence = MakeSequence(folder, "--format ply --fields x,y,z,ring,column");
+  const Ended run = Analyze("stats " + sequence.string() + " --format text");
+  ASSERT_EQ(run.status, 0) << run.said;
+  EXPECT_THAT(run.said, testing::Not(HasSubstr("Dropout, exact")));
+  EXPECT_THAT(run.said, HasSubstr("Dropout, estimated"));
+  EXPECT_THAT(run.said, HasSubstr("upright"));
+}
+
+TEST(StatsCommand, ReadsOneFileOfASequence) {
+  const TemporaryFolder folder;
+  const auto sequence = MakeSequence(folder, "");
+  const Ended run =
+      Analyze("stats " + (sequence / "frames" / "000003.pcd").string() + " --format text");
+  ASSERT_EQ(run.status, 0) << run.said;
+  EXPECT_THAT(run.said, HasSubstr("not enough (n = 1)"));
+}
+
+TEST(StatsCommand, RefusesWhatItCannotReadInOneLine) {
+  const TemporaryFolder folder;
+  const Ended missing = Analyze("stats /no/such/place --format text");
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_EQ(missing.said, "/no/such/place: no such file or directory\n");
+  const auto broken = folder.Write("broken.pcd", "VERSION 0.7\nFIELDS x y z\n");
+  const Ended damaged = Analyze("stats " + broken.string() + " --format text");
+  EXPECT_EQ(damaged.status, 1);
+  EXPECT_EQ(std::count(damaged.said.begin(), damaged.said.end(), '\n'), 1) << damaged.said;
+  EXPECT_THAT(damaged.said, testing::StartsWith(broken.string() + ": "));
+}
+
+TEST(StatsCommand, AsksWhereTheReportGoes) {
+  EXPECT_EQ(Analyze("stats somewhere").status, 2);
+  EXPECT_EQ(Analyze("stats").status, 2);
+}
+
+TEST(StatsCommand, RefusesToSumUpLabelsOfTwoMeanings) {
+  const TemporaryFolder folder;
+  const auto sequence = MakeSequence(folder, "");
+  const auto other = sequence.parent_path() / "other";
+  std::filesystem::copy(sequence, other, std::filesystem::copy_options::recursive);
+  Json labels = Json::parse(ReadFileWhole(other / "labels.json"));
+  labels["labels"][1]["name"] = "something_else";
+  std::ofstream(other / "labels.json") << labels;
+  const Ended run = Analyze("stats " + sequence.string() + " " + other.string() + " --format text");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(run.said, other.string() + ": must have the same labels and materials as " +
+                          sequence.string() + "\n");
+}
+
+class StatsOfCapture : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(kCaptures + GetParam() + ".pcap")) {
+      GTEST_SKIP() << "no real captures in " << kCaptures;
+    }
+  }
+};
+
+// Real sensors, whatever they looked at: range noise on planes of millimetres to centimetres (data
+// sheets: 2 to 3 cm), next to no holes in surfaces, not enough turns for a mean over frames.
+TEST_P(StatsOfCapture, ArePlausible) {
+  const TemporaryFolder folder;
+  const auto out = folder.Write("x", "").parent_path() / "out";
+  const Ended run = Analyze("stats " + kCaptures + GetParam() + ".pcap --out " + out.string());
+  ASSERT_EQ(run.status, 0) << run.said;
+  const Json stats = Json::parse(ReadFileWhole(out / "stats.json"));
+  int num_bins = 0;
+  for (const Json& row : TableOf(stats, "temporal_noise")["rows"]) {
+    const Json& sigma_mm = row["robust_sigma_mm"];
+    if (sigma_mm["value"].is_null() || sigma_mm["samples"] < 1000) continue;
+    EXPECT_GT(sigma_mm["value"], 2.0);
+    EXPECT_LT(sigma_mm["value"], 30.0);
+    ++num_bins;
+  }
+  EXPECT_GT(num_bins, 1);
+  const Json& holes = TableOf(stats, "grid")["rows"][1]["share"];
+  EXPECT_LT(holes["high"], 0.05);
+  EXPECT_GT(holes["samples"], 10000);
+  EXPECT_TRUE(TableOf(stats, "frames")["rows"][0]["mean"]["value"].is_null());
+}
+
+INSTANTIATE_TEST_SUITE_P(Sensors,
+                         StatsOfCapture,
+                         testing::Values("vlp16_dual", "vlp32c_single", "pandar64"));
+
+}  // namespace
+}  // namespace railcast
