@@ -16,6 +16,8 @@ using Command = std::function<int()>;
 
 // Each adds one command with its options; if the command line names it, `command` becomes it.
 
+/// Estimates the sensor models' parameters from recordings.
+void AddFit(CLI::App& app, Command& command);
 /// Charts speed against accuracy on a scenario.
 void AddFrontier(CLI::App& app, Command& command);
 /// Dropout, density, noise, intensity and coverage of recordings, ours or anybody's.

@@ -89,9 +89,9 @@ inline constexpr double kWrongShare = 1e-3;
 /// The hard threshold of the published model: detected where power >= 1.
 ///
 /// Where a step lies is a question of place, and its likelihood is no parabola: the interval
-/// shrinks as 1 / n. So mean and covariance are those of the posterior under a flat prior in theta
-/// and extinction (>= 0), which for a place has the coverage it states (Pitman 1939). Exact but for
-/// a grid over the extinction.
+/// shrinks as 1 / n. So mean and covariance are those of the posterior under a flat prior in the
+/// range at which beams are lost and in the extinction (>= 0), which for a place has the coverage
+/// it states (Pitman 1939). Exact but for a grid over the extinction.
 [[nodiscard]] DetectionFit FitHardThreshold(const DetectionProblem& problem,
                                             const Outlook& outlook);
 

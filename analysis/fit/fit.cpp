@@ -175,7 +175,7 @@ double PowerOf(const Trial& trial,
          std::exp(-air_ways * extinction_per_m * range_m) / (range_m * range_m);
 }
 
-FitResult FitModel(std::vector<Trial> trials,
+FitResult FitModel(std::vector<Trial>& trials,
                    const std::vector<FitSurface>& surfaces,
                    const FitSettings& settings) {
   MarkElsewhere(trials);

@@ -15,8 +15,7 @@ namespace railcast {
 struct FitSettings {
   bool is_physical{};            ///< Rung surface; else plausibility.
   bool has_reflectances = true;  ///< Whether recorded intensities are effective reflectances.
-  bool is_isotropic{};           ///< Of rung plausibility: the shape of the noise, as observed.
-  bool has_planes{};             ///< Expected ranges are those of planes, not of the beams' truth.
+  bool knows_losses = true;      ///< Whether trials tell what is lost; else they are points only.
   std::optional<double> range_at_10_percent_m;  ///< Of a data sheet: fixes the threshold.
   std::map<std::string, double> known;          ///< Reflectance by surface: likewise.
   std::optional<double> extinction_per_m;       ///< Of the air, instead of fitting it.
@@ -72,7 +71,9 @@ struct FitResult {
 
 /// Estimates all that the trials identify: reflectances from intensities, random losses from
 /// beams far above the threshold, the threshold from where beams are lost, noise from residuals.
-[[nodiscard]] FitResult FitModel(std::vector<Trial> trials,
+/// @param trials Points far off are marked as from elsewhere, and the channels' biases are taken
+///   from the residuals, in place.
+[[nodiscard]] FitResult FitModel(std::vector<Trial>& trials,
                                  const std::vector<FitSurface>& surfaces,
                                  const FitSettings& settings);
 

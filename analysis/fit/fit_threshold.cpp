@@ -176,9 +176,9 @@ FittedParameter AirParameter(const SettledThreshold& settled, const FitSettings&
   const double half = Quantile() * std::sqrt(settled.detection.covariance(place, place));
   const double value = settled.detection.extinction_per_m;
   parameter.estimate = NotEnough(num);
-  // 0.05 / m is a visibility of 60 m: who knows no better than that knows nothing.
-  constexpr double kMaxHalf_per_m = 0.05;
-  if (!(half < std::max(kMaxHalf_per_m, value))) {
+  // 0.03 / m is a visibility of 100 m: who knows no better than that knows nothing.
+  constexpr double kMaxHalf_per_m = 0.03;
+  if (!(half < kMaxHalf_per_m)) {
     parameter.remark = kTogether;
     return parameter;
   }
@@ -297,13 +297,25 @@ void FillSurfaces(const SettledThreshold& settled,
   }
 }
 
+void SayThatLossesAreNotKnown(FitResult& result) {
+  const char* const why =
+      "not identified: the recording has points only, what is lost leaves no trace";
+  for (FittedParameter& parameter : result.parameters) {
+    if (!parameter.remark.starts_with("given")) parameter.remark = why;
+  }
+  for (SurfaceFit& surface : result.surfaces) {
+    if (!surface.reflectance.is_enough()) surface.remark = why;
+  }
+}
+
 }  // namespace
 
 void FitThreshold(const std::vector<Trial>& trials,
                   const std::vector<FitSurface>& surfaces,
                   const FitSettings& settings,
                   FitResult& result) {
-  const SettledThreshold settled = SettleThreshold(trials, surfaces, settings, result);
+  const SettledThreshold settled = SettleThreshold(
+      settings.knows_losses ? trials : std::vector<Trial>{}, surfaces, settings, result);
   result.parameters.push_back(ThresholdParameter(settled, settings, result));
   if (settings.is_physical) {
     const FittedParameter snr = SnrParameter(settled);
@@ -316,6 +328,7 @@ void FitThreshold(const std::vector<Trial>& trials,
       settled.is_seen ? settled.detection.extinction_per_m : 0.0);
   AddLossParameters(settled, settings, result);
   FillSurfaces(settled, surfaces, settings, result);
+  if (!settings.knows_losses) SayThatLossesAreNotKnown(result);
 }
 
 }  // namespace railcast
