@@ -26,6 +26,7 @@ bool IsWithin(const KnownPlane& plane, const Vector3& point_m) {
 void Refine(const std::vector<Vector3>& points_m, KnownPlane& plane) {
   constexpr int kRounds = 20;
   constexpr double kTukey = 4.685;
+  constexpr double kLeastScale_m = 1e-3;
   std::vector<double> weights(points_m.size(), 1.0);
   Vector3 center = plane.point_m;
   Vector3 normal = plane.normal;
@@ -47,10 +48,12 @@ void Refine(const std::vector<Vector3>& points_m, KnownPlane& plane) {
     if (normal.dot(plane.normal) < 0.0) normal = -normal;
     std::vector<double> distances_m;
     for (const Vector3& point_m : points_m) distances_m.push_back(normal.dot(point_m - center));
-    std::vector<double> scratch = distances_m;
-    const double scale_m = std::max(1e-6, RobustScale(scratch).value);
+    // About the median: the center may still lie between the plane and what stands before it.
+    std::vector<double> sorted_m = distances_m;
+    const double median_m = Median(sorted_m).value;
+    const double scale_m = std::max(kLeastScale_m, RobustScale(sorted_m).value);
     for (std::size_t i = 0; i < points_m.size(); ++i) {
-      const double pull = distances_m[i] / (kTukey * scale_m);
+      const double pull = (distances_m[i] - median_m) / (kTukey * scale_m);
       weights[i] = std::abs(pull) < 1.0 ? std::pow(1.0 - pull * pull, 2) : 0.0;
     }
   }
