@@ -22,6 +22,8 @@ void AddFit(CLI::App& app, Command& command);
 void AddFrontier(CLI::App& app, Command& command);
 /// Dropout, density, noise, intensity and coverage of recordings, ours or anybody's.
 void AddStats(CLI::App& app, Command& command);
+/// Measures how far two recordings are apart, or what each effect of a scenario changes.
+void AddCompare(CLI::App& app, Command& command);
 /// Counts a live stream in the railcast protocol, and keeps it if asked to, until a signal ends it.
 void AddReceive(CLI::App& app, Command& command);
 

@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
   railcast::AddFit(app, command);
   railcast::AddFrontier(app, command);
   railcast::AddStats(app, command);
+  railcast::AddCompare(app, command);
   railcast::AddReceive(app, command);
   try {
     app.parse(argc, argv);

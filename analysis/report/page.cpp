@@ -13,17 +13,30 @@ std::string Element(const std::string& tag, const std::string& text) {
   return Joined({"<", tag, ">", EscapedHtml(text), "</", tag.substr(0, tag.find(' ')), ">"});
 }
 
-// A number with a real minus sign, which is as wide as a digit.
-std::string WithMinus(const std::string& number) {
-  std::string text;
-  for (const char c : number) {
-    if (c == '-') {
-      text += "−";
+// Numbers with a real minus sign, which is as wide as a digit, and powers of ten as such:
+// "-3e-05" as "−3 × 10<sup>−5</sup>".
+std::string NumberHtml(const std::string& numbers) {
+  std::string html;
+  bool is_power = false;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const char c = numbers[i];
+    const bool is_digit = c >= '0' && c <= '9';
+    if (c == 'e' && i > 0 && numbers[i - 1] >= '0' && numbers[i - 1] <= '9') {
+      html += "\u202f×\u202f10<sup>";
+      is_power = true;
+    } else if (is_power &&
+               (c == '+' || (c == '0' && !(numbers[i - 1] >= '1' && numbers[i - 1] <= '9')))) {
+      // "e+09" and "e-05" have more signs than a power needs.
+    } else if (is_power && !is_digit && c != '-') {
+      html += Joined({"</sup>", std::string_view(&c, 1)});
+      is_power = false;
+    } else if (c == '-') {
+      html += "−";
     } else {
-      text += c;
+      html += EscapedHtml(std::string(1, c));
     }
   }
-  return text;
+  return is_power ? html + "</sup>" : html;
 }
 
 std::string UnitHtml(const std::string& unit) {
@@ -55,12 +68,12 @@ std::string FactsHtml(const Report& report) {
 
 std::string CardHtml(const Headline& headline) {
   const CellText text = TextOf(headline.value);
-  const std::string value = text.is_number ? WithMinus(text.value) : EscapedHtml(text.value);
+  const std::string value = text.is_number ? NumberHtml(text.value) : EscapedHtml(text.value);
   const char* const comma = text.interval.empty() || text.samples.empty() ? "" : ", ";
   return Joined({"<div class=\"card\">", Element("dt", headline.title),
                  text.is_absent ? "<dd class=\"absent\">" : "<dd>", "<span class=\"figure\">",
                  value, "</span>", text.is_absent ? "" : UnitHtml(headline.unit),
-                 "<span class=\"interval\">", WithMinus(text.interval), comma,
+                 "<span class=\"interval\">", NumberHtml(text.interval), comma,
                  "<span class=\"samples\">", text.samples, "</span></span></dd></div>\n"});
 }
 
@@ -128,9 +141,9 @@ std::string CellHtml(const Cell& cell, const PageColumn& column, bool is_row_hea
     return Element("td class=\"absent\"" + span, LineOf(text));
   }
   if (!text.is_number) return Element("td" + span, text.value);
-  const std::string number = Element("td class=\"number\"", WithMinus(text.value));
+  const std::string number = Joined({"<td class=\"number\">", NumberHtml(text.value), "</td>"});
   if (!column.has_estimates) return number;
-  return Joined({number, Element("td class=\"interval\"", WithMinus(text.interval)),
+  return Joined({number, "<td class=\"interval\">", NumberHtml(text.interval), "</td>",
                  Element("td class=\"samples\"", text.samples)});
 }
 

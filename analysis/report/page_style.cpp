@@ -59,6 +59,7 @@ main { min-width: 0; }
 .card .interval { display: block; min-height: 1.4em; color: var(--muted); font-size: 0.8rem;
   line-height: 1.4; }
 .samples { white-space: nowrap; }
+sup { line-height: 0; }
 .absent { color: var(--muted); font-style: italic; }
 .card .absent .figure { font-size: 1.05rem; font-weight: 400; letter-spacing: 0; line-height: 2; }
 section { margin-top: 2.6rem; scroll-margin-top: 1rem; }

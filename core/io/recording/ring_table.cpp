@@ -14,6 +14,8 @@ namespace {
 
 /// Neighbours of a ring farther apart, in turns, say nothing about the sense of rotation.
 constexpr double kMaxFollow_turns = 0.02;
+/// A turn without a wider gap is a whole one.
+constexpr double kMinGap_turns = 0.03;
 /// Closer ones are returns of one firing.
 constexpr double kMinStep_turns = 1e-5;
 /// The same, when the step is known.
@@ -59,6 +61,11 @@ std::vector<std::uint32_t> RowsOf(std::span<const std::uint32_t> rings,
   return rows;
 }
 
+void SortByRow(std::vector<TablePoint>& points) {
+  std::ranges::stable_sort(
+      points, {}, [](const TablePoint& point) { return std::pair(point.row, point.turns); });
+}
+
 /// Whether most neighbours of a row follow each other counterclockwise. @pre In the file's order,
 /// azimuths counterclockwise.
 bool IsCounterclockwise(const std::vector<TablePoint>& points, std::size_t num_rows) {
@@ -76,8 +83,57 @@ bool IsCounterclockwise(const std::vector<TablePoint>& points, std::size_t num_r
   return balance > 0;
 }
 
-/// Turns the azimuths so that 0 is behind the widest gap.
-void StartBehindWidestGap(std::vector<TablePoint>& points) {
+/// The usual step between neighbours; 0 if there are none. @pre Sorted by row and azimuth.
+double StepOf(const std::vector<TablePoint>& points) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const double step = points[i].turns - points[i - 1].turns;
+    if (points[i].row == points[i - 1].row && step > kMinStep_turns) steps.push_back(step);
+  }
+  if (steps.empty()) return 0.0;
+  const auto quartile = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 4);
+  std::ranges::nth_element(steps, quartile);
+  double usual = *quartile;
+  // The window's middle moves to the mean: the quartile lies below it where steps vary.
+  for (int pass = 0; pass < 5; ++pass) {
+    double sum = 0.0;
+    std::size_t num = 0;
+    for (const double step : steps) {
+      if (std::abs(step - usual) > 0.5 * usual) continue;
+      sum += step;
+      ++num;
+    }
+    if (num > 0) usual = sum / static_cast<double>(num);
+  }
+  return usual;
+}
+
+/// The step as ever longer ways along the rings give it: each is so exact that the number of steps
+/// in the next is certain. @pre Sorted by row and azimuth.
+double RefineStep(const std::vector<TablePoint>& points, double step) {
+  for (const double num_steps : {4.0, 16.0, 64.0, 256.0}) {
+    double sum = 0.0;
+    double num = 0.0;
+    std::size_t far = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      far = std::max(far, i);
+      while (far < points.size() && points[far].row == points[i].row &&
+             points[far].turns - points[i].turns < num_steps * step) {
+        ++far;
+      }
+      if (far == points.size() || points[far].row != points[i].row) continue;
+      const double way = points[far].turns - points[i].turns;
+      if (way > 2.0 * num_steps * step) continue;
+      sum += way;
+      num += std::round(way / step);
+    }
+    if (num > 0.0) step = sum / num;
+  }
+  return step;
+}
+
+/// Turns the azimuths so that 0 is behind the widest gap; at `first` if there is none to speak of.
+void StartBehindGap(std::vector<TablePoint>& points, double first) {
   std::vector<double> sorted;
   sorted.reserve(points.size());
   for (const TablePoint& point : points) sorted.push_back(point.turns);
@@ -89,28 +145,8 @@ void StartBehindWidestGap(std::vector<TablePoint>& points) {
     widest = sorted[i] - sorted[i - 1];
     start = sorted[i];
   }
+  if (widest < kMinGap_turns) start = first;
   for (TablePoint& point : points) point.turns = WrappedTurns(point.turns - start);
-}
-
-/// The usual step between neighbours; 0 if there are none. @pre Sorted by row and azimuth.
-double StepOf(const std::vector<TablePoint>& points) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    const double step = points[i].turns - points[i - 1].turns;
-    if (points[i].row == points[i - 1].row && step > kMinStep_turns) steps.push_back(step);
-  }
-  if (steps.empty()) return 0.0;
-  const auto quartile = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 4);
-  std::ranges::nth_element(steps, quartile);
-  const double usual = *quartile;
-  double sum = 0.0;
-  std::size_t num = 0;
-  for (const double step : steps) {
-    if (std::abs(step - usual) > 0.5 * usual) continue;
-    sum += step;
-    ++num;
-  }
-  return sum / static_cast<double>(num);
 }
 
 /// The rising numbers nearest to `values` in the sense of least squares: neighbours that fall are
@@ -180,8 +216,7 @@ std::uint32_t CloseColumns(std::vector<TablePoint>& points) {
   seen.reserve(points.size());
   for (const TablePoint& point : points) seen.push_back(point.column);
   std::ranges::sort(seen);
-  const auto rest = std::ranges::unique(seen);
-  seen.erase(rest.begin(), rest.end());
+  seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
   for (TablePoint& point : points) {
     point.column = std::ranges::lower_bound(seen, point.column) - seen.begin();
   }
@@ -217,6 +252,30 @@ SlotPlan PlanOf(const std::vector<TablePoint>& points,
   return plan;
 }
 
+/// The points of a cloud, and of each the ring and the elevation.
+struct RingCloud {
+  std::vector<TablePoint> points;
+  std::vector<std::uint32_t> rings;
+  std::vector<double> elevations_rad;
+};
+
+RingCloud GatherPoints(const PointPositions& positions, std::span<const std::uint32_t> rings) {
+  RingCloud cloud;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (!positions.IsPoint(i)) continue;
+    const auto x = static_cast<double>(positions.x[i]);
+    const auto y = static_cast<double>(positions.y[i]);
+    const auto z = static_cast<double>(positions.z[i]);
+    const double horizontal_m = std::hypot(x, y);
+    cloud.elevations_rad.push_back(std::atan2(z, horizontal_m));
+    if (!rings.empty()) cloud.rings.push_back(rings[i]);
+    cloud.points.push_back({.index = static_cast<std::uint32_t>(i),
+                            .turns = WrappedTurns(std::atan2(y, x) / (2.0 * std::numbers::pi)),
+                            .range_m = std::hypot(horizontal_m, z)});
+  }
+  return cloud;
+}
+
 }  // namespace
 
 bool PointPositions::IsPoint(std::size_t i) const {
@@ -226,39 +285,28 @@ bool PointPositions::IsPoint(std::size_t i) const {
 
 std::optional<SlotPlan> MakeRingTable(const PointPositions& positions,
                                       std::span<const std::uint32_t> rings) {
-  std::vector<TablePoint> points;
-  std::vector<std::uint32_t> ring_of_point;
-  std::vector<double> elevations_rad;
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    if (!positions.IsPoint(i)) continue;
-    const auto x = static_cast<double>(positions.x[i]);
-    const auto y = static_cast<double>(positions.y[i]);
-    const auto z = static_cast<double>(positions.z[i]);
-    const double horizontal_m = std::hypot(x, y);
-    elevations_rad.push_back(std::atan2(z, horizontal_m));
-    if (!rings.empty()) ring_of_point.push_back(rings[i]);
-    points.push_back({.index = static_cast<std::uint32_t>(i),
-                      .turns = WrappedTurns(std::atan2(y, x) / (2.0 * std::numbers::pi)),
-                      .range_m = std::hypot(horizontal_m, z)});
-  }
+  RingCloud cloud = GatherPoints(positions, rings);
+  std::vector<TablePoint>& points = cloud.points;
   if (points.empty()) return std::nullopt;
   if (rings.empty()) {
-    auto found = RingsByElevation(elevations_rad);
+    auto found = RingsByElevation(cloud.elevations_rad);
     if (!found) return std::nullopt;
-    ring_of_point = std::move(*found);
+    cloud.rings = std::move(*found);
   }
-  const std::vector<std::uint32_t> rows = RowsOf(ring_of_point, elevations_rad);
+  const std::vector<std::uint32_t> rows = RowsOf(cloud.rings, cloud.elevations_rad);
   const std::uint32_t num_rows = *std::ranges::max_element(rows) + 1;
   if (num_rows > kMaxRings) return std::nullopt;
   for (std::size_t i = 0; i < points.size(); ++i) points[i].row = rows[i];
   if (!IsCounterclockwise(points, num_rows)) {
     for (TablePoint& point : points) point.turns = WrappedTurns(-point.turns);
   }
-  StartBehindWidestGap(points);
-  std::ranges::stable_sort(
-      points, {}, [](const TablePoint& point) { return std::pair(point.row, point.turns); });
-  const double step = StepOf(points);
+  const double first = points.front().turns;
+  SortByRow(points);
+  double step = StepOf(points);
   if (step <= 0.0) return std::nullopt;
+  step = RefineStep(points, step);
+  StartBehindGap(points, WrappedTurns(first - 0.5 * step));
+  SortByRow(points);
   AssignColumns(points, step);
   const std::uint32_t num_columns = CloseColumns(points);
   if (std::size_t{num_rows} * num_columns > kMaxSlotsPerPoint * points.size()) return std::nullopt;

@@ -20,12 +20,13 @@ struct PointPositions {
 /// Puts a spinning sensor's points, of which no file says the firing, into a ring/azimuth table.
 ///
 /// Rows are the rings by rising median elevation. The step from column to column is the usual one
-/// between neighbours of a ring: the mean of those within 50 % of the lower quartile. In each ring
-/// a point's column is its neighbour's plus the steps between them, set right where that strays
-/// more than one column from azimuth / step: a rotor's speed varies a little, and plain rounding
-/// would leave holes that are no dropouts. Columns rise with time: in the sense in which most
-/// neighbours of a ring follow each other in the file, clockwise if none does, from behind the
-/// widest gap in azimuth.
+/// between neighbours of a ring, made exact over ever longer ways along the rings. A point's column
+/// is azimuth / step, rounded so that no two firings of a ring share one: with i the number of the
+/// firing in its ring, azimuth / step - i may not fall, and is fitted by least squares under that
+/// rule. Plain rounding would leave holes that are no dropouts, for a rotor's speed and what
+/// decoders make of it vary. Columns rise with time: in the sense in which most neighbours of a
+/// ring follow each other in the file, clockwise if none does, from behind the widest gap in
+/// azimuth, or from the file's first point if it is a whole turn.
 ///
 /// What nobody saw is no firing: columns without any point are left out, so that the table covers
 /// the azimuths seen and no more, and so are rings without points. Where lasers have azimuths of

@@ -65,7 +65,7 @@ Transform MakePose(const std::vector<double>& numbers, const std::string& place)
                        Vector3(numbers[0], numbers[1], numbers[2]));
 }
 
-FrameLine ParseFrameLine(const std::string& line, const std::string& place) {
+FrameLine ReadFrameLine(const std::string& line, const std::string& place) {
   return ReadJsonLine(line, place, [&](const Json& json) {
     const Json& end = json.at("scan_end");
     FrameLine result{.frame = json.at("frame"),
@@ -78,7 +78,7 @@ FrameLine ParseFrameLine(const std::string& line, const std::string& place) {
   });
 }
 
-Transform ParsePose(std::string_view line, std::int64_t stamp_ns, const std::string& place) {
+Transform ReadPoseLine(std::string_view line, std::int64_t stamp_ns, const std::string& place) {
   std::vector<double> numbers;
   bool is_stamp = true;
   while (!line.empty()) {
@@ -101,9 +101,9 @@ Transform ParsePose(std::string_view line, std::int64_t stamp_ns, const std::str
   return MakePose(numbers, place);
 }
 
-std::vector<RecordedObject> ParseObjectsLine(const std::string& line,
-                                             std::uint32_t frame,
-                                             const std::string& place) {
+std::vector<RecordedObject> ReadObjectsLine(const std::string& line,
+                                            std::uint32_t frame,
+                                            const std::string& place) {
   return ReadJsonLine(line, place, [&](const Json& json) {
     const std::uint32_t got = json.at("frame");
     if (got != frame) {

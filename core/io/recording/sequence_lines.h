@@ -23,19 +23,19 @@ struct FrameLine {
 };
 
 /// @throws InputError "place: rule" if it is none.
-[[nodiscard]] FrameLine ParseFrameLine(const std::string& line, const std::string& place);
+[[nodiscard]] FrameLine ReadFrameLine(const std::string& line, const std::string& place);
 
 /// A line of poses.csv: world_from_sensor at the stamp.
 /// @throws InputError "place: rule" if it is none, or of another stamp.
-[[nodiscard]] Transform ParsePose(std::string_view line,
-                                  std::int64_t stamp_ns,
-                                  const std::string& place);
+[[nodiscard]] Transform ReadPoseLine(std::string_view line,
+                                     std::int64_t stamp_ns,
+                                     const std::string& place);
 
 /// A line of objects.jsonl.
 /// @throws InputError "place: rule" if it is none, or of another frame.
-[[nodiscard]] std::vector<RecordedObject> ParseObjectsLine(const std::string& line,
-                                                           std::uint32_t frame,
-                                                           const std::string& place);
+[[nodiscard]] std::vector<RecordedObject> ReadObjectsLine(const std::string& line,
+                                                          std::uint32_t frame,
+                                                          const std::string& place);
 
 /// Seven numbers: x y z qx qy qz qw. @throws InputError "place: rule" unless the quaternion is one.
 [[nodiscard]] Transform MakePose(const std::vector<double>& numbers, const std::string& place);

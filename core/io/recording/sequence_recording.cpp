@@ -50,7 +50,7 @@ void RecomputeRanges(Frame& frame) {
 }
 
 RecordedFrame ReadFrame(const SequenceContext& context, const FrameLines& lines) {
-  const FrameLine line = ParseFrameLine(lines.frame.text, lines.frame.place);
+  const FrameLine line = ReadFrameLine(lines.frame.text, lines.frame.place);
   const std::filesystem::path file = context.directory / CloudFileOf(line, lines.frame.place);
   const PointTable table = ReadPointTable(file);
   RecordedFrame recorded =
@@ -59,10 +59,10 @@ RecordedFrame ReadFrame(const SequenceContext& context, const FrameLines& lines)
   frame.index = line.frame;
   frame.stamp_ns = line.stamp_ns;
   frame.duration_ns = line.duration_ns;
-  frame.world_from_sensor = ParsePose(lines.pose.text, line.stamp_ns, lines.pose.place);
+  frame.world_from_sensor = ReadPoseLine(lines.pose.text, line.stamp_ns, lines.pose.place);
   frame.world_from_sensor_end = line.world_from_sensor_end;
   recorded.has_pose = true;
-  recorded.objects = ParseObjectsLine(lines.objects.text, line.frame, lines.objects.place);
+  recorded.objects = ReadObjectsLine(lines.objects.text, line.frame, lines.objects.place);
   if (context.is_in_sensor_axes()) return recorded;
   UndoOutputAxes(context.output, context.vehicle_from_sensor, context.pattern, recorded);
   if (table.Find("range_m") == nullptr) RecomputeRanges(frame);

@@ -1,0 +1,204 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/io/pcap/pcap_writer.h"
+#include "core/io/recording/recording.h"
+#include "core/io/velodyne/reflectivity.h"
+#include "core/io/velodyne/velodyne_model.h"
+#include "core/io/velodyne/velodyne_packet.h"
+#include "tests/core/io/message_of.h"
+#include "tests/core/io/recording/read_all.h"
+#include "tests/core/io/temporary_directory.h"
+#include "tests/core/io/velodyne/made_scan.h"
+#include "tests/support/sensor_file.h"
+
+namespace railcast {
+namespace {
+
+void WriteCapture(const std::filesystem::path& file, const Datagrams& datagrams) {
+  PcapWriter writer(file, kVelodyneDataPort, kVelodynePositionPort);
+  writer.Write(datagrams, datagrams.items);
+  writer.Finish();
+}
+
+void AddDatagram(const std::string& payload, Datagrams& datagrams) {
+  datagrams.items.push_back({.offset = datagrams.bytes.size(),
+                             .size = static_cast<std::uint16_t>(payload.size()),
+                             .port = DatagramPort::kData});
+  datagrams.bytes.insert(datagrams.bytes.end(), payload.begin(), payload.end());
+}
+
+class CapturedFormat : public testing::TestWithParam<const char*> {};
+
+TEST_P(CapturedFormat, HasASlotForEveryFiringOfTheFrames) {
+  const std::string_view format = GetParam();
+  const MadeScan scan(ReadSensor(std::string(SensorOf(format))));
+  const std::uint32_t returns = format == "vlp16-dual" ? 2 : 1;
+  std::vector<Frame> truth;
+  for (std::uint32_t i = 0; i < 3; ++i) truth.push_back(scan.MakeFrame(i, returns));
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "a.pcap";
+  WriteCapture(file, EncodeAll(format, scan, truth));
+  const auto frames = ReadAll(file);
+  ASSERT_EQ(frames.size(), 3U);
+  // What a packet can say.
+  const double max_m = 65535.5 * FindVelodyneFormat(format).model->distance_unit_m;
+  const auto is_sent = [&](float range_m) { return static_cast<double>(range_m) < max_m; };
+  // The last packet ends with what the next frame would have begun with.
+  for (std::size_t f = 0; f < 2; ++f) {
+    const Frame& frame = frames[f].frame;
+    EXPECT_TRUE(frames[f].is_grid);
+    EXPECT_TRUE(frames[f].Has("time_ns"));
+    EXPECT_FALSE(frames[f].Has("outcome"));
+    EXPECT_EQ(frame.index, f);
+    ASSERT_EQ(frame.rows, truth[f].rows);
+    ASSERT_EQ(frame.columns, truth[f].columns);
+    ASSERT_EQ(frame.returns, returns);
+    for (std::size_t i = 0; i < frame.num_slots(); i += returns) {
+      ASSERT_EQ(frame.ring[i], truth[f].ring[i]);
+      ASSERT_EQ(frame.column[i], truth[f].column[i]);
+      // Nothing, one and two returns stay so, whichever comes first.
+      std::size_t num = 0;
+      for (std::size_t r = i; r < i + returns; ++r) num += is_sent(truth[f].range_m[r]);
+      ASSERT_EQ(frame.return_count[i], num);
+      if (returns > 1) continue;
+      ASSERT_EQ(std::isnan(frame.x[i]), !is_sent(truth[f].range_m[i]));
+      ASSERT_EQ(std::isnan(frame.intensity[i]), !is_sent(truth[f].range_m[i]));
+      if (std::isnan(frame.x[i])) continue;
+      ASSERT_NEAR(frame.range_m[i], truth[f].range_m[i], 0.0021);
+      ASSERT_EQ(ReflectivityByte(frame.intensity[i]), ReflectivityByte(truth[f].intensity[i]));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(CaptureRecording,
+                         CapturedFormat,
+                         testing::Values("vlp16", "vlp16-dual", "hdl32e", "vlp32c"),
+                         [](const auto& test) {
+                           std::string name = test.param;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+TEST(Reflectivity, OfAnIntensityIsTheByteItCameFrom) {
+  for (int byte = 0; byte < 256; ++byte) {
+    EXPECT_EQ(ReflectivityByte(IntensityOfByte(static_cast<std::uint8_t>(byte))), byte);
+  }
+}
+
+std::filesystem::path CaptureFile(const char* name) {
+  return std::filesystem::path(RAILCAST_SHARED_DATA_DIR "/lidar_packets_nebula") / name;
+}
+
+std::size_t NumPoints(const Frame& frame) {
+  std::size_t num = 0;
+  for (const float x : frame.x) num += !std::isnan(x);
+  return num;
+}
+
+// Nebula counts 14,831 points in the fourth turn.
+TEST(CaptureRecording, OfARealVlp16HasFourTurnsInDualMode) {
+  const auto file = CaptureFile("vlp16_dual.pcap");
+  if (!exists(file)) GTEST_SKIP() << file << " is not there";
+  const auto recording = OpenRecording(file);
+  EXPECT_EQ(recording->info().kind, "capture of VLP-16");
+  EXPECT_EQ(recording->info().num_frames, std::nullopt);
+  const auto frames = ReadAll(*recording);
+  ASSERT_EQ(frames.size(), 5U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Frame& frame = frames[i].frame;
+    EXPECT_EQ(frame.rows, 16U);
+    EXPECT_EQ(frame.returns, 2U);
+    EXPECT_NEAR(frame.columns, 1808.0, 2.0);
+    EXPECT_NEAR(static_cast<double>(NumPoints(frame)), 14'850.0, 50.0);
+  }
+  EXPECT_EQ(frames[4].frame.columns, 4U);
+}
+
+// It looked at half a turn: 909 of 1808 cycles.
+TEST(CaptureRecording, OfARealVlp32cHasTheCyclesThatItFired) {
+  const auto file = CaptureFile("vlp32c_single.pcap");
+  if (!exists(file)) GTEST_SKIP() << file << " is not there";
+  const auto frames = ReadAll(file);
+  ASSERT_EQ(frames.size(), 6U);
+  for (std::size_t i = 1; i < 5; ++i) {
+    EXPECT_EQ(frames[i].frame.rows, 32U);
+    EXPECT_EQ(frames[i].frame.columns, 909U);
+    EXPECT_EQ(frames[i].frame.returns, 1U);
+    EXPECT_NEAR(static_cast<double>(NumPoints(frames[i].frame)), 26'216.0, 50.0);
+  }
+}
+
+TEST(CaptureRecording, OfARealPandar64HasFourTurnsInDualMode) {
+  const auto file = CaptureFile("pandar64.pcap");
+  if (!exists(file)) GTEST_SKIP() << file << " is not there";
+  const auto recording = OpenRecording(file);
+  EXPECT_EQ(recording->info().kind, "capture of Pandar64");
+  const auto frames = ReadAll(*recording);
+  ASSERT_EQ(frames.size(), 5U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(frames[i].frame.rows, 64U);
+    EXPECT_EQ(frames[i].frame.returns, 2U);
+    EXPECT_NEAR(frames[i].frame.columns, 1800.0, 4.0);
+    EXPECT_NEAR(static_cast<double>(NumPoints(frames[i].frame)), 93'591.0, 400.0);
+  }
+}
+
+TEST(CaptureRecording, OfAVls128SaysThatItIsOne) {
+  const auto file = CaptureFile("vls128_single.pcap");
+  if (!exists(file)) GTEST_SKIP() << file << " is not there";
+  EXPECT_EQ(
+      MessageOf([&] { (void)OpenRecording(file); }),
+      file.string() + ": must be a capture of VLP-16, HDL-32E, VLP-32C or Pandar64 (got VLS-128)");
+}
+
+/// What OpenRecording says of a capture of these payloads.
+std::string MessageOfCapture(const std::vector<std::string>& payloads) {
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "a.pcap";
+  Datagrams datagrams;
+  for (const std::string& payload : payloads) AddDatagram(payload, datagrams);
+  WriteCapture(file, datagrams);
+  const std::string message = MessageOf([&] { (void)OpenRecording(file); });
+  const std::string expected =
+      file.string() + ": must be a capture of VLP-16, HDL-32E, VLP-32C or Pandar64 ";
+  EXPECT_EQ(message.substr(0, expected.size()), expected);
+  return message.substr(expected.size());
+}
+
+std::string VelodynePacketOf(std::uint8_t model, bool is_hdl64e = false) {
+  std::string packet(kVelodynePacketSize, '\0');
+  for (std::size_t block = 0; block < kBlocksPerPacket; ++block) {
+    packet[block * kBlockSize] = '\xFF';
+    packet[block * kBlockSize + 1] = is_hdl64e && block % 2 == 1 ? '\xDD' : '\xEE';
+  }
+  packet[kModePlace] = '\x37';
+  packet[kModelPlace] = static_cast<char>(model);
+  return packet;
+}
+
+TEST(CaptureRecording, WithoutAKnownPacketSaysWhatWasFound) {
+  EXPECT_EQ(MessageOfCapture({}), "(got no UDP datagram)");
+  EXPECT_EQ(MessageOfCapture({"abc", "defgh"}), "(got 2 UDP datagrams, the first of 3 bytes)");
+  EXPECT_EQ(MessageOfCapture({"abc", VelodynePacketOf(0x24)}), "(got Puck Hi-Res)");
+  EXPECT_EQ(MessageOfCapture({VelodynePacketOf(0x77)}), "(got Velodyne packets of model byte 119)");
+  EXPECT_EQ(MessageOfCapture({VelodynePacketOf(0x77, true)}),
+            "(got HDL-64E, whose packets lack its calibration)");
+  EXPECT_EQ(MessageOfCapture({"\xEE\xFF" + std::string(1078, '\1')}),
+            "(got packets of 1080 bytes of a Hesai sensor)");
+}
+
+TEST(CaptureRecording, LeavesOutWhatIsNoPacketOfItsSensor) {
+  const MadeScan scan(ReadSensor("vlp16"));
+  Datagrams datagrams;
+  for (const char byte : {'a', 'b'}) AddDatagram(std::string(100, byte), datagrams);
+  const auto encoder = MakeVelodyneEncoder("vlp16", scan.spec(), "strongest");
+  encoder->Encode(scan.MakeFrame(0), datagrams);
+  const TemporaryDirectory directory;
+  WriteCapture(directory.path() / "a.pcap", datagrams);
+  EXPECT_EQ(ReadAll(directory.path() / "a.pcap").size(), 1U);
+}
+
+}  // namespace
+}  // namespace railcast

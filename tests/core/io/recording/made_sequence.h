@@ -1,0 +1,77 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/io/write_file.h"
+#include "core/scenario/scenario.h"
+#include "generator/run_sequence.h"
+#include "generator/sequence_spec.h"
+
+namespace railcast {
+
+/// How a sequence is made.
+struct MadeSequenceSpec {
+  std::string format = "pcd";
+  std::string fields = "all";
+  std::string fidelity = "plausibility";
+  std::string output = R"({"frame": "sensor"})";
+  std::string sensor = "vir2rail";
+  std::string return_mode = "strongest";
+};
+
+/// A sequence in a directory, and the frames that went into it.
+struct MadeSequence {
+  ScenarioSpec scenario;
+  std::vector<Frame> frames;  ///< In the axes of the output.
+};
+
+/// The text of a scenario: a vehicle at 20 m/s in a curve of 500 m radius, and a wagon.
+inline std::string MadeScenario(const MadeSequenceSpec& spec) {
+  const std::string folder = RAILCAST_SOURCE_DIR "/scenarios/";
+  return R"({"version": 1, "fidelity": ")" + spec.fidelity + R"(", "lidar": {"file": ")" + folder +
+         "sensors/" + spec.sensor + R"(.json", "mount": {"position_m": [2.2, 0.1, 2.5], )" +
+         R"("pitch_deg": 3}, "receiver": {"return_mode": ")" + spec.return_mode + R"("}}, )" +
+         R"("world": {"alignment": {"course": {"type": "elements", "elements": [)" +
+         R"({"type": "arc", "length_m": 900, "radius_m": 500}]}}, )" +
+         R"("objects": [{"name": "wagon", "type": "open_wagon", "s_m": 300}]}, )" +
+         R"("vehicle": {"start_s_m": 250, "motion": {"profile": [{"time_s": 0, )" +
+         R"("speed_mps": 20}]}}, "output": )" + spec.output + R"(, "materials": ")" + folder +
+         R"(materials/railway.json", "labels": ")" + folder + "labels.json\"}\n";
+}
+
+/// Two frames, as railcast-generate makes them. @param directory Must not exist.
+inline MadeSequence MakeSequence(const std::filesystem::path& directory,
+                                 const MadeSequenceSpec& made) {
+  std::filesystem::create_directories(directory);
+  const std::filesystem::path file = directory.string() + ".json";
+  WriteFileWhole(file, MadeScenario(made));
+  MadeSequence result{.scenario = ReadScenario(file), .frames = {}};
+  SequenceSpec spec;
+  spec.directory = directory;
+  spec.version = "0.1.0";
+  spec.scenario_json = ResolvedScenarioJson(result.scenario);
+  spec.identity = {"5ce0a410", {}};
+  spec.files = {ParseFrameFormat(made.format), FieldSelection(made.fields),
+                LabelTable(result.scenario.labels)};
+  spec.materials = MaterialLibrary(result.scenario.materials);
+  spec.num_frames = 2;
+  const auto simulator = MakeSimulator(result.scenario, 1);
+  const auto make = [&](std::uint32_t index, Frame& frame, std::vector<ObjectInFrame>& objects) {
+    simulator->Scan(index, frame);
+    ObjectInFrame wagon{"wagon", "open_wagon", "wagon", 1};
+    wagon.size_m = Vector3(14.0, 3.0, 3.4);
+    wagon.world_from_box = frame.world_from_sensor;
+    wagon.world_from_box.translate(Vector3(40.0 - 2.0 * index, 1.0, 0.5));
+    wagon.points = 7 + index;
+    wagon.firings_visible = 9;
+    wagon.firings_alone = 11;
+    objects = {wagon};
+    result.frames.push_back(frame);
+  };
+  (void)RunSequence(spec, make, {[](std::uint32_t, std::uint32_t) {}, [] { return false; }});
+  return result;
+}
+
+}  // namespace railcast

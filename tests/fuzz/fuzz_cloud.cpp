@@ -1,0 +1,86 @@
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include "core/base/error.h"
+#include "core/io/recording/cloud_frame.h"
+#include "core/io/recording/point_table.h"
+
+namespace railcast {
+namespace {
+
+void CheckTable(const PointTable& table) {
+  for (const PointColumn& column : table.columns) {
+    std::size_t num = 0;
+    VisitColumn(table, column, [&](std::size_t, auto) { ++num; });
+    Check(num == table.num_points(), "every point has every field");
+  }
+}
+
+void CheckFrame(const RecordedFrame& recorded) {
+  const Frame& frame = recorded.frame;
+  Check(frame.returns >= 1 && frame.returns <= 3, "a firing has one to three slots");
+  Check(recorded.is_grid || frame.rows == 1, "what is no grid has one row");
+  ForEachField(frame, [&](std::string_view, std::string_view, const auto& values) {
+    Check(values.size() == frame.num_slots(), "every slot has every field");
+  });
+  for (std::size_t i = 0; i < frame.num_slots(); ++i) {
+    const bool has_point = !std::isnan(frame.x[i]);
+    Check(has_point == (std::isfinite(frame.x[i]) && std::isfinite(frame.y[i]) &&
+                        std::isfinite(frame.z[i]) && std::isfinite(frame.range_m[i])),
+          "a point is somewhere");
+    Check(frame.outcome[i] <= Outcome::kNoFurtherEcho, "an outcome is one");
+    if (!recorded.is_grid) continue;
+    Check(frame.ring[i] == i / frame.width() && frame.return_index[i] == i % frame.returns &&
+              frame.column[i] == i % frame.width() / frame.returns,
+          "a slot knows its place");
+    Check(frame.return_count[i] <= frame.returns, "returns are counted");
+  }
+}
+
+/// A scan of 2 x 3 firings.
+ScanPattern SmallPattern() {
+  ScanPattern pattern;
+  pattern.rate_hz = 10.0;
+  pattern.rows = 2;
+  pattern.columns = 3;
+  for (std::uint32_t column = 0; column < 3; ++column) {
+    for (std::uint16_t row = 0; row < 2; ++row) {
+      pattern.row.push_back(row);
+      pattern.column.push_back(column);
+      pattern.time_ns.push_back(1000 * column);
+    }
+  }
+  return pattern;
+}
+
+PointTable ParseTable(char kind, const std::string& bytes) {
+  if (kind == 'p' || kind == 'P') return ParsePcdTable("fuzz", bytes);
+  if (kind == 'k') return ParseKittiTable("fuzz", bytes, std::nullopt);
+  return ParsePlyTable("fuzz", bytes);
+}
+
+void ReadCloud(char kind, const std::string& bytes) {
+  try {
+    const PointTable table = ParseTable(kind, bytes);
+    CheckTable(table);
+    const bool is_ours = kind == 'P' || kind == 'L';
+    CheckFrame(is_ours ? MakeScanFrame(table, "fuzz", SmallPattern(), kind == 'P')
+                       : MakeCloudFrame(table, "fuzz"));
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    Check(message.starts_with("fuzz: "), "a fault names its file");
+  }
+}
+
+}  // namespace
+}  // namespace railcast
+
+/// What libFuzzer calls. The first byte says what the others are: p a PCD file, l a PLY file, k one
+/// of KITTI's; P and L are those of a sequence of ours.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  railcast::ReadCloud(static_cast<char>(data[0]),
+                      std::string(reinterpret_cast<const char*>(data) + 1, size - 1));
+  return 0;
+}
