@@ -18,6 +18,8 @@ using Command = std::function<int()>;
 
 /// From how far objects are detected, against the way that a train needs to stop.
 void AddDetect(CLI::App& app, Command& command);
+/// Estimates the sensor models' parameters from recordings.
+void AddFit(CLI::App& app, Command& command);
 /// Charts speed against accuracy on a scenario.
 void AddFrontier(CLI::App& app, Command& command);
 /// Dropout, density, noise, intensity and coverage of recordings, ours or anybody's.
