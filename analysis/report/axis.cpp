@@ -168,9 +168,9 @@ std::optional<AxisRange> RangeOfX(const Chart& chart) {
   }
   for (const ChartSeries& series : chart.series) {
     for (const ChartPoint& point : series.points) {
-      // A place without a figure is nothing to show, unless a gap is between two.
-      const bool has_figure = HasPlace(point.y, chart.y.is_log);
-      if (has_figure && HasPlace(point.x, chart.x.is_log)) extent.Add(point.x);
+      if (HasPlace(point.x, chart.x.is_log) && HasPlace(point.y, chart.y.is_log)) {
+        extent.Add(point.x);
+      }
     }
   }
   if (extent.is_empty()) return std::nullopt;

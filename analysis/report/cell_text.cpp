@@ -88,7 +88,15 @@ CellText EstimateText(const Estimate& estimate) {
   }
   const double largest =
       std::max({std::abs(estimate.low), std::abs(estimate.value), std::abs(estimate.high)});
-  if (half_width <= 0.0 || IsBeyond(largest)) {
+  if (half_width > 0.0 && IsBeyond(largest)) {
+    const int digits =
+        std::clamp(Magnitude(largest) - Magnitude(half_width) + kIntervalDigits, 1, kMaxDigits);
+    const auto printed = [&](double value) { return Printed("%.*e", digits - 1, value); };
+    text.value = printed(estimate.value);
+    text.interval = Interval(printed(estimate.low), printed(estimate.high));
+    return text;
+  }
+  if (half_width <= 0.0) {
     text.value = Plain(estimate.value);
     text.interval = Interval(Plain(estimate.low), Plain(estimate.high));
     return text;

@@ -184,8 +184,9 @@ SeriesParts CurveParts(const ChartSeries& series,
   const std::string dots = " pointtype " + std::to_string(kPointTypes[index % kPointTypes.size()]) +
                            " pointsize " + size;
   // Colours that come again have another dash.
-  const std::string line =
-      " linewidth 2 dashtype " + std::to_string(index / kSeriesColors.size() + 1);
+  // The first line is wider: where the next covers it, its edges still show.
+  const std::string line = std::string(index == 0 ? " linewidth 2.8" : " linewidth 1.8") +
+                           " dashtype " + std::to_string(index / kSeriesColors.size() + 1);
   std::string how = " with linespoints" + line + dots;
   if (series.style == SeriesStyle::kLine) how = " with lines" + line;
   if (series.style == SeriesStyle::kPoints) how = " with points" + dots;

@@ -10,6 +10,7 @@ namespace railcast {
 namespace {
 
 constexpr std::size_t kWidth = 100;
+constexpr std::size_t kTableWidth = 160;
 constexpr const char* kGap = "  ";
 
 // Characters, not bytes: those of UTF-8 that begin one.
@@ -81,24 +82,49 @@ TextColumn ColumnOf(const Table& table, std::size_t index) {
   return column;
 }
 
-std::string TableText(const Table& table) {
-  std::string text = table.title + "\n";
-  if (!table.note.empty()) text += Paragraph(table.note);
-  std::vector<std::string> lines(table.rows.size() + 1);
-  for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    const TextColumn column = ColumnOf(table, i);
-    std::size_t width = WidthOf(column.title);
-    for (const std::string& cell : column.cells) width = std::max(width, WidthOf(cell));
+std::size_t WidthOf(const TextColumn& column) {
+  std::size_t width = WidthOf(column.title);
+  for (const std::string& cell : column.cells) width = std::max(width, WidthOf(cell));
+  return width;
+}
+
+// One block of a table: the columns side by side.
+std::string ColumnsText(const std::vector<TextColumn>& columns) {
+  std::vector<std::string> lines(columns.empty() ? 0 : columns[0].cells.size() + 1);
+  for (const TextColumn& column : columns) {
+    const std::size_t width = WidthOf(column);
     lines[0] += Joined({kGap, Padded(column.title, width, column.is_number)});
     for (std::size_t row = 0; row < column.cells.size(); ++row) {
       lines[row + 1] += Joined({kGap, Padded(column.cells[row], width, column.is_number)});
     }
   }
+  std::string text;
   for (const std::string& line : lines) {
     text += line.substr(0, line.find_last_not_of(' ') + 1);
     text += '\n';
   }
   return text;
+}
+
+// A table that is too wide is broken into blocks, each beginning with the first column.
+std::string TableText(const Table& table) {
+  std::string text = table.title + "\n";
+  if (!table.note.empty()) text += Paragraph(table.note);
+  std::vector<TextColumn> block;
+  std::size_t width = 0;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    TextColumn column = ColumnOf(table, i);
+    const std::size_t added = WidthOf(column) + WidthOf(kGap);
+    if (block.size() > 1 && width + added > kTableWidth) {
+      text += ColumnsText(block);
+      text += '\n';
+      block.resize(1);
+      width = WidthOf(block[0]) + WidthOf(kGap);
+    }
+    block.push_back(std::move(column));
+    width += added;
+  }
+  return text += ColumnsText(block);
 }
 
 std::string PairsText(const std::vector<std::pair<std::string, std::string>>& pairs) {

@@ -26,6 +26,12 @@ TEST(CellText, ShowsNoMoreThanSevenDigitsHoweverNarrowTheInterval) {
             "1.000000 [1.000000, 1.000000], n = 10");
 }
 
+TEST(CellText, TakesPowersOfTenForTinyAndHugeNumbers) {
+  EXPECT_EQ(Line(Estimate{3.0663e-5, 2.7741e-5, 3.3585e-5, 12}),
+            "3.07e-05 [2.77e-05, 3.36e-05], n = 12");
+  EXPECT_EQ(Line(2.5e12), "2.500e+12");
+}
+
 TEST(CellText, CallsTooFewSamplesNotEnough) {
   EXPECT_EQ(Line(NotEnough(3)), "not enough (n = 3)");
   EXPECT_TRUE(TextOf(NotEnough(0)).is_absent);

@@ -94,6 +94,23 @@ TEST(ReportText, BreaksParagraphsAtTheTerminalsWidth) {
   }
 }
 
+TEST(ReportText, BreaksWideTablesIntoBlocksThatBeginAlike) {
+  Table table = {"t", "Wide", "", {{"name", "Name", ""}}, {{std::string("row")}}};
+  for (int i = 0; i < 20; ++i) {
+    table.columns.push_back({"c", "A long title " + std::to_string(i), "m"});
+    table.rows[0].emplace_back(std::uint64_t{7});
+  }
+  Report report;
+  report.sections.push_back({"s", "Section", {}, {}, {table}});
+  const std::string text = ReportText(report);
+  EXPECT_THAT(text, HasSubstr("\n\n  Name  A long title "));
+  EXPECT_THAT(text, HasSubstr("A long title 19 (m)\n"));
+  for (std::size_t at = 0, end = 0; (end = text.find('\n', at)) != std::string::npos;
+       at = end + 1) {
+    EXPECT_LE(end - at, 160U);
+  }
+}
+
 TEST(ReportText, SaysNanNowhere) {
   EXPECT_THAT(ReportText(MadeReport()), Not(HasSubstr("nan")));
 }

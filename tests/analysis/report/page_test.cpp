@@ -44,6 +44,17 @@ TEST(ReportPage, SaysWhatIsAbsent) {
   EXPECT_FALSE(std::regex_search(page, std::regex("\\bnan\\b", std::regex::icase)));
 }
 
+TEST(ReportPage, WritesPowersOfTenAsSuch) {
+  Report report;
+  report.headlines = {{"Small", "bit", Estimate{3.0663e-5, 2.7741e-5, 3.3585e-5, 12}},
+                      {"Large", "", -2.5e12}};
+  const std::string page = ReportPage(report, {});
+  EXPECT_THAT(page, HasSubstr(">3.07\u202f×\u202f10<sup>−5</sup></span>"));
+  EXPECT_THAT(page,
+              HasSubstr("[2.77\u202f×\u202f10<sup>−5</sup>, 3.36\u202f×\u202f10<sup>−5</sup>]"));
+  EXPECT_THAT(page, HasSubstr(">−2.500\u202f×\u202f10<sup>12</sup></span>"));
+}
+
 TEST(ReportPage, AsksForNothingFromAnywhere) {
   const std::string page = MadePage();
   EXPECT_THAT(page, HasSubstr("default-src 'none'"));
@@ -60,7 +71,7 @@ TEST(ReportPage, PutsChartsInWithoutTheirFilesHead) {
 
 TEST(ReportPage, LinksEverySection) {
   const std::string page = MadePage();
-  EXPECT_THAT(page, HasSubstr("<a href=\"#section-words\">Words &amp; nothing else</a>"));
+  EXPECT_THAT(page, HasSubstr("<a href=\"#section-words\">Words &amp; little else</a>"));
   EXPECT_THAT(page, HasSubstr("<section id=\"section-words\">"));
 }
 

@@ -8,6 +8,7 @@
 
 #include "analysis/stats/bins.h"
 #include "core/base/error.h"
+#include "tests/analysis/held_recording.h"
 #include "tests/analysis/recorded_frames.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/scan_once.h"
@@ -15,23 +16,6 @@
 
 namespace railcast {
 namespace {
-
-/// Frames held in memory.
-class HeldRecording final : public Recording {
- public:
-  explicit HeldRecording(std::vector<RecordedFrame> frames) : frames_(std::move(frames)) {}
-
-  [[nodiscard]] const RecordingInfo& info() const override { return info_; }
-  [[nodiscard]] std::optional<FrameReader> Next() override {
-    if (next_ == frames_.size()) return std::nullopt;
-    return [&frame = frames_[next_++]] { return frame; };
-  }
-
- private:
-  RecordingInfo info_;
-  std::vector<RecordedFrame> frames_;
-  std::size_t next_ = 0;
-};
 
 std::vector<RecordedFrame> NoisyFrames(std::uint32_t num) {
   auto world = std::make_shared<SimpleWorld>();

@@ -1,0 +1,324 @@
+#include "analysis/compare/compare_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/report/joined.h"
+#include "analysis/stats/bins.h"
+#include "analysis/stats/headings.h"
+#include "core/base/error.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kNanosecondsPerSecond = 1e9;
+
+std::size_t IndexOf(const Comparison& comparison, const std::string& metric) {
+  const auto& metrics = comparison.metrics();
+  const auto at = std::find_if(metrics.begin(), metrics.end(),
+                               [&](const PairMetric& m) { return m.key == metric; });
+  Check(at != metrics.end(), "a metric is one of PairMetrics()");
+  return static_cast<std::size_t>(at - metrics.begin());
+}
+
+// What the divergences are of all frames together.
+double OfAllPairs(const Comparison& comparison, const std::string& metric) {
+  const CloudHistograms& a = comparison.histograms_a();
+  const CloudHistograms& b = comparison.histograms_b();
+  if (metric == "jsd_range") return JensenShannonDivergence(a.range, b.range);
+  if (metric == "jsd_intensity") return JensenShannonDivergence(a.intensity, b.intensity);
+  if (metric == "jsd_ring") return JensenShannonDivergence(a.ring, b.ring);
+  if (metric == "jsd_occupancy") return JensenShannonDivergence(a.occupancy, b.occupancy);
+  if (metric == "mape_points_percent") return comparison.bins().Errors().points;
+  if (metric == "mape_intensity_percent") return comparison.bins().Errors().intensity;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+// One metric of the pairs in their order.
+ChartSeries OverPairs(const Comparison& comparison,
+                      const std::string& metric,
+                      const std::string& title) {
+  ChartSeries series{title, SeriesStyle::kLine, {}};
+  const std::size_t index = IndexOf(comparison, metric);
+  for (std::size_t i = 0; i < comparison.pairs().size(); ++i) {
+    series.points.push_back(
+        {static_cast<double>(i * comparison.pair_stride()), comparison.pairs()[i].values[index]});
+  }
+  if (series.points.size() < kMinSamples) series.style = SeriesStyle::kLinePoints;
+  return series;
+}
+
+Table PairsTable(const Comparison& comparison) {
+  Table table = {"pairs",
+                 "Pairs of frames",
+                 comparison.pair_stride() == 1
+                     ? ""
+                     : Joined({"One of ", std::to_string(comparison.pair_stride()), " pairs."}),
+                 {{"frame_a", "Frame of A", ""},
+                  {"frame_b", "Frame of B", ""},
+                  {"stamp_a_s", "Stamp of A", "s"},
+                  {"stamp_b_s", "Stamp of B", "s"},
+                  {"points_a", "Points of A", ""},
+                  {"points_b", "Points of B", ""}},
+                 {}};
+  for (const PairMetric& metric : comparison.metrics()) {
+    table.columns.push_back({metric.key, metric.title, metric.unit});
+  }
+  for (const PairFigures& pair : comparison.pairs()) {
+    std::vector<Cell> row = {std::uint64_t{pair.index_a},
+                             std::uint64_t{pair.index_b},
+                             static_cast<double>(pair.stamp_a_ns) / kNanosecondsPerSecond,
+                             static_cast<double>(pair.stamp_b_ns) / kNanosecondsPerSecond,
+                             pair.num_points_a,
+                             pair.num_points_b};
+    row.insert(row.end(), pair.values.begin(), pair.values.end());
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Chart FScoreChart(const Comparison& comparison) {
+  Chart chart = {
+      "f_score",
+      "How much of each cloud the other has",
+      "Precision: points of B with one of A within the distance; recall: of A with one of "
+      "B. Means over pairs.",
+      {"Distance", "m", true, {}},
+      {"Share", "", false, {}},
+      {}};
+  for (const char* const what : {"precision", "recall", "f_score"}) {
+    ChartSeries series{
+        std::string(what) == "f_score" ? "F-score" : what, SeriesStyle::kLinePoints, {}};
+    for (std::size_t i = 0; i < comparison.distances_m().size(); ++i) {
+      const std::size_t metric =
+          IndexOf(comparison, PairMetrics(comparison.distances_m())[7 + 3 * i].key) +
+          chart.series.size();
+      const Comparison::Summary& summary = comparison.summaries()[metric];
+      const Estimate mean = summary.moments.Mean();
+      series.points.push_back({comparison.distances_m()[i], summary.Mean(), mean.low, mean.high});
+    }
+    chart.series.push_back(std::move(series));
+  }
+  return chart;
+}
+
+Section DistancesSection(const Comparison& comparison) {
+  Section section;
+  section.key = "distances";
+  section.title = "How far the clouds are apart";
+  section.paragraphs = MetricsInWords();
+  section.charts.push_back({"distances_by_pair",
+                            "Distances from pair to pair",
+                            "",
+                            {"Pair", "", false, {}},
+                            {"Distance", "m", true, {}},
+                            {OverPairs(comparison, "chamfer_m", "Chamfer"),
+                             OverPairs(comparison, "hausdorff95_m", "Hausdorff, 95 %"),
+                             OverPairs(comparison, "hausdorff_m", "Hausdorff")}});
+  section.charts.push_back(FScoreChart(comparison));
+  section.tables = {MetricsTable(comparison), PairsTable(comparison)};
+  return section;
+}
+
+// A histogram as shares of all its counts.
+ChartSeries Shares(const Histogram& histogram,
+                   const std::string& title,
+                   SeriesStyle style,
+                   double (*x_of_bin)(std::int64_t)) {
+  constexpr double kPercent = 100.0;
+  ChartSeries series{title, style, {}};
+  std::int64_t next = histogram.counts().empty() ? 0 : histogram.counts().front().first;
+  for (const auto& [bin, count] : histogram.counts()) {
+    // Empty bins are zeros, in lines only at the ends of what is not.
+    if (bin > next) series.points.push_back({x_of_bin(next), 0.0});
+    if (bin > next + 1) series.points.push_back({x_of_bin(bin - 1), 0.0});
+    series.points.push_back({x_of_bin(bin), kPercent * static_cast<double>(count) /
+                                                static_cast<double>(histogram.num())});
+    next = bin + 1;
+  }
+  return series;
+}
+
+double MiddleOfMetre(std::int64_t bin) {
+  return static_cast<double>(bin) + 0.5;
+}
+
+double AsNumber(std::int64_t bin) {
+  return static_cast<double>(bin);
+}
+
+Section DistributionsSection(const Comparison& comparison) {
+  const CloudHistograms& a = comparison.histograms_a();
+  const CloudHistograms& b = comparison.histograms_b();
+  Section section;
+  section.key = "distributions";
+  section.title = "How points are distributed";
+  section.paragraphs = {
+      "Shares of all points of all pairs. The divergences in the table of metrics compare these "
+      "distributions: 0 bit is the same, 1 bit has nothing in common."};
+  const ChartAxis share = {"Share of points", "%", false, {}};
+  section.charts.push_back({"ranges",
+                            "Ranges",
+                            "Bins of 1 m.",
+                            {"Range", "m", false, {}},
+                            share,
+                            {Shares(a.range, "A", SeriesStyle::kLine, MiddleOfMetre),
+                             Shares(b.range, "B", SeriesStyle::kLine, MiddleOfMetre)}});
+  section.charts.push_back({"intensities",
+                            "Intensities",
+                            "Bins of an eighth octave; what is 0.001 or less is in the first.",
+                            {"Intensity", "", true, {}},
+                            share,
+                            {Shares(a.intensity, "A", SeriesStyle::kLine, IntensityOfBin),
+                             Shares(b.intensity, "B", SeriesStyle::kLine, IntensityOfBin)}});
+  section.charts.push_back({"rings",
+                            "Rings",
+                            "Ring 0 looks lowest.",
+                            {"Ring", "", false, {}},
+                            share,
+                            {Shares(a.ring, "A", SeriesStyle::kLinePoints, AsNumber),
+                             Shares(b.ring, "B", SeriesStyle::kLinePoints, AsNumber)}});
+  return section;
+}
+
+struct BinColumn {
+  const char* key;
+  const char* title;
+  Moments BinSums::Bin::*moments;
+  double factor;
+};
+
+constexpr BinColumn kBinColumns[] = {
+    {"points_a", "Points of A a frame", &BinSums::Bin::points_a, 1.0},
+    {"points_b", "Points of B a frame", &BinSums::Bin::points_b, 1.0},
+    {"points_change_percent", "Change of points", &BinSums::Bin::points_change, 100.0},
+    {"intensity_a", "Mean intensity of A", &BinSums::Bin::intensity_a, 1.0},
+    {"intensity_b", "Mean intensity of B", &BinSums::Bin::intensity_b, 1.0},
+    {"intensity_change_percent", "Change of mean intensity", &BinSums::Bin::intensity_change,
+     100.0},
+};
+
+Chart BinChart(const Comparison& comparison,
+               const std::string& key,
+               const std::string& title,
+               std::size_t column_a) {
+  Chart chart = {key, title, "", {"Range", "m", true, {}}, {title, "", false, {}}, {}};
+  for (std::size_t i = 0; i < 2; ++i) {
+    ChartSeries series{i == 0 ? "A" : "B", SeriesStyle::kLinePoints, {}};
+    for (std::size_t bin = 0; bin < RangeBins().size(); ++bin) {
+      const Moments& moments = comparison.bins().bins()[bin].*(kBinColumns[column_a + i].moments);
+      const Estimate mean = moments.Mean();
+      if (moments.num() > 0) series.points.push_back(PointAt(RangeBins().middle(bin), mean));
+    }
+    chart.series.push_back(std::move(series));
+  }
+  return chart;
+}
+
+Section BinsSection(const Comparison& comparison) {
+  Section section;
+  section.key = "bins";
+  section.title = "Points and intensity by distance";
+  section.paragraphs = {
+      "Changes are (B - A) / A, as means over pairs in which A has at least 10 points in the bin. "
+      "MAPE is the mean of their absolute values over bins (Haider et al. 2022)."};
+  section.charts = {BinChart(comparison, "points_by_range", "Points a frame", 0),
+                    BinChart(comparison, "intensity_by_range", "Mean intensity", 3)};
+  section.charts[0].y.is_log = true;
+  Table table = {"by_range", "By distance", "", {{"range_m", "Range", "m"}}, {}};
+  for (const BinColumn& column : kBinColumns) {
+    table.columns.push_back({column.key, column.title, column.factor == 1.0 ? "" : "%"});
+  }
+  for (std::size_t bin = 0; bin < RangeBins().size(); ++bin) {
+    const BinSums::Bin& sums = comparison.bins().bins()[bin];
+    std::vector<Cell> row = {RangeBins().Name(bin)};
+    for (const BinColumn& column : kBinColumns) {
+      row.emplace_back(Scaled((sums.*(column.moments)).Mean(), column.factor));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  section.tables = {std::move(table)};
+  return section;
+}
+
+std::string Described(const RecordingInfo& info) {
+  return Joined({info.source.string(), ", ", info.kind});
+}
+
+}  // namespace
+
+Cell MeanOverPairs(const Comparison& comparison, const std::string& metric) {
+  const Comparison::Summary& summary = comparison.summaries()[IndexOf(comparison, metric)];
+  const Estimate mean = summary.moments.Mean();
+  if (mean.is_enough() || summary.moments.num() == 0) return mean;
+  return summary.Mean();
+}
+
+std::vector<std::string> MetricsInWords() {
+  return {
+      "Points are compared in the sensor's axes. The Chamfer distance is the mean of two means: of "
+      "the distances of A's points from the nearest of B, and of B's from the nearest of A (Yuan "
+      "et "
+      "al. 2018, CD-P); that of squares is the sum of the mean squares (Fan et al. 2017). The "
+      "Hausdorff distance is the largest of all these distances, that of 95 % the larger of the "
+      "two "
+      "95th percentiles.",
+      "The density-aware Chamfer distance (Wu et al. 2021, alpha = 10 per metre) also counts where "
+      "many points share one nearest point; 0 is the same, 1 nothing in common. Precision is the "
+      "share of B's points with one of A within a distance, recall that of A's with one of B, the "
+      "F-score their harmonic mean (Knapitsch et al. 2017). Divergences are those of Jensen and "
+      "Shannon, in bits."};
+}
+
+Table MetricsTable(const Comparison& comparison) {
+  Table table = {
+      "metrics",
+      "All metrics",
+      "Mean with its 95 % interval over pairs, taken as independent; fewer than 10 pairs "
+      "are not enough for one. Frames of one drive are alike: the interval of a drive's "
+      "mean is narrower than that of drives.",
+      {{"metric", "Metric", ""},
+       {"unit", "Unit", ""},
+       {"mean", "Mean over pairs", ""},
+       {"least", "Least", ""},
+       {"largest", "Largest", ""},
+       {"all_pairs", "All pairs as one", ""}},
+      {}};
+  for (std::size_t i = 0; i < comparison.metrics().size(); ++i) {
+    const PairMetric& metric = comparison.metrics()[i];
+    const Comparison::Summary& summary = comparison.summaries()[i];
+    const bool is_any = summary.moments.num() > 0;
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    table.rows.push_back({metric.title, metric.unit, MeanOverPairs(comparison, metric.key),
+                          is_any ? summary.least : none, is_any ? summary.largest : none,
+                          OfAllPairs(comparison, metric.key)});
+  }
+  return table;
+}
+
+Report MakeCompareReport(const Comparison& comparison,
+                         const FramePairs& pairs,
+                         const RecordingInfo& a,
+                         const RecordingInfo& b,
+                         const std::string& command) {
+  Report report;
+  report.title = Joined({b.source.string(), " compared with ", a.source.string()});
+  report.command = command;
+  report.facts = {{"A, the reference", Described(a)},
+                  {"B", Described(b)},
+                  {"Pairs", Joined({std::to_string(comparison.num_pairs()), ", by ",
+                                    PairingName(pairs.pairing())})},
+                  {"Without a partner", Joined({std::to_string(pairs.num_alone_a()), " of A, ",
+                                                std::to_string(pairs.num_alone_b()), " of B"})}};
+  for (const char* const key :
+       {"chamfer_m", "hausdorff95_m", "density_aware_chamfer", "jsd_range", "jsd_intensity",
+        "jsd_occupancy", "mape_points_percent", "mape_intensity_percent"}) {
+    const PairMetric& metric = comparison.metrics()[IndexOf(comparison, key)];
+    report.headlines.push_back({metric.title, metric.unit, MeanOverPairs(comparison, key)});
+  }
+  report.sections = {DistancesSection(comparison), DistributionsSection(comparison),
+                     BinsSection(comparison)};
+  return report;
+}
+
+}  // namespace railcast

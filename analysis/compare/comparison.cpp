@@ -1,0 +1,140 @@
+#include "analysis/compare/comparison.h"
+
+#include <tbb/info.h>
+#include <tbb/parallel_pipeline.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "analysis/compare/distances.h"
+#include "analysis/report/joined.h"
+#include "core/base/number_text.h"
+
+namespace railcast {
+namespace {
+
+constexpr std::size_t kMaxPairsKept = 2000;
+
+std::vector<double> ValuesOf(const std::optional<CloudDistances>& distances,
+                             const std::vector<double>& distances_m) {
+  if (!distances) {
+    return std::vector<double>(7 + 3 * distances_m.size(),
+                               std::numeric_limits<double>::quiet_NaN());
+  }
+  std::vector<double> values = {distances->chamfer_m,    distances->chamfer_squares_m2,
+                                distances->a_to_b_m,     distances->b_to_a_m,
+                                distances->hausdorff_m,  distances->hausdorff95_m,
+                                distances->density_aware};
+  for (const WithinDistance& within : distances->within) {
+    values.insert(values.end(), {within.precision, within.recall, within.f_score});
+  }
+  return values;
+}
+
+}  // namespace
+
+std::vector<PairMetric> PairMetrics(const std::vector<double>& distances_m) {
+  std::vector<PairMetric> metrics = {
+      {"chamfer_m", "Chamfer distance", "m"},
+      {"chamfer_squares_m2", "Chamfer distance of squares", "m²"},
+      {"a_to_b_m", "Mean distance of A from B", "m"},
+      {"b_to_a_m", "Mean distance of B from A", "m"},
+      {"hausdorff_m", "Hausdorff distance", "m"},
+      {"hausdorff95_m", "Hausdorff distance of 95 %", "m"},
+      {"density_aware_chamfer", "Density-aware Chamfer distance", ""},
+  };
+  for (const double distance_m : distances_m) {
+    const std::string distance = NumberText(distance_m);
+    const std::string key = Joined({"_", distance, "_m"});
+    const std::string title = Joined({" within ", distance, " m"});
+    metrics.push_back({Joined({"precision", key}), Joined({"Precision", title}), ""});
+    metrics.push_back({Joined({"recall", key}), Joined({"Recall", title}), ""});
+    metrics.push_back({Joined({"f_score", key}), Joined({"F-score", title}), ""});
+  }
+  metrics.push_back({"jsd_range", "Divergence of ranges", "bit"});
+  metrics.push_back({"jsd_intensity", "Divergence of intensities", "bit"});
+  metrics.push_back({"jsd_ring", "Divergence of rings", "bit"});
+  metrics.push_back({"jsd_occupancy", "Divergence of bird's-eye occupancy", "bit"});
+  metrics.push_back({"mape_points_percent", "MAPE of points", "%"});
+  metrics.push_back({"mape_intensity_percent", "MAPE of mean intensity", "%"});
+  return metrics;
+}
+
+double Comparison::Summary::Mean() const {
+  return moments.num() == 0 ? std::numeric_limits<double>::quiet_NaN()
+                            : sum / static_cast<double>(moments.num());
+}
+
+Comparison::Comparison(std::vector<double> distances_m)
+    : distances_m_(std::move(distances_m)),
+      metrics_(PairMetrics(distances_m_)),
+      summaries_(metrics_.size()) {}
+
+Comparison::Part Comparison::Compare(const RecordedFrame& a, const RecordedFrame& b) const {
+  const ComparedCloud cloud_a = CloudOf(a), cloud_b = CloudOf(b);
+  Part part{{a.frame.index, b.frame.index, a.frame.stamp_ns, b.frame.stamp_ns, cloud_a.size(),
+             cloud_b.size(), ValuesOf(DistancesOf(cloud_a, cloud_b, distances_m_), distances_m_)},
+            HistogramsOf(cloud_a),
+            HistogramsOf(cloud_b),
+            BinnedByRange(cloud_a),
+            BinnedByRange(cloud_b)};
+  const CloudHistograms& in_a = part.histograms_a;
+  const CloudHistograms& in_b = part.histograms_b;
+  const BinErrors errors = ErrorsOf(part.bins_a, part.bins_b);
+  std::vector<double>& values = part.figures.values;
+  values.insert(values.end(), {JensenShannonDivergence(in_a.range, in_b.range),
+                               JensenShannonDivergence(in_a.intensity, in_b.intensity),
+                               JensenShannonDivergence(in_a.ring, in_b.ring),
+                               JensenShannonDivergence(in_a.occupancy, in_b.occupancy),
+                               errors.points, errors.intensity});
+  return part;
+}
+
+void Comparison::Add(const Part& part) {
+  for (std::size_t i = 0; i < summaries_.size(); ++i) {
+    const double value = part.figures.values[i];
+    if (std::isnan(value)) continue;
+    Summary& summary = summaries_[i];
+    summary.moments.Add(value);
+    summary.sum += value;
+    summary.least = std::min(summary.least, value);
+    summary.largest = std::max(summary.largest, value);
+  }
+  histograms_a_.Add(part.histograms_a);
+  histograms_b_.Add(part.histograms_b);
+  bins_.Add(part.bins_a, part.bins_b);
+  if (num_pairs_++ % stride_ != 0) return;
+  pairs_.push_back(part.figures);
+  if (pairs_.size() < kMaxPairsKept) return;
+  // Every other one goes, so that memory does not grow with the recordings.
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < pairs_.size(); i += 2) pairs_[kept++] = std::move(pairs_[i]);
+  pairs_.resize(kept);
+  stride_ *= 2;
+}
+
+void CompareAll(FramePairs& pairs, Comparison& comparison, const ComparisonProgress& on_progress) {
+  using SharedPair = std::shared_ptr<FramePair>;
+  // As many at once as keep all cores busy; more would only take memory.
+  const auto max_pairs = static_cast<std::size_t>(2 * tbb::info::default_concurrency());
+  const auto read = tbb::make_filter<void, SharedPair>(
+      tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) -> SharedPair {
+        std::optional<FramePair> pair = pairs.Next();
+        if (pair) return std::make_shared<FramePair>(std::move(*pair));
+        control.stop();
+        return {};
+      });
+  const auto compare = tbb::make_filter<SharedPair, std::shared_ptr<Comparison::Part>>(
+      tbb::filter_mode::parallel, [&](const SharedPair& pair) {
+        return std::make_shared<Comparison::Part>(comparison.Compare(pair->a, pair->b));
+      });
+  const auto add = tbb::make_filter<std::shared_ptr<Comparison::Part>, void>(
+      tbb::filter_mode::serial_in_order, [&](const std::shared_ptr<Comparison::Part>& part) {
+        comparison.Add(*part);
+        on_progress(comparison.num_pairs());
+      });
+  tbb::parallel_pipeline(max_pairs, read & compare & add);
+}
+
+}  // namespace railcast

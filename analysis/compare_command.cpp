@@ -1,0 +1,172 @@
+#include <tbb/global_control.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "analysis/commands.h"
+#include "analysis/compare/ablation.h"
+#include "analysis/compare/ablation_report.h"
+#include "analysis/compare/compare_report.h"
+#include "analysis/compare/comparison.h"
+#include "analysis/compare/pairing.h"
+#include "analysis/progress_line.h"
+#include "analysis/report/output.h"
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/fidelity/sample_frames.h"
+#include "core/io/recording/recording.h"
+#include "core/scenario/effects.h"
+#include "core/scenario/scenario.h"
+
+namespace railcast {
+namespace {
+
+struct CompareOptions {
+  std::vector<std::filesystem::path> sources;  // A, B.
+  std::optional<Pairing> pairing;
+  std::vector<double> distances_m = {0.05, 0.1, 0.2, 0.5};
+  int num_threads = 0;
+  ReportOutput output;
+  // Of an ablation.
+  std::filesystem::path scenario;
+  int num_frames = 10;
+  std::optional<std::uint64_t> seed;
+  std::optional<std::string> sensor;
+};
+
+void CheckDistances(const CompareOptions& options) {
+  for (const double distance_m : options.distances_m) {
+    if (!(distance_m > 0.0)) {
+      throw InputError("--distances: must be > 0 (got " + NumberText(distance_m) + ")");
+    }
+  }
+}
+
+std::string CommandText(const CompareOptions& options) {
+  std::string text = "railcast-analyze compare";
+  for (const std::filesystem::path& source : options.sources) text += " " + source.string();
+  if (options.pairing) text += " --pair " + PairingName(*options.pairing);
+  if (!options.scenario.empty()) {
+    text += " --ablate " + options.scenario.string();
+    text += " --frames " + std::to_string(options.num_frames);
+    if (options.seed) text += " --seed " + std::to_string(*options.seed);
+    if (options.sensor) text += " --sensor " + *options.sensor;
+  }
+  text += " --distances ";
+  for (const double distance_m : options.distances_m) text += NumberText(distance_m) + ",";
+  text.pop_back();
+  if (!options.output.out.empty()) text += " --out " + options.output.out.string();
+  return text;
+}
+
+int RunPairs(const CompareOptions& options) {
+  const auto a = OpenRecording(options.sources[0]);
+  const auto b = OpenRecording(options.sources[1]);
+  FramePairs pairs(*a, *b, options.pairing);
+  Comparison comparison(options.distances_m);
+  const ProgressLine progress;
+  const std::size_t num_frames = a->info().num_frames.value_or(0);  // 0: not known.
+  CompareAll(pairs, comparison, [&](std::uint64_t num) {
+    const auto num_done = static_cast<double>(num + pairs.num_alone_a());
+    if (num_frames > 0) progress.Show("pairs", num_done / static_cast<double>(num_frames));
+  });
+  progress.End();
+  if (comparison.num_pairs() == 0) {
+    throw InputError(options.sources[1].string() + ": must have a frame that pairs with one of " +
+                     options.sources[0].string() + " by " + PairingName(pairs.pairing()) +
+                     "; see --pair (got none)");
+  }
+  EmitReport(MakeCompareReport(comparison, pairs, a->info(), b->info(), CommandText(options)),
+             options.output, "compare");
+  return kExitSuccess;
+}
+
+int RunAblation(const CompareOptions& options) {
+  ScenarioSpec scenario = PickSensor(ReadScenario(options.scenario), options.sensor);
+  if (options.seed) scenario.seed = *options.seed;
+  const auto simulator = MakeSimulator(scenario, options.num_threads);
+  constexpr double kFrameSpacing_s = 1.0;
+  const std::vector<std::uint32_t> frames =
+      SampleFrames(scenario, *simulator, options.num_frames, kFrameSpacing_s);
+  const ProgressLine progress;
+  const std::vector<EffectStudy> studies =
+      Ablate(*simulator, frames, options.distances_m,
+             [&](const std::string& what, double done) { progress.Show(what, done); });
+  progress.End();
+  const std::vector<std::pair<std::string, std::string>> facts = {
+      {"Scenario", options.scenario.string()},
+      {"Fidelity",
+       scenario.fidelity == kAutoFidelity ? "auto, studied as footprint" : scenario.fidelity},
+      {"Frames", std::to_string(frames.size()) + ", a second apart"},
+      {"Seed", std::to_string(scenario.seed)},
+      {"Version", RAILCAST_VERSION}};
+  EmitReport(MakeAblationReport(studies, "Effects of " + options.scenario.stem().string(), facts,
+                                CommandText(options)),
+             options.output, "ablation");
+  return kExitSuccess;
+}
+
+int RunCompare(const CompareOptions& options) {
+  CheckDistances(options);
+  const auto num_threads = options.num_threads > 0
+                               ? static_cast<std::size_t>(options.num_threads)
+                               : std::size_t{std::thread::hardware_concurrency()};
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, num_threads);
+  return options.scenario.empty() ? RunPairs(options) : RunAblation(options);
+}
+
+void AddAblationOptions(CLI::App& compare, CompareOptions& options) {
+  CLI::Option* const ablate =
+      compare.add_option("--ablate", options.scenario,
+                         "Scenario file: what each of its effects changes, beam by beam");
+  compare.add_option("--frames", options.num_frames, "How many sample frames, a second apart")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str()
+      ->needs(ablate);
+  compare.add_option("--seed", options.seed, "Instead of the scenario's")->needs(ablate);
+  compare.add_option("--sensor", options.sensor, "Which of the scenario's sensors")->needs(ablate);
+}
+
+}  // namespace
+
+void AddCompare(CLI::App& app, Command& command) {
+  const auto options = std::make_shared<CompareOptions>();
+  CLI::App* compare = app.add_subcommand(
+      "compare", "How far two recordings are apart, or what each effect of a scenario changes");
+  compare->add_option("A_B", options->sources,
+                      "Two recordings, A the reference: sequence directories, .pcd or .ply files, "
+                      "directories of such, .pcap captures");
+  compare
+      ->add_option_function<std::string>(
+          "--pair",
+          [options](const std::string& name) {
+            options->pairing = name == "stamp" ? Pairing::kStamp : Pairing::kIndex;
+          },
+          "Frames by stamp (nearest within half a period) or by index; if not given, by stamp "
+          "where both have stamps")
+      ->check(CLI::IsMember({"stamp", "index"}));
+  compare->add_option("--distances", options->distances_m, "Of precision, recall and F-score, in m")
+      ->delimiter(',')
+      ->capture_default_str();
+  compare->add_option("--threads", options->num_threads, "0 = all cores")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  AddAblationOptions(*compare, *options);
+  AddReportOptions(*compare, options->output);
+  compare->callback([&command, options] {
+    const bool is_ablation = !options->scenario.empty();
+    if (options->sources.size() != (is_ablation ? 0 : 2)) {
+      throw CLI::ValidationError("compare", "takes two recordings, or --ablate SCENARIO");
+    }
+    if (is_ablation && options->pairing) {
+      throw CLI::ValidationError("--pair", "is of two recordings");
+    }
+    command = [options] { return RunCompare(*options); };
+  });
+}
+
+}  // namespace railcast

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "analysis/fit/known_planes.h"
+#include "analysis/fit/truth_trials.h"
+
+namespace railcast {
+
+/// What planes make of a frame.
+struct PlaneScene {
+  std::vector<KnownPlane> planes;
+  std::vector<std::uint16_t> surfaces;  ///< Of each plane.
+  /// Whether noise moves points sideways, too: then it is measured square to the plane, else along
+  /// the beam, which for such noise is sigma, and sigma / cos along the beam.
+  bool is_isotropic{};
+};
+
+/// The trials of a frame: of every firing that looks at a plane, the first one it meets. Firings
+/// look where their row and column do; those with a point, where it lies. A point 0.5 m or more off
+/// is of something else. Without `facts.scan` only points make trials, and nothing is lost.
+void ForEachPlaneTrial(const RecordedFrame& recorded,
+                       const PlaneScene& scene,
+                       const SensorFacts& facts,
+                       const TrialTaker& take);
+
+}  // namespace railcast

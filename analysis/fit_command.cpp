@@ -1,0 +1,203 @@
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "analysis/commands.h"
+#include "analysis/fit/fit.h"
+#include "analysis/fit/fit_report.h"
+#include "analysis/fit/fitted_scenario.h"
+#include "analysis/fit/recorded_trials.h"
+#include "analysis/progress_line.h"
+#include "analysis/report/joined.h"
+#include "analysis/report/output.h"
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/io/recording/recording.h"
+#include "core/io/write_file.h"
+#include "core/scenario/scenario.h"
+
+namespace railcast {
+namespace {
+
+struct FitOptions {
+  std::vector<std::filesystem::path> sources;
+  std::filesystem::path planes;  // Empty: none.
+  std::string rung;              // Empty: that of the scenario.
+  std::string intensity = "auto";
+  std::optional<double> range_at_10_percent_m;
+  std::vector<std::string> known;
+  std::optional<double> extinction_per_m;
+  std::optional<double> rain_rate_mmph;
+  int num_threads = 0;
+  ReportOutput output;
+};
+
+// NAME=RHO
+std::pair<std::string, double> ParseKnown(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  char* end = nullptr;
+  const double reflectance =
+      equals == std::string::npos ? 0.0 : std::strtod(text.c_str() + equals + 1, &end);
+  if (equals == 0 || !(reflectance > 0.0 && std::isfinite(reflectance)) || *end != '\0') {
+    throw InputError("--known: must be NAME=REFLECTANCE, the reflectance > 0 (got " + text + ")");
+  }
+  return {text.substr(0, equals), reflectance};
+}
+
+bool IsPhysicalRung(const FitOptions& options, const RecordingInfo& info) {
+  if (!options.rung.empty()) return options.rung == "surface";
+  return !(info.scenario && info.scenario->fidelity == "plausibility");
+}
+
+// Of our frames and of captures intensities are reflectances; what foreign clouds hold is not
+// known.
+bool HasReflectances(const FitOptions& options, const RecordingInfo& info) {
+  if (options.intensity != "auto") return options.intensity == "reflectance";
+  return info.scenario.has_value() || info.kind.starts_with("capture");
+}
+
+FitSettings SettingsOf(const FitOptions& options,
+                       const RecordingInfo& info,
+                       const RecordedTrials& trials) {
+  FitSettings settings;
+  settings.is_physical = IsPhysicalRung(options, info);
+  settings.has_reflectances = HasReflectances(options, info);
+  settings.knows_losses = trials.knows_losses;
+  settings.range_at_10_percent_m = options.range_at_10_percent_m;
+  settings.extinction_per_m = options.extinction_per_m;
+  settings.rain_rate_mmph = options.rain_rate_mmph;
+  const bool fixes_scale = options.range_at_10_percent_m || !options.known.empty();
+  if (settings.has_reflectances && fixes_scale) {
+    throw InputError(
+        "--range-at-10-percent-m, --known: must come with --intensity none: reflectances from "
+        "intensities fix the threshold already");
+  }
+  if (options.range_at_10_percent_m && !options.known.empty()) {
+    throw InputError(
+        "--known: must not come with --range-at-10-percent-m: one fixes the threshold");
+  }
+  if (settings.is_physical && options.rain_rate_mmph) {
+    throw InputError(
+        "--rain-rate-mmph: must come with rung plausibility: rung surface has no dropout by rain");
+  }
+  for (const std::string& text : options.known) {
+    const auto [name, reflectance] = ParseKnown(text);
+    std::string names;
+    bool is_there = false;
+    for (const Trial& trial : trials.trials)
+      is_there |= trials.surfaces[trial.surface].name == name;
+    if (!is_there) throw InputError("--known: no trial meets such a surface (got " + name + ")");
+    settings.known[name] = reflectance;
+  }
+  return settings;
+}
+
+int RunFit(const FitOptions& options, const std::string& command_text) {
+  const auto num_threads = options.num_threads > 0
+                               ? static_cast<std::size_t>(options.num_threads)
+                               : std::size_t{std::thread::hardware_concurrency()};
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, num_threads);
+  const RecordingInfo info = OpenRecording(options.sources.front())->info();
+  std::vector<KnownPlane> planes;
+  if (!options.planes.empty()) planes = ReadKnownPlanes(options.planes);
+  const ProgressLine progress;
+  RecordedTrials trials =
+      ReadTrials(options.sources, std::move(planes), [&](std::uint64_t num_frames) {
+        if (!info.num_frames) return;
+        const auto num = static_cast<double>(*info.num_frames * options.sources.size());
+        progress.Show("frames", static_cast<double>(num_frames) / num);
+      });
+  progress.End();
+  const FitSettings settings = SettingsOf(options, info, trials);
+  const FitResult result = FitModel(trials.trials, trials.surfaces, settings);
+
+  FitReportInput input{{}, info.kind, command_text, info.scenario};
+  for (const std::filesystem::path& source : options.sources) {
+    input.sources.push_back(source.string());
+  }
+  const Report report = MakeFitReport(input, trials, settings, result);
+  if (!options.output.out.empty()) {
+    std::filesystem::create_directories(options.output.out);
+    WriteFileWhole(options.output.out / "fitted.json", FittedJson(settings, trials, result));
+    if (info.scenario) {
+      WriteFileWhole(
+          options.output.out / "fitted_scenario.json",
+          ResolvedScenarioJson(FittedScenario(*info.scenario, settings, trials, result)));
+    }
+  }
+  EmitReport(report, options.output, "fit");
+  return kExitSuccess;
+}
+
+std::string CommandText(const FitOptions& options) {
+  std::string text = "railcast-analyze fit";
+  const auto add = [&](const std::string& name, const std::string& value) {
+    text += Joined({" ", name, " ", value});
+  };
+  for (const std::filesystem::path& source : options.sources) text += " " + source.string();
+  if (!options.planes.empty()) add("--planes", options.planes.string());
+  if (!options.rung.empty()) add("--rung", options.rung);
+  if (options.intensity != "auto") add("--intensity", options.intensity);
+  if (options.range_at_10_percent_m) {
+    add("--range-at-10-percent-m", NumberText(*options.range_at_10_percent_m));
+  }
+  for (const std::string& known : options.known) add("--known", known);
+  if (options.extinction_per_m) add("--extinction-per-m", NumberText(*options.extinction_per_m));
+  if (options.rain_rate_mmph) add("--rain-rate-mmph", NumberText(*options.rain_rate_mmph));
+  if (!options.output.out.empty()) add("--out", options.output.out.string());
+  return text;
+}
+
+void AddKnowledgeOptions(CLI::App& fit, FitOptions& options) {
+  fit.add_option("--planes", options.planes,
+                 "JSON file of planes that a standing sensor looks at, in its axes, for recordings "
+                 "without truth");
+  fit.add_option("--rung", options.rung,
+                 "Whose parameters: plausibility or surface; default: the scenario's, else surface")
+      ->check(CLI::IsMember({"plausibility", "surface"}));
+  fit.add_option("--intensity", options.intensity,
+                 "What intensities are: reflectance, or none that is known; auto: reflectance in "
+                 "sequences and captures")
+      ->check(CLI::IsMember({"auto", "reflectance", "none"}))
+      ->capture_default_str();
+  fit.add_option("--range-at-10-percent-m", options.range_at_10_percent_m,
+                 "Of the data sheet: fixes the threshold where intensities do not")
+      ->check(CLI::PositiveNumber);
+  fit.add_option("--known", options.known,
+                 "NAME=REFLECTANCE of a surface: fixes the threshold where intensities do not");
+  fit.add_option("--extinction-per-m", options.extinction_per_m,
+                 "Of the air, instead of fitting it: 0 = clear")
+      ->check(CLI::NonNegativeNumber);
+  fit.add_option("--rain-rate-mmph", options.rain_rate_mmph,
+                 "Parts the rain dropout of rung plausibility from the rate of the rain")
+      ->check(CLI::PositiveNumber);
+}
+
+}  // namespace
+
+void AddFit(CLI::App& app, Command& command) {
+  const auto options = std::make_shared<FitOptions>();
+  CLI::App* fit = app.add_subcommand(
+      "fit", "Noise, threshold, reflectance and dropout of the sensor models, from a recording");
+  fit->add_option("SOURCE", options->sources,
+                  "Sequence directory, .pcd or .ply file, directory of such, or .pcap capture; "
+                  "several are taken together")
+      ->required();
+  AddKnowledgeOptions(*fit, *options);
+  fit->add_option("--threads", options->num_threads, "0 = all cores")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  AddReportOptions(*fit, options->output);
+  fit->callback([&command, options] {
+    command = [options] { return RunFit(*options, CommandText(*options)); };
+  });
+}
+
+}  // namespace railcast

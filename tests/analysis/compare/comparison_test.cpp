@@ -1,0 +1,178 @@
+#include "analysis/compare/comparison.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "analysis/compare/compare_report.h"
+#include "analysis/report/files.h"
+#include "tests/analysis/compare/made_clouds.h"
+#include "tests/analysis/held_recording.h"
+
+namespace railcast {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Pair;
+
+constexpr std::int64_t kMillisecond_ns = 1'000'000;
+
+HeldRecording AtTimes(const std::vector<int>& stamps_ms) {
+  std::vector<RecordedFrame> frames;
+  for (std::size_t i = 0; i < stamps_ms.size(); ++i) {
+    frames.push_back(FrameOf({{1, 0, 0}}, stamps_ms[i] * kMillisecond_ns));
+    frames.back().frame.index = static_cast<std::uint32_t>(i);
+  }
+  return HeldRecording(std::move(frames));
+}
+
+// The indices of all pairs.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> AllPairs(FramePairs& pairs) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
+  while (const auto pair = pairs.Next()) {
+    found.emplace_back(pair->a.frame.index, pair->b.frame.index);
+  }
+  return found;
+}
+
+TEST(FramePairs, GoByIndexToTheShorterOnesEnd) {
+  HeldRecording a = AtTimes({0, 100, 200}), b = AtTimes({7, 8});
+  FramePairs pairs(a, b, Pairing::kIndex);
+  EXPECT_THAT(AllPairs(pairs), ElementsAre(Pair(0, 0), Pair(1, 1)));
+  EXPECT_EQ(pairs.num_alone_a(), 1U);
+  EXPECT_EQ(pairs.num_alone_b(), 0U);
+}
+
+TEST(FramePairs, GoByTheNearestStamp) {
+  HeldRecording a = AtTimes({0, 100, 200, 300}), b = AtTimes({90, 140, 210, 420});
+  FramePairs pairs(a, b, Pairing::kStamp);
+  // 0 and 300 have none within 50 ms; 140 is farther from 100 than 90 is.
+  EXPECT_THAT(AllPairs(pairs), ElementsAre(Pair(1, 0), Pair(2, 2)));
+  EXPECT_EQ(pairs.num_alone_a(), 2U);
+  EXPECT_EQ(pairs.num_alone_b(), 2U);
+}
+
+TEST(FramePairs, TakeEverySecondFrameOfOneTwiceAsFast) {
+  HeldRecording a = AtTimes({0, 100, 200}), b = AtTimes({0, 50, 100, 150, 200, 250});
+  FramePairs pairs(a, b, std::nullopt);
+  EXPECT_EQ(pairs.pairing(), Pairing::kStamp);
+  EXPECT_THAT(AllPairs(pairs), ElementsAre(Pair(0, 0), Pair(1, 2), Pair(2, 4)));
+  EXPECT_EQ(pairs.num_alone_b(), 3U);
+}
+
+TEST(FramePairs, GiveAFrameOfTheSlowerOneToTheNearest) {
+  HeldRecording a = AtTimes({0, 50, 100, 150, 200}), b = AtTimes({55, 155});
+  FramePairs pairs(a, b, Pairing::kStamp);
+  EXPECT_THAT(AllPairs(pairs), ElementsAre(Pair(1, 0), Pair(3, 1)));
+  EXPECT_EQ(pairs.num_alone_a(), 3U);
+}
+
+TEST(FramePairs, FindNothingBetweenClocksThatDiffer) {
+  HeldRecording a = AtTimes({0, 100, 200}), b = AtTimes({9000, 9100});
+  FramePairs pairs(a, b, Pairing::kStamp);
+  EXPECT_THAT(AllPairs(pairs), IsEmpty());
+  EXPECT_EQ(pairs.num_alone_a(), 3U);
+  EXPECT_EQ(pairs.num_alone_b(), 2U);
+}
+
+TEST(FramePairs, GoByIndexWhereStampsAreMissing) {
+  HeldRecording a = AtTimes({0, 100}), b = AtTimes({0, 0});
+  EXPECT_EQ(FramePairs(a, b, std::nullopt).pairing(), Pairing::kIndex);
+  HeldRecording single = AtTimes({5}), none = AtTimes({});
+  EXPECT_EQ(FramePairs(single, none, std::nullopt).pairing(), Pairing::kIndex);
+}
+
+std::vector<RecordedFrame> NoisyPlanes(int num, double sigma_m) {
+  std::vector<RecordedFrame> frames;
+  for (int i = 0; i < num; ++i) {
+    frames.push_back(FrameOf(WithNoise(MadePlane(-2.0F), sigma_m * (1.0 + 0.01 * i)),
+                             i * 100 * kMillisecond_ns));
+  }
+  return frames;
+}
+
+std::string ReportOf(std::vector<RecordedFrame> frames_a,
+                     std::vector<RecordedFrame> frames_b,
+                     std::size_t num_threads) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, num_threads);
+  HeldRecording a(std::move(frames_a)), b(std::move(frames_b));
+  FramePairs pairs(a, b, std::nullopt);
+  Comparison comparison({0.1});
+  CompareAll(pairs, comparison, [](std::uint64_t) {});
+  const Report report = MakeCompareReport(comparison, pairs, a.info(), b.info(), "compare");
+  for (const Section& section : report.sections) {
+    for (const Table& table : section.tables) {
+      for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size()) << table.key;
+    }
+  }
+  return ReportJson(report);
+}
+
+TEST(Comparison, IsTheSameAtAnyNumberOfThreads) {
+  const std::string one = ReportOf(NoisyPlanes(12, 0.05), NoisyPlanes(12, 0.1), 1);
+  EXPECT_EQ(ReportOf(NoisyPlanes(12, 0.05), NoisyPlanes(12, 0.1), 2), one);
+  EXPECT_EQ(ReportOf(NoisyPlanes(12, 0.05), NoisyPlanes(12, 0.1), 5), one);
+  EXPECT_THAT(one, HasSubstr("\"12, by stamp\""));
+}
+
+TEST(Comparison, FindsNoDifferenceBetweenTheSame) {
+  Comparison comparison({0.1});
+  for (const RecordedFrame& frame : NoisyPlanes(12, 0.1)) {
+    comparison.Add(comparison.Compare(frame, frame));
+  }
+  for (std::size_t i = 0; i < comparison.metrics().size(); ++i) {
+    const bool is_share = comparison.metrics()[i].key.ends_with("_0.1_m");
+    EXPECT_EQ(comparison.summaries()[i].largest, is_share ? 1.0 : 0.0)
+        << comparison.metrics()[i].key;
+    EXPECT_EQ(comparison.summaries()[i].moments.Mean().num, 12U) << comparison.metrics()[i].key;
+  }
+}
+
+TEST(Comparison, KeepsEveryMetricInItsPlace) {
+  const Comparison comparison({0.1, 0.5});
+  const RecordedFrame frame = FrameOf(MadePlane(0.0F));
+  EXPECT_EQ(comparison.Compare(frame, frame).figures.values.size(), comparison.metrics().size());
+  const RecordedFrame empty = FrameOf({});
+  const Comparison::Part none = comparison.Compare(empty, frame);
+  EXPECT_EQ(none.figures.values.size(), comparison.metrics().size());
+  for (const double value : none.figures.values) EXPECT_TRUE(std::isnan(value));
+}
+
+TEST(Comparison, KnowsNoDivergenceOfFieldsThatAreMissing) {
+  RecordedFrame bare = FrameOf(MadePlane(0.0F));
+  bare.fields = {"x", "y", "z"};
+  Comparison comparison({0.1});
+  comparison.Add(comparison.Compare(bare, FrameOf(MadePlane(0.0F))));
+  EXPECT_EQ(std::get<Estimate>(MeanOverPairs(comparison, "jsd_ring")).num, 0U);
+  EXPECT_EQ(std::get<double>(MeanOverPairs(comparison, "jsd_range")), 0.0);
+}
+
+TEST(Comparison, GivesFewPairsABareMeanAndNoInterval) {
+  Comparison comparison({0.1});
+  const RecordedFrame a = FrameOf(MadePlane(0.0F)), b = FrameOf(MadePlane(0.5F));
+  for (int i = 0; i < 9; ++i) comparison.Add(comparison.Compare(a, b));
+  EXPECT_NEAR(std::get<double>(MeanOverPairs(comparison, "chamfer_m")), 0.5, 1e-6);
+  comparison.Add(comparison.Compare(a, b));
+  EXPECT_NEAR(std::get<Estimate>(MeanOverPairs(comparison, "chamfer_m")).value, 0.5, 1e-6);
+}
+
+TEST(Comparison, KeepsABoundedNumberOfPairs) {
+  Comparison comparison({0.1});
+  const RecordedFrame point = FrameOf({{1, 0, 0}});
+  Comparison::Part part = comparison.Compare(point, point);
+  for (std::uint32_t i = 0; i < 9000; ++i) {
+    part.figures.index_a = i;
+    comparison.Add(part);
+  }
+  EXPECT_EQ(comparison.num_pairs(), 9000U);
+  EXPECT_LT(comparison.pairs().size(), 2000U);
+  EXPECT_GE(comparison.pairs().size(), 1000U);
+  for (std::size_t i = 0; i < comparison.pairs().size(); ++i) {
+    EXPECT_EQ(comparison.pairs()[i].index_a, i * comparison.pair_stride());
+  }
+}
+
+}  // namespace
+}  // namespace railcast

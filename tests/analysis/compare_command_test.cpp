@@ -1,0 +1,87 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/io/write_file.h"
+#include "tests/core/scenario/scenario_files.h"
+#include "tests/support/run_command.h"
+
+namespace railcast {
+namespace {
+
+using testing::HasSubstr;
+using Json = nlohmann::json;
+
+Ended Compare(const std::string& arguments) {
+  return RunCommand(std::string(RAILCAST_ANALYZE) + " compare " + arguments);
+}
+
+// A line of points, `offset_m` above the ground.
+std::string Pcd(double offset_m) {
+  std::string text =
+      "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 20\nHEIGHT 1\n"
+      "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 20\nDATA ascii\n";
+  for (int i = 1; i <= 20; ++i) text += std::to_string(i) + " 0 " + std::to_string(offset_m) + "\n";
+  return text;
+}
+
+TEST(RailcastAnalyzeCompare, WantsTwoRecordingsOrAScenario) {
+  for (const char* const arguments :
+       {"--format text", "a.pcd --format text", "a b c --format text", "a b",
+        "a --ablate s.json --format text", "a b --frames 3 --format text",
+        "--ablate s.json --pair index --format text", "a b --pair time --format text"}) {
+    EXPECT_EQ(Compare(arguments).status, 2) << arguments;
+  }
+}
+
+TEST(RailcastAnalyzeCompare, ComparesTwoClouds) {
+  const TemporaryFolder folder;
+  const auto a = folder.Write("a.pcd", Pcd(0.0)), b = folder.Write("b.pcd", Pcd(0.25));
+  const auto out = a.parent_path() / "out";
+  const Ended run = Compare(a.string() + " " + b.string() + " --out " + out.string());
+  ASSERT_EQ(run.status, 0) << run.said;
+  const Json json = Json::parse(ReadFileWhole(out / "compare.json"));
+  EXPECT_EQ(json["facts"]["Pairs"], "1, by index");
+  EXPECT_NEAR(json["headlines"][0]["value"].get<double>(), 0.25, 1e-6);
+  EXPECT_TRUE(std::filesystem::exists(out / "report.html"));
+}
+
+TEST(RailcastAnalyzeCompare, RefusesDistancesThatAreNone) {
+  const Ended run = Compare("a b --distances 0.1,-1 --format text");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(run.said, "--distances: must be > 0 (got -1)\n");
+}
+
+TEST(RailcastAnalyzeCompare, StudiesEffects) {
+  const TemporaryFolder folder;
+  const std::string scenarios = ScenariosDir().string();
+  const auto scenario = folder.Write("scenario.json", R"({
+    "version": 1, "fidelity": "plausibility", "weather": {"rain_rate_mmph": 20},
+    "lidar": {"scan": {"rate_hz": 10, "pattern": {"type": "raster", "horizontal_fov_deg": 20,
+              "vertical_fov_deg": 40, "angular_resolution_deg": 0.5}}},
+    "world": {
+      "alignment": {
+        "course": {"type": "elements", "elements": [{"type": "straight", "length_m": 1000}]}
+      },
+      "vegetation": {"trees_per_hectare": 0, "grass": false}
+    },
+    "vehicle": {"start_s_m": 400},
+    "materials": ")" + scenarios + R"(/materials/railway.json",
+    "labels": ")" + scenarios + R"(/labels.json"})");
+  const auto out = scenario.parent_path() / "out";
+  const Ended run =
+      Compare("--ablate " + scenario.string() + " --frames 2 --seed 7 --out " + out.string());
+  ASSERT_EQ(run.status, 0) << run.said;
+  const Json json = Json::parse(ReadFileWhole(out / "ablation.json"));
+  EXPECT_EQ(json["facts"]["Seed"], "7");
+  const Json& rows = json["sections"][0]["tables"][0]["rows"];
+  ASSERT_EQ(rows.size(), 5U);
+  EXPECT_EQ(rows[1]["effect"], "rain");
+  EXPECT_GT(rows[1]["points_taken"], 0);
+  EXPECT_EQ(rows[1]["points_added"], 0);
+}
+
+}  // namespace
+}  // namespace railcast
