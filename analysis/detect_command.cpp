@@ -10,6 +10,7 @@
 #include "analysis/progress_line.h"
 #include "analysis/report/output.h"
 #include "core/base/error.h"
+#include "core/base/number_text.h"
 #include "core/base/units.h"
 #include "core/io/recording/recording.h"
 #include "core/io/text_cursor.h"
@@ -59,7 +60,17 @@ void CheckSameScenario(const std::vector<RecordingInfo>& infos) {
 std::string CommandText(const DetectOptions& options) {
   std::string text = "railcast-analyze detect";
   for (const std::filesystem::path& source : options.sources) text += " " + source.string();
-  if (!options.output.out.empty()) text += " --out " + options.output.out.string();
+  const auto add = [&text](const std::string& name, const std::string& value) {
+    text.append(" ").append(name).append(" ").append(value);
+  };
+  const BrakingSpec& braking = options.spec.braking;
+  add("--points", NumberText(options.spec.rule.min_points));
+  add("--frames", options.frames);
+  add("--reaction-s", NumberText(braking.reaction_s));
+  add("--deceleration-mps2", NumberText(braking.deceleration_mps2));
+  if (options.speed_kmph) add("--speed-kmph", NumberText(*options.speed_kmph));
+  add("--margin-m", NumberText(braking.margin_m));
+  if (!options.output.out.empty()) add("--out", options.output.out.string());
   return text;
 }
 
@@ -102,6 +113,7 @@ int RunDetect(const DetectOptions& options) {
     runs.push_back(DetectInRun(source, infos.back().scenario->seed, std::move(courses), spec));
   }
   progress.End();
+  std::ranges::sort(runs, {}, &DetectRun::seed);
   EmitReport(MakeDetectReport(runs, spec, CommandText(options), FactsOf(infos, num_frames)),
              options.output, "detect");
   return kExitSuccess;
