@@ -29,6 +29,7 @@ void CheckTurn(const SensorTurn& turn) {
     Check(point.range_m > 0.0F && point.range_m < 263.0F, "a range is within the format");
     Check(point.azimuth_rad >= 0.0F && point.azimuth_rad < 6.2832F, "an azimuth is of one turn");
     Check(std::isfinite(point.x + point.y + point.z), "a point is somewhere");
+    Check(point.column < turn.num_columns(), "a point is of a firing cycle");
     Check(point.laser < 64 && point.ring < 64 && point.return_index < 2, "a laser is one of 64");
   }
 }
