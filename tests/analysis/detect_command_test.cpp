@@ -33,7 +33,7 @@ std::filesystem::path MakeApproach(const TemporaryFolder& folder,
           R"("vertical_fov_deg": 20, )" + R"("angular_resolution_deg": 0.5}}}, )" +
           R"("materials": ")" + scenarios + R"(/materials/railway.json", "labels": ")" + scenarios +
           R"(/labels.json"})");
-  const auto out = scenario.parent_path() / name;
+  auto out = scenario.parent_path() / name;
   const Ended run =
       RunCommand(RAILCAST_GENERATE " sequence " + scenario.string() + " --out " + out.string() +
                  " --frames 40 --fidelity geometry --fields x,y,z " + options);

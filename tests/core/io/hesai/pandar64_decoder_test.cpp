@@ -78,9 +78,9 @@ TEST(Pandar64Decoder, PlacesAPointByItsBlockAndChannel) {
 // earliest 54.668 us before its block's end.
 TEST(Pandar64Decoder, CountsTimeBackFromThePacketsEnd) {
   const SensorTurn turn = Decoded(MadePacket());
-  const std::int64_t packet_ns = (86'400 + 3) * 1'000'000'000LL + 500'000'000;
-  EXPECT_EQ(turn.stamp_ns, packet_ns - 42'580 - 5 * 55'560 - 54'668);
-  EXPECT_EQ(turn.column_time_ns[5], 5 * 55'560);
+  const std::int64_t packet_ns = 86'403 * 1'000'000'000LL + 500'000'000;
+  EXPECT_EQ(turn.stamp_ns, packet_ns - 42'580 - 277'800 - 54'668);
+  EXPECT_EQ(turn.column_time_ns[5], 277'800);  // Five cycles.
   EXPECT_EQ(turn.stamp_ns + turn.points[5].time_ns, packet_ns - 42'580 - 23'180);
 }
 
