@@ -21,6 +21,10 @@ void ProgressLine::Show(const std::string& what, double done) const {
   std::cerr << std::flush;
 }
 
+void ProgressLine::Show(const std::string& what) const {
+  if (is_terminal_) std::cerr << "\r\033[K" << what << std::flush;
+}
+
 void ProgressLine::End() const {
   if (is_terminal_) std::cerr << "\r\033[K" << std::flush;
 }

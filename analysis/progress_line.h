@@ -13,6 +13,8 @@ class ProgressLine {
 
   /// @param done Share of the job, in [0, 1].
   void Show(const std::string& what, double done) const;
+  /// Where it is not known how long the job is.
+  void Show(const std::string& what) const;
   void End() const;
 
  private:

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -23,11 +24,27 @@ struct StatsOptions {
   ReportOutput output;
 };
 
-// Labels and materials are counted by their numbers: they must mean the same everywhere.
-void CheckSameNames(const RecordingInfo& first, const RecordingInfo& other) {
-  if (other.labels.labels() == first.labels.labels() && other.materials == first.materials) return;
-  throw InputError(other.source.string() + ": must have the same labels and materials as " +
-                   first.source.string());
+// Rings, labels and materials are counted by their numbers: they must mean the same everywhere.
+void CheckSameKind(const RecordingInfo& first, const RecordingInfo& other) {
+  if (other.labels.labels() != first.labels.labels() || other.materials != first.materials) {
+    throw InputError(other.source.string() + ": must have the same labels and materials as " +
+                     first.source.string());
+  }
+  const bool is_same_scan =
+      first.scenario.has_value() == other.scenario.has_value() &&
+      (!first.scenario || first.scenario->lidar.scan == other.scenario->lidar.scan);
+  if (first.kind != other.kind || !is_same_scan) {
+    throw InputError(other.source.string() + ": must be of the same sensor as " +
+                     first.source.string());
+  }
+}
+
+void CheckDistinct(const std::vector<std::filesystem::path>& sources) {
+  std::set<std::filesystem::path> seen;
+  for (const std::filesystem::path& source : sources) {
+    if (seen.insert(std::filesystem::weakly_canonical(source)).second) continue;
+    throw InputError(source.string() + ": must be named once");
+  }
 }
 
 std::string CommandText(const StatsOptions& options) {
@@ -42,12 +59,13 @@ int RunStats(const StatsOptions& options) {
                                ? static_cast<std::size_t>(options.num_threads)
                                : std::size_t{std::thread::hardware_concurrency()};
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, num_threads);
+  CheckDistinct(options.sources);
   std::vector<std::unique_ptr<Recording>> recordings;
   std::vector<RecordingInfo> infos;
   for (const std::filesystem::path& source : options.sources) {
     recordings.push_back(OpenRecording(source));
     infos.push_back(recordings.back()->info());
-    CheckSameNames(infos.front(), infos.back());
+    CheckSameKind(infos.front(), infos.back());
   }
   std::size_t num_frames = 0;  // 0: not known.
   for (const RecordingInfo& info : infos) num_frames += info.num_frames.value_or(0);
@@ -57,11 +75,18 @@ int RunStats(const StatsOptions& options) {
   for (const auto& recording : recordings) {
     const std::uint64_t before = all.coverage.num_frames();
     all.Add(MeasureStatistics(*recording, [&](std::size_t num) {
-      const auto done = static_cast<double>(before + num);
-      if (num_frames > 0) progress.Show("frames", done / static_cast<double>(num_frames));
+      const std::size_t done = before + num;
+      if (num_frames > 0) {
+        progress.Show("frames", static_cast<double>(done) / static_cast<double>(num_frames));
+      } else {
+        progress.Show(std::to_string(done) + " frames");
+      }
     }));
   }
   progress.End();
+  if (all.coverage.num_frames() == 0) {
+    throw InputError(options.sources.front().string() + ": must hold a frame");
+  }
   EmitReport(MakeStatisticsReport(all, infos, CommandText(options)), options.output, "stats");
   return kExitSuccess;
 }

@@ -104,18 +104,14 @@ Table EffectsTable(const std::vector<EffectStudy>& studies) {
                  {}};
   for (const EffectStudy& study : studies) {
     const BeamChanges& beams = study.beams;
-    const auto quantile95 = [](const LogHistogram& samples) {
-      constexpr double kShare = 0.95;
-      return samples.num() < kMinSamples ? std::numeric_limits<double>::quiet_NaN()
-                                         : samples.Quantile(kShare);
-    };
-    table.rows.push_back({study.effect, std::string(study.is_in_scenario ? "on" : "off"),
-                          Percentage(beams.num_identical, beams.num_beams),
-                          Percentage(beams.num_outcome_changed, beams.num_beams), beams.num_removed,
-                          beams.num_added, Percentage(beams.num_moved, beams.num_both),
-                          beams.moved_m.Median(), quantile95(beams.moved_m),
-                          Percentage(beams.num_intensity_changed, beams.num_both),
-                          beams.intensity_change.Median(), quantile95(beams.intensity_change)});
+    constexpr double kShare = 0.95;
+    table.rows.push_back(
+        {study.effect, std::string(study.is_in_scenario ? "on" : "off"),
+         Percentage(beams.num_identical, beams.num_beams),
+         Percentage(beams.num_outcome_changed, beams.num_beams), beams.num_removed, beams.num_added,
+         Percentage(beams.num_moved, beams.num_both), beams.moved_m.Median(),
+         beams.moved_m.Quantile(kShare), Percentage(beams.num_intensity_changed, beams.num_both),
+         beams.intensity_change.Median(), beams.intensity_change.Quantile(kShare)});
   }
   return table;
 }

@@ -117,7 +117,7 @@ void Comparison::Add(const Part& part) {
 void CompareAll(FramePairs& pairs, Comparison& comparison, const ComparisonProgress& on_progress) {
   using SharedPair = std::shared_ptr<FramePair>;
   // As many at once as keep all cores busy; more would only take memory.
-  const auto max_pairs = static_cast<std::size_t>(2 * tbb::info::default_concurrency());
+  const auto max_pairs = 2 * static_cast<std::size_t>(tbb::info::default_concurrency());
   const auto read = tbb::make_filter<void, SharedPair>(
       tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) -> SharedPair {
         std::optional<FramePair> pair = pairs.Next();

@@ -22,7 +22,7 @@ double Percentile95_m(std::vector<float> distances_m) {
       static_cast<std::size_t>(std::ceil(kShare * static_cast<double>(distances_m.size())));
   const auto at = distances_m.begin() + static_cast<std::ptrdiff_t>(rank - 1);
   std::nth_element(distances_m.begin(), at, distances_m.end());
-  return *at;
+  return static_cast<double>(*at);
 }
 
 OneWay OneWayOf(const NearestPoints& nearest, std::size_t num_others) {
@@ -30,7 +30,7 @@ OneWay OneWayOf(const NearestPoints& nearest, std::size_t num_others) {
   for (const std::uint32_t index : nearest.index) ++num_sharing[index];
   OneWay way;
   for (std::size_t i = 0; i < nearest.index.size(); ++i) {
-    const double distance_m = nearest.distance_m[i];
+    const auto distance_m = static_cast<double>(nearest.distance_m[i]);
     way.mean_m += distance_m;
     way.mean_square_m2 += distance_m * distance_m;
     way.largest_m = std::max(way.largest_m, distance_m);

@@ -80,7 +80,8 @@ CloudHistograms HistogramsOf(const ComparedCloud& cloud) {
   std::vector<std::int64_t> ranges, intensities, cells;
   for (const float range_m : cloud.range_m) ranges.push_back(static_cast<std::int64_t>(range_m));
   for (const float intensity : cloud.intensity) {
-    if (std::isfinite(intensity)) intensities.push_back(BinOfIntensity(intensity));
+    if (std::isfinite(intensity))
+      intensities.push_back(BinOfIntensity(static_cast<double>(intensity)));
   }
   for (const pcl::PointXYZ& point : *cloud.points) {
     // Rows of cells, far apart enough for any sensor.

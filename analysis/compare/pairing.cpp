@@ -80,17 +80,12 @@ std::optional<FramePair> FramePairs::NextByStamp() {
         b_.frames.size() > 1 && Apart_ns(a, b_.frames[1]) < Apart_ns(a, b);
     const bool next_a_is_nearer =
         a_.frames.size() > 1 && Apart_ns(a_.frames[1], b) < Apart_ns(a, b);
-    if (next_b_is_nearer && b.frame.stamp_ns <= a.frame.stamp_ns) {
-      b_.Drop();
-    } else if (next_a_is_nearer && a.frame.stamp_ns <= b.frame.stamp_ns) {
-      a_.Drop();
-    } else if (Apart_ns(a, b) <= tolerance_ns_) {
+    if (Apart_ns(a, b) <= tolerance_ns_ && !next_a_is_nearer && !next_b_is_nearer) {
       return NextByIndex();
-    } else if (b.frame.stamp_ns < a.frame.stamp_ns) {
-      b_.Drop();
-    } else {
-      a_.Drop();
     }
+    // Whichever is earlier has missed its partner.
+    Side& earlier = b.frame.stamp_ns < a.frame.stamp_ns ? b_ : a_;
+    earlier.Drop();
     a_.Fill();
     b_.Fill();
   }

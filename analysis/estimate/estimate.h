@@ -10,6 +10,8 @@ namespace railcast {
 inline constexpr std::uint64_t kMinSamples = 10;
 /// Of every interval we state.
 inline constexpr double kConfidence = 0.95;
+/// What lies beyond each end of it.
+inline constexpr double kTail = 0.5 * (1.0 - kConfidence);
 
 /// A figure, the ends of its 95 % confidence interval, and how many samples it rests on. All three
 /// are NaN where the samples were not enough.
@@ -39,7 +41,7 @@ struct Estimate {
 [[nodiscard]] Estimate Proportion(std::uint64_t num_successes, std::uint64_t num);
 
 /// The rate of a Poisson count: `count` per `exposure`, with the exact interval (Garwood 1936,
-/// Biometrika 28), for any count; not enough without exposure.
+/// Biometrika 28); not enough below kMinSamples and without exposure.
 [[nodiscard]] Estimate PoissonRate(std::uint64_t count, double exposure);
 
 }  // namespace railcast

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "analysis/estimate/robust.h"
 
@@ -9,45 +10,82 @@ namespace railcast {
 namespace {
 
 constexpr double kLowest = 1e-7;
+constexpr double kHighest = 1e9;
 const double kLogStep = std::log(1.01);
-const auto kNumBins = static_cast<std::size_t>(std::ceil(std::log(1e12) / kLogStep));
+const auto kNumBins = static_cast<std::size_t>(std::ceil(std::log(kHighest / kLowest) / kLogStep));
+
+double MiddleOf(std::size_t bin) {
+  return kLowest * std::exp((static_cast<double>(bin) + 0.5) * kLogStep);
+}
+
+void AddTo(std::vector<std::uint32_t>& sums, const std::vector<std::uint32_t>& others) {
+  if (others.empty()) return;
+  sums.resize(kNumBins);
+  for (std::size_t i = 0; i < kNumBins; ++i) sums[i] += others[i];
+}
 
 }  // namespace
 
 void LogHistogram::Add(double sample) {
   if (std::isnan(sample)) return;
-  if (counts_.empty()) counts_.resize(kNumBins);
-  double place = 0.0;
-  if (sample > kLowest) place = std::log(sample / kLowest) / kLogStep;
-  const auto last = static_cast<double>(kNumBins - 1);
-  ++counts_[static_cast<std::size_t>(std::min(place, last))];
   ++num_;
+  const double magnitude = std::abs(sample);
+  if (magnitude < kLowest) {
+    ++num_zeros_;
+    return;
+  }
+  std::vector<std::uint32_t>& counts = sample > 0.0 ? positive_ : negative_;
+  counts.resize(kNumBins);
+  const double place = std::log(magnitude / kLowest) / kLogStep;
+  ++counts[static_cast<std::size_t>(std::min(place, static_cast<double>(kNumBins - 1)))];
 }
 
 void LogHistogram::Add(const LogHistogram& other) {
-  if (other.counts_.empty()) return;
-  if (counts_.empty()) counts_.resize(kNumBins);
-  for (std::size_t i = 0; i < kNumBins; ++i) counts_[i] += other.counts_[i];
   num_ += other.num_;
+  num_zeros_ += other.num_zeros_;
+  AddTo(positive_, other.positive_);
+  AddTo(negative_, other.negative_);
 }
 
 double LogHistogram::OfRank(std::uint64_t rank) const {
-  std::uint64_t below = 0;
-  std::size_t bin = 0;
-  while (bin + 1 < kNumBins && below + counts_[bin] < rank) below += counts_[bin++];
-  return kLowest * std::exp((static_cast<double>(bin) + 0.5) * kLogStep);
+  std::uint64_t up_to = 0;
+  for (std::size_t i = negative_.size(); i-- > 0;) {
+    up_to += negative_[i];
+    if (up_to >= rank) return -MiddleOf(i);
+  }
+  up_to += num_zeros_;
+  if (up_to >= rank) return 0.0;
+  for (std::size_t i = 0; i < positive_.size(); ++i) {
+    up_to += positive_[i];
+    if (up_to >= rank) return MiddleOf(i);
+  }
+  return MiddleOf(kNumBins - 1);
 }
 
-Estimate LogHistogram::Median() const {
+Estimate LogHistogram::Quantile(double share) const {
   if (num_ < kMinSamples) return NotEnough(num_);
-  const RankInterval ranks = MedianRanks(num_);
-  return {OfRank((num_ + 1) / 2), OfRank(ranks.low), OfRank(ranks.high), num_};
+  const RankInterval ranks = QuantileRanks(num_, share);
+  const double rank = std::ceil(share * static_cast<double>(num_));
+  return {OfRank(static_cast<std::uint64_t>(rank)), OfRank(ranks.low), OfRank(ranks.high), num_};
 }
 
-double LogHistogram::Quantile(double share) const {
-  if (num_ == 0) return std::numeric_limits<double>::quiet_NaN();
-  const double rank = std::ceil(share * static_cast<double>(num_));
-  return OfRank(std::max<std::uint64_t>(1, static_cast<std::uint64_t>(rank)));
+Estimate LogHistogram::RobustScale() const {
+  if (num_ < kMinSamples) return NotEnough(num_);
+  const double median = OfRank((num_ + 1) / 2);
+  std::vector<std::pair<double, std::uint64_t>> distances = {{std::abs(median), num_zeros_}};
+  for (std::size_t i = 0; i < positive_.size(); ++i) {
+    if (positive_[i] > 0) distances.emplace_back(std::abs(MiddleOf(i) - median), positive_[i]);
+  }
+  for (std::size_t i = 0; i < negative_.size(); ++i) {
+    if (negative_[i] > 0) distances.emplace_back(std::abs(-MiddleOf(i) - median), negative_[i]);
+  }
+  std::sort(distances.begin(), distances.end());
+  std::uint64_t up_to = 0;
+  for (const auto& [distance, count] : distances) {
+    up_to += count;
+    if (up_to >= (num_ + 1) / 2) return RobustScaleEstimate(kMadToSigma * distance, num_);
+  }
+  return NotEnough(num_);
 }
 
 }  // namespace railcast

@@ -7,9 +7,9 @@
 
 namespace railcast {
 
-/// Counts positive numbers in bins 1 % wide, so that quantiles of any number of samples need a
-/// constant memory; they are exact to half a bin. Between 1e-7 and 1e5; what lies outside counts in
-/// the end bins.
+/// Counts numbers in bins 1 % wide, so that medians of any number of samples need a constant
+/// memory; they are exact to half a bin. Magnitudes below 1e-7 count as 0; those beyond 1e9 in the
+/// last bin.
 class LogHistogram {
  public:
   /// NaN is no sample.
@@ -18,15 +18,18 @@ class LogHistogram {
 
   [[nodiscard]] std::uint64_t num() const { return num_; }
   /// With the interval between order statistics (see Median() in robust.h).
-  [[nodiscard]] Estimate Median() const;
-  /// @param share In [0, 1]; NaN without samples.
-  [[nodiscard]] double Quantile(double share) const;
+  /// @param share Between 0 and 1.
+  [[nodiscard]] Estimate Quantile(double share) const;
+  [[nodiscard]] Estimate Median() const { return Quantile(0.5); }
+  /// As RobustScale() in robust.h.
+  [[nodiscard]] Estimate RobustScale() const;
 
  private:
   [[nodiscard]] double OfRank(std::uint64_t rank) const;
 
   std::uint64_t num_{};
-  std::vector<std::uint32_t> counts_;  ///< Empty until the first sample.
+  std::uint64_t num_zeros_{};
+  std::vector<std::uint32_t> positive_, negative_;  ///< By magnitude; empty until the first sample.
 };
 
 }  // namespace railcast

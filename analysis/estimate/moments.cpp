@@ -6,12 +6,6 @@
 #include <limits>
 
 namespace railcast {
-namespace {
-
-constexpr double kTail = 0.5 * (1.0 - kConfidence);
-
-}  // namespace
-
 void Moments::Add(double sample) {
   if (std::isnan(sample)) return;
   ++num_;

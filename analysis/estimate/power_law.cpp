@@ -40,13 +40,22 @@ PowerLaw FitPowerLaw(const std::vector<CurvePoint>& points) {
     scatter += weight(p) * residual * residual;
   }
   const double degrees = static_cast<double>(logs.size()) - 2.0;
-  const double error = std::sqrt(std::max(1.0, scatter / degrees) / xx);
-  const double half =
-      boost::math::quantile(boost::math::students_t(degrees), 1.0 - 0.5 * (1.0 - kConfidence)) *
-      error;
+  const double times = boost::math::quantile(boost::math::students_t(degrees), 1.0 - kTail) *
+                       std::sqrt(std::max(1.0, scatter / degrees));
+  const double half = times / std::sqrt(xx);
   law.exponent = {slope, slope - half, slope + half, logs.size()};
   law.factor = std::exp(mean_y - slope * mean_x);
+  law.middle = mean_x;
+  law.middle_error = times / std::sqrt(sum);
   return law;
+}
+
+Estimate PowerLaw::At(double x) const {
+  if (!exponent.is_enough()) return exponent;
+  const double y = factor * std::pow(x, exponent.value);
+  const double by_slope = (std::log(x) - middle) * 0.5 * (exponent.high - exponent.low);
+  const double grow = std::exp(std::hypot(middle_error, by_slope));
+  return {y, y / grow, y * grow, exponent.num};
 }
 
 }  // namespace railcast

@@ -17,6 +17,14 @@ struct CurvePoint {
 struct PowerLaw {
   Estimate exponent;  ///< Its num: points that took part.
   double factor{};
+
+  /// y at x, on the line; not enough where the exponent is not.
+  [[nodiscard]] Estimate At(double x) const;
+
+  // What the intervals rest on.
+  double middle{};  ///< Weighted mean of log x.
+  double
+      middle_error{};  ///< Half the interval of log y there; that of the exponent is apart from it.
 };
 
 /// Straight line through (log x, log y), weighted by 1 / relative_error^2. The interval is

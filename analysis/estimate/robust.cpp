@@ -9,10 +9,6 @@
 namespace railcast {
 namespace {
 
-constexpr double kTail = 0.5 * (1.0 - kConfidence);
-constexpr double kMadToSigma = 1.4826;
-constexpr double kMadEfficiency = 0.3675;
-
 double Nth(std::vector<double>& samples, std::size_t n) {
   const auto place = samples.begin() + static_cast<std::ptrdiff_t>(n);
   std::nth_element(samples.begin(), place, samples.end());
@@ -31,18 +27,18 @@ double PlainMedian(std::vector<double>& samples) {
 
 }  // namespace
 
-RankInterval MedianRanks(std::uint64_t num) {
+RankInterval QuantileRanks(std::uint64_t num, double share) {
   const double z = boost::math::quantile(boost::math::normal(), 1.0 - kTail);
   const auto n = static_cast<double>(num);
-  const double reach = 0.5 * z * std::sqrt(n);
-  return {static_cast<std::uint64_t>(std::max(1.0, std::floor(0.5 * n - reach))),
-          static_cast<std::uint64_t>(std::min(n, std::ceil(0.5 * n + reach) + 1.0))};
+  const double reach = z * std::sqrt(n * share * (1.0 - share));
+  return {static_cast<std::uint64_t>(std::max(1.0, std::floor(n * share - reach))),
+          static_cast<std::uint64_t>(std::min(n, std::ceil(n * share + reach) + 1.0))};
 }
 
 Estimate Median(std::vector<double>& samples) {
   std::erase_if(samples, [](double sample) { return std::isnan(sample); });
   if (samples.size() < kMinSamples) return NotEnough(samples.size());
-  const RankInterval ranks = MedianRanks(samples.size());
+  const RankInterval ranks = QuantileRanks(samples.size(), 0.5);
   const double low = Nth(samples, ranks.low - 1);
   const double high = Nth(samples, ranks.high - 1);
   return {PlainMedian(samples), low, high, samples.size()};
@@ -55,15 +51,19 @@ double PlainRobustScale(std::vector<double>& samples) {
   return kMadToSigma * PlainMedian(samples);
 }
 
-Estimate RobustScale(std::vector<double>& samples) {
-  std::erase_if(samples, [](double sample) { return std::isnan(sample); });
-  if (samples.size() < kMinSamples) return NotEnough(samples.size());
-  const double degrees = kMadEfficiency * (static_cast<double>(samples.size()) - 1.0);
-  std::vector<double> distances = samples;
-  const double scale = PlainRobustScale(distances);
+Estimate RobustScaleEstimate(double scale, std::uint64_t num) {
+  constexpr double kMadEfficiency = 0.3675;
+  if (num < kMinSamples) return NotEnough(num);
+  const double degrees = kMadEfficiency * (static_cast<double>(num) - 1.0);
   const boost::math::chi_squared distribution(degrees);
   return {scale, scale * std::sqrt(degrees / boost::math::quantile(distribution, 1.0 - kTail)),
-          scale * std::sqrt(degrees / boost::math::quantile(distribution, kTail)), samples.size()};
+          scale * std::sqrt(degrees / boost::math::quantile(distribution, kTail)), num};
+}
+
+Estimate RobustScale(std::vector<double>& samples) {
+  std::erase_if(samples, [](double sample) { return std::isnan(sample); });
+  std::vector<double> distances = samples;
+  return RobustScaleEstimate(PlainRobustScale(distances), samples.size());
 }
 
 }  // namespace railcast

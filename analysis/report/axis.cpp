@@ -59,7 +59,8 @@ std::string TickLabel(double value, double step) {
   const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
   std::snprintf(text.data(), text.size(), "%.*f", decimals, size);
   std::string label = text.data();
-  if (size >= 1000.0 && decimals == 0) label = CountText(static_cast<std::uint64_t>(size + 0.5));
+  if (size >= 1000.0 && decimals == 0)
+    label = CountText(static_cast<std::uint64_t>(std::llround(size)));
   return value < 0.0 ? "−" + label : label;
 }
 

@@ -62,10 +62,11 @@ std::string Plain(double value) {
   if (IsBeyond(value)) return Printed("%.*e", kPlainDigits - 1, value);
   // A count is shown whole, and so is a number that needs fewer digits.
   if (value == std::round(value)) return Rounded(value, 0);
-  const std::string text = Rounded(value, std::max(0, kPlainDigits - 1 - Magnitude(value)));
+  std::string text = Rounded(value, std::max(0, kPlainDigits - 1 - Magnitude(value)));
   if (text.find('.') == std::string::npos) return text;
-  const std::string trimmed = text.substr(0, text.find_last_not_of('0') + 1);
-  return trimmed.back() == '.' ? trimmed.substr(0, trimmed.size() - 1) : trimmed;
+  text.resize(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
 }
 
 std::string Interval(const std::string& low, const std::string& high) {

@@ -24,6 +24,13 @@ constexpr std::size_t kMaxNameLetters = 36;
 constexpr std::size_t kMaxLyingCategories = 40;
 constexpr std::size_t kMaxLabelsBelow = 20;
 
+constexpr const char* kLegend =
+    "set key outside top left Left reverse horizontal samplen 1.5 height 0.5\nset samples 2\n";
+constexpr const char* kSvgTerminal = "set terminal svg noenhanced rounded font 'sans-serif,14'";
+constexpr const char* kPngTerminal =
+    "set terminal pngcairo noenhanced rounded fontscale 2 linewidth 2 pointscale 2 "
+    "font 'sans-serif,10'";
+
 bool HasLongCategories(const Chart& chart) {
   std::size_t num_letters = 0;
   for (const std::string& name : chart.x.categories) num_letters += name.size() + 2;
@@ -115,16 +122,12 @@ std::string DrawingOf(const Chart& chart,
                    std::to_string(scale * height_px), "\nset output ", GnuplotQuoted(file.string()),
                    "\n", plot.command});
   };
-  return Joined({"reset\n", plot.data, "set border ", drawing.is_lying ? "2" : "1",
-                 " linewidth 1 linecolor rgb '#000000'\n"
-                 "set key outside top left Left reverse horizontal samplen 1.5 height 0.5\n"
-                 "set samples 2\n",
-                 is_empty ? EmptyAxesText(chart) : AxesText(drawing),
-                 "set terminal svg noenhanced rounded font 'sans-serif,14'", output(1, svg),
-                 "set title ", GnuplotQuoted(chart.title),
-                 "\nset terminal pngcairo noenhanced rounded fontscale 2 linewidth 2 pointscale 2 "
-                 "font 'sans-serif,10'",
-                 output(2, png), "set output\n"});
+  const std::string border = drawing.is_lying ? "2" : "1";
+  return Joined({"reset\n", plot.data, "set border ", border,
+                 " linewidth 1 linecolor rgb '#000000'\n", kLegend,
+                 is_empty ? EmptyAxesText(chart) : AxesText(drawing), kSvgTerminal, output(1, svg),
+                 "set title ", GnuplotQuoted(chart.title), "\n", kPngTerminal, output(2, png),
+                 "set output\n"});
 }
 
 }  // namespace railcast

@@ -1,6 +1,5 @@
 #include "analysis/report/output.h"
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <set>
 #include <string>

@@ -1,13 +1,10 @@
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string_view>
 
 #include "analysis/report/report.h"
-
-namespace CLI {
-class App;
-}
 
 namespace railcast {
 

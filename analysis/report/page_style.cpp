@@ -66,6 +66,7 @@ section { margin-top: 2.6rem; scroll-margin-top: 1rem; }
 section > p { max-width: 46rem; margin: 0.6rem 0 0; color: var(--muted); }
 .charts { display: grid; gap: 1.1rem; margin-top: 1.1rem;
   grid-template-columns: repeat(auto-fill, minmax(min(100%, 30rem), 1fr)); }
+.charts:has(> figure:only-child) { grid-template-columns: minmax(0, 44rem); }
 figure { margin: 0; min-width: 0; background: var(--surface); border: 1px solid var(--edge);
   border-radius: 0.6rem; padding: 1rem 1.1rem 0.9rem; }
 .drawing { overflow-x: auto; margin-top: 0.5rem; }

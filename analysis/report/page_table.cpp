@@ -44,7 +44,7 @@ std::string CellHtml(const Cell& cell, const PageColumn& column, bool is_row_hea
     return Element("td class=\"absent\"" + span, LineOf(text));
   }
   if (!text.is_number) return Element("td" + span, text.value);
-  const std::string number = Joined({"<td class=\"number\">", NumberHtml(text.value), "</td>"});
+  std::string number = Joined({"<td class=\"number\">", NumberHtml(text.value), "</td>"});
   if (!column.has_estimates) return number;
   return Joined({number, "<td class=\"interval\">", NumberHtml(text.interval), "</td>",
                  Element("td class=\"samples\"", text.samples)});

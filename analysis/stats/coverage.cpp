@@ -17,7 +17,9 @@ constexpr std::size_t kNumSectors = 72;
 std::uint64_t CountCells(const Frame& frame) {
   std::vector<std::uint64_t> cells;
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
-    if (!std::isfinite(frame.range_m[slot])) continue;
+    // Also where the range is no number.
+    constexpr float kFarthest_m = 1e9F;
+    if (!(frame.range_m[slot] < kFarthest_m)) continue;
     const auto x = static_cast<std::int32_t>(std::floor(frame.x[slot]));
     const auto y = static_cast<std::int32_t>(std::floor(frame.y[slot]));
     cells.push_back(std::uint64_t{static_cast<std::uint32_t>(x)} << 32U |
@@ -143,7 +145,7 @@ Section Coverage::MakeSection(const Names& names) const {
     const double middle_deg = -180.0 + (static_cast<double>(i) + 0.5) * kSector_deg;
     const Estimate rate = PoissonRate(sectors_[i], static_cast<double>(num_frames()));
     if (sectors_[i] > 0) sectors.rows.push_back({middle_deg, rate});
-    points.points.push_back(PointAt(middle_deg, rate));
+    if (rate.is_enough()) points.points.push_back(PointAt(middle_deg, rate));
   }
   sector_chart.series.push_back(std::move(points));
   section.tables.push_back(std::move(sectors));

@@ -44,31 +44,42 @@ Vector3 PointIn(const Frame& frame, std::size_t row, std::size_t column) {
           static_cast<double>(frame.z[slot])};
 }
 
-/// Whether a point lies between two others as on a plane (1 / range is linear in the angles), to
-/// 5 %; not where one of them is missing.
-bool IsBetween(const Vector3& middle, const Vector3& one, const Vector3& other) {
-  constexpr double kTolerance = 0.05;
-  const double expected_per_m = 0.5 * (1.0 / one.norm() + 1.0 / other.norm());
-  return std::abs(expected_per_m * middle.norm() - 1.0) < kTolerance;
+/// The range halfway between two points if they lie on a plane: 1 / range is linear in the angles.
+/// NaN where one of them is missing.
+double HalfwayRange_m(const Vector3& one, const Vector3& other) {
+  return 2.0 / (1.0 / one.norm() + 1.0 / other.norm());
 }
 
-/// The area that a point stands for, as a vector along the surface's normal; nothing if not all of
-/// its neighbours are there, on the same surface. @pre Not in the first or last row or column.
-std::optional<Vector3> Area_m2(const Frame& frame,
-                               const ScanTable& scan,
-                               std::size_t row,
-                               std::size_t column) {
-  const Vector3 middle = PointIn(frame, row, column);
+/// A firing of the grid and the surface about it.
+struct Place {
+  Vector3 area_m2;   ///< That it stands for, along the surface's normal.
+  double range_m{};  ///< Where its neighbours say that the surface is.
+  bool has_point{};
+};
+
+/// Nothing if not all four neighbours are there, on one surface, or if the firing met another one
+/// before it. @pre Not in the first or last row or column.
+std::optional<Place> LookAt(const Frame& frame,
+                            const ScanTable& scan,
+                            std::size_t row,
+                            std::size_t column) {
+  constexpr double kTolerance = 0.05;
   const Vector3 left = PointIn(frame, row, column - 1);
   const Vector3 right = PointIn(frame, row, column + 1);
-  if (!IsBetween(middle, left, right)) return std::nullopt;
   const auto column_below = scan.ColumnBeside(row, column, row - 1);
   const auto column_above = scan.ColumnBeside(row, column, row + 1);
   if (!column_below || !column_above) return std::nullopt;
   const Vector3 below = PointIn(frame, row - 1, *column_below);
   const Vector3 above = PointIn(frame, row + 1, *column_above);
-  if (!IsBetween(middle, below, above)) return std::nullopt;
-  return Vector3(0.5 * (right - left).cross(0.5 * (above - below)));
+  const double range_m = HalfwayRange_m(left, right);
+  const auto is_near = [range_m](double other_m) {
+    return std::abs(other_m / range_m - 1.0) < kTolerance;
+  };
+  if (!is_near(HalfwayRange_m(below, above))) return std::nullopt;
+  const double own_m = PointIn(frame, row, column).norm();
+  const bool has_point = std::isfinite(own_m);
+  if (has_point && !is_near(own_m)) return std::nullopt;
+  return Place{0.5 * (right - left).cross(0.5 * (above - below)), range_m, has_point};
 }
 
 std::string AttitudeOf(const Vector3& normal) {
@@ -77,16 +88,6 @@ std::string AttitudeOf(const Vector3& normal) {
   const double tilt_rad = std::acos(std::min(1.0, std::abs(normal.normalized().z())));
   if (tilt_rad < kLevel_rad) return "level";
   return tilt_rad > kUpright_rad ? "upright" : "slanted";
-}
-
-Estimate PerArea(const Density::Count& count) {
-  if (count.num_points < kMinSamples) return NotEnough(count.num_points);
-  return PoissonRate(count.num_points, count.area_m2);
-}
-
-Estimate PerSolidAngle(const Density::Count& count) {
-  if (count.num_points < kMinSamples) return NotEnough(count.num_points);
-  return PoissonRate(count.num_points, count.solid_angle_sr);
 }
 
 using NamedCurves = std::vector<std::pair<std::string, const Density::Curve*>>;
@@ -111,10 +112,7 @@ Table LawTable(const NamedCurves& curves) {
   for (const auto& [name, curve] : curves) {
     const PowerLaw law = Density::LawOf(*curve);
     constexpr double kReference_m = 10.0;
-    const double density = law.exponent.is_enough()
-                               ? law.factor * std::pow(kReference_m, law.exponent.value)
-                               : std::nan("");
-    table.rows.push_back({name, NumPoints(*curve), law.exponent, density});
+    table.rows.push_back({name, NumPoints(*curve), law.exponent, law.At(kReference_m)});
   }
   return table;
 }
@@ -135,8 +133,9 @@ Table CurveTable(const NamedCurves& curves) {
     for (std::size_t i = 0; i < curve->size(); ++i) {
       const Density::Count& count = (*curve)[i];
       if (count.num_points == 0) continue;
-      table.rows.push_back(
-          {name, count.range_m(), count.area_m2, PerArea(count), PerSolidAngle(count)});
+      table.rows.push_back({name, count.range_m(), count.area_m2,
+                            PoissonRate(count.num_points, count.area_m2),
+                            PoissonRate(count.num_points, count.solid_angle_sr)});
     }
   }
   return table;
@@ -161,7 +160,7 @@ Chart CurveChart(NamedCurves curves) {
     ChartSeries series{name, SeriesStyle::kLinePoints, {}};
     for (std::size_t i = 0; i < curve->size(); ++i) {
       const Density::Count& count = (*curve)[i];
-      const Estimate density = PerArea(count);
+      const Estimate density = PoissonRate(count.num_points, count.area_m2);
       if (density.is_enough()) series.points.push_back(PointAt(count.range_m(), density));
     }
     if (!series.points.empty()) chart.series.push_back(std::move(series));
@@ -222,11 +221,11 @@ void Density::AddFromPoints(const Frame& frame, const ScanTable& scan) {
     const double solid_angle_sr = scan.SolidAngle_sr(row);
     if (!(solid_angle_sr > 0.0)) continue;
     for (std::size_t column = 1; column + 1 < frame.columns; ++column) {
-      const auto area_m2 = Area_m2(frame, scan, row, column);
-      if (!area_m2 || !(area_m2->norm() > 0.0)) continue;
-      const double range_m = PointIn(frame, row, column).norm();
-      AddTo(by_attitude_, AttitudeOf(*area_m2), range_m,
-            {1, 1, area_m2->norm(), solid_angle_sr, std::log(range_m)});
+      const auto place = LookAt(frame, scan, row, column);
+      if (!place || !(place->area_m2.norm() > 0.0)) continue;
+      AddTo(by_attitude_, AttitudeOf(place->area_m2), place->range_m,
+            {1, place->has_point ? 1U : 0U, place->area_m2.norm(), solid_angle_sr,
+             std::log(place->range_m)});
     }
   }
 }
@@ -250,8 +249,9 @@ Section Density::MakeSection(const Names& names) const {
   for (const auto& [attitude, curve] : by_attitude_) curves.emplace_back(attitude, &curve);
   if (!by_attitude_.empty()) {
     section.paragraphs.emplace_back(
-        "From the points alone: the area between a point's four neighbours in the grid, where all "
-        "five lie on one surface. Level: its normal is within 20 deg of up (of the sensor's z "
+        "From the points alone: the area between a firing's four neighbours in the grid where they "
+        "lie on one surface, with a point of its own on it or without any. Level: its normal is "
+        "within 20 deg of up (of the sensor's z "
         "axis); "
         "upright: beyond 70 deg.");
   }

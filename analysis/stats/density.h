@@ -19,9 +19,9 @@ namespace railcast {
 /// A firing of solid angle W that meets a surface at range R under incidence i stands for W R^2 /
 /// cos(i) of it. Density = points / area of the firings' surfaces, in bins of range. With the truth
 /// in the frames every firing counts that met the surface, with a point or not, by label; without
-/// it, every point with points above, below, left and right of it on one surface, whose area is
-/// that of the parallelogram between them, by how the surface stands: level (normal within 20 deg
-/// of up), upright (beyond 70 deg) or slanted.
+/// it, every firing with points above, below, left and right of it on one surface, whose area is
+/// half of that between them, and with a point on the same surface or none, by how the surface
+/// stands: level (normal within 20 deg of up), upright (beyond 70 deg) or slanted.
 ///
 /// With a uniform raster and no losses the slope is -3 on level ground (the incidence grows with
 /// range) and -2 on faces met under the same incidence everywhere (physics.md 1.5).

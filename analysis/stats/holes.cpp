@@ -53,9 +53,10 @@ void Holes::Add(const RecordedFrame& recorded) {
   }
   for (std::size_t row = 0; row < frame.rows; ++row) {
     for (std::size_t column = 0; column < frame.columns; ++column) {
-      if (!has_points[column]) continue;
-      ++num_firings_;
-      num_points_ += std::isfinite(Range_m(frame, row, column)) ? 1 : 0;
+      if (has_points[column]) {
+        ++num_firings_;
+        num_points_ += std::isfinite(Range_m(frame, row, column)) ? 1 : 0;
+      }
       const bool is_inside = column > 0 && column + 1 < frame.columns;
       if (is_inside) AddFiring(frame, row, column);
     }

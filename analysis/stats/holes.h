@@ -13,9 +13,9 @@ namespace railcast {
 /// A firing whose two neighbours in its ring lie on one surface (their ranges differ by less than
 /// 5 %, and 0.1 m are always allowed) should have met that surface, too; if it has no point, it is
 /// a hole. The share of holes among such firings is the dropout if losses are independent of each
-/// other; where they cluster (dark, far or grazing patches) it is a lower bound. Columns without
-/// any point are taken for firings never made: a sensor that is set to half a turn has lost
-/// nothing in the other half.
+/// other; where they cluster (dark, far or grazing patches) it is a lower bound. A sensor that is
+/// set to half a turn has no neighbours in the other half, and so no holes; nor do its columns
+/// without any point count where the share of firings with a point is asked for.
 class Holes {
  public:
   /// Frames that are no grids are passed over.

@@ -33,14 +33,9 @@ Table MakeTable(const char* key, const char* title, TableColumn first, const Nam
   Table table;
   table.key = key;
   table.title = title;
-  table.columns = {std::move(first),
-                   {"mean", "Mean", ""},
-                   {"median", "Median", ""},
-                   {"deviation", "Standard deviation", ""}};
+  table.columns = {std::move(first), {"mean", "Mean", ""}, {"median", "Median", ""}};
   for (const auto& [name, sum] : sums) {
-    // Intensities are not normal: no interval for their deviation.
-    table.rows.push_back(
-        {name, sum->plain.Mean(), sum->robust.Median(), sum->plain.StandardDeviation().value});
+    table.rows.push_back({name, sum->plain.Mean(), sum->robust.Median()});
   }
   return table;
 }

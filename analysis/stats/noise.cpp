@@ -10,8 +10,6 @@
 namespace railcast {
 namespace {
 
-constexpr double kMadToSigma = 1.4826;
-
 template <typename Sum>
 void AddAll(std::vector<Sum>& sums, const std::vector<Sum>& others) {
   if (sums.size() < others.size()) sums.resize(others.size());
@@ -20,7 +18,6 @@ void AddAll(std::vector<Sum>& sums, const std::vector<Sum>& others) {
 
 Estimate PooledSigma(double squares, double degrees, std::uint64_t num_patches) {
   if (num_patches < kMinSamples) return NotEnough(num_patches);
-  constexpr double kTail = 0.5 * (1.0 - kConfidence);
   const boost::math::chi_squared distribution(degrees);
   return {std::sqrt(squares / degrees),
           std::sqrt(squares / boost::math::quantile(distribution, 1.0 - kTail)),
@@ -74,7 +71,7 @@ Table TruthTable(const std::vector<Noise::Truth>& truth) {
     if (bin.errors_m.num() == 0) continue;
     table.rows.push_back({RangeBins().Name(i), Scaled(bin.errors_m.Mean(), kMm),
                           Scaled(bin.errors_m.StandardDeviation(), kMm),
-                          Scaled(bin.RobustSigma_m(), kMm)});
+                          Scaled(bin.robust_errors_m.RobustScale(), kMm)});
   }
   return table;
 }
@@ -111,11 +108,7 @@ Estimate Noise::Planes::PlaneSigma_m() const {
 
 void Noise::Truth::Add(const Truth& other) {
   errors_m.Add(other.errors_m);
-  magnitudes_m.Add(other.magnitudes_m);
-}
-
-Estimate Noise::Truth::RobustSigma_m() const {
-  return Scaled(magnitudes_m.Median(), kMadToSigma);
+  robust_errors_m.Add(other.robust_errors_m);
 }
 
 void Noise::Add(const RecordedFrame& recorded, const std::vector<PlanePatch>& patches) {
@@ -144,7 +137,7 @@ void Noise::Add(const RecordedFrame& recorded, const std::vector<PlanePatch>& pa
     if (!bin) continue;
     const double error_m = static_cast<double>(frame.range_m[slot]) - true_range_m;
     truth_[*bin].errors_m.Add(error_m);
-    truth_[*bin].magnitudes_m.Add(std::abs(error_m));
+    truth_[*bin].robust_errors_m.Add(error_m);
   }
 }
 
@@ -174,8 +167,9 @@ Section Noise::MakeSection() const {
                            [](const Planes& bin) { return bin.RobustPlaneSigma_m(); })};
   chart.caption = "Robust estimates.";
   if (!truth_.empty()) {
-    chart.series.push_back(SeriesOf("measured less true range", truth_,
-                                    [](const Truth& bin) { return bin.RobustSigma_m(); }));
+    chart.series.push_back(SeriesOf("measured less true range", truth_, [](const Truth& bin) {
+      return bin.robust_errors_m.RobustScale();
+    }));
     section.tables.push_back(TruthTable(truth_));
     section.paragraphs.emplace_back("Frames hold the truth: measured less true range is exact.");
   }

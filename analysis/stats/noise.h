@@ -43,11 +43,9 @@ class Noise {
   /// Measured less true range of the points on surfaces, in one bin of range.
   struct Truth {
     Moments errors_m;
-    LogHistogram magnitudes_m;  ///< Of the errors.
+    LogHistogram robust_errors_m;
 
     void Add(const Truth& other);
-    /// 1.4826 x the median magnitude.
-    [[nodiscard]] Estimate RobustSigma_m() const;
   };
 
   /// By bin of RangeBins().

@@ -1,13 +1,37 @@
 #include "analysis/stats/object_points.h"
 
-#include <algorithm>
-
 #include "analysis/stats/bins.h"
+#include "analysis/stats/firing_truth.h"
 #include "analysis/stats/headings.h"
 
 namespace railcast {
 
+namespace {
+
+/// Firings that met a thing, and those of them that came back.
+struct Met {
+  std::uint64_t num{};
+  std::uint64_t num_returned{};
+};
+
+// By instance; empty where frames do not hold the truth.
+std::map<std::uint32_t, Met> CountMet(const RecordedFrame& recorded) {
+  std::map<std::uint32_t, Met> counts;
+  if (!HasOutcomes(recorded) || !recorded.Has("instance")) return counts;
+  const Frame& frame = recorded.frame;
+  for (std::size_t slot = 0; slot < frame.num_slots(); slot += frame.returns) {
+    if (frame.instance[slot] == 0 || !KnowsSurface(frame, slot)) continue;
+    Met& met = counts[frame.instance[slot]];
+    ++met.num;
+    met.num_returned += frame.outcome[slot] == Outcome::kReturned ? 1 : 0;
+  }
+  return counts;
+}
+
+}  // namespace
+
 void ObjectPoints::Add(const RecordedFrame& recorded) {
+  const std::map<std::uint32_t, Met> counts = CountMet(recorded);
   for (const RecordedObject& object : recorded.objects) {
     // Out of sight even alone: behind the sensor, or beside what it looks at.
     if (object.firings_alone == 0) continue;
@@ -17,8 +41,10 @@ void ObjectPoints::Add(const RecordedFrame& recorded) {
     sum.label = object.label;
     sum.bins.resize(RangeBins().size());
     sum.bins[*bin].points.Add(static_cast<double>(object.points));
-    sum.bins[*bin].num_visible += object.firings_visible;
-    sum.bins[*bin].num_points += object.points;
+    const auto met = counts.find(object.instance);
+    if (met == counts.end()) continue;
+    sum.bins[*bin].num_met += met->second.num;
+    sum.bins[*bin].num_returned += met->second.num_returned;
   }
 }
 
@@ -29,8 +55,8 @@ void ObjectPoints::Add(const ObjectPoints& other) {
     sum.bins.resize(object.bins.size());
     for (std::size_t i = 0; i < object.bins.size(); ++i) {
       sum.bins[i].points.Add(object.bins[i].points);
-      sum.bins[i].num_visible += object.bins[i].num_visible;
-      sum.bins[i].num_points += object.bins[i].num_points;
+      sum.bins[i].num_met += object.bins[i].num_met;
+      sum.bins[i].num_returned += object.bins[i].num_returned;
     }
   }
 }
@@ -47,8 +73,7 @@ Section ObjectPoints::MakeSection() const {
   table.key = "object_points";
   table.title = "Points on each object by distance";
   table.note =
-      "Samples are frames. Returned: of the beams that met the object first, those whose "
-      "point came back.";
+      "Samples are frames. Returned: of the beams that met the object, those that came back.";
   table.columns = {{"object", "Object", ""},
                    {"label", "Label", ""},
                    {"distance_m", "Distance", "m"},
@@ -62,11 +87,10 @@ Section ObjectPoints::MakeSection() const {
   for (const auto& [name, object] : objects_) {
     ChartSeries series{name, SeriesStyle::kLinePoints, {}};
     for (std::size_t i = 0; i < object.bins.size(); ++i) {
-      const auto& [points, num_visible, num_points] = object.bins[i];
+      const auto& [points, num_met, num_returned] = object.bins[i];
       if (points.num() == 0) continue;
-      // A beam may bring several points back.
       table.rows.push_back({name, object.label, RangeBins().Name(i), points.Mean(),
-                            Proportion(std::min(num_points, num_visible), num_visible)});
+                            Proportion(num_returned, num_met)});
       const Estimate mean = points.Mean();
       if (mean.value > 0.0) series.points.push_back(PointAt(RangeBins().middle(i), mean));
     }

@@ -11,7 +11,8 @@
 
 namespace railcast {
 
-/// Points on each object by its distance: of our sequences, from objects.jsonl.
+/// Points on each object by its distance, from objects.jsonl of our sequences; and of the beams
+/// that met it, from the frames' truth, how many came back.
 class ObjectPoints {
  public:
   void Add(const RecordedFrame& recorded);
@@ -24,8 +25,8 @@ class ObjectPoints {
   /// In one bin of distance, over frames.
   struct Bin {
     Moments points;
-    std::uint64_t num_visible{};  ///< Firings that met it first, ...
-    std::uint64_t num_points{};   ///< ... and their points.
+    std::uint64_t num_met{};       ///< Firings that met it, ...
+    std::uint64_t num_returned{};  ///< ... and those that came back.
   };
   struct Object {
     std::string label;

@@ -13,6 +13,7 @@
 #include <numbers>
 #include <optional>
 
+#include "analysis/estimate/moments.h"
 #include "analysis/estimate/robust.h"
 #include "core/base/transform.h"
 
@@ -23,7 +24,11 @@ constexpr std::size_t kLeastPoints = 12;
 constexpr std::size_t kNearestPoints = 25;
 constexpr double kMostIncidence_rad = std::numbers::pi / 3.0;
 
-using Points = std::vector<Vector3>;
+struct PatchPoint {
+  Vector3 position_m = Vector3::Zero();
+  double intensity{};
+};
+using Points = std::vector<PatchPoint>;
 
 /// A plane through `middle`.
 struct Plane {
@@ -34,11 +39,11 @@ struct Plane {
 // Least squares: the direction in which the points vary least.
 Plane FitPlane(const Points& points) {
   Plane plane;
-  for (const Vector3& point : points) plane.middle += point;
+  for (const PatchPoint& point : points) plane.middle += point.position_m;
   plane.middle /= static_cast<double>(points.size());
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const Vector3& point : points) {
-    const Vector3 from_middle = point - plane.middle;
+  for (const PatchPoint& point : points) {
+    const Vector3 from_middle = point.position_m - plane.middle;
     spread += from_middle * from_middle.transpose();
   }
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
@@ -54,11 +59,11 @@ std::optional<Plane> AgreedPlane(const Points& points, double range_m) {
   // Where four points in five agree, half of all triples do: 20 all miss once in a million times.
   constexpr int kMaxTries = 20;
   Plane plane;
-  for (const Vector3& point : points) plane.middle += point;
+  for (const PatchPoint& point : points) plane.middle += point.position_m;
   plane.middle /= static_cast<double>(points.size());
   const auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
-  for (const Vector3& point : points) {
-    const Eigen::Vector3f near = (point - plane.middle).cast<float>();
+  for (const PatchPoint& point : points) {
+    const Eigen::Vector3f near = (point.position_m - plane.middle).cast<float>();
     cloud->emplace_back(near.x(), near.y(), near.z());
   }
   const auto model = std::make_shared<pcl::SampleConsensusModelPlane<pcl::PointXYZ>>(cloud);
@@ -77,11 +82,13 @@ Points WithoutOutliers(const Points& points, const Plane& plane) {
   constexpr double kMostDeviations = 5.0;
   constexpr double kLeastScale_m = 1e-5;  // Float32 coordinates at 100 m.
   std::vector<double> distances_m;
-  const auto distance_m = [&](const Vector3& p) { return plane.normal.dot(p - plane.middle); };
-  for (const Vector3& point : points) distances_m.push_back(distance_m(point));
+  const auto distance_m = [&](const PatchPoint& point) {
+    return plane.normal.dot(point.position_m - plane.middle);
+  };
+  for (const PatchPoint& point : points) distances_m.push_back(distance_m(point));
   const double most_m = kMostDeviations * std::max(PlainRobustScale(distances_m), kLeastScale_m);
   Points kept;
-  for (const Vector3& point : points) {
+  for (const PatchPoint& point : points) {
     if (std::abs(distance_m(point)) <= most_m) kept.push_back(point);
   }
   return kept;
@@ -91,8 +98,8 @@ Points WithoutOutliers(const Points& points, const Plane& plane) {
 bool IsFlat(const Points& points, const Plane& plane) {
   const double most_m = 0.1 + 5e-4 * plane.middle.norm();
   double squares_m2 = 0.0;
-  for (const Vector3& point : points) {
-    const double distance_m = plane.normal.dot(point - plane.middle);
+  for (const PatchPoint& point : points) {
+    const double distance_m = plane.normal.dot(point.position_m - plane.middle);
     squares_m2 += distance_m * distance_m;
   }
   return squares_m2 < most_m * most_m * static_cast<double>(points.size());
@@ -101,7 +108,7 @@ bool IsFlat(const Points& points, const Plane& plane) {
 // @param points At least kLeastPoints.
 std::optional<PlanePatch> MakePatch(const Points& points) {
   constexpr double kLeastShare = 0.8;
-  const auto agreed = AgreedPlane(points, points[points.size() / 2].norm());
+  const auto agreed = AgreedPlane(points, points[points.size() / 2].position_m.norm());
   if (!agreed) return std::nullopt;
   Plane plane = *agreed;
   Points kept;
@@ -121,12 +128,15 @@ std::optional<PlanePatch> MakePatch(const Points& points) {
   patch.range_m = plane.middle.norm();
   patch.num_points = kept.size();
   patch.num_outliers = points.size() - kept.size();
-  for (const Vector3& point : kept) {
-    const double square_m = plane.normal.dot(point - plane.middle);
-    const double along_m = square_m / plane.normal.dot(point.normalized());
+  Moments intensities;
+  for (const PatchPoint& point : kept) {
+    const double square_m = plane.normal.dot(point.position_m - plane.middle);
+    const double along_m = square_m / plane.normal.dot(point.position_m.normalized());
+    intensities.Add(point.intensity);
     patch.plane_squares_m2 += square_m * square_m;
     patch.range_squares_m2 += along_m * along_m;
   }
+  patch.intensity = intensities.PlainMean();
   return patch;
 }
 
@@ -151,23 +161,10 @@ Window WindowOf(const ScanTable& scan) {
           static_cast<std::size_t>(std::clamp(columns, is_fine ? 2.0 : 4.0, 6.0))};
 }
 
-/// Collects a neighbourhood's points and the mean of their intensities.
-struct Gathered {
-  Points points;
-  double intensity_sum{};
-
-  void Add(const Frame& frame, std::size_t slot) {
-    if (!std::isfinite(frame.range_m[slot])) return;
-    points.push_back(PointAt(frame, slot));
-    intensity_sum += static_cast<double>(frame.intensity[slot]);
-  }
-  [[nodiscard]] std::optional<PlanePatch> Fit() const {
-    if (points.size() < kLeastPoints) return std::nullopt;
-    std::optional<PlanePatch> patch = MakePatch(points);
-    if (patch) patch->intensity = intensity_sum / static_cast<double>(points.size());
-    return patch;
-  }
-};
+void Gather(const Frame& frame, std::size_t slot, Points& points) {
+  if (!std::isfinite(frame.range_m[slot])) return;
+  points.push_back({PointAt(frame, slot), static_cast<double>(frame.intensity[slot])});
+}
 
 std::vector<PlanePatch> FindInGrid(const Frame& frame, const ScanTable& scan) {
   const Window half = WindowOf(scan);
@@ -188,15 +185,15 @@ std::vector<PlanePatch> FindInGrid(const Frame& frame, const ScanTable& scan) {
         static_cast<std::size_t>((turn - std::floor(turn)) * static_cast<double>(num_places));
     const std::size_t row = place / num_columns;
     const std::size_t column = place % num_columns;
-    Gathered gathered;
+    Points points;
     for (std::size_t r = row; r < row + height; ++r) {
       for (std::size_t c = column; c < column + width; ++c) {
         const auto beside = scan.ColumnBeside(row + half.rows, c, r);
-        if (beside) gathered.Add(frame, r * frame.width() + *beside * frame.returns);
+        if (beside) Gather(frame, r * frame.width() + *beside * frame.returns, points);
       }
     }
-    if (gathered.points.size() * 4 < height * width * 3) continue;
-    if (const auto patch = gathered.Fit()) patches.push_back(*patch);
+    if (points.size() * 4 < height * width * 3 || points.size() < kLeastPoints) continue;
+    if (const auto patch = MakePatch(points)) patches.push_back(*patch);
   }
   return patches;
 }
@@ -218,9 +215,9 @@ std::vector<PlanePatch> FindInCloud(const Frame& frame) {
   std::vector<float> squares_m2;
   for (std::size_t i = frame.index % stride; i < slots.size(); i += stride) {
     tree.nearestKSearch(static_cast<int>(i), static_cast<int>(kNearestPoints), found, squares_m2);
-    Gathered gathered;
-    for (const int k : found) gathered.Add(frame, slots[static_cast<std::size_t>(k)]);
-    if (const auto patch = gathered.Fit()) patches.push_back(*patch);
+    Points points;
+    for (const int k : found) Gather(frame, slots[static_cast<std::size_t>(k)], points);
+    if (const auto patch = MakePatch(points)) patches.push_back(*patch);
   }
   return patches;
 }

@@ -12,7 +12,7 @@ namespace railcast {
 struct PlanePatch {
   double range_m{};          ///< Mean of its points.
   double incidence_rad{};    ///< At its middle.
-  double intensity{};        ///< Mean; NaN if the points have none.
+  double intensity{};        ///< Mean of the points that have one; NaN if none has.
   std::size_t num_points{};  ///< Without outliers.
   std::size_t num_outliers{};
   /// Sums of squared distances from the plane over num_points - 3 degrees of freedom: along the

@@ -10,10 +10,6 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-double Wrapped(double angle_rad) {
-  return std::remainder(angle_rad, 2.0 * std::numbers::pi);
-}
-
 // NaN if there is none. The order is lost.
 double MedianOf(std::vector<double>& values) {
   if (values.empty()) return kNaN;
@@ -78,7 +74,7 @@ void FindColumns(const DirectionGrid& grid, ScanTable& table) {
       if (std::isnan(azimuth_rad)) continue;
       const double own_rad = azimuth_rad - table.row_azimuth_rad[row];
       if (std::isnan(last_rad)) last_rad = own_rad;
-      values.push_back(Wrapped(own_rad - last_rad));
+      values.push_back(WrappedAngle_rad(own_rad - last_rad));
     }
     if (values.empty()) continue;
     last_rad += MedianOf(values);
@@ -94,7 +90,7 @@ void FindRowOffsets(const DirectionGrid& grid, ScanTable& table) {
     for (std::size_t column = 0; column < grid.columns; ++column) {
       const double azimuth_rad = grid.azimuth_rad[row * grid.columns + column];
       if (std::isnan(azimuth_rad)) continue;
-      values.push_back(Wrapped(azimuth_rad - table.column_azimuth_rad[column]));
+      values.push_back(WrappedAngle_rad(azimuth_rad - table.column_azimuth_rad[column]));
     }
     if (!values.empty()) table.row_azimuth_rad[row] = MedianOf(values);
   }

@@ -1,17 +1,22 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <numbers>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "core/frame/frame.h"
 #include "core/scan/scan_pattern.h"
 
 namespace railcast {
+
+/// The same direction between -pi and pi.
+[[nodiscard]] inline double WrappedAngle_rad(double angle_rad) {
+  return std::remainder(angle_rad, 2.0 * std::numbers::pi);
+}
 
 /// Where each firing of a grid looks, also those without a point.
 ///

@@ -53,7 +53,7 @@ void AddNoiseHeadline(const Noise& noise, Report& report) {
   const auto& planes = noise.planes();
   if (!truth.empty()) {
     const std::size_t bin = best_of(truth, [](const Noise::Truth& t) { return t.errors_m.num(); });
-    AddNoiseHeadline("Range noise", bin, truth[bin].RobustSigma_m(), report);
+    AddNoiseHeadline("Range noise", bin, truth[bin].robust_errors_m.RobustScale(), report);
   } else if (!planes.empty()) {
     const std::size_t bin =
         best_of(planes, [](const Noise::Planes& p) { return p.range_sigmas_m.num(); });

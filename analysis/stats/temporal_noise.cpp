@@ -11,7 +11,6 @@
 namespace railcast {
 namespace {
 
-constexpr double kMadToSigma = 1.4826;
 constexpr double kMostBend_m = 0.3;
 constexpr double kMostSlope_m = 0.3;  // A column's step.
 
@@ -60,19 +59,16 @@ class ColumnFinder {
                                         std::pair(Turned(azimuth_rad), std::size_t{0}));
     const auto& high = above == places_.end() ? places_.front() : *above;
     const auto& low = above == places_.begin() ? places_.back() : *std::prev(above);
-    const double to_high_rad = Wrapped(azimuth_rad - high.first);
-    const double to_low_rad = Wrapped(azimuth_rad - low.first);
+    const double to_high_rad = WrappedAngle_rad(azimuth_rad - high.first);
+    const double to_low_rad = WrappedAngle_rad(azimuth_rad - low.first);
     if (std::abs(to_high_rad) < std::abs(to_low_rad)) return Found{high.second, to_high_rad};
     return Found{low.second, to_low_rad};
   }
 
  private:
-  static double Wrapped(double angle_rad) {
-    return std::remainder(angle_rad, 2.0 * std::numbers::pi);
-  }
   // In [0, 2 pi).
   static double Turned(double angle_rad) {
-    const double wrapped_rad = Wrapped(angle_rad);
+    const double wrapped_rad = WrappedAngle_rad(angle_rad);
     return wrapped_rad < 0.0 ? wrapped_rad + 2.0 * std::numbers::pi : wrapped_rad;
   }
 
@@ -86,7 +82,7 @@ Estimate TemporalNoise::Bin::Sigma_m() const {
 }
 
 Estimate TemporalNoise::Bin::RobustSigma_m() const {
-  return Scaled(magnitudes_m.Median(), kMadToSigma / std::numbers::sqrt2);
+  return Scaled(robust_differences_m.RobustScale(), 1.0 / std::numbers::sqrt2);
 }
 
 void TemporalNoise::Add(const RecordedFrame& earlier,
@@ -129,7 +125,7 @@ void TemporalNoise::Add(const RecordedFrame& earlier,
       const auto bin = RangeBins().Find(range_m);
       if (!bin) continue;
       bins_[*bin].differences_m.Add(difference_m);
-      bins_[*bin].magnitudes_m.Add(std::abs(difference_m));
+      bins_[*bin].robust_differences_m.Add(difference_m);
     }
   }
 }
@@ -141,7 +137,7 @@ void TemporalNoise::Add(const TemporalNoise& other) {
   if (bins_.size() < other.bins_.size()) bins_.resize(other.bins_.size());
   for (std::size_t i = 0; i < other.bins_.size(); ++i) {
     bins_[i].differences_m.Add(other.bins_[i].differences_m);
-    bins_[i].magnitudes_m.Add(other.bins_[i].magnitudes_m);
+    bins_[i].robust_differences_m.Add(other.bins_[i].robust_differences_m);
   }
 }
 

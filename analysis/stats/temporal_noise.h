@@ -31,7 +31,7 @@ class TemporalNoise {
   /// In one bin of range.
   struct Bin {
     Moments differences_m;
-    LogHistogram magnitudes_m;
+    LogHistogram robust_differences_m;
 
     [[nodiscard]] Estimate Sigma_m() const;
     [[nodiscard]] Estimate RobustSigma_m() const;

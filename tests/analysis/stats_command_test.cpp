@@ -73,7 +73,9 @@ TEST(StatsCommand, GivesTheSameFiguresAtAnyNumberOfThreads) {
     const Ended run =
         Analyze("stats " + sequence.string() + " --out " + out.string() + " --threads " + threads);
     EXPECT_EQ(run.status, 0) << run.said;
-    return ReadFileWhole(out / "stats.json");
+    Json stats = Json::parse(ReadFileWhole(out / "stats.json"));
+    stats.erase("command");  // Names the number.
+    return stats.dump();
   };
   EXPECT_EQ(json_of("1"), json_of("2"));
 }
@@ -126,6 +128,15 @@ TEST(StatsCommand, RefusesToSumUpLabelsOfTwoMeanings) {
   EXPECT_EQ(run.status, 1);
   EXPECT_EQ(run.said, other.string() + ": must have the same labels and materials as " +
                           sequence.string() + "\n");
+}
+
+TEST(StatsCommand, RefusesToCountTwice) {
+  const TemporaryFolder folder;
+  const auto sequence = MakeSequence(folder, "");
+  const std::string again = sequence.string() + "/../sequence";
+  const Ended run = Analyze("stats " + sequence.string() + " " + again + " --format text");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(run.said, again + ": must be named once\n");
 }
 
 class StatsOfCapture : public testing::TestWithParam<std::string> {

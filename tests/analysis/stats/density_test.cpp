@@ -89,6 +89,26 @@ TEST(Density, CountsLostPointsAsAreaWithoutPoints) {
   EXPECT_NEAR(static_cast<double>(after.num_points), 0.7 * n, 4.0 * std::sqrt(0.21 * n));
 }
 
+TEST(Density, FromPointsAloneSeesLossesToo) {
+  SimulatorSpec spec{.effects = {.sensor_dropout = true}};
+  spec.plausibility.dropout_probability = 0.4;
+  auto world = std::make_shared<SimpleWorld>();
+  world->ground.parts = {{MakeWall(20.0F, 40.0F), 2, 6}};
+  const auto scan = MakeScanTable(Raster());
+  Density all, thinned;
+  all.Add(RecordPointsOnly(ScanOnce(world, Raster())), &*scan);
+  thinned.Add(RecordPointsOnly(ScanOnce(world, Raster(), spec)), &*scan);
+  const auto bin = FineRangeBins().Find(21.0).value();
+  const auto density_per_m2 = [bin](const Density& density) {
+    const Density::Count& count = density.by_attitude().at("upright")[bin];
+    return static_cast<double>(count.num_points) / count.area_m2;
+  };
+  // 13 % of the firings have all four neighbours: more than 1000 here.
+  const Density::Count& count = thinned.by_attitude().at("upright")[bin];
+  ASSERT_GT(count.num_firings, 1000U);
+  EXPECT_NEAR(density_per_m2(thinned) / density_per_m2(all), 0.6, 0.06);
+}
+
 TEST(Density, OfAFrameWithoutPointsIsEmpty) {
   Frame frame = ScanFloor();
   for (auto* field : {&frame.x, &frame.y, &frame.z, &frame.range_m}) {

@@ -111,6 +111,21 @@ TEST(Holes, RecoverTheDropoutOfIndependentLosses) {
   }
 }
 
+// Where few rows see anything, whole columns are lost at once.
+TEST(Holes, RecoverTheDropoutOfTwoRows) {
+  Holes holes;
+  for (int i = 0; i < 10; ++i) {
+    Frame other = ScanWithDropout(0.5, static_cast<std::uint32_t>(i));
+    for (std::size_t slot = 2 * other.width(); slot < other.num_slots(); ++slot) {
+      other.range_m[slot] = std::nanf("");
+    }
+    holes.Add(RecordPointsOnly(other));
+  }
+  const Estimate share = holes.Share();
+  ASSERT_GT(share.num, 900U);
+  EXPECT_NEAR(share.value, 0.5, 4.0 * std::sqrt(0.25 / static_cast<double>(share.num)));
+}
+
 TEST(Holes, AreNotInTheSky) {
   Holes holes;
   holes.Add(RecordPointsOnly(ScanWithDropout(0.0)));

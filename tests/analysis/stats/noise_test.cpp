@@ -99,7 +99,7 @@ TEST_P(RangeNoise, IsExactFromTheTruth) {
   const Noise::Truth& bin = noise.truth()[RangeBins().Find(25.0).value()];
   // Four standard errors of 300,000 samples and more.
   EXPECT_NEAR(bin.errors_m.StandardDeviation().value / sigma_m, 1.0, 0.006);
-  EXPECT_NEAR(bin.RobustSigma_m().value / sigma_m, 1.0, 0.015);
+  EXPECT_NEAR(bin.robust_errors_m.RobustScale().value / sigma_m, 1.0, 0.015);
   EXPECT_NEAR(bin.errors_m.Mean().value / sigma_m, 0.0, 0.01);
 }
 
@@ -198,6 +198,19 @@ TEST(TemporalNoise, CorrectsForColumnsBesideEachOther) {
   EXPECT_NEAR(bin.differences_m.Mean().value, 0.0, 0.002);
 }
 
+TEST(TemporalNoise, IsNotWhatAllBeamsShare) {
+  NoisyWall wall(25.0F, 0.015, "beam");
+  const auto scan = MakeScanTable(Raster());
+  Frame second = wall.Scan(1);
+  for (float& range_m : second.range_m) range_m += 0.1F;
+  TemporalNoise noise;
+  noise.Add(Record(wall.Scan(0)), Record(second), &*scan, &*scan);
+  const TemporalNoise::Bin& bin = noise.bins()[RangeBins().Find(25.0).value()];
+  // Both about their middle, and so alike.
+  EXPECT_NEAR(bin.Sigma_m().value / 0.015, 1.0, 0.05);
+  EXPECT_NEAR(bin.RobustSigma_m().value / 0.015, 1.0, 0.08);
+}
+
 TEST(TemporalNoise, TakesNoPartOfFramesBetweenWhichTheSensorMoved) {
   NoisyWall wall(25.0F, 0.015, "beam");
   const auto scan = MakeScanTable(Raster());
@@ -208,6 +221,18 @@ TEST(TemporalNoise, TakesNoPartOfFramesBetweenWhichTheSensorMoved) {
   EXPECT_EQ(noise.num_pairs(), 0U);
   EXPECT_EQ(noise.num_moved(), 1U);
   EXPECT_TRUE(noise.bins().empty());
+}
+
+TEST(Intensity, OfAFlatPieceIsThatOfThePointsThatHaveOne) {
+  NoisyWall wall(25.0F, 0.002, "beam");
+  RecordedFrame points = RecordPointsOnly(wall.Scan(0));
+  for (std::size_t slot = 0; slot < points.frame.num_slots(); slot += 5) {
+    points.frame.intensity[slot] = std::nanf("");
+  }
+  const auto scan = MakeScanTable(Raster());
+  for (const PlanePatch& patch : FindPlanePatches(points, &*scan)) {
+    EXPECT_NEAR(patch.intensity, 0.5 * std::cos(patch.incidence_rad), 0.01);
+  }
 }
 
 TEST(Intensity, OfALambertianFallsWithTheCosine) {
