@@ -16,10 +16,11 @@ int main(int argc, char** argv) {
   app.fallthrough();
   app.footer("Exit status: 0 success, 1 bad input or failed run, 2 usage.");
   railcast::Command command;
-  railcast::AddFit(app, command);
-  railcast::AddFrontier(app, command);
   railcast::AddStats(app, command);
   railcast::AddCompare(app, command);
+  railcast::AddDetect(app, command);
+  railcast::AddFit(app, command);
+  railcast::AddFrontier(app, command);
   railcast::AddReceive(app, command);
   try {
     app.parse(argc, argv);

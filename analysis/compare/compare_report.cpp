@@ -280,7 +280,6 @@ Table MetricsTable(const Comparison& comparison) {
       {{"metric", "Metric", ""},
        {"unit", "Unit", ""},
        {"mean", "Mean over pairs", ""},
-       {"mean_of_pairs", "Bare mean", ""},
        {"least", "Least", ""},
        {"largest", "Largest", ""},
        {"all_pairs", "All pairs as one", ""}},
@@ -290,7 +289,7 @@ Table MetricsTable(const Comparison& comparison) {
     const Comparison::Summary& summary = comparison.summaries()[i];
     const bool is_any = summary.moments.num() > 0;
     const double none = std::numeric_limits<double>::quiet_NaN();
-    table.rows.push_back({metric.title, metric.unit, summary.moments.Mean(), summary.Mean(),
+    table.rows.push_back({metric.title, metric.unit, MeanOverPairs(comparison, metric.key),
                           is_any ? summary.least : none, is_any ? summary.largest : none,
                           OfAllPairs(comparison, metric.key)});
   }

@@ -2,17 +2,34 @@
 
 #include <CLI/CLI.hpp>
 #include <iostream>
-#include <map>
+#include <set>
 #include <string>
 
 #include "analysis/report/draw.h"
 #include "analysis/report/files.h"
 #include "analysis/report/page.h"
 #include "analysis/report/text.h"
+#include "core/base/error.h"
 #include "core/io/write_file.h"
 
 namespace railcast {
 namespace {
+
+// What report.h asks of those who fill one.
+void CheckSound(const Report& report) {
+  std::set<std::string> charts, tables;
+  for (const Section& section : report.sections) {
+    for (const Chart& chart : section.charts) {
+      Check(charts.insert(chart.key).second, "keys of charts are unique");
+    }
+    for (const Table& table : section.tables) {
+      Check(tables.insert(table.key).second, "keys of tables are unique");
+      for (const std::vector<Cell>& row : table.rows) {
+        Check(row.size() == table.columns.size(), "a row has a cell for every column");
+      }
+    }
+  }
+}
 
 void WriteTables(const Report& report, const std::filesystem::path& folder) {
   for (const Section& section : report.sections) {
@@ -47,6 +64,7 @@ void AddReportOptions(CLI::App& command, ReportOutput& output) {
 }
 
 void EmitReport(const Report& report, const ReportOutput& output, std::string_view name) {
+  CheckSound(report);
   if (output.is_text) std::cout << ReportText(report) << std::flush;
   if (output.out.empty()) return;
   const std::string json = std::string(name) + ".json";

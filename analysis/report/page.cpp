@@ -1,48 +1,14 @@
 #include "analysis/report/page.h"
 
 #include "analysis/report/cell_text.h"
+#include "analysis/report/html_text.h"
 #include "analysis/report/joined.h"
 #include "analysis/report/page_style.h"
+#include "analysis/report/page_table.h"
 #include "analysis/report/svg.h"
 
 namespace railcast {
 namespace {
-
-// "<h2>text</h2>", the text escaped.
-std::string Element(const std::string& tag, const std::string& text) {
-  return Joined({"<", tag, ">", EscapedHtml(text), "</", tag.substr(0, tag.find(' ')), ">"});
-}
-
-// Numbers with a real minus sign, which is as wide as a digit, and powers of ten as such:
-// "-3e-05" as "−3 × 10<sup>−5</sup>".
-std::string NumberHtml(const std::string& numbers) {
-  std::string html;
-  bool is_power = false;
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const char c = numbers[i];
-    const bool is_digit = c >= '0' && c <= '9';
-    if (c == 'e' && i > 0 && numbers[i - 1] >= '0' && numbers[i - 1] <= '9') {
-      html += "\u202f×\u202f10<sup>";
-      is_power = true;
-    } else if (is_power &&
-               (c == '+' || (c == '0' && !(numbers[i - 1] >= '1' && numbers[i - 1] <= '9')))) {
-      // "e+09" and "e-05" have more signs than a power needs.
-    } else if (is_power && !is_digit && c != '-') {
-      html += Joined({"</sup>", std::string_view(&c, 1)});
-      is_power = false;
-    } else if (c == '-') {
-      html += "−";
-    } else {
-      html += EscapedHtml(std::string(1, c));
-    }
-  }
-  return is_power ? html + "</sup>" : html;
-}
-
-std::string UnitHtml(const std::string& unit) {
-  if (unit.empty()) return {};
-  return Joined({" <span class=\"unit\">", EscapedHtml(unit), "</span>"});
-}
 
 std::string HeadHtml(const Report& report) {
   std::string html =
@@ -112,64 +78,6 @@ std::string ChartHtml(const Chart& chart, const std::map<std::string, std::strin
   return html += "\n</figure>\n";
 }
 
-// What a column of a table takes in the page.
-struct PageColumn {
-  bool is_number = false;
-  bool has_estimates = false;
-};
-
-std::vector<PageColumn> PageColumns(const Table& table) {
-  std::vector<PageColumn> columns(table.columns.size());
-  for (const std::vector<Cell>& row : table.rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      columns[i].is_number = columns[i].is_number || !std::holds_alternative<std::string>(row[i]);
-      columns[i].has_estimates =
-          columns[i].has_estimates || std::holds_alternative<Estimate>(row[i]);
-    }
-  }
-  return columns;
-}
-
-// Estimates take three cells, so that figures, intervals and counts line up.
-constexpr const char* kSpan = " colspan=\"3\"";
-
-std::string CellHtml(const Cell& cell, const PageColumn& column, bool is_row_header) {
-  const CellText text = TextOf(cell);
-  if (is_row_header && !text.is_number) return Element("th scope=\"row\"", text.value);
-  const std::string span = column.has_estimates ? kSpan : "";
-  if (text.is_absent) {
-    return Element("td class=\"absent\"" + span, LineOf(text));
-  }
-  if (!text.is_number) return Element("td" + span, text.value);
-  const std::string number = Joined({"<td class=\"number\">", NumberHtml(text.value), "</td>"});
-  if (!column.has_estimates) return number;
-  return Joined({number, "<td class=\"interval\">", NumberHtml(text.interval), "</td>",
-                 Element("td class=\"samples\"", text.samples)});
-}
-
-std::string TableHtml(const Table& table) {
-  const std::vector<PageColumn> columns = PageColumns(table);
-  std::string html = Joined({"<details>\n<summary>", EscapedHtml(table.title),
-                             " <span class=\"rows\">", CountText(table.rows.size()),
-                             table.rows.size() == 1 ? " row" : " rows", "</span></summary>\n"});
-  if (!table.note.empty()) html += Element("p class=\"note\"", table.note);
-  html += Joined({"<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"",
-                  EscapedHtml(table.title), "\"><table>\n<thead><tr>"});
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    const TableColumn& column = table.columns[i];
-    html += Joined({"<th scope=\"col\"", columns[i].has_estimates ? kSpan : "",
-                    columns[i].is_number ? " class=\"number\">" : ">", EscapedHtml(column.title),
-                    UnitHtml(column.unit), "</th>"});
-  }
-  html += "</tr></thead>\n<tbody>\n";
-  for (const std::vector<Cell>& row : table.rows) {
-    html += "<tr>";
-    for (std::size_t i = 0; i < row.size(); ++i) html += CellHtml(row[i], columns[i], i == 0);
-    html += "</tr>\n";
-  }
-  return html += "</tbody>\n</table></div>\n</details>\n";
-}
-
 std::string SectionHtml(const Section& section, const std::map<std::string, std::string>& svgs) {
   std::string html =
       Joined({"<section id=\"", AnchorOf(section), "\">\n", Element("h2", section.title), "\n"});
@@ -184,32 +92,6 @@ std::string SectionHtml(const Section& section, const std::map<std::string, std:
 }
 
 }  // namespace
-
-std::string EscapedHtml(const std::string& text) {
-  std::string html;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        html += "&amp;";
-        break;
-      case '<':
-        html += "&lt;";
-        break;
-      case '>':
-        html += "&gt;";
-        break;
-      case '"':
-        html += "&quot;";
-        break;
-      case '\'':
-        html += "&#39;";
-        break;
-      default:
-        html += c;
-    }
-  }
-  return html;
-}
 
 std::string ReportPage(const Report& report, const std::map<std::string, std::string>& svgs) {
   std::string html = Joined({HeadHtml(report), "<body>\n<header>\n", Element("h1", report.title),

@@ -12,7 +12,4 @@ namespace railcast {
 [[nodiscard]] std::string ReportPage(const Report& report,
                                      const std::map<std::string, std::string>& svgs);
 
-/// Text as it stands in a page, between tags or quotes.
-[[nodiscard]] std::string EscapedHtml(const std::string& text);
-
 }  // namespace railcast

@@ -85,14 +85,15 @@ th, td { padding: 0.32rem 1.4rem 0.32rem 0; text-align: left; vertical-align: ba
   border-bottom: 1px solid var(--edge); }
 th { font-weight: 600; }
 thead th { vertical-align: bottom; border-bottom-color: var(--muted); }
-tbody th { font-weight: 500; }
+tbody th { font-weight: 500; white-space: nowrap; }
 tbody tr:last-child > * { border-bottom: 0; }
 tbody tr:hover { background: var(--hover); }
-td.number, th.number, td.absent { white-space: nowrap; }
+td.number, td.absent { white-space: nowrap; }
 td.number, th.number:not([colspan]), td.absent:not([colspan]) { text-align: right; }
 td.interval, td.samples { color: var(--muted); font-size: 0.93em; white-space: nowrap; }
 td.number:has(+ td.interval), td.interval { padding-right: 0.6rem; }
 td.samples { text-align: right; }
+.paper { display: none; }
 footer { padding-top: 2.5rem; padding-bottom: 3rem; color: var(--muted); font-size: 0.85rem; }
 footer p { margin: 0.25rem 0; }
 @media (min-width: 80rem) {
@@ -124,6 +125,9 @@ constexpr const char* kPaper = R"(@page { margin: 14mm 12mm; }
   summary::-webkit-details-marker { display: none; }
   .note, .scroll { padding-inline: 0; }
   .scroll, .drawing { overflow: visible; }
+  .screen { display: none; }
+  .paper { display: block; }
+  .paper table { margin-bottom: 1rem; }
   table { font-size: 8pt; }
   th, td { padding-right: 0.8rem; }
   thead { display: table-header-group; }

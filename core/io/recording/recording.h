@@ -26,6 +26,7 @@ struct RecordedObject {
   std::uint32_t instance{};
   Vector3 size_m = Vector3::Zero();
   Transform sensor_from_box = Transform::Identity();  ///< At the stamp, box centre and axes.
+  Vector3 velocity_world_mps = Vector3::Zero();       ///< Of the box's centre.
   std::uint32_t points{};
   std::uint32_t firings_visible{};
   std::uint32_t firings_alone{};

@@ -1,5 +1,6 @@
 #include "core/io/recording/sequence_lines.h"
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -30,6 +31,11 @@ Transform PoseOf(const Json& position_m, const Json& quaternion, const std::stri
   return MakePose(numbers, place);
 }
 
+Vector3 VectorOf(const Json& json) {
+  const auto numbers = json.get<std::array<double, 3>>();
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
 RecordedObject ObjectOf(const Json& json, const std::string& place) {
   RecordedObject object{.name = json.at("name"),
                         .type = json.at("type"),
@@ -39,9 +45,9 @@ RecordedObject ObjectOf(const Json& json, const std::string& place) {
                         .firings_visible = json.at("firings_visible"),
                         .firings_alone = json.at("firings_alone")};
   const Json& box = json.at("sensor");
-  const auto size_m = box.at("size_m").get<std::array<double, 3>>();
-  object.size_m = Vector3(size_m[0], size_m[1], size_m[2]);
+  object.size_m = VectorOf(box.at("size_m"));
   object.sensor_from_box = PoseOf(box.at("center_m"), box.at("quaternion_xyzw"), place);
+  object.velocity_world_mps = VectorOf(json.at("velocity_mps"));
   return object;
 }
 

@@ -101,7 +101,13 @@ std::string ReportOf(std::vector<RecordedFrame> frames_a,
   FramePairs pairs(a, b, std::nullopt);
   Comparison comparison({0.1});
   CompareAll(pairs, comparison, [](std::uint64_t) {});
-  return ReportJson(MakeCompareReport(comparison, pairs, a.info(), b.info(), "compare"));
+  const Report report = MakeCompareReport(comparison, pairs, a.info(), b.info(), "compare");
+  for (const Section& section : report.sections) {
+    for (const Table& table : section.tables) {
+      for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size()) << table.key;
+    }
+  }
+  return ReportJson(report);
 }
 
 TEST(Comparison, IsTheSameAtAnyNumberOfThreads) {

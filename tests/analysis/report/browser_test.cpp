@@ -121,6 +121,9 @@ TEST_F(ReportInBrowser, UnfoldsTablesOnPaper) {
   }
   const Ended text = RunCommand("pdftotext -layout '" + pdf.string() + "' -");
   EXPECT_THAT(text.said, HasSubstr("it's rain & fog"));
+  // Also of tables that are wider than paper.
+  EXPECT_THAT(text.said, HasSubstr("Column30"));
+  EXPECT_THAT(text.said, HasSubstr("[299.0, 301.0]"));
 }
 
 }  // namespace

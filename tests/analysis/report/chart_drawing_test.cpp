@@ -58,7 +58,8 @@ TEST(AxisTicks, AreRoundNumbers) {
 
 TEST(AxisTicks, OfLogarithmsAreDecadesOrTheirParts) {
   EXPECT_THAT(Labels({0.9, 60.0}, true), ElementsAre("1", "2", "5", "10", "20", "50"));
-  EXPECT_THAT(Labels({1e-5, 1.0}, true), ElementsAre("10⁻⁵", "0.0001", "0.001", "0.01", "0.1", "1"));
+  EXPECT_THAT(Labels({1e-5, 1.0}, true),
+              ElementsAre("10⁻⁵", "0.0001", "0.001", "0.01", "0.1", "1"));
 }
 
 TEST(AxisRange, BeginsAtZeroWhereValuesComeNear) {

@@ -27,6 +27,16 @@ inline constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
             Estimate{0.5, kNoFigure, kNoFigure, 20}}}};
 }
 
+/// More columns than paper takes.
+[[nodiscard]] inline Table MadeWideTable() {
+  Table table = {"wide", "Wide", "", {{"name", "Name", ""}}, {{std::string("row")}}};
+  for (int i = 1; i <= 30; ++i) {
+    table.columns.push_back({"column_" + std::to_string(i), "Column" + std::to_string(i), "m"});
+    table.rows[0].emplace_back(Estimate{10.0 * i, 10.0 * i - 1.0, 10.0 * i + 1.0, 100});
+  }
+  return table;
+}
+
 /// y = x^exponent at 1, 2, ... with intervals, and a gap.
 [[nodiscard]] inline ChartSeries MadeCurve(const std::string& title,
                                            SeriesStyle style,
@@ -124,7 +134,8 @@ inline constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
                              {"A beam counts as dropped if none of its returns gave a point."},
                              MadeCharts(),
                              {MadeTable()}});
-  report.sections.push_back({"words", "Words & nothing else", {"A <paragraph>."}, {}, {}});
+  report.sections.push_back(
+      {"words", "Words & little else", {"A <paragraph>."}, {}, {MadeWideTable()}});
   return report;
 }
 

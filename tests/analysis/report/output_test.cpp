@@ -62,6 +62,12 @@ TEST(EmitReport, PrintsAndWritesNoFiles) {
   EXPECT_THAT(said, Not(HasSubstr("made.json")));
 }
 
+TEST(EmitReportDeathTest, RefusesRowsThatAreTooShort) {
+  Report report = MadeReport();
+  report.sections[0].tables[0].rows[0].pop_back();
+  EXPECT_DEATH(EmitReport(report, {{}, true}, "made"), "a row has a cell for every column");
+}
+
 TEST(EmitReport, GivesTheSameBytesAgain) {
   const TemporaryFolder folder;
   const auto here = folder.Write("here", "").parent_path();

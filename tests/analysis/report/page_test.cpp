@@ -71,7 +71,7 @@ TEST(ReportPage, PutsChartsInWithoutTheirFilesHead) {
 
 TEST(ReportPage, LinksEverySection) {
   const std::string page = MadePage();
-  EXPECT_THAT(page, HasSubstr("<a href=\"#section-words\">Words &amp; nothing else</a>"));
+  EXPECT_THAT(page, HasSubstr("<a href=\"#section-words\">Words &amp; little else</a>"));
   EXPECT_THAT(page, HasSubstr("<section id=\"section-words\">"));
 }
 

@@ -1,0 +1,125 @@
+#include "analysis/detectability/points_by_distance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/estimate/moments.h"
+#include "core/base/number_text.h"
+
+namespace railcast {
+namespace {
+
+/// Frames at one distance.
+struct Bin {
+  Moments points;
+  std::uint64_t num_enough{};  ///< Frames with as many points as the rule asks for.
+};
+
+/// By bin; those without a frame are absent.
+using Bins = std::map<std::uint32_t, Bin>;
+
+Bins BinsOf(const std::vector<DetectRun>& runs,
+            const std::string& name,
+            const DetectionRule& rule) {
+  Bins bins;
+  for (const DetectRun& run : runs) {
+    const auto object = run.courses.objects.find(name);
+    if (object == run.courses.objects.end()) continue;
+    const std::vector<Sighting>& sightings = object->second.sightings;
+    const auto closest = std::ranges::min_element(sightings, {}, &Sighting::distance_m);
+    for (auto sighting = sightings.begin(); sighting != sightings.end() && sighting <= closest;
+         ++sighting) {
+      Bin& bin = bins[static_cast<std::uint32_t>(sighting->distance_m / kDistanceBin_m)];
+      bin.points.Add(sighting->points);
+      bin.num_enough += sighting->points >= rule.min_points ? 1U : 0U;
+    }
+  }
+  return bins;
+}
+
+std::string BinName(std::uint32_t bin) {
+  return NumberText(kDistanceBin_m * bin) + " to " + NumberText(kDistanceBin_m * (bin + 1));
+}
+
+/// "wagon_1" of any name: it becomes a file's.
+std::string KeyOf(const std::string& name) {
+  std::string key = "points_" + name;
+  for (char& letter : key) {
+    const bool is_plain = (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9');
+    if (!is_plain) letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter + 32) : '_';
+  }
+  return key;
+}
+
+ChartSeries Upright(const std::string& title, double x, double high) {
+  ChartSeries series{title + " " + NumberText(std::round(x)) + " m", SeriesStyle::kLine, {}};
+  constexpr double kLow = 0.1;
+  for (const double y : {kLow, high}) series.points.push_back({.x = x, .y = y});
+  return series;
+}
+
+}  // namespace
+
+Table PointsTable(const std::vector<DetectRun>& runs, const DetectionRule& rule) {
+  Table table;
+  table.key = "points_by_distance";
+  table.title = "Points on each object by distance";
+  table.note =
+      "Samples are frames of all runs, up to the closest point. Frames of one run show the same "
+      "object a little nearer each time and are not independent: the intervals are of their "
+      "scatter.";
+  table.columns = {{"object", "Object", ""},
+                   {"distance_m", "Distance", "m"},
+                   {"frames", "Frames", ""},
+                   {"points", "Points a frame", ""},
+                   {"enough", "Frames with " + NumberText(rule.min_points) + " points", ""}};
+  for (const Verdict& verdict : MakeVerdicts(runs)) {
+    for (const auto& [index, bin] : BinsOf(runs, verdict.name, rule)) {
+      table.rows.push_back({verdict.name, BinName(index), bin.points.num(), bin.points.Mean(),
+                            Proportion(bin.num_enough, bin.points.num())});
+    }
+  }
+  return table;
+}
+
+Chart PointsChart(const std::vector<DetectRun>& runs,
+                  const Verdict& verdict,
+                  const DetectionRule& rule) {
+  Chart chart;
+  chart.key = KeyOf(verdict.name);
+  chart.title = "Points on " + verdict.name + " against distance";
+  chart.caption =
+      "Means of 10 m with their intervals; a gap is a bin without points or with too "
+      "few frames. Detected where the upright line is right of the needed one: in time.";
+  chart.x = {.title = "Distance", .unit = "m"};
+  chart.y = {.title = "Points a frame", .unit = "", .is_log = true};
+  ChartSeries points{verdict.name, SeriesStyle::kLinePoints, {}};
+  double highest = rule.min_points;
+  double farthest_m = verdict.most_needed_m;
+  for (const auto& [index, bin] : BinsOf(runs, verdict.name, rule)) {
+    const Estimate mean = bin.points.Mean();
+    const double middle_m = kDistanceBin_m * (index + 0.5);
+    farthest_m = std::max(farthest_m, middle_m);
+    if (!(mean.value > 0.0)) {
+      points.points.push_back({.x = middle_m});
+      continue;
+    }
+    // A logarithm knows no interval that reaches 0.
+    points.points.push_back(
+        {middle_m, mean.value, mean.low > 0.0 ? mean.low : mean.value, mean.high});
+    highest = std::max(highest, mean.high);
+  }
+  chart.series.push_back(std::move(points));
+  ChartSeries enough{
+      "detected from " + NumberText(rule.min_points) + " points on", SeriesStyle::kLine, {}};
+  const double min_points = rule.min_points;
+  enough.points = {{.x = 0.0, .y = min_points}, {.x = farthest_m, .y = min_points}};
+  chart.series.push_back(std::move(enough));
+  chart.series.push_back(Upright("needed:", verdict.most_needed_m, highest));
+  if (verdict.num_detected > 0) {
+    chart.series.push_back(Upright("detected at:", verdict.distance_m.PlainMean(), highest));
+  }
+  return chart;
+}
+
+}  // namespace railcast

@@ -1,0 +1,69 @@
+#include "analysis/detectability/verdict.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace railcast {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+void Add(const Detection& detection, Verdict& verdict) {
+  if (detection.fate == Fate::kNeverApproached) return;
+  ++verdict.num_approached;
+  // Both comparisons also take the first number in place of NaN.
+  if (!(verdict.most_needed_m >= detection.needed_m)) verdict.most_needed_m = detection.needed_m;
+  if (detection.fate == Fate::kNeverDetected) return;
+  ++verdict.num_detected;
+  verdict.num_in_time += detection.is_in_time() ? 1U : 0U;
+  verdict.num_from_start += detection.is_from_start ? 1U : 0U;
+  verdict.distance_m.Add(detection.distance_m);
+  verdict.spare_m.Add(detection.spare_m());
+  if (!(verdict.least_spare_m <= detection.spare_m())) verdict.least_spare_m = detection.spare_m();
+}
+
+std::string Runs(std::uint64_t num, std::uint64_t all) {
+  if (all == 1) return "in the one run";
+  if (num == all) return "in all " + std::to_string(all) + " runs";
+  return "in " + std::to_string(num) + " of " + std::to_string(all) + " runs";
+}
+
+}  // namespace
+
+std::string Verdict::InWords() const {
+  if (num_approached == 0) return "never approached";
+  if (num_detected == 0) return "not detected " + Runs(num_approached, num_approached);
+  if (num_in_time == num_approached) return "in time " + Runs(num_in_time, num_approached);
+  const std::uint64_t num_late = num_detected - num_in_time;
+  const std::uint64_t num_missed = num_approached - num_detected;
+  std::string words;
+  if (num_late > 0) words += "too late " + Runs(num_late, num_approached);
+  if (num_late > 0 && num_missed > 0) words += ", ";
+  if (num_missed > 0) words += "not detected " + Runs(num_missed, num_approached);
+  return words;
+}
+
+std::vector<Verdict> MakeVerdicts(const std::vector<DetectRun>& runs) {
+  std::map<std::string, Verdict> by_name;
+  for (const DetectRun& run : runs) {
+    for (const auto& [name, detection] : run.detections) {
+      const ObjectCourse& course = run.courses.objects.at(name);
+      const auto [entry, is_new] = by_name.try_emplace(name);
+      Verdict& verdict = entry->second;
+      if (is_new) {
+        verdict.name = name;
+        verdict.type = course.type;
+        verdict.label = course.label;
+        verdict.least_spare_m = verdict.most_needed_m = kNaN;
+      }
+      Add(detection, verdict);
+    }
+  }
+  std::vector<Verdict> verdicts;
+  for (auto& [name, verdict] : by_name) verdicts.push_back(std::move(verdict));
+  return verdicts;
+}
+
+}  // namespace railcast

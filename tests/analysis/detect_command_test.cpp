@@ -1,0 +1,97 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/io/write_file.h"
+#include "tests/analysis/analyze_program.h"
+
+namespace railcast {
+namespace {
+
+using testing::HasSubstr;
+using Json = nlohmann::json;
+
+constexpr const char* kVehicle =
+    R"("world": {"alignment": {"course": {"type": "elements", "elements": [)"
+    R"({"type": "straight", "length_m": 1000}]}}, "vegetation": {"trees_per_hectare": 0, )"
+    R"("grass": false}, "objects": [{"name": "box", "type": "box", "s_m": 480, "h_m": 0, )"
+    R"("size_m": [2, 2, 3]}]}, "vehicle": {"start_s_m": 400, "motion": {"profile": )"
+    R"([{"time_s": 0, "speed_mps": 10}]}}, )";
+
+/// 40 frames towards a box 79 m before the sensor, at 10 m/s.
+std::filesystem::path MakeApproach(const TemporaryFolder& folder,
+                                   const std::string& name,
+                                   const std::string& options) {
+  const std::string scenarios = ScenariosDir().string();
+  const auto scenario = folder.Write(
+      name + ".json",
+      std::string("{\"version\": 1, ") + kVehicle + R"("lidar": {"scan": {"rate_hz": 10, )" +
+          R"("pattern": {"type": "raster", )" + R"("horizontal_fov_deg": 20, )" +
+          R"("vertical_fov_deg": 20, )" + R"("angular_resolution_deg": 0.5}}}, )" +
+          R"("materials": ")" + scenarios + R"(/materials/railway.json", "labels": ")" + scenarios +
+          R"(/labels.json"})");
+  const auto out = scenario.parent_path() / name;
+  const Ended run =
+      RunCommand(RAILCAST_GENERATE " sequence " + scenario.string() + " --out " + out.string() +
+                 " --frames 40 --fidelity geometry --fields x,y,z " + options);
+  if (run.status != 0) throw std::runtime_error(run.said);
+  return out;
+}
+
+TEST(DetectCommand, FindsWhereABoxIsFirstSeenByTwentyBeams) {
+  const TemporaryFolder folder;
+  const auto run = MakeApproach(folder, "run", "");
+  const auto out = run.parent_path() / "report";
+  const Ended ended =
+      Analyze("detect " + run.string() + " --points 20 --frames 2/3 --out " + out.string());
+  ASSERT_EQ(ended.status, 0) << ended.said;
+  const Json report = Json::parse(ReadFileWhole(out / "detect.json"));
+  // What objects.jsonl says, by hand: the second of three frames with 20 points.
+  std::istringstream lines(ReadFileWhole(run / "objects.jsonl"));
+  std::vector<int> points;
+  for (std::string line; std::getline(lines, line);) {
+    points.push_back(Json::parse(line).at("objects").at(0).at("points"));
+  }
+  std::size_t expected = 0;
+  int in_last_three = 0;
+  for (std::size_t i = 0; i < points.size() && in_last_three < 2; ++i) {
+    in_last_three = 0;
+    for (std::size_t j = i < 2 ? 0 : i - 2; j <= i; ++j) in_last_three += points[j] >= 20 ? 1 : 0;
+    expected = i;
+  }
+  ASSERT_GT(expected, 2U);
+  for (const Json& section : report.at("sections")) {
+    for (const Json& table : section.at("tables")) {
+      if (table.at("key") != "runs") continue;
+      const Json& row = table.at("rows").at(0);
+      // The box's face is 79 m off at first, and 1 m nearer in each frame.
+      EXPECT_NEAR(row.at("detected_at_m").get<double>(), 79.0 - static_cast<double>(expected),
+                  0.01);
+      EXPECT_NEAR(row.at("speed_kmph").get<double>(), 36.0, 1e-3);
+      EXPECT_NEAR(row.at("needed_m").get<double>(), 135.0, 0.01);
+      EXPECT_EQ(row.at("outcome"), "too late");
+    }
+  }
+  EXPECT_TRUE(exists(out / "report.html"));
+}
+
+TEST(DetectCommand, RefusesWhatIsNoSetOfRuns) {
+  const TemporaryFolder folder;
+  const auto one = MakeApproach(folder, "one", "--seed 1");
+  const auto same = MakeApproach(folder, "same", "--seed 1");
+  const Ended twice = Analyze("detect " + one.string() + " " + same.string() + " --format text");
+  EXPECT_EQ(twice.status, 1);
+  EXPECT_EQ(twice.said,
+            same.string() + ": /seed: must be another than that of " + one.string() + " (got 1)\n");
+  const Ended cloud =
+      Analyze("detect " + (one / "frames" / "000000.pcd").string() + " --format text");
+  EXPECT_EQ(cloud.status, 1);
+  EXPECT_THAT(cloud.said, HasSubstr("must be a sequence directory"));
+  EXPECT_EQ(Analyze("detect " + one.string() + " --format text --frames 5/3").status, 2);
+}
+
+}  // namespace
+}  // namespace railcast

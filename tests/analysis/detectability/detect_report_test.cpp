@@ -1,0 +1,139 @@
+#include "analysis/detectability/detect_report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/detectability/verdict.h"
+#include "tests/core/io/message_of.h"
+
+namespace railcast {
+namespace {
+
+using testing::HasSubstr;
+
+/// A run in which a person is approached from 200 m on at 10 m/s, 1 m a frame, with 5 points from
+/// `first_m` on.
+DetectRun MadeRun(std::uint64_t seed, double first_m, double gradient = 0.0) {
+  RunCourses courses;
+  ObjectCourse course{.type = "person", .label = "person", .sightings = {}};
+  for (std::uint32_t i = 0; i < 190; ++i) {
+    const double distance_m = 200.0 - i;
+    course.sightings.push_back({.frame = i,
+                                .distance_m = distance_m,
+                                .points = distance_m <= first_m ? 5U : 1U,
+                                .speed_mps = 10.0,
+                                .gradient = gradient,
+                                .approach_mps = 0.0});
+  }
+  courses.num_frames = 190;
+  courses.objects["person"] = course;
+  return DetectInRun("run" + std::to_string(seed), seed, courses, {});
+}
+
+const Table& TableOf(const Report& report, const std::string& key) {
+  for (const Section& section : report.sections) {
+    for (const Table& table : section.tables) {
+      if (table.key == key) return table;
+    }
+  }
+  throw std::out_of_range(key);
+}
+
+Cell CellOf(const Table& table, std::size_t row, const std::string& column) {
+  const auto found = std::ranges::find(table.columns, column, &TableColumn::key);
+  return table.rows.at(row).at(static_cast<std::size_t>(found - table.columns.begin()));
+}
+
+Report ReportOf(const std::vector<DetectRun>& runs) {
+  return MakeDetectReport(runs, {}, "railcast-analyze detect", {});
+}
+
+TEST(DetectReport, GivesTheFirstDetectionOfEachRun) {
+  const Report report = ReportOf({MadeRun(1, 150.0), MadeRun(2, 130.0)});
+  const Table& runs = TableOf(report, "runs");
+  ASSERT_EQ(runs.rows.size(), 2U);
+  // The third frame of five points is 2 m nearer. Needed: 20 m + 100 m + 15 m.
+  EXPECT_EQ(std::get<double>(CellOf(runs, 0, "detected_at_m")), 148.0);
+  EXPECT_EQ(std::get<double>(CellOf(runs, 0, "needed_m")), 135.0);
+  EXPECT_EQ(std::get<double>(CellOf(runs, 0, "spare_m")), 13.0);
+  EXPECT_EQ(std::get<std::string>(CellOf(runs, 0, "outcome")), "in time");
+  EXPECT_EQ(std::get<std::string>(CellOf(runs, 1, "outcome")), "too late");
+  EXPECT_NEAR(std::get<double>(CellOf(runs, 1, "speed_kmph")), 36.0, 1e-12);
+  const Table& verdicts = TableOf(report, "verdicts");
+  EXPECT_EQ(std::get<std::string>(CellOf(verdicts, 0, "verdict")), "too late in 1 of 2 runs");
+  EXPECT_EQ(std::get<double>(CellOf(verdicts, 0, "least_spare_m")), -7.0);
+}
+
+TEST(DetectReport, HasAnIntervalOverManySeedsOnly) {
+  std::vector<DetectRun> runs;
+  for (std::uint64_t seed = 1; seed <= 9; ++seed) {
+    runs.push_back(MadeRun(seed, 140.0 + static_cast<double>(seed)));
+  }
+  const Report few = ReportOf(runs);
+  EXPECT_FALSE(std::get<Estimate>(CellOf(TableOf(few, "verdicts"), 0, "spare_m")).is_enough());
+  EXPECT_THAT(few.sections[0].paragraphs.back(), HasSubstr("give no interval"));
+  runs.push_back(MadeRun(10, 150.0));
+  const Report many = ReportOf(runs);
+  const auto spare = std::get<Estimate>(CellOf(TableOf(many, "verdicts"), 0, "spare_m"));
+  // 141 to 150, less 2 m, less 135 m: 8.5 m on average, s = 3.028 m; Student's t of 9 is 2.262.
+  EXPECT_NEAR(spare.value, 8.5, 1e-9);
+  EXPECT_NEAR(spare.high - spare.value, 2.2622 * 3.02765 / std::sqrt(10.0), 1e-3);
+  const auto share = std::get<Estimate>(CellOf(TableOf(many, "verdicts"), 0, "in_time"));
+  EXPECT_EQ(share.value, 1.0);
+  EXPECT_GT(share.low, 0.6);
+}
+
+TEST(DetectReport, SaysThatOneRunHasNoInterval) {
+  const Report report = ReportOf({MadeRun(1, 150.0)});
+  EXPECT_THAT(report.sections[0].paragraphs.back(), HasSubstr("One run: no interval"));
+  EXPECT_EQ(std::get<std::string>(CellOf(TableOf(report, "verdicts"), 0, "verdict")),
+            "in time in the one run");
+}
+
+TEST(DetectReport, TellsWhatWasNeverSeenOrNeverApproached) {
+  DetectRun run = MadeRun(1, 0.0);
+  ObjectCourse behind = run.courses.objects.at("person");
+  std::ranges::reverse(behind.sightings);
+  run.courses.objects["train"] = behind;
+  run = DetectInRun("run", 1, run.courses, {});
+  const Report report = ReportOf({run});
+  const Table& verdicts = TableOf(report, "verdicts");
+  EXPECT_EQ(std::get<std::string>(CellOf(verdicts, 0, "verdict")), "not detected in the one run");
+  EXPECT_TRUE(std::isnan(std::get<double>(CellOf(verdicts, 0, "least_spare_m"))));
+  EXPECT_EQ(std::get<double>(CellOf(verdicts, 0, "needed_m")), 135.0);
+  EXPECT_EQ(std::get<std::string>(CellOf(verdicts, 1, "verdict")), "never approached");
+  EXPECT_TRUE(std::isnan(std::get<double>(CellOf(TableOf(report, "runs"), 1, "needed_m"))));
+  // One chart: there is nothing to brake for in the other.
+  EXPECT_EQ(report.sections[1].charts.size(), 1U);
+}
+
+TEST(DetectReport, ChartsPointsBesideWhatIsNeeded) {
+  const Report report = ReportOf({MadeRun(1, 150.0), MadeRun(2, 130.0)});
+  const Chart& chart = report.sections.at(1).charts.at(0);
+  EXPECT_EQ(chart.key, "points_person");
+  EXPECT_TRUE(chart.y.is_log);
+  ASSERT_EQ(chart.series.size(), 4U);
+  // Bins of 10 m from 10 to 200 m, in each 20 frames.
+  EXPECT_EQ(chart.series[0].points.size(), 20U);
+  EXPECT_EQ(chart.series[0].points.front().x, 15.0);
+  EXPECT_EQ(chart.series[0].points.front().y, 5.0);
+  EXPECT_EQ(chart.series[0].points[18].y, 1.0);
+  EXPECT_EQ(chart.series[2].title, "needed: 135 m");
+  EXPECT_EQ(chart.series[2].points[0].x, 135.0);
+  EXPECT_EQ(chart.series[3].title, "detected at: 138 m");
+  const Table& points = TableOf(report, "points_by_distance");
+  EXPECT_EQ(std::get<std::string>(CellOf(points, 0, "distance_m")), "10 to 20");
+  EXPECT_EQ(std::get<std::uint64_t>(CellOf(points, 0, "frames")), 18U);
+}
+
+TEST(DetectReport, SaysWhichRunCannotStop) {
+  EXPECT_EQ(MessageOf([] { (void)MadeRun(4, 100.0, -0.06); }),
+            "run4: object person: cannot stop: deceleration + g x gradient must be > 0 (got -0.088 "
+            "m/s2 at -60 permil)");
+}
+
+}  // namespace
+}  // namespace railcast
