@@ -86,9 +86,44 @@ void FitReflectances(const std::vector<Trial>& trials,
   }
 }
 
+void AddLinearNoise(LinearNoise noise, FitResult& result) {
+  std::string why = "not identified: too few points";
+  if (noise.sigma0_m.is_enough()) {
+    const std::vector<NoiseBin>& bins = result.noise_by_range;
+    const NoiseBin& middle = bins[bins.size() / 2];
+    // Either may be nothing, or most of it.
+    const double half_m = 0.5 * middle.sigma_m.value;
+    const bool is_open = noise.sigma0_m.low == 0.0 && noise.sigma0_m.high > half_m &&
+                         noise.sigma1.low == 0.0 && noise.sigma1.high * middle.range_m > half_m;
+    if (is_open) {
+      noise.sigma0_m = noise.sigma1 = NotEnough(noise.sigma0_m.num);
+      why = "not identified: constant and growing noise cannot be told apart at about one range";
+    } else {
+      why.clear();
+    }
+  }
+  result.parameters.push_back(
+      {"lidar/plausibility/noise_sigma0_m", "Noise at range 0", "m", noise.sigma0_m, why});
+  result.parameters.push_back(
+      {"lidar/plausibility/noise_sigma1", "Noise's growth with range", "", noise.sigma1, why});
+}
+
 // An interval that reaches from 0 to twice the value and more: the data do not tell it from 0.
 bool IsVague(const Estimate& estimate) {
   return estimate.low == 0.0 && estimate.high > 2.0 * estimate.value;
+}
+
+// Of all signals there are: known also where the threshold is not, and with it no signal.
+void AddPlainNoise(const std::vector<Trial>& trials, FitResult& result) {
+  std::vector<double> residuals_m;
+  for (const Trial& trial : trials) {
+    if (trial.answer == Answer::kReturned) {
+      residuals_m.push_back(static_cast<double>(trial.residual_m));
+    }
+  }
+  const Estimate sigma_m = RobustScale(residuals_m);
+  result.parameters.push_back({"", "Noise, whatever range and signal", "m", sigma_m,
+                               sigma_m.is_enough() ? "" : "not identified: too few points"});
 }
 
 void AddSignalNoise(const SignalNoise& noise, FitResult& result) {
@@ -139,13 +174,9 @@ void FitNoise(std::vector<Trial>& trials,
     inverse_snr.push_back(1.0 / (2.0 * result.snr_at_threshold * power));
   }
   result.noise_by_range = BinNoise(trials, range_m, inverse_snr);
+  AddPlainNoise(trials, result);
   if (!settings.is_physical) {
-    const LinearNoise noise = FitLinearNoise(result.noise_by_range);
-    const char* const few = "not identified: too few points";
-    result.parameters.push_back({"lidar/plausibility/noise_sigma0_m", "Noise at range 0", "m",
-                                 noise.sigma0_m, noise.sigma0_m.is_enough() ? "" : few});
-    result.parameters.push_back({"lidar/plausibility/noise_sigma1", "Noise's growth with range", "",
-                                 noise.sigma1, noise.sigma1.is_enough() ? "" : few});
+    AddLinearNoise(FitLinearNoise(result.noise_by_range), result);
     return;
   }
   result.noise_by_power = BinNoise(trials, inverse_snr, inverse_snr);

@@ -1,25 +1,17 @@
 #include "analysis/fit/fit_threshold.h"
 
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "analysis/fit/settle_threshold.h"
+#include "analysis/fit/threshold_findings.h"
 
 namespace railcast {
 namespace {
 
-// Of what the likelihood leaves open by more than 20 % either way its interval is not to be
-// trusted.
-constexpr double kMaxLogError = 0.1;
 // The SNR at the threshold is known by the slope of a curve only: a factor of two either way.
 constexpr double kMaxLogSnrError = 0.35;
-// Carried by the float32 fields.
-constexpr double kMinLogError = 1e-5;
-constexpr std::uint32_t kNoGroup = ThresholdGroups::kNoGroup;
-
 // The relative error of the known reflectances in group 0, by how many trials rest on each.
 double ScaleError(const SettledThreshold& settled, const FitResult& result) {
   double weight = 0.0, variance = 0.0;
@@ -35,16 +27,6 @@ double ScaleError(const SettledThreshold& settled, const FitResult& result) {
   return weight > 0.0 ? std::sqrt(variance) / weight : 0.0;
 }
 
-double Quantile() {
-  return boost::math::quantile(boost::math::normal(), 1.0 - 0.5 * (1.0 - kConfidence));
-}
-
-// e^(power x), for x of this standard error.
-Estimate Exponential(double x, double error, double power, std::uint64_t num) {
-  const double half = Quantile() * (error + kMinLogError);
-  return {std::exp(power * x), std::exp(power * (x - half)), std::exp(power * (x + half)), num};
-}
-
 // Of SNR at the threshold x power, over the groups that are seen.
 double LogSnrError(const SettledThreshold& settled) {
   if (!settled.is_seen) return std::numeric_limits<double>::quiet_NaN();
@@ -57,31 +39,6 @@ double LogSnrError(const SettledThreshold& settled) {
     num += 1.0;
   }
   return std::sqrt(std::max(0.0, covariance(snr, snr) + variance / num));
-}
-
-// "at least 143 m": in three digits.
-std::string Bound(const std::string& words, double bound, const std::string& unit) {
-  char digits[32];
-  std::snprintf(digits, sizeof digits, "%.3g", bound);
-  std::string text = words;
-  text += ' ';
-  text += digits;
-  text += unit;
-  return text;
-}
-
-// Of a smooth threshold with the usual SNR a beam at 2/3 of it still comes back once in twenty.
-double BoundTheta(const GroupOutlook& outlook, const FitSettings& settings) {
-  const double slack = settings.is_physical ? std::log(2.0 / 3.0) : 0.0;
-  return outlook.bound + (outlook.state == GroupState::kNeverLost ? slack : -slack);
-}
-
-const char* const kTogether =
-    "not identified: beams are lost at about one range only, so that threshold and extinction "
-    "cannot be told apart; give --extinction-per-m";
-
-const char* WhyVague(const FitSettings& settings) {
-  return settings.extinction_per_m ? "not identified: too few beams near the threshold" : kTogether;
 }
 
 FittedParameter ThresholdParameter(const SettledThreshold& settled,
@@ -173,13 +130,13 @@ FittedParameter AirParameter(const SettledThreshold& settled, const FitSettings&
     if (outlook.state == GroupState::kSeen) num += outlook.num;
   }
   const Eigen::Index place = settled.detection.extinction_place();
-  const double half = Quantile() * std::sqrt(settled.detection.covariance(place, place));
+  const double half = NormalQuantile() * std::sqrt(settled.detection.covariance(place, place));
   const double value = settled.detection.extinction_per_m;
   parameter.estimate = NotEnough(num);
   // 0.03 / m is a visibility of 100 m: who knows no better than that knows nothing.
   constexpr double kMaxHalf_per_m = 0.03;
   if (!(half < kMaxHalf_per_m)) {
-    parameter.remark = kTogether;
+    parameter.remark = WhyVague(settings);
     return parameter;
   }
   parameter.estimate = {value, std::max(0.0, value - half), value + half, num};
@@ -199,6 +156,12 @@ void AddLossParameters(const SettledThreshold& settled,
   FittedParameter rate{"", "Rain dropout rate, k x rain rate^e", "1/m", settled.loss.rate_per_m,
                        ""};
   if (!rate.estimate.is_enough()) rate.remark = few;
+  const bool is_open = rate.estimate.low == 0.0 && dropout.estimate.low == 0.0 &&
+                       rate.estimate.value + dropout.estimate.value > 0.0;
+  if (is_open) {
+    result.parameters.back().remark = rate.remark =
+        "dropout and rain are not told apart: only their sum is more than 0";
+  }
   result.parameters.push_back(rate);
   FittedParameter per_rain{"weather/rain_dropout_per_m", "Rain dropout rate k at 1 mm/h", "1/m",
                            NotEnough(rate.estimate.num), rate.remark};
@@ -212,89 +175,6 @@ void AddLossParameters(const SettledThreshold& settled,
     per_rain.remark = "with the usual exponent e = 0.63";
   }
   result.parameters.push_back(per_rain);
-}
-
-// The ratio of a surface that has a theta of its own to the threshold, and its reflectance.
-void FillOwnGroup(const SettledThreshold& settled,
-                  const FitSettings& settings,
-                  const ShapedAnswer& facing,
-                  std::size_t group,
-                  SurfaceFit& surface) {
-  const GroupOutlook& outlook = settled.outlook.groups[group];
-  const bool has_scale = !std::isnan(settled.log_inverse_power_error);
-  const double inverse_power = std::exp(settled.log_inverse_power);
-  surface.reflectance = surface.facing_range_m = NotEnough(outlook.num);
-  if (outlook.state == GroupState::kFew) {
-    surface.remark = "not identified: too few trials";
-    return;
-  }
-  if (outlook.state != GroupState::kSeen) {
-    const bool is_least = outlook.state == GroupState::kNeverLost;
-    const double theta = BoundTheta(outlook, settings);
-    surface.remark = is_least ? "not identified: none of its beams is lost to the threshold; "
-                              : "not identified: none of its beams comes back; ";
-    surface.remark +=
-        has_scale ? Bound(is_least ? "at least" : "at most", std::exp(theta) / inverse_power, "")
-                  : Bound(is_least ? "seen, facing, to at least" : "seen, facing, to at most",
-                          std::sqrt(std::exp(theta) * facing.diffuse + inverse_power * facing.lobe),
-                          " m");
-    return;
-  }
-  const auto place = static_cast<Eigen::Index>(group);
-  const Eigen::MatrixXd& covariance = settled.detection.covariance;
-  const double theta = settled.detection.theta[place];
-  const double error = std::sqrt(covariance(place, place));
-  if (!(error < kMaxLogError)) {
-    surface.remark = WhyVague(settings);
-    return;
-  }
-  surface.power_at_1m = std::exp(theta);
-  surface.lobe_scale = inverse_power;
-  const double diffuse = std::exp(theta) * facing.diffuse;
-  const double all = diffuse + inverse_power * facing.lobe;
-  surface.facing_range_m = Exponential(std::log(all), error * diffuse / all, 0.5, outlook.num);
-  if (!has_scale) {
-    surface.remark = "not identified: only its ratio to the threshold, as the range it is seen to";
-    return;
-  }
-  double variance = covariance(place, place);
-  if (settled.groups.source == ScaleSource::kKnownSurface) {
-    variance += covariance(0, 0) - 2.0 * covariance(0, place);
-  }
-  surface.reflectance = Exponential(theta - settled.log_inverse_power,
-                                    std::sqrt(std::max(0.0, variance)), 1.0, outlook.num);
-}
-
-void FillSurfaces(const SettledThreshold& settled,
-                  const std::vector<FitSurface>& surfaces,
-                  const FitSettings& settings,
-                  FitResult& result) {
-  const bool has_scale = !std::isnan(settled.log_inverse_power_error);
-  for (std::size_t i = 0; i < result.surfaces.size(); ++i) {
-    SurfaceFit& surface = result.surfaces[i];
-    const std::uint32_t group = settled.groups.of_surface[i];
-    const ShapedAnswer facing = settings.is_physical
-                                    ? AnswerOf(surfaces[result.surface_ids[i]], 1.0)
-                                    : ShapedAnswer{1.0, 0.0};
-    const double reflectance = settled.groups.reflectance[i];
-    if (group == kNoGroup) {
-      surface.remark = "not identified: too few intensities";
-    } else if (std::isnan(reflectance)) {
-      FillOwnGroup(settled, settings, facing, group, surface);
-    } else {
-      if (settled.groups.source == ScaleSource::kKnownSurface) {
-        surface.reflectance = NotEnough(0);
-        surface.remark = Bound("given:", reflectance, "");
-      }
-      if (!has_scale || !(settled.log_inverse_power_error < kMaxLogError)) continue;
-      const double inverse_power = std::exp(settled.log_inverse_power);
-      surface.power_at_1m = inverse_power * reflectance;
-      surface.lobe_scale = inverse_power;
-      const double all = inverse_power * (reflectance * facing.diffuse + facing.lobe);
-      surface.facing_range_m = Exponential(std::log(all), settled.log_inverse_power_error, 0.5,
-                                           settled.outlook.groups[0].num);
-    }
-  }
 }
 
 void SayThatLossesAreNotKnown(FitResult& result) {

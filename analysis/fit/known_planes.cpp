@@ -5,6 +5,10 @@
 #include <cmath>
 
 #include "analysis/estimate/robust.h"
+#include "analysis/report/joined.h"
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/base/units.h"
 
 namespace railcast {
 namespace {
@@ -82,7 +86,9 @@ std::optional<PlaneHit> HitPlanes(const std::vector<KnownPlane>& planes, const V
 std::vector<std::size_t> RefinePlanes(const std::vector<Vector3>& points_m,
                                       std::vector<KnownPlane>& planes) {
   constexpr double kReach_m = 0.3;
+  constexpr double kMaxTurn_deg = 10.0;
   std::vector<std::size_t> counts;
+  ErrorList errors;
   for (KnownPlane& plane : planes) {
     std::vector<Vector3> near_m;
     for (const Vector3& point_m : points_m) {
@@ -91,8 +97,24 @@ std::vector<std::size_t> RefinePlanes(const std::vector<Vector3>& points_m,
       if (IsWithin(plane, point_m - distance_m * plane.normal)) near_m.push_back(point_m);
     }
     counts.push_back(near_m.size());
-    if (near_m.size() >= kMinPlanePoints) Refine(near_m, plane);
+    if (near_m.size() < kMinPlanePoints) {
+      errors.Add(Joined(
+          {"plane \"", plane.name, "\": must have at least ", NumberText(kMinPlanePoints),
+           " points within 0.3 m in the first frames (got ", NumberText(near_m.size()), ")"}));
+      continue;
+    }
+    const Vector3 given = plane.normal;
+    Refine(near_m, plane);
+    const double turn_deg = DegFromRad(std::acos(std::min(1.0, given.dot(plane.normal))));
+    if (turn_deg > kMaxTurn_deg) {
+      errors.Add(
+          Joined({"plane \"", plane.name,
+                  "\": the points within 0.3 m must lie on it, not on one turned by more than "
+                  "10 deg (got ",
+                  NumberText(std::round(turn_deg)), " deg)"}));
+    }
   }
+  errors.ThrowIfAny();
   return counts;
 }
 

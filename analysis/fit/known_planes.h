@@ -41,8 +41,10 @@ struct PlaneHit {
 /// Moves each plane to the points within 0.3 m of it and within its extent, by least squares with
 /// Tukey's weights, so that the noise of the given plane does not enter. Its extent moves along.
 /// @param points_m Of a few frames, sensor axes.
-/// @returns How many points each plane rests on; one with fewer than kMinPlanePoints stays as
-/// given.
+/// @returns How many points each plane rests on.
+/// @throws InputError with a line for each plane with fewer than kMinPlanePoints, or whose points
+/// lie
+///   on another plane, turned by more than 10 degrees.
 inline constexpr std::size_t kMinPlanePoints = 50;
 [[nodiscard]] std::vector<std::size_t> RefinePlanes(const std::vector<Vector3>& points_m,
                                                     std::vector<KnownPlane>& planes);

@@ -1,94 +1,126 @@
 #include "analysis/fit/random_loss.h"
 
-#include <Eigen/Core>
-#include <Eigen/LU>
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
+#include <array>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
+#include <functional>
 
 namespace railcast {
 namespace {
 
-double Quantile() {
-  return boost::math::quantile(boost::math::normal(), 1.0 - 0.5 * (1.0 - kConfidence));
-}
-
-/// What the trials say of (a, rate) about some value of them: Fisher's information, and the step of
-/// scoring from there.
-struct Scores {
-  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+/// Trials at about the same range.
+struct Bin {
+  double returned{};
+  double lost{};
+  std::array<double, 2> design{1.0, 0.0};  ///< What offset and rate are multiplied with: 1, R.
 };
 
-Scores ScoresAt(const std::vector<StrongTrial>& trials, const Eigen::Vector2d& value) {
-  Scores scores;
-  for (const StrongTrial& trial : trials) {
-    const Eigen::Vector2d x(1.0, trial.range_m);
-    const double exponent = std::max(1e-9, value.dot(x));
-    const double p = std::exp(-exponent);
-    const double lost = -std::expm1(-exponent);
-    // d P / d exponent = -P.
-    scores.gradient -= (trial.is_returned ? 1.0 : -p / lost) * x;
-    scores.information += p / lost * x * x.transpose();
+// In hundreds by range: the loss hardly varies within.
+std::vector<Bin> BinTrials(std::vector<StrongTrial> trials) {
+  constexpr std::size_t kNumBins = 400;
+  std::stable_sort(trials.begin(), trials.end(), [](const StrongTrial& a, const StrongTrial& b) {
+    return a.range_m < b.range_m;
+  });
+  const std::size_t num_bins = std::min(kNumBins, trials.size());
+  std::vector<Bin> bins(num_bins);
+  for (std::size_t b = 0; b < num_bins; ++b) {
+    const std::size_t begin = trials.size() * b / num_bins;
+    const std::size_t end = trials.size() * (b + 1) / num_bins;
+    for (std::size_t i = begin; i < end; ++i) {
+      (trials[i].is_returned ? bins[b].returned : bins[b].lost) += 1.0;
+      bins[b].design[1] += trials[i].range_m / static_cast<double>(end - begin);
+    }
   }
-  return scores;
+  return bins;
 }
 
-// Scoring in one of the two, the other 0: its value solves a monotonic equation.
-Eigen::Vector2d ClimbAlone(const std::vector<StrongTrial>& trials, int which, double start) {
-  constexpr int kMaxRounds = 60;
-  Eigen::Vector2d value = Eigen::Vector2d::Zero();
-  value[which] = start;
-  for (int round = 0; round < kMaxRounds; ++round) {
-    const Scores scores = ScoresAt(trials, value);
-    const double step = scores.gradient[which] / scores.information(which, which);
-    // Never past half way to 0.
-    value[which] = std::max(0.5 * value[which], value[which] + step);
-    if (std::abs(step) < 1e-9 * value[which]) break;
-  }
-  return value;
+using Exponents = std::array<double, 2>;  // a, rate
+
+double ExponentOf(const Bin& bin, const Exponents& value) {
+  // A lost beam is never impossible.
+  return std::max(1e-12, value[0] * bin.design[0] + value[1] * bin.design[1]);
 }
 
-// Both free. @pre The maximum is not at the edge.
-Eigen::Vector2d ClimbBoth(const std::vector<StrongTrial>& trials, Eigen::Vector2d value) {
-  constexpr int kMaxRounds = 200;
-  for (int round = 0; round < kMaxRounds; ++round) {
-    const Scores scores = ScoresAt(trials, value);
-    const Eigen::Vector2d step = scores.information.inverse() * scores.gradient;
-    const Eigen::Vector2d next = (value + step).cwiseMax(0.5 * value);
-    const bool is_done = (next - value).cwiseQuotient(value).norm() < 1e-9;
-    value = next;
-    if (is_done) break;
+double LogLikelihood(const std::vector<Bin>& bins, const Exponents& value) {
+  double sum = 0.0;
+  for (const Bin& bin : bins) {
+    const double exponent = ExponentOf(bin, value);
+    sum -= bin.returned * exponent;
+    if (bin.lost > 0.0) sum += bin.lost * std::log(-std::expm1(-exponent));
   }
-  return value;
+  return sum;
 }
 
-/// Estimates, and where a free fit would go from there: beyond the edge if they are on it.
-struct Exponents {
-  Eigen::Vector2d value = Eigen::Vector2d::Zero();
-  Eigen::Vector2d unbounded = Eigen::Vector2d::Zero();
-  Eigen::Vector2d error = Eigen::Vector2d::Zero();
+double Slope(const std::vector<Bin>& bins, const Exponents& value, std::size_t which) {
+  double sum = 0.0;
+  for (const Bin& bin : bins) {
+    const double by_exponent = bin.lost / std::expm1(ExponentOf(bin, value)) - bin.returned;
+    sum += bin.design[which] * by_exponent;
+  }
+  return sum;
+}
+
+// Where a falling function of x >= 0 crosses 0; 0 if it is negative there already.
+double Crossing(const std::function<double(double)>& falling, double guess) {
+  if (falling(0.0) <= 0.0) return 0.0;
+  double low = 0.0;
+  double high = std::max(guess, 1e-9);
+  constexpr int kDoublings = 60;
+  for (int i = 0; i < kDoublings && falling(high) > 0.0; ++i) {
+    low = high;
+    high *= 2.0;
+  }
+  constexpr int kHalvings = 50;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (falling(middle) > 0.0 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+/// The likelihood as a function of one of the two, the other at its best.
+class Profile {
+ public:
+  Profile(const std::vector<Bin>& bins, std::size_t which, double guess)
+      : bins_(bins), which_(which), guess_(guess) {}
+
+  [[nodiscard]] Estimate Fit(std::uint64_t num) const {
+    // The slope of the profile is that of the likelihood: the other's is 0 or it stands at its
+    // edge.
+    const double best = Crossing([&](double x) { return Slope(bins_, At(x), which_); }, guess_);
+    const double highest = LogLikelihood(bins_, At(best));
+    const double drop = 0.5 * boost::math::quantile(boost::math::chi_squared(1.0), kConfidence);
+    const auto is_within = [&](double x) { return LogLikelihood(bins_, At(x)) - highest + drop; };
+    Estimate estimate{best, 0.0, 0.0, num};
+    if (is_within(0.0) < 0.0) {
+      estimate.low =
+          best - Crossing([&](double less) { return is_within(std::max(0.0, best - less)); }, best);
+    }
+    estimate.high = best + Crossing([&](double more) { return is_within(best + more); }, best);
+    return estimate;
+  }
+
+ private:
+  // Both, the other at its best for this.
+  [[nodiscard]] Exponents At(double x) const {
+    Exponents value{};
+    value[which_] = x;
+    const std::size_t other = 1 - which_;
+    value[other] = Crossing(
+        [&](double y) {
+          Exponents tried = value;
+          tried[other] = y;
+          return Slope(bins_, tried, other);
+        },
+        1e-3);
+    return value;
+  }
+
+  const std::vector<Bin>& bins_;
+  std::size_t which_;
+  double guess_;
 };
-
-Exponents FitExponents(const std::vector<StrongTrial>& trials, double num_lost, double way_m) {
-  const auto num = static_cast<double>(trials.size());
-  Exponents fit;
-  const Eigen::Vector2d offset_alone =
-      ClimbAlone(trials, 0, -std::log1p(-std::min(0.99, num_lost / num)));
-  const Eigen::Vector2d rate_alone = ClimbAlone(trials, 1, num_lost / way_m);
-  if (ScoresAt(trials, offset_alone).gradient[1] <= 0.0) {
-    fit.value = offset_alone;
-  } else if (ScoresAt(trials, rate_alone).gradient[0] <= 0.0) {
-    fit.value = rate_alone;
-  } else {
-    fit.value = ClimbBoth(trials, 0.5 * (offset_alone + rate_alone));
-  }
-  const Scores scores = ScoresAt(trials, fit.value);
-  const Eigen::Matrix2d covariance = scores.information.inverse();
-  fit.unbounded = fit.value + covariance * scores.gradient;
-  fit.error = covariance.diagonal().cwiseSqrt();
-  return fit;
-}
 
 double ShareOf(double exponent) {
   return -std::expm1(-exponent);
@@ -104,37 +136,20 @@ RandomLoss RandomLossFit::loss() const {
 RandomLossFit FitRandomLoss(const std::vector<StrongTrial>& trials, bool has_rate) {
   const std::uint64_t num = trials.size();
   RandomLossFit fit{NotEnough(num), NotEnough(has_rate ? num : 0)};
+  const auto num_lost = static_cast<std::uint64_t>(std::count_if(
+      trials.begin(), trials.end(), [](const StrongTrial& trial) { return !trial.is_returned; }));
   if (num < kMinSamples) return fit;
-  std::uint64_t num_lost = 0;
-  double way_m = 0.0;
-  for (const StrongTrial& trial : trials) {
-    num_lost += trial.is_returned ? 0 : 1;
-    way_m += trial.range_m;
-  }
-  if (num_lost < kMinSamples || num_lost == num) {
-    fit.probability = Proportion(num_lost, num);
-    if (has_rate) {
-      fit.rate_per_m = PoissonRate(num_lost, way_m);
-      fit.rate_per_m.num = num;
-      // Either may have taken them all, or none.
-      fit.probability.low = fit.rate_per_m.low = 0.0;
-      if (num_lost == 0) fit.rate_per_m.value = 0.0;
-    }
-    return fit;
-  }
   if (!has_rate) {
     fit.probability = Proportion(num_lost, num);
     return fit;
   }
-  const Exponents best = FitExponents(trials, static_cast<double>(num_lost), way_m);
-  const double z = Quantile();
-  const auto interval = [&](int i) {
-    return Estimate{best.value[i], std::max(0.0, best.value[i] - z * best.error[i]),
-                    std::max(0.0, best.unbounded[i] + z * best.error[i]), num};
-  };
-  const Estimate offset = interval(0);
+  // Of what nothing came back from it is not known whether it could.
+  if (num_lost == num) return fit;
+  const std::vector<Bin> bins = BinTrials(trials);
+  const double share = static_cast<double>(num_lost) / static_cast<double>(num);
+  const Estimate offset = Profile(bins, 0, share).Fit(num);
   fit.probability = {ShareOf(offset.value), ShareOf(offset.low), ShareOf(offset.high), num};
-  fit.rate_per_m = interval(1);
+  fit.rate_per_m = Profile(bins, 1, 1e-2 * share).Fit(num);
   return fit;
 }
 

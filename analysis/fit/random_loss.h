@@ -22,10 +22,9 @@ struct RandomLossFit {
   [[nodiscard]] RandomLoss loss() const;
 };
 
-/// P(back) = exp(-(a + rate R)), a = -log(1 - probability), both >= 0, by maximum likelihood
-/// (Fisher's scoring; a binomial regression with logarithmic link). Where the best value would be
-/// negative it is 0, and the other is fitted alone. Intervals from Fisher's information; where
-/// fewer than kMinSamples are lost, from the counts: Wilson's, and the exact one of a Poisson rate.
+/// P(back) = exp(-(a + rate R)), a = -log(1 - probability), both >= 0, by maximum likelihood (it is
+/// concave). Intervals from the profile likelihood: the values at which the best fit with the other
+/// free has 2 log likelihood less by the quantile of chi-squared; so they hold at 0, too.
 /// @param has_rate Whether rain may take any.
 [[nodiscard]] RandomLossFit FitRandomLoss(const std::vector<StrongTrial>& trials, bool has_rate);
 

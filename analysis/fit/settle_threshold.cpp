@@ -121,6 +121,8 @@ SettledThreshold SettleThreshold(const std::vector<Trial>& trials,
                                  const FitSettings& settings,
                                  const FitResult& result) {
   constexpr int kRounds = 4;
+  constexpr double kTypicalRange_m = 50.0;
+  constexpr double kSettled = 1e-6;
   SettledThreshold settled;
   settled.groups = MakeGroups(settings, result);
   settled.log_inverse_power =
@@ -133,6 +135,8 @@ SettledThreshold SettleThreshold(const std::vector<Trial>& trials,
   problem.air_ways = settings.is_physical ? 2.0 : 1.0;
   problem.extinction_per_m = settings.extinction_per_m;
   for (int round = 0; round < kRounds; ++round) {
+    const double lost_before = problem.loss.Survival(kTypicalRange_m);
+    const double power_before = settled.log_inverse_power;
     Cast cast =
         CastTrials(trials, surfaces, settings, result, settled.groups, settled.log_inverse_power);
     problem.trials = std::move(cast.trials);
@@ -156,6 +160,10 @@ SettledThreshold SettleThreshold(const std::vector<Trial>& trials,
       settled.log_inverse_power = settled.detection.theta[0];
       settled.log_inverse_power_error = std::sqrt(settled.detection.covariance(0, 0));
     }
+    const bool has_settled =
+        round > 0 && std::abs(problem.loss.Survival(kTypicalRange_m) - lost_before) < kSettled &&
+        std::abs(settled.log_inverse_power - power_before) < kSettled;
+    if (has_settled) break;
   }
   if (settled.groups.source == ScaleSource::kDataSheet) settled.log_inverse_power_error = 0.0;
   return settled;

@@ -34,24 +34,42 @@ void TrialSample::Add(const Trial& trial, std::uint64_t id) {
   std::vector<Cell>& cells = surfaces_[trial.surface];
   if (cells.empty()) cells.resize(std::size_t{kNumRangeCells} * kNumCosCells);
   Cell& cell = cells[CellOf(trial)];
-  const auto is_less = [](const Kept& a, const Kept& b) { return a.hash < b.hash; };
   const std::uint64_t hash = Mix(id);
-  if (cell.size() == kMaxPerCell) {
+  if (cell.size() == max_per_cell_) {
     if (hash >= cell.front().hash) return;
-    std::pop_heap(cell.begin(), cell.end(), is_less);
+    std::pop_heap(cell.begin(), cell.end(), IsLess);
     cell.back() = {hash, trial};
   } else {
     cell.push_back({hash, trial});
+    ++num_kept_;
   }
-  std::push_heap(cell.begin(), cell.end(), is_less);
+  std::push_heap(cell.begin(), cell.end(), IsLess);
+  while (num_kept_ > kMaxTrials && max_per_cell_ > 1) HalveCells();
+}
+
+// What is left does not depend on when this happens: the number in all only ever grows with the
+// trials seen, and of each cell those with the least hashes stay.
+void TrialSample::HalveCells() {
+  max_per_cell_ /= 2;
+  num_kept_ = 0;
+  for (std::vector<Cell>& cells : surfaces_) {
+    for (Cell& cell : cells) {
+      if (cell.size() > max_per_cell_) {
+        const auto end = cell.begin() + static_cast<std::ptrdiff_t>(max_per_cell_);
+        std::nth_element(cell.begin(), end, cell.end(), IsLess);
+        cell.resize(max_per_cell_);
+        std::make_heap(cell.begin(), cell.end(), IsLess);
+      }
+      num_kept_ += cell.size();
+    }
+  }
 }
 
 std::vector<Trial> TrialSample::trials() const {
   std::vector<Trial> trials;
   for (const std::vector<Cell>& cells : surfaces_) {
     for (Cell cell : cells) {
-      std::sort(cell.begin(), cell.end(),
-                [](const Kept& a, const Kept& b) { return a.hash < b.hash; });
+      std::sort(cell.begin(), cell.end(), IsLess);
       for (const Kept& kept : cell) trials.push_back(kept.trial);
     }
   }

@@ -178,11 +178,12 @@ Trial TrialAt(float range_m, float cosine, std::uint16_t surface) {
 }
 
 TEST(TrialSample, DoesNotDependOnTheOrder) {
+  constexpr std::uint64_t kNumTrials = 2 * TrialSample::kMaxTrials;
   std::vector<std::pair<Trial, std::uint64_t>> all;
-  for (std::uint64_t i = 0; i < 20'000; ++i) {
-    all.emplace_back(
-        TrialAt(1.0F + static_cast<float>(i % 7) * 20.0F, 0.5F, static_cast<std::uint16_t>(i % 3)),
-        i);
+  for (std::uint64_t i = 0; i < kNumTrials; ++i) {
+    // Cells of very different sizes.
+    const auto cell = static_cast<float>(i % 7 == 0 ? i % 29 : 1);
+    all.emplace_back(TrialAt(1.0F + cell * 9.0F, 0.5F, static_cast<std::uint16_t>(i % 3)), i);
     all.back().first.residual_m = static_cast<float>(i);
   }
   TrialSample forwards, backwards;
@@ -193,8 +194,9 @@ TEST(TrialSample, DoesNotDependOnTheOrder) {
   const std::vector<Trial> b = backwards.trials();
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) ASSERT_EQ(a[i].residual_m, b[i].residual_m);
-  EXPECT_EQ(a.size(), 21 * TrialSample::kMaxPerCell);
-  EXPECT_EQ(forwards.num_seen(), 20'000U);
+  EXPECT_LE(a.size(), TrialSample::kMaxTrials);
+  EXPECT_GT(a.size(), TrialSample::kMaxTrials / 4);
+  EXPECT_EQ(forwards.num_seen(), kNumTrials);
 }
 
 TEST(TrialSample, StandsAnyRangeAndIncidence) {

@@ -161,5 +161,22 @@ TEST(KnownPlanes, AreMovedToThePointsWhateverElseStandsThere) {
   EXPECT_NEAR(planes[0].normal.y() / planes[0].normal.x(), -0.01, 1e-6);
 }
 
+TEST(KnownPlanes, MustBeWhereThePointsAre) {
+  std::vector<KnownPlane> planes = {SquareAt(10.0, 3.0), SquareAt(20.0, 3.0)};
+  std::vector<Vector3> points_m;
+  // Along the beam within the first plane's reach, as rings of a scan lie in what is no plane.
+  for (int i = 0; i < 400; ++i) points_m.emplace_back(9.8 + 1e-3 * i, 0.0, 1e-3 * (i % 20));
+  try {
+    static_cast<void>(RefinePlanes(points_m, planes));
+    FAIL();
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("not on one turned by more than 10 deg"), std::string::npos) << text;
+    EXPECT_NE(text.find("must have at least 50 points within 0.3 m in the first frames (got 0)"),
+              std::string::npos)
+        << text;
+  }
+}
+
 }  // namespace
 }  // namespace railcast
