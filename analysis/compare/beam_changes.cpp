@@ -14,13 +14,18 @@ bool IsSame(float a, float b) {
   return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
 
+// Without an effect that computes it, an intensity is not known: that is no change.
+bool IsSameIntensity(float a, float b) {
+  return std::isnan(a) || std::isnan(b) || IsSame(a, b);
+}
+
 bool IsAtSamePlace(const Frame& a, const Frame& b, std::size_t slot) {
   return IsSame(a.x[slot], b.x[slot]) && IsSame(a.y[slot], b.y[slot]) &&
          IsSame(a.z[slot], b.z[slot]);
 }
 
 bool IsSameReturn(const Frame& a, const Frame& b, std::size_t slot) {
-  return IsAtSamePlace(a, b, slot) && IsSame(a.intensity[slot], b.intensity[slot]) &&
+  return IsAtSamePlace(a, b, slot) && IsSameIntensity(a.intensity[slot], b.intensity[slot]) &&
          IsSame(a.range_m[slot], b.range_m[slot]) && a.outcome[slot] == b.outcome[slot];
 }
 
@@ -42,7 +47,7 @@ void AddReturn(const Frame& without, const Frame& with, std::size_t slot, BeamCh
     ++changes.num_moved;
     changes.moved_m.Add(Moved_m(without, with, slot));
   }
-  if (!IsSame(without.intensity[slot], with.intensity[slot])) {
+  if (!IsSameIntensity(without.intensity[slot], with.intensity[slot])) {
     ++changes.num_intensity_changed;
     changes.intensity_change.Add(std::abs(static_cast<double>(with.intensity[slot]) -
                                           static_cast<double>(without.intensity[slot])));

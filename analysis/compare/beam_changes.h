@@ -24,7 +24,8 @@ struct BeamChanges {
   void Add(const Frame& without, const Frame& with);
 
   std::uint64_t num_beams{};
-  std::uint64_t num_identical{};  ///< In every bit of position, intensity, range and outcome.
+  /// In every bit of position, range, outcome and, where both have one, intensity.
+  std::uint64_t num_identical{};
   std::uint64_t num_outcome_changed{};
 
   // Returns: points of any slot.

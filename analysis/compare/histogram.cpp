@@ -76,18 +76,29 @@ void CloudHistograms::Add(const CloudHistograms& other) {
   occupancy.Add(other.occupancy);
 }
 
+namespace {
+
+// What lies farther off, as a slip in a foreign file may say, shares the last bin.
+constexpr float kFarthest_m = 1e6F;
+
+std::int64_t CellOf(float at_m) {
+  return static_cast<std::int64_t>(std::floor(std::clamp(at_m, -kFarthest_m, kFarthest_m)));
+}
+
+}  // namespace
+
 CloudHistograms HistogramsOf(const ComparedCloud& cloud) {
   std::vector<std::int64_t> ranges, intensities, cells;
-  for (const float range_m : cloud.range_m) ranges.push_back(static_cast<std::int64_t>(range_m));
+  for (const float range_m : cloud.range_m) {
+    ranges.push_back(static_cast<std::int64_t>(std::min(range_m, kFarthest_m)));
+  }
   for (const float intensity : cloud.intensity) {
     if (std::isfinite(intensity))
       intensities.push_back(BinOfIntensity(static_cast<double>(intensity)));
   }
   for (const pcl::PointXYZ& point : *cloud.points) {
-    // Rows of cells, far apart enough for any sensor.
-    constexpr std::int64_t kCellsARow = 1'000'000;
-    cells.push_back(static_cast<std::int64_t>(std::floor(point.y)) * kCellsARow +
-                    static_cast<std::int64_t>(std::floor(point.x)));
+    constexpr std::int64_t kCellsARow = 10'000'000;
+    cells.push_back(CellOf(point.y) * kCellsARow + CellOf(point.x));
   }
   std::sort(cells.begin(), cells.end());
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());

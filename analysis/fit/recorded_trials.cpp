@@ -23,7 +23,8 @@ namespace {
 /// What is settled before trials are taken: from the scenario, or from the first frames.
 struct Setting {
   SensorFacts facts;
-  std::optional<ScanTable> scan;
+  std::optional<ScanTable> scan;  // Of all frames if it is fixed; else of the first.
+  bool is_fixed_scan{};
   PlaneScene scene;
   bool has_planes{};
 };
@@ -99,7 +100,7 @@ struct FrameTrials {
   std::vector<std::pair<Trial, std::size_t>> trials;  ///< With their slots.
   std::vector<double> lateral_m;                      ///< Of returned ones, above their row.
   std::uint64_t num_hidden{};
-  bool is_grid{};
+  bool knows_losses{};
 };
 
 // How far points lie above the line of their row: nothing, if noise is along the beam.
@@ -112,24 +113,32 @@ double Above_m(const Frame& frame, std::size_t slot, const ScanTable& scan) {
 
 FrameTrials TakeTrials(const RecordedFrame& recorded, const Setting& setting) {
   FrameTrials taken;
-  taken.is_grid = recorded.is_grid;
   const Frame& frame = recorded.frame;
-  const bool has_scan = setting.scan && setting.scan->rows == frame.rows;
+  // Turns of a capture begin anywhere: each has directions of its own.
+  std::optional<ScanTable> own_scan;
+  SensorFacts facts = setting.facts;
+  if (!setting.is_fixed_scan) {
+    if (recorded.is_grid) own_scan = MakeScanTable(frame);
+    facts.scan = own_scan ? &*own_scan : nullptr;
+  }
+  const bool has_scan = facts.scan != nullptr && facts.scan->rows == frame.rows;
+  // Files of points only may know the truth of what came back, and of nothing else.
+  taken.knows_losses = setting.has_planes ? has_scan : recorded.is_grid && recorded.Has("outcome");
   const auto take = [&](const Trial& trial, std::size_t slot) {
     taken.trials.emplace_back(trial, slot);
     if (trial.answer == Answer::kReturned && has_scan) {
-      taken.lateral_m.push_back(Above_m(frame, slot, *setting.scan));
+      taken.lateral_m.push_back(Above_m(frame, slot, *facts.scan));
     }
   };
   if (setting.has_planes) {
-    ForEachPlaneTrial(recorded, setting.scene, setting.facts, take);
+    ForEachPlaneTrial(recorded, setting.scene, facts, take);
     return taken;
   }
   if (!HasTruth(recorded)) {
     throw InputError(recorded.name +
                      ": must have truth fields, or planes given with --planes (got neither)");
   }
-  ForEachTruthTrial(recorded, setting.facts, take);
+  ForEachTruthTrial(recorded, facts, take);
   if (recorded.Has("outcome")) {
     taken.num_hidden = static_cast<std::uint64_t>(
         std::count(frame.outcome.begin(), frame.outcome.end(), Outcome::kClutter));
@@ -152,7 +161,7 @@ class TrialSum {
       lateral_m_.insert(lateral_m_.end(), taken.lateral_m.begin(), taken.lateral_m.end());
     }
     num_hidden_ += taken.num_hidden;
-    knows_losses_ = knows_losses_ && taken.is_grid;
+    knows_losses_ = knows_losses_ && taken.knows_losses;
     ++num_frames_;
   }
   [[nodiscard]] std::uint64_t num_frames() const { return num_frames_; }
@@ -233,8 +242,9 @@ Setting Settle(const std::filesystem::path& source,
   setting.facts = FactsOf(info);
   setting.has_planes = !result.planes.empty();
   const FirstFrames first = ReadFirstFrames(source);
-  setting.scan =
-      info.scenario ? MakeScanTable(BuildScanPattern(info.scenario->lidar.scan)) : first.scan();
+  setting.is_fixed_scan = info.scenario.has_value();
+  setting.scan = setting.is_fixed_scan ? MakeScanTable(BuildScanPattern(info.scenario->lidar.scan))
+                                       : first.scan();
   if (!setting.has_planes) return setting;
   result.num_plane_points = RefinePlanes(first.points_m(), result.planes);
   AddPlaneSurfaces(result, setting.scene);

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <set>
 #include <string>
+#include <system_error>
 
 #include "analysis/report/draw.h"
 #include "analysis/report/files.h"
@@ -30,17 +31,23 @@ void CheckSound(const Report& report) {
   }
 }
 
+void MakeFolder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw FileError(folder, error.value());
+}
+
 void WriteTables(const Report& report, const std::filesystem::path& folder) {
   for (const Section& section : report.sections) {
     for (const Table& table : section.tables) {
-      std::filesystem::create_directories(folder);
+      MakeFolder(folder);
       WriteFileWhole(folder / (table.key + ".csv"), TableCsv(table));
     }
   }
 }
 
 void WriteFiles(const Report& report, const std::filesystem::path& out, const std::string& json) {
-  std::filesystem::create_directories(out);
+  MakeFolder(out);
   WriteFileWhole(out / json, ReportJson(report));
   WriteTables(report, out / "csv");
   // The drawings come last: all else can do without gnuplot.

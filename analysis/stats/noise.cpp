@@ -127,11 +127,14 @@ void Noise::Add(const RecordedFrame& recorded, const std::vector<PlanePatch>& pa
     planes.range_sigmas_m.Add(correction * std::sqrt(patch.range_squares_m2 / degrees));
     planes.plane_sigmas_m.Add(correction * std::sqrt(patch.plane_squares_m2 / degrees));
   }
-  if (!recorded.Has("true_range_m") || !recorded.Has("outcome")) return;
+  if (!recorded.Has("true_range_m")) return;
   truth_.resize(RangeBins().size());
   const Frame& frame = recorded.frame;
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
-    if (frame.outcome[slot] != Outcome::kReturned) continue;
+    // Of files that hold points only, all outcomes are not known.
+    const bool is_known = recorded.Has("outcome");
+    if (is_known && frame.outcome[slot] != Outcome::kReturned) continue;
+    if (!std::isfinite(frame.range_m[slot])) continue;
     const double true_range_m = static_cast<double>(frame.true_range_m[slot]);
     const auto bin = RangeBins().Find(true_range_m);
     if (!bin) continue;

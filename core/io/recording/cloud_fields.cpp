@@ -191,6 +191,8 @@ void FillFrame(const PointTable& table, const SlotPlan& plan, RecordedFrame& rec
   });
   MarkEmptySlots(frame, recorded.Has("range_m"));
   recorded.fields.emplace("range_m");
+  // A slot that no point of the file fills says nothing of why.
+  if (table.num_points() < frame.num_slots()) recorded.fields.erase("outcome");
   if (!plan.is_grid) return;
   FillGridIndices(frame);
   recorded.fields.insert({"ring", "column", "return_index", "return_count"});
