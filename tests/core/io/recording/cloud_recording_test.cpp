@@ -57,8 +57,8 @@ std::string MessageOfText(const std::string& name, const std::string& text) {
 // Drivers store the highest ring first.
 TEST(CloudRecording, TurnsAnOrganisedCloudSoThatTheLowestRowComesFirst) {
   pcl::PointCloud<pcl::PointXYZI> cloud(5, 4);
-  for (std::uint32_t row = 0; row < 4; ++row) {
-    for (std::uint32_t column = 0; column < 5; ++column) {
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 5; ++column) {
       pcl::PointXYZI& point = cloud.at(column, row);
       point.x = 10.0F;
       point.y = static_cast<float>(column);

@@ -79,7 +79,7 @@ std::size_t NumRight(const MadePoints& made, const SlotPlan& plan) {
     if (cell / plan.columns != made.row[i]) continue;
     // The seam may be anywhere.
     const std::int64_t offset = std::int64_t{cell % plan.columns} - made.column[i];
-    ++by_offset[(offset + 2 * plan.columns) % plan.columns];
+    ++by_offset[(offset + std::int64_t{2} * plan.columns) % plan.columns];
   }
   std::size_t most = 0;
   for (const auto& [offset, num] : by_offset) most = std::max(most, num);
