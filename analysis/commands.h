@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <string>
 
 namespace railcast {
 
@@ -10,9 +11,10 @@ inline constexpr int kExitSuccess = 0;
 inline constexpr int kExitFailure = 1;
 inline constexpr int kExitUsage = 2;
 
-/// What the command line asked for; it gives the exit status.
+/// What the command line asked for; it is told that line, for reports to name, and gives the exit
+/// status.
 /// @throws InputError on bad input.
-using Command = std::function<int()>;
+using Command = std::function<int(const std::string& command_line)>;
 
 // Each adds one command with its options; if the command line names it, `command` becomes it.
 

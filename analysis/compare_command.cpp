@@ -1,10 +1,7 @@
-#include <tbb/global_control.h>
-
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "analysis/commands.h"
@@ -15,6 +12,7 @@
 #include "analysis/compare/pairing.h"
 #include "analysis/progress_line.h"
 #include "analysis/report/output.h"
+#include "analysis/thread_limit.h"
 #include "core/base/error.h"
 #include "core/base/number_text.h"
 #include "core/fidelity/sample_frames.h"
@@ -46,24 +44,7 @@ void CheckDistances(const CompareOptions& options) {
   }
 }
 
-std::string CommandText(const CompareOptions& options) {
-  std::string text = "railcast-analyze compare";
-  for (const std::filesystem::path& source : options.sources) text += " " + source.string();
-  if (options.pairing) text += " --pair " + PairingName(*options.pairing);
-  if (!options.scenario.empty()) {
-    text += " --ablate " + options.scenario.string();
-    text += " --frames " + std::to_string(options.num_frames);
-    if (options.seed) text += " --seed " + std::to_string(*options.seed);
-    if (options.sensor) text += " --sensor " + *options.sensor;
-  }
-  text += " --distances ";
-  for (const double distance_m : options.distances_m) text += NumberText(distance_m) + ",";
-  text.pop_back();
-  if (!options.output.out.empty()) text += " --out " + options.output.out.string();
-  return text;
-}
-
-int RunPairs(const CompareOptions& options) {
+int RunPairs(const CompareOptions& options, const std::string& command_line) {
   const auto a = OpenRecording(options.sources[0]);
   const auto b = OpenRecording(options.sources[1]);
   FramePairs pairs(*a, *b, options.pairing);
@@ -80,12 +61,12 @@ int RunPairs(const CompareOptions& options) {
                      options.sources[0].string() + " by " + PairingName(pairs.pairing()) +
                      "; see --pair (got none)");
   }
-  EmitReport(MakeCompareReport(comparison, pairs, a->info(), b->info(), CommandText(options)),
+  EmitReport(MakeCompareReport(comparison, pairs, a->info(), b->info(), command_line),
              options.output, "compare");
   return kExitSuccess;
 }
 
-int RunAblation(const CompareOptions& options) {
+int RunAblation(const CompareOptions& options, const std::string& command_line) {
   ScenarioSpec scenario = PickSensor(ReadScenario(options.scenario), options.sensor);
   if (options.seed) scenario.seed = *options.seed;
   const auto simulator = MakeSimulator(scenario, options.num_threads);
@@ -105,18 +86,16 @@ int RunAblation(const CompareOptions& options) {
       {"Seed", std::to_string(scenario.seed)},
       {"Version", RAILCAST_VERSION}};
   EmitReport(MakeAblationReport(studies, "Effects of " + options.scenario.stem().string(), facts,
-                                CommandText(options)),
+                                command_line),
              options.output, "ablation");
   return kExitSuccess;
 }
 
-int RunCompare(const CompareOptions& options) {
+int RunCompare(const CompareOptions& options, const std::string& command_line) {
   CheckDistances(options);
-  const auto num_threads = options.num_threads > 0
-                               ? static_cast<std::size_t>(options.num_threads)
-                               : std::size_t{std::thread::hardware_concurrency()};
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, num_threads);
-  return options.scenario.empty() ? RunPairs(options) : RunAblation(options);
+  const tbb::global_control limit = LimitThreads(options.num_threads);
+  return options.scenario.empty() ? RunPairs(options, command_line)
+                                  : RunAblation(options, command_line);
 }
 
 void AddAblationOptions(CLI::App& compare, CompareOptions& options) {
@@ -151,6 +130,7 @@ void AddCompare(CLI::App& app, Command& command) {
       ->check(CLI::IsMember({"stamp", "index"}));
   compare->add_option("--distances", options->distances_m, "Of precision, recall and F-score, in m")
       ->delimiter(',')
+      ->expected(1)
       ->capture_default_str();
   compare->add_option("--threads", options->num_threads, "0 = all cores")
       ->check(CLI::Range(0, 1024))
@@ -165,7 +145,7 @@ void AddCompare(CLI::App& app, Command& command) {
     if (is_ablation && options->pairing) {
       throw CLI::ValidationError("--pair", "is of two recordings");
     }
-    command = [options] { return RunCompare(*options); };
+    command = [options](const std::string& line) { return RunCompare(*options, line); };
   });
 }
 

@@ -57,23 +57,6 @@ void CheckSameScenario(const std::vector<RecordingInfo>& infos) {
   }
 }
 
-std::string CommandText(const DetectOptions& options) {
-  std::string text = "railcast-analyze detect";
-  for (const std::filesystem::path& source : options.sources) text += " " + source.string();
-  const auto add = [&text](const std::string& name, const std::string& value) {
-    text.append(" ").append(name).append(" ").append(value);
-  };
-  const BrakingSpec& braking = options.spec.braking;
-  add("--points", NumberText(options.spec.rule.min_points));
-  add("--frames", options.frames);
-  add("--reaction-s", NumberText(braking.reaction_s));
-  add("--deceleration-mps2", NumberText(braking.deceleration_mps2));
-  if (options.speed_kmph) add("--speed-kmph", NumberText(*options.speed_kmph));
-  add("--margin-m", NumberText(braking.margin_m));
-  if (!options.output.out.empty()) add("--out", options.output.out.string());
-  return text;
-}
-
 std::vector<std::pair<std::string, std::string>> FactsOf(const std::vector<RecordingInfo>& infos,
                                                          std::size_t num_frames) {
   std::string sources;
@@ -92,7 +75,7 @@ std::vector<std::pair<std::string, std::string>> FactsOf(const std::vector<Recor
           {"Fidelity", scenario.fidelity}};
 }
 
-int RunDetect(const DetectOptions& options) {
+int RunDetect(const DetectOptions& options, const std::string& command_line) {
   DetectSpec spec = options.spec;
   if (options.speed_kmph) spec.speed_mps = MpsFromKmph(*options.speed_kmph);
   std::vector<RecordingInfo> infos;
@@ -114,8 +97,8 @@ int RunDetect(const DetectOptions& options) {
   }
   progress.End();
   std::ranges::sort(runs, {}, &DetectRun::seed);
-  EmitReport(MakeDetectReport(runs, spec, CommandText(options), FactsOf(infos, num_frames)),
-             options.output, "detect");
+  EmitReport(MakeDetectReport(runs, spec, command_line, FactsOf(infos, num_frames)), options.output,
+             "detect");
   return kExitSuccess;
 }
 
@@ -172,7 +155,7 @@ void AddDetect(CLI::App& app, Command& command) {
   detect->callback([&command, options] {
     // Its form has been checked.
     (void)ReadFrames(options->frames, options->spec.rule);
-    command = [options] { return RunDetect(*options); };
+    command = [options](const std::string& line) { return RunDetect(*options, line); };
   });
 }
 

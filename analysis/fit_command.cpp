@@ -1,12 +1,9 @@
-#include <tbb/global_control.h>
-
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "analysis/commands.h"
@@ -17,6 +14,7 @@
 #include "analysis/progress_line.h"
 #include "analysis/report/joined.h"
 #include "analysis/report/output.h"
+#include "analysis/thread_limit.h"
 #include "core/base/error.h"
 #include "core/base/number_text.h"
 #include "core/io/recording/recording.h"
@@ -89,7 +87,6 @@ FitSettings SettingsOf(const FitOptions& options,
   }
   for (const std::string& text : options.known) {
     const auto [name, reflectance] = ParseKnown(text);
-    std::string names;
     bool is_there = false;
     for (const Trial& trial : trials.trials)
       is_there |= trials.surfaces[trial.surface].name == name;
@@ -99,11 +96,8 @@ FitSettings SettingsOf(const FitOptions& options,
   return settings;
 }
 
-int RunFit(const FitOptions& options, const std::string& command_text) {
-  const auto num_threads = options.num_threads > 0
-                               ? static_cast<std::size_t>(options.num_threads)
-                               : std::size_t{std::thread::hardware_concurrency()};
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, num_threads);
+int RunFit(const FitOptions& options, const std::string& command_line) {
+  const tbb::global_control limit = LimitThreads(options.num_threads);
   const RecordingInfo info = OpenRecording(options.sources.front())->info();
   std::vector<KnownPlane> planes;
   if (!options.planes.empty()) planes = ReadKnownPlanes(options.planes);
@@ -118,13 +112,13 @@ int RunFit(const FitOptions& options, const std::string& command_text) {
   const FitSettings settings = SettingsOf(options, info, trials);
   const FitResult result = FitModel(trials.trials, trials.surfaces, settings);
 
-  FitReportInput input{{}, info.kind, command_text, info.scenario};
+  FitReportInput input{{}, info.kind, command_line, info.scenario};
   for (const std::filesystem::path& source : options.sources) {
     input.sources.push_back(source.string());
   }
   const Report report = MakeFitReport(input, trials, settings, result);
   if (!options.output.out.empty()) {
-    std::filesystem::create_directories(options.output.out);
+    MakeFolder(options.output.out);
     WriteFileWhole(options.output.out / "fitted.json", FittedJson(settings, trials, result));
     if (info.scenario) {
       WriteFileWhole(
@@ -134,25 +128,6 @@ int RunFit(const FitOptions& options, const std::string& command_text) {
   }
   EmitReport(report, options.output, "fit");
   return kExitSuccess;
-}
-
-std::string CommandText(const FitOptions& options) {
-  std::string text = "railcast-analyze fit";
-  const auto add = [&](const std::string& name, const std::string& value) {
-    text += Joined({" ", name, " ", value});
-  };
-  for (const std::filesystem::path& source : options.sources) text += " " + source.string();
-  if (!options.planes.empty()) add("--planes", options.planes.string());
-  if (!options.rung.empty()) add("--rung", options.rung);
-  if (options.intensity != "auto") add("--intensity", options.intensity);
-  if (options.range_at_10_percent_m) {
-    add("--range-at-10-percent-m", NumberText(*options.range_at_10_percent_m));
-  }
-  for (const std::string& known : options.known) add("--known", known);
-  if (options.extinction_per_m) add("--extinction-per-m", NumberText(*options.extinction_per_m));
-  if (options.rain_rate_mmph) add("--rain-rate-mmph", NumberText(*options.rain_rate_mmph));
-  if (!options.output.out.empty()) add("--out", options.output.out.string());
-  return text;
 }
 
 void AddKnowledgeOptions(CLI::App& fit, FitOptions& options) {
@@ -170,8 +145,12 @@ void AddKnowledgeOptions(CLI::App& fit, FitOptions& options) {
   fit.add_option("--range-at-10-percent-m", options.range_at_10_percent_m,
                  "Of the data sheet: fixes the threshold where intensities do not")
       ->check(CLI::PositiveNumber);
-  fit.add_option("--known", options.known,
-                 "NAME=REFLECTANCE of a surface: fixes the threshold where intensities do not");
+  fit.add_option(
+         "--known", options.known,
+         "NAME=REFLECTANCE of a surface: fixes the threshold where intensities do not; may be "
+         "given several times")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   fit.add_option("--extinction-per-m", options.extinction_per_m,
                  "Of the air, instead of fitting it: 0 = clear")
       ->check(CLI::NonNegativeNumber);
@@ -196,7 +175,7 @@ void AddFit(CLI::App& app, Command& command) {
       ->capture_default_str();
   AddReportOptions(*fit, options->output);
   fit->callback([&command, options] {
-    command = [options] { return RunFit(*options, CommandText(*options)); };
+    command = [options](const std::string& line) { return RunFit(*options, line); };
   });
 }
 

@@ -100,8 +100,9 @@ void AddFrontier(CLI::App& app, Command& command) {
   frontier->add_option("--sensor", options->sensor, "Which of the scenario's sensors");
   frontier->add_option("--rows", options->rows, "Rows separated by commas, or all")
       ->capture_default_str();
-  frontier->callback(
-      [&command, options] { command = [options] { return RunFrontier(*options); }; });
+  frontier->callback([&command, options] {
+    command = [options](const std::string&) { return RunFrontier(*options); };
+  });
 }
 
 }  // namespace railcast

@@ -3,9 +3,25 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
+#include <string>
 
 #include "analysis/commands.h"
+#include "analysis/shell_word.h"
 #include "core/base/error.h"
+
+namespace {
+
+// As a shell reads it; the program by its name alone.
+std::string CommandLine(int argc, char** argv) {
+  std::string line = "railcast-analyze";
+  for (int i = 1; i < argc; ++i) {
+    line += " ";
+    line += railcast::ShellWord(argv[i]);
+  }
+  return line;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   // What PCL says of single neighbourhoods is no news: what matters is in the figures.
@@ -28,7 +44,7 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? railcast::kExitSuccess : railcast::kExitUsage;
   }
   try {
-    return command();
+    return command(CommandLine(argc, argv));
   } catch (const railcast::InputError& error) {
     std::cerr << error.what() << "\n";
   } catch (const std::exception& error) {

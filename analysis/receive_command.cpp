@@ -139,7 +139,9 @@ void AddReceive(CLI::App& app, Command& command) {
   receive->add_option("--frames", options->num_frames, "End after so many frames")
       ->check(CLI::PositiveNumber);
   receive->add_option("--out", options->out, "Directory for frames/*.pcd and frames.csv");
-  receive->callback([&command, options] { command = [options] { return RunReceive(*options); }; });
+  receive->callback([&command, options] {
+    command = [options](const std::string&) { return RunReceive(*options); };
+  });
 }
 
 }  // namespace railcast

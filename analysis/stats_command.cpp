@@ -1,10 +1,7 @@
-#include <tbb/global_control.h>
-
 #include <filesystem>
 #include <memory>
 #include <set>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "analysis/commands.h"
@@ -12,6 +9,7 @@
 #include "analysis/report/output.h"
 #include "analysis/stats/statistics.h"
 #include "analysis/stats/statistics_report.h"
+#include "analysis/thread_limit.h"
 #include "core/base/error.h"
 #include "core/io/recording/recording.h"
 
@@ -47,18 +45,8 @@ void CheckDistinct(const std::vector<std::filesystem::path>& sources) {
   }
 }
 
-std::string CommandText(const StatsOptions& options) {
-  std::string text = "railcast-analyze stats";
-  for (const std::filesystem::path& source : options.sources) text += " " + source.string();
-  if (!options.output.out.empty()) text += " --out " + options.output.out.string();
-  return text;
-}
-
-int RunStats(const StatsOptions& options) {
-  const auto num_threads = options.num_threads > 0
-                               ? static_cast<std::size_t>(options.num_threads)
-                               : std::size_t{std::thread::hardware_concurrency()};
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, num_threads);
+int RunStats(const StatsOptions& options, const std::string& command_line) {
+  const tbb::global_control limit = LimitThreads(options.num_threads);
   CheckDistinct(options.sources);
   std::vector<std::unique_ptr<Recording>> recordings;
   std::vector<RecordingInfo> infos;
@@ -87,7 +75,7 @@ int RunStats(const StatsOptions& options) {
   if (all.coverage.num_frames() == 0) {
     throw InputError(options.sources.front().string() + ": must hold a frame");
   }
-  EmitReport(MakeStatisticsReport(all, infos, CommandText(options)), options.output, "stats");
+  EmitReport(MakeStatisticsReport(all, infos, command_line), options.output, "stats");
   return kExitSuccess;
 }
 
@@ -106,7 +94,9 @@ void AddStats(CLI::App& app, Command& command) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   AddReportOptions(*stats, options->output);
-  stats->callback([&command, options] { command = [options] { return RunStats(*options); }; });
+  stats->callback([&command, options] {
+    command = [options](const std::string& line) { return RunStats(*options, line); };
+  });
 }
 
 }  // namespace railcast

@@ -7,6 +7,7 @@
 #include "analysis/report/joined.h"
 #include "analysis/stats/bins.h"
 #include "analysis/stats/headings.h"
+#include "core/scenario/effect_names.h"
 
 namespace railcast {
 namespace {
@@ -124,6 +125,16 @@ Section EffectsSection(const std::vector<EffectStudy>& studies) {
       "Each effect is switched by itself, all others staying as they are, with the same seed: its "
       "draws are its own, so that beams which it leaves alone are the same in every bit. Intervals "
       "of shares take beams as independent."};
+  std::string rest;
+  for (const std::string& name : EffectNames()) {
+    const auto is_it = [&](const EffectStudy& study) { return study.effect == name; };
+    if (std::none_of(studies.begin(), studies.end(), is_it)) rest += ", " + InWords(name);
+  }
+  if (!rest.empty()) {
+    section.paragraphs.push_back(
+        "Not studied, because they do not go together with what the scenario has: " +
+        rest.substr(2) + ".");
+  }
   const std::vector<const EffectStudy*> sorted = Sorted(studies, NumChanged);
   section.charts = {ChangedChart(sorted), ReturnsChart(sorted)};
   section.tables = {EffectsTable(studies)};

@@ -41,12 +41,17 @@ std::string BinName(std::uint32_t bin) {
   return NumberText(kDistanceBin_m * bin) + " to " + NumberText(kDistanceBin_m * (bin + 1));
 }
 
-/// "wagon_1" of any name: it becomes a file's.
+/// "points_wagon_1", and another one of any other name: it becomes a file's.
 std::string KeyOf(const std::string& name) {
-  std::string key = "points_" + name;
-  for (char& letter : key) {
+  std::string key = "points_";
+  for (const char letter : name) {
     const bool is_plain = (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9');
-    if (!is_plain) letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter + 32) : '_';
+    if (is_plain || letter == '_') {
+      key += letter;
+    } else {
+      key += '-';
+      key += NumberText(static_cast<int>(static_cast<unsigned char>(letter)));
+    }
   }
   return key;
 }

@@ -6,19 +6,13 @@
 #include <cmath>
 #include <cstdio>
 
+#include "analysis/shell_word.h"
 #include "core/base/error.h"
 
 namespace railcast {
 namespace {
 
 constexpr int kExitNotFound = 127;  // Of a shell.
-
-// A word of the shell.
-std::string ShellWord(const std::string& text) {
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
-}
 
 }  // namespace
 

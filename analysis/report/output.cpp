@@ -31,12 +31,6 @@ void CheckSound(const Report& report) {
   }
 }
 
-void MakeFolder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw FileError(folder, error.value());
-}
-
 void WriteTables(const Report& report, const std::filesystem::path& folder) {
   for (const Section& section : report.sections) {
     for (const Table& table : section.tables) {
@@ -56,6 +50,12 @@ void WriteFiles(const Report& report, const std::filesystem::path& out, const st
 }
 
 }  // namespace
+
+void MakeFolder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw FileError(folder, error.value());
+}
 
 void AddReportOptions(CLI::App& command, ReportOutput& output) {
   CLI::Option_group* const where = command.add_option_group("Report");

@@ -17,8 +17,8 @@ namespace {
 constexpr double kMaxFollow_turns = 0.02;
 /// A turn without a wider gap is a whole one.
 constexpr double kMinGap_turns = 0.03;
-/// From what share of second points on they are second returns.
-constexpr double kMinSecondShare = 0.02;
+/// More points in one cell than this are no returns of one firing.
+constexpr std::uint32_t kMaxReturns = 4;
 /// A table with less than one slot in so many filled is none.
 constexpr std::size_t kMaxSlotsPerPoint = 16;
 
@@ -105,25 +105,30 @@ bool IsSameCell(const TablePoint& a, const TablePoint& b) {
   return a.row == b.row && a.column == b.column;
 }
 
+/// @pre Sorted by cell.
+std::uint32_t MostInACell(const std::vector<TablePoint>& points) {
+  std::uint32_t most = 1;
+  std::uint32_t in_cell = 1;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    in_cell = IsSameCell(points[i - 1], points[i]) ? in_cell + 1 : 1;
+    most = std::max(most, in_cell);
+  }
+  return most;
+}
+
 /// The slot of each point, points of one cell from the nearest on. @pre Sorted by cell and range.
 SlotPlan PlanOf(const std::vector<TablePoint>& points,
                 std::uint32_t rows,
                 std::uint32_t columns,
                 std::size_t num_file_points) {
-  std::size_t num_seconds = 0;
-  for (std::size_t i = 1; i < points.size(); ++i)
-    num_seconds += IsSameCell(points[i - 1], points[i]);
-  const bool has_seconds =
-      static_cast<double>(num_seconds) >= kMinSecondShare * static_cast<double>(points.size());
   SlotPlan plan{.rows = rows,
                 .columns = columns,
-                .returns = has_seconds ? 2U : 1U,
+                .returns = MostInACell(points),
                 .slots = std::vector(num_file_points, kNoSlot),
                 .is_grid = true};
   std::uint32_t in_cell = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     in_cell = i > 0 && IsSameCell(points[i - 1], points[i]) ? in_cell + 1 : 0;
-    if (in_cell >= plan.returns) continue;
     const auto column = static_cast<std::uint32_t>(points[i].column);
     plan.slots[points[i].index] = (points[i].row * columns + column) * plan.returns + in_cell;
   }
@@ -190,6 +195,7 @@ std::optional<SlotPlan> MakeRingTable(const PointPositions& positions,
   std::ranges::stable_sort(points, {}, [](const TablePoint& point) {
     return std::tuple(point.row, point.column, point.range_m);
   });
+  if (MostInACell(points) > kMaxReturns) return std::nullopt;
   return PlanOf(points, num_rows, num_columns, positions.size());
 }
 
