@@ -12,12 +12,11 @@ namespace {
 
 constexpr std::size_t kMaxSurfaces = 6;
 
-const Estimate& EstimateOf(const FitResult& result, std::string_view place) {
-  static const Estimate kNone;
+Estimate EstimateOf(const FitResult& result, std::string_view place) {
   for (const FittedParameter& parameter : result.parameters) {
     if (parameter.place == place) return parameter.estimate;
   }
-  return kNone;
+  return {};
 }
 
 ChartPoint PointOf(double x, const Estimate& estimate) {

@@ -97,21 +97,20 @@ std::vector<std::size_t> RefinePlanes(const std::vector<Vector3>& points_m,
       if (IsWithin(plane, point_m - distance_m * plane.normal)) near_m.push_back(point_m);
     }
     counts.push_back(near_m.size());
+    const std::string name = Joined({"plane \"", plane.name, "\": "});
     if (near_m.size() < kMinPlanePoints) {
-      errors.Add(Joined(
-          {"plane \"", plane.name, "\": must have at least ", NumberText(kMinPlanePoints),
-           " points within 0.3 m in the first frames (got ", NumberText(near_m.size()), ")"}));
+      const std::string rule =
+          "must have at least 50 points within 0.3 m in the first frames (got ";
+      errors.Add(Joined({name, rule, NumberText(near_m.size()), ")"}));
       continue;
     }
     const Vector3 given = plane.normal;
     Refine(near_m, plane);
     const double turn_deg = DegFromRad(std::acos(std::min(1.0, given.dot(plane.normal))));
     if (turn_deg > kMaxTurn_deg) {
+      const std::string rule = "the points within 0.3 m must lie on it, not on one turned by more ";
       errors.Add(
-          Joined({"plane \"", plane.name,
-                  "\": the points within 0.3 m must lie on it, not on one turned by more than "
-                  "10 deg (got ",
-                  NumberText(std::round(turn_deg)), " deg)"}));
+          Joined({name, rule, "than 10 deg (got ", NumberText(std::round(turn_deg)), " deg)"}));
     }
   }
   errors.ThrowIfAny();

@@ -187,6 +187,30 @@ Residuals TakeOutChannels(std::vector<Trial>& trials) {
   return result;
 }
 
+namespace {
+
+// How many bins of slant to each of the key.
+constexpr std::size_t kSlantBins = 5;
+
+// Within each of `num_parts` of the order, so that bins differ in both.
+void SortBySlant(const std::vector<Trial>& trials,
+                 std::size_t num_parts,
+                 std::vector<std::size_t>& order) {
+  const bool has_slant = std::any_of(trials.begin(), trials.end(),
+                                     [](const Trial& trial) { return trial.slant > 0.0F; });
+  if (!has_slant) return;
+  const auto place = [&](std::size_t part) {
+    return order.begin() + static_cast<std::ptrdiff_t>(order.size() * part / num_parts);
+  };
+  for (std::size_t part = 0; part < num_parts; ++part) {
+    std::stable_sort(place(part), place(part + 1), [&](std::size_t a, std::size_t b) {
+      return trials[a].slant < trials[b].slant;
+    });
+  }
+}
+
+}  // namespace
+
 std::vector<NoiseBin> BinNoise(const std::vector<Trial>& trials,
                                const std::vector<double>& keys,
                                const std::vector<double>& inverse_snr) {
@@ -200,6 +224,7 @@ std::vector<NoiseBin> BinNoise(const std::vector<Trial>& trials,
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return keys[a] < keys[b]; });
   const std::size_t num_bins = std::min(kMaxBins, order.size() / kMinOfBin);
+  if (num_bins > kSlantBins) SortBySlant(trials, num_bins / kSlantBins, order);
   std::vector<NoiseBin> bins;
   for (std::size_t b = 0; b < num_bins; ++b) {
     const std::size_t begin = order.size() * b / num_bins;

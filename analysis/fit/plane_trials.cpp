@@ -24,18 +24,24 @@ double StretchOf(const KnownPlane& plane,
   return pulse_m / std::hypot(pulse_m, spread_m);
 }
 
-// Where a firing looks; NaN if that is not known.
+// Where a firing looks: its row and column know better than its point, which noise moves; NaN if
+// neither does.
 Vector3 DirectionOf(const Frame& frame,
                     std::size_t slot,
                     const Vector3& point_m,
                     const ScanTable* scan) {
-  if (!std::isnan(point_m.x())) return point_m.normalized();
-  if (scan == nullptr || scan->rows != frame.rows || scan->columns != frame.columns) {
-    return Vector3::Constant(std::nan(""));
+  if (scan != nullptr && scan->rows == frame.rows && scan->columns == frame.columns) {
+    const auto direction =
+        scan->Direction(slot / frame.width(), slot % frame.width() / frame.returns);
+    if (!std::isnan(direction[0])) return {direction[0], direction[1], direction[2]};
   }
-  const auto direction =
-      scan->Direction(slot / frame.width(), slot % frame.width() / frame.returns);
-  return {direction[0], direction[1], direction[2]};
+  return point_m.normalized();
+}
+
+// How far beyond the plane a point lies along its own beam.
+double Beyond_m(const KnownPlane& plane, const Vector3& point_m) {
+  const double along = plane.normal.dot(point_m.normalized());
+  return point_m.norm() - plane.normal.dot(plane.point_m) / along;
 }
 
 }  // namespace
@@ -64,7 +70,7 @@ void ForEachPlaneTrial(const RecordedFrame& recorded,
     trial.surface = scene.surfaces[hit->plane];
     trial.channel = frame.ring[slot];
     if (!std::isnan(point_m.x())) {
-      const double beyond_m = point_m.norm() - hit->range_m;
+      const double beyond_m = Beyond_m(plane, point_m);
       trial.answer = std::abs(beyond_m) < kReach_m ? Answer::kReturned : Answer::kElsewhere;
       trial.residual_m =
           static_cast<float>(scene.is_isotropic ? beyond_m * hit->cos_incidence : beyond_m);

@@ -17,8 +17,9 @@ struct PlaneScene {
 };
 
 /// The trials of a frame: of every firing that looks at a plane, the first one it meets. Firings
-/// look where their row and column do; those with a point, where it lies. A point 0.5 m or more off
-/// is of something else. Without `facts.scan` only points make trials, and nothing is lost.
+/// look where their row and column do; residuals are taken along the point's own direction. A point
+/// 0.5 m or more off is of something else. Without `facts.scan` only points make trials, each
+/// looking where it lies, and nothing is lost.
 void ForEachPlaneTrial(const RecordedFrame& recorded,
                        const PlaneScene& scene,
                        const SensorFacts& facts,

@@ -190,7 +190,8 @@ void ReadAll(Recording& recording,
              TrialSum& sum) {
   using Reader = Recording::FrameReader;
   // Frames in work at a time.
-  const std::size_t num_at_once = 2 * std::max(1U, std::thread::hardware_concurrency());
+  const std::size_t num_at_once =
+      std::size_t{2} * std::max(1U, std::thread::hardware_concurrency());
   const auto next = tbb::make_filter<void, Reader>(tbb::filter_mode::serial_in_order,
                                                    [&](tbb::flow_control& control) -> Reader {
                                                      auto reader = recording.Next();

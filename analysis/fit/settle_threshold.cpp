@@ -61,8 +61,8 @@ Cast CastTrials(const std::vector<Trial>& trials,
                 const std::vector<FitSurface>& surfaces,
                 const FitSettings& settings,
                 const FitResult& result,
-                const ThresholdGroups& groups,
-                double log_inverse_power) {
+                const SettledThreshold& settled) {
+  const ThresholdGroups& groups = settled.groups;
   std::vector<std::size_t> place_of(surfaces.size(), result.surfaces.size());
   for (std::size_t i = 0; i < result.surface_ids.size(); ++i) place_of[result.surface_ids[i]] = i;
   Cast cast;
@@ -78,7 +78,7 @@ Cast CastTrials(const std::vector<Trial>& trials,
             ? AnswerOf(surfaces[trial.surface], static_cast<double>(trial.cos_incidence))
             : ShapedAnswer{static_cast<double>(trial.cos_incidence), 0.0};
     DetectionTrial shown{answer.diffuse * spread,
-                         std::exp(log_inverse_power) * answer.lobe * spread, range_m, group,
+                         std::exp(settled.log_inverse_power) * answer.lobe * spread, range_m, group,
                          trial.answer != Answer::kLost};
     const double reflectance = groups.reflectance[place];
     if (!std::isnan(reflectance)) {
@@ -137,8 +137,7 @@ SettledThreshold SettleThreshold(const std::vector<Trial>& trials,
   for (int round = 0; round < kRounds; ++round) {
     const double lost_before = problem.loss.Survival(kTypicalRange_m);
     const double power_before = settled.log_inverse_power;
-    Cast cast =
-        CastTrials(trials, surfaces, settings, result, settled.groups, settled.log_inverse_power);
+    Cast cast = CastTrials(trials, surfaces, settings, result, settled);
     problem.trials = std::move(cast.trials);
     settled.outlook = LookAtGroups(problem);
     cast.trials = problem.trials;

@@ -63,7 +63,7 @@ void FillOwnGroup(const SettledThreshold& settled,
                                     std::sqrt(std::max(0.0, variance)), 1.0, outlook.num);
 }
 
-const char* const kTogether =
+constexpr const char* kTogether =
     "not identified: beams are lost at about one range only, so that threshold and extinction "
     "cannot be told apart; give --extinction-per-m";
 
