@@ -2,6 +2,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/commands.h"
@@ -14,9 +15,9 @@
 #include "analysis/report/output.h"
 #include "analysis/thread_limit.h"
 #include "core/base/error.h"
-#include "core/base/number_text.h"
 #include "core/fidelity/sample_frames.h"
 #include "core/io/recording/recording.h"
+#include "core/io/text_cursor.h"
 #include "core/scenario/effects.h"
 #include "core/scenario/scenario.h"
 
@@ -26,7 +27,7 @@ namespace {
 struct CompareOptions {
   std::vector<std::filesystem::path> sources;  // A, B.
   std::optional<Pairing> pairing;
-  std::vector<double> distances_m = {0.05, 0.1, 0.2, 0.5};
+  std::string distances = "0.05,0.1,0.2,0.5";
   int num_threads = 0;
   ReportOutput output;
   // Of an ablation.
@@ -36,19 +37,27 @@ struct CompareOptions {
   std::optional<std::string> sensor;
 };
 
-void CheckDistances(const CompareOptions& options) {
-  for (const double distance_m : options.distances_m) {
-    if (!(distance_m > 0.0)) {
-      throw InputError("--distances: must be > 0 (got " + NumberText(distance_m) + ")");
+// "0.05,0.1".
+std::vector<double> ParseDistances(std::string_view text) {
+  std::vector<double> distances_m;
+  while (true) {
+    const std::size_t comma = text.find(',');
+    const std::string_view word = text.substr(0, comma);
+    const auto distance_m = ParseNumber<double>(word);
+    if (!distance_m || !(*distance_m > 0.0)) {
+      throw InputError("--distances: must be > 0 (got " + std::string(word) + ")");
     }
+    distances_m.push_back(*distance_m);
+    if (comma == std::string_view::npos) return distances_m;
+    text.remove_prefix(comma + 1);
   }
 }
 
 int RunPairs(const CompareOptions& options, const std::string& command_line) {
+  Comparison comparison(ParseDistances(options.distances));
   const auto a = OpenRecording(options.sources[0]);
   const auto b = OpenRecording(options.sources[1]);
   FramePairs pairs(*a, *b, options.pairing);
-  Comparison comparison(options.distances_m);
   const ProgressLine progress;
   const std::size_t num_frames = a->info().num_frames.value_or(0);  // 0: not known.
   CompareAll(pairs, comparison, [&](std::uint64_t num) {
@@ -67,6 +76,7 @@ int RunPairs(const CompareOptions& options, const std::string& command_line) {
 }
 
 int RunAblation(const CompareOptions& options, const std::string& command_line) {
+  const std::vector<double> distances_m = ParseDistances(options.distances);
   ScenarioSpec scenario = PickSensor(ReadScenario(options.scenario), options.sensor);
   if (options.seed) scenario.seed = *options.seed;
   const auto simulator = MakeSimulator(scenario, options.num_threads);
@@ -75,7 +85,7 @@ int RunAblation(const CompareOptions& options, const std::string& command_line) 
       SampleFrames(scenario, *simulator, options.num_frames, kFrameSpacing_s);
   const ProgressLine progress;
   const std::vector<EffectStudy> studies =
-      Ablate(*simulator, frames, options.distances_m,
+      Ablate(*simulator, frames, distances_m,
              [&](const std::string& what, double done) { progress.Show(what, done); });
   progress.End();
   const std::vector<std::pair<std::string, std::string>> facts = {
@@ -92,7 +102,6 @@ int RunAblation(const CompareOptions& options, const std::string& command_line) 
 }
 
 int RunCompare(const CompareOptions& options, const std::string& command_line) {
-  CheckDistances(options);
   const tbb::global_control limit = LimitThreads(options.num_threads);
   return options.scenario.empty() ? RunPairs(options, command_line)
                                   : RunAblation(options, command_line);
@@ -128,9 +137,9 @@ void AddCompare(CLI::App& app, Command& command) {
           "Frames by stamp (nearest within half a period) or by index; if not given, by stamp "
           "where both have stamps")
       ->check(CLI::IsMember({"stamp", "index"}));
-  compare->add_option("--distances", options->distances_m, "Of precision, recall and F-score, in m")
-      ->delimiter(',')
-      ->expected(1)
+  compare
+      ->add_option("--distances", options->distances,
+                   "Of precision, recall and F-score, in m, separated by commas")
       ->capture_default_str();
   compare->add_option("--threads", options->num_threads, "0 = all cores")
       ->check(CLI::Range(0, 1024))
