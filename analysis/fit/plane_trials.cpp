@@ -10,20 +10,6 @@ namespace {
 constexpr double kReach_m = 0.5;
 constexpr double kMinCosine = 0.05;
 
-// As core/detect/incidence.h has it.
-double StretchOf(const KnownPlane& plane,
-                 const PlaneHit& hit,
-                 const Vector3& direction,
-                 const BeamSpec& beam) {
-  const Vector3 h = Vector3::UnitZ().cross(direction).normalized();
-  const Vector3 v = direction.cross(h);
-  const double spread_m = hit.range_m / hit.cos_incidence *
-                          std::hypot(HorizontalSigma_rad(beam) * plane.normal.dot(h),
-                                     VerticalSigma_rad(beam) * plane.normal.dot(v));
-  const double pulse_m = PulseSigma_m(beam);
-  return pulse_m / std::hypot(pulse_m, spread_m);
-}
-
 // Where a firing looks: its row and column know better than its point, which noise moves; NaN if
 // neither does.
 Vector3 DirectionOf(const Frame& frame,
@@ -46,6 +32,19 @@ double Beyond_m(const KnownPlane& plane, const Vector3& point_m) {
 
 }  // namespace
 
+double StretchOnPlane(const Vector3& normal,
+                      double range_m,
+                      const Vector3& direction,
+                      const BeamSpec& beam) {
+  const Vector3 h = Vector3::UnitZ().cross(direction).normalized();
+  const Vector3 v = direction.cross(h);
+  const double spread_m = range_m / std::abs(normal.dot(direction)) *
+                          std::hypot(HorizontalSigma_rad(beam) * normal.dot(h),
+                                     VerticalSigma_rad(beam) * normal.dot(v));
+  const double pulse_m = PulseSigma_m(beam);
+  return pulse_m / std::hypot(pulse_m, spread_m);
+}
+
 void ForEachPlaneTrial(const RecordedFrame& recorded,
                        const PlaneScene& scene,
                        const SensorFacts& facts,
@@ -63,7 +62,8 @@ void ForEachPlaneTrial(const RecordedFrame& recorded,
     Trial trial;
     trial.expected_m = static_cast<float>(hit->range_m);
     trial.cos_incidence = static_cast<float>(hit->cos_incidence);
-    trial.stretch = static_cast<float>(StretchOf(plane, *hit, direction, facts.beam));
+    trial.stretch =
+        static_cast<float>(StretchOnPlane(plane.normal, hit->range_m, direction, facts.beam));
     trial.slant =
         static_cast<float>(hit->range_m * std::sqrt(1.0 - hit->cos_incidence * hit->cos_incidence) /
                            hit->cos_incidence);

@@ -16,6 +16,13 @@ struct PlaneScene {
   bool is_isotropic{};
 };
 
+/// What pulse stretch leaves of the power of a beam on a plane (core/detect/incidence.h).
+/// @param normal, direction Unit. @param range_m To where the beam meets it.
+[[nodiscard]] double StretchOnPlane(const Vector3& normal,
+                                    double range_m,
+                                    const Vector3& direction,
+                                    const BeamSpec& beam);
+
 /// The trials of a frame: of every firing that looks at a plane, the first one it meets. Firings
 /// look where their row and column do; residuals are taken along the point's own direction. A point
 /// 0.5 m or more off is of something else. Without `facts.scan` only points make trials, each

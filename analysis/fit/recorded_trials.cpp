@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "analysis/estimate/robust.h"
+#include "analysis/fit/label_trials.h"
 #include "analysis/fit/plane_trials.h"
 #include "analysis/fit/trial_sample.h"
 #include "analysis/fit/truth_trials.h"
@@ -135,8 +136,14 @@ FrameTrials TakeTrials(const RecordedFrame& recorded, const Setting& setting) {
     return taken;
   }
   if (!HasTruth(recorded)) {
-    throw InputError(recorded.name +
-                     ": must have truth fields, or planes given with --planes (got neither)");
+    if (!recorded.Has("label")) {
+      throw InputError(recorded.name +
+                       ": must have truth fields or labels, or planes given with --planes (got "
+                       "neither)");
+    }
+    taken.knows_losses = false;
+    ForEachLabelTrial(recorded, facts, take);
+    return taken;
   }
   ForEachTruthTrial(recorded, facts, take);
   if (recorded.Has("outcome")) {

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "analysis/estimate/moments.h"
 #include "analysis/estimate/robust.h"
@@ -27,6 +28,7 @@ constexpr double kMostIncidence_rad = std::numbers::pi / 3.0;
 struct PatchPoint {
   Vector3 position_m = Vector3::Zero();
   double intensity{};
+  std::size_t slot{};
 };
 using Points = std::vector<PatchPoint>;
 
@@ -106,7 +108,7 @@ bool IsFlat(const Points& points, const Plane& plane) {
 }
 
 // @param points At least kLeastPoints.
-std::optional<PlanePatch> MakePatch(const Points& points) {
+std::optional<FlatPiece> MakePiece(const Points& points) {
   constexpr double kLeastShare = 0.8;
   const auto agreed = AgreedPlane(points, points[points.size() / 2].position_m.norm());
   if (!agreed) return std::nullopt;
@@ -121,7 +123,10 @@ std::optional<PlanePatch> MakePatch(const Points& points) {
     plane = FitPlane(kept);
   }
   if (!IsFlat(kept, plane)) return std::nullopt;
-  PlanePatch patch;
+  FlatPiece piece;
+  piece.middle_m = plane.middle;
+  piece.normal = plane.normal;
+  PlanePatch& patch = piece.patch;
   const double cosine = std::abs(plane.normal.dot(plane.middle.normalized()));
   patch.incidence_rad = std::acos(std::min(1.0, cosine));
   if (patch.incidence_rad >= kMostIncidence_rad) return std::nullopt;
@@ -133,11 +138,12 @@ std::optional<PlanePatch> MakePatch(const Points& points) {
     const double square_m = plane.normal.dot(point.position_m - plane.middle);
     const double along_m = square_m / plane.normal.dot(point.position_m.normalized());
     intensities.Add(point.intensity);
+    piece.slots.push_back(point.slot);
     patch.plane_squares_m2 += square_m * square_m;
     patch.range_squares_m2 += along_m * along_m;
   }
   patch.intensity = intensities.PlainMean();
-  return patch;
+  return piece;
 }
 
 Vector3 PointAt(const Frame& frame, std::size_t slot) {
@@ -163,15 +169,15 @@ Window WindowOf(const ScanTable& scan) {
 
 void Gather(const Frame& frame, std::size_t slot, Points& points) {
   if (!std::isfinite(frame.range_m[slot])) return;
-  points.push_back({PointAt(frame, slot), static_cast<double>(frame.intensity[slot])});
+  points.push_back({PointAt(frame, slot), static_cast<double>(frame.intensity[slot]), slot});
 }
 
-std::vector<PlanePatch> FindInGrid(const Frame& frame, const ScanTable& scan) {
+std::vector<FlatPiece> FindInGrid(const Frame& frame, const ScanTable& scan) {
   const Window half = WindowOf(scan);
   const std::size_t height = 2 * half.rows + 1;
   const std::size_t width = 2 * half.columns + 1;
-  std::vector<PlanePatch> patches;
-  if (frame.rows < height || frame.columns < width) return patches;
+  std::vector<FlatPiece> pieces;
+  if (frame.rows < height || frame.columns < width) return pieces;
   const std::size_t num_rows = frame.rows - height + 1;
   const std::size_t num_columns = frame.columns - width + 1;
   // Steps of the golden ratio spread any number of places evenly over the places there are.
@@ -179,7 +185,7 @@ std::vector<PlanePatch> FindInGrid(const Frame& frame, const ScanTable& scan) {
   const std::size_t num_places = num_rows * num_columns;
   // Places without a flat neighbourhood cost little, so that more are tried than wanted.
   constexpr std::size_t kTries = 6 * kMaxPatches;
-  for (std::size_t i = 0; i < std::min(kTries, num_places) && patches.size() < kMaxPatches; ++i) {
+  for (std::size_t i = 0; i < std::min(kTries, num_places) && pieces.size() < kMaxPatches; ++i) {
     const double turn = kGolden * static_cast<double>(i + 1 + kTries * (frame.index % 1024U));
     const auto place =
         static_cast<std::size_t>((turn - std::floor(turn)) * static_cast<double>(num_places));
@@ -193,12 +199,12 @@ std::vector<PlanePatch> FindInGrid(const Frame& frame, const ScanTable& scan) {
       }
     }
     if (points.size() * 4 < height * width * 3 || points.size() < kLeastPoints) continue;
-    if (const auto patch = MakePatch(points)) patches.push_back(*patch);
+    if (auto piece = MakePiece(points)) pieces.push_back(std::move(*piece));
   }
-  return patches;
+  return pieces;
 }
 
-std::vector<PlanePatch> FindInCloud(const Frame& frame) {
+std::vector<FlatPiece> FindInCloud(const Frame& frame) {
   const auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
   std::vector<std::size_t> slots;
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
@@ -206,8 +212,8 @@ std::vector<PlanePatch> FindInCloud(const Frame& frame) {
     cloud->emplace_back(frame.x[slot], frame.y[slot], frame.z[slot]);
     slots.push_back(slot);
   }
-  std::vector<PlanePatch> patches;
-  if (slots.size() < kNearestPoints) return patches;
+  std::vector<FlatPiece> pieces;
+  if (slots.size() < kNearestPoints) return pieces;
   pcl::KdTreeFLANN<pcl::PointXYZ> tree;
   tree.setInputCloud(cloud);
   const std::size_t stride = std::max<std::size_t>(1, slots.size() / kMaxPatches);
@@ -217,17 +223,23 @@ std::vector<PlanePatch> FindInCloud(const Frame& frame) {
     tree.nearestKSearch(static_cast<int>(i), static_cast<int>(kNearestPoints), found, squares_m2);
     Points points;
     for (const int k : found) Gather(frame, slots[static_cast<std::size_t>(k)], points);
-    if (const auto patch = MakePatch(points)) patches.push_back(*patch);
+    if (auto piece = MakePiece(points)) pieces.push_back(std::move(*piece));
   }
-  return patches;
+  return pieces;
 }
 
 }  // namespace
 
-std::vector<PlanePatch> FindPlanePatches(const RecordedFrame& recorded, const ScanTable* scan) {
+std::vector<FlatPiece> FindFlatPieces(const RecordedFrame& recorded, const ScanTable* scan) {
   if (!recorded.is_grid) return FindInCloud(recorded.frame);
   if (scan == nullptr) return {};
   return FindInGrid(recorded.frame, *scan);
+}
+
+std::vector<PlanePatch> FindPlanePatches(const RecordedFrame& recorded, const ScanTable* scan) {
+  std::vector<PlanePatch> patches;
+  for (const FlatPiece& piece : FindFlatPieces(recorded, scan)) patches.push_back(piece.patch);
+  return patches;
 }
 
 }  // namespace railcast

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "analysis/stats/scan_table.h"
+#include "core/base/transform.h"
 #include "core/io/recording/recording.h"
 
 namespace railcast {
@@ -23,6 +24,14 @@ struct PlanePatch {
   [[nodiscard]] double degrees() const { return static_cast<double>(num_points) - 3.0; }
 };
 
+/// The same with what it is made of.
+struct FlatPiece {
+  PlanePatch patch;
+  Vector3 middle_m = Vector3::Zero();  ///< Of its points; in the plane.
+  Vector3 normal = Vector3::UnitZ();   ///< Unit, to either side.
+  std::vector<std::size_t> slots;      ///< Of its points, without outliers.
+};
+
 /// At most kMaxPatches of a frame, so that the time does not grow with its points.
 inline constexpr std::size_t kMaxPatches = 150;
 
@@ -34,6 +43,9 @@ inline constexpr std::size_t kMaxPatches = 150;
 ///
 /// Neighbours are those of the grid; without one, the nearest in space.
 /// @param scan Null if the frame is no grid.
+[[nodiscard]] std::vector<FlatPiece> FindFlatPieces(const RecordedFrame& recorded,
+                                                    const ScanTable* scan);
+/// The same without what they are made of.
 [[nodiscard]] std::vector<PlanePatch> FindPlanePatches(const RecordedFrame& recorded,
                                                        const ScanTable* scan);
 

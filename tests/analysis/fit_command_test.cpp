@@ -131,8 +131,9 @@ TEST(FitCommand, WantsTruthOrPlanes) {
   if (!std::filesystem::exists(kVlp16)) GTEST_SKIP() << "no " << kVlp16;
   const Ended run = Analyze("fit " + kVlp16 + " --format text");
   EXPECT_EQ(run.status, 1);
-  EXPECT_THAT(run.said,
-              HasSubstr("must have truth fields, or planes given with --planes (got neither)"));
+  EXPECT_THAT(
+      run.said,
+      HasSubstr("must have truth fields or labels, or planes given with --planes (got neither)"));
 }
 
 }  // namespace
