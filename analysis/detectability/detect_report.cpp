@@ -1,5 +1,6 @@
 #include "analysis/detectability/detect_report.h"
 
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -55,7 +56,8 @@ Table VerdictTable(const std::vector<Verdict>& verdicts) {
   table.key = "verdicts";
   table.title = "Who is detected in time to stop";
   table.note =
-      "Means over the runs that detected the object; the share is of those that approached it.";
+      "Means over the runs that detected the object, but not at once; the share is of those that "
+      "approached it and did not begin too near to tell.";
   table.columns = {{"object", "Object", ""},
                    {"type", "Type", ""},
                    {"verdict", "Verdict", ""},
@@ -65,13 +67,14 @@ Table VerdictTable(const std::vector<Verdict>& verdicts) {
                    {"spare_m", "To spare", "m"},
                    {"least_spare_m", "To spare, at least", "m"},
                    {"in_time", "In time", ""},
-                   {"seen_from_start", "Detected from the start", ""}};
+                   {"begun_too_near", "Begun too near to tell", ""}};
   for (const Verdict& verdict : verdicts) {
-    table.rows.push_back({verdict.name, verdict.type, verdict.InWords(), verdict.num_approached,
-                          verdict.distance_m.Mean(), verdict.most_needed_m, verdict.spare_m.Mean(),
-                          verdict.least_spare_m,
-                          Proportion(verdict.num_in_time, verdict.num_approached),
-                          verdict.num_from_start});
+    table.rows.push_back(
+        {verdict.name, verdict.type, verdict.InWords(), verdict.num_approached,
+         verdict.distance_m.Mean(), verdict.most_needed_m, verdict.spare_m.Mean(),
+         verdict.least_spare_m,
+         Proportion(verdict.num_in_time, verdict.num_approached - verdict.num_undecided),
+         verdict.num_undecided});
   }
   return table;
 }
@@ -79,8 +82,8 @@ Table VerdictTable(const std::vector<Verdict>& verdicts) {
 std::string FateText(const Detection& detection) {
   if (detection.fate == Fate::kNeverDetected) return "not detected";
   if (detection.fate == Fate::kNeverApproached) return "never approached";
-  const std::string words = detection.is_in_time() ? "in time" : "too late";
-  return detection.is_from_start ? words + ", from the start" : words;
+  if (!detection.is_from_start) return detection.is_in_time() ? "in time" : "too late";
+  return detection.is_in_time() ? "in time, at once" : "not known: begun too near";
 }
 
 Table RunTable(const std::vector<DetectRun>& runs) {
@@ -88,7 +91,8 @@ Table RunTable(const std::vector<DetectRun>& runs) {
   table.key = "runs";
   table.title = "Each run";
   table.note =
-      "From the start: the run began so near that the object may be seen from farther off.";
+      "At once, or begun too near: the run's first frames show the object, which may be seen from "
+      "farther off.";
   table.columns = {{"seed", "Seed", ""},
                    {"object", "Object", ""},
                    {"outcome", "Outcome", ""},
@@ -123,7 +127,7 @@ void AddHeadlines(const std::vector<Verdict>& verdicts, Report& report) {
   report.headlines.push_back({"Always detected in time", "", num_in_time});
   const Verdict* worst = nullptr;
   for (const Verdict& verdict : verdicts) {
-    if (verdict.num_detected == 0) continue;
+    if (std::isnan(verdict.least_spare_m)) continue;
     if (worst == nullptr || verdict.least_spare_m < worst->least_spare_m) worst = &verdict;
   }
   if (worst == nullptr) return;

@@ -121,7 +121,7 @@ Chart PointsChart(const std::vector<DetectRun>& runs,
   enough.points = {{.x = 0.0, .y = min_points}, {.x = farthest_m, .y = min_points}};
   chart.series.push_back(std::move(enough));
   chart.series.push_back(Upright("needed:", verdict.most_needed_m, highest));
-  if (verdict.num_detected > 0) {
+  if (verdict.distance_m.num() > 0) {
     chart.series.push_back(Upright("detected at:", verdict.distance_m.PlainMean(), highest));
   }
   return chart;

@@ -18,9 +18,15 @@ void Add(const Detection& detection, Verdict& verdict) {
   if (detection.fate == Fate::kNeverDetected) return;
   ++verdict.num_detected;
   verdict.num_in_time += detection.is_in_time() ? 1U : 0U;
-  verdict.num_from_start += detection.is_from_start ? 1U : 0U;
-  verdict.distance_m.Add(detection.distance_m);
-  verdict.spare_m.Add(detection.spare_m());
+  if (detection.is_from_start && !detection.is_in_time()) {
+    ++verdict.num_undecided;
+    return;
+  }
+  // At once, the distance is but a lower bound.
+  if (!detection.is_from_start) {
+    verdict.distance_m.Add(detection.distance_m);
+    verdict.spare_m.Add(detection.spare_m());
+  }
   if (!(verdict.least_spare_m <= detection.spare_m())) verdict.least_spare_m = detection.spare_m();
 }
 
@@ -36,12 +42,15 @@ std::string Verdict::InWords() const {
   if (num_approached == 0) return "never approached";
   if (num_detected == 0) return "not detected " + Runs(num_approached, num_approached);
   if (num_in_time == num_approached) return "in time " + Runs(num_in_time, num_approached);
-  const std::uint64_t num_late = num_detected - num_in_time;
-  const std::uint64_t num_missed = num_approached - num_detected;
   std::string words;
-  if (num_late > 0) words += "too late " + Runs(num_late, num_approached);
-  if (num_late > 0 && num_missed > 0) words += ", ";
-  if (num_missed > 0) words += "not detected " + Runs(num_missed, num_approached);
+  const auto add = [&](const char* what, std::uint64_t num) {
+    if (num == 0) return;
+    if (!words.empty()) words += ", ";
+    words += what + Runs(num, num_approached);
+  };
+  add("too late ", num_detected - num_in_time - num_undecided);
+  add("not detected ", num_approached - num_detected);
+  add("not known, begun too near ", num_undecided);
   return words;
 }
 

@@ -16,10 +16,12 @@ struct Verdict {
   std::uint64_t num_approached{};  ///< Runs.
   std::uint64_t num_detected{};
   std::uint64_t num_in_time{};
-  std::uint64_t num_from_start{};
-  Moments distance_m;      ///< Of detection.
-  Moments spare_m;         ///< Distance to spare where it was detected.
-  double least_spare_m{};  ///< NaN if it never was.
+  /// Runs that began so near that the object was detected at once, and too late: had they begun
+  /// farther off, it might have been in time.
+  std::uint64_t num_undecided{};
+  Moments distance_m;      ///< Of detection, where it was not at once.
+  Moments spare_m;         ///< Distance to spare, likewise.
+  double least_spare_m{};  ///< Of the runs that are decided; NaN if there is none.
   double most_needed_m{};  ///< NaN if it was never approached.
 
   /// "in time in all 12 runs", "too late in 1 of 12 runs, not detected in 2", "never approached".

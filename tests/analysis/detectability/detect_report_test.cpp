@@ -93,6 +93,28 @@ TEST(DetectReport, SaysThatOneRunHasNoInterval) {
             "in time in the one run");
 }
 
+// Seen from its first frames on, a run says how far off at least the object is detected.
+TEST(DetectReport, LeavesOpenWhatARunThatBeginsTooNearCannotTell) {
+  DetectRun near = MadeRun(1, 300.0);
+  const Report enough = ReportOf({near});
+  EXPECT_EQ(std::get<std::string>(CellOf(TableOf(enough, "verdicts"), 0, "verdict")),
+            "in time in the one run");
+  EXPECT_EQ(std::get<std::string>(CellOf(TableOf(enough, "runs"), 0, "outcome")),
+            "in time, at once");
+  DetectSpec fast;
+  fast.speed_mps = 20.0;  // Needs 455 m.
+  near = DetectInRun("run", 1, near.courses, fast);
+  const Report report = ReportOf({near});
+  const Table& verdicts = TableOf(report, "verdicts");
+  EXPECT_EQ(std::get<std::string>(CellOf(verdicts, 0, "verdict")),
+            "not known, begun too near in the one run");
+  EXPECT_TRUE(std::isnan(std::get<double>(CellOf(verdicts, 0, "least_spare_m"))));
+  EXPECT_EQ(std::get<std::uint64_t>(CellOf(verdicts, 0, "begun_too_near")), 1U);
+  EXPECT_EQ(std::get<Estimate>(CellOf(verdicts, 0, "in_time")).num, 0U);
+  // Of the points, the rule and what is needed; nothing of a detection.
+  EXPECT_EQ(report.sections[1].charts[0].series.size(), 3U);
+}
+
 TEST(DetectReport, TellsWhatWasNeverSeenOrNeverApproached) {
   DetectRun run = MadeRun(1, 0.0);
   ObjectCourse behind = run.courses.objects.at("person");
