@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/commands.h"
+#include "analysis/distinct_sources.h"
 #include "analysis/fit/fit.h"
 #include "analysis/fit/fit_report.h"
 #include "analysis/fit/fitted_scenario.h"
@@ -98,6 +99,7 @@ FitSettings SettingsOf(const FitOptions& options,
 
 int RunFit(const FitOptions& options, const std::string& command_line) {
   const tbb::global_control limit = LimitThreads(options.num_threads);
+  CheckDistinct(options.sources);
   const RecordingInfo info = OpenRecording(options.sources.front())->info();
   std::vector<KnownPlane> planes;
   if (!options.planes.empty()) planes = ReadKnownPlanes(options.planes);

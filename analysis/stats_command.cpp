@@ -1,10 +1,10 @@
 #include <filesystem>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "analysis/commands.h"
+#include "analysis/distinct_sources.h"
 #include "analysis/progress_line.h"
 #include "analysis/report/output.h"
 #include "analysis/stats/statistics.h"
@@ -34,14 +34,6 @@ void CheckSameKind(const RecordingInfo& first, const RecordingInfo& other) {
   if (first.kind != other.kind || !is_same_scan) {
     throw InputError(other.source.string() + ": must be of the same sensor as " +
                      first.source.string());
-  }
-}
-
-void CheckDistinct(const std::vector<std::filesystem::path>& sources) {
-  std::set<std::filesystem::path> seen;
-  for (const std::filesystem::path& source : sources) {
-    if (seen.insert(std::filesystem::weakly_canonical(source)).second) continue;
-    throw InputError(source.string() + ": must be named once");
   }
 }
 
