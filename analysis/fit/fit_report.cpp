@@ -80,7 +80,8 @@ Table PlaneTable(const RecordedTrials& trials) {
 std::vector<std::string> Findings(const RecordedTrials& trials, const FitResult& result) {
   std::vector<std::string> texts = {
       "A trial is a firing of which it is known what it should have met: from the frames' truth "
-      "fields, from given planes, or from flat pieces of one label. Only whether a point came back is used, never why not."};
+      "fields, from given planes, or from flat pieces of one label. Only whether a point came back "
+      "is used, never why not."};
   if (trials.lateral_ratio > kIsotropicRatio) {
     texts.emplace_back(
         "The points leave their beams sideways as well as along: the noise is isotropic.");
