@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "analysis/estimate/robust.h"
+#include "analysis/stats/headings.h"
 
 namespace railcast {
 namespace {
@@ -17,10 +18,6 @@ Estimate EstimateOf(const FitResult& result, std::string_view place) {
     if (parameter.place == place) return parameter.estimate;
   }
   return {};
-}
-
-ChartPoint PointOf(double x, const Estimate& estimate) {
-  return {x, estimate.value, estimate.low, estimate.high};
 }
 
 // Values from first to last, as far apart from each other in ratio.
@@ -39,7 +36,7 @@ Chart NoiseByRange(const FitResult& result) {
               {}};
   ChartSeries measured{"measured", SeriesStyle::kPoints, {}};
   for (const NoiseBin& bin : result.noise_by_range) {
-    measured.points.push_back(PointOf(bin.range_m, bin.sigma_m));
+    measured.points.push_back(PointAt(bin.range_m, bin.sigma_m));
   }
   const double sigma0_m = EstimateOf(result, "lidar/plausibility/noise_sigma0_m").value;
   const double sigma1 = EstimateOf(result, "lidar/plausibility/noise_sigma1").value;
@@ -63,7 +60,7 @@ Chart NoiseByPower(const FitResult& result) {
   double most = 0.0;
   for (const NoiseBin& bin : result.noise_by_power) {
     const double power = 1.0 / (2.0 * result.snr_at_threshold * bin.inverse_snr);
-    measured.points.push_back(PointOf(power, bin.sigma_m));
+    measured.points.push_back(PointAt(power, bin.sigma_m));
     least = std::min(least, power);
     most = std::max(most, power);
   }
@@ -148,7 +145,7 @@ Chart Detection(const std::vector<Trial>& trials,
       const Estimate share = Proportion(count.returned, count.all);
       if (!share.is_enough()) continue;
       series.points.push_back(
-          PointOf(std::exp(count.log_power / static_cast<double>(count.all)), share));
+          PointAt(std::exp(count.log_power / static_cast<double>(count.all)), share));
     }
     if (!series.points.empty()) chart.series.push_back(series);
   }
@@ -199,7 +196,7 @@ Chart Intensities(const std::vector<Trial>& trials,
     for (auto& [bin, intensities] : bins) {
       const double cosine = std::min(1.0, (bin + 0.5) / kNumBins);
       const Estimate median = Median(intensities);
-      if (median.is_enough()) measured.points.push_back(PointOf(cosine, median));
+      if (median.is_enough()) measured.points.push_back(PointAt(cosine, median));
       const ShapedAnswer shape = settings.is_physical
                                      ? AnswerOf(surfaces[result.surface_ids[place]], cosine)
                                      : ShapedAnswer{cosine, 0.0};
@@ -220,7 +217,7 @@ Chart Biases(const FitResult& result) {
               {}};
   ChartSeries series{"bias", SeriesStyle::kPoints, {}};
   for (const ChannelBias& bias : result.residuals.channels) {
-    series.points.push_back(PointOf(bias.channel, bias.bias_m));
+    series.points.push_back(PointAt(bias.channel, bias.bias_m));
   }
   chart.series.push_back(series);
   return chart;

@@ -70,7 +70,7 @@ Line FitLine(const Eigen::MatrixXd& design,
     std::nth_element(pulls.begin(), pulls.begin() + static_cast<std::ptrdiff_t>(pulls.size() / 2),
                      pulls.end());
     // Errors as stated, or more where the bins scatter more.
-    const double scale = std::max(1.0, 1.4826 * pulls[pulls.size() / 2]);
+    const double scale = std::max(1.0, kMadToSigma * pulls[pulls.size() / 2]);
     for (Eigen::Index i = 0; i < weight.size(); ++i) {
       weight[i] = precision[i] * std::min(1.0, kHuber * scale / std::max(1e-12, pull[i]));
     }

@@ -4,6 +4,7 @@
 
 #include "analysis/report/chart_script.h"
 #include "analysis/report/gnuplot.h"
+#include "analysis/report/output.h"
 #include "analysis/report/svg.h"
 #include "core/io/write_file.h"
 
@@ -47,7 +48,7 @@ std::map<std::string, std::string> DrawCharts(const Report& report,
   if (script.empty()) return svgs;
   WriteFileWhole(drawings.path() / "charts.gnuplot", script);
   (void)GnuplotOutput(drawings.path() / "charts.gnuplot", "set encoding utf8");
-  std::filesystem::create_directories(folder);
+  MakeFolder(folder);
   for (const Section& section : report.sections) {
     for (const Chart& chart : section.charts) {
       const std::string svg =

@@ -9,6 +9,7 @@
 #include "analysis/stats/bins.h"
 #include "analysis/stats/firing_truth.h"
 #include "analysis/stats/headings.h"
+#include "analysis/stats/sums.h"
 #include "core/base/transform.h"
 
 namespace railcast {
@@ -31,11 +32,7 @@ void AddTo(std::map<Key, Density::Curve>& curves,
 
 template <typename Key>
 void AddAll(std::map<Key, Density::Curve>& sums, const std::map<Key, Density::Curve>& others) {
-  for (const auto& [key, curve] : others) {
-    Density::Curve& sum = sums[key];
-    sum.resize(curve.size());
-    for (std::size_t i = 0; i < curve.size(); ++i) sum[i].Add(curve[i]);
-  }
+  for (const auto& [key, curve] : others) AddEach(sums[key], curve);
 }
 
 Vector3 PointIn(const Frame& frame, std::size_t row, std::size_t column) {

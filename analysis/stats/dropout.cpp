@@ -7,6 +7,7 @@
 #include "analysis/stats/bins.h"
 #include "analysis/stats/firing_truth.h"
 #include "analysis/stats/headings.h"
+#include "analysis/stats/sums.h"
 
 namespace railcast {
 namespace {
@@ -17,11 +18,6 @@ using Count = Dropout::Count;
 constexpr Outcome kCauses[] = {Outcome::kOutOfRange,   Outcome::kBelowThreshold,
                                Outcome::kRainAbsorbed, Outcome::kNearRange,
                                Outcome::kEgo,          Outcome::kSensorDropout};
-
-void AddTo(std::vector<Count>& sums, const std::vector<Count>& others) {
-  if (sums.size() < others.size()) sums.resize(others.size());
-  for (std::size_t i = 0; i < others.size(); ++i) sums[i].Add(others[i]);
-}
 
 /// Rows of a table: how each is called and what it counts.
 using NamedCounts = std::vector<std::pair<std::string, const Count*>>;
@@ -132,9 +128,9 @@ void Dropout::Add(const RecordedFrame& recorded) {
 void Dropout::Add(const Dropout& other) {
   all_.Add(other.all_);
   surface_.Add(other.surface_);
-  AddTo(by_range_, other.by_range_);
-  AddTo(by_incidence_, other.by_incidence_);
-  AddTo(by_ring_, other.by_ring_);
+  AddEach(by_range_, other.by_range_);
+  AddEach(by_incidence_, other.by_incidence_);
+  AddEach(by_ring_, other.by_ring_);
   for (const auto& [label, count] : other.by_label_) by_label_[label].Add(count);
   for (const auto& [material, count] : other.by_material_) by_material_[material].Add(count);
 }

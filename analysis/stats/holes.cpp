@@ -5,6 +5,7 @@
 
 #include "analysis/stats/bins.h"
 #include "analysis/stats/headings.h"
+#include "analysis/stats/sums.h"
 
 namespace railcast {
 namespace {
@@ -14,11 +15,6 @@ constexpr float kTolerance_m = 0.1F;
 
 float Range_m(const Frame& frame, std::size_t row, std::size_t column) {
   return frame.range_m[row * frame.width() + column * frame.returns];
-}
-
-void AddTo(std::vector<Holes::Count>& sums, const std::vector<Holes::Count>& others) {
-  if (sums.size() < others.size()) sums.resize(others.size());
-  for (std::size_t i = 0; i < others.size(); ++i) sums[i].Add(others[i]);
 }
 
 bool HasPoints(const Frame& frame, std::size_t column) {
@@ -80,8 +76,8 @@ void Holes::Add(const Holes& other) {
   num_firings_ += other.num_firings_;
   num_points_ += other.num_points_;
   all_.Add(other.all_);
-  AddTo(by_range_, other.by_range_);
-  AddTo(by_ring_, other.by_ring_);
+  AddEach(by_range_, other.by_range_);
+  AddEach(by_ring_, other.by_ring_);
 }
 
 Section Holes::MakeSection() const {

@@ -5,6 +5,7 @@
 
 #include "analysis/stats/bins.h"
 #include "analysis/stats/headings.h"
+#include "analysis/stats/sums.h"
 
 namespace railcast {
 namespace {
@@ -12,11 +13,6 @@ namespace {
 using Sum = Intensity::Sum;
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-
-void AddAll(std::vector<Sum>& sums, const std::vector<Sum>& others) {
-  if (sums.size() < others.size()) sums.resize(others.size());
-  for (std::size_t i = 0; i < others.size(); ++i) sums[i].Add(others[i]);
-}
 
 /// Rows of a table: how each is called and what was summed.
 using NamedSums = std::vector<std::pair<std::string, const Sum*>>;
@@ -100,8 +96,8 @@ void Intensity::Add(const RecordedFrame& recorded, const std::vector<PlanePatch>
 void Intensity::Add(const Intensity& other) {
   has_true_incidence_ = has_true_incidence_ || other.has_true_incidence_;
   all_.Add(other.all_);
-  AddAll(by_range_, other.by_range_);
-  AddAll(by_incidence_, other.by_incidence_);
+  AddEach(by_range_, other.by_range_);
+  AddEach(by_incidence_, other.by_incidence_);
   for (const auto& [label, sum] : other.by_label_) by_label_[label].Add(sum);
 }
 

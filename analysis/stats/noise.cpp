@@ -6,15 +6,10 @@
 #include "analysis/stats/bins.h"
 #include "analysis/stats/firing_truth.h"
 #include "analysis/stats/headings.h"
+#include "analysis/stats/sums.h"
 
 namespace railcast {
 namespace {
-
-template <typename Sum>
-void AddAll(std::vector<Sum>& sums, const std::vector<Sum>& others) {
-  if (sums.size() < others.size()) sums.resize(others.size());
-  for (std::size_t i = 0; i < others.size(); ++i) sums[i].Add(others[i]);
-}
 
 Estimate PooledSigma(double squares, double degrees, std::uint64_t num_patches) {
   if (num_patches < kMinSamples) return NotEnough(num_patches);
@@ -145,8 +140,8 @@ void Noise::Add(const RecordedFrame& recorded, const std::vector<PlanePatch>& pa
 }
 
 void Noise::Add(const Noise& other) {
-  AddAll(planes_, other.planes_);
-  AddAll(truth_, other.truth_);
+  AddEach(planes_, other.planes_);
+  AddEach(truth_, other.truth_);
 }
 
 Section Noise::MakeSection() const {

@@ -7,6 +7,7 @@
 
 #include "analysis/stats/bins.h"
 #include "analysis/stats/headings.h"
+#include "analysis/stats/sums.h"
 
 namespace railcast {
 namespace {
@@ -77,6 +78,11 @@ class ColumnFinder {
 
 }  // namespace
 
+void TemporalNoise::Bin::Add(const Bin& other) {
+  differences_m.Add(other.differences_m);
+  robust_differences_m.Add(other.robust_differences_m);
+}
+
 Estimate TemporalNoise::Bin::Sigma_m() const {
   return Scaled(differences_m.StandardDeviation(), 1.0 / std::numbers::sqrt2);
 }
@@ -134,11 +140,7 @@ void TemporalNoise::Add(const TemporalNoise& other) {
   num_pairs_ += other.num_pairs_;
   num_moved_ += other.num_moved_;
   num_without_pose_ += other.num_without_pose_;
-  if (bins_.size() < other.bins_.size()) bins_.resize(other.bins_.size());
-  for (std::size_t i = 0; i < other.bins_.size(); ++i) {
-    bins_[i].differences_m.Add(other.bins_[i].differences_m);
-    bins_[i].robust_differences_m.Add(other.bins_[i].robust_differences_m);
-  }
+  AddEach(bins_, other.bins_);
 }
 
 Section TemporalNoise::MakeSection() const {

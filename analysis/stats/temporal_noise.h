@@ -33,6 +33,7 @@ class TemporalNoise {
     Moments differences_m;
     LogHistogram robust_differences_m;
 
+    void Add(const Bin& other);
     [[nodiscard]] Estimate Sigma_m() const;
     [[nodiscard]] Estimate RobustSigma_m() const;
   };
