@@ -1,8 +1,8 @@
 #include "analysis/estimate/estimate.h"
 
 #include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/normal.hpp>
 
+#include "analysis/estimate/intervals.h"
 #include "core/base/error.h"
 
 namespace railcast {
@@ -17,7 +17,7 @@ double ChiSquared(double degrees, double share) {
 Estimate Proportion(std::uint64_t num_successes, std::uint64_t num) {
   Check(num_successes <= num, "no more successes than trials");
   if (num < kMinSamples) return NotEnough(num);
-  const double z = boost::math::quantile(boost::math::normal(), 1.0 - kTail);
+  const double z = NormalQuantile();
   const auto n = static_cast<double>(num);
   const double p = static_cast<double>(num_successes) / n;
   const double shrink = 1.0 / (1.0 + z * z / n);

@@ -1,9 +1,9 @@
 #include "analysis/estimate/moments.h"
 
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
+
+#include "analysis/estimate/intervals.h"
 
 namespace railcast {
 void Moments::Add(double sample) {
@@ -31,19 +31,14 @@ double Moments::PlainMean() const {
 Estimate Moments::Mean() const {
   if (num_ < kMinSamples) return NotEnough(num_);
   const auto n = static_cast<double>(num_);
-  const boost::math::students_t distribution(n - 1.0);
-  const double half =
-      boost::math::quantile(distribution, 1.0 - kTail) * std::sqrt(squares_ / (n - 1.0) / n);
+  const double half = StudentQuantile(n - 1.0) * std::sqrt(squares_ / (n - 1.0) / n);
   return {mean_, mean_ - half, mean_ + half, num_};
 }
 
 Estimate Moments::StandardDeviation() const {
   if (num_ < kMinSamples) return NotEnough(num_);
   const double degrees = static_cast<double>(num_) - 1.0;
-  const boost::math::chi_squared distribution(degrees);
-  return {std::sqrt(squares_ / degrees),
-          std::sqrt(squares_ / boost::math::quantile(distribution, 1.0 - kTail)),
-          std::sqrt(squares_ / boost::math::quantile(distribution, kTail)), num_};
+  return ScaleEstimate(std::sqrt(squares_ / degrees), degrees, num_);
 }
 
 }  // namespace railcast

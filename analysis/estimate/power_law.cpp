@@ -1,8 +1,9 @@
 #include "analysis/estimate/power_law.h"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+
+#include "analysis/estimate/intervals.h"
 
 namespace railcast {
 
@@ -40,8 +41,7 @@ PowerLaw FitPowerLaw(const std::vector<CurvePoint>& points) {
     scatter += weight(p) * residual * residual;
   }
   const double degrees = static_cast<double>(logs.size()) - 2.0;
-  const double times = boost::math::quantile(boost::math::students_t(degrees), 1.0 - kTail) *
-                       std::sqrt(std::max(1.0, scatter / degrees));
+  const double times = StudentQuantile(degrees) * std::sqrt(std::max(1.0, scatter / degrees));
   const double half = times / std::sqrt(xx);
   law.exponent = {slope, slope - half, slope + half, logs.size()};
   law.factor = std::exp(mean_y - slope * mean_x);

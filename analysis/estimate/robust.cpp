@@ -1,10 +1,10 @@
 #include "analysis/estimate/robust.h"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <limits>
+
+#include "analysis/estimate/intervals.h"
 
 namespace railcast {
 namespace {
@@ -28,7 +28,7 @@ double PlainMedian(std::vector<double>& samples) {
 }  // namespace
 
 RankInterval QuantileRanks(std::uint64_t num, double share) {
-  const double z = boost::math::quantile(boost::math::normal(), 1.0 - kTail);
+  const double z = NormalQuantile();
   const auto n = static_cast<double>(num);
   const double reach = z * std::sqrt(n * share * (1.0 - share));
   return {static_cast<std::uint64_t>(std::max(1.0, std::floor(n * share - reach))),
@@ -54,10 +54,7 @@ double PlainRobustScale(std::vector<double>& samples) {
 Estimate RobustScaleEstimate(double scale, std::uint64_t num) {
   constexpr double kMadEfficiency = 0.3675;
   if (num < kMinSamples) return NotEnough(num);
-  const double degrees = kMadEfficiency * (static_cast<double>(num) - 1.0);
-  const boost::math::chi_squared distribution(degrees);
-  return {scale, scale * std::sqrt(degrees / boost::math::quantile(distribution, 1.0 - kTail)),
-          scale * std::sqrt(degrees / boost::math::quantile(distribution, kTail)), num};
+  return ScaleEstimate(scale, kMadEfficiency * (static_cast<double>(num) - 1.0), num);
 }
 
 Estimate RobustScale(std::vector<double>& samples) {

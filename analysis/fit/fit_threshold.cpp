@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "analysis/estimate/intervals.h"
 #include "analysis/fit/settle_threshold.h"
 #include "analysis/fit/threshold_findings.h"
 

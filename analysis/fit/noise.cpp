@@ -2,11 +2,11 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <map>
 #include <numeric>
 
+#include "analysis/estimate/intervals.h"
 #include "analysis/estimate/moments.h"
 #include "analysis/estimate/robust.h"
 
@@ -108,10 +108,6 @@ Line FitNonNegative(const Eigen::MatrixXd& design,
   }
   best.coefficients = best.coefficients.cwiseMax(0.0);
   return best;
-}
-
-double StudentQuantile(double degrees) {
-  return boost::math::quantile(boost::math::students_t(degrees), 1.0 - 0.5 * (1.0 - kConfidence));
 }
 
 std::uint64_t NumOf(const std::vector<NoiseBin>& bins) {

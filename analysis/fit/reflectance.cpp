@@ -1,9 +1,9 @@
 #include "analysis/fit/reflectance.h"
 
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
+#include "analysis/estimate/intervals.h"
 #include "analysis/estimate/robust.h"
 
 namespace railcast {
@@ -46,7 +46,7 @@ Estimate FitReflectance(const std::vector<IntensitySample>& samples) {
     if (std::abs(top / bottom) < 1e-9 * std::abs(rho)) break;
   }
   if (!(bread > 0.0)) return NotEnough(samples.size());
-  const double z = boost::math::quantile(boost::math::normal(), 1.0 - 0.5 * (1.0 - kConfidence));
+  const double z = NormalQuantile();
   const double half = z * std::sqrt(meat) / bread + kFloat32 * std::abs(rho);
   return {rho, rho - half, rho + half, samples.size()};
 }

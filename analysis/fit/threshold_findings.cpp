@@ -1,9 +1,10 @@
 #include "analysis/fit/threshold_findings.h"
 
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <cstdio>
+
+#include "analysis/estimate/intervals.h"
 
 namespace railcast {
 namespace {
@@ -68,10 +69,6 @@ constexpr const char* kTogether =
     "cannot be told apart; give --extinction-per-m";
 
 }  // namespace
-
-double NormalQuantile() {
-  return boost::math::quantile(boost::math::normal(), 1.0 - 0.5 * (1.0 - kConfidence));
-}
 
 Estimate Exponential(double x, double error, double power, std::uint64_t num) {
   const double half = NormalQuantile() * (error + kMinLogError);

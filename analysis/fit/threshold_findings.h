@@ -11,9 +11,6 @@ namespace railcast {
 /// trusted.
 inline constexpr double kMaxLogError = 0.1;
 
-/// The quantile of the standard normal that our intervals reach to.
-[[nodiscard]] double NormalQuantile();
-
 /// e^(power x), for x of this standard error, and no surer than float32 fields are.
 [[nodiscard]] Estimate Exponential(double x, double error, double power, std::uint64_t num);
 

@@ -1,8 +1,8 @@
 #include "analysis/stats/noise.h"
 
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
+#include "analysis/estimate/intervals.h"
 #include "analysis/stats/bins.h"
 #include "analysis/stats/firing_truth.h"
 #include "analysis/stats/headings.h"
@@ -13,10 +13,7 @@ namespace {
 
 Estimate PooledSigma(double squares, double degrees, std::uint64_t num_patches) {
   if (num_patches < kMinSamples) return NotEnough(num_patches);
-  const boost::math::chi_squared distribution(degrees);
-  return {std::sqrt(squares / degrees),
-          std::sqrt(squares / boost::math::quantile(distribution, 1.0 - kTail)),
-          std::sqrt(squares / boost::math::quantile(distribution, kTail)), num_patches};
+  return ScaleEstimate(std::sqrt(squares / degrees), degrees, num_patches);
 }
 
 // The median of sqrt(chi-squared / degrees), by the cube root's normal approximation (Wilson and
