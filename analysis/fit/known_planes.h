@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "analysis/stats/scan_table.h"
 #include "core/base/transform.h"
 #include "core/frame/frame.h"
+#include "core/io/recording/scan_table.h"
 
 namespace railcast {
 

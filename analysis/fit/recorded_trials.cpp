@@ -13,8 +13,8 @@
 #include "analysis/fit/plane_trials.h"
 #include "analysis/fit/trial_sample.h"
 #include "analysis/fit/truth_trials.h"
-#include "analysis/stats/scan_table.h"
 #include "core/base/error.h"
+#include "core/io/recording/scan_table.h"
 #include "core/scan/scan_pattern.h"
 #include "core/scenario/scenario.h"
 

@@ -2,9 +2,9 @@
 
 #include <cstddef>
 
-#include "analysis/stats/scan_table.h"
 #include "core/detect/detect_spec.h"
 #include "core/frame/frame.h"
+#include "core/io/recording/scan_table.h"
 
 namespace railcast {
 

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "analysis/fit/trial.h"
-#include "analysis/stats/scan_table.h"
 #include "core/detect/detect_spec.h"
 #include "core/io/recording/recording.h"
+#include "core/io/recording/scan_table.h"
 
 namespace railcast {
 

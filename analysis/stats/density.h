@@ -9,8 +9,8 @@
 #include "analysis/estimate/power_law.h"
 #include "analysis/report/report.h"
 #include "analysis/stats/names.h"
-#include "analysis/stats/scan_table.h"
 #include "core/io/recording/recording.h"
+#include "core/io/recording/scan_table.h"
 
 namespace railcast {
 

@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "analysis/stats/scan_table.h"
 #include "core/base/transform.h"
 #include "core/io/recording/recording.h"
+#include "core/io/recording/scan_table.h"
 
 namespace railcast {
 

@@ -13,9 +13,9 @@
 #include "analysis/stats/intensity.h"
 #include "analysis/stats/noise.h"
 #include "analysis/stats/object_points.h"
-#include "analysis/stats/scan_table.h"
 #include "analysis/stats/temporal_noise.h"
 #include "core/io/recording/recording.h"
+#include "core/io/recording/scan_table.h"
 
 namespace railcast {
 

@@ -6,8 +6,8 @@
 #include "analysis/estimate/log_histogram.h"
 #include "analysis/estimate/moments.h"
 #include "analysis/report/report.h"
-#include "analysis/stats/scan_table.h"
 #include "core/io/recording/recording.h"
+#include "core/io/recording/scan_table.h"
 
 namespace railcast {
 

@@ -10,7 +10,7 @@
 #include "analysis/fit/fit.h"
 #include "analysis/fit/plane_trials.h"
 #include "analysis/fit/trial_sample.h"
-#include "analysis/stats/scan_table.h"
+#include "core/io/recording/scan_table.h"
 #include "tests/analysis/fit/made_street.h"
 
 namespace railcast {

@@ -1,4 +1,4 @@
-#include "analysis/stats/scan_table.h"
+#include "core/io/recording/scan_table.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/io/recording/recording.h"
+
+namespace railcast {
+
+/// A frame as it is shown.
+struct ShownFrame {
+  std::shared_ptr<const RecordedFrame> recorded;
+  /// x, y, z of each point in turn, in the sensor's axes at the stamp: the motion within the scan is
+  /// undone where pose and times are known.
+  std::vector<float> positions_m;
+  std::vector<std::uint32_t> slots;  ///< Of each point in `recorded`.
+
+  [[nodiscard]] std::size_t num_points() const { return slots.size(); }
+  [[nodiscard]] const Frame& frame() const { return recorded->frame; }
+};
+
+}  // namespace railcast
