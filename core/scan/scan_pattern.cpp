@@ -57,6 +57,19 @@ std::int64_t ScanPattern::StampNs(std::uint32_t frame_index) const {
   return std::llround(static_cast<long double>(frames_ns) / static_cast<long double>(rate_hz));
 }
 
+std::uint32_t FiringOfSlot(const ScanPattern& pattern, std::uint32_t returns, std::size_t slot) {
+  const std::size_t cell = slot / returns;
+  const std::size_t row = cell / pattern.columns;
+  const std::size_t column = cell % pattern.columns;
+  std::uint32_t firing = 0;
+  while (firing < pattern.num_firings() &&
+         (pattern.row[firing] != row || pattern.column[firing] != column)) {
+    ++firing;
+  }
+  Check(firing < pattern.num_firings(), "a slot of a frame has a firing");
+  return firing;
+}
+
 ScanPattern BuildScanPattern(const ScanSpec& spec) {
   ErrorList errors;
   if (!(spec.rate_hz >= 0.01 && spec.rate_hz <= 1e6)) {

@@ -35,6 +35,13 @@ struct ScanPattern {
   [[nodiscard]] std::int64_t StampNs(std::uint32_t frame_index) const;
 };
 
+/// The firing that fills a slot of a frame of this pattern.
+/// @param returns Slots of a firing.
+/// @pre returns > 0 and slot < rows * columns * returns: a slot of such a frame.
+[[nodiscard]] std::uint32_t FiringOfSlot(const ScanPattern& pattern,
+                                         std::uint32_t returns,
+                                         std::size_t slot);
+
 /// @throws InputError if the spec makes no firing or more than 2^24, a cell count is not whole, a
 ///   frame lasts longer than 1 / rate_hz or 4.29 s (time_ns is 32 bits), or the firing table cannot
 ///   be read. A line for every fault, with pointers relative to the scan object:
