@@ -9,13 +9,10 @@ namespace railcast {
 
 FidelityChoice UseChosenFidelity(Simulator& simulator, const ScenarioSpec& scenario) {
   const TerminalLine line;
-  FidelityChoice choice = ChooseFidelity(simulator, scenario, [&](double done) {
+  FidelityChoice choice = UseChosenFidelity(simulator, scenario, [&](double done) {
     line.Show("choosing effects: " + std::to_string(std::lround(100.0 * done)) + " %");
   });
   line.End();
-  SimulatorSpec spec = simulator.spec();
-  spec.effects = choice.effects;
-  simulator.Use(spec);
   return choice;
 }
 

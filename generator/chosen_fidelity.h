@@ -4,7 +4,8 @@
 
 namespace railcast {
 
-/// Makes fidelity auto's choice, showing how far it is, and gives it to the simulator.
+/// Makes fidelity auto's choice and gives it to the simulator, showing how far it is on the
+/// terminal.
 /// @pre The scenario's fidelity is `auto`; the simulator is the scenario's.
 FidelityChoice UseChosenFidelity(Simulator& simulator, const ScenarioSpec& scenario);
 

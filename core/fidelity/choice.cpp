@@ -183,4 +183,14 @@ FidelityChoice ChooseFidelity(Simulator& simulator,
   return choice;
 }
 
+FidelityChoice UseChosenFidelity(Simulator& simulator,
+                                 const ScenarioSpec& scenario,
+                                 const ChoiceProgress& on_progress) {
+  FidelityChoice choice = ChooseFidelity(simulator, scenario, on_progress);
+  SimulatorSpec spec = simulator.spec();
+  spec.effects = choice.effects;
+  simulator.Use(spec);
+  return choice;
+}
+
 }  // namespace railcast

@@ -65,4 +65,11 @@ using ChoiceProgress = std::function<void(double done)>;
                                             const ScenarioSpec& scenario,
                                             const ChoiceProgress& on_progress);
 
+/// Makes the choice, too, and has the simulator use its effects: frames and stories are then those
+/// that a run of the scenario gives.
+/// @pre As ChooseFidelity().
+FidelityChoice UseChosenFidelity(Simulator& simulator,
+                                 const ScenarioSpec& scenario,
+                                 const ChoiceProgress& on_progress);
+
 }  // namespace railcast

@@ -155,6 +155,18 @@ TEST(ChooseFidelity, LeavesTheSimulatorAsItWas) {
   EXPECT_EQ(simulator->spec().effects, EffectsOfRung("footprint"));
 }
 
+TEST(UseChosenFidelity, GivesTheSimulatorTheChosenEffects) {
+  const ScenarioSpec scenario = Read({.has_wires = false, .mount = kSideways});
+  const auto simulator = MakeSimulator(scenario, 0);
+  ASSERT_NE(simulator->spec().effects, Choose(scenario).effects);
+  double done = -1.0;
+  const FidelityChoice choice =
+      UseChosenFidelity(*simulator, scenario, [&](double share) { done = share; });
+  EXPECT_EQ(choice.effects, Choose(scenario).effects);
+  EXPECT_EQ(simulator->spec().effects, choice.effects);
+  EXPECT_GT(done, 0.0);
+}
+
 std::vector<std::uint32_t> FramesFrom(const std::string& start_s_m) {
   const ScenarioSpec scenario = Read({.start_s_m = start_s_m});
   return SampleFrames(scenario, *MakeSimulator(scenario, 1), 3, 1.0);
