@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <type_traits>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
@@ -29,6 +30,10 @@ constexpr std::array<Alias, 7> kAliases = {{
     {"ring", "line"},
     {"label", "Label"},
 }};
+
+/// Colours, which mean nothing as numbers, and PCD's padding.
+constexpr std::array<std::string_view, 7> kUnwanted = {"rgb",  "rgba",  "red", "green",
+                                                       "blue", "alpha", "_"};
 
 [[noreturn]] void FailValue(const std::string& name,
                             const std::string& field,
@@ -136,6 +141,35 @@ void FillGridIndices(Frame& frame) {
   }
 }
 
+/// The columns that hold fields of ours.
+std::vector<const PointColumn*> OwnColumns(const PointTable& table, const Frame& frame) {
+  std::vector<const PointColumn*> own;
+  ForEachField(frame, [&](std::string_view name, std::string_view, const auto&) {
+    own.push_back(FindFieldOf(table, name));
+  });
+  return own;
+}
+
+/// @pre Slots without a point are marked.
+void FillForeign(const PointTable& table, const SlotPlan& plan, RecordedFrame& recorded) {
+  const Frame& frame = recorded.frame;
+  const std::vector<const PointColumn*> own = OwnColumns(table, frame);
+  for (const PointColumn& column : table.columns) {
+    const std::string_view name = column.plain_name();
+    const bool is_repeated = table.Find(name) != &column;
+    if (is_repeated || std::ranges::find(own, &column) != own.end() ||
+        std::ranges::find(kUnwanted, name) != kUnwanted.end()) {
+      continue;
+    }
+    std::vector<float> values(frame.num_slots(), kNaN);
+    CopyColumn(table, column, plan, recorded.name, values);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (std::isnan(frame.x[i])) values[i] = kNaN;
+    }
+    recorded.foreign.push_back({std::string(name), std::move(values)});
+  }
+}
+
 }  // namespace
 
 const PointColumn* FindFieldOf(const PointTable& table, std::string_view name) {
@@ -193,6 +227,7 @@ void FillFrame(const PointTable& table, const SlotPlan& plan, RecordedFrame& rec
   recorded.fields.emplace("range_m");
   // A slot that no point of the file fills says nothing of why.
   if (table.num_points() < frame.num_slots()) recorded.fields.erase("outcome");
+  FillForeign(table, plan, recorded);
   if (!plan.is_grid) return;
   FillGridIndices(frame);
   recorded.fields.insert({"ring", "column", "return_index", "return_count"});

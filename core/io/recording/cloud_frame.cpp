@@ -59,6 +59,7 @@ void FillForeignTime(const PointTable& table, const SlotPlan& plan, RecordedFram
       recorded.frame.time_ns[slot] = static_cast<std::uint32_t>(std::llround((*times_ns)[i]));
     }
     recorded.fields.emplace("time_ns");
+    std::erase_if(recorded.foreign, [&](const ForeignField& field) { return field.name == name; });
     return;
   }
 }

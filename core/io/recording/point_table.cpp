@@ -97,13 +97,14 @@ void AddColumns(const PcdHeader& header,
 
 }  // namespace
 
+std::string_view PointColumn::plain_name() const {
+  std::string_view plain = name;
+  if (plain.starts_with(kCloudComparePrefix)) plain.remove_prefix(kCloudComparePrefix.size());
+  return plain;
+}
+
 const PointColumn* PointTable::Find(std::string_view name) const {
-  const auto is_it = [name](const PointColumn& column) {
-    std::string_view own = column.name;
-    if (own.starts_with(kCloudComparePrefix)) own.remove_prefix(kCloudComparePrefix.size());
-    return own == name;
-  };
-  const auto found = std::ranges::find_if(columns, is_it);
+  const auto found = std::ranges::find(columns, name, &PointColumn::plain_name);
   return found == columns.end() ? nullptr : &*found;
 }
 

@@ -31,6 +31,9 @@ struct PointColumn {
   NumberType type{};
   std::size_t offset{};  ///< Of the first point's.
   std::size_t step{};    ///< From one point's to the next.
+
+  /// The name less CloudCompare's `scalar_`.
+  [[nodiscard]] std::string_view plain_name() const;
 };
 
 /// The points of a cloud file as they are stored, not converted.
@@ -41,7 +44,7 @@ struct PointTable {
   std::string bytes;  ///< The whole file, or its points alone: offsets say which.
 
   [[nodiscard]] std::size_t num_points() const { return std::size_t{width} * height; }
-  /// A field of this name, or of `scalar_` and this name, as CloudCompare has it; null if none.
+  /// The first field of this plain name; null if none.
   [[nodiscard]] const PointColumn* Find(std::string_view name) const;
 };
 

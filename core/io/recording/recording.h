@@ -32,6 +32,12 @@ struct RecordedObject {
   std::uint32_t firings_alone{};
 };
 
+/// A number that somebody's cloud has of every point and that is none of ours: `curvature`, ...
+struct ForeignField {
+  std::string name;           ///< As the file has it, less CloudCompare's `scalar_`.
+  std::vector<float> values;  ///< Of each slot, in the file's unit; NaN where none.
+};
+
 /// One frame of a recording, ours or anybody's.
 ///
 /// `frame` is as core/frame/frame.h says, points in the sensor's axes (x forward, y left, z up). A
@@ -47,6 +53,8 @@ struct RecordedFrame {
   bool is_grid{};
   bool has_pose{};                      ///< Whether world_from_sensor is known.
   std::vector<RecordedObject> objects;  ///< Of our sequences only.
+  /// What no field of `frame` was read from, in the file's order; colours are left out.
+  std::vector<ForeignField> foreign{};
 
   [[nodiscard]] bool Has(std::string_view field) const { return fields.contains(field); }
 };

@@ -1,0 +1,124 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <pcl/io/pcd_io.h>
+#include <pcl/point_types.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/io/pcd_encoder.h"
+#include "core/io/ply_encoder.h"
+#include "core/io/recording/recording.h"
+#include "core/io/write_file.h"
+#include "tests/core/io/example_frame.h"
+#include "tests/core/io/recording/read_all.h"
+#include "tests/core/io/temporary_directory.h"
+
+namespace railcast {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::IsNan;
+
+RecordedFrame ReadBytes(const std::string& name, const std::string& bytes) {
+  const TemporaryDirectory directory;
+  WriteFileWhole(directory.path() / name, bytes);
+  auto frames = ReadAll(directory.path() / name);
+  EXPECT_EQ(frames.size(), 1U);
+  return std::move(frames.at(0));
+}
+
+/// A PLY file of text whose points have these properties behind x, y and z.
+/// @param lines A point each.
+RecordedFrame ReadPly(const std::vector<std::string>& properties,
+                      const std::vector<std::string>& lines) {
+  std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(lines.size()) +
+                     "\nproperty float x\nproperty float y\nproperty float z\n";
+  for (const std::string& property : properties) text.append("property ").append(property + "\n");
+  text.append("end_header\n");
+  for (const std::string& line : lines) text.append(line).append("\n");
+  return ReadBytes("a.ply", text);
+}
+
+std::vector<std::string> NamesOf(const RecordedFrame& recorded) {
+  std::vector<std::string> names;
+  for (const ForeignField& field : recorded.foreign) names.push_back(field.name);
+  return names;
+}
+
+TEST(ForeignFields, AreTheNumbersThatAreNoneOfOursInTheirOrder) {
+  const RecordedFrame recorded =
+      ReadPly({"float scalar_curvature", "float intensity", "short ambient"},
+              {"1 2 3 0.5 7 -1", "0 0 0 0.25 8 -2", "4 5 6 0.125 9 -3"});
+  EXPECT_THAT(NamesOf(recorded), ElementsAre("curvature", "ambient"));
+  // The second is no point and has no slot.
+  EXPECT_THAT(recorded.foreign[0].values, ElementsAre(0.5F, 0.125F));
+  EXPECT_THAT(recorded.foreign[1].values, ElementsAre(-1.0F, -3.0F));
+  EXPECT_FALSE(recorded.Has("curvature"));
+}
+
+// Rows are turned: the lowest comes first.
+TEST(ForeignFields, StandInTheSlotsOfTheirPoints) {
+  pcl::PointCloud<pcl::PointNormal> cloud(2, 2);
+  for (int row = 0; row < 2; ++row) {
+    for (int column = 0; column < 2; ++column) {
+      pcl::PointNormal& point = cloud.at(column, row);
+      point.x = 10.0F;
+      point.y = static_cast<float>(column);
+      point.z = 1.0F - static_cast<float>(row);
+      point.normal_x = point.normal_y = point.normal_z = 0.0F;
+      point.curvature = static_cast<float>(10 * row + column);
+    }
+  }
+  cloud.at(1, 0).x = std::numeric_limits<float>::quiet_NaN();
+  const TemporaryDirectory directory;
+  for (const bool is_binary : {true, false}) {
+    const auto file = directory.path() / "a.pcd";
+    ASSERT_EQ(pcl::io::savePCDFile(file.string(), cloud, is_binary), 0);
+    const auto frames = ReadAll(file);
+    EXPECT_THAT(NamesOf(frames.at(0)),
+                ElementsAre("normal_x", "normal_y", "normal_z", "curvature"));
+    EXPECT_THAT(frames[0].foreign.back().values, ElementsAre(10.0F, 11.0F, 0.0F, IsNan()));
+  }
+}
+
+TEST(ForeignFields, AreNoColours) {
+  EXPECT_THAT(
+      ReadPly({"uchar red", "uchar green", "uchar blue", "uchar alpha"}, {"1 2 3 4 5 6 7"}).foreign,
+      IsEmpty());
+  EXPECT_THAT(ReadPly({"float rgb", "uint rgba"}, {"1 2 3 4 5"}).foreign, IsEmpty());
+}
+
+TEST(ForeignFields, HoldASecondColumnOfOneMeaning) {
+  const RecordedFrame recorded =
+      ReadPly({"float reflectivity", "float intensity"}, {"1 2 3 0.25 0.5"});
+  EXPECT_EQ(recorded.frame.intensity[0], 0.5F);
+  EXPECT_THAT(NamesOf(recorded), ElementsAre("reflectivity"));
+  EXPECT_THAT(recorded.foreign[0].values, ElementsAre(0.25F));
+  EXPECT_THAT(ReadPly({"float reflectivity"}, {"1 2 3 0.25"}).foreign, IsEmpty());
+}
+
+TEST(ForeignFields, HoldATimeOnlyWhereItsUnitIsUncertain) {
+  // A scan of 0.05 s, or of 50 of something.
+  const RecordedFrame certain = ReadPly({"float time"}, {"1 2 3 0", "1 2 4 0.05"});
+  EXPECT_TRUE(certain.Has("time_ns"));
+  EXPECT_THAT(certain.foreign, IsEmpty());
+  const RecordedFrame uncertain = ReadPly({"float time"}, {"1 2 3 0", "1 2 4 50"});
+  EXPECT_FALSE(uncertain.Has("time_ns"));
+  EXPECT_THAT(NamesOf(uncertain), ElementsAre("time"));
+}
+
+TEST(ForeignFields, AreNotInFilesOfOurs) {
+  std::string bytes;
+  EncodePcd(ExampleFrame(3), FieldSelection(), PcdEncoding::kBinary, bytes);
+  EXPECT_THAT(ReadBytes("a.pcd", bytes).foreign, IsEmpty());
+  EncodePly(ExampleFrame(3), FieldSelection(), PlyFlavour::kPcl, bytes);
+  EXPECT_THAT(ReadBytes("a.ply", bytes).foreign, IsEmpty());
+  EncodePly(ExampleFrame(3), FieldSelection(), PlyFlavour::kCloudCompare, bytes);
+  EXPECT_THAT(ReadBytes("a.ply", bytes).foreign, IsEmpty());
+}
+
+}  // namespace
+}  // namespace railcast
