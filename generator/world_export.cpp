@@ -3,42 +3,14 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <map>
-#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
 #include "core/io/field_layout.h"
+#include "core/scene/part_gatherer.h"
 
 namespace railcast {
 namespace {
-
-using PartKey = std::pair<std::uint32_t, std::uint16_t>;  // Label, material.
-
-class Gatherer {
- public:
-  void Add(const Model& model, const Eigen::Affine3d& export_from_model) {
-    for (const Part& part : model.parts) {
-      Mesh& mesh = meshes_[{part.label, part.material}];
-      const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
-      for (const Eigen::Vector3f& vertex : part.mesh.vertices) {
-        mesh.vertices.emplace_back((export_from_model * vertex.cast<double>()).cast<float>());
-      }
-      for (const auto& [a, b, c] : part.mesh.triangles) {
-        mesh.triangles.push_back({a + base, b + base, c + base});
-      }
-    }
-  }
-
-  [[nodiscard]] std::vector<Part> TakeParts() {
-    std::vector<Part> parts;
-    for (auto& [key, mesh] : meshes_) parts.push_back({std::move(mesh), key.second, key.first});
-    return parts;
-  }
-
- private:
-  std::map<PartKey, Mesh> meshes_;
-};
 
 bool StandsIn(const Transform& chunk_from_object, double chunk_length_m) {
   return std::abs(chunk_from_object.translation().x()) <= chunk_length_m / 2 &&
@@ -96,7 +68,7 @@ ExportedWorld ExportWorld(const World& world,
   ExportedWorld exported;
   exported.world_from_export = world.WorldFromChunk(chunks.front());
   const Transform export_from_world = exported.world_from_export.inverse();
-  Gatherer gatherer;
+  PartGatherer gatherer;
   std::vector<bool> is_taken(world.objects().size(), false);
   std::size_t num_gathered = 0;
   for (const int index : chunks) {
