@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "analysis/compare/cloud.h"
-#include "analysis/compare/nearest.h"
+#include "core/io/nearest_points.h"
 
 namespace railcast {
 

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 #include <pcl/io/pcd_io.h>
-#include <pcl/search/brute_force.h>
 
 #include <cstdlib>
 #include <sstream>
@@ -104,21 +103,6 @@ TEST(CloudDistances, GrowWithNoise) {
   // 0.2 m is far less than half the points' distance: the noise's mean length, 2 sqrt(2 / pi)
   // sigma.
   EXPECT_NEAR(chamfer_m, 2.0 * std::sqrt(2.0 / std::numbers::pi) * 0.2, 0.02);
-}
-
-TEST(NearestSearch, FindsWhatPclsBruteForceFinds) {
-  const ComparedCloud a = MadeCloud(WithNoise(MadePlane(0.0F), 0.4));
-  const ComparedCloud b = MadeCloud(WithNoise(MadePlane(0.3F), 0.7));
-  const NearestPoints nearest = NearestSearch(b.points).Of(*a.points);
-  pcl::search::BruteForce<pcl::PointXYZ> all;
-  all.setInputCloud(b.points);
-  pcl::Indices index(1);
-  std::vector<float> square_m2(1);
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    all.nearestKSearch((*a.points)[i], 1, index, square_m2);
-    EXPECT_EQ(nearest.index[i], static_cast<std::uint32_t>(index[0]));
-    EXPECT_FLOAT_EQ(nearest.distance_m[i], std::sqrt(square_m2[0]));
-  }
 }
 
 // Mean and largest distance of each cloud from the other, as Open3D finds them.

@@ -1,4 +1,4 @@
-#include "analysis/compare/nearest.h"
+#include "core/io/nearest_points.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
