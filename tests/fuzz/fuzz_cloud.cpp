@@ -19,11 +19,14 @@ void CheckTable(const PointTable& table) {
 
 void CheckFrame(const RecordedFrame& recorded) {
   const Frame& frame = recorded.frame;
-  Check(frame.returns >= 1 && frame.returns <= 3, "a firing has one to three slots");
+  Check(frame.returns >= 1 && frame.returns <= 4, "a firing has one to four slots");
   Check(recorded.is_grid || frame.rows == 1, "what is no grid has one row");
   ForEachField(frame, [&](std::string_view, std::string_view, const auto& values) {
     Check(values.size() == frame.num_slots(), "every slot has every field");
   });
+  for (const ForeignField& field : recorded.foreign) {
+    Check(field.values.size() == frame.num_slots(), "every slot has every foreign field");
+  }
   for (std::size_t i = 0; i < frame.num_slots(); ++i) {
     const bool has_point = !std::isnan(frame.x[i]);
     Check(has_point == (std::isfinite(frame.x[i]) && std::isfinite(frame.y[i]) &&
