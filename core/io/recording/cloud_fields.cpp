@@ -35,6 +35,9 @@ constexpr std::array<Alias, 7> kAliases = {{
 constexpr std::array<std::string_view, 7> kUnwanted = {"rgb",  "rgba",  "red", "green",
                                                        "blue", "alpha", "_"};
 
+// A damaged or hostile header names thousands, each of which would take the memory of all slots.
+constexpr std::size_t kMaxForeign = 64;
+
 [[noreturn]] void FailValue(const std::string& name,
                             const std::string& field,
                             std::uint64_t limit,
@@ -155,6 +158,7 @@ void FillForeign(const PointTable& table, const SlotPlan& plan, RecordedFrame& r
   const Frame& frame = recorded.frame;
   const std::vector<const PointColumn*> own = OwnColumns(table, frame);
   for (const PointColumn& column : table.columns) {
+    if (recorded.foreign.size() == kMaxForeign) return;
     const std::string_view name = column.plain_name();
     const bool is_repeated = table.Find(name) != &column;
     if (is_repeated || std::ranges::find(own, &column) != own.end() ||

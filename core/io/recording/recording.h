@@ -53,7 +53,7 @@ struct RecordedFrame {
   bool is_grid{};
   bool has_pose{};                      ///< Whether world_from_sensor is known.
   std::vector<RecordedObject> objects;  ///< Of our sequences only.
-  /// What no field of `frame` was read from, in the file's order; colours are left out.
+  /// What no field of `frame` was read from, in the file's order, up to 64; colours are left out.
   std::vector<ForeignField> foreign{};
 
   [[nodiscard]] bool Has(std::string_view field) const { return fields.contains(field); }

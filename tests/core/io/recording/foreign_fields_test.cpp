@@ -110,6 +110,19 @@ TEST(ForeignFields, HoldATimeOnlyWhereItsUnitIsUncertain) {
   EXPECT_THAT(NamesOf(uncertain), ElementsAre("time"));
 }
 
+TEST(ForeignFields, AreSixtyFourAtMost) {
+  std::vector<std::string> properties;
+  std::string line = "1 2 3";
+  for (int i = 0; i < 70; ++i) {
+    properties.push_back("int a" + std::to_string(i));
+    line.append(" ").append(std::to_string(i));
+  }
+  const RecordedFrame recorded = ReadPly(properties, {line});
+  ASSERT_EQ(recorded.foreign.size(), 64U);
+  EXPECT_EQ(recorded.foreign.back().name, "a63");
+  EXPECT_THAT(recorded.foreign.back().values, ElementsAre(63.0F));
+}
+
 TEST(ForeignFields, AreNotInFilesOfOurs) {
   std::string bytes;
   EncodePcd(ExampleFrame(3), FieldSelection(), PcdEncoding::kBinary, bytes);
