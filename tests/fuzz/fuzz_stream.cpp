@@ -5,9 +5,11 @@
 #include <cstring>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/io/recording/live_frame.h"
 #include "core/io/stream/frame_assembler.h"
 #include "core/io/stream/stream_clouds.h"
 
@@ -23,6 +25,26 @@ std::uint64_t Sum(const std::vector<IndexRange>& ranges) {
     sum += range.count;
   }
   return sum;
+}
+
+void CheckLiveFrame(const ReceivedFrame& received) {
+  try {
+    const RecordedFrame live = MakeLiveFrame(received, "fuzz");
+    const Frame& frame = live.frame;
+    Check(live.is_grid || frame.rows == 1, "what is no grid has one row");
+    Check(!live.is_grid || frame.num_slots() >= received.num_points(), "every point has a slot");
+    ForEachField(frame, [&](std::string_view, std::string_view, const auto& values) {
+      Check(values.size() == frame.num_slots(), "every slot has every field");
+    });
+    for (const ForeignField& field : live.foreign) {
+      Check(field.values.size() == frame.num_slots(), "every slot has every foreign field");
+    }
+    for (const Outcome outcome : frame.outcome) {
+      Check(outcome <= Outcome::kNoFurtherEcho, "an outcome is one");
+    }
+  } catch (const InputError& error) {
+    Check(std::string_view(error.what()).starts_with("fuzz: "), "a fault names its frame");
+  }
 }
 
 void CheckFrame(const ReceivedFrame& frame) {
@@ -41,6 +63,7 @@ void CheckFrame(const ReceivedFrame& frame) {
   Check(cloud.data.size() == std::size_t{cloud.width} * cloud.point_step, "a cloud is whole");
   const auto made = MakeFrame(frame);
   if (made) Check(made->num_slots() == frame.num_points(), "a frame is made of all its slots");
+  CheckLiveFrame(frame);
 }
 
 void Seal(std::string& datagram) {
