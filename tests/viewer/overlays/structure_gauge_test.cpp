@@ -1,0 +1,91 @@
+#include "viewer/overlays/structure_gauge.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/viewer/overlays/made_line.h"
+
+namespace railcast {
+namespace {
+
+TEST(StructureGauge, TakesThePantographsWidthFromTabelle1) {
+  EXPECT_EQ(PantographHalfWidth_m(5.3), 1.43);
+  EXPECT_EQ(PantographHalfWidth_m(5.5), 1.44);
+  EXPECT_EQ(PantographHalfWidth_m(5.51), 1.47);
+  EXPECT_EQ(PantographHalfWidth_m(5.9), 1.47);
+  EXPECT_EQ(PantographHalfWidth_m(6.5), 1.51);
+  EXPECT_EQ(PantographHalfWidth_m(6.51), std::nullopt);
+}
+
+TEST(StructureGauge, HasTheEnvelopeOfWagonsWithThePantographsAboveIt) {
+  using Corner = Eigen::Vector2d;
+  EXPECT_THAT(GaugeOutline(5.3),
+              testing::ElementsAre(Corner(1.575, 0.0), Corner(1.575, 4.28), Corner(1.43, 4.28),
+                                   Corner(1.43, 5.2), Corner(-1.43, 5.2), Corner(-1.43, 4.28),
+                                   Corner(-1.575, 4.28), Corner(-1.575, 0.0)));
+  EXPECT_THAT(GaugeOutline(std::nullopt),
+              testing::ElementsAre(Corner(1.575, 0.0), Corner(1.575, 4.28), Corner(-1.575, 4.28),
+                                   Corner(-1.575, 0.0)));
+}
+
+TEST(StructureGauge, RingsEveryTenMetresOfChainage) {
+  ScenarioSpec scenario = ScenarioOnLine(Straight(2'000.0), 1'003.0);
+  scenario.world.catenary.enabled = false;
+  const Surroundings surroundings = SurroundingsOf(scenario);
+  const Drawing drawing = DrawStructureGauge(surroundings, FrameOf(surroundings));
+  // Tens from 993 to 1153, four sides each; then four edges of 160 m with 161 whole metres within.
+  constexpr std::size_t kRings = 16;
+  ASSERT_EQ(drawing.segments.size(), 4 * kRings + std::size_t{4} * 160);
+  const double sensor_s_m = 1'003.0 + scenario.lidar.mount.position_m[0];
+  for (std::size_t i = 0; i < 4 * kRings; ++i) {
+    const double s_m = 1'000.0 + 10.0 * static_cast<double>(i / 4);
+    EXPECT_NEAR(static_cast<double>(drawing.segments[i].from_m.x()), s_m - sensor_s_m, 1e-4);
+    EXPECT_NEAR(static_cast<double>(drawing.segments[i].to_m.x()), s_m - sensor_s_m, 1e-4);
+  }
+}
+
+TEST(StructureGauge, LeansWithTheCantAndFollowsTheCurve) {
+  constexpr double kRadius_m = 300.0;
+  AlignmentSpec line = Arc(800.0, kRadius_m);
+  line.speed_limits_kmph = {{0.0, 200.0}};  // Far above equilibrium: the cant is at its most.
+  ScenarioSpec scenario = ScenarioOnLine(line, 300.0);
+  scenario.world.catenary.enabled = false;
+  const Surroundings surroundings = SurroundingsOf(scenario);
+  const RecordedFrame recorded = FrameOf(surroundings);
+  const Drawing drawing = DrawStructureGauge(surroundings, recorded);
+  // 150 mm across 1500 mm; a left curve's left side is the lower.
+  const double cant_rad = std::asin(0.1);
+  const Eigen::Rotation2Dd lean(-cant_rad);
+  const std::vector<Eigen::Vector2d> outline = GaugeOutline(std::nullopt);
+  for (std::size_t i = 0; i < drawing.segments.size(); ++i) {
+    const std::size_t corner = i % 4;
+    const Vector3 world =
+        recorded.frame.world_from_sensor * drawing.segments[i].from_m.cast<double>();
+    const double radius_m = (world - Vector3(0.0, kRadius_m, 0.0)).head<2>().norm();
+    const Eigen::Vector2d expected = lean * outline[corner];
+    // 1 mm: the cant's rule counts its angle by the tangent or the sine, 0.05 mm at 4.3 m.
+    ASSERT_NEAR(kRadius_m - radius_m, expected.x(), 1e-3) << i;
+    ASSERT_NEAR(world.z(), expected.y(), 1e-3) << i;
+  }
+}
+
+TEST(StructureGauge, LeavesRoomForPantographsOnlyUnderAContactLine) {
+  ScenarioSpec scenario = ScenarioOnLine(Straight(2'000.0), 1'000.0);
+  const auto top_m = [](const ScenarioSpec& spec) {
+    const Surroundings surroundings = SurroundingsOf(spec);
+    float highest_m = -10.0F;
+    for (const auto& segment : DrawStructureGauge(surroundings, FrameOf(surroundings)).segments) {
+      highest_m = std::max(highest_m, segment.from_m.z());
+    }
+    return static_cast<double>(highest_m) + spec.lidar.mount.position_m[2];
+  };
+  EXPECT_NEAR(top_m(scenario), 5.2, 1e-5);
+  scenario.world.tracks[0].electrified = false;
+  EXPECT_NEAR(top_m(scenario), 4.28, 1e-5);
+}
+
+}  // namespace
+}  // namespace railcast

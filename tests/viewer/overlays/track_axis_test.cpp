@@ -1,0 +1,117 @@
+#include "viewer/overlays/track_axis.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/viewer/overlays/made_line.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kWordTick_m = 1.3;
+
+/// Of segments along the track, not across it. @pre The sensor looks along the track.
+bool IsTick(const Drawing::Segment& segment) {
+  const Eigen::Vector3f way = segment.to_m - segment.from_m;
+  return std::abs(way.norm() - 1.0F) < 1e-3F && std::abs(way.y()) > 0.9F;
+}
+
+const Drawing::Word* FindWord(const Drawing& drawing, const std::string& text) {
+  const auto found = std::ranges::find(drawing.words, text, &Drawing::Word::text);
+  return found == drawing.words.end() ? nullptr : &*found;
+}
+
+TEST(TrackAxis, PutsTheWordOfAChainageWhereItIs) {
+  AlignmentSpec line = Straight(30'000.0);
+  line.origin_m = {700'000.0, 250'000.0, 400.0};
+  line.heading_deg = 30.0;
+  const Surroundings surroundings = SurroundingsOf(ScenarioOnLine(line, 29'013.0));
+  const Drawing drawing = DrawTrackAxis(surroundings, FrameOf(surroundings));
+  const Drawing::Word* word = FindWord(drawing, "km 29.350");
+  ASSERT_NE(word, nullptr);
+  const MountSpec& mount = surroundings.scenario.lidar.mount;
+  const Vector3 expected(29'350.0 - 29'013.0 - mount.position_m[0],
+                         kWordTick_m - mount.position_m[1], -mount.position_m[2]);
+  EXPECT_LT((word->at_m.cast<double>() - expected).norm(), 1e-3);
+}
+
+TEST(TrackAxis, TicksEveryTenMetresAndWritesEveryFifty) {
+  const Surroundings surroundings = SurroundingsOf(ScenarioOnLine(Straight(2'000.0), 1'003.0));
+  const Drawing drawing = DrawTrackAxis(surroundings, FrameOf(surroundings));
+  std::vector<std::string> texts;
+  for (const Drawing::Word& word : drawing.words) texts.push_back(word.text);
+  EXPECT_THAT(texts,
+              testing::ElementsAre("km 1.000", "km 1.050", "km 1.100", "km 1.150", "km 1.200",
+                                   "km 1.250", "km 1.300", "km 1.350", "km 1.400"));
+  // From 960 to 1400 there are 45 tens, of which nine have words.
+  EXPECT_EQ(std::ranges::count_if(drawing.segments, IsTick), 45 - 9);
+}
+
+TEST(TrackAxis, FollowsAnArcToFiveMillimetres) {
+  constexpr double kRadius_m = 300.0;
+  constexpr double kOffset_m = 4.0;
+  ScenarioSpec scenario = ScenarioOnLine(Arc(800.0, kRadius_m), 100.0);
+  scenario.world.tracks[0].offset_m = kOffset_m;
+  const Surroundings surroundings = SurroundingsOf(scenario);
+  const RecordedFrame recorded = FrameOf(surroundings);
+  const Drawing drawing = DrawTrackAxis(surroundings, recorded);
+  // One segment a metre, the ends whole; float32 at 400 m adds 3e-5.
+  for (std::size_t i = 0; i < 450; ++i) {
+    const Drawing::Segment& segment = drawing.segments[i];
+    const Vector3 middle = 0.5 * (segment.from_m + segment.to_m).cast<double>();
+    for (const Vector3& place : {Vector3(segment.from_m.cast<double>()), middle}) {
+      const Vector3 world = recorded.frame.world_from_sensor * place;
+      const double radius_m = (world - Vector3(0.0, kRadius_m, 0.0)).head<2>().norm();
+      ASSERT_NEAR(radius_m, kRadius_m - kOffset_m, 1.0 / (8.0 * kRadius_m) + 1e-4);
+      ASSERT_NEAR(world.z(), 0.0, 1e-4);
+    }
+  }
+}
+
+TEST(TrackAxis, GoesFrom50MetresBehindTo400Ahead) {
+  const Surroundings surroundings = SurroundingsOf(ScenarioOnLine(Straight(2'000.0), 1'000.5));
+  const Drawing drawing = DrawTrackAxis(surroundings, FrameOf(surroundings));
+  const auto to_vehicle_m = static_cast<float>(surroundings.scenario.lidar.mount.position_m[0]);
+  EXPECT_NEAR(drawing.segments[0].from_m.x() + to_vehicle_m, -50.0F, 1e-4F);
+  float farthest_m = 0.0F;
+  for (const auto& segment : drawing.segments) farthest_m = std::max(farthest_m, segment.to_m.x());
+  EXPECT_NEAR(farthest_m + to_vehicle_m, 400.0F, 1e-4F);
+}
+
+TEST(TrackAxis, LooksAheadOfAVehicleThatRunsAgainstTheChainage) {
+  ScenarioSpec scenario = ScenarioOnLine(Straight(2'000.0), 1'000.0);
+  scenario.vehicle.motion.reverse = true;
+  const Surroundings surroundings = SurroundingsOf(scenario);
+  const Drawing drawing = DrawTrackAxis(surroundings, FrameOf(surroundings));
+  EXPECT_NE(FindWord(drawing, "km 0.600"), nullptr);
+  EXPECT_NE(FindWord(drawing, "km 1.050"), nullptr);
+  EXPECT_EQ(FindWord(drawing, "km 1.100"), nullptr);
+  EXPECT_GT(FindWord(drawing, "km 0.600")->at_m.x(), 390.0F);
+}
+
+TEST(TrackAxis, EndsWhereTheTrackEnds) {
+  ScenarioSpec scenario = ScenarioOnLine(Straight(2'000.0), 1'000.0);
+  scenario.world.tracks[0].end_s_m = 1'105.0;
+  scenario.world.tracks[0].start_s_m = 955.0;
+  const Surroundings surroundings = SurroundingsOf(scenario);
+  const Drawing drawing = DrawTrackAxis(surroundings, FrameOf(surroundings));
+  const auto to_vehicle_m = static_cast<float>(scenario.lidar.mount.position_m[0]);
+  for (const auto& segment : drawing.segments) {
+    EXPECT_GT(segment.from_m.x() + to_vehicle_m, -45.001F);
+    EXPECT_LT(segment.to_m.x() + to_vehicle_m, 105.001F);
+  }
+  EXPECT_EQ(drawing.words.size(), 3U);
+}
+
+TEST(TrackAxis, IsNotThereWithoutAPose) {
+  const Surroundings surroundings = SurroundingsOf(ScenarioOnLine(Straight(2'000.0), 1'000.0));
+  RecordedFrame recorded = FrameOf(surroundings);
+  recorded.has_pose = false;
+  EXPECT_THAT(DrawTrackAxis(surroundings, recorded).segments, testing::IsEmpty());
+}
+
+}  // namespace
+}  // namespace railcast
