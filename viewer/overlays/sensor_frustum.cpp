@@ -1,0 +1,78 @@
+#include "viewer/overlays/sensor_frustum.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "viewer/color/okabe_ito.h"
+#include "viewer/overlays/strokes.h"
+
+namespace railcast {
+namespace {
+
+constexpr Rgb kFrustumRgb = kSkyBlue;
+constexpr std::size_t kRaysOfTurn = 8;
+
+/// The places at the ends of some beams, those of unknown direction left out.
+class Border {
+ public:
+  Border(const ScanTable& table, double range_m) : table_(table), range_m_(range_m) {}
+
+  [[nodiscard]] std::vector<Vector3> Row(std::size_t row) const {
+    std::vector<Vector3> places;
+    for (std::size_t column = 0; column < table_.columns; ++column) Add(row, column, places);
+    return places;
+  }
+  [[nodiscard]] std::vector<Vector3> Column(std::size_t column) const {
+    std::vector<Vector3> places;
+    for (std::size_t row = 0; row < table_.rows; ++row) Add(row, column, places);
+    return places;
+  }
+
+ private:
+  void Add(std::size_t row, std::size_t column, std::vector<Vector3>& places) const {
+    const std::array<double, 3> direction = table_.Direction(row, column);
+    const Vector3 place = range_m_ * Vector3(direction[0], direction[1], direction[2]);
+    if (place.allFinite()) places.push_back(place);
+  }
+
+  const ScanTable& table_;
+  double range_m_;
+};
+
+void AddRay(const Vector3& end_m, Drawing& drawing) {
+  AddSegment(Vector3::Zero(), end_m, kFrustumRgb, drawing);
+}
+
+void AddCone(std::vector<Vector3> circle, Drawing& drawing) {
+  if (circle.empty()) return;
+  for (std::size_t ray = 0; ray < kRaysOfTurn; ++ray) {
+    AddRay(circle[ray * circle.size() / kRaysOfTurn], drawing);
+  }
+  circle.push_back(circle.front());
+  AddPolyline(circle, kFrustumRgb, drawing);
+}
+
+}  // namespace
+
+Drawing DrawSensorFrustum(const ScanTable& table, double range_m) {
+  Drawing drawing;
+  const Border border(table, std::min(range_m, kMostFrustumRange_m));
+  const std::array<std::vector<Vector3>, 2> rows = {border.Row(0), border.Row(table.rows - 1)};
+  if (table.is_full_turn) {
+    for (const std::vector<Vector3>& circle : rows) AddCone(circle, drawing);
+    return drawing;
+  }
+  for (const std::vector<Vector3>& row : rows) {
+    if (row.empty()) continue;
+    AddRay(row.front(), drawing);
+    AddRay(row.back(), drawing);
+    AddPolyline(row, kFrustumRgb, drawing);
+  }
+  AddPolyline(border.Column(0), kFrustumRgb, drawing);
+  AddPolyline(border.Column(table.columns - 1), kFrustumRgb, drawing);
+  return drawing;
+}
+
+}  // namespace railcast
