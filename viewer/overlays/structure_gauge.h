@@ -21,7 +21,7 @@ inline constexpr double kGaugeAhead_m = 150.0;
 /// What has to stay clear about a track, as a closed polygon in the track's cross-section: d (left
 /// positive) and h above top of rail.
 ///
-/// - Wagons: G1's 3150 mm width and 4280 mm height, down to top of rail (shared/physics.md 7.1).
+/// - Wagons: G1's 3150 mm width and 4280 mm height, down to top of rail (physics.md 7.1).
 /// - Under a contact line, above them: the pantographs' half width from EBO Anlage 1, Tabelle 1, up
 ///   to the table's least height of 5200 mm.
 ///
