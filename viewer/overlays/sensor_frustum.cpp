@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
+#include <vector>
 
 #include "viewer/color/okabe_ito.h"
 #include "viewer/overlays/strokes.h"
@@ -41,12 +43,19 @@ class Border {
   double range_m_;
 };
 
+// The first and the last that is known. Of a ScanTable several are: steps between them are > 0.
+std::pair<std::size_t, std::size_t> KnownSpan(const std::vector<double>& angles_rad) {
+  const auto is_known = [](double angle_rad) { return !std::isnan(angle_rad); };
+  const auto first = std::ranges::find_if(angles_rad, is_known);
+  const auto after_last = std::find_if(angles_rad.rbegin(), angles_rad.rend(), is_known).base();
+  return {first - angles_rad.begin(), after_last - angles_rad.begin() - 1};
+}
+
 void AddRay(const Vector3& end_m, Drawing& drawing) {
   AddSegment(Vector3::Zero(), end_m, kFrustumRgb, drawing);
 }
 
 void AddCone(std::vector<Vector3> circle, Drawing& drawing) {
-  if (circle.empty()) return;
   for (std::size_t ray = 0; ray < kRaysOfTurn; ++ray) {
     AddRay(circle[ray * circle.size() / kRaysOfTurn], drawing);
   }
@@ -59,19 +68,21 @@ void AddCone(std::vector<Vector3> circle, Drawing& drawing) {
 Drawing DrawSensorFrustum(const ScanTable& table, double range_m) {
   Drawing drawing;
   const Border border(table, std::min(range_m, kMostFrustumRange_m));
-  const std::array<std::vector<Vector3>, 2> rows = {border.Row(0), border.Row(table.rows - 1)};
+  const auto [low, high] = KnownSpan(table.elevation_rad);
+  const auto [first, last] = KnownSpan(table.column_azimuth_rad);
+  const std::array<std::vector<Vector3>, 2> rows = {border.Row(low), border.Row(high)};
   if (table.is_full_turn) {
     for (const std::vector<Vector3>& circle : rows) AddCone(circle, drawing);
     return drawing;
   }
   for (const std::vector<Vector3>& row : rows) {
-    if (row.empty()) continue;
     AddRay(row.front(), drawing);
     AddRay(row.back(), drawing);
     AddPolyline(row, kFrustumRgb, drawing);
   }
-  AddPolyline(border.Column(0), kFrustumRgb, drawing);
-  AddPolyline(border.Column(table.columns - 1), kFrustumRgb, drawing);
+  for (const std::size_t column : {first, last}) {
+    AddPolyline(border.Column(column), kFrustumRgb, drawing);
+  }
   return drawing;
 }
 

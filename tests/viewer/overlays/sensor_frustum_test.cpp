@@ -79,6 +79,20 @@ TEST(SensorFrustum, SpreadsTheRaysOfATurnEvenly) {
   }
 }
 
+TEST(SensorFrustum, TakesTheOutermostRowsAndColumnsThatAreKnown) {
+  ScanTable table = MakeScanTable(MakeRaster(60.0, 30.0, 0.25)).value();
+  table.elevation_rad.back() = std::nan("");
+  table.column_azimuth_rad.front() = std::nan("");
+  const Drawing drawing = DrawSensorFrustum(table, 80.0);
+  EXPECT_EQ(drawing.segments.size(), 4U + 2U * 238U + 2U * 118U);
+  double highest_deg = -90.0;
+  for (const Vector3& end : RayEnds(drawing)) {
+    highest_deg = std::max(highest_deg, Elevation_deg(end));
+    EXPECT_TRUE(end.allFinite());
+  }
+  EXPECT_NEAR(highest_deg, 14.625, kAngle_deg);
+}
+
 TEST(SensorFrustum, EndsAtAHundredMetres) {
   for (const Vector3& end : RayEnds(DrawFrustum(MakeRaster(60.0, 30.0, 0.25), 300.0))) {
     EXPECT_NEAR(end.norm(), 100.0, 1e-4);
