@@ -1,0 +1,94 @@
+#include "viewer/pick/point_at.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace railcast {
+namespace {
+
+using Points = std::vector<float>;
+constexpr std::array<int, 2> kSize_px = {800, 600};
+
+// An eye at the origin that looks along x, y left and z up, with 90 degrees from left to right: at
+// depth d a metre is 400 / d px, wherever it is in the picture. Clipped at 1 m and 100 m.
+Eigen::Matrix4d Eye() {
+  constexpr double kNear_m = 1.0;
+  constexpr double kFar_m = 100.0;
+  Eigen::Matrix4d clip_from_points = Eigen::Matrix4d::Zero();
+  clip_from_points(0, 1) = -1.0;
+  clip_from_points(1, 2) = 800.0 / 600.0;
+  clip_from_points(2, 0) = (kFar_m + kNear_m) / (kFar_m - kNear_m);
+  clip_from_points(2, 3) = -2.0 * kFar_m * kNear_m / (kFar_m - kNear_m);
+  clip_from_points(3, 0) = 1.0;
+  return clip_from_points;
+}
+
+std::optional<std::size_t> Click(const Points& positions_m, double x_px, double y_px) {
+  return PointAt(positions_m, Eye(), kSize_px, x_px, y_px);
+}
+
+TEST(PointAt, FindsAPointAtThePixelWhereItIsSeen) {
+  // At 10 m depth 2 m to the right are 80 px, 1 m up are 40 px from the middle (400, 300).
+  const Points points = {10, 0, 0, 10, -2, 1};
+  EXPECT_EQ(Click(points, 400, 300), 0U);
+  EXPECT_EQ(Click(points, 480, 340), 1U);
+  EXPECT_EQ(Click(points, 480, 260), std::nullopt);
+}
+
+TEST(PointAt, TakesTheOneNearestToTheEyeOfThoseWithinFivePixels) {
+  // Behind, in the middle of the click; before it, 4 px to the left.
+  EXPECT_EQ(Click({20, 0, 0, 10, 0.1F, 0}, 400, 300), 1U);
+  EXPECT_EQ(Click({10, 0.1F, 0, 20, 0, 0}, 400, 300), 0U);
+}
+
+TEST(PointAt, TakesTheOneNearestOnTheScreenWithinTwelvePixelsElse) {
+  // At 10 m, 8 px beside; at 5 m, 10 px above.
+  const Points points = {10, 0.2F, 0, 5, 0, 0.125F};
+  EXPECT_EQ(Click(points, 400, 300), 0U);
+  EXPECT_EQ(Click(points, 400, 302), 1U) << "8 px and 8.2 px";
+  EXPECT_EQ(Click({10, 0, 0.29F}, 400, 300), 0U) << "11.6 px";
+  EXPECT_EQ(Click({10, 0, 0.31F}, 400, 300), std::nullopt) << "12.4 px";
+}
+
+TEST(PointAt, PrefersWhatIsWithinFivePixelsToWhatIsNearerToTheEyeBeside) {
+  // 4 px at 20 m; 6 px at 10 m.
+  EXPECT_EQ(Click({10, 0.15F, 0, 20, 0.2F, 0}, 400, 300), 1U);
+}
+
+TEST(PointAt, MeasuresPixelsAlikeInBothDirections) {
+  // 10 px to the left and 10 px up are 14.1 px.
+  EXPECT_EQ(Click({10, 0.25F, 0.25F}, 400, 300), std::nullopt);
+  EXPECT_EQ(Click({10, 0.2F, 0.2F}, 400, 300), 0U) << "11.3 px";
+}
+
+TEST(PointAt, NeverTakesWhatIsNotSeen) {
+  EXPECT_EQ(Click({-10, 0, 0}, 400, 300), std::nullopt) << "behind the eye";
+  EXPECT_EQ(Click({0.99F, 0, 0}, 400, 300), std::nullopt) << "nearer than the clip plane";
+  EXPECT_EQ(Click({1.01F, 0, 0}, 400, 300), 0U);
+  EXPECT_EQ(Click({101, 0, 0}, 400, 300), std::nullopt) << "beyond the clip plane";
+  EXPECT_EQ(Click({10, 10.1F, 0}, 1, 300), std::nullopt) << "4 px beside the picture";
+  EXPECT_EQ(Click({10, 9.9F, 0}, 1, 300), 0U) << "4 px inside it";
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(Click({nan, nan, nan, 10, 0, 0}, 400, 300), 1U);
+  EXPECT_EQ(Click({}, 400, 300), std::nullopt);
+}
+
+TEST(PointAt, WorksWithoutPerspective) {
+  // 1 m is 100 px in both directions; x from 0 m to 100 m is seen.
+  Eigen::Matrix4d clip_from_points = Eigen::Matrix4d::Zero();
+  clip_from_points(0, 1) = -100.0 / 400.0;
+  clip_from_points(1, 2) = 100.0 / 300.0;
+  clip_from_points(2, 0) = 0.02;
+  clip_from_points(2, 3) = -1.0;
+  clip_from_points(3, 3) = 1.0;
+  const Points points = {80, -1, 2, 60, -1, 2, 70, 0, 0};
+  EXPECT_EQ(PointAt(points, clip_from_points, kSize_px, 500, 500), 1U);
+  EXPECT_EQ(PointAt(points, clip_from_points, kSize_px, 409, 300), 2U);
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+
+namespace railcast {
+
+/// The point that a click on a picture means: of those within 5 px the one nearest to the eye, else
+/// the one nearest on the screen within 12 px. Points outside the clip volume, also those behind
+/// the eye, are not seen and not meant.
+///
+/// @param positions_m x, y, z of each point in turn. One of NaN is nowhere.
+/// @param clip_from_points From homogeneous coordinates of the points to clip coordinates, where
+///   the volume is -w <= x, y, z <= w with z = -w nearest to the eye.
+/// @param size_px Width and height.
+/// @param x_px, y_px The click, to the right and up from the lower left corner, as VTK counts.
+[[nodiscard]] std::optional<std::size_t> PointAt(std::span<const float> positions_m,
+                                                 const Eigen::Matrix4d& clip_from_points,
+                                                 const std::array<int, 2>& size_px,
+                                                 double x_px,
+                                                 double y_px);
+
+}  // namespace railcast
