@@ -15,8 +15,7 @@ constexpr int kNumDecimals = 3;
 
 // Also of a frame that was read again after others.
 bool AreOfOneFrame(const RecordedFrame& a, const RecordedFrame& b) {
-  return &a == &b || (a.name == b.name && a.frame.index == b.frame.index &&
-                      a.frame.stamp_ns == b.frame.stamp_ns);
+  return a.name == b.name && a.frame.index == b.frame.index && a.frame.stamp_ns == b.frame.stamp_ns;
 }
 
 std::string WayText(const Vector3& way_m, const AxisNames& axes) {
