@@ -61,7 +61,8 @@ class Facts {
       : recorded_(recorded), frame_(recorded.frame), info_(info), slot_(slot) {}
 
   void Add(std::string name, const std::string& value) {
-    name.resize(kNameWidth, ' ');
+    // Foreign names may be longer than the column.
+    name.resize(std::max(kNameWidth, name.size() + 1), ' ');
     lines_.push_back(name.append(value));
   }
 
@@ -72,8 +73,8 @@ class Facts {
   }
 
   void AddMeasurement() {
-    // Foreign clouds may name no range; it is computed from the positions then.
-    Add("range", QuantityText(double{frame_.range_m[slot_]}, 4, "m"));
+    AddField("range_m", "range",
+             [&] { return QuantityText(double{frame_.range_m[slot_]}, 4, "m"); });
     AddField("intensity", "intensity", [&] { return ValueText(frame_.intensity[slot_]); });
     AddField("power_ratio", "power ratio", [&] { return ValueText(frame_.power_ratio[slot_]); });
     AddField("time_ns", "time",
@@ -84,6 +85,9 @@ class Facts {
              [&] { return std::to_string(frame_.return_index[slot_]); });
     AddField("return_count", "return count",
              [&] { return std::to_string(frame_.return_count[slot_]); });
+    for (const ForeignField& field : recorded_.foreign) {
+      Add(field.name, ValueText(field.values[slot_]));
+    }
   }
 
   void AddTruth() {

@@ -9,10 +9,10 @@
 
 namespace railcast {
 
-/// All that is known of one point, line by line: names and values in two columns, ASCII, 60
-/// characters at most unless a name of the recording is longer. First what was measured, then,
-/// after a line "truth", what was true. A field that the recording lacks has no line; a value that
-/// is absent is "-".
+/// All that is known of one point, line by line: names and values in two columns, 60 ASCII
+/// characters at most unless the recording's own names want more. First what was measured, then
+/// what else a foreign cloud has, then, after a line "truth", what was true. A field that the
+/// recording lacks has no line; a value that is absent is "-".
 ///
 ///     file             frame_000003.pcd
 ///     position               12.345      -2.900       0.012 m

@@ -99,6 +99,22 @@ TEST(PointFacts, IsShortWhereTheRecordingIs) {
                   "range            13.0000 m"));
 }
 
+TEST(PointFacts, HasWhatForeignCloudsHaveUnderItsOwnName) {
+  RecordedFrame recorded = RecordedCloud("cloud.ply", {{3, 4, 12}, {0, 0, 2}});
+  recorded.fields.emplace("label");
+  recorded.foreign = {{"curvature", {0.5F, 0.0625F}}, {"second_strongest_return", {kNaN, kNaN}}};
+  EXPECT_THAT(
+      PointFacts(Show(std::move(recorded)), RecordingInfo(), 1),
+      ElementsAre("file             cloud.ply",  //
+                  "frame            0",          //
+                  "slot             1", "position                0.000       0.000       2.000 m",
+                  "range            2.0000 m",  //
+                  "curvature        0.0625",    //
+                  "second_strongest_return -",  //
+                  "truth",                      //
+                  "label            0"));
+}
+
 TEST(PointFacts, IsOfThePointsOwnSlot) {
   ShownFrame shown = Show(RecordedCloud("cloud.ply", {{1, 0, 0}, {0, 0, 0}, {2, 0, 0}}));
   shown.slots = {0, 2};
@@ -142,6 +158,14 @@ TEST(PointFacts, GivesTheSignOfTheNoise) {
   recorded.frame.range_m[1] = 40.1130F;
   EXPECT_THAT(PointFacts(Show(std::move(recorded)), NamedInfo(), 1),
               Contains("noise            -10.4 mm"));
+}
+
+// A live stream may send points in the world's axes and no ranges.
+TEST(PointFacts, HasNoRangeWhereTheRecordingHasNone) {
+  RecordedFrame recorded = RecordedCloud("udp://", {{3, 4, 12}});
+  recorded.fields.erase("range_m");
+  EXPECT_THAT(PointFacts(Show(std::move(recorded)), RecordingInfo(), 0),
+              Not(Contains(StartsWith("range"))));
 }
 
 TEST(PointFacts, KeepsTheEndOfALongFileName) {
