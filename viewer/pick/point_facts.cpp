@@ -49,7 +49,7 @@ std::string NamedText(std::string name, std::uint32_t number) {
 // A file without its folders; of a long name the end, which tells frames apart.
 std::string FileText(const std::string& name) {
   constexpr std::size_t kRoom = kMaxWidth - kNameWidth;
-  const std::string file = name.substr(name.find_last_of('/') + 1);
+  std::string file = name.substr(name.find_last_of('/') + 1);
   if (file.size() <= kRoom) return file;
   return std::string("...").append(file, file.size() - (kRoom - 3));
 }
@@ -73,8 +73,7 @@ class Facts {
   }
 
   void AddMeasurement() {
-    AddField("range_m", "range",
-             [&] { return QuantityText(double{frame_.range_m[slot_]}, 4, "m"); });
+    AddField("range_m", "range", [&] { return QuantityText(At(frame_.range_m), 4, "m"); });
     AddField("intensity", "intensity", [&] { return ValueText(frame_.intensity[slot_]); });
     AddField("power_ratio", "power ratio", [&] { return ValueText(frame_.power_ratio[slot_]); });
     AddField("time_ns", "time",
@@ -100,21 +99,22 @@ class Facts {
              [&] { return NamedText(MaterialName(), frame_.material[slot_]); });
     AddField("outcome", "outcome", [&] { return std::string(OutcomeName(frame_.outcome[slot_])); });
     AddField("true_range_m", "true range",
-             [&] { return QuantityText(double{frame_.true_range_m[slot_]}, 4, "m"); });
+             [&] { return QuantityText(At(frame_.true_range_m), 4, "m"); });
     AddField("true_range_m", "noise", [&] { return NoiseText(); });
-    AddField("incidence_rad", "incidence", [&] {
-      return QuantityText(DegFromRad(double{frame_.incidence_rad[slot_]}), 2, "deg");
-    });
+    AddField("incidence_rad", "incidence",
+             [&] { return QuantityText(DegFromRad(At(frame_.incidence_rad)), 2, "deg"); });
     AddField("footprint_share", "footprint share",
-             [&] { return FixedText(double{frame_.footprint_share[slot_]}, 3); });
-    AddField("mixed_share", "mixed share",
-             [&] { return FixedText(double{frame_.mixed_share[slot_]}, 3); });
+             [&] { return FixedText(At(frame_.footprint_share), 3); });
+    AddField("mixed_share", "mixed share", [&] { return FixedText(At(frame_.mixed_share), 3); });
     if (lines_.size() == num_measured + 1) lines_.pop_back();
   }
 
   [[nodiscard]] std::vector<std::string> TakeLines() { return std::move(lines_); }
 
  private:
+  [[nodiscard]] double At(const std::vector<float>& values) const {
+    return static_cast<double>(values[slot_]);
+  }
   [[nodiscard]] std::string LabelName() const {
     const Label* const label = info_.labels.Find(frame_.label[slot_]);
     return label == nullptr ? std::string() : label->name;
@@ -129,8 +129,7 @@ class Facts {
     return material < info_.materials.size() ? info_.materials[material] : std::string();
   }
   [[nodiscard]] std::string NoiseText() const {
-    const double noise_mm =
-        kMmPerM * (double{frame_.range_m[slot_]} - double{frame_.true_range_m[slot_]});
+    const double noise_mm = kMmPerM * (At(frame_.range_m) - At(frame_.true_range_m));
     const std::string text = QuantityText(noise_mm, 1, "mm");
     const bool has_sign = text.front() == '-' || std::isnan(noise_mm);
     return std::string(has_sign ? "" : "+").append(text);

@@ -79,7 +79,7 @@ class Traced {
 
 /// A scenario that a test writes into a folder, on one of the project's.
 fs::path Vary(const TemporaryDirectory& folder, const std::string& base, const std::string& more) {
-  const fs::path file = folder.path() / "scenario.json";
+  fs::path file = folder.path() / "scenario.json";
   WriteFileWhole(file,
                  R"({"version": 1, "file": ")" + scenarios_folder + base + R"(", )" + more + "}");
   return file;
