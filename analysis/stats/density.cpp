@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "analysis/stats/bins.h"
-#include "analysis/stats/firing_truth.h"
+#include "core/io/recording/firing_truth.h"
 #include "analysis/stats/headings.h"
 #include "analysis/stats/sums.h"
 #include "core/base/transform.h"

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "analysis/stats/bins.h"
-#include "analysis/stats/firing_truth.h"
+#include "core/io/recording/firing_truth.h"
 #include "analysis/stats/headings.h"
 #include "analysis/stats/sums.h"
 

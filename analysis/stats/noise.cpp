@@ -4,7 +4,7 @@
 
 #include "analysis/estimate/intervals.h"
 #include "analysis/stats/bins.h"
-#include "analysis/stats/firing_truth.h"
+#include "core/io/recording/firing_truth.h"
 #include "analysis/stats/headings.h"
 #include "analysis/stats/sums.h"
 

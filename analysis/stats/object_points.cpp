@@ -1,7 +1,7 @@
 #include "analysis/stats/object_points.h"
 
 #include "analysis/stats/bins.h"
-#include "analysis/stats/firing_truth.h"
+#include "core/io/recording/firing_truth.h"
 #include "analysis/stats/headings.h"
 
 namespace railcast {
