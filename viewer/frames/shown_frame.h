@@ -12,13 +12,15 @@ namespace railcast {
 /// A frame as it is shown.
 struct ShownFrame {
   std::shared_ptr<const RecordedFrame> recorded;
-  /// x, y, z of each point in turn, in the sensor's axes at the stamp: the motion within the scan is
-  /// undone where pose and times are known.
+  /// x, y, z of each point in turn, in the sensor's axes at the stamp: the motion within the scan
+  /// is undone where pose and times are known.
   std::vector<float> positions_m;
   std::vector<std::uint32_t> slots;  ///< Of each point in `recorded`.
 
   [[nodiscard]] std::size_t num_points() const { return slots.size(); }
   [[nodiscard]] const Frame& frame() const { return recorded->frame; }
 };
+
+[[nodiscard]] ShownFrame MakeShownFrame(RecordedFrame recorded);
 
 }  // namespace railcast

@@ -14,6 +14,7 @@ struct Drawing {
     Eigen::Vector3f from_m;
     Eigen::Vector3f to_m;
     Rgb rgb{};
+    float opacity = 1.0F;
   };
   struct Word {
     Eigen::Vector3f at_m;

@@ -33,14 +33,13 @@ Drawing DrawEmptyBeams(const RecordedFrame& recorded, const Beams& beams) {
     const Vector3 direction = beams.directions[firing].cast<double>();
     if (!IsEmpty(frame, firing) || !direction.allFinite()) continue;
     const std::size_t slot = firing * frame.returns;
-    double end_m = kEmptyBeamStub_m;
-    if (has_true_ranges && std::isfinite(frame.true_range_m[slot])) {
-      end_m = static_cast<double>(frame.true_range_m[slot]);
-    }
+    const bool has_end = has_true_ranges && std::isfinite(frame.true_range_m[slot]);
+    const double end_m = has_end ? static_cast<double>(frame.true_range_m[slot]) : kEmptyBeamStub_m;
     const double start_m = end_m > kEmptyBeamStart_m ? kEmptyBeamStart_m : 0.0;
     AddSegment(motion.AtStamp(start_m * direction, beams.times_ns[firing]),
                motion.AtStamp(end_m * direction, beams.times_ns[firing]),
                has_outcomes ? OutcomeRgb(frame.outcome[slot]) : kUnknownOutcomeRgb, drawing);
+    drawing.segments.back().opacity = has_end ? kLostBeamOpacity : kOpenBeamOpacity;
   }
   return drawing;
 }

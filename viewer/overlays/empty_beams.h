@@ -11,6 +11,10 @@ inline constexpr double kEmptyBeamStart_m = 2.0;
 /// Where they end if nothing is known that the beam hit.
 inline constexpr double kEmptyBeamStub_m = 12.0;
 
+/// How faint they are: those that hit something, and those into the open, of which there are many.
+inline constexpr float kLostBeamOpacity = 0.2F;
+inline constexpr float kOpenBeamOpacity = 0.03F;
+
 /// The fan of a frame's firings that brought nothing back: a segment along each, by its slot, in
 /// the colour of its outcome (viewer/color/outcome_colors.h), of `kUnknownOutcomeRgb` where the
 /// recording has no outcomes. From 2 m to the true range of what was hit and not detected; where

@@ -6,38 +6,15 @@
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <utility>
+#include <memory>
 
 #include "core/frame/labels.h"
 #include "core/rail/rail_surfaces.h"
 #include "core/scene/material.h"
+#include "core/scene/part_gatherer.h"
 
 namespace railcast {
 namespace {
-
-class PartGatherer {
- public:
-  void Add(const Model& model, const Eigen::Affine3d& to_from_model) {
-    for (const Part& part : model.parts) {
-      Mesh& mesh = meshes_[{part.label, part.material}];
-      const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
-      for (const Eigen::Vector3f& vertex : part.mesh.vertices) {
-        mesh.vertices.emplace_back((to_from_model * vertex.cast<double>()).cast<float>());
-      }
-      for (const auto& [a, b, c] : part.mesh.triangles) {
-        mesh.triangles.push_back({a + base, b + base, c + base});
-      }
-    }
-  }
-  [[nodiscard]] std::vector<Part> TakeParts() {
-    std::vector<Part> parts;
-    for (auto& [key, mesh] : meshes_) parts.push_back({std::move(mesh), key.second, key.first});
-    return parts;
-  }
-
- private:
-  std::map<std::pair<std::uint32_t, std::uint16_t>, Mesh> meshes_;
-};
 
 bool IsOf(const Part& part, const SurfaceClass& surface) {
   return part.label == surface.label && part.material == surface.material;

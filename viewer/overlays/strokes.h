@@ -13,7 +13,8 @@ namespace railcast {
 // What drawings are made of, from places in double in the sensor's axes.
 
 inline void AddSegment(const Vector3& from_m, const Vector3& to_m, Rgb rgb, Drawing& drawing) {
-  drawing.segments.push_back({from_m.cast<float>(), to_m.cast<float>(), rgb});
+  drawing.segments.push_back(
+      {.from_m = from_m.cast<float>(), .to_m = to_m.cast<float>(), .rgb = rgb});
 }
 
 /// Segments from each point to the next.

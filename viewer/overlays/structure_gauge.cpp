@@ -10,7 +10,7 @@
 namespace railcast {
 namespace {
 
-constexpr Rgb kGaugeRgb = kVermillion;
+constexpr Rgb kGaugeRgb = kReddishPurple;
 constexpr double kRingStep_m = 10.0;
 constexpr double kWagonHalfWidth_m = 1.575;
 constexpr double kWagonHeight_m = 4.28;

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "core/io/recording/recording.h"
+#include "viewer/frames/shown_frame.h"
+
+namespace railcast {
+
+/// Frames of one source, counted from 0 in order of time.
+class Frames {
+ public:
+  virtual ~Frames() = default;
+
+  [[nodiscard]] const RecordingInfo& info() const { return info_; }
+  /// Says what the frames were made of where they do not say it themselves: labels, materials,
+  /// world.
+  /// @param scenario Of one sensor.
+  void UseScenario(const ScenarioSpec& scenario);
+  /// Null if there is no such frame: not yet, not any more, or beyond the end.
+  /// @throws InputError with one line if it cannot be read.
+  [[nodiscard]] virtual std::shared_ptr<const ShownFrame> Get(std::size_t place) = 0;
+  /// How many frames have been seen so far; of most recordings all there are.
+  [[nodiscard]] virtual std::size_t num_known() const = 0;
+
+ protected:
+  RecordingInfo info_;
+};
+
+}  // namespace railcast

@@ -1,0 +1,72 @@
+#include "viewer/frames/live_frames.h"
+
+#include <array>
+#include <cstdio>
+#include <functional>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/io/recording/live_frame.h"
+
+namespace railcast {
+
+LiveFrames::LiveFrames(const std::string& source, const Endpoint& at) : grabber_(at) {
+  info_.source = source;
+  info_.kind = "live stream";
+  grabber_.registerCallback(
+      std::function([this](const std::shared_ptr<const ReceivedFrame>& frame) {
+        const std::lock_guard lock(mutex_);
+        latest_ = frame;
+      }));
+  grabber_.start();
+}
+
+LiveFrames::~LiveFrames() {
+  grabber_.stop();
+}
+
+bool LiveFrames::Poll() {
+  constexpr std::size_t kMaxKept = 64;
+  std::shared_ptr<const ReceivedFrame> received;
+  {
+    const std::lock_guard lock(mutex_);
+    received = std::exchange(latest_, nullptr);
+  }
+  if (!received) return false;
+  num_lost_packets_ = received->num_lost_packets();
+  fault_.clear();
+  try {
+    kept_.push_back(std::make_shared<const ShownFrame>(
+        MakeShownFrame(MakeLiveFrame(*received, info_.source.string()))));
+  } catch (const InputError& error) {
+    fault_ = error.what();
+    return false;
+  }
+  if (kept_.size() > kMaxKept) kept_.pop_front();
+  ++num_taken_;
+  return true;
+}
+
+std::shared_ptr<const ShownFrame> LiveFrames::Get(std::size_t place) {
+  const std::size_t first = num_taken_ - kept_.size();
+  return place < first || place >= num_taken_ ? nullptr : kept_[place - first];
+}
+
+std::string LiveFrames::StatusText() const {
+  const UdpGrabber::Counts counts = grabber_.counts();
+  std::array<char, 128> text{};
+  std::snprintf(text.data(), text.size(), "live %.1f frames/s   %llu packets lost",
+                static_cast<double>(grabber_.getFramesPerSecond()),
+                static_cast<unsigned long long>(counts.stream.lost_packets));
+  std::string status = text.data();
+  if (counts.stream.missing_frames > 0) {
+    status += "   " + std::to_string(counts.stream.missing_frames) + " frames lost whole";
+  }
+  if (!fault_.empty()) {
+    status += "   not shown: ";
+    status += fault_;
+  }
+  return status;
+}
+
+}  // namespace railcast

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "core/io/stream/udp_grabber.h"
+#include "viewer/frames/frames.h"
+
+namespace railcast {
+
+/// A live stream in the railcast protocol: its latest frame and some before it.
+class LiveFrames final : public Frames {
+ public:
+  /// Listens from now on.
+  /// @param source "udp://...", for messages.
+  /// @throws InputError if the port cannot be listened to.
+  LiveFrames(const std::string& source, const Endpoint& at);
+  ~LiveFrames() override;
+  LiveFrames(const LiveFrames&) = delete;
+  LiveFrames& operator=(const LiveFrames&) = delete;
+
+  [[nodiscard]] std::shared_ptr<const ShownFrame> Get(std::size_t place) override;
+  [[nodiscard]] std::size_t num_known() const override { return num_taken_; }
+
+  /// Takes the frame that came last since the last call, if any, as the next one. Others between
+  /// are passed over: whoever shows frames more slowly than they come falls not behind.
+  /// @returns Whether there was one that can be shown; if it cannot, fault() says why.
+  bool Poll();
+  /// Of the frame that came last; empty if there is none.
+  [[nodiscard]] const std::string& fault() const { return fault_; }
+  /// Packets that the frame taken last lacks.
+  [[nodiscard]] std::size_t num_lost_packets() const { return num_lost_packets_; }
+
+  [[nodiscard]] Endpoint at() const { return grabber_.at(); }
+  /// "live 10.0 frames/s   0 packets lost", since it listens.
+  [[nodiscard]] std::string StatusText() const;
+
+ private:
+  std::deque<std::shared_ptr<const ShownFrame>> kept_;  ///< The last ones.
+  std::size_t num_taken_{};
+  std::string fault_;
+  std::size_t num_lost_packets_{};
+  std::mutex mutex_;
+  std::shared_ptr<const ReceivedFrame> latest_;
+  UdpGrabber grabber_;  ///< Ends before what its callback uses.
+};
+
+}  // namespace railcast

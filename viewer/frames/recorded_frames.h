@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <list>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "viewer/frames/frames.h"
+
+namespace railcast {
+
+/// The frames of a recording, in any order.
+class RecordedFrames final : public Frames {
+ public:
+  /// @param source As OpenRecording() takes it. A single file of a sequence has the sequence's
+  ///   labels.
+  /// @throws InputError with one line if it cannot be opened.
+  explicit RecordedFrames(const std::filesystem::path& source);
+
+  /// The last frames asked for are kept.
+  [[nodiscard]] std::shared_ptr<const ShownFrame> Get(std::size_t place) override;
+
+  /// The place of the frame of that number in its run (Frame::index): a sequence need not begin
+  /// with 0.
+  /// @throws InputError with one line if there is none.
+  [[nodiscard]] std::size_t PlaceOf(std::uint32_t frame_index);
+
+  /// Of a capture before its end was seen: as many as were read.
+  [[nodiscard]] std::size_t num_known() const override { return num_known_; }
+  /// Reads on to the end.
+  void SeekEnd();
+
+ private:
+  void Reopen();
+  /// Passes one frame's reader on the way; false at the end.
+  bool Advance();
+
+  std::unique_ptr<Recording> recording_;
+  /// Of frames [first_reader_, first_reader_ + readers_.size()). Those of files are all kept, they
+  /// hold a few lines of text; those of captures hold a turn each, and to go far back means to read
+  /// the capture anew.
+  std::deque<Recording::FrameReader> readers_;
+  std::size_t first_reader_{};
+  std::size_t num_known_{};
+  bool is_end_known_ = false;
+  std::list<std::pair<std::size_t, std::shared_ptr<const ShownFrame>>> kept_;
+  std::size_t num_kept_slots_{};
+};
+
+}  // namespace railcast

@@ -1,0 +1,49 @@
+#include "viewer/frames/shown_frame.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <utility>
+
+#include "core/io/scan_motion.h"
+
+namespace railcast {
+namespace {
+
+/// Whether points can be put where they would have been at the stamp.
+bool KnowsMotion(const RecordedFrame& recorded) {
+  return recorded.has_pose && recorded.Has("time_ns") && recorded.frame.duration_ns > 0;
+}
+
+void UndoMotion(const Frame& frame, ShownFrame& shown) {
+  constexpr std::size_t kGrain = 4096;
+  const ScanMotion motion(frame);
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, shown.num_points(), kGrain),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+          Eigen::Map<Eigen::Vector3f> point_m(&shown.positions_m[3 * i]);
+          point_m =
+              motion.AtStamp(point_m.cast<double>(), frame.time_ns[shown.slots[i]]).cast<float>();
+        }
+      });
+}
+
+}  // namespace
+
+ShownFrame MakeShownFrame(RecordedFrame recorded) {
+  ShownFrame shown;
+  const Frame& frame = recorded.frame;
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    if (std::isnan(frame.x[slot])) continue;
+    shown.positions_m.insert(shown.positions_m.end(),
+                             {frame.x[slot], frame.y[slot], frame.z[slot]});
+    shown.slots.push_back(static_cast<std::uint32_t>(slot));
+  }
+  if (KnowsMotion(recorded)) UndoMotion(frame, shown);
+  shown.recorded = std::make_shared<const RecordedFrame>(std::move(recorded));
+  return shown;
+}
+
+}  // namespace railcast

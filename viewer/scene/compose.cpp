@@ -1,0 +1,233 @@
+#include "viewer/scene/compose.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/base/attempt.h"
+#include "core/base/error.h"
+#include "core/scan/scan_pattern.h"
+#include "core/scenario/scenario.h"
+#include "viewer/color/coloring.h"
+#include "viewer/color/field_values.h"
+#include "viewer/color/outcome_colors.h"
+#include "viewer/overlays/axes_and_rings.h"
+#include "viewer/overlays/beams.h"
+#include "viewer/overlays/empty_beams.h"
+#include "viewer/overlays/object_boxes.h"
+#include "viewer/overlays/scene_mesh.h"
+#include "viewer/overlays/sensor_frustum.h"
+#include "viewer/overlays/structure_gauge.h"
+#include "viewer/overlays/track_axis.h"
+#include "viewer/pick/cloud_distances.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kRingLimit_m = 300.0;
+constexpr double kUnknownRange_m = 100.0;
+
+/// Points that are not selected: nearly the background's, whichever it is.
+Rgb Faint(const Rgb& rgb) {
+  constexpr int kGrey = 60;
+  const auto mix = [](std::uint8_t value) {
+    return static_cast<std::uint8_t>((value + 5 * kGrey) / 6);
+  };
+  return {mix(rgb[0]), mix(rgb[1]), mix(rgb[2])};
+}
+
+void FadeOthers(const ShownFrame& shown,
+                const std::set<std::uint32_t>& labels,
+                std::vector<Rgb>& colors) {
+  if (labels.empty()) return;
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    if (!labels.contains(shown.frame().label[shown.slots[i]])) colors[i] = Faint(colors[i]);
+  }
+}
+
+Coloring ColorFrame(const ShownFrame& shown, const RecordingInfo& info, const Choices& choices) {
+  return AtPlace(shown.recorded->name + ": ", [&] {
+    const FieldValues field = ValuesOf(shown, choices.color_by);
+    if (field.kind == FieldValues::Kind::kCategory) {
+      return ColorByCategory(field, choices.color_by, info, *shown.recorded);
+    }
+    const ColorMap map = choices.map.value_or(
+        field.kind == FieldValues::Kind::kDifference ? ColorMap::kCoolwarm : ColorMap::kViridis);
+    return ColorByScale(field, map, choices.ends.value_or(FitScale(field)));
+  });
+}
+
+void AddTo(Drawing&& part, Drawing& drawing) {
+  std::ranges::move(part.segments, std::back_inserter(drawing.segments));
+  std::ranges::move(part.words, std::back_inserter(drawing.words));
+}
+
+/// Of the firings that brought nothing back, by outcome.
+std::vector<Category> BeamKinds(const RecordedFrame& recorded) {
+  const Frame& frame = recorded.frame;
+  std::array<std::size_t, kOutcomeNames.size()> counts{};
+  std::size_t num_empty = 0;
+  for (std::size_t slot = 0; slot < frame.num_slots(); slot += frame.returns) {
+    if (!std::isnan(frame.x[slot])) continue;
+    ++num_empty;
+    ++counts[static_cast<std::size_t>(frame.outcome[slot])];
+  }
+  if (!recorded.Has("outcome")) {
+    return {{.value = 0.0,
+             .name = "beams without return",
+             .rgb = kUnknownOutcomeRgb,
+             .num_points = num_empty}};
+  }
+  std::vector<Category> kinds;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i] == 0) continue;
+    const auto outcome = static_cast<Outcome>(i);
+    kinds.push_back({.value = static_cast<double>(i),
+                     .name = "no return: " + OutcomeTitle(outcome),
+                     .rgb = OutcomeRgb(outcome),
+                     .num_points = counts[i]});
+  }
+  return kinds;
+}
+
+FieldValues DistancesField(const ShownFrame& of, const ShownFrame& other) {
+  const std::vector<float> distances_m = DistancesToNearest_m(of, other);
+  return {.kind = FieldValues::Kind::kAmount,
+          .title = "to the other's nearest point [m]",
+          .values = {distances_m.begin(), distances_m.end()}};
+}
+
+}  // namespace
+
+/// What overlays need of the scenario, each made when it is first asked for.
+struct Composer::World {
+  Surroundings surroundings;
+  ScanPattern pattern;
+  std::optional<int> home_chunk;  ///< Of what stands.
+  Transform world_from_standing = Transform::Identity();
+  std::shared_ptr<const std::vector<Part>> standing;
+
+  void AddSurfaces(const RecordedFrame& recorded, Scene& scene) {
+    const Frame& frame = recorded.frame;
+    const int home = surroundings.world->HomeChunk(frame.stamp_ns);
+    if (home_chunk != home) {
+      StandingScene gathered = GatherStandingScene(surroundings, home);
+      world_from_standing = gathered.world_from_home;
+      standing = std::make_shared<const std::vector<Part>>(std::move(gathered.parts));
+      home_chunk = home;
+    }
+    scene.surfaces.push_back({standing, frame.world_from_sensor.inverse() * world_from_standing});
+    scene.surfaces.push_back(
+        {std::make_shared<const std::vector<Part>>(GatherSceneObjects(surroundings, recorded)),
+         Transform::Identity()});
+  }
+};
+
+Composer::Composer(RecordingInfo info) : info_(std::move(info)) {
+  if (!info_.scenario) return;
+  world_ = std::make_unique<World>();
+  world_->surroundings = {*info_.scenario, MakeWorld(*info_.scenario)};
+  world_->pattern = BuildScanPattern(info_.scenario->lidar.scan);
+}
+
+Composer::~Composer() = default;
+Composer::Composer(Composer&&) noexcept = default;
+
+void Composer::AddEmptyBeams(const RecordedFrame& recorded, Scene& scene) const {
+  const Frame& frame = recorded.frame;
+  const bool has_pattern_shape = world_ && recorded.is_grid && frame.rows == world_->pattern.rows &&
+                                 frame.columns == world_->pattern.columns;
+  const auto beams = has_pattern_shape ? BeamsOf(world_->pattern) : BeamsOf(recorded);
+  if (!beams) return;
+  scene.empty_beams = DrawEmptyBeams(recorded, *beams);
+  scene.beam_kinds = BeamKinds(recorded);
+}
+
+std::string Composer::Missing(const ShownFrame& shown, const OverlayChoices& choices) const {
+  const bool needs_world = choices.track || choices.gauge || choices.mesh;
+  if (needs_world && !world_) {
+    return "track, gauge and surfaces need the scenario, which is not known";
+  }
+  if (needs_world && !shown.recorded->has_pose) {
+    return "track, gauge and surfaces need the sensor's pose, which is not known";
+  }
+  if (choices.boxes && shown.recorded->objects.empty() && info_.kind != "sequence") {
+    return "boxes need a sequence with its objects";
+  }
+  return {};
+}
+
+void Composer::AddOverlays(const ShownFrame& shown, const OverlayChoices& choices, Scene& scene) {
+  const RecordedFrame& recorded = *shown.recorded;
+  if (choices.boxes) AddTo(DrawObjectBoxes(recorded, info_.labels), scene.overlays);
+  if (choices.axes) AddTo(DrawAxes(), scene.overlays);
+  if (choices.rings) {
+    AddTo(DrawRangeRings(kRingLimit_m,
+                         world_ ? std::optional(info_.scenario->lidar.mount) : std::nullopt),
+          scene.overlays);
+  }
+  if (choices.frustum) {
+    const auto table = world_ ? MakeScanTable(world_->pattern) : MakeScanTable(recorded.frame);
+    const double range_m = world_ ? info_.scenario->lidar.range_max_m : kUnknownRange_m;
+    if (table) AddTo(DrawSensorFrustum(*table, range_m), scene.overlays);
+  }
+  if (!world_ || !recorded.has_pose) return;
+  if (choices.track) AddTo(DrawTrackAxis(world_->surroundings, recorded), scene.overlays);
+  if (choices.mesh) world_->AddSurfaces(recorded, scene);
+  if (choices.gauge) AddTo(DrawStructureGauge(world_->surroundings, recorded), scene.overlays);
+}
+
+Scene Composer::Compose(const ShownFrames& frames, const Choices& choices) {
+  Scene scene;
+  scene.labels = info_.labels;
+  if (frames.empty()) return scene;
+  const ShownFrame& latest = *frames.front();
+  for (const auto& shown : frames) {
+    Transform view_from_sensor = Transform::Identity();
+    if (shown != frames.front()) {
+      if (!shown->recorded->has_pose || !latest.recorded->has_pose) continue;
+      view_from_sensor =
+          latest.frame().world_from_sensor.inverse() * shown->frame().world_from_sensor;
+    }
+    Coloring coloring = ColorFrame(*shown, info_, choices);
+    FadeOthers(*shown, choices.labels, coloring.colors);
+    scene.clouds.push_back({shown, view_from_sensor, std::move(coloring.colors)});
+    if (shown == frames.front()) scene.coloring = std::move(coloring);
+  }
+  AddOverlays(latest, choices.overlays, scene);
+  if (choices.empty_beams) AddEmptyBeams(*latest.recorded, scene);
+  return scene;
+}
+
+void FitChoices(const ShownFrame& shown, Choices& choices) {
+  if (choices.color_by.empty()) choices.color_by = DefaultColorField(*shown.recorded);
+  AtPlace(shown.recorded->name + ": ", [&] {
+    if (!choices.labels.empty() && !shown.recorded->Has("label")) {
+      throw InputError("has no field label to select by");
+    }
+    const FieldValues field = ValuesOf(shown, choices.color_by);
+    const bool has_scale = field.kind != FieldValues::Kind::kCategory;
+    if (!has_scale && choices.ends) {
+      throw InputError("field " + choices.color_by + " has no scale with a range");
+    }
+    if (has_scale && !choices.ends) choices.ends = FitScale(field);
+  });
+}
+
+Scene ComposeDistances(const std::shared_ptr<const ShownFrame>& a,
+                       const std::shared_ptr<const ShownFrame>& b,
+                       const Choices& choices) {
+  Scene scene;
+  const FieldValues of_a = DistancesField(*a, *b);
+  const FieldValues of_b = DistancesField(*b, *a);
+  const ColorMap map = choices.map.value_or(ColorMap::kViridis);
+  const std::array<double, 2> ends = choices.distance_ends.value_or(FitScale(of_a));
+  scene.coloring = ColorByScale(of_a, map, ends);
+  scene.clouds.push_back({a, Transform::Identity(), std::move(scene.coloring.colors)});
+  scene.clouds.push_back({b, FirstFromSecond(*a, *b).value_or(Transform::Identity()),
+                          ColorByScale(of_b, map, ends).colors});
+  return scene;
+}
+
+}  // namespace railcast
