@@ -1,0 +1,81 @@
+#include "viewer/draw/cameras.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/number_text.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kViewAngle_deg = 36.0;
+
+CameraPlace AtOrigin(std::string_view name) {
+  if (name == "driver") return {{-1.0, 0.0, 0.3}, {60.0, 0.0, -1.5}};
+  if (name == "side") return {{45.0, -75.0, 18.0}, {45.0, 0.0, 0.0}};
+  if (name == "top") return {{55.0, 0.0, 150.0}, {55.0, 0.0, 0.0}, {1.0, 0.0, 0.0}};
+  return {{-20.0, 0.0, 12.0}, {35.0, 0.0, -2.0}};
+}
+
+std::string TripleText(const std::array<double, 3>& values) {
+  std::string text;
+  for (const double value : values) {
+    if (!text.empty()) text += ',';
+    text += NumberText(std::round(1e3 * value) / 1e3);
+  }
+  return text;
+}
+
+}  // namespace
+
+CameraPlace PresetCamera(std::string_view name, const std::array<double, 3>& origin_m) {
+  CameraPlace place = AtOrigin(name);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    place.eye_m[axis] += origin_m[axis];
+    place.target_m[axis] += origin_m[axis];
+  }
+  return place;
+}
+
+std::array<double, 3> OriginOf(const PlacedCloud& cloud) {
+  const std::vector<float>& positions_m = cloud.shown->positions_m;
+  std::array<double, 3> middle_m{};
+  bool surrounds = true;
+  for (std::size_t axis = 0; axis < 3 && !positions_m.empty(); ++axis) {
+    float lowest = positions_m[axis];
+    float highest = lowest;
+    for (std::size_t i = axis; i < positions_m.size(); i += 3) {
+      lowest = std::min(lowest, positions_m[i]);
+      highest = std::max(highest, positions_m[i]);
+    }
+    middle_m[axis] = 0.5 * (static_cast<double>(lowest) + static_cast<double>(highest));
+    const double size_m = static_cast<double>(highest) - static_cast<double>(lowest);
+    if (std::abs(middle_m[axis]) > std::max(2.0 * size_m, 300.0)) surrounds = false;
+  }
+  return surrounds ? std::array<double, 3>{} : middle_m;
+}
+
+void PlaceCamera(const CameraPlace& place, vtkCamera& camera) {
+  camera.SetPosition(place.eye_m.data());
+  camera.SetFocalPoint(place.target_m.data());
+  camera.SetViewUp(place.up.data());
+  camera.SetViewAngle(kViewAngle_deg);
+}
+
+CameraPlace PlaceOf(vtkCamera& camera) {
+  CameraPlace place;
+  camera.GetPosition(place.eye_m.data());
+  camera.GetFocalPoint(place.target_m.data());
+  camera.GetViewUp(place.up.data());
+  return place;
+}
+
+std::string CameraOptions(const CameraPlace& place) {
+  std::string text = "--eye ";
+  text += TripleText(place.eye_m);
+  text += " --target ";
+  text += TripleText(place.target_m);
+  return text;
+}
+
+}  // namespace railcast

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "viewer/color/rgb.h"
+
+namespace railcast {
+
+/// What is behind the points, and what words on it have.
+struct Background {
+  std::string_view name;
+  Rgb rgb{};
+  Rgb words{};
+};
+
+inline constexpr std::array<Background, 3> kBackgrounds = {{
+    {"dark", {26, 26, 28}, {225, 225, 225}},
+    {"black", {0, 0, 0}, {225, 225, 225}},
+    {"white", {255, 255, 255}, {30, 30, 30}},
+}};
+
+inline constexpr int kMaxPointSize_px = 20;
+
+/// How scenes are drawn.
+struct Look {
+  int point_size_px = 3;
+  Background background = kBackgrounds[0];
+};
+
+}  // namespace railcast

@@ -1,0 +1,103 @@
+#include "viewer/draw/scene_view.h"
+
+#include <vtkCamera.h>
+#include <vtkMatrix4x4.h>
+
+#include <cmath>
+#include <utility>
+
+#include "viewer/draw/drawing_actors.h"
+#include "viewer/draw/parts_actors.h"
+#include "viewer/draw/text_style.h"
+#include "viewer/draw/vtk_values.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kLineWidth_px = 1.5;
+
+}  // namespace
+
+SceneView::SceneView(double left, double right)
+    : left_(left), right_(right), scene_(std::make_shared<const Scene>()) {
+  renderer_->SetViewport(left, 0.0, right, 1.0);
+}
+
+std::array<int, 2> SceneView::SizeIn(const std::array<int, 2>& window_px) const {
+  return {static_cast<int>(std::lround((right_ - left_) * window_px[0])), window_px[1]};
+}
+
+void SceneView::ShowClouds(int point_size_px) {
+  while (clouds_.size() > scene_->clouds.size()) {
+    renderer_->RemoveActor(&clouds_.back()->actor());
+    clouds_.pop_back();
+  }
+  while (clouds_.size() < scene_->clouds.size()) {
+    clouds_.push_back(std::make_unique<CloudActor>());
+    renderer_->AddActor(&clouds_.back()->actor());
+  }
+  for (std::size_t i = 0; i < clouds_.size(); ++i) {
+    clouds_[i]->Show(scene_->clouds[i], point_size_px);
+  }
+}
+
+void SceneView::ShowSurfaces() {
+  auto old = std::exchange(surfaces_, {});
+  for (const PlacedParts& placed : scene_->surfaces) {
+    auto node = old.extract(placed.parts);
+    if (node) {
+      surfaces_.insert(std::move(node));
+    } else {
+      for (const auto& actor :
+           surfaces_[placed.parts] = MakeSurfaces(*placed.parts, scene_->labels)) {
+        renderer_->AddActor(actor);
+      }
+    }
+    for (const auto& actor : surfaces_[placed.parts]) {
+      vtkNew<vtkMatrix4x4> matrix;
+      SetMatrix(placed.view_from_parts, *matrix);
+      actor->SetUserMatrix(matrix);
+    }
+  }
+  for (const auto& [parts, actors] : old) {
+    for (const auto& actor : actors) renderer_->RemoveActor(actor);
+  }
+}
+
+void SceneView::Show(std::shared_ptr<const Scene> scene,
+                     const Look& look,
+                     const std::array<int, 2>& window_px) {
+  scene_ = std::move(scene);
+  height_px_ = window_px[1];
+  renderer_->SetBackground(VtkColor(look.background.rgb).data());
+  for (const auto& prop : fleeting_) renderer_->RemoveViewProp(prop);
+  fleeting_.clear();
+  ShowClouds(look.point_size_px);
+  ShowSurfaces();
+  const Drawing overlays = OnBackground(scene_->overlays, look.background);
+  if (!scene_->empty_beams.segments.empty()) {
+    fleeting_.emplace_back(MakeLines(scene_->empty_beams, 1.0));
+  }
+  if (!overlays.segments.empty()) {
+    fleeting_.emplace_back(MakeLines(overlays, kLineWidth_px));
+  }
+  for (auto& word : MakeWords(overlays, height_px_ / 50)) fleeting_.push_back(std::move(word));
+  const double margin_px = height_px_ / 60.0;
+  fleeting_.emplace_back(MakeText(scene_->status, look.background, height_px_, margin_px, margin_px,
+                                  TextAnchor::kLeftBottom));
+  legend_ = MakeLegend(scene_->coloring, scene_->beam_kinds, SizeIn(window_px), look.background);
+  fleeting_.insert(fleeting_.end(), legend_.props.begin(), legend_.props.end());
+  for (const auto& prop : fleeting_) renderer_->AddViewProp(prop);
+  renderer_->ResetCameraClippingRange();
+}
+
+void SceneView::ShowMarks(const Drawing& marks, const Look& look) {
+  for (const auto& prop : marks_) renderer_->RemoveViewProp(prop);
+  marks_.clear();
+  const Drawing visible = OnBackground(marks, look.background);
+  if (!visible.segments.empty()) marks_.emplace_back(MakeLines(visible, 2.0));
+  for (auto& word : MakeWords(visible, height_px_ / 40)) marks_.push_back(std::move(word));
+  for (const auto& prop : marks_) renderer_->AddViewProp(prop);
+}
+
+}  // namespace railcast

@@ -1,0 +1,50 @@
+#include "viewer/draw/text_style.h"
+
+#include "viewer/draw/vtk_values.h"
+
+namespace railcast {
+
+void StyleText(vtkTextProperty& text, const Background& background, int height_px) {
+  text.SetColor(VtkColor(background.words).data());
+  text.SetBold(false);
+  text.SetItalic(false);
+  text.SetShadow(false);
+  text.SetFontSize(height_px / 45);
+}
+
+vtkSmartPointer<vtkTextActor> MakeText(const std::string& words,
+                                       const Background& background,
+                                       int height_px,
+                                       double x_px,
+                                       double y_px,
+                                       TextAnchor anchor) {
+  auto actor = vtkSmartPointer<vtkTextActor>::New();
+  actor->SetInput(words.c_str());
+  vtkTextProperty& text = *actor->GetTextProperty();
+  StyleText(text, background, height_px);
+  switch (anchor) {
+    case TextAnchor::kLeftBottom:
+      break;
+    case TextAnchor::kLeftMiddle:
+      text.SetVerticalJustificationToCentered();
+      break;
+    case TextAnchor::kLeftTop:
+      text.SetVerticalJustificationToTop();
+      break;
+    case TextAnchor::kRightTop:
+      text.SetJustificationToRight();
+      text.SetVerticalJustificationToTop();
+      break;
+    case TextAnchor::kRightBottom:
+      text.SetJustificationToRight();
+      break;
+    case TextAnchor::kMiddle:
+      text.SetJustificationToCentered();
+      text.SetVerticalJustificationToCentered();
+      break;
+  }
+  actor->SetPosition(x_px, y_px);
+  return actor;
+}
+
+}  // namespace railcast

@@ -1,0 +1,247 @@
+#include "viewer/options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "viewer/color/field_values.h"
+#include "viewer/window/view_window.h"
+
+namespace railcast {
+namespace {
+
+constexpr int kMinSize_px = 64;
+constexpr int kMaxSize_px = 16384;
+
+/// What CLI11 fills in before it is checked.
+struct RawOptions {
+  std::string size = "1280x720";
+  std::string background = "dark";
+  std::string color_map;
+  std::vector<double> color_range;
+  std::vector<double> eye_m, target_m;
+  std::vector<std::string> show;
+  std::vector<std::string> picks;
+  std::string layout = "beside";
+};
+
+/// What --show takes, and which choice it makes.
+struct Showable {
+  std::string_view name;
+  bool OverlayChoices::*choice;
+};
+constexpr auto kShowables = std::to_array<Showable>({
+    {"surfaces", &OverlayChoices::mesh},
+    {"boxes", &OverlayChoices::boxes},
+    {"track", &OverlayChoices::track},
+    {"gauge", &OverlayChoices::gauge},
+    {"frustum", &OverlayChoices::frustum},
+    {"axes", &OverlayChoices::axes},
+    {"rings", &OverlayChoices::rings},
+});
+constexpr std::string_view kEmptyBeams = "empty-beams";
+
+[[noreturn]] void Fail(const std::string& option, const std::string& rule) {
+  throw CLI::ValidationError(option, rule);
+}
+
+std::array<int, 2> ParseSize(const std::string& text) {
+  std::array<int, 2> size_px{};
+  char end = '\0';
+  const int num_read = std::sscanf(text.c_str(), "%dx%d%c", &size_px[0], &size_px[1], &end);
+  for (const int length_px : size_px) {
+    if (num_read == 2 && length_px >= kMinSize_px && length_px <= kMaxSize_px) continue;
+    Fail("--size", "must be WIDTHxHEIGHT, each 64 to 16384 (got " + text + ")");
+  }
+  return size_px;
+}
+
+std::array<int, 2> ParsePick(const std::string& text, const std::array<int, 2>& size_px) {
+  std::array<int, 2> place_px{};
+  char end = '\0';
+  const int num_read = std::sscanf(text.c_str(), "%d,%d%c", &place_px[0], &place_px[1], &end);
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (num_read == 2 && place_px[i] >= 0 && place_px[i] < size_px[i]) continue;
+    Fail("--pick", "must be X,Y in pixels from the picture's upper left corner, within it (got " +
+                       text + ")");
+  }
+  return place_px;
+}
+
+std::array<double, 3> Triple(const std::vector<double>& values) {
+  return {values[0], values[1], values[2]};
+}
+
+template <typename Names>
+std::vector<std::string> Strings(const Names& names) {
+  return {names.begin(), names.end()};
+}
+
+std::vector<std::string> ShowableNames() {
+  std::vector<std::string> names = {std::string(kEmptyBeams)};
+  for (const Showable& showable : kShowables) names.emplace_back(showable.name);
+  return names;
+}
+
+std::vector<std::string> BackgroundNames() {
+  std::vector<std::string> names;
+  for (const Background& background : kBackgrounds) names.emplace_back(background.name);
+  return names;
+}
+
+void AddSourceOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
+  app.add_option("source", options.source,
+                 "A sequence directory, a .pcd, .ply or .bin file or a directory of such, a .pcap "
+                 "or .pcapng capture, or udp://HOST:PORT")
+      ->required();
+  app.add_option("--frame", options.frame, "Frame to begin with; default: the first");
+  app.add_option("--compare", options.compare, "A second source: its frames beside the first's");
+  app.add_option("--layout", raw.layout,
+                 "Of two sources: beside each other, or over each other, coloured by the distance "
+                 "to the other's nearest point")
+      ->check(CLI::IsMember({"beside", "distance"}))
+      ->capture_default_str();
+  app.add_option("--scenario", options.scenario,
+                 "What a stream or a file was made of: names of labels, track, surfaces");
+  app.add_option("--sensor", options.sensor, "Which of the scenario's sensors");
+  app.add_option("--wait", options.wait_s, "For a live source's first whole frame, in seconds")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+}
+
+void AddLookOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
+  app.add_option("--color-by", options.choices.color_by,
+                 "Default: label where there is one, else height. Also: any field of a foreign "
+                 "cloud");
+  app.add_option("--color-map", raw.color_map, "Of amounts; default: viridis")
+      ->check(CLI::IsMember(Strings(kColorMapNames)));
+  app.add_option("--color-range", raw.color_range,
+                 "Ends of the scale; default: 1st and 99th percentile of the first frame")
+      ->expected(2)
+      ->delimiter(',');
+  app.add_option("--point-size", options.look.point_size_px, "In pixels; default: by the height")
+      ->check(CLI::Range(1, kMaxPointSize_px));
+  app.add_option("--background", raw.background)
+      ->check(CLI::IsMember(BackgroundNames()))
+      ->capture_default_str();
+  app.add_option("--accumulate", options.choices.num_accumulated,
+                 "Frames shown at once, where they were in the world")
+      ->check(CLI::Range(std::size_t{1}, kMaxAccumulated))
+      ->capture_default_str();
+  app.add_option("--show", raw.show, "What is drawn over the points, with commas between")
+      ->check(CLI::IsMember(ShowableNames()))
+      ->delimiter(',');
+  app.add_option("--select", options.select, "Labels; all others are faint")->delimiter(',');
+}
+
+void AddCameraOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
+  const auto* const camera = app.add_option("--camera", options.camera, "From where to look")
+                                 ->check(CLI::IsMember(Strings(kCameraNames)))
+                                 ->capture_default_str();
+  auto* const eye = app.add_option("--eye", raw.eye_m,
+                                   "X,Y,Z of the eye in the sensor's axes, in metres, instead of "
+                                   "a camera")
+                        ->expected(3)
+                        ->delimiter(',');
+  auto* const target =
+      app.add_option("--target", raw.target_m, "Where it looks")->expected(3)->delimiter(',');
+  eye->needs(target)->excludes(const_cast<CLI::Option*>(camera));
+  target->needs(eye);
+  app.add_option("--size", raw.size, "Of the window or picture, in pixels")->capture_default_str();
+}
+
+void AddPictureOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
+  auto* const screenshot =
+      app.add_option("--screenshot", options.screenshot, "Write a PNG instead of opening a window");
+  auto* const video =
+      app.add_option("--video", options.video,
+                     "Write a PNG of each frame into this folder: 000000.png, 000001.png, ...");
+  app.add_option("--frames", options.num_pictures, "Of a video; default: to the recording's end")
+      ->check(CLI::PositiveNumber)
+      ->needs(video);
+  video->excludes(screenshot);
+  auto* const pick =
+      app.add_option("--pick", raw.picks,
+                     "Say all that is known of the point at X,Y of the picture; twice: measure "
+                     "from the first to the second")
+          ->expected(1)
+          ->take_all()
+          ->needs(screenshot);
+  app.add_flag("--trace", options.traces, "And what each effect made of its firing")->needs(pick);
+}
+
+void UseRaw(const RawOptions& raw, const CLI::App& app, ViewOptions& options) {
+  options.size_px = ParseSize(raw.size);
+  if (raw.picks.size() > 2) Fail("--pick", "must be given at most twice");
+  for (const std::string& pick : raw.picks) {
+    options.picks_px.push_back(ParsePick(pick, options.size_px));
+  }
+  options.look.background = *std::ranges::find(kBackgrounds, raw.background, &Background::name);
+  // Neighbouring beams of a spinning sensor then nearly touch.
+  if (app.count("--point-size") == 0) {
+    options.look.point_size_px =
+        std::max(2, static_cast<int>(std::lround(options.size_px[1] / 300.0)));
+  }
+  if (!raw.color_map.empty()) {
+    options.choices.map = static_cast<ColorMap>(std::ranges::find(kColorMapNames, raw.color_map) -
+                                                kColorMapNames.begin());
+  }
+  if (!raw.color_range.empty()) {
+    if (!(raw.color_range[0] < raw.color_range[1]) || !std::isfinite(raw.color_range[0]) ||
+        !std::isfinite(raw.color_range[1])) {
+      Fail("--color-range", "must be two numbers, the lower first");
+    }
+    auto& ends = raw.layout == "distance" ? options.choices.distance_ends : options.choices.ends;
+    ends = {raw.color_range[0], raw.color_range[1]};
+  }
+  options.choices.layout = raw.layout == "distance" ? Layout::kDistance : Layout::kBeside;
+  for (const std::string& name : raw.show) {
+    const auto* const found = std::ranges::find(kShowables, name, &Showable::name);
+    (found == kShowables.end() ? options.choices.empty_beams
+                               : options.choices.overlays.*found->choice) = true;
+  }
+  if (!raw.eye_m.empty()) {
+    options.place = {.eye_m = Triple(raw.eye_m), .target_m = Triple(raw.target_m)};
+    if (options.place->eye_m == options.place->target_m) {
+      Fail("--eye", "must be another place than --target");
+    }
+  }
+}
+
+void CheckTogether(const ViewOptions& options) {
+  if (options.frame && options.is_live()) Fail("--frame", "is not for a live source");
+  if (options.is_live() && !options.compare.empty()) {
+    Fail("--compare", "is not for a live source");
+  }
+  if (options.compare.string().starts_with(kLivePrefix)) {
+    Fail("--compare", "must be no live source");
+  }
+  if (options.compare.empty() && options.choices.layout != Layout::kBeside) {
+    Fail("--layout", "needs --compare");
+  }
+  if (options.sensor && options.scenario.empty()) Fail("--sensor", "needs --scenario");
+}
+
+}  // namespace
+
+bool ViewOptions::is_live() const {
+  return source.string().starts_with(kLivePrefix);
+}
+
+ViewOptions ParseOptions(CLI::App& app, int argc, char** argv) {
+  ViewOptions options;
+  RawOptions raw;
+  AddSourceOptions(app, options, raw);
+  AddLookOptions(app, options, raw);
+  AddCameraOptions(app, options, raw);
+  AddPictureOptions(app, options, raw);
+  app.add_flag("-v", options.is_verbose, "Say what is shown");
+  app.set_version_flag("--version", RAILCAST_VERSION);
+  app.footer("Keys in the window:\n" + ViewWindow::KeysText());
+  app.parse(argc, argv);
+  UseRaw(raw, app, options);
+  CheckTogether(options);
+  return options;
+}
+
+}  // namespace railcast

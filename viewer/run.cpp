@@ -1,0 +1,179 @@
+#include "viewer/run.h"
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <thread>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/scenario/scenario.h"
+#include "viewer/draw/display.h"
+#include "viewer/draw/stage.h"
+#include "viewer/frames/live_frames.h"
+#include "viewer/frames/recorded_frames.h"
+#include "viewer/picture/pictures.h"
+#include "viewer/session/picks.h"
+#include "viewer/session/session.h"
+#include "viewer/window/point_under.h"
+#include "viewer/window/view_window.h"
+
+namespace railcast {
+namespace {
+
+/// Of --select.
+/// @throws InputError if the recording knows no such label.
+std::set<std::uint32_t> SelectedLabels(const std::vector<std::string>& names,
+                                       const LabelTable& labels) {
+  std::set<std::uint32_t> ids;
+  for (const std::string& name : names) {
+    const Label* const label = labels.Find(name);
+    if (label == nullptr) {
+      throw InputError("--select: must be labels of the recording (got " + name + ")");
+    }
+    ids.insert(label->id);
+  }
+  return ids;
+}
+
+/// Waits for a live source's first whole frame.
+void WaitForFrame(LiveFrames& live, double wait_s) {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::duration<double>(wait_s);
+  while (!live.Poll() || live.num_lost_packets() > 0) {
+    if (!live.fault().empty()) throw InputError(live.fault());
+    if (Clock::now() > end) {
+      throw InputError(live.info().source.string() + ": no whole frame came within " +
+                       NumberText(wait_s) + " s");
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+}
+
+/// Says what is known of the points that were asked for, and shows it in the picture.
+void ShowPicks(const ViewOptions& options, const Session& session, Stage& stage) {
+  Picks picks;
+  std::size_t source = 0;
+  for (const auto& [x_px, y_px] : options.picks_px) {
+    // Pictures are counted from above, the window from below.
+    const auto hit = PointUnder(stage, session, {x_px, options.size_px[1] - 1 - y_px});
+    if (!hit) {
+      throw InputError("--pick: no point is near " + NumberText(x_px) + "," + NumberText(y_px));
+    }
+    source = hit->source;
+    picks.Add(*hit->shown, hit->point, session.source(source).info(), true);
+  }
+  if (picks.is_empty()) return;
+  stage.ShowPlate(Stage::Plate::kFacts, picks.facts());
+  std::printf("%s", picks.facts().c_str());
+  for (std::size_t i = 0; i < stage.num_views(); ++i) {
+    stage.ShowMarks(i, picks.MarksIn(stage.view(i).scene()));
+  }
+  if (!options.traces) return;
+  const std::string trace =
+      EffectTrace(session.source(source).info()).Of(*picks.recorded(), picks.slot());
+  stage.ShowPlate(Stage::Plate::kTrace, trace);
+  std::printf("\n%s", trace.c_str());
+}
+
+class Viewer {
+ public:
+  explicit Viewer(const ViewOptions& options) : options_(options), stage_(options.size_px) {
+    if (options.is_live()) OpenLive();
+    for (const auto& source : {options.source, options.compare}) {
+      if (source.empty() || options.is_live()) continue;
+      recorded_.push_back(std::make_unique<RecordedFrames>(source));
+      UseScenario(*recorded_.back());
+    }
+    std::vector<Frames*> frames;
+    if (live_) frames.push_back(live_.get());
+    for (const auto& each : recorded_) frames.push_back(each.get());
+    Choices choices = options.choices;
+    choices.labels = SelectedLabels(options.select, frames.front()->info().labels);
+    session_ = std::make_unique<Session>(std::move(frames), std::move(choices));
+    if (options.place) {
+      stage_.UseCamera(*options.place);
+    } else {
+      stage_.UseCamera(options.camera);
+    }
+  }
+
+  void Run() {
+    if (live_) std::fprintf(stderr, "listening at %s\n", EndpointText(live_->at()).c_str());
+    if (live_ && options_.is_headless()) WaitForFrame(*live_, options_.wait_s);
+    if (!live_ || options_.is_headless()) SeekFirst();
+    if (!options_.screenshot.empty()) {
+      DrawOffScreen();
+      ShowPicks(options_, *session_, stage_);
+      WritePicture(stage_.window(), options_.screenshot);
+    } else if (!options_.video.empty()) {
+      RecordVideo();
+    } else {
+      ViewWindow(*session_, live_.get(), stage_, options_.look).Run();
+    }
+  }
+
+ private:
+  void OpenLive() {
+    const std::string address = options_.source.string().substr(kLivePrefix.size());
+    live_ =
+        std::make_unique<LiveFrames>(options_.source.string(), ParseEndpoint(address, kStreamPort));
+    UseScenario(*live_);
+  }
+
+  template <typename Source>
+  void UseScenario(Source& source) {
+    if (options_.scenario.empty()) return;
+    source.UseScenario(PickSensor(ReadScenario(options_.scenario), options_.sensor));
+  }
+
+  void SeekFirst() {
+    const std::size_t place = options_.frame ? recorded_.front()->PlaceOf(*options_.frame) : 0;
+    if (!session_->Seek(place)) {
+      throw InputError(options_.source.string() + ": has no frame to show");
+    }
+    const std::string missing = session_->Missing();
+    if (!missing.empty()) throw InputError("--show: " + missing);
+    if (options_.is_verbose) {
+      for (const Scene& scene : session_->Compose()) {
+        std::fprintf(stderr, "%s\n", scene.status.c_str());
+      }
+    }
+  }
+
+  void DrawOffScreen() {
+    stage_.window().SetOffScreenRendering(true);
+    stage_.Show(session_->Compose(), options_.look);
+    stage_.window().Render();
+  }
+
+  /// The next frame, if there is one; a live source is waited for.
+  bool SeekNext() {
+    if (live_) WaitForFrame(*live_, options_.wait_s);
+    return session_->Seek(session_->place() + 1);
+  }
+
+  void RecordVideo() {
+    PictureFolder folder(options_.video);
+    do {
+      DrawOffScreen();
+      folder.Add(stage_.window());
+    } while (folder.num_pictures() != options_.num_pictures && SeekNext());
+  }
+
+  const ViewOptions& options_;
+  DisplayConnection display_;
+  Stage stage_;
+  std::unique_ptr<LiveFrames> live_;
+  std::vector<std::unique_ptr<RecordedFrames>> recorded_;
+  std::unique_ptr<Session> session_;
+};
+
+}  // namespace
+
+void RunViewer(const ViewOptions& options) {
+  Viewer(options).Run();
+}
+
+}  // namespace railcast

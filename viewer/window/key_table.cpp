@@ -1,0 +1,121 @@
+#include "viewer/window/key_table.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <limits>
+
+#include "viewer/window/view_window.h"
+
+namespace railcast {
+namespace {
+
+/// The value after `value` in an enumeration of `count`.
+template <typename Enum>
+Enum After(Enum value, std::size_t count) {
+  return static_cast<Enum>((static_cast<std::size_t>(value) + 1) % count);
+}
+
+}  // namespace
+
+std::span<const KeyBinding> KeyTable::Bindings() {
+  constexpr std::ptrdiff_t kFar = std::numeric_limits<int>::max();
+  static constexpr auto kBindings = std::to_array<KeyBinding>({
+      {"space", "space", "play or pause", [](ViewWindow& w) { w.TogglePlaying(); }},
+      {"Right", "right, left", "a frame on or back", [](ViewWindow& w) { w.Step(1); }},
+      {"Left", "", "", [](ViewWindow& w) { w.Step(-1); }},
+      {"Next", "page down, up", "ten frames on or back", [](ViewWindow& w) { w.Step(10); }},
+      {"Prior", "", "", [](ViewWindow& w) { w.Step(-10); }},
+      {"Home", "home, end", "first or last frame", [](ViewWindow& w) { w.Step(-kFar); }},
+      {"End", "", "", [](ViewWindow& w) { w.Step(kFar); }},
+      {"period", ". ,", "faster, slower",
+       [](ViewWindow& w) { w.player_.Faster(w.Now_s()), w.Refresh(); }},
+      {"comma", "", "", [](ViewWindow& w) { w.player_.Slower(w.Now_s()), w.Refresh(); }},
+      {"c", "c C", "color by the next or previous field",
+       [](ViewWindow& w) { w.session_.ColorByNext(true), w.Refresh(); }},
+      {"C", "", "", [](ViewWindow& w) { w.session_.ColorByNext(false), w.Refresh(); }},
+      {"m", "m", "next color map",
+       [](ViewWindow& w) {
+         auto& map = w.session_.choices().map;
+         map = map ? After(*map, kColorMapNames.size()) : ColorMap::kCividis;
+         w.Refresh();
+       }},
+      {"f", "f", "fit the scale to this frame",
+       [](ViewWindow& w) { w.session_.FitScale(), w.Refresh(); }},
+      {"bracketright", "] [", "larger or smaller points",
+       [](ViewWindow& w) {
+         w.look_.point_size_px = std::min(w.look_.point_size_px + 1, kMaxPointSize_px);
+         w.Refresh();
+       }},
+      {"bracketleft", "", "",
+       [](ViewWindow& w) {
+         w.look_.point_size_px = std::max(w.look_.point_size_px - 1, 1);
+         w.Refresh();
+       }},
+      {"b", "b", "next background",
+       [](ViewWindow& w) {
+         const auto at =
+             std::ranges::find(kBackgrounds, w.look_.background.name, &Background::name);
+         w.look_.background = at + 1 == kBackgrounds.end() ? kBackgrounds[0] : at[1];
+         w.Refresh();
+       }},
+      {"a", "a A", "accumulate twice or half as many frames",
+       [](ViewWindow& w) {
+         auto& count = w.session_.choices().num_accumulated;
+         count = std::min(2 * count, kMaxAccumulated);
+         w.Refresh();
+       }},
+      {"A", "", "",
+       [](ViewWindow& w) {
+         auto& count = w.session_.choices().num_accumulated;
+         count = std::max<std::size_t>(count / 2, 1);
+         w.Refresh();
+       }},
+      {"n", "n", "beams that brought nothing back",
+       [](ViewWindow& w) { w.Toggle(w.session_.choices().empty_beams); }},
+      {"s", "s", "surfaces of the scene",
+       [](ViewWindow& w) { w.Toggle(w.session_.choices().overlays.mesh); }},
+      {"o", "o", "boxes of objects",
+       [](ViewWindow& w) { w.Toggle(w.session_.choices().overlays.boxes); }},
+      {"t", "t", "track axis with chainage",
+       [](ViewWindow& w) { w.Toggle(w.session_.choices().overlays.track); }},
+      {"g", "g", "structure gauge",
+       [](ViewWindow& w) { w.Toggle(w.session_.choices().overlays.gauge); }},
+      {"u", "u", "sensor frustum",
+       [](ViewWindow& w) { w.Toggle(w.session_.choices().overlays.frustum); }},
+      {"x", "x", "sensor axes", [](ViewWindow& w) { w.Toggle(w.session_.choices().overlays.axes); }},
+      {"r", "r", "range rings",
+       [](ViewWindow& w) { w.Toggle(w.session_.choices().overlays.rings); }},
+      {"1", "1 2 3 4", "look from: driver, top, side, chase",
+       [](ViewWindow& w) { w.LookFrom(kCameraNames[0]); }},
+      {"2", "", "", [](ViewWindow& w) { w.LookFrom(kCameraNames[1]); }},
+      {"3", "", "", [](ViewWindow& w) { w.LookFrom(kCameraNames[2]); }},
+      {"4", "", "", [](ViewWindow& w) { w.LookFrom(kCameraNames[3]); }},
+      {"w", "w", "camera rides along, or stays in the world",
+       [](ViewWindow& w) { w.rides_along_ = !w.rides_along_, w.Refresh(); }},
+      {"k", "k", "print the camera as options",
+       [](ViewWindow& w) {
+         std::printf("%s\n", CameraOptions(w.stage_.camera_place()).c_str());
+         std::fflush(stdout);
+       }},
+      {"", "click", "all that is known of a point", nullptr},
+      {"", "shift+click", "measure from the point before", nullptr},
+      {"e", "e", "effect trace of the point", [](ViewWindow& w) { w.AskTrace(); }},
+      {"l", "l", "select the point's label, or no more (also: click in the legend)",
+       [](ViewWindow& w) { w.SelectPickedLabel(); }},
+      {"Escape", "escape", "no selection, no point",
+       [](ViewWindow& w) { w.ClearSelection(); }},
+      {"v", "v", "two recordings: beside each other, or by distance",
+       [](ViewWindow& w) {
+         auto& layout = w.session_.choices().layout;
+         layout = After(layout, 2);
+         w.Refresh();
+       }},
+      {"p", "p", "save the picture", [](ViewWindow& w) { w.SaveScreenshot(); }},
+      {"question", "?", "these keys", [](ViewWindow& w) { w.Toggle(w.shows_help_); }},
+      {"q", "q", "quit", [](ViewWindow& w) { w.interactor_->TerminateApp(); }},
+  });
+  return kBindings;
+}
+
+}  // namespace railcast
