@@ -50,7 +50,7 @@ DIMENSIONAL_WORD = re.compile(
     r"(?:^|_)(?:range|angle|azimuth|elevation|time|duration|speed|rate|height|length|width|radius"
     r"|distance)s?(?:_|$)")
 UNIT_SUFFIX = re.compile(
-    r"_(?:m|mm|km|um|nm|m2|m3|rad|mrad|deg|sr|s|ms|us|ns|hz|mps|mps2|kmph|radps|mmph|permil|per_[a-z]+\d?"
+    r"_(?:m|mm|km|um|nm|m2|m3|rad|mrad|deg|sr|s|ms|us|ns|hz|mps|mps2|kmph|radps|mmph|permil|px|per_[a-z]+\d?"
     # Without a unit, because divided by their like.
     r"|ratio|fraction|factor|exponent|probability)_?$")
 

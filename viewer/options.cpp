@@ -191,7 +191,7 @@ void UseRaw(const RawOptions& raw, const CLI::App& app, ViewOptions& options) {
         !std::isfinite(raw.color_range[1])) {
       Fail("--color-range", "must be two numbers, the lower first");
     }
-    auto& ends = raw.layout == "distance" ? options.choices.distance_ends : options.choices.ends;
+    auto& ends = raw.layout == "distance" ? options.choices.distance_ends_m : options.choices.ends;
     ends = {raw.color_range[0], raw.color_range[1]};
   }
   options.choices.layout = raw.layout == "distance" ? Layout::kDistance : Layout::kBeside;

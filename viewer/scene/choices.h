@@ -36,7 +36,7 @@ struct Choices {
   std::string color_by;         ///< Empty: the first frame's default.
   std::optional<ColorMap> map;  ///< Empty: coolwarm for differences, viridis for amounts.
   std::optional<std::array<double, 2>> ends;  ///< Of the scale; empty: fitted to the frame.
-  std::optional<std::array<double, 2>> distance_ends;  ///< Likewise, of Layout::kDistance.
+  std::optional<std::array<double, 2>> distance_ends_m;  ///< Likewise, of Layout::kDistance.
   std::size_t num_accumulated = 1;  ///< Frames shown at once, in world coordinates.
   bool empty_beams = false;         ///< The fan of firings that brought nothing back.
   OverlayChoices overlays;

@@ -222,7 +222,7 @@ Scene ComposeDistances(const std::shared_ptr<const ShownFrame>& a,
   const FieldValues of_a = DistancesField(*a, *b);
   const FieldValues of_b = DistancesField(*b, *a);
   const ColorMap map = choices.map.value_or(ColorMap::kViridis);
-  const std::array<double, 2> ends = choices.distance_ends.value_or(FitScale(of_a));
+  const std::array<double, 2> ends = choices.distance_ends_m.value_or(FitScale(of_a));
   scene.coloring = ColorByScale(of_a, map, ends);
   scene.clouds.push_back({a, Transform::Identity(), std::move(scene.coloring.colors)});
   scene.clouds.push_back({b, FirstFromSecond(*a, *b).value_or(Transform::Identity()),

@@ -10,17 +10,17 @@ void Player::Play(double now_s) {
   shown_at_s_ = now_s;
 }
 
-void Player::SetSpeed(double speed, double now_s) {
-  speed_ = std::clamp(speed, kLowestSpeed, kHighestSpeed);
+void Player::SetSpeed(double speed_factor, double now_s) {
+  speed_factor_ = std::clamp(speed_factor, kLowestSpeedFactor, kHighestSpeedFactor);
   shown_at_s_ = now_s;
 }
 
 void Player::Faster(double now_s) {
-  SetSpeed(2.0 * speed_, now_s);
+  SetSpeed(2.0 * speed_factor_, now_s);
 }
 
 void Player::Slower(double now_s) {
-  SetSpeed(0.5 * speed_, now_s);
+  SetSpeed(0.5 * speed_factor_, now_s);
 }
 
 void Player::Seek(std::size_t place, double now_s) {
@@ -30,7 +30,7 @@ void Player::Seek(std::size_t place, double now_s) {
 
 bool Player::Advance(double now_s, double period_s) {
   if (!is_playing_) return false;
-  const double step_s = period_s / speed_;
+  const double step_s = period_s / speed_factor_;
   const double num_due = std::floor((now_s - shown_at_s_) / step_s);
   if (num_due < 1.0) return false;
   place_ += static_cast<std::size_t>(num_due);

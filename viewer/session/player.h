@@ -8,13 +8,13 @@ namespace railcast {
 /// When which frame is shown: play, pause, step, speed. Times are those of any steady clock.
 class Player {
  public:
-  static constexpr double kLowestSpeed = 1.0 / 16.0;
-  static constexpr double kHighestSpeed = 16.0;
+  static constexpr double kLowestSpeedFactor = 1.0 / 16.0;
+  static constexpr double kHighestSpeedFactor = 16.0;
 
   [[nodiscard]] std::size_t place() const { return place_; }
   [[nodiscard]] bool is_playing() const { return is_playing_; }
   /// Frames follow each other so many times faster than they were recorded.
-  [[nodiscard]] double speed() const { return speed_; }
+  [[nodiscard]] double speed_factor() const { return speed_factor_; }
 
   void Play(double now_s);
   void Pause() { is_playing_ = false; }
@@ -30,11 +30,11 @@ class Player {
   bool Advance(double now_s, double period_s);
 
  private:
-  void SetSpeed(double speed, double now_s);
+  void SetSpeed(double speed_factor, double now_s);
 
   std::size_t place_{};
   bool is_playing_ = false;
-  double speed_ = 1.0;
+  double speed_factor_ = 1.0;
   double shown_at_s_{};  ///< When the frame at hand was due.
 };
 

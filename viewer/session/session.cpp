@@ -140,7 +140,7 @@ std::vector<Scene> Session::Compose() {
     return scenes;
   }
   scenes.push_back(ComposeDistances(shown_[0], shown_[1], choices_));
-  choices_.distance_ends = scenes[0].coloring.ends;
+  choices_.distance_ends_m = scenes[0].coloring.ends;
   for (std::size_t i = 0; i < sources_.size(); ++i) AddLine(StatusOf(i), scenes[0].status);
   AddLine(Missing(), scenes[0].status);
   return scenes;

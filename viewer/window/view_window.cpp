@@ -151,7 +151,7 @@ std::string ViewWindow::PlayText() const {
   std::array<char, 96> text{};
   std::snprintf(text.data(), text.size(), "%zu of %zu   %s x%g   ? for keys", session_.place() + 1,
                 session_.source(0).num_known(), player_.is_playing() ? "playing" : "paused",
-                player_.speed());
+                player_.speed_factor());
   return text.data();
 }
 
