@@ -11,7 +11,7 @@
 #include "analysis/compare/compare_report.h"
 #include "analysis/compare/comparison.h"
 #include "analysis/compare/pairing.h"
-#include "analysis/progress_line.h"
+#include "core/io/progress_line.h"
 #include "analysis/report/output.h"
 #include "analysis/thread_limit.h"
 #include "core/base/error.h"

@@ -7,7 +7,7 @@
 
 #include "analysis/commands.h"
 #include "analysis/detectability/detect_report.h"
-#include "analysis/progress_line.h"
+#include "core/io/progress_line.h"
 #include "analysis/report/output.h"
 #include "core/base/error.h"
 #include "core/base/number_text.h"

@@ -12,7 +12,7 @@
 #include "analysis/fit/fit_report.h"
 #include "analysis/fit/fitted_scenario.h"
 #include "analysis/fit/recorded_trials.h"
-#include "analysis/progress_line.h"
+#include "core/io/progress_line.h"
 #include "analysis/report/joined.h"
 #include "analysis/report/output.h"
 #include "analysis/thread_limit.h"

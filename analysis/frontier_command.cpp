@@ -10,7 +10,7 @@
 #include "analysis/frontier/measure.h"
 #include "analysis/frontier/pareto.h"
 #include "analysis/frontier/table.h"
-#include "analysis/progress_line.h"
+#include "core/io/progress_line.h"
 #include "core/fidelity/choice_report.h"
 #include "core/fidelity/sample_frames.h"
 #include "core/io/write_file.h"

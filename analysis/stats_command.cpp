@@ -5,7 +5,7 @@
 
 #include "analysis/commands.h"
 #include "analysis/distinct_sources.h"
-#include "analysis/progress_line.h"
+#include "core/io/progress_line.h"
 #include "analysis/report/output.h"
 #include "analysis/stats/statistics.h"
 #include "analysis/stats/statistics_report.h"

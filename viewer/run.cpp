@@ -1,5 +1,6 @@
 #include "viewer/run.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -8,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
+#include "core/io/progress_line.h"
 #include "core/scenario/scenario.h"
 #include "viewer/draw/display.h"
 #include "viewer/draw/stage.h"
@@ -154,12 +156,31 @@ class Viewer {
     return session_->Seek(session_->place() + 1);
   }
 
+  void ShowProgress(std::size_t num_pictures, const ProgressLine& line) const {
+    const std::string what = NumberText(num_pictures) + " pictures";
+    // A capture does not know its end, nor a live source.
+    const auto& num_frames = session_->source(0).info().num_frames;
+    std::optional<std::size_t> num_all = options_.num_pictures;
+    if (num_frames) {
+      const std::size_t num_left = *num_frames - session_->place() - 1 + num_pictures;
+      num_all = std::min(num_all.value_or(num_left), num_left);
+    }
+    if (num_all) {
+      line.Show(what, static_cast<double>(num_pictures) / static_cast<double>(*num_all));
+    } else {
+      line.Show(what);
+    }
+  }
+
   void RecordVideo() {
     PictureFolder folder(options_.video);
+    const ProgressLine line;
     do {
       DrawOffScreen();
       folder.Add(stage_.window());
+      ShowProgress(folder.num_pictures(), line);
     } while (folder.num_pictures() != options_.num_pictures && SeekNext());
+    line.End();
   }
 
   const ViewOptions& options_;

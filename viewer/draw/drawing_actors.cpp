@@ -77,11 +77,14 @@ vtkSmartPointer<vtkActor> MakeLines(const Drawing& drawing, double width_px) {
   auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);
   actor->GetProperty()->SetLighting(false);
+  BlendInOrder(*actor);
   actor->GetProperty()->SetLineWidth(static_cast<float>(width_px));
   return actor;
 }
 
-std::vector<vtkSmartPointer<vtkProp>> MakeWords(const Drawing& drawing, int size_px) {
+std::vector<vtkSmartPointer<vtkProp>> MakeWords(const Drawing& drawing,
+                                                int size_px,
+                                                const Background& background) {
   std::vector<vtkSmartPointer<vtkProp>> props;
   for (const Drawing::Word& word : drawing.words) {
     auto actor = vtkSmartPointer<vtkBillboardTextActor3D>::New();
@@ -93,6 +96,10 @@ std::vector<vtkSmartPointer<vtkProp>> MakeWords(const Drawing& drawing, int size
     text.SetColor(VtkColor(word.rgb).data());
     text.SetJustificationToCentered();
     text.SetVerticalJustificationToBottom();
+    // Among points of their own colour they could not be read.
+    text.SetBackgroundColor(VtkColor(background.rgb).data());
+    text.SetBackgroundOpacity(0.6);
+    actor->ForceOpaqueOn();
     props.emplace_back(actor);
   }
   return props;

@@ -15,7 +15,9 @@ namespace railcast {
 [[nodiscard]] vtkSmartPointer<vtkActor> MakeLines(const Drawing& drawing, double width_px);
 
 /// A drawing's words, facing the viewer. @param size_px Of their letters.
-[[nodiscard]] std::vector<vtkSmartPointer<vtkProp>> MakeWords(const Drawing& drawing, int size_px);
+[[nodiscard]] std::vector<vtkSmartPointer<vtkProp>> MakeWords(const Drawing& drawing,
+                                                              int size_px,
+                                                              const Background& background);
 
 /// Whether anything of it can be seen: light lines on a white background cannot.
 [[nodiscard]] Drawing OnBackground(Drawing drawing, const Background& background);

@@ -56,6 +56,7 @@ std::vector<vtkSmartPointer<vtkActor>> MakeSurfaces(const std::vector<Part>& par
     actor->GetProperty()->SetColor(VtkColor(label == nullptr ? kUnknownLabel : label->rgb).data());
     actor->GetProperty()->SetInterpolationToFlat();
     actor->GetProperty()->SetOpacity(kOpacity);
+    BlendInOrder(*actor);
     actors.push_back(std::move(actor));
   }
   return actors;

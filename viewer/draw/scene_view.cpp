@@ -81,7 +81,8 @@ void SceneView::Show(std::shared_ptr<const Scene> scene,
   if (!overlays.segments.empty()) {
     fleeting_.emplace_back(MakeLines(overlays, kLineWidth_px));
   }
-  for (auto& word : MakeWords(overlays, height_px_ / 50)) fleeting_.push_back(std::move(word));
+  for (auto& word : MakeWords(overlays, height_px_ / 50, look.background))
+    fleeting_.push_back(std::move(word));
   const double margin_px = height_px_ / 60.0;
   fleeting_.emplace_back(MakeText(scene_->status, look.background, height_px_, margin_px, margin_px,
                                   TextAnchor::kLeftBottom));
@@ -96,7 +97,8 @@ void SceneView::ShowMarks(const Drawing& marks, const Look& look) {
   marks_.clear();
   const Drawing visible = OnBackground(marks, look.background);
   if (!visible.segments.empty()) marks_.emplace_back(MakeLines(visible, 2.0));
-  for (auto& word : MakeWords(visible, height_px_ / 40)) marks_.push_back(std::move(word));
+  for (auto& word : MakeWords(visible, height_px_ / 40, look.background))
+    marks_.push_back(std::move(word));
   for (const auto& prop : marks_) renderer_->AddViewProp(prop);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <vtkActor.h>
 #include <vtkMatrix4x4.h>
 
 #include <array>
@@ -21,6 +22,12 @@ inline void SetMatrix(const Transform& transform, vtkMatrix4x4& matrix) {
       matrix.SetElement(row, column, transform.matrix()(row, column));
     }
   }
+}
+
+/// Blends what is translucent with what was drawn before it. VTK's own way, whatever the order,
+/// takes two passes over all pixels in floating point: 50 ms a frame without a graphics card.
+inline void BlendInOrder(vtkActor& actor) {
+  actor.ForceOpaqueOn();
 }
 
 }  // namespace railcast

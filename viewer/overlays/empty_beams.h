@@ -13,7 +13,7 @@ inline constexpr double kEmptyBeamStub_m = 12.0;
 
 /// How faint they are: those that hit something, and those into the open, of which there are many.
 inline constexpr float kLostBeamOpacity = 0.2F;
-inline constexpr float kOpenBeamOpacity = 0.03F;
+inline constexpr float kOpenBeamOpacity = 0.012F;
 
 /// The fan of a frame's firings that brought nothing back: a segment along each, by its slot, in
 /// the colour of its outcome (viewer/color/outcome_colors.h), of `kUnknownOutcomeRgb` where the

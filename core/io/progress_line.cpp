@@ -1,4 +1,4 @@
-#include "analysis/progress_line.h"
+#include "core/io/progress_line.h"
 
 #include <unistd.h>
 
