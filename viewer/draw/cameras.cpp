@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "core/base/number_text.h"
 
@@ -26,19 +28,8 @@ std::string TripleText(const std::array<double, 3>& values) {
   return text;
 }
 
-}  // namespace
-
-CameraPlace PresetCamera(std::string_view name, const std::array<double, 3>& origin_m) {
-  CameraPlace place = AtOrigin(name);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    place.eye_m[axis] += origin_m[axis];
-    place.target_m[axis] += origin_m[axis];
-  }
-  return place;
-}
-
-std::array<double, 3> OriginOf(const PlacedCloud& cloud) {
-  const std::vector<float>& positions_m = cloud.shown->positions_m;
+/// The sensor's place as presets take it.
+std::array<double, 3> OriginOf(const std::vector<float>& positions_m) {
   std::array<double, 3> middle_m{};
   bool surrounds = true;
   for (std::size_t axis = 0; axis < 3 && !positions_m.empty(); ++axis) {
@@ -53,6 +44,49 @@ std::array<double, 3> OriginOf(const PlacedCloud& cloud) {
     if (std::abs(middle_m[axis]) > std::max(2.0 * size_m, 300.0)) surrounds = false;
   }
   return surrounds ? std::array<double, 3>{} : middle_m;
+}
+
+double QuantileOf(std::vector<double> values, double share) {
+  const auto at = values.begin() +
+                  static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::ranges::nth_element(values, at);
+  return *at;
+}
+
+/// Sees 95 of 100 points about the median place.
+CameraPlace PlaceForAll(const std::vector<float>& positions_m) {
+  std::array<double, 3> middle_m{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::vector<double> values_m;
+    for (std::size_t i = axis; i < positions_m.size(); i += 3) {
+      values_m.push_back(static_cast<double>(positions_m[i]));
+    }
+    middle_m[axis] = QuantileOf(std::move(values_m), 0.5);
+  }
+  std::vector<double> distances_m;
+  for (std::size_t i = 0; i < positions_m.size(); i += 3) {
+    distances_m.push_back(std::hypot(static_cast<double>(positions_m[i]) - middle_m[0],
+                                     static_cast<double>(positions_m[i + 1]) - middle_m[1],
+                                     static_cast<double>(positions_m[i + 2]) - middle_m[2]));
+  }
+  const double radius_m = std::max(1.0, QuantileOf(std::move(distances_m), 0.95));
+  const double away_m = radius_m / std::tan(0.5 * kViewAngle_deg * std::numbers::pi / 180.0);
+  CameraPlace place{.target_m = middle_m};
+  place.eye_m = {middle_m[0] - 0.8 * away_m, middle_m[1], middle_m[2] + 0.6 * away_m};
+  return place;
+}
+
+}  // namespace
+
+CameraPlace PresetCamera(std::string_view name, const std::vector<float>& positions_m) {
+  if (name == "all" && !positions_m.empty()) return PlaceForAll(positions_m);
+  const std::array<double, 3> origin_m = OriginOf(positions_m);
+  CameraPlace place = AtOrigin(name);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    place.eye_m[axis] += origin_m[axis];
+    place.target_m[axis] += origin_m[axis];
+  }
+  return place;
 }
 
 void PlaceCamera(const CameraPlace& place, vtkCamera& camera) {

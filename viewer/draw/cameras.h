@@ -6,8 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
-
-#include "viewer/scene/scene.h"
+#include <vector>
 
 namespace railcast {
 
@@ -19,17 +18,16 @@ struct CameraPlace {
 };
 
 /// "driver" from the sensor, "chase" from above and behind it, both forward; "side" from the right;
-/// "top" from above, forward up.
-inline constexpr std::array<std::string_view, 4> kCameraNames = {"driver", "top", "side", "chase"};
+/// "top" from above, forward up; "all" like "chase", from as far as the cloud needs.
+inline constexpr std::array<std::string_view, 5> kCameraNames = {"driver", "top", "side", "chase",
+                                                                 "all"};
 
+/// All but "all" are relative to the sensor, the cloud's origin. A cloud that does not surround it,
+/// one in world coordinates say, is looked at as if its sensor were at its middle.
 /// @param name One of kCameraNames.
-/// @param origin_m The sensor's place: see OriginOf.
+/// @param positions_m x, y, z of each point in turn; may be empty.
 [[nodiscard]] CameraPlace PresetCamera(std::string_view name,
-                                       const std::array<double, 3>& origin_m);
-
-/// Where a cloud's sensor is: its origin. A cloud that does not surround it, one in world
-/// coordinates say, is looked at as if its sensor were at its middle.
-[[nodiscard]] std::array<double, 3> OriginOf(const PlacedCloud& cloud);
+                                       const std::vector<float>& positions_m);
 
 void PlaceCamera(const CameraPlace& place, vtkCamera& camera);
 [[nodiscard]] CameraPlace PlaceOf(vtkCamera& camera);

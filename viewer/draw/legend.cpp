@@ -128,7 +128,7 @@ void ShowScale(const Coloring& coloring,
   legend.props.emplace_back(bar);
   // VTK's own title would be cut off at the edge.
   const auto title = MakeText(coloring.title, background, size_px[1], 0.985 * size_px[0],
-                              (kFoot + kHeight + 0.01) * size_px[1], TextAnchor::kRightBottom);
+                              (kFoot + kHeight + 0.025) * size_px[1], TextAnchor::kRightBottom);
   legend.props.emplace_back(title);
 }
 

@@ -55,8 +55,9 @@ void Stage::Show(std::vector<Scene> scenes, const Look& look) {
 
 void Stage::PlaceNow() {
   const Scene& scene = views_.front()->scene();
-  const auto origin_m = scene.clouds.empty() ? std::array<double, 3>{} : OriginOf(scene.clouds[0]);
-  PlaceCamera(place_ ? *place_ : PresetCamera(preset_, origin_m), *camera_);
+  static const std::vector<float> kNoPoints;
+  const auto& positions_m = scene.clouds.empty() ? kNoPoints : scene.clouds[0].shown->positions_m;
+  PlaceCamera(place_ ? *place_ : PresetCamera(preset_, positions_m), *camera_);
   for (const auto& view : views_) view->renderer().ResetCameraClippingRange();
   is_placed_ = !scene.clouds.empty();
 }

@@ -86,7 +86,10 @@ void ViewWindow::Run() {
 
 void ViewWindow::OnTimer() {
   if (live_ != nullptr) {
-    if (live_->Poll() && player_.is_playing()) SeekTo(live_->num_known() - 1);
+    if (live_->Poll() && player_.is_playing()) {
+      NoteFrame();
+      SeekTo(live_->num_known() - 1);
+    }
   } else if (player_.Advance(Now_s(), session_.Period_s())) {
     const std::size_t place = player_.place();
     if (!session_.Seek(place)) {
@@ -95,6 +98,7 @@ void ViewWindow::OnTimer() {
       (void)session_.Seek(session_.LastPlace());
       player_.Seek(session_.place(), Now_s());
     }
+    NoteFrame();
     Refresh();
   }
   if (picks_.is_empty() || !traces_[picked_source_]) return;
@@ -142,17 +146,29 @@ void ViewWindow::LookFrom(std::string_view preset) {
   Refresh();
 }
 
+void ViewWindow::NoteFrame() {
+  frame_times_s_.push_back(Now_s());
+  while (frame_times_s_.back() - frame_times_s_.front() > 1.0) frame_times_s_.pop_front();
+}
+
 std::string ViewWindow::PlayText() const {
   if (live_ != nullptr) {
     std::string text = live_->StatusText();
     if (!player_.is_playing()) text += "   paused";
     return text;
   }
-  std::array<char, 96> text{};
-  std::snprintf(text.data(), text.size(), "%zu of %zu   %s x%g   ? for keys", session_.place() + 1,
+  std::array<char, 128> text{};
+  std::snprintf(text.data(), text.size(), "%zu of %zu   %s x%g", session_.place() + 1,
                 session_.source(0).num_known(), player_.is_playing() ? "playing" : "paused",
                 player_.speed_factor());
-  return text.data();
+  std::string words = text.data();
+  if (player_.is_playing() && frame_times_s_.size() > 1) {
+    const double elapsed_s = frame_times_s_.back() - frame_times_s_.front();
+    std::snprintf(text.data(), text.size(), "   %.1f frames/s",
+                  static_cast<double>(frame_times_s_.size() - 1) / elapsed_s);
+    words += text.data();
+  }
+  return words + "   ? for keys";
 }
 
 void ViewWindow::Refresh() {

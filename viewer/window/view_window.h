@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <exception>
 #include <functional>
 #include <memory>
@@ -56,6 +57,8 @@ class ViewWindow {
   /// Makes everything anew from the session.
   void Refresh();
   void RefreshMarks();
+  /// Notes that another frame is shown.
+  void NoteFrame();
   [[nodiscard]] std::string PlayText() const;
   void Toggle(bool& choice);
   void LookFrom(std::string_view preset);
@@ -72,6 +75,7 @@ class ViewWindow {
   Player player_;
   Picks picks_;
   std::vector<std::unique_ptr<EffectTrace>> traces_;  ///< By source; made when first asked.
+  std::deque<double> frame_times_s_;  ///< When the last frames were shown, a second back.
   std::size_t picked_source_{};
   bool rides_along_ = true;
   bool shows_help_ = false;
