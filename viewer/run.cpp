@@ -146,7 +146,12 @@ class Viewer {
 
   void DrawOffScreen() {
     stage_.window().SetOffScreenRendering(true);
-    stage_.Show(session_->Compose(), options_.look);
+    std::vector<Scene> scenes = session_->Compose();
+    if (live_) {
+      scenes.front().status += '\n';
+      scenes.front().status += live_->StatusText();
+    }
+    stage_.Show(std::move(scenes), options_.look);
     stage_.window().Render();
   }
 

@@ -1,15 +1,27 @@
 #include "viewer/frames/frames.h"
 
+#include <utility>
+
+#include "core/rail/rail_world.h"
+#include "core/scenario/scenario.h"
+#include "viewer/frames/world_objects.h"
+
 namespace railcast {
 
 void Frames::UseScenario(const ScenarioSpec& scenario) {
+  world_ = MakeWorld(scenario);
   info_.scenario = scenario;
   info_.labels = LabelTable(scenario.labels);
   info_.materials.clear();
   const MaterialLibrary library(scenario.materials);
-  for (const Material& material : library.materials()) {
-    info_.materials.push_back(material.name);
+  for (const Material& material : library.materials()) info_.materials.push_back(material.name);
+}
+
+std::shared_ptr<const ShownFrame> Frames::Shown(RecordedFrame recorded) const {
+  if (world_ && recorded.has_pose && recorded.objects.empty()) {
+    recorded.objects = ObjectsAt(*world_, info_.labels, recorded.frame);
   }
+  return std::make_shared<const ShownFrame>(MakeShownFrame(std::move(recorded)));
 }
 
 }  // namespace railcast

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "core/io/recording/recording.h"
+#include "core/scene/world.h"
 #include "viewer/frames/shown_frame.h"
 
 namespace railcast {
@@ -15,8 +16,9 @@ class Frames {
 
   [[nodiscard]] const RecordingInfo& info() const { return info_; }
   /// Says what the frames were made of where they do not say it themselves: labels, materials,
-  /// world.
+  /// world and its objects.
   /// @param scenario Of one sensor.
+  /// @throws InputError if its world cannot be built.
   void UseScenario(const ScenarioSpec& scenario);
   /// Null if there is no such frame: not yet, not any more, or beyond the end.
   /// @throws InputError with one line if it cannot be read.
@@ -25,7 +27,12 @@ class Frames {
   [[nodiscard]] virtual std::size_t num_known() const = 0;
 
  protected:
+  [[nodiscard]] std::shared_ptr<const ShownFrame> Shown(RecordedFrame recorded) const;
+
   RecordingInfo info_;
+
+ private:
+  std::shared_ptr<const World> world_;  ///< Of UseScenario; null without.
 };
 
 }  // namespace railcast

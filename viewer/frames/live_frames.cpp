@@ -36,8 +36,7 @@ bool LiveFrames::Poll() {
   num_lost_packets_ = received->num_lost_packets();
   fault_.clear();
   try {
-    kept_.push_back(std::make_shared<const ShownFrame>(
-        MakeShownFrame(MakeLiveFrame(*received, info_.source.string()))));
+    kept_.push_back(Shown(MakeLiveFrame(*received, info_.source.string())));
   } catch (const InputError& error) {
     fault_ = error.what();
     return false;

@@ -66,8 +66,7 @@ std::shared_ptr<const ShownFrame> RecordedFrames::Get(std::size_t place) {
   while (first_reader_ + readers_.size() <= place) {
     if (!Advance()) return nullptr;
   }
-  auto shown =
-      std::make_shared<const ShownFrame>(MakeShownFrame(readers_[place - first_reader_]()));
+  auto shown = Shown(readers_[place - first_reader_]());
   kept_.emplace_front(place, shown);
   num_kept_slots_ += shown->frame().num_slots();
   while (num_kept_slots_ > kMaxKeptSlots && kept_.size() > 1) {

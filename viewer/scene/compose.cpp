@@ -152,8 +152,9 @@ std::string Composer::Missing(const ShownFrame& shown, const OverlayChoices& cho
   if (needs_world && !shown.recorded->has_pose) {
     return "track, gauge and surfaces need the sensor's pose, which is not known";
   }
-  if (choices.boxes && shown.recorded->objects.empty() && info_.kind != "sequence") {
-    return "boxes need a sequence with its objects";
+  if (choices.boxes && shown.recorded->objects.empty() && info_.kind != "sequence" &&
+      !(world_ && shown.recorded->has_pose)) {
+    return "boxes need a sequence's objects, or a scenario and poses";
   }
   return {};
 }

@@ -54,6 +54,7 @@ void Session::ColorByNext(bool forward) {
 
 void Session::FitScale() {
   choices_.ends.reset();
+  choices_.distance_ends_m.reset();
   const bool is_colorable =
       std::ranges::count(ColorableFields(*shown_.front()->recorded), choices_.color_by) > 0;
   if (is_colorable) FitChoices(*shown_.front(), choices_);
