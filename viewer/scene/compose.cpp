@@ -144,15 +144,19 @@ void Composer::AddEmptyBeams(const RecordedFrame& recorded, Scene& scene) const 
   scene.beam_kinds = BeamKinds(recorded);
 }
 
-std::string Composer::Missing(const ShownFrame& shown, const OverlayChoices& choices) const {
-  const bool needs_world = choices.track || choices.gauge || choices.mesh;
+std::string Composer::Missing(const ShownFrame& shown, const Choices& choices) const {
+  const OverlayChoices& overlays = choices.overlays;
+  const bool needs_world = overlays.track || overlays.gauge || overlays.mesh;
+  if (choices.empty_beams && !shown.recorded->is_grid) {
+    return "beams without return need a frame in which every firing has its place";
+  }
   if (needs_world && !world_) {
     return "track, gauge and surfaces need the scenario, which is not known";
   }
   if (needs_world && !shown.recorded->has_pose) {
     return "track, gauge and surfaces need the sensor's pose, which is not known";
   }
-  if (choices.boxes && shown.recorded->objects.empty() && info_.kind != "sequence" &&
+  if (overlays.boxes && shown.recorded->objects.empty() && info_.kind != "sequence" &&
       !(world_ && shown.recorded->has_pose)) {
     return "boxes need a sequence's objects, or a scenario and poses";
   }

@@ -26,7 +26,7 @@ class Composer {
 
   /// What of the choices cannot be drawn, and why: "the scenario is not known: no track, ...";
   /// empty if all can.
-  [[nodiscard]] std::string Missing(const ShownFrame& shown, const OverlayChoices& choices) const;
+  [[nodiscard]] std::string Missing(const ShownFrame& shown, const Choices& choices) const;
 
   /// @param frames The one to be shown and then those accumulated with it, the latest first: drawn
   ///   where they were in the world if all have poses, else left out.

@@ -92,7 +92,7 @@ std::string Session::Missing() const {
     return "frames without poses are not accumulated";
   }
   for (std::size_t i = 0; i < sources_.size(); ++i) {
-    std::string missing = sources_[i].composer.Missing(*shown_[i], choices_.overlays);
+    std::string missing = sources_[i].composer.Missing(*shown_[i], choices_);
     if (!missing.empty()) return missing;
   }
   return {};
