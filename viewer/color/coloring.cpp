@@ -8,19 +8,19 @@
 #include "core/base/error.h"
 #include "core/base/number_text.h"
 #include "core/frame/outcome.h"
+#include "viewer/color/okabe_ito.h"
 #include "viewer/color/outcome_colors.h"
 
 namespace railcast {
 namespace {
 
-// Okabe and Ito's palette, which the colour-blind can tell apart.
-constexpr std::array<Rgb, 8> kPalette = {{{86, 180, 233},
-                                          {230, 159, 0},
-                                          {0, 158, 115},
-                                          {240, 228, 66},
-                                          {213, 94, 0},
-                                          {204, 121, 167},
-                                          {0, 114, 178},
+constexpr std::array<Rgb, 8> kPalette = {{kSkyBlue,
+                                          kOrange,
+                                          kBluishGreen,
+                                          kYellow,
+                                          kVermillion,
+                                          kReddishPurple,
+                                          kBlue,
                                           {200, 200, 200}}};
 constexpr Rgb kNoObject = {120, 120, 120};
 

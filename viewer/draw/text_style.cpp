@@ -22,27 +22,8 @@ vtkSmartPointer<vtkTextActor> MakeText(const std::string& words,
   actor->SetInput(words.c_str());
   vtkTextProperty& text = *actor->GetTextProperty();
   StyleText(text, background, height_px);
-  switch (anchor) {
-    case TextAnchor::kLeftBottom:
-      break;
-    case TextAnchor::kLeftMiddle:
-      text.SetVerticalJustificationToCentered();
-      break;
-    case TextAnchor::kLeftTop:
-      text.SetVerticalJustificationToTop();
-      break;
-    case TextAnchor::kRightTop:
-      text.SetJustificationToRight();
-      text.SetVerticalJustificationToTop();
-      break;
-    case TextAnchor::kRightBottom:
-      text.SetJustificationToRight();
-      break;
-    case TextAnchor::kMiddle:
-      text.SetJustificationToCentered();
-      text.SetVerticalJustificationToCentered();
-      break;
-  }
+  if (anchor == TextAnchor::kLeftMiddle) text.SetVerticalJustificationToCentered();
+  if (anchor == TextAnchor::kRightBottom) text.SetJustificationToRight();
   actor->SetPosition(x_px, y_px);
   return actor;
 }
