@@ -93,7 +93,7 @@ class Viewer {
     for (const auto& each : recorded_) frames.push_back(each.get());
     Choices choices = options.choices;
     choices.labels = SelectedLabels(options.select, frames.front()->info().labels);
-    session_ = std::make_unique<Session>(std::move(frames), std::move(choices));
+    session_ = std::make_unique<Session>(frames, std::move(choices));
     if (options.place) {
       stage_.UseCamera(*options.place);
     } else {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "core/base/number_text.h"
 
@@ -29,7 +30,7 @@ std::string TripleText(const std::array<double, 3>& values) {
 }
 
 /// The sensor's place as presets take it.
-std::array<double, 3> OriginOf(const std::vector<float>& positions_m) {
+std::array<double, 3> OriginOf(std::span<const float> positions_m) {
   std::array<double, 3> middle_m{};
   bool surrounds = true;
   for (std::size_t axis = 0; axis < 3 && !positions_m.empty(); ++axis) {
@@ -54,7 +55,7 @@ double QuantileOf(std::vector<double> values, double share) {
 }
 
 /// Sees 95 of 100 points about the median place.
-CameraPlace PlaceForAll(const std::vector<float>& positions_m) {
+CameraPlace PlaceForAll(std::span<const float> positions_m) {
   std::array<double, 3> middle_m{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     std::vector<double> values_m;
@@ -78,7 +79,7 @@ CameraPlace PlaceForAll(const std::vector<float>& positions_m) {
 
 }  // namespace
 
-CameraPlace PresetCamera(std::string_view name, const std::vector<float>& positions_m) {
+CameraPlace PresetCamera(std::string_view name, std::span<const float> positions_m) {
   if (name == "all" && !positions_m.empty()) return PlaceForAll(positions_m);
   const std::array<double, 3> origin_m = OriginOf(positions_m);
   CameraPlace place = AtOrigin(name);

@@ -3,10 +3,9 @@
 #include <vtkCamera.h>
 
 #include <array>
-#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace railcast {
 
@@ -26,8 +25,7 @@ inline constexpr std::array<std::string_view, 5> kCameraNames = {"driver", "top"
 /// one in world coordinates say, is looked at as if its sensor were at its middle.
 /// @param name One of kCameraNames.
 /// @param positions_m x, y, z of each point in turn; may be empty.
-[[nodiscard]] CameraPlace PresetCamera(std::string_view name,
-                                       const std::vector<float>& positions_m);
+[[nodiscard]] CameraPlace PresetCamera(std::string_view name, std::span<const float> positions_m);
 
 void PlaceCamera(const CameraPlace& place, vtkCamera& camera);
 [[nodiscard]] CameraPlace PlaceOf(vtkCamera& camera);

@@ -48,7 +48,7 @@ void CloudActor::Show(const PlacedCloud& cloud, int point_size_px) {
   constexpr int kOurs = 1;
   positions_->SetArray(positions, static_cast<vtkIdType>(shown_->positions_m.size()), kOurs);
   rgb_->SetArray(reinterpret_cast<unsigned char*>(colors_.data()),
-                 static_cast<vtkIdType>(3 * colors_.size()), kOurs);
+                 3 * static_cast<vtkIdType>(colors_.size()), kOurs);
   if (vertices_->GetNumberOfConnectivityIds() != static_cast<vtkIdType>(shown_->num_points())) {
     MakeVertices(shown_->num_points(), *vertices_);
   }

@@ -55,14 +55,15 @@ Rgb Darkened(const Rgb& rgb) {
 vtkSmartPointer<vtkActor> MakeLines(const Drawing& drawing, double width_px) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToFloat();
-  points->SetNumberOfPoints(static_cast<vtkIdType>(2 * drawing.segments.size()));
+  points->SetNumberOfPoints(2 * static_cast<vtkIdType>(drawing.segments.size()));
   vtkNew<vtkUnsignedCharArray> colors;
   colors->SetNumberOfComponents(4);
   colors->SetNumberOfTuples(points->GetNumberOfPoints());
   vtkIdType next = 0;
   for (const Drawing::Segment& segment : drawing.segments) {
     for (const Eigen::Vector3f* const end_m : {&segment.from_m, &segment.to_m}) {
-      points->SetPoint(next, end_m->x(), end_m->y(), end_m->z());
+      const Eigen::Vector3d place_m = end_m->cast<double>();
+      points->SetPoint(next, place_m.data());
       const auto& [red, green, blue] = segment.rgb;
       const std::array<unsigned char, 4> rgba = {red, green, blue, Alpha(segment.opacity)};
       colors->SetTypedTuple(next++, rgba.data());

@@ -83,7 +83,7 @@ class KindList {
   void Add(const std::string& words, Legend& legend) {
     const double left_px = 0.02 * height_px_ + 0.96 * line_px_;
     legend.props.emplace_back(
-        MakeText(words, background_, height_px_, left_px, middle_px_, TextAnchor::kLeftMiddle));
+        MakeText(words, background_, height_px_, {left_px, middle_px_}, TextAnchor::kLeftMiddle));
     middle_px_ -= line_px_;
   }
 
@@ -127,8 +127,10 @@ void ShowScale(const Coloring& coloring,
   StyleText(*bar->GetLabelTextProperty(), background, size_px[1]);
   legend.props.emplace_back(bar);
   // VTK's own title would be cut off at the edge.
-  const auto title = MakeText(coloring.title, background, size_px[1], 0.985 * size_px[0],
-                              (kFoot + kHeight + 0.025) * size_px[1], TextAnchor::kRightBottom);
+  const std::array<double, 2> title_px = {0.985 * size_px[0],
+                                          (kFoot + kHeight + 0.025) * size_px[1]};
+  const auto title =
+      MakeText(coloring.title, background, size_px[1], title_px, TextAnchor::kRightBottom);
   legend.props.emplace_back(title);
 }
 

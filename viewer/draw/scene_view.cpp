@@ -84,8 +84,8 @@ void SceneView::Show(std::shared_ptr<const Scene> scene,
   for (auto& word : MakeWords(overlays, height_px_ / 50, look.background))
     fleeting_.push_back(std::move(word));
   const double margin_px = height_px_ / 60.0;
-  fleeting_.emplace_back(MakeText(scene_->status, look.background, height_px_, margin_px, margin_px,
-                                  TextAnchor::kLeftBottom));
+  fleeting_.emplace_back(MakeText(scene_->status, look.background, height_px_,
+                                  {margin_px, margin_px}, TextAnchor::kLeftBottom));
   legend_ = MakeLegend(scene_->coloring, scene_->beam_kinds, SizeIn(window_px), look.background);
   fleeting_.insert(fleeting_.end(), legend_.props.begin(), legend_.props.end());
   for (const auto& prop : fleeting_) renderer_->AddViewProp(prop);

@@ -3,6 +3,7 @@
 #include <vtkCamera.h>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "viewer/draw/text_style.h"
@@ -55,8 +56,8 @@ void Stage::Show(std::vector<Scene> scenes, const Look& look) {
 
 void Stage::PlaceNow() {
   const Scene& scene = views_.front()->scene();
-  static const std::vector<float> kNoPoints;
-  const auto& positions_m = scene.clouds.empty() ? kNoPoints : scene.clouds[0].shown->positions_m;
+  const std::span<const float> positions_m =
+      scene.clouds.empty() ? std::span<const float>() : scene.clouds[0].shown->positions_m;
   PlaceCamera(place_ ? *place_ : PresetCamera(preset_, positions_m), *camera_);
   for (const auto& view : views_) view->renderer().ResetCameraClippingRange();
   is_placed_ = !scene.clouds.empty();
@@ -98,7 +99,7 @@ void Stage::ShowPlate(Plate plate, const std::string& words) {
   actor = nullptr;
   if (words.empty()) return;
   const auto [width_px, height_px] = size_px();
-  actor = MakeText(words, look_.background, height_px, 0.0, 0.0, TextAnchor::kLeftBottom);
+  actor = MakeText(words, look_.background, height_px, {0.0, 0.0}, TextAnchor::kLeftBottom);
   vtkTextProperty& text = *actor->GetTextProperty();
   text.SetFontFamilyToCourier();
   text.SetFontSize(std::max(9, height_px / 60));

@@ -15,8 +15,7 @@ void StyleText(vtkTextProperty& text, const Background& background, int height_p
 vtkSmartPointer<vtkTextActor> MakeText(const std::string& words,
                                        const Background& background,
                                        int height_px,
-                                       double x_px,
-                                       double y_px,
+                                       const std::array<double, 2>& place_px,
                                        TextAnchor anchor) {
   auto actor = vtkSmartPointer<vtkTextActor>::New();
   actor->SetInput(words.c_str());
@@ -24,7 +23,7 @@ vtkSmartPointer<vtkTextActor> MakeText(const std::string& words,
   StyleText(text, background, height_px);
   if (anchor == TextAnchor::kLeftMiddle) text.SetVerticalJustificationToCentered();
   if (anchor == TextAnchor::kRightBottom) text.SetJustificationToRight();
-  actor->SetPosition(x_px, y_px);
+  actor->SetPosition(place_px[0], place_px[1]);
   return actor;
 }
 

@@ -4,6 +4,7 @@
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -28,8 +29,7 @@ enum class TextAnchor : std::uint8_t {
 [[nodiscard]] vtkSmartPointer<vtkTextActor> MakeText(const std::string& words,
                                                      const Background& background,
                                                      int height_px,
-                                                     double x_px,
-                                                     double y_px,
+                                                     const std::array<double, 2>& place_px,
                                                      TextAnchor anchor);
 
 }  // namespace railcast

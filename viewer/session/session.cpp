@@ -18,7 +18,8 @@ void AddLine(const std::string& line, std::string& text) {
 
 }  // namespace
 
-Session::Session(std::vector<Frames*> frames, Choices choices) : choices_(std::move(choices)) {
+Session::Session(const std::vector<Frames*>& frames, Choices choices)
+    : choices_(std::move(choices)) {
   for (Frames* const each : frames) sources_.push_back({each, Composer(each->info())});
 }
 

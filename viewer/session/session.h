@@ -17,7 +17,7 @@ class Session {
  public:
   /// @param frames One or two. They outlive the session.
   /// @throws InputError if a scenario's world cannot be built.
-  Session(std::vector<Frames*> frames, Choices choices);
+  Session(const std::vector<Frames*>& frames, Choices choices);
 
   /// Shows the frame at that place, of two sources the same of both.
   /// @returns False, and everything stays, if there is none.

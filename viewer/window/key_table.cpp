@@ -18,6 +18,7 @@ Enum After(Enum value, std::size_t count) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-function-size): a table.
 std::span<const KeyBinding> KeyTable::Bindings() {
   constexpr std::ptrdiff_t kFar = std::numeric_limits<int>::max();
   static constexpr auto kBindings = std::to_array<KeyBinding>({
