@@ -48,6 +48,18 @@ constexpr auto kColorFields = std::to_array<ColorField>({
     {"y", "y", "y [m]", Kind::kAmount},
 });
 
+const ColorField* FindColorField(std::string_view name) {
+  const auto* const found = std::ranges::find(kColorFields, name, &ColorField::name);
+  return found == kColorFields.end() ? nullptr : found;
+}
+
+/// What a foreign field is called here: as in its file, unless one of ours is called so.
+std::string NameOf(const ForeignField& field) {
+  std::string name = field.name;
+  if (FindColorField(name) != nullptr) name.insert(0, "file_");
+  return name;
+}
+
 /// Of each point.
 template <typename Values>
 std::vector<double> Pick(const Values& values, const std::vector<std::uint32_t>& slots) {
@@ -93,6 +105,7 @@ std::vector<std::string> ColorableFields(const RecordedFrame& recorded) {
   for (const ColorField& field : kColorFields) {
     if (field.field.size() == 1 || recorded.Has(field.field)) names.emplace_back(field.name);
   }
+  for (const ForeignField& field : recorded.foreign) names.push_back(NameOf(field));
   return names;
 }
 
@@ -112,8 +125,11 @@ FieldValues ValuesOf(const ShownFrame& shown, const std::string& name) {
     }
     throw InputError(fault + ")");
   }
-  const auto* const field = std::ranges::find(kColorFields, name, &ColorField::name);
-  return {.kind = field->kind, .title = std::string(field->title), .values = Load(shown, *field)};
+  if (const ColorField* const field = FindColorField(name)) {
+    return {.kind = field->kind, .title = std::string(field->title), .values = Load(shown, *field)};
+  }
+  const auto foreign = std::ranges::find(shown.recorded->foreign, name, NameOf);
+  return {.kind = Kind::kAmount, .title = name, .values = Pick(foreign->values, shown.slots)};
 }
 
 std::string DefaultColorField(const RecordedFrame& recorded) {

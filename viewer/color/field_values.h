@@ -21,7 +21,8 @@ struct FieldValues {
 };
 
 /// What a frame can be coloured by, in the order in which people go through it: "label",
-/// "instance", "outcome", "range", "height", ... and what foreign clouds have of their own.
+/// "instance", "outcome", "range", "height", ...; then the foreign fields as their file calls them,
+/// "file_height" where one of ours is called so, too.
 [[nodiscard]] std::vector<std::string> ColorableFields(const RecordedFrame& recorded);
 
 /// The short names of colours' fields (all that ColorableFields() may give but foreign ones).
