@@ -83,7 +83,11 @@ std::array<double, 2> FitScale(const FieldValues& field) {
     const double end = std::max(std::abs(ends[0]), std::abs(ends[1]));
     ends = {-end, end};
   }
-  if (!(ends[0] < ends[1])) ends = {ends[0] - 0.5, ends[1] + 0.5};
+  if (!(ends[0] < ends[1])) {
+    // Of great values half a unit would be less than their last digit.
+    const double margin = std::max(0.5, 1e-6 * std::abs(ends[0]));
+    ends = {ends[0] - margin, ends[1] + margin};
+  }
   return ends;
 }
 
@@ -115,9 +119,9 @@ Coloring ColorByCategory(const FieldValues& field,
   Category* last = nullptr;
   for (const double value : field.values) {
     if (last == nullptr || last->value != value) {
+      CheckWhole(value, name);
       const auto [found, is_new] = categories.try_emplace(value);
       if (is_new) {
-        CheckWhole(value, name);
         found->second = CategoryOf(static_cast<std::uint32_t>(value), name, info, recorded);
         found->second.value = value;
       }
