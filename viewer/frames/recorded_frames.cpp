@@ -85,9 +85,14 @@ std::size_t RecordedFrames::PlaceOf(std::uint32_t frame_index) {
   if (!first) return fail("none");
   const std::uint32_t first_index = first->frame().index;
   if (frame_index >= first_index) {
-    // Frames follow each other without gaps.
-    const auto found = Get(frame_index - first_index);
-    if (found && found->frame().index == frame_index) return frame_index - first_index;
+    // Numbers rise, by more than 1 where a stream lost frames: it cannot be at a later place.
+    std::size_t place = frame_index - first_index;
+    if (!Get(place)) {
+      SeekEnd();
+      place = num_known_ - 1;
+    }
+    while (Get(place)->frame().index > frame_index) --place;
+    if (Get(place)->frame().index == frame_index) return place;
   }
   SeekEnd();
   return fail(NumberText(first_index) + " to " + NumberText(Get(num_known_ - 1)->frame().index));

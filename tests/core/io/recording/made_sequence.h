@@ -19,6 +19,9 @@ struct MadeSequenceSpec {
   std::string output = R"({"frame": "sensor"})";
   std::string sensor = "vir2rail";
   std::string return_mode = "strongest";
+  std::string object = R"({"name": "wagon", "type": "open_wagon", "s_m": 300})";
+  std::uint32_t start_frame = 0;
+  std::uint32_t num_frames = 2;
 };
 
 /// A sequence in a directory, and the frames that went into it.
@@ -27,7 +30,7 @@ struct MadeSequence {
   std::vector<Frame> frames;  ///< In the axes of the output.
 };
 
-/// The text of a scenario: a vehicle at 20 m/s in a curve of 500 m radius, and a wagon.
+/// The text of a scenario: a vehicle at 20 m/s in a curve of 500 m radius, and an object.
 inline std::string MadeScenario(const MadeSequenceSpec& spec) {
   const std::string folder = RAILCAST_SOURCE_DIR "/scenarios/";
   return R"({"version": 1, "fidelity": ")" + spec.fidelity + R"(", "lidar": {"file": ")" + folder +
@@ -35,13 +38,13 @@ inline std::string MadeScenario(const MadeSequenceSpec& spec) {
          R"("pitch_deg": 3}, "receiver": {"return_mode": ")" + spec.return_mode + R"("}}, )" +
          R"("world": {"alignment": {"course": {"type": "elements", "elements": [)" +
          R"({"type": "arc", "length_m": 900, "radius_m": 500}]}}, )" +
-         R"("objects": [{"name": "wagon", "type": "open_wagon", "s_m": 300}]}, )" +
+         R"("objects": [)" + spec.object + "]}, " +
          R"("vehicle": {"start_s_m": 250, "motion": {"profile": [{"time_s": 0, )" +
          R"("speed_mps": 20}]}}, "output": )" + spec.output + R"(, "materials": ")" + folder +
          R"(materials/railway.json", "labels": ")" + folder + "labels.json\"}\n";
 }
 
-/// Two frames, as railcast-generate makes them. @param directory Must not exist.
+/// Its frames, as railcast-generate makes them. @param directory Must not exist.
 inline MadeSequence MakeSequence(const std::filesystem::path& directory,
                                  const MadeSequenceSpec& made) {
   std::filesystem::create_directories(directory);
@@ -56,7 +59,8 @@ inline MadeSequence MakeSequence(const std::filesystem::path& directory,
   spec.files = {ParseFrameFormat(made.format), FieldSelection(made.fields),
                 LabelTable(result.scenario.labels)};
   spec.materials = MaterialLibrary(result.scenario.materials);
-  spec.num_frames = 2;
+  spec.start_frame = made.start_frame;
+  spec.num_frames = made.num_frames;
   const auto simulator = MakeSimulator(result.scenario, 1);
   const auto make = [&](std::uint32_t index, Frame& frame, std::vector<ObjectInFrame>& objects) {
     simulator->Scan(index, frame);
