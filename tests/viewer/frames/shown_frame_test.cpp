@@ -1,0 +1,86 @@
+#include "viewer/frames/shown_frame.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/io/scan_motion.h"
+#include "tests/analysis/recorded_frames.h"
+#include "tests/core/io/stream/stream_example.h"
+
+namespace railcast {
+namespace {
+
+using testing::ElementsAreArray;
+
+/// All there is to know of a frame of 4800 firings, of which two of ten have a point, during which
+/// the sensor went on by 3 m and turned by 0.1 rad.
+RecordedFrame MovingFrame() {
+  Frame frame = StreamFrame(3);
+  frame.world_from_sensor_end =
+      frame.world_from_sensor *
+      MakeTransform(RotationFromYawPitchRoll(0.1, 0.0, 0.02), Vector3(3.0, 0.15, 0.0));
+  return Record(std::move(frame));
+}
+
+/// Of every slot that has a point.
+std::vector<float> RecordedPositions(const Frame& frame) {
+  std::vector<float> positions_m;
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    if (std::isnan(frame.x[slot])) continue;
+    for (const auto* axis : {&frame.x, &frame.y, &frame.z}) positions_m.push_back((*axis)[slot]);
+  }
+  return positions_m;
+}
+
+TEST(ShownFrame, HasThePointsOfAllSlotsThatHaveOne) {
+  const RecordedFrame recorded = MovingFrame();
+  std::vector<std::uint32_t> slots;
+  for (std::uint32_t slot = 0; slot < recorded.frame.num_slots(); ++slot) {
+    if (HasPoint(recorded.frame.outcome[slot])) slots.push_back(slot);
+  }
+  const ShownFrame shown = MakeShownFrame(recorded);
+  EXPECT_EQ(shown.slots, slots);
+  EXPECT_EQ(shown.positions_m.size(), 3 * slots.size());
+  EXPECT_EQ(shown.num_points(), slots.size());
+  EXPECT_EQ(shown.recorded->fields, recorded.fields);
+}
+
+TEST(ShownFrame, PutsPointsWhereTheyWereAtTheStamp) {
+  const ShownFrame shown = MakeShownFrame(MovingFrame());
+  const Frame& frame = shown.frame();
+  const ScanMotion motion(frame);
+  double furthest_m = 0.0;
+  for (std::size_t i = 0; i < shown.num_points(); ++i) {
+    const std::uint32_t slot = shown.slots[i];
+    const Vector3 seen_m =
+        Eigen::Vector3f(frame.x[slot], frame.y[slot], frame.z[slot]).cast<double>();
+    const Eigen::Vector3f expected_m = motion.AtStamp(seen_m, frame.time_ns[slot]).cast<float>();
+    const Eigen::Map<const Eigen::Vector3f> shown_m(&shown.positions_m[3 * i]);
+    ASSERT_EQ(expected_m, shown_m) << i;
+    furthest_m = std::max(furthest_m, (seen_m - shown_m.cast<double>()).norm());
+  }
+  // The last firings are 3 m on, and 0.1 rad at 300 m is 30 m.
+  EXPECT_GT(furthest_m, 3.0);
+}
+
+TEST(ShownFrame, LeavesPointsWhereTheyAreIfTheMotionIsNotKnown) {
+  RecordedFrame without_times = MovingFrame();
+  without_times.fields.erase("time_ns");
+  RecordedFrame without_pose = MovingFrame();
+  without_pose.has_pose = false;
+  RecordedFrame of_one_moment = MovingFrame();
+  of_one_moment.frame.duration_ns = 0;
+  for (const RecordedFrame& recorded : {without_times, without_pose, of_one_moment}) {
+    EXPECT_THAT(MakeShownFrame(recorded).positions_m,
+                ElementsAreArray(RecordedPositions(recorded.frame)));
+  }
+}
+
+TEST(ShownFrame, MayHaveNoPoints) {
+  EXPECT_EQ(MakeShownFrame({}).num_points(), 0U);
+}
+
+}  // namespace
+}  // namespace railcast
