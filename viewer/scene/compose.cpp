@@ -54,7 +54,7 @@ Coloring ColorFrame(const ShownFrame& shown, const RecordingInfo& info, const Ch
     }
     const ColorMap map = choices.map.value_or(
         field.kind == FieldValues::Kind::kDifference ? ColorMap::kCoolwarm : ColorMap::kViridis);
-    return ColorByScale(field, map, choices.ends.value_or(FitScale(field)));
+    return ColorByScale(field, map, choices.ends ? *choices.ends : FitScale(field));
   });
 }
 
@@ -227,11 +227,11 @@ Scene ComposeDistances(const std::shared_ptr<const ShownFrame>& a,
   const FieldValues of_a = DistancesField(*a, *b);
   const FieldValues of_b = DistancesField(*b, *a);
   const ColorMap map = choices.map.value_or(ColorMap::kViridis);
-  const std::array<double, 2> ends = choices.distance_ends_m.value_or(FitScale(of_a));
-  scene.coloring = ColorByScale(of_a, map, ends);
+  const auto ends_m = choices.distance_ends_m ? *choices.distance_ends_m : FitScale(of_a);
+  scene.coloring = ColorByScale(of_a, map, ends_m);
   scene.clouds.push_back({a, Transform::Identity(), std::move(scene.coloring.colors)});
   scene.clouds.push_back({b, FirstFromSecond(*a, *b).value_or(Transform::Identity()),
-                          ColorByScale(of_b, map, ends).colors});
+                          ColorByScale(of_b, map, ends_m).colors});
   return scene;
 }
 
