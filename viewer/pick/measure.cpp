@@ -13,11 +13,6 @@ constexpr AxisNames kSensorAxes = {"dx", "dy", "dz"};
 constexpr AxisNames kWorldAxes = {"east", "north", "up"};
 constexpr int kNumDecimals = 3;
 
-// Also of a frame that was read again after others.
-bool AreOfOneFrame(const RecordedFrame& a, const RecordedFrame& b) {
-  return a.name == b.name && a.frame.index == b.frame.index && a.frame.stamp_ns == b.frame.stamp_ns;
-}
-
 std::string WayText(const Vector3& way_m, const AxisNames& axes) {
   std::string text = FixedText(way_m.norm(), kNumDecimals);
   std::string_view before = " m (";
@@ -31,6 +26,10 @@ std::string WayText(const Vector3& way_m, const AxisNames& axes) {
 }
 
 }  // namespace
+
+bool AreOfOneFrame(const RecordedFrame& a, const RecordedFrame& b) {
+  return a.name == b.name && a.frame.index == b.frame.index && a.frame.stamp_ns == b.frame.stamp_ns;
+}
 
 Pick PickOf(const ShownFrame& shown, std::size_t point) {
   const float* const at_m = shown.positions_m.data() + 3 * point;

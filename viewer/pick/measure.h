@@ -20,6 +20,9 @@ struct Pick {
 /// @pre point < shown.num_points()
 [[nodiscard]] Pick PickOf(const ShownFrame& shown, std::size_t point);
 
+/// Whether they are the same frame of the same recording, perhaps read twice.
+[[nodiscard]] bool AreOfOneFrame(const RecordedFrame& a, const RecordedFrame& b);
+
 /// The way from one pick to another.
 ///
 /// In one frame along the sensor's axes at its stamp: "12.345 m (dx 12.000, dy 2.900, dz 0.012;

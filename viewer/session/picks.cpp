@@ -11,7 +11,7 @@ constexpr float kCrossArm_m = 0.25F;
 /// Where a pick is in a scene's axes.
 std::optional<Eigen::Vector3f> PlaceIn(const Scene& scene, const Pick& pick) {
   for (const PlacedCloud& cloud : scene.clouds) {
-    if (cloud.shown->recorded == pick.recorded) {
+    if (AreOfOneFrame(*cloud.shown->recorded, *pick.recorded)) {
       return (cloud.view_from_sensor * pick.at_stamp_m).cast<float>().eval();
     }
   }
