@@ -42,12 +42,16 @@ std::size_t Session::LastPlace() const {
   for (const Source& source : sources_) {
     num_common = std::min(num_common, source.frames->num_known());
   }
-  return num_common - 1;
+  return num_common == 0 ? 0 : num_common - 1;
 }
 
 void Session::ColorByNext(bool forward) {
   const std::vector<std::string> fields = ColorableFields(*shown_.front()->recorded);
-  auto at = static_cast<std::size_t>(std::ranges::find(fields, choices_.color_by) - fields.begin());
+  auto shown = std::ranges::find(fields, choices_.color_by);
+  if (shown == fields.end()) {
+    shown = std::ranges::find(fields, DefaultColorField(*shown_.front()->recorded));
+  }
+  auto at = static_cast<std::size_t>(shown - fields.begin());
   at = (at + (forward ? 1 : fields.size() - 1)) % fields.size();
   choices_.color_by = fields[at];
   FitScale();

@@ -24,7 +24,7 @@ class Session {
   /// @throws InputError if it cannot be read or, the first time, cannot be coloured as chosen.
   bool Seek(std::size_t place);
   [[nodiscard]] std::size_t place() const { return place_; }
-  /// The last that all sources have, as far as they were read.
+  /// The last that all sources have, as far as they were read; 0 if one has none.
   [[nodiscard]] std::size_t LastPlace() const;
   [[nodiscard]] bool has_frame() const { return !shown_.empty(); }
 
