@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "viewer/color/coloring.h"
 #include "viewer/color/field_values.h"
 #include "viewer/scene/status_text.h"
 
@@ -60,9 +61,10 @@ void Session::ColorByNext(bool forward) {
 void Session::FitScale() {
   choices_.ends.reset();
   choices_.distance_ends_m.reset();
-  const bool is_colorable =
-      std::ranges::count(ColorableFields(*shown_.front()->recorded), choices_.color_by) > 0;
-  if (is_colorable) FitChoices(*shown_.front(), choices_);
+  const ShownFrame& shown = *shown_.front();
+  if (std::ranges::count(ColorableFields(*shown.recorded), choices_.color_by) == 0) return;
+  const FieldValues field = ValuesOf(shown, choices_.color_by);
+  if (field.kind != FieldValues::Kind::kCategory) choices_.ends = railcast::FitScale(field);
 }
 
 void Session::ToggleLabel(std::uint32_t label) {
@@ -124,9 +126,8 @@ Scene Session::ComposeOne(std::size_t index) {
   std::string fault;
   if (std::ranges::count(fields, choices.color_by) == 0) {
     fault = "has no field " + choices.color_by + " to color by";
-    choices.color_by.clear();
+    choices.color_by = DefaultColorField(*shown_[index]->recorded);
     choices.ends.reset();
-    FitChoices(*shown_[index], choices);
   }
   Scene scene = source.composer.Compose(frames, choices);
   scene.status = StatusOf(index);
