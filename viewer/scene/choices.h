@@ -33,14 +33,14 @@ inline constexpr std::size_t kMaxAccumulated = 256;
 
 /// How the user wants to see frames.
 struct Choices {
-  std::string color_by;         ///< Empty: the first frame's default.
-  std::optional<ColorMap> map;  ///< Empty: coolwarm for differences, viridis for amounts.
-  std::optional<std::array<double, 2>> ends;  ///< Of the scale; empty: fitted to the frame.
-  std::optional<std::array<double, 2>> distance_ends_m;  ///< Likewise, of Layout::kDistance.
+  std::string color_by{};         ///< Empty: the first frame's default.
+  std::optional<ColorMap> map{};  ///< Empty: coolwarm for differences, viridis for amounts.
+  std::optional<std::array<double, 2>> ends{};  ///< Of the scale; empty: fitted to the frame.
+  std::optional<std::array<double, 2>> distance_ends_m{};  ///< Likewise, of Layout::kDistance.
   std::size_t num_accumulated = 1;  ///< Frames shown at once, in world coordinates.
   bool empty_beams = false;         ///< The fan of firings that brought nothing back.
-  OverlayChoices overlays;
-  std::set<std::uint32_t> labels;  ///< Others are faint; empty: all are shown alike.
+  OverlayChoices overlays{};
+  std::set<std::uint32_t> labels{};  ///< Others are faint; empty: all are shown alike.
   Layout layout = Layout::kBeside;
 };
 

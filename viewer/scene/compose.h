@@ -29,7 +29,8 @@ class Composer {
   [[nodiscard]] std::string Missing(const ShownFrame& shown, const Choices& choices) const;
 
   /// @param frames The one to be shown and then those accumulated with it, the latest first: drawn
-  ///   where they were in the world if all have poses, else left out.
+  ///   where they were in the world. Those without a pose are left out, all of them if the one to
+  ///   be shown has none.
   /// @param choices With a field and a scale: see FitChoices.
   /// @throws InputError if the frame lacks the field.
   [[nodiscard]] Scene Compose(const ShownFrames& frames, const Choices& choices);

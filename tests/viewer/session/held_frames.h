@@ -1,0 +1,67 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.h"
+#include "tests/viewer/pick/shown_cloud.h"
+#include "viewer/frames/frames.h"
+
+namespace railcast {
+
+/// Frames held in memory. A null one cannot be read.
+class HeldFrames final : public Frames {
+ public:
+  explicit HeldFrames(std::vector<std::shared_ptr<const ShownFrame>> frames,
+                      const std::string& source = "held")
+      : frames_(std::move(frames)) {
+    info_.source = source;
+  }
+
+  [[nodiscard]] std::shared_ptr<const ShownFrame> Get(std::size_t place) override {
+    if (place >= frames_.size()) return nullptr;
+    if (!frames_[place]) throw InputError("held: is damaged");
+    return frames_[place];
+  }
+  [[nodiscard]] std::size_t num_known() const override { return frames_.size(); }
+
+  void UseLabels(const LabelTable& labels) { info_.labels = labels; }
+
+ private:
+  std::vector<std::shared_ptr<const ShownFrame>> frames_;
+};
+
+/// A frame of so many points, `index` being its number and every point's x.
+inline RecordedFrame NumberedCloud(std::uint32_t index, std::size_t num_points = 2) {
+  std::vector<Vector3> points_m(num_points, Vector3(index, 0, 1));
+  if (num_points > 1) points_m[1].z() = 2.0 + index;
+  RecordedFrame recorded = RecordedCloud(std::to_string(index).append(".pcd"), points_m);
+  recorded.frame.index = index;
+  recorded.frame.stamp_ns = 200'000'000LL * index;
+  return recorded;
+}
+
+inline std::shared_ptr<const ShownFrame> Share(RecordedFrame recorded) {
+  return std::make_shared<const ShownFrame>(Show(std::move(recorded)));
+}
+
+/// The same with labels, the first point's 12 and the others' 1.
+inline RecordedFrame LabelledCloud(std::uint32_t index) {
+  RecordedFrame recorded = NumberedCloud(index);
+  recorded.fields.emplace("label");
+  recorded.frame.label = {12, 1};
+  return recorded;
+}
+
+/// The same seen from 2 m further on with every frame.
+inline RecordedFrame MovingCloud(std::uint32_t index) {
+  RecordedFrame recorded = NumberedCloud(index);
+  recorded.has_pose = true;
+  recorded.frame.world_from_sensor =
+      MakeTransform(Eigen::Matrix3d::Identity(), Vector3(2.0 * index, 0, 0));
+  return recorded;
+}
+
+}  // namespace railcast
