@@ -14,55 +14,20 @@
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/viewer/made_run.h"
-#include "tests/viewer/pick/shown_cloud.h"
-#include "viewer/color/field_values.h"
+#include "tests/viewer/scene/shared_clouds.h"
 
 namespace railcast {
 namespace {
 
-using testing::Each;
 using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::Not;
 using testing::SizeIs;
 
-std::shared_ptr<const ShownFrame> Shared(RecordedFrame recorded) {
-  return std::make_shared<const ShownFrame>(MakeShownFrame(std::move(recorded)));
-}
-
-std::shared_ptr<const ShownFrame> SharedCloud(const std::vector<Vector3>& points_m) {
-  return Shared(RecordedCloud("a.pcd", points_m));
-}
-
-/// Points of the labels 1, 12 and 0.
-std::shared_ptr<const ShownFrame> LabelledCloud() {
-  RecordedFrame recorded = RecordedCloud("a.pcd", {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}});
-  recorded.fields.emplace("label");
-  recorded.frame.label = {1, 12, 0};
-  return Shared(std::move(recorded));
-}
-
-/// Places in the world, seen from there.
-std::shared_ptr<const ShownFrame> Posed(const std::vector<Vector3>& points_world_m,
-                                        const Transform& world_from_sensor) {
-  std::vector<Vector3> points_m;
-  for (const Vector3& point_m : points_world_m) {
-    points_m.push_back(world_from_sensor.inverse() * point_m);
-  }
-  RecordedFrame recorded = RecordedCloud("a.pcd", points_m);
-  recorded.has_pose = true;
-  recorded.frame.world_from_sensor = world_from_sensor;
-  return Shared(std::move(recorded));
-}
-
 RecordingInfo LabelledInfo() {
   RecordingInfo info;
   info.labels = ExampleLabels();
   return info;
-}
-
-Choices By(const std::string& field) {
-  return {.color_by = field};
 }
 
 /// A sequence of a moving vehicle, its latest frame first.
@@ -264,99 +229,6 @@ TEST(Compose, LeavesOutOverlaysThatCannotBeDrawn) {
   const Scene scene = composer.Compose({SharedCloud({{1, 2, 3}})}, choices);
   EXPECT_THAT(scene.overlays.segments, IsEmpty());
   EXPECT_THAT(scene.surfaces, IsEmpty());
-}
-
-TEST(FitChoices, FillsInTheFieldAndTheEndsOfItsScale) {
-  Choices by_height;
-  FitChoices(*SharedCloud({{1, 2, 3}, {1, 2, 5}}), by_height);
-  EXPECT_EQ(by_height.color_by, "height");
-  EXPECT_EQ(by_height.ends, (std::array{3.0, 5.0}));
-  Choices by_label;
-  FitChoices(*LabelledCloud(), by_label);
-  EXPECT_EQ(by_label.color_by, "label");
-  EXPECT_EQ(by_label.ends, std::nullopt);
-}
-
-TEST(FitChoices, KeepsWhatIsChosen) {
-  Choices choices = By("range");
-  choices.ends = {{2.0, 90.0}};
-  FitChoices(*LabelledCloud(), choices);
-  EXPECT_EQ(choices.color_by, "range");
-  EXPECT_EQ(choices.ends, (std::array{2.0, 90.0}));
-}
-
-TEST(FitChoices, RefusesWhatCannotBeDone) {
-  const auto fault = [](const ShownFrame& shown, Choices choices) {
-    return MessageOf([&] { FitChoices(shown, choices); });
-  };
-  const auto bare = SharedCloud({{1, 2, 3}});
-  EXPECT_EQ(fault(*bare, By("power")),
-            "a.pcd: has no field power to color by (has: range, height, x, y)");
-  EXPECT_EQ(fault(*bare, {.color_by = "height", .labels = {12}}),
-            "a.pcd: has no field label to select by");
-  EXPECT_EQ(fault(*LabelledCloud(), {.color_by = "label", .ends = {{0.0, 1.0}}}),
-            "a.pcd: field label has no scale with a range");
-}
-
-/// So far apart that each is nearest to itself however it is shifted.
-const std::vector<Vector3> sparse_world_m = {{100, 0, 0}, {110, 0, 0}, {100, 10, 0}, {100, 0, 20}};
-
-TEST(ComposeDistances, LaysTheSecondWhereItWasInTheFirstsAxes) {
-  const Transform first = MakeTransform(RotationFromYawPitchRoll(0.3, 0.0, 0.0), {60, 0, 0});
-  const Transform second = MakeTransform(RotationFromYawPitchRoll(-1.2, 0.1, 0.0), {90, 5, 1});
-  const auto a = Posed(sparse_world_m, first);
-  const auto b = Posed(sparse_world_m, second);
-  Choices choices;
-  choices.distance_ends_m = {{0.0, 1.0}};
-  const Scene scene = ComposeDistances(a, b, choices);
-  ASSERT_THAT(scene.clouds, SizeIs(2));
-  EXPECT_EQ(scene.clouds[0].shown, a);
-  EXPECT_EQ(scene.clouds[1].shown, b);
-  EXPECT_TRUE(scene.clouds[0].view_from_sensor.isApprox(Transform::Identity(), 0.0));
-  // Products of doubles of some 100 m.
-  EXPECT_TRUE(scene.clouds[1].view_from_sensor.isApprox(first.inverse() * second, 1e-13));
-  EXPECT_EQ(scene.coloring.title, "to the other's nearest point [m]");
-  // The same places: float32 at 50 m is 4 um, a step of colours 1 mm.
-  for (const PlacedCloud& cloud : scene.clouds) {
-    EXPECT_THAT(cloud.colors, Each(MapColor(ColorMap::kViridis, 0.0)));
-  }
-}
-
-TEST(ComposeDistances, ColoursByHowFarTheOtherIsAway) {
-  const auto a = SharedCloud(sparse_world_m);
-  std::vector<Vector3> shifted_m = sparse_world_m;
-  for (std::size_t i = 0; i < shifted_m.size(); ++i)
-    shifted_m[i].z() += 0.5 * static_cast<double>(i);
-  Choices choices;
-  choices.distance_ends_m = {{0.0, 2.0}};
-  const Scene scene = ComposeDistances(a, SharedCloud(shifted_m), choices);
-  EXPECT_TRUE(scene.clouds[1].view_from_sensor.isApprox(Transform::Identity(), 0.0));
-  EXPECT_EQ(scene.coloring.ends, choices.distance_ends_m);
-  for (const PlacedCloud& cloud : scene.clouds) {
-    ASSERT_THAT(cloud.colors, SizeIs(4));
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Rgb exact = MapColor(ColorMap::kViridis, 0.25 * static_cast<double>(i));
-      for (std::size_t channel = 0; channel < 3; ++channel) {
-        // The scale's table has 1024 steps.
-        EXPECT_NEAR(cloud.colors[i][channel], exact[channel], 1.0);
-      }
-    }
-  }
-}
-
-TEST(ComposeDistances, FitsItsScaleToTheFirstsDistances) {
-  const auto a = SharedCloud({{100, 0, 0}, {110, 0, 0}});
-  const auto b = SharedCloud({{100, 0, 0.25}, {110, 0, 1.5}});
-  const Scene scene = ComposeDistances(a, b, {});
-  EXPECT_EQ(scene.coloring.ends, (std::array{0.25, 1.5}));
-  EXPECT_THAT(scene.clouds[0].colors,
-              ElementsAre(MapColor(ColorMap::kViridis, 0.0), MapColor(ColorMap::kViridis, 1.0)));
-}
-
-TEST(ComposeDistances, HasNoColoursWhereThereIsNothingNear) {
-  const Scene scene = ComposeDistances(SharedCloud(sparse_world_m), SharedCloud({}), {});
-  EXPECT_THAT(scene.clouds[0].colors, Each(kNoValueColor));
-  EXPECT_THAT(scene.clouds[1].colors, IsEmpty());
 }
 
 }  // namespace

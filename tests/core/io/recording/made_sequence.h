@@ -37,8 +37,8 @@ inline std::string MadeScenario(const MadeSequenceSpec& spec) {
          "sensors/" + spec.sensor + R"(.json", "mount": {"position_m": [2.2, 0.1, 2.5], )" +
          R"("pitch_deg": 3}, "receiver": {"return_mode": ")" + spec.return_mode + R"("}}, )" +
          R"("world": {"alignment": {"course": {"type": "elements", "elements": [)" +
-         R"({"type": "arc", "length_m": 900, "radius_m": 500}]}}, )" +
-         R"("objects": [)" + spec.object + "]}, " +
+         R"({"type": "arc", "length_m": 900, "radius_m": 500}]}}, )" + R"("objects": [)" +
+         spec.object + "]}, " +
          R"("vehicle": {"start_s_m": 250, "motion": {"profile": [{"time_s": 0, )" +
          R"("speed_mps": 20}]}}, "output": )" + spec.output + R"(, "materials": ")" + folder +
          R"(materials/railway.json", "labels": ")" + folder + "labels.json\"}\n";
