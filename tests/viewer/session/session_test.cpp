@@ -129,6 +129,18 @@ TEST(Session, SaysThatAFrameLacksTheFieldAndShowsAnother) {
   EXPECT_EQ(session.Compose()[0].coloring.title, "label") << "the choice stays";
 }
 
+TEST(Session, FitsAScaleOfItsOwnToTheFieldShownInstead) {
+  RecordedFrame bright = NumberedCloud(0);
+  bright.fields.emplace("intensity");
+  bright.frame.intensity = {0.25F, 0.75F};
+  HeldFrames frames({Share(bright), Share(NumberedCloud(1))});
+  Session session({&frames}, By("intensity"));
+  ASSERT_TRUE(session.Seek(0));
+  ASSERT_TRUE(session.Seek(1));
+  EXPECT_EQ(session.Compose()[0].coloring.ends, (std::array{1.0, 3.0})) << "of heights";
+  EXPECT_EQ(session.choices().ends, (std::array{0.25, 0.75})) << "kept for when it is back";
+}
+
 TEST(Session, ShowsFramesWithoutLabelsWhileSomeAreSelected) {
   HeldFrames frames({Share(LabelledCloud(0)), Share(NumberedCloud(1))});
   frames.UseLabels(ExampleLabels());
