@@ -180,6 +180,13 @@ TEST(RecordedFrames, OfASingleFileHaveTheLabelsBesideIt) {
   EXPECT_EQ(RecordedFrames(moved).info().labels.labels(), made.scenario.labels);
 }
 
+TEST(RecordedFrames, OfASequenceHaveItsOwnLabels) {
+  const TemporaryDirectory directory;
+  const MadeSequence made = MakeRun(directory.path() / "run");
+  WriteFileWhole(directory.path() / "labels.json", "of somebody else");
+  EXPECT_EQ(RecordedFrames(directory.path() / "run").info().labels.labels(), made.scenario.labels);
+}
+
 TEST(RecordedFrames, HaveTheNamesOfAScenarioThatIsGiven) {
   const TemporaryDirectory directory;
   WritePcd(directory.path() / "a.pcd", ExampleFrame(0));

@@ -87,6 +87,9 @@ TEST(Session, ColoursByAllFieldsInTurnAndRound) {
   for (std::size_t i = 1; i <= fields.size(); ++i) {
     session.ColorByNext(true);
     EXPECT_EQ(session.choices().color_by, fields[i % fields.size()]);
+    const bool is_kind =
+        ValuesOf(*session.shown(0), fields[i % fields.size()]).kind == FieldValues::Kind::kCategory;
+    EXPECT_EQ(session.choices().ends.has_value(), !is_kind) << session.choices().color_by;
     EXPECT_THAT(session.Compose()[0].clouds[0].colors, SizeIs(session.shown(0)->num_points()));
   }
   for (std::size_t i = fields.size(); i-- > 0;) {
