@@ -16,11 +16,13 @@
 #include "tests/core/io/velodyne/made_scan.h"
 #include "tests/support/sensor_file.h"
 #include "tests/viewer/made_run.h"
+#include "viewer/color/field_values.h"
 
 namespace railcast {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::ElementsAre;
 using testing::ElementsAreArray;
 using testing::IsEmpty;
 
@@ -185,6 +187,21 @@ TEST(RecordedFrames, OfASequenceHaveItsOwnLabels) {
   const MadeSequence made = MakeRun(directory.path() / "run");
   WriteFileWhole(directory.path() / "labels.json", "of somebody else");
   EXPECT_EQ(RecordedFrames(directory.path() / "run").info().labels.labels(), made.scenario.labels);
+}
+
+TEST(RecordedFrames, OfAForeignFileCanBeColouredByItsFields) {
+  const TemporaryDirectory directory;
+  const fs::path file = directory.path() / "a.pcd";
+  WriteFileWhole(file,
+                 "VERSION 0.7\nFIELDS x y z curvature height\nSIZE 4 4 4 4 4\nTYPE F F F F F\n"
+                 "COUNT 1 1 1 1 1\nWIDTH 2\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 2\n"
+                 "DATA ascii\n1 2 3 0.5 70\n4 5 6 0.25 80\n");
+  const auto shown = RecordedFrames(file).Get(0);
+  EXPECT_THAT(ColorableFields(*shown->recorded),
+              ElementsAre("range", "height", "x", "y", "curvature", "file_height"));
+  EXPECT_THAT(ValuesOf(*shown, "curvature").values, ElementsAre(0.5, 0.25));
+  EXPECT_THAT(ValuesOf(*shown, "height").values, ElementsAre(3.0, 6.0));
+  EXPECT_THAT(ValuesOf(*shown, "file_height").values, ElementsAre(70.0, 80.0));
 }
 
 TEST(RecordedFrames, HaveTheNamesOfAScenarioThatIsGiven) {
