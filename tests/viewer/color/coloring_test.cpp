@@ -83,7 +83,7 @@ TEST(FitScale, GoesAroundEqualValues) {
 
 TEST(FitScale, NeverHasEqualEndsHoweverGreatTheValues) {
   // Drivers mark what is missing by the greatest float there is.
-  for (const float value : {1e20F, -1e20F, std::numeric_limits<float>::max()}) {
+  for (const double value : {1e20, -1e20, static_cast<double>(std::numeric_limits<float>::max())}) {
     const FieldValues field = Amounts({value, value});
     const Ends ends = FitScale(field);
     EXPECT_LT(ends[0], ends[1]) << value;

@@ -117,10 +117,10 @@ TEST(Picks, StayAtTheirPlaceInTheWorldWhileTheVehicleTurns) {
   // In the world the pick is 10 m north of the first place and 1 m above it.
   RecordedFrame north = RecordedCloud("a.pcd", {{10, 0, 1}});
   RecordedFrame east = RecordedCloud("b.pcd", {{0, 0, 0}});
-  const double kQuarter_rad = std::acos(0.0);
+  const double quarter_rad = std::acos(0.0);
   north.has_pose = east.has_pose = true;
   north.frame.world_from_sensor =
-      MakeTransform(RotationFromYawPitchRoll(kQuarter_rad, 0, 0), Vector3(5e6, 6e5, 400));
+      MakeTransform(RotationFromYawPitchRoll(quarter_rad, 0, 0), Vector3(5e6, 6e5, 400));
   east.frame.world_from_sensor =
       MakeTransform(Eigen::Matrix3d::Identity(), Vector3(5e6 - 20, 6e5, 400));
   Picks picks;
