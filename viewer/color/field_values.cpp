@@ -103,6 +103,7 @@ std::vector<double> Load(const ShownFrame& shown, const ColorField& field) {
 std::vector<std::string> ColorableFields(const RecordedFrame& recorded) {
   std::vector<std::string> names;
   for (const ColorField& field : kColorFields) {
+    if (field.name == kNoise && !recorded.Has("range_m")) continue;
     if (field.field.size() == 1 || recorded.Has(field.field)) names.emplace_back(field.name);
   }
   for (const ForeignField& field : recorded.foreign) names.push_back(NameOf(field));

@@ -10,13 +10,16 @@
 namespace railcast {
 namespace {
 
-constexpr std::size_t kMaxTurns = 64;
+constexpr std::size_t kMaxTurns = 64;      // Of a capture, half a megabyte each.
+constexpr std::size_t kMaxReaders = 4096;  // Of files, some lines of text each.
 // What frames may hold that are kept: some 300 MB.
 constexpr std::size_t kMaxKeptSlots = 1U << 22U;
 
-/// The labels.json that goes with a cloud: beside it, or beside the frames/ it lies in.
-LabelTable FindLabels(const std::filesystem::path& cloud_file) {
-  const std::filesystem::path folder = std::filesystem::absolute(cloud_file).parent_path();
+/// The labels.json that goes with a cloud file or a directory of them: beside it or in it, or
+/// beside the frames/ that it is or lies in.
+LabelTable FindLabels(const std::filesystem::path& clouds) {
+  const std::filesystem::path source = std::filesystem::absolute(clouds);
+  const std::filesystem::path folder = is_directory(source) ? source : source.parent_path();
   for (const std::filesystem::path& candidate : {folder, folder.parent_path()}) {
     if (is_regular_file(candidate / "labels.json"))
       return ReadLabelTable(candidate / "labels.json");
@@ -29,7 +32,7 @@ LabelTable FindLabels(const std::filesystem::path& cloud_file) {
 RecordedFrames::RecordedFrames(const std::filesystem::path& source)
     : recording_(OpenRecording(source)) {
   info_ = recording_->info();
-  if (is_regular_file(source)) info_.labels = FindLabels(source);
+  if (info_.labels.labels().empty()) info_.labels = FindLabels(source);
   num_known_ = info_.num_frames.value_or(0);
 }
 
@@ -47,7 +50,7 @@ bool RecordedFrames::Advance() {
     return false;
   }
   readers_.push_back(std::move(*reader));
-  if (!info_.num_frames && readers_.size() > kMaxTurns) {
+  if (readers_.size() > (info_.num_frames ? kMaxReaders : kMaxTurns)) {
     readers_.pop_front();
     ++first_reader_;
   }

@@ -40,9 +40,8 @@ class RecordedFrames final : public Frames {
   bool Advance();
 
   std::unique_ptr<Recording> recording_;
-  /// Of frames [first_reader_, first_reader_ + readers_.size()). Those of files are all kept, they
-  /// hold a few lines of text; those of captures hold a turn each, and to go far back means to read
-  /// the capture anew.
+  /// Of frames [first_reader_, first_reader_ + readers_.size()): the last that were passed. To go
+  /// farther back means to read the recording anew.
   std::deque<Recording::FrameReader> readers_;
   std::size_t first_reader_{};
   std::size_t num_known_{};

@@ -29,7 +29,7 @@ enum class Layout : std::uint8_t {
 };
 
 /// More than this is too much to draw and to keep.
-inline constexpr std::size_t kMaxAccumulated = 256;
+inline constexpr std::size_t kMaxAccumulated = 128;
 
 /// How the user wants to see frames.
 struct Choices {

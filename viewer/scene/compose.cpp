@@ -91,6 +91,10 @@ std::vector<Category> BeamKinds(const RecordedFrame& recorded) {
   return kinds;
 }
 
+std::array<double, 2> FitDistances_m(const FieldValues& distances) {
+  return {0.0, FitScale(distances)[1]};
+}
+
 FieldValues DistancesField(const ShownFrame& of, const ShownFrame& other) {
   const std::vector<float> distances_m = DistancesToNearest_m(of, other);
   return {.kind = FieldValues::Kind::kAmount,
@@ -227,7 +231,7 @@ Scene ComposeDistances(const std::shared_ptr<const ShownFrame>& a,
   const FieldValues of_a = DistancesField(*a, *b);
   const FieldValues of_b = DistancesField(*b, *a);
   const ColorMap map = choices.map.value_or(ColorMap::kViridis);
-  const auto ends_m = choices.distance_ends_m ? *choices.distance_ends_m : FitScale(of_a);
+  const auto ends_m = choices.distance_ends_m ? *choices.distance_ends_m : FitDistances_m(of_a);
   scene.coloring = ColorByScale(of_a, map, ends_m);
   scene.clouds.push_back({a, Transform::Identity(), std::move(scene.coloring.colors)});
   scene.clouds.push_back({b, FirstFromSecond(*a, *b).value_or(Transform::Identity()),

@@ -88,7 +88,9 @@ double Session::Period_s() const {
 ShownFrames Session::FramesWith(const Source& source,
                                 const std::shared_ptr<const ShownFrame>& shown) const {
   ShownFrames frames = {shown};
-  for (std::size_t back = 1; back < choices_.num_accumulated && back <= place_; ++back) {
+  // Without poses nobody knows where they were.
+  const std::size_t num_wanted = shown->recorded->has_pose ? choices_.num_accumulated : 1;
+  for (std::size_t back = 1; back < num_wanted && back <= place_; ++back) {
     if (auto earlier = source.frames->Get(place_ - back)) frames.push_back(std::move(earlier));
   }
   return frames;

@@ -76,7 +76,7 @@ class Recording {
 
   [[nodiscard]] virtual const RecordingInfo& info() const = 0;
 
-  /// Reads one frame; any thread may call it, once, also beside those of other frames.
+  /// Reads one frame; any thread may call it, also beside those of other frames.
   /// @throws InputError with one line if its file cannot be read or is damaged.
   using FrameReader = std::function<RecordedFrame()>;
 

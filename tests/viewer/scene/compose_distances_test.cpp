@@ -58,13 +58,18 @@ TEST(ComposeDistances, ColoursByHowFarTheOtherIsAway) {
   }
 }
 
-TEST(ComposeDistances, FitsItsScaleToTheFirstsDistances) {
+TEST(ComposeDistances, FitsItsScaleFromZeroToTheFirstsDistances) {
   const auto a = SharedCloud({{100, 0, 0}, {110, 0, 0}});
-  const auto b = SharedCloud({{100, 0, 0.25}, {110, 0, 1.5}});
+  const auto b = SharedCloud({{100, 0, 0.375}, {110, 0, 1.5}});
   const Scene scene = ComposeDistances(a, b, {});
-  EXPECT_EQ(scene.coloring.ends, (std::array{0.25, 1.5}));
-  EXPECT_THAT(scene.clouds[0].colors,
-              ElementsAre(MapColor(ColorMap::kViridis, 0.0), MapColor(ColorMap::kViridis, 1.0)));
+  EXPECT_EQ(scene.coloring.ends, (std::array{0.0, 1.5}));
+  EXPECT_THAT(scene.clouds[0].colors, ElementsAre(MapColor(ColorMap::kViridis, 256.0 / 1023.0),
+                                                  MapColor(ColorMap::kViridis, 1.0)));
+}
+
+TEST(ComposeDistances, HasAScaleForCloudsThatAreTheSame) {
+  const auto a = SharedCloud({{100, 0, 0}, {110, 0, 0}});
+  EXPECT_EQ(ComposeDistances(a, a, {}).coloring.ends, (std::array{0.0, 0.5}));
 }
 
 TEST(ComposeDistances, HasNoColoursWhereThereIsNothingNear) {
