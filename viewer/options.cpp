@@ -118,7 +118,8 @@ void AddLookOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
   app.add_option("--color-range", raw.color_range,
                  "Ends of the scale; default: 1st and 99th percentile of the first frame")
       ->expected(2)
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   app.add_option("--point-size", options.look.point_size_px, "In pixels; default: by the height")
       ->check(CLI::Range(1, kMaxPointSize_px));
   app.add_option("--background", raw.background)
@@ -130,8 +131,15 @@ void AddLookOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
       ->capture_default_str();
   app.add_option("--show", raw.show, "What is drawn over the points, with commas between")
       ->check(CLI::IsMember(ShowableNames()))
-      ->delimiter(',');
-  app.add_option("--select", options.select, "Labels; all others are faint")->delimiter(',');
+      ->delimiter(',')
+      ->expected(1)
+      ->take_all()
+      ->allow_extra_args(false);
+  app.add_option("--select", options.select, "Labels; all others are faint")
+      ->delimiter(',')
+      ->expected(1)
+      ->take_all()
+      ->allow_extra_args(false);
 }
 
 void AddCameraOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
@@ -142,9 +150,12 @@ void AddCameraOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
                                    "X,Y,Z of the eye in the sensor's axes, in metres, instead of "
                                    "a camera")
                         ->expected(3)
-                        ->delimiter(',');
-  auto* const target =
-      app.add_option("--target", raw.target_m, "Where it looks")->expected(3)->delimiter(',');
+                        ->delimiter(',')
+                        ->allow_extra_args(false);
+  auto* const target = app.add_option("--target", raw.target_m, "Where it looks")
+                           ->expected(3)
+                           ->delimiter(',')
+                           ->allow_extra_args(false);
   eye->needs(target)->excludes(const_cast<CLI::Option*>(camera));
   target->needs(eye);
   app.add_option("--size", raw.size, "Of the window or picture, in pixels")->capture_default_str();
@@ -166,6 +177,7 @@ void AddPictureOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
                      "from the first to the second")
           ->expected(1)
           ->take_all()
+          ->allow_extra_args(false)
           ->needs(screenshot);
   app.add_flag("--trace", options.traces, "And what each effect made of its firing")->needs(pick);
 }
