@@ -1,6 +1,7 @@
 #include "viewer/draw/scene_view.h"
 
 #include <vtkCamera.h>
+#include <vtkCommand.h>
 #include <vtkMatrix4x4.h>
 
 #include <cmath>
@@ -21,6 +22,10 @@ constexpr double kLineWidth_px = 1.5;
 SceneView::SceneView(double left, double right)
     : left_(left), right_(right), scene_(std::make_shared<const Scene>()) {
   renderer_->SetViewport(left, 0.0, right, 1.0);
+  // Views share a camera, and each has its own depths: another's range would cut off its points.
+  renderer_->AddObserver(
+      vtkCommand::StartEvent, renderer_.Get(),
+      static_cast<void (vtkRenderer::*)()>(&vtkRenderer::ResetCameraClippingRange));
 }
 
 std::array<int, 2> SceneView::SizeIn(const std::array<int, 2>& window_px) const {

@@ -12,6 +12,8 @@ namespace {
 Eigen::Matrix4d ClipFromView(vtkRenderer& renderer) {
   constexpr double kNearClip = -1.0;
   constexpr double kFarClip = 1.0;
+  // Another view may have left its own range to the camera that they share.
+  renderer.ResetCameraClippingRange();
   vtkMatrix4x4* const matrix = renderer.GetActiveCamera()->GetCompositeProjectionTransformMatrix(
       renderer.GetTiledAspectRatio(), kNearClip, kFarClip);
   return Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(matrix->GetData());
