@@ -213,6 +213,11 @@ void UseRaw(const RawOptions& raw, const CLI::App& app, ViewOptions& options) {
                                : options.choices.overlays.*found->choice) = true;
   }
   if (!raw.eye_m.empty()) {
+    const auto is_finite = [](double value) { return std::isfinite(value); };
+    if (!std::ranges::all_of(raw.eye_m, is_finite) ||
+        !std::ranges::all_of(raw.target_m, is_finite)) {
+      Fail("--eye, --target", "must be numbers");
+    }
     options.place = {.eye_m = Triple(raw.eye_m), .target_m = Triple(raw.target_m)};
     if (options.place->eye_m == options.place->target_m) {
       Fail("--eye", "must be another place than --target");

@@ -136,7 +136,7 @@ class Viewer {
       throw InputError(options_.source.string() + ": has no frame to show");
     }
     const std::string missing = session_->Missing();
-    if (!missing.empty()) throw InputError("--show: " + missing);
+    if (!missing.empty()) throw InputError(options_.source.string() + ": " + missing);
     if (options_.is_verbose) {
       for (const Scene& scene : session_->Compose()) {
         std::fprintf(stderr, "%s\n", scene.status.c_str());
