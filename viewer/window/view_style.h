@@ -22,6 +22,8 @@ class ViewStyle : public vtkInteractorStyleTrackballCamera {
   std::function<void(const std::string& key)> on_key;
 
   void OnChar() override {}
+  /// VTK's goes on turning as long as a button is held, also where the mouse rests.
+  void OnTimer() override {}
   void OnKeyPress() override;
   void OnLeftButtonDown() override;
   void OnLeftButtonUp() override;
