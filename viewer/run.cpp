@@ -68,7 +68,7 @@ void ShowPicks(const ViewOptions& options, const Session& session, Stage& stage)
   }
   if (picks.is_empty()) return;
   stage.ShowPlate(Stage::Plate::kFacts, picks.facts());
-  std::printf("%s", picks.facts().c_str());
+  std::printf("%s%s", picks.facts().c_str(), picks.facts().ends_with('\n') ? "" : "\n");
   for (std::size_t i = 0; i < stage.num_views(); ++i) {
     stage.ShowMarks(i, picks.MarksIn(stage.view(i).scene()));
   }
