@@ -35,7 +35,7 @@ display_packages=(
   xvfb
 )
 
-# What the tests call: readers and validators that are not ours.
+# What the tests call: readers and validators that are not ours, and a hand for the viewer's window.
 test_packages=(
   "${display_packages[@]}"
   chromium
@@ -45,6 +45,7 @@ test_packages=(
   python3-numpy
   python3-open3d
   tshark
+  xdotool
 )
 
 # What scripts/check.sh calls.

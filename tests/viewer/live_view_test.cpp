@@ -1,45 +1,28 @@
 #include <gtest/gtest.h>
 
-#include <array>
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <filesystem>
+#include <random>
+#include <set>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "core/io/net/udp_sender.h"
+#include "core/io/write_file.h"
 #include "tests/core/io/stream/listening_program.h"
 #include "tests/core/io/stream/stream_example.h"
-#include "tests/viewer/view_program.h"
+#include "tests/viewer/program/recorded_run.h"
+#include "tests/viewer/program/squares.h"
+#include "tests/viewer/program/window_program.h"
 
 namespace railcast {
 namespace {
 
-/// What WriteSquares writes, as a frame of one row; the last slot has no point.
-Frame SquaresFrame(std::uint32_t index) {
-  std::vector<std::array<float, 3>> points = {{-40.0F, 0.0F, 0.0F}};
-  for (int iy = -20; iy <= 20; ++iy) {
-    for (int iz = -20; iz <= 20; ++iz) {
-      for (int square = 0; square < 2; ++square) {
-        points.push_back({40.0F, 0.05F * static_cast<float>(iy) + 5.0F * static_cast<float>(square),
-                          0.05F * static_cast<float>(iz)});
-      }
-    }
-  }
-  Frame frame;
-  frame.index = index;
-  frame.Resize(1, static_cast<std::uint32_t>(points.size() + 1), 1);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    frame.x[i] = points[i][0];
-    frame.y[i] = points[i][1];
-    frame.z[i] = points[i][2];
-  }
-  frame.outcome.back() = Outcome::kNoSurface;
-  return frame;
-}
-
-/// Sends these datagrams again and again, `pause` apart, until it ends.
+/// Sends these datagrams again and again, 20 ms apart, until it ends.
 class EndlessSender {
  public:
   EndlessSender(const Endpoint& to, std::vector<Datagrams> scans)
@@ -70,12 +53,14 @@ Datagrams Scan(const Frame& frame, const StreamSpec& spec = {}) {
   return scan;
 }
 
-TEST_F(Screenshot, ShowsTheFirstWholeFrameOfAStream) {
+using LiveScreenshot = Squares;
+
+TEST_F(LiveScreenshot, ShowsTheFirstWholeFrame) {
   const Endpoint at = OwnEndpoint();
   Datagrams half = Scan(SquaresFrame(0));
   half.items.resize(half.items.size() / 2);
   const EndlessSender sender(at, {half, Scan(SquaresFrame(1)), Scan(SquaresFrame(2))});
-  Draw("--color-by height udp://" + EndpointText(at));
+  DrawSquares("--color-by height udp://" + EndpointText(at));
   // As ShowsHeightOnTheScale.
   for (const double z_m : {-0.9, -0.5, 0.0, 0.5, 0.9}) {
     EXPECT_NEAR(PlaceOnScale(At(0.0, PixelsAbove(z_m))), 0.5 + 0.5 * z_m, 2.0 / 36.0) << z_m;
@@ -85,20 +70,205 @@ TEST_F(Screenshot, ShowsTheFirstWholeFrameOfAStream) {
   }
 }
 
-TEST_F(Screenshot, KeepsUpWithAStream) {
+TEST_F(LiveScreenshot, WaitsNoLongerThanItIsTold) {
   const std::string source = "udp://" + EndpointText(OwnEndpoint());
-  ListeningProgram view(std::string(kOnADisplay) + " --color-by intensity " + source);
-  UdpSender sender({view.at()}, 0);
-  const Datagrams first = Scan(SquaresFrame(1));
-  sender.Send(first, first.items);
-  // The window opens for that one, and lives until a frame comes that it cannot colour.
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  const Ended ended = View("--wait 0.2 --screenshot " + PathOf("out.png") + " " + source);
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_EQ(ended.said, "listening at " + EndpointText(OwnEndpoint()) + "\nerror: " + source +
+                            ": no whole frame came within 0.2 s\n");
+  EXPECT_FALSE(std::filesystem::exists(PathOf("out.png")));
+}
+
+TEST_F(LiveScreenshot, MayBeAVideo) {
+  const std::string at = EndpointText(OwnEndpoint());
+  Write("scenario.json", YardScenario());
+  RunningProgram stream({RAILCAST_GENERATE, "stream", PathOf("scenario.json"), "--to", at},
+                        PathOf("stream.txt"));
+  const Ended ended = View("--size 320x240 --frames 3 --video " + PathOf("video") + " udp://" + at);
+  EXPECT_EQ(ended.status, 0) << ended.said << stream.Said();
+  std::set<std::string> contents;
+  for (const std::string name : {"000000.png", "000001.png", "000002.png"}) {
+    EXPECT_EQ(ReadPicture(PathOf("video/" + name)).width, 320);
+    contents.insert(ReadFileWhole(PathOf("video/" + name)));
+  }
+  EXPECT_EQ(contents.size(), 3U);
+  EXPECT_FALSE(std::filesystem::exists(PathOf("video/000003.png")));
+}
+
+/// A window that listens.
+class LiveWindow : public WindowTest {
+ protected:
+  void Listen(std::vector<std::string> options = {}) {
+    options.push_back("udp://" + EndpointText(at_));
+    Open(options);
+  }
+  /// Waits until a picture has points; the key p does nothing before the first frame.
+  [[nodiscard]] bool WaitForPoints() {
+    Press("p");
+    return window().WaitUntil([&] {
+      Press("p");
+      return std::filesystem::exists(PathOf("desk/railcast-view-2.png"));
+    });
+  }
+  /// The last picture that was saved once all keys had their effect.
+  [[nodiscard]] Picture Saved() {
+    int number = 1;
+    while (std::filesystem::exists(NameOf(number))) ++number;
+    Press("p");
+    // Those of WaitForPoints may still be on their way.
+    EXPECT_TRUE(window().WaitUntil([&] { return std::filesystem::exists(NameOf(number)); }))
+        << window().Said();
+    return ReadPicture(NameOf(number));
+  }
+  static std::size_t CountPoints(const Picture& picture) {
+    constexpr Rgb kDark = {26, 26, 28};
+    std::size_t count = 0;
+    for (int y = 0; y < picture.height; ++y) {
+      for (int x = 0; x < picture.width; ++x) {
+        count += IsClearOfWords({x, y}, picture) && picture.At(x, y) != kDark ? 1U : 0U;
+      }
+    }
+    return count;
+  }
+
+  const Endpoint at_ = OwnEndpoint();
+
+ private:
+  [[nodiscard]] std::string NameOf(int number) const {
+    return PathOf("desk/railcast-view-" + std::to_string(number) + ".png");
+  }
+};
+
+Frame Square(std::uint32_t index) {
+  Frame frame;
+  frame.index = index;
+  frame.Resize(41, 41, 1);
+  for (std::size_t i = 0; i < frame.num_slots(); ++i) {
+    const std::size_t row = i / 41;
+    const std::size_t column = i % 41;
+    frame.x[i] = 40.0F;
+    frame.y[i] = 0.05F * static_cast<float>(column) - 1.0F;
+    frame.z[i] = 0.05F * static_cast<float>(row) - 1.0F;
+    frame.intensity[i] = 0.01F * static_cast<float>(column);
+  }
+  return frame;
+}
+
+TEST_F(LiveWindow, OpensAtOnceAndIsLeftBeforeAFrameCame) {
+  Listen();
+  EXPECT_EQ(window().Said(), "listening at " + EndpointText(at_) + "\n");
+  Press("p c o space Right End bracketleft question question k e l Escape q");
+  EXPECT_EQ(window().ExitStatus(), 0) << window().Said();
+  EXPECT_FALSE(std::filesystem::exists(PathOf("desk/railcast-view-1.png")));
+}
+
+TEST_F(LiveWindow, FallsBackWhereALaterFrameLacksTheField) {
+  Listen({"--camera", "driver", "--color-by", "intensity"});
+  Picture coloured;
+  {
+    const EndlessSender sender(at_, {Scan(Square(1)), Scan(Square(2))});
+    ASSERT_TRUE(WaitForPoints());
+    coloured = Saved();
+  }
   StreamSpec without_intensity;
   without_intensity.fields = FieldSelection("x,y,z");
-  const EndlessSender later(view.at(), {Scan(SquaresFrame(2)), Scan(SquaresFrame(3)),
-                                        Scan(SquaresFrame(4), without_intensity)});
-  EXPECT_EQ(view.Rest(), "error: " + source + ": has no field intensity to color by\n");
-  EXPECT_EQ(view.ExitStatus(), 1);
+  const EndlessSender sender(at_, {Scan(Square(3), without_intensity)});
+  // By height, which rises upwards where intensity rose to the left.
+  EXPECT_TRUE(window().WaitUntil([&] {
+    const Picture picture = Saved();
+    return CountPoints(picture) > 300 &&
+           picture.Part({300, 200}, 40, 60) != coloured.Part({300, 200}, 40, 60);
+  }));
+  Press("q");
+  EXPECT_EQ(window().ExitStatus(), 0) << window().Said();
+}
+
+TEST_F(LiveWindow, OutlivesSendersAndTheirNoise) {
+  Listen({"--camera", "driver"});
+  {
+    const EndlessSender sender(at_, {Scan(Square(7)), Scan(Square(8))});
+    ASSERT_TRUE(WaitForPoints());
+  }
+  // The sender is gone; its last frame stays.
+  EXPECT_GT(CountPoints(Saved()), 300U);
+  // Noise: what fuzzing found, cut and flipped datagrams, other shapes, nothing at all.
+  std::vector<Datagrams> noise;
+  for (const auto& entry : std::filesystem::directory_iterator(RAILCAST_FUZZ_CORPORA "/stream")) {
+    const std::string bytes = ReadFileWhole(entry.path());
+    for (const std::size_t size : {bytes.size(), bytes.size() / 2, std::size_t{1}}) {
+      Datagrams one;
+      one.bytes.assign(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(
+                                                          std::min(size, std::size_t{1400})));
+      one.items.push_back({.size = static_cast<std::uint16_t>(one.bytes.size())});
+      noise.push_back(std::move(one));
+    }
+  }
+  std::minstd_rand random(1);
+  for (int i = 0; i < 40; ++i) {
+    Datagrams scan = Scan(Square(9));
+    for (int flip = 0; flip < 8; ++flip) scan.bytes[random() % scan.bytes.size()] ^= char(0x55);
+    noise.push_back(std::move(scan));
+  }
+  {
+    const EndlessSender sender(at_, noise);
+    for (int i = 0; i < 20; ++i) (void)Saved();
+  }
+  EXPECT_TRUE(window().IsAlive()) << window().Said();
+  // A sender that begins anew, with its first frame, is shown again.
+  const Picture before = Saved();
+  Frame moved = Square(0);
+  for (float& y_m : moved.y) y_m -= 5.0F;
+  StreamSpec anew;
+  anew.run = 1;
+  const EndlessSender sender(at_, {Scan(moved, anew)});
+  EXPECT_TRUE(window().WaitUntil([&] {
+    const Picture picture = Saved();
+    return picture.Part({400, 150}, 60, 200) != before.Part({400, 150}, 60, 200);
+  }));
+  Press("q");
+  EXPECT_EQ(window().ExitStatus(), 0) << window().Said();
+}
+
+/// Half a minute of it: of its own in ctest.
+class Minute : public LiveWindow {};
+
+TEST_F(Minute, ShowsAStreamOfTheGeneratorAllTheTime) {
+  std::string scenario = YardScenario();
+  const std::string fast = "\"speed_mps\": 20";
+  scenario.replace(scenario.find(fast), fast.size(), "\"speed_mps\": 0.5");
+  Write("scenario.json", scenario);
+  RunningProgram stream(
+      {RAILCAST_GENERATE, "stream", PathOf("scenario.json"), "--to", EndpointText(at_)},
+      PathOf("stream.txt"));
+  Listen({"--scenario", PathOf("scenario.json")});
+  ASSERT_TRUE(WaitForPoints()) << stream.Said() << window().Said();
+  const auto begin = std::chrono::steady_clock::now();
+  const auto live_until = [&](int time_s) {
+    while (std::chrono::steady_clock::now() < begin + std::chrono::seconds(time_s)) {
+      ASSERT_TRUE(window().IsAlive()) << window().Said();
+      ASSERT_TRUE(stream.IsAlive()) << stream.Said();
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+  };
+  live_until(10);
+  const Picture early = Saved();
+  const long early_kib = window().Memory_KiB();
+  live_until(30);
+  const Picture late = Saved();
+  const long late_kib = window().Memory_KiB();
+  EXPECT_GT(early_kib, 10'000);
+  EXPECT_LT(late_kib, early_kib + early_kib / 5);
+  const Rgb wagon = RecordedRun::Yard().ColorOf("wagon");
+  for (const Picture& picture : {early, late}) {
+    EXPECT_GT(PointsOf(wagon, picture).size(), 300U);
+    EXPECT_GT(CountPoints(picture), 20'000U);
+    // The status: bright letters at the foot, where no points are.
+    const Picture foot = picture.Part({0, 440}, 200, 40);
+    EXPECT_GT(std::ranges::count_if(foot.pixels, [](const Rgb& rgb) { return rgb[2] > 150; }), 100);
+  }
+  EXPECT_GT(Differences(early, late).size(), 1000U);
+  Press("q");
+  EXPECT_EQ(window().ExitStatus(), 0) << window().Said();
 }
 
 }  // namespace

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/viewer/program/drawn_points.h"
+#include "tests/viewer/program/running_program.h"
+#include "tests/viewer/program/view_program.h"
+
+namespace railcast {
+
+/// The window of 640 x 480 as people use it: keys and the mouse come from the X server (xdotool),
+/// pictures from the key p, which comes after the keys before it.
+class WindowTest : public Drawn {
+ protected:
+  void SetUp() override {
+    Drawn::SetUp();
+    if (std::system("command -v xdotool > /dev/null") != 0) GTEST_SKIP() << "xdotool is missing";
+  }
+  void TearDown() override { window_.reset(); }
+
+  /// Opens it and waits until it is there.
+  void Open(const std::vector<std::string>& arguments) {
+    std::vector<std::string> command = {RAILCAST_VIEW, "--size", "640x480"};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    std::filesystem::create_directories(PathOf("desk"));
+    window_ = std::make_unique<RunningProgram>(command, PathOf("said.txt"), PathOf("desk"));
+    const bool is_open = window_->WaitUntil([&] {
+      id_ = Xdotool("search --onlyvisible --name '^railcast-view$'").said;
+      return !id_.empty() && id_.back() == '\n';
+    });
+    ASSERT_TRUE(is_open) << window_->Said();
+    id_ = id_.substr(0, id_.find('\n'));
+    // Without a window manager, keys go to the window that the pointer is in. Away from all that
+    // lights up under it.
+    PointAt({600, 60});
+    num_pictures_ = 0;
+  }
+
+  static Ended Xdotool(const std::string& arguments) {
+    return RunCommand("xdotool " + arguments + " 2>/dev/null");
+  }
+  void PointAt(const Pixel& place) {
+    EXPECT_EQ(Xdotool("mousemove --window " + id_ + " " + std::to_string(place.x) + " " +
+                      std::to_string(place.y))
+                  .status,
+              0);
+  }
+  /// By X's names, one after another: "Right Right c".
+  void Press(const std::string& keys) { EXPECT_EQ(Xdotool("key --delay 5 " + keys).status, 0); }
+  void Click(const Pixel& place, int button = 1) {
+    PointAt(place);
+    EXPECT_EQ(Xdotool("click " + std::to_string(button)).status, 0);
+  }
+  /// In steps, as a hand does; held at the end for as long as `while_held` takes.
+  template <typename WhileHeld>
+  void Drag(const Pixel& from, const Pixel& to, WhileHeld&& while_held) {
+    PointAt(from);
+    EXPECT_EQ(Xdotool("mousedown 1").status, 0);
+    constexpr int kNumSteps = 4;
+    for (int step = 1; step <= kNumSteps; ++step) {
+      PointAt({from.x + (to.x - from.x) * step / kNumSteps,
+               from.y + (to.y - from.y) * step / kNumSteps});
+    }
+    while_held();
+    EXPECT_EQ(Xdotool("mouseup 1").status, 0);
+  }
+  void Drag(const Pixel& from, const Pixel& to) {
+    Drag(from, to, [] {});
+  }
+
+  /// What the window shows once it has done all that came before.
+  [[nodiscard]] Picture Shown() {
+    const std::string file =
+        PathOf("desk/railcast-view-" + std::to_string(++num_pictures_) + ".png");
+    Press("p");
+    EXPECT_TRUE(window_->WaitUntil([&] { return std::filesystem::exists(file); }))
+        << window_->Said();
+    return ReadPicture(file);
+  }
+  /// Waits until it shows that: without words, which say whether it plays.
+  [[nodiscard]] bool WaitToShow(const Picture& picture) {
+    return window_->WaitUntil([&] { return ArePointsAlike(Shown(), picture); });
+  }
+  /// The line that it prints next, less the newline.
+  [[nodiscard]] std::string NextLineAfter(const std::string& key) {
+    const std::size_t before = window_->Said().size();
+    Press(key);
+    std::string line;
+    EXPECT_TRUE(window_->WaitUntil([&] {
+      line = window_->Said().substr(before);
+      return line.ends_with('\n');
+    }));
+    return line.substr(0, line.size() - 1);
+  }
+
+  /// Above the status and the slider at the foot.
+  static Picture AboveFoot(const Picture& picture) {
+    return picture.width == 0 ? picture : picture.Part({0, 0}, picture.width, 410);
+  }
+  static bool ArePointsAlike(const Picture& a, const Picture& b) {
+    return AboveFoot(a) == AboveFoot(b);
+  }
+
+  [[nodiscard]] RunningProgram& window() { return *window_; }
+
+ private:
+  std::unique_ptr<RunningProgram> window_;
+  std::string id_;
+  int num_pictures_ = 0;
+};
+
+}  // namespace railcast
