@@ -79,6 +79,14 @@ CameraPlace PlaceForAll(std::span<const float> positions_m) {
 
 }  // namespace
 
+CameraPlace UprightCamera(const std::array<double, 3>& eye_m,
+                          const std::array<double, 3>& target_m) {
+  CameraPlace place{.eye_m = eye_m, .target_m = target_m};
+  const double level_m = std::hypot(target_m[0] - eye_m[0], target_m[1] - eye_m[1]);
+  if (level_m < 1e-3 * std::abs(target_m[2] - eye_m[2])) place.up = {1.0, 0.0, 0.0};
+  return place;
+}
+
 CameraPlace PresetCamera(std::string_view name, std::span<const float> positions_m) {
   if (name == "all" && !positions_m.empty()) return PlaceForAll(positions_m);
   const std::array<double, 3> origin_m = OriginOf(positions_m);

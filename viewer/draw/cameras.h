@@ -16,6 +16,10 @@ struct CameraPlace {
   std::array<double, 3> up{0.0, 0.0, 1.0};
 };
 
+/// With z up on the screen, or, straight from above or below, x.
+[[nodiscard]] CameraPlace UprightCamera(const std::array<double, 3>& eye_m,
+                                        const std::array<double, 3>& target_m);
+
 /// "driver" from the sensor, "chase" from above and behind it, both forward; "side" from the right;
 /// "top" from above, forward up; "all" like "chase", from as far as the cloud needs.
 inline constexpr std::array<std::string_view, 5> kCameraNames = {"driver", "top", "side", "chase",

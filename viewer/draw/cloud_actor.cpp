@@ -25,6 +25,13 @@ void MakeVertices(std::size_t num_points, vtkCellArray& vertices) {
   vertices.SetData(offsets, indices);
 }
 
+Rgb Faint(const Rgb& rgb, const Rgb& background) {
+  const auto mix = [](std::uint8_t value, std::uint8_t behind) {
+    return static_cast<std::uint8_t>((value + 4 * behind) / 5);
+  };
+  return {mix(rgb[0], background[0]), mix(rgb[1], background[1]), mix(rgb[2], background[2])};
+}
+
 }  // namespace
 
 CloudActor::CloudActor() {
@@ -40,9 +47,12 @@ CloudActor::CloudActor() {
   actor_->SetUserMatrix(matrix_);
 }
 
-void CloudActor::Show(const PlacedCloud& cloud, int point_size_px) {
+void CloudActor::Show(const PlacedCloud& cloud, const Look& look) {
   shown_ = cloud.shown;
   colors_ = cloud.colors;
+  for (std::size_t i = 0; i < cloud.is_faint.size(); ++i) {
+    if (cloud.is_faint[i]) colors_[i] = Faint(colors_[i], look.background.rgb);
+  }
   // VTK reads only, and says so nowhere.
   auto* const positions = const_cast<float*>(shown_->positions_m.data());
   constexpr int kOurs = 1;
@@ -59,7 +69,7 @@ void CloudActor::Show(const PlacedCloud& cloud, int point_size_px) {
   data_->Modified();
   SetMatrix(cloud.view_from_sensor, *matrix_);
   matrix_->Modified();
-  actor_->GetProperty()->SetPointSize(static_cast<float>(point_size_px));
+  actor_->GetProperty()->SetPointSize(static_cast<float>(look.point_size_px));
 }
 
 }  // namespace railcast

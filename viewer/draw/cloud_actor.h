@@ -11,6 +11,7 @@
 
 #include <memory>
 
+#include "viewer/draw/look.h"
 #include "viewer/scene/scene.h"
 
 namespace railcast {
@@ -20,7 +21,8 @@ namespace railcast {
 class CloudActor {
  public:
   CloudActor();
-  void Show(const PlacedCloud& cloud, int point_size_px);
+  /// @param look Faint points are nearly its background.
+  void Show(const PlacedCloud& cloud, const Look& look);
   [[nodiscard]] vtkActor& actor() { return *actor_; }
 
  private:

@@ -17,6 +17,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "viewer/draw/text_style.h"
 #include "viewer/draw/vtk_values.h"
 
 namespace railcast {
@@ -98,8 +99,7 @@ std::vector<vtkSmartPointer<vtkProp>> MakeWords(const Drawing& drawing,
     text.SetJustificationToCentered();
     text.SetVerticalJustificationToBottom();
     // Among points of their own colour they could not be read.
-    text.SetBackgroundColor(VtkColor(background.rgb).data());
-    text.SetBackgroundOpacity(0.6);
+    AddPlate(text, background);
     actor->ForceOpaqueOn();
     props.emplace_back(actor);
   }

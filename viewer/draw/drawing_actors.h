@@ -19,7 +19,7 @@ namespace railcast {
                                                               int size_px,
                                                               const Background& background);
 
-/// Whether anything of it can be seen: light lines on a white background cannot.
+/// The drawing with its light lines and words darkened if the background is light, too.
 [[nodiscard]] Drawing OnBackground(Drawing drawing, const Background& background);
 
 }  // namespace railcast

@@ -82,8 +82,10 @@ class KindList {
 
   void Add(const std::string& words, Legend& legend) {
     const double left_px = 0.02 * height_px_ + 0.96 * line_px_;
-    legend.props.emplace_back(
-        MakeText(words, background_, height_px_, {left_px, middle_px_}, TextAnchor::kLeftMiddle));
+    const auto text =
+        MakeText(words, background_, height_px_, {left_px, middle_px_}, TextAnchor::kLeftMiddle);
+    AddPlate(*text->GetTextProperty(), background_);
+    legend.props.emplace_back(text);
     middle_px_ -= line_px_;
   }
 
@@ -120,8 +122,10 @@ void ShowScale(const Coloring& coloring,
   bar->SetMaximumNumberOfColors(kScaleSteps);
   bar->SetNumberOfLabels(5);
   bar->SetLabelFormat("%-.4g");
-  bar->SetPosition(0.905, kFoot);
-  bar->SetWidth(0.085);
+  // In shares of the view, which may be narrow.
+  const double height_in_widths = static_cast<double>(size_px[1]) / size_px[0];
+  bar->SetPosition(1.0 - 0.17 * height_in_widths, kFoot);
+  bar->SetWidth(0.15 * height_in_widths);
   bar->SetHeight(kHeight);
   bar->UnconstrainedFontSizeOn();
   StyleText(*bar->GetLabelTextProperty(), background, size_px[1]);

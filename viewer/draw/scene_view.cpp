@@ -32,7 +32,7 @@ std::array<int, 2> SceneView::SizeIn(const std::array<int, 2>& window_px) const 
   return {static_cast<int>(std::lround((right_ - left_) * window_px[0])), window_px[1]};
 }
 
-void SceneView::ShowClouds(int point_size_px) {
+void SceneView::ShowClouds(const Look& look) {
   while (clouds_.size() > scene_->clouds.size()) {
     renderer_->RemoveActor(&clouds_.back()->actor());
     clouds_.pop_back();
@@ -42,7 +42,7 @@ void SceneView::ShowClouds(int point_size_px) {
     renderer_->AddActor(&clouds_.back()->actor());
   }
   for (std::size_t i = 0; i < clouds_.size(); ++i) {
-    clouds_[i]->Show(scene_->clouds[i], point_size_px);
+    clouds_[i]->Show(scene_->clouds[i], look);
   }
 }
 
@@ -77,7 +77,7 @@ void SceneView::Show(std::shared_ptr<const Scene> scene,
   renderer_->SetBackground(VtkColor(look.background.rgb).data());
   for (const auto& prop : fleeting_) renderer_->RemoveViewProp(prop);
   fleeting_.clear();
-  ShowClouds(look.point_size_px);
+  ShowClouds(look);
   ShowSurfaces();
   const Drawing overlays = OnBackground(scene_->overlays, look.background);
   if (!scene_->empty_beams.segments.empty()) {
@@ -88,13 +88,23 @@ void SceneView::Show(std::shared_ptr<const Scene> scene,
   }
   for (auto& word : MakeWords(overlays, height_px_ / 50, look.background))
     fleeting_.push_back(std::move(word));
-  const double margin_px = height_px_ / 60.0;
-  fleeting_.emplace_back(MakeText(scene_->status, look.background, height_px_,
-                                  {margin_px, margin_px}, TextAnchor::kLeftBottom));
   legend_ = MakeLegend(scene_->coloring, scene_->beam_kinds, SizeIn(window_px), look.background);
   fleeting_.insert(fleeting_.end(), legend_.props.begin(), legend_.props.end());
   for (const auto& prop : fleeting_) renderer_->AddViewProp(prop);
+  ShowStatus(scene_->status, look);
   renderer_->ResetCameraClippingRange();
+}
+
+void SceneView::ShowStatus(const std::string& status, const Look& look) {
+  if (status_) renderer_->RemoveViewProp(status_);
+  // The window's slider is below.
+  const std::array<double, 2> place_px = {height_px_ / 60.0, height_px_ / 27.0};
+  const auto text =
+      MakeText(status, look.background, height_px_, place_px, TextAnchor::kLeftBottom);
+  AddPlate(*text->GetTextProperty(), look.background);
+  text->GetTextProperty()->SetLineSpacing(1.15);
+  status_ = text;
+  renderer_->AddViewProp(status_);
 }
 
 void SceneView::ShowMarks(const Drawing& marks, const Look& look) {

@@ -8,6 +8,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "viewer/draw/cloud_actor.h"
@@ -28,9 +29,12 @@ class SceneView {
   void Show(std::shared_ptr<const Scene> scene,
             const Look& look,
             const std::array<int, 2>& window_px);
+  /// Lines for people at the left foot.
+  void ShowStatus(const std::string& status, const Look& look);
   /// Draws marks over the scene: picked points, a measured line.
   void ShowMarks(const Drawing& marks, const Look& look);
 
+  [[nodiscard]] const std::shared_ptr<const Scene>& shared_scene() const { return scene_; }
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] vtkRenderer& renderer() { return *renderer_; }
   [[nodiscard]] const Legend& legend() const { return legend_; }
@@ -40,7 +44,7 @@ class SceneView {
   [[nodiscard]] double left() const { return left_; }
 
  private:
-  void ShowClouds(int point_size_px);
+  void ShowClouds(const Look& look);
   void ShowSurfaces();
 
   double left_, right_;
@@ -49,6 +53,7 @@ class SceneView {
   std::vector<std::unique_ptr<CloudActor>> clouds_;
   Legend legend_;
   std::vector<vtkSmartPointer<vtkProp>> fleeting_;  ///< Made anew with each scene.
+  vtkSmartPointer<vtkProp> status_;
   std::vector<vtkSmartPointer<vtkProp>> marks_;
   /// Of surfaces that stay from scene to scene only their place changes.
   std::map<std::shared_ptr<const std::vector<Part>>, std::vector<vtkSmartPointer<vtkActor>>>

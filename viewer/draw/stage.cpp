@@ -54,6 +54,18 @@ void Stage::Show(std::vector<Scene> scenes, const Look& look) {
   if (!is_placed_) PlaceNow();
 }
 
+void Stage::Redraw(const Look& look) {
+  look_ = look;
+  for (const auto& view : views_) view->Show(view->shared_scene(), look, size_px());
+  for (std::size_t i = 0; i < plates_.size(); ++i) {
+    ShowPlate(static_cast<Plate>(i), std::exchange(plate_words_[i], {}));
+  }
+}
+
+void Stage::ShowStatus(const std::string& status) {
+  views_.front()->ShowStatus(status, look_);
+}
+
 void Stage::PlaceNow() {
   const Scene& scene = views_.front()->scene();
   const std::span<const float> positions_m =
@@ -85,6 +97,11 @@ void Stage::MoveCamera(const Transform& new_from_old) {
   PlaceCamera(place, *camera_);
 }
 
+void Stage::TurnAbout(const Eigen::Vector3f& target_m) {
+  const Eigen::Vector3d target = target_m.cast<double>();
+  PlaceCamera(UprightCamera(camera_place().eye_m, {target.x(), target.y(), target.z()}), *camera_);
+}
+
 CameraPlace Stage::camera_place() {
   return PlaceOf(*camera_);
 }
@@ -97,6 +114,7 @@ void Stage::ShowPlate(Plate plate, const std::string& words) {
   auto& actor = plates_[static_cast<std::size_t>(plate)];
   if (actor) plates_renderer_->RemoveActor(actor);
   actor = nullptr;
+  plate_words_[static_cast<std::size_t>(plate)] = words;
   if (words.empty()) return;
   const auto [width_px, height_px] = size_px();
   actor = MakeText(words, look_.background, height_px, {0.0, 0.0}, TextAnchor::kLeftBottom);

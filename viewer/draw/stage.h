@@ -27,12 +27,18 @@ class Stage {
 
   /// Replaces all that is shown. The camera stays; the first scene places it, see UseCamera.
   void Show(std::vector<Scene> scenes, const Look& look);
+  /// Draws the same scenes anew: another look, or another size of the window.
+  void Redraw(const Look& look);
+  /// Lines at the left foot of the first view, instead of its scene's.
+  void ShowStatus(const std::string& status);
   /// Places the camera relative to the first scene's sensor: now, and anew until a scene with a
   /// cloud has been shown.
   void UseCamera(const std::string& preset);
   void UseCamera(const CameraPlace& place);
   /// Moves the camera with the world, so that what stands stays where it is on the screen.
   void MoveCamera(const Transform& new_from_old);
+  /// Looks at that place from where it is, and is turned about it from then on.
+  void TurnAbout(const Eigen::Vector3f& target_m);
   [[nodiscard]] CameraPlace camera_place();
 
   /// Marks over a view's scene.
@@ -49,6 +55,8 @@ class Stage {
   [[nodiscard]] std::size_t num_views() const { return views_.size(); }
   [[nodiscard]] std::array<int, 2> size_px() const;
   [[nodiscard]] vtkRenderWindow& window() { return *window_; }
+  /// Over all views: what belongs to the window as a whole.
+  [[nodiscard]] vtkRenderer& plates_renderer() { return *plates_renderer_; }
 
  private:
   void SetViews(std::size_t count);
@@ -58,6 +66,7 @@ class Stage {
   vtkSmartPointer<vtkRenderer> plates_renderer_;  ///< Over all views.
   std::vector<std::unique_ptr<SceneView>> views_;
   std::array<vtkSmartPointer<vtkTextActor>, 3> plates_;
+  std::array<std::string, 3> plate_words_;
   Look look_;
   vtkSmartPointer<vtkCamera> camera_;
   std::string preset_ = "chase";

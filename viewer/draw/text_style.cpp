@@ -12,6 +12,11 @@ void StyleText(vtkTextProperty& text, const Background& background, int height_p
   text.SetFontSize(height_px / 45);
 }
 
+void AddPlate(vtkTextProperty& text, const Background& background) {
+  text.SetBackgroundColor(VtkColor(background.rgb).data());
+  text.SetBackgroundOpacity(0.6);
+}
+
 vtkSmartPointer<vtkTextActor> MakeText(const std::string& words,
                                        const Background& background,
                                        int height_px,

@@ -15,6 +15,9 @@ namespace railcast {
 /// Letters of a 45th of the window's height, in the colour of words on that background.
 void StyleText(vtkTextProperty& text, const Background& background, int height_px);
 
+/// Puts words on a faint plate, so that they can be read over points.
+void AddPlate(vtkTextProperty& text, const Background& background);
+
 /// Which point of a text lies where it is put.
 enum class TextAnchor : std::uint8_t {
   kLeftBottom,

@@ -33,8 +33,10 @@ void CheckIsTraceable(const std::filesystem::path& source,
 void CheckIsOfPattern(const RecordedFrame& recorded, const ScanPattern& pattern) {
   const Frame& frame = recorded.frame;
   if (!recorded.is_grid) {
-    throw InputError(recorded.name +
-                     ": is no grid of firings, so nobody knows which its points are of");
+    throw InputError(
+        recorded.name +
+        ": is no grid of firings, so nobody knows which its points are of (a stream needs "
+        "the fields ring and column)");
   }
   if (frame.rows == pattern.rows && frame.columns == pattern.columns) return;
   throw InputError(recorded.name + ": must have the firings of its scenario, " +

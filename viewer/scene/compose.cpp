@@ -1,8 +1,6 @@
 #include "viewer/scene/compose.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <utility>
 
 #include "core/base/attempt.h"
@@ -11,7 +9,6 @@
 #include "core/scenario/scenario.h"
 #include "viewer/color/coloring.h"
 #include "viewer/color/field_values.h"
-#include "viewer/color/outcome_colors.h"
 #include "viewer/overlays/axes_and_rings.h"
 #include "viewer/overlays/beams.h"
 #include "viewer/overlays/empty_beams.h"
@@ -20,31 +17,14 @@
 #include "viewer/overlays/sensor_frustum.h"
 #include "viewer/overlays/structure_gauge.h"
 #include "viewer/overlays/track_axis.h"
-#include "viewer/pick/cloud_distances.h"
+#include "viewer/scene/beam_kinds.h"
+#include "viewer/scene/faint_points.h"
 
 namespace railcast {
 namespace {
 
 constexpr double kRingLimit_m = 300.0;
 constexpr double kUnknownRange_m = 100.0;
-
-/// Points that are not selected: nearly the background's, whichever it is.
-Rgb Faint(const Rgb& rgb) {
-  constexpr int kGrey = 60;
-  const auto mix = [](std::uint8_t value) {
-    return static_cast<std::uint8_t>((value + 5 * kGrey) / 6);
-  };
-  return {mix(rgb[0]), mix(rgb[1]), mix(rgb[2])};
-}
-
-void FadeOthers(const ShownFrame& shown,
-                const std::set<std::uint32_t>& labels,
-                std::vector<Rgb>& colors) {
-  if (labels.empty()) return;
-  for (std::size_t i = 0; i < colors.size(); ++i) {
-    if (!labels.contains(shown.frame().label[shown.slots[i]])) colors[i] = Faint(colors[i]);
-  }
-}
 
 Coloring ColorFrame(const ShownFrame& shown, const RecordingInfo& info, const Choices& choices) {
   return AtPlace(shown.recorded->name + ": ", [&] {
@@ -61,45 +41,6 @@ Coloring ColorFrame(const ShownFrame& shown, const RecordingInfo& info, const Ch
 void AddTo(Drawing&& part, Drawing& drawing) {
   std::ranges::move(part.segments, std::back_inserter(drawing.segments));
   std::ranges::move(part.words, std::back_inserter(drawing.words));
-}
-
-/// Of the firings that brought nothing back, by outcome.
-std::vector<Category> BeamKinds(const RecordedFrame& recorded) {
-  const Frame& frame = recorded.frame;
-  std::array<std::size_t, kOutcomeNames.size()> counts{};
-  std::size_t num_empty = 0;
-  for (std::size_t slot = 0; slot < frame.num_slots(); slot += frame.returns) {
-    if (!std::isnan(frame.x[slot])) continue;
-    ++num_empty;
-    ++counts[static_cast<std::size_t>(frame.outcome[slot])];
-  }
-  if (!recorded.Has("outcome")) {
-    return {{.value = 0.0,
-             .name = "beams without return",
-             .rgb = kUnknownOutcomeRgb,
-             .num_points = num_empty}};
-  }
-  std::vector<Category> kinds;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    if (counts[i] == 0) continue;
-    const auto outcome = static_cast<Outcome>(i);
-    kinds.push_back({.value = static_cast<double>(i),
-                     .name = "no return: " + OutcomeTitle(outcome),
-                     .rgb = OutcomeRgb(outcome),
-                     .num_points = counts[i]});
-  }
-  return kinds;
-}
-
-std::array<double, 2> FitDistances_m(const FieldValues& distances) {
-  return {0.0, FitScale(distances)[1]};
-}
-
-FieldValues DistancesField(const ShownFrame& of, const ShownFrame& other) {
-  const std::vector<float> distances_m = DistancesToNearest_m(of, other);
-  return {.kind = FieldValues::Kind::kAmount,
-          .title = "to the other's nearest point [m]",
-          .values = {distances_m.begin(), distances_m.end()}};
 }
 
 }  // namespace
@@ -200,8 +141,10 @@ Scene Composer::Compose(const ShownFrames& frames, const Choices& choices) {
           latest.frame().world_from_sensor.inverse() * shown->frame().world_from_sensor;
     }
     Coloring coloring = ColorFrame(*shown, info_, choices);
-    FadeOthers(*shown, choices.labels, coloring.colors);
-    scene.clouds.push_back({shown, view_from_sensor, std::move(coloring.colors)});
+    scene.clouds.push_back({.shown = shown,
+                            .view_from_sensor = view_from_sensor,
+                            .colors = std::move(coloring.colors),
+                            .is_faint = FaintPoints(*shown, choices.labels)});
     if (shown == frames.front()) scene.coloring = std::move(coloring);
   }
   AddOverlays(latest, choices.overlays, scene);
@@ -216,27 +159,16 @@ void FitChoices(const ShownFrame& shown, Choices& choices) {
       throw InputError("has no field label to select by");
     }
     const FieldValues field = ValuesOf(shown, choices.color_by);
+    // Also that kinds are whole numbers.
+    if (field.kind == FieldValues::Kind::kCategory) {
+      (void)ColorByCategory(field, choices.color_by, RecordingInfo(), *shown.recorded);
+    }
     const bool has_scale = field.kind != FieldValues::Kind::kCategory;
     if (!has_scale && choices.ends) {
       throw InputError("field " + choices.color_by + " has no scale with a range");
     }
     if (has_scale && !choices.ends) choices.ends = FitScale(field);
   });
-}
-
-Scene ComposeDistances(const std::shared_ptr<const ShownFrame>& a,
-                       const std::shared_ptr<const ShownFrame>& b,
-                       const Choices& choices) {
-  Scene scene;
-  const FieldValues of_a = DistancesField(*a, *b);
-  const FieldValues of_b = DistancesField(*b, *a);
-  const ColorMap map = choices.map.value_or(ColorMap::kViridis);
-  const auto ends_m = choices.distance_ends_m ? *choices.distance_ends_m : FitDistances_m(of_a);
-  scene.coloring = ColorByScale(of_a, map, ends_m);
-  scene.clouds.push_back({a, Transform::Identity(), std::move(scene.coloring.colors)});
-  scene.clouds.push_back({b, FirstFromSecond(*a, *b).value_or(Transform::Identity()),
-                          ColorByScale(of_b, map, ends_m).colors});
-  return scene;
 }
 
 }  // namespace railcast

@@ -50,10 +50,4 @@ class Composer {
 ///   selected that it does not have.
 void FitChoices(const ShownFrame& shown, Choices& choices);
 
-/// Two frames in the first one's axes, each coloured by the distance to the nearest point of the
-/// other: in world coordinates if both have poses.
-[[nodiscard]] Scene ComposeDistances(const std::shared_ptr<const ShownFrame>& a,
-                                     const std::shared_ptr<const ShownFrame>& b,
-                                     const Choices& choices);
-
 }  // namespace railcast

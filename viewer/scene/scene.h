@@ -16,7 +16,8 @@ namespace railcast {
 struct PlacedCloud {
   std::shared_ptr<const ShownFrame> shown;
   Transform view_from_sensor = Transform::Identity();
-  std::vector<Rgb> colors;  ///< Of each point.
+  std::vector<Rgb> colors;       ///< Of each point.
+  std::vector<bool> is_faint{};  ///< Of each point; empty: none is.
 };
 
 /// Surfaces where they are drawn.

@@ -57,6 +57,17 @@ std::string FrameText(const ShownFrame& shown) {
   return text + " points";
 }
 
+std::string AccumulatedText(const Scene& scene) {
+  if (scene.clouds.size() < 2) return {};
+  std::uint64_t num_points = 0;
+  for (const PlacedCloud& cloud : scene.clouds) num_points += cloud.shown->num_points();
+  std::string text = "with ";
+  text += NumberText(scene.clouds.size() - 1);
+  text += " frames before it   ";
+  text += GroupedDigits(num_points);
+  return text + " points";
+}
+
 std::string DropoutText(const RecordedFrame& recorded) {
   if (!HasOutcomes(recorded) || !recorded.Has("true_range_m")) return {};
   const FiringCounts counts = CountFirings(recorded.frame);

@@ -6,11 +6,15 @@
 
 #include "core/frame/labels.h"
 #include "viewer/frames/shown_frame.h"
+#include "viewer/scene/scene.h"
 
 namespace railcast {
 
 /// "frame 20   2.000 s   26,812 points". The time is left out where there is none.
 [[nodiscard]] std::string FrameText(const ShownFrame& shown);
+
+/// "with 15 frames before it   253,104 points"; empty if there is but one.
+[[nodiscard]] std::string AccumulatedText(const Scene& scene);
 
 /// Lost of the firings that met a surface, by cause, as `railcast-analyze stats` counts them:
 /// "dropout 4.8 % (below_threshold 3.1, rain_absorbed 1.7)   clutter 12". Empty if the frame does

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/viewer/scene/shared_clouds.h"
-#include "viewer/scene/compose.h"
+#include "viewer/scene/compose_distances.h"
 
 namespace railcast {
 namespace {

@@ -1,4 +1,4 @@
-#include "viewer/pick/cloud_distances.h"
+#include "viewer/scene/cloud_distances.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
