@@ -143,9 +143,10 @@ void AddLookOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
 }
 
 void AddCameraOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
-  const auto* const camera = app.add_option("--camera", options.camera, "From where to look")
-                                 ->check(CLI::IsMember(Strings(kCameraNames)))
-                                 ->capture_default_str();
+  const auto* const camera = app.add_option("--camera", options.camera,
+                                            "From where to look; default: chase, all for "
+                                            "other people's recordings")
+                                 ->check(CLI::IsMember(Strings(kCameraNames)));
   auto* const eye = app.add_option("--eye", raw.eye_m,
                                    "X,Y,Z of the eye in the sensor's axes, in metres, instead of "
                                    "a camera")
@@ -218,7 +219,7 @@ void UseRaw(const RawOptions& raw, const CLI::App& app, ViewOptions& options) {
         !std::ranges::all_of(raw.target_m, is_finite)) {
       Fail("--eye, --target", "must be numbers");
     }
-    options.place = {.eye_m = Triple(raw.eye_m), .target_m = Triple(raw.target_m)};
+    options.place = UprightCamera(Triple(raw.eye_m), Triple(raw.target_m));
     if (options.place->eye_m == options.place->target_m) {
       Fail("--eye", "must be another place than --target");
     }
@@ -258,6 +259,14 @@ ViewOptions ParseOptions(CLI::App& app, int argc, char** argv) {
   app.parse(argc, argv);
   UseRaw(raw, app, options);
   CheckTogether(options);
+  for (const char* const option : {"--screenshot", "--video", "--compare", "--scenario"}) {
+    if (app.count(option) > 0 && app.get_option(option)->as<std::string>().empty()) {
+      Fail(option, "must not be empty");
+    }
+  }
+  if (!options.screenshot.empty() && options.screenshot.extension() != ".png") {
+    Fail("--screenshot", "must end in .png (got " + options.screenshot.string() + ")");
+  }
   return options;
 }
 

@@ -31,7 +31,7 @@ struct ViewOptions {
 
   Choices choices;
   Look look;
-  std::string camera = "chase";
+  std::string camera;  ///< Empty: by the source.
   std::optional<CameraPlace> place;
   std::array<int, 2> size_px{1280, 720};
   bool is_verbose = false;

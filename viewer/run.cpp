@@ -39,7 +39,7 @@ std::set<std::uint32_t> SelectedLabels(const std::vector<std::string>& names,
   return ids;
 }
 
-/// Waits for a live source's first whole frame.
+/// Waits until the frame that a live source gave last is a whole one.
 void WaitForFrame(LiveFrames& live, double wait_s) {
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::duration<double>(wait_s);
@@ -96,8 +96,12 @@ class Viewer {
     session_ = std::make_unique<Session>(frames, std::move(choices));
     if (options.place) {
       stage_.UseCamera(*options.place);
-    } else {
+    } else if (!options.camera.empty()) {
       stage_.UseCamera(options.camera);
+    } else {
+      // Presets are made for sensors of rail vehicles.
+      const bool is_ours = live_ || session_->source(0).info().scenario;
+      stage_.UseCamera(is_ours ? "chase" : "all");
     }
   }
 
@@ -131,7 +135,9 @@ class Viewer {
   }
 
   void SeekFirst() {
-    const std::size_t place = options_.frame ? recorded_.front()->PlaceOf(*options_.frame) : 0;
+    std::size_t place = session_->FirstPlace();
+    if (live_) place = live_->num_known() - 1;
+    if (options_.frame) place = recorded_.front()->PlaceOf(*options_.frame);
     if (!session_->Seek(place)) {
       throw InputError(options_.source.string() + ": has no frame to show");
     }
@@ -157,8 +163,9 @@ class Viewer {
 
   /// The next frame, if there is one; a live source is waited for.
   bool SeekNext() {
-    if (live_) WaitForFrame(*live_, options_.wait_s);
-    return session_->Seek(session_->place() + 1);
+    if (!live_) return session_->Seek(session_->place() + 1);
+    WaitForFrame(*live_, options_.wait_s);
+    return session_->Seek(live_->num_known() - 1);
   }
 
   void ShowProgress(std::size_t num_pictures, const ProgressLine& line) const {

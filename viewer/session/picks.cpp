@@ -9,7 +9,7 @@ constexpr Rgb kMarkColor = {255, 255, 255};
 constexpr float kCrossArm_m = 0.25F;
 
 /// Where a pick is in a scene's axes.
-std::optional<Eigen::Vector3f> PlaceIn(const Scene& scene, const Pick& pick) {
+std::optional<Eigen::Vector3f> PlaceOf(const Scene& scene, const Pick& pick) {
   for (const PlacedCloud& cloud : scene.clouds) {
     if (AreOfOneFrame(*cloud.shown->recorded, *pick.recorded)) {
       return (cloud.view_from_sensor * pick.at_stamp_m).cast<float>().eval();
@@ -55,11 +55,16 @@ std::optional<std::uint32_t> Picks::label() const {
   return picks_.back().recorded->frame.label[slot_];
 }
 
+std::optional<Eigen::Vector3f> Picks::PlaceIn(const Scene& scene) const {
+  if (picks_.empty()) return std::nullopt;
+  return PlaceOf(scene, picks_.back());
+}
+
 Drawing Picks::MarksIn(const Scene& scene) const {
   Drawing marks;
   std::vector<Eigen::Vector3f> places_m;
   for (const Pick& pick : picks_) {
-    const auto place_m = PlaceIn(scene, pick);
+    const auto place_m = PlaceOf(scene, pick);
     if (!place_m) continue;
     places_m.push_back(*place_m);
     for (int axis = 0; axis < 3; ++axis) {

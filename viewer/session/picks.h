@@ -31,6 +31,9 @@ class Picks {
   }
   [[nodiscard]] std::uint32_t slot() const { return slot_; }
 
+  /// Where the last pick is in the axes of a scene; nothing where MarksIn() leaves it out.
+  [[nodiscard]] std::optional<Eigen::Vector3f> PlaceIn(const Scene& scene) const;
+
   /// Crosses at the picks and the line between two, in the axes of a scene. What was picked in
   /// another frame is where it was in the world; left out where that is not known.
   [[nodiscard]] Drawing MarksIn(const Scene& scene) const;

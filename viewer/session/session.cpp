@@ -1,11 +1,14 @@
 #include "viewer/session/session.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/base/error.h"
 #include "viewer/color/coloring.h"
 #include "viewer/color/field_values.h"
+#include "viewer/scene/compose_distances.h"
 #include "viewer/scene/status_text.h"
 
 namespace railcast {
@@ -19,31 +22,69 @@ void AddLine(const std::string& line, std::string& text) {
 
 }  // namespace
 
+std::shared_ptr<const ShownFrame> Session::Source::Get(std::size_t place) const {
+  const std::ptrdiff_t own = static_cast<std::ptrdiff_t>(place) + offset;
+  return own < 0 ? nullptr : frames->Get(static_cast<std::size_t>(own));
+}
+
 Session::Session(const std::vector<Frames*>& frames, Choices choices)
     : choices_(std::move(choices)) {
-  for (Frames* const each : frames) sources_.push_back({each, Composer(each->info())});
+  for (Frames* const each : frames) {
+    sources_.push_back({.frames = each, .composer = Composer(each->info())});
+  }
+  PairSources();
+}
+
+void Session::PairSources() {
+  const auto is_numbered = [](const Source& source) {
+    return source.frames->info().kind == "sequence" && source.frames->Get(0);
+  };
+  if (sources_.size() < 2 || !std::ranges::all_of(sources_, is_numbered)) return;
+  const auto first_number = [](const Source& source) {
+    return static_cast<std::ptrdiff_t>(source.frames->Get(0)->frame().index);
+  };
+  for (Source& source : sources_) source.offset = first_number(sources_[0]) - first_number(source);
+}
+
+void Session::FitToAll(const std::vector<std::shared_ptr<const ShownFrame>>& shown) {
+  if (choices_.color_by.empty()) {
+    choices_.color_by = DefaultColorField(*shown.front()->recorded);
+    const bool all_have_it = std::ranges::all_of(shown, [this](const auto& each) {
+      return std::ranges::count(ColorableFields(*each->recorded), choices_.color_by) > 0;
+    });
+    if (!all_have_it) choices_.color_by = "height";
+  }
+  for (const auto& each : shown) FitChoices(*each, choices_);
 }
 
 bool Session::Seek(std::size_t place) {
   std::vector<std::shared_ptr<const ShownFrame>> shown;
   for (const Source& source : sources_) {
-    shown.push_back(source.frames->Get(place));
+    shown.push_back(source.Get(place));
     if (!shown.back()) return false;
   }
-  if (shown_.empty()) {
-    for (const auto& each : shown) FitChoices(*each, choices_);
-  }
+  if (shown_.empty()) FitToAll(shown);
   shown_ = std::move(shown);
   place_ = place;
   return true;
 }
 
-std::size_t Session::LastPlace() const {
-  std::size_t num_common = sources_.front().frames->num_known();
+std::size_t Session::FirstPlace() const {
+  std::ptrdiff_t first = 0;
   for (const Source& source : sources_) {
-    num_common = std::min(num_common, source.frames->num_known());
+    const auto own = static_cast<std::ptrdiff_t>(source.frames->first_known());
+    first = std::max(first, own - source.offset);
   }
-  return num_common == 0 ? 0 : num_common - 1;
+  return static_cast<std::size_t>(first);
+}
+
+std::size_t Session::LastPlace() const {
+  std::ptrdiff_t num_common = std::numeric_limits<std::ptrdiff_t>::max();
+  for (const Source& source : sources_) {
+    const auto own = static_cast<std::ptrdiff_t>(source.frames->num_known());
+    num_common = std::min(num_common, own - source.offset);
+  }
+  return num_common <= 0 ? 0 : static_cast<std::size_t>(num_common - 1);
 }
 
 void Session::ColorByNext(bool forward) {
@@ -79,7 +120,7 @@ double Session::Period_s() const {
   constexpr double kUsual_s = 0.1;
   if (shown_.empty()) return kUsual_s;
   const std::size_t other = place_ > 0 ? place_ - 1 : place_ + 1;
-  const auto neighbour = sources_.front().frames->Get(other);
+  const auto neighbour = sources_.front().Get(other);
   if (!neighbour) return kUsual_s;
   const auto gap_ns = std::abs(shown_.front()->frame().stamp_ns - neighbour->frame().stamp_ns);
   return gap_ns > 0 ? 1e-9 * static_cast<double>(gap_ns) : kUsual_s;
@@ -91,7 +132,7 @@ ShownFrames Session::FramesWith(const Source& source,
   // Without poses nobody knows where they were.
   const std::size_t num_wanted = shown->recorded->has_pose ? choices_.num_accumulated : 1;
   for (std::size_t back = 1; back < num_wanted && back <= place_; ++back) {
-    if (auto earlier = source.frames->Get(place_ - back)) frames.push_back(std::move(earlier));
+    if (auto earlier = source.Get(place_ - back)) frames.push_back(std::move(earlier));
   }
   return frames;
 }
@@ -100,6 +141,9 @@ std::string Session::Missing() const {
   if (choices_.num_accumulated > 1 && !shown_.front()->recorded->has_pose) {
     return "frames without poses are not accumulated";
   }
+  if (choices_.num_accumulated > 1 && num_views() < sources_.size()) {
+    return "distances are of single frames: they are not accumulated";
+  }
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     std::string missing = sources_[i].composer.Missing(*shown_[i], choices_);
     if (!missing.empty()) return missing;
@@ -107,7 +151,7 @@ std::string Session::Missing() const {
   return {};
 }
 
-std::string Session::StatusOf(std::size_t index) const {
+std::string Session::StatusOf(std::size_t index, const Scene& scene) const {
   const ShownFrame& shown = *shown_[index];
   const RecordingInfo& info = sources_[index].frames->info();
   std::string first = info.source.string();
@@ -115,25 +159,47 @@ std::string Session::StatusOf(std::size_t index) const {
   first += FrameText(shown);
   std::string text;
   AddLine(first, text);
+  if (num_views() == sources_.size()) AddLine(AccumulatedText(scene), text);
   AddLine(DropoutText(*shown.recorded), text);
   AddLine(SelectionText(shown, choices_.labels, info.labels), text);
   return text;
 }
 
+Choices Session::ChoicesFor(Source& source, const ShownFrame& shown, std::string& fault) {
+  const std::vector<std::string> fields = ColorableFields(*shown.recorded);
+  if (std::ranges::count(fields, choices_.color_by) > 0) return choices_;
+  fault = "has no field " + choices_.color_by + " to color by";
+  Choices choices = choices_;
+  if (std::ranges::count(fields, source.fallback.color_by) == 0) {
+    source.fallback.color_by = DefaultColorField(*shown.recorded);
+    source.fallback.ends.reset();
+    FitChoices(shown, source.fallback);
+  }
+  choices.color_by = source.fallback.color_by;
+  choices.ends = source.fallback.ends;
+  return choices;
+}
+
 Scene Session::ComposeOne(std::size_t index) {
   Source& source = sources_[index];
-  const ShownFrames frames = FramesWith(source, shown_[index]);
-  const std::vector<std::string> fields = ColorableFields(*shown_[index]->recorded);
-  Choices choices = choices_;
   std::string fault;
-  if (std::ranges::count(fields, choices.color_by) == 0) {
-    fault = "has no field " + choices.color_by + " to color by";
-    choices.color_by = DefaultColorField(*shown_[index]->recorded);
-    choices.ends.reset();
-  }
-  Scene scene = source.composer.Compose(frames, choices);
-  scene.status = StatusOf(index);
+  const Choices choices = ChoicesFor(source, *shown_[index], fault);
+  Scene scene = source.composer.Compose(FramesWith(source, shown_[index]), choices);
+  scene.status = StatusOf(index, scene);
   AddLine(fault, scene.status);
+  return scene;
+}
+
+/// What is drawn over the points is the first source's.
+Scene Session::ComposeBoth() {
+  std::string fault;
+  Scene scene =
+      sources_[0].composer.Compose({shown_[0]}, ChoicesFor(sources_[0], *shown_[0], fault));
+  Scene distances = ComposeDistances(shown_[0], shown_[1], choices_);
+  choices_.distance_ends_m = distances.coloring.ends;
+  scene.clouds = std::move(distances.clouds);
+  scene.coloring = std::move(distances.coloring);
+  for (std::size_t i = 0; i < sources_.size(); ++i) AddLine(StatusOf(i, scene), scene.status);
   return scene;
 }
 
@@ -145,12 +211,9 @@ std::vector<Scene> Session::Compose() {
   }
   if (num_views() == sources_.size()) {
     for (std::size_t i = 0; i < sources_.size(); ++i) scenes.push_back(ComposeOne(i));
-    AddLine(Missing(), scenes[0].status);
-    return scenes;
+  } else {
+    scenes.push_back(ComposeBoth());
   }
-  scenes.push_back(ComposeDistances(shown_[0], shown_[1], choices_));
-  choices_.distance_ends_m = scenes[0].coloring.ends;
-  for (std::size_t i = 0; i < sources_.size(); ++i) AddLine(StatusOf(i), scenes[0].status);
   AddLine(Missing(), scenes[0].status);
   return scenes;
 }

@@ -19,13 +19,16 @@ class Session {
   /// @throws InputError if a scenario's world cannot be built.
   Session(const std::vector<Frames*>& frames, Choices choices);
 
-  /// Shows the frame at that place, of two sources the same of both.
+  /// Shows the frame at that place of the first source. Of the second it is the one of the same
+  /// number if both are sequences of ours, else the one at the same place.
   /// @returns False, and everything stays, if there is none.
   /// @throws InputError if it cannot be read or, the first time, cannot be coloured as chosen.
   bool Seek(std::size_t place);
   [[nodiscard]] std::size_t place() const { return place_; }
   /// The last that all sources have, as far as they were read; 0 if one has none.
   [[nodiscard]] std::size_t LastPlace() const;
+  /// The first that all sources have, or still have.
+  [[nodiscard]] std::size_t FirstPlace() const;
   [[nodiscard]] bool has_frame() const { return !shown_.empty(); }
 
   /// What is chosen; to be followed by Compose().
@@ -58,11 +61,19 @@ class Session {
   struct Source {
     Frames* frames;
     Composer composer;
+    std::ptrdiff_t offset{};  ///< Of a frame's place from that of the first source's.
+    Choices fallback{};       ///< How frames are coloured that lack the field chosen.
+
+    [[nodiscard]] std::shared_ptr<const ShownFrame> Get(std::size_t place) const;
   };
+  void PairSources();
+  void FitToAll(const std::vector<std::shared_ptr<const ShownFrame>>& shown);
+  [[nodiscard]] Choices ChoicesFor(Source& source, const ShownFrame& shown, std::string& fault);
   [[nodiscard]] ShownFrames FramesWith(const Source& source,
                                        const std::shared_ptr<const ShownFrame>& shown) const;
   [[nodiscard]] Scene ComposeOne(std::size_t index);
-  [[nodiscard]] std::string StatusOf(std::size_t index) const;
+  [[nodiscard]] Scene ComposeBoth();
+  [[nodiscard]] std::string StatusOf(std::size_t index, const Scene& scene) const;
 
   std::vector<Source> sources_;
   Choices choices_;

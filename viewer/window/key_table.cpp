@@ -30,36 +30,18 @@ std::span<const KeyBinding> KeyTable::Bindings() {
       {"Home", "home, end", "first or last frame", [](ViewWindow& w) { w.Step(-kFar); }},
       {"End", "", "", [](ViewWindow& w) { w.Step(kFar); }},
       {"period", ". ,", "faster, slower",
-       [](ViewWindow& w) { w.player_.Faster(w.Now_s()), w.Refresh(); }},
-      {"comma", "", "", [](ViewWindow& w) { w.player_.Slower(w.Now_s()), w.Refresh(); }},
+       [](ViewWindow& w) { w.ChangeSpeed(true); }},
+      {"comma", "", "", [](ViewWindow& w) { w.ChangeSpeed(false); }},
       {"c", "c C", "color by the next or previous field",
        [](ViewWindow& w) { w.session_.ColorByNext(true), w.Refresh(); }},
       {"C", "", "", [](ViewWindow& w) { w.session_.ColorByNext(false), w.Refresh(); }},
-      {"m", "m", "next color map",
-       [](ViewWindow& w) {
-         auto& map = w.session_.choices().map;
-         map = map ? After(*map, kColorMapNames.size()) : ColorMap::kCividis;
-         w.Refresh();
-       }},
+      {"m", "m", "next color map", [](ViewWindow& w) { w.NextMap(); }},
       {"f", "f", "fit the scale to this frame",
        [](ViewWindow& w) { w.session_.FitScale(), w.Refresh(); }},
       {"bracketright", "] [", "larger or smaller points",
-       [](ViewWindow& w) {
-         w.look_.point_size_px = std::min(w.look_.point_size_px + 1, kMaxPointSize_px);
-         w.Refresh();
-       }},
-      {"bracketleft", "", "",
-       [](ViewWindow& w) {
-         w.look_.point_size_px = std::max(w.look_.point_size_px - 1, 1);
-         w.Refresh();
-       }},
-      {"b", "b", "next background",
-       [](ViewWindow& w) {
-         const auto at =
-             std::ranges::find(kBackgrounds, w.look_.background.name, &Background::name);
-         w.look_.background = at + 1 == kBackgrounds.end() ? kBackgrounds[0] : at[1];
-         w.Refresh();
-       }},
+       [](ViewWindow& w) { w.ChangePointSize(1); }},
+      {"bracketleft", "", "", [](ViewWindow& w) { w.ChangePointSize(-1); }},
+      {"b", "b", "next background", [](ViewWindow& w) { w.NextBackground(); }},
       {"a", "a A", "accumulate twice or half as many frames",
        [](ViewWindow& w) {
          auto& count = w.session_.choices().num_accumulated;
@@ -94,7 +76,7 @@ std::span<const KeyBinding> KeyTable::Bindings() {
       {"4", "", "", [](ViewWindow& w) { w.LookFrom(kCameraNames[3]); }},
       {"5", "", "", [](ViewWindow& w) { w.LookFrom(kCameraNames[4]); }},
       {"w", "w", "camera rides along, or stays in the world",
-       [](ViewWindow& w) { w.rides_along_ = !w.rides_along_, w.Refresh(); }},
+       [](ViewWindow& w) { w.rides_along_ = !w.rides_along_; }},
       {"k", "k", "print the camera as options",
        [](ViewWindow& w) {
          std::printf("%s\n", CameraOptions(w.stage_.camera_place()).c_str());
@@ -102,6 +84,7 @@ std::span<const KeyBinding> KeyTable::Bindings() {
        }},
       {"", "click", "all that is known of a point", nullptr},
       {"", "shift+click", "measure from the point before", nullptr},
+      {"z", "z", "turn about the point", [](ViewWindow& w) { w.TurnAboutPick(); }},
       {"e", "e", "effect trace of the point", [](ViewWindow& w) { w.AskTrace(); }},
       {"l", "l", "select the point's label, or no more (also: click in the legend)",
        [](ViewWindow& w) { w.SelectPickedLabel(); }},
@@ -114,7 +97,7 @@ std::span<const KeyBinding> KeyTable::Bindings() {
          w.Refresh();
        }},
       {"p", "p", "save the picture", [](ViewWindow& w) { w.SaveScreenshot(); }},
-      {"question", "?", "these keys", [](ViewWindow& w) { w.Toggle(w.shows_help_); }},
+      {"question", "?", "these keys", [](ViewWindow& w) { w.shows_help_ = !w.shows_help_, w.ShowRest(); }},
       {"q", "q", "quit", [](ViewWindow& w) { w.interactor_->TerminateApp(); }},
   });
   return kBindings;

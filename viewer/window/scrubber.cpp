@@ -11,12 +11,14 @@
 
 namespace railcast {
 
-Scrubber::Scrubber(vtkRenderWindowInteractor& interactor, std::function<void(std::size_t)> on_drag)
-    : on_drag_(std::move(on_drag)) {
+Scrubber::Scrubber(vtkRenderWindowInteractor& interactor,
+                   vtkRenderer& renderer,
+                   std::function<void(std::size_t)> on_drag)
+    : renderer_(renderer), on_drag_(std::move(on_drag)) {
   looks_->GetPoint1Coordinate()->SetCoordinateSystemToNormalizedDisplay();
-  looks_->GetPoint1Coordinate()->SetValue(0.35, 0.035);
+  looks_->GetPoint1Coordinate()->SetValue(0.02, 0.016);
   looks_->GetPoint2Coordinate()->SetCoordinateSystemToNormalizedDisplay();
-  looks_->GetPoint2Coordinate()->SetValue(0.88, 0.035);
+  looks_->GetPoint2Coordinate()->SetValue(0.98, 0.016);
   looks_->SetTubeWidth(0.004);
   looks_->SetSliderLength(0.012);
   looks_->SetSliderWidth(0.02);
@@ -35,17 +37,22 @@ Scrubber::Scrubber(vtkRenderWindowInteractor& interactor, std::function<void(std
   widget_->AddObserver(vtkCommand::InteractionEvent, dragged);
 }
 
-void Scrubber::Show(std::size_t place, std::size_t num_frames, const Background& background) {
-  if (num_frames < 2) {
+void Scrubber::Show(std::size_t place,
+                    std::size_t first,
+                    std::size_t last,
+                    const Background& background) {
+  if (first >= last) {
     widget_->EnabledOff();
     return;
   }
   const auto words = VtkColor(background.words);
   looks_->GetTubeProperty()->SetColor(0.5, 0.5, 0.5);
   looks_->GetSliderProperty()->SetColor(words[0], words[1], words[2]);
-  looks_->SetMinimumValue(0.0);
-  looks_->SetMaximumValue(static_cast<double>(num_frames - 1));
+  looks_->SetMinimumValue(static_cast<double>(first));
+  looks_->SetMaximumValue(static_cast<double>(last));
   looks_->SetValue(static_cast<double>(place));
+  // Else it is drawn in whichever view the mouse is.
+  widget_->SetCurrentRenderer(&renderer_);
   widget_->EnabledOn();
 }
 

@@ -9,18 +9,27 @@
 #include <filesystem>
 #include <utility>
 
+#include "core/base/error.h"
 #include "viewer/picture/pictures.h"
 #include "viewer/window/key_table.h"
 #include "viewer/window/point_under.h"
 
 namespace railcast {
+namespace {
+
+double Now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
 
 ViewWindow::ViewWindow(Session& session, LiveFrames* live, Stage& stage, const Look& look)
     : session_(session),
       live_(live),
       stage_(stage),
       look_(look),
-      traces_(session.num_sources()),
+      playback_(session, live),
+      tracing_(session.num_sources()),
       style_(vtkSmartPointer<ViewStyle>::New()) {
   style_->on_key = [this](const std::string& key) { Guard([&] { OnKey(key); }); };
   style_->on_click = [this](const std::array<int, 2>& place_px, bool with_shift) {
@@ -32,15 +41,15 @@ ViewWindow::~ViewWindow() = default;
 
 void ViewWindow::Guard(const std::function<void()>& action) {
   try {
+    message_.clear();
     action();
+  } catch (const InputError& error) {
+    message_ = error.what();
+    ShowStatus();
   } catch (...) {
     fault_ = std::current_exception();
     interactor_->TerminateApp();
   }
-}
-
-double ViewWindow::Now_s() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 std::string ViewWindow::KeysText() {
@@ -60,80 +69,60 @@ void ViewWindow::Run() {
   interactor_->SetInteractorStyle(style_);
   interactor_->SetRenderWindow(&stage_.window());
   interactor_->Initialize();
-  scrubber_ = std::make_unique<Scrubber>(
-      *interactor_, [this](std::size_t place) { Guard([&] { SeekTo(place); }); });
+  scrubber_ =
+      std::make_unique<Scrubber>(*interactor_, stage_.plates_renderer(),
+                                 [this](std::size_t place) { Guard([&] { SeekTo(place); }); });
   vtkNew<vtkCallbackCommand> tick;
   tick->SetClientData(this);
   tick->SetCallback([](vtkObject*, unsigned long, void* self_data, void*) {
-    auto& self = *static_cast<ViewWindow*>(self_data);
-    self.Guard([&self] { self.OnTimer(); });
+    static_cast<ViewWindow*>(self_data)->OnTimer();
   });
   interactor_->AddObserver(vtkCommand::TimerEvent, tick);
   vtkNew<vtkCallbackCommand> resized;
   resized->SetClientData(this);
   resized->SetCallback([](vtkObject*, unsigned long, void* self_data, void*) {
     auto& self = *static_cast<ViewWindow*>(self_data);
-    self.Guard([&self] { self.Refresh(); });
+    self.Guard([&self] { self.Redraw(); });
   });
   interactor_->AddObserver(vtkCommand::ConfigureEvent, resized);
   interactor_->CreateRepeatingTimer(kPeriod_ms);
-  player_.Seek(session_.place(), Now_s());
-  if (live_ != nullptr) player_.Play(Now_s());
+  playback_.Begin(Now_s());
   Guard([this] { Refresh(); });
   if (!fault_) interactor_->Start();
   if (fault_) std::rethrow_exception(fault_);
 }
 
 void ViewWindow::OnTimer() {
-  if (live_ != nullptr) {
-    if (live_->Poll() && player_.is_playing()) {
-      NoteFrame();
-      SeekTo(live_->num_known() - 1);
-    }
-  } else if (player_.Advance(Now_s(), session_.Period_s())) {
-    const std::size_t place = player_.place();
-    if (!session_.Seek(place)) {
-      // The end: its last frame stays.
-      player_.Pause();
-      (void)session_.Seek(session_.LastPlace());
-      player_.Seek(session_.place(), Now_s());
-    }
-    NoteFrame();
-    Refresh();
-  }
-  if (picks_.is_empty() || !traces_[picked_source_]) return;
-  if (auto answer = traces_[picked_source_]->Take()) {
+  constexpr double kStatusPeriod_s = 0.5;
+  const double now_s = Now_s();
+  const bool has_changed = playback_.Advance(now_s);
+  if (has_changed) Guard([this] { Refresh(); });
+  if (const auto answer = tracing_.Take()) {
     stage_.ShowPlate(Stage::Plate::kTrace, *answer);
     interactor_->Render();
   }
+  // A live source's status changes also without frames; a capture's turns are counted.
+  if (!has_changed && now_s > status_at_s_ + kStatusPeriod_s) ShowStatus();
 }
 
 void ViewWindow::SeekTo(std::size_t place) {
-  if (!session_.Seek(place)) return;
-  player_.Seek(session_.place(), Now_s());
+  playback_.SeekTo(place, Now_s());
   Refresh();
 }
 
 void ViewWindow::Step(std::ptrdiff_t num_frames) {
-  player_.Pause();
-  const auto target = static_cast<std::ptrdiff_t>(session_.place()) + num_frames;
-  if (!session_.Seek(static_cast<std::size_t>(std::max<std::ptrdiff_t>(target, 0)))) {
-    (void)session_.Seek(session_.LastPlace());
-  }
-  player_.Seek(session_.place(), Now_s());
+  playback_.Step(num_frames, Now_s());
   Refresh();
 }
 
 void ViewWindow::TogglePlaying() {
-  if (player_.is_playing()) {
-    player_.Pause();
-  } else {
-    // From the end it begins anew.
-    if (live_ == nullptr && !session_.Seek(session_.place() + 1)) (void)session_.Seek(0);
-    player_.Seek(session_.place(), Now_s());
-    player_.Play(Now_s());
-  }
+  playback_.TogglePlaying(Now_s());
   Refresh();
+}
+
+void ViewWindow::ChangeSpeed(bool faster) {
+  faster ? playback_.Faster(Now_s()) : playback_.Slower(Now_s());
+  ShowStatus();
 }
 
 void ViewWindow::Toggle(bool& choice) {
@@ -141,41 +130,45 @@ void ViewWindow::Toggle(bool& choice) {
   Refresh();
 }
 
-void ViewWindow::LookFrom(std::string_view preset) {
-  stage_.UseCamera(std::string(preset));
+// Begins with one that is no default, so that there is something to be seen.
+void ViewWindow::NextMap() {
+  auto& map = session_.choices().map;
+  if (map == ColorMap::kViridis) {
+    map.reset();
+  } else {
+    const std::size_t at = map ? static_cast<std::size_t>(*map) : 0;
+    map = static_cast<ColorMap>((at + 1) % kColorMapNames.size());
+  }
   Refresh();
 }
 
-void ViewWindow::NoteFrame() {
-  frame_times_s_.push_back(Now_s());
-  while (frame_times_s_.back() - frame_times_s_.front() > 1.0) frame_times_s_.pop_front();
+void ViewWindow::NextBackground() {
+  const auto* const at = std::ranges::find(kBackgrounds, look_.background.name, &Background::name);
+  look_.background = at + 1 == kBackgrounds.end() ? kBackgrounds[0] : at[1];
+  Redraw();
 }
 
-std::string ViewWindow::PlayText() const {
-  if (live_ != nullptr) {
-    std::string text = live_->StatusText();
-    if (!player_.is_playing()) text += "   paused";
-    return text;
-  }
-  std::array<char, 128> text{};
-  std::snprintf(text.data(), text.size(), "%zu of %zu   %s x%g", session_.place() + 1,
-                session_.source(0).num_known(), player_.is_playing() ? "playing" : "paused",
-                player_.speed_factor());
-  std::string words = text.data();
-  if (player_.is_playing() && frame_times_s_.size() > 1) {
-    const double elapsed_s = frame_times_s_.back() - frame_times_s_.front();
-    std::snprintf(text.data(), text.size(), "   %.1f frames/s",
-                  static_cast<double>(frame_times_s_.size() - 1) / elapsed_s);
-    words += text.data();
-  }
-  return words + "   ? for keys";
+void ViewWindow::ChangePointSize(int by_px) {
+  look_.point_size_px = std::clamp(look_.point_size_px + by_px, 1, kMaxPointSize_px);
+  Redraw();
+}
+
+void ViewWindow::LookFrom(std::string_view preset) {
+  stage_.UseCamera(std::string(preset));
+  interactor_->Render();
+}
+
+void ViewWindow::TurnAboutPick() {
+  const auto target_m = picks_.PlaceIn(stage_.view(0).scene());
+  if (!target_m) return;
+  stage_.TurnAbout(*target_m);
+  interactor_->Render();
 }
 
 void ViewWindow::Refresh() {
   std::vector<Scene> scenes = session_.Compose();
   if (!session_.has_frame()) scenes.front().status = "waiting for the first frame";
-  scenes.front().status += '\n';
-  scenes.front().status += PlayText();
+  scene_status_ = scenes.front().status;
   const bool has_pose = session_.has_frame() && session_.shown(0)->recorded->has_pose;
   if (has_pose) {
     const Transform& world_from_view = session_.shown(0)->frame().world_from_sensor;
@@ -183,16 +176,34 @@ void ViewWindow::Refresh() {
     world_from_view_ = world_from_view;
   }
   stage_.Show(std::move(scenes), look_);
-  scrubber_->Show(session_.place(), session_.source(0).num_known(), look_.background);
-  stage_.ShowPlate(Stage::Plate::kHelp, shows_help_ ? KeysText() : std::string());
-  RefreshMarks();
+  ShowRest();
 }
 
-void ViewWindow::RefreshMarks() {
+void ViewWindow::Redraw() {
+  stage_.Redraw(look_);
+  ShowRest();
+}
+
+void ViewWindow::ShowRest() {
+  stage_.ShowPlate(Stage::Plate::kHelp, shows_help_ ? KeysText() : std::string());
   stage_.ShowPlate(Stage::Plate::kFacts, picks_.facts());
   for (std::size_t i = 0; i < stage_.num_views(); ++i) {
     stage_.ShowMarks(i, picks_.MarksIn(stage_.view(i).scene()));
   }
+  ShowStatus();
+}
+
+void ViewWindow::ShowStatus() {
+  std::string status = scene_status_;
+  for (const std::string& line :
+       {playback_.StatusText() + "   ? for keys", playback_.fault(), message_}) {
+    if (line.empty()) continue;
+    status += '\n';
+    status += line;
+  }
+  stage_.ShowStatus(status);
+  scrubber_->Show(session_.place(), session_.FirstPlace(), session_.LastPlace(), look_.background);
+  status_at_s_ = Now_s();
   interactor_->Render();
 }
 
@@ -207,8 +218,9 @@ void ViewWindow::OnClick(const std::array<int, 2>& place_px, bool with_shift) {
   if (!hit) return;
   picked_source_ = hit->source;
   picks_.Add(*hit->shown, hit->point, session_.source(hit->source).info(), with_shift);
+  tracing_.Forget();
   stage_.ShowPlate(Stage::Plate::kTrace, {});
-  RefreshMarks();
+  ShowRest();
 }
 
 void ViewWindow::SelectInLegend(const Legend::Line& line) {
@@ -227,15 +239,15 @@ void ViewWindow::SelectPickedLabel() {
 void ViewWindow::ClearSelection() {
   session_.choices().labels.clear();
   picks_.Clear();
+  tracing_.Forget();
   stage_.ShowPlate(Stage::Plate::kTrace, {});
   Refresh();
 }
 
 void ViewWindow::AskTrace() {
   if (picks_.is_empty()) return;
-  auto& trace = traces_[picked_source_];
-  if (!trace) trace = std::make_unique<EffectTrace>(session_.source(picked_source_).info());
-  trace->Ask(picks_.recorded(), picks_.slot());
+  tracing_.Ask(picked_source_, session_.source(picked_source_).info(), picks_.recorded(),
+               picks_.slot());
   stage_.ShowPlate(Stage::Plate::kTrace, "tracing ...");
   interactor_->Render();
 }

@@ -152,7 +152,8 @@ TEST_F(Overlays, HaveRingsAtTheirDistancesFromBelowTheSensor) {
     };
     int num_seen = 0;
     for (double angle_deg = -60.0; angle_deg < 60.0; angle_deg += 5.0) {
-      // Where the words "50 m" are, straight ahead, nothing is asked.
+      // Where the words "50 m" are, straight ahead, and the status nothing is asked.
+      if (radius_m == 10.0 && angle_deg > 45.0) continue;
       if (std::abs(angle_deg + 2.5) < 10.0) continue;
       const double share = ShareDrawn(picture, eye, at(angle_deg), at(angle_deg + 5.0), kGrey);
       if (std::isnan(share)) continue;

@@ -70,7 +70,7 @@ TEST_F(Sources, MayBePlyFiles) {
   // A format changes no picture, but for the path at its foot.
   const Picture ply = Draw("--frame 1 " + run);
   const Picture pcd = Draw("--frame 1 " + RecordedRun::Yard().path().string());
-  EXPECT_TRUE(ply.Part({0, 0}, kWidth, 440) == pcd.Part({0, 0}, kWidth, 440));
+  EXPECT_TRUE(ply.Part({0, 0}, kWidth, 400) == pcd.Part({0, 0}, kWidth, 400));
 }
 
 TEST_F(Sources, MayBeKittisFiles) {
@@ -115,10 +115,12 @@ TEST_F(Sources, MayHaveTheNamesOfAScenario) {
   const Rgb wagon = RecordedRun::Yard().ColorOf("wagon");
   const std::string scenario = RecordedRun::Yard().scenario_file().string();
   const auto num_named =
-      PointsOf(wagon, Draw("--scenario " + scenario + " " + PathOf("alone.pcd"))).size();
-  EXPECT_EQ(
-      num_named,
-      PointsOf(wagon, Draw(RecordedRun::Yard().path().string() + "/frames/000000.pcd")).size());
+      PointsOf(wagon, Draw("--camera chase --scenario " + scenario + " " + PathOf("alone.pcd")))
+          .size();
+  EXPECT_EQ(num_named,
+            PointsOf(wagon, Draw("--camera chase " + RecordedRun::Yard().path().string() +
+                                 "/frames/000000.pcd"))
+                .size());
   EXPECT_GT(num_named, 300U);
   (void)Draw("--scenario " + scenario + " --sensor Vir2Rail --select wagon -v " +
              PathOf("alone.pcd"));

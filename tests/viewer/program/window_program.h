@@ -24,8 +24,19 @@ class WindowTest : public Drawn {
   }
   void TearDown() override { window_.reset(); }
 
-  /// Opens it and waits until it is there.
+  /// Opens it and waits until it hears keys, which is later than that it is there: it prints its
+  /// camera then.
   void Open(const std::vector<std::string>& arguments) {
+    OpenDeaf(arguments);
+    ASSERT_TRUE(window_->WaitUntil([&] {
+      Press("k");
+      return window_->Said().find("--eye") != std::string::npos;
+    })) << window_->Said();
+    // With all of these keys.
+    (void)Shown();
+  }
+  /// Opens it and waits until it is there.
+  void OpenDeaf(const std::vector<std::string>& arguments) {
     std::vector<std::string> command = {RAILCAST_VIEW, "--size", "640x480"};
     command.insert(command.end(), arguments.begin(), arguments.end());
     std::filesystem::create_directories(PathOf("desk"));
@@ -87,21 +98,25 @@ class WindowTest : public Drawn {
   [[nodiscard]] bool WaitToShow(const Picture& picture) {
     return window_->WaitUntil([&] { return ArePointsAlike(Shown(), picture); });
   }
-  /// The line that it prints next, less the newline.
-  [[nodiscard]] std::string NextLineAfter(const std::string& key) {
+  /// What the key k prints.
+  [[nodiscard]] std::string PrintedCamera() {
     const std::size_t before = window_->Said().size();
-    Press(key);
+    Press("k");
     std::string line;
     EXPECT_TRUE(window_->WaitUntil([&] {
-      line = window_->Said().substr(before);
-      return line.ends_with('\n');
+      // It may still be saying which picture it wrote.
+      const std::string said = window_->Said().substr(before);
+      const std::size_t at = said.find("--eye");
+      if (at == std::string::npos || said.back() != '\n') return false;
+      line = said.substr(at);
+      return true;
     }));
-    return line.substr(0, line.size() - 1);
+    return line;
   }
 
   /// Above the status and the slider at the foot.
   static Picture AboveFoot(const Picture& picture) {
-    return picture.width == 0 ? picture : picture.Part({0, 0}, picture.width, 410);
+    return picture.width == 0 ? picture : picture.Part({0, 0}, picture.width, 395);
   }
   static bool ArePointsAlike(const Picture& a, const Picture& b) {
     return AboveFoot(a) == AboveFoot(b);

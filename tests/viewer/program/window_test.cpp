@@ -19,9 +19,8 @@ class Window : public WindowTest {
     Vector3 eye_m;
     Vector3 target_m;
   };
-  /// As the key k prints it.
-  [[nodiscard]] Camera PrintedCamera() {
-    const std::string line = NextLineAfter("k");
+  [[nodiscard]] Camera CameraNow() {
+    const std::string line = PrintedCamera();
     Camera camera;
     Vector3& e = camera.eye_m;
     Vector3& t = camera.target_m;
@@ -145,7 +144,7 @@ TEST_F(Window, ListsItsKeys) {
 
 TEST_F(Window, TurnsAndZoomsAboutWhatItLooksAt) {
   Open({path_});
-  const Camera before = PrintedCamera();
+  const Camera before = CameraNow();
   EXPECT_TRUE(before.eye_m.isApprox(Vector3(-20, 0, 12), 1e-6));
   EXPECT_TRUE(before.target_m.isApprox(Vector3(35, 0, -2), 1e-6));
   // A full turn is the window's width.
@@ -154,7 +153,7 @@ TEST_F(Window, TurnsAndZoomsAboutWhatItLooksAt) {
     const Picture first = Shown();
     EXPECT_TRUE(Shown() == first);
   });
-  const Camera turned = PrintedCamera();
+  const Camera turned = CameraNow();
   EXPECT_TRUE(turned.target_m.isApprox(before.target_m, 1e-6));
   const Vector3 way_before_m = before.eye_m - before.target_m;
   const Vector3 expected_m =
@@ -169,16 +168,16 @@ TEST_F(Window, TurnsAndZoomsAboutWhatItLooksAt) {
   const auto num_different = Differences(AboveFoot(Shown()), AboveFoot(Expected(options))).size();
   EXPECT_LT(num_different, 200U);  // Rounded to millimetres.
   Click({320, 240}, 4);
-  const Camera nearer = PrintedCamera();
+  const Camera nearer = CameraNow();
   EXPECT_LT((nearer.eye_m - nearer.target_m).norm(), 0.95 * way_before_m.norm());
   Click({320, 240}, 5);
-  const Camera back = PrintedCamera();
+  const Camera back = CameraNow();
   EXPECT_NEAR((back.eye_m - back.target_m).norm(), way_before_m.norm(), 0.01);
   // Up to straight above and no further.
   Drag({300, 400}, {300, 5});
   Drag({300, 5}, {300, 400});
   Drag({300, 5}, {300, 400});
-  const Camera above = PrintedCamera();
+  const Camera above = CameraNow();
   EXPECT_NEAR(std::abs(above.eye_m.z() - above.target_m.z()), way_before_m.norm(), 0.01);
   Press("4");
   EXPECT_TRUE(ArePointsAlike(Shown(), Expected("")));
@@ -246,11 +245,11 @@ TEST_F(Window, SelectsTheLabelThatIsClickedInTheLegend) {
 TEST_F(Window, GoesToTheFrameThatTheSliderIsDraggedTo) {
   Open({path_});
   const Picture before = Shown();
-  // From 35 % of the width to 88 %, 3.5 % above the foot.
-  const int y = static_cast<int>(std::lround(0.965 * kHeight));
-  Drag({static_cast<int>(0.355 * kWidth), y}, {static_cast<int>(0.90 * kWidth), y});
+  // From 2 % of the width to 98 %, 1.6 % above the foot.
+  const int y = static_cast<int>(std::lround(0.984 * kHeight));
+  Drag({static_cast<int>(0.027 * kWidth), y}, {static_cast<int>(0.99 * kWidth), y});
   EXPECT_TRUE(WaitToShow(Expected("--frame 5")));
-  Drag({static_cast<int>(0.875 * kWidth), y}, {static_cast<int>(0.30 * kWidth), y});
+  Drag({static_cast<int>(0.973 * kWidth), y}, {static_cast<int>(0.01 * kWidth), y});
   EXPECT_TRUE(WaitToShow(Expected("")));
   EXPECT_TRUE(ArePointsAlike(Shown(), before));
   Press("q");

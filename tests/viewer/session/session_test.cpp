@@ -257,10 +257,20 @@ TEST(Session, OfTwoSourcesShowsTheSamePlaceOfBothSideBySide) {
   EXPECT_EQ(scenes[1].coloring.ends, scenes[0].coloring.ends) << "one scale for both";
 }
 
-TEST(Session, RefusesTwoSourcesOfWhichOneLacksTheField) {
+TEST(Session, ColoursTwoSourcesByWhatBothHave) {
   HeldFrames a({Share(LabelledCloud(0))}, "a");
   HeldFrames b({Share(NumberedCloud(5))}, "b");
   Session session({&a, &b}, {});
+  ASSERT_TRUE(session.Seek(0));
+  EXPECT_EQ(session.choices().color_by, "height");
+}
+
+TEST(Session, RefusesTwoSourcesOfWhichOneLacksTheFieldAskedFor) {
+  HeldFrames a({Share(LabelledCloud(0))}, "a");
+  HeldFrames b({Share(NumberedCloud(5))}, "b");
+  Choices choices;
+  choices.color_by = "label";
+  Session session({&a, &b}, choices);
   EXPECT_EQ(MessageOf([&] { (void)session.Seek(0); }),
             "5.pcd: has no field label to color by (has: range, height, x, y)");
 }
