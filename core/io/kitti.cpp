@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
@@ -10,26 +12,6 @@
 #include "core/io/scan_motion.h"
 
 namespace railcast {
-namespace {
-
-struct KittiClass {
-  std::string names;  // Several of our labels may share it: grass and tree are both vegetation.
-  const Label* first{};
-};
-
-std::map<std::uint16_t, KittiClass> KittiClasses(const LabelTable& labels) {
-  std::map<std::uint16_t, KittiClass> classes;
-  for (const Label& label : labels.labels()) {
-    KittiClass& entry = classes[label.semantic_kitti];
-    if (entry.first == nullptr) entry.first = &label;
-    if (!entry.names.empty()) entry.names += '/';
-    entry.names += label.name;
-  }
-  return classes;
-}
-
-}  // namespace
-
 void EncodeKittiPoints(const Frame& frame, std::string& bytes) {
   constexpr std::size_t kStep = 4 * sizeof(float);
   bytes.resize(frame.num_slots() * kStep);
@@ -88,17 +70,30 @@ std::string KittiCalibration() {
   return text;
 }
 
+LabelTable SemanticKittiLabels(const LabelTable& labels) {
+  std::map<std::uint16_t, Label> classes;
+  for (const Label& label : labels.labels()) {
+    const auto [entry, is_first] = classes.try_emplace(label.semantic_kitti, label);
+    entry->second.id = label.semantic_kitti;
+    if (!is_first) entry->second.name.append("/").append(label.name);
+  }
+  std::vector<Label> kitti;
+  for (const auto& [id, label] : classes) kitti.push_back(label);
+  return LabelTable(std::move(kitti));
+}
+
 std::string SemanticKittiYaml(const LabelTable& labels) {
   std::string names = "labels:\n";
   std::string colours = "color_map: # bgr\n";
   std::string learning = "learning_map: # to the nearest of SemanticKITTI's own classes\n";
-  for (const auto& [id, entry] : KittiClasses(labels)) {
-    const std::string key = "  " + std::to_string(id) + ": ";
-    const auto& [red, green, blue] = entry.first->rgb;
-    names += key + "\"" + entry.names + "\"\n";
+  const LabelTable kitti = SemanticKittiLabels(labels);
+  for (const Label& label : kitti.labels()) {
+    const std::string key = "  " + std::to_string(label.id) + ": ";
+    const auto& [red, green, blue] = label.rgb;
+    names += key + "\"" + label.name + "\"\n";
     colours += key + "[" + std::to_string(blue) + ", " + std::to_string(green) + ", " +
                std::to_string(red) + "]\n";
-    learning += key + std::to_string(entry.first->semantic_kitti_nearest) + "\n";
+    learning += key + std::to_string(label.semantic_kitti_nearest) + "\n";
   }
   return "# Classes of the .label files beside; ids above 259 are railcast's own.\n" + names +
          colours + learning;

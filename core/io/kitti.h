@@ -25,6 +25,11 @@ void EncodeKittiLabels(const Frame& frame, const LabelTable& labels, std::string
 /// calib.txt: camera matrices of no meaning and Tr = identity.
 [[nodiscard]] std::string KittiCalibration();
 
+/// The labels under the numbers that .label files have, in their order. Several of ours may share
+/// one, as grass and tree are both vegetation: it is called "grass/tree" and has the first's
+/// colour.
+[[nodiscard]] LabelTable SemanticKittiLabels(const LabelTable& labels);
+
 /// semantic-kitti-railcast.yaml: names, colours (b, g, r as SemanticKITTI has them) and the
 /// learning_map to the nearest of SemanticKITTI's own classes.
 [[nodiscard]] std::string SemanticKittiYaml(const LabelTable& labels);

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/io/kitti.h"
 #include "core/rail/rail_world.h"
 #include "core/scenario/scenario.h"
 #include "viewer/frames/world_objects.h"
@@ -12,6 +13,7 @@ void Frames::UseScenario(const ScenarioSpec& scenario) {
   world_ = MakeWorld(scenario);
   info_.scenario = scenario;
   info_.labels = LabelTable(scenario.labels);
+  if (info_.has_kitti_labels) info_.labels = SemanticKittiLabels(info_.labels);
   info_.materials.clear();
   const MaterialLibrary library(scenario.materials);
   for (const Material& material : library.materials()) info_.materials.push_back(material.name);
@@ -19,7 +21,7 @@ void Frames::UseScenario(const ScenarioSpec& scenario) {
 
 std::shared_ptr<const ShownFrame> Frames::Shown(RecordedFrame recorded) const {
   if (world_ && recorded.has_pose && recorded.objects.empty()) {
-    recorded.objects = ObjectsAt(*world_, info_.labels, recorded.frame);
+    recorded.objects = ObjectsAt(*world_, LabelTable(info_.scenario->labels), recorded.frame);
   }
   return std::make_shared<const ShownFrame>(MakeShownFrame(std::move(recorded)));
 }

@@ -5,7 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
-#include "core/scenario/scenario.h"
+#include "viewer/frames/recorded_labels.h"
 
 namespace railcast {
 namespace {
@@ -15,24 +15,12 @@ constexpr std::size_t kMaxReaders = 4096;  // Of files, some lines of text each.
 // What frames may hold that are kept: some 300 MB.
 constexpr std::size_t kMaxKeptSlots = 1U << 22U;
 
-/// The labels.json that goes with a cloud file or a directory of them: beside it or in it, or
-/// beside the frames/ that it is or lies in.
-LabelTable FindLabels(const std::filesystem::path& clouds) {
-  const std::filesystem::path source = std::filesystem::absolute(clouds);
-  const std::filesystem::path folder = is_directory(source) ? source : source.parent_path();
-  for (const std::filesystem::path& candidate : {folder, folder.parent_path()}) {
-    if (is_regular_file(candidate / "labels.json"))
-      return ReadLabelTable(candidate / "labels.json");
-  }
-  return {};
-}
-
 }  // namespace
 
 RecordedFrames::RecordedFrames(const std::filesystem::path& source)
     : recording_(OpenRecording(source)) {
   info_ = recording_->info();
-  if (info_.labels.labels().empty()) info_.labels = FindLabels(source);
+  info_.labels = LabelsOf(info_);
   num_known_ = info_.num_frames.value_or(0);
 }
 

@@ -60,6 +60,7 @@ class CloudRecording : public Recording {
     info_.source = source;
     info_.kind = kind;
     info_.num_frames = files_.size();
+    info_.has_kitti_labels = !files_.empty() && files_.front().extension() == ".bin";
   }
 
   [[nodiscard]] const RecordingInfo& info() const override { return info_; }

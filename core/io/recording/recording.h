@@ -65,8 +65,10 @@ struct RecordingInfo {
   std::string kind;  ///< For people: "sequence", "point cloud file", "capture of VLP-16", ...
   std::optional<std::size_t> num_frames;  ///< Not known of captures before their end.
   LabelTable labels;                      ///< Empty: labels have numbers only.
-  std::vector<std::string> materials;     ///< Names by id; empty: they have numbers only.
-  std::optional<ScenarioSpec> scenario;   ///< Of our sequences, as resolved.
+  /// Whether frames have SemanticKITTI's label numbers: Label::semantic_kitti, not Label::id.
+  bool has_kitti_labels{};
+  std::vector<std::string> materials;    ///< Names by id; empty: they have numbers only.
+  std::optional<ScenarioSpec> scenario;  ///< Of our sequences, as resolved.
 };
 
 /// Frames one after another, from a sequence directory, cloud files or a capture.

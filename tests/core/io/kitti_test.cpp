@@ -63,6 +63,15 @@ TEST(KittiPoseLine, IsThePoseByRows) {
             "0 -1 0 1.5 1 0 0 0.1 0 0 1 -3\n");
 }
 
+TEST(SemanticKittiLabels, AreOurLabelsUnderTheNumbersOfLabelFiles) {
+  const LabelTable kitti = SemanticKittiLabels(ExampleLabels());
+  ASSERT_EQ(kitti.labels().size(), 3U);
+  EXPECT_EQ(kitti.Find(0U)->name, "unlabeled");
+  EXPECT_EQ(kitti.Find(16U)->name, "wagon");
+  EXPECT_EQ(kitti.Find(260U)->name, "rail");
+  EXPECT_EQ(kitti.Find(260U)->rgb, ExampleLabels().Find("rail")->rgb);
+}
+
 TEST(SemanticKittiYaml, NamesAllLabelsThatShareAClass) {
   std::vector<Label> labels(2);
   labels[0].name = "grass";

@@ -1,0 +1,113 @@
+#include "viewer/frames/recorded_labels.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "core/io/kitti.h"
+#include "core/io/write_file.h"
+#include "tests/core/io/message_of.h"
+#include "tests/core/io/recording/made_sequence.h"
+#include "tests/core/io/temporary_directory.h"
+#include "viewer/frames/recorded_frames.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::IsEmpty;
+using testing::IsSupersetOf;
+
+/// A KITTI directory as railcast-generate writes it, with a wagon 50 m ahead.
+MadeSequence MakeKitti(const fs::path& directory) {
+  return MakeSequence(directory, {.format = "kitti"});
+}
+
+/// The names that the labels of the first frame's points have.
+std::set<std::string> NamesIn(RecordedFrames& frames) {
+  std::set<std::string> names;
+  const auto shown = frames.Get(0);
+  for (const std::uint32_t slot : shown->slots) {
+    const Label* const label = frames.info().labels.Find(shown->frame().label[slot]);
+    names.insert(label == nullptr ? "?" : label->name);
+  }
+  return names;
+}
+
+/// The names that SemanticKITTI's numbers leave apart, of what the sequence's frame 0 hit.
+std::set<std::string> ExpectedNames(const MadeSequence& made) {
+  const LabelTable own(made.scenario.labels);
+  const LabelTable kitti = SemanticKittiLabels(own);
+  std::set<std::string> names;
+  const Frame& frame = made.frames.at(0);
+  for (std::size_t i = 0; i < frame.num_slots(); ++i) {
+    if (!HasPoint(frame.outcome[i])) continue;
+    names.insert(kitti.Find(std::uint32_t{own.Find(frame.label[i])->semantic_kitti})->name);
+  }
+  return names;
+}
+
+TEST(LabelsOfKitti, AreNamedFromEachFolderOfOurOutput) {
+  const TemporaryDirectory directory;
+  const fs::path run = directory.path() / "kitti";
+  const MadeSequence made = MakeKitti(run);
+  const std::set<std::string> expected = ExpectedNames(made);
+  ASSERT_THAT(expected, IsSupersetOf({"wagon", "rail"}));
+  const fs::path velodyne = run / "sequences" / "00" / "velodyne";
+  for (const fs::path& source :
+       {run, run / "", run / "sequences" / "00", velodyne, velodyne / "000000.bin"}) {
+    RecordedFrames frames(source);
+    EXPECT_EQ(NamesIn(frames), expected) << source;
+  }
+}
+
+TEST(LabelsOfKitti, HaveTheColoursOfOurs) {
+  const TemporaryDirectory directory;
+  const MadeSequence made = MakeKitti(directory.path() / "kitti");
+  const LabelTable labels = RecordedFrames(directory.path() / "kitti").info().labels;
+  const LabelTable own(made.scenario.labels);
+  EXPECT_EQ(labels.Find(16U)->rgb, own.Find("wagon")->rgb);
+  EXPECT_EQ(labels.Find(70U)->name, "grass/tree");
+  EXPECT_EQ(labels.Find(70U)->rgb, own.Find("grass")->rgb);
+}
+
+TEST(LabelsOfKitti, StayNumbersWithoutALabelTable) {
+  const TemporaryDirectory directory;
+  const fs::path run = directory.path() / "kitti";
+  (void)MakeKitti(run);
+  fs::remove(run / "labels.json");
+  EXPECT_THAT(RecordedFrames(run).info().labels.labels(), IsEmpty());
+}
+
+TEST(LabelsOfKitti, AreThoseOfAScenarioThatIsGiven) {
+  const TemporaryDirectory directory;
+  const fs::path run = directory.path() / "kitti";
+  const MadeSequence made = MakeKitti(run);
+  fs::remove(run / "labels.json");
+  RecordedFrames frames(run);
+  frames.UseScenario(made.scenario);
+  EXPECT_EQ(NamesIn(frames), ExpectedNames(made));
+}
+
+TEST(LabelsOfKitti, AreNotSoughtAboveTheSequences) {
+  const TemporaryDirectory directory;
+  const fs::path run = directory.path() / "kitti";
+  (void)MakeKitti(run);
+  fs::rename(run / "labels.json", directory.path() / "labels.json");
+  const fs::path file = run / "sequences" / "00" / "velodyne" / "000000.bin";
+  EXPECT_THAT(RecordedFrames(file).info().labels.labels(), IsEmpty());
+}
+
+TEST(LabelsOf, SayThatATableIsDamaged) {
+  const TemporaryDirectory directory;
+  WriteFileWhole(directory.path() / "labels.json", "[");
+  RecordingInfo info;
+  info.source = directory.path() / "a.pcd";
+  const std::string message = MessageOf([&] { (void)LabelsOf(info); });
+  EXPECT_THAT(message, testing::StartsWith((directory.path() / "labels.json").string() + ":"));
+  EXPECT_THAT(message, testing::Not(testing::HasSubstr("\n")));
+}
+
+}  // namespace
+}  // namespace railcast
