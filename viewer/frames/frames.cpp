@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/base/error.h"
 #include "core/io/kitti.h"
 #include "core/rail/rail_world.h"
 #include "core/scenario/scenario.h"
@@ -10,6 +11,11 @@
 namespace railcast {
 
 void Frames::UseScenario(const ScenarioSpec& scenario) {
+  if (info_.scenario) {
+    if (ResolvedScenarioJson(*info_.scenario) == ResolvedScenarioJson(scenario)) return;
+    throw InputError(info_.source.string() +
+                     ": has a scenario of its own: --scenario must be the same or be left out");
+  }
   world_ = MakeWorld(scenario);
   info_.scenario = scenario;
   info_.labels = LabelTable(scenario.labels);

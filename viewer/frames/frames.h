@@ -18,7 +18,8 @@ class Frames {
   /// Says what the frames were made of where they do not say it themselves: labels, materials,
   /// world and its objects.
   /// @param scenario Of one sensor.
-  /// @throws InputError if its world cannot be built.
+  /// @throws InputError with one line if its world cannot be built, or if the recording has a
+  ///   scenario of its own that says otherwise.
   void UseScenario(const ScenarioSpec& scenario);
   /// Null if there is no such frame: not yet, not any more, or beyond the end.
   /// @throws InputError with one line if it cannot be read.
