@@ -24,10 +24,10 @@ class Frames {
   /// Null if there is no such frame: not yet, not any more, or beyond the end.
   /// @throws InputError with one line if it cannot be read.
   [[nodiscard]] virtual std::shared_ptr<const ShownFrame> Get(std::size_t place) = 0;
-  /// The oldest place that Get() can give.
-  [[nodiscard]] virtual std::size_t first_known() const { return 0; }
   /// How many frames have been seen so far; of most recordings all there are.
   [[nodiscard]] virtual std::size_t num_known() const = 0;
+  /// The oldest place that Get() can give.
+  [[nodiscard]] virtual std::size_t first_known() const { return 0; }
 
  protected:
   [[nodiscard]] std::shared_ptr<const ShownFrame> Shown(RecordedFrame recorded) const;

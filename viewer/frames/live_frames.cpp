@@ -26,7 +26,6 @@ LiveFrames::~LiveFrames() {
 }
 
 bool LiveFrames::Poll() {
-  constexpr std::size_t kMaxKept = 64;
   std::shared_ptr<const ReceivedFrame> received;
   {
     const std::lock_guard lock(mutex_);
@@ -36,19 +35,17 @@ bool LiveFrames::Poll() {
   num_lost_packets_ = received->num_lost_packets();
   fault_.clear();
   try {
-    kept_.push_back(Shown(MakeLiveFrame(*received, info_.source.string())));
+    kept_.Put(num_taken_, Shown(MakeLiveFrame(*received, info_.source.string())));
   } catch (const InputError& error) {
     fault_ = error.what();
     return false;
   }
-  if (kept_.size() > kMaxKept) kept_.pop_front();
   ++num_taken_;
   return true;
 }
 
 std::shared_ptr<const ShownFrame> LiveFrames::Get(std::size_t place) {
-  const std::size_t first = num_taken_ - kept_.size();
-  return place < first || place >= num_taken_ ? nullptr : kept_[place - first];
+  return kept_.Find(place);
 }
 
 std::string LiveFrames::StatusText() const {

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
 #include <memory>
 #include <mutex>
 #include <string>
 
 #include "core/io/stream/udp_grabber.h"
+#include "viewer/frames/frame_shelf.h"
 #include "viewer/frames/frames.h"
 
 namespace railcast {
@@ -24,6 +24,8 @@ class LiveFrames final : public Frames {
 
   [[nodiscard]] std::shared_ptr<const ShownFrame> Get(std::size_t place) override;
   [[nodiscard]] std::size_t num_known() const override { return num_taken_; }
+  /// Of the frames the last ones are kept, at most 64.
+  [[nodiscard]] std::size_t first_known() const override { return num_taken_ - kept_.size(); }
 
   /// Takes the frame that came last since the last call, if any, as the next one. Others between
   /// are passed over: whoever shows frames more slowly than they come falls not behind.
@@ -39,7 +41,7 @@ class LiveFrames final : public Frames {
   [[nodiscard]] std::string StatusText() const;
 
  private:
-  std::deque<std::shared_ptr<const ShownFrame>> kept_;  ///< The last ones.
+  FrameShelf kept_{{.num_frames = 64}};  ///< The last ones.
   std::size_t num_taken_{};
   std::string fault_;
   std::size_t num_lost_packets_{};

@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
-#include <list>
 #include <memory>
 #include <optional>
-#include <utility>
 
+#include "viewer/frames/frame_counter.h"
+#include "viewer/frames/frame_shelf.h"
 #include "viewer/frames/frames.h"
 
 namespace railcast {
@@ -29,8 +29,8 @@ class RecordedFrames final : public Frames {
   /// @throws InputError with one line if there is none.
   [[nodiscard]] std::size_t PlaceOf(std::uint32_t frame_index);
 
-  /// Of a capture before its end was seen: as many as were read.
-  [[nodiscard]] std::size_t num_known() const override { return num_known_; }
+  /// Of a capture, whose frames are counted beside, it rises up to their number.
+  [[nodiscard]] std::size_t num_known() const override;
   /// Reads on to the end.
   void SeekEnd();
 
@@ -44,10 +44,10 @@ class RecordedFrames final : public Frames {
   /// farther back means to read the recording anew.
   std::deque<Recording::FrameReader> readers_;
   std::size_t first_reader_{};
-  std::size_t num_known_{};
+  std::size_t num_passed_{};  ///< As far as readers ever were; of most recordings all.
   bool is_end_known_ = false;
-  std::list<std::pair<std::size_t, std::shared_ptr<const ShownFrame>>> kept_;
-  std::size_t num_kept_slots_{};
+  FrameShelf kept_{FrameShelf::Limits{}};
+  std::optional<FrameCounter> counter_;  ///< If the recording does not say how many there are.
 };
 
 }  // namespace railcast

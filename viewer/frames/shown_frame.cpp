@@ -3,6 +3,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -35,6 +36,11 @@ void UndoMotion(const Frame& frame, ShownFrame& shown) {
 ShownFrame MakeShownFrame(RecordedFrame recorded) {
   ShownFrame shown;
   const Frame& frame = recorded.frame;
+  // Many frames are kept: no room to grow.
+  const auto num_points = static_cast<std::size_t>(
+      std::ranges::count_if(frame.x, [](float x_m) { return !std::isnan(x_m); }));
+  shown.positions_m.reserve(3 * num_points);
+  shown.slots.reserve(num_points);
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
     if (std::isnan(frame.x[slot])) continue;
     shown.positions_m.insert(shown.positions_m.end(),

@@ -29,6 +29,7 @@ TEST(LiveFrames, AreThoseThatAreSent) {
   LiveFrames frames("udp://here", kAnyLoopbackPort);
   EXPECT_EQ(frames.info().kind, "live stream");
   EXPECT_EQ(frames.num_known(), 0U);
+  EXPECT_EQ(frames.first_known(), 0U);
   EXPECT_FALSE(frames.Poll());
   EXPECT_EQ(frames.Get(0), nullptr);
   LiveStream stream(frames.at());
@@ -72,6 +73,7 @@ TEST(LiveFrames, ForgetAllButTheLast64) {
     ASSERT_TRUE(EventuallyPolls(frames)) << index;
   }
   EXPECT_EQ(frames.num_known(), 65U);
+  EXPECT_EQ(frames.first_known(), 1U);
   EXPECT_EQ(frames.Get(0), nullptr);
   EXPECT_EQ(frames.Get(1)->frame().index, 1U);
   EXPECT_EQ(frames.Get(64)->frame().index, 64U);

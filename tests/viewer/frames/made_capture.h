@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "core/io/pcap/pcap_writer.h"
+#include "core/io/velodyne/velodyne_packet.h"
+#include "tests/core/io/velodyne/made_scan.h"
+#include "tests/support/sensor_file.h"
+
+namespace railcast {
+
+/// A capture of so many turns of a VLP-16.
+inline void WriteCapture(const std::filesystem::path& file, std::uint32_t num_frames) {
+  const MadeScan scan(ReadSensor("vlp16"));
+  const auto encoder = MakeVelodyneEncoder("vlp16", scan.spec(), "strongest");
+  PcapWriter writer(file, kVelodyneDataPort, kVelodynePositionPort);
+  Datagrams datagrams;
+  for (std::uint32_t i = 0; i < num_frames; ++i) {
+    datagrams.Clear();
+    encoder->Encode(scan.MakeFrame(i), datagrams);
+    writer.Write(datagrams, datagrams.items);
+  }
+  writer.Finish();
+}
+
+}  // namespace railcast
