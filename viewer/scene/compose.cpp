@@ -95,6 +95,9 @@ std::string Composer::Missing(const ShownFrame& shown, const Choices& choices) c
   if (choices.empty_beams && !shown.recorded->is_grid) {
     return "beams without return need a frame in which every firing has its place";
   }
+  if (overlays.frustum && !world_ && !MakeScanTable(shown.frame())) {
+    return "the frustum needs the scenario or a grid of firings";
+  }
   if (needs_world && !world_) {
     return "track, gauge and surfaces need the scenario, which is not known";
   }

@@ -119,11 +119,14 @@ std::size_t Session::num_views() const {
 double Session::Period_s() const {
   constexpr double kUsual_s = 0.1;
   if (shown_.empty()) return kUsual_s;
-  const std::size_t other = place_ > 0 ? place_ - 1 : place_ + 1;
-  const auto neighbour = sources_.front().Get(other);
-  if (!neighbour) return kUsual_s;
-  const auto gap_ns = std::abs(shown_.front()->frame().stamp_ns - neighbour->frame().stamp_ns);
-  return gap_ns > 0 ? 1e-9 * static_cast<double>(gap_ns) : kUsual_s;
+  try {
+    const auto neighbour = sources_.front().Get(place_ > 0 ? place_ - 1 : place_ + 1);
+    if (!neighbour) return kUsual_s;
+    const auto gap_ns = std::abs(shown_.front()->frame().stamp_ns - neighbour->frame().stamp_ns);
+    return gap_ns > 0 ? 1e-9 * static_cast<double>(gap_ns) : kUsual_s;
+  } catch (const InputError&) {
+    return kUsual_s;  // Whoever asks for that frame learns why it cannot be read.
+  }
 }
 
 ShownFrames Session::FramesWith(const Source& source,
@@ -132,7 +135,11 @@ ShownFrames Session::FramesWith(const Source& source,
   // Without poses nobody knows where they were.
   const std::size_t num_wanted = shown->recorded->has_pose ? choices_.num_accumulated : 1;
   for (std::size_t back = 1; back < num_wanted && back <= place_; ++back) {
-    if (auto earlier = source.Get(place_ - back)) frames.push_back(std::move(earlier));
+    try {
+      if (auto earlier = source.Get(place_ - back)) frames.push_back(std::move(earlier));
+    } catch (const InputError&) {
+      continue;  // What cannot be read is not accumulated: the status counts what is.
+    }
   }
   return frames;
 }

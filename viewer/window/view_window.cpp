@@ -41,7 +41,6 @@ ViewWindow::~ViewWindow() = default;
 
 void ViewWindow::Guard(const std::function<void()>& action) {
   try {
-    message_.clear();
     action();
   } catch (const InputError& error) {
     message_ = error.what();
@@ -75,7 +74,8 @@ void ViewWindow::Run() {
   vtkNew<vtkCallbackCommand> tick;
   tick->SetClientData(this);
   tick->SetCallback([](vtkObject*, unsigned long, void* self_data, void*) {
-    static_cast<ViewWindow*>(self_data)->OnTimer();
+    auto& self = *static_cast<ViewWindow*>(self_data);
+    self.Guard([&self] { self.OnTimer(); });
   });
   interactor_->AddObserver(vtkCommand::TimerEvent, tick);
   vtkNew<vtkCallbackCommand> resized;
@@ -96,7 +96,7 @@ void ViewWindow::OnTimer() {
   constexpr double kStatusPeriod_s = 0.5;
   const double now_s = Now_s();
   const bool has_changed = playback_.Advance(now_s);
-  if (has_changed) Guard([this] { Refresh(); });
+  if (has_changed) Refresh();
   if (const auto answer = tracing_.Take()) {
     stage_.ShowPlate(Stage::Plate::kTrace, *answer);
     interactor_->Render();
@@ -208,6 +208,7 @@ void ViewWindow::ShowStatus() {
 }
 
 void ViewWindow::OnClick(const std::array<int, 2>& place_px, bool with_shift) {
+  message_.clear();
   const std::size_t index = stage_.ViewAt(place_px[0]);
   const auto in_view_px = stage_.InView(index, place_px[0], place_px[1]);
   if (const auto line = stage_.view(index).legend().LineAt(in_view_px)) {
@@ -264,6 +265,7 @@ void ViewWindow::SaveScreenshot() {
 }
 
 void ViewWindow::OnKey(const std::string& key) {
+  message_.clear();
   const auto bindings = KeyTable::Bindings();
   const auto found = std::ranges::find(bindings, key, &KeyBinding::symbol);
   if (found == bindings.end() || found->action == nullptr) return;

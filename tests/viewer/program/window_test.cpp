@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <numbers>
 #include <string>
 
@@ -252,6 +253,31 @@ TEST_F(Window, GoesToTheFrameThatTheSliderIsDraggedTo) {
   Drag({static_cast<int>(0.973 * kWidth), y}, {static_cast<int>(0.01 * kWidth), y});
   EXPECT_TRUE(WaitToShow(Expected("")));
   EXPECT_TRUE(ArePointsAlike(Shown(), before));
+  Press("q");
+  EXPECT_EQ(window().ExitStatus(), 0);
+}
+
+TEST_F(Window, StaysOpenBesideAFrameThatCannotBeRead) {
+  const std::string damaged = PathOf("damaged");
+  std::filesystem::copy(path_, damaged, std::filesystem::copy_options::recursive);
+  std::filesystem::resize_file(damaged + "/frames/000001.pcd", 1000);
+  Open({damaged});
+  EXPECT_TRUE(ArePointsAlike(Shown(), Expected("")));
+  Press("Right");
+  EXPECT_TRUE(ArePointsAlike(Shown(), Expected("")));
+  Press("Right");
+  EXPECT_TRUE(ArePointsAlike(Shown(), Expected("--frame 2")));
+  Press("q");
+  EXPECT_EQ(window().ExitStatus(), 0);
+}
+
+TEST_F(Window, LooksFromAboveAsItsPrintedCameraSays) {
+  Open({path_});
+  Press("2");
+  const Picture above = Shown();
+  EXPECT_TRUE(ArePointsAlike(above, Expected("--camera top")));
+  EXPECT_TRUE(
+      ArePointsAlike(above, Expected(PrintedCamera().substr(0, PrintedCamera().find('\n')))));
   Press("q");
   EXPECT_EQ(window().ExitStatus(), 0);
 }
