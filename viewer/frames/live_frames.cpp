@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdio>
 #include <functional>
+#include <limits>
 #include <utility>
 
 #include "core/base/error.h"
@@ -10,13 +11,17 @@
 
 namespace railcast {
 
-LiveFrames::LiveFrames(const std::string& source, const Endpoint& at) : grabber_(at) {
+LiveFrames::LiveFrames(const std::string& source,
+                       const Endpoint& at,
+                       std::optional<std::uint16_t> sensor)
+    : grabber_(at, sensor) {
   info_.source = source;
   info_.kind = "live stream";
   grabber_.registerCallback(
       std::function([this](const std::shared_ptr<const ReceivedFrame>& frame) {
         const std::lock_guard lock(mutex_);
         latest_ = frame;
+        last_arrival_ = std::chrono::steady_clock::now();
       }));
   grabber_.start();
 }
@@ -48,6 +53,12 @@ std::shared_ptr<const ShownFrame> LiveFrames::Get(std::size_t place) {
   return kept_.Find(place);
 }
 
+double LiveFrames::seconds_since_last() const {
+  const std::lock_guard lock(mutex_);
+  if (!last_arrival_) return std::numeric_limits<double>::infinity();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - *last_arrival_).count();
+}
+
 std::string LiveFrames::StatusText() const {
   const UdpGrabber::Counts counts = grabber_.counts();
   std::array<char, 128> text{};
@@ -57,6 +68,9 @@ std::string LiveFrames::StatusText() const {
   std::string status = text.data();
   if (counts.stream.missing_frames > 0) {
     status += "   " + std::to_string(counts.stream.missing_frames) + " frames lost whole";
+  }
+  if (counts.stream.other_sensor) {
+    status += "   also heard: sensor " + std::to_string(*counts.stream.other_sensor);
   }
   if (!fault_.empty()) {
     status += "   not shown: ";

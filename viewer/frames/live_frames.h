@@ -1,8 +1,11 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "core/io/stream/udp_grabber.h"
@@ -16,8 +19,12 @@ class LiveFrames final : public Frames {
  public:
   /// Listens from now on.
   /// @param source "udp://...", for messages.
+  /// @param sensor Of the vehicle: whose frames are shown, if several send to the port. Nothing:
+  ///   whoever comes first.
   /// @throws InputError if the port cannot be listened to.
-  LiveFrames(const std::string& source, const Endpoint& at);
+  LiveFrames(const std::string& source,
+             const Endpoint& at,
+             std::optional<std::uint16_t> sensor = std::nullopt);
   ~LiveFrames() override;
   LiveFrames(const LiveFrames&) = delete;
   LiveFrames& operator=(const LiveFrames&) = delete;
@@ -37,7 +44,10 @@ class LiveFrames final : public Frames {
   [[nodiscard]] std::size_t num_lost_packets() const { return num_lost_packets_; }
 
   [[nodiscard]] Endpoint at() const { return grabber_.at(); }
-  /// "live 10.0 frames/s   0 packets lost", since it listens.
+  /// Since a frame came, whether or not it was taken or can be shown; infinite before the first.
+  [[nodiscard]] double seconds_since_last() const;
+  /// "live 10.0 frames/s   0 packets lost", since it listens; "   also heard: sensor 1" if another
+  /// sensor than the one shown sends to the port.
   [[nodiscard]] std::string StatusText() const;
 
  private:
@@ -45,8 +55,9 @@ class LiveFrames final : public Frames {
   std::size_t num_taken_{};
   std::string fault_;
   std::size_t num_lost_packets_{};
-  std::mutex mutex_;
+  mutable std::mutex mutex_;  ///< Of what the grabber's thread changes.
   std::shared_ptr<const ReceivedFrame> latest_;
+  std::optional<std::chrono::steady_clock::time_point> last_arrival_;
   UdpGrabber grabber_;  ///< Ends before what its callback uses.
 };
 

@@ -23,13 +23,21 @@ void FrameAssembler::Take(std::span<const char> bytes, std::vector<ReceivedFrame
     ++counts_.refused[static_cast<std::size_t>(fault)];
     return;
   }
+  if (only_sensor_ && datagram->sensor != *only_sensor_) {
+    counts_.other_sensor = datagram->sensor;
+    ++counts_.stray_packets;
+    return;
+  }
   Place place = PlaceOf(*datagram);
   if (place == Place::kElsewhere) {
+    const bool is_other_sensor = has_run_ && datagram->sensor != sensor_;
     if (!BeginsAnew(*datagram)) {
+      if (is_other_sensor) counts_.other_sensor = datagram->sensor;
       ++counts_.stray_packets;
       return;
     }
     Flush(frames);
+    if (is_other_sensor) counts_.other_sensor = sensor_;
     if (has_run_) ++counts_.restarts;
     has_run_ = true;
     run_ = datagram->run;

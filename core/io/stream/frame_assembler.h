@@ -28,6 +28,8 @@ struct StreamCounts {
   std::uint64_t stray_packets{};  ///< Sound ones of another run or sensor, or of a frame long past.
   std::uint64_t restarts{};       ///< Frame numbers began anew.
   std::array<std::uint64_t, kStreamFaultNames.size()> refused{};  ///< By StreamFault.
+  /// Who else was heard last: another sensor than the one whose frames are given.
+  std::optional<std::uint16_t> other_sensor{};
 
   [[nodiscard]] std::uint64_t num_refused() const;
 };
@@ -42,9 +44,14 @@ struct StreamCounts {
 /// A larger run number begins anew at once. Sixteen datagrams in a row that make no sense otherwise
 /// (a smaller run, another sensor, frames more than eight behind) begin anew, too: a sender that
 /// was restarted, or somebody's joke that is over. Datagrams carry no signature: who can send to
-/// the port can disturb.
+/// the port can disturb. Two senders at once disturb each other, unless they are different sensors
+/// and the assembler is bound to one: then it never begins anew with another.
 class FrameAssembler {
  public:
+  /// @param sensor Whose datagrams are taken; all others are strays. Nothing: whoever comes first.
+  explicit FrameAssembler(std::optional<std::uint16_t> sensor = std::nullopt)
+      : only_sensor_(sensor) {}
+
   /// Appends the frames that this datagram completes or gives up to `frames`.
   void Take(std::span<const char> datagram, std::vector<ReceivedFrame>& frames);
   /// Gives up the open frames: nothing more will come.
@@ -78,6 +85,7 @@ class FrameAssembler {
   void GiveFirst(std::vector<ReceivedFrame>& frames);
   static ReceivedFrame Assemble(OpenFrame& open);
 
+  std::optional<std::uint16_t> only_sensor_;
   StreamCounts counts_;
   bool has_run_ = false;
   std::uint32_t run_{};

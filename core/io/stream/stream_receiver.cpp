@@ -10,8 +10,8 @@ constexpr int kSilence_ms = 1000;
 
 }  // namespace
 
-StreamReceiver::StreamReceiver(const Endpoint& at)
-    : socket_(at), at_(socket_->at()), thread_([this] { Listen(); }) {}
+StreamReceiver::StreamReceiver(const Endpoint& at, std::optional<std::uint16_t> sensor)
+    : socket_(at), at_(socket_->at()), assembler_(sensor), thread_([this] { Listen(); }) {}
 
 StreamReceiver::~StreamReceiver() {
   Stop();

@@ -24,8 +24,9 @@ class StreamReceiver {
  public:
   static constexpr std::size_t kMaxWaitingFrames = 4;
 
+  /// @param sensor As FrameAssembler takes it.
   /// @throws InputError if the port cannot be listened to.
-  explicit StreamReceiver(const Endpoint& at);
+  explicit StreamReceiver(const Endpoint& at, std::optional<std::uint16_t> sensor = std::nullopt);
   ~StreamReceiver();
   StreamReceiver(const StreamReceiver&) = delete;
   StreamReceiver& operator=(const StreamReceiver&) = delete;

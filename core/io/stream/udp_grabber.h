@@ -6,9 +6,11 @@
 #include <pcl/point_types.h>
 
 #include <condition_variable>
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -37,7 +39,10 @@ class UdpGrabber : public pcl::Grabber {
   using Counts = StreamReceiver::Counts;
 
   /// @param at Where to listen once started; port 0 takes a free one.
-  explicit UdpGrabber(const Endpoint& at = {0x7F000001, kStreamPort});
+  /// @param sensor Whose frames are given, if several send to the port; nothing: whoever comes
+  ///   first.
+  explicit UdpGrabber(const Endpoint& at = {0x7F000001, kStreamPort},
+                      std::optional<std::uint16_t> sensor = std::nullopt);
   ~UdpGrabber() noexcept override;
 
   /// Does nothing while running. Counts begin at 0.
@@ -65,6 +70,7 @@ class UdpGrabber : public pcl::Grabber {
   void EmitPoints(const pcl::PCLPointCloud2& cloud, const Transform& world_from_sensor);
 
   const Endpoint listens_at_;
+  const std::optional<std::uint16_t> only_sensor_;
   mutable std::mutex mutex_;  ///< Of all that follows.
   std::condition_variable changed_;
   std::shared_ptr<StreamReceiver> receiver_;   ///< Null unless running.

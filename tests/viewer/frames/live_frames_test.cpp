@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/stream/live_stream.h"
 
@@ -121,6 +124,36 @@ TEST(LiveFrames, SayWhyAFrameCannotBeShownUntilOneCan) {
   ASSERT_TRUE(EventuallyPolls(frames));
   EXPECT_EQ(frames.fault(), "");
   EXPECT_EQ(frames.Get(1)->frame().index, 5U);
+}
+
+TEST(LiveFrames, AreOfOneSensorIfTwoSendToThePort) {
+  LiveFrames frames("udp://here", kAnyLoopbackPort, 1);
+  StreamSpec roof_spec;
+  roof_spec.sensor = 1;
+  LiveStream front(frames.at());
+  LiveStream roof(frames.at(), roof_spec);
+  for (std::uint32_t place = 0; place < 3; ++place) {
+    front.Send(100 + place);
+    roof.Send(place);
+    ASSERT_TRUE(EventuallyPolls(frames)) << place;
+    EXPECT_EQ(frames.Get(place)->frame().index, place);
+  }
+  EXPECT_THAT(frames.StatusText(), EndsWith("   0 packets lost   also heard: sensor 0"));
+}
+
+TEST(LiveFrames, SayHowLongNoneHasCome) {
+  LiveFrames frames("udp://here", kAnyLoopbackPort);
+  EXPECT_EQ(frames.seconds_since_last(), std::numeric_limits<double>::infinity());
+  LiveStream stream(frames.at());
+  const auto before = std::chrono::steady_clock::now();
+  stream.Send(0);
+  ASSERT_TRUE(Eventually([&] { return std::isfinite(frames.seconds_since_last()); }));
+  EXPECT_EQ(frames.num_known(), 0U) << "nor was it taken";
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  const double since_s = frames.seconds_since_last();
+  const std::chrono::duration<double> most = std::chrono::steady_clock::now() - before;
+  EXPECT_GE(since_s, 0.02);
+  EXPECT_LE(since_s, most.count());
 }
 
 TEST(LiveFrames, SayThatAPortIsTaken) {
