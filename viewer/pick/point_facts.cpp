@@ -159,12 +159,13 @@ std::vector<std::string> PointFacts(const ShownFrame& shown,
   facts.Add("file", FileText(recorded.name));
   facts.Add("frame", std::to_string(frame.index));
   facts.Add("slot", std::to_string(slot));
-  const std::string position = CoordinatesText(firing_m);
+  const std::string position = CoordinatesText(firing_m + recorded.origin_m);
   facts.Add("position", position);
-  const std::string stamp_position = CoordinatesText(stamp_m);
+  const std::string stamp_position = CoordinatesText(stamp_m + recorded.origin_m);
   if (stamp_position != position) facts.Add("at the stamp", stamp_position);
   if (recorded.has_pose) {
-    facts.Add("in the world", CoordinatesText(frame.world_from_sensor * stamp_m));
+    facts.Add("in the world",
+              CoordinatesText(frame.world_from_sensor * (stamp_m + recorded.origin_m)));
   }
   facts.AddMeasurement();
   facts.AddTruth();

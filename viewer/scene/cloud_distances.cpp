@@ -26,7 +26,11 @@ pcl::PointCloud<pcl::PointXYZ>::Ptr CloudOf(const ShownFrame& shown, const Trans
 }  // namespace
 
 std::optional<Transform> FirstFromSecond(const ShownFrame& first, const ShownFrame& second) {
-  if (!first.recorded->has_pose || !second.recorded->has_pose) return std::nullopt;
+  if (!first.recorded->has_pose || !second.recorded->has_pose) {
+    const Vector3 apart_m = second.recorded->origin_m - first.recorded->origin_m;
+    if (apart_m.isZero(0.0)) return std::nullopt;
+    return Transform(Eigen::Translation3d(apart_m));
+  }
   return first.frame().world_from_sensor.inverse() * second.frame().world_from_sensor;
 }
 

@@ -10,7 +10,7 @@ namespace railcast {
 
 /// How two frames are laid over each other: the second's sensor axes at its stamp in those of the
 /// first, by way of the world. Nothing if one of them has no pose: then both stay in their own axes
-/// as if those were the same.
+/// as if those were the same; only what was subtracted from their positions is put right.
 [[nodiscard]] std::optional<Transform> FirstFromSecond(const ShownFrame& first,
                                                        const ShownFrame& second);
 

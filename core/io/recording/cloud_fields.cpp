@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/number_text.h"
 #include "core/io/field_layout.h"
+#include "core/io/recording/near_origin.h"
 
 namespace railcast {
 namespace {
@@ -229,6 +230,7 @@ void FillFrame(const PointTable& table, const SlotPlan& plan, RecordedFrame& rec
   });
   MarkEmptySlots(frame, recorded.Has("range_m"));
   recorded.fields.emplace("range_m");
+  TakeFromNearOrigin(table, plan, recorded);
   // A slot that no point of the file fills says nothing of why.
   if (table.num_points() < frame.num_slots()) recorded.fields.erase("outcome");
   FillForeign(table, plan, recorded);

@@ -27,7 +27,8 @@ inline constexpr std::uint32_t kNoSlot = std::numeric_limits<std::uint32_t>::max
 /// Gives the frame the plan's shape and all the fields that the file has, under our names or those
 /// that others use for the same (docs/recordings.md). Then what follows from the positions:
 /// range_m, and in a grid ring, column, return_index and return_count. A slot has a point where x,
-/// y and z are finite, and not all 0, as some drivers write "none". Columns of numbers that hold no
+/// y and z are finite, and not all 0, as some drivers write "none". Positions far from 0 are taken
+/// from an origin near them (near_origin.h). Columns of numbers that hold no
 /// field of ours become foreign ones.
 /// @throws InputError "name: field: rule (got value)" if a value does not fit its field or x, y or
 /// z

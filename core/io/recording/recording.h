@@ -55,6 +55,11 @@ struct RecordedFrame {
   std::vector<RecordedObject> objects;  ///< Of our sequences only.
   /// What no field of `frame` was read from, in the file's order, up to 64; colours are left out.
   std::vector<ForeignField> foreign{};
+  /// What was subtracted from stored positions so that float32 can hold those of `frame`: positions
+  /// + origin_m = as stored. 0 unless they were stored as float64 and far from 0, as in a national
+  /// grid; then range_m is still the distance from the stored 0. Frames of one recording may
+  /// differ.
+  Vector3 origin_m = Vector3::Zero();
 
   [[nodiscard]] bool Has(std::string_view field) const { return fields.contains(field); }
 };

@@ -58,6 +58,13 @@ RecordedFrame SecondReturn() {
   return recorded;
 }
 
+TEST(PointFacts, SayTheCoordinatesAsStoredOfPositionsFarFromZero) {
+  RecordedFrame recorded = RecordedCloud("a.pcd", {{234.5, 567.25, 20}});
+  recorded.origin_m = {691000, 5334000, 0};
+  EXPECT_THAT(PointFacts(Show(std::move(recorded)), {}, 0),
+              Contains("position           691234.500 5334567.250      20.000 m"));
+}
+
 TEST(PointFacts, SaysAllThatIsKnownOfAPoint) {
   ShownFrame shown = Show(SecondReturn());
   // The sensor went on by 37 mm before this firing.

@@ -27,6 +27,15 @@ TEST(CloudDistances, GoFromEveryPointToTheNearestOfTheOtherCloud) {
   EXPECT_THAT(DistancesToNearest_m(of, other), ElementsAre(0.0F, 5.0F, 1.0F));
 }
 
+TEST(CloudDistances, KnowWhatWasSubtractedFromFarPositions) {
+  // Stored at x = 691499 and 691501 m, each taken from the kilometre next to it.
+  RecordedFrame low = RecordedCloud("a.pcd", {{499, 0, 0}});
+  low.origin_m = {691000, 0, 0};
+  RecordedFrame high = RecordedCloud("b.pcd", {{-499, 0, 0}});
+  high.origin_m = {692000, 0, 0};
+  EXPECT_THAT(DistancesToNearest_m(Show(low), Show(high)), ElementsAre(2.0F));
+}
+
 TEST(CloudDistances, AreNotTheSameTheOtherWayRound) {
   const ShownFrame one = Show(RecordedCloud("a.pcd", {{0, 0, 0}}));
   const ShownFrame two = Show(RecordedCloud("b.pcd", {{0, 0, 0}, {7, 0, 0}}));

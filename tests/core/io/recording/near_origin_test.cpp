@@ -1,0 +1,86 @@
+#include "core/io/recording/near_origin.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+#include "core/io/recording/cloud_frame.h"
+
+namespace railcast {
+namespace {
+
+using testing::ElementsAre;
+
+/// A loose cloud with x, y, z stored as so many bytes each.
+template <typename Number>
+RecordedFrame FrameOf(const std::vector<Number>& coordinates_m) {
+  const auto type = sizeof(Number) == sizeof(double) ? NumberType::kDouble : NumberType::kFloat;
+  constexpr std::size_t kStep = 3 * sizeof(Number);
+  PointTable table{.width = static_cast<std::uint32_t>(coordinates_m.size() / 3),
+                   .height = 1,
+                   .columns = {{"x", type, 0, kStep},
+                               {"y", type, sizeof(Number), kStep},
+                               {"z", type, 2 * sizeof(Number), kStep}},
+                   .bytes = {}};
+  table.bytes.resize(coordinates_m.size() * sizeof(Number));
+  std::memcpy(table.bytes.data(), coordinates_m.data(), table.bytes.size());
+  return MakeCloudFrame(table, "a.pcd");
+}
+
+// In UTM zone 32 north.
+constexpr double kEast_m = 691234.5;
+constexpr double kNorth_m = 5334567.25;
+
+TEST(NearOrigin, KeepsNeighboursInANationalGridApart) {
+  const RecordedFrame recorded = FrameOf<double>({kEast_m, kNorth_m, 520.0,         //
+                                                  kEast_m + 0.01, kNorth_m, 520.0,  //
+                                                  kEast_m, kNorth_m + 0.02, 520.25});
+  EXPECT_EQ(recorded.origin_m, Vector3(691000.0, 5335000.0, 1000.0));
+  // Below 512 m float32 rounds by 2^-16 m at most.
+  constexpr double kRounding_m = 1.0 / 32768.0;
+  const Frame& frame = recorded.frame;
+  EXPECT_NEAR(static_cast<double>(frame.x[1] - frame.x[0]), 0.01, kRounding_m);
+  EXPECT_NEAR(static_cast<double>(frame.y[2] - frame.y[0]), 0.02, kRounding_m);
+  EXPECT_NEAR(recorded.origin_m.y() + static_cast<double>(frame.y[0]), kNorth_m, kRounding_m);
+  EXPECT_NEAR(recorded.origin_m.z() + static_cast<double>(frame.z[2]), 520.25, kRounding_m);
+}
+
+TEST(NearOrigin, LeavesTheRangeFromTheStoredZero) {
+  const RecordedFrame recorded = FrameOf<double>({3e6, 4e6, 0.0});
+  EXPECT_THAT(recorded.frame.range_m, ElementsAre(5e6F));
+  EXPECT_THAT(recorded.frame.x, ElementsAre(0.0F));
+}
+
+TEST(NearOrigin, StaysZeroWithinTenKilometres) {
+  const RecordedFrame recorded = FrameOf<double>({9999.0, 0.0, 1.0});
+  EXPECT_EQ(recorded.origin_m, Vector3(Vector3::Zero()));
+  EXPECT_THAT(recorded.frame.x, ElementsAre(9999.0F));
+}
+
+TEST(NearOrigin, StaysZeroOfFloat32WhichHasNothingMoreToGive) {
+  const RecordedFrame recorded = FrameOf<float>({691234.5F, 5334567.0F, 520.0F});
+  EXPECT_EQ(recorded.origin_m, Vector3(Vector3::Zero()));
+  EXPECT_THAT(recorded.frame.y, ElementsAre(5334567.0F));
+}
+
+TEST(NearOrigin, IsNearMostPointsWhereverAFewAre) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const RecordedFrame recorded = FrameOf<double>({0.0, 0.0, 0.0,            // No point.
+                                                  nan, nan, nan,            //
+                                                  1e9, 1e9, 1e9,            //
+                                                  kEast_m, kNorth_m, 20.0,  //
+                                                  kEast_m, kNorth_m, 20.0});
+  EXPECT_EQ(recorded.origin_m, Vector3(691000.0, 5335000.0, 0.0));
+  EXPECT_THAT(recorded.frame.x, ElementsAre(testing::Gt(9e8F), 234.5F, 234.5F));
+  EXPECT_THAT(recorded.frame.z, ElementsAre(testing::Gt(9e8F), 20.0F, 20.0F));
+}
+
+TEST(NearOrigin, StaysZeroOfACloudWithoutPoints) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(FrameOf<double>({nan, nan, nan}).origin_m, Vector3(Vector3::Zero()));
+}
+
+}  // namespace
+}  // namespace railcast
