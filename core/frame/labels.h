@@ -13,7 +13,7 @@ namespace railcast {
 struct Label {
   std::uint32_t id{};
   std::string name;                   ///< Lower snake case, unique.
-  std::array<std::uint8_t, 3> rgb{};  ///< Colour-blind safe where the count allows.
+  std::array<std::uint8_t, 3> rgb{};  ///< Apart for the colour-blind, too.
   std::string whu_railway3d;          ///< Class name in WHU-Railway3D; "Others" where none fits.
   std::string osdar23;                ///< Class name in OSDaR23; empty where none fits.
   std::uint16_t semantic_kitti{};     ///< Id written to .label files: SemanticKITTI's own
