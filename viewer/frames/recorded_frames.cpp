@@ -10,7 +10,7 @@
 namespace railcast {
 namespace {
 
-constexpr std::size_t kMaxTurns = 64;      // Of a capture, half a megabyte each.
+constexpr std::size_t kMaxTurns = 24;      // Of a capture: of a Pandar64 5 MB each.
 constexpr std::size_t kMaxReaders = 4096;  // Of files, some lines of text each.
 
 }  // namespace

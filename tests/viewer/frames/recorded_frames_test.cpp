@@ -76,7 +76,7 @@ TEST(RecordedFrames, OfACaptureAreTheSameInAnyOrder) {
 }
 
 TEST(RecordedFrames, OfALongCaptureAreReadAgainToGoFarBack) {
-  constexpr std::uint32_t kFrames = 70;  // 64 turns are kept.
+  constexpr std::uint32_t kFrames = 70;  // 24 turns are kept.
   const TemporaryDirectory directory;
   const fs::path file = directory.path() / "a.pcap";
   WriteCapture(file, kFrames);
