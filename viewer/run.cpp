@@ -123,8 +123,15 @@ class Viewer {
  private:
   void OpenLive() {
     const std::string address = options_.source.string().substr(kLivePrefix.size());
-    live_ =
-        std::make_unique<LiveFrames>(options_.source.string(), ParseEndpoint(address, kStreamPort));
+    // In a stream, sensors have their numbers in the scenario.
+    std::optional<std::uint16_t> sensor;
+    if (options_.sensor) {
+      const std::vector<std::string> names = SensorNames(ReadScenario(options_.scenario));
+      const auto found = std::ranges::find(names, *options_.sensor);
+      if (found != names.end()) sensor = static_cast<std::uint16_t>(found - names.begin());
+    }
+    live_ = std::make_unique<LiveFrames>(options_.source.string(),
+                                         ParseEndpoint(address, kStreamPort), sensor);
     UseScenario(*live_);
   }
 

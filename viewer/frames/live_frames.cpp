@@ -1,6 +1,7 @@
 #include "viewer/frames/live_frames.h"
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <limits>
@@ -62,8 +63,10 @@ double LiveFrames::seconds_since_last() const {
 std::string LiveFrames::StatusText() const {
   const UdpGrabber::Counts counts = grabber_.counts();
   std::array<char, 128> text{};
+  const double silent_s = seconds_since_last();
+  const bool is_silent = silent_s >= 2.0;
   std::snprintf(text.data(), text.size(), "live %.1f frames/s   %llu packets lost",
-                static_cast<double>(grabber_.getFramesPerSecond()),
+                is_silent ? 0.0 : static_cast<double>(grabber_.getFramesPerSecond()),
                 static_cast<unsigned long long>(counts.stream.lost_packets));
   std::string status = text.data();
   if (counts.stream.missing_frames > 0) {
@@ -71,6 +74,10 @@ std::string LiveFrames::StatusText() const {
   }
   if (counts.stream.other_sensor) {
     status += "   also heard: sensor " + std::to_string(*counts.stream.other_sensor);
+  }
+  if (is_silent && std::isfinite(silent_s)) {
+    std::snprintf(text.data(), text.size(), "   no frame for %.0f s", std::floor(silent_s));
+    status += text.data();
   }
   if (!fault_.empty()) {
     status += "   not shown: ";

@@ -47,7 +47,7 @@ class LiveFrames final : public Frames {
   /// Since a frame came, whether or not it was taken or can be shown; infinite before the first.
   [[nodiscard]] double seconds_since_last() const;
   /// "live 10.0 frames/s   0 packets lost", since it listens; "   also heard: sensor 1" if another
-  /// sensor than the one shown sends to the port.
+  /// sensor than the one shown sends to the port, "   no frame for 5 s" once they stop.
   [[nodiscard]] std::string StatusText() const;
 
  private:

@@ -213,7 +213,8 @@ TEST(EffectTrace, SaysWhatIsMissing) {
             "error: cloud.pcd: has no scenario to trace points with");
   EffectTrace trace(InfoOf(scenarios_folder + "minimal.json"));
   EXPECT_EQ(trace.Of(recorded, 0),
-            "error: cloud.pcd: is no grid of firings, so nobody knows which its points are of");
+            "error: cloud.pcd: is no grid of firings, so nobody knows which its points are of "
+            "(a stream needs the fields ring and column)");
   recorded.is_grid = true;
   EXPECT_EQ(trace.Of(recorded, 0),
             "error: cloud.pcd: must have the firings of its scenario, 120 x 240 (got 1 x 1)");
