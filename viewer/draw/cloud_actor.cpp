@@ -27,7 +27,7 @@ void MakeVertices(std::size_t num_points, vtkCellArray& vertices) {
 
 Rgb Faint(const Rgb& rgb, const Rgb& background) {
   const auto mix = [](std::uint8_t value, std::uint8_t behind) {
-    return static_cast<std::uint8_t>((value + 4 * behind) / 5);
+    return static_cast<std::uint8_t>((value + 2 * behind) / 3);
   };
   return {mix(rgb[0], background[0]), mix(rgb[1], background[1]), mix(rgb[2], background[2])};
 }
