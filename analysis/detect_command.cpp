@@ -7,11 +7,11 @@
 
 #include "analysis/commands.h"
 #include "analysis/detectability/detect_report.h"
-#include "core/io/progress_line.h"
 #include "analysis/report/output.h"
 #include "core/base/error.h"
 #include "core/base/number_text.h"
 #include "core/base/units.h"
+#include "core/io/progress_line.h"
 #include "core/io/recording/recording.h"
 #include "core/io/text_cursor.h"
 

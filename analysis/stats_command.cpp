@@ -5,12 +5,12 @@
 
 #include "analysis/commands.h"
 #include "analysis/distinct_sources.h"
-#include "core/io/progress_line.h"
 #include "analysis/report/output.h"
 #include "analysis/stats/statistics.h"
 #include "analysis/stats/statistics_report.h"
 #include "analysis/thread_limit.h"
 #include "core/base/error.h"
+#include "core/io/progress_line.h"
 #include "core/io/recording/recording.h"
 
 namespace railcast {

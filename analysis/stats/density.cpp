@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "analysis/stats/bins.h"
-#include "core/io/recording/firing_truth.h"
 #include "analysis/stats/headings.h"
 #include "analysis/stats/sums.h"
 #include "core/base/transform.h"
+#include "core/io/recording/firing_truth.h"
 
 namespace railcast {
 namespace {

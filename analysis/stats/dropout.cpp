@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "analysis/stats/bins.h"
-#include "core/io/recording/firing_truth.h"
 #include "analysis/stats/headings.h"
 #include "analysis/stats/sums.h"
+#include "core/io/recording/firing_truth.h"
 
 namespace railcast {
 namespace {

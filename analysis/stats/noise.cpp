@@ -4,9 +4,9 @@
 
 #include "analysis/estimate/intervals.h"
 #include "analysis/stats/bins.h"
-#include "core/io/recording/firing_truth.h"
 #include "analysis/stats/headings.h"
 #include "analysis/stats/sums.h"
+#include "core/io/recording/firing_truth.h"
 
 namespace railcast {
 namespace {

@@ -1,8 +1,8 @@
 #include "analysis/stats/object_points.h"
 
 #include "analysis/stats/bins.h"
-#include "core/io/recording/firing_truth.h"
 #include "analysis/stats/headings.h"
+#include "core/io/recording/firing_truth.h"
 
 namespace railcast {
 
