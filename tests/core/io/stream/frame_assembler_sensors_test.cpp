@@ -3,37 +3,11 @@
 #include <optional>
 
 #include "core/io/stream/frame_assembler.h"
+#include "tests/core/io/stream/numbered_frames.h"
 #include "tests/core/io/stream/stream_example.h"
 
 namespace railcast {
 namespace {
-
-StreamSpec OfRun(std::uint32_t run, std::uint16_t sensor) {
-  StreamSpec spec;
-  spec.run = run;
-  spec.sensor = sensor;
-  return spec;
-}
-
-std::vector<std::string> DatagramsOfFrames(std::uint32_t first,
-                                           std::uint32_t last,
-                                           const StreamSpec& spec) {
-  std::vector<std::string> datagrams;
-  for (std::uint32_t index = first; index <= last; ++index) {
-    for (std::string& datagram : DatagramsOf(StreamFrame(index), spec)) {
-      datagrams.push_back(std::move(datagram));
-    }
-  }
-  return datagrams;
-}
-
-std::vector<std::uint32_t> NumbersOf(const std::vector<ReceivedFrame>& frames) {
-  std::vector<std::uint32_t> numbers;
-  for (const ReceivedFrame& frame : frames) numbers.push_back(frame.header.frame);
-  return numbers;
-}
-
-using Numbers = std::vector<std::uint32_t>;
 
 TEST(FrameAssembler, FollowsOneSensorOnlyIfItIsBoundToIt) {
   const auto front = DatagramsOfFrames(0, 4, OfRun(1, 0));
