@@ -126,7 +126,7 @@ class Viewer {
     // In a stream, sensors have their numbers in the scenario.
     std::optional<std::uint16_t> sensor;
     if (options_.sensor) {
-      const std::vector<std::string> names = SensorNames(ReadScenario(options_.scenario));
+      const std::vector<std::string> names = SensorNames(Scenario());
       const auto found = std::ranges::find(names, *options_.sensor);
       if (found != names.end()) sensor = static_cast<std::uint16_t>(found - names.begin());
     }
@@ -138,7 +138,13 @@ class Viewer {
   template <typename Source>
   void UseScenario(Source& source) {
     if (options_.scenario.empty()) return;
-    source.UseScenario(PickSensor(ReadScenario(options_.scenario), options_.sensor));
+    source.UseScenario(PickSensor(Scenario(), options_.sensor));
+  }
+
+  /// Of --scenario, read when it is first asked for.
+  const ScenarioSpec& Scenario() {
+    if (!scenario_) scenario_ = ReadScenario(options_.scenario);
+    return *scenario_;
   }
 
   void SeekFirst() {
@@ -205,6 +211,7 @@ class Viewer {
   const ViewOptions& options_;
   DisplayConnection display_;
   Stage stage_;
+  std::optional<ScenarioSpec> scenario_;
   std::unique_ptr<LiveFrames> live_;
   std::vector<std::unique_ptr<RecordedFrames>> recorded_;
   std::unique_ptr<Session> session_;

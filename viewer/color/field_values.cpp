@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 #include <string_view>
-#include <type_traits>
 
 #include "core/base/error.h"
 

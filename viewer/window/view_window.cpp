@@ -25,7 +25,6 @@ double Now_s() {
 
 ViewWindow::ViewWindow(Session& session, LiveFrames* live, Stage& stage, const Look& look)
     : session_(session),
-      live_(live),
       stage_(stage),
       look_(look),
       playback_(session, live),

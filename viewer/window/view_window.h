@@ -75,7 +75,6 @@ class ViewWindow {
   void ShowStatus();
 
   Session& session_;
-  LiveFrames* live_;
   Stage& stage_;
   Look look_;
   Playback playback_;
