@@ -31,16 +31,19 @@ check_architecture() {
 }
 
 # check_tidy GIT-LIST-COMMAND...: clang-tidy over the sources that the command names and that are
-# part of the build.
+# part of the build. It reads them as clang would compile them, each with what it includes itself.
 check_tidy() {
   echo "== clang-tidy"
+  cmake -B build/tidy -G Ninja --log-level=ERROR -D CMAKE_C_COMPILER=clang-14 \
+    -D CMAKE_CXX_COMPILER=clang++-14 -D CMAKE_BUILD_TYPE=RelWithDebInfo \
+    -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON
   "$@" | sort --unique | while read -r file; do
     if [[ -f "$file" ]] && grep --quiet --fixed-strings "\"$PWD/$file\"" \
-      build/release/compile_commands.json; then
+      build/tidy/compile_commands.json; then
       echo "$file"
     fi
   done | xargs --no-run-if-empty --max-args=1 --max-procs="$(nproc)" \
-    clang-tidy-14 -p build/release --quiet 2> >(grep -v ' warnings\? generated' >&2)
+    clang-tidy-14 -p build/tidy --quiet 2> >(grep -v ' warnings\? generated' >&2)
 }
 
 all_sources() {

@@ -50,6 +50,7 @@ test_packages=(
 
 # What scripts/check.sh calls.
 check_packages=(
+  clang-14
   clang-format-14
   clang-tidy-14
   git
