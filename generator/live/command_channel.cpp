@@ -4,6 +4,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -90,10 +91,9 @@ void CommandChannel::Listen() {
     }
     const std::vector<std::string_view> lines = LinesOf(received->bytes);
     if (lines.size() > kMaxLines) {
-      receiver_.Answer(
-          FaultAnswer({}, {"a datagram must have at most " + std::to_string(kMaxLines) +
-                           " lines (got " + std::to_string(lines.size()) + ")"}),
-          received->from);
+      std::ostringstream fault;
+      fault << "a datagram must have at most " << kMaxLines << " lines (got " << lines.size() << ")";
+      receiver_.Answer(FaultAnswer({}, {fault.str()}), received->from);
       continue;
     }
     for (const std::string_view text : lines) {
