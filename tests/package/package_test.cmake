@@ -18,8 +18,7 @@ file(REMOVE_RECURSE ${WORK_DIR})
 
 # The core alone configures; its sources are the same in every configuration, so BUILD_DIR's serve.
 run(${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${WORK_DIR}/core_alone ${toolchain} ${without_extras}
-    -D RAILCAST_BUILD_IO=OFF -D RAILCAST_BUILD_VIEWER=OFF -D RAILCAST_BUILD_TESTS=OFF
-    -D RAILCAST_BUILD_BENCHMARKS=OFF)
+    -D RAILCAST_BUILD_IO=OFF -D RAILCAST_BUILD_VIEWER=OFF -D RAILCAST_BUILD_TESTS=OFF)
 run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix} --component core)
 
 # What is installed must work on a machine that has neither the sources nor the build.
