@@ -15,9 +15,9 @@ namespace {
 using Count = Dropout::Count;
 
 // Causes for which a surface that was met brings no point back.
-constexpr Outcome kCauses[] = {Outcome::kOutOfRange,   Outcome::kBelowThreshold,
+constexpr Outcome kCauses[] = {Outcome::kOutOfRange, Outcome::kBelowThreshold,
                                Outcome::kRainAbsorbed, Outcome::kNearRange,
-                               Outcome::kEgo,          Outcome::kSensorDropout};
+                               Outcome::kSensorDropout};
 
 /// Rows of a table: how each is called and what it counts.
 using NamedCounts = std::vector<std::pair<std::string, const Count*>>;

@@ -13,10 +13,12 @@ namespace railcast {
   return recorded.is_grid && recorded.Has("outcome");
 }
 
-/// Whether the first slot of a firing says which surface the beam met. Where clutter answered, it
-/// does not.
+/// Whether the first slot of a firing says which surface of the scene the beam met: not where
+/// clutter answered, nor where the vehicle itself was in the way.
 [[nodiscard]] inline bool KnowsSurface(const Frame& frame, std::size_t slot) {
-  return frame.outcome[slot] != Outcome::kClutter && std::isfinite(frame.true_range_m[slot]);
+  const Outcome outcome = frame.outcome[slot];
+  return outcome != Outcome::kClutter && outcome != Outcome::kEgo &&
+         std::isfinite(frame.true_range_m[slot]);
 }
 
 }  // namespace railcast

@@ -46,6 +46,23 @@ TEST(Dropout, IsTheShareOfBeamsThatMetASurfaceAndBroughtNothingBack) {
   EXPECT_NEAR(share.high - share.low, 4.0 * std::sqrt(0.09 / 14400.0), 0.001);
 }
 
+TEST(Dropout, DoesNotCountBeamsOntoTheOwnVehicle) {
+  Frame frame = ScanWithDropout(0.1);
+  Dropout scene;
+  scene.Add(Record(frame));
+  // Every second beam that came back meets the nose instead.
+  for (std::size_t slot = 0; slot < frame.num_slots(); slot += 2) {
+    if (frame.outcome[slot] == Outcome::kReturned) frame.outcome[slot] = Outcome::kEgo;
+  }
+  Dropout behind_a_nose;
+  behind_a_nose.Add(Record(frame));
+  const auto num_lost = [](const Dropout& dropout) {
+    return dropout.Share().value * static_cast<double>(dropout.Share().num);
+  };
+  EXPECT_LT(behind_a_nose.Share().num, scene.Share().num);
+  EXPECT_NEAR(num_lost(behind_a_nose), num_lost(scene), 1e-6);
+}
+
 TEST(Dropout, NamesItsCauses) {
   SimulatorSpec spec{.effects = {.threshold = true, .sensor_dropout = true}};
   spec.plausibility.dropout_probability = 0.05;

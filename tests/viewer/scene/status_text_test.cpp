@@ -101,10 +101,12 @@ TEST(DropoutText, SaysWhatWasLostOfFiringsOnSurfacesByCause) {
   firings.push_back({Outcome::kBelowThreshold});
   firings.push_back({Outcome::kBelowThreshold});
   firings.push_back({Outcome::kRainAbsorbed});
-  // These met none, or nobody knows which.
+  // These met none, or nobody knows which surface.
   firings.push_back({Outcome::kNoSurface, kNaN});
   firings.push_back({Outcome::kClutter});
   firings.push_back({Outcome::kClutter, kNaN});
+  // The vehicle's own nose is no part of the scene.
+  firings.push_back({Outcome::kEgo});
   EXPECT_EQ(DropoutText(FrameOf(firings)),
             "dropout 37.5 % (below_threshold 25.0, rain_absorbed 12.5)   clutter 2");
   EXPECT_EQ(DropoutText(FrameOf(firings, 2)), DropoutText(FrameOf(firings)))
