@@ -5,8 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/io/write_file.h"
-#include "tests/core/scenario/scenario_files.h"
-#include "tests/support/run_command.h"
+#include "tests/analysis/analyze_program.h"
 
 namespace railcast {
 namespace {
@@ -15,7 +14,7 @@ using testing::HasSubstr;
 using Json = nlohmann::json;
 
 Ended Compare(const std::string& arguments) {
-  return RunCommand(std::string(RAILCAST_ANALYZE) + " compare " + arguments);
+  return Analyze("compare " + arguments);
 }
 
 // A line of points, `offset_m` above the ground.
@@ -56,20 +55,8 @@ TEST(RailcastAnalyzeCompare, RefusesDistancesThatAreNone) {
 
 TEST(RailcastAnalyzeCompare, StudiesEffects) {
   const TemporaryFolder folder;
-  const std::string scenarios = ScenariosDir().string();
-  const auto scenario = folder.Write("scenario.json", R"({
-    "version": 1, "fidelity": "plausibility", "weather": {"rain_rate_mmph": 20},
-    "lidar": {"scan": {"rate_hz": 10, "pattern": {"type": "raster", "horizontal_fov_deg": 20,
-              "vertical_fov_deg": 40, "angular_resolution_deg": 0.5}}},
-    "world": {
-      "alignment": {
-        "course": {"type": "elements", "elements": [{"type": "straight", "length_m": 1000}]}
-      },
-      "vegetation": {"trees_per_hectare": 0, "grass": false}
-    },
-    "vehicle": {"start_s_m": 400},
-    "materials": ")" + scenarios + R"(/materials/railway.json",
-    "labels": ")" + scenarios + R"(/labels.json"})");
+  const auto scenario =
+      WriteScenario(folder, R"("fidelity": "plausibility", "weather": {"rain_rate_mmph": 20},)");
   const auto out = scenario.parent_path() / "out";
   const Ended run =
       Compare("--ablate " + scenario.string() + " --frames 2 --seed 7 --out " + out.string());

@@ -9,11 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "core/base/error.h"
-#include "core/rail/line/alignment.h"
 #include "core/rail/line/alignment_course.h"
 #include "core/rail/track/rail_section.h"
 #include "core/rail/track/sweep.h"
+#include "tests/support/alignment_faults.h"
 
 namespace railcast {
 namespace {
@@ -28,15 +27,6 @@ AlignmentSpec SplineOf(std::vector<std::array<double, 2>> points_m) {
   AlignmentSpec spec;
   spec.course = AlignmentSplineSpec{std::move(points_m)};
   return spec;
-}
-
-std::string FaultOf(const AlignmentSpec& spec) {
-  try {
-    const Alignment alignment(spec);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
 }
 
 TEST(AlignmentAtItsLimits, RefusesARadiusNearTheGauge) {

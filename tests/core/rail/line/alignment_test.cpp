@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/base/error.h"
+#include "tests/support/alignment_faults.h"
 
 namespace railcast {
 namespace {
@@ -28,15 +28,6 @@ AlignmentSpec LeftCurve(double radius_m) {
                                        {"straight", 100.0, {}}}};
   spec.speed_limits_kmph = {{0.0, 80.0}};
   return spec;
-}
-
-std::string FaultOf(const AlignmentSpec& spec) {
-  try {
-    const Alignment alignment(spec);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
 }
 
 TEST(Alignment, BeginsAtItsOriginWithItsHeading) {
