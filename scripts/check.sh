@@ -36,7 +36,7 @@ check_tidy() {
   echo "== clang-tidy"
   cmake -B build/tidy -G Ninja --log-level=ERROR -D CMAKE_C_COMPILER=clang-14 \
     -D CMAKE_CXX_COMPILER=clang++-14 -D CMAKE_BUILD_TYPE=RelWithDebInfo \
-    -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON
+    -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON >/dev/null
   "$@" | sort --unique | while read -r file; do
     if [[ -f "$file" ]] && grep --quiet --fixed-strings "\"$PWD/$file\"" \
       build/tidy/compile_commands.json; then
