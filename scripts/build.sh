@@ -8,7 +8,9 @@ install_packages "${build_packages[@]}"
 
 launcher=()
 if command -v ccache >/dev/null; then
-  launcher=(-D CMAKE_C_COMPILER_LAUNCHER=ccache -D CMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  # What is compiled with precompiled headers cannot be kept.
+  launcher=(-D CMAKE_C_COMPILER_LAUNCHER=ccache -D CMAKE_CXX_COMPILER_LAUNCHER=ccache
+    -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON)
 fi
 cmake --preset release "${launcher[@]}"
 cmake --build --preset release --target "${@:-all}"
