@@ -55,9 +55,10 @@ Difference Compare(const Frame& a, const Frame& b, const Counts& counts) {
   return difference;
 }
 
-// A beam within 0.1 mm of an edge may fall on either side of it: these are the other labels. Leaves
-// and blades are all edges, so their ranges may differ there without another label: the wires,
-// rails and wagons must not.
+// A beam within 0.1 mm of an edge may fall on either side of it: these are the other labels. Each
+// frame has 40 such beams, but what differs here is the last bit of poses in double: none of
+// 1,440,000 beams of the demo got another label. Leaves and blades are all edges, so their ranges
+// may differ there without another label: those of wires, rails and wagons must not.
 TEST(RailPlacement, UtmCoordinatesAndAnotherHeadingGiveTheSameFrame) {
   ScenarioSpec here = Demo();
   ScenarioSpec there = here;
@@ -72,10 +73,10 @@ TEST(RailPlacement, UtmCoordinatesAndAnotherHeadingGiveTheSameFrame) {
   const Difference all = Compare(a, b, [](std::uint32_t) { return true; });
   RecordProperty("other_labels", static_cast<int>(all.num_other_labels));
   EXPECT_GT(hard.num_compared, 20'000U);
-  EXPECT_LE(hard.num_other_labels, 3U);
+  EXPECT_LE(hard.num_other_labels, 1U);
   EXPECT_LE(hard.worst_m, kTolerance_m);
   EXPECT_EQ(all.num_compared, 28'800U);
-  EXPECT_LE(all.num_other_labels, 6U);
+  EXPECT_LE(all.num_other_labels, 1U);
 }
 
 // 29,250 m is a whole number of chunks (50 m), sleepers (0.6 m) and spans (65 m), so what the line
