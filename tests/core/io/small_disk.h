@@ -7,36 +7,102 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
+#include <exception>
 #include <filesystem>
 #include <functional>
+#include <stdexcept>
 #include <string>
+#include <string_view>
+#include <system_error>
 
 namespace railcast {
 
-/// What a process on a small disk said; not run where the system allows no mount.
+/// What a process on a small disk said, or why the system gave it none.
 struct SmallDiskResult {
-  bool was_run = false;
+  std::string refused;  ///< "unshare: Operation not permitted"; empty if the work was done.
   std::string said;
 };
 
+inline std::string RefusedCall(const char* call) {
+  return std::string(call) + ": " + std::generic_category().message(errno);
+}
+
+inline bool WriteTo(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written <= 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+// A user namespace in which nobody has a name makes no files.
+inline bool KeepUser(uid_t user, gid_t group) {
+  const auto write_file = [](const char* file, const std::string& text) {
+    const int descriptor = ::open(file, O_WRONLY | O_CLOEXEC);
+    const bool is_written = descriptor >= 0 && WriteTo(descriptor, text);
+    ::close(descriptor);
+    return is_written;
+  };
+  return write_file("/proc/self/setgroups", "deny") &&
+         write_file("/proc/self/uid_map", "0 " + std::to_string(user) + " 1") &&
+         write_file("/proc/self/gid_map", "0 " + std::to_string(group) + " 1");
+}
+
+/// Mounts an empty 1 MiB tmpfs that this process alone sees.
+/// @return What the system refused; empty if nothing.
+inline std::string MountSmallDisk(const std::filesystem::path& disk) {
+  const uid_t user = ::getuid();
+  const gid_t group = ::getgid();
+  if (::unshare(CLONE_NEWNS) != 0) {
+    if (::unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) return RefusedCall("unshare");
+    if (!KeepUser(user, group)) return RefusedCall("uid_map");
+  }
+  if (::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
+      ::mount("none", disk.c_str(), "tmpfs", 0, "size=1m") != 0) {
+    return RefusedCall("mount");
+  }
+  return {};
+}
+
+// How what the child says begins.
+inline constexpr char kSaysRefused = 'r';
+inline constexpr char kSaysMounted = 'm';  // Before the work; after it:
+inline constexpr char kSaysDone = 'd';
+inline constexpr char kSaysThrown = 't';
+
+/// In the child: mounts, works, says how it went. Nothing may be thrown beyond this: the parent's
+/// destructors would run a second time, in here.
+[[noreturn]] inline void WorkOnSmallDisk(
+    const std::filesystem::path& disk,
+    const std::function<std::string(const std::filesystem::path&)>& work,
+    int parent) noexcept {
+  const std::string refused = MountSmallDisk(disk);
+  if (!refused.empty()) ::_exit(WriteTo(parent, kSaysRefused + refused) ? 0 : 1);
+  std::string said(1, kSaysMounted);
+  bool is_heard = WriteTo(parent, said);
+  try {
+    said = kSaysDone + work(disk);
+  } catch (const std::exception& error) {
+    said = kSaysThrown + std::string(error.what());
+  }
+  is_heard = WriteTo(parent, said) && is_heard;
+  ::_exit(is_heard ? 0 : 1);
+}
+
 /// Runs `work(disk)` in a child process that sees an empty 1 MiB tmpfs at `disk`, in a mount
 /// namespace of its own (and a user namespace, where we are not root). Gives back what it returns.
+/// @throws std::runtime_error if the work throws or its process dies: only what the system refuses
+///   is no failure.
 inline SmallDiskResult RunOnSmallDisk(
     const std::filesystem::path& disk,
     const std::function<std::string(const std::filesystem::path&)>& work) {
   std::array<int, 2> ends{};
-  if (::pipe(ends.data()) != 0) return {};
+  if (::pipe(ends.data()) != 0) throw std::runtime_error(RefusedCall("pipe"));
   const pid_t child = ::fork();
-  if (child == 0) {
-    const bool is_mounted =
-        (::unshare(CLONE_NEWNS) == 0 || ::unshare(CLONE_NEWUSER | CLONE_NEWNS) == 0) &&
-        ::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
-        ::mount("none", disk.c_str(), "tmpfs", 0, "size=1m") == 0;
-    std::string said(is_mounted ? "1" : "0");
-    if (is_mounted) said += work(disk);
-    const ssize_t written = ::write(ends[1], said.data(), said.size());
-    ::_exit(written == static_cast<ssize_t>(said.size()) ? 0 : 1);
-  }
+  if (child < 0) throw std::runtime_error(RefusedCall("fork"));
+  if (child == 0) WorkOnSmallDisk(disk, work, ends[1]);
   ::close(ends[1]);
   std::string said;
   std::array<char, 4096> buffer{};
@@ -45,9 +111,17 @@ inline SmallDiskResult RunOnSmallDisk(
     said.append(buffer.data(), static_cast<std::size_t>(count));
   }
   ::close(ends[0]);
-  ::waitpid(child, nullptr, 0);
-  if (said.empty() || said[0] == '0') return {};
-  return {true, said.substr(1)};
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  if (said.starts_with(kSaysRefused)) return {"no small disk here: " + said.substr(1), {}};
+  if (said.size() < 2 || said[0] != kSaysMounted || status != 0) {
+    throw std::runtime_error("the process on the small disk died with status " +
+                             std::to_string(status) + " (said \"" + said + "\")");
+  }
+  if (said[1] == kSaysThrown) {
+    throw std::runtime_error("the work on the small disk threw: " + said.substr(2));
+  }
+  return {{}, said.substr(2)};
 }
 
 }  // namespace railcast
