@@ -51,6 +51,34 @@ bool HasLength(int descriptor, std::size_t length) {
   return false;
 }
 
+std::string_view NameOf(std::filesystem::file_type type) {
+  switch (type) {
+    case std::filesystem::file_type::directory:
+      return "a directory";
+    case std::filesystem::file_type::fifo:
+      return "a FIFO";
+    case std::filesystem::file_type::character:
+      return "a character device";
+    case std::filesystem::file_type::block:
+      return "a block device";
+    case std::filesystem::file_type::socket:
+      return "a socket";
+    case std::filesystem::file_type::symlink:
+      return "a symbolic link";
+    default:
+      return "something else";
+  }
+}
+
+// A file that is not there, or that we may not look at, is left to the call that opens it.
+void CheckIsRegular(const std::filesystem::path& file, const std::filesystem::file_status& status) {
+  using std::filesystem::file_type;
+  const file_type type = status.type();
+  if (type == file_type::regular || type == file_type::not_found || type == file_type::none) return;
+  throw InputError(file.string() + ": must be a regular file (got " + std::string(NameOf(type)) +
+                   ")");
+}
+
 }  // namespace
 
 InputError FileError(const std::filesystem::path& file, int error_number) {
@@ -59,15 +87,33 @@ InputError FileError(const std::filesystem::path& file, int error_number) {
   return InputError(file.string() + ": " + reason);
 }
 
+std::filesystem::path FileToReplace(const std::filesystem::path& file) {
+  std::error_code error;
+  // Before links are followed by name: what /dev/stdout leads to need not have one.
+  CheckIsRegular(file, std::filesystem::status(file, error));
+  std::filesystem::path target = file;
+  constexpr int kMaxLinks = 40;  // As Linux has it.
+  for (int i = 0; std::filesystem::is_symlink(std::filesystem::symlink_status(target, error));
+       ++i) {
+    if (i == kMaxLinks) throw FileError(file, ELOOP);
+    target = target.parent_path() / std::filesystem::read_symlink(target, error);
+    if (error) throw FileError(file, error.value());
+  }
+  const std::filesystem::path unfinished = target.string() + std::string(kUnfinishedSuffix);
+  CheckIsRegular(unfinished, std::filesystem::symlink_status(unfinished, error));
+  return target;
+}
+
 void WriteFileWhole(const std::filesystem::path& file, std::string_view bytes) {
-  const std::filesystem::path unfinished = file.string() + std::string(kUnfinishedSuffix);
+  const std::filesystem::path target = FileToReplace(file);
+  const std::filesystem::path unfinished = target.string() + std::string(kUnfinishedSuffix);
   constexpr int kAccess = 0644;
   Descriptor output(::open(unfinished.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kAccess));
   if (output.number() < 0) throw FileError(file, errno);
   const bool is_written = WriteAll(output.number(), bytes) &&
                           HasLength(output.number(), bytes.size()) &&
                           ::fsync(output.number()) == 0 && output.Close() &&
-                          ::rename(unfinished.c_str(), file.c_str()) == 0;
+                          ::rename(unfinished.c_str(), target.c_str()) == 0;
   if (is_written) return;
   const int error_number = errno;
   ::unlink(unfinished.c_str());

@@ -74,11 +74,12 @@ PcapWriter::PcapWriter(std::filesystem::path file,
                        std::uint16_t data_port,
                        std::uint16_t position_port)
     : file_(std::move(file)),
+      target_(FileToReplace(file_)),
       data_port_(data_port),
       position_port_(position_port),
       dump_(std::make_unique<Dump>()) {
   std::FILE* const stream =
-      std::fopen((file_.string() + std::string(kUnfinishedSuffix)).c_str(), "wbe");
+      std::fopen((target_.string() + std::string(kUnfinishedSuffix)).c_str(), "wbe");
   if (stream == nullptr) throw FileError(file_, errno);
   constexpr int kSnapLength = 65535;
   dump_->format = pcap_open_dead(DLT_EN10MB, kSnapLength);
@@ -117,9 +118,9 @@ void PcapWriter::Write(const Datagrams& datagrams, std::span<const Datagrams::It
 
 void PcapWriter::Finish() {
   std::FILE* const stream = pcap_dump_file(dump_->dumper);
-  const std::string unfinished = file_.string() + std::string(kUnfinishedSuffix);
+  const std::string unfinished = target_.string() + std::string(kUnfinishedSuffix);
   if (pcap_dump_flush(dump_->dumper) != 0 || ::fsync(::fileno(stream)) != 0 ||
-      ::rename(unfinished.c_str(), file_.c_str()) != 0) {
+      ::rename(unfinished.c_str(), target_.c_str()) != 0) {
     throw FileError(file_, errno);
   }
   dump_.reset();

@@ -19,7 +19,7 @@ namespace railcast {
 class PcapWriter {
  public:
   /// @param data_port, position_port For the datagrams of either port.
-  /// @throws InputError if the file cannot be made.
+  /// @throws InputError if the file cannot be made, or as FileToReplace does.
   PcapWriter(std::filesystem::path file, std::uint16_t data_port, std::uint16_t position_port);
   ~PcapWriter();
   PcapWriter(const PcapWriter&) = delete;
@@ -35,6 +35,7 @@ class PcapWriter {
   struct Dump;
 
   std::filesystem::path file_;
+  std::filesystem::path target_;  ///< What Finish() replaces.
   std::uint16_t data_port_;
   std::uint16_t position_port_;
   std::unique_ptr<Dump> dump_;

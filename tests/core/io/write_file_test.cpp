@@ -1,6 +1,7 @@
 #include "core/io/write_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/small_disk.h"
@@ -23,6 +24,42 @@ TEST(WriteFileWhole, SaysWhatTheSystemSaid) {
             "/no/such/place/a.pcd: no such file or directory");
   EXPECT_EQ(MessageOf([] { (void)ReadFileWhole("/no/such/place/a.pcd"); }),
             "/no/such/place/a.pcd: no such file or directory");
+}
+
+TEST(WriteFileWhole, ReplacesNothingButARegularFile) {
+  const TemporaryDirectory directory;
+  const std::string fifo = (directory.path() / "a.part").string();
+  ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
+  std::filesystem::create_symlink("a.part", directory.path() / "link");
+  std::filesystem::create_directory(directory.path() / "folder");
+  const std::string place = directory.path().string() + "/";
+  const auto said = [&](const char* file) {
+    return MessageOf([&] { WriteFileWhole(place + file, "x"); });
+  };
+  EXPECT_EQ(said("a.part"), place + "a.part: must be a regular file (got a FIFO)");
+  EXPECT_EQ(said("link"), place + "link: must be a regular file (got a FIFO)");
+  EXPECT_EQ(said("a"), place + "a.part: must be a regular file (got a FIFO)");
+  EXPECT_EQ(said("folder"), place + "folder: must be a regular file (got a directory)");
+  EXPECT_TRUE(std::filesystem::is_fifo(fifo));
+  EXPECT_TRUE(std::filesystem::is_symlink(directory.path() / "link"));
+}
+
+TEST(WriteFileWhole, WritesWhatASymbolicLinkLeadsTo) {
+  const TemporaryDirectory directory;
+  const auto path = [&](const char* name) { return directory.path() / name; };
+  std::filesystem::create_directory(path("folder"));
+  std::filesystem::create_symlink("folder/file", path("link"));
+  std::filesystem::create_symlink(path("link"), path("link_to_link"));
+  for (const char* name : {"link", "link_to_link", "folder/file"}) {
+    WriteFileWhole(path(name), name);
+    EXPECT_EQ(ReadFileWhole(path("folder/file")), name);
+    EXPECT_TRUE(std::filesystem::is_symlink(path("link")));
+    EXPECT_TRUE(std::filesystem::is_symlink(path("link_to_link")));
+  }
+  EXPECT_FALSE(std::filesystem::exists(path("link.part")));
+  std::filesystem::create_symlink("circle", path("circle"));
+  EXPECT_EQ(MessageOf([&] { WriteFileWhole(path("circle"), "x"); }),
+            path("circle").string() + ": too many levels of symbolic links");
 }
 
 TEST(WriteFileWhole, LeavesNothingOnAFullDisk) {

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cstring>
@@ -118,6 +119,20 @@ TEST(PcapWriter, SaysThatTheDiskIsFull) {
   });
   if (!result.refused.empty()) GTEST_SKIP() << result.refused;
   EXPECT_EQ(result.said, (directory.path() / "a.pcap").string() + ": no space left on device");
+}
+
+TEST(PcapWriter, ReplacesNothingButARegularFileAndLeavesLinks) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path fifo = directory.path() / "fifo";
+  ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
+  EXPECT_EQ(MessageOf([&] { WriteExample(fifo); }),
+            fifo.string() + ": must be a regular file (got a FIFO)");
+  EXPECT_TRUE(std::filesystem::is_fifo(fifo));
+  const std::filesystem::path link = directory.path() / "link";
+  std::filesystem::create_symlink("a.pcap", link);
+  WriteExample(link);
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_TRUE(std::filesystem::is_regular_file(directory.path() / "a.pcap"));
 }
 
 TEST(PcapWriter, SaysThatItsFileCannotBeMade) {
