@@ -8,6 +8,7 @@
 #include "analysis/commands.h"
 #include "analysis/shell_word.h"
 #include "core/base/error.h"
+#include "core/io/run_program.h"
 
 namespace {
 
@@ -21,9 +22,7 @@ std::string CommandLine(int argc, char** argv) {
   return line;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int Main(int argc, char** argv) {
   // What PCL says of single neighbourhoods is no news: what matters is in the figures.
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
   CLI::App app("LiDAR simulation for railways: what frames are worth");
@@ -51,4 +50,10 @@ int main(int argc, char** argv) {
     std::cerr << "railcast-analyze: " << error.what() << "\n";
   }
   return railcast::kExitFailure;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return railcast::RunProgram([&] { return Main(argc, argv); }, std::cerr);
 }

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "core/base/error.h"
+#include "core/io/run_program.h"
 #include "core/scenario/effects.h"
 #include "core/scenario/scenario.h"
 #include "generator/commands.h"
@@ -127,9 +128,7 @@ void AddTrace(CLI::App& app, TraceOptions& options, std::function<int()>& comman
   trace->callback([&] { command = [&] { return railcast::TraceCommand(options); }; });
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int Main(int argc, char** argv) {
   CLI::App app("LiDAR simulation for railways: frames from a scenario");
   app.set_version_flag("--version", "railcast " RAILCAST_VERSION);
   app.require_subcommand(1);
@@ -164,4 +163,10 @@ int main(int argc, char** argv) {
     std::cerr << "railcast-generate: " << error.what() << "\n";
   }
   return railcast::kExitFailure;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return railcast::RunProgram([&] { return Main(argc, argv); }, std::cerr);
 }

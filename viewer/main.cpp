@@ -1,7 +1,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 
+#include "core/io/run_program.h"
 #include "viewer/options.h"
 #include "viewer/run.h"
 
@@ -30,5 +32,5 @@ int Main(int argc, char** argv) {
 }  // namespace railcast
 
 int main(int argc, char** argv) {
-  return railcast::Main(argc, argv);
+  return railcast::RunProgram([&] { return railcast::Main(argc, argv); }, std::cerr);
 }

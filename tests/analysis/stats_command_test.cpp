@@ -65,6 +65,14 @@ TEST(StatsCommand, CountsTheOutcomesThatTheSequenceCounted) {
   EXPECT_TRUE(std::filesystem::exists(out / "charts" / "dropout_by_range.svg"));
 }
 
+TEST(StatsCommand, FailsWhereItsTextIsLost) {
+  const TemporaryFolder folder;
+  const auto sequence = MakeSequence(folder, "");
+  const Ended run = Analyze("stats " + sequence.string() + " --format text > /dev/full");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(run.said, "stdout: not all of it could be written\n");
+}
+
 TEST(StatsCommand, GivesTheSameFiguresAtAnyNumberOfThreads) {
   const TemporaryFolder folder;
   const auto sequence = MakeSequence(folder, "");

@@ -38,6 +38,26 @@ TEST(RailcastGenerate, ExitsWithTwoOnWrongUsage) {
   EXPECT_EQ(Generate("sequence a.json --out b --fidelity best").status, 2);
 }
 
+TEST(RailcastGenerate, FailsWhereItsOutputIsLost) {
+  const TemporaryDirectory directory;
+  const std::string scenario = scenarios_folder + "minimal.json";
+  const std::string out = (directory.path() / "out").string();
+  for (const std::string& command :
+       {std::string("--help"), "check " + scenario, "trace " + scenario + " --firing 0",
+        "sequence " + scenario + " --frames 1 --out " + out}) {
+    const Ended full = Generate(command + " > /dev/full");
+    EXPECT_EQ(full.status, 1) << command;
+    EXPECT_EQ(full.said, "stdout: no space left on device\n") << command;
+    const Ended closed = Generate(command + " >&-");
+    EXPECT_EQ(closed.status, 1) << command;
+    EXPECT_EQ(closed.said, "stdout: bad file descriptor\n") << command;
+  }
+  // More than a buffer: refused long before the end.
+  const Ended resolved = Generate("check " + scenario + " --resolved - > /dev/full");
+  EXPECT_EQ(resolved.status, 1);
+  EXPECT_EQ(resolved.said, "stdout: not all of it could be written\n");
+}
+
 TEST(RailcastGenerate, RecordsWhatFidelityAutoChose) {
   const TemporaryDirectory directory;
   const std::string scenario = MakeProject(directory.path() / "project").string();

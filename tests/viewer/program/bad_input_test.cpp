@@ -49,6 +49,12 @@ TEST_F(BadInput, SourcesThatAreMissingAreNamed) {
               PathOf("gone") + ": no such file or directory");
 }
 
+TEST_F(BadInput, LostOutputIsAFailure) {
+  const Ended ended = View("--version > /dev/full");
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_EQ(ended.said, "stdout: no space left on device\n");
+}
+
 TEST_F(BadInput, EmptyFilesAreNamed) {
   ExpectFaultOf("empty.pcd", "", "is no PCD file: its header has no DATA line");
   ExpectFaultOf("empty.ply", "", "is no PLY file: its first line must be \"ply\"");
