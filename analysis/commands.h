@@ -4,6 +4,8 @@
 #include <functional>
 #include <string>
 
+#include "core/base/option_rules.h"
+
 namespace railcast {
 
 /// Exit statuses of railcast-analyze; a usage error gives 2.
@@ -15,6 +17,15 @@ inline constexpr int kExitUsage = 2;
 /// status.
 /// @throws InputError on bad input.
 using Command = std::function<int(const std::string& command_line)>;
+
+/// Of an option that counts or numbers something.
+[[nodiscard]] inline CLI::Validator Whole(const WholeNumberRule& rule) {
+  return {rule, rule.Range()};
+}
+/// Of an option that names a file or folder.
+[[nodiscard]] inline CLI::Validator NonEmpty() {
+  return {[](std::string& text) { return NonEmptyRule(text); }, ""};
+}
 
 // Each adds one command with its options; if the command line names it, `command` becomes it.
 

@@ -109,13 +109,17 @@ int RunCompare(const CompareOptions& options, const std::string& command_line) {
 
 void AddAblationOptions(CLI::App& compare, CompareOptions& options) {
   CLI::Option* const ablate =
-      compare.add_option("--ablate", options.scenario,
-                         "Scenario file: what each of its effects changes, beam by beam");
+      compare
+          .add_option("--ablate", options.scenario,
+                      "Scenario file: what each of its effects changes, beam by beam")
+          ->check(NonEmpty());
   compare.add_option("--frames", options.num_frames, "How many sample frames, a second apart")
-      ->check(CLI::Range(1, 1000))
+      ->transform(Whole({1, 1000}))
       ->capture_default_str()
       ->needs(ablate);
-  compare.add_option("--seed", options.seed, "Instead of the scenario's")->needs(ablate);
+  compare.add_option("--seed", options.seed, "Instead of the scenario's")
+      ->transform(Whole({}))
+      ->needs(ablate);
   compare.add_option("--sensor", options.sensor, "Which of the scenario's sensors")->needs(ablate);
 }
 
@@ -142,7 +146,7 @@ void AddCompare(CLI::App& app, Command& command) {
                    "Of precision, recall and F-score, in m, separated by commas")
       ->capture_default_str();
   compare->add_option("--threads", options->num_threads, "0 = all cores")
-      ->check(CLI::Range(0, 1024))
+      ->transform(Whole({0, 1024}))
       ->capture_default_str();
   AddAblationOptions(*compare, *options);
   AddReportOptions(*compare, options->output);

@@ -105,7 +105,7 @@ int RunDetect(const DetectOptions& options, const std::string& command_line) {
 void AddRuleOptions(CLI::App& detect, DetectOptions& options) {
   DetectionRule& rule = options.spec.rule;
   detect.add_option("--points", rule.min_points, "An object is seen with so many points or more")
-      ->check(CLI::Range(1U, 1'000'000U))
+      ->transform(Whole({1, 1'000'000}))
       ->capture_default_str();
   const auto check = [](const std::string& text) {
     DetectionRule trial;

@@ -135,7 +135,8 @@ int RunFit(const FitOptions& options, const std::string& command_line) {
 void AddKnowledgeOptions(CLI::App& fit, FitOptions& options) {
   fit.add_option("--planes", options.planes,
                  "JSON file of planes that a standing sensor looks at, in its axes, for recordings "
-                 "without truth");
+                 "without truth")
+      ->check(NonEmpty());
   fit.add_option("--rung", options.rung,
                  "Whose parameters: plausibility or surface; default: the scenario's, else surface")
       ->check(CLI::IsMember({"plausibility", "surface"}));
@@ -173,7 +174,7 @@ void AddFit(CLI::App& app, Command& command) {
       ->required();
   AddKnowledgeOptions(*fit, *options);
   fit->add_option("--threads", options->num_threads, "0 = all cores")
-      ->check(CLI::Range(0, 1024))
+      ->transform(Whole({0, 1024}))
       ->capture_default_str();
   AddReportOptions(*fit, options->output);
   fit->callback([&command, options] {

@@ -90,12 +90,13 @@ void AddFrontier(CLI::App& app, Command& command) {
       "frontier", "Chart time against accuracy: the rungs, brute force, and the reference");
   frontier->add_option("SCENARIO", options->scenario, "Scenario file")->required();
   frontier->add_option("--out", options->out, "Directory for frontier.json, .csv, .svg, .png")
-      ->required();
+      ->required()
+      ->check(NonEmpty());
   frontier->add_option("--frames", options->num_frames, "How many sample frames, a second apart")
-      ->check(CLI::Range(1, 1000))
+      ->transform(Whole({1, 1000}))
       ->capture_default_str();
   frontier->add_option("--threads", options->num_threads, "Of the timing; 0 = all cores")
-      ->check(CLI::Range(0, 1024))
+      ->transform(Whole({0, 1024}))
       ->capture_default_str();
   frontier->add_option("--sensor", options->sensor, "Which of the scenario's sensors");
   frontier->add_option("--rows", options->rows, "Rows separated by commas, or all")

@@ -137,8 +137,9 @@ void AddReceive(CLI::App& app, Command& command) {
   receive->add_option("--duration", options->duration_s, "End after so many seconds")
       ->check(CLI::PositiveNumber);
   receive->add_option("--frames", options->num_frames, "End after so many frames")
-      ->check(CLI::PositiveNumber);
-  receive->add_option("--out", options->out, "Directory for frames/*.pcd and frames.csv");
+      ->transform(Whole({1}));
+  receive->add_option("--out", options->out, "Directory for frames/*.pcd and frames.csv")
+      ->check(NonEmpty());
   receive->callback([&command, options] {
     command = [options](const std::string&) { return RunReceive(*options); };
   });

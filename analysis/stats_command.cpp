@@ -83,7 +83,7 @@ void AddStats(CLI::App& app, Command& command) {
                    "VLP-16, HDL-32E, VLP-32C or Pandar64; several are summed up")
       ->required();
   stats->add_option("--threads", options->num_threads, "0 = all cores")
-      ->check(CLI::Range(0, 1024))
+      ->transform(Whole({0, 1024}))
       ->capture_default_str();
   AddReportOptions(*stats, options->output);
   stats->callback([&command, options] {

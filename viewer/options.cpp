@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <limits>
+#include <optional>
+#include <utility>
 
+#include "core/base/option_rules.h"
 #include "viewer/color/field_values.h"
 #include "viewer/window/view_window.h"
 
@@ -45,27 +48,42 @@ constexpr std::string_view kEmptyBeams = "empty-beams";
   throw CLI::ValidationError(option, rule);
 }
 
-std::array<int, 2> ParseSize(const std::string& text) {
-  std::array<int, 2> size_px{};
-  char end = '\0';
-  const int num_read = std::sscanf(text.c_str(), "%dx%d%c", &size_px[0], &size_px[1], &end);
-  for (const int length_px : size_px) {
-    if (num_read == 2 && length_px >= kMinSize_px && length_px <= kMaxSize_px) continue;
-    Fail("--size", "must be WIDTHxHEIGHT, each 64 to 16384 (got " + text + ")");
+CLI::Validator Whole(const WholeNumberRule& rule) {
+  return {rule, rule.Range()};
+}
+
+/// Two whole numbers; nothing if `text` is none, or one is out of its limits.
+std::optional<std::array<int, 2>> ParsePair(std::string_view text,
+                                            char between,
+                                            int at_least,
+                                            const std::array<int, 2>& at_most) {
+  const std::size_t end = text.find(between);
+  if (end == std::string_view::npos) return std::nullopt;
+  std::array<int, 2> pair{};
+  const std::array<std::string_view, 2> words = {text.substr(0, end), text.substr(end + 1)};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto number = ParseWholeNumber(words[i]);
+    if (!number || std::cmp_less(*number, at_least) || std::cmp_greater(*number, at_most[i])) {
+      return std::nullopt;
+    }
+    pair[i] = static_cast<int>(*number);
   }
-  return size_px;
+  return pair;
+}
+
+std::array<int, 2> ParseSize(const std::string& text) {
+  const auto size_px = ParsePair(text, 'x', kMinSize_px, {kMaxSize_px, kMaxSize_px});
+  if (!size_px) Fail("--size", "must be WIDTHxHEIGHT, each 64 to 16384 (got " + text + ")");
+  return *size_px;
 }
 
 std::array<int, 2> ParsePick(const std::string& text, const std::array<int, 2>& size_px) {
-  std::array<int, 2> place_px{};
-  char end = '\0';
-  const int num_read = std::sscanf(text.c_str(), "%d,%d%c", &place_px[0], &place_px[1], &end);
-  for (std::size_t i = 0; i < 2; ++i) {
-    if (num_read == 2 && place_px[i] >= 0 && place_px[i] < size_px[i]) continue;
+  const auto place_px = ParsePair(text, ',', 0, {size_px[0] - 1, size_px[1] - 1});
+  if (!place_px) {
     Fail("--pick", "must be X,Y in pixels from the picture's upper left corner, within it (got " +
                        text + ")");
   }
-  return place_px;
+  return *place_px;
 }
 
 std::array<double, 3> Triple(const std::vector<double>& values) {
@@ -94,7 +112,8 @@ void AddSourceOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
                  "A sequence directory, a .pcd, .ply or .bin file or a directory of such, a .pcap "
                  "or .pcapng capture, or udp://HOST:PORT")
       ->required();
-  app.add_option("--frame", options.frame, "Frame to begin with; default: the first");
+  app.add_option("--frame", options.frame, "Frame to begin with; default: the first")
+      ->transform(Whole({0, std::numeric_limits<std::uint32_t>::max()}));
   app.add_option("--compare", options.compare, "A second source: its frames beside the first's");
   app.add_option("--layout", raw.layout,
                  "Of two sources: beside each other, or over each other, coloured by the distance "
@@ -121,13 +140,13 @@ void AddLookOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
       ->delimiter(',')
       ->allow_extra_args(false);
   app.add_option("--point-size", options.look.point_size_px, "In pixels; default: by the height")
-      ->check(CLI::Range(1, kMaxPointSize_px));
+      ->transform(Whole({1, kMaxPointSize_px}));
   app.add_option("--background", raw.background)
       ->check(CLI::IsMember(BackgroundNames()))
       ->capture_default_str();
   app.add_option("--accumulate", options.choices.num_accumulated,
                  "Frames shown at once, where they were in the world")
-      ->check(CLI::Range(std::size_t{1}, kMaxAccumulated))
+      ->transform(Whole({1, kMaxAccumulated}))
       ->capture_default_str();
   app.add_option("--show", raw.show, "What is drawn over the points, with commas between")
       ->check(CLI::IsMember(ShowableNames()))
@@ -169,7 +188,7 @@ void AddPictureOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
       app.add_option("--video", options.video,
                      "Write a PNG of each frame into this folder: 000000.png, 000001.png, ...");
   app.add_option("--frames", options.num_pictures, "Of a video; default: to the recording's end")
-      ->check(CLI::PositiveNumber)
+      ->transform(Whole({1}))
       ->needs(video);
   video->excludes(screenshot);
   auto* const pick =

@@ -5,6 +5,7 @@
 #include <string>
 #include <system_error>
 
+#include "analysis/commands.h"
 #include "analysis/report/draw.h"
 #include "analysis/report/files.h"
 #include "analysis/report/page.h"
@@ -59,8 +60,10 @@ void MakeFolder(const std::filesystem::path& folder) {
 
 void AddReportOptions(CLI::App& command, ReportOutput& output) {
   CLI::Option_group* const where = command.add_option_group("Report");
-  where->add_option("--out", output.out,
-                    "Directory for report.html, the same as JSON and CSV, and the charts");
+  where
+      ->add_option("--out", output.out,
+                   "Directory for report.html, the same as JSON and CSV, and the charts")
+      ->check(NonEmpty());
   where
       ->add_option_function<std::string>(
           "--format", [&output](const std::string&) { output.is_text = true; },

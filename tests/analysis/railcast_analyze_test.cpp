@@ -21,6 +21,34 @@ TEST(RailcastAnalyze, KnowsItsVersionAndItsUse) {
   EXPECT_EQ(Analyze("frontier a.json --out b --frames 0").status, 2);
 }
 
+TEST(RailcastAnalyze, TakesDecimalDigitsAloneForNumbers) {
+  const auto fault_of = [](const std::string& arguments) {
+    const Ended run = Analyze(arguments);
+    EXPECT_EQ(run.status, 2) << arguments;
+    return run.said.substr(0, run.said.find('\n'));
+  };
+  EXPECT_EQ(fault_of("frontier a.json --out b --frames 0x10"),
+            "--frames: must be a whole number from 1 to 1000 (got 0x10)");
+  EXPECT_EQ(fault_of("compare --ablate a.json --out b --seed -1"),
+            "--seed: must be a whole number from 0 to 18446744073709551615 (got -1)");
+  EXPECT_EQ(fault_of("receive --frames 1.5"),
+            "--frames: must be a whole number from 1 to 18446744073709551615 (got 1.5)");
+  EXPECT_EQ(fault_of("detect a --out b --points 1e3"),
+            "--points: must be a whole number from 1 to 1000000 (got 1e3)");
+  for (const std::string command : {"stats a", "fit a", "compare a b", "frontier a"}) {
+    EXPECT_EQ(fault_of(command + " --out b --threads +1"),
+              "--threads: must be a whole number from 0 to 1024 (got +1)");
+  }
+}
+
+TEST(RailcastAnalyze, NamesAMisspeltCommandAndAnOptionWithoutAName) {
+  EXPECT_THAT(Analyze("stat a").said,
+              HasSubstr("unknown command, the nearest is \"stats\" (got stat)\n"));
+  EXPECT_EQ(Analyze("stat a").status, 2);
+  EXPECT_THAT(Analyze("stats a --out ''").said, HasSubstr("--out: must not be empty\n"));
+  EXPECT_EQ(Analyze("stats a --out ''").status, 2);
+}
+
 TEST(RailcastAnalyze, NamesAnUnknownRowAndAMissingScenario) {
   EXPECT_EQ(Analyze("frontier a.json --out /tmp/none --rows best").status, 1);
   const Ended missing = Analyze("frontier /no/such.json --out /tmp/none");

@@ -1,0 +1,34 @@
+#include "core/base/option_rules.h"
+
+#include <charconv>
+#include <system_error>
+
+namespace railcast {
+
+std::optional<std::uint64_t> ParseWholeNumber(std::string_view text) {
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+std::string WholeNumberRule::operator()(std::string& text) const {
+  const std::optional<std::uint64_t> number = ParseWholeNumber(text);
+  if (!number || *number < at_least || *number > at_most) {
+    return "must be a whole number from " + Range() + " (got " + text + ")";
+  }
+  text = std::to_string(*number);
+  return "";
+}
+
+std::string WholeNumberRule::Range() const {
+  std::string range = std::to_string(at_least);
+  range.append(" to ").append(std::to_string(at_most));
+  return range;
+}
+
+std::string NonEmptyRule(const std::string& text) {
+  return text.empty() ? "must not be empty" : "";
+}
+
+}  // namespace railcast

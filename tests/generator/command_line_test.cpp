@@ -1,0 +1,89 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "core/io/write_file.h"
+#include "tests/core/io/temporary_directory.h"
+#include "tests/generator/project_folder.h"
+#include "tests/generator/run_command.h"
+
+namespace railcast {
+namespace {
+
+void ExpectUsageError(const std::string& arguments, const std::string& line) {
+  const Ended run = Generate(arguments);
+  EXPECT_EQ(run.status, 2) << arguments;
+  EXPECT_EQ(run.said, line + "\nRun with --help for more information.\n") << arguments;
+}
+
+TEST(CommandLine, TakesTheNumberOfAFrameAsItsFileHasIt) {
+  const TemporaryDirectory directory;
+  const std::string scenario = MakeProject(directory.path()).string();
+  const auto out = directory.path() / "out";
+  const Ended run = Generate("sequence " + scenario + " --frames 01 --start-frame 000018 --out " +
+                             out.string() + " --seed 0010 --threads 01 --format pcd");
+  EXPECT_EQ(run.status, 0) << run.said;
+  EXPECT_TRUE(std::filesystem::exists(out / "frames/000018.pcd"));
+  EXPECT_NE(ReadFileWhole(out / "manifest.json").find("\"seed\": 10,"), std::string::npos);
+  const Ended traced = Generate("trace " + scenario + " --frame 000018 --firing 0000");
+  EXPECT_EQ(traced.said.find("frame 18 firing 0 at 0 ns"), 0U) << traced.said;
+}
+
+TEST(CommandLine, TakesDecimalDigitsAloneForNumbers) {
+  const std::string sequence = "sequence a.json --out b ";
+  const std::string any = "must be a whole number from 0 to 18446744073709551615 (got ";
+  for (const std::string seed :
+       {"-1", "0x10", "18446744073709551616", "1e3", "99999999999999999999999"}) {
+    ExpectUsageError(sequence + "--seed " + seed, "--seed: " + any + seed + ")");
+    ExpectUsageError("stream a.json --seed " + seed, "--seed: " + any + seed + ")");
+  }
+  ExpectUsageError(sequence + "--frames 0",
+                   "--frames: must be a whole number from 1 to 1000000000 (got 0)");
+  ExpectUsageError(sequence + "--frames 0x10",
+                   "--frames: must be a whole number from 1 to 1000000000 (got 0x10)");
+  ExpectUsageError(sequence + "--start-frame -1",
+                   "--start-frame: must be a whole number from 0 to 1000000000 (got -1)");
+  ExpectUsageError(sequence + "--threads 1.0",
+                   "--threads: must be a whole number from 0 to 1024 (got 1.0)");
+  ExpectUsageError("trace a.json --firing 0b1",
+                   "--firing: must be a whole number from 0 to 1000000000 (got 0b1)");
+  ExpectUsageError("trace a.json --firing 1 --frame 4294967296",
+                   "--frame: must be a whole number from 0 to 1000000000 (got 4294967296)");
+  ExpectUsageError("stream a.json --commands-port 0x6b08",
+                   "--commands-port: must be a whole number from 1 to 65535 (got 0x6b08)");
+}
+
+TEST(CommandLine, NamesAMisspeltCommand) {
+  ExpectUsageError("chek a.json", "unknown command, the nearest is \"check\" (got chek)");
+  ExpectUsageError("dance",
+                   "unknown command, must be \"sequence\", \"stream\", \"check\", \"world\" or "
+                   "\"trace\" (got dance)");
+  ExpectUsageError("", "A subcommand is required");
+}
+
+TEST(CommandLine, NamesTheOptionWhoseFileHasNoName) {
+  for (const char* option : {"--out", "--commands"}) {
+    ExpectUsageError(std::string("sequence a.json --out b ") + option + " ''",
+                     std::string(option) + ": must not be empty");
+  }
+  for (const char* option : {"--pcap", "--calibration", "--commands-log"}) {
+    ExpectUsageError(std::string("stream a.json ") + option + " ''",
+                     std::string(option) + ": must not be empty");
+  }
+  ExpectUsageError("world a.json --out ''", "--out: must not be empty");
+  ExpectUsageError("check a.json --resolved ''", "--resolved: must not be empty");
+  ExpectUsageError("check ''", "SCENARIO: must not be empty");
+}
+
+TEST(CommandLine, TakesAnUnknownFieldForWrongUsage) {
+  for (const std::string command : {"sequence a.json --out b", "stream a.json"}) {
+    const Ended run = Generate(command + " --fields labl");
+    EXPECT_EQ(run.status, 2);
+    EXPECT_EQ(run.said.find("--fields: unknown field \"labl\", nearest is \"label\""), 0U)
+        << run.said;
+  }
+}
+
+}  // namespace
+}  // namespace railcast
