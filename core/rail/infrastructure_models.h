@@ -9,12 +9,6 @@
 
 namespace railcast {
 
-/// The cantilevers of one track, by the side of the pantograph's middle that they hold the wire on.
-struct CantileverPair {
-  std::shared_ptr<const Model> wire_left;
-  std::shared_ptr<const Model> wire_right;
-};
-
 /// Things that stand along the line again and again.
 struct InfrastructureModels {
   /// In the track frame; their rail seats fit the rails of RailSection. 92 (concrete) and 12 (wood)
@@ -24,9 +18,6 @@ struct InfrastructureModels {
 
   /// Upright; origin at the mast's middle at the height of top of rail.
   std::shared_ptr<const Model> mast;
-
-  /// Of each track of the spec; in the frame of WorldFromSupport. Null where there is no wire.
-  std::vector<CantileverPair> cantilevers;
 };
 
 [[nodiscard]] InfrastructureModels MakeInfrastructureModels(const WorldSpec& spec,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/rail/catenary/support_layout.h"
 #include "core/rail/world_spec.h"
 #include "core/scenario/describe_alignment.h"
 #include "core/scenario/json_rules.h"
@@ -28,7 +29,8 @@ void Describe(Archive& a, CatenarySpec& s) {
   a.Optional("max_span_m", s.max_span_m, "Shorter in curves.", Within(10, 100));
   a.Optional("stagger_m", s.stagger_m, "Of the contact wire at supports.", Within(0, 1));
   a.Optional("dropper_spacing_m", s.dropper_spacing_m, "About.", Within(1, 50));
-  a.Optional("mast_distance_m", s.mast_distance_m, "Face to track axis.", Within(1.5, 20));
+  a.Optional("mast_distance_m", s.mast_distance_m, "Face to track axis.",
+             Within(kMastClearance_m, 20));
 }
 
 template <class Archive>

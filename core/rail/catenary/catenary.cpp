@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/rail/catenary/catenary_models.h"
+#include "core/rail/catenary/support_layout.h"
 #include "core/rail/model_parts.h"
 #include "core/rail/track/sweep.h"
 #include "core/scene/shapes.h"
@@ -157,33 +158,41 @@ SupportRange SupportsAround(const ChunkContext& context, const CatenaryPlan& pla
   return {.first = begin == 0 ? 0 : begin - 1, .end = std::min(end + 1, supports.size())};
 }
 
-bool Reaches(const TrackSpec& track, const CatenarySupport& support, const Alignment& alignment) {
-  return track.electrified && track.start_s_m <= support.s_m &&
-         support.s_m <= TrackEnd_m(track, alignment);
-}
-
 void AddSupport(const ChunkContext& context,
                 const CatenarySupport& support,
                 const InfrastructureModels& models,
                 std::uint32_t number,
                 Chunk& chunk) {
-  const auto num_tracks = static_cast<std::uint32_t>(context.spec.tracks.size());
-  for (std::uint32_t track = 0; track < num_tracks; ++track) {
-    const TrackSpec& spec = context.spec.tracks[track];
-    if (!Reaches(spec, support, context.alignment)) continue;
-    const Transform chunk_from_support =
-        context.chunk_from_world *
-        WorldFromSupport(context.alignment, context.spec, spec, support.s_m);
-    const std::uint32_t instance = kFirstMastInstance + number * num_tracks + track;
-    const Transform chunk_from_mast =
-        chunk_from_support * Eigen::Translation3d(MastFoot_m(MastSiteOf(context.spec, track)));
-    const CantileverPair& pair = models.cantilevers[track];
-    chunk.placements.push_back({.model = models.mast,
-                                .chunk_from_model = Eigen::Affine3d(chunk_from_mast),
-                                .instance = instance});
-    chunk.placements.push_back({.model = support.stagger_m > 0.0 ? pair.wire_left : pair.wire_right,
-                                .chunk_from_model = Eigen::Affine3d(chunk_from_support),
-                                .instance = instance});
+  const WorldSpec& spec = context.spec;
+  const double shift_m = PantographShift_m(spec.catenary, context.alignment.At(support.s_m));
+  const auto chunk_from_support = [&](const TrackSpec& track) -> Transform {
+    return context.chunk_from_world * WorldFromSupport(context.alignment, spec, track, support.s_m);
+  };
+  const auto add = [&](std::shared_ptr<const Model> model, const Transform& chunk_from_model,
+                       std::size_t structure) {
+    chunk.placements.push_back(
+        {.model = std::move(model),
+         .chunk_from_model = Eigen::Affine3d(chunk_from_model),
+         .instance = kFirstMastInstance +
+                     static_cast<std::uint32_t>(number * spec.tracks.size() + structure)});
+  };
+  const auto shared = [](Model model) { return std::make_shared<const Model>(std::move(model)); };
+
+  const SupportLayout layout = LayOutSupport(spec, context.alignment, support.s_m);
+  for (const MastSite& mast : layout.masts) {
+    add(models.mast,
+        chunk_from_support(spec.tracks[mast.track]) *
+            Eigen::Translation3d(0.0, mast.from_axis_m - shift_m, 0.0),
+        mast.structure);
+  }
+  for (const CantileverSite& site : layout.cantilevers) {
+    add(shared(MakeCantilever(spec.catenary, site.hangs ? site.face_m : site.face_m - shift_m,
+                              support.stagger_m, context.surfaces)),
+        chunk_from_support(spec.tracks[site.track]), site.structure);
+  }
+  for (const PortalSite& site : layout.portals) {
+    add(shared(MakePortal(spec.catenary, site, shift_m, context.surfaces)),
+        chunk_from_support(TrackSpec{}), site.structure);
   }
 }
 
@@ -201,8 +210,8 @@ std::vector<Wire> WiresInChunk(const ChunkContext& context, const CatenaryPlan& 
     for (std::size_t i = around.first; i + 1 < around.end; ++i) {
       const CatenarySupport& first = plan.supports()[i];
       const CatenarySupport& last = plan.supports()[i + 1];
-      if (!Reaches(track, first, context.alignment)) continue;
-      if (!Reaches(track, last, context.alignment)) continue;
+      if (!HasWireAt(track, context.alignment, first.s_m)) continue;
+      if (!HasWireAt(track, context.alignment, last.s_m)) continue;
       AddWiresOfSpan(context, Span(context, track, first, last), wires);
     }
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "core/rail/model_parts.h"
@@ -12,7 +13,7 @@ namespace railcast {
 namespace {
 
 // HEB 240 (EN 10365).
-constexpr double kDepth_m = 0.240;
+constexpr double kDepth_m = 2.0 * kMastHalfDepth_m;
 constexpr double kWidth_m = 0.240;
 constexpr double kWeb_m = 0.010;
 constexpr double kFlange_m = 0.017;
@@ -73,39 +74,55 @@ class CantileverPen {
   Model& model_;
 };
 
-}  // namespace
-
-Model MakeMast(const CatenarySpec& spec, const RailSurfaces& surfaces) {
-  const double top_m =
-      std::max(kMastHeight_m, spec.contact_height_m + spec.system_height_m + kMastAboveMessenger_m);
-  constexpr double kBlockTop_m = -0.50;
-  constexpr double kBlockBottom_m = -1.70;
-  constexpr double kBlockHalfWidth_m = 0.40;
+/// Outline of the HEB 240 with its flanges along the first coordinate.
+std::array<Eigen::Vector2d, 12> Section_m() {
   constexpr double kX = 0.5 * kWidth_m;
   constexpr double kY = 0.5 * kDepth_m;
   constexpr double kWebX = 0.5 * kWeb_m;
   constexpr double kWebY = 0.5 * kDepth_m - kFlange_m;
-  // An extrusion runs along x over (y, z). Upright, its x is the mast's z; its y and z are the
-  // mast's x and y.
-  const std::array<Eigen::Vector2d, 12> section_m{{{kX, kY},
-                                                   {-kX, kY},
-                                                   {-kX, kWebY},
-                                                   {-kWebX, kWebY},
-                                                   {-kWebX, -kWebY},
-                                                   {-kX, -kWebY},
-                                                   {-kX, -kY},
-                                                   {kX, -kY},
-                                                   {kX, -kWebY},
-                                                   {kWebX, -kWebY},
-                                                   {kWebX, kWebY},
-                                                   {kX, kWebY}}};
-  Eigen::Matrix3d mast_from_extrusion;
-  mast_from_extrusion << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+  return {{{kX, kY},
+           {-kX, kY},
+           {-kX, kWebY},
+           {-kWebX, kWebY},
+           {-kWebX, -kWebY},
+           {-kX, -kWebY},
+           {-kX, -kY},
+           {kX, -kY},
+           {kX, -kWebY},
+           {kWebX, -kWebY},
+           {kWebX, kWebY},
+           {kX, kWebY}}};
+}
 
+/// Upright, with the flanges facing along y: an extrusion runs along x over (y, z); its x is z
+/// here, its y and z are x and y.
+Mesh UprightBeam(double bottom_m, double top_m) {
+  Eigen::Matrix3d upright_from_extrusion;
+  upright_from_extrusion << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+  Mesh mesh;
+  mesh.Append(MakeExtrusion(Section_m(), bottom_m, top_m),
+              MakeTransform(upright_from_extrusion, Vector3::Zero()));
+  return mesh;
+}
+
+double MastTop_m(const CatenarySpec& spec) {
+  return std::max(kMastHeight_m,
+                  spec.contact_height_m + spec.system_height_m + kMastAboveMessenger_m);
+}
+
+/// Where the strut of a cantilever is hinged.
+double StrutHinge_m(const CatenarySpec& spec) {
+  return spec.contact_height_m + kRegistrationHeight_m + 0.10;
+}
+
+}  // namespace
+
+Model MakeMast(const CatenarySpec& spec, const RailSurfaces& surfaces) {
+  constexpr double kBlockTop_m = -0.50;
+  constexpr double kBlockBottom_m = -1.70;
+  constexpr double kBlockHalfWidth_m = 0.40;
   Model model{.name = "mast", .parts = {}};
-  MeshOf(surfaces.mast, model)
-      .Append(MakeExtrusion(section_m, kBlockTop_m, top_m),
-              MakeTransform(mast_from_extrusion, Vector3::Zero()));
+  MeshOf(surfaces.mast, model).Append(UprightBeam(kBlockTop_m, MastTop_m(spec)));
   const SurfaceClass block{.material = surfaces.sleeper_concrete.material,
                            .label = surfaces.mast.label};
   MeshOf(block, model)
@@ -114,19 +131,35 @@ Model MakeMast(const CatenarySpec& spec, const RailSurfaces& surfaces) {
   return model;
 }
 
-Vector3 MastFoot_m(const MastSite& site) {
-  return {0.0, (site.on_left ? 1.0 : -1.0) * (site.distance_m + 0.5 * kDepth_m), 0.0};
+Model MakePortal(const CatenarySpec& spec,
+                 const PortalSite& site,
+                 double shift_m,
+                 const RailSurfaces& surfaces) {
+  constexpr double kPostBelowHinge_m = 0.20;
+  Model model{.name = "portal", .parts = {}};
+  Mesh& mesh = MeshOf(surfaces.mast, model);
+  // Its x is y here.
+  const Eigen::Matrix3d beam_from_extrusion =
+      RotationFromYawPitchRoll(0.5 * std::numbers::pi, 0.0, 0.0);
+  mesh.Append(
+      MakeExtrusion(Section_m(), site.right_d_m - shift_m - kMastHalfDepth_m,
+                    site.left_d_m - shift_m + kMastHalfDepth_m),
+      MakeTransform(beam_from_extrusion, Vector3(0.0, 0.0, MastTop_m(spec) + 0.5 * kDepth_m)));
+  for (const double d_m : site.posts_d_m) {
+    mesh.Append(UprightBeam(StrutHinge_m(spec) - kPostBelowHinge_m, MastTop_m(spec)),
+                MakeTransform(Eigen::Matrix3d::Identity(), Vector3(0.0, d_m, 0.0)));
+  }
+  return model;
 }
 
 Model MakeCantilever(const CatenarySpec& spec,
-                     const MastSite& site,
+                     double face_m,
                      double stagger_m,
                      const RailSurfaces& surfaces) {
   Model model{.name = "cantilever", .parts = {}};
   CantileverPen pen(surfaces, model);
-  const double mast_side = site.on_left ? 1.0 : -1.0;
+  const double mast_side = face_m < 0.0 ? -1.0 : 1.0;
   const double stagger_side = stagger_m < 0.0 ? -1.0 : 1.0;
-  const double face_m = mast_side * site.distance_m;
   const double contact_m = spec.contact_height_m;
   const double registration_m = contact_m + kRegistrationHeight_m;
 
@@ -134,7 +167,7 @@ Model MakeCantilever(const CatenarySpec& spec,
   const Vector3 messenger(0.0, stagger_m, contact_m + spec.system_height_m);
   const Vector3 head = messenger - Vector3(0.0, 0.0, 0.075);
   const Vector3 top_hinge(0.0, face_m, head.z());
-  const Vector3 strut_hinge(0.0, face_m, registration_m + 0.10);
+  const Vector3 strut_hinge(0.0, face_m, StrutHinge_m(spec));
   pen.InsulatedTube(top_hinge, head, kThinTubeRadius_m);
   pen.InsulatedTube(strut_hinge, head, kThickTubeRadius_m);
   pen.Clamp(messenger - Vector3(0.0, 0.0, 0.04), {0.05, 0.03, 0.05});

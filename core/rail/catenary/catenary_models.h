@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/rail/catenary/catenary_plan.h"
+#include "core/rail/catenary/support_layout.h"
 #include "core/rail/rail_surfaces.h"
 #include "core/rail/world_spec.h"
 #include "core/scene/mesh.h"
@@ -11,14 +11,21 @@ namespace railcast {
 /// least 8 m high above it, more where the wires ask for it. 54 triangles.
 [[nodiscard]] Model MakeMast(const CatenarySpec& spec, const RailSurfaces& surfaces);
 
-/// Where the mast's middle is in the frame of WorldFromSupport.
-[[nodiscard]] Vector3 MastFoot_m(const MastSite& site);
+/// A beam of HEB 240 upon its two masts and the posts of the same section that hang from it, as far
+/// as the lower hinges of their cantilevers. In the frame of WorldFromSupport of a track at offset
+/// 0. 44 triangles and as many for each post.
+/// @param shift_m PantographShift_m() there.
+[[nodiscard]] Model MakePortal(const CatenarySpec& spec,
+                               const PortalSite& site,
+                               double shift_m,
+                               const RailSurfaces& surfaces);
 
 /// A cantilever in the frame of WorldFromSupport: a top tube from the mast to the messenger, a
 /// strut below it, both on ceramic insulators, a registration tube, and the steady arm that pulls
 /// the contact wire to its stagger. Tubes of 42 and 60 mm. 620 triangles.
+/// @param face_m Of the mast or post that holds it, left positive.
 [[nodiscard]] Model MakeCantilever(const CatenarySpec& spec,
-                                   const MastSite& site,
+                                   double face_m,
                                    double stagger_m,
                                    const RailSurfaces& surfaces);
 

@@ -14,8 +14,6 @@ namespace {
 constexpr std::size_t kStepsOfASpan = 26;
 constexpr double kLateralMargin_m = 0.05;
 constexpr double kShortestDropper_m = 0.3;
-constexpr double kMastHalfDepth_m = 0.12;
-constexpr double kClearanceFromAxis_m = 2.2;
 /// A line's last span may be this short; what is left beyond has no wire.
 constexpr double kShortestSpan_m = 5.0;
 
@@ -42,7 +40,7 @@ Course CourseFrom(double s_m, const CatenarySpec& spec, const Alignment& alignme
     }
     previous_per_m = axis.curvature_per_m;
     course.curvature_per_m[i] = axis.curvature_per_m;
-    course.lateral_m[i] = axis_m - spec.contact_height_m * std::sin(axis.cant_rad);
+    course.lateral_m[i] = axis_m + PantographShift_m(spec, axis);
   }
   return course;
 }
@@ -94,34 +92,7 @@ bool HasContactLine(const WorldSpec& spec) {
                      [](const TrackSpec& track) { return track.electrified; });
 }
 
-/// Whether a mast there is clear of all tracks but its own.
-bool IsClear(const WorldSpec& spec, std::size_t own_track, double mast_d_m) {
-  for (std::size_t i = 0; i < spec.tracks.size(); ++i) {
-    if (i == own_track) continue;
-    if (std::abs(spec.tracks[i].offset_m - mast_d_m) < kClearanceFromAxis_m) return false;
-  }
-  return true;
-}
-
 }  // namespace
-
-MastSite MastSiteOf(const WorldSpec& spec, std::size_t track) {
-  const double offset_m = spec.tracks[track].offset_m;
-  const double to_mast_m = spec.catenary.mast_distance_m + kMastHalfDepth_m;
-  bool is_leftmost = spec.tracks.size() > 1;
-  double to_next_m = 0.0;
-  for (const TrackSpec& other : spec.tracks) {
-    if (other.offset_m > offset_m) is_leftmost = false;
-    const double distance_m = offset_m - other.offset_m;
-    if (distance_m > 0.0 && (to_next_m == 0.0 || distance_m < to_next_m)) to_next_m = distance_m;
-  }
-  for (const bool on_left : {is_leftmost, !is_leftmost}) {
-    if (IsClear(spec, track, offset_m + (on_left ? to_mast_m : -to_mast_m))) {
-      return {.on_left = on_left, .distance_m = spec.catenary.mast_distance_m};
-    }
-  }
-  return {.on_left = false, .distance_m = 0.5 * to_next_m - kMastHalfDepth_m};
-}
 
 void CheckSystemHeight(const WorldSpec& world) {
   if (!HasContactLine(world)) return;
@@ -151,6 +122,10 @@ CatenaryPlan::CatenaryPlan(const WorldSpec& spec, const Alignment& alignment) {
     }
     supports_.push_back(next);
   }
+}
+
+double PantographShift_m(const CatenarySpec& spec, const AxisPoint& axis) {
+  return -spec.contact_height_m * std::sin(axis.cant_rad);
 }
 
 Transform WorldFromSupport(const Alignment& alignment,

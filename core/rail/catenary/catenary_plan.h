@@ -20,17 +20,6 @@ struct CatenarySupport {
   double stagger_m{};  ///< Of the wires from the middle of the pantograph, left positive.
 };
 
-/// On which side of a track its masts stand, and how far from its axis their near face is.
-struct MastSite {
-  bool on_left{};
-  double distance_m{};
-};
-
-/// Side and distance of a track's masts: CatenarySpec's distance on the right, or on the left of
-/// the leftmost of several tracks; on the other side if another track's axis would be nearer
-/// than 2.2 m to the mast's; and half way to the next track on the right if neither side is free.
-[[nodiscard]] MastSite MastSiteOf(const WorldSpec& spec, std::size_t track);
-
 /// @throws InputError if the messenger would sag to less than 0.3 m above the contact wire:
 ///   "/catenary/system_height_m: rule (got value)", relative to the world's JSON object.
 void CheckSystemHeight(const WorldSpec& world);
@@ -57,9 +46,12 @@ class CatenaryPlan {
   std::vector<CatenarySupport> supports_;
 };
 
+/// How far cant moves the middle of a pantograph at the contact line's height, left positive.
+[[nodiscard]] double PantographShift_m(const CatenarySpec& spec, const AxisPoint& axis);
+
 /// The level frame of one track at one support: x along the heading, z up; its origin is the
-/// contact line's height below the middle of a pantograph there, which cant moves sideways. Mast,
-/// cantilever and wires stand in it.
+/// contact line's height below the middle of a pantograph there, which is PantographShift_m() from
+/// the track's axis. Cantilever and wires stand in it.
 [[nodiscard]] Transform WorldFromSupport(const Alignment& alignment,
                                          const WorldSpec& spec,
                                          const TrackSpec& track,

@@ -14,6 +14,14 @@ const Mesh* FindMesh(const Model& model, const SurfaceClass& surface) {
   return nullptr;
 }
 
+void ExpectSameModel(const Model& first, const Model& second) {
+  ASSERT_EQ(first.parts.size(), second.parts.size()) << first.name;
+  for (std::size_t i = 0; i < first.parts.size(); ++i) {
+    EXPECT_EQ(first.parts[i].mesh.vertices, second.parts[i].mesh.vertices) << first.name;
+    EXPECT_EQ(first.parts[i].mesh.triangles, second.parts[i].mesh.triangles) << first.name;
+  }
+}
+
 }  // namespace
 
 std::vector<Vector3> VerticesOf(const Model& model, const SurfaceClass& surface) {
@@ -56,16 +64,13 @@ std::size_t CountBadTriangles(const Model& model) {
 }
 
 void ExpectSameChunk(const Chunk& first, const Chunk& second) {
-  ASSERT_EQ(first.ground.parts.size(), second.ground.parts.size());
-  for (std::size_t i = 0; i < first.ground.parts.size(); ++i) {
-    EXPECT_EQ(first.ground.parts[i].mesh.vertices, second.ground.parts[i].mesh.vertices);
-    EXPECT_EQ(first.ground.parts[i].mesh.triangles, second.ground.parts[i].mesh.triangles);
-  }
+  ExpectSameModel(first.ground, second.ground);
   ASSERT_EQ(first.placements.size(), second.placements.size());
   for (std::size_t i = 0; i < first.placements.size(); ++i) {
     EXPECT_EQ(first.placements[i].chunk_from_model.matrix(),
               second.placements[i].chunk_from_model.matrix());
     EXPECT_EQ(first.placements[i].instance, second.placements[i].instance);
+    ExpectSameModel(*first.placements[i].model, *second.placements[i].model);
   }
 }
 

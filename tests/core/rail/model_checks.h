@@ -18,7 +18,7 @@ namespace railcast {
 /// Triangles with an index out of range, a coordinate that is no number, or no area.
 [[nodiscard]] std::size_t CountBadTriangles(const Model& model);
 
-/// Expects the same bytes of ground, and the same models' places and instances.
+/// Expects the same bytes of ground and models, in the same places with the same instances.
 void ExpectSameChunk(const Chunk& first, const Chunk& second);
 
 }  // namespace railcast

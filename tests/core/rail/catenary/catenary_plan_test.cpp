@@ -60,26 +60,5 @@ TEST(CatenaryPlan, RefusesASystemHeightThatTheSagUsesUp) {
   }
 }
 
-TEST(MastSiteOf, IsOnTheRightOfASingleTrackAndOutsideOfTwo) {
-  WorldSpec spec = StraightLine(100.0);
-  EXPECT_FALSE(MastSiteOf(spec, 0).on_left);
-  spec.tracks.push_back(spec.tracks[0]);
-  spec.tracks[1].offset_m = 4.0;
-  EXPECT_FALSE(MastSiteOf(spec, 0).on_left);
-  EXPECT_TRUE(MastSiteOf(spec, 1).on_left);
-  EXPECT_EQ(MastSiteOf(spec, 1).distance_m, spec.catenary.mast_distance_m);
-}
-
-TEST(MastSiteOf, IsHalfWayToTheNextTrackWhereNeitherSideIsFree) {
-  WorldSpec spec = StraightLine(100.0);
-  for (const double offset_m : {4.5, 9.0}) {
-    spec.tracks.push_back(spec.tracks[0]);
-    spec.tracks.back().offset_m = offset_m;
-  }
-  const MastSite site = MastSiteOf(spec, 1);
-  EXPECT_FALSE(site.on_left);
-  EXPECT_NEAR(site.distance_m + 0.12, 2.25, 1e-12);
-}
-
 }  // namespace
 }  // namespace railcast

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "tests/core/rail/line/alignment_files.h"
 #include "tests/core/rail/test_line.h"
@@ -151,15 +153,110 @@ TEST(AddCatenary, NumbersMastsAlongTheWholeLine) {
   EXPECT_EQ(*instances.rbegin(), kFirstMastInstance + num_masts - 1);
 }
 
+std::vector<Placement> PlacedAt(const TestLine& line, int chunk_index, const std::string& name) {
+  Chunk chunk;
+  AddCatenary(line.Context(chunk_index), line.plan(), line.models(), chunk);
+  std::erase_if(chunk.placements,
+                [&](const Placement& placement) { return placement.model->name != name; });
+  return chunk.placements;
+}
+
 TEST(AddCatenary, HoldsTheWiresWithItsCantilevers) {
   const TestLine line(StraightLine(1000.0));
-  const Eigen::AlignedBox3d left = line.models().cantilevers[0].wire_left->Bounds();
+  const Eigen::AlignedBox3d left = PlacedAt(line, 0, "cantilever").at(0).model->Bounds();
   // From the mast's face on the right to the steady arm's hinge, a metre left of the wire, and the
   // end of its tube; from the contact wire's clamp to the messenger's.
   EXPECT_NEAR(left.min().y(), -3.3, 0.02);
   EXPECT_NEAR(left.max().y(), 0.4 + 1.0 + 0.15, 0.03);
   EXPECT_NEAR(left.min().z(), 5.5, 0.01);
   EXPECT_NEAR(left.max().z(), 7.3, 0.03);
+}
+
+WorldSpec RealLineWithTracksAt(const std::vector<double>& offsets_m) {
+  WorldSpec spec;
+  spec.alignment = ReadStGallenWil();
+  spec.tracks.assign(offsets_m.size(), TrackSpec{});
+  for (std::size_t i = 0; i < offsets_m.size(); ++i) spec.tracks[i].offset_m = offsets_m[i];
+  return spec;
+}
+
+/// Of the masts' faces from the axes nearest to them.
+struct FaceDistances {
+  double least_m = 100.0;
+  double most_m = 0.0;
+  std::size_t num_masts = 0;
+};
+
+FaceDistances MeasureMasts(const TestLine& line) {
+  FaceDistances found;
+  const int num_chunks =
+      static_cast<int>(std::ceil(line.alignment().length_m() / TestLine::kChunkLength_m));
+  for (int chunk = 0; chunk < num_chunks; ++chunk) {
+    for (const Placement& mast : PlacedAt(line, chunk, "mast")) {
+      const Vector3 world_m =
+          line.WorldFromChunk(chunk) * Vector3(mast.chunk_from_model.translation());
+      const double s_m =
+          ChainageOf(line.alignment(), world_m, (chunk + 0.5) * TestLine::kChunkLength_m);
+      const AxisPoint axis = line.alignment().At(s_m);
+      const Vector3 left(-std::sin(axis.heading_rad), std::cos(axis.heading_rad), 0.0);
+      double nearest_m = 100.0;
+      for (const TrackSpec& track : line.spec().tracks) {
+        const double d_m = (world_m - axis.position_m).dot(left) - track.offset_m;
+        nearest_m = std::min(nearest_m, std::abs(d_m) - 0.12);
+      }
+      found.least_m = std::min(found.least_m, nearest_m);
+      found.most_m = std::max(found.most_m, nearest_m);
+      ++found.num_masts;
+    }
+  }
+  return found;
+}
+
+TEST(AddCatenary, PlacesMastsByTheTracksAxisAllAlongARealLine) {
+  // The mast's origin lies up to 0.03 m below the plane of the rails, where a gradient of 2 % moves
+  // the section through it by less than a millimetre.
+  constexpr double kTolerance_m = 1e-4;
+  const FaceDistances two = MeasureMasts(TestLine(RealLineWithTracksAt({0.0, 4.0})));
+  EXPECT_EQ(two.num_masts, 944U);
+  EXPECT_NEAR(two.least_m, 3.3, kTolerance_m);
+  EXPECT_NEAR(two.most_m, 3.3, kTolerance_m);
+}
+
+TEST(AddCatenary, KeepsMastsOutOfTheTrainsWayBesideAnyNumberOfTracks) {
+  for (const std::vector<double>& offsets_m : std::vector<std::vector<double>>{
+           {0.0, 4.0, 8.0}, {0.0, 4.5, 9.0, -4.5}, {0.0, 3.0, 6.0, 9.0}, {-9.3, 0.0, 5.0}}) {
+    const FaceDistances found = MeasureMasts(TestLine(RealLineWithTracksAt(offsets_m)));
+    EXPECT_GE(found.least_m, 2.2) << offsets_m.size();
+    EXPECT_GE(found.num_masts, 944U);
+  }
+}
+
+TEST(AddCatenary, ReachesFromMastsAndPostsToTheShiftedWires) {
+  WorldSpec spec = CantedArc(1000.0, 300.0);
+  spec.tracks.assign(3, TrackSpec{});
+  spec.tracks[1].offset_m = 4.0;
+  spec.tracks[2].offset_m = 8.0;
+  const TestLine line(spec);
+  // Cant of 150 mm to the left, under the wire at 5.5 m.
+  const double shift_m = 5.5 * 0.1;
+  const auto cantilevers = PlacedAt(line, 10, "cantilever");
+  ASSERT_EQ(cantilevers.size(), 3U);
+  EXPECT_NEAR(cantilevers[0].model->Bounds().min().y(), -3.3 - shift_m, 0.02);
+  EXPECT_NEAR(cantilevers[2].model->Bounds().max().y(), 3.3 - shift_m, 0.02);
+  // The post hangs half way between pantographs.
+  EXPECT_NEAR(cantilevers[1].model->Bounds().min().y(), -2.0 + 0.12, 0.02);
+
+  const auto portals = PlacedAt(line, 10, "portal");
+  ASSERT_EQ(portals.size(), 1U);
+  const Eigen::AlignedBox3d beam = portals[0].model->Bounds();
+  EXPECT_NEAR(beam.min().y(), -3.42 - 0.12 - shift_m, 1e-3);
+  EXPECT_NEAR(beam.max().y(), 8.0 + 3.42 + 0.12 - shift_m, 1e-3);
+  EXPECT_NEAR(beam.max().z(), 8.24, 1e-6);
+  // Below the strut's hinge, 0.5 m above the contact wire.
+  EXPECT_NEAR(beam.min().z(), 5.8, 1e-6);
+  for (const Placement& cantilever : cantilevers) {
+    EXPECT_EQ(cantilever.instance, portals[0].instance);
+  }
 }
 
 }  // namespace
