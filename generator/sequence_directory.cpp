@@ -8,6 +8,8 @@
 #include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -18,7 +20,6 @@
 #include "core/io/kitti.h"
 #include "core/io/write_file.h"
 #include "generator/counts_json.h"
-#include "generator/sequence_progress.h"
 
 namespace railcast {
 namespace {
@@ -26,6 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kRunFile = "run.json";
+constexpr const char* kScenarioFile = "scenario.resolved.json";
 constexpr const char* kCommandsFile = "commands.jsonl";
 constexpr const char* kManifestFile = "manifest.json";
 
@@ -44,6 +46,30 @@ bool Lock(int directory) {
     std::this_thread::sleep_for(kPause);
   }
   return false;
+}
+
+bool HasBytes(const fs::path& file, std::string_view bytes) {
+  return fs::exists(file) && ReadFileWhole(file) == bytes;
+}
+
+// Whether two resolved scenarios differ at most in the folders that meshes and tables lie in, which
+// are other ones after a move.
+bool IsSameButForFolders(const std::string& one, const std::string& other) {
+  std::istringstream ones(one);
+  std::istringstream others(other);
+  std::string line;
+  std::string line_of_other;
+  while (std::getline(ones, line)) {
+    if (!std::getline(others, line_of_other)) return false;
+    if (line == line_of_other) continue;
+    const std::size_t begin = line.find("\"/");
+    if (begin == std::string::npos || line_of_other.find("\"/") != begin ||
+        line.compare(0, begin, line_of_other, 0, begin) != 0 ||
+        line.substr(line.rfind('/')) != line_of_other.substr(line_of_other.rfind('/'))) {
+      return false;
+    }
+  }
+  return one.ends_with('\n') == other.ends_with('\n') && !std::getline(others, line_of_other);
 }
 
 void RemoveUnfinished(const fs::path& directory) {
@@ -100,12 +126,7 @@ void SequenceDirectory::Resume() {
   num_done_ = progress.num_done;
   counts_ = progress.counts;
   if (num_done_ > 0) first_pose_ = ParsePoseLine(progress.first_pose_line);
-  if (is_complete_) {
-    if (num_done_ == spec_.num_frames) return;
-    throw InputError(spec_.directory.string() + ": is complete, but frame " +
-                     std::to_string(spec_.start_frame + num_done_) +
-                     " was changed or removed; delete manifest.json to make it anew");
-  }
+  if (is_complete_) return CheckUnchanged(progress);
   const std::vector<LineFileName> names = LineFileNames(spec_.files.format);
   for (std::size_t i = 0; i < names.size(); ++i) {
     line_files_.emplace_back(spec_.directory / names[i].name, progress.keep_bytes[i]);
@@ -113,22 +134,51 @@ void SequenceDirectory::Resume() {
   }
 }
 
+void SequenceDirectory::CheckUnchanged(const SequenceProgress& progress) const {
+  const fs::path& directory = spec_.directory;
+  const auto check = [&](bool is_unchanged, const std::string& what) {
+    if (is_unchanged) return;
+    throw InputError(directory.string() + ": is complete, but " + what +
+                     " was changed or removed; delete manifest.json to make it anew");
+  };
+  check(num_done_ == spec_.num_frames, "frame " + std::to_string(spec_.start_frame + num_done_));
+  const std::vector<LineFileName> names = LineFileNames(spec_.files.format);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    check(fs::file_size(directory / names[i].name) == progress.keep_bytes[i], names[i].name);
+  }
+  check(HasBytes(directory / kRunFile, RunJson(spec_)), kRunFile);
+  for (const auto& [name, bytes] : FixedFiles()) check(HasBytes(directory / name, bytes), name);
+  const fs::path scenario = directory / kScenarioFile;
+  check(fs::exists(scenario) && IsSameButForFolders(ReadFileWhole(scenario), spec_.scenario_json),
+        kScenarioFile);
+  check(HasBytes(directory / kManifestFile, ManifestJson()), kManifestFile);
+}
+
+std::vector<FrameFile> SequenceDirectory::FixedFiles() const {
+  std::vector<FrameFile> files = {{"labels.json", LabelsJson(spec_.files.labels)},
+                                  {"materials.json", MaterialsJson(spec_.materials)}};
+  if (!spec_.commands_jsonl.empty()) files.push_back({kCommandsFile, spec_.commands_jsonl});
+  if (spec_.files.format == FrameFormat::kKitti) {
+    files.push_back({"sequences/00/calib.txt", KittiCalibration()});
+    files.push_back({"semantic-kitti-railcast.yaml", SemanticKittiYaml(spec_.files.labels)});
+  }
+  return files;
+}
+
 void SequenceDirectory::WriteFixedFiles() {
-  WriteFileWhole(spec_.directory / "scenario.resolved.json", spec_.scenario_json);
-  WriteFileWhole(spec_.directory / "labels.json", LabelsJson(spec_.files.labels));
-  WriteFileWhole(spec_.directory / "materials.json", MaterialsJson(spec_.materials));
-  if (!spec_.commands_jsonl.empty()) {
-    WriteFileWhole(spec_.directory / kCommandsFile, spec_.commands_jsonl);
+  const fs::path& directory = spec_.directory;
+  if (spec_.files.format == FrameFormat::kKitti) {
+    CreateDirectories(directory / "sequences/00/velodyne");
+    CreateDirectories(directory / "sequences/00/labels");
+  } else {
+    CreateDirectories(directory / "frames");
   }
-  if (spec_.files.format != FrameFormat::kKitti) {
-    CreateDirectories(spec_.directory / "frames");
-    return;
+  // It may say the same in other bytes.
+  if (!HasBytes(directory / kRunFile, RunJson(spec_))) {
+    WriteFileWhole(directory / kRunFile, RunJson(spec_));
   }
-  CreateDirectories(spec_.directory / "sequences/00/velodyne");
-  CreateDirectories(spec_.directory / "sequences/00/labels");
-  WriteFileWhole(spec_.directory / "sequences/00/calib.txt", KittiCalibration());
-  WriteFileWhole(spec_.directory / "semantic-kitti-railcast.yaml",
-                 SemanticKittiYaml(spec_.files.labels));
+  WriteFileWhole(directory / kScenarioFile, spec_.scenario_json);
+  for (const auto& [name, bytes] : FixedFiles()) WriteFileWhole(directory / name, bytes);
 }
 
 std::vector<std::string> SequenceDirectory::RecordLines(const Frame& frame,
@@ -192,8 +242,8 @@ std::string SequenceDirectory::ManifestJson() const {
   // resolved scenario, which says where files lie. run.json has the hash of what it means.
   std::string all;
   nlohmann::ordered_json files = nlohmann::ordered_json::object();
-  std::vector<std::string> names = {kRunFile, "labels.json", "materials.json"};
-  if (!spec_.commands_jsonl.empty()) names.push_back(kCommandsFile);
+  std::vector<std::string> names = {kRunFile};
+  for (const FrameFile& file : FixedFiles()) names.push_back(file.name);
   for (const LineFileName& file : LineFileNames(spec_.files.format)) names.push_back(file.name);
   for (const std::string& name : names) {
     const std::string hash = ContentHash(ReadFileWhole(spec_.directory / name));

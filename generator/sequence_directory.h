@@ -10,6 +10,7 @@
 #include "generator/line_file.h"
 #include "generator/object_record.h"
 #include "generator/pose_record.h"
+#include "generator/sequence_progress.h"
 #include "generator/sequence_spec.h"
 
 namespace railcast {
@@ -27,8 +28,8 @@ namespace railcast {
 class SequenceDirectory {
  public:
   /// Creates the directory, or opens it and finds out how far its run has come.
-  /// @throws InputError if it belongs to another run, holds other things, is being written by
-  ///   another process, or the system refuses.
+  /// @throws InputError if it belongs to another run, holds other things, is complete but was
+  ///   changed since, is being written by another process, or the system refuses.
   explicit SequenceDirectory(SequenceSpec spec);
   ~SequenceDirectory();
   SequenceDirectory(const SequenceDirectory&) = delete;
@@ -50,6 +51,10 @@ class SequenceDirectory {
  private:
   void Open();
   void Resume();
+  // Of a complete directory, whose frames were counted already.
+  void CheckUnchanged(const SequenceProgress& progress) const;
+  // All that is known before the first frame, but the scenario, which names folders.
+  [[nodiscard]] std::vector<FrameFile> FixedFiles() const;
   void WriteFixedFiles();
   [[nodiscard]] std::string ManifestJson() const;
   [[nodiscard]] std::vector<std::string> RecordLines(const Frame& frame,

@@ -54,9 +54,10 @@ TEST(RunSequence, DependsOnWhatTheScenarioMeansNotOnWhereItsFilesLie) {
   const TemporaryDirectory here;
   const TemporaryDirectory there;
   SequenceSpec spec = ExampleRun(here.path());
+  spec.scenario_json = "{\n  \"file\": \"/here/wagon.obj\",\n  \"seed\": 5\n}\n";
   (void)RunSequence(spec, MakeExampleFrame, NoHooks());
   spec.directory = there.path();
-  spec.scenario_json = "{\"seed\": 5, \"file\": \"/elsewhere/wagon.obj\"}\n";
+  spec.scenario_json = "{\n  \"file\": \"/else/where/wagon.obj\",\n  \"seed\": 5\n}\n";
   (void)RunSequence(spec, MakeExampleFrame, NoHooks());
   EXPECT_EQ(Contents(there.path()).at("manifest.json"), Contents(here.path()).at("manifest.json"));
   spec.directory = here.path();
@@ -126,7 +127,38 @@ TEST(RunSequence, HasNothingToDoInACompleteDirectory) {
   EXPECT_EQ(Contents(directory.path()), before);
 }
 
-TEST(RunSequence, NoticesAChangedFrameInACompleteDirectory) {
+// Every file in turn is changed in its middle, made longer and removed.
+TEST(RunSequence, NoticesWhateverWasChangedInACompleteDirectory) {
+  for (const char* format : {"pcd", "kitti"}) {
+    const TemporaryDirectory directory;
+    SequenceSpec spec = ExampleRun(directory.path(), format);
+    spec.commands_jsonl = "{}\n";
+    (void)RunSequence(spec, MakeExampleFrame, NoHooks());
+    const auto whole = Contents(directory.path());
+    for (const auto& [name, bytes] : whole) {
+      std::string middle = bytes;
+      middle[bytes.size() / 2] ^= 1;
+      for (const auto& change : {middle, bytes + "\n", std::string()}) {
+        // Whose run it is must be legible, and without a manifest there is only a run to finish.
+        if (name == "run.json" && change != bytes + "\n") continue;
+        if (name == "manifest.json" && change.empty()) continue;
+        std::filesystem::remove(directory.path() / name);
+        if (!change.empty()) WriteFileWhole(directory.path() / name, change);
+        const std::string said = RunMessage(spec);
+        const std::string place = directory.path().string() + ": is complete, but ";
+        const std::string end = " was changed or removed; delete manifest.json to make it anew";
+        ASSERT_TRUE(said.starts_with(place) && said.ends_with(end)) << name << ": " << said;
+        const std::string what = said.substr(place.size(), said.size() - end.size() - place.size());
+        EXPECT_TRUE(what == name || what.starts_with("frame ")) << name << ": " << what;
+        std::filesystem::remove(directory.path() / "manifest.json");
+        (void)RunSequence(spec, MakeExampleFrame, NoHooks());
+        ASSERT_EQ(Contents(directory.path()), whole) << name;
+      }
+    }
+  }
+}
+
+TEST(RunSequence, NamesTheFirstChangedFrameOfACompleteDirectory) {
   const TemporaryDirectory directory;
   (void)RunSequence(ExampleRun(directory.path()), MakeExampleFrame, NoHooks());
   std::filesystem::remove(directory.path() / "frames/000005.pcd");
@@ -134,6 +166,20 @@ TEST(RunSequence, NoticesAChangedFrameInACompleteDirectory) {
             directory.path().string() +
                 ": is complete, but frame 5 was changed or removed; delete manifest.json to make "
                 "it anew");
+}
+
+TEST(RunSequence, HashesEveryFileThatItsFramesDoNot) {
+  for (const char* format : {"pcd", "kitti"}) {
+    const TemporaryDirectory directory;
+    (void)RunSequence(ExampleRun(directory.path(), format), MakeExampleFrame, NoHooks());
+    const auto contents = Contents(directory.path());
+    const auto hashes = nlohmann::json::parse(contents.at("manifest.json")).at("files_xxh3");
+    for (const auto& [name, bytes] : contents) {
+      if (name == "manifest.json" || name == "scenario.resolved.json") continue;
+      if (contents.at("frames.jsonl").find("\"" + name + "\"") != std::string::npos) continue;
+      EXPECT_EQ(hashes.value(name, ""), ContentHash(bytes)) << name;
+    }
+  }
 }
 
 TEST(RunSequence, RefusesTheDirectoryOfAnotherRun) {

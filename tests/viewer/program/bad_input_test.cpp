@@ -52,7 +52,7 @@ TEST_F(BadInput, SourcesThatAreMissingAreNamed) {
 TEST_F(BadInput, LostOutputIsAFailure) {
   const Ended ended = View("--version > /dev/full");
   EXPECT_EQ(ended.status, 1);
-  EXPECT_EQ(ended.said, "stdout: no space left on device\n");
+  EXPECT_EQ(ended.said, "stdout: not all of it could be written\n");
 }
 
 TEST_F(BadInput, EmptyFilesAreNamed) {
