@@ -8,6 +8,7 @@
 #include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <string_view>
 #include <thread>
@@ -70,6 +71,15 @@ bool IsSameButForFolders(const std::string& one, const std::string& other) {
     }
   }
   return one.ends_with('\n') == other.ends_with('\n') && !std::getline(others, line_of_other);
+}
+
+std::set<std::uint32_t> MovingInstances(const std::vector<ObjectInFrame>& objects) {
+  constexpr double kRounding_mps = 1e-6;
+  std::set<std::uint32_t> moving;
+  for (const ObjectInFrame& object : objects) {
+    if (object.velocity_world_mps.norm() > kRounding_mps) moving.insert(object.instance);
+  }
+  return moving;
 }
 
 void RemoveUnfinished(const fs::path& directory) {
@@ -198,7 +208,8 @@ std::vector<std::string> SequenceDirectory::RecordLines(const Frame& frame,
 void SequenceDirectory::Write(const Frame& frame, const std::vector<ObjectInFrame>& objects) {
   Check(frame.index == spec_.start_frame + num_done_, "frames are written in their order");
   const bool is_kitti = spec_.files.format == FrameFormat::kKitti;
-  EncodeFrameFiles(frame, spec_.files, is_kitti ? num_done_ : frame.index, frame_files_);
+  EncodeFrameFiles(frame, spec_.files, is_kitti ? num_done_ : frame.index, frame_files_,
+                   MovingInstances(objects));
 
   FrameRecord record;
   record.frame = frame.index;

@@ -44,14 +44,15 @@ FrameFormat ParseFrameFormat(std::string_view name) {
 void EncodeFrameFiles(const Frame& frame,
                       const FrameFileSpec& spec,
                       std::uint32_t number,
-                      std::vector<FrameFile>& files) {
+                      std::vector<FrameFile>& files,
+                      const std::set<std::uint32_t>& moving) {
   const std::string digits = SixDigits(number);
   if (spec.format == FrameFormat::kKitti) {
     files.resize(2);
     files[0].name = "sequences/00/velodyne/" + digits + ".bin";
     EncodeKittiPoints(frame, files[0].bytes);
     files[1].name = "sequences/00/labels/" + digits + ".label";
-    EncodeKittiLabels(frame, spec.labels, files[1].bytes);
+    EncodeKittiLabels(frame, spec.labels, moving, files[1].bytes);
     return;
   }
   files.resize(1);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,11 +35,13 @@ struct FrameFile {
 };
 
 /// Puts a frame into the file or files (kitti: points and labels) that hold it. `files` keeps its
-/// memory from frame to frame. `number` is the one in the name, six digits or more.
+/// memory from frame to frame. `number` is the one in the name, six digits or more; `moving` are
+/// the instances that move, which kitti tells apart.
 /// @throws InputError as the format's encoder does.
 void EncodeFrameFiles(const Frame& frame,
                       const FrameFileSpec& spec,
                       std::uint32_t number,
-                      std::vector<FrameFile>& files);
+                      std::vector<FrameFile>& files,
+                      const std::set<std::uint32_t>& moving = {});
 
 }  // namespace railcast

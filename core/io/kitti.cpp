@@ -31,9 +31,22 @@ void EncodeKittiPoints(const Frame& frame, std::string& bytes) {
   bytes.resize(static_cast<std::size_t>(place - bytes.data()));
 }
 
-void EncodeKittiLabels(const Frame& frame, const LabelTable& labels, std::string& bytes) {
+std::uint16_t MovingSemanticKitti(std::uint16_t id) {
+  // Of semantic-kitti-all.yaml: car, bicyclist, person, motorcyclist, on-rails, bus, truck, other.
+  constexpr std::array<std::pair<std::uint16_t, std::uint16_t>, 8> kMovingFromStanding = {
+      {{10, 252}, {31, 253}, {30, 254}, {32, 255}, {16, 256}, {13, 257}, {18, 258}, {20, 259}}};
+  for (const auto& [standing, moving] : kMovingFromStanding) {
+    if (standing == id) return moving;
+  }
+  return id;
+}
+
+void EncodeKittiLabels(const Frame& frame,
+                       const LabelTable& labels,
+                       const std::set<std::uint32_t>& moving,
+                       std::string& bytes) {
   constexpr std::uint32_t kMaxInstance = 0xFFFF;
-  std::map<std::uint32_t, std::uint32_t> kitti_from_label;
+  std::map<std::uint32_t, std::uint16_t> kitti_from_label;
   for (const Label& label : labels.labels()) kitti_from_label[label.id] = label.semantic_kitti;
   bytes.resize(frame.num_slots() * sizeof(std::uint32_t));
   char* place = bytes.data();
@@ -45,7 +58,9 @@ void EncodeKittiLabels(const Frame& frame, const LabelTable& labels, std::string
     }
     const auto label = kitti_from_label.find(frame.label[slot]);
     Check(label != kitti_from_label.end(), "a frame's labels are in its label table");
-    StoreAt<std::uint32_t>(place, (frame.instance[slot] << 16U) | label->second);
+    const bool is_moving = moving.contains(frame.instance[slot]);
+    const std::uint16_t id = is_moving ? MovingSemanticKitti(label->second) : label->second;
+    StoreAt<std::uint32_t>(place, (frame.instance[slot] << 16U) | id);
     place += sizeof(std::uint32_t);
   }
   bytes.resize(static_cast<std::size_t>(place - bytes.data()));
@@ -72,10 +87,19 @@ std::string KittiCalibration() {
 
 LabelTable SemanticKittiLabels(const LabelTable& labels) {
   std::map<std::uint16_t, Label> classes;
-  for (const Label& label : labels.labels()) {
-    const auto [entry, is_first] = classes.try_emplace(label.semantic_kitti, label);
-    entry->second.id = label.semantic_kitti;
+  const auto add = [&](std::uint16_t id, const Label& label) {
+    const auto [entry, is_first] = classes.try_emplace(id, label);
+    entry->second.id = id;
     if (!is_first) entry->second.name.append("/").append(label.name);
+  };
+  for (const Label& label : labels.labels()) {
+    add(label.semantic_kitti, label);
+    const std::uint16_t moving_id = MovingSemanticKitti(label.semantic_kitti);
+    if (moving_id == label.semantic_kitti) continue;
+    Label moving = label;
+    moving.name.insert(0, "moving ");
+    moving.semantic_kitti_nearest = MovingSemanticKitti(label.semantic_kitti_nearest);
+    add(moving_id, moving);
   }
   std::vector<Label> kitti;
   for (const auto& [id, label] : classes) kitti.push_back(label);

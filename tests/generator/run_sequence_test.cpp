@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/io/content_hash.h"
 #include "tests/core/io/message_of.h"
@@ -79,6 +81,27 @@ TEST(RunSequence, WritesKittisLayoutNumberedFromZero) {
   std::istringstream(poses) >> first;
   EXPECT_NEAR(first, 1.0, 1e-15);
   EXPECT_EQ(std::count(poses.begin(), poses.end(), '\n'), 2);
+}
+
+TEST(RunSequence, GivesKittiTheIdsOfWhatMovesWhileItMoves) {
+  const TemporaryDirectory directory;
+  const FrameSource stopping = [](std::uint32_t index, Frame& frame, auto& objects) {
+    MakeExampleFrame(index, frame, objects);
+    if (index == 3) objects.front().velocity_world_mps = Vector3(0, 0.5, 0);
+  };
+  (void)RunSequence(ExampleRun(directory.path(), "kitti", 2), stopping, NoHooks());
+  const auto classes_of = [&](const char* file) {
+    const std::string bytes = ReadFileWhole(directory.path() / "sequences/00/labels" / file);
+    std::set<std::uint32_t> classes;
+    for (std::size_t i = 0; i < bytes.size(); i += 4) {
+      std::uint32_t stored = 0;
+      std::memcpy(&stored, bytes.data() + i, 4);
+      classes.insert(stored & 0xFFFFU);
+    }
+    return classes;
+  };
+  EXPECT_EQ(classes_of("000000.label"), (std::set<std::uint32_t>{256, 260}));
+  EXPECT_EQ(classes_of("000001.label"), (std::set<std::uint32_t>{16, 260}));
 }
 
 TEST(RunSequence, NamesTheHashOfEveryFrameFile) {

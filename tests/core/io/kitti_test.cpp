@@ -36,7 +36,7 @@ TEST(KittiPoints, AreFourFloatsForEveryPoint) {
 TEST(KittiLabels, HoldTheClassBelowAndTheInstanceAbove) {
   const Frame frame = ExampleFrame(1);
   std::string bytes;
-  EncodeKittiLabels(frame, ExampleLabels(), bytes);
+  EncodeKittiLabels(frame, ExampleLabels(), {}, bytes);
   ASSERT_EQ(bytes.size(), NumPoints(frame) * 4);
   std::size_t point = 0;
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
@@ -48,11 +48,31 @@ TEST(KittiLabels, HoldTheClassBelowAndTheInstanceAbove) {
   }
 }
 
+TEST(KittiLabels, TellWhatMovesOfAClassThatHasAnIdForIt) {
+  Frame frame = ExampleFrame(1);
+  for (std::size_t slot = 0; slot < 27; ++slot) {
+    if (frame.instance[slot] != 0) frame.instance[slot] = 4;  // Others stay instance 3, and stand.
+  }
+  std::string bytes;
+  EncodeKittiLabels(frame, ExampleLabels(), {4, 5}, bytes);
+  std::size_t point = 0;
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    if (!HasPoint(frame.outcome[slot])) continue;
+    std::uint32_t stored = 0;
+    std::memcpy(&stored, bytes.data() + 4 * point++, 4);
+    const std::uint32_t expected = frame.label[slot] != 12 ? 260 : slot < 27 ? 256 : 16;
+    EXPECT_EQ(stored & 0xFFFFU, expected) << slot;
+    EXPECT_EQ(stored >> 16U, frame.instance[slot]);
+  }
+  EXPECT_EQ(MovingSemanticKitti(30), 254);
+  EXPECT_EQ(MovingSemanticKitti(50), 50);  // Buildings do not.
+}
+
 TEST(KittiLabels, RefuseAnInstanceTheyCannotHold) {
   Frame frame = ExampleFrame(1);
   frame.instance[0] = 65536;
   std::string bytes;
-  EXPECT_EQ(MessageOf([&] { EncodeKittiLabels(frame, ExampleLabels(), bytes); }),
+  EXPECT_EQ(MessageOf([&] { EncodeKittiLabels(frame, ExampleLabels(), {}, bytes); }),
             "--format kitti: instance must be <= 65535 (got 65536)");
 }
 
@@ -65,9 +85,11 @@ TEST(KittiPoseLine, IsThePoseByRows) {
 
 TEST(SemanticKittiLabels, AreOurLabelsUnderTheNumbersOfLabelFiles) {
   const LabelTable kitti = SemanticKittiLabels(ExampleLabels());
-  ASSERT_EQ(kitti.labels().size(), 3U);
+  ASSERT_EQ(kitti.labels().size(), 4U);
   EXPECT_EQ(kitti.Find(0U)->name, "unlabeled");
   EXPECT_EQ(kitti.Find(16U)->name, "wagon");
+  EXPECT_EQ(kitti.Find(256U)->name, "moving wagon");
+  EXPECT_EQ(kitti.Find(256U)->rgb, ExampleLabels().Find("wagon")->rgb);
   EXPECT_EQ(kitti.Find(260U)->name, "rail");
   EXPECT_EQ(kitti.Find(260U)->rgb, ExampleLabels().Find("rail")->rgb);
 }
@@ -82,12 +104,14 @@ TEST(SemanticKittiYaml, NamesAllLabelsThatShareAClass) {
 }
 
 TEST(SemanticKittiYaml, MapsOurClassesToTheNearestOriginals) {
-  EXPECT_EQ(SemanticKittiYaml(ExampleLabels()),
-            "# Classes of the .label files beside; ids above 259 are railcast's own.\n"
-            "labels:\n  0: \"unlabeled\"\n  16: \"wagon\"\n  260: \"rail\"\n"
-            "color_map: # bgr\n  0: [0, 0, 0]\n  16: [0, 94, 213]\n  260: [0, 159, 230]\n"
-            "learning_map: # to the nearest of SemanticKITTI's own classes\n"
-            "  0: 0\n  16: 16\n  260: 49\n");
+  EXPECT_EQ(
+      SemanticKittiYaml(ExampleLabels()),
+      "# Classes of the .label files beside; ids above 259 are railcast's own.\n"
+      "labels:\n  0: \"unlabeled\"\n  16: \"wagon\"\n  256: \"moving wagon\"\n  260: \"rail\"\n"
+      "color_map: # bgr\n  0: [0, 0, 0]\n  16: [0, 94, 213]\n  256: [0, 94, 213]\n"
+      "  260: [0, 159, 230]\n"
+      "learning_map: # to the nearest of SemanticKITTI's own classes\n"
+      "  0: 0\n  16: 16\n  256: 256\n  260: 49\n");
 }
 
 }  // namespace
