@@ -22,6 +22,9 @@ using Command = std::function<int(const std::string& command_line)>;
 [[nodiscard]] inline CLI::Validator Whole(const WholeNumberRule& rule) {
   return {rule, rule.Range()};
 }
+[[nodiscard]] inline CLI::Validator Number(const NumberRule& rule) {
+  return {[rule](std::string& text) { return rule(text); }, rule.Range()};
+}
 /// Of an option that names a file or folder.
 [[nodiscard]] inline CLI::Validator NonEmpty() {
   return {[](std::string& text) { return NonEmptyRule(text); }, ""};

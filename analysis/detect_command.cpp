@@ -122,19 +122,19 @@ void AddRuleOptions(CLI::App& detect, DetectOptions& options) {
 void AddBrakingOptions(CLI::App& detect, DetectOptions& options) {
   BrakingSpec& braking = options.spec.braking;
   detect.add_option("--reaction-s", braking.reaction_s, "From detection to full braking")
-      ->check(CLI::Range(0.0, 60.0))
+      ->check(Number({0.0, 60.0}))
       ->capture_default_str();
   detect
       .add_option("--deceleration-mps2", braking.deceleration_mps2,
                   "On the level: 0.3 slow freight, 0.5 shunting, 1.0 multiple unit")
-      ->check(CLI::Range(0.01, 10.0))
+      ->check(Number({0.01, 10.0}))
       ->capture_default_str();
   detect
       .add_option("--speed-kmph", options.speed_kmph,
                   "Instead of the vehicle's own speed at the detection")
-      ->check(CLI::Range(0.0, 500.0));
+      ->check(Number({0.0, 500.0}));
   detect.add_option("--margin-m", braking.margin_m, "To be left before the object")
-      ->check(CLI::Range(0.0, 1000.0))
+      ->check(Number({0.0, 1000.0}))
       ->capture_default_str();
 }
 

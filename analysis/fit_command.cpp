@@ -147,7 +147,7 @@ void AddKnowledgeOptions(CLI::App& fit, FitOptions& options) {
       ->capture_default_str();
   fit.add_option("--range-at-10-percent-m", options.range_at_10_percent_m,
                  "Of the data sheet: fixes the threshold where intensities do not")
-      ->check(CLI::PositiveNumber);
+      ->check(Number({0.1, 10'000.0}));
   fit.add_option(
          "--known", options.known,
          "NAME=REFLECTANCE of a surface: fixes the threshold where intensities do not; may be "
@@ -156,10 +156,10 @@ void AddKnowledgeOptions(CLI::App& fit, FitOptions& options) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   fit.add_option("--extinction-per-m", options.extinction_per_m,
                  "Of the air, instead of fitting it: 0 = clear")
-      ->check(CLI::NonNegativeNumber);
+      ->check(Number({0.0, 10.0}));
   fit.add_option("--rain-rate-mmph", options.rain_rate_mmph,
                  "Parts the rain dropout of rung plausibility from the rate of the rain")
-      ->check(CLI::PositiveNumber);
+      ->check(Number({1e-3, 5000.0}));
 }
 
 }  // namespace

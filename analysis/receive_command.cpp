@@ -135,7 +135,7 @@ void AddReceive(CLI::App& app, Command& command) {
       ->add_option("HOST:PORT", options->at, "Where to listen; 0.0.0.0 hears other machines, too")
       ->capture_default_str();
   receive->add_option("--duration", options->duration_s, "End after so many seconds")
-      ->check(CLI::PositiveNumber);
+      ->check(Number({1e-3, 1e9}));
   receive->add_option("--frames", options->num_frames, "End after so many frames")
       ->transform(Whole({1}));
   receive->add_option("--out", options->out, "Directory for frames/*.pcd and frames.csv")

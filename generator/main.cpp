@@ -23,9 +23,14 @@ using railcast::TraceOptions;
 using railcast::WorldOptions;
 
 constexpr std::uint64_t kMaxFrame = 1'000'000'000;
+constexpr railcast::NumberRule kChainage{-1e7, 1e7};  // In m.
 
 CLI::Validator Whole(const railcast::WholeNumberRule& rule) {
   return {rule, rule.Range()};
+}
+
+CLI::Validator Number(const railcast::NumberRule& rule) {
+  return {[rule](std::string& text) { return rule(text); }, rule.Range()};
 }
 
 CLI::Validator NonEmpty() {
@@ -124,7 +129,7 @@ void AddStream(CLI::App& app, StreamOptions& options, std::function<int()>& comm
       ->check(NonEmpty());
   stream->add_flag("--lockstep", options.lockstep, "Each frame waits for command step");
   stream->add_option("--duration", options.duration_s, "Seconds of simulation; default: no end")
-      ->check(CLI::Range(1e-3, 1e9));
+      ->check(Number({1e-3, 1e9}));
   stream->add_option("--seed", options.seed, "Instead of the scenario's")->transform(Whole({}));
   stream->add_option("--threads", options.num_threads, "0 = all cores")
       ->transform(Whole({0, 1024}))
@@ -156,8 +161,9 @@ void AddWorld(CLI::App& app, WorldOptions& options, std::function<int()>& comman
   world->add_option("--out", options.out, "File to write: *.ply or *.obj")
       ->required()
       ->check(NonEmpty());
-  world->add_option("--from-s", options.from_s_m, "Chainage in m; default: the window of frame 0");
-  world->add_option("--to-s", options.to_s_m, "Chainage in m");
+  world->add_option("--from-s", options.from_s_m, "Chainage in m; default: the window of frame 0")
+      ->check(Number(kChainage));
+  world->add_option("--to-s", options.to_s_m, "Chainage in m")->check(Number(kChainage));
   world->callback([&] { command = [&] { return railcast::WorldCommand(options); }; });
 }
 

@@ -52,6 +52,10 @@ CLI::Validator Whole(const WholeNumberRule& rule) {
   return {rule, rule.Range()};
 }
 
+CLI::Validator Number(const NumberRule& rule) {
+  return {[rule](std::string& text) { return rule(text); }, rule.Range()};
+}
+
 /// Two whole numbers; nothing if `text` is none, or one is out of its limits.
 std::optional<std::array<int, 2>> ParsePair(std::string_view text,
                                             char between,
@@ -124,7 +128,7 @@ void AddSourceOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
                  "What a stream or a file was made of: names of labels, track, surfaces");
   app.add_option("--sensor", options.sensor, "Which of the scenario's sensors");
   app.add_option("--wait", options.wait_s, "For a live source's first whole frame, in seconds")
-      ->check(CLI::PositiveNumber)
+      ->check(Number({1e-3, 1e9}))
       ->capture_default_str();
 }
 

@@ -3,6 +3,8 @@
 #include <charconv>
 #include <system_error>
 
+#include "core/base/number_text.h"
+
 namespace railcast {
 
 std::optional<std::uint64_t> ParseWholeNumber(std::string_view text) {
@@ -24,6 +26,22 @@ std::string WholeNumberRule::operator()(std::string& text) const {
 std::string WholeNumberRule::Range() const {
   std::string range = std::to_string(at_least);
   range.append(" to ").append(std::to_string(at_most));
+  return range;
+}
+
+std::string NumberRule::operator()(const std::string& text) const {
+  double number = 0.0;
+  const char* const last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, number);
+  const bool is_number = error == std::errc{} && end == last;
+  // NaN is in no range.
+  if (is_number && number >= at_least && number <= at_most) return "";
+  return "must be a number from " + Range() + " (got " + text + ")";
+}
+
+std::string NumberRule::Range() const {
+  std::string range = NumberText(at_least);
+  range.append(" to ").append(NumberText(at_most));
   return range;
 }
 

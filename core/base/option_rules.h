@@ -26,6 +26,16 @@ struct WholeNumberRule {
   [[nodiscard]] std::string Range() const;  ///< "1 to 65535".
 };
 
+/// For CLI::Option::check: a decimal number. CLI11 itself takes 0x10 for one, and NaN for one in
+/// any range.
+struct NumberRule {
+  double at_least{};
+  double at_most{};
+
+  [[nodiscard]] std::string operator()(const std::string& text) const;
+  [[nodiscard]] std::string Range() const;
+};
+
 /// Of the name of a file or folder: the shell makes an empty one of an unset variable.
 [[nodiscard]] std::string NonEmptyRule(const std::string& text);
 

@@ -36,6 +36,15 @@ TEST(WholeNumberRule, NamesItsRangeAndTheText) {
   }
 }
 
+TEST(NumberRule, TakesDecimalNumbersWithinItsRange) {
+  for (std::string text : {"0.5", "1e1", "-0", "5", "010"}) {
+    EXPECT_EQ(NumberRule({0.0, 10.0})(text), "") << text;
+  }
+  for (std::string text : {"nan", "inf", "-1", "10.1", "0x1", "1e400", "", " 1", "1 ", "two"}) {
+    EXPECT_EQ(NumberRule({0.0, 10.0})(text), "must be a number from 0 to 10 (got " + text + ")");
+  }
+}
+
 TEST(NonEmptyRule, IsBrokenByTheEmptyTextAlone) {
   EXPECT_EQ(NonEmptyRule(""), "must not be empty");
   EXPECT_EQ(NonEmptyRule(" "), "");

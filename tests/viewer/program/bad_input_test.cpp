@@ -199,6 +199,7 @@ TEST_F(BadInput, CommandLinesThatDoNotGoTogetherEndWithTwo) {
                                    "--color-range nan,1",
                                    "--color-range 1",
                                    "--wait 0",
+                                   "--wait nan",
                                    "--compare udp://127.0.0.1"}) {
     wrong.push_back(option + " " + run_);
   }
