@@ -21,7 +21,7 @@ const Label* LabelTable::Find(std::uint32_t id) const {
 std::uint32_t LabelTable::Id(std::string_view name) const {
   const Label* label = Find(name);
   if (label == nullptr) {
-    throw InputError("labels: the table must hold \"" + std::string(name) + "\"");
+    throw InputError("/labels: the table must hold \"" + std::string(name) + "\"");
   }
   return label->id;
 }

@@ -71,8 +71,9 @@ TEST(DraftWorld, NamesEachMissingLabelAndMaterialOnce) {
   WorldFaults faults;
   static_cast<void>(DraftWorld({world, {}, LabelTable(), MaterialLibrary()}, faults));
   const std::vector<std::string>& lines = faults.errors.lines();
-  EXPECT_EQ(std::count(lines.begin(), lines.end(), "labels: the table must hold \"rail\""), 1);
-  EXPECT_EQ(std::count(lines.begin(), lines.end(), "materials: the library must hold \"leaf\""), 1);
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), "/labels: the table must hold \"rail\""), 1);
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), "/materials: the library must hold \"leaf\""),
+            1);
 }
 
 }  // namespace
