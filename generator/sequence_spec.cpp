@@ -49,6 +49,13 @@ std::string Text(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
+// As the command line has it.
+std::string NameOf(const std::string& key) {
+  if (key == "num_frames") return "--frames";
+  if (key == "start_frame") return "--start-frame";
+  return key;
+}
+
 }  // namespace
 
 std::string RunJson(const SequenceSpec& spec) {
@@ -74,7 +81,7 @@ void CheckSameRun(const SequenceSpec& spec, const std::string& run_json) {
       throw InputError(place + "holds a run with other commands; choose another --out");
     }
     std::string line = place;
-    line += "holds another run: its " + key + " is " + Text(other);
+    line += "holds another run: its " + NameOf(key) + " is " + Text(other);
     line += " (got " + Text(value) + "); choose another --out";
     throw InputError(line);
   }

@@ -230,11 +230,11 @@ TEST(RunSequence, RefusesTheDirectoryOfAnotherRun) {
   other = first;
   other.start_frame = 0;
   EXPECT_EQ(RunMessage(other),
-            place + "holds another run: its start_frame is 3 (got 0); choose another --out");
+            place + "holds another run: its --start-frame is 3 (got 0); choose another --out");
   other = first;
   other.num_frames = 7;
   EXPECT_EQ(RunMessage(other),
-            place + "holds another run: its num_frames is 6 (got 7); choose another --out");
+            place + "holds another run: its --frames is 6 (got 7); choose another --out");
   other = first;
   other.files.fields = FieldSelection("x,y,z");
   EXPECT_NE(RunMessage(other).find("(got x,y,z); choose another --out"), std::string::npos);
