@@ -12,6 +12,7 @@
 #include "generator/chosen_fidelity.h"
 #include "generator/commanded_run.h"
 #include "generator/commands.h"
+#include "generator/frame_limits.h"
 #include "generator/object_survey.h"
 #include "generator/run_sequence.h"
 #include "generator/scenario_identity.h"
@@ -138,10 +139,11 @@ int SequenceCommand(const SequenceOptions& options) {
               << " firings a frame, " << simulator->world().objects().size() << " objects, "
               << log.commands.size() << " commands\n";
   }
+  const std::uint32_t last_frame = spec.start_frame + spec.num_frames - 1;
+  CheckHasStamp("--start-frame, --frames", simulator->pattern(), last_frame);
   CommandedRun run(scenario, {simulator.get()});
   AtPlace(options.commands.value_or("").string() + ": ", [&] { run.Apply(log.commands); });
-  CheckStaysOnTracks(run, simulator->pattern(), spec.start_frame,
-                     spec.start_frame + spec.num_frames - 1);
+  CheckStaysOnTracks(run, simulator->pattern(), spec.start_frame, last_frame);
   if (scenario.fidelity == kAutoFidelity) {
     const FidelityChoice choice = UseChosenFidelity(*simulator, scenario);
     spec.fidelity_choice_json = ChoiceJson(choice, scenario.tolerance);

@@ -7,6 +7,7 @@
 #include "core/simulate/story_text.h"
 #include "generator/chosen_fidelity.h"
 #include "generator/commands.h"
+#include "generator/frame_limits.h"
 
 namespace railcast {
 
@@ -14,6 +15,7 @@ int TraceCommand(const TraceOptions& options) {
   const ScenarioSpec scenario = PickSensor(ReadScenario(options.scenario), options.sensor);
   const auto simulator = MakeSimulator(scenario, 1);
   const std::size_t num_firings = simulator->pattern().num_firings();
+  CheckHasStamp("--frame", simulator->pattern(), options.frame);
   if (options.firing >= num_firings) {
     throw InputError("--firing: must be < " + std::to_string(num_firings) +
                      ", the firings of a frame (got " + std::to_string(options.firing) + ")");

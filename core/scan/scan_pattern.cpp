@@ -57,6 +57,16 @@ std::int64_t ScanPattern::StampNs(std::uint32_t frame_index) const {
   return std::llround(static_cast<long double>(frames_ns) / static_cast<long double>(rate_hz));
 }
 
+std::uint32_t ScanPattern::LastFrame() const {
+  // A frame's firings are up to 32 bits of nanoseconds after its stamp.
+  constexpr auto kLastStamp_ns =
+      static_cast<long double>(std::numeric_limits<std::int64_t>::max() - (std::int64_t{1} << 32));
+  constexpr std::uint32_t kMost = std::numeric_limits<std::uint32_t>::max();
+  const long double last = std::floor(kLastStamp_ns / static_cast<long double>(kNsPerS) *
+                                      static_cast<long double>(rate_hz));
+  return last < static_cast<long double>(kMost) ? static_cast<std::uint32_t>(last) : kMost;
+}
+
 std::uint32_t FiringOfSlot(const ScanPattern& pattern, std::uint32_t returns, std::size_t slot) {
   const std::size_t cell = slot / returns;
   const std::size_t row = cell / pattern.columns;

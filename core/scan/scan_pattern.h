@@ -32,7 +32,10 @@ struct ScanPattern {
 
   [[nodiscard]] std::size_t num_firings() const { return time_ns.size(); }
   /// Simulation time of a frame's first firing: frames are exactly 1 / rate_hz apart.
+  /// @pre frame_index <= LastFrame().
   [[nodiscard]] std::int64_t StampNs(std::uint32_t frame_index) const;
+  /// The last frame whose times fit into 64 bits, 292 years of nanoseconds.
+  [[nodiscard]] std::uint32_t LastFrame() const;
 };
 
 /// The firing that fills a slot of a frame of this pattern.

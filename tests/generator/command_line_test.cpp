@@ -54,6 +54,35 @@ TEST(CommandLine, TakesDecimalDigitsAloneForNumbers) {
                    "--commands-port: must be a whole number from 1 to 65535 (got 0x6b08)");
 }
 
+TEST(CommandLine, TakesNoNumberThatIsNone) {
+  ExpectUsageError("stream a.json --duration nan",
+                   "--duration: must be a number from 0.001 to 1e+09 (got nan)");
+  ExpectUsageError("stream a.json --duration 0x10",
+                   "--duration: must be a number from 0.001 to 1e+09 (got 0x10)");
+  ExpectUsageError("world a.json --out a.ply --from-s inf --to-s 5",
+                   "--from-s: must be a number from -1e+07 to 1e+07 (got inf)");
+}
+
+TEST(CommandLine, RefusesFramesWhoseStampsDoNotFitInto64Bits) {
+  const TemporaryDirectory directory;
+  const std::string scenario = MakeProject(directory.path()).string();
+  std::string text = ReadFileWhole(scenario);
+  text.replace(text.find("\"rate_hz\": 10"), 13, "\"rate_hz\": 0.01");
+  WriteFileWhole(scenario, text);
+  const std::string rule =
+      ": must lead to no frame after 92233720, since the next begins after 292 years at 0.01 Hz "
+      "(got frame ";
+  const Ended traced = Generate("trace " + scenario + " --frame 100000000 --firing 0");
+  EXPECT_EQ(traced.status, 1);
+  EXPECT_EQ(traced.said, "--frame" + rule + "100000000)\n");
+  const auto out = directory.path() / "out";
+  const Ended run =
+      Generate("sequence " + scenario + " --start-frame 92233720 --frames 2 --out " + out.string());
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(run.said, "--start-frame, --frames" + rule + "92233721)\n");
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
 TEST(CommandLine, NamesAMisspeltCommand) {
   ExpectUsageError("chek a.json", "unknown command, the nearest is \"check\" (got chek)");
   ExpectUsageError("dance",

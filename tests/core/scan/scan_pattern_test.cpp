@@ -31,5 +31,16 @@ TEST(ScanPattern, StampsAreExactForBrokenRates) {
   EXPECT_EQ(StampNs(0.5, std::numeric_limits<std::uint32_t>::max()), 8'589'934'590'000'000'000);
 }
 
+TEST(ScanPattern, NamesTheLastFrameWhoseTimesFitInto64Bits) {
+  constexpr std::uint32_t kMost = std::numeric_limits<std::uint32_t>::max();
+  ScanPattern pattern;
+  pattern.rate_hz = 10.0;
+  EXPECT_EQ(pattern.LastFrame(), kMost);
+  pattern.rate_hz = 0.125;
+  // 2^63 - 2^32 ns are 9223372032.56 s.
+  EXPECT_EQ(pattern.LastFrame(), 1'152'921'504U);
+  EXPECT_EQ(pattern.StampNs(1'152'921'504), 9'223'372'032'000'000'000);
+}
+
 }  // namespace
 }  // namespace railcast
