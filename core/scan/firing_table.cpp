@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "core/base/shown_text.h"
 #include "core/base/units.h"
 #include "core/scan/firing.h"
 
@@ -18,7 +19,7 @@ constexpr std::size_t kMaxNumFaults = 20;  // A file that is no table has one a 
 using Values = std::array<double, 3>;
 
 std::string Quoted(std::string_view text) {
-  return "(got \"" + std::string(text) + "\")";
+  return "(got \"" + ShownText(text) + "\")";
 }
 
 std::string_view Trimmed(std::string_view text) {

@@ -1,6 +1,5 @@
 #include "core/scenario/command.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "core/scenario/command_reading.h"
@@ -29,13 +28,6 @@ struct Names<std::variant<Ts...>> {
 
 constexpr double kMaxId = 0x1p53;  // JSON's numbers are doubles to most programs.
 
-bool IsControl(char letter) {
-  const auto code = static_cast<unsigned char>(letter);
-  constexpr unsigned char kSpace = 0x20;
-  constexpr unsigned char kDelete = 0x7F;
-  return code < kSpace || code == kDelete;
-}
-
 // A hostile line may have hundreds of faults; who sent it needs the first few.
 std::vector<std::string> FirstFew(std::vector<std::string> faults) {
   constexpr std::size_t kMaxFaults = 8;
@@ -46,8 +38,6 @@ std::vector<std::string> FirstFew(std::vector<std::string> faults) {
     faults.push_back("command: " + std::to_string(num_more) + " more");
   }
   for (std::string& fault : faults) {
-    // A key may hold anything, but a fault is one line.
-    std::replace_if(fault.begin(), fault.end(), IsControl, '?');
     if (fault.size() <= kMaxLength) continue;
     std::size_t end = kMaxLength;
     // Not within a letter of several bytes.

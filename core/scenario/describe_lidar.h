@@ -118,7 +118,7 @@ inline constexpr bool kElementMayBeFile<LidarSpec> = true;
 
 template <class Archive>
 void Describe(Archive& a, LidarSpec& s) {
-  a.Optional("name", s.name, "Of the sensor.");
+  a.Optional("name", s.name, "Of the sensor.", OneLine());
   a.Required("scan", s.scan, "The firings of a frame.");
   a.Optional("range_min_m", s.range_min_m, "Nearer things block and give no point.", NonNegative());
   a.Optional("range_max_m", s.range_max_m, "Farther things give no point.", PositiveUpTo(10'000));

@@ -190,8 +190,7 @@ void JsonReader::Unique(std::string_view key,
       seen.push_back(value);
       continue;
     }
-    source_.errors().Add(source_.sources().Place(place(i)) + ": must be unique (got " +
-                         Json(value).dump() + ")");
+    source_.errors().Add(source_.sources().Place(place(i)) + ": must be unique" + Got(value));
     source_.unknown().Add(place(i));
   }
 }

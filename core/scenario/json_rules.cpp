@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/edit_distance.h"
+#include "core/base/shown_text.h"
 
 namespace railcast {
 namespace {
@@ -18,7 +19,7 @@ std::string Number(double value) {
 }
 
 std::string Quoted(std::string_view name) {
-  return '"' + std::string(name) + '"';
+  return '"' + ShownText(name) + '"';
 }
 
 std::string Alternatives(const std::vector<std::string>& names) {
@@ -61,8 +62,14 @@ std::optional<std::string> Broken(const Choices& choices, std::string_view value
 }
 
 std::optional<std::string> Broken(NonEmptyString, std::string_view value) {
-  if (!value.empty()) return std::nullopt;
+  if (!value.empty()) return Broken(OneLine(), value);
   return "must not be empty";
+}
+
+std::optional<std::string> Broken(OneLine, std::string_view value) {
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
+  if (std::none_of(value.begin(), value.end(), is_control)) return std::nullopt;
+  return "must not hold control characters";
 }
 
 std::optional<std::string> Broken(HostAndPort, std::string_view value) {

@@ -51,6 +51,9 @@ struct Choices {
 [[nodiscard]] inline Choices OneOf(std::vector<std::string> names) {
   return {std::move(names)};
 }
+/// Without control characters: reports and messages show names as they are.
+struct OneLine {};
+/// The same, and not empty.
 struct NonEmptyString {};
 /// host:port. Of a string, or of each string in a list.
 struct HostAndPort {};
@@ -92,9 +95,10 @@ inline constexpr bool kElementMayBeFile = false;
 [[nodiscard]] std::optional<std::string> Broken(const NumberChoices& choices, int value);
 [[nodiscard]] std::optional<std::string> Broken(const Choices& choices, std::string_view value);
 [[nodiscard]] std::optional<std::string> Broken(NonEmptyString, std::string_view value);
+[[nodiscard]] std::optional<std::string> Broken(OneLine, std::string_view value);
 [[nodiscard]] std::optional<std::string> Broken(HostAndPort, std::string_view value);
 
-/// `"a", "b" or "c"`.
+/// `"a", "b" or "c"`, as messages show them.
 [[nodiscard]] std::string InWords(const std::vector<std::string>& names);
 
 /// The valid name that is nearest (fewest insertions, deletions and replacements of a letter), if

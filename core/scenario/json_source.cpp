@@ -9,14 +9,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The value as the user wrote it, cut where it is long.
-std::string Got(const Json& value) {
-  constexpr std::size_t kMaxLength = 60;
-  std::string text = value.dump(-1, ' ', true);
-  if (text.size() > kMaxLength) text = text.substr(0, kMaxLength) + "...";
-  return std::string(" (got ").append(text).append(")");
-}
-
 std::string Place(const Node& node) {
   return node.pointer.empty() ? node.file->shown : node.file->shown + ": " + node.pointer;
 }
@@ -39,6 +31,13 @@ std::string Obstacle(const fs::path& file) {
 }
 
 }  // namespace
+
+std::string Got(const Json& value) {
+  constexpr std::size_t kMaxLength = 60;
+  std::string text = value.dump(-1, ' ', true);
+  if (text.size() > kMaxLength) text = text.substr(0, kMaxLength) + "...";
+  return std::string(" (got ").append(text).append(")");
+}
 
 Node Node::Child(std::string_view key) const {
   const std::string step = PointerStep(key);

@@ -44,6 +44,9 @@ struct MemberList {
   bool is_complete = true;  ///< False if a file with more of them could not be read.
 };
 
+/// " (got 5)": a value as the user wrote it, cut where it is long.
+[[nodiscard]] std::string Got(const Json& value);
+
 /// Reads the files of one scenario, and gathers their faults and where things were written.
 ///
 /// An object may be given as the name of a file that holds it ("sensors/vlp16.json"), or as an

@@ -1,6 +1,9 @@
 #include "core/scenario/json_text.h"
 
 #include <algorithm>
+#include <cctype>
+
+#include "core/base/shown_text.h"
 
 namespace railcast {
 namespace {
@@ -19,6 +22,21 @@ std::string LineAndColumn(const std::string& text, std::size_t num_read) {
          std::to_string(before.size() - line_begin + 1);
 }
 
+// The word that the last byte read belongs to: NaN, -Infinity, True; else that byte.
+std::string_view WordAt(std::string_view text, std::size_t num_read) {
+  const auto is_of_word = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '+' ||
+           c == '.';
+  };
+  if (num_read == 0 || num_read > text.size()) return {};
+  std::size_t begin = num_read - 1;
+  std::size_t end = num_read;
+  if (!is_of_word(text[begin])) return text.substr(begin, 1);
+  while (begin > 0 && is_of_word(text[begin - 1])) --begin;
+  while (end < text.size() && is_of_word(text[end])) ++end;
+  return text.substr(begin, end - begin);
+}
+
 // nlohmann's messages are "[json.exception...] parse error at line 1, column 2: <what> - <why>;
 // last read: '<raw text>'; expected <token>". We give the place ourselves and leave the raw text
 // out, which may be no UTF-8.
@@ -35,6 +53,13 @@ std::string Reason(const std::string& what) {
     reason.erase(last_read, has_expected ? expected - last_read : std::string::npos);
   }
   return reason;
+}
+
+bool LooksLikeUtf16(std::string_view text) {
+  using std::string_view_literals::operator""sv;
+  if (text.starts_with("\xFF\xFE"sv) || text.starts_with("\xFE\xFF"sv)) return true;
+  // JSON begins with ASCII, of which every other byte is 0.
+  return text.size() >= 2 && text.size() % 2 == 0 && ((text[0] == '\0') != (text[1] == '\0'));
 }
 
 // Builds the tree, as nlohmann's own handler does, and notes duplicate keys, which that one takes
@@ -64,7 +89,13 @@ class TreeBuilder {
   }
 
   bool parse_error(std::size_t num_read, const std::string&, const std::exception& error) {
-    result_.syntax_error = LineAndColumn(text_, num_read) + ": " + Reason(error.what());
+    const std::string reason = Reason(error.what());
+    result_.syntax_error = LineAndColumn(text_, num_read) + ": " + reason;
+    const bool is_about_word =
+        reason.ends_with("invalid literal") || reason.find("invalid number") != std::string::npos;
+    if (!is_about_word) return false;
+    const std::string_view word = WordAt(text_, num_read);
+    if (!word.empty()) result_.syntax_error += " (got " + ShownText(word) + ")";
     return false;
   }
 
@@ -126,7 +157,7 @@ class TreeBuilder {
 
 std::string PointerStep(std::string_view key) {
   std::string step = "/";
-  for (const char c : key) {
+  for (const char c : ShownText(key)) {
     if (c == '~') {
       step += "~0";
     } else if (c == '/') {
@@ -147,6 +178,12 @@ JsonText ParseJson(const std::string& text) {
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
     JsonText result;
     result.syntax_error = "is empty";
+    return result;
+  }
+  if (const std::size_t nul = text.find('\0'); nul != std::string::npos) {
+    JsonText result;
+    result.syntax_error = LooksLikeUtf16(text) ? "is UTF-16; save as UTF-8"
+                                               : LineAndColumn(text, nul + 1) + ": a NUL byte";
     return result;
   }
   TreeBuilder builder(text);

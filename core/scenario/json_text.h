@@ -11,7 +11,8 @@ namespace railcast {
 /// Keeps the order of keys, so that errors come in the order of the file.
 using Json = nlohmann::ordered_json;
 
-/// One step down in a JSON pointer (RFC 6901): escapes `~` and `/`.
+/// One step down in a JSON pointer (RFC 6901), as messages show it: escapes `~` and `/`, and what
+/// ShownText() does.
 [[nodiscard]] std::string PointerStep(std::string_view key);
 
 /// What a text holds, and what is wrong with it.
@@ -22,7 +23,7 @@ struct JsonText {
 };
 
 /// Parses strictly: JSON as RFC 8259 has it, UTF-8 without byte order mark, at most 64 levels deep,
-/// every number finite.
+/// every number finite, without NUL bytes.
 [[nodiscard]] JsonText ParseJson(const std::string& text);
 
 }  // namespace railcast

@@ -60,6 +60,10 @@ void ReadValue(JsonSource& source, const Node& node, std::string& value, NonEmpt
   ReadString(source, node, value, rule);
 }
 
+void ReadValue(JsonSource& source, const Node& node, std::string& value, OneLine rule) {
+  ReadString(source, node, value, rule);
+}
+
 void ReadValue(JsonSource& source, const Node& node, std::string& value, const Choices& choices) {
   ReadString(source, node, value, choices);
 }

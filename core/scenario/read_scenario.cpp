@@ -35,7 +35,7 @@ void CheckReferences(const ScenarioSpec& spec, JsonSource& source) {
     if (!unknown.IsKnown(pointer) || !known.are_known) return;
     if (std::find(known.names.begin(), known.names.end(), name) != known.names.end()) return;
     source.errors().Add(source.sources().Place(pointer) + ": " + Unknown(kind, name, known.names) +
-                        " (got \"" + name + "\")");
+                        Got(name));
     unknown.Add(pointer);
   };
   const Names tracks = NamesOf("/world/tracks", spec.world.tracks, unknown);

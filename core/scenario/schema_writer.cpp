@@ -20,6 +20,11 @@ void AddRule(Json& schema, const Choices& choices) {
 
 void AddRule(Json& schema, NonEmptyString) {
   schema["minLength"] = 1;
+  AddRule(schema, OneLine());
+}
+
+void AddRule(Json& schema, OneLine) {
+  schema["pattern"] = "^[^\\u0000-\\u001f\\u007f]*$";
 }
 
 void AddRule(Json& schema, HostAndPort) {

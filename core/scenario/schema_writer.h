@@ -22,6 +22,7 @@ void AddRule(Json& schema, const Limits& limits);
 void AddRule(Json& schema, const NumberChoices& choices);
 void AddRule(Json& schema, const Choices& choices);
 void AddRule(Json& schema, NonEmptyString);
+void AddRule(Json& schema, OneLine);
 void AddRule(Json& schema, HostAndPort);
 void AddRule(Json& schema, ExistingFile);
 void AddRule(Json& schema, const AtLeastElements& rule);

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 #include "core/scenario/json_rules.h"
 #include "core/scenario/scenario.h"
 
@@ -49,7 +50,7 @@ std::vector<std::string> SensorNames(const ScenarioSpec& spec) {
 ScenarioSpec PickSensor(const ScenarioSpec& spec, const std::optional<std::string>& name) {
   const std::vector<std::string> names = SensorNames(spec);
   if (name && !Holds(names, *name)) {
-    throw InputError("sensor: must be " + InWords(names) + " (got \"" + *name + "\")");
+    throw InputError("sensor: must be " + InWords(names) + " (got \"" + ShownText(*name) + "\")");
   }
   if (!name && names.size() > 1) {
     throw InputError("sensor: must be " + InWords(names) + " (got none of the scenario's sensors)");
@@ -78,20 +79,20 @@ std::string InterfacesFault(const InterfacesSpec& interfaces,
   std::set<std::string> receivers;
   for (const SensorInterface& interface : interfaces.sensors) {
     if (!Holds(sensors, interface.sensor)) {
-      return "must name sensors of the scenario, " + InWords(sensors) + ", not \"" +
-             interface.sensor + '"';
+      return "must name sensors of the scenario, " + InWords(sensors) + ", not " +
+             InWords({interface.sensor});
     }
     if (!named.insert(interface.sensor).second) {
-      return "must name each sensor once, \"" + interface.sensor + "\" too";
+      return "must name each sensor once, " + InWords({interface.sensor}) + " too";
     }
     for (const std::string& receiver : ReceiversOf(interface)) {
       if (receivers.insert(receiver).second) continue;
-      return "must give each sensor receivers of its own, \"" + interface.sensor +
-             "\" others than " + receiver;
+      return "must give each sensor receivers of its own, " + InWords({interface.sensor}) +
+             " others than " + ShownText(receiver);
     }
   }
   for (const std::string& sensor : sensors) {
-    if (!named.contains(sensor)) return "must name each sensor once, \"" + sensor + "\" too";
+    if (!named.contains(sensor)) return "must name each sensor once, " + InWords({sensor}) + " too";
   }
   return "";
 }

@@ -1,0 +1,76 @@
+#include "core/base/shown_text.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+
+namespace railcast {
+namespace {
+
+constexpr std::size_t kMaxLength = 60;
+
+std::uint8_t ByteAt(std::string_view text, std::size_t i) {
+  return i < text.size() ? static_cast<std::uint8_t>(text[i]) : 0;
+}
+
+/// Bytes of the UTF-8 character (RFC 3629) that `text` begins with; 0 if that is none.
+std::size_t LengthOfCharacter(std::string_view text) {
+  const std::uint8_t first = ByteAt(text, 0);
+  if (first < 0x80) return 1;
+  const std::size_t length = first < 0xC2   ? 0
+                             : first < 0xE0 ? 2
+                             : first < 0xF0 ? 3
+                             : first < 0xF5 ? 4
+                                            : 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((ByteAt(text, i) & 0xC0U) != 0x80) return 0;
+  }
+  const std::uint8_t second = ByteAt(text, 1);
+  // Longer than need be, halves of UTF-16 pairs, beyond Unicode's end.
+  const bool is_forbidden = (first == 0xE0 && second < 0xA0) || (first == 0xED && second >= 0xA0) ||
+                            (first == 0xF0 && second < 0x90) || (first == 0xF4 && second >= 0x90);
+  return is_forbidden ? 0 : length;
+}
+
+std::string Escaped(const char* format, unsigned number) {
+  std::array<char, 8> text{};
+  const int length = std::snprintf(text.data(), text.size(), format, number);
+  return {text.data(), static_cast<std::size_t>(length)};
+}
+
+std::string Shown(std::string_view character) {
+  switch (character.front()) {
+    case '\n':
+      return "\\n";
+    case '\r':
+      return "\\r";
+    case '\t':
+      return "\\t";
+    default:
+      break;
+  }
+  const std::uint8_t first = ByteAt(character, 0);
+  const bool is_c0 = first < 0x20 || first == 0x7F;
+  const bool is_c1 = first == 0xC2 && ByteAt(character, 1) < 0xA0;
+  if (is_c0) return Escaped("\\u%04x", first);
+  if (is_c1) return Escaped("\\u%04x", ByteAt(character, 1));
+  return std::string(character);
+}
+
+}  // namespace
+
+std::string ShownText(std::string_view text) {
+  std::string shown;
+  std::size_t length = 0;
+  for (std::size_t begin = 0; begin < text.size(); begin += length == 0 ? 1 : length) {
+    length = LengthOfCharacter(text.substr(begin));
+    const std::string next =
+        length == 0 ? Escaped("\\x%02x", ByteAt(text, begin)) : Shown(text.substr(begin, length));
+    if (shown.size() + next.size() > kMaxLength) return shown + "...";
+    shown += next;
+  }
+  return shown;
+}
+
+}  // namespace railcast

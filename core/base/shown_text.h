@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace railcast {
+
+/// A text from outside as a message shows it: on one line, harmless to a terminal and not endless.
+/// Control characters become \n, \r, \t or \u001b, what is no UTF-8 becomes \xff, and what is
+/// longer than 60 bytes is cut and ends in "...".
+[[nodiscard]] std::string ShownText(std::string_view text);
+
+}  // namespace railcast

@@ -1,0 +1,40 @@
+#include "core/base/shown_text.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace railcast {
+namespace {
+
+using std::string_literals::operator""s;
+
+TEST(ShownText, LeavesReadableTextAlone) {
+  for (const std::string text : {"", "range_m", "a \"b\" \\ c", "Zürich → 東京 🚆"}) {
+    EXPECT_EQ(ShownText(text), text);
+  }
+}
+
+TEST(ShownText, StaysOnOneLineAndMovesNoCursor) {
+  EXPECT_EQ(ShownText("a\nb\r\tc"), "a\\nb\\r\\tc");
+  EXPECT_EQ(ShownText("\x1b[2J\0\x7f"s), "\\u001b[2J\\u0000\\u007f");
+  // U+009B begins a control sequence as ESC [ does.
+  EXPECT_EQ(ShownText("\xc2\x9b"), "\\u009b");
+}
+
+TEST(ShownText, ShowsTheBytesOfWhatIsNoUtf8) {
+  EXPECT_EQ(ShownText("Z\xfcrich"), "Z\\xfcrich");
+  // Cut short, longer than need be, half of a pair, beyond the end.
+  for (const std::string bytes : {"\xe2\x82", "\xc0\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80"}) {
+    EXPECT_EQ(ShownText(bytes).substr(0, 2), "\\x") << ShownText(bytes);
+  }
+}
+
+TEST(ShownText, CutsWhatIsLong) {
+  EXPECT_EQ(ShownText(std::string(60, 'a')), std::string(60, 'a'));
+  EXPECT_EQ(ShownText(std::string(61, 'a')), std::string(60, 'a') + "...");
+  EXPECT_EQ(ShownText(std::string(59, 'a') + "\n\n"), std::string(59, 'a') + "...");
+}
+
+}  // namespace
+}  // namespace railcast
