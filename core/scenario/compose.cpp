@@ -11,6 +11,7 @@
 #include "core/scenario/effect_names.h"
 #include "core/scenario/scenario.h"
 #include "core/scenario/sensors.h"
+#include "core/simulate/output_axes.h"
 
 namespace railcast {
 namespace {
@@ -33,6 +34,20 @@ std::optional<ScanPattern> TryPattern(const ScenarioSpec& spec,
                                       const ScanSpec& scan,
                                       ErrorList& errors) {
   return Located(spec, sensor_pointer + "/scan", errors, [&] { return BuildScanPattern(scan); });
+}
+
+// Whether float32 holds the points of frame 0, in the axes of the output.
+void CheckOutput(const ScenarioSpec& spec, ErrorList& errors) {
+  if (spec.output.frame != "world") return;
+  const auto world = MakeWorld(spec);
+  for (const auto& [lidar, pointer] : SensorsOf(spec)) {
+    const Transform vehicle_from_sensor = VehicleFromSensor(lidar.mount);
+    const Transform world_from_sensor = world->WorldFromVehicle(0) * vehicle_from_sensor;
+    static_cast<void>(Attempt("", errors, [&] {
+      return OutputAxes(spec.output, spec.sources.Place("/output/origin_m"), vehicle_from_sensor,
+                        Transform::Identity(), world_from_sensor);
+    }));
+  }
 }
 
 // What the effects call things by name, besides the world.
@@ -126,6 +141,7 @@ std::vector<std::unique_ptr<Simulator>> MakeSimulators(const ScenarioSpec& spec,
                                   .receiver = lidar.receiver,
                                   .weather = spec.weather,
                                   .output = spec.output,
+                                  .origin_place = spec.sources.Place("/output/origin_m"),
                                   .clutter_labels = names->labels,
                                   .snow_material = names->snow_material,
                                   .isa = isa};
@@ -154,6 +170,7 @@ std::vector<std::string> CheckScenario(const std::filesystem::path& file) {
   ErrorList errors;
   const auto spec = Attempt("", errors, [&] { return ReadScenario(file); });
   if (spec) AddBuildFaults(*spec, {}, errors);
+  if (errors.empty()) CheckOutput(*spec, errors);
   return errors.lines();
 }
 

@@ -12,21 +12,22 @@ namespace {
 // Float32 has steps of 0.5 mm below this, of 1 mm and more beyond.
 constexpr double kMillimetreReach_m = 8192.0;
 
-void CheckReach(const Vector3& origin_m, const Vector3& sensor_m) {
+void CheckReach(const std::string& place, const Vector3& origin_m, const Vector3& sensor_m) {
   if ((sensor_m - origin_m).cwiseAbs().maxCoeff() <= kMillimetreReach_m) return;
   std::ostringstream fault;
-  fault
-      << "/output/origin_m: must lie within 8192 m of the sensor, since float32 loses millimetres "
-         "beyond (got ["
-      << origin_m.x() << ", " << origin_m.y() << ", " << origin_m.z() << "], sensor at ["
-      << std::fixed << std::setprecision(0) << sensor_m.x() << ", " << sensor_m.y() << ", "
-      << sensor_m.z() << "])";
+  fault << place
+        << ": must lie within 8192 m of the sensor, since float32 loses millimetres "
+           "beyond (got ["
+        << origin_m.x() << ", " << origin_m.y() << ", " << origin_m.z() << "], sensor at ["
+        << std::fixed << std::setprecision(0) << sensor_m.x() << ", " << sensor_m.y() << ", "
+        << sensor_m.z() << "])";
   throw InputError(fault.str());
 }
 
 }  // namespace
 
 OutputAxes::OutputAxes(const OutputSpec& spec,
+                       const std::string& origin_place,
                        const Transform& vehicle_from_sensor,
                        const Transform& window_from_world,
                        const Transform& world_from_sensor)
@@ -37,7 +38,7 @@ OutputAxes::OutputAxes(const OutputSpec& spec,
   if (spec.frame != "world") return;
   target_ = Target::kWorld;
   const Vector3 origin_m(spec.origin_m[0], spec.origin_m[1], spec.origin_m[2]);
-  CheckReach(origin_m, world_from_sensor.translation());
+  CheckReach(origin_place, origin_m, world_from_sensor.translation());
   output_from_window_.pretranslate(-origin_m);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "core/base/transform.h"
 #include "core/detect/echo_tiles.h"
@@ -12,10 +13,12 @@ namespace railcast {
 /// Puts measured points into the axes that the scenario asks for.
 class OutputAxes {
  public:
+  /// @param origin_place What faults call its origin.
   /// @param world_from_sensor At the stamp.
   /// @throws InputError if the output is in world coordinates so far from its origin that float32
   ///   would lose millimetres.
   OutputAxes(const OutputSpec& spec,
+             const std::string& origin_place,
              const Transform& vehicle_from_sensor,
              const Transform& window_from_world,
              const Transform& world_from_sensor);

@@ -176,8 +176,8 @@ void Simulator::Parts::Scan(const CastFrame& cast, Frame& frame) {
   frame.world_from_sensor_end = scenes.WorldFromSensor(frame.stamp_ns + frame.duration_ns);
   const ReturnMode mode = return_mode();
   frame.Resize(pattern.rows, pattern.columns, NumReturns(mode));
-  const OutputAxes axes(spec.output, spec.vehicle_from_sensor, cast.window_from_world,
-                        frame.world_from_sensor);
+  const OutputAxes axes(spec.output, spec.origin_place, spec.vehicle_from_sensor,
+                        cast.window_from_world, frame.world_from_sensor);
   const ReturnStore store(mode, tracer->has_beams());
 
   TraceAllCenters(cast);

@@ -21,6 +21,7 @@ struct SimulatorSpec {
   ReceiverSpec receiver{};
   WeatherSpec weather{};
   OutputSpec output{};
+  std::string origin_place = "/output/origin_m";  ///< What faults call it.
   ClutterLabels clutter_labels{};
   std::uint16_t snow_material{};  ///< Of what covers surfaces in snow; 0 = nothing does.
   std::string isa{};              ///< Embree's instruction set to force; empty = the best there is.
