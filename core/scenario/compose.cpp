@@ -85,7 +85,9 @@ Transform VehicleFromSensor(const MountSpec& mount) {
 
 void AddBuildFaults(const ScenarioSpec& spec, const UnknownPlaces& unknown, ErrorList& errors) {
   for (const auto& [lidar, pointer] : SensorsOf(spec)) {
-    if (!unknown.IsKnown(pointer + "/scan/pattern")) continue;
+    // An empty list of sensors has been named already.
+    const bool is_read = lidar != LidarSpec{};
+    if (!is_read || !unknown.IsKnown(pointer + "/scan/pattern")) continue;
     // Times are 32 bits of nanoseconds: what breaks a rule at this rate does so at every rate.
     constexpr double kSlowestRate_hz = 1e9 / 4'294'967'295.0;
     ScanSpec known = lidar.scan;

@@ -18,6 +18,8 @@ namespace railcast {
 //
 // - Required(key, value, meaning, rule): must be given
 // - Optional(key, value, meaning, rule): keeps the struct's default; a std::optional stays absent
+// - OneOfTwo(key, other): at most one of them is given; over a file with one stands the other.
+//   Comes before either
 // - Alternative(key, value, {other_key, factor}, meaning, rule): another way to give other_key
 // - RequiredLibrary(key, list, meaning): a list, or a file that holds it under the same key
 // - Opaque(key, text, meaning): any object, kept as text
@@ -128,11 +130,13 @@ void Describe(Archive& a, ScenarioSpec& s) {
   a.Switches("effects", s.effects, "Switches this effect on or off.", EffectNames());
   const auto conflict = ConflictIn(SwitchedEffects(s));
   a.Ensure({"effects", "fidelity"}, !conflict, conflict.value_or(""));
+  a.OneOfTwo("lidar", "lidars");
   std::optional<LidarSpec> lidar;
   if (s.lidar != LidarSpec{}) lidar = s.lidar;
   a.Optional("lidar", lidar, "The sensor, or ...");
   if (lidar) s.lidar = *lidar;
-  a.Optional("lidars", s.lidars, "... several, each with a name of its own.");
+  a.Optional("lidars", s.lidars, "... several, each with a name of its own.",
+             NonEmptyListIf{!lidar, "; a scenario has at least one sensor"});
   a.Ensure({"", "lidar", "lidars"}, lidar.has_value() == s.lidars.empty(),
            "must have either lidar or lidars");
   const auto has_name = [](const LidarSpec& sensor) { return !sensor.name.empty(); };

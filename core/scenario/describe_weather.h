@@ -19,6 +19,8 @@ void Describe(Archive& a, SunSpec& s) {
 
 template <class Archive>
 void Describe(Archive& a, WeatherSpec& s) {
+  a.OneOfTwo("visibility_m", "fog_density_per_m");
+  a.OneOfTwo("rain_intensity", "rain_rate_mmph");
   a.Optional("fog_density_per_m", s.fog_density_per_m,
              "Extinction; the published model applies it one way, physics both ways.",
              NonNegative());

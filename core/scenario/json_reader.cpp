@@ -7,6 +7,19 @@ namespace railcast {
 JsonReader::JsonReader(JsonSource& source, Node object, MemberList list)
     : source_(source), object_(std::move(object)), list_(std::move(list)) {}
 
+void JsonReader::OneOfTwo(std::string_view key, std::string_view other) {
+  const auto layer_of = [&](std::string_view which) {
+    const auto it = std::find_if(list_.members.begin(), list_.members.end(),
+                                 [&](const Member& member) { return member.key == which; });
+    return it == list_.members.end() ? std::nullopt : std::optional(it->layer);
+  };
+  const auto layer = layer_of(key);
+  const auto other_layer = layer_of(other);
+  if (!layer || !other_layer || *layer == *other_layer) return;
+  const std::string_view beneath = *layer > *other_layer ? key : other;
+  std::erase_if(list_.members, [&](const Member& member) { return member.key == beneath; });
+}
+
 void JsonReader::Alternative(std::string_view key,
                              double& value,
                              const Multiple& multiple,

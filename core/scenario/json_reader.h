@@ -24,6 +24,7 @@ class JsonReader {
   template <class T, class Rule = Anything>
   void Optional(std::string_view key, T& value, const char* doc, const Rule& rule = {});
 
+  void OneOfTwo(std::string_view key, std::string_view other);
   void Alternative(std::string_view key,
                    double& value,
                    const Multiple& multiple,
@@ -109,6 +110,23 @@ void ReadValue(JsonSource& source,
   if (!CheckListOfAtLeast(source, node, rule)) return;
   values.assign(node.json->size(), {});
   for (std::size_t i = 0; i < values.size(); ++i) ReadElement(source, node.Child(i), values[i]);
+}
+
+template <class T>
+void ReadValue(JsonSource& source,
+               const Node& node,
+               std::vector<T>& values,
+               const EachNumber& rule) {
+  ReadValue(source, node, values, AtLeastElements{rule.at_least});
+  if (node.json->is_array() && !CheckEachNumber(source, node, rule)) values.clear();
+}
+
+template <class T>
+void ReadValue(JsonSource& source,
+               const Node& node,
+               std::vector<T>& values,
+               const NonEmptyListIf& rule) {
+  ReadValue(source, node, values, AtLeastElements{rule.applies ? 1U : 0U, rule.instead});
 }
 
 /// An element of a list is written in place: most may not be a file.

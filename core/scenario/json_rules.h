@@ -69,6 +69,23 @@ struct AtLeastElements {
   return {.count = 1};
 }
 
+/// Of a list whose elements are arrays of numbers or, if it names one of their keys, objects with
+/// that number; it may be stricter than what describes it for all lists of such objects.
+struct EachNumber {
+  Limits limits;
+  const char* key = "";
+  std::size_t at_least = 0;  ///< Elements.
+};
+[[nodiscard]] inline EachNumber EachValue(const Limits& limits) {
+  return {limits, "value"};
+}
+
+/// Of a list that may be empty, but not always: what else is given decides.
+struct NonEmptyListIf {
+  bool applies{};
+  const char* instead = "";
+};
+
 /// How an alternative key gives another key's value.
 struct Multiple {
   const char* of_key{};

@@ -84,6 +84,7 @@ std::optional<MemberList> JsonSource::Members(const Node& node) {
   if (is_name) return list;
   // The object's own keys are read even if those of its base are not.
   if (!list) list = MemberList{{}, false};
+  for (Member& member : list->members) ++member.layer;
   for (const auto& [key, value] : node.json->items()) {
     if (key == "file" || IsOfFile(node, key)) continue;
     const Node child = node.Child(key);

@@ -36,6 +36,7 @@ struct Node {
 struct Member {
   std::string key;
   Node value;
+  int layer = 0;  ///< 0: written in the object itself; 1: in the file it builds on; ...
 };
 
 /// An object's members, whichever way it is given.

@@ -44,6 +44,7 @@ class JsonWriter {
   }
 
   // The writer has nothing to say about other spellings and about rules.
+  void OneOfTwo(std::string_view, std::string_view) {}
   void Alternative(std::string_view, double, const Multiple&, const char*, const Limits&) {}
   void Ensure(const std::vector<std::string>&, bool, const std::string&) {}
   template <class T, class V>

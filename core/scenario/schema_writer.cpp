@@ -39,6 +39,15 @@ void AddRule(Json& schema, const AtLeastElements& rule) {
   if (rule.count > 0) schema["minItems"] = rule.count;
 }
 
+void AddRule(Json& /*schema*/, const NonEmptyListIf& /*rule*/) {}
+
+void AddRule(Json& schema, const EachNumber& rule) {
+  AddRule(schema, AtLeastElements{rule.at_least});
+  Json& element = schema["items"];
+  const bool is_object = element["type"] == "object";
+  AddRule(is_object ? element["properties"][rule.key] : element["items"], rule.limits);
+}
+
 void SchemaWriter::Alternative(std::string_view key,
                                double& value,
                                const Multiple& multiple,

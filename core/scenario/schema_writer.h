@@ -26,6 +26,8 @@ void AddRule(Json& schema, OneLine);
 void AddRule(Json& schema, HostAndPort);
 void AddRule(Json& schema, ExistingFile);
 void AddRule(Json& schema, const AtLeastElements& rule);
+void AddRule(Json& schema, const EachNumber& rule);
+void AddRule(Json& schema, const NonEmptyListIf& rule);
 
 /// Makes the JSON Schema (draft 2020-12) of a struct's object: the visitor that documents (see
 /// describe.h). Rules across fields cannot be said there.
@@ -44,6 +46,8 @@ class SchemaWriter {
     }
     Add(key, doc, std::move(schema));
   }
+  // The resolved scenario has both keys, one with its default.
+  void OneOfTwo(std::string_view, std::string_view) {}
   void Alternative(std::string_view key,
                    double& value,
                    const Multiple& multiple,
