@@ -22,6 +22,7 @@ constexpr std::uint32_t kNumFirings = 1U << 20U;
 struct Answer {
   Outcome outcome;
   double true_range_m, range_m, x, y, z;
+  float intensity, power_ratio;
 };
 
 /// Sends kNumFirings beams along (0.6, 0.64, 0.48) at surfaces of reflectivity 0.5 that face them,
@@ -54,7 +55,8 @@ std::vector<Answer> Detect(const DetectorSpec& spec,
       answers.push_back({static_cast<Outcome>(tile->outcome[i]),
                          static_cast<double>(tile->true_range_m[i]),
                          static_cast<double>(tile->range_m[i]), static_cast<double>(tile->x[i]),
-                         static_cast<double>(tile->y[i]), static_cast<double>(tile->z[i])});
+                         static_cast<double>(tile->y[i]), static_cast<double>(tile->z[i]),
+                         tile->intensity[i], tile->power_ratio[i]});
     }
   }
   return answers;
@@ -212,7 +214,10 @@ TEST(SnowClutter, HasNoPowerWithoutTheThresholdAndIsSubjectToItWithIt) {
     spec.plausibility.reference_range_m = 10.0;
     double farthest_m = 0.0;
     for (const Answer& answer : Detect(spec, [](std::uint32_t) { return std::nan(""); })) {
-      if (answer.outcome == Outcome::kClutter) farthest_m = std::max(farthest_m, answer.range_m);
+      if (answer.outcome != Outcome::kClutter) continue;
+      farthest_m = std::max(farthest_m, answer.range_m);
+      ASSERT_EQ(std::isnan(answer.intensity), !threshold);
+      ASSERT_EQ(std::isnan(answer.power_ratio), !threshold);
     }
     EXPECT_EQ(farthest_m <= 10.0 * std::sqrt(0.2), threshold);
   }
