@@ -1,5 +1,10 @@
 #pragma once
 
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+#include "core/base/number_text.h"
 #include "core/rail/line/alignment_spec.h"
 #include "core/scenario/json_rules.h"
 
@@ -12,17 +17,48 @@ inline constexpr const char* kTypeName<AlignmentElementsSpec> = "elements";
 template <>
 inline constexpr const char* kTypeName<AlignmentSplineSpec> = "spline";
 
-/// Longer lines are taken for a slip; shorter elements would vanish against a long line's chainage.
+/// Longer lines are taken for a slip; a spline of this length takes 240 MB and some seconds.
+inline constexpr double kLongestLine_m = 1e7;
+
+[[nodiscard]] inline std::string LongestLineRule(double length_m) {
+  return "must make a line of at most 10000000 m, not of " + NumberText(length_m) + " m";
+}
+
+/// Shorter elements would vanish against a long line's chainage.
 [[nodiscard]] inline Limits LengthOfLine() {
-  return Within(1e-3, 1e7);
+  return Within(1e-3, kLongestLine_m);
+}
+
+[[nodiscard]] inline Limits ChainageLimits() {
+  return Within(0, 1e7);
+}
+/// Where something begins or stands: it may be short of the line's beginning while it moves.
+[[nodiscard]] inline Limits PlaceLimits() {
+  return Within(-1e7, 1e7);
+}
+/// Double precision holds such coordinates to 0.02 um.
+[[nodiscard]] inline Limits CoordinateLimits() {
+  return Within(-1e8, 1e8);
+}
+[[nodiscard]] inline Limits HeadingLimits() {
+  return Within(-360, 360);
+}
+/// Straighter than the longest radius is straight: 1 um off in 1 km.
+[[nodiscard]] inline Limits RadiusLimits() {
+  return Within(-1e12, 1e12);
+}
+/// From a smoothing that is none to one that flattens a whole valley.
+[[nodiscard]] inline Limits SmoothingLimits() {
+  return Within(1e-3, 1e4);
 }
 
 template <class Archive>
 void Describe(Archive& a, CurvatureSection& s) {
-  a.Required("s_m", s.s_m, "Chainage of the start.", NonNegative());
+  a.Required("s_m", s.s_m, "Chainage of the start.", ChainageLimits());
   a.Optional("radius_start_m", s.radius_start_m,
-             "Left positive, right negative; absent = straight.");
-  a.Optional("radius_end_m", s.radius_end_m, "Left positive, right negative; absent = straight.");
+             "Left positive, right negative; absent = straight.", RadiusLimits());
+  a.Optional("radius_end_m", s.radius_end_m, "Left positive, right negative; absent = straight.",
+             RadiusLimits());
   a.Ensure({"radius_start_m"}, s.radius_start_m != 0.0, "must not be 0");
   a.Ensure({"radius_end_m"}, s.radius_end_m != 0.0, "must not be 0");
 }
@@ -38,7 +74,8 @@ void Describe(Archive& a, AlignmentElement& s) {
   a.Required("type", s.type, "A clothoid leads from the curvature before it to the one after it.",
              OneOf({"straight", "clothoid", "arc"}));
   a.Required("length_m", s.length_m, "Length.", LengthOfLine());
-  a.Optional("radius_m", s.radius_m, "Of an arc only: left positive, right negative.");
+  a.Optional("radius_m", s.radius_m, "Of an arc only: left positive, right negative.",
+             RadiusLimits());
   a.Ensure({"radius_m"}, s.radius_m != 0.0, "must not be 0");
   a.Ensure({"radius_m", "type"}, s.type != "arc" || s.radius_m.has_value(),
            "must be given for an arc");
@@ -48,17 +85,26 @@ void Describe(Archive& a, AlignmentElement& s) {
 template <class Archive>
 void Describe(Archive& a, AlignmentElementsSpec& s) {
   a.Required("elements", s.elements, "One after the other from chainage 0.", NonEmptyList());
+  double length_m = 0.0;
+  for (const AlignmentElement& element : s.elements) length_m += element.length_m;
+  a.Ensure({"elements"}, length_m <= kLongestLine_m, LongestLineRule(length_m));
 }
 
 template <class Archive>
 void Describe(Archive& a, AlignmentSplineSpec& s) {
   a.Required("points_m", s.points_m, "Plan points (x, y), joined with continuous curvature.",
-             AtLeastElements{2});
+             EachNumber{.limits = CoordinateLimits(), .at_least = 2});
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < s.points_m.size(); ++i) {
+    length_m += std::hypot(s.points_m[i][0] - s.points_m[i - 1][0],
+                           s.points_m[i][1] - s.points_m[i - 1][1]);
+  }
+  a.Ensure({"points_m"}, length_m <= kLongestLine_m, LongestLineRule(length_m));
 }
 
 template <class Archive>
 void Describe(Archive& a, ChainageValue& s) {
-  a.Required("s_m", s.s_m, "From this chainage on ...", NonNegative());
+  a.Required("s_m", s.s_m, "From this chainage on ...", ChainageLimits());
   a.Required("value", s.value, "... this value.");
 }
 
@@ -66,18 +112,22 @@ template <class Archive>
 void Describe(Archive& a, AlignmentSpec& s) {
   a.Required("course", s.course, "The line in plan.");
   a.Optional("attribution", s.attribution, "Where the figures come from.");
-  a.Optional("origin_m", s.origin_m, "World position of chainage 0.", Within(-1e8, 1e8));
-  a.Optional("heading_deg", s.heading_deg, "At chainage 0, counterclockwise from east.");
-  a.Optional("gradients_permil", s.gradients_permil, "By chainage; none = level.");
-  a.Optional("speed_limits_kmph", s.speed_limits_kmph, "By chainage; none = no cant.");
+  a.Optional("origin_m", s.origin_m, "World position of chainage 0.", CoordinateLimits());
+  a.Optional("heading_deg", s.heading_deg, "At chainage 0, counterclockwise from east.",
+             HeadingLimits());
+  // The steepest railway, up the Pilatus, has 480 permil.
+  a.Optional("gradients_permil", s.gradients_permil, "By chainage; none = level.",
+             EachValue(Within(-500, 500)));
+  a.Optional("speed_limits_kmph", s.speed_limits_kmph, "By chainage; none = no cant.",
+             EachValue(PositiveUpTo(1000)));
   a.Optional("curvature_smoothing_m", s.curvature_smoothing_m,
-             "Jumps of curvature become clothoids of at most this length.", Positive());
+             "Jumps of curvature become clothoids of at most this length.", SmoothingLimits());
   a.Optional("gradient_smoothing_m", s.gradient_smoothing_m,
-             "Jumps of gradient become parabolas of at most this length.", Positive());
+             "Jumps of gradient become parabolas of at most this length.", SmoothingLimits());
   a.Optional("cant_deficiency_mm", s.cant_deficiency_mm, "Cant = 11.8 v^2 / R less this.",
-             NonNegative());
+             Within(0, 1000));
   a.Optional("cant_max_mm", s.cant_max_mm, "Greatest cant.", Within(0, 300));
-  a.Optional("cant_ramp_m", s.cant_ramp_m, "Length that cant is averaged over.", Positive());
+  a.Optional("cant_ramp_m", s.cant_ramp_m, "Length that cant is averaged over.", SmoothingLimits());
 }
 
 }  // namespace railcast

@@ -26,9 +26,10 @@ inline constexpr const char* kCommandName<Step> = "step";
 template <>
 inline constexpr const char* kCommandName<Reset> = "reset";
 
-// No railway vehicle changes its speed faster; magnetic track brakes reach 3.
+// No railway vehicle changes its speed faster: magnetic track brakes reach 3. Nor slower: it would
+// take days.
 [[nodiscard]] inline Limits AccelerationLimits() {
-  return PositiveUpTo(10);
+  return Within(1e-3, 10);
 }
 
 template <class Archive>

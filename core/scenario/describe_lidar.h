@@ -28,14 +28,14 @@ void Describe(Archive& a, ChannelSpec& s) {
   a.Required("elevation_deg", s.elevation_deg, "Up positive.", Within(-90, 90));
   a.Required("azimuth_deg", s.azimuth_deg,
              "Added to the rotor's azimuth; same sense as the rotation.", Within(-360, 360));
-  a.Required("time_us", s.time_us, "Since the start of the firing cycle.", NonNegative());
+  a.Required("time_us", s.time_us, "Since the start of the firing cycle.", Within(0, 4.3e6));
 }
 
 template <class Archive>
 void Describe(Archive& a, SpinningSpec& s) {
   a.Required("channels", s.channels, "In the vendor's laser order.", NonEmptyList());
-  a.Required("cycle_us", s.cycle_us, "From one firing cycle to the next.", Positive());
-  a.Required("columns", s.columns, "Firing cycles a frame.", AtLeast(1));
+  a.Required("cycle_us", s.cycle_us, "From one firing cycle to the next.", Within(1e-3, 4.3e6));
+  a.Required("columns", s.columns, "Firing cycles a frame.", Within(1, 1 << 24));
   a.Optional("rotation", s.rotation, "Seen from above.", OneOf({"clockwise", "counterclockwise"}));
   a.Optional("start_azimuth_deg", s.start_azimuth_deg,
              "Of the rotor at a frame's first firing; 0 = forward.", Within(-360, 360));
@@ -49,7 +49,7 @@ void Describe(Archive& a, FiringTableSpec& s) {
 
 template <class Archive>
 void Describe(Archive& a, ScanSpec& s) {
-  a.Required("rate_hz", s.rate_hz, "Frames per second.", Positive());
+  a.Required("rate_hz", s.rate_hz, "Frames per second.", Within(0.01, 1e6));
   a.Required("pattern", s.pattern, "Where the beams of a frame go, and when.");
 }
 
@@ -57,20 +57,20 @@ template <class Archive>
 void Describe(Archive& a, MountSpec& s) {
   a.Optional("position_m", s.position_m, "In the vehicle frame: forward, left, up.",
              Within(-50, 50));
-  a.Optional("yaw_deg", s.yaw_deg, "Left positive.");
-  a.Optional("pitch_deg", s.pitch_deg, "Nose down positive.");
-  a.Optional("roll_deg", s.roll_deg, "Right side down positive.");
+  a.Optional("yaw_deg", s.yaw_deg, "Left positive.", Within(-360, 360));
+  a.Optional("pitch_deg", s.pitch_deg, "Nose down positive.", Within(-360, 360));
+  a.Optional("roll_deg", s.roll_deg, "Right side down positive.", Within(-360, 360));
 }
 
 template <class Archive>
 void Describe(Archive& a, PlausibilitySpec& s) {
   a.Optional("reference_threshold", s.reference_threshold,
-             "Least detectable reflectivity x cos x fog at the reference range.", NonNegative());
+             "Least detectable reflectivity x cos x fog at the reference range.", Within(0, 1e6));
   a.Optional("reference_range_m", s.reference_range_m, "The threshold grows with (range / this)^2.",
-             Positive());
+             Within(0.1, 10'000));
   a.Optional("noise_sigma0_m", s.noise_sigma0_m, "Standard deviation of the noise at range 0.",
-             NonNegative());
-  a.Optional("noise_sigma1", s.noise_sigma1, "Its growth per metre of range.", NonNegative());
+             Within(0, 10));
+  a.Optional("noise_sigma1", s.noise_sigma1, "Its growth per metre of range.", Within(0, 1));
   a.Optional("noise_shape", s.noise_shape, "In all directions alike, or along the beam.",
              OneOf({"isotropic", "beam"}));
   a.Optional("dropout_probability", s.dropout_probability, "Of any firing, whatever it hit.",
@@ -120,7 +120,8 @@ template <class Archive>
 void Describe(Archive& a, LidarSpec& s) {
   a.Optional("name", s.name, "Of the sensor.", OneLine());
   a.Required("scan", s.scan, "The firings of a frame.");
-  a.Optional("range_min_m", s.range_min_m, "Nearer things block and give no point.", NonNegative());
+  a.Optional("range_min_m", s.range_min_m, "Nearer things block and give no point.",
+             Within(0, 10'000));
   a.Optional("range_max_m", s.range_max_m, "Farther things give no point.", PositiveUpTo(10'000));
   a.Optional("mount", s.mount, "Where the sensor sits on the vehicle.");
   a.Optional("plausibility", s.plausibility, "Parameters of the published model.");

@@ -56,14 +56,14 @@ void Describe(Archive& a, InterfacesSpec& s) {
 template <class Archive>
 void Describe(Archive& a, ToleranceSpec& s) {
   a.Optional("range_m", s.range_m, "Median error of the ranges of echoes, before noise.",
-             NonNegative());
+             Within(0, 10'000));
   a.Optional("missed_share", s.missed_share, "Of the reference's echoes.", Within(0, 1));
   a.Optional("false_share", s.false_share, "Of the echoes: those that the reference lacks.",
              Within(0, 1));
   a.Optional("thin_missed_share", s.thin_missed_share, "Of the reference's echoes of wires.",
              Within(0, 1));
   a.Optional("intensity", s.intensity, "Median relative error of the echoes' intensities.",
-             NonNegative());
+             Within(0, 1e6));
 }
 
 template <class Archive>

@@ -9,6 +9,11 @@ namespace railcast {
 /// is called violent; in between the rate grows in proportion.
 inline constexpr double kRainAtFullIntensity_mmph = 50.0;
 
+/// The heaviest minutes on record are some 2000 mm/h.
+[[nodiscard]] inline Limits PrecipitationLimits() {
+  return Within(0, 5000);
+}
+
 template <class Archive>
 void Describe(Archive& a, SunSpec& s) {
   a.Optional("illuminance_klx", s.illuminance_klx, "100 = full sun, 0 = night.", Within(0, 150));
@@ -23,31 +28,32 @@ void Describe(Archive& a, WeatherSpec& s) {
   a.OneOfTwo("rain_intensity", "rain_rate_mmph");
   a.Optional("fog_density_per_m", s.fog_density_per_m,
              "Extinction; the published model applies it one way, physics both ways.",
-             NonNegative());
+             Within(0, 10));
   a.Optional("visibility_m", s.visibility_m,
              "Meteorological, at 5 % contrast, instead of fog_density_per_m: the extinction is "
              "ln 20 / this.",
-             Positive());
+             Within(0.3, 1e9));
   a.Ensure({"visibility_m", "fog_density_per_m"}, !s.visibility_m || s.fog_density_per_m == 0.0,
            "must not be given together with \"fog_density_per_m\"");
-  a.Optional("rain_rate_mmph", s.rain_rate_mmph, "Rain in mm/h.", NonNegative());
+  a.Optional("rain_rate_mmph", s.rain_rate_mmph, "Rain in mm/h.", PrecipitationLimits());
   a.Alternative("rain_intensity", s.rain_rate_mmph, {"rain_rate_mmph", kRainAtFullIntensity_mmph},
                 "The published intensity, instead of rain_rate_mmph: 1 is 50 mm/h.", Within(0, 1));
   a.Optional("rain_drop_sizes", s.rain_drop_sizes,
              "Drop-size distribution: Marshall-Palmer, or more small or more large drops.",
              OneOf({"marshall_palmer", "drizzle", "thunderstorm"}));
   a.Optional("rain_dropout_per_m", s.rain_dropout_per_m, "Rain dropout rate at 1 mm/h.",
-             NonNegative());
+             Within(0, 10));
   a.Optional("rain_dropout_exponent", s.rain_dropout_exponent, "Its growth with the rain rate.",
-             NonNegative());
-  a.Optional("snow_rate_mmph", s.snow_rate_mmph, "Snow in mm/h of water.", NonNegative());
+             Within(0, 10));
+  a.Optional("snow_rate_mmph", s.snow_rate_mmph, "Snow in mm/h of water.", PrecipitationLimits());
   a.Optional("snow_type", s.snow_type, "What its extinction follows.", OneOf({"dry", "wet"}));
   a.Optional("snow_echoes_per_mmph", s.snow_echoes_per_mmph,
-             "Mean detectable flakes per beam at 1 mm/h.", NonNegative());
+             "Mean detectable flakes per beam at 1 mm/h.", Within(0, 1000));
   a.Optional("snow_range_scale_m", s.snow_range_scale_m,
-             "Maxwell scale of their ranges; the median is 1.538 times this.", Positive());
+             "Maxwell scale of their ranges; the median is 1.538 times this.",
+             Within(1e-3, 10'000));
   a.Optional("snow_intensity", s.snow_intensity, "Effective reflectance that a flake shows.",
-             NonNegative());
+             Within(0, 100));
   a.Optional("wetness", s.wetness, "Of surfaces: 0 = dry, 1 = soaked.", Within(0, 1));
   a.Optional("snow_cover", s.snow_cover, "Share of each upward surface that snow lies on.",
              Within(0, 1));

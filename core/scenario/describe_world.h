@@ -13,8 +13,9 @@ template <class Archive>
 void Describe(Archive& a, TrackSpec& s) {
   a.Optional("name", s.name, "Objects and the vehicle name their track by it.", NonEmptyString());
   a.Optional("offset_m", s.offset_m, "From the alignment, left positive.", Within(-1000, 1000));
-  a.Optional("start_s_m", s.start_s_m, "Chainage where the track begins.", NonNegative());
-  a.Optional("end_s_m", s.end_s_m, "Chainage where it ends; absent = the end of the line.");
+  a.Optional("start_s_m", s.start_s_m, "Chainage where the track begins.", ChainageLimits());
+  a.Optional("end_s_m", s.end_s_m, "Chainage where it ends; absent = the end of the line.",
+             ChainageLimits());
   a.Optional("sleeper", s.sleeper, "Kind of sleeper.", OneOf({"concrete", "wood"}));
   a.Optional("electrified", s.electrified, "Whether it has a contact line.");
   a.Ensure({"end_s_m", "start_s_m"}, !s.end_s_m || *s.end_s_m > s.start_s_m, "must be > start_s_m");
@@ -45,18 +46,23 @@ void Describe(Archive& a, TerrainSpec& s) {
              Within(0, 20));
 }
 
+/// Beyond the ground strip's widest.
+[[nodiscard]] inline Limits DistanceLimits() {
+  return Within(0, 10'000);
+}
+
 template <class Archive>
 void Describe(Archive& a, VegetationSpec& s) {
   a.Optional("trees_per_hectare", s.trees_per_hectare, "0 = none.", Within(0, 5000));
   a.Optional("tree_min_distance_m", s.tree_min_distance_m, "From the outermost track axis.",
-             NonNegative());
+             DistanceLimits());
   a.Optional("tree_height_min_m", s.tree_height_min_m, "Of the smallest.", PositiveUpTo(60));
   a.Optional("tree_height_max_m", s.tree_height_max_m, "Of the tallest.", PositiveUpTo(60));
   a.Optional("grass", s.grass, "Whether there is any.");
   a.Optional("grass_min_distance_m", s.grass_min_distance_m, "From the outermost track axis.",
-             NonNegative());
+             DistanceLimits());
   a.Optional("grass_max_distance_m", s.grass_max_distance_m, "From the outermost track axis.",
-             NonNegative());
+             DistanceLimits());
   a.Ensure({"tree_height_min_m", "tree_height_max_m"}, s.tree_height_min_m <= s.tree_height_max_m,
            "must be <= tree_height_max_m");
   a.Ensure({"grass_min_distance_m", "grass_max_distance_m"},
@@ -65,8 +71,8 @@ void Describe(Archive& a, VegetationSpec& s) {
 
 template <class Archive>
 void Describe(Archive& a, SpeedPoint& s) {
-  a.Optional("time_s", s.time_s, "Simulation time, or ...", NonNegative());
-  a.Optional("s_m", s.s_m, "... chainage.");
+  a.Optional("time_s", s.time_s, "Simulation time, or ...", Within(0, 1e9));
+  a.Optional("s_m", s.s_m, "... chainage.", PlaceLimits());
   a.Required("speed_mps", s.speed_mps, "Speed there.", Within(0, 200));
   a.Ensure({"", "time_s", "s_m"}, s.time_s.has_value() != s.s_m.has_value(),
            "must have either time_s or s_m");
@@ -91,18 +97,19 @@ void Describe(Archive& a, ObjectSpec& s) {
   a.Required("type", s.type, "What it is.",
              OneOf({"box", "pole", "person", "open_wagon", "flat_wagon", "tank_wagon", "mesh"}));
   a.Optional("track", s.track, "The track whose coordinates it is placed in.");
-  a.Required("s_m", s.s_m, "Chainage of its middle, at time 0 where it moves.");
+  a.Required("s_m", s.s_m, "Chainage of its middle, at time 0 where it moves.", PlaceLimits());
   a.Optional("d_m", s.d_m, "Left of the track's axis.", Within(-1000, 1000));
   a.Optional("h_m", s.h_m,
              "Above top of rail; absent: wagons stand on the rails, all else on the ground.",
              Within(-1000, 1000));
-  a.Optional("heading_deg", s.heading_deg, "Turned left against the chainage's direction.");
+  a.Optional("heading_deg", s.heading_deg, "Turned left against the chainage's direction.",
+             HeadingLimits());
   a.Optional("size_m", s.size_m,
              "Length, width, height. Required for box and pole; scales a person or mesh.",
              Within(1e-3, 1000));
   a.Optional("file", s.file, "Of a mesh: OBJ.", ExistingFile());
   a.Optional("up", s.up, "Of a mesh: its upward axis.", OneOf({"y", "z"}));
-  a.Optional("unit_m", s.unit_m, "Of a mesh: metres per file unit.", Positive());
+  a.Optional("unit_m", s.unit_m, "Of a mesh: metres per file unit.", Within(1e-6, 1e6));
   a.Optional("label", s.label, "Overrides the type's; of the label table.");
   a.Optional("material", s.material, "Overrides the type's; of the materials.");
   a.Optional("motion", s.motion, "Along its track; absent = stands.");
@@ -134,13 +141,14 @@ void Describe(Archive& a, WorldSpec& s) {
 template <class Archive>
 void Describe(Archive& a, VehicleSpec& s) {
   a.Optional("track", s.track, "The track that it runs on.");
-  a.Optional("start_s_m", s.start_s_m, "Chainage of its origin at time 0.");
+  a.Optional("start_s_m", s.start_s_m, "Chainage of its origin at time 0.", PlaceLimits());
   std::optional<MotionSpec> motion;
   if (s.motion != MotionSpec{}) motion = s.motion;
   a.Optional("motion", motion, "Along its track; absent = stands.");
   if (motion) s.motion = *motion;
   a.Optional("ego_boxes_m", s.ego_boxes_m,
-             "Its body in the vehicle frame: min x, y, z, max x, y, z.");
+             "Its body in the vehicle frame: min x, y, z, max x, y, z.",
+             EachNumber{Within(-1000, 1000)});
 }
 
 }  // namespace railcast

@@ -87,6 +87,27 @@ std::optional<std::uint64_t> ReadWhole(JsonSource& source,
   return std::nullopt;
 }
 
+bool CheckEachNumber(JsonSource& source, const Node& list, const EachNumber& rule) {
+  bool holds = true;
+  const auto check = [&](const Node& number) {
+    // Whatever is no number has been named already.
+    if (!number.json->is_number()) return;
+    if (const auto broken = Broken(rule.limits, number.json->get<double>())) {
+      source.Fault(number, *broken);
+      holds = false;
+    }
+  };
+  for (std::size_t i = 0; i < list.json->size(); ++i) {
+    const Node element = list.Child(i);
+    if (element.json->is_object() && element.json->contains(rule.key)) {
+      check(element.Child(rule.key));
+    } else if (element.json->is_array()) {
+      for (std::size_t k = 0; k < element.json->size(); ++k) check(element.Child(k));
+    }
+  }
+  return holds;
+}
+
 bool CheckListOf(JsonSource& source, const Node& node, std::size_t count) {
   if (node.json->is_array() && node.json->size() == count) return true;
   source.Fault(node, "must be a list of " + std::to_string(count) + " values");

@@ -53,4 +53,7 @@ void ReadValue(JsonSource& source, const Node& node, T& value, Anything) {
 bool CheckListOf(JsonSource& source, const Node& node, std::size_t count);
 bool CheckListOfAtLeast(JsonSource& source, const Node& node, const AtLeastElements& rule);
 
+/// Whether the elements of a list, as far as they are what they must be, keep the limits.
+bool CheckEachNumber(JsonSource& source, const Node& list, const EachNumber& rule);
+
 }  // namespace railcast

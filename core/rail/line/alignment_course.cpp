@@ -1,12 +1,17 @@
 #include "core/rail/line/alignment_course.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "core/base/number_text.h"
 
 namespace railcast {
 namespace {
+
+/// What is shorter would vanish against a long line's chainage.
+constexpr double kShortestStretch_m = 1e-3;
 
 PiecewiseLinear Straight() {
   return {{LinearPiece{}}, 1.0};
@@ -26,6 +31,22 @@ void CheckRadius(const std::optional<double>& radius_m,
   }
 }
 
+// A line that winds round and round itself has all its turns in sight at once. No spiral up a
+// mountain has more than three.
+void CheckTurns(const PiecewiseLinear& curvature, const std::string& pointer, ErrorList& errors) {
+  constexpr double kMostTurns = 10.0;
+  for (std::size_t i = 0; i < curvature.pieces().size(); ++i) {
+    const LinearPiece& piece = curvature.pieces()[i];
+    const double length_m = curvature.EndOf(i) - piece.begin_s_m;
+    const double sharpest_per_m = std::max(std::abs(piece.begin_value), std::abs(piece.end_value));
+    const double turns = sharpest_per_m * length_m / (2.0 * std::numbers::pi);
+    if (turns <= kMostTurns) continue;
+    errors.Add(pointer + "/" + std::to_string(i) +
+               ": must be shorter than 10 full circles of its smallest radius (got " +
+               NumberText(turns) + ")");
+  }
+}
+
 // Chainages must start at 0, ascend strictly and stay before the end.
 template <typename Item>
 void CheckChainages(const std::vector<Item>& items,
@@ -42,9 +63,15 @@ void CheckChainages(const std::vector<Item>& items,
       if (s_m != 0.0) add("must be 0, the beginning of the line");
     } else if (!(s_m > items[i - 1].s_m)) {
       add("must be greater than " + NumberText(items[i - 1].s_m) + " before it");
+    } else if (!(s_m - items[i - 1].s_m >= kShortestStretch_m)) {
+      add("must be at least " + NumberText(kShortestStretch_m) + " m after " +
+          NumberText(items[i - 1].s_m) + " before it");
     }
     if (!(s_m < length_m)) {
       add("must be less than the line's length of " + NumberText(length_m) + " m");
+    } else if (!(length_m - s_m >= kShortestStretch_m)) {
+      add("must be at least " + NumberText(kShortestStretch_m) + " m before the line's end at " +
+          NumberText(length_m) + " m");
     }
   }
 }
@@ -103,7 +130,9 @@ PiecewiseLinear CurvatureOf(const AlignmentSectionsSpec& course, ErrorList& erro
     pieces.push_back({section.s_m, CurvatureOfRadius(section.radius_start_m),
                       CurvatureOfRadius(section.radius_end_m)});
   }
-  return {std::move(pieces), course.length_m};
+  PiecewiseLinear curvature(std::move(pieces), course.length_m);
+  CheckTurns(curvature, "/course/sections", errors);
+  return errors.lines().size() > num_faults ? Straight() : curvature;
 }
 
 PiecewiseLinear CurvatureOf(const AlignmentElementsSpec& course, ErrorList& errors) {
@@ -126,7 +155,9 @@ PiecewiseLinear CurvatureOf(const AlignmentElementsSpec& course, ErrorList& erro
                       ConstantCurvature(course.elements, after)});
     s_m += course.elements[i].length_m;
   }
-  return {std::move(pieces), s_m};
+  PiecewiseLinear curvature(std::move(pieces), s_m);
+  CheckTurns(curvature, "/course/elements", errors);
+  return errors.lines().size() > num_faults ? Straight() : curvature;
 }
 
 PiecewiseLinear StepsOf(const std::vector<ChainageValue>& values,

@@ -85,7 +85,7 @@ TEST(Command, SaysWhatIsWrongWithALine) {
   EXPECT_EQ(FaultsOf(R"({"command": "stop", "version": 1})"),
             "command: /version: unknown key, must be \"id\" or \"command\"");
   EXPECT_EQ(FaultsOf(R"({"command": "brake", "deceleration_mps2": 0})"),
-            "command: /deceleration_mps2: must be > 0 and <= 10 (got 0)");
+            "command: /deceleration_mps2: must be >= 0.001 and <= 10 (got 0)");
   EXPECT_EQ(FaultsOf(R"({"command": "place_object", "object": {"name": "a", "type": "box",
                          "s_m": 1}})"),
             "command: /object/size_m: must be given for type \"box\"");

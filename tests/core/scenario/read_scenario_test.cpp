@@ -66,8 +66,8 @@ TEST(ReadScenario, ReportsTheFaultsOfEveryFileAtOnce) {
             file.string() +
                 ": /fidelity: must be \"geometry\", \"plausibility\", \"surface\", \"footprint\", "
                 "\"reference\" or \"auto\" (got \"high\")\n" +
-                weather.string() + ": /snow_rate_mmph: must be >= 0 (got -1)\n" + file.string() +
-                ": /output/fram: unknown key, the nearest is \"frame\"");
+                weather.string() + ": /snow_rate_mmph: must be >= 0 and <= 5000 (got -1)\n" +
+                file.string() + ": /output/fram: unknown key, the nearest is \"frame\"");
 }
 
 TEST(ReadScenario, LocatesAFaultInTheObjectThatReplacesAFilesKey) {
@@ -75,9 +75,10 @@ TEST(ReadScenario, LocatesAFaultInTheObjectThatReplacesAFilesKey) {
   folder.Write("weather.json", R"({"version": 1, "snow_rate_mmph": -1, "fog_density_per_m": -2})");
   const auto file = folder.Write(
       "a.json", OnMinimal(R"("weather": {"file": "weather.json", "snow_rate_mmph": -3})"));
-  EXPECT_EQ(FaultsOf(file), file.parent_path().string() +
-                                "/weather.json: /fog_density_per_m: must be >= 0 (got -2)\n" +
-                                file.string() + ": /weather/snow_rate_mmph: must be >= 0 (got -3)");
+  EXPECT_EQ(FaultsOf(file),
+            file.parent_path().string() +
+                "/weather.json: /fog_density_per_m: must be >= 0 and <= 10 (got -2)\n" +
+                file.string() + ": /weather/snow_rate_mmph: must be >= 0 and <= 5000 (got -3)");
 }
 
 TEST(ReadScenario, ResolvesFileNamesAgainstTheFileThatHoldsThem) {
