@@ -77,7 +77,7 @@ int WorldCommand(const WorldOptions& options) {
           : world->ChunksInReach(world->HomeChunk(kBegin_ns), range_max_m);
   const TerminalLine line;
   const ExportedWorld exported = ExportWorld(
-      *world, chunks, RailWorld::kChunkLength_m, kBegin_ns, [&](std::size_t num_gathered) {
+      *world, chunks, ChunksOfObjects(*world, kBegin_ns), kBegin_ns, [&](std::size_t num_gathered) {
         line.Show("chunk " + std::to_string(num_gathered) + " of " + std::to_string(chunks.size()));
       });
   line.End();

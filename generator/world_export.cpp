@@ -1,5 +1,6 @@
 #include "generator/world_export.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -11,11 +12,6 @@
 
 namespace railcast {
 namespace {
-
-bool StandsIn(const Transform& chunk_from_object, double chunk_length_m) {
-  return std::abs(chunk_from_object.translation().x()) <= chunk_length_m / 2 &&
-         std::abs(chunk_from_object.translation().y()) <= chunk_length_m * 4;
-}
 
 std::string TransformText(const Transform& transform) {
   std::string text;
@@ -60,34 +56,39 @@ void AppendFaces(const Part& part, const Label& label, std::uint32_t base, std::
 
 }  // namespace
 
+std::vector<int> ChunksOfObjects(const RailWorld& world, std::int64_t time_ns) {
+  const double last = std::ceil(world.alignment().length_m() / RailWorld::kChunkLength_m) - 1.0;
+  std::vector<int> chunks;
+  for (std::size_t i = 0; i < world.objects().size(); ++i) {
+    const double s_m = world.ObjectChainage_m(i, time_ns);
+    chunks.push_back(
+        static_cast<int>(std::clamp(std::floor(s_m / RailWorld::kChunkLength_m), 0.0, last)));
+  }
+  return chunks;
+}
+
 ExportedWorld ExportWorld(const World& world,
                           const std::vector<int>& chunks,
-                          double chunk_length_m,
+                          const std::vector<int>& object_chunks,
                           std::int64_t time_ns,
                           const std::function<void(std::size_t)>& on_progress) {
+  Check(object_chunks.size() == world.objects().size(), "every object belongs to a chunk");
   ExportedWorld exported;
   exported.world_from_export = world.WorldFromChunk(chunks.front());
   const Transform export_from_world = exported.world_from_export.inverse();
   PartGatherer gatherer;
-  std::vector<bool> is_taken(world.objects().size(), false);
   std::size_t num_gathered = 0;
   for (const int index : chunks) {
-    const Transform world_from_chunk = world.WorldFromChunk(index);
-    const Transform export_from_chunk = export_from_world * world_from_chunk;
+    const Transform export_from_chunk = export_from_world * world.WorldFromChunk(index);
     const Chunk chunk = world.BuildChunk(index);
     gatherer.Add(chunk.ground, Eigen::Affine3d(export_from_chunk));
     for (const Placement& placement : chunk.placements) {
       gatherer.Add(*placement.model, export_from_chunk * placement.chunk_from_model);
     }
-    for (std::size_t i = 0; i < is_taken.size(); ++i) {
-      const Transform world_from_object = world.WorldFromObject(i, time_ns);
-      if (is_taken[i] ||
-          !StandsIn(world_from_chunk.inverse() * world_from_object, chunk_length_m)) {
-        continue;
-      }
-      is_taken[i] = true;
+    for (std::size_t i = 0; i < object_chunks.size(); ++i) {
+      if (object_chunks[i] != index) continue;
       gatherer.Add(*world.objects()[i].model,
-                   Eigen::Affine3d(export_from_world * world_from_object));
+                   Eigen::Affine3d(export_from_world * world.WorldFromObject(i, time_ns)));
     }
     on_progress(++num_gathered);
   }

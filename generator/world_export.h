@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/frame/labels.h"
+#include "core/rail/rail_world.h"
 #include "core/scene/material.h"
 #include "core/scene/world.h"
 
@@ -18,13 +19,18 @@ struct ExportedWorld {
   std::vector<Part> parts;  ///< One for each pair of label and material, ordered by them.
 };
 
-/// Gathers what stands in `chunks` (of `chunk_length_m` each) and the objects that are there at
+/// Of each of the world's objects, the chunk of the line that its chainage lies in at that time:
+/// the first or the last one's where it is beyond the line's ends.
+[[nodiscard]] std::vector<int> ChunksOfObjects(const RailWorld& world, std::int64_t time_ns);
+
+/// Gathers what stands in `chunks` and the objects that belong to one of them and are there at
 /// that time, in the frame of the first of the chunks. @pre `chunks` is not empty.
+/// @param object_chunks One for each of the world's objects.
 /// @param on_progress Called with the number of chunks gathered so far.
 [[nodiscard]] ExportedWorld ExportWorld(
     const World& world,
     const std::vector<int>& chunks,
-    double chunk_length_m,
+    const std::vector<int>& object_chunks,
     std::int64_t time_ns,
     const std::function<void(std::size_t)>& on_progress = [](std::size_t) {});
 
