@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <numeric>
@@ -34,6 +37,14 @@ std::vector<int> ChunksBetween(double from_s_m, double to_s_m, double length_m) 
   return chunks;
 }
 
+// Before minutes of building are in vain.
+void CheckWritable(const std::filesystem::path& file) {
+  if (std::filesystem::is_directory(file)) throw FileError(file, EISDIR);
+  const std::filesystem::path unfinished = file.string() + std::string(kUnfinishedSuffix);
+  if (!std::ofstream(unfinished)) throw FileError(file, errno);
+  std::filesystem::remove(unfinished);
+}
+
 std::size_t CountTriangles(const ExportedWorld& exported) {
   std::size_t count = 0;
   for (const Part& part : exported.parts) count += part.mesh.triangles.size();
@@ -62,8 +73,12 @@ int WorldCommand(const WorldOptions& options) {
     throw InputError("--out: must end in .ply or .obj (got " + options.out.string() + ")");
   }
   if (options.from_s_m.has_value() != options.to_s_m.has_value()) {
-    throw InputError("--from-s, --to-s: must be given both or not at all");
+    const bool has_from = options.from_s_m.has_value();
+    throw InputError("--from-s, --to-s: must be given both or not at all (got only " +
+                     std::string(has_from ? "--from-s " : "--to-s ") +
+                     NumberText(has_from ? *options.from_s_m : *options.to_s_m) + ")");
   }
+  CheckWritable(options.out);
   const ScenarioSpec scenario = ReadScenario(options.scenario);
   const auto world = MakeWorld(scenario);
   constexpr std::int64_t kBegin_ns = 0;

@@ -118,6 +118,22 @@ TEST(RailcastGenerate, ExitsWithOneAndOneLineOnBadInput) {
   EXPECT_EQ(stretch.said, "--from-s, --to-s: must be 0 <= from < to <= 1000 (got 5, 1)\n");
 }
 
+TEST(RailcastGenerate, RefusesAMeshItCouldNotWriteBeforeItIsBuilt) {
+  const Ended half =
+      Generate("world " + scenarios_folder + "minimal.json --from-s nan --out a.ply");
+  EXPECT_EQ(half.said,
+            "--from-s, --to-s: must be given both or not at all (got only --from-s nan)\n");
+  // Nothing is said of chunks: none was built.
+  const Ended nowhere = Generate("world " + scenarios_folder + "minimal.json --out /no/such/a.ply");
+  EXPECT_EQ(nowhere.status, 1);
+  EXPECT_EQ(nowhere.said, "/no/such/a.ply: no such file or directory\n");
+  const TemporaryDirectory directory;
+  std::filesystem::create_directory(directory.path() / "a.ply");
+  const std::string folder = (directory.path() / "a.ply").string();
+  const Ended taken = Generate("world " + scenarios_folder + "minimal.json --out " + folder);
+  EXPECT_EQ(taken.said, folder + ": is a directory\n");
+}
+
 TEST(RailcastGenerate, GivesTheSameBytesForAnyNumberOfThreads) {
   const TemporaryDirectory directory;
   const std::string command = "sequence " + scenarios_folder + "minimal.json --frames 2 --out " +
