@@ -45,8 +45,12 @@ class ObjSieve {
 
   std::string Sift(std::istream& in) {
     std::string line;
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
     while (ReadLogicalLine(in, line)) {
       std::string_view rest = line;
+      if (line_ == 1 && rest.starts_with(kByteOrderMark)) {
+        rest.remove_prefix(kByteOrderMark.size());
+      }
       const std::string_view keyword = NextToken(rest);
       if (keyword == "v") SiftVertex(rest);
       if (keyword == "f") SiftFace(rest);
@@ -214,7 +218,8 @@ Vector3 NewellNormal(const std::vector<Vector3>& points, const std::vector<std::
   return normal;
 }
 
-/// The face's triangles, as indices into `points`.
+/// The face's triangles, as indices into `points`. Whether one has an area shows in space: where a
+/// face bends out of its plane, one that stands upright upon it is flat in the plan.
 std::vector<std::array<std::uint32_t, 3>> Triangulate(const std::vector<Vector3>& points,
                                                       const std::vector<std::uint32_t>& face) {
   if (face.size() == 3) return {{face[0], face[1], face[2]}};
@@ -223,14 +228,22 @@ std::vector<std::array<std::uint32_t, 3>> Triangulate(const std::vector<Vector3>
   const Eigen::Quaterniond plan_from_file =
       Eigen::Quaterniond::FromTwoVectors(normal, Vector3::UnitZ());
   std::vector<Eigen::Vector2d> outline;
+  double extent = 0.0;
   for (const std::uint32_t corner : face) {
     const Vector3 offset = plan_from_file * (points[corner] - points[face[0]]);
     outline.emplace_back(offset.head<2>());
+    extent = std::max(extent, offset.norm());
   }
-  std::vector<std::array<std::uint32_t, 3>> triangles = TriangulatePolygon(outline);
+  std::vector<std::array<std::uint32_t, 3>> triangles = ClipEars(outline);
   for (auto& triangle : triangles) {
     for (std::uint32_t& corner : triangle) corner = face[corner];
   }
+  std::erase_if(triangles, [&](const auto& triangle) {
+    const Vector3& a = points[triangle[0]];
+    const Vector3& b = points[triangle[1]];
+    const Vector3& c = points[triangle[2]];
+    return (b - a).cross(c - a).norm() <= TwiceFlatArea(extent);
+  });
   return triangles;
 }
 

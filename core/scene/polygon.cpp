@@ -15,6 +15,12 @@ double Turn(const Point& a, const Point& b, const Point& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
+double Extent(std::span<const Point> outline) {
+  double extent = 0.0;
+  for (const Point& point : outline) extent = std::max(extent, (point - outline[0]).norm());
+  return extent;
+}
+
 double TwiceArea(std::span<const Point> outline) {
   double sum = 0.0;
   for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
@@ -27,20 +33,18 @@ double TwiceArea(std::span<const Point> outline) {
 class Clipper {
  public:
   explicit Clipper(std::span<const Point> outline)
-      : outline_(outline), left_(outline.size()), sign_(TwiceArea(outline) < 0.0 ? -1.0 : 1.0) {
+      : outline_(outline),
+        left_(outline.size()),
+        sign_(TwiceArea(outline) < 0.0 ? -1.0 : 1.0),
+        flat_(TwiceFlatArea(Extent(outline))) {
     std::iota(left_.begin(), left_.end(), 0U);
-    // A corner flatter than the rounding of coordinates can tell lies on a straight edge.
-    double extent = 0.0;
-    for (const Point& point : outline) extent = std::max(extent, (point - outline[0]).norm());
-    flat_ = 64.0 * std::numeric_limits<double>::epsilon() * extent * extent;
   }
 
   std::vector<std::array<std::uint32_t, 3>> Clip() {
     std::vector<std::array<std::uint32_t, 3>> triangles;
     while (left_.size() >= 3) {
       const std::size_t i = NextEar();
-      const std::array<std::uint32_t, 3> corner = Corner(i);
-      if (std::abs(TwiceAreaOf(corner)) > flat_) triangles.push_back(corner);
+      triangles.push_back(Corner(i));
       left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(i));
     }
     return triangles;
@@ -87,13 +91,26 @@ class Clipper {
   std::span<const Point> outline_;
   std::vector<std::uint32_t> left_;
   double sign_;
-  double flat_{};
+  double flat_;  ///< A corner flatter than this lies on a straight edge.
 };
 
 }  // namespace
 
-std::vector<std::array<std::uint32_t, 3>> TriangulatePolygon(std::span<const Point> outline) {
+std::vector<std::array<std::uint32_t, 3>> ClipEars(std::span<const Point> outline) {
   return Clipper(outline).Clip();
+}
+
+double TwiceFlatArea(double extent) {
+  return 64.0 * std::numeric_limits<double>::epsilon() * extent * extent;
+}
+
+std::vector<std::array<std::uint32_t, 3>> TriangulatePolygon(std::span<const Point> outline) {
+  std::vector<std::array<std::uint32_t, 3>> triangles = ClipEars(outline);
+  const double flat = TwiceFlatArea(Extent(outline));
+  std::erase_if(triangles, [&](const auto& corner) {
+    return std::abs(Turn(outline[corner[0]], outline[corner[1]], outline[corner[2]])) <= flat;
+  });
+  return triangles;
 }
 
 }  // namespace railcast

@@ -91,6 +91,19 @@ TEST_F(ReadObjTest, CutsAConcaveFaceIntoItsOwnArea) {
   EXPECT_NEAR(Area(mesh), 5.0, 1e-6);
 }
 
+// A square with a triangle upright upon its edge: flat seen from above.
+TEST_F(ReadObjTest, KeepsATriangleThatStandsUprightOnItsFace) {
+  const Mesh mesh =
+      ReadObj(Write("v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nv 0 1 -1\nf 1 2 3 4 5\n"), 1.0, true);
+  EXPECT_EQ(mesh.triangles.size(), 3U);
+}
+
+TEST_F(ReadObjTest, PassesOverAByteOrderMark) {
+  const Mesh mesh =
+      ReadObj(Write("\xEF\xBB\xBF" + std::string(kThreeVertices) + "f 1 2 3\n"), 1.0, false);
+  EXPECT_EQ(mesh.triangles.size(), 1U);
+}
+
 TEST_F(ReadObjTest, DropsTrianglesWithoutArea) {
   const Mesh mesh =
       ReadObj(Write(std::string(kThreeVertices) + "v 2 0 0\nf 1 2 3\nf 1 2 4\nf 1 1 2\nf 1 2\nf\n"),
@@ -180,9 +193,10 @@ TEST(ReadObjOfRealFiles, GivesTheTrianglesOfTheReportOrOneLine) {
       ++num_compared;
       EXPECT_LE(num_triangles, report->second.triangles);
       // Which slivers have no area depends on rounding, so all, some or none of them may be gone.
-      // Two files hold one face each that crosses itself and loses a triangle.
-      const std::size_t num_crossed = report->second.polygons > 0 ? 1 : 0;
-      EXPECT_GE(num_triangles + report->second.degenerate + num_crossed, report->second.triangles);
+      // One file holds a polygon whose ears, but not whose fan, have one without an area in
+      // float32.
+      const std::size_t num_slivers = name == "meshes_sweethome3d/Scopia/truck.obj" ? 1 : 0;
+      EXPECT_GE(num_triangles + report->second.degenerate + num_slivers, report->second.triangles);
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), testing::EndsWith("holds no triangle"));
     }
@@ -196,7 +210,7 @@ TEST(ReadObjOfRealFiles, KeepsALorryThatIsNoManifold) {
       path(RAILCAST_SHARED_DATA_DIR) / "meshes_sweethome3d/BlendSwap-CC-0/peterbilt.obj";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no real meshes: " << file;
   const Mesh mesh = ReadObj(file, 0.01, true);
-  EXPECT_EQ(mesh.triangles.size(), 116471U);  // Of 116501; 30 have no area.
+  EXPECT_EQ(mesh.triangles.size(), 116472U);  // Of 116501; 29 have no area.
   const Vector3 size_m = Bounds(mesh).sizes();
   EXPECT_TRUE(size_m.isApprox(Vector3(2.872, 21.05, 4.030), 1e-3)) << size_m.transpose();
 }

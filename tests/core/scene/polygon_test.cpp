@@ -46,6 +46,12 @@ TEST(TriangulatePolygon, KeepsCornersOnEdgesAndLeavesOutRepeatedOnes) {
   EXPECT_DOUBLE_EQ(sum, 4.0);
 }
 
+TEST(ClipEars, GivesTwoTrianglesFewerThanCornersWhateverTheirArea) {
+  const Outline square = {{0, 0}, {1, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}, {0, 1}};
+  EXPECT_EQ(ClipEars(square).size(), 5U);
+  EXPECT_EQ(ClipEars(Outline{{0, 0}, {1, 1}, {2, 2}, {3, 3}}).size(), 2U);
+}
+
 TEST(TriangulatePolygon, HasNothingToCutInALine) {
   EXPECT_TRUE(TriangulatePolygon(Outline{{0, 0}, {1, 1}, {2, 2}, {3, 3}}).empty());
 }
