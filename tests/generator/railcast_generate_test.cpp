@@ -203,6 +203,26 @@ TEST(RailcastGenerate, RefusesToLeaveTheTrackBeforeTheFirstFrame) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
+TEST(RailcastGenerate, NamesTheFileWhoseOutputIsOutOfReachAlsoOnTheWay) {
+  const TemporaryDirectory directory;
+  const std::string file = (directory.path() / "scenario.json").string();
+  std::string scenario = ReadFileWhole(MakeProject(directory.path()));
+  const std::string start = "\"vehicle\": {\"start_s_m\": 400}";
+  scenario.replace(scenario.find(start), start.size(),
+                   R"("output": {"frame": "world", "origin_m": [-7785, 0, 0]},
+                      "vehicle": {"start_s_m": 400, "motion": {"profile":
+                        [{"time_s": 0, "speed_mps": 50}]}})");
+  WriteFileWhole(file, scenario);
+  EXPECT_EQ(Generate("check " + file).status, 0);
+  const Ended run = Generate("sequence " + file + " --out " + (directory.path() / "out").string());
+  EXPECT_EQ(run.status, 1);
+  EXPECT_NE(run.said.find(file +
+                          ": /output/origin_m: must lie within 8192 m of the sensor, since float32 "
+                          "loses millimetres beyond (got [-7785, 0, 0], sensor at [410, 0, 2])\n"),
+            std::string::npos)
+      << run.said;
+}
+
 TEST(RailcastGenerate, StartsAtAnyFrame) {
   const TemporaryDirectory directory;
   const std::string command = "sequence " + scenarios_folder + "st_gallen_approach.json --out " +
