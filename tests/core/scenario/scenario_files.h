@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/core/io/temporary_directory.h"
+
 namespace railcast {
 
 inline std::filesystem::path ScenariosDir() {
@@ -39,21 +41,13 @@ inline std::vector<std::filesystem::path> ShippedScenarios() {
 /// A folder of this test's own, with files written into it; gone at the end.
 class TemporaryFolder {
  public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "railcast-XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
   std::filesystem::path Write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name) << text;
-    return path_ / name;
+    std::ofstream(directory_.path() / name) << text;
+    return directory_.path() / name;
   }
 
  private:
-  std::filesystem::path path_;
+  TemporaryDirectory directory_;
 };
 
 }  // namespace railcast
