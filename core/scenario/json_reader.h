@@ -1,9 +1,9 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -200,14 +200,11 @@ void JsonReader::Unique(std::string_view key,
                         V T::*which) {
   const std::string list = object_.resolved_pointer + PointerStep(key) + "/";
   const auto place = [&](std::size_t i) { return list + std::to_string(i) + PointerStep(of); };
-  std::vector<V> seen;
+  std::set<V> seen;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!source_.unknown().IsKnown(place(i))) continue;
     const V& value = values[i].*which;
-    if (std::find(seen.begin(), seen.end(), value) == seen.end()) {
-      seen.push_back(value);
-      continue;
-    }
+    if (seen.insert(value).second) continue;
     source_.errors().Add(source_.sources().Place(place(i)) + ": must be unique" + Got(value));
     source_.unknown().Add(place(i));
   }

@@ -51,6 +51,16 @@ void CheckReferences(const ScenarioSpec& spec, JsonSource& source) {
   }
 }
 
+void CheckNumberOfMaterials(const ScenarioSpec& spec, JsonSource& source) {
+  constexpr std::size_t kMost = MaterialLibrary::kMostMaterials;
+  const std::string pointer = "/materials";
+  if (spec.materials.size() <= kMost) return;
+  source.errors().Add(source.sources().Place(pointer) + ": must have at most " +
+                      std::to_string(kMost) + " elements (got " +
+                      std::to_string(spec.materials.size()) + ")");
+  source.unknown().Add(pointer);
+}
+
 }  // namespace
 
 ScenarioSpec ReadScenario(const std::filesystem::path& file) {
@@ -58,6 +68,7 @@ ScenarioSpec ReadScenario(const std::filesystem::path& file) {
   ScenarioSpec spec;
   if (const auto root = source.Open(file)) {
     ReadValue(source, *root, spec, Anything{});
+    CheckNumberOfMaterials(spec, source);
     CheckReferences(spec, source);
     spec.sources = source.sources();
     if (!source.errors().empty()) AddBuildFaults(spec, source.unknown(), source.errors());

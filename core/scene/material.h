@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -55,8 +56,12 @@ struct SurfaceOptics {
 /// The materials of a scenario. Index 0 is "none": the material of nothing.
 class MaterialLibrary {
  public:
+  /// Beside "none": indices have 16 bits.
+  static constexpr std::size_t kMostMaterials = 65'535;
+
   MaterialLibrary() : materials_(1) { materials_.front().name = "none"; }
-  /// @pre Names are unique and none is "none"; the scenario reader checks.
+  /// @pre At most kMostMaterials, of unique names of which none is "none"; the scenario reader
+  ///   checks.
   explicit MaterialLibrary(const std::vector<Material>& materials);
 
   [[nodiscard]] const std::vector<Material>& materials() const { return materials_; }

@@ -56,6 +56,19 @@ TEST(ReadScenario, LetsAFileNameTheNextOne) {
   EXPECT_EQ(spec.weather.rain_rate_mmph, 9.0);
 }
 
+TEST(ReadScenario, RefusesMoreMaterialsThanIndicesCanTell) {
+  const TemporaryFolder folder;
+  std::string materials;
+  for (int i = 0; i < 65'536; ++i) {
+    if (i > 0) materials += ",";
+    materials += R"({"name": "m)" + std::to_string(i) + R"(", "reflectivity": 0.5})";
+  }
+  const auto library =
+      folder.Write("many.json", R"({"version": 1, "materials": [)" + materials + "]}");
+  EXPECT_EQ(FaultsOf(folder.Write("a.json", OnMinimal(R"("materials": "many.json")"))),
+            library.string() + ": /materials: must have at most 65535 elements (got 65536)");
+}
+
 TEST(ReadScenario, ReportsTheFaultsOfEveryFileAtOnce) {
   const TemporaryFolder folder;
   const auto weather = folder.Write("weather.json", R"({"version": 1, "snow_rate_mmph": -1})");
