@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "core/base/option_rules.h"
+#include "core/io/command_line.h"
 
 namespace railcast {
 
@@ -17,18 +17,6 @@ inline constexpr int kExitUsage = 2;
 /// status.
 /// @throws InputError on bad input.
 using Command = std::function<int(const std::string& command_line)>;
-
-/// Of an option that counts or numbers something.
-[[nodiscard]] inline CLI::Validator Whole(const WholeNumberRule& rule) {
-  return {rule, rule.Range()};
-}
-[[nodiscard]] inline CLI::Validator Number(const NumberRule& rule) {
-  return {[rule](std::string& text) { return rule(text); }, rule.Range()};
-}
-/// Of an option that names a file or folder.
-[[nodiscard]] inline CLI::Validator NonEmpty() {
-  return {[](std::string& text) { return NonEmptyRule(text); }, ""};
-}
 
 // Each adds one command with its options; if the command line names it, `command` becomes it.
 

@@ -4,13 +4,12 @@
 #include <exception>
 #include <iostream>
 #include <string>
-#include <vector>
 
 #include "analysis/commands.h"
 #include "analysis/shell_word.h"
 #include "core/base/error.h"
+#include "core/io/command_line.h"
 #include "core/io/run_program.h"
-#include "core/scenario/json_rules.h"
 
 namespace {
 
@@ -24,24 +23,13 @@ std::string CommandLine(int argc, char** argv) {
   return line;
 }
 
-// CLI11 calls a misspelt command a missing one.
-std::string SayWhatIsWrong(const CLI::App* app, const CLI::Error& error) {
-  const std::vector<std::string> words = app->remaining();
-  const bool has_word = !words.empty() && !words.front().starts_with('-');
-  if (!app->get_subcommands().empty() || !has_word) return CLI::FailureMessage::simple(app, error);
-  std::vector<std::string> names;
-  for (const CLI::App* known : app->get_subcommands({})) names.push_back(known->get_name());
-  return railcast::Unknown("command", words.front(), names) + " (got " + words.front() +
-         ")\nRun with --help for more information.\n";
-}
-
 int Main(int argc, char** argv) {
   // What PCL says of single neighbourhoods is no news: what matters is in the figures.
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
   CLI::App app("LiDAR simulation for railways: what frames are worth");
   app.set_version_flag("--version", "railcast " RAILCAST_VERSION);
   app.require_subcommand(1);
-  app.failure_message(SayWhatIsWrong);
+  app.failure_message(railcast::SayWhatIsWrong);
   app.fallthrough();
   app.footer("Exit status: 0 success, 1 bad input or failed run, 2 usage.");
   railcast::Command command;

@@ -6,36 +6,26 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/base/option_rules.h"
+#include "core/io/command_line.h"
 #include "core/io/field_selection.h"
 #include "core/io/run_program.h"
 #include "core/scenario/effects.h"
-#include "core/scenario/json_rules.h"
 #include "core/scenario/scenario.h"
 #include "generator/commands.h"
 
 namespace {
 
 using railcast::CheckOptions;
+using railcast::NonEmpty;
+using railcast::Number;
 using railcast::SequenceOptions;
 using railcast::StreamOptions;
 using railcast::TraceOptions;
+using railcast::Whole;
 using railcast::WorldOptions;
 
 constexpr std::uint64_t kMaxFrame = 1'000'000'000;
 constexpr railcast::NumberRule kChainage{-1e7, 1e7};  // In m.
-
-CLI::Validator Whole(const railcast::WholeNumberRule& rule) {
-  return {rule, rule.Range()};
-}
-
-CLI::Validator Number(const railcast::NumberRule& rule) {
-  return {[rule](std::string& text) { return rule(text); }, rule.Range()};
-}
-
-CLI::Validator NonEmpty() {
-  return {[](std::string& text) { return railcast::NonEmptyRule(text); }, ""};
-}
 
 // What is no list of fields is wrong usage, as what is no format.
 void CheckFields(const std::string& fields) {
@@ -180,22 +170,11 @@ void AddTrace(CLI::App& app, TraceOptions& options, std::function<int()>& comman
   trace->callback([&] { command = [&] { return railcast::TraceCommand(options); }; });
 }
 
-// CLI11 calls a misspelt command a missing one.
-std::string SayWhatIsWrong(const CLI::App* app, const CLI::Error& error) {
-  const std::vector<std::string> words = app->remaining();
-  const bool has_word = !words.empty() && !words.front().starts_with('-');
-  if (!app->get_subcommands().empty() || !has_word) return CLI::FailureMessage::simple(app, error);
-  std::vector<std::string> names;
-  for (const CLI::App* known : app->get_subcommands({})) names.push_back(known->get_name());
-  return railcast::Unknown("command", words.front(), names) + " (got " + words.front() +
-         ")\nRun with --help for more information.\n";
-}
-
 int Main(int argc, char** argv) {
   CLI::App app("LiDAR simulation for railways: frames from a scenario");
   app.set_version_flag("--version", "railcast " RAILCAST_VERSION);
   app.require_subcommand(1);
-  app.failure_message(SayWhatIsWrong);
+  app.failure_message(railcast::SayWhatIsWrong);
   app.fallthrough();
   app.footer(
       "Exit status: 0 success, 1 bad input or failed run, 2 usage, 130 interrupted (the same\n"

@@ -27,7 +27,7 @@ LIBRARY_OWNERS = {
     "libpcap": (r"pcap/", ("core/io",)),
     "Expat": (r"expat\.h$", ("core/io",)),
     "VTK": (r"vtk[A-Z]\w+\.h$", ("viewer",)),
-    "CLI11": (r"CLI/", PROGRAMS),
+    "CLI11": (r"CLI/", ("core/io", *PROGRAMS)),
     "spdlog": (r"spdlog/", PROGRAMS),
 }
 # What a public header may ask of the programs that include it: the core is to be embedded, core/io

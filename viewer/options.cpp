@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/base/option_rules.h"
+#include "core/io/command_line.h"
 #include "viewer/color/field_values.h"
 #include "viewer/window/view_window.h"
 
@@ -46,14 +46,6 @@ constexpr std::string_view kEmptyBeams = "empty-beams";
 
 [[noreturn]] void Fail(const std::string& option, const std::string& rule) {
   throw CLI::ValidationError(option, rule);
-}
-
-CLI::Validator Whole(const WholeNumberRule& rule) {
-  return {rule, rule.Range()};
-}
-
-CLI::Validator Number(const NumberRule& rule) {
-  return {[rule](std::string& text) { return rule(text); }, rule.Range()};
 }
 
 /// Two whole numbers; nothing if `text` is none, or one is out of its limits.
