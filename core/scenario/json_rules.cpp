@@ -55,7 +55,7 @@ std::optional<std::string> Broken(const NumberChoices& choices, int value) {
   return "must be " + Alternatives(names);
 }
 
-std::optional<std::string> Broken(const Choices& choices, std::string_view value) {
+std::optional<std::string> Broken(const AllowedNames& choices, std::string_view value) {
   const auto& names = choices.names;
   if (std::find(names.begin(), names.end(), value) != names.end()) return std::nullopt;
   return "must be " + InWords(names);

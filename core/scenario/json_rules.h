@@ -45,10 +45,10 @@ struct NumberChoices {
 }
 
 /// Of a string.
-struct Choices {
+struct AllowedNames {
   std::vector<std::string> names;
 };
-[[nodiscard]] inline Choices OneOf(std::vector<std::string> names) {
+[[nodiscard]] inline AllowedNames OneOf(std::vector<std::string> names) {
   return {std::move(names)};
 }
 /// Without control characters: reports and messages show names as they are.
@@ -110,7 +110,8 @@ inline constexpr bool kElementMayBeFile = false;
 /// The rule in words, "must be > 0 and <= 360", if the value breaks it.
 [[nodiscard]] std::optional<std::string> Broken(const Limits& limits, double value);
 [[nodiscard]] std::optional<std::string> Broken(const NumberChoices& choices, int value);
-[[nodiscard]] std::optional<std::string> Broken(const Choices& choices, std::string_view value);
+[[nodiscard]] std::optional<std::string> Broken(const AllowedNames& choices,
+                                                std::string_view value);
 [[nodiscard]] std::optional<std::string> Broken(NonEmptyString, std::string_view value);
 [[nodiscard]] std::optional<std::string> Broken(OneLine, std::string_view value);
 [[nodiscard]] std::optional<std::string> Broken(HostAndPort, std::string_view value);

@@ -64,7 +64,10 @@ void ReadValue(JsonSource& source, const Node& node, std::string& value, OneLine
   ReadString(source, node, value, rule);
 }
 
-void ReadValue(JsonSource& source, const Node& node, std::string& value, const Choices& choices) {
+void ReadValue(JsonSource& source,
+               const Node& node,
+               std::string& value,
+               const AllowedNames& choices) {
   ReadString(source, node, value, choices);
 }
 

@@ -20,7 +20,10 @@ void ReadValue(JsonSource& source, const Node& node, int& value, const NumberCho
 void ReadValue(JsonSource& source, const Node& node, std::string& value, Anything);
 void ReadValue(JsonSource& source, const Node& node, std::string& value, NonEmptyString rule);
 void ReadValue(JsonSource& source, const Node& node, std::string& value, OneLine rule);
-void ReadValue(JsonSource& source, const Node& node, std::string& value, const Choices& choices);
+void ReadValue(JsonSource& source,
+               const Node& node,
+               std::string& value,
+               const AllowedNames& choices);
 void ReadValue(JsonSource& source, const Node& node, std::string& value, HostAndPort rule);
 void ReadValue(JsonSource& source, const Node& node, std::string& value, ExistingFile);
 

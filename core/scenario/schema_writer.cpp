@@ -14,7 +14,7 @@ void AddRule(Json& schema, const NumberChoices& choices) {
   schema["enum"] = choices.numbers;
 }
 
-void AddRule(Json& schema, const Choices& choices) {
+void AddRule(Json& schema, const AllowedNames& choices) {
   schema["enum"] = choices.names;
 }
 

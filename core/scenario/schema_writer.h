@@ -20,7 +20,7 @@ namespace railcast {
 void AddRule(Json& schema, Anything);
 void AddRule(Json& schema, const Limits& limits);
 void AddRule(Json& schema, const NumberChoices& choices);
-void AddRule(Json& schema, const Choices& choices);
+void AddRule(Json& schema, const AllowedNames& choices);
 void AddRule(Json& schema, NonEmptyString);
 void AddRule(Json& schema, OneLine);
 void AddRule(Json& schema, HostAndPort);
