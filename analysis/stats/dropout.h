@@ -16,9 +16,9 @@ namespace railcast {
 /// Firings that came to nothing, by cause: exact, from the outcomes that our frames hold.
 ///
 /// Dropout is the share of the firings that met a surface within reach and brought no point of it
-/// back. Firings into the open (no_surface) and onto the own vehicle (ego) had nothing to lose. Where
-/// clutter answered the surface behind is unknown. These firings are counted as a whole, not by
-/// range, incidence, label or material.
+/// back. Firings into the open (no_surface) and onto the own vehicle (ego) had nothing to lose.
+/// Where clutter answered the surface behind is unknown. These firings are counted as a whole, not
+/// by range, incidence, label or material.
 class Dropout {
  public:
   /// Frames without outcomes are passed over.

@@ -92,7 +92,8 @@ void CommandChannel::Listen() {
     const std::vector<std::string_view> lines = LinesOf(received->bytes);
     if (lines.size() > kMaxLines) {
       std::ostringstream fault;
-      fault << "a datagram must have at most " << kMaxLines << " lines (got " << lines.size() << ")";
+      fault << "a datagram must have at most " << kMaxLines << " lines (got " << lines.size()
+            << ")";
       receiver_.Answer(FaultAnswer({}, {fault.str()}), received->from);
       continue;
     }

@@ -119,10 +119,9 @@ TEST(RailcastGenerate, ExitsWithOneAndOneLineOnBadInput) {
 }
 
 TEST(RailcastGenerate, RefusesAMeshItCouldNotWriteBeforeItIsBuilt) {
-  const Ended half =
-      Generate("world " + scenarios_folder + "minimal.json --from-s nan --out a.ply");
+  const Ended half = Generate("world " + scenarios_folder + "minimal.json --from-s 5 --out a.ply");
   EXPECT_EQ(half.said,
-            "--from-s, --to-s: must be given both or not at all (got only --from-s nan)\n");
+            "--from-s, --to-s: must be given both or not at all (got only --from-s 5)\n");
   // Nothing is said of chunks: none was built.
   const Ended nowhere = Generate("world " + scenarios_folder + "minimal.json --out /no/such/a.ply");
   EXPECT_EQ(nowhere.status, 1);

@@ -90,7 +90,7 @@ class Libraries(unittest.TestCase):
                                  "tests include nlohmann",
             "pcl/point_types.h": "core/io, generator, analysis, viewer and tests include PCL",
             "vtkRenderer.h": "viewer and tests include VTK",
-            "CLI/CLI.hpp": "generator, analysis, viewer and tests include CLI11",
+            "CLI/CLI.hpp": "core/io, generator, analysis, viewer and tests include CLI11",
         }.items():
             with self.subTest(include):
                 self.assertEqual(faults_of({"core/rail/a.cpp": f"#include <{include}>\n"}),
