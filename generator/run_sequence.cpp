@@ -4,6 +4,7 @@
 #include <chrono>
 #include <future>
 
+#include "core/base/out_of_memory.h"
 #include "generator/sequence_directory.h"
 
 namespace railcast {
@@ -32,8 +33,15 @@ void MakeMissingFrames(const SequenceSpec& spec,
     next.objects.clear();
     make_frame(spec.start_frame + i, next.frame, next.objects);
     await_writing();
-    writing = std::async(std::launch::async,
-                         [&directory, &next] { directory.Write(next.frame, next.objects); });
+    const auto doing = [&next] {
+      return "writing frame " + std::to_string(next.frame.index) + " (" +
+             std::to_string(next.frame.num_slots()) + " slots)";
+    };
+    writing = WithinMemory(doing, [&] {
+      return std::async(std::launch::async, [&directory, &next, doing] {
+        WithinMemory(doing, [&] { directory.Write(next.frame, next.objects); });
+      });
+    });
   }
   await_writing();
 }

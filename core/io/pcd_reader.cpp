@@ -6,13 +6,15 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "core/base/out_of_memory.h"
 #include "core/io/pcd_header.h"
 #include "core/io/write_file.h"
 
 namespace railcast {
 
-pcl::PCLPointCloud2 ReadPcd(const std::filesystem::path& file) {
-  const std::string bytes = ReadFileWhole(file);
+namespace {
+
+pcl::PCLPointCloud2 ParsePcd(const std::filesystem::path& file, const std::string& bytes) {
   const PcdHeader header = CheckPcd(file.string(), bytes);
 
   pcl::PCDReader reader;
@@ -36,6 +38,13 @@ pcl::PCLPointCloud2 ReadPcd(const std::filesystem::path& file) {
   }
   if (status != 0) throw InputError(file.string() + ": PCL cannot read this PCD file");
   return cloud;
+}
+
+}  // namespace
+
+pcl::PCLPointCloud2 ReadPcd(const std::filesystem::path& file) {
+  return WithinMemory([&] { return ReadingText(file); },
+                      [&] { return ParsePcd(file, ReadFileWhole(file)); });
 }
 
 }  // namespace railcast

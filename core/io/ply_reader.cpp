@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/base/error.h"
+#include "core/base/out_of_memory.h"
 #include "core/io/ply_header.h"
 #include "core/io/text_cursor.h"
 #include "core/io/write_file.h"
@@ -82,7 +83,8 @@ void ParsePoints(const std::string& file, std::string_view text, pcl::PCLPointCl
 }  // namespace
 
 pcl::PCLPointCloud2 ReadPly(const std::filesystem::path& file) {
-  return ParsePly(file.string(), ReadFileWhole(file));
+  return WithinMemory([&] { return ReadingText(file); },
+                      [&] { return ParsePly(file.string(), ReadFileWhole(file)); });
 }
 
 pcl::PCLPointCloud2 ParsePly(const std::string& file, const std::string& bytes) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/out_of_memory.h"
 #include "core/rail/catenary/catenary.h"
 #include "core/rail/catenary/catenary_plan.h"
 #include "core/rail/chunk_context.h"
@@ -271,10 +272,13 @@ Chunk RailWorld::BuildChunk(int chunk) const {
   const ChunkContext context = line_->ContextOf(chunk, line_->grid.WorldFromChunk(chunk).inverse());
   Chunk built;
   built.ground.name = "chunk " + std::to_string(chunk);
-  AddTerrain(context, built);
-  AddTracks(context, line_->infrastructure, built);
-  AddCatenary(context, line_->catenary_plan, line_->infrastructure, built);
-  AddVegetation(context, line_->plants, built);
+  WithinMemory([&] { return "building " + built.ground.name + " of the line"; },
+               [&] {
+                 AddTerrain(context, built);
+                 AddTracks(context, line_->infrastructure, built);
+                 AddCatenary(context, line_->catenary_plan, line_->infrastructure, built);
+                 AddVegetation(context, line_->plants, built);
+               });
   return built;
 }
 

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "core/base/attempt.h"
+#include "core/base/out_of_memory.h"
 #include "core/base/units.h"
 #include "core/detect/detector.h"
 #include "core/rail/rail_world.h"
@@ -33,7 +34,10 @@ std::optional<ScanPattern> TryPattern(const ScenarioSpec& spec,
                                       const std::string& sensor_pointer,
                                       const ScanSpec& scan,
                                       ErrorList& errors) {
-  return Located(spec, sensor_pointer + "/scan", errors, [&] { return BuildScanPattern(scan); });
+  return Located(spec, sensor_pointer + "/scan", errors, [&] {
+    return WithinMemory([] { return "building the scan pattern"; },
+                        [&] { return BuildScanPattern(scan); });
+  });
 }
 
 // Whether float32 holds the points of frame 0, in the axes of the output.
@@ -105,9 +109,14 @@ void AddBuildFaults(const ScenarioSpec& spec, const UnknownPlaces& unknown, Erro
 
 std::shared_ptr<const RailWorld> MakeWorld(const ScenarioSpec& spec) {
   ErrorList errors;
+  const auto doing = [&] {
+    return "building the world (" + std::to_string(spec.world.objects.size()) + " objects)";
+  };
   const auto make = [&] {
-    return std::make_shared<const RailWorld>(spec.world, spec.vehicle, LabelTable(spec.labels),
-                                             MaterialLibrary(spec.materials), spec.world.seed);
+    return WithinMemory(doing, [&] {
+      return std::make_shared<const RailWorld>(spec.world, spec.vehicle, LabelTable(spec.labels),
+                                               MaterialLibrary(spec.materials), spec.world.seed);
+    });
   };
   const auto world = Located(spec, "", errors, make);
   errors.ThrowIfAny();
@@ -147,8 +156,14 @@ std::vector<std::unique_ptr<Simulator>> MakeSimulators(const ScenarioSpec& spec,
                                   .clutter_labels = names->labels,
                                   .snow_material = names->snow_material,
                                   .isa = isa};
-    simulators.push_back(std::make_unique<Simulator>(store, std::move(*patterns[i]), materials,
-                                                     simulator, num_threads));
+    const std::size_t num_firings = patterns[i]->num_firings();
+    const auto doing = [&] {
+      return "making the simulator of " + std::to_string(num_firings) + " firings a frame";
+    };
+    simulators.push_back(WithinMemory(doing, [&] {
+      return std::make_unique<Simulator>(store, std::move(*patterns[i]), materials, simulator,
+                                         num_threads);
+    }));
   }
   return simulators;
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/out_of_memory.h"
 #include "core/scenario/build_faults.h"
 #include "core/scenario/describe_scenario.h"
 #include "core/scenario/json_reader.h"
@@ -61,9 +62,7 @@ void CheckNumberOfMaterials(const ScenarioSpec& spec, JsonSource& source) {
   source.unknown().Add(pointer);
 }
 
-}  // namespace
-
-ScenarioSpec ReadScenario(const std::filesystem::path& file) {
+ScenarioSpec Read(const std::filesystem::path& file) {
   JsonSource source;
   ScenarioSpec spec;
   if (const auto root = source.Open(file)) {
@@ -75,6 +74,12 @@ ScenarioSpec ReadScenario(const std::filesystem::path& file) {
   }
   source.errors().ThrowIfAny();
   return spec;
+}
+
+}  // namespace
+
+ScenarioSpec ReadScenario(const std::filesystem::path& file) {
+  return WithinMemory([&] { return ReadingText(file); }, [&] { return Read(file); });
 }
 
 LabelTable ReadLabelTable(const std::filesystem::path& file) {

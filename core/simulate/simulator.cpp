@@ -9,8 +9,10 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <string>
 #include <utility>
 
+#include "core/base/out_of_memory.h"
 #include "core/simulate/beam_tracer.h"
 #include "core/simulate/firing_tiles.h"
 #include "core/simulate/frame_scene.h"
@@ -72,9 +74,17 @@ struct Simulator::Parts {
   [[nodiscard]] FrameScene SceneOf(std::uint32_t frame_index) {
     return scenes.At(frame_index, pattern.StampNs(frame_index));
   }
+  /// For WithinMemory: "making frame 3 (28800 firings)".
+  [[nodiscard]] auto Making(std::uint32_t frame_index) const {
+    return [this, frame_index] {
+      return "making frame " + std::to_string(frame_index) + " (" +
+             std::to_string(pattern.num_firings()) + " firings)";
+    };
+  }
   void UseSpec();
   void TraceAllCenters(const CastFrame& cast);
   void Scan(const CastFrame& cast, Frame& frame);
+  [[nodiscard]] std::vector<std::uint32_t> FiringsOnObjectAlone(std::uint32_t frame_index);
   /// Calls `work(tile)` for every tile, on the run's threads.
   template <typename Job>
   void ForEachTile(const Job& job) {
@@ -200,15 +210,19 @@ void Simulator::Parts::Scan(const CastFrame& cast, Frame& frame) {
 }
 
 void Simulator::Scan(std::uint32_t frame_index, Frame& frame) {
-  const FrameScene scene = parts_->SceneOf(frame_index);
-  parts_->Scan(CastOf(scene), frame);
+  WithinMemory(parts_->Making(frame_index), [&] {
+    const FrameScene scene = parts_->SceneOf(frame_index);
+    parts_->Scan(CastOf(scene), frame);
+  });
 }
 
 void Simulator::Scan(std::uint32_t frame_index, const HostScene& host, Frame& frame) {
-  const FramePoses poses =
-      parts_->scenes.PosesIn(host.window_from_world, parts_->pattern.StampNs(frame_index));
-  parts_->Scan({frame_index, poses, host.caster, host.surfaces, nullptr, host.window_from_world},
-               frame);
+  WithinMemory(parts_->Making(frame_index), [&] {
+    const FramePoses poses =
+        parts_->scenes.PosesIn(host.window_from_world, parts_->pattern.StampNs(frame_index));
+    parts_->Scan({frame_index, poses, host.caster, host.surfaces, nullptr, host.window_from_world},
+                 frame);
+  });
 }
 
 FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) {
@@ -271,20 +285,23 @@ std::function<void()> Simulator::MakeRawTrace(std::uint32_t frame_index) {
   };
 }
 
-std::vector<std::uint32_t> Simulator::FiringsOnObjectAlone(std::uint32_t frame_index) {
-  Parts& parts = *parts_;
-  const FrameScene scene = parts.SceneOf(frame_index);
-  const std::vector<LoneObject> lone_objects = parts.scenes.LoneObjects(scene);
-  const float range_max_m = parts.range_max_m();
-  std::vector<std::atomic<std::uint32_t>> counts(world().objects().size());
-  parts.ForEachTile([&](std::size_t tile) {
+std::vector<std::uint32_t> Simulator::Parts::FiringsOnObjectAlone(std::uint32_t frame_index) {
+  const FrameScene scene = SceneOf(frame_index);
+  const std::vector<LoneObject> lone_objects = scenes.LoneObjects(scene);
+  std::vector<std::atomic<std::uint32_t>> counts(scenes.world().objects().size());
+  ForEachTile([&](std::size_t tile) {
     RayTile rays;
-    parts.tiles.Aim(tile, scene.poses, range_max_m, rays);
+    tiles.Aim(tile, scene.poses, range_max_m(), rays);
     for (const LoneObject& lone : lone_objects) {
-      counts[lone.object] += lone.CountHits(rays, parts.tiles.num_firings(tile), range_max_m);
+      counts[lone.object] += lone.CountHits(rays, tiles.num_firings(tile), range_max_m());
     }
   });
   return {counts.begin(), counts.end()};
+}
+
+std::vector<std::uint32_t> Simulator::FiringsOnObjectAlone(std::uint32_t frame_index) {
+  return WithinMemory(parts_->Making(frame_index),
+                      [&] { return parts_->FiringsOnObjectAlone(frame_index); });
 }
 
 }  // namespace railcast

@@ -7,17 +7,40 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <new>
+#include <stdexcept>
+#include <type_traits>
 
 #include "core/base/error.h"
+#include "core/base/out_of_memory.h"
+#include "core/base/shown_text.h"
 #include "core/scan/scan_pattern.h"
 
 namespace railcast {
 
 static_assert(kTileSize % kPacketSize == 0);
 
+namespace {
+
+// Embree does not throw: it notes the first error of each thread. Unasked for, a scene that did not
+// fit into memory would be one that rays pass through.
+// @param device Null: why no device could be made.
+template <typename Doing>
+void ThrowIfFailed(RTCDevice device, const Doing& doing) {
+  const RTCError error = rtcGetDeviceError(device);
+  if (error == RTC_ERROR_NONE) return;
+  if (error == RTC_ERROR_OUT_OF_MEMORY) throw OutOfMemory(doing());
+  throw std::runtime_error("Embree's error " + std::to_string(error) + " while " + doing());
+}
+
+}  // namespace
+
 struct TraceDevice::Handle {
   explicit Handle(const std::string& config) : device(rtcNewDevice(config.c_str())) {
-    Check(device != nullptr, "Embree makes a device");
+    const auto doing = [] { return std::string("making a device for ray tracing"); };
+    if (device == nullptr) ThrowIfFailed(nullptr, doing);
+    Check(device != nullptr, "Embree says why it makes no device");
+    ThrowIfFailed(device, doing);
   }
   ~Handle() { rtcReleaseDevice(device); }
   Handle(const Handle&) = delete;
@@ -36,6 +59,7 @@ namespace {
 // The best plain setting measured: robust traversal is also the faster one with packets of 16.
 RTCScene NewScene(RTCDevice device) {
   RTCScene scene = rtcNewScene(device);
+  if (scene == nullptr) throw std::bad_alloc();
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
   return scene;
@@ -49,9 +73,35 @@ void Commit(RTCScene scene) {
   one_thread.execute([scene] { rtcCommitScene(scene); });
 }
 
+// A new scene with what `attach` attaches to it, or no scene and an InputError.
+template <typename Doing, typename Attach>
+void BuildScene(RTCDevice device, RTCScene& scene, const Doing& doing, const Attach& attach) {
+  // What a build that failed before has left behind is none of this one's.
+  static_cast<void>(rtcGetDeviceError(device));
+  WithinMemory(doing, [&] {
+    scene = NewScene(device);
+    attach();
+    Commit(scene);
+  });
+  ThrowIfFailed(device, doing);
+}
+
+struct ReleaseGeometry {
+  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
+using OwnedGeometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, ReleaseGeometry>;
+
+// Embree gives null where C++ throws std::bad_alloc; so does this.
+OwnedGeometry NewGeometry(RTCDevice device, RTCGeometryType type) {
+  OwnedGeometry geometry(rtcNewGeometry(device, type));
+  if (geometry == nullptr) throw std::bad_alloc();
+  return geometry;
+}
+
 void AttachPart(RTCDevice device, RTCScene scene, const Part& part, unsigned geometry_id) {
   const Mesh& mesh = part.mesh;
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  const OwnedGeometry owned = NewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  RTCGeometry geometry = owned.get();
   if (!mesh.triangles.empty()) {
     using Corner = std::array<float, 3>;
     auto* vertices = static_cast<Corner*>(
@@ -61,7 +111,7 @@ void AttachPart(RTCDevice device, RTCScene scene, const Part& part, unsigned geo
     auto* triangles = static_cast<Triangle*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                 sizeof(Triangle), mesh.triangles.size()));
-    Check(vertices != nullptr && triangles != nullptr, "there is memory for the triangles");
+    if (vertices == nullptr || triangles == nullptr) throw std::bad_alloc();
     std::transform(mesh.vertices.begin(), mesh.vertices.end(), vertices,
                    [](const Eigen::Vector3f& vertex) {
                      return Corner{vertex.x(), vertex.y(), vertex.z()};
@@ -71,7 +121,6 @@ void AttachPart(RTCDevice device, RTCScene scene, const Part& part, unsigned geo
   rtcSetGeometryMask(geometry, part.is_wire ? kWireSurfaces : 0x1U);
   rtcCommitGeometry(geometry);
   rtcAttachGeometryByID(scene, geometry, geometry_id);
-  rtcReleaseGeometry(geometry);
 }
 
 }  // namespace
@@ -80,17 +129,24 @@ struct TraceModel::Handle {
   std::shared_ptr<TraceDevice::Handle> device;
   RTCScene scene{};
 
-  ~Handle() { rtcReleaseScene(scene); }
+  ~Handle() {
+    if (scene != nullptr) rtcReleaseScene(scene);
+  }
 };
 
 TraceModel::TraceModel(const TraceDevice& device, const Model& model)
     : handle_(std::make_unique<Handle>()) {
   handle_->device = device.handle();
-  handle_->scene = NewScene(handle_->device->device);
-  for (std::size_t i = 0; i < model.parts.size(); ++i) {
-    AttachPart(handle_->device->device, handle_->scene, model.parts[i], static_cast<unsigned>(i));
-  }
-  Commit(handle_->scene);
+  RTCDevice const embree = handle_->device->device;
+  const auto doing = [&] {
+    return "building \"" + ShownText(model.name) + "\" for ray tracing (" +
+           std::to_string(model.num_triangles()) + " triangles)";
+  };
+  BuildScene(embree, handle_->scene, doing, [&] {
+    for (std::size_t i = 0; i < model.parts.size(); ++i) {
+      AttachPart(embree, handle_->scene, model.parts[i], static_cast<unsigned>(i));
+    }
+  });
 }
 
 TraceModel::~TraceModel() = default;
@@ -142,7 +198,8 @@ struct TraceScene::Parts {
 void TraceScene::Parts::AttachInstance(const TracePlacement& placement) {
   const auto& steps = placement.window_from_model;
   Check(!steps.empty(), "a placement has a place");
-  RTCGeometry geometry = rtcNewGeometry(device->device, RTC_GEOMETRY_TYPE_INSTANCE);
+  const OwnedGeometry owned = NewGeometry(device->device, RTC_GEOMETRY_TYPE_INSTANCE);
+  RTCGeometry geometry = owned.get();
   rtcSetGeometryInstancedScene(geometry, placement.model->handle().scene);
   rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(steps.size()));
   for (std::size_t step = 0; step < steps.size(); ++step) {
@@ -152,7 +209,6 @@ void TraceScene::Parts::AttachInstance(const TracePlacement& placement) {
   }
   rtcCommitGeometry(geometry);
   rtcAttachGeometryByID(scene, geometry, static_cast<unsigned>(instances.size()));
-  rtcReleaseGeometry(geometry);
 
   const Eigen::Matrix3d begin = steps.front().linear();
   const Eigen::Matrix3d change = steps.back().linear() - begin;
@@ -166,9 +222,12 @@ void TraceScene::Parts::AttachInstance(const TracePlacement& placement) {
 TraceScene::TraceScene(const TraceDevice& device, const std::vector<TracePlacement>& placements) {
   auto parts = std::make_unique<Parts>();
   parts->device = device.handle();
-  parts->scene = NewScene(parts->device->device);
-  for (const TracePlacement& placement : placements) parts->AttachInstance(placement);
-  Commit(parts->scene);
+  const auto doing = [&] {
+    return "building a scene for ray tracing (" + std::to_string(placements.size()) + " places)";
+  };
+  BuildScene(parts->device->device, parts->scene, doing, [&] {
+    for (const TracePlacement& placement : placements) parts->AttachInstance(placement);
+  });
   parts_ = std::move(parts);
 }
 

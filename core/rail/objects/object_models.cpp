@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
+#include "core/base/out_of_memory.h"
 #include "core/rail/model_parts.h"
 #include "core/rail/objects/person.h"
 #include "core/rail/objects/rolling_stock.h"
@@ -51,7 +52,8 @@ Mesh MakeFromFile(const ObjectSpec& spec) {
   if (spec.up != "y" && spec.up != "z") {
     Fail("up: must be \"y\" or \"z\" (got \"" + spec.up + "\")");
   }
-  Mesh mesh = ReadObj(*spec.file, spec.unit_m, spec.up == "y");
+  Mesh mesh = WithinMemory([&] { return ReadingText(*spec.file); },
+                           [&] { return ReadObj(*spec.file, spec.unit_m, spec.up == "y"); });
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3f& vertex : mesh.vertices) box.extend(vertex.cast<double>());
   const Vector3 foot_m(box.center().x(), box.center().y(), box.min().z());

@@ -1,0 +1,20 @@
+#include "core/base/out_of_memory.h"
+
+namespace railcast {
+
+InputError OutOfMemory(const std::string& doing) {
+  return InputError("out of memory while " + doing);
+}
+
+InputError OutOfThreads(const std::string& doing) {
+  return InputError("no thread can be started while " + doing);
+}
+
+std::string ReadingText(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::uintmax_t num_bytes = std::filesystem::file_size(file, error);
+  const std::string size = error ? "" : " (" + std::to_string(num_bytes) + " bytes)";
+  return "reading " + file.string() + size;
+}
+
+}  // namespace railcast
