@@ -5,13 +5,9 @@
 #include <string>
 
 #include "core/io/command_line.h"
+#include "core/io/run_program.h"
 
 namespace railcast {
-
-/// Exit statuses of railcast-analyze; a usage error gives 2.
-inline constexpr int kExitSuccess = 0;
-inline constexpr int kExitFailure = 1;
-inline constexpr int kExitUsage = 2;
 
 /// What the command line asked for; it is told that line, for reports to name, and gives the exit
 /// status.

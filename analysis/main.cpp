@@ -1,7 +1,6 @@
 #include <pcl/console/print.h>
 
 #include <CLI/CLI.hpp>
-#include <exception>
 #include <iostream>
 #include <string>
 
@@ -44,18 +43,12 @@ int Main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? railcast::kExitSuccess : railcast::kExitUsage;
   }
-  try {
-    return command(CommandLine(argc, argv));
-  } catch (const railcast::InputError& error) {
-    std::cerr << error.what() << "\n";
-  } catch (const std::exception& error) {
-    std::cerr << "railcast-analyze: " << error.what() << "\n";
-  }
-  return railcast::kExitFailure;
+  return command(CommandLine(argc, argv));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return railcast::RunProgram([&] { return Main(argc, argv); }, std::cerr);
+  return railcast::RunProgram(
+      "railcast-analyze", [&] { return Main(argc, argv); }, std::cerr);
 }

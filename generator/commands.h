@@ -6,13 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace railcast {
+#include "core/io/run_program.h"
 
-/// Exit statuses of railcast-generate; a usage error gives 2.
-inline constexpr int kExitSuccess = 0;
-inline constexpr int kExitFailure = 1;
-inline constexpr int kExitUsage = 2;
-inline constexpr int kExitInterrupted = 130;  ///< As shells report a program ended by Ctrl-C.
+namespace railcast {
 
 /// Options of `railcast-generate sequence`.
 struct SequenceOptions {

@@ -1,5 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <exception>
 #include <functional>
 #include <iostream>
 #include <string>
@@ -198,18 +197,12 @@ int Main(int argc, char** argv) {
     return app.exit(error) == 0 ? railcast::kExitSuccess : railcast::kExitUsage;
   }
   sequence.is_verbose = check.is_verbose = world.is_verbose = is_verbose;
-  try {
-    return command();
-  } catch (const railcast::InputError& error) {
-    std::cerr << error.what() << "\n";
-  } catch (const std::exception& error) {
-    std::cerr << "railcast-generate: " << error.what() << "\n";
-  }
-  return railcast::kExitFailure;
+  return command();
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return railcast::RunProgram([&] { return Main(argc, argv); }, std::cerr);
+  return railcast::RunProgram(
+      "railcast-generate", [&] { return Main(argc, argv); }, std::cerr);
 }

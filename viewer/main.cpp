@@ -1,8 +1,8 @@
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
 #include <iostream>
+#include <string>
 
+#include "core/base/error.h"
 #include "core/io/run_program.h"
 #include "viewer/options.h"
 #include "viewer/run.h"
@@ -16,21 +16,20 @@ int Main(int argc, char** argv) {
   try {
     options = ParseOptions(app, argc, argv);
   } catch (const CLI::ParseError& error) {
-    constexpr int kExitUsage = 2;
-    return app.exit(error) == 0 ? 0 : kExitUsage;
+    return app.exit(error) == 0 ? kExitSuccess : kExitUsage;
   }
   try {
     RunViewer(options);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "error: %s\n", error.what());
-    return 1;
+  } catch (const InputError& error) {
+    throw InputError(std::string("error: ") + error.what());
   }
-  return 0;
+  return kExitSuccess;
 }
 
 }  // namespace
 }  // namespace railcast
 
 int main(int argc, char** argv) {
-  return railcast::RunProgram([&] { return railcast::Main(argc, argv); }, std::cerr);
+  return railcast::RunProgram(
+      "railcast-view", [&] { return railcast::Main(argc, argv); }, std::cerr);
 }

@@ -5,8 +5,13 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <iostream>
+#include <new>
+#include <string_view>
 
+#include "core/base/error.h"
 #include "core/io/write_file.h"
 
 namespace railcast {
@@ -20,11 +25,55 @@ void TakeClosedStreams() {
   }
 }
 
+std::terminate_handler default_terminate = nullptr;
+
+[[noreturn]] void EndWith(std::string_view line) {
+  static_cast<void>(::write(STDERR_FILENO, line.data(), line.size()));
+  ::_exit(kExitFailure);
+}
+
+// Memory and threads can run out where nothing may be thrown, as where TBB starts its threads, and
+// nothing can be allocated here.
+[[noreturn]] void Terminate() {
+  try {
+    if (std::current_exception() != nullptr) std::rethrow_exception(std::current_exception());
+  } catch (const std::bad_alloc&) {
+    EndWith("out of memory\n");
+  } catch (const std::exception& error) {
+    // TBB's words; it has no type of its own for them.
+    if (std::string_view(error.what()).starts_with("pthread_create has failed")) {
+      EndWith("no further thread can be started; fewer threads or more memory are needed\n");
+    }
+  } catch (...) {
+    // Anything else is a fault of ours: what follows says more of it.
+  }
+  default_terminate();
+  std::abort();
+}
+
+int RunMain(const std::string& program,
+            const std::function<int()>& main,
+            std::ostream& complaints) {
+  try {
+    return main();
+  } catch (const InputError& error) {
+    complaints << error.what() << "\n";
+  } catch (const std::bad_alloc&) {
+    complaints << program << ": out of memory\n";
+  } catch (const std::exception& error) {
+    complaints << program << ": " << error.what() << "\n";
+  }
+  return kExitFailure;
+}
+
 }  // namespace
 
-int RunProgram(const std::function<int()>& main, std::ostream& complaints) {
+int RunProgram(const std::string& program,
+               const std::function<int()>& main,
+               std::ostream& complaints) {
   TakeClosedStreams();
-  const int status = main();
+  default_terminate = std::set_terminate(Terminate);
+  const int status = RunMain(program, main, complaints);
   errno = 0;
   std::cout.flush();
   std::fflush(stdout);
@@ -33,7 +82,7 @@ int RunProgram(const std::function<int()>& main, std::ostream& complaints) {
   complaints << (errno != 0 ? FileError("stdout", errno).what()
                             : "stdout: not all of it could be written")
              << "\n";
-  return status != 0 ? status : 1;
+  return status != kExitSuccess ? status : kExitFailure;
 }
 
 }  // namespace railcast
