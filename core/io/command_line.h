@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,12 +27,42 @@ namespace railcast {
   return {[](std::string& text) { return NonEmptyRule(text); }, ""};
 }
 
-/// For CLI::App::failure_message of a program with commands: CLI11 calls a misspelt command a
-/// missing one.
+/// The program and what the command line names of its commands.
+[[nodiscard]] inline std::vector<const CLI::App*> AppsInUse(const CLI::App* app) {
+  std::vector<const CLI::App*> apps = {app};
+  for (const CLI::App* command : app->get_subcommands()) apps.push_back(command);
+  return apps;
+}
+
+/// The line for the first option that neither the program nor its command has; empty if there is
+/// none.
+[[nodiscard]] inline std::string UnknownOption(const CLI::App* app) {
+  constexpr bool kOfCommandsToo = true;
+  std::vector<std::string> names;
+  for (const CLI::App* in_use : AppsInUse(app)) {
+    for (const CLI::Option* option : in_use->get_options()) {
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+  }
+  for (const std::string& word : app->remaining(kOfCommandsToo)) {
+    if (!word.starts_with("--") || word == "--") continue;
+    const std::string name = word.substr(0, word.find('='));
+    const std::optional<std::string> nearest = Nearest(name, names);
+    return "unknown option" + (nearest ? ", the nearest is " + *nearest : "") + " (got " + name +
+           ")";
+  }
+  return "";
+}
+
+/// For CLI::App::failure_message: CLI11 calls a misspelt command a missing one, and so it does with
+/// an option that is required.
 [[nodiscard]] inline std::string SayWhatIsWrong(const CLI::App* app, const CLI::Error& error) {
+  const std::string unknown_option = UnknownOption(app);
+  if (!unknown_option.empty()) return unknown_option + "\nRun with --help for more information.\n";
   const std::vector<std::string> words = app->remaining();
   const bool has_word = !words.empty() && !words.front().starts_with('-');
-  if (!app->get_subcommands().empty() || !has_word) return CLI::FailureMessage::simple(app, error);
+  const bool lacks_command = !app->get_subcommands({}).empty() && app->get_subcommands().empty();
+  if (!lacks_command || !has_word) return CLI::FailureMessage::simple(app, error);
   std::vector<std::string> names;
   for (const CLI::App* known : app->get_subcommands({})) names.push_back(known->get_name());
   return Unknown("command", words.front(), names) + " (got " + words.front() +

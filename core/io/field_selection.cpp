@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <set>
 
-#include "core/base/edit_distance.h"
 #include "core/base/error.h"
 #include "core/frame/frame.h"
+#include "core/scenario/json_rules.h"
 
 namespace railcast {
 namespace {
@@ -28,14 +28,6 @@ std::string Join(const std::vector<std::string>& names, std::string_view separat
   return text;
 }
 
-std::string UnknownField(std::string_view name, const std::vector<std::string>& valid) {
-  const auto nearest = std::min_element(
-      valid.begin(), valid.end(),
-      [&](const auto& a, const auto& b) { return EditDistance(name, a) < EditDistance(name, b); });
-  return "--fields: unknown field \"" + std::string(name) + "\", nearest is \"" + *nearest +
-         "\" (valid: " + Join(valid, ", ") + ")";
-}
-
 }  // namespace
 
 FieldSelection::FieldSelection() : names_(TableNames()) {}
@@ -52,7 +44,7 @@ FieldSelection::FieldSelection(std::string_view list) {
     const std::size_t comma = list.find(',');
     const std::string name(list.substr(0, comma));
     if (std::find(valid.begin(), valid.end(), name) == valid.end()) {
-      errors.Add(UnknownField(name, valid));
+      errors.Add("--fields: " + Unknown("field", name, valid) + " (got \"" + name + "\")");
     } else if (!asked.insert(name).second) {
       errors.Add("--fields: field \"" + name + "\" comes twice");
     }

@@ -91,6 +91,17 @@ TEST(CommandLine, NamesAMisspeltCommand) {
   ExpectUsageError("", "A subcommand is required");
 }
 
+TEST(CommandLine, NamesTheOptionThatAMisspeltOneMayMean) {
+  ExpectUsageError("sequence a.json --out b --fromat kitti",
+                   "unknown option, the nearest is --format (got --fromat)");
+  ExpectUsageError("sequence a.json --ot=b", "unknown option, the nearest is --out (got --ot)");
+  ExpectUsageError("stream a.json --comands-port 1 --verbos",
+                   "unknown option, the nearest is --commands-port (got --comands-port)");
+  ExpectUsageError("check a.json --verbos",
+                   "unknown option, the nearest is --verbose (got --verbos)");
+  ExpectUsageError("check a.json --quickly", "unknown option (got --quickly)");
+}
+
 TEST(CommandLine, NamesTheOptionWhoseFileHasNoName) {
   for (const char* option : {"--out", "--commands"}) {
     ExpectUsageError(std::string("sequence a.json --out b ") + option + " ''",
@@ -109,7 +120,7 @@ TEST(CommandLine, TakesAnUnknownFieldForWrongUsage) {
   for (const std::string command : {"sequence a.json --out b", "stream a.json"}) {
     const Ended run = Generate(command + " --fields labl");
     EXPECT_EQ(run.status, 2);
-    EXPECT_EQ(run.said.find("--fields: unknown field \"labl\", nearest is \"label\""), 0U)
+    EXPECT_EQ(run.said.find("--fields: unknown field, the nearest is \"label\" (got \"labl\")"), 0U)
         << run.said;
   }
 }

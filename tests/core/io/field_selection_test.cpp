@@ -20,16 +20,20 @@ TEST(FieldSelection, KeepsTheTablesOrder) {
   EXPECT_EQ(FieldSelection("label,z,x,y").Text(), "x,y,z,label");
 }
 
-TEST(FieldSelection, NamesTheNearestFieldForEveryUnknownOne) {
-  const std::string valid =
-      " (valid: x, y, z, intensity, power_ratio, range_m, time_ns, ring, column, return_index, "
-      "return_count, label, instance, outcome, true_range_m, incidence_rad, material, "
-      "footprint_share, mixed_share)";
+TEST(FieldSelection, NamesTheNearestFieldForEveryMisspeltOne) {
   EXPECT_EQ(MessageOf([] { FieldSelection("x,lable,range"); }),
-            "--fields: unknown field \"lable\", nearest is \"label\"" + valid +
-                "\n--fields: unknown field \"range\", nearest is \"range_m\"" + valid);
-  EXPECT_EQ(MessageOf([] { FieldSelection("x,,y"); }),
-            "--fields: unknown field \"\", nearest is \"x\"" + valid);
+            "--fields: unknown field, the nearest is \"label\" (got \"lable\")\n"
+            "--fields: unknown field, the nearest is \"range_m\" (got \"range\")");
+}
+
+TEST(FieldSelection, NamesAllFieldsForWhatIsNearToNone) {
+  const std::string rule =
+      "--fields: unknown field, must be \"x\", \"y\", \"z\", \"intensity\", \"power_ratio\", "
+      "\"range_m\", \"time_ns\", \"ring\", \"column\", \"return_index\", \"return_count\", "
+      "\"label\", \"instance\", \"outcome\", \"true_range_m\", \"incidence_rad\", \"material\", "
+      "\"footprint_share\" or \"mixed_share\" (got ";
+  EXPECT_EQ(MessageOf([] { FieldSelection("foo"); }), rule + "\"foo\")");
+  EXPECT_EQ(MessageOf([] { FieldSelection("x,,y"); }), rule + "\"\")");
 }
 
 TEST(FieldSelection, RefusesAFieldTwice) {
