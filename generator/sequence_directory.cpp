@@ -209,7 +209,7 @@ void SequenceDirectory::Write(const Frame& frame, const std::vector<ObjectInFram
   Check(frame.index == spec_.start_frame + num_done_, "frames are written in their order");
   const bool is_kitti = spec_.files.format == FrameFormat::kKitti;
   EncodeFrameFiles(frame, spec_.files, is_kitti ? num_done_ : frame.index, frame_files_,
-                   MovingInstances(objects));
+                   is_kitti ? MovingInstances(objects) : std::set<std::uint32_t>{});
 
   FrameRecord record;
   record.frame = frame.index;

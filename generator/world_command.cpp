@@ -1,8 +1,5 @@
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <numeric>
@@ -35,14 +32,6 @@ std::vector<int> ChunksBetween(double from_s_m, double to_s_m, double length_m) 
   std::vector<int> chunks(static_cast<std::size_t>(last - ChunkAt(from_s_m) + 1));
   std::iota(chunks.begin(), chunks.end(), ChunkAt(from_s_m));
   return chunks;
-}
-
-// Before minutes of building are in vain.
-void CheckWritable(const std::filesystem::path& file) {
-  if (std::filesystem::is_directory(file)) throw FileError(file, EISDIR);
-  const std::filesystem::path unfinished = file.string() + std::string(kUnfinishedSuffix);
-  if (!std::ofstream(unfinished)) throw FileError(file, errno);
-  std::filesystem::remove(unfinished);
 }
 
 std::size_t CountTriangles(const ExportedWorld& exported) {
@@ -78,7 +67,8 @@ int WorldCommand(const WorldOptions& options) {
                      std::string(has_from ? "--from-s " : "--to-s ") +
                      NumberText(has_from ? *options.from_s_m : *options.to_s_m) + ")");
   }
-  CheckWritable(options.out);
+  // Before minutes of building are in vain.
+  CheckCanWrite(options.out);
   const ScenarioSpec scenario = ReadScenario(options.scenario);
   const auto world = MakeWorld(scenario);
   constexpr std::int64_t kBegin_ns = 0;

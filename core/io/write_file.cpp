@@ -79,6 +79,19 @@ void CheckIsRegular(const std::filesystem::path& file, const std::filesystem::fi
                    ")");
 }
 
+std::filesystem::path UnfinishedOf(const std::filesystem::path& target) {
+  return target.string() + std::string(kUnfinishedSuffix);
+}
+
+// @param file Is named if that fails.
+Descriptor OpenUnfinished(const std::filesystem::path& file,
+                          const std::filesystem::path& unfinished) {
+  constexpr int kAccess = 0644;
+  const int number = ::open(unfinished.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kAccess);
+  if (number < 0) throw FileError(file, errno);
+  return Descriptor(number);
+}
+
 }  // namespace
 
 InputError FileError(const std::filesystem::path& file, int error_number) {
@@ -99,17 +112,21 @@ std::filesystem::path FileToReplace(const std::filesystem::path& file) {
     target = target.parent_path() / std::filesystem::read_symlink(target, error);
     if (error) throw FileError(file, error.value());
   }
-  const std::filesystem::path unfinished = target.string() + std::string(kUnfinishedSuffix);
+  const std::filesystem::path unfinished = UnfinishedOf(target);
   CheckIsRegular(unfinished, std::filesystem::symlink_status(unfinished, error));
   return target;
 }
 
+void CheckCanWrite(const std::filesystem::path& file) {
+  const std::filesystem::path unfinished = UnfinishedOf(FileToReplace(file));
+  static_cast<void>(OpenUnfinished(file, unfinished));
+  ::unlink(unfinished.c_str());
+}
+
 void WriteFileWhole(const std::filesystem::path& file, std::string_view bytes) {
   const std::filesystem::path target = FileToReplace(file);
-  const std::filesystem::path unfinished = target.string() + std::string(kUnfinishedSuffix);
-  constexpr int kAccess = 0644;
-  Descriptor output(::open(unfinished.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kAccess));
-  if (output.number() < 0) throw FileError(file, errno);
+  const std::filesystem::path unfinished = UnfinishedOf(target);
+  Descriptor output = OpenUnfinished(file, unfinished);
   const bool is_written = WriteAll(output.number(), bytes) &&
                           HasLength(output.number(), bytes.size()) &&
                           ::fsync(output.number()) == 0 && output.Close() &&

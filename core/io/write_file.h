@@ -20,6 +20,11 @@ inline constexpr std::string_view kUnfinishedSuffix = ".part";
 ///   Renamed over a device or a FIFO, a file would take its place.
 [[nodiscard]] std::filesystem::path FileToReplace(const std::filesystem::path& file);
 
+/// Tries whether WriteFileWhole(file) can begin, so that what takes long to make is not made in
+/// vain. Leaves nothing behind.
+/// @throws InputError as that does.
+void CheckCanWrite(const std::filesystem::path& file);
+
 /// Writes a whole file or none: beside it first (name + kUnfinishedSuffix), checked for length,
 /// synced to the disk, then renamed over FileToReplace(file).
 /// @throws InputError as that does, or if the system refuses; nothing unfinished stays behind.

@@ -130,7 +130,7 @@ TEST(RailcastGenerate, RefusesAMeshItCouldNotWriteBeforeItIsBuilt) {
   std::filesystem::create_directory(directory.path() / "a.ply");
   const std::string folder = (directory.path() / "a.ply").string();
   const Ended taken = Generate("world " + scenarios_folder + "minimal.json --out " + folder);
-  EXPECT_EQ(taken.said, folder + ": is a directory\n");
+  EXPECT_EQ(taken.said, folder + ": must be a regular file (got a directory)\n");
 }
 
 TEST(RailcastGenerate, GivesTheSameBytesForAnyNumberOfThreads) {
