@@ -76,7 +76,9 @@ void PrintReport(const ScenarioSpec& scenario, bool is_verbose) {
     if (sensors.size() > 1) choices += ReportLine("sensor", sensor);
     choices += report.Choice();
   }
-  std::cout << ObjectsText(*world, LabelTable(scenario.labels));
+  constexpr std::int64_t kFrame0_ns = 0;
+  std::cout << ObjectsText(*world, LabelTable(scenario.labels))
+            << OverlapsText(FindOverlaps(*world, kFrame0_ns), *world);
   if (scenario.fidelity == kAutoFidelity) std::cout << choices;
   if (scenario.camera) std::cout << "camera    read and kept for later; nothing uses it yet\n";
 }

@@ -149,6 +149,18 @@ std::string ObjectsText(const World& world, const LabelTable& labels) {
   return text.empty() ? ReportLine("objects", "none") : text;
 }
 
+std::string OverlapsText(const std::vector<ObjectOverlap>& overlaps, const World& world) {
+  const auto name = [&](std::size_t object) { return '"' + world.objects()[object].name + '"'; };
+  std::string text;
+  for (const ObjectOverlap& overlap : overlaps) {
+    text +=
+        ReportLine(text.empty() ? "overlaps" : "",
+                   "at frame 0: " + name(overlap.one) +
+                       (overlap.is_inside ? " is inside " : " overlaps ") + name(overlap.other));
+  }
+  return text.empty() ? ReportLine("overlaps", "none at frame 0") : text;
+}
+
 std::string SurroundingsText(const Surroundings& around,
                              const World& world,
                              const LabelTable& labels) {

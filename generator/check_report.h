@@ -1,11 +1,13 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/frame/labels.h"
 #include "core/rail/line/alignment.h"
 #include "core/scan/scan_pattern.h"
 #include "core/scenario/scenario_spec.h"
+#include "generator/object_overlaps.h"
 #include "generator/scene_audit.h"
 #include "generator/vehicle_way.h"
 
@@ -26,6 +28,10 @@ namespace railcast {
 [[nodiscard]] std::string SceneText(const SceneAudit& audit);
 
 [[nodiscard]] std::string ObjectsText(const World& world, const LabelTable& labels);
+
+/// Which objects overlap at frame 0, that of FindOverlaps.
+[[nodiscard]] std::string OverlapsText(const std::vector<ObjectOverlap>& overlaps,
+                                       const World& world);
 
 [[nodiscard]] std::string SurroundingsText(const Surroundings& around,
                                            const World& world,

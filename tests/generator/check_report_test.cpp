@@ -89,5 +89,16 @@ TEST(CheckReport, SaysWhatIsAroundTheSensor) {
   EXPECT_NE(SurroundingsText(around, world, labels).find("INSIDE"), std::string::npos);
 }
 
+TEST(CheckReport, NamesObjectsThatOverlap) {
+  SimpleWorld world;
+  for (int i = 0; i < 3; ++i) {
+    world.AddObject(std::make_shared<const Model>(), Transform::Identity());
+  }
+  EXPECT_EQ(OverlapsText({{0, 2, true}, {1, 2, false}}, world),
+            "overlaps  at frame 0: \"object1\" is inside \"object3\"\n"
+            "          at frame 0: \"object2\" overlaps \"object3\"\n");
+  EXPECT_EQ(OverlapsText({}, world), "overlaps  none at frame 0\n");
+}
+
 }  // namespace
 }  // namespace railcast
