@@ -271,6 +271,7 @@ ViewOptions ParseOptions(CLI::App& app, int argc, char** argv) {
   app.add_flag("-v", options.is_verbose, "Say what is shown");
   app.set_version_flag("--version", RAILCAST_VERSION);
   app.footer("Keys in the window:\n" + ViewWindow::KeysText());
+  app.failure_message(SayWhatIsWrong);
   app.parse(argc, argv);
   UseRaw(raw, app, options);
   CheckTogether(options);

@@ -210,6 +210,9 @@ TEST_F(BadInput, CommandLinesThatDoNotGoTogetherEndWithTwo) {
     EXPECT_EQ(ended.status, 2) << arguments << '\n' << ended.said;
     EXPECT_TRUE(ended.said.ends_with("Run with --help for more information.\n")) << ended.said;
   }
+  EXPECT_EQ(View("--scrennshot a.png " + run_).said,
+            "unknown option, the nearest is --screenshot (got --scrennshot)\n"
+            "Run with --help for more information.\n");
   EXPECT_TRUE(std::filesystem::is_empty(PathOf("")));
   EXPECT_EQ(View("--help").status, 0);
   EXPECT_EQ(View("--version").status, 0);
