@@ -1,0 +1,60 @@
+#include "core/io/sequence_files.h"
+
+#include <algorithm>
+#include <array>
+
+namespace railcast {
+namespace {
+
+constexpr std::array kNames = {kRunFile,        kManifestFile,   kScenarioFile,
+                               kLabelsFile,     kMaterialsFile,  kCommandsFile,
+                               kPosesFile,      kObjectsFile,    kFramesFile,
+                               kKittiPosesFile, kKittiTimesFile, kKittiCalibrationFile,
+                               kKittiLabelsFile};
+
+bool IsDigit(char letter) {
+  return letter >= '0' && letter <= '9';
+}
+
+bool IsHashDigit(char letter) {
+  return IsDigit(letter) || (letter >= 'a' && letter <= 'f');
+}
+
+// Takes `part` from the front of `text`; false, and nothing taken, if it does not begin so.
+bool Take(std::string_view& text, std::string_view part) {
+  if (!text.starts_with(part)) return false;
+  text.remove_prefix(part.size());
+  return true;
+}
+
+// "000012.pcd": six digits, or more without a leading zero.
+bool IsNumbered(std::string_view name, std::string_view extension) {
+  constexpr std::size_t kMinDigits = 6;
+  if (!name.ends_with(extension)) return false;
+  name.remove_suffix(extension.size());
+  return name.size() >= kMinDigits && std::ranges::all_of(name, IsDigit) &&
+         (name.size() == kMinDigits || name.front() != '0');
+}
+
+// "0123456789abcdef/wagon.obj".
+bool IsInput(std::string_view name) {
+  constexpr std::size_t kHashDigits = 16;
+  if (name.size() < kHashDigits || !std::ranges::all_of(name.substr(0, kHashDigits), IsHashDigit)) {
+    return false;
+  }
+  name.remove_prefix(kHashDigits);
+  return Take(name, "/") && !name.empty() && name != "." && name != ".." &&
+         name.find('/') == std::string_view::npos;
+}
+
+}  // namespace
+
+bool IsSequenceFile(std::string_view name) {
+  if (std::ranges::find(kNames, name) != kNames.end()) return true;
+  if (Take(name, "frames/")) return IsNumbered(name, ".pcd") || IsNumbered(name, ".ply");
+  if (Take(name, "sequences/00/velodyne/")) return IsNumbered(name, ".bin");
+  if (Take(name, "sequences/00/labels/")) return IsNumbered(name, ".label");
+  return Take(name, kInputsFolder) && Take(name, "/") && IsInput(name);
+}
+
+}  // namespace railcast

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string_view>
+
+namespace railcast {
+
+// The names of what a sequence directory holds (docs/files.md), relative to it.
+
+inline constexpr std::string_view kRunFile = "run.json";
+inline constexpr std::string_view kManifestFile = "manifest.json";
+inline constexpr std::string_view kScenarioFile = "scenario.resolved.json";
+inline constexpr std::string_view kLabelsFile = "labels.json";
+inline constexpr std::string_view kMaterialsFile = "materials.json";
+inline constexpr std::string_view kCommandsFile = "commands.jsonl";
+inline constexpr std::string_view kPosesFile = "poses.csv";
+inline constexpr std::string_view kObjectsFile = "objects.jsonl";
+inline constexpr std::string_view kFramesFile = "frames.jsonl";
+inline constexpr std::string_view kKittiPosesFile = "sequences/00/poses.txt";
+inline constexpr std::string_view kKittiTimesFile = "sequences/00/times.txt";
+inline constexpr std::string_view kKittiCalibrationFile = "sequences/00/calib.txt";
+inline constexpr std::string_view kKittiLabelsFile = "semantic-kitti-railcast.yaml";
+
+/// Below it each file that the scenario names has a folder of its own, called by its hash:
+/// "inputs/0123456789abcdef/wagon.obj".
+inline constexpr std::string_view kInputsFolder = "inputs";
+
+/// Whether a sequence directory, in whatever format, may hold a file of this name: one of the
+/// above, a frame's or an input's. While it is written a file bears the same name and
+/// kUnfinishedSuffix.
+/// @param name Relative to the directory, with slashes: "frames/000012.pcd".
+[[nodiscard]] bool IsSequenceFile(std::string_view name);
+
+}  // namespace railcast
