@@ -4,10 +4,12 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <string_view>
@@ -19,6 +21,7 @@
 #include "core/base/units.h"
 #include "core/io/content_hash.h"
 #include "core/io/kitti.h"
+#include "core/io/sequence_files.h"
 #include "core/io/write_file.h"
 #include "generator/counts_json.h"
 
@@ -26,11 +29,6 @@ namespace railcast {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kRunFile = "run.json";
-constexpr const char* kScenarioFile = "scenario.resolved.json";
-constexpr const char* kCommandsFile = "commands.jsonl";
-constexpr const char* kManifestFile = "manifest.json";
 
 void CreateDirectories(const fs::path& directory) {
   std::error_code error;
@@ -82,9 +80,39 @@ std::set<std::uint32_t> MovingInstances(const std::vector<ObjectInFrame>& object
   return moving;
 }
 
-void RemoveUnfinished(const fs::path& directory) {
+// The files below a directory, relative to it; what links lead to is not looked into.
+std::vector<std::string> FilesBelow(const fs::path& directory) {
+  std::vector<std::string> names;
   for (const auto& entry : fs::recursive_directory_iterator(directory)) {
-    if (entry.path().extension() == kUnfinishedSuffix) fs::remove(entry.path());
+    if (entry.is_directory()) continue;
+    names.push_back(entry.path().lexically_relative(directory).generic_string());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+// "frames/000012.pcd" of "frames/000012.pcd.part", else nothing.
+std::optional<std::string_view> FinishedName(std::string_view name) {
+  if (!name.ends_with(kUnfinishedSuffix)) return std::nullopt;
+  return name.substr(0, name.size() - kUnfinishedSuffix.size());
+}
+
+// A stranger's file could be taken for the run's, or be lost with what the run clears away.
+void RefuseStrangers(const fs::path& directory, bool is_run) {
+  for (const std::string& name : FilesBelow(directory)) {
+    const std::string_view finished = FinishedName(name).value_or(name);
+    // A run that was stopped before its first file was whole leaves that file unfinished.
+    const bool is_own = is_run ? IsSequenceFile(finished)
+                               : FinishedName(name) && finished == std::string_view(kRunFile);
+    if (is_own) continue;
+    throw InputError(directory.string() + ": holds a file that is no run's of railcast (" + name +
+                     "); move it away or choose another --out");
+  }
+}
+
+void RemoveUnfinished(const fs::path& directory) {
+  for (const std::string& name : FilesBelow(directory)) {
+    if (FinishedName(name)) fs::remove(directory / name);
   }
 }
 
@@ -111,16 +139,11 @@ void SequenceDirectory::Open() {
     throw InputError(spec_.directory.string() + ": another run is writing here");
   }
   const fs::path run_file = spec_.directory / kRunFile;
-  if (fs::exists(run_file)) {
+  const bool is_run = fs::exists(run_file);
+  RefuseStrangers(spec_.directory, is_run);
+  if (is_run) {
     CheckSameRun(spec_, ReadFileWhole(run_file));
   } else {
-    for (const auto& entry : fs::directory_iterator(spec_.directory)) {
-      // A run that was stopped before its first file was whole.
-      if (entry.path().filename() == std::string(kRunFile) + std::string(kUnfinishedSuffix))
-        continue;
-      throw InputError(spec_.directory.string() + ": holds files that are no run of railcast (" +
-                       entry.path().filename().string() + "); choose another --out");
-    }
     WriteFileWhole(run_file, RunJson(spec_));
   }
   is_complete_ = fs::exists(spec_.directory / kManifestFile);
@@ -156,18 +179,19 @@ void SequenceDirectory::CheckUnchanged(const SequenceProgress& progress) const {
   for (std::size_t i = 0; i < names.size(); ++i) {
     check(fs::file_size(directory / names[i].name) == progress.keep_bytes[i], names[i].name);
   }
-  check(HasBytes(directory / kRunFile, RunJson(spec_)), kRunFile);
+  check(HasBytes(directory / kRunFile, RunJson(spec_)), std::string(kRunFile));
   for (const auto& [name, bytes] : FixedFiles()) check(HasBytes(directory / name, bytes), name);
   const fs::path scenario = directory / kScenarioFile;
   check(fs::exists(scenario) && IsSameButForFolders(ReadFileWhole(scenario), spec_.scenario_json),
-        kScenarioFile);
-  check(HasBytes(directory / kManifestFile, ManifestJson()), kManifestFile);
+        std::string(kScenarioFile));
+  check(HasBytes(directory / kManifestFile, ManifestJson()), std::string(kManifestFile));
 }
 
 std::vector<FrameFile> SequenceDirectory::FixedFiles() const {
   std::vector<FrameFile> files = {{"labels.json", LabelsJson(spec_.files.labels)},
                                   {"materials.json", MaterialsJson(spec_.materials)}};
-  if (!spec_.commands_jsonl.empty()) files.push_back({kCommandsFile, spec_.commands_jsonl});
+  if (!spec_.commands_jsonl.empty())
+    files.push_back({std::string(kCommandsFile), spec_.commands_jsonl});
   if (spec_.files.format == FrameFormat::kKitti) {
     files.push_back({"sequences/00/calib.txt", KittiCalibration()});
     files.push_back({"semantic-kitti-railcast.yaml", SemanticKittiYaml(spec_.files.labels)});
@@ -253,7 +277,7 @@ std::string SequenceDirectory::ManifestJson() const {
   // resolved scenario, which says where files lie. run.json has the hash of what it means.
   std::string all;
   nlohmann::ordered_json files = nlohmann::ordered_json::object();
-  std::vector<std::string> names = {kRunFile};
+  std::vector<std::string> names = {std::string(kRunFile)};
   for (const FrameFile& file : FixedFiles()) names.push_back(file.name);
   for (const LineFileName& file : LineFileNames(spec_.files.format)) names.push_back(file.name);
   for (const std::string& name : names) {

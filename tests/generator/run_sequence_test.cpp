@@ -240,14 +240,48 @@ TEST(RunSequence, RefusesTheDirectoryOfAnotherRun) {
   EXPECT_NE(RunMessage(other).find("(got x,y,z); choose another --out"), std::string::npos);
 }
 
+// What a run says of a directory with a file of somebody else's.
+std::string StrangerMessage(const std::filesystem::path& directory, const std::string& name) {
+  return directory.string() + ": holds a file that is no run's of railcast (" + name +
+         "); move it away or choose another --out";
+}
+
 TEST(RunSequence, RefusesADirectoryWithOtherThings) {
   const TemporaryDirectory directory;
   WriteFileWhole(directory.path() / "letter.txt", "dear");
   EXPECT_EQ(RunMessage(ExampleRun(directory.path())),
-            directory.path().string() +
-                ": holds files that are no run of railcast (letter.txt); choose another --out");
+            StrangerMessage(directory.path(), "letter.txt"));
   EXPECT_EQ(RunMessage(ExampleRun(directory.path() / "letter.txt")),
             (directory.path() / "letter.txt").string() + ": not a directory");
+}
+
+TEST(RunSequence, TakesNoFilesForItsOwnWhereThereIsNoRun) {
+  const TemporaryDirectory directory;
+  for (const std::string name : {"poses.csv", "frames/000003.pcd", "film.part"}) {
+    const auto out = directory.path() / std::to_string(name.size());
+    std::filesystem::create_directories((out / name).parent_path());
+    WriteFileWhole(out / name, "dear");
+    EXPECT_EQ(RunMessage(ExampleRun(out)), StrangerMessage(out, name));
+    EXPECT_EQ(ReadFileWhole(out / name), "dear");
+  }
+  std::filesystem::create_directories(directory.path() / "killed");
+  WriteFileWhole(directory.path() / "killed/run.json.part", "{");
+  EXPECT_EQ(RunMessage(ExampleRun(directory.path() / "killed")), "no error");
+}
+
+TEST(RunSequence, LeavesStrangersFilesInARunAlone) {
+  for (const std::string name :
+       {"film.part", "frames/film.part", "frames/000003.pcd.bak", "notes/letter.txt"}) {
+    for (const bool is_complete : {false, true}) {
+      const TemporaryDirectory directory;
+      (void)RunSequence(ExampleRun(directory.path()), MakeExampleFrame, NoHooks());
+      if (!is_complete) std::filesystem::remove(directory.path() / "manifest.json");
+      std::filesystem::create_directories((directory.path() / name).parent_path());
+      WriteFileWhole(directory.path() / name, "dear");
+      EXPECT_EQ(RunMessage(ExampleRun(directory.path())), StrangerMessage(directory.path(), name));
+      EXPECT_EQ(ReadFileWhole(directory.path() / name), "dear");
+    }
+  }
 }
 
 TEST(RunSequence, RefusesADirectoryThatIsBeingWritten) {
