@@ -3,138 +3,17 @@
 #include <OpenMesh/Core/IO/importer/BaseImporter.hh>
 #include <OpenMesh/Core/IO/reader/OBJReader.hh>
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <fstream>
 #include <limits>
-#include <optional>
 #include <sstream>
 #include <string>
-#include <string_view>
 
 #include "core/base/error.h"
+#include "core/scene/obj_sieve.h"
 #include "core/scene/polygon.h"
 
 namespace railcast {
 namespace {
-
-constexpr std::string_view kBlanks = " \t\r\v\f";
-
-std::string_view NextToken(std::string_view& rest) {
-  rest.remove_prefix(std::min(rest.find_first_not_of(kBlanks), rest.size()));
-  const std::string_view token = rest.substr(0, rest.find_first_of(kBlanks));
-  rest.remove_prefix(token.size());
-  return token;
-}
-
-template <typename Number>
-std::optional<Number> Parse(std::string_view token) {
-  if (token.starts_with('+')) token.remove_prefix(1);
-  Number number{};
-  const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), number);
-  if (error != std::errc{} || end != token.data() + token.size()) return std::nullopt;
-  return number;
-}
-
-/// Copies the `v` and `f` lines of a file, and of `f` the vertex indices only, after a check that
-/// OpenMesh will read each of them as it is meant. What OpenMesh gets holds no material, so that
-/// its shared reader keeps no state, opens no other file and has nothing to print.
-class ObjSieve {
- public:
-  ObjSieve(const std::filesystem::path& file, double largest) : file_(file), largest_(largest) {}
-
-  std::string Sift(std::istream& in) {
-    std::string line;
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-    while (ReadLogicalLine(in, line)) {
-      std::string_view rest = line;
-      if (line_ == 1 && rest.starts_with(kByteOrderMark)) {
-        rest.remove_prefix(kByteOrderMark.size());
-      }
-      const std::string_view keyword = NextToken(rest);
-      if (keyword == "v") SiftVertex(rest);
-      if (keyword == "f") SiftFace(rest);
-    }
-    // OpenMesh reads all vertices first: a face may name vertices that come after it.
-    if (highest_index_ > num_vertices_) {
-      line_ = highest_index_line_;
-      FailIndex(std::to_string(highest_index_));
-    }
-    return std::move(sifted_);
-  }
-
- private:
-  /// A backslash at the end joins a line to the next.
-  bool ReadLogicalLine(std::istream& in, std::string& line) {
-    line_ = next_line_;
-    line.clear();
-    std::string piece;
-    bool any = false;
-    while (std::getline(in, piece)) {
-      any = true;
-      ++next_line_;
-      if (piece.ends_with('\r')) piece.pop_back();
-      line += piece;
-      if (!line.ends_with('\\')) return true;
-      line.back() = ' ';
-    }
-    return any;
-  }
-
-  void SiftVertex(std::string_view rest) {
-    sifted_ += 'v';
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::string_view token = NextToken(rest);
-      const std::optional<double> number = Parse<double>(token);
-      if (!number || !(std::abs(*number) <= largest_)) {
-        Fail("a vertex must have three finite coordinates", token);
-      }
-      Keep(token);
-    }
-    sifted_ += '\n';
-    ++num_vertices_;
-  }
-
-  void SiftFace(std::string_view rest) {
-    sifted_ += 'f';
-    for (std::string_view token = NextToken(rest); !token.empty() && token.front() != '#';
-         token = NextToken(rest)) {
-      const std::string_view index = token.substr(0, token.find('/'));
-      const std::optional<int> number = Parse<int>(index);
-      if (!number) Fail("a face must name vertices by number", token);
-      if (*number == 0 || *number < -num_vertices_) FailIndex(index);
-      if (*number > highest_index_) {
-        highest_index_ = *number;
-        highest_index_line_ = line_;
-      }
-      Keep(index);
-    }
-    sifted_ += '\n';
-  }
-
-  void Keep(std::string_view token) {
-    sifted_ += ' ';
-    sifted_ += token;
-  }
-
-  [[noreturn]] void FailIndex(std::string_view index) const {
-    Fail("a face must name one of the " + std::to_string(num_vertices_) + " vertices", index);
-  }
-
-  [[noreturn]] void Fail(const std::string& rule, std::string_view got) const {
-    throw InputError(file_.string() + ": line " + std::to_string(line_) + ": " + rule + " (got \"" +
-                     std::string(got) + "\")");
-  }
-
-  const std::filesystem::path& file_;
-  double largest_;  ///< Coordinate that is finite in float32, also in metres.
-  std::string sifted_;
-  int line_ = 1;
-  int next_line_ = 1;
-  int num_vertices_ = 0;
-  int highest_index_ = 0;
-  int highest_index_line_ = 0;
-};
 
 /// Collects what OpenMesh reads without asking whether it is a manifold. Everything but vertices
 /// and faces is passed over.
@@ -155,6 +34,8 @@ class SoupImporter final : public OpenMesh::IO::BaseImporter {
   FaceHandle add_face(const VHandles& corners) override {
     faces_.emplace_back();
     for (const VertexHandle corner : corners) {
+      Check(corner.is_valid() && static_cast<std::size_t>(corner.idx()) < points_.size(),
+            "a corner is one of the vertices that were read");
       faces_.back().push_back(static_cast<std::uint32_t>(corner.idx()));
     }
     return FaceHandle(static_cast<int>(faces_.size()) - 1);
@@ -280,21 +161,28 @@ Mesh MakeSoup(const SoupImporter& soup, double unit_m, bool y_up) {
 
 }  // namespace
 
+Mesh ParseObj(std::istream& in, const std::string& shown, double unit_m, bool y_up) {
+  constexpr auto kLargest = static_cast<double>(std::numeric_limits<float>::max());
+  ObjSieve sieve(shown, kLargest / std::max(1.0, unit_m));
+  std::istringstream sifted(sieve.Sift(in));
+  SoupImporter soup;
+  OpenMesh::IO::Options options;
+  const bool read = OpenMesh::IO::OBJReader().read(sifted, soup, options);
+  Check(read, "OpenMesh reads what was sifted");
+  Check(soup.n_vertices() == sieve.num_vertices(), "OpenMesh reads every vertex");
+  Check(soup.n_faces() == sieve.num_faces(), "OpenMesh reads every face");
+  Mesh mesh = MakeSoup(soup, unit_m, y_up);
+  if (mesh.triangles.empty()) throw InputError(shown + ": holds no triangle");
+  return mesh;
+}
+
 Mesh ReadObj(const std::filesystem::path& file, double unit_m, bool y_up) {
   std::error_code ignored;
   std::ifstream in(file, std::ios::binary);
   if (!in || !std::filesystem::is_regular_file(file, ignored)) {
     throw InputError(file.string() + ": must be a file that can be read");
   }
-  constexpr auto kLargest = static_cast<double>(std::numeric_limits<float>::max());
-  std::istringstream sifted(ObjSieve(file, kLargest / std::max(1.0, unit_m)).Sift(in));
-  SoupImporter soup;
-  OpenMesh::IO::Options options;
-  const bool read = OpenMesh::IO::OBJReader().read(sifted, soup, options);
-  Check(read, "OpenMesh reads what was sifted");
-  Mesh mesh = MakeSoup(soup, unit_m, y_up);
-  if (mesh.triangles.empty()) throw InputError(file.string() + ": holds no triangle");
-  return mesh;
+  return ParseObj(in, file.string(), unit_m, y_up);
 }
 
 }  // namespace railcast

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <iosfwd>
+#include <string>
 
 #include "core/scene/mesh.h"
 
@@ -16,11 +18,14 @@ namespace railcast {
 /// are faces of one or two corners, which well-known files hold: they have no area either.
 ///
 /// Files are parsed by OpenMesh, which drops what it cannot read and so shifts all later indices;
-/// therefore every line is checked first.
+/// therefore every line is checked first, and afterwards that it read as many as there were.
 ///
 /// @throws InputError, one line "file: rule" or "file: line N: rule (got value)" per file, if it
 ///   cannot be read, a coordinate is no finite number, an index points at no vertex, or no triangle
 ///   is left.
 [[nodiscard]] Mesh ReadObj(const std::filesystem::path& file, double unit_m, bool y_up);
+
+/// The same of what a file holds, which messages call `shown`.
+[[nodiscard]] Mesh ParseObj(std::istream& in, const std::string& shown, double unit_m, bool y_up);
 
 }  // namespace railcast

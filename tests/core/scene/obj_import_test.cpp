@@ -82,6 +82,22 @@ TEST_F(ReadObjTest, UnderstandsNegativeIndicesGroupsContinuationsAndCarriageRetu
   EXPECT_DOUBLE_EQ(Area(mesh), 0.5);
 }
 
+TEST_F(ReadObjTest, UnderstandsPlusSigns) {
+  const Mesh mesh = ReadObj(Write("v 0 0 0\nv +1e0 0 0\nv 0 +.5 +0\nf +1 +2 +3\n"), 1.0, false);
+  ASSERT_EQ(mesh.triangles.size(), 1U);
+  EXPECT_DOUBLE_EQ(Area(mesh), 0.25);
+}
+
+// The library's own reader skips a coordinate that it cannot read, and with it the vertex.
+TEST_F(ReadObjTest, CountsAVertexWithTheSmallestAndTheLongestNumbers) {
+  const std::string digits(1000, '1');
+  const Mesh mesh = ReadObj(Write("v 1e-310 -1e-46 4.9e-324\nv 1." + digits + " 0 0\nv 0 0." +
+                                  digits + "e1 -0\nf 1 -2 -1\n"),
+                            1.0, false);
+  ASSERT_EQ(mesh.triangles.size(), 1U);
+  EXPECT_NEAR(Area(mesh), 0.5 * 10.0 / 9.0 * 10.0 / 9.0, 1e-6);
+}
+
 TEST_F(ReadObjTest, CutsAConcaveFaceIntoItsOwnArea) {
   const Mesh mesh =
       ReadObj(Write("v 0 0 0\nv 0 3 0\nv 0 3 2\nv 0 2 2\nv 0 2 1\nv 0 1 1\nv 0 1 2\nv 0 0 2\n"
@@ -135,6 +151,8 @@ TEST_F(ReadObjTest, RefusesAnIndexOfNoVertex) {
   EXPECT_EQ(Complaint(vertices + "f -1 -2 -4/1\n"), rule + "\"-4\")");
   EXPECT_EQ(Complaint(vertices + "f 1 2 two\n"),
             "line 4: a face must name vertices by number (got \"two\")");
+  EXPECT_EQ(Complaint(vertices + "f 1 2 +-1\n"),
+            "line 4: a face must name vertices by number (got \"+-1\")");
   EXPECT_EQ(Complaint(vertices + "f 1 2 99999999999\n"),
             "line 4: a face must name vertices by number (got \"99999999999\")");
 }
@@ -146,6 +164,9 @@ TEST_F(ReadObjTest, RefusesACoordinateThatIsNoFiniteNumber) {
   EXPECT_EQ(Complaint("# x\nv 0 1e39 0\n"), rule + "\"1e39\")");
   EXPECT_EQ(Complaint("# x\nv 0 1,5 0\n"), rule + "\"1,5\")");
   EXPECT_EQ(Complaint("# x\nv 0 1\n"), rule + "\"\")");
+  EXPECT_EQ(Complaint("# x\nv 0 \x1b" + std::string(100, '0') + " 0\n"),
+            rule + "\"\\u001b" + std::string(54, '0') + "...\")");
+  EXPECT_EQ(Complaint("# x\nv 1 1 +-1\n"), rule + "\"+-1\")");
   // Finite in kilometres, not in metres.
   EXPECT_THROW((void)ReadObj(Write("v 0 1e38 0\n"), 1000.0, false), InputError);
 }
