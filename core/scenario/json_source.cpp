@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <set>
 
 namespace railcast {
 namespace {
@@ -40,8 +41,12 @@ std::string Got(const Json& value) {
 }
 
 Node Node::Child(std::string_view key) const {
+  return Child(key, json->at(std::string(key)));
+}
+
+Node Node::Child(std::string_view key, const Json& value) const {
   const std::string step = PointerStep(key);
-  return {&json->at(std::string(key)), file, pointer + step, resolved_pointer + step};
+  return {&value, file, pointer + step, resolved_pointer + step};
 }
 
 Node Node::Child(std::size_t index) const {
@@ -84,12 +89,14 @@ std::optional<MemberList> JsonSource::Members(const Node& node) {
   if (is_name) return list;
   // The object's own keys are read even if those of its base are not.
   if (!list) list = MemberList{{}, false};
+  std::set<std::string_view> own_keys;
+  for (const auto& [key, value] : node.json->items()) own_keys.insert(key);
+  std::erase_if(list->members, [&](const Member& member) { return own_keys.contains(member.key); });
   for (Member& member : list->members) ++member.layer;
   for (const auto& [key, value] : node.json->items()) {
     if (key == "file" || IsOfFile(node, key)) continue;
-    const Node child = node.Child(key);
+    const Node child = node.Child(key, value);
     sources_.Add(child.resolved_pointer, child.file->shown, child.pointer);
-    std::erase_if(list->members, [&key = key](const Member& member) { return member.key == key; });
     list->members.push_back({key, child});
   }
   return list;
@@ -103,7 +110,7 @@ std::optional<MemberList> JsonSource::PlainMembers(const Node& node) {
   MemberList list;
   for (const auto& [key, value] : node.json->items()) {
     if (IsOfFile(node, key)) continue;
-    list.members.push_back({key, node.Child(key)});
+    list.members.push_back({key, node.Child(key, value)});
   }
   return list;
 }

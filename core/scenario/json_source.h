@@ -30,6 +30,8 @@ struct Node {
   std::string resolved_pointer;  ///< In the resolved scenario.
 
   [[nodiscard]] Node Child(std::string_view key) const;
+  /// The same where the key's value is at hand: a search would compare it with every other key.
+  [[nodiscard]] Node Child(std::string_view key, const Json& value) const;
   [[nodiscard]] Node Child(std::size_t index) const;
 };
 

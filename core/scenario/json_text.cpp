@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
+#include <iterator>
+#include <unordered_map>
 
 #include "core/base/shown_text.h"
 
@@ -63,7 +66,7 @@ bool LooksLikeUtf16(std::string_view text) {
 }
 
 // Builds the tree, as nlohmann's own handler does, and notes duplicate keys, which that one takes
-// silently.
+// silently. It looks keys up by itself: an ordered object compares with every key that it has.
 class TreeBuilder {
  public:
   explicit TreeBuilder(const std::string& text) : text_(text) {}
@@ -76,15 +79,27 @@ class TreeBuilder {
   bool string(std::string& value) { return Leaf(std::move(value)); }
   bool binary(Json::binary_t&) { return false; }
 
-  bool start_object(std::size_t) { return Push(Json::object()); }
+  bool start_object(std::size_t) {
+    places_.emplace_back();
+    return Push(Json::object());
+  }
   bool start_array(std::size_t) { return Push(Json::array()); }
-  bool end_object() { return Pop(); }
+  bool end_object() {
+    places_.pop_back();
+    return Pop();
+  }
   bool end_array() { return Pop(); }
 
   bool key(std::string& name) {
     key_ = name;
-    if (open_.back()->contains(name))
+    auto& members = open_.back()->get_ref<Json::object_t&>();
+    const auto [known, is_new] = places_.back().try_emplace(name, std::ssize(members));
+    place_ = known->second;
+    if (is_new) {
+      members.emplace_back(name, nullptr);
+    } else {
       result_.duplicate_keys.push_back(pointer_ + PointerStep(name));
+    }
     return true;
   }
 
@@ -115,7 +130,10 @@ class TreeBuilder {
       parent.push_back(std::move(value));
       return &parent.back();
     }
-    return &(parent[key_] = std::move(value));
+    auto& members = parent.get_ref<Json::object_t&>();
+    Json& member = std::next(members.begin(), place_)->second;
+    member = std::move(value);
+    return &member;
   }
 
   bool Leaf(Json value) {
@@ -151,6 +169,8 @@ class TreeBuilder {
   std::vector<std::size_t> lengths_;
   std::string pointer_;
   std::string key_;
+  std::ptrdiff_t place_{};  // Of that key in its object.
+  std::vector<std::unordered_map<std::string, std::ptrdiff_t>> places_;  // Per open object.
 };
 
 }  // namespace

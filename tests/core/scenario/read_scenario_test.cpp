@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "core/base/error.h"
 #include "core/scenario/effects.h"
 #include "core/scenario/scenario.h"
@@ -81,6 +83,23 @@ TEST(ReadScenario, ReportsTheFaultsOfEveryFileAtOnce) {
                 "\"reference\" or \"auto\" (got \"high\")\n" +
                 weather.string() + ": /snow_rate_mmph: must be >= 0 and <= 5000 (got -1)\n" +
                 file.string() + ": /output/fram: unknown key, the nearest is \"frame\"");
+}
+
+// So many that comparing each with all the others would take minutes.
+TEST(ReadScenario, NamesEachOf200000UnknownKeys) {
+  const TemporaryFolder folder;
+  std::vector<std::string> keys(200'000);
+  for (std::size_t i = 0; i < keys.size(); ++i) keys[i] = "fidelity_" + std::to_string(i);
+  std::string sections = R"("seed": 1)";
+  for (const std::string& key : keys) sections += ", \"" + key + "\": 0";
+  const auto file = folder.Write("a.json", OnMinimal(sections));
+  std::istringstream faults(FaultsOf(file));
+  std::string fault;
+  for (const std::string& key : keys) {
+    std::getline(faults, fault);
+    ASSERT_EQ(fault, file.string() + ": /" + key + ": unknown key, the nearest is \"fidelity\"");
+  }
+  EXPECT_FALSE(std::getline(faults, fault)) << fault;
 }
 
 TEST(ReadScenario, LocatesAFaultInTheObjectThatReplacesAFilesKey) {
