@@ -44,6 +44,7 @@ test_packages=(
   python3-jsonschema
   python3-numpy
   python3-open3d
+  python3-yaml
   tshark
   xdotool
 )

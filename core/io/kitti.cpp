@@ -1,8 +1,11 @@
 #include "core/io/kitti.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -12,6 +15,33 @@
 #include "core/io/scan_motion.h"
 
 namespace railcast {
+namespace {
+
+/// The text as a YAML scalar. YAML understands JSON's strings and escapes, but for the pairs of
+/// them that stand for one character beyond U+FFFF: such characters are written as they are.
+std::string YamlString(const std::string& text) {
+  constexpr std::string_view kFirstBytesBeyondFfff = "\xF0\xF1\xF2\xF3\xF4";  // RFC 3629.
+  constexpr std::size_t kNumBytesBeyondFfff = 4;
+  const auto escaped = [](std::string_view part) {
+    using nlohmann::json;
+    const std::string quoted = json(part).dump(-1, ' ', true, json::error_handler_t::replace);
+    return quoted.substr(1, quoted.size() - 2);
+  };
+  std::string scalar;
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::size_t num_escaped =
+        std::min(rest.find_first_of(kFirstBytesBeyondFfff), rest.size());
+    scalar += escaped(rest.substr(0, num_escaped));
+    rest.remove_prefix(num_escaped);
+    const std::size_t num_kept = std::min(kNumBytesBeyondFfff, rest.size());
+    scalar += rest.substr(0, num_kept);
+    rest.remove_prefix(num_kept);
+  }
+  return '"' + scalar + '"';
+}
+
+}  // namespace
+
 void EncodeKittiPoints(const Frame& frame, std::string& bytes) {
   constexpr std::size_t kStep = 4 * sizeof(float);
   bytes.resize(frame.num_slots() * kStep);
@@ -114,7 +144,7 @@ std::string SemanticKittiYaml(const LabelTable& labels) {
   for (const Label& label : kitti.labels()) {
     const std::string key = "  " + std::to_string(label.id) + ": ";
     const auto& [red, green, blue] = label.rgb;
-    names += key + "\"" + label.name + "\"\n";
+    names += key + YamlString(label.name) + "\n";
     colours += key + "[" + std::to_string(blue) + ", " + std::to_string(green) + ", " +
                std::to_string(red) + "]\n";
     learning += key + std::to_string(label.semantic_kitti_nearest) + "\n";

@@ -5,8 +5,11 @@
 #include <array>
 #include <cstring>
 
+#include "core/io/write_file.h"
 #include "tests/core/io/example_frame.h"
 #include "tests/core/io/message_of.h"
+#include "tests/core/io/temporary_directory.h"
+#include "tests/support/run_command.h"
 
 namespace railcast {
 namespace {
@@ -101,6 +104,32 @@ TEST(SemanticKittiYaml, NamesAllLabelsThatShareAClass) {
   labels[0].semantic_kitti = labels[1].semantic_kitti = 70;
   EXPECT_NE(SemanticKittiYaml(LabelTable(labels)).find("labels:\n  70: \"grass/tree\"\n"),
             std::string::npos);
+}
+
+// The strings as Python has them, so that both sides are ASCII.
+TEST(SemanticKittiYaml, IsReadByPythonWhateverLabelsAreCalled) {
+  if (RunCommand("/usr/bin/python3 -c 'import yaml'").status != 0) {
+    GTEST_SKIP() << "python3-yaml is not installed";
+  }
+  const std::vector<std::pair<std::string, std::string>> names = {
+      {R"(the "old" shed)", R"('the "old" shed')"},
+      {R"(C:\n #1: {[*&!|>'%@`)", R"x("C:\\n #1: {[*&!|>'%@`")x"},
+      {"Gleis\u00e4ste \U0001F6A6 \U0001F6A6", R"('Gleis\xe4ste \U0001f6a6 \U0001f6a6')"},
+      {"\x7F \u0085 \u0080 \u2028 \ufeff \uffff", R"('\x7f \x85 \x80 \u2028 \ufeff \uffff')"}};
+  std::vector<Label> labels(names.size());
+  std::string expected;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    labels[i].name = names[i].first;
+    labels[i].semantic_kitti = static_cast<std::uint16_t>(300 + i);
+    expected += names[i].second + "\n";
+  }
+  const TemporaryDirectory directory;
+  const std::string file = (directory.path() / "a.yaml").string();
+  WriteFileWhole(file, SemanticKittiYaml(LabelTable(labels)));
+  const Ended run = RunCommand(
+      "/usr/bin/python3 -c \"import yaml; [print(ascii(name)) for name in yaml.safe_load(open('" +
+      file + "', encoding='utf-8'))['labels'].values()]\"");
+  EXPECT_EQ(run.said, expected);
 }
 
 TEST(SemanticKittiYaml, MapsOurClassesToTheNearestOriginals) {
