@@ -44,7 +44,7 @@ inline void ApplyDetection(DetectTile& tile, const DetectionParameters& paramete
     }
     const std::uint32_t before = tile.outcome[i];
     const bool answers = (before == kReturned) | (before == kClutter);
-    tile.outcome[i] = answers & !detected ? kBelowThreshold : before;
+    tile.outcome[i] = (answers & !detected) ? kBelowThreshold : before;
   }
 }
 

@@ -229,7 +229,9 @@ FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) 
   Parts& parts = *parts_;
   const FrameScene scene = parts.SceneOf(frame_index);
   const CastFrame cast = CastOf(scene);
-  const auto [tile, lane] = parts.tiles.PlaceOf(firing);
+  const FiringTiles::Place place = parts.tiles.PlaceOf(firing);
+  const std::size_t tile = place.tile;
+  const std::size_t lane = place.lane;
   BeamTracer::Work work(*parts.tracer);
   DetectTile& first = work.echoes.first;
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
