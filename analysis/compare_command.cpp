@@ -14,6 +14,7 @@
 #include "analysis/report/output.h"
 #include "analysis/thread_limit.h"
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 #include "core/fidelity/sample_frames.h"
 #include "core/io/progress_line.h"
 #include "core/io/recording/recording.h"
@@ -45,7 +46,7 @@ std::vector<double> ParseDistances(std::string_view text) {
     const std::string_view word = text.substr(0, comma);
     const auto distance_m = ParseNumber<double>(word);
     if (!distance_m || !(*distance_m > 0.0)) {
-      throw InputError("--distances: must be > 0 (got " + std::string(word) + ")");
+      throw InputError("--distances: must be > 0 (got " + ShownText(word) + ")");
     }
     distances_m.push_back(*distance_m);
     if (comma == std::string_view::npos) return distances_m;
@@ -66,8 +67,8 @@ int RunPairs(const CompareOptions& options, const std::string& command_line) {
   });
   progress.End();
   if (comparison.num_pairs() == 0) {
-    throw InputError(options.sources[1].string() + ": must have a frame that pairs with one of " +
-                     options.sources[0].string() + " by " + PairingName(pairs.pairing()) +
+    throw InputError(ShownPath(options.sources[1]) + ": must have a frame that pairs with one of " +
+                     ShownPath(options.sources[0]) + " by " + PairingName(pairs.pairing()) +
                      "; see --pair (got none)");
   }
   EmitReport(MakeCompareReport(comparison, pairs, a->info(), b->info(), command_line),
@@ -89,13 +90,13 @@ int RunAblation(const CompareOptions& options, const std::string& command_line) 
              [&](const std::string& what, double done) { progress.Show(what, done); });
   progress.End();
   const std::vector<std::pair<std::string, std::string>> facts = {
-      {"Scenario", options.scenario.string()},
+      {"Scenario", ShownPath(options.scenario)},
       {"Fidelity",
        scenario.fidelity == kAutoFidelity ? "auto, studied as footprint" : scenario.fidelity},
       {"Frames", std::to_string(frames.size()) + ", a second apart"},
       {"Seed", std::to_string(scenario.seed)},
       {"Version", RAILCAST_VERSION}};
-  EmitReport(MakeAblationReport(studies, "Effects of " + options.scenario.stem().string(), facts,
+  EmitReport(MakeAblationReport(studies, "Effects of " + ShownPath(options.scenario.stem()), facts,
                                 command_line),
              options.output, "ablation");
   return kExitSuccess;

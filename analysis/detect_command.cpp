@@ -10,6 +10,7 @@
 #include "analysis/report/output.h"
 #include "core/base/error.h"
 #include "core/base/number_text.h"
+#include "core/base/shown_text.h"
 #include "core/base/units.h"
 #include "core/io/progress_line.h"
 #include "core/io/recording/recording.h"
@@ -46,13 +47,13 @@ void CheckSameScenario(const std::vector<RecordingInfo>& infos) {
     if (&other == &last) return;
     ScenarioSpec same = *other.scenario;
     if (same.seed == last.scenario->seed) {
-      throw InputError(last.source.string() + ": /seed: must be another than that of " +
-                       other.source.string() + " (got " + std::to_string(same.seed) + ")");
+      throw InputError(ShownPath(last.source) + ": /seed: must be another than that of " +
+                       ShownPath(other.source) + " (got " + std::to_string(same.seed) + ")");
     }
     same.seed = last.scenario->seed;
     if (same != *last.scenario) {
-      throw InputError(last.source.string() + ": must be of the same scenario as " +
-                       other.source.string() + " but for its seed");
+      throw InputError(ShownPath(last.source) + ": must be of the same scenario as " +
+                       ShownPath(other.source) + " but for its seed");
     }
   }
 }
@@ -63,7 +64,7 @@ std::vector<std::pair<std::string, std::string>> FactsOf(const std::vector<Recor
   std::string seeds;
   for (const RecordingInfo& info : infos) {
     if (!sources.empty()) sources += ", ";
-    sources += info.source.string();
+    sources += ShownPath(info.source);
     if (!seeds.empty()) seeds += ", ";
     seeds += std::to_string(info.scenario->seed);
   }

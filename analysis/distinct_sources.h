@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 
 namespace railcast {
 
@@ -14,7 +15,7 @@ inline void CheckDistinct(const std::vector<std::filesystem::path>& sources) {
   std::set<std::filesystem::path> seen;
   for (const std::filesystem::path& source : sources) {
     if (seen.insert(std::filesystem::weakly_canonical(source)).second) continue;
-    throw InputError(source.string() + ": must be named once");
+    throw InputError(ShownPath(source) + ": must be named once");
   }
 }
 

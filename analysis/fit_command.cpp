@@ -17,6 +17,7 @@
 #include "analysis/thread_limit.h"
 #include "core/base/error.h"
 #include "core/base/number_text.h"
+#include "core/base/shown_text.h"
 #include "core/io/progress_line.h"
 #include "core/io/recording/recording.h"
 #include "core/io/write_file.h"
@@ -45,7 +46,8 @@ std::pair<std::string, double> ParseKnown(const std::string& text) {
   const double reflectance =
       equals == std::string::npos ? 0.0 : std::strtod(text.c_str() + equals + 1, &end);
   if (equals == 0 || !(reflectance > 0.0 && std::isfinite(reflectance)) || *end != '\0') {
-    throw InputError("--known: must be NAME=REFLECTANCE, the reflectance > 0 (got " + text + ")");
+    throw InputError("--known: must be NAME=REFLECTANCE, the reflectance > 0 (got " +
+                     ShownText(text) + ")");
   }
   return {text.substr(0, equals), reflectance};
 }
@@ -91,7 +93,8 @@ FitSettings SettingsOf(const FitOptions& options,
     bool is_there = false;
     for (const Trial& trial : trials.trials)
       is_there |= trials.surfaces[trial.surface].name == name;
-    if (!is_there) throw InputError("--known: no trial meets such a surface (got " + name + ")");
+    if (!is_there)
+      throw InputError("--known: no trial meets such a surface (got " + ShownText(name) + ")");
     settings.known[name] = reflectance;
   }
   return settings;

@@ -10,6 +10,7 @@
 #include "analysis/frontier/measure.h"
 #include "analysis/frontier/pareto.h"
 #include "analysis/frontier/table.h"
+#include "core/base/shown_text.h"
 #include "core/fidelity/choice_report.h"
 #include "core/fidelity/sample_frames.h"
 #include "core/io/progress_line.h"
@@ -62,13 +63,13 @@ int RunFrontier(const FrontierOptions& options) {
     progress.Show("what the scene needs", kRowsShare + (1.0 - kRowsShare) * done);
   });
   progress.End();
-  const std::string head = options.scenario.string() + ": " + Head(plan);
+  const std::string head = ShownPath(options.scenario) + ": " + Head(plan);
   std::cout << head << "\n"
             << FrontierTable(results) << DefeatsText(FindDefeats(results))
             << ChoiceText(choice, scenario.tolerance) << std::flush;
 
   const FrontierCircumstances circumstances = {
-      RAILCAST_VERSION, options.scenario.string(), scenario.seed,
+      RAILCAST_VERSION, ShownPath(options.scenario), scenario.seed,
       MakeComparisonSpec(scenario.lidar.beam, scenario.lidar.range_max_m,
                          LabelTable(scenario.labels))
           .match_distance_m,
@@ -78,7 +79,7 @@ int RunFrontier(const FrontierOptions& options) {
   WriteFileWhole(options.out / "frontier.csv", FrontierCsv(results));
   WriteFileWhole(options.out / "frontier.gnuplot", ChartScript(results, head));
   DrawChart(options.out / "frontier.gnuplot", options.out / "frontier");
-  std::cout << "frontier.json, .csv, .svg, .png in " << options.out.string() << "\n";
+  std::cout << "frontier.json, .csv, .svg, .png in " << ShownPath(options.out) << "\n";
   return kExitSuccess;
 }
 

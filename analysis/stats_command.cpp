@@ -10,6 +10,7 @@
 #include "analysis/stats/statistics_report.h"
 #include "analysis/thread_limit.h"
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 #include "core/io/progress_line.h"
 #include "core/io/recording/recording.h"
 
@@ -25,15 +26,15 @@ struct StatsOptions {
 // Rings, labels and materials are counted by their numbers: they must mean the same everywhere.
 void CheckSameKind(const RecordingInfo& first, const RecordingInfo& other) {
   if (other.labels.labels() != first.labels.labels() || other.materials != first.materials) {
-    throw InputError(other.source.string() + ": must have the same labels and materials as " +
-                     first.source.string());
+    throw InputError(ShownPath(other.source) + ": must have the same labels and materials as " +
+                     ShownPath(first.source));
   }
   const bool is_same_scan =
       first.scenario.has_value() == other.scenario.has_value() &&
       (!first.scenario || first.scenario->lidar.scan == other.scenario->lidar.scan);
   if (first.kind != other.kind || !is_same_scan) {
-    throw InputError(other.source.string() + ": must be of the same sensor as " +
-                     first.source.string());
+    throw InputError(ShownPath(other.source) + ": must be of the same sensor as " +
+                     ShownPath(first.source));
   }
 }
 
@@ -65,7 +66,7 @@ int RunStats(const StatsOptions& options, const std::string& command_line) {
   }
   progress.End();
   if (all.coverage.num_frames() == 0) {
-    throw InputError(options.sources.front().string() + ": must hold a frame");
+    throw InputError(ShownPath(options.sources.front()) + ": must hold a frame");
   }
   EmitReport(MakeStatisticsReport(all, infos, command_line), options.output, "stats");
   return kExitSuccess;

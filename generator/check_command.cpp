@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 #include "core/fidelity/choice_report.h"
 #include "core/io/write_file.h"
 #include "core/rail/rail_world.h"
@@ -70,16 +71,16 @@ void PrintReport(const ScenarioSpec& scenario, bool is_verbose) {
   for (const std::string& sensor : sensors) {
     const ScenarioSpec picked = PickSensor(scenario, sensor);
     const Report report(picked, world);
-    std::cout << report.Sensor();
-    if (sensor == sensors.front()) std::cout << report.Line(is_verbose);
-    std::cout << report.WhatItSees();
+    std::cout << ShownLines(report.Sensor());
+    if (sensor == sensors.front()) std::cout << ShownLines(report.Line(is_verbose));
+    std::cout << ShownLines(report.WhatItSees());
     if (sensors.size() > 1) choices += ReportLine("sensor", sensor);
     choices += report.Choice();
   }
   constexpr std::int64_t kFrame0_ns = 0;
-  std::cout << ObjectsText(*world, LabelTable(scenario.labels))
-            << OverlapsText(FindOverlaps(*world, kFrame0_ns), *world);
-  if (scenario.fidelity == kAutoFidelity) std::cout << choices;
+  std::cout << ShownLines(ObjectsText(*world, LabelTable(scenario.labels)))
+            << ShownLines(OverlapsText(FindOverlaps(*world, kFrame0_ns), *world));
+  if (scenario.fidelity == kAutoFidelity) std::cout << ShownLines(choices);
   if (scenario.camera) std::cout << "camera    read and kept for later; nothing uses it yet\n";
 }
 
@@ -96,7 +97,8 @@ int CheckCommand(const CheckOptions& options) {
   }
   if (options.resolved) WriteFileWhole(*options.resolved, ResolvedScenarioJson(scenario));
   PrintReport(scenario, options.is_verbose);
-  if (options.resolved) std::cout << "resolved scenario in " << *options.resolved << "\n";
+  if (options.resolved)
+    std::cout << "resolved scenario in " << ShownPath(*options.resolved) << "\n";
   return kExitSuccess;
 }
 

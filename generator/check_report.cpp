@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/number_text.h"
+#include "core/base/shown_text.h"
 #include "core/base/units.h"
 #include "core/scenario/scenario.h"
 #include "generator/report_line.h"
@@ -65,7 +66,7 @@ std::string WayPointText(const WayPoint& point, double rate_hz) {
 std::string SightingText(const Sighting& sighting, const World& world, const LabelTable& labels) {
   std::string text = LabelName(labels, sighting.label);
   for (const SceneObject& object : world.objects()) {
-    if (object.instance == sighting.instance) text += " of \"" + object.name + '"';
+    if (object.instance == sighting.instance) text += " of \"" + ShownText(object.name) + '"';
   }
   return text + ", " + Rounded(sighting.range_m, 2) + " m";
 }
@@ -142,8 +143,8 @@ std::string ObjectsText(const World& world, const LabelTable& labels) {
   for (const SceneObject& object : world.objects()) {
     const char* const motion = object.is_ego ? "own vehicle" : object.moves ? "moves" : "stands";
     text += ReportLine(text.empty() ? "objects" : "",
-                       std::to_string(object.instance) + " " + object.name + ": " + object.type +
-                           ", label " + LabelName(labels, object.label) + ", " +
+                       std::to_string(object.instance) + " " + ShownText(object.name) + ": " +
+                           object.type + ", label " + LabelName(labels, object.label) + ", " +
                            std::to_string(object.model->num_triangles()) + " triangles, " + motion);
   }
   return text.empty() ? ReportLine("objects", "none") : text;

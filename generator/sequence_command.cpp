@@ -5,6 +5,7 @@
 
 #include "core/base/attempt.h"
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 #include "core/fidelity/choice_report.h"
 #include "core/scenario/command_log.h"
 #include "core/scenario/effects.h"
@@ -37,7 +38,7 @@ Scenarios ReadWithOverrides(const SequenceOptions& options) {
   const bool is_sensor_frame =
       scenario.output.frame == "sensor" && scenario.output.handedness == "right";
   if (options.format == "kitti" && !is_sensor_frame) {
-    throw InputError(options.scenario.string() +
+    throw InputError(ShownPath(options.scenario) +
                      ": /output: must be right-handed sensor coordinates for --format kitti (got " +
                      scenario.output.handedness + "-handed " + scenario.output.frame + ")");
   }
@@ -132,7 +133,7 @@ int SequenceCommand(const SequenceOptions& options) {
   SequenceSpec spec = MakeSpec(options, scenario);
   // A log that says nothing makes the same run as none.
   if (!log.commands.empty()) spec.commands_jsonl = CommandLogText(log);
-  if (options.is_verbose) std::cerr << "read " << options.scenario.string() << "\n";
+  if (options.is_verbose) std::cerr << "read " << ShownPath(options.scenario) << "\n";
   const auto simulator = MakeSimulator(scenario, options.num_threads);
   if (options.is_verbose) {
     std::cerr << "made the simulator: " << simulator->pattern().num_firings()
@@ -142,7 +143,7 @@ int SequenceCommand(const SequenceOptions& options) {
   const std::uint32_t last_frame = spec.start_frame + spec.num_frames - 1;
   CheckHasStamp("--start-frame, --frames", simulator->pattern(), last_frame);
   CommandedRun run(scenario, {simulator.get()});
-  AtPlace(options.commands.value_or("").string() + ": ", [&] { run.Apply(log.commands); });
+  AtPlace(ShownPath(options.commands.value_or("")) + ": ", [&] { run.Apply(log.commands); });
   CheckStaysOnTracks(run, simulator->pattern(), spec.start_frame, last_frame);
   if (scenario.fidelity == kAutoFidelity) {
     const FidelityChoice choice = UseChosenFidelity(*simulator, scenario);

@@ -18,6 +18,7 @@
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
+#include "core/base/shown_text.h"
 #include "core/base/units.h"
 #include "core/io/content_hash.h"
 #include "core/io/kitti.h"
@@ -105,8 +106,8 @@ void RefuseStrangers(const fs::path& directory, bool is_run) {
     const bool is_own = is_run ? IsSequenceFile(finished)
                                : FinishedName(name) && finished == std::string_view(kRunFile);
     if (is_own) continue;
-    throw InputError(directory.string() + ": holds a file that is no run's of railcast (" + name +
-                     "); move it away or choose another --out");
+    throw InputError(ShownPath(directory) + ": holds a file that is no run's of railcast (" +
+                     ShownPath(name) + "); move it away or choose another --out");
   }
 }
 
@@ -136,7 +137,7 @@ SequenceDirectory::~SequenceDirectory() {
 
 void SequenceDirectory::Open() {
   if (!Lock(lock_)) {
-    throw InputError(spec_.directory.string() + ": another run is writing here");
+    throw InputError(ShownPath(spec_.directory) + ": another run is writing here");
   }
   const fs::path run_file = spec_.directory / kRunFile;
   const bool is_run = fs::exists(run_file);
@@ -171,7 +172,7 @@ void SequenceDirectory::CheckUnchanged(const SequenceProgress& progress) const {
   const fs::path& directory = spec_.directory;
   const auto check = [&](bool is_unchanged, const std::string& what) {
     if (is_unchanged) return;
-    throw InputError(directory.string() + ": is complete, but " + what +
+    throw InputError(ShownPath(directory) + ": is complete, but " + what +
                      " was changed or removed; delete manifest.json to make it anew");
   };
   check(num_done_ == spec_.num_frames, "frame " + std::to_string(spec_.start_frame + num_done_));

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 #include "core/io/content_hash.h"
 
 namespace railcast {
@@ -64,7 +65,7 @@ std::string RunJson(const SequenceSpec& spec) {
 
 void CheckSameRun(const SequenceSpec& spec, const std::string& run_json) {
   const Json found = Json::parse(run_json, nullptr, false);
-  const std::string place = spec.directory.string() + ": ";
+  const std::string place = ShownPath(spec.directory) + ": ";
   if (!found.is_object()) throw InputError(place + "holds a run.json that is not railcast's");
   const Json ours = RunObject(spec);
   if (found.contains("commands_xxh3") && spec.commands_jsonl.empty()) {

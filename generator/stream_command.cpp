@@ -8,6 +8,7 @@
 
 #include "core/base/attempt.h"
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 #include "core/io/stream/stream_encoder.h"
 #include "core/io/velodyne/calibration_xml.h"
 #include "core/io/write_file.h"
@@ -188,7 +189,7 @@ int StreamCommand(const StreamOptions& options) {
   }
   CatchStopSignals();
   streams.WarmUp();
-  std::cout << Describe(plan) << std::flush;
+  std::cout << ShownLines(Describe(plan)) << std::flush;
 
   TerminalLine line;
   LiveHooks hooks;
@@ -212,12 +213,12 @@ int StreamCommand(const StreamOptions& options) {
   line.End();
   if (commands) commands->End(result.fault.value_or("the run has ended"));
   streams.Finish();
-  std::cout << LiveSummary(result.records, streams.Delivered(), !clock.jumps());
+  std::cout << ShownLines(LiveSummary(result.records, streams.Delivered(), !clock.jumps()));
   if (channel && channel->num_strangers() > 0) {
     std::cout << "commands of others than the peer: " << channel->num_strangers() << ", dropped\n";
   }
   if (!result.fault) return kExitSuccess;
-  std::cerr << *result.fault << "\n";
+  std::cerr << ShownLines(*result.fault) << "\n";
   return kExitFailure;
 }
 

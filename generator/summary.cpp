@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/shown_text.h"
+
 namespace railcast {
 namespace {
 
@@ -49,7 +51,7 @@ std::string Summary(const SequenceSpec& spec, const SequenceResult& result) {
     outcomes.emplace_back(kOutcomeNames[i], result.counts.outcomes[i]);
   }
   PutTable("firings by outcome", std::move(outcomes), text);
-  text << result.num_done << " of " << spec.num_frames << " frames in " << spec.directory.string()
+  text << result.num_done << " of " << spec.num_frames << " frames in " << ShownPath(spec.directory)
        << "\n";
   return text.str();
 }

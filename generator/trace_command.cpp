@@ -2,6 +2,7 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 #include "core/scenario/effects.h"
 #include "core/scenario/scenario.h"
 #include "core/simulate/story_text.h"
@@ -22,8 +23,8 @@ int TraceCommand(const TraceOptions& options) {
   }
   if (scenario.fidelity == kAutoFidelity) UseChosenFidelity(*simulator, scenario);
   const FiringStory story = simulator->Explain(options.frame, options.firing);
-  std::cout << StoryText(options.frame, story, LabelTable(scenario.labels),
-                         MaterialLibrary(scenario.materials));
+  std::cout << ShownLines(StoryText(options.frame, story, LabelTable(scenario.labels),
+                                    MaterialLibrary(scenario.materials)));
   return kExitSuccess;
 }
 

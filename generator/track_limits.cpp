@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
+#include "core/base/shown_text.h"
 
 namespace railcast {
 namespace {
@@ -67,7 +68,7 @@ std::vector<Traveller> TravellersOf(const ScenarioSpec& scenario, const RailWorl
     const auto place = [&scenario, &object] {
       // Instance ids are those of the scenario's order, and go on from there.
       if (object.instance > scenario.world.objects.size()) {
-        return "command: object \"" + object.name + '"';
+        return "command: object \"" + ShownText(object.name) + '"';
       }
       return scenario.sources.Place("/world/objects/" + std::to_string(object.instance - 1) +
                                     "/motion") +

@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
+#include "core/base/shown_text.h"
 #include "core/io/write_file.h"
 #include "core/rail/rail_world.h"
 #include "core/scenario/scenario.h"
@@ -42,7 +43,7 @@ std::size_t CountTriangles(const ExportedWorld& exported) {
 
 void SayTriangles(const ExportedWorld& exported, const LabelTable& labels) {
   for (const Part& part : exported.parts) {
-    std::cerr << labels.Find(part.label)->name << ": " << part.mesh.triangles.size()
+    std::cerr << ShownText(labels.Find(part.label)->name) << ": " << part.mesh.triangles.size()
               << " triangles\n";
   }
 }
@@ -59,7 +60,7 @@ std::string SizeText(std::size_t num_bytes) {
 int WorldCommand(const WorldOptions& options) {
   const std::string extension = options.out.extension().string();
   if (extension != ".ply" && extension != ".obj") {
-    throw InputError("--out: must end in .ply or .obj (got " + options.out.string() + ")");
+    throw InputError("--out: must end in .ply or .obj (got " + ShownPath(options.out) + ")");
   }
   if (options.from_s_m.has_value() != options.to_s_m.has_value()) {
     const bool has_from = options.from_s_m.has_value();
@@ -96,7 +97,7 @@ int WorldCommand(const WorldOptions& options) {
   std::cerr << "writing " << num_triangles << " triangles, " << SizeText(bytes.size()) << "\n";
   WriteFileWhole(options.out, bytes);
   std::cout << num_triangles << " triangles of " << chunks.size() << " chunks in "
-            << options.out.string() << "\n";
+            << ShownPath(options.out) << "\n";
   return kExitSuccess;
 }
 

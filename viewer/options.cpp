@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/shown_text.h"
 #include "core/io/command_line.h"
 #include "viewer/color/field_values.h"
 #include "viewer/window/view_window.h"
@@ -69,7 +70,8 @@ std::optional<std::array<int, 2>> ParsePair(std::string_view text,
 
 std::array<int, 2> ParseSize(const std::string& text) {
   const auto size_px = ParsePair(text, 'x', kMinSize_px, {kMaxSize_px, kMaxSize_px});
-  if (!size_px) Fail("--size", "must be WIDTHxHEIGHT, each 64 to 16384 (got " + text + ")");
+  if (!size_px)
+    Fail("--size", "must be WIDTHxHEIGHT, each 64 to 16384 (got " + ShownText(text) + ")");
   return *size_px;
 }
 
@@ -281,7 +283,7 @@ ViewOptions ParseOptions(CLI::App& app, int argc, char** argv) {
     }
   }
   if (!options.screenshot.empty() && options.screenshot.extension() != ".png") {
-    Fail("--screenshot", "must end in .png (got " + options.screenshot.string() + ")");
+    Fail("--screenshot", "must end in .png (got " + ShownPath(options.screenshot) + ")");
   }
   return options;
 }

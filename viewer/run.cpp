@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
+#include "core/base/shown_text.h"
 #include "core/io/progress_line.h"
 #include "core/scenario/scenario.h"
 #include "viewer/draw/display.h"
@@ -32,7 +33,7 @@ std::set<std::uint32_t> SelectedLabels(const std::vector<std::string>& names,
   for (const std::string& name : names) {
     const Label* const label = labels.Find(name);
     if (label == nullptr) {
-      throw InputError("--select: must be labels of the recording (got " + name + ")");
+      throw InputError("--select: must be labels of the recording (got " + ShownText(name) + ")");
     }
     ids.insert(label->id);
   }
@@ -46,7 +47,7 @@ void WaitForFrame(LiveFrames& live, double wait_s) {
   while (!live.Poll() || live.num_lost_packets() > 0) {
     if (!live.fault().empty()) throw InputError(live.fault());
     if (Clock::now() > end) {
-      throw InputError(live.info().source.string() + ": no whole frame came within " +
+      throw InputError(ShownPath(live.info().source) + ": no whole frame came within " +
                        NumberText(wait_s) + " s");
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -68,7 +69,7 @@ void ShowPicks(const ViewOptions& options, const Session& session, Stage& stage)
   }
   if (picks.is_empty()) return;
   stage.ShowPlate(Stage::Plate::kFacts, picks.facts());
-  std::printf("%s%s", picks.facts().c_str(), picks.facts().ends_with('\n') ? "" : "\n");
+  std::printf("%s%s", ShownLines(picks.facts()).c_str(), picks.facts().ends_with('\n') ? "" : "\n");
   for (std::size_t i = 0; i < stage.num_views(); ++i) {
     stage.ShowMarks(i, picks.MarksIn(stage.view(i).scene()));
   }
@@ -76,7 +77,7 @@ void ShowPicks(const ViewOptions& options, const Session& session, Stage& stage)
   const std::string trace =
       EffectTrace(session.source(source).info()).Of(*picks.recorded(), picks.slot());
   stage.ShowPlate(Stage::Plate::kTrace, trace);
-  std::printf("\n%s", trace.c_str());
+  std::printf("\n%s", ShownLines(trace).c_str());
 }
 
 class Viewer {
@@ -152,13 +153,13 @@ class Viewer {
     if (live_) place = live_->num_known() - 1;
     if (options_.frame) place = recorded_.front()->PlaceOf(*options_.frame);
     if (!session_->Seek(place)) {
-      throw InputError(options_.source.string() + ": has no frame to show");
+      throw InputError(ShownPath(options_.source) + ": has no frame to show");
     }
     const std::string missing = session_->Missing();
-    if (!missing.empty()) throw InputError(options_.source.string() + ": " + missing);
+    if (!missing.empty()) throw InputError(ShownPath(options_.source) + ": " + missing);
     if (options_.is_verbose) {
       for (const Scene& scene : session_->Compose()) {
-        std::fprintf(stderr, "%s\n", scene.status.c_str());
+        std::fprintf(stderr, "%s\n", ShownLines(scene.status).c_str());
       }
     }
   }

@@ -7,6 +7,7 @@
 #include "analysis/stats/bins.h"
 #include "analysis/stats/headings.h"
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 
 namespace railcast {
 namespace {
@@ -242,7 +243,7 @@ Section BinsSection(const Comparison& comparison) {
 }
 
 std::string Described(const RecordingInfo& info) {
-  return Joined({info.source.string(), ", ", info.kind});
+  return Joined({ShownPath(info.source), ", ", info.kind});
 }
 
 }  // namespace
@@ -302,7 +303,7 @@ Report MakeCompareReport(const Comparison& comparison,
                          const RecordingInfo& b,
                          const std::string& command) {
   Report report;
-  report.title = Joined({b.source.string(), " compared with ", a.source.string()});
+  report.title = Joined({ShownPath(b.source), " compared with ", ShownPath(a.source)});
   report.command = command;
   report.facts = {{"A, the reference", Described(a)},
                   {"B", Described(b)},

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 #include "core/base/units.h"
 #include "core/scenario/scenario.h"
 
@@ -61,7 +62,7 @@ RunCourses FollowObjects(Recording& recording, const std::function<void(std::siz
   const RecordingInfo& info = recording.info();
   if (!info.scenario) {
     throw InputError(
-        info.source.string() +
+        ShownPath(info.source) +
         ": must be a sequence directory, which says what was seen of its objects (got " +
         info.kind + ")");
   }

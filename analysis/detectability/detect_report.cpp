@@ -8,6 +8,7 @@
 #include "analysis/detectability/verdict.h"
 #include "core/base/attempt.h"
 #include "core/base/number_text.h"
+#include "core/base/shown_text.h"
 
 namespace railcast {
 namespace {
@@ -145,9 +146,9 @@ DetectRun DetectInRun(std::filesystem::path source,
       .source = std::move(source), .seed = seed, .courses = std::move(courses), .detections = {}};
   for (const auto& [name, course] : run.courses.objects) {
     const ObjectCourse& of_object = course;  // A lambda cannot hold a binding.
-    run.detections[name] = AtPlace(run.source.string() + ": object " + name + ": ", [&] {
-      return DetectObject(of_object, spec.rule, spec.braking, spec.speed_mps);
-    });
+    run.detections[name] =
+        AtPlace(ShownPath(run.source) + ": object " + ShownText(name) + ": ",
+                [&] { return DetectObject(of_object, spec.rule, spec.braking, spec.speed_mps); });
   }
   return run;
 }

@@ -14,6 +14,7 @@
 #include "analysis/fit/trial_sample.h"
 #include "analysis/fit/truth_trials.h"
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 #include "core/io/recording/scan_table.h"
 #include "core/scan/scan_pattern.h"
 #include "core/scenario/scenario.h"
@@ -279,8 +280,8 @@ RecordedTrials ReadTrials(const std::vector<std::filesystem::path>& sources,
       labels = info.labels;
       result.surfaces = SurfacesOf(info);
     } else if (info.materials != materials) {
-      throw InputError(info.source.string() + ": must have the same materials as " +
-                       sources[0].string());
+      throw InputError(ShownPath(info.source) + ": must have the same materials as " +
+                       ShownPath(sources[0]));
     }
     Setting setting = Settle(sources[i], info, result);
     if (setting.scan) setting.facts.scan = &*setting.scan;

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 #include "core/scenario/effects.h"
 
 namespace railcast {
@@ -71,7 +72,7 @@ std::vector<FrontierRow> ChooseFrontierRows(const std::string& names) {
     if (std::none_of(rows.begin(), rows.end(), is_called)) {
       std::string line = "--rows: must be all, or of";
       for (const FrontierRow& row : rows) line += ' ' + row.name;
-      throw InputError(line + " (got " + name + ")");
+      throw InputError(line + " (got " + ShownText(name) + ")");
     }
     wanted.push_back(name);
   }

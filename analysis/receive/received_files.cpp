@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 #include "core/io/stream/stream_clouds.h"
 #include "core/io/write_file.h"
 
@@ -35,7 +36,7 @@ ReceivedFiles::ReceivedFiles(const std::filesystem::path& directory) : directory
   if (error) throw FileError(directory_, error.value());
   const std::filesystem::path index = directory_ / kIndexName;
   if (std::filesystem::exists(index)) {
-    throw InputError(index.string() + ": must not exist: a recording is there already");
+    throw InputError(ShownPath(index) + ": must not exist: a recording is there already");
   }
   lines_.open(index);
   lines_.precision(std::numeric_limits<double>::max_digits10);

@@ -11,6 +11,7 @@
 #include "analysis/report/page.h"
 #include "analysis/report/text.h"
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 #include "core/io/write_file.h"
 
 namespace railcast {
@@ -74,12 +75,12 @@ void AddReportOptions(CLI::App& command, ReportOutput& output) {
 
 void EmitReport(const Report& report, const ReportOutput& output, std::string_view name) {
   CheckSound(report);
-  if (output.is_text) std::cout << ReportText(report) << std::flush;
+  if (output.is_text) std::cout << ShownLines(ReportText(report)) << std::flush;
   if (output.out.empty()) return;
   const std::string json = std::string(name) + ".json";
   WriteFiles(report, output.out, json);
-  if (!output.is_text) std::cout << HeadlinesText(report);
-  std::cout << "report.html, " << json << ", csv/ and charts/ in " << output.out.string() << "\n"
+  if (!output.is_text) std::cout << ShownLines(HeadlinesText(report));
+  std::cout << "report.html, " << json << ", csv/ and charts/ in " << ShownPath(output.out) << "\n"
             << std::flush;
 }
 

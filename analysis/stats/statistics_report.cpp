@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "analysis/stats/bins.h"
+#include "core/base/shown_text.h"
 
 namespace railcast {
 namespace {
@@ -11,14 +12,14 @@ namespace {
 // The last part of the path: "demo" of "out/demo/".
 std::string NameOf(const std::filesystem::path& source) {
   const std::filesystem::path path = source.lexically_normal();
-  return (path.has_filename() ? path.filename() : path.parent_path().filename()).string();
+  return ShownPath(path.has_filename() ? path.filename() : path.parent_path().filename());
 }
 
 std::string SourcesText(const std::vector<RecordingInfo>& sources) {
   std::string text;
   for (const RecordingInfo& info : sources) {
     if (!text.empty()) text += ", ";
-    text += info.source.string();
+    text += ShownPath(info.source);
     text += " (";
     text += info.kind;
     text += ")";

@@ -1,5 +1,7 @@
 #include "core/base/out_of_memory.h"
 
+#include "core/base/shown_text.h"
+
 namespace railcast {
 
 InputError OutOfMemory(const std::string& doing) {
@@ -14,7 +16,7 @@ std::string ReadingText(const std::filesystem::path& file) {
   std::error_code error;
   const std::uintmax_t num_bytes = std::filesystem::file_size(file, error);
   const std::string size = error ? "" : " (" + std::to_string(num_bytes) + " bytes)";
-  return "reading " + file.string() + size;
+  return "reading " + ShownPath(file) + size;
 }
 
 }  // namespace railcast

@@ -58,17 +58,40 @@ std::string Shown(std::string_view character) {
   return std::string(character);
 }
 
+/// Takes the first character off `text`, or the first byte where that begins none.
+/// @return What shows it.
+std::string TakeCharacter(std::string_view& text) {
+  const std::size_t length = LengthOfCharacter(text);
+  const std::string shown =
+      length == 0 ? Escaped("\\x%02x", ByteAt(text, 0)) : Shown(text.substr(0, length));
+  text.remove_prefix(length == 0 ? 1 : length);
+  return shown;
+}
+
 }  // namespace
 
 std::string ShownText(std::string_view text) {
   std::string shown;
-  std::size_t length = 0;
-  for (std::size_t begin = 0; begin < text.size(); begin += length == 0 ? 1 : length) {
-    length = LengthOfCharacter(text.substr(begin));
-    const std::string next =
-        length == 0 ? Escaped("\\x%02x", ByteAt(text, begin)) : Shown(text.substr(begin, length));
+  while (!text.empty()) {
+    const std::string next = TakeCharacter(text);
     if (shown.size() + next.size() > kMaxLength) return shown + "...";
     shown += next;
+  }
+  return shown;
+}
+
+std::string ShownPath(const std::filesystem::path& path) {
+  std::string shown;
+  for (std::string_view rest = path.native(); !rest.empty();) shown += TakeCharacter(rest);
+  return shown;
+}
+
+std::string ShownLines(std::string_view text) {
+  std::string shown;
+  while (!text.empty()) {
+    const bool is_end = text.front() == '\n';
+    const std::string next = TakeCharacter(text);
+    shown += is_end ? "\n" : next;
   }
   return shown;
 }

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 #include "core/io/text_cursor.h"
 
 namespace railcast {
@@ -58,7 +59,7 @@ class HeaderReader {
   [[nodiscard]] std::uint64_t Number(const std::string& key, std::string_view word) const {
     const auto number = ParseNumber<std::uint64_t>(word);
     if (!number || *number > kMaxCloudBytes) {
-      Fail(key + ": must be a whole number below 2^32 (got " + std::string(word) + ")");
+      Fail(key + ": must be a whole number below 2^32 (got " + ShownText(word) + ")");
     }
     return *number;
   }
@@ -90,7 +91,7 @@ std::vector<PcdField> ReadFields(const HeaderReader& reader) {
     const std::uint64_t count =
         reader.Has("COUNT") ? reader.Number("COUNT", reader.Entries("COUNT")[i]) : 1;
     if (type != "I" && type != "U" && type != "F") {
-      reader.Fail("TYPE: must be I, U or F (got " + std::string(type) + ")");
+      reader.Fail("TYPE: must be I, U or F (got " + ShownText(type) + ")");
     }
     const bool is_size =
         type == "F" ? size == 4 || size == 8 : size == 1 || size == 2 || size == 4 || size == 8;
@@ -122,7 +123,8 @@ void CheckAsciiLine(const HeaderReader& reader, const PcdHeader& header, std::st
     for (std::uint64_t i = 0; i < field.count; ++i, ++word) {
       if (word >= words.size()) reader.Fail("a point has fewer values than FIELDS asks for");
       if (!IsValue(words[word], field)) {
-        reader.Fail(field.name + ": no value of its type (got " + std::string(words[word]) + ")");
+        reader.Fail(ShownText(field.name) + ": no value of its type (got " +
+                    ShownText(words[word]) + ")");
       }
     }
   }

@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
+#include "core/base/shown_text.h"
 #include "core/io/pcd_header.h"
 #include "core/io/write_file.h"
 
@@ -15,7 +16,7 @@ namespace railcast {
 namespace {
 
 pcl::PCLPointCloud2 ParsePcd(const std::filesystem::path& file, const std::string& bytes) {
-  const PcdHeader header = CheckPcd(file.string(), bytes);
+  const PcdHeader header = CheckPcd(ShownPath(file), bytes);
 
   pcl::PCDReader reader;
   pcl::PCLPointCloud2 cloud;
@@ -36,7 +37,7 @@ pcl::PCLPointCloud2 ParsePcd(const std::filesystem::path& file, const std::strin
                                    version, header.data == "binary_compressed",
                                    static_cast<unsigned int>(header.data_begin));
   }
-  if (status != 0) throw InputError(file.string() + ": PCL cannot read this PCD file");
+  if (status != 0) throw InputError(ShownPath(file) + ": PCL cannot read this PCD file");
   return cloud;
 }
 

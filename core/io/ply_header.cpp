@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 #include "core/io/text_cursor.h"
 
 namespace railcast {
@@ -38,7 +39,7 @@ bool ReadFormat(const std::string& file, const std::vector<std::string_view>& wo
   if (words.size() == 3 && words[1] == "ascii") return true;
   if (words.size() == 3 && words[1] == "binary_little_endian") return false;
   Fail(file, "format: must be ascii or binary_little_endian (got " +
-                 (words.size() > 1 ? std::string(words[1]) : "nothing") + ")");
+                 (words.size() > 1 ? ShownText(words[1]) : "nothing") + ")");
 }
 
 PlyProperty ReadProperty(const std::string& file, const std::vector<std::string_view>& words) {
@@ -47,7 +48,7 @@ PlyProperty ReadProperty(const std::string& file, const std::vector<std::string_
     return words[1] == known.name || words[1] == known.alias;
   });
   if (type == kTypes.end()) {
-    Fail(file, "property " + std::string(words[2]) + ": unknown type " + std::string(words[1]));
+    Fail(file, "property " + ShownText(words[2]) + ": unknown type " + ShownText(words[1]));
   }
   return {std::string(words[2]), type->pcl_type, type->size};
 }
@@ -56,7 +57,7 @@ std::uint64_t ReadCount(const std::string& file, const std::vector<std::string_v
   const auto count = words.size() == 3 ? ParseNumber<std::uint64_t>(words[2]) : std::nullopt;
   if (!count || *count > std::numeric_limits<std::uint32_t>::max()) {
     Fail(file, "element vertex: must be a whole number below 2^32 (got " +
-                   (words.size() > 2 ? std::string(words[2]) : "nothing") + ")");
+                   (words.size() > 2 ? ShownText(words[2]) : "nothing") + ")");
   }
   return *count;
 }

@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
+#include "core/base/shown_text.h"
 #include "core/io/ply_header.h"
 #include "core/io/text_cursor.h"
 #include "core/io/write_file.h"
@@ -74,8 +75,8 @@ void ParsePoints(const std::string& file, std::string_view text, pcl::PCLPointCl
     for (std::size_t i = 0; i < words.size(); ++i) {
       const pcl::PCLPointField& field = cloud.fields[i];
       if (StoreWord(words[i], field.datatype, row + field.offset)) continue;
-      throw InputError(file + place + ": " + field.name + ": no value of its type (got " +
-                       std::string(words[i]) + ")");
+      throw InputError(file + place + ": " + ShownText(field.name) +
+                       ": no value of its type (got " + ShownText(words[i]) + ")");
     }
   }
 }
@@ -84,7 +85,7 @@ void ParsePoints(const std::string& file, std::string_view text, pcl::PCLPointCl
 
 pcl::PCLPointCloud2 ReadPly(const std::filesystem::path& file) {
   return WithinMemory([&] { return ReadingText(file); },
-                      [&] { return ParsePly(file.string(), ReadFileWhole(file)); });
+                      [&] { return ParsePly(ShownPath(file), ReadFileWhole(file)); });
 }
 
 pcl::PCLPointCloud2 ParsePly(const std::string& file, const std::string& bytes) {

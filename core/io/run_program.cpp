@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 #include "core/io/write_file.h"
 
 namespace railcast {
@@ -57,11 +58,11 @@ int RunMain(const std::string& program,
   try {
     return main();
   } catch (const InputError& error) {
-    complaints << error.what() << "\n";
+    complaints << ShownLines(error.what()) << "\n";
   } catch (const std::bad_alloc&) {
     complaints << program << ": out of memory\n";
   } catch (const std::exception& error) {
-    complaints << program << ": " << error.what() << "\n";
+    complaints << program << ": " << ShownLines(error.what()) << "\n";
   }
   return kExitFailure;
 }

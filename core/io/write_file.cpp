@@ -4,7 +4,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cctype>
 #include <cerrno>
 #include <system_error>
 
@@ -51,34 +50,6 @@ bool HasLength(int descriptor, std::size_t length) {
   return false;
 }
 
-std::string_view NameOf(std::filesystem::file_type type) {
-  switch (type) {
-    case std::filesystem::file_type::directory:
-      return "a directory";
-    case std::filesystem::file_type::fifo:
-      return "a FIFO";
-    case std::filesystem::file_type::character:
-      return "a character device";
-    case std::filesystem::file_type::block:
-      return "a block device";
-    case std::filesystem::file_type::socket:
-      return "a socket";
-    case std::filesystem::file_type::symlink:
-      return "a symbolic link";
-    default:
-      return "something else";
-  }
-}
-
-// A file that is not there, or that we may not look at, is left to the call that opens it.
-void CheckIsRegular(const std::filesystem::path& file, const std::filesystem::file_status& status) {
-  using std::filesystem::file_type;
-  const file_type type = status.type();
-  if (type == file_type::regular || type == file_type::not_found || type == file_type::none) return;
-  throw InputError(file.string() + ": must be a regular file (got " + std::string(NameOf(type)) +
-                   ")");
-}
-
 std::filesystem::path UnfinishedOf(const std::filesystem::path& target) {
   return target.string() + std::string(kUnfinishedSuffix);
 }
@@ -93,12 +64,6 @@ Descriptor OpenUnfinished(const std::filesystem::path& file,
 }
 
 }  // namespace
-
-InputError FileError(const std::filesystem::path& file, int error_number) {
-  std::string reason = std::generic_category().message(error_number);
-  reason[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(reason[0])));
-  return InputError(file.string() + ": " + reason);
-}
 
 std::filesystem::path FileToReplace(const std::filesystem::path& file) {
   std::error_code error;
@@ -138,6 +103,7 @@ void WriteFileWhole(const std::filesystem::path& file, std::string_view bytes) {
 }
 
 std::string ReadFileWhole(const std::filesystem::path& file) {
+  CheckIsReadable(file);
   const Descriptor input(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
   struct stat status {};
   if (input.number() < 0 || ::fstat(input.number(), &status) != 0) throw FileError(file, errno);

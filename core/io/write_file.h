@@ -4,12 +4,9 @@
 #include <string>
 #include <string_view>
 
-#include "core/base/error.h"
+#include "core/base/input_file.h"
 
 namespace railcast {
-
-/// "file: no space left on device": what the system said about a file, as an error of the user's.
-[[nodiscard]] InputError FileError(const std::filesystem::path& file, int error_number);
 
 /// Ends the name of a file that is still being written.
 inline constexpr std::string_view kUnfinishedSuffix = ".part";
@@ -30,7 +27,7 @@ void CheckCanWrite(const std::filesystem::path& file);
 /// @throws InputError as that does, or if the system refuses; nothing unfinished stays behind.
 void WriteFileWhole(const std::filesystem::path& file, std::string_view bytes);
 
-/// The bytes of a whole file. @throws InputError if it cannot be read.
+/// The bytes of a whole file. @throws InputError if it is no regular file or cannot be read.
 [[nodiscard]] std::string ReadFileWhole(const std::filesystem::path& file);
 
 }  // namespace railcast

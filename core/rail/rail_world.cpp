@@ -11,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
+#include "core/base/shown_text.h"
 #include "core/rail/catenary/catenary.h"
 #include "core/rail/catenary/catenary_plan.h"
 #include "core/rail/chunk_context.h"
@@ -209,7 +210,8 @@ std::shared_ptr<const RailWorld> RailWorld::WithoutObject(const std::string& nam
       objects().begin(), objects().end(),
       [&](const SceneObject& object) { return !object.is_ego && object.name == name; });
   if (found == objects().end()) {
-    throw InputError("/name: must be the name of an object that is there (got \"" + name + "\")");
+    throw InputError("/name: must be the name of an object that is there (got \"" +
+                     ShownText(name) + "\")");
   }
   const auto index = found - objects().begin();
   Things changed = *things_;

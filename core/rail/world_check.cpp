@@ -5,13 +5,14 @@
 #include <set>
 
 #include "core/base/number_text.h"
+#include "core/base/shown_text.h"
 #include "core/rail/catenary/catenary.h"
 
 namespace railcast {
 namespace {
 
 std::string Quoted(const std::string& text) {
-  return '"' + text + '"';
+  return '"' + ShownText(text) + '"';
 }
 
 std::string Got(double value) {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <fstream>
 
+#include "core/base/attempt.h"
+#include "core/base/input_file.h"
 #include "core/base/shown_text.h"
 #include "core/base/units.h"
 #include "core/scan/firing.h"
@@ -80,20 +82,19 @@ void CheckValues(const Values& values,
 }  // namespace
 
 FiringGrid TableFirings(const FiringTableSpec& spec, ErrorList& errors) {
-  std::ifstream file(spec.file);
+  auto file = Attempt("/pattern/file: ", errors, [&] { return OpenInput(spec.file); });
+  if (!file) return {};
+  const std::string shown = ShownPath(spec.file);
   std::string line;
-  if (!file || (!std::getline(file, line) && file.bad())) {
-    errors.Add("/pattern/file: cannot be read " + Quoted(spec.file));
-    return {};
-  }
+  std::getline(*file, line);
   if (Trimmed(line) != kHeader) {
-    errors.Add(spec.file + ":1: must be \"" + std::string(kHeader) + "\" " + Quoted(Trimmed(line)));
+    errors.Add(shown + ":1: must be \"" + std::string(kHeader) + "\" " + Quoted(Trimmed(line)));
     return {};
   }
   FiringGrid grid{.rows = 1, .columns = 0, .firings = {}};
   double last_us = -1.0;
-  for (std::size_t number = 2; std::getline(file, line); ++number) {
-    const std::string place = spec.file + ":" + std::to_string(number);
+  for (std::size_t number = 2; std::getline(*file, line); ++number) {
+    const std::string place = shown + ":" + std::to_string(number);
     Values values{};
     if (!ParseLine(line, place, values, errors)) {
       if (errors.lines().size() >= kMaxNumFaults) return {};
@@ -103,7 +104,7 @@ FiringGrid TableFirings(const FiringTableSpec& spec, ErrorList& errors) {
     if (errors.lines().size() >= kMaxNumFaults) return {};
     last_us = values[2];
     if (grid.firings.size() == kMaxNumFirings) {
-      errors.Add(spec.file + ": must have at most 16777216 firings");
+      errors.Add(shown + ": must have at most 16777216 firings");
       return {};
     }
     grid.firings.push_back({.azimuth_rad = RadFromDeg(values[0]),
@@ -113,7 +114,7 @@ FiringGrid TableFirings(const FiringTableSpec& spec, ErrorList& errors) {
                             .column = grid.columns++});
   }
   if (grid.firings.empty() && errors.empty()) {
-    errors.Add(spec.file + ": must have at least one firing (got 0)");
+    errors.Add(shown + ": must have at least one firing (got 0)");
   }
   return errors.empty() ? grid : FiringGrid{};
 }

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/input_file.h"
+#include "core/base/shown_text.h"
 #include "core/scenario/command_reading.h"
 #include "core/scenario/json_reader.h"
 
@@ -64,14 +66,13 @@ std::string CommandLogText(const CommandLog& log) {
 }
 
 CommandLog ReadCommandLog(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(file.string() + ": cannot be read");
+  std::ifstream stream = OpenInput(file);
   CommandLog log;
   std::string line;
   std::size_t number = 0;
   while (std::getline(stream, line)) {
     ++number;
-    const std::string place = file.string() + ": line " + std::to_string(number);
+    const std::string place = ShownPath(file) + ": line " + std::to_string(number);
     if (stream.eof()) throw InputError(place + ": must end in a line break");
     JsonSource source;
     const auto root = source.OpenText(line, place);
@@ -101,7 +102,7 @@ CommandLog ReadCommandLog(const std::filesystem::path& file) {
     }
     source.errors().ThrowIfAny();
   }
-  if (number == 0) throw InputError(file.string() + ": is empty");
+  if (number == 0) throw InputError(ShownPath(file) + ": is empty");
   return log;
 }
 

@@ -5,6 +5,9 @@
 #include <iterator>
 #include <set>
 
+#include "core/base/input_file.h"
+#include "core/base/shown_text.h"
+
 namespace railcast {
 namespace {
 
@@ -17,7 +20,7 @@ std::string Place(const Node& node) {
 // The file that a string names, as the user knows it.
 std::string ShownName(const Node& node) {
   const fs::path name = node.json->get<std::string>();
-  return (fs::path(node.file->shown).parent_path() / name).lexically_normal().string();
+  return ShownPath((fs::path(node.file->shown).parent_path() / name).lexically_normal());
 }
 
 // Why a file cannot be read; empty if it can.
@@ -25,8 +28,9 @@ std::string Obstacle(const fs::path& file) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (!fs::exists(status)) return "no such file";
-  if (fs::is_directory(status)) return "must be a file, not a directory";
-  if (!fs::is_regular_file(status)) return "must be a regular file";
+  if (!fs::is_regular_file(status)) {
+    return "must be a file, not " + std::string(NameOf(status.type()));
+  }
   if (!std::ifstream(file)) return "cannot be read";
   return "";
 }
@@ -55,9 +59,9 @@ Node Node::Child(std::size_t index) const {
 }
 
 std::optional<Node> JsonSource::Open(const fs::path& file) {
-  const std::string shown = file.lexically_normal().string();
+  const std::string shown = ShownPath(file.lexically_normal());
   if (const std::string obstacle = Obstacle(file); !obstacle.empty()) {
-    errors_.Add(file.string() + ": " + obstacle);
+    errors_.Add(ShownPath(file) + ": " + obstacle);
     return std::nullopt;
   }
   std::optional<Node> root = Load({fs::absolute(file).lexically_normal(), shown, nullptr, {}}, "");

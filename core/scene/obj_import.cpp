@@ -9,6 +9,8 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "core/base/input_file.h"
+#include "core/base/shown_text.h"
 #include "core/scene/obj_sieve.h"
 #include "core/scene/polygon.h"
 
@@ -177,12 +179,8 @@ Mesh ParseObj(std::istream& in, const std::string& shown, double unit_m, bool y_
 }
 
 Mesh ReadObj(const std::filesystem::path& file, double unit_m, bool y_up) {
-  std::error_code ignored;
-  std::ifstream in(file, std::ios::binary);
-  if (!in || !std::filesystem::is_regular_file(file, ignored)) {
-    throw InputError(file.string() + ": must be a file that can be read");
-  }
-  return ParseObj(in, file.string(), unit_m, y_up);
+  std::ifstream in = OpenInput(file);
+  return ParseObj(in, ShownPath(file), unit_m, y_up);
 }
 
 }  // namespace railcast

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 #include "core/scenario/command_log.h"
 
 namespace railcast {
@@ -21,7 +22,7 @@ CommandLoop::CommandLoop(CommandedRun& run,
     : run_(run), channel_(channel), lockstep_(lockstep) {
   if (!log_file) return;
   if (std::filesystem::exists(*log_file)) {
-    throw InputError("--commands-log: must not be there yet (got " + log_file->string() + ")");
+    throw InputError("--commands-log: must not be there yet (got " + ShownPath(*log_file) + ")");
   }
   log_.emplace(*log_file, 0);
   log_->Append(CommandLogHeader(scenario_xxh3));

@@ -58,6 +58,19 @@ TEST(RailcastGenerate, FailsWhereItsOutputIsLost) {
   EXPECT_EQ(resolved.said, "stdout: not all of it could be written\n");
 }
 
+TEST(RailcastGenerate, PrintsNothingRawThatComesFromOutside) {
+  const TemporaryDirectory directory;
+  const std::string file = (directory.path() / "a\nb\x1b[2J.json").string();
+  EXPECT_EQ(Generate("check '" + file + "'").said,
+            (directory.path() / "a\\nb\\u001b[2J.json").string() + ": no such file\n");
+  const std::string scenario = scenarios_folder + "minimal.json";
+  const std::string out = (directory.path() / "o\nt\x1b[2J").string();
+  const Ended run = Generate("sequence " + scenario + " --frames 1 --out '" + out + "'");
+  EXPECT_EQ(run.status, 0);
+  EXPECT_NE(run.said.find("/o\\nt\\u001b[2J"), std::string::npos) << run.said;
+  EXPECT_EQ(run.said.find('\x1b'), std::string::npos);
+}
+
 TEST(RailcastGenerate, RecordsWhatFidelityAutoChose) {
   const TemporaryDirectory directory;
   const std::string scenario = MakeProject(directory.path() / "project").string();

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 #include "core/io/kitti.h"
 #include "core/rail/rail_world.h"
 #include "core/scenario/scenario.h"
@@ -13,7 +14,7 @@ namespace railcast {
 void Frames::UseScenario(const ScenarioSpec& scenario) {
   if (info_.scenario) {
     if (ResolvedScenarioJson(*info_.scenario) == ResolvedScenarioJson(scenario)) return;
-    throw InputError(info_.source.string() +
+    throw InputError(ShownPath(info_.source) +
                      ": has a scenario of its own: --scenario must be the same or be left out");
   }
   world_ = MakeWorld(scenario);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 #include "core/io/recording/live_frame.h"
 
 namespace railcast {
@@ -41,7 +42,7 @@ bool LiveFrames::Poll() {
   num_lost_packets_ = received->num_lost_packets();
   fault_.clear();
   try {
-    kept_.Put(num_taken_, Shown(MakeLiveFrame(*received, info_.source.string())));
+    kept_.Put(num_taken_, Shown(MakeLiveFrame(*received, ShownPath(info_.source))));
   } catch (const InputError& error) {
     fault_ = error.what();
     return false;

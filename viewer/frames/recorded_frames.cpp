@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
+#include "core/base/shown_text.h"
 #include "viewer/frames/recorded_labels.h"
 
 namespace railcast {
@@ -63,7 +64,7 @@ std::shared_ptr<const ShownFrame> RecordedFrames::Get(std::size_t place) {
 
 std::size_t RecordedFrames::PlaceOf(std::uint32_t frame_index) {
   const auto fail = [&](const std::string& what) -> std::size_t {
-    throw InputError(info_.source.string() + ": has no frame " + NumberText(frame_index) +
+    throw InputError(ShownPath(info_.source) + ": has no frame " + NumberText(frame_index) +
                      " (it has " + what + ")");
   };
   const auto index_at = [&](std::size_t place) { return Get(place)->frame().index; };

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 #include "core/fidelity/choice.h"
 #include "core/frame/labels.h"
 #include "core/scan/scan_pattern.h"
@@ -21,11 +22,11 @@ struct Ended {};
 
 void CheckIsTraceable(const std::filesystem::path& source,
                       const std::optional<ScenarioSpec>& scenario) {
-  if (!scenario) throw InputError(source.string() + ": has no scenario to trace points with");
+  if (!scenario) throw InputError(ShownPath(source) + ": has no scenario to trace points with");
   const std::filesystem::path commands = source / "commands.jsonl";
   std::error_code ignored;  // A source that is no directory holds no file.
   if (std::filesystem::exists(commands, ignored)) {
-    throw InputError(commands.string() +
+    throw InputError(ShownPath(commands) +
                      ": changed the run, so the scenario cannot tell its story");
   }
 }

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 #include "core/io/write_file.h"
 
 namespace railcast {
@@ -32,7 +33,7 @@ PictureFolder::PictureFolder(const std::filesystem::path& directory) : directory
   std::filesystem::create_directories(directory, error);
   if (error) throw FileError(directory, error.value());
   if (!std::filesystem::is_empty(directory, error) || error) {
-    throw InputError(directory.string() + ": must be empty or not be there yet");
+    throw InputError(ShownPath(directory) + ": must be empty or not be there yet");
   }
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 #include "viewer/color/coloring.h"
 #include "viewer/color/field_values.h"
 #include "viewer/scene/compose_distances.h"
@@ -161,7 +162,7 @@ std::string Session::Missing() const {
 std::string Session::StatusOf(std::size_t index, const Scene& scene) const {
   const ShownFrame& shown = *shown_[index];
   const RecordingInfo& info = sources_[index].frames->info();
-  std::string first = info.source.string();
+  std::string first = ShownPath(info.source);
   first += "   ";
   first += FrameText(shown);
   std::string text;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 #include "viewer/picture/pictures.h"
 #include "viewer/window/key_table.h"
 #include "viewer/window/point_under.h"
@@ -260,7 +261,7 @@ void ViewWindow::SaveScreenshot() {
     file += ".png";
   }
   WritePicture(stage_.window(), file);
-  std::fprintf(stderr, "wrote %s\n", file.c_str());
+  std::fprintf(stderr, "wrote %s\n", ShownPath(file).c_str());
 }
 
 void ViewWindow::OnKey(const std::string& key) {

@@ -80,6 +80,7 @@ struct PcapReader::Capture {
 namespace {
 
 std::FILE* Open(const std::filesystem::path& file) {
+  CheckIsReadable(file);
   std::FILE* const stream = std::fopen(file.c_str(), "rbe");
   if (stream == nullptr) throw FileError(file, errno);
   return stream;

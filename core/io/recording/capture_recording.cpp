@@ -86,6 +86,7 @@ std::unique_ptr<Recording> OpenCapture(const std::function<std::FILE*()>& open,
 std::unique_ptr<Recording> OpenCapture(const std::filesystem::path& file) {
   return OpenCapture(
       [&file] {
+        CheckIsReadable(file);
         std::FILE* const stream = std::fopen(file.c_str(), "rbe");
         if (stream == nullptr) throw FileError(file, errno);
         return stream;

@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
+#include "core/base/shown_text.h"
 #include "core/io/recording/cloud_frame.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/point_table.h"
@@ -46,7 +47,7 @@ bool ComesBefore(std::string_view a, std::string_view b) {
 }
 
 RecordedFrame ReadCloudFrame(const std::filesystem::path& file, std::uint32_t index) {
-  RecordedFrame recorded = MakeCloudFrame(ReadPointTable(file), file.string());
+  RecordedFrame recorded = MakeCloudFrame(ReadPointTable(file), ShownPath(file));
   recorded.frame.index = index;
   return recorded;
 }

@@ -2,35 +2,31 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 #include "core/base/number_text.h"
-#include "core/io/write_file.h"
+#include "core/base/shown_text.h"
 
 namespace railcast {
 
-LineReader::LineReader(const std::filesystem::path& file)
-    : file_(file), stream_(file, std::ios::binary) {
-  if (!stream_) throw FileError(file, errno);
-}
+LineReader::LineReader(const std::filesystem::path& file) : file_(file), stream_(OpenInput(file)) {}
 
 std::optional<PlacedLine> LineReader::Next() {
   PlacedLine line;
   if (!std::getline(stream_, line.text) || stream_.eof()) return std::nullopt;
   if (line.text.ends_with('\r')) line.text.pop_back();
-  line.place = file_.string() + ":" + NumberText(++num_lines_);
+  line.place = ShownPath(file_) + ":" + NumberText(++num_lines_);
   return line;
 }
 
 PlacedLine LineReader::Need() {
   if (auto line = Next()) return std::move(*line);
-  throw InputError(file_.string() + ":" + NumberText(num_lines_ + 1) + ": missing");
+  throw InputError(ShownPath(file_) + ":" + NumberText(num_lines_ + 1) + ": missing");
 }
 
 std::size_t CountLines(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw FileError(file, errno);
+  std::ifstream stream = OpenInput(file);
   std::size_t num_lines = 0;
   std::array<char, 1U << 16U> block{};
   while (stream) {

@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
+#include "core/base/shown_text.h"
 #include "core/io/pcd_header.h"
 #include "core/io/ply_reader.h"
 #include "core/io/text_cursor.h"
@@ -177,12 +178,12 @@ PointTable ReadPointTable(const std::filesystem::path& file) {
   if (file.extension() == ".bin") {
     auto labels = file.parent_path().parent_path() / "labels" / file.filename();
     labels.replace_extension(".label");
-    return ParseKittiTable(file.string(), ReadFileWhole(file),
+    return ParseKittiTable(ShownPath(file), ReadFileWhole(file),
                            exists(labels) ? std::optional(ReadFileWhole(labels)) : std::nullopt);
   }
-  if (file.extension() == ".pcd") return ParsePcdTable(file.string(), ReadFileWhole(file));
-  if (file.extension() == ".ply") return ParsePlyTable(file.string(), ReadFileWhole(file));
-  throw InputError(file.string() + ": must be a .pcd, .ply or .bin file");
+  if (file.extension() == ".pcd") return ParsePcdTable(ShownPath(file), ReadFileWhole(file));
+  if (file.extension() == ".ply") return ParsePlyTable(ShownPath(file), ReadFileWhole(file));
+  throw InputError(ShownPath(file) + ": must be a .pcd, .ply or .bin file");
 }
 
 }  // namespace railcast

@@ -3,6 +3,7 @@
 #include <cerrno>
 
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 #include "core/io/recording/capture_recording.h"
 #include "core/io/recording/cloud_recording.h"
 #include "core/io/recording/sequence_recording.h"
@@ -25,7 +26,7 @@ std::unique_ptr<Recording> OpenDirectory(const std::filesystem::path& directory)
     return OpenClouds(directory, is_kitti ? "KITTI sequence" : "directory of point clouds",
                       std::move(files));
   }
-  throw InputError(directory.string() +
+  throw InputError(ShownPath(directory) +
                    ": must be a sequence or hold .pcd, .ply or .bin files (got neither)");
 }
 
@@ -39,7 +40,7 @@ std::unique_ptr<Recording> OpenRecording(const std::filesystem::path& source) {
   const std::filesystem::path extension = source.extension();
   if (extension == ".pcap" || extension == ".pcapng") return OpenCapture(source);
   if (IsCloudFile(source)) return OpenClouds(source, "point cloud file", {source});
-  throw InputError(source.string() +
+  throw InputError(ShownPath(source) +
                    ": must be a directory or a .pcd, .ply, .bin, .pcap or .pcapng file");
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
+#include "core/base/shown_text.h"
 #include "core/io/text_cursor.h"
 
 namespace railcast {
@@ -95,13 +96,13 @@ Transform ReadPoseLine(std::string_view line, std::int64_t stamp_ns, const std::
       const auto stamp = ParseNumber<std::int64_t>(word);
       if (stamp != stamp_ns) {
         throw InputError(place + ": stamp_ns: must be " + NumberText(stamp_ns) +
-                         ", as in frames.jsonl (got " + std::string(word) + ")");
+                         ", as in frames.jsonl (got " + ShownText(word) + ")");
       }
       is_stamp = false;
       continue;
     }
     const auto number = ParseNumber<double>(word);
-    if (!number) throw InputError(place + ": must be numbers (got " + std::string(word) + ")");
+    if (!number) throw InputError(place + ": must be numbers (got " + ShownText(word) + ")");
     numbers.push_back(*number);
   }
   return MakePose(numbers, place);

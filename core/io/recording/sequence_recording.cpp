@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 #include "core/io/recording/cloud_frame.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/sensor_axes.h"
@@ -55,7 +56,7 @@ RecordedFrame ReadFrame(const SequenceContext& context, const FrameLines& lines)
   const std::filesystem::path file = context.directory / CloudFileOf(line, lines.frame.place);
   const PointTable table = ReadPointTable(file);
   RecordedFrame recorded =
-      MakeScanFrame(table, file.string(), context.pattern, file.extension() == ".pcd");
+      MakeScanFrame(table, ShownPath(file), context.pattern, file.extension() == ".pcd");
   Frame& frame = recorded.frame;
   frame.index = line.frame;
   frame.stamp_ns = line.stamp_ns;
@@ -80,7 +81,7 @@ std::vector<std::string> ReadMaterialNames(const std::filesystem::path& file) {
       names[id] = material.at("name");
     }
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(file.string() + ": is damaged: " + error.what());
+    throw InputError(ShownPath(file) + ": is damaged: " + error.what());
   }
   return names;
 }

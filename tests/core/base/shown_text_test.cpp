@@ -36,5 +36,19 @@ TEST(ShownText, CutsWhatIsLong) {
   EXPECT_EQ(ShownText(std::string(59, 'a') + "\n\n"), std::string(59, 'a') + "...");
 }
 
+TEST(ShownPath, IsOneWholeLine) {
+  const std::string name = std::string(200, 'a') + "/b\nc\x1b.pcd";
+  EXPECT_EQ(ShownPath(name), std::string(200, 'a') + "/b\\nc\\u001b.pcd");
+  EXPECT_EQ(ShownPath("out/Zürich 1.pcd"), "out/Zürich 1.pcd");
+  // What is shown twice looks as it did.
+  EXPECT_EQ(ShownPath(ShownPath(name)), ShownPath(name));
+}
+
+TEST(ShownLines, KeepsNothingOfControlButLineBreaks) {
+  EXPECT_EQ(ShownLines("a\tb\r\n\x1b]0;title\x07\n\xc2\x9b" + std::string(100, 'z')),
+            "a\\tb\\r\n\\u001b]0;title\\u0007\n\\u009b" + std::string(100, 'z'));
+  EXPECT_EQ(ShownLines("x: rule\ny: rule\n"), "x: rule\ny: rule\n");
+}
+
 }  // namespace
 }  // namespace railcast

@@ -92,7 +92,7 @@ TEST_F(FiringTable, RefusesFilesWithoutHeaderOrFirings) {
 
 TEST_F(FiringTable, RefusesAMissingFile) {
   EXPECT_EQ(FaultsOf({.rate_hz = 10.0, .pattern = FiringTableSpec{"no/such.csv"}}),
-            "/pattern/file: cannot be read (got \"no/such.csv\")");
+            "/pattern/file: no/such.csv: no such file or directory");
 }
 
 TEST_F(FiringTable, StopsAfterTwentyFaults) {

@@ -132,7 +132,7 @@ TEST_F(ReadObjTest, RefusesAFileThatIsNotThere) {
     (void)ReadObj("/nowhere/wagon.obj", 1.0, false);
     FAIL() << "expected InputError";
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "/nowhere/wagon.obj: must be a file that can be read");
+    EXPECT_STREQ(error.what(), "/nowhere/wagon.obj: no such file or directory");
   }
   EXPECT_THROW((void)ReadObj(testing::TempDir(), 1.0, false), InputError);
 }

@@ -129,7 +129,7 @@ TEST(MakeObjectModel, RefusesWhatItCannotMake) {
   EXPECT_EQ(Complaint(spec), "size_m: a wagon has its own");
   spec = Object("mesh");
   spec.file = "/nowhere.obj";
-  EXPECT_EQ(Complaint(spec), "/nowhere.obj: must be a file that can be read");
+  EXPECT_EQ(Complaint(spec), "/nowhere.obj: no such file or directory");
   spec.up = std::string("x");
   EXPECT_EQ(Complaint(spec), "up: must be \"y\" or \"z\" (got \"x\")");
   spec = Object("person");
