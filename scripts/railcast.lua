@@ -4,6 +4,8 @@
 --   tshark -X lua_script:scripts/railcast.lua -f "udp port 27400" -Y 'railcast.crc.status == "bad"'
 --
 -- Knows its datagrams at any port by magic and version; port 27400 is taken for it in any case.
+-- On the sending machine a capture shows datagrams that left at once as one (UDP segmentation
+-- offload): they are cut by their own sizes, and shown each by itself.
 
 local DEFAULT_PORT = 27400
 local NUM_SHOWN_POINTS = 10
@@ -98,14 +100,19 @@ local function crc32(range)
   return bit32.bxor(rest, 0xFFFFFFFF)
 end
 
-local function add_crc(buffer, tree)
+-- "good", "bad", or "cut" where the capture kept only the beginning.
+local function add_crc(buffer, tree, is_cut)
+  if is_cut then
+    tree:add(crc_status, "cut"):set_generated()
+    return "cut"
+  end
   local at = buffer:len() - TRAILER_SIZE
-  local is_good = crc32(buffer(0, at)) == buffer(at, TRAILER_SIZE):le_uint()
+  local status = crc32(buffer(0, at)) == buffer(at, TRAILER_SIZE):le_uint() and "good" or "bad"
   local item = tree:add_le(crc, buffer(at, TRAILER_SIZE))
-  item:append_text(is_good and " [correct]" or " [wrong]")
-  tree:add(crc_status, buffer(at, TRAILER_SIZE), is_good and "good" or "bad"):set_generated()
-  if not is_good then item:add_proto_expert_info(bad_crc) end
-  return is_good
+  item:append_text(status == "good" and " [correct]" or " [wrong]")
+  tree:add(crc_status, buffer(at, TRAILER_SIZE), status):set_generated()
+  if status == "bad" then item:add_proto_expert_info(bad_crc) end
+  return status
 end
 
 -- The fields as { name, type code, offset in a point }; nil if the list does not fit.
@@ -148,13 +155,16 @@ local function is_ours(buffer)
     and buffer(4, 1):uint() == 1
 end
 
-function railcast.dissector(buffer, packet, tree)
-  if not is_ours(buffer) then return 0 end
+-- What the header says of the size of its datagram; nil if that cannot be.
+local function size_by_header(buffer)
+  local header_size, point_size = buffer(6, 2):le_uint(), buffer(54, 2):le_uint()
+  if header_size < FIELDS_AT or point_size == 0 then return nil end
+  return header_size + buffer(14, 2):le_uint() * point_size + TRAILER_SIZE
+end
+
+-- Adds one datagram. Returns its CRC's status.
+local function add_datagram(buffer, tree, is_cut)
   local branch = tree:add(railcast, buffer())
-  packet.cols.protocol = "railcast"
-  packet.cols.info = string.format("Run %d, frame %d, packet %d of %d, %d points",
-    buffer(8, 4):le_uint(), buffer(16, 4):le_uint(), buffer(20, 2):le_uint(),
-    buffer(22, 2):le_uint(), buffer(14, 2):le_uint())
   for _, member in ipairs(MEMBERS) do branch:add_le(member[3], buffer(member[1], member[2])) end
   for _, pose in ipairs(POSES) do
     local leaves = branch:add(buffer(pose[1], 56), pose[3])
@@ -164,20 +174,55 @@ function railcast.dissector(buffer, packet, tree)
       end
     end
   end
-  if not add_crc(buffer, branch) then packet.cols.info:append(" [CRC wrong]") end
-  local header_size, num_points = buffer(6, 2):le_uint(), buffer(14, 2):le_uint()
-  local point_size = buffer(54, 2):le_uint()
-  if header_size < FIELDS_AT or point_size == 0
-    or header_size + num_points * point_size + TRAILER_SIZE ~= buffer:len() then
+  local status = add_crc(buffer, branch, is_cut)
+  if status == "cut" then return status end
+  if size_by_header(buffer) ~= buffer:len() then
     branch:add_proto_expert_info(bad_sizes)
-    return buffer:len()
+    return status
   end
+  local header_size, point_size = buffer(6, 2):le_uint(), buffer(54, 2):le_uint()
   local fields, sum = add_fields(buffer, branch, header_size)
   if fields == nil or sum ~= point_size then
     branch:add_proto_expert_info(bad_sizes)
-  elseif num_points > 0 then
+  elseif buffer(14, 2):le_uint() > 0 then
     add_points(buffer, branch, header_size, fields, point_size)
   end
+  return status
+end
+
+local function summary(buffer)
+  return string.format("Run %d, frame %d, packet %d of %d, %d points",
+    buffer(8, 4):le_uint(), buffer(16, 4):le_uint(), buffer(20, 2):le_uint(),
+    buffer(22, 2):le_uint(), buffer(14, 2):le_uint())
+end
+
+-- The first of several datagrams in one, and the others; the whole, and nil, if it is only one.
+-- What follows a datagram and begins none belongs to it: then its sizes contradict each other.
+local function take_first(buffer)
+  local size = size_by_header(buffer)
+  if size == nil or size >= buffer:len() then return buffer, nil end
+  local others = buffer(size):tvb()
+  if not is_ours(others) then return buffer, nil end
+  return buffer(0, size):tvb(), others
+end
+
+function railcast.dissector(buffer, packet, tree)
+  if not is_ours(buffer) then return 0 end
+  packet.cols.protocol = "railcast"
+  local text = summary(buffer)
+  local count, rest, num_of = 0, buffer, { good = 0, bad = 0, cut = 0 }
+  while rest ~= nil do
+    local first
+    first, rest = take_first(rest)
+    local is_cut = rest == nil and buffer:reported_len() > buffer:len()
+    local status = add_datagram(first, tree, is_cut)
+    num_of[status] = num_of[status] + 1
+    count = count + 1
+  end
+  if count > 1 then text = count .. " datagrams in one, the first: " .. text end
+  if num_of.bad > 0 then text = text .. " [CRC wrong]" end
+  if num_of.cut > 0 then text = text .. " [not captured whole]" end
+  packet.cols.info = text
   return buffer:len()
 end
 

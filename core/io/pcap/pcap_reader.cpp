@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
+#include "core/base/shown_text.h"
 #include "core/io/write_file.h"
 
 namespace railcast {
@@ -88,7 +89,8 @@ std::FILE* Open(const std::filesystem::path& file) {
 
 }  // namespace
 
-PcapReader::PcapReader(const std::filesystem::path& file) : PcapReader(Open(file), file.string()) {}
+PcapReader::PcapReader(const std::filesystem::path& file)
+    : PcapReader(Open(file), ShownPath(file)) {}
 
 PcapReader::PcapReader(std::FILE* stream, std::string name)
     : name_(std::move(name)), capture_(std::make_unique<Capture>()) {
@@ -114,7 +116,8 @@ std::optional<CapturedDatagram> PcapReader::Next() {
     const u_char* bytes = nullptr;
     const int status = pcap_next_ex(capture_->pcap, &header, &bytes);
     if (status == PCAP_ERROR_BREAK) return std::nullopt;
-    const std::string place = name_ + ": packet " + NumberText(num_frames_++) + ": ";
+    const std::size_t packet = num_frames_++;
+    const std::string place = name_ + ": packet " + NumberText(packet) + ": ";
     if (status != 1) throw InputError(place + pcap_geterr(capture_->pcap));
     auto datagram = FindDatagram(std::span(reinterpret_cast<const char*>(bytes), header->caplen));
     if (!datagram && header->caplen < header->len) {
@@ -128,6 +131,7 @@ std::optional<CapturedDatagram> PcapReader::Next() {
       throw InputError(place + "must be captured before the year 2262 (got " +
                        NumberText(header->ts.tv_sec) + " s since 1970)");
     }
+    datagram->packet = packet;
     // With this precision the microseconds are nanoseconds.
     datagram->time_ns = header->ts.tv_sec * kNsPerS + header->ts.tv_usec;
     return datagram;

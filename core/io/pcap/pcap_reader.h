@@ -10,12 +10,15 @@
 
 namespace railcast {
 
-/// A UDP datagram of a capture.
+/// A UDP datagram of a capture, or several of one size and a last of at most that: where a network
+/// card or the loopback device is to cut what was sent at once (UDP segmentation offload), a
+/// capture on the sending machine sees it uncut. Only who knows the protocol can tell where to cut.
 struct CapturedDatagram {
   std::span<const char> payload;  ///< Valid until the next one is read.
   std::uint16_t source_port{};
   std::uint16_t destination_port{};
   std::int64_t time_ns{};  ///< Since 1970-01-01 00:00:00 UTC.
+  std::size_t packet{};    ///< Its place among the packets of the file, from 0.
 };
 
 /// The UDP datagram in an Ethernet frame: IPv4 with any options, behind up to two VLAN tags.

@@ -1,11 +1,13 @@
 #include "core/io/recording/capture_recording.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <deque>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
+#include "core/base/shown_text.h"
 #include "core/io/pcap/pcap_reader.h"
 #include "core/io/recording/capture_sensor.h"
 #include "core/io/write_file.h"
@@ -17,6 +19,8 @@ class CaptureRecording : public Recording {
  public:
   CaptureRecording(std::FILE* stream, const std::string& name, CaptureSensor sensor)
       : reader_(stream, name),
+        name_(sensor.name),
+        packet_size_(sensor.packet_size),
         shape_(std::make_shared<const TurnShape>(std::move(sensor.shape))),
         decoder_(std::move(sensor.decoder)) {
     info_.source = name;
@@ -26,13 +30,13 @@ class CaptureRecording : public Recording {
   [[nodiscard]] const RecordingInfo& info() const override { return info_; }
 
   [[nodiscard]] std::optional<FrameReader> Next() override {
-    while (turns_.empty() && !is_at_end_) TakePacket();
+    while (turns_.empty() && !is_at_end_) TakeDatagram();
     if (turns_.empty()) return std::nullopt;
     auto turn = std::make_shared<const SensorTurn>(std::move(turns_.front()));
     turns_.pop_front();
     const std::uint32_t index = num_frames_++;
     return [shape = shape_, turn = std::move(turn), index,
-            name = info_.source.string() + ": turn " + NumberText(index)] {
+            name = ShownPath(info_.source) + ": turn " + NumberText(index)] {
       RecordedFrame recorded = MakeTurnFrame(*turn, *shape, name);
       recorded.frame.index = index;
       return recorded;
@@ -40,13 +44,12 @@ class CaptureRecording : public Recording {
   }
 
  private:
-  // What is no packet of the sensor leaves the decoder as it was.
-  void TakePacket() {
+  void TakeDatagram() {
     std::vector<SensorTurn> turns;
     const auto datagram = reader_.Next();
     std::visit(
         [&](auto& decoder) {
-          if (datagram) (void)decoder.Decode(datagram->payload, turns);
+          if (datagram) TakePackets(*datagram, decoder, turns);
           if (!datagram) turns.push_back(decoder.TakeUnfinished());
         },
         decoder_);
@@ -56,8 +59,32 @@ class CaptureRecording : public Recording {
     }
   }
 
+  // One packet, or as many as were captured in one. What is no packet of the sensor leaves the
+  // decoder as it was.
+  template <typename Decoder>
+  void TakePackets(const CapturedDatagram& datagram,
+                   Decoder& decoder,
+                   std::vector<SensorTurn>& turns) const {
+    std::span<const char> rest = datagram.payload;
+    while (!rest.empty()) {
+      const std::size_t size = std::min(rest.size(), packet_size_);
+      const auto refusal = decoder.Decode(rest.first(size), turns);
+      const bool is_first = rest.size() == datagram.payload.size();
+      if (refusal && is_first) return;
+      if (size < packet_size_) {
+        throw InputError(ShownPath(info_.source) + ": packet " + NumberText(datagram.packet) +
+                         ": must hold whole packets of " + std::string(name_) + ", of " +
+                         NumberText(packet_size_) + " bytes each (got " +
+                         NumberText(datagram.payload.size()) + " bytes)");
+      }
+      rest = rest.subspan(size);
+    }
+  }
+
   RecordingInfo info_;
   PcapReader reader_;
+  std::string_view name_;
+  std::size_t packet_size_;
   std::shared_ptr<const TurnShape> shape_;
   std::variant<VelodyneDecoder, Pandar64Decoder> decoder_;
   std::deque<SensorTurn> turns_;
@@ -91,7 +118,7 @@ std::unique_ptr<Recording> OpenCapture(const std::filesystem::path& file) {
         if (stream == nullptr) throw FileError(file, errno);
         return stream;
       },
-      file.string());
+      ShownPath(file));
 }
 
 }  // namespace railcast

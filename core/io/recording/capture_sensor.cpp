@@ -1,5 +1,6 @@
 #include "core/io/recording/capture_sensor.h"
 
+#include <algorithm>
 #include <array>
 
 #include "core/base/number_text.h"
@@ -18,12 +19,18 @@ struct OtherModel {
 constexpr std::array<OtherModel, 4> kOtherModels = {
     {{0x23, "VLP-32A or VLP-32B"}, {0x24, "Puck Hi-Res"}, {0x31, "Velarray"}, {0xA1, "VLS-128"}}};
 
+/// The first packet of that size in what may be several in one.
+std::span<const char> FirstPacket(std::span<const char> payload, std::size_t size) {
+  return payload.first(std::min(payload.size(), size));
+}
+
 std::optional<CaptureSensor> VelodyneOf(std::span<const char> payload) {
   for (const std::string_view name : kVelodyneFormats) {
     const VelodyneModel& model = *FindVelodyneFormat(name).model;
     std::vector<SensorTurn> turns;
     if (VelodyneDecoder(model).Decode(payload, turns)) continue;
     return CaptureSensor{.name = model.name,
+                         .packet_size = kVelodynePacketSize,
                          .shape = ShapeOfTurns(model.lasers, IntensityBytes::kVelodyne),
                          .decoder = VelodyneDecoder(model)};
   }
@@ -34,6 +41,7 @@ std::optional<CaptureSensor> HesaiOf(std::span<const char> payload) {
   std::vector<SensorTurn> turns;
   if (Pandar64Decoder().Decode(payload, turns)) return std::nullopt;
   return CaptureSensor{.name = "Pandar64",
+                       .packet_size = kPandar64PacketSize,
                        .shape = ShapeOfTurns(Pandar64Channels(), IntensityBytes::kPercent),
                        .decoder = Pandar64Decoder()};
 }
@@ -44,7 +52,11 @@ std::string NameOfStranger(std::span<const char> payload) {
       LoadAt<std::uint16_t>(payload.data()) == kHesaiFlag) {
     return "packets of " + NumberText(payload.size()) + " bytes of a Hesai sensor";
   }
-  if (payload.size() != kVelodynePacketSize ||
+  constexpr std::string_view kOurs = "RCST";
+  if (payload.size() >= kOurs.size() && std::equal(kOurs.begin(), kOurs.end(), payload.begin())) {
+    return "datagrams of protocol railcast, which railcast-analyze receive records";
+  }
+  if (payload.size() < kVelodynePacketSize ||
       LoadAt<std::uint16_t>(payload.data()) != kLowerBlockFlag) {
     return {};
   }
@@ -62,11 +74,8 @@ std::string NameOfStranger(std::span<const char> payload) {
 
 std::optional<CaptureSensor> SensorFinder::Look(std::span<const char> payload) {
   if (num_datagrams_++ == 0) first_size_ = payload.size();
-  if (payload.size() == kVelodynePacketSize) {
-    if (auto sensor = VelodyneOf(payload)) return sensor;
-  } else if (payload.size() == kPandar64PacketSize) {
-    if (auto sensor = HesaiOf(payload)) return sensor;
-  }
+  if (auto sensor = VelodyneOf(FirstPacket(payload, kVelodynePacketSize))) return sensor;
+  if (auto sensor = HesaiOf(FirstPacket(payload, kPandar64PacketSize))) return sensor;
   if (stranger_.empty()) stranger_ = NameOfStranger(payload);
   return std::nullopt;
 }

@@ -17,6 +17,7 @@ namespace railcast {
 /// A sensor whose packets we can decode.
 struct CaptureSensor {
   std::string_view name;
+  std::size_t packet_size{};  ///< Of the payload of its data packets.
   TurnShape shape;
   std::variant<VelodyneDecoder, Pandar64Decoder> decoder;
 };
@@ -24,7 +25,7 @@ struct CaptureSensor {
 /// Finds out from datagrams which sensor sent them.
 class SensorFinder {
  public:
-  /// The sensor, once a datagram is one of its packets.
+  /// The sensor, once a datagram is one of its packets, or begins with one.
   [[nodiscard]] std::optional<CaptureSensor> Look(std::span<const char> payload);
 
   /// What came if none did: "got VLS-128", "got no UDP datagram", ...

@@ -185,6 +185,8 @@ TEST(CaptureRecording, WithoutAKnownPacketSaysWhatWasFound) {
   EXPECT_EQ(MessageOfCapture({VelodynePacketOf(0x77)}), "(got Velodyne packets of model byte 119)");
   EXPECT_EQ(MessageOfCapture({VelodynePacketOf(0x77, true)}),
             "(got HDL-64E, whose packets lack its calibration)");
+  EXPECT_EQ(MessageOfCapture({"RCST\1" + std::string(1200, '\0')}),
+            "(got datagrams of protocol railcast, which railcast-analyze receive records)");
   EXPECT_EQ(MessageOfCapture({"\xEE\xFF" + std::string(1078, '\1')}),
             "(got packets of 1080 bytes of a Hesai sensor)");
 }

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <sstream>
 #include <string>
@@ -25,15 +26,19 @@ std::uint16_t BigEndian(std::size_t value) {
   return static_cast<std::uint16_t>((value & 0xFFU) << 8U | value >> 8U);
 }
 
-// A capture file of UDP datagrams that start at an IPv4 header (link type 101).
-std::string Capture(const std::vector<std::string>& datagrams, std::uint16_t port) {
+// A capture file of UDP datagrams that start at an IPv4 header (link type 101), of each of which
+// it kept so much.
+std::string Capture(const std::vector<std::string>& datagrams,
+                    std::uint16_t port,
+                    std::size_t kept) {
   std::string bytes;
   for (const std::uint32_t word : {0xA1B2C3D4U, 4U << 16U | 2U, 0U, 0U, 65'535U, 101U}) {
     Append(bytes, word);
   }
   for (const std::string& datagram : datagrams) {
     const std::size_t size = 28 + datagram.size();
-    for (const std::size_t word : {std::size_t{0}, std::size_t{0}, size, size}) {
+    const std::size_t kept_size = 28 + std::min(kept, datagram.size());
+    for (const std::size_t word : {std::size_t{0}, std::size_t{0}, kept_size, size}) {
       Append(bytes, static_cast<std::uint32_t>(word));
     }
     Append(bytes, std::uint16_t{0x45});
@@ -46,7 +51,7 @@ std::string Capture(const std::vector<std::string>& datagrams, std::uint16_t por
          {std::size_t{50'000}, std::size_t{port}, 8 + datagram.size(), std::size_t{0}}) {
       Append(bytes, BigEndian(half));
     }
-    bytes += datagram;
+    bytes += datagram.substr(0, kept);
   }
   return bytes;
 }
@@ -60,10 +65,11 @@ class Dissector : public testing::Test {
   /// What tshark says of these datagrams.
   static std::string Show(const std::vector<std::string>& datagrams,
                           const std::string& arguments,
-                          std::uint16_t port = 27'400) {
+                          std::uint16_t port = 27'400,
+                          std::size_t kept = 65'535) {
     const TemporaryDirectory directory;
     const std::string file = directory.path() / "capture.pcap";
-    WriteFileWhole(file, Capture(datagrams, port));
+    WriteFileWhole(file, Capture(datagrams, port, kept));
     const Ended run =
         RunCommand("tshark -X lua_script:" RAILCAST_SOURCE_DIR "/scripts/railcast.lua -r " + file +
                    " " + arguments + " 2>" + (directory.path() / "errors").string());
@@ -115,6 +121,39 @@ TEST_F(Dissector, SaysWhetherTheChecksumIsRight) {
 TEST_F(Dissector, KnowsItsDatagramsAtAnyPort) {
   const auto datagrams = DatagramsOf(StreamFrame(0));
   EXPECT_EQ(Show({datagrams[0], "hello"}, "-T fields -e railcast.frame_points", 12'345), "960\n\n");
+}
+
+// On the sending machine a capture shows what was sent at once as one datagram, up to 65 kB.
+TEST_F(Dissector, CutsWhatSegmentationOffloadMerged) {
+  const std::vector<std::string> all = DatagramsOf(StreamFrame(0));
+  ASSERT_EQ(all.size(), 25U);
+  std::string merged;
+  std::string packets;
+  std::string statuses;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    merged += all[i];
+    packets += (i == 0 ? "" : ",") + std::to_string(i);
+    statuses += i == 0 ? "good" : ",good";
+  }
+  // The last one is the shortest.
+  ASSERT_LT(all.back().size(), all.front().size());
+  EXPECT_EQ(
+      Show({merged, all[3]}, "-T fields -E separator=/s -e railcast.packet -e railcast.crc.status"),
+      packets + " " + statuses + "\n3 good\n");
+  const std::string said = Show({merged}, "");
+  EXPECT_THAT(said, HasSubstr("25 datagrams in one, the first: Run 0, frame 0, packet 0 of 25"));
+  EXPECT_THAT(said, testing::Not(HasSubstr("CRC wrong")));
+  std::string damaged = merged;
+  damaged[all[0].size() + 500] = static_cast<char>(damaged[all[0].size() + 500] ^ 1);
+  EXPECT_THAT(Show({damaged}, "-T fields -e railcast.crc.status"), HasSubstr("good,bad,good,"));
+}
+
+TEST_F(Dissector, SaysWhatTheCaptureCutInsteadOfCallingItDamaged) {
+  const std::vector<std::string> all = DatagramsOf(StreamFrame(0));
+  const std::size_t kept = all[0].size() + all[1].size() - 100;
+  EXPECT_EQ(Show({all[0] + all[1]}, "-T fields -e railcast.crc.status", 27'400, kept),
+            "good,cut\n");
+  EXPECT_THAT(Show({all[0] + all[1]}, "", 27'400, kept), HasSubstr("[not captured whole]"));
 }
 
 TEST_F(Dissector, SurvivesDatagramsThatContradictThemselves) {
