@@ -23,11 +23,30 @@ std::uint16_t ParsePort(std::string_view text, std::string_view whole) {
   return static_cast<std::uint16_t>(port);
 }
 
+// Whether the last part of a name is a number, decimal or as in C: no name of a host ends so (RFC
+// 1123, 2.1), but old functions take such a name for an address, and 010 for 8.
+bool IsNumeric(std::string_view host) {
+  if (host.ends_with('.')) host.remove_suffix(1);
+  std::string_view last = host.substr(host.rfind('.') + 1);
+  const bool is_hexadecimal = last.starts_with("0x") || last.starts_with("0X");
+  if (is_hexadecimal) last.remove_prefix(2);
+  constexpr std::string_view kDigits = "0123456789abcdefABCDEF";
+  return (is_hexadecimal || !last.empty()) &&
+         last.find_first_not_of(is_hexadecimal ? kDigits : kDigits.substr(0, 10)) ==
+             std::string_view::npos;
+}
+
 std::uint32_t ParseHost(const std::string& host, std::string_view whole) {
   // A minimal system has no /etc/hosts that knows it (RFC 6761, 6.3).
   if (host == "localhost") return INADDR_LOOPBACK;
   in_addr address{};
   if (::inet_pton(AF_INET, host.c_str(), &address) == 1) return ntohl(address.s_addr);
+  if (IsNumeric(host)) {
+    throw InputError(
+        "a numeric address must be four numbers from 0 to 255 with dots between, none with a "
+        "leading 0 (got " +
+        std::string(whole) + ")");
+  }
   addrinfo hints{};
   hints.ai_family = AF_INET;
   hints.ai_socktype = SOCK_DGRAM;

@@ -30,6 +30,15 @@ TEST(Endpoint, KnowsLoopbackAndBroadcast) {
   EXPECT_FALSE(ParseEndpoint("192.168.1.255", 1).is_broadcast());
 }
 
+TEST(Endpoint, CoversItselfOrEveryPortOfItsAddress) {
+  const Endpoint one{0x7F000001, 5};
+  EXPECT_TRUE(one.Covers(one));
+  EXPECT_FALSE(one.Covers({0x7F000001, 6}));
+  const Endpoint any{0x7F000001, 0};
+  EXPECT_TRUE(any.Covers(one));
+  EXPECT_FALSE(any.Covers({0x7F000002, 5}));
+}
+
 TEST(Endpoint, SaysWhatIsWrongWithAText) {
   EXPECT_EQ(MessageOf([] { return ParseEndpoint("", 1); }),
             "must be HOST:PORT, HOST or :PORT (got nothing)");
@@ -37,8 +46,22 @@ TEST(Endpoint, SaysWhatIsWrongWithAText) {
     EXPECT_EQ(MessageOf([&] { return ParseEndpoint("127.0.0.1:" + port, 1); }),
               "the port must be a whole number from 1 to 65535 (got 127.0.0.1:" + port + ")");
   }
-  EXPECT_EQ(MessageOf([] { return ParseEndpoint("300.1.2.3:5", 1); }),
-            "must be HOST:PORT with an IPv4 address or a known name (got 300.1.2.3:5)");
+  EXPECT_EQ(MessageOf([] { return ParseEndpoint("no.such.host.invalid:5", 1); }),
+            "must be HOST:PORT with an IPv4 address or a known name (got no.such.host.invalid:5)");
+}
+
+TEST(Endpoint, TakesNumericAddressesInDottedDecimalAlone) {
+  EXPECT_EQ(ParseEndpoint("10.0.0.1", 1), (Endpoint{0x0A000001, 1}));
+  EXPECT_EQ(ParseEndpoint("0.0.0.0", 1), (Endpoint{0, 1}));
+  // inet_aton reads the first as 8.0.0.1, and the others as addresses, too.
+  for (const std::string host :
+       {"010.0.0.1", "127.0.0.01", "127.1", "2130706433", "0x7f.0.0.1", "127.0.0.0x1", "0X7F000001",
+        "300.1.2.3", "1.2.3.4.5", "127.0.0.1.", "1.2.3.08"}) {
+    EXPECT_EQ(MessageOf([&] { return ParseEndpoint(host + ":5", 1); }),
+              "a numeric address must be four numbers from 0 to 255 with dots between, none with a "
+              "leading 0 (got " +
+                  host + ":5)");
+  }
 }
 
 }  // namespace
