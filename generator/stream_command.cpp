@@ -217,6 +217,9 @@ int StreamCommand(const StreamOptions& options) {
   if (channel && channel->num_strangers() > 0) {
     std::cout << "commands of others than the peer: " << channel->num_strangers() << ", dropped\n";
   }
+  if (channel && channel->num_answers() > 0) {
+    std::cout << "answers that came back as commands: " << channel->num_answers() << ", dropped\n";
+  }
   if (!result.fault) return kExitSuccess;
   std::cerr << ShownLines(*result.fault) << "\n";
   return kExitFailure;

@@ -75,10 +75,12 @@ class Train:
         self.stream = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self.stream.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 24)
         self.stream.bind(options.stream)
+        self.sender = None  # Of the first frame, and so of all: nobody else feigns an obstacle.
         self.controls = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self.to = options.commands
         self.is_lockstep = options.lockstep
-        self.next_id = random.randrange(1 << 40)
+        self.session = f"brake_client {random.randrange(1 << 64):016x}"
+        self.next_id = 0
         self.coming = None  # The frame whose datagrams arrive.
         self.whole = collections.deque()
         self.num_lost = 0
@@ -86,7 +88,8 @@ class Train:
     def tell(self, command):
         """Sends a command until it is answered, and reads the stream meanwhile."""
         self.next_id += 1
-        line = json.dumps({"id": self.next_id, **command}).encode()
+        tag = {"session": self.session, "id": self.next_id}
+        line = json.dumps({**tag, **command}).encode()
         end_s = time.monotonic() + PATIENCE_S
         while time.monotonic() < end_s:
             self.controls.sendto(line, self.to)
@@ -119,28 +122,31 @@ class Train:
         """Takes what has come from either side. Whether the last command's answer was there."""
         is_answered = False
         for port in select.select([self.stream, self.controls], [], [], timeout_s)[0]:
-            data = port.recv(65536)
+            data, origin = port.recvfrom(65536)
             if port is self.stream:
-                self.take(data)
+                self.take(data, origin)
             else:
                 is_answered = self.is_answer(data)
         return is_answered
 
     def is_answer(self, data):
         answer = json.loads(data)
-        if answer.get("id") != self.next_id:
+        if (answer.get("session"), answer.get("id")) != (self.session, self.next_id):
             return False
         if not answer["ok"]:
             sys.exit("refused: " + "; ".join(answer["faults"]))
         return True
 
-    def take(self, datagram):
+    def take(self, datagram, origin):
+        if self.sender not in (None, origin):
+            return
         try:
             head, names, points = read_datagram(datagram)
         except (ValueError, KeyError, IndexError, struct.error):
             return
         if head[2] & AXES_FLAGS != VEHICLE_AXES:
             sys.exit("the points are not in vehicle axes: set the scenario's output.frame")
+        self.sender = origin
         if self.coming is None or self.coming.is_before(head):
             self.num_lost += self.coming is not None and not self.coming.is_whole()
             self.coming = Frame(head)

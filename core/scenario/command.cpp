@@ -56,17 +56,39 @@ bool PlacesMesh(JsonSource& source, const Node& command) {
   return true;
 }
 
+// An id without its session may be an old one of a client that was restarted: what it was answered
+// then would pass for an answer to what it says now.
+void ReadTag(JsonSource& source, const Node& object, JsonReader& reader, CommandTag& tag) {
+  const auto read = [&](const char* key, auto& value, const char* doc, const auto& rule) {
+    const std::size_t num_faults = source.errors().lines().size();
+    reader.Optional(key, value, doc, rule);
+    if (source.errors().lines().size() > num_faults) value.reset();
+  };
+  read("session", tag.session, "Chosen anew at each start of a client.", NonEmptyString());
+  read("id", tag.id, "Comes back in the acknowledgement.", Limits{.at_most = kMaxId});
+  if (tag.session && tag.session->size() > kMaxSessionBytes) {
+    source.Fault(object.Child("session"),
+                 "must have at most " + std::to_string(kMaxSessionBytes) + " bytes");
+    tag.session.reset();
+  }
+  const bool has_session = object.json->contains("session");
+  const bool has_id = object.json->contains("id");
+  if (has_id && !has_session) {
+    source.FaultWithoutValue(object.Child("id"),
+                             "must be given with session, which a client chooses when it starts");
+  }
+  if (has_session && !has_id)
+    source.FaultWithoutValue(object.Child("session"), "must be given with id");
+}
+
 }  // namespace
 
-std::optional<Command> ReadCommandObject(JsonSource& source,
-                                         const Node& object,
-                                         std::optional<std::uint64_t>& id) {
+std::optional<Command> ReadCommandObject(JsonSource& source, const Node& object, CommandTag& tag) {
   auto list = source.PlainMembers(object);
   if (!list) return std::nullopt;
   const std::size_t num_faults = source.errors().lines().size();
   JsonReader reader(source, object, std::move(*list));
-  reader.Optional("id", id, "Comes back in the acknowledgement.", Limits{.at_most = kMaxId});
-  if (source.errors().lines().size() > num_faults) id.reset();
+  ReadTag(source, object, reader, tag);
   // Without a name, what else the object should hold is not known.
   if (!object.json->contains("command")) {
     source.Missing(object, "command");
@@ -95,7 +117,7 @@ CommandLine ReadCommand(std::string_view line) {
   }
   JsonSource source;
   if (const auto root = source.OpenText(std::string(line), "command")) {
-    result.command = ReadCommandObject(source, *root, result.id);
+    result.command = ReadCommandObject(source, *root, result.tag);
   }
   result.faults = FirstFew(source.errors().lines());
   if (!result.faults.empty()) result.command.reset();
@@ -106,9 +128,10 @@ std::string CommandName(const Command& command) {
   return std::visit([]<class T>(const T&) { return kCommandName<T>; }, command);
 }
 
-Json CommandJson(const Command& command, std::optional<std::uint64_t> id) {
+Json CommandJson(const Command& command, const CommandTag& tag) {
   Json json = Json::object();
-  if (id) json["id"] = *id;
+  if (tag.session) json["session"] = *tag.session;
+  if (tag.id) json["id"] = *tag.id;
   json["command"] = CommandName(command);
   std::visit(
       [&](auto value) {  // A copy: descriptions are shared with the reader, which fills values.
@@ -119,8 +142,8 @@ Json CommandJson(const Command& command, std::optional<std::uint64_t> id) {
   return json;
 }
 
-std::string WriteCommand(const Command& command, std::optional<std::uint64_t> id) {
-  return CommandJson(command, id).dump();
+std::string WriteCommand(const Command& command, const CommandTag& tag) {
+  return CommandJson(command, tag).dump();
 }
 
 }  // namespace railcast

@@ -14,7 +14,7 @@
 namespace railcast {
 
 // What a vehicle's controller may tell a simulation while it runs. Wire form: one JSON object a
-// line, {"id": 7, "command": "set_speed", "speed_mps": 10}; docs/commands.md.
+// line, {"session": "k3v9", "id": 7, "command": "set_speed", "speed_mps": 10}; docs/commands.md.
 //
 // Rates are those of physics.md 7.4: 0.5 m/s^2 is a shunting or freight service brake, 1.0 that of
 // a multiple unit, 1.3 an emergency brake.
@@ -79,9 +79,19 @@ using Command =
 /// takes long.
 inline constexpr std::size_t kMaxCommandBytes = 8192;
 
+/// How a client tells its commands apart: both, or neither where it wants no acknowledgement that
+/// it can tell from others. A session is what the client chose when it started.
+struct CommandTag {
+  std::optional<std::string> session;  ///< At most kMaxSessionBytes.
+  std::optional<std::uint64_t> id;     ///< At most 2^53.
+
+  bool operator==(const CommandTag&) const = default;
+};
+inline constexpr std::size_t kMaxSessionBytes = 64;
+
 /// A line as it was understood.
 struct CommandLine {
-  std::optional<std::uint64_t> id;  ///< For the acknowledgement, also of a faulty command; <= 2^53.
+  CommandTag tag;  ///< For the acknowledgement, as far as it can be read also of a faulty command.
   std::optional<Command> command;   ///< Absent if there is a fault.
   std::vector<std::string> faults;  ///< "command: /speed_mps: must be >= 0 and <= 200 (got -1)"
 };
@@ -92,8 +102,7 @@ struct CommandLine {
 
 /// The command as a line without its end, every default in place. Reading it back gives the same
 /// command.
-[[nodiscard]] std::string WriteCommand(const Command& command,
-                                       std::optional<std::uint64_t> id = std::nullopt);
+[[nodiscard]] std::string WriteCommand(const Command& command, const CommandTag& tag = {});
 
 /// "set_speed", ...
 [[nodiscard]] std::string CommandName(const Command& command);

@@ -41,8 +41,8 @@ std::optional<TimedCommand> ReadEntry(JsonSource& source, const Node& root) {
   if (!source.errors().empty()) return std::nullopt;
   std::uint64_t time_ns = 0;
   ReadValue(source, root.Child("time_ns"), time_ns, Limits{.at_most = kMaxTime_ns});
-  std::optional<std::uint64_t> id;
-  auto command = ReadCommandObject(source, root.Child("command"), id);
+  CommandTag tag;
+  auto command = ReadCommandObject(source, root.Child("command"), tag);
   if (!command || !source.errors().empty()) return std::nullopt;
   return TimedCommand{static_cast<std::int64_t>(time_ns), std::move(*command)};
 }

@@ -7,12 +7,12 @@
 
 namespace railcast {
 
-/// A command and its id from one JSON object. Faults go to the source.
-/// @param id Read even if the command is faulty.
+/// A command and its tag from one JSON object. Faults go to the source.
+/// @param tag Read even if the command is faulty.
 [[nodiscard]] std::optional<Command> ReadCommandObject(JsonSource& source,
                                                        const Node& object,
-                                                       std::optional<std::uint64_t>& id);
+                                                       CommandTag& tag);
 
-[[nodiscard]] Json CommandJson(const Command& command, std::optional<std::uint64_t> id);
+[[nodiscard]] Json CommandJson(const Command& command, const CommandTag& tag);
 
 }  // namespace railcast

@@ -3,34 +3,48 @@
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <sstream>
 #include <string_view>
 #include <utility>
+
+#include "core/base/error.h"
 
 namespace railcast {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json AnswerTo(std::optional<std::uint64_t> id, bool is_done) {
+// What every answer begins with, and no command: so a line is known for one however long it is.
+constexpr std::string_view kAnswerBegin = R"({"ok":)";
+
+Json AnswerTo(const CommandTag& tag, bool is_done) {
   Json answer;
-  if (id) answer["id"] = *id;
   answer["ok"] = is_done;
+  if (tag.session) answer["session"] = *tag.session;
+  if (tag.id) answer["id"] = *tag.id;
   return answer;
 }
 
-std::string FaultAnswer(std::optional<std::uint64_t> id, const std::vector<std::string>& faults) {
-  Json answer = AnswerTo(id, false);
-  answer["faults"] = faults;
+std::string LineOf(const Json& answer) {
   // A fault may quote what is no UTF-8.
-  return answer.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  const std::string line = answer.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  Check(line.starts_with(kAnswerBegin), "an answer is known by its begin");
+  return line;
+}
+
+std::string FaultAnswer(const CommandTag& tag, const std::vector<std::string>& faults) {
+  Json answer = AnswerTo(tag, false);
+  answer["faults"] = faults;
+  return LineOf(answer);
+}
+
+bool HasBoth(const CommandTag& tag) {
+  return tag.session && tag.id;
 }
 
 /// Those that are not empty.
-std::vector<std::string_view> LinesOf(std::span<const char> bytes) {
+std::vector<std::string_view> LinesOf(std::string_view text) {
   std::vector<std::string_view> lines;
-  std::string_view text(bytes.data(), bytes.size());
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     if (end > 0) lines.push_back(text.substr(0, end));
@@ -54,6 +68,11 @@ std::uint64_t CommandChannel::num_strangers() const {
   return num_strangers_;
 }
 
+std::uint64_t CommandChannel::num_answers() const {
+  const std::lock_guard lock(mutex_);
+  return num_answers_;
+}
+
 std::optional<CommandRequest> CommandChannel::Next(int timeout_ms) {
   std::unique_lock lock(mutex_);
   arrived_.wait_for(lock, std::chrono::milliseconds(timeout_ms),
@@ -65,16 +84,14 @@ std::optional<CommandRequest> CommandChannel::Next(int timeout_ms) {
 }
 
 void CommandChannel::Acknowledge(const CommandRequest& request, std::int64_t time_ns) {
-  Json answer = AnswerTo(request.id, true);
+  Json answer = AnswerTo(request.tag, true);
   answer["command"] = CommandName(request.command);
   answer["time_ns"] = time_ns;
-  const std::lock_guard lock(mutex_);
-  Send(request.from, request.id, answer.dump() + "\n");
+  Send(request, LineOf(answer));
 }
 
 void CommandChannel::Refuse(const CommandRequest& request, const std::vector<std::string>& faults) {
-  const std::lock_guard lock(mutex_);
-  Send(request.from, request.id, FaultAnswer(request.id, faults));
+  Send(request, FaultAnswer(request.tag, faults));
 }
 
 void CommandChannel::Listen() {
@@ -82,75 +99,85 @@ void CommandChannel::Listen() {
     const auto received = receiver_.Receive(-1);
     if (receiver_.is_interrupted()) return;
     if (!received) continue;
-    const bool is_peer = received->from.address == peer_.address &&
-                         (peer_.port == 0 || received->from.port == peer_.port);
-    if (!is_peer) {
+    if (peer_.Covers(received->from)) {
+      HearDatagram({received->bytes.data(), received->bytes.size()}, received->from);
+    } else {
       const std::lock_guard lock(mutex_);
       ++num_strangers_;
-      continue;
-    }
-    const std::vector<std::string_view> lines = LinesOf(received->bytes);
-    if (lines.size() > kMaxLines) {
-      std::ostringstream fault;
-      fault << "a datagram must have at most " << kMaxLines << " lines (got " << lines.size()
-            << ")";
-      receiver_.Answer(FaultAnswer({}, {fault.str()}), received->from);
-      continue;
-    }
-    for (const std::string_view text : lines) {
-      // Unlocked: the run must not wait for a long one.
-      const CommandLine line = ReadCommand(text);
-      const std::lock_guard lock(mutex_);
-      Hear(line, received->from);
     }
   }
 }
 
-void CommandChannel::Hear(const CommandLine& line, const Endpoint& from) {
-  if (line.id && IsRepeated(from, *line.id)) return;
+void CommandChannel::HearDatagram(std::string_view text, const Endpoint& from) {
+  const std::vector<std::string_view> lines = LinesOf(text);
+  if (lines.size() > kMaxLines) {
+    std::ostringstream fault;
+    fault << "a datagram must have at most " << kMaxLines << " lines (got " << lines.size() << ")";
+    receiver_.Answer(FaultAnswer({}, {fault.str()}), from);
+    return;
+  }
+  for (const std::string_view each : lines) {
+    if (each.starts_with(kAnswerBegin)) {
+      const std::lock_guard lock(mutex_);
+      ++num_answers_;
+      continue;
+    }
+    // Unlocked: the run must not wait for a long one.
+    const CommandLine line = ReadCommand(each);
+    const std::lock_guard lock(mutex_);
+    Hear(each, line, from);
+  }
+}
+
+void CommandChannel::Hear(std::string_view text, const CommandLine& line, const Endpoint& from) {
+  if (HasBoth(line.tag) && IsRepeated(text, line.tag, from)) return;
+  Answer answer{from, line.tag, std::string(text), std::nullopt};
   if (!line.command) {
-    Send(from, line.id, FaultAnswer(line.id, line.faults));
+    answer.text = FaultAnswer(line.tag, line.faults);
   } else if (requests_.size() == kMaxRequests) {
-    Send(from, line.id,
-         FaultAnswer(line.id, {"too many commands wait (got one more than " +
-                               std::to_string(kMaxRequests) + ")"}));
+    answer.text = FaultAnswer(line.tag, {"too many commands wait (got one more than " +
+                                         std::to_string(kMaxRequests) + ")"});
   } else {
-    if (line.id) Remember(from, *line.id, std::nullopt);
-    requests_.push_back({from, line.id, *line.command});
+    requests_.push_back({from, line.tag, *line.command});
     arrived_.notify_all();
   }
+  if (answer.text) receiver_.Answer(*answer.text, from);
+  if (HasBoth(line.tag)) Remember(std::move(answer));
 }
 
-bool CommandChannel::IsRepeated(const Endpoint& from, std::uint64_t id) {
-  const auto answer = std::find_if(answers_.begin(), answers_.end(), [&](const Answer& each) {
-    return each.to == from && each.id == id;
-  });
-  if (answer == answers_.end()) return false;
-  if (answer->text) receiver_.Answer(*answer->text, from);
+bool CommandChannel::IsRepeated(std::string_view text,
+                                const CommandTag& tag,
+                                const Endpoint& from) {
+  const auto known = Find(from, tag);
+  if (known == answers_.end()) return false;
+  if (known->line != text) {
+    receiver_.Answer(FaultAnswer(tag, {"command: /id: must be another than that of another command "
+                                       "of the session (got " +
+                                       std::to_string(*tag.id) + ")"}),
+                     from);
+  } else if (known->text) {
+    receiver_.Answer(*known->text, from);
+  }
   return true;
 }
 
-void CommandChannel::Send(const Endpoint& to,
-                          std::optional<std::uint64_t> id,
-                          const std::string& text) {
-  receiver_.Answer(text, to);
-  if (!id) return;
-  const auto waiting = std::find_if(answers_.begin(), answers_.end(), [&](const Answer& each) {
-    return each.to == to && each.id == *id;
-  });
-  if (waiting != answers_.end()) {
-    waiting->text = text;
-  } else {
-    Remember(to, *id, text);
-  }
+std::deque<CommandChannel::Answer>::iterator CommandChannel::Find(const Endpoint& to,
+                                                                  const CommandTag& tag) {
+  return std::find_if(answers_.begin(), answers_.end(),
+                      [&](const Answer& each) { return each.to == to && each.tag == tag; });
 }
 
-void CommandChannel::Remember(const Endpoint& to,
-                              std::uint64_t id,
-                              std::optional<std::string> text) {
-  answers_.push_back({to, id, std::move(text)});
+void CommandChannel::Send(const CommandRequest& request, const std::string& text) {
+  const std::lock_guard lock(mutex_);
+  receiver_.Answer(text, request.from);
+  // One that waits is never forgotten.
+  if (HasBoth(request.tag)) Find(request.from, request.tag)->text = text;
+}
+
+void CommandChannel::Remember(Answer answer) {
+  answers_.push_back(std::move(answer));
   if (answers_.size() <= kMaxAnswers) return;
-  // Those that wait are at most kMaxRequests, and needed.
+  // Those that wait are at most kMaxRequests and one that is under way, and needed.
   const auto oldest = std::find_if(answers_.begin(), answers_.end(),
                                    [](const Answer& each) { return each.text.has_value(); });
   if (oldest != answers_.end()) answers_.erase(oldest);

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -17,15 +18,19 @@ namespace railcast {
 /// A command that a peer wants done.
 struct CommandRequest {
   Endpoint from;
-  std::optional<std::uint64_t> id;
+  CommandTag tag;
   Command command;
 };
 
 /// Hears commands on a UDP port, one JSON object a line, and answers each with a line of its own.
 ///
-/// Datagrams get lost and come twice. Whoever gives a command an id may therefore send it again
-/// until it is answered: it is done once, and answered each time. The channel remembers the last
-/// kMaxAnswers ids of all peers' ports.
+/// Datagrams get lost and come twice. Whoever gives a command a session and an id may therefore
+/// send the same line again until it is answered: it is done once, and answered each time. Another
+/// line with the same session and id is a fault: no answer is ever that to another command. The
+/// channel remembers the last kMaxAnswers ids of all peers' ports.
+///
+/// Answers are never read as commands, whoever sends them back: two ports that answer each other,
+/// or one that answers itself, since somebody forged a sender, would never end.
 class CommandChannel {
  public:
   static constexpr std::size_t kMaxAnswers = 256;
@@ -55,20 +60,27 @@ class CommandChannel {
 
   /// Datagrams of others than the peer.
   [[nodiscard]] std::uint64_t num_strangers() const;
+  /// Lines that are answers, dropped without one.
+  [[nodiscard]] std::uint64_t num_answers() const;
 
  private:
   struct Answer {
     Endpoint to;
-    std::uint64_t id{};
+    CommandTag tag;
+    std::string line;                 ///< That is answered.
     std::optional<std::string> text;  ///< Absent while the command waits.
   };
 
   void Listen();
-  void Hear(const CommandLine& line, const Endpoint& from);
-  /// Whether the peer sent this id before; then it is answered as it was.
-  [[nodiscard]] bool IsRepeated(const Endpoint& from, std::uint64_t id);
-  void Send(const Endpoint& to, std::optional<std::uint64_t> id, const std::string& text);
-  void Remember(const Endpoint& to, std::uint64_t id, std::optional<std::string> text);
+  void HearDatagram(std::string_view text, const Endpoint& from);
+  void Hear(std::string_view text, const CommandLine& line, const Endpoint& from);
+  /// Whether the peer sent this tag before; then it is answered as it was, or that the line is
+  /// another one.
+  [[nodiscard]] bool IsRepeated(std::string_view text, const CommandTag& tag, const Endpoint& from);
+  [[nodiscard]] std::deque<Answer>::iterator Find(const Endpoint& to, const CommandTag& tag);
+  /// Answers a command that waited.
+  void Send(const CommandRequest& request, const std::string& text);
+  void Remember(Answer answer);
 
   UdpReceiver receiver_;
   Endpoint peer_;
@@ -77,6 +89,7 @@ class CommandChannel {
   std::deque<CommandRequest> requests_;
   std::deque<Answer> answers_;
   std::uint64_t num_strangers_ = 0;
+  std::uint64_t num_answers_ = 0;
   std::thread thread_;
 };
 

@@ -18,13 +18,13 @@ void ReadLine(std::string_view line) {
     Check(fault.find('\n') == std::string::npos, "a fault is one line");
   }
   if (!read.command) return;
-  const std::string written = WriteCommand(*read.command, read.id);
+  const std::string written = WriteCommand(*read.command, read.tag);
   Check(written.find('\n') == std::string::npos, "a command is one line");
   const CommandLine again = ReadCommand(written);
   // What was short may be long with every default in place.
   if (written.size() > kMaxCommandBytes) return;
   Check(again.faults.empty(), "what is written can be read");
-  Check(again.command == read.command && again.id == read.id, "and says the same");
+  Check(again.command == read.command && again.tag == read.tag, "and says the same");
 }
 
 }  // namespace

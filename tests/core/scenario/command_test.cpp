@@ -37,22 +37,24 @@ std::string FaultsOf(const std::string& line) {
 
 TEST(Command, IsReadAsItIsWritten) {
   for (const Command& command : OneOfEach()) {
-    const std::string line = WriteCommand(command, 9'007'199'254'740'992U);
+    const CommandTag tag{"k3v9 \xC3\xA4", 9'007'199'254'740'992U};
+    const std::string line = WriteCommand(command, tag);
     const CommandLine read = ReadCommand(line);
     ASSERT_TRUE(read.faults.empty()) << line << "\n" << read.faults.front();
     EXPECT_EQ(*read.command, command) << line;
-    EXPECT_EQ(read.id, 9'007'199'254'740'992U);
-    EXPECT_EQ(WriteCommand(*read.command, read.id), line);
+    EXPECT_EQ(read.tag, tag);
+    EXPECT_EQ(WriteCommand(*read.command, read.tag), line);
   }
 }
 
 TEST(Command, TakesDefaultsForWhatIsLeftOut) {
-  const CommandLine speed = ReadCommand(R"({"id": 7, "command": "set_speed", "speed_mps": 10})");
+  const CommandLine speed =
+      ReadCommand(R"({"session": "a", "id": 7, "command": "set_speed", "speed_mps": 10})");
   EXPECT_EQ(speed.command, Command(SetSpeed{10.0, 0.5}));
-  EXPECT_EQ(speed.id, 7U);
+  EXPECT_EQ(speed.tag, (CommandTag{"a", 7U}));
   const CommandLine brake = ReadCommand("{\"command\": \"brake\"}\n");
   EXPECT_EQ(brake.command, Command(Brake{0.5}));
-  EXPECT_EQ(brake.id, std::nullopt);
+  EXPECT_EQ(brake.tag, CommandTag{});
   const CommandLine weather =
       ReadCommand(R"({"command": "set_weather", "weather": {"rain_intensity": 0.5}})");
   WeatherSpec rain;
@@ -61,8 +63,9 @@ TEST(Command, TakesDefaultsForWhatIsLeftOut) {
 }
 
 TEST(Command, IsWrittenOnOneLine) {
-  EXPECT_EQ(WriteCommand(SetSpeed{10.0, 0.5}, 7),
-            R"({"id":7,"command":"set_speed","speed_mps":10.0,"acceleration_mps2":0.5})");
+  EXPECT_EQ(
+      WriteCommand(SetSpeed{10.0, 0.5}, {"a", 7}),
+      R"({"session":"a","id":7,"command":"set_speed","speed_mps":10.0,"acceleration_mps2":0.5})");
   EXPECT_EQ(WriteCommand(Stop{}), R"({"command":"stop"})");
 }
 
@@ -82,8 +85,8 @@ TEST(Command, SaysWhatIsWrongWithALine) {
             "command: /speed_mps: duplicate key");
   EXPECT_EQ(FaultsOf(R"({"command": "brake", "decelaration_mps2": 1})"),
             "command: /decelaration_mps2: unknown key, the nearest is \"deceleration_mps2\"");
-  EXPECT_EQ(FaultsOf(R"({"command": "stop", "version": 1})"),
-            "command: /version: unknown key, must be \"id\" or \"command\"");
+  EXPECT_EQ(FaultsOf(R"({"command": "stop", "zzzzzzz": 1})"),
+            "command: /zzzzzzz: unknown key, must be \"session\", \"id\" or \"command\"");
   EXPECT_EQ(FaultsOf(R"({"command": "brake", "deceleration_mps2": 0})"),
             "command: /deceleration_mps2: must be >= 0.001 and <= 10 (got 0)");
   EXPECT_EQ(FaultsOf(R"({"command": "place_object", "object": {"name": "a", "type": "box",
@@ -94,14 +97,34 @@ TEST(Command, SaysWhatIsWrongWithALine) {
             "expected end of input");
 }
 
-TEST(Command, KeepsTheIdOfAFaultyLineForTheAnswer) {
-  EXPECT_EQ(ReadCommand(R"({"id": 5, "command": "dance"})").id, 5U);
-  EXPECT_EQ(ReadCommand(R"({"id": 5, "command": "set_speed"})").id, 5U);
-  const CommandLine broken = ReadCommand(R"({"id": -5, "command": "stop"})");
-  EXPECT_EQ(broken.id, std::nullopt);
+TEST(Command, KeepsTheTagOfAFaultyLineForTheAnswer) {
+  const CommandTag tag{"a", 5U};
+  EXPECT_EQ(ReadCommand(R"({"session": "a", "id": 5, "command": "dance"})").tag, tag);
+  EXPECT_EQ(ReadCommand(R"({"session": "a", "id": 5, "command": "set_speed"})").tag, tag);
+  const CommandLine broken = ReadCommand(R"({"session": "a", "id": -5, "command": "stop"})");
+  EXPECT_EQ(broken.tag, (CommandTag{"a", std::nullopt}));
   EXPECT_EQ(broken.faults, (std::vector<std::string>{
                                "command: /id: must be a whole number from 0 to 9007199254740992 "
                                "(got -5)"}));
+}
+
+TEST(Command, HasASessionAndAnIdOrNeither) {
+  const CommandLine alone = ReadCommand(R"({"id": 5, "command": "stop"})");
+  EXPECT_EQ(alone.faults,
+            (std::vector<std::string>{"command: /id: must be given with session, which a client "
+                                      "chooses when it starts"}));
+  EXPECT_EQ(alone.tag, (CommandTag{std::nullopt, 5U}));
+  EXPECT_EQ(FaultsOf(R"({"session": "a", "command": "stop"})"),
+            "command: /session: must be given with id");
+  EXPECT_EQ(FaultsOf(R"({"session": "", "id": 1, "command": "stop"})"),
+            "command: /session: must not be empty (got \"\")");
+  EXPECT_EQ(FaultsOf(R"({"session": 7, "id": 1, "command": "stop"})"),
+            "command: /session: must be a string (got 7)");
+  const std::string longest(kMaxSessionBytes, 's');
+  EXPECT_EQ(FaultsOf(R"({"session": ")" + longest + R"(", "id": 1, "command": "stop"})"), "");
+  EXPECT_EQ(FaultsOf(R"({"session": ")" + longest + R"(x", "id": 1, "command": "stop"})")
+                .find("command: /session: must have at most 64 bytes (got \"sss"),
+            0U);
 }
 
 // A peer must not make the simulator read files, nor learn from its answers which there are.
@@ -130,14 +153,15 @@ TEST(Command, SurvivesHostileLines) {
   EXPECT_EQ(FaultsOf("{\"command\": \"sto\xFFp\"}").find("command: line 1, column "), 0U);
   EXPECT_EQ(FaultsOf(R"({"command": "set_speed", "speed_mps": 1e999})"),
             "command: line 1, column 43: number too large for a double");
-  EXPECT_EQ(FaultsOf(R"({"id": 1e300, "command": "stop"})"),
+  EXPECT_EQ(FaultsOf(R"({"session": "a", "id": 1e300, "command": "stop"})"),
             "command: /id: must be a whole number from 0 to 9007199254740992 (got 1e+300)");
   EXPECT_EQ(FaultsOf(std::string("\0{}", 3)).find("command: line 1, column 1: "), 0U);
 }
 
 TEST(Command, SaysEachFaultOnOneLine) {
-  EXPECT_EQ(FaultsOf(R"({"command": "stop", "a\nb\u0000\u001b": 1})"),
-            "command: /a\\nb\\u0000\\u001b: unknown key, must be \"id\" or \"command\"");
+  EXPECT_EQ(
+      FaultsOf(R"({"command": "stop", "a\nb\u0000\u001b": 1})"),
+      "command: /a\\nb\\u0000\\u001b: unknown key, must be \"session\", \"id\" or \"command\"");
 }
 
 TEST(Command, AnswersManyFaultsInFewWords) {
@@ -157,7 +181,8 @@ TEST(Command, CutsALongKeyBetweenLetters) {
   std::string name;
   for (int i = 0; i < 1000; ++i) name += "\xC3\xA4";  // Two bytes each.
   EXPECT_EQ(FaultsOf("{\"command\": \"stop\", \"" + name + "\": 1}"),
-            "command: /" + name.substr(0, 60) + "...: unknown key, must be \"id\" or \"command\"");
+            "command: /" + name.substr(0, 60) +
+                "...: unknown key, must be \"session\", \"id\" or \"command\"");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 namespace railcast {
 namespace {
@@ -33,14 +34,16 @@ class Controller {
 TEST(CommandChannel, AnswersACommandWhenItTookEffect) {
   CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
   Controller controller(channel);
-  controller.Say("{\"id\": 7, \"command\": \"set_speed\", \"speed_mps\": 10}\n");
+  controller.Say(
+      "{\"session\": \"a\", \"id\": 7, \"command\": \"set_speed\", \"speed_mps\": 10}\n");
   const auto request = channel.Next(kPatience_ms);
   ASSERT_TRUE(request.has_value());
   EXPECT_EQ(request->command, Command(SetSpeed{.speed_mps = 10}));
   EXPECT_EQ(controller.Hear(kSilence_ms), "");
   channel.Acknowledge(*request, 300'000'000);
-  EXPECT_EQ(controller.Hear(),
-            "{\"id\":7,\"ok\":true,\"command\":\"set_speed\",\"time_ns\":300000000}\n");
+  EXPECT_EQ(
+      controller.Hear(),
+      "{\"ok\":true,\"session\":\"a\",\"id\":7,\"command\":\"set_speed\",\"time_ns\":300000000}\n");
 }
 
 TEST(CommandChannel, TakesSeveralCommandsInOneDatagram) {
@@ -56,7 +59,7 @@ TEST(CommandChannel, TakesSeveralCommandsInOneDatagram) {
 TEST(CommandChannel, DoesARepeatedCommandOnceAndAnswersItEachTime) {
   CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
   Controller controller(channel);
-  const std::string step = "{\"id\": 1, \"command\": \"step\"}";
+  const std::string step = "{\"session\": \"a\", \"id\": 1, \"command\": \"step\"}";
   controller.Say(step);
   controller.Say(step);
   const auto request = channel.Next(kPatience_ms);
@@ -64,9 +67,46 @@ TEST(CommandChannel, DoesARepeatedCommandOnceAndAnswersItEachTime) {
   EXPECT_FALSE(channel.Next(kSilence_ms).has_value());
   channel.Acknowledge(*request, 0);
   const std::string answer = controller.Hear();
-  EXPECT_EQ(answer, "{\"id\":1,\"ok\":true,\"command\":\"step\",\"time_ns\":0}\n");
+  EXPECT_EQ(answer,
+            "{\"ok\":true,\"session\":\"a\",\"id\":1,\"command\":\"step\",\"time_ns\":0}\n");
   controller.Say(step);
   EXPECT_EQ(controller.Hear(), answer);
+  EXPECT_FALSE(channel.Next(0).has_value());
+}
+
+TEST(CommandChannel, DoesTheCommandsOfAClientThatBeganAnewOnItsPort) {
+  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
+  Controller controller(channel);
+  controller.Say(R"({"session": "before", "id": 1, "command": "stop"})");
+  const auto before = channel.Next(kPatience_ms);
+  ASSERT_TRUE(before.has_value());
+  channel.Acknowledge(*before, 1);
+  EXPECT_NE(controller.Hear(), "");
+  controller.Say(R"({"session": "after", "id": 1, "command": "stop"})");
+  const auto after = channel.Next(kPatience_ms);
+  ASSERT_TRUE(after.has_value());
+  channel.Acknowledge(*after, 2);
+  EXPECT_EQ(controller.Hear(),
+            "{\"ok\":true,\"session\":\"after\",\"id\":1,\"command\":\"stop\",\"time_ns\":2}\n");
+}
+
+TEST(CommandChannel, TakesAnIdForOneCommandOfItsSession) {
+  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
+  Controller controller(channel);
+  controller.Say(R"({"session": "a", "id": 1, "command": "step"})");
+  const auto request = channel.Next(kPatience_ms);
+  ASSERT_TRUE(request.has_value());
+  const std::string stop = R"({"session": "a", "id": 1, "command": "stop"})";
+  const std::string fault =
+      "{\"ok\":false,\"session\":\"a\",\"id\":1,\"faults\":[\"command: /id: must be another than "
+      "that "
+      "of another command of the session (got 1)\"]}\n";
+  controller.Say(stop);
+  EXPECT_EQ(controller.Hear(), fault) << "while the other waits";
+  channel.Acknowledge(*request, 0);
+  EXPECT_EQ(controller.Hear().find("{\"ok\":true,"), 0U);
+  controller.Say(stop);
+  EXPECT_EQ(controller.Hear(), fault) << "after it was done";
   EXPECT_FALSE(channel.Next(0).has_value());
 }
 
@@ -74,8 +114,8 @@ TEST(CommandChannel, DoesTheSameIdOfAnotherPort) {
   CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
   Controller first(channel);
   Controller second(channel);
-  first.Say("{\"id\": 1, \"command\": \"stop\"}");
-  second.Say("{\"id\": 1, \"command\": \"stop\"}");
+  first.Say("{\"session\": \"a\", \"id\": 1, \"command\": \"stop\"}");
+  second.Say("{\"session\": \"a\", \"id\": 1, \"command\": \"stop\"}");
   EXPECT_TRUE(channel.Next(kPatience_ms).has_value());
   EXPECT_TRUE(channel.Next(kPatience_ms).has_value());
 }
@@ -83,9 +123,9 @@ TEST(CommandChannel, DoesTheSameIdOfAnotherPort) {
 TEST(CommandChannel, SaysWhatIsWrongWithACommand) {
   CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
   Controller controller(channel);
-  controller.Say("{\"id\": 3, \"command\": \"set_speed\", \"speed_mps\": -1}");
+  controller.Say("{\"session\": \"a\", \"id\": 3, \"command\": \"set_speed\", \"speed_mps\": -1}");
   const std::string answer = controller.Hear();
-  EXPECT_EQ(answer.find("{\"id\":3,\"ok\":false,\"faults\":["), 0U) << answer;
+  EXPECT_EQ(answer.find("{\"ok\":false,\"session\":\"a\",\"id\":3,\"faults\":["), 0U) << answer;
   EXPECT_NE(answer.find("/speed_mps: must be"), std::string::npos) << answer;
   EXPECT_FALSE(channel.Next(0).has_value());
 }
@@ -93,20 +133,22 @@ TEST(CommandChannel, SaysWhatIsWrongWithACommand) {
 TEST(CommandChannel, SaysWhyACommandHadNoEffect) {
   CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
   Controller controller(channel);
-  controller.Say("{\"id\": 4, \"command\": \"remove_object\", \"name\": \"ghost\"}");
+  controller.Say(
+      "{\"session\": \"a\", \"id\": 4, \"command\": \"remove_object\", \"name\": \"ghost\"}");
   const auto request = channel.Next(kPatience_ms);
   ASSERT_TRUE(request.has_value());
   channel.Refuse(*request, {"/name: there is no such object (got \"ghost\")"});
-  EXPECT_EQ(controller.Hear(),
-            "{\"id\":4,\"ok\":false,\"faults\":[\"/name: there is no such object (got "
-            "\\\"ghost\\\")\"]}\n");
+  EXPECT_EQ(
+      controller.Hear(),
+      "{\"ok\":false,\"session\":\"a\",\"id\":4,\"faults\":[\"/name: there is no such object (got "
+      "\\\"ghost\\\")\"]}\n");
 }
 
 TEST(CommandChannel, HearsNobodyButItsPeer) {
   constexpr Endpoint kElsewhere{0x7F000002, 0};
   CommandChannel channel(kAnyLoopbackPort, kElsewhere);
   Controller stranger(channel);
-  stranger.Say("{\"id\": 1, \"command\": \"stop\"}");
+  stranger.Say("{\"session\": \"a\", \"id\": 1, \"command\": \"stop\"}");
   EXPECT_EQ(stranger.Hear(kSilence_ms), "");
   EXPECT_FALSE(channel.Next(0).has_value());
   for (int i = 0; i < kPatience_ms && channel.num_strangers() == 0; ++i) {
@@ -137,6 +179,30 @@ TEST(CommandChannel, KeepsHearingAfterWhatIsNoCommand) {
   EXPECT_EQ(channel.Next(kPatience_ms)->command, Command(Stop{}));
 }
 
+TEST(CommandChannel, AnswersNoAnswer) {
+  CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
+  Controller controller(channel);
+  const std::vector<std::string> lines = {
+      "{}", "dance", std::string(9000, '['), std::string(100, '\n') + std::string(200, 'x'),
+      R"({"session": "a", "id": 1, "command": "set_weather", "weather": {"zz": 1}})"};
+  for (const std::string& line : lines) {
+    controller.Say(line);
+    const std::string answer = controller.Hear();
+    ASSERT_NE(answer, "") << line;
+    // As if the channel's own port had sent the line: its answer comes back to it.
+    controller.Say(answer);
+    EXPECT_EQ(controller.Hear(kSilence_ms), "") << line;
+  }
+  EXPECT_EQ(channel.num_answers(), lines.size());
+  controller.Say(R"({"session": "a", "id": 2, "command": "stop"})");
+  const auto stop = channel.Next(kPatience_ms);
+  ASSERT_TRUE(stop.has_value());
+  channel.Acknowledge(*stop, 0);
+  controller.Say(controller.Hear());
+  EXPECT_EQ(controller.Hear(kSilence_ms), "");
+  EXPECT_EQ(channel.num_answers(), lines.size() + 1);
+}
+
 TEST(CommandChannel, AnswersADatagramOfTooManyLinesOnce) {
   CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
   Controller controller(channel);
@@ -151,12 +217,13 @@ TEST(CommandChannel, AnswersADatagramOfTooManyLinesOnce) {
 TEST(CommandChannel, KnowsACommandThatWaitsWhateverComesMeanwhile) {
   CommandChannel channel(kAnyLoopbackPort, kLoopbackPeer);
   Controller controller(channel);
-  controller.Say("{\"id\": 1, \"command\": \"stop\"}");
+  controller.Say("{\"session\": \"a\", \"id\": 1, \"command\": \"stop\"}");
   for (std::size_t id = 2; id < CommandChannel::kMaxAnswers + 10; ++id) {
-    controller.Say("{\"id\": " + std::to_string(id) + ", \"command\": \"dance\"}");
+    controller.Say("{\"session\": \"a\", \"id\": " + std::to_string(id) +
+                   ", \"command\": \"dance\"}");
     ASSERT_NE(controller.Hear(), "");
   }
-  controller.Say("{\"id\": 1, \"command\": \"stop\"}");
+  controller.Say("{\"session\": \"a\", \"id\": 1, \"command\": \"stop\"}");
   EXPECT_TRUE(channel.Next(kPatience_ms).has_value());
   EXPECT_FALSE(channel.Next(kSilence_ms).has_value());
 }
@@ -169,9 +236,11 @@ TEST(CommandChannel, RefusesMoreThanItCanHold) {
   for (std::size_t i = 0; i < CommandChannel::kMaxRequests; i += CommandChannel::kMaxLines) {
     controller.Say(many);
   }
-  controller.Say("{\"id\": 9, \"command\": \"stop\"}");
+  controller.Say("{\"session\": \"a\", \"id\": 9, \"command\": \"stop\"}");
   const std::string answer = controller.Hear();
-  EXPECT_EQ(answer.find("{\"id\":9,\"ok\":false,\"faults\":[\"too many commands wait"), 0U)
+  EXPECT_EQ(
+      answer.find("{\"ok\":false,\"session\":\"a\",\"id\":9,\"faults\":[\"too many commands wait"),
+      0U)
       << answer;
   for (std::size_t i = 0; i < CommandChannel::kMaxRequests; ++i) {
     ASSERT_TRUE(channel.Next(0).has_value());

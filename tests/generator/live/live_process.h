@@ -75,7 +75,7 @@ class Controller {
 
   /// Says a command until it is answered, and gives the answer; empty if there is none.
   std::string Say(const std::string& command) {
-    const std::string id = "\"id\":" + std::to_string(++id_) + ",";
+    const std::string id = R"("session":"test","id":)" + std::to_string(++id_) + ",";
     for (int attempt = 0; attempt < 200; ++attempt) {
       port_.Answer("{" + id + command.substr(1), to_);
       const auto answer = port_.Receive(100);
