@@ -16,6 +16,7 @@
 #include "analysis/commands.h"
 #include "analysis/receive/receive_report.h"
 #include "analysis/receive/received_files.h"
+#include "core/base/attempt.h"
 #include "core/io/stream/udp_grabber.h"
 
 namespace railcast {
@@ -23,6 +24,7 @@ namespace {
 
 struct ReceiveOptions {
   std::string at = "127.0.0.1:27400";
+  std::optional<std::string> from;
   std::optional<double> duration_s;
   std::optional<std::uint64_t> num_frames;
   std::filesystem::path out;  // Empty: nothing is kept.
@@ -101,7 +103,11 @@ class FrameCounter {
 int RunReceive(const ReceiveOptions& options) {
   const HeldSignals signals;
   FrameCounter counter(options);
-  UdpGrabber grabber(ParseEndpoint(options.at, kStreamPort));
+  WantedStream wanted;
+  if (options.from) {
+    wanted.from = AtPlace("--from: ", [&] { return ParseEndpoint(*options.from, 0); });
+  }
+  UdpGrabber grabber(ParseEndpoint(options.at, kStreamPort), wanted);
   grabber.registerCallback(std::function(
       [&](const std::shared_ptr<const ReceivedFrame>& frame) { counter.Take(*frame); }));
   grabber.start();
@@ -134,6 +140,10 @@ void AddReceive(CLI::App& app, Command& command) {
   receive
       ->add_option("HOST:PORT", options->at, "Where to listen; 0.0.0.0 hears other machines, too")
       ->capture_default_str();
+  receive
+      ->add_option("--from", options->from,
+                   "HOST or HOST:PORT whose datagrams are taken; default: whoever comes first")
+      ->check(NonEmpty());
   receive->add_option("--duration", options->duration_s, "End after so many seconds")
       ->check(Number({1e-3, 1e9}));
   receive->add_option("--frames", options->num_frames, "End after so many frames")

@@ -4,9 +4,11 @@ import argparse
 import math
 import socket
 import struct
+import time
 import zlib
 HEADER = struct.Struct("<4sBBHIHHIHHqIIIIIHH7d7dH")  # The table in docs/stream.md, in its order.
 TYPES = {2: "B", 4: "H", 6: "I", 7: "f"}  # u8, u16, u32, f32
+HOLD_S = 3.0  # Of silence, after which another sender may follow.
 
 
 def read_datagram(datagram):
@@ -15,6 +17,8 @@ def read_datagram(datagram):
     if datagram[:5] != b"RCST\x01" or datagram[-4:] != crc:
         raise ValueError("another protocol, or damaged")
     head = HEADER.unpack_from(datagram)
+    if len(datagram) != head[3] + head[6] * head[17] + 4:
+        raise ValueError("of another size than it says")
     names, types, at = [], "<", HEADER.size
     for _ in range(head[-1]):
         names.append(datagram[at + 2:at + 2 + datagram[at + 1]].decode("ascii"))
@@ -39,12 +43,19 @@ def main():
     listener.bind((host, int(port)))
     print("listening at %s:%d" % listener.getsockname(), flush=True)
     current, last, frames, left = None, -1, {}, arguments.frames
+    sender, heard_s = None, -math.inf
     while left:
+        datagram, origin = listener.recvfrom(65536)
+        if origin != sender and time.monotonic() < heard_s + HOLD_S:
+            continue  # Somebody else's.
         try:
-            head, names, points = read_datagram(listener.recv(65536))
+            head, names, points = read_datagram(datagram)
             axes = [names.index(axis) for axis in "xyz"]
         except (ValueError, KeyError, IndexError, struct.error):
             continue
+        if origin != sender:
+            sender, current = origin, None
+        heard_s = time.monotonic()
         run, frame, packet, num_packets = head[4], *head[7:10]
         if run != current or frame + 8 < last:  # The sender began anew.
             current, last, frames = run, -1, {}

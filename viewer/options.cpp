@@ -121,6 +121,8 @@ void AddSourceOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
   app.add_option("--scenario", options.scenario,
                  "What a stream or a file was made of: names of labels, track, surfaces");
   app.add_option("--sensor", options.sensor, "Which of the scenario's sensors");
+  app.add_option("--from", options.from,
+                 "HOST or HOST:PORT whose live frames are shown; default: whoever comes first");
   app.add_option("--wait", options.wait_s, "For a live source's first whole frame, in seconds")
       ->check(Number({1e-3, 1e9}))
       ->capture_default_str();
@@ -254,6 +256,7 @@ void CheckTogether(const ViewOptions& options) {
   if (options.compare.empty() && options.choices.layout != Layout::kBeside) {
     Fail("--layout", "needs --compare");
   }
+  if (options.from && !options.is_live()) Fail("--from", "is for a live source");
   if (options.sensor && options.scenario.empty()) Fail("--sensor", "needs --scenario");
 }
 

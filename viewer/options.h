@@ -20,6 +20,7 @@ struct ViewOptions {
   std::filesystem::path compare;  ///< Empty: nothing is compared.
   std::filesystem::path scenario;
   std::optional<std::string> sensor;  ///< Of the scenario.
+  std::optional<std::string> from;    ///< HOST or HOST:PORT of a live source's sender.
   std::optional<std::uint32_t> frame;
   std::filesystem::path screenshot;  ///< Empty: none.
   std::filesystem::path video;       ///< Likewise.

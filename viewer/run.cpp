@@ -7,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/number_text.h"
 #include "core/base/shown_text.h"
@@ -125,14 +126,17 @@ class Viewer {
   void OpenLive() {
     const std::string address = options_.source.string().substr(kLivePrefix.size());
     // In a stream, sensors have their numbers in the scenario.
-    std::optional<std::uint16_t> sensor;
+    WantedStream wanted;
     if (options_.sensor) {
       const std::vector<std::string> names = SensorNames(Scenario());
       const auto found = std::ranges::find(names, *options_.sensor);
-      if (found != names.end()) sensor = static_cast<std::uint16_t>(found - names.begin());
+      if (found != names.end()) wanted.sensor = static_cast<std::uint16_t>(found - names.begin());
+    }
+    if (options_.from) {
+      wanted.from = AtPlace("--from: ", [&] { return ParseEndpoint(*options_.from, 0); });
     }
     live_ = std::make_unique<LiveFrames>(options_.source.string(),
-                                         ParseEndpoint(address, kStreamPort), sensor);
+                                         ParseEndpoint(address, kStreamPort), wanted);
     UseScenario(*live_);
   }
 

@@ -43,6 +43,10 @@ std::string ReceiveSummary(const ReceivedTotals& totals, const StreamReceiver::C
        << " reordered, " << stream.late_packets << " late, " << stream.stray_packets << " stray, "
        << stream.num_refused() << " refused\n";
   text << "points: " << totals.points << ", " << PointsEach(totals) << " a frame\n";
+  if (stream.other_sender) {
+    text << "packets of other senders: " << stream.other_sender_packets
+         << ", dropped; the last from " << EndpointText(*stream.other_sender) << "\n";
+  }
   if (stream.restarts > 0) text << "restarts of the sender: " << stream.restarts << "\n";
   if (stream.num_refused() == 0) return text.str();
   text << "refused for:";

@@ -22,7 +22,8 @@ struct ReceivedTotals {
 [[nodiscard]] std::string ReceiveProgress(const ReceivedTotals& totals,
                                           const StreamReceiver::Counts& counts);
 
-/// Lines of frames, packets, points; and of what was refused, by reason, if anything was.
+/// Lines of frames, packets, points; and of what others sent and what was refused, by reason, if
+/// anything was.
 [[nodiscard]] std::string ReceiveSummary(const ReceivedTotals& totals,
                                          const StreamReceiver::Counts& counts);
 

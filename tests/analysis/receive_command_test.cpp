@@ -39,6 +39,17 @@ TEST(ReceiveCommand, CountsFramesAndPackets) {
   EXPECT_EQ(program.ExitStatus(), 0);
 }
 
+TEST(ReceiveCommand, TakesNobodyButWhoItIsTold) {
+  ListeningProgram program(Receive() + "--from 127.9.9.9 --duration 1");
+  LiveStream(program.at()).Send(0);
+  EXPECT_THAT(program.Rest(),
+              MatchesRegex("frames: 0 complete, .*\npoints: 0, 0 a frame\n"
+                           "packets of other senders: 25, dropped; the last from .*:[0-9]+\n"));
+  EXPECT_EQ(RunCommand(RAILCAST_ANALYZE " receive --from 127.1").said,
+            "--from: a numeric address must be four numbers from 0 to 255 with dots between, none "
+            "with a leading 0 (got 127.1)\n");
+}
+
 TEST(ReceiveCommand, EndsAtASignalWithItsSummary) {
   ListeningProgram program(Receive());
   LiveStream(program.at()).Send(0);

@@ -44,6 +44,17 @@ TEST(ReceiveReport, SaysWhyDatagramsWereRefusedAndThatTheSenderBeganAnew) {
             "refused for: magic 2 checksum 1\n");
 }
 
+TEST(ReceiveReport, SaysWhoElseSent) {
+  StreamReceiver::Counts counts;
+  counts.stream.other_sender_packets = 3;
+  counts.stream.other_sender = Endpoint{0x0A000007, 4711};
+  EXPECT_EQ(ReceiveSummary({}, counts),
+            "frames: 0 complete, 0 incomplete, 0 missing, 0 dropped here; no rate yet\n"
+            "packets: 0 received, 0 lost, 0 duplicate, 0 reordered, 0 late, 0 stray, 0 refused\n"
+            "points: 0, 0 a frame\n"
+            "packets of other senders: 3, dropped; the last from 10.0.0.7:4711\n");
+}
+
 TEST(ReceiveReport, TellsHowItGoes) {
   EXPECT_EQ(ReceiveProgress(Totals(), Counts()),
             "21 frames, 16000 points each, 8.00 Hz, 3 packets lost");

@@ -101,7 +101,9 @@ void Assemble(std::span<const char> bytes) {
   }
   const StreamCounts& counts = assembler.counts();
   Check(num_kept <= num_bytes, "memory is for what arrived");
-  Check(counts.received_packets + counts.stray_packets + counts.num_refused() == num_datagrams,
+  Check(counts.received_packets + counts.stray_packets + counts.other_sender_packets +
+                counts.num_refused() ==
+            num_datagrams,
         "every datagram is counted once");
   Check(counts.complete_frames + counts.incomplete_frames == frames.size(), "frames are counted");
   Check(counts.lost_packets == num_lost, "losses are counted");

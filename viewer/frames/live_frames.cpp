@@ -13,10 +13,8 @@
 
 namespace railcast {
 
-LiveFrames::LiveFrames(const std::string& source,
-                       const Endpoint& at,
-                       std::optional<std::uint16_t> sensor)
-    : grabber_(at, sensor) {
+LiveFrames::LiveFrames(const std::string& source, const Endpoint& at, const WantedStream& wanted)
+    : grabber_(at, wanted) {
   info_.source = source;
   info_.kind = "live stream";
   grabber_.registerCallback(
@@ -75,6 +73,8 @@ std::string LiveFrames::StatusText() const {
   }
   if (counts.stream.other_sensor) {
     status += "   also heard: sensor " + std::to_string(*counts.stream.other_sensor);
+  } else if (counts.stream.other_sender) {
+    status += "   also heard: " + EndpointText(*counts.stream.other_sender);
   }
   if (is_silent && std::isfinite(silent_s)) {
     std::snprintf(text.data(), text.size(), "   no frame for %.0f s", std::floor(silent_s));

@@ -19,12 +19,9 @@ class LiveFrames final : public Frames {
  public:
   /// Listens from now on.
   /// @param source "udp://...", for messages.
-  /// @param sensor Of the vehicle: whose frames are shown, if several send to the port. Nothing:
-  ///   whoever comes first.
+  /// @param wanted Whose frames are shown, if several send to the port.
   /// @throws InputError if the port cannot be listened to.
-  LiveFrames(const std::string& source,
-             const Endpoint& at,
-             std::optional<std::uint16_t> sensor = std::nullopt);
+  LiveFrames(const std::string& source, const Endpoint& at, const WantedStream& wanted = {});
   ~LiveFrames() override;
   LiveFrames(const LiveFrames&) = delete;
   LiveFrames& operator=(const LiveFrames&) = delete;
@@ -47,7 +44,8 @@ class LiveFrames final : public Frames {
   /// Since a frame came, whether or not it was taken or can be shown; infinite before the first.
   [[nodiscard]] double seconds_since_last() const;
   /// "live 10.0 frames/s   0 packets lost", since it listens; "   also heard: sensor 1" if another
-  /// sensor than the one shown sends to the port, "   no frame for 5 s" once they stop.
+  /// sensor than the one shown sends to the port, "   also heard: 10.0.0.7:4711" if another sender
+  /// of that sensor does, "   no frame for 5 s" once they stop.
   [[nodiscard]] std::string StatusText() const;
 
  private:

@@ -16,22 +16,33 @@ std::uint64_t StreamCounts::num_refused() const {
   return std::accumulate(refused.begin(), refused.end(), std::uint64_t{0});
 }
 
-void FrameAssembler::Take(std::span<const char> bytes, std::vector<ReceivedFrame>& frames) {
+void FrameAssembler::Take(std::span<const char> bytes,
+                          std::vector<ReceivedFrame>& frames,
+                          const DatagramOrigin& origin) {
   StreamFault fault{};
   const auto datagram = CheckStreamDatagram(bytes, fault);
+  if (IsOfAnother(origin)) {
+    ++counts_.other_sender_packets;
+    counts_.other_sender = origin.from;
+    if (datagram && IsOtherSensor(*datagram)) counts_.other_sensor = datagram->sensor;
+    return;
+  }
   if (!datagram) {
     ++counts_.refused[static_cast<std::size_t>(fault)];
     return;
   }
-  if (only_sensor_ && datagram->sensor != *only_sensor_) {
+  if (wanted_.sensor && datagram->sensor != *wanted_.sensor) {
     counts_.other_sensor = datagram->sensor;
     ++counts_.stray_packets;
     return;
   }
-  Place place = PlaceOf(*datagram);
+  const bool is_next_sender = sender_ && *sender_ != origin.from;
+  sender_ = origin.from;
+  heard_ns_ = origin.time_ns;
+  Place place = is_next_sender ? Place::kElsewhere : PlaceOf(*datagram);
   if (place == Place::kElsewhere) {
-    const bool is_other_sensor = has_run_ && datagram->sensor != sensor_;
-    if (!BeginsAnew(*datagram)) {
+    const bool is_other_sensor = IsOtherSensor(*datagram);
+    if (!is_next_sender && !BeginsAnew(*datagram)) {
       if (is_other_sensor) counts_.other_sensor = datagram->sensor;
       ++counts_.stray_packets;
       return;
@@ -56,6 +67,16 @@ void FrameAssembler::Take(std::span<const char> bytes, std::vector<ReceivedFrame
 
 void FrameAssembler::Flush(std::vector<ReceivedFrame>& frames) {
   while (!open_.empty()) GiveFirst(frames);
+}
+
+bool FrameAssembler::IsOfAnother(const DatagramOrigin& origin) const {
+  if (wanted_.from && !wanted_.from->Covers(origin.from)) return true;
+  return sender_ && *sender_ != origin.from && origin.time_ns - heard_ns_ < kHold_ns;
+}
+
+bool FrameAssembler::IsOtherSensor(const StreamDatagram& datagram) const {
+  if (wanted_.sensor) return datagram.sensor != *wanted_.sensor;
+  return has_run_ && datagram.sensor != sensor_;
 }
 
 bool FrameAssembler::BeginsAnew(const StreamDatagram& datagram) {

@@ -10,8 +10,8 @@ constexpr int kSilence_ms = 1000;
 
 }  // namespace
 
-StreamReceiver::StreamReceiver(const Endpoint& at, std::optional<std::uint16_t> sensor)
-    : socket_(at), at_(socket_->at()), assembler_(sensor), thread_([this] { Listen(); }) {}
+StreamReceiver::StreamReceiver(const Endpoint& at, const WantedStream& wanted)
+    : socket_(at), at_(socket_->at()), assembler_(wanted), thread_([this] { Listen(); }) {}
 
 StreamReceiver::~StreamReceiver() {
   Stop();
@@ -36,7 +36,8 @@ void StreamReceiver::Listen() {
     const std::lock_guard lock(mutex_);
     if (received) {
       last_heard = now;
-      assembler_.Take(received->bytes, frames);
+      const std::chrono::nanoseconds time = now.time_since_epoch();
+      assembler_.Take(received->bytes, frames, {received->from, time.count()});
     } else if (now - last_heard >= std::chrono::milliseconds(kSilence_ms)) {
       assembler_.Flush(frames);
     }

@@ -24,9 +24,8 @@ class StreamReceiver {
  public:
   static constexpr std::size_t kMaxWaitingFrames = 4;
 
-  /// @param sensor As FrameAssembler takes it.
   /// @throws InputError if the port cannot be listened to.
-  explicit StreamReceiver(const Endpoint& at, std::optional<std::uint16_t> sensor = std::nullopt);
+  explicit StreamReceiver(const Endpoint& at, const WantedStream& wanted = {});
   ~StreamReceiver();
   StreamReceiver(const StreamReceiver&) = delete;
   StreamReceiver& operator=(const StreamReceiver&) = delete;

@@ -27,8 +27,8 @@ bool Sends(const StreamHeader& header, std::string_view name, StreamType type) {
 
 }  // namespace
 
-UdpGrabber::UdpGrabber(const Endpoint& at, std::optional<std::uint16_t> sensor)
-    : listens_at_(at), only_sensor_(sensor), at_(at) {
+UdpGrabber::UdpGrabber(const Endpoint& at, const WantedStream& wanted)
+    : listens_at_(at), wanted_(wanted), at_(at) {
   createSignal<FrameSignal>();
   createSignal<CloudSignal>();
   createSignal<PointSignal<pcl::PointXYZ>>();
@@ -50,7 +50,7 @@ UdpGrabber::~UdpGrabber() noexcept {
 void UdpGrabber::start() {
   const std::lock_guard lock(mutex_);
   if (receiver_) return;
-  receiver_ = std::make_shared<StreamReceiver>(listens_at_, only_sensor_);
+  receiver_ = std::make_shared<StreamReceiver>(listens_at_, wanted_);
   at_ = receiver_->at();
   arrivals_s_.clear();
   changed_.notify_all();

@@ -10,7 +10,6 @@
 #include <deque>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <thread>
 
@@ -39,10 +38,9 @@ class UdpGrabber : public pcl::Grabber {
   using Counts = StreamReceiver::Counts;
 
   /// @param at Where to listen once started; port 0 takes a free one.
-  /// @param sensor Whose frames are given, if several send to the port; nothing: whoever comes
-  ///   first.
+  /// @param wanted Whose frames are given, if several send to the port.
   explicit UdpGrabber(const Endpoint& at = {0x7F000001, kStreamPort},
-                      std::optional<std::uint16_t> sensor = std::nullopt);
+                      const WantedStream& wanted = {});
   ~UdpGrabber() noexcept override;
 
   /// Does nothing while running. Counts begin at 0.
@@ -70,7 +68,7 @@ class UdpGrabber : public pcl::Grabber {
   void EmitPoints(const pcl::PCLPointCloud2& cloud, const Transform& world_from_sensor);
 
   const Endpoint listens_at_;
-  const std::optional<std::uint16_t> only_sensor_;
+  const WantedStream wanted_;
   mutable std::mutex mutex_;  ///< Of all that follows.
   std::condition_variable changed_;
   std::shared_ptr<StreamReceiver> receiver_;   ///< Null unless running.

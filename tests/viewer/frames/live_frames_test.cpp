@@ -20,12 +20,12 @@ bool EventuallyPolls(LiveFrames& frames) {
   return Eventually([&] { return frames.Poll(); });
 }
 
-/// A sender of these fields. The larger its run, the later it began.
-LiveStream Sender(const LiveFrames& to, const std::string& fields, std::uint32_t run) {
+/// Of a sender of these fields. The larger its run, the later it began.
+StreamSpec Fields(const std::string& fields, std::uint32_t run) {
   StreamSpec spec;
   spec.fields = FieldSelection(fields);
   spec.run = run;
-  return LiveStream(to.at(), spec);
+  return spec;
 }
 
 TEST(LiveFrames, AreThoseThatAreSent) {
@@ -110,24 +110,27 @@ TEST(LiveFrames, SayHowManyPacketsTheFrameShownLacks) {
 
 TEST(LiveFrames, SayWhyAFrameCannotBeShownUntilOneCan) {
   LiveFrames frames("udp://here", kAnyLoopbackPort);
-  Sender(frames, "x,y,z", 1).Send(0);
+  LiveStream stream(frames.at(), Fields("x,y,z", 1));
+  stream.Send(0);
   ASSERT_TRUE(EventuallyPolls(frames));
   EXPECT_EQ(frames.fault(), "");
   EXPECT_THAT(frames.StatusText(), StartsWith("live "));
   EXPECT_THAT(frames.StatusText(), EndsWith(" frames/s   0 packets lost"));
-  Sender(frames, "intensity", 2).Send(0);
+  stream.Restart(Fields("intensity", 2));
+  stream.Send(0);
   ASSERT_TRUE(Eventually([&] { return frames.Poll() || !frames.fault().empty(); }));
   EXPECT_EQ(frames.fault(), "udp://here: has no field x");
   EXPECT_THAT(frames.StatusText(), EndsWith("   not shown: udp://here: has no field x"));
   EXPECT_EQ(frames.num_known(), 1U);
-  Sender(frames, "x,y,z", 3).Send(5);
+  stream.Restart(Fields("x,y,z", 3));
+  stream.Send(5);
   ASSERT_TRUE(EventuallyPolls(frames));
   EXPECT_EQ(frames.fault(), "");
   EXPECT_EQ(frames.Get(1)->frame().index, 5U);
 }
 
 TEST(LiveFrames, AreOfOneSensorIfTwoSendToThePort) {
-  LiveFrames frames("udp://here", kAnyLoopbackPort, 1);
+  LiveFrames frames("udp://here", kAnyLoopbackPort, {.sensor = 1});
   StreamSpec roof_spec;
   roof_spec.sensor = 1;
   LiveStream front(frames.at());
@@ -139,6 +142,19 @@ TEST(LiveFrames, AreOfOneSensorIfTwoSendToThePort) {
     EXPECT_EQ(frames.Get(place)->frame().index, place);
   }
   EXPECT_THAT(frames.StatusText(), EndsWith("   0 packets lost   also heard: sensor 0"));
+}
+
+TEST(LiveFrames, AreOfTheFirstSenderIfTwoSendToThePort) {
+  LiveFrames frames("udp://here", kAnyLoopbackPort);
+  LiveStream stream(frames.at());
+  stream.Send(0);
+  ASSERT_TRUE(EventuallyPolls(frames));
+  LiveStream forger(frames.at(), Fields("x,y,z", 99));
+  forger.Send(7);
+  stream.Send(1);
+  ASSERT_TRUE(EventuallyPolls(frames));
+  EXPECT_EQ(frames.Get(1)->frame().index, 1U);
+  EXPECT_THAT(frames.StatusText(), HasSubstr("   0 packets lost   also heard: 127.0.0.1:"));
 }
 
 TEST(LiveFrames, SayHowLongNoneHasCome) {

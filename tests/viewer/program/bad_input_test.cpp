@@ -205,6 +205,7 @@ TEST_F(BadInput, CommandLinesThatDoNotGoTogetherEndWithTwo) {
   }
   wrong.emplace_back("udp://127.0.0.1 --frame 1");
   wrong.push_back("udp://127.0.0.1 --compare " + run_);
+  wrong.push_back("--from 127.0.0.1 " + run_);
   for (const std::string& arguments : wrong) {
     const Ended ended = RunCommand("cd " + PathOf("") + " && " RAILCAST_VIEW " " + arguments);
     EXPECT_EQ(ended.status, 2) << arguments << '\n' << ended.said;

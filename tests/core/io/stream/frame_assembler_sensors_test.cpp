@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <utility>
 
 #include "core/io/stream/frame_assembler.h"
 #include "tests/core/io/stream/numbered_frames.h"
@@ -21,7 +22,7 @@ TEST(FrameAssembler, FollowsOneSensorOnlyIfItIsBoundToIt) {
     }
   }
   for (const std::uint16_t sensor : {std::uint16_t{0}, std::uint16_t{1}}) {
-    FrameAssembler assembler(sensor);
+    FrameAssembler assembler({.sensor = sensor});
     std::vector<ReceivedFrame> frames;
     for (const std::string& datagram : both) assembler.Take(datagram, frames);
     EXPECT_EQ(NumbersOf(frames), (Numbers{0, 1, 2, 3, 4}));
@@ -47,6 +48,91 @@ TEST(FrameAssembler, SaysWhoElseIsHeard) {
   for (int i = 0; i < 15; ++i) assembler.Take(other, frames);
   ASSERT_EQ(assembler.counts().restarts, 1U);
   EXPECT_EQ(assembler.counts().other_sensor, 3) << "now that 7 is followed";
+}
+
+constexpr Endpoint kSender{0x0A000001, 4000};
+constexpr Endpoint kForger{0x0A000001, 4001};
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+/// What somebody may send to disturb: of a later run, of the far future, of another sensor, nothing
+/// at all.
+std::vector<std::string> ForgedDatagrams() {
+  std::vector<std::string> forged = {"", "hello"};
+  for (const auto& [index, spec] : {std::pair(0U, OfRun(9)), std::pair(4'000'000'000U, OfRun(1)),
+                                    std::pair(0U, OfRun(9, 7)), std::pair(3U, OfRun(1))}) {
+    for (std::string& datagram : DatagramsOf(StreamFrame(index), spec)) {
+      forged.push_back(std::move(datagram));
+    }
+  }
+  return forged;
+}
+
+TEST(FrameAssembler, FollowsTheFirstSenderWhateverOthersSend) {
+  FrameAssembler assembler;
+  std::vector<ReceivedFrame> frames;
+  std::uint64_t num_forged = 0;
+  for (const std::string& datagram : DatagramsOfFrames(0, 4, OfRun(1))) {
+    assembler.Take(datagram, frames, {kSender, 0});
+    for (const std::string& forged : ForgedDatagrams()) {
+      assembler.Take(forged, frames, {kForger, FrameAssembler::kHold_ns - 1});
+      ++num_forged;
+    }
+  }
+  EXPECT_EQ(NumbersOf(frames), (Numbers{0, 1, 2, 3, 4}));
+  const StreamCounts& counts = assembler.counts();
+  EXPECT_EQ(counts.complete_frames, 5U);
+  EXPECT_EQ(counts.restarts, 0U);
+  EXPECT_EQ(counts.stray_packets, 0U);
+  EXPECT_EQ(counts.num_refused(), 0U);
+  EXPECT_EQ(counts.other_sender_packets, num_forged);
+  EXPECT_EQ(counts.other_sender, kForger);
+  EXPECT_EQ(counts.other_sensor, 7);
+}
+
+TEST(FrameAssembler, FollowsNobodyForWhatIsNoDatagram) {
+  FrameAssembler assembler;
+  std::vector<ReceivedFrame> frames;
+  assembler.Take("hello", frames, {kForger, 0});
+  for (const std::string& datagram : DatagramsOfFrames(0, 0)) {
+    assembler.Take(datagram, frames, {kSender, 0});
+  }
+  EXPECT_EQ(NumbersOf(frames), (Numbers{0}));
+  EXPECT_EQ(assembler.counts().num_refused(), 1U);
+  EXPECT_EQ(assembler.counts().other_sender, std::nullopt);
+}
+
+TEST(FrameAssembler, FollowsTheNextSenderOnceTheFirstIsSilent) {
+  FrameAssembler assembler;
+  std::vector<ReceivedFrame> frames;
+  const auto take = [&](const std::vector<std::string>& datagrams, const DatagramOrigin& origin) {
+    for (const std::string& datagram : datagrams) assembler.Take(datagram, frames, origin);
+  };
+  const auto of_sender = DatagramsOfFrames(500, 500, OfRun(7));
+  take({of_sender.begin(), of_sender.end() - 1}, {kSender, 5 * kSecond_ns});
+  // The same again from another port: an earlier run, and one second too early.
+  const auto again = DatagramsOfFrames(0, 1, OfRun(6));
+  take(again, {kForger, 7 * kSecond_ns});
+  EXPECT_TRUE(frames.empty());
+  take(again, {kForger, 5 * kSecond_ns + FrameAssembler::kHold_ns});
+  EXPECT_EQ(NumbersOf(frames), (Numbers{500, 0, 1})) << "from its first datagram on";
+  EXPECT_FALSE(frames[0].is_complete());
+  EXPECT_TRUE(frames[1].is_complete());
+  EXPECT_EQ(assembler.counts().restarts, 1U);
+  // The first sender is another now.
+  take({of_sender.back()}, {kSender, 9 * kSecond_ns});
+  EXPECT_EQ(assembler.counts().other_sender, kSender);
+}
+
+TEST(FrameAssembler, TakesNobodyButWhoIsWanted) {
+  FrameAssembler assembler({.from = Endpoint{0x0A000002, 0}});
+  std::vector<ReceivedFrame> frames;
+  const auto datagrams = DatagramsOfFrames(0, 0);
+  for (const std::string& datagram : datagrams) assembler.Take(datagram, frames, {kSender, 0});
+  EXPECT_TRUE(frames.empty());
+  EXPECT_EQ(assembler.counts().other_sender_packets, datagrams.size());
+  const Endpoint wanted{0x0A000002, 4000};
+  for (const std::string& datagram : datagrams) assembler.Take(datagram, frames, {wanted, 0});
+  EXPECT_EQ(NumbersOf(frames), (Numbers{0}));
 }
 
 }  // namespace

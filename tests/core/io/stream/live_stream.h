@@ -19,6 +19,9 @@ class LiveStream {
   explicit LiveStream(const Endpoint& to, const StreamSpec& spec = {})
       : encoder_(StreamPattern(), spec), sender_({to}, 0) {}
 
+  /// As a sender that begins anew without another socket.
+  void Restart(const StreamSpec& spec) { encoder_ = StreamEncoder(StreamPattern(), spec); }
+
   void Send(std::uint32_t index) {
     datagrams_.Clear();
     encoder_.Encode(StreamFrame(index), datagrams_);
@@ -32,6 +35,12 @@ class LiveStream {
     const std::span<const Datagrams::Item> items = datagrams_.items;
     sender_.Send(datagrams_, items.first(lost));
     sender_.Send(datagrams_, items.subspan(lost + 1));
+  }
+  /// The one that SendWithout leaves out.
+  void SendOnly(std::uint32_t index, std::size_t lost) {
+    datagrams_.Clear();
+    encoder_.Encode(StreamFrame(index), datagrams_);
+    sender_.Send(datagrams_, std::span(datagrams_.items).subspan(lost, 1));
   }
 
  private:

@@ -63,7 +63,8 @@ TEST(PythonReceiver, SaysWhatWasLostAndSurvivesWhatIsNotOurs) {
   EXPECT_EQ(receiver.Line(), WholeFrameLine(1));
   StreamSpec restarted;
   restarted.run = 1;
-  LiveStream(receiver.at(), restarted).Send(0);
+  stream.Restart(restarted);
+  stream.Send(0);
   EXPECT_EQ(receiver.Line(), WholeFrameLine(0));
 }
 

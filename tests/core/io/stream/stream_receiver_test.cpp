@@ -40,6 +40,30 @@ TEST(StreamReceiver, KeepsTheLatestFramesForASlowConsumer) {
   }
 }
 
+TEST(StreamReceiver, GivesTheFramesOfTheFirstSenderWhateverAForgerSends) {
+  StreamReceiver receiver(kAnyLoopbackPort);
+  LiveStream stream(receiver.at());
+  stream.Send(0);
+  ASSERT_TRUE(receiver.Next(kLong_ms));
+  StreamSpec later_run;
+  later_run.run = 1'000'000;
+  LiveStream forger(receiver.at(), later_run);
+  for (std::uint32_t index = 1; index < 10; ++index) {
+    // In the middle of a frame, and before each.
+    stream.SendWithout(index, 12);
+    forger.Send(4'000'000'000);
+    later_run.run += 1000;
+    forger.Restart(later_run);
+    stream.SendOnly(index, 12);
+    const auto frame = receiver.Next(kLong_ms);
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->header.frame, index);
+    EXPECT_TRUE(frame->is_complete());
+  }
+  EXPECT_EQ(receiver.counts().stream.restarts, 0U);
+  EXPECT_GT(receiver.counts().stream.other_sender_packets, 0U);
+}
+
 TEST(StreamReceiver, GivesAnOpenFrameInSilence) {
   StreamReceiver receiver(kAnyLoopbackPort);
   LiveStream stream(receiver.at());
