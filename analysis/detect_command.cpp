@@ -14,6 +14,7 @@
 #include "core/base/units.h"
 #include "core/io/progress_line.h"
 #include "core/io/recording/recording.h"
+#include "core/io/scenario_identity.h"
 #include "core/io/text_cursor.h"
 
 namespace railcast {
@@ -45,13 +46,13 @@ void CheckSameScenario(const std::vector<RecordingInfo>& infos) {
   if (!last.scenario) return;  // FollowObjects says so.
   for (const RecordingInfo& other : infos) {
     if (&other == &last) return;
-    ScenarioSpec same = *other.scenario;
+    ScenarioSpec same = WithFilesByContent(*other.scenario);
     if (same.seed == last.scenario->seed) {
       throw InputError(ShownPath(last.source) + ": /seed: must be another than that of " +
                        ShownPath(other.source) + " (got " + std::to_string(same.seed) + ")");
     }
     same.seed = last.scenario->seed;
-    if (same != *last.scenario) {
+    if (same != WithFilesByContent(*last.scenario)) {
       throw InputError(ShownPath(last.source) + ": must be of the same scenario as " +
                        ShownPath(other.source) + " but for its seed");
     }

@@ -13,6 +13,7 @@
 #include "core/base/shown_text.h"
 #include "core/io/progress_line.h"
 #include "core/io/recording/recording.h"
+#include "core/io/scenario_identity.h"
 
 namespace railcast {
 namespace {
@@ -23,16 +24,20 @@ struct StatsOptions {
   ReportOutput output;
 };
 
+// Firing tables are the same if they hold the same, in whichever directory they lie.
+bool HaveSameScan(const RecordingInfo& first, const RecordingInfo& other) {
+  if (!first.scenario || !other.scenario) return !first.scenario && !other.scenario;
+  return WithFilesByContent(*first.scenario).lidar.scan ==
+         WithFilesByContent(*other.scenario).lidar.scan;
+}
+
 // Rings, labels and materials are counted by their numbers: they must mean the same everywhere.
 void CheckSameKind(const RecordingInfo& first, const RecordingInfo& other) {
   if (other.labels.labels() != first.labels.labels() || other.materials != first.materials) {
     throw InputError(ShownPath(other.source) + ": must have the same labels and materials as " +
                      ShownPath(first.source));
   }
-  const bool is_same_scan =
-      first.scenario.has_value() == other.scenario.has_value() &&
-      (!first.scenario || first.scenario->lidar.scan == other.scenario->lidar.scan);
-  if (first.kind != other.kind || !is_same_scan) {
+  if (first.kind != other.kind || !HaveSameScan(first, other)) {
     throw InputError(ShownPath(other.source) + ": must be of the same sensor as " +
                      ShownPath(first.source));
   }

@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/base/shown_text.h"
 #include "core/fidelity/choice_report.h"
+#include "core/io/scenario_identity.h"
 #include "core/scenario/command_log.h"
 #include "core/scenario/effects.h"
 #include "core/scenario/scenario.h"
@@ -16,7 +17,6 @@
 #include "generator/frame_limits.h"
 #include "generator/object_survey.h"
 #include "generator/run_sequence.h"
-#include "generator/scenario_identity.h"
 #include "generator/stop_signal.h"
 #include "generator/summary.h"
 #include "generator/terminal_line.h"
@@ -67,7 +67,6 @@ SequenceSpec MakeSpec(const SequenceOptions& options, const ScenarioSpec& scenar
   SequenceSpec spec;
   spec.directory = options.out;
   spec.version = RAILCAST_VERSION;
-  spec.scenario_json = ResolvedScenarioJson(scenario);
   spec.identity = IdentityOf(scenario);
   spec.seed = scenario.seed;
   spec.files.format = ParseFrameFormat(options.format);
@@ -135,6 +134,7 @@ int SequenceCommand(const SequenceOptions& options) {
   if (!log.commands.empty()) spec.commands_jsonl = CommandLogText(log);
   if (options.is_verbose) std::cerr << "read " << ShownPath(options.scenario) << "\n";
   const auto simulator = MakeSimulator(scenario, options.num_threads);
+  CheckSameFiles(scenario, spec.identity);
   if (options.is_verbose) {
     std::cerr << "made the simulator: " << simulator->pattern().num_firings()
               << " firings a frame, " << simulator->world().objects().size() << " objects, "

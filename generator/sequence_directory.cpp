@@ -11,7 +11,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <string_view>
 #include <thread>
 #include <utility>
@@ -50,26 +49,6 @@ bool Lock(int directory) {
 
 bool HasBytes(const fs::path& file, std::string_view bytes) {
   return fs::exists(file) && ReadFileWhole(file) == bytes;
-}
-
-// Whether two resolved scenarios differ at most in the folders that meshes and tables lie in, which
-// are other ones after a move.
-bool IsSameButForFolders(const std::string& one, const std::string& other) {
-  std::istringstream ones(one);
-  std::istringstream others(other);
-  std::string line;
-  std::string line_of_other;
-  while (std::getline(ones, line)) {
-    if (!std::getline(others, line_of_other)) return false;
-    if (line == line_of_other) continue;
-    const std::size_t begin = line.find("\"/");
-    if (begin == std::string::npos || line_of_other.find("\"/") != begin ||
-        line.compare(0, begin, line_of_other, 0, begin) != 0 ||
-        line.substr(line.rfind('/')) != line_of_other.substr(line_of_other.rfind('/'))) {
-      return false;
-    }
-  }
-  return one.ends_with('\n') == other.ends_with('\n') && !std::getline(others, line_of_other);
 }
 
 std::set<std::uint32_t> MovingInstances(const std::vector<ObjectInFrame>& objects) {
@@ -182,20 +161,22 @@ void SequenceDirectory::CheckUnchanged(const SequenceProgress& progress) const {
   }
   check(HasBytes(directory / kRunFile, RunJson(spec_)), std::string(kRunFile));
   for (const auto& [name, bytes] : FixedFiles()) check(HasBytes(directory / name, bytes), name);
-  const fs::path scenario = directory / kScenarioFile;
-  check(fs::exists(scenario) && IsSameButForFolders(ReadFileWhole(scenario), spec_.scenario_json),
-        std::string(kScenarioFile));
   check(HasBytes(directory / kManifestFile, ManifestJson()), std::string(kManifestFile));
 }
 
 std::vector<FrameFile> SequenceDirectory::FixedFiles() const {
-  std::vector<FrameFile> files = {{"labels.json", LabelsJson(spec_.files.labels)},
-                                  {"materials.json", MaterialsJson(spec_.materials)}};
-  if (!spec_.commands_jsonl.empty())
-    files.push_back({std::string(kCommandsFile), spec_.commands_jsonl});
+  std::vector<FrameFile> files;
+  const auto add = [&files](std::string_view name, std::string bytes) {
+    files.push_back({std::string(name), std::move(bytes)});
+  };
+  add(kScenarioFile, spec_.identity.scenario_json);
+  for (const InputFile& input : spec_.identity.inputs) add(input.CopyName(), input.bytes);
+  add(kLabelsFile, LabelsJson(spec_.files.labels));
+  add(kMaterialsFile, MaterialsJson(spec_.materials));
+  if (!spec_.commands_jsonl.empty()) add(kCommandsFile, spec_.commands_jsonl);
   if (spec_.files.format == FrameFormat::kKitti) {
-    files.push_back({"sequences/00/calib.txt", KittiCalibration()});
-    files.push_back({"semantic-kitti-railcast.yaml", SemanticKittiYaml(spec_.files.labels)});
+    add(kKittiCalibrationFile, KittiCalibration());
+    add(kKittiLabelsFile, SemanticKittiYaml(spec_.files.labels));
   }
   return files;
 }
@@ -212,8 +193,10 @@ void SequenceDirectory::WriteFixedFiles() {
   if (!HasBytes(directory / kRunFile, RunJson(spec_))) {
     WriteFileWhole(directory / kRunFile, RunJson(spec_));
   }
-  WriteFileWhole(directory / kScenarioFile, spec_.scenario_json);
-  for (const auto& [name, bytes] : FixedFiles()) WriteFileWhole(directory / name, bytes);
+  for (const auto& [name, bytes] : FixedFiles()) {
+    CreateDirectories((directory / name).parent_path());
+    WriteFileWhole(directory / name, bytes);
+  }
 }
 
 std::vector<std::string> SequenceDirectory::RecordLines(const Frame& frame,
@@ -274,9 +257,9 @@ std::string SequenceDirectory::ManifestJson() const {
     manifest["fidelity_choice"] = nlohmann::ordered_json::parse(spec_.fidelity_choice_json);
   }
   PutCounts(counts_, manifest);
-  // frames.jsonl names the hash of every frame's files: these hashes are over all there is but the
-  // resolved scenario, which says where files lie. run.json has the hash of what it means.
-  std::string all;
+  // frames.jsonl names the hash of every frame's files: these hashes are over all there is. That of
+  // the data leaves out which program made them.
+  std::string data;
   nlohmann::ordered_json files = nlohmann::ordered_json::object();
   std::vector<std::string> names = {std::string(kRunFile)};
   for (const FrameFile& file : FixedFiles()) names.push_back(file.name);
@@ -284,10 +267,10 @@ std::string SequenceDirectory::ManifestJson() const {
   for (const std::string& name : names) {
     const std::string hash = ContentHash(ReadFileWhole(spec_.directory / name));
     files[name] = hash;
-    all += hash;
+    if (name != kRunFile) data += hash;
   }
   manifest["files_xxh3"] = files;
-  manifest["all_xxh3"] = ContentHash(all);
+  manifest["data_xxh3"] = ContentHash(data);
   return manifest.dump(2) + "\n";
 }
 

@@ -19,8 +19,8 @@ namespace railcast {
 ///
 /// Layout: `frames/NNNNNN.*` (kitti: KITTI's own, numbered from 0 because line n of poses.txt
 /// belongs to file n), `poses.csv`, `objects.jsonl`, `frames.jsonl`, `scenario.resolved.json`,
-/// `labels.json`, `materials.json`, `commands.jsonl` (if it replays any), `run.json` (whose run
-/// this is) and, once complete, `manifest.json`.
+/// `inputs/HASH/NAME` (the files that names), `labels.json`, `materials.json`, `commands.jsonl` (if
+/// it replays any), `run.json` (whose run this is) and, once complete, `manifest.json`.
 ///
 /// A frame counts as done when its line in frames.jsonl is whole and its files and lines have the
 /// hashes that line names. Whatever else an interrupted run left behind is dropped on opening, so
@@ -53,7 +53,7 @@ class SequenceDirectory {
   void Resume();
   // Of a complete directory, whose frames were counted already.
   void CheckUnchanged(const SequenceProgress& progress) const;
-  // All that is known before the first frame, but the scenario, which names folders.
+  // All that is known before the first frame, but run.json.
   [[nodiscard]] std::vector<FrameFile> FixedFiles() const;
   void WriteFixedFiles();
   [[nodiscard]] std::string ManifestJson() const;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/io/content_hash.h"
+#include "core/io/sequence_files.h"
 #include "core/io/write_file.h"
 #include "generator/pose_record.h"
 
@@ -59,12 +60,13 @@ std::optional<FrameRecord> NextWhole(const SequenceSpec& spec,
 }  // namespace
 
 std::vector<LineFileName> LineFileNames(FrameFormat format) {
-  std::vector<LineFileName> names = {{"poses.csv", kPosesHeader}, {"objects.jsonl", ""}};
+  std::vector<LineFileName> names = {{std::string(kPosesFile), kPosesHeader},
+                                     {std::string(kObjectsFile), ""}};
   if (format == FrameFormat::kKitti) {
-    names.push_back({"sequences/00/poses.txt", ""});
-    names.push_back({"sequences/00/times.txt", ""});
+    names.push_back({std::string(kKittiPosesFile), ""});
+    names.push_back({std::string(kKittiTimesFile), ""});
   }
-  names.push_back({"frames.jsonl", ""});
+  names.push_back({std::string(kFramesFile), ""});
   return names;
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "core/io/frame_files.h"
+#include "core/io/scenario_identity.h"
 #include "core/scene/material.h"
-#include "generator/scenario_identity.h"
 
 namespace railcast {
 
@@ -14,8 +14,7 @@ namespace railcast {
 struct SequenceSpec {
   std::filesystem::path directory;
   std::string version;               ///< Of railcast.
-  std::string scenario_json;         ///< Resolved, with the command line's seed and rung in it.
-  ScenarioIdentity identity;         ///< What of it the bytes depend on: not where its files lie.
+  ScenarioIdentity identity;         ///< With the command line's seed and rung in it.
   std::string commands_jsonl;        ///< CommandLogText of what is replayed; empty if nothing is.
   std::uint64_t seed{};              ///< The scenario's, for the manifest.
   std::string fidelity_choice_json;  ///< What fidelity auto came to; empty unless it was asked.

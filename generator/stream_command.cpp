@@ -9,6 +9,7 @@
 #include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/shown_text.h"
+#include "core/io/scenario_identity.h"
 #include "core/io/stream/stream_encoder.h"
 #include "core/io/velodyne/calibration_xml.h"
 #include "core/io/write_file.h"
@@ -17,7 +18,6 @@
 #include "generator/live/command_loop.h"
 #include "generator/live/live_streams.h"
 #include "generator/live/live_summary.h"
-#include "generator/scenario_identity.h"
 #include "generator/stop_signal.h"
 #include "generator/terminal_line.h"
 

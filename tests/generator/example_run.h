@@ -6,6 +6,7 @@
 #include <string>
 #include <thread>
 
+#include "core/io/content_hash.h"
 #include "core/io/write_file.h"
 #include "generator/run_sequence.h"
 #include "tests/core/io/example_frame.h"
@@ -19,8 +20,10 @@ inline SequenceSpec ExampleRun(const std::filesystem::path& directory,
   SequenceSpec spec;
   spec.directory = directory;
   spec.version = "0.1.0";
-  spec.scenario_json = "{\"seed\": 5}\n";
-  spec.identity = {"5ce0a410", {{"wagon.obj", "0b1ec7"}, {"table.csv", "7ab1e"}}};
+  spec.identity = {"{\"seed\": 5}\n",
+                   ContentHash("{\"seed\": 5}\n"),
+                   {{"wagon.obj", ContentHash("a wagon"), "a wagon"},
+                    {"table.csv", ContentHash("a table"), "a table"}}};
   spec.seed = 5;
   spec.files = {ParseFrameFormat(format), FieldSelection(), ExampleLabels()};
   spec.materials = MaterialLibrary({{"ballast", 0.25}, {"rail_head", 0.08}});

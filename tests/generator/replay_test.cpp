@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "core/io/scenario_identity.h"
 #include "core/io/write_file.h"
 #include "core/scenario/command_log.h"
 #include "core/scenario/scenario.h"
-#include "generator/scenario_identity.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/example_run.h"
 #include "tests/generator/project_folder.h"

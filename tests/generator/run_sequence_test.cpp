@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/io/content_hash.h"
+#include "core/io/sequence_files.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/example_run.h"
@@ -26,10 +27,12 @@ TEST(RunSequence, WritesEverythingThatASequenceHolds) {
   EXPECT_EQ(result.num_done, 2U);
   std::vector<std::string> names;
   for (const auto& [name, bytes] : Contents(directory.path())) names.push_back(name);
-  EXPECT_EQ(names, (std::vector<std::string>{"frames.jsonl", "frames/000003.pcd",
-                                             "frames/000004.pcd", "labels.json", "manifest.json",
-                                             "materials.json", "objects.jsonl", "poses.csv",
-                                             "run.json", "scenario.resolved.json"}));
+  EXPECT_EQ(names, (std::vector<std::string>{
+                       "frames.jsonl", "frames/000003.pcd", "frames/000004.pcd",
+                       "inputs/" + ContentHash("a table") + "/table.csv",
+                       "inputs/" + ContentHash("a wagon") + "/wagon.obj", "labels.json",
+                       "manifest.json", "materials.json", "objects.jsonl", "poses.csv", "run.json",
+                       "scenario.resolved.json"}));
 }
 
 TEST(RunSequence, NamesMaterialsByTheIdsThatFramesCarry) {
@@ -52,18 +55,40 @@ TEST(RunSequence, NamesMaterialsByTheIdsThatFramesCarry) {
       ContentHash(contents.at("materials.json")));
 }
 
-TEST(RunSequence, DependsOnWhatTheScenarioMeansNotOnWhereItsFilesLie) {
-  const TemporaryDirectory here;
-  const TemporaryDirectory there;
-  SequenceSpec spec = ExampleRun(here.path());
-  spec.scenario_json = "{\n  \"file\": \"/here/wagon.obj\",\n  \"seed\": 5\n}\n";
+TEST(RunSequence, KeepsACopyOfEveryFileThatTheScenarioNames) {
+  const TemporaryDirectory directory;
+  const SequenceSpec spec = ExampleRun(directory.path());
   (void)RunSequence(spec, MakeExampleFrame, NoHooks());
-  spec.directory = there.path();
-  spec.scenario_json = "{\n  \"file\": \"/else/where/wagon.obj\",\n  \"seed\": 5\n}\n";
-  (void)RunSequence(spec, MakeExampleFrame, NoHooks());
-  EXPECT_EQ(Contents(there.path()).at("manifest.json"), Contents(here.path()).at("manifest.json"));
-  spec.directory = here.path();
-  EXPECT_TRUE(RunSequence(spec, MakeExampleFrame, NoHooks()).was_complete);
+  const auto contents = Contents(directory.path());
+  EXPECT_EQ(contents.at("inputs/" + ContentHash("a wagon") + "/wagon.obj"), "a wagon");
+  EXPECT_EQ(contents.at("inputs/" + ContentHash("a table") + "/table.csv"), "a table");
+}
+
+TEST(RunSequence, WritesOnlyNamesThatAreListed) {
+  for (const char* format : {"pcd", "ply", "kitti"}) {
+    const TemporaryDirectory directory;
+    SequenceSpec spec = ExampleRun(directory.path(), format);
+    spec.commands_jsonl = "{}\n";
+    (void)RunSequence(spec, MakeExampleFrame, NoHooks());
+    for (const auto& [name, bytes] : Contents(directory.path())) {
+      EXPECT_TRUE(IsSequenceFile(name)) << name;
+    }
+  }
+}
+
+// Who made them is in run.json.
+TEST(RunSequence, GivesTheSameDataTheSameHashWhoeverMadeThem) {
+  const auto hashes_by = [](const std::string& version) {
+    const TemporaryDirectory directory;
+    SequenceSpec spec = ExampleRun(directory.path());
+    spec.version = version;
+    (void)RunSequence(spec, MakeExampleFrame, NoHooks());
+    return nlohmann::json::parse(Contents(directory.path()).at("manifest.json"));
+  };
+  const auto one = hashes_by("0.1.0");
+  const auto other = hashes_by("0.2.0");
+  EXPECT_EQ(one.at("data_xxh3"), other.at("data_xxh3"));
+  EXPECT_NE(one.at("files_xxh3").at("run.json"), other.at("files_xxh3").at("run.json"));
 }
 
 TEST(RunSequence, WritesKittisLayoutNumberedFromZero) {
@@ -198,7 +223,7 @@ TEST(RunSequence, HashesEveryFileThatItsFramesDoNot) {
     const auto contents = Contents(directory.path());
     const auto hashes = nlohmann::json::parse(contents.at("manifest.json")).at("files_xxh3");
     for (const auto& [name, bytes] : contents) {
-      if (name == "manifest.json" || name == "scenario.resolved.json") continue;
+      if (name == "manifest.json") continue;
       if (contents.at("frames.jsonl").find("\"" + name + "\"") != std::string::npos) continue;
       EXPECT_EQ(hashes.value(name, ""), ContentHash(bytes)) << name;
     }

@@ -5,6 +5,7 @@
 #include "core/base/error.h"
 #include "core/base/shown_text.h"
 #include "core/io/kitti.h"
+#include "core/io/scenario_identity.h"
 #include "core/rail/rail_world.h"
 #include "core/scenario/scenario.h"
 #include "viewer/frames/world_objects.h"
@@ -13,7 +14,7 @@ namespace railcast {
 
 void Frames::UseScenario(const ScenarioSpec& scenario) {
   if (info_.scenario) {
-    if (ResolvedScenarioJson(*info_.scenario) == ResolvedScenarioJson(scenario)) return;
+    if (IdentityOf(*info_.scenario) == IdentityOf(scenario)) return;
     throw InputError(ShownPath(info_.source) +
                      ": has a scenario of its own: --scenario must be the same or be left out");
   }

@@ -7,10 +7,10 @@
 #include <sstream>
 #include <thread>
 
+#include "core/io/scenario_identity.h"
 #include "core/io/write_file.h"
 #include "core/scenario/command_log.h"
 #include "core/scenario/scenario.h"
-#include "generator/scenario_identity.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/project_folder.h"
 #include "tests/generator/run_command.h"

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/io/scenario_identity.h"
 #include "core/io/write_file.h"
 #include "core/scenario/scenario.h"
 #include "generator/run_sequence.h"
@@ -54,8 +55,7 @@ inline MadeSequence MakeSequence(const std::filesystem::path& directory,
   SequenceSpec spec;
   spec.directory = directory;
   spec.version = "0.1.0";
-  spec.scenario_json = ResolvedScenarioJson(result.scenario);
-  spec.identity = {"5ce0a410", {}};
+  spec.identity = IdentityOf(result.scenario);
   spec.files = {ParseFrameFormat(made.format), FieldSelection(made.fields),
                 LabelTable(result.scenario.labels)};
   spec.materials = MaterialLibrary(result.scenario.materials);

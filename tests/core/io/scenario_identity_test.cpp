@@ -1,4 +1,4 @@
-#include "generator/scenario_identity.h"
+#include "core/io/scenario_identity.h"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +10,14 @@
 
 namespace railcast {
 namespace {
+
+void WriteCopies(const ScenarioIdentity& identity, const std::filesystem::path& folder) {
+  for (const InputFile& input : identity.inputs) {
+    std::filesystem::create_directories((folder / input.CopyName()).parent_path());
+    WriteFileWhole(folder / input.CopyName(), input.bytes);
+  }
+  WriteFileWhole(folder / "scenario.resolved.json", identity.scenario_json);
+}
 
 TEST(ScenarioIdentity, IsTheSameInAnotherFolder) {
   const TemporaryDirectory directory;
@@ -26,7 +34,7 @@ TEST(ScenarioIdentity, NamesEveryFileOnceWithTheHashOfItsContent) {
   const ScenarioIdentity identity = IdentityOf(scenario);
   ASSERT_EQ(identity.inputs.size(), 2U);
   EXPECT_EQ(identity.inputs[0].name, "beams.csv");
-  EXPECT_EQ(identity.inputs[1], (InputFile{"rock.obj", ContentHash(kPyramidObj)}));
+  EXPECT_EQ(identity.inputs[1], (InputFile{"rock.obj", ContentHash(kPyramidObj), kPyramidObj}));
 }
 
 TEST(ScenarioIdentity, ChangesWithTheContentOfAFile) {
@@ -59,6 +67,37 @@ TEST(ScenarioIdentity, TellsWhichObjectHasWhichOfTwoFilesOfOneName) {
   const ScenarioIdentity aba = IdentityOf(scenario);
   EXPECT_EQ(abb.inputs, aba.inputs);
   EXPECT_NE(abb.scenario_hash, aba.scenario_hash);
+}
+
+TEST(ScenarioIdentity, NamesFilesByTheirContent) {
+  const TemporaryDirectory directory;
+  const ScenarioSpec scenario = ReadScenario(MakeProject(directory.path()));
+  const std::string rock = "inputs/" + ContentHash(kPyramidObj) + "/rock.obj";
+  EXPECT_EQ(WithFilesByContent(scenario).world.objects[0].file, rock);
+  const ScenarioIdentity identity = IdentityOf(scenario);
+  EXPECT_NE(identity.scenario_json.find("\"" + rock + "\""), std::string::npos);
+  EXPECT_EQ(identity.scenario_json.find(directory.path().string()), std::string::npos);
+  EXPECT_EQ(identity.scenario_hash, ContentHash(identity.scenario_json));
+}
+
+TEST(ScenarioIdentity, IsThatOfTheScenarioReadBackFromItsCopies) {
+  const TemporaryDirectory directory;
+  const ScenarioIdentity identity =
+      IdentityOf(ReadScenario(MakeProject(directory.path() / "project")));
+  const auto copy = directory.path() / "copy";
+  WriteCopies(identity, copy);
+  std::filesystem::remove_all(directory.path() / "project");
+  EXPECT_EQ(IdentityOf(ReadScenario(copy / "scenario.resolved.json")), identity);
+}
+
+TEST(ScenarioIdentity, NoticesAFileThatWasEditedBetweenTwoReadings) {
+  const TemporaryDirectory directory;
+  const ScenarioSpec scenario = ReadScenario(MakeProject(directory.path()));
+  const ScenarioIdentity identity = IdentityOf(scenario);
+  EXPECT_NO_THROW(CheckSameFiles(scenario, identity));
+  WriteFileWhole(directory.path() / "rock.obj", std::string(kPyramidObj) + "f 1 2 3\n");
+  EXPECT_EQ(MessageOf([&] { CheckSameFiles(scenario, identity); }),
+            "rock.obj: was changed while the scenario was read; run it again");
 }
 
 TEST(ScenarioIdentity, SaysWhichFileIsMissing) {
