@@ -39,21 +39,27 @@ double DistanceToBox(const Vector3& point_m, const Vector3& size_m) {
 
 void AddFrame(const RecordedFrame& recorded,
               const Transform& vehicle_from_sensor,
+              const OwnTrack& own_track,
               RunCourses& courses) {
   const Frame& frame = recorded.frame;
   const double speed_mps = SpeedOf(frame);
   const double gradient = GradientOf(frame, vehicle_from_sensor);
+  const Transform world_from_vehicle = frame.world_from_sensor * vehicle_from_sensor.inverse();
   for (const RecordedObject& object : recorded.objects) {
     ObjectCourse& course = courses.objects[object.name];
     course.type = object.type;
     course.label = object.label;
+    const GaugeClearance clearance = own_track.ClearanceAhead(
+        world_from_vehicle, frame.world_from_sensor * object.sensor_from_box, object.size_m);
     const Vector3 sensor_in_box_m = object.sensor_from_box.inverse().translation();
     course.sightings.push_back({.frame = courses.num_frames,
                                 .distance_m = DistanceToBox(sensor_in_box_m, object.size_m),
                                 .points = object.points,
                                 .speed_mps = speed_mps,
                                 .gradient = gradient,
-                                .approach_mps = ApproachOf(object, frame)});
+                                .approach_mps = ApproachOf(object, frame),
+                                .is_in_way = clearance.is_inside,
+                                .from_axis_m = clearance.from_axis_m});
   }
   ++courses.num_frames;
 }
@@ -67,13 +73,14 @@ RunCourses FollowObjects(Recording& recording, const std::function<void(std::siz
         info.kind + ")");
   }
   const Transform vehicle_from_sensor = VehicleFromSensor(info.scenario->lidar.mount);
+  const OwnTrack own_track(*info.scenario);
   RunCourses courses;
   while (const auto read = recording.Next()) {
     const RecordedFrame recorded = (*read)();
     if (recorded.frame.duration_ns == 0) {
       throw InputError(recorded.name + ": a scan must take time to tell the sensor's speed");
     }
-    AddFrame(recorded, vehicle_from_sensor, courses);
+    AddFrame(recorded, vehicle_from_sensor, own_track, courses);
     on_frame(courses.num_frames);
   }
   return courses;

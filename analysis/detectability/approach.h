@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/detectability/own_track.h"
 #include "core/base/transform.h"
 #include "core/io/recording/recording.h"
 
@@ -20,6 +21,8 @@ struct Sighting {
   double speed_mps{};     ///< Of the sensor.
   double gradient{};      ///< Of the track below it: rise per way along the vehicle's x axis.
   double approach_mps{};  ///< The object's own speed towards the sensor; < 0 where it goes away.
+  bool is_in_way{};       ///< Whether it reaches into the gauge of the own track ahead.
+  double from_axis_m{};   ///< Its least distance from that track's axis, across; infinite behind.
 };
 
 /// The frames in which an object was within the sensor's range.
@@ -43,6 +46,7 @@ struct RunCourses {
 /// What one frame shows of its objects, added to `courses`. @pre Has a pose and lasts > 0.
 void AddFrame(const RecordedFrame& recorded,
               const Transform& vehicle_from_sensor,
+              const OwnTrack& own_track,
               RunCourses& courses);
 
 /// From a point to the nearest of a box about the origin; 0 inside.

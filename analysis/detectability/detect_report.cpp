@@ -1,5 +1,6 @@
 #include "analysis/detectability/detect_report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -40,6 +41,14 @@ std::string BrakingText(const DetectSpec& spec) {
          "is taken to stand.";
 }
 
+std::string WayText() {
+  return "In the way is what reaches, at any time of the approach, into the structure gauge of the "
+         "own track ahead: as wide and high as a wagon of gauge G1, and as a pantograph above it. "
+         "What does not is no reason to brake and is not judged. Neither is what a run shows from "
+         "its first frames on, and too late: had the run begun farther off, it might have been in "
+         "time.";
+}
+
 std::string RunsText(std::size_t num_runs) {
   if (num_runs == 1) {
     return "One run: no interval can be given, and another seed may end otherwise.";
@@ -56,33 +65,72 @@ Table VerdictTable(const std::vector<Verdict>& verdicts) {
   Table table;
   table.key = "verdicts";
   table.title = "Who is detected in time to stop";
-  table.note =
-      "Means over the runs that detected the object, but not at once; the share is of those that "
-      "approached it and did not begin too near to tell.";
+  table.note = "Distances of detection are of the runs that detected the object, but not at once.";
+  table.is_open = true;
   table.columns = {{"object", "Object", ""},
                    {"type", "Type", ""},
                    {"verdict", "Verdict", ""},
                    {"runs", "Runs", ""},
-                   {"detected_at_m", "Detected at", "m"},
+                   {"least_detected_at_m", "Detected at, at least", "m"},
                    {"needed_m", "Needed, at most", "m"},
-                   {"spare_m", "To spare", "m"},
                    {"least_spare_m", "To spare, at least", "m"},
-                   {"in_time", "In time", ""},
                    {"begun_too_near", "Begun too near to tell", ""}};
   for (const Verdict& verdict : verdicts) {
+    if (!verdict.is_in_way) continue;
+    table.rows.push_back({verdict.name, verdict.type, verdict.InWords(), verdict.num_approached,
+                          verdict.least_distance_m, verdict.most_needed_m, verdict.least_spare_m,
+                          verdict.num_undecided});
+  }
+  return table;
+}
+
+Table MeansTable(const std::vector<Verdict>& verdicts) {
+  Table table;
+  table.key = "means";
+  table.title = "Means over the runs";
+  table.note =
+      "Of the runs that detected the object, but not at once; the share in time is of those that "
+      "approached it and did not begin too near to tell.";
+  table.columns = {{"object", "Object", ""},
+                   {"detected_at_m", "Detected at", "m"},
+                   {"spare_m", "To spare", "m"},
+                   {"in_time", "In time", ""}};
+  for (const Verdict& verdict : verdicts) {
+    if (!verdict.is_in_way) continue;
     table.rows.push_back(
-        {verdict.name, verdict.type, verdict.InWords(), verdict.num_approached,
-         verdict.distance_m.Mean(), verdict.most_needed_m, verdict.spare_m.Mean(),
-         verdict.least_spare_m,
-         Proportion(verdict.num_in_time, verdict.num_approached - verdict.num_undecided),
-         verdict.num_undecided});
+        {verdict.name, verdict.distance_m.Mean(), verdict.spare_m.Mean(),
+         Proportion(verdict.num_in_time, verdict.num_approached - verdict.num_undecided)});
+  }
+  return table;
+}
+
+Table BesideTable(const std::vector<Verdict>& verdicts) {
+  Table table;
+  table.key = "beside_the_track";
+  table.title = "What is beside the track";
+  table.note =
+      "The distance is that of the object's box from the axis of the own track ahead, across, "
+      "where it was nearest; absent of what was never ahead. Distances of detection are absent "
+      "where it came at once.";
+  table.columns = {{"object", "Object", ""},
+                   {"type", "Type", ""},
+                   {"from_axis_m", "From the axis", "m"},
+                   {"runs", "Runs", ""},
+                   {"detected", "Detected", ""},
+                   {"least_detected_at_m", "Detected at, at least", "m"}};
+  for (const Verdict& verdict : verdicts) {
+    if (verdict.is_in_way) continue;
+    table.rows.push_back({verdict.name, verdict.type,
+                          std::isfinite(verdict.from_axis_m) ? verdict.from_axis_m : kNaN,
+                          verdict.num_approached, verdict.num_detected, verdict.least_distance_m});
   }
   return table;
 }
 
 std::string FateText(const Detection& detection) {
-  if (detection.fate == Fate::kNeverDetected) return "not detected";
   if (detection.fate == Fate::kNeverApproached) return "never approached";
+  if (!detection.is_in_way) return "beside the track";
+  if (detection.fate == Fate::kNeverDetected) return "not detected";
   if (!detection.is_from_start) return detection.is_in_time() ? "in time" : "too late";
   return detection.is_in_time() ? "in time, at once" : "not known: begun too near";
 }
@@ -105,35 +153,82 @@ Table RunTable(const std::vector<DetectRun>& runs) {
                    {"spare_m", "To spare", "m"}};
   for (const DetectRun& run : runs) {
     for (const auto& [name, detection] : run.detections) {
-      const bool is_approached = detection.fate != Fate::kNeverApproached;
-      const auto known = [&](double value) { return is_approached ? value : kNaN; };
+      const bool is_judged = detection.is_in_way && detection.fate != Fate::kNeverApproached;
+      const auto known = [&](double value) { return is_judged ? value : kNaN; };
       table.rows.push_back({run.seed, name, FateText(detection), detection.distance_m,
                             known(kKmphPerMps * detection.speed_mps),
                             known(kPermil * detection.gradient), known(detection.stop_m),
-                            known(detection.needed_m), detection.spare_m()});
+                            known(detection.needed_m), known(detection.spare_m())});
     }
   }
   return table;
 }
 
-void AddHeadlines(const std::vector<Verdict>& verdicts, Report& report) {
-  std::uint64_t num_approached = 0;
-  std::uint64_t num_in_time = 0;
+/// More than these are counted, not named, in what is read first.
+constexpr std::size_t kMaxNamed = 5;
+
+// "person, wagon and 3 more"; of those that `is_one` is true of.
+template <typename IsOne>
+std::string NamesOf(const std::vector<Verdict>& verdicts, const IsOne& is_one) {
+  std::string names;
+  std::size_t num = 0;
   for (const Verdict& verdict : verdicts) {
-    if (verdict.num_approached == 0) continue;
-    ++num_approached;
-    num_in_time += verdict.num_in_time == verdict.num_approached ? 1U : 0U;
+    if (!is_one(verdict) || ++num > kMaxNamed) continue;
+    if (!names.empty()) names += ", ";
+    names += verdict.name;
   }
-  report.headlines.push_back({"Objects approached", "", num_approached});
-  report.headlines.push_back({"Always detected in time", "", num_in_time});
+  if (num > kMaxNamed) names += " and " + NumberText(num - kMaxNamed) + " more";
+  return names;
+}
+
+void AddHeadlines(const std::vector<Verdict>& verdicts, Report& report) {
+  std::uint64_t num_judged = 0;
+  std::uint64_t num_in_time = 0;
   const Verdict* worst = nullptr;
   for (const Verdict& verdict : verdicts) {
+    if (!verdict.is_judged()) continue;
+    ++num_judged;
+    num_in_time += verdict.is_always_in_time() ? 1U : 0U;
+    if (num_judged <= kMaxNamed) report.headlines.push_back({verdict.name, "", verdict.InWords()});
     if (std::isnan(verdict.least_spare_m)) continue;
     if (worst == nullptr || verdict.least_spare_m < worst->least_spare_m) worst = &verdict;
   }
-  if (worst == nullptr) return;
-  report.headlines.push_back(
-      {"Least distance to spare, " + worst->name, "m", worst->least_spare_m});
+  report.headlines.push_back({"In the way, and judged", "", num_judged});
+  report.headlines.push_back({"Always detected in time", "", num_in_time});
+  if (worst != nullptr) {
+    report.headlines.push_back(
+        {"Least distance to spare, " + worst->name, "m", worst->least_spare_m});
+  }
+  const auto add_names = [&](const char* title, const std::string& names) {
+    if (!names.empty()) report.headlines.push_back({title, "", names});
+  };
+  add_names("Begun too near to judge",
+            NamesOf(verdicts, [](const Verdict& each) { return each.is_begun_too_near(); }));
+  add_names("Beside the track, not judged",
+            NamesOf(verdicts, [](const Verdict& each) { return !each.is_in_way; }));
+}
+
+Section VerdictSection(const std::vector<Verdict>& verdicts) {
+  Section section{.key = "verdicts", .title = "In the way"};
+  const bool is_any_judged = std::ranges::any_of(verdicts, &Verdict::is_judged);
+  if (!is_any_judged) section.paragraphs = {"Nothing that was in the way can be judged."};
+  section.tables = {VerdictTable(verdicts), MeansTable(verdicts)};
+  return section;
+}
+
+Section PointsSection(const std::vector<DetectRun>& runs,
+                      const std::vector<Verdict>& verdicts,
+                      const DetectionRule& rule) {
+  Section section{.key = "points", .title = "Points against distance"};
+  for (const bool is_in_way : {true, false}) {
+    for (const Verdict& object : verdicts) {
+      const bool is_due = object.is_in_way == is_in_way && object.num_approached > 0;
+      if (!is_due || section.charts.size() == kMaxCharts) continue;
+      section.charts.push_back(PointsChart(runs, object, rule));
+    }
+  }
+  section.tables = {PointsTable(runs, rule)};
+  return section;
 }
 
 }  // namespace
@@ -164,22 +259,19 @@ Report MakeDetectReport(const std::vector<DetectRun>& runs,
   report.facts = std::move(facts);
   AddHeadlines(verdicts, report);
 
-  Section verdict;
-  verdict.key = "verdicts";
-  verdict.title = "Verdicts";
-  verdict.paragraphs = {RuleText(spec), BrakingText(spec), RunsText(runs.size())};
-  verdict.tables = {VerdictTable(verdicts), RunTable(runs)};
-  report.sections.push_back(std::move(verdict));
-
-  Section points;
-  points.key = "points";
-  points.title = "Points against distance";
-  for (const Verdict& object : verdicts) {
-    if (object.num_approached == 0 || points.charts.size() == kMaxCharts) continue;
-    points.charts.push_back(PointsChart(runs, object, spec.rule));
+  report.sections.push_back(VerdictSection(verdicts));
+  const bool is_any_beside =
+      std::ranges::any_of(verdicts, [](const Verdict& each) { return !each.is_in_way; });
+  if (is_any_beside) {
+    report.sections.push_back(
+        {.key = "beside", .title = "Beside the track", .tables = {BesideTable(verdicts)}});
   }
-  points.tables = {PointsTable(runs, spec.rule)};
-  report.sections.push_back(std::move(points));
+  report.sections.push_back(PointsSection(runs, verdicts, spec.rule));
+  report.sections.push_back({.key = "runs", .title = "Run by run", .tables = {RunTable(runs)}});
+  report.sections.push_back(
+      {.key = "rules",
+       .title = "What is asked",
+       .paragraphs = {WayText(), RuleText(spec), BrakingText(spec), RunsText(runs.size())}});
   return report;
 }
 

@@ -37,6 +37,8 @@ Detection DetectObject(const ObjectCourse& course,
   result.fate = Fate::kNeverApproached;
   if (course.sightings.empty()) return result;
   const std::span<const Sighting> approach = ApproachIn(course.sightings);
+  result.is_in_way = std::ranges::any_of(approach, &Sighting::is_in_way);
+  result.from_axis_m = std::ranges::min(approach, {}, &Sighting::from_axis_m).from_axis_m;
   // A standing vehicle and object have nothing between them that changes.
   const auto farthest = std::ranges::max(approach, {}, &Sighting::distance_m).distance_m;
   if (farthest - approach.back().distance_m < kMinApproach_m) return result;

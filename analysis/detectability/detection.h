@@ -28,6 +28,10 @@ struct Detection {
   Fate fate{};
   /// At the frame that completes the rule; NaN if not detected.
   double distance_m = std::numeric_limits<double>::quiet_NaN();
+  /// Whether the object reaches into the gauge of the own track ahead at any time of the approach.
+  /// What does not is no reason to brake.
+  bool is_in_way{};
+  double from_axis_m{};  ///< The least distance from that track's axis, across, meanwhile.
   /// Whether the run's first frames complete the rule already: the object would have been seen from
   /// farther off, too.
   bool is_from_start{};

@@ -94,25 +94,32 @@ Chart PointsChart(const std::vector<DetectRun>& runs,
   chart.key = KeyOf(verdict.name);
   chart.title = "Points on " + verdict.name + " against distance";
   chart.caption =
-      "Means of 10 m with their intervals; a gap is a bin without points or with too few "
-      "frames. In time: the detection stands to the right of what is needed.";
+      std::string(
+          "Means of 10 m with their intervals; a gap is a bin without points or with "
+          "too few frames. ") +
+      (verdict.is_in_way ? "In time: the detection stands to the right of what is needed."
+                         : "Beside the track: nothing to brake for.");
   chart.x = {.title = "Distance", .unit = "m"};
   chart.y = {.title = "Points a frame", .unit = "", .is_log = true};
   ChartSeries points{verdict.name, SeriesStyle::kLinePoints, {}};
   double highest = rule.min_points;
-  double farthest_m = verdict.most_needed_m;
+  double farthest_m = verdict.is_in_way ? verdict.most_needed_m : 0.0;
   for (const auto& [index, bin] : BinsOf(runs, verdict.name, rule)) {
-    const Estimate mean = bin.points.Mean();
+    const double mean = bin.points.PlainMean();
     const double middle_m = kDistanceBin_m * (index + 0.5);
     farthest_m = std::max(farthest_m, middle_m);
-    if (!(mean.value > 0.0)) {
+    if (!(mean > 0.0)) {
       points.points.push_back({.x = middle_m});
       continue;
     }
+    highest = std::max(highest, mean);
+    points.points.push_back({.x = middle_m, .y = mean});
+    const Estimate estimate = bin.points.Mean();
+    if (!estimate.is_enough()) continue;
     // A logarithm knows no interval that reaches 0.
-    points.points.push_back(
-        {middle_m, mean.value, mean.low > 0.0 ? mean.low : mean.value, mean.high});
-    highest = std::max(highest, mean.high);
+    points.points.back().low = estimate.low > 0.0 ? estimate.low : mean;
+    points.points.back().high = estimate.high;
+    highest = std::max(highest, estimate.high);
   }
   chart.series.push_back(std::move(points));
   ChartSeries enough{
@@ -120,7 +127,9 @@ Chart PointsChart(const std::vector<DetectRun>& runs,
   const double min_points = rule.min_points;
   enough.points = {{.x = 0.0, .y = min_points}, {.x = farthest_m, .y = min_points}};
   chart.series.push_back(std::move(enough));
-  chart.series.push_back(Upright("needed:", verdict.most_needed_m, highest));
+  if (verdict.is_in_way) {
+    chart.series.push_back(Upright("needed:", verdict.most_needed_m, highest));
+  }
   if (verdict.distance_m.num() > 0) {
     chart.series.push_back(Upright("detected at:", verdict.distance_m.PlainMean(), highest));
   }

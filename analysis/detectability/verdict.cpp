@@ -11,6 +11,8 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 void Add(const Detection& detection, Verdict& verdict) {
+  verdict.is_in_way = verdict.is_in_way || detection.is_in_way;
+  verdict.from_axis_m = std::min(verdict.from_axis_m, detection.from_axis_m);
   if (detection.fate == Fate::kNeverApproached) return;
   ++verdict.num_approached;
   // Both comparisons also take the first number in place of NaN.
@@ -26,6 +28,9 @@ void Add(const Detection& detection, Verdict& verdict) {
   if (!detection.is_from_start) {
     verdict.distance_m.Add(detection.distance_m);
     verdict.spare_m.Add(detection.spare_m());
+    if (!(verdict.least_distance_m <= detection.distance_m)) {
+      verdict.least_distance_m = detection.distance_m;
+    }
   }
   if (!(verdict.least_spare_m <= detection.spare_m())) verdict.least_spare_m = detection.spare_m();
 }
@@ -65,7 +70,8 @@ std::vector<Verdict> MakeVerdicts(const std::vector<DetectRun>& runs) {
         verdict.name = name;
         verdict.type = course.type;
         verdict.label = course.label;
-        verdict.least_spare_m = verdict.most_needed_m = kNaN;
+        verdict.from_axis_m = std::numeric_limits<double>::infinity();
+        verdict.least_distance_m = verdict.least_spare_m = verdict.most_needed_m = kNaN;
       }
       Add(detection, verdict);
     }

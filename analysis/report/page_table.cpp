@@ -105,9 +105,10 @@ std::vector<std::vector<std::size_t>> PaperBlocks(const Table& table,
 
 std::string TableHtml(const Table& table) {
   const std::vector<PageColumn> columns = PageColumns(table);
-  std::string html = Joined({"<details>\n<summary>", EscapedHtml(table.title),
-                             " <span class=\"rows\">", CountText(table.rows.size()),
-                             table.rows.size() == 1 ? " row" : " rows", "</span></summary>\n"});
+  std::string html =
+      Joined({table.is_open ? "<details open>" : "<details>", "\n<summary>",
+              EscapedHtml(table.title), " <span class=\"rows\">", CountText(table.rows.size()),
+              table.rows.size() == 1 ? " row" : " rows", "</span></summary>\n"});
   if (!table.note.empty()) html += Element("p class=\"note\"", table.note);
   const std::vector<std::vector<std::size_t>> blocks = PaperBlocks(table, columns);
   std::vector<std::size_t> all(columns.size());

@@ -29,6 +29,7 @@ struct Table {
   std::string note{};   ///< What a reader must know of it: assumptions, definitions; may be empty.
   std::vector<TableColumn> columns{};
   std::vector<std::vector<Cell>> rows{};  ///< Each as long as `columns`.
+  bool is_open{};                         ///< Whether the page shows its rows unasked.
 };
 
 /// One point of a chart. NaN in y leaves a gap; low and high, where they are numbers, are the ends

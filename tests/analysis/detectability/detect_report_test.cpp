@@ -16,7 +16,10 @@ using testing::HasSubstr;
 
 /// A run in which a person is approached from 200 m on at 10 m/s, 1 m a frame, with 5 points from
 /// `first_m` on.
-DetectRun MadeRun(std::uint64_t seed, double first_m, double gradient = 0.0) {
+DetectRun MadeRun(std::uint64_t seed,
+                  double first_m,
+                  double gradient = 0.0,
+                  bool is_in_way = true) {
   RunCourses courses;
   ObjectCourse course{.type = "person", .label = "person", .sightings = {}};
   for (std::uint32_t i = 0; i < 190; ++i) {
@@ -26,7 +29,9 @@ DetectRun MadeRun(std::uint64_t seed, double first_m, double gradient = 0.0) {
                                 .points = distance_m <= first_m ? 5U : 1U,
                                 .speed_mps = 10.0,
                                 .gradient = gradient,
-                                .approach_mps = 0.0});
+                                .approach_mps = 0.0,
+                                .is_in_way = is_in_way,
+                                .from_axis_m = is_in_way ? 0.0 : 2.1});
   }
   courses.num_frames = 190;
   courses.objects["person"] = course;
@@ -40,6 +45,10 @@ const Table& TableOf(const Report& report, const std::string& key) {
     }
   }
   throw std::out_of_range(key);
+}
+
+const Section& SectionOf(const Report& report, const std::string& key) {
+  return *std::ranges::find(report.sections, key, &Section::key);
 }
 
 Cell CellOf(const Table& table, std::size_t row, const std::string& column) {
@@ -65,6 +74,7 @@ TEST(DetectReport, GivesTheFirstDetectionOfEachRun) {
   const Table& verdicts = TableOf(report, "verdicts");
   EXPECT_EQ(std::get<std::string>(CellOf(verdicts, 0, "verdict")), "too late in 1 of 2 runs");
   EXPECT_EQ(std::get<double>(CellOf(verdicts, 0, "least_spare_m")), -7.0);
+  EXPECT_EQ(std::get<double>(CellOf(verdicts, 0, "least_detected_at_m")), 128.0);
 }
 
 TEST(DetectReport, HasAnIntervalOverManySeedsOnly) {
@@ -73,22 +83,22 @@ TEST(DetectReport, HasAnIntervalOverManySeedsOnly) {
     runs.push_back(MadeRun(seed, 140.0 + static_cast<double>(seed)));
   }
   const Report few = ReportOf(runs);
-  EXPECT_FALSE(std::get<Estimate>(CellOf(TableOf(few, "verdicts"), 0, "spare_m")).is_enough());
-  EXPECT_THAT(few.sections[0].paragraphs.back(), HasSubstr("give no interval"));
+  EXPECT_FALSE(std::get<Estimate>(CellOf(TableOf(few, "means"), 0, "spare_m")).is_enough());
+  EXPECT_THAT(SectionOf(few, "rules").paragraphs.back(), HasSubstr("give no interval"));
   runs.push_back(MadeRun(10, 150.0));
   const Report many = ReportOf(runs);
-  const auto spare = std::get<Estimate>(CellOf(TableOf(many, "verdicts"), 0, "spare_m"));
+  const auto spare = std::get<Estimate>(CellOf(TableOf(many, "means"), 0, "spare_m"));
   // 141 to 150, less 2 m, less 135 m: 8.5 m on average, s = 3.028 m; Student's t of 9 is 2.262.
   EXPECT_NEAR(spare.value, 8.5, 1e-9);
   EXPECT_NEAR(spare.high - spare.value, 2.2622 * 3.02765 / std::sqrt(10.0), 1e-3);
-  const auto share = std::get<Estimate>(CellOf(TableOf(many, "verdicts"), 0, "in_time"));
+  const auto share = std::get<Estimate>(CellOf(TableOf(many, "means"), 0, "in_time"));
   EXPECT_EQ(share.value, 1.0);
   EXPECT_GT(share.low, 0.6);
 }
 
 TEST(DetectReport, SaysThatOneRunHasNoInterval) {
   const Report report = ReportOf({MadeRun(1, 150.0)});
-  EXPECT_THAT(report.sections[0].paragraphs.back(), HasSubstr("One run: no interval"));
+  EXPECT_THAT(SectionOf(report, "rules").paragraphs.back(), HasSubstr("One run: no interval"));
   EXPECT_EQ(std::get<std::string>(CellOf(TableOf(report, "verdicts"), 0, "verdict")),
             "in time in the one run");
 }
@@ -110,9 +120,9 @@ TEST(DetectReport, LeavesOpenWhatARunThatBeginsTooNearCannotTell) {
             "not known, begun too near in the one run");
   EXPECT_TRUE(std::isnan(std::get<double>(CellOf(verdicts, 0, "least_spare_m"))));
   EXPECT_EQ(std::get<std::uint64_t>(CellOf(verdicts, 0, "begun_too_near")), 1U);
-  EXPECT_EQ(std::get<Estimate>(CellOf(verdicts, 0, "in_time")).num, 0U);
+  EXPECT_EQ(std::get<Estimate>(CellOf(TableOf(report, "means"), 0, "in_time")).num, 0U);
   // Of the points, the rule and what is needed; nothing of a detection.
-  EXPECT_EQ(report.sections[1].charts[0].series.size(), 3U);
+  EXPECT_EQ(SectionOf(report, "points").charts[0].series.size(), 3U);
 }
 
 TEST(DetectReport, TellsWhatWasNeverSeenOrNeverApproached) {
@@ -129,12 +139,12 @@ TEST(DetectReport, TellsWhatWasNeverSeenOrNeverApproached) {
   EXPECT_EQ(std::get<std::string>(CellOf(verdicts, 1, "verdict")), "never approached");
   EXPECT_TRUE(std::isnan(std::get<double>(CellOf(TableOf(report, "runs"), 1, "needed_m"))));
   // One chart: there is nothing to brake for in the other.
-  EXPECT_EQ(report.sections[1].charts.size(), 1U);
+  EXPECT_EQ(SectionOf(report, "points").charts.size(), 1U);
 }
 
 TEST(DetectReport, ChartsPointsBesideWhatIsNeeded) {
   const Report report = ReportOf({MadeRun(1, 150.0), MadeRun(2, 130.0)});
-  const Chart& chart = report.sections.at(1).charts.at(0);
+  const Chart& chart = SectionOf(report, "points").charts.at(0);
   EXPECT_EQ(chart.key, "points_person");
   EXPECT_TRUE(chart.y.is_log);
   ASSERT_EQ(chart.series.size(), 4U);
@@ -149,6 +159,74 @@ TEST(DetectReport, ChartsPointsBesideWhatIsNeeded) {
   const Table& points = TableOf(report, "points_by_distance");
   EXPECT_EQ(std::get<std::string>(CellOf(points, 0, "distance_m")), "10 to 20");
   EXPECT_EQ(std::get<std::uint64_t>(CellOf(points, 0, "frames")), 18U);
+}
+
+std::vector<std::string> HeadlinesOf(const Report& report) {
+  std::vector<std::string> lines;
+  for (const Headline& headline : report.headlines) {
+    std::string line = headline.title + ": ";
+    if (const auto* const text = std::get_if<std::string>(&headline.value)) line += *text;
+    if (const auto* const num = std::get_if<std::uint64_t>(&headline.value)) {
+      line += std::to_string(*num);
+    }
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+TEST(DetectReport, JudgesOnlyWhatIsInTheWay) {
+  DetectRun run = MadeRun(1, 150.0);
+  const DetectRun beside = MadeRun(1, 30.0, 0.0, false);
+  run.courses.objects["man_beside"] = beside.courses.objects.at("person");
+  run = DetectInRun("run", 1, run.courses, {});
+  const Report report = ReportOf({run});
+  // First, and open.
+  const Table& verdicts = report.sections.at(0).tables.at(0);
+  EXPECT_EQ(verdicts.key, "verdicts");
+  EXPECT_TRUE(verdicts.is_open);
+  ASSERT_EQ(verdicts.rows.size(), 1U);
+  EXPECT_EQ(std::get<std::string>(CellOf(verdicts, 0, "object")), "person");
+  const Table& apart = TableOf(report, "beside_the_track");
+  ASSERT_EQ(apart.rows.size(), 1U);
+  EXPECT_EQ(std::get<std::string>(CellOf(apart, 0, "object")), "man_beside");
+  EXPECT_EQ(std::get<double>(CellOf(apart, 0, "from_axis_m")), 2.1);
+  EXPECT_EQ(std::get<std::string>(CellOf(TableOf(report, "runs"), 0, "outcome")),
+            "beside the track");
+  EXPECT_TRUE(std::isnan(std::get<double>(CellOf(TableOf(report, "runs"), 0, "spare_m"))));
+  // Detected at 28 m, it would have been 107 m too late.
+  EXPECT_THAT(HeadlinesOf(report),
+              testing::ElementsAre(
+                  "person: in time in the one run", "In the way, and judged: 1",
+                  "Always detected in time: 1",
+                  "Least distance to spare, person: ", "Beside the track, not judged: man_beside"));
+}
+
+TEST(DetectReport, NamesWhatBeganTooNearAndDoesNotCountIt) {
+  DetectSpec fast;
+  fast.speed_mps = 20.0;  // Needs 455 m, of 200 m.
+  const DetectRun run = DetectInRun("run", 1, MadeRun(1, 300.0).courses, fast);
+  EXPECT_THAT(HeadlinesOf(ReportOf({run})),
+              testing::ElementsAre("In the way, and judged: 0", "Always detected in time: 0",
+                                   "Begun too near to judge: person"));
+  // With another run that saw it later, that one counts.
+  DetectRun later = DetectInRun("later", 2, MadeRun(2, 150.0).courses, fast);
+  EXPECT_THAT(HeadlinesOf(ReportOf({run, later})),
+              testing::ElementsAre("person: too late in 1 of 2 runs, not known, begun too near in "
+                                   "1 of 2 runs",
+                                   "In the way, and judged: 1", "Always detected in time: 0",
+                                   "Least distance to spare, person: "));
+}
+
+TEST(DetectReport, ChartsBinsOfFewFramesWithoutAnInterval) {
+  DetectRun run = MadeRun(1, 150.0);
+  std::erase_if(run.courses.objects.at("person").sightings,
+                [](const Sighting& sighting) { return sighting.frame % 2 == 1; });
+  const Report report = ReportOf({DetectInRun("run", 1, run.courses, {})});
+  const ChartSeries& points = SectionOf(report, "points").charts[0].series[0];
+  ASSERT_EQ(points.points.size(), 20U);
+  EXPECT_EQ(points.points[5].y, 5.0);
+  EXPECT_TRUE(std::isnan(points.points[5].low));
+  EXPECT_TRUE(std::isnan(points.points[5].high));
 }
 
 TEST(DetectReport, SaysWhichRunCannotStop) {

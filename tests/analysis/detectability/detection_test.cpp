@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "analysis/detectability/approach.h"
+#include "tests/analysis/detectability/made_track.h"
 #include "tests/core/io/message_of.h"
 
 namespace railcast {
@@ -146,8 +147,8 @@ RecordedFrame MadeFrame(double x) {
 
 TEST(Approach, TakesSpeedAndGradientFromThePoses) {
   RunCourses courses;
-  AddFrame(MadeFrame(0.0), Transform::Identity(), courses);
-  AddFrame(MadeFrame(2.0), Transform::Identity(), courses);
+  AddFrame(MadeFrame(0.0), Transform::Identity(), StraightTrack(), courses);
+  AddFrame(MadeFrame(2.0), Transform::Identity(), StraightTrack(), courses);
   EXPECT_EQ(courses.num_frames, 2U);
   const ObjectCourse& course = courses.objects.at("wagon");
   ASSERT_EQ(course.sightings.size(), 2U);
@@ -167,7 +168,7 @@ TEST(Approach, KnowsHowTheSensorIsMounted) {
   recorded.frame.world_from_sensor = recorded.frame.world_from_sensor * vehicle_from_sensor;
   recorded.frame.world_from_sensor_end = recorded.frame.world_from_sensor_end * vehicle_from_sensor;
   RunCourses courses;
-  AddFrame(recorded, vehicle_from_sensor, courses);
+  AddFrame(recorded, vehicle_from_sensor, StraightTrack(), courses);
   EXPECT_NEAR(courses.objects.at("wagon").sightings[0].gradient, 0.02, 1e-12);
   EXPECT_NEAR(courses.objects.at("wagon").sightings[0].speed_mps, 20.0, 1e-9);
 }

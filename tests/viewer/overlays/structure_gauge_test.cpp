@@ -1,35 +1,15 @@
 #include "viewer/overlays/structure_gauge.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "core/rail/structure_gauge.h"
 #include "tests/viewer/overlays/made_line.h"
 
 namespace railcast {
 namespace {
-
-TEST(StructureGauge, TakesThePantographsWidthFromTabelle1) {
-  EXPECT_EQ(PantographHalfWidth_m(5.3), 1.43);
-  EXPECT_EQ(PantographHalfWidth_m(5.5), 1.44);
-  EXPECT_EQ(PantographHalfWidth_m(5.51), 1.47);
-  EXPECT_EQ(PantographHalfWidth_m(5.9), 1.47);
-  EXPECT_EQ(PantographHalfWidth_m(6.5), 1.51);
-  EXPECT_EQ(PantographHalfWidth_m(6.51), std::nullopt);
-}
-
-TEST(StructureGauge, HasTheEnvelopeOfWagonsWithThePantographsAboveIt) {
-  using Corner = Eigen::Vector2d;
-  EXPECT_THAT(GaugeOutline(5.3),
-              testing::ElementsAre(Corner(1.575, 0.0), Corner(1.575, 4.28), Corner(1.43, 4.28),
-                                   Corner(1.43, 5.2), Corner(-1.43, 5.2), Corner(-1.43, 4.28),
-                                   Corner(-1.575, 4.28), Corner(-1.575, 0.0)));
-  EXPECT_THAT(GaugeOutline(std::nullopt),
-              testing::ElementsAre(Corner(1.575, 0.0), Corner(1.575, 4.28), Corner(-1.575, 4.28),
-                                   Corner(-1.575, 0.0)));
-}
 
 TEST(StructureGauge, RingsEveryTenMetresOfChainage) {
   ScenarioSpec scenario = ScenarioOnLine(Straight(2'000.0), 1'003.0);

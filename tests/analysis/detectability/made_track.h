@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "analysis/detectability/own_track.h"
+#include "core/scenario/scenario.h"
+
+namespace railcast {
+
+/// A line of one element, from (0, 0) eastward, with a second track 4 m to the left of the
+/// vehicle's.
+[[nodiscard]] inline ScenarioSpec ScenarioOn(const std::string& element,
+                                             double length_m,
+                                             std::optional<double> radius_m = std::nullopt) {
+  ScenarioSpec scenario =
+      ReadScenario(std::filesystem::path(RAILCAST_SOURCE_DIR) / "scenarios" / "minimal.json");
+  scenario.world.alignment = {};
+  scenario.world.alignment.course = AlignmentElementsSpec{{{element, length_m, radius_m}}};
+  TrackSpec second;
+  second.name = "second";
+  second.offset_m = 4.0;
+  scenario.world.tracks = {TrackSpec(), second};
+  scenario.world.objects.clear();
+  return scenario;
+}
+
+/// 2000 m of it.
+[[nodiscard]] inline const OwnTrack& StraightTrack() {
+  static const OwnTrack track(ScenarioOn("straight", 2'000.0));
+  return track;
+}
+
+}  // namespace railcast
