@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "analysis/stats/headings.h"
+#include "core/io/recording/firing_truth.h"
 
 namespace railcast {
 namespace {
@@ -55,8 +56,9 @@ void Coverage::Add(const RecordedFrame& recorded, const ScanTable* scan) {
     Ring& ring = rings_[row];
     if (scan != nullptr) ring.elevation_deg.Add(kDegrees * scan->elevation_rad[row]);
     for (std::size_t column = 0; column < frame.columns; ++column) {
-      ++ring.num_firings;
       const std::size_t slot = row * frame.width() + column * frame.returns;
+      if (IsOnOwnVehicle(recorded, slot)) continue;
+      ++ring.num_firings;
       ring.num_points += std::isfinite(frame.range_m[slot]) ? 1 : 0;
     }
   }
@@ -108,6 +110,7 @@ Section Coverage::MakeSection(const Names& names) const {
   Table rings;
   rings.key = "rings";
   rings.title = "Rings";
+  rings.note = "Firings known to have met the own vehicle do not count.";
   rings.columns = {{"ring", "Ring", ""},
                    {"elevation_deg", "Elevation", "deg"},
                    {"firings", "Firings", ""},

@@ -6,6 +6,7 @@
 #include "analysis/stats/bins.h"
 #include "analysis/stats/headings.h"
 #include "analysis/stats/sums.h"
+#include "core/io/recording/firing_truth.h"
 
 namespace railcast {
 namespace {
@@ -49,6 +50,7 @@ void Holes::Add(const RecordedFrame& recorded) {
   }
   for (std::size_t row = 0; row < frame.rows; ++row) {
     for (std::size_t column = 0; column < frame.columns; ++column) {
+      if (IsOnOwnVehicle(recorded, row * frame.width() + column * frame.returns)) continue;
       if (has_points[column]) {
         ++num_firings_;
         num_points_ += std::isfinite(Range_m(frame, row, column)) ? 1 : 0;
@@ -90,8 +92,7 @@ Section Holes::MakeSection() const {
       "hole. Exact if losses are independent of each other, a lower bound where they cluster: "
       "dark, "
       "far and grazing patches. Columns without any point count as never fired, so that half a "
-      "turn "
-      "is not half a loss."};
+      "turn is not half a loss; firings known to have met the own vehicle do not count."};
 
   Table fill;
   fill.key = "grid";

@@ -15,7 +15,8 @@ namespace railcast {
 /// a hole. The share of holes among such firings is the dropout if losses are independent of each
 /// other; where they cluster (dark, far or grazing patches) it is a lower bound. A sensor that is
 /// set to half a turn has no neighbours in the other half, and so no holes; nor do its columns
-/// without any point count where the share of firings with a point is asked for.
+/// without any point count where the share of firings with a point is asked for. Firings that are
+/// known to have met the own vehicle are left out of both: the scene has lost nothing there.
 class Holes {
  public:
   /// Frames that are no grids are passed over.

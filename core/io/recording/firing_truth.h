@@ -21,4 +21,10 @@ namespace railcast {
          std::isfinite(frame.true_range_m[slot]);
 }
 
+/// Whether it is known that the vehicle itself was in a firing's way: it brought nothing back, and
+/// the scene has lost nothing. @param slot The firing's first.
+[[nodiscard]] inline bool IsOnOwnVehicle(const RecordedFrame& recorded, std::size_t slot) {
+  return HasOutcomes(recorded) && recorded.frame.outcome[slot] == Outcome::kEgo;
+}
+
 }  // namespace railcast

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <memory>
 
+#include "analysis/stats/coverage.h"
 #include "analysis/stats/holes.h"
+#include "analysis/stats/names.h"
 #include "tests/analysis/recorded_frames.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/scan_once.h"
@@ -160,6 +162,30 @@ TEST(Holes, AreNotWhereNoBeamWasFired) {
   holes.Add(RecordPointsOnly(frame));
   EXPECT_EQ(holes.Share().value, 0.0);
   EXPECT_NEAR(holes.Filled().value, 0.5, 0.01);
+}
+
+// Every fourth column looks at a mirror of the own vehicle.
+TEST(Holes, AreNotWhereTheOwnVehicleIsInTheWay) {
+  Frame frame = ScanWithDropout(0.0);
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    if (slot % frame.width() % 4 != 1) continue;
+    frame.range_m[slot] = std::nanf("");
+    frame.outcome[slot] = Outcome::kEgo;
+  }
+  RecordedFrame recorded = RecordPointsOnly(frame);
+  Holes unknown;
+  unknown.Add(recorded);
+  EXPECT_GT(unknown.Share().value, 0.1) << "points alone cannot tell";
+  recorded.fields.insert("outcome");
+  Holes holes;
+  holes.Add(recorded);
+  EXPECT_EQ(holes.Share().value, 0.0);
+  EXPECT_NEAR(holes.Filled().value, 0.5, 0.01);
+  Coverage coverage;
+  coverage.Add(recorded, nullptr);
+  const Section section = coverage.MakeSection(Names(RecordingInfo()));
+  // The lowest ring meets the wall everywhere else.
+  EXPECT_EQ(std::get<Estimate>(TableOf(section, "rings").rows.at(0).at(3)).value, 1.0);
 }
 
 TEST(Holes, OfAFrameWithoutAPointOrAGridAreNoNumber) {
