@@ -109,19 +109,22 @@ int RunCompare(const CompareOptions& options, const std::string& command_line) {
 }
 
 void AddAblationOptions(CLI::App& compare, CompareOptions& options) {
-  CLI::Option* const ablate =
-      compare
-          .add_option("--ablate", options.scenario,
-                      "Scenario file: what each of its effects changes, beam by beam")
-          ->check(NonEmpty());
-  compare.add_option("--frames", options.num_frames, "How many sample frames, a second apart")
+  CLI::Option* const ablate = compare
+                                  .add_option("--ablate", options.scenario,
+                                              "Scenario file, instead of two recordings: what does "
+                                              "each of its effects change, beam by beam?")
+                                  ->check(NonEmpty());
+  compare
+      .add_option("--frames", options.num_frames,
+                  "Number of sample frames, which are a second apart")
       ->transform(Whole({1, 1000}))
       ->capture_default_str()
       ->needs(ablate);
-  compare.add_option("--seed", options.seed, "Instead of the scenario's")
+  compare.add_option("--seed", options.seed, "Seed to use instead of the scenario's")
       ->transform(Whole({}))
       ->needs(ablate);
-  compare.add_option("--sensor", options.sensor, "Which of the scenario's sensors")->needs(ablate);
+  compare.add_option("--sensor", options.sensor, "Name of the sensor, of a scenario with several")
+      ->needs(ablate);
 }
 
 }  // namespace
@@ -130,9 +133,10 @@ void AddCompare(CLI::App& app, Command& command) {
   const auto options = std::make_shared<CompareOptions>();
   CLI::App* compare = app.add_subcommand(
       "compare", "How far two recordings are apart, or what each effect of a scenario changes");
-  compare->add_option("A_B", options->sources,
-                      "Two recordings, A the reference: sequence directories, .pcd or .ply files, "
-                      "directories of such, .pcap captures");
+  compare->add_option(
+      "RECORDINGS", options->sources,
+      "Two recordings to compare, the first the reference: each a sequence directory, a .pcd or "
+      ".ply file, a directory of such files, or a .pcap capture");
   compare
       ->add_option_function<std::string>(
           "--pair",
@@ -144,9 +148,10 @@ void AddCompare(CLI::App& app, Command& command) {
       ->check(CLI::IsMember({"stamp", "index"}));
   compare
       ->add_option("--distances", options->distances,
-                   "Of precision, recall and F-score, in m, separated by commas")
+                   "Distances in m, separated by commas, within which a point counts as found: "
+                   "those of precision, recall and F-score")
       ->capture_default_str();
-  compare->add_option("--threads", options->num_threads, "0 = all cores")
+  compare->add_option("--threads", options->num_threads, "Number of threads; 0 = all cores")
       ->transform(Whole({0, 1024}))
       ->capture_default_str();
   AddAblationOptions(*compare, *options);

@@ -106,7 +106,9 @@ int RunDetect(const DetectOptions& options, const std::string& command_line) {
 
 void AddRuleOptions(CLI::App& detect, DetectOptions& options) {
   DetectionRule& rule = options.spec.rule;
-  detect.add_option("--points", rule.min_points, "An object is seen with so many points or more")
+  detect
+      .add_option("--points", rule.min_points,
+                  "Least number of points on an object that is seen in a frame")
       ->transform(Whole({1, 1'000'000}))
       ->capture_default_str();
   const auto check = [](const std::string& text) {
@@ -123,19 +125,21 @@ void AddRuleOptions(CLI::App& detect, DetectOptions& options) {
 
 void AddBrakingOptions(CLI::App& detect, DetectOptions& options) {
   BrakingSpec& braking = options.spec.braking;
-  detect.add_option("--reaction-s", braking.reaction_s, "From detection to full braking")
+  detect
+      .add_option("--reaction-s", braking.reaction_s, "Seconds from the detection to full braking")
       ->check(Number({0.0, 60.0}))
       ->capture_default_str();
   detect
-      .add_option("--deceleration-mps2", braking.deceleration_mps2,
-                  "On the level: 0.3 slow freight, 0.5 shunting, 1.0 multiple unit")
+      .add_option(
+          "--deceleration-mps2", braking.deceleration_mps2,
+          "Braking deceleration on the level: 0.3 slow freight, 0.5 shunting, 1.0 multiple unit")
       ->check(Number({0.01, 10.0}))
       ->capture_default_str();
   detect
       .add_option("--speed-kmph", options.speed_kmph,
-                  "Instead of the vehicle's own speed at the detection")
+                  "Speed to brake from, instead of the vehicle's own at the detection")
       ->check(Number({0.0, 500.0}));
-  detect.add_option("--margin-m", braking.margin_m, "To be left before the object")
+  detect.add_option("--margin-m", braking.margin_m, "Metres to be left before the object")
       ->check(Number({0.0, 1000.0}))
       ->capture_default_str();
 }
@@ -144,12 +148,13 @@ void AddBrakingOptions(CLI::App& detect, DetectOptions& options) {
 
 void AddDetect(CLI::App& app, Command& command) {
   const auto options = std::make_shared<DetectOptions>();
-  CLI::App* detect = app.add_subcommand(
-      "detect", "From how far objects are detected, against the way that the train needs to stop");
+  CLI::App* detect = app.add_subcommand("detect",
+                                        "Who is seen in time: from how far objects in the way are "
+                                        "detected, against the way that the train needs to stop");
   detect
-      ->add_option("DIR", options->sources,
-                   "Sequence directory; several of one scenario, with different seeds, give "
-                   "intervals")
+      ->add_option(
+          "DIR", options->sources,
+          "Sequence directory; several of one scenario with different seeds give intervals")
       ->required();
   AddRuleOptions(*detect, *options);
   AddBrakingOptions(*detect, *options);

@@ -137,31 +137,32 @@ int RunFit(const FitOptions& options, const std::string& command_line) {
 
 void AddKnowledgeOptions(CLI::App& fit, FitOptions& options) {
   fit.add_option("--planes", options.planes,
-                 "JSON file of planes that a standing sensor looks at, in its axes, for recordings "
-                 "without truth")
+                 "For recordings without truth: JSON file of the planes that a standing sensor "
+                 "looks at, in its axes")
       ->check(NonEmpty());
   fit.add_option("--rung", options.rung,
-                 "Whose parameters: plausibility or surface; default: the scenario's, else surface")
+                 "Rung whose parameters to fit; default: the scenario's, else surface")
       ->check(CLI::IsMember({"plausibility", "surface"}));
   fit.add_option("--intensity", options.intensity,
-                 "What intensities are: reflectance, or none that is known; auto: reflectance in "
-                 "sequences and captures")
+                 "What the intensities are: reflectance, or nothing known (none); auto: "
+                 "reflectance in sequences and captures, else none")
       ->check(CLI::IsMember({"auto", "reflectance", "none"}))
       ->capture_default_str();
   fit.add_option("--range-at-10-percent-m", options.range_at_10_percent_m,
-                 "Of the data sheet: fixes the threshold where intensities do not")
+                 "Range in m at 10 % reflectance, from the data sheet: fixes the threshold where "
+                 "intensities do not")
       ->check(Number({0.1, 10'000.0}));
-  fit.add_option(
-         "--known", options.known,
-         "NAME=REFLECTANCE of a surface: fixes the threshold where intensities do not; may be "
-         "given several times")
+  fit.add_option("--known", options.known,
+                 "A surface whose reflectance is known, NAME=REFLECTANCE: fixes the threshold "
+                 "where intensities do not; repeat it for several")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   fit.add_option("--extinction-per-m", options.extinction_per_m,
-                 "Of the air, instead of fitting it: 0 = clear")
+                 "Extinction of the air, instead of fitting it; 0 = clear air")
       ->check(Number({0.0, 10.0}));
   fit.add_option("--rain-rate-mmph", options.rain_rate_mmph,
-                 "Parts the rain dropout of rung plausibility from the rate of the rain")
+                 "Rate of the rain in the recording: tells the dropout by rain from the sensor's "
+                 "own, for rung plausibility")
       ->check(Number({1e-3, 5000.0}));
 }
 
@@ -172,11 +173,11 @@ void AddFit(CLI::App& app, Command& command) {
   CLI::App* fit = app.add_subcommand(
       "fit", "Noise, threshold, reflectance and dropout of the sensor models, from a recording");
   fit->add_option("SOURCE", options->sources,
-                  "Sequence directory, .pcd or .ply file, directory of such, or .pcap capture; "
-                  "several are taken together")
+                  "Sequence directory, .pcd or .ply file, directory of such files, or .pcap "
+                  "capture; several are taken together")
       ->required();
   AddKnowledgeOptions(*fit, *options);
-  fit->add_option("--threads", options->num_threads, "0 = all cores")
+  fit->add_option("--threads", options->num_threads, "Number of threads; 0 = all cores")
       ->transform(Whole({0, 1024}))
       ->capture_default_str();
   AddReportOptions(*fit, options->output);

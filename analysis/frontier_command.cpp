@@ -90,17 +90,26 @@ void AddFrontier(CLI::App& app, Command& command) {
   CLI::App* frontier = app.add_subcommand(
       "frontier", "Chart time against accuracy: the rungs, brute force, and the reference");
   frontier->add_option("SCENARIO", options->scenario, "Scenario file")->required();
-  frontier->add_option("--out", options->out, "Directory for frontier.json, .csv, .svg, .png")
+  frontier
+      ->add_option("--out", options->out,
+                   "Directory for the chart and table: frontier.json, .csv, .svg, .png")
       ->required()
       ->check(NonEmpty());
-  frontier->add_option("--frames", options->num_frames, "How many sample frames, a second apart")
+  frontier
+      ->add_option("--frames", options->num_frames,
+                   "Number of sample frames, which are a second apart")
       ->transform(Whole({1, 1000}))
       ->capture_default_str();
-  frontier->add_option("--threads", options->num_threads, "Of the timing; 0 = all cores")
+  frontier
+      ->add_option("--threads", options->num_threads,
+                   "Number of threads to measure times with; 0 = all cores")
       ->transform(Whole({0, 1024}))
       ->capture_default_str();
-  frontier->add_option("--sensor", options->sensor, "Which of the scenario's sensors");
-  frontier->add_option("--rows", options->rows, "Rows separated by commas, or all")
+  frontier->add_option("--sensor", options->sensor,
+                       "Name of the sensor, of a scenario with several");
+  frontier
+      ->add_option("--rows", options->rows,
+                   "Rows of the table to measure, separated by commas, or all")
       ->capture_default_str();
   frontier->callback([&command, options] {
     command = [options](const std::string&) { return RunFrontier(*options); };

@@ -138,17 +138,19 @@ void AddReceive(CLI::App& app, Command& command) {
   CLI::App* receive = app.add_subcommand(
       "receive", "Listen to a live stream: what arrives, and what is lost; until Ctrl-C");
   receive
-      ->add_option("HOST:PORT", options->at, "Where to listen; 0.0.0.0 hears other machines, too")
+      ->add_option("HOST:PORT", options->at,
+                   "Address and port to listen at; 0.0.0.0 hears other machines, too")
       ->capture_default_str();
   receive
       ->add_option("--from", options->from,
                    "HOST or HOST:PORT whose datagrams are taken; default: whoever comes first")
       ->check(NonEmpty());
-  receive->add_option("--duration", options->duration_s, "End after so many seconds")
+  receive
+      ->add_option("--duration", options->duration_s, "Seconds after which to end; default: no end")
       ->check(Number({1e-3, 1e9}));
-  receive->add_option("--frames", options->num_frames, "End after so many frames")
+  receive->add_option("--frames", options->num_frames, "Frames after which to end; default: no end")
       ->transform(Whole({1}));
-  receive->add_option("--out", options->out, "Directory for frames/*.pcd and frames.csv")
+  receive->add_option("--out", options->out, "Directory to record to: frames/*.pcd and frames.csv")
       ->check(NonEmpty());
   receive->callback([&command, options] {
     command = [options](const std::string&) { return RunReceive(*options); };

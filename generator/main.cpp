@@ -37,37 +37,38 @@ void CheckFields(const std::string& fields) {
 
 void AddSequence(CLI::App& app, SequenceOptions& options, std::function<int()>& command) {
   CLI::App* sequence = app.add_subcommand(
-      "sequence", "Make labelled frames; the same command again continues an interrupted run");
+      "sequence",
+      "Write labelled frames to files; the same command again continues an interrupted run");
   sequence->add_option("SCENARIO", options.scenario, "Scenario file")
       ->required()
       ->check(NonEmpty());
-  sequence->add_option("--out", options.out, "Directory for the frames")
+  sequence->add_option("--out", options.out, "Directory to write the frames to")
       ->required()
       ->check(NonEmpty());
-  sequence->add_option("--frames", options.num_frames, "How many frames")
+  sequence->add_option("--frames", options.num_frames, "How many frames to make")
       ->transform(Whole({1, kMaxFrame}))
       ->capture_default_str();
-  sequence->add_option("--start-frame", options.start_frame, "Number of the first")
+  sequence->add_option("--start-frame", options.start_frame, "Number of the first frame")
       ->transform(Whole({0, kMaxFrame}))
       ->capture_default_str();
-  sequence
-      ->add_option("--format", options.format,
-                   "pcd, pcd-compressed, pcd-ascii, ply, ply-cloudcompare or kitti")
+  sequence->add_option("--format", options.format, "File format of the frames")
       ->check(
           CLI::IsMember({"pcd", "pcd-compressed", "pcd-ascii", "ply", "ply-cloudcompare", "kitti"}))
       ->capture_default_str();
-  sequence->add_option("--fields", options.fields, "Fields separated by commas, or all")
+  sequence->add_option("--fields", options.fields, "Fields to write, separated by commas, or all")
       ->capture_default_str();
-  sequence->add_option("--seed", options.seed, "Instead of the scenario's")->transform(Whole({}));
-  sequence->add_option("--threads", options.num_threads, "0 = all cores")
+  sequence->add_option("--seed", options.seed, "Seed to use instead of the scenario's")
+      ->transform(Whole({}));
+  sequence->add_option("--threads", options.num_threads, "Number of threads; 0 = all cores")
       ->transform(Whole({0, 1024}))
       ->capture_default_str();
-  sequence->add_option("--fidelity", options.fidelity, "Instead of the scenario's")
+  sequence->add_option("--fidelity", options.fidelity, "Fidelity to use instead of the scenario's")
       ->check(CLI::IsMember(railcast::FidelityNames()));
-  sequence->add_option("--sensor", options.sensor, "Which of the scenario's sensors");
+  sequence->add_option("--sensor", options.sensor,
+                       "Name of the sensor to simulate, of a scenario with several");
   sequence
       ->add_option("--commands", options.commands,
-                   "Replay this log of a live run: same scenario, same frames")
+                   "Log of a live run to replay; with its scenario it gives the same frames")
       ->check(NonEmpty());
   sequence->callback([&] {
     CheckFields(options.fields);
@@ -77,53 +78,62 @@ void AddSequence(CLI::App& app, SequenceOptions& options, std::function<int()>& 
 
 void AddStream(CLI::App& app, StreamOptions& options, std::function<int()>& command) {
   CLI::App* stream = app.add_subcommand(
-      "stream", "Send frames over UDP as they would come from real sensors, until Ctrl-C");
+      "stream", "Send frames over UDP, as real sensors send theirs, until Ctrl-C");
   stream->add_option("SCENARIO", options.scenario, "Scenario file")->required()->check(NonEmpty());
-  stream->add_option("--sensor", options.sensor, "This one of several; default: all");
+  stream->add_option("--sensor", options.sensor,
+                     "Name of the only sensor to stream, of a scenario with several; default: all");
   stream
-      ->add_option("--to", options.to,
-                   "HOST:PORT of a receiver, repeated for several; default: the scenario's, else "
-                   "this machine. Everybody on the network is 255.255.255.255")
+      ->add_option(
+          "--to", options.to,
+          "A receiver, HOST:PORT; repeat the option for several. 255.255.255.255 is everybody "
+          "on the network. Default: the scenario's receivers, else this machine")
       ->allow_extra_args(false);
-  stream->add_option("--protocol", options.protocol, "Instead of the scenario's")
+  stream->add_option("--protocol", options.protocol, "Protocol to use instead of the scenario's")
       ->check(CLI::IsMember(railcast::ProtocolNames()));
-  stream->add_option("--fields", options.fields,
-                     "Protocol railcast: fields separated by commas, or all; default: "
-                     "x,y,z,intensity,ring,time_ns,label,instance");
+  stream->add_option(
+      "--fields", options.fields,
+      "With protocol railcast: fields to send, separated by commas, or all; default: "
+      "x,y,z,intensity,ring,time_ns,label,instance");
   stream->add_flag("--all-slots", options.has_all_slots,
-                   "Protocol railcast: also what did not return");
+                   "With protocol railcast: send firings that brought nothing back, too");
   stream
-      ->add_option("--pacing", options.pacing,
-                   "spread: each datagram when its last firing is; burst: a frame at once")
+      ->add_option(
+          "--pacing", options.pacing,
+          "spread: each datagram leaves one period after its last firing, as from a sensor; "
+          "burst: all of a frame leave at once")
       ->check(CLI::IsMember({"spread", "burst"}))
       ->capture_default_str();
   stream
-      ->add_option("--pcap", options.pcap,
-                   "Capture file to write; without --to nothing is sent, and it is written as "
-                   "fast as it can be made")
+      ->add_option(
+          "--pcap", options.pcap,
+          "Capture file to write. Without --to nothing is sent, and the file is made as fast "
+          "as the machine can")
       ->check(NonEmpty());
   stream
       ->add_option("--calibration", options.calibration,
-                   "Protocol hdl64e: calibration file to write for receivers")
+                   "With protocol hdl64e: calibration file to write, which receivers need")
       ->check(NonEmpty());
   stream
       ->add_option("--commands-port", options.commands_port,
-                   "UDP port where commands are heard, JSON lines; default: none are")
+                   "UDP port to hear commands at, which are lines of JSON; default: none are heard")
       ->transform(Whole({1, 65535}));
   stream->add_option("--commands-from", options.commands_from,
-                     "HOST or HOST:PORT whose commands are heard; default: this machine");
+                     "HOST or HOST:PORT to hear commands from; default: this machine only");
   stream
       ->add_option("--commands-log", options.commands_log,
-                   "File to write for `sequence --commands`")
+                   "Log of the commands to write, for `sequence --commands`")
       ->check(NonEmpty());
-  stream->add_flag("--lockstep", options.lockstep, "Each frame waits for command step");
-  stream->add_option("--duration", options.duration_s, "Seconds of simulation; default: no end")
+  stream->add_flag("--lockstep", options.lockstep, "Wait for the command step before each frame");
+  stream
+      ->add_option("--duration", options.duration_s,
+                   "Seconds of simulation after which to end; default: no end")
       ->check(Number({1e-3, 1e9}));
-  stream->add_option("--seed", options.seed, "Instead of the scenario's")->transform(Whole({}));
-  stream->add_option("--threads", options.num_threads, "0 = all cores")
+  stream->add_option("--seed", options.seed, "Seed to use instead of the scenario's")
+      ->transform(Whole({}));
+  stream->add_option("--threads", options.num_threads, "Number of threads; 0 = all cores")
       ->transform(Whole({0, 1024}))
       ->capture_default_str();
-  stream->add_option("--fidelity", options.fidelity, "Instead of the scenario's")
+  stream->add_option("--fidelity", options.fidelity, "Fidelity to use instead of the scenario's")
       ->check(CLI::IsMember(railcast::FidelityNames()));
   stream->callback([&] {
     if (options.fields) CheckFields(*options.fields);
@@ -132,45 +142,52 @@ void AddStream(CLI::App& app, StreamOptions& options, std::function<int()>& comm
 }
 
 void AddCheck(CLI::App& app, CheckOptions& options, std::function<int()>& command) {
-  CLI::App* check = app.add_subcommand(
-      "check",
-      "Report every error of a scenario, or what follows from it and what its scene holds");
+  CLI::App* check = app.add_subcommand("check",
+                                       "Report every fault of a scenario or, if it has none, what "
+                                       "its scene holds and the sensor sees");
   check->add_option("SCENARIO", options.scenario, "Scenario file")->required()->check(NonEmpty());
   check
-      ->add_option("--resolved", options.resolved,
-                   "File for the scenario with every default and included file in place; - writes "
-                   "it, and nothing else, to stdout")
+      ->add_option(
+          "--resolved", options.resolved,
+          "File to write the scenario to, with every default and included file in place; - is "
+          "stdout, which then gets nothing else")
       ->check(NonEmpty());
   check->callback([&] { command = [&] { return railcast::CheckCommand(options); }; });
 }
 
 void AddWorld(CLI::App& app, WorldOptions& options, std::function<int()>& command) {
-  CLI::App* world = app.add_subcommand("world", "Write the scene as triangles");
+  CLI::App* world = app.add_subcommand("world", "Write the scene as a mesh of triangles");
   world->add_option("SCENARIO", options.scenario, "Scenario file")->required()->check(NonEmpty());
-  world->add_option("--out", options.out, "File to write: *.ply or *.obj")
+  world->add_option("--out", options.out, "File to write; its name ends in .ply or .obj")
       ->required()
       ->check(NonEmpty());
-  world->add_option("--from-s", options.from_s_m, "Chainage in m; default: the window of frame 0")
+  world
+      ->add_option("--from-s", options.from_s_m,
+                   "Chainage in m to begin at, with --to-s; default: all that frame 0 can see")
       ->check(Number(kChainage));
-  world->add_option("--to-s", options.to_s_m, "Chainage in m")->check(Number(kChainage));
+  world->add_option("--to-s", options.to_s_m, "Chainage in m to end at, with --from-s")
+      ->check(Number(kChainage));
   world->callback([&] { command = [&] { return railcast::WorldCommand(options); }; });
 }
 
 void AddTrace(CLI::App& app, TraceOptions& options, std::function<int()>& command) {
-  CLI::App* trace = app.add_subcommand("trace", "Replay one firing and print each effect's doing");
+  CLI::App* trace =
+      app.add_subcommand("trace", "Replay one firing and print what each effect makes of it");
   trace->add_option("SCENARIO", options.scenario, "Scenario file")->required()->check(NonEmpty());
-  trace->add_option("--sensor", options.sensor, "Which of the scenario's sensors");
+  trace->add_option("--sensor", options.sensor, "Name of the sensor, of a scenario with several");
   trace->add_option("--frame", options.frame, "Number of the frame")
       ->transform(Whole({0, kMaxFrame}))
       ->capture_default_str();
-  trace->add_option("--firing", options.firing, "Number of the firing in the order of time")
+  trace
+      ->add_option("--firing", options.firing,
+                   "Number of the firing in its frame, from 0, in order of time")
       ->required()
       ->transform(Whole({0, kMaxFrame}));
   trace->callback([&] { command = [&] { return railcast::TraceCommand(options); }; });
 }
 
 int Main(int argc, char** argv) {
-  CLI::App app("LiDAR simulation for railways: frames from a scenario");
+  CLI::App app("LiDAR simulation for railways: makes frames from a scenario.");
   app.set_version_flag("--version", "railcast " RAILCAST_VERSION);
   app.require_subcommand(1);
   app.failure_message(railcast::SayWhatIsWrong);
@@ -179,7 +196,7 @@ int Main(int argc, char** argv) {
       "Exit status: 0 success, 1 bad input or failed run, 2 usage, 130 interrupted (the same\n"
       "command continues).");
   bool is_verbose = false;
-  app.add_flag("-v,--verbose", is_verbose, "Say more");
+  app.add_flag("-v,--verbose", is_verbose, "Say more about what is done");
   SequenceOptions sequence;
   StreamOptions stream;
   CheckOptions check;

@@ -107,54 +107,60 @@ std::vector<std::string> BackgroundNames() {
 
 void AddSourceOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
   app.add_option("source", options.source,
-                 "A sequence directory, a .pcd, .ply or .bin file or a directory of such, a .pcap "
-                 "or .pcapng capture, or udp://HOST:PORT")
+                 "What to show: a sequence directory, a .pcd, .ply or .bin file, a directory of "
+                 "such files, a .pcap or .pcapng capture, or a live stream, udp://HOST:PORT")
       ->required();
-  app.add_option("--frame", options.frame, "Frame to begin with; default: the first")
+  app.add_option("--frame", options.frame, "Number of the frame to begin with; default: the first")
       ->transform(Whole({0, std::numeric_limits<std::uint32_t>::max()}));
-  app.add_option("--compare", options.compare, "A second source: its frames beside the first's");
+  app.add_option("--compare", options.compare,
+                 "A second source to compare the first with, frame by frame");
   app.add_option("--layout", raw.layout,
-                 "Of two sources: beside each other, or over each other, coloured by the distance "
-                 "to the other's nearest point")
+                 "How --compare shows two sources. beside: side by side; distance: one over the "
+                 "other, each point coloured by its distance to the nearest of the other source")
       ->check(CLI::IsMember({"beside", "distance"}))
       ->capture_default_str();
   app.add_option("--scenario", options.scenario,
-                 "What a stream or a file was made of: names of labels, track, surfaces");
-  app.add_option("--sensor", options.sensor, "Which of the scenario's sensors");
+                 "Scenario that a stream or a file was made of: it gives the labels' names, the "
+                 "track and the surfaces");
+  app.add_option("--sensor", options.sensor, "Name of the sensor, of a scenario with several");
   app.add_option("--from", options.from,
                  "HOST or HOST:PORT whose live frames are shown; default: whoever comes first");
-  app.add_option("--wait", options.wait_s, "For a live source's first whole frame, in seconds")
+  app.add_option("--wait", options.wait_s,
+                 "Seconds to wait for the first whole frame of a live source")
       ->check(Number({1e-3, 1e9}))
       ->capture_default_str();
 }
 
 void AddLookOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
   app.add_option("--color-by", options.choices.color_by,
-                 "Default: label where there is one, else height. Also: any field of a foreign "
-                 "cloud");
-  app.add_option("--color-map", raw.color_map, "Of amounts; default: viridis")
+                 "Field to colour the points by: one of ours, or any that the cloud has. Default: "
+                 "label where there is one, else height");
+  app.add_option("--color-map", raw.color_map, "Colour map for amounts; default: viridis")
       ->check(CLI::IsMember(Strings(kColorMapNames)));
   app.add_option("--color-range", raw.color_range,
-                 "Ends of the scale; default: 1st and 99th percentile of the first frame")
+                 "The two ends of the colour scale; default: the 1st and 99th percentile of the "
+                 "first frame")
       ->expected(2)
       ->delimiter(',')
       ->allow_extra_args(false);
-  app.add_option("--point-size", options.look.point_size_px, "In pixels; default: by the height")
+  app.add_option("--point-size", options.look.point_size_px,
+                 "Size of a point in pixels; default: by the height of the picture")
       ->transform(Whole({1, kMaxPointSize_px}));
   app.add_option("--background", raw.background)
       ->check(CLI::IsMember(BackgroundNames()))
       ->capture_default_str();
   app.add_option("--accumulate", options.choices.num_accumulated,
-                 "Frames shown at once, where they were in the world")
+                 "How many frames to show at once, each where it was in the world")
       ->transform(Whole({1, kMaxAccumulated}))
       ->capture_default_str();
-  app.add_option("--show", raw.show, "What is drawn over the points, with commas between")
+  app.add_option("--show", raw.show, "What to draw over the points, separated by commas")
       ->check(CLI::IsMember(ShowableNames()))
       ->delimiter(',')
       ->expected(1)
       ->take_all()
       ->allow_extra_args(false);
-  app.add_option("--select", options.select, "Labels; all others are faint")
+  app.add_option("--select", options.select,
+                 "Labels to show, separated by commas; all others are faint")
       ->delimiter(',')
       ->expected(1)
       ->take_all()
@@ -162,44 +168,51 @@ void AddLookOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
 }
 
 void AddCameraOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
-  const auto* const camera = app.add_option("--camera", options.camera,
-                                            "From where to look; default: chase, all for "
-                                            "other people's recordings")
-                                 ->check(CLI::IsMember(Strings(kCameraNames)));
-  auto* const eye = app.add_option("--eye", raw.eye_m,
-                                   "X,Y,Z of the eye in the sensor's axes, in metres, instead of "
-                                   "a camera")
-                        ->expected(3)
-                        ->delimiter(',')
-                        ->allow_extra_args(false);
-  auto* const target = app.add_option("--target", raw.target_m, "Where it looks")
+  const auto* const camera =
+      app.add_option("--camera", options.camera,
+                     "Where to look from; default: chase, or all for recordings that are not ours")
+          ->check(CLI::IsMember(Strings(kCameraNames)));
+  auto* const eye =
+      app.add_option(
+             "--eye", raw.eye_m,
+             "Where to look from instead of --camera: X,Y,Z in the sensor's axes, in metres")
+          ->expected(3)
+          ->delimiter(',')
+          ->allow_extra_args(false);
+  auto* const target = app.add_option("--target", raw.target_m,
+                                      "Where --eye looks: X,Y,Z in the sensor's axes, in metres")
                            ->expected(3)
                            ->delimiter(',')
                            ->allow_extra_args(false);
   eye->needs(target)->excludes(const_cast<CLI::Option*>(camera));
   target->needs(eye);
-  app.add_option("--size", raw.size, "Of the window or picture, in pixels")->capture_default_str();
+  app.add_option("--size", raw.size, "Size of the window or picture in pixels, WIDTHxHEIGHT")
+      ->capture_default_str();
 }
 
 void AddPictureOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
-  auto* const screenshot =
-      app.add_option("--screenshot", options.screenshot, "Write a PNG instead of opening a window");
+  auto* const screenshot = app.add_option("--screenshot", options.screenshot,
+                                          "PNG file to write instead of opening a window");
   auto* const video =
       app.add_option("--video", options.video,
-                     "Write a PNG of each frame into this folder: 000000.png, 000001.png, ...");
-  app.add_option("--frames", options.num_pictures, "Of a video; default: to the recording's end")
+                     "Directory to write a PNG of each frame to: 000000.png, 000001.png, ...");
+  app.add_option("--frames", options.num_pictures,
+                 "Number of pictures of a video; default: to the recording's end")
       ->transform(Whole({1}))
       ->needs(video);
   video->excludes(screenshot);
   auto* const pick =
-      app.add_option("--pick", raw.picks,
-                     "Say all that is known of the point at X,Y of the picture; twice: measure "
-                     "from the first to the second")
+      app.add_option(
+             "--pick", raw.picks,
+             "Print all that is known of the point at X,Y of the picture, in pixels from its upper "
+             "left corner. Given twice: measure from the first point to the second")
           ->expected(1)
           ->take_all()
           ->allow_extra_args(false)
           ->needs(screenshot);
-  app.add_flag("--trace", options.traces, "And what each effect made of its firing")->needs(pick);
+  app.add_flag("--trace", options.traces,
+               "Print what each effect made of the picked point's firing, too")
+      ->needs(pick);
 }
 
 void UseRaw(const RawOptions& raw, const CLI::App& app, ViewOptions& options) {
@@ -273,7 +286,7 @@ ViewOptions ParseOptions(CLI::App& app, int argc, char** argv) {
   AddLookOptions(app, options, raw);
   AddCameraOptions(app, options, raw);
   AddPictureOptions(app, options, raw);
-  app.add_flag("-v", options.is_verbose, "Say what is shown");
+  app.add_flag("-v", options.is_verbose, "Print what is shown");
   app.set_version_flag("--version", RAILCAST_VERSION);
   app.footer("Keys in the window:\n" + ViewWindow::KeysText());
   app.failure_message(SayWhatIsWrong);

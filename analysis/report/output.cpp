@@ -63,7 +63,7 @@ void AddReportOptions(CLI::App& command, ReportOutput& output) {
   CLI::Option_group* const where = command.add_option_group("Report");
   where
       ->add_option("--out", output.out,
-                   "Directory for report.html, the same as JSON and CSV, and the charts")
+                   "Directory for report.html, the same as JSON and CSV, and its charts")
       ->check(NonEmpty());
   where
       ->add_option_function<std::string>(

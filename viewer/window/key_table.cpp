@@ -69,13 +69,13 @@ std::span<const KeyBinding> KeyTable::Bindings() {
       {"x", "x", "sensor axes", [](ViewWindow& w) { w.Toggle(w.session_.choices().overlays.axes); }},
       {"r", "r", "range rings",
        [](ViewWindow& w) { w.Toggle(w.session_.choices().overlays.rings); }},
-      {"1", "1 2 3 4 5", "look from: driver, top, side, chase; at all",
+      {"1", "1 2 3 4 5", "look from: driver, top, side, chase; see all",
        [](ViewWindow& w) { w.LookFrom(kCameraNames[0]); }},
       {"2", "", "", [](ViewWindow& w) { w.LookFrom(kCameraNames[1]); }},
       {"3", "", "", [](ViewWindow& w) { w.LookFrom(kCameraNames[2]); }},
       {"4", "", "", [](ViewWindow& w) { w.LookFrom(kCameraNames[3]); }},
       {"5", "", "", [](ViewWindow& w) { w.LookFrom(kCameraNames[4]); }},
-      {"w", "w", "camera rides along, or stays in the world",
+      {"w", "w", "camera rides along or stays in the world",
        [](ViewWindow& w) { w.rides_along_ = !w.rides_along_; }},
       {"k", "k", "print the camera as options",
        [](ViewWindow& w) {
@@ -86,11 +86,11 @@ std::span<const KeyBinding> KeyTable::Bindings() {
       {"", "shift+click", "measure from the point before", nullptr},
       {"z", "z", "turn about the point", [](ViewWindow& w) { w.TurnAboutPick(); }},
       {"e", "e", "effect trace of the point", [](ViewWindow& w) { w.AskTrace(); }},
-      {"l", "l", "select the point's label, or no more (also: click in the legend)",
+      {"l", "l", "select the point's label, or no longer (also: click in the legend)",
        [](ViewWindow& w) { w.SelectPickedLabel(); }},
-      {"Escape", "escape", "no selection, no point",
+      {"Escape", "escape", "forget selection and picked point",
        [](ViewWindow& w) { w.ClearSelection(); }},
-      {"v", "v", "two recordings: beside each other, or by distance",
+      {"v", "v", "two recordings: side by side, or by distance",
        [](ViewWindow& w) {
          auto& layout = w.session_.choices().layout;
          layout = After(layout, 2);
