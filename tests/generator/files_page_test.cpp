@@ -92,6 +92,27 @@ TEST(FilesPage, ShowsHowPointsOfAMovingSceneComeToLieInTheirBoxes) {
   ExpectAllPointsInTheirBoxes(RunThePage(CurveWithTraffic(R"({"frame": "sensor"})", true), ""));
 }
 
+TEST(FilesPage, ReadsCompressedPcdAsItReadsBinary) {
+  if (!HasNumpy()) GTEST_SKIP() << "/usr/bin/python3 has no numpy";
+  const TemporaryDirectory directory;
+  const std::string folder = directory.path().string();
+  WriteFileWhole(directory.path() / "scenario.json",
+                 CurveWithTraffic(R"({"frame": "sensor"})", true));
+  for (const std::string to : {"out", "compressed --format pcd-compressed"}) {
+    const Ended made =
+        Generate("sequence " + folder + "/scenario.json --frames 1 --out " + folder + "/" + to);
+    ASSERT_EQ(made.status, 0) << made.said;
+  }
+  WriteFileWhole(directory.path() / "page.py",
+                 PythonOfThePage("import numpy as np\n") +
+                     "other = read_pcd('compressed/frames/000000.pcd')\n"
+                     "print('same', other.dtype == frame.dtype, other.shape == frame.shape,\n"
+                     "      other.tobytes() == frame.tobytes())\n");
+  const Ended run = RunCommand("cd " + folder + " && /usr/bin/python3 -W ignore page.py");
+  EXPECT_EQ(run.status, 0) << run.said;
+  EXPECT_NE(run.said.find("same True True True"), std::string::npos) << run.said;
+}
+
 TEST(FilesPage, SaysThatPointsOfAStandingSceneLieInTheirOutputBoxesAsTheyAre) {
   if (!HasNumpy()) GTEST_SKIP() << "/usr/bin/python3 has no numpy";
   const std::string check_output_boxes =
