@@ -51,8 +51,8 @@ void CheckReachable(const Endpoint& to) {
 
 }  // namespace
 
-UdpSender::UdpSender(std::vector<Endpoint> to, std::uint16_t position_port)
-    : to_(std::move(to)), position_port_(position_port) {
+UdpSender::UdpSender(std::vector<Endpoint> to, std::uint16_t position_port, bool has_offload)
+    : to_(std::move(to)), position_port_(position_port), has_gso_(has_offload) {
   for (const Endpoint& endpoint : to_) CheckReachable(endpoint);
   socket_ = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (socket_ < 0) throw InputError("no socket: " + std::string(std::strerror(errno)));

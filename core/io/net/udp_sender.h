@@ -17,14 +17,16 @@ namespace railcast {
 class UdpSender {
  public:
   /// @param position_port Of every receiver, for datagrams that are DatagramPort::kPosition.
+  /// @param has_offload Whether runs of datagrams may be handed over in one call, to be cut by the
+  ///   kernel or the card. Captures on the sending machine then hold runs in place of datagrams.
   /// @throws InputError if a receiver cannot be sent to.
-  UdpSender(std::vector<Endpoint> to, std::uint16_t position_port);
+  UdpSender(std::vector<Endpoint> to, std::uint16_t position_port, bool has_offload = true);
   ~UdpSender();
   UdpSender(const UdpSender&) = delete;
   UdpSender& operator=(const UdpSender&) = delete;
 
-  /// Sends these to every receiver: runs of equal size in one call each where the kernel has UDP
-  /// GSO (Linux 4.18), else one by one.
+  /// Sends these to every receiver: with offload runs of equal size in one call each where the
+  /// kernel has UDP GSO (Linux 4.18), else one by one.
   void Send(const Datagrams& datagrams, std::span<const Datagrams::Item> items);
 
   /// Datagrams that left, counted once for each receiver, and those that the kernel refused: a full
@@ -41,7 +43,7 @@ class UdpSender {
   std::vector<Endpoint> to_;
   std::uint16_t position_port_;
   int socket_ = -1;
-  bool has_gso_ = true;
+  bool has_gso_;
   Counts counts_;
 };
 

@@ -1,4 +1,8 @@
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <netinet/udp.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <future>
@@ -66,6 +70,40 @@ TEST(UdpSender, CutsRunsThatAreLongerThanTheKernelTakes) {
   const Datagrams datagrams = MakeDatagrams(sizes);
   sender.Send(datagrams, datagrams.items);
   EXPECT_EQ(ReceiveAll(receiver, sizes.size()), Expected(datagrams));
+}
+
+/// How large what the kernel delivers at once is, to a socket that takes whole runs. A capture on
+/// this machine has the same.
+std::vector<std::size_t> DeliveredSizes(bool has_offload, std::size_t num_datagrams) {
+  const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  const int yes = 1;
+  const timeval patience{kPatience_ms / 1000, 0};
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  EXPECT_EQ(::bind(socket, reinterpret_cast<sockaddr*>(&address), size), 0);
+  EXPECT_EQ(::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size), 0);
+  EXPECT_EQ(::setsockopt(socket, SOL_UDP, UDP_GRO, &yes, sizeof yes), 0);
+  EXPECT_EQ(::setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience), 0);
+  const Datagrams datagrams = MakeDatagrams(std::vector<std::uint16_t>(num_datagrams, 100));
+  UdpSender sender({{INADDR_LOOPBACK, ntohs(address.sin_port)}}, 1, has_offload);
+  sender.Send(datagrams, datagrams.items);
+  EXPECT_EQ(sender.counts().sent, num_datagrams);
+  std::vector<std::size_t> sizes;
+  std::vector<char> buffer(65'536);
+  for (std::size_t bytes = 0; bytes < 100 * num_datagrams; bytes += sizes.back()) {
+    const ssize_t got = ::recv(socket, buffer.data(), buffer.size(), 0);
+    if (got <= 0) break;
+    sizes.push_back(static_cast<std::size_t>(got));
+  }
+  ::close(socket);
+  return sizes;
+}
+
+TEST(UdpSender, SendsSingleDatagramsWithoutOffload) {
+  EXPECT_EQ(DeliveredSizes(false, 5), std::vector<std::size_t>(5, 100));
+  EXPECT_EQ(DeliveredSizes(true, 5), std::vector<std::size_t>{500});
 }
 
 TEST(UdpSender, ServesEveryReceiver) {
