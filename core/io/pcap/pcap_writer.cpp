@@ -1,6 +1,7 @@
 #include "core/io/pcap/pcap_writer.h"
 
 #include <pcap/pcap.h>
+#include <stdio_ext.h>
 #include <unistd.h>
 
 #include <array>
@@ -78,8 +79,7 @@ PcapWriter::PcapWriter(std::filesystem::path file,
       data_port_(data_port),
       position_port_(position_port),
       dump_(std::make_unique<Dump>()) {
-  std::FILE* const stream =
-      std::fopen((target_.string() + std::string(kUnfinishedSuffix)).c_str(), "wbe");
+  std::FILE* const stream = std::fopen(unfinished().c_str(), "wbe");
   if (stream == nullptr) throw FileError(file_, errno);
   constexpr int kSnapLength = 65535;
   dump_->format = pcap_open_dead(DLT_EN10MB, kSnapLength);
@@ -111,16 +111,26 @@ void PcapWriter::Write(const Datagrams& datagrams, std::span<const Datagrams::It
               reinterpret_cast<const u_char*>(frame.data()));
   }
   // A run that is killed leaves what was written until here.
-  if (pcap_dump_flush(dump_->dumper) != 0 || std::ferror(pcap_dump_file(dump_->dumper)) != 0) {
-    throw FileError(file_, errno);
+  std::FILE* const stream = pcap_dump_file(dump_->dumper);
+  if (pcap_dump_flush(dump_->dumper) == 0 && std::ferror(stream) == 0) {
+    whole_bytes_ = std::ftell(stream);
+    return;
   }
+  const InputError error = FileError(file_, errno);
+  // Neither half a packet, nor what a disk that has room again would take when the file is closed.
+  ::__fpurge(stream);
+  static_cast<void>(!::ftruncate(::fileno(stream), whole_bytes_));
+  throw error;
+}
+
+std::filesystem::path PcapWriter::unfinished() const {
+  return target_.string() + std::string(kUnfinishedSuffix);
 }
 
 void PcapWriter::Finish() {
   std::FILE* const stream = pcap_dump_file(dump_->dumper);
-  const std::string unfinished = target_.string() + std::string(kUnfinishedSuffix);
   if (pcap_dump_flush(dump_->dumper) != 0 || ::fsync(::fileno(stream)) != 0 ||
-      ::rename(unfinished.c_str(), target_.c_str()) != 0) {
+      ::rename(unfinished().c_str(), target_.c_str()) != 0) {
     throw FileError(file_, errno);
   }
   dump_.reset();

@@ -25,11 +25,16 @@ class PcapWriter {
   PcapWriter(const PcapWriter&) = delete;
   PcapWriter& operator=(const PcapWriter&) = delete;
 
-  /// Appends these. @throws InputError if the system refuses, as on a full disk.
+  /// Appends these. @throws InputError if the system refuses, as on a full disk: then the
+  /// unfinished
+  ///   file holds what was written by the calls before, and the writer is of no more use.
   void Write(const Datagrams& datagrams, std::span<const Datagrams::Item> items);
 
   /// Completes the file. @throws InputError if the system refuses.
   void Finish();
+
+  /// Where the packets are until Finish().
+  [[nodiscard]] std::filesystem::path unfinished() const;
 
  private:
   struct Dump;
@@ -39,6 +44,7 @@ class PcapWriter {
   std::uint16_t data_port_;
   std::uint16_t position_port_;
   std::unique_ptr<Dump> dump_;
+  std::int64_t whole_bytes_{};  ///< Of the file after the last Write.
 };
 
 }  // namespace railcast

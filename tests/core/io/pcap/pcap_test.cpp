@@ -121,6 +121,24 @@ TEST(PcapWriter, SaysThatTheDiskIsFull) {
   EXPECT_EQ(result.said, (directory.path() / "a.pcap").string() + ": no space left on device");
 }
 
+TEST(PcapWriter, LeavesWholePacketsOnAFullDisk) {
+  const TemporaryDirectory directory;
+  const auto result = RunOnSmallDisk(directory.path(), [](const std::filesystem::path& disk) {
+    const Datagrams datagrams = ExampleDatagrams();
+    std::uintmax_t num_written = 0;
+    const std::string said = MessageOf([&] {
+      PcapWriter writer(disk / "a.pcap", 2368, 8308);
+      for (; num_written < 1000; ++num_written) writer.Write(datagrams, datagrams.items);
+    });
+    const std::uintmax_t size = 24 + num_written * (3 * (16 + 42) + 1206 + 512);
+    const bool is_whole = std::filesystem::file_size(disk / "a.pcap.part") == size;
+    return said + (is_whole ? ", whole; " : ", torn; ") + ReadAll(disk / "a.pcap.part");
+  });
+  if (!result.refused.empty()) GTEST_SKIP() << result.refused;
+  EXPECT_EQ(result.said,
+            (directory.path() / "a.pcap").string() + ": no space left on device, whole; no error");
+}
+
 TEST(PcapWriter, ReplacesNothingButARegularFileAndLeavesLinks) {
   const TemporaryDirectory directory;
   const std::filesystem::path fifo = directory.path() / "fifo";
