@@ -43,8 +43,10 @@ class FrameEncoder {
  public:
   virtual ~FrameEncoder() = default;
 
-  /// Appends the datagrams that this frame completes, by rising `due_ns`. Frames come in order,
-  /// without a gap. What a frame leaves unfinished, as vendors' packets do, the next one completes.
+  /// Appends the datagrams that this frame completes, by rising `due_ns`. Frames come in order.
+  /// What a frame leaves unfinished, as vendors' packets do, the next one completes. If frames are
+  /// left out between two, so is every datagram that has a part of them, and the others are as
+  /// ever.
   virtual void Encode(const Frame& frame, Datagrams& datagrams) = 0;
 };
 

@@ -75,9 +75,14 @@ class VelodyneEncoder final : public FrameEncoder {
       next_position_ns_ = (frame.stamp_ns + kNsPerS - 1) / kNsPerS * kNsPerS;
     }
     const auto step = static_cast<std::uint32_t>(model_.cycles_per_block());
+    if (next_frame_ && frame.index > *next_frame_) LeaveOut(frame.index - *next_frame_, step);
+    next_frame_ = frame.index + 1;
     for (std::uint32_t column = 0; column < frame.columns; column += step) {
       EncodeCycles(frame, column, column + step);
-      if (num_blocks_ == kBlocksPerPacket) AppendPacket(datagrams);
+      if (num_blocks_ < kBlocksPerPacket) continue;
+      if (!lacks_blocks_) AppendPacket(datagrams);
+      num_blocks_ = 0;
+      lacks_blocks_ = false;
     }
   }
 
@@ -88,9 +93,21 @@ class VelodyneEncoder final : public FrameEncoder {
     return frame.stamp_ns + frame.time_ns[row * frame.width() + column * frame.returns];
   }
 
+  [[nodiscard]] std::size_t BlocksPerAzimuth() const {
+    return model_.blocks_per_cycle() * (is_dual_ ? 2U : 1U);
+  }
+
+  // Goes on in the packet in which the next one begins.
+  void LeaveOut(std::uint32_t num_frames, std::uint32_t step) {
+    const std::uint64_t num_azimuths = azimuths_.size() / step * std::uint64_t{num_frames};
+    const std::uint64_t num_blocks = num_blocks_ + num_azimuths * BlocksPerAzimuth();
+    num_blocks_ = static_cast<std::size_t>(num_blocks % kBlocksPerPacket);
+    lacks_blocks_ = num_blocks_ > 0;
+  }
+
   // The blocks of one azimuth: those of a firing cycle, or one block with two cycles.
   void EncodeCycles(const Frame& frame, std::uint32_t column, std::uint32_t end) {
-    const std::size_t num_blocks = model_.blocks_per_cycle() * (is_dual_ ? 2U : 1U);
+    const std::size_t num_blocks = BlocksPerAzimuth();
     if (num_blocks_ == 0) first_ns_ = FiringNs(frame, first_row_, column);
     last_ns_ = FiringNs(frame, last_row_, end - 1);
     char* const blocks = packet_.data() + num_blocks_ * kBlockSize;
@@ -147,7 +164,6 @@ class VelodyneEncoder final : public FrameEncoder {
                                .port = DatagramPort::kData,
                                .due_ns = last_ns_});
     datagrams.bytes.insert(datagrams.bytes.end(), packet_.begin(), packet_.end());
-    num_blocks_ = 0;
   }
 
   const VelodyneModel& model_;
@@ -160,6 +176,8 @@ class VelodyneEncoder final : public FrameEncoder {
   // The packet under construction.
   std::array<char, kVelodynePacketSize> packet_{};
   std::size_t num_blocks_{};
+  bool lacks_blocks_ = false;  // Of a frame that was left out.
+  std::optional<std::uint32_t> next_frame_;
   std::int64_t first_ns_{};
   std::int64_t last_ns_{};
   std::optional<std::int64_t> next_position_ns_;

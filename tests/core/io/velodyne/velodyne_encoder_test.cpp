@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "core/io/velodyne/reflectivity.h"
 #include "core/io/velodyne/velodyne_packet.h"
@@ -48,6 +50,39 @@ TEST(VelodyneEncoder, CompletesWithTheNextFrameWhatAFrameLeaves) {
   EXPECT_EQ(AzimuthIn(packets[75], 3), scan.AzimuthUnits(1806));
   EXPECT_EQ(AzimuthIn(packets[75], 4), 0);
   EXPECT_EQ(AzimuthIn(packets[75], 5), scan.AzimuthUnits(2));
+}
+
+TEST(VelodyneEncoder, LeavesOutEveryPacketThatHasAPartOfAFrameLeftOut) {
+  struct Format {
+    std::string name;
+    double blocks_per_column;
+  };
+  // Frames are 75 1/3, 347 1/6 and 180 5/6 packets.
+  for (const auto& [name, blocks_per_column] :
+       {Format{"vlp16", 0.5}, Format{"hdl64e", 2.0}, Format{"hdl32e", 1.0}}) {
+    const MadeScan scan(ReadSensor(name));
+    std::vector<Frame> frames;
+    for (std::uint32_t i = 0; i < 9; ++i) frames.push_back(scan.MakeFrame(i));
+    const auto blocks = static_cast<std::size_t>(blocks_per_column * frames[0].columns);
+    ASSERT_NE(blocks % 12, 0U) << "or no packet would be of two frames";
+    const Datagrams all = EncodeAll(name, scan, frames);
+    const auto packets = DataPackets(all);
+    for (const std::size_t num_left_out : {1U, 2U, 5U}) {
+      std::vector<Frame> rest = frames;
+      rest.erase(rest.begin() + 2, rest.begin() + 2 + static_cast<std::ptrdiff_t>(num_left_out));
+      std::vector<std::string> expected;
+      for (std::size_t i = 0; i < packets.size(); ++i) {
+        const bool is_before = 12 * (i + 1) <= 2 * blocks;
+        const bool is_behind = 12 * i >= (2 + num_left_out) * blocks;
+        if (is_before || is_behind) expected.emplace_back(packets[i].begin(), packets[i].end());
+      }
+      std::vector<std::string> got;
+      const Datagrams some = EncodeAll(name, scan, rest);
+      for (const auto packet : DataPackets(some)) got.emplace_back(packet.begin(), packet.end());
+      EXPECT_EQ(got.size(), expected.size()) << name << " without " << num_left_out;
+      EXPECT_TRUE(got == expected) << name << " without " << num_left_out;
+    }
+  }
 }
 
 TEST(VelodyneEncoder, WritesBlocksAsTheManualShowsThem) {
