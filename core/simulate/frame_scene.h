@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/scene/world.h"
@@ -51,6 +52,9 @@ class FrameScenes {
   /// @param world Differs from the store's in the vehicle's way and in objects only: those of the
   ///   same model and instance id are the same.
   void UseWorld(std::shared_ptr<const World> world);
+
+  /// Of the windows that are begun from now on.
+  void UseProgress(WindowProgress progress) { windows_.UseProgress(std::move(progress)); }
 
   /// Waits for the window where it is not ready, and has the next one prepared.
   [[nodiscard]] FrameScene At(std::uint32_t index, std::int64_t stamp_ns);

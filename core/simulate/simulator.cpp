@@ -171,6 +171,10 @@ void Simulator::UseWorld(std::shared_ptr<const World> world) {
   parts_->scenes.UseWorld(std::move(world));
 }
 
+void Simulator::UseProgress(WindowProgress progress) {
+  parts_->scenes.UseProgress(std::move(progress));
+}
+
 void Simulator::Parts::TraceAllCenters(const CastFrame& cast) {
   if (!tracer->needs_all_centers()) return;
   ForEachTile([&](std::size_t tile) {

@@ -14,6 +14,7 @@
 #include "core/scene/world.h"
 #include "core/simulate/scene_store.h"
 #include "core/simulate/simulator_spec.h"
+#include "core/simulate/window_progress.h"
 #include "core/trace/ray_tile.h"
 #include "core/trace/surface.h"
 
@@ -108,6 +109,9 @@ class Simulator {
   /// objects only. Chunks, models and, as long as no object of that world that stands is gone,
   /// windows stay. Frames do not depend on the worlds in between.
   void UseWorld(std::shared_ptr<const World> world);
+  /// Of the windows of the world that are begun from now on, also those in the background. Scan,
+  /// and whatever else needs a window, throws what it throws.
+  void UseProgress(WindowProgress progress);
   /// @param num_threads 0 = all cores.
   void UseThreads(int num_threads);
 

@@ -72,6 +72,11 @@ void WindowSource::UseStanding(std::vector<std::size_t> objects) {
   windows_.clear();
 }
 
+void WindowSource::UseProgress(WindowProgress progress) {
+  const std::lock_guard lock(mutex_);
+  progress_ = std::move(progress);
+}
+
 void WindowSource::AddObjects(int home_chunk,
                               const std::vector<std::size_t>& standing,
                               Window& window,
@@ -121,18 +126,26 @@ void WindowSource::AddChunks(const Chunks& chunks,
   }
 }
 
-std::shared_ptr<const Window> WindowSource::Build(int home_chunk, const Standing& standing) {
+std::shared_ptr<const Window> WindowSource::Build(int home_chunk,
+                                                  const Standing& standing,
+                                                  const WindowProgress& progress) {
   auto window = std::make_shared<Window>();
   window->window_from_world = store_->world()->WorldFromChunk(home_chunk).inverse();
   window->surfaces = fixed_surfaces_;
   std::vector<TracePlacement> placements;
   AddObjects(home_chunk, *standing, *window, placements);
   Chunks chunks;
-  for (const int index : store_->world()->ChunksInReach(home_chunk, range_max_m_)) {
+  const std::vector<int> reach = store_->world()->ChunksInReach(home_chunk, range_max_m_);
+  // The scene of all chunks is a step, too.
+  const std::size_t num_steps = reach.size() + 1;
+  for (const int index : reach) {
+    progress(chunks.size(), num_steps);
     chunks.emplace(index, store_->GetChunk(index));
   }
+  progress(chunks.size(), num_steps);
   AddChunks(chunks, *window, placements);
   window->scene = std::make_unique<TraceScene>(store_->device(), placements);
+  progress(num_steps, num_steps);
   KeepChunks(home_chunk, std::move(chunks));
   store_->ForgetUnusedModels();
   return window;
@@ -154,7 +167,9 @@ void WindowSource::KeepChunks(int home_chunk, Chunks chunks) {
 }
 
 WindowSource::WindowTask WindowSource::Remember(int home_chunk) {
-  WindowTask task([this, home_chunk, standing = standing_] { return Build(home_chunk, standing); });
+  WindowTask task([this, home_chunk, standing = standing_, progress = progress_] {
+    return Build(home_chunk, standing, progress);
+  });
   windows_.emplace(home_chunk, task.get_future().share());
   return task;
 }

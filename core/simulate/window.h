@@ -12,6 +12,7 @@
 
 #include "core/detect/wire_set.h"
 #include "core/simulate/scene_store.h"
+#include "core/simulate/window_progress.h"
 #include "core/trace/surface.h"
 #include "core/trace/trace_scene.h"
 
@@ -50,6 +51,9 @@ class WindowSource {
   /// @pre None of them moves.
   void UseStanding(std::vector<std::size_t> objects);
 
+  /// Of the windows that are begun from now on.
+  void UseProgress(WindowProgress progress);
+
   [[nodiscard]] const SceneStore::StoredObject& object(std::size_t object) const {
     return objects_[object];
   }
@@ -64,7 +68,9 @@ class WindowSource {
   using Standing = std::shared_ptr<const std::vector<std::size_t>>;
   using Chunks = std::map<int, std::shared_ptr<const SceneStore::BuiltChunk>>;
 
-  [[nodiscard]] std::shared_ptr<const Window> Build(int home_chunk, const Standing& standing);
+  [[nodiscard]] std::shared_ptr<const Window> Build(int home_chunk,
+                                                    const Standing& standing,
+                                                    const WindowProgress& progress);
   void AddObjects(int home_chunk,
                   const std::vector<std::size_t>& standing,
                   Window& window,
@@ -89,6 +95,7 @@ class WindowSource {
   std::mutex mutex_;
   std::condition_variable changed_;
   Standing standing_;
+  WindowProgress progress_ = [](std::size_t, std::size_t) {};
   std::map<int, FutureWindow> windows_;  // Of in_use_ and prepared_.
   std::map<int, Chunks> chunks_;         // The same, and of earlier ones until the next is built.
   std::optional<int> in_use_;

@@ -326,5 +326,33 @@ TEST(WindowSource, AWindowListsTheWiresOfItsChunksWhereTheirTubesAre) {
   }
 }
 
+TEST(WindowSource, SaysHowFarAWindowIs) {
+  Line line;
+  std::vector<std::pair<std::size_t, std::size_t>> said;
+  line.windows.UseProgress(
+      [&](std::size_t num_done, std::size_t num_steps) { said.emplace_back(num_done, num_steps); });
+  static_cast<void>(line.windows.Get(0));
+  // Home, two chunks ahead, and the scene.
+  EXPECT_EQ(said, (std::vector<std::pair<std::size_t, std::size_t>>{
+                      {0, 4}, {1, 4}, {2, 4}, {3, 4}, {4, 4}}));
+  static_cast<void>(line.windows.Get(0));
+  EXPECT_EQ(said.size(), 5U) << "it is there";
+}
+
+TEST(WindowSource, IsStoppedBetweenTwoChunks) {
+  Line line;
+  line.windows.UseProgress([](std::size_t num_done, std::size_t) {
+    if (num_done == 1) throw std::runtime_error("stopped");
+  });
+  EXPECT_THROW(static_cast<void>(line.windows.Get(0)), std::runtime_error);
+  EXPECT_EQ(line.world->num_built[0], 1);
+  EXPECT_EQ(line.world->num_built[1], 0);
+  // Whoever waits for one that is built ahead hears of it, too.
+  line.windows.Prepare(9);
+  EXPECT_THROW(static_cast<void>(line.windows.Get(9)), std::runtime_error);
+  line.windows.UseProgress([](std::size_t, std::size_t) {});
+  EXPECT_GT(NumHits(LookAround(*line.windows.Get(0))), 0U);
+}
+
 }  // namespace
 }  // namespace railcast
