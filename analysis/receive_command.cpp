@@ -17,6 +17,7 @@
 #include "analysis/receive/receive_report.h"
 #include "analysis/receive/received_files.h"
 #include "core/base/attempt.h"
+#include "core/io/stop_signals.h"
 #include "core/io/stream/udp_grabber.h"
 
 namespace railcast {
@@ -34,13 +35,12 @@ double Now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// SIGINT and SIGTERM wait until they are asked for: the threads that come after inherit this.
+/// StopSignals() wait until they are asked for: the threads that come after inherit this.
 class HeldSignals {
  public:
   HeldSignals() {
     ::sigemptyset(&signals_);
-    ::sigaddset(&signals_, SIGINT);
-    ::sigaddset(&signals_, SIGTERM);
+    for (const int signal : StopSignals()) ::sigaddset(&signals_, signal);
     ::pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
   }
   /// Whether one comes within 20 ms.

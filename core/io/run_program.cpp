@@ -1,6 +1,7 @@
 #include "core/io/run_program.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -24,6 +25,11 @@ void TakeClosedStreams() {
     if (::fcntl(stream, F_GETFD) >= 0) continue;
     (void)::open("/dev/null", stream == STDOUT_FILENO ? O_RDONLY : O_RDWR);
   }
+}
+
+// Whoever writes beyond `ulimit -f` then hears of it, and names the file.
+void RefuseLargeFiles() {
+  (void)::signal(SIGXFSZ, SIG_IGN);
 }
 
 std::terminate_handler default_terminate = nullptr;
@@ -73,6 +79,7 @@ int RunProgram(const std::string& program,
                const std::function<int()>& main,
                std::ostream& complaints) {
   TakeClosedStreams();
+  RefuseLargeFiles();
   default_terminate = std::set_terminate(Terminate);
   const int status = RunMain(program, main, complaints);
   errno = 0;

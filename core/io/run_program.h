@@ -20,7 +20,8 @@ inline constexpr int kExitInterrupted = 130;  ///< As shells report a program en
 /// disk or a closed stdout is a failed run, not a silent one.
 ///
 /// Before, it takes the numbers of standard streams that are closed, so that no file or socket of
-/// the program gets one and with it the text that was meant for the stream.
+/// the program gets one and with it the text that was meant for the stream. And it sees to it that
+/// a file that grows beyond `ulimit -f` is an error of its writer's, not the program's end.
 /// @param program Its name, for example "railcast-view".
 /// @param complaints Gets one line, "stdout: no space left on device", if that has not arrived.
 /// @return What `main` returns; kExitFailure if it throws, or if that is 0 and something was lost.
