@@ -39,6 +39,8 @@ struct StreamOptions {
   std::optional<std::string> fields;    ///< Of protocol railcast, instead of its default.
   bool has_all_slots = false;           ///< Likewise.
   std::string pacing = "spread";
+  bool drops_late = false;
+  bool sends_singly = false;  ///< Without UDP segmentation offload.
   std::optional<std::filesystem::path> pcap;
   std::optional<std::filesystem::path> calibration;  ///< Of protocol hdl64e.
   bool lockstep = false;

@@ -103,6 +103,12 @@ void AddStream(CLI::App& app, StreamOptions& options, std::function<int()>& comm
           "burst: all of a frame leave at once")
       ->check(CLI::IsMember({"spread", "burst"}))
       ->capture_default_str();
+  stream->add_flag("--drop-late", options.drops_late,
+                   "Leave out frames that cannot be in time, whole; default: all are sent, late");
+  stream->add_flag(
+      "--no-offload", options.sends_singly,
+      "Send datagrams one by one, without UDP segmentation offload, so that captures on "
+      "this machine hold single datagrams");
   stream
       ->add_option(
           "--pcap", options.pcap,

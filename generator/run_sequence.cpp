@@ -5,6 +5,7 @@
 #include <future>
 
 #include "core/base/out_of_memory.h"
+#include "generator/run_stopped.h"
 #include "generator/sequence_directory.h"
 
 namespace railcast {
@@ -31,7 +32,11 @@ void MakeMissingFrames(const SequenceSpec& spec,
   for (std::uint32_t i = num_resumed; i < spec.num_frames && !hooks.is_stopped(); ++i) {
     MadeFrame& next = made[i % 2];
     next.objects.clear();
-    make_frame(spec.start_frame + i, next.frame, next.objects);
+    try {
+      make_frame(spec.start_frame + i, next.frame, next.objects);
+    } catch (const RunStopped&) {
+      break;
+    }
     await_writing();
     const auto doing = [&next] {
       return "writing frame " + std::to_string(next.frame.index) + " (" +

@@ -11,7 +11,8 @@
 
 namespace railcast {
 
-/// Makes frame `index` and what it shows of the world's objects. Called by one thread, in order.
+/// Makes frame `index` and what it shows of the world's objects. Called by one thread, in order. If
+/// it throws RunStopped, the run ends after the frames before.
 using FrameSource =
     std::function<void(std::uint32_t index, Frame& frame, std::vector<ObjectInFrame>& objects)>;
 

@@ -21,6 +21,7 @@
 #include "generator/summary.h"
 #include "generator/terminal_line.h"
 #include "generator/track_limits.h"
+#include "generator/watch_building.h"
 
 namespace railcast {
 namespace {
@@ -153,6 +154,7 @@ int SequenceCommand(const SequenceOptions& options) {
   SurveyedRun frames(run, spec.files.labels);
   // Whatever ends the program, the directory can be resumed.
   CatchStopSignals();
+  WatchBuilding(*simulator, StopRequested);
   ProgressDisplay display;
   const SequenceHooks hooks = {
       [&](std::uint32_t num_done, std::uint32_t num_frames) { display.Show(num_done, num_frames); },

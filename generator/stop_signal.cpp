@@ -4,6 +4,8 @@
 
 #include <atomic>
 
+#include "core/io/stop_signals.h"
+
 namespace railcast {
 namespace {
 
@@ -17,8 +19,7 @@ void CatchStopSignals() {
   struct sigaction action {};
   action.sa_handler = [](int) { stop_requested = true; };
   action.sa_flags = static_cast<int>(SA_RESETHAND);
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
+  for (const int signal : StopSignals()) ::sigaction(signal, &action, nullptr);
 }
 
 bool StopRequested() {

@@ -2,8 +2,8 @@
 
 namespace railcast {
 
-/// From now on SIGINT and SIGTERM end the program in order: StopRequested() is true after the
-/// first. A second one ends it at once.
+/// From now on StopSignals() end the program in order: StopRequested() is true after the first. A
+/// second one of its kind ends it at once.
 void CatchStopSignals();
 
 [[nodiscard]] bool StopRequested();

@@ -16,6 +16,7 @@
 #include "core/scenario/scenario.h"
 #include "generator/commands.h"
 #include "generator/live/command_loop.h"
+#include "generator/live/lag_report.h"
 #include "generator/live/live_streams.h"
 #include "generator/live/live_summary.h"
 #include "generator/stop_signal.h"
@@ -54,6 +55,11 @@ void CheckOptionsTogether(const StreamOptions& options, std::size_t num_sensors)
   needs_commands_port("--lockstep", options.lockstep);
   needs_commands_port("--commands-log", options.commands_log.has_value());
   needs_commands_port("--commands-from", options.commands_from.has_value());
+  if (options.drops_late && (options.lockstep || IsOffline(options))) {
+    throw InputError(
+        std::string("--drop-late: must be left out where frames wait for ") +
+        (options.lockstep ? "steps, as with --lockstep" : "no time, as with --pcap without --to"));
+  }
   if (IsOffline(options) && !options.duration_s && !options.lockstep) {
     throw InputError("--pcap: needs --duration where nobody receives, --to (got none)");
   }
@@ -100,6 +106,7 @@ std::vector<SensorStreamSpec> PlanStreams(const StreamOptions& options,
          .protocol = protocol,
          .to = IsOffline(options) ? std::vector<Endpoint>{}
                                   : EndpointsOf(options, interfaces, protocol),
+         .has_offload = !options.sends_singly,
          .pcap = options.pcap,
          .fields = options.fields ? FieldSelection(*options.fields) : StreamSpec{}.fields,
          .has_all_slots = options.has_all_slots});
@@ -154,6 +161,7 @@ LiveRunSpec RunSpecOf(const StreamOptions& options) {
   LiveRunSpec spec;
   spec.pacing = options.pacing == "burst" ? Pacing::kBurst : Pacing::kSpread;
   spec.lockstep = options.lockstep;
+  spec.drops_late = options.drops_late;
   if (options.duration_s) spec.duration_ns = std::llround(1e9 * *options.duration_s);
   return spec;
 }
@@ -173,13 +181,88 @@ std::unique_ptr<CommandChannel> OpenChannel(const StreamOptions& options) {
   return channel;
 }
 
+/// What a run asks of what is around it, and what it shows meanwhile.
+class RunSurroundings {
+ public:
+  RunSurroundings(LiveStreams& streams, CommandLoop* commands, const StreamOptions& options)
+      : streams_(streams),
+        commands_(commands),
+        is_offline_(IsOffline(options)),
+        lag_(options.drops_late) {}
+
+  [[nodiscard]] LiveHooks Hooks() {
+    return {.is_stopped = [this] { return IsStopped(); },
+            .begin_frames = [this](std::int64_t stamp_ns) { return BeginFrames(stamp_ns); },
+            .end_frames = [this](const RunState& state) { EndFrames(state); }};
+  }
+  void End() {
+    SayCaptureFaults();
+    line_.End();
+  }
+
+ private:
+  // Where nobody receives, a run is for its capture.
+  [[nodiscard]] bool IsStopped() const {
+    return StopRequested() || (is_offline_ && !streams_.CaptureFaults().empty());
+  }
+
+  [[nodiscard]] NextFrames BeginFrames(std::int64_t stamp_ns) {
+    if (commands_ == nullptr) return NextFrames::kMake;
+    const NextFrames next = commands_->BeginFrames(stamp_ns, [this] { return IsStopped(); });
+    if (next == NextFrames::kReset) streams_.Restart();
+    return next;
+  }
+
+  void EndFrames(const RunState& state) {
+    if (commands_ != nullptr) commands_->EndFrames(state.stamp_ns);
+    SayCaptureFaults();
+    if (const auto lag = lag_.After(state)) line_.Say(*lag);
+    line_.Show(LiveProgress(state));
+  }
+
+  void SayCaptureFaults() {
+    const std::vector<std::string> faults = streams_.CaptureFaults();
+    for (; num_faults_said_ < faults.size(); ++num_faults_said_) {
+      line_.Say(faults[num_faults_said_]);
+    }
+  }
+
+  LiveStreams& streams_;
+  CommandLoop* commands_;
+  bool is_offline_;
+  TerminalLine line_;
+  LagReport lag_;
+  std::size_t num_faults_said_ = 0;
+};
+
+/// What becomes of the run, as an exit status.
+int Report(const LiveResult& result,
+           const LiveStreams& streams,
+           const CommandChannel* channel,
+           bool has_times) {
+  std::cout << ShownLines(LiveSummary(result.records, streams.Delivered(), has_times));
+  const std::vector<std::string> capture_faults = streams.CaptureFaults();
+  for (const std::string& fault : capture_faults) std::cout << "capture: " << ShownLines(fault) << "\n";
+  if (channel != nullptr && channel->num_strangers() > 0) {
+    std::cout << "commands of others than the peer: " << channel->num_strangers() << ", dropped\n";
+  }
+  if (channel != nullptr && channel->num_answers() > 0) {
+    std::cout << "answers that came back as commands: " << channel->num_answers() << ", dropped\n";
+  }
+  if (result.fault) std::cerr << ShownLines(*result.fault) << "\n";
+  return result.fault || !capture_faults.empty() ? kExitFailure : kExitSuccess;
+}
+
 }  // namespace
 
 int StreamCommand(const StreamOptions& options) {
   const ScenarioSpec scenario = ReadWithOverrides(options);
   CheckOptionsTogether(options, SensorNames(scenario).size());
   const std::vector<SensorStreamSpec> plan = PlanStreams(options, scenario);
-  LiveStreams streams(scenario, plan, options.num_threads, RunNumber(options));
+  const LiveRunSpec spec = RunSpecOf(options);
+  // What commands will make of the ways of all that moves is not known yet.
+  LiveStreams streams(scenario, plan, options.num_threads, RunNumber(options),
+                      options.commands_port ? std::nullopt : spec.duration_ns);
   if (options.calibration) WriteCalibration(*options.calibration, scenario, plan);
   const auto channel = OpenChannel(options);
   std::optional<CommandLoop> commands;
@@ -187,42 +270,20 @@ int StreamCommand(const StreamOptions& options) {
     commands.emplace(streams.commanded_run(), *channel, options.lockstep, options.commands_log,
                      IdentityOf(scenario).scenario_hash);
   }
+  streams.ChooseFidelity();
   CatchStopSignals();
-  streams.WarmUp();
+  streams.WarmUp(StopRequested);
   std::cout << ShownLines(Describe(plan)) << std::flush;
 
-  TerminalLine line;
-  LiveHooks hooks;
-  hooks.is_stopped = StopRequested;
-  hooks.begin_frames = [&](std::int64_t stamp_ns) {
-    const NextFrames next =
-        commands ? commands->BeginFrames(stamp_ns, StopRequested) : NextFrames::kMake;
-    if (next == NextFrames::kReset) streams.Restart();
-    return next;
-  };
-  hooks.end_frames = [&](std::int64_t stamp_ns, const std::vector<LiveRecord>& records) {
-    if (commands) commands->EndFrames(stamp_ns);
-    std::uint64_t num_late = 0;
-    for (const LiveRecord& record : records) num_late += record.late_frames;
-    line.Show(LiveProgress(stamp_ns, records.front().frames, num_late));
-  };
   MonotonicClock monotonic;
   JumpingClock jumping;
   LiveClock& clock = IsOffline(options) ? static_cast<LiveClock&>(jumping) : monotonic;
-  const LiveResult result = RunLive(RunSpecOf(options), streams.Sensors(), hooks, clock);
-  line.End();
+  RunSurroundings surroundings(streams, commands ? &*commands : nullptr, options);
+  const LiveResult result = RunLive(spec, streams.Sensors(), surroundings.Hooks(), clock);
   if (commands) commands->End(result.fault.value_or("the run has ended"));
   streams.Finish();
-  std::cout << ShownLines(LiveSummary(result.records, streams.Delivered(), !clock.jumps()));
-  if (channel && channel->num_strangers() > 0) {
-    std::cout << "commands of others than the peer: " << channel->num_strangers() << ", dropped\n";
-  }
-  if (channel && channel->num_answers() > 0) {
-    std::cout << "answers that came back as commands: " << channel->num_answers() << ", dropped\n";
-  }
-  if (!result.fault) return kExitSuccess;
-  std::cerr << ShownLines(*result.fault) << "\n";
-  return kExitFailure;
+  surroundings.End();
+  return Report(result, streams, channel.get(), !clock.jumps());
 }
 
 }  // namespace railcast

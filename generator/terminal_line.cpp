@@ -13,6 +13,11 @@ void TerminalLine::Show(std::string_view text) const {
   if (is_terminal_) std::cerr << "\r\033[K" << text << std::flush;
 }
 
+void TerminalLine::Say(std::string_view text) const {
+  Show("");
+  std::cerr << text << "\n" << std::flush;
+}
+
 void TerminalLine::End() const {
   if (is_terminal_) std::cerr << "\n";
 }

@@ -15,21 +15,26 @@ namespace {
 // What stops exactly at the end of its track is still on it, whatever the last digit says.
 constexpr double kTolerance_m = 1e-3;
 
-// The first frame that something has left its track in. Nothing turns round: what has left stays
-// away. @pre It has in `last_frame`.
+// The first frame, or `end`, that is no longer `before`, as are all behind it.
 template <typename Predicate>
-std::uint32_t FirstBeyond(std::uint32_t first_frame,
-                          std::uint32_t last_frame,
-                          const Predicate& is_on_track) {
-  while (first_frame < last_frame) {
-    const std::uint32_t middle = first_frame + (last_frame - first_frame) / 2;
-    if (is_on_track(middle)) {
-      first_frame = middle + 1;
+std::uint32_t FirstBeyond(std::uint32_t begin, std::uint32_t end, const Predicate& is_before) {
+  while (begin < end) {
+    const std::uint32_t middle = begin + (end - begin) / 2;
+    if (is_before(middle)) {
+      begin = middle + 1;
     } else {
-      last_frame = middle;
+      end = middle;
     }
   }
-  return first_frame;
+  return begin;
+}
+
+std::uint32_t FirstStampedAt(const ScanPattern& pattern,
+                             std::int64_t time_ns,
+                             std::uint32_t begin,
+                             std::uint32_t end) {
+  return FirstBeyond(begin, end,
+                     [&](std::uint32_t frame) { return pattern.StampNs(frame) < time_ns; });
 }
 
 /// Where something may be, and where it is.
@@ -92,6 +97,7 @@ void CheckStaysOnTracks(const ScenarioSpec& scenario,
     const auto is_on_track = [&](std::uint32_t frame) {
       return traveller.IsOnTrack(pattern.StampNs(frame) + pattern.time_ns.back());
     };
+    // Nothing turns round: what has left its track stays away.
     if (is_on_track(last_frame)) continue;
     const std::uint32_t frame = FirstBeyond(first_frame, last_frame, is_on_track);
     errors.Add(traveller.Leaves("frame " + std::to_string(frame) + " (" +
@@ -104,19 +110,9 @@ void CheckStaysOnTracks(const CommandedRun& run,
                         const ScanPattern& pattern,
                         std::uint32_t first_frame,
                         std::uint32_t last_frame) {
-  // The first frame, up to the one after the last, that is stamped at that time or later.
+  // Up to the one after the last.
   const auto first_at = [&](std::int64_t time_ns) {
-    std::uint32_t begin = first_frame;
-    std::uint32_t end = last_frame + 1;
-    while (begin < end) {
-      const std::uint32_t middle = begin + (end - begin) / 2;
-      if (pattern.StampNs(middle) < time_ns) {
-        begin = middle + 1;
-      } else {
-        end = middle;
-      }
-    }
-    return begin;
+    return FirstStampedAt(pattern, time_ns, first_frame, last_frame + 1);
   };
   const std::vector<CommandedRun::State>& states = run.states();
   for (std::size_t i = 0; i < states.size(); ++i) {
@@ -126,6 +122,11 @@ void CheckStaysOnTracks(const CommandedRun& run,
     if (begin >= end) continue;
     CheckStaysOnTracks(run.scenario(), *states[i].world, pattern, begin, end - 1);
   }
+}
+
+std::uint32_t LastFrameBefore(const ScanPattern& pattern, std::int64_t time_ns) {
+  const std::uint32_t first = FirstStampedAt(pattern, time_ns, 0, pattern.LastFrame());
+  return pattern.StampNs(first) < time_ns || first == 0 ? first : first - 1;
 }
 
 }  // namespace railcast

@@ -26,4 +26,7 @@ void CheckStaysOnTracks(const CommandedRun& run,
                         std::uint32_t first_frame,
                         std::uint32_t last_frame);
 
+/// The last frame that is stamped before a time, or at which times end; 0 if none is.
+[[nodiscard]] std::uint32_t LastFrameBefore(const ScanPattern& pattern, std::int64_t time_ns);
+
 }  // namespace railcast

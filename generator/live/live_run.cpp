@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "generator/run_stopped.h"
 
 namespace railcast {
 namespace {
@@ -30,6 +31,8 @@ class LiveRun {
     LiveResult result;
     try {
       MakeAll();
+    } catch (const RunStopped&) {
+      // What was made before is sent.
     } catch (const InputError& error) {
       result.fault = error.what();
     }
@@ -99,10 +102,24 @@ class LiveRun {
   void MakeFrames() {
     const std::int64_t stamp_ns = NextStampNs();
     for (std::size_t i = 0; i < sensors_.size(); ++i) {
-      if (NextStampNs(i) == stamp_ns) MakeFrame(i, stamp_ns);
+      if (NextStampNs(i) != stamp_ns) continue;
+      if (spec_.drops_late && next_[i] > 0 && clock_.NowNs() >= DeadlineNs(i, stamp_ns)) {
+        ++next_[i];
+        ++records_[i].dropped_frames;
+      } else {
+        MakeFrame(i, stamp_ns);
+      }
     }
     if (spec_.lockstep) queue_.Flush();
-    hooks_.end_frames(stamp_ns, records_);
+    const std::int64_t now_ns = clock_.NowNs();
+    const std::int64_t behind_ns = now_ns - clock_from_stamp_ns_ - NextStampNs();
+    hooks_.end_frames(
+        {stamp_ns, now_ns, spec_.lockstep ? 0 : std::max<std::int64_t>(0, behind_ns), records_});
+  }
+
+  /// When the frame's period ends.
+  [[nodiscard]] std::int64_t DeadlineNs(std::size_t sensor, std::int64_t stamp_ns) const {
+    return clock_from_stamp_ns_ + stamp_ns + records_[sensor].period_ns;
   }
 
   void MakeFrame(std::size_t sensor, std::int64_t stamp_ns) {
@@ -122,7 +139,7 @@ class LiveRun {
                std::int64_t made_ns,
                OutgoingFrame& outgoing) {
     LiveRecord& record = records_[sensor];
-    const std::int64_t deadline_ns = clock_from_stamp_ns_ + stamp_ns + record.period_ns;
+    const std::int64_t deadline_ns = DeadlineNs(sensor, stamp_ns);
     outgoing.is_burst = spec_.pacing == Pacing::kBurst;
     outgoing.deadline_ns.reset();
     if (outgoing.is_burst) {

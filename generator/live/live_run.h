@@ -20,7 +20,8 @@ struct LiveSensor {
   std::int64_t period_ns{};
   /// Simulation time at which a frame begins.
   std::function<std::int64_t(std::uint32_t frame)> stamp_ns;
-  /// Scans a frame and appends its datagrams. Frames come in order.
+  /// Scans a frame and appends its datagrams. Frames come in order. Throws RunStopped where the run
+  /// was stopped before the frame was made.
   std::function<void(std::uint32_t frame, Datagrams& datagrams)> make;
   /// Called from another thread than `make`, while that makes the next frame.
   DatagramQueue::Send send;
@@ -33,13 +34,23 @@ enum class Pacing {
 
 /// What became of one sensor's frames.
 struct LiveRecord {
-  std::string name;
+  std::string name{};
   std::int64_t period_ns{};
   std::uint64_t frames{};
   /// Not made, in bursts also sent, when their own period ended. None in lockstep.
   std::uint64_t late_frames{};
-  DurationHistogram compute{};  ///< Scanning and encoding, by frame.
+  std::uint64_t dropped_frames{};  ///< Not made, since they would have been late.
+  DurationHistogram compute{};     ///< Scanning and encoding, by frame.
   SentRecord sent{};
+};
+
+/// How far a run is after the frames of one stamp.
+struct RunState {
+  std::int64_t stamp_ns{};
+  std::int64_t now_ns{};     ///< Of the run's clock.
+  std::int64_t behind_ns{};  ///< By how much the next frames begin too late; 0 in lockstep.
+  /// By sensor; not final, since what was sent is not in them.
+  const std::vector<LiveRecord>& records;
 };
 
 enum class NextFrames {
@@ -56,15 +67,14 @@ struct LiveHooks {
   std::function<NextFrames(std::int64_t stamp_ns)> begin_frames = [](std::int64_t) {
     return NextFrames::kMake;
   };
-  /// After they were made, and in lockstep also sent. The records, by sensor, are not final: what
-  /// was sent is not in them.
-  std::function<void(std::int64_t stamp_ns, const std::vector<LiveRecord>&)> end_frames =
-      [](std::int64_t, const std::vector<LiveRecord>&) {};
+  /// After they were made, and in lockstep also sent.
+  std::function<void(const RunState&)> end_frames = [](const RunState&) {};
 };
 
 struct LiveRunSpec {
   Pacing pacing = Pacing::kSpread;
-  bool lockstep = false;  ///< Frames are made when begin_frames says so, not at their time.
+  bool lockstep = false;    ///< Frames are made when begin_frames says so, not at their time.
+  bool drops_late = false;  ///< Frames that cannot be in time are not made. Not in lockstep.
   std::optional<std::int64_t> duration_ns;  ///< Of simulation time; absent = until stopped.
 };
 
@@ -79,7 +89,9 @@ struct LiveResult {
 /// Frame n of a sensor begins at simulation time stamp_ns(n) and is made in the period that begins
 /// at the same time of the clock, counted from the run's start: deadlines are absolute, so nothing
 /// adds up. A frame that is late is made and sent all the same, whole; the following ones go on as
-/// fast as they can until they have caught up.
+/// fast as they can until they have caught up. Or, with drops_late, a frame whose period has ended
+/// before it is begun is left out, all of it; the others are what they always are. A sensor's frame
+/// 0 is always made.
 [[nodiscard]] LiveResult RunLive(const LiveRunSpec& spec,
                                  const std::vector<LiveSensor>& sensors,
                                  const LiveHooks& hooks,

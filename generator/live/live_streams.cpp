@@ -1,8 +1,13 @@
 #include "generator/live/live_streams.h"
 
+#include <utility>
+
 #include "core/scenario/effects.h"
 #include "core/scenario/scenario.h"
 #include "generator/chosen_fidelity.h"
+#include "generator/run_stopped.h"
+#include "generator/track_limits.h"
+#include "generator/watch_building.h"
 
 namespace railcast {
 namespace {
@@ -18,11 +23,17 @@ std::vector<Simulator*> Pointers(const std::vector<std::unique_ptr<Simulator>>& 
 LiveStreams::LiveStreams(const ScenarioSpec& scenario,
                          const std::vector<SensorStreamSpec>& streams,
                          int num_threads,
-                         std::uint32_t run)
+                         std::uint32_t run,
+                         std::optional<std::int64_t> ends_ns)
     : simulators_(MakeSimulators(scenario, num_threads)),
       commanded_(scenario, Pointers(simulators_)),
       frames_(streams.size()),
       run_(run) {
+  for (const auto& simulator : simulators_) {
+    if (!ends_ns) break;
+    CheckStaysOnTracks(commanded_, simulator->pattern(), 0,
+                       LastFrameBefore(simulator->pattern(), *ends_ns));
+  }
   for (std::size_t i = 0; i < streams.size(); ++i) {
     const ScenarioSpec alone = PickSensor(scenario, streams[i].name);
     streams_.push_back(
@@ -30,13 +41,20 @@ LiveStreams::LiveStreams(const ScenarioSpec& scenario,
   }
 }
 
-void LiveStreams::WarmUp() {
-  for (std::size_t i = 0; i < frames_.size(); ++i) {
-    if (commanded_.scenario().fidelity == kAutoFidelity) {
-      const ScenarioSpec alone = PickSensor(commanded_.scenario(), streams_[i]->spec().name);
-      static_cast<void>(UseChosenFidelity(*simulators_[i], alone));
-    }
-    commanded_.At(i, 0).Scan(0, frames_[i]);
+void LiveStreams::ChooseFidelity() {
+  if (commanded_.scenario().fidelity != kAutoFidelity) return;
+  for (std::size_t i = 0; i < simulators_.size(); ++i) {
+    const ScenarioSpec alone = PickSensor(commanded_.scenario(), streams_[i]->spec().name);
+    static_cast<void>(UseChosenFidelity(*simulators_[i], alone));
+  }
+}
+
+void LiveStreams::WarmUp(const std::function<bool()>& is_stopped) {
+  for (const auto& simulator : simulators_) WatchBuilding(*simulator, is_stopped);
+  try {
+    for (std::size_t i = 0; i < frames_.size(); ++i) commanded_.At(i, 0).Scan(0, frames_[i]);
+  } catch (const RunStopped&) {
+    // The run ends with no frame.
   }
 }
 
@@ -70,6 +88,14 @@ void LiveStreams::Restart() {
 
 void LiveStreams::Finish() {
   for (const auto& stream : streams_) stream->Finish();
+}
+
+std::vector<std::string> LiveStreams::CaptureFaults() const {
+  std::vector<std::string> faults;
+  for (const auto& stream : streams_) {
+    if (auto fault = stream->capture_fault()) faults.push_back(std::move(*fault));
+  }
+  return faults;
 }
 
 std::vector<UdpSender::Counts> LiveStreams::Delivered() const {

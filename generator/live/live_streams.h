@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "core/frame/frame.h"
@@ -18,17 +21,23 @@ class LiveStreams {
  public:
   /// @param streams Of the scenario's sensors, in its order.
   /// @param run Tells this start from others in protocol railcast.
-  /// @throws InputError as MakeSimulators() and SensorStream do.
+  /// @param ends_ns Where given, the simulation time until which nothing may leave its track.
+  /// @throws InputError as MakeSimulators(), CheckStaysOnTracks() and SensorStream do, in this
+  /// order:
+  ///   no file is begun for a run that cannot be made.
   LiveStreams(const ScenarioSpec& scenario,
               const std::vector<SensorStreamSpec>& streams,
               int num_threads,
-              std::uint32_t run);
+              std::uint32_t run,
+              std::optional<std::int64_t> ends_ns = std::nullopt);
 
   [[nodiscard]] CommandedRun& commanded_run() { return commanded_; }
 
-  /// Does what happens once and takes long, so that it makes no frame late: builds the scene of
-  /// frame 0, and fidelity auto's choice. @pre Nothing has been made.
-  void WarmUp();
+  /// Makes fidelity auto's choice, if that is the scenario's fidelity. @pre Nothing has been made.
+  void ChooseFidelity();
+  /// Builds the scene of frame 0, which takes long, so that it makes no frame late, and watches
+  /// from now on as WatchBuilding() does. It may end early.
+  void WarmUp(const std::function<bool()>& is_stopped);
 
   /// For RunLive(); valid as long as this.
   [[nodiscard]] std::vector<LiveSensor> Sensors();
@@ -36,8 +45,10 @@ class LiveStreams {
   /// All sensors begin anew with frame 0. The commanded run must have been reset.
   void Restart();
 
-  /// Completes capture files. @throws InputError if the system refuses.
+  /// Completes capture files.
   void Finish();
+  /// A line for each capture that ended early. Thread-safe.
+  [[nodiscard]] std::vector<std::string> CaptureFaults() const;
   /// By sensor. @pre Nothing is being sent.
   [[nodiscard]] std::vector<UdpSender::Counts> Delivered() const;
 

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/base/units.h"
+#include "generator/live/lag_report.h"
 
 namespace railcast {
 namespace {
@@ -22,6 +23,11 @@ void PutQuantiles(std::string_view head, const DurationHistogram& times, std::os
   text << std::setw(kNumberWidth) << static_cast<double>(times.max_ns()) / kNsPerMs << " ms\n";
 }
 
+// Nothing where none was.
+std::string DroppedText(std::uint64_t num_dropped) {
+  return num_dropped > 0 ? ", " + std::to_string(num_dropped) + " dropped" : "";
+}
+
 }  // namespace
 
 std::string LiveSummary(const std::vector<LiveRecord>& records,
@@ -31,9 +37,9 @@ std::string LiveSummary(const std::vector<LiveRecord>& records,
   for (std::size_t i = 0; i < records.size(); ++i) {
     const LiveRecord& record = records[i];
     text << record.name << ": " << record.frames << (record.frames == 1 ? " frame" : " frames")
-         << ", " << record.late_frames << " late; " << record.sent.datagrams << " datagrams, "
-         << record.sent.bytes << " bytes; to receivers " << delivered[i].sent << " sent, "
-         << delivered[i].refused << " refused\n";
+         << ", " << record.late_frames << " late" << DroppedText(record.dropped_frames) << "; "
+         << record.sent.datagrams << " datagrams, " << record.sent.bytes << " bytes; to receivers "
+         << delivered[i].sent << " sent, " << delivered[i].refused << " refused\n";
     if (!has_times) continue;
     text << "  " << std::left << std::setw(kHeadWidth) << "" << std::right;
     for (const std::string_view head : {"p50", "p95", "p99", "max"}) {
@@ -47,10 +53,21 @@ std::string LiveSummary(const std::vector<LiveRecord>& records,
   return text.str();
 }
 
-std::string LiveProgress(std::int64_t stamp_ns, std::uint64_t frames, std::uint64_t late_frames) {
+std::string LiveProgress(const RunState& state) {
+  std::uint64_t num_late = 0;
+  std::uint64_t num_dropped = 0;
+  for (const LiveRecord& record : state.records) {
+    num_late += record.late_frames;
+    num_dropped += record.dropped_frames;
+  }
+  const std::uint64_t frames = state.records.front().frames;
   std::ostringstream text;
-  text << std::fixed << std::setprecision(1) << SecondsFromNs(stamp_ns) << " s, " << frames
-       << (frames == 1 ? " frame" : " frames") << ", " << late_frames << " late";
+  text << std::fixed << std::setprecision(1) << SecondsFromNs(state.stamp_ns) << " s, " << frames
+       << (frames == 1 ? " frame" : " frames") << ", " << num_late << " late"
+       << DroppedText(num_dropped);
+  if (state.behind_ns >= LagReport::kLag_ns) {
+    text << ", " << SecondsFromNs(state.behind_ns) << " s behind";
+  }
   return text.str();
 }
 

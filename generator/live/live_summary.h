@@ -17,9 +17,8 @@ namespace railcast {
                                       const std::vector<UdpSender::Counts>& delivered,
                                       bool has_times);
 
-/// "12.3 s, 123 frames, 0 late": one line, without its end.
-[[nodiscard]] std::string LiveProgress(std::int64_t stamp_ns,
-                                       std::uint64_t frames,
-                                       std::uint64_t late_frames);
+/// "12.3 s, 123 frames, 0 late", of the first sensor's frames and all sensors' late ones; ", 4
+/// dropped" and ", 3.2 s behind" if so: one line, without its end.
+[[nodiscard]] std::string LiveProgress(const RunState& state);
 
 }  // namespace railcast

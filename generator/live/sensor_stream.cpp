@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/base/attempt.h"
+#include "core/base/error.h"
 #include "core/io/stream/stream_encoder.h"
 #include "core/io/velodyne/velodyne_encoder.h"
 #include "core/io/velodyne/velodyne_packet.h"
@@ -20,8 +21,9 @@ SensorStream::SensorStream(SensorStreamSpec spec,
       pattern_(pattern),
       encoder_(MakeEncoder(run)) {
   if (!spec_.to.empty()) {
-    sender_ = AtPlace("receivers of " + spec_.name + ": ",
-                      [&] { return std::make_unique<UdpSender>(spec_.to, kVelodynePositionPort); });
+    sender_ = AtPlace("receivers of " + spec_.name + ": ", [&] {
+      return std::make_unique<UdpSender>(spec_.to, kVelodynePositionPort, spec_.has_offload);
+    });
   }
   if (spec_.pcap) {
     capture_ = std::make_unique<PcapWriter>(*spec_.pcap, DefaultPort(spec_.protocol),
@@ -46,11 +48,33 @@ void SensorStream::Restart(std::uint32_t run) {
 
 void SensorStream::Send(const Datagrams& datagrams, std::span<const Datagrams::Item> items) {
   if (sender_) sender_->Send(datagrams, items);
-  if (capture_) capture_->Write(datagrams, items);
+  UseCapture([&](PcapWriter& capture) {
+    capture.Write(datagrams, items);
+    num_captured_ += items.size();
+  });
 }
 
 void SensorStream::Finish() {
-  if (capture_) capture_->Finish();
+  UseCapture([](PcapWriter& capture) { capture.Finish(); });
+}
+
+template <typename Work>
+void SensorStream::UseCapture(const Work& work) {
+  if (!capture_) return;
+  try {
+    work(*capture_);
+  } catch (const InputError& error) {
+    const std::lock_guard lock(mutex_);
+    capture_fault_ = std::string(error.what()) + "; the capture ends after " +
+                     std::to_string(num_captured_) + " datagrams, in " +
+                     capture_->unfinished().string();
+    capture_.reset();
+  }
+}
+
+std::optional<std::string> SensorStream::capture_fault() const {
+  const std::lock_guard lock(mutex_);
+  return capture_fault_;
 }
 
 UdpSender::Counts SensorStream::delivered() const {

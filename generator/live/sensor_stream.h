@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,12 +25,14 @@ struct SensorStreamSpec {
   std::uint16_t sensor{};  ///< Its number on the vehicle.
   std::string protocol = "railcast";
   std::vector<Endpoint> to;
+  bool has_offload = true;  ///< As UdpSender takes it.
   std::optional<std::filesystem::path> pcap;
   FieldSelection fields;  ///< Of protocol railcast, like the next.
   bool has_all_slots{};
 };
 
-/// Encodes one sensor's frames and hands them to its receivers and to a capture file.
+/// Encodes one sensor's frames and hands them to its receivers and to a capture file. A capture
+/// that the system refuses, as on a full disk, ends; the receivers go on getting all.
 class SensorStream {
  public:
   /// @param scenario With this sensor as its only one.
@@ -51,13 +54,18 @@ class SensorStream {
   /// May be called from another thread than the others.
   void Send(const Datagrams& datagrams, std::span<const Datagrams::Item> items);
 
-  /// Completes the capture file. @throws InputError if the system refuses.
+  /// Completes the capture file.
   void Finish();
+  /// Why the capture ended early, and what there is of it; nothing if it did not. Thread-safe.
+  [[nodiscard]] std::optional<std::string> capture_fault() const;
   /// What its receivers got.
   [[nodiscard]] UdpSender::Counts delivered() const;
 
  private:
   [[nodiscard]] std::unique_ptr<FrameEncoder> MakeEncoder(std::uint32_t run) const;
+  /// Calls `work(capture)`; if that throws, the capture ends.
+  template <typename Work>
+  void UseCapture(const Work& work);
 
   SensorStreamSpec spec_;
   LidarSpec lidar_;
@@ -66,6 +74,9 @@ class SensorStream {
   std::unique_ptr<FrameEncoder> encoder_;
   std::unique_ptr<UdpSender> sender_;    ///< Null if nobody receives.
   std::unique_ptr<PcapWriter> capture_;  ///< Null if nothing is written.
+  std::uint64_t num_captured_{};         ///< Datagrams.
+  mutable std::mutex mutex_;             ///< Of what follows.
+  std::optional<std::string> capture_fault_;
 };
 
 }  // namespace railcast

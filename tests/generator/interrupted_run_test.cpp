@@ -12,6 +12,7 @@
 
 #include "core/io/write_file.h"
 #include "generator/run_sequence.h"
+#include "generator/run_stopped.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/example_run.h"
 
@@ -139,6 +140,19 @@ TEST_P(InterruptedRun, KeepsWhatWasWrittenWhenAFrameCannotBeMade) {
   EXPECT_THROW((void)RunSequence(Spec(directory.path()), failing, NoHooks()), std::runtime_error);
   const auto result = RunSequence(Spec(directory.path()), MakeExampleFrame, NoHooks());
   EXPECT_EQ(result.num_resumed, 5U);
+  EXPECT_EQ(Contents(directory.path()), Undisturbed());
+}
+
+TEST_P(InterruptedRun, ContinuesAfterAStopInTheMiddleOfAFrame) {
+  const TemporaryDirectory directory;
+  const FrameSource stopped = [](std::uint32_t index, Frame& frame, auto& objects) {
+    if (index == 8) throw RunStopped();
+    MakeExampleFrame(index, frame, objects);
+  };
+  const auto first = RunSequence(Spec(directory.path()), stopped, NoHooks());
+  EXPECT_FALSE(first.is_complete);
+  EXPECT_EQ(first.num_done, 5U) << "from frame 3 on";
+  EXPECT_TRUE(RunSequence(Spec(directory.path()), MakeExampleFrame, NoHooks()).is_complete);
   EXPECT_EQ(Contents(directory.path()), Undisturbed());
 }
 

@@ -1,13 +1,8 @@
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <filesystem>
 #include <sstream>
 #include <string>
-#include <thread>
 
 #include "core/io/pcd_reader.h"
 #include "core/io/ply_reader.h"
@@ -260,31 +255,6 @@ TEST(RailcastGenerate, StartsAtAnyFrame) {
   ASSERT_EQ(Generate(command + "last --frames 1 --start-frame 2").status, 0);
   EXPECT_EQ(ReadFileWhole(directory.path() / "all/frames/000002.pcd"),
             ReadFileWhole(directory.path() / "last/frames/000002.pcd"));
-}
-
-TEST(RailcastGenerate, StopsAfterAFrameOnCtrlCAndContinues) {
-  const TemporaryDirectory directory;
-  const std::string out = (directory.path() / "run").string();
-  const std::string file = scenarios_folder + "minimal.json";
-  const pid_t child = ::fork();
-  if (child == 0) {
-    ::execl(RAILCAST_GENERATE, RAILCAST_GENERATE, "sequence", file.c_str(), "--out", out.c_str(),
-            "--frames", "100000", "--fields", "x,y,z", nullptr);
-    ::_exit(127);
-  }
-  while (!std::filesystem::exists(out + "/frames/000001.pcd")) {
-    ASSERT_EQ(::waitpid(child, nullptr, WNOHANG), 0);
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  ::kill(child, SIGINT);
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 130);
-  const auto contents = Contents(out);
-  EXPECT_FALSE(contents.contains("manifest.json"));
-  for (const auto& [name, bytes] : contents)
-    EXPECT_EQ(name.find(".part"), std::string::npos) << name;
 }
 
 TEST(RailcastGenerate, ChecksAScenario) {

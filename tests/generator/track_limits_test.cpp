@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "core/scenario/scenario.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
@@ -76,6 +78,17 @@ TEST_F(TrackLimits, LetATrainStopAtTheVeryEnd) {
                               {.time_s = {}, .s_m = 1000.0, .speed_mps = 0.0}},
                              false};
   EXPECT_EQ(Message(0, 1'000'000), "no error");
+}
+
+TEST_F(TrackLimits, AreAskedForTheFramesBeforeATime) {
+  const ScanPattern pattern = BuildScanPattern(scenario.lidar.scan);  // 10 Hz
+  EXPECT_EQ(LastFrameBefore(pattern, 0), 0U);
+  EXPECT_EQ(LastFrameBefore(pattern, 1), 0U);
+  EXPECT_EQ(LastFrameBefore(pattern, 100'000'000), 0U);
+  EXPECT_EQ(LastFrameBefore(pattern, 100'000'001), 1U);
+  EXPECT_EQ(LastFrameBefore(pattern, 24'100'000'000), 240U);
+  EXPECT_EQ(LastFrameBefore(pattern, std::numeric_limits<std::int64_t>::max()),
+            pattern.LastFrame());
 }
 
 }  // namespace

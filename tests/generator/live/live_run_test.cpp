@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include <thread>
 
 #include "core/base/error.h"
+#include "generator/run_stopped.h"
 
 namespace railcast {
 namespace {
@@ -177,6 +179,60 @@ TEST(LiveRun, CatchesUpAfterAStall) {
   EXPECT_EQ(sensor.sent.back().left_ns, sensor.sent.back().due_ns + sensor.StampNs(1));
 }
 
+TEST(LiveRun, SaysHowFarBehindItIs) {
+  JumpingClock clock;
+  TinySensor sensor(10.0, clock);
+  const std::int64_t period_ns = sensor.StampNs(1);
+  sensor.work = [&](std::uint32_t) { clock.JumpTo(clock.NowNs() + 3 * period_ns / 2); };
+  std::vector<std::int64_t> behind_ns;
+  LiveHooks hooks;
+  hooks.end_frames = [&](const RunState& state) { behind_ns.push_back(state.behind_ns); };
+  static_cast<void>(RecordsOf(Lasting(4 * period_ns), {sensor.Live("a")}, hooks, clock));
+  EXPECT_EQ(behind_ns, (std::vector<std::int64_t>{period_ns / 2, 2 * period_ns / 2,
+                                                  3 * period_ns / 2, 4 * period_ns / 2}));
+}
+
+TEST(LiveRun, DropsWholeFramesThatCannotBeInTime) {
+  for (const Pacing pacing : {Pacing::kSpread, Pacing::kBurst}) {
+    JumpingClock clock;
+    TinySensor sensor(10.0, clock);
+    const std::int64_t period_ns = sensor.StampNs(1);
+    sensor.work = [&](std::uint32_t) { clock.JumpTo(clock.NowNs() + 5 * period_ns / 2); };
+    std::int64_t worst_ns = 0;
+    LiveHooks hooks;
+    hooks.end_frames = [&](const RunState& state) {
+      worst_ns = std::max(worst_ns, state.behind_ns);
+    };
+    LiveRunSpec spec = Lasting(kSecond_ns);
+    spec.pacing = pacing;
+    spec.drops_late = true;
+    const auto records = RecordsOf(spec, {sensor.Live("a")}, hooks, clock);
+    // Begun at 0, 2.5, 5 and 7.5 periods: each the first whose period has not ended.
+    EXPECT_EQ(sensor.made, (std::vector<std::uint32_t>{0, 2, 5, 7}));
+    EXPECT_EQ(records.front().frames, 4U);
+    EXPECT_EQ(records.front().late_frames, 4U);
+    EXPECT_EQ(records.front().dropped_frames, 6U);
+    ASSERT_EQ(sensor.sent.size(), 8U);
+    for (std::size_t i = 0; i < 8; ++i) {
+      const std::uint32_t frame = sensor.made[i / 2];
+      EXPECT_EQ(sensor.sent[i].frame, frame);
+      EXPECT_EQ(sensor.sent[i].due_ns, sensor.StampNs(frame) + (i % 2 == 0 ? 0 : period_ns / 2));
+    }
+    // A frame begins before its period ends, at which the next should begin.
+    EXPECT_LT(worst_ns, 5 * period_ns / 2) << "what a frame takes";
+  }
+}
+
+TEST(LiveRun, DropsNothingWhereAllIsInTime) {
+  JumpingClock clock;
+  TinySensor sensor(10.0, clock);
+  LiveRunSpec spec = Lasting(kSecond_ns);
+  spec.drops_late = true;
+  const auto records = RecordsOf(spec, {sensor.Live("a")}, {}, clock);
+  EXPECT_EQ(records.front().frames, 10U);
+  EXPECT_EQ(records.front().dropped_frames, 0U);
+}
+
 TEST(LiveRun, TakesSeveralSensorsInTheOrderOfTheirStamps) {
   JumpingClock clock;
   TinySensor slow(10.0, clock);
@@ -203,7 +259,8 @@ TEST(LiveRun, SendsEachFrameBeforeTheNextStepInLockstep) {
   hooks.begin_frames = [&](std::int64_t) {
     return num_steps++ < 4 ? NextFrames::kMake : NextFrames::kStop;
   };
-  hooks.end_frames = [&](std::int64_t, const std::vector<LiveRecord>&) {
+  hooks.end_frames = [&](const RunState& state) {
+    EXPECT_EQ(state.behind_ns, 0);
     num_sent_after_step.push_back(sensor.sent.size());
   };
   LiveRunSpec spec;
@@ -248,6 +305,17 @@ TEST(LiveRun, SendsWhatWasMadeBeforeAFrameThatCannotBe) {
   const LiveResult result = RunLive({}, {sensor.Live("a")}, {}, clock);
   EXPECT_EQ(result.fault, "the track ends");
   EXPECT_EQ(result.records.front().frames, 3U);
+  EXPECT_EQ(sensor.sent.size(), 6U);
+}
+
+TEST(LiveRun, EndsWithoutAFrameThatItWasStoppedIn) {
+  JumpingClock clock;
+  TinySensor sensor(10.0, clock);
+  sensor.work = [](std::uint32_t frame) {
+    if (frame == 3) throw RunStopped();
+  };
+  const auto records = RecordsOf({}, {sensor.Live("a")}, {}, clock);
+  EXPECT_EQ(records.front().frames, 3U);
   EXPECT_EQ(sensor.sent.size(), 6U);
 }
 

@@ -23,8 +23,20 @@ TEST(LiveSummary, TellsFramesDatagramsAndQuantiles) {
             "refused\n");
 }
 
+TEST(LiveSummary, TellsDroppedFramesWhereThereAreAny) {
+  const LiveRecord record{.name = "front", .frames = 3, .late_frames = 2, .dropped_frames = 4};
+  EXPECT_EQ(LiveSummary({record}, {{0, 0}}, false),
+            "front: 3 frames, 2 late, 4 dropped; 0 datagrams, 0 bytes; to receivers 0 sent, 0 "
+            "refused\n");
+}
+
 TEST(LiveProgress, IsOneLine) {
-  EXPECT_EQ(LiveProgress(12'300'000'000, 1, 0), "12.3 s, 1 frame, 0 late");
+  const std::vector<LiveRecord> one = {{.frames = 1}};
+  EXPECT_EQ(LiveProgress({12'300'000'000, 0, 999'999'999, one}), "12.3 s, 1 frame, 0 late");
+  const std::vector<LiveRecord> two = {{.frames = 20, .late_frames = 2, .dropped_frames = 1},
+                                       {.frames = 10, .late_frames = 3, .dropped_frames = 3}};
+  EXPECT_EQ(LiveProgress({2'000'000'000, 0, 3'200'000'000, two}),
+            "2.0 s, 20 frames, 5 late, 4 dropped, 3.2 s behind");
 }
 
 }  // namespace

@@ -74,18 +74,6 @@ TEST(Stream, EndsInOrderOnASignal) {
   EXPECT_NE(ended.said.find("lateness"), std::string::npos) << ended.said;
 }
 
-TEST(Stream, SaysWhyItEndsWhereTheTrackDoes) {
-  const TemporaryDirectory folder;
-  const std::string scenario = CoarseScenario(folder.path());
-  const auto capture = folder.path() / "a.pcap";
-  // 400 m at 10 m/s.
-  const Ended ended = Generate("stream " + scenario + " --duration 60 --pcap " + capture.string());
-  EXPECT_EQ(ended.status, 1);
-  EXPECT_NE(ended.said.find("coarse: 800 frames"), std::string::npos) << ended.said;
-  EXPECT_NE(ended.said.find("leaves track \"main\""), std::string::npos) << ended.said;
-  EXPECT_TRUE(std::filesystem::exists(capture));
-}
-
 TEST(Stream, SendsSeveralSensorsOfOneVehicleByOneClock) {
   const TemporaryDirectory folder;
   StreamReceiver front(kAnyLoopbackPort);
@@ -161,10 +149,18 @@ TEST(Stream, SaysWhichOptionsDoNotGoTogether) {
             "--commands-log: needs --commands-port, where commands are heard (got none)\n");
   EXPECT_EQ(fault(scenario + " --pcap a"),
             "--pcap: needs --duration where nobody receives, --to (got none)\n");
+  EXPECT_EQ(fault(scenario + " --drop-late --lockstep --commands-port 9"),
+            "--drop-late: must be left out where frames wait for steps, as with --lockstep\n");
+  EXPECT_EQ(fault(scenario + " --drop-late --pcap a --duration 1"),
+            "--drop-late: must be left out where frames wait for no time, as with --pcap without "
+            "--to\n");
   EXPECT_EQ(fault(two_sensors + " --to :1000"),
             "--to: is for one sensor, to be named by --sensor (got 2 sensors)\n");
   EXPECT_EQ(fault(scenario + " --to 10.0.0.1:0"),
             "--to: the port must be a whole number from 1 to 65535 (got 10.0.0.1:0)\n");
+  EXPECT_EQ(fault(scenario + " --to 010.0.0.1"),
+            "--to: a numeric address must be four numbers from 0 to 255 with dots between, none "
+            "with a leading 0 (got 010.0.0.1)\n");
   EXPECT_EQ(
       fault(scenario + " --to 127.255.255.255:9"),
       "receivers of coarse: must be no network's broadcast address; 255.255.255.255 is one (got "

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <functional>
+
+#include "core/simulate/simulator.h"
+
+namespace railcast {
+
+/// From now on the terminal shows how far a window is that the calling thread waits for, and no
+/// window is built on, here or in the background, once `is_stopped`: then the frame that needs it
+/// ends with RunStopped. A chunk of a window takes a fraction of a second.
+/// @param is_stopped Asked by several threads.
+void WatchBuilding(Simulator& simulator, const std::function<bool()>& is_stopped);
+
+}  // namespace railcast

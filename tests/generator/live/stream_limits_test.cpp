@@ -1,0 +1,136 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "core/io/stream/stream_receiver.h"
+#include "core/io/write_file.h"
+#include "tests/core/io/small_disk.h"
+#include "tests/core/io/temporary_directory.h"
+#include "tests/generator/live/live_process.h"
+
+// What a live run does where something ends: the track, the disk, the machine's speed.
+
+namespace railcast {
+namespace {
+
+/// The coarse scenario with its vehicle elsewhere.
+std::string ScenarioFrom(const std::filesystem::path& folder, const std::string& start_s_m) {
+  std::string text = ReadFileWhole(CoarseScenario(folder));
+  const std::string start = "\"start_s_m\": 200";
+  text.replace(text.find(start), start.size(), "\"start_s_m\": " + start_s_m);
+  const std::filesystem::path file = folder / "from.json";
+  WriteFileWhole(file, text);
+  return file.string();
+}
+
+TEST(Stream, SaysWhyItEndsWhereTheTrackDoes) {
+  const TemporaryDirectory folder;
+  // 5 m at 10 m/s, at 20 Hz: frame 10 begins at the end.
+  const Ended ended = Generate("stream " + ScenarioFrom(folder.path(), "595"));
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_NE(ended.said.find("coarse: 10 frames"), std::string::npos) << ended.said;
+  EXPECT_NE(ended.said.find("leaves track \"main\""), std::string::npos) << ended.said;
+}
+
+TEST(Stream, RefusesADurationBeyondTheTrackAsSequenceDoes) {
+  const TemporaryDirectory folder;
+  const std::string scenario = ScenarioFrom(folder.path(), "595");
+  const auto capture = folder.path() / "a.pcap";
+  const std::string begin = "stream " + scenario + " --pcap " + capture.string();
+  const Ended refused = Generate(begin + " --duration 0.55");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_EQ(refused.said,
+            scenario +
+                ": /vehicle/motion: leaves track \"main\", from 0 to 600 m, at frame 10 "
+                "(0.5 s)\n");
+  EXPECT_EQ(refused.said,
+            Generate("sequence " + scenario + " --frames 11 --out " + folder.path().string() + "/o")
+                .said);
+  EXPECT_FALSE(std::filesystem::exists(capture));
+  EXPECT_FALSE(std::filesystem::exists(capture.string() + ".part"));
+  const Ended done = Generate(begin + " --duration 0.5");
+  EXPECT_EQ(done.status, 0) << done.said;
+  EXPECT_TRUE(std::filesystem::exists(capture));
+  // Commands may change where everything goes.
+  const Ended commanded =
+      Generate("stream " + scenario + " --duration 0.55 --commands-port " + FreePort());
+  EXPECT_NE(commanded.said.find("coarse: 10 frames"), std::string::npos) << commanded.said;
+}
+
+TEST(Stream, GoesOnWithoutItsCaptureOnAFullDisk) {
+  const TemporaryDirectory folder;
+  const TemporaryDirectory disk_folder;
+  const std::string scenario = CoarseScenario(folder.path());
+  const auto run = [&](const std::string& options) {
+    const auto result = RunOnSmallDisk(disk_folder.path(), [&](const std::filesystem::path& disk) {
+      const Ended ended = Generate("stream " + scenario + " --duration 2 --all-slots --pcap " +
+                                   (disk / "a.pcap").string() + options);
+      return std::to_string(ended.status) + " " + ended.said;
+    });
+    EXPECT_EQ(result.refused, "");
+    return result.said;
+  };
+  const std::string fault = (disk_folder.path() / "a.pcap").string() +
+                            ": no space left on device; the capture ends after ";
+  const std::string rest = " datagrams, in " + (disk_folder.path() / "a.pcap.part").string() + "\n";
+  const std::string sent = run(" --to :" + FreePort());
+  EXPECT_EQ(sent.find("1 "), 0U) << sent;
+  EXPECT_NE(sent.find("coarse: 40 frames"), std::string::npos) << sent;
+  EXPECT_NE(sent.find("\ncapture: " + fault), std::string::npos) << sent;
+  EXPECT_NE(sent.find(rest), std::string::npos) << sent;
+  // Where nobody receives, there is nothing to go on for.
+  const std::string alone = run("");
+  EXPECT_EQ(alone.find("1 "), 0U) << alone;
+  EXPECT_EQ(alone.find("coarse: 40 frames"), std::string::npos) << alone;
+  EXPECT_NE(alone.find("\ncapture: " + fault), std::string::npos) << alone;
+}
+
+TEST(Stream, SaysThatItCannotKeepUpAndDropsFramesIfAskedTo) {
+  const TemporaryDirectory folder;
+  std::string text = ReadFileWhole(CoarseScenario(folder.path()));
+  // More frames a second than any machine makes.
+  const std::string rate = "\"rate_hz\": 20";
+  text.replace(text.find(rate), rate.size(), "\"rate_hz\": 20000");
+  const std::string scenario = (folder.path() / "fast.json").string();
+  WriteFileWhole(scenario, text);
+  // Runs until it has said so, and gives all that it said.
+  const auto run_until = [&](const std::string& said, const std::string& option) {
+    const std::string log = (folder.path() / "log").string();
+    return RunCommand(RAILCAST_GENERATE " stream " + scenario + option + " --to :" + FreePort() +
+                      " > " + log + " 2>&1 & i=0; until grep -q '" + said + "' " + log +
+                      " || [ $i = 600 ]; do i=$((i+1)); sleep 0.1; done; " +
+                      "kill -INT $!; wait $!; status=$?; cat " + log + "; exit $status");
+  };
+  const Ended late = run_until("cannot keep up: .* s behind after ", "");
+  EXPECT_EQ(late.status, 0) << late.said;
+  EXPECT_NE(late.said.find(" s behind after "), std::string::npos) << late.said;
+  EXPECT_NE(late.said.find("frames late; --drop-late drops frames instead\n"), std::string::npos);
+  EXPECT_EQ(late.said.find(" dropped; "), std::string::npos) << late.said;
+  const Ended dropping = run_until("cannot keep up: .* frames dropped after ", " --drop-late");
+  EXPECT_EQ(dropping.status, 0) << dropping.said;
+  EXPECT_NE(dropping.said.find(" frames dropped after "), std::string::npos) << dropping.said;
+  EXPECT_NE(dropping.said.find(" dropped; "), std::string::npos) << dropping.said;
+  EXPECT_EQ(dropping.said.find(" s behind"), std::string::npos) << dropping.said;
+}
+
+TEST(Stream, SendsInTimeWhatItDoesNotDropAsItIs) {
+  const TemporaryDirectory folder;
+  const std::string scenario = CoarseScenario(folder.path());
+  StreamReceiver receiver(kAnyLoopbackPort);
+  Stream stream(scenario + " --duration 0.2 --drop-late --no-offload --to " +
+                EndpointText(receiver.at()));
+  const auto out = folder.path() / "out";
+  ASSERT_EQ(Generate("sequence " + scenario + " --frames 4 --out " + out.string()).status, 0);
+  const Ended ended = stream.Wait();
+  EXPECT_EQ(ended.status, 0) << ended.said;
+  const auto first = receiver.Next(kPatience_ms);
+  ASSERT_TRUE(first.has_value());
+  for (auto frame = first; frame; frame = receiver.Next(0)) {
+    const std::string number = std::to_string(frame->header.frame);
+    ExpectSamePoints(*frame, out / ("frames/00000" + number + ".pcd"));
+  }
+}
+
+}  // namespace
+}  // namespace railcast
