@@ -19,6 +19,7 @@
 #include "core/io/progress_line.h"
 #include "core/io/recording/recording.h"
 #include "core/io/text_cursor.h"
+#include "core/io/version.h"
 #include "core/scenario/effects.h"
 #include "core/scenario/scenario.h"
 
@@ -95,7 +96,7 @@ int RunAblation(const CompareOptions& options, const std::string& command_line) 
        scenario.fidelity == kAutoFidelity ? "auto, studied as footprint" : scenario.fidelity},
       {"Frames", std::to_string(frames.size()) + ", a second apart"},
       {"Seed", std::to_string(scenario.seed)},
-      {"Version", RAILCAST_VERSION}};
+      {"Version", ProgramVersion()}};
   EmitReport(MakeAblationReport(studies, "Effects of " + ShownPath(options.scenario.stem()), facts,
                                 command_line),
              options.output, "ablation");

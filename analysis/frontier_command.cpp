@@ -14,6 +14,7 @@
 #include "core/fidelity/choice_report.h"
 #include "core/fidelity/sample_frames.h"
 #include "core/io/progress_line.h"
+#include "core/io/version.h"
 #include "core/io/write_file.h"
 #include "core/scenario/effects.h"
 #include "core/scenario/scenario.h"
@@ -69,7 +70,7 @@ int RunFrontier(const FrontierOptions& options) {
             << ChoiceText(choice, scenario.tolerance) << std::flush;
 
   const FrontierCircumstances circumstances = {
-      RAILCAST_VERSION, ShownPath(options.scenario), scenario.seed,
+      ProgramVersion(), ShownPath(options.scenario), scenario.seed,
       MakeComparisonSpec(scenario.lidar.beam, scenario.lidar.range_max_m,
                          LabelTable(scenario.labels))
           .match_distance_m,

@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/io/command_line.h"
 #include "core/io/run_program.h"
+#include "core/io/version.h"
 
 namespace {
 
@@ -26,7 +27,7 @@ int Main(int argc, char** argv) {
   // What PCL says of single neighbourhoods is no news: what matters is in the figures.
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
   CLI::App app("LiDAR simulation for railways: what frames are worth");
-  app.set_version_flag("--version", "railcast " RAILCAST_VERSION);
+  app.set_version_flag("--version", "railcast " + railcast::ProgramVersion());
   app.require_subcommand(1);
   app.failure_message(railcast::SayWhatIsWrong);
   app.fallthrough();

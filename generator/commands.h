@@ -22,6 +22,7 @@ struct SequenceOptions {
   std::optional<std::string> fidelity;            ///< Overrides the scenario's.
   std::optional<std::string> sensor;              ///< Of several, which one.
   std::optional<std::filesystem::path> commands;  ///< A live run's log, to be replayed.
+  std::string isa;                                ///< Of the trace; empty = the machine's best.
   int num_threads = 0;                            ///< 0 = all cores.
   bool is_verbose = false;
 };
@@ -50,6 +51,7 @@ struct StreamOptions {
   std::optional<double> duration_s;     ///< Of simulation time; absent = until stopped.
   std::optional<std::uint64_t> seed;    ///< Overrides the scenario's.
   std::optional<std::string> fidelity;  ///< Overrides the scenario's.
+  std::string isa;                      ///< As above.
   int num_threads = 0;                  ///< 0 = all cores.
 };
 
@@ -88,6 +90,7 @@ struct TraceOptions {
   std::optional<std::string> sensor;  ///< Of several, which one.
   std::uint32_t frame = 0;
   std::uint32_t firing = 0;
+  std::string isa;  ///< Of the trace; empty = the machine's best.
 };
 
 /// Replays one firing and prints what each effect made of it.

@@ -8,6 +8,7 @@
 #include "core/io/command_line.h"
 #include "core/io/field_selection.h"
 #include "core/io/run_program.h"
+#include "core/io/version.h"
 #include "core/scenario/effects.h"
 #include "core/scenario/scenario.h"
 #include "generator/commands.h"
@@ -33,6 +34,14 @@ void CheckFields(const std::string& fields) {
   } catch (const railcast::InputError& error) {
     throw CLI::ValidationError(error.what());
   }
+}
+
+void AddIsa(CLI::App& command, std::string& isa) {
+  command
+      .add_option("--isa", isa,
+                  "Instruction set that the trace uses: sse4.2, avx2 or avx512; default: the "
+                  "machine's best. The last bits of ranges depend on it")
+      ->check(CLI::IsMember({"sse4.2", "avx2", "avx512"}));
 }
 
 void AddSequence(CLI::App& app, SequenceOptions& options, std::function<int()>& command) {
@@ -64,6 +73,7 @@ void AddSequence(CLI::App& app, SequenceOptions& options, std::function<int()>& 
       ->capture_default_str();
   sequence->add_option("--fidelity", options.fidelity, "Fidelity to use instead of the scenario's")
       ->check(CLI::IsMember(railcast::FidelityNames()));
+  AddIsa(*sequence, options.isa);
   sequence->add_option("--sensor", options.sensor,
                        "Name of the sensor to simulate, of a scenario with several");
   sequence
@@ -141,6 +151,7 @@ void AddStream(CLI::App& app, StreamOptions& options, std::function<int()>& comm
       ->capture_default_str();
   stream->add_option("--fidelity", options.fidelity, "Fidelity to use instead of the scenario's")
       ->check(CLI::IsMember(railcast::FidelityNames()));
+  AddIsa(*stream, options.isa);
   stream->callback([&] {
     if (options.fields) CheckFields(*options.fields);
     command = [&] { return railcast::StreamCommand(options); };
@@ -189,12 +200,13 @@ void AddTrace(CLI::App& app, TraceOptions& options, std::function<int()>& comman
                    "Number of the firing in its frame, from 0, in order of time")
       ->required()
       ->transform(Whole({0, kMaxFrame}));
+  AddIsa(*trace, options.isa);
   trace->callback([&] { command = [&] { return railcast::TraceCommand(options); }; });
 }
 
 int Main(int argc, char** argv) {
   CLI::App app("LiDAR simulation for railways: makes frames from a scenario.");
-  app.set_version_flag("--version", "railcast " RAILCAST_VERSION);
+  app.set_version_flag("--version", "railcast " + railcast::ProgramVersion());
   app.require_subcommand(1);
   app.failure_message(railcast::SayWhatIsWrong);
   app.fallthrough();

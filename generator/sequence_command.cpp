@@ -8,9 +8,11 @@
 #include "core/base/shown_text.h"
 #include "core/fidelity/choice_report.h"
 #include "core/io/scenario_identity.h"
+#include "core/io/version.h"
 #include "core/scenario/command_log.h"
 #include "core/scenario/effects.h"
 #include "core/scenario/scenario.h"
+#include "core/trace/trace_program.h"
 #include "generator/chosen_fidelity.h"
 #include "generator/commanded_run.h"
 #include "generator/commands.h"
@@ -67,7 +69,9 @@ CommandLog ReadLog(const SequenceOptions& options, const Scenarios& scenarios) {
 SequenceSpec MakeSpec(const SequenceOptions& options, const ScenarioSpec& scenario) {
   SequenceSpec spec;
   spec.directory = options.out;
-  spec.version = RAILCAST_VERSION;
+  spec.version = ProgramVersion();
+  spec.embree_version = EmbreeVersion();
+  spec.isa = AtPlace("--", [&] { return IsaInUse(options.isa); });
   spec.identity = IdentityOf(scenario);
   spec.seed = scenario.seed;
   spec.files.format = ParseFrameFormat(options.format);
@@ -134,7 +138,7 @@ int SequenceCommand(const SequenceOptions& options) {
   // A log that says nothing makes the same run as none.
   if (!log.commands.empty()) spec.commands_jsonl = CommandLogText(log);
   if (options.is_verbose) std::cerr << "read " << ShownPath(options.scenario) << "\n";
-  const auto simulator = MakeSimulator(scenario, options.num_threads);
+  const auto simulator = MakeSimulator(scenario, options.num_threads, spec.isa);
   CheckSameFiles(scenario, spec.identity);
   if (options.is_verbose) {
     std::cerr << "made the simulator: " << simulator->pattern().num_firings()

@@ -20,6 +20,8 @@ Json RunObject(const SequenceSpec& spec) {
   // The order in which a difference is looked for: a different seed, or another content of a file,
   // also makes the scenario differ.
   Json run = {{"version", spec.version},
+              {"embree", spec.embree_version},
+              {"isa", spec.isa},
               {"seed", spec.seed},
               {"inputs", inputs},
               {"scenario_xxh3", spec.identity.scenario_hash},
@@ -50,6 +52,21 @@ std::string Text(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
+// Frames of two programs, or of two instruction sets, are not what either would have made.
+std::string ProgramDifference(const std::string& key, const Json& found, const Json& ours) {
+  const std::string another = "choose another --out";
+  if (found.is_null()) {
+    return "was begun by an older railcast, which does not say by which " + key + "; " + another;
+  }
+  const std::string got = Text(found) + " (got " + Text(ours) + "); ";
+  if (key == "isa") {
+    return "must be continued with the instruction set that it was begun with, " + got +
+           "add --isa " + Text(found) + ", or " + another;
+  }
+  return "must be continued by the " + std::string(key == "embree" ? "Embree" : "railcast") +
+         " that began it, " + got + "use that one, or " + another;
+}
+
 // As the command line has it.
 std::string NameOf(const std::string& key) {
   if (key == "num_frames") return "--frames";
@@ -74,6 +91,9 @@ void CheckSameRun(const SequenceSpec& spec, const std::string& run_json) {
   for (const auto& [key, value] : ours.items()) {
     const Json other = found.value(key, Json());
     if (other == value) continue;
+    if (key == "version" || key == "embree" || key == "isa") {
+      throw InputError(place + ProgramDifference(key, other, value));
+    }
     if (key == "inputs" || key == "scenario_xxh3") {
       throw InputError(place + ScenarioDifference(found.value("inputs", Json()), ours["inputs"]) +
                        "; choose another --out");

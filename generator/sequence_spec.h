@@ -13,7 +13,9 @@ namespace railcast {
 /// Everything that a sequence directory's bytes depend on.
 struct SequenceSpec {
   std::filesystem::path directory;
-  std::string version;               ///< Of railcast.
+  std::string version;               ///< ProgramVersion().
+  std::string embree_version;        ///< EmbreeVersion().
+  std::string isa;                   ///< IsaInUse() of the trace.
   ScenarioIdentity identity;         ///< With the command line's seed and rung in it.
   std::string commands_jsonl;        ///< CommandLogText of what is replayed; empty if nothing is.
   std::uint64_t seed{};              ///< The scenario's, for the manifest.

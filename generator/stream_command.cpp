@@ -14,6 +14,7 @@
 #include "core/io/velodyne/calibration_xml.h"
 #include "core/io/write_file.h"
 #include "core/scenario/scenario.h"
+#include "core/trace/trace_program.h"
 #include "generator/commands.h"
 #include "generator/live/command_loop.h"
 #include "generator/live/lag_report.h"
@@ -260,8 +261,9 @@ int StreamCommand(const StreamOptions& options) {
   CheckOptionsTogether(options, SensorNames(scenario).size());
   const std::vector<SensorStreamSpec> plan = PlanStreams(options, scenario);
   const LiveRunSpec spec = RunSpecOf(options);
+  const std::string isa = AtPlace("--", [&] { return IsaInUse(options.isa); });
   // What commands will make of the ways of all that moves is not known yet.
-  LiveStreams streams(scenario, plan, options.num_threads, RunNumber(options),
+  LiveStreams streams(scenario, plan, options.num_threads, RunNumber(options), isa,
                       options.commands_port ? std::nullopt : spec.duration_ns);
   if (options.calibration) WriteCalibration(*options.calibration, scenario, plan);
   const auto channel = OpenChannel(options);

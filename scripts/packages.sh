@@ -6,6 +6,7 @@
 build_packages=(
   cmake
   g++
+  git  # The version names the commit.
   libbenchmark-dev
   libboost-dev
   libcli11-dev

@@ -8,6 +8,7 @@
 
 #include "core/base/shown_text.h"
 #include "core/io/command_line.h"
+#include "core/io/version.h"
 #include "viewer/color/field_values.h"
 #include "viewer/window/view_window.h"
 
@@ -287,7 +288,7 @@ ViewOptions ParseOptions(CLI::App& app, int argc, char** argv) {
   AddCameraOptions(app, options, raw);
   AddPictureOptions(app, options, raw);
   app.add_flag("-v", options.is_verbose, "Print what is shown");
-  app.set_version_flag("--version", RAILCAST_VERSION);
+  app.set_version_flag("--version", ProgramVersion());
   app.footer("Keys in the window:\n" + ViewWindow::KeysText());
   app.failure_message(SayWhatIsWrong);
   app.parse(argc, argv);

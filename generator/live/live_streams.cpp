@@ -24,8 +24,9 @@ LiveStreams::LiveStreams(const ScenarioSpec& scenario,
                          const std::vector<SensorStreamSpec>& streams,
                          int num_threads,
                          std::uint32_t run,
+                         const std::string& isa,
                          std::optional<std::int64_t> ends_ns)
-    : simulators_(MakeSimulators(scenario, num_threads)),
+    : simulators_(MakeSimulators(scenario, num_threads, isa)),
       commanded_(scenario, Pointers(simulators_)),
       frames_(streams.size()),
       run_(run) {

@@ -21,6 +21,7 @@ class LiveStreams {
  public:
   /// @param streams Of the scenario's sensors, in its order.
   /// @param run Tells this start from others in protocol railcast.
+  /// @param isa As MakeSimulators() takes it.
   /// @param ends_ns Where given, the simulation time until which nothing may leave its track.
   /// @throws InputError as MakeSimulators(), CheckStaysOnTracks() and SensorStream do, in this
   /// order:
@@ -29,6 +30,7 @@ class LiveStreams {
               const std::vector<SensorStreamSpec>& streams,
               int num_threads,
               std::uint32_t run,
+              const std::string& isa,
               std::optional<std::int64_t> ends_ns = std::nullopt);
 
   [[nodiscard]] CommandedRun& commanded_run() { return commanded_; }

@@ -14,7 +14,7 @@ using testing::HasSubstr;
 using Json = nlohmann::json;
 
 TEST(RailcastAnalyze, KnowsItsVersionAndItsUse) {
-  EXPECT_EQ(Analyze("--version").said, "railcast " RAILCAST_VERSION "\n");
+  EXPECT_THAT(Analyze("--version").said, testing::StartsWith("railcast " RAILCAST_VERSION));
   EXPECT_THAT(Analyze("frontier --help").said, HasSubstr("--rows"));
   EXPECT_EQ(Analyze("").status, 2);
   EXPECT_EQ(Analyze("frontier").status, 2);

@@ -20,6 +20,8 @@ inline SequenceSpec ExampleRun(const std::filesystem::path& directory,
   SequenceSpec spec;
   spec.directory = directory;
   spec.version = "0.1.0";
+  spec.embree_version = "3.13.5";
+  spec.isa = "avx2";
   spec.identity = {"{\"seed\": 5}\n",
                    ContentHash("{\"seed\": 5}\n"),
                    {{"wagon.obj", ContentHash("a wagon"), "a wagon"},

@@ -265,6 +265,39 @@ TEST(RunSequence, RefusesTheDirectoryOfAnotherRun) {
   EXPECT_NE(RunMessage(other).find("(got x,y,z); choose another --out"), std::string::npos);
 }
 
+TEST(RunSequence, RefusesToMixProgramsAndInstructionSets) {
+  const TemporaryDirectory directory;
+  const SequenceSpec first = ExampleRun(directory.path());
+  (void)RunSequence(first, MakeExampleFrame, NoHooks());
+  const std::string place = directory.path().string() + ": must be continued ";
+  SequenceSpec other = first;
+  other.version = "0.1.0+14c4fad0a1b2";
+  EXPECT_EQ(RunMessage(other),
+            place +
+                "by the railcast that began it, 0.1.0 (got 0.1.0+14c4fad0a1b2); use that one, "
+                "or choose another --out");
+  other = first;
+  other.embree_version = "3.13.6";
+  EXPECT_EQ(RunMessage(other),
+            place +
+                "by the Embree that began it, 3.13.5 (got 3.13.6); use that one, or choose "
+                "another --out");
+  other = first;
+  other.isa = "avx512";
+  EXPECT_EQ(RunMessage(other),
+            place +
+                "with the instruction set that it was begun with, avx2 (got avx512); add --isa "
+                "avx2, or choose another --out");
+  // As railcast wrote it before it kept these.
+  auto older = nlohmann::json::parse(ReadFileWhole(directory.path() / "run.json"));
+  older.erase("isa");
+  WriteFileWhole(directory.path() / "run.json", older.dump());
+  EXPECT_EQ(RunMessage(first),
+            directory.path().string() +
+                ": was begun by an older railcast, which does not say by which isa; choose another "
+                "--out");
+}
+
 // What a run says of a directory with a file of somebody else's.
 std::string StrangerMessage(const std::filesystem::path& directory, const std::string& name) {
   return directory.string() + ": holds a file that is no run's of railcast (" + name +

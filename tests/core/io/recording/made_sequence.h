@@ -55,6 +55,8 @@ inline MadeSequence MakeSequence(const std::filesystem::path& directory,
   SequenceSpec spec;
   spec.directory = directory;
   spec.version = "0.1.0";
+  spec.embree_version = "3.13.5";
+  spec.isa = "avx2";
   spec.identity = IdentityOf(result.scenario);
   spec.files = {ParseFrameFormat(made.format), FieldSelection(made.fields),
                 LabelTable(result.scenario.labels)};

@@ -1,0 +1,45 @@
+# Runs core/io/write_version.cmake on trees of its own: cmake -D SCRIPT=... -D FOLDER=... -P this.
+cmake_minimum_required(VERSION 3.25)
+
+find_program(GIT git REQUIRED)
+file(REMOVE_RECURSE "${FOLDER}")
+file(MAKE_DIRECTORY "${FOLDER}/tree")
+
+function(run)
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY "${FOLDER}/tree" OUTPUT_QUIET
+                  COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+function(expect_version pattern)
+  run(${CMAKE_COMMAND} -D SOURCE_DIR=${FOLDER}/tree -D PROJECT_VERSION=0.1.0 -D
+      OUTPUT=${FOLDER}/version.cpp -P ${SCRIPT})
+  file(READ "${FOLDER}/version.cpp" text)
+  if(NOT text MATCHES "return \"${pattern}\";")
+    message(FATAL_ERROR "must say ${pattern} (got ${text})")
+  endif()
+endfunction()
+
+# A tarball, also if it was unpacked within somebody's repository.
+run(${GIT} init --quiet "${FOLDER}")
+expect_version("0\\.1\\.0")
+
+run(${GIT} init --quiet)
+file(WRITE "${FOLDER}/tree/a.cpp" "int a;\n")
+run(${GIT} add a.cpp)
+run(${GIT} -c user.name=a -c user.email=a@b commit --quiet -m a)
+expect_version("0\\.1\\.0\\+[0-9a-f]+")
+
+# Nothing is compiled again where nothing has changed.
+file(TIMESTAMP "${FOLDER}/version.cpp" before "%s")
+execute_process(COMMAND ${CMAKE_COMMAND} -E sleep 1.1)
+expect_version("0\\.1\\.0\\+[0-9a-f]+")
+file(TIMESTAMP "${FOLDER}/version.cpp" after "%s")
+if(NOT before STREQUAL after)
+  message(FATAL_ERROR "the version was written anew though it is the same")
+endif()
+
+# What is not in the repository does not count, what differs from it does.
+file(WRITE "${FOLDER}/tree/notes.txt" "mine\n")
+expect_version("0\\.1\\.0\\+[0-9a-f]+")
+file(APPEND "${FOLDER}/tree/a.cpp" "int b;\n")
+expect_version("0\\.1\\.0\\+[0-9a-f]+\\.dirty")
