@@ -243,7 +243,8 @@ int Report(const LiveResult& result,
            bool has_times) {
   std::cout << ShownLines(LiveSummary(result.records, streams.Delivered(), has_times));
   const std::vector<std::string> capture_faults = streams.CaptureFaults();
-  for (const std::string& fault : capture_faults) std::cout << "capture: " << ShownLines(fault) << "\n";
+  for (const std::string& fault : capture_faults)
+    std::cout << "capture: " << ShownLines(fault) << "\n";
   if (channel != nullptr && channel->num_strangers() > 0) {
     std::cout << "commands of others than the peer: " << channel->num_strangers() << ", dropped\n";
   }
