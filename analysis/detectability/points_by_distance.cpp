@@ -95,8 +95,8 @@ Chart PointsChart(const std::vector<DetectRun>& runs,
   chart.title = "Points on " + verdict.name + " against distance";
   chart.caption =
       std::string(
-          "Means of 10 m with their intervals; a gap is a bin without points or with "
-          "too few frames. ") +
+          "Means of 10 m, with intervals where there are ten frames or more; a gap is a bin "
+          "without points. ") +
       (verdict.is_in_way ? "In time: the detection stands to the right of what is needed."
                          : "Beside the track: nothing to brake for.");
   chart.x = {.title = "Distance", .unit = "m"};

@@ -18,7 +18,8 @@ constexpr const char* kVehicle =
     R"("world": {"alignment": {"course": {"type": "elements", "elements": [)"
     R"({"type": "straight", "length_m": 1000}]}}, "vegetation": {"trees_per_hectare": 0, )"
     R"("grass": false}, "objects": [{"name": "box", "type": "box", "s_m": 480, "h_m": 0, )"
-    R"("size_m": [2, 2, 3]}]}, "vehicle": {"start_s_m": 400, "motion": {"profile": )"
+    R"("size_m": [2, 2, 3]}, {"name": "man", "type": "person", "s_m": 450, "d_m": -2.5}]}, )"
+    R"("vehicle": {"start_s_m": 400, "motion": {"profile": )"
     R"([{"time_s": 0, "speed_mps": 10}]}}, )";
 
 /// 40 frames towards a box 79 m before the sensor, at 10 m/s.
@@ -75,6 +76,14 @@ TEST(DetectCommand, FindsWhereABoxIsFirstSeenByTwentyBeams) {
       EXPECT_EQ(row.at("outcome"), "too late");
     }
   }
+  // The man stands 2.5 m beside the axis: no reason to brake.
+  const Json& verdicts = report.at("sections").at(0).at("tables").at(0).at("rows");
+  ASSERT_EQ(verdicts.size(), 1U);
+  EXPECT_EQ(verdicts.at(0).at("object"), "box");
+  const Json& beside = report.at("sections").at(1).at("tables").at(0).at("rows");
+  ASSERT_EQ(beside.size(), 1U);
+  EXPECT_EQ(beside.at(0).at("object"), "man");
+  EXPECT_THAT(ended.said, HasSubstr("Beside the track, not judged      man\n"));
   EXPECT_TRUE(exists(out / "report.html"));
 }
 

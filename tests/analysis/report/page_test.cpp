@@ -75,6 +75,16 @@ TEST(ReportPage, LinksEverySection) {
   EXPECT_THAT(page, HasSubstr("<section id=\"section-words\">"));
 }
 
+TEST(ReportPage, ShowsTheRowsOfOpenTablesUnasked) {
+  Report report;
+  const Table open{.key = "a", .title = "First", .columns = {{"x", "X", ""}}, .is_open = true};
+  const Table closed{.key = "b", .title = "Second", .columns = {{"x", "X", ""}}};
+  report.sections = {{.key = "s", .title = "S", .tables = {open, closed}}};
+  const std::string page = ReportPage(report, {});
+  EXPECT_THAT(page, HasSubstr("<details open>\n<summary>First"));
+  EXPECT_THAT(page, HasSubstr("<details>\n<summary>Second"));
+}
+
 TEST(ReportPage, CanBeOfAnEmptyReport) {
   EXPECT_THAT(ReportPage({}, {}), HasSubstr("</html>"));
 }
