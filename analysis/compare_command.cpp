@@ -112,8 +112,8 @@ int RunCompare(const CompareOptions& options, const std::string& command_line) {
 void AddAblationOptions(CLI::App& compare, CompareOptions& options) {
   CLI::Option* const ablate = compare
                                   .add_option("--ablate", options.scenario,
-                                              "Scenario file, instead of two recordings: what does "
-                                              "each of its effects change, beam by beam?")
+                                              "Scenario file, instead of two recordings: what each "
+                                              "of its effects changes, beam by beam")
                                   ->check(NonEmpty());
   compare
       .add_option("--frames", options.num_frames,
@@ -124,7 +124,8 @@ void AddAblationOptions(CLI::App& compare, CompareOptions& options) {
   compare.add_option("--seed", options.seed, "Seed to use instead of the scenario's")
       ->transform(Whole({}))
       ->needs(ablate);
-  compare.add_option("--sensor", options.sensor, "Name of the sensor, of a scenario with several")
+  compare
+      .add_option("--sensor", options.sensor, "Name of the sensor, where the scenario has several")
       ->needs(ablate);
 }
 
@@ -144,8 +145,8 @@ void AddCompare(CLI::App& app, Command& command) {
           [options](const std::string& name) {
             options->pairing = name == "stamp" ? Pairing::kStamp : Pairing::kIndex;
           },
-          "Frames by stamp (nearest within half a period) or by index; if not given, by stamp "
-          "where both have stamps")
+          "How to pair frames: by stamp (the nearest within half a period) or by index; default: "
+          "by stamp where both recordings have stamps")
       ->check(CLI::IsMember({"stamp", "index"}));
   compare
       ->add_option("--distances", options->distances,

@@ -107,7 +107,7 @@ void AddFrontier(CLI::App& app, Command& command) {
       ->transform(Whole({0, 1024}))
       ->capture_default_str();
   frontier->add_option("--sensor", options->sensor,
-                       "Name of the sensor, of a scenario with several");
+                       "Name of the sensor, where the scenario has several");
   frontier
       ->add_option("--rows", options->rows,
                    "Rows of the table to measure, separated by commas, or all")

@@ -26,7 +26,7 @@ std::string CommandLine(int argc, char** argv) {
 int Main(int argc, char** argv) {
   // What PCL says of single neighbourhoods is no news: what matters is in the figures.
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
-  CLI::App app("LiDAR simulation for railways: what frames are worth");
+  CLI::App app("LiDAR simulation for railways: measures and compares point clouds.");
   app.set_version_flag("--version", "railcast " + railcast::ProgramVersion());
   app.require_subcommand(1);
   app.failure_message(railcast::SayWhatIsWrong);

@@ -75,10 +75,11 @@ void AddSequence(CLI::App& app, SequenceOptions& options, std::function<int()>& 
       ->check(CLI::IsMember(railcast::FidelityNames()));
   AddIsa(*sequence, options.isa);
   sequence->add_option("--sensor", options.sensor,
-                       "Name of the sensor to simulate, of a scenario with several");
+                       "Name of the sensor to simulate, where the scenario has several");
   sequence
-      ->add_option("--commands", options.commands,
-                   "Log of a live run to replay; with its scenario it gives the same frames")
+      ->add_option(
+          "--commands", options.commands,
+          "Command log of a live run to replay; with the run's scenario it gives the run's frames")
       ->check(NonEmpty());
   sequence->callback([&] {
     CheckFields(options.fields);
@@ -90,8 +91,9 @@ void AddStream(CLI::App& app, StreamOptions& options, std::function<int()>& comm
   CLI::App* stream = app.add_subcommand(
       "stream", "Send frames over UDP, as real sensors send theirs, until Ctrl-C");
   stream->add_option("SCENARIO", options.scenario, "Scenario file")->required()->check(NonEmpty());
-  stream->add_option("--sensor", options.sensor,
-                     "Name of the only sensor to stream, of a scenario with several; default: all");
+  stream->add_option(
+      "--sensor", options.sensor,
+      "Name of the only sensor to stream, where the scenario has several; default: all");
   stream
       ->add_option(
           "--to", options.to,
@@ -131,15 +133,15 @@ void AddStream(CLI::App& app, StreamOptions& options, std::function<int()>& comm
       ->check(NonEmpty());
   stream
       ->add_option("--commands-port", options.commands_port,
-                   "UDP port to hear commands at, which are lines of JSON; default: none are heard")
+                   "UDP port at which commands are heard, as lines of JSON; default: none")
       ->transform(Whole({1, 65535}));
   stream->add_option("--commands-from", options.commands_from,
-                     "HOST or HOST:PORT to hear commands from; default: this machine only");
+                     "HOST or HOST:PORT from which commands are heard; default: this machine only");
   stream
       ->add_option("--commands-log", options.commands_log,
-                   "Log of the commands to write, for `sequence --commands`")
+                   "File to log the commands to, for `sequence --commands`")
       ->check(NonEmpty());
-  stream->add_flag("--lockstep", options.lockstep, "Wait for the command step before each frame");
+  stream->add_flag("--lockstep", options.lockstep, "Wait for the command `step` before each frame");
   stream
       ->add_option("--duration", options.duration_s,
                    "Seconds of simulation after which to end; default: no end")
@@ -191,7 +193,8 @@ void AddTrace(CLI::App& app, TraceOptions& options, std::function<int()>& comman
   CLI::App* trace =
       app.add_subcommand("trace", "Replay one firing and print what each effect makes of it");
   trace->add_option("SCENARIO", options.scenario, "Scenario file")->required()->check(NonEmpty());
-  trace->add_option("--sensor", options.sensor, "Name of the sensor, of a scenario with several");
+  trace->add_option("--sensor", options.sensor,
+                    "Name of the sensor, where the scenario has several");
   trace->add_option("--frame", options.frame, "Number of the frame")
       ->transform(Whole({0, kMaxFrame}))
       ->capture_default_str();
@@ -214,7 +217,7 @@ int Main(int argc, char** argv) {
       "Exit status: 0 success, 1 bad input or failed run, 2 usage, 130 interrupted (the same\n"
       "command continues).");
   bool is_verbose = false;
-  app.add_flag("-v,--verbose", is_verbose, "Say more about what is done");
+  app.add_flag("-v,--verbose", is_verbose, "Print more about what is done");
   SequenceOptions sequence;
   StreamOptions stream;
   CheckOptions check;

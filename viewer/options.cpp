@@ -123,7 +123,7 @@ void AddSourceOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
   app.add_option("--scenario", options.scenario,
                  "Scenario that a stream or a file was made of: it gives the labels' names, the "
                  "track and the surfaces");
-  app.add_option("--sensor", options.sensor, "Name of the sensor, of a scenario with several");
+  app.add_option("--sensor", options.sensor, "Name of the sensor, where the scenario has several");
   app.add_option("--from", options.from,
                  "HOST or HOST:PORT whose live frames are shown; default: whoever comes first");
   app.add_option("--wait", options.wait_s,
