@@ -121,6 +121,8 @@ class ProgressDisplay {
     line_.Show(ProgressLine(num_done, num_frames, *num_resumed_, elapsed.count()));
     if (num_done == num_frames) line_.End();
   }
+  /// Of a run that is not complete.
+  void Break() const { line_.End(); }
 
  private:
   TerminalLine line_;
@@ -169,6 +171,7 @@ int SequenceCommand(const SequenceOptions& options) {
         frames.Make(index, frame, objects);
       },
       hooks);
+  if (!result.is_complete) display.Break();
   std::cout << Summary(spec, result);
   if (result.is_complete) return kExitSuccess;
   std::cerr << "interrupted; the same command continues with frame "

@@ -1,29 +1,55 @@
 #include "generator/stop_signal.h"
 
 #include <signal.h>
+#include <sys/time.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <string_view>
 
 #include "core/io/stop_signals.h"
+#include "generator/commands.h"
 
 namespace railcast {
 namespace {
 
 // A signal handler can reach nothing else.
 std::atomic<bool> stop_requested{false};
+std::atomic<bool> has_stop_deadline{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
+
+void RequestStop(int /*signal*/) {
+  stop_requested = true;
+  constexpr itimerval kPatience{{0, 0}, {0, 500'000}};
+  if (has_stop_deadline) ::setitimer(ITIMER_REAL, &kPatience, nullptr);
+}
+
+void EndIfBusy(int /*signal*/) {
+  if (!has_stop_deadline) return;
+  constexpr std::string_view kLine = "interrupted\n";
+  static_cast<void>(!::write(STDERR_FILENO, kLine.data(), kLine.size()));
+  ::_exit(kExitInterrupted);
+}
 
 }  // namespace
 
 void CatchStopSignals() {
   struct sigaction action {};
-  action.sa_handler = [](int) { stop_requested = true; };
+  action.sa_handler = RequestStop;
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   for (const int signal : StopSignals()) ::sigaction(signal, &action, nullptr);
+  struct sigaction deadline {};
+  deadline.sa_handler = EndIfBusy;
+  deadline.sa_flags = SA_RESTART;
+  ::sigaction(SIGALRM, &deadline, nullptr);
 }
 
 bool StopRequested() {
   return stop_requested;
+}
+
+void UseStopDeadline(bool has_deadline) {
+  has_stop_deadline = has_deadline;
 }
 
 }  // namespace railcast

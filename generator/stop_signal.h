@@ -8,4 +8,9 @@ void CatchStopSignals();
 
 [[nodiscard]] bool StopRequested();
 
+/// Whether a stop that is requested from now on must not take longer than half a second: if this is
+/// still so then, the program ends at once, with kExitInterrupted. For work that cannot be stopped
+/// and leaves nothing behind that must be tidied up.
+void UseStopDeadline(bool has_deadline);
+
 }  // namespace railcast

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "generator/run_stopped.h"
+#include "generator/stop_signal.h"
 #include "generator/terminal_line.h"
 
 namespace railcast {
@@ -12,11 +13,14 @@ void WatchBuilding(Simulator& simulator, const std::function<bool()>& is_stopped
   const TerminalLine line;
   const std::thread::id waiting = std::this_thread::get_id();
   simulator.UseProgress([=](std::size_t num_done, std::size_t num_steps) {
-    if (is_stopped()) throw RunStopped();
-    if (std::this_thread::get_id() != waiting) return;
-    line.Show(num_done == num_steps
-                  ? ""
-                  : "building the scene: " + std::to_string(100 * num_done / num_steps) + " %");
+    const bool must_stop = is_stopped();
+    if (std::this_thread::get_id() == waiting) {
+      const bool is_over = must_stop || num_done == num_steps;
+      const std::size_t percent = 100 * num_done / num_steps;
+      UseStopDeadline(!is_over);
+      line.Show(is_over ? "" : "building the scene: " + std::to_string(percent) + " %");
+    }
+    if (must_stop) throw RunStopped();
   });
 }
 
