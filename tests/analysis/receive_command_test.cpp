@@ -51,11 +51,13 @@ TEST(ReceiveCommand, TakesNobodyButWhoItIsTold) {
 }
 
 TEST(ReceiveCommand, EndsAtASignalWithItsSummary) {
-  ListeningProgram program(Receive());
-  LiveStream(program.at()).Send(0);
-  program.Interrupt();
-  EXPECT_THAT(program.Rest(), HasSubstr("missing, 0 dropped here; no rate yet\n"));
-  EXPECT_EQ(program.ExitStatus(), 0);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    ListeningProgram program(Receive());
+    LiveStream(program.at()).Send(0);
+    program.Interrupt(signal);
+    EXPECT_THAT(program.Rest(), HasSubstr("missing, 0 dropped here; no rate yet\n"));
+    EXPECT_EQ(program.ExitStatus(), 0);
+  }
 }
 
 TEST(ReceiveCommand, EndsAfterItsDurationWithoutAnySender) {

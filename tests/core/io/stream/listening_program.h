@@ -53,7 +53,7 @@ class ListeningProgram {
     return rest;
   }
   /// As Ctrl-C: timeout passes the signal on.
-  void Interrupt() const { ::kill(pid_, SIGINT); }
+  void Interrupt(int signal = SIGINT) const { ::kill(pid_, signal); }
   /// Waits for the end.
   [[nodiscard]] int ExitStatus() {
     const int status = ::pclose(pipe_);
