@@ -7,6 +7,7 @@
 #include "core/io/recording/capture_recording.h"
 #include "core/io/recording/cloud_recording.h"
 #include "core/io/recording/sequence_recording.h"
+#include "core/io/sequence_files.h"
 #include "core/io/write_file.h"
 
 namespace railcast {
@@ -16,8 +17,9 @@ namespace {
 /// keep them.
 std::unique_ptr<Recording> OpenDirectory(const std::filesystem::path& directory) {
   const std::filesystem::path kitti = directory / "sequences" / "00" / "velodyne";
-  const bool is_sequence = exists(directory / "frames.jsonl");
-  if (is_sequence && !exists(kitti)) return OpenSequence(directory);
+  // Also one that lost its lines: its clouds alone cannot be checked.
+  const bool is_of_run = exists(directory / kRunFile) && exists(directory / kScenarioFile);
+  if (is_of_run || exists(directory / kFramesFile)) return OpenSequence(directory);
   if (exists(directory / "frames.csv")) return OpenReceived(directory);
   for (const auto& place : {directory, directory / "frames", directory / "velodyne", kitti}) {
     auto files = CloudFilesIn(place);

@@ -64,6 +64,17 @@ struct RecordedFrame {
   [[nodiscard]] bool Has(std::string_view field) const { return fields.contains(field); }
 };
 
+/// By whom one of our sequences was made, and what it is.
+struct SequenceOrigin {
+  std::string version;        ///< Of railcast.
+  std::string embree;         ///< Version; empty in directories of older programs, ...
+  std::string isa;            ///< ... as is the instruction set that was traced with.
+  std::string scenario_hash;  ///< Of what it is a run of.
+  std::string data_hash;  ///< Of all its files; empty if it is unfinished or of an older program.
+  bool is_finished{};
+  bool has_commands{};  ///< Whether commands changed what the scenario says.
+};
+
 /// What is known of a recording as a whole.
 struct RecordingInfo {
   std::filesystem::path source;
@@ -74,6 +85,7 @@ struct RecordingInfo {
   bool has_kitti_labels{};
   std::vector<std::string> materials;    ///< Names by id; empty: they have numbers only.
   std::optional<ScenarioSpec> scenario;  ///< Of our sequences, as resolved.
+  std::optional<SequenceOrigin> origin;  ///< Of our sequences, KITTI's format as well.
 };
 
 /// Frames one after another, from a sequence directory, cloud files or a capture.

@@ -78,9 +78,12 @@ FrameLine ReadFrameLine(const std::string& line, const std::string& place) {
     FrameLine result{.frame = json.at("frame"),
                      .stamp_ns = json.at("stamp_ns"),
                      .duration_ns = end.at("time_ns"),
-                     .files = {}};
+                     .files = {},
+                     .records_hash = json.at("records_xxh3")};
     result.world_from_sensor_end = PoseOf(end.at("position_m"), end.at("quaternion_xyzw"), place);
-    for (const Json& file : json.at("files")) result.files.push_back(file.at("name"));
+    for (const Json& file : json.at("files")) {
+      result.files.push_back({file.at("name"), file.at("xxh3"), file.at("bytes")});
+    }
     return result;
   });
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,13 +14,21 @@ namespace railcast {
 // What the line files of a sequence directory say of one frame (docs/files.md). `place` names the
 // file and line in errors: "out/frames.jsonl:3".
 
+/// A file of the directory and what it must hold.
+struct KnownFile {
+  std::string name;                    ///< Relative to the directory.
+  std::string hash;                    ///< ContentHash of its bytes.
+  std::optional<std::uint64_t> bytes;  ///< How many; absent where nothing says it.
+};
+
 /// A line of frames.jsonl.
 struct FrameLine {
   std::uint32_t frame{};
   std::int64_t stamp_ns{};
   std::uint32_t duration_ns{};  ///< From the stamp to the last firing.
   Transform world_from_sensor_end = Transform::Identity();
-  std::vector<std::string> files;  ///< Relative to the directory.
+  std::vector<KnownFile> files;
+  std::string records_hash;  ///< Of the frame's lines in the other line files.
 };
 
 /// @throws InputError "place: rule" if it is none.

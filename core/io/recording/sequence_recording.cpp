@@ -8,9 +8,10 @@
 #include "core/base/error.h"
 #include "core/base/shown_text.h"
 #include "core/io/recording/cloud_frame.h"
-#include "core/io/recording/line_reader.h"
 #include "core/io/recording/sensor_axes.h"
+#include "core/io/recording/sequence_check.h"
 #include "core/io/recording/sequence_lines.h"
+#include "core/io/sequence_files.h"
 #include "core/io/write_file.h"
 #include "core/scan/scan_pattern.h"
 #include "core/scenario/scenario.h"
@@ -30,17 +31,9 @@ struct SequenceContext {
   }
 };
 
-/// A frame's line of each line file.
-struct FrameLines {
-  PlacedLine frame;
-  PlacedLine pose;
-  PlacedLine objects;
-};
-
-std::filesystem::path CloudFileOf(const FrameLine& line, const std::string& place) {
-  for (const std::string& name : line.files) {
-    std::filesystem::path file = name;
-    if (file.extension() == ".pcd" || file.extension() == ".ply") return file;
+const KnownFile& CloudFileOf(const FrameLine& line, const std::string& place) {
+  for (const KnownFile& file : line.files) {
+    if (file.name.ends_with(".pcd") || file.name.ends_with(".ply")) return file;
   }
   throw InputError(place + ": files: must name a .pcd or .ply file");
 }
@@ -52,19 +45,25 @@ void RecomputeRanges(Frame& frame) {
 }
 
 RecordedFrame ReadFrame(const SequenceContext& context, const FrameLines& lines) {
-  const FrameLine line = ReadFrameLine(lines.frame.text, lines.frame.place);
-  const std::filesystem::path file = context.directory / CloudFileOf(line, lines.frame.place);
-  const PointTable table = ReadPointTable(file);
-  RecordedFrame recorded =
-      MakeScanFrame(table, ShownPath(file), context.pattern, file.extension() == ".pcd");
+  const FrameLine line = ReadNextFrameLine(lines);
+  const PlacedLine& pose = lines.records.at(0);
+  const PlacedLine& objects = lines.records.at(1);
+  const KnownFile& known = CloudFileOf(line, lines.frame.place);
+  const std::string file = ShownPath(context.directory / known.name);
+  std::string bytes = ReadKnownFile(context.directory, known, kFramesFile);
+  const bool is_pcd = known.name.ends_with(".pcd");
+  const PointTable table =
+      is_pcd ? ParsePcdTable(file, std::move(bytes)) : ParsePlyTable(file, bytes);
+  RecordedFrame recorded = MakeScanFrame(table, file, context.pattern, is_pcd);
   Frame& frame = recorded.frame;
   frame.index = line.frame;
   frame.stamp_ns = line.stamp_ns;
   frame.duration_ns = line.duration_ns;
-  frame.world_from_sensor = ReadPoseLine(lines.pose.text, line.stamp_ns, lines.pose.place);
+  frame.world_from_sensor = ReadPoseLine(pose.text, line.stamp_ns, pose.place);
   frame.world_from_sensor_end = line.world_from_sensor_end;
   recorded.has_pose = true;
-  recorded.objects = ReadObjectsLine(lines.objects.text, line.frame, lines.objects.place);
+  recorded.objects = ReadObjectsLine(objects.text, line.frame, objects.place);
+  CheckRecords(line, lines);
   if (context.is_in_sensor_axes()) return recorded;
   UndoOutputAxes(context.output, context.vehicle_from_sensor, context.pattern, recorded);
   if (table.Find("range_m") == nullptr) RecomputeRanges(frame);
@@ -86,48 +85,92 @@ std::vector<std::string> ReadMaterialNames(const std::filesystem::path& file) {
   return names;
 }
 
+/// @param place Among the directory's frames; its files are numbered so.
+RecordedFrame ReadKittiFrame(const std::filesystem::path& directory,
+                             const FrameLines& lines,
+                             std::uint32_t place) {
+  const FrameLine line = ReadNextFrameLine(lines);
+  if (line.files.size() != 2 || !line.files[0].name.ends_with(".bin") ||
+      !line.files[1].name.ends_with(".label")) {
+    throw InputError(lines.frame.place + ": files: must name a .bin and a .label file");
+  }
+  CheckRecords(line, lines);
+  const std::string file = (directory / line.files[0].name).string();
+  std::string points = ReadKnownFile(directory, line.files[0], kFramesFile);
+  const std::string labels = ReadKnownFile(directory, line.files[1], kFramesFile);
+  RecordedFrame recorded = MakeCloudFrame(ParseKittiTable(file, std::move(points), labels), file);
+  recorded.frame.index = place;
+  return recorded;
+}
+
 class SequenceRecording : public Recording {
  public:
-  explicit SequenceRecording(const std::filesystem::path& directory)
-      : frames_(directory / "frames.jsonl"),
-        poses_(directory / "poses.csv"),
-        objects_(directory / "objects.jsonl") {
+  explicit SequenceRecording(const SequenceSummary& summary) : lines_(summary) {
+    CheckKnownFiles(summary);
+    const std::filesystem::path& directory = summary.directory;
     info_.source = directory;
     info_.kind = "sequence";
-    info_.num_frames = CountLines(directory / "frames.jsonl");
-    info_.labels = ReadLabelTable(directory / "labels.json");
-    info_.materials = ReadMaterialNames(directory / "materials.json");
-    info_.scenario = ReadScenario(directory / "scenario.resolved.json");
+    info_.num_frames = lines_.num_frames();
+    info_.labels = ReadLabelTable(directory / kLabelsFile);
+    info_.materials = ReadMaterialNames(directory / kMaterialsFile);
+    info_.scenario = ReadScenario(directory / kScenarioFile);
+    info_.origin = OriginOf(summary);
     const LidarSpec& lidar = info_.scenario->lidar;
     context_ = std::make_shared<const SequenceContext>(
         SequenceContext{.directory = directory,
                         .pattern = BuildScanPattern(lidar.scan),
                         .output = info_.scenario->output,
                         .vehicle_from_sensor = VehicleFromSensor(lidar.mount)});
-    (void)poses_.Need();  // The names of its columns.
   }
 
   [[nodiscard]] const RecordingInfo& info() const override { return info_; }
 
   [[nodiscard]] std::optional<FrameReader> Next() override {
-    auto frame = frames_.Next();
-    if (!frame) return std::nullopt;
-    FrameLines lines{std::move(*frame), poses_.Need(), objects_.Need()};
-    return [context = context_, lines = std::move(lines)] { return ReadFrame(*context, lines); };
+    auto lines = lines_.Next();
+    if (!lines) return std::nullopt;
+    return [context = context_, lines = std::move(*lines)] { return ReadFrame(*context, lines); };
   }
 
  private:
   RecordingInfo info_;
   std::shared_ptr<const SequenceContext> context_;
-  LineReader frames_;
-  LineReader poses_;
-  LineReader objects_;
+  FrameLineReader lines_;
+};
+
+/// The clouds of a sequence in KITTI's format, as any of KITTI's but for being checked.
+class KittiRecording : public Recording {
+ public:
+  explicit KittiRecording(const SequenceSummary& summary) : lines_(summary) {
+    CheckKnownFiles(summary);
+    info_.source = summary.directory;
+    info_.kind = "KITTI sequence";
+    info_.num_frames = lines_.num_frames();
+    info_.has_kitti_labels = true;
+    info_.origin = OriginOf(summary);
+  }
+
+  [[nodiscard]] const RecordingInfo& info() const override { return info_; }
+
+  [[nodiscard]] std::optional<FrameReader> Next() override {
+    auto lines = lines_.Next();
+    if (!lines) return std::nullopt;
+    return [directory = info_.source, lines = std::move(*lines), place = next_++] {
+      return ReadKittiFrame(directory, lines, place);
+    };
+  }
+
+ private:
+  RecordingInfo info_;
+  FrameLineReader lines_;
+  std::uint32_t next_{};
 };
 
 }  // namespace
 
 std::unique_ptr<Recording> OpenSequence(const std::filesystem::path& directory) {
-  return std::make_unique<SequenceRecording>(directory);
+  const SequenceSummary summary = ReadSequenceSummary(directory);
+  if (summary.run.format == "kitti") return std::make_unique<KittiRecording>(summary);
+  return std::make_unique<SequenceRecording>(summary);
 }
 
 }  // namespace railcast

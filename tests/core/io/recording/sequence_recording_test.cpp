@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/io/content_hash.h"
 #include "core/io/recording/recording.h"
 #include "tests/core/io/damage.h"
 #include "tests/core/io/message_of.h"
@@ -201,22 +202,50 @@ TEST(SequenceRecording, SaysWhatWasSeenOfEveryObject) {
 }
 
 TEST(SequenceRecording, OfAnInterruptedRunHasTheFramesThatAreDone) {
-  const TemporaryDirectory directory;
-  const auto run = directory.path() / "run";
-  (void)MakeSequence(run, {.fields = "x,y,z"});
-  std::filesystem::remove(run / "manifest.json");
-  const std::string lines = ReadFileWhole(run / "frames.jsonl");
-  WriteFileWhole(run / "frames.jsonl", lines.substr(0, lines.size() - 1));
-  const auto recording = OpenRecording(run);
-  EXPECT_EQ(recording->info().num_frames, 1U);
-  EXPECT_EQ(ReadAll(*recording).size(), 1U);
+  for (const char* format : {"pcd", "kitti"}) {
+    const TemporaryDirectory directory;
+    const auto run = directory.path() / "run";
+    (void)MakeSequence(run, {.format = format});
+    std::filesystem::remove(run / "manifest.json");
+    const std::string lines = ReadFileWhole(run / "frames.jsonl");
+    WriteFileWhole(run / "frames.jsonl", lines.substr(0, lines.size() - 1));
+    const auto recording = OpenRecording(run);
+    EXPECT_EQ(recording->info().num_frames, 1U);
+    EXPECT_FALSE(recording->info().origin->is_finished);
+    EXPECT_EQ(ReadAll(*recording).size(), 1U);
+  }
 }
 
+TEST(SequenceRecording, SaysByWhomItWasMade) {
+  for (const char* format : {"pcd", "kitti"}) {
+    const TemporaryDirectory directory;
+    const auto made = MakeSequence(directory.path() / "run", {.format = format});
+    const auto recording = OpenRecording(directory.path() / "run");
+    ASSERT_TRUE(recording->info().origin.has_value());
+    const SequenceOrigin& origin = *recording->info().origin;
+    EXPECT_EQ(origin.version, "0.1.0");
+    EXPECT_EQ(origin.embree, "3.13.5");
+    EXPECT_EQ(origin.isa, "avx2");
+    EXPECT_EQ(origin.scenario_hash, IdentityOf(made.scenario).scenario_hash);
+    EXPECT_EQ(origin.data_hash.size(), 16U);
+    EXPECT_TRUE(origin.is_finished);
+    EXPECT_FALSE(origin.has_commands);
+  }
+}
+
+// Of an unfinished run, whose lines no manifest vouches for. A changed frame gets a line to match.
 std::string MessageAfter(const char* file, const std::string& from, const std::string& to) {
   const TemporaryDirectory directory;
   const auto run = directory.path() / "run";
   (void)MakeSequence(run, {.fields = "x,y,z"});
-  if (to == "gone") {
+  std::filesystem::remove(run / "manifest.json");
+  if (std::string(file).ends_with(".pcd") && to != "gone") {
+    const std::string before = ReadFileWhole(run / file);
+    const std::string after = Replaced(before, from, to);
+    WriteFileWhole(run / file, after);
+    WriteFileWhole(run / "frames.jsonl", Replaced(ReadFileWhole(run / "frames.jsonl"),
+                                                  ContentHash(before), ContentHash(after)));
+  } else if (to == "gone") {
     std::filesystem::remove(run / file);
   } else {
     WriteFileWhole(run / file, Replaced(ReadFileWhole(run / file), from, to));
@@ -244,6 +273,10 @@ TEST(SequenceRecording, NamesWhatIsDamaged) {
   EXPECT_EQ(MessageAfter("objects.jsonl", "{\"frame\":1", "{\"frame\":2"),
             "objects.jsonl:2: frame: must be 1, as in frames.jsonl (got 2)");
   EXPECT_EQ(MessageAfter("labels.json", "", "gone"), "labels.json: no such file");
+  EXPECT_EQ(MessageAfter("run.json", "\"version\"", "\"verzion\""),
+            "run.json: is damaged: [json.exception.out_of_range.403] key 'version' not found");
+  EXPECT_EQ(MessageAfter("frames.jsonl", "frames/000001.pcd", "../../../01.pcd"),
+            "frames.jsonl: must name files of a sequence (got ../../../01.pcd)");
 }
 
 }  // namespace

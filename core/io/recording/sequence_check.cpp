@@ -1,0 +1,142 @@
+#include "core/io/recording/sequence_check.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/base/shown_text.h"
+#include "core/io/content_hash.h"
+#include "core/io/sequence_files.h"
+#include "core/io/write_file.h"
+
+namespace railcast {
+namespace {
+
+// The first line of poses.csv names its columns.
+std::size_t NumHeaders(std::string_view name) {
+  return name == kPosesFile ? 1 : 0;
+}
+
+// Of a finished run. Lines are counted before files are hashed: that one is missing says more than
+// that something differs.
+void CheckNumLines(const SequenceSummary& summary, std::string_view name) {
+  const std::filesystem::path file = summary.directory / name;
+  const std::size_t num_lines = CountLines(file);
+  const std::size_t num_headers = NumHeaders(name);
+  if (num_lines == summary.manifest->num_frames + num_headers) return;
+  throw InputError(ShownPath(file) + ": must have a line for each of " +
+                   NumberText(summary.manifest->num_frames) + " frames (got " +
+                   NumberText(num_lines - std::min(num_lines, num_headers)) + ")");
+}
+
+}  // namespace
+
+std::string ReadKnownFile(const std::filesystem::path& directory,
+                          const KnownFile& file,
+                          std::string_view said_in) {
+  const std::string said = ", as " + std::string(said_in) + " says (got ";
+  if (!IsSequenceFile(file.name)) {
+    throw InputError(ShownPath(directory / said_in) + ": must name files of a sequence (got " +
+                     ShownText(file.name) + ")");
+  }
+  const std::filesystem::path path = directory / file.name;
+  std::string bytes = ReadFileWhole(path);
+  if (file.bytes && bytes.size() != *file.bytes) {
+    throw InputError(ShownPath(path) + ": must have " + NumberText(*file.bytes) + " bytes" + said +
+                     NumberText(bytes.size()) + ")");
+  }
+  const std::string hash = ContentHash(bytes);
+  if (hash != file.hash) {
+    throw InputError(ShownPath(path) + ": must have the hash " + file.hash + said + hash + ")");
+  }
+  return bytes;
+}
+
+SequenceSummary ReadSequenceSummary(const std::filesystem::path& directory) {
+  const std::filesystem::path run = directory / kRunFile;
+  SequenceSummary summary{directory, ReadRunSummary(ReadFileWhole(run), ShownPath(run)), {}};
+  const std::filesystem::path manifest = directory / kManifestFile;
+  if (exists(manifest)) summary.manifest = ReadManifest(ReadFileWhole(manifest), ShownPath(manifest));
+  return summary;
+}
+
+void CheckKnownFiles(const SequenceSummary& summary) {
+  if (!summary.manifest) {
+    for (const KnownFile& file : summary.run.files) {
+      (void)ReadKnownFile(summary.directory, file, kRunFile);
+    }
+    return;
+  }
+  const Manifest& manifest = *summary.manifest;
+  for (const KnownFile& file : manifest.files) {
+    (void)ReadKnownFile(summary.directory, file, kManifestFile);
+  }
+  const std::string data_hash = DataHash(manifest.files);
+  if (manifest.data_hash.empty() || manifest.data_hash == data_hash) return;
+  throw InputError(ShownPath(summary.directory / kManifestFile) + ": data_xxh3: must be " +
+                   data_hash + ", that of the files (got " + manifest.data_hash + ")");
+}
+
+SequenceOrigin OriginOf(const SequenceSummary& summary) {
+  const RunSummary& run = summary.run;
+  return {.version = run.version,
+          .embree = run.embree,
+          .isa = run.isa,
+          .scenario_hash = run.scenario_hash,
+          .data_hash = summary.manifest ? summary.manifest->data_hash : "",
+          .is_finished = summary.manifest.has_value(),
+          .has_commands = run.has_commands};
+}
+
+std::vector<std::string> RecordFiles(std::string_view format) {
+  std::vector<std::string> files = {std::string(kPosesFile), std::string(kObjectsFile)};
+  if (format == "kitti") {
+    files.emplace_back(kKittiPosesFile);
+    files.emplace_back(kKittiTimesFile);
+  }
+  return files;
+}
+
+FrameLineReader::FrameLineReader(const SequenceSummary& summary)
+    : num_frames_(CountLines(summary.directory / kFramesFile)),
+      next_frame_(summary.run.start_frame),
+      frames_(summary.directory / kFramesFile) {
+  if (summary.manifest) CheckNumLines(summary, kFramesFile);
+  for (const std::string& name : RecordFiles(summary.run.format)) {
+    if (summary.manifest) CheckNumLines(summary, name);
+    records_.emplace_back(summary.directory / name);
+    for (std::size_t i = 0; i < NumHeaders(name); ++i) (void)records_.back().Need();
+  }
+}
+
+std::optional<FrameLines> FrameLineReader::Next() {
+  auto frame = frames_.Next();
+  if (!frame) return std::nullopt;
+  FrameLines lines{next_frame_++, std::move(*frame), {}};
+  for (LineReader& records : records_) lines.records.push_back(records.Need());
+  return lines;
+}
+
+FrameLine ReadNextFrameLine(const FrameLines& lines) {
+  FrameLine line = ReadFrameLine(lines.frame.text, lines.frame.place);
+  if (line.frame == lines.expected_frame) return line;
+  throw InputError(lines.frame.place + ": frame: must be " + NumberText(lines.expected_frame) +
+                   ", one after another (got " + NumberText(line.frame) + ")");
+}
+
+void CheckRecords(const FrameLine& line, const FrameLines& lines) {
+  std::string records;
+  std::string files;
+  for (const PlacedLine& record : lines.records) {
+    records += record.text + "\n";
+    if (!files.empty()) files += ", ";
+    files += std::filesystem::path(record.place).filename().string();
+  }
+  const std::string hash = ContentHash(records);
+  if (hash == line.records_hash) return;
+  throw InputError(lines.frame.place + ": records_xxh3: must be that of the frame's lines in " +
+                   files + ", " + hash + " (got " + line.records_hash + ")");
+}
+
+}  // namespace railcast
