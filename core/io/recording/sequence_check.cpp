@@ -57,7 +57,8 @@ SequenceSummary ReadSequenceSummary(const std::filesystem::path& directory) {
   const std::filesystem::path run = directory / kRunFile;
   SequenceSummary summary{directory, ReadRunSummary(ReadFileWhole(run), ShownPath(run)), {}};
   const std::filesystem::path manifest = directory / kManifestFile;
-  if (exists(manifest)) summary.manifest = ReadManifest(ReadFileWhole(manifest), ShownPath(manifest));
+  if (exists(manifest))
+    summary.manifest = ReadManifest(ReadFileWhole(manifest), ShownPath(manifest));
   return summary;
 }
 

@@ -95,7 +95,7 @@ RecordedFrame ReadKittiFrame(const std::filesystem::path& directory,
     throw InputError(lines.frame.place + ": files: must name a .bin and a .label file");
   }
   CheckRecords(line, lines);
-  const std::string file = (directory / line.files[0].name).string();
+  const std::string file = ShownPath(directory / line.files[0].name);
   std::string points = ReadKnownFile(directory, line.files[0], kFramesFile);
   const std::string labels = ReadKnownFile(directory, line.files[1], kFramesFile);
   RecordedFrame recorded = MakeCloudFrame(ParseKittiTable(file, std::move(points), labels), file);
