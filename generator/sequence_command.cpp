@@ -172,7 +172,7 @@ int SequenceCommand(const SequenceOptions& options) {
       },
       hooks);
   if (!result.is_complete) display.Break();
-  std::cout << Summary(spec, result);
+  std::cout << ShownLines(Summary(spec, result));
   if (result.is_complete) return kExitSuccess;
   std::cerr << "interrupted; the same command continues with frame "
             << spec.start_frame + result.num_done << "\n";
