@@ -26,6 +26,8 @@ void AddDetect(CLI::App& app, Command& command);
 void AddFit(CLI::App& app, Command& command);
 /// Charts speed against accuracy on a scenario.
 void AddFrontier(CLI::App& app, Command& command);
+/// Compares a sequence directory with the hashes that it was written with.
+void AddVerify(CLI::App& app, Command& command);
 /// Counts a live stream in the railcast protocol, and keeps it if asked to, until a signal ends it.
 void AddReceive(CLI::App& app, Command& command);
 

@@ -12,12 +12,14 @@
 #include "analysis/compare/comparison.h"
 #include "analysis/compare/pairing.h"
 #include "analysis/report/output.h"
+#include "analysis/report/provenance.h"
 #include "analysis/thread_limit.h"
 #include "core/base/error.h"
 #include "core/base/shown_text.h"
 #include "core/fidelity/sample_frames.h"
 #include "core/io/progress_line.h"
 #include "core/io/recording/recording.h"
+#include "core/io/scenario_identity.h"
 #include "core/io/text_cursor.h"
 #include "core/io/version.h"
 #include "core/scenario/effects.h"
@@ -72,8 +74,9 @@ int RunPairs(const CompareOptions& options, const std::string& command_line) {
                      ShownPath(options.sources[0]) + " by " + PairingName(pairs.pairing()) +
                      "; see --pair (got none)");
   }
-  EmitReport(MakeCompareReport(comparison, pairs, a->info(), b->info(), command_line),
-             options.output, "compare");
+  Report report = MakeCompareReport(comparison, pairs, a->info(), b->info(), command_line);
+  AddProvenance({a->info(), b->info()}, ProgramVersion(), report);
+  EmitReport(report, options.output, "compare");
   return kExitSuccess;
 }
 
@@ -90,13 +93,14 @@ int RunAblation(const CompareOptions& options, const std::string& command_line) 
       Ablate(*simulator, frames, distances_m,
              [&](const std::string& what, double done) { progress.Show(what, done); });
   progress.End();
-  const std::vector<std::pair<std::string, std::string>> facts = {
-      {"Scenario", ShownPath(options.scenario)},
-      {"Fidelity",
-       scenario.fidelity == kAutoFidelity ? "auto, studied as footprint" : scenario.fidelity},
-      {"Frames", std::to_string(frames.size()) + ", a second apart"},
-      {"Seed", std::to_string(scenario.seed)},
-      {"Version", ProgramVersion()}};
+  Facts facts = {{"Scenario", ShownPath(options.scenario)},
+                 {"Fidelity", scenario.fidelity == kAutoFidelity ? "auto, studied as footprint"
+                                                                 : scenario.fidelity},
+                 {"Frames", std::to_string(frames.size()) + ", a second apart"},
+                 {"Seed", std::to_string(scenario.seed)},
+                 {"Scenario hash", IdentityOf(scenario).scenario_hash},
+                 {"Weather", WeatherText(scenario.weather)}};
+  for (auto& fact : MakerFacts(ProgramVersion())) facts.push_back(std::move(fact));
   EmitReport(MakeAblationReport(studies, "Effects of " + ShownPath(options.scenario.stem()), facts,
                                 command_line),
              options.output, "ablation");

@@ -8,6 +8,7 @@
 #include "analysis/commands.h"
 #include "analysis/detectability/detect_report.h"
 #include "analysis/report/output.h"
+#include "analysis/report/provenance.h"
 #include "core/base/error.h"
 #include "core/base/number_text.h"
 #include "core/base/shown_text.h"
@@ -16,6 +17,7 @@
 #include "core/io/recording/recording.h"
 #include "core/io/scenario_identity.h"
 #include "core/io/text_cursor.h"
+#include "core/io/version.h"
 
 namespace railcast {
 namespace {
@@ -99,8 +101,9 @@ int RunDetect(const DetectOptions& options, const std::string& command_line) {
   }
   progress.End();
   std::ranges::sort(runs, {}, &DetectRun::seed);
-  EmitReport(MakeDetectReport(runs, spec, command_line, FactsOf(infos, num_frames)), options.output,
-             "detect");
+  Report report = MakeDetectReport(runs, spec, command_line, FactsOf(infos, num_frames));
+  AddProvenance(infos, ProgramVersion(), report);
+  EmitReport(report, options.output, "detect");
   return kExitSuccess;
 }
 

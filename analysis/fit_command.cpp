@@ -14,12 +14,14 @@
 #include "analysis/fit/recorded_trials.h"
 #include "analysis/report/joined.h"
 #include "analysis/report/output.h"
+#include "analysis/report/provenance.h"
 #include "analysis/thread_limit.h"
 #include "core/base/error.h"
 #include "core/base/number_text.h"
 #include "core/base/shown_text.h"
 #include "core/io/progress_line.h"
 #include "core/io/recording/recording.h"
+#include "core/io/version.h"
 #include "core/io/write_file.h"
 #include "core/scenario/scenario.h"
 
@@ -103,7 +105,11 @@ FitSettings SettingsOf(const FitOptions& options,
 int RunFit(const FitOptions& options, const std::string& command_line) {
   const tbb::global_control limit = LimitThreads(options.num_threads);
   CheckDistinct(options.sources);
-  const RecordingInfo info = OpenRecording(options.sources.front())->info();
+  std::vector<RecordingInfo> infos;
+  for (const std::filesystem::path& source : options.sources) {
+    infos.push_back(OpenRecording(source)->info());
+  }
+  const RecordingInfo& info = infos.front();
   std::vector<KnownPlane> planes;
   if (!options.planes.empty()) planes = ReadKnownPlanes(options.planes);
   const ProgressLine progress;
@@ -121,7 +127,8 @@ int RunFit(const FitOptions& options, const std::string& command_line) {
   for (const std::filesystem::path& source : options.sources) {
     input.sources.push_back(source.string());
   }
-  const Report report = MakeFitReport(input, trials, settings, result);
+  Report report = MakeFitReport(input, trials, settings, result);
+  AddProvenance(infos, ProgramVersion(), report);
   if (!options.output.out.empty()) {
     MakeFolder(options.output.out);
     WriteFileWhole(options.output.out / "fitted.json", FittedJson(settings, trials, result));

@@ -39,6 +39,7 @@ int Main(int argc, char** argv) {
   railcast::AddFit(app, command);
   railcast::AddFrontier(app, command);
   railcast::AddReceive(app, command);
+  railcast::AddVerify(app, command);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

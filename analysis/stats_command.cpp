@@ -6,6 +6,7 @@
 #include "analysis/commands.h"
 #include "analysis/distinct_sources.h"
 #include "analysis/report/output.h"
+#include "analysis/report/provenance.h"
 #include "analysis/stats/statistics.h"
 #include "analysis/stats/statistics_report.h"
 #include "analysis/thread_limit.h"
@@ -14,6 +15,7 @@
 #include "core/io/progress_line.h"
 #include "core/io/recording/recording.h"
 #include "core/io/scenario_identity.h"
+#include "core/io/version.h"
 
 namespace railcast {
 namespace {
@@ -73,7 +75,9 @@ int RunStats(const StatsOptions& options, const std::string& command_line) {
   if (all.coverage.num_frames() == 0) {
     throw InputError(ShownPath(options.sources.front()) + ": must hold a frame");
   }
-  EmitReport(MakeStatisticsReport(all, infos, command_line), options.output, "stats");
+  Report report = MakeStatisticsReport(all, infos, command_line);
+  AddProvenance(infos, ProgramVersion(), report);
+  EmitReport(report, options.output, "stats");
   return kExitSuccess;
 }
 

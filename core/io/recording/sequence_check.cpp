@@ -48,7 +48,8 @@ std::string ReadKnownFile(const std::filesystem::path& directory,
   }
   const std::string hash = ContentHash(bytes);
   if (hash != file.hash) {
-    throw InputError(ShownPath(path) + ": must have the hash " + file.hash + said + hash + ")");
+    throw InputError(ShownPath(path) + ": must have the hash " + ShownText(file.hash) + said +
+                     hash + ")");
   }
   return bytes;
 }
@@ -137,7 +138,7 @@ void CheckRecords(const FrameLine& line, const FrameLines& lines) {
   const std::string hash = ContentHash(records);
   if (hash == line.records_hash) return;
   throw InputError(lines.frame.place + ": records_xxh3: must be that of the frame's lines in " +
-                   files + ", " + hash + " (got " + line.records_hash + ")");
+                   files + ", " + hash + " (got " + ShownText(line.records_hash) + ")");
 }
 
 }  // namespace railcast

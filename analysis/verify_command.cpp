@@ -1,0 +1,55 @@
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <sstream>
+#include <string>
+
+#include "analysis/commands.h"
+#include "analysis/verify/verification.h"
+#include "core/io/progress_line.h"
+
+namespace railcast {
+namespace {
+
+std::string Amount(std::uint64_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+std::string SummaryOf(const Verification& found) {
+  constexpr double kMega = 1e6;
+  std::ostringstream text;
+  text << (found.faults.empty() ? "whole" : Amount(found.faults.size(), "fault")) << "; read "
+       << Amount(found.num_frames, "frame") << " in " << Amount(found.num_files, "file") << ", "
+       << std::fixed << std::setprecision(1) << static_cast<double>(found.num_bytes) / kMega
+       << " MB";
+  return text.str();
+}
+
+int RunVerify(const std::filesystem::path& directory) {
+  const ProgressLine progress;
+  const Verification found =
+      VerifySequence(directory, [&](double share) { progress.Show("frames", share); });
+  progress.End();
+  for (const std::string& fault : found.faults) std::cout << fault << "\n";
+  std::cout << directory.string() << ": " << SummaryOf(found) << "\n" << std::flush;
+  return found.faults.empty() ? kExitSuccess : kExitFailure;
+}
+
+}  // namespace
+
+void AddVerify(CLI::App& app, Command& command) {
+  const auto directory = std::make_shared<std::filesystem::path>();
+  CLI::App* verify = app.add_subcommand(
+      "verify", "Whether a sequence directory is as it was written: a line for every fault");
+  verify
+      ->add_option("DIR", *directory,
+                   "Directory that railcast-generate sequence made, any --format")
+      ->required()
+      ->check(NonEmpty());
+  verify->callback([&command, directory] {
+    command = [directory](const std::string&) { return RunVerify(*directory); };
+  });
+}
+
+}  // namespace railcast

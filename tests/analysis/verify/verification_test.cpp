@@ -1,0 +1,183 @@
+#include "analysis/verify/verification.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/core/io/message_of.h"
+#include "tests/core/io/recording/damaged_run.h"
+#include "tests/generator/example_run.h"
+
+namespace railcast {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+std::vector<std::string> FaultsOf(const std::filesystem::path& directory) {
+  return VerifySequence(directory, [](double) {}).faults;
+}
+
+/// A run of three example frames, from frame 3 on. Files can be changed one after another.
+class Verify : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    SequenceSpec spec = ExampleRun(path(), GetParam(), 3);
+    spec.commands_jsonl = "{}\n";
+    (void)RunSequence(spec, MakeExampleFrame, NoHooks());
+  }
+  [[nodiscard]] const std::filesystem::path& path() const { return directory_.path(); }
+  [[nodiscard]] bool is_kitti() const { return GetParam() == std::string("kitti"); }
+  /// Of the faults, each without the folder.
+  [[nodiscard]] std::vector<std::string> Faults() const {
+    std::vector<std::string> faults = FaultsOf(path());
+    for (std::string& fault : faults) {
+      const std::string place = path().string() + "/";
+      EXPECT_TRUE(fault.starts_with(place)) << fault;
+      fault.erase(0, place.size());
+    }
+    return faults;
+  }
+  void Replace(const std::string& file, const std::string& from, const std::string& to) const {
+    WriteFileWhole(path() / file, Replaced(ReadFileWhole(path() / file), from, to));
+  }
+
+ private:
+  TemporaryDirectory directory_;
+};
+
+TEST_P(Verify, FindsNothingInWhatWasJustWritten) {
+  const Verification found = VerifySequence(path(), [](double) {});
+  EXPECT_THAT(found.faults, IsEmpty());
+  EXPECT_EQ(found.num_frames, 3U);
+  std::uint64_t num_bytes = 0;
+  const auto contents = Contents(path());
+  for (const auto& [name, bytes] : contents) num_bytes += bytes.size();
+  EXPECT_EQ(found.num_files, contents.size() - 1);  // All but the manifest.
+  EXPECT_EQ(found.num_bytes, num_bytes - contents.at("manifest.json").size());
+}
+
+TEST_P(Verify, FindsAFlippedBitWhereverItIs) {
+  for (const auto& [name, bytes] : Contents(path())) {
+    WriteFileWhole(path() / name, Flipped(bytes, bytes.size() / 2));
+    std::string said;
+    try {
+      for (const std::string& fault : Faults()) said += fault + "\n";
+    } catch (const InputError& error) {
+      said = error.what();  // run.json must be legible.
+    }
+    // A line of frames.jsonl may name what it does not mean any more.
+    EXPECT_THAT(said, testing::AnyOf(HasSubstr(name), HasSubstr("frames.jsonl"))) << name;
+    WriteFileWhole(path() / name, bytes);
+  }
+  EXPECT_THAT(Faults(), IsEmpty());
+}
+
+TEST_P(Verify, FindsWhatIsMissing) {
+  for (const auto& [name, bytes] : Contents(path())) {
+    if (name == "run.json") continue;
+    std::filesystem::remove(path() / name);
+    const auto faults = Faults();
+    ASSERT_FALSE(faults.empty()) << name;
+    EXPECT_EQ(faults.front(), name == "manifest.json" ? name + ": missing: the run is unfinished"
+                                                      : name + ": no such file or directory");
+    EXPECT_EQ(faults.size(), 1U) << name << testing::PrintToString(faults);
+    WriteFileWhole(path() / name, bytes);
+  }
+}
+
+TEST_P(Verify, FindsWhatIsTooMuch) {
+  const std::string folder = is_kitti() ? "sequences/00/velodyne" : "frames";
+  const std::string ninth = folder + (is_kitti() ? "/000009.bin" : "/000009.pcd");
+  WriteFileWhole(path() / ninth, "");
+  WriteFileWhole(path() / "letter.txt", "dear");
+  const std::string rule = ": is named neither in manifest.json nor in frames.jsonl";
+  EXPECT_THAT(Faults(), testing::UnorderedElementsAre(ninth + rule, "letter.txt" + rule));
+}
+
+TEST_P(Verify, FindsAMissingLineOnceAndGoesOn) {
+  const std::string lines = ReadFileWhole(path() / "frames.jsonl");
+  const std::size_t first = lines.find('\n') + 1;
+  const std::size_t second = lines.find('\n', first) + 1;
+  WriteFileWhole(path() / "frames.jsonl", lines.substr(0, first) + lines.substr(second));
+  const auto faults = Faults();
+  ASSERT_EQ(faults.size(), 3U + (is_kitti() ? 2U : 1U)) << testing::PrintToString(faults);
+  EXPECT_THAT(faults[0], testing::StartsWith("frames.jsonl: must have the hash "));
+  EXPECT_EQ(faults[1], "frames.jsonl: must have a line for each of 3 frames (got 2)");
+  EXPECT_EQ(faults[2], "frames.jsonl:2: frame: must be 4, one after another (got 5)");
+  // What the line named.
+  EXPECT_THAT(faults[3], HasSubstr(": is named neither in manifest.json nor in frames.jsonl"));
+}
+
+TEST_P(Verify, ComparesTheManifestWithWhatItSumsUp) {
+  const std::string whole = ReadFileWhole(path() / "manifest.json");
+  const auto manifest = nlohmann::json::parse(whole);
+  const std::string points = manifest.at("points").dump();
+  Replace("manifest.json", "\"points\": " + points, "\"points\": 1");
+  EXPECT_THAT(Faults(), ElementsAre("manifest.json: /points: must be " + points +
+                                    ", the sum over frames.jsonl (got 1)"));
+  WriteFileWhole(path() / "manifest.json", whole);
+  Replace("manifest.json", "\"num_frames\": 3", "\"num_frames\": 4");
+  EXPECT_THAT(Faults(),
+              ElementsAre("manifest.json: /num_frames: must be 3, as run.json says (got 4)"));
+  WriteFileWhole(path() / "manifest.json", whole);
+  const std::string hash = manifest.at("data_xxh3");
+  Replace("manifest.json", hash, "0000000000000000");
+  EXPECT_THAT(Faults(), ElementsAre("manifest.json: /data_xxh3: must be " + hash +
+                                    ", that of the files (got 0000000000000000)"));
+  WriteFileWhole(path() / "manifest.json", whole);
+  Replace("manifest.json", "\"labels.json\"", "\"lables.json\"");
+  EXPECT_THAT(Faults(), ElementsAre("manifest.json: /files_xxh3: must name labels.json",
+                                    "manifest.json: must name files of a sequence (got "
+                                    "lables.json)",
+                                    "labels.json: is named neither in manifest.json nor in "
+                                    "frames.jsonl"));
+}
+
+TEST_P(Verify, GoesAsFarAsAnUnfinishedRunDoes) {
+  std::filesystem::remove(path() / "manifest.json");
+  const std::string lines = ReadFileWhole(path() / "frames.jsonl");
+  const std::size_t last = lines.rfind('\n', lines.size() - 2) + 1;
+  WriteFileWhole(path() / "frames.jsonl", lines.substr(0, last + 5));  // A torn line.
+  WriteFileWhole(
+      path() / (is_kitti() ? "sequences/00/velodyne/000002.bin.part" : "frames/000005.pcd.part"),
+      "half");
+  const Verification found = VerifySequence(path(), [](double) {});
+  EXPECT_EQ(found.num_frames, 2U);
+  EXPECT_THAT(Faults(), ElementsAre("manifest.json: missing: the run is unfinished"));
+  WriteFileWhole(path() / "letter.txt", "dear");
+  const std::string scenario = ReadFileWhole(path() / "scenario.resolved.json");
+  WriteFileWhole(path() / "scenario.resolved.json", scenario + " ");
+  EXPECT_THAT(Faults(),
+              ElementsAre("manifest.json: missing: the run is unfinished",
+                          "scenario.resolved.json: must have the hash " + ContentHash(scenario) +
+                              ", as run.json says (got " + ContentHash(scenario + " ") + ")",
+                          "letter.txt: is no file of a sequence"));
+}
+
+TEST_P(Verify, SaysThatAnOlderDirectoryIsOne) {
+  auto run = nlohmann::ordered_json::parse(ReadFileWhole(path() / "run.json"));
+  run.erase("isa");
+  run.erase("embree");
+  WriteFileWhole(path() / "run.json", run.dump());
+  EXPECT_EQ(Faults().front(),
+            "run.json: is of an older railcast, which named neither the instruction set nor "
+            "Embree, and whose scenario names files elsewhere");
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, Verify, testing::Values("pcd", "kitti"));
+
+TEST(Verification, RefusesWhatIsNoSequence) {
+  const TemporaryDirectory directory;
+  EXPECT_EQ(MessageOf([&] { (void)FaultsOf(directory.path()); }),
+            (directory.path() / "run.json").string() + ": no such file or directory");
+}
+
+}  // namespace
+}  // namespace railcast
