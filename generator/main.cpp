@@ -81,6 +81,9 @@ void AddSequence(CLI::App& app, SequenceOptions& options, std::function<int()>& 
           "--commands", options.commands,
           "Command log of a live run to replay; with the run's scenario it gives the run's frames")
       ->check(NonEmpty());
+  sequence->footer(
+      "Exit status: 0 success, 1 bad input or failed run, 2 usage, 130 interrupted (the same\n"
+      "command continues).");
   sequence->callback([&] {
     CheckFields(options.fields);
     command = [&] { return railcast::SequenceCommand(options); };
@@ -213,9 +216,7 @@ int Main(int argc, char** argv) {
   app.require_subcommand(1);
   app.failure_message(railcast::SayWhatIsWrong);
   app.fallthrough();
-  app.footer(
-      "Exit status: 0 success, 1 bad input or failed run, 2 usage, 130 interrupted (the same\n"
-      "command continues).");
+  app.footer("Exit status: 0 success, 1 bad input or failed run, 2 usage.");
   bool is_verbose = false;
   app.add_flag("-v,--verbose", is_verbose, "Print more about what is done");
   SequenceOptions sequence;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/option_rules.h"
+#include "core/base/shown_text.h"
 #include "core/scenario/json_rules.h"
 
 // What the programs' command lines have in common.
@@ -54,19 +55,25 @@ namespace railcast {
   return "";
 }
 
-/// For CLI::App::failure_message: CLI11 calls a misspelt command a missing one, and so it does with
-/// an option that is required.
-[[nodiscard]] inline std::string SayWhatIsWrong(const CLI::App* app, const CLI::Error& error) {
-  const std::string unknown_option = UnknownOption(app);
-  if (!unknown_option.empty()) return unknown_option + "\nRun with --help for more information.\n";
+/// The line for a word that should be a command and is none; empty if there is a command, or no
+/// word.
+[[nodiscard]] inline std::string UnknownCommand(const CLI::App* app) {
   const std::vector<std::string> words = app->remaining();
   const bool has_word = !words.empty() && !words.front().starts_with('-');
   const bool lacks_command = !app->get_subcommands({}).empty() && app->get_subcommands().empty();
-  if (!lacks_command || !has_word) return CLI::FailureMessage::simple(app, error);
+  if (!lacks_command || !has_word) return "";
   std::vector<std::string> names;
   for (const CLI::App* known : app->get_subcommands({})) names.push_back(known->get_name());
-  return Unknown("command", words.front(), names) + " (got " + words.front() +
-         ")\nRun with --help for more information.\n";
+  return Unknown("command", words.front(), names) + " (got " + words.front() + ")";
+}
+
+/// For CLI::App::failure_message: CLI11 calls a misspelt command a missing one, and so it does with
+/// an option that is required. Arguments are shown as ShownLines() shows them.
+[[nodiscard]] inline std::string SayWhatIsWrong(const CLI::App* app, const CLI::Error& error) {
+  for (const std::string& fault : {UnknownOption(app), UnknownCommand(app)}) {
+    if (!fault.empty()) return ShownLines(fault) + "\nRun with --help for more information.\n";
+  }
+  return ShownLines(CLI::FailureMessage::simple(app, error));
 }
 
 }  // namespace railcast

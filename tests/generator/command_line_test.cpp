@@ -91,6 +91,17 @@ TEST(CommandLine, NamesAMisspeltCommand) {
   ExpectUsageError("", "A subcommand is required");
 }
 
+TEST(CommandLine, PrintsNoArgumentRaw) {
+  ExpectUsageError("\"$(printf 'a\\033[2Jb')\"",
+                   "unknown command, must be \"sequence\", \"stream\", \"check\", \"world\" or "
+                   "\"trace\" (got a\\u001b[2Jb)");
+  ExpectUsageError("sequence a.json --out b \"--$(printf '\\033[2J')\"",
+                   "unknown option (got --\\u001b[2J)");
+  const Ended run = Generate("check a.json \"$(printf 'b\\033[2J')\"");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.said.find('\033'), std::string::npos) << run.said;
+}
+
 TEST(CommandLine, NamesTheOptionThatAMisspeltOneMayMean) {
   ExpectUsageError("sequence a.json --out b --fromat kitti",
                    "unknown option, the nearest is --format (got --fromat)");
