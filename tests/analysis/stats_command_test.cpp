@@ -10,6 +10,7 @@
 
 #include "core/io/write_file.h"
 #include "tests/analysis/analyze_program.h"
+#include "tests/core/io/damage.h"
 
 namespace railcast {
 namespace {
@@ -128,10 +129,15 @@ TEST(StatsCommand, RefusesToSumUpLabelsOfTwoMeanings) {
   const TemporaryFolder folder;
   const auto sequence = MakeSequence(folder, "");
   const auto other = sequence.parent_path() / "other";
-  std::filesystem::copy(sequence, other, std::filesystem::copy_options::recursive);
-  Json labels = Json::parse(ReadFileWhole(other / "labels.json"));
-  labels["labels"][1]["name"] = "something_else";
-  std::ofstream(other / "labels.json") << labels;
+  const auto labels = ScenariosDir() / "labels.json";
+  folder.Write("labels.json", Replaced(ReadFileWhole(labels), "\"animal\"", "\"beast\""));
+  const auto scenario =
+      folder.Write("other.json", Replaced(ReadFileWhole(sequence.parent_path() / "scenario.json"),
+                                          labels.string(), "labels.json"));
+  ASSERT_EQ(RunCommand(RAILCAST_GENERATE " sequence " + scenario.string() + " --frames 1 --out " +
+                       other.string())
+                .status,
+            0);
   const Ended run = Analyze("stats " + sequence.string() + " " + other.string() + " --format text");
   EXPECT_EQ(run.status, 1);
   EXPECT_EQ(run.said, other.string() + ": must have the same labels and materials as " +

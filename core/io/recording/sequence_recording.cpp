@@ -114,6 +114,7 @@ class SequenceRecording : public Recording {
     info_.labels = ReadLabelTable(directory / kLabelsFile);
     info_.materials = ReadMaterialNames(directory / kMaterialsFile);
     info_.scenario = ReadScenario(directory / kScenarioFile);
+    CheckNames();
     info_.origin = OriginOf(summary);
     const LidarSpec& lidar = info_.scenario->lidar;
     context_ = std::make_shared<const SequenceContext>(
@@ -132,6 +133,20 @@ class SequenceRecording : public Recording {
   }
 
  private:
+  // Of an unfinished run no hash vouches for them, but the scenario says the same.
+  void CheckNames() const {
+    const auto check = [&](bool is_same, std::string_view file) {
+      if (is_same) return;
+      throw InputError((info_.source / file).string() + ": must say the same as " +
+                       std::string(kScenarioFile));
+    };
+    check(info_.labels.labels() == LabelTable(info_.scenario->labels).labels(), kLabelsFile);
+    std::vector<std::string> materials;
+    const MaterialLibrary library(info_.scenario->materials);
+    for (const Material& material : library.materials()) materials.push_back(material.name);
+    check(info_.materials == materials, kMaterialsFile);
+  }
+
   RecordingInfo info_;
   std::shared_ptr<const SequenceContext> context_;
   FrameLineReader lines_;

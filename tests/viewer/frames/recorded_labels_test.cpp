@@ -72,11 +72,16 @@ TEST(LabelsOfKitti, HaveTheColoursOfOurs) {
   EXPECT_EQ(labels.Find(70U)->rgb, own.Find("grass")->rgb);
 }
 
+// As somebody else's, of which nothing is known but what KITTI's files hold.
+void LeaveKittisFilesAlone(const fs::path& run) {
+  for (const char* ours : {"run.json", "frames.jsonl", "labels.json"}) fs::remove(run / ours);
+}
+
 TEST(LabelsOfKitti, StayNumbersWithoutALabelTable) {
   const TemporaryDirectory directory;
   const fs::path run = directory.path() / "kitti";
   (void)MakeKitti(run);
-  fs::remove(run / "labels.json");
+  LeaveKittisFilesAlone(run);
   EXPECT_THAT(RecordedFrames(run).info().labels.labels(), IsEmpty());
 }
 
@@ -84,7 +89,7 @@ TEST(LabelsOfKitti, AreThoseOfAScenarioThatIsGiven) {
   const TemporaryDirectory directory;
   const fs::path run = directory.path() / "kitti";
   const MadeSequence made = MakeKitti(run);
-  fs::remove(run / "labels.json");
+  LeaveKittisFilesAlone(run);
   RecordedFrames frames(run);
   frames.UseScenario(made.scenario);
   EXPECT_EQ(NamesIn(frames), ExpectedNames(made));

@@ -100,6 +100,17 @@ TEST(SequenceCheck, OfAnInterruptedRunGoesAsFarAsTheRun) {
                               ", as run.json says (got " + ContentHash(scenario + " ") + ")");
 }
 
+TEST(SequenceCheck, OfAnInterruptedRunComparesNamesWithTheScenario) {
+  const DamagedRun run("pcd");
+  std::filesystem::remove(run.path / "manifest.json");
+  for (const char* file : {"labels.json", "materials.json"}) {
+    const std::string whole = ReadFileWhole(run.path / file);
+    WriteFileWhole(run.path / file, Replaced(whole, "\"ballast\"", "\"gravel\""));
+    EXPECT_EQ(Message(run), std::string(file) + ": must say the same as scenario.resolved.json");
+    WriteFileWhole(run.path / file, whole);
+  }
+}
+
 TEST(SequenceCheck, TakesNoSequenceForMereCloudsWhenItsLinesAreLost) {
   for (const char* format : {"pcd", "kitti"}) {
     const DamagedRun run(format);
