@@ -1,6 +1,7 @@
 #include "core/scenario/json_text.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstddef>
 #include <iterator>
@@ -42,18 +43,19 @@ std::string_view WordAt(std::string_view text, std::size_t num_read) {
 
 // nlohmann's messages are "[json.exception...] parse error at line 1, column 2: <what> - <why>;
 // last read: '<raw text>'; expected <token>". We give the place ourselves and leave the raw text
-// out, which may be no UTF-8.
+// out, which may be no UTF-8, and may look like any part of a message.
 std::string Reason(const std::string& what) {
-  if (what.find("ill-formed UTF-8") != std::string::npos) return "not UTF-8";
-  if (what.find("number overflow") != std::string::npos) return "number too large for a double";
-  std::string reason = what;
+  constexpr std::array<std::string_view, 6> kTokens = {
+      "end of input", "string literal", "':'", "']'", "'}'", "'[', '{', or a literal"};
+  const std::size_t last_read = what.find("; last read: '");
+  std::string reason = what.substr(0, last_read);
+  if (reason.find("ill-formed UTF-8") != std::string::npos) return "not UTF-8";
+  if (reason.find("number overflow") != std::string::npos) return "number too large for a double";
   const std::size_t begin = reason.find("syntax error");
   if (begin != std::string::npos) reason.erase(0, begin);
-  const std::size_t last_read = reason.find("; last read: '");
-  if (last_read != std::string::npos) {
-    const std::size_t expected = reason.rfind("; expected ");
-    const bool has_expected = expected != std::string::npos && expected > last_read;
-    reason.erase(last_read, has_expected ? expected - last_read : std::string::npos);
+  for (const std::string_view token : kTokens) {
+    const std::string expected = "; expected " + std::string(token);
+    if (last_read != std::string::npos && what.ends_with("'" + expected)) reason += expected;
   }
   return reason;
 }

@@ -102,6 +102,21 @@ TEST(ReadScenario, NamesEachOf200000UnknownKeys) {
   EXPECT_FALSE(std::getline(faults, fault)) << fault;
 }
 
+// The parser's own message quotes the text, which may look like the message and be no UTF-8.
+TEST(ReadScenario, QuotesNoTextThatIsNoJson) {
+  const TemporaryFolder folder;
+  const auto fault = [&](const std::string& text) {
+    const auto file = folder.Write("a.json", text);
+    return FaultsOf(file).substr(file.string().size());
+  };
+  const std::string invalid = "syntax error while parsing value - invalid literal";
+  EXPECT_EQ(fault("{\"; expected \": \xDE"), ": line 1, column 17: " + invalid + R"( (got \xde))");
+  EXPECT_EQ(fault("{\"ill-formed UTF-8\": x"), ": line 1, column 22: " + invalid + " (got x)");
+  EXPECT_EQ(fault("{\"'; expected end of input\": 1"),
+            ": line 1, column 30: syntax error while parsing object - unexpected end of input; "
+            "expected '}'");
+}
+
 TEST(ReadScenario, LocatesAFaultInTheObjectThatReplacesAFilesKey) {
   const TemporaryFolder folder;
   folder.Write("weather.json", R"({"version": 1, "snow_rate_mmph": -1, "fog_density_per_m": -2})");
