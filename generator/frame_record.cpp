@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "core/io/strict_json.h"
 #include "generator/counts_json.h"
 #include "generator/pose_record.h"
 
@@ -19,7 +20,7 @@ Json ScanEndJson(const ScanEnd& end) {
           {"quaternion_xyzw", {turn.x(), turn.y(), turn.z(), turn.w()}}};
 }
 
-ScanEnd ParseScanEnd(const Json& end) {
+ScanEnd ParseScanEnd(const StrictJson& end) {
   const auto position_m = end.at("position_m").get<std::array<double, 3>>();
   const auto turn = end.at("quaternion_xyzw").get<std::array<double, 4>>();
   return {end.at("time_ns").get<std::uint32_t>(),
@@ -27,12 +28,12 @@ ScanEnd ParseScanEnd(const Json& end) {
           Eigen::Quaterniond(turn[3], turn[0], turn[1], turn[2])};
 }
 
-FrameRecord Parse(const Json& line) {
+FrameRecord Parse(const StrictJson& line) {
   FrameRecord record;
   record.frame = line.at("frame").get<std::uint32_t>();
   record.stamp_ns = line.at("stamp_ns").get<std::int64_t>();
   record.scan_end = ParseScanEnd(line.at("scan_end"));
-  for (const Json& file : line.at("files")) {
+  for (const StrictJson& file : line.at("files")) {
     record.files.push_back({file.at("name").get<std::string>(),
                             file.at("bytes").get<std::uint64_t>(),
                             file.at("xxh3").get<std::string>()});
@@ -101,8 +102,8 @@ std::string FrameLine(const FrameRecord& record) {
 
 std::optional<FrameRecord> ParseFrameLine(std::string_view line) {
   try {
-    return Parse(Json::parse(line));
-  } catch (const Json::exception&) {
+    return Parse(StrictJson::parse(line));
+  } catch (const StrictJson::exception&) {
     return std::nullopt;
   }
 }

@@ -2,17 +2,17 @@
 
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
 #include "core/base/shown_text.h"
+#include "core/io/strict_json.h"
 #include "core/io/text_cursor.h"
 
 namespace railcast {
 namespace {
 
-using Json = nlohmann::json;
+using Json = StrictJson;
 
 /// What `read` makes of a line of JSON, and of what it throws.
 template <typename Read>

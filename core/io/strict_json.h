@@ -1,0 +1,53 @@
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace railcast {
+
+/// How JSON becomes a T: as the library does it.
+template <typename T, typename = void>
+struct StrictSerializer : nlohmann::adl_serializer<T> {};
+
+/// But a whole number only from one that T holds: the library cuts off fractions and high bits, and
+/// what 1e30 becomes is undefined.
+template <std::integral T>
+requires(!std::same_as<T, bool>) struct StrictSerializer<T, void> : nlohmann::adl_serializer<T> {
+  template <typename Json>
+  static void from_json(const Json& json, T& value) {
+    const bool fits = json.is_number_unsigned()
+                          ? std::in_range<T>(json.template get_ref<const std::uint64_t&>())
+                          : json.is_number_integer() &&
+                                std::in_range<T>(json.template get_ref<const std::int64_t&>());
+    if (!fits) {
+      constexpr int kWrongType = 302;
+      // Whatever else it is may be nested too deep to be written.
+      const std::string got = json.is_number() ? json.dump() : json.type_name();
+      throw Json::type_error::create(
+          kWrongType,
+          "must be a whole number from " + std::to_string(std::numeric_limits<T>::min()) + " to " +
+              std::to_string(std::numeric_limits<T>::max()) + ", not " + got,
+          &json);
+    }
+    nlohmann::adl_serializer<T>::from_json(json, value);
+  }
+};
+
+/// JSON that gives numbers only to those that hold them; anything else is a Json::exception.
+using StrictJson = nlohmann::basic_json<std::map,
+                                        std::vector,
+                                        std::string,
+                                        bool,
+                                        std::int64_t,
+                                        std::uint64_t,
+                                        double,
+                                        std::allocator,
+                                        StrictSerializer>;
+
+}  // namespace railcast
