@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Everything a change must pass before it lands.
 #
-#   check.sh            format, architecture, build, tests
+#   check.sh            format, architecture, build, tests, core and the fuzzers with clang
 #   check.sh --fast     format and architecture only: seconds, no build
 #   check.sh --tidy     all of it, and clang-tidy over the sources that differ from main
 #   check.sh --tidy-all the same over every source: minutes
@@ -46,6 +46,14 @@ check_tidy() {
     clang-tidy-14 -p build/tidy --quiet 2> >(grep -v ' warnings\? generated' >&2)
 }
 
+# The fuzzers want clang; with them all of core is compiled, warnings are errors.
+check_clang() {
+  echo "== clang"
+  cmake -B build/fuzz -G Ninja --log-level=ERROR -D CMAKE_C_COMPILER=clang-14 \
+    -D CMAKE_CXX_COMPILER=clang++-14 -D RAILCAST_BUILD_FUZZERS=ON >/dev/null
+  cmake --build build/fuzz --target fuzzers
+}
+
 all_sources() {
   git ls-files --cached --others --exclude-standard '*.cpp'
 }
@@ -76,6 +84,7 @@ if [[ "$mode" == --fast ]]; then
 fi
 echo "== build and tests"
 scripts/test.sh
+check_clang
 case "$mode" in
   --tidy) check_tidy changed_sources ;;
   --tidy-all) check_tidy all_sources ;;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <iosfwd>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,5 +42,9 @@ inline constexpr std::size_t kMaxNumFirings = std::size_t{1} << 24U;
                                          ErrorList& errors);
 /// Lines of the file are named "file:line: column: rule (got ...)".
 [[nodiscard]] FiringGrid TableFirings(const FiringTableSpec& spec, ErrorList& errors);
+/// The same of what a file holds, which messages call `shown`.
+[[nodiscard]] FiringGrid ParseFiringTable(std::istream& file,
+                                          const std::string& shown,
+                                          ErrorList& errors);
 
 }  // namespace railcast

@@ -84,16 +84,19 @@ void CheckValues(const Values& values,
 FiringGrid TableFirings(const FiringTableSpec& spec, ErrorList& errors) {
   auto file = Attempt("/pattern/file: ", errors, [&] { return OpenInput(spec.file); });
   if (!file) return {};
-  const std::string shown = ShownPath(spec.file);
+  return ParseFiringTable(*file, ShownPath(spec.file), errors);
+}
+
+FiringGrid ParseFiringTable(std::istream& file, const std::string& shown, ErrorList& errors) {
   std::string line;
-  std::getline(*file, line);
+  std::getline(file, line);
   if (Trimmed(line) != kHeader) {
     errors.Add(shown + ":1: must be \"" + std::string(kHeader) + "\" " + Quoted(Trimmed(line)));
     return {};
   }
   FiringGrid grid{.rows = 1, .columns = 0, .firings = {}};
   double last_us = -1.0;
-  for (std::size_t number = 2; std::getline(*file, line); ++number) {
+  for (std::size_t number = 2; std::getline(file, line); ++number) {
     const std::string place = shown + ":" + std::to_string(number);
     Values values{};
     if (!ParseLine(line, place, values, errors)) {

@@ -67,12 +67,16 @@ std::string CommandLogText(const CommandLog& log) {
 
 CommandLog ReadCommandLog(const std::filesystem::path& file) {
   std::ifstream stream = OpenInput(file);
+  return ParseCommandLog(stream, ShownPath(file));
+}
+
+CommandLog ParseCommandLog(std::istream& stream, const std::string& shown) {
   CommandLog log;
   std::string line;
   std::size_t number = 0;
   while (std::getline(stream, line)) {
     ++number;
-    const std::string place = ShownPath(file) + ": line " + std::to_string(number);
+    const std::string place = shown + ": line " + std::to_string(number);
     if (stream.eof()) throw InputError(place + ": must end in a line break");
     JsonSource source;
     const auto root = source.OpenText(line, place);
@@ -102,7 +106,7 @@ CommandLog ReadCommandLog(const std::filesystem::path& file) {
     }
     source.errors().ThrowIfAny();
   }
-  if (number == 0) throw InputError(ShownPath(file) + ": is empty");
+  if (number == 0) throw InputError(shown + ": is empty");
   return log;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -42,5 +43,7 @@ struct CommandLog {
 /// killed may leave behind, is a fault like any other.
 /// @throws InputError "file: line 3: /command/speed_mps: rule (got value)".
 [[nodiscard]] CommandLog ReadCommandLog(const std::filesystem::path& file);
+/// The same of what a file holds, which messages call `shown`.
+[[nodiscard]] CommandLog ParseCommandLog(std::istream& stream, const std::string& shown);
 
 }  // namespace railcast

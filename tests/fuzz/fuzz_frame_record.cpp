@@ -1,0 +1,16 @@
+#include "generator/frame_record.h"
+
+#include <cstdint>
+#include <string_view>
+
+#include "core/base/error.h"
+
+/// What libFuzzer calls: a line of frames.jsonl as a run reads it that goes on with its directory.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto record =
+      railcast::ParseFrameLine(std::string_view(reinterpret_cast<const char*>(data), size));
+  if (!record) return 0;
+  railcast::Check(railcast::ParseFrameLine(railcast::FrameLine(*record)) == record,
+                  "what is written reads the same");
+  return 0;
+}

@@ -1,0 +1,68 @@
+#include <cstdint>
+#include <sstream>
+#include <string>
+
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/scene/obj_import.h"
+
+namespace railcast {
+namespace {
+
+void CheckMesh(const Mesh& mesh) {
+  Check(!mesh.triangles.empty(), "a mesh has a triangle");
+  for (const Eigen::Vector3f& vertex : mesh.vertices) {
+    Check(vertex.allFinite(), "a vertex is somewhere");
+  }
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t corner : triangle) {
+      Check(corner < mesh.vertices.size(), "a corner is a vertex");
+    }
+  }
+}
+
+std::string ObjText(const Mesh& mesh) {
+  std::string text;
+  for (const Eigen::Vector3f& vertex : mesh.vertices) {
+    text += "v " + NumberText(vertex.x()) + ' ' + NumberText(vertex.y()) + ' ' +
+            NumberText(vertex.z()) + '\n';
+  }
+  for (const auto& [a, b, c] : mesh.triangles) {
+    text += "f " + NumberText(a + 1) + ' ' + NumberText(b + 1) + ' ' + NumberText(c + 1) + '\n';
+  }
+  return text;
+}
+
+Mesh Parse(const std::string& text, double unit_m, bool y_up) {
+  std::istringstream stream(text);
+  return ParseObj(stream, "fuzz", unit_m, y_up);
+}
+
+void ReadMesh(const std::string& text, double unit_m, bool y_up) {
+  try {
+    const Mesh mesh = Parse(text, unit_m, y_up);
+    CheckMesh(mesh);
+    const Mesh again = Parse(ObjText(mesh), 1.0, false);
+    Check(again.vertices == mesh.vertices && again.triangles == mesh.triangles,
+          "what is written reads the same");
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    Check(message.starts_with("fuzz: "), "a fault names its file");
+    Check(message.find('\n') == std::string::npos, "there is one fault");
+  }
+}
+
+}  // namespace
+}  // namespace railcast
+
+/// What libFuzzer calls. The first byte says what the lengths of the OBJ file are and which of its
+/// axes points up: m or c for metres or centimetres with z, M or C with y, anything else kilometres
+/// with z.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  const char kind = static_cast<char>(data[0]);
+  const bool y_up = kind == 'M' || kind == 'C';
+  const double unit_m = kind == 'm' || kind == 'M' ? 1.0 : kind == 'c' || kind == 'C' ? 0.01 : 1e3;
+  railcast::ReadMesh(std::string(reinterpret_cast<const char*>(data) + 1, size - 1), unit_m, y_up);
+  return 0;
+}

@@ -1,0 +1,156 @@
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <numeric>
+#include <string_view>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/rail/rail_world.h"
+#include "core/rail/world_draft.h"
+#include "core/scan/scan_pattern.h"
+#include "core/scenario/scenario.h"
+#include "core/scenario/sensors.h"
+#include "tests/fuzz/fault_lines.h"
+#include "tests/fuzz/input_files.h"
+
+namespace railcast {
+namespace {
+
+double LengthOf(const AlignmentSectionsSpec& course) {
+  return course.length_m;
+}
+
+double LengthOf(const AlignmentElementsSpec& course) {
+  return std::accumulate(
+      course.elements.begin(), course.elements.end(), 0.0,
+      [](double sum_m, const AlignmentElement& element) { return sum_m + element.length_m; });
+}
+
+double LengthOf(const AlignmentSplineSpec& course) {
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < course.points_m.size(); ++i) {
+    length_m += std::hypot(course.points_m[i][0] - course.points_m[i - 1][0],
+                           course.points_m[i][1] - course.points_m[i - 1][1]);
+  }
+  return length_m;
+}
+
+double NumFirings(const RasterSpec& pattern) {
+  return pattern.horizontal_fov_deg * pattern.vertical_fov_deg /
+         (pattern.angular_resolution_deg * pattern.angular_resolution_deg);
+}
+
+double NumFirings(const SpinningSpec& pattern) {
+  return static_cast<double>(pattern.channels.size()) * pattern.columns;
+}
+
+double NumFirings(const FiringTableSpec& /*in_the_input*/) {
+  return 0.0;
+}
+
+bool IsShort(const AlignmentSpec& alignment) {
+  constexpr double kLongest_m = 20e3;
+  return std::visit([](const auto& course) { return LengthOf(course); }, alignment.course) <=
+         kLongest_m;
+}
+
+bool IsSparse(const ScanSpec& scan) {
+  constexpr double kMostFirings = 3000.0;
+  return std::visit([](const auto& pattern) { return NumFirings(pattern); }, scan.pattern) <=
+         kMostFirings;
+}
+
+void CheckModel(const Model& model) {
+  for (const Part& part : model.parts) {
+    for (const Eigen::Vector3f& vertex : part.mesh.vertices) {
+      Check(vertex.allFinite(), "a vertex is somewhere");
+    }
+    for (const auto& triangle : part.mesh.triangles) {
+      for (const std::uint32_t corner : triangle) {
+        Check(corner < part.mesh.vertices.size(), "a corner is a vertex");
+      }
+    }
+  }
+}
+
+void CheckPath(const TrackPath& path, const Alignment& alignment) {
+  for (const std::int64_t time_ns : {std::int64_t{0}, std::int64_t{1'000'000'000}}) {
+    Check(path.WorldFromObject(alignment, time_ns).matrix().allFinite(), "a thing is somewhere");
+  }
+}
+
+// The world's line and things, without its chunks.
+void CheckDraft(const ScenarioSpec& spec) {
+  WorldFaults faults;
+  const LabelTable labels(spec.labels);
+  const MaterialLibrary materials(spec.materials);
+  const WorldDraft draft = DraftWorld({spec.world, spec.vehicle, labels, materials}, faults);
+  for (const std::string& fault : faults.errors.lines()) CheckFaultLines(fault);
+  if (!faults.errors.empty()) return;
+  Check(draft.alignment && draft.surfaces && draft.vehicle_path && draft.catenary_plan,
+        "a world without faults is whole");
+  CheckPath(*draft.vehicle_path, *draft.alignment);
+  for (const TrackPath& path : draft.object_paths) CheckPath(path, *draft.alignment);
+  for (const SceneObject& object : draft.objects) CheckModel(*object.model);
+}
+
+void CheckPattern(const ScanSpec& scan) {
+  try {
+    const ScanPattern pattern = BuildScanPattern(scan);
+    Check(pattern.num_firings() > 0, "a pattern has firings");
+    for (std::uint32_t firing = 0; firing < pattern.num_firings(); ++firing) {
+      Check(pattern.row[firing] < pattern.rows && pattern.column[firing] < pattern.columns,
+            "a firing has a place");
+    }
+  } catch (const InputError& error) {
+    CheckFaultLines(error.what());
+  }
+}
+
+// What no fault was found in can be built.
+void Build(const ScenarioSpec& spec) {
+  const auto world = MakeWorld(spec);
+  for (const std::int64_t time_ns : {std::int64_t{0}, std::int64_t{1'000'000'000}}) {
+    Check(world->WorldFromVehicle(time_ns).matrix().allFinite(), "a vehicle is somewhere");
+    CheckModel(world->BuildChunk(world->HomeChunk(time_ns)).ground);
+  }
+}
+
+// Building takes a second here: few inputs are tried, but always the same.
+bool IsBuilt(std::string_view input) {
+  constexpr std::size_t kOneOf = 256;
+  return std::hash<std::string_view>()(input) % kOneOf == 0;
+}
+
+void ReadInput(std::string_view input) {
+  const InputFiles files(input);
+  try {
+    const ScenarioSpec spec = ReadScenario(InputFiles::first());
+    const std::string resolved = ResolvedScenarioJson(spec);
+    const ScenarioSpec again = ReadScenario(InputFiles::Write("resolved.json", resolved));
+    Check(again == spec, "what is written reads the same");
+    Check(ResolvedScenarioJson(again) == resolved, "and is written the same");
+    bool is_small = IsShort(spec.world.alignment);
+    if (is_small) CheckDraft(spec);
+    for (const SensorPlace& sensor : SensorsOf(spec)) {
+      if (!IsSparse(sensor.lidar.scan)) is_small = false;
+      if (IsSparse(sensor.lidar.scan)) CheckPattern(sensor.lidar.scan);
+    }
+    if (!is_small || !IsBuilt(input)) return;
+    const std::vector<std::string> faults = CheckScenario(InputFiles::first());
+    for (const std::string& fault : faults) CheckFaultLines(fault);
+    if (faults.empty()) Build(spec);
+  } catch (const InputError& error) {
+    CheckFaultLines(error.what());
+  }
+}
+
+}  // namespace
+}  // namespace railcast
+
+/// What libFuzzer calls: a scenario and the files that it names, as InputFiles has them.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  railcast::ReadInput({reinterpret_cast<const char*>(data), size});
+  return 0;
+}

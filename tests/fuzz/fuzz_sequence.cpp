@@ -1,0 +1,49 @@
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "core/base/error.h"
+#include "core/io/recording/sequence_lines.h"
+
+namespace railcast {
+namespace {
+
+constexpr const char* kPlace = "fuzz:3";
+constexpr std::int64_t kStamp_ns = 100'000'000;
+constexpr std::uint32_t kFrame = 1;
+
+void CheckPose(const Transform& pose) {
+  constexpr double kTolerance = 1e-9;
+  Check(pose.matrix().allFinite(), "a pose is finite");
+  Check((pose.linear() * pose.linear().transpose()).isIdentity(kTolerance), "and does not stretch");
+}
+
+void ReadObjects(const std::string& line) {
+  for (const RecordedObject& object : ReadObjectsLine(line, kFrame, kPlace)) {
+    CheckPose(object.sensor_from_box);
+    Check(object.size_m.allFinite() && object.velocity_world_mps.allFinite(), "a box is finite");
+  }
+}
+
+void ReadLine(char kind, const std::string& line) {
+  try {
+    if (kind == 'f') CheckPose(ReadFrameLine(line, kPlace).world_from_sensor_end);
+    if (kind == 'o') ReadObjects(line);
+    if (kind == 'p') CheckPose(ReadPoseLine(line, kStamp_ns, kPlace));
+  } catch (const InputError& error) {
+    Check(std::string_view(error.what()).starts_with("fuzz:3: "), "a fault names its line");
+  }
+}
+
+}  // namespace
+}  // namespace railcast
+
+/// What libFuzzer calls. The first byte says which of a sequence's files the line is from that
+/// follows: f frames.jsonl, o objects.jsonl, p poses.csv.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  railcast::ReadLine(static_cast<char>(data[0]),
+                     std::string(reinterpret_cast<const char*>(data) + 1, size - 1));
+  return 0;
+}
