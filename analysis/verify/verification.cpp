@@ -1,7 +1,6 @@
 #include "analysis/verify/verification.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 
@@ -79,7 +78,7 @@ class Verifier {
 
   const std::function<void(double)>& on_progress_;
   SequenceSummary summary_;
-  nlohmann::json manifest_json_;
+  StrictJson manifest_json_;
   CountTotals totals_;
   std::set<std::string, std::less<>> known_;
   bool are_frames_known_ = false;
@@ -99,7 +98,7 @@ void Verifier::ReadTheManifest() {
   Try([&] {
     const std::string text = ReadFileWhole(PathOf(kManifestFile));
     summary_.manifest = ReadManifest(text, PathOf(kManifestFile));
-    manifest_json_ = nlohmann::json::parse(text);
+    manifest_json_ = StrictJson::parse(text);
   });
 }
 
@@ -205,8 +204,8 @@ void Verifier::CheckFrame(const FrameLine& line, const FrameLines& lines, bool h
   for (const KnownFile& file : line.files) CheckFile(file, kFramesFile);
   Try([&] {
     try {
-      totals_.Add(nlohmann::json::parse(lines.frame.text));
-    } catch (const nlohmann::json::exception& error) {
+      totals_.Add(StrictJson::parse(lines.frame.text));
+    } catch (const StrictJson::exception& error) {
       throw InputError(lines.frame.place + ": is damaged: " + error.what());
     }
   });

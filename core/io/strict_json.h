@@ -50,4 +50,15 @@ using StrictJson = nlohmann::basic_json<std::map,
                                         std::allocator,
                                         StrictSerializer>;
 
+/// The same with an object's members in the order of the text.
+using StrictOrderedJson = nlohmann::basic_json<nlohmann::ordered_map,
+                                               std::vector,
+                                               std::string,
+                                               bool,
+                                               std::int64_t,
+                                               std::uint64_t,
+                                               double,
+                                               std::allocator,
+                                               StrictSerializer>;
+
 }  // namespace railcast

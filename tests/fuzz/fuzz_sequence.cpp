@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/io/recording/sequence_lines.h"
+#include "core/io/recording/sequence_summary.h"
 
 namespace railcast {
 namespace {
@@ -31,6 +32,8 @@ void ReadLine(char kind, const std::string& line) {
     if (kind == 'f') CheckPose(ReadFrameLine(line, kPlace).world_from_sensor_end);
     if (kind == 'o') ReadObjects(line);
     if (kind == 'p') CheckPose(ReadPoseLine(line, kStamp_ns, kPlace));
+    if (kind == 'm') static_cast<void>(DataHash(ReadManifest(line, kPlace).files));
+    if (kind == 'r') static_cast<void>(ReadRunSummary(line, kPlace));
   } catch (const InputError& error) {
     Check(std::string_view(error.what()).starts_with("fuzz:3: "), "a fault names its line");
   }
@@ -40,7 +43,7 @@ void ReadLine(char kind, const std::string& line) {
 }  // namespace railcast
 
 /// What libFuzzer calls. The first byte says which of a sequence's files the line is from that
-/// follows: f frames.jsonl, o objects.jsonl, p poses.csv.
+/// follows: f frames.jsonl, o objects.jsonl, p poses.csv; m manifest.json and r run.json are whole.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   railcast::ReadLine(static_cast<char>(data[0]),

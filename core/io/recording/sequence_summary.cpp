@@ -1,17 +1,16 @@
 #include "core/io/recording/sequence_summary.h"
 
-#include <nlohmann/json.hpp>
-
 #include "core/base/error.h"
 #include "core/io/content_hash.h"
 #include "core/io/scenario_identity.h"
 #include "core/io/sequence_files.h"
+#include "core/io/strict_json.h"
 
 namespace railcast {
 namespace {
 
 // In the order of the file: the data's hash depends on it.
-using Json = nlohmann::ordered_json;
+using Json = StrictOrderedJson;
 
 template <typename Read>
 auto ReadJson(const std::string& text, const std::string& place, const Read& read)
