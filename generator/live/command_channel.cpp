@@ -27,7 +27,7 @@ Json AnswerTo(const CommandTag& tag, bool is_done) {
 
 std::string LineOf(const Json& answer) {
   // A fault may quote what is no UTF-8.
-  const std::string line = answer.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  std::string line = answer.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
   Check(line.starts_with(kAnswerBegin), "an answer is known by its begin");
   return line;
 }
