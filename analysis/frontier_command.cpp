@@ -10,10 +10,12 @@
 #include "analysis/frontier/measure.h"
 #include "analysis/frontier/pareto.h"
 #include "analysis/frontier/table.h"
+#include "analysis/report/provenance.h"
 #include "core/base/shown_text.h"
 #include "core/fidelity/choice_report.h"
 #include "core/fidelity/sample_frames.h"
 #include "core/io/progress_line.h"
+#include "core/io/scenario_identity.h"
 #include "core/io/version.h"
 #include "core/io/write_file.h"
 #include "core/scenario/effects.h"
@@ -70,11 +72,16 @@ int RunFrontier(const FrontierOptions& options) {
             << ChoiceText(choice, scenario.tolerance) << std::flush;
 
   const FrontierCircumstances circumstances = {
-      ProgramVersion(), ShownPath(options.scenario), scenario.seed,
+      ProgramVersion(),
+      ShownPath(options.scenario),
+      scenario.seed,
       MakeComparisonSpec(scenario.lidar.beam, scenario.lidar.range_max_m,
                          LabelTable(scenario.labels))
           .match_distance_m,
-      ChoiceJson(choice, scenario.tolerance)};
+      ChoiceJson(choice, scenario.tolerance),
+      ReportDate(),
+      IdentityOf(scenario).scenario_hash,
+      WeatherText(scenario.weather)};
   WriteFileWhole(options.out / "frontier.json",
                  FrontierJson(plan, circumstances, LabelTable(scenario.labels), results));
   WriteFileWhole(options.out / "frontier.csv", FrontierCsv(results));

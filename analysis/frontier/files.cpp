@@ -106,7 +106,10 @@ std::string FrontierJson(const FrontierPlan& plan,
                          const std::vector<RowResult>& results) {
   Json json = {
       {"version", circumstances.version},
+      {"date", circumstances.date},
       {"scenario", circumstances.scenario},
+      {"scenario_xxh3", circumstances.scenario_hash},
+      {"weather", circumstances.weather},
       {"seed", circumstances.seed},
       {"machine",
        {{"processor", ProcessorName()}, {"num_threads", std::thread::hardware_concurrency()}}},

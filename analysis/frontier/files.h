@@ -15,6 +15,9 @@ struct FrontierCircumstances {
   std::uint64_t seed{};
   float match_distance_m{};
   std::string choice_json;  ///< What fidelity auto would use.
+  std::string date{};       ///< ReportDate().
+  std::string scenario_hash{};
+  std::string weather{};  ///< WeatherText().
 };
 
 /// frontier.json: all numbers and what they hold for.

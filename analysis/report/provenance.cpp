@@ -28,14 +28,6 @@ std::time_t Now() {
   return *epoch_s;
 }
 
-std::string DateText(std::time_t time_s) {
-  std::tm parts{};
-  ::gmtime_r(&time_s, &parts);
-  std::array<char, 32> text{};
-  const std::size_t size = std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M UTC", &parts);
-  return {text.data(), size};
-}
-
 std::string DataText(const SequenceOrigin& origin) {
   if (!origin.is_finished) return "none yet: the run is unfinished";
   return origin.data_hash.empty() ? "not recorded" : origin.data_hash;
@@ -56,8 +48,17 @@ std::string MakerText(const SequenceOrigin& origin) {
 
 }  // namespace
 
+std::string ReportDate() {
+  const std::time_t time_s = Now();
+  std::tm parts{};
+  ::gmtime_r(&time_s, &parts);
+  std::array<char, 32> text{};
+  const std::size_t size = std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M UTC", &parts);
+  return {text.data(), size};
+}
+
 Facts MakerFacts(const std::string& version) {
-  return {{"Version", "railcast " + version}, {"Date", DateText(Now())}};
+  return {{"Version", "railcast " + version}, {"Date", ReportDate()}};
 }
 
 Facts OriginFacts(const std::vector<RecordingInfo>& sources) {

@@ -14,10 +14,13 @@ namespace railcast {
 
 using Facts = std::vector<std::pair<std::string, std::string>>;
 
-/// The program that makes the report, and the minute in UTC. @param version ProgramVersion().
-/// The environment's SOURCE_DATE_EPOCH, seconds since 1970, stands for the clock where it is set,
-/// so that a report can be made again to the byte.
+/// The minute in UTC: "2023-11-14 22:13 UTC". The environment's SOURCE_DATE_EPOCH, seconds since
+/// 1970, stands for the clock where it is set, so that a report can be made again to the byte.
 /// @throws InputError "SOURCE_DATE_EPOCH: rule (got value)" if it is none.
+[[nodiscard]] std::string ReportDate();
+
+/// The program that makes the report, and the date. @param version ProgramVersion().
+/// @throws InputError as ReportDate() does.
 [[nodiscard]] Facts MakerFacts(const std::string& version);
 
 /// Hash of the data and of the scenario, weather and maker of our sequences among the sources. What

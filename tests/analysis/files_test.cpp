@@ -30,11 +30,15 @@ LabelTable Labels() {
 TEST(FrontierJson, HoldsNumbersAndCircumstances) {
   FrontierPlan plan;
   plan.frames = {0, 10};
-  const FrontierCircumstances circumstances = {"1.2.3", "a.json", 7, 0.375F, R"({"a": 1})"};
+  const FrontierCircumstances circumstances = {
+      "1.2.3", "a.json", 7, 0.375F, R"({"a": 1})", "2023-11-14 22:13 UTC", "5ce0a410", "clear"};
   const Json json = Json::parse(FrontierJson(plan, circumstances, Labels(), Results()));
   EXPECT_EQ(json["version"], "1.2.3");
   EXPECT_EQ(json["scenario"], "a.json");
   EXPECT_EQ(json["seed"], 7);
+  EXPECT_EQ(json["date"], "2023-11-14 22:13 UTC");
+  EXPECT_EQ(json["scenario_xxh3"], "5ce0a410");
+  EXPECT_EQ(json["weather"], "clear");
   EXPECT_EQ(json["frames"], (Json{0, 10}));
   EXPECT_EQ(json["matching"]["match_distance_m"], 0.375);
   EXPECT_EQ(json["fidelity_auto"]["a"], 1);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -109,6 +110,27 @@ TEST(SequenceCheck, OfAnInterruptedRunComparesNamesWithTheScenario) {
     EXPECT_EQ(Message(run), std::string(file) + ": must say the same as scenario.resolved.json");
     WriteFileWhole(run.path / file, whole);
   }
+}
+
+// As railcast left directories before it kept what made them, and copies of what they depend on.
+TEST(SequenceCheck, OfAnOlderDirectoryGoesAsFarAsItsHashes) {
+  const DamagedRun run("pcd");
+  auto summary = nlohmann::ordered_json::parse(ReadFileWhole(run.path / "run.json"));
+  summary.erase("embree");
+  summary.erase("isa");
+  summary["scenario_xxh3"] = "5ce0a4105ce0a410";
+  WriteFileWhole(run.path / "run.json", summary.dump());
+  auto manifest = nlohmann::ordered_json::parse(ReadFileWhole(run.path / "manifest.json"));
+  manifest.erase("data_xxh3");
+  manifest["files_xxh3"].erase("scenario.resolved.json");
+  manifest["files_xxh3"]["run.json"] = run.HashOf("run.json");
+  WriteFileWhole(run.path / "manifest.json", manifest.dump());
+  EXPECT_EQ(Message(run), "no error");
+  const SequenceOrigin origin = *OpenRecording(run.path)->info().origin;
+  EXPECT_EQ(origin.isa, "");
+  EXPECT_EQ(origin.data_hash, "");
+  run.Flip("objects.jsonl");
+  EXPECT_TRUE(Message(run).starts_with("objects.jsonl: must have the hash "));
 }
 
 TEST(SequenceCheck, TakesNoSequenceForMereCloudsWhenItsLinesAreLost) {
