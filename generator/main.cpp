@@ -11,6 +11,7 @@
 #include "core/io/version.h"
 #include "core/scenario/effects.h"
 #include "core/scenario/scenario.h"
+#include "core/trace/trace_program.h"
 #include "generator/commands.h"
 
 namespace {
@@ -39,9 +40,9 @@ void CheckFields(const std::string& fields) {
 void AddIsa(CLI::App& command, std::string& isa) {
   command
       .add_option("--isa", isa,
-                  "Instruction set that the trace uses: sse4.2, avx2 or avx512; default: the "
-                  "machine's best. The last bits of ranges depend on it")
-      ->check(CLI::IsMember({"sse4.2", "avx2", "avx512"}));
+                  "Instruction set that the trace uses; default: the machine's best. The last bits "
+                  "of ranges depend on it")
+      ->check(CLI::IsMember(railcast::IsaNames()));
 }
 
 void AddSequence(CLI::App& app, SequenceOptions& options, std::function<int()>& command) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -60,13 +61,16 @@ std::set<std::uint32_t> MovingInstances(const std::vector<ObjectInFrame>& object
   return moving;
 }
 
-// The files below a directory, relative to it; what links lead to is not looked into.
+// The files below a directory, relative to it. A link is a file, whatever it leads to.
 std::vector<std::string> FilesBelow(const fs::path& directory) {
   std::vector<std::string> names;
-  for (const auto& entry : fs::recursive_directory_iterator(directory)) {
-    if (entry.is_directory()) continue;
-    names.push_back(entry.path().lexically_relative(directory).generic_string());
+  std::error_code error;
+  fs::recursive_directory_iterator entry(directory, error);
+  for (const fs::recursive_directory_iterator end; !error && entry != end; entry.increment(error)) {
+    if (fs::is_directory(entry->symlink_status(error)) || error) continue;
+    names.push_back(entry->path().lexically_relative(directory).generic_string());
   }
+  if (error) throw FileError(directory, error.value());
   std::ranges::sort(names);
   return names;
 }
@@ -77,24 +81,38 @@ std::optional<std::string_view> FinishedName(std::string_view name) {
   return name.substr(0, name.size() - kUnfinishedSuffix.size());
 }
 
-// A stranger's file could be taken for the run's, or be lost with what the run clears away.
-void RefuseStrangers(const fs::path& directory, bool is_run) {
-  for (const std::string& name : FilesBelow(directory)) {
-    const std::string_view finished = FinishedName(name).value_or(name);
-    // A run that was stopped before its first file was whole leaves that file unfinished.
-    const bool is_own = is_run ? IsSequenceFile(finished)
-                               : FinishedName(name) && finished == std::string_view(kRunFile);
-    if (is_own) continue;
-    throw InputError(ShownPath(directory) + ": holds a file that is no run's of railcast (" +
-                     ShownPath(name) + "); move it away or choose another --out");
-  }
+// The number in the name of a frame's file: 12 in "frames/000012.pcd".
+std::optional<std::uint32_t> FrameNumber(std::string_view name) {
+  name.remove_prefix(name.rfind('/') + 1);
+  std::uint32_t number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  if (error != std::errc() || end == name.data()) return std::nullopt;
+  return number;
 }
 
-void RemoveUnfinished(const fs::path& directory) {
-  for (const std::string& name : FilesBelow(directory)) {
-    if (FinishedName(name)) fs::remove(directory / name);
+/// What the files of a run are called.
+class OwnNames {
+ public:
+  /// @param fixed Those that are known before the first frame.
+  OwnNames(const SequenceSpec& spec, const std::vector<FrameFile>& fixed) : spec_(spec) {
+    names_ = {std::string(kRunFile), std::string(kManifestFile)};
+    for (const FrameFile& file : fixed) names_.insert(file.name);
+    for (const LineFileName& file : LineFileNames(spec.files.format)) names_.insert(file.name);
   }
-}
+
+  [[nodiscard]] bool Have(std::string_view name) const {
+    if (names_.contains(name)) return true;
+    const std::optional<std::uint32_t> number = FrameNumber(name);
+    const std::uint32_t first = spec_.files.format == FrameFormat::kKitti ? 0 : spec_.start_frame;
+    if (!number || *number < first || *number - first >= spec_.num_frames) return false;
+    const std::vector<std::string> names = FrameFileNames(spec_.files.format, *number);
+    return std::ranges::find(names, name) != names.end();
+  }
+
+ private:
+  const SequenceSpec& spec_;
+  std::set<std::string, std::less<>> names_;
+};
 
 }  // namespace
 
@@ -120,20 +138,40 @@ void SequenceDirectory::Open() {
   }
   const fs::path run_file = spec_.directory / kRunFile;
   const bool is_run = fs::exists(run_file);
-  RefuseStrangers(spec_.directory, is_run);
-  if (is_run) {
-    CheckSameRun(spec_, ReadFileWhole(run_file));
-  } else {
-    WriteFileWhole(run_file, RunJson(spec_));
-  }
-  is_complete_ = fs::exists(spec_.directory / kManifestFile);
+  is_complete_ = is_run && fs::exists(spec_.directory / kManifestFile);
+  if (is_run) CheckSameRun(spec_, ReadFileWhole(run_file), is_complete_);
+  RefuseStrangers(is_run);
+  if (!is_run) WriteFileWhole(run_file, RunJson(spec_));
   Resume();
+}
+
+// A stranger's file could be taken for the run's, or be lost with what the run clears away.
+void SequenceDirectory::RefuseStrangers(bool is_run) const {
+  const OwnNames own(spec_, FixedFiles());
+  for (const std::string& name : FilesBelow(spec_.directory)) {
+    const std::optional<std::string_view> finished = FinishedName(name);
+    // A run that was stopped before its first file was whole leaves that file unfinished.
+    const bool is_own = is_run ? own.Have(name) || (finished && own.Have(*finished))
+                               : finished == std::string_view(kRunFile);
+    if (is_own) continue;
+    throw InputError(ShownPath(spec_.directory) +
+                     ": holds a file that does not belong to this run (" + ShownPath(name) +
+                     "); move it away or choose another --out");
+  }
+}
+
+void SequenceDirectory::RemoveUnfinished() const {
+  const OwnNames own(spec_, FixedFiles());
+  for (const std::string& name : FilesBelow(spec_.directory)) {
+    // A mesh may be called so, too.
+    if (FinishedName(name) && !own.Have(name)) fs::remove(spec_.directory / name);
+  }
 }
 
 void SequenceDirectory::Resume() {
   if (!is_complete_) {
     WriteFixedFiles();
-    RemoveUnfinished(spec_.directory);
+    RemoveUnfinished();
   }
   const SequenceProgress progress = FindProgress(spec_);
   num_done_ = progress.num_done;

@@ -50,6 +50,9 @@ class SequenceDirectory {
 
  private:
   void Open();
+  // @throws InputError if the directory holds a file that is none of this run's.
+  void RefuseStrangers(bool is_run) const;
+  void RemoveUnfinished() const;
   void Resume();
   // Of a complete directory, whose frames were counted already.
   void CheckUnchanged(const SequenceProgress& progress) const;

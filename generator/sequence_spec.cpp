@@ -34,13 +34,20 @@ Json RunObject(const SequenceSpec& spec) {
   return run;
 }
 
+// The library copies and writes by recursion, so that what is nested deep must only be looked at.
+const Json& Member(const Json& object, const std::string& key) {
+  static const Json kNothing;
+  const auto member = object.find(key);
+  return member == object.end() ? kNothing : *member;
+}
+
 // What differs if the scenario does: the content of a file, where all else about them is the same.
 std::string ScenarioDifference(const Json& found, const Json& ours) {
   const bool has_same_names =
       found.is_array() && std::equal(found.begin(), found.end(), ours.begin(), ours.end(),
                                      [](const Json& theirs, const Json& own) {
                                        return theirs.is_object() &&
-                                              theirs.value("name", Json()) == own.at("name");
+                                              Member(theirs, "name") == own.at("name");
                                      });
   if (!has_same_names || found == ours) return "holds a run of another scenario";
   const auto changed = std::mismatch(ours.begin(), ours.end(), found.begin()).first;
@@ -49,22 +56,32 @@ std::string ScenarioDifference(const Json& found, const Json& ours) {
 
 std::string Text(const Json& value) {
   if (value.is_null()) return "nothing";
-  return value.is_string() ? value.get<std::string>() : value.dump();
+  if (value.is_string()) return ShownText(value.get_ref<const std::string&>());
+  return value.is_primitive() ? value.dump() : value.type_name();
 }
 
 // Frames of two programs, or of two instruction sets, are not what either would have made.
-std::string ProgramDifference(const std::string& key, const Json& found, const Json& ours) {
-  const std::string another = "choose another --out";
+std::string ProgramDifference(const std::string& key,
+                              const Json& found,
+                              const Json& ours,
+                              bool is_complete) {
+  const std::string other = "choose another --out";
+  const bool is_isa = key == "isa";
+  const std::string what = is_isa ? "instruction set" : key == "embree" ? "Embree" : "railcast";
   if (found.is_null()) {
-    return "was begun by an older railcast, which does not say by which " + key + "; " + another;
+    return "was begun by an older railcast, which did not record its " +
+           (is_isa ? what : what + "'s version") + "; " + other;
   }
   const std::string got = Text(found) + " (got " + Text(ours) + "); ";
-  if (key == "isa") {
-    return "must be continued with the instruction set that it was begun with, " + got +
-           "add --isa " + Text(found) + ", or " + another;
+  const std::string same = is_isa ? "add --isa " + Text(found) : "use that one";
+  if (is_complete) {
+    return "is complete, made " + std::string(is_isa ? "with " : "by ") + what + " " + got + same +
+           ", or " + other;
   }
-  return "must be continued by the " + std::string(key == "embree" ? "Embree" : "railcast") +
-         " that began it, " + got + "use that one, or " + another;
+  return "must be continued " +
+         (is_isa ? "with the " + what + " that it was begun with, "
+                 : "by the " + what + " that began it, ") +
+         got + same + ", or " + other;
 }
 
 // As the command line has it.
@@ -80,8 +97,12 @@ std::string RunJson(const SequenceSpec& spec) {
   return RunObject(spec).dump(2) + "\n";
 }
 
-void CheckSameRun(const SequenceSpec& spec, const std::string& run_json) {
-  const Json found = Json::parse(run_json, nullptr, false);
+void CheckSameRun(const SequenceSpec& spec, const std::string& run_json, bool is_complete) {
+  // Deeper than ours it is another's: the library copies by recursion what is nested in it.
+  constexpr int kDepth = 8;
+  const Json found = Json::parse(
+      run_json, [](int depth, auto /*event*/, const auto& /*parsed*/) { return depth <= kDepth; },
+      false);
   const std::string place = ShownPath(spec.directory) + ": ";
   if (!found.is_object()) throw InputError(place + "holds a run.json that is not railcast's");
   const Json ours = RunObject(spec);
@@ -89,13 +110,13 @@ void CheckSameRun(const SequenceSpec& spec, const std::string& run_json) {
     throw InputError(place + "holds a run with commands; choose another --out");
   }
   for (const auto& [key, value] : ours.items()) {
-    const Json other = found.value(key, Json());
+    const Json& other = Member(found, key);
     if (other == value) continue;
     if (key == "version" || key == "embree" || key == "isa") {
-      throw InputError(place + ProgramDifference(key, other, value));
+      throw InputError(place + ProgramDifference(key, other, value, is_complete));
     }
     if (key == "inputs" || key == "scenario_xxh3") {
-      throw InputError(place + ScenarioDifference(found.value("inputs", Json()), ours["inputs"]) +
+      throw InputError(place + ScenarioDifference(Member(found, "inputs"), ours["inputs"]) +
                        "; choose another --out");
     }
     if (key == "commands_xxh3") {

@@ -31,7 +31,8 @@ struct SequenceSpec {
 
 /// @throws InputError that names the first difference if `run_json`, found in the directory, is
 ///   another run's.
-void CheckSameRun(const SequenceSpec& spec, const std::string& run_json);
+/// @param is_complete Whether all of that run is there: then it is not to be continued.
+void CheckSameRun(const SequenceSpec& spec, const std::string& run_json, bool is_complete);
 
 /// labels.json in the form the scenario reader reads.
 [[nodiscard]] std::string LabelsJson(const LabelTable& labels);

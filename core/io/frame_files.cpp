@@ -41,24 +41,33 @@ FrameFormat ParseFrameFormat(std::string_view name) {
   throw InputError("--format: unknown format \"" + std::string(name) + "\" (valid: " + valid + ")");
 }
 
+std::vector<std::string> FrameFileNames(FrameFormat format, std::uint32_t number) {
+  const std::string digits = SixDigits(number);
+  switch (format) {
+    case FrameFormat::kKitti:
+      return {"sequences/00/velodyne/" + digits + ".bin",
+              "sequences/00/labels/" + digits + ".label"};
+    case FrameFormat::kPly:
+    case FrameFormat::kPlyCloudCompare:
+      return {"frames/" + digits + ".ply"};
+    default:
+      return {"frames/" + digits + ".pcd"};
+  }
+}
+
 void EncodeFrameFiles(const Frame& frame,
                       const FrameFileSpec& spec,
                       std::uint32_t number,
                       std::vector<FrameFile>& files,
                       const std::set<std::uint32_t>& moving) {
-  const std::string digits = SixDigits(number);
+  const std::vector<std::string> names = FrameFileNames(spec.format, number);
+  files.resize(names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) files[i].name = names[i];
   if (spec.format == FrameFormat::kKitti) {
-    files.resize(2);
-    files[0].name = "sequences/00/velodyne/" + digits + ".bin";
     EncodeKittiPoints(frame, files[0].bytes);
-    files[1].name = "sequences/00/labels/" + digits + ".label";
     EncodeKittiLabels(frame, spec.labels, moving, files[1].bytes);
     return;
   }
-  files.resize(1);
-  const bool is_ply =
-      spec.format == FrameFormat::kPly || spec.format == FrameFormat::kPlyCloudCompare;
-  files[0].name = "frames/" + digits + (is_ply ? ".ply" : ".pcd");
   std::string& bytes = files[0].bytes;
   switch (spec.format) {
     case FrameFormat::kPcd:

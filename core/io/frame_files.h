@@ -34,9 +34,13 @@ struct FrameFile {
   std::string bytes;
 };
 
+/// Relative to the sequence directory: "frames/000012.pcd"; of kitti the points', then the labels'.
+/// @param number The one in the name, six digits or more.
+[[nodiscard]] std::vector<std::string> FrameFileNames(FrameFormat format, std::uint32_t number);
+
 /// Puts a frame into the file or files (kitti: points and labels) that hold it. `files` keeps its
-/// memory from frame to frame. `number` is the one in the name, six digits or more; `moving` are
-/// the instances that move, which kitti tells apart.
+/// memory from frame to frame. `number` is that of FrameFileNames(); `moving` are the instances
+/// that move, which kitti tells apart.
 /// @throws InputError as the format's encoder does.
 void EncodeFrameFiles(const Frame& frame,
                       const FrameFileSpec& spec,

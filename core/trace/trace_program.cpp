@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/out_of_memory.h"
 
 namespace railcast {
 namespace {
@@ -31,22 +32,37 @@ constexpr std::array<Isa, 5> kIsas = {{{"sse2", kNone},
                                        {"avx2", RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED},
                                        {"avx512", RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED}}};
 
-// Embree makes no device for what the processor lacks.
+/// Null for what the processor lacks. Asking why also forgets it: Embree keeps a thread's first
+/// error until then.
+Device NewDevice(const std::string& config) {
+  Device device(rtcNewDevice(config.c_str()));
+  if (device == nullptr && rtcGetDeviceError(nullptr) == RTC_ERROR_OUT_OF_MEMORY) {
+    throw OutOfMemory("asking Embree what it can do");
+  }
+  return device;
+}
+
 bool IsAvailable(const Isa& isa) {
-  const Device device(rtcNewDevice((std::string("isa=") + isa.name).c_str()));
+  const Device device = NewDevice(std::string("isa=") + isa.name);
   return device != nullptr && rtcGetDeviceProperty(device.get(), isa.packets) != 0;
 }
 
 }  // namespace
 
 std::string EmbreeVersion() {
-  const Device device(rtcNewDevice(""));
+  const Device device = NewDevice("");
   Check(device != nullptr, "Embree makes a device");
   const auto part = [&](RTCDeviceProperty property) {
     return std::to_string(rtcGetDeviceProperty(device.get(), property));
   };
   return part(RTC_DEVICE_PROPERTY_VERSION_MAJOR) + "." + part(RTC_DEVICE_PROPERTY_VERSION_MINOR) +
          "." + part(RTC_DEVICE_PROPERTY_VERSION_PATCH);
+}
+
+std::vector<std::string> IsaNames() {
+  std::vector<std::string> names;
+  for (const Isa& isa : kIsas) names.emplace_back(isa.name);
+  return names;
 }
 
 std::string IsaInUse(const std::string& isa) {

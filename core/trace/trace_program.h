@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace railcast {
 
@@ -9,8 +10,12 @@ namespace railcast {
 /// Embree's version as the loaded library tells it: "3.13.5".
 [[nodiscard]] std::string EmbreeVersion();
 
+/// The instruction sets that Embree knows, from the oldest: "sse2", "sse4.2", "avx", "avx2",
+/// "avx512".
+[[nodiscard]] std::vector<std::string> IsaNames();
+
 /// The instruction set that a TraceDevice of `isa` uses: `isa` itself, or, where that is empty, the
-/// best of this machine that Embree was built for: "sse2", "sse4.2", "avx", "avx2" or "avx512".
+/// best of this machine that Embree was built for.
 /// @throws InputError "isa: must be an instruction set of this machine, ... (got avx512)".
 [[nodiscard]] std::string IsaInUse(const std::string& isa);
 

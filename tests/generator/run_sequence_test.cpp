@@ -269,6 +269,19 @@ TEST(RunSequence, RefusesToMixProgramsAndInstructionSets) {
   const TemporaryDirectory directory;
   const SequenceSpec first = ExampleRun(directory.path());
   (void)RunSequence(first, MakeExampleFrame, NoHooks());
+  SequenceSpec complete = first;
+  complete.version = "0.1.0+14c4fad0a1b2";
+  EXPECT_EQ(RunMessage(complete),
+            directory.path().string() +
+                ": is complete, made by railcast 0.1.0 (got 0.1.0+14c4fad0a1b2); use that one, or "
+                "choose another --out");
+  complete = first;
+  complete.isa = "avx512";
+  EXPECT_EQ(RunMessage(complete),
+            directory.path().string() +
+                ": is complete, made with instruction set avx2 (got avx512); add --isa avx2, or "
+                "choose another --out");
+  std::filesystem::remove(directory.path() / "manifest.json");
   const std::string place = directory.path().string() + ": must be continued ";
   SequenceSpec other = first;
   other.version = "0.1.0+14c4fad0a1b2";
@@ -292,15 +305,32 @@ TEST(RunSequence, RefusesToMixProgramsAndInstructionSets) {
   auto older = nlohmann::json::parse(ReadFileWhole(directory.path() / "run.json"));
   older.erase("isa");
   WriteFileWhole(directory.path() / "run.json", older.dump());
-  EXPECT_EQ(RunMessage(first),
-            directory.path().string() +
-                ": was begun by an older railcast, which does not say by which isa; choose another "
-                "--out");
+  EXPECT_EQ(
+      RunMessage(first),
+      directory.path().string() +
+          ": was begun by an older railcast, which did not record its instruction set; choose "
+          "another --out");
+}
+
+TEST(RunSequence, RefusesARunThatIsNestedDeep) {
+  const TemporaryDirectory directory;
+  const SequenceSpec spec = ExampleRun(directory.path());
+  (void)RunSequence(spec, MakeExampleFrame, NoHooks());
+  constexpr std::size_t kDepth = 200'000;
+  const std::string nested = std::string(kDepth, '[') + std::string(kDepth, ']');
+  for (const std::string key : {"seed", "inputs", "version"}) {
+    auto run = nlohmann::ordered_json::parse(RunJson(spec));
+    run[key] = "NESTED";
+    std::string text = run.dump();
+    text.replace(text.find("\"NESTED\""), 8, nested);
+    WriteFileWhole(directory.path() / "run.json", text);
+    EXPECT_TRUE(RunMessage(spec).ends_with("choose another --out")) << key;
+  }
 }
 
 // What a run says of a directory with a file of somebody else's.
 std::string StrangerMessage(const std::filesystem::path& directory, const std::string& name) {
-  return directory.string() + ": holds a file that is no run's of railcast (" + name +
+  return directory.string() + ": holds a file that does not belong to this run (" + name +
          "); move it away or choose another --out";
 }
 
@@ -327,9 +357,34 @@ TEST(RunSequence, TakesNoFilesForItsOwnWhereThereIsNoRun) {
   EXPECT_EQ(RunMessage(ExampleRun(directory.path() / "killed")), "no error");
 }
 
+TEST(RunSequence, TakesALinkToAFolderForAFile) {
+  const TemporaryDirectory directory;
+  const auto out = directory.path() / "out";
+  (void)RunSequence(ExampleRun(out), MakeExampleFrame, NoHooks());
+  std::filesystem::create_directory(directory.path() / "elsewhere");
+  std::filesystem::create_directory_symlink(directory.path() / "elsewhere", out / "notes");
+  EXPECT_EQ(RunMessage(ExampleRun(out)), StrangerMessage(out, "notes"));
+}
+
+TEST(RunSequence, KeepsAnInputThatIsCalledAsIfItWereUnfinished) {
+  const TemporaryDirectory directory;
+  SequenceSpec spec = ExampleRun(directory.path());
+  spec.identity.inputs.push_back({"wagon.part", "0123456789abcdef", "v 0 0 0"});
+  (void)RunSequence(spec, MakeExampleFrame, NoHooks());
+  std::filesystem::remove(directory.path() / "manifest.json");
+  const auto copy = directory.path() / "inputs/0123456789abcdef/wagon.part";
+  WriteFileWhole(directory.path() / "frames/000003.pcd.part", "half");
+  EXPECT_TRUE(RunSequence(spec, MakeExampleFrame, NoHooks()).is_complete);
+  EXPECT_EQ(ReadFileWhole(copy), "v 0 0 0");
+  EXPECT_FALSE(std::filesystem::exists(directory.path() / "frames/000003.pcd.part"));
+}
+
 TEST(RunSequence, LeavesStrangersFilesInARunAlone) {
+  // The run has frames 3 to 8.
   for (const std::string name :
-       {"film.part", "frames/film.part", "frames/000003.pcd.bak", "notes/letter.txt"}) {
+       {"film.part", "frames/film.part", "frames/000003.pcd.bak", "notes/letter.txt",
+        "frames/000009.pcd", "frames/000002.pcd", "frames/000003.ply", "frames/3.pcd",
+        "inputs/0123456789abcdef/wagon.obj", "commands.jsonl", "sequences/00/poses.txt"}) {
     for (const bool is_complete : {false, true}) {
       const TemporaryDirectory directory;
       (void)RunSequence(ExampleRun(directory.path()), MakeExampleFrame, NoHooks());

@@ -198,9 +198,10 @@ TEST_F(TracedSequence, IsRefusedIfCommandsChangedIt) {
 TEST_F(TracedSequence, NamesAFileThatIsGone) {
   const auto recording = Make(MakeProject(Folder() / "project").string());
   const RecordedFrame recorded = (*recording->Next())();
-  fs::remove(Folder() / "project/rock.obj");
+  const std::string rock = recording->info().scenario->world.objects.at(0).file.value();
+  EXPECT_TRUE(rock.starts_with(Out().string() + "/inputs/")) << rock;
+  fs::remove(rock);
   EffectTrace trace(recording->info());
-  const std::string rock = (Folder() / "project/rock.obj").string();
   EXPECT_THAT(trace.Of(recorded, 0), testing::StartsWith("error: "));
   EXPECT_THAT(trace.Of(recorded, 0), HasSubstr(rock));
 }
