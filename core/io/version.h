@@ -4,9 +4,10 @@
 
 namespace railcast {
 
-/// The project's version and the commit that the program was built from: "0.1.0+14c4fad0a1b2". It
-/// ends in ".dirty" if files of the tree were changed since, so that no commit says what it does;
-/// built without a repository, from a tarball, it is "0.1.0" alone.
+/// The project's version and the commit that the program was built from: "0.1.0+14c4fad0a1b2".
+/// Where files of the tree were changed since, ".dirty." and a hash of these changes follow; where
+/// git does not tell the commit it is "0.1.0+unknown"; built without a repository, from a tarball,
+/// it is "0.1.0" alone.
 [[nodiscard]] std::string ProgramVersion();
 
 }  // namespace railcast

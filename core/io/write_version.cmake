@@ -14,12 +14,17 @@ if(GIT AND EXISTS "${SOURCE_DIR}/.git")
   if(status EQUAL 0)
     string(APPEND version "+${commit}")
     execute_process(
-      COMMAND "${GIT}" --no-optional-locks status --porcelain --untracked-files=no
+      COMMAND "${GIT}" --no-optional-locks diff HEAD
       WORKING_DIRECTORY "${SOURCE_DIR}"
       OUTPUT_VARIABLE changes ERROR_QUIET)
     if(NOT changes STREQUAL "")
-      string(APPEND version ".dirty")
+      string(SHA256 hash "${changes}")
+      string(SUBSTRING "${hash}" 0 8 hash)
+      string(APPEND version ".dirty.${hash}")
     endif()
+  else()
+    # For example because the tree belongs to somebody else.
+    string(APPEND version "+unknown")
   endif()
 endif()
 
