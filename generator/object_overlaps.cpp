@@ -93,24 +93,16 @@ class Objects {
 
   [[nodiscard]] const std::vector<Eigen::AlignedBox3d>& boxes_world() const { return boxes_world_; }
 
-  /// Whether an edge of `moved` meets a surface of `fixed`; one of the two is drawn in.
-  [[nodiscard]] bool EdgesMeet(std::size_t fixed, std::size_t moved, bool draws_in_moved) {
-    const Eigen::Affine3d fixed_from_moved = FixedFromMoved(fixed, moved, draws_in_moved);
-    const Eigen::AlignedBox3d box = ModelOf(fixed).Bounds();
-    Segments segments(SceneOf(fixed));
-    for (const Part& part : ModelOf(moved).parts) {
-      for (const auto& triangle : part.mesh.triangles) {
-        std::array<Vector3, 3> corners;
-        Eigen::AlignedBox3d corners_box;
-        for (std::size_t k = 0; k < 3; ++k) {
-          corners[k] = fixed_from_moved * part.mesh.vertices[triangle[k]].cast<double>();
-          corners_box.extend(corners[k]);
-        }
-        if (!box.intersects(corners_box)) continue;
-        for (std::size_t k = 0; k < 3; ++k) segments.Add(corners[k], corners[(k + 1) % 3]);
-      }
-    }
-    return segments.CountHits() > 0;
+  /// Whether their surfaces cut each other. The smaller one is drawn in: a wagon that is would lift
+  /// its floor into its load.
+  [[nodiscard]] bool SurfacesMeet(std::size_t one, std::size_t other) {
+    const auto size_m = [&](std::size_t object) {
+      return ModelOf(object).Bounds().diagonal().norm();
+    };
+    const bool is_one_smaller = size_m(one) < size_m(other);
+    const std::size_t small = is_one_smaller ? one : other;
+    const std::size_t large = is_one_smaller ? other : one;
+    return EdgesMeet(large, small, true) || EdgesMeet(small, large, false);
   }
 
   /// Whether `outer` is all around a corner of `inner`.
@@ -130,6 +122,26 @@ class Objects {
   }
 
  private:
+  // Whether an edge of `moved` meets a surface of `fixed`; one of the two is drawn in.
+  [[nodiscard]] bool EdgesMeet(std::size_t fixed, std::size_t moved, bool draws_in_moved) {
+    const Eigen::Affine3d fixed_from_moved = FixedFromMoved(fixed, moved, draws_in_moved);
+    const Eigen::AlignedBox3d box = ModelOf(fixed).Bounds();
+    Segments segments(SceneOf(fixed));
+    for (const Part& part : ModelOf(moved).parts) {
+      for (const auto& triangle : part.mesh.triangles) {
+        std::array<Vector3, 3> corners;
+        Eigen::AlignedBox3d corners_box;
+        for (std::size_t k = 0; k < 3; ++k) {
+          corners[k] = fixed_from_moved * part.mesh.vertices[triangle[k]].cast<double>();
+          corners_box.extend(corners[k]);
+        }
+        if (!box.intersects(corners_box)) continue;
+        for (std::size_t k = 0; k < 3; ++k) segments.Add(corners[k], corners[(k + 1) % 3]);
+      }
+    }
+    return segments.CountHits() > 0;
+  }
+
   [[nodiscard]] const Model& ModelOf(std::size_t object) const {
     return *world_.objects()[object].model;
   }
@@ -194,7 +206,7 @@ std::vector<ObjectOverlap> FindOverlaps(const World& world, std::int64_t time_ns
   Objects objects(world, time_ns);
   std::vector<ObjectOverlap> overlaps;
   for (const auto& [one, other] : PairsNearby(objects.boxes_world())) {
-    if (objects.EdgesMeet(one, other, true) || objects.EdgesMeet(other, one, false)) {
+    if (objects.SurfacesMeet(one, other)) {
       overlaps.push_back({one, other, false});
     } else if (objects.Encloses(other, one)) {
       overlaps.push_back({one, other, true});

@@ -80,6 +80,10 @@ TEST(ObjectOverlaps, AnOpenTroughDoesNotEncloseItsLoad) {
   }
   const auto model = std::make_shared<const Model>(Model{"trough", {{trough, 1, 9}}});
   EXPECT_EQ(OverlapsOf(model, Cube(), Transform::Identity()), none);
+  // It stands on the floor.
+  EXPECT_EQ(OverlapsOf(model, Cube(), At(0.3, 0.2, -0.5)), none);
+  EXPECT_EQ(OverlapsOf(Cube(), model, At(-0.3, -0.2, 0.5)), none);
+  EXPECT_EQ(OverlapsOf(model, Cube(), At(0.3, 0.2, -0.52)), cut);
 }
 
 TEST(ObjectOverlaps, FindsEveryPairOnceAtItsMoment) {
