@@ -37,7 +37,8 @@ std::string CardHtml(const Headline& headline) {
   const std::string value = text.is_number ? NumberHtml(text.value) : EscapedHtml(text.value);
   const char* const comma = text.interval.empty() || text.samples.empty() ? "" : ", ";
   return Joined({"<div class=\"card\">", Element("dt", headline.title),
-                 text.is_absent ? "<dd class=\"absent\">" : "<dd>", "<span class=\"figure\">",
+                 text.is_absent ? "<dd class=\"absent\">" : "<dd>",
+                 text.is_number ? "<span class=\"figure\">" : "<span class=\"figure words\">",
                  value, "</span>", text.is_absent ? "" : UnitHtml(headline.unit),
                  "<span class=\"interval\">", NumberHtml(text.interval), comma,
                  "<span class=\"samples\">", text.samples, "</span></span></dd></div>\n"});

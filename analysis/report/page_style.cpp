@@ -55,6 +55,7 @@ main { min-width: 0; }
   padding: 0.85rem 1rem 0.8rem; }
 .figure { font-size: 1.65rem; font-weight: 650; letter-spacing: -0.02em; line-height: 1.3;
   overflow-wrap: anywhere; }
+.figure.words { font-size: 1.05rem; letter-spacing: 0; }
 .unit { color: var(--muted); font-weight: 400; }
 .card .interval { display: block; min-height: 1.4em; color: var(--muted); font-size: 0.8rem;
   line-height: 1.4; }
