@@ -160,7 +160,7 @@ int SequenceCommand(const SequenceOptions& options) {
   SurveyedRun frames(run, spec.files.labels);
   // Whatever ends the program, the directory can be resumed.
   CatchStopSignals();
-  WatchBuilding(*simulator, StopRequested);
+  WatchBuilding(*simulator, StopRequested, true);
   ProgressDisplay display;
   const SequenceHooks hooks = {
       [&](std::uint32_t num_done, std::uint32_t num_frames) { display.Show(num_done, num_frames); },

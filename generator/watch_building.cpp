@@ -9,7 +9,9 @@
 
 namespace railcast {
 
-void WatchBuilding(Simulator& simulator, const std::function<bool()>& is_stopped) {
+void WatchBuilding(Simulator& simulator,
+                   const std::function<bool()>& is_stopped,
+                   bool has_deadline) {
   const TerminalLine line;
   const std::thread::id waiting = std::this_thread::get_id();
   simulator.UseProgress([=](std::size_t num_done, std::size_t num_steps) {
@@ -17,7 +19,7 @@ void WatchBuilding(Simulator& simulator, const std::function<bool()>& is_stopped
     if (std::this_thread::get_id() == waiting) {
       const bool is_over = must_stop || num_done == num_steps;
       const std::size_t percent = 100 * num_done / num_steps;
-      UseStopDeadline(!is_over);
+      if (has_deadline) UseStopDeadline(!is_over);
       line.Show(is_over ? "" : "building the scene: " + std::to_string(percent) + " %");
     }
     if (must_stop) throw RunStopped();

@@ -11,6 +11,10 @@ namespace railcast {
 /// ends with RunStopped. A chunk of a window takes a fraction of a second; what then still takes
 /// longer, as the scene of millions of plants does, ends with the program (UseStopDeadline).
 /// @param is_stopped Asked by several threads.
-void WatchBuilding(Simulator& simulator, const std::function<bool()>& is_stopped);
+/// @param has_deadline Only while the program has nothing to tidy up: no capture to finish, no
+///   datagrams to send.
+void WatchBuilding(Simulator& simulator,
+                   const std::function<bool()>& is_stopped,
+                   bool has_deadline);
 
 }  // namespace railcast

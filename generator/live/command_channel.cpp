@@ -135,8 +135,11 @@ void CommandChannel::Hear(std::string_view text, const CommandLine& line, const 
   if (!line.command) {
     answer.text = FaultAnswer(line.tag, line.faults);
   } else if (requests_.size() == kMaxRequests) {
-    answer.text = FaultAnswer(line.tag, {"too many commands wait (got one more than " +
-                                         std::to_string(kMaxRequests) + ")"});
+    // Not remembered: who sends it again when there is room is heard.
+    receiver_.Answer(FaultAnswer(line.tag, {"too many commands wait (got one more than " +
+                                            std::to_string(kMaxRequests) + ")"}),
+                     from);
+    return;
   } else {
     requests_.push_back({from, line.tag, *line.command});
     arrived_.notify_all();

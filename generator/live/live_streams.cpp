@@ -6,6 +6,7 @@
 #include "core/scenario/scenario.h"
 #include "generator/chosen_fidelity.h"
 #include "generator/run_stopped.h"
+#include "generator/stop_signal.h"
 #include "generator/track_limits.h"
 #include "generator/watch_building.h"
 
@@ -51,12 +52,18 @@ void LiveStreams::ChooseFidelity() {
 }
 
 void LiveStreams::WarmUp(const std::function<bool()>& is_stopped) {
-  for (const auto& simulator : simulators_) WatchBuilding(*simulator, is_stopped);
+  const auto watch = [&](bool has_deadline) {
+    for (const auto& simulator : simulators_) WatchBuilding(*simulator, is_stopped, has_deadline);
+  };
+  watch(true);
   try {
     for (std::size_t i = 0; i < frames_.size(); ++i) commanded_.At(i, 0).Scan(0, frames_[i]);
   } catch (const RunStopped&) {
     // The run ends with no frame.
   }
+  // From now on there are captures to finish and datagrams to send.
+  UseStopDeadline(false);
+  watch(false);
 }
 
 void LiveStreams::MakeFrame(std::size_t sensor, std::uint32_t frame, Datagrams& datagrams) {

@@ -13,7 +13,8 @@ TEST(WatchBuilding, EndsAFrameWhoseSceneIsNotBuiltYetOnceTheRunIsStopped) {
   Simulator simulator(std::make_shared<SimpleWorld>(), MakeRaster(10, 10, 1), TestMaterials(), {},
                       1);
   bool is_stopped = true;
-  WatchBuilding(simulator, [&] { return is_stopped; });
+  WatchBuilding(
+      simulator, [&] { return is_stopped; }, true);
   Frame frame;
   EXPECT_THROW(simulator.Scan(0, frame), RunStopped);
   is_stopped = false;

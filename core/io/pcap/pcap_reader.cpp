@@ -26,16 +26,30 @@ std::uint16_t BigAt(std::span<const char> bytes, std::size_t place) {
                                     static_cast<unsigned char>(bytes[place + 1]));
 }
 
-// What follows the Ethernet header and its tags, if that is IPv4.
+constexpr std::size_t kUdpProtocolPlace = 9;  // In IPv4's header.
+constexpr char kUdpProtocol = 17;
+
+// What follows the Ethernet header and its tags, if that is IPv4. Empty, too, of a frame that ends
+// before that can be told.
 std::optional<std::span<const char>> IpPacket(std::span<const char> frame) {
   std::size_t type_place = kEthernetSize - 2;
   for (std::size_t tags = 0; tags <= kMaxVlanTags; ++tags, type_place += kVlanTagSize) {
-    if (frame.size() < type_place + 2) return std::nullopt;
+    if (frame.size() < type_place + 2) return frame.subspan(frame.size());
     const std::uint16_t type = BigAt(frame, type_place);
     if (type == 0x0800) return frame.subspan(type_place + 2);
     if (type != 0x8100 && type != 0x88A8) return std::nullopt;
   }
   return std::nullopt;
+}
+
+// Whether what the capture kept of a frame may be the beginning of a UDP datagram. Of other
+// protocols, which may be cut as they like, nothing is wanted.
+bool MayBeginDatagram(std::span<const char> frame) {
+  const auto ip = IpPacket(frame);
+  if (!ip) return false;
+  if (ip->size() <= kUdpProtocolPlace) return true;
+  return static_cast<unsigned char>((*ip)[0]) >> 4U == 4 &&
+         (*ip)[kUdpProtocolPlace] == kUdpProtocol;
 }
 
 // What follows the IPv4 header and its options, if that is a whole UDP datagram.
@@ -46,9 +60,8 @@ std::optional<std::span<const char>> UdpPacket(std::span<const char> ip) {
   // Behind the packet Ethernet may have padding.
   const std::size_t size = BigAt(ip, 2);
   const bool is_fragment = (BigAt(ip, 6) & 0x3FFFU) != 0;
-  constexpr char kUdp = 17;
   if (version_and_words >> 4U != 4 || header_size < 20 || size < header_size + kUdpHeaderSize ||
-      size > ip.size() || is_fragment || ip[9] != kUdp) {
+      size > ip.size() || is_fragment || ip[kUdpProtocolPlace] != kUdpProtocol) {
     return std::nullopt;
   }
   return ip.subspan(header_size, size - header_size);
@@ -119,8 +132,9 @@ std::optional<CapturedDatagram> PcapReader::Next() {
     const std::size_t packet = num_frames_++;
     const std::string place = name_ + ": packet " + NumberText(packet) + ": ";
     if (status != 1) throw InputError(place + pcap_geterr(capture_->pcap));
-    auto datagram = FindDatagram(std::span(reinterpret_cast<const char*>(bytes), header->caplen));
-    if (!datagram && header->caplen < header->len) {
+    const std::span<const char> kept(reinterpret_cast<const char*>(bytes), header->caplen);
+    auto datagram = FindDatagram(kept);
+    if (!datagram && header->caplen < header->len && MayBeginDatagram(kept)) {
       throw InputError(place + "must be captured whole (got " + NumberText(header->caplen) +
                        " of " + NumberText(header->len) + " bytes)");
     }

@@ -245,6 +245,9 @@ TEST(CommandChannel, RefusesMoreThanItCanHold) {
   for (std::size_t i = 0; i < CommandChannel::kMaxRequests; ++i) {
     ASSERT_TRUE(channel.Next(0).has_value());
   }
+  // The same line again: now there is room.
+  controller.Say("{\"session\": \"a\", \"id\": 9, \"command\": \"stop\"}");
+  EXPECT_TRUE(channel.Next(kPatience_ms).has_value());
 }
 
 }  // namespace

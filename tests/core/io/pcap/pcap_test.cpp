@@ -242,6 +242,19 @@ TEST(PcapReader, SaysWhereAFileIsDamaged) {
   snapped[24 + 8] = 100;
   snapped[24 + 9] = 0;
   EXPECT_EQ(said(snapped), "packet 0: must be captured whole (got 100 of 1248 bytes)");
+  std::string too_short = sound.substr(0, 24 + 16 + 20);
+  too_short[24 + 8] = 20;
+  too_short[24 + 9] = 0;
+  EXPECT_EQ(said(too_short), "packet 0: must be captured whole (got 20 of 1248 bytes)");
+  // Of another protocol it may keep what it likes.
+  const std::size_t ethernet = 24 + 16;
+  for (const auto& [place, value] : {std::pair<std::size_t, char>{ethernet + 14 + 9, 6},
+                                     {ethernet + 14, 0x65},
+                                     {ethernet + 13, 0x06}}) {
+    std::string other = snapped + sound.substr(24);
+    other[place] = value;
+    EXPECT_EQ(said(other), "no error") << place;
+  }
   std::string huge = sound;
   huge[24 + 11] = 0x7F;
   EXPECT_THAT(said(huge), testing::StartsWith("packet 0: invalid packet capture length"));
