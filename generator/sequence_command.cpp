@@ -19,6 +19,7 @@
 #include "generator/frame_limits.h"
 #include "generator/object_survey.h"
 #include "generator/run_sequence.h"
+#include "generator/run_stopped.h"
 #include "generator/stop_signal.h"
 #include "generator/summary.h"
 #include "generator/terminal_line.h"
@@ -57,7 +58,7 @@ CommandLog ReadLog(const SequenceOptions& options, const Scenarios& scenarios) {
   const std::string whole = IdentityOf(scenarios.whole).scenario_hash;
   if (log.scenario_xxh3 != whole &&
       log.scenario_xxh3 != IdentityOf(scenarios.of_sensor).scenario_hash) {
-    throw InputError(options.commands->string() +
+    throw InputError(ShownPath(*options.commands) +
                      ": must be the log of this scenario with this --seed and --fidelity, " +
                      whole + " (got that of " + log.scenario_xxh3 + ")");
   }
@@ -152,15 +153,20 @@ int SequenceCommand(const SequenceOptions& options) {
   CommandedRun run(scenario, {simulator.get()});
   AtPlace(ShownPath(options.commands.value_or("")) + ": ", [&] { run.Apply(log.commands); });
   CheckStaysOnTracks(run, simulator->pattern(), spec.start_frame, last_frame);
-  if (scenario.fidelity == kAutoFidelity) {
-    const FidelityChoice choice = UseChosenFidelity(*simulator, scenario);
-    spec.fidelity_choice_json = ChoiceJson(choice, scenario.tolerance);
-    std::cout << ChoiceText(choice, scenario.tolerance) << std::flush;
-  }
-  SurveyedRun frames(run, spec.files.labels);
   // Whatever ends the program, the directory can be resumed.
   CatchStopSignals();
   WatchBuilding(*simulator, StopRequested, true);
+  if (scenario.fidelity == kAutoFidelity) {
+    try {
+      const FidelityChoice choice = UseChosenFidelity(*simulator, scenario);
+      spec.fidelity_choice_json = ChoiceJson(choice, scenario.tolerance);
+      std::cout << ChoiceText(choice, scenario.tolerance) << std::flush;
+    } catch (const RunStopped&) {
+      std::cerr << "interrupted before the first frame\n";
+      return kExitInterrupted;
+    }
+  }
+  SurveyedRun frames(run, spec.files.labels);
   ProgressDisplay display;
   const SequenceHooks hooks = {
       [&](std::uint32_t num_done, std::uint32_t num_frames) { display.Show(num_done, num_frames); },

@@ -61,6 +61,10 @@ void CheckOptionsTogether(const StreamOptions& options, std::size_t num_sensors)
         std::string("--drop-late: must be left out where frames wait for ") +
         (options.lockstep ? "steps, as with --lockstep" : "no time, as with --pcap without --to"));
   }
+  if (options.sends_singly && IsOffline(options)) {
+    throw InputError(
+        "--no-offload: must be left out where nothing is sent, as with --pcap without --to");
+  }
   if (IsOffline(options) && !options.duration_s && !options.lockstep) {
     throw InputError("--pcap: needs --duration where nobody receives, --to (got none)");
   }
@@ -152,7 +156,7 @@ std::string Describe(const std::vector<SensorStreamSpec>& streams) {
     text += stream.name + ": " + stream.protocol;
     for (const Endpoint& to : stream.to) text += " to " + EndpointText(to);
     if (stream.to.empty()) text += " to nobody";
-    if (stream.pcap) text += ", into " + stream.pcap->string();
+    if (stream.pcap) text += ", into " + ShownPath(*stream.pcap);
     text += "\n";
   }
   return text;
@@ -273,7 +277,6 @@ int StreamCommand(const StreamOptions& options) {
     commands.emplace(streams.commanded_run(), *channel, options.lockstep, options.commands_log,
                      IdentityOf(scenario).scenario_hash);
   }
-  streams.ChooseFidelity();
   CatchStopSignals();
   streams.WarmUp(StopRequested);
   std::cout << ShownLines(Describe(plan)) << std::flush;

@@ -4,6 +4,8 @@
 
 #include <iostream>
 
+#include "core/base/shown_text.h"
+
 namespace railcast {
 
 TerminalLine::TerminalLine() : is_terminal_(::isatty(STDERR_FILENO) == 1) {}
@@ -15,7 +17,7 @@ void TerminalLine::Show(std::string_view text) const {
 
 void TerminalLine::Say(std::string_view text) const {
   Show("");
-  std::cerr << text << "\n" << std::flush;
+  std::cerr << ShownLines(text) << "\n" << std::flush;
 }
 
 void TerminalLine::End() const {

@@ -57,6 +57,7 @@ void LiveStreams::WarmUp(const std::function<bool()>& is_stopped) {
   };
   watch(true);
   try {
+    ChooseFidelity();
     for (std::size_t i = 0; i < frames_.size(); ++i) commanded_.At(i, 0).Scan(0, frames_[i]);
   } catch (const RunStopped&) {
     // The run ends with no frame.

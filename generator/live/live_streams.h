@@ -24,8 +24,7 @@ class LiveStreams {
   /// @param isa As MakeSimulators() takes it.
   /// @param ends_ns Where given, the simulation time until which nothing may leave its track.
   /// @throws InputError as MakeSimulators(), CheckStaysOnTracks() and SensorStream do, in this
-  /// order:
-  ///   no file is begun for a run that cannot be made.
+  ///   order: no file is begun for a run that cannot be made.
   LiveStreams(const ScenarioSpec& scenario,
               const std::vector<SensorStreamSpec>& streams,
               int num_threads,
@@ -35,10 +34,9 @@ class LiveStreams {
 
   [[nodiscard]] CommandedRun& commanded_run() { return commanded_; }
 
-  /// Makes fidelity auto's choice, if that is the scenario's fidelity. @pre Nothing has been made.
-  void ChooseFidelity();
-  /// Builds the scene of frame 0, which takes long, so that it makes no frame late, and watches
-  /// from now on as WatchBuilding() does. It may end early.
+  /// Does beforehand what takes long, so that it makes no frame late: builds the scene of frame 0
+  /// and, if the scenario asks for it, makes fidelity auto's choice. Watches from now on as
+  /// WatchBuilding() does. It may end early. @pre Nothing has been made.
   void WarmUp(const std::function<bool()>& is_stopped);
 
   /// For RunLive(); valid as long as this.
@@ -55,6 +53,7 @@ class LiveStreams {
   [[nodiscard]] std::vector<UdpSender::Counts> Delivered() const;
 
  private:
+  void ChooseFidelity();
   void MakeFrame(std::size_t sensor, std::uint32_t frame, Datagrams& datagrams);
 
   std::vector<std::unique_ptr<Simulator>> simulators_;

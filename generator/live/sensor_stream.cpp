@@ -4,6 +4,7 @@
 
 #include "core/base/attempt.h"
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 #include "core/io/stream/stream_encoder.h"
 #include "core/io/velodyne/velodyne_encoder.h"
 #include "core/io/velodyne/velodyne_packet.h"
@@ -67,7 +68,7 @@ void SensorStream::UseCapture(const Work& work) {
     const std::lock_guard lock(mutex_);
     capture_fault_ = std::string(error.what()) + "; the capture ends after " +
                      std::to_string(num_captured_) + " datagrams, in " +
-                     capture_->unfinished().string();
+                     ShownPath(capture_->unfinished());
     capture_.reset();
   }
 }

@@ -151,6 +151,8 @@ TEST(Stream, SaysWhichOptionsDoNotGoTogether) {
             "--pcap: needs --duration where nobody receives, --to (got none)\n");
   EXPECT_EQ(fault(scenario + " --drop-late --lockstep --commands-port 9"),
             "--drop-late: must be left out where frames wait for steps, as with --lockstep\n");
+  EXPECT_EQ(fault(scenario + " --no-offload --pcap a --duration 1"),
+            "--no-offload: must be left out where nothing is sent, as with --pcap without --to\n");
   EXPECT_EQ(fault(scenario + " --drop-late --pcap a --duration 1"),
             "--drop-late: must be left out where frames wait for no time, as with --pcap without "
             "--to\n");
