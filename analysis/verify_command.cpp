@@ -7,6 +7,7 @@
 
 #include "analysis/commands.h"
 #include "analysis/verify/verification.h"
+#include "core/base/shown_text.h"
 #include "core/io/progress_line.h"
 
 namespace railcast {
@@ -31,8 +32,8 @@ int RunVerify(const std::filesystem::path& directory) {
   const Verification found =
       VerifySequence(directory, [&](double share) { progress.Show("frames", share); });
   progress.End();
-  for (const std::string& fault : found.faults) std::cout << fault << "\n";
-  std::cout << directory.string() << ": " << SummaryOf(found) << "\n" << std::flush;
+  for (const std::string& fault : found.faults) std::cout << ShownLines(fault) << "\n";
+  std::cout << ShownPath(directory) << ": " << SummaryOf(found) << "\n" << std::flush;
   return found.faults.empty() ? kExitSuccess : kExitFailure;
 }
 

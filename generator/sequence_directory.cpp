@@ -22,6 +22,7 @@
 #include "core/base/units.h"
 #include "core/io/content_hash.h"
 #include "core/io/kitti.h"
+#include "core/io/recording/sequence_summary.h"
 #include "core/io/sequence_files.h"
 #include "core/io/write_file.h"
 #include "generator/counts_json.h"
@@ -297,7 +298,7 @@ std::string SequenceDirectory::ManifestJson() const {
   PutCounts(counts_, manifest);
   // frames.jsonl names the hash of every frame's files: these hashes are over all there is. That of
   // the data leaves out which program made them.
-  std::string data;
+  std::vector<KnownFile> known;
   nlohmann::ordered_json files = nlohmann::ordered_json::object();
   std::vector<std::string> names = {std::string(kRunFile)};
   for (const FrameFile& file : FixedFiles()) names.push_back(file.name);
@@ -305,11 +306,11 @@ std::string SequenceDirectory::ManifestJson() const {
   for (const std::string& name : names) {
     const std::string hash = ContentHash(ReadFileWhole(spec_.directory / name));
     files[name] = hash;
-    if (name != kRunFile) data += hash;
+    known.push_back({name, hash, {}});
   }
   manifest["files_xxh3"] = files;
-  manifest["data_xxh3"] = ContentHash(data);
-  return manifest.dump(2) + "\n";
+  manifest["data_xxh3"] = DataHash(known);
+  return WithManifestHash(manifest.dump(2) + "\n");
 }
 
 }  // namespace railcast

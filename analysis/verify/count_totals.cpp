@@ -19,20 +19,31 @@ void AddTo(Json& sum, const Json& value) {
   for (const auto& [key, one] : value.items()) AddTo(sum.emplace(key, 0U).first.value(), one);
 }
 
-void CompareTo(const Json& sum, const Json& got, const std::string& place, ErrorList& faults) {
-  if (sum == got) return;
-  if (sum.is_object() && got.is_object()) {
+const Json* Find(const Json& object, const std::string& key) {
+  const auto found = object.find(key);
+  return found == object.end() ? nullptr : &*found;
+}
+
+std::string TextOf(const Json* value) {
+  if (value == nullptr) return "nothing";
+  return value->is_number() ? value->dump() : value->type_name();
+}
+
+// What was read may be nested too deep to be copied, compared or written: only what must be a
+// number is looked into.
+void CompareTo(const Json& sum, const Json* got, const std::string& place, ErrorList& faults) {
+  if (sum.is_object() && got != nullptr && got->is_object()) {
     for (const auto& [key, one] : sum.items()) {
-      CompareTo(one, got.value(key, Json()), place + "/" + key, faults);
+      CompareTo(one, Find(*got, key), place + "/" + ShownText(key), faults);
     }
-    for (const auto& [key, one] : got.items()) {
+    for (const auto& [key, one] : got->items()) {
       if (!sum.contains(key)) faults.Add(place + "/" + ShownText(key) + ": is in no frame");
     }
     return;
   }
-  // Anything but a number may be nested too deep to be written.
-  const std::string got_text = got.is_number() ? got.dump() : got.type_name();
-  faults.Add(place + ": must be " + sum.dump() + ", the sum over frames.jsonl (got " + got_text +
+  if (sum.is_number() && got != nullptr && got->is_number() && sum == *got) return;
+  const std::string expected = sum.is_number() ? sum.dump() : sum.type_name();
+  faults.Add(place + ": must be " + expected + ", the sum over frames.jsonl (got " + TextOf(got) +
              ")");
 }
 
@@ -44,7 +55,7 @@ void CountTotals::Add(const Json& line) {
 
 void CountTotals::Compare(const Json& manifest, const std::string& place, ErrorList& faults) const {
   for (const auto& [key, sum] : sums_.items()) {
-    CompareTo(sum, manifest.value(key, Json()), place + ": /" + key, faults);
+    CompareTo(sum, Find(manifest, key), place + ": /" + key, faults);
   }
 }
 

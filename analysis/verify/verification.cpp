@@ -8,6 +8,7 @@
 #include "core/base/attempt.h"
 #include "core/base/number_text.h"
 #include "core/base/shown_text.h"
+#include "core/io/recording/recorded_json.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/sequence_files.h"
 #include "core/io/write_file.h"
@@ -28,19 +29,12 @@ std::vector<std::string> NeededFiles(const RunSummary& run) {
   return names;
 }
 
-// Harmless to a terminal.
-std::string ShownName(const fs::path& relative) {
-  fs::path shown;
-  for (const fs::path& part : relative) shown /= ShownText(part.string());
-  return shown.string();
-}
-
 class Verifier {
  public:
   Verifier(const fs::path& directory, const std::function<void(double)>& on_progress)
       : on_progress_(on_progress) {
     summary_.directory = directory;
-    summary_.run = ReadRunSummary(ReadFileWhole(PathOf(kRunFile)), PathOf(kRunFile));
+    summary_.run = ReadRunSummary(ReadFileWhole(directory / kRunFile), PathOf(kRunFile));
     known_ = {std::string(kRunFile), std::string(kManifestFile)};
   }
 
@@ -55,8 +49,9 @@ class Verifier {
   }
 
  private:
+  // As messages show it.
   [[nodiscard]] std::string PathOf(std::string_view name) const {
-    return (summary_.directory / name).string();
+    return ShownPath(summary_.directory / name);
   }
   template <typename Work>
   bool Try(const Work& work) {
@@ -71,7 +66,7 @@ class Verifier {
   void CheckKnownFiles();
   void CheckFile(const KnownFile& file, std::string_view said_in);
   void CheckFrames();
-  bool CheckNumLines(std::string_view name, std::size_t num_headers);
+  bool HasAllLines(std::string_view name);
   void CheckFrame(const FrameLine& line, const FrameLines& lines, bool has_all_records);
   void CheckNames(const FrameLine& line, const std::string& place);
   void FindOthers();
@@ -92,17 +87,18 @@ void Verifier::ReadTheManifest() {
           "is of an older railcast, which named neither the instruction set nor Embree, and whose "
           "scenario names files elsewhere");
   }
-  if (!fs::exists(PathOf(kManifestFile))) {
+  if (!IsThere(summary_.directory / kManifestFile)) {
     return Fault(kManifestFile, "missing: the run is unfinished");
   }
   Try([&] {
-    const std::string text = ReadFileWhole(PathOf(kManifestFile));
+    const std::string text = ReadFileWhole(summary_.directory / kManifestFile);
     summary_.manifest = ReadManifest(text, PathOf(kManifestFile));
     manifest_json_ = StrictJson::parse(text);
+    if (!summary_.run.isa.empty()) CheckManifestHash(text, PathOf(kManifestFile));
   });
 }
 
-// The manifest itself has no hash: what it says must agree with what the other files say.
+// Its own hash says that it is as it was written; that it belongs here, only what it says.
 void Verifier::CompareManifest() {
   const RunSummary& run = summary_.run;
   const Manifest& manifest = *summary_.manifest;
@@ -112,6 +108,7 @@ void Verifier::CompareManifest() {
                              ", as run.json says (got " + ShownText(got) + ")");
   };
   compare("version", manifest.version, run.version);
+  compare("seed", NumberText(manifest.seed), NumberText(run.seed));
   compare("format", manifest.format, run.format);
   compare("start_frame", NumberText(manifest.start_frame), NumberText(run.start_frame));
   compare("num_frames", NumberText(manifest.num_frames), NumberText(run.num_frames));
@@ -145,29 +142,25 @@ void Verifier::CheckFile(const KnownFile& file, std::string_view said_in) {
   });
 }
 
-// Of an unfinished run the line of a frame's that is being written may be there.
-bool Verifier::CheckNumLines(std::string_view name, std::size_t num_headers) {
-  const std::size_t num_lines = CountLines(summary_.directory / name);
-  const std::size_t got = num_lines - std::min(num_lines, num_headers);
-  const std::size_t expected = summary_.manifest ? summary_.run.num_frames : result_.num_frames;
-  if (summary_.manifest ? got == expected : got >= expected) return true;
-  Fault(name, "must have a line for each of " + NumberText(expected) + " frames (got " +
-                  NumberText(got) + ")");
-  return false;
+bool Verifier::HasAllLines(std::string_view name) {
+  const bool is_finished = summary_.manifest.has_value();
+  const std::size_t expected = is_finished ? summary_.run.num_frames : result_.num_frames;
+  return Try([&] { CheckNumLines(summary_.directory / name, expected, !is_finished); });
 }
 
 void Verifier::CheckFrames() {
   result_.num_frames = CountLines(summary_.directory / kFramesFile);
   LineReader frames(summary_.directory / kFramesFile);
-  bool has_all_frames = CheckNumLines(kFramesFile, 0);
+  bool has_all_frames = HasAllLines(kFramesFile);
   bool has_all_records = true;
   std::vector<LineReader> records;
   for (const std::string& name : RecordFiles(summary_.run.format)) {
-    const std::size_t num_headers = name == kPosesFile ? 1 : 0;
+    if (!HasAllLines(name)) has_all_records = false;
+    // That it is missing was said.
+    if (!IsThere(summary_.directory / name)) continue;
     const bool is_there = Try([&] {
-      has_all_records = CheckNumLines(name, num_headers) && has_all_records;
       records.emplace_back(summary_.directory / name);
-      if (num_headers > 0) (void)records.back().Next();
+      for (std::size_t i = 0; i < NumHeaders(name); ++i) (void)records.back().Next();
     });
     has_all_records = has_all_records && is_there;
   }
@@ -203,11 +196,8 @@ void Verifier::CheckFrame(const FrameLine& line, const FrameLines& lines, bool h
   if (has_all_records) Try([&] { CheckRecords(line, lines); });
   for (const KnownFile& file : line.files) CheckFile(file, kFramesFile);
   Try([&] {
-    try {
-      totals_.Add(StrictJson::parse(lines.frame.text));
-    } catch (const StrictJson::exception& error) {
-      throw InputError(lines.frame.place + ": is damaged: " + error.what());
-    }
+    ReadRecordedJson<StrictJson>(lines.frame.text, lines.frame.place,
+                                 [&](const StrictJson& json) { totals_.Add(json); });
   });
 }
 
@@ -233,17 +223,18 @@ void Verifier::FindOthers() {
   std::error_code error;
   fs::recursive_directory_iterator entry(summary_.directory, error);
   for (const fs::recursive_directory_iterator end; !error && entry != end; entry.increment(error)) {
-    if (entry->is_directory()) continue;
+    // A link is a file of its own name, whatever it leads to.
+    if (entry->symlink_status(error).type() == fs::file_type::directory) continue;
     const fs::path relative = entry->path().lexically_relative(summary_.directory);
     std::string name = relative.generic_string();
     if (known_.contains(name)) continue;
     if (summary_.manifest && are_frames_known_) {
-      Fault(ShownName(relative), "is named neither in manifest.json nor in frames.jsonl");
+      Fault(name, "is named neither in manifest.json nor in frames.jsonl");
       continue;
     }
     // A run that is interrupted, or goes on, has files whose hashes nothing knows yet.
     if (name.ends_with(kUnfinishedSuffix)) name.resize(name.size() - kUnfinishedSuffix.size());
-    if (!IsSequenceFile(name)) Fault(ShownName(relative), "is no file of a sequence");
+    if (!IsSequenceFile(name)) Fault(relative.native(), "is no file of a sequence");
   }
   if (error) throw FileError(summary_.directory, error.value());
 }

@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+#include "analysis/verify/count_totals.h"
 #include "core/base/error.h"
 #include "core/io/recording/sequence_lines.h"
 #include "core/io/recording/sequence_summary.h"
@@ -27,12 +28,30 @@ void ReadObjects(const std::string& line) {
   }
 }
 
+// However deep it is nested.
+void CompareTotals(const std::string& text) {
+  const StrictJson manifest = StrictJson::parse(text, nullptr, false);
+  CountTotals totals;
+  totals.Add({{"points", 3}, {"outcomes", {{"point", 3}}}, {"points_per_label", {{"rail", 3}}}});
+  ErrorList faults;
+  totals.Compare(manifest, kPlace, faults);
+  for (const std::string& fault : faults.lines()) {
+    Check(std::string_view(fault).starts_with("fuzz:3: /"), "a fault names its member");
+  }
+}
+
+void ReadManifestFile(const std::string& text) {
+  CompareTotals(text);
+  static_cast<void>(DataHash(ReadManifest(text, kPlace).files));
+  CheckManifestHash(text, kPlace);
+}
+
 void ReadLine(char kind, const std::string& line) {
   try {
     if (kind == 'f') CheckPose(ReadFrameLine(line, kPlace).world_from_sensor_end);
     if (kind == 'o') ReadObjects(line);
     if (kind == 'p') CheckPose(ReadPoseLine(line, kStamp_ns, kPlace));
-    if (kind == 'm') static_cast<void>(DataHash(ReadManifest(line, kPlace).files));
+    if (kind == 'm') ReadManifestFile(line);
     if (kind == 'r') static_cast<void>(ReadRunSummary(line, kPlace));
   } catch (const InputError& error) {
     Check(std::string_view(error.what()).starts_with("fuzz:3: "), "a fault names its line");

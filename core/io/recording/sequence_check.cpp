@@ -11,26 +11,12 @@
 #include "core/io/write_file.h"
 
 namespace railcast {
-namespace {
 
-// The first line of poses.csv names its columns.
-std::size_t NumHeaders(std::string_view name) {
-  return name == kPosesFile ? 1 : 0;
+bool IsThere(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto status = std::filesystem::symlink_status(file, error);
+  return status.type() != std::filesystem::file_type::not_found;
 }
-
-// Of a finished run. Lines are counted before files are hashed: that one is missing says more than
-// that something differs.
-void CheckNumLines(const SequenceSummary& summary, std::string_view name) {
-  const std::filesystem::path file = summary.directory / name;
-  const std::size_t num_lines = CountLines(file);
-  const std::size_t num_headers = NumHeaders(name);
-  if (num_lines == summary.manifest->num_frames + num_headers) return;
-  throw InputError(ShownPath(file) + ": must have a line for each of " +
-                   NumberText(summary.manifest->num_frames) + " frames (got " +
-                   NumberText(num_lines - std::min(num_lines, num_headers)) + ")");
-}
-
-}  // namespace
 
 std::string ReadKnownFile(const std::filesystem::path& directory,
                           const KnownFile& file,
@@ -58,8 +44,11 @@ SequenceSummary ReadSequenceSummary(const std::filesystem::path& directory) {
   const std::filesystem::path run = directory / kRunFile;
   SequenceSummary summary{directory, ReadRunSummary(ReadFileWhole(run), ShownPath(run)), {}};
   const std::filesystem::path manifest = directory / kManifestFile;
-  if (exists(manifest))
-    summary.manifest = ReadManifest(ReadFileWhole(manifest), ShownPath(manifest));
+  if (!IsThere(manifest)) return summary;
+  const std::string text = ReadFileWhole(manifest);
+  summary.manifest = ReadManifest(text, ShownPath(manifest));
+  // Older programs wrote none.
+  if (!summary.run.isa.empty()) CheckManifestHash(text, ShownPath(manifest));
   return summary;
 }
 
@@ -77,7 +66,7 @@ void CheckKnownFiles(const SequenceSummary& summary) {
   const std::string data_hash = DataHash(manifest.files);
   if (manifest.data_hash.empty() || manifest.data_hash == data_hash) return;
   throw InputError(ShownPath(summary.directory / kManifestFile) + ": data_xxh3: must be " +
-                   data_hash + ", that of the files (got " + manifest.data_hash + ")");
+                   data_hash + ", that of the files (got " + ShownText(manifest.data_hash) + ")");
 }
 
 SequenceOrigin OriginOf(const SequenceSummary& summary) {
@@ -100,13 +89,31 @@ std::vector<std::string> RecordFiles(std::string_view format) {
   return files;
 }
 
+std::size_t NumHeaders(std::string_view name) {
+  return name == kPosesFile ? 1 : 0;
+}
+
+void CheckNumLines(const std::filesystem::path& file, std::size_t num_frames, bool may_have_more) {
+  const std::size_t num_lines = CountLines(file);
+  const std::size_t got = num_lines - std::min(num_lines, NumHeaders(file.filename().string()));
+  if (may_have_more ? got >= num_frames : got == num_frames) return;
+  throw InputError(ShownPath(file) + ": must have a line for each of " + NumberText(num_frames) +
+                   " frames (got " + NumberText(got) + ")");
+}
+
 FrameLineReader::FrameLineReader(const SequenceSummary& summary)
     : num_frames_(CountLines(summary.directory / kFramesFile)),
       next_frame_(summary.run.start_frame),
       frames_(summary.directory / kFramesFile) {
-  if (summary.manifest) CheckNumLines(summary, kFramesFile);
+  // Lines are counted before files are hashed: that one is missing says more than that something
+  // differs.
+  const auto check = [&](std::string_view name) {
+    if (!summary.manifest) return;
+    CheckNumLines(summary.directory / name, summary.manifest->num_frames, false);
+  };
+  check(kFramesFile);
   for (const std::string& name : RecordFiles(summary.run.format)) {
-    if (summary.manifest) CheckNumLines(summary, name);
+    check(name);
     records_.emplace_back(summary.directory / name);
     for (std::size_t i = 0; i < NumHeaders(name); ++i) (void)records_.back().Need();
   }

@@ -15,6 +15,9 @@ namespace railcast {
 
 // Whether a sequence directory holds what it says it does.
 
+/// Whether there is anything of this name, be it a link that leads nowhere.
+[[nodiscard]] bool IsThere(const std::filesystem::path& file);
+
 /// The bytes of a file of the directory.
 /// @param said_in The file that knows what it must hold: "frames.jsonl".
 /// @throws InputError with one line if it cannot be read or holds anything else, or if its name is
@@ -43,6 +46,14 @@ void CheckKnownFiles(const SequenceSummary& summary);
 /// The files that have a line for each frame besides frames.jsonl, in the order in which a frame's
 /// records_hash is over them.
 [[nodiscard]] std::vector<std::string> RecordFiles(std::string_view format);
+
+/// How many lines of such a file come before the frames': poses.csv begins with its columns' names.
+[[nodiscard]] std::size_t NumHeaders(std::string_view name);
+
+/// Checks that such a file, or frames.jsonl, has a line for each frame.
+/// @param may_have_more Of an unfinished run the line that is being written may be there.
+/// @throws InputError with one line if it has not, or cannot be read.
+void CheckNumLines(const std::filesystem::path& file, std::size_t num_frames, bool may_have_more);
 
 /// A frame's line of each line file, not yet looked into.
 struct FrameLines {

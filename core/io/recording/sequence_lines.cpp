@@ -6,24 +6,13 @@
 #include "core/base/error.h"
 #include "core/base/number_text.h"
 #include "core/base/shown_text.h"
-#include "core/io/strict_json.h"
+#include "core/io/recording/recorded_json.h"
 #include "core/io/text_cursor.h"
 
 namespace railcast {
 namespace {
 
 using Json = StrictJson;
-
-/// What `read` makes of a line of JSON, and of what it throws.
-template <typename Read>
-auto ReadJsonLine(const std::string& line, const std::string& place, const Read& read)
-    -> decltype(read(Json{})) {
-  try {
-    return read(Json::parse(line));
-  } catch (const Json::exception& error) {
-    throw InputError(place + ": is damaged: " + error.what());
-  }
-}
 
 Transform PoseOf(const Json& position_m, const Json& quaternion, const std::string& place) {
   auto numbers = position_m.get<std::vector<double>>();
@@ -73,7 +62,7 @@ Transform MakePose(const std::vector<double>& numbers, const std::string& place)
 }
 
 FrameLine ReadFrameLine(const std::string& line, const std::string& place) {
-  return ReadJsonLine(line, place, [&](const Json& json) {
+  return ReadRecordedJson<Json>(line, place, [&](const Json& json) {
     const Json& end = json.at("scan_end");
     FrameLine result{.frame = json.at("frame"),
                      .stamp_ns = json.at("stamp_ns"),
@@ -114,7 +103,7 @@ Transform ReadPoseLine(std::string_view line, std::int64_t stamp_ns, const std::
 std::vector<RecordedObject> ReadObjectsLine(const std::string& line,
                                             std::uint32_t frame,
                                             const std::string& place) {
-  return ReadJsonLine(line, place, [&](const Json& json) {
+  return ReadRecordedJson<Json>(line, place, [&](const Json& json) {
     const std::uint32_t got = json.at("frame");
     if (got != frame) {
       throw InputError(place + ": frame: must be " + NumberText(frame) +

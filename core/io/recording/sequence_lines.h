@@ -1,25 +1,18 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/base/transform.h"
+#include "core/io/recording/known_file.h"
 #include "core/io/recording/recording.h"
 
 namespace railcast {
 
 // What the line files of a sequence directory say of one frame (docs/files.md). `place` names the
 // file and line in errors: "out/frames.jsonl:3".
-
-/// A file of the directory and what it must hold.
-struct KnownFile {
-  std::string name;                    ///< Relative to the directory.
-  std::string hash;                    ///< ContentHash of its bytes.
-  std::optional<std::uint64_t> bytes;  ///< How many; absent where nothing says it.
-};
 
 /// A line of frames.jsonl.
 struct FrameLine {

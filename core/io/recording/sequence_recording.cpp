@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/out_of_memory.h"
 #include "core/base/shown_text.h"
 #include "core/io/recording/cloud_frame.h"
+#include "core/io/recording/recorded_json.h"
 #include "core/io/recording/sensor_axes.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/recording/sequence_lines.h"
@@ -71,18 +72,16 @@ RecordedFrame ReadFrame(const SequenceContext& context, const FrameLines& lines)
 }
 
 std::vector<std::string> ReadMaterialNames(const std::filesystem::path& file) {
-  std::vector<std::string> names;
-  try {
-    const auto json = nlohmann::json::parse(ReadFileWhole(file));
-    for (const auto& material : json.at("materials")) {
+  const auto read = [](const StrictJson& json) {
+    std::vector<std::string> names;
+    for (const StrictJson& material : json.at("materials")) {
       const auto id = material.at("id").get<std::uint16_t>();
       if (names.size() <= id) names.resize(id + std::size_t{1});
       names[id] = material.at("name");
     }
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(ShownPath(file) + ": is damaged: " + error.what());
-  }
-  return names;
+    return names;
+  };
+  return ReadRecordedJson<StrictJson>(ReadFileWhole(file), ShownPath(file), read);
 }
 
 /// @param place Among the directory's frames; its files are numbered so.
@@ -101,6 +100,12 @@ RecordedFrame ReadKittiFrame(const std::filesystem::path& directory,
   RecordedFrame recorded = MakeCloudFrame(ParseKittiTable(file, std::move(points), labels), file);
   recorded.frame.index = place;
   return recorded;
+}
+
+/// For WithinMemory: the first of the frame's files is its cloud.
+std::string ReadingFrameText(const std::filesystem::path& directory, const FrameLines& lines) {
+  const FrameLine line = ReadFrameLine(lines.frame.text, lines.frame.place);
+  return ReadingText(directory / line.files.at(0).name);
 }
 
 class SequenceRecording : public Recording {
@@ -129,7 +134,10 @@ class SequenceRecording : public Recording {
   [[nodiscard]] std::optional<FrameReader> Next() override {
     auto lines = lines_.Next();
     if (!lines) return std::nullopt;
-    return [context = context_, lines = std::move(*lines)] { return ReadFrame(*context, lines); };
+    return [context = context_, lines = std::move(*lines)] {
+      return WithinMemory([&] { return ReadingFrameText(context->directory, lines); },
+                          [&] { return ReadFrame(*context, lines); });
+    };
   }
 
  private:
@@ -137,7 +145,7 @@ class SequenceRecording : public Recording {
   void CheckNames() const {
     const auto check = [&](bool is_same, std::string_view file) {
       if (is_same) return;
-      throw InputError((info_.source / file).string() + ": must say the same as " +
+      throw InputError(ShownPath(info_.source / file) + ": must say the same as " +
                        std::string(kScenarioFile));
     };
     check(info_.labels.labels() == LabelTable(info_.scenario->labels).labels(), kLabelsFile);
@@ -170,7 +178,8 @@ class KittiRecording : public Recording {
     auto lines = lines_.Next();
     if (!lines) return std::nullopt;
     return [directory = info_.source, lines = std::move(*lines), place = next_++] {
-      return ReadKittiFrame(directory, lines, place);
+      return WithinMemory([&] { return ReadingFrameText(directory, lines); },
+                          [&] { return ReadKittiFrame(directory, lines, place); });
     };
   }
 

@@ -1,10 +1,15 @@
 #include "core/io/recording/sequence_summary.h"
 
+#include <algorithm>
+#include <initializer_list>
+#include <string_view>
+
 #include "core/base/error.h"
+#include "core/base/shown_text.h"
 #include "core/io/content_hash.h"
+#include "core/io/recording/recorded_json.h"
 #include "core/io/scenario_identity.h"
 #include "core/io/sequence_files.h"
-#include "core/io/strict_json.h"
 
 namespace railcast {
 namespace {
@@ -12,27 +17,34 @@ namespace {
 // In the order of the file: the data's hash depends on it.
 using Json = StrictOrderedJson;
 
-template <typename Read>
-auto ReadJson(const std::string& text, const std::string& place, const Read& read)
-    -> decltype(read(Json{})) {
-  try {
-    return read(Json::parse(text));
-  } catch (const Json::exception& error) {
-    throw InputError(place + ": is damaged: " + error.what());
+constexpr std::string_view kManifestHashBegin = "  \"manifest_xxh3\": \"";
+constexpr std::string_view kManifestHashEnd = "\"\n}\n";
+
+void RefuseUnknownKeys(const Json& json,
+                       std::initializer_list<std::string_view> known,
+                       const std::string& place) {
+  for (const auto& [key, value] : json.items()) {
+    if (std::ranges::find(known, key) != known.end()) continue;
+    throw InputError(place + ": is damaged: unknown key " + ShownText(key));
   }
 }
 
 }  // namespace
 
 RunSummary ReadRunSummary(const std::string& text, const std::string& place) {
-  return ReadJson(text, place, [](const Json& json) {
+  return ReadRecordedJson<Json>(text, place, [&](const Json& json) {
     RunSummary run;
     run.version = json.at("version");
     run.scenario_hash = json.at("scenario_xxh3");
+    run.seed = json.at("seed");
     run.format = json.at("format");
     run.start_frame = json.at("start_frame");
     run.num_frames = json.at("num_frames");
     run.has_commands = json.contains("commands_xxh3");
+    RefuseUnknownKeys(json,
+                      {"version", "embree", "isa", "seed", "inputs", "scenario_xxh3",
+                       "commands_xxh3", "format", "fields", "start_frame", "num_frames"},
+                      place);
     if (!json.contains("isa")) return run;
     run.embree = json.at("embree");
     run.isa = json.at("isa");
@@ -49,9 +61,10 @@ RunSummary ReadRunSummary(const std::string& text, const std::string& place) {
 }
 
 Manifest ReadManifest(const std::string& text, const std::string& place) {
-  return ReadJson(text, place, [](const Json& json) {
+  return ReadRecordedJson<Json>(text, place, [&](const Json& json) {
     Manifest manifest;
     manifest.version = json.at("version");
+    manifest.seed = json.at("seed");
     manifest.format = json.at("format");
     manifest.start_frame = json.at("start_frame");
     manifest.num_frames = json.at("num_frames");
@@ -59,8 +72,36 @@ Manifest ReadManifest(const std::string& text, const std::string& place) {
       manifest.files.push_back({name, hash, {}});
     }
     manifest.data_hash = json.value("data_xxh3", "");
+    RefuseUnknownKeys(
+        json,
+        {"version", "seed", "format", "start_frame", "num_frames", "fidelity_choice", "points",
+         "outcomes", "points_per_label", "files_xxh3", "data_xxh3", "manifest_xxh3"},
+        place);
     return manifest;
   });
+}
+
+std::string WithManifestHash(const std::string& json) {
+  constexpr std::string_view kEnd = "\n}\n";
+  Check(json.ends_with(kEnd), "a manifest has a line for its end");
+  std::string text = json.substr(0, json.size() - kEnd.size()) + ",\n";
+  const std::string hash = ContentHash(text);
+  text += kManifestHashBegin;
+  text += hash;
+  return text += kManifestHashEnd;
+}
+
+void CheckManifestHash(const std::string& text, const std::string& place) {
+  const std::size_t begin = text.rfind(kManifestHashBegin);
+  if (begin == std::string::npos) {
+    throw InputError(place + ": must end with manifest_xxh3, the hash of all before it");
+  }
+  std::string got = text.substr(begin + kManifestHashBegin.size());
+  const std::string hash = ContentHash(text.substr(0, begin));
+  if (got == hash + std::string(kManifestHashEnd)) return;
+  if (got.ends_with(kManifestHashEnd)) got.resize(got.size() - kManifestHashEnd.size());
+  throw InputError(place + ": /manifest_xxh3: must be " + hash + ", that of all before it (got " +
+                   ShownText(got) + ")");
 }
 
 std::string DataHash(const std::vector<KnownFile>& files) {

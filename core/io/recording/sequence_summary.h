@@ -1,11 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "core/io/recording/sequence_lines.h"
+#include "core/io/recording/known_file.h"
 
 namespace railcast {
 
@@ -18,6 +17,7 @@ struct RunSummary {
   std::string embree;  ///< Empty in directories of older programs, ...
   std::string isa;     ///< ... which did not keep it.
   std::string scenario_hash;
+  std::uint64_t seed{};
   std::string format;
   std::uint32_t start_frame{};
   std::uint32_t num_frames{};
@@ -33,6 +33,7 @@ struct RunSummary {
 /// manifest.json: that all is there, and what.
 struct Manifest {
   std::string version;
+  std::uint64_t seed{};
   std::string format;
   std::uint32_t start_frame{};
   std::uint32_t num_frames{};
@@ -42,6 +43,14 @@ struct Manifest {
 
 /// @throws InputError "place: rule" if it is none.
 [[nodiscard]] Manifest ReadManifest(const std::string& text, const std::string& place);
+
+/// The text of manifest.json with its last member, manifest_xxh3: the hash of the text before it.
+/// Some of what a manifest says is said nowhere else.
+/// @param json The other members, each on lines of its own.
+[[nodiscard]] std::string WithManifestHash(const std::string& json);
+
+/// @throws InputError "place: rule" if a manifest is not to the byte what WithManifestHash() gave.
+void CheckManifestHash(const std::string& text, const std::string& place);
 
 /// The data_hash of files: that of their hashes, but for run.json, which says who made them.
 [[nodiscard]] std::string DataHash(const std::vector<KnownFile>& files);

@@ -3,12 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "core/io/recording/sequence_summary.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/damaged_run.h"
 #include "tests/generator/example_run.h"
@@ -16,6 +20,7 @@
 namespace railcast {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -46,6 +51,12 @@ class Verify : public testing::TestWithParam<const char*> {
   }
   void Replace(const std::string& file, const std::string& from, const std::string& to) const {
     WriteFileWhole(path() / file, Replaced(ReadFileWhole(path() / file), from, to));
+  }
+  /// And hashes it again, so that only what it says is wrong.
+  void ReplaceInManifest(const std::string& from, const std::string& to) const {
+    const std::string whole = ReadFileWhole(path() / "manifest.json");
+    const std::string members = whole.substr(0, whole.find(",\n  \"manifest_xxh3\"")) + "\n}\n";
+    WriteFileWhole(path() / "manifest.json", WithManifestHash(Replaced(members, from, to)));
   }
 
  private:
@@ -119,24 +130,85 @@ TEST_P(Verify, ComparesTheManifestWithWhatItSumsUp) {
   const std::string whole = ReadFileWhole(path() / "manifest.json");
   const auto manifest = nlohmann::json::parse(whole);
   const std::string points = manifest.at("points").dump();
-  Replace("manifest.json", "\"points\": " + points, "\"points\": 1");
+  ReplaceInManifest("\"points\": " + points, "\"points\": 1");
   EXPECT_THAT(Faults(), ElementsAre("manifest.json: /points: must be " + points +
                                     ", the sum over frames.jsonl (got 1)"));
   WriteFileWhole(path() / "manifest.json", whole);
-  Replace("manifest.json", "\"num_frames\": 3", "\"num_frames\": 4");
+  ReplaceInManifest("\"num_frames\": 3", "\"num_frames\": 4");
   EXPECT_THAT(Faults(),
               ElementsAre("manifest.json: /num_frames: must be 3, as run.json says (got 4)"));
   WriteFileWhole(path() / "manifest.json", whole);
+  ReplaceInManifest("\"seed\": 5", "\"seed\": 6");
+  EXPECT_THAT(Faults(), ElementsAre("manifest.json: /seed: must be 5, as run.json says (got 6)"));
+  WriteFileWhole(path() / "manifest.json", whole);
+  ReplaceInManifest("\"points\": " + points + ",", "\"note\": 1,");
+  EXPECT_THAT(Faults(), Contains("manifest.json: is damaged: unknown key note"));
+  WriteFileWhole(path() / "manifest.json", whole);
+  ReplaceInManifest("\"seed\": 5", "\"seed\": 5, \"seed\": 5");
+  EXPECT_THAT(Faults(), Contains("manifest.json: is damaged: /seed: duplicate key"));
+  WriteFileWhole(path() / "manifest.json", whole);
   const std::string hash = manifest.at("data_xxh3");
-  Replace("manifest.json", hash, "0000000000000000");
+  ReplaceInManifest(hash, "0000000000000000");
   EXPECT_THAT(Faults(), ElementsAre("manifest.json: /data_xxh3: must be " + hash +
                                     ", that of the files (got 0000000000000000)"));
   WriteFileWhole(path() / "manifest.json", whole);
-  Replace("manifest.json", "\"labels.json\"", "\"lables.json\"");
+  ReplaceInManifest("\"labels.json\"", "\"lables.json\"");
   EXPECT_THAT(Faults(), ElementsAre("manifest.json: /files_xxh3: must name labels.json",
                                     "manifest.json: must name files of a sequence (got "
                                     "lables.json)",
                                     "labels.json: is named neither in manifest.json nor in "
+                                    "frames.jsonl"));
+}
+
+TEST_P(Verify, SaysThatTheManifestIsNotAsItWasWritten) {
+  const std::string whole = ReadFileWhole(path() / "manifest.json");
+  const std::string hash = nlohmann::json::parse(whole).at("manifest_xxh3");
+  const std::string blank = Replaced(whole, "{\n ", "{\n\t");
+  WriteFileWhole(path() / "manifest.json", blank);
+  const std::string before = blank.substr(0, blank.find("  \"manifest_xxh3\""));
+  EXPECT_THAT(Faults(),
+              ElementsAre("manifest.json: /manifest_xxh3: must be " + ContentHash(before) +
+                          ", that of all before it (got " + hash + ")"));
+}
+
+// A byte is flipped in one bit, each in another than the one before it.
+TEST_P(Verify, FindsEveryFlippedByteOfWhatSaysWhatItHolds) {
+  for (const char* name : {"manifest.json", "run.json", "frames.jsonl"}) {
+    const std::string whole = ReadFileWhole(path() / name);
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      std::string bytes = whole;
+      bytes[i] = static_cast<char>(bytes[i] ^ (1U << (i % 8)));
+      // Not WriteFileWhole, which waits for the disk each time.
+      std::ofstream(path() / name, std::ios::binary) << bytes;
+      bool is_found = false;
+      try {
+        is_found = !Faults().empty();
+      } catch (const InputError&) {
+        is_found = true;  // run.json must be legible.
+      }
+      EXPECT_TRUE(is_found) << name << ", byte " << i;
+    }
+    WriteFileWhole(path() / name, whole);
+  }
+  EXPECT_THAT(Faults(), IsEmpty());
+}
+
+TEST_P(Verify, TakesALinkForAFileOfItsName) {
+  const TemporaryDirectory elsewhere;
+  std::filesystem::create_directory_symlink(elsewhere.path(), path() / "folder");
+  std::filesystem::create_symlink("loop", path() / "loop");
+  const std::string rule = ": is named neither in manifest.json nor in frames.jsonl";
+  EXPECT_THAT(Faults(), testing::UnorderedElementsAre("folder" + rule, "loop" + rule));
+  std::filesystem::remove(path() / "manifest.json");
+  std::filesystem::create_symlink("manifest.json", path() / "manifest.json");
+  EXPECT_THAT(Faults(),
+              ElementsAre("manifest.json: " + std::string(std::strerror(ELOOP)),
+                          "folder: is no file of a sequence", "loop: is no file of a sequence"));
+}
+
+TEST_P(Verify, ShowsNamesHarmlessly) {
+  WriteFileWhole(path() / "a\x1b[2J\nb", "");
+  EXPECT_THAT(Faults(), ElementsAre("a\\u001b[2J\\nb: is named neither in manifest.json nor in "
                                     "frames.jsonl"));
 }
 
