@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -201,9 +199,9 @@ TEST_P(Verify, TakesALinkForAFileOfItsName) {
   EXPECT_THAT(Faults(), testing::UnorderedElementsAre("folder" + rule, "loop" + rule));
   std::filesystem::remove(path() / "manifest.json");
   std::filesystem::create_symlink("manifest.json", path() / "manifest.json");
-  EXPECT_THAT(Faults(),
-              ElementsAre("manifest.json: " + std::string(std::strerror(ELOOP)),
-                          "folder: is no file of a sequence", "loop: is no file of a sequence"));
+  EXPECT_THAT(Faults(), testing::UnorderedElementsAre(
+                            "manifest.json: too many levels of symbolic links",
+                            "folder: is no file of a sequence", "loop: is no file of a sequence"));
 }
 
 TEST_P(Verify, ShowsNamesHarmlessly) {
