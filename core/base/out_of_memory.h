@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <thread>
 
 #include "core/base/error.h"
 
@@ -40,6 +41,13 @@ decltype(auto) WithinMemory(const Doing& doing, const Make& make) {
     if (error.code() != std::errc::resource_unavailable_try_again) throw;
     throw OutOfThreads(doing());
   }
+}
+
+/// A thread that does `work`. @param doing As WithinMemory() takes it.
+/// @throws InputError "no thread can be started while hearing commands".
+template <typename Work>
+[[nodiscard]] std::thread StartThread(const std::string& doing, const Work& work) {
+  return WithinMemory([&] { return doing; }, [&] { return std::thread(work); });
 }
 
 }  // namespace railcast

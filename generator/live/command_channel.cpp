@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/out_of_memory.h"
 
 namespace railcast {
 namespace {
@@ -56,7 +57,9 @@ std::vector<std::string_view> LinesOf(std::string_view text) {
 }  // namespace
 
 CommandChannel::CommandChannel(const Endpoint& at, const Endpoint& peer)
-    : receiver_(at), peer_(peer), thread_([this] { Listen(); }) {}
+    : receiver_(at),
+      peer_(peer),
+      thread_(StartThread("starting to hear commands", [this] { Listen(); })) {}
 
 CommandChannel::~CommandChannel() {
   receiver_.Interrupt();

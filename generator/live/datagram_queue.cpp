@@ -6,12 +6,14 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/out_of_memory.h"
+
 namespace railcast {
 
 DatagramQueue::DatagramQueue(LiveClock& clock, std::vector<Send> send)
     : clock_(clock), lanes_(send.size()) {
   for (std::size_t i = 0; i < send.size(); ++i) lanes_[i].send = std::move(send[i]);
-  if (!clock.jumps()) thread_ = std::thread([this] { Run(); });
+  if (!clock.jumps()) thread_ = StartThread("starting to send", [this] { Run(); });
 }
 
 DatagramQueue::~DatagramQueue() {

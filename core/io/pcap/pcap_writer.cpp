@@ -12,6 +12,8 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/out_of_memory.h"
+#include "core/base/shown_text.h"
 #include "core/io/velodyne/position_packet.h"
 #include "core/io/write_file.h"
 
@@ -83,7 +85,10 @@ PcapWriter::PcapWriter(std::filesystem::path file,
   if (stream == nullptr) throw FileError(file_, errno);
   constexpr int kSnapLength = 65535;
   dump_->format = pcap_open_dead(DLT_EN10MB, kSnapLength);
-  Check(dump_->format != nullptr, "there is memory for a capture");
+  if (dump_->format == nullptr) {
+    std::fclose(stream);
+    throw OutOfMemory("writing " + ShownPath(file_));
+  }
   dump_->dumper = pcap_dump_fopen(dump_->format, stream);
   if (dump_->dumper != nullptr) return;
   const int error_number = errno;

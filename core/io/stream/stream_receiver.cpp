@@ -3,6 +3,8 @@
 #include <chrono>
 #include <utility>
 
+#include "core/base/out_of_memory.h"
+
 namespace railcast {
 namespace {
 
@@ -11,7 +13,10 @@ constexpr int kSilence_ms = 1000;
 }  // namespace
 
 StreamReceiver::StreamReceiver(const Endpoint& at, const WantedStream& wanted)
-    : socket_(at), at_(socket_->at()), assembler_(wanted), thread_([this] { Listen(); }) {}
+    : socket_(at),
+      at_(socket_->at()),
+      assembler_(wanted),
+      thread_(StartThread("starting to listen at " + EndpointText(at_), [this] { Listen(); })) {}
 
 StreamReceiver::~StreamReceiver() {
   Stop();

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <utility>
 
+#include "core/base/out_of_memory.h"
 #include "core/io/stream/stream_clouds.h"
 
 namespace railcast {
@@ -34,7 +35,7 @@ UdpGrabber::UdpGrabber(const Endpoint& at, const WantedStream& wanted)
   createSignal<PointSignal<pcl::PointXYZ>>();
   createSignal<PointSignal<pcl::PointXYZI>>();
   createSignal<PointSignal<pcl::PointXYZL>>();
-  thread_ = std::thread([this] { Work(); });
+  thread_ = StartThread("starting a grabber", [this] { Work(); });
 }
 
 UdpGrabber::~UdpGrabber() noexcept {

@@ -12,6 +12,7 @@
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
+#include "core/base/out_of_memory.h"
 #include "core/io/text_cursor.h"
 
 namespace railcast {
@@ -168,7 +169,7 @@ std::string CalibrationXml(const SpinningSpec& pattern) {
 std::vector<LaserCalibration> ReadCalibrationXml(std::string_view xml, const std::string& name) {
   const std::unique_ptr<std::remove_pointer_t<XML_Parser>, decltype(&XML_ParserFree)> parser(
       XML_ParserCreate(nullptr), &XML_ParserFree);
-  Check(parser != nullptr, "there is memory for a parser");
+  if (parser == nullptr) throw OutOfMemory("reading " + name);
   Collector collector(parser.get());
   XML_SetUserData(parser.get(), &collector);
   XML_SetElementHandler(

@@ -63,6 +63,12 @@ TEST(OutOfMemory, LetsOtherErrorsPass) {
       std::system_error);
 }
 
+TEST(StartThread, DoesTheWork) {
+  int done = 0;
+  StartThread("counting", [&] { ++done; }).join();
+  EXPECT_EQ(done, 1);
+}
+
 TEST(OutOfMemory, TellsTheSizeOfAFile) {
   const std::string file = testing::TempDir() + "out_of_memory_test.txt";
   std::ofstream(file) << "12345";
