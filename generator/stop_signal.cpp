@@ -16,6 +16,7 @@ namespace {
 // A signal handler can reach nothing else.
 std::atomic<bool> stop_requested{false};
 std::atomic<bool> has_stop_deadline{false};
+std::atomic<bool> is_terminal{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 void RequestStop(int /*signal*/) {
@@ -26,14 +27,16 @@ void RequestStop(int /*signal*/) {
 
 void EndIfBusy(int /*signal*/) {
   if (!has_stop_deadline) return;
-  constexpr std::string_view kLine = "interrupted\n";
-  static_cast<void>(!::write(STDERR_FILENO, kLine.data(), kLine.size()));
+  // Over what the terminal shows of the progress: CR, ESC [K.
+  const std::string_view line = is_terminal ? "\r\033[Kinterrupted\n" : "interrupted\n";
+  static_cast<void>(!::write(STDERR_FILENO, line.data(), line.size()));
   ::_exit(kExitInterrupted);
 }
 
 }  // namespace
 
 void CatchStopSignals() {
+  is_terminal = ::isatty(STDERR_FILENO) == 1;
   struct sigaction action {};
   action.sa_handler = RequestStop;
   action.sa_flags = static_cast<int>(SA_RESETHAND);

@@ -75,7 +75,9 @@ Manifest ReadManifest(const std::string& text, const std::string& place) {
     RefuseUnknownKeys(
         json,
         {"version", "seed", "format", "start_frame", "num_frames", "fidelity_choice", "points",
-         "outcomes", "points_per_label", "files_xxh3", "data_xxh3", "manifest_xxh3"},
+         "outcomes", "points_per_label", "files_xxh3", "data_xxh3", "manifest_xxh3",
+         // Of older programs, in place of the last two.
+         "all_xxh3"},
         place);
     return manifest;
   });
