@@ -39,26 +39,21 @@ requires(!std::same_as<T, bool>) struct StrictSerializer<T, void> : nlohmann::ad
   }
 };
 
-/// JSON that gives numbers only to those that hold them; anything else is a Json::exception.
-using StrictJson = nlohmann::basic_json<std::map,
-                                        std::vector,
-                                        std::string,
-                                        bool,
-                                        std::int64_t,
-                                        std::uint64_t,
-                                        double,
-                                        std::allocator,
-                                        StrictSerializer>;
+/// The library's JSON of our serializer, whose objects are `Map`s.
+template <template <typename, typename, typename...> class Map>
+using StrictJsonIn = nlohmann::basic_json<Map,
+                                          std::vector,
+                                          std::string,
+                                          bool,
+                                          std::int64_t,
+                                          std::uint64_t,
+                                          double,
+                                          std::allocator,
+                                          StrictSerializer>;
 
+/// JSON that gives numbers only to those that hold them; anything else is a Json::exception.
+using StrictJson = StrictJsonIn<std::map>;
 /// The same with an object's members in the order of the text.
-using StrictOrderedJson = nlohmann::basic_json<nlohmann::ordered_map,
-                                               std::vector,
-                                               std::string,
-                                               bool,
-                                               std::int64_t,
-                                               std::uint64_t,
-                                               double,
-                                               std::allocator,
-                                               StrictSerializer>;
+using StrictOrderedJson = StrictJsonIn<nlohmann::ordered_map>;
 
 }  // namespace railcast
