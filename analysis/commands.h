@@ -1,34 +1,30 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <functional>
 #include <string>
 
-#include "core/io/command_line.h"
-#include "core/io/run_program.h"
+#include "core/program/command_line.h"
+#include "core/program/program.h"
+#include "core/program/run_program.h"
 
 namespace railcast {
 
-/// What the command line asked for; it is told that line, for reports to name, and gives the exit
-/// status.
-/// @throws InputError on bad input.
-using Command = std::function<int(const std::string& command_line)>;
+// Each function adds one command with its options and sets `command` to it if the command line
+// names it.
 
-// Each adds one command with its options; if the command line names it, `command` becomes it.
-
-/// Dropout, density, noise, intensity and coverage of recordings, ours or anybody's.
-void AddStats(CLI::App& app, Command& command);
+/// Reports dropout, density, noise, intensity and coverage of recordings, ours or foreign.
+void AddStats(CLI::App& app, ProgramCommand& command);
 /// Measures how far two recordings are apart, or what each effect of a scenario changes.
-void AddCompare(CLI::App& app, Command& command);
-/// From how far objects are detected, against the way that a train needs to stop.
-void AddDetect(CLI::App& app, Command& command);
+void AddCompare(CLI::App& app, ProgramCommand& command);
+/// Compares the distance at which objects are detected with the distance a train needs to stop.
+void AddDetect(CLI::App& app, ProgramCommand& command);
 /// Estimates the sensor models' parameters from recordings.
-void AddFit(CLI::App& app, Command& command);
+void AddFit(CLI::App& app, ProgramCommand& command);
 /// Charts speed against accuracy on a scenario.
-void AddFrontier(CLI::App& app, Command& command);
+void AddFrontier(CLI::App& app, ProgramCommand& command);
 /// Compares a sequence directory with the hashes that it was written with.
-void AddVerify(CLI::App& app, Command& command);
-/// Counts a live stream in the railcast protocol, and keeps it if asked to, until a signal ends it.
-void AddReceive(CLI::App& app, Command& command);
+void AddVerify(CLI::App& app, ProgramCommand& command);
+/// Counts, and on request records, a live stream in the railcast protocol until a signal ends it.
+void AddReceive(CLI::App& app, ProgramCommand& command);
 
 }  // namespace railcast

@@ -7,7 +7,6 @@
 
 #include "analysis/commands.h"
 #include "analysis/compare/ablation.h"
-#include "analysis/compare/ablation_report.h"
 #include "analysis/compare/compare_report.h"
 #include "analysis/compare/comparison.h"
 #include "analysis/compare/pairing.h"
@@ -15,33 +14,33 @@
 #include "analysis/report/provenance.h"
 #include "analysis/thread_limit.h"
 #include "core/base/error.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/fidelity/sample_frames.h"
-#include "core/io/progress_line.h"
-#include "core/io/recording/recording.h"
 #include "core/io/scenario_identity.h"
 #include "core/io/text_cursor.h"
-#include "core/io/version.h"
-#include "core/scenario/effects.h"
-#include "core/scenario/scenario.h"
+#include "core/program/progress_line.h"
+#include "core/program/version.h"
+#include "railcast/effects.h"
+#include "railcast/io/recording.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 namespace {
 
 struct CompareOptions {
-  std::vector<std::filesystem::path> sources;  // A, B.
+  std::vector<std::filesystem::path> sources;  // Recordings A and B.
   std::optional<Pairing> pairing;
   std::string distances = "0.05,0.1,0.2,0.5";
   int num_threads = 0;
   ReportOutput output;
-  // Of an ablation.
+  // Options of an ablation.
   std::filesystem::path scenario;
   int num_frames = 10;
   std::optional<std::uint64_t> seed;
   std::optional<std::string> sensor;
 };
 
-// "0.05,0.1".
+// Parses a list such as "0.05,0.1".
 std::vector<double> ParseDistances(std::string_view text) {
   std::vector<double> distances_m;
   while (true) {
@@ -63,7 +62,7 @@ int RunPairs(const CompareOptions& options, const std::string& command_line) {
   const auto b = OpenRecording(options.sources[1]);
   FramePairs pairs(*a, *b, options.pairing);
   const ProgressLine progress;
-  const std::size_t num_frames = a->info().num_frames.value_or(0);  // 0: not known.
+  const std::size_t num_frames = a->info().num_frames.value_or(0);  // 0 if not known.
   CompareAll(pairs, comparison, [&](std::uint64_t num) {
     const auto num_done = static_cast<double>(num + pairs.num_alone_a());
     if (num_frames > 0) progress.Show("pairs", num_done / static_cast<double>(num_frames));
@@ -93,13 +92,14 @@ int RunAblation(const CompareOptions& options, const std::string& command_line) 
       Ablate(*simulator, frames, distances_m,
              [&](const std::string& what, double done) { progress.Show(what, done); });
   progress.End();
-  Facts facts = {{"Scenario", ShownPath(options.scenario)},
-                 {"Fidelity", scenario.fidelity == kAutoFidelity ? "auto, studied as footprint"
-                                                                 : scenario.fidelity},
-                 {"Frames", std::to_string(frames.size()) + ", a second apart"},
-                 {"Seed", std::to_string(scenario.seed)},
-                 {"Scenario hash", IdentityOf(scenario).scenario_hash},
-                 {"Weather", WeatherText(scenario.weather)}};
+  Facts facts = {
+      {"Scenario", ShownPath(options.scenario)},
+      {"Fidelity", scenario.fidelity == Fidelity::kAuto ? "auto, studied as footprint"
+                                                        : std::string(NameOf(scenario.fidelity))},
+      {"Frames", std::to_string(frames.size()) + ", a second apart"},
+      {"Seed", std::to_string(scenario.seed)},
+      {"Scenario hash", IdentityOf(scenario).scenario_hash},
+      {"Weather", WeatherText(scenario.weather)}};
   for (auto& fact : MakerFacts(ProgramVersion())) facts.push_back(std::move(fact));
   EmitReport(MakeAblationReport(studies, "Effects of " + ShownPath(options.scenario.stem()), facts,
                                 command_line),
@@ -135,10 +135,11 @@ void AddAblationOptions(CLI::App& compare, CompareOptions& options) {
 
 }  // namespace
 
-void AddCompare(CLI::App& app, Command& command) {
+void AddCompare(CLI::App& app, ProgramCommand& command) {
   const auto options = std::make_shared<CompareOptions>();
   CLI::App* compare = app.add_subcommand(
-      "compare", "How far two recordings are apart, or what each effect of a scenario changes");
+      "compare",
+      "Measure how far two recordings are apart, or what each effect of a scenario changes");
   compare->add_option(
       "RECORDINGS", options->sources,
       "Two recordings to compare, the first the reference: each a sequence directory, a .pcd or "
@@ -154,8 +155,8 @@ void AddCompare(CLI::App& app, Command& command) {
       ->check(CLI::IsMember({"stamp", "index"}));
   compare
       ->add_option("--distances", options->distances,
-                   "Distances in m, separated by commas, within which a point counts as found: "
-                   "those of precision, recall and F-score")
+                   "Distances in m, separated by commas, within which a point counts as found, "
+                   "for precision, recall and F-score")
       ->capture_default_str();
   compare->add_option("--threads", options->num_threads, "Number of threads; 0 = all cores")
       ->transform(Whole({0, 1024}))
@@ -168,7 +169,7 @@ void AddCompare(CLI::App& app, Command& command) {
       throw CLI::ValidationError("compare", "takes two recordings, or --ablate SCENARIO");
     }
     if (is_ablation && options->pairing) {
-      throw CLI::ValidationError("--pair", "is of two recordings");
+      throw CLI::ValidationError("--pair", "applies to two recordings only");
     }
     command = [options](const std::string& line) { return RunCompare(*options, line); };
   });

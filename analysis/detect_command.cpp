@@ -10,14 +10,13 @@
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
 #include "core/base/error.h"
-#include "core/base/number_text.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/io/progress_line.h"
-#include "core/io/recording/recording.h"
 #include "core/io/scenario_identity.h"
 #include "core/io/text_cursor.h"
-#include "core/io/version.h"
+#include "core/program/progress_line.h"
+#include "core/program/version.h"
+#include "railcast/io/recording.h"
 
 namespace railcast {
 namespace {
@@ -30,7 +29,7 @@ struct DetectOptions {
   ReportOutput output;
 };
 
-/// Reads "3/5" into the rule; false if it is none.
+/// Reads "3/5" into the rule; returns false if the text is not of this form.
 bool ReadFrames(std::string_view text, DetectionRule& rule) {
   const std::size_t slash = text.find('/');
   if (slash == std::string_view::npos) return false;
@@ -42,10 +41,11 @@ bool ReadFrames(std::string_view text, DetectionRule& rule) {
   return true;
 }
 
-// Runs of one scenario, each with a seed of its own: what else they differ in, chance did not make.
+// The runs must be of one scenario, each with its own seed: otherwise their differences would not
+// be due to chance alone.
 void CheckSameScenario(const std::vector<RecordingInfo>& infos) {
   const RecordingInfo& last = infos.back();
-  if (!last.scenario) return;  // FollowObjects says so.
+  if (!last.scenario) return;  // FollowObjects() reports this.
   for (const RecordingInfo& other : infos) {
     if (&other == &last) return;
     ScenarioSpec same = WithFilesByContent(*other.scenario);
@@ -76,7 +76,7 @@ std::vector<std::pair<std::string, std::string>> FactsOf(const std::vector<Recor
           {"Seeds", seeds},
           {"Frames", std::to_string(num_frames)},
           {"Sensor", scenario.lidar.name},
-          {"Fidelity", scenario.fidelity}};
+          {"Fidelity", std::string(NameOf(scenario.fidelity))}};
 }
 
 int RunDetect(const DetectOptions& options, const std::string& command_line) {
@@ -149,11 +149,12 @@ void AddBrakingOptions(CLI::App& detect, DetectOptions& options) {
 
 }  // namespace
 
-void AddDetect(CLI::App& app, Command& command) {
+void AddDetect(CLI::App& app, ProgramCommand& command) {
   const auto options = std::make_shared<DetectOptions>();
-  CLI::App* detect = app.add_subcommand("detect",
-                                        "Who is seen in time: from how far objects in the way are "
-                                        "detected, against the way that the train needs to stop");
+  CLI::App* detect =
+      app.add_subcommand("detect",
+                         "Compare the distance at which objects in the way are detected "
+                         "with the distance that the train needs to stop");
   detect
       ->add_option(
           "DIR", options->sources,
@@ -163,7 +164,7 @@ void AddDetect(CLI::App& app, Command& command) {
   AddBrakingOptions(*detect, *options);
   AddReportOptions(*detect, options->output);
   detect->callback([&command, options] {
-    // Its form has been checked.
+    // CLI11 has checked the form already.
     (void)ReadFrames(options->frames, options->spec.rule);
     command = [options](const std::string& line) { return RunDetect(*options, line); };
   });

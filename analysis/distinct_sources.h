@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 
 namespace railcast {
 
-/// Samples that are counted twice would look like twice as many.
-/// @throws InputError if a source is named twice, by whatever path.
+/// Checks that no source is given twice, since its samples would be counted twice and the intervals
+/// would be too narrow.
+/// @throws InputError if two paths lead to the same source.
 inline void CheckDistinct(const std::vector<std::filesystem::path>& sources) {
   std::set<std::filesystem::path> seen;
   for (const std::filesystem::path& source : sources) {

@@ -5,49 +5,43 @@
 #include <string>
 
 #include "analysis/commands.h"
-#include "analysis/frontier/chart.h"
-#include "analysis/frontier/files.h"
+#include "analysis/frontier/frontier_report.h"
 #include "analysis/frontier/measure.h"
-#include "analysis/frontier/pareto.h"
-#include "analysis/frontier/table.h"
+#include "analysis/report/draw.h"
+#include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/fidelity/choice_report.h"
 #include "core/fidelity/sample_frames.h"
-#include "core/io/progress_line.h"
 #include "core/io/scenario_identity.h"
-#include "core/io/version.h"
 #include "core/io/write_file.h"
-#include "core/scenario/effects.h"
-#include "core/scenario/scenario.h"
+#include "core/program/progress_line.h"
+#include "core/program/version.h"
+#include "railcast/effects.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 namespace {
 
 struct FrontierOptions {
   std::filesystem::path scenario;
-  std::optional<std::string> sensor;  // Of several, which one.
+  std::optional<std::string> sensor;  // Which sensor, where the scenario has several.
   std::filesystem::path out;
   int num_frames = 4;
   int num_threads = 1;
   std::string rows = "all";
 };
 
-// The rows bring their own effects; what is not needed is asked of all there are.
+// The rows bring their own effects. The scenario's switches are cleared so that the choice of
+// fidelity auto, which the report states, considers every effect.
 ScenarioSpec ReadForFrontier(const FrontierOptions& options) {
   ScenarioSpec scenario = PickSensor(ReadScenario(options.scenario), options.sensor);
-  scenario.fidelity = kAutoFidelity;
+  scenario.fidelity = Fidelity::kAuto;
   scenario.effects.clear();
   return scenario;
 }
 
-std::string Head(const FrontierPlan& plan) {
-  return std::to_string(plan.frames.size()) + " frames, " +
-         (plan.num_threads == 0 ? "all" : std::to_string(plan.num_threads)) +
-         " thread(s), errors against " + std::to_string(plan.yardstick_rays) + " sub-rays a beam";
-}
-
-int RunFrontier(const FrontierOptions& options) {
+int RunFrontier(const FrontierOptions& options, const std::string& command_line) {
   FrontierPlan plan;
   plan.rows = ChooseFrontierRows(options.rows);
   plan.num_threads = options.num_threads;
@@ -56,7 +50,7 @@ int RunFrontier(const FrontierOptions& options) {
   constexpr double kFrameSpacing_s = 1.0;
   plan.frames = SampleFrames(scenario, *simulator, options.num_frames, kFrameSpacing_s);
   std::filesystem::create_directories(options.out);
-  // The choice takes about a tenth of the time.
+  // The choice of fidelity takes about a tenth of the time.
   constexpr double kRowsShare = 0.9;
   const ProgressLine progress;
   const std::vector<RowResult> results = MeasureFrontier(
@@ -66,11 +60,6 @@ int RunFrontier(const FrontierOptions& options) {
     progress.Show("what the scene needs", kRowsShare + (1.0 - kRowsShare) * done);
   });
   progress.End();
-  const std::string head = ShownPath(options.scenario) + ": " + Head(plan);
-  std::cout << head << "\n"
-            << FrontierTable(results) << DefeatsText(FindDefeats(results))
-            << ChoiceText(choice, scenario.tolerance) << std::flush;
-
   const FrontierCircumstances circumstances = {
       ProgramVersion(),
       ShownPath(options.scenario),
@@ -79,28 +68,31 @@ int RunFrontier(const FrontierOptions& options) {
                          LabelTable(scenario.labels))
           .match_distance_m,
       ChoiceJson(choice, scenario.tolerance),
+      ChoiceText(choice, scenario.tolerance),
       ReportDate(),
       IdentityOf(scenario).scenario_hash,
       WeatherText(scenario.weather)};
-  WriteFileWhole(options.out / "frontier.json",
-                 FrontierJson(plan, circumstances, LabelTable(scenario.labels), results));
   WriteFileWhole(options.out / "frontier.csv", FrontierCsv(results));
-  WriteFileWhole(options.out / "frontier.gnuplot", ChartScript(results, head));
-  DrawChart(options.out / "frontier.gnuplot", options.out / "frontier");
-  std::cout << "frontier.json, .csv, .svg, .png in " << ShownPath(options.out) << "\n";
+  const Report report = MakeFrontierReport(plan, circumstances, results, command_line);
+  EmitReport(report, {options.out, true}, "frontier",
+             FrontierJson(plan, circumstances, LabelTable(scenario.labels), results));
+  DrawSheet(report.sections.front().charts, report.title, options.out / "frontier");
+  std::cout << "frontier.csv, .svg, .png in " << ShownPath(options.out) << "\n";
   return kExitSuccess;
 }
 
 }  // namespace
 
-void AddFrontier(CLI::App& app, Command& command) {
+void AddFrontier(CLI::App& app, ProgramCommand& command) {
   const auto options = std::make_shared<FrontierOptions>();
   CLI::App* frontier = app.add_subcommand(
       "frontier", "Chart time against accuracy: the rungs, brute force, and the reference");
   frontier->add_option("SCENARIO", options->scenario, "Scenario file")->required();
   frontier
-      ->add_option("--out", options->out,
-                   "Directory for the chart and table: frontier.json, .csv, .svg, .png")
+      ->add_option(
+          "--out", options->out,
+          "Directory for report.html, its charts and tables, and frontier.json, .csv, .svg, "
+          ".png")
       ->required()
       ->check(NonEmpty());
   frontier
@@ -120,7 +112,7 @@ void AddFrontier(CLI::App& app, Command& command) {
                    "Rows of the table to measure, separated by commas, or all")
       ->capture_default_str();
   frontier->callback([&command, options] {
-    command = [options](const std::string&) { return RunFrontier(*options); };
+    command = [options](const std::string& line) { return RunFrontier(*options, line); };
   });
 }
 

@@ -17,8 +17,8 @@
 #include "analysis/receive/receive_report.h"
 #include "analysis/receive/received_files.h"
 #include "core/base/attempt.h"
-#include "core/io/stop_signals.h"
-#include "core/io/stream/udp_grabber.h"
+#include "core/program/run_program.h"
+#include "railcast/io/udp_grabber.h"
 
 namespace railcast {
 namespace {
@@ -28,14 +28,15 @@ struct ReceiveOptions {
   std::optional<std::string> from;
   std::optional<double> duration_s;
   std::optional<std::uint64_t> num_frames;
-  std::filesystem::path out;  // Empty: nothing is kept.
+  std::filesystem::path out;  // Empty: nothing is recorded.
 };
 
 double Now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// StopSignals() wait until they are asked for: the threads that come after inherit this.
+/// Blocks StopSignals(), so that they stay pending until Wait() asks for them; threads that start
+/// later inherit the mask.
 class HeldSignals {
  public:
   HeldSignals() {
@@ -43,7 +44,7 @@ class HeldSignals {
     for (const int signal : StopSignals()) ::sigaddset(&signals_, signal);
     ::pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
   }
-  /// Whether one comes within 20 ms.
+  /// Whether a stop signal arrives within 20 ms.
   [[nodiscard]] bool Wait() const {
     constexpr long kWait_ns = 20'000'000;
     const timespec wait{0, kWait_ns};
@@ -54,7 +55,7 @@ class HeldSignals {
   sigset_t signals_{};
 };
 
-/// Counts the frames of a grabber, and keeps them if asked to. The grabber's thread gives them.
+/// Counts, and on request records, the frames of a grabber; called on the grabber's thread.
 class FrameCounter {
  public:
   explicit FrameCounter(const ReceiveOptions& options) : max_frames_(options.num_frames) {
@@ -123,7 +124,7 @@ int RunReceive(const ReceiveOptions& options) {
     std::cerr << ReceiveProgress(counter.totals(), grabber.counts()) << "\n";
     next_line_s += 1.0;
   }
-  // Asked before it stops: of a frame that is still coming, nothing is lost.
+  // Read before the grabber stops, so that a frame in flight does not count as lost.
   const UdpGrabber::Counts counts = grabber.counts();
   grabber.stop();
   counter.ThrowIfFailed();
@@ -133,7 +134,7 @@ int RunReceive(const ReceiveOptions& options) {
 
 }  // namespace
 
-void AddReceive(CLI::App& app, Command& command) {
+void AddReceive(CLI::App& app, ProgramCommand& command) {
   const auto options = std::make_shared<ReceiveOptions>();
   CLI::App* receive = app.add_subcommand(
       "receive", "Listen to a live stream: what arrives, and what is lost; until Ctrl-C");
@@ -143,7 +144,7 @@ void AddReceive(CLI::App& app, Command& command) {
       ->capture_default_str();
   receive
       ->add_option("--from", options->from,
-                   "HOST or HOST:PORT whose datagrams are taken; default: whoever comes first")
+                   "HOST or HOST:PORT whose datagrams are taken; default: the first sender heard")
       ->check(NonEmpty());
   receive
       ->add_option("--duration", options->duration_s, "Seconds after which to end; default: no end")

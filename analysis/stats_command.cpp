@@ -8,14 +8,13 @@
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
 #include "analysis/stats/statistics.h"
-#include "analysis/stats/statistics_report.h"
 #include "analysis/thread_limit.h"
 #include "core/base/error.h"
-#include "core/base/shown_text.h"
-#include "core/io/progress_line.h"
-#include "core/io/recording/recording.h"
+#include "core/base/text.h"
 #include "core/io/scenario_identity.h"
-#include "core/io/version.h"
+#include "core/program/progress_line.h"
+#include "core/program/version.h"
+#include "railcast/io/recording.h"
 
 namespace railcast {
 namespace {
@@ -26,14 +25,15 @@ struct StatsOptions {
   ReportOutput output;
 };
 
-// Firing tables are the same if they hold the same, in whichever directory they lie.
+// Firing tables are equal if their contents are, in whichever directory they lie.
 bool HaveSameScan(const RecordingInfo& first, const RecordingInfo& other) {
   if (!first.scenario || !other.scenario) return !first.scenario && !other.scenario;
   return WithFilesByContent(*first.scenario).lidar.scan ==
          WithFilesByContent(*other.scenario).lidar.scan;
 }
 
-// Rings, labels and materials are counted by their numbers: they must mean the same everywhere.
+// Rings, labels and materials are counted by their numbers, which must mean the same in all
+// recordings.
 void CheckSameKind(const RecordingInfo& first, const RecordingInfo& other) {
   if (other.labels.labels() != first.labels.labels() || other.materials != first.materials) {
     throw InputError(ShownPath(other.source) + ": must have the same labels and materials as " +
@@ -55,7 +55,7 @@ int RunStats(const StatsOptions& options, const std::string& command_line) {
     infos.push_back(recordings.back()->info());
     CheckSameKind(infos.front(), infos.back());
   }
-  std::size_t num_frames = 0;  // 0: not known.
+  std::size_t num_frames = 0;  // 0 if not known.
   for (const RecordingInfo& info : infos) num_frames += info.num_frames.value_or(0);
 
   Statistics all;
@@ -83,7 +83,7 @@ int RunStats(const StatsOptions& options, const std::string& command_line) {
 
 }  // namespace
 
-void AddStats(CLI::App& app, Command& command) {
+void AddStats(CLI::App& app, ProgramCommand& command) {
   const auto options = std::make_shared<StatsOptions>();
   CLI::App* stats = app.add_subcommand(
       "stats", "Dropout, density against range, noise, intensity and coverage of point clouds");

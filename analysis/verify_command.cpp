@@ -7,8 +7,8 @@
 
 #include "analysis/commands.h"
 #include "analysis/verify/verification.h"
-#include "core/base/shown_text.h"
-#include "core/io/progress_line.h"
+#include "core/base/text.h"
+#include "core/program/progress_line.h"
 
 namespace railcast {
 namespace {
@@ -39,10 +39,10 @@ int RunVerify(const std::filesystem::path& directory) {
 
 }  // namespace
 
-void AddVerify(CLI::App& app, Command& command) {
+void AddVerify(CLI::App& app, ProgramCommand& command) {
   const auto directory = std::make_shared<std::filesystem::path>();
   CLI::App* verify = app.add_subcommand(
-      "verify", "Whether a sequence directory is as it was written: a line for every fault");
+      "verify", "Check that a sequence directory is as it was written: one line per fault");
   verify
       ->add_option("DIR", *directory,
                    "Directory that railcast-generate sequence made, any --format")

@@ -4,8 +4,8 @@
 Speaks to `railcast-generate stream SCENARIO --commands-port PORT`, whose points must be in vehicle
 axes (`output.frame` is "vehicle") on track that is straight as far as the sensor sees. An
 obstacle is where enough points lie close together inside the structure gauge, frame after frame.
-Prints where it was detected, how far the train still ran and what gap is left; exit status 1 if
-none is.
+Prints where it was detected, how far the train still ran and what gap is left; exits with
+status 1 if there is no gap.
 """
 
 import argparse
@@ -21,19 +21,20 @@ import time
 
 from receive_stream import read_datagram
 
-# Half the structure gauge of lines with 15 kV (EBO, Anlage 1). Ballast, rails and sleepers stay
-# below the box, the contact wire above it.
+# Half the width of the structure gauge of lines with 15 kV (EBO, Anlage 1). Ballast, rails and
+# sleepers are below the box, and the contact wire is above it.
 GAUGE_HALF_WIDTH_M = 1.43
 GAUGE_BOTTOM_M = 0.35
 GAUGE_TOP_M = 4.5
 
-OBSTACLE_LENGTH_M = 1.0  # Points this near along the track are one thing.
-# Drops and flakes are scattered: less than this share of what even a small thing would give.
+OBSTACLE_LENGTH_M = 1.0  # Points closer than this along the track belong to one object.
+# Raindrops and snowflakes are scattered: they return less than this share of the points that even a
+# small object would.
 SMALLEST_M2 = 0.25
 LEAST_SHARE = 0.3
-# Fog stands in the first metres like a wall: nothing new is looked for there.
+# Fog fills the first metres with returns, so new obstacles are not searched for there.
 NEAREST_M = 6.0
-CLOSE_M = 2.0  # Nearer, its place is not measured any more.
+CLOSE_M = 2.0  # Closer than this, its position is no longer measured.
 STANDSTILL_MPS = 0.02
 AXES_FLAGS, VEHICLE_AXES = 0b1110, 0b0010  # docs/stream.md
 PATIENCE_S = 60.0
@@ -41,7 +42,7 @@ RETRY_S = 0.5
 
 
 class Frame:
-    """What has arrived of a frame: points as (x, y, z)."""
+    """The part of a frame that has arrived: points as (x, y, z)."""
 
     def __init__(self, head):
         self.run, self.number, self.num_packets = head[4], head[7], head[9]
@@ -53,7 +54,7 @@ class Frame:
         return (self.run, self.number) < (head[4], head[7])
 
     def lacks(self, head):
-        """Whether this datagram is one of its own that is not there yet."""
+        """Whether this datagram belongs to the frame and has not arrived before."""
         is_own = (self.run, self.number) == (head[4], head[7])
         return is_own and head[8] not in self.points_of_packet
 
@@ -69,24 +70,26 @@ class Frame:
 
 
 class Train:
-    """The simulated train: its sensor's frames, and what it can be told."""
+    """The simulated train: receives its sensor's frames and sends it commands."""
 
     def __init__(self, options):
         self.stream = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self.stream.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 24)
         self.stream.bind(options.stream)
-        self.sender = None  # Of the first frame, and so of all: nobody else feigns an obstacle.
+        # Sender of the first frame. Datagrams of others are ignored, so that they cannot feign
+        # obstacles.
+        self.sender = None
         self.controls = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self.to = options.commands
         self.is_lockstep = options.lockstep
         self.session = f"brake_client {random.randrange(1 << 64):016x}"
         self.next_id = 0
-        self.coming = None  # The frame whose datagrams arrive.
+        self.coming = None  # The frame whose datagrams are arriving.
         self.whole = collections.deque()
         self.num_lost = 0
 
     def tell(self, command):
-        """Sends a command until it is answered, and reads the stream meanwhile."""
+        """Repeats a command until it is answered, and reads the stream meanwhile."""
         self.next_id += 1
         tag = {"session": self.session, "id": self.next_id}
         line = json.dumps({**tag, **command}).encode()
@@ -100,11 +103,12 @@ class Train:
         sys.exit(f"no answer from {self.to[0]}:{self.to[1]}")
 
     def frames(self):
-        """Gives one frame after the other as soon as it is whole; others are counted as lost."""
+        """Yields each frame once it is complete; incomplete ones are counted as lost."""
         end_s = time.monotonic() + PATIENCE_S
         while time.monotonic() < end_s:
             if self.is_lockstep:
-                # Answered when the frame has been sent: what is not here soon was lost.
+                # The answer follows the last datagram of the frame; what does not arrive soon after
+                # it is lost.
                 self.tell({"command": "step"})
                 while not self.whole and self.has_more():
                     self.receive(RETRY_S)
@@ -119,7 +123,7 @@ class Train:
         return bool(select.select([self.stream], [], [], RETRY_S)[0])
 
     def receive(self, timeout_s):
-        """Takes what has come from either side. Whether the last command's answer was there."""
+        """Reads stream and answers. Returns whether the last command has been answered."""
         is_answered = False
         for port in select.select([self.stream, self.controls], [], [], timeout_s)[0]:
             data, origin = port.recvfrom(65536)
@@ -157,14 +161,14 @@ class Train:
 
 
 def points_wanted(distance_m, options):
-    """How many points make a thing: a share of those that a small one would get if all returned."""
+    """Points that make an object: a share of those that a small one would return at most."""
     side_rad = math.radians(options.resolution)
     hits = SMALLEST_M2 / (max(distance_m, 1.0) * side_rad) ** 2
     return max(options.min_points, math.ceil(LEAST_SHARE * hits))
 
 
 def things_ahead(points, options):
-    """How far ahead of the train's front enough points lie together in the gauge."""
+    """Distances ahead of the train's front at which enough points cluster in the gauge."""
     along = sorted(x - options.front for x, y, z in points
                    if x > options.front and abs(y) < GAUGE_HALF_WIDTH_M
                    and GAUGE_BOTTOM_M < z < GAUGE_TOP_M)
@@ -178,13 +182,13 @@ def things_ahead(points, options):
 
 
 class Lookout:
-    """Tells an obstacle from what drops, fog and noise feign: it stays where it is."""
+    """Tells obstacles from raindrops, fog and noise: an obstacle keeps its position."""
 
     def __init__(self, min_frames):
         self.seen = collections.deque(maxlen=min_frames)
 
     def nearest(self, places_m):
-        """The nearest of these places at which something was in all the last frames, or None."""
+        """The nearest of these positions that was occupied in all recent frames, or None."""
         self.seen.append(places_m)
         if len(self.seen) < self.seen.maxlen:
             return None
@@ -196,7 +200,7 @@ class Lookout:
 
 
 class Drive:
-    """One approach: looks out, brakes when there is an obstacle, and measures what comes of it."""
+    """One approach: brakes for an obstacle and measures the remaining gap."""
 
     def __init__(self, train, options):
         self.train = train
@@ -204,13 +208,14 @@ class Drive:
         self.lookout = Lookout(options.min_frames)
         self.speed_mps = 0.0
         self.travelled_m = 0.0
-        self.obstacle_at_m = None  # Of the train's front, as travelled_m.
+        # Position of the obstacle in the coordinate of travelled_m at the train's front.
+        self.obstacle_at_m = None
         self.braked_at_m = None
         self.braked_speed_mps = None
         self.detected_m = None
 
     def run(self):
-        """Whether there was an obstacle; the train stands then."""
+        """Returns whether there was an obstacle; if so, the train has stopped."""
         before = None
         for frame in self.train.frames():
             if before is not None:
@@ -232,9 +237,10 @@ class Drive:
             places_m = [place_m for place_m in places_m
                         if place_m - self.travelled_m > NEAREST_M]
         elif self.obstacle_at_m - self.travelled_m < CLOSE_M:
-            return  # Whoever runs into something sees its far side next.
+            return  # After a collision the sensor sees the far side of the obstacle.
         else:
-            # Drops and fog stand still, too, once the train does.
+            # Once the train stands, raindrops and fog keep their positions, too, so only points
+            # near the obstacle count.
             places_m = [place_m for place_m in places_m
                         if abs(place_m - self.obstacle_at_m) < OBSTACLE_LENGTH_M]
         place_m = self.lookout.nearest(places_m)
@@ -267,11 +273,11 @@ def weather(file):
 def parse():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--stream", type=endpoint, default="127.0.0.1:27400", metavar="HOST:PORT",
-                        help="where frames are listened for")
+                        help="address at which to receive frames")
     parser.add_argument("--commands", type=endpoint, default="127.0.0.1:27401",
-                        metavar="HOST:PORT", help="where the simulation hears commands")
+                        metavar="HOST:PORT", help="address at which the simulation takes commands")
     parser.add_argument("--lockstep", action="store_true",
-                        help="lets frames come one by one (stream --lockstep)")
+                        help="request frames one by one (stream --lockstep)")
     parser.add_argument("--weather", type=weather, metavar="FILE",
                         help="a weather section to set first")
     parser.add_argument("--deceleration", type=float, default=1.0, help="m/s2 (default: 1)")
@@ -280,9 +286,9 @@ def parse():
     parser.add_argument("--resolution", type=float, default=0.25,
                         help="deg between the sensor's beams (default: 0.25)")
     parser.add_argument("--min-points", type=int, default=4,
-                        help="together that make an obstacle far away (default: 4)")
+                        help="least cluster size of a distant obstacle (default: 4)")
     parser.add_argument("--min-frames", type=int, default=3,
-                        help="one after the other that confirm it (default: 3)")
+                        help="consecutive frames that confirm it (default: 3)")
     parser.add_argument("--max-travel", type=float, default=1000.0,
                         help="m after which the drive ends without an obstacle (default: 1000)")
     return parser.parse_args()

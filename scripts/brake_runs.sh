@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Approaches a standing wagon and a person in clear air, rain and fog, and prints what comes of it:
-# the table of docs/live.md. Every run is in lockstep and gives the same figures each time.
+# Approaches a standing wagon and a person in clear air, rain and fog, and prints the results as the
+# table of docs/live.md. Every run is in lockstep, so that the figures are reproducible.
 #
 # Usage: scripts/brake_runs.sh [BUILD_DIR]
 set -euo pipefail

@@ -8,7 +8,7 @@ install_packages "${build_packages[@]}"
 
 launcher=()
 if command -v ccache >/dev/null; then
-  # What is compiled with precompiled headers cannot be kept.
+  # ccache cannot cache what is compiled with precompiled headers.
   launcher=(-D CMAKE_C_COMPILER_LAUNCHER=ccache -D CMAKE_CXX_COMPILER_LAUNCHER=ccache
     -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON)
 fi

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Everything a change must pass before it lands.
+# Runs the checks that a change must pass before it is merged.
 #
 #   check.sh            format, architecture, build, tests, core and the fuzzers with clang
 #   check.sh --fast     format and architecture only: seconds, no build
-#   check.sh --tidy     all of it, and clang-tidy over the sources that differ from main
-#   check.sh --tidy-all the same over every source: minutes
+#   check.sh --tidy     all of the above, and clang-tidy over the sources that differ from main
+#   check.sh --tidy-all as --tidy, over every source: takes minutes
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source scripts/packages.sh
@@ -30,8 +30,8 @@ check_architecture() {
   scripts/lint_architecture.py
 }
 
-# check_tidy GIT-LIST-COMMAND...: clang-tidy over the sources that the command names and that are
-# part of the build. It reads them as clang would compile them, each with what it includes itself.
+# check_tidy GIT-LIST-COMMAND...: runs clang-tidy over those sources listed by the command that are
+# part of the build, with each compiled by clang on its own, including its headers.
 check_tidy() {
   echo "== clang-tidy"
   cmake -B build/tidy -G Ninja --log-level=ERROR -D CMAKE_C_COMPILER=clang-14 \
@@ -46,7 +46,7 @@ check_tidy() {
     clang-tidy-14 -p build/tidy --quiet 2> >(grep -v ' warnings\? generated' >&2)
 }
 
-# The fuzzers want clang; with them all of core is compiled, warnings are errors.
+# The fuzzers need clang; building them compiles all of core with clang, with warnings as errors.
 check_clang() {
   echo "== clang"
   cmake -B build/fuzz -G Ninja --log-level=ERROR -D CMAKE_C_COMPILER=clang-14 \

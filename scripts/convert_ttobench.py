@@ -9,7 +9,7 @@ Wil in place, the line then passes the four stations we looked at on its way (Br
 Flawil, Uzwil) within 0.7 km, and with positive as left it misses them by 2.5 to 5.5 km. railcast
 counts left as positive, so radii change their sign here.
 
-The line's begin is put at --origin (east, north), at the altitude of the file, or at height 0 if it
+The line's start is put at --origin (east, north), at the altitude of the file, or at height 0 if it
 states none. scenarios/alignments/st_gallen_wil.json was made with --heading-deg 226.18, which leads
 it from St. Gallen to Wil as on the map.
 """
@@ -27,7 +27,7 @@ ATTRIBUTION = (
 
 
 def values_of(track, key, units):
-    """The rows below `key`, after a look at their units."""
+    """The rows below `key`, after checking their units."""
     if key not in track:
         return []
     found = track[key].get("units") or {"position": track[key]["unit"]}
@@ -74,7 +74,7 @@ def convert(track, origin, heading_deg):
 
 
 def text_of(value, indent=""):
-    """JSON with one list item per line, so that changes read well."""
+    """JSON with one list item per line, so that diffs are readable."""
     inner = indent + "  "
     if isinstance(value, dict) and any(isinstance(v, (dict, list)) for v in value.values()):
         lines = [f"{inner}{json.dumps(k)}: {text_of(v, inner)}" for k, v in value.items()]

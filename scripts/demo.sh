@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds railcast, simulates 50 frames of an on-sight approach on the
-# St.Gallen - Wil line into out/demo, draws one of them (out/demo.png) and measures them all
+# Installs missing packages, builds railcast, simulates 50 frames of an on-sight approach on the
+# St.Gallen - Wil line into out/demo, draws one of them (out/demo.png) and analyses all of them
 # (out/stats).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Measures speed against accuracy on four scenarios and puts their charts where docs/frontier.md
-# shows them: draw_frontiers.sh [OPTION OF railcast-analyze frontier...]. Prints the tables. Some
-# minutes; for timings worth quoting nothing else may run.
+# Measures time against accuracy on four scenarios and copies the charts to where docs/frontier.md
+# shows them: draw_frontiers.sh [OPTION OF railcast-analyze frontier...]. Prints the tables. Takes
+# some minutes; for timings worth quoting nothing else may run on the machine.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

@@ -1,28 +1,34 @@
 #!/usr/bin/env bash
-# Draws the viewer's pictures of README and docs into docs/images: the same bytes each time on one
-# machine. Needs a release build; runs a minute.
+# Draws the pictures of README and docs into docs/images, except for the charts of draw_frontiers.sh
+# and the hand-made SVG; on one machine the files are reproducible byte by byte. Needs a release
+# build, Xvfb and, for the picture of a report, chromium; takes some minutes.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-generate=build/release/generator/railcast-generate
+generate=$PWD/build/release/generator/railcast-generate
+analyze=$PWD/build/release/analysis/railcast-analyze
+view=$PWD/build/release/viewer/railcast-view
+images=$PWD/docs/images
 runs=$(mktemp -d)
 trap 'rm -rf "$runs"' EXIT
 
-# A scenario like the demo's, but for the weather. JSON takes no comments: $1 is its weather.
-like_demo() {
-  printf '{"version": 1, "file": "%s", "weather": %s}' \
-    "$PWD/scenarios/st_gallen_approach.json" "$1" > "$runs/$2.json"
-  "$generate" sequence "$runs/$2.json" --out "$runs/$2" --frames 41 2> "$runs/log"
+# simulate NAME SCENARIO FRAMES
+simulate() {
+  "$generate" sequence "$2" --out "$runs/$1" --frames "$3" > "$runs/$1.txt" 2>&1
 }
-like_demo '{"rain_rate_mmph": 2.5}' demo
-like_demo '{"fog_density_per_m": 0.02}' fog
+simulate demo scenarios/st_gallen_approach.json 50
+simulate snow scenarios/snow.json 21
+# The demo scenario in thin fog.
+printf '{"version": 1, "file": "%s", "weather": {"fog_density_per_m": 0.02}}' \
+  "$PWD/scenarios/st_gallen_approach.json" > "$runs/fog.json"
+simulate fog "$runs/fog.json" 33
 
-# draw NAME OPTION...: within the runs' folder, so that pictures name no temporary one.
+# draw NAME OPTION...: runs in the folder of the runs, so that no picture shows a temporary path.
 draw() {
-  local name=$1 view=$PWD/build/release/viewer/railcast-view image=$PWD/docs/images/$1.png
+  local name=$1
   shift
   (cd "$runs" && xvfb-run --auto-servernum --server-args="-noreset -screen 0 1920x1080x24" \
-    "$view" --screenshot "$image" "$@" > "$name.txt")
+    "$view" --screenshot "$images/$name.png" "$@" > "$name.txt")
 }
 draw view_label demo --frame 20 --camera driver
 draw view_overlays demo --frame 36 --camera driver --color-by range \
@@ -32,4 +38,12 @@ draw view_compare demo --compare fog --frame 32 --show boxes,empty-beams --color
 draw view_noise demo --frame 40 --camera top --accumulate 32 --color-by noise
 draw view_trace demo --frame 20 --camera driver --select person,wagon \
   --pick 668,352 --pick 761,431 --trace
-ls -l docs/images/view_*.png
+draw intensity demo --frame 20 --camera driver --color-by intensity
+draw snow snow --frame 20 --camera driver
+
+# The report states its date: use that of the commit, so that the picture is reproducible.
+(cd "$runs" && SOURCE_DATE_EPOCH=$(git -C "$images" log -1 --format=%ct) "$analyze" stats demo --out stats > stats.txt)
+chromium --headless --no-sandbox --disable-gpu --no-first-run --user-data-dir="$runs/profile" \
+  --hide-scrollbars --window-size=1300,1010 --screenshot="$images/report_demo.png" \
+  "file://$runs/stats/report.html" > "$runs/chromium.txt" 2>&1
+ls -l "$images"/*.png

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Proves that a machine which has nothing needs nothing but our scripts: makes a minimal Debian 12
-# in FOLDER, clones the committed state into it and runs a command there.
+# Proves that the scripts install all that a bare machine needs: makes a minimal Debian 12 in
+# FOLDER, clones the committed state into it and runs a command there.
 #
 #   fresh_machine.sh FOLDER [COMMAND...]     default: scripts/test.sh
 #
@@ -16,7 +16,7 @@ folder=$(realpath --canonicalize-missing "$1")
 shift
 
 debootstrap --variant=minbase bookworm "$folder"
-# Where packages come from and through which proxy is the host's business.
+# Use the host's package sources and proxy.
 apt-config dump | grep '^Acquire::https\?::' >"$folder/etc/apt/apt.conf.d/99host" || true
 git clone --quiet --no-hardlinks . "$folder/railcast"
 

@@ -20,7 +20,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
 def scenario(length_km):
-    """Curves to the left and to the right, a kilometre each pair, over the given length."""
+    """Alternating left and right curves over the given length, a kilometre per pair."""
     pair = []
     for radius_m in (600, -600):
         pair += [

@@ -123,13 +123,13 @@ def main():
     write_sensor(out / "vlp32c.json", "VLP-32C", velodyne_lasers(velodyne / "VeloView-VLP-32C.yaml"),
                  [2.304 * (i // 2) for i in range(32)], 55.296, 1808,
                  detection(0.5, 200.0, 90.0, 0.01, [3.0, 1.5]))
-    # Two halves fire at once, each in groups of four.
+    # The two halves fire simultaneously, each in groups of four.
     write_sensor(out / "hdl64e.json", "HDL-64E S2",
                  hdl64e_lasers(velodyne / "64e_s2.1-sztaki.yaml"),
                  [6.0 * (i % 32 // 4) + (0.0, 1.26, 2.46, 3.66)[i % 4] for i in range(64)], 48.0,
                  2083, detection(0.5, 120.0, 50.0, 0.02, [2.0, 2.0]))
-    # Groups of eight fire together; after the eighth group a slot of maintenance, after the
-    # sixteenth three.
+    # Groups of eight fire together; one maintenance slot follows the eighth group and three follow
+    # the sixteenth.
     write_sensor(out / "vls128.json", "VLS-128", velodyne_lasers(velodyne / "VLS128.yaml"),
                  [2.665 * (i // 8 + i // 64) for i in range(128)], 53.3, 1876,
                  detection(0.5, 245.0, 220.0, 0.01, [3.0, 1.5]))

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Counts what each rung and each effect costs, for the README and core/fidelity/effect_costs.h:
-# instructions per firing of Simulator::Scan, less the making of the scene, on frame 0 of
-# scenarios/open_line.json in heavy rain (so that every effect has work), one thread; then what is
-# saved without each effect of the rung footprint. Needs valgrind; takes some ten minutes.
+# Counts the cost of each rung and each effect, for the README and the table of effects
+# (core/detect/effect_table.h): instructions per firing of Simulator::Scan, without those for making
+# the scene, on frame 0 of scenarios/open_line.json in heavy rain (so that every effect has work)
+# with one thread; then the savings without each effect of the rung footprint. Needs valgrind; takes
+# some ten minutes.
 #
 #   measure_effect_costs.sh [RAILCAST_GENERATE]
 set -euo pipefail
@@ -13,7 +14,8 @@ generate="$(realpath "${1:-build/release/generator/railcast-generate}")"
 work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
 
-# instructions NAME RUNG EFFECT...: per firing, with the effects switched off.
+# instructions NAME RUNG EFFECT...: prints the instructions per firing with the effects switched
+# off.
 instructions() {
   local name="$1" rung="$2" effects="" effect
   shift 2

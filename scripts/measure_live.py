@@ -6,7 +6,7 @@ Usage: measure_live.py BUILD_DIR [steady|clients|limits]... [--seconds S]
 steady: the published scan at 10 and 20 Hz, spread and in bursts: frames lost and late, lateness.
 clients: VLP-16 at 20 Hz and HDL-32E at 10 Hz into PCL's own grabbers.
 limits: the highest rate that each rung sustains without a late frame, in one of three tries: virtual
-machines stand still for tens of milliseconds now and then.
+machines occasionally pause for tens of milliseconds.
 """
 
 import argparse
@@ -37,7 +37,7 @@ class Bench:
         self.folder = folder
 
     def scenario(self, lidar):
-        """The demo scenario with another sensor, a longer drive, and nothing in its way."""
+        """The demo scenario with another sensor, a longer drive, and no obstacle."""
         demo = json.loads((SCENARIOS / "st_gallen_approach.json").read_text(encoding="utf-8"))
         world = demo["world"]
         world["alignment"] = str(SCENARIOS / world["alignment"])
@@ -61,7 +61,7 @@ class Bench:
                               "mount": {"position_m": [2.2, 0, 2.5]}})
 
     def stream(self, scenario, seconds, *options):
-        """Runs the sender; gives its summary."""
+        """Runs the sender and returns its summary."""
         command = [self.generate, "stream", scenario, "--duration", str(seconds), *options]
         output = subprocess.run(list(map(str, command)), check=True, capture_output=True,
                                 text=True).stdout

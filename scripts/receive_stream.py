@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Receives a railcast stream (docs/stream.md) and prints a line for each frame. Python alone."""
+"""Receives a railcast stream (docs/stream.md) and prints a line per frame. Needs only Python."""
 import argparse
 import math
 import socket
@@ -8,11 +8,11 @@ import time
 import zlib
 HEADER = struct.Struct("<4sBBHIHHIHHqIIIIIHH7d7dH")  # The table in docs/stream.md, in its order.
 TYPES = {2: "B", 4: "H", 6: "I", 7: "f"}  # u8, u16, u32, f32
-HOLD_S = 3.0  # Of silence, after which another sender may follow.
+HOLD_S = 3.0  # Seconds of silence after which another sender is accepted.
 
 
 def read_datagram(datagram):
-    """Header, field names, points. What is none of ours raises one of the errors caught below."""
+    """Header, field names, points. Foreign datagrams raise one of the errors caught below."""
     crc = zlib.crc32(datagram[:-4]).to_bytes(4, "little")
     if datagram[:5] != b"RCST\x01" or datagram[-4:] != crc:
         raise ValueError("another protocol, or damaged")
@@ -47,7 +47,7 @@ def main():
     while left:
         datagram, origin = listener.recvfrom(65536)
         if origin != sender and time.monotonic() < heard_s + HOLD_S:
-            continue  # Somebody else's.
+            continue  # From another sender.
         try:
             head, names, points = read_datagram(datagram)
             axes = [names.index(axis) for axis in "xyz"]
@@ -57,7 +57,7 @@ def main():
             sender, current = origin, None
         heard_s = time.monotonic()
         run, frame, packet, num_packets = head[4], *head[7:10]
-        if run != current or frame + 8 < last:  # The sender began anew.
+        if run != current or frame + 8 < last:  # The sender has restarted.
             current, last, frames = run, -1, {}
         if frame > last:
             frames.setdefault(frame, ({}, num_packets, axes))[0][packet] = points

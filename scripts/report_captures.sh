@@ -12,7 +12,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 mkdir -p docs/reports
 for capture in vlp16_dual vlp32c_single pandar64; do
-  # By a name without a folder: the page says what it read.
+  # Link without a folder, since the page states its source.
   ln -s "$(realpath "$captures/$capture.pcap")" "$scratch/$capture.pcap"
   (cd "$scratch" && "$OLDPWD/$build/analysis/railcast-analyze" stats "$capture.pcap" --out out)
   cp "$scratch/out/report.html" "docs/reports/$capture.html"

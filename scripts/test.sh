@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds everything, compiles every public header alone and runs every
-# test: test.sh [CTEST OPTION...].
+# Installs missing packages, builds everything, compiles every public header on its own and runs all
+# tests: test.sh [CTEST OPTION...].
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source scripts/packages.sh

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Runs the tests under the thread sanitizer: tsan.sh [CTEST OPTION...].
 #
-# Debian's TBB is not built for the sanitizer, so that everything TBB orders looks like a race, and
-# a suppression of what passes through TBB would hide our own races, too. So Debian's source of TBB
-# is built for it here, into build/tsan_tbb, and put before the system's.
+# Debian's TBB is not instrumented, so that everything TBB synchronizes looks like a race, and
+# suppressing whatever passes through TBB would hide railcast's own races, too. Therefore Debian's
+# source of TBB is built with the sanitizer into build/tsan_tbb and takes precedence over the
+# system's.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source scripts/packages.sh

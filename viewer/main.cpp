@@ -1,23 +1,16 @@
-#include <CLI/CLI.hpp>
-#include <iostream>
-#include <string>
+#include <memory>
 
-#include "core/base/error.h"
-#include "core/io/run_program.h"
+#include "core/program/program.h"
+#include "core/program/run_program.h"
+#include "railcast/error.h"
+#include "viewer/gui/gui.h"
 #include "viewer/options.h"
 #include "viewer/run.h"
 
 namespace railcast {
 namespace {
 
-int Main(int argc, char** argv) {
-  CLI::App app("Shows point clouds, recorded or live, and what is known of them.", "railcast-view");
-  ViewOptions options;
-  try {
-    options = ParseOptions(app, argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitSuccess : kExitUsage;
-  }
+int RunView(const ViewOptions& options) {
   try {
     RunViewer(options);
   } catch (const InputError& error) {
@@ -26,10 +19,20 @@ int Main(int argc, char** argv) {
   return kExitSuccess;
 }
 
+void AddView(CLI::App& app, ProgramCommand& command) {
+  const auto options = std::make_shared<ViewOptions>();
+  AddViewOptions(app, *options);
+  command = [options](const std::string&) { return RunView(*options); };
+}
+
 }  // namespace
 }  // namespace railcast
 
 int main(int argc, char** argv) {
-  return railcast::RunProgram(
-      "railcast-view", [&] { return railcast::Main(argc, argv); }, std::cerr);
+  return railcast::ProgramMain(
+      {.name = "railcast-view",
+       .description = "Shows point clouds, recorded or live, and what is known of them.",
+       .footer = "Keys in the window:\n" + railcast::Gui::KeysText(),
+       .add = railcast::AddView},
+      argc, argv);
 }

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 
-#include "core/base/shown_text.h"
-#include "core/io/command_line.h"
-#include "core/io/version.h"
+#include "core/base/text.h"
+#include "core/program/command_line.h"
 #include "viewer/color/field_values.h"
-#include "viewer/window/view_window.h"
 
 namespace railcast {
 namespace {
@@ -18,7 +17,7 @@ namespace {
 constexpr int kMinSize_px = 64;
 constexpr int kMaxSize_px = 16384;
 
-/// What CLI11 fills in before it is checked.
+/// Values as CLI11 parses them, before they are checked.
 struct RawOptions {
   std::string size = "1280x720";
   std::string background = "dark";
@@ -30,7 +29,7 @@ struct RawOptions {
   std::string layout = "beside";
 };
 
-/// What --show takes, and which choice it makes.
+/// A name that --show takes, and the choice that it sets.
 struct Showable {
   std::string_view name;
   bool OverlayChoices::*choice;
@@ -50,7 +49,7 @@ constexpr std::string_view kEmptyBeams = "empty-beams";
   throw CLI::ValidationError(option, rule);
 }
 
-/// Two whole numbers; nothing if `text` is none, or one is out of its limits.
+/// Parses two whole numbers; empty if `text` is not that, or if a number is out of its limits.
 std::optional<std::array<int, 2>> ParsePair(std::string_view text,
                                             char between,
                                             int at_least,
@@ -125,7 +124,7 @@ void AddSourceOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
                  "track and the surfaces");
   app.add_option("--sensor", options.sensor, "Name of the sensor, where the scenario has several");
   app.add_option("--from", options.from,
-                 "HOST or HOST:PORT whose live frames are shown; default: whoever comes first");
+                 "HOST or HOST:PORT whose live frames are shown; default: the first sender heard");
   app.add_option("--wait", options.wait_s,
                  "Seconds to wait for the first whole frame of a live source")
       ->check(Number({1e-3, 1e9}))
@@ -134,8 +133,8 @@ void AddSourceOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
 
 void AddLookOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
   app.add_option("--color-by", options.choices.color_by,
-                 "Field to colour the points by: one of ours, or any that the cloud has. Default: "
-                 "label where there is one, else height");
+                 "Field to colour the points by: a field of railcast or any other that the cloud "
+                 "has. Default: label where there is one, else height");
   app.add_option("--color-map", raw.color_map, "Colour map for amounts; default: viridis")
       ->check(CLI::IsMember(Strings(kColorMapNames)));
   app.add_option("--color-range", raw.color_range,
@@ -170,8 +169,10 @@ void AddLookOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
 
 void AddCameraOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
   const auto* const camera =
-      app.add_option("--camera", options.camera,
-                     "Where to look from; default: chase, or all for recordings that are not ours")
+      app.add_option(
+             "--camera", options.camera,
+             "Where to look from; default: chase for live sources and where the scenario is "
+             "known, else all")
           ->check(CLI::IsMember(Strings(kCameraNames)));
   auto* const eye =
       app.add_option(
@@ -223,7 +224,7 @@ void UseRaw(const RawOptions& raw, const CLI::App& app, ViewOptions& options) {
     options.picks_px.push_back(ParsePick(pick, options.size_px));
   }
   options.look.background = *std::ranges::find(kBackgrounds, raw.background, &Background::name);
-  // Neighbouring beams of a spinning sensor then nearly touch.
+  // At this size, neighbouring beams of a spinning sensor nearly touch.
   if (app.count("--point-size") == 0) {
     options.look.point_size_px =
         std::max(2, static_cast<int>(std::lround(options.size_px[1] / 300.0)));
@@ -265,7 +266,7 @@ void CheckTogether(const ViewOptions& options) {
     Fail("--compare", "is not for a live source");
   }
   if (options.compare.string().starts_with(kLivePrefix)) {
-    Fail("--compare", "must be no live source");
+    Fail("--compare", "must not be a live source");
   }
   if (options.compare.empty() && options.choices.layout != Layout::kBeside) {
     Fail("--layout", "needs --compare");
@@ -274,26 +275,7 @@ void CheckTogether(const ViewOptions& options) {
   if (options.sensor && options.scenario.empty()) Fail("--sensor", "needs --scenario");
 }
 
-}  // namespace
-
-bool ViewOptions::is_live() const {
-  return source.string().starts_with(kLivePrefix);
-}
-
-ViewOptions ParseOptions(CLI::App& app, int argc, char** argv) {
-  ViewOptions options;
-  RawOptions raw;
-  AddSourceOptions(app, options, raw);
-  AddLookOptions(app, options, raw);
-  AddCameraOptions(app, options, raw);
-  AddPictureOptions(app, options, raw);
-  app.add_flag("-v", options.is_verbose, "Print what is shown");
-  app.set_version_flag("--version", ProgramVersion());
-  app.footer("Keys in the window:\n" + ViewWindow::KeysText());
-  app.failure_message(SayWhatIsWrong);
-  app.parse(argc, argv);
-  UseRaw(raw, app, options);
-  CheckTogether(options);
+void CheckFiles(const CLI::App& app, const ViewOptions& options) {
   for (const char* const option : {"--screenshot", "--video", "--compare", "--scenario"}) {
     if (app.count(option) > 0 && app.get_option(option)->as<std::string>().empty()) {
       Fail(option, "must not be empty");
@@ -302,7 +284,26 @@ ViewOptions ParseOptions(CLI::App& app, int argc, char** argv) {
   if (!options.screenshot.empty() && options.screenshot.extension() != ".png") {
     Fail("--screenshot", "must end in .png (got " + ShownPath(options.screenshot) + ")");
   }
-  return options;
+}
+
+}  // namespace
+
+bool ViewOptions::is_live() const {
+  return source.string().starts_with(kLivePrefix);
+}
+
+void AddViewOptions(CLI::App& app, ViewOptions& options) {
+  const auto raw = std::make_shared<RawOptions>();
+  AddSourceOptions(app, options, *raw);
+  AddLookOptions(app, options, *raw);
+  AddCameraOptions(app, options, *raw);
+  AddPictureOptions(app, options, *raw);
+  app.add_flag("-v", options.is_verbose, "Print what is shown");
+  app.final_callback([&app, &options, raw] {
+    UseRaw(*raw, app, options);
+    CheckTogether(options);
+    CheckFiles(app, options);
+  });
 }
 
 }  // namespace railcast

@@ -8,31 +8,31 @@
 #include <string>
 #include <vector>
 
+#include "viewer/composition/choices.h"
 #include "viewer/draw/cameras.h"
 #include "viewer/draw/look.h"
-#include "viewer/scene/choices.h"
 
 namespace railcast {
 
-/// What the command line asks for.
+/// The options of the command line.
 struct ViewOptions {
   std::filesystem::path source;
   std::filesystem::path compare;  ///< Empty: nothing is compared.
   std::filesystem::path scenario;
-  std::optional<std::string> sensor;  ///< Of the scenario.
+  std::optional<std::string> sensor;  ///< Name of a sensor of the scenario.
   std::optional<std::string> from;    ///< HOST or HOST:PORT of a live source's sender.
   std::optional<std::uint32_t> frame;
   std::filesystem::path screenshot;  ///< Empty: none.
-  std::filesystem::path video;       ///< Likewise.
+  std::filesystem::path video;       ///< Empty: none.
   std::optional<std::size_t> num_pictures;
-  double wait_s = 60.0;  ///< For the first whole frame of a live source.
+  double wait_s = 60.0;  ///< Time limit for the first whole frame of a live source.
   std::vector<std::array<int, 2>> picks_px;
   bool traces = false;
   std::vector<std::string> select;
 
   Choices choices;
   Look look;
-  std::string camera;  ///< Empty: by the source.
+  std::string camera;  ///< Empty: depends on the source.
   std::optional<CameraPlace> place;
   std::array<int, 2> size_px{1280, 720};
   bool is_verbose = false;
@@ -43,8 +43,9 @@ struct ViewOptions {
 
 inline constexpr std::string_view kLivePrefix = "udp://";
 
-/// Reads the command line.
-/// @throws CLI::ParseError as CLI11 does, also where options do not go together.
-[[nodiscard]] ViewOptions ParseOptions(CLI::App& app, int argc, char** argv);
+/// Adds the options of railcast-view. Parsing fills `options`, and fails with a CLI::ParseError if
+/// options contradict each other.
+/// @param options Must live as long as `app`.
+void AddViewOptions(CLI::App& app, ViewOptions& options);
 
 }  // namespace railcast

@@ -9,24 +9,23 @@
 
 #include "core/base/attempt.h"
 #include "core/base/error.h"
-#include "core/base/number_text.h"
-#include "core/base/shown_text.h"
-#include "core/io/progress_line.h"
-#include "core/scenario/scenario.h"
+#include "core/base/text.h"
+#include "core/program/progress_line.h"
+#include "railcast/scenario.h"
 #include "viewer/draw/display.h"
 #include "viewer/draw/stage.h"
 #include "viewer/frames/live_frames.h"
 #include "viewer/frames/recorded_frames.h"
+#include "viewer/gui/gui.h"
+#include "viewer/pick/picks.h"
+#include "viewer/pick/point_under.h"
 #include "viewer/picture/pictures.h"
-#include "viewer/session/picks.h"
 #include "viewer/session/session.h"
-#include "viewer/window/point_under.h"
-#include "viewer/window/view_window.h"
 
 namespace railcast {
 namespace {
 
-/// Of --select.
+/// Returns the labels named by --select.
 /// @throws InputError if the recording knows no such label.
 std::set<std::uint32_t> SelectedLabels(const std::vector<std::string>& names,
                                        const LabelTable& labels) {
@@ -41,7 +40,7 @@ std::set<std::uint32_t> SelectedLabels(const std::vector<std::string>& names,
   return ids;
 }
 
-/// Waits until the frame that a live source gave last is a whole one.
+/// Waits until the latest frame of a live source is complete.
 void WaitForFrame(LiveFrames& live, double wait_s) {
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::duration<double>(wait_s);
@@ -55,12 +54,12 @@ void WaitForFrame(LiveFrames& live, double wait_s) {
   }
 }
 
-/// Says what is known of the points that were asked for, and shows it in the picture.
+/// Prints what is known of the points given by --pick, and shows it in the picture.
 void ShowPicks(const ViewOptions& options, const Session& session, Stage& stage) {
   Picks picks;
   std::size_t source = 0;
   for (const auto& [x_px, y_px] : options.picks_px) {
-    // Pictures are counted from above, the window from below.
+    // Pixels of a picture are counted from its top, those of the window from its bottom.
     const auto hit = PointUnder(stage, session, {x_px, options.size_px[1] - 1 - y_px});
     if (!hit) {
       throw InputError("--pick: no point is near " + NumberText(x_px) + "," + NumberText(y_px));
@@ -72,7 +71,7 @@ void ShowPicks(const ViewOptions& options, const Session& session, Stage& stage)
   stage.ShowPlate(Stage::Plate::kFacts, picks.facts());
   std::printf("%s%s", ShownLines(picks.facts()).c_str(), picks.facts().ends_with('\n') ? "" : "\n");
   for (std::size_t i = 0; i < stage.num_views(); ++i) {
-    stage.ShowMarks(i, picks.MarksIn(stage.view(i).scene()));
+    stage.ShowMarks(i, picks.MarksIn(stage.view(i).composition()));
   }
   if (!options.traces) return;
   const std::string trace =
@@ -101,7 +100,7 @@ class Viewer {
     } else if (!options.camera.empty()) {
       stage_.UseCamera(options.camera);
     } else {
-      // Presets are made for sensors of rail vehicles.
+      // The other presets are made for sensors on rail vehicles.
       const bool is_ours = live_ || session_->source(0).info().scenario;
       stage_.UseCamera(is_ours ? "chase" : "all");
     }
@@ -118,14 +117,14 @@ class Viewer {
     } else if (!options_.video.empty()) {
       RecordVideo();
     } else {
-      ViewWindow(*session_, live_.get(), stage_, options_.look).Run();
+      Gui(*session_, live_.get(), stage_, options_.look).Run();
     }
   }
 
  private:
   void OpenLive() {
     const std::string address = options_.source.string().substr(kLivePrefix.size());
-    // In a stream, sensors have their numbers in the scenario.
+    // Packets name a sensor by its index in the scenario.
     WantedStream wanted;
     if (options_.sensor) {
       const std::vector<std::string> names = SensorNames(Scenario());
@@ -146,7 +145,7 @@ class Viewer {
     source.UseScenario(PickSensor(Scenario(), options_.sensor));
   }
 
-  /// Of --scenario, read when it is first asked for.
+  /// Returns the scenario of --scenario, which is read at the first call.
   const ScenarioSpec& Scenario() {
     if (!scenario_) scenario_ = ReadScenario(options_.scenario);
     return *scenario_;
@@ -162,24 +161,24 @@ class Viewer {
     const std::string missing = session_->Missing();
     if (!missing.empty()) throw InputError(ShownPath(options_.source) + ": " + missing);
     if (options_.is_verbose) {
-      for (const Scene& scene : session_->Compose()) {
-        std::fprintf(stderr, "%s\n", ShownLines(scene.status).c_str());
+      for (const Composition& composition : session_->Compose()) {
+        std::fprintf(stderr, "%s\n", ShownLines(composition.status).c_str());
       }
     }
   }
 
   void DrawOffScreen() {
     stage_.window().SetOffScreenRendering(true);
-    std::vector<Scene> scenes = session_->Compose();
+    std::vector<Composition> compositions = session_->Compose();
     if (live_) {
-      scenes.front().status += '\n';
-      scenes.front().status += live_->StatusText();
+      compositions.front().status += '\n';
+      compositions.front().status += live_->StatusText();
     }
-    stage_.Show(std::move(scenes), options_.look);
+    stage_.Show(std::move(compositions), options_.look);
     stage_.window().Render();
   }
 
-  /// The next frame, if there is one; a live source is waited for.
+  /// Goes to the next frame, if there is one; waits for it if the source is live.
   bool SeekNext() {
     if (!live_) return session_->Seek(session_->place() + 1);
     WaitForFrame(*live_, options_.wait_s);
@@ -188,7 +187,7 @@ class Viewer {
 
   void ShowProgress(std::size_t num_pictures, const ProgressLine& line) const {
     const std::string what = NumberText(num_pictures) + " pictures";
-    // A capture does not know its end, nor a live source.
+    // The number of frames is unknown for captures and live sources.
     const auto& num_frames = session_->source(0).info().num_frames;
     std::optional<std::size_t> num_all = options_.num_pictures;
     if (num_frames) {

@@ -4,7 +4,7 @@
 
 namespace railcast {
 
-/// Does what the command line asks for.
+/// Carries out what the command line asks for.
 /// @throws InputError with one line if something cannot be read, shown or written.
 void RunViewer(const ViewOptions& options);
 

@@ -1,22 +1,14 @@
 #include "analysis/compare/ablation.h"
 
-#include "core/scenario/effect_names.h"
+#include "core/detect/effect_table.h"
+#include "railcast/effects.h"
 
 namespace railcast {
 namespace {
 
-EffectSet Switched(EffectSet effects, const std::string& name) {
-  for (const auto& [known, effect] : kEffects) {
-    if (name == known) effects.*effect = !(effects.*effect);
-  }
+EffectSet Switched(EffectSet effects, const Effect& effect) {
+  effects.*effect.is_on = !(effects.*effect.is_on);
   return effects;
-}
-
-bool IsOn(const EffectSet& effects, const std::string& name) {
-  for (const auto& [known, effect] : kEffects) {
-    if (name == known) return effects.*effect;
-  }
-  return false;
 }
 
 RecordedFrame Scanned(Simulator& simulator, const SimulatorSpec& spec, std::uint32_t index) {
@@ -33,8 +25,8 @@ RecordedFrame Scanned(Simulator& simulator, const SimulatorSpec& spec, std::uint
 
 std::vector<std::string> StudiedEffects(const EffectSet& effects) {
   std::vector<std::string> names;
-  for (const std::string& name : EffectNames()) {
-    if (!ConflictIn(Switched(effects, name))) names.push_back(name);
+  for (const Effect& effect : EffectTable()) {
+    if (!ConflictIn(Switched(effects, effect))) names.emplace_back(effect.name);
   }
   return names;
 }
@@ -45,8 +37,9 @@ std::vector<EffectStudy> Ablate(Simulator& simulator,
                                 const AblationProgress& on_progress) {
   const SimulatorSpec spec = simulator.spec();
   std::vector<EffectStudy> studies;
-  for (const std::string& effect : StudiedEffects(spec.effects)) {
-    studies.push_back({effect, IsOn(spec.effects, effect), {}, Comparison(distances_m)});
+  const EffectSet& effects = spec.detector.effects;
+  for (const std::string& name : StudiedEffects(effects)) {
+    studies.push_back({name, effects.*FindEffect(name)->is_on, {}, Comparison(distances_m)});
   }
   const double num_steps = static_cast<double>(frames.size() * studies.size());
   double num_done = 0.0;
@@ -55,7 +48,7 @@ std::vector<EffectStudy> Ablate(Simulator& simulator,
     for (EffectStudy& study : studies) {
       on_progress("frame " + std::to_string(index) + ", " + study.effect, num_done++ / num_steps);
       SimulatorSpec switched = spec;
-      switched.effects = Switched(spec.effects, study.effect);
+      switched.detector.effects = Switched(effects, *FindEffect(study.effect));
       const RecordedFrame other = Scanned(simulator, switched, index);
       const RecordedFrame& without = study.is_in_scenario ? other : as_is;
       const RecordedFrame& with = study.is_in_scenario ? as_is : other;

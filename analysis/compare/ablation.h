@@ -7,27 +7,28 @@
 
 #include "analysis/compare/beam_changes.h"
 #include "analysis/compare/comparison.h"
-#include "core/scenario/scenario_spec.h"
-#include "core/simulate/simulator.h"
+#include "railcast/scenario.h"
+#include "railcast/simulator.h"
 
 namespace railcast {
 
-/// What one effect changes in a scenario, all others being as they are.
+/// What one effect changes in a scenario while all other effects stay as they are.
 struct EffectStudy {
   std::string effect;
-  bool is_in_scenario{};  ///< Else it was switched on for the study.
+  bool is_in_scenario{};  ///< Otherwise the effect was switched on for the study.
   BeamChanges beams;
   Comparison clouds;  ///< A: without the effect, B: with it.
 };
 
-/// The effects that can be studied: each that goes together with the others once it is switched.
+/// The effects that can be studied: each one that is compatible with the others once it is
+/// switched.
 [[nodiscard]] std::vector<std::string> StudiedEffects(const EffectSet& effects);
 
 using AblationProgress = std::function<void(const std::string& what, double done)>;
 
-/// Simulates frames with the scenario's effects and then with each of StudiedEffects() switched,
-/// with the same draws: beams that an effect leaves alone are the same in every bit.
-/// @param simulator The scenario's; its spec is what it was afterwards.
+/// Simulates frames with the scenario's effects and then with each of StudiedEffects() switched.
+/// All runs use the same random draws, so a beam that an effect leaves alone is bit-identical.
+/// @param simulator Made from the scenario; its spec is restored afterwards.
 [[nodiscard]] std::vector<EffectStudy> Ablate(Simulator& simulator,
                                               const std::vector<std::uint32_t>& frames,
                                               const std::vector<double>& distances_m,

@@ -1,19 +1,17 @@
-#include "analysis/compare/ablation_report.h"
-
 #include <algorithm>
 #include <functional>
 
 #include "analysis/compare/compare_report.h"
-#include "analysis/report/joined.h"
+#include "analysis/report/cell_text.h"
 #include "analysis/stats/bins.h"
-#include "analysis/stats/headings.h"
-#include "core/scenario/effect_names.h"
+#include "analysis/stats/names.h"
+#include "core/detect/effect_table.h"
 
 namespace railcast {
 namespace {
 
 constexpr double kPercent = 100.0;
-// More lines in one chart nobody tells apart.
+// More lines than this in one chart cannot be told apart.
 constexpr std::size_t kMaxLines = 7;
 
 Estimate Percentage(std::uint64_t num, std::uint64_t num_all) {
@@ -32,7 +30,7 @@ std::uint64_t NumOutcomeChanged(const EffectStudy& study) {
   return study.beams.num_outcome_changed;
 }
 
-// The largest number comes first.
+// Sorts by the given number, largest first.
 std::vector<const EffectStudy*> Sorted(
     const std::vector<EffectStudy>& studies,
     const std::function<std::uint64_t(const EffectStudy&)>& num) {
@@ -141,7 +139,7 @@ Section EffectsSection(const std::vector<EffectStudy>& studies) {
   return section;
 }
 
-// Of the effects that change most.
+// Charts only the effects that change most.
 Chart RangeChart(const std::vector<EffectStudy>& studies,
                  const std::string& key,
                  const std::string& title,
@@ -181,7 +179,7 @@ Section RangeSection(const std::vector<EffectStudy>& studies) {
     table.columns.push_back({study.effect + "_percent", InWords(study.effect), "%"});
   }
   for (std::size_t bin = 0; bin < RangeBins().size(); ++bin) {
-    std::vector<Cell> row = {RangeBins().Name(bin)};
+    std::vector<Cell> row = {RangeBins().span(bin)};
     for (const EffectStudy& study : studies) {
       const BeamChanges::RangeBin& counts = study.beams.range_bins[bin];
       row.emplace_back(Percentage(counts.num_changed, counts.num_beams));
@@ -192,7 +190,7 @@ Section RangeSection(const std::vector<EffectStudy>& studies) {
   return section;
 }
 
-// How many more beams end so with the effect than without it.
+// How many more beams have each outcome with the effect than without it.
 Table OutcomesTable(const std::vector<EffectStudy>& studies) {
   Table table = {"outcomes",
                  "Beams gained and lost by each outcome",

@@ -9,12 +9,12 @@
 namespace railcast {
 namespace {
 
-// NaN is the same as NaN of the same bits.
+// Compares bits, so that NaN equals NaN.
 bool IsSame(float a, float b) {
   return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
 
-// Without an effect that computes it, an intensity is not known: that is no change.
+// Without an effect that computes it, the intensity is unknown (NaN), which is not a change.
 bool IsSameIntensity(float a, float b) {
   return std::isnan(a) || std::isnan(b) || IsSame(a, b);
 }

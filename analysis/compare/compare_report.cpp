@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/report/joined.h"
+#include "analysis/report/cell_text.h"
+#include "analysis/report/chart_columns.h"
 #include "analysis/stats/bins.h"
-#include "analysis/stats/headings.h"
+#include "analysis/stats/names.h"
 #include "core/base/error.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 
 namespace railcast {
 namespace {
@@ -22,7 +23,7 @@ std::size_t IndexOf(const Comparison& comparison, const std::string& metric) {
   return static_cast<std::size_t>(at - metrics.begin());
 }
 
-// What the divergences are of all frames together.
+// The divergence of the histograms over all frames together.
 double OfAllPairs(const Comparison& comparison, const std::string& metric) {
   const CloudHistograms& a = comparison.histograms_a();
   const CloudHistograms& b = comparison.histograms_b();
@@ -35,7 +36,7 @@ double OfAllPairs(const Comparison& comparison, const std::string& metric) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-// One metric of the pairs in their order.
+// One metric of the pairs, in their order.
 ChartSeries OverPairs(const Comparison& comparison,
                       const std::string& metric,
                       const std::string& title) {
@@ -121,7 +122,7 @@ Section DistancesSection(const Comparison& comparison) {
   return section;
 }
 
-// A histogram as shares of all its counts.
+// A histogram as shares of its total count.
 ChartSeries Shares(const Histogram& histogram,
                    const std::string& title,
                    SeriesStyle style,
@@ -130,7 +131,7 @@ ChartSeries Shares(const Histogram& histogram,
   ChartSeries series{title, style, {}};
   std::int64_t next = histogram.counts().empty() ? 0 : histogram.counts().front().first;
   for (const auto& [bin, count] : histogram.counts()) {
-    // Empty bins are zeros, in lines only at the ends of what is not.
+    // Empty bins are zeros; in a line only the ends of each run of empty bins are needed.
     if (bin > next) series.points.push_back({x_of_bin(next), 0.0});
     if (bin > next + 1) series.points.push_back({x_of_bin(bin - 1), 0.0});
     series.points.push_back({x_of_bin(bin), kPercent * static_cast<double>(count) /
@@ -199,21 +200,14 @@ constexpr BinColumn kBinColumns[] = {
      100.0},
 };
 
-Chart BinChart(const Comparison& comparison,
-               const std::string& key,
-               const std::string& title,
-               std::size_t column_a) {
-  Chart chart = {key, title, "", {"Range", "m", true, {}}, {title, "", false, {}}, {}};
-  for (std::size_t i = 0; i < 2; ++i) {
-    ChartSeries series{i == 0 ? "A" : "B", SeriesStyle::kLinePoints, {}};
-    for (std::size_t bin = 0; bin < RangeBins().size(); ++bin) {
-      const Moments& moments = comparison.bins().bins()[bin].*(kBinColumns[column_a + i].moments);
-      const Estimate mean = moments.Mean();
-      if (moments.num() > 0) series.points.push_back(PointAt(RangeBins().middle(bin), mean));
-    }
-    chart.series.push_back(std::move(series));
-  }
-  return chart;
+Chart BinChart(const Table& table, const std::string& what, const std::string& title) {
+  return {what + "_by_range",
+          title,
+          "",
+          {"Range", "m", true, {}},
+          {title, "", false, {}},
+          {SeriesOf(table, {"range_m", what + "_a"}, "A"),
+           SeriesOf(table, {"range_m", what + "_b"}, "B")}};
 }
 
 Section BinsSection(const Comparison& comparison) {
@@ -223,21 +217,21 @@ Section BinsSection(const Comparison& comparison) {
   section.paragraphs = {
       "Changes are (B - A) / A, as means over pairs in which A has at least 10 points in the bin. "
       "MAPE is the mean of their absolute values over bins (Haider et al. 2022)."};
-  section.charts = {BinChart(comparison, "points_by_range", "Points a frame", 0),
-                    BinChart(comparison, "intensity_by_range", "Mean intensity", 3)};
-  section.charts[0].y.is_log = true;
   Table table = {"by_range", "By distance", "", {{"range_m", "Range", "m"}}, {}};
   for (const BinColumn& column : kBinColumns) {
     table.columns.push_back({column.key, column.title, column.factor == 1.0 ? "" : "%"});
   }
   for (std::size_t bin = 0; bin < RangeBins().size(); ++bin) {
     const BinSums::Bin& sums = comparison.bins().bins()[bin];
-    std::vector<Cell> row = {RangeBins().Name(bin)};
+    std::vector<Cell> row = {RangeBins().span(bin)};
     for (const BinColumn& column : kBinColumns) {
       row.emplace_back(Scaled((sums.*(column.moments)).Mean(), column.factor));
     }
     table.rows.push_back(std::move(row));
   }
+  section.charts = {BinChart(table, "points", "Points a frame"),
+                    BinChart(table, "intensity", "Mean intensity")};
+  section.charts[0].y.is_log = true;
   section.tables = {std::move(table)};
   return section;
 }

@@ -1,28 +1,39 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "analysis/compare/ablation.h"
 #include "analysis/compare/comparison.h"
 #include "analysis/compare/pairing.h"
 #include "analysis/report/report.h"
-#include "core/io/recording/recording.h"
+#include "railcast/io/recording.h"
 
 namespace railcast {
 
-/// @param pairs At its end.
+/// @param pairs Read to the end.
 [[nodiscard]] Report MakeCompareReport(const Comparison& comparison,
                                        const FramePairs& pairs,
                                        const RecordingInfo& a,
                                        const RecordingInfo& b,
                                        const std::string& command);
 
-/// Every metric over all pairs, one a row.
+/// Defined in ablation_report.cpp.
+/// @param facts Describe the scenario.
+[[nodiscard]] Report MakeAblationReport(
+    const std::vector<EffectStudy>& studies,
+    const std::string& title,
+    const std::vector<std::pair<std::string, std::string>>& facts,
+    const std::string& command);
+
+/// Every metric over all pairs, one per row.
 [[nodiscard]] Table MetricsTable(const Comparison& comparison);
 
-/// What the metrics mean, for a report's reader.
+/// Explains the metrics to a reader of the report.
 [[nodiscard]] std::vector<std::string> MetricsInWords();
 
-/// Over the pairs: with its interval if there are enough; if not, the bare mean of the few.
+/// The mean over the pairs, with its interval if there are enough pairs, else the bare mean.
 [[nodiscard]] Cell MeanOverPairs(const Comparison& comparison, const std::string& metric);
 
 }  // namespace railcast

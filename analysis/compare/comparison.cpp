@@ -8,8 +8,8 @@
 #include <memory>
 
 #include "analysis/compare/distances.h"
-#include "analysis/report/joined.h"
-#include "core/base/number_text.h"
+#include "analysis/report/cell_text.h"
+#include "core/base/text.h"
 
 namespace railcast {
 namespace {
@@ -107,7 +107,7 @@ void Comparison::Add(const Part& part) {
   if (num_pairs_++ % stride_ != 0) return;
   pairs_.push_back(part.figures);
   if (pairs_.size() < kMaxPairsKept) return;
-  // Every other one goes, so that memory does not grow with the recordings.
+  // Drop every other pair, so that memory does not grow with the length of the recordings.
   std::size_t kept = 0;
   for (std::size_t i = 0; i < pairs_.size(); i += 2) pairs_[kept++] = std::move(pairs_[i]);
   pairs_.resize(kept);
@@ -116,7 +116,7 @@ void Comparison::Add(const Part& part) {
 
 void CompareAll(FramePairs& pairs, Comparison& comparison, const ComparisonProgress& on_progress) {
   using SharedPair = std::shared_ptr<FramePair>;
-  // As many at once as keep all cores busy; more would only take memory.
+  // Enough pairs in flight to keep all cores busy; more would only take memory.
   const auto max_pairs = 2 * static_cast<std::size_t>(tbb::info::default_concurrency());
   const auto read = tbb::make_filter<void, SharedPair>(
       tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) -> SharedPair {

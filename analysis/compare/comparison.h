@@ -11,17 +11,17 @@
 
 namespace railcast {
 
-/// A figure that every pair of frames has.
+/// A figure that is computed for every pair of frames.
 struct PairMetric {
   std::string key;    ///< "chamfer_m"
   std::string title;  ///< "Chamfer distance"
   std::string unit;
 };
 
-/// All of them, in the order of PairFigures::values.
+/// All metrics, in the order of PairFigures::values.
 [[nodiscard]] std::vector<PairMetric> PairMetrics(const std::vector<double>& distances_m);
 
-/// What one pair of frames gives.
+/// The figures of one pair of frames.
 struct PairFigures {
   std::uint32_t index_a{}, index_b{};
   std::int64_t stamp_a_ns{}, stamp_b_ns{};
@@ -29,12 +29,12 @@ struct PairFigures {
   std::vector<double> values;  ///< NaN where a frame has no points or lacks the field.
 };
 
-/// What two recordings have in common and what not. Its size hardly grows with their length.
+/// Compares two recordings pair by pair. Its size hardly grows with their length.
 class Comparison {
  public:
   explicit Comparison(std::vector<double> distances_m);
 
-  /// What `Add` takes: to be worked out on any thread.
+  /// The input of Add(), which can be computed on any thread.
   struct Part {
     PairFigures figures;
     CloudHistograms histograms_a, histograms_b;
@@ -47,17 +47,17 @@ class Comparison {
   [[nodiscard]] const std::vector<double>& distances_m() const { return distances_m_; }
   [[nodiscard]] std::uint64_t num_pairs() const { return num_pairs_; }
 
-  /// Over all pairs, by metric.
+  /// One metric over all pairs.
   struct Summary {
     Moments moments;
     double sum{};
     double least = std::numeric_limits<double>::infinity();
     double largest = -std::numeric_limits<double>::infinity();
-    /// Of the pairs there are: no estimate; NaN if none has the metric.
+    /// Plain mean of the pairs that have the metric, without an interval; NaN if none has it.
     [[nodiscard]] double Mean() const;
   };
   [[nodiscard]] const std::vector<Summary>& summaries() const { return summaries_; }
-  /// Every pair, or of very many each so-manieth.
+  /// Every pair or, in long recordings, every pair_stride()-th one.
   [[nodiscard]] const std::vector<PairFigures>& pairs() const { return pairs_; }
   [[nodiscard]] std::uint64_t pair_stride() const { return stride_; }
   [[nodiscard]] const CloudHistograms& histograms_a() const { return histograms_a_; }
@@ -77,7 +77,7 @@ class Comparison {
 /// Called after each pair, on one thread at a time.
 using ComparisonProgress = std::function<void(std::uint64_t num_pairs)>;
 
-/// Compares all pairs, several at a time: the same figures at any number of threads.
+/// Compares all pairs, several at a time; the figures do not depend on the number of threads.
 /// @throws InputError as the recordings do.
 void CompareAll(FramePairs& pairs, Comparison& comparison, const ComparisonProgress& on_progress);
 

@@ -7,7 +7,7 @@
 namespace railcast {
 namespace {
 
-constexpr double kPercent = 100.0;
+constexpr double kPercentOf = 100.0;
 
 double RelativeChange(double from, double to) {
   return (to - from) / from;
@@ -29,7 +29,7 @@ double PointsOf(const BinnedCloud::Bin& bin) {
   return static_cast<double>(bin.num_points);
 }
 
-// A mean that grows.
+// A running mean.
 struct Mean {
   double sum{};
   int num{};
@@ -72,7 +72,7 @@ BinErrors ErrorsOf(const BinnedCloud& a, const BinnedCloud& b) {
     points.Add(std::abs(RelativeChange(PointsOf(a.bins[i]), PointsOf(b.bins[i]))));
     intensity.Add(std::abs(RelativeChange(a.bins[i].MeanIntensity(), b.bins[i].MeanIntensity())));
   }
-  return {kPercent * points.value(), kPercent * intensity.value()};
+  return {kPercentOf * points.value(), kPercentOf * intensity.value()};
 }
 
 BinSums::BinSums() : bins_(RangeBins().size()), sum_a_(EmptyBins()), sum_b_(EmptyBins()) {}

@@ -9,14 +9,14 @@
 
 namespace railcast {
 
-/// What a cloud holds in each of RangeBins() (analysis/stats/bins.h).
+/// Number of points and intensities of a cloud in each of RangeBins() (analysis/stats/bins.h).
 struct BinnedCloud {
   struct Bin {
     std::uint64_t num_points{};
     std::uint64_t num_intensities{};
     double intensity_sum{};
 
-    /// NaN where fewer than kMinSamples points have one.
+    /// NaN where fewer than kMinSamples points have an intensity.
     [[nodiscard]] double MeanIntensity() const;
   };
   std::vector<Bin> bins;
@@ -34,20 +34,20 @@ struct BinErrors {
 
 [[nodiscard]] BinErrors ErrorsOf(const BinnedCloud& a, const BinnedCloud& b);
 
-/// Sums up over pairs of frames, bin by bin.
+/// Sums over pairs of frames, bin by bin.
 class BinSums {
  public:
   struct Bin {
-    Moments points_a, points_b;        ///< A frame.
-    Moments intensity_a, intensity_b;  ///< Means of frames.
+    Moments points_a, points_b;        ///< Per frame.
+    Moments intensity_a, intensity_b;  ///< Mean intensities of the frames.
     Moments points_change;             ///< (B - A) / A, where A has enough points.
-    Moments intensity_change;          ///< Likewise, of the mean.
+    Moments intensity_change;          ///< (B - A) / A of the mean intensity.
   };
 
   BinSums();
   void Add(const BinnedCloud& a, const BinnedCloud& b);
   [[nodiscard]] const std::vector<Bin>& bins() const { return bins_; }
-  /// Of the sums of all frames.
+  /// The errors of the sums over all frames.
   [[nodiscard]] BinErrors Errors() const { return ErrorsOf(sum_a_, sum_b_); }
 
  private:

@@ -6,7 +6,7 @@
 namespace railcast {
 namespace {
 
-// One side of it: from each point of one cloud to the other.
+// One direction: from each point of one cloud to the nearest point of the other.
 struct OneWay {
   double mean_m{};
   double mean_square_m2{};
@@ -15,7 +15,7 @@ struct OneWay {
   double density_aware{};
 };
 
-// The smallest distance that 95 % of the points are not beyond (nearest rank).
+// The 95th percentile by nearest rank: the smallest value that 95 % of the distances do not exceed.
 double Percentile95_m(std::vector<float> distances_m) {
   constexpr double kShare = 0.95;
   const auto rank =

@@ -15,12 +15,12 @@ std::int64_t BinOfIntensity(double intensity) {
       std::floor(kBinsAnOctave * std::log2(std::max(intensity, kLeastIntensity))));
 }
 
-// The share's part of an entropy.
+// One term of an entropy in bits: -p log2 p.
 double Bits(double share) {
   return share > 0.0 ? -share * std::log2(share) : 0.0;
 }
 
-// Visits the bins of both, ascending: visit(bin, count of a, count of b).
+// Visits the bins of both histograms in ascending order: visit(bin, count of a, count of b).
 template <typename Visitor>
 void ForEachBin(const Histogram& a, const Histogram& b, Visitor&& visit) {
   auto at_a = a.counts().begin();
@@ -78,7 +78,7 @@ void CloudHistograms::Add(const CloudHistograms& other) {
 
 namespace {
 
-// What lies farther off, as a slip in a foreign file may say, shares the last bin.
+// Points beyond this, as a faulty foreign file may hold, share the last bin.
 constexpr float kFarthest_m = 1e6F;
 
 std::int64_t CellOf(float at_m) {

@@ -8,11 +8,11 @@
 
 namespace railcast {
 
-/// How many of a kind fell into each bin; only bins with any are kept.
+/// Counts by bin; only bins with a count are stored.
 class Histogram {
  public:
   Histogram() = default;
-  /// Each element one count.
+  /// Each element adds one count to its bin.
   explicit Histogram(std::vector<std::int64_t> bins);
 
   void Add(const Histogram& other);
@@ -27,16 +27,17 @@ class Histogram {
   std::uint64_t num_{};
 };
 
-/// Jensen-Shannon divergence of two histograms as distributions, in bits: 0 = the same, 1 = nothing
-/// in common (Lin 1991, IEEE Trans. Inf. Theory 37; base 2). NaN if either is empty.
+/// Jensen-Shannon divergence of two histograms as distributions, in bits: 0 for equal ones, 1 for
+/// disjoint ones (Lin 1991, IEEE Trans. Inf. Theory 37; base 2). NaN if either is empty.
 [[nodiscard]] double JensenShannonDivergence(const Histogram& a, const Histogram& b);
 
-/// What is compared as histograms.
+/// The quantities that are compared as histograms.
 struct CloudHistograms {
-  Histogram range;      ///< Bins of 1 m.
-  Histogram intensity;  ///< Bins of an eighth octave (9 % wide); all up to 0.001 in one.
-  Histogram ring;       ///< One bin a ring.
-  /// Bird's-eye occupancy: a cell of 1 m x 1 m counts once a frame if it holds any point.
+  Histogram range;  ///< Bins of 1 m.
+  /// Bins of an eighth octave (9 % wide); everything up to 0.001 is in one bin.
+  Histogram intensity;
+  Histogram ring;  ///< One bin per ring.
+  /// Bird's-eye occupancy: a cell of 1 m x 1 m counts once per frame if it holds any point.
   Histogram occupancy;
 
   void Add(const CloudHistograms& other);

@@ -33,7 +33,7 @@ void FramePairs::Side::Drop() {
 void FramePairs::Side::DropRest() {
   num_dropped += frames.size();
   frames.clear();
-  // Not read: only counted.
+  // The remaining frames are counted without being decoded.
   while (recording.Next()) ++num_dropped;
 }
 
@@ -72,7 +72,7 @@ std::optional<FramePair> FramePairs::NextByIndex() {
 
 std::optional<FramePair> FramePairs::NextByStamp() {
   while (!a_.frames.empty() && !b_.frames.empty()) {
-    // The last frame of A has no next: it is taken to last as long as the one before.
+    // The last frame of A has no successor: it is assumed to last as long as the one before.
     if (const auto spacing_ns = a_.Spacing_ns()) tolerance_ns_ = *spacing_ns / 2;
     const RecordedFrame& a = a_.frames.front();
     const RecordedFrame& b = b_.frames.front();
@@ -83,7 +83,7 @@ std::optional<FramePair> FramePairs::NextByStamp() {
     if (Apart_ns(a, b) <= tolerance_ns_ && !next_a_is_nearer && !next_b_is_nearer) {
       return NextByIndex();
     }
-    // Whichever is earlier has missed its partner.
+    // The earlier frame has no partner.
     Side& earlier = b.frame.stamp_ns < a.frame.stamp_ns ? b_ : a_;
     earlier.Drop();
     a_.Fill();

@@ -5,38 +5,38 @@
 #include <optional>
 #include <string>
 
-#include "core/io/recording/recording.h"
+#include "railcast/io/recording.h"
 
 namespace railcast {
 
-/// What makes two frames a pair.
+/// How frames are paired.
 enum class Pairing {
-  kIndex,  ///< Their places in their recordings.
-  kStamp,  ///< Their stamps: the nearest, no farther apart than half the time between A's frames.
+  kIndex,  ///< By position in their recordings.
+  kStamp,  ///< By stamp: the nearest, at most half of A's frame spacing apart.
 };
 
 struct FramePair {
   RecordedFrame a, b;
 };
 
-/// The frames of two recordings two by two, in order of time, each in one pair at most; those
-/// without a partner are counted.
+/// Pairs the frames of two recordings in order of time, each in at most one pair; frames without a
+/// partner are counted.
 class FramePairs {
  public:
-  /// @param pairing If not given: by stamp if both recordings' stamps rise, else by index.
+  /// @param pairing By default: by stamp if the stamps of both recordings rise, else by index.
   FramePairs(Recording& a, Recording& b, std::optional<Pairing> pairing);
 
-  /// Nothing at the end of both.
+  /// Returns nothing at the end of both recordings.
   /// @throws InputError as the recordings do.
   [[nodiscard]] std::optional<FramePair> Next();
 
   [[nodiscard]] Pairing pairing() const { return pairing_; }
-  /// Without a partner. Complete when Next() has given nothing.
+  /// Number of frames of A without a partner; complete once Next() has returned nothing.
   [[nodiscard]] std::uint64_t num_alone_a() const { return a_.num_dropped; }
   [[nodiscard]] std::uint64_t num_alone_b() const { return b_.num_dropped; }
 
  private:
-  // The frames at hand of one recording: the next two, if there are so many.
+  // One recording with up to two frames read ahead.
   struct Side {
     Recording& recording;
     std::deque<RecordedFrame> frames;

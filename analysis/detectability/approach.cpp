@@ -3,14 +3,14 @@
 #include <cmath>
 
 #include "core/base/error.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/scenario/scenario.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 namespace {
 
-// From the poses at the scan's ends.
+// Mean speed from the poses at the start and end of the scan.
 double SpeedOf(const Frame& frame) {
   const Vector3 way_m =
       frame.world_from_sensor_end.translation() - frame.world_from_sensor.translation();

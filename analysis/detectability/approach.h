@@ -8,21 +8,23 @@
 #include <vector>
 
 #include "analysis/detectability/own_track.h"
-#include "core/base/transform.h"
-#include "core/io/recording/recording.h"
+#include "railcast/io/recording.h"
+#include "railcast/transform.h"
 
 namespace railcast {
 
-/// What one frame shows of one object.
+/// How one frame sees one object.
 struct Sighting {
-  std::uint32_t frame{};  ///< Counted from the recording's first.
+  std::uint32_t frame{};  ///< Counted from the first frame of the recording.
   double distance_m{};    ///< From the sensor to the nearest point of the object's box.
   std::uint32_t points{};
-  double speed_mps{};     ///< Of the sensor.
-  double gradient{};      ///< Of the track below it: rise per way along the vehicle's x axis.
-  double approach_mps{};  ///< The object's own speed towards the sensor; < 0 where it goes away.
-  bool is_in_way{};       ///< Whether it reaches into the gauge of the own track ahead.
-  double from_axis_m{};   ///< Its least distance from that track's axis, across; infinite behind.
+  double speed_mps{};  ///< Speed of the sensor.
+  /// Gradient of the track below the vehicle: rise per distance along the vehicle's x axis.
+  double gradient{};
+  double approach_mps{};  ///< The object's own speed towards the sensor; negative if it moves away.
+  bool is_in_way{};       ///< Whether the object reaches into the gauge of the own track ahead.
+  /// Least lateral distance from that track's axis; infinite behind the vehicle.
+  double from_axis_m{};
 };
 
 /// The frames in which an object was within the sensor's range.
@@ -32,24 +34,25 @@ struct ObjectCourse {
   std::vector<Sighting> sightings;  ///< In order of time.
 };
 
-/// What a run shows of its objects, by name.
+/// The courses of a run's objects, by name.
 struct RunCourses {
   std::uint32_t num_frames{};
   std::map<std::string, ObjectCourse> objects;
 };
 
-/// @param on_frame Told how many frames are read.
-/// @throws InputError with one line if the recording is no sequence of ours or cannot be read.
+/// @param on_frame Called with the number of frames read so far.
+/// @throws InputError with one line if the recording is not a railcast sequence or cannot be read.
 [[nodiscard]] RunCourses FollowObjects(Recording& recording,
                                        const std::function<void(std::size_t)>& on_frame);
 
-/// What one frame shows of its objects, added to `courses`. @pre Has a pose and lasts > 0.
+/// Adds one frame's sightings of its objects to `courses`.
+/// @pre The frame has a pose and lasts > 0.
 void AddFrame(const RecordedFrame& recorded,
               const Transform& vehicle_from_sensor,
               const OwnTrack& own_track,
               RunCourses& courses);
 
-/// From a point to the nearest of a box about the origin; 0 inside.
+/// Distance from a point to a box centred at the origin; 0 inside.
 [[nodiscard]] double DistanceToBox(const Vector3& point_m, const Vector3& size_m);
 
 }  // namespace railcast

@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "core/base/error.h"
-#include "core/base/number_text.h"
+#include "core/base/text.h"
 
 namespace railcast {
 
-Stop StopOf(const BrakingSpec& braking, double speed_mps, double gradient) {
+BrakedStop StopOf(const BrakingSpec& braking, double speed_mps, double gradient) {
   constexpr double kGravity_mps2 = 9.80665;
   const double deceleration_mps2 = braking.deceleration_mps2 + kGravity_mps2 * gradient;
   if (!(deceleration_mps2 > 0.0)) {

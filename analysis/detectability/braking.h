@@ -2,15 +2,15 @@
 
 namespace railcast {
 
-/// How a train brakes for what stands on its way.
+/// How a train brakes for an obstacle on its track.
 struct BrakingSpec {
-  double reaction_s = 2.0;         ///< From the detection to full braking.
-  double deceleration_mps2 = 0.5;  ///< On the level.
-  double margin_m = 15.0;          ///< To be left before the object.
+  double reaction_s = 2.0;         ///< Time from the detection to full braking.
+  double deceleration_mps2 = 0.5;  ///< Deceleration on level track.
+  double margin_m = 15.0;          ///< Distance to be left before the object.
 };
 
-/// What a train needs to stop.
-struct Stop {
+/// Distance and time that a train needs to stop.
+struct BrakedStop {
   double distance_m{};  ///< Without the margin.
   double time_s{};
 };
@@ -18,6 +18,6 @@ struct Stop {
 /// s = v t_r + v^2 / (2 (a + g i)), t = t_r + v / (a + g i); i is the gradient, rise per way,
 /// negative downhill (constant deceleration; g = 9.80665 m/s2).
 /// @throws InputError "cannot stop: rule (got value)" if a + g i <= 0.
-[[nodiscard]] Stop StopOf(const BrakingSpec& braking, double speed_mps, double gradient);
+[[nodiscard]] BrakedStop StopOf(const BrakingSpec& braking, double speed_mps, double gradient);
 
 }  // namespace railcast

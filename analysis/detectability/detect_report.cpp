@@ -8,8 +8,7 @@
 #include "analysis/detectability/points_by_distance.h"
 #include "analysis/detectability/verdict.h"
 #include "core/base/attempt.h"
-#include "core/base/number_text.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 
 namespace railcast {
 namespace {
@@ -17,7 +16,7 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kKmphPerMps = 3.6;
 constexpr double kPermil = 1000.0;
-/// More charts than this are a wall: the tables have the others.
+/// More charts than this are too many to read; the tables hold the other objects.
 constexpr std::size_t kMaxCharts = 12;
 
 std::string RuleText(const DetectSpec& spec) {
@@ -127,7 +126,7 @@ Table BesideTable(const std::vector<Verdict>& verdicts) {
   return table;
 }
 
-std::string FateText(const Detection& detection) {
+std::string FateText(const ObjectDetection& detection) {
   if (detection.fate == Fate::kNeverApproached) return "never approached";
   if (!detection.is_in_way) return "beside the track";
   if (detection.fate == Fate::kNeverDetected) return "not detected";
@@ -164,10 +163,10 @@ Table RunTable(const std::vector<DetectRun>& runs) {
   return table;
 }
 
-/// More than these are counted, not named, in what is read first.
+/// More names than this are counted rather than listed in the headlines.
 constexpr std::size_t kMaxNamed = 5;
 
-// "person, wagon and 3 more"; of those that `is_one` is true of.
+// Lists the objects for which `is_one` holds: "person, wagon and 3 more".
 template <typename IsOne>
 std::string NamesOf(const std::vector<Verdict>& verdicts, const IsOne& is_one) {
   std::string names;
@@ -240,7 +239,7 @@ DetectRun DetectInRun(std::filesystem::path source,
   DetectRun run{
       .source = std::move(source), .seed = seed, .courses = std::move(courses), .detections = {}};
   for (const auto& [name, course] : run.courses.objects) {
-    const ObjectCourse& of_object = course;  // A lambda cannot hold a binding.
+    const ObjectCourse& of_object = course;  // A lambda cannot capture a structured binding.
     run.detections[name] =
         AtPlace(ShownPath(run.source) + ": object " + ShownText(name) + ": ",
                 [&] { return DetectObject(of_object, spec.rule, spec.braking, spec.speed_mps); });
@@ -254,7 +253,7 @@ Report MakeDetectReport(const std::vector<DetectRun>& runs,
                         std::vector<std::pair<std::string, std::string>> facts) {
   const std::vector<Verdict> verdicts = MakeVerdicts(runs);
   Report report;
-  report.title = "Detection in time to stop";
+  report.title = "ObjectDetection in time to stop";
   report.command = command;
   report.facts = std::move(facts);
   AddHeadlines(verdicts, report);

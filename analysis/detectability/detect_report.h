@@ -9,24 +9,25 @@
 
 #include "analysis/detectability/approach.h"
 #include "analysis/detectability/braking.h"
-#include "analysis/detectability/detection.h"
+#include "analysis/detectability/object_detection.h"
 #include "analysis/report/report.h"
 
 namespace railcast {
 
-/// What is asked of every run.
+/// The settings that apply to every run.
 struct DetectSpec {
   DetectionRule rule;
   BrakingSpec braking;
-  std::optional<double> speed_mps;  ///< Absent: the vehicle's own when the object is detected.
+  /// Absent: the vehicle's own speed when the object is detected.
+  std::optional<double> speed_mps;
 };
 
-/// One run of a scenario, with a seed of its own.
+/// One run of a scenario, with its own seed.
 struct DetectRun {
   std::filesystem::path source;
   std::uint64_t seed{};
   RunCourses courses;
-  std::map<std::string, Detection> detections;  ///< By the object's name.
+  std::map<std::string, ObjectDetection> detections;  ///< By the object's name.
 };
 
 /// @throws InputError "source: object NAME: ..." if the train cannot stop.
@@ -35,9 +36,11 @@ struct DetectRun {
                                     RunCourses courses,
                                     const DetectSpec& spec);
 
-/// Who is seen in time to stop: a verdict for each object over all runs, each run's detection, and
-/// points against distance beside the distance that is needed.
-/// @param command That made it. @param facts Of the scenario. @pre At least one run.
+/// Reports which objects are detected in time to stop: a verdict for each object over all runs,
+/// each run's detection, and number of points against distance beside the distance needed.
+/// @param command Command line that made the report.
+/// @param facts Describe the scenario.
+/// @pre There is at least one run.
 [[nodiscard]] Report MakeDetectReport(const std::vector<DetectRun>& runs,
                                       const DetectSpec& spec,
                                       const std::string& command,

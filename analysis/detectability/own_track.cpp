@@ -4,18 +4,19 @@
 #include <cmath>
 #include <limits>
 
-#include "core/rail/rail_world.h"
-#include "core/scenario/scenario.h"
+#include "railcast/rail_world.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 namespace {
 
 constexpr double kAxisStep_m = 5.0;
-/// A piece of a box; the track leaves its tangent by 1 m^2 / (2 R) within: 5 mm at 100 m.
+/// Boxes are cut into pieces of this length; within one the track leaves its tangent by at most
+/// 1 m^2 / (2 R): 5 mm at R = 100 m.
 constexpr double kPiece_m = 2.0;
 constexpr double kMaxPieces = 64.0;
 
-/// How many pieces a length is cut into.
+/// Number of pieces that a length is cut into.
 int PiecesOf(double length_m) {
   return static_cast<int>(std::clamp(std::ceil(length_m / kPiece_m), 1.0, kMaxPieces));
 }
@@ -40,7 +41,7 @@ double OwnTrack::ChainageNear_m(const Vector3& world_m) const {
                    world_m);
 }
 
-// By Newton's way.
+// Newton's method.
 double OwnTrack::Refined_m(double s_m, const Vector3& world_m) const {
   constexpr int kNumSteps = 3;
   for (int i = 0; i < kNumSteps; ++i) {
@@ -60,7 +61,7 @@ GaugeClearance OwnTrack::ClearanceAhead(const Transform& world_from_vehicle,
   GaugeClearance nearest{.is_inside = false,
                          .from_axis_m = std::numeric_limits<double>::infinity()};
   const double box_s_m = ChainageNear_m(world_from_box.translation());
-  // Its height stays whole: tracks do not curve that fast in it.
+  // The height is not cut, since the vertical curvature of a track is small.
   const int num_x = PiecesOf(size_m.x());
   const int num_y = PiecesOf(size_m.y());
   const Vector3 piece_m(size_m.x() / num_x, size_m.y() / num_y, size_m.z());

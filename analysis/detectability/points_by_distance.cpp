@@ -4,18 +4,18 @@
 #include <cmath>
 
 #include "analysis/estimate/moments.h"
-#include "core/base/number_text.h"
+#include "core/base/text.h"
 
 namespace railcast {
 namespace {
 
-/// Frames at one distance.
+/// The frames in one bin of distance.
 struct Bin {
   Moments points;
   std::uint64_t num_enough{};  ///< Frames with as many points as the rule asks for.
 };
 
-/// By bin; those without a frame are absent.
+/// By bin; bins without a frame are absent.
 using Bins = std::map<std::uint32_t, Bin>;
 
 Bins BinsOf(const std::vector<DetectRun>& runs,
@@ -37,11 +37,7 @@ Bins BinsOf(const std::vector<DetectRun>& runs,
   return bins;
 }
 
-std::string BinName(std::uint32_t bin) {
-  return NumberText(kDistanceBin_m * bin) + " to " + NumberText(kDistanceBin_m * (bin + 1));
-}
-
-/// "points_wagon_1", and another one of any other name: it becomes a file's.
+/// Key such as "points_wagon_1", unique for each name, since it becomes a file name.
 std::string KeyOf(const std::string& name) {
   std::string key = "points_";
   for (const char letter : name) {
@@ -80,8 +76,9 @@ Table PointsTable(const std::vector<DetectRun>& runs, const DetectionRule& rule)
                    {"enough", "Frames with " + NumberText(rule.min_points) + " points", ""}};
   for (const Verdict& verdict : MakeVerdicts(runs)) {
     for (const auto& [index, bin] : BinsOf(runs, verdict.name, rule)) {
-      table.rows.push_back({verdict.name, BinName(index), bin.points.num(), bin.points.Mean(),
-                            Proportion(bin.num_enough, bin.points.num())});
+      table.rows.push_back(
+          {verdict.name, Span{kDistanceBin_m * index, kDistanceBin_m * (index + 1)},
+           bin.points.num(), bin.points.Mean(), Proportion(bin.num_enough, bin.points.num())});
     }
   }
   return table;
@@ -116,7 +113,7 @@ Chart PointsChart(const std::vector<DetectRun>& runs,
     points.points.push_back({.x = middle_m, .y = mean});
     const Estimate estimate = bin.points.Mean();
     if (!estimate.is_enough()) continue;
-    // A logarithm knows no interval that reaches 0.
+    // A logarithmic axis cannot show an interval that reaches 0.
     points.points.back().low = estimate.low > 0.0 ? estimate.low : mean;
     points.points.back().high = estimate.high;
     highest = std::max(highest, estimate.high);

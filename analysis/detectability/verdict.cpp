@@ -8,14 +8,14 @@
 namespace railcast {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoDistance_m = std::numeric_limits<double>::quiet_NaN();
 
-void Add(const Detection& detection, Verdict& verdict) {
+void Add(const ObjectDetection& detection, Verdict& verdict) {
   verdict.is_in_way = verdict.is_in_way || detection.is_in_way;
   verdict.from_axis_m = std::min(verdict.from_axis_m, detection.from_axis_m);
   if (detection.fate == Fate::kNeverApproached) return;
   ++verdict.num_approached;
-  // Both comparisons also take the first number in place of NaN.
+  // Both comparisons are negated so that they also replace an initial NaN.
   if (!(verdict.most_needed_m >= detection.needed_m)) verdict.most_needed_m = detection.needed_m;
   if (detection.fate == Fate::kNeverDetected) return;
   ++verdict.num_detected;
@@ -24,7 +24,7 @@ void Add(const Detection& detection, Verdict& verdict) {
     ++verdict.num_undecided;
     return;
   }
-  // At once, the distance is but a lower bound.
+  // If detected at once, the distance is only a lower bound.
   if (!detection.is_from_start) {
     verdict.distance_m.Add(detection.distance_m);
     verdict.spare_m.Add(detection.spare_m());
@@ -71,7 +71,7 @@ std::vector<Verdict> MakeVerdicts(const std::vector<DetectRun>& runs) {
         verdict.type = course.type;
         verdict.label = course.label;
         verdict.from_axis_m = std::numeric_limits<double>::infinity();
-        verdict.least_distance_m = verdict.least_spare_m = verdict.most_needed_m = kNaN;
+        verdict.least_distance_m = verdict.least_spare_m = verdict.most_needed_m = kNoDistance_m;
       }
       Add(detection, verdict);
     }

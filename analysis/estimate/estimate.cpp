@@ -23,7 +23,7 @@ Estimate Proportion(std::uint64_t num_successes, std::uint64_t num) {
   const double shrink = 1.0 / (1.0 + z * z / n);
   const double middle = shrink * (p + z * z / (2.0 * n));
   const double half = shrink * z * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n));
-  // At the ends the formula is exact but for rounding.
+  // At the ends the formula is exact except for rounding.
   return {p, num_successes == 0 ? 0.0 : middle - half, num_successes == num ? 1.0 : middle + half,
           num};
 }

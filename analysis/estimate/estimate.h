@@ -6,15 +6,15 @@
 
 namespace railcast {
 
-/// Fewer samples give no figure, only "not enough".
+/// With fewer samples a figure is only given as "not enough".
 inline constexpr std::uint64_t kMinSamples = 10;
-/// Of every interval we state.
+/// Confidence level of every interval in the reports.
 inline constexpr double kConfidence = 0.95;
-/// What lies beyond each end of it.
+/// Probability beyond each end of an interval.
 inline constexpr double kTail = 0.5 * (1.0 - kConfidence);
 
-/// A figure, the ends of its 95 % confidence interval, and how many samples it rests on. All three
-/// are NaN where the samples were not enough.
+/// A figure, its 95 % confidence interval, and the number of samples it rests on. Value and both
+/// ends are NaN if there were not enough samples.
 struct Estimate {
   double value = std::numeric_limits<double>::quiet_NaN();
   double low = std::numeric_limits<double>::quiet_NaN();
@@ -24,14 +24,14 @@ struct Estimate {
   [[nodiscard]] bool is_enough() const { return !std::isnan(value); }
 };
 
-/// "Not enough": only how many there were.
+/// An estimate that is "not enough": it only has the number of samples.
 [[nodiscard]] inline Estimate NotEnough(std::uint64_t num) {
   Estimate estimate;
   estimate.num = num;
   return estimate;
 }
 
-/// The same figure in another unit.
+/// Converts an estimate to another unit.
 [[nodiscard]] inline Estimate Scaled(const Estimate& estimate, double factor) {
   return {estimate.value * factor, estimate.low * factor, estimate.high * factor, estimate.num};
 }

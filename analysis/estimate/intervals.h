@@ -6,14 +6,15 @@
 
 namespace railcast {
 
-/// How many standard errors a 95 % interval reaches to both sides, of a normal figure.
+/// Number of standard errors that a two-sided 95 % interval of a normal quantity reaches to each
+/// side.
 [[nodiscard]] double NormalQuantile();
-/// The same of a figure whose error was estimated with so many degrees of freedom.
+/// As above, for a quantity whose error was estimated with so many degrees of freedom.
 [[nodiscard]] double StudentQuantile(double degrees);
 
-/// A standard deviation of normal samples that was estimated with so many degrees of freedom, with
-/// the chi-squared interval.
-/// @param num Samples, for the estimate to name.
+/// Standard deviation of normal samples, estimated with so many degrees of freedom, with its
+/// chi-squared interval.
+/// @param num Number of samples that the estimate states.
 [[nodiscard]] Estimate ScaleEstimate(double scale, double degrees, std::uint64_t num);
 
 }  // namespace railcast

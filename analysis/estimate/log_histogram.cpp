@@ -18,7 +18,7 @@ double MiddleOf(std::size_t bin) {
   return kLowest * std::exp((static_cast<double>(bin) + 0.5) * kLogStep);
 }
 
-void AddTo(std::vector<std::uint32_t>& sums, const std::vector<std::uint32_t>& others) {
+void AddToBin(std::vector<std::uint32_t>& sums, const std::vector<std::uint32_t>& others) {
   if (others.empty()) return;
   sums.resize(kNumBins);
   for (std::size_t i = 0; i < kNumBins; ++i) sums[i] += others[i];
@@ -43,8 +43,8 @@ void LogHistogram::Add(double sample) {
 void LogHistogram::Add(const LogHistogram& other) {
   num_ += other.num_;
   num_zeros_ += other.num_zeros_;
-  AddTo(positive_, other.positive_);
-  AddTo(negative_, other.negative_);
+  AddToBin(positive_, other.positive_);
+  AddToBin(negative_, other.negative_);
 }
 
 double LogHistogram::OfRank(std::uint64_t rank) const {

@@ -12,7 +12,7 @@ namespace railcast {
 /// last bin.
 class LogHistogram {
  public:
-  /// NaN is no sample.
+  /// NaN is ignored.
   void Add(double sample);
   void Add(const LogHistogram& other);
 
@@ -21,7 +21,7 @@ class LogHistogram {
   /// @param share Between 0 and 1.
   [[nodiscard]] Estimate Quantile(double share) const;
   [[nodiscard]] Estimate Median() const { return Quantile(0.5); }
-  /// As RobustScale() in robust.h.
+  /// See RobustScale() in robust.h.
   [[nodiscard]] Estimate RobustScale() const;
 
  private:

@@ -6,20 +6,22 @@
 
 namespace railcast {
 
-/// Mean and standard deviation of a stream of numbers, in constant memory (Welford 1962). Sums of
-/// parts add up to those of the whole (Chan, Golub and LeVeque 1979).
+/// Mean and standard deviation of a stream of numbers, in constant memory (Welford 1962). Partial
+/// results can be merged (Chan, Golub and LeVeque 1979).
 class Moments {
  public:
-  /// NaN is no sample.
+  /// NaN is ignored.
   void Add(double sample);
   void Add(const Moments& other);
 
   [[nodiscard]] std::uint64_t num() const { return num_; }
-  /// Of any number of samples, without an interval; NaN of none.
+  /// Mean of any number of samples, without an interval; NaN without samples.
   [[nodiscard]] double PlainMean() const;
-  /// With Student's interval: exact for normal samples, good for many of any kind.
+  /// Mean with Student's interval: exact for normal samples, a good approximation for many samples
+  /// of any distribution.
   [[nodiscard]] Estimate Mean() const;
-  /// Unbiased variance's root, with the chi-squared interval: for normal samples only.
+  /// Root of the unbiased variance, with the chi-squared interval, which holds for normal samples
+  /// only.
   [[nodiscard]] Estimate StandardDeviation() const;
 
  private:

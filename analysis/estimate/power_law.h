@@ -6,7 +6,8 @@
 
 namespace railcast {
 
-/// A point of a curve: y at x, with the relative standard error of y (1 / sqrt(count) of a count).
+/// A point of a curve: y at x, with the relative standard error of y (1 / sqrt(count)
+/// for a count).
 struct CurvePoint {
   double x{};
   double y{};
@@ -15,21 +16,23 @@ struct CurvePoint {
 
 /// y = factor x^exponent.
 struct PowerLaw {
-  Estimate exponent;  ///< Its num: points that took part.
+  Estimate exponent;  ///< Its num is the number of points that took part.
   double factor{};
 
-  /// y at x, on the line; not enough where the exponent is not.
+  /// y at x on the fitted line; not enough where the exponent is not.
   [[nodiscard]] Estimate At(double x) const;
 
-  // What the intervals rest on.
+  // The quantities from which At() computes its interval.
   double middle{};  ///< Weighted mean of log x.
   double
-      middle_error{};  ///< Half the interval of log y there; that of the exponent is apart from it.
+      /// Half the interval of log y there, which is independent of that of the exponent.
+      middle_error{};
 };
 
-/// Straight line through (log x, log y), weighted by 1 / relative_error^2. The interval is
-/// Student's, from the points' scatter about the line or from their own errors, whichever is wider.
-/// Points whose x or y is not > 0 take no part; fewer than kMinCurvePoints are not enough.
+/// Fits a straight line through (log x, log y), weighted by 1 / relative_error^2.
+/// The interval is Student's, from the points' scatter about the line or from
+/// their own errors, whichever is wider. Points whose x or y is not > 0 are ignored; fewer than
+/// kMinCurvePoints are not enough.
 [[nodiscard]] PowerLaw FitPowerLaw(const std::vector<CurvePoint>& points);
 
 inline constexpr std::size_t kMinCurvePoints = 4;

@@ -4,103 +4,29 @@
 #include <cmath>
 
 #include "analysis/estimate/robust.h"
-#include "analysis/fit/fit_threshold.h"
-#include "analysis/fit/reflectance.h"
 #include "core/base/units.h"
+#include "railcast/effects.h"
 
 namespace railcast {
 namespace {
 
-// Points so far from the surface, in robust scales of those at about the same range, are of
-// something else.
-void MarkElsewhere(std::vector<Trial>& trials) {
-  constexpr std::size_t kSamplesOfBin = 500;
-  constexpr double kGateInScales = 8.0;
-  constexpr double kLeastGate_m = 0.05;
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < trials.size(); ++i) {
-    if (trials[i].answer == Answer::kReturned) order.push_back(i);
-  }
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return trials[a].expected_m < trials[b].expected_m;
-  });
-  const std::size_t num_bins = std::max<std::size_t>(1, order.size() / kSamplesOfBin);
-  for (std::size_t bin = 0; bin < num_bins; ++bin) {
-    const std::size_t begin = order.size() * bin / num_bins;
-    const std::size_t end = order.size() * (bin + 1) / num_bins;
-    std::vector<double> residuals;
-    for (std::size_t k = begin; k < end; ++k) {
-      residuals.push_back(static_cast<double>(trials[order[k]].residual_m));
-    }
-    const double median = Median(residuals).value;
-    const double gate_m = std::max(kLeastGate_m, kGateInScales * RobustScale(residuals).value);
-    // Too few to say: NaN marks none.
-    for (std::size_t k = begin; k < end; ++k) {
-      Trial& trial = trials[order[k]];
-      if (std::abs(static_cast<double>(trial.residual_m) - median) > gate_m) {
-        trial.answer = Answer::kElsewhere;
-      }
-    }
-  }
+constexpr const char* kTooFew = "not identified: fewer than 10 flat pieces of surface";
+
+// Whether an interval reaches from 0 to more than twice the value: the data cannot tell the value
+// from 0.
+bool IsVague(const Estimate& estimate) {
+  return estimate.low == 0.0 && estimate.high > 2.0 * estimate.value;
 }
 
-void CountTrials(const std::vector<Trial>& trials,
-                 const std::vector<FitSurface>& surfaces,
-                 FitResult& result) {
-  std::vector<SurfaceFit> fits(surfaces.size());
-  for (const Trial& trial : trials) {
-    SurfaceFit& fit = fits[trial.surface];
-    ++fit.num_trials;
-    fit.num_returned += trial.answer == Answer::kReturned ? 1 : 0;
-    ++result.num_trials;
-    result.num_lost += trial.answer == Answer::kLost ? 1 : 0;
-    result.num_elsewhere += trial.answer == Answer::kElsewhere ? 1 : 0;
-  }
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    if (fits[i].num_trials == 0) continue;
-    fits[i].name = surfaces[i].name;
-    result.surfaces.push_back(fits[i]);
-    result.surface_ids.push_back(static_cast<std::uint16_t>(i));
-  }
-}
-
-ShapedAnswer ShapeOf(const Trial& trial, const FitSurface& surface, const FitSettings& settings) {
-  const auto cosine = static_cast<double>(trial.cos_incidence);
-  return settings.is_physical ? AnswerOf(surface, cosine) : ShapedAnswer{cosine, 0.0};
-}
-
-void FitReflectances(const std::vector<Trial>& trials,
-                     const std::vector<FitSurface>& surfaces,
-                     const FitSettings& settings,
-                     FitResult& result) {
-  std::vector<std::vector<IntensitySample>> samples(surfaces.size());
-  for (const Trial& trial : trials) {
-    if (trial.answer != Answer::kReturned || std::isnan(trial.intensity)) continue;
-    const ShapedAnswer shape = ShapeOf(trial, surfaces[trial.surface], settings);
-    samples[trial.surface].push_back(
-        {shape.diffuse, shape.lobe, static_cast<double>(trial.intensity)});
-  }
-  for (std::size_t i = 0; i < result.surfaces.size(); ++i) {
-    SurfaceFit& fit = result.surfaces[i];
-    fit.reflectance = FitReflectance(samples[result.surface_ids[i]]);
-  }
-}
-
-void AddLinearNoise(LinearNoise noise, FitResult& result) {
-  std::string why = "not identified: too few points";
-  if (noise.sigma0_m.is_enough()) {
-    const std::vector<NoiseBin>& bins = result.noise_by_range;
-    const NoiseBin& middle = bins[bins.size() / 2];
-    // Either may be nothing, or most of it.
-    const double half_m = 0.5 * middle.sigma_m.value;
-    const bool is_open = noise.sigma0_m.low == 0.0 && noise.sigma0_m.high > half_m &&
-                         noise.sigma1.low == 0.0 && noise.sigma1.high * middle.range_m > half_m;
-    if (is_open) {
-      noise.sigma0_m = noise.sigma1 = NotEnough(noise.sigma0_m.num);
-      why = "not identified: constant and growing noise cannot be told apart at about one range";
-    } else {
-      why.clear();
-    }
+void AddLinearNoise(LinearNoise noise, double typical_range_m, FitResult& result) {
+  std::string why = noise.sigma0_m.is_enough() ? "" : kTooFew;
+  // Either term may be zero or may account for most of the noise.
+  const double half_m = 0.5 * (noise.sigma0_m.value + noise.sigma1.value * typical_range_m);
+  const bool is_open = noise.sigma0_m.low == 0.0 && noise.sigma0_m.high > half_m &&
+                       noise.sigma1.low == 0.0 && noise.sigma1.high * typical_range_m > half_m;
+  if (is_open) {
+    noise.sigma0_m = noise.sigma1 = NotEnough(noise.sigma0_m.num);
+    why = "not identified: constant and growing noise cannot be told apart at about one range";
   }
   result.parameters.push_back(
       {"lidar/plausibility/noise_sigma0_m", "Noise at range 0", "m", noise.sigma0_m, why});
@@ -108,113 +34,140 @@ void AddLinearNoise(LinearNoise noise, FitResult& result) {
       {"lidar/plausibility/noise_sigma1", "Noise's growth with range", "", noise.sigma1, why});
 }
 
-// An interval that reaches from 0 to twice the value and more: the data do not tell it from 0.
-bool IsVague(const Estimate& estimate) {
-  return estimate.low == 0.0 && estimate.high > 2.0 * estimate.value;
-}
-
-// Of all signals there are: known also where the threshold is not, and with it no signal.
-void AddPlainNoise(const std::vector<Trial>& trials, FitResult& result) {
-  std::vector<double> residuals_m;
-  for (const Trial& trial : trials) {
-    if (trial.answer == Answer::kReturned) {
-      residuals_m.push_back(static_cast<double>(trial.residual_m));
-    }
-  }
-  const Estimate sigma_m = RobustScale(residuals_m);
-  result.parameters.push_back({"", "Noise, whatever range and signal", "m", sigma_m,
-                               sigma_m.is_enough() ? "" : "not identified: too few points"});
-}
-
-void AddSignalNoise(const SignalNoise& noise, FitResult& result) {
+void AddSignalNoise(const SignalNoise& noise, const FitSettings& settings, FitResult& result) {
   const auto add = [&](const char* place, const char* title, const char* unit, Estimate estimate,
-                       const char* vague) {
+                       const std::string& vague) {
     FittedParameter parameter{place, title, unit, estimate, ""};
-    if (!estimate.is_enough()) {
-      parameter.remark = std::isnan(result.snr_at_threshold)
-                             ? "not identified: the signal-to-noise ratio is not known, since no "
-                               "threshold is"
-                             : "not identified: too few points of known power";
-    } else if (IsVague(estimate)) {
+    if (!noise.floor_m.is_enough()) {
+      parameter.remark = kTooFew;
+    } else if (!estimate.is_enough() || IsVague(estimate)) {
       parameter.estimate = NotEnough(estimate.num);
       parameter.remark = vague;
     }
     result.parameters.push_back(parameter);
   };
+  const bool knows_signal = settings.has_reflectances && settings.range_at_10_percent_m;
   add("lidar/receiver/range_noise_floor_m", "Range noise at high signal", "m", noise.floor_m,
       "not identified: no beams of high signal");
   add("lidar/receiver/range_noise_scale_m", "Range noise scale", "m", noise.scale_m,
-      "not identified: the noise does not grow towards the threshold");
-  if (noise.pointing_rad.is_enough()) {
-    add("lidar/receiver/pointing_jitter_deg", "Pointing jitter", "deg",
-        Scaled(noise.pointing_rad, DegFromRad(1.0)),
-        "not identified: the noise does not grow with the surfaces' slant");
-  }
-  FittedParameter bias{"lidar/receiver/channel_bias_sigma_m", "Scatter of the channels' biases",
-                       "m", result.residuals.bias_sigma_m, ""};
-  if (!bias.estimate.is_enough())
-    bias.remark = "not identified: fewer than 10 channels with points";
-  result.parameters.push_back(bias);
+      knows_signal ? "not identified: the noise does not grow as the signal falls"
+                   : "not identified: the signal is not known; it wants intensities that are "
+                     "reflectances and --range-at-10-percent-m");
+  add("lidar/receiver/pointing_jitter_deg", "Pointing jitter", "deg",
+      Scaled(noise.pointing_rad, DegFromRad(1.0)),
+      "not identified: the noise does not grow with the surfaces' slant");
 }
 
-void FitNoise(std::vector<Trial>& trials,
-              const std::vector<FitSurface>& surfaces,
-              const FitSettings& settings,
-              FitResult& result) {
-  result.residuals = TakeOutChannels(trials);
-  std::vector<double> range_m, inverse_snr;
-  std::vector<std::size_t> place_of(surfaces.size(), 0);
-  for (std::size_t i = 0; i < result.surface_ids.size(); ++i) place_of[result.surface_ids[i]] = i;
-  for (const Trial& trial : trials) {
-    range_m.push_back(static_cast<double>(trial.expected_m));
-    const double power = settings.is_physical ? PowerOf(trial, surfaces[trial.surface],
-                                                        result.surfaces[place_of[trial.surface]],
-                                                        settings, result.extinction_per_m)
-                                              : std::numeric_limits<double>::quiet_NaN();
-    inverse_snr.push_back(1.0 / (2.0 * result.snr_at_threshold * power));
+void AddBiases(const ChannelBiases& biases, FitResult& result) {
+  result.channels = biases.channels;
+  result.parameters.push_back({"", "Scatter of the channels' biases, at least", "m", biases.sigma_m,
+                               biases.sigma_m.is_enough()
+                                   ? "the planes of the pieces take a part of it out"
+                                   : "not identified: fewer than 10 channels with 50 points each"});
+}
+
+void AddNoiseBins(const std::vector<NoiseTrial>& trials,
+                  const std::vector<double>& fitted_m,
+                  FitResult& result) {
+  constexpr std::size_t kMaxBins = 30;
+  constexpr std::size_t kMinOfBin = 100;
+  std::vector<std::size_t> order(trials.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return trials[a].range_m < trials[b].range_m;
+  });
+  const std::size_t num_bins = std::min(kMaxBins, order.size() / kMinOfBin);
+  for (std::size_t bin = 0; bin < num_bins; ++bin) {
+    const std::size_t begin = order.size() * bin / num_bins;
+    const std::size_t end = order.size() * (bin + 1) / num_bins;
+    const auto num = static_cast<double>(end - begin);
+    NoiseBin sum;
+    std::vector<double> residuals_m;
+    for (std::size_t k = begin; k < end; ++k) {
+      sum.range_m += static_cast<double>(trials[order[k]].range_m) / num;
+      sum.fitted_m += fitted_m[order[k]] * fitted_m[order[k]] / num;
+      residuals_m.push_back(static_cast<double>(trials[order[k]].residual_m));
+    }
+    sum.fitted_m = std::sqrt(sum.fitted_m);
+    sum.sigma_m = RobustScale(residuals_m);
+    result.noise_by_range.push_back(sum);
   }
-  result.noise_by_range = BinNoise(trials, range_m, inverse_snr);
-  AddPlainNoise(trials, result);
-  if (!settings.is_physical) {
-    AddLinearNoise(FitLinearNoise(result.noise_by_range), result);
-    return;
+}
+
+void FitNoise(RecordedTrials& trials, const FitSettings& settings, FitResult& result) {
+  const ChannelBiases biases = TakeOutChannels(trials);
+  const bool knows_signal = settings.has_reflectances && settings.range_at_10_percent_m;
+  if (settings.is_physical && knows_signal) {
+    std::erase_if(trials.noise, [](const NoiseTrial& trial) { return !(trial.intensity > 0.0F); });
   }
-  result.noise_by_power = BinNoise(trials, inverse_snr, inverse_snr);
-  SignalNoise noise = FitSignalNoise(result.noise_by_power);
-  if (noise.scale_m.is_enough()) {
-    // scale^2 is a slope x SNR.
-    const double value_m = noise.scale_m.value;
-    const double share = 1.96 * 0.5 * result.log_snr_error * value_m;
-    noise.scale_m.low = std::max(0.0, value_m - std::hypot(value_m - noise.scale_m.low, share));
-    noise.scale_m.high = value_m + std::hypot(noise.scale_m.high - value_m, share);
+  std::vector<double> residuals_m, ranges_m, fitted_m;
+  for (const NoiseTrial& trial : trials.noise) {
+    residuals_m.push_back(static_cast<double>(trial.residual_m));
+    ranges_m.push_back(static_cast<double>(trial.range_m));
   }
-  AddSignalNoise(noise, result);
+  const Estimate sigma_m = RobustScale(residuals_m);
+  result.parameters.push_back({"", "Noise, whatever range and signal", "m", sigma_m,
+                               sigma_m.is_enough() ? "" : "not identified: too few points"});
+  if (settings.is_physical) {
+    std::vector<double> inverse_snr;
+    if (knows_signal) inverse_snr = InverseSnr(trials.noise, settings);
+    const SignalNoise noise = FitSignalNoise(trials.noise, inverse_snr);
+    for (std::size_t i = 0; i < trials.noise.size(); ++i) {
+      fitted_m.push_back(noise.At(trials.noise[i], knows_signal ? inverse_snr[i] : 0.0));
+    }
+    AddSignalNoise(noise, settings, result);
+    AddBiases(biases, result);
+  } else {
+    const LinearNoise noise = FitLinearNoise(trials.noise);
+    for (const NoiseTrial& trial : trials.noise) fitted_m.push_back(noise.At(trial));
+    AddLinearNoise(noise, Median(ranges_m).value, result);
+  }
+  AddNoiseBins(trials.noise, fitted_m, result);
+}
+
+void AddLosses(const RecordedTrials& trials, const FitSettings& settings, FitResult& result) {
+  result.loss = FitRandomLoss(trials.losses);
+  const char* const why =
+      trials.losses.empty()
+          ? "not identified: the recording has points only, what is lost leaves no trace"
+          : "not identified: too few firings between points of one surface";
+  const bool is_enough = result.loss.rate_per_m.is_enough();
+  result.parameters.push_back({"lidar/plausibility/dropout_probability", "Dropout probability", "",
+                               result.loss.probability, is_enough ? "" : why});
+  result.parameters.push_back(
+      {"", "Growth of the losses with range", "1/m", result.loss.rate_per_m, is_enough ? "" : why});
+  if (settings.is_physical) return;
+  const WeatherSpec weather;
+  FittedParameter per_rain{"weather/rain_dropout_per_m", "Rain dropout rate k at 1 mm/h", "1/m",
+                           NotEnough(result.loss.rate_per_m.num), is_enough ? "" : why};
+  if (is_enough && settings.rain_rate_mmph) {
+    const double growth = std::pow(*settings.rain_rate_mmph, weather.rain_dropout_exponent);
+    per_rain.estimate = Scaled(result.loss.rate_per_m, 1.0 / growth);
+    per_rain.remark = "takes all growth for rain's, with the usual exponent e = 0.63";
+  } else if (is_enough) {
+    per_rain.remark = "not identified: only k x rain rate^e is; give --rain-rate-mmph";
+  }
+  result.parameters.push_back(per_rain);
 }
 
 }  // namespace
 
-double PowerOf(const Trial& trial,
-               const FitSurface& surface,
-               const SurfaceFit& fit,
-               const FitSettings& settings,
-               double extinction_per_m) {
-  const ShapedAnswer shape = ShapeOf(trial, surface, settings);
-  const auto range_m = static_cast<double>(trial.expected_m);
-  const double stretch = settings.is_physical ? static_cast<double>(trial.stretch) : 1.0;
-  const double air_ways = settings.is_physical ? 2.0 : 1.0;
-  return (fit.power_at_1m * shape.diffuse + fit.lobe_scale * shape.lobe) * stretch *
-         std::exp(-air_ways * extinction_per_m * range_m) / (range_m * range_m);
+std::vector<double> InverseSnr(const std::vector<NoiseTrial>& trials, const FitSettings& settings) {
+  constexpr double kDataSheetReflectance = 0.1;
+  std::vector<double> inverse;
+  for (const NoiseTrial& trial : trials) {
+    const double share = static_cast<double>(trial.range_m) / *settings.range_at_10_percent_m;
+    const double power =
+        static_cast<double>(trial.intensity) / (kDataSheetReflectance * share * share);
+    inverse.push_back(1.0 / (2.0 * settings.snr_at_threshold * power));
+  }
+  return inverse;
 }
 
-FitResult FitModel(std::vector<Trial>& trials,
-                   const std::vector<FitSurface>& surfaces,
-                   const FitSettings& settings) {
-  MarkElsewhere(trials);
+FitResult FitModel(RecordedTrials& trials, const FitSettings& settings) {
   FitResult result;
-  CountTrials(trials, surfaces, result);
-  if (settings.has_reflectances) FitReflectances(trials, surfaces, settings, result);
-  FitThreshold(trials, surfaces, settings, result);
-  FitNoise(trials, surfaces, settings, result);
+  FitNoise(trials, settings, result);
+  AddLosses(trials, settings, result);
   return result;
 }
 

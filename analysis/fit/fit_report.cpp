@@ -1,11 +1,11 @@
 #include "analysis/fit/fit_report.h"
 
-#include <cmath>
+#include <algorithm>
 
-#include "analysis/fit/fit_curves.h"
 #include "analysis/fit/fitted_scenario.h"
-#include "analysis/report/joined.h"
-#include "core/base/number_text.h"
+#include "analysis/report/cell_text.h"
+#include "analysis/stats/bins.h"
+#include "core/base/text.h"
 
 namespace railcast {
 namespace {
@@ -31,78 +31,72 @@ Table ParameterTable(const FitReportInput& input, const FitResult& result) {
   return table;
 }
 
-Table SurfaceTable(const FitReportInput& input, const FitResult& result) {
-  Table table{
-      "surfaces",
-      "Surfaces",
-      "Reflectance: diffuse, dry, 1 = white. Facing range: up to where it is detected if it "
-      "faces the beam, in clear air; that is its ratio to the threshold.",
-      {{"surface", "Surface", ""},
-       {"trials", "Trials", ""},
-       {"returned", "Returned", ""},
-       {"reflectance", "Reflectance", ""}},
-      {}};
-  if (input.scenario) table.columns.push_back({"scenario", "Scenario's own", ""});
-  table.columns.push_back({"facing_range_m", "Facing range", "m"});
-  table.columns.push_back({"remark", "Remark", ""});
-  for (const SurfaceFit& surface : result.surfaces) {
-    std::vector<Cell> row = {surface.name, surface.num_trials, surface.num_returned,
-                             surface.reflectance};
-    if (input.scenario) row.emplace_back(ScenarioReflectance(*input.scenario, surface.name));
-    row.emplace_back(surface.facing_range_m);
-    row.emplace_back(surface.remark);
-    table.rows.push_back(std::move(row));
-  }
-  return table;
-}
-
-Table PlaneTable(const RecordedTrials& trials) {
-  Table table{"planes",
-              "Planes",
-              "As refined from the points near the given ones.",
-              {{"plane", "Plane", ""},
-               {"surface", "Surface", ""},
-               {"points", "Points in the first frames", ""},
-               {"distance_m", "Distance from the sensor", "m"},
-               {"normal", "Normal", ""}},
+Chart NoiseChart(const FitResult& result) {
+  Chart chart{"noise",
+              "Noise against range",
+              "Each point: robust scale of as many residuals.",
+              {"Range", "m", false, {}},
+              {"Standard deviation", "m", false, {}},
               {}};
-  for (std::size_t i = 0; i < trials.planes.size(); ++i) {
-    const KnownPlane& plane = trials.planes[i];
-    const std::string normal = Joined({NumberText(std::round(1e4 * plane.normal.x()) / 1e4), ", ",
-                                       NumberText(std::round(1e4 * plane.normal.y()) / 1e4), ", ",
-                                       NumberText(std::round(1e4 * plane.normal.z()) / 1e4)});
-    table.rows.push_back({plane.name, plane.surface(), trials.num_plane_points[i],
-                          std::abs(plane.normal.dot(plane.point_m)), normal});
+  ChartSeries measured{"measured", SeriesStyle::kPoints, {}};
+  ChartSeries fitted{"fitted", SeriesStyle::kLine, {}};
+  for (const NoiseBin& bin : result.noise_by_range) {
+    measured.points.push_back(PointAt(bin.range_m, bin.sigma_m));
+    fitted.points.push_back({bin.range_m, bin.fitted_m});
   }
-  return table;
+  chart.series = {measured, fitted};
+  return chart;
 }
 
-std::vector<std::string> Findings(const RecordedTrials& trials, const FitResult& result) {
-  std::vector<std::string> texts = {
-      "A trial is a firing of which it is known what it should have met: from the frames' truth "
-      "fields, from given planes, or from flat pieces of one label. Only whether a point came back "
-      "is used, never why not."};
-  if (trials.lateral_ratio > kIsotropicRatio) {
-    texts.emplace_back(
-        "The points leave their beams sideways as well as along: the noise is isotropic.");
-  } else if (!std::isnan(trials.lateral_ratio)) {
-    texts.emplace_back("The points stay on their beams: the noise is along the beam.");
+Chart LossChart(const RecordedTrials& trials, const FitResult& result) {
+  Chart chart{"losses",
+              "Losses within surfaces against range",
+              "Share of the firings between two points of one surface that have none.",
+              {"Range", "m", false, {}},
+              {"Share lost", "", false, {}},
+              {}};
+  std::vector<LossBin> sums(RangeBins().size());
+  for (const auto& [metre, bin] : trials.losses) {
+    const auto place = RangeBins().Find(bin.range_m());
+    if (!place) continue;
+    sums[*place].num += bin.num;
+    sums[*place].num_lost += bin.num_lost;
+    sums[*place].range_sum_m += bin.range_sum_m;
   }
-  const Estimate& bias_m = result.residuals.bias_m;
-  if (bias_m.is_enough() && (bias_m.low > 0.0 || bias_m.high < 0.0)) {
-    texts.push_back(Joined({"All ranges together are off by ",
-                            NumberText(std::round(1e4 * bias_m.value) / 10.0),
-                            " mm: the median of the residuals."}));
+  ChartSeries measured{"measured", SeriesStyle::kPoints, {}};
+  ChartSeries fitted{"fitted", SeriesStyle::kLine, {}};
+  for (const LossBin& bin : sums) {
+    if (bin.num < kMinSamples) continue;
+    measured.points.push_back(PointAt(bin.range_m(), Proportion(bin.num_lost, bin.num)));
+    fitted.points.push_back({bin.range_m(), result.loss.At(bin.range_m())});
   }
-  constexpr double kManyHidden = 0.01;
-  if (static_cast<double>(trials.num_hidden) > kManyHidden * static_cast<double>(trials.num_seen)) {
-    texts.push_back(
-        Joined({NumberText(trials.num_hidden),
-                " firings were answered by rain, snow or fog: what they should have met "
-                "is not known. Weak surfaces are missing among the trials more than "
-                "strong ones, so that threshold, extinction and dropout are biased."}));
+  chart.series = {measured, fitted};
+  return chart;
+}
+
+Chart BiasChart(const FitResult& result) {
+  Chart chart{"channel_bias",
+              "Range errors of the channels",
+              "Medians of their residuals.",
+              {"Channel", "", false, {}},
+              {"Bias", "m", false, {}},
+              {}};
+  ChartSeries series{"bias", SeriesStyle::kPoints, {}};
+  for (const ChannelBias& bias : result.channels) {
+    series.points.push_back(PointAt(bias.channel, bias.bias_m));
   }
-  return texts;
+  chart.series.push_back(series);
+  return chart;
+}
+
+std::vector<Chart> MakeCharts(const RecordedTrials& trials, const FitResult& result) {
+  std::vector<Chart> charts = {NoiseChart(result), LossChart(trials, result), BiasChart(result)};
+  // Drop charts without any point.
+  std::erase_if(charts, [](const Chart& chart) {
+    return std::all_of(chart.series.begin(), chart.series.end(),
+                       [](const ChartSeries& series) { return series.points.empty(); });
+  });
+  return charts;
 }
 
 std::vector<Headline> Headlines(const FitResult& result) {
@@ -111,8 +105,6 @@ std::vector<Headline> Headlines(const FitResult& result) {
     if (parameter.place.empty() || !parameter.estimate.is_enough()) continue;
     headlines.push_back({parameter.title, parameter.unit, parameter.estimate});
   }
-  constexpr std::size_t kMost = 6;
-  if (headlines.size() > kMost) headlines.resize(kMost);
   return headlines;
 }
 
@@ -129,16 +121,16 @@ Report MakeFitReport(const FitReportInput& input,
   for (const std::string& source : input.sources) report.facts.emplace_back("Input", source);
   report.facts.emplace_back("Kind", input.kind);
   report.facts.emplace_back("Frames", NumberText(trials.num_frames));
-  report.facts.emplace_back("Trials", Joined({NumberText(trials.num_seen), ", of which ",
-                                              NumberText(result.num_trials), " were fitted"}));
-  report.facts.emplace_back("Of those fitted",
-                            Joined({NumberText(result.num_lost), " lost, ",
-                                    NumberText(result.num_elsewhere), " with a point elsewhere"}));
+  report.facts.emplace_back("Flat pieces of surface", NumberText(trials.num_pieces));
   report.headlines = Headlines(result);
-  Section section{"fit", Joined({"Rung ", rung}), Findings(trials, result), {}, {}};
-  section.charts = MakeFitCharts(trials.trials, trials.surfaces, settings, result);
-  section.tables = {ParameterTable(input, result), SurfaceTable(input, result)};
-  if (!trials.planes.empty()) section.tables.push_back(PlaneTable(trials));
+  Section section{
+      "fit",
+      Joined({"Rung ", rung}),
+      {"Noise is that of the points about small flat pieces of surface, along the beam; roughness "
+       "counts as noise. Losses are firings without a point between two of their ring that lie on "
+       "one surface. Nothing but the points is used, no truth."},
+      MakeCharts(trials, result),
+      {ParameterTable(input, result)}};
   report.sections.push_back(std::move(section));
   return report;
 }

@@ -5,21 +5,19 @@
 #include <vector>
 
 #include "analysis/fit/fit.h"
-#include "analysis/fit/recorded_trials.h"
 #include "analysis/report/report.h"
-#include "core/scenario/scenario_spec.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 
-/// All that a fit's report is made of.
+/// Input of a fit's report.
 struct FitReportInput {
   std::vector<std::string> sources;
-  std::string kind;                      ///< RecordingInfo::kind of the first.
-  std::string command;                   ///< As typed.
-  std::optional<ScenarioSpec> scenario;  ///< That the first was made by.
+  std::string kind;                      ///< RecordingInfo::kind of the first source.
+  std::string command;                   ///< The command line as typed.
+  std::optional<ScenarioSpec> scenario;  ///< Scenario that made the first source, if known.
 };
 
-/// @param trials As FitModel left them.
 [[nodiscard]] Report MakeFitReport(const FitReportInput& input,
                                    const RecordedTrials& trials,
                                    const FitSettings& settings,

@@ -3,27 +3,17 @@
 #include <string>
 
 #include "analysis/fit/fit.h"
-#include "analysis/fit/recorded_trials.h"
-#include "core/scenario/scenario_spec.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 
-/// A scenario's own value of a fitted parameter; NaN where it has none. Of the threshold: the range
-/// at which it is 0.1.
+/// Value of a fitted parameter in a scenario; NaN where the scenario has none.
 [[nodiscard]] double ScenarioValue(const ScenarioSpec& scenario, const std::string& place);
 
-/// A scenario's own reflectance of a material at the wavelength of its beam; NaN if it lacks it.
-[[nodiscard]] double ScenarioReflectance(const ScenarioSpec& scenario, const std::string& material);
+/// The identified parameters only, as keys of a scenario ("lidar", "weather").
+[[nodiscard]] std::string FittedJson(const FitResult& result);
 
-/// What was identified, and only that, as keys of a scenario ("lidar", "materials", "weather").
-[[nodiscard]] std::string FittedJson(const FitSettings& settings,
-                                     const RecordedTrials& trials,
-                                     const FitResult& result);
-
-/// The scenario with what was identified in place.
-[[nodiscard]] ScenarioSpec FittedScenario(ScenarioSpec scenario,
-                                          const FitSettings& settings,
-                                          const RecordedTrials& trials,
-                                          const FitResult& result);
+/// Returns the scenario with the identified parameters replaced.
+[[nodiscard]] ScenarioSpec FittedScenario(ScenarioSpec scenario, const FitResult& result);
 
 }  // namespace railcast

@@ -1,61 +1,61 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "analysis/estimate/estimate.h"
-#include "analysis/fit/trial.h"
+#include "analysis/fit/recorded_trials.h"
 
 namespace railcast {
 
-/// The scatter of what is alike in range or power.
-struct NoiseBin {
-  double range_m{};      ///< Mean of its samples.
-  double inverse_snr{};  ///< Mean of 1 / (2 SNR); NaN where power is not known.
-  double slant2{};       ///< Mean of slant squared, m^2 / rad^2.
-  Estimate sigma_m;      ///< Robust.
-};
-
-/// Range error of a channel alone.
+/// Range error of a single channel.
 struct ChannelBias {
   std::uint16_t channel{};
   Estimate bias_m;
 };
 
-/// Residuals of channels as they are, each less its median, which is the channel's bias.
-struct Residuals {
-  std::vector<ChannelBias> channels;
-  /// Standard deviation of the biases, less what the medians' own errors make.
-  Estimate bias_sigma_m;
-  Estimate bias_m;  ///< Median of all.
+/// Constant range errors of the channels.
+struct ChannelBiases {
+  std::vector<ChannelBias> channels;  ///< Medians of their residuals, uncorrected.
+  /// Standard deviation of the medians, corrected for their own errors. That of the true biases is
+  /// larger, since the fitted planes of the pieces have absorbed a part of them.
+  Estimate sigma_m;
 };
 
-/// Takes each channel's median from its residuals, in place; those of channels with fewer than
-/// kMinOfChannel become NaN. Only kReturned trials have one.
-inline constexpr std::uint64_t kMinOfChannel = 50;
-[[nodiscard]] Residuals TakeOutChannels(std::vector<Trial>& trials);
+/// Subtracts each channel's median from its residuals, in place; channels with fewer than 50
+/// residuals stay as they are.
+[[nodiscard]] ChannelBiases TakeOutChannels(RecordedTrials& trials);
 
-/// Bins of equal count by `key` (same length as trials, NaN = left out), at least kMinOfBin each.
-inline constexpr std::size_t kMinOfBin = 100;
-[[nodiscard]] std::vector<NoiseBin> BinNoise(const std::vector<Trial>& trials,
-                                             const std::vector<double>& keys,
-                                             const std::vector<double>& inverse_snr);
-
-/// sigma = sigma0 + sigma1 R, both >= 0: weighted least squares over the bins, Huber's weights for
-/// bins that fall out of line. Intervals: Student's, from the bins' own errors or their scatter
-/// about the line, whichever is wider.
+/// sigma = sigma0 + sigma1 R, both >= 0.
 struct LinearNoise {
   Estimate sigma0_m;
   Estimate sigma1;
-};
-[[nodiscard]] LinearNoise FitLinearNoise(const std::vector<NoiseBin>& bins);
 
-/// sigma^2 = floor^2 + scale^2 / (2 SNR) + (pointing slant)^2, all >= 0, likewise on the squares.
-/// What the bins' range of SNR or slant does not tell apart has an interval from 0.
+  [[nodiscard]] double At(const NoiseTrial& trial) const {
+    return sigma0_m.value + sigma1.value * static_cast<double>(trial.range_m);
+  }
+};
+
+/// sigma^2 = floor^2 + scale^2 / (2 SNR) + (pointing slant)^2, all >= 0.
 struct SignalNoise {
   Estimate floor_m;
-  Estimate scale_m;
-  Estimate pointing_rad;  ///< Not enough where no trial has a slant.
+  Estimate scale_m;  ///< Not enough where the signal is not known.
+  Estimate pointing_rad;
+
+  /// @param inverse_snr 1 / (2 SNR); 0 where the signal is not known.
+  [[nodiscard]] double At(const NoiseTrial& trial, double inverse_snr) const;
 };
-[[nodiscard]] SignalNoise FitSignalNoise(const std::vector<NoiseBin>& bins);
+
+// Both models are fitted to the residuals themselves: generalized least squares of |residual|, or
+// of its square, with errors that are proportional to the expectation; trimmed at 3 sigma and
+// corrected so that the result holds for normal samples. Intervals: the sandwich covariance (Huber
+// 1967) with the pieces as clusters, since the points of one piece share its roughness, and
+// Student's quantile. At least kMinSamples pieces are needed.
+
+[[nodiscard]] LinearNoise FitLinearNoise(const std::vector<NoiseTrial>& trials);
+
+/// @param inverse_snr 1 / (2 SNR) of each trial; empty if not known.
+[[nodiscard]] SignalNoise FitSignalNoise(const std::vector<NoiseTrial>& trials,
+                                         const std::vector<double>& inverse_snr);
 
 }  // namespace railcast

@@ -3,154 +3,115 @@
 #include <algorithm>
 #include <array>
 #include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <functional>
+#include <vector>
 
 namespace railcast {
 namespace {
 
-/// Trials at about the same range.
-struct Bin {
-  double returned{};
-  double lost{};
-  std::array<double, 2> design{1.0, 0.0};  ///< What offset and rate are multiplied with: 1, R.
-};
+using Exponents = std::array<double, 2>;  ///< {a, rate}, where P(point) = exp(-(a + rate R)).
 
-// In hundreds by range: the loss hardly varies within.
-std::vector<Bin> BinTrials(std::vector<StrongTrial> trials) {
-  constexpr std::size_t kNumBins = 400;
-  std::stable_sort(trials.begin(), trials.end(), [](const StrongTrial& a, const StrongTrial& b) {
-    return a.range_m < b.range_m;
-  });
-  const std::size_t num_bins = std::min(kNumBins, trials.size());
-  std::vector<Bin> bins(num_bins);
-  for (std::size_t b = 0; b < num_bins; ++b) {
-    const std::size_t begin = trials.size() * b / num_bins;
-    const std::size_t end = trials.size() * (b + 1) / num_bins;
-    for (std::size_t i = begin; i < end; ++i) {
-      (trials[i].is_returned ? bins[b].returned : bins[b].lost) += 1.0;
-      bins[b].design[1] += trials[i].range_m / static_cast<double>(end - begin);
-    }
-  }
-  return bins;
-}
-
-using Exponents = std::array<double, 2>;  // a, rate
-
-double ExponentOf(const Bin& bin, const Exponents& value) {
-  // A lost beam is never impossible.
-  return std::max(1e-12, value[0] * bin.design[0] + value[1] * bin.design[1]);
-}
-
-double LogLikelihood(const std::vector<Bin>& bins, const Exponents& value) {
-  double sum = 0.0;
-  for (const Bin& bin : bins) {
-    const double exponent = ExponentOf(bin, value);
-    sum -= bin.returned * exponent;
-    if (bin.lost > 0.0) sum += bin.lost * std::log(-std::expm1(-exponent));
-  }
-  return sum;
-}
-
-double Slope(const std::vector<Bin>& bins, const Exponents& value, std::size_t which) {
-  double sum = 0.0;
-  for (const Bin& bin : bins) {
-    const double by_exponent = bin.lost / std::expm1(ExponentOf(bin, value)) - bin.returned;
-    sum += bin.design[which] * by_exponent;
-  }
-  return sum;
-}
-
-// Where a falling function of x >= 0 crosses 0; 0 if it is negative there already.
+/// Root of a falling function of x > 0; 0 if the function is negative from the beginning.
 double Crossing(const std::function<double(double)>& falling, double guess) {
-  if (falling(0.0) <= 0.0) return 0.0;
-  double low = 0.0;
-  double high = std::max(guess, 1e-9);
-  constexpr int kDoublings = 60;
-  for (int i = 0; i < kDoublings && falling(high) > 0.0; ++i) {
-    low = high;
-    high *= 2.0;
-  }
-  constexpr int kHalvings = 50;
-  for (int i = 0; i < kHalvings; ++i) {
-    const double middle = 0.5 * (low + high);
-    (falling(middle) > 0.0 ? low : high) = middle;
-  }
+  constexpr double kNothing = 1e-12;
+  if (falling(kNothing) <= 0.0) return 0.0;
+  constexpr double kFactor = 4.0;
+  std::uintmax_t max_steps = 200;
+  const auto [low, high] = boost::math::tools::bracket_and_solve_root(
+      falling, std::max(guess, 1e-9), kFactor, false, boost::math::tools::eps_tolerance<double>(40),
+      max_steps);
   return 0.5 * (low + high);
 }
 
-/// The likelihood as a function of one of the two, the other at its best.
-class Profile {
+class Likelihood {
  public:
-  Profile(const std::vector<Bin>& bins, std::size_t which, double guess)
-      : bins_(bins), which_(which), guess_(guess) {}
-
-  [[nodiscard]] Estimate Fit(std::uint64_t num) const {
-    // The slope of the profile is that of the likelihood: the other's is 0 or it stands at its
-    // edge.
-    const double best = Crossing([&](double x) { return Slope(bins_, At(x), which_); }, guess_);
-    const double highest = LogLikelihood(bins_, At(best));
-    const double drop = 0.5 * boost::math::quantile(boost::math::chi_squared(1.0), kConfidence);
-    const auto is_within = [&](double x) { return LogLikelihood(bins_, At(x)) - highest + drop; };
-    Estimate estimate{best, 0.0, 0.0, num};
-    if (is_within(0.0) < 0.0) {
-      estimate.low =
-          best - Crossing([&](double less) { return is_within(std::max(0.0, best - less)); }, best);
-    }
-    estimate.high = best + Crossing([&](double more) { return is_within(best + more); }, best);
-    return estimate;
+  explicit Likelihood(const std::map<int, LossBin>& bins) {
+    for (const auto& [metre, bin] : bins) bins_.push_back(bin);
   }
 
- private:
-  // Both, the other at its best for this.
-  [[nodiscard]] Exponents At(double x) const {
+  [[nodiscard]] double At(const Exponents& value) const {
+    double sum = 0.0;
+    for (const LossBin& bin : bins_) {
+      const double exponent = ExponentOf(bin, value);
+      sum += static_cast<double>(bin.num_lost) * std::log(-std::expm1(-exponent)) -
+             static_cast<double>(bin.num - bin.num_lost) * exponent;
+    }
+    return sum;
+  }
+
+  /// Derivative of the log likelihood with respect to one of the two exponents.
+  [[nodiscard]] double Slope(const Exponents& value, std::size_t which) const {
+    double sum = 0.0;
+    for (const LossBin& bin : bins_) {
+      const double by_exponent =
+          static_cast<double>(bin.num_lost) / std::expm1(ExponentOf(bin, value)) -
+          static_cast<double>(bin.num - bin.num_lost);
+      sum += (which == 0 ? 1.0 : bin.range_m()) * by_exponent;
+    }
+    return sum;
+  }
+
+  /// Fixes one exponent and maximises over the other.
+  [[nodiscard]] Exponents Best(std::size_t fixed, double x) const {
     Exponents value{};
-    value[which_] = x;
-    const std::size_t other = 1 - which_;
-    value[other] = Crossing(
+    value[fixed] = x;
+    value[1 - fixed] = Crossing(
         [&](double y) {
           Exponents tried = value;
-          tried[other] = y;
-          return Slope(bins_, tried, other);
+          tried[1 - fixed] = y;
+          return Slope(tried, 1 - fixed);
         },
         1e-3);
     return value;
   }
 
-  const std::vector<Bin>& bins_;
-  std::size_t which_;
-  double guess_;
+ private:
+  [[nodiscard]] static double ExponentOf(const LossBin& bin, const Exponents& value) {
+    // Positive, since a loss is never impossible.
+    return std::max(1e-12, value[0] + value[1] * bin.range_m());
+  }
+
+  std::vector<LossBin> bins_;
 };
 
-double ShareOf(double exponent) {
-  return -std::expm1(-exponent);
+Estimate FitProfile(const Likelihood& likelihood, std::size_t which, std::uint64_t num) {
+  // The slope of the profile is that of the likelihood: the derivative by the other exponent is 0,
+  // or that exponent is at its bound.
+  const double best =
+      Crossing([&](double x) { return likelihood.Slope(likelihood.Best(which, x), which); }, 1e-3);
+  const double least = likelihood.At(likelihood.Best(which, best)) -
+                       0.5 * boost::math::quantile(boost::math::chi_squared(1.0), kConfidence);
+  const auto margin = [&](double x) { return likelihood.At(likelihood.Best(which, x)) - least; };
+  Estimate estimate{best, 0.0, 0.0, num};
+  if (margin(0.0) < 0.0) {
+    estimate.low =
+        best - Crossing([&](double less) { return margin(std::max(0.0, best - less)); }, best);
+  }
+  estimate.high = best + Crossing([&](double more) { return margin(best + more); }, best);
+  return estimate;
 }
 
 }  // namespace
 
-RandomLoss RandomLossFit::loss() const {
-  return {probability.is_enough() ? probability.value : 0.0,
-          rate_per_m.is_enough() ? rate_per_m.value : 0.0};
+double RandomLoss::At(double range_m) const {
+  return 1.0 - (1.0 - probability.value) * std::exp(-rate_per_m.value * range_m);
 }
 
-RandomLossFit FitRandomLoss(const std::vector<StrongTrial>& trials, bool has_rate) {
-  const std::uint64_t num = trials.size();
-  RandomLossFit fit{NotEnough(num), NotEnough(has_rate ? num : 0)};
-  const auto num_lost = static_cast<std::uint64_t>(std::count_if(
-      trials.begin(), trials.end(), [](const StrongTrial& trial) { return !trial.is_returned; }));
-  if (num < kMinSamples) return fit;
-  if (!has_rate) {
-    fit.probability = Proportion(num_lost, num);
-    return fit;
+RandomLoss FitRandomLoss(const std::map<int, LossBin>& bins) {
+  std::uint64_t num = 0;
+  std::uint64_t num_lost = 0;
+  for (const auto& [metre, bin] : bins) {
+    num += bin.num;
+    num_lost += bin.num_lost;
   }
-  // Of what nothing came back from it is not known whether it could.
-  if (num_lost == num) return fit;
-  const std::vector<Bin> bins = BinTrials(trials);
-  const double share = static_cast<double>(num_lost) / static_cast<double>(num);
-  const Estimate offset = Profile(bins, 0, share).Fit(num);
-  fit.probability = {ShareOf(offset.value), ShareOf(offset.low), ShareOf(offset.high), num};
-  fit.rate_per_m = Profile(bins, 1, 1e-2 * share).Fit(num);
-  return fit;
+  // If every firing was lost, the likelihood grows with the rate without bound.
+  if (num < kMinSamples || num_lost == num) return {NotEnough(num), NotEnough(num)};
+  const Likelihood likelihood(bins);
+  const auto share = [](double exponent) { return -std::expm1(-exponent); };
+  const Estimate a = FitProfile(likelihood, 0, num);
+  return {{share(a.value), share(a.low), share(a.high), num}, FitProfile(likelihood, 1, num)};
 }
 
 }  // namespace railcast

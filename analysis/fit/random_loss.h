@@ -1,31 +1,26 @@
 #pragma once
 
-#include <vector>
+#include <map>
 
 #include "analysis/estimate/estimate.h"
-#include "analysis/fit/detection.h"
+#include "analysis/fit/recorded_trials.h"
 
 namespace railcast {
 
-/// A firing whose power was far above the threshold.
-struct StrongTrial {
-  double range_m{};
-  bool is_returned{};  ///< Also from elsewhere: the pulse was fired, and the light came back.
-};
-
-/// What takes beams whatever their power: the sensor's dropout and, growing with the way, rain's.
-struct RandomLossFit {
+/// Random losses of firings that meet a surface: P(point) = (1 - probability) exp(-rate R).
+struct RandomLoss {
   Estimate probability;
-  Estimate rate_per_m;  ///< Not enough where it was not asked for.
+  Estimate rate_per_m;
 
-  /// The estimates' values; 0 where there is none.
-  [[nodiscard]] RandomLoss loss() const;
+  /// P(no point); NaN where nothing was fitted.
+  [[nodiscard]] double At(double range_m) const;
 };
 
-/// P(back) = exp(-(a + rate R)), a = -log(1 - probability), both >= 0, by maximum likelihood (it is
-/// concave). Intervals from the profile likelihood: the values at which the best fit with the other
-/// free has 2 log likelihood less by the quantile of chi-squared; so they hold at 0, too.
-/// @param has_rate Whether rain may take any.
-[[nodiscard]] RandomLossFit FitRandomLoss(const std::vector<StrongTrial>& trials, bool has_rate);
+/// Maximum likelihood under probability >= 0 and rate >= 0; with a = -log(1 - probability) it is
+/// concave in (a, rate). The intervals come from the profile likelihood, which also holds at 0:
+/// they contain all values of one parameter for which the best fit over the other has 2 log
+/// likelihood less than the maximum by at most the quantile of chi-squared with one degree of
+/// freedom. Firings are assumed to be independent; those on one dark spot are not.
+[[nodiscard]] RandomLoss FitRandomLoss(const std::map<int, LossBin>& bins);
 
 }  // namespace railcast

@@ -1,45 +1,78 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <limits>
-#include <optional>
-#include <string>
+#include <map>
+#include <utility>
 #include <vector>
 
-#include "analysis/fit/known_planes.h"
-#include "analysis/fit/trial.h"
-#include "core/io/recording/recording.h"
+#include "railcast/io/recording.h"
 
 namespace railcast {
 
-/// The trials of one or more recordings, and what these say besides.
-struct RecordedTrials {
-  std::vector<Trial> trials;  ///< A sample (analysis/fit/trial_sample.h).
-  std::vector<FitSurface> surfaces;
-  std::uint64_t num_frames{};
-  std::uint64_t num_seen{};  ///< Trials, before the sample was drawn.
-  std::uint64_t
-      num_hidden{};     ///< Firings whose point is clutter: what they should have met is lost.
-  bool knows_losses{};  ///< Whether slots are firings: else what is lost leaves no trace.
-  /// Scatter of the points across their beam (up and down) over that along it; NaN = not known.
-  double lateral_ratio = std::numeric_limits<double>::quiet_NaN();
-  std::vector<KnownPlane> planes;             ///< As refined.
-  std::vector<std::size_t> num_plane_points;  ///< That each rests on.
+/// A point on a flat piece of surface (analysis/stats/plane_patches.h).
+struct NoiseTrial {
+  float range_m{};          ///< Range of the piece's plane, along the beam.
+  float slant_m_per_rad{};  ///< Derivative of that range by the beam's angle: R tan(incidence).
+  /// Measured minus expected range. Since the plane was fitted to the n points of the piece, their
+  /// residuals are too small; they are multiplied by sqrt(n / (n - 3)),
+  /// so that their mean square is that of the noise.
+  float residual_m{};
+  float intensity{};      ///< As recorded.
+  std::uint32_t piece{};  ///< Points of one piece share its number.
+  std::uint16_t channel{};
 };
 
-/// Scatter across the beam of more than this share of that along it is noise in all directions.
-inline constexpr double kIsotropicRatio = 0.3;
+/// Firings at similar ranges that should have met a surface, since both neighbours in their ring
+/// did (RangeBetweenNeighbours_m in analysis/stats/holes.h).
+struct LossBin {
+  std::uint64_t num{};
+  std::uint64_t num_lost{};  ///< Firings without a point.
+  double range_sum_m{};
 
-using TrialProgress = std::function<void(std::uint64_t num_frames)>;
+  [[nodiscard]] double range_m() const { return range_sum_m / static_cast<double>(num); }
+};
 
-/// Reads recordings to their ends, in parallel, in bounded memory: from planes if there are any,
-/// else from truth fields. Surfaces get the shapes of the scenario's materials, if there is one.
-/// @throws InputError as recordings do; "source: must have truth fields, or planes given with
-///   --planes"; if the sources' materials differ.
-[[nodiscard]] RecordedTrials ReadTrials(const std::vector<std::filesystem::path>& sources,
-                                        std::vector<KnownPlane> planes,
-                                        const TrialProgress& on_progress);
+/// The samples of noise and losses in recordings.
+struct RecordedTrials {
+  std::vector<NoiseTrial> noise;
+  /// By whole metres. Empty where the slots of a frame are not firings.
+  std::map<int, LossBin> losses;
+  std::uint64_t num_frames{};
+  std::uint32_t num_pieces{};
+
+  /// Adds the trials of one more frame.
+  void Add(const RecordedTrials& frame);
+};
+
+/// Sums the trials of frames in their order, in bounded memory: once there are more than
+/// `max_points`, only every second, fourth, ... frame contributes noise trials.
+class TrialSum {
+ public:
+  explicit TrialSum(std::size_t max_points) : max_points_(max_points) {}
+
+  void Add(RecordedTrials frame);
+  [[nodiscard]] const RecordedTrials& sum() const { return sum_; }
+
+ private:
+  void DropEverySecondFrame();
+
+  std::size_t max_points_;
+  RecordedTrials sum_;
+  std::uint64_t stride_ = 1;  ///< Frames whose index is a multiple of this contribute noise trials.
+  /// Index of each frame and of its first trial.
+  std::vector<std::pair<std::uint64_t, std::size_t>> begins_;
+};
+
+/// The trials of one frame.
+[[nodiscard]] RecordedTrials TakeTrials(const RecordedFrame& recorded);
+
+/// Reads recordings to their ends, in parallel, and keeps noise trials of at most a million points.
+/// @throws InputError as the recordings do.
+[[nodiscard]] RecordedTrials ReadTrials(
+    const std::vector<std::filesystem::path>& sources,
+    const std::function<void(std::uint64_t num_frames)>& on_progress);
 
 }  // namespace railcast

@@ -12,9 +12,9 @@ namespace railcast {
 namespace {
 
 constexpr int kScansPerRound = 3;
-// A row as slow as this is scanned once a round: caches that are warm would change little.
+// A row as slow as this is scanned once per round: warm caches would change little.
 constexpr double kSlow_ms = 250.0;
-// A row needs no more than this in all, beyond one scan of each frame.
+// Total time that suffices for a row, beyond one scan of each frame.
 constexpr double kEnough_ms = 10'000.0;
 
 double Time_ms(const std::function<void()>& work) {
@@ -28,7 +28,8 @@ class Stopwatch {
  public:
   Stopwatch(const SimulatorSpec& spec, Simulator& simulator) : spec_(spec), simulator_(simulator) {}
 
-  // One round of all rows on one frame. @pre The first is the raw trace.
+  // One round of all rows on one frame.
+  // @pre The first row is the raw trace.
   void Round(std::uint32_t frame,
              const std::function<void()>& raw_trace,
              bool is_first_round,
@@ -52,7 +53,7 @@ class Stopwatch {
 
  private:
   static std::vector<double> TimesOf(const std::function<void()>& work) {
-    const double first_ms = Time_ms(work);  // Caches are another row's.
+    const double first_ms = Time_ms(work);  // The caches still hold another row's data.
     if (first_ms > kSlow_ms) return {first_ms};
     std::vector<double> times_ms;
     for (int i = 0; i < kScansPerRound; ++i) times_ms.push_back(Time_ms(work));
@@ -64,11 +65,11 @@ class Stopwatch {
   Frame frame_;
 };
 
-// Errors are of all echoes, and before range noise.
+// Errors are computed over all echoes and before range noise.
 SimulatorSpec ComparedSpec(const FrontierRow& row, const SimulatorSpec& scenario) {
   SimulatorSpec spec = SpecOfRow(row, scenario);
-  spec.effects = WithoutRangeErrors(spec.effects);
-  spec.receiver.return_mode = "triple";
+  spec.detector.effects = WithoutRangeErrors(spec.detector.effects);
+  spec.detector.receiver.return_mode = ReturnMode::kTriple;
   return spec;
 }
 

@@ -8,43 +8,47 @@
 
 #include "analysis/frontier/rows.h"
 #include "core/fidelity/frame_comparison.h"
-#include "core/scenario/scenario_spec.h"
-#include "core/simulate/simulator.h"
+#include "railcast/scenario.h"
+#include "railcast/simulator.h"
 
 namespace railcast {
 
-/// What a frontier is measured on.
+/// What to measure: rows, frames and repetitions.
 struct FrontierPlan {
   std::vector<FrontierRow> rows;
   std::vector<std::uint32_t> frames;
-  int num_threads = 1;        ///< Of the timing; errors take all cores, which changes none.
-  int num_rounds = 4;         ///< Of the timing, of each frame.
-  int yardstick_rays = 1024;  ///< Sub-rays of what all rows are compared with.
+  /// For the timing; errors are computed on all cores, which does not change them.
+  int num_threads = 1;
+  int num_rounds = 4;  ///< Timing rounds per frame.
+  /// Sub-rays per beam of the reference that all rows are compared with.
+  int yardstick_rays = 1024;
 };
 
-/// Of one row: times over all frames and rounds, and what is wrong with its frames.
+/// Result of one row: times over all frames and rounds, and the errors of its frames.
 struct RowResult {
   FrontierRow row;
-  std::vector<double> times_ms;               ///< Of single frames, sorted at last.
-  std::optional<FrameDifference> difference;  ///< None of the raw trace.
-  /// Median time / the raw trace's of the same round, for each round that timed it.
+  std::vector<double> times_ms;               ///< Times of single frames, sorted at the end.
+  std::optional<FrameDifference> difference;  ///< Absent for the raw trace.
+  /// Median time divided by that of the raw trace in the same round, for each round that timed the
+  /// row.
   std::vector<double> ratios;
 
   [[nodiscard]] double p50_ms() const { return TimeQuantile_ms(0.5); }
   [[nodiscard]] double p99_ms() const { return TimeQuantile_ms(0.99); }
-  /// The median over the rounds. Machines change their speed; the raw trace of the same second
-  /// does, too.
+  /// Median of the ratios over the rounds. A machine's speed varies with time, but the raw trace of
+  /// the same moment varies with it.
   [[nodiscard]] double ratio() const;
 
  private:
   [[nodiscard]] double TimeQuantile_ms(double q) const;
 };
 
-/// Called with the share of the work that is done, in [0, 1].
+/// Called with the completed share of the work, in [0, 1].
 using FrontierProgress = std::function<void(const std::string& what, double done)>;
 
-/// Times the rows, interleaved in this process, and compares their frames with the reference's.
-/// @param simulator The scenario's; its spec is what it was afterwards.
+/// Times the rows, interleaved in this process, and compares their frames with those of the
+/// reference.
+/// @param simulator Made from the scenario; its spec is restored afterwards.
 [[nodiscard]] std::vector<RowResult> MeasureFrontier(const FrontierPlan& plan,
                                                      const ScenarioSpec& scenario,
                                                      Simulator& simulator,

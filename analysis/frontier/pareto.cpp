@@ -1,12 +1,13 @@
 #include "analysis/frontier/pareto.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
 namespace railcast {
 namespace {
 
-// Both rows' times and errors, if they have any.
+// Times and errors of two rows.
 struct Standing {
   double time_a{}, time_b{}, error_a{}, error_b{};
 };
@@ -26,7 +27,7 @@ bool Defeats(const RowResult& a, const RowResult& b, const FrontierError& error)
   return s && s->time_a < s->time_b && s->error_a < s->error_b;
 }
 
-// Whether a has at most b's time and error, and less of one of them.
+// Whether a is no worse than b in time and error, and better in one of them.
 bool Beats(const RowResult& a, const RowResult& b, const FrontierError& error) {
   const auto s = Compare(a, b, error);
   return s && s->time_a <= s->time_b && s->error_a <= s->error_b &&
@@ -40,16 +41,16 @@ bool IsCandidate(const RowResult& result, const FrontierError& error) {
 
 }  // namespace
 
-std::vector<bool> ParetoFront(const std::vector<RowResult>& results, const FrontierError& error) {
-  std::vector<bool> is_on_front;
+std::vector<std::string> ParetoFront(const std::vector<RowResult>& results,
+                                     const FrontierError& error) {
+  std::vector<std::string> front;
   for (const RowResult& result : results) {
-    bool is_unbeaten = IsCandidate(result, error);
-    for (const RowResult& other : results) {
-      if (IsCandidate(other, error) && Beats(other, result, error)) is_unbeaten = false;
-    }
-    is_on_front.push_back(is_unbeaten);
+    const bool is_beaten = std::ranges::any_of(results, [&](const RowResult& other) {
+      return IsCandidate(other, error) && Beats(other, result, error);
+    });
+    if (IsCandidate(result, error) && !is_beaten) front.push_back(result.row.name);
   }
-  return is_on_front;
+  return front;
 }
 
 std::vector<Defeat> FindDefeats(const std::vector<RowResult>& results) {
@@ -68,12 +69,13 @@ std::vector<Defeat> FindDefeats(const std::vector<RowResult>& results) {
 }
 
 std::string DefeatsText(const std::vector<Defeat>& defeats) {
-  if (defeats.empty()) return "no row of brute force is faster and more accurate than a rung\n";
-  std::string text = "faster and more accurate than a rung:\n";
+  if (defeats.empty()) return "No row of brute force is faster and more accurate than a rung.";
+  std::string text;
   for (const Defeat& defeat : defeats) {
-    text += "  " + defeat.error + ": " + defeat.brute_force + " beats " + defeat.ours + "\n";
+    text += (text.empty() ? "Faster and more accurate than a rung: " : "; ") + defeat.brute_force +
+            " than " + defeat.ours + " in " + defeat.error;
   }
-  return text;
+  return text + ".";
 }
 
 }  // namespace railcast

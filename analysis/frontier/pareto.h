@@ -9,11 +9,13 @@
 
 namespace railcast {
 
-/// An error that is set against time; less is better.
+/// An error that is plotted against time; smaller is better.
 struct FrontierError {
-  const char* name;   ///< As in the files.
-  const char* title;  ///< As on the chart, with the unit.
-  double scale;       ///< From SI to that unit.
+  const char* name;        ///< Name in the files, in SI units.
+  const char* shown_name;  ///< Name in `unit`.
+  const char* title;       ///< Title for readers.
+  const char* unit;
+  double scale;  ///< Factor from SI to `unit`.
   double (*of)(const FrameDifference& difference);
 };
 
@@ -22,48 +24,48 @@ struct FrontierError {
   return matched.num == 0 ? std::numeric_limits<double>::quiet_NaN() : 1.0 - matched.share();
 }
 
-/// Of the files. The first four are the charts' panels.
+/// The first four have charts.
 inline constexpr std::array<FrontierError, 10> kFrontierErrors{{
-    {"missed_share", "echoes missed, %", 100.0,
+    {"missed_share", "missed_percent", "Echoes missed", "%", 100.0,
      [](const FrameDifference& d) { return MissedShare(d.reference_echoes); }},
-    {"range_median_m", "range error, median, mm", 1e3,
+    {"range_median_m", "range_median_mm", "Range error, median", "mm", 1e3,
      [](const FrameDifference& d) { return d.range_m.median; }},
-    {"thin_missed_share", "wires missed, %", 100.0,
+    {"thin_missed_share", "thin_missed_percent", "Wires missed", "%", 100.0,
      [](const FrameDifference& d) { return MissedShare(d.thin); }},
-    {"second_missed_share", "second surfaces missed, %", 100.0,
+    {"second_missed_share", "second_missed_percent", "Second surfaces missed", "%", 100.0,
      [](const FrameDifference& d) { return MissedShare(d.second); }},
-    {"further_missed_share", "further echoes missed, %", 100.0,
+    {"further_missed_share", "further_missed_percent", "Further echoes missed", "%", 100.0,
      [](const FrameDifference& d) { return MissedShare(d.further); }},
-    {"false_share", "false echoes, %", 100.0,
+    {"false_share", "false_percent", "False echoes", "%", 100.0,
      [](const FrameDifference& d) { return MissedShare(d.echoes); }},
-    {"range_p95_m", "range error, 95th percentile, mm", 1e3,
+    {"range_p95_m", "range_p95_mm", "Range error, 95 %", "mm", 1e3,
      [](const FrameDifference& d) { return d.range_m.p95; }},
-    {"intensity_median", "intensity error, median, %", 100.0,
+    {"intensity_median", "intensity_median_percent", "Intensity error, median", "%", 100.0,
      [](const FrameDifference& d) { return d.intensity.median; }},
-    {"intensity_p95", "intensity error, 95th percentile, %", 100.0,
+    {"intensity_p95", "intensity_p95_percent", "Intensity error, 95 %", "%", 100.0,
      [](const FrameDifference& d) { return d.intensity.p95; }},
-    {"dropout_error", "dropout error, %", 100.0,
+    {"dropout_error", "dropout_percent", "Dropout error", "%", 100.0,
      [](const FrameDifference& d) { return d.dropout_error; }},
 }};
 
-/// For one error: which rows no other row beats, that is, none is as fast and as accurate and
-/// better in one of both. The raw trace, the references (nobody would make frames with them) and
-/// rows without this error have no part in it.
-[[nodiscard]] std::vector<bool> ParetoFront(const std::vector<RowResult>& results,
-                                            const FrontierError& error);
+/// The Pareto front for one error: the rows for which no other row is as fast and as accurate and
+/// better in one of both. The raw trace, the references (too slow for making frames) and rows
+/// without this error are excluded.
+[[nodiscard]] std::vector<std::string> ParetoFront(const std::vector<RowResult>& results,
+                                                   const FrontierError& error);
 
-/// A row of brute force that is faster and more accurate than a rung of ours (group kLadder: a rung
-/// without one of its effects is offered to nobody).
+/// A brute-force row that is faster and more accurate than a rung (group kLadder; a rung without
+/// one of its effects cannot be chosen by a user and is not compared).
 struct Defeat {
   std::string brute_force;
   std::string ours;
   std::string error;
 };
 
-/// All of them: what lies left of and below a row of ours on any chart.
+/// Finds all such pairs: the brute-force points to the left of and below a rung on any chart.
 [[nodiscard]] std::vector<Defeat> FindDefeats(const std::vector<RowResult>& results);
 
-/// In sentences, whole lines.
+/// Describes them in a sentence.
 [[nodiscard]] std::string DefeatsText(const std::vector<Defeat>& defeats);
 
 }  // namespace railcast

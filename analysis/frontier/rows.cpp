@@ -4,8 +4,8 @@
 #include <sstream>
 
 #include "core/base/error.h"
-#include "core/base/shown_text.h"
-#include "core/scenario/effects.h"
+#include "core/base/text.h"
+#include "railcast/effects.h"
 
 namespace railcast {
 namespace {
@@ -15,7 +15,7 @@ EffectSet With(EffectSet effects, bool EffectSet::*effect, bool is_on) {
   return effects;
 }
 
-// With the central ray: 4, 7, 19 and 64 rays a beam.
+// With the central ray these are 4, 7, 19 and 64 rays per beam.
 constexpr int kBruteForceSubRays[] = {3, 6, 18, 63};
 constexpr int kReferenceSubRays[] = {16, 64, 256};
 
@@ -38,13 +38,13 @@ const char* RowGroupName(RowGroup group) {
 }
 
 std::vector<FrontierRow> AllFrontierRows() {
-  const EffectSet surface = EffectsOfRung("surface");
-  const EffectSet footprint = EffectsOfRung("footprint");
+  const EffectSet surface = EffectsOfRung(Fidelity::kSurface);
+  const EffectSet footprint = EffectsOfRung(Fidelity::kFootprint);
   const EffectSet sampled_wires = With(footprint, &EffectSet::thin_conductors, false);
   std::vector<FrontierRow> rows = {
       {"raw_trace", RowGroup::kRawTrace},
-      {"geometry", RowGroup::kLadder, EffectsOfRung("geometry")},
-      {"plausibility", RowGroup::kLadder, EffectsOfRung("plausibility")},
+      {"geometry", RowGroup::kLadder, EffectsOfRung(Fidelity::kGeometry)},
+      {"plausibility", RowGroup::kLadder, EffectsOfRung(Fidelity::kPlausibility)},
       {"surface", RowGroup::kLadder, surface},
       {"surface+thin_conductors", RowGroup::kLadder,
        With(surface, &EffectSet::thin_conductors, true)},
@@ -57,7 +57,7 @@ std::vector<FrontierRow> AllFrontierRows() {
   }
   for (const int sub_rays : kReferenceSubRays) {
     rows.push_back({"reference_" + std::to_string(sub_rays), RowGroup::kReference,
-                    EffectsOfRung("reference"), sub_rays});
+                    EffectsOfRung(Fidelity::kReference), sub_rays});
   }
   return rows;
 }
@@ -84,10 +84,10 @@ std::vector<FrontierRow> ChooseFrontierRows(const std::string& names) {
 
 SimulatorSpec SpecOfRow(const FrontierRow& row, const SimulatorSpec& scenario) {
   SimulatorSpec spec = scenario;
-  spec.effects = row.effects;
-  if (row.sub_rays) spec.beam.reference_rays = *row.sub_rays;
-  spec.plausibility.reference_threshold = 0.1;
-  spec.plausibility.reference_range_m = scenario.receiver.range_at_10_percent_m;
+  spec.detector.effects = row.effects;
+  if (row.sub_rays) spec.detector.beam.reference_rays = *row.sub_rays;
+  spec.detector.plausibility.reference_threshold = 0.1;
+  spec.detector.plausibility.reference_range_m = scenario.detector.receiver.range_at_10_percent_m;
   return spec;
 }
 

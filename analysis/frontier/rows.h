@@ -4,18 +4,18 @@
 #include <string>
 #include <vector>
 
-#include "core/detect/detect_spec.h"
-#include "core/simulate/simulator_spec.h"
+#include "railcast/effects.h"
+#include "railcast/simulator.h"
 
 namespace railcast {
 
-/// Which line of the chart a row belongs to.
+/// The series of the chart that a row belongs to.
 enum class RowGroup {
-  kRawTrace,    ///< The yardstick of time: rays and nothing else.
-  kLadder,      ///< The rungs, and surface with wires.
+  kRawTrace,    ///< The reference of time: ray tracing only.
+  kLadder,      ///< The rungs, and rung surface with wires.
   kBetween,     ///< A rung without one of its effects.
-  kBruteForce,  ///< The same number of sub-rays in every beam, wires by their triangles.
-  kReference,   ///< The yardstick of accuracy with fewer sub-rays.
+  kBruteForce,  ///< The same number of sub-rays in every beam, with wires as triangles.
+  kReference,   ///< The reference of accuracy with fewer sub-rays.
 };
 [[nodiscard]] const char* RowGroupName(RowGroup group);
 
@@ -24,19 +24,20 @@ struct FrontierRow {
   std::string name;
   RowGroup group{};
   EffectSet effects{};
-  std::optional<int> sub_rays{};  ///< Of dense_footprint, beside the central ray.
+  std::optional<int> sub_rays{};  ///< Sub-rays of dense_footprint beside the central ray.
 };
 
-/// All rows, in the order of the table.
+/// Returns all rows in the order of the table.
 [[nodiscard]] std::vector<FrontierRow> AllFrontierRows();
 
-/// Those that a list of names, separated by commas, asks for; "all" = all. The raw trace is always
-/// among them, since times are given as its multiples.
-/// @throws InputError that names what is unknown.
+/// Chooses rows by a comma-separated list of names, or "all". The raw trace is always included,
+/// since times are given as its multiples.
+/// @throws InputError that names the unknown rows.
 [[nodiscard]] std::vector<FrontierRow> ChooseFrontierRows(const std::string& names);
 
 /// The scenario's spec with a row's effects. The published model's threshold comes from the same
-/// number of the data sheet as the physical one: 10 % are just detected at range_at_10_percent_m.
+/// data-sheet figure as the physical one: 10 % reflectance is just detected at
+/// range_at_10_percent_m.
 [[nodiscard]] SimulatorSpec SpecOfRow(const FrontierRow& row, const SimulatorSpec& scenario);
 
 }  // namespace railcast

@@ -3,15 +3,15 @@
 #include <cstdint>
 #include <string>
 
-#include "core/io/stream/stream_receiver.h"
+#include "railcast/io/stream.h"
 
 namespace railcast {
 
-/// What came in, besides the receiver's own counts.
+/// Totals of the frames received, beside the receiver's own counts.
 struct ReceivedTotals {
   std::uint64_t frames{};
   std::uint64_t points{};
-  double first_s{};  ///< When the first frame was there, and the last one.
+  double first_s{};  ///< Arrival times of the first and the last frame.
   double last_s{};
 
   /// NaN before the second frame.
@@ -22,8 +22,8 @@ struct ReceivedTotals {
 [[nodiscard]] std::string ReceiveProgress(const ReceivedTotals& totals,
                                           const StreamReceiver::Counts& counts);
 
-/// Lines of frames, packets, points; and of what others sent and what was refused, by reason, if
-/// anything was.
+/// Lines on frames, packets and points and, where there are any, on datagrams of other senders and
+/// on refused ones by reason.
 [[nodiscard]] std::string ReceiveSummary(const ReceivedTotals& totals,
                                          const StreamReceiver::Counts& counts);
 

@@ -10,7 +10,7 @@
 #include <system_error>
 
 #include "core/base/error.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/io/stream/stream_clouds.h"
 #include "core/io/write_file.h"
 

@@ -4,19 +4,19 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/io/stream/received_frame.h"
+#include "railcast/io/stream.h"
 
 namespace railcast {
 
-/// Keeps a stream: frames/000000.pcd, ... in the order of arrival, every field that was sent; and
-/// frames.csv, a line for each file: file, run, frame, stamp_ns, the pose at the stamp (x y z in m,
-/// qx qy qz qw), points, lost_points.
+/// Records a stream: frames/000000.pcd, ... in the order of arrival with every field that was sent,
+/// and frames.csv with one line per file: file, run, frame, stamp_ns, the pose at the stamp (x y z
+/// in m, qx qy qz qw), points, lost_points.
 class ReceivedFiles {
  public:
-  /// @throws InputError if the directory cannot be made or holds a recording already.
+  /// @throws InputError if the directory cannot be made or already holds a recording.
   explicit ReceivedFiles(const std::filesystem::path& directory);
 
-  /// @throws InputError if the system refuses.
+  /// @throws InputError if the file cannot be written.
   void Write(const ReceivedFrame& frame);
 
  private:

@@ -11,17 +11,20 @@
 namespace railcast {
 namespace {
 
-// Beyond these, labels have a power of ten.
+// Labels beyond these are written with a power of ten.
 constexpr double kLargestLabel = 1e6;
 constexpr double kSmallestLabel = 1e-4;
-// Between the outermost points and the ends of the axis.
+// Margin between the outermost points and the ends of the axis.
 constexpr double kMargin = 0.05;
-// Values that come this near to 0, as a share of the largest, are shown with it.
+// Margin where points have labels, and the additional one at the left end of a logarithmic axis.
+constexpr double kLabelMargin = 0.1;
+constexpr double kLabelRoom = 0.12;
+// If the smallest value is less than this share of the largest, the axis begins at 0.
 constexpr double kNearZero = 0.4;
 // A shorter logarithmic axis would show too few round numbers.
 constexpr double kMinLogSpan = 4.0;
 
-// Ends that grow with what is to be shown.
+// Smallest and largest of the values added so far.
 struct Extent {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
@@ -43,7 +46,7 @@ std::string Superscript(int number) {
   return text;
 }
 
-// 0.05, 1,500, 2×10⁷: `step` says how many decimals are needed.
+// Label such as 0.05, 1,500 or 2×10⁷; `step` determines the number of decimals.
 std::string TickLabel(double value, double step) {
   if (std::abs(value) < 1e-9 * step) return "0";
   const double size = std::abs(value);
@@ -77,7 +80,7 @@ std::vector<AxisTick> LinearTicks(const AxisRange& range, int num_wanted) {
   std::vector<AxisTick> ticks;
   const double first = std::ceil(range.low / step - 1e-9);
   for (double i = first; i * step <= range.high + 1e-9 * step; ++i) {
-    // 2.5 needs a decimal more than its power of ten.
+    // A step of 2.5 needs one decimal more than its power of ten.
     const bool is_quarter = std::abs(step / power - 2.5) < 1e-9;
     ticks.push_back({i * step, TickLabel(i * step, is_quarter ? power / 10.0 : step)});
   }
@@ -104,19 +107,28 @@ std::vector<AxisTick> LogTicks(const AxisRange& range, int num_wanted) {
   return ticks;
 }
 
-// Room at both ends; `grow` says at which.
-AxisRange WithMargin(Extent extent, bool is_log, bool grows_down) {
+// Adds a margin at the upper end and, if `grows_down`, at the lower end.
+AxisRange WithMargin(Extent extent, bool is_log, bool grows_down, double margin) {
   if (is_log) {
     if (extent.high / extent.low < kMinLogSpan) {
       const double middle = std::sqrt(extent.low * extent.high);
       extent = {middle / std::sqrt(kMinLogSpan), middle * std::sqrt(kMinLogSpan)};
     }
-    const double factor = std::pow(extent.high / extent.low, kMargin);
+    const double factor = std::pow(extent.high / extent.low, margin);
     return {extent.low / factor, extent.high * factor};
   }
   double span = extent.high - extent.low;
   if (span == 0.0) span = extent.high == 0.0 ? 1.0 : std::abs(extent.high);
-  return {grows_down ? extent.low - kMargin * span : extent.low, extent.high + kMargin * span};
+  return {grows_down ? extent.low - margin * span : extent.low, extent.high + margin * span};
+}
+
+double MarginOf(const Chart& chart) {
+  for (const ChartSeries& series : chart.series) {
+    for (const ChartPoint& point : series.points) {
+      if (!point.label.empty()) return kLabelMargin;
+    }
+  }
+  return kMargin;
 }
 
 bool HasBars(const Chart& chart) {
@@ -144,29 +156,24 @@ std::optional<AxisRange> RangeOfY(const Chart& chart) {
   }
   if (values.is_empty()) return std::nullopt;
   if (is_log) {
-    // A decade more on both sides is enough for any interval.
+    // Show at most one decade beyond the values on either side, so that wide intervals do not
+    // compress them.
     intervals.low = std::max(intervals.low, values.low / 10.0);
     intervals.high = std::min(intervals.high, values.high * 10.0);
-    return WithMargin(intervals, true, true);
+    return WithMargin(intervals, true, true, MarginOf(chart));
   }
   const bool is_positive = intervals.low >= 0.0;
   const double room = std::max(values.high - values.low, std::abs(values.high) / 2.0);
   Extent shown = {std::max(intervals.low, values.low - room),
                   std::min(intervals.high, values.high + room)};
   if (HasBars(chart) || (is_positive && shown.low < kNearZero * shown.high)) shown.Add(0.0);
-  return WithMargin(shown, false, shown.low != 0.0);
+  return WithMargin(shown, false, shown.low != 0.0, MarginOf(chart));
 }
 
 std::optional<AxisRange> RangeOfX(const Chart& chart) {
   const auto num_categories = static_cast<double>(chart.x.categories.size());
   if (num_categories > 0.0) return AxisRange{-0.5, num_categories - 0.5};
   Extent extent;
-  const std::vector<double> places = SortedPlaces(chart);
-  for (const double place : places) {
-    const AxisRange bar = BarAt(place, places, chart.x.is_log);
-    extent.Add(bar.low);
-    extent.Add(bar.high);
-  }
   for (const ChartSeries& series : chart.series) {
     for (const ChartPoint& point : series.points) {
       if (HasPlace(point.x, chart.x.is_log) && HasPlace(point.y, chart.y.is_log)) {
@@ -175,50 +182,18 @@ std::optional<AxisRange> RangeOfX(const Chart& chart) {
     }
   }
   if (extent.is_empty()) return std::nullopt;
-  if (chart.x.is_log) return WithMargin(extent, true, true);
-  // What begins at 0 shows it.
+  if (chart.x.is_log) {
+    AxisRange range = WithMargin(extent, true, true, MarginOf(chart));
+    if (MarginOf(chart) > kMargin) range.low /= std::pow(range.high / range.low, kLabelRoom);
+    return range;
+  }
+  // An axis that begins at 0 needs no margin there.
   if (extent.low > 0.0 && extent.low < kNearZero * extent.high) extent.low = 0.0;
-  return WithMargin(extent, false, extent.low != 0.0);
+  return WithMargin(extent, false, extent.low != 0.0, MarginOf(chart));
 }
 
 std::vector<AxisTick> TicksIn(const AxisRange& range, bool is_log, int num_wanted) {
   return is_log ? LogTicks(range, num_wanted) : LinearTicks(range, num_wanted);
-}
-
-AxisRange BarAt(double x, const std::vector<double>& places, bool is_log) {
-  const auto at = std::lower_bound(places.begin(), places.end(), x);
-  const bool has_left = at != places.begin();
-  const bool has_right = at != places.end() && at + 1 != places.end();
-  if (is_log) {
-    const double alone = 1.1;
-    const double left = has_left ? std::sqrt(x / *(at - 1)) : 0.0;
-    const double right = has_right ? std::sqrt(*(at + 1) / x) : 0.0;
-    const double to_left = has_left ? left : has_right ? right : alone;
-    const double to_right = has_right ? right : has_left ? left : alone;
-    return {x / to_left, x * to_right};
-  }
-  const double alone = x == 0.0 ? 0.5 : std::abs(x) / 10.0;
-  const double left = has_left ? (x - *(at - 1)) / 2.0 : 0.0;
-  const double right = has_right ? (*(at + 1) - x) / 2.0 : 0.0;
-  // Bars stand in the middle of their places: the nearer neighbour says how wide.
-  const double half = has_left && has_right ? std::min(left, right)
-                      : has_left            ? left
-                      : has_right           ? right
-                                            : alone;
-  return {x - half, x + half};
-}
-
-std::vector<double> SortedPlaces(const Chart& chart) {
-  std::vector<double> places;
-  for (const ChartSeries& series : chart.series) {
-    if (series.style != SeriesStyle::kBars) continue;
-    for (const ChartPoint& point : series.points) {
-      if (HasPlace(point.x, chart.x.is_log)) places.push_back(point.x);
-    }
-  }
-  std::sort(places.begin(), places.end());
-  places.erase(std::unique(places.begin(), places.end()), places.end());
-  return places;
 }
 
 }  // namespace railcast

@@ -5,22 +5,22 @@
 #include <cmath>
 #include <cstdio>
 
-#include "analysis/report/joined.h"
+#include "core/base/text.h"
 
 namespace railcast {
 namespace {
 
-// Beyond these, numbers are written with a power of ten.
+// Numbers beyond these are written with a power of ten.
 constexpr double kLargest = 1e9;
 constexpr double kSmallest = 1e-4;
-// Of figures that say nothing of their accuracy.
+// Digits of figures without an interval.
 constexpr int kPlainDigits = 4;
-// Of half an interval's width; the figure itself ends at the same place.
+// Digits of half an interval's width; the figure itself is rounded to the same decimal place.
 constexpr int kIntervalDigits = 2;
-// More would claim what nobody has measured.
+// More digits would claim an accuracy that was not measured.
 constexpr int kMaxDigits = 7;
 
-// The place of the first digit: 0 of 1 to 9.99, -1 of 0.1 to 0.999.
+// Decimal exponent of the first digit: 0 for 1 to 9.99, -1 for 0.1 to 0.999.
 int Magnitude(double value) {
   return static_cast<int>(std::floor(std::log10(std::abs(value))));
 }
@@ -42,12 +42,12 @@ std::string WithSeparators(const std::string& number) {
   return text += number.substr(end);
 }
 
-// To a number of decimals, which may be negative: then the digits before the point are rounded.
+// Rounds to a number of decimals; if it is negative, digits before the decimal point are rounded.
 std::string Rounded(double value, int decimals) {
   const double step = std::pow(10.0, -decimals);
   const double rounded = decimals < 0 ? std::round(value / step) * step : value;
   const std::string text = Printed("%.*f", std::max(decimals, 0), rounded);
-  // No "-0.00".
+  // Avoid "-0.00".
   const bool is_zero = text.find_first_of("123456789") == std::string::npos;
   return WithSeparators(is_zero && text[0] == '-' ? text.substr(1) : text);
 }
@@ -60,7 +60,7 @@ std::string Plain(double value) {
   if (std::isinf(value)) return value > 0.0 ? "infinite" : "-infinite";
   if (value == 0.0) return "0";
   if (IsBeyond(value)) return Printed("%.*e", kPlainDigits - 1, value);
-  // A count is shown whole, and so is a number that needs fewer digits.
+  // Counts are shown in full, and trailing zeros are dropped.
   if (value == std::round(value)) return Rounded(value, 0);
   std::string text = Rounded(value, std::max(0, kPlainDigits - 1 - Magnitude(value)));
   if (text.find('.') == std::string::npos) return text;
@@ -115,9 +115,17 @@ std::string CountText(std::uint64_t count) {
   return WithSeparators(std::to_string(count));
 }
 
+std::string SpanText(const Span& span) {
+  return Joined({NumberText(span.low), " to ", NumberText(span.high)});
+}
+
 CellText TextOf(const Cell& cell) {
   if (const auto* const estimate = std::get_if<Estimate>(&cell)) return EstimateText(*estimate);
   CellText text;
+  if (const auto* const span = std::get_if<Span>(&cell)) {
+    text.value = SpanText(*span);
+    return text;
+  }
   if (const auto* const words = std::get_if<std::string>(&cell)) {
     text.value = *words;
     return text;

@@ -1,14 +1,12 @@
 #include "analysis/report/chart_script.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
 #include <optional>
-#include <vector>
 
-#include "analysis/report/axis.h"
 #include "analysis/report/cell_text.h"
-#include "analysis/report/chart_series.h"
-#include "analysis/report/gnuplot.h"
-#include "analysis/report/joined.h"
 
 namespace railcast {
 namespace {
@@ -16,7 +14,7 @@ namespace {
 constexpr int kWidth_px = 640;
 constexpr int kHeight_px = 380;
 constexpr int kEmptyHeight_px = 200;
-constexpr int kRowHeight_px = 26;  // Of a bar's category where bars lie.
+constexpr int kRowHeight_px = 26;  // Height per category where bars are horizontal.
 constexpr int kFrameHeight_px = 110;
 // More letters do not fit below an axis.
 constexpr std::size_t kMaxLettersBelow = 70;
@@ -37,7 +35,7 @@ bool HasLongCategories(const Chart& chart) {
   return num_letters > kMaxLettersBelow && chart.x.categories.size() <= kMaxLyingCategories;
 }
 
-// "set xtics (...)" and the like.
+// gnuplot's "set xtics (...)" or the like.
 std::string Tics(const std::string& axis, const std::vector<AxisTick>& ticks) {
   std::string text = "set " + axis + "tics nomirror scale 0.4 (";
   for (std::size_t i = 0; i < ticks.size(); ++i) {
@@ -47,11 +45,11 @@ std::string Tics(const std::string& axis, const std::vector<AxisTick>& ticks) {
   return text + ")\n";
 }
 
-// A name that leaves room for what it names; tables have it in full.
+// Shortens a name so that the chart keeps its room; the tables have the full name.
 std::string Shortened(const std::string& name) {
   if (name.size() <= kMaxNameLetters) return name;
   std::size_t end = kMaxNameLetters - 1;
-  // Not within a character of UTF-8.
+  // Do not cut within a UTF-8 character.
   while ((static_cast<unsigned char>(name[end]) >> 6) == 2) --end;
   return Joined({name.substr(0, end), "…"});
 }
@@ -95,7 +93,7 @@ int HeightOf_px(const Drawing& drawing) {
   return std::max(kHeight_px / 2, kFrameHeight_px + rows_px);
 }
 
-// Of a chart without a point.
+// Axes of a chart without any point.
 std::string EmptyAxesText(const Chart& chart) {
   return "set xlabel " + GnuplotQuoted(WithUnit(chart.x.title, chart.x.unit)) + "\nset ylabel " +
          GnuplotQuoted(WithUnit(chart.y.title, chart.y.unit)) +
@@ -104,30 +102,68 @@ std::string EmptyAxesText(const Chart& chart) {
          kMutedColor + "'\n";
 }
 
-}  // namespace
+// The gnuplot commands of a chart, without its terminal.
+struct ChartText {
+  std::string settings;
+  std::string plot;
+  int height_px{};
+};
 
-std::string DrawingOf(const Chart& chart,
-                      const std::filesystem::path& svg,
-                      const std::filesystem::path& png) {
+ChartText TextOf(const Chart& chart) {
   const std::optional<AxisRange> x = RangeOfX(chart);
   const std::optional<AxisRange> y = RangeOfY(chart);
   const bool is_empty = !x || !y;
   const Drawing drawing =
-      is_empty ? Drawing{chart, {}, {}, false, {}}
-               : Drawing{chart, *x, *y, HasLongCategories(chart), SortedPlaces(chart)};
+      is_empty ? Drawing{chart, {}, {}} : Drawing{chart, *x, *y, HasLongCategories(chart)};
   const PlotText plot = PlotOf(drawing);
-  const int height_px = is_empty ? kEmptyHeight_px : HeightOf_px(drawing);
+  return {Joined({"reset\n", plot.data, "set border ", drawing.is_lying ? "2" : "1",
+                  " linewidth 1 linecolor rgb '#000000'\n", kLegend,
+                  is_empty ? EmptyAxesText(chart) : AxesText(drawing)}),
+          plot.command, is_empty ? kEmptyHeight_px : HeightOf_px(drawing)};
+}
+
+}  // namespace
+
+std::string GnuplotQuoted(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) {
+    if (c == '\'') quoted += c;
+    // A line break would end the command.
+    quoted += c == '\n' ? ' ' : c;
+  }
+  return quoted += "'";
+}
+
+std::string GnuplotNumber(double value) {
+  if (!std::isfinite(value)) return "NaN";
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.6g", value);
+  return text.data();
+}
+
+std::string DrawingOf(const Chart& chart,
+                      const std::filesystem::path& svg,
+                      const std::filesystem::path& png) {
+  const ChartText text = TextOf(chart);
   const auto output = [&](int scale, const std::filesystem::path& file) {
     return Joined({" size ", std::to_string(scale * kWidth_px), ",",
-                   std::to_string(scale * height_px), "\nset output ", GnuplotQuoted(file.string()),
-                   "\n", plot.command});
+                   std::to_string(scale * text.height_px), "\nset output ",
+                   GnuplotQuoted(file.string()), "\n", text.plot});
   };
-  const std::string border = drawing.is_lying ? "2" : "1";
-  return Joined({"reset\n", plot.data, "set border ", border,
-                 " linewidth 1 linecolor rgb '#000000'\n", kLegend,
-                 is_empty ? EmptyAxesText(chart) : AxesText(drawing), kSvgTerminal, output(1, svg),
-                 "set title ", GnuplotQuoted(chart.title), "\n", kPngTerminal, output(2, png),
-                 "set output\n"});
+  return Joined({text.settings, kSvgTerminal, output(1, svg), "set title ",
+                 GnuplotQuoted(chart.title), "\n", kPngTerminal, output(2, png), "set output\n"});
+}
+
+std::string SheetOf(const std::vector<Chart>& charts, const std::string& title) {
+  std::string script =
+      "# gnuplot -e 'set terminal svg noenhanced size 1200,900' this > picture.svg\nset multiplot "
+      "layout " +
+      std::to_string((charts.size() + 1) / 2) + ",2 title " + GnuplotQuoted(title) + "\n";
+  for (const Chart& chart : charts) {
+    const ChartText text = TextOf(chart);
+    script += text.settings + text.plot;
+  }
+  return script + "unset multiplot\n";
 }
 
 }  // namespace railcast

@@ -1,20 +1,58 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "analysis/report/axis.h"
 #include "analysis/report/report.h"
 
 namespace railcast {
 
-/// What a style sheet may repaint, beside the series' colours.
+/// Colours of the series in order, repeated after the last; colour-blind safe (Okabe and Ito, Color
+/// Universal Design, 2008; without the yellow, which is too pale on white).
+inline constexpr std::array<const char*, 7> kSeriesColors = {
+    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f7f7f"};
+
+/// Colours that a style sheet may replace, beside those of the series.
 inline constexpr const char* kGridColor = "#dddddd";
 inline constexpr const char* kMutedColor = "#767676";
 
-/// gnuplot commands that draw a chart as an SVG, without title and on no background, and as a PNG
-/// with both. A chart without a point says "not enough data".
+/// gnuplot commands that draw a chart as an SVG without title and background, and as a PNG with
+/// both. A chart without any point says "not enough data".
 [[nodiscard]] std::string DrawingOf(const Chart& chart,
                                     const std::filesystem::path& svg,
                                     const std::filesystem::path& png);
+
+/// gnuplot commands that draw several charts in two columns under one title, for any terminal.
+[[nodiscard]] std::string SheetOf(const std::vector<Chart>& charts, const std::string& title);
+
+/// Layout of one chart.
+struct Drawing {
+  const Chart& chart;
+  AxisRange x, y;
+  /// Categories run down the left side and values to the right, since long names need room.
+  bool is_lying = false;
+};
+
+/// gnuplot's data blocks of all series, and the command that plots them.
+struct PlotText {
+  std::string data;
+  std::string command;
+};
+
+/// Defined in chart_series.cpp.
+[[nodiscard]] PlotText PlotOf(const Drawing& drawing);
+
+/// gnuplot commands for the labels of points, placed so that they do not meet (chart_labels.cpp).
+[[nodiscard]] std::string LabelsText(const Drawing& drawing);
+
+/// Quotes text for gnuplot; it must be drawn with `noenhanced` terminals. Uses single quotes, since
+/// gnuplot executes text between backquotes inside double quotes.
+[[nodiscard]] std::string GnuplotQuoted(const std::string& text);
+
+/// A number to six digits, more than a chart can show; "NaN" if it is not finite.
+[[nodiscard]] std::string GnuplotNumber(double value);
 
 }  // namespace railcast

@@ -1,16 +1,13 @@
-#include "analysis/report/chart_series.h"
-
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/report/gnuplot.h"
+#include "analysis/report/chart_script.h"
 
 namespace railcast {
 namespace {
 
-// Of what a place has, how much its bars take together.
+// Share of a category's width that its bars take together.
 constexpr double kBarsShare = 0.8;
-constexpr double kHistogramShare = 0.96;
 constexpr std::size_t kManyPoints = 60;
 constexpr std::array<int, 7> kPointTypes = {7, 5, 9, 13, 11, 15, 7};
 
@@ -20,7 +17,7 @@ std::size_t CountBars(const Chart& chart) {
                     [](const ChartSeries& s) { return s.style == SeriesStyle::kBars; }));
 }
 
-// Numbers of one line, in gnuplot's order of axes.
+// Numbers of one data line, in gnuplot's order of axes.
 std::string Line(const std::vector<double>& numbers) {
   std::string line;
   for (const double number : numbers) line += GnuplotNumber(number) + " ";
@@ -28,7 +25,7 @@ std::string Line(const std::vector<double>& numbers) {
   return line;
 }
 
-// A number on the axis, its end where it lies beyond.
+// Clamps a number to the ends of the axis.
 double Clamped(double y, const Drawing& drawing) {
   if (std::isnan(y)) return y;
   return std::clamp(y, drawing.y.low, drawing.y.high);
@@ -42,21 +39,11 @@ bool HasInterval(const ChartPoint& point) {
   return std::isfinite(point.low) && std::isfinite(point.high);
 }
 
-// Where series number `bar` of the chart's bars stands at x.
-AxisRange BarOf(double x, std::size_t bar, const Drawing& drawing) {
-  const Chart& chart = drawing.chart;
-  const bool is_log = chart.x.is_log;
-  AxisRange place =
-      chart.x.categories.empty() ? BarAt(x, drawing.places, is_log) : AxisRange{x - 0.5, x + 0.5};
-  const auto num = static_cast<double>(CountBars(chart));
-  const double share = chart.x.categories.empty() ? kHistogramShare : kBarsShare;
-  const double begin = (1.0 - share) / 2.0 + share * static_cast<double>(bar) / num;
-  const double end = begin + share / num;
-  const auto at = [&](double part) {
-    return is_log ? place.low * std::pow(place.high / place.low, part)
-                  : place.low + part * (place.high - place.low);
-  };
-  return {at(begin), at(end)};
+// Interval in x of bar number `bar` at x.
+AxisRange BarOf(double x, std::size_t bar, const Chart& chart) {
+  const double width = kBarsShare / static_cast<double>(CountBars(chart));
+  const double begin = x - kBarsShare / 2.0 + width * static_cast<double>(bar);
+  return {begin, begin + width};
 }
 
 // The plot elements of one series and the data blocks that they use.
@@ -75,7 +62,7 @@ std::string Block(const std::string& name, const std::string& lines) {
   return "$" + name + " << EOD\n" + lines + "EOD\n";
 }
 
-// Two numbers, x and y, as two columns of an upright or a lying chart.
+// gnuplot's selection of two columns, x and y, for a vertical or horizontal chart.
 std::string Columns(const Drawing& drawing) {
   return drawing.is_lying ? " using 2:1" : " using 1:2";
 }
@@ -101,13 +88,12 @@ SeriesParts BarParts(const ChartSeries& series,
   const double base = drawing.chart.y.is_log ? drawing.y.low : Clamped(0.0, drawing);
   for (const ChartPoint& point : series.points) {
     if (!IsDrawn(point, drawing.chart)) continue;
-    const AxisRange place = BarOf(point.x, bar, drawing);
+    const AxisRange place = BarOf(point.x, bar, drawing.chart);
     const double low = std::min(base, point.y);
     const double high = std::max(base, point.y);
     bars += drawing.is_lying ? Line({high, point.x, low, high, place.low, place.high})
                              : Line({point.x, high, place.low, place.high, low, high});
-    const double middle =
-        drawing.chart.x.is_log ? std::sqrt(place.low * place.high) : (place.low + place.high) / 2.0;
+    const double middle = (place.low + place.high) / 2.0;
     if (HasInterval(point)) whiskers += Whisker(middle, point, drawing);
   }
   if (!bars.empty()) {
@@ -123,7 +109,7 @@ SeriesParts BarParts(const ChartSeries& series,
   return parts;
 }
 
-// The points between two gaps; gnuplot ends lines and bands at empty lines.
+// The points between two gaps; for gnuplot an empty line ends a line or band.
 struct CurveText {
   std::string points, band, whiskers;
 };
@@ -147,7 +133,7 @@ CurveText CurveOf(const ChartSeries& series, const Drawing& drawing) {
       text.band += "\n";
       continue;
     }
-    // A band needs two points in a row and upright axes.
+    // A band needs two consecutive points and vertical charts.
     const bool has_neighbour = (i > 0 && is_band_point(i - 1)) || is_band_point(i + 1);
     if (has_line && has_neighbour && !drawing.is_lying) {
       text.band += Line({point.x, Clamped(point.low, drawing), Clamped(point.high, drawing)});
@@ -180,11 +166,14 @@ SeriesParts CurveParts(const ChartSeries& series,
   }
   if (curve.points.find_first_not_of('\n') == std::string::npos) return parts;
   parts.data += Block(name + "p", curve.points);
-  const std::string size = series.points.size() > kManyPoints ? "0.35" : "0.6";
+  // An isolated point is drawn larger so that it can be found.
+  const std::string size = series.points.size() > kManyPoints ? "0.35"
+                           : series.points.size() == 1        ? "1"
+                                                              : "0.6";
   const std::string dots = " pointtype " + std::to_string(kPointTypes[index % kPointTypes.size()]) +
                            " pointsize " + size;
-  // Colours that come again have another dash.
-  // The first line is wider: where the next covers it, its edges still show.
+  // Repeated colours get another dash type.
+  // The first line is wider, so that its edges show where the next one covers it.
   const std::string line = std::string(index == 0 ? " linewidth 2.8" : " linewidth 1.8") +
                            " dashtype " + std::to_string(index / kSeriesColors.size() + 1);
   std::string how = " with linespoints" + line + dots;
@@ -213,7 +202,7 @@ PlotText PlotOf(const Drawing& drawing) {
   back.insert(back.end(), front.begin(), front.end());
   std::string plot = "plot NaN notitle";
   for (const std::string& part : back) plot += ", \\\n  " + part;
-  return {data, plot + "\n"};
+  return {data + LabelsText(drawing), plot + "\n"};
 }
 
 }  // namespace railcast

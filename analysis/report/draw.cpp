@@ -1,17 +1,23 @@
 #include "analysis/report/draw.h"
 
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
 #include <cstdlib>
+#include <string_view>
 
 #include "analysis/report/chart_script.h"
-#include "analysis/report/gnuplot.h"
 #include "analysis/report/output.h"
-#include "analysis/report/svg.h"
+#include "core/base/error.h"
 #include "core/io/write_file.h"
+#include "core/program/shell_word.h"
 
 namespace railcast {
 namespace {
 
-// gnuplot writes its files piece by piece: they lie here until they are whole.
+// Temporary folder of the drawings: gnuplot writes its files piece by piece, and they are moved
+// once they are complete.
 class DrawingFolder {
  public:
   DrawingFolder() {
@@ -31,6 +37,78 @@ class DrawingFolder {
  private:
   std::filesystem::path path_;
 };
+
+// Runs gnuplot on a script after `settings`, gnuplot commands without double quotes, and returns
+// its standard output.
+std::string GnuplotOutput(const std::filesystem::path& script, const std::string& settings) {
+  constexpr int kExitNotFound = 127;  // Exit status of the shell.
+  const std::string command =
+      "gnuplot -e \"" + settings + "\" " + ShellWord(script.string()) + " 2>/dev/null";
+  FILE* const pipe = ::popen(command.c_str(), "r");
+  Check(pipe != nullptr, "a pipe can be opened");
+  std::string bytes;
+  std::array<char, 65536> buffer{};
+  std::size_t count = 0;
+  while ((count = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0) {
+    bytes.append(buffer.data(), count);
+  }
+  const int status = ::pclose(pipe);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kExitNotFound) {
+    throw InputError("gnuplot: not found; install gnuplot-nox (the numbers are written)");
+  }
+  if (status != 0) throw InputError("gnuplot: failed (the numbers are written)");
+  return bytes;
+}
+
+void ReplaceAll(std::string& text, std::string_view from, std::string_view to) {
+  for (std::size_t at = text.find(from); at != std::string::npos;
+       at = text.find(from, at + to.size())) {
+    text.replace(at, from.size(), to);
+  }
+}
+
+// Erases every part of the text from `from` to the end of the next `to`.
+void EraseAll(std::string& text, std::string_view from, std::string_view to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at)) {
+    const std::size_t end = text.find(to, at + from.size());
+    if (end == std::string::npos) return;
+    text.erase(at, end + to.size() - at);
+  }
+}
+
+// Writes "rgb(  0, 114, 178)" as "#0072b2" and black as currentColor.
+std::string WithPlainColors(const std::string& svg) {
+  std::string text;
+  std::size_t from = 0;
+  for (std::size_t at = svg.find("rgb("); at != std::string::npos; at = svg.find("rgb(", from)) {
+    unsigned int red = 0, green = 0, blue = 0;
+    const std::size_t end = svg.find(')', at);
+    if (end == std::string::npos ||
+        std::sscanf(svg.c_str() + at, "rgb(%u,%u,%u)", &red, &green, &blue) != 3) {
+      break;
+    }
+    std::array<char, 32> color{};
+    std::snprintf(color.data(), color.size(), "#%02x%02x%02x", red, green, blue);
+    text.append(svg, from, at - from);
+    text += red + green + blue == 0 ? "currentColor" : color.data();
+    from = end + 1;
+  }
+  return text.append(svg, from);
+}
+
+// gnuplot writes many empty groups.
+void EraseEmptyGroups(std::string& text) {
+  const std::string_view end = ">\n</g>\n";
+  for (std::size_t at = text.find(end); at != std::string::npos; at = text.find(end, at)) {
+    const std::size_t begin = text.rfind('<', at);
+    if (text.compare(begin, 3, "<g ") == 0) {
+      text.erase(begin, at + end.size() - begin);
+      at = begin;
+    } else {
+      at += end.size();
+    }
+  }
+}
 
 }  // namespace
 
@@ -60,6 +138,39 @@ std::map<std::string, std::string> DrawCharts(const Report& report,
     }
   }
   return svgs;
+}
+
+void DrawSheet(const std::vector<Chart>& charts,
+               const std::string& title,
+               const std::filesystem::path& picture) {
+  const std::string script = picture.string() + ".gnuplot";
+  WriteFileWhole(script, SheetOf(charts, title));
+  const auto draw = [&](const std::string& terminal, const std::string& ending) {
+    const std::string bytes = GnuplotOutput(
+        script, "set encoding utf8; set terminal " + terminal + " noenhanced rounded");
+    // gnuplot can report success without having drawn anything.
+    if (bytes.empty()) throw InputError("gnuplot: failed (the numbers are written)");
+    WriteFileWhole(picture.string() + ending, bytes);
+  };
+  draw("svg size 1200,900 background '#ffffff' font 'sans-serif,14'", ".svg");
+  draw("pngcairo size 1200,900 font 'sans-serif,10'", ".png");
+}
+
+std::string CleanSvg(const std::string& gnuplot_svg, const std::string& prefix) {
+  std::string text = WithPlainColors(gnuplot_svg);
+  EraseAll(text, "<title>", "</title>");
+  EraseAll(text, "<desc>", "</desc>");
+  EraseAll(text, "<filter", "</filter>");
+  EraseAll(text, " id=\"gnuplot_", "\"");
+  ReplaceAll(text, " color=\"black\"", "");
+  ReplaceAll(text, " color=\"white\"", "");
+  ReplaceAll(text, "\"black\"", "\"currentColor\"");
+  ReplaceAll(text, " shape-rendering='crispEdges'", "");
+  ReplaceAll(text, "fill = '", "fill='");
+  ReplaceAll(text, "#gp", "#" + prefix + "-gp");
+  ReplaceAll(text, "id='gp", "id='" + prefix + "-gp");
+  EraseEmptyGroups(text);
+  return text;
 }
 
 }  // namespace railcast

@@ -1,16 +1,17 @@
-#include "analysis/report/files.h"
+#include "analysis/report/formats.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/base/number_text.h"
+#include "analysis/report/cell_text.h"
+#include "core/base/text.h"
 
 namespace railcast {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-// JSON has no infinity either.
+// JSON has neither NaN nor infinity.
 Json NumberOf(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
@@ -25,6 +26,7 @@ struct CellJson {
             {"high", NumberOf(estimate.high)},
             {"samples", estimate.num}};
   }
+  Json operator()(const Span& span) const { return SpanText(span); }
 };
 
 Json JsonOf(const Cell& cell) {
@@ -64,6 +66,7 @@ Json JsonOf(const Chart& chart) {
                         {"y", NumberOf(point.y)},
                         {"low", NumberOf(point.low)},
                         {"high", NumberOf(point.high)}});
+      if (!point.label.empty()) points.back()["label"] = point.label;
     }
     series.push_back({{"title", one.title}, {"points", std::move(points)}});
   }
@@ -107,6 +110,7 @@ struct CellCsv {
     text += ',' + CsvNumber(estimate.high);
     return text += ',' + NumberText(estimate.num);
   }
+  std::string operator()(const Span& span) const { return SpanText(span); }
 };
 
 bool HasEstimates(const Table& table, std::size_t column) {
@@ -118,7 +122,7 @@ bool HasEstimates(const Table& table, std::size_t column) {
 
 }  // namespace
 
-std::string ReportJson(const Report& report) {
+std::string ReportJson(const Report& report, const std::string& details) {
   Json facts = Json::object();
   for (const auto& [name, fact] : report.facts) facts[name] = fact;
   Json headlines = Json::array();
@@ -128,12 +132,13 @@ std::string ReportJson(const Report& report) {
   }
   Json sections = Json::array();
   for (const Section& section : report.sections) sections.push_back(JsonOf(section));
-  const Json json = {{"title", report.title},
-                     {"command", report.command},
-                     {"facts", std::move(facts)},
-                     {"headlines", std::move(headlines)},
-                     {"sections", std::move(sections)}};
-  // File names may be no UTF-8.
+  Json json = {{"title", report.title},
+               {"command", report.command},
+               {"facts", std::move(facts)},
+               {"headlines", std::move(headlines)},
+               {"sections", std::move(sections)}};
+  json.update(Json::parse(details));
+  // File names may be invalid UTF-8.
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -7,17 +7,15 @@
 
 #include "analysis/commands.h"
 #include "analysis/report/draw.h"
-#include "analysis/report/files.h"
-#include "analysis/report/page.h"
-#include "analysis/report/text.h"
+#include "analysis/report/formats.h"
 #include "core/base/error.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/io/write_file.h"
 
 namespace railcast {
 namespace {
 
-// What report.h asks of those who fill one.
+// Checks the preconditions that report.h states.
 void CheckSound(const Report& report) {
   std::set<std::string> charts, tables;
   for (const Section& section : report.sections) {
@@ -42,11 +40,14 @@ void WriteTables(const Report& report, const std::filesystem::path& folder) {
   }
 }
 
-void WriteFiles(const Report& report, const std::filesystem::path& out, const std::string& json) {
+void WriteFiles(const Report& report,
+                const std::filesystem::path& out,
+                const std::string& name,
+                const std::string& json) {
   MakeFolder(out);
-  WriteFileWhole(out / json, ReportJson(report));
+  WriteFileWhole(out / name, json);
   WriteTables(report, out / "csv");
-  // The drawings come last: all else can do without gnuplot.
+  // The drawings come last, so that everything else is written even without gnuplot.
   WriteFileWhole(out / "report.html", ReportPage(report, {}));
   WriteFileWhole(out / "report.html", ReportPage(report, DrawCharts(report, out / "charts")));
 }
@@ -73,12 +74,15 @@ void AddReportOptions(CLI::App& command, ReportOutput& output) {
   where->require_option(1, 0);
 }
 
-void EmitReport(const Report& report, const ReportOutput& output, std::string_view name) {
+void EmitReport(const Report& report,
+                const ReportOutput& output,
+                std::string_view name,
+                const std::string& details) {
   CheckSound(report);
   if (output.is_text) std::cout << ShownLines(ReportText(report)) << std::flush;
   if (output.out.empty()) return;
   const std::string json = std::string(name) + ".json";
-  WriteFiles(report, output.out, json);
+  WriteFiles(report, output.out, json, ReportJson(report, details));
   if (!output.is_text) std::cout << ShownLines(HeadlinesText(report));
   std::cout << "report.html, " << json << ", csv/ and charts/ in " << ShownPath(output.out) << "\n"
             << std::flush;

@@ -1,111 +1,217 @@
-#include "analysis/report/page.h"
+#include <algorithm>
+#include <cstdlib>
+#include <kainjow/mustache.hpp>
+#include <numeric>
 
 #include "analysis/report/cell_text.h"
-#include "analysis/report/html_text.h"
-#include "analysis/report/joined.h"
-#include "analysis/report/page_style.h"
-#include "analysis/report/page_table.h"
-#include "analysis/report/svg.h"
+#include "analysis/report/chart_script.h"
+#include "analysis/report/formats.h"
+#include "core/base/error.h"
 
 namespace railcast {
+
+// page.html, a Mustache template, and page.css; CMake embeds them as strings.
+extern const char* const kPageHtml;
+extern const char* const kPageCss;
+
 namespace {
 
-std::string HeadHtml(const Report& report) {
-  std::string html =
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      // The page can ask nobody for anything, not even for an icon.
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
-      "style-src 'unsafe-inline'; img-src data:\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta name=\"color-scheme\" content=\"light dark\">\n"
-      "<link rel=\"icon\" href=\"data:,\">\n";
-  html += Element("title", report.title);
-  html += "\n<style>\n" + PageStyle();
-  return html += "</style>\n</head>\n";
+using kainjow::mustache::data;
+using kainjow::mustache::list;
+using kainjow::mustache::object;
+
+// Width of a printed page in letters.
+constexpr std::size_t kPaperWidth = 150;
+// Gap between two cells in letters.
+constexpr std::size_t kCellGap = 2;
+
+// The template leaves out sections whose value is false.
+data IfAny(const std::string& text) {
+  return text.empty() ? data(false) : data(text);
 }
 
-std::string FactsHtml(const Report& report) {
-  std::string html = "<dl class=\"facts\">\n";
-  for (const auto& [name, fact] : report.facts) {
-    html += Joined({"<div>", Element("dt", name), Element("dd", fact), "</div>\n"});
+template <typename Items, typename DataOfItem>
+list ListOf(const Items& items, const DataOfItem& data_of) {
+  list all;
+  for (const auto& item : items) all.push_back(data_of(item));
+  return all;
+}
+
+// Numbers with a real minus sign, which is as wide as a digit, and with powers of ten: "-3e-05"
+// becomes "−3 × 10<sup>−5</sup>".
+std::string NumberHtml(const std::string& numbers) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  std::string html;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (numbers[i] == '-') {
+      html += "−";
+    } else if (numbers[i] == 'e' && i > 0 && is_digit(numbers[i - 1])) {
+      std::size_t length = 0;
+      const int power = std::stoi(numbers.substr(i + 1), &length);
+      html += Joined({"\u202f×\u202f10<sup>", power < 0 ? "−" : "", std::to_string(std::abs(power)),
+                      "</sup>"});
+      i += length;
+    } else {
+      html += numbers[i];
+    }
   }
-  return html += "</dl>\n";
+  return html;
 }
 
-std::string CardHtml(const Headline& headline) {
+// Layout of a table's column in the page.
+struct PageColumn {
+  bool is_number = false;
+  // Estimates take three cells, so that figures, intervals and counts are aligned.
+  bool has_estimates = false;
+};
+
+std::vector<PageColumn> PageColumns(const Table& table) {
+  std::vector<PageColumn> columns(table.columns.size());
+  for (const std::vector<Cell>& row : table.rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      columns[i].is_number = columns[i].is_number || TextOf(row[i]).is_number;
+      columns[i].has_estimates =
+          columns[i].has_estimates || std::holds_alternative<Estimate>(row[i]);
+    }
+  }
+  return columns;
+}
+
+data CellData(const Cell& cell, const PageColumn& column, bool is_first) {
+  const CellText text = TextOf(cell);
+  object cell_data = {{"is_wide", column.has_estimates},
+                      {"interval", NumberHtml(text.interval)},
+                      {"samples", text.samples}};
+  if (is_first && !text.is_number) {
+    cell_data["row_name"] = text.value;
+  } else if (text.is_absent) {
+    cell_data["absent"] = LineOf(text);
+  } else if (text.is_number) {
+    cell_data["number"] = NumberHtml(text.value);
+  } else {
+    cell_data["words"] = text.value;
+  }
+  return cell_data;
+}
+
+// Template data of a table with some of the columns.
+data GridData(const Table& table,
+              const std::vector<PageColumn>& columns,
+              const std::vector<std::size_t>& shown) {
+  return object{{"columns", ListOf(shown,
+                                   [&](std::size_t i) {
+                                     return object{{"title", table.columns[i].title},
+                                                   {"unit", IfAny(table.columns[i].unit)},
+                                                   {"is_number", columns[i].is_number},
+                                                   {"is_wide", columns[i].has_estimates}};
+                                   })},
+                {"rows", ListOf(table.rows, [&](const std::vector<Cell>& row) {
+                   return object{{"cells", ListOf(shown, [&](std::size_t i) {
+                                    return CellData(row[i], columns[i], i == 0);
+                                  })}};
+                 })}};
+}
+
+// Width in letters; headers break at spaces.
+std::size_t ColumnWidthOf(const Table& table, std::size_t column, const PageColumn& page_column) {
+  const std::string& title = table.columns[column].title;
+  std::size_t width = table.columns[column].unit.size(), word = 0;
+  for (const char c : title) {
+    word = c == ' ' ? 0 : word + 1;
+    width = std::max(width, word);
+  }
+  for (const std::vector<Cell>& row : table.rows) {
+    width = std::max(width, LineOf(TextOf(row[column])).size());
+  }
+  return width + (page_column.has_estimates ? 3 : 1) * kCellGap;
+}
+
+// A table that is too wide for paper, where it cannot be scrolled, is split into several that begin
+// with the same column.
+data TableData(const Table& table) {
+  const std::vector<PageColumn> columns = PageColumns(table);
+  std::vector<std::size_t> all(columns.size()), widths;
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  for (const std::size_t i : all) widths.push_back(ColumnWidthOf(table, i, columns[i]));
+  const std::vector<std::vector<std::size_t>> blocks = BlocksOf(widths, kPaperWidth);
+  list views = {object{{"class", blocks.size() > 1 ? "scroll screen" : "scroll"},
+                       {"is_scrolled", true},
+                       {"grids", list{GridData(table, columns, all)}}}};
+  if (blocks.size() > 1) {
+    const auto grid_of = [&](const auto& block) { return GridData(table, columns, block); };
+    views.push_back(
+        object{{"class", "paper"}, {"is_scrolled", false}, {"grids", ListOf(blocks, grid_of)}});
+  }
+  return object{
+      {"title", table.title},
+      {"note", IfAny(table.note)},
+      {"is_open", table.is_open},
+      {"num_rows", CountText(table.rows.size()) + (table.rows.size() == 1 ? " row" : " rows")},
+      {"views", views}};
+}
+
+data HeadlineData(const Headline& headline) {
   const CellText text = TextOf(headline.value);
-  const std::string value = text.is_number ? NumberHtml(text.value) : EscapedHtml(text.value);
-  const char* const comma = text.interval.empty() || text.samples.empty() ? "" : ", ";
-  return Joined({"<div class=\"card\">", Element("dt", headline.title),
-                 text.is_absent ? "<dd class=\"absent\">" : "<dd>",
-                 text.is_number ? "<span class=\"figure\">" : "<span class=\"figure words\">",
-                 value, "</span>", text.is_absent ? "" : UnitHtml(headline.unit),
-                 "<span class=\"interval\">", NumberHtml(text.interval), comma,
-                 "<span class=\"samples\">", text.samples, "</span></span></dd></div>\n"});
+  return object{{"title", headline.title},
+                {"unit", IfAny(text.is_absent ? "" : headline.unit)},
+                {"is_number", text.is_number},
+                {"is_absent", text.is_absent},
+                {"number", NumberHtml(text.value)},
+                {"words", text.value},
+                {"interval", NumberHtml(text.interval)},
+                {"has_both", !text.interval.empty() && !text.samples.empty()},
+                {"samples", text.samples}};
 }
 
-std::string CardsHtml(const Report& report) {
-  if (report.headlines.empty()) return {};
-  std::string html = "<dl class=\"cards\">\n";
-  for (const Headline& headline : report.headlines) html += CardHtml(headline);
-  return html += "</dl>\n";
-}
-
-// A place in the page that no other has: sections and charts have keys of their own.
-std::string AnchorOf(const Section& section) {
-  return Joined({"section-", EscapedHtml(section.key)});
-}
-
-std::string ContentsHtml(const Report& report) {
-  std::string html = "<nav aria-label=\"Contents\">\n<ol>\n";
-  for (const Section& section : report.sections) {
-    html += Joined(
-        {"<li><a href=\"#", AnchorOf(section), "\">", EscapedHtml(section.title), "</a></li>\n"});
-  }
-  return html += "</ol>\n</nav>\n";
-}
-
-std::string ChartHtml(const Chart& chart, const std::map<std::string, std::string>& svgs) {
-  std::string html = Joined({"<figure>\n", Element("h3", chart.title), "\n"});
+// The drawing from the attributes of its <svg> element on; the template writes the tag.
+data DrawingData(const Chart& chart, const std::map<std::string, std::string>& svgs) {
   const auto svg = svgs.find(chart.key);
-  if (svg != svgs.end()) {
-    const std::string label =
-        Joined({chart.title, chart.caption.empty() ? "" : ". ", chart.caption});
-    const std::string attributes =
-        Joined({"class=\"chart\" role=\"img\" aria-label=\"", EscapedHtml(label), "\" "});
-    html += Joined({"<div class=\"drawing\">", InlineSvg(svg->second, attributes), "</div>\n"});
-  }
-  if (!chart.caption.empty()) html += Element("figcaption", chart.caption);
-  return html += "\n</figure>\n";
+  if (svg == svgs.end()) return false;
+  return svg->second.substr(svg->second.find("<svg") + 4);
 }
 
-std::string SectionHtml(const Section& section, const std::map<std::string, std::string>& svgs) {
-  std::string html =
-      Joined({"<section id=\"", AnchorOf(section), "\">\n", Element("h2", section.title), "\n"});
-  for (const std::string& paragraph : section.paragraphs) html += Element("p", paragraph);
-  if (!section.charts.empty()) {
-    html += "<div class=\"charts\">\n";
-    for (const Chart& chart : section.charts) html += ChartHtml(chart, svgs);
-    html += "</div>\n";
+data SectionData(const Section& section, const std::map<std::string, std::string>& svgs) {
+  const auto chart_data = [&](const Chart& chart) {
+    return object{{"title", chart.title},
+                  {"caption", IfAny(chart.caption)},
+                  {"drawing", DrawingData(chart, svgs)}};
+  };
+  return object{{"key", section.key},
+                {"title", section.title},
+                {"paragraphs", ListOf(section.paragraphs, [](const auto& text) { return text; })},
+                {"has_charts", !section.charts.empty()},
+                {"charts", ListOf(section.charts, chart_data)},
+                {"tables", ListOf(section.tables, TableData)}};
+}
+
+// The colours of charts as they occur in the drawings, with the style sheet's names for them.
+list Paints() {
+  list paints = {object{{"color", kGridColor}, {"name", "grid"}},
+                 object{{"color", kMutedColor}, {"name", "muted"}}};
+  for (std::size_t i = 0; i < kSeriesColors.size(); ++i) {
+    paints.push_back(
+        object{{"color", kSeriesColors[i]}, {"name", "series-" + std::to_string(i + 1)}});
   }
-  for (const Table& table : section.tables) html += TableHtml(table);
-  return html += "</section>\n";
+  return paints;
 }
 
 }  // namespace
 
 std::string ReportPage(const Report& report, const std::map<std::string, std::string>& svgs) {
-  std::string html = Joined({HeadHtml(report), "<body>\n<header>\n", Element("h1", report.title),
-                             "\n", FactsHtml(report), "</header>\n<div class=\"page\">\n",
-                             ContentsHtml(report), "<main>\n", CardsHtml(report)});
-  for (const Section& section : report.sections) html += SectionHtml(section, svgs);
-  html +=
-      "</main>\n</div>\n<footer>\n<p>Figures stand before their 95 % confidence interval, in "
-      "brackets, and the number of samples, n.</p>\n";
-  if (!report.command.empty()) {
-    html += Joined({"<p>Made by <code>", EscapedHtml(report.command), "</code></p>\n"});
-  }
-  return html += "</footer>\n</body>\n</html>\n";
+  const auto fact_data = [](const auto& fact) {
+    return object{{"name", fact.first}, {"fact", fact.second}};
+  };
+  const auto section_data = [&](const Section& section) { return SectionData(section, svgs); };
+  kainjow::mustache::mustache page(kPageHtml);
+  Check(page.is_valid(), "the page's template is sound");
+  return page.render(object{{"title", report.title},
+                            {"style", kPageCss},
+                            {"paints", Paints()},
+                            {"facts", ListOf(report.facts, fact_data)},
+                            {"has_headlines", !report.headlines.empty()},
+                            {"headlines", ListOf(report.headlines, HeadlineData)},
+                            {"sections", ListOf(report.sections, section_data)},
+                            {"command", IfAny(report.command)}});
 }
 
 }  // namespace railcast

@@ -7,8 +7,7 @@
 #include <functional>
 
 #include "core/base/error.h"
-#include "core/base/number_text.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/io/text_cursor.h"
 
 namespace railcast {
@@ -92,8 +91,8 @@ std::string WeatherText(const WeatherSpec& weather) {
       "visibility " + NumberText(weather.visibility_m.value_or(0.0)) + " m");
   add(weather.fog_density_per_m > 0.0, "fog " + NumberText(weather.fog_density_per_m) + " per m");
   add(weather.rain_rate_mmph > 0.0, "rain " + NumberText(weather.rain_rate_mmph) + " mm/h");
-  add(weather.snow_rate_mmph > 0.0,
-      weather.snow_type + " snow " + NumberText(weather.snow_rate_mmph) + " mm/h");
+  add(weather.snow_rate_mmph > 0.0, std::string(NameOf(weather.snow_type)) + " snow " +
+                                        NumberText(weather.snow_rate_mmph) + " mm/h");
   add(weather.wetness > 0.0, "wetness " + NumberText(weather.wetness));
   add(weather.snow_cover > 0.0, "snow cover " + NumberText(weather.snow_cover));
   add(weather.sun.illuminance_klx > 0.0, "sun " + NumberText(weather.sun.illuminance_klx) + " klx");

@@ -5,32 +5,34 @@
 #include <vector>
 
 #include "analysis/report/report.h"
-#include "core/detect/detect_spec.h"
-#include "core/io/recording/recording.h"
+#include "railcast/effects.h"
+#include "railcast/io/recording.h"
 
 namespace railcast {
 
-// What a report says of where it and its figures come from.
+// Facts on the origin of a report and its figures.
 
 using Facts = std::vector<std::pair<std::string, std::string>>;
 
-/// The minute in UTC: "2023-11-14 22:13 UTC". The environment's SOURCE_DATE_EPOCH, seconds since
-/// 1970, stands for the clock where it is set, so that a report can be made again to the byte.
-/// @throws InputError "SOURCE_DATE_EPOCH: rule (got value)" if it is none.
+/// Date and minute in UTC: "2023-11-14 22:13 UTC". If the environment variable SOURCE_DATE_EPOCH is
+/// set (seconds since 1970), it replaces the clock, so that a report can be reproduced byte by
+/// byte.
+/// @throws InputError "SOURCE_DATE_EPOCH: rule (got value)" if it is invalid.
 [[nodiscard]] std::string ReportDate();
 
-/// The program that makes the report, and the date. @param version ProgramVersion().
+/// The program that makes the report, and the date.
+/// @param version ProgramVersion().
 /// @throws InputError as ReportDate() does.
 [[nodiscard]] Facts MakerFacts(const std::string& version);
 
-/// Hash of the data and of the scenario, weather and maker of our sequences among the sources. What
-/// several have in common is said once.
+/// Data hash, scenario, weather and maker of those sources that are railcast sequences. Facts that
+/// several sources share are stated once.
 [[nodiscard]] Facts OriginFacts(const std::vector<RecordingInfo>& sources);
 
 /// "rain 12 mm/h, wetness 0.5", or "clear".
 [[nodiscard]] std::string WeatherText(const WeatherSpec& weather);
 
-/// Both, after the facts that are there.
+/// Appends OriginFacts() and MakerFacts() to the report's facts.
 void AddProvenance(const std::vector<RecordingInfo>& sources,
                    const std::string& version,
                    Report& report);

@@ -10,37 +10,51 @@
 
 namespace railcast {
 
-// What every command of railcast-analyze finds out, as plain data: page, text, JSON, CSV and charts
-// are made of it (analysis/report/).
+// The results of every command of railcast-analyze as plain data, from which page, text, JSON, CSV
+// and charts are made (analysis/report/).
 
-/// One cell of a table. A double that is NaN is an absent figure, an Estimate without a value one
-/// for which the samples were not enough: neither is ever written as a number.
-using Cell = std::variant<std::string, std::uint64_t, double, Estimate>;
+/// A bin of a quantity: "20 to 30" in every format; a chart puts it at its middle.
+struct Span {
+  double low{};
+  double high{};
+};
+
+/// One cell of a table. A NaN double is an absent figure; an Estimate without a value is one with
+/// too few samples. Neither is ever written as a number.
+using Cell = std::variant<std::string, std::uint64_t, double, Estimate, Span>;
 
 struct TableColumn {
-  std::string key{};    ///< Lower snake case with its unit, as in CSV and JSON: "range_m".
-  std::string title{};  ///< For people, without the unit: "Range".
-  std::string unit{};   ///< "m"; empty = none.
+  std::string key{};    ///< Lower snake case with unit, as in CSV and JSON: "range_m".
+  std::string title{};  ///< Title for readers, without the unit: "Range".
+  std::string unit{};   ///< "m"; empty if there is none.
 };
 
 struct Table {
-  std::string key{};    ///< Names the CSV file, unique in a report: "dropout_by_range".
+  std::string key{};    ///< Name of the CSV file, unique in a report: "dropout_by_range".
   std::string title{};  ///< "Dropout by range".
-  std::string note{};   ///< What a reader must know of it: assumptions, definitions; may be empty.
+  /// What a reader must know about it: assumptions, definitions; may be empty.
+  std::string note{};
   std::vector<TableColumn> columns{};
-  std::vector<std::vector<Cell>> rows{};  ///< Each as long as `columns`.
-  bool is_open{};                         ///< Whether the page shows its rows unasked.
+  std::vector<std::vector<Cell>> rows{};  ///< Each row has as many cells as `columns`.
+  bool is_open{};                         ///< Whether the page shows its rows unfolded.
 };
 
-/// One point of a chart. NaN in y leaves a gap; low and high, where they are numbers, are the ends
+/// One point of a chart. A NaN y leaves a gap; low and high, where they are numbers, are the ends
 /// of its interval.
 struct ChartPoint {
   double x{};
   double y = std::numeric_limits<double>::quiet_NaN();
   double low = std::numeric_limits<double>::quiet_NaN();
   double high = std::numeric_limits<double>::quiet_NaN();
+  std::string label{};  ///< Text beside the point; empty if none. Bars have no labels.
 };
 
+/// The point of an estimate in a chart.
+[[nodiscard]] inline ChartPoint PointAt(double x, const Estimate& estimate) {
+  return {x, estimate.value, estimate.low, estimate.high};
+}
+
+/// Bars need an axis with categories.
 enum class SeriesStyle { kLine, kPoints, kLinePoints, kBars };
 
 struct ChartSeries {
@@ -51,16 +65,16 @@ struct ChartSeries {
 
 struct ChartAxis {
   std::string title{};
-  std::string unit{};  ///< Empty = none.
+  std::string unit{};  ///< Empty if there is none.
   bool is_log = false;
-  /// Names of the places 0, 1, 2, ... where x is no number; empty = it is one. Of x axes only.
+  /// Names of the positions 0, 1, 2, ... where x is not a number, else empty. For x axes only.
   std::vector<std::string> categories{};
 };
 
 struct Chart {
-  std::string key{};      ///< Names its SVG and PNG files, unique in a report.
-  std::string title{};    ///< What one should see in it, in a few words.
-  std::string caption{};  ///< A sentence or two below it; may be empty.
+  std::string key{};      ///< Name of its SVG and PNG files, unique in a report.
+  std::string title{};    ///< What the chart shows, in a few words.
+  std::string caption{};  ///< One or two sentences below it; may be empty.
   ChartAxis x{}, y{};
   std::vector<ChartSeries> series{};
 };
@@ -73,7 +87,7 @@ struct Section {
   std::vector<Table> tables{};
 };
 
-/// A figure worth reading first.
+/// A key figure for the top of the report.
 struct Headline {
   std::string title{};  ///< "Dropout".
   std::string unit{};
@@ -82,7 +96,7 @@ struct Headline {
 
 struct Report {
   std::string title{};    ///< "Statistics of out/demo".
-  std::string command{};  ///< That made it, for a reader to repeat.
+  std::string command{};  ///< Command line that made it, for a reader to repeat.
   std::vector<std::pair<std::string, std::string>>
       facts{};  ///< Input, frames, sensor, version, ...
   std::vector<Headline> headlines{};

@@ -1,10 +1,9 @@
-#include "analysis/report/text.h"
+#include "analysis/report/formats.h"
 
 #include <algorithm>
 #include <sstream>
 
 #include "analysis/report/cell_text.h"
-#include "analysis/report/joined.h"
 
 namespace railcast {
 namespace {
@@ -13,7 +12,7 @@ constexpr std::size_t kWidth = 100;
 constexpr std::size_t kTableWidth = 160;
 constexpr const char* kGap = "  ";
 
-// Characters, not bytes: those of UTF-8 that begin one.
+// Counts characters rather than bytes: only the bytes that begin a UTF-8 character.
 std::size_t WidthOf(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(
       text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) >> 6) != 2; }));
@@ -28,7 +27,7 @@ std::string Underlined(const std::string& text, char line) {
   return Joined({text, "\n", std::string(WidthOf(text), line), "\n"});
 }
 
-// Broken at spaces.
+// Wraps text at spaces.
 std::string Paragraph(const std::string& text) {
   std::istringstream words(text);
   std::string lines;
@@ -46,14 +45,14 @@ std::string Paragraph(const std::string& text) {
   return lines += '\n';
 }
 
-// One column of a table, ready to be set: cells in one width each.
+// One column of a table, formatted: all cells have the same width.
 struct TextColumn {
   std::string title;
   bool is_number = false;
   std::vector<std::string> cells;
 };
 
-// Estimates line up part by part.
+// The parts of estimates are aligned separately.
 TextColumn ColumnOf(const Table& table, std::size_t index) {
   TextColumn column;
   column.title = WithUnit(table.columns[index].title, table.columns[index].unit);
@@ -73,7 +72,7 @@ TextColumn ColumnOf(const Table& table, std::size_t index) {
       column.cells.push_back(LineOf(text));
       continue;
     }
-    // The comma stands behind the interval, if there is one.
+    // The comma follows the interval, or the value where there is none.
     const std::string interval = text.interval.empty() ? "" : Joined({" ", text.interval});
     column.cells.push_back(Joined({Padded(text.value, value_width, true),
                                    Padded(Joined({interval, ","}), interval_width + 2, false), " ",
@@ -88,7 +87,7 @@ std::size_t WidthOf(const TextColumn& column) {
   return width;
 }
 
-// One block of a table: the columns side by side.
+// One block of a table, its columns side by side.
 std::string ColumnsText(const std::vector<TextColumn>& columns) {
   std::vector<std::string> lines(columns.empty() ? 0 : columns[0].cells.size() + 1);
   for (const TextColumn& column : columns) {
@@ -106,25 +105,20 @@ std::string ColumnsText(const std::vector<TextColumn>& columns) {
   return text;
 }
 
-// A table that is too wide is broken into blocks, each beginning with the first column.
 std::string TableText(const Table& table) {
-  std::string text = table.title + "\n";
-  if (!table.note.empty()) text += Paragraph(table.note);
-  std::vector<TextColumn> block;
-  std::size_t width = 0;
+  std::vector<TextColumn> columns;
+  std::vector<std::size_t> widths;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    TextColumn column = ColumnOf(table, i);
-    const std::size_t added = WidthOf(column) + WidthOf(kGap);
-    if (block.size() > 1 && width + added > kTableWidth) {
-      text += ColumnsText(block);
-      text += '\n';
-      block.resize(1);
-      width = WidthOf(block[0]) + WidthOf(kGap);
-    }
-    block.push_back(std::move(column));
-    width += added;
+    columns.push_back(ColumnOf(table, i));
+    widths.push_back(WidthOf(columns.back()) + WidthOf(kGap));
   }
-  return text += ColumnsText(block);
+  std::string text;
+  for (const std::vector<std::size_t>& block : BlocksOf(widths, kTableWidth)) {
+    std::vector<TextColumn> shown;
+    for (const std::size_t i : block) shown.push_back(columns[i]);
+    text += Joined({text.empty() ? "" : "\n", ColumnsText(shown)});
+  }
+  return Joined({table.title, "\n", table.note.empty() ? "" : Paragraph(table.note), text});
 }
 
 std::string PairsText(const std::vector<std::pair<std::string, std::string>>& pairs) {
@@ -138,6 +132,21 @@ std::string PairsText(const std::vector<std::pair<std::string, std::string>>& pa
 }
 
 }  // namespace
+
+std::vector<std::vector<std::size_t>> BlocksOf(const std::vector<std::size_t>& widths,
+                                               std::size_t max_width) {
+  std::vector<std::vector<std::size_t>> blocks(1);
+  std::size_t width = 0;
+  for (std::size_t i = 0; i < widths.size(); ++i) {
+    if (blocks.back().size() > 1 && width + widths[i] > max_width) {
+      blocks.push_back({0});
+      width = widths[0];
+    }
+    blocks.back().push_back(i);
+    width += widths[i];
+  }
+  return blocks;
+}
 
 std::string HeadlinesText(const Report& report) {
   std::vector<std::pair<std::string, std::string>> lines;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/number_text.h"
-
 namespace railcast {
 
 Bins::Bins(std::vector<double> edges) : edges_(std::move(edges)) {}
@@ -13,13 +11,6 @@ std::optional<std::size_t> Bins::Find(double value) const {
   if (!(value >= edges_.front() && value < edges_.back())) return std::nullopt;
   const auto above = std::upper_bound(edges_.begin(), edges_.end(), value);
   return static_cast<std::size_t>(above - edges_.begin()) - 1;
-}
-
-std::string Bins::Name(std::size_t bin) const {
-  std::string name = NumberText(low(bin));
-  name += " to ";
-  name += NumberText(high(bin));
-  return name;
 }
 
 const Bins& RangeBins() {

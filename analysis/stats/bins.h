@@ -2,8 +2,9 @@
 
 #include <cstddef>
 #include <optional>
-#include <string>
 #include <vector>
+
+#include "analysis/report/report.h"
 
 namespace railcast {
 
@@ -13,23 +14,29 @@ class Bins {
   explicit Bins(std::vector<double> edges);
 
   [[nodiscard]] std::size_t size() const { return edges_.size() - 1; }
-  /// Nothing for NaN and for what lies outside.
+  /// Returns nothing for NaN and for values outside the edges.
   [[nodiscard]] std::optional<std::size_t> Find(double value) const;
-  [[nodiscard]] double low(std::size_t bin) const { return edges_[bin]; }
-  [[nodiscard]] double high(std::size_t bin) const { return edges_[bin + 1]; }
-  [[nodiscard]] double middle(std::size_t bin) const { return 0.5 * (low(bin) + high(bin)); }
-  /// "20 to 30".
-  [[nodiscard]] std::string Name(std::size_t bin) const;
+  [[nodiscard]] double middle(std::size_t bin) const {
+    return 0.5 * (edges_[bin] + edges_[bin + 1]);
+  }
+  [[nodiscard]] Span span(std::size_t bin) const { return {edges_[bin], edges_[bin + 1]}; }
 
  private:
   std::vector<double> edges_;
 };
 
-/// Of tables, in metres: narrow near the sensor, where most points are.
+/// Bins of the tables, in metres: narrow near the sensor, where most points are.
 [[nodiscard]] const Bins& RangeBins();
-/// Of power laws, in metres: four an octave.
+/// Bins for power-law fits, in metres: four per octave.
 [[nodiscard]] const Bins& FineRangeBins();
-/// In degrees, 10 wide.
+/// Bins of incidence in degrees, 10 wide.
 [[nodiscard]] const Bins& IncidenceBins();
+
+/// Adds each element of `others` to its counterpart; `sums` grows to the larger size.
+template <typename Sum>
+void AddEach(std::vector<Sum>& sums, const std::vector<Sum>& others) {
+  if (sums.size() < others.size()) sums.resize(others.size());
+  for (std::size_t i = 0; i < others.size(); ++i) sums[i].Add(others[i]);
+}
 
 }  // namespace railcast

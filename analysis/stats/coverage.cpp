@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "analysis/stats/headings.h"
+#include "analysis/report/chart_columns.h"
 #include "core/io/recording/firing_truth.h"
 
 namespace railcast {
@@ -14,11 +14,11 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kSector_deg = 5.0;
 constexpr std::size_t kNumSectors = 72;
 
-// How many squares of 1 m hold a point.
+// Number of squares of 1 m that hold a point.
 std::uint64_t CountCells(const Frame& frame) {
   std::vector<std::uint64_t> cells;
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
-    // Also where the range is no number.
+    // Negated so that NaN is skipped, too.
     constexpr float kFarthest_m = 1e9F;
     if (!(frame.range_m[slot] < kFarthest_m)) continue;
     const auto x = static_cast<std::int32_t>(std::floor(frame.x[slot]));
@@ -80,79 +80,74 @@ void Coverage::Add(const Coverage& other) {
 }
 
 Section Coverage::MakeSection(const Names& names) const {
-  Section section;
-  section.key = "coverage";
-  section.title = "Coverage";
-  section.paragraphs = {"Occupancy counts the squares of 1 m, seen from above, that hold a point."};
-  Table frames;
-  frames.key = "frames";
-  frames.title = "A frame";
-  frames.note =
+  Section section{"coverage",
+                  "Coverage",
+                  {"Occupancy counts the squares of 1 m, seen from above, that hold a point."},
+                  {},
+                  {}};
+  Table frames = {
+      "frames",
+      "A frame",
       "Means over frames; consecutive frames resemble each other, so that the intervals "
-      "are those of this stretch of line.";
-  frames.columns = {{"figure", "Figure", ""}, {"mean", "Mean", ""}};
-  frames.rows = {{std::string("points"), PointsPerFrame()},
-                 {std::string("squares of 1 m with a point"), OccupiedCells()}};
+      "are those of this stretch of line.",
+      {{"figure", "Figure", ""}, {"mean", "Mean", ""}},
+      {{std::string("points"), PointsPerFrame()},
+       {std::string("squares of 1 m with a point"), OccupiedCells()}}};
   section.tables.push_back(std::move(frames));
 
   if (!labels_.empty()) {
-    Table labels;
-    labels.key = "points_by_label";
-    labels.title = "Points by label";
-    labels.note = "Per frame that has any.";
-    labels.columns = {{"label", "Label", ""}, {"points", "Points", ""}};
+    Table labels = {"points_by_label",
+                    "Points by label",
+                    "Per frame that has any.",
+                    {{"label", "Label", ""}, {"points", "Points", ""}},
+                    {}};
     for (const auto& [label, points] : labels_) {
       labels.rows.push_back({names.OfLabel(label), points.Mean()});
     }
     section.tables.push_back(std::move(labels));
   }
 
-  Table rings;
-  rings.key = "rings";
-  rings.title = "Rings";
-  rings.note = "Firings known to have met the own vehicle do not count.";
-  rings.columns = {{"ring", "Ring", ""},
-                   {"elevation_deg", "Elevation", "deg"},
-                   {"firings", "Firings", ""},
-                   {"with_point", "With a point", ""}};
-  Chart ring_chart;
-  ring_chart.key = "rings";
-  ring_chart.title = "Firings with a point by ring";
-  ring_chart.x = {"Ring, 0 the lowest", ""};
-  ring_chart.y = {"Share", ""};
-  ChartSeries share{"share", SeriesStyle::kLinePoints, {}};
+  Table rings = {"rings",
+                 "Rings",
+                 "Firings known to have met the own vehicle do not count.",
+                 {{"ring", "Ring", ""},
+                  {"elevation_deg", "Elevation", "deg"},
+                  {"firings", "Firings", ""},
+                  {"with_point", "With a point", ""}},
+                 {}};
   for (std::size_t i = 0; i < rings_.size(); ++i) {
-    const Estimate with_point = Proportion(rings_[i].num_points, rings_[i].num_firings);
-    rings.rows.push_back(
-        {std::uint64_t{i}, rings_[i].elevation_deg.PlainMean(), rings_[i].num_firings, with_point});
-    share.points.push_back(PointAt(static_cast<double>(i), with_point));
+    rings.rows.push_back({std::uint64_t{i}, rings_[i].elevation_deg.PlainMean(),
+                          rings_[i].num_firings,
+                          Proportion(rings_[i].num_points, rings_[i].num_firings)});
   }
-  ring_chart.series.push_back(std::move(share));
   if (!rings_.empty()) {
+    section.charts.push_back({"rings",
+                              "Firings with a point by ring",
+                              "",
+                              {"Ring, 0 the lowest", ""},
+                              {"Share", ""},
+                              {SeriesOf(rings, {"ring", "with_point"}, "share")}});
     section.tables.push_back(std::move(rings));
-    section.charts.push_back(std::move(ring_chart));
   }
 
-  Table sectors;
-  sectors.key = "azimuth";
-  sectors.title = "Azimuth";
-  sectors.columns = {{"azimuth_deg", "Azimuth, left positive", "deg"},
-                     {"points", "Points a frame", ""}};
-  Chart sector_chart;
-  sector_chart.key = "azimuth";
-  sector_chart.title = "Points by azimuth";
-  sector_chart.x = {"Azimuth, left positive", "deg"};
-  sector_chart.y = {"Points per 5 deg and frame", ""};
-  ChartSeries points{"points", SeriesStyle::kLinePoints, {}};
+  Table sectors = {
+      "azimuth",
+      "Azimuth",
+      "",
+      {{"azimuth_deg", "Azimuth, left positive", "deg"}, {"points", "Points a frame", ""}},
+      {}};
   for (std::size_t i = 0; i < sectors_.size(); ++i) {
     const double middle_deg = -180.0 + (static_cast<double>(i) + 0.5) * kSector_deg;
     const Estimate rate = PoissonRate(sectors_[i], static_cast<double>(num_frames()));
     if (sectors_[i] > 0) sectors.rows.push_back({middle_deg, rate});
-    if (rate.is_enough()) points.points.push_back(PointAt(middle_deg, rate));
   }
-  sector_chart.series.push_back(std::move(points));
+  section.charts.push_back({"azimuth",
+                            "Points by azimuth",
+                            "",
+                            {"Azimuth, left positive", "deg"},
+                            {"Points per 5 deg and frame", ""},
+                            {SeriesOf(sectors, {"azimuth_deg", "points"}, "points")}});
   section.tables.push_back(std::move(sectors));
-  section.charts.push_back(std::move(sector_chart));
   return section;
 }
 

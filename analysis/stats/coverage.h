@@ -7,16 +7,16 @@
 #include "analysis/estimate/moments.h"
 #include "analysis/report/report.h"
 #include "analysis/stats/names.h"
-#include "core/io/recording/recording.h"
 #include "core/io/recording/scan_table.h"
+#include "railcast/io/recording.h"
 
 namespace railcast {
 
-/// Where the points are: how many a frame, by label, ring and azimuth, and how much ground they
-/// touch.
+/// Where the points are: number per frame, by label, ring and azimuth, and the ground area they
+/// cover.
 class Coverage {
  public:
-  /// @param scan Null if the frame is no grid.
+  /// @param scan Null if the frame is not a grid.
   void Add(const RecordedFrame& recorded, const ScanTable* scan);
   void Add(const Coverage& other);
 
@@ -24,7 +24,7 @@ class Coverage {
   [[nodiscard]] std::uint64_t num_points() const { return num_points_; }
   /// Mean over frames.
   [[nodiscard]] Estimate PointsPerFrame() const { return points_.Mean(); }
-  /// Squares of 1 m, seen from above, with at least one point; mean over frames.
+  /// Number of 1 m squares, seen from above, with at least one point; mean over frames.
   [[nodiscard]] Estimate OccupiedCells() const { return cells_.Mean(); }
   [[nodiscard]] Section MakeSection(const Names& names) const;
 

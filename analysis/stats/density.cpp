@@ -6,23 +6,22 @@
 #include <numbers>
 #include <optional>
 
+#include "analysis/report/chart_columns.h"
 #include "analysis/stats/bins.h"
-#include "analysis/stats/headings.h"
-#include "analysis/stats/sums.h"
-#include "core/base/transform.h"
 #include "core/io/recording/firing_truth.h"
+#include "railcast/transform.h"
 
 namespace railcast {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-/// Adds to the curve of a key, looked up anew only where the key changes.
+/// Adds to the curve of a key; the map is only searched when the key changes.
 template <typename Key>
-void AddTo(std::map<Key, Density::Curve>& curves,
-           const Key& key,
-           double range_m,
-           const Density::Count& count) {
+void AddToBand(std::map<Key, Density::Curve>& curves,
+               const Key& key,
+               double range_m,
+               const Density::Count& count) {
   const auto bin = FineRangeBins().Find(range_m);
   if (!bin) return;
   Density::Curve& curve = curves[key];
@@ -41,25 +40,26 @@ Vector3 PointIn(const Frame& frame, std::size_t row, std::size_t column) {
           static_cast<double>(frame.z[slot])};
 }
 
-/// The range halfway between two points if they lie on a plane: 1 / range is linear in the angles.
-/// NaN where one of them is missing.
+/// The range halfway between two points if they lie on a plane: 1 / range is
+/// then linear in the angles. NaN if one of the points is missing.
 double HalfwayRange_m(const Vector3& one, const Vector3& other) {
   return 2.0 / (1.0 / one.norm() + 1.0 / other.norm());
 }
 
-/// A firing of the grid and the surface about it.
+/// A firing of the grid and the surface around it.
 struct Place {
-  Vector3 area_m2;   ///< That it stands for, along the surface's normal.
-  double range_m{};  ///< Where its neighbours say that the surface is.
+  Vector3 area_m2;   ///< Area that it represents, along the surface's normal.
+  double range_m{};  ///< Range of the surface as its neighbours imply.
   bool has_point{};
 };
 
-/// Nothing if not all four neighbours are there, on one surface, or if the firing met another one
-/// before it. @pre Not in the first or last row or column.
-std::optional<Place> LookAt(const Frame& frame,
-                            const ScanTable& scan,
-                            std::size_t row,
-                            std::size_t column) {
+/// Returns nothing unless all four neighbours exist on one surface, or if the firing met another
+/// surface in front of it.
+/// @pre The firing is not in the first or last row or column.
+std::optional<Place> LookAtPoint(const Frame& frame,
+                                 const ScanTable& scan,
+                                 std::size_t row,
+                                 std::size_t column) {
   constexpr double kTolerance = 0.05;
   const Vector3 left = PointIn(frame, row, column - 1);
   const Vector3 right = PointIn(frame, row, column + 1);
@@ -96,16 +96,15 @@ std::uint64_t NumPoints(const Density::Curve& curve) {
 }
 
 Table LawTable(const NamedCurves& curves) {
-  Table table;
-  table.key = "density_laws";
-  table.title = "Fitted power laws";
-  table.note =
-      "density = factor x range^exponent, from the bins with 10 points or more; samples "
-      "of the exponent are bins.";
-  table.columns = {{"surface", "Surface", ""},
-                   {"points", "Points", ""},
-                   {"exponent", "Exponent", ""},
-                   {"per_m2_at_10_m", "Density at 10 m", "1/m2"}};
+  Table table = {"density_laws",
+                 "Fitted power laws",
+                 "density = factor x range^exponent, from the bins with 10 points or more; samples "
+                 "of the exponent are bins.",
+                 {{"surface", "Surface", ""},
+                  {"points", "Points", ""},
+                  {"exponent", "Exponent", ""},
+                  {"per_m2_at_10_m", "Density at 10 m", "1/m2"}},
+                 {}};
   for (const auto& [name, curve] : curves) {
     const PowerLaw law = Density::LawOf(*curve);
     constexpr double kReference_m = 10.0;
@@ -115,17 +114,17 @@ Table LawTable(const NamedCurves& curves) {
 }
 
 Table CurveTable(const NamedCurves& curves) {
-  Table table;
-  table.key = "density_by_range";
-  table.title = "Density by range";
-  table.note =
+  Table table = {
+      "density_by_range",
+      "Density by range",
       "Intervals are those of counts of independent points (Garwood): wider than a regular "
-      "grid needs.";
-  table.columns = {{"surface", "Surface", ""},
-                   {"range_m", "Range", "m"},
-                   {"area_m2", "Area seen", "m2"},
-                   {"per_m2", "Density", "1/m2"},
-                   {"per_sr", "Density", "1/sr"}};
+      "grid needs.",
+      {{"surface", "Surface", ""},
+       {"range_m", "Range", "m"},
+       {"area_m2", "Area seen", "m2"},
+       {"per_m2", "Density", "1/m2"},
+       {"per_sr", "Density", "1/sr"}},
+      {}};
   for (const auto& [name, curve] : curves) {
     for (std::size_t i = 0; i < curve->size(); ++i) {
       const Density::Count& count = (*curve)[i];
@@ -138,31 +137,20 @@ Table CurveTable(const NamedCurves& curves) {
   return table;
 }
 
-// The curves with most points: more would hide each other.
+// Charts the curves with most points; more would hide each other.
 Chart CurveChart(NamedCurves curves) {
   constexpr std::size_t kMaxSeries = 6;
   std::stable_sort(curves.begin(), curves.end(), [](const auto& a, const auto& b) {
     return NumPoints(*a.second) > NumPoints(*b.second);
   });
   if (curves.size() > kMaxSeries) curves.resize(kMaxSeries);
-  Chart chart;
-  chart.key = "density_by_range";
-  chart.title = "Points per square metre of surface against range";
-  chart.caption =
-      "The surfaces with most points. Without losses a uniform raster gives -3 on level "
-      "ground and -2 on faces met under one incidence.";
-  chart.x = {"Range", "m", true};
-  chart.y = {"Density", "1/m2", true};
-  for (const auto& [name, curve] : curves) {
-    ChartSeries series{name, SeriesStyle::kLinePoints, {}};
-    for (std::size_t i = 0; i < curve->size(); ++i) {
-      const Density::Count& count = (*curve)[i];
-      const Estimate density = PoissonRate(count.num_points, count.area_m2);
-      if (density.is_enough()) series.points.push_back(PointAt(count.range_m(), density));
-    }
-    if (!series.points.empty()) chart.series.push_back(std::move(series));
-  }
-  return chart;
+  return {"density_by_range",
+          "Points per square metre of surface against range",
+          "The surfaces with most points. Without losses a uniform raster gives -3 on level ground "
+          "and -2 on faces met under one incidence.",
+          {"Range", "m", true},
+          {"Density", "1/m2", true},
+          SeriesByName(CurveTable(curves), {"range_m", "per_m2", "", "surface"})};
 }
 
 }  // namespace
@@ -204,12 +192,12 @@ void Density::AddFromTruth(const RecordedFrame& recorded, const ScanTable& scan)
     const double solid_angle_sr = scan.SolidAngle_sr(slot / frame.width());
     const double range_m = static_cast<double>(frame.true_range_m[slot]);
     const double cosine = std::cos(static_cast<double>(frame.incidence_rad[slot]));
-    // A surface seen edge on has no area that could be told.
+    // The area of a surface seen edge-on is undefined.
     constexpr double kLeastCosine = 1e-4;
     if (!(solid_angle_sr > 0.0) || !(cosine > kLeastCosine)) continue;
-    AddTo(by_label_, frame.label[slot], range_m,
-          {1, frame.outcome[slot] == Outcome::kReturned ? 1U : 0U,
-           solid_angle_sr * range_m * range_m / cosine, solid_angle_sr, std::log(range_m)});
+    AddToBand(by_label_, frame.label[slot], range_m,
+              {1, frame.outcome[slot] == Outcome::kReturned ? 1U : 0U,
+               solid_angle_sr * range_m * range_m / cosine, solid_angle_sr, std::log(range_m)});
   }
 }
 
@@ -218,11 +206,11 @@ void Density::AddFromPoints(const Frame& frame, const ScanTable& scan) {
     const double solid_angle_sr = scan.SolidAngle_sr(row);
     if (!(solid_angle_sr > 0.0)) continue;
     for (std::size_t column = 1; column + 1 < frame.columns; ++column) {
-      const auto place = LookAt(frame, scan, row, column);
+      const auto place = LookAtPoint(frame, scan, row, column);
       if (!place || !(place->area_m2.norm() > 0.0)) continue;
-      AddTo(by_attitude_, AttitudeOf(place->area_m2), place->range_m,
-            {1, place->has_point ? 1U : 0U, place->area_m2.norm(), solid_angle_sr,
-             std::log(place->range_m)});
+      AddToBand(by_attitude_, AttitudeOf(place->area_m2), place->range_m,
+                {1, place->has_point ? 1U : 0U, place->area_m2.norm(), solid_angle_sr,
+                 std::log(place->range_m)});
     }
   }
 }
@@ -233,9 +221,7 @@ void Density::Add(const Density& other) {
 }
 
 Section Density::MakeSection(const Names& names) const {
-  Section section;
-  section.key = "density";
-  section.title = "Density against range";
+  Section section{"density", "Density against range", {}, {}, {}};
   NamedCurves curves;
   for (const auto& [label, curve] : by_label_) curves.emplace_back(names.OfLabel(label), &curve);
   if (!by_label_.empty()) {

@@ -9,8 +9,8 @@
 #include "analysis/estimate/power_law.h"
 #include "analysis/report/report.h"
 #include "analysis/stats/names.h"
-#include "core/io/recording/recording.h"
 #include "core/io/recording/scan_table.h"
+#include "railcast/io/recording.h"
 
 namespace railcast {
 
@@ -24,23 +24,23 @@ namespace railcast {
 /// stands: level (normal within 20 deg of up), upright (beyond 70 deg) or slanted.
 ///
 /// With a uniform raster and no losses the slope is -3 on level ground (the incidence grows with
-/// range) and -2 on faces met under the same incidence everywhere (physics.md 1.5).
+/// range) and -2 on faces met under the same incidence everywhere (docs/physics.md 1.5).
 class Density {
  public:
-  /// Frames without a grid are passed over.
+  /// Frames without a grid are skipped.
   /// @param scan Of the frame; null if it has none.
   void Add(const RecordedFrame& recorded, const ScanTable* scan);
   void Add(const Density& other);
 
-  /// In one bin of range, on one kind of surface.
+  /// Counts in one bin of range on one kind of surface.
   struct Count {
-    std::uint64_t num_firings{};  ///< That met the surface, ...
+    std::uint64_t num_firings{};  ///< Firings that met the surface ...
     std::uint64_t num_points{};   ///< ... and their points.
     double area_m2{};
     double solid_angle_sr{};
-    double sum_of_logs{};  ///< Of the firings, in metres.
+    double sum_of_logs{};  ///< Sum of the logarithms of the firings' ranges in metres.
 
-    /// Geometric mean of the firings' ranges, which may lie anywhere in a bin.
+    /// Geometric mean of the firings' ranges, which need not be centred in the bin.
     [[nodiscard]] double range_m() const {
       return std::exp(sum_of_logs / static_cast<double>(num_firings));
     }
@@ -50,11 +50,11 @@ class Density {
   using Curve = std::vector<Count>;
 
   [[nodiscard]] bool is_empty() const { return by_label_.empty() && by_attitude_.empty(); }
-  /// Fitted to the bins with at least kMinSamples points.
+  /// Power law fitted to the bins with at least kMinSamples points.
   [[nodiscard]] static PowerLaw LawOf(const Curve& curve);
-  /// By label: from the truth.
+  /// By label, from the truth.
   [[nodiscard]] const std::map<std::uint32_t, Curve>& by_label() const { return by_label_; }
-  /// By "level", "slanted", "upright": from the points alone.
+  /// By "level", "slanted" or "upright", from the points alone.
   [[nodiscard]] const std::map<std::string, Curve>& by_attitude() const { return by_attitude_; }
 
   [[nodiscard]] Section MakeSection(const Names& names) const;

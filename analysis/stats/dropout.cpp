@@ -1,12 +1,10 @@
 #include "analysis/stats/dropout.h"
 
 #include <algorithm>
-#include <functional>
 #include <numbers>
 
+#include "analysis/report/chart_columns.h"
 #include "analysis/stats/bins.h"
-#include "analysis/stats/headings.h"
-#include "analysis/stats/sums.h"
 #include "core/io/recording/firing_truth.h"
 
 namespace railcast {
@@ -14,13 +12,13 @@ namespace {
 
 using Count = Dropout::Count;
 
-// Causes for which a surface that was met brings no point back.
+// Reasons why a surface that was met yields no point.
 constexpr Outcome kCauses[] = {Outcome::kOutOfRange, Outcome::kBelowThreshold,
                                Outcome::kRainAbsorbed, Outcome::kNearRange,
                                Outcome::kSensorDropout};
 
-/// Rows of a table: how each is called and what it counts.
-using NamedCounts = std::vector<std::pair<std::string, const Count*>>;
+/// Rows of a table: name and counts.
+using NamedCounts = std::vector<std::pair<Cell, const Count*>>;
 
 Table MakeTable(TableColumn first, const NamedCounts& counts) {
   Table table;
@@ -46,54 +44,35 @@ Table MakeTable(TableColumn first, const NamedCounts& counts) {
 NamedCounts InBins(const std::vector<Count>& counts, const Bins& bins) {
   NamedCounts named;
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    if (counts[i].num > 0) named.emplace_back(bins.Name(i), &counts[i]);
+    if (counts[i].num > 0) named.emplace_back(bins.span(i), &counts[i]);
   }
   return named;
 }
 
-// Against range: all causes together and each.
-Chart RangeChart(const std::vector<Count>& by_range) {
-  Chart chart;
-  chart.key = "dropout_by_range";
-  chart.title = "Dropout against range";
-  chart.caption =
-      "Share of the firings that met a surface at this true range and brought no point "
-      "of it back, by cause.";
-  chart.x = {"True range", "m"};
-  chart.y = {"Dropout", ""};
-  const auto add = [&](const std::string& title,
-                       const std::function<std::uint64_t(const Count&)>& f) {
-    ChartSeries series{title, SeriesStyle::kLinePoints, {}};
-    bool is_zero = true;
-    for (std::size_t i = 0; i < by_range.size(); ++i) {
-      const Count& count = by_range[i];
-      series.points.push_back(PointAt(RangeBins().middle(i), Proportion(f(count), count.num)));
-      is_zero = is_zero && f(count) == 0;
-    }
-    if (!is_zero) chart.series.push_back(std::move(series));
-  };
-  add("all causes", [](const Count& c) { return c.num - c.of(Outcome::kReturned); });
-  for (const Outcome cause : kCauses) {
-    add(InWords(OutcomeName(cause)), [cause](const Count& c) { return c.of(cause); });
+// Dropout by range for all causes together and for each.
+Chart DropoutChart(const Table& table) {
+  Chart chart = {table.key,
+                 "Dropout against range",
+                 "Share of the firings that met a surface at this true range and brought no point "
+                 "of it back, by cause.",
+                 {"True range", "m"},
+                 {"Dropout", ""},
+                 {}};
+  for (std::size_t i = 2; i < table.columns.size(); ++i) {
+    const TableColumn& column = table.columns[i];
+    chart.series.push_back(SeriesOf(table, {"true_range_m", column.key},
+                                    column.key == "dropout" ? "all causes" : column.title));
   }
   return chart;
 }
 
-Chart LabelChart(const NamedCounts& counts) {
-  Chart chart;
-  chart.key = "dropout_by_label";
-  chart.title = "Dropout by label";
-  chart.caption = "Over all ranges. Lines show the 95 % interval.";
-  chart.x = {"Label", ""};
-  chart.y = {"Dropout", ""};
-  ChartSeries series{"dropout", SeriesStyle::kBars, {}};
-  for (const auto& [name, count] : counts) {
-    const Estimate share = Proportion(count->num - count->of(Outcome::kReturned), count->num);
-    series.points.push_back(PointAt(static_cast<double>(chart.x.categories.size()), share));
-    chart.x.categories.push_back(name);
-  }
-  chart.series.push_back(std::move(series));
-  return chart;
+Chart LabelChart(const Table& table) {
+  return {table.key,
+          "Dropout by label",
+          "Over all ranges. Lines show the 95 % interval.",
+          {"Label", "", false, TextsOf(table, "label")},
+          {"Dropout", ""},
+          {SeriesOf(table, {"label", "dropout"}, "dropout", SeriesStyle::kBars)}};
 }
 
 }  // namespace
@@ -140,20 +119,22 @@ Estimate Dropout::Share() const {
 }
 
 Section Dropout::MakeSection(const Names& names) const {
-  Section section;
-  section.key = "dropout";
-  section.title = "Dropout, exact";
-  section.paragraphs = {
-      "Counted from the outcome of every firing. Dropout is the share of the firings that met a "
-      "surface within reach and brought no point of it back; firings into the open had nothing to "
-      "lose. Where clutter answered, the surface behind is unknown: those firings stand in the "
-      "first table only. Intervals take firings as independent (Wilson)."};
+  Section section{
+      "dropout",
+      "Dropout, exact",
+      {"Counted from the outcome of every firing. Dropout is the share of the firings that met a "
+       "surface within reach and brought no point of it back; firings into the open had nothing to "
+       "lose. Where clutter answered, the surface behind is unknown: those firings stand in the "
+       "first table only. Intervals take firings as independent (Wilson)."},
+      {},
+      {}};
 
-  Table outcomes;
-  outcomes.key = "outcomes";
-  outcomes.title = "What became of all firings";
-  outcomes.columns = {
-      {"outcome", "Outcome", ""}, {"firings", "Firings", ""}, {"share", "Share", ""}};
+  Table outcomes = {
+      "outcomes",
+      "What became of all firings",
+      "",
+      {{"outcome", "Outcome", ""}, {"firings", "Firings", ""}, {"share", "Share", ""}},
+      {}};
   for (std::size_t i = 0; i < kOutcomeNames.size(); ++i) {
     const std::uint64_t num = all_.outcomes[i];
     if (num == 0) continue;
@@ -162,15 +143,16 @@ Section Dropout::MakeSection(const Names& names) const {
   section.tables.push_back(std::move(outcomes));
 
   const auto add = [&](const char* key, const char* title, TableColumn first,
-                       const NamedCounts& counts) {
+                       const NamedCounts& counts, Chart (*chart_of)(const Table&) = nullptr) {
     if (counts.empty()) return;
     Table table = MakeTable(std::move(first), counts);
     table.key = key;
     table.title = title;
+    if (chart_of != nullptr) section.charts.push_back(chart_of(table));
     section.tables.push_back(std::move(table));
   };
   add("dropout_by_range", "Dropout by range", {"true_range_m", "True range", "m"},
-      InBins(by_range_, RangeBins()));
+      InBins(by_range_, RangeBins()), DropoutChart);
   add("dropout_by_incidence", "Dropout by incidence", {"incidence_deg", "Incidence", "deg"},
       InBins(by_incidence_, IncidenceBins()));
   NamedCounts labels, materials, rings;
@@ -179,12 +161,9 @@ Section Dropout::MakeSection(const Names& names) const {
   for (std::size_t i = 0; i < by_ring_.size(); ++i) {
     if (by_ring_[i].num > 0) rings.emplace_back(std::to_string(i), &by_ring_[i]);
   }
-  add("dropout_by_label", "Dropout by label", {"label", "Label", ""}, labels);
+  add("dropout_by_label", "Dropout by label", {"label", "Label", ""}, labels, LabelChart);
   add("dropout_by_material", "Dropout by material", {"material", "Material", ""}, materials);
   add("dropout_by_ring", "Dropout by ring", {"ring", "Ring", ""}, rings);
-
-  section.charts.push_back(RangeChart(by_range_));
-  if (!labels.empty()) section.charts.push_back(LabelChart(labels));
   return section;
 }
 

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/report/chart_columns.h"
 #include "analysis/stats/bins.h"
-#include "analysis/stats/headings.h"
-#include "analysis/stats/sums.h"
 #include "core/io/recording/firing_truth.h"
 
 namespace railcast {
@@ -31,13 +30,25 @@ Table CountTable(const std::vector<Holes::Count>& counts, const Bins* bins) {
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const auto& [num_expected, num_missing] = counts[i];
     if (num_expected == 0) continue;
-    table.rows.push_back({bins == nullptr ? std::to_string(i) : bins->Name(i), num_expected,
-                          Proportion(num_missing, num_expected)});
+    const Cell place = bins == nullptr ? Cell(std::to_string(i)) : Cell(bins->span(i));
+    table.rows.push_back({place, num_expected, Proportion(num_missing, num_expected)});
   }
   return table;
 }
 
 }  // namespace
+
+std::optional<double> RangeBetweenNeighbours_m(const Frame& frame,
+                                               std::size_t row,
+                                               std::size_t column) {
+  const float left_m = Range_m(frame, row, column - 1);
+  const float right_m = Range_m(frame, row, column + 1);
+  const float mean_m = 0.5F * (left_m + right_m);
+  const float tolerance_m = std::max(kTolerance_m, kRelativeTolerance * mean_m);
+  // Negated so that NaN counts as no surface.
+  if (!(std::abs(left_m - right_m) < tolerance_m)) return std::nullopt;
+  return static_cast<double>(mean_m);
+}
 
 void Holes::Add(const RecordedFrame& recorded) {
   const Frame& frame = recorded.frame;
@@ -62,16 +73,12 @@ void Holes::Add(const RecordedFrame& recorded) {
 }
 
 void Holes::AddFiring(const Frame& frame, std::size_t row, std::size_t column) {
-  const float left_m = Range_m(frame, row, column - 1);
-  const float right_m = Range_m(frame, row, column + 1);
-  const float mean_m = 0.5F * (left_m + right_m);
-  const float tolerance_m = std::max(kTolerance_m, kRelativeTolerance * mean_m);
-  // Also where one of them is NaN.
-  if (!(std::abs(left_m - right_m) < tolerance_m)) return;
+  const auto mean_m = RangeBetweenNeighbours_m(frame, row, column);
+  if (!mean_m) return;
   const Count count{1, std::isfinite(Range_m(frame, row, column)) ? 0U : 1U};
   all_.Add(count);
   by_ring_[row].Add(count);
-  if (const auto bin = RangeBins().Find(static_cast<double>(mean_m))) by_range_[*bin].Add(count);
+  if (const auto bin = RangeBins().Find(*mean_m)) by_range_[*bin].Add(count);
 }
 
 void Holes::Add(const Holes& other) {
@@ -83,50 +90,44 @@ void Holes::Add(const Holes& other) {
 }
 
 Section Holes::MakeSection() const {
-  Section section;
-  section.key = "holes";
-  section.title = "Dropout, estimated";
-  section.paragraphs = {
-      "From the points alone, as for any sensor: a firing whose two neighbours in its ring lie on "
-      "one surface (ranges within 5 % or 0.1 m) should have met it, too; without a point it is a "
-      "hole. Exact if losses are independent of each other, a lower bound where they cluster: "
-      "dark, "
-      "far and grazing patches. Columns without any point count as never fired, so that half a "
-      "turn is not half a loss; firings known to have met the own vehicle do not count."};
+  Section section{
+      "holes",
+      "Dropout, estimated",
+      {"From the points alone, as for any sensor: a firing whose two neighbours in its ring lie on "
+       "one surface (ranges within 5 % or 0.1 m) should have met it, too; without a point it is a "
+       "hole. Exact if losses are independent of each other, a lower bound where they cluster: "
+       "dark, "
+       "far and grazing patches. Columns without any point count as never fired, so that half a "
+       "turn is not half a loss; firings known to have met the own vehicle do not count."},
+      {},
+      {}};
 
-  Table fill;
-  fill.key = "grid";
-  fill.title = "The grid";
-  fill.columns = {{"figure", "Figure", ""}, {"num", "Firings", ""}, {"share", "Share", ""}};
-  fill.rows = {
-      {std::string("firings with a point (the rest: sky, too far, lost)"), num_firings_, Filled()},
-      {std::string("holes among firings between two points of one surface"), all_.num_expected,
-       Share()}};
+  Table fill = {
+      "grid",
+      "The grid",
+      "",
+      {{"figure", "Figure", ""}, {"num", "Firings", ""}, {"share", "Share", ""}},
+      {{std::string("firings with a point (the rest: sky, too far, lost)"), num_firings_, Filled()},
+       {std::string("holes among firings between two points of one surface"), all_.num_expected,
+        Share()}}};
   section.tables.push_back(std::move(fill));
   Table by_range = CountTable(by_range_, &RangeBins());
   by_range.key = "holes_by_range";
   by_range.title = "Holes by range";
   by_range.columns.front() = {"range_m", "Range of the neighbours", "m"};
+  section.charts.push_back(
+      {"holes_by_range",
+       "Holes in surfaces against range",
+       "Share of the firings between two points of one surface that have none.",
+       {"Range", "m"},
+       {"Holes", ""},
+       {SeriesOf(by_range, {"range_m", "holes"}, "holes")}});
   section.tables.push_back(std::move(by_range));
   Table by_ring = CountTable(by_ring_, nullptr);
   by_ring.key = "holes_by_ring";
   by_ring.title = "Holes by ring";
   by_ring.columns.front() = {"ring", "Ring", ""};
   section.tables.push_back(std::move(by_ring));
-
-  Chart chart;
-  chart.key = "holes_by_range";
-  chart.title = "Holes in surfaces against range";
-  chart.caption = "Share of the firings between two points of one surface that have none.";
-  chart.x = {"Range", "m"};
-  chart.y = {"Holes", ""};
-  ChartSeries series{"holes", SeriesStyle::kLinePoints, {}};
-  for (std::size_t i = 0; i < by_range_.size(); ++i) {
-    series.points.push_back(PointAt(
-        RangeBins().middle(i), Proportion(by_range_[i].num_missing, by_range_[i].num_expected)));
-  }
-  chart.series.push_back(std::move(series));
-  section.charts.push_back(std::move(chart));
   return section;
 }
 

@@ -1,25 +1,34 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "analysis/report/report.h"
-#include "core/io/recording/recording.h"
+#include "railcast/io/recording.h"
 
 namespace railcast {
 
+/// The range at which a firing should have met the surface that its two neighbours in its ring lie
+/// on: their mean if they differ by less than 5 % (0.1 m is always allowed), else nothing.
+/// @pre 0 < column < frame.columns - 1.
+[[nodiscard]] std::optional<double> RangeBetweenNeighbours_m(const Frame& frame,
+                                                             std::size_t row,
+                                                             std::size_t column);
+
 /// Dropout estimated from the points alone, for grids that do not say why a slot is empty.
 ///
-/// A firing whose two neighbours in its ring lie on one surface (their ranges differ by less than
-/// 5 %, and 0.1 m are always allowed) should have met that surface, too; if it has no point, it is
-/// a hole. The share of holes among such firings is the dropout if losses are independent of each
-/// other; where they cluster (dark, far or grazing patches) it is a lower bound. A sensor that is
-/// set to half a turn has no neighbours in the other half, and so no holes; nor do its columns
-/// without any point count where the share of firings with a point is asked for. Firings that are
-/// known to have met the own vehicle are left out of both: the scene has lost nothing there.
+/// A firing whose two neighbours in its ring lie on one surface (RangeBetweenNeighbours_m) should
+/// have met that surface, too; if it has no point, it is a hole. The share of holes among such
+/// firings is the dropout if losses are independent of each other; where they cluster (dark, far or
+/// grazing patches) it is a lower bound. A sensor that is set to half a turn has no neighbours, and
+/// so no holes, in the other half; its columns without any point are also excluded from the share
+/// of firings with a point. Firings that are known to have met the own vehicle are excluded from
+/// both, since the scene has lost nothing there.
 class Holes {
  public:
-  /// Frames that are no grids are passed over.
+  /// Frames that are not grids are skipped.
   void Add(const RecordedFrame& recorded);
   void Add(const Holes& other);
 
@@ -35,7 +44,7 @@ class Holes {
 
   [[nodiscard]] bool is_empty() const { return num_firings_ == 0; }
   [[nodiscard]] Estimate Share() const { return Proportion(all_.num_missing, all_.num_expected); }
-  /// Share of the firings with a point, sky and all.
+  /// Share of all firings, including those into the sky, with a point.
   [[nodiscard]] Estimate Filled() const { return Proportion(num_points_, num_firings_); }
   [[nodiscard]] Section MakeSection() const;
 

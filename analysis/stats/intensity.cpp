@@ -3,57 +3,44 @@
 #include <cmath>
 #include <numbers>
 
+#include "analysis/report/chart_columns.h"
 #include "analysis/stats/bins.h"
-#include "analysis/stats/headings.h"
-#include "analysis/stats/sums.h"
 
 namespace railcast {
 namespace {
 
 using Sum = Intensity::Sum;
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr double kDegreesPerRad = 180.0 / std::numbers::pi;
 
-/// Rows of a table: how each is called and what was summed.
-using NamedSums = std::vector<std::pair<std::string, const Sum*>>;
+/// Rows of a table: name and sums.
+using NamedSums = std::vector<std::pair<Cell, const Sum*>>;
 
-NamedSums InBins(const std::vector<Sum>& sums, const Bins& bins) {
+NamedSums IntensityInBins(const std::vector<Sum>& sums, const Bins& bins) {
   NamedSums named;
   for (std::size_t i = 0; i < sums.size(); ++i) {
-    if (sums[i].plain.num() > 0) named.emplace_back(bins.Name(i), &sums[i]);
+    if (sums[i].plain.num() > 0) named.emplace_back(bins.span(i), &sums[i]);
   }
   return named;
 }
 
-Table MakeTable(const char* key, const char* title, TableColumn first, const NamedSums& sums) {
-  Table table;
-  table.key = key;
-  table.title = title;
-  table.columns = {std::move(first), {"mean", "Mean", ""}, {"median", "Median", ""}};
+Table IntensityTable(const char* key, const char* title, TableColumn first, const NamedSums& sums) {
+  Table table = {
+      key, title, "", {std::move(first), {"mean", "Mean", ""}, {"median", "Median", ""}}, {}};
   for (const auto& [name, sum] : sums) {
     table.rows.push_back({name, sum->plain.Mean(), sum->robust.Median()});
   }
   return table;
 }
 
-Chart MakeChart(const char* key,
-                const char* title,
-                ChartAxis x,
-                const std::vector<Sum>& sums,
-                const Bins& bins) {
-  Chart chart;
-  chart.key = key;
-  chart.title = title;
-  chart.x = std::move(x);
-  chart.y = {"Intensity", ""};
-  ChartSeries mean{"mean", SeriesStyle::kLinePoints, {}};
-  ChartSeries median{"median", SeriesStyle::kLinePoints, {}};
-  for (std::size_t i = 0; i < sums.size(); ++i) {
-    mean.points.push_back(PointAt(bins.middle(i), sums[i].plain.Mean()));
-    median.points.push_back(PointAt(bins.middle(i), sums[i].robust.Median()));
-  }
-  chart.series = {std::move(mean), std::move(median)};
-  return chart;
+Chart MakeChart(const Table& table, const char* title, const ChartAxis& x) {
+  const std::string& place = table.columns.front().key;
+  return {table.key,
+          title,
+          "",
+          x,
+          {"Intensity", ""},
+          {SeriesOf(table, {place, "mean"}, "mean"), SeriesOf(table, {place, "median"}, "median")}};
 }
 
 }  // namespace
@@ -82,13 +69,13 @@ void Intensity::Add(const RecordedFrame& recorded, const std::vector<PlanePatch>
     if (bin) by_range_[*bin].Add(intensity);
     if (recorded.Has("label")) by_label_[frame.label[slot]].Add(intensity);
     if (!has_true_incidence_) continue;
-    const double incidence_deg = kDegrees * static_cast<double>(frame.incidence_rad[slot]);
+    const double incidence_deg = kDegreesPerRad * static_cast<double>(frame.incidence_rad[slot]);
     if (const auto place = IncidenceBins().Find(incidence_deg))
       by_incidence_[*place].Add(intensity);
   }
   if (has_true_incidence_) return;
   for (const PlanePatch& patch : patches) {
-    const auto bin = IncidenceBins().Find(kDegrees * patch.incidence_rad);
+    const auto bin = IncidenceBins().Find(kDegreesPerRad * patch.incidence_rad);
     if (bin) by_incidence_[*bin].Add(patch.intensity);
   }
 }
@@ -102,28 +89,26 @@ void Intensity::Add(const Intensity& other) {
 }
 
 Section Intensity::MakeSection(const Names& names) const {
-  Section section;
-  section.key = "intensity";
-  section.title = "Intensity";
+  Section section{"intensity", "Intensity", {}, {}, {}};
   section.paragraphs.emplace_back(has_true_incidence_
                                       ? "Of points, as recorded; incidence is the truth's."
                                       : "Of points, as recorded. Incidence is that of flat pieces "
                                         "of surface: their samples are "
                                         "pieces, and none is met under 60 deg or more.");
-  section.charts = {MakeChart("intensity_by_range", "Intensity against range", {"Range", "m"},
-                              by_range_, RangeBins()),
-                    MakeChart("intensity_by_incidence", "Intensity against incidence",
-                              {"Incidence", "deg"}, by_incidence_, IncidenceBins())};
   section.tables = {
-      MakeTable("intensity_by_range", "Intensity by range", {"range_m", "Range", "m"},
-                InBins(by_range_, RangeBins())),
-      MakeTable("intensity_by_incidence", "Intensity by incidence",
-                {"incidence_deg", "Incidence", "deg"}, InBins(by_incidence_, IncidenceBins()))};
+      IntensityTable("intensity_by_range", "Intensity by range", {"range_m", "Range", "m"},
+                     IntensityInBins(by_range_, RangeBins())),
+      IntensityTable("intensity_by_incidence", "Intensity by incidence",
+                     {"incidence_deg", "Incidence", "deg"},
+                     IntensityInBins(by_incidence_, IncidenceBins()))};
+  section.charts = {
+      MakeChart(section.tables[0], "Intensity against range", {"Range", "m"}),
+      MakeChart(section.tables[1], "Intensity against incidence", {"Incidence", "deg"})};
   if (!by_label_.empty()) {
     NamedSums labels;
     for (const auto& [label, sum] : by_label_) labels.emplace_back(names.OfLabel(label), &sum);
     section.tables.push_back(
-        MakeTable("intensity_by_label", "Intensity by label", {"label", "Label", ""}, labels));
+        IntensityTable("intensity_by_label", "Intensity by label", {"label", "Label", ""}, labels));
   }
   return section;
 }

@@ -10,17 +10,17 @@
 #include "analysis/report/report.h"
 #include "analysis/stats/names.h"
 #include "analysis/stats/plane_patches.h"
-#include "core/io/recording/recording.h"
+#include "railcast/io/recording.h"
 
 namespace railcast {
 
 /// Intensity of points against range and incidence, and by label.
 ///
-/// Incidence is the truth's where frames have it; else that of flat pieces of surface
-/// (plane_patches.h), whose samples are pieces, not points.
+/// The incidence is the true one where frames have it, else that of flat pieces of surface
+/// (plane_patches.h), whose samples are pieces rather than points.
 class Intensity {
  public:
-  /// Frames without intensity are passed over.
+  /// Frames without intensity are skipped.
   void Add(const RecordedFrame& recorded, const std::vector<PlanePatch>& patches);
   void Add(const Intensity& other);
 

@@ -1,15 +1,24 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "core/frame/labels.h"
-#include "core/io/recording/recording.h"
+#include "railcast/frame.h"
+#include "railcast/io/recording.h"
 
 namespace railcast {
 
-/// What a recording calls its labels and materials; their numbers where it has no names.
+/// Turns "below_threshold" into "below threshold".
+[[nodiscard]] inline std::string InWords(std::string_view key) {
+  std::string words(key);
+  std::ranges::replace(words, '_', ' ');
+  return words;
+}
+
+/// Names of a recording's labels and materials, or their numbers where it has no names.
 class Names {
  public:
   explicit Names(const RecordingInfo& info) : labels_(info.labels), materials_(info.materials) {}

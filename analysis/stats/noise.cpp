@@ -3,9 +3,8 @@
 #include <cmath>
 
 #include "analysis/estimate/intervals.h"
+#include "analysis/report/chart_columns.h"
 #include "analysis/stats/bins.h"
-#include "analysis/stats/headings.h"
-#include "analysis/stats/sums.h"
 #include "core/io/recording/firing_truth.h"
 
 namespace railcast {
@@ -16,31 +15,32 @@ Estimate PooledSigma(double squares, double degrees, std::uint64_t num_patches) 
   return ScaleEstimate(std::sqrt(squares / degrees), degrees, num_patches);
 }
 
-// The median of sqrt(chi-squared / degrees), by the cube root's normal approximation (Wilson and
-// Hilferty 1931): what half of the patches lie below if sigma is 1.
+// The median of sqrt(chi-squared / degrees), by the
+// cube-root normal approximation (Wilson and Hilferty 1931): half of the patches
+// have a standard deviation below it if sigma is 1.
 double MedianOfSigma(double degrees) {
   return std::pow(1.0 - 2.0 / (9.0 * degrees), 1.5);
 }
 
-Table PlaneTable(const std::vector<Noise::Planes>& planes) {
-  Table table;
-  table.key = "noise_from_planes";
-  table.title = "Noise about local planes";
-  table.note =
+Table NoisePlaneTable(const std::vector<Noise::Planes>& planes) {
+  Table table = {
+      "noise_from_planes",
+      "Noise about local planes",
       "Samples are patches of about 25 points. Robust: median over patches. Roughness counts "
-      "as noise.";
-  table.columns = {{"range_m", "Range", "m"},
-                   {"points", "Points", ""},
-                   {"outliers", "Outliers", ""},
-                   {"range_sigma_mm", "Along the beam", "mm"},
-                   {"robust_range_sigma_mm", "Along the beam, robust", "mm"},
-                   {"plane_sigma_mm", "Square to the plane", "mm"},
-                   {"robust_plane_sigma_mm", "Square to the plane, robust", "mm"}};
+      "as noise.",
+      {{"range_m", "Range", "m"},
+       {"points", "Points", ""},
+       {"outliers", "Outliers", ""},
+       {"range_sigma_mm", "Along the beam", "mm"},
+       {"robust_range_sigma_mm", "Along the beam, robust", "mm"},
+       {"plane_sigma_mm", "Square to the plane", "mm"},
+       {"robust_plane_sigma_mm", "Square to the plane, robust", "mm"}},
+      {}};
   constexpr double kMm = 1e3;
   for (std::size_t i = 0; i < planes.size(); ++i) {
     const Noise::Planes& bin = planes[i];
     if (bin.num_points == 0) continue;
-    table.rows.push_back({RangeBins().Name(i), bin.num_points,
+    table.rows.push_back({RangeBins().span(i), bin.num_points,
                           Proportion(bin.num_outliers, bin.num_points + bin.num_outliers),
                           Scaled(bin.RangeSigma_m(), kMm), Scaled(bin.RobustRangeSigma_m(), kMm),
                           Scaled(bin.PlaneSigma_m(), kMm), Scaled(bin.RobustPlaneSigma_m(), kMm)});
@@ -49,33 +49,23 @@ Table PlaneTable(const std::vector<Noise::Planes>& planes) {
 }
 
 Table TruthTable(const std::vector<Noise::Truth>& truth) {
-  Table table;
-  table.key = "noise_from_truth";
-  table.title = "Measured less true range";
-  table.note = "Of all points on surfaces.";
-  table.columns = {{"range_m", "Range", "m"},
-                   {"bias_mm", "Bias", "mm"},
-                   {"sigma_mm", "Standard deviation", "mm"},
-                   {"robust_sigma_mm", "Standard deviation, robust", "mm"}};
+  Table table = {"noise_from_truth",
+                 "Measured less true range",
+                 "Of all points on surfaces.",
+                 {{"range_m", "Range", "m"},
+                  {"bias_mm", "Bias", "mm"},
+                  {"sigma_mm", "Standard deviation", "mm"},
+                  {"robust_sigma_mm", "Standard deviation, robust", "mm"}},
+                 {}};
   constexpr double kMm = 1e3;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const Noise::Truth& bin = truth[i];
     if (bin.errors_m.num() == 0) continue;
-    table.rows.push_back({RangeBins().Name(i), Scaled(bin.errors_m.Mean(), kMm),
+    table.rows.push_back({RangeBins().span(i), Scaled(bin.errors_m.Mean(), kMm),
                           Scaled(bin.errors_m.StandardDeviation(), kMm),
                           Scaled(bin.robust_errors_m.RobustScale(), kMm)});
   }
   return table;
-}
-
-template <typename Bin, typename Figure>
-ChartSeries SeriesOf(const std::string& title, const std::vector<Bin>& bins, Figure figure) {
-  constexpr double kMm = 1e3;
-  ChartSeries series{title, SeriesStyle::kLinePoints, {}};
-  for (std::size_t i = 0; i < bins.size(); ++i) {
-    series.points.push_back(PointAt(RangeBins().middle(i), Scaled(figure(bins[i]), kMm)));
-  }
-  return series;
 }
 
 }  // namespace
@@ -123,7 +113,7 @@ void Noise::Add(const RecordedFrame& recorded, const std::vector<PlanePatch>& pa
   truth_.resize(RangeBins().size());
   const Frame& frame = recorded.frame;
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
-    // Of files that hold points only, all outcomes are not known.
+    // In files that only hold points, no outcome is known.
     const bool is_known = recorded.Has("outcome");
     if (is_known && frame.outcome[slot] != Outcome::kReturned) continue;
     if (!std::isfinite(frame.range_m[slot])) continue;
@@ -142,33 +132,33 @@ void Noise::Add(const Noise& other) {
 }
 
 Section Noise::MakeSection() const {
-  Section section;
-  section.key = "noise";
-  section.title = "Range noise";
-  section.paragraphs = {
-      "From small flat pieces of surface: RANSAC, then least squares without outliers, met under "
-      "less than 60 deg. Along the beam it is the range noise of a sensor that errs along its "
-      "beams; "
-      "square to the plane, that of positions that err alike in all directions, as the published "
-      "noise does. What is rough counts as noise: on ballast and grass this is an upper bound."};
-  Chart chart;
-  chart.key = "noise_by_range";
-  chart.title = "Range noise against range";
-  chart.x = {"Range", "m"};
-  chart.y = {"Standard deviation", "mm"};
-  chart.series = {SeriesOf("planes, along the beam", planes_,
-                           [](const Planes& bin) { return bin.RobustRangeSigma_m(); }),
-                  SeriesOf("planes, square to them", planes_,
-                           [](const Planes& bin) { return bin.RobustPlaneSigma_m(); })};
-  chart.caption = "Robust estimates.";
+  Section section{
+      "noise",
+      "Range noise",
+      {"From small flat pieces of surface: RANSAC, then least squares without outliers, met under "
+       "less than 60 deg. Along the beam it is the range noise of a sensor that errs along its "
+       "beams; "
+       "square to the plane, that of positions that err alike in all directions, as the published "
+       "noise does. What is rough counts as noise: on ballast and grass this is an upper bound."},
+      {},
+      {}};
+  const Table planes = NoisePlaneTable(planes_);
+  Chart chart = {
+      "noise_by_range",
+      "Range noise against range",
+      "Robust estimates.",
+      {"Range", "m"},
+      {"Standard deviation", "mm"},
+      {SeriesOf(planes, {"range_m", "robust_range_sigma_mm"}, "planes, along the beam"),
+       SeriesOf(planes, {"range_m", "robust_plane_sigma_mm"}, "planes, square to them")}};
   if (!truth_.empty()) {
-    chart.series.push_back(SeriesOf("measured less true range", truth_, [](const Truth& bin) {
-      return bin.robust_errors_m.RobustScale();
-    }));
-    section.tables.push_back(TruthTable(truth_));
+    const Table truth = TruthTable(truth_);
+    chart.series.push_back(
+        SeriesOf(truth, {"range_m", "robust_sigma_mm"}, "measured less true range"));
+    section.tables.push_back(truth);
     section.paragraphs.emplace_back("Frames hold the truth: measured less true range is exact.");
   }
-  section.tables.push_back(PlaneTable(planes_));
+  section.tables.push_back(planes);
   section.charts.push_back(std::move(chart));
   return section;
 }

@@ -7,30 +7,32 @@
 #include "analysis/estimate/moments.h"
 #include "analysis/report/report.h"
 #include "analysis/stats/plane_patches.h"
-#include "core/io/recording/recording.h"
+#include "railcast/io/recording.h"
 
 namespace railcast {
 
 /// Range noise against range: from flat pieces of surface, and from the truth where frames have it.
 ///
-/// From planes: the standard deviation of points about a fitted plane. Along the beams it is the
-/// range noise if the sensor errs along its beams; square to the plane it is the noise if positions
-/// err alike in all directions (as the published model has it). Roughness of the surface counts as
-/// noise: the estimate is an upper bound on rough ground. Plain: all patches' squares pooled.
-/// Robust: the median over patches, which rough or bent ones cannot spoil.
+/// From planes: the standard deviation of points about a fitted plane. Measured along the beams it
+/// is the range noise if the sensor errs along its beams; measured perpendicular to the plane it is
+/// the noise if positions err equally in all directions (as in the published model). Roughness of
+/// the surface counts as noise, so the estimate is an upper bound on rough ground. Plain: the
+/// squares of all patches pooled. Robust: the median over patches, which rough or curved patches
+/// hardly affect.
 class Noise {
  public:
   void Add(const RecordedFrame& recorded, const std::vector<PlanePatch>& patches);
   void Add(const Noise& other);
 
-  /// In one bin of range.
+  /// Planes in one bin of range.
   struct Planes {
     double degrees{};
     double range_squares_m2{};
     double plane_squares_m2{};
     std::uint64_t num_points{};
     std::uint64_t num_outliers{};
-    LogHistogram range_sigmas_m;  ///< Of patches, each corrected for its few degrees of freedom.
+    /// Standard deviations of the patches, each corrected for its few degrees of freedom.
+    LogHistogram range_sigmas_m;
     LogHistogram plane_sigmas_m;
 
     void Add(const Planes& other);
@@ -40,7 +42,7 @@ class Noise {
     [[nodiscard]] Estimate RobustRangeSigma_m() const { return range_sigmas_m.Median(); }
     [[nodiscard]] Estimate RobustPlaneSigma_m() const { return plane_sigmas_m.Median(); }
   };
-  /// Measured less true range of the points on surfaces, in one bin of range.
+  /// Measured minus true range of the points on surfaces, in one bin of range.
   struct Truth {
     Moments errors_m;
     LogHistogram robust_errors_m;

@@ -1,20 +1,20 @@
 #include "analysis/stats/object_points.h"
 
+#include "analysis/report/chart_columns.h"
 #include "analysis/stats/bins.h"
-#include "analysis/stats/headings.h"
 #include "core/io/recording/firing_truth.h"
 
 namespace railcast {
 
 namespace {
 
-/// Firings that met a thing, and those of them that came back.
+/// Firings that met an object, and those of them that returned a point.
 struct Met {
   std::uint64_t num{};
   std::uint64_t num_returned{};
 };
 
-// By instance; empty where frames do not hold the truth.
+// Counts by instance; empty where frames do not hold the truth.
 std::map<std::uint32_t, Met> CountMet(const RecordedFrame& recorded) {
   std::map<std::uint32_t, Met> counts;
   if (!HasOutcomes(recorded) || !recorded.Has("instance")) return counts;
@@ -33,7 +33,8 @@ std::map<std::uint32_t, Met> CountMet(const RecordedFrame& recorded) {
 void ObjectPoints::Add(const RecordedFrame& recorded) {
   const std::map<std::uint32_t, Met> counts = CountMet(recorded);
   for (const RecordedObject& object : recorded.objects) {
-    // Out of sight even alone: behind the sensor, or beside what it looks at.
+    // The object is out of view even without occlusion: behind the sensor, or outside its field of
+    // view.
     if (object.firings_alone == 0) continue;
     const auto bin = RangeBins().Find(object.sensor_from_box.translation().norm());
     if (!bin) continue;
@@ -62,42 +63,39 @@ void ObjectPoints::Add(const ObjectPoints& other) {
 }
 
 Section ObjectPoints::MakeSection() const {
-  Section section;
-  section.key = "objects";
-  section.title = "Points on objects";
-  section.paragraphs = {
-      "By the distance of the box's middle; frames in which the object is out of the sensor's "
-      "sight "
-      "even alone do not count."};
-  Table table;
-  table.key = "object_points";
-  table.title = "Points on each object by distance";
-  table.note =
-      "Samples are frames. Returned: of the beams that met the object, those that came back.";
-  table.columns = {{"object", "Object", ""},
-                   {"label", "Label", ""},
-                   {"distance_m", "Distance", "m"},
-                   {"points", "Points a frame", ""},
-                   {"returned", "Returned", ""}};
-  Chart chart;
-  chart.key = "object_points";
-  chart.title = "Points on objects against distance";
-  chart.x = {"Distance", "m"};
-  chart.y = {"Points a frame", "", true};
+  Section section{
+      "objects",
+      "Points on objects",
+      {"By the distance of the box's middle; frames in which the object is out of the sensor's "
+       "sight "
+       "even alone do not count."},
+      {},
+      {}};
+  Table table = {
+      "object_points",
+      "Points on each object by distance",
+      "Samples are frames. Returned: of the beams that met the object, those that came back.",
+      {{"object", "Object", ""},
+       {"label", "Label", ""},
+       {"distance_m", "Distance", "m"},
+       {"points", "Points a frame", ""},
+       {"returned", "Returned", ""}},
+      {}};
   for (const auto& [name, object] : objects_) {
-    ChartSeries series{name, SeriesStyle::kLinePoints, {}};
     for (std::size_t i = 0; i < object.bins.size(); ++i) {
       const auto& [points, num_met, num_returned] = object.bins[i];
       if (points.num() == 0) continue;
-      table.rows.push_back({name, object.label, RangeBins().Name(i), points.Mean(),
+      table.rows.push_back({name, object.label, RangeBins().span(i), points.Mean(),
                             Proportion(num_returned, num_met)});
-      const Estimate mean = points.Mean();
-      if (mean.value > 0.0) series.points.push_back(PointAt(RangeBins().middle(i), mean));
     }
-    if (!series.points.empty()) chart.series.push_back(std::move(series));
   }
+  section.charts.push_back({"object_points",
+                            "Points on objects against distance",
+                            "",
+                            {"Distance", "m"},
+                            {"Points a frame", "", true},
+                            SeriesByName(table, {"distance_m", "points", "", "object"})});
   section.tables.push_back(std::move(table));
-  section.charts.push_back(std::move(chart));
   return section;
 }
 

@@ -7,12 +7,12 @@
 
 #include "analysis/estimate/moments.h"
 #include "analysis/report/report.h"
-#include "core/io/recording/recording.h"
+#include "railcast/io/recording.h"
 
 namespace railcast {
 
-/// Points on each object by its distance, from objects.jsonl of our sequences; and of the beams
-/// that met it, from the frames' truth, how many came back.
+/// Points on each object by its distance, from objects.jsonl of railcast sequences, and, from the
+/// frames' truth, the share of the beams that met it and returned.
 class ObjectPoints {
  public:
   void Add(const RecordedFrame& recorded);
@@ -22,15 +22,15 @@ class ObjectPoints {
   [[nodiscard]] Section MakeSection() const;
 
  private:
-  /// In one bin of distance, over frames.
+  /// Counts in one bin of distance, over frames.
   struct Bin {
     Moments points;
-    std::uint64_t num_met{};       ///< Firings that met it, ...
-    std::uint64_t num_returned{};  ///< ... and those that came back.
+    std::uint64_t num_met{};       ///< Firings that met it ...
+    std::uint64_t num_returned{};  ///< ... and those that returned a point.
   };
   struct Object {
     std::string label;
-    std::vector<Bin> bins;  ///< Of RangeBins(), by the distance of the box's middle.
+    std::vector<Bin> bins;  ///< By bin of RangeBins(), by the distance of the box's middle.
   };
   std::map<std::string, Object> objects_;  ///< By name.
 };

@@ -16,7 +16,7 @@
 
 #include "analysis/estimate/moments.h"
 #include "analysis/estimate/robust.h"
-#include "core/base/transform.h"
+#include "railcast/transform.h"
 
 namespace railcast {
 namespace {
@@ -38,7 +38,7 @@ struct Plane {
   Vector3 normal = Vector3::UnitZ();
 };
 
-// Least squares: the direction in which the points vary least.
+// Least squares: the normal is the direction in which the points vary least.
 Plane FitPlane(const Points& points) {
   Plane plane;
   for (const PatchPoint& point : points) plane.middle += point.position_m;
@@ -54,11 +54,13 @@ Plane FitPlane(const Points& points) {
   return plane;
 }
 
-// The plane that most points agree on. Relative to their middle, since PCL computes in float32.
+// The plane that most points agree on. Coordinates are relative to their middle, since PCL computes
+// in float32.
 std::optional<Plane> AgreedPlane(const Points& points, double range_m) {
-  // Wide enough for the noise of any sensor we know; the next step looks closer.
+  // Wide enough for the noise of any known sensor; the next step is stricter.
   const double threshold_m = 0.05 + 5e-4 * range_m;
-  // Where four points in five agree, half of all triples do: 20 all miss once in a million times.
+  // If four points in five agree, half of all triples are free of outliers: 20 tries all fail once
+  // in a million times.
   constexpr int kMaxTries = 20;
   Plane plane;
   for (const PatchPoint& point : points) plane.middle += point.position_m;
@@ -79,10 +81,10 @@ std::optional<Plane> AgreedPlane(const Points& points, double range_m) {
   return plane;
 }
 
-// Those within 5 robust standard deviations of the plane.
+// The points within 5 robust standard deviations of the plane.
 Points WithoutOutliers(const Points& points, const Plane& plane) {
   constexpr double kMostDeviations = 5.0;
-  constexpr double kLeastScale_m = 1e-5;  // Float32 coordinates at 100 m.
+  constexpr double kLeastScale_m = 1e-5;  // Precision of float32 coordinates at 100 m.
   std::vector<double> distances_m;
   const auto distance_m = [&](const PatchPoint& point) {
     return plane.normal.dot(point.position_m - plane.middle);
@@ -96,7 +98,7 @@ Points WithoutOutliers(const Points& points, const Plane& plane) {
   return kept;
 }
 
-// A crown of a tree has a plane through it, too; no sensor errs by so much.
+// A plane can also be fitted through the crown of a tree, but no sensor has such large errors.
 bool IsFlat(const Points& points, const Plane& plane) {
   const double most_m = 0.1 + 5e-4 * plane.middle.norm();
   double squares_m2 = 0.0;
@@ -107,7 +109,7 @@ bool IsFlat(const Points& points, const Plane& plane) {
   return squares_m2 < most_m * most_m * static_cast<double>(points.size());
 }
 
-// @param points At least kLeastPoints.
+// @pre There are at least kLeastPoints points.
 std::optional<FlatPiece> MakePiece(const Points& points) {
   constexpr double kLeastShare = 0.8;
   const auto agreed = AgreedPlane(points, points[points.size() / 2].position_m.norm());
@@ -157,7 +159,7 @@ struct Window {
   std::size_t columns{};
 };
 
-// About 25 points, about as high as wide as far as the grid allows.
+// About 25 points, roughly as high as wide as far as the grid allows.
 Window WindowOf(const ScanTable& scan) {
   constexpr double kFineRow_rad = 0.6 * std::numbers::pi / 180.0;
   constexpr double kHalfWidth_rad = kFineRow_rad;
@@ -180,10 +182,10 @@ std::vector<FlatPiece> FindInGrid(const Frame& frame, const ScanTable& scan) {
   if (frame.rows < height || frame.columns < width) return pieces;
   const std::size_t num_rows = frame.rows - height + 1;
   const std::size_t num_columns = frame.columns - width + 1;
-  // Steps of the golden ratio spread any number of places evenly over the places there are.
+  // Steps of the golden ratio spread any number of places evenly over the grid.
   constexpr double kGolden = 0.6180339887498949;
   const std::size_t num_places = num_rows * num_columns;
-  // Places without a flat neighbourhood cost little, so that more are tried than wanted.
+  // Places without a flat neighbourhood cost little time, so more are tried than needed.
   constexpr std::size_t kTries = 6 * kMaxPatches;
   for (std::size_t i = 0; i < std::min(kTries, num_places) && pieces.size() < kMaxPatches; ++i) {
     const double turn = kGolden * static_cast<double>(i + 1 + kTries * (frame.index % 1024U));

@@ -3,36 +3,36 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/base/transform.h"
-#include "core/io/recording/recording.h"
 #include "core/io/recording/scan_table.h"
+#include "railcast/io/recording.h"
+#include "railcast/transform.h"
 
 namespace railcast {
 
-/// A small piece of surface that is flat, as far as the noise shows.
+/// A small piece of surface that is flat within the noise.
 struct PlanePatch {
-  double range_m{};          ///< Mean of its points.
-  double incidence_rad{};    ///< At its middle.
+  double range_m{};          ///< Mean range of its points.
+  double incidence_rad{};    ///< Incidence at its middle.
   double intensity{};        ///< Mean of the points that have one; NaN if none has.
   std::size_t num_points{};  ///< Without outliers.
   std::size_t num_outliers{};
-  /// Sums of squared distances from the plane over num_points - 3 degrees of freedom: along the
-  /// beams, and square to the plane.
+  /// Sums of squared distances from the plane divided by num_points - 3 degrees of freedom: along
+  /// the beams, and perpendicular to the plane.
   double range_squares_m2{};
   double plane_squares_m2{};
 
   [[nodiscard]] double degrees() const { return static_cast<double>(num_points) - 3.0; }
 };
 
-/// The same with what it is made of.
+/// A patch with its plane and its points.
 struct FlatPiece {
   PlanePatch patch;
-  Vector3 middle_m = Vector3::Zero();  ///< Of its points; in the plane.
-  Vector3 normal = Vector3::UnitZ();   ///< Unit, to either side.
-  std::vector<std::size_t> slots;      ///< Of its points, without outliers.
+  Vector3 middle_m = Vector3::Zero();  ///< Mean of its points; lies in the plane.
+  Vector3 normal = Vector3::UnitZ();   ///< Unit vector of either sign.
+  std::vector<std::size_t> slots;      ///< Slots of its points, without outliers.
 };
 
-/// At most kMaxPatches of a frame, so that the time does not grow with its points.
+/// Maximum per frame, so that the time does not grow with the number of points.
 inline constexpr std::size_t kMaxPatches = 150;
 
 /// Finds planes in neighbourhoods of about 25 points, spread evenly over the frame (other places in
@@ -45,7 +45,7 @@ inline constexpr std::size_t kMaxPatches = 150;
 /// @param scan Null if the frame is no grid.
 [[nodiscard]] std::vector<FlatPiece> FindFlatPieces(const RecordedFrame& recorded,
                                                     const ScanTable* scan);
-/// The same without what they are made of.
+/// As above, but drops the list of slots in each patch.
 [[nodiscard]] std::vector<PlanePatch> FindPlanePatches(const RecordedFrame& recorded,
                                                        const ScanTable* scan);
 

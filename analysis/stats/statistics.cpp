@@ -7,21 +7,21 @@
 #include <utility>
 
 #include "analysis/stats/plane_patches.h"
-#include "core/scan/scan_pattern.h"
+#include "railcast/lidar.h"
 
 namespace railcast {
 namespace {
 
 using Reader = Recording::FrameReader;
 
-/// Frames that follow each other: pairs do not overlap, so that temporal noise has independent
-/// samples.
+/// Two consecutive frames. Pairs do not overlap, so that the samples of temporal noise are
+/// independent.
 struct PairOfReaders {
   Reader first;
   std::optional<Reader> second;
 };
 
-// Of a sequence of ours, from its scenario: exact, and once for all frames.
+// Scan table of a railcast sequence, from its scenario: exact, and the same for all frames.
 std::optional<ScanTable> FixedScanTable(const RecordingInfo& info) {
   if (!info.scenario) return std::nullopt;
   return MakeScanTable(BuildScanPattern(info.scenario->lidar.scan));
@@ -79,7 +79,7 @@ void Statistics::Add(const Statistics& other) {
 Statistics MeasureStatistics(Recording& recording, const StatisticsProgress& on_progress) {
   const std::optional<ScanTable> fixed = FixedScanTable(recording.info());
   Statistics all;
-  // As many pairs at once as keep all cores busy; more would only take memory.
+  // Enough pairs in flight to keep all cores busy; more would only take memory.
   const auto max_pairs = static_cast<std::size_t>(2 * tbb::info::default_concurrency());
   const auto read = tbb::make_filter<void, PairOfReaders>(
       tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) -> PairOfReaders {

@@ -14,12 +14,12 @@
 #include "analysis/stats/noise.h"
 #include "analysis/stats/object_points.h"
 #include "analysis/stats/temporal_noise.h"
-#include "core/io/recording/recording.h"
 #include "core/io/recording/scan_table.h"
+#include "railcast/io/recording.h"
 
 namespace railcast {
 
-/// All that `railcast-analyze stats` finds out of a recording. Its size does not depend on the
+/// All results of `railcast-analyze stats` for a recording. Its size does not depend on the
 /// recording's length.
 struct Statistics {
   Dropout dropout;
@@ -31,8 +31,8 @@ struct Statistics {
   Coverage coverage;
   ObjectPoints objects;
 
-  /// All but the temporal noise, which takes two frames.
-  /// @param scan Of the frame; null if it is no grid.
+  /// Adds everything except temporal noise, which needs two frames.
+  /// @param scan Of the frame; null if it is not a grid.
   void Add(const RecordedFrame& recorded, const ScanTable* scan);
   void Add(const Statistics& other);
 };
@@ -40,10 +40,16 @@ struct Statistics {
 /// Called after each pair of frames, on one thread at a time.
 using StatisticsProgress = std::function<void(std::size_t num_frames)>;
 
-/// Reads a recording to its end. Frames are worked on in parallel and summed up in their order: the
-/// same figures at any number of threads.
+/// Reads a recording to its end. Frames are processed in parallel and summed in their order, so
+/// that the figures do not depend on the number of threads.
 /// @throws InputError as the recording does.
 [[nodiscard]] Statistics MeasureStatistics(Recording& recording,
                                            const StatisticsProgress& on_progress);
+
+/// @param sources The recordings measured, one or more, all with the same labels and materials.
+/// @param command Command line, for a reader to repeat.
+[[nodiscard]] Report MakeStatisticsReport(const Statistics& statistics,
+                                          const std::vector<RecordingInfo>& sources,
+                                          const std::string& command);
 
 }  // namespace railcast

@@ -1,16 +1,17 @@
-#include "analysis/stats/statistics_report.h"
+#include "analysis/stats/statistics.h"
 
 #include <filesystem>
 #include <utility>
 
+#include "analysis/report/cell_text.h"
 #include "analysis/stats/bins.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 
 namespace railcast {
 namespace {
 
-// The last part of the path: "demo" of "out/demo/".
-std::string NameOf(const std::filesystem::path& source) {
+// The last part of the path: "demo" for "out/demo/".
+std::string NameOfPart(const std::filesystem::path& source) {
   const std::filesystem::path path = source.lexically_normal();
   return ShownPath(path.has_filename() ? path.filename() : path.parent_path().filename());
 }
@@ -29,19 +30,19 @@ std::string SourcesText(const std::vector<RecordingInfo>& sources) {
 
 void AddScenarioFacts(const ScenarioSpec& scenario, Report& report) {
   if (!scenario.lidar.name.empty()) report.facts.emplace_back("Sensor", scenario.lidar.name);
-  report.facts.emplace_back("Fidelity", scenario.fidelity);
+  report.facts.emplace_back("Fidelity", NameOf(scenario.fidelity));
   report.facts.emplace_back("Seed", std::to_string(scenario.seed));
 }
 
 void AddNoiseHeadline(std::string title, std::size_t bin, const Estimate& sigma_m, Report& report) {
   constexpr double kMm = 1e3;
   title += ", ";
-  title += RangeBins().Name(bin);
+  title += SpanText(RangeBins().span(bin));
   title += " m";
   report.headlines.push_back({std::move(title), "mm", Scaled(sigma_m, kMm)});
 }
 
-// Of the bin with the most samples: the best known figure. The truth's, where there is any.
+// Uses the bin with the most samples, which is the most precise, and the truth where there is any.
 void AddNoiseHeadline(const Noise& noise, Report& report) {
   const auto best_of = [](const auto& bins, auto num) {
     std::size_t best = 0;
@@ -62,7 +63,7 @@ void AddNoiseHeadline(const Noise& noise, Report& report) {
   }
 }
 
-// Of the surface with the most points.
+// Uses the surface with the most points.
 template <typename Curves, typename Name>
 void AddDensityHeadline(const Curves& curves, Name name, Report& report) {
   const Density::Curve* best = nullptr;
@@ -88,7 +89,7 @@ Report MakeStatisticsReport(const Statistics& statistics,
                             const std::string& command) {
   const Names names(sources.front());
   Report report;
-  report.title = "Statistics of " + NameOf(sources.front().source);
+  report.title = "Statistics of " + NameOfPart(sources.front().source);
   if (sources.size() > 1) report.title += " and " + std::to_string(sources.size() - 1) + " more";
   report.command = command;
   report.facts.emplace_back("Source", SourcesText(sources));

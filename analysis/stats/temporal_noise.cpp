@@ -5,15 +5,14 @@
 #include <numbers>
 #include <optional>
 
+#include "analysis/report/chart_columns.h"
 #include "analysis/stats/bins.h"
-#include "analysis/stats/headings.h"
-#include "analysis/stats/sums.h"
 
 namespace railcast {
 namespace {
 
 constexpr double kMostBend_m = 0.3;
-constexpr double kMostSlope_m = 0.3;  // A column's step.
+constexpr double kMostSlope_m = 0.3;  // Per column.
 
 bool HasMoved(const RecordedFrame& earlier, const RecordedFrame& later) {
   const Transform motion =
@@ -24,23 +23,24 @@ bool HasMoved(const RecordedFrame& earlier, const RecordedFrame& later) {
          Eigen::AngleAxisd(motion.linear()).angle() > kStill_rad;
 }
 
-double Range_m(const Frame& frame, std::size_t row, std::size_t column) {
+double RangeAt_m(const Frame& frame, std::size_t row, std::size_t column) {
   return static_cast<double>(frame.range_m[row * frame.width() + column * frame.returns]);
 }
 
-/// How the range goes on from one column to the next; nothing where it bends or points are missing.
+/// Change of range from one column to the next; nothing where the surface bends or points are
+/// missing.
 std::optional<double> Slope_m(const Frame& frame, std::size_t row, std::size_t column) {
   if (column == 0 || column + 1 >= frame.columns) return std::nullopt;
-  const double left_m = Range_m(frame, row, column - 1);
-  const double right_m = Range_m(frame, row, column + 1);
-  const double bend_m = Range_m(frame, row, column) - 0.5 * (left_m + right_m);
+  const double left_m = RangeAt_m(frame, row, column - 1);
+  const double right_m = RangeAt_m(frame, row, column + 1);
+  const double bend_m = RangeAt_m(frame, row, column) - 0.5 * (left_m + right_m);
   const double slope_m = 0.5 * (right_m - left_m);
-  // Also where one of them is NaN.
+  // Negated so that NaN fails, too.
   if (!(std::abs(bend_m) < kMostBend_m && std::abs(slope_m) < kMostSlope_m)) return std::nullopt;
   return slope_m;
 }
 
-/// Columns of the earlier frame by azimuth.
+/// Finds columns of the earlier frame by azimuth.
 class ColumnFinder {
  public:
   explicit ColumnFinder(const ScanTable& scan) {
@@ -52,7 +52,7 @@ class ColumnFinder {
   }
   struct Found {
     std::size_t column{};
-    double offset_rad{};  ///< Of the azimuth asked for, from this column's.
+    double offset_rad{};  ///< Azimuth asked for minus that of this column.
   };
   [[nodiscard]] std::optional<Found> Nearest(double azimuth_rad) const {
     if (places_.empty()) return std::nullopt;
@@ -67,7 +67,7 @@ class ColumnFinder {
   }
 
  private:
-  // In [0, 2 pi).
+  // Wraps an angle to [0, 2 pi).
   static double Turned(double angle_rad) {
     const double wrapped_rad = WrappedAngle_rad(angle_rad);
     return wrapped_rad < 0.0 ? wrapped_rad + 2.0 * std::numbers::pi : wrapped_rad;
@@ -110,7 +110,7 @@ void TemporalNoise::Add(const RecordedFrame& earlier,
   ++num_pairs_;
   bins_.resize(RangeBins().size());
   const ColumnFinder finder(*earlier_scan);
-  // The rotor's sense: azimuth per column.
+  // Azimuth step per column, signed by the rotor's direction.
   const auto& azimuths_rad = earlier_scan->column_azimuth_rad;
   const double step_rad =
       earlier_scan->column_step_rad *
@@ -125,9 +125,9 @@ void TemporalNoise::Add(const RecordedFrame& earlier,
       const auto slope_m = Slope_m(a, row, found->column);
       const auto later_slope_m = Slope_m(b, row, column);
       if (!slope_m || !later_slope_m) continue;
-      const double range_m = Range_m(a, row, found->column);
+      const double range_m = RangeAt_m(a, row, found->column);
       const double difference_m =
-          Range_m(b, row, column) - range_m - offset * 0.5 * (*slope_m + *later_slope_m);
+          RangeAt_m(b, row, column) - range_m - offset * 0.5 * (*slope_m + *later_slope_m);
       const auto bin = RangeBins().Find(range_m);
       if (!bin) continue;
       bins_[*bin].differences_m.Add(difference_m);
@@ -145,9 +145,7 @@ void TemporalNoise::Add(const TemporalNoise& other) {
 
 Section TemporalNoise::MakeSection() const {
   constexpr double kMm = 1e3;
-  Section section;
-  section.key = "temporal_noise";
-  section.title = "Temporal noise";
+  Section section{"temporal_noise", "Temporal noise", {}, {}, {}};
   std::string found = std::to_string(num_pairs_);
   found += " pairs of frames took part";
   if (num_moved_ > 0) {
@@ -171,28 +169,25 @@ Section TemporalNoise::MakeSection() const {
         "Few pairs: their firings are many, but they share a few moments. What changes more slowly "
         "(warming up, vibration) is not in these intervals.");
   }
-  Table table;
-  table.key = "temporal_noise";
-  table.title = "Range noise between frames of a standing sensor";
-  table.note = "Standard deviation of the differences of paired firings / sqrt(2).";
-  table.columns = {{"range_m", "Range", "m"},
-                   {"sigma_mm", "Standard deviation", "mm"},
-                   {"robust_sigma_mm", "Standard deviation, robust", "mm"}};
-  Chart chart;
-  chart.key = "temporal_noise_by_range";
-  chart.title = "Temporal noise against range";
-  chart.x = {"Range", "m"};
-  chart.y = {"Standard deviation", "mm"};
-  ChartSeries robust{"robust", SeriesStyle::kLinePoints, {}};
+  Table table = {"temporal_noise",
+                 "Range noise between frames of a standing sensor",
+                 "Standard deviation of the differences of paired firings / sqrt(2).",
+                 {{"range_m", "Range", "m"},
+                  {"sigma_mm", "Standard deviation", "mm"},
+                  {"robust_sigma_mm", "Standard deviation, robust", "mm"}},
+                 {}};
   for (std::size_t i = 0; i < bins_.size(); ++i) {
-    const Estimate robust_mm = Scaled(bins_[i].RobustSigma_m(), kMm);
-    robust.points.push_back(PointAt(RangeBins().middle(i), robust_mm));
     if (bins_[i].differences_m.num() == 0) continue;
-    table.rows.push_back({RangeBins().Name(i), Scaled(bins_[i].Sigma_m(), kMm), robust_mm});
+    table.rows.push_back({RangeBins().span(i), Scaled(bins_[i].Sigma_m(), kMm),
+                          Scaled(bins_[i].RobustSigma_m(), kMm)});
   }
-  chart.series.push_back(std::move(robust));
+  section.charts.push_back({"temporal_noise_by_range",
+                            "Temporal noise against range",
+                            "",
+                            {"Range", "m"},
+                            {"Standard deviation", "mm"},
+                            {SeriesOf(table, {"range_m", "robust_sigma_mm"}, "robust")}});
   section.tables.push_back(std::move(table));
-  section.charts.push_back(std::move(chart));
   return section;
 }
 

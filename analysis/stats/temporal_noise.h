@@ -6,8 +6,8 @@
 #include "analysis/estimate/log_histogram.h"
 #include "analysis/estimate/moments.h"
 #include "analysis/report/report.h"
-#include "core/io/recording/recording.h"
 #include "core/io/recording/scan_table.h"
+#include "railcast/io/recording.h"
 
 namespace railcast {
 
@@ -20,15 +20,15 @@ namespace railcast {
 /// the scene spoils the plain figure and not the robust one.
 class TemporalNoise {
  public:
-  /// Two frames that follow each other.
-  /// @param scan Of `later` (of both, where the pattern is fixed); null if it is no grid.
+  /// Adds two consecutive frames.
+  /// @param scan Of `later` (of both, where the pattern is fixed); null if it is not a grid.
   void Add(const RecordedFrame& earlier,
            const RecordedFrame& later,
            const ScanTable* earlier_scan,
            const ScanTable* later_scan);
   void Add(const TemporalNoise& other);
 
-  /// In one bin of range.
+  /// Differences in one bin of range.
   struct Bin {
     Moments differences_m;
     LogHistogram robust_differences_m;
@@ -45,9 +45,10 @@ class TemporalNoise {
   [[nodiscard]] Section MakeSection() const;
 
  private:
-  std::uint64_t num_pairs_{};         ///< Of frames, that took part.
-  std::uint64_t num_moved_{};         ///< Of frames between which the sensor moved.
-  std::uint64_t num_without_pose_{};  ///< Of num_pairs_: taken for standing.
+  std::uint64_t num_pairs_{};  ///< Pairs of frames that took part.
+  std::uint64_t num_moved_{};  ///< Pairs of frames between which the sensor moved.
+  /// Pairs without a pose among num_pairs_, for which the sensor is assumed to stand still.
+  std::uint64_t num_without_pose_{};
   std::vector<Bin> bins_;
 };
 

@@ -7,13 +7,14 @@
 
 namespace railcast {
 
-/// Sums up what frames.jsonl counts of each frame, to be compared with the manifest's totals.
+/// Sums the counts of each frame in frames.jsonl, for comparison with the manifest's totals.
 class CountTotals {
  public:
-  /// @param line Of frames.jsonl. @throws StrictJson::exception if it has no counts.
+  /// @param line A line of frames.jsonl.
+  /// @throws StrictJson::exception if it has no counts.
   void Add(const StrictJson& line);
 
-  /// A fault for every total that is another: "place: points: must be 7, ... (got 8)".
+  /// Adds a fault for every total that differs: "place: points: must be 7, ... (got 8)".
   void Compare(const StrictJson& manifest, const std::string& place, ErrorList& faults) const;
 
  private:

@@ -6,19 +6,19 @@
 
 #include "analysis/verify/count_totals.h"
 #include "core/base/attempt.h"
-#include "core/base/number_text.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/io/recording/recorded_json.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/sequence_files.h"
 #include "core/io/write_file.h"
+#include "railcast/io/cloud_files.h"
 
 namespace railcast {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// What a manifest always names.
+/// Files that a manifest always names.
 std::vector<std::string> NeededFiles(const RunSummary& run) {
   std::vector<std::string> names = RecordFiles(run.format);
   for (const std::string_view name :
@@ -49,7 +49,7 @@ class Verifier {
   }
 
  private:
-  // As messages show it.
+  // The path as shown in messages.
   [[nodiscard]] std::string PathOf(std::string_view name) const {
     return ShownPath(summary_.directory / name);
   }
@@ -58,7 +58,7 @@ class Verifier {
     return Attempt("", faults_, [&] { return work(), true; }).has_value();
   }
   void Fault(std::string_view name, const std::string& rule) {
-    faults_.Add(PathOf(name) + ": " + rule);
+    faults_.Add({PathOf(name), rule, ""});
   }
 
   void ReadTheManifest();
@@ -98,7 +98,8 @@ void Verifier::ReadTheManifest() {
   });
 }
 
-// Its own hash says that it is as it was written; that it belongs here, only what it says.
+// The manifest's own hash shows that it is unchanged; only its contents show that it belongs to
+// this run.
 void Verifier::CompareManifest() {
   const RunSummary& run = summary_.run;
   const Manifest& manifest = *summary_.manifest;
@@ -156,7 +157,7 @@ void Verifier::CheckFrames() {
   std::vector<LineReader> records;
   for (const std::string& name : RecordFiles(summary_.run.format)) {
     if (!HasAllLines(name)) has_all_records = false;
-    // That it is missing was said.
+    // A missing file has been reported already.
     if (!IsThere(summary_.directory / name)) continue;
     const bool is_there = Try([&] {
       records.emplace_back(summary_.directory / name);
@@ -171,7 +172,7 @@ void Verifier::CheckFrames() {
     const auto line =
         Attempt("", faults_, [&] { return ReadFrameLine(lines.frame.text, lines.frame.place); });
     has_all_frames = has_all_frames && line;
-    // Where a line is missing, the other files' lines of that frame are passed over.
+    // If a line is missing, the other files' lines of that frame are skipped.
     std::uint32_t num_missing = 0;
     if (line && !Try([&] { (void)ReadNextFrameLine(lines); })) {
       has_all_frames = false;
@@ -201,21 +202,23 @@ void Verifier::CheckFrame(const FrameLine& line, const FrameLines& lines, bool h
   });
 }
 
-// Files are called by the number of their frame; KITTI's count from 0.
+// Files are named by the number of their frame; those of a dataset count from 0.
 void Verifier::CheckNames(const FrameLine& line, const std::string& place) {
-  const bool is_kitti = summary_.run.format == "kitti";
-  const std::uint32_t number = is_kitti ? line.frame - summary_.run.start_frame : line.frame;
+  const FrameFormat* const format = FindFrameFormat(summary_.run.format);
+  const bool is_of_dataset = format != nullptr && format->dataset;
+  const std::size_t num_files = format == nullptr ? 1 : format->files.size();
+  const std::uint32_t number = is_of_dataset ? line.frame - summary_.run.start_frame : line.frame;
   std::string digits = NumberText(number);
   constexpr std::size_t kMinDigits = 6;
   if (digits.size() < kMinDigits) digits.insert(0, kMinDigits - digits.size(), '0');
-  if (line.files.size() != (is_kitti ? 2U : 1U)) {
-    faults_.Add(place + ": /files: must be " + (is_kitti ? "2" : "1") + " (got " +
-                NumberText(line.files.size()) + ")");
+  if (line.files.size() != num_files) {
+    faults_.Add(
+        {place + ": /files", "must be " + NumberText(num_files), NumberText(line.files.size())});
   }
   for (const KnownFile& file : line.files) {
     if (fs::path(file.name).stem() == digits) continue;
-    faults_.Add(place + ": /files: must be called by the frame's number, " + digits + " (got " +
-                ShownText(file.name) + ")");
+    faults_.Add({place + ": /files", "must be called by the frame's number, " + digits,
+                 ShownText(file.name)});
   }
 }
 
@@ -223,7 +226,7 @@ void Verifier::FindOthers() {
   std::error_code error;
   fs::recursive_directory_iterator entry(summary_.directory, error);
   for (const fs::recursive_directory_iterator end; !error && entry != end; entry.increment(error)) {
-    // A link is a file of its own name, whatever it leads to.
+    // A symbolic link counts as a file of its own name, whatever it points to.
     if (entry->symlink_status(error).type() == fs::file_type::directory) continue;
     const fs::path relative = entry->path().lexically_relative(summary_.directory);
     std::string name = relative.generic_string();
@@ -232,7 +235,7 @@ void Verifier::FindOthers() {
       Fault(name, "is named neither in manifest.json nor in frames.jsonl");
       continue;
     }
-    // A run that is interrupted, or goes on, has files whose hashes nothing knows yet.
+    // A run that was interrupted or is in progress has files whose hashes are not recorded yet.
     if (name.ends_with(kUnfinishedSuffix)) name.resize(name.size() - kUnfinishedSuffix.size());
     if (!IsSequenceFile(name)) Fault(relative.native(), "is no file of a sequence");
   }

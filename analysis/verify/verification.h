@@ -8,19 +8,19 @@
 
 namespace railcast {
 
-/// What was found of a sequence directory.
+/// Result of verifying a sequence directory.
 struct Verification {
-  std::vector<std::string> faults;  ///< "file: rule (got value)", each on one line.
-  std::uint64_t num_frames{};       ///< That have a line in frames.jsonl.
-  std::uint64_t num_files{};        ///< That were read.
-  std::uint64_t num_bytes{};        ///< Of these.
+  std::vector<std::string> faults;  ///< Each on one line: "file: rule (got value)".
+  std::uint64_t num_frames{};       ///< Frames that have a line in frames.jsonl.
+  std::uint64_t num_files{};        ///< Files that were read.
+  std::uint64_t num_bytes{};        ///< Size of these files.
 };
 
-/// Compares every file of a sequence directory with what run.json, manifest.json and frames.jsonl
-/// say of it, and looks for files that they do not name. A directory without a manifest, of an
-/// unfinished run, is checked as far as it goes; that it has none is a fault.
-/// @param on_progress Told from time to time which share is done.
-/// @throws InputError if the directory is none that railcast-generate sequence made.
+/// Compares every file of a sequence directory with run.json, manifest.json and frames.jsonl, and
+/// looks for files that these do not name. A directory without a manifest, left by an unfinished
+/// run, is checked as far as possible; the missing manifest is a fault.
+/// @param on_progress Called from time to time with the completed share.
+/// @throws InputError if the directory was not made by railcast-generate sequence.
 [[nodiscard]] Verification VerifySequence(const std::filesystem::path& directory,
                                           const std::function<void(double)>& on_progress);
 

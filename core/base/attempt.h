@@ -1,21 +1,33 @@
 #pragma once
 
 #include <optional>
-#include <sstream>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "core/base/error.h"
 
 namespace railcast {
 
-/// Each line of `error`, with `place` put before it, to `errors`.
+/// Appends each fault of `error` to `errors`, with `place` in front of its own place. A `place`
+/// that ends in ": " stands apart; any other is the beginning of a pointer that the fault
+/// continues.
 inline void AddPlaced(const std::string& place, const InputError& error, ErrorList& errors) {
-  std::istringstream lines(error.what());
-  for (std::string line; std::getline(lines, line);) errors.Add(place + line);
+  constexpr std::string_view kApart = ": ";
+  for (Fault fault : error.faults()) {
+    if (!fault.place.empty()) {
+      fault.place.insert(0, place);
+    } else if (place.ends_with(kApart)) {
+      fault.place = place.substr(0, place.size() - kApart.size());
+    } else {
+      fault.rule.insert(0, place);
+    }
+    errors.Add(std::move(fault));
+  }
 }
 
-/// What `make` returns.
-/// @throws Its InputError, with `place` put before each line.
+/// Returns what `make` returns.
+/// @throws InputError as `make` throws it, with `place` in front of each fault's own (AddPlaced).
 template <typename Make>
 decltype(auto) AtPlace(const std::string& place, const Make& make) {
   try {
@@ -28,8 +40,8 @@ decltype(auto) AtPlace(const std::string& place, const Make& make) {
   }
 }
 
-/// What `make` returns; or nothing, and each line of its InputError, with `place` put before it, in
-/// `errors`.
+/// Returns what `make` returns. If it throws an InputError, returns nothing and appends its faults
+/// to `errors`, with `place` in front of their own (AddPlaced).
 template <typename Make>
 auto Attempt(const std::string& place, ErrorList& errors, const Make& make)
     -> std::optional<decltype(make())> {

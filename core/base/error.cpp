@@ -2,17 +2,54 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <sstream>
+#include <utility>
 
 namespace railcast {
+namespace {
+
+std::vector<Fault> FaultsOfLines(const std::string& lines) {
+  std::vector<Fault> faults;
+  std::istringstream stream(lines);
+  for (std::string line; std::getline(stream, line);) faults.push_back({"", std::move(line), ""});
+  return faults;
+}
+
+std::string LinesOf(const std::vector<Fault>& faults) {
+  std::string lines;
+  for (const Fault& fault : faults) {
+    if (!lines.empty()) lines += '\n';
+    lines += fault.Line();
+  }
+  return lines;
+}
+
+}  // namespace
+
+std::string Fault::Line() const {
+  return (place.empty() ? "" : place + ": ") + rule + (value.empty() ? "" : " (got " + value + ")");
+}
+
+InputError::InputError(const std::string& lines)
+    : std::runtime_error(lines),
+      faults_(std::make_shared<const std::vector<Fault>>(FaultsOfLines(lines))) {}
+
+InputError::InputError(std::vector<Fault> faults)
+    : std::runtime_error(LinesOf(faults)),
+      faults_(std::make_shared<const std::vector<Fault>>(std::move(faults))) {}
+
+void ErrorList::Add(Fault fault) {
+  if (seen_.insert(fault.Line()).second) faults_.push_back(std::move(fault));
+}
+
+std::vector<std::string> ErrorList::lines() const {
+  std::vector<std::string> lines;
+  for (const Fault& fault : faults_) lines.push_back(fault.Line());
+  return lines;
+}
 
 void ErrorList::ThrowIfAny() const {
-  if (lines_.empty()) return;
-  std::string all;
-  for (const std::string& line : lines_) {
-    if (!all.empty()) all += '\n';
-    all += line;
-  }
-  throw InputError(all);
+  if (!faults_.empty()) throw InputError(faults_);
 }
 
 void Check(bool condition, const char* assumption, const char* file, int line) {

@@ -1,41 +1,36 @@
 #pragma once
 
-#include <stdexcept>
+#include <cstddef>
 #include <string>
 #include <unordered_set>
-#include <utility>
 #include <vector>
+
+#include "railcast/error.h"
 
 namespace railcast {
 
-/// Something the user can mend: a scenario, a mesh, a command line, a file.
-///
-/// `what()` holds one line per fault, each "place: rule (value)", for example
-/// `scenarios/demo.json: /lidar/range_max_m: must be > 0 (got -5)`.
-class InputError : public std::runtime_error {
- public:
-  explicit InputError(const std::string& lines) : std::runtime_error(lines) {}
-};
-
-/// Gathers faults so that a file's errors are reported all at once, each of them once.
+/// Collects faults, so that all errors of a file are reported together and each only once.
 class ErrorList {
  public:
-  void Add(std::string line) {
-    if (seen_.insert(line).second) lines_.push_back(std::move(line));
-  }
+  void Add(Fault fault);
+  /// Adds a fault whose line is already put together.
+  void AddLine(std::string line) { Add({"", std::move(line), ""}); }
 
-  [[nodiscard]] bool empty() const { return lines_.empty(); }
-  [[nodiscard]] const std::vector<std::string>& lines() const { return lines_; }
+  [[nodiscard]] bool empty() const { return faults_.empty(); }
+  [[nodiscard]] std::size_t size() const { return faults_.size(); }
+  [[nodiscard]] const std::vector<Fault>& faults() const { return faults_; }
+  [[nodiscard]] std::vector<std::string> lines() const;
 
-  /// @throws InputError with every line, if there is any.
+  /// @throws InputError with all faults if there are any.
   void ThrowIfAny() const;
 
  private:
-  std::vector<std::string> lines_;
-  std::unordered_set<std::string> seen_;
+  std::vector<Fault> faults_;
+  std::unordered_set<std::string> seen_;  ///< Lines.
 };
 
-/// Aborts with the place if an assumption of ours (never of the user's) is broken. Always on.
+/// Aborts and prints the source location if an internal assumption is violated (a programming
+/// error, never a user error). Active in all build types.
 void Check(bool condition,
            const char* assumption,
            const char* file = __builtin_FILE(),

@@ -5,7 +5,7 @@
 #include <string>
 #include <system_error>
 
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 
 namespace railcast {
 

@@ -8,23 +8,24 @@
 
 namespace railcast {
 
-/// "file: no space left on device": what the system said about a file, as an error of the user's.
+/// The system's error message about a file as an InputError: "file: no space left on device".
 [[nodiscard]] InputError FileError(const std::filesystem::path& file, int error_number);
 
-/// "a FIFO", "a directory", ...: what a message calls it.
+/// Name of a file type for messages: "a FIFO", "a directory", ...
 [[nodiscard]] std::string_view NameOf(std::filesystem::file_type type);
 
-/// @throws InputError "file: must be a regular file (got a FIFO)" if `status` is of anything else.
-///   A file that is not there, or that we may not look at, is left to the call that opens it.
+/// @throws InputError "file: must be a regular file (got a FIFO)" if `status` describes any other
+///   type. A file that does not exist or cannot be examined passes; the call that opens it reports
+///   the error.
 void CheckIsRegular(const std::filesystem::path& file, const std::filesystem::file_status& status);
 
-/// To be called before a file is opened to be read, however that is done: of a FIFO or a terminal
-/// the opening itself waits, perhaps for ever.
-/// @throws InputError as CheckIsRegular does, or if the file is not there.
+/// Must be called before a file is opened for reading by any means: opening a FIFO or a terminal
+/// can block indefinitely.
+/// @throws InputError as CheckIsRegular does, or if the file does not exist.
 void CheckIsReadable(const std::filesystem::path& file);
 
-/// Opens a file to read its bytes. @throws InputError as CheckIsReadable does, or if the system
-///   refuses.
+/// Opens a file for reading in binary mode.
+/// @throws InputError as CheckIsReadable does, or if the system refuses.
 [[nodiscard]] std::ifstream OpenInput(const std::filesystem::path& file);
 
 }  // namespace railcast

@@ -1,6 +1,6 @@
 #include "core/base/out_of_memory.h"
 
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 
 namespace railcast {
 

@@ -11,22 +11,25 @@
 
 namespace railcast {
 
-/// "out of memory while reading wall.obj (42311802 bytes)": what could not be made, and how large
-/// it is.
+/// The error "out of memory while reading wall.obj (42311802 bytes)". `doing` names what did not
+/// fit and its size.
 [[nodiscard]] InputError OutOfMemory(const std::string& doing);
 
-/// "no thread can be started while ...": the system's limit of threads, or memory for their stacks.
+/// The error "no thread can be started while ...": the system's thread limit is reached, or there
+/// is no memory for another stack.
 [[nodiscard]] InputError OutOfThreads(const std::string& doing);
 
-/// For WithinMemory: "reading wall.obj (42311802 bytes)".
+/// The text "reading wall.obj (42311802 bytes)" for WithinMemory.
 [[nodiscard]] std::string ReadingText(const std::filesystem::path& file);
 
-/// What `make` returns. To be put around whatever grows with its input, so that a run which does
-/// not fit into the machine ends with a line that says what did not:
+/// Returns what `make` returns, and reports running out of memory as an InputError. Wrap it around
+/// everything whose size depends on the input, so that a run that does not fit into memory ends
+/// with a message naming the cause:
 ///
 ///     WithinMemory([&] { return ReadingText(file); }, [&] { return Read(file); });
 ///
-/// @param doing Gives the words after "while"; called only on failure. The innermost place wins.
+/// @param doing Returns the words after "while"; called only on failure. If calls are nested, the
+///   innermost one supplies the text.
 /// @throws InputError if `make` runs out of memory or cannot start a thread.
 template <typename Doing, typename Make>
 decltype(auto) WithinMemory(const Doing& doing, const Make& make) {
@@ -35,7 +38,7 @@ decltype(auto) WithinMemory(const Doing& doing, const Make& make) {
   } catch (const std::bad_alloc&) {
     throw OutOfMemory(doing());
   } catch (const std::length_error&) {
-    // What exceeds even a container's greatest size.
+    // The requested size exceeds even the maximum size of a container.
     throw OutOfMemory(doing());
   } catch (const std::system_error& error) {
     if (error.code() != std::errc::resource_unavailable_try_again) throw;
@@ -43,8 +46,9 @@ decltype(auto) WithinMemory(const Doing& doing, const Make& make) {
   }
 }
 
-/// A thread that does `work`. @param doing As WithinMemory() takes it.
-/// @throws InputError "no thread can be started while hearing commands".
+/// Starts a thread that runs `work`.
+/// @param doing Words after "while", as for WithinMemory().
+/// @throws InputError such as "no thread can be started while hearing commands".
 template <typename Work>
 [[nodiscard]] std::thread StartThread(const std::string& doing, const Work& work) {
   return WithinMemory([&] { return doing; }, [&] { return std::thread(work); });

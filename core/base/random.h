@@ -5,8 +5,8 @@
 
 namespace railcast {
 
-/// What a random number is for. Part of its key, so that a change in one effect never moves
-/// another.
+/// Purpose of a random number. It is part of the random number's key, so that changing one effect
+/// never alters the draws of another.
 enum class RandomUse : std::uint32_t {
   kSensorDropout = 1,
   kRain = 2,
@@ -27,18 +27,19 @@ enum class RandomUse : std::uint32_t {
   kPlantShape = 104,
 };
 
-/// Four independent, uniform 32-bit words that depend on the key and on nothing else.
+/// Four independent, uniform 32-bit words that depend on the arguments only.
 ///
 /// Philox4x32-10 (Salmon, Moraes, Dror, Shaw 2011, "Parallel random numbers: as easy as 1, 2, 3"),
-/// from Random123. `frame` and `item` name the frame and firing of an effect, or the chunk and
-/// feature of a piece of the world; `block` counts when four words are not enough.
+/// from Random123.
+/// @param frame, item Frame and firing of an effect, or chunk and feature of a piece of the world.
+/// @param block Counter for draws that need more than four words.
 [[nodiscard]] std::array<std::uint32_t, 4> RandomWords(std::uint64_t seed,
                                                        RandomUse use,
                                                        std::uint32_t frame,
                                                        std::uint32_t item,
                                                        std::uint32_t block = 0);
 
-/// Uniform in [0, 1) from the upper 24 bits of a word; exact in float32.
+/// Converts the upper 24 bits of a word to a uniform number in [0, 1); exact in float32.
 [[nodiscard]] constexpr float UnitFloat(std::uint32_t word) {
   return static_cast<float>(word >> 8U) * 0x1p-24F;
 }

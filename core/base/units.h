@@ -5,6 +5,8 @@
 
 namespace railcast {
 
+inline constexpr std::int64_t kNsPerS = 1'000'000'000;
+
 [[nodiscard]] constexpr double RadFromDeg(double angle_deg) {
   return angle_deg * (std::numbers::pi / 180.0);
 }

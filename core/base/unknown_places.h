@@ -6,13 +6,14 @@
 
 namespace railcast {
 
-/// The places, as JSON pointers, of values that are not known because something about them is
-/// faulty. A rule is applied only to what is known, so that a fault brings no others in its wake.
+/// JSON pointers of values that are unknown because they contain a fault. Rules are applied to
+/// known values only, so that one fault does not cause further messages.
 class UnknownPlaces {
  public:
   void Add(std::string pointer) { pointers_.insert(std::move(pointer)); }
 
-  /// Whether neither the value there, nor anything in it, nor what it is part of, is unknown.
+  /// Returns whether the value at `pointer` is known: neither it, nor any value inside it, nor any
+  /// value containing it is marked as unknown.
   [[nodiscard]] bool IsKnown(std::string_view pointer) const;
 
  private:

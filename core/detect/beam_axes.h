@@ -13,8 +13,9 @@ struct Direction {
   float x, y, z;
 };
 
-/// A beam's horizontal axis, up x d, and its vertical one, d x (up x d): both of the length whose
-/// square is `length2`. A beam along `up` has no axes: a tiny length keeps it from a NaN.
+/// A beam's horizontal axis, up x d, and its vertical axis, d x (up x d). Both have the length
+/// whose square is `length2`. The axes of a beam along `up` are 0; a tiny amount added to `length2`
+/// avoids a division by zero.
 struct BeamAxes {
   Direction h, v;
   float length2;
@@ -29,12 +30,13 @@ struct BeamAxes {
           hx * hx + hy * hy + hz * hz + 1e-20F};
 }
 
-/// Small angles along the axes, divided by this, are in the axes' own length.
+/// Length of the axes. Small angles divided by it are the coordinates that Beside() expects.
 [[nodiscard]] inline float LengthOf(const BeamAxes& axes) {
   return std::sqrt(axes.length2);
 }
 
-/// The direction that lies h and v beside d, small angles over the axes' length; unit length.
+/// The unit direction at the offsets h and v from d along the axes: small angles in radians divided
+/// by LengthOf(axes).
 [[nodiscard]] inline Direction Beside(const Direction& d, const BeamAxes& axes, float h, float v) {
   const float x = d.x + h * axes.h.x + v * axes.v.x;
   const float y = d.y + h * axes.h.y + v * axes.v.y;

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/scan/scan_pattern.h"
+#include "railcast/lidar.h"
 
 namespace railcast {
 namespace {
 
 constexpr float kSlack_m = 1e-3F;  // Rounding of coordinates up to 1 km is below 1e-4 m.
 constexpr float kEverywhere_m = 1e6F;
-constexpr float kWideChord = 0.5F;  // Wider bundles are not worth a bound.
+constexpr float kWideChord = 0.5F;  // Wider bundles are not bounded: a bound would reject little.
 
 }  // namespace
 
@@ -69,7 +69,7 @@ BeamPyramid BoundCones(const BeamCone* cones, std::size_t num_cones) {
     beams.spread_m = kEverywhere_m;
     return beams;
   }
-  // Along the strip and across it, as tangents of angles from the middle.
+  // The planes bound the tangents of angles from the middle, along the strip and across it.
   const Eigen::Vector3f across = beams.direction.cross(farthest);
   const Eigen::Vector3f side =
       across.norm() > 1e-6F ? across.normalized() : beams.direction.unitOrthogonal();
@@ -80,8 +80,8 @@ BeamPyramid BoundCones(const BeamCone* cones, std::size_t num_cones) {
     for (std::size_t i = 0; i < num_cones; ++i) {
       const float depth = cones[i].direction.dot(beams.direction);
       const float tangent = cones[i].direction.dot(axes[axis]) / depth;
-      // Chords are at least 0.96 of angles here, and tangents of angles up to 0.5 rad grow by less
-      // than 1.3 per rad: 1 / cos^2(0.5).
+      // Here a chord is at least 0.96 times its angle, and the tangent of an angle up to 0.5 rad
+      // grows by less than 1 / cos^2(0.5) = 1.3 per rad.
       const float reach = 1.4F * cones[i].chord;
       min = std::min(min, tangent - reach);
       max = std::max(max, tangent + reach);

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kSpeedOfLight_m_per_ns = 0.299792458;
 
-// A quarter of the full angle, in radians.
+// Standard deviation of a Gaussian profile: a quarter of the full 1/e^2 angle.
 double SigmaOf_rad(double divergence_mrad) {
   return 1e-3 * divergence_mrad / 4.0;
 }

@@ -6,14 +6,14 @@
 #include "core/base/random.h"
 #include "core/detect/beam_optics.h"
 #include "core/detect/lane_random.h"
-#include "core/frame/outcome.h"
+#include "railcast/outcome.h"
 
 namespace railcast {
 namespace {
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 
-/// An echo without a surface.
+/// A clutter echo: one that no surface sends.
 struct Answer {
   std::uint32_t label{};
   std::uint32_t echo{};
@@ -27,9 +27,9 @@ EchoTiles::Place AddEcho(std::size_t beam, const Answer& answer, EchoTiles& echo
   const auto [tile, lane] = place;
   tile.surface[lane] = 0;
   tile.true_range_m[lane] = answer.range_m;
-  tile.cos_incidence[lane] = kNaN;
+  tile.cos_incidence[lane] = kNoValue;
   tile.spread_m[lane] = 0.0F;
-  tile.share[lane] = kNaN;
+  tile.share[lane] = kNoValue;
   tile.peak_shift_m[lane] = 0.0F;
   tile.reflectivity[lane] = 0.0F;
   tile.outcome[lane] = static_cast<std::uint32_t>(Outcome::kClutter);
@@ -39,9 +39,9 @@ EchoTiles::Place AddEcho(std::size_t beam, const Answer& answer, EchoTiles& echo
   return place;
 }
 
-// Whether the pulse leaves at all, and how far it gets unhindered.
+// Whether the pulse leaves the vehicle and reaches this range before the first surface.
 bool Reaches(const DetectTile& first, std::size_t beam, float range_m) {
-  // A missing surface is NaN: nothing is farther than it.
+  // The range of a missing surface is NaN, which fails the comparison: nothing is behind it.
   return first.outcome[beam] != static_cast<std::uint32_t>(Outcome::kEgo) &&
          !(range_m >= first.true_range_m[beam]);
 }
@@ -52,18 +52,18 @@ Clutter::Clutter(const DetectorSpec& spec, const Kernels& kernels)
     : spec_(spec), uniforms_(kernels.uniforms) {
   power_min_ = LeastPower(spec.receiver);
   if (spec.effects.clutter && spec.weather.rain_rate_mmph > 0.0) {
-    drops_ = MakePopulation(RainDropSizes(spec.weather), kDropReflectance, spec.labels.rain,
+    drops_ = MakePopulation(RainDropSizes(spec.weather), kDropReflectance, spec.clutter_labels.rain,
                             EchoTiles::kFirstDrop);
   }
   if (spec.effects.clutter && spec.weather.snow_rate_mmph > 0.0) {
-    flakes_ = MakePopulation(SnowFlakeSizes(spec.weather), kFlakeReflectance, spec.labels.snow,
-                             EchoTiles::kFirstFlake);
+    flakes_ = MakePopulation(SnowFlakeSizes(spec.weather), kFlakeReflectance,
+                             spec.clutter_labels.snow, EchoTiles::kFirstFlake);
   }
   if (spec.effects.fog_echo) {
     fog_echo_ = FogEchoOf(spec.weather, spec.beam);
     const double loss = std::exp(-2.0 * FogExtinction_per_m(spec.weather) * fog_echo_.range_m);
     fog_ratio_ = fog_echo_.intensity * loss / (fog_echo_.range_m * fog_echo_.range_m * power_min_);
-    // What is weaker than a third of the threshold is detected once in 1e3 at most.
+    // An echo weaker than a third of the threshold is detected in at most one case of 1000.
     has_fog_echo_ = fog_ratio_ > 0.3 && fog_echo_.range_m >= spec.range_min_m;
   }
   if (spec.effects.sunlight) {
@@ -91,10 +91,10 @@ Clutter::Population Clutter::MakePopulation(const ParticleSizes& sizes,
   return population;
 }
 
-void Clutter::AddParticles(const Population& population, EchoTiles& echoes) const {
+void Clutter::AddPopulation(const Population& population, EchoTiles& echoes) const {
   if (!population.is_on) return;
   const DetectTile& first = echoes.first;
-  // One key for the count, one for each particle's range and size.
+  // Each particle's range and size have random keys of their own, apart from that of the count.
   const auto words_of = [&](std::size_t beam, std::uint32_t block) {
     return RandomWords(spec_.seed, RandomUse::kClutter, first.frame, first.firing[beam], block);
   };
@@ -110,7 +110,8 @@ void Clutter::AddParticles(const Population& population, EchoTiles& echoes) cons
       const float r = range_scale_m * std::sqrt(normals.a * normals.a + normals.b * normals.b +
                                                 normals.c * normals.c);
       if (static_cast<double>(r) < spec_.range_min_m || !Reaches(first, beam, r)) continue;
-      // Diameters beyond the least that answers are exponential; power goes with their square.
+      // Above the least detectable diameter, diameters are exponentially distributed. The power is
+      // proportional to the square of the diameter.
       const float v = UnitFloat(words_of(beam, block + 1)[0]);
       const float diameter = 1.0F - baseline::Log(1.0F - v) / (b * r * r);
       const float ratio = diameter * diameter;
@@ -122,25 +123,25 @@ void Clutter::AddParticles(const Population& population, EchoTiles& echoes) cons
   }
 }
 
+void Clutter::AddParticles(EchoTiles& echoes) const {
+  AddPopulation(drops_, echoes);
+  AddPopulation(flakes_, echoes);
+}
+
 void Clutter::AddFogEchoes(EchoTiles& echoes) const {
+  if (!has_fog_echo_) return;
   const auto range_m = static_cast<float>(fog_echo_.range_m);
   for (std::size_t beam = 0; beam < echoes.first.num_rays; ++beam) {
     if (!Reaches(echoes.first, beam, range_m)) continue;
     AddEcho(beam,
-            {spec_.labels.fog, EchoTiles::kFogEcho, range_m, static_cast<float>(fog_ratio_),
+            {spec_.clutter_labels.fog, EchoTiles::kFogEcho, range_m, static_cast<float>(fog_ratio_),
              static_cast<float>(fog_echo_.intensity)},
             echoes);
   }
 }
 
-void Clutter::Add(EchoTiles& echoes) const {
-  AddParticles(drops_, echoes);
-  AddParticles(flakes_, echoes);
-  if (has_fog_echo_) AddFogEchoes(echoes);
-}
-
 void Clutter::AddFalseAlarms(EchoTiles& echoes) const {
-  if (false_alarm_probability_ <= 0.0F) return;
+  if (!has_false_alarms()) return;
   const DetectTile& first = echoes.first;
   alignas(64) float alarms[kTileSize];
   uniforms_(first, {spec_.seed, RandomUse::kFalseAlarm, 0}, alarms);
@@ -150,10 +151,10 @@ void Clutter::AddFalseAlarms(EchoTiles& echoes) const {
         RandomWords(spec_.seed, RandomUse::kFalseAlarm, first.frame, first.firing[beam], 1);
     const auto range_m = static_cast<float>(
         std::lerp(spec_.range_min_m, spec_.range_max_m, static_cast<double>(UnitFloat(words[0]))));
-    const Answer alarm{spec_.labels.false_alarm, EchoTiles::kFalseAlarm, range_m, 1.0F,
+    const Answer alarm{spec_.clutter_labels.false_alarm, EchoTiles::kFalseAlarm, range_m, 1.0F,
                        static_cast<float>(power_min_) * range_m * range_m};
     const auto [tile, lane] = AddEcho(beam, alarm, echoes);
-    tile.incidence_rad[lane] = kNaN;
+    tile.incidence_rad[lane] = kNoValue;
     tile.range_m[lane] = range_m;
     tile.x[lane] = range_m * tile.direction_x[lane];
     tile.y[lane] = range_m * tile.direction_y[lane];

@@ -4,28 +4,35 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/detect/detector_spec.h"
 #include "core/detect/echo_tiles.h"
 #include "core/detect/kernels.h"
 #include "core/detect/weather_optics.h"
+#include "railcast/effects.h"
 
 namespace railcast {
 
-/// Effects `clutter`, `fog_echo` and the false alarms of `sunlight`: echoes that no surface sends,
-/// also in beams that meet none. Immutable; thread-safe.
+/// Effects `clutter` and `fog_echo` and the false alarms of `sunlight`: echoes that no surface
+/// sends. They also occur in beams that meet no surface. Immutable; thread-safe.
 ///
-/// Drops and flakes: Poisson in number, Maxwell in range (weather_optics.h), with the power of an
-/// exponentially distributed diameter above the least that answers. Fog: one echo where its soft
-/// response peaks. Both stand in front of the first surface only; extinction up to them is left
-/// out, since they lie in the first metres. False alarms: anywhere in range, as strong as the
-/// threshold. Which of a firing's echoes become returns, the return mode decides.
+/// Drops and flakes: their number is Poisson distributed, their range follows Maxwell's law
+/// (weather_optics.h), and their power results from an exponential distribution of diameters above
+/// the least detectable one. Fog: one echo where its soft response peaks. Both occur only in front
+/// of the first surface. Extinction up to drops and flakes is neglected, since they lie in the
+/// first metres. False alarms: uniformly distributed over the range gate, as strong as the
+/// threshold. The return mode decides which of a firing's echoes become returns.
 class Clutter {
  public:
   Clutter(const DetectorSpec& spec, const Kernels& kernels);
 
-  /// Adds drops, flakes and fog. @pre `echoes.first` knows its true ranges and outcomes.
-  void Add(EchoTiles& echoes) const;
-  /// Adds false alarms, which need no detection: after it.
+  [[nodiscard]] bool has_particles() const { return drops_.is_on || flakes_.is_on; }
+  [[nodiscard]] bool has_fog_echo() const { return has_fog_echo_; }
+  [[nodiscard]] bool has_false_alarms() const { return false_alarm_probability_ > 0.0F; }
+
+  /// Adds drops and flakes. @pre The true ranges and outcomes of `echoes.first` are set.
+  void AddParticles(EchoTiles& echoes) const;
+  /// Adds fog's echoes. @pre As AddParticles().
+  void AddFogEchoes(EchoTiles& echoes) const;
+  /// Adds false alarms. They do not pass detection, so call this after it.
   void AddFalseAlarms(EchoTiles& echoes) const;
 
  private:
@@ -34,7 +41,6 @@ class Clutter {
     bool is_on = false;
     ParticleEchoes echoes;
     std::array<float, kMostParticles> at_most{};  ///< [n]: P(count <= n)
-    float intensity_scale{};
     std::uint32_t label{};
     std::uint32_t first_echo{};
   };
@@ -43,8 +49,7 @@ class Clutter {
                                           double reflectance,
                                           std::uint32_t label,
                                           std::uint32_t first_echo) const;
-  void AddParticles(const Population& population, EchoTiles& echoes) const;
-  void AddFogEchoes(EchoTiles& echoes) const;
+  void AddPopulation(const Population& population, EchoTiles& echoes) const;
 
   DetectorSpec spec_;
   decltype(Kernels::uniforms) uniforms_;

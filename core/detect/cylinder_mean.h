@@ -4,16 +4,15 @@
 
 namespace railcast {
 
-/// A line along a cylinder as a distant sensor sees it: the cosine of its incidence for a sensor at
-/// right angles to the axis, and its share of the cylinder's width.
+/// A line along a cylinder, seen by a distant sensor.
 struct CylinderLine {
-  double cosine{};
-  double share{};
+  double cosine{};  ///< Cosine of incidence for a beam at right angles to the axis.
+  double share{};   ///< Share of the cylinder's projected width.
 };
 
-/// Lines that stand for the lit half: 16-point Gauss-Legendre nodes (Abramowitz and Stegun 1964,
-/// 25.4.30) in the angle from the middle line, which u = sin(angle) makes smooth: cosine =
-/// cos(angle), share = cos(angle) d(angle).
+/// Lines that represent the lit half: 16-point Gauss-Legendre nodes (Abramowitz and Stegun 1964,
+/// 25.4.30) in the angle from the middle line. The substitution u = sin(angle) makes the integrand
+/// smooth: cosine = cos(angle), share = cos(angle) d(angle).
 inline constexpr std::array<CylinderLine, 16> kCylinderLines = {{
     {0.99996535166491207, 0.021324752860931183},
     {0.99905268976724548, 0.04884748576618568},
@@ -33,13 +32,14 @@ inline constexpr std::array<CylinderLine, 16> kCylinderLines = {{
     {0.0083243900478706528, 0.00017752171132057599},
 }};
 
-/// Mean of a surface's answer over the lit half of a cylinder, across its width:
+/// Mean effective reflectance over the projected width of a cylinder's lit half:
 ///
 ///   (1 / 2) integral of f(sin_axis sqrt(1 - u^2)) du over u in (-1, 1)
 ///
 /// @param sin_axis Sine between beam and axis.
-/// @param answer Effective reflectance as a function of the cosine of incidence. A Lambertian's,
-///     rho cos, gives rho sin_axis pi / 4. Lobes of 0.1 rad come out to 1e-3 of the whole.
+/// @param answer Effective reflectance f as a function of the cosine of incidence. A Lambertian
+///     surface (rho cos) gives rho sin_axis pi / 4. For lobes of 0.1 rad the error is 1e-3 of the
+///     mean.
 template <typename Answer>
 [[nodiscard]] double CylinderMean(double sin_axis, const Answer& answer) {
   double mean = 0.0;

@@ -4,47 +4,26 @@
 #include <cmath>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include "core/base/random.h"
 #include "core/detect/beam_optics.h"
 #include "core/detect/lane_random.h"
+#include "core/detect/measurement.h"
 #include "core/detect/surface_response.h"
 #include "core/detect/weather_optics.h"
 
 namespace railcast {
 namespace {
 
-ThresholdParameters MakeThreshold(const DetectorSpec& spec) {
-  const PlausibilitySpec& model = spec.plausibility;
-  return {.inverse_threshold_m2 = static_cast<float>(
-              model.reference_range_m * model.reference_range_m / model.reference_threshold),
-          .fog_density_per_m = static_cast<float>(FogExtinction_per_m(spec.weather))};
-}
+/// A loop and its place in the order of loops.
+struct PlacedStep {
+  StepOrder order{};
+  EffectStep step;
+};
 
-RainParameters MakeRain(const DetectorSpec& spec) {
-  const WeatherSpec& weather = spec.weather;
-  return {.seed = spec.seed,
-          .dropout_per_m =
-              static_cast<float>(weather.rain_dropout_per_m *
-                                 std::pow(weather.rain_rate_mmph, weather.rain_dropout_exponent))};
-}
-
-SnowParameters MakeSnow(const DetectorSpec& spec) {
-  const WeatherSpec& weather = spec.weather;
-  const double mean_echoes = weather.snow_echoes_per_mmph * weather.snow_rate_mmph;
-  return {.seed = spec.seed,
-          .probability = static_cast<float>(-std::expm1(-mean_echoes)),
-          .range_scale_m = static_cast<float>(weather.snow_range_scale_m),
-          .range_min_m = static_cast<float>(spec.range_min_m),
-          .intensity = spec.effects.threshold ? static_cast<float>(weather.snow_intensity)
-                                              : std::numeric_limits<float>::quiet_NaN(),
-          .has_threshold = spec.effects.threshold,
-          .label = spec.labels.snow,
-          .threshold = MakeThreshold(spec)};
-}
-
-ResponseParameters MakeResponse(const DetectorSpec& spec) {
-  const LaneOptics snow = LaneOpticsOf(spec.snow);
+ResponseParameters MakeResponse(const DetectorSpec& spec, const SurfaceOptics& snow_optics) {
+  const LaneOptics snow = LaneOpticsOf(snow_optics);
   return {.is_lambert = !spec.effects.surface_response,
           .inverse_power_m2 = static_cast<float>(1.0 / LeastPower(spec.receiver)),
           .snow_cover =
@@ -53,11 +32,11 @@ ResponseParameters MakeResponse(const DetectorSpec& spec) {
           .snow_b = snow.b};
 }
 
-// N(0, sigma), the same in every frame.
-std::vector<float> MakeChannelBias(const DetectorSpec& spec) {
-  std::vector<float> bias_m(spec.num_channels, 0.0F);
+// Draws the channels' constant range errors from N(0, sigma). They are the same in every frame.
+std::vector<float> MakeChannelBias(const DetectorSpec& spec, std::uint32_t num_channels) {
+  std::vector<float> bias_m(num_channels, 0.0F);
   if (!spec.effects.channel_bias) return bias_m;
-  for (std::uint32_t channel = 0; channel < spec.num_channels; ++channel) {
+  for (std::uint32_t channel = 0; channel < num_channels; ++channel) {
     const auto words = RandomWords(spec.seed, RandomUse::kChannelBias, 0, channel);
     bias_m[channel] = static_cast<float>(spec.receiver.channel_bias_sigma_m) *
                       baseline::LaneNormals({words[0], words[1], words[2], words[3]}).a;
@@ -76,8 +55,8 @@ EffectStep MakeMeasurement(const DetectorSpec& spec,
                                    .channel_bias_m = channel_bias_m.data()};
   auto* measure = kernels.measure_exact;
   if (spec.effects.noise) {
-    measure = spec.plausibility.noise_shape == "beam" ? kernels.measure_along_beam
-                                                      : kernels.measure_isotropic;
+    measure = spec.plausibility.noise_shape == NoiseShape::kBeam ? kernels.measure_along_beam
+                                                                 : kernels.measure_isotropic;
   }
   const bool is_noisy = spec.effects.range_noise;
   if (IsPhysical(spec.effects)) {
@@ -95,107 +74,71 @@ EffectStep MakeMeasurement(const DetectorSpec& spec,
   return {effect, [=](DetectTile& tile) { measure(tile, parameters); }};
 }
 
-// Without the threshold no power is computed: the fields say so.
+// Without effect `threshold` no power is computed, which NaN marks.
 void LeavePowerOut(DetectTile& tile) {
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
   std::fill_n(tile.intensity, tile.num_rays, kNaN);
   std::fill_n(tile.power_ratio, tile.num_rays, kNaN);
 }
 
-// What the published model does between hit and measurement. An effect whose cause is absent is
-// left out: no rain, no snow, no work.
-void AddPublishedSteps(const DetectorSpec& spec,
-                       const Kernels& kernels,
-                       std::vector<EffectStep>& steps) {
-  if (spec.effects.threshold) {
-    steps.push_back({"threshold", [p = MakeThreshold(spec), apply = kernels.threshold](
-                                      DetectTile& tile) { apply(tile, p); }});
-  } else if (!IsPhysical(spec.effects)) {
-    steps.push_back({"no threshold", &LeavePowerOut});
+// The loops of the effects that are on and have a cause. Without rain, for example, effect `rain`
+// adds no loop.
+std::vector<PlacedStep> MakeEffectLoops(const DetectorSpec& spec, const Kernels& kernels) {
+  std::vector<PlacedStep> steps;
+  for (const Effect& effect : EffectTable()) {
+    if (!(spec.effects.*effect.is_on) || !effect.loop || !effect.has_cause(spec)) continue;
+    steps.push_back({effect.loop->order, {effect.name, effect.loop->make(spec, kernels)}});
   }
-  if (spec.effects.rain && spec.weather.rain_rate_mmph > 0.0) {
-    steps.push_back(
-        {"rain", [p = MakeRain(spec), apply = kernels.rain](DetectTile& tile) { apply(tile, p); }});
-  }
-  if (spec.effects.snow && spec.weather.snow_rate_mmph > 0.0) {
-    steps.push_back(
-        {"snow", [p = MakeSnow(spec), apply = kernels.snow](DetectTile& tile) { apply(tile, p); }});
-  }
+  return steps;
 }
 
-void AddPhysicalSteps(const DetectorSpec& spec,
-                      const Kernels& kernels,
-                      std::vector<EffectStep>& steps) {
-  if (spec.effects.sunlight && spec.weather.sun.illuminance_klx > 0.0) {
-    const SunlightParameters parameters{static_cast<float>(SunBackgroundGain(spec.weather.sun))};
-    steps.push_back(
-        {"sunlight", [=, apply = kernels.sunlight](DetectTile& tile) { apply(tile, parameters); }});
-  }
-  if (spec.effects.detection) {
-    const DetectionParameters parameters{
-        .seed = spec.seed, .snr_at_threshold = static_cast<float>(spec.receiver.snr_at_threshold)};
-    auto* const apply =
-        spec.effects.detection_probability ? kernels.smooth_detection : kernels.detection;
-    steps.push_back({"detection", [=](DetectTile& tile) { apply(tile, parameters); }});
-  }
-}
-
-std::vector<EffectStep> MakeReceiver(const DetectorSpec& spec,
-                                     const std::vector<float>& channel_bias_m,
-                                     const Kernels& kernels) {
-  std::vector<EffectStep> steps;
+// The loops that run whichever effects are on.
+std::vector<PlacedStep> MakeBaseLoops(const DetectorSpec& spec,
+                                      const ResponseParameters& response,
+                                      const std::vector<float>& channel_bias_m,
+                                      const Kernels& kernels) {
+  std::vector<PlacedStep> steps;
   const auto range_min_m = static_cast<float>(spec.range_min_m);
-  steps.push_back({"hit", [=, hit = kernels.hit](DetectTile& tile) { hit(tile, range_min_m); }});
-  // First: a pulse that was never sent meets neither surface nor snow.
-  if (spec.effects.sensor_dropout && spec.plausibility.dropout_probability > 0.0) {
-    const SensorDropoutParameters parameters{
-        .seed = spec.seed,
-        .probability = static_cast<float>(spec.plausibility.dropout_probability)};
-    steps.push_back({"sensor_dropout", [=, apply = kernels.sensor_dropout](DetectTile& tile) {
-                       apply(tile, parameters);
-                     }});
+  steps.push_back({StepOrder::kHit,
+                   {"hit", [=, hit = kernels.hit](DetectTile& tile) { hit(tile, range_min_m); }}});
+  if (IsPhysical(spec.effects)) {
+    steps.push_back({StepOrder::kSurfaceResponse,
+                     {ShowsSurfaceCondition(spec) ? "surface_condition" : "surface_response",
+                      [=, apply = kernels.response](DetectTile& tile) { apply(tile, response); }}});
+  } else if (!spec.effects.threshold) {
+    steps.push_back({StepOrder::kThreshold, {"no threshold", &LeavePowerOut}});
   }
-  AddPublishedSteps(spec, kernels, steps);
-  AddPhysicalSteps(spec, kernels, steps);
-  steps.push_back(MakeMeasurement(spec, channel_bias_m, kernels));
+  steps.push_back({StepOrder::kMeasurement, MakeMeasurement(spec, channel_bias_m, kernels)});
   return steps;
 }
 
 }  // namespace
 
-bool IsPhysical(const EffectSet& effects) {
-  EffectSet published;
-  published.threshold = effects.threshold;
-  published.rain = effects.rain;
-  published.snow = effects.snow;
-  published.noise = effects.noise;
-  published.sensor_dropout = effects.sensor_dropout;
-  return effects != published;
+bool ShowsSurfaceCondition(const DetectorSpec& spec) {
+  return spec.effects.surface_condition && FindEffect("surface_condition")->has_cause(spec);
 }
 
-Detector::Detector(const DetectorSpec& spec, const Kernels& kernels)
-    : response_(MakeResponse(spec)),
+Detector::Detector(const DetectorSpec& spec, const DetectorSetting& setting, const Kernels& kernels)
+    : response_(MakeResponse(spec, setting.snow)),
       pulse_sigma_m_(static_cast<float>(PulseSigma_m(spec.beam))),
       has_stretch_(spec.effects.pulse_stretch),
       extinction_per_m_(spec.effects.extinction ? static_cast<float>(Extinction_per_m(
                                                       spec.weather, spec.beam.wavelength_nm))
                                                 : 0.0F),
-      channel_bias_m_(MakeChannelBias(spec)),
+      channel_bias_m_(MakeChannelBias(spec, setting.num_channels)),
       clutter_(spec, kernels) {
-  if (IsPhysical(spec.effects)) AddOptics(kernels);
-  receiver_ = MakeReceiver(spec, channel_bias_m_, kernels);
-}
-
-void Detector::AddOptics(const Kernels& kernels) {
-  optics_.push_back({"surface_response", [p = response_, apply = kernels.response](
-                                             DetectTile& tile) { apply(tile, p); }});
-  if (has_stretch_) {
-    optics_.push_back({"pulse_stretch", [sigma_m = pulse_sigma_m_, apply = kernels.pulse_stretch](
-                                            DetectTile& tile) { apply(tile, sigma_m); }});
+  if (ShowsSurfaceCondition(spec)) {
+    ResponseParameters bare = response_;
+    bare.snow_cover = 0.0F;
+    bare_response_ = {"surface_response",
+                      [=, apply = kernels.response](DetectTile& tile) { apply(tile, bare); }};
   }
-  if (extinction_per_m_ > 0.0F) {
-    optics_.push_back({"extinction", [alpha = extinction_per_m_, apply = kernels.extinction](
-                                         DetectTile& tile) { apply(tile, alpha); }});
+  std::vector<PlacedStep> steps = MakeBaseLoops(spec, response_, channel_bias_m_, kernels);
+  for (PlacedStep& step : MakeEffectLoops(spec, kernels)) steps.push_back(std::move(step));
+  std::stable_sort(steps.begin(), steps.end(),
+                   [](const PlacedStep& a, const PlacedStep& b) { return a.order < b.order; });
+  for (PlacedStep& step : steps) {
+    (step.order < StepOrder::kHit ? optics_ : receiver_).push_back(std::move(step.step));
   }
 }
 
@@ -210,6 +153,11 @@ float Detector::PowerRatio(float intensity, float range_m, float spread_m) const
   return ratio * baseline::Exp(-2.0F * extinction_per_m_ * range_m);
 }
 
+void Detector::RespondBare(DetectTile& tile, const EffectObserver& observer) const {
+  bare_response_.apply(tile);
+  observer(bare_response_.effect);
+}
+
 void Detector::Respond(DetectTile& tile, const EffectObserver& observer) const {
   for (const EffectStep& step : optics_) {
     step.apply(tile);
@@ -218,12 +166,19 @@ void Detector::Respond(DetectTile& tile, const EffectObserver& observer) const {
 }
 
 void Detector::Detect(EchoTiles& echoes, const EffectObserver& observer) const {
-  clutter_.Add(echoes);
+  const auto tell = [&](bool is_on, std::string_view effect) {
+    if (is_on && observer) observer(effect);
+  };
+  clutter_.AddParticles(echoes);
+  tell(clutter_.has_particles(), "clutter");
+  clutter_.AddFogEchoes(echoes);
+  tell(clutter_.has_fog_echo(), "fog_echo");
   for (const EffectStep& step : receiver_) {
     echoes.ForEachTile(step.apply);
-    if (observer) observer(step.effect);
+    tell(true, step.effect);
   }
   clutter_.AddFalseAlarms(echoes);
+  tell(clutter_.has_false_alarms(), "false alarms");
 }
 
 }  // namespace railcast

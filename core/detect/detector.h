@@ -9,59 +9,60 @@
 #include "core/detect/beam_optics.h"
 #include "core/detect/clutter.h"
 #include "core/detect/detect_tile.h"
-#include "core/detect/detector_spec.h"
 #include "core/detect/echo_tiles.h"
 #include "core/detect/effect_parameters.h"
+#include "core/detect/effect_table.h"
 #include "core/detect/kernels.h"
+#include "railcast/effects.h"
 
 namespace railcast {
 
-/// One effect's pass over a tile.
-struct EffectStep {
-  std::string_view effect;
-  std::function<void(DetectTile&)> apply;
-};
-
-/// Called after each effect, with its name.
+/// Callback after each effect, with the effect's name.
 using EffectObserver = std::function<void(std::string_view effect)>;
 
-/// Whether any effect of the physical rungs is on.
-[[nodiscard]] bool IsPhysical(const EffectSet& effects);
+/// Whether effect `surface_condition` changes any surface: it is on, and surfaces are wet or
+/// covered with snow.
+[[nodiscard]] bool ShowsSurfaceCondition(const DetectorSpec& spec);
 
-/// Turns hits into returns: the effects that are on. The published ones in the published order
-/// (threshold, rain, snow, then noise on all points); the physical ones in the order of physics
-/// (surface response, pulse stretch, extinction, clutter, sunlight, detection, then range and
-/// noise). Immutable; thread-safe.
+/// Turns hits into detected echoes. Runs the loops of the effects that are on and have a cause, in
+/// the order of StepOrder; clutter is added before the receiver's loops, false alarms after them.
+/// Immutable; thread-safe.
 class Detector {
  public:
-  /// @param kernels The instruction set's loops; the result does not depend on the choice.
-  explicit Detector(const DetectorSpec& spec, const Kernels& kernels = AvailableKernels().back());
-  // Its steps point into it.
+  /// @param kernels The loops of one instruction set; the result does not depend on the choice.
+  explicit Detector(const DetectorSpec& spec,
+                    const DetectorSetting& setting = {},
+                    const Kernels& kernels = AvailableKernels().back());
+  // Not copyable: the steps point to the elements of channel_bias_m_, which moving keeps in place.
   Detector(Detector&&) = default;
   Detector& operator=(Detector&&) = default;
 
-  /// Surface and air: expects all of a DetectTile that comes before `outcome`, and outcome
-  /// (no_surface, ego or returned); fills intensity and power_ratio. Every component of a wide beam
-  /// passes through these effects by itself.
+  /// Applies the effects of surface and air. Expects all members of the tile up to and including
+  /// `outcome` (no_surface, ego or returned); fills intensity and power_ratio. Every component of a
+  /// wide beam passes through these effects on its own.
   void Respond(DetectTile& tile, const EffectObserver& observer = {}) const;
-  /// The same of one thing alone, without stretch: a wire, which no ray has hit.
-  /// @param cosine Of the incidence.
+  /// The response of the surfaces without snow on them, for the explanation of a firing. Runs only
+  /// the first step of Respond(), which then overwrites the result.
+  /// @pre ShowsSurfaceCondition()
+  void RespondBare(DetectTile& tile, const EffectObserver& observer) const;
+  /// Effective reflectance of a single surface, for wires, which no ray has hit.
+  /// @param cosine Cosine of incidence.
   [[nodiscard]] float Reflectance(const LaneOptics& optics, float cosine) const;
-  /// Power over the least detectable one.
+  /// Received power of a single echo over the least detectable power, with pulse stretch and
+  /// extinction where those effects are on.
   /// @param intensity Share of the beam x effective reflectance.
   [[nodiscard]] float PowerRatio(float intensity, float range_m, float spread_m) const;
 
-  /// Receiver: expects intensity and power_ratio too, adds what answers without a surface, and
-  /// fills the rest.
+  /// Applies the effects of the receiver. Also expects intensity and power_ratio; adds clutter and
+  /// false alarms and fills the remaining members.
   void Detect(EchoTiles& echoes, const EffectObserver& observer = {}) const;
 
  private:
-  void AddOptics(const Kernels& kernels);
-
   ResponseParameters response_;
   float pulse_sigma_m_;
   bool has_stretch_;
   float extinction_per_m_;
+  EffectStep bare_response_;
   std::vector<EffectStep> optics_;
   std::vector<EffectStep> receiver_;
   std::vector<float> channel_bias_m_;

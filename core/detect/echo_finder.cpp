@@ -8,17 +8,17 @@
 namespace railcast {
 namespace {
 
-// Peaks nearer than this, in pulse sigmas, are one that was climbed to twice.
+// Peaks closer together than this many pulse sigmas are one peak that two climbs have reached.
 constexpr float kSamePeak = 0.5F;
 
 bool IsNearer(const Component& a, const Component& b) {
   return a.range_m != b.range_m ? a.range_m < b.range_m : a.surface < b.surface;
 }
 
-// The part of `components` between two ranges, as one echo at `peak`.
+// Combines the components in [begin, end) into one echo at `peak`.
 Echo Gather(const WavePeak& peak, const Component* begin, const Component* end) {
   Echo echo{.peak_range_m = peak.range_m, .power_ratio = peak.value};
-  // The surface that sends most: sums by surface, in the order of first appearance.
+  // Find the surface that sends most power: sum by surface, in the order of first appearance.
   float most = -1.0F;
   for (const Component* c = begin; c != end; ++c) {
     echo.share += c->share;
@@ -83,8 +83,8 @@ void EchoFinder::AddPeak(const WavePeak& peak) {
 }
 
 void EchoFinder::ClimbToPeaks(const std::vector<Component>& components) {
-  // From the mean of every stretch of components that is at most one pulse sigma long: a maximum
-  // draws from farther than that.
+  // Start a climb from the mean of every run of components that is at most one pulse sigma long.
+  // The basin of attraction of a maximum is wider, so that no maximum is missed.
   std::size_t begin = 0;
   while (begin < components.size()) {
     const float begin_m = components[begin].range_m;
@@ -97,7 +97,8 @@ void EchoFinder::ClimbToPeaks(const std::vector<Component>& components) {
       ++end;
     }
     if (power > 0.0F) {
-      // Two equal pulses that just part, 2 sigma from each other, peak 1 sigma from either.
+      // Two equal pulses have two peaks only if they are more than 2 sigma apart. At that distance
+      // their common peak is 1 sigma from either.
       const WaveKnown known{peaks_.data(), peaks_.size(), pulse_sigma_m_};
       AddPeak(kernels_.climb_wave(wave_, begin_m + moment / power, known));
     }
@@ -110,7 +111,7 @@ void EchoFinder::SamplePeaks(const std::vector<Component>& components) {
   const float margin_m = 2.0F * pulse_sigma_m_;
   std::size_t begin = 0;
   while (begin < components.size()) {
-    // Components whose windows overlap are sampled together.
+    // Sample components whose windows overlap together.
     std::size_t end = begin + 1;
     while (end < components.size() &&
            components[end].range_m - components[end - 1].range_m <= 2.0F * margin_m) {
@@ -154,7 +155,7 @@ void EchoFinder::Find(std::vector<Component>& components, std::vector<Echo>& ech
       })->value;
   const float least = std::min(strongest, least_ratio_);
   std::erase_if(peaks_, [&](const WavePeak& peak) { return peak.value < least; });
-  // Every component belongs to the nearest peak.
+  // Assign every component to the nearest peak.
   const Component* begin = components.data();
   const Component* const last = begin + components.size();
   for (std::size_t i = 0; i < peaks_.size(); ++i) {

@@ -4,51 +4,51 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/detect/detect_spec.h"
 #include "core/detect/kernels.h"
+#include "railcast/effects.h"
 
 namespace railcast {
 
-/// A part of what a beam meets: a sub-ray's surface, a wire.
+/// A part of what a beam meets: the surface that a sub-ray hits, or a wire.
 struct Component {
   float range_m{};
-  float spread_m{};     ///< Standard deviation of the range inside the component.
-  float power_ratio{};  ///< Its own peak over the least detectable power.
-  float share{};        ///< Of the beam.
+  float spread_m{};     ///< Standard deviation of the range within the component.
+  float power_ratio{};  ///< Peak of the component alone over the least detectable power.
+  float share{};        ///< Share of the beam.
   float intensity{};    ///< Share x effective reflectance.
   float cos_incidence{};
   float reflectivity{};
   std::uint32_t surface{};
 };
 
-/// A peak of the light that comes back.
+/// An echo: a peak of the received waveform.
 struct Echo {
-  float peak_range_m{};   ///< Where the receiver sees it.
+  float peak_range_m{};   ///< Range of the peak.
   float true_range_m{};   ///< Mean range of the surface that sends most of it.
-  float power_ratio{};    ///< Of the peak.
-  float share{};          ///< Of the beam, all components together.
-  float intensity{};      ///< Likewise.
+  float power_ratio{};    ///< Peak power over the least detectable power.
+  float share{};          ///< Share of the beam, summed over all components.
+  float intensity{};      ///< Intensity, summed over all components.
   float cos_incidence{};  ///< Mean over the surface that sends most of it.
   float reflectivity{};
   std::uint32_t surface{};
 };
 
-/// Finds the echoes in what a beam meets: the maxima of the wave that its components make. Echoes
-/// nearer together than about 0.85 pulse lengths (two equal ones) melt into one, whose range then
-/// lies between the surfaces: mixed pixels. Not thread-safe: keeps its working memory.
+/// Finds the echoes of a beam: the maxima of the waveform to which its components add up. Two equal
+/// echoes closer together than about 0.85 pulse lengths merge into one, whose range lies between
+/// the surfaces (a mixed pixel). Not thread-safe: keeps its working memory.
 class EchoFinder {
  public:
-  /// @param is_sampled Effect `sampled_waveform`: samples the wave at an eighth of the pulse's
-  ///   sigma and looks for local maxima, refined by a parabola through the logarithms; else climbs
-  ///   to each maximum by closed forms.
+  /// @param is_sampled Effect `sampled_waveform`: samples the waveform at an eighth of the pulse's
+  ///   sigma and looks for local maxima, refined by a parabola through the logarithms. If false,
+  ///   climbs to each maximum with derivatives in closed form.
   EchoFinder(const BeamSpec& beam,
              bool has_stretch,
              bool is_sampled,
              float least_ratio,
              const Kernels& kernels);
 
-  /// Echoes by range: the strongest, and all that reach `least_ratio` of the least detectable
-  /// power. Sorts `components` by range.
+  /// Fills `echoes`, sorted by range, with the strongest echo and all that reach `least_ratio`
+  /// times the least detectable power. Sorts `components` by range.
   void Find(std::vector<Component>& components, std::vector<Echo>& echoes);
 
  private:

@@ -9,28 +9,29 @@
 
 namespace railcast {
 
-/// The echoes of one tile of firings. Lane i of `first` is the first echo of firing i, or says why
-/// it has none; further echoes stand in `more`, in the order in which they were added.
+/// The echoes of one tile of firings. Lane i of `first` is the first echo of firing i, or has the
+/// outcome that explains why there is none. Further echoes are in `more`, in the order in which
+/// they were added.
 class EchoTiles {
  public:
-  // Numbers of the echoes within a firing, part of their random keys. Surfaces count from 0.
+  // Numbers of echoes within a firing, part of their random keys. Echoes of surfaces count from 0.
   static constexpr std::uint32_t kFalseAlarm = 98;
   static constexpr std::uint32_t kFogEcho = 99;
   static constexpr std::uint32_t kFirstDrop = 100;
   static constexpr std::uint32_t kFirstFlake = 200;
 
   DetectTile first;
-  float mixed_share[kTileSize];  ///< Of each firing's beam, as Frame::mixed_share has it.
+  float mixed_share[kTileSize];  ///< Frame::mixed_share of each firing.
 
-  /// An echo: its tile and its lane there.
+  /// The position of an echo: its tile and its lane there.
   struct Place {
     DetectTile& tile;
     std::size_t lane;
   };
 
   void ClearMore() { num_more_ = 0; }
-  /// Adds an echo of firing `beam`, a lane of `first`, and gives it that firing's name and
-  /// direction; all else is the caller's to set.
+  /// Adds an echo to the firing in lane `beam` of `first` and copies that firing's frame, index,
+  /// channel and direction. The caller must set everything else.
   Place Add(std::size_t beam, std::uint32_t echo) {
     const std::size_t tile_index = num_more_ / kTileSize;
     const std::size_t lane = num_more_ % kTileSize;
@@ -64,7 +65,7 @@ class EchoTiles {
   }
 
  private:
-  std::vector<std::unique_ptr<DetectTile>> more_;  // Kept from tile to tile.
+  std::vector<std::unique_ptr<DetectTile>> more_;  // Reused from one tile of firings to the next.
   std::vector<std::uint32_t> beam_;
   std::size_t num_more_{};
 };

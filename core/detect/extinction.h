@@ -7,8 +7,8 @@
 
 namespace railcast::RAILCAST_ISA {
 
-/// Effect `extinction`: the air takes its part there and back, power x exp(-2 alpha R). The
-/// coefficient alpha is that of fog, rain and snow together (core/detect/weather_optics.h).
+/// Effect `extinction`: two-way loss in the air, power x exp(-2 alpha R). The coefficient alpha is
+/// the sum for fog, rain and snow (core/detect/weather_optics.h).
 inline void ApplyExtinction(DetectTile& tile, float extinction_per_m) {
   const float both_ways_per_m = 2.0F * extinction_per_m;
   for (std::size_t i = 0; i < tile.num_rays; ++i) {

@@ -9,17 +9,17 @@
 #include "core/detect/beam_axes.h"
 #include "core/detect/beam_optics.h"
 #include "core/detect/cylinder_mean.h"
-#include "core/frame/outcome.h"
-#include "core/scan/scan_pattern.h"
+#include "railcast/lidar.h"
+#include "railcast/outcome.h"
 
 namespace railcast {
 namespace {
 
-// Surfaces farther apart than this are two.
+// Parts of a beam with a larger gap in range belong to different surfaces.
 constexpr float kSurfaceGap_m = 0.5F;
 
-// The share of a beam that is not in the largest of its surfaces. Sorts the parts by range, those
-// of the sky last.
+// The share of a beam that does not meet the largest of its surfaces. Sorts the parts by range;
+// parts that meet the sky come last.
 float MixedShare(std::vector<Component>& parts) {
   std::sort(parts.begin(), parts.end(), [](const Component& a, const Component& b) {
     const bool a_hits = a.surface != 0;
@@ -39,7 +39,7 @@ float MixedShare(std::vector<Component>& parts) {
   return std::max(total - largest, 0.0F);
 }
 
-// Weaker echoes are detected once in a thousand at most.
+// Echoes weaker than this are detected in at most one case of 1000.
 constexpr float kLeastRatio = 0.3F;
 
 Component ComponentOf(const DetectTile& hits, std::size_t lane) {
@@ -68,7 +68,7 @@ Footprint::Footprint(const DetectorSpec& spec, const Kernels& kernels)
               spec.effects.detection ? kLeastRatio : 0.0F,
               kernels) {}
 
-// The central ray answered for the whole beam; here it is one cell of it, with less spread.
+// Scales the central ray's response from the whole beam to one cell, which has less spread.
 Component Footprint::CentralCell(const DetectTile& first, std::size_t lane, float share) const {
   Component cell = ComponentOf(first, lane);
   const float whole_spread2 = cell.spread_m * cell.spread_m;
@@ -87,7 +87,7 @@ void Footprint::FlushBatch(const WideBeams& beams, std::size_t num_rays) {
   if (num_rays == 0) return;
   RayTile& rays = batch_.rays;
   DetectTile& hits = batch_.hits;
-  // The last packet is filled up with its last ray.
+  // Pad the last packet with its last ray.
   while (num_rays % kPacketSize != 0) {
     const std::size_t last = num_rays - 1;
     for (float* values : {rays.origin_x, rays.origin_y, rays.origin_z, rays.direction_x,
@@ -142,9 +142,9 @@ void Footprint::TraceSubRays(const WideBeams& beams, const EchoTiles& echoes) {
     const float cosine = std::cos(turn_rad);
     const float sine = std::sin(turn_rad);
     for (const SubRay& sub_ray : pattern_.sub_rays) {
-      const float h = sigma_h * (cosine * sub_ray.h - sine * sub_ray.v);
-      const float v = sigma_v * (sine * sub_ray.h + cosine * sub_ray.v);
-      const baseline::Direction aim = baseline::Beside(d, axes, h, v);
+      const SubRay turned = Turned(sub_ray, cosine, sine);
+      const baseline::Direction aim =
+          baseline::Beside(d, axes, sigma_h * turned.h, sigma_v * turned.v);
       rays.origin_x[num_rays] = beams.rays.origin_x[lane];
       rays.origin_y[num_rays] = beams.rays.origin_y[lane];
       rays.origin_z[num_rays] = beams.rays.origin_z[lane];
@@ -196,7 +196,7 @@ void Footprint::GatherParts(const EchoTiles& echoes,
 }
 
 void Footprint::AddWires(const WideBeams& beams, const WireCapture* begin, const WireCapture* end) {
-  // Captures come by range: each dims what lies behind it.
+  // Captures are sorted by range. Each one reduces the share of what lies behind it.
   for (const WireCapture* capture = begin; capture != end; ++capture) {
     if (!(capture->range_m >= static_cast<float>(spec_.range_min_m) &&
           capture->range_m < static_cast<float>(spec_.range_max_m))) {
@@ -206,7 +206,7 @@ void Footprint::AddWires(const WideBeams& beams, const WireCapture* begin, const
     for (const Component& part : beam_parts_) {
       if (part.surface != 0 && part.range_m < capture->range_m) visible -= part.share;
     }
-    // The shares of rays add up to 1 but for rounding.
+    // The shares of the rays add up to 1 except for rounding, so that `visible` may be negative.
     const float share = capture->share * std::max(visible, 0.0F);
     for (std::vector<Component>* parts : {&components_, &beam_parts_}) {
       for (Component& part : *parts) {
@@ -261,7 +261,7 @@ void Footprint::Resolve(const WideBeams& beams, EchoTiles& echoes) {
     if (!is_wide && first_capture == capture) continue;
     GatherParts(echoes, lane,
                 is_wide ? sub_components_.data() + wide++ * pattern_.sub_rays.size() : nullptr);
-    // What lies near or belongs to the vehicle blocks its part of the beam and sends nothing.
+    // Parts nearer than range_min or on the vehicle block their share of the beam and send nothing.
     components_.clear();
     std::copy_if(beam_parts_.begin(), beam_parts_.end(), std::back_inserter(components_),
                  [&](const Component& part) {
@@ -271,7 +271,7 @@ void Footprint::Resolve(const WideBeams& beams, EchoTiles& echoes) {
                  });
     if (is_wide && components_.empty() &&
         echoes.first.outcome[lane] == static_cast<std::uint32_t>(Outcome::kReturned)) {
-      // What the central ray alone meets is thin: it fills no more than a sub-ray's cell.
+      // A surface that only the central ray meets is thin: it fills no more than a sub-ray's cell.
       const float share = 1.0F / static_cast<float>(pattern_.sub_rays.size() + 1);
       components_.push_back(CentralCell(echoes.first, lane, share));
     }
@@ -280,7 +280,7 @@ void Footprint::Resolve(const WideBeams& beams, EchoTiles& echoes) {
     components_.insert(components_.end(), wires_.begin(), wires_.end());
     beam_parts_.insert(beam_parts_.end(), wires_.begin(), wires_.end());
     echoes.mixed_share[lane] = MixedShare(beam_parts_);
-    if (components_.empty()) continue;  // The central ray says why.
+    if (components_.empty()) continue;  // The outcome of the central ray explains why.
     finder_.Find(components_, found_);
     StoreEchoes(lane, echoes);
   }

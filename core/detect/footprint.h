@@ -12,46 +12,49 @@
 #include "core/detect/sub_ray_pattern.h"
 #include "core/detect/thin_conductors.h"
 #include "core/detect/wire_set.h"
-#include "core/trace/ray_tile.h"
+#include "railcast/ray_caster.h"
 
 namespace railcast {
 
-/// A tile of wide beams, their central rays traced.
+/// A tile of wide beams whose central rays have been traced.
 struct WideBeams {
   const RayTile& rays;
   const BeamFrame& frame;
   const RayCaster& caster;
   const SurfaceTable& table;
   const Detector& detector;
-  const WireSet* wires;                ///< Null unless they are found apart from the rays.
-  const std::uint8_t* needs_sub_rays;  ///< By lane; null if no beam does.
+  const WireSet* wires;                ///< Null unless effect `thin_conductors` is on.
+  const std::uint8_t* needs_sub_rays;  ///< Whether each lane needs them; null if no beam does.
 };
 
 /// Effects `footprint` and `dense_footprint`: what a beam of finite width meets.
 ///
-/// Each sub-ray (sub_ray_pattern.h, turned by a random angle for each firing) stands for a cell of
-/// the beam, whose slope spreads its range. A beam whose neighbourhood
-/// is smooth is its central ray, with the whole beam's spread.
+/// Each sub-ray (sub_ray_pattern.h; the pattern is turned by a random angle for each firing)
+/// represents a cell of the beam. The slope of the surface spreads the range within the cell. A
+/// beam whose neighbourhood is smooth is represented by its central ray alone, with the spread of
+/// the whole beam.
 ///
-/// Effect `thin_conductors`: wires in closed form (thin_conductors.h), in front of as much as lies
-/// behind them; what of them lies behind the sub-rays' surfaces is hidden, in proportion.
+/// Effect `thin_conductors`: wires in closed form (thin_conductors.h). A wire hides its share of
+/// what lies behind it, and the surfaces in front of a wire hide it in proportion to their share of
+/// the beam.
 ///
 /// Not thread-safe: keeps its working memory.
 class Footprint {
  public:
   Footprint(const DetectorSpec& spec, const Kernels& kernels);
 
-  /// Splits the tile's beams into echoes. @pre `echoes.first` holds the central rays' hits, and
-  /// Detector::Respond has been applied to it.
+  /// Resolves the tile's beams into echoes.
+  /// @pre `echoes.first` holds the central rays' hits, and Detector::Respond has been applied to
+  ///   it.
   void Resolve(const WideBeams& beams, EchoTiles& echoes);
 
  private:
-  /// A run of sub-rays under way: the tile of rays that is being filled, and whose they are.
+  /// A batch of sub-rays, which are traced together when the tile is full.
   struct Batch {
     RayTile rays;
     DetectTile hits;
-    float share[kTileSize];      ///< Of each ray's beam.
-    float cell_size[kTileSize];  ///< Its square root: the cell's size in the beam's.
+    float share[kTileSize];      ///< Share of the beam that each ray represents.
+    float cell_size[kTileSize];  ///< sqrt(share): size of the cell relative to the beam.
   };
 
   void GatherParts(const EchoTiles& echoes, std::size_t lane, const Component* sub_components);
@@ -67,12 +70,13 @@ class Footprint {
   Kernels kernels_;
   EchoFinder finder_;
   Batch batch_;
-  std::vector<std::uint32_t> wide_lanes_;  // Those that need sub-rays.
-  std::vector<Component> sub_components_;  // The pattern's, for each of them.
+  std::vector<std::uint32_t> wide_lanes_;  // The lanes that need sub-rays.
+  std::vector<Component>
+      sub_components_;  // The sub-rays of each of these lanes, one after another.
   std::vector<WireCapture> captures_;
-  std::vector<Component> beam_parts_;  // All that rays say of one beam, in the way or not.
+  std::vector<Component> beam_parts_;  // All parts of one beam, also those that send nothing.
   std::vector<Component> wires_;
-  std::vector<Component> components_;  // What of it sends light back, wires included.
+  std::vector<Component> components_;  // The parts of one beam that send light back, with wires.
   std::vector<Echo> found_;
 };
 

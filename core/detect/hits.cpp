@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/frame/outcome.h"
+#include "railcast/outcome.h"
 
 namespace railcast {
 

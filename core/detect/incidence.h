@@ -9,12 +9,12 @@
 #include "core/detect/detect_tile.h"
 #include "core/detect/effect_parameters.h"
 #include "core/detect/vector_math.h"
-#include "core/trace/ray_tile.h"
+#include "railcast/ray_caster.h"
 
 namespace railcast::RAILCAST_ISA {
 
-/// How steeply the rays meet what they hit: cos_incidence, NaN where nothing was hit. Lane i of
-/// `tile` is lane i of `rays`.
+/// Computes cos_incidence, the cosine of the angle of incidence; NaN where nothing was hit. Lane i
+/// of `tile` is lane i of `rays`.
 inline void ApplyIncidence(const RayTile& rays, DetectTile& tile) {
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
   for (std::size_t i = 0; i < tile.num_rays; ++i) {
@@ -26,22 +26,22 @@ inline void ApplyIncidence(const RayTile& rays, DetectTile& tile) {
     const float n2 = nx * nx + ny * ny + nz * nz;
     const float cosine = std::fabs(along) / std::sqrt(n2);
     const float bounded = cosine > 1.0F ? 1.0F : cosine;
-    // Without a hit the normal is 0. Not 0 / 0: that NaN has another sign than the one of the
-    // range, and which of the two a product takes depends on the instruction set.
+    // Without a hit the normal is 0. The NaN is not left to 0 / 0: its sign would differ from that
+    // of the range's NaN, and which of the two a product takes depends on the instruction set.
     tile.cos_incidence[i] = n2 > 0.0F ? bounded : kNaN;
   }
 }
 
-/// What the beam's width adds: normal_up and spread_m, the standard deviation of the range over the
-/// beam's profile on the tangent plane; both 0 where nothing was hit:
+/// Computes normal_up and spread_m, the standard deviation of the range over the beam's profile on
+/// the tangent plane. Both are 0 where nothing was hit.
 ///
 ///   spread = R / |n.d| * hypot(sigma_h n.h, sigma_v n.v)
 ///
 /// with n the surface normal, d the beam, h = up x d and v = d x h its horizontal and vertical axes
-/// (unit length). From the plane's range R n.d / n.(d + a h + b v), linear in the small angles a,
-/// b.
+/// (unit length). This follows from the plane's range R n.d / n.(d + a h + b v), linearised in the
+/// small angles a and b.
 inline void ApplySpread(const RayTile& rays, const BeamFrame& beam, DetectTile& tile) {
-  const BeamFrame b = beam;  // A copy: no store to the tile can change it.
+  const BeamFrame b = beam;  // The copy cannot alias the tile.
   for (std::size_t i = 0; i < tile.num_rays; ++i) {
     const float nx = rays.normal_x[i];
     const float ny = rays.normal_y[i];

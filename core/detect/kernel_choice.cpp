@@ -9,9 +9,6 @@ Kernels MakeKernels();
 namespace avx2 {
 Kernels MakeKernels();
 }
-namespace avx512 {
-Kernels MakeKernels();
-}
 #endif
 
 const std::vector<Kernels>& AvailableKernels() {
@@ -19,10 +16,6 @@ const std::vector<Kernels>& AvailableKernels() {
     std::vector<Kernels> available{baseline::MakeKernels()};
 #ifdef RAILCAST_X86_KERNELS
     if (__builtin_cpu_supports("avx2")) available.push_back(avx2::MakeKernels());
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-        __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl")) {
-      available.push_back(avx512::MakeKernels());
-    }
 #endif
     return available;
   }();

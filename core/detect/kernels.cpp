@@ -1,5 +1,6 @@
-// Compiled once per instruction set, see CMakeLists.txt: RAILCAST_ISA names the copy. Nothing with
-// external linkage may be instantiated here besides the one function below.
+// This file is compiled once per instruction set (see CMakeLists.txt); RAILCAST_ISA names the copy.
+// The function below must be the only one with external linkage, or the linker could replace one
+// copy's code by that of another instruction set.
 #include "core/detect/kernels.h"
 #include "core/detect/detection.h"
 #include "core/detect/extinction.h"
@@ -20,29 +21,10 @@ namespace railcast::RAILCAST_ISA {
 
 Kernels MakeKernels();
 
+#define RAILCAST_KERNEL_POINTER(name, function, type) .name = &function,
 Kernels MakeKernels() {
-  return {.isa = RAILCAST_STRINGIFY(RAILCAST_ISA),
-          .uniforms = &DrawUniforms,
-          .pointing = &ApplyPointing,
-          .incidence = &ApplyIncidence,
-          .spread = &ApplySpread,
-          .hit = &ApplyHit,
-          .sensor_dropout = &ApplySensorDropout,
-          .threshold = &ApplyThreshold,
-          .rain = &ApplyRainDropout,
-          .snow = &ApplySnowClutter,
-          .response = &ApplyResponse,
-          .pulse_stretch = &ApplyPulseStretch,
-          .extinction = &ApplyExtinction,
-          .sunlight = &ApplySunlight,
-          .detection = &ApplyDetection<false>,
-          .smooth_detection = &ApplyDetection<true>,
-          .climb_wave = &ClimbWave,
-          .sample_wave = &SampleWave,
-          .measure_exact = &ApplyMeasurement<NoiseShape::kNone>,
-          .measure_isotropic = &ApplyMeasurement<NoiseShape::kIsotropic>,
-          .measure_along_beam = &ApplyMeasurement<NoiseShape::kBeam>,
-          .measure_by_signal = &ApplyMeasurement<NoiseShape::kSignal>};
+  return {.isa = RAILCAST_STRINGIFY(RAILCAST_ISA), RAILCAST_KERNELS(RAILCAST_KERNEL_POINTER)};
 }
+#undef RAILCAST_KERNEL_POINTER
 
 }  // namespace railcast::RAILCAST_ISA

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "core/detect/detect_tile.h"
@@ -9,36 +11,48 @@
 
 namespace railcast {
 
-/// The effects' loops, compiled for one instruction set. Every set gives the same bits.
+/// The list of all kernels: name of the member in Kernels, function in the namespace of each
+/// instruction set, and type. kernels.cpp includes the headers that define the functions.
+#define RAILCAST_KERNELS(KERNEL)                                                                 \
+  /* One uniform number in [0, 1) for the firing of each lane. */                                \
+  KERNEL(uniforms, DrawUniforms, void(const DetectTile&, const DrawKey&, float*))                \
+  KERNEL(pointing, ApplyPointing,                                                                \
+         void(RayTile&, const DetectTile&, const BeamFrame&, const PointingParameters&))         \
+  KERNEL(incidence, ApplyIncidence, void(const RayTile&, DetectTile&))                           \
+  KERNEL(spread, ApplySpread, void(const RayTile&, const BeamFrame&, DetectTile&))               \
+  KERNEL(hit, ApplyHit, void(DetectTile&, float range_min_m))                                    \
+  KERNEL(sensor_dropout, ApplySensorDropout,                                                     \
+         void(DetectTile&, const struct SensorDropoutParameters&))                               \
+  /* The published model. */                                                                     \
+  KERNEL(threshold, ApplyThreshold, void(DetectTile&, const struct ThresholdParameters&))        \
+  KERNEL(rain, ApplyRainDropout, void(DetectTile&, const struct RainParameters&))                \
+  KERNEL(snow, ApplySnowClutter, void(DetectTile&, const struct SnowParameters&))                \
+  /* Physics. */                                                                                 \
+  KERNEL(response, ApplyResponse, void(DetectTile&, const ResponseParameters&))                  \
+  KERNEL(pulse_stretch, ApplyPulseStretch, void(DetectTile&, float pulse_sigma_m))               \
+  KERNEL(extinction, ApplyExtinction, void(DetectTile&, float extinction_per_m))                 \
+  KERNEL(sunlight, ApplySunlight, void(DetectTile&, const struct SunlightParameters&))           \
+  KERNEL(detection, ApplyDetection<false>, void(DetectTile&, const struct DetectionParameters&)) \
+  KERNEL(smooth_detection, ApplyDetection<true>,                                                 \
+         void(DetectTile&, const struct DetectionParameters&))                                   \
+  KERNEL(climb_wave, ClimbWave, WavePeak(const EchoWave&, float from_m, const WaveKnown&))       \
+  KERNEL(sample_wave, SampleWave,                                                                \
+         void(const EchoWave&, float first_m, float step_m, std::size_t num, float* samples))    \
+  KERNEL(measure_exact, ApplyMeasurement<RangeErrors::kNone>,                                    \
+         void(DetectTile&, const struct MeasurementParameters&))                                 \
+  KERNEL(measure_isotropic, ApplyMeasurement<RangeErrors::kIsotropic>,                           \
+         void(DetectTile&, const struct MeasurementParameters&))                                 \
+  KERNEL(measure_along_beam, ApplyMeasurement<RangeErrors::kBeam>,                               \
+         void(DetectTile&, const struct MeasurementParameters&))                                 \
+  KERNEL(measure_by_signal, ApplyMeasurement<RangeErrors::kSignal>,                              \
+         void(DetectTile&, const struct MeasurementParameters&))
+
+/// The effects' loops compiled for one instruction set. All instruction sets give the same bits.
 struct Kernels {
   std::string_view isa;
-  /// One uniform number in [0, 1) for each lane's firing.
-  void (*uniforms)(const DetectTile&, const DrawKey&, float*);
-  void (*pointing)(RayTile&, const DetectTile&, const BeamFrame&, const PointingParameters&);
-  void (*incidence)(const RayTile&, DetectTile&);
-  void (*spread)(const RayTile&, const BeamFrame&, DetectTile&);
-  void (*hit)(DetectTile&, float range_min_m);
-  void (*sensor_dropout)(DetectTile&, const SensorDropoutParameters&);
-  // The published model.
-  void (*threshold)(DetectTile&, const ThresholdParameters&);
-  void (*rain)(DetectTile&, const RainParameters&);
-  void (*snow)(DetectTile&, const SnowParameters&);
-  // Physics.
-  void (*response)(DetectTile&, const ResponseParameters&);
-  void (*pulse_stretch)(DetectTile&, float pulse_sigma_m);
-  void (*extinction)(DetectTile&, float extinction_per_m);
-  void (*sunlight)(DetectTile&, const SunlightParameters&);
-  void (*detection)(DetectTile&, const DetectionParameters&);
-  void (*smooth_detection)(DetectTile&, const DetectionParameters&);
-
-  WavePeak (*climb_wave)(const EchoWave&, float from_m, const WaveKnown&);
-  void (*sample_wave)(
-      const EchoWave&, float first_m, float step_m, std::size_t num_samples, float* samples);
-
-  void (*measure_exact)(DetectTile&, const MeasurementParameters&);
-  void (*measure_isotropic)(DetectTile&, const MeasurementParameters&);
-  void (*measure_along_beam)(DetectTile&, const MeasurementParameters&);
-  void (*measure_by_signal)(DetectTile&, const MeasurementParameters&);
+#define RAILCAST_KERNEL_MEMBER(name, function, type) std::add_pointer_t<type> name;
+  RAILCAST_KERNELS(RAILCAST_KERNEL_MEMBER)
+#undef RAILCAST_KERNEL_MEMBER
 };
 
 /// The kernels that this machine can run, the fastest last.

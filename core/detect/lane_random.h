@@ -40,7 +40,8 @@ struct Words {
   return w;
 }
 
-/// UnitFloat, converted by way of a signed integer: older instruction sets have no other way.
+/// As UnitFloat, but converts a signed integer: older instruction sets cannot convert unsigned
+/// ones.
 [[nodiscard]] inline float LaneUnit(std::uint32_t word) {
   return static_cast<float>(static_cast<std::int32_t>(word >> 8U)) * 0x1p-24F;
 }

@@ -11,10 +11,10 @@ constexpr auto kNumCells = static_cast<std::size_t>(kNormalReach) * kCellsPerUni
 
 struct Knot {
   double density{};
-  double share{};  ///< Of [0, x].
+  double share{};  ///< Probability of [0, x].
 };
 
-/// e^x for 0 <= x <= 18: the Taylor series at x / 256, then eight squares.
+/// e^x for 0 <= x <= 18: the Taylor series at x / 256, squared eight times.
 constexpr double GrowthTo(double x) {
   const double small = x / 256.0;
   double term = 1.0;
@@ -27,7 +27,8 @@ constexpr double GrowthTo(double x) {
   return sum;
 }
 
-/// Share by density * (x + x^3 / 3 + x^5 / (3 5) + ...): Abramowitz and Stegun 26.2.11.
+/// Computes a knot; the share is density * (x + x^3 / 3 + x^5 / (3 5) + ...) (Abramowitz and Stegun
+/// 26.2.11).
 constexpr std::array<Knot, kNumCells + 1> MakeKnots() {
   constexpr double kDensityAtZero = 0.39894228040143267794;  // 1 / sqrt(2 pi)
   std::array<Knot, kNumCells + 1> knots{};
@@ -47,31 +48,31 @@ constexpr std::array<Knot, kNumCells + 1> MakeKnots() {
 
 constexpr std::array<Knot, kNumCells + 1> kKnots = MakeKnots();
 
-/// Where x >= 0 lies between two knots: x = (cell + at) / kCellsPerUnit.
-struct Place {
+/// Position of x >= 0 between two knots: x = (cell + at) / kCellsPerUnit.
+struct TablePlace {
   std::size_t cell{};
   double at{};
 };
 
-Place PlaceOf(double x) {
+TablePlace TablePlaceOf(double x) {
   const double scaled = x * kCellsPerUnit;
   const auto cell = static_cast<std::size_t>(scaled);
   return {cell, scaled - static_cast<double>(cell)};
 }
 
-/// Cubic Hermite interpolation; slopes per cell.
+/// Cubic Hermite interpolation; the slopes are per cell.
 double Interpolate(double begin, double begin_slope, double end, double end_slope, double at) {
   const double rest = 1.0 - at;
   return begin * (1.0 + 2.0 * at) * rest * rest + end * (3.0 - 2.0 * at) * at * at +
          begin_slope * at * rest * rest - end_slope * at * at * rest;
 }
 
-/// Of [0, x]; odd.
+/// Probability of [0, x], an odd function of x.
 double ShareFromZero(double x) {
   const double magnitude = x < 0.0 ? -x : x;
   double share = 0.5;
   if (magnitude < kNormalReach) {
-    const auto [cell, at] = PlaceOf(magnitude);
+    const auto [cell, at] = TablePlaceOf(magnitude);
     const Knot& begin = kKnots[cell];
     const Knot& end = kKnots[cell + 1];
     constexpr double kCell = 1.0 / kCellsPerUnit;
@@ -85,7 +86,7 @@ double ShareFromZero(double x) {
 double NormalDensity(double x) {
   const double magnitude = x < 0.0 ? -x : x;
   if (!(magnitude < kNormalReach)) return 0.0;
-  const auto [cell, at] = PlaceOf(magnitude);
+  const auto [cell, at] = TablePlaceOf(magnitude);
   const double begin = kKnots[cell].density;
   const double end = kKnots[cell + 1].density;
   constexpr double kCell = 1.0 / kCellsPerUnit;

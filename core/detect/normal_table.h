@@ -2,16 +2,16 @@
 
 namespace railcast {
 
-/// Beyond this many standard deviations the tables below are 0 (the density is 6e-9 there).
+/// Beyond this many standard deviations the functions below return 0 (the density there is 6e-9).
 inline constexpr double kNormalReach = 6.0;
 
 /// Density of the standard normal distribution; error < 1e-9.
 [[nodiscard]] double NormalDensity(double x);
 
-/// The standard normal distribution's probability of [a, b], a <= b; error < 3e-9.
+/// Probability of [a, b], a <= b, under the standard normal distribution; error < 3e-9.
 ///
-/// From tables made by the compiler: plain arithmetic that gives the same bits on every machine,
-/// which the C library's erf does not promise, and faster.
+/// The tables are computed by the compiler with plain arithmetic. This gives the same bits on every
+/// machine, which the C library's erf does not guarantee, and it is faster.
 [[nodiscard]] double NormalShare(double a, double b);
 
 }  // namespace railcast

@@ -6,11 +6,11 @@
 #include "core/detect/detect_tile.h"
 #include "core/detect/effect_parameters.h"
 #include "core/detect/lane_random.h"
-#include "core/trace/ray_tile.h"
+#include "railcast/ray_caster.h"
 
 namespace railcast::RAILCAST_ISA {
 
-/// Effect `pointing_jitter`: the ray leaves beside the direction that the sensor reports, by
+/// Effect `pointing_jitter`: the ray deviates from the direction that the sensor reports by
 /// independent normal deviates along the beam's horizontal and vertical axes. The measured point
 /// keeps the reported direction. Lane i of `tile` is lane i of `rays`.
 inline void ApplyPointing(RayTile& rays,
@@ -18,7 +18,7 @@ inline void ApplyPointing(RayTile& rays,
                           const BeamFrame& beam,
                           const PointingParameters& p) {
   const LaneKey key{p.seed, RandomUse::kPointing, tile.frame};
-  const BeamFrame b = beam;  // Copies: no store to the rays can change them.
+  const BeamFrame b = beam;  // Copies cannot alias the rays.
   const float sigma_rad = p.sigma_rad;
   for (std::size_t i = 0; i < tile.num_rays; ++i) {
     const Direction d{rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]};

@@ -3,19 +3,29 @@
 #define RAILCAST_DETECT_RAIN_DROPOUT_H_
 
 #include "core/detect/detect_tile.h"
-#include "core/detect/effect_parameters.h"
 #include "core/detect/lane_random.h"
-#include "core/frame/outcome.h"
+#include "railcast/outcome.h"
+
+namespace railcast {
+
+struct RainParameters {
+  std::uint64_t seed{};
+  float dropout_per_m{};  ///< k * RR^e
+};
+
+}  // namespace railcast
 
 namespace railcast::RAILCAST_ISA {
 
-/// Effect `rain`: echoes lost on the way, more with path length and rain rate.
+/// Effect `rain`: echoes are lost on the way, the more the longer the path and the higher the rain
+/// rate.
 ///
 ///   P(lost) = 1 - exp(-k * RR^e * R),  k = rain_dropout_per_m, e = rain_dropout_exponent
 ///
-/// The publication has words only. The form is that of a path through independent drops; the
-/// defaults k = 3.65e-4 /m, e = 0.63 are the extinction of Marshall-Palmer rain (physics.md 4.1),
-/// so that the dropout equals the share of light that one passage of the path loses. RR in mm/h.
+/// with RR the rain rate in mm/h and R the true range in m. The publication describes the effect
+/// only in words. The formula is that of a path through independent drops. The defaults
+/// k = 3.65e-4 /m and e = 0.63 give the extinction of Marshall-Palmer rain (docs/physics.md 4.1),
+/// so that the dropout probability equals the share of light that is lost one way.
 inline void ApplyRainDropout(DetectTile& tile, const RainParameters& parameters) {
   const LaneKey key{parameters.seed, RandomUse::kRain, tile.frame};
   const float rate_per_m = parameters.dropout_per_m;

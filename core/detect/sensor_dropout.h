@@ -3,17 +3,25 @@
 #define RAILCAST_DETECT_SENSOR_DROPOUT_H_
 
 #include "core/detect/detect_tile.h"
-#include "core/detect/effect_parameters.h"
 #include "core/detect/lane_random.h"
-#include "core/frame/outcome.h"
+#include "railcast/outcome.h"
+
+namespace railcast {
+
+struct SensorDropoutParameters {
+  std::uint64_t seed{};
+  float probability{};
+};
+
+}  // namespace railcast
 
 namespace railcast::RAILCAST_ISA {
 
-/// Effect `sensor_dropout`: pulses that the sensor misses, whatever they would have met.
+/// Effect `sensor_dropout`: the sensor loses pulses at random, whatever they would have met.
 ///
-///   P(missed) = dropout_probability, independent of everything
+///   P(lost) = dropout_probability, independently for each firing
 ///
-/// Real sensors miss a share of the pulses that should return (physics.md 1.3, last lines).
+/// Real sensors miss a share of the pulses that should return; docs/physics.md 1.3 gives figures.
 inline void ApplySensorDropout(DetectTile& tile, const SensorDropoutParameters& parameters) {
   const LaneKey key{parameters.seed, RandomUse::kSensorDropout, tile.frame};
   for (std::size_t i = 0; i < tile.num_rays; ++i) {

@@ -3,25 +3,40 @@
 #define RAILCAST_DETECT_SNOW_CLUTTER_H_
 
 #include "core/detect/detect_tile.h"
-#include "core/detect/effect_parameters.h"
 #include "core/detect/lane_random.h"
-#include "core/frame/outcome.h"
+#include "core/detect/threshold.h"
+#include "railcast/outcome.h"
+
+namespace railcast {
+
+struct SnowParameters {
+  std::uint64_t seed{};
+  float probability{};  ///< Probability that a flake sends an echo.
+  float range_scale_m{};
+  float range_min_m{};
+  float intensity{};      ///< NaN without effect `threshold`, since no power is computed then.
+  bool has_threshold{};   ///< If false, no flake is too weak.
+  std::uint32_t label{};  ///< Label of flakes.
+  ThresholdParameters threshold;
+};
+
+}  // namespace railcast
 
 namespace railcast::RAILCAST_ISA {
 
-/// Effect `snow`: flakes near the sensor that answer into empty beams or instead of a surface.
+/// Effect `snow`: flakes near the sensor send echoes in empty beams or instead of a surface.
 ///
 ///   P(a flake answers) = 1 - exp(-snow_echoes_per_mmph * S)            (Poisson, S in mm/h)
 ///   its range r ~ Maxwell(snow_range_scale): scale * sqrt(n1^2 + n2^2 + n3^2), n ~ N(0, 1)
 ///
-/// A flake farther than the surface, nearer than range_min, or too weak for the threshold (if that
-/// is on; with intensity snow_intensity and the fog's attenuation) does not answer; else the
-/// outcome is clutter. Beams that a near or ego surface blocks, or that were never fired, stay so.
-/// The publication has words only; the Maxwell law is that of detectable particles in a diverging
-/// beam (physics.md 4.2).
+/// A flake is not detected if it is farther than the surface, nearer than range_min, or too weak
+/// for effect `threshold` (if that is on; with intensity snow_intensity and the fog's attenuation).
+/// Else the outcome becomes clutter. The outcomes near_range, ego and sensor_dropout are kept. The
+/// publication describes the effect only in words; Maxwell's law is that of detectable particles in
+/// a diverging beam (docs/physics.md 4.2).
 inline void ApplySnowClutter(DetectTile& tile, const SnowParameters& parameters) {
   const LaneKey key{parameters.seed, RandomUse::kSnow, tile.frame};
-  const SnowParameters p = parameters;  // A copy, so that no store to the tile can change it.
+  const SnowParameters p = parameters;  // The copy cannot alias the tile.
   for (std::size_t i = 0; i < tile.num_rays; ++i) {
     const float u = LaneUnit(LaneWords(key, tile.firing[i], 0).a);
     const Normals n = LaneNormals(LaneWords(key, tile.firing[i], 1));
@@ -33,7 +48,8 @@ inline void ApplySnowClutter(DetectTile& tile, const SnowParameters& parameters)
         static_cast<std::uint32_t>(before == static_cast<std::uint32_t>(Outcome::kNearRange) ||
                                    before == static_cast<std::uint32_t>(Outcome::kEgo) ||
                                    before == static_cast<std::uint32_t>(Outcome::kSensorDropout));
-    // A missing surface is NaN: no flake is farther than it. Bits, not branches, vectorise.
+    // The range of a missing surface is NaN, which fails the comparison: no flake is behind it.
+    // Bitwise operators, unlike branches, allow the loop to be vectorised.
     const bool answers = ((blocked == 0U) & !(r >= tile.true_range_m[i]) & (u < p.probability) &
                           (r >= p.range_min_m) & ((ratio >= 1.0F) | !p.has_threshold));
     tile.outcome[i] = answers ? static_cast<std::uint32_t>(Outcome::kClutter) : before;

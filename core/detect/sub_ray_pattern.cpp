@@ -6,7 +6,7 @@
 namespace railcast {
 namespace {
 
-// The radius, in standard deviations, that a part of a Gaussian beam lies outside of (Rayleigh's
+// The radius, in standard deviations, outside of which this share of a Gaussian beam lies (Rayleigh
 // distribution).
 double RadiusOutsideOf(double share) {
   return std::sqrt(-2.0 * std::log(share));
@@ -21,7 +21,7 @@ void Add(double radius, double angle_rad, double share, SubRayPattern& pattern) 
 }  // namespace
 
 SubRayPattern RingSubRays() {
-  // 16 in all: a packet, and as many components as are summed at once.
+  // 16 sub-rays in all: one packet of rays, and the number of components that are summed at a time.
   struct Ring {
     int count;
     double share;
@@ -29,7 +29,7 @@ SubRayPattern RingSubRays() {
   constexpr Ring kRings[] = {{8, 0.30}, {6, 0.56}, {2, 0.14}};
   SubRayPattern pattern;
   double share_outside = 0.0;
-  double turn = 0.0;  // In steps between rays: each ring's rays stand between its neighbour's.
+  double turn = 0.0;  // In angular steps of a ring; half a step per ring staggers the rays.
   for (const Ring& ring : kRings) {
     const double radius = RadiusOutsideOf(share_outside + 0.5 * ring.share);
     for (int k = 0; k < ring.count; ++k) {
@@ -48,7 +48,7 @@ SubRayPattern DenseSubRays(std::size_t count) {
   SubRayPattern pattern;
   pattern.central_share = static_cast<float>(share);
   for (std::size_t k = 0; k < count; ++k) {
-    // The central ray stands for the innermost part.
+    // The central ray represents the innermost part, so that the k-th part follows it.
     const double share_outside = 1.0 - (static_cast<double>(k) + 1.5) * share;
     Add(RadiusOutsideOf(share_outside), golden_rad * static_cast<double>(k), share, pattern);
   }

@@ -11,13 +11,13 @@
 
 namespace railcast::RAILCAST_ISA {
 
-/// GGX lobe seen from where the light comes from, with Smith's shadowing both ways: the effective
-/// reflectance pi F0 D G / (4 cos) (Walter et al. 2007, "Microfacet models for refraction through
-/// rough surfaces", eqs. 33, 34; the half vector is the beam itself, so Fresnel's term is F0).
+/// Effective reflectance of a GGX lobe seen from the light source, with Smith's shadowing both
+/// ways: pi F0 D G / (4 cos) (Walter et al. 2007, "Microfacet models for refraction through rough
+/// surfaces", eqs. 33, 34; the half vector is the beam itself, so that Fresnel's term is F0).
 ///
-/// GGX has facets of every slope up to 90 deg, real surfaces have not: at 86 deg a polished rail
-/// (F0 0.6, alpha 0.1) would answer with 0.012, more than twice what its diffuse part does. So
-/// facets steeper than 45 deg count for 2 cos^2 of what GGX says (the taper is ours).
+/// GGX has facets of every slope up to 90 deg; real surfaces do not. At 86 deg a polished rail
+/// (F0 0.6, alpha 0.1) would have a reflectance of 0.012, more than twice that of its diffuse part.
+/// Therefore the lobe is multiplied by 2 cos^2 beyond 45 deg (the taper is our own).
 [[nodiscard]] inline float MonostaticGgx(float cosine, float f0, float alpha2) {
   const float c2 = cosine * cosine;
   const float d = c2 * (alpha2 - 1.0F) + 1.0F;
@@ -26,24 +26,26 @@ namespace railcast::RAILCAST_ISA {
   return taper * f0 * alpha2 * cosine / (g * g * d * d);
 }
 
-/// A surface's answer as a share of a white Lambertian's at normal incidence:
+/// Effective reflectance of a surface: its response relative to a white Lambertian surface at
+/// normal incidence, as the sum of
 ///
 ///   diffuse   rho (1 - F0) (A cos + B sin^2)     Oren and Nayar 1994, seen from the source
 ///   specular  pi F0 D_ggx G / (4 cos)            x min(1, 2 cos^2)
-///   retro     rho_retro cos^5                    half of it at 30 deg of entrance
+///   retro     rho_retro cos^5                    half of it at an entrance angle of 30 deg
 [[nodiscard]] inline float EffectiveReflectance(const LaneOptics& optics, float cosine) {
   const float c2 = cosine * cosine;
   return optics.a * cosine + optics.b * (1.0F - c2) +
          MonostaticGgx(cosine, optics.f0, optics.alpha2) + optics.retro * c2 * c2 * cosine;
 }
 
-/// Effect `surface_response`: the effective reflectance of the surface at its incidence, and the
-/// received power it gives, over the least detectable one: share rho / R^2 / P_min with
-/// P_min = 0.1 / R0^2, R0 the data sheet's range at 10 %. Off: Lambert's rho cos.
+/// Effect `surface_response`: computes the effective reflectance rho of the surface at its angle of
+/// incidence, and the ratio of received to least detectable power: share rho / R^2 / P_min with
+/// P_min = 0.1 / R0^2, R0 the data sheet's range at 10 %. If the effect is off, Lambert's law
+/// (reflectivity x cos) replaces the effective reflectance.
 ///
-/// Snow (part of effect `surface_condition`) covers its share of faces less steep than 45 deg.
+/// Snow (part of effect `surface_condition`) covers snow_cover of each face less steep than 45 deg.
 inline void ApplyResponse(DetectTile& tile, const ResponseParameters& parameters) {
-  const ResponseParameters p = parameters;  // A copy: no store to the tile can change it.
+  const ResponseParameters p = parameters;  // The copy cannot alias the tile.
   constexpr float kCos45 = 0.70710678F;
   for (std::size_t i = 0; i < tile.num_rays; ++i) {
     const float c = tile.cos_incidence[i];
@@ -62,9 +64,9 @@ inline void ApplyResponse(DetectTile& tile, const ResponseParameters& parameters
   }
 }
 
-/// Effect `pulse_stretch`: a surface that slants through the beam answers over a longer time, so
-/// that the echo's peak is lower: power x s / hypot(s, spread), s the pulse's sigma in metres of
-/// range (Gaussian pulse, Gaussian beam).
+/// Effect `pulse_stretch`: a surface oblique to the beam stretches the pulse, so that the echo's
+/// peak is lower: power x s / hypot(s, spread), s the pulse's sigma in metres of range (Gaussian
+/// pulse, Gaussian beam).
 inline void ApplyPulseStretch(DetectTile& tile, float pulse_sigma_m) {
   const float s2 = pulse_sigma_m * pulse_sigma_m;
   for (std::size_t i = 0; i < tile.num_rays; ++i) {

@@ -7,34 +7,37 @@
 
 #include "core/detect/beam_bounds.h"
 #include "core/detect/wire_in_beam.h"
-#include "core/scan/scan_pattern.h"
+#include "railcast/lidar.h"
 
 namespace railcast {
 namespace {
 
-// Almost all beams pass almost all wires, so that most of the work is to say no. Three sieves, each
-// of which lets through whatever might be captured: a pyramid round the tile against balls round
-// wires, cones round its packets against what a segment looks like from there, and single beams
-// against the segment itself.
+// Almost all beams miss almost all wires, so that most of the work is rejection. There are three
+// conservative tests: the pyramid of a tile against balls around wires, the cones of its packets
+// against the disc in which a segment appears from the tile, and single beams against the arc of
+// the segment.
 
-// Outside four sigmas of the nearest point of a wire's image there is 3e-5 of the beam.
+// A beam whose axis is more than four sigmas from a wire's image has at most 3e-5 of its power on
+// it.
 constexpr double kSieveSigmas = 4.0;
-// For rounding, and for the difference of tangents, angles and chords in beams of some degrees.
+// Slack for rounding, and for the difference between tangents, angles and chords in beams a few
+// degrees wide.
 constexpr double kSieveSlack = 1.05;
 constexpr double kSieveSlack_rad = 2e-6;
 
 constexpr std::size_t kNumPackets = kTileSize / kPacketSize;
 
-/// A segment as an arc of directions from a cone's origin: the part of a great circle's plane (its
-/// normal) between two others (their normals, pointing inwards).
+/// A segment as an arc of directions from a cone's origin: the part of a great circle, given by the
+/// normal of its plane, between two other planes, given by their inward normals.
 struct WireArc {
   Eigen::Vector3f normal, after_begin, before_end;
-  float reach{};  ///< Chord within which a beam may capture some of it.
+  float reach{};  ///< Chord from the arc within which a beam may capture part of the segment.
 };
 
-// A wire and the origins of the beams take up room beside the lines that stand for them. Seen from
-// kNearest times as far it is a chord of less than kAsideChord times that ratio: asin(x) < 1.02 x
-// up to x = 1 / 5, and from its own origin a beam may see the wire from that much nearer.
+// The wire's radius and the spread of the beams' origins displace a wire from the line that
+// represents it. At a distance of at least kNearest times this displacement, it corresponds to a
+// chord of less than kAsideChord times displacement over distance: asin(x) < 1.02 x up to
+// x = 1 / 5, and from its own origin a beam may be nearer to the wire by the displacement.
 constexpr float kNearest = 5.0F;
 constexpr float kAsideChord = 1.3F;
 
@@ -45,8 +48,8 @@ float DistanceToOrigin_m(const Eigen::Vector3f& begin_m, const Eigen::Vector3f& 
   return (begin_m + at * run_m).norm();
 }
 
-/// A segment as a disc of directions from a tile's origin: much less than its ball, where it runs
-/// away from the sensor.
+/// A segment as a disc of directions from a tile's origin. It is much smaller than the segment's
+/// ball where the wire runs away from the sensor.
 struct WireDisc {
   Eigen::Vector3f direction;
   float chord{};
@@ -60,7 +63,7 @@ WireDisc BoundByDisc(const WireSegment& wire, const BeamPyramid& beams) {
   if (distance_m < kNearest * aside_m) return {Eigen::Vector3f::UnitX(), kAnyChord};
   const Eigen::Vector3f begin = begin_m.normalized();
   const Eigen::Vector3f end = end_m.normalized();
-  const Eigen::Vector3f middle = 0.5F * (begin + end);  // Inside the sphere, all the nearer.
+  const Eigen::Vector3f middle = 0.5F * (begin + end);  // Inside the unit sphere by 1 - norm.
   return {middle, 0.5F * (end - begin).norm() + (1.0F - middle.norm()) +
                       kAsideChord * aside_m / distance_m};
 }
@@ -73,10 +76,10 @@ WireArc BoundByArc(const WireSegment& wire, const BeamCone& cone, float beam_rea
   const float distance_m = DistanceToOrigin_m(begin_m, run_m);
   const float aside_m = wire.radius_m + cone.spread_m;
   if (distance_m < kNearest * aside_m) return arc;
-  // Not with the end, whose product with the beginning would cancel.
+  // The product of begin_m and end_m would suffer from cancellation.
   const Eigen::Vector3f normal_m2 = begin_m.cross(run_m);
   const float length_m2 = normal_m2.norm();
-  // The products' rounding turns the plane by as much.
+  // Angle by which the rounding of the product may turn the plane.
   const float rounding = 1e-6F * begin_m.norm() * run_m.norm() / length_m2;
   if (!(rounding < 1e-3F)) return arc;  // Seen almost end-on.
   arc.normal = normal_m2 / length_m2;
@@ -86,7 +89,7 @@ WireArc BoundByArc(const WireSegment& wire, const BeamCone& cone, float beam_rea
   return arc;
 }
 
-/// How far inside the bounds of the arc each beam of a packet is, negative = outside.
+/// Computes how far inside the bounds of the arc each beam of a packet is; negative = outside.
 void FindDepths(const RayTile& rays,
                 std::size_t first,
                 const WireArc& arc,
@@ -119,7 +122,7 @@ WideBeam BeamOfLane(const RayTile& rays, std::size_t lane, const BeamShape& shap
                 .sigma_vertical_rad = shape.sigma_vertical_rad};
   const Vector3 up = shape.up_window.cast<double>();
   const Vector3 horizontal = up.cross(beam.direction);
-  // A beam along the sensor's axis has no horizontal: any will do, always the same.
+  // A beam along the sensor's axis has no horizontal, so that any fixed direction will do.
   beam.horizontal = horizontal.norm() > 1e-6 ? horizontal.normalized() : up.unitOrthogonal();
   beam.vertical = beam.direction.cross(beam.horizontal);
   return beam;
@@ -140,14 +143,14 @@ void CaptureLane(const RayTile& rays,
                       .sin_axis = static_cast<float>(found.sin_axis)});
 }
 
-/// A tile of beams ready to be asked for wires.
+/// A tile of beams with its bounds, prepared for the search for wires.
 struct Tile {
   const RayTile& rays;
   const BeamShape& shape;
   float reach{};
   BeamPyramid beams;
   BeamCone packets[kNumPackets];
-  /// The same once more, struct of arrays.
+  /// Directions and chords of `packets` as a struct of arrays.
   float packet_x[kNumPackets], packet_y[kNumPackets], packet_z[kNumPackets];
   float packet_chord[kNumPackets];
 };
@@ -169,7 +172,7 @@ Tile PrepareTile(const RayTile& rays, const BeamShape& shape) {
   return tile;
 }
 
-/// How far inside its bounds each packet's cone reaches into the disc, negative = outside.
+/// Computes how far each packet's cone reaches into the disc; negative = they do not touch.
 void FindPacketDepths(const Tile& tile, const WireDisc& disc, float depths[kNumPackets]) {
   const float dx = disc.direction.x(), dy = disc.direction.y(), dz = disc.direction.z();
   for (std::size_t i = 0; i < kNumPackets; ++i) {

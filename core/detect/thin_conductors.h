@@ -5,36 +5,36 @@
 #include <vector>
 
 #include "core/detect/wire_set.h"
-#include "core/trace/ray_tile.h"
+#include "railcast/ray_caster.h"
 
 namespace railcast {
 
-/// What the beams of a tile have in common.
+/// Orientation and width of the beams of a tile.
 struct BeamShape {
-  Eigen::Vector3f up_window;  ///< The sensor's z axis, unit length: up x direction is horizontal.
+  Eigen::Vector3f up_window;  ///< The sensor's unit z axis: up x direction is horizontal.
   /// Standard deviations of the profile: a quarter of the 1/e^2 full divergence. 0 = a ray.
   double sigma_horizontal_rad{};
   double sigma_vertical_rad{};
 };
 
-/// A piece of wire in a beam.
+/// A piece of wire in a beam. Range, share, spread and sine are those of WireInBeam.
 struct WireCapture {
-  std::uint32_t lane{};     ///< The beam, in its tile.
-  std::uint32_t surface{};  ///< Of the wire, in the window.
-  float range_m{};          ///< As WireInBeam has it, like the rest.
+  std::uint32_t lane{};     ///< Lane of the beam in its tile.
+  std::uint32_t surface{};  ///< Index of the wire's surface in the window.
+  float range_m{};
   float share{};
   float spread_m{};
   float sin_axis{};
 };
 
-/// What a beam must at least meet of a segment for it to be noticed.
+/// Least share of a beam on a segment; captures with less are dropped.
 inline constexpr double kLeastWireShare = 1e-4;
 
-/// Appends what every beam meets of every segment (core/detect/wire_in_beam.h says how), by lane,
-/// then range, then surface. What stands in front is not looked at. A beam's captures depend on
-/// that beam alone.
+/// Appends the captures of all segments by all beams (core/detect/wire_in_beam.h), sorted by lane,
+/// then range, then surface. Surfaces in front of a wire are not taken into account. A beam's
+/// captures depend on that beam alone.
 ///
-/// @param rays Their origins and directions.
+/// @param rays The beams; only origins and directions are read.
 void CaptureWires(const RayTile& rays,
                   const BeamShape& beam,
                   const WireSet& wires,

@@ -3,21 +3,30 @@
 #define RAILCAST_DETECT_THRESHOLD_H_
 
 #include "core/detect/detect_tile.h"
-#include "core/detect/effect_parameters.h"
 #include "core/detect/vector_math.h"
-#include "core/frame/outcome.h"
+#include "railcast/outcome.h"
+
+namespace railcast {
+
+struct ThresholdParameters {
+  float inverse_threshold_m2{};  ///< reference_range^2 / reference_threshold
+  float fog_density_per_m{};
+};
+
+}  // namespace railcast
 
 namespace railcast::RAILCAST_ISA {
 
-/// Effect `threshold`: is the echo of the surface strong enough?
+/// Effect `threshold`: decides whether the echo of the surface is strong enough.
 ///
 ///   intensity = reflectivity * cos(incidence)
 ///   received  = intensity * exp(-fog_density * R)              (one way, as published)
 ///   threshold = reference_threshold * (R / reference_range)^2
 ///   power_ratio = received / threshold;  below_threshold where it is < 1
 ///
-/// Source: the published plausibility model (Vir2Rail, module 4). Physics has exp(-2 alpha R): give
-/// twice the extinction as the density to get it. R is the true range in metres.
+/// Source: the published plausibility model (Vir2Rail, module 4). The physical loss is
+/// exp(-2 alpha R); to get it, set the fog density to twice the extinction coefficient. R is the
+/// true range in metres.
 inline void ApplyThreshold(DetectTile& tile, const ThresholdParameters& parameters) {
   const float scale = parameters.inverse_threshold_m2;
   const float fog_per_m = parameters.fog_density_per_m;

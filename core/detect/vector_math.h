@@ -1,5 +1,6 @@
-// No `#pragma once`: core/detect/kernels.cpp is compiled once per instruction set, and these
-// functions live in that copy's own namespace, so that no linker can mix the copies up.
+// Include guards instead of `#pragma once`: core/detect/kernels.cpp is compiled once per
+// instruction set, and these functions are in that copy's own namespace, so that the linker cannot
+// confuse the copies.
 #ifndef RAILCAST_DETECT_VECTOR_MATH_H_
 #define RAILCAST_DETECT_VECTOR_MATH_H_
 
@@ -11,13 +12,14 @@
 #define RAILCAST_ISA baseline
 #endif
 
-/// Plain polynomials in float32 that compilers vectorise and that, without contraction, give the
-/// same bits on every instruction set (libmvec does not). Errors are measured in
+/// Polynomial approximations in float32 that compilers vectorise and that, without contraction,
+/// give the same bits on every instruction set (libmvec does not). Errors are measured in
 /// tests/core/detect/vector_math_test.cpp.
 namespace railcast::RAILCAST_ISA {
 
-inline constexpr float kLn2Upper = 0.693359375F;     // ln 2 in two pieces: the upper one is
-inline constexpr float kLn2Lower = -2.12194440e-4F;  // exact times any exponent.
+// ln 2 as a sum. The product of the upper part with any exponent is exact.
+inline constexpr float kLn2Upper = 0.693359375F;
+inline constexpr float kLn2Lower = -2.12194440e-4F;
 
 /// Natural logarithm of a normal x > 0 (Cephes logf polynomial); error <= 2 ulp, or 1e-7 near 1.
 [[nodiscard]] inline float Log(float x) {
@@ -41,10 +43,10 @@ inline constexpr float kLn2Lower = -2.12194440e-4F;  // exact times any exponent
   return (f + (p * f * square + (e * kLn2Lower - 0.5F * square))) + e * kLn2Upper;
 }
 
-/// e^x for x in [-87, 87] (Cephes expf polynomial); error <= 2 ulp. Below -87 it stays at e^-87.
+/// e^x for x in [-87, 87] (Cephes expf polynomial); error <= 2 ulp. Returns e^-87 below -87.
 [[nodiscard]] inline float Exp(float x) {
   const float bounded = x < -87.0F ? -87.0F : x;
-  // Adding and subtracting 1.5 * 2^23 rounds to the nearest whole number.
+  // Adding and subtracting 1.5 * 2^23 rounds to the nearest integer.
   constexpr float kRounder = 12582912.0F;
   const float shifted = bounded * 1.44269504F + kRounder;
   const float n = shifted - kRounder;
@@ -62,7 +64,7 @@ inline constexpr float kLn2Lower = -2.12194440e-4F;  // exact times any exponent
 
 /// cos(2 pi u) and sin(2 pi u) for u in [0, 1); error <= 2e-7.
 inline void CosSinTurn(float u, float& cosine, float& sine) {
-  // Nearest quarter turn q and the rest in [-1/8, 1/8] turn.
+  // q is the nearest quarter turn, x the rest in [-1/8, 1/8] turn, in radians.
   constexpr float kRounder = 12582912.0F;
   const float shifted = u * 4.0F + kRounder;
   const float q = shifted - kRounder;

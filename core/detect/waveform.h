@@ -9,8 +9,9 @@
 
 namespace railcast::RAILCAST_ISA {
 
-/// Sums over a wave's components, kWaveLanes at a time; the order of additions is fixed, so that
-/// every instruction set gives the same bits.
+/// Sums over the components of a wave, which give its value and derivatives. kWaveLanes components
+/// are summed at a time; the order of additions is fixed, so that all instruction sets give the
+/// same bits.
 struct WaveSums {
   float value;   ///< w(r)
   float weight;  ///< sum of w_i / variance_i
@@ -37,7 +38,7 @@ struct WaveSums {
       bend[i] += slope * inverse[i] * ahead_m;
     }
   }
-  // Halves onto halves: fewer additions wait for each other than one after another would.
+  // Pairwise summation has shorter chains of dependent additions than sequential summation.
   for (std::size_t half = kWaveLanes / 2; half > 0; half /= 2) {
     for (std::size_t i = 0; i < half; ++i) {
       value[i] += value[i + half];
@@ -49,16 +50,16 @@ struct WaveSums {
   return {value[0], weight[0], moment[0], bend[0]};
 }
 
-/// Climbs to a maximum of w(r) = sum peak_i exp(-(r - r_i)^2 / 2 variance_i): by Newton's step
-/// where w bends down and the step is short, else by mean shift, to the mean of r_i weighted by w_i
-/// / variance_i, which never overshoots a maximum (Comaniciu and Meer 2002).
+/// Climbs to a maximum of w(r) = sum peak_i exp(-(r - r_i)^2 / 2 variance_i). A step is Newton's
+/// where w is sufficiently concave, else a mean shift: to the mean of r_i weighted by
+/// w_i / variance_i, which never overshoots a maximum (Comaniciu and Meer 2002).
 [[nodiscard]] inline WavePeak ClimbWave(const EchoWave& wave,
                                         float from_m,
                                         const WaveKnown& known) {
   constexpr int kMaxSteps = 40;
-  // A Newton step squares the error: after one this short less than 0.1 mm is left.
+  // A Newton step squares the error: after a step shorter than this, less than 0.1 mm remains.
   constexpr float kStill_m = 3e-3F;
-  // A Newton step is trusted up to this many times the mean shift, which is always too short.
+  // A Newton step is accepted up to this many times the mean shift, which is always too short.
   constexpr float kTrust = 4.0F;
   float range_m = from_m;
   WaveSums sums = SumWave(wave, range_m);
@@ -81,7 +82,7 @@ struct WaveSums {
   return {range_m, sums.value};
 }
 
-/// w(r) at equal steps.
+/// Samples w(r) at equal steps.
 inline void SampleWave(
     const EchoWave& wave, float first_m, float step_m, std::size_t num_samples, float* samples) {
   for (std::size_t k = 0; k < num_samples; ++k) {

@@ -4,12 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/text.h"
 #include "core/detect/beam_optics.h"
 
 namespace railcast {
 namespace {
 
-constexpr double kDbPerKmOf1PerM = 4343.0;  // 10 log10(e) per km.
+constexpr double kDbPerKmOf1PerM = 4343.0;  // 10 log10(e) dB per unit of optical depth, x 1000 m.
 
 }  // namespace
 
@@ -17,10 +18,20 @@ double FogExtinction_per_m(const WeatherSpec& weather) {
   return weather.visibility_m ? std::log(20.0) / *weather.visibility_m : weather.fog_density_per_m;
 }
 
+std::string FogText(const WeatherSpec& weather) {
+  return "fog " + ShortText(FogExtinction_per_m(weather)) + " per m";
+}
+
 ParticleSizes RainDropSizes(const WeatherSpec& weather) {
   const double power = std::pow(weather.rain_rate_mmph, -0.21);
-  if (weather.rain_drop_sizes == "drizzle") return {30'000.0, 5.7 * power};
-  if (weather.rain_drop_sizes == "thunderstorm") return {1'400.0, 3.0 * power};
+  switch (weather.rain_drop_sizes) {
+    case RainDrops::kDrizzle:
+      return {30'000.0, 5.7 * power};
+    case RainDrops::kThunderstorm:
+      return {1'400.0, 3.0 * power};
+    case RainDrops::kMarshallPalmer:
+      break;
+  }
   return {8'000.0, 4.1 * power};
 }
 
@@ -40,7 +51,7 @@ double RainExtinction_per_m(const WeatherSpec& weather) {
 double SnowExtinction_per_m(const WeatherSpec& weather, int wavelength_nm) {
   const double rate = weather.snow_rate_mmph;
   if (rate <= 0.0) return 0.0;
-  const double db_per_km = weather.snow_type == "wet"
+  const double db_per_km = weather.snow_type == SnowType::kWet
                                ? (1.023e-4 * wavelength_nm + 3.7855) * std::pow(rate, 0.72)
                                : (5.42e-5 * wavelength_nm + 5.4959) * std::pow(rate, 1.38);
   return db_per_km / kDbPerKmOf1PerM;
@@ -84,12 +95,12 @@ ParticleEchoes ParticleEchoesOf(const ParticleSizes& sizes,
                                 double reflectance,
                                 const BeamSpec& beam,
                                 double power_min) {
-  // The beam as a disc of the same solid angle.
+  // Replace the elliptical beam by a circular one of the same solid angle.
   const double theta_rad = 1e-3 * std::sqrt(beam.divergence_mrad[0] * beam.divergence_mrad[1]);
   if (theta_rad <= 0.0) return {};
   constexpr double kMmPerM = 1000.0;
-  // A particle answers if D >= theta r^2 sqrt(P_min / rho_p): the rate along the beam is
-  // (pi theta^2 / 4) (N0 / slope) r^2 e^(-b r^2).
+  // A particle is detectable if D >= theta r^2 sqrt(P_min / rho_p), so that the density of echoes
+  // along the beam is (pi theta^2 / 4) (N0 / slope) r^2 e^(-b r^2).
   const double b = kMmPerM * sizes.slope_per_mm * theta_rad * std::sqrt(power_min / reflectance);
   const double density_per_m3 = sizes.intercept_per_m3_mm / sizes.slope_per_mm;
   return {.mean_count = 0.25 * std::numbers::pi * theta_rad * theta_rad * density_per_m3 *

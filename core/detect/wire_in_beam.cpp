@@ -12,27 +12,27 @@ namespace {
 constexpr double kNear_m = 0.01;
 constexpr double kNoticedSigmas = 4.0;
 constexpr double kLeastSigma_rad = 1e-7;
-constexpr double kLeastShare = 1e-12;  // Of a part: below the tables' error.
-constexpr double kRangeStep = 1.2;     // Linear pictures hold to a few per cent up to this.
+constexpr double kLeastShare = 1e-12;  // Share of a part that is below the error of the tables.
+constexpr double kRangeStep = 1.2;     // Linearisation errs by a few per cent up to this ratio.
 
-// Depth of the lit half of a cylinder's section over its radius, sqrt(1 - u^2) with u even in
-// (-1, 1), weighted with itself, which is the cosine that a Lambertian answers with.
+// Mean depth of the lit half of a cylinder's section over its radius: sqrt(1 - u^2), u uniform in
+// (-1, 1), weighted with itself, since a Lambertian surface responds with that cosine.
 constexpr double kMeanDepth = 8.0 / (3.0 * std::numbers::pi);
 constexpr double kDepthVariance = 0.75 - kMeanDepth * kMeanDepth;
 
-/// A point of the axis as the beam sees it.
+/// A point of the wire's axis in the beam.
 struct Sight {
-  double across{};  ///< Along the wire's image, in sigmas from the beam's middle.
+  double across{};  ///< Coordinate along the wire's image, in sigmas from the beam's middle.
   double inverse_depth_per_m{};
 };
 
-/// The image of a wire's axis in the plane across the beam, divided by the sigmas.
+/// The image of a wire's axis in the plane across the beam, in units of the beam's sigmas.
 struct Image {
   Sight begin, end;             ///< begin.across < end.across.
-  double distance{};            ///< Of the line from the beam's middle.
-  double direction[2]{};        ///< Of the line, unit length: horizontal, vertical.
-  double sigma_h{}, sigma_v{};  ///< rad
-  Vector3 axis;                 ///< Of the wire, unit length: horizontal, vertical, along the beam.
+  double distance{};            ///< Signed distance of the line from the beam's middle.
+  double direction[2]{};        ///< Unit direction of the line: horizontal, vertical.
+  double sigma_h{}, sigma_v{};  ///< Standard deviations of the beam, rad.
+  Vector3 axis;                 ///< Unit direction of the wire: horizontal, vertical, along beam.
 
   [[nodiscard]] double InverseDepthAt_per_m(double across) const {
     const double slope_per_m =
@@ -41,7 +41,8 @@ struct Image {
   }
 };
 
-/// Mean and variance of a standard normal variable in [begin, end], and the share that is there.
+/// Mean and variance of a standard normal variable restricted to [begin, end], and the probability
+/// of that interval.
 struct TruncatedNormal {
   double share{}, mean{}, variance{};
 };
@@ -50,7 +51,7 @@ TruncatedNormal TruncateNormal(double begin, double end) {
   const double share = NormalShare(begin, end);
   const double middle = 0.5 * (begin + end);
   const double width = end - begin;
-  // Too narrow for differences of the tables: uniform.
+  // Differences of table values are inaccurate in a narrow interval; assume a uniform density.
   if (width < 0.02) return {share, middle, width * width / 12.0};
   if (share < kLeastShare) return {};
   const double at_begin = NormalDensity(begin);
@@ -60,7 +61,8 @@ TruncatedNormal TruncateNormal(double begin, double end) {
   return {share, std::clamp(mean, begin, end), std::max(variance, 0.0)};
 }
 
-/// The wire's share, range and spread between two points of its image, as if these were near.
+/// The wire's share, range and spread between two points of its image, linearised; the points must
+/// be close to each other.
 WireInBeam FindPart(const Image& image, const Sight& begin, const Sight& end, double radius_m) {
   const TruncatedNormal along = TruncateNormal(begin.across, end.across);
   if (along.share < kLeastShare) return {};
@@ -73,7 +75,8 @@ WireInBeam FindPart(const Image& image, const Sight& begin, const Sight& end, do
   const double axis_m = sight.norm() / inverse_depth_per_m;
   const double sin_axis = std::min(1.0, sight.normalized().cross(image.axis).norm());
 
-  // The beam's sigma along the normal of the image, which undoing the division turns.
+  // The beam's sigma across the wire in radians. Scaling by the sigmas does not preserve angles, so
+  // it is not the sigma along the normal of the scaled image.
   const double run_x = image.sigma_h * image.direction[0];
   const double run_y = image.sigma_v * image.direction[1];
   const double sigma_across =
@@ -82,7 +85,7 @@ WireInBeam FindPart(const Image& image, const Sight& begin, const Sight& end, do
   const double share =
       NormalShare(image.distance - half_width, image.distance + half_width) * along.share;
 
-  // At most the axis' distance from the sensor, if that is almost within the wire.
+  // Limited to the distance of the axis for a sensor almost inside the wire.
   const double depth_m = std::min(radius_m / std::max(sin_axis, 1e-12), axis_m);
   const double change = std::fabs(end.inverse_depth_per_m - begin.inverse_depth_per_m) /
                         (end.across - begin.across) / inverse_depth_per_m;
@@ -93,7 +96,7 @@ WireInBeam FindPart(const Image& image, const Sight& begin, const Sight& end, do
           .sin_axis = sin_axis};
 }
 
-/// Sum of parts: moments weighted with the shares.
+/// Adds parts: their moments, weighted by their shares.
 class PartSum {
  public:
   void Add(const WireInBeam& part) {
@@ -107,7 +110,7 @@ class PartSum {
     if (!(share_ > 0.0)) return {};
     const double range_m = range_m_ / share_;
     const double variance_m2 = range_square_m2_ / share_ - range_m * range_m;
-    return {.share = std::min(share_, 1.0),  // Sums round.
+    return {.share = std::min(share_, 1.0),  // Rounding may exceed 1.
             .range_m = range_m,
             .spread_m = std::sqrt(std::max(variance_m2, 0.0)),
             .sin_axis = sin_axis_ / share_};
@@ -117,7 +120,8 @@ class PartSum {
   double share_{}, range_m_{}, range_square_m2_{}, sin_axis_{};
 };
 
-/// Cuts what the beam sees where the range has changed by kRangeStep.
+/// Cuts the visible piece wherever the range has changed by a factor of kRangeStep, and adds the
+/// parts.
 WireInBeam AddParts(const Image& image, const Sight& begin, const Sight& end, double radius_m) {
   const bool comes_nearer = end.inverse_depth_per_m > begin.inverse_depth_per_m;
   const double step = comes_nearer ? kRangeStep : 1.0 / kRangeStep;
@@ -138,7 +142,7 @@ WireInBeam AddParts(const Image& image, const Sight& begin, const Sight& end, do
   return sum.Mean();
 }
 
-/// Coordinates in the beam: horizontal, vertical, along it.
+/// Coordinates of a point in the beam's frame: horizontal, vertical, along the beam.
 Vector3 InBeam(const WideBeam& beam, const Eigen::Vector3f& point_m) {
   const Vector3 from_origin_m = point_m.cast<double>() - beam.origin_m;
   return {from_origin_m.dot(beam.horizontal), from_origin_m.dot(beam.vertical),

@@ -8,7 +8,8 @@
 namespace railcast {
 namespace {
 
-// A span of contact wire is long beside a tile's cone, so one ball for all of it rejects little.
+// A span of contact wire is long compared with the width of a tile's beams, so that a single ball
+// around all of it would reject little.
 constexpr std::size_t kGroupSegments = 8;
 
 WireBall BallAround(const WireSegment& wire) {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/base/transform.h"
+#include "railcast/transform.h"
 
 namespace railcast {
 
@@ -16,13 +16,14 @@ struct WireSegment {
   std::uint32_t surface{};  ///< Index into the window's surfaces.
 };
 
-/// A ball that holds wires, their radii included.
+/// A ball that contains wires, including their radii.
 struct WireBall {
   Eigen::Vector3f center_m;
   float radius_m{};
 };
 
-/// Segments that follow each other, and a ball that holds them: most beams pass all of it.
+/// Consecutive segments and a ball that contains them, so that most beams can skip them all at
+/// once.
 struct WireGroup {
   WireBall ball;
   std::uint32_t first_segment{};
@@ -32,7 +33,7 @@ struct WireGroup {
 /// The thin conductors of a window.
 struct WireSet {
   std::vector<WireSegment> segments;
-  std::vector<WireBall> balls;  ///< One round each segment.
+  std::vector<WireBall> balls;  ///< A ball around each segment.
   std::vector<WireGroup> groups;
 
   /// Adds a polyline of at least two points in the window frame.

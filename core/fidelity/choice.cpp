@@ -1,97 +1,68 @@
-#include "core/fidelity/choice.h"
+#include "railcast/fidelity.h"
 
 #include <algorithm>
 #include <string>
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/fidelity/effect_costs.h"
+#include "core/detect/effect_table.h"
 #include "core/fidelity/effect_search.h"
 #include "core/fidelity/frame_comparison.h"
 #include "core/fidelity/sample_frames.h"
 #include "core/fidelity/yardstick.h"
-#include "core/scenario/effect_names.h"
+#include "railcast/effects.h"
 
 namespace railcast {
 namespace {
 
-// Every second one is held back.
+// Every second frame is held back from the search, to validate its result.
 constexpr int kNumFrames = 6;
 constexpr double kFrameSpacing_s = 0.5;
 
-using Effect = bool EffectSet::*;
-
-bool HasCause(Effect effect, const ScenarioSpec& scenario) {
-  const WeatherSpec& weather = scenario.weather;
-  const ReceiverSpec& receiver = scenario.lidar.receiver;
-  if (effect == &EffectSet::sensor_dropout) {
-    return scenario.lidar.plausibility.dropout_probability > 0.0;
-  }
-  if (effect == &EffectSet::clutter) {
-    return receiver.clutter_gain > 0.0 &&
-           (weather.rain_rate_mmph > 0.0 || weather.snow_rate_mmph > 0.0);
-  }
-  if (effect == &EffectSet::fog_echo) {
-    return weather.visibility_m.has_value() || weather.fog_density_per_m > 0.0;
-  }
-  if (effect == &EffectSet::sunlight) return weather.sun.illuminance_klx > 0.0;
-  if (effect == &EffectSet::range_noise) {
-    return receiver.range_noise_floor_m > 0.0 || receiver.range_noise_scale_m > 0.0;
-  }
-  if (effect == &EffectSet::channel_bias) return receiver.channel_bias_sigma_m > 0.0;
-  return receiver.pointing_jitter_deg > 0.0;  // Effect pointing_jitter.
-}
-
-bool IsMeasured(Effect effect) {
-  return std::any_of(std::begin(kEffectCosts), std::end(kEffectCosts),
-                     [&](const EffectCost& cost) { return cost.effect == effect; });
-}
-
-std::string NameOf(Effect effect) {
-  for (const auto& [name, member] : kEffects) {
-    if (member == effect) return name;
-  }
-  return {};
-}
-
-/// What is to be chosen from.
+/// The effects among which the search chooses.
 struct Candidates {
-  EffectSet full;               // With all of them on.
-  std::vector<EffectCost> all;  // Those that may be left out.
+  EffectSet full;                  // The set with all of them on.
+  std::vector<const Effect*> all;  // The effects that may be left out.
 };
 
 Candidates FindCandidates(const ScenarioSpec& scenario, FidelityChoice& choice) {
   Candidates candidates{SwitchedEffects(scenario), {}};
-  for (const auto& [name, effect] : kEffects) {
-    if (!(candidates.full.*effect)) continue;
-    const bool is_switched_on = scenario.effects.count(name) > 0;
-    if (!is_switched_on && IsMeasured(effect)) continue;
-    if (is_switched_on || HasCause(effect, scenario)) {
-      choice.kept.emplace_back(name);
+  const DetectorSpec spec = DetectorSpecOf(scenario, scenario.lidar, candidates.full);
+  for (const Effect& effect : EffectTable()) {
+    if (!(candidates.full.*effect.is_on)) continue;
+    const bool is_switched_on = scenario.effects.count(effect.name) > 0;
+    if (!is_switched_on && effect.instructions) {
+      candidates.all.push_back(&effect);
+    } else if (is_switched_on || effect.has_cause(spec)) {
+      choice.kept.emplace_back(effect.name);
     } else {
-      choice.without_cause.emplace_back(name);
-      candidates.full.*effect = false;
-    }
-  }
-  for (const EffectCost& cost : kEffectCosts) {
-    if (candidates.full.*cost.effect && scenario.effects.count(NameOf(cost.effect)) == 0) {
-      candidates.all.push_back(cost);
+      choice.without_cause.emplace_back(effect.name);
+      candidates.full.*effect.is_on = false;
     }
   }
   return candidates;
 }
 
-// The same effects, as many rays as the reference has.
+std::vector<EffectCost> CostsOf(const std::vector<const Effect*>& effects) {
+  std::vector<EffectCost> costs;
+  for (const Effect* effect : effects) costs.push_back({effect->is_on, *effect->instructions});
+  return costs;
+}
+
+// The same effects, but where the rungs `footprint` and `reference` differ, as `reference` has it:
+// many more rays.
 EffectSet ReferenceOf(EffectSet effects) {
-  if (effects.footprint) {
-    effects.thin_conductors = false;
-    effects.dense_footprint = true;
-    effects.sampled_waveform = true;
+  if (!effects.footprint) return effects;
+  for (const Effect& effect : EffectTable()) {
+    const bool is_in_reference = IsInRung(effect, Fidelity::kReference);
+    if (is_in_reference != IsInRung(effect, Fidelity::kFootprint)) {
+      effects.*effect.is_on = is_in_reference;
+    }
   }
   return effects;
 }
 
-/// Scans frames with one set after another and compares them with the reference's.
+/// Scans frames with one effect set after another and compares them with those of the reference.
 class Comparer {
  public:
   Comparer(Simulator& simulator, const ScenarioSpec& scenario)
@@ -119,7 +90,7 @@ class Comparer {
     return DeviationOf(comparison.Result());
   }
 
-  /// Without any there is nothing to compare.
+  /// Whether the reference has any echo. If not, there is nothing to compare.
   [[nodiscard]] bool HasReferenceEchoes() const {
     return std::any_of(references_.begin(), references_.end(), [](const Frame& frame) {
       return std::count(frame.outcome.begin(), frame.outcome.end(), Outcome::kReturned) > 0;
@@ -129,7 +100,7 @@ class Comparer {
  private:
   void Scan(std::uint32_t index, const EffectSet& effects, Frame& frame) {
     SimulatorSpec spec = spec_;
-    spec.effects = WithoutRangeErrors(effects);
+    spec.detector.effects = WithoutRangeErrors(effects);
     simulator_.Use(spec);
     simulator_.Scan(index, frame);
   }
@@ -146,11 +117,11 @@ class Comparer {
 FidelityChoice ChooseFidelity(Simulator& simulator,
                               const ScenarioSpec& scenario,
                               const ChoiceProgress& on_progress) {
-  Check(scenario.fidelity == kAutoFidelity, "there is something to choose");
+  Check(scenario.fidelity == Fidelity::kAuto, "there is something to choose");
   FidelityChoice choice;
   Candidates candidates = FindCandidates(scenario, choice);
   const EffectSet reference = ReferenceOf(candidates.full);
-  // References take nearly all of the time.
+  // Shares of the progress: scanning the reference frames takes nearly all of the time.
   constexpr double kSampleShare = 0.45;
   constexpr double kMeasureShare = 0.1;
   on_progress(0.0);
@@ -162,7 +133,7 @@ FidelityChoice ChooseFidelity(Simulator& simulator,
   choice.has_echoes = comparer.HasReferenceEchoes();
   if (!choice.has_echoes) candidates.all.clear();
   const EffectSearchResult found =
-      FindCheapestEffects(candidates.full, candidates.all, scenario.tolerance,
+      FindCheapestEffects(candidates.full, CostsOf(candidates.all), scenario.tolerance,
                           [&](const EffectSet& effects) { return comparer.Measure(effects); });
   choice.effects = found.effects;
   choice.deviation = found.deviation;
@@ -171,8 +142,8 @@ FidelityChoice ChooseFidelity(Simulator& simulator,
   choice.instructions = InstructionsOf(choice.effects);
   choice.full_instructions = InstructionsOf(candidates.full);
   for (std::size_t i = 0; i < candidates.all.size(); ++i) {
-    const Effect effect = candidates.all[i].effect;
-    choice.measured.push_back({NameOf(effect), found.effects.*effect, found.without[i]});
+    const Effect& effect = *candidates.all[i];
+    choice.measured.push_back({effect.name, found.effects.*effect.is_on, found.without[i]});
   }
   on_progress(kSampleShare + kMeasureShare);
   for (std::size_t i = 1; i < frames.size(); i += 2) {
@@ -188,7 +159,7 @@ FidelityChoice UseChosenFidelity(Simulator& simulator,
                                  const ChoiceProgress& on_progress) {
   FidelityChoice choice = ChooseFidelity(simulator, scenario, on_progress);
   SimulatorSpec spec = simulator.spec();
-  spec.effects = choice.effects;
+  spec.detector.effects = choice.effects;
   simulator.Use(spec);
   return choice;
 }

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "core/scenario/effect_names.h"
+#include "core/detect/effect_table.h"
 
 namespace railcast {
 namespace {
@@ -26,7 +26,7 @@ std::string Text(const Deviation& d) {
          (std::isinf(d.intensity) ? "none" : Rounded(100.0 * d.intensity, 2) + " %");
 }
 
-// "a, b and c"; "nothing".
+// Lists names as "a, b and c", or "nothing" if there are none.
 std::string List(const std::vector<std::string>& names) {
   if (names.empty()) return "nothing";
   std::string text = names.front();
@@ -34,14 +34,6 @@ std::string List(const std::vector<std::string>& names) {
     text += (i + 1 == names.size() ? " and " : ", ") + names[i];
   }
   return text;
-}
-
-std::vector<std::string> NamesOf(const EffectSet& effects) {
-  std::vector<std::string> names;
-  for (const auto& [name, effect] : kEffects) {
-    if (effects.*effect) names.emplace_back(name);
-  }
-  return names;
 }
 
 Json ObjectOf(const Deviation& d) {
@@ -63,7 +55,7 @@ std::size_t NumBeyond(const FidelityChoice& choice) {
 
 std::string ChoiceText(const FidelityChoice& choice, const ToleranceSpec& tolerance) {
   const ToleranceSpec& t = tolerance;
-  std::string text = "fidelity auto uses " + List(NamesOf(choice.effects)) + "\n";
+  std::string text = "fidelity auto uses " + List(EffectNames(choice.effects)) + "\n";
   text += "  tolerance: " +
           Text({t.range_m, t.missed_share, t.false_share, t.thin_missed_share, t.intensity}) + "\n";
   text += "  chosen:    " + Text(choice.deviation) + ", about " + Rounded(choice.instructions, 0) +
@@ -101,7 +93,7 @@ std::string ChoiceJson(const FidelityChoice& choice, const ToleranceSpec& t) {
                          {"deviation", ObjectOf(held.deviation)},
                          {"is_within_tolerance", held.is_within_tolerance}});
   }
-  const Json json = {{"effects", NamesOf(choice.effects)},
+  const Json json = {{"effects", EffectNames(choice.effects)},
                      {"tolerance", ObjectOf({t.range_m, t.missed_share, t.false_share,
                                              t.thin_missed_share, t.intensity})},
                      {"deviation", ObjectOf(choice.deviation)},

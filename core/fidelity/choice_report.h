@@ -2,15 +2,15 @@
 
 #include <string>
 
-#include "core/fidelity/choice.h"
+#include "railcast/fidelity.h"
 
 namespace railcast {
 
-/// The choice in sentences: what is used, what was left out and what it would have changed, and how
-/// it did on the frames held back. Whole lines.
+/// Describes the choice in sentences: which effects are used, which were left out and what they
+/// would have changed, and the deviation on the frames held back. Every line has its end.
 [[nodiscard]] std::string ChoiceText(const FidelityChoice& choice, const ToleranceSpec& tolerance);
 
-/// The whole choice as a JSON object. What is infinite is null.
+/// The whole choice as a JSON object. Infinite numbers are written as null.
 [[nodiscard]] std::string ChoiceJson(const FidelityChoice& choice, const ToleranceSpec& tolerance);
 
 }  // namespace railcast

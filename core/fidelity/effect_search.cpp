@@ -4,27 +4,31 @@
 #include <cmath>
 #include <limits>
 
+#include "core/detect/effect_table.h"
+
 namespace railcast {
 namespace {
 
-/// Candidates by their number's bit.
+/// A set of candidates: bit i stands for candidate i.
 using EffectBits = unsigned;
 
 bool IsIn(EffectBits bits, std::size_t i) {
   return (bits >> i & 1U) != 0;
 }
 
-// What leaving an effect out adds: it may also take some away by chance, which is no reason to
-// leave out another.
+// The growth of a deviation when an effect is left out. By chance the deviation may also shrink;
+// that counts as 0, since it does not justify leaving out another effect.
 double Growth(const Deviation& without, const Deviation& full, const DeviationQuantity& quantity) {
   const double growth = without.*quantity.value - full.*quantity.value;
   return std::isnan(growth) ? 0.0 : std::max(growth, 0.0);
 }
 
-// What a set must keep to on the sample frames, so that others are within the tolerance, too.
+// The limits for the sample frames. They are stricter than the tolerance, so that other frames are
+// likely to be within it as well.
 ToleranceSpec SearchLimits(ToleranceSpec tolerance, const Deviation& full) {
   constexpr double kMargin = 0.8;
-  constexpr double kLittle = 0.02;  // Of a limit that all effects together hardly reach.
+  // Share of the tolerance that may be added where all effects together exceed the margin.
+  constexpr double kLittle = 0.02;
   for (const DeviationQuantity& quantity : kDeviationQuantities) {
     double& limit = tolerance.*quantity.limit;
     limit = std::max(kMargin * limit, full.*quantity.value + kLittle * limit);
@@ -32,9 +36,9 @@ ToleranceSpec SearchLimits(ToleranceSpec tolerance, const Deviation& full) {
   return tolerance;
 }
 
-// How far a deviation is beyond the limits, in limits.
+// By how much a deviation exceeds the limits: the sum over quantities of excess over limit.
 double Excess(const Deviation& deviation, const ToleranceSpec& limits) {
-  constexpr double kLeastLimit = 1e-9;  // Of a tolerance of 0.
+  constexpr double kLeastLimit = 1e-9;  // Avoids a division by a tolerance of 0.
   double excess = 0.0;
   for (const DeviationQuantity& quantity : kDeviationQuantities) {
     const double limit = limits.*quantity.limit;
@@ -56,7 +60,8 @@ bool IsPredictedWithin(const EffectSearchResult& result,
   return IsWithin(sum, limits);
 }
 
-// The dearest candidates that may be left out together by their single changes.
+// The most expensive set of candidates that may be left out, predicted by adding up the changes
+// that each of them causes alone.
 EffectBits PredictLeftOut(const EffectSearchResult& result,
                           const std::vector<EffectCost>& candidates,
                           const ToleranceSpec& limits) {
@@ -76,6 +81,14 @@ EffectBits PredictLeftOut(const EffectSearchResult& result,
 }
 
 }  // namespace
+
+double InstructionsOf(const EffectSet& effects) {
+  double sum = kInstructionsOfGeometry;
+  for (const Effect& effect : EffectTable()) {
+    if (effects.*effect.is_on) sum += effect.instructions.value_or(0.0);
+  }
+  return sum;
+}
 
 EffectSearchResult FindCheapestEffects(const EffectSet& full,
                                        const std::vector<EffectCost>& candidates,
@@ -98,7 +111,7 @@ EffectSearchResult FindCheapestEffects(const EffectSet& full,
   result.deviation = measure(remaining(left_out));
   while (left_out != 0 && !IsWithin(result.deviation, limits)) {
     double least_excess = std::numeric_limits<double>::infinity();
-    EffectBits nearest = 0;  // All effects, unless another set is nearer.
+    EffectBits nearest = 0;  // All effects, unless a set with finite excess is found.
     Deviation nearest_deviation = result.full_deviation;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       if (!IsIn(left_out, i)) continue;
@@ -114,6 +127,23 @@ EffectSearchResult FindCheapestEffects(const EffectSet& full,
   }
   result.effects = remaining(left_out);
   return result;
+}
+
+Deviation DeviationOf(const FrameDifference& difference) {
+  const bool lacks_intensity =
+      difference.echoes.num_matched > 0 && std::isnan(difference.intensity.median);
+  const auto or_zero = [](double value) { return std::isnan(value) ? 0.0 : value; };
+  return {or_zero(difference.range_m.median), 1.0 - difference.reference_echoes.share(),
+          1.0 - difference.echoes.share(), 1.0 - difference.thin.share(),
+          lacks_intensity ? std::numeric_limits<double>::infinity()
+                          : or_zero(difference.intensity.median)};
+}
+
+bool IsWithin(const Deviation& deviation, const ToleranceSpec& tolerance) {
+  return std::all_of(std::begin(kDeviationQuantities), std::end(kDeviationQuantities),
+                     [&](const DeviationQuantity& quantity) {
+                       return deviation.*quantity.value <= tolerance.*quantity.limit;
+                     });
 }
 
 }  // namespace railcast

@@ -12,9 +12,9 @@ namespace {
 
 constexpr float kLeastThinShare = 0.02F;
 constexpr float kLeastSecondShare = 0.05F;
-constexpr float kLeastMixedShare = 1e-3F;  // Less is rounding.
+constexpr float kLeastMixedShare = 1e-3F;  // Smaller shares may be rounding errors.
 
-// A firing's echoes: their slots and measured ranges.
+// The echoes of a firing: their slots and measured ranges.
 struct Echoes {
   Echoes(const Frame& frame, std::size_t firing) {
     for (std::size_t r = 0; r < frame.returns; ++r) {
@@ -131,7 +131,7 @@ void FrameComparison::AddFiring(const Frame& reference, const Frame& other, std:
     if (is_thin(reference.label[slot]) && share >= kLeastThinShare) {
       sums_.thin.Count(is_matched && is_thin(other.label[theirs.slots[match->second]]));
     }
-    // In every mode of several returns the first slot is the strongest.
+    // In every return mode with several returns, the first slot holds the strongest echo.
     const bool is_strongest = slot % reference.returns == 0;
     if (!is_strongest && share >= kLeastSecondShare) sums_.further.Count(is_matched);
     if (is_strongest && is_matched) AddMatched(reference, slot, other, theirs.slots[match->second]);

@@ -8,36 +8,35 @@
 #include <utility>
 #include <vector>
 
-#include "core/detect/detect_spec.h"
-#include "core/frame/frame.h"
-#include "core/frame/labels.h"
+#include "railcast/effects.h"
+#include "railcast/frame.h"
 
 namespace railcast {
 
 /// How the frames of two effect sets are compared.
 struct ComparisonSpec {
-  /// Echoes of a firing may be the same if their ranges differ by less.
+  /// Echoes of a firing can match if their ranges differ by less than this.
   float match_distance_m{};
-  float range_max_m{};                     ///< The bins of range end here.
-  std::vector<std::uint32_t> thin_labels;  ///< Of wires.
+  float range_max_m{};                     ///< Upper end of the last range bin.
+  std::vector<std::uint32_t> thin_labels;  ///< Labels of wires.
 };
 
-/// Half of the pulse's length: c pulse_length / 4, with 5 ns 0.375 m (two equal echoes part from
-/// 0.64 m on). Thin labels are those of contact wires, messenger wires and droppers, as far as
-/// the table has them.
+/// Makes the spec of a comparison. The match distance is half of the pulse's length in range,
+/// c pulse_length / 4: 0.375 m for 5 ns (two equal echoes are resolved from 0.64 m on). The thin
+/// labels are those of contact wires, messenger wires and droppers, as far as the table has them.
 [[nodiscard]] ComparisonSpec MakeComparisonSpec(const BeamSpec& beam,
                                                 double range_max_m,
                                                 const LabelTable& labels);
 
-/// Pairs of (reference, other) indices that are the same echo: the nearest pair first, each echo
-/// once, none farther apart than `match_distance_m` or as far.
+/// Pairs of (reference, other) indices that are the same echo. The nearest pair is matched first,
+/// each echo at most once, and only if the ranges differ by less than `match_distance_m`.
 /// @param reference_m, other_m Ranges of one firing's echoes.
 [[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> MatchEchoes(
     const std::vector<float>& reference_m,
     const std::vector<float>& other_m,
     float match_distance_m);
 
-/// How many of a kind there are and how many of them the other side has, too.
+/// The number of items of a kind and how many of them match an item of the other side.
 struct Matched {
   std::uint64_t num{};
   std::uint64_t num_matched{};
@@ -46,20 +45,20 @@ struct Matched {
     ++num;
     num_matched += is_matched ? 1 : 0;
   }
-  /// In [0, 1]; 1 if there are none.
+  /// Matched share in [0, 1]; 1 if there are no items.
   [[nodiscard]] double share() const {
     return num == 0 ? 1.0 : static_cast<double>(num_matched) / static_cast<double>(num);
   }
   bool operator==(const Matched&) const = default;
 };
 
-/// Median and 95th percentile of absolute errors; NaN if there are none.
+/// Median and 95th percentile of absolute errors; NaN if there are no errors.
 struct ErrorQuantiles {
   double median = std::numeric_limits<double>::quiet_NaN();
   double p95 = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// By how much frames differ from the reference's.
+/// The difference between frames and those of the reference.
 struct FrameDifference {
   static constexpr std::size_t kNumRangeBins = 10;
   struct RangeBin {
@@ -68,31 +67,31 @@ struct FrameDifference {
     std::uint64_t num_returned{};
   };
 
-  // Surfaces' echoes only: drops, flakes and fog echo by the same draws on both sides, and would
-  // hide what differs. Either may be matched by any echo.
-  Matched reference_echoes;  ///< Their share() is the recall.
-  Matched echoes;            ///< Of the other; their share() is the precision.
-  // All echoes, clutter included.
+  // Only echoes of surfaces are counted: drops, flakes and fog use the same random draws on both
+  // sides and would hide the differences. Any echo of the other side may match them.
+  Matched reference_echoes;  ///< Echoes of the reference; share() is the recall.
+  Matched echoes;            ///< Echoes of the other frames; share() is the precision.
+  // These count all echoes, including clutter.
   std::map<std::uint32_t, Matched> reference_echoes_per_label;  ///< By the reference's label.
   std::map<std::uint32_t, Matched> echoes_per_label;            ///< By the other's label.
-  /// Of firings' strongest echoes in the reference that are matched.
+  /// Range errors of the firings' strongest echoes in the reference that are matched.
   ErrorQuantiles range_m;
-  ErrorQuantiles intensity;  ///< Relative, of the same where both have one.
-  /// Equal bins up to range_max_m by the true range of the reference's first slot.
+  ErrorQuantiles intensity;  ///< Relative intensity errors of the same echoes where both have one.
+  /// Bins of equal width up to range_max_m, by the true range of the reference's first slot.
   std::array<RangeBin, kNumRangeBins> range_bins{};
   /// Mean over the bins with firings of the absolute difference in the share of firings with at
   /// least one return.
   double dropout_error{};
-  /// The reference's echoes of wires with at least 2 % of the beam; matched by an echo of a wire.
+  /// The reference's echoes of wires with at least 2 % of the beam; only echoes of wires match.
   Matched thin;
   /// The reference's surface echoes with at least 5 % of the beam that are not the strongest.
   Matched further;
-  /// The reference's firings with at least 5 % of the beam beside their main surface (0.5 m or more
-  /// apart or in the sky); matched if the other's beam meets anything beside its main surface.
+  /// The reference's firings with at least 5 % of the beam off their main surface (0.5 m or more
+  /// apart, or in the sky); matched if part of the other's beam is off its main surface as well.
   Matched second;
 };
 
-/// Compares frames of the same scan under two effect sets and sums up.
+/// Compares frames of the same scan under two effect sets and accumulates the differences.
 class FrameComparison {
  public:
   explicit FrameComparison(ComparisonSpec spec) : spec_(std::move(spec)) {}
@@ -107,7 +106,7 @@ class FrameComparison {
   void AddRangeBin(float true_range_m, bool has_reference_return, bool has_return);
 
   ComparisonSpec spec_;
-  FrameDifference sums_;  // Its quantiles and its dropout error come last.
+  FrameDifference sums_;  // Result() adds the quantiles and the dropout error.
   std::vector<float> range_errors_m_;
   std::vector<float> intensity_errors_;
 };

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/rail/rail_world.h"
 #include "core/rail/world_check.h"
+#include "railcast/rail_world.h"
 
 namespace railcast {
 namespace {
@@ -12,7 +12,8 @@ namespace {
 bool IsOnTrack(const ScenarioSpec& scenario, const Simulator& simulator, std::uint32_t frame) {
   const auto* const world = dynamic_cast<const RailWorld*>(&simulator.world());
   const TrackSpec* const track = FindTrack(scenario.world, scenario.vehicle.track);
-  if (world == nullptr || track == nullptr) return true;  // A host's world has no tracks.
+  // The world of a host program has no tracks.
+  if (world == nullptr || track == nullptr) return true;
   const double s_m = world->VehicleChainage_m(simulator.pattern().StampNs(frame));
   return s_m >= track->start_s_m && s_m <= track->end_s_m.value_or(world->alignment().length_m());
 }

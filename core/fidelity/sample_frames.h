@@ -3,15 +3,15 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/scenario/scenario_spec.h"
-#include "core/simulate/simulator.h"
+#include "railcast/scenario.h"
+#include "railcast/simulator.h"
 
 namespace railcast {
 
-/// Frames that stand for a scenario: the first, and further ones so many seconds apart; nearer,
-/// by halves, where the vehicle would leave its track before the last. They are a function of the
-/// scenario, never of the part of its run that is being made.
-/// @param simulator The scenario's.
+/// Chooses frames that represent a scenario: the first one and further ones at a fixed spacing in
+/// seconds. The spacing is halved until the vehicle is still on its track in the last one. The
+/// frames depend only on the scenario, not on the part of its run that is being simulated.
+/// @param simulator The simulator of the scenario.
 [[nodiscard]] std::vector<std::uint32_t> SampleFrames(const ScenarioSpec& scenario,
                                                       const Simulator& simulator,
                                                       int num_frames,

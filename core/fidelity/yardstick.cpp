@@ -1,17 +1,17 @@
 #include "core/fidelity/yardstick.h"
 
-#include "core/scenario/effects.h"
+#include "core/detect/effect_table.h"
 
 namespace railcast {
 
 EffectSet YardstickEffects() {
-  return WithoutRangeErrors(EffectsOfRung("reference"));
+  return WithoutRangeErrors(EffectsInRung(Fidelity::kReference));
 }
 
 EffectSet WithoutRangeErrors(EffectSet effects) {
-  effects.range_noise = false;
-  effects.channel_bias = false;
-  effects.noise = false;
+  for (const Effect& effect : EffectTable()) {
+    if (effect.is_range_error) effects.*effect.is_on = false;
+  }
   return effects;
 }
 

@@ -1,16 +1,16 @@
 #pragma once
 
-#include "core/detect/detect_spec.h"
+#include "railcast/effects.h"
 
 namespace railcast {
 
-/// What all others are compared with: the rung `reference` with the weather's and the sensor's own
-/// effects on.
+/// The effects with which all others are compared: the rung `reference` with the effects of the
+/// weather and of the sensor on.
 [[nodiscard]] EffectSet YardstickEffects();
 
-/// The effects as they are compared: without what changes ranges at random after detection
-/// (`range_noise`, `channel_bias` and the published `noise`), so that what is left is the model's.
-/// All other draws are the same for the same seed.
+/// The effects without those that add random errors to ranges after detection (`range_noise`,
+/// `channel_bias` and the published `noise`), so that comparisons show only differences between the
+/// models. All other random draws are the same for the same seed.
 [[nodiscard]] EffectSet WithoutRangeErrors(EffectSet effects);
 
 }  // namespace railcast

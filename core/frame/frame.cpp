@@ -1,4 +1,8 @@
-#include "core/frame/frame.h"
+#include "railcast/frame.h"
+
+#include <algorithm>
+
+#include "core/base/error.h"
 
 namespace railcast {
 
@@ -9,6 +13,26 @@ void Frame::Resize(std::uint32_t new_rows, std::uint32_t new_columns, std::uint3
   ForEachField(*this, [this](std::string_view, std::string_view, auto& values) {
     values.resize(num_slots());
   });
+}
+
+const Label* LabelTable::Find(std::string_view name) const {
+  const auto it = std::find_if(labels_.begin(), labels_.end(),
+                               [&](const Label& label) { return label.name == name; });
+  return it == labels_.end() ? nullptr : &*it;
+}
+
+const Label* LabelTable::Find(std::uint32_t id) const {
+  const auto it = std::find_if(labels_.begin(), labels_.end(),
+                               [&](const Label& label) { return label.id == id; });
+  return it == labels_.end() ? nullptr : &*it;
+}
+
+std::uint32_t LabelTable::Id(std::string_view name) const {
+  const Label* label = Find(name);
+  if (label == nullptr) {
+    throw InputError({{"/labels", "the table must hold \"" + std::string(name) + '"', ""}});
+  }
+  return label->id;
 }
 
 }  // namespace railcast

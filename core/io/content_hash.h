@@ -5,7 +5,8 @@
 
 namespace railcast {
 
-/// XXH3 (64 bits) of the bytes as 16 lower-case hexadecimal digits, as `xxhsum -H3` prints it.
+/// Returns the XXH3 hash (64 bits) of the bytes as 16 lower-case hexadecimal digits, as printed by
+/// `xxhsum -H3`.
 [[nodiscard]] std::string ContentHash(std::string_view bytes);
 
 }  // namespace railcast

@@ -5,24 +5,24 @@
 #include <span>
 #include <vector>
 
-#include "core/frame/frame.h"
+#include "railcast/frame.h"
 
 namespace railcast {
 
-/// Which of a receiver's ports a datagram is for.
+/// The port of a receiver that a datagram is sent to.
 enum class DatagramPort : std::uint8_t {
   kData,
-  kPosition,  ///< Where Velodyne sensors say their time and place: 8308.
+  kPosition,  ///< Port 8308, where Velodyne sensors report their time and position.
 };
 
-/// Datagrams in the order in which they leave; one buffer, so that runs of equal size can be handed
-/// to the kernel at once.
+/// Datagrams in the order in which they leave. They share one buffer, so that runs of equal size
+/// can be handed to the kernel at once.
 struct Datagrams {
   struct Item {
     std::size_t offset{};
     std::uint16_t size{};
     DatagramPort port{};
-    /// Simulation time of the last firing in it: a real sensor could not send it earlier.
+    /// Simulation time of the last firing in the datagram; a real sensor could not send it earlier.
     std::int64_t due_ns{};
   };
   std::vector<char> bytes;
@@ -31,22 +31,22 @@ struct Datagrams {
   [[nodiscard]] std::span<const char> BytesOf(const Item& item) const {
     return std::span(bytes).subspan(item.offset, item.size);
   }
-  /// Keeps the memory.
+  /// Removes all datagrams but keeps the allocated memory.
   void Clear() {
     bytes.clear();
     items.clear();
   }
 };
 
-/// Turns frames into what a sensor sends.
+/// Turns frames into the datagrams that a sensor sends.
 class FrameEncoder {
  public:
   virtual ~FrameEncoder() = default;
 
-  /// Appends the datagrams that this frame completes, by rising `due_ns`. Frames come in order.
-  /// What a frame leaves unfinished, as vendors' packets do, the next one completes. If frames are
-  /// left out between two, so is every datagram that has a part of them, and the others are as
-  /// ever.
+  /// Appends the datagrams that this frame completes, by rising `due_ns`. Frames must come in
+  /// order. A vendor's packet may span two frames: a packet that one frame leaves unfinished is
+  /// completed by the next. If frames between two others are left out, every datagram that would
+  /// contain a part of them is left out as well; all other datagrams are unaffected.
   virtual void Encode(const Frame& frame, Datagrams& datagrams) = 0;
 };
 

@@ -5,11 +5,11 @@
 #include <cstring>
 #include <type_traits>
 
-#include "core/frame/outcome.h"
+#include "railcast/outcome.h"
 
 namespace railcast {
 
-/// The arithmetic type a file stores for a Frame field's element type.
+/// The arithmetic type in which a file stores a Frame field of element type T.
 template <typename T>
 struct StoredType {
   using Type = T;
@@ -23,7 +23,7 @@ struct StoredType<Outcome> {
 template <typename Values>
 using ElementOf = typename std::remove_cvref_t<Values>::value_type;
 
-/// Writes one value, converted to `Stored`, at a place of any alignment.
+/// Writes one value, converted to `Stored`, at an address of any alignment.
 template <typename Stored, typename T>
 void StoreAt(char* place, T value) {
   const auto stored = static_cast<Stored>(value);

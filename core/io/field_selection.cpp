@@ -1,11 +1,11 @@
-#include "core/io/field_selection.h"
+#include "railcast/io/cloud_files.h"
 
 #include <algorithm>
 #include <set>
 
 #include "core/base/error.h"
-#include "core/frame/frame.h"
 #include "core/scenario/json_rules.h"
+#include "railcast/frame.h"
 
 namespace railcast {
 namespace {
@@ -44,9 +44,9 @@ FieldSelection::FieldSelection(std::string_view list) {
     const std::size_t comma = list.find(',');
     const std::string name(list.substr(0, comma));
     if (std::find(valid.begin(), valid.end(), name) == valid.end()) {
-      errors.Add("--fields: " + Unknown("field", name, valid) + " (got \"" + name + "\")");
+      errors.Add({"--fields", Unknown("field", name, valid), '"' + name + '"'});
     } else if (!asked.insert(name).second) {
-      errors.Add("--fields: field \"" + name + "\" comes twice");
+      errors.Add({"--fields", "field \"" + name + "\" comes twice", ""});
     }
     if (comma == std::string_view::npos) break;
     list.remove_prefix(comma + 1);

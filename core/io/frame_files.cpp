@@ -1,24 +1,58 @@
-#include "core/io/frame_files.h"
+#include "railcast/io/cloud_files.h"
 
-#include <array>
+#include <algorithm>
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/io/kitti.h"
-#include "core/io/pcd_encoder.h"
-#include "core/io/ply_encoder.h"
+#include "core/io/recording/point_table.h"
+#include "core/io/sequence_files.h"
 
 namespace railcast {
 namespace {
 
-constexpr std::array<std::pair<FrameFormat, std::string_view>, 6> kFormats = {{
-    {FrameFormat::kPcd, "pcd"},
-    {FrameFormat::kPcdCompressed, "pcd-compressed"},
-    {FrameFormat::kPcdAscii, "pcd-ascii"},
-    {FrameFormat::kPly, "ply"},
-    {FrameFormat::kPlyCloudCompare, "ply-cloudcompare"},
-    {FrameFormat::kKitti, "kitti"},
-}};
+using Moving = std::set<std::uint32_t>;
+using Files = std::vector<FrameFile>;
+
+template <PcdEncoding kEncoding>
+void EncodePcdFile(const Frame& frame, const FrameFileSpec& spec, const Moving&, Files& files) {
+  EncodePcd(frame, spec.fields, kEncoding, files[0].bytes);
+}
+
+PointTable ParsePcdFile(const std::string& file,
+                        std::string bytes,
+                        const std::optional<std::string>&) {
+  return ParsePcdTable(file, std::move(bytes));
+}
+
+template <PlyFlavour kFlavour>
+void EncodePlyFile(const Frame& frame, const FrameFileSpec& spec, const Moving&, Files& files) {
+  EncodePly(frame, spec.fields, kFlavour, files[0].bytes);
+}
+
+PointTable ParsePlyFile(const std::string& file,
+                        std::string bytes,
+                        const std::optional<std::string>&) {
+  return ParsePlyTable(file, bytes);
+}
+
+void EncodeKittiFiles(const Frame& frame,
+                      const FrameFileSpec& spec,
+                      const Moving& moving,
+                      Files& files) {
+  EncodeKittiPoints(frame, files[0].bytes);
+  EncodeKittiLabels(frame, spec.labels, moving, files[1].bytes);
+}
+
+std::vector<std::string> KittiLines(const Transform& first_from_sensor, double since_first_s) {
+  return {KittiPoseLine(first_from_sensor), NumberText(since_first_s) + "\n"};
+}
+
+std::vector<FrameFile> KittiFixedFiles(const LabelTable& labels) {
+  return {{std::string(kKittiCalibrationFile), KittiCalibration()},
+          {std::string(kKittiLabelsFile), SemanticKittiYaml(labels)}};
+}
 
 std::string SixDigits(std::uint32_t number) {
   std::string digits = std::to_string(number);
@@ -28,31 +62,91 @@ std::string SixDigits(std::uint32_t number) {
 
 }  // namespace
 
-std::string_view FrameFormatName(FrameFormat format) {
-  return kFormats[static_cast<std::size_t>(format)].second;
+const std::vector<FrameFormat>& FrameFormats() {
+  static const std::vector<FrameFormat> formats = {
+      {.name = "pcd",
+       .files = {{"frames/", ".pcd"}},
+       .encode = &EncodePcdFile<PcdEncoding::kBinary>,
+       .parse = &ParsePcdFile,
+       .has_all_slots = true},
+      {.name = "pcd-compressed",
+       .files = {{"frames/", ".pcd"}},
+       .encode = &EncodePcdFile<PcdEncoding::kBinaryCompressed>,
+       .parse = &ParsePcdFile,
+       .has_all_slots = true},
+      {.name = "pcd-ascii",
+       .files = {{"frames/", ".pcd"}},
+       .encode = &EncodePcdFile<PcdEncoding::kAscii>,
+       .parse = &ParsePcdFile,
+       .has_all_slots = true},
+      {.name = "ply",
+       .files = {{"frames/", ".ply"}},
+       .encode = &EncodePlyFile<PlyFlavour::kPcl>,
+       .parse = &ParsePlyFile},
+      {.name = "ply-cloudcompare",
+       .files = {{"frames/", ".ply"}},
+       .encode = &EncodePlyFile<PlyFlavour::kCloudCompare>,
+       .parse = &ParsePlyFile},
+      {.name = "kitti",
+       .files = {{"sequences/00/velodyne/", ".bin"}, {"sequences/00/labels/", ".label"}},
+       .encode = &EncodeKittiFiles,
+       .parse = &ParseKittiTable,
+       .dataset = DatasetLayout{.title = "KITTI",
+                                .record_files = {kKittiPosesFile, kKittiTimesFile},
+                                .record_lines = &KittiLines,
+                                .fixed_files = &KittiFixedFiles}},
+  };
+  return formats;
 }
 
-FrameFormat ParseFrameFormat(std::string_view name) {
+std::vector<std::string> FrameFormatNames() {
+  std::vector<std::string> names;
+  for (const FrameFormat& format : FrameFormats()) names.emplace_back(format.name);
+  return names;
+}
+
+const FrameFormat* FindFrameFormat(std::string_view name) {
+  const auto format = std::ranges::find(FrameFormats(), name, &FrameFormat::name);
+  return format == FrameFormats().end() ? nullptr : &*format;
+}
+
+const FrameFormat& ParseFrameFormat(std::string_view name) {
+  if (const FrameFormat* const format = FindFrameFormat(name)) return *format;
   std::string valid;
-  for (const auto& [format, format_name] : kFormats) {
-    if (format_name == name) return format;
-    valid += (valid.empty() ? "" : ", ") + std::string(format_name);
-  }
+  for (const std::string& known : FrameFormatNames()) valid += (valid.empty() ? "" : ", ") + known;
   throw InputError("--format: unknown format \"" + std::string(name) + "\" (valid: " + valid + ")");
 }
 
-std::vector<std::string> FrameFileNames(FrameFormat format, std::uint32_t number) {
-  const std::string digits = SixDigits(number);
-  switch (format) {
-    case FrameFormat::kKitti:
-      return {"sequences/00/velodyne/" + digits + ".bin",
-              "sequences/00/labels/" + digits + ".label"};
-    case FrameFormat::kPly:
-    case FrameFormat::kPlyCloudCompare:
-      return {"frames/" + digits + ".ply"};
-    default:
-      return {"frames/" + digits + ".pcd"};
+const FrameFormat* FindReader(const std::filesystem::path& file) {
+  for (const FrameFormat& format : FrameFormats()) {
+    const bool is_its = file.extension() == format.files.front().extension;
+    if (is_its && format.parse != nullptr) return &format;
   }
+  return nullptr;
+}
+
+std::string ReadableExtensions(bool with_datasets, const std::vector<std::string>& more) {
+  std::vector<std::string> all;
+  for (const FrameFormat& format : FrameFormats()) {
+    if (format.parse == nullptr || (format.dataset && !with_datasets)) continue;
+    const std::string extension(format.files.front().extension);
+    if (std::ranges::find(all, extension) == all.end()) all.push_back(extension);
+  }
+  all.insert(all.end(), more.begin(), more.end());
+  std::string text;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (i > 0) text += i + 1 == all.size() ? " or " : ", ";
+    text += all[i];
+  }
+  return text;
+}
+
+std::vector<std::string> FrameFileNames(const FrameFormat& format, std::uint32_t number) {
+  std::vector<std::string> names;
+  for (const FrameFileKind& file : format.files) {
+    names.push_back(std::string(file.folder) + SixDigits(number) + std::string(file.extension));
+  }
+  return names;
 }
 
 void EncodeFrameFiles(const Frame& frame,
@@ -60,29 +154,10 @@ void EncodeFrameFiles(const Frame& frame,
                       std::uint32_t number,
                       std::vector<FrameFile>& files,
                       const std::set<std::uint32_t>& moving) {
-  const std::vector<std::string> names = FrameFileNames(spec.format, number);
+  const std::vector<std::string> names = FrameFileNames(*spec.format, number);
   files.resize(names.size());
   for (std::size_t i = 0; i < names.size(); ++i) files[i].name = names[i];
-  if (spec.format == FrameFormat::kKitti) {
-    EncodeKittiPoints(frame, files[0].bytes);
-    EncodeKittiLabels(frame, spec.labels, moving, files[1].bytes);
-    return;
-  }
-  std::string& bytes = files[0].bytes;
-  switch (spec.format) {
-    case FrameFormat::kPcd:
-      return EncodePcd(frame, spec.fields, PcdEncoding::kBinary, bytes);
-    case FrameFormat::kPcdCompressed:
-      return EncodePcd(frame, spec.fields, PcdEncoding::kBinaryCompressed, bytes);
-    case FrameFormat::kPcdAscii:
-      return EncodePcd(frame, spec.fields, PcdEncoding::kAscii, bytes);
-    case FrameFormat::kPly:
-      return EncodePly(frame, spec.fields, PlyFlavour::kPcl, bytes);
-    case FrameFormat::kPlyCloudCompare:
-      return EncodePly(frame, spec.fields, PlyFlavour::kCloudCompare, bytes);
-    case FrameFormat::kKitti:
-      break;
-  }
+  spec.format->encode(frame, spec, moving, files);
 }
 
 }  // namespace railcast

@@ -10,15 +10,16 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/base/number_text.h"
+#include "core/base/text.h"
 #include "core/io/field_layout.h"
 #include "core/io/scan_motion.h"
 
 namespace railcast {
 namespace {
 
-/// The text as a YAML scalar. YAML understands JSON's strings and escapes, but for the pairs of
-/// them that stand for one character beyond U+FFFF: such characters are written as they are.
+/// Writes the text as a YAML scalar. YAML understands JSON's strings and escapes except for
+/// surrogate pairs (two escapes for one character beyond U+FFFF), so those characters are written
+/// unescaped.
 std::string YamlString(const std::string& text) {
   constexpr std::string_view kFirstBytesBeyondFfff = "\xF0\xF1\xF2\xF3\xF4";  // RFC 3629.
   constexpr std::size_t kNumBytesBeyondFfff = 4;
@@ -62,7 +63,8 @@ void EncodeKittiPoints(const Frame& frame, std::string& bytes) {
 }
 
 std::uint16_t MovingSemanticKitti(std::uint16_t id) {
-  // Of semantic-kitti-all.yaml: car, bicyclist, person, motorcyclist, on-rails, bus, truck, other.
+  // From semantic-kitti-all.yaml: car, bicyclist, person, motorcyclist, on-rails, bus, truck,
+  // other.
   constexpr std::array<std::pair<std::uint16_t, std::uint16_t>, 8> kMovingFromStanding = {
       {{10, 252}, {31, 253}, {30, 254}, {32, 255}, {16, 256}, {13, 257}, {18, 258}, {20, 259}}};
   for (const auto& [standing, moving] : kMovingFromStanding) {

@@ -4,43 +4,45 @@
 #include <set>
 #include <string>
 
-#include "core/base/transform.h"
-#include "core/frame/frame.h"
-#include "core/frame/labels.h"
+#include "railcast/frame.h"
+#include "railcast/transform.h"
 
 namespace railcast {
 
-/// A frame's points as a KITTI velodyne/*.bin: float32 x, y, z, remission each, only slots that
-/// have a point. KITTI's clouds are free of the sensor's motion and have no time field, so points
-/// are moved to the sensor's axes at the stamp (ScanMotion). Remission is the intensity as it is
-/// (retroreflectors exceed 1; nothing is clamped), 0 where the rung gives none.
+/// Encodes a frame's points as a KITTI velodyne/*.bin: float32 x, y, z and remission of each slot
+/// that has a point. KITTI's clouds are free of the sensor's motion and have no time field, so
+/// points are moved to the sensor's axes at the stamp (ScanMotion). Remission is the intensity
+/// without clamping (retroreflectors exceed 1), or 0 where the rung gives no intensity.
 void EncodeKittiPoints(const Frame& frame, std::string& bytes);
 
-/// SemanticKITTI's id for what moves of a class: 256 for 16, on-rails. The id itself if it has
-/// none.
+/// Returns SemanticKITTI's id of the moving variant of a class, for example 256 (moving) for 16
+/// (on-rails), or `id` itself if the class has no moving variant.
 [[nodiscard]] std::uint16_t MovingSemanticKitti(std::uint16_t id);
 
-/// Their SemanticKITTI labels/*.label: uint32 each, Label::semantic_kitti below, of an instance
-/// that is in `moving` MovingSemanticKitti of that; instance above.
+/// Encodes the labels of the same points as a SemanticKITTI labels/*.label, one uint32 each: the
+/// lower half holds Label::semantic_kitti, or MovingSemanticKitti of it for an instance in
+/// `moving`; the upper half holds the instance.
 /// @throws InputError if an instance exceeds 65535, which the format cannot hold.
 void EncodeKittiLabels(const Frame& frame,
                        const LabelTable& labels,
                        const std::set<std::uint32_t>& moving,
                        std::string& bytes);
 
-/// A line of poses.txt: the sensor's pose in the run's first sensor frame, 3 x 4 by rows. KITTI's
-/// poses are the camera's; with KittiCalibration() camera and LiDAR coincide.
+/// Returns a line of poses.txt: the sensor's pose in the run's first sensor frame, as a 3 x 4
+/// matrix by rows. KITTI's poses are those of the camera; with KittiCalibration() camera and LiDAR
+/// coincide.
 [[nodiscard]] std::string KittiPoseLine(const Transform& first_from_sensor);
 
-/// calib.txt: camera matrices of no meaning and Tr = identity.
+/// Returns calib.txt: placeholder camera matrices and Tr = identity.
 [[nodiscard]] std::string KittiCalibration();
 
-/// The labels under the numbers that .label files have, in their order. Several of ours may share
-/// one, as grass and tree are both vegetation: it is called "grass/tree" and has the first's
-/// colour. What moves is "moving wagon", in the colour of what stands.
+/// Returns the labels under the numbers that .label files use, in rising order. Several of our
+/// labels may share one number: grass and tree are both vegetation, and that entry is called
+/// "grass/tree" and has the colour of the first. The moving variant is called "moving wagon" and
+/// has the colour of the standing one.
 [[nodiscard]] LabelTable SemanticKittiLabels(const LabelTable& labels);
 
-/// semantic-kitti-railcast.yaml: names, colours (b, g, r as SemanticKITTI has them) and the
+/// Returns semantic-kitti-railcast.yaml: names, colours (b, g, r as in SemanticKITTI) and the
 /// learning_map to the nearest of SemanticKITTI's own classes.
 [[nodiscard]] std::string SemanticKittiYaml(const LabelTable& labels);
 

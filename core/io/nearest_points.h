@@ -9,19 +9,19 @@
 
 namespace railcast {
 
-/// Of every point of one cloud, the nearest of another.
+/// For every point of one cloud, the nearest point of another cloud.
 struct NearestPoints {
   std::vector<float> distance_m;
-  std::vector<std::uint32_t> index;  ///< Of the nearest in the other cloud.
+  std::vector<std::uint32_t> index;  ///< Index of the nearest point in the other cloud.
 };
 
-/// Finds nearest points of a cloud, exactly, by PCL's kd-tree.
+/// Finds the exact nearest points of a cloud with PCL's kd-tree.
 class NearestSearch {
  public:
-  /// @pre `cloud` has points, all of numbers.
+  /// @pre `cloud` is not empty, and all its coordinates are finite.
   explicit NearestSearch(const pcl::PointCloud<pcl::PointXYZ>::ConstPtr& cloud);
 
-  /// In parallel; the same at any number of threads.
+  /// Searches in parallel; the result does not depend on the number of threads.
   [[nodiscard]] NearestPoints Of(const pcl::PointCloud<pcl::PointXYZ>& queries) const;
 
  private:

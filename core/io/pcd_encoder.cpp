@@ -1,4 +1,4 @@
-#include "core/io/pcd_encoder.h"
+#include "railcast/io/cloud_files.h"
 
 #include <pcl/PCLPointCloud2.h>
 #include <pcl/io/lzf.h>
@@ -25,8 +25,8 @@ constexpr std::uint8_t PclType() {
   return kUnsignedBySize[sizeof(Stored)];
 }
 
-// Everything of the cloud but its data.
-pcl::PCLPointCloud2 Describe(const Frame& frame, const FieldSelection& selection) {
+// Describes the cloud without its data.
+pcl::PCLPointCloud2 DescribeCloud(const Frame& frame, const FieldSelection& selection) {
   pcl::PCLPointCloud2 cloud;
   ForEachField(frame, [&](std::string_view name, std::string_view, const auto& values) {
     if (!selection.Has(name)) return;
@@ -45,10 +45,11 @@ pcl::PCLPointCloud2 Describe(const Frame& frame, const FieldSelection& selection
   return cloud;
 }
 
-// `to` holds num_slots() * step bytes.
+// Interleaves the fields point by point.
+// @pre `to` has room for num_slots() * step bytes.
 void WeaveRows(const Frame& frame, const FieldSelection& selection, std::size_t step, char* to) {
-  // So many points that the rows of a block stay in the first-level cache while the fields, one
-  // after another, are woven into them.
+  // The block size keeps the rows of a block in the first-level cache while the fields are written
+  // into them one after another.
   constexpr std::size_t kBlock = 256;
   for (std::size_t first = 0; first < frame.num_slots(); first += kBlock) {
     const std::size_t count = std::min(kBlock, frame.num_slots() - first);
@@ -73,7 +74,7 @@ void AppendCompressed(const Frame& frame, const FieldSelection& selection, std::
     std::memcpy(plain.data() + begin, values.data(), size);
   });
   Check(plain.size() < std::numeric_limits<std::uint32_t>::max() / 2, "a frame is below 2 GiB");
-  // LZF adds at most one byte to 32 where nothing repeats.
+  // LZF adds at most one byte per 32 where nothing repeats.
   std::string packed(plain.size() + plain.size() / 16 + 64, '\0');
   const std::uint32_t packed_size =
       pcl::lzfCompress(plain.data(), static_cast<std::uint32_t>(plain.size()), packed.data(),
@@ -89,7 +90,7 @@ void AppendCompressed(const Frame& frame, const FieldSelection& selection, std::
 template <typename Stored>
 void AppendNumber(Stored value, std::string& bytes) {
   if constexpr (std::is_floating_point_v<Stored>) {
-    // to_chars may print the sign of a NaN; readers know "nan".
+    // to_chars may print the sign of a NaN, but readers expect "nan".
     if (std::isnan(value)) {
       bytes += "nan";
       return;
@@ -118,7 +119,7 @@ void EncodePcd(const Frame& frame,
                const FieldSelection& fields,
                PcdEncoding encoding,
                std::string& bytes) {
-  const pcl::PCLPointCloud2 cloud = Describe(frame, fields);
+  const pcl::PCLPointCloud2 cloud = DescribeCloud(frame, fields);
   const Eigen::Vector4f origin = Eigen::Vector4f::Zero();
   const Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();
   pcl::PCDWriter writer;

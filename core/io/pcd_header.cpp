@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "core/base/error.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/io/text_cursor.h"
 
 namespace railcast {
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t kMaxCloudBytes = std::numeric_limits<std::uint32_t>::max();
 
-// Collects the lines of one header and speaks for its file.
+// Collects the lines of one header; errors name the file.
 class HeaderReader {
  public:
   HeaderReader(const std::string& file, std::string_view bytes) : file_(file), rest_(bytes) {
@@ -152,7 +152,8 @@ void CheckBinary(const HeaderReader& reader, const PcdHeader& header, std::strin
   }
 }
 
-/// @param scratch Where the points go.
+/// Decompresses the points and checks their size.
+/// @param scratch Receives the decompressed points.
 void CheckCompressed(const HeaderReader& reader,
                      const PcdHeader& header,
                      std::string_view data,
@@ -173,7 +174,8 @@ void CheckCompressed(const HeaderReader& reader,
     reader.Fail("POINTS: " + std::to_string(header.points) + " need " + std::to_string(expected) +
                 " bytes, the compressed data hold " + std::to_string(plain));
   }
-  // Three bytes of LZF stand for 264 at most: what claims more must not be given memory.
+  // Three bytes of LZF expand to at most 264, so a larger claim is false and must not be given
+  // memory.
   constexpr std::uint32_t kMaxRatio = 88;
   if (plain / kMaxRatio > packed) reader.Fail("DATA: the compressed data are damaged");
   scratch.resize(plain);
@@ -204,7 +206,7 @@ PcdHeader CheckPcd(const std::string& file, std::string_view bytes, std::string*
   if (reader.Has("VIEWPOINT") && reader.Entries("VIEWPOINT").size() != 7) {
     reader.Fail("VIEWPOINT: must have 7 numbers");
   }
-  // Width and height are below 2^32 each: their product cannot wrap.
+  // Width and height are below 2^32 each, so their product cannot wrap.
   if (header.points != header.width * header.height || header.points == 0) {
     reader.Fail("POINTS: must be WIDTH x HEIGHT and > 0 (got " + std::to_string(header.points) +
                 " for " + std::to_string(header.width) + " x " + std::to_string(header.height) +

@@ -11,9 +11,9 @@ namespace railcast {
 /// One entry of a PCD file's FIELDS, SIZE, TYPE and COUNT lines.
 struct PcdField {
   std::string name;
-  std::uint64_t size{};   ///< Bytes of one element: 1, 2, 4 or 8.
+  std::uint64_t size{};   ///< Size of one element in bytes: 1, 2, 4 or 8.
   char type{};            ///< 'I', 'U' or 'F'.
-  std::uint64_t count{};  ///< Elements.
+  std::uint64_t count{};  ///< Number of elements.
 };
 
 /// The header of a PCD v0.7 (or 0.6 with the same keys) file.
@@ -23,17 +23,17 @@ struct PcdHeader {
   std::uint64_t height{};
   std::uint64_t points{};
   std::string data;          ///< "ascii", "binary" or "binary_compressed".
-  std::size_t data_begin{};  ///< Where the points begin in the file.
+  std::size_t data_begin{};  ///< Offset in the file at which the points begin.
 
-  /// Bytes of one point.
+  /// Returns the size of one point in bytes.
   [[nodiscard]] std::uint64_t PointStep() const;
 };
 
-/// Reads the header of a PCD file held in `bytes` and checks it and the points' length against each
-/// other: a damaged file gives an error here, while PCL's reader would crash on it.
+/// Reads the header of a PCD file held in `bytes` and checks it against the length of the points: a
+/// damaged file gives an error here, while PCL's reader would crash on it.
 /// @param file Named in errors.
-/// @param plain Where the points of a compressed file go: each field for all points, one after
-///   another.
+/// @param plain Receives the points of a compressed file: each field for all points, one field
+///   after another.
 /// @throws InputError with one line: "file: key: rule (got value)".
 [[nodiscard]] PcdHeader CheckPcd(const std::string& file,
                                  std::string_view bytes,

@@ -1,4 +1,4 @@
-#include "core/io/pcd_reader.h"
+#include "railcast/io/cloud_files.h"
 
 #include <pcl/io/pcd_io.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/io/pcd_header.h"
 #include "core/io/write_file.h"
 

@@ -1,4 +1,4 @@
-#include "core/io/ply_encoder.h"
+#include "railcast/io/cloud_files.h"
 
 #include <cstdint>
 #include <limits>
@@ -12,7 +12,7 @@ namespace railcast {
 namespace {
 
 template <typename Stored>
-constexpr std::string_view PlyType() {
+constexpr std::string_view PlyTypeName() {
   if (std::is_same_v<Stored, double>) return "double";
   if (std::is_same_v<Stored, float>) return "float";
   if (std::is_same_v<Stored, std::int32_t>) return "int";
@@ -48,7 +48,7 @@ void ForEachProperty(const Frame& frame,
     } else if constexpr (std::is_floating_point_v<Stored>) {
       visit("scalar_" + std::string(name), values, Stored{});
     } else if (unit == "ns") {
-      // Up to 4.29e9: more than an int, and exact in a double.
+      // Values reach 4.29e9, which exceeds an int but is exact in a double.
       visit("scalar_" + std::string(name), values, double{});
     } else {
       visit("scalar_" + std::string(name), values, std::int32_t{});
@@ -56,7 +56,8 @@ void ForEachProperty(const Frame& frame,
   });
 }
 
-// The labels and instances come from the user's files; all else is small by construction.
+// The labels and instances come from the user's files and may be large; all other fields are small
+// by construction.
 void CheckFitsInt(const std::vector<std::uint32_t>& ids, std::string_view name) {
   for (const std::uint32_t id : ids) {
     if (id > std::uint32_t{std::numeric_limits<std::int32_t>::max()}) {
@@ -84,7 +85,7 @@ void EncodePly(const Frame& frame,
       "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(slots.size()) + "\n";
   std::size_t step = 0;
   ForEachProperty(frame, fields, flavour, [&](const std::string& name, const auto&, auto zero) {
-    header += "property " + std::string(PlyType<decltype(zero)>()) + " " + name + "\n";
+    header += "property " + std::string(PlyTypeName<decltype(zero)>()) + " " + name + "\n";
     step += sizeof zero;
   });
   header += "end_header\n";

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/base/error.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/io/text_cursor.h"
 
 namespace railcast {
@@ -65,7 +65,8 @@ std::uint64_t ReadCount(const std::string& file, const std::vector<std::string_v
 void CheckLength(const std::string& file, const PlyHeader& header, std::size_t size) {
   const std::size_t available = size - header.points_begin;
   const std::uint64_t step = header.is_ascii ? 2 * header.properties.size() : header.PointStep();
-  // A number and a blank each; the last end of line may be missing.
+  // The least that ASCII needs is one digit and one separator per number; the last line end may be
+  // missing.
   const std::uint64_t slack = header.is_ascii ? 1 : 0;
   if (header.num_points > (available + slack) / step) {
     Fail(file, "element vertex: " + std::to_string(header.num_points) + " points need " +

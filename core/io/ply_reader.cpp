@@ -1,4 +1,4 @@
-#include "core/io/ply_reader.h"
+#include "railcast/io/cloud_files.h"
 
 #include <pcl/PCLPointField.h>
 
@@ -8,7 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/io/ply_header.h"
 #include "core/io/text_cursor.h"
 #include "core/io/write_file.h"

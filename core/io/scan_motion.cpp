@@ -3,7 +3,7 @@
 namespace railcast {
 
 ScanMotion::ScanMotion(const Frame& frame)
-    // A scan of one moment has only times of 0.
+    // In an instantaneous scan all times are 0, so any finite factor will do.
     : scans_per_ns_(frame.duration_ns > 0 ? 1.0 / frame.duration_ns : 0.0) {
   const Transform stamp_from_end = frame.world_from_sensor.inverse() * frame.world_from_sensor_end;
   travel_m_ = stamp_from_end.translation();

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-#include "core/base/transform.h"
-#include "core/frame/frame.h"
+#include "railcast/frame.h"
+#include "railcast/transform.h"
 
 namespace railcast {
 
@@ -16,14 +16,17 @@ class ScanMotion {
  public:
   explicit ScanMotion(const Frame& frame);
 
-  /// A point in the sensor's axes at `time_ns` since the stamp, in its axes at the stamp.
+  /// Transforms a point from the sensor's axes at `time_ns` after the stamp to its axes at the
+  /// stamp.
   [[nodiscard]] Vector3 AtStamp(const Vector3& point_m, std::uint32_t time_ns) const;
-  /// The other way: a point in its axes at the stamp, in those at `time_ns` since.
+  /// The inverse: transforms a point from the sensor's axes at the stamp to those at `time_ns`
+  /// after.
   [[nodiscard]] Vector3 AtFiring(const Vector3& point_at_stamp_m, std::uint32_t time_ns) const;
 
  private:
   double scans_per_ns_;
-  Vector3 travel_m_;  ///< From the stamp to the last firing, in the sensor's axes there.
+  /// Translation from the stamp to the last firing, in the sensor's axes at the stamp.
+  Vector3 travel_m_;
   Eigen::AngleAxisd turn_;
 };
 

@@ -10,12 +10,12 @@
 #include "core/io/content_hash.h"
 #include "core/io/sequence_files.h"
 #include "core/io/write_file.h"
-#include "core/scenario/scenario.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 namespace {
 
-// Names the files that a scenario names by their content.
+// Replaces the paths of a scenario's files by names derived from their content.
 class FileNaming {
  public:
   void Rename(std::string& file) {
@@ -24,7 +24,7 @@ class FileNaming {
       InputFile input{std::filesystem::path(file).filename().string(), {}, ReadFileWhole(file)};
       input.hash = ContentHash(input.bytes);
       known = copy_of_.emplace(file, input.CopyName()).first;
-      // The same file may lie in two folders.
+      // The same file may lie in two folders but is stored once.
       if (std::ranges::find(inputs_, input) == inputs_.end()) inputs_.push_back(std::move(input));
     }
     file = known->second;
@@ -43,7 +43,7 @@ class FileNaming {
   [[nodiscard]] std::vector<InputFile>& inputs() { return inputs_; }
 
  private:
-  std::map<std::string, std::string> copy_of_;  // By the name in the scenario.
+  std::map<std::string, std::string> copy_of_;  // The name of the copy by the path in the scenario.
   std::vector<InputFile> inputs_;
 };
 

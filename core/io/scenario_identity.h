@@ -3,45 +3,45 @@
 #include <string>
 #include <vector>
 
-#include "core/scenario/scenario_spec.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 
 /// A mesh or a firing table that a scenario names, as it was when it was read.
 struct InputFile {
-  std::string name;   ///< Without its folder.
+  std::string name;   ///< File name without its folder.
   std::string hash;   ///< ContentHash of its bytes.
-  std::string bytes;  ///< All of them.
+  std::string bytes;  ///< The whole content.
 
-  /// Where a sequence directory keeps it, relative to the directory:
+  /// Returns the path under which a sequence directory keeps the file, relative to that directory:
   /// "inputs/0123456789abcdef/rock.obj".
   [[nodiscard]] std::string CopyName() const;
 
   bool operator==(const InputFile&) const = default;
 };
 
-/// What makes two scenarios the same: what they say and what the files they name hold, wherever
-/// those lie.
+/// Identifies a scenario by what it states and by the content of the files that it names, wherever
+/// those files lie. Two scenarios are the same if their identities are equal.
 struct ScenarioIdentity {
-  std::string scenario_json;      ///< Resolved, with files named by InputFile::CopyName().
-  std::string scenario_hash;      ///< ContentHash of that.
-  std::vector<InputFile> inputs;  ///< Each once, in the order the scenario first names them.
+  std::string scenario_json;  ///< Resolved, with files named by InputFile::CopyName().
+  std::string scenario_hash;  ///< ContentHash of scenario_json.
+  /// Each file once, in the order in which the scenario first names it.
+  std::vector<InputFile> inputs;
 
   bool operator==(const ScenarioIdentity&) const = default;
 };
 
-/// A scenario read back from a sequence directory has the identity of the one that the directory
-/// was made of.
+/// Returns a scenario's identity. A scenario read back from a sequence directory has the identity
+/// of the one that the directory was made from.
 /// @throws InputError if a named file cannot be read.
 [[nodiscard]] ScenarioIdentity IdentityOf(const ScenarioSpec& scenario);
 
-/// @throws InputError if a file that the scenario names has another content than that of
-/// `identity`:
-///   somebody edited it between two readings.
+/// Checks that the files of a scenario have not been edited between two readings.
+/// @throws InputError if a file that the scenario names has other content than in `identity`.
 void CheckSameFiles(const ScenarioSpec& scenario, const ScenarioIdentity& identity);
 
-/// The scenario with its files named by InputFile::CopyName(): two that differ only in where equal
-/// files lie become equal.
+/// Returns the scenario with its files named by InputFile::CopyName(), so that two scenarios that
+/// differ only in where equal files lie become equal.
 /// @throws InputError if a named file cannot be read.
 [[nodiscard]] ScenarioSpec WithFilesByContent(const ScenarioSpec& scenario);
 

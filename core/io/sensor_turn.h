@@ -8,28 +8,33 @@ namespace railcast {
 
 /// A return in a packet of a spinning sensor.
 struct TurnPoint {
-  float x{}, y{}, z{};  ///< m, our sensor axes: x forward, y left, z up.
+  float x{}, y{}, z{};  ///< In m, in railcast's sensor axes: x forward, y left, z up.
   float range_m{};
   float azimuth_rad{};     ///< Clockwise from forward, 0 to 2 pi.
-  std::int64_t time_ns{};  ///< Since the turn's stamp.
-  std::uint32_t column{};  ///< Firing cycle of the turn, from 0.
+  std::int64_t time_ns{};  ///< Time since the turn's stamp.
+  std::uint32_t column{};  ///< Index of the firing cycle in the turn, from 0.
   std::uint16_t ring{};    ///< Row by rising elevation, 0 the lowest.
-  std::uint8_t laser{};    ///< The vendor's number, from 0.
+  std::uint8_t laser{};    ///< The vendor's number of the laser, from 0.
   std::uint8_t intensity{};
-  /// 0, or in dual mode 0 for the last return and 1 for the other, which is left out where it
+  /// 0; in dual mode 0 for the last return and 1 for the other one, which is left out where it
   /// repeats the last.
   std::uint8_t return_index{};
 };
 
-/// What one turn of the rotor saw, in order of time.
+/// The most firing cycles of a turn; a longer turn is cut, so that a rotor that stands still cannot
+/// fill the memory even where it sees nothing. Real turns have at most 4340 cycles (HDL-32E at 5
+/// Hz).
+inline constexpr std::size_t kMaxTurnColumns = std::size_t{1} << 14U;
+
+/// The points of one turn of the rotor in order of time.
 struct SensorTurn {
-  /// Of its first firing cycle; since when, its decoder says.
+  /// Time of the first firing cycle; each decoder defines its epoch.
   std::int64_t stamp_ns{};
   std::vector<TurnPoint> points;
-  /// When each firing cycle of the packets began, since the stamp: a laser of it without a point is
-  /// one whose distance was 0. Cycles of packets that are missing are missing here, too.
+  /// When each firing cycle in the packets began, since the stamp. A laser of such a cycle without
+  /// a point had distance 0. Cycles of missing packets are missing here, too.
   std::vector<std::int64_t> column_time_ns;
-  bool is_dual{};  ///< Whether any of its packets was of dual mode.
+  bool is_dual{};  ///< Whether any of its packets was in dual mode.
 
   [[nodiscard]] std::size_t num_columns() const { return column_time_ns.size(); }
 };

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "core/base/text.h"
+#include "railcast/io/cloud_files.h"
+
 namespace railcast {
 namespace {
 
@@ -12,22 +15,18 @@ constexpr std::array kNames = {kRunFile,        kManifestFile,   kScenarioFile,
                                kKittiPosesFile, kKittiTimesFile, kKittiCalibrationFile,
                                kKittiLabelsFile};
 
-bool IsDigit(char letter) {
-  return letter >= '0' && letter <= '9';
-}
-
 bool IsHashDigit(char letter) {
   return IsDigit(letter) || (letter >= 'a' && letter <= 'f');
 }
 
-// Takes `part` from the front of `text`; false, and nothing taken, if it does not begin so.
+// Removes `part` from the front of `text`; returns false and leaves `text` if it does not begin so.
 bool Take(std::string_view& text, std::string_view part) {
   if (!text.starts_with(part)) return false;
   text.remove_prefix(part.size());
   return true;
 }
 
-// "000012.pcd": six digits, or more without a leading zero.
+// Whether the name is like "000012.pcd": six digits, or more without a leading zero.
 bool IsNumbered(std::string_view name, std::string_view extension) {
   constexpr std::size_t kMinDigits = 6;
   if (!name.ends_with(extension)) return false;
@@ -36,7 +35,7 @@ bool IsNumbered(std::string_view name, std::string_view extension) {
          (name.size() == kMinDigits || name.front() != '0');
 }
 
-// "0123456789abcdef/wagon.obj".
+// Whether the name is like "0123456789abcdef/wagon.obj".
 bool IsInput(std::string_view name) {
   constexpr std::size_t kHashDigits = 16;
   if (name.size() < kHashDigits || !std::ranges::all_of(name.substr(0, kHashDigits), IsHashDigit)) {
@@ -51,9 +50,12 @@ bool IsInput(std::string_view name) {
 
 bool IsSequenceFile(std::string_view name) {
   if (std::ranges::find(kNames, name) != kNames.end()) return true;
-  if (Take(name, "frames/")) return IsNumbered(name, ".pcd") || IsNumbered(name, ".ply");
-  if (Take(name, "sequences/00/velodyne/")) return IsNumbered(name, ".bin");
-  if (Take(name, "sequences/00/labels/")) return IsNumbered(name, ".label");
+  for (const FrameFormat& format : FrameFormats()) {
+    for (const FrameFileKind& file : format.files) {
+      std::string_view number = name;
+      if (Take(number, file.folder) && IsNumbered(number, file.extension)) return true;
+    }
+  }
   return Take(name, kInputsFolder) && Take(name, "/") && IsInput(name);
 }
 

@@ -4,7 +4,7 @@
 
 namespace railcast {
 
-// The names of what a sequence directory holds (docs/files.md), relative to it.
+// The names of the files of a sequence directory (docs/files.md), relative to it.
 
 inline constexpr std::string_view kRunFile = "run.json";
 inline constexpr std::string_view kManifestFile = "manifest.json";
@@ -20,13 +20,13 @@ inline constexpr std::string_view kKittiTimesFile = "sequences/00/times.txt";
 inline constexpr std::string_view kKittiCalibrationFile = "sequences/00/calib.txt";
 inline constexpr std::string_view kKittiLabelsFile = "semantic-kitti-railcast.yaml";
 
-/// Below it each file that the scenario names has a folder of its own, called by its hash:
-/// "inputs/0123456789abcdef/wagon.obj".
+/// The folder of the files that the scenario names. Each lies in a folder of its own, named by the
+/// file's hash: "inputs/0123456789abcdef/wagon.obj".
 inline constexpr std::string_view kInputsFolder = "inputs";
 
-/// Whether a sequence directory, in whatever format, may hold a file of this name: one of the
-/// above, a frame's or an input's. While it is written a file bears the same name and
-/// kUnfinishedSuffix.
+/// Whether a sequence directory of any format may hold a file of this name: one of the names above,
+/// that of a frame or that of an input. While a file is being written, kUnfinishedSuffix follows
+/// its name.
 /// @param name Relative to the directory, with slashes: "frames/000012.pcd".
 [[nodiscard]] bool IsSequenceFile(std::string_view name);
 

@@ -11,12 +11,12 @@
 
 namespace railcast {
 
-/// How JSON becomes a T: as the library does it.
+/// Converts JSON to a T as the library does it.
 template <typename T, typename = void>
 struct StrictSerializer : nlohmann::adl_serializer<T> {};
 
-/// But a whole number only from one that T holds: the library cuts off fractions and high bits, and
-/// what 1e30 becomes is undefined.
+/// Converts JSON to an integer type, but only from a whole number that T can hold: the library
+/// would cut off fractions and high bits, and its result for 1e30 is undefined.
 template <std::integral T>
 requires(!std::same_as<T, bool>) struct StrictSerializer<T, void> : nlohmann::adl_serializer<T> {
   template <typename Json>
@@ -27,7 +27,7 @@ requires(!std::same_as<T, bool>) struct StrictSerializer<T, void> : nlohmann::ad
                                 std::in_range<T>(json.template get_ref<const std::int64_t&>());
     if (!fits) {
       constexpr int kWrongType = 302;
-      // Whatever else it is may be nested too deep to be written.
+      // Other values are not quoted, since they may be nested too deep to be written.
       const std::string got = json.is_number() ? json.dump() : json.type_name();
       throw Json::type_error::create(
           kWrongType,
@@ -39,7 +39,7 @@ requires(!std::same_as<T, bool>) struct StrictSerializer<T, void> : nlohmann::ad
   }
 };
 
-/// The library's JSON of our serializer, whose objects are `Map`s.
+/// The library's JSON with StrictSerializer and with objects that are `Map`s.
 template <template <typename, typename, typename...> class Map>
 using StrictJsonIn = nlohmann::basic_json<Map,
                                           std::vector,
@@ -51,9 +51,10 @@ using StrictJsonIn = nlohmann::basic_json<Map,
                                           std::allocator,
                                           StrictSerializer>;
 
-/// JSON that gives numbers only to those that hold them; anything else is a Json::exception.
+/// JSON that converts a number only to a type that can hold it, and otherwise throws
+/// Json::exception.
 using StrictJson = StrictJsonIn<std::map>;
-/// The same with an object's members in the order of the text.
+/// As above, with an object's members in the order of the text.
 using StrictOrderedJson = StrictJsonIn<nlohmann::ordered_map>;
 
 }  // namespace railcast

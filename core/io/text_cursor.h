@@ -8,7 +8,7 @@
 
 namespace railcast {
 
-/// Takes the next line off `text`, without its end (LF or CR LF); nothing if none is left.
+/// Takes the next line off `text`, without its end (LF or CR LF); returns nothing if none is left.
 [[nodiscard]] inline std::optional<std::string_view> TakeLine(std::string_view& text) {
   if (text.empty()) return std::nullopt;
   const std::size_t end = text.find('\n');
@@ -18,7 +18,7 @@ namespace railcast {
   return line;
 }
 
-/// The words of a line, between blanks.
+/// Splits a line into its words, which are separated by blanks.
 [[nodiscard]] inline std::vector<std::string_view> Words(std::string_view line) {
   std::vector<std::string_view> words;
   while (true) {
@@ -32,7 +32,7 @@ namespace railcast {
   }
 }
 
-/// The whole word as a number; nothing if it is none or does not fit.
+/// Parses the whole word as a number; returns nothing if it is not one or does not fit the type.
 template <typename Number>
 [[nodiscard]] std::optional<Number> ParseNumber(std::string_view word) {
   Number number{};

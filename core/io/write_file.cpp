@@ -10,7 +10,7 @@
 namespace railcast {
 namespace {
 
-/// An open file that is closed when it goes out of scope.
+/// An open file descriptor that is closed when it goes out of scope.
 class Descriptor {
  public:
   explicit Descriptor(int number) : number_(number) {}
@@ -21,7 +21,7 @@ class Descriptor {
   Descriptor& operator=(const Descriptor&) = delete;
 
   [[nodiscard]] int number() const { return number_; }
-  /// Some file systems report a full disk only here.
+  /// Closes the descriptor and checks the result: some file systems report a full disk only here.
   [[nodiscard]] bool Close() {
     const int number = number_;
     number_ = -1;
@@ -54,7 +54,7 @@ std::filesystem::path UnfinishedOf(const std::filesystem::path& target) {
   return target.string() + std::string(kUnfinishedSuffix);
 }
 
-// @param file Is named if that fails.
+// @param file Named in the error if opening fails.
 Descriptor OpenUnfinished(const std::filesystem::path& file,
                           const std::filesystem::path& unfinished) {
   constexpr int kAccess = 0644;
@@ -67,10 +67,11 @@ Descriptor OpenUnfinished(const std::filesystem::path& file,
 
 std::filesystem::path FileToReplace(const std::filesystem::path& file) {
   std::error_code error;
-  // Before links are followed by name: what /dev/stdout leads to need not have one.
+  // Checked before links are followed by name, since what /dev/stdout leads to need not have a
+  // name.
   CheckIsRegular(file, std::filesystem::status(file, error));
   std::filesystem::path target = file;
-  constexpr int kMaxLinks = 40;  // As Linux has it.
+  constexpr int kMaxLinks = 40;  // Linux's limit.
   for (int i = 0; std::filesystem::is_symlink(std::filesystem::symlink_status(target, error));
        ++i) {
     if (i == kMaxLinks) throw FileError(file, ELOOP);

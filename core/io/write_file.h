@@ -8,26 +8,28 @@
 
 namespace railcast {
 
-/// Ends the name of a file that is still being written.
+/// The suffix of the name of a file that is still being written.
 inline constexpr std::string_view kUnfinishedSuffix = ".part";
 
-/// The file that is replaced when `file` is written: itself, or what it leads to as a symbolic
-/// link. The link stays.
-/// @throws InputError if there, or where the unfinished file goes, is anything but a regular file.
-///   Renamed over a device or a FIFO, a file would take its place.
+/// Returns the file that is replaced when `file` is written: itself or, if it is a symbolic link,
+/// the file that it leads to. The link itself stays.
+/// @throws InputError if that file, or the unfinished file beside it, exists and is not a regular
+///   file: renaming would replace a device or a FIFO by a regular file.
 [[nodiscard]] std::filesystem::path FileToReplace(const std::filesystem::path& file);
 
-/// Tries whether WriteFileWhole(file) can begin, so that what takes long to make is not made in
-/// vain. Leaves nothing behind.
-/// @throws InputError as that does.
+/// Checks whether WriteFileWhole(file) can begin, before the content is computed at great cost.
+/// Leaves nothing behind.
+/// @throws InputError as WriteFileWhole() does.
 void CheckCanWrite(const std::filesystem::path& file);
 
-/// Writes a whole file or none: beside it first (name + kUnfinishedSuffix), checked for length,
-/// synced to the disk, then renamed over FileToReplace(file).
-/// @throws InputError as that does, or if the system refuses; nothing unfinished stays behind.
+/// Writes a whole file or none: first to a file beside it (name + kUnfinishedSuffix), which is
+/// checked for length, synced to the disk and then renamed over FileToReplace(file).
+/// @throws InputError as FileToReplace() does, or if the system refuses; no unfinished file is
+///   left.
 void WriteFileWhole(const std::filesystem::path& file, std::string_view bytes);
 
-/// The bytes of a whole file. @throws InputError if it is no regular file or cannot be read.
+/// Returns the bytes of a whole file.
+/// @throws InputError if it is not a regular file or cannot be read.
 [[nodiscard]] std::string ReadFileWhole(const std::filesystem::path& file);
 
 }  // namespace railcast

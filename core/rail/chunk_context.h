@@ -2,26 +2,28 @@
 
 #include <cstdint>
 
-#include "core/base/transform.h"
-#include "core/rail/line/alignment.h"
 #include "core/rail/rail_surfaces.h"
-#include "core/rail/world_spec.h"
+#include "railcast/alignment.h"
+#include "railcast/rail_world.h"
+#include "railcast/transform.h"
 
 namespace railcast {
 
-/// Neighbouring chunks overlap by this much: exact seams between frames of their own leak beams
-/// (measured: 4 to 6 % of beams aimed at a seam; none at 1 mm).
+/// Overlap of neighbouring chunks. Each chunk has a frame of its own, so an exact seam would leak
+/// beams: 0.4 % of those aimed at it were measured to pass, and none with this overlap
+/// (docs/accuracy.md).
 inline constexpr double kChunkOverlap_m = 1e-3;
 
-/// What every builder of a chunk needs. Builders are pure functions of it.
+/// Input of every chunk builder. Builders are pure functions of it.
 struct ChunkContext {
   const WorldSpec& spec;
   const Alignment& alignment;
   const RailSurfaces& surfaces;
   std::uint64_t seed{};
   int chunk{};
-  double begin_s_m{};  ///< Repeated things (sleepers, masts, trees) belong to the chunk with
-  double end_s_m{};    ///< begin <= s < end; swept surfaces reach kChunkOverlap_m / 2 further.
+  /// Repeated elements (sleepers, masts, trees) belong to the chunk with begin <= s < end.
+  double begin_s_m{};
+  double end_s_m{};  ///< Swept surfaces extend kChunkOverlap_m / 2 beyond either end.
   Transform chunk_from_world;
 };
 

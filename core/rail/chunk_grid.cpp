@@ -8,7 +8,7 @@
 namespace railcast {
 namespace {
 
-// From a point to the line across the track, in plan.
+// Distance in plan from a point to the cross-section of the ground at `axis`.
 double DistanceToCrossSection(const Eigen::Vector2d& point_m,
                               const AxisPoint& axis,
                               double half_width_m) {

@@ -1,7 +1,6 @@
 #include "core/rail/infrastructure_models.h"
 
 #include "core/rail/catenary/catenary_models.h"
-#include "core/rail/track/sleeper_models.h"
 
 namespace railcast {
 

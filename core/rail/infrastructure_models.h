@@ -4,19 +4,26 @@
 #include <vector>
 
 #include "core/rail/rail_surfaces.h"
-#include "core/rail/world_spec.h"
-#include "core/scene/mesh.h"
+#include "railcast/rail_world.h"
+#include "railcast/scene.h"
 
 namespace railcast {
 
-/// Things that stand along the line again and again.
+/// A B70 sleeper in the track frame: 2600 x 300 mm; 214 mm high below the rail, 234 mm outside it
+/// and 175 mm in the middle, where it is 220 mm wide; W14 fastenings on rail seats canted 1:40.
+[[nodiscard]] Model MakeConcreteSleeper(const RailSurfaces& surfaces);
+
+/// A wooden sleeper in the track frame: 2600 x 260 x 160 mm, with baseplates canted 1:40.
+[[nodiscard]] Model MakeWoodSleeper(const RailSurfaces& surfaces);
+
+/// Models that are placed repeatedly along the line.
 struct InfrastructureModels {
-  /// In the track frame; their rail seats fit the rails of RailSection. 92 (concrete) and 12 (wood)
-  /// triangles, and 168 in pads or plates and fastenings.
+  /// Sleepers in the track frame; their rail seats fit the rails of RailSection. The sleepers have
+  /// 92 (concrete) and 12 (wood) triangles, plus 168 for pads or plates and fastenings.
   std::shared_ptr<const Model> concrete_sleeper;
   std::shared_ptr<const Model> wood_sleeper;
 
-  /// Upright; origin at the mast's middle at the height of top of rail.
+  /// Upright; the origin is at the mast's middle at the height of top of rail.
   std::shared_ptr<const Model> mast;
 };
 

@@ -1,4 +1,4 @@
-#include "core/rail/rail_world.h"
+#include "railcast/rail_world.h"
 
 #include <algorithm>
 #include <array>
@@ -11,14 +11,13 @@
 
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/rail/catenary/catenary.h"
 #include "core/rail/catenary/catenary_plan.h"
 #include "core/rail/chunk_context.h"
 #include "core/rail/chunk_grid.h"
 #include "core/rail/infrastructure_models.h"
-#include "core/rail/land/terrain.h"
-#include "core/rail/land/vegetation.h"
+#include "core/rail/land/land.h"
 #include "core/rail/line/track_path.h"
 #include "core/rail/standing_height.h"
 #include "core/rail/track/track_structure.h"
@@ -29,11 +28,11 @@
 namespace railcast {
 namespace {
 
-// Of crowns and cantilevers beyond the ground of the chunk they belong to.
+// Maximum extent of tree crowns and cantilevers beyond the ground of their chunk.
 constexpr double kOverhang_m = 8.0;
 
 bool StandsOnGround(const ObjectSpec& object) {
-  return !object.h_m && !object.type.ends_with("_wagon");
+  return !object.h_m && !IsWagon(object.type);
 }
 
 SceneObject MakeEgo(const VehicleSpec& vehicle,
@@ -52,22 +51,22 @@ SceneObject MakeEgo(const VehicleSpec& vehicle,
           .is_ego = true};
 }
 
-Eigen::AlignedBox2d FootprintOf(const Model& model) {
+Eigen::AlignedBox2d GroundAreaOf(const Model& model) {
   const Eigen::AlignedBox3d bounds_m = model.Bounds();
   return {bounds_m.min().head<2>(), bounds_m.max().head<2>()};
 }
 
-/// Where an object is; the vehicle's own boxes are where the vehicle is.
+/// Motion and standing place of an object. The vehicle's own boxes move with the vehicle.
 struct ObjectWay {
   std::optional<TrackPath> path;
-  /// What it covers of the ground it stands on; absent where its height is given.
-  std::optional<Eigen::AlignedBox2d> footprint_m;
-  const TrackSpec* track{};  ///< Of the line's spec.
+  /// The object's footprint on the ground; absent if its height is given.
+  std::optional<Eigen::AlignedBox2d> ground_area_m;
+  const TrackSpec* track{};  ///< Points into the line's spec.
 };
 
 }  // namespace
 
-/// What no command changes.
+/// The part of the world that commands cannot change.
 struct RailWorld::Line {
   WorldSpec world;
   VehicleSpec vehicle;
@@ -81,7 +80,7 @@ struct RailWorld::Line {
   InfrastructureModels infrastructure;
   PlantModels plants;
 
-  /// With `chunk_from_world` the identity, builders work in world coordinates.
+  /// If `chunk_from_world` is the identity, builders work in world coordinates.
   [[nodiscard]] ChunkContext ContextOf(int chunk, const Transform& chunk_from_world) const {
     return {world, alignment,           *surfaces,         seed,
             chunk, grid.BeginOf(chunk), grid.EndOf(chunk), chunk_from_world};
@@ -91,13 +90,13 @@ struct RailWorld::Line {
   }
 };
 
-/// The objects and the ways of all that moves.
+/// The objects, and the motion of everything that moves.
 struct RailWorld::Things {
   TrackPath vehicle;
   bool has_changed_vehicle_speed = false;
-  // Shared, since most commands change only the vehicle's way.
+  // Shared between worlds, because most commands change only the vehicle's motion.
   std::shared_ptr<const std::vector<SceneObject>> objects;
-  std::shared_ptr<const std::vector<ObjectWay>> ways;  ///< In their order.
+  std::shared_ptr<const std::vector<ObjectWay>> ways;  ///< In the order of `objects`.
   std::uint32_t next_instance = 1;
 
   [[nodiscard]] const TrackPath& PathOf(std::size_t object) const {
@@ -132,7 +131,7 @@ RailWorld::RailWorld(const WorldSpec& world,
     const ObjectSpec& object = world.objects[i];
     ways.push_back(
         {std::move(draft.object_paths[i]),
-         StandsOnGround(object) ? std::optional(FootprintOf(*objects[i].model)) : std::nullopt,
+         StandsOnGround(object) ? std::optional(GroundAreaOf(*objects[i].model)) : std::nullopt,
          FindTrack(line_->world, object.track)});
   }
   if (!vehicle.ego_boxes_m.empty()) {
@@ -161,7 +160,7 @@ std::shared_ptr<const RailWorld> RailWorld::WithVehicleSpeed(std::int64_t from_n
   };
   if (std::any_of(changed.objects->begin(), changed.objects->end(), standing_ego)) {
     auto objects = std::make_shared<std::vector<SceneObject>>(*changed.objects);
-    // From now on it may be anywhere, also where it comes to stand again.
+    // From now on its place depends on time, even after it has stopped again.
     std::find_if(objects->begin(), objects->end(), standing_ego)->moves = true;
     changed.objects = std::move(objects);
   }
@@ -178,8 +177,8 @@ std::shared_ptr<const RailWorld> RailWorld::WithObject(const ObjectSpec& object,
   if (object.name == "ego" || std::any_of(objects().begin(), objects().end(), has_its_name)) {
     faults.Add(pointer + "/name",
                std::string("must be unique") +
-                   (object.name == "ego" ? ", and ego is the vehicle itself" : "") + " (got \"" +
-                   object.name + "\")");
+                   (object.name == "ego" ? ", and ego is the vehicle itself" : ""),
+               '"' + object.name + '"');
   }
   if (things_->next_instance >= kFirstMastInstance) {
     faults.Add(pointer, "must be one of at most " + std::to_string(kFirstMastInstance - 1) +
@@ -194,9 +193,10 @@ std::shared_ptr<const RailWorld> RailWorld::WithObject(const ObjectSpec& object,
   made->moves = path->moves();
   made->instance = changed.next_instance++;
   auto ways = std::make_shared<std::vector<ObjectWay>>(*changed.ways);
-  ways->push_back({std::move(*path),
-                   StandsOnGround(object) ? std::optional(FootprintOf(*made->model)) : std::nullopt,
-                   FindTrack(line_->world, object.track)});
+  ways->push_back(
+      {std::move(*path),
+       StandsOnGround(object) ? std::optional(GroundAreaOf(*made->model)) : std::nullopt,
+       FindTrack(line_->world, object.track)});
   auto objects = std::make_shared<std::vector<SceneObject>>(*changed.objects);
   objects->push_back(std::move(*made));
   changed.ways = std::move(ways);
@@ -210,8 +210,7 @@ std::shared_ptr<const RailWorld> RailWorld::WithoutObject(const std::string& nam
       objects().begin(), objects().end(),
       [&](const SceneObject& object) { return !object.is_ego && object.name == name; });
   if (found == objects().end()) {
-    throw InputError("/name: must be the name of an object that is there (got \"" +
-                     ShownText(name) + "\")");
+    throw InputError({{"/name", "must be the name of an object that is there", Quoted(name)}});
   }
   const auto index = found - objects().begin();
   Things changed = *things_;
@@ -291,12 +290,12 @@ const std::vector<SceneObject>& RailWorld::objects() const {
 Transform RailWorld::WorldFromObject(std::size_t object, std::int64_t time_ns) const {
   const TrackPath& path = things_->PathOf(object);
   Transform world_from_object = path.WorldFromObject(line_->alignment, time_ns);
-  if (const auto& area_m = things_->ways->at(object).footprint_m) {
+  if (const auto& area_m = things_->ways->at(object).ground_area_m) {
     const double s_m = path.ChainageAt(time_ns);
-    const Footprint footprint{s_m, path.pose().d_m, path.pose().heading_rad, *area_m};
+    const StandingPlace place{s_m, path.pose().d_m, path.pose().heading_rad, *area_m};
     const int chunk = line_->grid.ChunkAt(s_m);
     world_from_object.translation().z() =
-        StandingHeight_m(line_->ContextOf(chunk, Transform::Identity()), footprint);
+        StandingHeight_m(line_->ContextOf(chunk, Transform::Identity()), place);
   }
   return world_from_object;
 }

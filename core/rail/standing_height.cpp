@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/rail/land/terrain.h"
+#include "core/rail/land/land.h"
 #include "core/rail/track/cross_section.h"
 
 namespace railcast {
@@ -23,18 +23,18 @@ double SurfaceHeight_m(const ChunkContext& context, double s_m, double d_m) {
 
 }  // namespace
 
-double StandingHeight_m(const ChunkContext& context, const Footprint& footprint) {
-  const Eigen::Rotation2Dd turn(footprint.heading_rad);
+double StandingHeight_m(const ChunkContext& context, const StandingPlace& place) {
+  const Eigen::Rotation2Dd turn(place.heading_rad);
   double lowest_m = std::numeric_limits<double>::infinity();
   const auto stand_at = [&](const Eigen::Vector2d& point_m) {
     const Eigen::Vector2d offset_m = turn * point_m;
-    lowest_m = std::min(lowest_m, SurfaceHeight_m(context, footprint.s_m + offset_m.x(),
-                                                  footprint.d_m + offset_m.y()));
+    lowest_m = std::min(
+        lowest_m, SurfaceHeight_m(context, place.s_m + offset_m.x(), place.d_m + offset_m.y()));
   };
-  stand_at(footprint.area_m.center());
+  stand_at(place.area_m.center());
   for (const auto corner : {Eigen::AlignedBox2d::BottomLeft, Eigen::AlignedBox2d::BottomRight,
                             Eigen::AlignedBox2d::TopLeft, Eigen::AlignedBox2d::TopRight}) {
-    stand_at(footprint.area_m.corner(corner));
+    stand_at(place.area_m.corner(corner));
   }
   return lowest_m;
 }

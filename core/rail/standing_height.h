@@ -6,17 +6,17 @@
 
 namespace railcast {
 
-/// Where something is put on the line.
-struct Footprint {
+/// A place on the line for an object that stands on the ground.
+struct StandingPlace {
   double s_m{};                ///< Chainage of its middle.
-  double d_m{};                ///< Of its middle, left of the alignment's axis.
-  double heading_rad{};        ///< Turned left against the direction of the chainage.
-  Eigen::AlignedBox2d area_m;  ///< About its middle, x forward, y left.
+  double d_m{};                ///< Lateral position of its middle, left of the alignment's axis.
+  double heading_rad{};        ///< Counterclockwise from the direction of increasing chainage.
+  Eigen::AlignedBox2d area_m;  ///< Footprint about its middle; x forward, y left.
 };
 
-/// How high the foot of something stands in the world: on the ground or the ballast, whichever is
-/// higher, at the lowest of its middle and corners. So it may sink a little into a slope, but
-/// nothing hangs in the air. Grains of ballast are left out of account.
-[[nodiscard]] double StandingHeight_m(const ChunkContext& context, const Footprint& footprint);
+/// World height of the foot of a standing object: the ground or the ballast, whichever is higher,
+/// at the lowest of its middle and corners. On a slope it may sink in slightly, but no part of it
+/// hovers. The grain of the ballast is ignored.
+[[nodiscard]] double StandingHeight_m(const ChunkContext& context, const StandingPlace& place);
 
 }  // namespace railcast

@@ -11,20 +11,20 @@ namespace {
 constexpr double kWagonHalfWidth_m = 1.575;
 constexpr double kWagonHeight_m = 4.28;
 constexpr double kPantographTop_m = 5.2;
-// Contact wires up to ..., half width.
+// Pairs of maximum height of the contact wire and half width.
 constexpr std::array<std::pair<double, double>, 4> kPantographHalfWidths_m = {
     {{5.3, 1.43}, {5.5, 1.44}, {5.9, 1.47}, {6.5, 1.51}}};
 
 using Corner = Eigen::Vector2d;
 using Edges = Eigen::Matrix<double, 2, 3>;
 
-/// How far a box reaches from its centre along a direction of the cross-section.
+/// Extent of a box from its centre along a direction in the cross-section.
 double ReachOf(const Edges& half_edges_m, const Corner& direction) {
   return (direction.transpose() * half_edges_m).cwiseAbs().sum();
 }
 
-// By the separating axis theorem: the shadow of a box in the cross-section is bounded by lines
-// along its own edges' shadows.
+// Separating axis theorem: the projection of a box onto the cross-section is bounded by lines
+// parallel to the projections of its edges.
 bool IsInside(const GaugePart& part, const Corner& center_m, const Edges& half_edges_m) {
   const Corner middle_m(0.0, 0.5 * (part.bottom_m + part.top_m));
   const Corner half_m(part.half_width_m, 0.5 * (part.top_m - part.bottom_m));
@@ -35,7 +35,7 @@ bool IsInside(const GaugePart& part, const Corner& center_m, const Edges& half_e
   if (is_apart_along(Corner::UnitX()) || is_apart_along(Corner::UnitY())) return false;
   for (int i = 0; i < 3; ++i) {
     const Corner edge = half_edges_m.col(i);
-    // Along the track it casts a point.
+    // An edge along the track projects to a point.
     constexpr double kPoint_m = 1e-9;
     if (edge.norm() < kPoint_m) continue;
     if (is_apart_along(Corner(-edge.y(), edge.x()).normalized())) return false;

@@ -3,52 +3,57 @@
 #include <optional>
 #include <vector>
 
-#include "core/base/transform.h"
-#include "core/rail/world_spec.h"
+#include "railcast/rail_world.h"
+#include "railcast/transform.h"
 
 namespace railcast {
 
 /// Half the width that pantographs need under 15 kV, for contact wires up to 6.5 m above top of
-/// rail in curves of 250 m radius or more: EBO Anlage 1, Tabelle 1 (to § 9; BGBl. I 1991). Nothing
-/// for wires that are higher: the table ends there.
+/// rail in curves of 250 m radius or more: EBO Anlage 1, Tabelle 1 (to § 9; BGBl. I 1991). Returns
+/// nothing for higher wires, which the table does not cover.
 [[nodiscard]] std::optional<double> PantographHalfWidth_m(double contact_height_m);
 
-/// A rectangle of the gauge, as wide to the left as to the right of the track's axis.
+/// A rectangle of the gauge, symmetric about the track's axis.
 struct GaugePart {
   double half_width_m{};
   double bottom_m{};  ///< Above top of rail.
   double top_m{};
 };
 
-/// What has to stay clear about a track, in the track's cross-section, from the lowest part up:
+/// The space about a track that must stay clear, in the track's cross-section, from the lowest part
+/// upwards:
 ///
-/// - Wagons: G1's 3150 mm width and 4280 mm height, down to top of rail (physics.md 7.1).
-/// - Under a contact line, above them: the pantographs' half width from EBO Anlage 1, Tabelle 1, up
-///   to the table's least height of 5200 mm.
+/// - Wagons: width 3150 mm and height 4280 mm of G1, down to top of rail (docs/physics.md 7.6).
+/// - Above them, under a contact line: the half width for pantographs from EBO Anlage 1, Tabelle 1,
+///   up to the table's lowest height of 5200 mm.
 ///
-/// This is less than the whole of EBO Anlage 1, Bild 1: its outline beside and below the vehicles
-/// (the room for doors, signals, men, platforms) is a drawing of which we have no figures that we
-/// could check, the cut-off corners c and d of Tabelle 1 neither, so corners are square. The
-/// widening in curves below 250 m (Anlage 2) is left out. What is inside is in the way of trains;
-/// what is outside may still be nearer than the law allows. scripts/brake_client.py looks for
-/// obstacles in a box of its own: half width 1.43 m from 0.35 m to 4.5 m above top of rail.
-/// @param contact_height_m Absent: no contact line.
+/// This is less than the full gauge of EBO Anlage 1, Bild 1. Its outline beside and below the
+/// vehicles (room for doors, signals, staff and platforms) is a drawing for which we have no
+/// verifiable figures. The same applies to the cut-off corners c and d of Tabelle 1, so corners are
+/// square here. The widening in curves below 250 m (Anlage 2) is omitted. Anything inside this
+/// gauge obstructs trains; something outside it may still be closer than the regulation permits.
+/// scripts/brake_client.py uses a different box for obstacles: half width 1.43 m, from 0.35 m to
+/// 4.5 m above top of rail.
+/// @param contact_height_m Absent = no contact line.
 [[nodiscard]] std::vector<GaugePart> StructureGauge(std::optional<double> contact_height_m);
 
-/// The height of the contact wire over a track, if it has one.
+/// Height of the contact wire above a track; absent if it has none.
 [[nodiscard]] std::optional<double> ContactHeightOver_m(const TrackSpec& track,
                                                         const CatenarySpec& catenary);
 
-/// The same as a closed polygon of d (left positive) and h above top of rail.
+/// The structure gauge as a closed polygon of d (left positive) and h above top of rail.
 [[nodiscard]] std::vector<Eigen::Vector2d> GaugeOutline(std::optional<double> contact_height_m);
 
-/// How a box stands to a gauge in one cross-section of the track.
+/// Position of a box relative to a gauge in one cross-section of the track.
 struct GaugeClearance {
-  bool is_inside{};      ///< Whether any of it is inside the gauge; touching is not.
-  double from_axis_m{};  ///< The least distance of the box from the plane d = 0; 0 across it.
+  /// Whether any part of the box is inside the gauge; touching it does not count.
+  bool is_inside{};
+  /// Minimum distance of the box from the plane d = 0; 0 if the box crosses it.
+  double from_axis_m{};
 };
 
-/// Of a box that is swept along the track. So it must be short against the track's curves.
+/// Clearance of a box that is projected along the track. The box must therefore be short compared
+/// with the radius of the track's curves.
 /// @param track_from_box x along the track, y = d, z = h.
 [[nodiscard]] GaugeClearance ClearanceOf(const std::vector<GaugePart>& gauge,
                                          const Transform& track_from_box,

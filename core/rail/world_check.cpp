@@ -4,20 +4,11 @@
 #include <cmath>
 #include <set>
 
-#include "core/base/number_text.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/rail/catenary/catenary.h"
 
 namespace railcast {
 namespace {
-
-std::string Quoted(const std::string& text) {
-  return '"' + ShownText(text) + '"';
-}
-
-std::string Got(double value) {
-  return " (got " + NumberText(value) + ")";
-}
 
 std::string Item(const char* list, std::size_t index) {
   return list + std::to_string(index);
@@ -29,8 +20,8 @@ std::string PointerOf(const TrackSpec& track, const WorldSpec& world) {
   return Item("/world/tracks/", static_cast<std::size_t>(&track - world.tracks.data()));
 }
 
-// "from 0 to 1000 m".
-std::string Stretch(double begin_s_m, double end_s_m) {
+// Returns text such as "from 0 to 1000 m".
+std::string StretchText(double begin_s_m, double end_s_m) {
   return "from " + NumberText(begin_s_m) +
          (std::isinf(end_s_m) ? " m on" : " to " + NumberText(end_s_m) + " m");
 }
@@ -42,27 +33,31 @@ void CheckTrack(const WorldSpec& world,
   const TrackSpec& track = world.tracks[index];
   const std::string place = Item("/world/tracks/", index);
   if (faults.AreKnown({place + "/name"}) && FindTrack(world, track.name) != &track) {
-    faults.Add(place + "/name", "must be unique (got " + Quoted(track.name) + ")");
+    faults.Add(place + "/name", "must be unique", Quoted(track.name));
   }
   if (faults.AreKnown({place + "/offset_m", kHalfWidth}) &&
       !(std::abs(track.offset_m) < world.terrain.half_width_m)) {
-    faults.Add(place + "/offset_m", "must lie within the ground's half width of " +
-                                        NumberText(world.terrain.half_width_m) + " m" +
-                                        Got(track.offset_m));
+    faults.Add(place + "/offset_m",
+               "must lie within the ground's half width of " +
+                   NumberText(world.terrain.half_width_m) + " m",
+               NumberText(track.offset_m));
   }
   if (!faults.AreKnown({place + "/start_s_m", place + "/end_s_m"})) return;
   if (!(track.start_s_m >= 0.0 && track.start_s_m < line.length_m)) {
-    faults.Add(place + "/start_s_m", "must be >= 0 and less than the line's length of " +
-                                         NumberText(line.length_m) + " m" + Got(track.start_s_m));
+    faults.Add(
+        place + "/start_s_m",
+        "must be >= 0 and less than the line's length of " + NumberText(line.length_m) + " m",
+        NumberText(track.start_s_m));
   }
   if (track.end_s_m && !(*track.end_s_m > track.start_s_m && *track.end_s_m <= line.length_m)) {
     faults.Add(place + "/end_s_m",
                "must be greater than start_s_m and at most the line's length of " +
-                   NumberText(line.length_m) + " m" + Got(*track.end_s_m));
+                   NumberText(line.length_m) + " m",
+               NumberText(*track.end_s_m));
   }
 }
 
-// A track's distance from those before it in the list.
+// Checks a track's distance from those before it in the list.
 void CheckDistance(const WorldSpec& world,
                    std::size_t index,
                    const LineMeasures& line,
@@ -77,14 +72,15 @@ void CheckDistance(const WorldSpec& world,
         std::min(track.end_s_m.value_or(line.length_m), other.end_s_m.value_or(line.length_m));
     if (!(begin_s_m < end_s_m)) continue;
     if (std::abs(track.offset_m - other.offset_m) >= kLeastTrackDistance_m) continue;
-    faults.Add(place + "/offset_m", "must be at least " + NumberText(kLeastTrackDistance_m) +
-                                        " m from track " + Quoted(other.name) + " at " +
-                                        NumberText(other.offset_m) + " m, beside which it runs " +
-                                        Stretch(begin_s_m, end_s_m) + Got(track.offset_m));
+    faults.Add(place + "/offset_m",
+               "must be at least " + NumberText(kLeastTrackDistance_m) + " m from track " +
+                   Quoted(other.name) + " at " + NumberText(other.offset_m) +
+                   " m, beside which it runs " + StretchText(begin_s_m, end_s_m),
+               NumberText(track.offset_m));
   }
 }
 
-/// Where something is said to be on a track.
+/// A reference to a place on a track, with the pointers of its values.
 struct TrackPlace {
   std::string track_pointer;
   std::string chainage_pointer;
@@ -99,7 +95,7 @@ bool AreNamesKnown(const WorldSpec& world, const WorldFaults& faults) {
   return true;
 }
 
-// @return The track, if it is known.
+// @return The track; null if it is unknown.
 const TrackSpec* CheckPlace(const WorldSpec& world,
                             const TrackPlace& place,
                             const LineMeasures& line,
@@ -120,27 +116,30 @@ const TrackSpec* CheckPlace(const WorldSpec& world,
   const double end_s_m = track->end_s_m.value_or(line.length_m);
   if (faults.AreKnown({place.chainage_pointer, pointer + "/start_s_m", pointer + "/end_s_m"}) &&
       !(place.s_m >= track->start_s_m && place.s_m <= end_s_m)) {
-    faults.Add(place.chainage_pointer, "must lie on track " + Quoted(track->name) + ", " +
-                                           Stretch(track->start_s_m, end_s_m) + Got(place.s_m));
+    faults.Add(
+        place.chainage_pointer,
+        "must lie on track " + Quoted(track->name) + ", " + StretchText(track->start_s_m, end_s_m),
+        NumberText(place.s_m));
   }
   return track;
 }
 
 void CheckNames(const WorldSpec& world, WorldFaults& faults) {
-  // The instance ids from there on are the masts'; one is the vehicle's own.
+  // Instance ids from kFirstMastInstance on are used for masts, and one id for the vehicle itself.
   constexpr std::size_t kMaxObjects = kFirstMastInstance - 2;
   if (world.objects.size() > kMaxObjects) {
-    faults.errors.Add("/world/objects: must be at most " + std::to_string(kMaxObjects) + " (got " +
-                      std::to_string(world.objects.size()) + ")");
+    faults.errors.Add({"/world/objects", "must be at most " + NumberText(kMaxObjects),
+                       NumberText(world.objects.size())});
   }
   std::set<std::string> names{"ego"};
   for (std::size_t i = 0; i < world.objects.size(); ++i) {
     const std::string& name = world.objects[i].name;
     const std::string pointer = Item("/world/objects/", i) + "/name";
     if (!faults.AreKnown({pointer}) || names.insert(name).second) continue;
-    faults.Add(pointer, std::string("must be unique") +
-                            (name == "ego" ? ", and ego is the vehicle itself" : "") + " (got " +
-                            Quoted(name) + ")");
+    faults.Add(
+        pointer,
+        std::string("must be unique") + (name == "ego" ? ", and ego is the vehicle itself" : ""),
+        Quoted(name));
   }
 }
 
@@ -152,8 +151,8 @@ void CheckEgoBoxes(const VehicleSpec& vehicle, WorldFaults& faults) {
       const std::string least = pointer + std::to_string(axis);
       const std::string most = pointer + std::to_string(axis + 3);
       if (!faults.AreKnown({least, most}) || box[axis] < box[axis + 3]) continue;
-      faults.Add(most, "must be greater than the box's least of " + NumberText(box[axis]) +
-                           Got(box[axis + 3]));
+      faults.Add(most, "must be greater than the box's least of " + NumberText(box[axis]),
+                 NumberText(box[axis + 3]));
     }
   }
 }
@@ -162,10 +161,12 @@ void CheckHalfWidth(const WorldSpec& world, const LineMeasures& line, WorldFault
   const double half_width_m = world.terrain.half_width_m;
   if (!faults.AreKnown({kHalfWidth})) return;
   if (!(half_width_m > 0.0)) {
-    faults.Add(kHalfWidth, "must be > 0" + Got(half_width_m));
+    faults.Add(kHalfWidth, "must be > 0", NumberText(half_width_m));
   } else if (!(half_width_m < line.tightest_radius_m)) {
-    faults.Add(kHalfWidth, "must be less than the line's tightest radius of " +
-                               NumberText(line.tightest_radius_m) + " m" + Got(half_width_m));
+    faults.Add(kHalfWidth,
+               "must be less than the line's tightest radius of " +
+                   NumberText(line.tightest_radius_m) + " m",
+               NumberText(half_width_m));
   }
 }
 
@@ -202,8 +203,8 @@ void CheckWorld(const WorldSpec& world,
                 WorldFaults& faults) {
   CheckHalfWidth(world, line, faults);
   if (world.tracks.empty()) {
-    faults.Add("/world/tracks", "must have at least one track (got none)");
-    return;  // Everything below would complain about its track.
+    faults.Add("/world/tracks", "must have at least one track", "none");
+    return;  // Without a track, every check below would report another fault.
   }
   for (std::size_t i = 0; i < world.tracks.size(); ++i) CheckTrack(world, i, line, faults);
   for (std::size_t i = 1; i < world.tracks.size(); ++i) CheckDistance(world, i, line, faults);

@@ -6,25 +6,25 @@
 
 #include "core/base/error.h"
 #include "core/base/unknown_places.h"
-#include "core/rail/world_spec.h"
+#include "railcast/rail_world.h"
 
 namespace railcast {
 
-/// What the rules below need to know of the line.
+/// Properties of the line that the rules below need.
 struct LineMeasures {
   double length_m{};
   double tightest_radius_m{};
 };
 
-/// Faults of a world, and what is not known of it because of these and earlier ones. Pointers are
-/// those of a scenario: "/world/..." and "/vehicle/...".
+/// Faults of a world, and the values that are unknown because of these or earlier faults. Pointers
+/// refer to the scenario: "/world/..." and "/vehicle/...".
 struct WorldFaults {
   ErrorList errors;
   UnknownPlaces unknown;
 
-  /// The value at `pointer` is faulty, and from now on unknown.
-  void Add(const std::string& pointer, const std::string& rule) {
-    errors.Add(pointer + ": " + rule);
+  /// Reports a fault of the value at `pointer`, which becomes unknown.
+  void Add(const std::string& pointer, const std::string& rule, const std::string& value = "") {
+    errors.Add({pointer, rule, value});
     unknown.Add(pointer);
   }
   [[nodiscard]] bool AreKnown(std::initializer_list<std::string> pointers) const {
@@ -33,26 +33,26 @@ struct WorldFaults {
   }
 };
 
-/// Tracks that run beside each other are at least so far apart, from axis to axis.
+/// Minimum distance between the axes of tracks that run side by side.
 inline constexpr double kLeastTrackDistance_m = 3.0;
 
-/// Faults of a world and its vehicle against each other and the line, as lines like
-/// `/world/objects/3/track: must be one of "main", "siding" (got "sidng")`. Speed profiles have
-/// rules of their own (SpeedProfile).
-/// @param line Infinite where the line is not known.
+/// Checks a world and its vehicle for consistency with each other and with the line. Faults are
+/// lines like `/world/objects/3/track: must be one of "main", "siding" (got "sidng")`. Speed
+/// profiles are checked separately (SpeedProfile).
+/// @param line Infinite measures if the line is unknown.
 void CheckWorld(const WorldSpec& world,
                 const VehicleSpec& vehicle,
                 const LineMeasures& line,
                 WorldFaults& faults);
 
-/// Faults of one object's place, as lines that begin with `pointer`.
+/// Checks the place of one object. Faults are lines that begin with `pointer`.
 void CheckObject(const WorldSpec& world,
                  const ObjectSpec& object,
                  const std::string& pointer,
                  const LineMeasures& line,
                  WorldFaults& faults);
 
-/// The track of that name, or null.
+/// The track of that name; null if there is none.
 [[nodiscard]] const TrackSpec* FindTrack(const WorldSpec& world, const std::string& name);
 
 }  // namespace railcast

@@ -14,11 +14,7 @@
 namespace railcast {
 namespace {
 
-bool FollowsTrack(const ObjectSpec& object) {
-  return object.type.ends_with("_wagon");
-}
-
-// The line, if its course is known, without the rest that is not.
+// Makes the line if its course is known, leaving out all other values that are unknown.
 std::optional<Alignment> DraftAlignment(const WorldSpec& world, WorldFaults& faults) {
   const std::string place = "/world/alignment";
   if (!faults.AreKnown({place + "/course"})) return std::nullopt;
@@ -28,14 +24,14 @@ std::optional<Alignment> DraftAlignment(const WorldSpec& world, WorldFaults& fau
   if (auto alignment = Attempt(place, faults.errors, [&] { return Alignment(known); })) {
     return alignment;
   }
-  // Whatever else is wrong with a line, its course alone says how long and how tight it is.
+  // Whatever else is wrong with the line, its course alone gives its length and tightest radius.
   AlignmentSpec bare;
   bare.course = known.course;
   ErrorList known_faults;
   return Attempt("", known_faults, [&] { return Alignment(bare); });
 }
 
-/// Something that moves, or stands, along a track.
+/// An object or vehicle on a track, moving or stationary.
 struct Mover {
   std::string motion_pointer;
   std::string chainage_pointer;
@@ -58,7 +54,7 @@ std::optional<TrackPath> DraftVehicle(const WorldSource& source, WorldFaults& fa
       {"/vehicle/motion", "/vehicle/start_s_m", vehicle.motion, vehicle.start_s_m}, faults);
   const TrackSpec* track = FindTrack(source.world, vehicle.track);
   if (!profile || track == nullptr) return std::nullopt;
-  // A vehicle looks where it goes.
+  // A vehicle faces the way it travels.
   const double heading_rad = vehicle.motion.reverse ? std::numbers::pi : 0.0;
   return TrackPath({track->offset_m, 0.0, heading_rad, false}, std::move(*profile));
 }
@@ -91,7 +87,7 @@ std::optional<TrackPath> DraftPath(const WorldSpec& world,
   const TrackSpec* track = FindTrack(world, object.track);
   if (!profile || track == nullptr) return std::nullopt;
   const TrackPose pose{track->offset_m + object.d_m, object.h_m.value_or(0.0),
-                       RadFromDeg(object.heading_deg), !FollowsTrack(object)};
+                       RadFromDeg(object.heading_deg), !IsWagon(object.type)};
   return TrackPath(pose, std::move(*profile), begin_ns);
 }
 
@@ -109,7 +105,7 @@ std::optional<SceneObject> DraftObject(const ObjectSpec& object,
   const RailSurfaces these = tables.surfaces.value_or(RailSurfaces());
   return Attempt(pointer + ": ", faults.errors, [&] {
     return SceneObject{.name = known.name,
-                       .type = known.type,
+                       .type = std::string(NameOf(known.type)),
                        .label = ObjectLabel(known, these, tables.labels),
                        .model = MakeObjectModel(known, these, tables.labels, tables.materials)};
   });
@@ -119,7 +115,7 @@ WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
   const WorldSpec& world = source.world;
   WorldDraft draft;
   draft.alignment = DraftAlignment(world, faults);
-  // Without a line there is nothing to be beyond of.
+  // If the line is unknown, no chainage can be beyond it.
   constexpr double kEndless_m = std::numeric_limits<double>::infinity();
   const LineMeasures line = draft.alignment ? LineMeasures{draft.alignment->length_m(),
                                                            draft.alignment->tightest_radius_m()}

@@ -5,19 +5,19 @@
 #include <string>
 #include <vector>
 
-#include "core/frame/labels.h"
 #include "core/rail/catenary/catenary_plan.h"
-#include "core/rail/line/alignment.h"
 #include "core/rail/line/track_path.h"
 #include "core/rail/rail_surfaces.h"
 #include "core/rail/world_check.h"
-#include "core/rail/world_spec.h"
-#include "core/scene/material.h"
-#include "core/scene/world.h"
+#include "railcast/alignment.h"
+#include "railcast/frame.h"
+#include "railcast/material.h"
+#include "railcast/rail_world.h"
+#include "railcast/scene.h"
 
 namespace railcast {
 
-/// What a railway world is made from.
+/// Input from which a railway world is made.
 struct WorldSource {
   const WorldSpec& world;
   const VehicleSpec& vehicle;
@@ -25,15 +25,15 @@ struct WorldSource {
   const MaterialLibrary& materials;
 };
 
-/// What objects are made with. Without surfaces, which only their own faults lack, a shape can
-/// still be made.
+/// Tables from which objects are made. `surfaces` may be missing, if its names were faulty; an
+/// object's shape can then still be made and checked.
 struct ObjectTables {
   const std::optional<RailSurfaces>& surfaces;
   const LabelTable& labels;
   const MaterialLibrary& materials;
 };
 
-/// The parts of a world, as far as their specs are sound: all of them if there was no fault.
+/// The parts of a world, as far as their specs are valid; complete if there was no fault.
 struct WorldDraft {
   std::optional<Alignment> alignment;
   std::optional<RailSurfaces> surfaces;
@@ -43,20 +43,21 @@ struct WorldDraft {
   std::optional<CatenaryPlan> catenary_plan;
 };
 
-/// What is not known of `object` is left out; its faults begin with `pointer`.
+/// Makes the path of an object, or nothing if a value it depends on is unknown. Faults begin with
+/// `pointer`.
 [[nodiscard]] std::optional<TrackPath> DraftPath(const WorldSpec& world,
                                                  const ObjectSpec& object,
                                                  const std::string& pointer,
                                                  std::int64_t begin_ns,
                                                  WorldFaults& faults);
-/// The same of what it is; without `moves` and `instance`.
+/// As DraftPath(), for the object itself, without its `moves` and `instance`.
 [[nodiscard]] std::optional<SceneObject> DraftObject(const ObjectSpec& object,
                                                      const std::string& pointer,
                                                      const ObjectTables& tables,
                                                      WorldFaults& faults);
 
-/// Makes what can be made and adds every fault that shows in doing so. What `faults` does not know
-/// is left out, and so is what depends on it.
+/// Makes every part that can be made and adds all faults found in doing so. Values that `faults`
+/// marks as unknown are skipped, and so is everything that depends on them.
 [[nodiscard]] WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults);
 
 }  // namespace railcast

@@ -3,11 +3,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/scan/scan_spec.h"
+#include "railcast/lidar.h"
 
 namespace railcast {
 
-/// The row of each channel: its rank in elevation, from the lowest. Equals keep their order.
+/// The row of each channel: its rank by elevation, starting with the lowest. Channels of equal
+/// elevation keep their order.
 [[nodiscard]] std::vector<std::uint16_t> RowsByElevation(const std::vector<ChannelSpec>& channels);
 
 }  // namespace railcast

@@ -5,7 +5,7 @@
 
 #include "core/base/attempt.h"
 #include "core/base/input_file.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/scan/firing.h"
 
@@ -14,15 +14,11 @@ namespace {
 
 constexpr std::string_view kHeader = "azimuth_deg,elevation_deg,time_us";
 constexpr std::array<std::string_view, 3> kNames = {"azimuth_deg", "elevation_deg", "time_us"};
-constexpr double kNsPerUs = 1e3;
-constexpr double kMaxTime_us = 4294967.0;  // Frames count nanoseconds in 32 bits.
-constexpr std::size_t kMaxNumFaults = 20;  // A file that is no table has one a line.
+constexpr double kMaxTime_us = 4294967.0;  // Time in a frame is stored as 32-bit nanoseconds.
+// A file that is not a table at all has a fault in every line.
+constexpr std::size_t kMaxNumFaults = 20;
 
 using Values = std::array<double, 3>;
-
-std::string Quoted(std::string_view text) {
-  return "(got \"" + ShownText(text) + "\")";
-}
 
 std::string_view Trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r");
@@ -30,7 +26,7 @@ std::string_view Trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-/// The three numbers of a line; false with faults in `errors` if there are not three.
+/// Parses the three numbers of a line. Returns false, with faults in `errors`, if it fails.
 bool ParseLine(std::string_view line, const std::string& place, Values& values, ErrorList& errors) {
   std::array<std::string_view, 3> cells;
   std::string_view rest = line;
@@ -42,7 +38,7 @@ bool ParseLine(std::string_view line, const std::string& place, Values& values, 
     if (more) rest.remove_prefix(comma + 1);
   }
   if (num_cells != cells.size()) {
-    errors.Add(Fault(place, "must have 3 values", static_cast<double>(num_cells)));
+    errors.Add(FaultOf(place, "must have 3 values", static_cast<double>(num_cells)));
     return false;
   }
   bool good = true;
@@ -52,30 +48,30 @@ bool ParseLine(std::string_view line, const std::string& place, Values& values, 
     if (error == std::errc() && stop == end && std::isfinite(values[i])) continue;
     const char* const rule =
         error == std::errc() && stop == end ? "must be finite" : "not a number";
-    errors.Add(place + ": " + std::string(kNames[i]) + ": " + rule + " " + Quoted(cells[i]));
+    errors.Add({place + ": " + std::string(kNames[i]), rule, Quoted(cells[i])});
     good = false;
   }
   return good;
 }
 
-/// @param last_us Time of the line before; below 0 before the first.
+/// @param last_us Time of the previous line; negative for the first.
 void CheckValues(const Values& values,
                  double last_us,
                  const std::string& place,
                  ErrorList& errors) {
   const auto [azimuth_deg, elevation_deg, time_us] = values;
   if (std::abs(azimuth_deg) > 360.0) {
-    errors.Add(Fault(place + ": azimuth_deg", "must be >= -360 and <= 360", azimuth_deg));
+    errors.Add(FaultOf(place + ": azimuth_deg", "must be >= -360 and <= 360", azimuth_deg));
   }
   if (std::abs(elevation_deg) > 90.0) {
-    errors.Add(Fault(place + ": elevation_deg", "must be >= -90 and <= 90", elevation_deg));
+    errors.Add(FaultOf(place + ": elevation_deg", "must be >= -90 and <= 90", elevation_deg));
   }
   if (last_us < 0.0 && time_us != 0.0) {
-    errors.Add(Fault(place + ": time_us", "the first must be 0", time_us));
+    errors.Add(FaultOf(place + ": time_us", "the first must be 0", time_us));
   } else if (time_us < last_us) {
-    errors.Add(Fault(place + ": time_us", "must not decrease", time_us));
+    errors.Add(FaultOf(place + ": time_us", "must not decrease", time_us));
   } else if (time_us > kMaxTime_us) {
-    errors.Add(Fault(place + ": time_us", "must be <= 4294967", time_us));
+    errors.Add(FaultOf(place + ": time_us", "must be <= 4294967", time_us));
   }
 }
 
@@ -91,7 +87,7 @@ FiringGrid ParseFiringTable(std::istream& file, const std::string& shown, ErrorL
   std::string line;
   std::getline(file, line);
   if (Trimmed(line) != kHeader) {
-    errors.Add(shown + ":1: must be \"" + std::string(kHeader) + "\" " + Quoted(Trimmed(line)));
+    errors.Add({shown + ":1", "must be \"" + std::string(kHeader) + '"', Quoted(Trimmed(line))});
     return {};
   }
   FiringGrid grid{.rows = 1, .columns = 0, .firings = {}};
@@ -100,14 +96,14 @@ FiringGrid ParseFiringTable(std::istream& file, const std::string& shown, ErrorL
     const std::string place = shown + ":" + std::to_string(number);
     Values values{};
     if (!ParseLine(line, place, values, errors)) {
-      if (errors.lines().size() >= kMaxNumFaults) return {};
+      if (errors.size() >= kMaxNumFaults) return {};
       continue;
     }
     CheckValues(values, last_us, place, errors);
-    if (errors.lines().size() >= kMaxNumFaults) return {};
+    if (errors.size() >= kMaxNumFaults) return {};
     last_us = values[2];
     if (grid.firings.size() == kMaxNumFirings) {
-      errors.Add(shown + ": must have at most 16777216 firings");
+      errors.Add({shown, "must have at most 16777216 firings", ""});
       return {};
     }
     grid.firings.push_back({.azimuth_rad = RadFromDeg(values[0]),
@@ -117,7 +113,7 @@ FiringGrid ParseFiringTable(std::istream& file, const std::string& shown, ErrorL
                             .column = grid.columns++});
   }
   if (grid.firings.empty() && errors.empty()) {
-    errors.Add(shown + ": must have at least one firing (got 0)");
+    errors.Add({shown, "must have at least one firing", "0"});
   }
   return errors.empty() ? grid : FiringGrid{};
 }

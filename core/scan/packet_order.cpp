@@ -5,15 +5,16 @@
 #include <numeric>
 #include <tuple>
 
-#include "core/scan/scan_pattern.h"
+#include "railcast/lidar.h"
 
 namespace railcast {
 namespace {
 
-/// How many firings, in order of elevation, make a band as high as a square of one packet.
+/// Number of firings, in order of elevation, that form a band as high as the square covered by the
+/// firings of one packet.
 ///
-/// n firings over an extent of a x e leave a e / n for each, so the square of p firings is
-/// sqrt(p a e / n) high and a band of that height holds n / e times as many: sqrt(p n a / e).
+/// If n firings cover a x e (azimuth x elevation), each takes a e / n. A square of p firings has
+/// the side sqrt(p a e / n), and a band of that height holds n / e times as many: sqrt(p n a / e).
 std::size_t BandSize(const FiringGrid& grid) {
   const auto [left, right] = std::ranges::minmax(grid.firings, {}, &Firing::azimuth_rad);
   const auto [low, high] = std::ranges::minmax(grid.firings, {}, &Firing::elevation_rad);
@@ -22,7 +23,7 @@ std::size_t BandSize(const FiringGrid& grid) {
   const auto num_firings = static_cast<double>(grid.firings.size());
   const double whole_rows = grid.rows > 1 ? grid.columns : 1;
   const double size = std::sqrt(kPacketSize * num_firings * width_rad / height_rad);
-  if (!(size < num_firings)) return grid.firings.size();  // Also where there is no height.
+  if (!(size < num_firings)) return grid.firings.size();  // True also if the height is 0.
   return static_cast<std::size_t>(std::max(1.0, std::round(size / whole_rows)) * whole_rows);
 }
 

@@ -6,24 +6,25 @@
 namespace railcast {
 namespace {
 
-constexpr double kMaxRows = 65536.0;          // Rings are 16 bits.
-constexpr double kWholeCellTolerance = 1e-6;  // Of a cell: decimal degrees are no binary fractions.
+constexpr double kMaxRows = 65536.0;  // Rings have 16 bits.
+// Fraction of a cell: decimal degrees are not exact in binary.
+constexpr double kWholeCellTolerance = 1e-6;
 
-/// How many cells fit into a field of view; faults go to `errors`.
+/// Number of cells in a field of view. Faults are appended to `errors`.
 double NumCells(double fov_deg,
                 double max_fov_deg,
                 double resolution_deg,
                 const std::string& place,
                 ErrorList& errors) {
   if (!(fov_deg > 0.0 && fov_deg <= max_fov_deg)) {
-    errors.Add(Fault(
+    errors.Add(FaultOf(
         place, max_fov_deg > 180.0 ? "must be > 0 and <= 360" : "must be > 0 and <= 180", fov_deg));
     return 0.0;
   }
   const double num_cells = fov_deg / resolution_deg;
   const double whole = std::round(num_cells);
   if (whole < 1.0 || std::abs(num_cells - whole) > kWholeCellTolerance) {
-    errors.Add(Fault(place, "must be a whole number of angular_resolution_deg", num_cells));
+    errors.Add(FaultOf(place, "must be a whole number of angular_resolution_deg", num_cells));
   }
   return whole;
 }
@@ -31,13 +32,10 @@ double NumCells(double fov_deg,
 }  // namespace
 
 FiringGrid RasterFirings(const RasterSpec& spec, double rate_hz, ErrorList& errors) {
-  const bool by_columns = spec.order == "columns";
-  if (!by_columns && spec.order != "rows") {
-    errors.Add("/pattern/order: must be \"columns\" or \"rows\" (got \"" + spec.order + "\")");
-  }
+  const bool by_columns = spec.order == RasterOrder::kColumns;
   const double step_deg = spec.angular_resolution_deg;
   if (!(step_deg > 0.0 && std::isfinite(step_deg))) {
-    errors.Add(Fault("/pattern/angular_resolution_deg", "must be > 0", step_deg));
+    errors.Add(FaultOf("/pattern/angular_resolution_deg", "must be > 0", step_deg));
     return {};
   }
   const double num_columns =
@@ -45,10 +43,10 @@ FiringGrid RasterFirings(const RasterSpec& spec, double rate_hz, ErrorList& erro
   const double num_rows =
       NumCells(spec.vertical_fov_deg, 180.0, step_deg, "/pattern/vertical_fov_deg", errors);
   if (num_rows > kMaxRows) {
-    errors.Add(Fault("/pattern/vertical_fov_deg", "must have at most 65536 cells", num_rows));
+    errors.Add(FaultOf("/pattern/vertical_fov_deg", "must have at most 65536 cells", num_rows));
   }
   if (num_columns * num_rows > static_cast<double>(kMaxNumFirings)) {
-    errors.Add(Fault("/pattern", "must have at most 16777216 firings", num_columns * num_rows));
+    errors.Add(FaultOf("/pattern", "must have at most 16777216 firings", num_columns * num_rows));
   }
   if (!errors.empty()) return {};
 

@@ -1,19 +1,18 @@
-#include "core/scan/scan_pattern.h"
+#include "railcast/lidar.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <tuple>
 
+#include "core/base/text.h"
+#include "core/base/units.h"
 #include "core/scan/firing.h"
 #include "core/scan/packet_order.h"
 
 namespace railcast {
 namespace {
-
-constexpr double kNsPerS = 1e9;
 
 FiringGrid MakeFirings(const ScanSpec& spec, ErrorList& errors) {
   if (const auto* raster = std::get_if<RasterSpec>(&spec.pattern)) {
@@ -28,23 +27,19 @@ FiringGrid MakeFirings(const ScanSpec& spec, ErrorList& errors) {
 /// @param last_ns Time of the last firing.
 void CheckLength(double rate_hz, std::int64_t last_ns, ErrorList& errors) {
   if (static_cast<double>(last_ns) >= kNsPerS / rate_hz) {
-    errors.Add(Fault("/pattern", "the last firing must come before 1 / rate_hz",
-                     static_cast<double>(last_ns) / kNsPerS));
+    errors.Add(FaultOf("/pattern", "the last firing must come before 1 / rate_hz",
+                       static_cast<double>(last_ns) / kNsPerS));
   }
   if (last_ns > std::numeric_limits<std::uint32_t>::max()) {
-    errors.Add(Fault("/pattern", "the last firing must come before 4.29 s",
-                     static_cast<double>(last_ns) / kNsPerS));
+    errors.Add(FaultOf("/pattern", "the last firing must come before 4.29 s",
+                       static_cast<double>(last_ns) / kNsPerS));
   }
 }
 
 }  // namespace
 
-std::string Fault(std::string_view place, std::string_view rule, double got) {
-  std::array<char, 32> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), got).ptr;
-  std::string line(place);
-  line.append(": ").append(rule).append(" (got ").append(digits.data(), end).append(")");
-  return line;
+Fault FaultOf(std::string_view place, std::string_view rule, double got) {
+  return {std::string(place), std::string(rule), NumberText(got)};
 }
 
 std::int64_t ScanPattern::StampNs(std::uint32_t frame_index) const {
@@ -53,12 +48,12 @@ std::int64_t ScanPattern::StampNs(std::uint32_t frame_index) const {
     const auto rate = static_cast<std::uint64_t>(rate_hz);
     return static_cast<std::int64_t>((frames_ns + rate / 2) / rate);
   }
-  // 64 bits of mantissa hold frames_ns exactly, so that only the quotient is rounded.
+  // A mantissa of 64 bits represents frames_ns exactly, so only the quotient is rounded.
   return std::llround(static_cast<long double>(frames_ns) / static_cast<long double>(rate_hz));
 }
 
 std::uint32_t ScanPattern::LastFrame() const {
-  // A frame's firings are up to 32 bits of nanoseconds after its stamp.
+  // A frame's firings are up to 2^32 ns after its stamp.
   constexpr auto kLastStamp_ns =
       static_cast<long double>(std::numeric_limits<std::int64_t>::max() - (std::int64_t{1} << 32));
   constexpr std::uint32_t kMost = std::numeric_limits<std::uint32_t>::max();
@@ -83,7 +78,7 @@ std::uint32_t FiringOfSlot(const ScanPattern& pattern, std::uint32_t returns, st
 ScanPattern BuildScanPattern(const ScanSpec& spec) {
   ErrorList errors;
   if (!(spec.rate_hz >= 0.01 && spec.rate_hz <= 1e6)) {
-    errors.Add(Fault("/rate_hz", "must be >= 0.01 and <= 1000000", spec.rate_hz));
+    errors.Add(FaultOf("/rate_hz", "must be >= 0.01 and <= 1000000", spec.rate_hz));
   }
   FiringGrid grid = MakeFirings(spec, errors);
   errors.ThrowIfAny();

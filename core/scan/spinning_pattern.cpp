@@ -9,9 +9,9 @@ namespace railcast {
 namespace {
 
 constexpr double kFullTurn_deg = 360.0;
-constexpr double kNsPerUs = 1e3;
 constexpr double kUsPerS = 1e6;
-/// Cycles may fill the period exactly: 1800 x 55.5555556 us is a hair more than 100 ms.
+/// Relative tolerance for cycles that fill the period exactly: 1800 x 55.5555556 us is slightly
+/// more than 100 ms.
 constexpr double kFullPeriodTolerance = 1e-6;
 
 void CheckChannel(const ChannelSpec& channel,
@@ -19,20 +19,21 @@ void CheckChannel(const ChannelSpec& channel,
                   double cycle_us,
                   ErrorList& errors) {
   if (!(std::abs(channel.elevation_deg) <= 90.0)) {
-    errors.Add(Fault(place + "/elevation_deg", "must be >= -90 and <= 90", channel.elevation_deg));
+    errors.Add(
+        FaultOf(place + "/elevation_deg", "must be >= -90 and <= 90", channel.elevation_deg));
   }
   if (!(std::abs(channel.azimuth_deg) <= kFullTurn_deg)) {
-    errors.Add(Fault(place + "/azimuth_deg", "must be >= -360 and <= 360", channel.azimuth_deg));
+    errors.Add(FaultOf(place + "/azimuth_deg", "must be >= -360 and <= 360", channel.azimuth_deg));
   }
   if (!(channel.time_us >= 0.0 && channel.time_us < cycle_us)) {
-    errors.Add(Fault(place + "/time_us", "must be >= 0 and < cycle_us", channel.time_us));
+    errors.Add(FaultOf(place + "/time_us", "must be >= 0 and < cycle_us", channel.time_us));
   }
 }
 
 void CheckChannels(const SpinningSpec& spec, ErrorList& errors) {
   const std::vector<ChannelSpec>& channels = spec.channels;
   if (channels.empty()) {
-    errors.Add("/pattern/channels: must have at least one channel (got 0)");
+    errors.Add({"/pattern/channels", "must have at least one channel", "0"});
     return;
   }
   for (std::size_t i = 0; i < channels.size(); ++i) {
@@ -40,32 +41,28 @@ void CheckChannels(const SpinningSpec& spec, ErrorList& errors) {
   }
   const double first_us = std::ranges::min(channels, {}, &ChannelSpec::time_us).time_us;
   if (first_us > 0.0) {
-    errors.Add(Fault("/pattern/channels", "the earliest time_us must be 0", first_us));
+    errors.Add(FaultOf("/pattern/channels", "the earliest time_us must be 0", first_us));
   }
 }
 
 void CheckSpec(const SpinningSpec& spec, double rate_hz, ErrorList& errors) {
-  if (spec.rotation != "clockwise" && spec.rotation != "counterclockwise") {
-    errors.Add("/pattern/rotation: must be \"clockwise\" or \"counterclockwise\" (got \"" +
-               spec.rotation + "\")");
-  }
   if (!(std::abs(spec.start_azimuth_deg) <= kFullTurn_deg)) {
-    errors.Add(
-        Fault("/pattern/start_azimuth_deg", "must be >= -360 and <= 360", spec.start_azimuth_deg));
+    errors.Add(FaultOf("/pattern/start_azimuth_deg", "must be >= -360 and <= 360",
+                       spec.start_azimuth_deg));
   }
   if (!(spec.cycle_us > 0.0 && std::isfinite(spec.cycle_us))) {
-    errors.Add(Fault("/pattern/cycle_us", "must be > 0", spec.cycle_us));
+    errors.Add(FaultOf("/pattern/cycle_us", "must be > 0", spec.cycle_us));
     return;
   }
   CheckChannels(spec, errors);
-  if (spec.columns == 0) errors.Add("/pattern/columns: must be > 0 (got 0)");
+  if (spec.columns == 0) errors.Add({"/pattern/columns", "must be > 0", "0"});
   const double scan_us = spec.columns * spec.cycle_us;
   if (scan_us * rate_hz > kUsPerS * (1.0 + kFullPeriodTolerance)) {
-    errors.Add(Fault("/pattern/columns", "columns x cycle_us must be <= 1 / rate_hz", scan_us));
+    errors.Add(FaultOf("/pattern/columns", "columns x cycle_us must be <= 1 / rate_hz", scan_us));
   }
   const double num_firings = static_cast<double>(spec.channels.size()) * spec.columns;
   if (num_firings > static_cast<double>(kMaxNumFirings) || spec.channels.size() > 65536) {
-    errors.Add(Fault("/pattern", "must have at most 16777216 firings", num_firings));
+    errors.Add(FaultOf("/pattern", "must have at most 16777216 firings", num_firings));
   }
 }
 
@@ -76,7 +73,7 @@ FiringGrid SpinningFirings(const SpinningSpec& spec, double rate_hz, ErrorList& 
   if (!errors.empty()) return {};
 
   const std::vector<std::uint16_t> rows = RowsByElevation(spec.channels);
-  const double left_positive = spec.rotation == "clockwise" ? -1.0 : 1.0;
+  const double left_positive = spec.rotation == Rotation::kClockwise ? -1.0 : 1.0;
   FiringGrid grid{
       .rows = static_cast<std::uint32_t>(rows.size()), .columns = spec.columns, .firings = {}};
   grid.firings.reserve(rows.size() * spec.columns);

@@ -2,12 +2,12 @@
 
 #include "core/base/error.h"
 #include "core/base/unknown_places.h"
-#include "core/scenario/scenario_spec.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 
-/// The faults that show when a scenario's scan pattern and its world are built, as far as they do
-/// not follow from what is unknown.
+/// Adds the faults that only building a scenario's scan patterns and its world reveals. Leaves out
+/// faults that merely follow from values that could not be read.
 void AddBuildFaults(const ScenarioSpec& spec, const UnknownPlaces& unknown, ErrorList& errors);
 
 }  // namespace railcast

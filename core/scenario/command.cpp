@@ -26,9 +26,9 @@ struct Names<std::variant<Ts...>> {
   }
 };
 
-constexpr double kMaxId = 0x1p53;  // JSON's numbers are doubles to most programs.
+constexpr double kMaxId = 0x1p53;  // Most programs read JSON numbers as doubles.
 
-// A hostile line may have hundreds of faults; who sent it needs the first few.
+// A hostile line may have hundreds of faults; the sender needs only the first few.
 std::vector<std::string> FirstFew(std::vector<std::string> faults) {
   constexpr std::size_t kMaxFaults = 8;
   constexpr std::size_t kMaxLength = 300;
@@ -40,14 +40,14 @@ std::vector<std::string> FirstFew(std::vector<std::string> faults) {
   for (std::string& fault : faults) {
     if (fault.size() <= kMaxLength) continue;
     std::size_t end = kMaxLength;
-    // Not within a letter of several bytes.
+    // Do not cut within a UTF-8 character of several bytes.
     while (end > 0 && (static_cast<unsigned char>(fault[end]) & 0xC0U) == 0x80U) --end;
     fault = fault.substr(0, end) + "...";
   }
   return faults;
 }
 
-// A mesh is read from a file, which whoever sends commands must not choose.
+// Refuses meshes: a mesh is read from a file, and the sender of a command must not choose files.
 bool PlacesMesh(JsonSource& source, const Node& command) {
   if (!command.json->contains("object")) return false;
   const Node object = command.Child("object");
@@ -56,13 +56,13 @@ bool PlacesMesh(JsonSource& source, const Node& command) {
   return true;
 }
 
-// An id without its session may be an old one of a client that was restarted: what it was answered
-// then would pass for an answer to what it says now.
+// Reads the session and the id, of which neither may be given alone. Without a session, a restarted
+// client could take the acknowledgement of an old command with the same id for that of a new one.
 void ReadTag(JsonSource& source, const Node& object, JsonReader& reader, CommandTag& tag) {
   const auto read = [&](const char* key, auto& value, const char* doc, const auto& rule) {
-    const std::size_t num_faults = source.errors().lines().size();
+    const std::size_t num_faults = source.errors().size();
     reader.Optional(key, value, doc, rule);
-    if (source.errors().lines().size() > num_faults) value.reset();
+    if (source.errors().size() > num_faults) value.reset();
   };
   read("session", tag.session, "Chosen anew at each start of a client.", NonEmptyString());
   read("id", tag.id, "Comes back in the acknowledgement.", Limits{.at_most = kMaxId});
@@ -86,10 +86,10 @@ void ReadTag(JsonSource& source, const Node& object, JsonReader& reader, Command
 std::optional<Command> ReadCommandObject(JsonSource& source, const Node& object, CommandTag& tag) {
   auto list = source.PlainMembers(object);
   if (!list) return std::nullopt;
-  const std::size_t num_faults = source.errors().lines().size();
+  const std::size_t num_faults = source.errors().size();
   JsonReader reader(source, object, std::move(*list));
   ReadTag(source, object, reader, tag);
-  // Without a name, what else the object should hold is not known.
+  // Without the command's name the other keys of the object cannot be checked.
   if (!object.json->contains("command")) {
     source.Missing(object, "command");
     return std::nullopt;
@@ -103,7 +103,7 @@ std::optional<Command> ReadCommandObject(JsonSource& source, const Node& object,
     command = std::move(value);
   });
   reader.Finish();
-  if (source.errors().lines().size() > num_faults) return std::nullopt;
+  if (source.errors().size() > num_faults) return std::nullopt;
   return command;
 }
 
@@ -134,7 +134,7 @@ Json CommandJson(const Command& command, const CommandTag& tag) {
   if (tag.id) json["id"] = *tag.id;
   json["command"] = CommandName(command);
   std::visit(
-      [&](auto value) {  // A copy: descriptions are shared with the reader, which fills values.
+      [&](auto value) {  // A copy: descriptions take mutable values because the reader fills them.
         const Json keys = JsonWriter::Write(value);
         json.update(keys);
       },

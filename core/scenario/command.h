@@ -8,21 +8,22 @@
 #include <variant>
 #include <vector>
 
-#include "core/detect/detect_spec.h"
-#include "core/rail/world_spec.h"
+#include "railcast/effects.h"
+#include "railcast/rail_world.h"
 
 namespace railcast {
 
-// What a vehicle's controller may tell a simulation while it runs. Wire form: one JSON object a
-// line, {"session": "k3v9", "id": 7, "command": "set_speed", "speed_mps": 10}; docs/commands.md.
+// The commands that a vehicle's controller may send to a running simulation. On the wire each is
+// one JSON object per line, {"session": "k3v9", "id": 7, "command": "set_speed", "speed_mps": 10};
+// see docs/commands.md.
 //
-// Rates are those of physics.md 7.4: 0.5 m/s^2 is a shunting or freight service brake, 1.0 that of
-// a multiple unit, 1.3 an emergency brake.
+// The default rates follow docs/physics.md 7.4: 0.5 m/s^2 is a service brake in shunting, 0.3 that
+// of a slow freight train, 1.0 that of a multiple unit, 1.3 an emergency brake.
 
-/// Changes the vehicle's speed at a constant rate and keeps it then; its direction stays.
+/// Changes the vehicle's speed at a constant rate and then keeps it. The direction does not change.
 struct SetSpeed {
   double speed_mps{};
-  double acceleration_mps2 = 0.5;  ///< Also to slow down.
+  double acceleration_mps2 = 0.5;  ///< Magnitude; also the deceleration if the new speed is lower.
 
   bool operator==(const SetSpeed&) const = default;
 };
@@ -40,15 +41,15 @@ struct Stop {
 };
 inline constexpr double kEmergencyDeceleration_mps2 = 1.3;
 
-/// Adds an object; its motion's time 0 is when the command takes effect. It may be no mesh: a
-/// command reads no files.
+/// Adds an object. Time 0 of its motion is the time at which the command takes effect. A mesh is
+/// not allowed, since commands do not read files.
 struct PlaceObject {
   ObjectSpec object;
 
   bool operator==(const PlaceObject&) const = default;
 };
 
-/// Takes away an object of the scenario or a placed one.
+/// Removes an object of the scenario or a placed one.
 struct RemoveObject {
   std::string name;
 
@@ -62,12 +63,12 @@ struct SetWeather {
   bool operator==(const SetWeather&) const = default;
 };
 
-/// Lets the next frame come, in lockstep.
+/// Releases the next frame in lockstep.
 struct Step {
   bool operator==(const Step&) const = default;
 };
 
-/// Back to the scenario as it is at time 0.
+/// Resets the simulation to the scenario at time 0.
 struct Reset {
   bool operator==(const Reset&) const = default;
 };
@@ -75,12 +76,12 @@ struct Reset {
 using Command =
     std::variant<SetSpeed, Brake, Stop, PlaceObject, RemoveObject, SetWeather, Step, Reset>;
 
-/// Longer lines are refused unread: no command needs that much, and reading a long hostile one
-/// takes long.
+/// Longer lines are refused without being parsed: no command is that long, and parsing a long
+/// hostile line takes much time.
 inline constexpr std::size_t kMaxCommandBytes = 8192;
 
-/// How a client tells its commands apart: both, or neither where it wants no acknowledgement that
-/// it can tell from others. A session is what the client chose when it started.
+/// Identifies a command in its acknowledgement. A client gives both members, or neither if it does
+/// not need to match acknowledgements to commands. It chooses a new session at each start.
 struct CommandTag {
   std::optional<std::string> session;  ///< At most kMaxSessionBytes.
   std::optional<std::uint64_t> id;     ///< At most 2^53.
@@ -89,22 +90,22 @@ struct CommandTag {
 };
 inline constexpr std::size_t kMaxSessionBytes = 64;
 
-/// A line as it was understood.
+/// The result of reading a line.
 struct CommandLine {
-  CommandTag tag;  ///< For the acknowledgement, as far as it can be read also of a faulty command.
+  CommandTag tag;  ///< For the acknowledgement; also read from faulty commands, if possible.
   std::optional<Command> command;   ///< Absent if there is a fault.
   std::vector<std::string> faults;  ///< "command: /speed_mps: must be >= 0 and <= 200 (got -1)"
 };
 
-/// Reads one line (with or without its end), or one whole datagram, as strictly as scenarios are
-/// read. Whatever it holds, it reads no file and does not throw.
+/// Reads one line (with or without its end) or one whole datagram, as strictly as scenarios are
+/// read. Never reads a file and never throws, whatever the line contains.
 [[nodiscard]] CommandLine ReadCommand(std::string_view line);
 
-/// The command as a line without its end, every default in place. Reading it back gives the same
-/// command.
+/// The command as a line without its end, with every default written out. Reading it back gives the
+/// same command.
 [[nodiscard]] std::string WriteCommand(const Command& command, const CommandTag& tag = {});
 
-/// "set_speed", ...
+/// The name of a command on the wire, for example "set_speed".
 [[nodiscard]] std::string CommandName(const Command& command);
 
 }  // namespace railcast

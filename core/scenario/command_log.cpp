@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/scenario/command_reading.h"
 #include "core/scenario/json_reader.h"
 
@@ -25,7 +25,7 @@ void Describe(Archive& a, Header& s) {
   a.Required("scenario_xxh3", s.scenario_xxh3, "The scenario that was run.", NonEmptyString());
 }
 
-// 100 years.
+// About 100 years.
 constexpr double kMaxTime_ns = 3.2e18;
 
 std::optional<TimedCommand> ReadEntry(JsonSource& source, const Node& root) {

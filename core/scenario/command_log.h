@@ -10,7 +10,8 @@
 
 namespace railcast {
 
-/// A command and when it took effect: for the frames stamped then or later.
+/// A command and the time at which it took effect: it applies to frames with that stamp or a later
+/// one.
 struct TimedCommand {
   std::int64_t time_ns{};  ///< Simulation time.
   Command command;
@@ -18,12 +19,12 @@ struct TimedCommand {
   bool operator==(const TimedCommand&) const = default;
 };
 
-/// What a live run was told, and what of it shapes its frames.
+/// The commands of a live run that determine its frames.
 ///
-/// As a file: JSON lines. The first names the scenario,
-/// {"railcast_commands": 1, "scenario_xxh3": "..."}, every further one a command,
-/// {"time_ns": 1500000000, "command": {"command": "brake", ...}}, by rising time. Reset begins anew
-/// at time 0: what stands before it shapes nothing that comes after. Step is left out, since it
+/// The file consists of JSON lines. The first line names the scenario,
+/// {"railcast_commands": 1, "scenario_xxh3": "..."}, every further line holds a command,
+/// {"time_ns": 1500000000, "command": {"command": "brake", ...}}, in order of time. After a reset,
+/// time starts at 0 again and the commands before it have no effect. Step is left out, since it
 /// changes nothing.
 struct CommandLog {
   std::string scenario_xxh3;           ///< ScenarioIdentity::scenario_hash of the whole scenario.
@@ -39,11 +40,11 @@ struct CommandLog {
 /// The log in its shortest form.
 [[nodiscard]] std::string CommandLogText(const CommandLog& log);
 
-/// Reads a log as strictly as scenarios are read. A last line without an end, which a run that was
-/// killed may leave behind, is a fault like any other.
+/// Reads a log as strictly as scenarios are read. An incomplete last line, which a killed run may
+/// leave behind, is a fault like any other.
 /// @throws InputError "file: line 3: /command/speed_mps: rule (got value)".
 [[nodiscard]] CommandLog ReadCommandLog(const std::filesystem::path& file);
-/// The same of what a file holds, which messages call `shown`.
+/// As above, but reads from a stream; messages call the file `shown`.
 [[nodiscard]] CommandLog ParseCommandLog(std::istream& stream, const std::string& shown);
 
 }  // namespace railcast

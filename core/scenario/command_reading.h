@@ -7,7 +7,7 @@
 
 namespace railcast {
 
-/// A command and its tag from one JSON object. Faults go to the source.
+/// Reads a command and its tag from one JSON object. Faults are added to the source.
 /// @param tag Read even if the command is faulty.
 [[nodiscard]] std::optional<Command> ReadCommandObject(JsonSource& source,
                                                        const Node& object,

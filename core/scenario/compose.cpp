@@ -4,21 +4,21 @@
 #include "core/base/attempt.h"
 #include "core/base/out_of_memory.h"
 #include "core/base/units.h"
-#include "core/detect/detector.h"
-#include "core/rail/rail_world.h"
+#include "core/detect/effect_table.h"
 #include "core/rail/world_draft.h"
-#include "core/scan/scan_pattern.h"
 #include "core/scenario/build_faults.h"
-#include "core/scenario/effect_names.h"
-#include "core/scenario/scenario.h"
 #include "core/scenario/sensors.h"
 #include "core/simulate/output_axes.h"
+#include "railcast/effects.h"
+#include "railcast/lidar.h"
+#include "railcast/rail_world.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 namespace {
 
-// Builds something from the spec that stands at `pointer` of the scenario, and lets its faults name
-// the file that the spec was read from.
+// Builds something from the spec at `pointer` of the scenario. Its faults name the file that the
+// spec was read from.
 template <class Builder>
 auto Located(const ScenarioSpec& spec,
              std::string_view pointer,
@@ -26,7 +26,7 @@ auto Located(const ScenarioSpec& spec,
              const Builder& build) {
   ErrorList faults;
   auto built = Attempt("", faults, build);
-  for (const std::string& line : faults.lines()) errors.Add(spec.sources.Locate(line, pointer));
+  for (const Fault& fault : faults.faults()) errors.Add(spec.sources.Locate(fault, pointer));
   return built;
 }
 
@@ -40,9 +40,9 @@ std::optional<ScanPattern> TryPattern(const ScenarioSpec& spec,
   });
 }
 
-// Whether float32 holds the points of frame 0, in the axes of the output.
+// Checks that float32 can represent the points of frame 0 in the axes of the output.
 void CheckOutput(const ScenarioSpec& spec, ErrorList& errors) {
-  if (spec.output.frame != "world") return;
+  if (spec.output.frame != OutputFrame::kWorld) return;
   const auto world = MakeWorld(spec);
   for (const auto& [lidar, pointer] : SensorsOf(spec)) {
     const Transform vehicle_from_sensor = VehicleFromSensor(lidar.mount);
@@ -54,7 +54,7 @@ void CheckOutput(const ScenarioSpec& spec, ErrorList& errors) {
   }
 }
 
-// What the effects call things by name, besides the world.
+// Labels and materials that the effects, as opposed to the world, look up by name.
 struct EffectNamesInUse {
   ClutterLabels labels;
   std::uint16_t snow_material{};
@@ -65,7 +65,7 @@ std::optional<EffectNamesInUse> TryNames(const ScenarioSpec& spec, ErrorList& er
     const LabelTable labels(spec.labels);
     EffectNamesInUse names;
     names.labels.snow = labels.Id("snow");
-    // Whether they go together is said where they are read.
+    // Conflicts between effects are reported where the effects are read.
     if (IsPhysical(SwitchedEffects(spec))) {
       names.labels.rain = labels.Id("rain");
       names.labels.fog = labels.Id("fog");
@@ -89,10 +89,11 @@ Transform VehicleFromSensor(const MountSpec& mount) {
 
 void AddBuildFaults(const ScenarioSpec& spec, const UnknownPlaces& unknown, ErrorList& errors) {
   for (const auto& [lidar, pointer] : SensorsOf(spec)) {
-    // An empty list of sensors has been named already.
+    // A spec left at its default was not read, and its fault has been reported already.
     const bool is_read = lidar != LidarSpec{};
     if (!is_read || !unknown.IsKnown(pointer + "/scan/pattern")) continue;
-    // Times are 32 bits of nanoseconds: what breaks a rule at this rate does so at every rate.
+    // If the rate is unknown, use the slowest that 32-bit times in nanoseconds allow: a pattern
+    // that breaks a rule at this rate does so at every rate.
     constexpr double kSlowestRate_hz = 1e9 / 4'294'967'295.0;
     ScanSpec known = lidar.scan;
     if (!unknown.IsKnown(pointer + "/scan/rate_hz")) known.rate_hz = kSlowestRate_hz;
@@ -102,8 +103,9 @@ void AddBuildFaults(const ScenarioSpec& spec, const UnknownPlaces& unknown, Erro
   const MaterialLibrary materials(spec.materials);
   WorldFaults faults{{}, unknown};
   static_cast<void>(DraftWorld({spec.world, spec.vehicle, labels, materials}, faults));
-  // The world has two specs, so its pointers are the scenario's: "/world/..." and "/vehicle/...".
-  for (const std::string& line : faults.errors.lines()) errors.Add(spec.sources.Locate(line, ""));
+  // The world is built from two specs, so that its pointers are already relative to the scenario:
+  // "/world/..." and "/vehicle/...".
+  for (const Fault& fault : faults.errors.faults()) errors.Add(spec.sources.Locate(fault, ""));
   if (unknown.IsKnown("/labels")) static_cast<void>(TryNames(spec, errors));
 }
 
@@ -138,24 +140,17 @@ std::vector<std::unique_ptr<Simulator>> MakeSimulators(const ScenarioSpec& spec,
   errors.ThrowIfAny();
 
   const MaterialLibrary materials(spec.materials);
-  const auto store = std::make_shared<SceneStore>(*world, materials, isa);
+  const auto store = MakeSceneStore(*world, materials, isa);
   std::vector<std::unique_ptr<Simulator>> simulators;
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     const LidarSpec& lidar = sensors[i].lidar;
-    const SimulatorSpec simulator{.seed = spec.seed,
-                                  .range_min_m = lidar.range_min_m,
-                                  .range_max_m = lidar.range_max_m,
-                                  .vehicle_from_sensor = VehicleFromSensor(lidar.mount),
-                                  .effects = *effects,
-                                  .plausibility = lidar.plausibility,
-                                  .beam = lidar.beam,
-                                  .receiver = lidar.receiver,
-                                  .weather = spec.weather,
-                                  .output = spec.output,
-                                  .origin_place = spec.sources.Place("/output/origin_m"),
-                                  .clutter_labels = names->labels,
-                                  .snow_material = names->snow_material,
-                                  .isa = isa};
+    SimulatorSpec simulator{.detector = DetectorSpecOf(spec, lidar, *effects),
+                            .vehicle_from_sensor = VehicleFromSensor(lidar.mount),
+                            .output = spec.output,
+                            .origin_place = spec.sources.Place("/output/origin_m"),
+                            .snow_material = names->snow_material,
+                            .isa = isa};
+    simulator.detector.clutter_labels = names->labels;
     const std::size_t num_firings = patterns[i]->num_firings();
     const auto doing = [&] {
       return "making the simulator of " + std::to_string(num_firings) + " firings a frame";
@@ -180,7 +175,7 @@ void UseWeather(const ScenarioSpec& scenario, const WeatherSpec& weather, Simula
   } else {
     spec.snow_material = 0;
   }
-  spec.weather = weather;
+  spec.detector.weather = weather;
 }
 
 std::vector<std::string> CheckScenario(const std::filesystem::path& file) {

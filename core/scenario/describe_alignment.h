@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <string>
 
-#include "core/base/number_text.h"
-#include "core/rail/line/alignment_spec.h"
+#include "core/base/text.h"
 #include "core/scenario/json_rules.h"
+#include "railcast/alignment.h"
 
 namespace railcast {
 
@@ -17,14 +17,14 @@ inline constexpr const char* kTypeName<AlignmentElementsSpec> = "elements";
 template <>
 inline constexpr const char* kTypeName<AlignmentSplineSpec> = "spline";
 
-/// Longer lines are taken for a slip; a spline of this length takes 240 MB and some seconds.
+/// Longer lines are probably typing errors; a spline of this length takes 240 MB and a few seconds.
 inline constexpr double kLongestLine_m = 1e7;
 
 [[nodiscard]] inline std::string LongestLineRule(double length_m) {
   return "must make a line of at most 10000000 m, not of " + NumberText(length_m) + " m";
 }
 
-/// Shorter elements would vanish against a long line's chainage.
+/// Shorter elements would be lost in the rounding of a long line's chainage.
 [[nodiscard]] inline Limits LengthOfLine() {
   return Within(1e-3, kLongestLine_m);
 }
@@ -32,22 +32,23 @@ inline constexpr double kLongestLine_m = 1e7;
 [[nodiscard]] inline Limits ChainageLimits() {
   return Within(0, 1e7);
 }
-/// Where something begins or stands: it may be short of the line's beginning while it moves.
+/// Limits of the chainage of an object or of a beginning. A moving object may start before the
+/// beginning of the line.
 [[nodiscard]] inline Limits PlaceLimits() {
   return Within(-1e7, 1e7);
 }
-/// Double precision holds such coordinates to 0.02 um.
+/// Double precision resolves such coordinates to 0.02 um.
 [[nodiscard]] inline Limits CoordinateLimits() {
   return Within(-1e8, 1e8);
 }
 [[nodiscard]] inline Limits HeadingLimits() {
   return Within(-360, 360);
 }
-/// Straighter than the longest radius is straight: 1 um off in 1 km.
+/// An arc of the longest radius is practically straight: it deviates by 1 um in 1 km.
 [[nodiscard]] inline Limits RadiusLimits() {
   return Within(-1e12, 1e12);
 }
-/// From a smoothing that is none to one that flattens a whole valley.
+/// From a negligible smoothing length to one that flattens a whole valley.
 [[nodiscard]] inline Limits SmoothingLimits() {
   return Within(1e-3, 1e4);
 }
@@ -66,20 +67,21 @@ void Describe(Archive& a, CurvatureSection& s) {
 template <class Archive>
 void Describe(Archive& a, AlignmentSectionsSpec& s) {
   a.Required("length_m", s.length_m, "Chainage of the end.", LengthOfLine());
-  a.Required("sections", s.sections, "The first at chainage 0.", NonEmptyList());
+  a.Required("sections", s.sections, "The sections; the first one starts at chainage 0.",
+             NonEmptyList());
 }
 
 template <class Archive>
 void Describe(Archive& a, AlignmentElement& s) {
-  a.Required("type", s.type, "A clothoid leads from the curvature before it to the one after it.",
-             OneOf({"straight", "clothoid", "arc"}));
+  a.Required("type", s.type, "A clothoid leads from the curvature before it to the one after it.");
   a.Required("length_m", s.length_m, "Length.", LengthOfLine());
   a.Optional("radius_m", s.radius_m, "Of an arc only: left positive, right negative.",
              RadiusLimits());
   a.Ensure({"radius_m"}, s.radius_m != 0.0, "must not be 0");
-  a.Ensure({"radius_m", "type"}, s.type != "arc" || s.radius_m.has_value(),
+  a.Ensure({"radius_m", "type"}, s.type != ElementType::kArc || s.radius_m.has_value(),
            "must be given for an arc");
-  a.Ensure({"radius_m", "type"}, s.type == "arc" || !s.radius_m, "must be given for an arc only");
+  a.Ensure({"radius_m", "type"}, s.type == ElementType::kArc || !s.radius_m,
+           "must be given for an arc only");
 }
 
 template <class Archive>
@@ -104,8 +106,8 @@ void Describe(Archive& a, AlignmentSplineSpec& s) {
 
 template <class Archive>
 void Describe(Archive& a, ChainageValue& s) {
-  a.Required("s_m", s.s_m, "From this chainage on ...", ChainageLimits());
-  a.Required("value", s.value, "... this value.");
+  a.Required("s_m", s.s_m, "Chainage from which the value applies.", ChainageLimits());
+  a.Required("value", s.value, "Value from this chainage on.");
 }
 
 template <class Archive>
@@ -113,21 +115,23 @@ void Describe(Archive& a, AlignmentSpec& s) {
   a.Required("course", s.course, "The line in plan.");
   a.Optional("attribution", s.attribution, "Where the figures come from.");
   a.Optional("origin_m", s.origin_m, "World position of chainage 0.", CoordinateLimits());
-  a.Optional("heading_deg", s.heading_deg, "At chainage 0, counterclockwise from east.",
+  a.Optional("heading_deg", s.heading_deg, "Heading at chainage 0, counterclockwise from east.",
              HeadingLimits());
-  // The steepest railway, up the Pilatus, has 480 permil.
-  a.Optional("gradients_permil", s.gradients_permil, "By chainage; none = level.",
+  // The steepest railway, on the Pilatus, has 480 permil.
+  a.Optional("gradients_permil", s.gradients_permil, "Gradients by chainage; none = level.",
              EachValue(Within(-500, 500)));
-  a.Optional("speed_limits_kmph", s.speed_limits_kmph, "By chainage; none = no cant.",
+  a.Optional("speed_limits_kmph", s.speed_limits_kmph,
+             "Speed limits by chainage, from which cant follows; none = no cant.",
              EachValue(PositiveUpTo(1000)));
   a.Optional("curvature_smoothing_m", s.curvature_smoothing_m,
              "Jumps of curvature become clothoids of at most this length.", SmoothingLimits());
   a.Optional("gradient_smoothing_m", s.gradient_smoothing_m,
              "Jumps of gradient become parabolas of at most this length.", SmoothingLimits());
-  a.Optional("cant_deficiency_mm", s.cant_deficiency_mm, "Cant = 11.8 v^2 / R less this.",
-             Within(0, 1000));
+  a.Optional("cant_deficiency_mm", s.cant_deficiency_mm,
+             "Cant deficiency: cant = 11.8 v^2 / R minus this.", Within(0, 1000));
   a.Optional("cant_max_mm", s.cant_max_mm, "Greatest cant.", Within(0, 300));
-  a.Optional("cant_ramp_m", s.cant_ramp_m, "Length that cant is averaged over.", SmoothingLimits());
+  a.Optional("cant_ramp_m", s.cant_ramp_m, "Length over which cant is averaged.",
+             SmoothingLimits());
 }
 
 }  // namespace railcast

@@ -6,7 +6,7 @@
 
 namespace railcast {
 
-// Commands are told apart by "command", not by "type", which objects have as well.
+// The key "command" distinguishes commands. "type" is not used, since objects have it as well.
 template <class T>
 inline constexpr const char* kCommandName = nullptr;
 template <>
@@ -26,16 +26,17 @@ inline constexpr const char* kCommandName<Step> = "step";
 template <>
 inline constexpr const char* kCommandName<Reset> = "reset";
 
-// No railway vehicle changes its speed faster: magnetic track brakes reach 3. Nor slower: it would
-// take days.
+// No railway vehicle exceeds the upper limit: magnetic track brakes reach 3 m/s^2. At a rate below
+// the lower limit, a change of speed would take hours or days.
 [[nodiscard]] inline Limits AccelerationLimits() {
   return Within(1e-3, 10);
 }
 
 template <class Archive>
 void Describe(Archive& a, SetSpeed& s) {
-  a.Required("speed_mps", s.speed_mps, "To be reached and kept.", Within(0, 200));
-  a.Optional("acceleration_mps2", s.acceleration_mps2, "On the way there, up or down.",
+  a.Required("speed_mps", s.speed_mps, "Speed to be reached and then kept.", Within(0, 200));
+  a.Optional("acceleration_mps2", s.acceleration_mps2,
+             "Magnitude of the acceleration or deceleration on the way there.",
              AccelerationLimits());
 }
 
@@ -54,7 +55,7 @@ void Describe(Archive& a, PlaceObject& s) {
 
 template <class Archive>
 void Describe(Archive& a, RemoveObject& s) {
-  a.Required("name", s.name, "Of the object.", NonEmptyString());
+  a.Required("name", s.name, "Name of the object.", NonEmptyString());
 }
 
 template <class Archive>

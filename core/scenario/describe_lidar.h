@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/scan/scan_spec.h"
 #include "core/scenario/json_rules.h"
-#include "core/scenario/scenario_spec.h"
+#include "railcast/lidar.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 
@@ -20,7 +20,7 @@ void Describe(Archive& a, RasterSpec& s) {
              PositiveUpTo(180));
   a.Required("angular_resolution_deg", s.angular_resolution_deg,
              "Size of a cell; beams go through the cells' centres.", PositiveUpTo(360));
-  a.Optional("order", s.order, "What advances in time.", OneOf({"columns", "rows"}));
+  a.Optional("order", s.order, "What advances in time.");
 }
 
 template <class Archive>
@@ -34,11 +34,11 @@ void Describe(Archive& a, ChannelSpec& s) {
 template <class Archive>
 void Describe(Archive& a, SpinningSpec& s) {
   a.Required("channels", s.channels, "In the vendor's laser order.", NonEmptyList());
-  a.Required("cycle_us", s.cycle_us, "From one firing cycle to the next.", Within(1e-3, 4.3e6));
-  a.Required("columns", s.columns, "Firing cycles a frame.", Within(1, 1 << 24));
-  a.Optional("rotation", s.rotation, "Seen from above.", OneOf({"clockwise", "counterclockwise"}));
+  a.Required("cycle_us", s.cycle_us, "Duration of a firing cycle.", Within(1e-3, 4.3e6));
+  a.Required("columns", s.columns, "Firing cycles per frame.", Within(1, 1 << 24));
+  a.Optional("rotation", s.rotation, "Sense of rotation, seen from above.");
   a.Optional("start_azimuth_deg", s.start_azimuth_deg,
-             "Of the rotor at a frame's first firing; 0 = forward.", Within(-360, 360));
+             "Azimuth of the rotor at a frame's first firing; 0 = forward.", Within(-360, 360));
 }
 
 template <class Archive>
@@ -66,20 +66,21 @@ template <class Archive>
 void Describe(Archive& a, PlausibilitySpec& s) {
   a.Optional("reference_threshold", s.reference_threshold,
              "Least detectable reflectivity x cos x fog at the reference range.", Within(0, 1e6));
-  a.Optional("reference_range_m", s.reference_range_m, "The threshold grows with (range / this)^2.",
+  a.Optional("reference_range_m", s.reference_range_m,
+             "Range at which reference_threshold applies; the threshold grows with range squared.",
              Within(0.1, 10'000));
   a.Optional("noise_sigma0_m", s.noise_sigma0_m, "Standard deviation of the noise at range 0.",
              Within(0, 10));
-  a.Optional("noise_sigma1", s.noise_sigma1, "Its growth per metre of range.", Within(0, 1));
-  a.Optional("noise_shape", s.noise_shape, "In all directions alike, or along the beam.",
-             OneOf({"isotropic", "beam"}));
-  a.Optional("dropout_probability", s.dropout_probability, "Of any firing, whatever it hit.",
-             Within(0, 1));
+  a.Optional("noise_sigma1", s.noise_sigma1,
+             "Growth of that standard deviation per metre of range.", Within(0, 1));
+  a.Optional("noise_shape", s.noise_shape, "Equally in all directions, or along the beam.");
+  a.Optional("dropout_probability", s.dropout_probability,
+             "Probability that a firing is lost, whatever it hit.", Within(0, 1));
 }
 
 template <class Archive>
 void Describe(Archive& a, BeamSpec& s) {
-  a.Optional("wavelength_nm", s.wavelength_nm, "905 stands for 850 to 950.",
+  a.Optional("wavelength_nm", s.wavelength_nm, "905 also represents 850 to 950.",
              OneNumberOf({905, 1550}));
   // 1 degree is 17.453 mrad.
   a.Optional("divergence_mrad", s.divergence_mrad,
@@ -87,20 +88,19 @@ void Describe(Archive& a, BeamSpec& s) {
              "0 = a ray.",
              Within(0, 17.5));
   a.Optional("pulse_length_ns", s.pulse_length_ns,
-             "Full width at half maximum of the pulse as received.", Within(0.5, 100));
-  a.Optional("reference_rays", s.reference_rays, "Sub-rays a beam of effect dense_footprint.",
+             "Full width at half maximum of the received pulse.", Within(0.5, 100));
+  a.Optional("reference_rays", s.reference_rays, "Sub-rays per beam of effect dense_footprint.",
              Within(16, 4096));
 }
 
 template <class Archive>
 void Describe(Archive& a, ReceiverSpec& s) {
   a.Optional("range_at_10_percent_m", s.range_at_10_percent_m,
-             "Of the data sheet: where a facing Lambertian of 10 % is just detected.",
+             "The data sheet's detection range on a Lambertian target of 10 % at normal incidence.",
              PositiveUpTo(10'000));
-  a.Optional("snr_at_threshold", s.snr_at_threshold, "Amplitude signal-to-noise ratio there.",
-             PositiveUpTo(100));
-  a.Optional("return_mode", s.return_mode, "Which echoes of a beam are reported.",
-             OneOf({"strongest", "first", "last", "dual", "triple"}));
+  a.Optional("snr_at_threshold", s.snr_at_threshold,
+             "Amplitude signal-to-noise ratio at the detection threshold.", PositiveUpTo(100));
+  a.Optional("return_mode", s.return_mode, "Which echoes of a beam are reported.");
   a.Optional("range_noise_floor_m", s.range_noise_floor_m,
              "Standard deviation of the range where the signal is strong.", Within(0, 10));
   a.Optional("range_noise_scale_m", s.range_noise_scale_m,
@@ -118,11 +118,12 @@ inline constexpr bool kElementMayBeFile<LidarSpec> = true;
 
 template <class Archive>
 void Describe(Archive& a, LidarSpec& s) {
-  a.Optional("name", s.name, "Of the sensor.", OneLine());
+  a.Optional("name", s.name, "Name of the sensor.", OneLine());
   a.Required("scan", s.scan, "The firings of a frame.");
-  a.Optional("range_min_m", s.range_min_m, "Nearer things block and give no point.",
-             Within(0, 10'000));
-  a.Optional("range_max_m", s.range_max_m, "Farther things give no point.", PositiveUpTo(10'000));
+  a.Optional("range_min_m", s.range_min_m,
+             "Least range; nearer surfaces block the beam and give no point.", Within(0, 10'000));
+  a.Optional("range_max_m", s.range_max_m, "Greatest range; farther surfaces give no point.",
+             PositiveUpTo(10'000));
   a.Optional("mount", s.mount, "Where the sensor sits on the vehicle.");
   a.Optional("plausibility", s.plausibility, "Parameters of the published model.");
   a.Optional("beam", s.beam, "The laser beam of the physical rungs.");

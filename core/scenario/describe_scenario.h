@@ -1,43 +1,44 @@
 #pragma once
 
+#include "core/detect/effect_table.h"
 #include "core/scenario/describe_lidar.h"
 #include "core/scenario/describe_weather.h"
 #include "core/scenario/describe_world.h"
-#include "core/scenario/effect_names.h"
-#include "core/scenario/effects.h"
-#include "core/scenario/scenario.h"
-#include "core/scenario/scenario_spec.h"
 #include "core/scenario/sensors.h"
+#include "railcast/effects.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 
 // Every spec has one description: `Describe(archive, spec)` names each field's key, value, meaning
 // and rule (json_rules.h). Three archives visit it, so that reading, writing and the published
 // schema cannot drift apart: JsonReader fills the spec, JsonWriter writes the resolved scenario,
-// SchemaWriter makes the schema. An archive has:
+// SchemaWriter (tests/core/scenario) makes the schema. An archive has:
 //
-// - Required(key, value, meaning, rule): must be given
-// - Optional(key, value, meaning, rule): keeps the struct's default; a std::optional stays absent
-// - OneOfTwo(key, other): at most one of them is given; over a file with one stands the other.
-//   Comes before either
-// - Alternative(key, value, {other_key, factor}, meaning, rule): another way to give other_key
-// - RequiredLibrary(key, list, meaning): a list, or a file that holds it under the same key
-// - Opaque(key, text, meaning): any object, kept as text
-// - Switches(key, map, meaning, names): an object of flags
-// - Ensure(keys, holds, rule): a rule across the fields of `keys`, about the value of the first,
-//   or about the whole object where that is ""
-// - Unique(list_key, list, key, member): the list's elements differ in a member
+// - Required(key, value, meaning, rule): the key must be given.
+// - Optional(key, value, meaning, rule): if absent, the struct's default is kept; a std::optional
+//   stays empty.
+// - OneOfTwo(key, other): at most one of the two may be given; each of them replaces the other one
+//   of a base file. Must come before the descriptions of both keys.
+// - Alternative(key, value, {other_key, factor}, meaning, rule): another way to give other_key.
+// - RequiredLibrary(key, list, meaning): a list, or a file that holds it under the same key.
+// - Switches(key, map, meaning, names): an object of flags.
+// - Ensure(keys, holds, rule): a rule across the fields of `keys`. The message is about the value
+// of
+//   the first key, or about the whole object if that is "".
+// - Unique(list_key, list, key, member): no two elements of the list may agree in a member.
 //
-// A value may be a bool, an unsigned integer, a double, a string, an array, a vector, an optional,
-// a struct with a description, or a variant of such structs told apart by "type" (kTypeName).
+// A value may be a bool, an unsigned integer, a double, a string, an enumeration with names
+// (kEnumNames), an array, a vector, an optional, a struct with a description, or a variant of such
+// structs, which "type" distinguishes (kTypeName).
 //
-// To add a field: add it, with its default, to the struct; add one line to its description; write
-// the schemas anew (tests/core/scenario/scenario_schema_test.cpp says how).
+// To add a field: add it, with its default, to the struct; add one line to its description;
+// regenerate the schemas (see tests/core/scenario/scenario_schema_test.cpp).
 
 template <class Archive>
 void Describe(Archive& a, SensorInterface& s) {
   a.Required("sensor", s.sensor, "Name of the sensor.", NonEmptyString());
-  a.Optional("protocol", s.protocol, "How its live frames are packed.", OneOf(ProtocolNames()));
+  a.Optional("protocol", s.protocol, "How its live frames are packed.");
   a.Optional("udp", s.udp,
              "host:port of each receiver; empty = loopback at the protocol's own port.",
              HostAndPort());
@@ -49,29 +50,36 @@ void Describe(Archive& a, InterfacesSpec& s) {
              "host:port of each receiver of live frames; empty = loopback at the protocol's own "
              "port.",
              HostAndPort());
-  a.Optional("protocol", s.protocol, "How live frames are packed.", OneOf(ProtocolNames()));
-  a.Optional("sensors", s.sensors, "Instead, with lidars: each sensor once.");
+  a.Optional("protocol", s.protocol, "How live frames are packed.");
+  a.Optional("sensors", s.sensors,
+             "With lidars, instead of the other keys: one entry for each sensor.");
+}
+
+template <class Archive>
+void Describe(Archive& a, CameraSpec& s) {
+  a.Required("width_px", s.width_px, "Of the picture.", Within(1, 65'536));
+  a.Required("height_px", s.height_px, "Of the picture.", Within(1, 65'536));
+  a.Required("horizontal_fov_deg", s.horizontal_fov_deg, "Field of view.", PositiveUpTo(360));
 }
 
 template <class Archive>
 void Describe(Archive& a, ToleranceSpec& s) {
   a.Optional("range_m", s.range_m, "Median error of the ranges of echoes, before noise.",
              Within(0, 10'000));
-  a.Optional("missed_share", s.missed_share, "Of the reference's echoes.", Within(0, 1));
-  a.Optional("false_share", s.false_share, "Of the echoes: those that the reference lacks.",
+  a.Optional("missed_share", s.missed_share, "Missed share of the reference's echoes.",
              Within(0, 1));
-  a.Optional("thin_missed_share", s.thin_missed_share, "Of the reference's echoes of wires.",
+  a.Optional("false_share", s.false_share, "Share of the echoes that the reference lacks.",
              Within(0, 1));
+  a.Optional("thin_missed_share", s.thin_missed_share,
+             "Missed share of the reference's echoes of wires.", Within(0, 1));
   a.Optional("intensity", s.intensity, "Median relative error of the echoes' intensities.",
              Within(0, 1e6));
 }
 
 template <class Archive>
 void Describe(Archive& a, OutputSpec& s) {
-  a.Optional("frame", s.frame, "Frame of reference of the points.",
-             OneOf({"sensor", "vehicle", "world"}));
-  a.Optional("handedness", s.handedness, "left: y is negated, as Unreal has it.",
-             OneOf({"right", "left"}));
+  a.Optional("frame", s.frame, "Frame of reference of the points.");
+  a.Optional("handedness", s.handedness, "left: y is negated, as Unreal has it.");
   a.Optional("origin_m", s.origin_m,
              "Subtracted from world coordinates, which float32 holds to 1 mm only within 8 km.",
              Within(-1e8, 1e8));
@@ -80,7 +88,7 @@ void Describe(Archive& a, OutputSpec& s) {
 template <class Archive>
 void Describe(Archive& a, Material& s) {
   a.Required("name", s.name, "Unique.", NonEmptyString());
-  a.Required("reflectivity", s.reflectivity, "Diffuse, at 905 nm; 1 = white Lambertian.",
+  a.Required("reflectivity", s.reflectivity, "Diffuse reflectance at 905 nm; 1 = white Lambertian.",
              Within(0, 100));
   a.Optional("reflectivity_1550nm", s.reflectivity_1550nm,
              "The same at 1550 nm; absent = as at 905 nm.", Within(0, 100));
@@ -92,7 +100,8 @@ void Describe(Archive& a, Material& s) {
              "The same at 1550 nm; absent = as at 905 nm.", Within(0, 1));
   a.Optional("specular_roughness", s.specular_roughness, "GGX's alpha.", Within(0.01, 1));
   a.Optional("retroreflectance", s.retroreflectance,
-             "Of a retroreflector, as a multiple of a white Lambertian.", Within(0, 10'000));
+             "Reflectance of a retroreflector as a multiple of a white Lambertian.",
+             Within(0, 10'000));
   a.Ensure({"name"}, s.name != "none", "must not be \"none\": that is the material of nothing");
 }
 
@@ -122,10 +131,9 @@ void Describe(Archive& a, LabelFile& s) {
 
 template <class Archive>
 void Describe(Archive& a, ScenarioSpec& s) {
-  a.Optional("seed", s.seed, "Of the sensor's and the weather's random numbers.");
+  a.Optional("seed", s.seed, "Seed of the sensor's and the weather's random numbers.");
   a.Optional("fidelity", s.fidelity,
-             "Rung of the fidelity ladder, or auto: no more than the scene needs.",
-             OneOf(FidelityNames()));
+             "Rung of the fidelity ladder, or auto: no more than the scene needs.");
   a.Optional("tolerance", s.tolerance, "What fidelity auto may differ from the reference.");
   a.Switches("effects", s.effects, "Switches this effect on or off.", EffectNames());
   const auto conflict = ConflictIn(SwitchedEffects(s));
@@ -133,9 +141,9 @@ void Describe(Archive& a, ScenarioSpec& s) {
   a.OneOfTwo("lidar", "lidars");
   std::optional<LidarSpec> lidar;
   if (s.lidar != LidarSpec{}) lidar = s.lidar;
-  a.Optional("lidar", lidar, "The sensor, or ...");
+  a.Optional("lidar", lidar, "The only sensor; several sensors are given as lidars instead.");
   if (lidar) s.lidar = *lidar;
-  a.Optional("lidars", s.lidars, "... several, each with a name of its own.",
+  a.Optional("lidars", s.lidars, "Several sensors, instead of lidar; each has a name of its own.",
              NonEmptyListIf{!lidar, "; a scenario has at least one sensor"});
   a.Ensure({"", "lidar", "lidars"}, lidar.has_value() == s.lidars.empty(),
            "must have either lidar or lidars");
@@ -148,7 +156,7 @@ void Describe(Archive& a, ScenarioSpec& s) {
   const std::string fault =
       InterfacesFault(s.interfaces, s.lidars.empty() ? std::vector<std::string>() : SensorNames(s));
   a.Ensure({"interfaces", "lidar", "lidars"}, fault.empty(), "sensors " + fault);
-  a.Opaque("camera", s.camera, "Any object; kept for later.");
+  a.Optional("camera", s.camera, "A camera beside the sensor; not used yet.");
   a.Required("world", s.world, "The railway and what stands on it.");
   a.Optional("vehicle", s.vehicle, "The sensor's own vehicle.");
   a.Optional("output", s.output, "Axes of the points.");

@@ -1,15 +1,15 @@
 #pragma once
 
-#include "core/detect/detect_spec.h"
 #include "core/scenario/json_rules.h"
+#include "railcast/effects.h"
 
 namespace railcast {
 
-/// The published system gives rain as an intensity from 0 to 1. Intensity 1 is 50 mm/h, where rain
-/// is called violent; in between the rate grows in proportion.
+/// The published system gives rain as an intensity from 0 to 1. Intensity 1 is 50 mm/h, from which
+/// rain is called violent; the rate is proportional to the intensity.
 inline constexpr double kRainAtFullIntensity_mmph = 50.0;
 
-/// The heaviest minutes on record are some 2000 mm/h.
+/// The heaviest recorded rain within a minute has a rate of about 2000 mm/h.
 [[nodiscard]] inline Limits PrecipitationLimits() {
   return Within(0, 5000);
 }
@@ -19,7 +19,7 @@ void Describe(Archive& a, SunSpec& s) {
   a.Optional("illuminance_klx", s.illuminance_klx, "100 = full sun, 0 = night.", Within(0, 150));
   a.Optional("azimuth_deg", s.azimuth_deg, "In the world: from +x (east) towards +y (north).",
              Within(-360, 360));
-  a.Optional("elevation_deg", s.elevation_deg, "Above the horizon.", Within(-90, 90));
+  a.Optional("elevation_deg", s.elevation_deg, "Elevation above the horizon.", Within(-90, 90));
 }
 
 template <class Archive>
@@ -39,25 +39,24 @@ void Describe(Archive& a, WeatherSpec& s) {
   a.Alternative("rain_intensity", s.rain_rate_mmph, {"rain_rate_mmph", kRainAtFullIntensity_mmph},
                 "The published intensity, instead of rain_rate_mmph: 1 is 50 mm/h.", Within(0, 1));
   a.Optional("rain_drop_sizes", s.rain_drop_sizes,
-             "Drop-size distribution: Marshall-Palmer, or more small or more large drops.",
-             OneOf({"marshall_palmer", "drizzle", "thunderstorm"}));
+             "Drop-size distribution: Marshall-Palmer, or more small or more large drops.");
   a.Optional("rain_dropout_per_m", s.rain_dropout_per_m, "Rain dropout rate at 1 mm/h.",
              Within(0, 10));
-  a.Optional("rain_dropout_exponent", s.rain_dropout_exponent, "Its growth with the rain rate.",
-             Within(0, 10));
+  a.Optional("rain_dropout_exponent", s.rain_dropout_exponent,
+             "Exponent of the rain rate in the dropout rate.", Within(0, 10));
   a.Optional("snow_rate_mmph", s.snow_rate_mmph, "Snow in mm/h of water.", PrecipitationLimits());
-  a.Optional("snow_type", s.snow_type, "What its extinction follows.", OneOf({"dry", "wet"}));
+  a.Optional("snow_type", s.snow_type, "What its extinction follows.");
   a.Optional("snow_echoes_per_mmph", s.snow_echoes_per_mmph,
              "Mean detectable flakes per beam at 1 mm/h.", Within(0, 1000));
   a.Optional("snow_range_scale_m", s.snow_range_scale_m,
              "Maxwell scale of their ranges; the median is 1.538 times this.",
              Within(1e-3, 10'000));
-  a.Optional("snow_intensity", s.snow_intensity, "Effective reflectance that a flake shows.",
+  a.Optional("snow_intensity", s.snow_intensity, "Effective reflectance of a flake.",
              Within(0, 100));
-  a.Optional("wetness", s.wetness, "Of surfaces: 0 = dry, 1 = soaked.", Within(0, 1));
-  a.Optional("snow_cover", s.snow_cover, "Share of each upward surface that snow lies on.",
+  a.Optional("wetness", s.wetness, "Wetness of surfaces: 0 = dry, 1 = soaked.", Within(0, 1));
+  a.Optional("snow_cover", s.snow_cover, "Snow-covered share of each upward surface.",
              Within(0, 1));
-  a.Optional("sun", s.sun, "As the sensor sees it.");
+  a.Optional("sun", s.sun, "The sun as the sensor sees it.");
 }
 
 }  // namespace railcast

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "core/rail/catenary/support_layout.h"
-#include "core/rail/world_spec.h"
 #include "core/scenario/describe_alignment.h"
 #include "core/scenario/json_rules.h"
+#include "railcast/rail_world.h"
 
 namespace railcast {
 
@@ -16,7 +16,7 @@ void Describe(Archive& a, TrackSpec& s) {
   a.Optional("start_s_m", s.start_s_m, "Chainage where the track begins.", ChainageLimits());
   a.Optional("end_s_m", s.end_s_m, "Chainage where it ends; absent = the end of the line.",
              ChainageLimits());
-  a.Optional("sleeper", s.sleeper, "Kind of sleeper.", OneOf({"concrete", "wood"}));
+  a.Optional("sleeper", s.sleeper, "Kind of sleeper.");
   a.Optional("electrified", s.electrified, "Whether it has a contact line.");
   a.Ensure({"end_s_m", "start_s_m"}, !s.end_s_m || *s.end_s_m > s.start_s_m, "must be > start_s_m");
 }
@@ -27,26 +27,27 @@ void Describe(Archive& a, CatenarySpec& s) {
   a.Optional("contact_height_m", s.contact_height_m, "Above top of rail.", Within(4, 8));
   a.Optional("system_height_m", s.system_height_m,
              "Messenger wire above contact wire at a support.", PositiveUpTo(4));
-  a.Optional("max_span_m", s.max_span_m, "Shorter in curves.", Within(10, 100));
-  a.Optional("stagger_m", s.stagger_m, "Of the contact wire at supports.", Within(0, 1));
+  a.Optional("max_span_m", s.max_span_m, "Greatest span; spans are shorter in curves.",
+             Within(10, 100));
+  a.Optional("stagger_m", s.stagger_m, "Stagger of the contact wire at supports.", Within(0, 1));
   a.Optional("dropper_spacing_m", s.dropper_spacing_m, "About.", Within(1, 50));
-  a.Optional("mast_distance_m", s.mast_distance_m, "Face to track axis.",
+  a.Optional("mast_distance_m", s.mast_distance_m, "From the face of the mast to the track axis.",
              Within(kMastClearance_m, 20));
 }
 
 template <class Archive>
 void Describe(Archive& a, TerrainSpec& s) {
-  a.Optional("half_width_m", s.half_width_m, "Of the ground strip; less than the tightest radius.",
-             Within(5, 1000));
+  a.Optional("half_width_m", s.half_width_m,
+             "Half width of the ground strip; less than the tightest radius.", Within(5, 1000));
   a.Optional("roughness_sigma_m", s.roughness_sigma_m,
              "Standard deviation of the ground's small heights.", Within(0, 1));
-  a.Optional("roughness_wavelength_m", s.roughness_wavelength_m, "Their correlation length.",
-             Within(0.1, 100));
+  a.Optional("roughness_wavelength_m", s.roughness_wavelength_m,
+             "Correlation length of these heights.", Within(0.1, 100));
   a.Optional("undulation_sigma_m", s.undulation_sigma_m, "Slow rise and fall away from the track.",
              Within(0, 20));
 }
 
-/// Beyond the ground strip's widest.
+/// The upper limit exceeds the widest ground strip.
 [[nodiscard]] inline Limits DistanceLimits() {
   return Within(0, 10'000);
 }
@@ -54,15 +55,17 @@ void Describe(Archive& a, TerrainSpec& s) {
 template <class Archive>
 void Describe(Archive& a, VegetationSpec& s) {
   a.Optional("trees_per_hectare", s.trees_per_hectare, "0 = none.", Within(0, 5000));
-  a.Optional("tree_min_distance_m", s.tree_min_distance_m, "From the outermost track axis.",
-             DistanceLimits());
-  a.Optional("tree_height_min_m", s.tree_height_min_m, "Of the smallest.", PositiveUpTo(60));
-  a.Optional("tree_height_max_m", s.tree_height_max_m, "Of the tallest.", PositiveUpTo(60));
+  a.Optional("tree_min_distance_m", s.tree_min_distance_m,
+             "Distance from the outermost track axis.", DistanceLimits());
+  a.Optional("tree_height_min_m", s.tree_height_min_m, "Height of the smallest tree.",
+             PositiveUpTo(60));
+  a.Optional("tree_height_max_m", s.tree_height_max_m, "Height of the tallest tree.",
+             PositiveUpTo(60));
   a.Optional("grass", s.grass, "Whether there is any.");
-  a.Optional("grass_min_distance_m", s.grass_min_distance_m, "From the outermost track axis.",
-             DistanceLimits());
-  a.Optional("grass_max_distance_m", s.grass_max_distance_m, "From the outermost track axis.",
-             DistanceLimits());
+  a.Optional("grass_min_distance_m", s.grass_min_distance_m,
+             "Distance from the outermost track axis.", DistanceLimits());
+  a.Optional("grass_max_distance_m", s.grass_max_distance_m,
+             "Distance from the outermost track axis.", DistanceLimits());
   a.Ensure({"tree_height_min_m", "tree_height_max_m"}, s.tree_height_min_m <= s.tree_height_max_m,
            "must be <= tree_height_max_m");
   a.Ensure({"grass_min_distance_m", "grass_max_distance_m"},
@@ -71,8 +74,8 @@ void Describe(Archive& a, VegetationSpec& s) {
 
 template <class Archive>
 void Describe(Archive& a, SpeedPoint& s) {
-  a.Optional("time_s", s.time_s, "Simulation time, or ...", Within(0, 1e9));
-  a.Optional("s_m", s.s_m, "... chainage.", PlaceLimits());
+  a.Optional("time_s", s.time_s, "Simulation time of the point; or s_m instead.", Within(0, 1e9));
+  a.Optional("s_m", s.s_m, "Chainage of the point; or time_s instead.", PlaceLimits());
   a.Required("speed_mps", s.speed_mps, "Speed there.", Within(0, 200));
   a.Ensure({"", "time_s", "s_m"}, s.time_s.has_value() != s.s_m.has_value(),
            "must have either time_s or s_m");
@@ -94,11 +97,10 @@ void Describe(Archive& a, MotionSpec& s) {
 template <class Archive>
 void Describe(Archive& a, ObjectSpec& s) {
   a.Required("name", s.name, "Unique.", NonEmptyString());
-  a.Required("type", s.type, "What it is.",
-             OneOf({"box", "pole", "person", "open_wagon", "flat_wagon", "tank_wagon", "mesh"}));
+  a.Required("type", s.type, "What it is.");
   a.Optional("track", s.track, "The track whose coordinates it is placed in.");
   a.Required("s_m", s.s_m, "Chainage of its middle, at time 0 where it moves.", PlaceLimits());
-  a.Optional("d_m", s.d_m, "Left of the track's axis.", Within(-1000, 1000));
+  a.Optional("d_m", s.d_m, "Distance from the track's axis, left positive.", Within(-1000, 1000));
   a.Optional("h_m", s.h_m,
              "Above top of rail; absent: wagons stand on the rails, all else on the ground.",
              Within(-1000, 1000));
@@ -107,27 +109,28 @@ void Describe(Archive& a, ObjectSpec& s) {
   a.Optional("size_m", s.size_m,
              "Length, width, height. Required for box and pole; scales a person or mesh.",
              Within(1e-3, 1000));
-  a.Optional("file", s.file, "Of a mesh: OBJ.", ExistingFile());
-  a.Optional("up", s.up, "Of a mesh: its upward axis.", OneOf({"y", "z"}));
-  a.Optional("unit_m", s.unit_m, "Of a mesh: metres per file unit.", Within(1e-6, 1e6));
+  a.Optional("file", s.file, "OBJ file of a mesh.", ExistingFile());
+  a.Optional("up", s.up, "Upward axis of a mesh.");
+  a.Optional("unit_m", s.unit_m, "Metres per file unit of a mesh.", Within(1e-6, 1e6));
   a.Optional("label", s.label, "Overrides the type's; of the label table.");
   a.Optional("material", s.material, "Overrides the type's; of the materials.");
   a.Optional("motion", s.motion, "Along its track; absent = stands.");
 
-  const bool has_own_size = s.type.ends_with("_wagon");
-  const bool needs_size = s.type == "box" || s.type == "pole";
-  a.Ensure({"size_m", "type"}, s.size_m || !needs_size, "must be given for type \"" + s.type + '"');
-  a.Ensure({"size_m", "type"}, !s.size_m || !has_own_size,
-           "must not be given for type \"" + s.type + '"');
-  a.Ensure({"size_m", "type"}, s.type != "pole" || !s.size_m || (*s.size_m)[0] == (*s.size_m)[1],
+  const bool is_mesh = s.type == ObjectType::kMesh;
+  const bool is_pole = s.type == ObjectType::kPole;
+  const bool needs_size = s.type == ObjectType::kBox || is_pole;
+  const std::string type = '"' + std::string(NameOf(s.type)) + '"';
+  a.Ensure({"size_m", "type"}, s.size_m || !needs_size, "must be given for type " + type);
+  a.Ensure({"size_m", "type"}, !s.size_m || !IsWagon(s.type), "must not be given for type " + type);
+  a.Ensure({"size_m", "type"}, !is_pole || !s.size_m || (*s.size_m)[0] == (*s.size_m)[1],
            "must have the same length and width for type \"pole\"");
-  a.Ensure({"file", "type"}, s.file || s.type != "mesh", "must be given for type \"mesh\"");
-  a.Ensure({"file", "type"}, !s.file || s.type == "mesh", "must be given for type \"mesh\" only");
+  a.Ensure({"file", "type"}, s.file || !is_mesh, "must be given for type \"mesh\"");
+  a.Ensure({"file", "type"}, !s.file || is_mesh, "must be given for type \"mesh\" only");
 }
 
 template <class Archive>
 void Describe(Archive& a, WorldSpec& s) {
-  a.Optional("seed", s.seed, "Of the world's shape: relief, stones, plants.");
+  a.Optional("seed", s.seed, "Seed of the world's shape: relief, stones, plants.");
   a.Required("alignment", s.alignment, "The axis of the line.");
   a.Optional("tracks", s.tracks, "Parallel to the alignment.", NonEmptyList());
   a.Optional("catenary", s.catenary, "Overhead contact line.");

@@ -1,115 +1,99 @@
-#include "core/scenario/effects.h"
+#include "railcast/effects.h"
 
-#include <initializer_list>
+#include <vector>
 
 #include "core/base/error.h"
-#include "core/scenario/effect_names.h"
+#include "core/base/text.h"
+#include "core/detect/effect_table.h"
 #include "core/scenario/json_rules.h"
-#include "core/scenario/scenario.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 namespace {
 
-constexpr EffectSet kPlausibility{
-    .threshold = true, .rain = true, .snow = true, .noise = true, .sensor_dropout = true};
-
-constexpr EffectSet kSurface{.sensor_dropout = true,
-                             .surface_response = true,
-                             .surface_condition = true,
-                             .extinction = true,
-                             .pulse_stretch = true,
-                             .detection = true,
-                             .detection_probability = true,
-                             .clutter = true,
-                             .fog_echo = true,
-                             .sunlight = true,
-                             .range_noise = true,
-                             .channel_bias = true,
-                             .pointing_jitter = true};
-
-constexpr EffectSet With(EffectSet effects, std::initializer_list<bool EffectSet::*> more) {
-  for (bool EffectSet::*effect : more) effects.*effect = true;
-  return effects;
+const char* NameOfSwitch(bool EffectSet::*is_on) {
+  for (const Effect& effect : EffectTable()) {
+    if (effect.is_on == is_on) return effect.name;
+  }
+  Check(false, "every effect has a row in the table of effects");
+  return nullptr;
 }
 
-struct Rung {
-  const char* name;
-  EffectSet effects;
-};
-
-constexpr Rung kRungs[] = {
-    {"geometry", {}},
-    {"plausibility", kPlausibility},
-    {"surface", kSurface},
-    {"footprint", With(kSurface, {&EffectSet::footprint, &EffectSet::thin_conductors})},
-    {"reference",
-     With(kSurface,
-          {&EffectSet::footprint, &EffectSet::dense_footprint, &EffectSet::sampled_waveform})},
-};
-
-// The first effect that is on in both sets.
-const char* FirstOfBoth(const EffectSet& effects, const EffectSet& group) {
-  for (const auto& [name, effect] : kEffects) {
-    if (effects.*effect && group.*effect) return name;
+// The first effect that is on and belongs to only the published or only the physical model; null if
+// there is none.
+const char* FirstOfModel(const EffectSet& effects, bool is_published) {
+  for (const Effect& effect : EffectTable()) {
+    const bool is_plausible = IsInRung(effect, Fidelity::kPlausibility);
+    const bool is_physical = !is_plausible || IsInRung(effect, Fidelity::kSurface);
+    const bool is_of_model = is_published ? !is_physical : !is_plausible;
+    if (effects.*effect.is_on && is_of_model) return effect.name;
   }
   return nullptr;
 }
 
-EffectSet PublishedEffects() {
-  EffectSet published = kPlausibility;
-  published.sensor_dropout = false;
-  return published;
-}
-
-EffectSet PhysicalEffects() {
-  EffectSet physical;
-  for (const auto& [name, effect] : kEffects) physical.*effect = !(kPlausibility.*effect);
-  return physical;
-}
-
 }  // namespace
 
-std::vector<std::string> RungNames() {
-  std::vector<std::string> names;
-  for (const Rung& rung : kRungs) names.emplace_back(rung.name);
-  return names;
-}
-
-std::vector<std::string> FidelityNames() {
-  std::vector<std::string> names = RungNames();
-  names.emplace_back(kAutoFidelity);
-  return names;
-}
-
-EffectSet EffectsOfRung(std::string_view rung) {
-  for (const Rung& known : kRungs) {
-    if (rung == known.name) return known.effects;
+EffectSet EffectsOfRung(Fidelity rung) {
+  for (const Fidelity known : kRungs) {
+    if (known == rung) return EffectsInRung(rung);
   }
-  throw InputError("fidelity: must be " + InWords(RungNames()) + " (got \"" + std::string(rung) +
-                   "\")");
+  std::vector<std::string> names;
+  for (const Fidelity known : kRungs) names.emplace_back(NameOf(known));
+  throw InputError("fidelity: must be " + InWords(names) + " (got " + Quoted(NameOf(rung)) + ")");
+}
+
+EffectSet SwitchedEffects(const ScenarioSpec& spec) {
+  EffectSet effects =
+      EffectsOfRung(spec.fidelity == Fidelity::kAuto ? Fidelity::kFootprint : spec.fidelity);
+  for (const auto& [name, is_on] : spec.effects) {
+    if (const Effect* const effect = FindEffect(name)) effects.*effect->is_on = is_on;
+  }
+  return effects;
 }
 
 std::optional<std::string> ConflictIn(const EffectSet& effects) {
-  const char* const published = FirstOfBoth(effects, PublishedEffects());
-  const char* const physical = FirstOfBoth(effects, PhysicalEffects());
-  const auto quoted = [](const char* name) { return '"' + std::string(name) + '"'; };
+  const char* const published = FirstOfModel(effects, true);
+  const char* const physical = FirstOfModel(effects, false);
   if (published != nullptr && physical != nullptr) {
-    return quoted(published) + " of the published model and " + quoted(physical) +
+    return Quoted(published) + " of the published model and " + Quoted(physical) +
            " of physics must not both be on";
   }
-  if (effects.dense_footprint && !effects.footprint) {
-    return "\"dense_footprint\" must not be on without \"footprint\"";
-  }
-  if (effects.dense_footprint && effects.thin_conductors) {
-    return "\"dense_footprint\" and \"thin_conductors\" must not both be on";
+  for (const Effect& effect : EffectTable()) {
+    if (!(effects.*effect.is_on)) continue;
+    if (effect.needed != nullptr && !(effects.*effect.needed)) {
+      return Quoted(effect.name) + " must not be on without " + Quoted(NameOfSwitch(effect.needed));
+    }
+    if (effect.excluded != nullptr && effects.*effect.excluded) {
+      return Quoted(effect.name) + " and " + Quoted(NameOfSwitch(effect.excluded)) +
+             " must not both be on";
+    }
   }
   return std::nullopt;
 }
 
 EffectSet EffectsOf(const ScenarioSpec& spec) {
+  ErrorList errors;
+  for (const auto& [name, is_on] : spec.effects) {
+    if (FindEffect(name) != nullptr) continue;
+    errors.Add({"/effects", Unknown("effect " + Quoted(name), name, EffectNames()), ""});
+  }
+  errors.ThrowIfAny();
   const EffectSet effects = SwitchedEffects(spec);
-  if (const auto conflict = ConflictIn(effects)) throw InputError("/effects: " + *conflict);
+  if (const auto conflict = ConflictIn(effects)) throw InputError({{"/effects", *conflict, ""}});
   return effects;
+}
+
+DetectorSpec DetectorSpecOf(const ScenarioSpec& spec,
+                            const LidarSpec& lidar,
+                            const EffectSet& effects) {
+  return {.seed = spec.seed,
+          .range_min_m = lidar.range_min_m,
+          .range_max_m = lidar.range_max_m,
+          .effects = effects,
+          .plausibility = lidar.plausibility,
+          .beam = lidar.beam,
+          .receiver = lidar.receiver,
+          .weather = spec.weather};
 }
 
 }  // namespace railcast

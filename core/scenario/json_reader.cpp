@@ -35,17 +35,6 @@ void JsonReader::Alternative(std::string_view key,
   value = multiple.factor * given;
 }
 
-void JsonReader::Opaque(std::string_view key, std::optional<std::string>& text, const char*) {
-  keys_.emplace_back(key);
-  const Node* node = Find(key);
-  if (node == nullptr) return;
-  const auto root =
-      node->json->is_string() ? source_.FileRoot(*node, node->resolved_pointer) : *node;
-  if (!root) return;
-  if (!root->json->is_object()) return source_.Fault(*root, "must be an object");
-  text = root->json->dump();
-}
-
 void JsonReader::Switches(std::string_view key,
                           std::map<std::string, bool>& switches,
                           const char* doc,
@@ -75,7 +64,7 @@ void JsonReader::Finish() {
     strangers.push_back(&member);
     if (const auto nearest = Nearest(member.key, keys_)) meant.insert(*nearest);
   }
-  // A required key that is misspelt is not missing as well.
+  // Do not report a required key as missing if one of the unknown keys is a misspelling of it.
   for (const std::string& key : missing_) {
     if (!meant.contains(key)) source_.Missing(object_, key);
   }
@@ -83,8 +72,8 @@ void JsonReader::Finish() {
     source_.FaultWithoutValue(stranger->value, Unknown("key", stranger->key, keys_));
   }
   const bool is_complete = list_.is_complete && strangers.empty();
-  // The key that was not understood, or the file that was not read, may have been about any of
-  // those that are left out.
+  // An unknown key or a file that could not be read may have meant any of the absent keys, whose
+  // values are therefore unknown.
   for (const std::string& key : keys_) {
     if (is_complete || Find(key) != nullptr) continue;
     source_.unknown().Add(object_.resolved_pointer + PointerStep(key));

@@ -14,7 +14,7 @@
 
 namespace railcast {
 
-/// Fills one object's struct: the visitor that reads (see describe_scenario.h).
+/// The archive that reads (see describe_scenario.h): fills a struct from one JSON object.
 class JsonReader {
  public:
   JsonReader(JsonSource& source, Node object, MemberList list);
@@ -32,7 +32,6 @@ class JsonReader {
                    const Limits& limits);
   template <class T>
   void RequiredLibrary(std::string_view key, std::vector<T>& values, const char* doc);
-  void Opaque(std::string_view key, std::optional<std::string>& text, const char* doc);
   void Switches(std::string_view key,
                 std::map<std::string, bool>& switches,
                 const char* doc,
@@ -42,8 +41,8 @@ class JsonReader {
   template <class T, class V>
   void Unique(std::string_view key, const std::vector<T>& values, std::string_view of, V T::*which);
 
-  /// Faults every required key that is missing, every key that was not described, and what broke a
-  /// rule across fields.
+  /// Reports missing required keys, keys that were not described, and violations of rules across
+  /// fields.
   void Finish();
 
  private:
@@ -58,7 +57,7 @@ class JsonReader {
   JsonSource& source_;
   Node object_;
   MemberList list_;
-  std::vector<std::string> keys_;  // Described so far.
+  std::vector<std::string> keys_;  // The keys described so far.
   std::vector<std::string> missing_;
   std::vector<BrokenRule> broken_rules_;
 };
@@ -129,7 +128,8 @@ void ReadValue(JsonSource& source,
   ReadValue(source, node, values, AtLeastElements{rule.applies ? 1U : 0U, rule.instead});
 }
 
-/// An element of a list is written in place: most may not be a file.
+/// Reads an element of a list. Elements are written in place; only few types may be given as a
+/// file.
 template <class T>
 void ReadElement(JsonSource& source, const Node& node, T& value) {
   if constexpr (kIsArray<T> || kElementMayBeFile<T>) {
@@ -139,7 +139,8 @@ void ReadElement(JsonSource& source, const Node& node, T& value) {
   }
 }
 
-/// One of several structs, told apart by "type". Written in place: a type may have a "file".
+/// Reads one of several structs, which "type" distinguishes. It is written in place, because a type
+/// may have a key "file" of its own.
 template <class... Ts>
 void ReadValue(JsonSource& source, const Node& node, std::variant<Ts...>& value, Anything) {
   const auto list = source.PlainMembers(node);
@@ -159,7 +160,8 @@ void ReadValue(JsonSource& source, const Node& node, std::variant<Ts...>& value,
   (read_if(Ts{}), ...);
 }
 
-/// A struct with a description. Its object may be a file, or name one for what it lacks.
+/// Reads a struct with a description. Its object may be given as a file, or name a base file with
+/// the keys that it lacks.
 template <class T>
 requires(std::is_aggregate_v<T> &&
          !kIsArray<T>) void ReadValue(JsonSource& source, const Node& node, T& value, Anything) {
@@ -184,7 +186,7 @@ void JsonReader::RequiredLibrary(std::string_view key, std::vector<T>& values, c
   if (node == nullptr || !node->json->is_string())
     return Required(key, values, doc, NonEmptyList());
   keys_.emplace_back(key);
-  // The file holds the list under its key, as this object does when it holds the list itself.
+  // In the file the list has the same key as in this object.
   const auto root = source_.FileRoot(*node, object_.resolved_pointer);
   if (!root || !source_.CheckRoot(*root)) return;
   JsonReader reader(source_, *root, source_.PlainMembers(*root).value());
@@ -205,7 +207,7 @@ void JsonReader::Unique(std::string_view key,
     if (!source_.unknown().IsKnown(place(i))) continue;
     const V& value = values[i].*which;
     if (seen.insert(value).second) continue;
-    source_.errors().Add(source_.sources().Place(place(i)) + ": must be unique" + Got(value));
+    source_.errors().Add({source_.sources().Place(place(i)), "must be unique", ValueText(value)});
     source_.unknown().Add(place(i));
   }
 }

@@ -5,21 +5,16 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
-#include "core/base/edit_distance.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 
 namespace railcast {
 namespace {
 
-// 0.5 as "0.5", 360 as "360".
+// Formats a number without a trailing ".0": 0.5 as "0.5", 360 as "360".
 std::string Number(double value) {
   std::string text = nlohmann::json(value).dump();
   if (text.ends_with(".0")) text.resize(text.size() - 2);
   return text;
-}
-
-std::string Quoted(std::string_view name) {
-  return '"' + ShownText(name) + '"';
 }
 
 std::string Alternatives(const std::vector<std::string>& names) {
@@ -91,7 +86,7 @@ std::string InWords(const std::vector<std::string>& names) {
 
 std::optional<std::string> Nearest(std::string_view name, const std::vector<std::string>& valid) {
   std::optional<std::string> nearest;
-  // More than half of the letters wrong is no typing error.
+  // A name with more than half of its letters wrong is not a typing error.
   std::size_t distance = name.size() / 2 + 1;
   for (const std::string& other : valid) {
     const std::size_t to_other = EditDistance(name, other);

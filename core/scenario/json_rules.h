@@ -9,26 +9,17 @@
 
 namespace railcast {
 
-// What a value must be besides its type. A description gives each field at most one of these; the
-// reader enforces it, the schema states it.
+// Rules for values beyond their types. A description gives each field at most one rule; the reader
+// enforces it and the schema states it.
 
 struct Anything {};
 
-/// Of a number, or of each number in an array.
+/// Limits of a number, or of each number in an array.
 struct Limits {
   std::optional<double> above{};
   std::optional<double> at_least{};
   std::optional<double> at_most{};
 };
-[[nodiscard]] inline Limits Positive() {
-  return {.above = 0.0};
-}
-[[nodiscard]] inline Limits NonNegative() {
-  return {.at_least = 0.0};
-}
-[[nodiscard]] inline Limits AtLeast(double value) {
-  return {.at_least = value};
-}
 [[nodiscard]] inline Limits Within(double at_least, double at_most) {
   return {.at_least = at_least, .at_most = at_most};
 }
@@ -36,7 +27,7 @@ struct Limits {
   return {.above = 0.0, .at_most = at_most};
 }
 
-/// Of a whole number.
+/// The allowed values of an integer.
 struct NumberChoices {
   std::vector<int> numbers;
 };
@@ -44,55 +35,57 @@ struct NumberChoices {
   return {std::move(numbers)};
 }
 
-/// Of a string.
+/// The allowed values of a string.
 struct AllowedNames {
   std::vector<std::string> names;
 };
 [[nodiscard]] inline AllowedNames OneOf(std::vector<std::string> names) {
   return {std::move(names)};
 }
-/// Without control characters: reports and messages show names as they are.
+/// A string without control characters: reports and messages show names as they are.
 struct OneLine {};
-/// The same, and not empty.
+/// A string as OneLine, but not empty.
 struct NonEmptyString {};
-/// host:port. Of a string, or of each string in a list.
+/// A string, or a list of strings, of the form host:port.
 struct HostAndPort {};
-/// Names a file, relative to the one that it is written in; becomes absolute.
+/// A string that names an existing file relative to the file it is written in; the reader makes the
+/// name absolute.
 struct ExistingFile {};
 
-/// Of a list.
+/// The least number of elements of a list.
 struct AtLeastElements {
   std::size_t count{};
-  const char* instead = "";  ///< What to do instead of giving none.
+  const char* instead = "";  ///< Advice for users who gave an empty list.
 };
 [[nodiscard]] inline AtLeastElements NonEmptyList() {
   return {.count = 1};
 }
 
-/// Of a list whose elements are arrays of numbers or, if it names one of their keys, objects with
-/// that number; it may be stricter than what describes it for all lists of such objects.
+/// Limits of the numbers in a list. Its elements are arrays of numbers or, if `key` is given,
+/// objects with a number under that key. The limits may be stricter than those in the description
+/// of the objects.
 struct EachNumber {
   Limits limits;
   const char* key = "";
-  std::size_t at_least = 0;  ///< Elements.
+  std::size_t at_least = 0;  ///< Least number of elements.
 };
 [[nodiscard]] inline EachNumber EachValue(const Limits& limits) {
   return {limits, "value"};
 }
 
-/// Of a list that may be empty, but not always: what else is given decides.
+/// A list that may be empty only if the rule does not apply, which depends on other keys.
 struct NonEmptyListIf {
   bool applies{};
   const char* instead = "";
 };
 
-/// How an alternative key gives another key's value.
+/// The value of key `of_key` as a multiple of that of an alternative key.
 struct Multiple {
   const char* of_key{};
   double factor{};
 };
 
-/// The "type" by which a struct is told apart from others in its place; each description of such a
+/// The "type" that distinguishes a struct from other alternatives. The description of each such
 /// struct specialises it.
 template <class T>
 inline constexpr const char* kTypeName = nullptr;
@@ -102,8 +95,8 @@ inline constexpr bool kIsArray = false;
 template <class T, std::size_t kCount>
 inline constexpr bool kIsArray<std::array<T, kCount>> = true;
 
-/// Whether an element of a list may be, or build on, a file: elements have no room for that where
-/// they have a "file" of their own.
+/// Whether elements of this type in a list may be given as a file or build on one. Not possible for
+/// types that have a key "file" of their own.
 template <class T>
 inline constexpr bool kElementMayBeFile = false;
 
@@ -116,16 +109,16 @@ inline constexpr bool kElementMayBeFile = false;
 [[nodiscard]] std::optional<std::string> Broken(OneLine, std::string_view value);
 [[nodiscard]] std::optional<std::string> Broken(HostAndPort, std::string_view value);
 
-/// `"a", "b" or "c"`, as messages show them.
+/// Lists names as messages show them: `"a", "b" or "c"`.
 [[nodiscard]] std::string InWords(const std::vector<std::string>& names);
 
-/// The valid name that is nearest (fewest insertions, deletions and replacements of a letter), if
+/// The valid name nearest to `name` (fewest insertions, deletions and replacements of letters), if
 /// at most half of the letters are wrong.
 [[nodiscard]] std::optional<std::string> Nearest(std::string_view name,
                                                  const std::vector<std::string>& valid);
 
-/// What to say about a key, or a `kind` of name, that is none of `valid`: names the nearest one, or
-/// all if none is near.
+/// The message about a key, or another `kind` of name, that is not in `valid`. It suggests the
+/// nearest valid name, or lists all if none is near.
 [[nodiscard]] std::string Unknown(std::string_view kind,
                                   std::string_view name,
                                   const std::vector<std::string>& valid);

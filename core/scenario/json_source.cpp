@@ -6,24 +6,24 @@
 #include <set>
 
 #include "core/base/input_file.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 
 namespace railcast {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string Place(const Node& node) {
+std::string PlaceOfNode(const Node& node) {
   return node.pointer.empty() ? node.file->shown : node.file->shown + ": " + node.pointer;
 }
 
-// The file that a string names, as the user knows it.
+// The name of the file that a string names, as messages show it.
 std::string ShownName(const Node& node) {
   const fs::path name = node.json->get<std::string>();
   return ShownPath((fs::path(node.file->shown).parent_path() / name).lexically_normal());
 }
 
-// Why a file cannot be read; empty if it can.
+// The reason why a file cannot be read; empty if it can be read.
 std::string Obstacle(const fs::path& file) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
@@ -37,11 +37,11 @@ std::string Obstacle(const fs::path& file) {
 
 }  // namespace
 
-std::string Got(const Json& value) {
+std::string ValueText(const Json& value) {
   constexpr std::size_t kMaxLength = 60;
   std::string text = value.dump(-1, ' ', true);
   if (text.size() > kMaxLength) text = text.substr(0, kMaxLength) + "...";
-  return std::string(" (got ").append(text).append(")");
+  return text;
 }
 
 Node Node::Child(std::string_view key) const {
@@ -61,7 +61,7 @@ Node Node::Child(std::size_t index) const {
 std::optional<Node> JsonSource::Open(const fs::path& file) {
   const std::string shown = ShownPath(file.lexically_normal());
   if (const std::string obstacle = Obstacle(file); !obstacle.empty()) {
-    errors_.Add(ShownPath(file) + ": " + obstacle);
+    errors_.Add({ShownPath(file), obstacle, ""});
     return std::nullopt;
   }
   std::optional<Node> root = Load({fs::absolute(file).lexically_normal(), shown, nullptr, {}}, "");
@@ -75,7 +75,7 @@ std::optional<Node> JsonSource::OpenText(const std::string& text, const std::str
   return Parse(text, {{}, shown, nullptr, {}}, "");
 }
 
-// Whether a key belongs to the file, not to the object that is its root.
+// Whether a key belongs to the file and not to the object that is its root.
 bool JsonSource::IsOfFile(const Node& node, const std::string& key) const {
   return may_read_files_ && node.pointer.empty() && (key == "version" || key == "$schema");
 }
@@ -85,13 +85,13 @@ std::optional<MemberList> JsonSource::Members(const Node& node) {
   if (!is_name && !(node.json->is_object() && node.json->contains("file"))) {
     return PlainMembers(node);
   }
-  // A base's keys stand, in the resolved scenario, where the object does that names it.
+  // In the resolved scenario, the keys of a base file belong to the object that names the file.
   std::optional<MemberList> list;
   const auto root = FileRoot(is_name ? node : node.Child("file"), node.resolved_pointer);
   if (root) sources_.Add(root->resolved_pointer, root->file->shown, "");
   if (root && CheckRoot(*root)) list = Members(*root);
   if (is_name) return list;
-  // The object's own keys are read even if those of its base are not.
+  // Read the object's own keys even if its base file cannot be read.
   if (!list) list = MemberList{{}, false};
   std::set<std::string_view> own_keys;
   for (const auto& [key, value] : node.json->items()) own_keys.insert(key);
@@ -156,16 +156,17 @@ std::optional<Node> JsonSource::FileRoot(const Node& node, std::string resolved_
 }
 
 void JsonSource::Fault(const Node& node, const std::string& rule) {
-  FaultWithoutValue(node, rule + Got(*node.json));
+  errors_.Add({PlaceOfNode(node), rule, ValueText(*node.json)});
+  unknown_.Add(node.resolved_pointer);
 }
 
 void JsonSource::FaultWithoutValue(const Node& node, const std::string& rule) {
-  errors_.Add(Place(node) + ": " + rule);
+  errors_.Add({PlaceOfNode(node), rule, ""});
   unknown_.Add(node.resolved_pointer);
 }
 
 void JsonSource::Missing(const Node& object, std::string_view key) {
-  errors_.Add(object.file->shown + ": " + object.pointer + PointerStep(key) + ": missing");
+  errors_.Add({object.file->shown + ": " + object.pointer + PointerStep(key), "missing", ""});
   unknown_.Add(object.resolved_pointer + PointerStep(key));
 }
 
@@ -180,11 +181,11 @@ std::optional<Node> JsonSource::Parse(const std::string& text,
                                       std::string resolved_pointer) {
   JsonText parsed = ParseJson(text);
   if (!parsed.json) {
-    errors_.Add(file.shown + ": " + parsed.syntax_error);
+    errors_.Add({file.shown, parsed.syntax_error, ""});
     return std::nullopt;
   }
   for (const std::string& pointer : parsed.duplicate_keys) {
-    errors_.Add(file.shown + ": " + pointer + ": duplicate key");
+    errors_.Add({file.shown + ": " + pointer, "duplicate key", ""});
     unknown_.Add(resolved_pointer + pointer);
   }
   file.root = std::move(*parsed.json);

@@ -10,27 +10,27 @@
 #include "core/base/error.h"
 #include "core/base/unknown_places.h"
 #include "core/scenario/json_text.h"
-#include "core/scenario/scenario_sources.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 
-/// A file while a scenario is read.
+/// A file of the scenario that is being read.
 struct SourceFile {
   std::filesystem::path absolute;
-  std::string shown;             ///< As the user knows it.
+  std::string shown;             ///< Its name in messages.
   const SourceFile* named_by{};  ///< The file that includes it; null for the scenario itself.
   Json root;
 };
 
-/// A JSON value and where it stands.
+/// A JSON value and its place.
 struct Node {
   const Json* json{};
   const SourceFile* file{};
-  std::string pointer;           ///< In the file.
-  std::string resolved_pointer;  ///< In the resolved scenario.
+  std::string pointer;           ///< JSON pointer in the file.
+  std::string resolved_pointer;  ///< JSON pointer in the resolved scenario.
 
   [[nodiscard]] Node Child(std::string_view key) const;
-  /// The same where the key's value is at hand: a search would compare it with every other key.
+  /// As above for a value that is known already, which saves the linear search for the key.
   [[nodiscard]] Node Child(std::string_view key, const Json& value) const;
   [[nodiscard]] Node Child(std::size_t index) const;
 };
@@ -38,19 +38,20 @@ struct Node {
 struct Member {
   std::string key;
   Node value;
-  int layer = 0;  ///< 0: written in the object itself; 1: in the file it builds on; ...
+  int layer =
+      0;  ///< 0: from the object itself; 1: from its base file; 2: from that file's base ...
 };
 
-/// An object's members, whichever way it is given.
+/// The members of an object, including those of its base files.
 struct MemberList {
   std::vector<Member> members;
   bool is_complete = true;  ///< False if a file with more of them could not be read.
 };
 
-/// " (got 5)": a value as the user wrote it, cut where it is long.
-[[nodiscard]] std::string Got(const Json& value);
+/// A value as the user wrote it, for the end of a message: " (got 5)". Long values are cut.
+[[nodiscard]] std::string ValueText(const Json& value);
 
-/// Reads the files of one scenario, and gathers their faults and where things were written.
+/// Reads the files of one scenario and records their faults and the places of values.
 ///
 /// An object may be given as the name of a file that holds it ("sensors/vlp16.json"), or as an
 /// object whose key "file" names a file with the keys that the object itself lacks. Names are
@@ -60,28 +61,29 @@ class JsonSource {
   /// The scenario's root, or nothing if it cannot be read.
   [[nodiscard]] std::optional<Node> Open(const std::filesystem::path& file);
 
-  /// The root of a text that came from outside, or nothing if it is no JSON. From then on no value
-  /// may name a file: whoever sent the text must not make us read any.
+  /// The root of a text from an untrusted sender, or nothing if it is not JSON. From then on no
+  /// value may name a file: the sender must not be able to make this program read files.
   [[nodiscard]] std::optional<Node> OpenText(const std::string& text, const std::string& shown);
 
-  /// The members of an object, whichever way it is given. Nothing if that is faulty.
+  /// The members of an object, whether written in place or given as a file. Nothing if faulty.
   [[nodiscard]] std::optional<MemberList> Members(const Node& node);
-  /// The same of an object that may not be a file: part of a list, or with a "file" of its own.
+  /// As above for an object that may not be given as a file, because it is part of a list or has a
+  /// key "file" of its own.
   [[nodiscard]] std::optional<MemberList> PlainMembers(const Node& node);
 
   /// The absolute name of the file that the string `node` names; nothing if there is no such file.
   [[nodiscard]] std::optional<std::filesystem::path> FileNamedBy(const Node& node);
-  /// What that file holds, which stands at `resolved_pointer` in the resolved scenario.
+  /// The root of that file, whose place in the resolved scenario is `resolved_pointer`.
   [[nodiscard]] std::optional<Node> FileRoot(const Node& node, std::string resolved_pointer);
-  /// Faults of a file's "version" and "$schema". @return Whether the root is an object.
+  /// Checks a file's "version" and "$schema". @return Whether the root is an object.
   bool CheckRoot(const Node& root);
 
-  void Fault(const Node& node, const std::string& rule);  ///< Ends with the value.
+  void Fault(const Node& node, const std::string& rule);  ///< The message ends with the value.
   void FaultWithoutValue(const Node& node, const std::string& rule);
   void Missing(const Node& object, std::string_view key);
 
   [[nodiscard]] ErrorList& errors() { return errors_; }
-  /// By pointers in the resolved scenario.
+  /// Places whose values are unknown because of faults, as pointers in the resolved scenario.
   [[nodiscard]] UnknownPlaces& unknown() { return unknown_; }
   [[nodiscard]] ScenarioSources& sources() { return sources_; }
 
@@ -94,7 +96,7 @@ class JsonSource {
   ErrorList errors_;
   UnknownPlaces unknown_;
   ScenarioSources sources_;
-  std::deque<SourceFile> files_;  // Nodes point into it; a deque does not move its elements.
+  std::deque<SourceFile> files_;  // A deque, because nodes point to its elements.
 };
 
 }  // namespace railcast

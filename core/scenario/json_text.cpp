@@ -7,14 +7,14 @@
 #include <iterator>
 #include <unordered_map>
 
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 
 namespace railcast {
 namespace {
 
 constexpr std::size_t kMaxDepth = 64;
 
-// "line 3, column 7" of the last byte read.
+// The place of the last byte read, as "line 3, column 7".
 std::string LineAndColumn(const std::string& text, std::size_t num_read) {
   const std::size_t num_whole = std::min(num_read, text.size());
   const std::string_view before =
@@ -26,7 +26,7 @@ std::string LineAndColumn(const std::string& text, std::size_t num_read) {
          std::to_string(before.size() - line_begin + 1);
 }
 
-// The word that the last byte read belongs to: NaN, -Infinity, True; else that byte.
+// The word that contains the last byte read, for example NaN, -Infinity or True; else that byte.
 std::string_view WordAt(std::string_view text, std::size_t num_read) {
   const auto is_of_word = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '+' ||
@@ -41,9 +41,10 @@ std::string_view WordAt(std::string_view text, std::size_t num_read) {
   return text.substr(begin, end - begin);
 }
 
-// nlohmann's messages are "[json.exception...] parse error at line 1, column 2: <what> - <why>;
-// last read: '<raw text>'; expected <token>". We give the place ourselves and leave the raw text
-// out, which may be no UTF-8, and may look like any part of a message.
+// Extracts the reason from a message of nlohmann's parser: "[json.exception...] parse error at
+// line 1, column 2: <what> - <why>; last read: '<raw text>'; expected <token>". The place is given
+// elsewhere. The raw text is left out, since it may be invalid UTF-8 and may look like any part of
+// a message.
 std::string Reason(const std::string& what) {
   constexpr std::array<std::string_view, 6> kTokens = {
       "end of input", "string literal", "':'", "']'", "'}'", "'[', '{', or a literal"};
@@ -63,12 +64,13 @@ std::string Reason(const std::string& what) {
 bool LooksLikeUtf16(std::string_view text) {
   using std::string_view_literals::operator""sv;
   if (text.starts_with("\xFF\xFE"sv) || text.starts_with("\xFE\xFF"sv)) return true;
-  // JSON begins with ASCII, of which every other byte is 0.
+  // JSON begins with ASCII characters. In UTF-16 one of the two bytes of each is 0.
   return text.size() >= 2 && text.size() % 2 == 0 && ((text[0] == '\0') != (text[1] == '\0'));
 }
 
-// Builds the tree, as nlohmann's own handler does, and notes duplicate keys, which that one takes
-// silently. It looks keys up by itself: an ordered object compares with every key that it has.
+// Builds the tree as nlohmann's own handler does, but records duplicate keys, which that handler
+// accepts silently. It finds keys in hash tables, because nlohmann's ordered objects search
+// linearly.
 class TreeBuilder {
  public:
   explicit TreeBuilder(const std::string& text) : text_(text) {}
@@ -171,8 +173,9 @@ class TreeBuilder {
   std::vector<std::size_t> lengths_;
   std::string pointer_;
   std::string key_;
-  std::ptrdiff_t place_{};  // Of that key in its object.
-  std::vector<std::unordered_map<std::string, std::ptrdiff_t>> places_;  // Per open object.
+  std::ptrdiff_t place_{};  // Index of that key in its object.
+  // Index of each key, for each open object.
+  std::vector<std::unordered_map<std::string, std::ptrdiff_t>> places_;
 };
 
 }  // namespace

@@ -5,7 +5,7 @@
 namespace railcast {
 namespace {
 
-// Doubles hold every whole number up to here.
+// Doubles represent all integers up to this one exactly.
 constexpr double kMaxExactWhole = 0x1p53;
 
 template <class Rule>
@@ -19,7 +19,7 @@ void ReadString(JsonSource& source, const Node& node, std::string& value, const 
 std::optional<std::uint64_t> WholeNumberOf(const Json& json) {
   if (json.is_number_unsigned()) return json.get<std::uint64_t>();
   if (!json.is_number_float()) return std::nullopt;
-  const auto number = json.get<double>();  // 1808.0 is as whole as 1808.
+  const auto number = json.get<double>();  // Accepts 1808.0 like 1808.
   if (number < 0.0 || number > kMaxExactWhole || number != std::floor(number)) return std::nullopt;
   return static_cast<std::uint64_t>(number);
 }
@@ -45,7 +45,7 @@ void ReadValue(JsonSource& source, const Node& node, double& value, const Limits
 void ReadValue(JsonSource& source, const Node& node, int& value, const NumberChoices& choices) {
   const auto whole = WholeNumberOf(*node.json);
   const bool fits = whole && *whole <= std::numeric_limits<int>::max();
-  // 0 is no choice of anything, so what is no whole number breaks the rule as well.
+  // 0 is never among the choices, so that a value that is not an integer breaks the rule as well.
   const int number = fits ? static_cast<int>(*whole) : 0;
   if (const auto broken = Broken(choices, number)) return source.Fault(node, *broken);
   value = number;
@@ -93,7 +93,7 @@ std::optional<std::uint64_t> ReadWhole(JsonSource& source,
 bool CheckEachNumber(JsonSource& source, const Node& list, const EachNumber& rule) {
   bool holds = true;
   const auto check = [&](const Node& number) {
-    // Whatever is no number has been named already.
+    // Values that are not numbers have been reported already.
     if (!number.json->is_number()) return;
     if (const auto broken = Broken(rule.limits, number.json->get<double>())) {
       source.Fault(number, *broken);

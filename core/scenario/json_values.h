@@ -8,11 +8,12 @@
 
 #include "core/scenario/json_rules.h"
 #include "core/scenario/json_source.h"
+#include "railcast/enum_names.h"
 
 namespace railcast {
 
-// How a JSON value becomes a value of a plain type. Faults go to the source; `value` keeps its
-// default then, and reading goes on.
+// Functions that read a JSON value into a value of a plain type. If there is a fault, they add it
+// to the source and leave `value` at its default, so that reading can continue.
 void ReadValue(JsonSource& source, const Node& node, bool& value, Anything);
 void ReadValue(JsonSource& source, const Node& node, double& value, Anything);
 void ReadValue(JsonSource& source, const Node& node, double& value, const Limits& limits);
@@ -27,13 +28,13 @@ void ReadValue(JsonSource& source,
 void ReadValue(JsonSource& source, const Node& node, std::string& value, HostAndPort rule);
 void ReadValue(JsonSource& source, const Node& node, std::string& value, ExistingFile);
 
-/// A whole number within limits; nothing if it is none.
+/// Reads an integer within limits; returns nothing if the value is faulty.
 [[nodiscard]] std::optional<std::uint64_t> ReadWhole(JsonSource& source,
                                                      const Node& node,
                                                      std::uint64_t at_least,
                                                      std::uint64_t at_most);
 
-/// A whole number. No spec has a negative one.
+/// The integer types of specs. No spec has a negative integer.
 template <class T>
 concept WholeNumber = std::integral<T> && !std::same_as<T, bool>;
 
@@ -52,11 +53,19 @@ void ReadValue(JsonSource& source, const Node& node, T& value, Anything) {
   ReadValue(source, node, value, Limits{});
 }
 
+/// Reads the name of an enumeration's value.
+template <NamedEnum E>
+void ReadValue(JsonSource& source, const Node& node, E& value, Anything) {
+  std::string name(NameOf(value));
+  ReadValue(source, node, name, OneOf(NamesOf<E>()));
+  value = ValueNamed<E>(name).value_or(value);
+}
+
 /// Whether the node is a list of exactly, or of at least, `count` elements.
 bool CheckListOf(JsonSource& source, const Node& node, std::size_t count);
 bool CheckListOfAtLeast(JsonSource& source, const Node& node, const AtLeastElements& rule);
 
-/// Whether the elements of a list, as far as they are what they must be, keep the limits.
+/// Whether the elements of a list that have the right type are within the limits.
 bool CheckEachNumber(JsonSource& source, const Node& list, const EachNumber& rule);
 
 }  // namespace railcast

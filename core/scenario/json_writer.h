@@ -4,17 +4,19 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "core/scenario/json_rules.h"
 #include "core/scenario/json_text.h"
+#include "railcast/enum_names.h"
 
 namespace railcast {
 
-/// Makes one object of a struct: the visitor that writes (see describe_scenario.h). Every value is
-/// written, except those that are absent.
+/// The archive that writes (see describe_scenario.h): makes a JSON object from a struct. It writes
+/// every value except those that are absent.
 class JsonWriter {
  public:
   template <class T, class Rule = Anything>
@@ -33,9 +35,6 @@ class JsonWriter {
   void RequiredLibrary(std::string_view key, std::vector<T>& values, const char* doc) {
     Required(key, values, doc);
   }
-  void Opaque(std::string_view key, const std::optional<std::string>& text, const char* /*doc*/) {
-    if (text) object_[std::string(key)] = Json::parse(*text);
-  }
   void Switches(std::string_view key,
                 const std::map<std::string, bool>& switches,
                 const char* /*doc*/,
@@ -43,7 +42,7 @@ class JsonWriter {
     object_[std::string(key)] = switches;
   }
 
-  // The writer has nothing to say about other spellings and about rules.
+  // The writer ignores alternative keys and rules.
   void OneOfTwo(std::string_view, std::string_view) {}
   void Alternative(std::string_view, double, const Multiple&, const char*, const Limits&) {}
   void Ensure(const std::vector<std::string>&, bool, const std::string&) {}
@@ -64,6 +63,8 @@ template <class T>
 Json JsonWriter::Write(T& value) {
   if constexpr (requires { value.valueless_by_exception(); }) {
     return WriteVariant(value);
+  } else if constexpr (NamedEnum<std::remove_const_t<T>>) {
+    return NameOf(value);
   } else if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::string>) {
     return value;
   } else if constexpr (requires { value.begin(); }) {

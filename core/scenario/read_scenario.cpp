@@ -5,20 +5,22 @@
 #include "core/scenario/build_faults.h"
 #include "core/scenario/describe_scenario.h"
 #include "core/scenario/json_reader.h"
-#include "core/scenario/scenario.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 namespace {
 
-/// The names that a list gives to its elements.
-struct Names {
+/// The names of the elements of a list.
+struct KnownNames {
   std::vector<std::string> names;
-  bool are_known = true;  ///< All of them.
+  bool are_known = true;  ///< Whether all of them could be read.
 };
 
 template <class T>
-Names NamesOf(const std::string& list, const std::vector<T>& values, const UnknownPlaces& unknown) {
-  Names result;
+KnownNames KnownNamesOf(const std::string& list,
+                        const std::vector<T>& values,
+                        const UnknownPlaces& unknown) {
+  KnownNames result;
   result.are_known = !values.empty();
   for (std::size_t i = 0; i < values.size(); ++i) {
     result.names.push_back(values[i].name);
@@ -27,21 +29,21 @@ Names NamesOf(const std::string& list, const std::vector<T>& values, const Unkno
   return result;
 }
 
-// Names in one section that another section must hold.
+// Checks names in one section that must exist in another section.
 void CheckReferences(const ScenarioSpec& spec, JsonSource& source) {
   UnknownPlaces& unknown = source.unknown();
   const auto check = [&](const std::string& object, const std::string& kind,
-                         const std::string& name, const Names& known) {
+                         const std::string& name, const KnownNames& known) {
     const std::string pointer = object + "/" + kind;
     if (!unknown.IsKnown(pointer) || !known.are_known) return;
     if (std::find(known.names.begin(), known.names.end(), name) != known.names.end()) return;
-    source.errors().Add(source.sources().Place(pointer) + ": " + Unknown(kind, name, known.names) +
-                        Got(name));
+    source.errors().Add(
+        {source.sources().Place(pointer), Unknown(kind, name, known.names), ValueText(name)});
     unknown.Add(pointer);
   };
-  const Names tracks = NamesOf("/world/tracks", spec.world.tracks, unknown);
-  const Names labels = NamesOf("/labels", spec.labels, unknown);
-  const Names materials = NamesOf("/materials", spec.materials, unknown);
+  const KnownNames tracks = KnownNamesOf("/world/tracks", spec.world.tracks, unknown);
+  const KnownNames labels = KnownNamesOf("/labels", spec.labels, unknown);
+  const KnownNames materials = KnownNamesOf("/materials", spec.materials, unknown);
   check("/vehicle", "track", spec.vehicle.track, tracks);
   for (std::size_t i = 0; i < spec.world.objects.size(); ++i) {
     const ObjectSpec& object = spec.world.objects[i];
@@ -56,9 +58,9 @@ void CheckNumberOfMaterials(const ScenarioSpec& spec, JsonSource& source) {
   constexpr std::size_t kMost = MaterialLibrary::kMostMaterials;
   const std::string pointer = "/materials";
   if (spec.materials.size() <= kMost) return;
-  source.errors().Add(source.sources().Place(pointer) + ": must have at most " +
-                      std::to_string(kMost) + " elements (got " +
-                      std::to_string(spec.materials.size()) + ")");
+  source.errors().Add({source.sources().Place(pointer),
+                       "must have at most " + std::to_string(kMost) + " elements",
+                       std::to_string(spec.materials.size())});
   source.unknown().Add(pointer);
 }
 

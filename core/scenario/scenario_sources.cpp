@@ -1,4 +1,4 @@
-#include "core/scenario/scenario_sources.h"
+#include "railcast/scenario.h"
 
 #include <algorithm>
 
@@ -31,13 +31,13 @@ void ScenarioSources::Rename(std::string_view from, const std::string& to) {
     renamed.resolved_pointer = to + entry.resolved_pointer.substr(from.size());
     entries_.push_back(std::move(renamed));
   }
-  // What has no entry of its own stands where the scenario's file has it.
+  // Values without an entry of their own come from the scenario's file.
   entries_.insert(entries_.begin(), {to, root.file, root.pointer + std::string(from)});
 }
 
 std::string ScenarioSources::Place(std::string_view resolved_pointer) const {
-  // The deepest entry wins; of several at one place, the last: a section's base file, if it names
-  // a base itself, is entered before that one.
+  // The deepest entry wins. Of several entries for one place the last one wins: a base file that
+  // names a base itself is entered before that one.
   const Entry* best = nullptr;
   for (const Entry& entry : entries_) {
     if (!Holds(entry.resolved_pointer, resolved_pointer)) continue;
@@ -51,22 +51,25 @@ std::string ScenarioSources::Place(std::string_view resolved_pointer) const {
   return pointer.empty() ? best->file : best->file + ": " + pointer;
 }
 
-std::string ScenarioSources::Locate(std::string_view line,
-                                    std::string_view resolved_pointer) const {
-  const bool names_file = std::any_of(files_.begin(), files_.end(), [&](const File& file) {
-    return line.starts_with(file.absolute);
-  });
-  std::string located(line);
+Fault ScenarioSources::Locate(const Fault& fault, std::string_view resolved_pointer) const {
+  Fault located = fault;
+  const std::string& named = fault.place.empty() ? fault.rule : fault.place;
+  const bool names_file = std::ranges::any_of(
+      files_, [&](const File& file) { return named.starts_with(file.absolute); });
   if (!names_file) {
-    // Without a pointer of its own, a line is about the whole spec.
-    const std::size_t end = line.starts_with('/') ? std::min(line.find(": "), line.size()) : 0;
-    const std::string place = Place(std::string(resolved_pointer).append(line.substr(0, end)));
-    located = place + (end == 0 ? ": " : "") + std::string(line.substr(end));
+    // A line without a pointer is about the whole spec.
+    const bool has_pointer = fault.place.starts_with('/');
+    const std::size_t end = has_pointer ? std::min(fault.place.find(": "), fault.place.size()) : 0;
+    located.place = Place(std::string(resolved_pointer).append(fault.place.substr(0, end)));
+    if (!has_pointer && !fault.place.empty()) located.place += ": ";
+    located.place += fault.place.substr(end);
   }
   for (const File& file : files_) {
-    for (std::size_t at = located.find(file.absolute); at != std::string::npos;
-         at = located.find(file.absolute, at + file.shown.size())) {
-      located.replace(at, file.absolute.size(), file.shown);
+    for (std::string* const part : {&located.place, &located.rule, &located.value}) {
+      for (std::size_t at = part->find(file.absolute); at != std::string::npos;
+           at = part->find(file.absolute, at + file.shown.size())) {
+        part->replace(at, file.absolute.size(), file.shown);
+      }
     }
   }
   return located;

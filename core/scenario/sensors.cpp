@@ -4,27 +4,23 @@
 #include <set>
 
 #include "core/base/error.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/scenario/json_rules.h"
-#include "core/scenario/scenario.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 namespace {
 
-bool Holds(const std::vector<std::string>& names, const std::string& name) {
+bool Contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 }  // namespace
 
-std::vector<std::string> ProtocolNames() {
-  return {"railcast", "vlp16", "vlp16-dual", "hdl32e", "vlp32c", "hdl64e"};
-}
-
-std::uint16_t DefaultPort(const std::string& protocol) {
+std::uint16_t DefaultPort(Protocol protocol) {
   constexpr std::uint16_t kVelodynePort = 2368;
   constexpr std::uint16_t kRailcastPort = 27400;
-  return protocol == "railcast" ? kRailcastPort : kVelodynePort;
+  return protocol == Protocol::kRailcast ? kRailcastPort : kVelodynePort;
 }
 
 std::vector<std::string> ReceiversOf(const SensorInterface& interface) {
@@ -49,7 +45,7 @@ std::vector<std::string> SensorNames(const ScenarioSpec& spec) {
 
 ScenarioSpec PickSensor(const ScenarioSpec& spec, const std::optional<std::string>& name) {
   const std::vector<std::string> names = SensorNames(spec);
-  if (name && !Holds(names, *name)) {
+  if (name && !Contains(names, *name)) {
     throw InputError("sensor: must be " + InWords(names) + " (got \"" + ShownText(*name) + "\")");
   }
   if (!name && names.size() > 1) {
@@ -78,7 +74,7 @@ std::string InterfacesFault(const InterfacesSpec& interfaces,
   std::set<std::string> named;
   std::set<std::string> receivers;
   for (const SensorInterface& interface : interfaces.sensors) {
-    if (!Holds(sensors, interface.sensor)) {
+    if (!Contains(sensors, interface.sensor)) {
       return "must name sensors of the scenario, " + InWords(sensors) + ", not " +
              InWords({interface.sensor});
     }

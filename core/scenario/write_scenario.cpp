@@ -1,11 +1,11 @@
 #include "core/scenario/describe_scenario.h"
 #include "core/scenario/json_writer.h"
-#include "core/scenario/scenario.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 
 std::string ResolvedScenarioJson(const ScenarioSpec& spec) {
-  ScenarioSpec copy = spec;  // Descriptions are shared with the reader, which fills what they name.
+  ScenarioSpec copy = spec;  // Descriptions take mutable values because the reader fills them.
   Json json = {{"version", 1}};
   json.update(JsonWriter::Write(copy));
   return json.dump(2) + '\n';

@@ -1,4 +1,4 @@
-#include "core/scene/material.h"
+#include "railcast/material.h"
 
 #include <cmath>
 
@@ -55,7 +55,7 @@ std::uint16_t MaterialLibrary::Index(std::string_view name) const {
   for (std::size_t i = 0; i < materials_.size(); ++i) {
     if (materials_[i].name == name) return static_cast<std::uint16_t>(i);
   }
-  throw InputError("/materials: the library must hold \"" + std::string(name) + "\"");
+  throw InputError({{"/materials", "the library must hold \"" + std::string(name) + '"', ""}});
 }
 
 }  // namespace railcast

@@ -1,4 +1,4 @@
-#include "core/scene/mesh.h"
+#include "railcast/scene.h"
 
 namespace railcast {
 

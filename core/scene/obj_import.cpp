@@ -10,15 +10,15 @@
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/scene/obj_sieve.h"
 #include "core/scene/polygon.h"
 
 namespace railcast {
 namespace {
 
-/// Collects what OpenMesh reads without asking whether it is a manifold. Everything but vertices
-/// and faces is passed over.
+/// Collects the vertices and faces that OpenMesh reads, without requiring a manifold, and ignores
+/// everything else.
 class SoupImporter final : public OpenMesh::IO::BaseImporter {
  public:
   using VertexHandle = OpenMesh::VertexHandle;
@@ -91,7 +91,7 @@ class SoupImporter final : public OpenMesh::IO::BaseImporter {
   std::vector<std::vector<std::uint32_t>> faces_;
 };
 
-/// Twice the area of a polygon times its mean normal (Newell).
+/// Newell's normal of a polygon: its mean normal times twice its area.
 Vector3 NewellNormal(const std::vector<Vector3>& points, const std::vector<std::uint32_t>& face) {
   Vector3 normal = Vector3::Zero();
   for (std::size_t i = 1; i + 1 < face.size(); ++i) {
@@ -101,12 +101,13 @@ Vector3 NewellNormal(const std::vector<Vector3>& points, const std::vector<std::
   return normal;
 }
 
-/// The face's triangles, as indices into `points`. Whether one has an area shows in space: where a
-/// face bends out of its plane, one that stands upright upon it is flat in the plan.
+/// The face's triangles, as indices into `points`. Degenerate triangles are recognised in space
+/// rather than in the plane of triangulation: in a face that is not planar, a triangle
+/// perpendicular to the mean plane has no area there.
 std::vector<std::array<std::uint32_t, 3>> Triangulate(const std::vector<Vector3>& points,
                                                       const std::vector<std::uint32_t>& face) {
   if (face.size() == 3) return {{face[0], face[1], face[2]}};
-  // Seen along its mean normal.
+  // Project the face along its mean normal.
   const Vector3 normal = NewellNormal(points, face);
   const Eigen::Quaterniond plan_from_file =
       Eigen::Quaterniond::FromTwoVectors(normal, Vector3::UnitZ());
@@ -130,7 +131,7 @@ std::vector<std::array<std::uint32_t, 3>> Triangulate(const std::vector<Vector3>
   return triangles;
 }
 
-/// The soup of `points` and their triangles, without triangles that have no area in float32.
+/// Builds the triangle soup, without triangles that have no area in float32.
 Mesh MakeSoup(const SoupImporter& soup, double unit_m, bool y_up) {
   constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
   std::vector<Eigen::Vector3f> positions;

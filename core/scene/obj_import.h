@@ -4,28 +4,29 @@
 #include <iosfwd>
 #include <string>
 
-#include "core/scene/mesh.h"
+#include "railcast/scene.h"
 
 namespace railcast {
 
-/// Reads a Wavefront OBJ file as a triangle soup: nothing need be manifold or closed, faces may
-/// have any number of corners (plane or bent, convex or not), negative indices and groups are
-/// understood; normals, texture coordinates, materials, lines and points are passed over.
+/// Reads a Wavefront OBJ file as a triangle soup. Meshes need not be manifold or closed; faces may
+/// have any number of corners, planar or not, convex or not. Negative indices and groups are
+/// understood. Normals, texture coordinates, materials, lines and points are ignored.
 ///
-/// Lengths become metres (`unit_m` metres per file unit). A file that is `y_up` is turned a quarter
-/// about x: its y becomes z and its z becomes -y. Otherwise the file's axes and origin are kept.
-/// Triangles without an area (in float32) and vertices that no triangle uses are left out, and so
-/// are faces of one or two corners, which well-known files hold: they have no area either.
+/// Lengths are converted to metres (`unit_m` metres per file unit). If `y_up`, the mesh is rotated
+/// by 90 degrees about x: its y becomes z and its z becomes -y. Otherwise the file's axes and
+/// origin are kept. Triangles without area (in float32), faces with only one or two corners (which
+/// occur in well-known files) and unused vertices are dropped.
 ///
-/// Files are parsed by OpenMesh, which drops what it cannot read and so shifts all later indices;
-/// therefore every line is checked first, and afterwards that it read as many as there were.
+/// OpenMesh parses the files, but it drops what it cannot read, which shifts all later indices.
+/// Therefore every line is checked before, and the number of elements read is checked after
+/// parsing.
 ///
-/// @throws InputError, one line "file: rule" or "file: line N: rule (got value)" per file, if it
-///   cannot be read, a coordinate is no finite number, an index points at no vertex, or no triangle
-///   is left.
+/// @throws InputError with one line, "file: rule" or "file: line N: rule (got value)", if the file
+///   cannot be read, a coordinate is not a finite number, an index refers to no vertex, or no
+///   triangle remains.
 [[nodiscard]] Mesh ReadObj(const std::filesystem::path& file, double unit_m, bool y_up);
 
-/// The same of what a file holds, which messages call `shown`.
+/// As ReadObj(), for a stream that error messages call `shown`.
 [[nodiscard]] Mesh ParseObj(std::istream& in, const std::string& shown, double unit_m, bool y_up);
 
 }  // namespace railcast

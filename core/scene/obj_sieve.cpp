@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 
 namespace railcast {
 namespace {
@@ -23,8 +23,8 @@ std::string_view NextToken(std::string_view& rest) {
   return token;
 }
 
-/// The token without a plus sign, which from_chars() takes for no number. One sign is all it has:
-/// "+-1" stays as it is.
+/// The token without a leading plus sign, which from_chars() rejects. Only one sign is allowed, so
+/// "+-1" is left unchanged (and rejected).
 std::string_view WithoutPlus(std::string_view token) {
   if (token.starts_with('+') && !token.starts_with("+-")) token.remove_prefix(1);
   return token;
@@ -56,7 +56,8 @@ std::string ObjSieve::Sift(std::istream& in) {
     if (keyword == "v") SiftVertex(rest);
     if (keyword == "f") SiftFace(rest);
   }
-  // OpenMesh reads all vertices first: a face may name vertices that come after it.
+  // Forward references are valid, because OpenMesh reads all vertices before any face. The highest
+  // index can therefore be checked only here.
   if (highest_index_ > num_vertices_) {
     line_ = highest_index_line_;
     FailIndex(std::to_string(highest_index_));
@@ -64,7 +65,7 @@ std::string ObjSieve::Sift(std::istream& in) {
   return std::move(sifted_);
 }
 
-/// A backslash at the end joins a line to the next.
+/// Reads a line, joined with the next if it ends with a backslash.
 bool ObjSieve::ReadLogicalLine(std::istream& in, std::string& line) {
   line_ = next_line_;
   line.clear();
@@ -109,7 +110,7 @@ void ObjSieve::SiftFace(std::string_view rest) {
   ++num_faces_;
 }
 
-/// The vertex that a corner names: the first is 1, and -1 is the last one so far.
+/// The vertex index of a face corner: 1 is the first vertex, and -1 is the last one read so far.
 int ObjSieve::VertexOf(std::string_view corner) {
   const std::string_view index = corner.substr(0, corner.find('/'));
   const std::optional<int> number = Parse<int>(index);

@@ -7,14 +7,15 @@
 
 namespace railcast {
 
-/// Copies the `v` lines of a file, and the `f` lines of three different vertices or more, after a
-/// check that OpenMesh will read each of them as it is meant. Of `f` each vertex is copied once, as
-/// OpenMesh would take it, counted from the file's first. What OpenMesh gets holds no material, so
-/// that its shared reader keeps no state, opens no other file and has nothing to print.
+/// Checks an OBJ file and copies from it only what OpenMesh will read as intended: the `v` lines,
+/// and the `f` lines with three or more different vertices. Each vertex of a face is copied once,
+/// as OpenMesh would read it, with its index counted from the start of the file. The copy has no
+/// materials, so that OpenMesh's shared reader keeps no state, opens no other file and prints
+/// nothing.
 class ObjSieve {
  public:
-  /// @param shown What messages call the file.
-  /// @param largest Coordinate that is finite in float32, also in metres.
+  /// @param shown Name of the file in error messages.
+  /// @param largest Largest coordinate that is finite in float32, also after conversion to metres.
   ObjSieve(std::string shown, double largest);
 
   /// @throws InputError "shown: line N: rule (got value)".

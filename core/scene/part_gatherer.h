@@ -6,19 +6,19 @@
 #include <utility>
 #include <vector>
 
-#include "core/scene/mesh.h"
+#include "railcast/scene.h"
 
 namespace railcast {
 
-/// Puts models into one frame, in as few parts as labels and materials allow: what draws or writes
-/// a piece of a world takes thousands of models as some dozens of meshes.
+/// Merges models into one frame, with as few parts as labels and materials allow. Drawing or
+/// writing a piece of the world then handles a few dozen meshes instead of thousands of models.
 class PartGatherer {
  public:
-  /// @param gathered_from_model May carry a scale.
+  /// @param gathered_from_model May include a scale.
   void Add(const Model& model, const Eigen::Affine3d& gathered_from_model);
 
-  /// All triangles added since it was last called, each once: a part for each pair of label and
-  /// material, ordered by them. Wires are among them, their parts not marked as such.
+  /// Returns all triangles added since the last call: one part for each pair of label and material,
+  /// in that order. Wires are included, but their parts are not marked as `is_wire`.
   [[nodiscard]] std::vector<Part> TakeParts();
 
  private:

@@ -29,7 +29,7 @@ double TwiceArea(std::span<const Point> outline) {
   return sum;
 }
 
-/// Clips one ear after another off the corners that are left.
+/// Repeatedly clips one ear off the remaining corners.
 class Clipper {
  public:
   explicit Clipper(std::span<const Point> outline)
@@ -56,8 +56,10 @@ class Clipper {
     return {left_[(i + n - 1) % n], left_[i], left_[(i + 1) % n]};
   }
 
-  /// Flat corners go only when there is no ear: the triangles beside them keep them then, and no
-  /// crack opens towards a neighbour that has them. An outline without either crosses itself.
+  /// Index of the next corner to clip. Corners without an angle are clipped only if no ear remains:
+  /// otherwise the adjacent triangles would lose them, and a crack would open towards a
+  /// neighbouring polygon that has them as vertices. An outline with neither ears nor flat corners
+  /// intersects itself.
   [[nodiscard]] std::size_t NextEar() const {
     for (std::size_t i = 0; i < left_.size(); ++i) {
       if (IsEar(Corner(i))) return i;
@@ -91,7 +93,7 @@ class Clipper {
   std::span<const Point> outline_;
   std::vector<std::uint32_t> left_;
   double sign_;
-  double flat_;  ///< A corner flatter than this lies on a straight edge.
+  double flat_;  ///< Below this, a corner counts as lying on a straight edge.
 };
 
 }  // namespace

@@ -11,7 +11,8 @@
 namespace railcast {
 namespace {
 
-/// Vertices of one cross-section: `count` in a circle from `first`, or one point.
+/// Vertices of one cross-section: a circle of `count` vertices starting at `first`, or a single
+/// point.
 struct Ring {
   std::uint32_t first{};
   std::uint32_t count{};
@@ -22,8 +23,8 @@ std::uint32_t AddVertex(const Vector3& position_m, Mesh& mesh) {
   return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
 }
 
-/// The wall between two rings; the second lies ahead if seen along the axis about which the rings
-/// turn left.
+/// Adds the wall between two rings. `b` lies ahead of `a` along the axis about which the rings turn
+/// left.
 void AddWall(const Ring& a, const Ring& b, Mesh& mesh) {
   const std::uint32_t count = std::max(a.count, b.count);
   for (std::uint32_t i = 0; i < count && count > 1; ++i) {
@@ -64,7 +65,7 @@ Mesh MakeBox(const Eigen::AlignedBox3d& box) {
   for (int i = 0; i < 8; ++i) {
     AddVertex(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)), mesh);
   }
-  // Corner i has x, y, z at the maximum where bits 0, 1, 2 of i are set.
+  // Corner i has its maximum x, y or z where bit 0, 1 or 2 of i is set.
   mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
   return mesh;
@@ -96,8 +97,8 @@ Mesh MakeTube(std::span<const Vector3> centreline, std::span<const double> radii
     for (int side = 0; side < num_sides; ++side) {
       const double angle_rad = Angle(side, num_sides);
       const Vector3 spoke = radii_m[point] * (std::cos(angle_rad) * u + std::sin(angle_rad) * v);
-      // Slide along the piece that ends here onto the plane that halves the bend: by symmetry the
-      // piece that begins here meets it in the same points.
+      // Slide along the piece that ends here onto the plane that bisects the bend. By symmetry, the
+      // piece that begins here meets that plane in the same points.
       AddVertex(centreline[point] + spoke - direction * (spoke.dot(mitre_normal) / cosine), mesh);
     }
     if (point == 0) AddCap(ring, false, mesh);
@@ -165,7 +166,7 @@ Mesh MakeEllipsoid(const Vector3& centre_m, const Vector3& half_axes_m, int num_
     profile.emplace_back(-std::cos(angle_rad), pole ? 0.0 : std::sin(angle_rad));
   }
   Mesh mesh = MakeLathe(profile, num_sides);
-  // The lathe turns about x; a body looks better with its poles up and down.
+  // The lathe revolves about x; rotate so that the poles are at the top and bottom.
   for (Eigen::Vector3f& vertex : mesh.vertices) {
     const Eigen::Vector3f unit(vertex.y(), vertex.z(), vertex.x());
     vertex = (centre_m + half_axes_m.cwiseProduct(unit.cast<double>())).cast<float>();

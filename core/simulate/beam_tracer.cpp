@@ -9,24 +9,8 @@
 namespace railcast {
 namespace {
 
-// Beams this near to the sun's centre see nothing but it.
+// Beams closer than this to the centre of the sun are blinded.
 constexpr double kBlindingAngle_deg = 1.0;
-
-DetectorSpec DetectorSpecOf(const SimulatorSpec& spec,
-                            const std::vector<Material>& materials,
-                            const ScanPattern& pattern) {
-  return {.seed = spec.seed,
-          .range_min_m = spec.range_min_m,
-          .range_max_m = spec.range_max_m,
-          .num_channels = pattern.rows,
-          .effects = spec.effects,
-          .plausibility = spec.plausibility,
-          .beam = spec.beam,
-          .receiver = spec.receiver,
-          .weather = spec.weather,
-          .snow = OpticsAt(materials[spec.snow_material], spec.beam.wavelength_nm),
-          .labels = spec.clutter_labels};
-}
 
 Vector3 DirectionOf(const SunSpec& sun) {
   const double azimuth_rad = RadFromDeg(sun.azimuth_deg);
@@ -40,23 +24,26 @@ Vector3 DirectionOf(const SunSpec& sun) {
 BeamTracer::BeamTracer(const SimulatorSpec& spec,
                        const std::vector<Material>& materials,
                        const ScanPattern& pattern)
-    : is_physical_(IsPhysical(spec.effects)),
-      pointing_{.seed = spec.seed,
-                .sigma_rad = static_cast<float>(RadFromDeg(spec.receiver.pointing_jitter_deg))},
-      is_sun_up_(spec.effects.sunlight && spec.weather.sun.illuminance_klx > 0.0),
-      to_sun_world_(DirectionOf(spec.weather.sun)),
-      spec_(DetectorSpecOf(spec, materials, pattern)),
-      detector_(spec_),
+    : is_physical_(IsPhysical(spec.detector.effects)),
+      spec_(spec.detector),
+      detector_(spec_,
+                {.num_channels = pattern.rows,
+                 .snow = OpticsAt(materials[spec.snow_material], spec_.beam.wavelength_nm)}),
       kernels_(AvailableKernels().back()) {
-  beam_.sigma_h_rad = static_cast<float>(HorizontalSigma_rad(spec.beam));
-  beam_.sigma_v_rad = static_cast<float>(VerticalSigma_rad(spec.beam));
+  pointing_ = {.seed = spec_.seed,
+               .sigma_rad = static_cast<float>(RadFromDeg(spec_.receiver.pointing_jitter_deg))};
+  is_sun_up_ = spec_.effects.sunlight && spec_.weather.sun.illuminance_klx > 0.0;
+  to_sun_world_ = DirectionOf(spec_.weather.sun);
+  beam_.sigma_h_rad = static_cast<float>(HorizontalSigma_rad(spec_.beam));
+  beam_.sigma_v_rad = static_cast<float>(VerticalSigma_rad(spec_.beam));
   if (is_physical_) {
-    optics_ = OpticsTable(materials, spec.beam.wavelength_nm,
-                          spec.effects.surface_condition ? spec.weather.wetness : 0.0);
+    optics_ = OpticsTable(materials, spec_.beam.wavelength_nm,
+                          spec_.effects.surface_condition ? spec_.weather.wetness : 0.0);
+    dry_optics_ = OpticsTable(materials, spec_.beam.wavelength_nm, 0.0);
   }
   const bool has_width = beam_.sigma_h_rad > 0.0F || beam_.sigma_v_rad > 0.0F;
-  if (spec.effects.footprint && has_width) {
-    needs_.emplace(pattern, spec.beam, spec.effects.dense_footprint);
+  if (spec_.effects.footprint && has_width) {
+    needs_.emplace(pattern, spec_.beam, spec_.effects.dense_footprint);
   }
 }
 
@@ -124,6 +111,12 @@ void BeamTracer::MakeEchoes(const CastFrame& frame,
   if (!is_physical_) return;
   const BeamFrame beam = BeamFrameOf(frame, tiles, tile);
   kernels_.spread(rays, beam, first);
+  if (observer && ShowsSurfaceCondition(spec_)) {
+    // Let the story show the response of the dry, bare surfaces first; then restore the actual one.
+    ResolveHits(rays, {frame.surfaces, dry_optics_}, first);
+    detector_.RespondBare(first, observer);
+    ResolveHits(rays, table, first);
+  }
   detector_.Respond(first, observer);
   std::fill_n(echoes.mixed_share, first.num_rays, 0.0F);
   if (needs_ || spec_.effects.thin_conductors) {
@@ -133,9 +126,12 @@ void BeamTracer::MakeEchoes(const CastFrame& frame,
     work.footprint.Resolve(
         {rays, beam, frame.caster, table, detector_, wires, needs_ ? needs_sub_rays : nullptr},
         echoes);
-    if (observer) observer("footprint");
+    if (observer) observer(needs_ ? "footprint" : "thin_conductors");
   }
-  if (is_sun_up_) Blind(frame, rays, echoes);
+  if (is_sun_up_) {
+    Blind(frame, rays, echoes);
+    if (observer) observer("the sun's disc");
+  }
 }
 
 }  // namespace railcast

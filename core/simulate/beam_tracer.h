@@ -4,38 +4,38 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/base/transform.h"
 #include "core/detect/detector.h"
 #include "core/detect/echo_tiles.h"
 #include "core/detect/footprint.h"
 #include "core/detect/hits.h"
 #include "core/simulate/firing_tiles.h"
 #include "core/simulate/frame_poses.h"
-#include "core/simulate/simulator_spec.h"
 #include "core/simulate/sub_ray_needs.h"
-#include "core/trace/ray_tile.h"
-#include "core/trace/surface.h"
+#include "railcast/ray_caster.h"
+#include "railcast/simulator.h"
+#include "railcast/transform.h"
 
 namespace railcast {
 
-/// What the tiles of one frame are traced with.
+/// Everything that the tiles of one frame are traced with.
 struct CastFrame {
   std::uint32_t index{};
   const FramePoses& poses;
   const RayCaster& caster;
   const std::vector<Surface>& surfaces;
-  const WireSet* wires{};  ///< Null if the caster's owner has none.
+  const WireSet* wires{};  ///< Null if the owner of the caster provides no wires.
   Transform window_from_world;
 };
 
-/// From aim to echoes: all that the chosen effects do to a tile of firings. Immutable.
+/// Makes the echoes of a tile of firings, from aiming the beams to the received power, with the
+/// selected effects. Immutable.
 class BeamTracer {
  public:
   BeamTracer(const SimulatorSpec& spec,
              const std::vector<Material>& materials,
              const ScanPattern& pattern);
 
-  /// What one thread works in.
+  /// Working memory of one thread.
   struct Work {
     explicit Work(const BeamTracer& tracer) : footprint(tracer.spec_, AvailableKernels().back()) {}
 
@@ -44,18 +44,19 @@ class BeamTracer {
     Footprint footprint;
   };
 
-  /// Whether the central rays of all tiles are needed before any tile's echoes.
+  /// Whether MakeEchoes() needs the central rays of all tiles to be traced first.
   [[nodiscard]] bool needs_all_centers() const { return needs_.has_value(); }
 
-  /// Aims a tile's central rays and casts them. Fills `work.echoes.first` as far as it names them.
+  /// Aims and casts a tile's central rays, and fills the fields of `first` that follow from them.
   void TraceCenters(const CastFrame& frame,
                     const FiringTiles& tiles,
                     std::size_t tile,
                     RayTile& rays,
                     DetectTile& first) const;
 
-  /// Turns the central rays' hits into echoes with power, up to where the receiver takes over.
-  /// @param centers All tiles' central rays; empty unless needs_all_centers().
+  /// Turns the hits of the central rays into echoes with power, up to the point where the receiver
+  /// (Detector) takes over.
+  /// @param centers Central rays of all tiles; empty unless needs_all_centers().
   void MakeEchoes(const CastFrame& frame,
                   const FiringTiles& tiles,
                   std::size_t tile,
@@ -75,10 +76,11 @@ class BeamTracer {
   bool is_physical_;
   BeamFrame beam_;
   PointingParameters pointing_;
-  bool is_sun_up_;
+  bool is_sun_up_{};
   Vector3 to_sun_world_;
   DetectorSpec spec_;
   std::vector<LaneOptics> optics_;
+  std::vector<LaneOptics> dry_optics_;  ///< Optics of the surfaces without water, for FiringStory.
   Detector detector_;
   Kernels kernels_;
   std::optional<SubRayNeeds> needs_;

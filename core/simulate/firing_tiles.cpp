@@ -36,7 +36,7 @@ std::size_t FiringTiles::num_firings(std::size_t tile) const {
 
 namespace {
 
-/// Firings of one packet: kPacketSize values each.
+/// Firings of one packet: arrays of kPacketSize values.
 struct PacketFirings {
   const float* direction_x;
   const float* direction_y;
@@ -44,7 +44,7 @@ struct PacketFirings {
   const float* since_pose_ns;
 };
 
-// One packet whose firings are near in time: a pose and its slope serve all lanes.
+// Aims a packet whose firings are close in time: all lanes share one pose and its rate of change.
 void AimPacket(const PacketFirings& firings,
                const PoseF& pose,
                const PoseF& change,
@@ -92,7 +92,7 @@ void FiringTiles::Aim(std::size_t tile,
       }
       AimPacket(firings, pose, change, rays, first);
     } else {
-      // A slow or scattered pattern: every lane its own pose.
+      // Slow or scattered pattern: compute a pose for each lane.
       std::fill_n(since_pose_ns, kPacketSize, 0.0F);
       for (std::size_t lane = 0; lane < kPacketSize; ++lane) {
         RayTile one;

@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "core/detect/detect_tile.h"
-#include "core/frame/frame.h"
-#include "core/scan/scan_pattern.h"
 #include "core/simulate/frame_poses.h"
-#include "core/trace/ray_tile.h"
+#include "railcast/frame.h"
+#include "railcast/lidar.h"
+#include "railcast/ray_caster.h"
 
 namespace railcast {
 
-/// A scan pattern in the order in which it is traced: packets of 16 firings, tiles of packets.
+/// A scan pattern in tracing order: packets of 16 firings, grouped into tiles.
 class FiringTiles {
  public:
   explicit FiringTiles(const ScanPattern& pattern);
@@ -25,9 +25,9 @@ class FiringTiles {
   /// Fills origins, directions, shutter, range_m (= range_max_m) and surface (= nothing).
   void Aim(std::size_t tile, const FramePoses& poses, float range_max_m, RayTile& rays) const;
 
-  /// Sensor-frame direction, firing index and channel of a tile's lanes.
+  /// Stores sensor-frame direction, firing index and channel of a tile's lanes in `detect`.
   void Describe(std::size_t tile, DetectTile& detect) const;
-  /// The lanes' slots in a frame of one return per firing.
+  /// The slots of the lanes in a frame with one return per firing.
   [[nodiscard]] const std::uint32_t* slots(std::size_t tile) const {
     return &slot_[tile * kTileSize];
   }
@@ -35,13 +35,13 @@ class FiringTiles {
     return &time_ns_[tile * kTileSize];
   }
 
-  /// How many lanes of the tile are firings; the rest fill up its last packet.
+  /// Number of lanes that hold firings; the others pad the last packet.
   [[nodiscard]] std::size_t num_firings(std::size_t tile) const;
 
-  /// The fields of a frame that are the same in every frame.
+  /// Stores the fields that are the same in every frame.
   void StoreConstants(Frame& frame) const;
 
-  /// The tile and lane in which a firing is traced.
+  /// Tile and lane in which a firing is traced.
   struct Place {
     std::size_t tile{};
     std::size_t lane{};
@@ -51,10 +51,10 @@ class FiringTiles {
  private:
   std::size_t num_firings_;
   std::uint32_t duration_ns_{};
-  // In the order of tracing.
+  // In tracing order.
   std::vector<std::uint32_t> firing_, slot_, time_ns_, channel_;
   std::vector<float> x_, y_, z_;
-  // In the order of slots.
+  // In slot order.
   std::vector<std::uint32_t> slot_time_ns_, slot_column_;
   std::vector<std::uint16_t> slot_row_;
 };

@@ -22,7 +22,7 @@ PoseF ToPoseF(const Transform& transform) {
 
 FramePoses::FramePoses(std::uint32_t duration_ns,
                        const std::function<Transform(std::uint32_t)>& window_from_sensor) {
-  // 64 bits: a pattern may last nearly all that 32 hold.
+  // 64 bits, because sums of 32-bit times may overflow: a pattern may last nearly 2^32 ns.
   const std::uint64_t duration = duration_ns;
   const auto num_intervals = static_cast<std::uint32_t>(
       std::max<std::uint64_t>(1, (duration + kKnotSpacing_ns - 1) / kKnotSpacing_ns));

@@ -9,20 +9,20 @@
 namespace railcast {
 namespace {
 
-// Moving things are interpolated linearly between places this far apart in time: at 2 m/s^2 across
-// the line of motion that bends the path by a dt^2 / 8 = 0.6 mm.
+// Moving objects are interpolated linearly between poses this far apart in time. A lateral
+// acceleration of 2 m/s^2 then bends the path by a dt^2 / 8 = 0.6 mm.
 constexpr std::int64_t kShutterStep_ns = 50'000'000;
 
-// Faster than any train: how far the vehicle may get from its place at the stamp within a frame.
+// Upper bound of the vehicle's speed, above that of any train: limits its travel within a frame.
 constexpr double kSpeedMax_mps = 200.0;
 
-// How far ahead, and in what steps, the next window is looked for: at 80 m/s a step is shorter than
-// a chunk.
+// Look-ahead time for the next window, and its step: at 80 m/s, a step is shorter than a chunk.
 constexpr std::int64_t kLookAhead_ns = 4'000'000'000;
 constexpr std::int64_t kLookAheadStep_ns = 500'000'000;
 
-// From the vehicle's place at the stamp to anything a beam of the frame may hit.
-double ReachOf(const FrameSceneSpec& spec) {
+// Maximum distance from the vehicle's position at the stamp to anything a beam of the frame may
+// hit.
+double SensorReachOf(const FrameSceneSpec& spec) {
   return spec.range_max_m + spec.vehicle_from_sensor.translation().norm() +
          kSpeedMax_mps * SecondsFromNs(spec.duration_ns);
 }
@@ -40,13 +40,13 @@ void FrameScene::CastRanges(RayTile& rays) const {
 }
 
 FrameScenes::FrameScenes(std::shared_ptr<SceneStore> store, const FrameSceneSpec& spec)
-    : store_(std::move(store)), spec_(spec), windows_(store_, ReachOf(spec)) {
+    : store_(std::move(store)), spec_(spec), windows_(store_, SensorReachOf(spec)) {
   UseWorld(store_->world());
 }
 
 void FrameScenes::UseWorld(std::shared_ptr<const World> world) {
   if (world == world_) return;
-  std::map<std::uint32_t, std::size_t> known;  // By instance.
+  std::map<std::uint32_t, std::size_t> known;  // Object index by instance id.
   const std::vector<SceneObject>& first = store_->world()->objects();
   for (std::size_t i = 0; i < first.size(); ++i) known.emplace(first[i].instance, i);
 

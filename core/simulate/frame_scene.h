@@ -5,24 +5,25 @@
 #include <utility>
 #include <vector>
 
-#include "core/scene/world.h"
 #include "core/simulate/frame_poses.h"
 #include "core/simulate/lone_object.h"
 #include "core/simulate/window.h"
-#include "core/trace/ray_tile.h"
 #include "core/trace/trace_scene.h"
+#include "railcast/ray_caster.h"
+#include "railcast/scene.h"
 
 namespace railcast {
 
-/// What the rays of one frame come from and are cast into.
+/// The scene of one frame and the poses from which its rays are cast.
 struct FrameScene final : public RayCaster {
   std::uint32_t index{};
   std::int64_t stamp_ns{};
-  std::shared_ptr<const Window> window;  ///< What stands.
-  /// What moves or came later; null if there is nothing within reach.
+  std::shared_ptr<const Window> window;  ///< Stationary geometry.
+  /// Objects that move or were added later; null if none is within reach.
   std::unique_ptr<const TraceScene> moving;
-  FramePoses poses;  ///< Of the sensor, in the window.
-  /// The window's and those of objects that windows know nothing of; empty if there are none.
+  FramePoses poses;  ///< Poses of the sensor in the window frame.
+  /// Surfaces of the window and of objects that windows do not know; empty if there are no such
+  /// objects.
   std::vector<Surface> more_surfaces;
 
   [[nodiscard]] const std::vector<Surface>& surfaces() const {
@@ -33,36 +34,38 @@ struct FrameScene final : public RayCaster {
   void CastRanges(RayTile& rays) const;
 };
 
-/// What the frames of a run have in common.
+/// Properties that all frames of a run share.
 struct FrameSceneSpec {
   double range_max_m{};
   Transform vehicle_from_sensor = Transform::Identity();
   std::uint32_t duration_ns{};  ///< From a frame's first firing to its last.
 };
 
-/// Makes the scene of any frame; each is a function of its index and of the world in use.
+/// Makes the scene of any frame. It depends only on the frame index and on the world in use.
 ///
-/// What stands in the store's world is part of the windows. What moves, and what a later world has
-/// besides, comes into a small scene that each frame has of its own, so that it costs no window.
+/// Stationary objects of the store's world are part of the windows. Moving objects, and objects
+/// that a later world adds, go into a small scene made for each frame, so that they do not require
+/// new windows.
 class FrameScenes {
  public:
-  /// In use is the store's world.
+  /// The store's world is in use at first.
   FrameScenes(std::shared_ptr<SceneStore> store, const FrameSceneSpec& spec);
 
-  /// @param world Differs from the store's in the vehicle's way and in objects only: those of the
-  ///   same model and instance id are the same.
+  /// @param world Differs from the store's world only in the vehicle's motion and in the objects.
+  ///   Objects with the same model and instance id are taken to be the same.
   void UseWorld(std::shared_ptr<const World> world);
 
-  /// Of the windows that are begun from now on.
+  /// Sets the callback for windows that are begun from now on.
   void UseProgress(WindowProgress progress) { windows_.UseProgress(std::move(progress)); }
 
-  /// Waits for the window where it is not ready, and has the next one prepared.
+  /// Returns the scene of a frame. Waits for its window if necessary, and starts preparing the
+  /// next.
   [[nodiscard]] FrameScene At(std::uint32_t index, std::int64_t stamp_ns);
 
-  /// The sensor's poses during a frame, in any window.
+  /// The sensor's poses during a frame, relative to any window frame.
   [[nodiscard]] FramePoses PosesIn(const Transform& window_from_world, std::int64_t stamp_ns) const;
 
-  /// Those of the objects that are within range of the frame's sensor.
+  /// The objects that are within range of the frame's sensor, each in a scene of its own.
   [[nodiscard]] std::vector<LoneObject> LoneObjects(const FrameScene& frame) const;
 
   [[nodiscard]] const World& world() const { return *world_; }
@@ -75,7 +78,7 @@ class FrameScenes {
   [[nodiscard]] TracePlacement Place(std::size_t object,
                                      std::int64_t stamp_ns,
                                      const Window& window) const;
-  /// Whether a beam of the frame may hit what is placed.
+  /// Returns whether a beam of the frame may hit the placed object.
   [[nodiscard]] bool IsInReach(const TracePlacement& placement,
                                std::size_t object,
                                const Vector3& sensor_window_m) const;
@@ -89,7 +92,8 @@ class FrameScenes {
   /// An object of the world in use.
   struct Object {
     SceneStore::StoredObject stored;
-    /// Of its first part: of every window or, where windows know nothing of it, behind theirs.
+    /// Surface index of the object's first part: the same in every window or, for an object that
+    /// windows do not know, counted from the end of the window's surfaces.
     std::uint32_t first_surface{};
     bool is_known_to_windows{};
     bool is_in_windows{};
@@ -104,7 +108,7 @@ class FrameScenes {
   WindowSource windows_;
   std::shared_ptr<const World> world_;
   std::vector<Object> objects_;         // In the order of world_->objects().
-  std::vector<Surface> more_surfaces_;  // Of those that windows know nothing of.
+  std::vector<Surface> more_surfaces_;  // Surfaces of the objects that windows do not know.
 };
 
 }  // namespace railcast

@@ -5,8 +5,8 @@
 namespace railcast {
 namespace {
 
-// Whether any ray of the tile may pass through the object's sphere. Generous by half a metre, since
-// float32 loses that much in squares of 300 m and more.
+// Returns whether any ray of the tile may pass through the object's sphere. The margin of half a
+// metre covers float32 rounding in the squares of 300 m and more.
 bool MayMeet(const RayTile& rays, const LoneObject& lone) {
   const float reach_m = lone.radius_m + 0.5F;
   for (std::size_t i = 0; i < rays.num_rays; ++i) {

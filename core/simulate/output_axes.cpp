@@ -9,19 +9,18 @@ namespace railcast {
 
 namespace {
 
-// Float32 has steps of 0.5 mm below this, of 1 mm and more beyond.
+// float32 resolves 0.5 mm below this value, but only 1 mm or less above.
 constexpr double kMillimetreReach_m = 8192.0;
 
 void CheckReach(const std::string& place, const Vector3& origin_m, const Vector3& sensor_m) {
   if ((sensor_m - origin_m).cwiseAbs().maxCoeff() <= kMillimetreReach_m) return;
-  std::ostringstream fault;
-  fault << place
-        << ": must lie within 8192 m of the sensor, since float32 loses millimetres "
-           "beyond (got ["
-        << origin_m.x() << ", " << origin_m.y() << ", " << origin_m.z() << "], sensor at ["
+  std::ostringstream value;
+  value << "[" << origin_m.x() << ", " << origin_m.y() << ", " << origin_m.z() << "], sensor at ["
         << std::fixed << std::setprecision(0) << sensor_m.x() << ", " << sensor_m.y() << ", "
-        << sensor_m.z() << "])";
-  throw InputError(fault.str());
+        << sensor_m.z() << "]";
+  throw InputError(
+      {{place, "must lie within 8192 m of the sensor, since float32 loses millimetres beyond",
+        value.str()}});
 }
 
 }  // namespace
@@ -31,11 +30,11 @@ OutputAxes::OutputAxes(const OutputSpec& spec,
                        const Transform& vehicle_from_sensor,
                        const Transform& window_from_world,
                        const Transform& world_from_sensor)
-    : is_left_handed_(spec.handedness == "left"),
+    : is_left_handed_(spec.handedness == Handedness::kLeft),
       vehicle_from_sensor_(vehicle_from_sensor),
       output_from_window_(window_from_world.inverse()) {
-  if (spec.frame == "vehicle") target_ = Target::kVehicle;
-  if (spec.frame != "world") return;
+  if (spec.frame == OutputFrame::kVehicle) target_ = Target::kVehicle;
+  if (spec.frame != OutputFrame::kWorld) return;
   target_ = Target::kWorld;
   const Vector3 origin_m(spec.origin_m[0], spec.origin_m[1], spec.origin_m[2]);
   CheckReach(origin_place, origin_m, world_from_sensor.translation());

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/frame/outcome.h"
+#include "railcast/outcome.h"
 
 namespace railcast {
 namespace {
@@ -45,7 +45,7 @@ void StoreEcho(const Place& echo,
   frame.instance[slot] = is_clutter ? 0 : surface.instance;
   frame.material[slot] = is_clutter ? std::uint16_t{0} : surface.material;
   frame.incidence_rad[slot] = is_clutter ? kNaN : tile.incidence_rad[lane];
-  // Nothing has no share, nor has what stands in the air.
+  // Neither a firing without a hit nor an echo from the air has a footprint share.
   if (has_shares) {
     frame.footprint_share[slot] = tile.surface[lane] != 0 ? tile.share[lane] : kNaN;
   }
@@ -83,11 +83,11 @@ struct Candidate {
 bool IsStronger(const Candidate& a, const Candidate& b) {
   return PowerOf(a.place()) > PowerOf(b.place());
 }
-bool IsNearer(const Candidate& a, const Candidate& b) {
+bool IsNearerCandidate(const Candidate& a, const Candidate& b) {
   return RangeOf(a.place()) < RangeOf(b.place());
 }
 bool IsFarther(const Candidate& a, const Candidate& b) {
-  return IsNearer(b, a);
+  return IsNearerCandidate(b, a);
 }
 
 // Moves the best of candidates [first, end) to `first`; earlier ones win ties.
@@ -95,20 +95,20 @@ template <typename IsBetter>
 void BringFirst(std::vector<Candidate>& echoes, std::size_t first, const IsBetter& is_better) {
   if (first >= echoes.size()) return;
   const auto from = echoes.begin() + static_cast<std::ptrdiff_t>(first);
-  // max_element keeps the first of equals.
+  // max_element returns the first of equal elements.
   const auto best = std::max_element(
       from, echoes.end(), [&](const Candidate& a, const Candidate& b) { return is_better(b, a); });
   std::iter_swap(from, best);
 }
 
-// Puts the echoes that the mode reports in front, in the order of their slots.
+// Moves the echoes that the mode reports to the front, in slot order.
 void Choose(ReturnMode mode, std::vector<Candidate>& detected) {
   switch (mode) {
     case ReturnMode::kStrongest:
       BringFirst(detected, 0, &IsStronger);
       return;
     case ReturnMode::kFirst:
-      BringFirst(detected, 0, &IsNearer);
+      BringFirst(detected, 0, &IsNearerCandidate);
       return;
     case ReturnMode::kLast:
       BringFirst(detected, 0, &IsFarther);
@@ -119,7 +119,7 @@ void Choose(ReturnMode mode, std::vector<Candidate>& detected) {
   }
   if (detected.empty()) return;
   BringFirst(detected, 0, &IsStronger);
-  // What is nearer or farther than all that were chosen before; else the next strongest.
+  // Prefer the echo nearer or farther than all chosen before; otherwise take the next strongest.
   const auto is_beyond = [&](std::size_t slot, const auto& is_further) {
     return slot < detected.size() &&
            std::all_of(detected.begin(), detected.begin() + static_cast<std::ptrdiff_t>(slot),
@@ -128,11 +128,12 @@ void Choose(ReturnMode mode, std::vector<Candidate>& detected) {
   BringFirst(detected, 1, &IsFarther);
   if (!is_beyond(1, IsFarther)) BringFirst(detected, 1, &IsStronger);
   if (mode == ReturnMode::kDual) return;
-  BringFirst(detected, 2, &IsNearer);
-  if (!is_beyond(2, IsNearer)) BringFirst(detected, 2, &IsStronger);
+  BringFirst(detected, 2, &IsNearerCandidate);
+  if (!is_beyond(2, IsNearerCandidate)) BringFirst(detected, 2, &IsStronger);
 }
 
-// What a firing would have been that has no return.
+// The echo that represents a firing without returns: the strongest surface echo below the threshold
+// or, if there is none, the first echo.
 Place Missed(const std::vector<Candidate>& all) {
   const auto best =
       std::max_element(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
@@ -146,15 +147,6 @@ Place Missed(const std::vector<Candidate>& all) {
 }
 
 }  // namespace
-
-ReturnMode ReturnModeOf(std::string_view name) {
-  if (name == "first") return ReturnMode::kFirst;
-  if (name == "last") return ReturnMode::kLast;
-  if (name == "dual") return ReturnMode::kDual;
-  if (name == "triple") return ReturnMode::kTriple;
-  Check(name == "strongest", "a return mode has a name");
-  return ReturnMode::kStrongest;
-}
 
 std::uint32_t NumReturns(ReturnMode mode) {
   return mode == ReturnMode::kTriple ? 3 : mode == ReturnMode::kDual ? 2 : 1;
@@ -195,7 +187,7 @@ void ReturnStore::Store(EchoTiles& echoes,
     }
     return;
   }
-  // The further echoes of each firing, as chains.
+  // Link the further echoes of each firing into chains.
   constexpr std::uint32_t kNone = 0xFFFFFFFFU;
   std::array<std::uint32_t, kTileSize> head;
   head.fill(kNone);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "railcast/simulator.h"
+
 namespace railcast {
 namespace {
 
@@ -50,7 +52,8 @@ std::shared_ptr<const TraceModel> SceneStore::GetModel(const std::shared_ptr<con
     const auto found = models_.find(model.get());
     if (found != models_.end()) return found->second.second;
   }
-  // Nobody waits for a model that only another needs; two who need it at once may both build it.
+  // Built without holding the lock, so that other models are not delayed. Two threads that need the
+  // same model at the same time may both build it.
   auto built = std::make_shared<const TraceModel>(device_, *model);
   const std::lock_guard lock(models_mutex_);
   return models_.try_emplace(model.get(), model, std::move(built)).first->second.second;
@@ -75,6 +78,12 @@ Surface SceneStore::MakeSurface(const Part& part, std::uint32_t instance, bool i
           .reflectivity = static_cast<float>(materials_[part.material].reflectivity),
           .material = part.material,
           .is_ego = is_ego};
+}
+
+std::shared_ptr<SceneStore> MakeSceneStore(std::shared_ptr<const World> world,
+                                           const MaterialLibrary& materials,
+                                           const std::string& isa) {
+  return std::make_shared<SceneStore>(std::move(world), materials, isa);
 }
 
 }  // namespace railcast

@@ -8,15 +8,15 @@
 #include <utility>
 #include <vector>
 
-#include "core/scene/material.h"
-#include "core/scene/world.h"
-#include "core/trace/surface.h"
 #include "core/trace/trace_scene.h"
+#include "railcast/material.h"
+#include "railcast/ray_caster.h"
+#include "railcast/scene.h"
 
 namespace railcast {
 
-/// What a world is traced as, built once for all sensors of a run: its chunks and models, ready to
-/// be traced, each kept as long as someone uses it. Thread-safe.
+/// The chunks and models of a world, prepared for tracing once for all sensors of a run. Chunks are
+/// kept as long as they are in use. Thread-safe.
 class SceneStore {
  public:
   SceneStore(std::shared_ptr<const World> world,
@@ -25,22 +25,22 @@ class SceneStore {
 
   struct BuiltChunk {
     std::shared_ptr<const TraceModel> ground;
-    Model ground_surfaces;  ///< Parts without triangles.
+    Model ground_surfaces;  ///< The ground's parts without their triangles.
     std::vector<Placement> placements;
     std::vector<Wire> wires;
   };
-  /// Builds it or waits for it where it is not there.
+  /// Returns a chunk; builds it, or waits for another thread that is building it, if necessary.
   [[nodiscard]] std::shared_ptr<const BuiltChunk> GetChunk(int chunk);
   [[nodiscard]] std::shared_ptr<const TraceModel> GetModel(
       const std::shared_ptr<const Model>& model);
-  /// Drops the models that are used by no world and no chunk any more.
+  /// Drops the models that no world and no chunk uses any more.
   void ForgetUnusedModels();
 
-  /// An object ready to be traced.
+  /// An object prepared for tracing.
   struct StoredObject {
     std::shared_ptr<const TraceModel> model;
-    std::vector<Surface> surfaces;  ///< Of its parts.
-    double radius_m{};              ///< About its origin.
+    std::vector<Surface> surfaces;  ///< Surfaces of the object's parts.
+    double radius_m{};              ///< Radius of a sphere about its origin that contains it.
   };
   [[nodiscard]] StoredObject MakeObject(const SceneObject& object);
 
@@ -53,7 +53,7 @@ class SceneStore {
   std::vector<Material> materials_;
   TraceDevice device_;
 
-  std::mutex chunks_mutex_;  // Held while one is built: whoever comes second waits for it.
+  std::mutex chunks_mutex_;  // Held while a chunk is built, so that a second caller waits for it.
   std::map<int, std::weak_ptr<const BuiltChunk>> chunks_;
   std::mutex models_mutex_;
   std::map<const Model*, std::pair<std::shared_ptr<const Model>, std::shared_ptr<const TraceModel>>>

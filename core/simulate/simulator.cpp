@@ -1,4 +1,4 @@
-#include "core/simulate/simulator.h"
+#include "railcast/simulator.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/global_control.h>
@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "core/base/error.h"
 #include "core/base/out_of_memory.h"
 #include "core/simulate/beam_tracer.h"
 #include "core/simulate/firing_tiles.h"
@@ -51,6 +52,15 @@ void TellEchoes(const std::vector<Surface>& surfaces,
   }
 }
 
+void CheckSimulatorSpec(const SimulatorSpec& spec, const std::vector<Material>& materials) {
+  CheckDetectorSpec(spec.detector);
+  if (spec.snow_material < materials.size()) return;
+  throw InputError(
+      {{"/snow_material",
+        "must be the index of one of " + std::to_string(materials.size()) + " materials",
+        std::to_string(spec.snow_material)}});
+}
+
 using WorkOfThreads = tbb::enumerable_thread_specific<BeamTracer::Work>;
 
 }  // namespace
@@ -63,14 +73,14 @@ struct Simulator::Parts {
   FrameScenes scenes;
   std::unique_ptr<const BeamTracer> tracer;
   std::unique_ptr<WorkOfThreads> work;
-  std::vector<RayTile> centers;  // Of one frame; empty if tiles need none but their own.
+  std::vector<RayTile> centers;  // Central rays of one frame; empty if tiles need only their own.
   std::unique_ptr<tbb::global_control> parallelism;
   tbb::task_arena arena;
 
   [[nodiscard]] ReturnMode return_mode() const {
-    return ReturnModeOf(tracer->has_beams() ? spec.receiver.return_mode : "strongest");
+    return tracer->has_beams() ? spec.detector.receiver.return_mode : ReturnMode::kStrongest;
   }
-  [[nodiscard]] float range_max_m() const { return static_cast<float>(spec.range_max_m); }
+  [[nodiscard]] float range_max_m() const { return static_cast<float>(spec.detector.range_max_m); }
   [[nodiscard]] FrameScene SceneOf(std::uint32_t frame_index) {
     return scenes.At(frame_index, pattern.StampNs(frame_index));
   }
@@ -108,8 +118,9 @@ Simulator::Simulator(std::shared_ptr<SceneStore> store,
                      const MaterialLibrary& materials,
                      const SimulatorSpec& spec,
                      int num_threads) {
+  CheckSimulatorSpec(spec, materials.materials());
   FiringTiles tiles(pattern);
-  const FrameSceneSpec scene_spec{.range_max_m = spec.range_max_m,
+  const FrameSceneSpec scene_spec{.range_max_m = spec.detector.range_max_m,
                                   .vehicle_from_sensor = spec.vehicle_from_sensor,
                                   .duration_ns = tiles.duration_ns()};
   parts_.reset(new Parts{.pattern = std::move(pattern),
@@ -143,7 +154,7 @@ Transform Simulator::WorldFromSensor(std::int64_t time_ns) const {
 
 void Simulator::UseThreads(int num_threads) {
   const int num_workers = num_threads > 0 ? num_threads : tbb::info::default_concurrency();
-  // TBB starts no more threads than there are cores unless told to.
+  // Without this, TBB starts no more threads than there are cores.
   parts_->parallelism = std::make_unique<tbb::global_control>(
       tbb::global_control::max_allowed_parallelism,
       static_cast<std::size_t>(std::max(num_workers, tbb::info::default_concurrency())));
@@ -163,6 +174,7 @@ const SimulatorSpec& Simulator::spec() const {
 }
 
 void Simulator::Use(const SimulatorSpec& spec) {
+  CheckSimulatorSpec(spec, parts_->materials);
   parts_->spec = spec;
   parts_->UseSpec();
 }
@@ -243,14 +255,17 @@ FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) 
     std::fill_n(unknown, kTileSize, kNaN);
   }
   FiringStory story;
+  std::size_t num_echoes = 1;
   const auto record = [&](std::string_view effect) {
+    const std::size_t num_before = std::exchange(num_echoes, EchoesOf(work.echoes, lane).size());
     story.steps.push_back({.effect = std::string(effect),
                            .outcome = static_cast<Outcome>(first.outcome[lane]),
                            .true_range_m = first.true_range_m[lane],
                            .cos_incidence = first.cos_incidence[lane],
                            .intensity = first.intensity[lane],
                            .power_ratio = first.power_ratio[lane],
-                           .range_m = first.range_m[lane]});
+                           .range_m = first.range_m[lane],
+                           .num_added_echoes = num_echoes - num_before});
   };
   parts.TraceAllCenters(cast);
   if (parts.centers.empty()) parts.tracer->TraceCenters(cast, parts.tiles, tile, work.rays, first);

@@ -13,7 +13,7 @@ std::string LabelName(const LabelTable& labels, std::uint32_t id) {
   return label == nullptr ? std::to_string(id) : label->name;
 }
 
-// Absence reads better as a dash than as nan.
+// Writes missing values (NaN) as a dash.
 void WriteValue(float value, int width, std::ostream& text) {
   text << std::setw(width);
   if (std::isnan(value)) {
@@ -28,8 +28,10 @@ void WriteSteps(const std::vector<FiringStory::Step>& steps, std::ostream& text)
        << std::setw(14) << "true_range_m" << std::setw(15) << "cos_incidence" << std::setw(12)
        << "intensity" << std::setw(13) << "power_ratio" << std::setw(12) << "range_m\n";
   for (const FiringStory::Step& step : steps) {
-    text << std::left << std::setw(18) << step.effect << std::setw(17) << OutcomeName(step.outcome)
-         << std::right;
+    const std::string added =
+        step.num_added_echoes > 0 ? " +" + std::to_string(step.num_added_echoes) : "";
+    text << std::left << std::setw(18) << step.effect + added << std::setw(17)
+         << OutcomeName(step.outcome) << std::right;
     WriteValue(step.true_range_m, 14, text);
     WriteValue(step.cos_incidence, 15, text);
     WriteValue(step.intensity, 12, text);

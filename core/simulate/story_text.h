@@ -3,16 +3,17 @@
 #include <cstdint>
 #include <string>
 
-#include "core/frame/labels.h"
-#include "core/scene/material.h"
-#include "core/simulate/simulator.h"
+#include "railcast/frame.h"
+#include "railcast/material.h"
+#include "railcast/simulator.h"
 
 namespace railcast {
 
-/// A firing's way for people: where it went, what it hit, what each effect made of it, and its
-/// echoes if there are several. Whole lines, columns aligned; what is not known is a dash.
-/// @param frame The one that the story is of.
-/// @pre story.material is of `materials`.
+/// Formats a firing's history for display: its direction, what it hit, the result of each effect,
+/// and its echoes if there are several. Effects that added echoes show their number, as in "clutter
+/// +2". The text consists of whole lines with aligned columns; unknown values are shown as a dash.
+/// @param frame Index of the frame that the firing belongs to.
+/// @pre story.material is an index into `materials`.
 [[nodiscard]] std::string StoryText(std::uint32_t frame,
                                     const FiringStory& story,
                                     const LabelTable& labels,

@@ -4,19 +4,19 @@
 #include <cmath>
 #include <optional>
 
-#include "core/base/transform.h"
+#include "railcast/transform.h"
 
 namespace railcast {
 namespace {
 
-// What a neighbour may be off the plane: the roughness of ballast nearby, float32 and chords of a
-// millimetre, ...
+// Permitted distance of a neighbour's hit from the plane: roughness of ballast near the sensor,
+// float32 rounding, and chords of a millimetre on curved surfaces.
 constexpr float kStep_m = 0.01F;
 constexpr float kStepPerRange = 3e-4F;
-// ... or along its own ray the gap from which on two surfaces are counted.
+// Permitted distance along the neighbour's own ray: the gap from which on two surfaces are counted.
 constexpr float kGap_m = 0.5F;
 
-// Whether ray b passes the plane that ray a has hit, or ends before it.
+// Returns whether ray b passes through, or ends before, the plane that ray a hit.
 bool Differs(const RayTile& a, std::size_t i, const RayTile& b, std::size_t j) {
   if ((a.surface[i] == 0) != (b.surface[j] == 0)) return true;
   if (a.surface[i] == 0) return false;
@@ -29,14 +29,14 @@ bool Differs(const RayTile& a, std::size_t i, const RayTile& b, std::size_t j) {
   const float x = b.range_m[j] * dx - a.range_m[i] * a.direction_x[i];
   const float y = b.range_m[j] * dy - a.range_m[i] * a.direction_y[i];
   const float z = b.range_m[j] * dz - a.range_m[i] * a.direction_z[i];
-  // Both times the normal's length.
+  // Both are scaled by the length of the normal.
   const float off = std::fabs(nx * x + ny * y + nz * z);
   const float slope = std::fabs(nx * dx + ny * dy + nz * dz);
   const float length = std::sqrt(nx * nx + ny * ny + nz * nz);
   return off > (kStep_m + kStepPerRange * a.range_m[i]) * length && off > kGap_m * slope;
 }
 
-// Where firings stand in the grid, and which way they look.
+// Maps grid positions to the tracing order, and provides the directions of firings.
 class Grid {
  public:
   explicit Grid(const ScanPattern& pattern)
@@ -47,14 +47,14 @@ class Grid {
     }
   }
 
-  /// Where in the order of tracing the firing at a place of the grid is; nothing outside it.
+  /// Tracing position of the firing at a grid position; nothing outside the grid.
   [[nodiscard]] std::optional<std::uint32_t> At(std::int64_t row, std::int64_t column) const {
     if (row < 0 || row >= pattern_.rows || column < 0 || column >= pattern_.columns) return {};
     return place_[SlotOf(row, column)];
   }
 
   [[nodiscard]] double Angle_rad(std::size_t k, std::size_t other) const {
-    // The chord: exact enough, and good to the last bit of float32 directions.
+    // The chord approximates the angle well enough and makes the most of float32 directions.
     return (DirectionOf(k) - DirectionOf(other)).norm();
   }
 
@@ -80,9 +80,10 @@ SubRayNeeds::SubRayNeeds(const ScanPattern& pattern, const BeamSpec& beam, bool 
   if (everywhere) return;
   const Grid grid(pattern);
   const double widest_rad = 1e-3 * std::max(beam.divergence_mrad[0], beam.divergence_mrad[1]);
-  // Half the 1/e^2 width: where firings stand closer, what takes a part of the beam shows there.
+  // Half the 1/e^2 width: if firings are closer than that, whatever covers part of the beam is seen
+  // at this distance.
   const double wanted_rad = 0.5 * widest_rad;
-  // A neighbour farther away than this says nothing about the beam.
+  // A neighbour farther away than this tells nothing about the beam.
   const double reach_rad = 6.0 * widest_rad;
   const std::size_t num_traced = pattern.packet_order.size();
   neighbours_.reserve(num_traced * kNumNeighbours);

@@ -4,29 +4,29 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/detect/detect_spec.h"
-#include "core/scan/scan_pattern.h"
-#include "core/trace/ray_tile.h"
+#include "railcast/effects.h"
+#include "railcast/lidar.h"
+#include "railcast/ray_caster.h"
 
 namespace railcast {
 
-/// Which beams one ray cannot stand for: those whose neighbours' central rays do not lie on the
-/// plane that their own has hit. Neighbours are the next firings of the grid, or those half a
-/// beam's width away where firings stand closer.
+/// Selects the beams that a single ray cannot represent: those where the central ray of a neighbour
+/// does not hit the plane that their own central ray hit. Neighbours are adjacent firings of the
+/// grid or, if firings are closer than that, those half a beam's width away.
 class SubRayNeeds {
  public:
-  /// @param everywhere Effect dense_footprint: every beam.
+  /// @param everywhere Select every beam (effect dense_footprint).
   SubRayNeeds(const ScanPattern& pattern, const BeamSpec& beam, bool everywhere);
 
-  /// Sets marks[lane] to 1 or 0 for the lanes of a tile.
-  /// @param centers The frame's central rays, traced, by tile.
+  /// Sets marks[lane] to 1 (selected) or 0 for the lanes of a tile.
+  /// @param centers The frame's traced central rays, by tile.
   void Mark(std::size_t tile, const std::vector<RayTile>& centers, std::uint8_t* marks) const;
 
  private:
   static constexpr std::size_t kNumNeighbours = 8;
   bool everywhere_;
-  /// For every traced lane of every tile: where its neighbours are traced; its own place where it
-  /// has none.
+  /// For every lane in tracing order: the lanes in which its neighbours are traced, or its own
+  /// where it has no neighbour.
   std::vector<std::uint32_t> neighbours_;
 };
 

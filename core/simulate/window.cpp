@@ -10,15 +10,16 @@
 namespace railcast {
 namespace {
 
-// Where a sensor can be while a chunk is its home: in a chunk of less than 100 m, on a track up to
-// 1 km beside the line. An object too many costs an entry of the scene, one too few is missed.
+// Radius about the chunk's origin of all places a sensor can have in its home chunk: the chunk is
+// less than 100 m long and the track at most 1 km beside the line. Generous, because an object too
+// many costs one scene entry, whereas an object too few is missed.
 constexpr double kHomeRadius_m = 1100.0;
 
 Eigen::Affine3d ToAffine(const Transform& transform) {
   return Eigen::Affine3d(transform.matrix());
 }
 
-/// Which part of the ground holds the wire's tube.
+/// Index of the ground part that holds the wire's tube.
 std::uint32_t PartOfWire(const Wire& wire, const Model& ground) {
   const auto part = std::find_if(ground.parts.begin(), ground.parts.end(), [&](const Part& tubes) {
     return tubes.is_wire && tubes.material == wire.material && tubes.label == wire.label;
@@ -98,7 +99,7 @@ void WindowSource::AddObjects(int home_chunk,
 void WindowSource::AddChunks(const Chunks& chunks,
                              Window& window,
                              std::vector<TracePlacement>& placements) const {
-  // Things without an instance id of their own share their model's surfaces.
+  // Placements without an instance id share the surfaces of their model.
   std::map<std::pair<const Model*, std::uint32_t>, std::uint32_t> shared;
   const auto surfaces_of = [&](const Model& model, std::uint32_t instance) {
     const auto first = static_cast<std::uint32_t>(window.surfaces.size());
@@ -136,7 +137,7 @@ std::shared_ptr<const Window> WindowSource::Build(int home_chunk,
   AddObjects(home_chunk, *standing, *window, placements);
   Chunks chunks;
   const std::vector<int> reach = store_->world()->ChunksInReach(home_chunk, range_max_m_);
-  // The scene of all chunks is a step, too.
+  // Building the scene of all chunks counts as a step, too.
   const std::size_t num_steps = reach.size() + 1;
   for (const int index : reach) {
     progress(chunks.size(), num_steps);
@@ -152,10 +153,10 @@ std::shared_ptr<const Window> WindowSource::Build(int home_chunk,
 }
 
 void WindowSource::KeepChunks(int home_chunk, Chunks chunks) {
-  std::vector<Chunks> unwanted;  // Freed when the lock is.
+  std::vector<Chunks> unwanted;  // Freed after the lock is released.
   const std::lock_guard lock(mutex_);
   if (IsWanted(home_chunk)) chunks_[home_chunk].swap(chunks);
-  // Not before now: a window shares most of its chunks with the one it follows.
+  // Earlier chunks are dropped only now, because a window shares most chunks with its predecessor.
   for (auto it = chunks_.begin(); it != chunks_.end();) {
     if (IsWanted(it->first)) {
       ++it;
@@ -208,7 +209,7 @@ void WindowSource::Prepare(int home_chunk) {
 }
 
 void WindowSource::BuildAhead() {
-  // On Linux this lowers the calling thread alone: frames in progress come first.
+  // On Linux this affects the calling thread only; frames in progress take precedence.
   constexpr int kNice = 10;
   setpriority(PRIO_PROCESS, 0, kNice);
   std::unique_lock lock(mutex_);

@@ -12,52 +12,53 @@
 
 #include "core/detect/wire_set.h"
 #include "core/simulate/scene_store.h"
-#include "core/simulate/window_progress.h"
-#include "core/trace/surface.h"
 #include "core/trace/trace_scene.h"
+#include "railcast/ray_caster.h"
+#include "railcast/simulator.h"
 
 namespace railcast {
 
-/// Everything that stands within reach of the vehicle while it is in one chunk, in that chunk's
-/// frame. A function of the home chunk and of which objects stand.
+/// All stationary geometry within reach of the vehicle while it is in one chunk, in that chunk's
+/// frame. Depends only on the home chunk and on which objects are stationary.
 struct Window {
   Transform window_from_world;
-  std::vector<Surface> surfaces;  ///< 0 = nothing, then the objects' parts, then the chunks'.
+  std::vector<Surface> surfaces;  ///< 0 = nothing, then the parts of objects, then those of chunks.
   std::unique_ptr<const TraceScene> scene;
-  WireSet wires;  ///< What `scene` holds as tubes, once more.
+  WireSet wires;  ///< The wires that `scene` also contains as tubes.
 };
 
-/// Makes windows: now when asked, or ahead of need on a thread of its own. Thread-safe.
+/// Makes windows, either on demand or ahead of time on a background thread. Thread-safe.
 ///
-/// Memory holds two windows, the one in use and the one prepared, and their chunks.
+/// At most two windows, the one in use and the one prepared, are kept in memory with their chunks.
 class WindowSource {
  public:
-  /// Objects are those of the store's world; all of them stand that do not move.
+  /// Objects are those of the store's world; at first, all that do not move are part of the
+  /// windows.
   WindowSource(std::shared_ptr<SceneStore> store, double range_max_m);
   ~WindowSource();
   WindowSource(const WindowSource&) = delete;
   WindowSource& operator=(const WindowSource&) = delete;
 
-  /// The window of a home chunk, from now on the one in use; builds it or waits for it where it is
-  /// not ready. Throws what building it threw, here or in the background, and forgets it: the next
-  /// call tries again.
+  /// Returns the window of a home chunk, which becomes the one in use; builds it, or waits for it,
+  /// if necessary. If building failed, here or in the background, rethrows the exception and
+  /// discards the window, so that the next call tries again.
   [[nodiscard]] std::shared_ptr<const Window> Get(int home_chunk);
-  /// Begins to build a window in the background. Does nothing if that window is there or on its
-  /// way, or while another is on its way.
+  /// Starts building a window in the background. Does nothing if the window exists or is being
+  /// built, or if another one is being built.
   void Prepare(int home_chunk);
 
-  /// Which of the objects stand in the windows from now on, ascending. Where that changes, windows
-  /// are made anew, of chunks and models that are there.
-  /// @pre None of them moves.
+  /// Sets which objects are part of the windows from now on, in ascending order. If the set
+  /// changes, windows are rebuilt from existing chunks and models.
+  /// @pre None of the objects moves.
   void UseStanding(std::vector<std::size_t> objects);
 
-  /// Of the windows that are begun from now on.
+  /// Sets the callback for windows that are begun from now on.
   void UseProgress(WindowProgress progress);
 
   [[nodiscard]] const SceneStore::StoredObject& object(std::size_t object) const {
     return objects_[object];
   }
-  /// The index of the surface of an object's first part, in every window.
+  /// Surface index of an object's first part; the same in every window.
   [[nodiscard]] std::uint32_t object_surface(std::size_t object) const {
     return object_surfaces_[object];
   }
@@ -90,17 +91,18 @@ class WindowSource {
   double range_max_m_;
   std::vector<SceneStore::StoredObject> objects_;
   std::vector<std::uint32_t> object_surfaces_;
-  std::vector<Surface> fixed_surfaces_;  // Nothing and the objects' parts.
+  std::vector<Surface> fixed_surfaces_;  // Surface 0 (nothing) and the objects' parts.
 
   std::mutex mutex_;
   std::condition_variable changed_;
   Standing standing_;
   WindowProgress progress_ = [](std::size_t, std::size_t) {};
-  std::map<int, FutureWindow> windows_;  // Of in_use_ and prepared_.
-  std::map<int, Chunks> chunks_;         // The same, and of earlier ones until the next is built.
+  std::map<int, FutureWindow> windows_;  // Windows of in_use_ and prepared_.
+  // Chunks of the same windows, and of earlier ones until the next is built.
+  std::map<int, Chunks> chunks_;
   std::optional<int> in_use_;
   std::optional<int> prepared_;
-  std::optional<WindowTask> ahead_;  // Waits for the builder, or is being built by it.
+  std::optional<WindowTask> ahead_;  // Waits for the builder thread or is being built by it.
   bool stopping_ = false;
   std::thread builder_;
 };

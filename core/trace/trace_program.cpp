@@ -18,7 +18,8 @@ struct Release {
 };
 using Device = std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release>;
 
-/// Without a property that tells: whether Embree was built for packets that wide.
+/// Marks instruction sets for which no device property tells whether Embree was built for packets
+/// of the corresponding width.
 constexpr RTCDeviceProperty kNone = RTC_DEVICE_PROPERTY_VERSION;
 
 struct Isa {
@@ -32,8 +33,8 @@ constexpr std::array<Isa, 5> kIsas = {{{"sse2", kNone},
                                        {"avx2", RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED},
                                        {"avx512", RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED}}};
 
-/// Null for what the processor lacks. Asking why also forgets it: Embree keeps a thread's first
-/// error until then.
+/// Makes a device; null if the processor lacks the instruction set. Querying the error also clears
+/// it: Embree keeps a thread's first error until it is queried.
 Device NewDevice(const std::string& config) {
   Device device(rtcNewDevice(config.c_str()));
   if (device == nullptr && rtcGetDeviceError(nullptr) == RTC_ERROR_OUT_OF_MEMORY) {

@@ -13,8 +13,9 @@
 
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
-#include "core/base/shown_text.h"
-#include "core/scan/scan_pattern.h"
+#include "core/base/text.h"
+#include "core/trace/trace_program.h"
+#include "railcast/lidar.h"
 
 namespace railcast {
 
@@ -22,9 +23,9 @@ static_assert(kTileSize % kPacketSize == 0);
 
 namespace {
 
-// Embree does not throw: it notes the first error of each thread. Unasked for, a scene that did not
-// fit into memory would be one that rays pass through.
-// @param device Null: why no device could be made.
+// Embree does not throw but records the first error of each thread. If it were not queried, a scene
+// that did not fit into memory would let all rays pass through.
+// @param device Null: asks why no device could be made.
 template <typename Doing>
 void ThrowIfFailed(RTCDevice device, const Doing& doing) {
   const RTCError error = rtcGetDeviceError(device);
@@ -50,13 +51,13 @@ struct TraceDevice::Handle {
 };
 
 TraceDevice::TraceDevice(const std::string& isa)
-    : handle_(std::make_shared<Handle>(isa.empty() ? "" : "isa=" + isa)) {}
+    : handle_(std::make_shared<Handle>(isa.empty() ? "" : "isa=" + IsaInUse(isa))) {}
 
 TraceDevice::~TraceDevice() = default;
 
 namespace {
 
-// The best plain setting measured: robust traversal is also the faster one with packets of 16.
+// The fastest of the settings measured; robust traversal is also the faster one for packets of 16.
 RTCScene NewScene(RTCDevice device) {
   RTCScene scene = rtcNewScene(device);
   if (scene == nullptr) throw std::bad_alloc();
@@ -65,18 +66,18 @@ RTCScene NewScene(RTCDevice device) {
   return scene;
 }
 
-// Embree builds with the threads of the calling arena. One thread: what a ray on an edge hits
-// depends on the order of primitives in the leaves, which must not depend on how the work was
-// shared.
+// Embree builds with the threads of the calling arena. A single thread is used, because the order
+// of primitives in the leaves decides what a ray on an edge hits, and that order must not depend on
+// how the work was shared.
 void Commit(RTCScene scene) {
   tbb::task_arena one_thread(1);
   one_thread.execute([scene] { rtcCommitScene(scene); });
 }
 
-// A new scene with what `attach` attaches to it, or no scene and an InputError.
+// Makes a new scene with the geometry that `attach` adds. Throws an InputError on failure.
 template <typename Doing, typename Attach>
 void BuildScene(RTCDevice device, RTCScene& scene, const Doing& doing, const Attach& attach) {
-  // What a build that failed before has left behind is none of this one's.
+  // Clear an error left by an earlier failed build.
   static_cast<void>(rtcGetDeviceError(device));
   WithinMemory(doing, [&] {
     scene = NewScene(device);
@@ -91,7 +92,7 @@ struct ReleaseGeometry {
 };
 using OwnedGeometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, ReleaseGeometry>;
 
-// Embree gives null where C++ throws std::bad_alloc; so does this.
+// Embree returns null where C++ throws std::bad_alloc; convert it.
 OwnedGeometry NewGeometry(RTCDevice device, RTCGeometryType type) {
   OwnedGeometry geometry(rtcNewGeometry(device, type));
   if (geometry == nullptr) throw std::bad_alloc();
@@ -153,15 +154,15 @@ TraceModel::~TraceModel() = default;
 
 namespace {
 
-/// Columns of a rotation, padded so that each is one vector load.
+/// Columns of a rotation, padded so that each can be loaded as one vector.
 struct alignas(16) RotationColumns {
   float x[4], y[4], z[4];
 };
 
-/// What the answer of a hit on one instance is made of.
+/// Data of one instance needed to resolve hits on it.
 struct InstanceRecord {
-  RotationColumns rotation;         ///< window_from_model at shutter 0 ...
-  RotationColumns rotation_change;  ///< ... and its change until shutter 1 (0 where it stands).
+  RotationColumns rotation;         ///< window_from_model at shutter 0.
+  RotationColumns rotation_change;  ///< Its change until shutter 1; 0 if stationary.
   std::uint32_t first_surface{};
   bool moves{};
 };
@@ -180,7 +181,8 @@ RotationColumns ToColumns(const Eigen::Matrix3d& matrix) {
 
 struct TraceScene::Parts {
   std::shared_ptr<TraceDevice::Handle> device;
-  std::vector<std::shared_ptr<const TraceModel>> models;  // Kept alive.
+  // Referenced by the scene; kept alive here.
+  std::vector<std::shared_ptr<const TraceModel>> models;
   std::vector<InstanceRecord> instances;
   RTCScene scene{};
 
@@ -241,7 +243,7 @@ void TraceScene::Parts::StoreHits(const RTCRayHit16& packet,
     if (geometry == RTC_INVALID_GEOMETRY_ID) continue;
     const std::size_t ray = first + lane;
     const InstanceRecord& instance = instances[packet.hit.instID[0][lane]];
-    // Embree leaves the normal in the model's frame, unnormalised.
+    // Embree returns the normal in the model's frame and not normalised.
     const float nx = packet.hit.Ng_x[lane];
     const float ny = packet.hit.Ng_y[lane];
     const float nz = packet.hit.Ng_z[lane];
@@ -280,12 +282,13 @@ void LoadRays(const RayTile& tile, std::size_t first, RTCRayHit16& packet) {
   std::memcpy(packet.ray.tfar, tile.range_m + first, kBytes);
   std::memset(packet.ray.tnear, 0, kBytes);
   std::memset(packet.ray.flags, 0, kBytes);
-  std::fill_n(packet.ray.mask, kPacketSize, tile.mask);  // Debian's Embree has ray masks on.
+  // Needed because Debian's Embree is built with ray masks.
+  std::fill_n(packet.ray.mask, kPacketSize, tile.mask);
   std::memset(packet.hit.geomID, 0xFF, kBytes);
   std::memset(packet.hit.instID, 0xFF, kBytes);
 }
 
-// Traces a tile packet by packet and hands each to `store(packet, first_ray)`.
+// Traces a tile packet by packet and passes each to `store(packet, first_ray)`.
 template <typename Store>
 void TracePackets(RTCScene scene, const RayTile& tile, const Store& store) {
   RTCIntersectContext context;

@@ -6,16 +6,17 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/mesh.h"
-#include "core/trace/ray_tile.h"
+#include "railcast/ray_caster.h"
+#include "railcast/scene.h"
 
 namespace railcast {
 
-/// Owns the Embree device. Acceleration structures are built by one thread each, so that they do
-/// not depend on how many threads a run has.
+/// Owns the Embree device. Each acceleration structure is built by a single thread, so that it does
+/// not depend on the number of threads of a run.
 class TraceDevice {
  public:
-  /// @param isa Instruction set to force ("sse4.2", "avx2", "avx512"); empty = the best there is.
+  /// @param isa Instruction set to force ("sse4.2", "avx2", "avx512"); empty = the best available.
+  /// @throws InputError if this machine lacks the instruction set.
   explicit TraceDevice(const std::string& isa = {});
   ~TraceDevice();
   TraceDevice(const TraceDevice&) = delete;
@@ -28,8 +29,8 @@ class TraceDevice {
   std::shared_ptr<Handle> handle_;
 };
 
-/// A model ready to be traced. Holds its own copy of the triangles; part i of the model is
-/// geometry i.
+/// A model prepared for tracing. It holds its own copy of the triangles; part i of the model
+/// becomes geometry i.
 class TraceModel {
  public:
   TraceModel(const TraceDevice& device, const Model& model);
@@ -44,14 +45,14 @@ class TraceModel {
   std::unique_ptr<Handle> handle_;
 };
 
-/// A model at a place, or moving through several places at equal steps of the frame's shutter.
+/// A model at a fixed place, or moving through several places at equal time steps of the shutter.
 struct TracePlacement {
   std::shared_ptr<const TraceModel> model;
-  std::vector<Eigen::Affine3d> window_from_model;  ///< One (stands) or at least two (moves).
-  std::uint32_t first_surface{};                   ///< Surface of the model's part 0.
+  std::vector<Eigen::Affine3d> window_from_model;  ///< One (stationary), or two or more (moving).
+  std::uint32_t first_surface{};                   ///< Surface index of the model's part 0.
 };
 
-/// Placed models, ready to be traced by packets of 16.
+/// Placed models, prepared for tracing in packets of 16.
 class TraceScene final : public RayCaster {
  public:
   TraceScene(const TraceDevice& device, const std::vector<TracePlacement>& placements);
@@ -61,8 +62,8 @@ class TraceScene final : public RayCaster {
 
   void Cast(RayTile& tile) const override;
 
-  /// Lowers `range_m` as Cast does and leaves the rest alone: the raw trace, the yardstick of all
-  /// speed figures, and all that asking "does it hit?" needs.
+  /// Lowers `range_m` as Cast() does but leaves the other fields unchanged. This is the raw trace,
+  /// the baseline of all speed figures, and it is sufficient for testing whether a ray hits.
   void CastRanges(RayTile& tile) const;
 
  private:

@@ -15,7 +15,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What every answer begins with, and no command: so a line is known for one however long it is.
+// Every answer begins so and no command does, so a line is recognised as an answer however long it
+// is.
 constexpr std::string_view kAnswerBegin = R"({"ok":)";
 
 Json AnswerTo(const CommandTag& tag, bool is_done) {
@@ -27,7 +28,7 @@ Json AnswerTo(const CommandTag& tag, bool is_done) {
 }
 
 std::string LineOf(const Json& answer) {
-  // A fault may quote what is no UTF-8.
+  // A fault may quote text that is not valid UTF-8.
   std::string line = answer.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
   Check(line.starts_with(kAnswerBegin), "an answer is known by its begin");
   return line;
@@ -43,7 +44,7 @@ bool HasBoth(const CommandTag& tag) {
   return tag.session && tag.id;
 }
 
-/// Those that are not empty.
+/// Returns the lines that are not empty.
 std::vector<std::string_view> LinesOf(std::string_view text) {
   std::vector<std::string_view> lines;
   while (!text.empty()) {
@@ -125,7 +126,7 @@ void CommandChannel::HearDatagram(std::string_view text, const Endpoint& from) {
       ++num_answers_;
       continue;
     }
-    // Unlocked: the run must not wait for a long one.
+    // Parsed without holding the lock, so that a long line does not delay the run.
     const CommandLine line = ReadCommand(each);
     const std::lock_guard lock(mutex_);
     Hear(each, line, from);
@@ -138,8 +139,8 @@ void CommandChannel::Hear(std::string_view text, const CommandLine& line, const 
   if (!line.command) {
     answer.text = FaultAnswer(line.tag, line.faults);
   } else if (requests_.size() == kMaxRequests) {
-    // Not remembered: who sends it again when there is room is heard.
-    receiver_.Answer(FaultAnswer(line.tag, {"too many commands wait (got one more than " +
+    // Not remembered, so that the command is accepted if it is sent again once there is room.
+    receiver_.Answer(FaultAnswer(line.tag, {"too many commands are waiting (got one more than " +
                                             std::to_string(kMaxRequests) + ")"}),
                      from);
     return;
@@ -176,14 +177,15 @@ std::deque<CommandChannel::Answer>::iterator CommandChannel::Find(const Endpoint
 void CommandChannel::Send(const CommandRequest& request, const std::string& text) {
   const std::lock_guard lock(mutex_);
   receiver_.Answer(text, request.from);
-  // One that waits is never forgotten.
+  // The answer still exists, because Remember() never drops one whose command is waiting.
   if (HasBoth(request.tag)) Find(request.from, request.tag)->text = text;
 }
 
 void CommandChannel::Remember(Answer answer) {
   answers_.push_back(std::move(answer));
   if (answers_.size() <= kMaxAnswers) return;
-  // Those that wait are at most kMaxRequests and one that is under way, and needed.
+  // Answers whose commands are waiting must stay; they are at most kMaxRequests and the one under
+  // way.
   const auto oldest = std::find_if(answers_.begin(), answers_.end(),
                                    [](const Answer& each) { return each.text.has_value(); });
   if (oldest != answers_.end()) answers_.erase(oldest);

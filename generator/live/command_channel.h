@@ -15,34 +15,35 @@
 
 namespace railcast {
 
-/// A command that a peer wants done.
+/// A command that a peer asks for.
 struct CommandRequest {
   Endpoint from;
   CommandTag tag;
   Command command;
 };
 
-/// Hears commands on a UDP port, one JSON object a line, and answers each with a line of its own.
+/// Receives commands on a UDP port, one JSON object per line, and answers each with a line.
 ///
-/// Datagrams get lost and come twice. Whoever gives a command a session and an id may therefore
-/// send the same line again until it is answered: it is done once, and answered each time. Another
-/// line with the same session and id is a fault: no answer is ever that to another command. The
-/// channel remembers the last kMaxAnswers ids of all peers' ports.
+/// Datagrams may be lost or duplicated. A sender that gives a command a session and an id may
+/// therefore send the same line again until it is answered: the command takes effect once, and
+/// every copy is answered. A different line with the same session and id is a fault, so that no
+/// answer can be mistaken for that to another command. The channel remembers the last kMaxAnswers
+/// ids of all peers' ports.
 ///
-/// Answers are never read as commands, whoever sends them back: two ports that answer each other,
-/// or one that answers itself, since somebody forged a sender, would never end.
+/// Answers that come back are never read as commands. Otherwise two ports that answer each other,
+/// or one that answers itself, would never stop once a sender address was forged.
 class CommandChannel {
  public:
   static constexpr std::size_t kMaxAnswers = 256;
-  /// More that wait are refused.
+  /// Further requests are refused while this many are waiting.
   static constexpr std::size_t kMaxRequests = 1024;
-  /// A datagram of more lines is refused as a whole, with one answer: so it keeps nobody busy, and
-  /// whoever forges its sender makes no flood of answers.
+  /// A datagram with more lines is refused as a whole, with one answer, so that it cannot occupy
+  /// the channel and a forged sender address does not cause a flood of answers.
   static constexpr std::size_t kMaxLines = 64;
 
-  /// @param peer Whose commands are heard: an address, of any port where that is 0. What others
-  ///   send is dropped without an answer.
-  /// @throws InputError if `at` cannot be listened at.
+  /// @param peer Address whose commands are accepted, from any port if its port is 0. Datagrams
+  ///   from other addresses are dropped without an answer.
+  /// @throws InputError if the channel cannot listen at `at`.
   CommandChannel(const Endpoint& at, const Endpoint& peer);
   ~CommandChannel();
   CommandChannel(const CommandChannel&) = delete;
@@ -50,35 +51,35 @@ class CommandChannel {
 
   [[nodiscard]] const Endpoint& at() const { return receiver_.at(); }
 
-  /// The next request, waiting for it at longest so long; 0 does not wait.
+  /// Returns the next request, waiting up to `timeout_ms` for it; 0 does not wait.
   [[nodiscard]] std::optional<CommandRequest> Next(int timeout_ms);
 
-  /// Says that a command took effect, and at which simulation time.
+  /// Answers that a command took effect, and at which simulation time.
   void Acknowledge(const CommandRequest& request, std::int64_t time_ns);
-  /// Says why it did not.
+  /// Answers why a command was refused.
   void Refuse(const CommandRequest& request, const std::vector<std::string>& faults);
 
-  /// Datagrams of others than the peer.
+  /// Number of datagrams from addresses other than the peer's.
   [[nodiscard]] std::uint64_t num_strangers() const;
-  /// Lines that are answers, dropped without one.
+  /// Number of lines that were answers and were therefore dropped.
   [[nodiscard]] std::uint64_t num_answers() const;
 
  private:
   struct Answer {
     Endpoint to;
     CommandTag tag;
-    std::string line;                 ///< That is answered.
-    std::optional<std::string> text;  ///< Absent while the command waits.
+    std::string line;                 ///< The line that is answered.
+    std::optional<std::string> text;  ///< Absent while the command is waiting.
   };
 
   void Listen();
   void HearDatagram(std::string_view text, const Endpoint& from);
   void Hear(std::string_view text, const CommandLine& line, const Endpoint& from);
-  /// Whether the peer sent this tag before; then it is answered as it was, or that the line is
-  /// another one.
+  /// Whether the peer has sent this tag before. If so, the earlier answer is repeated, or the line
+  /// is refused because it differs.
   [[nodiscard]] bool IsRepeated(std::string_view text, const CommandTag& tag, const Endpoint& from);
   [[nodiscard]] std::deque<Answer>::iterator Find(const Endpoint& to, const CommandTag& tag);
-  /// Answers a command that waited.
+  /// Answers a command that was waiting.
   void Send(const CommandRequest& request, const std::string& text);
   void Remember(Answer answer);
 

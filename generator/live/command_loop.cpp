@@ -3,13 +3,13 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/scenario/command_log.h"
 
 namespace railcast {
 namespace {
 
-// How soon a waiting run notices that it is stopped.
+// The longest time until a waiting run notices that it was stopped.
 constexpr int kPatience_ms = 50;
 
 }  // namespace
@@ -22,7 +22,7 @@ CommandLoop::CommandLoop(CommandedRun& run,
     : run_(run), channel_(channel), lockstep_(lockstep) {
   if (!log_file) return;
   if (std::filesystem::exists(*log_file)) {
-    throw InputError("--commands-log: must not be there yet (got " + ShownPath(*log_file) + ")");
+    throw InputError("--commands-log: must not exist yet (got " + ShownPath(*log_file) + ")");
   }
   log_.emplace(*log_file, 0);
   log_->Append(CommandLogHeader(scenario_xxh3));
@@ -53,7 +53,7 @@ void CommandLoop::End(const std::string& reason) {
 
 bool CommandLoop::Handle(const CommandRequest& request, std::int64_t stamp_ns) {
   if (std::holds_alternative<Step>(request.command)) {
-    channel_.Refuse(request, {"command: step is for --lockstep; this run goes on by itself"});
+    channel_.Refuse(request, {"command: step needs --lockstep; this run does not wait for steps"});
     return false;
   }
   const bool is_reset = std::holds_alternative<Reset>(request.command);

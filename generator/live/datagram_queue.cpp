@@ -75,7 +75,7 @@ void DatagramQueue::ThrowIfFailed() const {
 
 std::int64_t DatagramQueue::DueNs(const Lane& lane) {
   const OutgoingFrame& frame = lane.waiting.front();
-  // A frame that has nothing to send is done as soon as it is here.
+  // A frame without datagrams is finished as soon as it arrives.
   if (frame.is_burst || lane.next == frame.datagrams.items.size()) {
     return frame.clock_from_due_ns;
   }
@@ -92,7 +92,7 @@ DatagramQueue::Lane* DatagramQueue::NextLane() {
 }
 
 void DatagramQueue::Run() {
-  // Wakes within microseconds of what is asked for, not within Linux' usual 50.
+  // Wakes within microseconds of the requested time; Linux's default timer slack is 50 us.
   ::prctl(PR_SET_TIMERSLACK, 1UL);
   std::unique_lock lock(mutex_);
   while (true) {
@@ -105,7 +105,7 @@ void DatagramQueue::Run() {
     const std::int64_t due_ns = DueNs(*lane);
     if (clock_.NowNs() < due_ns) {
       clock_.WaitUntil(due_ns, changed_, lock);
-      continue;  // What came meanwhile may be due earlier.
+      continue;  // A frame that arrived meanwhile may be due earlier.
     }
     try {
       SendDue(*lane, lock);
@@ -119,8 +119,8 @@ void DatagramQueue::Run() {
 }
 
 void DatagramQueue::SendDue(Lane& lane, std::unique_lock<std::mutex>& lock) {
-  // Nobody else touches the first frame: it can be sent while others put theirs. A deque's elements
-  // stay where they are when it grows at its end.
+  // Only this function uses the first frame, so it can be sent while other threads append theirs.
+  // Growing a deque at its end does not move its elements.
   OutgoingFrame& frame = lane.waiting.front();
   const auto& items = frame.datagrams.items;
   const std::int64_t begin_ns = clock_.NowNs();

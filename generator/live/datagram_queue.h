@@ -17,63 +17,67 @@
 
 namespace railcast {
 
-/// The datagrams of one frame on their way out.
+/// The datagrams of one frame that is being sent.
 struct OutgoingFrame {
   Datagrams datagrams;
-  /// From a datagram's `due_ns` to the clock's time at which it leaves.
+  /// Offset from a datagram's `due_ns` to the clock's time at which it is to leave.
   std::int64_t clock_from_due_ns{};
-  /// All leave at once, as soon as they can.
+  /// Whether all datagrams are sent together, as soon as possible.
   bool is_burst{};
-  /// The clock's time at which a burst must have left not to be late; absent = it never is.
+  /// The clock's time after which a burst counts as late; absent = never.
   std::optional<std::int64_t> deadline_ns;
 };
 
-/// What has left of one sensor.
+/// Statistics of what was sent for one sensor.
 struct SentRecord {
   std::uint64_t datagrams{};
   std::uint64_t bytes{};
-  std::uint64_t late_frames{};  ///< After their deadlines.
-  DurationHistogram send;       ///< Time in the sending calls, by frame.
-  DurationHistogram lateness;   ///< From when a datagram should leave to when it did.
+  std::uint64_t late_frames{};  ///< Frames sent after their deadlines.
+  DurationHistogram send;       ///< Time spent in the sending calls, by frame.
+  DurationHistogram lateness;   ///< Delay of each datagram after its due time.
 };
 
-/// Sends the frames of several sensors from a thread of its own, each datagram when it is due: the
-/// next frame is made meanwhile. Where the clock jumps it has no thread and sends when it is asked.
+/// Sends the frames of several sensors from a thread of its own, each datagram when it is due,
+/// while the next frame is being made. With a clock that jumps there is no thread; datagrams are
+/// then sent by SendUntil() and Flush().
 class DatagramQueue {
  public:
   using Send = std::function<void(const Datagrams&, std::span<const Datagrams::Item>)>;
 
-  /// @param send By sensor. Called from the queue's thread.
+  /// @param send One function per sensor, called from the queue's thread.
   DatagramQueue(LiveClock& clock, std::vector<Send> send);
-  /// Waits until all has left.
+  /// Waits until all datagrams have been sent.
   ~DatagramQueue();
   DatagramQueue(const DatagramQueue&) = delete;
   DatagramQueue& operator=(const DatagramQueue&) = delete;
 
-  /// An empty frame with memory to reuse; waits while kMaxFrames of the sensor are on their way.
+  /// Returns an empty frame with memory to reuse; waits while kMaxFrames of the sensor are being
+  /// sent.
   /// @throws What `send` threw, if it did.
   [[nodiscard]] OutgoingFrame Take(std::size_t sensor);
   void Put(std::size_t sensor, OutgoingFrame frame);
 
-  /// Where the clock jumps: sends all that is due by then, at its time. Else does nothing.
+  /// With a clock that jumps: sends all datagrams due by then, each at its time. Otherwise does
+  /// nothing.
   void SendUntil(std::int64_t time_ns);
 
-  /// Waits until everything has left. @throws What `send` threw, if it did.
+  /// Waits until all datagrams have been sent.
+  /// @throws What `send` threw, if it did.
   void Flush();
 
-  /// @pre Flush() was called last.
+  /// @pre Flush() was the last call.
   [[nodiscard]] const SentRecord& record(std::size_t sensor) const { return lanes_[sensor].record; }
 
  private:
-  // One that leaves, one that waits for its turn, one in the making.
+  // One being sent, one waiting for its turn, one being made.
   static constexpr int kMaxFrames = 3;
 
   struct Lane {
     Send send;
-    std::deque<OutgoingFrame> waiting;  ///< The first is on its way.
+    std::deque<OutgoingFrame> waiting;  ///< The first one is being sent.
     std::vector<OutgoingFrame> spare;
-    int num_frames = 0;    ///< Taken and not yet gone.
-    std::size_t next = 0;  ///< Datagram of the first.
+    int num_frames = 0;    ///< Taken and not yet finished.
+    std::size_t next = 0;  ///< Index of the first frame's next datagram.
     std::int64_t send_ns = 0;
     SentRecord record;
   };

@@ -6,7 +6,8 @@
 namespace railcast {
 namespace {
 
-// Bin 0 holds all below 100 ns, the last one all above some 4 hours; those between grow by 1 %.
+// Bin 0 holds durations below 100 ns, the last bin those above about 4 hours; bins between grow by
+// 1 %.
 constexpr double kFirstEdge_ns = 100.0;
 constexpr double kGrowth = 1.01;
 constexpr std::size_t kNumBins = 2600;

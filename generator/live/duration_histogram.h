@@ -6,18 +6,19 @@
 
 namespace railcast {
 
-/// How long something took, over any number of times, in fixed memory: quantiles are exact to
-/// 1 %, the maximum to the nanosecond.
+/// A histogram of any number of durations in fixed memory: quantiles are exact to 1 %, the maximum
+/// to the nanosecond.
 class DurationHistogram {
  public:
   DurationHistogram();
 
-  /// What is negative counts as 0.
+  /// Adds a duration; a negative one counts as 0.
   void Add(std::int64_t duration_ns);
 
   [[nodiscard]] std::uint64_t count() const { return count_; }
   [[nodiscard]] std::int64_t max_ns() const { return max_ns_; }
-  /// The smallest duration that at least this fraction of all does not exceed; 0 if there is none.
+  /// Returns the smallest duration that at least this fraction of all does not exceed; 0 if the
+  /// histogram is empty.
   [[nodiscard]] std::int64_t QuantileNs(double fraction) const;
 
  private:

@@ -6,19 +6,19 @@
 
 namespace railcast {
 
-/// What a live run goes by.
+/// The clock that a live run follows.
 class LiveClock {
  public:
   virtual ~LiveClock() = default;
 
-  /// Nanoseconds since a moment of its own; never goes back.
+  /// Returns nanoseconds since an arbitrary epoch; never decreases.
   [[nodiscard]] virtual std::int64_t NowNs() const = 0;
-  /// Waits for `changed`, at longest until a time.
+  /// Waits for `changed`, at most until `time_ns`.
   virtual void WaitUntil(std::int64_t time_ns,
                          std::condition_variable& changed,
                          std::unique_lock<std::mutex>& lock) = 0;
-  /// Whether it stands still but for being waited for: then a run is in one thread and takes no
-  /// longer than its work.
+  /// Whether time passes only by waiting. A run then has a single thread and takes no longer than
+  /// its computations.
   [[nodiscard]] virtual bool jumps() const = 0;
 };
 
@@ -32,7 +32,7 @@ class MonotonicClock final : public LiveClock {
   [[nodiscard]] bool jumps() const override { return false; }
 };
 
-/// A clock that jumps to whatever is waited for.
+/// A clock that jumps to whatever time is waited for.
 class JumpingClock final : public LiveClock {
  public:
   [[nodiscard]] std::int64_t NowNs() const override { return now_ns_; }

@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "generator/run_stopped.h"
+#include "generator/run/stoppable_work.h"
 
 namespace railcast {
 namespace {
 
-// How soon a waiting run notices that it is stopped.
+// The longest time until a waiting run notices that it was stopped.
 constexpr std::int64_t kPatience_ns = 50'000'000;
 
 class LiveRun {
@@ -32,7 +32,7 @@ class LiveRun {
     try {
       MakeAll();
     } catch (const RunStopped&) {
-      // What was made before is sent.
+      // Frames made before the stop are still sent.
     } catch (const InputError& error) {
       result.fault = error.what();
     }
@@ -73,7 +73,7 @@ class LiveRun {
     return sensors_[sensor].stamp_ns(next_[sensor]);
   }
 
-  /// Of whichever sensor's frame comes next.
+  /// Returns the earliest stamp among all sensors' next frames.
   [[nodiscard]] std::int64_t NextStampNs() const {
     std::int64_t stamp_ns = NextStampNs(0);
     for (std::size_t i = 1; i < sensors_.size(); ++i) {
@@ -117,7 +117,7 @@ class LiveRun {
         {stamp_ns, now_ns, spec_.lockstep ? 0 : std::max<std::int64_t>(0, behind_ns), records_});
   }
 
-  /// When the frame's period ends.
+  /// Returns the time at which the frame's period ends.
   [[nodiscard]] std::int64_t DeadlineNs(std::size_t sensor, std::int64_t stamp_ns) const {
     return clock_from_stamp_ns_ + stamp_ns + records_[sensor].period_ns;
   }
@@ -159,7 +159,7 @@ class LiveRun {
   LiveClock& clock_;
   DatagramQueue queue_;
   std::vector<LiveRecord> records_;
-  std::vector<std::uint32_t> next_;  ///< Frame, by sensor.
+  std::vector<std::uint32_t> next_;  ///< Next frame of each sensor.
   std::int64_t clock_from_stamp_ns_{};
 };
 

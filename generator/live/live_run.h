@@ -18,80 +18,82 @@ namespace railcast {
 struct LiveSensor {
   std::string name;
   std::int64_t period_ns{};
-  /// Simulation time at which a frame begins.
+  /// Returns the simulation time at which a frame begins.
   std::function<std::int64_t(std::uint32_t frame)> stamp_ns;
-  /// Scans a frame and appends its datagrams. Frames come in order. Throws RunStopped where the run
-  /// was stopped before the frame was made.
+  /// Scans a frame and appends its datagrams. Frames come in order. Throws RunStopped if the run
+  /// was stopped before the frame was complete.
   std::function<void(std::uint32_t frame, Datagrams& datagrams)> make;
-  /// Called from another thread than `make`, while that makes the next frame.
+  /// Called from another thread than `make`, possibly while `make` is working on the next frame.
   DatagramQueue::Send send;
 };
 
 enum class Pacing {
-  kSpread,  ///< Each datagram one period after its last firing: frame n + 1 is made meanwhile.
-  kBurst,   ///< A frame's datagrams at once, as soon as it is made.
+  kSpread,  ///< Each datagram one period after its last firing, while frame n + 1 is being made.
+  kBurst,   ///< All datagrams of a frame at once, as soon as it is made.
 };
 
-/// What became of one sensor's frames.
+/// Statistics of one sensor's frames.
 struct LiveRecord {
   std::string name{};
   std::int64_t period_ns{};
   std::uint64_t frames{};
-  /// Not made, in bursts also sent, when their own period ended. None in lockstep.
+  /// Frames that were not made (in bursts: not made and sent) by the end of their own period. 0 in
+  /// lockstep.
   std::uint64_t late_frames{};
-  std::uint64_t dropped_frames{};  ///< Not made, since they would have been late.
-  DurationHistogram compute{};     ///< Scanning and encoding, by frame.
+  std::uint64_t dropped_frames{};  ///< Left out because they would have been late.
+  DurationHistogram compute{};     ///< Time for scanning and encoding, by frame.
   SentRecord sent{};
 };
 
-/// How far a run is after the frames of one stamp.
+/// The progress of a run after the frames of one stamp.
 struct RunState {
   std::int64_t stamp_ns{};
-  std::int64_t now_ns{};     ///< Of the run's clock.
-  std::int64_t behind_ns{};  ///< By how much the next frames begin too late; 0 in lockstep.
-  /// By sensor; not final, since what was sent is not in them.
+  std::int64_t now_ns{};     ///< By the run's clock.
+  std::int64_t behind_ns{};  ///< Delay with which the next frames begin; 0 in lockstep.
+  /// By sensor. Not final: statistics of sending are not included yet.
   const std::vector<LiveRecord>& records;
 };
 
 enum class NextFrames {
   kMake,
-  kReset,  ///< The run begins anew with all sensors' frame 0.
+  kReset,  ///< The run begins anew with frame 0 of all sensors.
   kStop,
 };
 
-/// What a run asks of its surroundings, always from its own thread.
+/// Callbacks of a run, always called from its own thread.
 struct LiveHooks {
   std::function<bool()> is_stopped = [] { return false; };
-  /// Before frames that begin at this simulation time are made: commands take effect here. In
-  /// lockstep it waits until they are asked for.
+  /// Called before the frames that begin at this simulation time are made; commands take effect
+  /// here. In lockstep it waits until frames are asked for.
   std::function<NextFrames(std::int64_t stamp_ns)> begin_frames = [](std::int64_t) {
     return NextFrames::kMake;
   };
-  /// After they were made, and in lockstep also sent.
+  /// Called after the frames were made and, in lockstep, also sent.
   std::function<void(const RunState&)> end_frames = [](const RunState&) {};
 };
 
 struct LiveRunSpec {
   Pacing pacing = Pacing::kSpread;
-  bool lockstep = false;    ///< Frames are made when begin_frames says so, not at their time.
-  bool drops_late = false;  ///< Frames that cannot be in time are not made. Not in lockstep.
-  std::optional<std::int64_t> duration_ns;  ///< Of simulation time; absent = until stopped.
+  bool lockstep = false;    ///< Frames are made when begin_frames returns, not at their time.
+  bool drops_late = false;  ///< Leave out frames that would be late. Not in lockstep.
+  std::optional<std::int64_t> duration_ns;  ///< Simulation time; absent = until stopped.
 };
 
 struct LiveResult {
-  std::vector<LiveRecord> records;   ///< By sensor.
-  std::optional<std::string> fault;  ///< Why the next frame could not be made, if that ended it.
+  std::vector<LiveRecord> records;  ///< By sensor.
+  /// Why the next frame could not be made, if that ended the run.
+  std::optional<std::string> fault;
 };
 
-/// Makes and sends frames at their rate until the duration is over, the run is stopped or a
-/// frame cannot be made (InputError). What was made is sent in any case.
+/// Makes and sends frames at their rate until the duration is over, the run is stopped or a frame
+/// cannot be made (InputError). Frames that were made are sent in any case.
 ///
 /// Frame n of a sensor begins at simulation time stamp_ns(n) and is made in the period that begins
-/// at the same time of the clock, counted from the run's start: deadlines are absolute, so nothing
-/// adds up. A frame that is late is made and sent all the same, whole; the following ones go on as
-/// fast as they can until they have caught up. Or, with drops_late, a frame whose period has ended
-/// before it is begun is left out, all of it; the others are what they always are. A sensor's frame
-/// 0 is always made.
+/// at the same time of the clock, counted from the run's start. Deadlines are absolute, so delays
+/// do not accumulate. A late frame is still made and sent in full, and the following frames are
+/// made as fast as possible until the run has caught up. With drops_late, instead, a frame whose
+/// period has ended before work on it begins is left out entirely; the other frames are unaffected.
+/// A sensor's frame 0 is always made.
 [[nodiscard]] LiveResult RunLive(const LiveRunSpec& spec,
                                  const std::vector<LiveSensor>& sensors,
                                  const LiveHooks& hooks,

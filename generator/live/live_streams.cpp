@@ -2,13 +2,11 @@
 
 #include <utility>
 
-#include "core/scenario/effects.h"
-#include "core/scenario/scenario.h"
-#include "generator/chosen_fidelity.h"
-#include "generator/run_stopped.h"
-#include "generator/stop_signal.h"
-#include "generator/track_limits.h"
-#include "generator/watch_building.h"
+#include "generator/run/stop_signal.h"
+#include "generator/run/stoppable_work.h"
+#include "generator/run/track_limits.h"
+#include "railcast/effects.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 namespace {
@@ -44,7 +42,7 @@ LiveStreams::LiveStreams(const ScenarioSpec& scenario,
 }
 
 void LiveStreams::ChooseFidelity() {
-  if (commanded_.scenario().fidelity != kAutoFidelity) return;
+  if (commanded_.scenario().fidelity != Fidelity::kAuto) return;
   for (std::size_t i = 0; i < simulators_.size(); ++i) {
     const ScenarioSpec alone = PickSensor(commanded_.scenario(), streams_[i]->spec().name);
     static_cast<void>(UseChosenFidelity(*simulators_[i], alone));
@@ -60,9 +58,9 @@ void LiveStreams::WarmUp(const std::function<bool()>& is_stopped) {
     ChooseFidelity();
     for (std::size_t i = 0; i < frames_.size(); ++i) commanded_.At(i, 0).Scan(0, frames_[i]);
   } catch (const RunStopped&) {
-    // The run ends with no frame.
+    // The run has been stopped and ends without a frame.
   }
-  // From now on there are captures to finish and datagrams to send.
+  // From here on a stop must still finish captures and send datagrams.
   UseStopDeadline(false);
   watch(false);
 }

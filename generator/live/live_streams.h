@@ -7,24 +7,25 @@
 #include <string>
 #include <vector>
 
-#include "core/frame/frame.h"
-#include "core/scenario/scenario_spec.h"
-#include "core/simulate/simulator.h"
-#include "generator/commanded_run.h"
 #include "generator/live/live_run.h"
 #include "generator/live/sensor_stream.h"
+#include "generator/run/commanded_run.h"
+#include "railcast/frame.h"
+#include "railcast/scenario.h"
+#include "railcast/simulator.h"
 
 namespace railcast {
 
-/// All sensors of one vehicle and where their frames go: one world, one clock.
+/// All sensors of one vehicle and the destinations of their frames; they share one world and one
+/// clock.
 class LiveStreams {
  public:
-  /// @param streams Of the scenario's sensors, in its order.
-  /// @param run Tells this start from others in protocol railcast.
+  /// @param streams One for each of the scenario's sensors, in its order.
+  /// @param run Distinguishes this start from others in protocol railcast.
   /// @param isa As MakeSimulators() takes it.
-  /// @param ends_ns Where given, the simulation time until which nothing may leave its track.
+  /// @param ends_ns If given, the simulation time until which nothing may leave its track.
   /// @throws InputError as MakeSimulators(), CheckStaysOnTracks() and SensorStream do, in this
-  ///   order: no file is begun for a run that cannot be made.
+  ///   order, so that no file is created for a run that cannot be made.
   LiveStreams(const ScenarioSpec& scenario,
               const std::vector<SensorStreamSpec>& streams,
               int num_threads,
@@ -34,22 +35,25 @@ class LiveStreams {
 
   [[nodiscard]] CommandedRun& commanded_run() { return commanded_; }
 
-  /// Does beforehand what takes long, so that it makes no frame late: builds the scene of frame 0
-  /// and, if the scenario asks for it, makes fidelity auto's choice. Watches from now on as
-  /// WatchBuilding() does. It may end early. @pre Nothing has been made.
+  /// Does slow work beforehand, so that it makes no frame late: builds the scene of frame 0 and, if
+  /// the scenario asks for it, makes fidelity auto's choice. From now on the building of scenes is
+  /// watched as by WatchBuilding(). Returns early if stopped.
+  /// @pre No frame has been made.
   void WarmUp(const std::function<bool()>& is_stopped);
 
-  /// For RunLive(); valid as long as this.
+  /// Returns the sensors for RunLive(); valid as long as this object.
   [[nodiscard]] std::vector<LiveSensor> Sensors();
 
-  /// All sensors begin anew with frame 0. The commanded run must have been reset.
+  /// Restarts all sensors with frame 0.
+  /// @pre The commanded run has been reset.
   void Restart();
 
-  /// Completes capture files.
+  /// Completes the capture files.
   void Finish();
-  /// A line for each capture that ended early. Thread-safe.
+  /// Returns a line for each capture that ended early. Thread-safe.
   [[nodiscard]] std::vector<std::string> CaptureFaults() const;
-  /// By sensor. @pre Nothing is being sent.
+  /// Returns the numbers of datagrams delivered, by sensor.
+  /// @pre Nothing is being sent.
   [[nodiscard]] std::vector<UdpSender::Counts> Delivered() const;
 
  private:

@@ -23,7 +23,7 @@ void PutQuantiles(std::string_view head, const DurationHistogram& times, std::os
   text << std::setw(kNumberWidth) << static_cast<double>(times.max_ns()) / kNsPerMs << " ms\n";
 }
 
-// Nothing where none was.
+// Empty where no frame was dropped.
 std::string DroppedText(std::uint64_t num_dropped) {
   return num_dropped > 0 ? ", " + std::to_string(num_dropped) + " dropped" : "";
 }

@@ -4,11 +4,11 @@
 
 #include "core/base/attempt.h"
 #include "core/base/error.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/io/stream/stream_encoder.h"
 #include "core/io/velodyne/velodyne_encoder.h"
 #include "core/io/velodyne/velodyne_packet.h"
-#include "core/scenario/scenario.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 
@@ -33,8 +33,8 @@ SensorStream::SensorStream(SensorStreamSpec spec,
 }
 
 std::unique_ptr<FrameEncoder> SensorStream::MakeEncoder(std::uint32_t run) const {
-  if (spec_.protocol != "railcast") {
-    return MakeVelodyneEncoder(spec_.protocol, lidar_.scan, lidar_.receiver.return_mode);
+  if (spec_.protocol != Protocol::kRailcast) {
+    return MakeVelodyneEncoder(NameOf(spec_.protocol), lidar_.scan, lidar_.receiver.return_mode);
   }
   return std::make_unique<StreamEncoder>(pattern_, StreamSpec{.fields = spec_.fields,
                                                               .has_all_slots = spec_.has_all_slots,

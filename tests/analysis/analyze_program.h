@@ -8,12 +8,13 @@
 
 namespace railcast {
 
-/// Runs railcast-analyze at a moment of its own, so that reports can be compared.
+/// Runs railcast-analyze at a fixed time (SOURCE_DATE_EPOCH), so that reports can be compared.
 inline Ended Analyze(const std::string& arguments) {
   return RunCommand("SOURCE_DATE_EPOCH=1700000000 " RAILCAST_ANALYZE " " + arguments);
 }
 
-/// A straight line that few beams look at. @param more Further keys, each with a comma after it.
+/// Writes a scenario of a straight line with few beams.
+/// @param more Further keys, each followed by a comma.
 inline std::filesystem::path WriteScenario(const TemporaryFolder& folder,
                                            const std::string& more = {}) {
   const std::string scenarios = ScenariosDir().string();

@@ -17,7 +17,7 @@ Ended Compare(const std::string& arguments) {
   return Analyze("compare " + arguments);
 }
 
-// A line of points, `offset_m` above the ground.
+// A PCD file with a line of points `offset_m` above the ground.
 std::string Pcd(double offset_m) {
   std::string text =
       "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 20\nHEIGHT 1\n"

@@ -22,7 +22,7 @@ constexpr const char* kVehicle =
     R"("vehicle": {"start_s_m": 400, "motion": {"profile": )"
     R"([{"time_s": 0, "speed_mps": 10}]}}, )";
 
-/// 40 frames towards a box 79 m before the sensor, at 10 m/s.
+/// 40 frames of an approach at 10 m/s towards a box that is 79 m ahead of the sensor at first.
 std::filesystem::path MakeApproach(const TemporaryFolder& folder,
                                    const std::string& name,
                                    const std::string& options) {
@@ -50,7 +50,7 @@ TEST(DetectCommand, FindsWhereABoxIsFirstSeenByTwentyBeams) {
       Analyze("detect " + run.string() + " --points 20 --frames 2/3 --out " + out.string());
   ASSERT_EQ(ended.status, 0) << ended.said;
   const Json report = Json::parse(ReadFileWhole(out / "detect.json"));
-  // What objects.jsonl says, by hand: the second of three frames with 20 points.
+  // Evaluate objects.jsonl independently: find the second of three frames with 20 points.
   std::istringstream lines(ReadFileWhole(run / "objects.jsonl"));
   std::vector<int> points;
   for (std::string line; std::getline(lines, line);) {
@@ -68,7 +68,7 @@ TEST(DetectCommand, FindsWhereABoxIsFirstSeenByTwentyBeams) {
     for (const Json& table : section.at("tables")) {
       if (table.at("key") != "runs") continue;
       const Json& row = table.at("rows").at(0);
-      // The box's face is 79 m off at first, and 1 m nearer in each frame.
+      // The box's face is 79 m away at first and 1 m nearer in each frame.
       EXPECT_NEAR(row.at("detected_at_m").get<double>(), 79.0 - static_cast<double>(expected),
                   0.01);
       EXPECT_NEAR(row.at("speed_kmph").get<double>(), 36.0, 1e-3);
@@ -76,7 +76,7 @@ TEST(DetectCommand, FindsWhereABoxIsFirstSeenByTwentyBeams) {
       EXPECT_EQ(row.at("outcome"), "too late");
     }
   }
-  // The man stands 2.5 m beside the axis: no reason to brake.
+  // The person stands 2.5 m beside the axis and is no reason to brake.
   const Json& verdicts = report.at("sections").at(0).at("tables").at(0).at("rows");
   ASSERT_EQ(verdicts.size(), 1U);
   EXPECT_EQ(verdicts.at(0).at("object"), "box");

@@ -4,11 +4,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/io/recording/recording.h"
+#include "railcast/io/recording.h"
 
 namespace railcast {
 
-/// Frames held in memory.
+/// A recording whose frames are held in memory.
 class HeldRecording final : public Recording {
  public:
   explicit HeldRecording(std::vector<RecordedFrame> frames) : frames_(std::move(frames)) {}

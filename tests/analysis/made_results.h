@@ -7,7 +7,7 @@
 
 namespace railcast {
 
-/// A row that takes `ratio` raw traces of 10 ms and misses so many of 100 echoes.
+/// A row that takes `ratio` times the raw trace's 10 ms and misses so many of 100 echoes.
 [[nodiscard]] inline RowResult MadeResult(const std::string& name,
                                           RowGroup group,
                                           double ratio,

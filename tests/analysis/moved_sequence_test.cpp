@@ -11,8 +11,8 @@
 namespace railcast {
 namespace {
 
-// Two runs of one project, with a mesh and a firing table, as another machine gets them: elsewhere,
-// and without the project.
+// Two runs of one project, with a mesh and a firing table, moved to another folder without the
+// project, as on another machine.
 class MovedSequence : public testing::Test {
  protected:
   void SetUp() override {
@@ -27,7 +27,7 @@ class MovedSequence : public testing::Test {
     }
     std::filesystem::remove_all(project);
   }
-  // Of both runs.
+  // Runs the command on both sequences.
   [[nodiscard]] Ended Analyze(const std::string& command) const {
     const std::string run = (directory_.path() / "run_").string();
     return railcast::Analyze(command + " " + run + "1 " + run + "2 --format text");
@@ -45,7 +45,7 @@ TEST_F(MovedSequence, IsReadByEveryCommandWithoutTheFilesItWasMadeOf) {
 }
 
 TEST_F(MovedSequence, IsNamedInReportsWithItsHashesWeatherAndMaker) {
-  // The commit, where it is known.
+  // Followed by the commit where it is known.
   const std::string version = R"(railcast 0\.1\.0[^ ,]*)";
   for (const char* command : {"stats", "detect", "compare", "fit"}) {
     const Ended run = Analyze(command);

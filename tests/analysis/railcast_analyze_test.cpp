@@ -66,11 +66,13 @@ TEST(RailcastAnalyze, ChartsAScenario) {
   EXPECT_THAT(run.said, HasSubstr("fidelity auto uses "));
   const Json json = Json::parse(ReadFileWhole(out / "frontier.json"));
   ASSERT_EQ(json["rows"].size(), 3U);
-  // Brute force of 4 rays misses more wires than closed forms do.
+  // Brute force with 4 rays misses more wires than the closed forms do.
   EXPECT_GT(json["rows"][2]["errors"]["thin_recall"]["num"], 0);
   EXPECT_GT(json["rows"][1]["errors"]["thin_recall"]["share"],
             json["rows"][2]["errors"]["thin_recall"]["share"]);
-  for (const char* name : {"frontier.csv", "frontier.png", "frontier.svg", "frontier.gnuplot"}) {
+  EXPECT_EQ(json["sections"][0]["charts"].size(), 4U);
+  for (const char* name : {"frontier.csv", "frontier.png", "frontier.svg", "frontier.gnuplot",
+                           "report.html", "csv/found.csv", "charts/range_median_mm.svg"}) {
     EXPECT_TRUE(std::filesystem::exists(out / name)) << name;
   }
 }

@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include "core/io/net/udp_receiver.h"
-#include "core/io/pcd_reader.h"
 #include "core/io/stream/stream_clouds.h"
 #include "core/io/write_file.h"
+#include "railcast/io/cloud_files.h"
 #include "tests/core/io/stream/listening_program.h"
 #include "tests/core/io/stream/live_stream.h"
 #include "tests/core/io/temporary_directory.h"
@@ -93,7 +93,7 @@ TEST(ReceiveCommand, KeepsFramesWithTheirPoses) {
   std::getline(lines, head);
   std::getline(lines, first);
   std::getline(lines, second);
-  // Frame 7's place is (5.3e6 + 0.7, 6e5, 412.25) m; 17 digits are all of a double.
+  // The position of frame 7 is (5.3e6 + 0.7, 6e5, 412.25) m; 17 digits represent any double.
   EXPECT_THAT(first, MatchesRegex("frames/000000.pcd,0,7,700000000,5300000.7[0-9]*,600000,412.25,"
                                   ".*,960,0"));
   EXPECT_THAT(second, MatchesRegex("frames/000001.pcd,0,8,800000000,.*,921,39"));

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <string>
 
-#include "core/frame/frame.h"
-#include "core/io/recording/recording.h"
+#include "railcast/frame.h"
+#include "railcast/io/recording.h"
 
 namespace railcast {
 
-/// A frame as a recording of ours has it: every field, slots are firings, the pose is known.
+/// A frame as railcast records it: with every field, with firings as slots, and with a known pose.
 [[nodiscard]] inline RecordedFrame Record(Frame frame) {
   RecordedFrame recorded;
   ForEachField(frame,
@@ -19,7 +19,7 @@ namespace railcast {
   return recorded;
 }
 
-/// The same as another's sensor would have recorded it: positions, intensity, ring and column.
+/// The frame as a foreign recording has it: positions, intensity, ring and column only.
 [[nodiscard]] inline RecordedFrame RecordPointsOnly(Frame frame) {
   RecordedFrame recorded = Record(std::move(frame));
   recorded.fields = {"x", "y", "z", "intensity", "range_m", "ring", "column"};

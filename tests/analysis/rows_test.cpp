@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/scenario/effects.h"
+#include "railcast/effects.h"
 
 namespace railcast {
 namespace {
@@ -57,14 +57,14 @@ TEST(FrontierRows, AreNamedWhereOneIsUnknown) {
 
 TEST(SpecOfRow, GivesThePublishedModelThePhysicalThreshold) {
   SimulatorSpec scenario;
-  scenario.receiver.range_at_10_percent_m = 140.0;
-  scenario.beam.reference_rays = 77;
-  const SimulatorSpec spec =
-      SpecOfRow({"plausibility", RowGroup::kLadder, EffectsOfRung("plausibility")}, scenario);
-  EXPECT_EQ(spec.plausibility.reference_threshold, 0.1);
-  EXPECT_EQ(spec.plausibility.reference_range_m, 140.0);
-  EXPECT_EQ(spec.effects, EffectsOfRung("plausibility"));
-  EXPECT_EQ(spec.beam.reference_rays, 77);
+  scenario.detector.receiver.range_at_10_percent_m = 140.0;
+  scenario.detector.beam.reference_rays = 77;
+  const SimulatorSpec spec = SpecOfRow(
+      {"plausibility", RowGroup::kLadder, EffectsOfRung(Fidelity::kPlausibility)}, scenario);
+  EXPECT_EQ(spec.detector.plausibility.reference_threshold, 0.1);
+  EXPECT_EQ(spec.detector.plausibility.reference_range_m, 140.0);
+  EXPECT_EQ(spec.detector.effects, EffectsOfRung(Fidelity::kPlausibility));
+  EXPECT_EQ(spec.detector.beam.reference_rays, 77);
 }
 
 }  // namespace

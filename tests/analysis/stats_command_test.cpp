@@ -29,7 +29,7 @@ std::filesystem::path MakeSequence(const TemporaryFolder& folder, const std::str
   return out;
 }
 
-const Json& TableOf(const Json& stats, const std::string& key) {
+const Json& JsonTableOf(const Json& stats, const std::string& key) {
   for (const Json& section : stats.at("sections")) {
     for (const Json& table : section.at("tables")) {
       if (table.at("key") == key) return table;
@@ -55,7 +55,7 @@ TEST(StatsCommand, CountsTheOutcomesThatTheSequenceCounted) {
   ASSERT_GT(expected["rain_absorbed"], 100U);
   const Json stats = Json::parse(ReadFileWhole(out / "stats.json"));
   std::map<std::string, std::uint64_t> found;
-  for (const Json& row : TableOf(stats, "outcomes")["rows"]) {
+  for (const Json& row : JsonTableOf(stats, "outcomes")["rows"]) {
     std::string outcome = row["outcome"];
     std::replace(outcome.begin(), outcome.end(), ' ', '_');
     found[outcome] = row["firings"];
@@ -83,7 +83,7 @@ TEST(StatsCommand, GivesTheSameFiguresAtAnyNumberOfThreads) {
         Analyze("stats " + sequence.string() + " --out " + out.string() + " --threads " + threads);
     EXPECT_EQ(run.status, 0) << run.said;
     Json stats = Json::parse(ReadFileWhole(out / "stats.json"));
-    stats.erase("command");  // Names the number.
+    stats.erase("command");  // The command line contains the number of threads.
     return stats.dump();
   };
   EXPECT_EQ(json_of("1"), json_of("2"));
@@ -162,8 +162,9 @@ class StatsOfCapture : public testing::TestWithParam<std::string> {
   }
 };
 
-// Real sensors, whatever they looked at: range noise on planes of millimetres to centimetres (data
-// sheets: 2 to 3 cm), next to no holes in surfaces, not enough turns for a mean over frames.
+// Limits that hold for any scene of a real sensor: range noise on planes of millimetres to
+// centimetres (data sheets: 2 to 3 cm), hardly any holes in surfaces, and not enough turns for a
+// mean over frames.
 TEST_P(StatsOfCapture, ArePlausible) {
   const TemporaryFolder folder;
   const auto out = folder.Write("x", "").parent_path() / "out";
@@ -171,7 +172,7 @@ TEST_P(StatsOfCapture, ArePlausible) {
   ASSERT_EQ(run.status, 0) << run.said;
   const Json stats = Json::parse(ReadFileWhole(out / "stats.json"));
   int num_bins = 0;
-  for (const Json& row : TableOf(stats, "temporal_noise")["rows"]) {
+  for (const Json& row : JsonTableOf(stats, "temporal_noise")["rows"]) {
     const Json& sigma_mm = row["robust_sigma_mm"];
     if (sigma_mm["value"].is_null() || sigma_mm["samples"] < 1000) continue;
     EXPECT_GT(sigma_mm["value"], 2.0);
@@ -179,10 +180,10 @@ TEST_P(StatsOfCapture, ArePlausible) {
     ++num_bins;
   }
   EXPECT_GT(num_bins, 1);
-  const Json& holes = TableOf(stats, "grid")["rows"][1]["share"];
+  const Json& holes = JsonTableOf(stats, "grid")["rows"][1]["share"];
   EXPECT_LT(holes["high"], 0.05);
   EXPECT_GT(holes["samples"], 10000);
-  EXPECT_TRUE(TableOf(stats, "frames")["rows"][0]["mean"]["value"].is_null());
+  EXPECT_TRUE(JsonTableOf(stats, "frames")["rows"][0]["mean"]["value"].is_null());
 }
 
 INSTANTIATE_TEST_SUITE_P(Sensors,

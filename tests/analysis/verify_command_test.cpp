@@ -42,7 +42,7 @@ TEST(VerifyCommand, SaysALineForEveryFaultAndEndsWithOne) {
                                       out.string() +
                                       ": 2 faults; read 2 frames in [0-9]+ files, "
                                       "[0-9.]+ MB\n"));
-    // As every reader has it.
+    // The message that every reader of sequences gives.
     const Ended read = Analyze("stats " + out.string() + " --format text");
     EXPECT_EQ(read.status, 1);
     EXPECT_THAT(read.said, testing::StartsWith(file.string() + ": must have the hash "));

@@ -1,6 +1,6 @@
-// What Embree's instruction set changes. Our own effects give the same bits on each; Embree's
-// traversal orders its arithmetic by vector width, so ranges differ in the last bits and a beam on
-// an edge may fall on its other side.
+// Measures what Embree's instruction set changes. The effects of railcast give the same bits on
+// each; Embree's traversal orders its arithmetic by vector width, so that ranges differ in the last
+// bits and a beam on an edge may fall on its other side.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "core/scenario/scenario.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 namespace {
 
-// Embree refuses what the machine cannot run.
+// Embree refuses instruction sets that the machine cannot run.
 std::vector<std::string> InstructionSets() {
   std::vector<std::string> sets = {"sse4.2"};
   if (__builtin_cpu_supports("avx2")) sets.emplace_back("avx2");
@@ -43,7 +43,7 @@ TEST(InstructionSet, ChangesOnlyLastBitsAndBeamsOnEdges) {
       const auto b = static_cast<double>(frames[i].true_range_m[slot]);
       if (a == b || (std::isnan(a) && std::isnan(b))) continue;
       ++num_other_bits;
-      // Farther apart than any rounding: another triangle was hit.
+      // The difference is larger than any rounding, so another triangle was hit.
       constexpr double kRounding_m = 2e-3;
       if (!(std::abs(a - b) <= kRounding_m)) {
         ++num_other_surfaces;

@@ -1,4 +1,4 @@
-// The same scene anywhere in the world gives the same frame.
+// A scene gives the same frame anywhere in the world.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,7 +41,7 @@ void ExpectSameScan(const Transform& world_from_chunk) {
     worst_m = std::max(worst_m, std::abs(static_cast<double>(here.range_m[slot]) -
                                          static_cast<double>(there.range_m[slot])));
   }
-  // What differs is the rounding of double-precision poses: 1 nm at 5.3e6 m.
+  // The frames differ by the rounding of poses in double: 1 nm at 5.3e6 m.
   EXPECT_LE(worst_m, 2e-4);
   EXPECT_LE(num_other_labels, 1U);
 }

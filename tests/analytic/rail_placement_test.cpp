@@ -1,4 +1,5 @@
-// The railway world gives the same frame wherever it lies: at UTM coordinates, 29 km down the line.
+// The railway world gives the same frame wherever it lies: at UTM coordinates and 29 km down the
+// line.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,17 +9,17 @@
 #include <string>
 
 #include "core/rail/catenary/catenary.h"
-#include "core/scenario/scenario.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 namespace {
 
-constexpr double kTolerance_m = 2e-4;
+constexpr double kPlacementTolerance_m = 2e-4;
 
 ScenarioSpec Demo() {
   ScenarioSpec spec = ReadScenario(std::filesystem::path(RAILCAST_SOURCE_DIR) /
                                    "scenarios/st_gallen_approach.json");
-  spec.fidelity = "geometry";
+  spec.fidelity = Fidelity::kGeometry;
   return spec;
 }
 
@@ -35,9 +36,9 @@ struct Difference {
   double worst_m = 0.0;
 };
 
-// Over the slots for which `counts` holds of the labels in both frames.
+// Compares the slots for which `counts` holds for the labels in both frames.
 template <typename Counts>
-Difference Compare(const Frame& a, const Frame& b, const Counts& counts) {
+Difference ComparePlacement(const Frame& a, const Frame& b, const Counts& counts) {
   Difference difference;
   for (std::size_t slot = 0; slot < a.num_slots(); ++slot) {
     if (!counts(a.label[slot]) || !counts(b.label[slot])) continue;
@@ -55,10 +56,10 @@ Difference Compare(const Frame& a, const Frame& b, const Counts& counts) {
   return difference;
 }
 
-// A beam within 0.1 mm of an edge may fall on either side of it: these are the other labels. Each
-// frame has 40 such beams, but what differs here is the last bit of poses in double: none of
-// 1,440,000 beams of the demo got another label. Leaves and blades are all edges, so their ranges
-// may differ there without another label: those of wires, rails and wagons must not.
+// A beam within 0.1 mm of an edge may fall on either side of it and get another label. Each frame
+// has 40 such beams, but only the last bits of poses in double differ here: none of 1,440,000 beams
+// of the demo got another label. Leaves and blades of grass are full of edges, so their ranges may
+// differ without another label; those of wires, rails and wagons must not.
 TEST(RailPlacement, UtmCoordinatesAndAnotherHeadingGiveTheSameFrame) {
   ScenarioSpec here = Demo();
   ScenarioSpec there = here;
@@ -69,26 +70,27 @@ TEST(RailPlacement, UtmCoordinatesAndAnotherHeadingGiveTheSameFrame) {
   const LabelTable labels(here.labels);
   const std::set<std::uint32_t> plants = {labels.Id("grass"), labels.Id("tree")};
   const Difference hard =
-      Compare(a, b, [&](std::uint32_t label) { return !plants.contains(label); });
-  const Difference all = Compare(a, b, [](std::uint32_t) { return true; });
+      ComparePlacement(a, b, [&](std::uint32_t label) { return !plants.contains(label); });
+  const Difference all = ComparePlacement(a, b, [](std::uint32_t) { return true; });
   RecordProperty("other_labels", static_cast<int>(all.num_other_labels));
   EXPECT_GT(hard.num_compared, 20'000U);
   EXPECT_LE(hard.num_other_labels, 1U);
-  EXPECT_LE(hard.worst_m, kTolerance_m);
+  EXPECT_LE(hard.worst_m, kPlacementTolerance_m);
   EXPECT_EQ(all.num_compared, 28'800U);
   EXPECT_LE(all.num_other_labels, 1U);
 }
 
-// 29,250 m is a whole number of chunks (50 m), sleepers (0.6 m) and spans (65 m), so what the line
-// repeats is the same there; stones and plants are not, they are left out.
+// 29,250 m is a whole number of chunks (50 m), sleepers (0.6 m) and spans (65 m), so everything
+// that repeats along the line is the same there. Stones and plants do not repeat and are left out.
 TEST(RailPlacement, TwentyNineKilometresDownTheLineRailsWiresAndWagonsAreTheSame) {
   constexpr double kFarther_m = 29'250.0;
   ScenarioSpec here = Demo();
   here.world.alignment = {};
-  here.world.alignment.course = AlignmentElementsSpec{{{"straight", 40'000.0, std::nullopt}}};
+  here.world.alignment.course =
+      AlignmentElementsSpec{{{ElementType::kStraight, 40'000.0, std::nullopt}}};
   here.world.vegetation.trees_per_hectare = 0.0;
   here.world.vegetation.grass = false;
-  // The ground is rougher here than there: nothing may stand on it.
+  // The ground's roughness differs between the two places, so no object may stand on the ground.
   for (ObjectSpec& object : here.world.objects) object.h_m = object.h_m.value_or(0.0);
   ScenarioSpec there = here;
   there.vehicle.start_s_m += kFarther_m;
@@ -102,10 +104,10 @@ TEST(RailPlacement, TwentyNineKilometresDownTheLineRailsWiresAndWagonsAreTheSame
     repeated.insert(labels.Id(name));
   }
   const Difference difference =
-      Compare(a, b, [&](std::uint32_t label) { return repeated.contains(label); });
+      ComparePlacement(a, b, [&](std::uint32_t label) { return repeated.contains(label); });
   EXPECT_GT(difference.num_compared, 1'000U);
   EXPECT_LE(difference.num_other_labels, 1U);
-  EXPECT_LE(difference.worst_m, kTolerance_m);
+  EXPECT_LE(difference.worst_m, kPlacementTolerance_m);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Ranges against double-precision closed forms: 0.2 mm at 300 m.
+// Compares ranges with closed forms in double precision: 0.2 mm at 300 m.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,30 +14,30 @@ namespace {
 
 constexpr double kTolerance_m = 2e-4;
 
-/// Distance along a unit direction from the sensor; NaN = misses.
+/// Distance from the sensor along a unit direction; NaN where it misses.
 using ClosedForm = std::function<double(const Vector3& direction)>;
 
 struct Errors {
   double worst_m = 0.0;
   std::size_t num_compared = 0;
-  std::size_t num_disagreeing = 0;  ///< One hits, the other does not.
+  std::size_t num_disagreeing = 0;  ///< Either the closed form or the trace hits, but not both.
 };
 
-// Sensor at the origin, looking along +x; `chunk_from_object` places the mesh.
+// The sensor is at the origin and looks along +x; `chunk_from_object` places the mesh.
 Errors Compare(const Mesh& mesh,
                const Transform& chunk_from_object,
                const ScanPattern& pattern,
                const ClosedForm& closed_form) {
   auto world = std::make_shared<SimpleWorld>();
   world->AddObject(std::make_shared<Model>(Model{"mesh", {{mesh, 2, 1}}}), chunk_from_object);
-  const Frame frame = ScanOnce(world, pattern, {.range_max_m = 1000.0});
+  const Frame frame = ScanOnce(world, pattern, {.detector = {.range_max_m = 1000.0}});
   Errors errors;
   for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
     const std::size_t slot = pattern.row[i] * pattern.columns + pattern.column[i];
     const double truth_m = closed_form(
         Eigen::Vector3f(pattern.direction_x[i], pattern.direction_y[i], pattern.direction_z[i])
             .cast<double>()
-            .normalized());  // float32 directions are unit to 6e-8 only
+            .normalized());  // Directions in float32 are of unit length only to 6e-8.
     const double range_m = static_cast<double>(frame.range_m[slot]);
     if (std::isnan(truth_m) != std::isnan(range_m)) {
       ++errors.num_disagreeing;
@@ -71,7 +71,8 @@ TEST(RangeAccuracy, PlaneTurnedBy60DegAt300m) {
   EXPECT_EQ(errors.num_compared, 100U * 100U);
 }
 
-// Facets of 0.02 mm sagitta; up to 70 deg of incidence the range error is below three times that.
+// The facets have a sagitta of 0.02 mm; up to 70 deg of incidence the range error is below three
+// times that.
 TEST(RangeAccuracy, SphereAt300m) {
   constexpr double kRadius_m = 2.0;
   const Vector3 centre(300.0, 0.5, -0.3);
@@ -98,22 +99,23 @@ TEST(RangeAccuracy, UprightCylinderAt300m) {
                                   const double square =
                                       along * along - 300.0 * 300.0 + kRadius_m * kRadius_m;
                                   if (square < 0.25 * kRadius_m * kRadius_m)
-                                    return std::nan("");  // beyond 60 deg incidence
+                                    return std::nan("");  // Beyond 60 deg of incidence.
                                   return (along - std::sqrt(square)) / plan;
                                 });
   EXPECT_LE(errors.worst_m, kTolerance_m);
   EXPECT_GT(errors.num_compared, 10'000U);
 }
 
-// A contact wire (12 mm) of 16 sides: facets lie up to r (1 - cos(pi / 16)) = 0.115 mm inside.
-// Thirteen sides are the fewest that meet 0.2 mm; of 8 sides the bound is 0.457 mm.
+// A contact wire of 12 mm with 16 sides: its facets lie up to r (1 - cos(pi / 16)) = 0.115 mm
+// inside. Thirteen sides are the fewest that keep within 0.2 mm; for 8 sides the bound is 0.457 mm.
 TEST(RangeAccuracy, WireOf16SidesAt100m) {
   constexpr double kRadius_m = 0.006;
   const auto closed_form = [&](const Vector3& d) {
     const double plan = std::hypot(d.x(), d.y());
     const double along = 100.0 * d.x() / plan;
     const double square = along * along - 100.0 * 100.0 + kRadius_m * kRadius_m;
-    // Only the middle of the wire: towards its limb any facet error turns into range error.
+    // Only the middle of the wire is compared, because near its limb any error of a facet becomes a
+    // range error.
     if (square < 0.75 * kRadius_m * kRadius_m) return std::nan("");
     return (along - std::sqrt(square)) / plan;
   };
@@ -126,8 +128,9 @@ TEST(RangeAccuracy, WireOf16SidesAt100m) {
   EXPECT_LE(eight.worst_m, 0.000457 / std::cos(std::numbers::pi / 6.0) + 5e-5);
 }
 
-// The ground under a sensor: at 88.5 deg of incidence a float32 plane is a few millimetres off
-// along the beam, though not across it. Stated, not hidden: error x cos(incidence) <= 0.2 mm.
+// Ground below the sensor: at 88.5 deg of incidence a plane in float32 is off by a few millimetres
+// along the beam, but not across the surface. The criterion says so: error x cos(incidence) <= 0.2
+// mm.
 TEST(RangeAccuracy, SlopingGroundIsExactAcrossTheBeamUpToGrazing) {
   const double pitch_rad = 0.02;
   const Transform chunk_from_ground = At(0.0, 0.0, -2.5, 0.3, pitch_rad);

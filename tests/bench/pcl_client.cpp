@@ -1,8 +1,9 @@
-// A client that knows nothing of railcast: PCL's own grabbers for Velodyne sensors, counted.
+// Counts what PCL's own grabbers for Velodyne sensors receive; it does not depend on railcast.
 //
 //   pcl-client vlp|hdl HOST PORT SECONDS [CALIBRATION.xml]
 //
-// Prints sweeps, points and the shortest and longest time between sweeps' arrivals.
+// Prints the number of sweeps and points, and the shortest and longest time between arrivals of
+// sweeps.
 
 #include <pcl/io/hdl_grabber.h>
 #include <pcl/io/vlp_grabber.h>

@@ -1,20 +1,24 @@
-// Speed of the published scan in the demo scene, all rows interleaved in one process.
+// Measures the speed of the published scan in the demo scene, with all rows interleaved in one
+// process.
 //
 //   railcast-bench [--benchmark_filter=demo] [other options of Google Benchmark]
 //
-// Rows are <what>/<scene>/threads:<n>. What: raw_trace (Embree's packets of 16, rays aimed
-// beforehand, ranges kept), sets of effects complete to a filled Frame, the same written as PCD to
-// tmpfs, the same encoded in the railcast protocol and sent to a listener on loopback, and finished
-// frames encoded and sent alone. Scenes: the demo, and the demo without some of its parts. Ratios
-// to the raw trace of the same scene and threads are printed at the end: read these, machines are
-// noisy.
+// Rows are <what>/<scene>/threads:<n>. <what> is: raw_trace (Embree's packets of 16, with rays
+// aimed beforehand and ranges kept); sets of effects, complete to a filled Frame; the same written
+// as PCD to tmpfs (to the temporary folder where /dev/shm cannot be written); the same encoded in
+// the railcast protocol and sent to a listener on loopback; and finished frames only encoded and
+// sent. Scenes are the demo, and the demo without some of its parts. Ratios to the raw trace of the
+// same scene and number of threads are printed at the end; compare these, because absolute times
+// are noisy.
 #include <benchmark/benchmark.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <iostream>
 #include <map>
 #include <memory>
 #include <string>
@@ -22,21 +26,24 @@
 #include <utility>
 #include <vector>
 
-#include "core/io/frame_files.h"
 #include "core/io/net/udp_receiver.h"
 #include "core/io/net/udp_sender.h"
 #include "core/io/stream/stream_encoder.h"
 #include "core/io/write_file.h"
-#include "core/scenario/effects.h"
-#include "core/scenario/scenario.h"
+#include "core/program/run_program.h"
+#include "railcast/effects.h"
+#include "railcast/error.h"
+#include "railcast/io/cloud_files.h"
+#include "railcast/scenario.h"
+#include "tests/bench/bench_reporter.h"
 
 namespace railcast {
 namespace {
 
-// The vehicle stays in one chunk for these, so that every row sees the same window.
+// The vehicle stays in one chunk for these frames, so that every row sees the same window.
 constexpr std::uint32_t kNumFrames = 8;
 
-/// Takes what is sent to it, as a client on the same machine does.
+/// Receives what is sent to it, as a client on the same machine does.
 class Listener {
  public:
   Listener() : thread_([this] { Listen(); }) {}
@@ -55,7 +62,32 @@ class Listener {
   std::thread thread_;
 };
 
-/// A scene ready to be scanned in any way.
+/// The file that frames are written to. It is removed by the destructor.
+class FrameFileOnTmpfs {
+ public:
+  FrameFileOnTmpfs() {
+    for (const std::filesystem::path& folder :
+         {std::filesystem::path("/dev/shm"), std::filesystem::temp_directory_path()}) {
+      if (::access(folder.c_str(), W_OK) != 0) continue;
+      path_ = folder / ("railcast_bench_" + std::to_string(::getpid()) + ".pcd");
+      return;
+    }
+    throw InputError("/dev/shm: must be a folder that can be written, or TMPDIR must be one");
+  }
+  ~FrameFileOnTmpfs() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  FrameFileOnTmpfs(const FrameFileOnTmpfs&) = delete;
+  FrameFileOnTmpfs& operator=(const FrameFileOnTmpfs&) = delete;
+
+  void Write(const std::string& bytes) const { WriteFileWhole(path_, bytes); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// A scene, ready to be scanned with any effects.
 struct Bench {
   explicit Bench(const ScenarioSpec& scenario)
       : spec(scenario), simulator(MakeSimulator(scenario, 1)) {
@@ -70,7 +102,7 @@ struct Bench {
   ScenarioSpec spec;
   std::unique_ptr<Simulator> simulator;
   std::vector<std::function<void()>> raw_traces;
-  std::vector<Frame> scanned;  ///< With the scenario's own effects and weather.
+  std::vector<Frame> scanned;  ///< Scanned with the scenario's own effects and weather.
   Frame frame;
   FrameFileSpec files;
   std::vector<FrameFile> encoded;
@@ -78,6 +110,7 @@ struct Bench {
   Datagrams datagrams;
   Listener listener;
   UdpSender sender{{listener.at()}, 1};
+  FrameFileOnTmpfs file;
 };
 
 using Work = std::function<void(Bench&, std::uint32_t frame)>;
@@ -89,7 +122,7 @@ void ScanFrame(Bench& bench, std::uint32_t frame) {
 void ScanAndWrite(Bench& bench, std::uint32_t frame) {
   ScanFrame(bench, frame);
   EncodeFrameFiles(bench.frame, bench.files, frame, bench.encoded);
-  WriteFileWhole("/dev/shm/railcast_bench.pcd", bench.encoded.front().bytes);
+  bench.file.Write(bench.encoded.front().bytes);
 }
 
 void EncodeDatagrams(Bench& bench, std::uint32_t frame) {
@@ -112,14 +145,14 @@ void ScanAndSend(Bench& bench, std::uint32_t frame) {
 struct Row {
   std::string what;
   EffectSet effects;
-  bool rain = false;  ///< Else the weather is dry.
+  bool rain = false;  ///< With neither rain nor snow, the weather is dry.
   bool snow = false;
   Work work;
 };
 
 std::vector<Row> Rows() {
   const EffectSet all{.threshold = true, .rain = true, .snow = true, .noise = true};
-  const EffectSet surface = EffectsOfRung("surface");
+  const EffectSet surface = EffectsOfRung(Fidelity::kSurface);
   EffectSet surface_and_wires = surface;
   surface_and_wires.thin_conductors = true;
   return {
@@ -132,8 +165,8 @@ std::vector<Row> Rows() {
       {"surface", surface, true, false, &ScanFrame},
       {"surface_in_snow", surface, true, true, &ScanFrame},
       {"surface+thin_conductors", surface_and_wires, true, false, &ScanFrame},
-      {"footprint", EffectsOfRung("footprint"), true, false, &ScanFrame},
-      {"reference", EffectsOfRung("reference"), true, false, &ScanFrame},
+      {"footprint", EffectsOfRung(Fidelity::kFootprint), true, false, &ScanFrame},
+      {"reference", EffectsOfRung(Fidelity::kReference), true, false, &ScanFrame},
       {"geometry_pcd", {}, false, false, &ScanAndWrite},
       {"plausibility_pcd", all, true, false, &ScanAndWrite},
       {"encode_stream", {}, false, false, &EncodeDatagrams},
@@ -145,12 +178,12 @@ std::vector<Row> Rows() {
 void Run(benchmark::State& state, Bench& bench, const Row& row, int num_threads) {
   using Clock = std::chrono::steady_clock;
   SimulatorSpec spec = bench.simulator->spec();
-  spec.effects = row.effects;
-  spec.weather.rain_rate_mmph = row.rain ? 2.0 : 0.0;
-  spec.weather.snow_rate_mmph = row.snow ? 2.0 : 0.0;
+  spec.detector.effects = row.effects;
+  spec.detector.weather.rain_rate_mmph = row.rain ? 2.0 : 0.0;
+  spec.detector.weather.snow_rate_mmph = row.snow ? 2.0 : 0.0;
   bench.simulator->UseThreads(num_threads);
   bench.simulator->Use(spec);
-  row.work(bench, 0);  // Warms caches; the rows before it ran on other memory.
+  row.work(bench, 0);  // Warms the caches, because the rows before it ran on other memory.
   std::vector<double> times_ms;
   std::uint32_t frame = 0;
   for (auto _ : state) {
@@ -169,9 +202,9 @@ void Run(benchmark::State& state, Bench& bench, const Row& row, int num_threads)
   state.counters["p99_ms"] = quantile(0.99);
 }
 
-/// Prints the medians over the repetitions, and their ratios to the raw trace, in the order of
-/// registration. (All else that Google Benchmark knows: --benchmark_out=FILE.)
-class RatioReporter : public benchmark::ConsoleReporter {
+/// Prints the medians over the repetitions and their ratios to the raw trace, in the order of
+/// registration. (--benchmark_out=FILE writes everything else that Google Benchmark measures.)
+class RatioReporter : public BenchReporter {
  public:
   explicit RatioReporter(std::vector<std::string> names) : names_(std::move(names)) {}
 
@@ -215,7 +248,7 @@ std::map<std::string, ScenarioSpec> Scenes() {
     scenes.emplace("demo-without-" + name, std::move(scene));
   };
   without("grass", [](WorldSpec& world) { world.vegetation.grass = false; });
-  // The lean scene: what comes after the trace weighs most where the trace is cheap.
+  // In this lean scene the trace is cheap, so that the steps after it weigh most.
   without("plants", [](WorldSpec& world) {
     world.vegetation.trees_per_hectare = 0.0;
     world.vegetation.grass = false;
@@ -223,7 +256,7 @@ std::map<std::string, ScenarioSpec> Scenes() {
   without("trees", [](WorldSpec& world) { world.vegetation.trees_per_hectare = 0.0; });
   without("wires", [](WorldSpec& world) { world.catenary.enabled = false; });
   without("objects", [](WorldSpec& world) { world.objects.clear(); });
-  // Rails, sleepers and ballast end under the vehicle, and with them goes what stands on them:
+  // Rails, sleepers and ballast end under the vehicle, and so do the objects that stand on them:
   // compare with demo-without-objects.
   without("objects-and-tracks", [](WorldSpec& world) {
     world.objects.clear();
@@ -237,40 +270,43 @@ std::map<std::string, ScenarioSpec> Scenes() {
   return scenes;
 }
 
-}  // namespace
-}  // namespace railcast
-
-int main(int argc, char** argv) {
+int Main(int argc, char** argv) {
   std::vector<char*> arguments(argv, argv + argc);
-  // Before the user's, so that those win.
+  // The defaults come first, so that the user's options override them.
   std::string defaults[] = {"--benchmark_enable_random_interleaving=true",
                             "--benchmark_repetitions=15", "--benchmark_min_time=0.1",
                             "--benchmark_report_aggregates_only=true"};
   for (std::string& option : defaults) arguments.insert(arguments.begin() + 1, option.data());
   int count = static_cast<int>(arguments.size());
   benchmark::Initialize(&count, arguments.data());
-  if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
+  if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return kExitUsage;
 
   std::vector<std::string> names;
-  for (const auto& [scene, spec] : railcast::Scenes()) {
-    const auto bench = std::make_shared<railcast::Bench>(spec);
-    for (const railcast::Row& row : railcast::Rows()) {
+  for (const auto& [scene, spec] : Scenes()) {
+    const auto bench = std::make_shared<Bench>(spec);
+    for (const Row& row : Rows()) {
       const bool has_all_rows = scene == "demo" || scene == "demo-without-plants";
       if (!has_all_rows && row.what != "raw_trace") continue;
       for (const int num_threads : {1, 2}) {
         const std::string name = row.what + "/" + scene + "/threads:" + std::to_string(num_threads);
         names.push_back(name);
         benchmark::RegisterBenchmark(
-            name.c_str(),
-            [=](benchmark::State& state) { railcast::Run(state, *bench, row, num_threads); })
+            name.c_str(), [=](benchmark::State& state) { Run(state, *bench, row, num_threads); })
             ->UseManualTime()
             ->Unit(benchmark::kMillisecond);
       }
     }
   }
-  railcast::RatioReporter reporter(std::move(names));
+  RatioReporter reporter(std::move(names));
   benchmark::RunSpecifiedBenchmarks(&reporter);
   benchmark::Shutdown();
-  std::filesystem::remove("/dev/shm/railcast_bench.pcd");
-  return 0;
+  return kExitSuccess;
+}
+
+}  // namespace
+}  // namespace railcast
+
+int main(int argc, char** argv) {
+  return railcast::RunProgram(
+      "railcast-bench", [&] { return railcast::Main(argc, argv); }, std::cerr);
 }

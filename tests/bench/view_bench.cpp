@@ -1,10 +1,10 @@
-// How fast the viewer draws frames of 1 k to 500 k points. Needs a display:
+// Measures how fast the viewer draws frames of 1 k to 500 k points. Needs a display:
 //
 //   xvfb-run -a -s -noreset build/release/tests/bench/railcast-view-bench
 //
-// Rows are <what>/<points>/<height of the picture in pixels>. What: play (another frame is coloured
-// and drawn, as while playing), turn (the same frame from elsewhere, as while the mouse is
-// dragged). Under Xvfb Mesa's llvmpipe draws, on the processor's cores.
+// Rows are <what>/<points>/<height of the picture in pixels>. <what> is: play (another frame is
+// coloured and drawn, as while playing) or turn (the same frame is drawn from another side, as
+// while the mouse is dragged). Under Xvfb, Mesa's llvmpipe draws on the processor's cores.
 #include <benchmark/benchmark.h>
 #include <vtkCamera.h>
 #include <vtkRenderWindow.h>
@@ -17,15 +17,16 @@
 #include <utility>
 #include <vector>
 
+#include "tests/bench/bench_reporter.h"
+#include "viewer/composition/compose.h"
 #include "viewer/draw/display.h"
 #include "viewer/draw/stage.h"
 #include "viewer/frames/shown_frame.h"
-#include "viewer/scene/compose.h"
 
 namespace railcast {
 namespace {
 
-/// Points of 64 rings on level ground 3 m below and on a wall about the sensor.
+/// Points of 64 rings on level ground 3 m below the sensor and on a wall around it.
 std::shared_ptr<const ShownFrame> MadeFrame(std::uint32_t num_points, std::uint32_t index) {
   constexpr std::uint32_t kRings = 64;
   RecordedFrame recorded;
@@ -50,7 +51,7 @@ std::shared_ptr<const ShownFrame> MadeFrame(std::uint32_t num_points, std::uint3
   return std::make_shared<const ShownFrame>(MakeShownFrame(std::move(recorded)));
 }
 
-/// A stage with a frame on it.
+/// A stage that shows a frame.
 struct Theatre {
   explicit Theatre(const benchmark::State& state)
       : stage({static_cast<int>(state.range(1) * 16 / 9), static_cast<int>(state.range(1))}),
@@ -65,9 +66,9 @@ struct Theatre {
   }
 
   void Show(std::size_t index) {
-    std::vector<Scene> scenes;
-    scenes.push_back(composer.Compose({frames[index % frames.size()]}, choices));
-    stage.Show(std::move(scenes), Look());
+    std::vector<Composition> compositions;
+    compositions.push_back(composer.Compose({frames[index % frames.size()]}, choices));
+    stage.Show(std::move(compositions), Look());
     Render();
   }
 
@@ -117,4 +118,11 @@ BENCHMARK(Turn)->Apply(AllSizes);
 }  // namespace
 }  // namespace railcast
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  railcast::BenchReporter reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  benchmark::Shutdown();
+  return 0;
+}

@@ -9,7 +9,8 @@
 
 namespace railcast {
 
-/// Checks that each line is "place: rule", printable and UTF-8: what a terminal and a log can show.
+/// Checks that each line is "place: rule", printable and valid UTF-8, so that terminals and logs
+/// can show it.
 inline void CheckFaultLines(const std::string& lines) {
   std::istringstream stream(lines);
   int num_lines = 0;

@@ -9,7 +9,7 @@
 #include "core/base/error.h"
 #include "core/io/hesai/pandar64_decoder.h"
 #include "core/io/hesai/pandar64_packet.h"
-#include "core/io/recording/capture_recording.h"
+#include "core/io/recording/recording_kinds.h"
 
 namespace railcast {
 namespace {
@@ -25,7 +25,7 @@ void CheckTurn(const SensorTurn& turn) {
   }
 }
 
-// One after another, the last as short as it is.
+// Splits the bytes into packets; the last one may be truncated.
 void DecodePackets(std::span<const char> bytes) {
   Pandar64Decoder decoder;
   std::vector<SensorTurn> turns;
@@ -51,7 +51,8 @@ void CheckFrame(const RecordedFrame& recorded) {
 void ReadCapture(std::span<const char> bytes) {
   const auto open = [&] {
     std::FILE* const stream =
-        ::fmemopen(const_cast<char*>(bytes.data()), bytes.size(), "rb");  // "r" does not write.
+        // Mode "r" does not write.
+        ::fmemopen(const_cast<char*>(bytes.data()), bytes.size(), "rb");
     if (stream == nullptr) throw InputError("fuzz: empty");
     return stream;
   };
@@ -66,8 +67,8 @@ void ReadCapture(std::span<const char> bytes) {
 }  // namespace
 }  // namespace railcast
 
-/// What libFuzzer calls. The first byte says what the others are: h packets of a Pandar64, anything
-/// else a capture.
+/// Entry point for libFuzzer. The first byte selects the format of the rest: h for packets of a
+/// Pandar64, anything else for a capture.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::span bytes(reinterpret_cast<const char*>(data) + 1, size - 1);

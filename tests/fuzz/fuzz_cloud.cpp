@@ -79,8 +79,8 @@ void ReadCloud(char kind, const std::string& bytes) {
 }  // namespace
 }  // namespace railcast
 
-/// What libFuzzer calls. The first byte says what the others are: p a PCD file, l a PLY file, k one
-/// of KITTI's; P and L are those of a sequence of ours.
+/// Entry point for libFuzzer. The first byte selects the format of the rest: p PCD, l PLY, k KITTI;
+/// P and L are files of a railcast sequence.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   railcast::ReadCloud(static_cast<char>(data[0]),

@@ -21,7 +21,7 @@ void ReadLine(std::string_view line) {
   const std::string written = WriteCommand(*read.command, read.tag);
   Check(written.find('\n') == std::string::npos, "a command is one line");
   const CommandLine again = ReadCommand(written);
-  // What was short may be long with every default in place.
+  // A short command may become long when all defaults are written.
   if (written.size() > kMaxCommandBytes) return;
   Check(again.faults.empty(), "what is written can be read");
   Check(again.command == read.command && again.tag == read.tag, "and says the same");
@@ -30,7 +30,8 @@ void ReadLine(std::string_view line) {
 }  // namespace
 }  // namespace railcast
 
-/// What libFuzzer calls: a datagram of the command channel, or a line of a log's command.
+/// Entry point for libFuzzer: a datagram of the command channel, which is also a line of a command
+/// log.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   railcast::ReadLine({reinterpret_cast<const char*>(data), size});
   return 0;

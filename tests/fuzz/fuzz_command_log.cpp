@@ -43,7 +43,7 @@ void ReadLog(const std::string& text) {
 }  // namespace
 }  // namespace railcast
 
-/// What libFuzzer calls: a command log.
+/// Entry point for libFuzzer: a command log.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   railcast::ReadLog({reinterpret_cast<const char*>(data), size});
   return 0;

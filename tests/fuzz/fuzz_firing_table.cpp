@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "core/base/number_text.h"
+#include "core/base/text.h"
 #include "core/scan/firing.h"
 
 namespace railcast {
@@ -31,7 +31,8 @@ void CheckGrid(const FiringGrid& grid) {
   }
 }
 
-// The times alone, since angles in degrees need not survive the way to radians and back.
+// Compares the times only, since angles in degrees may change when they are converted to radians
+// and back.
 std::string TableText(const FiringGrid& grid) {
   std::string text = "azimuth_deg,elevation_deg,time_us\n";
   for (const Firing& firing : grid.firings) {
@@ -44,8 +45,8 @@ void ReadTable(const std::string& text) {
   ErrorList errors;
   const FiringGrid grid = Parse(text, errors);
   Check(grid.firings.empty() != errors.empty(), "a table has firings or a fault");
-  // The last line may have three.
-  Check(errors.lines().size() <= 22, "faults are few");
+  // The last line may have three faults.
+  Check(errors.size() <= 22, "faults are few");
   for (const std::string& line : errors.lines()) {
     Check(line.starts_with("fuzz:") && line.find('\n') == std::string::npos && line.size() < 200,
           "a fault is a short line that names its file");
@@ -62,7 +63,7 @@ void ReadTable(const std::string& text) {
 }  // namespace
 }  // namespace railcast
 
-/// What libFuzzer calls: a table of firings as CSV.
+/// Entry point for libFuzzer: a table of firings as CSV.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   railcast::ReadTable({reinterpret_cast<const char*>(data), size});
   return 0;

@@ -1,11 +1,11 @@
-#include "generator/frame_record.h"
+#include "generator/sequence/frame_record.h"
 
 #include <cstdint>
 #include <string_view>
 
 #include "core/base/error.h"
 
-/// What libFuzzer calls: a line of frames.jsonl as a run reads it that goes on with its directory.
+/// Entry point for libFuzzer: a line of frames.jsonl as a resumed run reads it.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto record =
       railcast::ParseFrameLine(std::string_view(reinterpret_cast<const char*>(data), size));

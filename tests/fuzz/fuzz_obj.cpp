@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "core/base/number_text.h"
+#include "core/base/text.h"
 #include "core/scene/obj_import.h"
 
 namespace railcast {
@@ -55,9 +55,8 @@ void ReadMesh(const std::string& text, double unit_m, bool y_up) {
 }  // namespace
 }  // namespace railcast
 
-/// What libFuzzer calls. The first byte says what the lengths of the OBJ file are and which of its
-/// axes points up: m or c for metres or centimetres with z, M or C with y, anything else kilometres
-/// with z.
+/// Entry point for libFuzzer. The first byte selects unit and up axis of the OBJ file: m or c for
+/// metres or centimetres with z up, M or C with y up, anything else for kilometres with z up.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const char kind = static_cast<char>(data[0]);

@@ -8,9 +8,9 @@
 
 #include "core/base/error.h"
 #include "core/rail/world_draft.h"
-#include "core/scan/scan_pattern.h"
-#include "core/scenario/scenario.h"
 #include "core/scenario/sensors.h"
+#include "railcast/lidar.h"
+#include "railcast/scenario.h"
 #include "tests/fuzz/fault_lines.h"
 #include "tests/fuzz/input_files.h"
 
@@ -80,7 +80,7 @@ void CheckPath(const TrackPath& path, const Alignment& alignment) {
   }
 }
 
-// The world's line and things, without its chunks.
+// Checks the line and objects of the world, without its chunks.
 void CheckDraft(const ScenarioSpec& spec) {
   WorldFaults faults;
   const LabelTable labels(spec.labels);
@@ -118,7 +118,7 @@ void CheckFrame(const Frame& frame) {
   }
 }
 
-// What no fault was found in can be run.
+// A scenario without faults must run.
 void Run(const ScenarioSpec& spec) {
   for (const auto& simulator : MakeSimulators(spec, 1)) {
     Frame frame;
@@ -129,7 +129,7 @@ void Run(const ScenarioSpec& spec) {
   }
 }
 
-// Whether one of the numbers between `key` and the end of its object is slow.
+// Whether `is_slow` holds for one of the numbers between `key` and the end of its object.
 template <typename IsSlow>
 bool HasNumber(std::string_view input, std::string_view key, const IsSlow& is_slow) {
   for (std::size_t at = input.find(key); at != std::string_view::npos; at = input.find(key)) {
@@ -147,8 +147,8 @@ bool HasNumber(std::string_view input, std::string_view key, const IsSlow& is_sl
   return false;
 }
 
-// Splines of 10 000 km and 16 million firings are allowed, but take minutes where all is checked,
-// and are built on trial where the scenario has a fault.
+// Splines of 10 000 km and 16 million firings are allowed, but take minutes to check, and they are
+// also built tentatively if the scenario has a fault.
 bool IsSlow(std::string_view input) {
   return HasNumber(input, "spline", [](double number) { return number > 20e3; }) ||
          HasNumber(input, "points_m", [](double number) { return number > 20e3; }) ||
@@ -156,7 +156,7 @@ bool IsSlow(std::string_view input) {
          HasNumber(input, "columns", [](double number) { return number > 3000.0; });
 }
 
-// Running takes seconds here: few inputs are tried, but always the same.
+// Running takes seconds, so only a few inputs are run, always the same ones.
 bool IsRun(std::string_view input) {
   constexpr std::size_t kOneOf = 256;
   return std::hash<std::string_view>()(input) % kOneOf == 0;
@@ -197,7 +197,8 @@ void ReadInput(std::string_view input) {
 }  // namespace
 }  // namespace railcast
 
-/// What libFuzzer calls: a scenario and the files that it names, as InputFiles has them.
+/// Entry point for libFuzzer: a scenario and the files that it names, separated as InputFiles
+/// describes.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view input(reinterpret_cast<const char*>(data), size);
   if (!railcast::IsSlow(input)) railcast::ReadInput(input);

@@ -28,7 +28,7 @@ void ReadObjects(const std::string& line) {
   }
 }
 
-// However deep it is nested.
+// Must work at any depth of nesting.
 void CompareTotals(const std::string& text) {
   const StrictJson manifest = StrictJson::parse(text, nullptr, false);
   CountTotals totals;
@@ -61,8 +61,8 @@ void ReadLine(char kind, const std::string& line) {
 }  // namespace
 }  // namespace railcast
 
-/// What libFuzzer calls. The first byte says which of a sequence's files the line is from that
-/// follows: f frames.jsonl, o objects.jsonl, p poses.csv; m manifest.json and r run.json are whole.
+/// Entry point for libFuzzer. The first byte selects the file of a sequence: the rest is a line of
+/// f frames.jsonl, o objects.jsonl or p poses.csv, or the whole of m manifest.json or r run.json.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   railcast::ReadLine(static_cast<char>(data[0]),

@@ -112,8 +112,8 @@ void Assemble(std::span<const char> bytes) {
 }  // namespace
 }  // namespace railcast
 
-/// What libFuzzer calls: datagrams, each after its length in 15 bits; the 16th bit makes its CRC
-/// right, which chance never would.
+/// Entry point for libFuzzer: datagrams, each preceded by its length in 15 bits; the 16th bit
+/// requests a valid CRC, which random bytes would never have.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   railcast::Assemble(std::span(reinterpret_cast<const char*>(data), size));
   return 0;

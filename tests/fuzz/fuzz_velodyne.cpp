@@ -34,7 +34,7 @@ void CheckTurn(const SensorTurn& turn) {
   }
 }
 
-// One after another, the last as short as it is.
+// Splits the bytes into packets; the last one may be truncated.
 void DecodePackets(std::string_view format, std::span<const char> bytes) {
   VelodyneDecoder decoder = MakeDecoder(format);
   std::vector<SensorTurn> turns;
@@ -49,7 +49,7 @@ void DecodePackets(std::string_view format, std::span<const char> bytes) {
 
 void ReadCapture(std::span<const char> bytes) {
   std::FILE* const stream =
-      ::fmemopen(const_cast<char*>(bytes.data()), bytes.size(), "rb");  // "r" does not write.
+      ::fmemopen(const_cast<char*>(bytes.data()), bytes.size(), "rb");  // Mode "r" does not write.
   if (stream == nullptr) return;
   std::vector<VelodyneDecoder> decoders;
   for (const std::string_view format : kFormats) decoders.push_back(MakeDecoder(format));
@@ -64,31 +64,18 @@ void ReadCapture(std::span<const char> bytes) {
   std::ranges::for_each(turns, CheckTurn);
 }
 
-void ReadCalibration(std::span<const char> bytes) {
-  try {
-    const auto calibration = ReadCalibrationXml({bytes.data(), bytes.size()}, "fuzz");
-    Check(calibration.size() == 64, "every laser is calibrated");
-    for (const LaserCalibration& laser : calibration) {
-      Check(std::abs(laser.elevation_deg) <= 90.0, "an elevation is one");
-    }
-  } catch (const InputError&) {
-  }
-}
-
 }  // namespace
 }  // namespace railcast
 
-/// What libFuzzer calls. The first byte says what the others are: 0 to 3 packets of a model, p a
-/// capture, anything else a calibration file.
+/// Entry point for libFuzzer. The first byte selects the format of the rest: 0 to 3 for packets of
+/// a model, anything else for a capture.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::span bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
   if (data[0] >= '0' && data[0] <= '3') {
     railcast::DecodePackets(railcast::kFormats.at(data[0] - std::size_t{'0'}), bytes);
-  } else if (data[0] == 'p') {
-    railcast::ReadCapture(bytes);
   } else {
-    railcast::ReadCalibration(bytes);
+    railcast::ReadCapture(bytes);
   }
   return 0;
 }

@@ -12,10 +12,12 @@
 
 namespace railcast {
 
-/// One input as several files in a folder of this process, until the next one.
+/// Splits one input into several files in a folder of this process, which remain until the next
+/// input.
 ///
-/// The text up to the first line `//// NAME` is the file that names the others; what follows such a
-/// line is the file NAME. The folder has a link, `shipped`, to the project's scenarios.
+/// The text up to the first line `//// NAME` is the main file, which names the others; the text
+/// after such a line is the file NAME. The folder has a link, `shipped`, to the project's
+/// scenarios.
 class InputFiles {
  public:
   explicit InputFiles(std::string_view input) {
@@ -34,7 +36,8 @@ class InputFiles {
 
   [[nodiscard]] static std::filesystem::path first() { return folder() / "input.json"; }
 
-  /// One file more. @return Its path.
+  /// Writes one more file.
+  /// @return Its path.
   static std::filesystem::path Write(const std::string& name, std::string_view text) {
     std::ofstream(folder() / name, std::ios::binary) << text;
     return folder() / name;
@@ -46,7 +49,7 @@ class InputFiles {
     return directory.path();
   }
 
-  /// Nothing that leads out of the folder.
+  /// Replaces whatever could lead out of the folder.
   static std::string NameFrom(std::string_view line) {
     constexpr std::size_t kMaxLength = 40;
     constexpr std::string_view kAllowed =

@@ -19,7 +19,7 @@
 namespace railcast {
 namespace {
 
-/// An endless `sequence` into a directory.
+/// An endless `sequence` that writes to a directory.
 class EndlessSequence {
  public:
   explicit EndlessSequence(std::string out, bool has_nohup = false) : out_(std::move(out)) {
@@ -73,7 +73,7 @@ TEST(RailcastGenerate, GoesOnUnderNohupWhenItsTerminalIsClosed) {
   const EndlessSequence sequence((directory.path() / "run").string(), true);
   ASSERT_TRUE(sequence.AwaitFrame(1));
   sequence.Hang();
-  // Whatever was under way when the signal came, this one was not.
+  // The frame under way would be completed in any case; frame 10 shows that the run goes on.
   EXPECT_TRUE(sequence.AwaitFrame(10));
   EXPECT_EQ(sequence.EndOn(SIGTERM), 130);
 }
@@ -83,7 +83,8 @@ TEST(RailcastGenerate, NamesTheFileThatIsLargerThanAllowed) {
   const std::string out = (directory.path() / "run").string();
   const std::string generate = std::string(RAILCAST_GENERATE) + " ";
   const std::string scenario = scenarios_folder + "minimal.json";
-  // 64 blocks of 512 bytes in every POSIX shell: enough for the texts beside the frames.
+  // 64 blocks of 512 bytes in every POSIX shell, which is enough for the text files beside the
+  // frames.
   const auto limited = [&](const std::string& arguments) {
     const Ended ended = RunCommand("( ulimit -f 64; " + generate + arguments + " )");
     EXPECT_EQ(ended.status, 1) << ended.said;

@@ -8,12 +8,12 @@
 
 #include "core/io/content_hash.h"
 #include "core/io/write_file.h"
-#include "generator/run_sequence.h"
+#include "generator/sequence/run_sequence.h"
 #include "tests/core/io/example_frame.h"
 
 namespace railcast {
 
-/// A run of `num_frames` example frames, from frame 3 on.
+/// Returns the specification of a run of `num_frames` example frames, beginning with frame 3.
 inline SequenceSpec ExampleRun(const std::filesystem::path& directory,
                                const std::string& format = "pcd",
                                std::uint32_t num_frames = 6) {
@@ -27,7 +27,7 @@ inline SequenceSpec ExampleRun(const std::filesystem::path& directory,
                    {{"wagon.obj", ContentHash("a wagon"), "a wagon"},
                     {"table.csv", ContentHash("a table"), "a table"}}};
   spec.seed = 5;
-  spec.files = {ParseFrameFormat(format), FieldSelection(), ExampleLabels()};
+  spec.files = {&ParseFrameFormat(format), FieldSelection(), ExampleLabels()};
   spec.materials = MaterialLibrary({{"ballast", 0.25}, {"rail_head", 0.08}});
   spec.start_frame = 3;
   spec.num_frames = num_frames;
@@ -51,7 +51,7 @@ inline SequenceHooks NoHooks() {
   return {[](std::uint32_t, std::uint32_t) {}, [] { return false; }};
 }
 
-/// Every file below a directory, by name, with its bytes.
+/// Returns the bytes of every file below a directory, by the file's name.
 inline std::map<std::string, std::string> Contents(const std::filesystem::path& directory) {
   std::map<std::string, std::string> contents;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(directory)) {

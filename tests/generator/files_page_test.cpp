@@ -11,7 +11,7 @@
 namespace railcast {
 namespace {
 
-// The Python of docs/files.md between its line `begin` and the end of that block.
+// Returns the Python code of docs/files.md from the line after `begin` to the end of that block.
 std::string PythonOfThePage(const std::string& begin) {
   const std::string page = ReadFileWhole(std::string(RAILCAST_SOURCE_DIR) + "/docs/files.md");
   const std::size_t at = page.find("```python\n" + begin);
@@ -24,7 +24,8 @@ bool HasNumpy() {
   return RunCommand("/usr/bin/python3 -c 'import numpy'").status == 0;
 }
 
-// A vehicle and wagons in a curve to the left: one stands, one goes ahead, one comes towards it.
+// A vehicle and three wagons in a left-hand curve: one wagon is parked, one runs ahead, one
+// approaches.
 std::string CurveWithTraffic(const std::string& output, bool moves) {
   const auto motion = [&](const char* speed_mps, const char* more = "") {
     return R"("motion": {"profile": [{"time_s": 0, "speed_mps": )" +
@@ -57,8 +58,8 @@ std::string CurveWithTraffic(const std::string& output, bool moves) {
   })";
 }
 
-// What Python of the page, and `more` after it, print in a folder where `out` is a sequence of that
-// scenario.
+// Returns the output of the page's Python code, followed by `more`, run in a folder in which `out`
+// is a sequence of that scenario.
 std::string RunThePage(const std::string& scenario, const std::string& more) {
   const TemporaryDirectory directory;
   const std::string folder = directory.path().string();
@@ -73,7 +74,7 @@ std::string RunThePage(const std::string& scenario, const std::string& more) {
   return run.said;
 }
 
-// Lines of name, points, points in the box; the last of each name counts.
+// Checks lines of name, points, points in the box; the last line of each name counts.
 void ExpectAllPointsInTheirBoxes(const std::string& said) {
   for (const std::string name : {"parked", "ahead", "coming"}) {
     const std::size_t at = said.rfind(name + " ");

@@ -9,8 +9,8 @@
 
 #include "core/base/error.h"
 #include "core/io/write_file.h"
-#include "generator/line_file.h"
-#include "generator/run_sequence.h"
+#include "generator/sequence/line_file.h"
+#include "generator/sequence/run_sequence.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/small_disk.h"
 #include "tests/core/io/temporary_directory.h"
@@ -29,7 +29,7 @@ std::uint64_t FreeBlocks(const fs::path& disk) {
   return status.f_bavail;
 }
 
-// Leaves so many blocks of the disk free.
+// Fills the disk except for `num_free` blocks.
 void Fill(const fs::path& disk, std::uint64_t num_free) {
   struct statvfs status {};
   Check(::statvfs(disk.c_str(), &status) == 0, "the disk is there");
@@ -37,7 +37,7 @@ void Fill(const fs::path& disk, std::uint64_t num_free) {
   Check(FreeBlocks(disk) == num_free, "a file takes the blocks of its bytes");
 }
 
-// What is wrong with a run that finds room again; empty if nothing is.
+// Returns what is wrong after a run finds room again and is resumed; empty if nothing is.
 std::string Resume(const SequenceSpec& spec, const Files& undisturbed) {
   std::string fault;
   for (const auto& [name, bytes] : Contents(spec.directory)) {
@@ -48,8 +48,8 @@ std::string Resume(const SequenceSpec& spec, const Files& undisturbed) {
   return fault;
 }
 
-// Runs again and again, each time with one more block to use, until a run fits. A line for each
-// that did not: what it said, less the directory, and what then was wrong.
+// Repeats a run, each time with one more free block, until it fits. Returns a line for each run
+// that did not: its error without the directory, and what was wrong afterwards.
 std::string RunWithEveryRoom(const SequenceSpec& spec, const Files& undisturbed) {
   const fs::path disk = spec.directory.parent_path();
   const std::uint64_t num_blocks = FreeBlocks(disk);

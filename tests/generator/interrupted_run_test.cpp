@@ -11,8 +11,8 @@
 #include <thread>
 
 #include "core/io/write_file.h"
-#include "generator/run_sequence.h"
-#include "generator/run_stopped.h"
+#include "generator/run/stoppable_work.h"
+#include "generator/sequence/run_sequence.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/example_run.h"
 
@@ -28,8 +28,8 @@ void MakeExampleFrameSlowly(std::uint32_t index,
   std::this_thread::sleep_for(std::chrono::microseconds(300));
 }
 
-// Runs the example in a process of its own and kills it a while after frames.jsonl has so many
-// bytes: in the middle of some step of some frame.
+// Runs the example in a separate process and kills it some time after frames.jsonl has reached this
+// size, so that it is in the middle of some step of some frame.
 void RunAndKill(const SequenceSpec& spec,
                 std::uint64_t frames_bytes,
                 std::chrono::microseconds delay) {
@@ -53,7 +53,7 @@ void RunAndKill(const SequenceSpec& spec,
 
 class InterruptedRun : public testing::TestWithParam<const char*> {
  protected:
-  // What the run gives when nothing disturbs it.
+  // Returns the content of a run that was not interrupted.
   std::map<std::string, std::string> Undisturbed() {
     const TemporaryDirectory directory;
     (void)RunSequence(Spec(directory.path()), MakeExampleFrame, NoHooks());
@@ -85,7 +85,7 @@ TEST_P(InterruptedRun, ContinuesAfterAStopBetweenFrames) {
       [&] { return last_done >= 5; }};
   const auto first = RunSequence(Spec(directory.path()), MakeExampleFrame, stop_after_five);
   EXPECT_FALSE(first.is_complete);
-  EXPECT_EQ(first.num_done, 6U);  // The one under way was written too.
+  EXPECT_EQ(first.num_done, 6U);  // The frame under way was still written.
   EXPECT_FALSE(fs::exists(directory.path() / "manifest.json"));
   std::uint32_t num_made = 0;
   const FrameSource counting = [&](std::uint32_t index, Frame& frame, auto& objects) {
@@ -98,7 +98,7 @@ TEST_P(InterruptedRun, ContinuesAfterAStopBetweenFrames) {
   EXPECT_EQ(Contents(directory.path()), Undisturbed());
 }
 
-// What may be left in a directory when the machine, not only the program, stops.
+// Checks states that a directory may be left in when the machine stops, and not only the program.
 TEST_P(InterruptedRun, DropsWhateverIsNotWhole) {
   const auto expected = Undisturbed();
   const std::string frame_7 =

@@ -18,7 +18,7 @@ namespace {
 
 using testing::ContainsRegex;
 
-// A wall of 180,000 triangles, 6 m x 4 m, as the project's rock.
+// Returns a wall of 180,000 triangles, 6 m x 4 m, to replace the project's rock.
 std::string WallObj() {
   constexpr int kNumSteps = 300;
   std::ostringstream obj;
@@ -69,7 +69,7 @@ TEST(LittleMemory, MakesTheSameFramesOrSaysWhatDidNotFit) {
     EXPECT_FALSE(std::filesystem::exists(out + "/manifest.json"));
   }
   EXPECT_GT(num_made, 0U);
-  // Which model it is depends on the machine's libraries.
+  // Which model fails depends on the machine's libraries.
   EXPECT_THAT(said, testing::Contains(testing::HasSubstr("out of memory while building \"")));
 }
 

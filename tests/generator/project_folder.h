@@ -9,14 +9,14 @@ namespace railcast {
 
 inline const std::string scenarios_folder = std::string(RAILCAST_SOURCE_DIR) + "/scenarios/";
 
-/// A pyramid of 2 m, to be named by a scenario.
+/// A pyramid 2 m high, for a scenario's mesh file.
 inline constexpr const char* kPyramidObj =
     "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv 0 0 2\n"
     "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
 
-/// Makes a project of a user's in a folder: scenario.json on a straight line of 1 km, with the mesh
+/// Makes a user's project in a folder: scenario.json on a straight line of 1 km, with the mesh
 /// rock.obj and the firing table beams.csv beside it.
-/// @return The scenario's name.
+/// @return The path of the scenario.
 inline std::filesystem::path MakeProject(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   WriteFileWhole(folder / "rock.obj", kPyramidObj);

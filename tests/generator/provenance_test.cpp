@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// "+14c4fad0a1b2" or "+14c4fad0a1b2.dirty.0f3a77c1" where the tree is a repository's, else nothing.
+// "+14c4fad0a1b2" or "+14c4fad0a1b2.dirty.0f3a77c1" where the tree is in a repository, else empty.
 std::string CommitPattern() {
   const bool is_repository = std::filesystem::exists(RAILCAST_SOURCE_DIR "/.git");
   return is_repository ? R"(\+([0-9a-f]+(\.dirty\.[0-9a-f]+)?|unknown))" : "";
@@ -60,7 +60,8 @@ TEST(Provenance, OfAForcedInstructionSetIsThatOneAndIsNotMixedWithAnother) {
   EXPECT_EQ(Contents(out), made);
 }
 
-// Whoever names the best gets the bytes of whoever names none: a run is resumed with either.
+// The bytes are the same whether the best instruction set is named or chosen by default, so a run
+// can be resumed either way.
 TEST(Provenance, OfTheBestInstructionSetIsTheSameWhetherForcedOrNot) {
   const std::string best = IsaInUse("");
   ASSERT_THAT(IsaNames(), testing::Contains(best));
@@ -71,7 +72,7 @@ TEST(Provenance, OfTheBestInstructionSetIsTheSameWhetherForcedOrNot) {
   ASSERT_EQ(Generate(command + "left").status, 0);
   const auto made = Contents(directory.path() / "left");
   EXPECT_EQ(Contents(directory.path() / "forced"), made);
-  // The option is not only recorded: docs/accuracy.md says how much the sets differ.
+  // The option is not only recorded but changes the trace; docs/accuracy.md states by how much.
   ASSERT_EQ(Generate(command + "narrow --isa sse4.2").status, 0);
   const auto narrow = Contents(directory.path() / "narrow");
   EXPECT_EQ(narrow.at("frames/000000.pcd") == made.at("frames/000000.pcd"), best == "sse4.2");

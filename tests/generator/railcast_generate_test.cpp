@@ -4,9 +4,8 @@
 #include <sstream>
 #include <string>
 
-#include "core/io/pcd_reader.h"
-#include "core/io/ply_reader.h"
 #include "core/io/write_file.h"
+#include "railcast/io/cloud_files.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/example_run.h"
 #include "tests/generator/project_folder.h"
@@ -46,7 +45,7 @@ TEST(RailcastGenerate, FailsWhereItsOutputIsLost) {
     EXPECT_EQ(closed.status, 1) << command;
     EXPECT_EQ(closed.said, "stdout: bad file descriptor\n") << command;
   }
-  // More than a buffer: refused long before the end.
+  // The output exceeds a buffer, so that it is refused long before the end.
   const Ended resolved = Generate("check " + scenario + " --resolved - > /dev/full");
   EXPECT_EQ(resolved.status, 1);
   EXPECT_EQ(resolved.said, "stdout: not all of it could be written\n");
@@ -129,7 +128,7 @@ TEST(RailcastGenerate, RefusesAMeshItCouldNotWriteBeforeItIsBuilt) {
   const Ended half = Generate("world " + scenarios_folder + "minimal.json --from-s 5 --out a.ply");
   EXPECT_EQ(half.said,
             "--from-s, --to-s: must be given both or not at all (got only --from-s 5)\n");
-  // Nothing is said of chunks: none was built.
+  // No chunks are mentioned, because none was built.
   const Ended nowhere = Generate("world " + scenarios_folder + "minimal.json --out /no/such/a.ply");
   EXPECT_EQ(nowhere.status, 1);
   EXPECT_EQ(nowhere.said, "/no/such/a.ply: no such file or directory\n");
@@ -182,7 +181,7 @@ TEST(RailcastGenerate, MakesADirectoryThatCanBeMadeAndTracedWithoutItsProject) {
   std::filesystem::rename(out, moved);
   const std::string resolved = (moved / "scenario.resolved.json").string();
   EXPECT_EQ(Generate("trace " + resolved + firing).said, traced.said);
-  // Also into itself: an interrupted run goes on anywhere.
+  // Its own resolved scenario will do, too: an interrupted run can be continued from there.
   std::filesystem::remove(moved / "manifest.json");
   std::filesystem::remove(moved / "frames/000001.pcd");
   const Ended resumed = Generate("sequence " + resolved + " --frames 2 --out " + moved.string());

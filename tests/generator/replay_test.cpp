@@ -8,7 +8,7 @@
 #include "core/io/scenario_identity.h"
 #include "core/io/write_file.h"
 #include "core/scenario/command_log.h"
-#include "core/scenario/scenario.h"
+#include "railcast/scenario.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/example_run.h"
 #include "tests/generator/project_folder.h"
@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A project's scenario, logs of runs of it, and sequences made of both.
+/// A project's scenario, logs of runs of it, and sequences made from both.
 class Replay : public testing::Test {
  protected:
   fs::path WriteLog(const std::string& name, const std::vector<TimedCommand>& commands) const {
@@ -36,7 +36,7 @@ class Replay : public testing::Test {
   static std::vector<TimedCommand> PersonForAWhile() {
     PlaceObject place;
     place.object.name = "bob";
-    place.object.type = "person";
+    place.object.type = ObjectType::kPerson;
     place.object.s_m = 420.0;
     return {{200'000'000, place}, {400'000'000, RemoveObject{"bob"}}};
   }

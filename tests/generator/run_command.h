@@ -6,7 +6,7 @@
 
 namespace railcast {
 
-/// Runs railcast-generate.
+/// Runs railcast-generate with these arguments.
 inline Ended Generate(const std::string& arguments) {
   return RunCommand(std::string(RAILCAST_GENERATE) + " " + arguments);
 }

@@ -26,10 +26,6 @@ def plant(root, files):
         path.write_text(text, encoding="utf-8")
 
 
-def public(*headers):
-    return f"target_sources(x PUBLIC FILE_SET HEADERS BASE_DIRS ${{X}} FILES {' '.join(headers)})\n"
-
-
 class IncludeDirection(unittest.TestCase):
 
     def test_a_folder_of_core_may_include_itself_and_those_before_it(self):
@@ -54,7 +50,7 @@ class IncludeDirection(unittest.TestCase):
 
     def test_programs_share_core_and_nothing_else(self):
         self.assertEqual(faults_of({
-            "viewer/main.cpp": '#include "core/frame/frame.h"\n#include "analysis/stats.h"\n',
+            "viewer/main.cpp": '#include "railcast/frame.h"\n#include "analysis/stats.h"\n',
             "core/simulate/simulator.cpp": '#include "generator/sequence.h"\n',
         }), [
             "core/simulate/simulator.cpp:1: core includes no generator (generator/sequence.h)",
@@ -88,9 +84,10 @@ class Libraries(unittest.TestCase):
             "OpenMesh/Core/IO/MeshIO.hh": "core/scene and tests include OpenMesh",
             "nlohmann/json.hpp": "core/scenario, core/fidelity, core/io, generator, analysis and "
                                  "tests include nlohmann",
-            "pcl/point_types.h": "core/io, generator, analysis, viewer and tests include PCL",
+            "pcl/point_types.h": "core/io, core/include/railcast/io, generator, analysis, viewer and "
+                                 "tests include PCL",
             "vtkRenderer.h": "viewer and tests include VTK",
-            "CLI/CLI.hpp": "core/io, generator, analysis, viewer and tests include CLI11",
+            "CLI/CLI.hpp": "core/program, generator, analysis, viewer and tests include CLI11",
         }.items():
             with self.subTest(include):
                 self.assertEqual(faults_of({"core/rail/a.cpp": f"#include <{include}>\n"}),
@@ -101,31 +98,85 @@ class PublicHeaders(unittest.TestCase):
 
     def test_they_include_the_standard_library_eigen_and_each_other(self):
         self.assertEqual(faults_of({
-            "core/base/CMakeLists.txt": public("a.h", "b.h"),
-            "core/base/a.h": "#include <vector>\n#include <Eigen/Core>\n",
-            "core/base/b.h": '#include "core/base/a.h"\n',
+            "core/include/railcast/transform.h": "#include <vector>\n#include <Eigen/Core>\n",
+            "core/include/railcast/frame.h": '#include "railcast/transform.h"\n',
         }), [])
 
     def test_they_include_no_other_library_even_where_it_belongs(self):
         self.assertEqual(faults_of({
-            "core/scenario/CMakeLists.txt": public("scenario.h"),
-            "core/scenario/scenario.h": "#include <nlohmann/json.hpp>\n",
-        }), ["core/scenario/scenario.h:1: public headers include the standard library and Eigen "
-             "only (nlohmann/json.hpp)"])
+            "core/include/railcast/io/stream.h": "#include <pcap/pcap.h>\n",
+        }), ["core/include/railcast/io/stream.h:1: only core/io and tests include libpcap "
+             "(pcap/pcap.h)",
+             "core/include/railcast/io/stream.h:1: public headers include the standard library "
+             "and Eigen only (pcap/pcap.h)"])
 
-    def test_those_of_core_io_may_include_pcl_as_well(self):
+    def test_those_of_io_may_include_pcl_as_well(self):
         self.assertEqual(faults_of({
-            "core/io/CMakeLists.txt": public("pcd_reader.h"),
-            "core/io/pcd_reader.h": "#include <pcl/PCLPointCloud2.h>\n#include <zlib.h>\n",
-        }), ["core/io/pcd_reader.h:2: public headers include the standard library and Eigen only "
-             "(zlib.h)"])
+            "core/include/railcast/io/cloud_files.h":
+                "#include <pcl/PCLPointCloud2.h>\n#include <zlib.h>\n",
+        }), ["core/include/railcast/io/cloud_files.h:2: public headers include the standard "
+             "library and Eigen only (zlib.h)"])
 
     def test_they_include_no_private_header(self):
         self.assertEqual(faults_of({
-            "core/base/CMakeLists.txt": "target_sources(x PRIVATE b.cpp)\n" + public("a.h"),
-            "core/base/a.h": '#include "core/base/b.h"\n',
-            "core/base/b.h": "",
-        }), ["core/base/a.h:1: a public header includes no private one (core/base/b.h)"])
+            "core/include/railcast/error.h": '#include "core/base/attempt.h"\n',
+            "core/base/attempt.h": "",
+        }), ["core/include/railcast/error.h:1: a public header includes no private one "
+             "(core/base/attempt.h)"])
+
+    def test_each_stands_where_the_folder_stands_that_implements_it(self):
+        self.assertEqual(faults_of({
+            "core/scan/pattern.cpp": '#include "railcast/lidar.h"\n',
+            "core/scene/mesh.cpp": '#include "railcast/lidar.h"\n',
+            "core/include/railcast/lidar.h": "",
+        }), ["core/scene/mesh.cpp:1: core/scene comes before core/scan and includes nothing of it "
+             "(railcast/lidar.h)"])
+
+    def test_a_new_one_needs_a_folder(self):
+        self.assertEqual(faults_of({
+            "core/include/railcast/track.h": '#include "railcast/frame.h"\n',
+        }), ["core/include/railcast/track.h:1: track has no place in the order of core's folders "
+             "(railcast/frame.h)"])
+
+
+class TypeNames(unittest.TestCase):
+
+    def test_no_two_types_have_one_name(self):
+        self.assertEqual(faults_of({
+            "core/detect/footprint.h": "class Footprint {\n};\n",
+            "core/rail/standing_height.h": "\nstruct Footprint {\n};\n",
+            "viewer/view.h": "using Footprint = int;\n",
+        }), ["core/rail/standing_height.h:2: no two types have one name (Footprint, also "
+             "core/detect/footprint.h:1)",
+             "viewer/view.h:1: no two types have one name (Footprint, also "
+             "core/detect/footprint.h:1)"])
+
+    def test_declarations_nested_types_and_anonymous_namespaces_are_no_second_one(self):
+        self.assertEqual(faults_of({
+            "core/detect/footprint.h": "class Footprint final : public Beam {\n  struct Part {};\n};\n",
+            "core/detect/footprint.cpp": "struct Footprint::Part {\n};\n",
+            "core/detect/detector.h": "class Footprint;\n",
+            "core/rail/rail_world.cpp": "namespace {\nstruct Footprint {\n};\n}  // namespace\n",
+        }), [])
+
+
+class AnonymousNames(unittest.TestCase):
+
+    def test_sources_of_one_library_have_different_ones(self):
+        anonymous = "namespace {\nconstexpr double kStep_m = 0.5;\n\nint Count(int n) {\n}\n}  // namespace\n"
+        self.assertEqual(faults_of({
+            "core/rail/a.cpp": anonymous,
+            "core/scan/b.cpp": anonymous,
+            "core/io/c.cpp": anonymous,
+        }), ["core/scan/b.cpp:4: sources of one library give their own functions and constants "
+             "different names (Count, also core/rail/a.cpp)",
+             "core/scan/b.cpp:2: sources of one library give their own functions and constants "
+             "different names (kStep_m, also core/rail/a.cpp)"])
+
+    def test_a_name_may_be_overloaded_within_a_source(self):
+        self.assertEqual(faults_of({
+            "core/rail/a.cpp": "namespace {\nint Count(int n) {\n}\n\nint Count(bool b) {\n}\n}  // namespace\n",
+        }), [])
 
 
 class Cycles(unittest.TestCase):

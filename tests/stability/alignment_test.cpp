@@ -1,5 +1,5 @@
-// Where a line's geometry breaks: curves as tight as the gauge, cusps, elements without length, and
-// sums over a thousand kilometres.
+// Cases in which a line's geometry may break down: curves as tight as the gauge, cusps, elements of
+// no length, and sums over a thousand kilometres.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -36,18 +36,18 @@ TEST(AlignmentAtItsLimits, RefusesARadiusNearTheGauge) {
            "straight (got " +
            got + ")";
   };
-  EXPECT_EQ(FaultOf(LineOf({{"arc", 5.0, kGauge_m}})), fault("1.435"));
-  EXPECT_EQ(FaultOf(LineOf({{"arc", 5.0, -0.5 * kGauge_m}})), fault("-0.7175"));
-  EXPECT_EQ(FaultOf(LineOf({{"arc", 5.0, 9.999}})), fault("9.999"));
-  EXPECT_EQ(FaultOf(LineOf({{"arc", 5.0, 0.0}})), fault("0"));
-  EXPECT_EQ(FaultOf(LineOf({{"arc", 5.0, std::nan("")}})), fault("nan"));
-  EXPECT_EQ(FaultOf(LineOf({{"arc", 5.0, 10.0}})), "none");
+  EXPECT_EQ(FaultOf(LineOf({{ElementType::kArc, 5.0, kGauge_m}})), fault("1.435"));
+  EXPECT_EQ(FaultOf(LineOf({{ElementType::kArc, 5.0, -0.5 * kGauge_m}})), fault("-0.7175"));
+  EXPECT_EQ(FaultOf(LineOf({{ElementType::kArc, 5.0, 9.999}})), fault("9.999"));
+  EXPECT_EQ(FaultOf(LineOf({{ElementType::kArc, 5.0, 0.0}})), fault("0"));
+  EXPECT_EQ(FaultOf(LineOf({{ElementType::kArc, 5.0, std::nan("")}})), fault("nan"));
+  EXPECT_EQ(FaultOf(LineOf({{ElementType::kArc, 5.0, 10.0}})), "none");
 }
 
-// Sixteen metres of the tightest curve there may be: chords of 2.5 m, as on a straight, would be
-// 75 mm off it; ours keep their millimetre, and the gauge.
+// Sixteen metres of the tightest curve allowed. Chords of 2.5 m, as on a straight, would be 75 mm
+// off it; the sweep keeps within its millimetre and keeps the gauge.
 TEST(AlignmentAtItsLimits, TheTightestCurveKeepsItsGaugeAndItsChords) {
-  const Alignment alignment(LineOf({{"arc", 16.0, 10.0}}));
+  const Alignment alignment(LineOf({{ElementType::kArc, 16.0, 10.0}}));
   const Vector3 centre_m(0.0, 10.0, 0.0);
   for (const double side : {-1.0, 1.0}) {
     const double offset_m = side * 0.5 * kGauge_m;
@@ -68,9 +68,10 @@ TEST(AlignmentAtItsLimits, RefusesCuspsOfASpline) {
   const std::string fault =
       "/course/points_m/0: the spline must not have a cusp between this point and the next, its "
       "radius be at least 10 m (got ";
-  // There and back on one line: the turning point is a cusp without a width.
+  // The spline goes there and back on one line, so its turning point is a cusp of zero width.
   EXPECT_EQ(FaultOf(SplineOf({{0.0, 0.0}, {100.0, 0.0}, {50.0, 0.0}})), fault + "0)");
-  // The same with a width of 1 mm, 1 cm, 10 cm: a hairpin of nanometres, of micrometres.
+  // With a width of 1 mm, 1 cm or 10 cm the cusp is a hairpin with a radius of nanometres to
+  // micrometres.
   for (const double width_m : {1e-3, 1e-2, 1e-1}) {
     const std::string got = FaultOf(SplineOf({{0.0, 0.0}, {100.0, 0.0}, {50.0, width_m}}));
     EXPECT_EQ(got.find(fault), 0U) << got;
@@ -78,36 +79,40 @@ TEST(AlignmentAtItsLimits, RefusesCuspsOfASpline) {
 }
 
 TEST(AlignmentAtItsLimits, RefusesElementsWithoutLength) {
-  EXPECT_EQ(FaultOf(LineOf({{"straight", 100.0, {}}, {"straight", 0.0, {}}})),
-            "/course/elements/1/length_m: must be > 0 (got 0)");
-  EXPECT_EQ(FaultOf(LineOf({{"straight", 100.0, {}}, {"arc", -1.0, 300.0}})),
-            "/course/elements/1/length_m: must be > 0 (got -1)");
-  EXPECT_EQ(FaultOf(LineOf({{"straight", 100.0, {}}, {"straight", std::nan(""), {}}})),
+  EXPECT_EQ(
+      FaultOf(LineOf({{ElementType::kStraight, 100.0, {}}, {ElementType::kStraight, 0.0, {}}})),
+      "/course/elements/1/length_m: must be > 0 (got 0)");
+  EXPECT_EQ(
+      FaultOf(LineOf({{ElementType::kStraight, 100.0, {}}, {ElementType::kArc, -1.0, 300.0}})),
+      "/course/elements/1/length_m: must be > 0 (got -1)");
+  EXPECT_EQ(FaultOf(LineOf(
+                {{ElementType::kStraight, 100.0, {}}, {ElementType::kStraight, std::nan(""), {}}})),
             "/course/elements/1/length_m: must be > 0 (got nan)");
 }
 
-// The shortest element that a scenario may have, 1 mm, at the end of the longest line: harmless.
+// The shortest element that a scenario may have, 1 mm, at the end of the longest line must do no
+// harm.
 TEST(AlignmentAtItsLimits, AnElementOfAMillimetreAfterAThousandKilometresIsHarmless) {
-  const Alignment line(LineOf({{"straight", 1e6, {}},
-                               {"clothoid", 1e-3, {}},
-                               {"arc", 1e-3, 500.0},
-                               {"arc", 100.0, 500.0}}));
+  const Alignment line(LineOf({{ElementType::kStraight, 1e6, {}},
+                               {ElementType::kClothoid, 1e-3, {}},
+                               {ElementType::kArc, 1e-3, 500.0},
+                               {ElementType::kArc, 100.0, 500.0}}));
   EXPECT_NEAR(line.length_m(), 1e6 + 100.002, 1e-9);
   const AxisPoint end = line.At(line.length_m());
   EXPECT_NEAR(end.heading_rad, (100.0 + 1.5e-3) / 500.0, 1e-12);
   EXPECT_TRUE(end.position_m.allFinite());
 }
 
-/// Straight, clothoid, arc, clothoid, to the left and to the right in turn: 1,000 km and 4,000
+/// Straight, clothoid, arc and clothoid, to the left and to the right in turn: 1,000 km in 4,000
 /// elements.
 std::vector<AlignmentElement> ThousandKilometres() {
   std::vector<AlignmentElement> elements;
   for (int i = 0; i < 1000; ++i) {
     const double radius_m = (i % 2 == 0 ? 1.0 : -1.0) * (400.0 + 3.7 * (i % 211));
-    elements.push_back({"straight", 400.0, {}});
-    elements.push_back({"clothoid", 120.0, {}});
-    elements.push_back({"arc", 360.0, radius_m});
-    elements.push_back({"clothoid", 120.0, {}});
+    elements.push_back({ElementType::kStraight, 400.0, {}});
+    elements.push_back({ElementType::kClothoid, 120.0, {}});
+    elements.push_back({ElementType::kArc, 360.0, radius_m});
+    elements.push_back({ElementType::kClothoid, 120.0, {}});
   }
   return elements;
 }
@@ -128,7 +133,7 @@ TEST(AlignmentAtItsLimits, ChainageIsArcLengthToAMillimetreOverAThousandKilometr
   for (int i = 1; i <= kNumSteps; ++i) {
     const Vector3 position_m = line.At(i * kStep_m).position_m;
     const double chord_m = (position_m - before_m).head<2>().norm();
-    // An arc of curvature k is longer than its chord by chord^3 k^2 / 24, and by 5e-15 m more.
+    // An arc of curvature k is longer than its chord by chord^3 k^2 / 24; the next term is 5e-15 m.
     const double curvature_per_m = line.At((i - 0.5) * kStep_m).curvature_per_m;
     const double arc_m = chord_m + std::pow(chord_m, 3) * std::pow(curvature_per_m, 2) / 24.0;
     sum_m += static_cast<long double>(arc_m);
@@ -149,12 +154,12 @@ struct PlanEnd {
   long double heading_rad{};
 };
 
-/// The end of the line by Simpson's rule in long double, steps of 0.5 m: (0.5 / 400)^4 / 2880 of
-/// the length is 1e-9 m in all.
+/// Computes the end of the line by Simpson's rule in long double with steps of 0.5 m: the error is
+/// (0.5 / 400)^4 / 2880 of the length, 1e-9 m in all.
 PlanEnd ByLongDouble(const std::vector<AlignmentElement>& elements) {
   PlanEnd end;
   for (std::size_t i = 0; i < elements.size(); ++i) {
-    const bool is_clothoid = elements[i].type == "clothoid";
+    const bool is_clothoid = elements[i].type == ElementType::kClothoid;
     const auto length_m = static_cast<long double>(elements[i].length_m);
     const auto begin_per_m =
         static_cast<long double>(CurvatureOf(elements[is_clothoid ? i - 1 : i]));
@@ -180,8 +185,8 @@ PlanEnd ByLongDouble(const std::vector<AlignmentElement>& elements) {
   return end;
 }
 
-/// The end of the line as a simple simulator walks there: a step of 1 m along the heading, then the
-/// curvature turns it.
+/// Computes the end of the line as a simple simulator would: a step of 1 m along the heading, after
+/// which the curvature turns the heading.
 template <typename Real>
 Eigen::Matrix<Real, 2, 1> ByEuler(const Alignment& line) {
   Eigen::Matrix<Real, 2, 1> place(0, 0);

@@ -1,5 +1,5 @@
-// Where faces lie in one plane, rounding decides which of them a beam hits. It must decide the same
-// way in every run and with any number of threads.
+// Where faces lie in one plane, rounding decides which of them a beam hits. The decision must be
+// the same in every run and with any number of threads.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@
 namespace railcast {
 namespace {
 
-/// Triangles strewn over the plane z = -2, all over each other.
+/// Triangles strewn over the plane z = -2 so that they overlap each other.
 Mesh Strewn(std::uint32_t seed, std::uint32_t num_triangles) {
   Mesh mesh;
   for (std::uint32_t i = 0; i < num_triangles; ++i) {
@@ -32,7 +32,7 @@ Mesh Strewn(std::uint32_t seed, std::uint32_t num_triangles) {
   return mesh;
 }
 
-/// Two floors, two layers of strewn triangles, and an object that stands in the same plane.
+/// Two floors and two layers of strewn triangles, all in one plane.
 std::vector<Part> Layers() {
   return {{MakeFloor(-2.0F, 300.0F), 1, 1},
           {MakeFloor(-2.0F, 200.0F), 2, 2},
@@ -87,10 +87,11 @@ double ShareOfOtherSurfaces(const std::vector<RayHit>& a, const std::vector<RayH
   return static_cast<double>(num_other) / static_cast<double>(a.size());
 }
 
-// Two habits that a simulator without that promise has: it traces what is left over ray by ray
-// instead of in the packets of before, and it attaches meshes as their loaders happen to finish.
-// (A third, building by many threads, changed nothing here: 60 builds by 1, 2 and 8 threads of
-// 200,000 triangles, each there twice, on two cores gave one answer. Embree does not promise it.)
+// Two habits of a simulator that does not promise this: it traces leftover rays one by one instead
+// of in the packets used before, and it attaches meshes in the order in which their loaders finish.
+// (A third habit, building with many threads, changed nothing here: 60 builds with 1, 2 and 8
+// threads of 200,000 triangles, each of them there twice, gave the same answer on two cores. Embree
+// does not promise it.)
 TEST(CoplanarFaces, DependOnThePacketAndOnTheOrderOfMeshesWhereTheseAreLeftToChance) {
   const std::vector<Ray> rays = Fan();
   const std::vector<Part> parts = Layers();

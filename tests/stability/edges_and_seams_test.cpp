@@ -1,6 +1,6 @@
 // Beams that run through an edge, a vertex or the seam of two meshes. Between triangles that share
-// their corners a watertight trace lets none through; between chunks, whose corners are rounded in
-// frames of their own, only an overlap helps.
+// their corners, a watertight trace lets no beam through; between chunks, whose corners are rounded
+// in frames of their own, only an overlap helps.
 #include <gtest/gtest.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
@@ -23,13 +23,13 @@
 namespace railcast {
 namespace {
 
-/// 1e8 beams take a minute on two cores: RAILCAST_LONG_TESTS=1 asks for them.
+/// 1e8 beams take a minute on two cores, so they are traced only with RAILCAST_LONG_TESTS=1.
 std::uint64_t NumBeams() {
   const char* const is_long = std::getenv("RAILCAST_LONG_TESTS");
   return is_long != nullptr && *is_long == '1' ? 100'000'000U : 10'000'000U;
 }
 
-/// Of beams 0 to `num_beams` those that hit nothing within a kilometre.
+/// Counts the beams from 0 to `num_beams` that hit nothing within a kilometre.
 std::uint64_t CountEscapes(const RayCaster& caster,
                            std::uint64_t num_beams,
                            const std::function<Ray(std::uint64_t)>& aim) {
@@ -53,7 +53,8 @@ Eigen::AlignedBox3d Box() {
   return {Vector3(-5.1, -2.3, -1.7), Vector3(4.9, 2.2, 3.1)};
 }
 
-/// From a place inside the box: any way, at an edge, at a corner, at a diagonal of a face.
+/// Aims from a place inside the box in any direction, at an edge, at a corner, or at a diagonal of
+/// a face.
 Ray AimInBox(std::uint64_t beam) {
   const auto [u, v, w, t] = Uniforms(beam);
   const Vector3 origin_m(std::lerp(-4.0, 4.0, u), std::lerp(-2.0, 2.0, v), std::lerp(-1.0, 3.0, w));
@@ -75,7 +76,7 @@ Ray AimInBox(std::uint64_t beam) {
                         corner(from) + t * (corner(from ^ 1U << beam / 32 % 3) - corner(from)));
     case 2:
       return RayThrough(origin_m, corner(from));
-    default:  // Two corners that differ in two directions.
+    default:  // Aims between two corners that differ along two axes.
       return RayThrough(
           origin_m, corner(from) + t * (corner(from ^ (7U ^ 1U << beam / 32 % 3)) - corner(from)));
   }
@@ -110,7 +111,8 @@ TEST(EdgesAndSeams, AnExactSeamLeaksBeamsAimedAtIt) {
   EXPECT_EQ(leaking_share(kChunkOverlap_m), 0.0);
 }
 
-/// Beams from many places inside a sphere: through its vertices or the middles of its edges.
+/// Returns beams from many places inside a sphere, through its vertices or the middles of its
+/// edges.
 std::vector<Ray> FromInside(const Mesh& sphere, bool at_vertices) {
   std::vector<Ray> rays;
   for (int place = 0; place < 20; ++place) {
@@ -130,9 +132,9 @@ double LostShare(const std::vector<RayHit>& hits) {
          static_cast<double>(hits.size());
 }
 
-// Robust traversal closes edges. Where six triangles meet within the rounding of a beam it still
-// loses one or two beams in a thousand (Embree 3.13.5; single rays and packets alike): nobody aims
-// at a vertex to a micrometre but a test.
+// Robust traversal closes edges. Where six triangles meet within the rounding of a beam, it still
+// loses one or two beams in a thousand (Embree 3.13.5; single rays and packets alike); only a test
+// aims at a vertex to a micrometre.
 TEST(EdgesAndSeams, RobustTraversalClosesEdgesThatPlainTraversalLeavesOpen) {
   const Model sphere{"sphere", {{MakeSphere(7.3, 50, 99), 1, 1}}};
   const TraceDevice device;
@@ -163,7 +165,7 @@ TEST(EdgesAndSeams, AClosedSphereOfManyTrianglesLetsNoBeamEscape) {
 }
 
 TEST(EdgesAndSeams, MeshesThatShareTheirCornersInOneFrameHaveNoSeam) {
-  // The left and the right half of a wall, as parts of one model and as models of their own.
+  // The left and the right half of a wall, as parts of one model and as two models.
   const auto half_wall = [](float from_m, float to_m) {
     return Mesh{
         {{9.7F, from_m, -3.0F}, {9.7F, to_m, -3.0F}, {9.7F, to_m, 3.0F}, {9.7F, from_m, 3.0F}},
@@ -187,8 +189,8 @@ TEST(EdgesAndSeams, MeshesThatShareTheirCornersInOneFrameHaveNoSeam) {
   EXPECT_EQ(CountEscapes(two_models, 200'000, aim), 0U);
 }
 
-// A beam within the planes of two walls: either of them may answer, or the corner at its end, but
-// nothing behind, and never a range that is no number.
+// A beam that lies in the planes of two walls may hit either of them or the corner at its end, but
+// nothing behind them, and its range is never NaN.
 TEST(EdgesAndSeams, ABeamAlongAnEdgeEndsWithinTheBox) {
   const TraceDevice device;
   const auto scene = SceneOf(device, Model{"box", {{MakeBox(Box()), 1, 1}}});

@@ -1,5 +1,5 @@
-// The ends of every parameter, on all physical rungs: sound frames, whole beams, and weather that
-// only ever takes.
+// Every parameter at its limits, on all physical rungs: frames and beams must be sound, and more
+// weather must never add returns.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "core/scenario/effects.h"
-#include "core/simulate/simulator.h"
+#include "railcast/effects.h"
+#include "railcast/simulator.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/frame_checks.h"
 #include "tests/support/scan_once.h"
@@ -33,9 +33,10 @@ MaterialLibrary Materials() {
        {.name = "black", .reflectivity = 0.0},
        {.name = "snow", .reflectivity = 0.9}});
 }
-const std::string kRungs[] = {"surface", "footprint", "reference"};
+constexpr Fidelity kPhysicalRungs[] = {Fidelity::kSurface, Fidelity::kFootprint,
+                                       Fidelity::kReference};
 
-// Of 6 mm radius, 3 m above the sensor along x.
+// A tube along x of 6 mm radius, 3 m above the sensor.
 Mesh LevelTube(float begin_m, float end_m) {
   Mesh tube = MakeCylinder(0.006, 0.5 * static_cast<double>(end_m - begin_m), 16);
   for (auto& vertex : tube.vertices) {
@@ -44,7 +45,7 @@ Mesh LevelTube(float begin_m, float end_m) {
   return tube;
 }
 
-// Ground, walls near and far, a black one, a sheet, poles, and a wire overhead.
+// Ground, walls near and far, a black one, a retroreflective sheet, poles, and a wire overhead.
 std::shared_ptr<SimpleWorld> MixedWorld() {
   auto world = std::make_shared<SimpleWorld>();
   const auto place = [](Mesh mesh, const Eigen::Vector3f& offset_m) {
@@ -79,9 +80,9 @@ struct Setting {
 
 Setting Base() {
   Setting setting;
-  setting.spec.seed = 3;
+  setting.spec.detector.seed = 3;
   setting.spec.snow_material = kSnow;
-  setting.spec.receiver.return_mode = "triple";
+  setting.spec.detector.receiver.return_mode = ReturnMode::kTriple;
   return setting;
 }
 
@@ -92,62 +93,63 @@ std::vector<Setting> Settings() {
     settings.back().name = name;
     change(settings.back());
   };
-  add("visibility 1 m", [](Setting& s) { s.spec.weather.visibility_m = 1.0; });
-  add("visibility 1 mm", [](Setting& s) { s.spec.weather.visibility_m = 1e-3; });
-  add("rain 200 mm/h", [](Setting& s) { s.spec.weather.rain_rate_mmph = 200.0; });
-  add("snow 50 mm/h", [](Setting& s) { s.spec.weather.snow_rate_mmph = 50.0; });
-  add("rain of a trace", [](Setting& s) { s.spec.weather.rain_rate_mmph = 1e-6; });
+  add("visibility 1 m", [](Setting& s) { s.spec.detector.weather.visibility_m = 1.0; });
+  add("visibility 1 mm", [](Setting& s) { s.spec.detector.weather.visibility_m = 1e-3; });
+  add("rain 200 mm/h", [](Setting& s) { s.spec.detector.weather.rain_rate_mmph = 200.0; });
+  add("snow 50 mm/h", [](Setting& s) { s.spec.detector.weather.snow_rate_mmph = 50.0; });
+  add("rain of a trace", [](Setting& s) { s.spec.detector.weather.rain_rate_mmph = 1e-6; });
   add("most clutter", [](Setting& s) {
-    s.spec.weather.rain_rate_mmph = 200.0;
-    s.spec.weather.snow_rate_mmph = 20.0;
-    s.spec.receiver.clutter_gain = 10.0;
+    s.spec.detector.weather.rain_rate_mmph = 200.0;
+    s.spec.detector.weather.snow_rate_mmph = 20.0;
+    s.spec.detector.receiver.clutter_gain = 10.0;
   });
-  add("a ray", [](Setting& s) { s.spec.beam.divergence_mrad = {0.0, 0.0}; });
-  add("a line", [](Setting& s) { s.spec.beam.divergence_mrad = {17.453, 0.0}; });
-  add("1 degree", [](Setting& s) { s.spec.beam.divergence_mrad = {17.453, 17.453}; });
-  add("shortest pulse", [](Setting& s) { s.spec.beam.pulse_length_ns = 0.5; });
-  add("longest pulse", [](Setting& s) { s.spec.beam.pulse_length_ns = 100.0; });
+  add("a ray", [](Setting& s) { s.spec.detector.beam.divergence_mrad = {0.0, 0.0}; });
+  add("a line", [](Setting& s) { s.spec.detector.beam.divergence_mrad = {17.453, 0.0}; });
+  add("1 degree", [](Setting& s) { s.spec.detector.beam.divergence_mrad = {17.453, 17.453}; });
+  add("shortest pulse", [](Setting& s) { s.spec.detector.beam.pulse_length_ns = 0.5; });
+  add("longest pulse", [](Setting& s) { s.spec.detector.beam.pulse_length_ns = 100.0; });
   add("one beam", [](Setting& s) { s.pattern = MakeRaster(1.0, 1.0, 1.0); });
-  add("range 1 m", [](Setting& s) { s.spec.range_max_m = 1.0; });
+  add("range 1 m", [](Setting& s) { s.spec.detector.range_max_m = 1.0; });
   add("range 10 km", [](Setting& s) {
-    s.spec.range_max_m = 10'000.0;
-    s.spec.receiver.range_at_10_percent_m = 10'000.0;
+    s.spec.detector.range_max_m = 10'000.0;
+    s.spec.detector.receiver.range_at_10_percent_m = 10'000.0;
   });
   for (const double rate_hz : {1.0, 200.0}) {
     add("rate " + std::to_string(rate_hz), [&](Setting& s) {
-      s.pattern = BuildScanPattern({rate_hz, RasterSpec{40.0, 16.0, 0.5, "columns"}});
+      s.pattern = BuildScanPattern({rate_hz, RasterSpec{40.0, 16.0, 0.5, RasterOrder::kColumns}});
     });
   }
   add("sun in the face", [](Setting& s) {
-    s.spec.weather.sun = {.illuminance_klx = 150.0, .azimuth_deg = 0.0, .elevation_deg = 0.0};
+    s.spec.detector.weather.sun = {
+        .illuminance_klx = 150.0, .azimuth_deg = 0.0, .elevation_deg = 0.0};
   });
   add("soaked and white", [](Setting& s) {
-    s.spec.weather.wetness = 1.0;
-    s.spec.weather.snow_cover = 1.0;
+    s.spec.detector.weather.wetness = 1.0;
+    s.spec.detector.weather.snow_cover = 1.0;
   });
   add("noise of 10 m", [](Setting& s) {
-    s.spec.receiver.range_noise_floor_m = 10.0;
-    s.spec.receiver.range_noise_scale_m = 10.0;
-    s.spec.receiver.channel_bias_sigma_m = 10.0;
-    s.spec.receiver.pointing_jitter_deg = 1.0;
+    s.spec.detector.receiver.range_noise_floor_m = 10.0;
+    s.spec.detector.receiver.range_noise_scale_m = 10.0;
+    s.spec.detector.receiver.channel_bias_sigma_m = 10.0;
+    s.spec.detector.receiver.pointing_jitter_deg = 1.0;
   });
   return settings;
 }
 
-Frame Scan(const Setting& setting, const std::string& rung) {
+Frame Scan(const Setting& setting, Fidelity rung) {
   SimulatorSpec spec = setting.spec;
-  spec.effects = EffectsOfRung(rung);
+  spec.detector.effects = EffectsOfRung(rung);
   Simulator simulator(MixedWorld(), setting.pattern, Materials(), spec, 0);
   Frame frame;
   simulator.Scan(2, frame);
   return frame;
 }
 
-// Beyond what holds on every rung: powers and shares are no less than nothing, and the surfaces of
-// one beam take no more than all of it.
+// In addition to what holds on every rung: powers and shares are not negative, and the surfaces
+// that one beam hits take no more than all of its power.
 void ExpectSoundBeams(const Frame& frame, const SimulatorSpec& spec) {
-  ExpectSoundSlots(frame, static_cast<float>(spec.range_min_m),
-                   static_cast<float>(spec.range_max_m));
+  ExpectSoundSlots(frame, static_cast<float>(spec.detector.range_min_m),
+                   static_cast<float>(spec.detector.range_max_m));
   for (std::size_t first = 0; first < frame.num_slots(); first += frame.returns) {
     double share = 0.0;
     for (std::size_t slot = first; slot < first + frame.returns; ++slot) {
@@ -166,8 +168,8 @@ void ExpectSoundBeams(const Frame& frame, const SimulatorSpec& spec) {
 
 TEST(Extremes, GiveSoundFramesOnEveryRung) {
   for (const Setting& setting : Settings()) {
-    for (const std::string& rung : kRungs) {
-      SCOPED_TRACE(setting.name + " on " + rung);
+    for (const Fidelity rung : kPhysicalRungs) {
+      SCOPED_TRACE(setting.name + " on " + std::string(NameOf(rung)));
       const Frame frame = Scan(setting, rung);
       ExpectSoundBeams(frame, setting.spec);
       if (HasFatalFailure()) return;
@@ -180,12 +182,12 @@ TEST(Extremes, AllOfABeamMeetsAWallThatFillsIt) {
   world->ground.parts = {{MakeWall(20.0F, 100.0F), kPaint, 1}};
   for (const double divergence_mrad : {0.0, 3.0, 17.453}) {
     for (const int num_rays : {16, 256, 1000}) {
-      SimulatorSpec spec{.effects = {.surface_response = true,
-                                     .footprint = true,
-                                     .dense_footprint = true,
-                                     .sampled_waveform = true}};
-      spec.beam.divergence_mrad = {divergence_mrad, divergence_mrad};
-      spec.beam.reference_rays = num_rays;
+      SimulatorSpec spec{.detector = {.effects = {.surface_response = true,
+                                                  .footprint = true,
+                                                  .dense_footprint = true,
+                                                  .sampled_waveform = true}}};
+      spec.detector.beam.divergence_mrad = {divergence_mrad, divergence_mrad};
+      spec.detector.beam.reference_rays = num_rays;
       Simulator simulator(world, MakeRaster(10.0, 10.0, 1.0), Materials(), spec, 0);
       Frame frame;
       simulator.Scan(0, frame);
@@ -198,22 +200,23 @@ TEST(Extremes, AllOfABeamMeetsAWallThatFillsIt) {
 }
 
 TEST(Extremes, NothingReturnsFromABlackSurface) {
-  for (const std::string& rung : kRungs) {
+  for (const Fidelity rung : kPhysicalRungs) {
     auto world = std::make_shared<SimpleWorld>();
     world->ground.parts = {{MakeWall(5.0F, 100.0F), kBlack, 1}};
-    // At night one firing in a million is a false alarm.
+    // Even at night, one firing in a million is a false alarm, so none is expected among these 400.
     Simulator simulator(world, MakeRaster(10.0, 10.0, 0.5), Materials(),
-                        {.effects = EffectsOfRung(rung)}, 0);
+                        {.detector = {.effects = EffectsOfRung(rung)}}, 0);
     Frame frame;
     simulator.Scan(0, frame);
-    // Phi(-5) of them are detected nevertheless: 3e-7.
+    // Phi(-5) = 3e-7 of them are detected nevertheless.
     EXPECT_EQ(std::count(frame.outcome.begin(), frame.outcome.end(), Outcome::kBelowThreshold), 400)
-        << rung;
-    EXPECT_EQ(*std::max_element(frame.power_ratio.begin(), frame.power_ratio.end()), 0.0F) << rung;
+        << NameOf(rung);
+    EXPECT_EQ(*std::max_element(frame.power_ratio.begin(), frame.power_ratio.end()), 0.0F)
+        << NameOf(rung);
   }
 }
 
-// One of the weather's parameters from nothing to its end.
+// A parameter of the weather, from none to its upper limit.
 struct Ramp {
   std::string name;
   std::function<void(WeatherSpec&, double)> set;
@@ -237,40 +240,42 @@ std::vector<Ramp> Ramps() {
        {0, 1, 10, 30, 60, 100, 150}}};
 }
 
-// The last echo is reported, so that drops, which lie in front, take no surface's place.
+// The last echo is reported, because raindrops lie in front of surfaces and would take their place
+// otherwise.
 TEST(Extremes, MoreWeatherNeverGivesMoreSurfaceReturns) {
-  for (const std::string& rung : kRungs) {
+  for (const Fidelity rung : kPhysicalRungs) {
     for (const Ramp& ramp : Ramps()) {
       std::vector<std::size_t> counts;
       for (const double value : ramp.values) {
         Setting setting = Base();
-        setting.spec.receiver.return_mode = "last";
-        setting.spec.receiver.range_at_10_percent_m = 100.0;
-        ramp.set(setting.spec.weather, value);
+        setting.spec.detector.receiver.return_mode = ReturnMode::kLast;
+        setting.spec.detector.receiver.range_at_10_percent_m = 100.0;
+        ramp.set(setting.spec.detector.weather, value);
         const Frame frame = Scan(setting, rung);
         counts.push_back(static_cast<std::size_t>(
             std::count(frame.outcome.begin(), frame.outcome.end(), Outcome::kReturned)));
       }
-      EXPECT_TRUE(std::is_sorted(counts.rbegin(), counts.rend())) << rung << ", " << ramp.name;
-      EXPECT_LT(counts.back(), counts.front()) << rung << ", " << ramp.name;
+      EXPECT_TRUE(std::is_sorted(counts.rbegin(), counts.rend()))
+          << NameOf(rung) << ", " << ramp.name;
+      EXPECT_LT(counts.back(), counts.front()) << NameOf(rung) << ", " << ramp.name;
     }
   }
 }
 
-// As many firings as a pattern may have is 2^24; a frame of ten million takes a gigabyte.
+// A pattern may have 2^24 firings; a frame of ten million takes a gigabyte.
 TEST(Extremes, TenMillionBeamsMakeOneSoundFrame) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "too slow under a sanitizer";
 #endif
   auto world = std::make_shared<SimpleWorld>();
   world->ground.parts = {{MakeFloor(-2.0F, 400.0F), kSoil, 2}};
-  SimulatorSpec spec{.effects = EffectsOfRung("surface")};
+  SimulatorSpec spec{.detector = {.effects = EffectsOfRung(Fidelity::kSurface)}};
   Simulator simulator(world, MakeRaster(360.0, 69.5, 0.05), Materials(), spec, 0);
   ASSERT_GE(simulator.pattern().num_firings(), 10'000'000U);
   Frame frame;
   simulator.Scan(0, frame);
   ExpectSoundBeams(frame, spec);
-  // What looks down more than half a degree meets ground within the range.
+  // Beams that look down by more than half a degree meet the ground within range.
   const auto num_below = static_cast<std::ptrdiff_t>(7200) * (1390 / 2 - 10);
   EXPECT_GT(std::count_if(frame.label.begin(), frame.label.end(),
                           [](std::uint32_t label) { return label == 2; }),

@@ -1,7 +1,7 @@
-// Far from the origin float32 has no millimetres left: a step is 0.06 mm at 1 km, 1 mm at 10 km,
-// 0.5 m at UTM coordinates. (At 1 km, beside ranges of 60 m, it does not show yet.) The simple
-// method traces the world where it lies; ours builds it about a moving origin near the vehicle, so
-// that it does not matter where that is.
+// Far from the origin, float32 cannot resolve millimetres: a step is 0.06 mm at 1 km, 1 mm at 10
+// km, 0.5 m at UTM coordinates. (At 1 km this does not show yet beside ranges of 60 m.) The simple
+// method traces the world in its own coordinates; railcast builds it about a moving origin near the
+// vehicle, so that its position does not matter.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,10 +41,10 @@ Transform ChunkFromSensor() {
   return MakeTransform(RotationFromYawPitchRoll(0.01, 0.1, 0.02), {-3.0, 0.2, 2.5});
 }
 
-/// What a beam found.
+/// Range and label that a beam found.
 struct Answer {
   double range_m{};
-  std::uint32_t label{};  ///< 0 = nothing.
+  std::uint32_t label{};  ///< 0: nothing was hit.
 };
 
 std::vector<Answer> Truth(const Model& track, const ScanPattern& pattern) {
@@ -74,7 +74,8 @@ std::vector<Answer> Ours(const Model& track,
   return answers;
 }
 
-/// One Embree scene in world coordinates, beams from the sensor's place in the world.
+/// Traces one Embree scene in world coordinates, with beams from the sensor's position in the
+/// world.
 std::vector<Answer> Naive(Model track,
                           const ScanPattern& pattern,
                           const Transform& world_from_chunk) {
@@ -99,8 +100,9 @@ std::vector<Answer> Naive(Model track,
 }
 
 struct Errors {
-  double flipped_share{};  ///< Of beams that hit a rail or are said to: those with another label.
-  double median_m{};       ///< Of the range, where the label is right.
+  /// Beams with a wrong label, relative to those that hit a rail in truth or in the result.
+  double flipped_share{};
+  double median_m{};  ///< Error of the range where the label is right.
   double p99_m{};
 };
 
@@ -132,7 +134,7 @@ TEST(FarFromOrigin, OneSceneInWorldCoordinatesFailsAndOursStaysFlat) {
   const struct {
     const char* name;
     Vector3 world_m;
-    double naive_p99_over_m;  ///< The simple method is at least this bad.
+    double naive_p99_over_m;  ///< Lower bound of the simple method's error.
     double naive_flips_over;
   } places[] = {{"the origin", {0.0, 0.0, 0.0}, 0.0, -1.0},
                 {"1 km", {800.0, 600.0, 0.0}, 0.0, -1.0},
@@ -151,8 +153,8 @@ TEST(FarFromOrigin, OneSceneInWorldCoordinatesFailsAndOursStaysFlat) {
     const Errors ours = Compare(Ours(track, pattern, world_from_chunk), truth);
     Print("world coordinates", place.name, naive);
     Print("ours", place.name, ours);
-    // Flat: float32 near the origin puts a hit 4 um off the plane at 60 m, over a cosine of
-    // incidence of 0.04 that is 0.1 mm along the beam.
+    // On the plane, float32 near the origin puts a hit 4 um off the surface at 60 m; divided by the
+    // cosine of incidence, 0.04, that is 0.1 mm along the beam.
     EXPECT_LE(ours.p99_m, 2e-4) << place.name;
     EXPECT_LE(ours.flipped_share, 5e-3) << place.name;
     EXPECT_GT(naive.p99_m, place.naive_p99_over_m) << place.name;

@@ -1,6 +1,6 @@
-// A train that passes at 300 km/h, two that close at 600: in the tenth of a second of one scan they
-// come 17 m nearer. Each firing must see them where they are at its own time. The simple method,
-// one pose a frame, is off by speed times time.
+// Trains that pass at 300 km/h or close at 600 km/h come 17 m nearer within the tenth of a second
+// of one scan. Each firing must see them where they are at its own time. The simple method, one
+// pose per frame, is off by speed times time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,14 +23,14 @@ namespace {
 constexpr double kTolerance_m = 1e-3;
 constexpr std::uint32_t kFrame = 1;
 
-/// The sensor stands or drives along +x; the train comes towards it.
+/// The sensor stands or drives along +x, and the train comes towards it.
 struct Passage {
   double sensor_mps{};
   double train_mps{};
   Eigen::AlignedBox3d train_m;  ///< At time 0, when the sensor is at the origin.
 
   [[nodiscard]] double closing_mps() const { return sensor_mps + train_mps; }
-  /// The train as the sensor sees it at a time, grown by `margin_m` on all sides.
+  /// Returns the train as the sensor sees it at a time, grown by `margin_m` on all sides.
   [[nodiscard]] Eigen::AlignedBox3d SeenAt(double time_s, double margin_m) const {
     const Vector3 shift_m(-closing_mps() * time_s, 0.0, 0.0);
     return {train_m.min() + shift_m - Vector3::Constant(margin_m),
@@ -38,7 +38,7 @@ struct Passage {
   }
 };
 
-Frame Scan(const Passage& passage, const ScanPattern& pattern) {
+Frame ScanPassage(const Passage& passage, const ScanPattern& pattern) {
   auto world = std::make_shared<SimpleWorld>();
   world->velocity_chunk_mps = {passage.sensor_mps, 0.0, 0.0};
   world->AddObject(std::make_shared<Model>(Model{"train", {{MakeBox(passage.train_m), 2, 1}}}),
@@ -48,7 +48,8 @@ Frame Scan(const Passage& passage, const ScanPattern& pattern) {
   return frame;
 }
 
-/// Where a ray from the origin enters a box that it is outside of (slabs: Kay and Kajiya 1986).
+/// Returns the range at which a ray from the origin enters a box, if the origin is outside of the
+/// box (slab method: Kay and Kajiya 1986).
 std::optional<double> Entry_m(const Eigen::AlignedBox3d& box, const Vector3& direction) {
   const Vector3 a = box.min().cwiseQuotient(direction);
   const Vector3 b = box.max().cwiseQuotient(direction);
@@ -57,19 +58,21 @@ std::optional<double> Entry_m(const Eigen::AlignedBox3d& box, const Vector3& dir
   return enters_m <= leaves_m && enters_m > 0.0 ? std::optional(enters_m) : std::nullopt;
 }
 
-struct Errors {
+struct PassageErrors {
   std::size_t num_hits = 0;
-  std::size_t num_disagreeing = 0;  ///< Beyond a millimetre from the train's edges.
-  double worst_m = 0.0;             ///< Range, where both hit the same face.
-  // The same of a train that waits for the scan to end.
-  std::size_t num_snapshot_wrong = 0;  ///< Hits that it misses or the other way round, or 1 cm off.
+  /// Beams more than a millimetre from the train's edges for which only one of trace and closed
+  /// form hits.
+  std::size_t num_disagreeing = 0;
+  double worst_m = 0.0;  ///< Largest range error where both hit the same face.
+  // The same errors for a train that is frozen during the scan.
+  std::size_t num_snapshot_wrong = 0;  ///< Missed or false hits, or ranges off by 1 cm.
   double snapshot_m = 0.0;
 };
 
-Errors Compare(const Passage& passage, const ScanPattern& pattern) {
-  const Frame frame = Scan(passage, pattern);
+PassageErrors ComparePassage(const Passage& passage, const ScanPattern& pattern) {
+  const Frame frame = ScanPassage(passage, pattern);
   const double stamp_s = SecondsFromNs(pattern.StampNs(kFrame));
-  Errors errors;
+  PassageErrors errors;
   for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
     const std::size_t slot = pattern.row[i] * pattern.columns + pattern.column[i];
     const Vector3 direction = DirectionOf(pattern, i);
@@ -85,7 +88,7 @@ Errors Compare(const Passage& passage, const ScanPattern& pattern) {
     errors.num_snapshot_wrong += is_snapshot_right ? 0 : 1;
     if (!truth_m || !surely_m || !is_hit) continue;
     ++errors.num_hits;
-    // At an edge of the train a millimetre decides between two faces.
+    // At an edge of the train, a millimetre decides between two faces.
     if (std::abs(*surely_m - *perhaps_m) > 0.1) continue;
     const auto range_m = static_cast<double>(frame.range_m[slot]);
     errors.worst_m = std::max(errors.worst_m, std::abs(range_m - *truth_m));
@@ -97,7 +100,7 @@ Errors Compare(const Passage& passage, const ScanPattern& pattern) {
 }
 
 void ExpectSeenAtItsOwnTime(const char* name, const Passage& passage, const ScanPattern& pattern) {
-  const Errors errors = Compare(passage, pattern);
+  const PassageErrors errors = ComparePassage(passage, pattern);
   const double wrong_share =
       static_cast<double>(errors.num_snapshot_wrong) / static_cast<double>(errors.num_hits);
   std::cout << name << ", closing at " << 3.6 * passage.closing_mps() << " km/h: one pose a frame "
@@ -123,13 +126,13 @@ ScanPattern RowsInTurn() {
                            .pattern = RasterSpec{.horizontal_fov_deg = 10.0,
                                                  .vertical_fov_deg = 3.0,
                                                  .angular_resolution_deg = 0.05,
-                                                 .order = "rows"}});
+                                                 .order = RasterOrder::kRows}});
 }
 
-/// 32 channels, a turn in 0.1 s, from behind over the right to the front and the left.
+/// 32 channels and one turn in 0.1 s, from behind via the right to the front and the left.
 ScanPattern Spinning() {
   SpinningSpec spec{.channels = {}, .cycle_us = 50.0, .columns = 2000, .start_azimuth_deg = 180.0};
-  spec.rotation = "counterclockwise";
+  spec.rotation = Rotation::kCounterclockwise;
   for (int i = 0; i < 32; ++i) spec.channels.push_back({0.5 * i - 8.0, 0.0, 1.5 * i});
   return BuildScanPattern({.rate_hz = 10.0, .pattern = spec});
 }
@@ -146,13 +149,13 @@ TEST(FastMotion, TwoTrainsClosingAt600KmphAreToo) {
   ExpectSeenAtItsOwnTime("spinning beside", {speed_mps, speed_mps, BesideFrom(20.0)}, Spinning());
 }
 
-// The train's front, an upright plane, appears sheared by closing speed times the time from the
-// first to the last row that meets it.
+// The train's front, an upright plane, appears sheared by the closing speed times the time between
+// the first and the last row that meet it.
 TEST(FastMotion, AnUprightFrontIsShearedBySpeedTimesTime) {
   const double speed_mps = MpsFromKmph(300.0);
   const Passage passage{speed_mps, speed_mps, Ahead()};
   const ScanPattern pattern = RowsInTurn();
-  const Frame frame = Scan(passage, pattern);
+  const Frame frame = ScanPassage(passage, pattern);
   const std::size_t lowest = frame.width() / 2;
   const std::size_t highest = (frame.rows - 1) * std::size_t{frame.width()} + frame.width() / 2;
   ASSERT_EQ(frame.outcome[lowest], Outcome::kReturned);
@@ -167,7 +170,7 @@ TEST(FastMotion, AnUprightFrontIsShearedBySpeedTimesTime) {
 
 constexpr int kNumPoles = 8;
 
-/// The azimuth at which a pole is seen: the mean of the beams that hit it.
+/// Returns the azimuth at which each pole is seen: the mean over the beams that hit it.
 std::vector<double> PoleAzimuths_rad(double yaw_rate_radps, const ScanPattern& pattern) {
   auto world = std::make_shared<SimpleWorld>();
   world->yaw_rate_radps = yaw_rate_radps;
@@ -189,16 +192,16 @@ std::vector<double> PoleAzimuths_rad(double yaw_rate_radps, const ScanPattern& p
   return azimuths_rad;
 }
 
-// A rotor that starts at azimuth a and turns at W counterclockwise in a vehicle that turns at w
-// meets the bearing b at t = (b - a) / (W + w), and there the pole's azimuth is b - w t.
+// A rotor that starts at azimuth a and turns counterclockwise at W, on a vehicle that turns at w,
+// meets the bearing b at t = (b - a) / (W + w); the pole's azimuth is then b - w t.
 TEST(FastMotion, APolesAzimuthIsShiftedByTheVehiclesTurnUntilItsOwnFiring) {
   constexpr double kYawRate_radps = 0.2;
   constexpr std::uint32_t kColumns = 18'000;
   SpinningSpec spec{.channels = {{0.0, 0.0, 0.0}}, .cycle_us = 1e5 / kColumns, .columns = kColumns};
-  spec.rotation = "counterclockwise";
+  spec.rotation = Rotation::kCounterclockwise;
   const ScanPattern pattern = BuildScanPattern({.rate_hz = 10.0, .pattern = spec});
   const std::vector<double> turning_rad = PoleAzimuths_rad(kYawRate_radps, pattern);
-  // The mean of the beams on a pole is within half a beam's step of its middle.
+  // The mean of the beams on a pole is within half a beam spacing of the pole's middle.
   const double tolerance_rad = std::numbers::pi / kColumns;
   double largest_shift_rad = 0.0;
   for (int pole = 0; pole < kNumPoles; ++pole) {

@@ -1,7 +1,7 @@
-// From 80 to 89.99 degrees of incidence a hit that is right across the surface is off along the
-// beam by one over the cosine: 1 um across are 6 mm along at 89.99 degrees. So what counts is how
-// many micrometres a method loses across. One quad of kilometres, the usual ground of a simple
-// scene, loses a thousand times as many as ground in cells about a near origin.
+// From 80 to 89.99 degrees of incidence, a small error across the surface becomes an error along
+// the beam, divided by the cosine: 1 um across is 6 mm along at 89.99 degrees. What counts is how
+// many micrometres a method loses across the surface. One quad of kilometres, the usual ground of a
+// simple scene, loses a thousand times as much as ground in cells about a near origin.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,10 +24,11 @@ namespace railcast {
 namespace {
 
 constexpr std::array kIncidences_deg = {80.0, 85.0, 88.0, 89.0, 89.5, 89.9, 89.99};
-/// To where the middle beam meets the surface.
+/// Range at which the middle beam meets the surface.
 constexpr double kRange_m = 100.0;
 
-/// The surfaces lie oblique in their chunk, as on a slope in a curve: z = 0 would hide rounding.
+/// The surfaces lie oblique in their chunk, as on a slope in a curve, because z = 0 would hide
+/// rounding.
 Transform ChunkFromSurface() {
   return MakeTransform(RotationFromYawPitchRoll(0.3, -0.025, 0.03), {0.7, -0.4, -1.7});
 }
@@ -38,7 +39,7 @@ Mesh InChunk(const Mesh& surface) {
   return mesh;
 }
 
-/// Ground at z = 0 in cells of 1 m by 0.5 m, as chunks build it: 130 m long, 16 m wide.
+/// Ground at z = 0 in cells of 1 m by 0.5 m, as chunks build it: 130 m long and 16 m wide.
 Mesh Cells() {
   std::vector<Vector3> points_m;
   constexpr std::size_t kColumns = 33;
@@ -50,29 +51,29 @@ Mesh Cells() {
   return MeshOfGrid(points_m, kColumns, [](std::size_t, std::size_t) { return true; });
 }
 
-struct Errors {
+struct GrazingErrors {
   std::size_t num_hits = 0;
-  std::size_t num_disagreeing = 0;  ///< Closed form and trace: one hits, the other does not.
-  double along_m = 0.0;             ///< Largest error of the range ...
-  double across_m = 0.0;            ///< ... and of the distance from the surface.
+  std::size_t num_disagreeing = 0;  ///< Either the closed form or the trace hits, but not both.
+  double along_m = 0.0;             ///< Largest error of the range.
+  double across_m = 0.0;            ///< Largest error across the surface.
   double incidence_rad = 0.0;
 };
 
-/// Where a beam meets a surface along x, in the surface's frame.
+/// Where a beam meets a surface that extends along x, in the surface's frame.
 struct Meeting {
-  double range_m = std::nan("");  ///< NaN = nowhere.
+  double range_m = std::nan("");  ///< NaN: nowhere.
   double cosine{};
-  bool is_at_border = false;  ///< Of two facets: rounding may choose either.
+  bool is_at_border = false;  ///< On the border of two facets, rounding may choose either.
 };
 using ClosedForm = std::function<Meeting(const Vector3& origin_m, const Vector3& direction)>;
 
-/// Sends a row of beams along x at the surface: from so high above the point (0, `aim_y_m`, 0) that
-/// the middle one meets z = 0 at the incidence asked for.
-Errors Compare(const Mesh& surface,
-               double incidence_deg,
-               double aim_y_m,
-               const ScanPattern& pattern,
-               const ClosedForm& closed_form) {
+/// Sends a row of beams along x at the surface, from such a height above the point (0, `aim_y_m`,
+/// 0) that the middle one meets z = 0 at the incidence asked for.
+GrazingErrors CompareSurface(const Mesh& surface,
+                             double incidence_deg,
+                             double aim_y_m,
+                             const ScanPattern& pattern,
+                             const ClosedForm& closed_form) {
   const double pitch_rad = RadFromDeg(90.0 - incidence_deg);
   const Transform surface_from_sensor =
       MakeTransform(RotationFromYawPitchRoll(0.0, pitch_rad, 0.0),
@@ -82,7 +83,7 @@ Errors Compare(const Mesh& surface,
   world->chunk_from_vehicle = ChunkFromSurface() * surface_from_sensor;
   const Frame frame = ScanOnce(world, pattern);
   ExpectSoundSlots(frame, 0.5F, 300.0F);
-  Errors errors;
+  GrazingErrors errors;
   for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
     const std::size_t slot = pattern.row[i] * pattern.columns + pattern.column[i];
     const Vector3 direction = surface_from_sensor.linear() * DirectionOf(pattern, i);
@@ -118,8 +119,8 @@ TEST(GrazingIncidence, OnGroundIsRightAcrossTheSurfaceUpToTheLastHundredthOfADeg
   const Mesh quad = MakeFloor(0.0F, 20'000.0F);
   const ScanPattern pattern = MakeRaster(4, 0.01, 0.01);
   for (const double incidence_deg : kIncidences_deg) {
-    const Errors ours = Compare(cells, incidence_deg, 0.1, pattern, OnPlane);
-    const Errors simple = Compare(quad, incidence_deg, 0.1, pattern, OnPlane);
+    const GrazingErrors ours = CompareSurface(cells, incidence_deg, 0.1, pattern, OnPlane);
+    const GrazingErrors simple = CompareSurface(quad, incidence_deg, 0.1, pattern, OnPlane);
     std::cout << "ground at " << incidence_deg << " deg, range error: one quad of 40 km "
               << 1e3 * simple.along_m << " mm, ours " << 1e3 * ours.along_m << " mm (across "
               << 1e6 * ours.across_m << " um, incidence " << 1e6 * ours.incidence_rad << " urad)\n";
@@ -133,8 +134,8 @@ TEST(GrazingIncidence, OnGroundIsRightAcrossTheSurfaceUpToTheLastHundredthOfADeg
   }
 }
 
-/// A rail's running band along x, its crown line at y = z = 0, and where a beam meets it: plane
-/// facets between the section's points.
+/// A rail's running band along x with its crown at y = z = 0, and the closed form of where a beam
+/// meets it, with plane facets between the section's points.
 struct Band {
   std::vector<Eigen::Vector2d> outline_m;
 
@@ -160,7 +161,8 @@ struct Band {
       const double width_m = (outline_m[i + 1] - outline_m[i]).norm();
       if (!(range_m > 0.0 && part >= 0.0 && part <= width_m && place_m.x() <= 130.0)) continue;
       constexpr double kBorder_m = 1e-4;
-      if (range_m >= nearest.range_m) continue;  // False where there is none yet.
+      // The comparison is false while `nearest` is still NaN.
+      if (range_m >= nearest.range_m) continue;
       nearest = {range_m, std::abs(cosine), std::min(part, width_m - part) < kBorder_m};
     }
     return nearest;
@@ -180,16 +182,16 @@ Band RunningBand() {
   return band;
 }
 
-// At 89.99 degrees a facet of 7 mm by 2.5 m is 3e-6 m2 as the beam sees it, less than float32 tells
-// from 0 at 100 m: some beams take the facet beside theirs, which is right across to 0.2 mm still,
-// but off along the beam by decimetres.
+// At 89.99 degrees, a facet of 7 mm by 2.5 m covers 3e-6 m2 across the beam, less than float32 can
+// tell from 0 at 100 m. Some beams take the neighbouring facet, which is still right across to 0.2
+// mm but off along the beam by decimetres.
 TEST(GrazingIncidence, OnARailsRunningBandIsRightAcrossTheSurface) {
   const Band band = RunningBand();
   const Mesh rail = band.Swept();
   // 52 mm are 0.03 degrees at 100 m.
   const ScanPattern pattern = MakeRaster(0.04, 0.0005, 0.0001);
   for (const double incidence_deg : kIncidences_deg) {
-    const Errors ours = Compare(rail, incidence_deg, 0.0, pattern, band);
+    const GrazingErrors ours = CompareSurface(rail, incidence_deg, 0.0, pattern, band);
     std::cout << "rail at " << incidence_deg << " deg: range error " << 1e3 * ours.along_m
               << " mm (across " << 1e6 * ours.across_m << " um, incidence "
               << 1e6 * ours.incidence_rad << " urad), " << ours.num_hits << " hits, "

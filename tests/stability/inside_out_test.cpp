@@ -1,6 +1,6 @@
-// Meshes from anywhere are wound inside out or each triangle its own way, and sensors end up inside
-// of things or on their surface. A renderer's habits fail there: it drops faces seen from behind,
-// trusts the sign of the normal, and starts rays a little away from the sensor.
+// Foreign meshes may be wound inside out, or each triangle its own way, and sensors may end up
+// inside of objects or on their surface. The habits of renderers fail there: they drop faces seen
+// from behind, trust the sign of the normal, and start rays a little away from the sensor.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ Mesh Wound(Mesh mesh, Winding winding) {
   return mesh;
 }
 
-/// A sphere and a box on the ground, in front of the sensor.
+/// A ground with a box and a sphere on it, in front of the sensor.
 std::vector<Part> Things(Winding winding) {
   return {{Wound(MakeFloor(-2.0F, 200.0F), winding), 1, 1},
           {Wound(MakeBox({Vector3(14.0, 1.0, -2.0), Vector3(20.0, 6.0, 3.0)}), winding), 2, 2},
@@ -56,8 +56,8 @@ TEST(InsideOut, WindingChangesNeitherRangesNorLabelsNorIncidence) {
     for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
       ASSERT_EQ(frame.label[slot], outwards.label[slot]);
       if (frame.label[slot] == 0) continue;
-      // Another order of corners rounds otherwise; a beam on an edge may take the facet beside it,
-      // which on the sphere leans 0.08 rad away.
+      // Another order of the corners rounds differently; a beam on an edge may take the
+      // neighbouring facet, which on the sphere leans by 0.08 rad.
       ASSERT_NEAR(frame.range_m[slot], outwards.range_m[slot], 1e-4F);
       ASSERT_NEAR(frame.incidence_rad[slot], outwards.incidence_rad[slot],
                   frame.label[slot] == 3 ? 0.1F : 1e-5F);
@@ -108,7 +108,7 @@ TEST(InsideOut, ASensorInsideASphereSeesItsWallAllRound) {
   ExpectSoundSlots(frame, 0.5F, 300.0F);
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
     ASSERT_EQ(frame.outcome[slot], Outcome::kReturned);
-    // Facets of 2 degrees lie inside by at most 2 x 5 m x (1 - cos 1 deg) = 1.5 mm.
+    // Facets of 2 degrees lie inside the sphere by at most 2 x 5 m x (1 - cos 1 deg) = 1.5 mm.
     ASSERT_NEAR(frame.range_m[slot], 5.0F, 0.002F);
     ASSERT_LE(frame.incidence_rad[slot], 0.04F);
   }
@@ -124,7 +124,8 @@ TEST(InsideOut, ASensorInsideAThingTooNearIsBlockedAllRound) {
             frame.num_slots());
 }
 
-// The sensor's origin on a plane, on the edge and on the corner of a box, and a micrometre off.
+// The sensor's origin is on a plane, on an edge and on a corner of a box, and a micrometre or a
+// millimetre off.
 TEST(InsideOut, ASensorThatTouchesGeometryGivesNoFalsePoint) {
   const Mesh floor = MakeFloor(0.0F, 50.0F);
   const Mesh box = MakeBox({Vector3(0.0, 0.0, 0.0), Vector3(4.0, 4.0, 4.0)});
@@ -133,15 +134,16 @@ TEST(InsideOut, ASensorThatTouchesGeometryGivesNoFalsePoint) {
       auto world = std::make_shared<SimpleWorld>();
       world->ground.parts = {{mesh, 2, 2}};
       world->chunk_from_vehicle.translation() = Vector3(off_m, off_m, off_m);
-      // 31 rows: the middle one lies in the plane itself.
+      // With 31 rows, the middle one lies in the plane itself.
       const Frame frame = ScanOnce(world, MakeRaster(360, 62, 2));
       ExpectSoundSlots(frame, 0.5F, 300.0F);
       for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
         const Outcome outcome = frame.outcome[slot];
         ASSERT_TRUE(outcome == Outcome::kNearRange || outcome == Outcome::kNoSurface ||
                     outcome == Outcome::kReturned);
-        // A plane through the sensor, or just off it, is near or nowhere, but for rows within a
-        // degree of it. The box has walls 4 m away and more, up to its far corner.
+        // A plane through the sensor, or just off it, is nearer than the minimum range or not met,
+        // except for rows within a degree of it. The box has walls at 4 m and more, up to its far
+        // corner.
         if (outcome == Outcome::kReturned) {
           ASSERT_GE(frame.range_m[slot], 0.5F);
           ASSERT_LE(frame.range_m[slot], 4.0F * std::sqrt(3.0F) + 0.01F);
@@ -151,8 +153,8 @@ TEST(InsideOut, ASensorThatTouchesGeometryGivesNoFalsePoint) {
   }
 }
 
-// Rays start at range 0 and short hits are rejected afterwards. The simple way round, a start of
-// 1 cm against self-hits, looks through whatever is nearer.
+// Rays start at range 0, and hits below the minimum range are rejected afterwards. The simple
+// method, a start of 1 cm to avoid self-hits, looks through whatever is nearer.
 TEST(InsideOut, AStartAwayFromTheSensorLooksThroughWhatBlocksIt) {
   const TraceDevice device;
   const auto scene = SceneOf(

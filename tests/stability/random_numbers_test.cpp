@@ -1,6 +1,6 @@
-// Draws are keyed by (seed, use, frame, item, block). Neighbours in any part of the key must be as
-// independent as strangers, no key may repeat another's words, and switching an effect must not
-// move another's draws. A generator that all effects share in turn fails the last.
+// Draws are keyed by (seed, use, frame, item, block). Keys that are neighbours in any part must
+// give independent draws, no two keys may give the same words, and switching an effect must not
+// change another's draws. A generator that all effects share in turn fails the last.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,8 +42,9 @@ constexpr std::array kUses = {
 };
 
 constexpr std::uint32_t kNumDraws = 20'000;
-// A correlation of n independent pairs has a standard deviation of 1 / sqrt(n), a runs statistic
-// one of 1. Beyond five of them lies 6e-7: fewer than 500 comparisons are made, seeds are fixed.
+// The correlation of n independent pairs has a standard deviation of 1 / sqrt(n), a runs statistic
+// one of 1. Five of them are exceeded with a probability of 6e-7; fewer than 500 comparisons are
+// made, and the seeds are fixed.
 constexpr double kNumSigmas = 5.0;
 
 using Draws = std::vector<double>;
@@ -57,11 +58,12 @@ Draws Draw(const std::function<std::uint32_t(std::uint32_t)>& word) {
 void ExpectUncorrelated(const Draws& a, const Draws& b, const std::string& what) {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  const double correlation = 12.0 * sum / static_cast<double>(a.size());  // Variance 1/12.
+  // The variance of a draw is 1/12.
+  const double correlation = 12.0 * sum / static_cast<double>(a.size());
   EXPECT_LE(std::abs(correlation), kNumSigmas / std::sqrt(static_cast<double>(a.size()))) << what;
 }
 
-// Wald and Wolfowitz 1940: runs above and below the median.
+// Runs above and below the median, standardised (Wald and Wolfowitz 1940).
 double RunsStatistic(const Draws& draws) {
   double num_above = 0.0;
   double num_runs = 1.0;
@@ -117,13 +119,13 @@ TEST(RandomNumbers, HaveAsManyRunsOverBeamsAndOverFramesAsChanceHas) {
   }
 }
 
-// What the tests above would say of a simple generator: x' = a x + c mod 2^32, seeded by the beam.
+// A simple generator, x' = a x + c mod 2^32 seeded by the beam, fails such tests.
 TEST(RandomNumbers, OfAGeneratorSeededByTheBeamAreCorrelated) {
   const Draws beams = Draw([](std::uint32_t i) { return 1664525U * i + 1013904223U; });
   EXPECT_GT(std::abs(RunsStatistic(beams)), 10.0 * kNumSigmas);
 }
 
-// Equal words of 128 bits would mean equal counters: by chance a million of them collide once in
+// Equal words of 128 bits would mean equal counters: a million of them collide by chance once in
 // 1e27.
 TEST(RandomNumbers, NoCounterIsUsedTwice) {
   std::vector<std::array<std::uint32_t, 4>> words;
@@ -143,7 +145,8 @@ TEST(RandomNumbers, NoCounterIsUsedTwice) {
   EXPECT_EQ(std::adjacent_find(words.begin(), words.end()), words.end());
 }
 
-/// An effect that draws or drops, its switch, and the outcome it gives the beams it touches.
+/// An effect that draws random numbers or drops beams, its switch, and the outcome that it gives to
+/// the beams it affects.
 struct Effect {
   const char* name;
   bool EffectSet::*is_on;
@@ -157,24 +160,26 @@ constexpr std::array kEffects = {
 };
 
 SimulatorSpec AllOn() {
-  SimulatorSpec spec{
-      .seed = 42,
-      .effects = {
-          .threshold = true, .rain = true, .snow = true, .noise = true, .sensor_dropout = true}};
-  spec.weather.rain_rate_mmph = 40.0;
-  spec.weather.snow_rate_mmph = 8.0;
-  spec.weather.snow_intensity = 0.9;
-  spec.plausibility.dropout_probability = 0.1;
-  spec.plausibility.reference_range_m = 150.0;
+  SimulatorSpec spec{.detector = {.seed = 42,
+                                  .effects = {.threshold = true,
+                                              .rain = true,
+                                              .snow = true,
+                                              .noise = true,
+                                              .sensor_dropout = true}}};
+  spec.detector.weather.rain_rate_mmph = 40.0;
+  spec.detector.weather.snow_rate_mmph = 8.0;
+  spec.detector.weather.snow_intensity = 0.9;
+  spec.detector.plausibility.dropout_probability = 0.1;
+  spec.detector.plausibility.reference_range_m = 150.0;
   return spec;
 }
 
-/// Level ground from 30 m on, and sky: some beams of every outcome.
+/// Scans level ground from 30 m on, and sky, so that some beams have each outcome.
 Frame ScanPlain(const EffectSet& effects) {
   auto world = std::make_shared<SimpleWorld>();
   world->ground.parts = {{MakeFloor(-6.0F, 1000.0F), 1, 1}};
   SimulatorSpec spec = AllOn();
-  spec.effects = effects;
+  spec.detector.effects = effects;
   return ScanOnce(world, MakeRaster(60, 20, 0.25), spec, 7);
 }
 
@@ -183,9 +188,9 @@ bool HasSameBits(float a, float b) {
 }
 
 TEST(RandomNumbers, SwitchingAnyEffectLeavesTheBeamsItDoesNotTouchBitForBit) {
-  const Frame all = ScanPlain(AllOn().effects);
+  const Frame all = ScanPlain(AllOn().detector.effects);
   for (const Effect& effect : kEffects) {
-    EffectSet without = AllOn().effects;
+    EffectSet without = AllOn().detector.effects;
     without.*effect.is_on = false;
     const Frame frame = ScanPlain(without);
     std::size_t num_touched = 0;
@@ -194,7 +199,7 @@ TEST(RandomNumbers, SwitchingAnyEffectLeavesTheBeamsItDoesNotTouchBitForBit) {
         ++num_touched;
         continue;
       }
-      // A flake too weak for the threshold answers only without it.
+      // An echo of a snowflake below the threshold is reported only without the threshold.
       if (frame.outcome[slot] == Outcome::kClutter && all.outcome[slot] != Outcome::kClutter) {
         EXPECT_EQ(effect.is_on, &EffectSet::threshold);
         continue;
@@ -210,23 +215,23 @@ TEST(RandomNumbers, SwitchingAnyEffectLeavesTheBeamsItDoesNotTouchBitForBit) {
 }
 
 TEST(RandomNumbers, SwitchingNoiseMovesPointsAndNothingElse) {
-  EffectSet without = AllOn().effects;
+  EffectSet without = AllOn().detector.effects;
   without.noise = false;
-  const Frame all = ScanPlain(AllOn().effects);
+  const Frame all = ScanPlain(AllOn().detector.effects);
   const Frame frame = ScanPlain(without);
   EXPECT_EQ(all.outcome, frame.outcome);
   EXPECT_EQ(all.label, frame.label);
   EXPECT_NE(all.x, frame.x);
 }
 
-/// Which beams an effect takes, by itself, of a sphere 40 m around; less the mean, over the
-/// standard deviation. Of noise: which measured ranges are too long.
+/// Returns which beams of a sphere of 40 m radius an effect alone affects, standardised to mean 0
+/// and variance 1. For noise: which measured ranges are too long.
 std::vector<double> TakenBy(bool EffectSet::*effect, std::uint32_t frame_index) {
   auto world = std::make_shared<SimpleWorld>();
   world->ground.parts = {{MakeSphere(40.0, 90, 180), 3, 1}};
   SimulatorSpec spec = AllOn();
-  spec.effects = {};
-  spec.effects.*effect = true;
+  spec.detector.effects = {};
+  spec.detector.effects.*effect = true;
   const Frame frame = ScanOnce(world, MakeRaster(60, 30, 0.25), spec, frame_index);
   std::vector<double> taken;
   double mean = 0.0;
@@ -252,8 +257,10 @@ TEST(RandomNumbers, OfAFramesEffectsBeamsAndSuccessorAreUncorrelated) {
       for (std::size_t i = 0; i + shift < taken.size(); ++i) sum += taken[i] * other[i + shift];
       return sum / static_cast<double>(taken.size());
     };
-    EXPECT_LE(std::abs(correlation(taken, 1)), bound);    // The neighbour in the row.
-    EXPECT_LE(std::abs(correlation(taken, 240)), bound);  // The neighbour in the column.
+    // Correlation with the neighbour in the row.
+    EXPECT_LE(std::abs(correlation(taken, 1)), bound);
+    // Correlation with the neighbour in the column.
+    EXPECT_LE(std::abs(correlation(taken, 240)), bound);
     EXPECT_LE(std::abs(correlation(TakenBy(effect, 5), 0)), bound);
     for (const auto other : effects) {
       if (other == effect) continue;
@@ -262,8 +269,8 @@ TEST(RandomNumbers, OfAFramesEffectsBeamsAndSuccessorAreUncorrelated) {
   }
 }
 
-/// The noise of each beam from one generator that its effects share in turn: those switched on
-/// draw.
+/// Returns the noise of each beam from one generator that the effects share in turn, each drawing
+/// only while it is switched on.
 std::vector<double> NoiseOfSharedGenerator(bool with_rain) {
   std::mt19937 generator(42);
   std::uniform_real_distribution<double> uniform;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/units.h"
-#include "core/simulate/simulator.h"
+#include "railcast/simulator.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/frame_checks.h"
 #include "tests/support/scan_once.h"
@@ -20,14 +20,14 @@ constexpr std::uint16_t kDark = 1;
 constexpr std::uint16_t kRetro = 2;
 constexpr std::uint32_t kWallLabel = 1;
 constexpr std::uint32_t kSheetLabel = 2;
-constexpr double kSigma_rad = 0.75e-3;  // Of a beam of 3 mrad.
+constexpr double kSigma_rad = 0.75e-3;  // For a beam of 3 mrad.
 
-MaterialLibrary Materials() {
+MaterialLibrary RetroMaterials() {
   return MaterialLibrary({{.name = "dark", .reflectivity = 0.1},
                           {.name = "sheet", .reflectivity = 0.2, .retroreflectance = 1000.0}});
 }
 
-// A dark wall, left of y = 0 a sheet in the same plane.
+// A dark wall with a sheet in the same plane to the left of y = 0.
 std::shared_ptr<SimpleWorld> SheetBesideWall(double range_m) {
   const auto x = static_cast<float>(range_m);
   const float h = 0.2F * x;
@@ -43,25 +43,26 @@ std::shared_ptr<SimpleWorld> SheetBesideWall(double range_m) {
 }
 
 enum class Rung { kSurface, kFootprint, kReference };
-constexpr Rung kRungs[] = {Rung::kSurface, Rung::kFootprint, Rung::kReference};
+constexpr Rung kPhysicalRungs[] = {Rung::kSurface, Rung::kFootprint, Rung::kReference};
 
 SimulatorSpec Spec(Rung rung) {
-  SimulatorSpec spec{.range_max_m = 5000.0,
-                     .effects = {.surface_response = true,
-                                 .pulse_stretch = true,
-                                 .detection = true,
-                                 .detection_probability = true,
-                                 .range_noise = true,
-                                 .footprint = rung != Rung::kSurface,
-                                 .thin_conductors = rung == Rung::kFootprint,
-                                 .dense_footprint = rung == Rung::kReference,
-                                 .sampled_waveform = rung == Rung::kReference}};
-  spec.beam.divergence_mrad = {3.0, 3.0};
+  SimulatorSpec spec{.detector = {.range_max_m = 5000.0,
+                                  .effects = {.surface_response = true,
+                                              .pulse_stretch = true,
+                                              .detection = true,
+                                              .detection_probability = true,
+                                              .range_noise = true,
+                                              .footprint = rung != Rung::kSurface,
+                                              .thin_conductors = rung == Rung::kFootprint,
+                                              .dense_footprint = rung == Rung::kReference,
+                                              .sampled_waveform = rung == Rung::kReference}}};
+  spec.detector.beam.divergence_mrad = {3.0, 3.0};
   return spec;
 }
 
-Frame Scan(double range_m, const SimulatorSpec& spec) {
-  Simulator simulator(SheetBesideWall(range_m), MakeRaster(2.0, 0.4, 0.02), Materials(), spec, 0);
+Frame ScanAt(double range_m, const SimulatorSpec& spec) {
+  Simulator simulator(SheetBesideWall(range_m), MakeRaster(2.0, 0.4, 0.02), RetroMaterials(), spec,
+                      0);
   Frame frame;
   simulator.Scan(0, frame);
   return frame;
@@ -71,10 +72,10 @@ double AzimuthOf_rad(const Frame& frame, std::size_t slot) {
   return RadFromDeg(1.0 - 0.02 * (frame.column[slot] + 0.5));
 }
 
-// The farthest of 256 sub-rays is 3.54 sigma off.
+// The farthest of 256 sub-rays is 3.54 sigma off the axis.
 TEST(Retroreflector, LeaksIntoNoBeamBeyondTheFootprint) {
-  for (const Rung rung : kRungs) {
-    const Frame frame = Scan(100.0, Spec(rung));
+  for (const Rung rung : kPhysicalRungs) {
+    const Frame frame = ScanAt(100.0, Spec(rung));
     std::size_t checked = 0;
     for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
       const double off_rad = AzimuthOf_rad(frame, slot);
@@ -89,21 +90,21 @@ TEST(Retroreflector, LeaksIntoNoBeamBeyondTheFootprint) {
 }
 
 TEST(Retroreflector, GivesABeamOnItsEdgeItsShareOfTheLight) {
-  const Frame frame = Scan(100.0, Spec(Rung::kReference));
+  const Frame frame = ScanAt(100.0, Spec(Rung::kReference));
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
     const double off_rad = AzimuthOf_rad(frame, slot);
     if (std::abs(off_rad) > 2.0 * kSigma_rad) continue;
     const double share = 0.5 * std::erfc(-off_rad / kSigma_rad / std::sqrt(2.0));
-    // An edge cuts some 16 of 256 cells, each of which may fall to either side: 4 sqrt(16 / 12).
+    // An edge cuts some 16 of 256 cells, each of which may fall on either side: 4 sqrt(16 / 12).
     ASSERT_NEAR(static_cast<double>(frame.intensity[slot]), 1000.0 * share, 1000.0 * 5.0 / 256.0);
     ASSERT_EQ(frame.label[slot], kSheetLabel);
   }
 }
 
 TEST(Retroreflector, IsNeitherClampedNorInfinite) {
-  for (const Rung rung : kRungs) {
+  for (const Rung rung : kPhysicalRungs) {
     for (const double range_m : {0.6, 10.0, 1000.0}) {
-      const Frame frame = Scan(range_m, Spec(rung));
+      const Frame frame = ScanAt(range_m, Spec(rung));
       ExpectSoundSlots(frame, 0.5F, 5000.0F);
       double most = 0.0;
       double highest_ratio = 0.0;
@@ -118,13 +119,13 @@ TEST(Retroreflector, IsNeitherClampedNorInfinite) {
   }
 }
 
-// The signal allows for 20 km; the gate ends at 5.
+// The signal would suffice for 20 km; the gate ends at 5 km.
 TEST(Retroreflector, IsSeenUpToTheRangeGate) {
-  for (const Rung rung : kRungs) {
+  for (const Rung rung : kPhysicalRungs) {
     SimulatorSpec spec = Spec(rung);
-    spec.effects.range_noise = false;
+    spec.detector.effects.range_noise = false;
     const auto count = [&](double range_m) {
-      const Frame frame = Scan(range_m, spec);
+      const Frame frame = ScanAt(range_m, spec);
       return std::count(frame.outcome.begin(), frame.outcome.end(), Outcome::kReturned);
     };
     EXPECT_GT(count(4990.0), 900);
@@ -132,12 +133,13 @@ TEST(Retroreflector, IsSeenUpToTheRangeGate) {
   }
 }
 
-// Noise beyond the gate is out of range: half of the beams that face a sheet just there.
+// Measurements that noise moves beyond the gate are out of range: half of the beams on a sheet just
+// at the gate.
 TEST(Retroreflector, AtTheGateIsOutOfRangeHalfOfTheTime) {
   SimulatorSpec spec = Spec(Rung::kSurface);
-  spec.range_max_m = 100.01;
-  Simulator simulator(SheetBesideWall(100.01 - 1e-3), MakeRaster(2.0, 0.4, 0.02), Materials(), spec,
-                      0);
+  spec.detector.range_max_m = 100.01;
+  Simulator simulator(SheetBesideWall(100.01 - 1e-3), MakeRaster(2.0, 0.4, 0.02), RetroMaterials(),
+                      spec, 0);
   Frame frame;
   simulator.Scan(0, frame);
   double beyond = 0.0;

@@ -1,5 +1,5 @@
-// Triangles a thousand and a hundred thousand times as long as wide: strips of slivers and fans.
-// Each beam must meet the wall, and the sliver that it is aimed at.
+// Triangles a thousand to a hundred thousand times as long as wide, in strips and fans. Each beam
+// must hit the wall, and the sliver that it is aimed at.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,12 +16,12 @@
 namespace railcast {
 namespace {
 
-/// The wall's plane x = 0 stands oblique and 50 m away, so that no coordinate is a round number.
+/// The wall's plane x = 0 is oblique and 50 m away, so that no coordinate is a round number.
 Transform WindowFromWall() {
   return MakeTransform(RotationFromYawPitchRoll(0.4, 0.1, 0.3), {50.0, 0.7, -0.4});
 }
 
-/// Parts 0 and 1 in turn, sliver by sliver; part k has label k + 1.
+/// A wall of slivers that belong to parts 0 and 1 in turn; part k has label k + 1.
 class SliverWall {
  public:
   explicit SliverWall(const Transform& mesh_from_wall) : mesh_from_wall_(mesh_from_wall) {}
@@ -42,7 +42,7 @@ class SliverWall {
   Model model_{"slivers", {{{}, 2, 1}, {{}, 2, 2}}};
 };
 
-/// Upright strips, `width_m` wide, two slivers each, 2 m of them side by side.
+/// Upright strips of `width_m`, each of two slivers, side by side over 2 m.
 SliverWall Strips(double width_m,
                   double aspect,
                   const Transform& mesh_from_wall = WindowFromWall()) {
@@ -60,7 +60,7 @@ SliverWall Strips(double width_m,
 
 constexpr double kFanRadius_m = 10.0;
 
-/// Slivers about one apex, `width_m` wide at the rim.
+/// Slivers with a common apex, `width_m` wide at the rim.
 SliverWall FanOf(double width_m, int count) {
   SliverWall wall(WindowFromWall());
   const auto rim = [&](int i) {
@@ -71,7 +71,7 @@ SliverWall FanOf(double width_m, int count) {
   return wall;
 }
 
-/// A beam, and the sliver it is aimed at: 0 or 1, or -1 if it is too near to a border to tell.
+/// A beam and the sliver that it is aimed at: 0 or 1, or -1 if it is too near to a border to tell.
 struct Aimed {
   Ray ray;
   int part{};
@@ -95,7 +95,7 @@ Aimed AimAt(const Eigen::Vector2d& place_m, int part) {
 
 constexpr std::uint32_t kNumBeams = 20'000;
 
-/// A half anywhere, a half at the borders.
+/// Aims half of the beams anywhere and half at the borders.
 std::vector<Aimed> AtStrips(double width_m) {
   std::vector<Aimed> beams;
   for (std::uint32_t i = 0; i < kNumBeams; ++i) {
@@ -151,7 +151,7 @@ void ExpectEverySliverIsHit(const char* name,
     ++num_told;
     num_other_part += hits[i].surface != static_cast<std::uint32_t>(beams[i].part) + 1 ? 1 : 0;
   }
-  // The brute force is slow: a part of the beams will do.
+  // Brute force is slow, so it takes only part of the beams.
   constexpr std::size_t kNumSimple = 1500;
   std::size_t num_lost_by_textbook = 0;
   for (std::size_t i = 0; i < kNumSimple; ++i) {
@@ -180,7 +180,7 @@ TEST(SkinnyTriangles, FansOfSliversLoseNoBeam) {
   ExpectEverySliverIsHit("fan 1e5:1", FanOf(1e-4, 4000), AtFan(1e-4, 4000));
 }
 
-/// The largest error of the angle of incidence over a raster that meets the wall.
+/// Returns the largest error of the angle of incidence over a raster that meets the wall.
 double WorstIncidence_rad(const std::shared_ptr<SimpleWorld>& world) {
   const ScanPattern pattern = MakeRaster(1.8, 4, 0.02);
   const Frame frame = ScanOnce(world, pattern);
@@ -197,8 +197,8 @@ double WorstIncidence_rad(const std::shared_ptr<SimpleWorld>& world) {
   return worst_rad;
 }
 
-// A sliver leans as its corners are rounded: 2 um at 50 m from the origin are 2 mrad across 1 mm.
-// In a frame of its own it does not; so models have one.
+// Rounding of its corners tilts a sliver: 2 um at 50 m from the origin are 2 mrad across 1 mm. In a
+// frame of its own it is not tilted, which is why each model has one.
 TEST(SkinnyTriangles, LeanWhereTheirModelIsFarFromItsOrigin) {
   auto far = std::make_shared<SimpleWorld>();
   far->ground = Strips(1e-3, 1e5).model();

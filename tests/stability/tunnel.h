@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "core/base/random.h"
-#include "core/base/transform.h"
-#include "core/rail/line/alignment.h"
 #include "core/rail/track/sweep.h"
+#include "railcast/alignment.h"
+#include "railcast/transform.h"
 #include "tests/support/ray_cast.h"
 
 namespace railcast {
 
-/// Four uniform numbers for each beam.
+/// Returns four uniform numbers in [0, 1) for each beam.
 [[nodiscard]] inline std::array<double, 4> Uniforms(std::uint64_t beam) {
   const auto words = RandomWords(1, RandomUse::kFootprint, static_cast<std::uint32_t>(beam >> 32U),
                                  static_cast<std::uint32_t>(beam));
@@ -24,7 +24,7 @@ namespace railcast {
   return uniforms;
 }
 
-/// Uniform over the sphere.
+/// Returns a direction that is uniform over the sphere.
 [[nodiscard]] inline Vector3 RandomDirection(double u, double v) {
   const double z = 2.0 * u - 1.0;
   const double azimuth_rad = 2.0 * std::numbers::pi * v;
@@ -32,13 +32,13 @@ namespace railcast {
   return {plan * std::cos(azimuth_rad), plan * std::sin(azimuth_rad), z};
 }
 
-/// A tunnel of two chunks, 20 m along a curve of 400 m radius at UTM coordinates: each chunk swept
-/// in its own frame as rails and ground are, closed at the far ends.
+/// A tunnel of two chunks, 20 m along a curve of 400 m radius at UTM coordinates. Each chunk is
+/// swept in its own frame, as rails and ground are, and closed at the far end.
 class Tunnel {
  public:
   explicit Tunnel(double overlap_m) {
     AlignmentSpec spec;
-    spec.course = AlignmentElementsSpec{{{"arc", 20.0, 400.0}}};
+    spec.course = AlignmentElementsSpec{{{ElementType::kArc, 20.0, 400.0}}};
     spec.origin_m = {4.5e5, 5.2e6, 431.7};
     spec.heading_deg = 37.0;
     spec.gradients_permil = {{0.0, 12.0}};
@@ -58,7 +58,7 @@ class Tunnel {
 
   [[nodiscard]] const TraceScene& scene() const { return *scene_; }
 
-  /// The point `part` of the way round the wall, in the window frame.
+  /// Returns the point at the share `part` of the way round the wall, in the window frame.
   [[nodiscard]] Vector3 OnWall(double s_m, double part) const {
     const double corner = std::floor(4.0 * part);
     const auto i = static_cast<std::size_t>(corner);
@@ -71,7 +71,8 @@ class Tunnel {
            Vector3(0.0, place_m.x(), place_m.y());
   }
 
-  /// From within 4 m of the seam: any way, at the seam, along the corners, at the seam's corners.
+  /// Aims from within 4 m of the seam in any direction, at the seam, along the corners, or at the
+  /// seam's corners.
   [[nodiscard]] Ray Aim(std::uint64_t beam) const {
     const auto [u, v, w, t] = Uniforms(beam);
     const Vector3 origin_m =

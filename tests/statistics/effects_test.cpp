@@ -1,4 +1,4 @@
-// Every effect of the plausibility rung against its closed form, over 2^20 firings.
+// Compares every effect of the plausibility rung with its closed form, over 2^20 firings.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,16 +9,16 @@
 #include <numbers>
 #include <vector>
 
-#include "core/base/transform.h"
 #include "core/detect/detector.h"
-#include "core/frame/outcome.h"
+#include "railcast/outcome.h"
+#include "railcast/transform.h"
 
 namespace railcast {
 namespace {
 
 constexpr std::uint32_t kNumFirings = 1U << 20U;
 
-/// One firing's answer.
+/// The answer to one firing.
 struct Answer {
   Outcome outcome;
   double true_range_m, range_m, x, y, z;
@@ -26,7 +26,7 @@ struct Answer {
 };
 
 /// Sends kNumFirings beams along (0.6, 0.64, 0.48) at surfaces of reflectivity 0.5 that face them,
-/// at `range_m(i)`; NaN = no surface.
+/// at `range_m(i)`; NaN: no surface.
 std::vector<Answer> Detect(const DetectorSpec& spec,
                            const std::function<double(std::uint32_t)>& range_m) {
   const Detector detector(spec);
@@ -71,7 +71,8 @@ std::size_t Count(const std::vector<Answer>& answers, Outcome outcome) {
       answers.begin(), answers.end(), [&](const Answer& a) { return a.outcome == outcome; }));
 }
 
-// rho exp(-fog R) = T (R / R_ref)^2 has one solution; every beam beyond it is lost, none before.
+// rho exp(-fog R) = T (R / R_ref)^2 has one solution: every beam beyond it is lost, and none before
+// it.
 TEST(Threshold, DropsExactlyTheBeamsBeyondTheRangeOfTheClosedForm) {
   for (const double fog_per_m : {0.0, 0.005, 0.02}) {
     DetectorSpec spec{.effects = {.threshold = true}};
@@ -86,7 +87,8 @@ TEST(Threshold, DropsExactlyTheBeamsBeyondTheRangeOfTheClosedForm) {
     }
     const auto answers = Detect(spec, SpreadOverRange);
     for (const Answer& answer : answers) {
-      if (std::abs(answer.true_range_m - near_m) < 1e-3) continue;  // float32 at the limit
+      // Rounding of float32 at the limit.
+      if (std::abs(answer.true_range_m - near_m) < 1e-3) continue;
       if (answer.true_range_m < spec.range_min_m) continue;
       ASSERT_EQ(answer.outcome,
                 answer.true_range_m < near_m ? Outcome::kReturned : Outcome::kBelowThreshold);
@@ -113,7 +115,7 @@ TEST(RainDropout, SurvivalFallsExponentiallyWithRangeInEveryBin) {
     variance[bin] += p * (1.0 - p);
   }
   for (std::size_t bin = 0; bin < kBins; ++bin) {
-    // Four standard deviations: a chance of 6e-5 a bin, fixed by the seed.
+    // Four standard deviations are exceeded with a probability of 6e-5 per bin; the seed is fixed.
     EXPECT_NEAR(lost[bin], expected[bin], 4.0 * std::sqrt(variance[bin])) << "bin " << bin;
     EXPECT_GT(count[bin], 60'000.0);
   }
@@ -124,7 +126,7 @@ TEST(RainDropout, LeavesEverythingAloneWithoutRain) {
   EXPECT_EQ(Count(answers, Outcome::kRainAbsorbed), 0U);
 }
 
-// A sample standard deviation of n normals lies within 4 / sqrt(2 n) of the truth, relatively.
+// The sample standard deviation of n normal values is within a relative 4 / sqrt(2 n) of the truth.
 TEST(Noise, IsotropicSigmaGrowsLinearlyWithRange) {
   constexpr double kRanges_m[] = {10.0, 50.0, 100.0, 200.0, 280.0};
   DetectorSpec spec{.effects = {.noise = true}};
@@ -156,7 +158,7 @@ TEST(Noise, AlongTheBeamMovesThePointOnlyAlongIt) {
   DetectorSpec spec{.effects = {.noise = true}};
   spec.plausibility.noise_sigma0_m = 0.02;
   spec.plausibility.noise_sigma1 = 1e-4;
-  spec.plausibility.noise_shape = "beam";
+  spec.plausibility.noise_shape = NoiseShape::kBeam;
   const auto answers = Detect(spec, [&](std::uint32_t i) { return kRanges_m[i % 5]; });
   for (std::size_t k = 0; k < 5; ++k) {
     const double sigma_m = 0.02 + 1e-4 * kRanges_m[k];
@@ -179,7 +181,7 @@ DetectorSpec SnowSpec() {
   return spec;
 }
 
-// Distribution function of the Maxwell law of scale a.
+// Returns the distribution function of the Maxwell distribution of scale a.
 double MaxwellCdf(double r, double a) {
   return std::erf(r / (a * std::numbers::sqrt2)) -
          std::sqrt(2.0 / std::numbers::pi) * r / a * std::exp(-r * r / (2.0 * a * a));
@@ -194,7 +196,7 @@ TEST(SnowClutter, InjectsIntoEmptyBeamsWithMaxwellRanges) {
   const double n = kNumFirings;
   const double p = 1.0 - std::exp(-0.8);
   EXPECT_NEAR(static_cast<double>(ranges_m.size()), n * p, 4.0 * std::sqrt(n * p * (1.0 - p)));
-  // Kolmogorov and Smirnov: 1.95 / sqrt(n) is exceeded once in a thousand.
+  // Kolmogorov-Smirnov test: 1.95 / sqrt(n) is exceeded once in a thousand.
   std::sort(ranges_m.begin(), ranges_m.end());
   const auto m = static_cast<double>(ranges_m.size());
   double worst = 0.0;
@@ -246,7 +248,7 @@ TEST(RangeGate, NoiseBeyondTheGateIsOutOfRange) {
   DetectorSpec spec{.range_max_m = 200.0, .effects = {.noise = true}};
   spec.plausibility.noise_sigma0_m = 0.05;
   spec.plausibility.noise_sigma1 = 0.0;
-  spec.plausibility.noise_shape = "beam";
+  spec.plausibility.noise_shape = NoiseShape::kBeam;
   const auto answers = Detect(spec, [](std::uint32_t) { return 199.95; });
   // P(n > 1) = 0.158655 for a standard normal n.
   const double n = kNumFirings;

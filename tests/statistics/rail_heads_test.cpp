@@ -1,17 +1,17 @@
-// The published model shows too much of the rails' heads; physics lets them fade.
+// The published model keeps too many returns from rail heads; with the physical model they fade.
 #include <gtest/gtest.h>
 
 #include <cstddef>
 #include <string>
 
-#include "core/frame/frame.h"
-#include "core/scenario/scenario.h"
-#include "core/scene/material.h"
+#include "railcast/frame.h"
+#include "railcast/material.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 namespace {
 
-/// Beams that met one material of the rails farther than 30 m, and how many of them returned.
+/// Beams that met one material of the rails farther than 30 m away, and how many of them returned.
 struct Seen {
   std::size_t beams{};
   std::size_t returns{};
@@ -30,8 +30,9 @@ struct RailsSeen {
   [[nodiscard]] std::string Text() const { return "head " + head.Text() + ", side " + side.Text(); }
 };
 
-// A straight track, seen from 2 m above its middle, 0.02 deg between beams: from 29 m on.
-RailsSeen LookAlongTheTrack(const char* rung) {
+// Looks along a straight track from 2 m above its middle, with 0.02 deg between beams, from a range
+// of 29 m on.
+RailsSeen LookAlongTheTrack(Fidelity rung) {
   ScenarioSpec scenario =
       ReadScenario(std::string(RAILCAST_SOURCE_DIR) + "/scenarios/minimal.json");
   scenario.fidelity = rung;
@@ -59,15 +60,15 @@ RailsSeen LookAlongTheTrack(const char* rung) {
 }
 
 TEST(RailHeads, FadeOnSurfaceWhileTheRailsSidesStillReturn) {
-  const RailsSeen published = LookAlongTheTrack("plausibility");
-  const RailsSeen physical = LookAlongTheTrack("surface");
+  const RailsSeen published = LookAlongTheTrack(Fidelity::kPlausibility);
+  const RailsSeen physical = LookAlongTheTrack(Fidelity::kSurface);
   RecordProperty("plausibility", published.Text());
   RecordProperty("surface", physical.Text());
   ASSERT_GT(physical.head.beams, 800U);
   ASSERT_GT(physical.side.beams, 800U);
   EXPECT_LT(physical.head.share(), 0.05) << physical.Text();
   EXPECT_GT(physical.side.share(), 0.7) << physical.Text();
-  // The counts of docs/effects.md; beams at edges depend on the processor a little.
+  // These are the shares in docs/effects.md; beams at edges depend slightly on the processor.
   EXPECT_NEAR(published.head.share(), 0.45, 0.02) << published.Text();
   EXPECT_NEAR(published.side.share(), 0.64, 0.02) << published.Text();
   EXPECT_NEAR(physical.head.share(), 0.02, 0.01) << physical.Text();

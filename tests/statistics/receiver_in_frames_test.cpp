@@ -1,4 +1,4 @@
-// Pointing, sun, dropout and the independence of effects through the whole simulator.
+// Tests pointing, sun, dropout and the independence of effects through the whole simulator.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/base/units.h"
-#include "core/scenario/effects.h"
-#include "core/simulate/simulator.h"
+#include "railcast/effects.h"
+#include "railcast/simulator.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/frame_bytes.h"
 #include "tests/support/scan_once.h"
@@ -17,7 +17,7 @@
 namespace railcast {
 namespace {
 
-// A wall at 50 m on the right of the x axis alone, and ground.
+// A wall at 50 m, only to the right of the x axis.
 std::shared_ptr<SimpleWorld> HalfAWall() {
   auto world = std::make_shared<SimpleWorld>();
   world->ground.parts = {
@@ -32,13 +32,13 @@ std::shared_ptr<SimpleWorld> WallAndGround() {
 }
 
 EffectSet Surface() {
-  return EffectsOfRung("surface");
+  return EffectsOfRung(Fidelity::kSurface);
 }
 
 // A beam aimed beside the edge by an angle a hits with the probability Phi(a / sigma).
 TEST(PointingJitter, ScattersBeamsOverAnEdgeByTheNormalLaw) {
-  SimulatorSpec spec{.effects = {.pointing_jitter = true}};
-  spec.receiver.pointing_jitter_deg = 0.05;
+  SimulatorSpec spec{.detector = {.effects = {.pointing_jitter = true}}};
+  spec.detector.receiver.pointing_jitter_deg = 0.05;
   const ScanPattern pattern = MakeRaster(0.4, 2.0, 0.02);
   Simulator simulator(HalfAWall(), pattern, TestMaterials(), spec, 0);
   std::vector<double> hits(pattern.columns);
@@ -60,8 +60,8 @@ TEST(PointingJitter, ScattersBeamsOverAnEdgeByTheNormalLaw) {
 }
 
 TEST(PointingJitter, LeavesTheReportedDirectionAsItWas) {
-  SimulatorSpec spec{.effects = {.pointing_jitter = true}};
-  spec.receiver.pointing_jitter_deg = 0.5;
+  SimulatorSpec spec{.detector = {.effects = {.pointing_jitter = true}}};
+  spec.detector.receiver.pointing_jitter_deg = 0.5;
   const ScanPattern pattern = MakeRaster(10.0, 2.0, 0.5);
   const Frame jittered = ScanOnce(WallAndGround(), pattern, spec);
   std::size_t checked = 0;
@@ -77,12 +77,14 @@ TEST(PointingJitter, LeavesTheReportedDirectionAsItWas) {
 }
 
 TEST(Sunlight, BlindsTheBeamsWithinADegreeOfTheSun) {
-  SimulatorSpec spec{.effects = {.detection = true, .sunlight = true}};
-  spec.weather.sun = {.illuminance_klx = 100.0, .azimuth_deg = -10.0, .elevation_deg = 3.0};
+  SimulatorSpec spec{.detector = {.effects = {.detection = true, .sunlight = true}}};
+  spec.detector.weather.sun = {
+      .illuminance_klx = 100.0, .azimuth_deg = -10.0, .elevation_deg = 3.0};
   const ScanPattern pattern = MakeRaster(10.0, 10.0, 0.1);
   auto world = std::make_shared<SimpleWorld>();
   world->ground.parts = {{MakeWall(50.0F, 100.0F), 2, 1}};
-  // The sun is in the world: turn the vehicle, so that it stands 2 deg left, 3 deg up for it.
+  // The sun is fixed in the world, so the vehicle is turned to have it 2 deg to the left and 3 deg
+  // up.
   world->chunk_from_vehicle.linear() = RotationFromYawPitchRoll(RadFromDeg(-12.0), 0.0, 0.0);
   const Frame frame = ScanOnce(world, pattern, spec);
   const Vector3 to_sun(std::cos(RadFromDeg(3.0)) * std::cos(RadFromDeg(2.0)),
@@ -97,33 +99,33 @@ TEST(Sunlight, BlindsTheBeamsWithinADegreeOfTheSun) {
                        std::cos(elevation_rad) * std::sin(azimuth_rad), std::sin(elevation_rad));
     const double angle_deg = DegFromRad(std::acos(std::min(1.0, beam.dot(to_sun))));
     if (frame.outcome[slot] == Outcome::kClutter) continue;  // A false alarm.
-    if (std::abs(angle_deg - 1.0) < 0.01) continue;          // float32 at the edge
+    if (std::abs(angle_deg - 1.0) < 0.01) continue;          // Rounding of float32 at the edge.
     EXPECT_EQ(frame.outcome[slot], angle_deg < 1.0 ? Outcome::kBelowThreshold : Outcome::kReturned)
         << firing;
     num_blind += frame.outcome[slot] == Outcome::kBelowThreshold ? 1 : 0;
   }
-  // A disc of 1 deg in cells of 0.1 deg: 314.
+  // A disc of 1 deg radius in cells of 0.1 deg has 314 cells.
   EXPECT_NEAR(static_cast<double>(num_blind), 314.0, 15.0);
 }
 
 SimulatorSpec Downpour() {
-  SimulatorSpec spec{.seed = 9, .effects = Surface()};
-  spec.plausibility.dropout_probability = 0.18;
-  spec.weather.rain_rate_mmph = 50.0;
-  spec.weather.visibility_m = 200.0;
-  spec.weather.wetness = 1.0;
-  spec.receiver.clutter_gain = 1.0;
-  // The strongest echo would be the fog's in every beam.
-  spec.receiver.return_mode = "last";
+  SimulatorSpec spec{.detector = {.seed = 9, .effects = Surface()}};
+  spec.detector.plausibility.dropout_probability = 0.18;
+  spec.detector.weather.rain_rate_mmph = 50.0;
+  spec.detector.weather.visibility_m = 200.0;
+  spec.detector.weather.wetness = 1.0;
+  spec.detector.receiver.clutter_gain = 1.0;
+  // In every beam the strongest echo would be that of the fog.
+  spec.detector.receiver.return_mode = ReturnMode::kLast;
   return spec;
 }
 
 TEST(SensorDropout, HitsTheSameFiringsWhateverElseIsOn) {
   const ScanPattern pattern = MakeRaster(40.0, 20.0, 0.25);
   SimulatorSpec spec = Downpour();
-  spec.effects.sunlight = false;  // A missed pulse can still be a false alarm.
+  spec.detector.effects.sunlight = false;  // A missed pulse can still be a false alarm.
   const Frame all = ScanOnce(WallAndGround(), pattern, spec);
-  spec.effects = {.sensor_dropout = true};
+  spec.detector.effects = {.sensor_dropout = true};
   const Frame alone = ScanOnce(WallAndGround(), pattern, spec);
   double count = 0.0;
   for (std::size_t slot = 0; slot < all.num_slots(); ++slot) {
@@ -136,25 +138,25 @@ TEST(SensorDropout, HitsTheSameFiringsWhateverElseIsOn) {
   EXPECT_NEAR(count, 0.18 * n, 4.0 * std::sqrt(n * 0.18 * 0.82));
 }
 
-// Without its cause an effect changes not one bit.
+// Without its cause, an effect does not change a single bit.
 TEST(Effects, ChangeNothingWithoutTheirCause) {
   const ScanPattern pattern = MakeRaster(40.0, 20.0, 0.5);
-  SimulatorSpec spec{.effects = Surface()};
-  spec.effects.sunlight = false;  // It has false alarms at night, too: one in a million.
+  SimulatorSpec spec{.detector = {.effects = Surface()}};
+  spec.detector.effects.sunlight = false;  // It has false alarms at night, too: one in a million.
   const std::string all = FrameBytes(ScanOnce(WallAndGround(), pattern, spec));
   for (bool EffectSet::*effect :
        {&EffectSet::sensor_dropout, &EffectSet::surface_condition, &EffectSet::extinction,
         &EffectSet::clutter, &EffectSet::fog_echo}) {
     SimulatorSpec fewer = spec;
-    fewer.effects.*effect = false;
+    fewer.detector.effects.*effect = false;
     EXPECT_EQ(FrameBytes(ScanOnce(WallAndGround(), pattern, fewer)), all);
   }
   EffectSet moves = Surface();
   moves.sunlight = moves.range_noise = false;
-  EXPECT_NE(FrameBytes(ScanOnce(WallAndGround(), pattern, {.effects = moves})), all);
+  EXPECT_NE(FrameBytes(ScanOnce(WallAndGround(), pattern, {.detector = {.effects = moves}})), all);
 }
 
-// Slots that return from a surface in both frames: how many, and whether they agree in `field`.
+// Counts the slots that return from a surface in both frames, and expects them to agree in `field`.
 std::size_t CountSameWhereBothReturn(const Frame& a,
                                      const Frame& b,
                                      const std::vector<float> Frame::*field) {
@@ -170,18 +172,19 @@ std::size_t CountSameWhereBothReturn(const Frame& a,
 TEST(Effects, LeaveTheDrawsOfOthersAlone) {
   const ScanPattern pattern = MakeRaster(40.0, 20.0, 0.5);
   const Frame all = ScanOnce(WallAndGround(), pattern, Downpour());
-  // What adds echoes or decides on detection moves no point of a surface that returns either way.
+  // Effects that add echoes or decide on detection do not move a point of a surface that returns
+  // with and without them.
   for (bool EffectSet::*effect : {&EffectSet::clutter, &EffectSet::fog_echo,
                                   &EffectSet::detection_probability, &EffectSet::sensor_dropout}) {
     SimulatorSpec fewer = Downpour();
-    fewer.effects.*effect = false;
+    fewer.detector.effects.*effect = false;
     const Frame frame = ScanOnce(WallAndGround(), pattern, fewer);
     EXPECT_NE(FrameBytes(frame), FrameBytes(all));
     EXPECT_GT(CountSameWhereBothReturn(all, frame, &Frame::range_m), 100U);
   }
-  // What moves points leaves detection as it was.
+  // Effects that move points do not change detection.
   SimulatorSpec still = Downpour();
-  still.effects.range_noise = still.effects.channel_bias = false;
+  still.detector.effects.range_noise = still.detector.effects.channel_bias = false;
   const Frame exact = ScanOnce(WallAndGround(), pattern, still);
   EXPECT_EQ(exact.outcome, all.outcome);
   EXPECT_EQ(CountSameWhereBothReturn(all, exact, &Frame::power_ratio),

@@ -1,4 +1,4 @@
-// Weather and wet or white surfaces through the whole simulator.
+// Tests weather and wet or snowy surfaces through the whole simulator.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/detect/weather_optics.h"
-#include "core/simulate/simulator.h"
+#include "railcast/simulator.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/scan_once.h"
 #include "tests/support/simple_world.h"
@@ -36,7 +36,7 @@ Frame Scan(const std::shared_ptr<SimpleWorld>& world,
   return frame;
 }
 
-std::size_t Count(const Frame& frame, Outcome outcome) {
+std::size_t CountIn(const Frame& frame, Outcome outcome) {
   return static_cast<std::size_t>(std::count(frame.outcome.begin(), frame.outcome.end(), outcome));
 }
 
@@ -46,22 +46,22 @@ std::shared_ptr<SimpleWorld> WallAt(double range_m) {
   return world;
 }
 
-// Ground 2 m below the sensor and a wall at 40 m.
+// Ground 2 m below the sensor, and a wall at 40 m.
 std::shared_ptr<SimpleWorld> GroundAndWall() {
   auto world = WallAt(40.0);
   world->ground.parts.push_back({MakeFloor(-2.0F, 300.0F), kSoil, 2});
   return world;
 }
 
-// All of weather's effects, and a hard threshold so that ranges are sharp.
+// All effects of the weather, with a hard threshold so that the maximum range is sharp.
 SimulatorSpec HardSpec() {
-  return {.effects = {.surface_response = true,
-                      .surface_condition = true,
-                      .extinction = true,
-                      .detection = true}};
+  return {.detector = {.effects = {.surface_response = true,
+                                   .surface_condition = true,
+                                   .extinction = true,
+                                   .detection = true}}};
 }
 
-// Where rho e^(-2 alpha r) / r^2 = 0.1 / 200^2.
+// Solves rho e^(-2 alpha r) / r^2 = 0.1 / 200^2 for r.
 double RangeMax_m(double reflectance, double extinction_per_m) {
   double near_m = 1.0;
   double far_m = 1000.0;
@@ -74,33 +74,33 @@ double RangeMax_m(double reflectance, double extinction_per_m) {
 }
 
 void ExpectRangeMax(const SimulatorSpec& spec, double range_m) {
-  // A field of 0.5 deg: incidence and range change by 2e-5.
+  // Over a field of view of 0.5 deg, incidence and range change by 2e-5.
   const ScanPattern pattern = MakeRaster(0.5, 0.5, 0.1);
-  EXPECT_EQ(Count(Scan(WallAt(0.999 * range_m), pattern, spec), Outcome::kReturned), 25U);
-  EXPECT_EQ(Count(Scan(WallAt(1.001 * range_m), pattern, spec), Outcome::kBelowThreshold), 25U);
+  EXPECT_EQ(CountIn(Scan(WallAt(0.999 * range_m), pattern, spec), Outcome::kReturned), 25U);
+  EXPECT_EQ(CountIn(Scan(WallAt(1.001 * range_m), pattern, spec), Outcome::kBelowThreshold), 25U);
 }
 
 TEST(WeatherInFrames, ShortensTheRangeAsTheClosedFormSays) {
   for (const double visibility_m : {20.0, 100.0, 500.0}) {
     SimulatorSpec spec = HardSpec();
-    spec.weather.visibility_m = visibility_m;
+    spec.detector.weather.visibility_m = visibility_m;
     ExpectRangeMax(spec, RangeMax_m(0.5, std::log(20.0) / visibility_m));
   }
   SimulatorSpec rain = HardSpec();
-  rain.weather.rain_rate_mmph = 50.0;
-  ExpectRangeMax(rain, RangeMax_m(0.5, RainExtinction_per_m(rain.weather)));
+  rain.detector.weather.rain_rate_mmph = 50.0;
+  ExpectRangeMax(rain, RangeMax_m(0.5, RainExtinction_per_m(rain.detector.weather)));
   SimulatorSpec snow = HardSpec();
-  snow.weather.snow_rate_mmph = 2.5;
-  ExpectRangeMax(snow, RangeMax_m(0.5, SnowExtinction_per_m(snow.weather, 905)));
+  snow.detector.weather.snow_rate_mmph = 2.5;
+  ExpectRangeMax(snow, RangeMax_m(0.5, SnowExtinction_per_m(snow.detector.weather, 905)));
 }
 
-// physics.md 4.3: 65 m at a visibility of 100 m, of 447 m in clear air.
+// docs/physics.md 4.1 and 4.3: 447 m in clear air, 65 m at a visibility of 100 m.
 TEST(WeatherInFrames, HasFogTakeSixSeventhsOfTheRangeAtAHundredMetres) {
   SimulatorSpec spec = HardSpec();
-  spec.range_max_m = 1000.0;
+  spec.detector.range_max_m = 1000.0;
   ExpectRangeMax(spec, 447.2);
-  spec.weather.visibility_m = 100.0;
-  EXPECT_NEAR(RangeMax_m(0.5, FogExtinction_per_m(spec.weather)), 65.0, 0.5);
+  spec.detector.weather.visibility_m = 100.0;
+  EXPECT_NEAR(RangeMax_m(0.5, FogExtinction_per_m(spec.detector.weather)), 65.0, 0.5);
 }
 
 TEST(WeatherInFrames, LosesGroundWhenItIsWetAndMoreAt1550nm) {
@@ -108,16 +108,16 @@ TEST(WeatherInFrames, LosesGroundWhenItIsWetAndMoreAt1550nm) {
   auto ground = std::make_shared<SimpleWorld>();
   ground->ground.parts = {{MakeFloor(-2.0F, 400.0F), kSoil, 2}};
   const auto count = [&](const SimulatorSpec& spec) {
-    return Count(Scan(ground, pattern, spec), Outcome::kReturned);
+    return CountIn(Scan(ground, pattern, spec), Outcome::kReturned);
   };
   double lost_share = 0.0;
   for (const int wavelength_nm : {905, 1550}) {
     SimulatorSpec spec = HardSpec();
-    spec.beam.wavelength_nm = wavelength_nm;
+    spec.detector.beam.wavelength_nm = wavelength_nm;
     const std::size_t dry = count(spec);
     std::size_t before = dry;
     for (const double wetness : {0.3, 0.6, 1.0}) {
-      spec.weather.wetness = wetness;
+      spec.detector.weather.wetness = wetness;
       const std::size_t returns = count(spec);
       EXPECT_LT(returns, before) << wavelength_nm << " " << wetness;
       before = returns;
@@ -128,10 +128,10 @@ TEST(WeatherInFrames, LosesGroundWhenItIsWetAndMoreAt1550nm) {
   }
 }
 
-// Every beam's intensity is the closed form's for the wet surface.
+// The intensity of every beam follows the closed form for the wet surface.
 TEST(WeatherInFrames, GivesWetGroundTheReflectanceOfItsWetOptics) {
   SimulatorSpec spec = HardSpec();
-  spec.weather.wetness = 1.0;
+  spec.detector.weather.wetness = 1.0;
   const Frame frame = Scan(GroundAndWall(), MakeRaster(20.0, 10.0, 0.5), spec);
   const double s = 0.75 * 20.0 * 3.14159265358979 / 180.0;
   const double diffuse = 0.25 * 0.6 * (1.0 - 0.02);
@@ -152,7 +152,7 @@ TEST(WeatherInFrames, GivesWetGroundTheReflectanceOfItsWetOptics) {
   EXPECT_GT(checked, 100U);
 }
 
-// Mean intensity by label: 1 the wall, 2 the ground.
+// Returns the mean intensity of a label: 1 is the wall, 2 the ground.
 double MeanIntensity(const Frame& frame, std::uint32_t label) {
   double sum = 0.0;
   double count = 0.0;
@@ -168,12 +168,12 @@ TEST(WeatherInFrames, HasSnowCoverBrightenGroundAt905nmAndDarkenItAt1550nm) {
   const ScanPattern pattern = MakeRaster(20.0, 10.0, 0.5);
   for (const int wavelength_nm : {905, 1550}) {
     SimulatorSpec spec = HardSpec();
-    spec.beam.wavelength_nm = wavelength_nm;
+    spec.detector.beam.wavelength_nm = wavelength_nm;
     spec.snow_material = kSnow;
     const Frame bare = Scan(GroundAndWall(), pattern, spec);
-    spec.weather.snow_cover = 0.5;
+    spec.detector.weather.snow_cover = 0.5;
     const Frame half = Scan(GroundAndWall(), pattern, spec);
-    spec.weather.snow_cover = 1.0;
+    spec.detector.weather.snow_cover = 1.0;
     const Frame white = Scan(GroundAndWall(), pattern, spec);
     const bool brightens = wavelength_nm == 905;
     EXPECT_EQ(MeanIntensity(white, 2) > MeanIntensity(bare, 2), brightens);

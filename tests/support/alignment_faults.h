@@ -3,11 +3,11 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "core/rail/line/alignment.h"
+#include "railcast/alignment.h"
 
 namespace railcast {
 
-/// What is said of a line that cannot be; "none" of one that can.
+/// Returns the error for an alignment that is not possible; "none" for one that is.
 inline std::string FaultOf(const AlignmentSpec& spec) {
   try {
     const Alignment alignment(spec);

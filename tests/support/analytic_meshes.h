@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "core/scene/mesh.h"
+#include "railcast/scene.h"
 
 namespace railcast {
 
@@ -26,8 +26,8 @@ namespace railcast {
           {{0, 1, 2}, {0, 2, 3}}};
 }
 
-/// A sphere about the origin of rings and sectors; its facets lie inside by at most
-/// radius * (1 - cos(pi / sectors)) on top of the same for rings.
+/// A sphere about the origin, of rings and sectors. Its facets lie inside by at most
+/// radius * (1 - cos(pi / sectors)), plus the corresponding term for rings.
 [[nodiscard]] inline Mesh MakeSphere(double radius_m, int rings, int sectors) {
   Mesh mesh;
   for (int ring = 0; ring <= rings; ++ring) {

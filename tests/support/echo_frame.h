@@ -5,11 +5,11 @@
 #include <limits>
 #include <vector>
 
-#include "core/frame/frame.h"
+#include "railcast/frame.h"
 
 namespace railcast {
 
-/// An echo of a made-up frame.
+/// An echo of a synthetic frame.
 struct MadeEcho {
   float range_m{};
   std::uint32_t label = 3;
@@ -18,7 +18,8 @@ struct MadeEcho {
   Outcome outcome = Outcome::kReturned;
 };
 
-/// A frame of one row with these echoes, the strongest first; a firing without any saw no surface.
+/// A frame of one row with these echoes, the strongest first; a firing without echoes met no
+/// surface.
 [[nodiscard]] inline Frame MakeEchoFrame(const std::vector<std::vector<MadeEcho>>& firings,
                                          std::uint32_t num_returns = 3) {
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();

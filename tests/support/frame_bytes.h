@@ -3,11 +3,11 @@
 #include <string>
 #include <string_view>
 
-#include "core/frame/frame.h"
+#include "railcast/frame.h"
 
 namespace railcast {
 
-/// Every bit of every field, so that frames can be compared with their NaN.
+/// Returns every bit of every field, so that frames that hold NaN can be compared.
 [[nodiscard]] inline std::string FrameBytes(const Frame& frame) {
   std::string bytes;
   ForEachField(frame, [&](std::string_view, std::string_view, const auto& values) {

@@ -5,12 +5,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/frame/frame.h"
+#include "railcast/frame.h"
 
 namespace railcast {
 
 /// Expects what holds for every slot, whatever the scene: a point has a finite range inside the
-/// gate and finite coordinates, what has none is NaN, and an incidence angle is one.
+/// gate and finite coordinates, a slot without a point has NaN, and an incidence angle is within
+/// its limits.
 inline void ExpectSoundSlots(const Frame& frame, float range_min_m, float range_max_m) {
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
     const Outcome outcome = frame.outcome[slot];

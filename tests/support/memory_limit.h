@@ -7,7 +7,7 @@
 
 namespace railcast {
 
-/// Whether a limit of the address space can be tried: the sanitizers reserve terabytes of it.
+/// Whether the address space can be limited in this build: the sanitizers reserve terabytes of it.
 inline constexpr bool kCanLimitMemory =
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     false;
@@ -15,7 +15,7 @@ inline constexpr bool kCanLimitMemory =
     true;
 #endif
 
-/// From now on this process gets at most so much more memory. For death tests.
+/// Limits this process to `more_bytes` of memory beyond what it has. For death tests.
 inline void LimitMemory(std::size_t more_bytes) {
   std::size_t num_pages = 0;
   std::ifstream("/proc/self/statm") >> num_pages;

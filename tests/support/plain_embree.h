@@ -8,13 +8,13 @@
 #include <span>
 #include <vector>
 
-#include "core/scene/mesh.h"
+#include "railcast/scene.h"
 #include "tests/support/ray_cast.h"
 
 namespace railcast {
 
-/// What a simple simulator does with Embree: one scene of all parts, one ray at a time. Beside it
-/// stands what TraceScene does otherwise: robust traversal, and a build by one thread.
+/// Embree as a simple simulator uses it: one scene of all parts, one ray at a time. Robust
+/// traversal and a build with one thread, which TraceScene uses, can be chosen for comparison.
 class PlainEmbree {
  public:
   PlainEmbree(std::span<const Part> parts, RTCSceneFlags flags, int num_build_threads)
@@ -49,7 +49,7 @@ class PlainEmbree {
       query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
       query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
       rtcIntersect1(scene_, &context, &query);
-      hits.push_back({query.ray.tfar, query.hit.geomID + 1});  // Invalid + 1 = 0.
+      hits.push_back({query.ray.tfar, query.hit.geomID + 1});  // The invalid id + 1 = 0.
     }
     return hits;
   }

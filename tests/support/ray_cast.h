@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/trace/ray_tile.h"
 #include "core/trace/trace_scene.h"
+#include "railcast/ray_caster.h"
 
 namespace railcast {
 
@@ -22,12 +22,12 @@ struct Ray {
 
 struct RayHit {
   float range_m{};
-  std::uint32_t surface{};  ///< 0 = nothing.
+  std::uint32_t surface{};  ///< 0: nothing was hit.
 
   bool operator==(const RayHit&) const = default;
 };
 
-/// Casts rays in packets of 16 in the order given; `hits` has one answer for each.
+/// Casts rays in packets of 16 in the order given; `hits` receives one answer per ray.
 inline void CastRays(const RayCaster& caster,
                      std::span<const Ray> rays,
                      float range_max_m,
@@ -63,13 +63,13 @@ inline void CastRays(const RayCaster& caster,
   return hits;
 }
 
-/// A ray from a point through another one.
+/// Returns a ray from one point through another.
 [[nodiscard]] inline Ray RayThrough(const Eigen::Vector3d& origin_m,
                                     const Eigen::Vector3d& target_m) {
   return {origin_m.cast<float>(), (target_m - origin_m).normalized().cast<float>()};
 }
 
-/// A scene of one model that stands at `window_from_model`. Its part i is surface i + 1.
+/// Builds a scene of one model at `window_from_model`. Its part i is surface i + 1.
 [[nodiscard]] inline std::unique_ptr<const TraceScene> SceneOf(
     const TraceDevice& device,
     const Model& model,

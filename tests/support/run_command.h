@@ -10,10 +10,10 @@ namespace railcast {
 
 struct Ended {
   int status{};
-  std::string said;  ///< On stdout and stderr together.
+  std::string said;  ///< stdout and stderr together.
 };
 
-/// Runs a command line of the shell.
+/// Runs a shell command.
 inline Ended RunCommand(const std::string& command) {
   FILE* pipe = ::popen(("{ " + command + "; } 2>&1").c_str(), "r");
   Ended run;

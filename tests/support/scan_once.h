@@ -3,11 +3,11 @@
 #include <memory>
 #include <utility>
 
-#include "core/base/transform.h"
-#include "core/frame/frame.h"
-#include "core/scan/scan_pattern.h"
-#include "core/scene/material.h"
-#include "core/simulate/simulator.h"
+#include "railcast/frame.h"
+#include "railcast/lidar.h"
+#include "railcast/material.h"
+#include "railcast/simulator.h"
+#include "railcast/transform.h"
 
 namespace railcast {
 
@@ -26,7 +26,8 @@ namespace railcast {
                              .angular_resolution_deg = angular_resolution_deg}});
 }
 
-/// A firing's direction in the sensor frame, of unit length in double: float32 is to 6e-8 only.
+/// Returns a firing's direction in the sensor frame, normalised in double, because float32 is of
+/// unit length only to 6e-8.
 [[nodiscard]] inline Vector3 DirectionOf(const ScanPattern& pattern, std::size_t firing) {
   return Eigen::Vector3f(pattern.direction_x[firing], pattern.direction_y[firing],
                          pattern.direction_z[firing])
@@ -34,7 +35,7 @@ namespace railcast {
       .normalized();
 }
 
-/// One frame of a world. Rung geometry unless the spec says otherwise.
+/// Scans one frame of a world, with the rung geometry unless the spec says otherwise.
 [[nodiscard]] inline Frame ScanOnce(std::shared_ptr<const World> world,
                                     const ScanPattern& pattern,
                                     const SimulatorSpec& spec = {},

@@ -4,20 +4,21 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "core/scan/scan_spec.h"
+#include "railcast/lidar.h"
 
 namespace railcast {
 
-/// What a scenario reader makes of the scan in scenarios/sensors/NAME.json.
+/// Reads the scan of scenarios/sensors/NAME.json as the scenario reader does.
 [[nodiscard]] inline ScanSpec ReadSensor(const std::string& name) {
   std::ifstream file(std::string(RAILCAST_SOURCE_DIR "/scenarios/sensors/") + name + ".json");
   const nlohmann::json scan = nlohmann::json::parse(file).at("scan");
   const nlohmann::json& pattern = scan.at("pattern");
-  SpinningSpec spec{.channels = {},
-                    .cycle_us = pattern.at("cycle_us"),
-                    .columns = pattern.at("columns"),
-                    .rotation = pattern.at("rotation"),
-                    .start_azimuth_deg = pattern.at("start_azimuth_deg")};
+  SpinningSpec spec{
+      .channels = {},
+      .cycle_us = pattern.at("cycle_us"),
+      .columns = pattern.at("columns"),
+      .rotation = ValueNamed<Rotation>(pattern.at("rotation").get<std::string>()).value(),
+      .start_azimuth_deg = pattern.at("start_azimuth_deg")};
   for (const nlohmann::json& channel : pattern.at("channels")) {
     spec.channels.push_back({.elevation_deg = channel.at("elevation_deg"),
                              .azimuth_deg = channel.at("azimuth_deg"),

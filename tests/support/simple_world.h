@@ -5,23 +5,23 @@
 #include <vector>
 
 #include "core/base/units.h"
-#include "core/scene/world.h"
+#include "railcast/scene.h"
 
 namespace railcast {
 
-/// A world of one chunk for analytic scenes: its ground, its objects, and a vehicle that moves at a
+/// A world of one chunk for analytic scenes, with ground, objects, and a vehicle that moves at a
 /// constant velocity and turns at a constant rate. `world_from_chunk` moves all of it.
 class SimpleWorld final : public World {
  public:
-  Model ground;  ///< Chunk frame.
+  Model ground;  ///< In the chunk frame.
   std::vector<Placement> placements;
-  std::vector<Wire> wires;  ///< What `ground` holds as tubes.
+  std::vector<Wire> wires;  ///< Wires that `ground` holds as tubes.
   Transform world_from_chunk = Transform::Identity();
   Transform chunk_from_vehicle = Transform::Identity();  ///< At time 0.
   Vector3 velocity_chunk_mps = Vector3::Zero();
-  double yaw_rate_radps = 0.0;  ///< Of the vehicle about its own z, left positive.
+  double yaw_rate_radps = 0.0;  ///< The vehicle's yaw rate about its own z, positive to the left.
 
-  /// Adds an object that stands at `chunk_from_object` or moves away from it.
+  /// Adds an object that starts at `chunk_from_object` and stands or moves at a constant velocity.
   void AddObject(std::shared_ptr<const Model> model,
                  const Transform& chunk_from_object,
                  const Vector3& object_velocity_mps = Vector3::Zero(),

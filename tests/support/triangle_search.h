@@ -5,21 +5,21 @@
 #include <limits>
 #include <span>
 
-#include "core/scene/mesh.h"
+#include "railcast/scene.h"
 
 namespace railcast {
 
 template <typename Real>
 struct TriangleHit {
-  Real range_m = std::numeric_limits<Real>::infinity();  ///< Infinite = nothing was hit.
+  Real range_m = std::numeric_limits<Real>::infinity();  ///< Infinite: nothing was hit.
   std::uint32_t part{};                                  ///< Index into the parts.
   Eigen::Matrix<Real, 3, 1> normal{0, 0, 0};             ///< As wound; not normalised.
 };
 
-/// The first triangle along a ray, by looking at each of them in turn: Moeller and Trumbore 1997,
-/// "Fast, minimum storage ray-triangle intersection". In double the slow, obvious yardstick; in
-/// float what a simple simulator does. Vertices are moved by `frame_from_model` before the search.
-/// @param only_front Whether triangles seen from behind are passed over, as renderers do.
+/// Finds the first triangle along a ray by testing each in turn: Moeller and Trumbore 1997, "Fast,
+/// minimum storage ray-triangle intersection". In double it is the slow, simple reference; in float
+/// it is what a simple simulator does. Vertices are moved by `frame_from_model` before the search.
+/// @param only_front Whether triangles seen from behind are skipped, as renderers do.
 template <typename Real>
 [[nodiscard]] TriangleHit<Real> SearchTriangles(
     std::span<const Part> parts,
@@ -28,7 +28,7 @@ template <typename Real>
     const Eigen::Matrix<Real, 3, 1>& direction,
     bool only_front = false) {
   using Vector = Eigen::Matrix<Real, 3, 1>;
-  // Once, not for every vertex: the ray goes to the model.
+  // The ray is moved into the model's frame once, instead of moving every vertex.
   const auto model_from_frame = frame_from_model.inverse();
   const Vector origin = model_from_frame * origin_m;
   const Vector along = model_from_frame.linear() * direction;

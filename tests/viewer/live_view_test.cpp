@@ -22,7 +22,7 @@
 namespace railcast {
 namespace {
 
-/// Sends these datagrams again and again, 20 ms apart, until it ends.
+/// Sends these datagrams over and over, 20 ms apart, until it is destroyed.
 class EndlessSender {
  public:
   EndlessSender(const Endpoint& to, std::vector<Datagrams> scans)
@@ -61,7 +61,7 @@ TEST_F(LiveScreenshot, ShowsTheFirstWholeFrame) {
   half.items.resize(half.items.size() / 2);
   const EndlessSender sender(at, {half, Scan(SquaresFrame(1)), Scan(SquaresFrame(2))});
   DrawSquares("--color-by height udp://" + EndpointText(at));
-  // As ShowsHeightOnTheScale.
+  // The same expectations as in ShowsHeightOnTheScale.
   for (const double z_m : {-0.9, -0.5, 0.0, 0.5, 0.9}) {
     EXPECT_NEAR(PlaceOnScale(At(0.0, PixelsAbove(z_m))), 0.5 + 0.5 * z_m, 2.0 / 36.0) << z_m;
     EXPECT_NEAR(PlaceOnScale(At(-5.0 * MetreInPixels(), PixelsAbove(z_m))), 0.5 + 0.5 * z_m,
@@ -95,12 +95,13 @@ TEST_F(LiveScreenshot, MayBeAVideo) {
   EXPECT_FALSE(std::filesystem::exists(PathOf("video/000003.png")));
 }
 
-/// A window that listens.
+/// A window that shows a live stream.
 class LiveWindow : public WindowTest {
  protected:
   void Listen(std::vector<std::string> options = {}) {
     options.push_back("udp://" + EndpointText(at_));
-    OpenDeaf(options);  // What it hears before the first frame leaves no trace.
+    // Keys pressed before the first frame have no effect that a test could wait for.
+    OpenDeaf(options);
   }
   /// Waits until a picture has points; the key p does nothing before the first frame.
   [[nodiscard]] bool WaitForPoints() {
@@ -110,12 +111,12 @@ class LiveWindow : public WindowTest {
       return std::filesystem::exists(PathOf("desk/railcast-view-2.png"));
     });
   }
-  /// The last picture that was saved once all keys had their effect.
+  /// Returns a picture that was saved after all earlier keys had their effect.
   [[nodiscard]] Picture Saved() {
     int number = 1;
     while (std::filesystem::exists(NameOf(number))) ++number;
     Press("p");
-    // Those of WaitForPoints may still be on their way.
+    // Pictures requested by WaitForPoints() may still be pending.
     EXPECT_TRUE(window().WaitUntil([&] { return std::filesystem::exists(NameOf(number)); }))
         << window().Said();
     return ReadPicture(NameOf(number));
@@ -177,7 +178,7 @@ TEST_F(LiveWindow, FallsBackWhereALaterFrameLacksTheField) {
   StreamSpec without_intensity;
   without_intensity.fields = FieldSelection("x,y,z");
   const EndlessSender sender(at_, {Scan(Square(3), without_intensity)});
-  // By height, which rises upwards where intensity rose to the left.
+  // The fallback is height, which rises upwards, whereas intensity rose to the left.
   EXPECT_TRUE(window().WaitUntil([&] {
     const Picture picture = Saved();
     return CountPoints(picture) > 300 &&
@@ -193,9 +194,10 @@ TEST_F(LiveWindow, OutlivesSendersAndTheirNoise) {
     const EndlessSender sender(at_, {Scan(Square(7)), Scan(Square(8))});
     ASSERT_TRUE(WaitForPoints());
   }
-  // The sender is gone; its last frame stays.
+  // The sender has stopped, and its last frame stays.
   EXPECT_GT(CountPoints(Saved()), 300U);
-  // Noise: what fuzzing found, cut and flipped datagrams, other shapes, nothing at all.
+  // Malformed datagrams: inputs found by fuzzing, cut and flipped datagrams, frames of other
+  // shapes, empty ones.
   std::vector<Datagrams> noise;
   for (const auto& entry : std::filesystem::directory_iterator(RAILCAST_FUZZ_CORPORA "/stream")) {
     const std::string bytes = ReadFileWhole(entry.path());
@@ -218,7 +220,7 @@ TEST_F(LiveWindow, OutlivesSendersAndTheirNoise) {
     for (int i = 0; i < 20; ++i) (void)Saved();
   }
   EXPECT_TRUE(window().IsAlive()) << window().Said();
-  // A sender that begins anew, with its first frame, is shown again.
+  // A sender that starts again at its first frame is shown again.
   const Picture before = Saved();
   Frame moved = Square(0);
   for (float& y_m : moved.y) y_m -= 5.0F;
@@ -233,7 +235,7 @@ TEST_F(LiveWindow, OutlivesSendersAndTheirNoise) {
   EXPECT_EQ(window().ExitStatus(), 0) << window().Said();
 }
 
-/// Half a minute of it: of its own in ctest.
+/// Takes half a minute, so it is a ctest test of its own.
 class Minute : public LiveWindow {};
 
 TEST_F(Minute, ShowsAStreamOfTheGeneratorAllTheTime) {
@@ -266,7 +268,7 @@ TEST_F(Minute, ShowsAStreamOfTheGeneratorAllTheTime) {
   for (const Picture& picture : {early, late}) {
     EXPECT_GT(PointsOf(wagon, picture).size(), 300U);
     EXPECT_GT(CountPoints(picture), 20'000U);
-    // The status: bright letters at the foot, where no points are.
+    // The status is bright text in the lower left corner, where no points are.
     const Picture foot = picture.Part({0, 440}, 200, 40);
     EXPECT_GT(std::ranges::count_if(foot.pixels, [](const Rgb& rgb) { return rgb[2] > 150; }), 100);
   }

@@ -10,8 +10,9 @@ namespace railcast {
 inline constexpr std::uint32_t kRunBegins = 7;
 inline constexpr std::uint32_t kRunFrames = 6;
 
-/// Frames 7 to 12 of a vehicle that goes round a curve of 500 m at 20 m/s towards a box that stands
-/// to the left of the track. @param directory Must not exist.
+/// Makes frames 7 to 12 of a vehicle in a curve of 500 m radius at 20 m/s, moving towards a box
+/// that stands to the left of the track.
+/// @param directory Must not exist.
 inline MadeSequence MakeRun(const std::filesystem::path& directory,
                             const std::string& fidelity = "plausibility") {
   return MakeSequence(directory, {.fidelity = fidelity,

@@ -34,15 +34,15 @@ TEST_F(Screenshot, ShowsBlocksInTheirLabelsColoursWhereTheyAre) {
 TEST_F(Screenshot, ShowsHeightOnTheScale) {
   WriteSquares("cloud.pcd");
   DrawSquares("--color-by height " + PathOf("cloud.pcd"));
-  // The block is 36 px high. A point covers 1 px to all sides of its own pixel, which is up to half
-  // a pixel off, and so is ours: 2 px of 36.
+  // The block is 36 px high. A point covers 1 px on all sides of its own pixel, which is up to half
+  // a pixel off, and so is the prediction: 2 px of 36.
   for (const double z_m : {-0.9, -0.5, 0.0, 0.5, 0.9}) {
     EXPECT_NEAR(PlaceOnScale(At(0.0, PixelsAbove(z_m))), 0.5 + 0.5 * z_m, 2.0 / 36.0) << z_m;
   }
 }
 
 TEST_F(Screenshot, LooksAtACloudInWorldCoordinatesFromItsMiddle) {
-  WriteSquares("cloud.pcd", 5000);  // The middle is at (4960, 2.5, 0).
+  WriteSquares("cloud.pcd", 5000);  // Its middle is at (4960, 2.5, 0).
   WriteLabels("labels.json");
   DrawSquares(PathOf("cloud.pcd"));
   EXPECT_EQ(At(2.5 * MetreInPixels(), PixelsAbove(0.0)), kRed);

@@ -8,7 +8,7 @@ namespace {
 
 using Anchors = std::array<Rgb, 17>;
 
-// Each map at 0, 1/16, ..., 1.
+// Each map is sampled at 0, 1/16, ..., 1.
 constexpr Anchors kViridis = {{{68, 1, 84},
                                {72, 24, 106},
                                {71, 45, 123},

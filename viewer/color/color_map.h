@@ -4,26 +4,28 @@
 #include <cstdint>
 #include <string_view>
 
-#include "viewer/color/rgb.h"
+#include "viewer/color/palette.h"
 
 namespace railcast {
 
-/// Colours for amounts, in even steps as the eye sees them.
+/// Perceptually uniform colour maps for quantities.
 ///
-/// viridis and magma: van der Walt and Smith, matplotlib 1.5 (CC0); cividis, made for eyes that see
-/// red and green alike: Nunez, Anderton and Renslow 2018, PLOS ONE 13(7); coolwarm, with two ends
-/// about a middle: Moreland 2009, "Diverging Color Maps for Scientific Visualization".
+/// viridis and magma are by van der Walt and Smith, matplotlib 1.5 (CC0); cividis, designed for
+/// red-green colour vision deficiency: Nunez, Anderton and Renslow 2018, PLOS ONE 13(7); coolwarm,
+/// a diverging map with a neutral middle: Moreland 2009, "Diverging Color Maps for Scientific
+/// Visualization".
 enum class ColorMap : std::uint8_t { kViridis, kCividis, kMagma, kCoolwarm };
 
 inline constexpr std::array<std::string_view, 4> kColorMapNames = {"viridis", "cividis", "magma",
                                                                    "coolwarm"};
 
-/// The colour of a place in [0, 1], straight lines between 17 published colours (at most 11 of 255
-/// off those between). The darkest fifth of all but coolwarm is not used: it would sink into the
-/// background. Places beyond the ends have the end's colour.
+/// Returns the colour of a place in [0, 1], interpolated linearly between 17 anchors of the
+/// published map; between the anchors it is at most 11 of 255 off the published colours. The
+/// darkest fifth of every map but coolwarm is not used, because it would be hard to see on a dark
+/// background. Places beyond the ends take the colour of the end.
 [[nodiscard]] Rgb MapColor(ColorMap map, double place);
 
-/// Of points without a value.
+/// Colour of points without a value.
 inline constexpr Rgb kNoValueColor = {110, 110, 110};
 
 }  // namespace railcast

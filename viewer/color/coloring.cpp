@@ -6,10 +6,9 @@
 #include <map>
 
 #include "core/base/error.h"
-#include "core/base/number_text.h"
-#include "core/frame/outcome.h"
-#include "viewer/color/okabe_ito.h"
-#include "viewer/color/outcome_colors.h"
+#include "core/base/text.h"
+#include "railcast/frame.h"
+#include "viewer/color/palette.h"
 
 namespace railcast {
 namespace {
@@ -84,7 +83,7 @@ std::array<double, 2> FitScale(const FieldValues& field) {
     ends = {-end, end};
   }
   if (!(ends[0] < ends[1])) {
-    // Of great values half a unit would be less than their last digit.
+    // A margin of 0.5 would be lost in the rounding of large values.
     const double margin = std::max(0.5, 1e-6 * std::abs(ends[0]));
     ends = {ends[0] - margin, ends[1] + margin};
   }
@@ -115,7 +114,7 @@ Coloring ColorByCategory(const FieldValues& field,
   std::map<double, Category> categories;
   Coloring coloring{.title = field.title};
   coloring.colors.reserve(field.values.size());
-  // Neighbours are mostly of one kind.
+  // Neighbouring points are mostly of the same category, so the last one is tried first.
   Category* last = nullptr;
   for (const double value : field.values) {
     if (last == nullptr || last->value != value) {

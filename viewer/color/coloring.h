@@ -10,7 +10,7 @@
 
 namespace railcast {
 
-/// One kind of point in a legend.
+/// One category of points in a legend.
 struct Category {
   double value{};
   std::string name;
@@ -18,29 +18,31 @@ struct Category {
   std::size_t num_points{};
 };
 
-/// The colour of every point, and what colours mean.
+/// The colour of every point, and what the colours mean.
 struct Coloring {
   std::string title;
-  std::vector<Rgb> colors{};           ///< Of each point; kNoValueColor without a value.
-  std::vector<Category> categories{};  ///< Those that occur, by rising value; empty on a scale.
-  /// The scale's ends, if it is one.
+  std::vector<Rgb> colors{};  ///< One per point; kNoValueColor where there is no value.
+  /// The categories that occur, by rising value; empty for a scale.
+  std::vector<Category> categories{};
+  /// The ends of the scale; empty for categories.
   std::optional<std::array<double, 2>> ends{};
   ColorMap map{};
 };
 
-/// Ends of a scale for these values: the 1st and 99th percentiles, so that a few odd points do not
-/// take all its colours; of differences as far to either side of 0. Never equal.
+/// Returns the ends of a scale for these values: the 1st and 99th percentiles, so that a few
+/// outliers do not take up all its colours; for differences, ends symmetric about 0. The two are
+/// never equal.
 [[nodiscard]] std::array<double, 2> FitScale(const FieldValues& field);
 
-/// Colours amounts.
-/// @param ends Of the scale, rising.
+/// Colours points by a quantity.
+/// @param ends The lower and the upper end of the scale.
 [[nodiscard]] Coloring ColorByScale(const FieldValues& field,
                                     ColorMap map,
                                     const std::array<double, 2>& ends);
 
-/// Colours kinds: labels by their table, outcomes and materials by name, instances by their
-/// object's name where they have one.
-/// @param name The field's.
+/// Colours points by category: labels as their table says, outcomes and materials under their
+/// names, instances under the name of their object where they have one.
+/// @param name The name of the field.
 /// @throws InputError if a value is no whole number.
 [[nodiscard]] Coloring ColorByCategory(const FieldValues& field,
                                        const std::string& name,

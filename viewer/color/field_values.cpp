@@ -13,13 +13,14 @@ namespace {
 
 using Kind = FieldValues::Kind;
 
-/// A field of our frames, as people call it.
+/// A railcast field under the short name that the user gives.
 struct ColorField {
   std::string_view name;
-  std::string_view field;  ///< In core/frame/frame.h's table; of what is computed, what it needs.
+  /// Name in railcast/frame.h; for computed values, of the field they need.
+  std::string_view field;
   std::string_view title;
   Kind kind{};
-  double factor = 1.0;  ///< From the frame's unit to the title's.
+  double factor = 1.0;  ///< Converts the frame's unit to the title's.
 };
 
 constexpr std::string_view kNoise = "noise";
@@ -52,14 +53,15 @@ const ColorField* FindColorField(std::string_view name) {
   return found == kColorFields.end() ? nullptr : found;
 }
 
-/// What a foreign field is called here: as in its file, unless one of ours is called so.
-std::string NameOf(const ForeignField& field) {
+/// Returns the name by which a foreign field is chosen: the one in its file, prefixed with "file_"
+/// where a railcast field has the same name.
+std::string FieldNameOf(const ForeignField& field) {
   std::string name = field.name;
   if (FindColorField(name) != nullptr) name.insert(0, "file_");
   return name;
 }
 
-/// Of each point.
+/// Returns the values of the points at `slots`.
 template <typename Values>
 std::vector<double> Pick(const Values& values, const std::vector<std::uint32_t>& slots) {
   std::vector<double> picked(slots.size());
@@ -75,7 +77,7 @@ std::vector<double> Noise_mm(const ShownFrame& shown) {
   return noise_mm;
 }
 
-/// x, y or z in the axes at the stamp, where the points are shown.
+/// Returns x, y or z at the stamp, where the points are shown.
 std::vector<double> Positions_m(const ShownFrame& shown, std::size_t axis) {
   std::vector<double> values_m(shown.num_points());
   for (std::size_t i = 0; i < values_m.size(); ++i) {
@@ -105,13 +107,7 @@ std::vector<std::string> ColorableFields(const RecordedFrame& recorded) {
     if (field.name == kNoise && !recorded.Has("range_m")) continue;
     if (field.field.size() == 1 || recorded.Has(field.field)) names.emplace_back(field.name);
   }
-  for (const ForeignField& field : recorded.foreign) names.push_back(NameOf(field));
-  return names;
-}
-
-std::vector<std::string> ColorFieldNames() {
-  std::vector<std::string> names;
-  for (const ColorField& field : kColorFields) names.emplace_back(field.name);
+  for (const ForeignField& field : recorded.foreign) names.push_back(FieldNameOf(field));
   return names;
 }
 
@@ -128,7 +124,7 @@ FieldValues ValuesOf(const ShownFrame& shown, const std::string& name) {
   if (const ColorField* const field = FindColorField(name)) {
     return {.kind = field->kind, .title = std::string(field->title), .values = Load(shown, *field)};
   }
-  const auto foreign = std::ranges::find(shown.recorded->foreign, name, NameOf);
+  const auto foreign = std::ranges::find(shown.recorded->foreign, name, FieldNameOf);
   return {.kind = Kind::kAmount, .title = name, .values = Pick(foreign->values, shown.slots)};
 }
 

@@ -8,31 +8,30 @@
 
 namespace railcast {
 
-/// One figure of every point of a frame.
+/// One value for every point of a frame.
 struct FieldValues {
   enum class Kind : std::uint8_t {
     kAmount,
-    kDifference,  ///< An amount about 0, either way.
-    kCategory     ///< Whole numbers that stand for something.
+    kDifference,  ///< A quantity that may be negative or positive, shown about 0.
+    kCategory     ///< Whole numbers that stand for categories.
   };
   Kind kind{};
-  std::string title;           ///< For people, with its unit: "range [m]".
-  std::vector<double> values;  ///< Of each point; NaN = none.
+  std::string title;           ///< Title of the legend, with its unit: "range [m]".
+  std::vector<double> values;  ///< One per point; NaN where there is none.
 };
 
-/// What a frame can be coloured by, in the order in which people go through it: "label",
-/// "instance", "outcome", "range", "height", ...; then the foreign fields as their file calls them,
-/// "file_height" where one of ours is called so, too.
+/// Returns the names of the fields that a frame can be coloured by, in the order in which the
+/// viewer steps through them: "label", "instance", "outcome", "range", "height", ...; then the
+/// foreign fields under the names in their file, or as "file_height" where a railcast field has the
+/// same name.
 [[nodiscard]] std::vector<std::string> ColorableFields(const RecordedFrame& recorded);
 
-/// The short names of colours' fields (all that ColorableFields() may give but foreign ones).
-[[nodiscard]] std::vector<std::string> ColorFieldNames();
-
-/// @param name Of ColorableFields().
-/// @throws InputError "has no field power to color by (has: ...)" if it is none of them.
+/// Returns the values of one field for every point.
+/// @param name One of ColorableFields().
+/// @throws InputError "has no field power to color by (has: ...)" if the frame has no such field.
 [[nodiscard]] FieldValues ValuesOf(const ShownFrame& shown, const std::string& name);
 
-/// `label` where the frame has one, else `height`.
+/// Returns "label" if the frame has that field, else "height".
 [[nodiscard]] std::string DefaultColorField(const RecordedFrame& recorded);
 
 }  // namespace railcast

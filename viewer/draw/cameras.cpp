@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/number_text.h"
+#include "core/base/text.h"
 
 namespace railcast {
 namespace {
@@ -29,7 +29,8 @@ std::string TripleText(const std::array<double, 3>& values) {
   return text;
 }
 
-/// The sensor's place as presets take it.
+/// Returns the place that presets take for the sensor's: the origin, or the middle of a cloud that
+/// does not surround the origin.
 std::array<double, 3> OriginOf(std::span<const float> positions_m) {
   std::array<double, 3> middle_m{};
   bool surrounds = true;
@@ -54,7 +55,7 @@ double QuantileOf(std::vector<double> values, double share) {
   return *at;
 }
 
-/// Sees 95 of 100 points about the median place.
+/// Places the camera so that it sees 95 of 100 points about the median position.
 CameraPlace PlaceForAll(std::span<const float> positions_m) {
   std::array<double, 3> middle_m{};
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -9,24 +9,26 @@
 
 namespace railcast {
 
-/// From where the camera looks, in the axes of a scene, metres.
+/// Where the camera is and where it looks, in the axes of a composition, in metres.
 struct CameraPlace {
   std::array<double, 3> eye_m{};
   std::array<double, 3> target_m{};
   std::array<double, 3> up{0.0, 0.0, 1.0};
 };
 
-/// With z up on the screen, or, straight from above or below, x.
+/// Returns a camera with z up on the screen, or x up where it looks straight up or down.
 [[nodiscard]] CameraPlace UprightCamera(const std::array<double, 3>& eye_m,
                                         const std::array<double, 3>& target_m);
 
-/// "driver" from the sensor, "chase" from above and behind it, both forward; "side" from the right;
-/// "top" from above, forward up; "all" like "chase", from as far as the cloud needs.
+/// "driver" looks forward from the sensor, "chase" forward from above and behind it; "side" looks
+/// from the right; "top" from above with forward up; "all" looks like "chase" from as far as it
+/// takes to see the cloud.
 inline constexpr std::array<std::string_view, 5> kCameraNames = {"driver", "top", "side", "chase",
                                                                  "all"};
 
-/// All but "all" are relative to the sensor, the cloud's origin. A cloud that does not surround it,
-/// one in world coordinates say, is looked at as if its sensor were at its middle.
+/// Returns the camera of a preset. All but "all" are relative to the sensor, which is the cloud's
+/// origin. For a cloud that does not surround its origin, such as one in world coordinates, the
+/// middle of the cloud is taken instead.
 /// @param name One of kCameraNames.
 /// @param positions_m x, y, z of each point in turn; may be empty.
 [[nodiscard]] CameraPlace PresetCamera(std::string_view name, std::span<const float> positions_m);
@@ -34,7 +36,7 @@ inline constexpr std::array<std::string_view, 5> kCameraNames = {"driver", "top"
 void PlaceCamera(const CameraPlace& place, vtkCamera& camera);
 [[nodiscard]] CameraPlace PlaceOf(vtkCamera& camera);
 
-/// As --eye and --target take it: "--eye -20,0,12 --target 35,0,-2".
+/// Returns the camera as options: "--eye -20,0,12 --target 35,0,-2".
 [[nodiscard]] std::string CameraOptions(const CameraPlace& place);
 
 }  // namespace railcast

@@ -12,7 +12,7 @@
 namespace railcast {
 namespace {
 
-/// One cell of all points.
+/// Makes one cell of all points.
 void MakeVertices(std::size_t num_points, vtkCellArray& vertices) {
   const auto count = static_cast<vtkIdType>(num_points);
   vtkNew<vtkIdTypeArray> offsets;
@@ -53,7 +53,7 @@ void CloudActor::Show(const PlacedCloud& cloud, const Look& look) {
   for (std::size_t i = 0; i < cloud.is_faint.size(); ++i) {
     if (cloud.is_faint[i]) colors_[i] = Faint(colors_[i], look.background.rgb);
   }
-  // VTK reads only, and says so nowhere.
+  // VTK only reads the array, but its interface takes a non-const pointer.
   auto* const positions = const_cast<float*>(shown_->positions_m.data());
   constexpr int kOurs = 1;
   positions_->SetArray(positions, static_cast<vtkIdType>(shown_->positions_m.size()), kOurs);

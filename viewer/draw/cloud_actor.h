@@ -11,23 +11,23 @@
 
 #include <memory>
 
+#include "viewer/composition/composition.h"
 #include "viewer/draw/look.h"
-#include "viewer/scene/scene.h"
 
 namespace railcast {
 
-/// Points of one cloud in a renderer. Kept from frame to frame: setting up anew costs more than the
-/// points.
+/// The points of one cloud in a renderer. It is kept from frame to frame, because setting it up
+/// costs more than drawing the points.
 class CloudActor {
  public:
   CloudActor();
-  /// @param look Faint points are nearly its background.
+  /// @param look Its background colour is mixed into faint points.
   void Show(const PlacedCloud& cloud, const Look& look);
   [[nodiscard]] vtkActor& actor() { return *actor_; }
 
  private:
-  std::shared_ptr<const ShownFrame> shown_;  ///< Whose positions VTK reads.
-  std::vector<Rgb> colors_;                  ///< That VTK reads.
+  std::shared_ptr<const ShownFrame> shown_;  ///< Holds the positions that VTK reads.
+  std::vector<Rgb> colors_;                  ///< Holds the colours that VTK reads.
   vtkNew<vtkFloatArray> positions_;
   vtkNew<vtkUnsignedCharArray> rgb_;
   vtkNew<vtkCellArray> vertices_;

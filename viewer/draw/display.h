@@ -2,8 +2,9 @@
 
 namespace railcast {
 
-/// A connection to the X server, to be held for as long as anything is drawn: VTK ends the process
-/// where there is no server, and a server that loses its last client may be away for a moment.
+/// A connection to the X server, to be held for as long as anything is drawn. VTK ends the process
+/// where there is no server, and a server that loses its last client may be unavailable for a
+/// moment.
 class DisplayConnection {
  public:
   /// @throws InputError if there is no display.

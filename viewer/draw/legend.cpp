@@ -16,9 +16,9 @@
 #include <algorithm>
 #include <string>
 
+#include "viewer/composition/status_text.h"
 #include "viewer/draw/text_style.h"
 #include "viewer/draw/vtk_values.h"
-#include "viewer/scene/status_text.h"
 
 namespace railcast {
 namespace {
@@ -26,7 +26,7 @@ namespace {
 constexpr int kScaleSteps = 256;
 constexpr std::size_t kMaxLines = 24;
 
-/// A square, its lower left corner at (left, bottom), in pixels.
+/// Makes a square with its lower left corner at (left, bottom), in pixels.
 vtkSmartPointer<vtkActor2D> MakeSwatch(const Rgb& rgb, double left, double bottom, double side) {
   vtkNew<vtkPoints> corners;
   for (const auto& [x, y] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
@@ -45,7 +45,7 @@ vtkSmartPointer<vtkActor2D> MakeSwatch(const Rgb& rgb, double left, double botto
   return actor;
 }
 
-/// The kinds to be listed, by rising value, and how many are not.
+/// Returns the categories to be listed, by rising value; `num_others` counts the rest.
 std::vector<Category> MostFrequent(std::vector<Category> categories, std::size_t& num_others) {
   num_others = 0;
   if (categories.size() <= kMaxLines) return categories;
@@ -56,7 +56,7 @@ std::vector<Category> MostFrequent(std::vector<Category> categories, std::size_t
   return categories;
 }
 
-/// Writes lines from the view's left top downwards.
+/// Writes lines downwards from the view's upper left corner.
 class KindList {
  public:
   KindList(const std::array<int, 2>& size_px, const Background& background)
@@ -122,7 +122,7 @@ void ShowScale(const Coloring& coloring,
   bar->SetMaximumNumberOfColors(kScaleSteps);
   bar->SetNumberOfLabels(5);
   bar->SetLabelFormat("%-.4g");
-  // In shares of the view, which may be narrow.
+  // The bar's size is given as shares of the view, which may be narrow.
   const double height_in_widths = static_cast<double>(size_px[1]) / size_px[0];
   bar->SetPosition(1.0 - 0.17 * height_in_widths, kFoot);
   bar->SetWidth(0.15 * height_in_widths);

@@ -12,11 +12,12 @@
 
 namespace railcast {
 
-/// What colours mean: a list of kinds in the top left corner, or a scale at the right edge.
+/// The legend of a view: a list of categories in the upper left corner, or a scale at the right
+/// edge.
 struct Legend {
   std::vector<vtkSmartPointer<vtkProp>> props;
-  /// A kind's line, for clicks: from the left edge to right_px, in pixels from the view's lower
-  /// left corner.
+  /// The line of one category, for clicks: from the left edge to right_px, in pixels from the
+  /// view's lower left corner.
   struct Line {
     double value{};
     double bottom_px{};
@@ -25,13 +26,15 @@ struct Legend {
   };
   std::vector<Line> lines;
 
+  /// Returns the line at a place.
   /// @param place_px In the view, from its lower left corner.
   [[nodiscard]] std::optional<Line> LineAt(const std::array<double, 2>& place_px) const;
 };
 
-/// Lists at most 24 kinds, those with most points; a last line counts the others.
-/// @param size_px Of the view.
-/// @param beam_kinds Listed below the points' kinds.
+/// Makes a legend. It lists at most 24 categories, those with the most points; a last line counts
+/// the others.
+/// @param size_px Size of the view.
+/// @param beam_kinds Categories of empty beams, listed below those of the points.
 [[nodiscard]] Legend MakeLegend(const Coloring& coloring,
                                 const std::vector<Category>& beam_kinds,
                                 const std::array<int, 2>& size_px,

@@ -3,11 +3,11 @@
 #include <array>
 #include <string_view>
 
-#include "viewer/color/rgb.h"
+#include "viewer/color/palette.h"
 
 namespace railcast {
 
-/// What is behind the points, and what words on it have.
+/// The colour behind the points, and the colour of words on it.
 struct Background {
   std::string_view name;
   Rgb rgb{};
@@ -22,7 +22,7 @@ inline constexpr std::array<Background, 3> kBackgrounds = {{
 
 inline constexpr int kMaxPointSize_px = 20;
 
-/// How scenes are drawn.
+/// How compositions are drawn.
 struct Look {
   int point_size_px = 3;
   Background background = kBackgrounds[0];

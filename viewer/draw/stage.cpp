@@ -18,7 +18,7 @@ Stage::Stage(const std::array<int, 2>& size_px)
   window_->SetSize(size_px[0], size_px[1]);
   window_->SetMultiSamples(0);
   window_->SetWindowName("railcast-view");
-  // Views are in layer 0.
+  // The views are in layer 0.
   window_->SetNumberOfLayers(2);
   plates_renderer_->SetLayer(1);
   plates_renderer_->InteractiveOff();
@@ -34,7 +34,7 @@ void Stage::SetViews(std::size_t count) {
   const auto share = 1.0 / static_cast<double>(count);
   for (std::size_t i = 0; i < count; ++i) {
     const auto left = static_cast<double>(i) * share;
-    views_.push_back(std::make_unique<SceneView>(left, i + 1 == count ? 1.0 : left + share));
+    views_.push_back(std::make_unique<Pane>(left, i + 1 == count ? 1.0 : left + share));
     views_.back()->renderer().SetActiveCamera(camera_);
     window_->AddRenderer(&views_.back()->renderer());
   }
@@ -45,18 +45,19 @@ std::array<int, 2> Stage::size_px() const {
   return {size[0], size[1]};
 }
 
-void Stage::Show(std::vector<Scene> scenes, const Look& look) {
+void Stage::Show(std::vector<Composition> compositions, const Look& look) {
   look_ = look;
-  SetViews(scenes.size());
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
-    views_[i]->Show(std::make_shared<const Scene>(std::move(scenes[i])), look, size_px());
+  SetViews(compositions.size());
+  for (std::size_t i = 0; i < compositions.size(); ++i) {
+    views_[i]->Show(std::make_shared<const Composition>(std::move(compositions[i])), look,
+                    size_px());
   }
   if (!is_placed_) PlaceNow();
 }
 
 void Stage::Redraw(const Look& look) {
   look_ = look;
-  for (const auto& view : views_) view->Show(view->shared_scene(), look, size_px());
+  for (const auto& view : views_) view->Show(view->shared_composition(), look, size_px());
   for (std::size_t i = 0; i < plates_.size(); ++i) {
     ShowPlate(static_cast<Plate>(i), std::exchange(plate_words_[i], {}));
   }
@@ -67,12 +68,13 @@ void Stage::ShowStatus(const std::string& status) {
 }
 
 void Stage::PlaceNow() {
-  const Scene& scene = views_.front()->scene();
-  const std::span<const float> positions_m =
-      scene.clouds.empty() ? std::span<const float>() : scene.clouds[0].shown->positions_m;
+  const Composition& composition = views_.front()->composition();
+  const std::span<const float> positions_m = composition.clouds.empty()
+                                                 ? std::span<const float>()
+                                                 : composition.clouds[0].shown->positions_m;
   PlaceCamera(place_ ? *place_ : PresetCamera(preset_, positions_m), *camera_);
   for (const auto& view : views_) view->renderer().ResetCameraClippingRange();
-  is_placed_ = !scene.clouds.empty();
+  is_placed_ = !composition.clouds.empty();
 }
 
 void Stage::UseCamera(const std::string& preset) {
@@ -106,7 +108,7 @@ CameraPlace Stage::camera_place() {
   return PlaceOf(*camera_);
 }
 
-void Stage::ShowMarks(std::size_t view, const Drawing& marks) {
+void Stage::ShowMarks(std::size_t view, const Overlay& marks) {
   views_[view]->ShowMarks(marks, look_);
 }
 

@@ -12,13 +12,14 @@
 
 namespace railcast {
 
-/// Letters of a 45th of the window's height, in the colour of words on that background.
+/// Sets the font size to a 45th of the window's height and the colour to that of words on the
+/// background.
 void StyleText(vtkTextProperty& text, const Background& background, int height_px);
 
-/// Puts words on a faint plate, so that they can be read over points.
+/// Puts text on a faint plate, so that it is legible over points.
 void AddPlate(vtkTextProperty& text, const Background& background);
 
-/// Which point of a text lies where it is put.
+/// Which point of a text lies at its position.
 enum class TextAnchor : std::uint8_t {
   kLeftBottom,
   kLeftMiddle,
@@ -28,7 +29,7 @@ enum class TextAnchor : std::uint8_t {
   kMiddle
 };
 
-/// Words at a place, in pixels from the view's lower left corner.
+/// Makes text at a place, in pixels from the view's lower left corner.
 [[nodiscard]] vtkSmartPointer<vtkTextActor> MakeText(const std::string& words,
                                                      const Background& background,
                                                      int height_px,

@@ -5,12 +5,12 @@
 
 #include <array>
 
-#include "core/base/transform.h"
-#include "viewer/color/rgb.h"
+#include "railcast/transform.h"
+#include "viewer/color/palette.h"
 
 namespace railcast {
 
-// Our values as VTK takes them.
+// Converts railcast values to those of VTK.
 
 [[nodiscard]] inline std::array<double, 3> VtkColor(const Rgb& rgb) {
   return {rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0};
@@ -24,8 +24,9 @@ inline void SetMatrix(const Transform& transform, vtkMatrix4x4& matrix) {
   }
 }
 
-/// Blends what is translucent with what was drawn before it. VTK's own way, whatever the order,
-/// takes two passes over all pixels in floating point: 50 ms a frame without a graphics card.
+/// Blends translucent actors in the order in which they are drawn. VTK's own order-independent
+/// blending takes two passes over all pixels in floating point: 50 ms a frame without a graphics
+/// card.
 inline void BlendInOrder(vtkActor& actor) {
   actor.ForceOpaqueOn();
 }

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/io/recording/recording.h"
+#include "railcast/io/recording.h"
 
 namespace railcast {
 
@@ -18,7 +18,7 @@ void FrameCounter::Count(const std::filesystem::path& source, const std::stop_to
     const auto recording = OpenRecording(source);
     while (!stop.stop_requested() && recording->Next()) ++num_counted_;
   } catch (const InputError&) {
-    // Whoever asks for the frame at that place is told.
+    // The error is reported when that frame is asked for.
   }
 }
 

@@ -10,11 +10,11 @@
 
 namespace railcast {
 
-/// What a frame takes in memory, but for the names of its objects.
+/// Returns the memory that a frame takes, without the names of its objects.
 [[nodiscard]] std::size_t NumBytesOf(const ShownFrame& shown);
 
-/// Frames that are kept in case that they are asked for again. Whatever their size, they take no
-/// more than a budget; only the frame that was put last is kept in any case.
+/// A cache of frames, most recently used first. Whatever the size of the frames, they stay within a
+/// budget; only the frame put last is always kept.
 class FrameShelf {
  public:
   struct Limits {
@@ -24,12 +24,12 @@ class FrameShelf {
 
   explicit FrameShelf(const Limits& limits) : limits_(limits) {}
 
-  /// Puts a frame before all others; the last ones go if there is no room.
-  /// @pre None of that place is there.
+  /// Puts a frame first; the least recently used ones are dropped if there is no room.
+  /// @pre The shelf has no frame of that place.
   void Put(std::size_t place, std::shared_ptr<const ShownFrame> shown);
-  /// Null if it is not there (any more).
+  /// Returns null if the frame is not, or no longer, on the shelf.
   [[nodiscard]] std::shared_ptr<const ShownFrame> Find(std::size_t place) const;
-  /// The same, and puts it before all others again.
+  /// As Find(), and moves the frame to the front.
   [[nodiscard]] std::shared_ptr<const ShownFrame> Use(std::size_t place);
 
   [[nodiscard]] std::size_t size() const { return frames_.size(); }

@@ -3,11 +3,11 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/io/kitti.h"
 #include "core/io/scenario_identity.h"
-#include "core/rail/rail_world.h"
-#include "core/scenario/scenario.h"
+#include "railcast/rail_world.h"
+#include "railcast/scenario.h"
 #include "viewer/frames/world_objects.h"
 
 namespace railcast {

@@ -3,30 +3,30 @@
 #include <cstddef>
 #include <memory>
 
-#include "core/io/recording/recording.h"
-#include "core/scene/world.h"
+#include "railcast/io/recording.h"
+#include "railcast/scene.h"
 #include "viewer/frames/shown_frame.h"
 
 namespace railcast {
 
-/// Frames of one source, counted from 0 in order of time.
+/// The frames of one source, counted from 0 in order of time.
 class Frames {
  public:
   virtual ~Frames() = default;
 
   [[nodiscard]] const RecordingInfo& info() const { return info_; }
-  /// Says what the frames were made of where they do not say it themselves: labels, materials,
-  /// world and its objects.
-  /// @param scenario Of one sensor.
+  /// Supplies what the frames do not say themselves: labels, materials, the world and its objects.
+  /// @param scenario A scenario of one sensor.
   /// @throws InputError with one line if its world cannot be built, or if the recording has a
-  ///   scenario of its own that says otherwise.
+  ///   scenario of its own that differs.
   void UseScenario(const ScenarioSpec& scenario);
-  /// Null if there is no such frame: not yet, not any more, or beyond the end.
+  /// Returns the frame at a place; null if it has not come yet, is no longer kept, or lies beyond
+  /// the end.
   /// @throws InputError with one line if it cannot be read.
   [[nodiscard]] virtual std::shared_ptr<const ShownFrame> Get(std::size_t place) = 0;
-  /// How many frames have been seen so far; of most recordings all there are.
+  /// Returns how many frames are known so far; for most recordings, all of them.
   [[nodiscard]] virtual std::size_t num_known() const = 0;
-  /// The oldest place that Get() can give.
+  /// Returns the oldest place that Get() can give.
   [[nodiscard]] virtual std::size_t first_known() const { return 0; }
 
  protected:
@@ -35,7 +35,7 @@ class Frames {
   RecordingInfo info_;
 
  private:
-  std::shared_ptr<const World> world_;  ///< Of UseScenario; null without.
+  std::shared_ptr<const World> world_;  ///< World of UseScenario(); null without one.
 };
 
 }  // namespace railcast

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/io/recording/live_frame.h"
 
 namespace railcast {
@@ -69,7 +69,7 @@ std::string LiveFrames::StatusText() const {
                 static_cast<unsigned long long>(counts.stream.lost_packets));
   std::string status = text.data();
   if (counts.stream.missing_frames > 0) {
-    status += "   " + std::to_string(counts.stream.missing_frames) + " frames lost whole";
+    status += "   " + std::to_string(counts.stream.missing_frames) + " whole frames lost";
   }
   if (counts.stream.other_sensor) {
     status += "   also heard: sensor " + std::to_string(*counts.stream.other_sensor);

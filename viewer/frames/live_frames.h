@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "core/io/stream/udp_grabber.h"
+#include "railcast/io/udp_grabber.h"
 #include "viewer/frames/frame_shelf.h"
 #include "viewer/frames/frames.h"
 
@@ -17,9 +17,9 @@ namespace railcast {
 /// A live stream in the railcast protocol: its latest frame and some before it.
 class LiveFrames final : public Frames {
  public:
-  /// Listens from now on.
+  /// Starts listening.
   /// @param source "udp://...", for messages.
-  /// @param wanted Whose frames are shown, if several send to the port.
+  /// @param wanted Which sender and sensor are shown, if several send to the port.
   /// @throws InputError if the port cannot be listened to.
   LiveFrames(const std::string& source, const Endpoint& at, const WantedStream& wanted = {});
   ~LiveFrames() override;
@@ -28,35 +28,38 @@ class LiveFrames final : public Frames {
 
   [[nodiscard]] std::shared_ptr<const ShownFrame> Get(std::size_t place) override;
   [[nodiscard]] std::size_t num_known() const override { return num_taken_; }
-  /// Of the frames the last ones are kept, at most 64.
+  /// At most the last 64 frames are kept.
   [[nodiscard]] std::size_t first_known() const override { return num_taken_ - kept_.size(); }
 
-  /// Takes the frame that came last since the last call, if any, as the next one. Others between
-  /// are passed over: whoever shows frames more slowly than they come falls not behind.
-  /// @returns Whether there was one that can be shown; if it cannot, fault() says why.
+  /// Takes the latest frame that has come since the last call, if any, as the next one. Frames in
+  /// between are skipped, so that a display slower than the stream does not fall behind.
+  /// @returns Whether a frame was taken; if one came that cannot be shown, fault() says why.
   bool Poll();
-  /// Of the frame that came last; empty if there is none.
+  /// Says what is wrong with the frame that came last; empty if nothing is.
   [[nodiscard]] const std::string& fault() const { return fault_; }
-  /// Packets that the frame taken last lacks.
+  /// Number of packets missing from the frame taken last.
   [[nodiscard]] std::size_t num_lost_packets() const { return num_lost_packets_; }
 
   [[nodiscard]] Endpoint at() const { return grabber_.at(); }
-  /// Since a frame came, whether or not it was taken or can be shown; infinite before the first.
+  /// Returns the time since a frame came, whether or not it was taken or could be shown; infinite
+  /// before the first.
   [[nodiscard]] double seconds_since_last() const;
-  /// "live 10.0 frames/s   0 packets lost", since it listens; "   also heard: sensor 1" if another
-  /// sensor than the one shown sends to the port, "   also heard: 10.0.0.7:4711" if another sender
-  /// of that sensor does, "   no frame for 5 s" once they stop.
+  /// Returns "live 10.0 frames/s   0 packets lost", counted since listening began. "   also heard:
+  /// sensor 1" is added if a sensor other than the one shown sends to the port, "   also heard:
+  /// 10.0.0.7:4711" if another sender of that sensor does, and "   no frame for 5 s" once frames
+  /// stop coming.
   [[nodiscard]] std::string StatusText() const;
 
  private:
-  FrameShelf kept_{{.num_frames = 64}};  ///< The last ones.
+  FrameShelf kept_{{.num_frames = 64}};  ///< The latest frames.
   std::size_t num_taken_{};
   std::string fault_;
   std::size_t num_lost_packets_{};
-  mutable std::mutex mutex_;  ///< Of what the grabber's thread changes.
+  mutable std::mutex mutex_;  ///< Guards what the grabber's thread changes.
   std::shared_ptr<const ReceivedFrame> latest_;
   std::optional<std::chrono::steady_clock::time_point> last_arrival_;
-  UdpGrabber grabber_;  ///< Ends before what its callback uses.
+  /// The last member, so that it ends before what its callback uses is destroyed.
+  UdpGrabber grabber_;
 };
 
 }  // namespace railcast

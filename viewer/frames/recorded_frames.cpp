@@ -4,15 +4,14 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "core/base/number_text.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "viewer/frames/recorded_labels.h"
 
 namespace railcast {
 namespace {
 
-constexpr std::size_t kMaxTurns = 24;      // Of a capture: of a Pandar64 5 MB each.
-constexpr std::size_t kMaxReaders = 4096;  // Of files, some lines of text each.
+constexpr std::size_t kMaxTurns = 24;      // For captures; a turn of a Pandar64 takes 5 MB.
+constexpr std::size_t kMaxReaders = 4096;  // For files; a reader holds a few lines of text.
 
 }  // namespace
 
@@ -71,7 +70,8 @@ std::size_t RecordedFrames::PlaceOf(std::uint32_t frame_index) {
   if (!Get(0)) return fail("none");
   const std::uint32_t first_index = index_at(0);
   if (frame_index >= first_index) {
-    // Numbers rise, by more than 1 where a stream lost frames: it cannot be at a later place.
+    // Indices rise, by more than 1 where a stream lost frames, so that the frame cannot be at a
+    // later place.
     std::size_t place = frame_index - first_index;
     if (!Get(place)) {
       SeekEnd();

@@ -16,38 +16,39 @@ namespace railcast {
 /// The frames of a recording, in any order.
 class RecordedFrames final : public Frames {
  public:
-  /// @param source As OpenRecording() takes it. A single file of a sequence has the sequence's
-  ///   labels.
+  /// @param source As OpenRecording() takes it. A single file of a sequence has the labels of the
+  ///   sequence.
   /// @throws InputError with one line if it cannot be opened.
   explicit RecordedFrames(const std::filesystem::path& source);
 
-  /// The last frames asked for are kept.
+  /// The frames used last are kept.
   [[nodiscard]] std::shared_ptr<const ShownFrame> Get(std::size_t place) override;
 
-  /// The place of the frame of that number in its run (Frame::index): a sequence need not begin
-  /// with 0.
+  /// Returns the place of the frame with that number in its run (Frame::index), because a sequence
+  /// need not begin with 0.
   /// @throws InputError with one line if there is none.
   [[nodiscard]] std::size_t PlaceOf(std::uint32_t frame_index);
 
-  /// Of a capture, whose frames are counted beside, it rises up to their number.
+  /// For a capture, whose frames are counted in the background, this rises up to their number.
   [[nodiscard]] std::size_t num_known() const override;
   /// Reads on to the end.
   void SeekEnd();
 
  private:
   void Reopen();
-  /// Passes one frame's reader on the way; false at the end.
+  /// Reads on by one frame and keeps its reader; returns false at the end.
   bool Advance();
 
   std::unique_ptr<Recording> recording_;
-  /// Of frames [first_reader_, first_reader_ + readers_.size()): the last that were passed. To go
-  /// farther back means to read the recording anew.
+  /// Readers of frames [first_reader_, first_reader_ + readers_.size()), the last that were passed.
+  /// To go back farther, the recording is read again from its beginning.
   std::deque<Recording::FrameReader> readers_;
   std::size_t first_reader_{};
-  std::size_t num_passed_{};  ///< As far as readers ever were; of most recordings all.
+  std::size_t num_passed_{};  ///< Number of frames passed so far; for most recordings, all.
   bool is_end_known_ = false;
   FrameShelf kept_{FrameShelf::Limits{}};
-  std::optional<FrameCounter> counter_;  ///< If the recording does not say how many there are.
+  /// Only if the recording does not say how many frames it has.
+  std::optional<FrameCounter> counter_;
 };
 
 }  // namespace railcast

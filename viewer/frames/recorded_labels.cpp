@@ -3,15 +3,15 @@
 #include <filesystem>
 
 #include "core/io/kitti.h"
-#include "core/scenario/scenario.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 namespace {
 
-/// Looks in the source's folder first, then in so many above it.
+/// Looks for labels.json in the source's folder, then in `num_above` folders above it.
 LabelTable FindLabels(const std::filesystem::path& source, int num_above) {
   std::filesystem::path folder = std::filesystem::absolute(source).lexically_normal();
-  // A slash at the end counts as a name.
+  // A path that ends in a slash has an empty last component.
   if (!is_directory(folder) || !folder.has_filename()) folder = folder.parent_path();
   for (int i = 0; i <= num_above; ++i, folder = folder.parent_path()) {
     const std::filesystem::path candidate = folder / "labels.json";

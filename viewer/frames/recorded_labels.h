@@ -1,13 +1,14 @@
 #pragma once
 
-#include "core/frame/labels.h"
-#include "core/io/recording/recording.h"
+#include "railcast/frame.h"
+#include "railcast/io/recording.h"
 
 namespace railcast {
 
-/// What a recording's label numbers mean: by its own table, or by the labels.json that lies with
-/// its files. That is in the directory or beside the file, or beside the frames/ that it is or lies
-/// in; of KITTI's clouds up to beside sequences/00/velodyne/. Empty if there is none.
+/// Returns the meaning of a recording's label numbers: from its own table, or from a labels.json
+/// near its files. That may be in the directory or beside the file, or beside the frames/ that the
+/// source is or lies in; for KITTI clouds, up to beside sequences/00/velodyne/. Empty if there is
+/// none.
 /// @throws InputError with one line if the labels.json is damaged.
 [[nodiscard]] LabelTable LabelsOf(const RecordingInfo& info);
 

@@ -12,7 +12,7 @@
 namespace railcast {
 namespace {
 
-/// Whether points can be put where they would have been at the stamp.
+/// Returns whether points can be moved to where they would have been measured at the stamp.
 bool KnowsMotion(const RecordedFrame& recorded) {
   return recorded.has_pose && recorded.Has("time_ns") && recorded.frame.duration_ns > 0;
 }
@@ -36,7 +36,7 @@ void UndoMotion(const Frame& frame, ShownFrame& shown) {
 ShownFrame MakeShownFrame(RecordedFrame recorded) {
   ShownFrame shown;
   const Frame& frame = recorded.frame;
-  // Many frames are kept: no room to grow.
+  // Many frames are kept, so the vectors are made without spare capacity.
   const auto num_points = static_cast<std::size_t>(
       std::ranges::count_if(frame.x, [](float x_m) { return !std::isnan(x_m); }));
   shown.positions_m.reserve(3 * num_points);

@@ -5,17 +5,17 @@
 #include <memory>
 #include <vector>
 
-#include "core/io/recording/recording.h"
+#include "railcast/io/recording.h"
 
 namespace railcast {
 
-/// A frame as it is shown.
+/// A frame and its points as they are shown.
 struct ShownFrame {
   std::shared_ptr<const RecordedFrame> recorded;
   /// x, y, z of each point in turn, in the sensor's axes at the stamp: the motion within the scan
   /// is undone where pose and times are known.
   std::vector<float> positions_m;
-  std::vector<std::uint32_t> slots;  ///< Of each point in `recorded`.
+  std::vector<std::uint32_t> slots;  ///< Slot of each point in `recorded`.
 
   [[nodiscard]] std::size_t num_points() const { return slots.size(); }
   [[nodiscard]] const Frame& frame() const { return recorded->frame; }

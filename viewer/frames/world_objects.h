@@ -2,14 +2,14 @@
 
 #include <vector>
 
-#include "core/frame/labels.h"
-#include "core/io/recording/recording.h"
-#include "core/scene/world.h"
+#include "railcast/frame.h"
+#include "railcast/io/recording.h"
+#include "railcast/scene.h"
 
 namespace railcast {
 
-/// The objects of a world at a frame's stamp, for frames that do not bring them: names, labels and
-/// boxes; what firings saw of them is 0. Never the sensor's own vehicle.
+/// Returns the objects of a world at a frame's stamp, for frames that do not list them: names,
+/// labels and boxes; their counts of firings are 0. The sensor's own vehicle is left out.
 /// @pre The frame's pose is known and in the world's coordinates.
 [[nodiscard]] std::vector<RecordedObject> ObjectsAt(const World& world,
                                                     const LabelTable& labels,

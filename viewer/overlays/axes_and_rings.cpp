@@ -1,4 +1,4 @@
-#include "viewer/overlays/axes_and_rings.h"
+#include "viewer/overlays/overlays.h"
 
 #include <array>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/scenario/scenario.h"
-#include "viewer/color/okabe_ito.h"
+#include "railcast/scenario.h"
+#include "viewer/color/palette.h"
 #include "viewer/overlays/strokes.h"
 
 namespace railcast {
@@ -21,12 +21,12 @@ constexpr std::array<int, 7> kRings_m = {10, 25, 50, 100, 150, 200, 300};
 constexpr Rgb kRingRgb{150, 150, 150};
 constexpr double kChordError_m = 0.01;
 
-// A chord over the angle a leaves its circle by r (1 - cos(a / 2)).
+// A chord over the angle a deviates from its circle by r (1 - cos(a / 2)).
 int NumChords(double radius_m) {
   return static_cast<int>(std::ceil(std::numbers::pi / std::acos(1.0 - kChordError_m / radius_m)));
 }
 
-void AddRing(const Transform& sensor_from_plane, double radius_m, Drawing& drawing) {
+void AddRing(const Transform& sensor_from_plane, double radius_m, Overlay& drawing) {
   const int num_chords = NumChords(radius_m);
   std::vector<Vector3> circle;
   for (int i = 0; i <= num_chords; ++i) {
@@ -37,7 +37,7 @@ void AddRing(const Transform& sensor_from_plane, double radius_m, Drawing& drawi
   AddPolyline(circle, kRingRgb, drawing);
 }
 
-// The plane's origin is below the sensor.
+// The origin of the plane is below the sensor, at top of rail.
 Transform SensorFromPlane(const std::optional<MountSpec>& mount) {
   if (!mount) return Transform::Identity();
   return VehicleFromSensor(*mount).inverse() *
@@ -46,8 +46,8 @@ Transform SensorFromPlane(const std::optional<MountSpec>& mount) {
 
 }  // namespace
 
-Drawing DrawAxes() {
-  Drawing drawing;
+Overlay DrawAxes() {
+  Overlay drawing;
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
     const Vector3 end_m = kAxis_m * Vector3::Unit(axis);
@@ -57,8 +57,8 @@ Drawing DrawAxes() {
   return drawing;
 }
 
-Drawing DrawRangeRings(double limit_m, const std::optional<MountSpec>& mount) {
-  Drawing drawing;
+Overlay DrawRangeRings(double limit_m, const std::optional<MountSpec>& mount) {
+  Overlay drawing;
   const Transform sensor_from_plane = SensorFromPlane(mount);
   for (const int radius_m : kRings_m) {
     if (radius_m > limit_m) break;

@@ -5,7 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/io/scan_motion.h"
-#include "viewer/color/outcome_colors.h"
+#include "viewer/color/palette.h"
 #include "viewer/overlays/strokes.h"
 
 namespace railcast {
@@ -20,8 +20,8 @@ bool IsEmpty(const Frame& frame, std::size_t firing) {
 
 }  // namespace
 
-Drawing DrawEmptyBeams(const RecordedFrame& recorded, const Beams& beams) {
-  Drawing drawing;
+Overlay DrawEmptyBeams(const RecordedFrame& recorded, const Beams& beams) {
+  Overlay drawing;
   const Frame& frame = recorded.frame;
   if (!recorded.is_grid) return drawing;
   Check(beams.rows == frame.rows && beams.columns == frame.columns, "beams are those of the frame");

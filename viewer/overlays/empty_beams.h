@@ -1,30 +1,31 @@
 #pragma once
 
-#include "core/io/recording/recording.h"
+#include "railcast/io/recording.h"
 #include "viewer/overlays/beams.h"
-#include "viewer/overlays/drawing.h"
+#include "viewer/overlays/overlays.h"
 
 namespace railcast {
 
-/// Where the segments of empty beams begin, clear of the sensor where all meet.
+/// Range at which the segments of empty beams begin, away from the sensor, where all of them meet.
 inline constexpr double kEmptyBeamStart_m = 2.0;
-/// Where they end if nothing is known that the beam hit.
+/// Range at which they end if it is not known what the beam hit.
 inline constexpr double kEmptyBeamStub_m = 12.0;
 
-/// How faint they are: those that hit something, and those into the open, of which there are many.
+/// Opacity of beams that hit something, and of beams that hit nothing, of which there are many.
 inline constexpr float kLostBeamOpacity = 0.2F;
 inline constexpr float kOpenBeamOpacity = 0.012F;
 
-/// The fan of a frame's firings that brought nothing back: a segment along each, by its slot, in
-/// the colour of its outcome (viewer/color/outcome_colors.h), of `kUnknownOutcomeRgb` where the
-/// recording has no outcomes. From 2 m to the true range of what was hit and not detected; where
-/// that is not known, or nothing was hit, to 12 m: long enough for a fan, short enough to leave the
-/// scene clear. What was hit nearer than 2 m (the vehicle itself, what is nearer than the sensor
-/// measures) has its segment from the sensor on.
+/// Draws the fan of a frame's firings without a return: one segment along each, in the order of
+/// their slots, in the colour of its outcome (viewer/color/palette.h), or of `kUnknownOutcomeRgb`
+/// where the recording has no outcomes. A segment goes from 2 m to the true range of what was hit
+/// and not detected; where that is not known, or nothing was hit, it goes to 12 m: long enough to
+/// show the fan, short enough to leave the scene clear. For hits nearer than 2 m (on the ego
+/// vehicle, or below the minimum range of the sensor) the segment begins at the sensor.
 ///
-/// Turned from the sensor's axes at the firing into those at the stamp (ScanMotion), as the points
-/// are. Empty if the frame's slots are no firings; firings of unknown direction are left out.
+/// Segments are turned from the sensor's axes at the firing into those at the stamp (ScanMotion),
+/// as the points are. The overlay is empty if the frame's slots are not firings; firings of unknown
+/// direction are left out.
 /// @pre `beams` has the frame's rows and columns.
-[[nodiscard]] Drawing DrawEmptyBeams(const RecordedFrame& recorded, const Beams& beams);
+[[nodiscard]] Overlay DrawEmptyBeams(const RecordedFrame& recorded, const Beams& beams);
 
 }  // namespace railcast

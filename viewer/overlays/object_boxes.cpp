@@ -1,4 +1,4 @@
-#include "viewer/overlays/object_boxes.h"
+#include "viewer/overlays/overlays.h"
 
 #include <algorithm>
 
@@ -11,7 +11,7 @@ constexpr Rgb kWhite{255, 255, 255};
 // Large enough to be seen on a person, small enough not to look like a coupling on a wagon.
 constexpr double kMostNose_m = 1.0;
 
-// Corners by bits: 1 = front, 2 = left, 4 = top.
+// The bits of a corner: 1 = front, 2 = left, 4 = top.
 Vector3 Corner(const RecordedObject& object, unsigned corner) {
   const Vector3 half_m = 0.5 * object.size_m;
   return object.sensor_from_box * Vector3((corner & 1U) != 0 ? half_m.x() : -half_m.x(),
@@ -19,7 +19,7 @@ Vector3 Corner(const RecordedObject& object, unsigned corner) {
                                           (corner & 4U) != 0 ? half_m.z() : -half_m.z());
 }
 
-void AddEdges(const RecordedObject& object, Rgb rgb, Drawing& drawing) {
+void AddEdges(const RecordedObject& object, Rgb rgb, Overlay& drawing) {
   for (unsigned corner = 0; corner < 8; ++corner) {
     for (const unsigned axis : {1U, 2U, 4U}) {
       if ((corner & axis) != 0) continue;
@@ -28,7 +28,7 @@ void AddEdges(const RecordedObject& object, Rgb rgb, Drawing& drawing) {
   }
 }
 
-void AddNose(const RecordedObject& object, Rgb rgb, Drawing& drawing) {
+void AddNose(const RecordedObject& object, Rgb rgb, Overlay& drawing) {
   const double front_m = 0.5 * object.size_m.x();
   const double nose_m = std::min(0.5 * object.size_m.y(), kMostNose_m);
   const Vector3 tip = object.sensor_from_box * Vector3(front_m + nose_m, 0.0, 0.0);
@@ -39,8 +39,8 @@ void AddNose(const RecordedObject& object, Rgb rgb, Drawing& drawing) {
 
 }  // namespace
 
-Drawing DrawObjectBoxes(const RecordedFrame& recorded, const LabelTable& labels) {
-  Drawing drawing;
+Overlay DrawObjectBoxes(const RecordedFrame& recorded, const LabelTable& labels) {
+  Overlay drawing;
   for (const RecordedObject& object : recorded.objects) {
     if (object.sensor_from_box.translation().norm() > kMostBoxRange_m) continue;
     const Label* label = labels.Find(object.label);

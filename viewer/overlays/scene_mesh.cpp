@@ -8,10 +8,10 @@
 #include <map>
 #include <memory>
 
-#include "core/frame/labels.h"
 #include "core/rail/rail_surfaces.h"
-#include "core/scene/material.h"
 #include "core/scene/part_gatherer.h"
+#include "railcast/frame.h"
+#include "railcast/material.h"
 
 namespace railcast {
 namespace {
@@ -34,7 +34,8 @@ double Range_m(const Part& part, const RailSurfaces& surfaces) {
              : kSceneRange_m;
 }
 
-/// What is shown of models, each looked through once: thousands of placements share them.
+/// The parts of models that are shown. Each model is filtered once, because thousands of placements
+/// share it.
 class ShownModels {
  public:
   explicit ShownModels(const RailSurfaces& surfaces) : surfaces_(surfaces) {}
@@ -57,7 +58,8 @@ class ShownModels {
   std::map<std::shared_ptr<const Model>, Model> shown_;
 };
 
-// Triangles with a corner so near to the origin in plan, and the vertices that they use.
+// Keeps the triangles with a corner within `range_m` of the origin in plan, and the vertices that
+// they use.
 Mesh Near(const Mesh& mesh, double range_m) {
   constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
   const auto most_m2 = static_cast<float>(range_m * range_m);
@@ -88,8 +90,8 @@ StandingScene GatherStandingScene(const Surroundings& surroundings, int home_chu
   const RailWorld& world = *surroundings.world;
   const ScenarioSpec& scenario = surroundings.scenario;
   const RailSurfaces surfaces(LabelTable(scenario.labels), MaterialLibrary(scenario.materials));
-  StandingScene scene{.world_from_home = world.WorldFromChunk(home_chunk), .parts = {}};
-  const Transform home_from_world = scene.world_from_home.inverse();
+  StandingScene composition{.world_from_home = world.WorldFromChunk(home_chunk), .parts = {}};
+  const Transform home_from_world = composition.world_from_home.inverse();
   ShownModels shown(surfaces);
   PartGatherer gatherer;
   for (const int index : world.ChunksInReach(home_chunk, kSceneRange_m)) {
@@ -100,12 +102,12 @@ StandingScene GatherStandingScene(const Surroundings& surroundings, int home_chu
       gatherer.Add(shown.Of(placement.model), home_from_chunk * placement.chunk_from_model);
     }
   }
-  scene.parts = gatherer.TakeParts();
-  for (Part& part : scene.parts) {
+  composition.parts = gatherer.TakeParts();
+  for (Part& part : composition.parts) {
     part.mesh = Near(part.mesh, Range_m(part, surfaces) + RailWorld::kChunkLength_m / 2);
   }
-  std::erase_if(scene.parts, [](const Part& part) { return part.mesh.triangles.empty(); });
-  return scene;
+  std::erase_if(composition.parts, [](const Part& part) { return part.mesh.triangles.empty(); });
+  return composition;
 }
 
 std::vector<Part> GatherSceneObjects(const Surroundings& surroundings,

@@ -1,4 +1,4 @@
-#include "viewer/overlays/sensor_frustum.h"
+#include "viewer/overlays/overlays.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "viewer/color/okabe_ito.h"
+#include "viewer/color/palette.h"
 #include "viewer/overlays/strokes.h"
 
 namespace railcast {
@@ -16,7 +16,7 @@ namespace {
 constexpr Rgb kFrustumRgb = kSkyBlue;
 constexpr std::size_t kRaysOfTurn = 8;
 
-/// The places at the ends of some beams, those of unknown direction left out.
+/// The end points of beams along a row or a column; beams of unknown direction are left out.
 class Border {
  public:
   Border(const ScanTable& table, double range_m) : table_(table), range_m_(range_m) {}
@@ -43,7 +43,8 @@ class Border {
   double range_m_;
 };
 
-// The first and the last that is known. Of a ScanTable several are: steps between them are > 0.
+// Returns the first and the last known angle. A ScanTable has at least two, because its steps are >
+// 0.
 std::pair<std::size_t, std::size_t> KnownSpan(const std::vector<double>& angles_rad) {
   const auto is_known = [](double angle_rad) { return !std::isnan(angle_rad); };
   const auto first = std::ranges::find_if(angles_rad, is_known);
@@ -51,11 +52,11 @@ std::pair<std::size_t, std::size_t> KnownSpan(const std::vector<double>& angles_
   return {first - angles_rad.begin(), after_last - angles_rad.begin() - 1};
 }
 
-void AddRay(const Vector3& end_m, Drawing& drawing) {
+void AddRay(const Vector3& end_m, Overlay& drawing) {
   AddSegment(Vector3::Zero(), end_m, kFrustumRgb, drawing);
 }
 
-void AddCone(std::vector<Vector3> circle, Drawing& drawing) {
+void AddCone(std::vector<Vector3> circle, Overlay& drawing) {
   for (std::size_t ray = 0; ray < kRaysOfTurn; ++ray) {
     AddRay(circle[ray * circle.size() / kRaysOfTurn], drawing);
   }
@@ -65,8 +66,8 @@ void AddCone(std::vector<Vector3> circle, Drawing& drawing) {
 
 }  // namespace
 
-Drawing DrawSensorFrustum(const ScanTable& table, double range_m) {
-  Drawing drawing;
+Overlay DrawSensorFrustum(const ScanTable& table, double range_m) {
+  Overlay drawing;
   const Border border(table, std::min(range_m, kMostFrustumRange_m));
   const auto [low, high] = KnownSpan(table.elevation_rad);
   const auto [first, last] = KnownSpan(table.column_azimuth_rad);

@@ -1,10 +1,10 @@
-#include "viewer/overlays/structure_gauge.h"
+#include "viewer/overlays/overlays.h"
 
 #include <optional>
 #include <vector>
 
 #include "core/rail/structure_gauge.h"
-#include "viewer/color/okabe_ito.h"
+#include "viewer/color/palette.h"
 #include "viewer/overlays/strokes.h"
 #include "viewer/overlays/track_stretch.h"
 
@@ -27,8 +27,8 @@ std::vector<Vector3> OutlineAt(const TrackStretch& stretch,
 
 }  // namespace
 
-Drawing DrawStructureGauge(const Surroundings& surroundings, const RecordedFrame& recorded) {
-  Drawing drawing;
+Overlay DrawStructureGauge(const Surroundings& surroundings, const RecordedFrame& recorded) {
+  Overlay drawing;
   const RailWorld& world = *surroundings.world;
   const std::optional<TrackStretch> stretch =
       StretchAbout(world, recorded, kGaugeBehind_m, kGaugeAhead_m);

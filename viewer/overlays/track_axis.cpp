@@ -1,4 +1,4 @@
-#include "viewer/overlays/track_axis.h"
+#include "viewer/overlays/overlays.h"
 
 #include <array>
 #include <cmath>
@@ -7,17 +7,17 @@
 #include <string>
 #include <vector>
 
-#include "viewer/color/okabe_ito.h"
+#include "viewer/color/palette.h"
 #include "viewer/overlays/strokes.h"
 #include "viewer/overlays/track_stretch.h"
 
 namespace railcast {
 namespace {
 
-constexpr Rgb kAxisRgb = kYellow;
+constexpr Rgb kTrackAxisRgb = kYellow;
 constexpr double kTickStep_m = 10.0;
 constexpr int kTicksPerWord = 5;
-// Half their lengths: inside the rails, and as wide as the track's own sleepers.
+// Half the lengths of the ticks: inside the rails, and as wide as the sleepers.
 constexpr double kTick_m = 0.5;
 constexpr double kLongTick_m = 1.3;
 
@@ -29,8 +29,8 @@ std::string ChainageText(double s_m) {
 
 }  // namespace
 
-Drawing DrawTrackAxis(const Surroundings& surroundings, const RecordedFrame& recorded) {
-  Drawing drawing;
+Overlay DrawTrackAxis(const Surroundings& surroundings, const RecordedFrame& recorded) {
+  Overlay drawing;
   const std::optional<TrackStretch> stretch =
       StretchAbout(*surroundings.world, recorded, kAxisBehind_m, kAxisAhead_m);
   if (!stretch) return drawing;
@@ -38,14 +38,14 @@ Drawing DrawTrackAxis(const Surroundings& surroundings, const RecordedFrame& rec
   for (const double s_m : stretch->LineChainages_m()) {
     axis.emplace_back(stretch->SensorFromTrack(s_m).translation());
   }
-  AddPolyline(axis, kAxisRgb, drawing);
+  AddPolyline(axis, kTrackAxisRgb, drawing);
   for (const double s_m : stretch->WholeChainages_m(kTickStep_m)) {
     const bool is_long = std::llround(s_m / kTickStep_m) % kTicksPerWord == 0;
     const Transform sensor_from_track = stretch->SensorFromTrack(s_m);
     const double half_m = is_long ? kLongTick_m : kTick_m;
     const Vector3 left = sensor_from_track * Vector3(0.0, half_m, 0.0);
-    AddSegment(left, sensor_from_track * Vector3(0.0, -half_m, 0.0), kAxisRgb, drawing);
-    if (is_long) AddWord(left, ChainageText(s_m), kAxisRgb, drawing);
+    AddSegment(left, sensor_from_track * Vector3(0.0, -half_m, 0.0), kTrackAxisRgb, drawing);
+    if (is_long) AddWord(left, ChainageText(s_m), kTrackAxisRgb, drawing);
   }
   return drawing;
 }

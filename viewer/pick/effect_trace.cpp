@@ -5,19 +5,19 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/base/shown_text.h"
-#include "core/fidelity/choice.h"
-#include "core/frame/labels.h"
-#include "core/scan/scan_pattern.h"
-#include "core/scenario/effects.h"
-#include "core/scenario/scenario.h"
-#include "core/scene/material.h"
+#include "core/base/text.h"
 #include "core/simulate/story_text.h"
+#include "railcast/effects.h"
+#include "railcast/fidelity.h"
+#include "railcast/frame.h"
+#include "railcast/lidar.h"
+#include "railcast/material.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 namespace {
 
-/// Nobody wants the answer any more.
+/// Thrown to give up a trace that is no longer wanted.
 struct Ended {};
 
 void CheckIsTraceable(const std::filesystem::path& source,
@@ -27,7 +27,7 @@ void CheckIsTraceable(const std::filesystem::path& source,
   std::error_code ignored;  // A source that is no directory holds no file.
   if (std::filesystem::exists(commands, ignored)) {
     throw InputError(ShownPath(commands) +
-                     ": changed the run, so the scenario cannot tell its story");
+                     ": changed the run, so the scenario alone cannot repeat it");
   }
 }
 
@@ -36,7 +36,7 @@ void CheckIsOfPattern(const RecordedFrame& recorded, const ScanPattern& pattern)
   if (!recorded.is_grid) {
     throw InputError(
         recorded.name +
-        ": is no grid of firings, so nobody knows which its points are of (a stream needs "
+        ": is no grid of firings, so the firing of a point is not known (a stream needs "
         "the fields ring and column)");
   }
   if (frame.rows == pattern.rows && frame.columns == pattern.columns) return;
@@ -57,7 +57,7 @@ EffectTrace::~EffectTrace() {
 
 std::unique_ptr<Simulator> EffectTrace::BuildSimulator() const {
   auto simulator = MakeSimulator(*scenario_, 0);
-  if (scenario_->fidelity == kAutoFidelity) {
+  if (scenario_->fidelity == Fidelity::kAuto) {
     UseChosenFidelity(*simulator, *scenario_, [this](double) {
       if (is_ending_) throw Ended{};
     });
@@ -70,8 +70,8 @@ std::string EffectTrace::Answer(const RecordedFrame& recorded, std::uint32_t slo
     CheckIsTraceable(source_, scenario_);
     if (!simulator_) simulator_ = BuildSimulator();
     CheckIsOfPattern(recorded, simulator_->pattern());
-    // A recorded frame may have fewer slots to a firing than the sensor, if none of its points is
-    // a further return.
+    // A recorded frame may have fewer slots per firing than the sensor if none of its points is a
+    // second or later return.
     const Frame& frame = recorded.frame;
     const std::uint32_t firing = FiringOfSlot(simulator_->pattern(), frame.returns, slot);
     return StoryText(frame.index, simulator_->Explain(frame.index, firing),
@@ -82,7 +82,7 @@ std::string EffectTrace::Answer(const RecordedFrame& recorded, std::uint32_t slo
 }
 
 std::string EffectTrace::Of(const RecordedFrame& recorded, std::uint32_t slot) {
-  // The simulator serves one at a time.
+  // The simulator serves one request at a time.
   if (under_way_.valid()) under_way_.wait();
   return Answer(recorded, slot);
 }

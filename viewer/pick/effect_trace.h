@@ -8,35 +8,37 @@
 #include <optional>
 #include <string>
 
-#include "core/io/recording/recording.h"
-#include "core/scenario/scenario_spec.h"
-#include "core/simulate/simulator.h"
+#include "railcast/io/recording.h"
+#include "railcast/scenario.h"
+#include "railcast/simulator.h"
 
 namespace railcast {
 
-/// Says of a recorded firing what each effect made of it, by simulating it again: exactly what
+/// Explains what each effect did to a recorded firing, by simulating it again: exactly what
 /// `railcast-generate trace SCENARIO --frame F --firing N` prints.
 ///
-/// The simulation is built for the first answer and kept. That takes a while, above all where
-/// fidelity auto has to choose its effects: a window asks and takes, and goes on meanwhile.
+/// The simulation is built for the first answer and kept. Building takes a while, above all where
+/// fidelity auto has to choose its effects, so a window calls Ask() and then polls Take() while it
+/// goes on drawing.
 ///
-/// An answer is "error: ..." with the reason if there is no scenario, if its files cannot be read
-/// any more, or if commands changed the run, of which the scenario does not know.
+/// An answer is "error: ..." with the reason if there is no scenario, if its files can no longer be
+/// read, or if commands changed the run, because the scenario does not describe them.
 class EffectTrace {
  public:
-  /// @param info Of the recording whose frames are asked about.
+  /// @param info The recording whose frames are asked about.
   explicit EffectTrace(const RecordingInfo& info);
-  /// Waits for the answer under way, but not for fidelity auto's choice.
+  /// Waits for the answer under way, but not for fidelity auto to finish its choice.
   ~EffectTrace();
   EffectTrace(const EffectTrace&) = delete;
   EffectTrace& operator=(const EffectTrace&) = delete;
 
-  /// @pre `slot` is of the frame. It may be of any return of its firing.
+  /// Returns the trace of a slot's firing.
+  /// @pre `slot` is a slot of the frame, of any return of its firing.
   [[nodiscard]] std::string Of(const RecordedFrame& recorded, std::uint32_t slot);
 
-  /// Asks for Of() and returns at once. Of several questions the last one counts.
+  /// Asks for Of() and returns at once. Only the last of several questions is answered.
   void Ask(std::shared_ptr<const RecordedFrame> recorded, std::uint32_t slot);
-  /// The answer to the last question, once, as soon as it is there.
+  /// Returns the answer to the last question, once, as soon as it is ready.
   [[nodiscard]] std::optional<std::string> Take();
 
  private:
@@ -51,10 +53,11 @@ class EffectTrace {
 
   std::filesystem::path source_;
   std::optional<ScenarioSpec> scenario_;
-  std::unique_ptr<Simulator> simulator_;  ///< From the first answer on.
+  std::unique_ptr<Simulator> simulator_;  ///< Made for the first answer.
   std::atomic<bool> is_ending_{};
-  std::optional<Question> pending_;  ///< Asked after the one under way.
-  /// The last member: it is waited for before what it works with goes.
+  std::optional<Question> pending_;  ///< Asked while another answer was under way.
+  /// The last member: its destructor waits for the thread before the members that it uses are
+  /// destroyed.
   std::future<std::string> under_way_;
 };
 

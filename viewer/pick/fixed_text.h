@@ -7,7 +7,8 @@
 
 namespace railcast {
 
-/// "-2.900": a number with so many decimals, "-" for NaN. What rounds to zero has no sign.
+/// Returns a number with `num_decimals` decimals, "-2.900", or "-" for NaN. A value that rounds to
+/// zero has no sign.
 [[nodiscard]] inline std::string FixedText(double value, int num_decimals) {
   if (std::isnan(value)) return "-";
   std::array<char, 352> text{};  // The largest double has 309 digits.

@@ -6,11 +6,11 @@
 namespace railcast {
 namespace {
 
-// A click aims about as well as that.
+// About the accuracy with which a user clicks.
 constexpr double kOnPoint_px = 5.0;
 constexpr double kBesidePoint_px = 12.0;
 
-/// The best so far.
+/// The point with the least value so far.
 struct Found {
   std::optional<std::size_t> point;
   double least = std::numeric_limits<double>::infinity();
@@ -29,7 +29,7 @@ std::optional<std::size_t> PointAt(std::span<const float> positions_m,
                                    const std::array<int, 2>& size_px,
                                    double x_px,
                                    double y_px) {
-  // From the click in pixels: what w is divided out of.
+  // The offset from the click in pixels, times w.
   const Eigen::Vector2d half_px(0.5 * size_px[0], 0.5 * size_px[1]);
   const Eigen::Vector2d click_px(x_px, y_px);
   Eigen::Matrix<double, 2, 4> offset_from_points;
@@ -48,7 +48,8 @@ std::optional<std::size_t> PointAt(std::span<const float> positions_m,
     const double w = w_from_points.dot(point);
     const double reach = kBesidePoint_px * w;
     const Eigen::Vector2d offset = offset_from_points * point;
-    // Most points end here, without a division; so do those behind the eye and those of NaN.
+    // Most points are rejected here, before any division, and so are points behind the eye and
+    // points of NaN.
     if (!(w > 0.0 && std::abs(offset.x()) <= reach && std::abs(offset.y()) <= reach)) continue;
     const Eigen::Vector3d seen = (clip_from_points * point).head<3>() / w;
     if (!(seen.cwiseAbs().maxCoeff() <= 1.0)) continue;

@@ -8,11 +8,11 @@
 
 namespace railcast {
 
-/// The point that a click on a picture means: of those within 5 px the one nearest to the eye, else
-/// the one nearest on the screen within 12 px. Points outside the clip volume, also those behind
-/// the eye, are not seen and not meant.
+/// Finds the point that a click on a picture means: of the points within 5 px the one nearest to
+/// the eye, else the one nearest on the screen within 12 px. Points outside the clip volume,
+/// including those behind the eye, are not visible and cannot be picked.
 ///
-/// @param positions_m x, y, z of each point in turn. One of NaN is nowhere.
+/// @param positions_m x, y, z of each point in turn. Points of NaN cannot be picked.
 /// @param clip_from_points From homogeneous coordinates of the points to clip coordinates, where
 ///   the volume is -w <= x, y, z <= w with z = -w nearest to the eye.
 /// @param size_px Width and height.

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "core/base/units.h"
-#include "core/frame/outcome.h"
+#include "railcast/outcome.h"
 #include "viewer/pick/fixed_text.h"
 
 namespace railcast {
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kNameWidth = 17;
 constexpr std::size_t kMaxWidth = 60;
-// Of a coordinate: 5300000.123 and a space.
+// Width of one coordinate: 5300000.123 and a space.
 constexpr std::size_t kCoordinateWidth = 12;
 constexpr double kMmPerM = 1e3;
 constexpr double kNsPerUs = 1e3;
@@ -28,7 +28,7 @@ std::string CoordinatesText(const Vector3& point_m) {
   return text + " m";
 }
 
-// Six digits, as the effect trace has them.
+// Six digits, as in the effect trace.
 std::string ValueText(float value) {
   if (std::isnan(value)) return "-";
   std::array<char, 32> text{};
@@ -46,7 +46,7 @@ std::string NamedText(std::string name, std::uint32_t number) {
   return name.empty() ? digits : name.append(" (").append(digits).append(")");
 }
 
-// A file without its folders; of a long name the end, which tells frames apart.
+// Returns a file's name without its folders; a long name keeps its end, which tells frames apart.
 std::string FileText(const std::string& name) {
   constexpr std::size_t kRoom = kMaxWidth - kNameWidth;
   std::string file = name.substr(name.find_last_of('/') + 1);
@@ -66,7 +66,7 @@ class Facts {
     lines_.push_back(name.append(value));
   }
 
-  /// If the recording has the field.
+  /// Adds the line if the recording has the field.
   template <typename Text>
   void AddField(std::string_view field, const std::string& name, Text&& text) {
     if (recorded_.Has(field)) Add(name, text());

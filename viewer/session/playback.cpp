@@ -41,7 +41,7 @@ bool Playback::Advance(double now_s) {
   if (live_ != nullptr) return AdvanceLive(now_s);
   if (!player_.is_playing() || !player_.Advance(now_s, session_.Period_s())) return false;
   if (!Show(player_.place()) && fault_.empty()) {
-    // The end: its last frame stays.
+    // At the end, playing stops and the last frame stays.
     player_.Pause();
     (void)Show(session_.LastPlace());
   }
@@ -60,7 +60,7 @@ void Playback::SeekTo(std::size_t place, double now_s) {
 void Playback::Step(std::ptrdiff_t num_frames, double now_s) {
   player_.Pause();
   const auto first = static_cast<std::ptrdiff_t>(session_.FirstPlace());
-  // From a frame that cannot be read it goes on to the next.
+  // Stepping on from a frame that cannot be read goes to the frame after it.
   const auto target = static_cast<std::size_t>(
       std::max(static_cast<std::ptrdiff_t>(player_.place()) + num_frames, first));
   if (!Show(target) && fault_.empty()) (void)Show(session_.LastPlace());
@@ -72,7 +72,7 @@ void Playback::TogglePlaying(double now_s) {
     player_.Pause();
     return;
   }
-  // From the end it begins anew.
+  // Playing from the last frame starts again at the first.
   const bool is_at_end = live_ == nullptr && !Show(session_.place() + 1) && fault_.empty();
   if (is_at_end) (void)Show(session_.FirstPlace());
   if (!fault_.empty()) return;

@@ -10,21 +10,23 @@
 
 namespace railcast {
 
-/// Which frame of a session is shown when: play, pause, step, scrub. Of a live source the latest,
-/// unless paused. A frame that cannot be read stays out; fault() says why until another one is
-/// shown. Times are those of any steady clock.
+/// Decides which frame of a session is shown when: play, pause, step, scrub. Of a live source it is
+/// the latest, unless paused. A frame that cannot be read is not shown, and fault() says why until
+/// another one is shown. Times may come from any steady clock.
 class Playback {
  public:
-  /// @param live The session's source if it is a live one, else null. Both outlive it.
+  /// @param live The session's source if that is a live one, else null. Both must outlive this
+  ///   object.
   Playback(Session& session, LiveFrames* live) : session_(session), live_(live) {}
 
-  /// From the frame that the session shows; a live source plays.
+  /// Begins at the frame that the session shows; a live source plays at once.
   void Begin(double now_s);
-  /// Shows what is due. @returns Whether another frame is shown, or none can be.
+  /// Shows the frame that is due.
+  /// @returns Whether the frame changed or could not be shown.
   bool Advance(double now_s);
 
   void SeekTo(std::size_t place, double now_s);
-  /// So many frames on, or back; pauses.
+  /// Steps on by `num_frames`, or back if it is negative, and pauses.
   void Step(std::ptrdiff_t num_frames, double now_s);
   void TogglePlaying(double now_s);
   void Faster(double now_s) { player_.Faster(now_s); }
@@ -32,12 +34,13 @@ class Playback {
 
   [[nodiscard]] bool is_playing() const { return player_.is_playing(); }
   [[nodiscard]] const std::string& fault() const { return fault_; }
-  /// For people: "11 of 50   playing x2   19.8 frames/s", or how a live source does.
+  /// Returns a line for the status: "11 of 50   playing x2   19.8 frames/s", or the state of a live
+  /// source.
   [[nodiscard]] std::string StatusText() const;
 
  private:
   bool AdvanceLive(double now_s);
-  /// @returns Whether the session shows that frame now.
+  /// @returns Whether the session now shows that frame.
   bool Show(std::size_t place);
   void NoteFrame(double now_s);
 
@@ -45,7 +48,7 @@ class Playback {
   LiveFrames* live_;
   Player player_;
   std::string fault_;
-  std::deque<double> shown_at_s_;  ///< When the last frames were shown, a second back.
+  std::deque<double> shown_at_s_;  ///< When frames were shown within the last second.
 };
 
 }  // namespace railcast

@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "viewer/color/coloring.h"
 #include "viewer/color/field_values.h"
-#include "viewer/scene/compose_distances.h"
-#include "viewer/scene/status_text.h"
+#include "viewer/composition/compose_distances.h"
+#include "viewer/composition/status_text.h"
 
 namespace railcast {
 namespace {
@@ -126,20 +126,20 @@ double Session::Period_s() const {
     const auto gap_ns = std::abs(shown_.front()->frame().stamp_ns - neighbour->frame().stamp_ns);
     return gap_ns > 0 ? 1e-9 * static_cast<double>(gap_ns) : kUsual_s;
   } catch (const InputError&) {
-    return kUsual_s;  // Whoever asks for that frame learns why it cannot be read.
+    return kUsual_s;  // Asking for that frame reports why it cannot be read.
   }
 }
 
 ShownFrames Session::FramesWith(const Source& source,
                                 const std::shared_ptr<const ShownFrame>& shown) const {
   ShownFrames frames = {shown};
-  // Without poses nobody knows where they were.
+  // Without poses it is not known where the earlier frames were.
   const std::size_t num_wanted = shown->recorded->has_pose ? choices_.num_accumulated : 1;
   for (std::size_t back = 1; back < num_wanted && back <= place_; ++back) {
     try {
       if (auto earlier = source.Get(place_ - back)) frames.push_back(std::move(earlier));
     } catch (const InputError&) {
-      continue;  // What cannot be read is not accumulated: the status counts what is.
+      continue;  // Frames that cannot be read are left out; the status counts the rest.
     }
   }
   return frames;
@@ -159,7 +159,7 @@ std::string Session::Missing() const {
   return {};
 }
 
-std::string Session::StatusOf(std::size_t index, const Scene& scene) const {
+std::string Session::StatusOf(std::size_t index, const Composition& composition) const {
   const ShownFrame& shown = *shown_[index];
   const RecordingInfo& info = sources_[index].frames->info();
   std::string first = ShownPath(info.source);
@@ -167,7 +167,7 @@ std::string Session::StatusOf(std::size_t index, const Scene& scene) const {
   first += FrameText(shown);
   std::string text;
   AddLine(first, text);
-  if (num_views() == sources_.size()) AddLine(AccumulatedText(scene), text);
+  if (num_views() == sources_.size()) AddLine(AccumulatedText(composition), text);
   AddLine(DropoutText(*shown.recorded), text);
   AddLine(SelectionText(shown, choices_.labels, info.labels), text);
   return text;
@@ -188,42 +188,43 @@ Choices Session::ChoicesFor(Source& source, const ShownFrame& shown, std::string
   return choices;
 }
 
-Scene Session::ComposeOne(std::size_t index) {
+Composition Session::ComposeOne(std::size_t index) {
   Source& source = sources_[index];
   std::string fault;
   const Choices choices = ChoicesFor(source, *shown_[index], fault);
-  Scene scene = source.composer.Compose(FramesWith(source, shown_[index]), choices);
-  scene.status = StatusOf(index, scene);
-  AddLine(fault, scene.status);
-  return scene;
+  Composition composition = source.composer.Compose(FramesWith(source, shown_[index]), choices);
+  composition.status = StatusOf(index, composition);
+  AddLine(fault, composition.status);
+  return composition;
 }
 
-/// What is drawn over the points is the first source's.
-Scene Session::ComposeBoth() {
+/// Overlays are those of the first source.
+Composition Session::ComposeBoth() {
   std::string fault;
-  Scene scene =
+  Composition composition =
       sources_[0].composer.Compose({shown_[0]}, ChoicesFor(sources_[0], *shown_[0], fault));
-  Scene distances = ComposeDistances(shown_[0], shown_[1], choices_);
+  Composition distances = ComposeDistances(shown_[0], shown_[1], choices_);
   choices_.distance_ends_m = distances.coloring.ends;
-  scene.clouds = std::move(distances.clouds);
-  scene.coloring = std::move(distances.coloring);
-  for (std::size_t i = 0; i < sources_.size(); ++i) AddLine(StatusOf(i, scene), scene.status);
-  return scene;
+  composition.clouds = std::move(distances.clouds);
+  composition.coloring = std::move(distances.coloring);
+  for (std::size_t i = 0; i < sources_.size(); ++i)
+    AddLine(StatusOf(i, composition), composition.status);
+  return composition;
 }
 
-std::vector<Scene> Session::Compose() {
-  std::vector<Scene> scenes;
+std::vector<Composition> Session::Compose() {
+  std::vector<Composition> compositions;
   if (shown_.empty()) {
-    scenes.resize(num_views());
-    return scenes;
+    compositions.resize(num_views());
+    return compositions;
   }
   if (num_views() == sources_.size()) {
-    for (std::size_t i = 0; i < sources_.size(); ++i) scenes.push_back(ComposeOne(i));
+    for (std::size_t i = 0; i < sources_.size(); ++i) compositions.push_back(ComposeOne(i));
   } else {
-    scenes.push_back(ComposeBoth());
+    compositions.push_back(ComposeBoth());
   }
-  AddLine(Missing(), scenes[0].status);
-  return scenes;
+  AddLine(Missing(), compositions[0].status);
+  return compositions;
 }
 
 }  // namespace railcast

@@ -3,8 +3,8 @@
 namespace railcast {
 
 const std::vector<ChannelSpec>& Pandar64Channels() {
-  // Angles: tier4/nebula, Pandar64.csv. Times: Hesai, Pandar64 user manual, appendix "Absolute time
-  // of point cloud data", counted from the earliest channel.
+  // Sources. Angles: tier4/nebula, Pandar64.csv. Times: Hesai, Pandar64 user manual, appendix
+  // "Absolute time of point cloud data", counted from the earliest channel.
   static const std::vector<ChannelSpec> channels = {
       {14.9, -1.042, 31.488},    {11.05, -1.042, 32.792},   {8.077, -1.042, 34.096},
       {5.075, -1.042, 35.4},     {3.058, -1.042, 36.704},   {2.046, -1.042, 38.008},

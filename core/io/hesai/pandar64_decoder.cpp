@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/base/number_text.h"
+#include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/io/hesai/pandar64_packet.h"
 #include "core/io/velodyne/velodyne_packet.h"
@@ -14,17 +14,11 @@
 namespace railcast {
 namespace {
 
-/// A turn of more is cut: a rotor that stands still must not fill the memory. A real one has 1800.
-constexpr std::size_t kMaxTurnColumns = std::size_t{1} << 14U;
 constexpr std::int64_t kUsPerSecond = 1'000'000;
 constexpr std::int64_t kLastBlockToEnd_ns = 42'580;
 constexpr std::int64_t kCycle_ns = 55'560;
-/// From the first firing of a cycle to its block's end.
+/// Time from the first firing of a cycle to the end of its block.
 constexpr std::int64_t kFirstToBlockEnd_ns = 54'668;
-
-std::string Refusal(const std::string& rule, std::size_t got) {
-  return rule + " (got " + NumberText(got) + ")";
-}
 
 std::uint8_t ByteAt(std::span<const char> payload, std::size_t place) {
   return static_cast<std::uint8_t>(payload[place]);
@@ -45,40 +39,40 @@ bool IsMode(std::uint8_t mode) {
 }
 
 std::optional<std::string> RefuseEnds(std::span<const char> payload) {
-  if (payload.size() != kPandar64PacketSize) return Refusal("must be 1198 bytes", payload.size());
+  if (payload.size() != kPandar64PacketSize) return "must be 1198 bytes" + Got(payload.size());
   const auto flag = LoadAt<std::uint16_t>(payload.data());
-  if (flag != kHesaiFlag) return Refusal("flag must be 65518", flag);
+  if (flag != kHesaiFlag) return "flag must be 65518" + Got(flag);
   const std::uint8_t lasers = ByteAt(payload, kPandar64LasersPlace);
-  if (lasers != kPandar64Lasers) return Refusal("lasers must be 64", lasers);
+  if (lasers != kPandar64Lasers) return "lasers must be 64" + Got(lasers);
   const std::uint8_t blocks = ByteAt(payload, kPandar64BlocksPlace);
-  if (blocks != kPandar64Blocks) return Refusal("blocks must be 6", blocks);
-  if (ByteAt(payload, kPandar64UnitPlace) == 0) return Refusal("distance unit must be > 0", 0);
+  if (blocks != kPandar64Blocks) return "blocks must be 6" + Got(blocks);
+  if (ByteAt(payload, kPandar64UnitPlace) == 0) return "distance unit must be > 0" + Got(0);
   const auto time_us = LoadAt<std::uint32_t>(payload.data() + kPandar64TimePlace);
   if (time_us >= kUsPerSecond) {
-    return Refusal("microseconds of the second must be < 1000000", time_us);
+    return "microseconds of the second must be < 1000000" + Got(time_us);
   }
   const std::uint8_t mode = ByteAt(payload, kPandar64ModePlace);
-  if (!IsMode(mode)) return Refusal("return mode must be 51, 55, 56, 57, 59 or 60", mode);
+  if (!IsMode(mode)) return "return mode must be 51, 55, 56, 57, 59 or 60" + Got(mode);
   return std::nullopt;
 }
 
-// What is no packet of this sensor.
-std::optional<std::string> Refuse(std::span<const char> payload) {
+// Returns why the payload is not a data packet of this sensor, or nothing if it is one.
+std::optional<std::string> RefusePandar64(std::span<const char> payload) {
   if (auto refusal = RefuseEnds(payload)) return refusal;
   const std::size_t in_group = IsDual(ByteAt(payload, kPandar64ModePlace)) ? 2 : 1;
   for (std::size_t i = 0; i < kPandar64Blocks; ++i) {
     const auto azimuth = LoadAt<std::uint16_t>(BlockOf(payload, i));
     if (azimuth >= kAzimuthUnitsPerTurn) {
-      return Refusal("block " + NumberText(i) + ": azimuth must be <= 35999", azimuth);
+      return "block " + NumberText(i) + ": azimuth must be <= 35999" + Got(azimuth);
     }
     if (azimuth != LoadAt<std::uint16_t>(BlockOf(payload, i / in_group * in_group))) {
-      return Refusal("block " + NumberText(i) + ": azimuth must be that of its pair", azimuth);
+      return "block " + NumberText(i) + ": azimuth must be that of its pair" + Got(azimuth);
     }
   }
   return std::nullopt;
 }
 
-// The packet's end, since 1970.
+// The time at which the packet ends, since 1970.
 std::int64_t PacketNs(std::span<const char> payload) {
   const auto date = [&](std::size_t i) { return ByteAt(payload, kPandar64DatePlace + i); };
   const std::chrono::year_month_day day(std::chrono::year(1900 + date(0)),
@@ -107,7 +101,7 @@ Pandar64Decoder::Pandar64Decoder() {
 
 std::optional<std::string> Pandar64Decoder::Decode(std::span<const char> payload,
                                                    std::vector<SensorTurn>& turns) {
-  if (auto refusal = Refuse(payload)) return refusal;
+  if (auto refusal = RefusePandar64(payload)) return refusal;
   const bool is_dual = IsDual(ByteAt(payload, kPandar64ModePlace));
   const std::size_t in_group = is_dual ? 2 : 1;
   const std::int64_t packet_ns = PacketNs(payload);

@@ -29,7 +29,8 @@ inline constexpr std::size_t kPandar64DatePlace = kPandar64TailPlace + 16;
 inline constexpr std::uint8_t kPandar64First = 0x33;
 inline constexpr std::uint8_t kPandar64Strongest = 0x37;
 inline constexpr std::uint8_t kPandar64Last = 0x38;
-// Of these, blocks come in pairs of one azimuth, in the order of the names.
+// In these return modes, blocks come in pairs of the same azimuth, in the order that the name
+// states.
 inline constexpr std::uint8_t kPandar64LastAndStrongest = 0x39;
 inline constexpr std::uint8_t kPandar64FirstAndLast = 0x3B;
 inline constexpr std::uint8_t kPandar64FirstAndStrongest = 0x3C;

@@ -1,4 +1,4 @@
-#include "core/io/net/endpoint.h"
+#include "railcast/io/stream.h"
 
 #include <arpa/inet.h>
 #include <netdb.h>
@@ -23,8 +23,9 @@ std::uint16_t ParsePort(std::string_view text, std::string_view whole) {
   return static_cast<std::uint16_t>(port);
 }
 
-// Whether the last part of a name is a number, decimal or as in C: no name of a host ends so (RFC
-// 1123, 2.1), but old functions take such a name for an address, and 010 for 8.
+// Whether the last label of a host name is a number, decimal or hexadecimal as in C. No host name
+// ends so (RFC 1123, 2.1), but older resolver functions take such a name for an address, and read
+// 010 as 8.
 bool IsNumeric(std::string_view host) {
   if (host.ends_with('.')) host.remove_suffix(1);
   std::string_view last = host.substr(host.rfind('.') + 1);
@@ -37,7 +38,7 @@ bool IsNumeric(std::string_view host) {
 }
 
 std::uint32_t ParseHost(const std::string& host, std::string_view whole) {
-  // A minimal system has no /etc/hosts that knows it (RFC 6761, 6.3).
+  // Resolved here because a minimal system may have no /etc/hosts entry for it (RFC 6761, 6.3).
   if (host == "localhost") return INADDR_LOOPBACK;
   in_addr address{};
   if (::inet_pton(AF_INET, host.c_str(), &address) == 1) return ntohl(address.s_addr);

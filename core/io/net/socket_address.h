@@ -2,7 +2,7 @@
 
 #include <netinet/in.h>
 
-#include "core/io/net/endpoint.h"
+#include "railcast/io/stream.h"
 
 namespace railcast {
 

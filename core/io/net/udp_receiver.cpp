@@ -16,7 +16,8 @@
 namespace railcast {
 namespace {
 
-// Seconds of any sensor; the kernel gives less where it is not allowed.
+// Holds several seconds of data from any sensor. The kernel grants less where this much is not
+// allowed.
 constexpr int kReceiveBufferBytes = 32 << 20;
 constexpr std::size_t kMaxDatagramBytes = 65'536;
 
@@ -61,13 +62,14 @@ std::optional<UdpReceiver::Received> UdpReceiver::Receive(int timeout_ms) {
   socklen_t from_size = sizeof from;
   const ssize_t size = ::recvfrom(socket_, buffer_.data(), buffer_.size(), 0,
                                   reinterpret_cast<sockaddr*>(&from), &from_size);
-  if (size < 0) return std::nullopt;  // A checksum that failed after poll.
+  // The datagram's checksum failed after poll() had announced it.
+  if (size < 0) return std::nullopt;
   return Received{std::span(buffer_).first(static_cast<std::size_t>(size)), EndpointOf(from)};
 }
 
 void UdpReceiver::Interrupt() const {
   const std::uint64_t one = 1;
-  // The counter stays up: nobody reads it.
+  // The counter is never read back, so it stays set and every later wait ends at once.
   static_cast<void>(!::write(wake_, &one, sizeof one));
 }
 

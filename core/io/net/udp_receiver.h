@@ -6,14 +6,15 @@
 #include <span>
 #include <vector>
 
-#include "core/io/net/endpoint.h"
+#include "railcast/io/stream.h"
 
 namespace railcast {
 
-/// A UDP port that is listened to. Another thread may interrupt who waits at it.
+/// A UDP port that is listened to. Another thread may interrupt a thread that waits for a datagram.
 class UdpReceiver {
  public:
-  /// @param at Loopback listens to this machine alone, 0.0.0.0 to all; port 0 takes a free one.
+  /// @param at Loopback accepts datagrams from this machine only, 0.0.0.0 from all; port 0 takes a
+  ///   free port.
   /// @throws InputError if the port is taken or not allowed.
   explicit UdpReceiver(const Endpoint& at);
   ~UdpReceiver();
@@ -26,13 +27,16 @@ class UdpReceiver {
     std::span<const char> bytes;  ///< Valid until the next call.
     Endpoint from;
   };
-  /// The next datagram; nothing after `timeout_ms` without one, or once interrupted.
+  /// Returns the next datagram, or nothing if none came within `timeout_ms` or the receiver was
+  /// interrupted.
   [[nodiscard]] std::optional<Received> Receive(int timeout_ms);
-  /// Ends the current and every later Receive at once. Thread-safe, and safe in a signal handler.
+  /// Ends the current call of Receive and every later one at once. Thread-safe, and safe in a
+  /// signal handler.
   void Interrupt() const;
   [[nodiscard]] bool is_interrupted() const;
 
-  /// Answers from this port; what the kernel does not take at once is lost, as on a network.
+  /// Sends an answer from this port. An answer that the kernel does not take at once is lost, as it
+  /// could be on a network.
   void Answer(std::span<const char> bytes, const Endpoint& to) const;
 
  private:

@@ -16,11 +16,12 @@
 namespace railcast {
 namespace {
 
-// The kernel's limits for one GSO call (UDP_MAX_SEGMENTS, and the length of an IPv4 packet).
+// The kernel's limits for one call with generic segmentation offload, GSO (UDP_MAX_SEGMENTS, and
+// the length of an IPv4 packet).
 constexpr std::size_t kMaxSegments = 64;
 constexpr std::size_t kMaxRunBytes = 65'507;
 
-/// Whether a kernel, or a way out, may say so that knows no GSO.
+/// Whether the error is one that a kernel or network device without GSO may report.
 bool SaysNoGso(int error_number) {
   return error_number == EINVAL || error_number == EIO || error_number == EMSGSIZE ||
          error_number == ENOPROTOOPT || error_number == EOPNOTSUPP;
@@ -31,7 +32,7 @@ void CheckReachable(const Endpoint& to) {
   if (to.address >= kFirstMulticast && !to.is_broadcast()) {
     throw InputError("must be one host, or 255.255.255.255 for all (got " + EndpointText(to) + ")");
   }
-  // Connecting a socket of its own asks the routing table and sends nothing.
+  // Connecting a separate socket asks the routing table and sends nothing.
   const int probe = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   const int yes = 1;
   if (to.is_broadcast()) ::setsockopt(probe, SOL_SOCKET, SO_BROADCAST, &yes, sizeof yes);
@@ -42,7 +43,7 @@ void CheckReachable(const Endpoint& to) {
   ::close(probe);
   if (is_reachable) return;
   if (error == EACCES) {
-    throw InputError("must be no network's broadcast address; 255.255.255.255 is one (got " +
+    throw InputError("must not be a network's broadcast address; use 255.255.255.255 (got " +
                      EndpointText(to) + ")");
   }
   throw InputError("cannot be sent to: " + std::string(std::strerror(error)) + " (got " +
@@ -60,7 +61,7 @@ UdpSender::UdpSender(std::vector<Endpoint> to, std::uint16_t position_port, bool
       std::any_of(to_.begin(), to_.end(), [](const Endpoint& each) { return each.is_broadcast(); });
   const int yes = 1;
   if (broadcasts) ::setsockopt(socket_, SOL_SOCKET, SO_BROADCAST, &yes, sizeof yes);
-  // Of a network card's queue; a kernel that allows less gives less.
+  // As large as a network card's queue; a kernel that allows less grants less.
   const int send_buffer_bytes = 4 << 20;
   ::setsockopt(socket_, SOL_SOCKET, SO_SNDBUF, &send_buffer_bytes, sizeof send_buffer_bytes);
 }
@@ -72,7 +73,7 @@ UdpSender::~UdpSender() {
 void UdpSender::Send(const Datagrams& datagrams, std::span<const Datagrams::Item> items) {
   while (!items.empty()) {
     const Datagrams::Item& first = items.front();
-    // A run: equal sizes back to back, of which the last may be smaller.
+    // Collect a run: datagrams of equal size back to back, of which the last may be smaller.
     std::size_t count = 1;
     std::size_t run_bytes = first.size;
     while (count < items.size() && count < kMaxSegments && items[count - 1].size == first.size &&

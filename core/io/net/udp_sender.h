@@ -6,31 +6,32 @@
 #include <vector>
 
 #include "core/io/datagrams.h"
-#include "core/io/net/endpoint.h"
+#include "railcast/io/stream.h"
 
 namespace railcast {
 
 /// Sends datagrams to a list of receivers and never waits for any of them.
 ///
-/// Only loopback, unicast and, asked for by its name, 255.255.255.255: the kernel refuses the
-/// broadcast addresses of single networks.
+/// A receiver is a loopback or unicast address, or 255.255.255.255 if that is given explicitly; the
+/// kernel refuses the broadcast addresses of single networks.
 class UdpSender {
  public:
-  /// @param position_port Of every receiver, for datagrams that are DatagramPort::kPosition.
+  /// @param position_port Port of every receiver for datagrams that are DatagramPort::kPosition.
   /// @param has_offload Whether runs of datagrams may be handed over in one call, to be cut by the
-  ///   kernel or the card. Captures on the sending machine then hold runs in place of datagrams.
+  ///   kernel or the network card. A capture on the sending machine then holds runs instead of
+  ///   single datagrams.
   /// @throws InputError if a receiver cannot be sent to.
   UdpSender(std::vector<Endpoint> to, std::uint16_t position_port, bool has_offload = true);
   ~UdpSender();
   UdpSender(const UdpSender&) = delete;
   UdpSender& operator=(const UdpSender&) = delete;
 
-  /// Sends these to every receiver: with offload runs of equal size in one call each where the
-  /// kernel has UDP GSO (Linux 4.18), else one by one.
+  /// Sends these datagrams to every receiver. With offload, and where the kernel has UDP GSO (Linux
+  /// 4.18), each run of equal size goes out in one call; otherwise datagrams go out one by one.
   void Send(const Datagrams& datagrams, std::span<const Datagrams::Item> items);
 
-  /// Datagrams that left, counted once for each receiver, and those that the kernel refused: a full
-  /// queue or no way to the receiver.
+  /// Numbers of datagrams that left, counted once for each receiver, and of those that the kernel
+  /// refused because of a full queue or because it had no route to the receiver.
   struct Counts {
     std::uint64_t sent{};
     std::uint64_t refused{};

@@ -8,14 +8,13 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/base/number_text.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
+#include "core/base/units.h"
 #include "core/io/write_file.h"
 
 namespace railcast {
 namespace {
 
-constexpr std::int64_t kNsPerS = 1'000'000'000;
 constexpr std::size_t kEthernetSize = 14;
 constexpr std::size_t kVlanTagSize = 4;
 constexpr std::size_t kMaxVlanTags = 2;
@@ -26,11 +25,11 @@ std::uint16_t BigAt(std::span<const char> bytes, std::size_t place) {
                                     static_cast<unsigned char>(bytes[place + 1]));
 }
 
-constexpr std::size_t kUdpProtocolPlace = 9;  // In IPv4's header.
+constexpr std::size_t kUdpProtocolPlace = 9;  // In the IPv4 header.
 constexpr char kUdpProtocol = 17;
 
-// What follows the Ethernet header and its tags, if that is IPv4. Empty, too, of a frame that ends
-// before that can be told.
+// Returns what follows the Ethernet header and its VLAN tags if that is IPv4. The result is empty,
+// too, if the frame ends before its protocol can be told.
 std::optional<std::span<const char>> IpPacket(std::span<const char> frame) {
   std::size_t type_place = kEthernetSize - 2;
   for (std::size_t tags = 0; tags <= kMaxVlanTags; ++tags, type_place += kVlanTagSize) {
@@ -42,8 +41,8 @@ std::optional<std::span<const char>> IpPacket(std::span<const char> frame) {
   return std::nullopt;
 }
 
-// Whether what the capture kept of a frame may be the beginning of a UDP datagram. Of other
-// protocols, which may be cut as they like, nothing is wanted.
+// Whether the captured part of a frame may be the beginning of a UDP datagram. Frames of other
+// protocols are not wanted and may be truncated anywhere.
 bool MayBeginDatagram(std::span<const char> frame) {
   const auto ip = IpPacket(frame);
   if (!ip) return false;
@@ -52,12 +51,12 @@ bool MayBeginDatagram(std::span<const char> frame) {
          (*ip)[kUdpProtocolPlace] == kUdpProtocol;
 }
 
-// What follows the IPv4 header and its options, if that is a whole UDP datagram.
+// Returns what follows the IPv4 header and its options if that is a whole UDP datagram.
 std::optional<std::span<const char>> UdpPacket(std::span<const char> ip) {
   if (ip.size() < 20) return std::nullopt;
   const auto version_and_words = static_cast<unsigned char>(ip[0]);
   const std::size_t header_size = std::size_t{version_and_words & 0xFU} * 4;
-  // Behind the packet Ethernet may have padding.
+  // The packet's own length counts, since Ethernet may pad the frame behind it.
   const std::size_t size = BigAt(ip, 2);
   const bool is_fragment = (BigAt(ip, 6) & 0x3FFFU) != 0;
   if (version_and_words >> 4U != 4 || header_size < 20 || size < header_size + kUdpHeaderSize ||
@@ -146,7 +145,7 @@ std::optional<CapturedDatagram> PcapReader::Next() {
                        NumberText(header->ts.tv_sec) + " s since 1970)");
     }
     datagram->packet = packet;
-    // With this precision the microseconds are nanoseconds.
+    // libpcap was asked for nanosecond precision, so tv_usec holds nanoseconds.
     datagram->time_ns = header->ts.tv_sec * kNsPerS + header->ts.tv_usec;
     return datagram;
   }

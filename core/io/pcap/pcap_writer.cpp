@@ -13,7 +13,7 @@
 
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/io/velodyne/position_packet.h"
 #include "core/io/write_file.h"
 
@@ -31,7 +31,7 @@ void StoreBigAt(char* place, std::uint16_t number) {
   place[1] = static_cast<char>(number & 0xFFU);
 }
 
-// RFC 1071, over an IPv4 header whose checksum is still 0.
+// The checksum of RFC 1071 over an IPv4 header whose checksum field is still 0.
 std::uint16_t IpChecksum(const char* header) {
   std::uint32_t sum = 0;
   for (std::size_t i = 0; i < 20; i += 2) {
@@ -43,8 +43,8 @@ std::uint16_t IpChecksum(const char* header) {
 }
 
 void StoreHeaders(std::uint16_t payload_size, std::uint16_t port, char* frame) {
-  // To everybody, from Velodyne's range of addresses; IPv4, no options, not to be cut, 64 hops,
-  // UDP; 192.168.1.201 to 255.255.255.255.
+  // Ethernet broadcast from an address of Velodyne's range; IPv4 without options, don't fragment,
+  // 64 hops, UDP; from 192.168.1.201 to 255.255.255.255.
   constexpr std::array<unsigned char, kUdpPlace> kStart = {
       0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0x60, 0x76, 0x88, 0,   0, 0,   0x08, 0x00, 0x45, 0,  0, 0,
       0,    0,    0x40, 0,    64,   17,   0,    0,    192,  168, 1, 201, 255,  255,  255,  255};
@@ -55,7 +55,8 @@ void StoreHeaders(std::uint16_t payload_size, std::uint16_t port, char* frame) {
   StoreBigAt(frame + kUdpPlace, port);
   StoreBigAt(frame + kUdpPlace + 2, port);
   StoreBigAt(frame + kUdpPlace + 4, udp_size);
-  StoreBigAt(frame + kUdpPlace + 6, 0);  // No checksum, as IPv4 allows and the sensors do.
+  // No checksum: IPv4 allows that, and the sensors send none.
+  StoreBigAt(frame + kUdpPlace + 6, 0);
 }
 
 }  // namespace
@@ -111,18 +112,19 @@ void PcapWriter::Write(const Datagrams& datagrams, std::span<const Datagrams::It
     header.ts.tv_sec = kSimulationEpoch_s + time_us / 1'000'000;
     header.ts.tv_usec = time_us % 1'000'000;
     header.caplen = header.len = static_cast<bpf_u_int32>(kHeaderSize + payload.size());
-    // libpcap's functions take the dumper as bytes.
+    // libpcap's functions take the dumper as a byte pointer.
     pcap_dump(reinterpret_cast<u_char*>(dump_->dumper), &header,
               reinterpret_cast<const u_char*>(frame.data()));
   }
-  // A run that is killed leaves what was written until here.
+  // Flush after each call, so that a run that is killed leaves all that was written until here.
   std::FILE* const stream = pcap_dump_file(dump_->dumper);
   if (pcap_dump_flush(dump_->dumper) == 0 && std::ferror(stream) == 0) {
     whole_bytes_ = std::ftell(stream);
     return;
   }
   const InputError error = FileError(file_, errno);
-  // Neither half a packet, nor what a disk that has room again would take when the file is closed.
+  // Discard the buffer and cut the file back: it must not end with half a packet, nor may closing
+  // it append the buffer should the disk have room again by then.
   ::__fpurge(stream);
   static_cast<void>(!::ftruncate(::fileno(stream), whole_bytes_));
   throw error;

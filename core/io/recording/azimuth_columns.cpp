@@ -1,4 +1,4 @@
-#include "core/io/recording/azimuth_columns.h"
+#include "core/io/recording/ring_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +8,13 @@
 namespace railcast {
 namespace {
 
-/// Closer ones are returns of one firing.
+/// Points closer than this are returns of the same firing.
 constexpr double kMinStep_turns = 1e-5;
-/// The same, when the step is known.
+/// As above, as a share of the step, once the step is known.
 constexpr double kSameFiringShare = 0.02;
 
-/// The usual step between neighbours; 0 if there are none. @pre Sorted by row and azimuth.
+/// Returns the usual azimuth step between neighbours of a row, or 0 if no row has neighbours.
+/// @pre Sorted by row and azimuth.
 double UsualStepOf(const std::vector<TablePoint>& points) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < points.size(); ++i) {
@@ -24,7 +25,7 @@ double UsualStepOf(const std::vector<TablePoint>& points) {
   const auto quartile = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 4);
   std::ranges::nth_element(steps, quartile);
   double usual = *quartile;
-  // The window's middle moves to the mean: the quartile lies below it where steps vary.
+  // The quartile lies below the mean where steps vary, so the window's centre is moved to the mean.
   for (int pass = 0; pass < 5; ++pass) {
     double sum = 0.0;
     std::size_t num = 0;
@@ -38,8 +39,9 @@ double UsualStepOf(const std::vector<TablePoint>& points) {
   return usual;
 }
 
-/// The step as ever longer ways along the rings give it: each is so exact that the number of steps
-/// in the next is certain. @pre Sorted by row and azimuth.
+/// Refines the step over ever longer distances along the rings: each estimate is so exact that the
+/// number of steps in the next distance is certain.
+/// @pre Sorted by row and azimuth.
 double RefineStep(const std::vector<TablePoint>& points, double step) {
   for (const double num_steps : {4.0, 16.0, 64.0, 256.0}) {
     double sum = 0.0;
@@ -62,8 +64,8 @@ double RefineStep(const std::vector<TablePoint>& points, double step) {
   return step;
 }
 
-/// The rising numbers nearest to `values` in the sense of least squares: neighbours that fall are
-/// pooled (pool adjacent violators; Ayer et al. 1955, Ann. Math. Stat. 26).
+/// Returns the rising sequence nearest to `values` in the least-squares sense: neighbours that fall
+/// are pooled (pool adjacent violators; Ayer et al. 1955, Ann. Math. Stat. 26).
 std::vector<double> RisingFit(const std::vector<double>& values) {
   struct Pool {
     double sum{};
@@ -85,7 +87,7 @@ std::vector<double> RisingFit(const std::vector<double>& values) {
   return fit;
 }
 
-/// The middle of numbers that lie about whole ones.
+/// Returns the circular mean of the fractional parts, so that 0.99 and 1.01 average to 0.
 double MeanFraction(const std::vector<double>& values) {
   double sine = 0.0;
   double cosine = 0.0;
@@ -96,10 +98,11 @@ double MeanFraction(const std::vector<double>& values) {
   return std::atan2(sine, cosine) / (2.0 * std::numbers::pi);
 }
 
-/// The columns of one ring's points. @pre Sorted by azimuth.
+/// Assigns columns to the points of one ring.
+/// @pre Sorted by azimuth.
 void AssignRowColumns(std::span<TablePoint> ring, double step) {
-  std::vector<std::size_t> firings;  // Of each point.
-  std::vector<double> places;        // Of each firing: its column, less its number.
+  std::vector<std::size_t> firings;  // For each point, its firing.
+  std::vector<double> places;        // For each firing, its unrounded column minus its number.
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const bool is_same = i > 0 && ring[i].turns - ring[i - 1].turns < kSameFiringShare * step;
     if (!is_same) places.push_back(ring[i].turns / step - static_cast<double>(places.size()));

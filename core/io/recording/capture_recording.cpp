@@ -1,4 +1,4 @@
-#include "core/io/recording/capture_recording.h"
+#include "core/io/recording/recording_kinds.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -6,8 +6,7 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/base/number_text.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/io/pcap/pcap_reader.h"
 #include "core/io/recording/capture_sensor.h"
 #include "core/io/write_file.h"
@@ -59,8 +58,8 @@ class CaptureRecording : public Recording {
     }
   }
 
-  // One packet, or as many as were captured in one. What is no packet of the sensor leaves the
-  // decoder as it was.
+  // The payload holds one packet, or several that were captured as one datagram. A packet that the
+  // decoder refuses leaves it unchanged.
   template <typename Decoder>
   void TakePackets(const CapturedDatagram& datagram,
                    Decoder& decoder,

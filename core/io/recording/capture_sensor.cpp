@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/base/number_text.h"
+#include "core/base/text.h"
 #include "core/io/hesai/pandar64_packet.h"
 #include "core/io/velodyne/velodyne_packet.h"
 
@@ -19,7 +19,7 @@ struct OtherModel {
 constexpr std::array<OtherModel, 4> kOtherModels = {
     {{0x23, "VLP-32A or VLP-32B"}, {0x24, "Puck Hi-Res"}, {0x31, "Velarray"}, {0xA1, "VLS-128"}}};
 
-/// The first packet of that size in what may be several in one.
+/// Returns the first packet of that size from a payload that may hold several.
 std::span<const char> FirstPacket(std::span<const char> payload, std::size_t size) {
   return payload.first(std::min(payload.size(), size));
 }
@@ -46,7 +46,8 @@ std::optional<CaptureSensor> HesaiOf(std::span<const char> payload) {
                        .decoder = Pandar64Decoder()};
 }
 
-/// Of a sensor that we know but cannot decode; empty if it is none.
+/// Describes packets of a sensor that is recognised but cannot be decoded; empty if the payload is
+/// not one of those.
 std::string NameOfStranger(std::span<const char> payload) {
   if (payload.size() >= kPandar64HeaderSize &&
       LoadAt<std::uint16_t>(payload.data()) == kHesaiFlag) {

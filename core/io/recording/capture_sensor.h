@@ -14,10 +14,10 @@
 
 namespace railcast {
 
-/// A sensor whose packets we can decode.
+/// A sensor whose packets can be decoded.
 struct CaptureSensor {
   std::string_view name;
-  std::size_t packet_size{};  ///< Of the payload of its data packets.
+  std::size_t packet_size{};  ///< Payload size of its data packets.
   TurnShape shape;
   std::variant<VelodyneDecoder, Pandar64Decoder> decoder;
 };
@@ -25,16 +25,16 @@ struct CaptureSensor {
 /// Finds out from datagrams which sensor sent them.
 class SensorFinder {
  public:
-  /// The sensor, once a datagram is one of its packets, or begins with one.
+  /// Returns the sensor once a datagram is, or begins with, one of its packets.
   [[nodiscard]] std::optional<CaptureSensor> Look(std::span<const char> payload);
 
-  /// What came if none did: "got VLS-128", "got no UDP datagram", ...
+  /// Describes what was found if no sensor was: "got VLS-128", "got no UDP datagram", ...
   [[nodiscard]] std::string Findings() const;
 
  private:
   std::size_t num_datagrams_{};
   std::size_t first_size_{};
-  std::string stranger_;  ///< The first of a sensor that we know but cannot decode.
+  std::string stranger_;  ///< The first sensor that was recognised but cannot be decoded.
 };
 
 }  // namespace railcast

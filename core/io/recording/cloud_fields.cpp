@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/base/number_text.h"
+#include "core/base/text.h"
 #include "core/io/field_layout.h"
 #include "core/io/recording/near_origin.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
-/// What others call a field of ours, where it means the same.
+/// A name that other software gives to one of our fields with the same meaning.
 struct Alias {
   std::string_view ours;
   std::string_view theirs;
@@ -32,11 +32,12 @@ constexpr std::array<Alias, 7> kAliases = {{
     {"label", "Label"},
 }};
 
-/// Colours, which mean nothing as numbers, and PCD's padding.
+/// Columns that are not kept: colours, whose packed numbers mean nothing, and PCD's padding.
 constexpr std::array<std::string_view, 7> kUnwanted = {"rgb",  "rgba",  "red", "green",
                                                        "blue", "alpha", "_"};
 
-// A damaged or hostile header names thousands, each of which would take the memory of all slots.
+// Limits memory: a damaged or hostile header may name thousands of fields, each of which would be
+// stored for all slots.
 constexpr std::size_t kMaxForeign = 64;
 
 [[noreturn]] void FailValue(const std::string& name,
@@ -47,18 +48,18 @@ constexpr std::size_t kMaxForeign = 64;
                    " (got " + NumberText(got) + ")");
 }
 
-/// The value as a whole number up to `limit`; nothing if it is none.
+/// Returns the value as a whole number up to `limit`, or nothing if it is not one.
 template <typename Value>
 std::optional<std::uint64_t> WholeNumber(Value value, std::uint64_t limit) {
   if constexpr (std::is_floating_point_v<Value>) {
-    // NaN fails the first comparison; 2^53 is more than any limit.
+    // NaN fails the first comparison; 2^53 exceeds every limit.
     if (!(value >= Value{0}) || value > Value{0x1p53} || value != std::floor(value)) {
       return std::nullopt;
     }
   } else if constexpr (std::is_signed_v<Value>) {
     if (value < Value{0}) return std::nullopt;
   }
-  // Not negative here, whatever its type.
+  // The value is not negative here, whatever its type.
   const auto whole = static_cast<std::uint64_t>(
       static_cast<std::conditional_t<std::is_same_v<Value, std::int8_t>, std::uint8_t, Value>>(
           value));
@@ -74,7 +75,8 @@ constexpr std::uint64_t LimitOf() {
   }
 }
 
-// The same type on both sides needs no check, and most files are ours.
+// A value of the field's own type needs no check; that is the case in most files, which railcast
+// wrote.
 template <typename Field, typename Value>
 Field Convert(Value value, const PointColumn& column, const std::string& name) {
   if constexpr (std::is_same_v<Field, Value> || std::is_same_v<Field, float>) {
@@ -110,7 +112,7 @@ void FillAbsent(Values& values) {
   std::ranges::fill(values, std::is_same_v<Value, float> ? static_cast<Value>(kNaN) : Value{});
 }
 
-// What is computed in a grid anyway.
+// Whether a field is an index, which in a grid is computed from the slot.
 bool IsIndex(std::string_view name) {
   return name == "ring" || name == "column" || name == "return_index" || name == "return_count";
 }
@@ -145,7 +147,7 @@ void FillGridIndices(Frame& frame) {
   }
 }
 
-/// The columns that hold fields of ours.
+/// Returns the columns that hold our fields.
 std::vector<const PointColumn*> OwnColumns(const PointTable& table, const Frame& frame) {
   std::vector<const PointColumn*> own;
   ForEachField(frame, [&](std::string_view name, std::string_view, const auto&) {
@@ -154,6 +156,7 @@ std::vector<const PointColumn*> OwnColumns(const PointTable& table, const Frame&
   return own;
 }
 
+/// Copies the columns that hold no field of ours.
 /// @pre Slots without a point are marked.
 void FillForeign(const PointTable& table, const SlotPlan& plan, RecordedFrame& recorded) {
   const Frame& frame = recorded.frame;
@@ -222,7 +225,7 @@ void FillFrame(const PointTable& table, const SlotPlan& plan, RecordedFrame& rec
   ForEachField(frame, [&](std::string_view name, std::string_view, auto& values) {
     if (plan.is_grid && IsIndex(name)) return;
     const PointColumn* const column = FindFieldOf(table, name);
-    // Some slots may be no point's.
+    // The plan may leave slots without a point, and these keep the absent value.
     if (column == nullptr || !plan.slots.empty()) FillAbsent(values);
     if (column == nullptr) return;
     CopyColumn(table, *column, plan, recorded.name, values);
@@ -231,7 +234,7 @@ void FillFrame(const PointTable& table, const SlotPlan& plan, RecordedFrame& rec
   MarkEmptySlots(frame, recorded.Has("range_m"));
   recorded.fields.emplace("range_m");
   TakeFromNearOrigin(table, plan, recorded);
-  // A slot that no point of the file fills says nothing of why.
+  // For slots that no point of the file fills, the file does not say why they are empty.
   if (table.num_points() < frame.num_slots()) recorded.fields.erase("outcome");
   FillForeign(table, plan, recorded);
   if (!plan.is_grid) return;

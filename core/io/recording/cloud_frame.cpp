@@ -8,7 +8,8 @@
 #include <type_traits>
 
 #include "core/base/error.h"
-#include "core/base/number_text.h"
+#include "core/base/text.h"
+#include "core/base/units.h"
 #include "core/io/recording/cloud_fields.h"
 #include "core/io/recording/ring_table.h"
 #include "core/io/recording/slot_plans.h"
@@ -17,16 +18,15 @@ namespace railcast {
 namespace {
 
 constexpr std::array<std::string_view, 4> kTimeNames = {"t", "time", "timestamp", "time_stamp"};
-// A scan of 1 to 50 Hz.
+// The durations of scans at 50 Hz and at 1 Hz.
 constexpr double kMinScan_s = 0.02;
 constexpr double kMaxScan_s = 1.0;
-constexpr double kNsPerS = 1e9;
 
 bool IsFloating(NumberType type) {
   return type == NumberType::kFloat || type == NumberType::kDouble;
 }
 
-/// Nanoseconds since the first point, if the unit is certain.
+/// Returns the times in nanoseconds since the first point, if their unit is certain.
 std::optional<std::vector<double>> LoadTimes_ns(const PointTable& table,
                                                 const PointColumn& column) {
   std::vector<double> times(table.num_points());
@@ -47,7 +47,7 @@ std::optional<std::vector<double>> LoadTimes_ns(const PointTable& table,
   return times;
 }
 
-// Of files that have no time_ns.
+// Takes the time from a foreign column, for files that have no time_ns.
 void FillForeignTime(const PointTable& table, const SlotPlan& plan, RecordedFrame& recorded) {
   for (const std::string_view name : kTimeNames) {
     const PointColumn* const column = table.Find(name);
@@ -64,7 +64,7 @@ void FillForeignTime(const PointTable& table, const SlotPlan& plan, RecordedFram
   }
 }
 
-/// Slots of a firing in an organised file of ours.
+/// Returns the number of slots per firing in an organised file that railcast wrote.
 std::uint32_t ReturnsOf(const PointTable& table, const std::string& name) {
   const PointColumn* const return_index = table.Find("return_index");
   if (return_index == nullptr) return 1;
@@ -81,7 +81,7 @@ std::vector<std::uint32_t> LoadRings(const PointTable& table, const std::string&
   return LoadIndices(table, *ring, std::numeric_limits<std::uint16_t>::max(), name);
 }
 
-SlotPlan PlanOf(const PointTable& table, const std::string& name) {
+SlotPlan PlanOfTable(const PointTable& table, const std::string& name) {
   const bool is_ours = table.Find("ring") != nullptr && table.Find("column") != nullptr;
   if (table.height > 1) {
     return is_ours ? OrganisedPlan(table, ReturnsOf(table, name)) : SortedRowsPlan(table);
@@ -95,7 +95,7 @@ SlotPlan PlanOf(const PointTable& table, const std::string& name) {
   return LoosePlan(table);
 }
 
-/// The scan's own times, where slots have no point to say theirs.
+/// Fills in the times of the scan pattern, since slots without a point have no time of their own.
 void FillScanTimes(const ScanPattern& pattern, Frame& frame) {
   for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
     const std::size_t first = (std::size_t{pattern.row[i]} * frame.columns + pattern.column[i]) *
@@ -111,7 +111,7 @@ RecordedFrame MakeCloudFrame(const PointTable& table, const std::string& name) {
   RecordedFrame recorded;
   recorded.name = name;
   for (const char* axis : {"x", "y", "z"}) (void)NeedFieldOf(table, axis, name);
-  const SlotPlan plan = PlanOf(table, name);
+  const SlotPlan plan = PlanOfTable(table, name);
   FillFrame(table, plan, recorded);
   if (!recorded.Has("time_ns")) FillForeignTime(table, plan, recorded);
   const std::vector<std::uint32_t>& times_ns = recorded.frame.time_ns;

@@ -3,31 +3,32 @@
 #include <string>
 
 #include "core/io/recording/point_table.h"
-#include "core/io/recording/recording.h"
-#include "core/scan/scan_pattern.h"
+#include "railcast/io/recording.h"
+#include "railcast/lidar.h"
 
 namespace railcast {
 
-/// A frame from the points of a file, in the axes in which they are stored.
+/// Makes a frame of the points of a file, in the axes in which they are stored.
 ///
-/// An organised cloud is a grid as it is; with the rows by rising mean elevation if its ring
-/// numbers are not ours. Points with our ring and column go to their slots. Others go into a
-/// ring/azimuth table (ring_table.h) if one can be made; if not, the frame has one row of points
-/// and is no grid.
+/// An organised cloud is taken as a grid; if it does not have our fields ring and column, its rows
+/// are sorted by rising mean elevation. An unorganised cloud with our ring and column has its
+/// points put into their slots. Other clouds go into a ring/azimuth table (ring_table.h) if one can
+/// be made; if not, the frame has one row of points and is not a grid.
 ///
-/// A time is taken under another's name (t, time, timestamp, time_stamp) only if its unit is
-/// certain: floating point that spans 0.02 to 1 s, as scans do, or integers that span as many
+/// A time field of another name (t, time, timestamp, time_stamp) is used only if its unit is
+/// certain: floating-point values that span 0.02 to 1 s, as scans do, or integers that span as many
 /// nanoseconds.
 ///
-/// @param name For messages.
+/// @param name Names the frame in messages.
 /// @throws InputError with one line if x, y or z is missing, a value does not fit its field, or two
-///   points say that they are of one slot.
+///   points claim the same slot.
 [[nodiscard]] RecordedFrame MakeCloudFrame(const PointTable& table, const std::string& name);
 
-/// A frame of ours, of which the scan is known: every firing has its slots, and ring, column and
-/// time_ns also where the file has points only. Such a file without ring or column is no grid.
+/// Makes a frame of a file that railcast wrote and whose scan pattern is known: every firing has
+/// its slots, and ring, column and time_ns are known even where the file holds only returned
+/// points. Such a file without ring or column is not a grid.
 /// @param is_organised Whether the file has every slot.
-/// @throws InputError likewise, or if the file does not have the scan's shape.
+/// @throws InputError as MakeCloudFrame(), or if the file does not have the scan's shape.
 [[nodiscard]] RecordedFrame MakeScanFrame(const PointTable& table,
                                           const std::string& name,
                                           const ScanPattern& pattern,

@@ -1,26 +1,22 @@
-#include "core/io/recording/cloud_recording.h"
+#include "core/io/recording/recording_kinds.h"
 
 #include <algorithm>
 #include <cctype>
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/base/number_text.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/io/recording/cloud_frame.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/point_table.h"
 #include "core/io/recording/sequence_lines.h"
 #include "core/io/text_cursor.h"
+#include "railcast/io/cloud_files.h"
 
 namespace railcast {
 namespace {
 
-bool IsDigit(char letter) {
-  return std::isdigit(static_cast<unsigned char>(letter)) != 0;
-}
-
-/// Takes the digits at the front, without leading zeros.
+/// Takes the digits off the front of the text and returns them without leading zeros.
 std::string_view TakeDigits(std::string_view& text) {
   const auto end = std::ranges::find_if_not(text, IsDigit);
   std::string_view digits = text.substr(0, static_cast<std::size_t>(end - text.begin()));
@@ -29,7 +25,7 @@ std::string_view TakeDigits(std::string_view& text) {
   return digits;
 }
 
-/// Numbers in names by their value, all else by its letters.
+/// Compares names naturally: numbers by value, all other characters one by one.
 bool ComesBefore(std::string_view a, std::string_view b) {
   while (!a.empty() && !b.empty()) {
     if (IsDigit(a.front()) && IsDigit(b.front())) {
@@ -120,7 +116,8 @@ RecordedFrame ReadReceivedFrame(const std::filesystem::path& directory, const Pl
   RecordedFrame recorded = ReadCloudFrame(directory / parsed.file, parsed.frame);
   recorded.frame.stamp_ns = parsed.stamp_ns;
   recorded.frame.world_from_sensor = parsed.world_from_sensor;
-  // The stream does not say where the scan ended.
+  // The stream does not carry the pose at the end of the scan, so that of the stamp stands in for
+  // it.
   recorded.frame.world_from_sensor_end = parsed.world_from_sensor;
   recorded.has_pose = true;
   return recorded;
@@ -133,7 +130,7 @@ class ReceivedRecording : public Recording {
     info_.source = directory;
     info_.kind = "received stream";
     info_.num_frames = std::max<std::size_t>(1, CountLines(directory / "frames.csv")) - 1;
-    (void)lines_.Need();  // The names of its columns.
+    (void)lines_.Need();  // Skip the line of column names.
   }
 
   [[nodiscard]] const RecordingInfo& info() const override { return info_; }
@@ -154,8 +151,7 @@ class ReceivedRecording : public Recording {
 }  // namespace
 
 bool IsCloudFile(const std::filesystem::path& file) {
-  const std::filesystem::path extension = file.extension();
-  return extension == ".pcd" || extension == ".ply" || extension == ".bin";
+  return FindReader(file) != nullptr;
 }
 
 std::vector<std::filesystem::path> CloudFilesIn(const std::filesystem::path& directory) {

@@ -1,4 +1,4 @@
-#include "core/io/recording/elevation_rings.h"
+#include "core/io/recording/ring_table.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kMinShare = 0.98;
 constexpr std::size_t kMinClusterPoints = 8;
-/// Fewer, of all points, are strays.
+/// Clusters with a smaller share of all points than this are strays.
 constexpr double kMinClusterShare = 1e-3;
 
 struct Cluster {
@@ -23,7 +23,7 @@ struct Cluster {
   [[nodiscard]] double middle_rad() const { return 0.5 * (low_rad + high_rad); }
 };
 
-/// Runs of elevations without a gap wider than `gap_rad`, but for strays.
+/// Splits the elevations at gaps wider than `gap_rad` and drops the clusters of strays.
 std::vector<Cluster> ClustersOf(std::span<const double> sorted_rad, double gap_rad) {
   const auto min_points =
       std::max(kMinClusterPoints,
@@ -69,7 +69,7 @@ std::uint32_t NearestOf(const std::vector<Cluster>& clusters, double elevation_r
 std::optional<std::vector<std::uint32_t>> RingsByElevation(std::span<const double> elevations_rad) {
   std::vector<double> sorted_rad(elevations_rad.begin(), elevations_rad.end());
   std::ranges::sort(sorted_rad);
-  // From what float32 leaves of an exact elevation to what millimetres at 1 m do.
+  // The gaps range from the float32 rounding of exact elevations to that of millimetres at 1 m.
   for (const double gap_deg : {0.005, 0.02, 0.05, 0.1}) {
     const std::vector<Cluster> clusters = ClustersOf(sorted_rad, RadFromDeg(gap_deg));
     if (!AreRings(clusters, sorted_rad.size())) continue;

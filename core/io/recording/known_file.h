@@ -6,11 +6,11 @@
 
 namespace railcast {
 
-/// A file of a sequence directory and what it must hold.
+/// A file of a sequence directory and the content that it must have.
 struct KnownFile {
   std::string name;                    ///< Relative to the directory.
   std::string hash;                    ///< ContentHash of its bytes.
-  std::optional<std::uint64_t> bytes;  ///< How many; absent where nothing says it.
+  std::optional<std::uint64_t> bytes;  ///< Size in bytes; absent where it is not recorded.
 };
 
 }  // namespace railcast

@@ -5,8 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"
-#include "core/base/number_text.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 
 namespace railcast {
 

@@ -8,21 +8,22 @@
 
 namespace railcast {
 
-/// A line of a file and where it is from.
+/// A line of a file and its place in that file.
 struct PlacedLine {
   std::string text;
-  std::string place;  ///< "out/poses.csv:3"
+  std::string place;  ///< For error messages: "out/poses.csv:3".
 };
 
-/// Reads a file line by line. A last line without an end is being written, or was when its writer
-/// was stopped: it is none.
+/// Reads a file line by line. A last line without a line end is not returned: it is still being
+/// written, or its writer was stopped in the middle of it.
 class LineReader {
  public:
   /// @throws InputError if the file cannot be read.
   explicit LineReader(const std::filesystem::path& file);
 
   [[nodiscard]] std::optional<PlacedLine> Next();
-  /// @throws InputError "file:3: missing" at the end.
+  /// Returns the next line.
+  /// @throws InputError "file:3: missing" at the end of the file.
   [[nodiscard]] PlacedLine Need();
 
  private:
@@ -31,7 +32,8 @@ class LineReader {
   std::size_t num_lines_{};
 };
 
-/// How many whole lines a file has. @throws InputError if it cannot be read.
+/// Returns the number of whole lines of a file.
+/// @throws InputError if it cannot be read.
 [[nodiscard]] std::size_t CountLines(const std::filesystem::path& file);
 
 }  // namespace railcast

@@ -10,10 +10,7 @@
 namespace railcast {
 namespace {
 
-// Whoever sends to the port states a shape; memory is to follow what arrived.
-constexpr std::uint64_t kMaxSpareSlots = std::uint64_t{1} << 20U;
-
-NumberType TypeOf(StreamType type) {
+NumberType NumberTypeOf(StreamType type) {
   switch (type) {
     case StreamType::kU8:
       return NumberType::kUint8;
@@ -28,21 +25,22 @@ NumberType TypeOf(StreamType type) {
   return {};
 }
 
-PointTable TableOf(const ReceivedFrame& received) {
+PointTable PointTableOf(const ReceivedFrame& received) {
   PointTable table{.width = static_cast<std::uint32_t>(received.num_points()),
                    .height = 1,
                    .columns = {},
                    .bytes = std::string(received.points.begin(), received.points.end())};
   for (const StreamField& field : received.header.fields) {
     table.columns.push_back({.name = field.name,
-                             .type = TypeOf(field.type),
+                             .type = NumberTypeOf(field.type),
                              .offset = field.offset,
                              .step = received.header.point_size});
   }
   return table;
 }
 
-/// Whether slots can be told, and one without a point was a firing that brought nothing back.
+/// Whether the slot of every point is known, and a slot without a point means a firing without a
+/// return.
 bool IsGrid(const ReceivedFrame& received) {
   const StreamHeader& header = received.header;
   if (!received.is_complete() || header.Find("ring") == nullptr ||
@@ -55,7 +53,9 @@ bool IsGrid(const ReceivedFrame& received) {
   return cells <= most && cells * header.returns <= most;
 }
 
-SlotPlan PlanOf(const ReceivedFrame& received, const PointTable& table, const std::string& name) {
+SlotPlan PlanOfStream(const ReceivedFrame& received,
+                      const PointTable& table,
+                      const std::string& name) {
   if (!IsGrid(received)) return LoosePlan(table);
   return PlacedPlan(table, name, ScanShape{received.header.rows, received.header.columns});
 }
@@ -69,11 +69,11 @@ void ForgetRanges(RecordedFrame& recorded) {
 
 RecordedFrame MakeLiveFrame(const ReceivedFrame& received, const std::string& name) {
   const StreamHeader& header = received.header;
-  const PointTable table = TableOf(received);
+  const PointTable table = PointTableOf(received);
   RecordedFrame recorded;
   recorded.name = name;
   for (const char* axis : {"x", "y", "z"}) (void)NeedFieldOf(table, axis, name);
-  FillFrame(table, PlanOf(received, table, name), recorded);
+  FillFrame(table, PlanOfStream(received, table, name), recorded);
   Frame& frame = recorded.frame;
   frame.index = header.frame;
   frame.stamp_ns = header.stamp_ns;

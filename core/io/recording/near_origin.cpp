@@ -13,7 +13,7 @@ namespace {
 constexpr double kFar_m = 10e3;
 constexpr double kStep_m = 1e3;
 
-/// Calls `visit(slot, stored value)` for every point that the frame has.
+/// Calls `visit(slot, stored value)` for every point of the frame.
 template <typename Visitor>
 void VisitPoints(const PointTable& table,
                  const PointColumn& column,
@@ -28,7 +28,8 @@ void VisitPoints(const PointTable& table,
   });
 }
 
-/// Unlike a mean, stray points do not move it. @pre Not empty.
+/// Returns the median, which stray points do not move as they would a mean.
+/// @pre Not empty.
 double Median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, middle);

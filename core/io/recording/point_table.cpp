@@ -8,12 +8,11 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/base/number_text.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/io/pcd_header.h"
-#include "core/io/ply_reader.h"
 #include "core/io/text_cursor.h"
 #include "core/io/write_file.h"
+#include "railcast/io/cloud_files.h"
 
 namespace railcast {
 namespace {
@@ -56,7 +55,8 @@ NumberType TypeOf(std::uint8_t pcl_type) {
   }
 }
 
-/// Points one after another, fields in order. @pre CheckPcd has found the text sound.
+/// Packs the numbers as in a binary file: point after point, fields in order.
+/// @pre CheckPcd has accepted the text.
 std::string PackAscii(std::string_view text, const PcdHeader& header) {
   std::string packed(header.points * header.PointStep(), '\0');
   char* place = packed.data();
@@ -68,7 +68,7 @@ std::string PackAscii(std::string_view text, const PcdHeader& header) {
       VisitNumberType(TypeOf(field), [&](auto zero) {
         for (std::uint64_t i = 0; i < field.count; ++i, place += sizeof zero) {
           using Value = decltype(zero);
-          // As CheckPcd does: what no float can hold becomes infinite.
+          // As in CheckPcd, a number too large for a float becomes infinite.
           using Parsed = std::conditional_t<std::is_floating_point_v<Value>, double, Value>;
           const auto value = static_cast<Value>(ParseNumber<Parsed>(words[word++]).value_or(0));
           std::memcpy(place, &value, sizeof value);
@@ -79,8 +79,9 @@ std::string PackAscii(std::string_view text, const PcdHeader& header) {
   return packed;
 }
 
-/// @param begin Of the points in the table's bytes. @param is_planar Whether each field has its
-/// values together.
+/// Adds a column for each field of the header.
+/// @param begin Offset of the points in the table's bytes.
+/// @param is_planar Whether the values of each field are stored together.
 void AddColumns(const PcdHeader& header,
                 std::size_t begin,
                 bool is_planar,
@@ -175,15 +176,19 @@ PointTable ParseKittiTable(const std::string& file,
 }
 
 PointTable ReadPointTable(const std::filesystem::path& file) {
-  if (file.extension() == ".bin") {
-    auto labels = file.parent_path().parent_path() / "labels" / file.filename();
-    labels.replace_extension(".label");
-    return ParseKittiTable(ShownPath(file), ReadFileWhole(file),
-                           exists(labels) ? std::optional(ReadFileWhole(labels)) : std::nullopt);
+  const FrameFormat* const format = FindReader(file);
+  if (format == nullptr) {
+    throw InputError(ShownPath(file) + ": must be a " + ReadableExtensions(true) + " file");
   }
-  if (file.extension() == ".pcd") return ParsePcdTable(ShownPath(file), ReadFileWhole(file));
-  if (file.extension() == ".ply") return ParsePlyTable(ShownPath(file), ReadFileWhole(file));
-  throw InputError(ShownPath(file) + ": must be a .pcd, .ply or .bin file");
+  std::optional<std::string> second;
+  if (format->files.size() > 1) {
+    const std::filesystem::path folder(format->files[1].folder);
+    auto beside =
+        file.parent_path().parent_path() / folder.parent_path().filename() / file.filename();
+    beside.replace_extension(format->files[1].extension);
+    if (exists(beside)) second = ReadFileWhole(beside);
+  }
+  return format->parse(ShownPath(file), ReadFileWhole(file), second);
 }
 
 }  // namespace railcast

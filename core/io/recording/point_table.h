@@ -11,7 +11,7 @@
 
 namespace railcast {
 
-/// How a number is stored.
+/// The type in which a number is stored.
 enum class NumberType : std::uint8_t {
   kInt8,
   kUint8,
@@ -25,45 +25,47 @@ enum class NumberType : std::uint8_t {
   kDouble
 };
 
-/// One number of every point, or the first of a field that has several.
+/// One number of every point: a field, or the first element of a field that has several.
 struct PointColumn {
   std::string name;
   NumberType type{};
-  std::size_t offset{};  ///< Of the first point's.
-  std::size_t step{};    ///< From one point's to the next.
+  std::size_t offset{};  ///< Offset of the first point's value.
+  std::size_t step{};    ///< Distance in bytes from one point's value to the next.
 
-  /// The name less CloudCompare's `scalar_`.
+  /// Returns the name without CloudCompare's prefix `scalar_`.
   [[nodiscard]] std::string_view plain_name() const;
 };
 
-/// The points of a cloud file as they are stored, not converted.
+/// The points of a cloud file as they are stored, without conversion.
 struct PointTable {
   std::uint32_t width{};
   std::uint32_t height{};
   std::vector<PointColumn> columns;
-  std::string bytes;  ///< The whole file, or its points alone: offsets say which.
+  std::string bytes;  ///< The whole file, or its points alone; the columns' offsets fit either.
 
   [[nodiscard]] std::size_t num_points() const { return std::size_t{width} * height; }
-  /// The first field of this plain name; null if none.
+  /// Returns the first column of this plain name, or null if there is none.
   [[nodiscard]] const PointColumn* Find(std::string_view name) const;
 };
 
-/// A .pcd file held in `bytes`, of any encoding. @param file Named in errors.
+/// Reads a .pcd file held in `bytes`, of any encoding.
+/// @param file Named in errors.
 /// @throws InputError with one line if it is damaged.
 [[nodiscard]] PointTable ParsePcdTable(const std::string& file, std::string bytes);
-/// A .ply file held in `bytes`, ASCII or binary little-endian.
+/// Reads a .ply file held in `bytes`, ASCII or binary little-endian.
 /// @throws InputError with one line if it is damaged.
 [[nodiscard]] PointTable ParsePlyTable(const std::string& file, const std::string& bytes);
 
-/// KITTI's velodyne/*.bin held in `bytes`: float32 x, y, z, remission of each point. With `labels`,
-/// SemanticKITTI's .label: uint32 each, label below, instance above; they become fields, too.
+/// Reads KITTI's velodyne/*.bin held in `bytes`: float32 x, y, z, remission of each point. With
+/// `labels`, the bytes of SemanticKITTI's .label (one uint32 per point: label in the lower half,
+/// instance in the upper), label and instance become columns as well.
 /// @throws InputError with one line if the lengths do not fit.
 [[nodiscard]] PointTable ParseKittiTable(const std::string& file,
                                          std::string bytes,
                                          const std::optional<std::string>& labels);
 
-/// A .bin file takes its labels from ../labels, if they are there.
-/// @throws InputError with one line if the file is no .pcd, .ply or .bin, cannot be read or is
+/// Reads a cloud file. A .bin file takes its labels from ../labels if they are there.
+/// @throws InputError with one line if the file is not a .pcd, .ply or .bin, cannot be read or is
 ///   damaged.
 [[nodiscard]] PointTable ReadPointTable(const std::filesystem::path& file);
 
@@ -94,7 +96,7 @@ void VisitNumberType(NumberType type, Visitor&& visit) {
   }
 }
 
-/// Calls `visit(point, value)` for every point, value in the type that is stored.
+/// Calls `visit(point, value)` for every point, with the value in its stored type.
 template <typename Visitor>
 void VisitColumn(const PointTable& table, const PointColumn& column, Visitor&& visit) {
   VisitNumberType(column.type, [&](auto zero) {

@@ -7,18 +7,19 @@
 
 namespace railcast {
 
-/// Checks that a text is JSON as ParseJson() has it, without duplicate keys.
+/// Checks that a text is JSON as ParseJson() accepts it, without duplicate keys.
 /// @param place Names the file in errors: "out/run.json".
 /// @throws InputError "place: is damaged: ..." if it is not.
 void CheckRecordedJson(const std::string& text, const std::string& place);
 
-/// What `read` makes of JSON that railcast wrote.
+/// Parses JSON that railcast wrote and returns what `read` makes of it.
 /// @tparam Json StrictJson or StrictOrderedJson.
-/// @throws InputError "place: is damaged: ..." if the text is none, or not what `read` asks for.
+/// @throws InputError "place: is damaged: ..." if the text is not JSON, or does not have what
+///   `read` asks for.
 template <typename Json, typename Read>
 auto ReadRecordedJson(const std::string& text, const std::string& place, const Read& read)
     -> decltype(read(Json{})) {
-  // The library's own reports of bad syntax quote the text raw and without bound.
+  // Checked first because the library's own syntax errors quote the text raw and without bound.
   CheckRecordedJson(text, place);
   try {
     return read(Json::parse(text));

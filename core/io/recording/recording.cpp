@@ -1,23 +1,23 @@
-#include "core/io/recording/recording.h"
+#include "railcast/io/recording.h"
 
 #include <cerrno>
 
 #include "core/base/error.h"
-#include "core/base/shown_text.h"
-#include "core/io/recording/capture_recording.h"
-#include "core/io/recording/cloud_recording.h"
-#include "core/io/recording/sequence_recording.h"
+#include "core/base/text.h"
+#include "core/io/recording/recording_kinds.h"
 #include "core/io/sequence_files.h"
 #include "core/io/write_file.h"
+#include "railcast/io/cloud_files.h"
 
 namespace railcast {
 namespace {
 
-/// Where the clouds of a directory may be: beside each other, or as we, received streams and KITTI
-/// keep them.
+/// Opens a directory of clouds: side by side, or in the layout of a sequence, of a received stream
+/// or of KITTI.
 std::unique_ptr<Recording> OpenDirectory(const std::filesystem::path& directory) {
   const std::filesystem::path kitti = directory / "sequences" / "00" / "velodyne";
-  // Also one that lost its lines: its clouds alone cannot be checked.
+  // A run without frames.jsonl is opened as a sequence, too, so that its loss is reported: the
+  // clouds alone cannot be checked.
   const bool is_of_run = exists(directory / kRunFile) && exists(directory / kScenarioFile);
   if (is_of_run || exists(directory / kFramesFile)) return OpenSequence(directory);
   if (exists(directory / "frames.csv")) return OpenReceived(directory);
@@ -28,8 +28,8 @@ std::unique_ptr<Recording> OpenDirectory(const std::filesystem::path& directory)
     return OpenClouds(directory, is_kitti ? "KITTI sequence" : "directory of point clouds",
                       std::move(files));
   }
-  throw InputError(ShownPath(directory) +
-                   ": must be a sequence or hold .pcd, .ply or .bin files (got neither)");
+  throw InputError(ShownPath(directory) + ": must be a sequence or hold " +
+                   ReadableExtensions(true) + " files (got neither)");
 }
 
 }  // namespace
@@ -42,8 +42,8 @@ std::unique_ptr<Recording> OpenRecording(const std::filesystem::path& source) {
   const std::filesystem::path extension = source.extension();
   if (extension == ".pcap" || extension == ".pcapng") return OpenCapture(source);
   if (IsCloudFile(source)) return OpenClouds(source, "point cloud file", {source});
-  throw InputError(ShownPath(source) +
-                   ": must be a directory or a .pcd, .ply, .bin, .pcap or .pcapng file");
+  throw InputError(ShownPath(source) + ": must be a directory or a " +
+                   ReadableExtensions(true, {".pcap", ".pcapng"}) + " file");
 }
 
 }  // namespace railcast

@@ -7,19 +7,16 @@
 #include <tuple>
 #include <utility>
 
-#include "core/io/recording/azimuth_columns.h"
-#include "core/io/recording/elevation_rings.h"
-
 namespace railcast {
 namespace {
 
-/// Neighbours of a ring farther apart, in turns, say nothing about the sense of rotation.
+/// Neighbours of a ring farther apart than this, in turns, say nothing about the sense of rotation.
 constexpr double kMaxFollow_turns = 0.02;
-/// A turn without a wider gap is a whole one.
+/// A turn without a gap wider than this is a full one.
 constexpr double kMinGap_turns = 0.03;
-/// More points in one cell than this are no returns of one firing.
-constexpr std::uint32_t kMaxReturns = 4;
-/// A table with less than one slot in so many filled is none.
+/// A cell with more points than this does not hold the returns of one firing, so there is no table.
+constexpr std::uint32_t kMaxRingReturns = 4;
+/// A table with more slots per point than this is nearly empty and is not used.
 constexpr std::size_t kMaxSlotsPerPoint = 16;
 
 double WrappedTurns(double turns) {
@@ -27,7 +24,7 @@ double WrappedTurns(double turns) {
   return wrapped < 1.0 ? wrapped : 0.0;  // A tiny negative number rounds to 1.
 }
 
-/// Rows by rising median elevation from ring numbers of any kind.
+/// Numbers the rows by rising median elevation from ring numbers of any kind.
 std::vector<std::uint32_t> RowsOf(std::span<const std::uint32_t> rings,
                                   std::span<const double> elevations_rad) {
   std::map<std::uint32_t, std::vector<double>> by_ring;
@@ -54,8 +51,8 @@ void SortByRow(std::vector<TablePoint>& points) {
       points, {}, [](const TablePoint& point) { return std::pair(point.row, point.turns); });
 }
 
-/// Whether most neighbours of a row follow each other counterclockwise. @pre In the file's order,
-/// azimuths counterclockwise.
+/// Whether most neighbours of a row follow each other counterclockwise.
+/// @pre The points are in the file's order, with azimuths counterclockwise.
 bool IsCounterclockwise(const std::vector<TablePoint>& points, std::size_t num_rows) {
   constexpr double kNone = -1.0;
   std::vector<double> last_turns(num_rows, kNone);
@@ -71,7 +68,7 @@ bool IsCounterclockwise(const std::vector<TablePoint>& points, std::size_t num_r
   return balance > 0;
 }
 
-/// Turns the azimuths so that 0 is behind the widest gap; at `first` if there is none to speak of.
+/// Shifts the azimuths so that 0 lies behind the widest gap, or at `first` if no gap is wide.
 void StartBehindGap(std::vector<TablePoint>& points, double first) {
   std::vector<double> sorted;
   sorted.reserve(points.size());
@@ -88,7 +85,8 @@ void StartBehindGap(std::vector<TablePoint>& points, double first) {
   for (TablePoint& point : points) point.turns = WrappedTurns(point.turns - start);
 }
 
-/// Numbers the columns that have a point anew, from 0. @returns How many there are.
+/// Renumbers the columns that have a point from 0.
+/// @returns The number of columns.
 std::uint32_t CloseColumns(std::vector<TablePoint>& points) {
   std::vector<std::int64_t> seen;
   seen.reserve(points.size());
@@ -105,6 +103,7 @@ bool IsSameCell(const TablePoint& a, const TablePoint& b) {
   return a.row == b.row && a.column == b.column;
 }
 
+/// Returns the largest number of points in one cell.
 /// @pre Sorted by cell.
 std::uint32_t MostInACell(const std::vector<TablePoint>& points) {
   std::uint32_t most = 1;
@@ -116,7 +115,8 @@ std::uint32_t MostInACell(const std::vector<TablePoint>& points) {
   return most;
 }
 
-/// The slot of each point, points of one cell from the nearest on. @pre Sorted by cell and range.
+/// Gives each point its slot; points of one cell follow from the nearest on.
+/// @pre Sorted by cell and range.
 SlotPlan PlanOf(const std::vector<TablePoint>& points,
                 std::uint32_t rows,
                 std::uint32_t columns,
@@ -135,7 +135,7 @@ SlotPlan PlanOf(const std::vector<TablePoint>& points,
   return plan;
 }
 
-/// The points of a cloud, and of each the ring and the elevation.
+/// The points of a cloud with the ring and the elevation of each.
 struct RingCloud {
   std::vector<TablePoint> points;
   std::vector<std::uint32_t> rings;
@@ -195,7 +195,7 @@ std::optional<SlotPlan> MakeRingTable(const PointPositions& positions,
   std::ranges::stable_sort(points, {}, [](const TablePoint& point) {
     return std::tuple(point.row, point.column, point.range_m);
   });
-  if (MostInACell(points) > kMaxReturns) return std::nullopt;
+  if (MostInACell(points) > kMaxRingReturns) return std::nullopt;
   return PlanOf(points, num_rows, num_columns, positions.size());
 }
 

@@ -8,17 +8,17 @@
 namespace railcast {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-// NaN if there is none. The order is lost.
+// Returns the median, or NaN if there are no values. Reorders the values.
 double MedianOf(std::vector<double>& values) {
-  if (values.empty()) return kNaN;
+  if (values.empty()) return kUnknown;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
-// Straight lines between the known values; the ends stay unknown.
+// Interpolates linearly between known values; unknown values at the ends stay unknown.
 void FillGaps(std::vector<double>& values) {
   std::size_t known = values.size();
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -31,12 +31,12 @@ void FillGaps(std::vector<double>& values) {
   }
 }
 
-/// Directions of a grid's firings; NaN where there is none.
+/// The directions of a grid's firings; NaN where a firing has none.
 struct DirectionGrid {
   DirectionGrid(std::uint32_t num_rows, std::uint32_t num_columns)
       : rows(num_rows),
         columns(num_columns),
-        azimuth_rad(std::size_t{rows} * columns, kNaN),
+        azimuth_rad(std::size_t{rows} * columns, kUnknown),
         elevation_rad(azimuth_rad) {}
 
   void Set(std::size_t place, double x, double y, double z) {
@@ -62,10 +62,11 @@ void FindElevations(const DirectionGrid& grid, ScanTable& table) {
   FillGaps(table.elevation_rad);
 }
 
-// Columns from the rows' offsets, one after another, so that full turns do not matter.
+// Finds the columns' azimuths from those of the points less their rows' offsets. Each column
+// continues from the one before it, so that the azimuth is unwrapped.
 void FindColumns(const DirectionGrid& grid, ScanTable& table) {
-  table.column_azimuth_rad.assign(grid.columns, kNaN);
-  double last_rad = kNaN;
+  table.column_azimuth_rad.assign(grid.columns, kUnknown);
+  double last_rad = kUnknown;
   std::vector<double> values;
   for (std::size_t column = 0; column < grid.columns; ++column) {
     values.clear();
@@ -105,9 +106,10 @@ double MedianStep(const std::vector<double>& azimuths_rad) {
   return MedianOf(steps);
 }
 
-// Half of the way to the neighbours on both sides; at the ends twice that to the only one.
+// Half the distance between a row's two neighbours; at the ends, the whole distance to the only
+// one.
 std::vector<double> Heights(const std::vector<double>& elevations_rad) {
-  std::vector<double> heights(elevations_rad.size(), kNaN);
+  std::vector<double> heights(elevations_rad.size(), kUnknown);
   for (std::size_t i = 0; i < heights.size(); ++i) {
     double sum = 0.0;
     int num = 0;
@@ -121,7 +123,8 @@ std::vector<double> Heights(const std::vector<double>& elevations_rad) {
   return heights;
 }
 
-// What the columns' azimuths say of their order.
+// Derives from the columns' azimuths whether the turn is full and by how many columns rows are
+// offset.
 void FindTurn(ScanTable& table) {
   const auto is_known = [](double azimuth_rad) { return !std::isnan(azimuth_rad); };
   const auto& azimuths_rad = table.column_azimuth_rad;
@@ -129,7 +132,7 @@ void FindTurn(ScanTable& table) {
   const auto last = std::find_if(azimuths_rad.rbegin(), azimuths_rad.rend(), is_known);
   const double span_rad = *last - *first;
   const double gap_rad = 2.0 * std::numbers::pi - std::abs(span_rad);
-  // A frame's last columns may be short of the turn, or a little beyond it.
+  // The last columns of a frame may end short of the full turn or go a little beyond it.
   constexpr double kMostSteps = 3.0;
   table.is_full_turn = std::abs(gap_rad) < kMostSteps * table.column_step_rad;
   const double step_rad = std::copysign(table.column_step_rad, span_rad);

@@ -9,7 +9,7 @@
 namespace railcast {
 namespace {
 
-// Calls `move` for every point, in place.
+// Calls `move` for every point and stores the result in place.
 template <typename Move>
 void MovePoints(Frame& frame, Move&& move) {
   for (std::size_t i = 0; i < frame.num_slots(); ++i) {
@@ -47,16 +47,16 @@ void UndoOutputAxes(const OutputSpec& output,
                     const ScanPattern& pattern,
                     RecordedFrame& recorded) {
   Frame& frame = recorded.frame;
-  if (output.handedness == "left") {
+  if (output.handedness == Handedness::kLeft) {
     for (float& y : frame.y) y = -y;
   }
-  if (output.frame == "vehicle") {
+  if (output.frame == OutputFrame::kVehicle) {
     const Transform sensor_from_vehicle = vehicle_from_sensor.inverse();
     MovePoints(frame, [&](const Vector3& point_m, std::size_t) -> Vector3 {
       return sensor_from_vehicle * point_m;
     });
   }
-  if (output.frame != "world") return;
+  if (output.frame != OutputFrame::kWorld) return;
   const std::vector<std::uint32_t> times_ns = TimesOf(recorded, pattern);
   const ScanMotion motion(frame);
   const Vector3 origin_m(output.origin_m[0], output.origin_m[1], output.origin_m[2]);

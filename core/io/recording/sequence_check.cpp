@@ -4,11 +4,11 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/base/number_text.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/io/content_hash.h"
 #include "core/io/sequence_files.h"
 #include "core/io/write_file.h"
+#include "railcast/io/cloud_files.h"
 
 namespace railcast {
 
@@ -47,7 +47,7 @@ SequenceSummary ReadSequenceSummary(const std::filesystem::path& directory) {
   if (!IsThere(manifest)) return summary;
   const std::string text = ReadFileWhole(manifest);
   summary.manifest = ReadManifest(text, ShownPath(manifest));
-  // Older programs wrote none.
+  // Manifests of older programs have no hash of their own.
   if (!summary.run.isa.empty()) CheckManifestHash(text, ShownPath(manifest));
   return summary;
 }
@@ -82,9 +82,9 @@ SequenceOrigin OriginOf(const SequenceSummary& summary) {
 
 std::vector<std::string> RecordFiles(std::string_view format) {
   std::vector<std::string> files = {std::string(kPosesFile), std::string(kObjectsFile)};
-  if (format == "kitti") {
-    files.emplace_back(kKittiPosesFile);
-    files.emplace_back(kKittiTimesFile);
+  const FrameFormat* const known = FindFrameFormat(format);
+  if (known != nullptr && known->dataset) {
+    for (const std::string_view name : known->dataset->record_files) files.emplace_back(name);
   }
   return files;
 }
@@ -105,8 +105,8 @@ FrameLineReader::FrameLineReader(const SequenceSummary& summary)
     : num_frames_(CountLines(summary.directory / kFramesFile)),
       next_frame_(summary.run.start_frame),
       frames_(summary.directory / kFramesFile) {
-  // Lines are counted before files are hashed: that one is missing says more than that something
-  // differs.
+  // Lines are counted before files are hashed, since a missing line is a more specific fault than a
+  // hash that differs.
   const auto check = [&](std::string_view name) {
     if (!summary.manifest) return;
     CheckNumLines(summary.directory / name, summary.manifest->num_frames, false);

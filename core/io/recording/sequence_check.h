@@ -7,72 +7,76 @@
 #include <vector>
 
 #include "core/io/recording/line_reader.h"
-#include "core/io/recording/recording.h"
 #include "core/io/recording/sequence_lines.h"
 #include "core/io/recording/sequence_summary.h"
+#include "railcast/io/recording.h"
 
 namespace railcast {
 
-// Whether a sequence directory holds what it says it does.
+// Checks whether a sequence directory holds what it claims to hold.
 
-/// Whether there is anything of this name, be it a link that leads nowhere.
+/// Whether an entry of this name exists, even if it is a link to nowhere.
 [[nodiscard]] bool IsThere(const std::filesystem::path& file);
 
-/// The bytes of a file of the directory.
-/// @param said_in The file that knows what it must hold: "frames.jsonl".
-/// @throws InputError with one line if it cannot be read or holds anything else, or if its name is
-///   none of a sequence's.
+/// Returns the bytes of a file of the directory.
+/// @param said_in The file that states the expected content, for error messages: "frames.jsonl".
+/// @throws InputError with one line if the file cannot be read or holds anything else, or if a
+///   sequence directory never has a file of this name.
 [[nodiscard]] std::string ReadKnownFile(const std::filesystem::path& directory,
                                         const KnownFile& file,
                                         std::string_view said_in);
 
-/// What a sequence directory says of itself as a whole.
+/// The summary that a sequence directory gives of itself.
 struct SequenceSummary {
   std::filesystem::path directory;
   RunSummary run;
   std::optional<Manifest> manifest;  ///< Absent while the run is unfinished.
 };
 
+/// Reads the summary.
 /// @throws InputError with one line if run.json or manifest.json cannot be read.
 [[nodiscard]] SequenceSummary ReadSequenceSummary(const std::filesystem::path& directory);
 
-/// Checks all files but the frames' that the directory names with their hashes.
-/// @throws InputError with one line for the first that is not as it was written.
+/// Checks all files that the directory names with their hashes, except those of the frames.
+/// @throws InputError with one line for the first that has changed since it was written.
 void CheckKnownFiles(const SequenceSummary& summary);
 
-/// What a recording tells of it.
+/// Returns what a recording reports of the directory's origin.
 [[nodiscard]] SequenceOrigin OriginOf(const SequenceSummary& summary);
 
-/// The files that have a line for each frame besides frames.jsonl, in the order in which a frame's
-/// records_hash is over them.
+/// Returns the files other than frames.jsonl that have a line for each frame, in the order in which
+/// a frame's records_hash covers them.
 [[nodiscard]] std::vector<std::string> RecordFiles(std::string_view format);
 
-/// How many lines of such a file come before the frames': poses.csv begins with its columns' names.
+/// Returns the number of header lines of such a file: poses.csv begins with the names of its
+/// columns.
 [[nodiscard]] std::size_t NumHeaders(std::string_view name);
 
 /// Checks that such a file, or frames.jsonl, has a line for each frame.
-/// @param may_have_more Of an unfinished run the line that is being written may be there.
-/// @throws InputError with one line if it has not, or cannot be read.
+/// @param may_have_more Whether further lines are allowed, as in an unfinished run whose next frame
+///   is being written.
+/// @throws InputError with one line if the count is wrong or the file cannot be read.
 void CheckNumLines(const std::filesystem::path& file, std::size_t num_frames, bool may_have_more);
 
-/// A frame's line of each line file, not yet looked into.
+/// The lines of one frame in all line files, not yet parsed.
 struct FrameLines {
   std::uint32_t expected_frame{};
   PlacedLine frame;
-  std::vector<PlacedLine> records;  ///< Of RecordFiles().
+  std::vector<PlacedLine> records;  ///< One from each file of RecordFiles().
 };
 
-/// Goes through the line files of a directory frame by frame.
+/// Reads the line files of a directory frame by frame.
 class FrameLineReader {
  public:
   /// @throws InputError if a file cannot be read, or if a finished directory does not have a line
   ///   for every frame.
   explicit FrameLineReader(const SequenceSummary& summary);
 
-  /// How many frames there are.
+  /// Returns the number of frames.
   [[nodiscard]] std::size_t num_frames() const { return num_frames_; }
 
-  /// Nothing at the end. @throws InputError if another file has fewer lines than frames.jsonl.
+  /// Returns the next frame's lines, or nothing at the end.
+  /// @throws InputError if another file has fewer lines than frames.jsonl.
   [[nodiscard]] std::optional<FrameLines> Next();
 
  private:
@@ -82,12 +86,13 @@ class FrameLineReader {
   std::vector<LineReader> records_;
 };
 
-/// What the line of frames.jsonl says.
-/// @throws InputError with one line if it is none, or of another frame than the next.
+/// Parses the frame's line of frames.jsonl.
+/// @throws InputError with one line if it is damaged, or if it belongs to a frame other than the
+///   expected one.
 [[nodiscard]] FrameLine ReadNextFrameLine(const FrameLines& lines);
 
-/// @throws InputError with one line if the frame's lines in the other files are not those that its
-///   line in frames.jsonl was written with.
+/// Checks the frame's lines in the other files against records_hash.
+/// @throws InputError with one line if they have changed since the frame was written.
 void CheckRecords(const FrameLine& line, const FrameLines& lines);
 
 }  // namespace railcast

@@ -4,29 +4,28 @@
 #include <cmath>
 
 #include "core/base/error.h"
-#include "core/base/number_text.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/io/recording/recorded_json.h"
 #include "core/io/text_cursor.h"
 
 namespace railcast {
 namespace {
 
-using Json = StrictJson;
-
-Transform PoseOf(const Json& position_m, const Json& quaternion, const std::string& place) {
+Transform PoseOf(const StrictJson& position_m,
+                 const StrictJson& quaternion,
+                 const std::string& place) {
   auto numbers = position_m.get<std::vector<double>>();
   const auto turn = quaternion.get<std::vector<double>>();
   numbers.insert(numbers.end(), turn.begin(), turn.end());
   return MakePose(numbers, place);
 }
 
-Vector3 VectorOf(const Json& json) {
+Vector3 VectorOf(const StrictJson& json) {
   const auto numbers = json.get<std::array<double, 3>>();
   return {numbers[0], numbers[1], numbers[2]};
 }
 
-RecordedObject ObjectOf(const Json& json, const std::string& place) {
+RecordedObject ObjectOf(const StrictJson& json, const std::string& place) {
   RecordedObject object{.name = json.at("name"),
                         .type = json.at("type"),
                         .label = json.at("label"),
@@ -34,7 +33,7 @@ RecordedObject ObjectOf(const Json& json, const std::string& place) {
                         .points = json.at("points"),
                         .firings_visible = json.at("firings_visible"),
                         .firings_alone = json.at("firings_alone")};
-  const Json& box = json.at("sensor");
+  const StrictJson& box = json.at("sensor");
   object.size_m = VectorOf(box.at("size_m"));
   object.sensor_from_box = PoseOf(box.at("center_m"), box.at("quaternion_xyzw"), place);
   object.velocity_world_mps = VectorOf(json.at("velocity_mps"));
@@ -62,15 +61,15 @@ Transform MakePose(const std::vector<double>& numbers, const std::string& place)
 }
 
 FrameLine ReadFrameLine(const std::string& line, const std::string& place) {
-  return ReadRecordedJson<Json>(line, place, [&](const Json& json) {
-    const Json& end = json.at("scan_end");
+  return ReadRecordedJson<StrictJson>(line, place, [&](const StrictJson& json) {
+    const StrictJson& end = json.at("scan_end");
     FrameLine result{.frame = json.at("frame"),
                      .stamp_ns = json.at("stamp_ns"),
                      .duration_ns = end.at("time_ns"),
                      .files = {},
                      .records_hash = json.at("records_xxh3")};
     result.world_from_sensor_end = PoseOf(end.at("position_m"), end.at("quaternion_xyzw"), place);
-    for (const Json& file : json.at("files")) {
+    for (const StrictJson& file : json.at("files")) {
       result.files.push_back({file.at("name"), file.at("xxh3"), file.at("bytes")});
     }
     return result;
@@ -103,14 +102,14 @@ Transform ReadPoseLine(std::string_view line, std::int64_t stamp_ns, const std::
 std::vector<RecordedObject> ReadObjectsLine(const std::string& line,
                                             std::uint32_t frame,
                                             const std::string& place) {
-  return ReadRecordedJson<Json>(line, place, [&](const Json& json) {
+  return ReadRecordedJson<StrictJson>(line, place, [&](const StrictJson& json) {
     const std::uint32_t got = json.at("frame");
     if (got != frame) {
       throw InputError(place + ": frame: must be " + NumberText(frame) +
                        ", as in frames.jsonl (got " + NumberText(got) + ")");
     }
     std::vector<RecordedObject> objects;
-    for (const Json& object : json.at("objects")) objects.push_back(ObjectOf(object, place));
+    for (const StrictJson& object : json.at("objects")) objects.push_back(ObjectOf(object, place));
     return objects;
   });
 }

@@ -1,4 +1,4 @@
-#include "core/io/recording/sequence_recording.h"
+#include "core/io/recording/recording_kinds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/io/recording/cloud_frame.h"
 #include "core/io/recording/recorded_json.h"
 #include "core/io/recording/sensor_axes.h"
@@ -14,8 +14,9 @@
 #include "core/io/recording/sequence_lines.h"
 #include "core/io/sequence_files.h"
 #include "core/io/write_file.h"
-#include "core/scan/scan_pattern.h"
-#include "core/scenario/scenario.h"
+#include "railcast/io/cloud_files.h"
+#include "railcast/lidar.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 namespace {
@@ -28,15 +29,16 @@ struct SequenceContext {
   Transform vehicle_from_sensor;
 
   [[nodiscard]] bool is_in_sensor_axes() const {
-    return output.frame == "sensor" && output.handedness == "right";
+    return output.frame == OutputFrame::kSensor && output.handedness == Handedness::kRight;
   }
 };
 
 const KnownFile& CloudFileOf(const FrameLine& line, const std::string& place) {
   for (const KnownFile& file : line.files) {
-    if (file.name.ends_with(".pcd") || file.name.ends_with(".ply")) return file;
+    const FrameFormat* const format = FindReader(file.name);
+    if (format != nullptr && !format->dataset) return file;
   }
-  throw InputError(place + ": files: must name a .pcd or .ply file");
+  throw InputError(place + ": files: must name a " + ReadableExtensions(false) + " file");
 }
 
 void RecomputeRanges(Frame& frame) {
@@ -52,10 +54,9 @@ RecordedFrame ReadFrame(const SequenceContext& context, const FrameLines& lines)
   const KnownFile& known = CloudFileOf(line, lines.frame.place);
   const std::string file = ShownPath(context.directory / known.name);
   std::string bytes = ReadKnownFile(context.directory, known, kFramesFile);
-  const bool is_pcd = known.name.ends_with(".pcd");
-  const PointTable table =
-      is_pcd ? ParsePcdTable(file, std::move(bytes)) : ParsePlyTable(file, bytes);
-  RecordedFrame recorded = MakeScanFrame(table, file, context.pattern, is_pcd);
+  const FrameFormat& format = *FindReader(known.name);
+  const PointTable table = format.parse(file, std::move(bytes), std::nullopt);
+  RecordedFrame recorded = MakeScanFrame(table, file, context.pattern, format.has_all_slots);
   Frame& frame = recorded.frame;
   frame.index = line.frame;
   frame.stamp_ns = line.stamp_ns;
@@ -84,7 +85,7 @@ std::vector<std::string> ReadMaterialNames(const std::filesystem::path& file) {
   return ReadRecordedJson<StrictJson>(ReadFileWhole(file), ShownPath(file), read);
 }
 
-/// @param place Among the directory's frames; its files are numbered so.
+/// @param place Index among the directory's frames, which numbers KITTI's files.
 RecordedFrame ReadKittiFrame(const std::filesystem::path& directory,
                              const FrameLines& lines,
                              std::uint32_t place) {
@@ -102,7 +103,7 @@ RecordedFrame ReadKittiFrame(const std::filesystem::path& directory,
   return recorded;
 }
 
-/// For WithinMemory: the first of the frame's files is its cloud.
+/// Says what is being read, for WithinMemory: the first of the frame's files is its cloud.
 std::string ReadingFrameText(const std::filesystem::path& directory, const FrameLines& lines) {
   const FrameLine line = ReadFrameLine(lines.frame.text, lines.frame.place);
   return ReadingText(directory / line.files.at(0).name);
@@ -141,11 +142,12 @@ class SequenceRecording : public Recording {
   }
 
  private:
-  // Of an unfinished run no hash vouches for them, but the scenario says the same.
+  // Needed because an unfinished run has no hash of these files; the scenario gives the same
+  // content.
   void CheckNames() const {
     const auto check = [&](bool is_same, std::string_view file) {
       if (is_same) return;
-      throw InputError(ShownPath(info_.source / file) + ": must say the same as " +
+      throw InputError(ShownPath(info_.source / file) + ": must agree with " +
                        std::string(kScenarioFile));
     };
     check(info_.labels.labels() == LabelTable(info_.scenario->labels).labels(), kLabelsFile);
@@ -160,7 +162,8 @@ class SequenceRecording : public Recording {
   FrameLineReader lines_;
 };
 
-/// The clouds of a sequence in KITTI's format, as any of KITTI's but for being checked.
+/// The clouds of a sequence in KITTI's format: read like any KITTI clouds, but checked against
+/// their hashes.
 class KittiRecording : public Recording {
  public:
   explicit KittiRecording(const SequenceSummary& summary) : lines_(summary) {
@@ -193,7 +196,8 @@ class KittiRecording : public Recording {
 
 std::unique_ptr<Recording> OpenSequence(const std::filesystem::path& directory) {
   const SequenceSummary summary = ReadSequenceSummary(directory);
-  if (summary.run.format == "kitti") return std::make_unique<KittiRecording>(summary);
+  const FrameFormat* const format = FindFrameFormat(summary.run.format);
+  if (format != nullptr && format->dataset) return std::make_unique<KittiRecording>(summary);
   return std::make_unique<SequenceRecording>(summary);
 }
 

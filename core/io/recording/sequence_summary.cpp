@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "core/base/error.h"
-#include "core/base/shown_text.h"
+#include "core/base/text.h"
 #include "core/io/content_hash.h"
 #include "core/io/recording/recorded_json.h"
 #include "core/io/scenario_identity.h"
@@ -14,13 +14,12 @@
 namespace railcast {
 namespace {
 
-// In the order of the file: the data's hash depends on it.
-using Json = StrictOrderedJson;
+// StrictOrderedJson keeps the members in the order of the file, on which the data's hash depends.
 
 constexpr std::string_view kManifestHashBegin = "  \"manifest_xxh3\": \"";
 constexpr std::string_view kManifestHashEnd = "\"\n}\n";
 
-void RefuseUnknownKeys(const Json& json,
+void RefuseUnknownKeys(const StrictOrderedJson& json,
                        std::initializer_list<std::string_view> known,
                        const std::string& place) {
   for (const auto& [key, value] : json.items()) {
@@ -32,7 +31,7 @@ void RefuseUnknownKeys(const Json& json,
 }  // namespace
 
 RunSummary ReadRunSummary(const std::string& text, const std::string& place) {
-  return ReadRecordedJson<Json>(text, place, [&](const Json& json) {
+  return ReadRecordedJson<StrictOrderedJson>(text, place, [&](const StrictOrderedJson& json) {
     RunSummary run;
     run.version = json.at("version");
     run.scenario_hash = json.at("scenario_xxh3");
@@ -49,7 +48,7 @@ RunSummary ReadRunSummary(const std::string& text, const std::string& place) {
     run.embree = json.at("embree");
     run.isa = json.at("isa");
     run.files.push_back({std::string(kScenarioFile), run.scenario_hash, {}});
-    for (const Json& input : json.at("inputs")) {
+    for (const StrictOrderedJson& input : json.at("inputs")) {
       const InputFile file{input.at("name"), input.at("xxh3"), {}};
       run.files.push_back({file.CopyName(), file.hash, {}});
     }
@@ -61,7 +60,7 @@ RunSummary ReadRunSummary(const std::string& text, const std::string& place) {
 }
 
 Manifest ReadManifest(const std::string& text, const std::string& place) {
-  return ReadRecordedJson<Json>(text, place, [&](const Json& json) {
+  return ReadRecordedJson<StrictOrderedJson>(text, place, [&](const StrictOrderedJson& json) {
     Manifest manifest;
     manifest.version = json.at("version");
     manifest.seed = json.at("seed");
@@ -76,7 +75,7 @@ Manifest ReadManifest(const std::string& text, const std::string& place) {
         json,
         {"version", "seed", "format", "start_frame", "num_frames", "fidelity_choice", "points",
          "outcomes", "points_per_label", "files_xxh3", "data_xxh3", "manifest_xxh3",
-         // Of older programs, in place of the last two.
+         // Written by older programs instead of the last two.
          "all_xxh3"},
         place);
     return manifest;

@@ -8,51 +8,54 @@
 
 namespace railcast {
 
-// What a sequence directory says of itself as a whole (docs/files.md). `place` names the file in
-// errors: "out/run.json".
+// Readers of the files with which a sequence directory describes itself as a whole (docs/files.md).
+// `place` names the file in errors: "out/run.json".
 
-/// run.json: whose run it is.
+/// The content of run.json, which identifies the run.
 struct RunSummary {
   std::string version;
   std::string embree;  ///< Empty in directories of older programs, ...
-  std::string isa;     ///< ... which did not keep it.
+  std::string isa;     ///< ... which did not record it.
   std::string scenario_hash;
   std::uint64_t seed{};
   std::string format;
   std::uint32_t start_frame{};
   std::uint32_t num_frames{};
-  bool has_commands{};  ///< Whether it replays any.
+  bool has_commands{};  ///< Whether the run replays any commands.
   /// The scenario, its inputs and the commands. Empty in directories of older programs, whose
-  /// scenarios named files elsewhere.
+  /// scenarios referred to files outside the directory.
   std::vector<KnownFile> files;
 };
 
-/// @throws InputError "place: rule" if it is none.
+/// @throws InputError "place: rule" if the text is not a run.json.
 [[nodiscard]] RunSummary ReadRunSummary(const std::string& text, const std::string& place);
 
-/// manifest.json: that all is there, and what.
+/// The content of manifest.json, which states that the run is complete and lists its files.
 struct Manifest {
   std::string version;
   std::uint64_t seed{};
   std::string format;
   std::uint32_t start_frame{};
   std::uint32_t num_frames{};
-  std::vector<KnownFile> files;  ///< All but the frames', which frames.jsonl names.
-  std::string data_hash;         ///< Empty in directories of older programs.
+  /// All files except those of the frames, which frames.jsonl names.
+  std::vector<KnownFile> files;
+  std::string data_hash;  ///< Empty in directories of older programs.
 };
 
-/// @throws InputError "place: rule" if it is none.
+/// @throws InputError "place: rule" if the text is not a manifest.json.
 [[nodiscard]] Manifest ReadManifest(const std::string& text, const std::string& place);
 
-/// The text of manifest.json with its last member, manifest_xxh3: the hash of the text before it.
-/// Some of what a manifest says is said nowhere else.
+/// Returns the text of manifest.json with its last member added: manifest_xxh3, the hash of the
+/// text before it. It is needed because some of a manifest's content is recorded nowhere else.
 /// @param json The other members, each on lines of its own.
 [[nodiscard]] std::string WithManifestHash(const std::string& json);
 
-/// @throws InputError "place: rule" if a manifest is not to the byte what WithManifestHash() gave.
+/// @throws InputError "place: rule" if a manifest differs in any byte from what WithManifestHash()
+///   returned.
 void CheckManifestHash(const std::string& text, const std::string& place);
 
-/// The data_hash of files: that of their hashes, but for run.json, which says who made them.
+/// Returns the data_hash of files: the hash of their hashes, leaving out run.json, which names the
+/// program that made them.
 [[nodiscard]] std::string DataHash(const std::vector<KnownFile>& files);
 
 }  // namespace railcast

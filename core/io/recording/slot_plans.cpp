@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "core/base/error.h"
-#include "core/base/number_text.h"
+#include "core/base/text.h"
 #include "core/io/recording/ring_table.h"
 
 namespace railcast {
@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::uint32_t kMaxReturns = 3;
 constexpr std::uint32_t kMaxRows = 1U << 16U;
-constexpr std::size_t kMaxSpareSlots = std::size_t{1} << 20U;
 
 PointPositions LoadPositions(const PointTable& table) {
   return {.x = LoadFloats(table, *table.Find("x")),
@@ -21,7 +20,7 @@ PointPositions LoadPositions(const PointTable& table) {
           .z = LoadFloats(table, *table.Find("z"))};
 }
 
-/// NaN for a row without a point.
+/// Returns the mean elevation of each row; NaN for a row without a point.
 std::vector<double> RowElevations(const PointTable& table) {
   const PointPositions positions = LoadPositions(table);
   std::vector<double> elevations_rad;
@@ -40,7 +39,7 @@ std::vector<double> RowElevations(const PointTable& table) {
   return elevations_rad;
 }
 
-/// The rows as stored, or from the last on if most elevations fall.
+/// Returns the rows as stored, or in reverse order if most elevations fall.
 std::vector<std::uint32_t> RowsInSense(const std::vector<double>& elevations_rad) {
   std::vector<std::uint32_t> rows(elevations_rad.size());
   std::iota(rows.begin(), rows.end(), 0U);

@@ -9,29 +9,36 @@
 
 namespace railcast {
 
-/// How many firings a scan has.
+/// Numbers of rows and columns of a scan's firings.
 struct ScanShape {
   std::uint32_t rows{};
   std::uint32_t columns{};
 };
 
-/// Every point has its own index as its slot. @param returns Must divide the width.
+/// The most slots that a grid may have beyond the number of points that arrived. The shape is only
+/// what the file or the sender states, and memory must be bounded by what arrived.
+inline constexpr std::size_t kMaxSpareSlots = std::size_t{1} << 20U;
+
+/// Plans a cloud in which every point's index is its slot.
+/// @param returns Must divide the width.
 [[nodiscard]] SlotPlan OrganisedPlan(const PointTable& table, std::uint32_t returns);
 
-/// An organised cloud of anybody's: its rows by rising mean elevation; one without a point stays
-/// beside the row before it. @pre The table has x, y and z.
+/// Plans an organised cloud from any software: its rows are sorted by rising mean elevation, and a
+/// row without a point stays beside the row before it.
+/// @pre The table has x, y and z.
 [[nodiscard]] SlotPlan SortedRowsPlan(const PointTable& table);
 
-/// Each point goes where its ring, column and return_index (0 if the file has none) say.
-/// @param shape Of the scan; nothing: as large as its largest ring and column.
-/// @throws InputError "name: ring: rule (got value)" if one lies outside, if two points are of one
-///   slot, or if a shape that nobody states has so many more slots than points (2^20) that the file
-///   must be damaged.
+/// Puts each point into the slot that its ring, column and return_index (0 if the file has none)
+/// state.
+/// @param shape Shape of the scan; if absent, the largest ring and column give it.
+/// @throws InputError "name: ring: rule (got value)" if an index lies outside the shape, if two
+///   points claim the same slot, or if a shape that is not given has so many more slots than points
+///   (2^20) that the file must be damaged.
 [[nodiscard]] SlotPlan PlacedPlan(const PointTable& table,
                                   const std::string& name,
                                   const std::optional<ScanShape>& shape);
 
-/// One row of all that are points.
+/// Plans one row of all entries that are points.
 [[nodiscard]] SlotPlan LoosePlan(const PointTable& table);
 
 }  // namespace railcast

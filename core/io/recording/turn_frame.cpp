@@ -10,7 +10,7 @@
 namespace railcast {
 namespace {
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNoPoint = std::numeric_limits<float>::quiet_NaN();
 
 float IntensityOf(const TurnPoint& point, IntensityBytes bytes) {
   if (bytes == IntensityBytes::kVelodyne) return IntensityOfByte(point.intensity);
@@ -77,7 +77,7 @@ RecordedFrame MakeTurnFrame(const SensorTurn& turn,
                static_cast<std::uint32_t>(turn.num_columns()), turn.is_dual ? 2 : 1);
   ForEachField(frame, [](std::string_view, std::string_view, auto& values) {
     using Value = typename std::remove_cvref_t<decltype(values)>::value_type;
-    if constexpr (std::is_same_v<Value, float>) std::ranges::fill(values, kNaN);
+    if constexpr (std::is_same_v<Value, float>) std::ranges::fill(values, kNoPoint);
   });
   frame.stamp_ns = turn.stamp_ns;
   FillSlots(turn, shape, frame);

@@ -4,31 +4,31 @@
 #include <string>
 #include <vector>
 
-#include "core/io/recording/recording.h"
 #include "core/io/sensor_turn.h"
-#include "core/scan/scan_spec.h"
+#include "railcast/io/recording.h"
+#include "railcast/lidar.h"
 
 namespace railcast {
 
-/// What a spinning sensor's bytes for intensity mean.
+/// The meaning of a spinning sensor's intensity bytes.
 enum class IntensityBytes {
-  kVelodyne,  ///< Reflectivity as of reflectivity.h.
+  kVelodyne,  ///< Reflectivity as defined in reflectivity.h.
   kPercent
 };
 
 /// The rows of a sensor's frames.
 struct TurnShape {
-  std::vector<std::int64_t> row_time_ns;  ///< Firing of each row, since its cycle began.
+  std::vector<std::int64_t> row_time_ns;  ///< Firing time of each row since its cycle began.
   IntensityBytes intensity{};
 };
 
-/// Rows by rising elevation.
+/// Gives the rows by rising elevation.
 [[nodiscard]] TurnShape ShapeOfTurns(const std::vector<ChannelSpec>& channels,
                                      IntensityBytes intensity);
 
-/// A turn as a grid: a column for each firing cycle that it holds, a slot without a point where a
-/// laser's distance was 0, two slots if it is dual. Times are known unless the sensor's clock leapt
-/// during the turn.
+/// Makes a grid of a turn: one column for each firing cycle that the turn holds, two slots per
+/// firing if the turn is dual, and a slot without a point where a laser's distance was 0. Times are
+/// known unless the sensor's clock jumped during the turn.
 [[nodiscard]] RecordedFrame MakeTurnFrame(const SensorTurn& turn,
                                           const TurnShape& shape,
                                           const std::string& name);

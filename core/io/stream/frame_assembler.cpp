@@ -80,7 +80,8 @@ bool FrameAssembler::IsOtherSensor(const StreamDatagram& datagram) const {
 }
 
 bool FrameAssembler::BeginsAnew(const StreamDatagram& datagram) {
-  // Serial numbers (RFC 1982): larger also where they wrap.
+  // Compared as serial numbers (RFC 1982), so that a later run is recognised where the number
+  // wraps.
   const bool is_later_run = static_cast<std::int32_t>(datagram.run - run_) > 0;
   return !has_run_ || (datagram.sensor == sensor_ && is_later_run) || ++num_strays_ == kMaxStrays;
 }

@@ -1,4 +1,4 @@
-#include "core/io/stream/received_frame.h"
+#include "railcast/io/stream.h"
 
 #include <algorithm>
 

@@ -12,7 +12,7 @@
 namespace railcast {
 namespace {
 
-/// One field of all points that arrived; empty if it was not sent with that type.
+/// Returns one field of all points that arrived, or nothing if it was not sent with that type.
 template <typename T>
 std::optional<std::vector<T>> ReadField(const ReceivedFrame& received, std::string_view name) {
   const StreamField* const field = received.header.Find(name);
@@ -33,7 +33,7 @@ bool HasOnlyFinitePlaces(const ReceivedFrame& received) {
   return true;
 }
 
-/// The slot of each point; nothing if they are not all slots, each once.
+/// Returns the slot of each point, or nothing unless the points fill all slots, each once.
 std::optional<std::vector<std::size_t>> SlotsOf(const ReceivedFrame& received, const Frame& frame) {
   const auto ring = ReadField<std::uint16_t>(received, "ring");
   const auto column = ReadField<std::uint32_t>(received, "column");
@@ -97,7 +97,7 @@ std::optional<Frame> MakeFrame(const ReceivedFrame& received) {
   frame.world_from_sensor = header.world_from_sensor;
   frame.world_from_sensor_end = header.world_from_sensor_end;
   frame.duration_ns = header.duration_ns;
-  // Every slot arrived: no more memory than that.
+  // Every slot arrived, so this takes no more memory than the datagrams did.
   frame.Resize(header.rows, header.columns, header.returns);
   const auto slots = SlotsOf(received, frame);
   if (!slots) return std::nullopt;

@@ -31,7 +31,7 @@ struct WireField {
   std::string_view name;
 };
 
-// Takes the next field off `list`; nothing if there is no whole and valid one.
+// Takes the next field off `list`; returns nothing if there is no whole and valid one.
 std::optional<WireField> TakeField(std::span<const char>& list) {
   constexpr std::size_t kBeforeName = 2;
   if (list.size() < kBeforeName) return std::nullopt;
@@ -60,7 +60,8 @@ bool AreFieldsRight(std::span<const char> header) {
   return list.empty() && point_size == Get<std::uint16_t>(&header[kPointSizeAt]);
 }
 
-// How many points each datagram of the frame but the last has; nothing if the counts contradict.
+// Returns the number of points in each datagram of the frame but the last, or nothing if the counts
+// contradict each other.
 std::optional<std::uint16_t> PointsEach(const StreamDatagram& datagram) {
   const char* const header = datagram.header.data();
   const std::uint64_t total = Get<std::uint32_t>(header + kFramePointsAt);
@@ -76,12 +77,12 @@ std::optional<std::uint16_t> PointsEach(const StreamDatagram& datagram) {
   const bool is_placed = first == each * datagram.packet;
   const bool is_counted =
       num_full == 0 || (each * num_full < total && total <= each * (num_full + 1));
-  // `each` exceeds a datagram's points where a last one lies about `first`.
+  // `each` exceeds what a datagram holds where a last datagram misstates `first`.
   if (!is_placed || !is_counted || each > kMaxStreamDatagram) return std::nullopt;
   return static_cast<std::uint16_t>(each);
 }
 
-// The slots of a frame bound its points. Each product fits into 64 bits.
+// Whether the frame has no more points than slots. Each product fits into 64 bits.
 bool FitsIntoSlots(const char* header) {
   const std::uint64_t cells =
       std::uint64_t{Get<std::uint32_t>(header + kRowsAt)} * Get<std::uint32_t>(header + kColumnsAt);
@@ -94,7 +95,7 @@ bool FitsIntoSlots(const char* header) {
 }
 
 bool IsPose(const PoseValues& pose) {
-  // 1e-6: float32 digits.
+  // Allows for quaternions rounded to float32.
   constexpr double kNormTolerance = 1e-6;
   const double norm2 =
       pose[3] * pose[3] + pose[4] * pose[4] + pose[5] * pose[5] + pose[6] * pose[6];
@@ -107,7 +108,7 @@ Transform MakePose(const PoseValues& pose) {
   return MakeTransform(rotation.normalized().toRotationMatrix(), {pose[0], pose[1], pose[2]});
 }
 
-// From here on, the bytes are those that the sender meant.
+// Checks a datagram whose checksum is right, so that its bytes are those that were sent.
 std::optional<StreamFault> FaultOfWhole(std::span<const char> bytes) {
   if (bytes.size() < kFieldsAt + kTrailerSize || bytes.size() > kMaxStreamDatagram) {
     return StreamFault::kSize;

@@ -10,8 +10,8 @@
 
 #include "core/base/error.h"
 #include "core/io/field_layout.h"
-#include "core/io/stream/stream_format.h"
 #include "core/io/stream/stream_layout.h"
+#include "railcast/io/stream.h"
 
 namespace railcast {
 namespace {
@@ -19,12 +19,12 @@ namespace {
 using namespace stream_layout;
 
 std::uint8_t FlagsOf(const StreamSpec& spec) {
-  const auto axes = spec.output.frame == "world"     ? StreamAxes::kWorld
-                    : spec.output.frame == "vehicle" ? StreamAxes::kVehicle
-                                                     : StreamAxes::kSensor;
+  const auto axes = spec.output.frame == OutputFrame::kWorld     ? StreamAxes::kWorld
+                    : spec.output.frame == OutputFrame::kVehicle ? StreamAxes::kVehicle
+                                                                 : StreamAxes::kSensor;
   unsigned flags = static_cast<unsigned>(axes) << kAxesShift;
   if (spec.has_all_slots) flags |= kAllSlotsFlag;
-  if (spec.output.handedness == "left") flags |= kLeftHandedFlag;
+  if (spec.output.handedness == Handedness::kLeft) flags |= kLeftHandedFlag;
   return static_cast<std::uint8_t>(flags);
 }
 

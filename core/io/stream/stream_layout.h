@@ -8,20 +8,21 @@
 
 namespace railcast::stream_layout {
 
-// Values are copied to and from the wire as they are.
+// Values are copied to and from the wire without swapping bytes.
 static_assert(std::endian::native == std::endian::little);
 
 inline constexpr std::array<char, 4> kMagic = {'R', 'C', 'S', 'T'};
 inline constexpr std::uint8_t kVersion = 1;
 
-// Of the flags: whether all slots are sent, two bits that are a StreamAxes, and handedness.
+// The flags: one bit tells whether all slots are sent, two bits hold a StreamAxes, one the
+// handedness.
 inline constexpr std::uint8_t kAllSlotsFlag = 1;
 inline constexpr unsigned kAxesShift = 1;
 inline constexpr std::uint8_t kAxesMask = 3;
 inline constexpr std::uint8_t kLeftHandedFlag = 8;
 inline constexpr std::uint8_t kAllFlags = 15;
 
-/// Where each part of a datagram's header is; docs/stream.md explains them.
+/// Offsets of the parts of a datagram's header; docs/stream.md explains them.
 inline constexpr std::size_t kMagicAt = 0;
 inline constexpr std::size_t kVersionAt = 4;
 inline constexpr std::size_t kFlagsAt = 5;

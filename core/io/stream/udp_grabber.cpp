@@ -1,4 +1,4 @@
-#include "core/io/stream/udp_grabber.h"
+#include "railcast/io/udp_grabber.h"
 
 #include <pcl/conversions.h>
 
@@ -138,7 +138,7 @@ void UdpGrabber::Emit(const std::shared_ptr<const ReceivedFrame>& frame) {
           axes, [&](std::string_view axis) { return Sends(header, axis, StreamType::kF32); })) {
     return;
   }
-  // In other axes than the sensor's there is no such pose.
+  // The pose is known only where the points are in the sensor's own axes.
   const bool has_pose = header.axes == StreamAxes::kSensor && !header.is_left_handed;
   const Transform pose = has_pose ? header.world_from_sensor : Transform::Identity();
   EmitPoints<pcl::PointXYZ>(*cloud, pose);

@@ -29,7 +29,8 @@ std::string GprmcSentence(std::int64_t time_ns) {
   const auto midnight = std::chrono::floor<days>(time);
   const std::chrono::year_month_day date(midnight);
   const std::chrono::hh_mm_ss clock(time - midnight);
-  // Two digits each, whatever the type says.
+  // Reduces a number to two digits: the year to its last two, all others so that the compiler can
+  // tell that the text fits.
   const auto two = [](auto number) { return static_cast<unsigned>(number) % 100U; };
   std::array<char, 96> text{};
   std::snprintf(text.data(), text.size(),

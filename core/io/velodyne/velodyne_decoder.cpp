@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/base/number_text.h"
+#include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "core/scan/channel_rows.h"
@@ -16,16 +16,10 @@
 namespace railcast {
 namespace {
 
-/// A turn of more is cut: a rotor that stands still must not fill the memory. The densest real one
-/// (VLP-32C, dual, 5 Hz) has 232 thousand.
+/// The most points of a turn; a longer turn is cut, so that a rotor that stands still cannot fill
+/// the memory. The densest real turn (VLP-32C, dual, 5 Hz) has 232 thousand points.
 constexpr std::size_t kMaxTurnPoints = std::size_t{1} << 20U;
-/// Nor may one that sees nothing. The most of a real one (HDL-32E, 5 Hz) are 4340.
-constexpr std::size_t kMaxTurnColumns = std::size_t{1} << 14U;
 constexpr double kFullTurn_deg = 360.0;
-
-std::string Refusal(const std::string& rule, std::size_t got) {
-  return rule + " (got " + NumberText(got) + ")";
-}
 
 std::uint16_t FlagOf(const char* block) {
   return LoadAt<std::uint16_t>(block);
@@ -34,53 +28,55 @@ std::uint16_t AzimuthOf(const char* block) {
   return LoadAt<std::uint16_t>(block + kAzimuthPlace);
 }
 
-bool IsDual(const VelodyneModel& model, std::span<const char> payload) {
+bool IsDualPacket(const VelodyneModel& model, std::span<const char> payload) {
   return model.has_mode_and_id && static_cast<std::uint8_t>(payload[kModePlace]) == kDualMode;
 }
 
 std::optional<std::string> RefuseEnd(const VelodyneModel& model, const char* packet) {
   const auto time_us = LoadAt<std::uint32_t>(packet + kTimePlace);
   if (time_us >= kUsPerHour)
-    return Refusal("microseconds past the hour must be < 3600000000", time_us);
+    return "microseconds past the hour must be < 3600000000" + Got(time_us);
   if (!model.has_mode_and_id) return std::nullopt;
   const auto id = LoadAt<std::uint8_t>(packet + kModelPlace);
   if (id != model.id) {
-    return Refusal("model must be " + NumberText(model.id) + ", " + std::string(model.name), id);
+    return "model must be " + NumberText(model.id) + ", " + std::string(model.name) + Got(id);
   }
   const auto mode = LoadAt<std::uint8_t>(packet + kModePlace);
   if (mode < kStrongestMode || mode > kDualMode) {
-    return Refusal("return mode must be 55, 56 or 57", mode);
+    return "return mode must be 55, 56 or 57" + Got(mode);
   }
   return std::nullopt;
 }
 
-// What is no packet of this model.
-std::optional<std::string> Refuse(const VelodyneModel& model, std::span<const char> payload) {
+// Returns why the payload is not a data packet of this model, or nothing if it is one.
+std::optional<std::string> RefuseVelodyne(const VelodyneModel& model,
+                                          std::span<const char> payload) {
   if (payload.size() != kVelodynePacketSize) {
-    return Refusal("must be 1206 bytes", payload.size());
+    return "must be 1206 bytes" + Got(payload.size());
   }
   if (auto refusal = RefuseEnd(model, payload.data())) return refusal;
-  const std::size_t in_group = model.blocks_per_cycle() * (IsDual(model, payload) ? 2U : 1U);
+  const std::size_t in_group = model.blocks_per_cycle() * (IsDualPacket(model, payload) ? 2U : 1U);
   for (std::size_t i = 0; i < kBlocksPerPacket; ++i) {
     const char* const block = payload.data() + i * kBlockSize;
     const bool is_upper = i % model.blocks_per_cycle() == 1;
     if (FlagOf(block) != (is_upper ? kUpperBlockFlag : kLowerBlockFlag)) {
-      return Refusal("block " + NumberText(i) + ": flag must be " + (is_upper ? "56831" : "61183"),
-                     FlagOf(block));
+      return "block " + NumberText(i) + ": flag must be " + (is_upper ? "56831" : "61183") +
+             Got(FlagOf(block));
     }
     if (AzimuthOf(block) >= kAzimuthUnitsPerTurn) {
-      return Refusal("block " + NumberText(i) + ": azimuth must be <= 35999", AzimuthOf(block));
+      return "block " + NumberText(i) + ": azimuth must be <= 35999" + Got(AzimuthOf(block));
     }
     const char* const first = payload.data() + i / in_group * in_group * kBlockSize;
     if (AzimuthOf(block) != AzimuthOf(first)) {
-      return Refusal("block " + NumberText(i) + ": azimuth must be that of its pair",
-                     AzimuthOf(block));
+      return "block " + NumberText(i) + ": azimuth must be that of its pair" +
+             Got(AzimuthOf(block));
     }
   }
   return std::nullopt;
 }
 
-// From the median step between groups of blocks: a gap between two scans is none of its concern.
+// Takes the rotor's speed from the median step between groups of blocks, so that a gap between two
+// scans does not affect it.
 double SpeedDegPerUs(std::span<const char> payload, std::size_t in_group, double group_us) {
   std::array<std::int64_t, kBlocksPerPacket> steps{};
   std::size_t num_steps = 0;
@@ -94,7 +90,7 @@ double SpeedDegPerUs(std::span<const char> payload, std::size_t in_group, double
   return static_cast<double>(*middle) * kAzimuthUnit_deg / group_us;
 }
 
-std::vector<LaserCalibration> TableOf(const VelodyneModel& model) {
+std::vector<LaserCalibration> CalibrationOf(const VelodyneModel& model) {
   Check(!model.has_own_angles, "the model's angles are in its data sheet");
   std::vector<LaserCalibration> table;
   for (const ChannelSpec& laser : model.lasers) {
@@ -106,7 +102,7 @@ std::vector<LaserCalibration> TableOf(const VelodyneModel& model) {
 }  // namespace
 
 VelodyneDecoder::VelodyneDecoder(const VelodyneModel& model)
-    : VelodyneDecoder(model, TableOf(model)) {}
+    : VelodyneDecoder(model, CalibrationOf(model)) {}
 
 VelodyneDecoder::VelodyneDecoder(const VelodyneModel& model,
                                  const std::vector<LaserCalibration>& calibration)
@@ -129,12 +125,12 @@ VelodyneDecoder::VelodyneDecoder(const VelodyneModel& model,
 }
 
 std::int64_t VelodyneDecoder::PacketNs(std::uint32_t us_past_hour) {
-  // A clock that leaps ahead with every packet must not run out of bits.
+  // Keeps a clock that jumps ahead with every packet from overflowing the counter.
   constexpr std::int64_t kMostHours = 10'000;
   if (!last_packet_us_ || std::abs(*last_packet_us_) > kMostHours * kUsPerHour) {
     last_packet_us_ = us_past_hour;
   }
-  // The nearest time that has these microseconds: packets may come late, too.
+  // Take the nearest time that has these microseconds, since packets may also come late.
   std::int64_t since_last_us = (us_past_hour - *last_packet_us_ % kUsPerHour) % kUsPerHour;
   if (since_last_us > kUsPerHour / 2) since_last_us -= kUsPerHour;
   if (since_last_us < -kUsPerHour / 2) since_last_us += kUsPerHour;
@@ -144,8 +140,8 @@ std::int64_t VelodyneDecoder::PacketNs(std::uint32_t us_past_hour) {
 
 std::optional<std::string> VelodyneDecoder::Decode(std::span<const char> payload,
                                                    std::vector<SensorTurn>& turns) {
-  if (auto refusal = Refuse(model_, payload)) return refusal;
-  const bool is_dual = IsDual(model_, payload);
+  if (auto refusal = RefuseVelodyne(model_, payload)) return refusal;
+  const bool is_dual = IsDualPacket(model_, payload);
   const std::size_t in_group = model_.blocks_per_cycle() * (is_dual ? 2U : 1U);
   const double group_us = static_cast<double>(model_.cycles_per_block()) * model_.cycle_us;
   const double speed_deg_per_us = SpeedDegPerUs(payload, in_group, group_us);

@@ -12,30 +12,32 @@
 
 namespace railcast {
 
-/// Turns the data packets of a Velodyne sensor, real or ours, into points.
+/// Turns the data packets of a Velodyne sensor, real or simulated, into points.
 ///
-/// Each laser has its own azimuth: the block's, plus what the rotor turns until its firing (its
-/// speed is the median over the packet), plus its own offset. A turn ends where the azimuth falls;
-/// its stamp counts from the start of the hour in which the first packet was sent, anew after
-/// 10,000 hours.
+/// Each laser has its own azimuth: that of the block, plus the rotation of the rotor until the
+/// laser fires (at the median speed over the packet), plus the laser's own offset. A turn ends
+/// where the azimuth falls. Its stamp counts from the start of the hour in which the first packet
+/// was sent; after 10,000 hours that count starts anew.
 class VelodyneDecoder {
  public:
-  /// Of sensors whose angles are in the data sheet. @pre Not model.has_own_angles.
+  /// For sensors whose angles are in the data sheet.
+  /// @pre Not model.has_own_angles.
   explicit VelodyneDecoder(const VelodyneModel& model);
-  /// @param calibration One for each laser.
+  /// @param calibration One entry for each laser.
   VelodyneDecoder(const VelodyneModel& model, const std::vector<LaserCalibration>& calibration);
 
   /// Takes the payload of a data packet and appends the turns that it completes.
-  /// @returns Why the payload was refused, "rule (got value)", if it was: nothing of it is used.
+  /// @returns Why the payload was refused, as "rule (got value)", if it was; nothing of a refused
+  ///   payload is used.
   [[nodiscard]] std::optional<std::string> Decode(std::span<const char> payload,
                                                   std::vector<SensorTurn>& turns);
 
-  /// The turn that no packet has completed; starts a new one.
+  /// Returns the turn that no packet has completed yet, and starts a new one.
   [[nodiscard]] SensorTurn TakeUnfinished();
 
  private:
   struct Laser {
-    double sine{};  ///< Of the elevation.
+    double sine{};  ///< Sine of the elevation.
     double cosine{};
     double azimuth_deg{};
     double time_us{};
@@ -56,7 +58,7 @@ class VelodyneDecoder {
 
   const VelodyneModel& model_;
   std::vector<Laser> lasers_;
-  std::optional<std::int64_t> last_packet_us_;  ///< Counted on over the hours.
+  std::optional<std::int64_t> last_packet_us_;  ///< Continues counting across hours.
   std::optional<std::uint16_t> last_azimuth_;
   SensorTurn turn_;
 };

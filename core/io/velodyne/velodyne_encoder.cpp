@@ -9,10 +9,10 @@
 #include <variant>
 
 #include "core/base/error.h"
+#include "core/base/units.h"
 #include "core/io/field_layout.h"
 #include "core/io/velodyne/position_packet.h"
 #include "core/io/velodyne/reflectivity.h"
-#include "core/io/velodyne/velodyne_fit.h"
 #include "core/io/velodyne/velodyne_model.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "core/scan/channel_rows.h"
@@ -20,9 +20,7 @@
 namespace railcast {
 namespace {
 
-constexpr std::int64_t kNsPerS = 1'000'000'000;
-
-/// What a packet says of one return; zeros if there is none.
+/// One return as a packet encodes it; all zeros if there is none.
 struct CodedReturn {
   std::uint16_t distance{};
   std::uint8_t reflectivity{};
@@ -33,7 +31,7 @@ void Store(const CodedReturn& coded, char* place) {
   StoreAt<std::uint8_t>(place + sizeof(std::uint16_t), coded.reflectivity);
 }
 
-/// The azimuth of every column, in the packets' units.
+/// Returns the azimuth of every column in the units of the packets.
 std::vector<std::uint16_t> ColumnAzimuths(const SpinningSpec& pattern, double rate_hz) {
   std::vector<std::uint16_t> azimuths;
   for (std::uint32_t column = 0; column < pattern.columns; ++column) {
@@ -97,7 +95,7 @@ class VelodyneEncoder final : public FrameEncoder {
     return model_.blocks_per_cycle() * (is_dual_ ? 2U : 1U);
   }
 
-  // Goes on in the packet in which the next one begins.
+  // Skips the frames that are left out and continues in the packet in which the next frame begins.
   void LeaveOut(std::uint32_t num_frames, std::uint32_t step) {
     const std::uint64_t num_azimuths = azimuths_.size() / step * std::uint64_t{num_frames};
     const std::uint64_t num_blocks = num_blocks_ + num_azimuths * BlocksPerAzimuth();
@@ -105,7 +103,7 @@ class VelodyneEncoder final : public FrameEncoder {
     lacks_blocks_ = num_blocks_ > 0;
   }
 
-  // The blocks of one azimuth: those of a firing cycle, or one block with two cycles.
+  // Encodes the blocks of one azimuth: those of one firing cycle, or one block with two cycles.
   void EncodeCycles(const Frame& frame, std::uint32_t column, std::uint32_t end) {
     const std::size_t num_blocks = BlocksPerAzimuth();
     if (num_blocks_ == 0) first_ns_ = FiringNs(frame, first_row_, column);
@@ -132,7 +130,7 @@ class VelodyneEncoder final : public FrameEncoder {
 
   [[nodiscard]] CodedReturn CodeReturn(const Frame& frame, std::size_t slot) const {
     const double distance = static_cast<double>(frame.range_m[slot]) / model_.distance_unit_m + 0.5;
-    // Also where there is no return: NaN.
+    // Written so that NaN, which means no return, is left out, too.
     if (!(distance >= 1.0 && distance < 65536.0)) return {};
     return {static_cast<std::uint16_t>(distance), ReflectivityByte(frame.intensity[slot])};
   }
@@ -143,8 +141,9 @@ class VelodyneEncoder final : public FrameEncoder {
       Store(strongest, place);
       return;
     }
-    // The second slot has the last return if that is another, else the second strongest, which is
-    // nearer: in both cases the even block has the farther one, the odd block the nearer.
+    // The second slot holds the last return if that differs from the strongest, and otherwise the
+    // second strongest, which is then nearer. In both cases the even block gets the farther return
+    // and the odd block the nearer.
     const CodedReturn other = frame.returns == 2 ? CodeReturn(frame, slot + 1) : CodedReturn{};
     CodedReturn farther = strongest;
     CodedReturn nearer = other;
@@ -168,31 +167,32 @@ class VelodyneEncoder final : public FrameEncoder {
 
   const VelodyneModel& model_;
   bool is_dual_;
-  std::vector<std::uint16_t> rows_;  // Of each laser.
+  std::vector<std::uint16_t> rows_;  // Row of each laser.
   std::vector<std::uint16_t> azimuths_;
-  std::size_t first_row_{};  // Fires first in a cycle.
+  std::size_t first_row_{};  // The row that fires first in a cycle.
   std::size_t last_row_{};
 
   // The packet under construction.
   std::array<char, kVelodynePacketSize> packet_{};
   std::size_t num_blocks_{};
-  bool lacks_blocks_ = false;  // Of a frame that was left out.
+  // Set if the packet's first blocks belong to a frame that was left out.
+  bool lacks_blocks_ = false;
   std::optional<std::uint32_t> next_frame_;
   std::int64_t first_ns_{};
   std::int64_t last_ns_{};
   std::optional<std::int64_t> next_position_ns_;
 };
 
-std::uint8_t ModeByte(std::string_view return_mode) {
-  if (return_mode == "dual") return kDualMode;
-  return return_mode == "last" ? kLastMode : kStrongestMode;
+std::uint8_t ModeByte(ReturnMode return_mode) {
+  if (return_mode == ReturnMode::kDual) return kDualMode;
+  return return_mode == ReturnMode::kLast ? kLastMode : kStrongestMode;
 }
 
 }  // namespace
 
 std::unique_ptr<FrameEncoder> MakeVelodyneEncoder(std::string_view format,
                                                   const ScanSpec& scan,
-                                                  std::string_view return_mode) {
+                                                  ReturnMode return_mode) {
   const VelodyneFormat found = FindVelodyneFormat(format);
   CheckFits(found, scan, return_mode);
   return std::make_unique<VelodyneEncoder>(found, std::get<SpinningSpec>(scan.pattern),

@@ -1,20 +1,16 @@
-#include "core/io/velodyne/velodyne_fit.h"
+#include "core/io/velodyne/velodyne_encoder.h"
 
 #include <cmath>
 #include <string>
 #include <variant>
 
 #include "core/base/error.h"
-#include "core/base/number_text.h"
+#include "core/base/text.h"
 
 namespace railcast {
 namespace {
 
-std::string Quoted(std::string_view text) {
-  return std::string("\"").append(text).append("\"");
-}
-
-/// Says what is wrong with the scan, for one format.
+/// Reports what in a scan does not fit one format.
 class Fit {
  public:
   explicit Fit(const VelodyneFormat& format)
@@ -23,8 +19,8 @@ class Fit {
   void CheckPattern(const ScanSpec& scan) const {
     const auto* const pattern = std::get_if<SpinningSpec>(&scan.pattern);
     if (pattern == nullptr) Fail("/scan/pattern/type", "must be \"spinning\"");
-    if (pattern->rotation != "clockwise") {
-      Fail("/scan/pattern/rotation", "must be \"clockwise\"", Quoted(pattern->rotation));
+    if (pattern->rotation != Rotation::kClockwise) {
+      Fail("/scan/pattern/rotation", "must be \"clockwise\"", Quoted(NameOf(pattern->rotation)));
     }
     if (pattern->channels.size() != model_.lasers.size()) {
       Fail("/scan/pattern/channels",
@@ -66,7 +62,7 @@ class Fit {
 
   void CheckColumns(const SpinningSpec& pattern, double rate_hz) const {
     const std::size_t in_block = model_.cycles_per_block();
-    // 1800 x 55.5555556 us is a hair more than 100 ms.
+    // The margin is for rounding: 1800 x 55.5555556 us is slightly more than 100 ms.
     const double fitting = std::floor(1e6 / (rate_hz * pattern.cycle_us) * (1.0 + 1e-6));
     const double most = fitting - std::fmod(fitting, static_cast<double>(in_block));
     if (pattern.columns == most) return;
@@ -80,14 +76,15 @@ class Fit {
 
 }  // namespace
 
-void CheckFits(const VelodyneFormat& format, const ScanSpec& scan, std::string_view return_mode) {
+void CheckFits(const VelodyneFormat& format, const ScanSpec& scan, ReturnMode return_mode) {
   const Fit fit(format);
   fit.CheckPattern(scan);
-  const std::string got = Quoted(return_mode);
-  if (format.is_dual && return_mode != "dual") {
+  const std::string got = Quoted(NameOf(return_mode));
+  if (format.is_dual && return_mode != ReturnMode::kDual) {
     fit.Fail("/receiver/return_mode", "must be \"dual\"", got);
   }
-  if (!format.is_dual && return_mode != "strongest" && return_mode != "last") {
+  if (!format.is_dual && return_mode != ReturnMode::kStrongest &&
+      return_mode != ReturnMode::kLast) {
     fit.Fail("/receiver/return_mode", "must be \"strongest\" or \"last\"", got);
   }
 }

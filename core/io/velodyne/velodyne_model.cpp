@@ -8,8 +8,8 @@
 namespace railcast {
 namespace {
 
-// Angles: ros-drivers/velodyne, params/VLP16db.yaml, 32db.yaml and VeloView-VLP-32C.yaml. Times:
-// user manuals 63-9243, 63-9113 and 63-9325. Laser numbers are places in the packet.
+// Sources. Angles: ros-drivers/velodyne, params/VLP16db.yaml, 32db.yaml and VeloView-VLP-32C.yaml.
+// Times: user manuals 63-9243, 63-9113 and 63-9325. Laser numbers are positions in the packet.
 
 VelodyneModel Vlp16() {
   VelodyneModel model{.name = "VLP-16",
@@ -72,7 +72,7 @@ VelodyneModel Vlp32c() {
 }
 
 VelodyneModel Hdl64e() {
-  // S2: the upper and the lower half fire at once, in groups of four.
+  // S2 model: the upper and the lower half fire at once, in groups of four.
   constexpr std::array<double, 4> kInGroup_us = {0.0, 1.26, 2.46, 3.66};
   VelodyneModel model{.name = "HDL-64E",
                       .id = 0,

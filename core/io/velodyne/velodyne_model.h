@@ -6,18 +6,20 @@
 #include <vector>
 
 #include "core/io/velodyne/velodyne_packet.h"
-#include "core/scan/scan_spec.h"
+#include "railcast/lidar.h"
 
 namespace railcast {
 
-/// All that tells the packets of one Velodyne sensor from another's.
+/// The properties that distinguish the packets of one Velodyne sensor from those of another.
 struct VelodyneModel {
   std::string_view name;
   std::uint8_t id{};       ///< The last byte of a packet.
-  bool has_mode_and_id{};  ///< HDL-64E's packets end in status bytes instead.
-  bool has_own_angles{};   ///< Each HDL-64E has a calibration: elevations and azimuths below are 0.
-  double distance_unit_m{};  ///< 65535 of them is the farthest that a packet can say.
-  double cycle_us{};         ///< From one firing cycle to the next.
+  bool has_mode_and_id{};  ///< False for HDL-64E, whose packets end in status bytes instead.
+  /// Whether each unit has a calibration, as with HDL-64E: elevations and azimuths below are then
+  /// 0.
+  bool has_own_angles{};
+  double distance_unit_m{};  ///< 65535 units are the greatest range that a packet can hold.
+  double cycle_us{};         ///< Time from one firing cycle to the next.
   /// In the order of the packets. Azimuths count clockwise, times from the start of the cycle.
   std::vector<ChannelSpec> lasers;
 
@@ -29,13 +31,14 @@ struct VelodyneModel {
   }
 };
 
-/// What a packet stream is called on command lines: a sensor and its return mode.
+/// A packet format as named on command lines: a sensor and its return mode.
 struct VelodyneFormat {
   std::string_view name;
   const VelodyneModel* model{};
   bool is_dual{};
 };
 
+/// Returns the format of this name.
 /// @param name One of vlp16, vlp16-dual, hdl32e, vlp32c, hdl64e.
 /// @throws InputError if it is none of them.
 [[nodiscard]] VelodyneFormat FindVelodyneFormat(std::string_view name);

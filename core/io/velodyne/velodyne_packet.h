@@ -9,7 +9,7 @@ namespace railcast {
 // A Velodyne data packet, little-endian:
 //   12 blocks { u16 flag, u16 azimuth in 0.01 deg, 32 x { u16 distance, u8 reflectivity } }
 //   u32 microseconds past the hour of the first firing, u8 return mode, u8 model
-// (VLP-16 user manual 63-9243, chapter 9; HDL-64E's last two bytes say other things.)
+// (VLP-16 user manual 63-9243, chapter 9; HDL-64E's last two bytes have other meanings.)
 inline constexpr std::size_t kVelodynePacketSize = 1206;
 inline constexpr std::size_t kBlocksPerPacket = 12;
 inline constexpr std::size_t kBlockSize = 100;
@@ -26,19 +26,19 @@ inline constexpr std::uint16_t kUpperBlockFlag = 0xDDFF;  ///< Lasers 32 to 63.
 
 inline constexpr std::uint8_t kStrongestMode = 0x37;
 inline constexpr std::uint8_t kLastMode = 0x38;
-/// Blocks come in pairs: the even one holds the last return, the odd one the strongest; if these
-/// are one, the odd block holds the second strongest, or the same again.
+/// Dual returns: blocks come in pairs, of which the even one holds the last return and the odd one
+/// the strongest. If both are the same return, the odd block holds the second strongest, or a copy.
 inline constexpr std::uint8_t kDualMode = 0x39;
 
 inline constexpr std::int64_t kAzimuthUnitsPerTurn = 36'000;
 inline constexpr double kAzimuthUnit_deg = 0.01;
 inline constexpr std::int64_t kUsPerHour = 3'600'000'000;
 
-// Sensors send to the ports that they send from.
+// Sensors use the same port to send from and to send to.
 inline constexpr std::uint16_t kVelodyneDataPort = 2368;
 inline constexpr std::uint16_t kVelodynePositionPort = 8308;
 
-/// A number at a place of any alignment.
+/// Reads a number at an address of any alignment.
 template <typename Number>
 [[nodiscard]] Number LoadAt(const char* place) {
   Number number{};

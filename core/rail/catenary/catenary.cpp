@@ -20,8 +20,8 @@ constexpr int kWireSides = 16;
 constexpr int kDropperSides = 8;
 
 constexpr double kWireTolerance_m = 2e-3;
-/// The contact wire follows the track's vertical curves: at 2000 m, chords of 5 m are within 1.6
-/// mm.
+/// The contact wire follows the track's vertical curves: at a radius of 2000 m, chords of 5 m
+/// deviate by less than 1.6 mm.
 constexpr double kContactChord_m = 5.0;
 
 /// The wires of one track between two supports, in world coordinates.
@@ -61,7 +61,7 @@ class Span {
   }
 
  private:
-  /// 0 at the supports, 1 in the middle.
+  /// 0 at the supports, 1 in the middle of the span.
   static double Parabola(double fraction) { return 4.0 * fraction * (1.0 - fraction); }
   [[nodiscard]] Vector3 Chord(double fraction) const {
     return first_m_ + fraction * (last_m_ - first_m_);
@@ -75,14 +75,14 @@ class Span {
   double system_height_m_{};
 };
 
-/// A span's wire as a polyline with corners at whole multiples of 1 / num_chords.
+/// A wire of a span as a polyline with corners at integer multiples of 1 / num_chords.
 template <typename Curve>
 class Polyline {
  public:
   Polyline(Curve curve, double length_m, double chord_m)
       : curve_(std::move(curve)), num_chords_(std::ceil(length_m / chord_m)) {}
 
-  /// A point of the polyline, not of the curve.
+  /// A point on the polyline (not on the curve).
   [[nodiscard]] Vector3 At(double fraction) const {
     const double corner = std::clamp(std::floor(fraction * num_chords_), 0.0, num_chords_ - 1.0);
     const Vector3 a = curve_(corner / num_chords_);
@@ -90,10 +90,10 @@ class Polyline {
     return a + (fraction * num_chords_ - corner) * (b - a);
   }
 
-  /// Its stretch between two fractions. A corner so near to an end that the piece would be a sliver
-  /// gives way to it.
+  /// The part of the polyline between two fractions. A corner so close to an end that the piece
+  /// would be a sliver is dropped.
   [[nodiscard]] std::vector<Vector3> Between(double first, double last) const {
-    constexpr double kSliver = 0.01;  // Of a chord.
+    constexpr double kSliver = 0.01;  // Fraction of a chord.
     std::vector<Vector3> points_m{At(first)};
     for (double corner = std::ceil(first * num_chords_ + kSliver);
          corner < last * num_chords_ - kSliver; corner += 1.0) {
@@ -119,7 +119,7 @@ void AddWiresOfSpan(const ChunkContext& context, const Span& span, std::vector<W
   const auto fraction = [&](double s_m) { return (s_m - span.first_s_m()) / span.length_m(); };
   const double first = std::max(0.0, fraction(context.begin_s_m - 0.5 * kChunkOverlap_m));
   const double last = std::min(1.0, fraction(context.end_s_m + 0.5 * kChunkOverlap_m));
-  // What is shorter than the overlap is the neighbour's.
+  // A piece shorter than the overlap belongs to the neighbouring chunk.
   if ((last - first) * span.length_m() <= kChunkOverlap_m) return;
   const RailSurfaces& surfaces = context.surfaces;
   const auto add = [&](const SurfaceClass& surface, double radius_m,
@@ -139,7 +139,7 @@ void AddWiresOfSpan(const ChunkContext& context, const Span& span, std::vector<W
   }
 }
 
-/// The supports of the spans that touch the chunk.
+/// The supports of the spans that extend into the chunk.
 struct SupportRange {
   std::size_t first{};
   std::size_t end{};
@@ -196,7 +196,8 @@ void AddSupport(const ChunkContext& context,
   }
 }
 
-/// The corners' radius at which a tube's corners and faces are equally far from the true surface.
+/// Corner radius for which a tube's corners and the middles of its faces are equally far from the
+/// true surface.
 double CornerRadius_m(double radius_m, int num_sides) {
   return 2.0 * radius_m / (1.0 + std::cos(std::numbers::pi / num_sides));
 }
@@ -228,7 +229,7 @@ void AddCatenary(const ChunkContext& context,
   const SupportRange around = SupportsAround(context, plan);
   for (std::size_t i = around.first; i < around.end; ++i) {
     const CatenarySupport& support = plan.supports()[i];
-    // The line's last support stands at its very end, which no chunk has within.
+    // The last support stands at the very end of the line, which no half-open chunk contains.
     const bool is_last_of_line = i + 1 == plan.supports().size() && support.s_m == context.end_s_m;
     if (support.s_m < context.begin_s_m || (support.s_m >= context.end_s_m && !is_last_of_line)) {
       continue;

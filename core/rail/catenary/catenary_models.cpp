@@ -32,14 +32,14 @@ constexpr double kInsulatorLength_m = 0.50;
 constexpr double kInsulatorRadius_m = 0.055;
 constexpr int kInsulatorSides = 10;
 
-/// Of the registration tube above the contact wire, and of the steady arm along it.
+/// Height of the registration tube above the contact wire, and length of the steady arm.
 constexpr double kRegistrationHeight_m = 0.40;
 constexpr double kSteadyArmLength_m = 1.0;
 constexpr double kTubeBeyondHinge_m = 0.15;
-/// Along the strut, from its hinge to where the registration tube begins.
+/// Distance along the strut from its hinge to the start of the registration tube.
 constexpr double kTubeRoot_m = kInsulatorGap_m + kInsulatorLength_m + 0.1;
 
-/// Draws a cantilever's tubes into its two parts.
+/// Adds the tubes of a cantilever to its two parts.
 class CantileverPen {
  public:
   CantileverPen(const RailSurfaces& surfaces, Model& model) : surfaces_(surfaces), model_(model) {}
@@ -49,7 +49,7 @@ class CantileverPen {
     MeshOf(surfaces_.cantilever, model_).Append(MakeTube(line_m, radius_m, kTubeSides));
   }
 
-  /// A tube whose first metre, at the mast, holds an insulator with five sheds.
+  /// Adds a tube whose first metre, at the mast, carries an insulator with five sheds.
   void InsulatedTube(const Vector3& mast_m, const Vector3& to_m, double radius_m) {
     Tube(mast_m, to_m, radius_m);
     const Vector3 along = (to_m - mast_m).normalized();
@@ -94,8 +94,8 @@ std::array<Eigen::Vector2d, 12> Section_m() {
            {kX, kWebY}}};
 }
 
-/// Upright, with the flanges facing along y: an extrusion runs along x over (y, z); its x is z
-/// here, its y and z are x and y.
+/// An upright beam with its flanges facing along y. An extrusion runs along x over (y, z), so its x
+/// becomes z, and its y and z become x and y.
 Mesh UprightBeam(double bottom_m, double top_m) {
   Eigen::Matrix3d upright_from_extrusion;
   upright_from_extrusion << 0, 1, 0, 0, 0, 1, 1, 0, 0;
@@ -110,7 +110,7 @@ double MastTop_m(const CatenarySpec& spec) {
                   spec.contact_height_m + spec.system_height_m + kMastAboveMessenger_m);
 }
 
-/// Where the strut of a cantilever is hinged.
+/// Height of the strut's hinge.
 double StrutHinge_m(const CatenarySpec& spec) {
   return spec.contact_height_m + kRegistrationHeight_m + 0.10;
 }
@@ -138,7 +138,7 @@ Model MakePortal(const CatenarySpec& spec,
   constexpr double kPostBelowHinge_m = 0.20;
   Model model{.name = "portal", .parts = {}};
   Mesh& mesh = MeshOf(surfaces.mast, model);
-  // Its x is y here.
+  // The extrusion's x becomes y.
   const Eigen::Matrix3d beam_from_extrusion =
       RotationFromYawPitchRoll(0.5 * std::numbers::pi, 0.0, 0.0);
   mesh.Append(
@@ -163,7 +163,7 @@ Model MakeCantilever(const CatenarySpec& spec,
   const double contact_m = spec.contact_height_m;
   const double registration_m = contact_m + kRegistrationHeight_m;
 
-  // Tubes end below the messenger, so that its clamp holds it.
+  // Tubes end below the messenger wire, which a clamp holds.
   const Vector3 messenger(0.0, stagger_m, contact_m + spec.system_height_m);
   const Vector3 head = messenger - Vector3(0.0, 0.0, 0.075);
   const Vector3 top_hinge(0.0, face_m, head.z());
@@ -175,8 +175,8 @@ Model MakeCantilever(const CatenarySpec& spec,
     pen.Clamp(hinge + Vector3(0.0, -0.02 * mast_side, 0.0), {0.06, 0.03, 0.06});
   }
 
-  // The wire pulls towards the track's middle; the steady arm holds it from the side it is on,
-  // hinged to the registration tube, which reaches a little beyond hinge and wire.
+  // The wire pulls towards the middle of the track. The steady arm holds it from its own side and
+  // is hinged to the registration tube, which extends slightly beyond both hinge and wire.
   const Vector3 wire(0.0, stagger_m, contact_m);
   const Vector3 strut = (head - strut_hinge).normalized();
   const Vector3 root = strut_hinge + strut * kTubeRoot_m;

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/base/error.h"
-#include "core/base/number_text.h"
+#include "core/base/text.h"
 
 namespace railcast {
 namespace {
@@ -14,13 +14,13 @@ namespace {
 constexpr std::size_t kStepsOfASpan = 26;
 constexpr double kLateralMargin_m = 0.05;
 constexpr double kShortestDropper_m = 0.3;
-/// A line's last span may be this short; what is left beyond has no wire.
+/// Minimum length of the last span; a shorter remainder of the line has no wire.
 constexpr double kShortestSpan_m = 5.0;
 
-/// The axis from a support on, every max_span / 26.
+/// The axis from a support onwards, sampled every max_span / 26.
 struct Course {
   std::array<double, kStepsOfASpan + 1> curvature_per_m{};
-  /// c(s): of a pantograph's middle, beside the tangent at the support.
+  /// c(s): lateral position of a pantograph's middle relative to the tangent at the support.
   std::array<double, kStepsOfASpan + 1> lateral_m{};
 };
 
@@ -33,7 +33,7 @@ Course CourseFrom(double s_m, const CatenarySpec& spec, const Alignment& alignme
   for (std::size_t i = 0; i <= kStepsOfASpan; ++i) {
     const AxisPoint axis = alignment.At(s_m + step_m * static_cast<double>(i));
     if (i > 0) {
-      // Exact for curvature that changes linearly over the step.
+      // Exact if the curvature is linear over the step.
       axis_m += heading_rad * step_m +
                 (2.0 * previous_per_m + axis.curvature_per_m) * step_m * step_m / 6.0;
       heading_rad += 0.5 * (previous_per_m + axis.curvature_per_m) * step_m;
@@ -60,7 +60,8 @@ bool StaysWithin(const Course& course,
   return true;
 }
 
-/// Towards the outside of a curve; nothing where the line is straight enough to alternate.
+/// Stagger towards the outside of a curve; nothing where the line is straight enough for staggers
+/// to alternate.
 std::optional<double> StaggerInCurve(const CatenarySpec& spec, double curvature_per_m) {
   const double rise_m = spec.max_span_m * spec.max_span_m * std::abs(curvature_per_m) / 8.0;
   if (rise_m <= 0.5 * spec.stagger_m) return std::nullopt;
@@ -70,7 +71,7 @@ std::optional<double> StaggerInCurve(const CatenarySpec& spec, double curvature_
 CatenarySupport NextSupport(const CatenarySupport& support,
                             const CatenarySpec& spec,
                             const Alignment& alignment) {
-  // The rise comes from rounding when a span at the limit is compared with the limit itself.
+  // The 1e-9 covers rounding if a span at the limit is compared with the limit itself.
   const double limit_m = spec.stagger_m + kLateralMargin_m + 1e-9;
   const Course course = CourseFrom(support.s_m, spec, alignment);
   for (std::size_t num_steps = kStepsOfASpan; num_steps > 0; --num_steps) {
@@ -101,9 +102,10 @@ void CheckSystemHeight(const WorldSpec& world) {
       kWireWeight_n_per_m * spec.max_span_m * spec.max_span_m / (8.0 * kMessengerTension_n);
   const double needed_m = sag_m - kContactPresag * spec.max_span_m + kShortestDropper_m;
   if (spec.system_height_m >= needed_m) return;
-  throw InputError("/catenary/system_height_m: must be >= " + NumberText(needed_m) +
-                   ", the messenger's sag over max_span_m and a shortest dropper (got " +
-                   NumberText(spec.system_height_m) + ")");
+  throw InputError({{"/catenary/system_height_m",
+                     "must be >= " + NumberText(needed_m) +
+                         ", the messenger's sag over max_span_m and a shortest dropper",
+                     NumberText(spec.system_height_m)}});
 }
 
 CatenaryPlan::CatenaryPlan(const WorldSpec& spec, const Alignment& alignment) {

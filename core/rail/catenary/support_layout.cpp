@@ -12,12 +12,13 @@
 namespace railcast {
 namespace {
 
-/// Half a long wagon: with its middle at the end of its track it is so far beyond.
+/// Half the length of a long wagon: a wagon whose middle is at the end of its track extends this
+/// far beyond it.
 constexpr double kBeyondEnd_m = 10.0;
-/// Places for masts closer than this are the same but for rounding.
+/// Mast places closer than this differ by rounding only.
 constexpr double kSamePlace_m = 1e-6;
 
-/// The tracks at one support, and where there is room between and beside them.
+/// The tracks at one support, and the room between and beside them.
 class Tracks {
  public:
   Tracks(const WorldSpec& spec, const Alignment& alignment, double s_m)
@@ -31,7 +32,7 @@ class Tracks {
     }
   }
 
-  /// The next track's offset on that side of one at `offset_m`.
+  /// Offset of the next track on that side of the track at `offset_m`.
   [[nodiscard]] std::optional<double> Next(double offset_m, bool on_left) const {
     std::optional<double> next_m;
     for (const double other_m : offsets_m_) {
@@ -41,14 +42,14 @@ class Tracks {
     return next_m;
   }
 
-  /// Where a mast can stand at the distance it should have from its track; from the track's axis,
-  /// left positive.
+  /// Place for a mast at its nominal distance from its track, if it is clear: from the track's
+  /// axis, left positive.
   [[nodiscard]] std::optional<double> MastBeside(double offset_m, bool on_left) const {
     const double from_axis_m = on_left ? to_mast_m_ : -to_mast_m_;
     return IsClear(offset_m, offset_m + from_axis_m) ? std::optional(from_axis_m) : std::nullopt;
   }
 
-  /// The same half way to the next track.
+  /// As MastBeside(), halfway to the next track.
   [[nodiscard]] std::optional<double> MastMidway(double offset_m, bool on_left) const {
     const std::optional<double> next_m = Next(offset_m, on_left);
     if (!next_m || !IsClear(offset_m, 0.5 * (offset_m + *next_m))) return std::nullopt;
@@ -66,8 +67,8 @@ class Tracks {
     return std::nullopt;
   }
 
-  /// The nearest place for a mast on that side of a track, beyond other tracks if need be; left of
-  /// the alignment.
+  /// The nearest place for a mast on that side of a track, beyond other tracks if necessary.
+  /// Measured left of the alignment.
   [[nodiscard]] double NearestMast_d_m(double offset_m, bool on_left) const {
     std::optional<double> at_m = offset_m;
     while (at_m) {
@@ -81,7 +82,7 @@ class Tracks {
   }
 
  private:
-  /// Of all tracks but its own.
+  /// Whether the mast is clear of all tracks but its own.
   [[nodiscard]] bool IsClear(double own_m, double mast_m) const {
     return std::none_of(offsets_m_.begin(), offsets_m_.end(), [&](double other_m) {
       if (other_m == own_m) return false;
@@ -93,7 +94,7 @@ class Tracks {
   const WorldSpec& spec_;
   double to_mast_m_;
   std::vector<double> offsets_m_;
-  double leftmost_m_ = -std::numeric_limits<double>::infinity();  ///< Of all the line.
+  double leftmost_m_ = -std::numeric_limits<double>::infinity();  ///< Of the whole line.
 };
 
 /// Builds a layout track by track.
@@ -107,7 +108,7 @@ class LayoutDraft {
   }
 
   SupportLayout Make() {
-    // Portals first: masts of other tracks may be part of them.
+    // Portals first, because masts of other tracks may be part of them.
     for (const std::size_t track : wired_) {
       if (!tracks_.OwnMast(Offset_m(track))) Hang(track);
     }
@@ -167,6 +168,7 @@ class LayoutDraft {
          .structure = structure});
   }
 
+  /// Adds a mast unless there is one at that place.
   /// @return The structure of the mast there.
   std::size_t AddMast(const MastSite& site) {
     const auto d_m = [&](const MastSite& mast) { return Offset_m(mast.track) + mast.from_axis_m; };

@@ -1,4 +1,4 @@
-#include "core/rail/land/grass_patch.h"
+#include "core/rail/land/plant_models.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 namespace railcast {
 namespace {
 
-constexpr double kRoot_m = 0.15;
+constexpr double kGrassRoot_m = 0.15;
 
-/// A blade of two pieces that leans over towards its tip.
+/// Adds a blade of two pieces that leans over towards its tip.
 void AddBlade(const Vector3& foot_m, double height_m, PlantDice& dice, Mesh& grass) {
   const double azimuth_rad = dice.Uniform(0.0, kTurn_rad);
   const double lean = dice.Uniform(0.1, 0.6);
@@ -20,7 +20,7 @@ void AddBlade(const Vector3& foot_m, double height_m, PlantDice& dice, Mesh& gra
       0.5 * dice.Uniform(0.008, 0.014) * Vector3(std::cos(twist_rad), std::sin(twist_rad), 0.0);
   const Vector3 middle_m = foot_m + 0.25 * over + Vector3(0, 0, 0.6 * height_m);
   const Vector3 tip_m = foot_m + over + Vector3(0, 0, height_m);
-  const Vector3 root_m = foot_m - Vector3(0, 0, kRoot_m);
+  const Vector3 root_m = foot_m - Vector3(0, 0, kGrassRoot_m);
   const auto first = static_cast<std::uint32_t>(grass.vertices.size());
   for (const Vector3& corner :
        {Vector3(root_m - half_width_m), Vector3(root_m + half_width_m),

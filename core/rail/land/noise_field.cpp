@@ -5,7 +5,7 @@
 namespace railcast {
 namespace {
 
-/// Rises from 0 to 1 with no slope and no curvature at either end.
+/// Rises from 0 to 1 with zero slope and zero curvature at either end.
 double Quintic(double t) {
   return t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
 }
@@ -18,8 +18,8 @@ double NoiseField::LatticeValue(std::int32_t i, std::int32_t j) const {
   double sum = 0.0;
   for (const std::uint32_t word : words) sum += static_cast<double>(UnitFloat(word)) - 0.5;
   // The sum of four uniforms has variance 4/12. The quintic q has integral(q^2 + (1 - q)^2) =
-  // 181/231, so that interpolation in two directions leaves (181/231)^2 of a lattice's variance;
-  // kLatticeSigma = 231/181 makes good for it.
+  // 181/231, so interpolation in two directions leaves (181/231)^2 of the lattice's variance;
+  // kLatticeSigma = 231/181 compensates for that.
   return kLatticeSigma * std::sqrt(3.0) * sum;
 }
 

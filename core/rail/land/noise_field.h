@@ -7,15 +7,15 @@
 namespace railcast {
 
 /// A smooth random height over the plane: value noise (Perlin 1985, "An image synthesizer", with
-/// the quintic of Perlin 2002) on the integer lattice of (u, v). Mean 0 and, averaged over a
-/// lattice cell, variance 1; bounded by 4.43. A function of its key and arguments alone, continuous
-/// with its first and second derivatives.
+/// the quintic of Perlin 2002) on the integer lattice of (u, v). It has mean 0 and, averaged over a
+/// lattice cell, variance 1, and is bounded by 4.43. It depends on its key and arguments only and
+/// has continuous first and second derivatives.
 class NoiseField {
  public:
-  /// At the lattice points themselves the standard deviation is larger than the average.
+  /// Standard deviation at the lattice points, which is larger than the average.
   static constexpr double kLatticeSigma = 1.2763;
 
-  /// `layer` tells apart fields of one use.
+  /// @param layer Distinguishes fields of the same use.
   NoiseField(std::uint64_t seed, RandomUse use, std::uint32_t layer)
       : seed_(seed), use_(use), layer_(layer) {}
 

@@ -6,13 +6,13 @@
 #include <numbers>
 
 #include "core/base/random.h"
-#include "core/base/transform.h"
+#include "railcast/transform.h"
 
 namespace railcast {
 
 inline constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
-/// The shape of one plant draws its numbers in order.
+/// Sequence of random numbers for the shape of one plant.
 class PlantDice {
  public:
   PlantDice(std::uint64_t seed, std::uint32_t plant) : seed_(seed), plant_(plant) {}
@@ -21,14 +21,14 @@ class PlantDice {
     if (next_ % 4 == 0) words_ = RandomWords(seed_, RandomUse::kPlantShape, plant_, next_ / 4);
     return low + (high - low) * static_cast<double>(UnitFloat(words_[next_++ % 4]));
   }
-  /// Uniform on the unit sphere (Archimedes).
+  /// Uniform on the unit sphere (by Archimedes' theorem).
   Vector3 Direction() {
     const double z = Uniform(-1.0, 1.0);
     const double azimuth_rad = Uniform(0.0, kTurn_rad);
     const double sine = std::sqrt(1.0 - z * z);
     return {sine * std::cos(azimuth_rad), sine * std::sin(azimuth_rad), z};
   }
-  /// Within a ball, denser towards its middle.
+  /// Random vector within a ball, denser towards its centre.
   Vector3 Offset(double radius_m) { return Uniform(0.0, radius_m) * Direction(); }
 
  private:

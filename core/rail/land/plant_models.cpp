@@ -7,7 +7,6 @@
 #include <string>
 
 #include "core/base/units.h"
-#include "core/rail/land/grass_patch.h"
 #include "core/rail/land/plant_dice.h"
 #include "core/rail/model_parts.h"
 #include "core/scene/shapes.h"
@@ -15,7 +14,7 @@
 namespace railcast {
 namespace {
 
-constexpr double kGoldenAngle_rad = 2.39996;  ///< Between the leaves of many plants.
+constexpr double kGoldenAngle_rad = 2.39996;  ///< Angle between successive leaves of many plants.
 constexpr double kRoot_m = 0.3;
 
 struct TreeForm {
@@ -26,7 +25,7 @@ struct TreeForm {
   double trunk_radius_m{};
 };
 
-/// What bears leaves.
+/// A twig, about which leaves are placed.
 struct Twig {
   Vector3 begin_m;
   Vector3 end_m;
@@ -35,15 +34,15 @@ struct Twig {
 struct Leaf {
   double length_m{};
   double width_m{};
-  double scatter_m{};  ///< About its twig.
-  double along{};      ///< 1 = lies along the twig, 0 = any way.
+  double scatter_m{};  ///< Distance from its twig.
+  double along{};      ///< 1 = along the twig, 0 = random direction.
 };
 
 constexpr double kLeafAreaIndex = 3.2;
 constexpr Leaf kBroadLeaf{.length_m = 0.09, .width_m = 0.08, .scatter_m = 0.28, .along = 0.0};
 constexpr Leaf kNeedleShoot{.length_m = 0.11, .width_m = 0.05, .scatter_m = 0.14, .along = 0.5};
 
-/// A unit vector at a right angle, any way round.
+/// A random unit vector perpendicular to `direction`.
 Vector3 PerpendicularTo(const Vector3& direction, PlantDice& dice) {
   Vector3 other = direction.cross(dice.Direction());
   while (other.norm() < 0.1) other = direction.cross(dice.Direction());
@@ -66,7 +65,7 @@ void AddLeaf(const Twig& twig, const Leaf& leaf, PlantDice& dice, Mesh& leaves) 
   leaves.triangles.push_back({first, first + 1, first + 2});
 }
 
-/// Every piece of a twig bears as many leaves as any other of its length.
+/// Distributes leaves evenly over the length of all twigs.
 Mesh MakeLeaves(const TreeForm& form,
                 std::span<const Twig> twigs,
                 const Leaf& leaf,
@@ -85,7 +84,7 @@ Mesh MakeLeaves(const TreeForm& form,
   return leaves;
 }
 
-/// A tube that tapers evenly.
+/// A tube whose radius decreases linearly.
 Mesh MakeStem(std::span<const Vector3> line, double foot_radius_m, double tip_radius_m, int sides) {
   std::vector<double> radii_m;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -95,7 +94,8 @@ Mesh MakeStem(std::span<const Vector3> line, double foot_radius_m, double tip_ra
   return MakeTube(line, radii_m, sides);
 }
 
-/// From below the ground to `top_m`, wandering by `wander_m` every metre.
+/// Centre line of a trunk from below the ground to `top_m`, deviating by up to `wander_m` per
+/// metre.
 std::vector<Vector3> TrunkLine(double top_m, double wander_m, PlantDice& dice) {
   std::vector<Vector3> line = {{0, 0, -kRoot_m}, {0, 0, 0}};
   const int num_pieces = static_cast<int>(std::ceil(top_m));
@@ -106,7 +106,7 @@ std::vector<Vector3> TrunkLine(double top_m, double wander_m, PlantDice& dice) {
   return line;
 }
 
-/// Where the trunk is at a height above the ground.
+/// The point on the trunk's centre line at a height above the ground.
 Vector3 OnTrunk(const std::vector<Vector3>& line, double height_m) {
   std::size_t i = 1;
   while (i + 2 < line.size() && line[i + 1].z() < height_m) ++i;
@@ -119,7 +119,7 @@ Vector3 Slanting(double azimuth_rad, double elevation_rad) {
           std::cos(elevation_rad) * std::sin(azimuth_rad), std::sin(elevation_rad)};
 }
 
-/// How far it is from a point within the crown's ellipsoid to its surface.
+/// Distance from a point within the crown's ellipsoid to its surface.
 double ReachInCrown(const TreeForm& form, const Vector3& from_m, const Vector3& direction) {
   const double half_height_m = 0.5 * (form.height_m - form.crown_base_m);
   const Vector3 scale(1.0 / form.crown_radius_m, 1.0 / form.crown_radius_m, 1.0 / half_height_m);
@@ -172,7 +172,7 @@ Model MakeBroadleaf(const TreeForm& form, const RailSurfaces& surfaces, PlantDic
   return tree;
 }
 
-/// Shoots on both sides of a spruce's branch, shorter towards its tip, hanging a little.
+/// Adds slightly hanging shoots on both sides of a spruce's branch, shorter towards its tip.
 void AddSideShoots(const Vector3& foot_m,
                    const Vector3& tip_m,
                    PlantDice& dice,

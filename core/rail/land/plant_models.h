@@ -2,35 +2,46 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
-#include "core/rail/land/grass_patch.h"
+#include "core/rail/land/plant_dice.h"
 #include "core/rail/rail_surfaces.h"
-#include "core/scene/mesh.h"
+#include "railcast/scene.h"
 
 namespace railcast {
 
+inline constexpr double kGrassPatch_m = 2.0;
+
+/// A square patch of side kGrassPatch_m about the origin: 640 blades in tufts, 15 to 40 cm high, 8
+/// to 14 mm wide, with 3 triangles each. The leaf area index is about 0.4 (a meadow has 1 to 4), so
+/// that the ground shows through. Roots extend 0.15 m into the ground.
+[[nodiscard]] Model MakeGrassPatch(const std::string& name,
+                                   const RailSurfaces& surfaces,
+                                   PlantDice dice);
+
 struct TreeModel {
   std::shared_ptr<const Model> model;
-  double height_m{};  ///< Of its highest leaf.
+  double height_m{};  ///< Height of the highest leaf.
 };
 
-/// Plants that are placed many times over. Frames: origin where the plant leaves the ground, z up;
-/// roots reach a little below, so that nothing hovers over rough ground.
+/// Plants that are placed many times. Frames: origin where the plant emerges from the ground, z up.
+/// Roots extend slightly below, so that no plant hovers over uneven ground.
 struct PlantModels {
-  std::vector<TreeModel> broadleaves;               ///< From low to high.
-  std::vector<TreeModel> conifers;                  ///< From low to high.
+  std::vector<TreeModel> broadleaves;               ///< In order of height.
+  std::vector<TreeModel> conifers;                  ///< In order of height.
   std::vector<std::shared_ptr<const Model>> grass;  ///< Square patches of kGrassPatch_m.
 };
 
-/// Two broad-leaved trees (7.5 and 11 m), two spruces (7 and 12 m) and three patches of grass.
+/// Makes two broad-leaved trees (7.5 and 11 m), two spruces (7 and 12 m) and three patches of
+/// grass.
 ///
-/// Trees are trunk, branches and twigs as tapering tubes, and single leaves: triangles of about
-/// 8 x 9 cm, for spruces shoots of 11 x 5 cm, in random positions about the twigs and with
-/// spherically distributed normals (G = 0.5, physics.md 3). Their number is leaf area index times
-/// the crown's projection over the area of a leaf. To stay below 20 000 triangles a tree, the index
-/// is 3.2 (closed stands have 3 to 5) and the leaves are at the large end of what grows beside a
-/// line. Of vertical beams 18 to 26 % pass through the crowns (measured); exp(-G index) is 20 %.
+/// Trees consist of trunk, branches and twigs as tapering tubes, and of single leaves. Leaves are
+/// triangles of about 8 x 9 cm (spruces: shoots of 11 x 5 cm) at random positions about the twigs,
+/// with spherically distributed normals (G = 0.5, docs/physics.md 3.5). Their number is leaf area
+/// index x projected crown area / leaf area. To stay below 20 000 triangles per tree, the index is
+/// 3.2 (closed stands have 3 to 5) and the leaves are as large as they come beside railway lines.
+/// Of vertical beams, 18 to 26 % pass through the crowns (measured); exp(-G index) is 20 %.
 [[nodiscard]] PlantModels MakePlantModels(const RailSurfaces& surfaces, std::uint64_t seed);
 
 }  // namespace railcast

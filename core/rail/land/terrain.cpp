@@ -1,4 +1,4 @@
-#include "core/rail/land/terrain.h"
+#include "core/rail/land/land.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,15 +18,16 @@ constexpr double kFineReach_m = 10.0;
 constexpr double kCoarsening = 1.15;
 constexpr double kCoarsestAcross_m = 2.0;
 
-constexpr double kLevelReach_m = 4.0;  ///< From a track's axis.
-constexpr double kFullReach_m = 30.0;  ///< Where undulation has its full height.
+/// Distance from a track's axis up to which there is no undulation.
+constexpr double kLevelReach_m = 4.0;
+constexpr double kFullReach_m = 30.0;  ///< Distance from which undulation has its full height.
 constexpr double kLongWave_m = 30.0;
 constexpr double kShortWave_m = 12.0;
-constexpr double kLongWaveShare = 0.8;  ///< Of the variance.
+constexpr double kLongWaveShare = 0.8;  ///< Share of the variance.
 
-/// Of ballast, over which the ground below it becomes smooth.
+/// Depth below the top of the ballast over which roughness fades out.
 constexpr double kSmoothBelow_m = 0.25;
-/// Ground lower than this below the ballast at all corners of a cell is left out.
+/// Cells whose corners are all lower than this below the ballast are left out.
 constexpr double kHiddenBelow_m = 0.35;
 
 /// The random part of the ground's height.
@@ -65,7 +66,8 @@ class Relief {
   NoiseField short_wave_;
 };
 
-/// Outwards from `d_m` to the strip's edge, which is the last; `side` is +1 to the left.
+/// Grid lines outwards from `d_m` to the edge of the strip, which is the last; `side` is +1 for
+/// left.
 std::vector<double> LinesOutwards(double d_m, double side, double half_width_m) {
   std::vector<double> lines_m;
   double step_m = kFineAcross_m;
@@ -78,7 +80,7 @@ std::vector<double> LinesOutwards(double d_m, double side, double half_width_m) 
   return lines_m;
 }
 
-/// The grid's lateral positions from right to left: a function of the spec alone.
+/// The grid's lateral positions from right to left; they depend on the spec only.
 std::vector<double> LateralLines(const WorldSpec& spec) {
   const double edge_m = spec.terrain.half_width_m;
   const auto [right, left] = std::minmax_element(

@@ -1,4 +1,4 @@
-#include "core/rail/land/vegetation.h"
+#include "core/rail/land/land.h"
 
 #include <algorithm>
 #include <array>
@@ -6,19 +6,18 @@
 #include <numbers>
 
 #include "core/base/random.h"
-#include "core/rail/land/terrain.h"
 
 namespace railcast {
 namespace {
 
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
-constexpr std::array<double, 2> kBothSides = {-1.0, 1.0};
+constexpr std::array<double, 2> kBothSidesOfTrack = {-1.0, 1.0};
 
 double Uniform(std::uint32_t word, double low, double high) {
   return low + (high - low) * static_cast<double>(UnitFloat(word));
 }
 
-/// Lateral positions on one side of the line, both measured outwards: `side` * d.
+/// Range of lateral positions on one side of the line, measured outwards: `side` * d.
 struct Strip {
   double side{};  ///< 1 left, -1 right.
   double inner_m{};
@@ -27,7 +26,7 @@ struct Strip {
   [[nodiscard]] double width_m() const { return outer_m - inner_m; }
 };
 
-/// Beyond the outermost track on that side, and not beyond the ground.
+/// The strip between two distances beyond the outermost track on that side, limited to the ground.
 Strip StripBeyondTracks(const WorldSpec& spec, double side, double least_m, double most_m) {
   double outermost_m = side * spec.tracks.front().offset_m;
   for (const TrackSpec& track : spec.tracks) {
@@ -38,7 +37,7 @@ Strip StripBeyondTracks(const WorldSpec& spec, double side, double least_m, doub
           .outer_m = std::min(outermost_m + most_m, spec.terrain.half_width_m)};
 }
 
-/// Upright at a place on the ground.
+/// Pose of an upright plant at a point of the ground.
 Eigen::Affine3d Planted(const Vector3& ground_m, double yaw_rad, double scale) {
   return Eigen::Translation3d(ground_m) * Eigen::AngleAxisd(yaw_rad, Vector3::UnitZ()) *
          Eigen::Scaling(scale);
@@ -62,9 +61,10 @@ Placement MakeTree(const PlantModels& plants,
           .instance = 0};
 }
 
-/// In a strip of even width the chainages of a Poisson process have exponential gaps. Where the
-/// line curves, the strip is longer outside and shorter inside by the factor 1 - curvature * d; the
-/// process is drawn for the largest such factor and thinned to the true one (Lewis, Shedler 1979).
+/// Adds the trees of one strip. In a straight strip of constant width, the chainages of a Poisson
+/// process have exponentially distributed gaps. In a curve, the strip is longer on the outside and
+/// shorter on the inside by the factor 1 - curvature * d. The process is drawn for the largest such
+/// factor and thinned to the true one (Lewis, Shedler 1979).
 void AddTrees(const ChunkContext& context,
               const PlantModels& plants,
               const Strip& strip,
@@ -93,7 +93,7 @@ void AddTrees(const ChunkContext& context,
   }
 }
 
-/// A patch on the slope that the ground has over its size.
+/// Pose of a patch on the mean slope of the ground below it.
 Eigen::Affine3d LaidOut(const ChunkContext& context, double s_m, double d_m, double yaw_rad) {
   constexpr double kReach_m = 0.35 * kGrassPatch_m;
   const Vector3 back_m = GroundPoint(context, s_m - kReach_m, d_m);
@@ -126,7 +126,8 @@ void AddGrass(const ChunkContext& context,
       const auto item = 2U * static_cast<std::uint32_t>(row) + side_key;
       const auto words = RandomWords(context.seed, RandomUse::kGrassPlacement,
                                      static_cast<std::uint32_t>(along), item);
-      // Any quarter turn keeps the patch on its square; a little more hides the repetition.
+      // A multiple of a quarter turn keeps the patch on its square; a small extra angle hides the
+      // repetition.
       const double yaw_rad =
           0.25 * kTurn_rad * std::floor(Uniform(words[0], 0.0, 4.0)) + Uniform(words[1], -0.2, 0.2);
       const auto& model = plants.grass[words[2] % plants.grass.size()];
@@ -142,7 +143,7 @@ void AddGrass(const ChunkContext& context,
 void AddVegetation(const ChunkContext& context, const PlantModels& plants, Chunk& chunk) {
   const VegetationSpec& spec = context.spec.vegetation;
   const double edge_m = context.spec.terrain.half_width_m;
-  for (const double side : kBothSides) {
+  for (const double side : kBothSidesOfTrack) {
     AddTrees(context, plants,
              StripBeyondTracks(context.spec, side, spec.tree_min_distance_m, 2.0 * edge_m), chunk);
     if (!spec.grass) continue;

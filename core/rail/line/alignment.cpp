@@ -1,4 +1,4 @@
-#include "core/rail/line/alignment.h"
+#include "railcast/alignment.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "core/base/error.h"
-#include "core/base/number_text.h"
+#include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/rail/line/alignment_course.h"
 #include "core/rail/line/cant.h"
@@ -20,12 +20,12 @@ namespace railcast {
 namespace {
 
 constexpr double kPermil = 1e-3;
-// Of a spline's curvature, for the cant alone, which is averaged over some 60 m.
+// Sampling of a spline's curvature. Used for the cant only, which is averaged over some 60 m.
 constexpr double kCurvatureSampling_m = 5.0;
 
 void CheckRules(const AlignmentSpec& spec, ErrorList& errors) {
   const auto check = [&](bool holds, const char* place, const char* rule, double value) {
-    if (!holds) errors.Add(std::string(place) + ": " + rule + " (got " + NumberText(value) + ")");
+    if (!holds) errors.Add({place, rule, NumberText(value)});
   };
   check(spec.curvature_smoothing_m > 0.0, "/curvature_smoothing_m", "must be > 0",
         spec.curvature_smoothing_m);
@@ -43,10 +43,10 @@ void CheckRules(const AlignmentSpec& spec, ErrorList& errors) {
   }
 }
 
-/// A course in plan, whichever way it was given.
+/// A course in plan, independent of how it was specified.
 struct Plan {
   std::variant<PlanCourse, PlanSpline> course;
-  PiecewiseLinear curvature;  ///< Of a spline: sampled.
+  PiecewiseLinear curvature;  ///< For a spline: sampled.
   double tightest_radius_m{};
   std::vector<Jump> jumps;
 };
@@ -75,7 +75,7 @@ PiecewiseLinear SampledCurvature(const PlanSpline& spline) {
 std::optional<Plan> PlanOfSpline(const AlignmentSplineSpec& course,
                                  const AlignmentSpec& spec,
                                  ErrorList& errors) {
-  const std::size_t num_faults = errors.lines().size();
+  const std::size_t num_faults = errors.size();
   const Eigen::Vector2d origin_m(spec.origin_m[0], spec.origin_m[1]);
   const Eigen::Rotation2Dd world_from_plan(RadFromDeg(spec.heading_deg));
   std::vector<Eigen::Vector2d> points_m;
@@ -83,7 +83,7 @@ std::optional<Plan> PlanOfSpline(const AlignmentSplineSpec& course,
     points_m.push_back(origin_m + world_from_plan * Eigen::Vector2d(x_m, y_m));
   }
   PlanSpline spline(std::move(points_m), errors);
-  if (errors.lines().size() > num_faults) return std::nullopt;
+  if (errors.size() > num_faults) return std::nullopt;
   PiecewiseLinear curvature = SampledCurvature(spline);
   const double tightest_radius_m = spline.tightest_radius_m();
   return Plan{std::move(spline), std::move(curvature), tightest_radius_m, {}};
@@ -93,12 +93,12 @@ std::optional<Plan> MakePlan(const AlignmentSpec& spec, ErrorList& errors) {
   if (const auto* spline = std::get_if<AlignmentSplineSpec>(&spec.course)) {
     return PlanOfSpline(*spline, spec, errors);
   }
-  const std::size_t num_faults = errors.lines().size();
+  const std::size_t num_faults = errors.size();
   const auto* sections = std::get_if<AlignmentSectionsSpec>(&spec.course);
   const PiecewiseLinear curvature =
       sections != nullptr ? CurvatureOf(*sections, errors)
                           : CurvatureOf(std::get<AlignmentElementsSpec>(spec.course), errors);
-  if (errors.lines().size() > num_faults) return std::nullopt;
+  if (errors.size() > num_faults) return std::nullopt;
   return PlanOfCurvature(curvature, spec);
 }
 
@@ -130,7 +130,7 @@ Alignment::Alignment(const AlignmentSpec& spec) {
   ErrorList errors;
   CheckRules(spec, errors);
   std::optional<Plan> plan = MakePlan(spec, errors);
-  // Without a plan there is no length that chainages could exceed.
+  // Without a plan, the length is unknown and chainages cannot exceed it.
   const double length_m =
       plan ? plan->curvature.end_s_m() : std::numeric_limits<double>::infinity();
   const PiecewiseLinear gradient =

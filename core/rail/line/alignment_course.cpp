@@ -5,12 +5,12 @@
 #include <numbers>
 #include <optional>
 
-#include "core/base/number_text.h"
+#include "core/base/text.h"
 
 namespace railcast {
 namespace {
 
-/// What is shorter would vanish against a long line's chainage.
+/// Shorter pieces would be lost in rounding against the chainage of a long line.
 constexpr double kShortestStretch_m = 1e-3;
 
 PiecewiseLinear Straight() {
@@ -25,14 +25,15 @@ void CheckRadius(const std::optional<double>& radius_m,
                  const std::string& pointer,
                  ErrorList& errors) {
   if (radius_m && !(std::abs(*radius_m) >= kSmallestRadius_m)) {
-    errors.Add(pointer + ": must be at least " + NumberText(kSmallestRadius_m) +
-               " m, negative to the right, absent where straight (got " + NumberText(*radius_m) +
-               ")");
+    errors.Add({pointer,
+                "must be at least " + NumberText(kSmallestRadius_m) +
+                    " m, negative to the right, absent where straight",
+                NumberText(*radius_m)});
   }
 }
 
-// A line that winds round and round itself has all its turns in sight at once. No spiral up a
-// mountain has more than three.
+// Limits full turns, because all turns of a line that coils upon itself would be in view at once.
+// Mountain spirals have at most three.
 void CheckTurns(const PiecewiseLinear& curvature, const std::string& pointer, ErrorList& errors) {
   constexpr double kMostTurns = 10.0;
   for (std::size_t i = 0; i < curvature.pieces().size(); ++i) {
@@ -41,13 +42,12 @@ void CheckTurns(const PiecewiseLinear& curvature, const std::string& pointer, Er
     const double sharpest_per_m = std::max(std::abs(piece.begin_value), std::abs(piece.end_value));
     const double turns = sharpest_per_m * length_m / (2.0 * std::numbers::pi);
     if (turns <= kMostTurns) continue;
-    errors.Add(pointer + "/" + std::to_string(i) +
-               ": must be shorter than 10 full circles of its smallest radius (got " +
-               NumberText(turns) + ")");
+    errors.Add({pointer + "/" + std::to_string(i),
+                "must be shorter than 10 full circles of its smallest radius", NumberText(turns)});
   }
 }
 
-// Chainages must start at 0, ascend strictly and stay before the end.
+// Checks that chainages start at 0, ascend strictly and stay before the end.
 template <typename Item>
 void CheckChainages(const std::vector<Item>& items,
                     double length_m,
@@ -56,8 +56,7 @@ void CheckChainages(const std::vector<Item>& items,
   for (std::size_t i = 0; i < items.size(); ++i) {
     const double s_m = items[i].s_m;
     const auto add = [&](const std::string& rule) {
-      errors.Add(pointer + "/" + std::to_string(i) + "/s_m: " + rule + " (got " + NumberText(s_m) +
-                 ")");
+      errors.Add({pointer + "/" + std::to_string(i) + "/s_m", rule, NumberText(s_m)});
     };
     if (i == 0) {
       if (s_m != 0.0) add("must be 0, the beginning of the line");
@@ -80,28 +79,27 @@ void CheckElement(const std::vector<AlignmentElement>& elements, std::size_t i, 
   const AlignmentElement& element = elements[i];
   const std::string pointer = "/course/elements/" + std::to_string(i);
   if (!(element.length_m > 0.0)) {
-    errors.Add(pointer + "/length_m: must be > 0 (got " + NumberText(element.length_m) + ")");
+    errors.Add({pointer + "/length_m", "must be > 0", NumberText(element.length_m)});
   }
-  if (element.type == "arc") {
+  if (element.type == ElementType::kArc) {
     if (!element.radius_m) {
-      errors.Add(pointer + "/radius_m: is required for an arc (got none)");
+      errors.Add({pointer + "/radius_m", "is required for an arc", "none"});
     }
     CheckRadius(element.radius_m, pointer + "/radius_m", errors);
     return;
   }
-  if (element.type != "straight" && element.type != "clothoid") {
-    errors.Add(pointer + "/type: must be straight, clothoid or arc (got \"" + element.type + "\")");
-  }
   if (element.radius_m) {
-    errors.Add(pointer + "/radius_m: is for arcs only (got " + NumberText(*element.radius_m) + ")");
+    errors.Add({pointer + "/radius_m", "is for arcs only", NumberText(*element.radius_m)});
   }
-  if (element.type == "clothoid" && i > 0 && elements[i - 1].type == "clothoid") {
-    errors.Add(pointer + "/type: must not be clothoid after a clothoid (put an arc or a straight " +
-               "between them)");
+  if (element.type == ElementType::kClothoid && i > 0 &&
+      elements[i - 1].type == ElementType::kClothoid) {
+    errors.Add({pointer + "/type",
+                "must not be clothoid after a clothoid (put an arc or a straight between them)",
+                ""});
   }
 }
 
-// Of a straight or an arc; 0 beyond either end.
+// Curvature of a straight or an arc; 0 beyond either end.
 double ConstantCurvature(const std::vector<AlignmentElement>& elements, std::size_t i) {
   return i < elements.size() ? CurvatureOfRadius(elements[i].radius_m) : 0.0;
 }
@@ -109,12 +107,12 @@ double ConstantCurvature(const std::vector<AlignmentElement>& elements, std::siz
 }  // namespace
 
 PiecewiseLinear CurvatureOf(const AlignmentSectionsSpec& course, ErrorList& errors) {
-  const std::size_t num_faults = errors.lines().size();
+  const std::size_t num_faults = errors.size();
   if (!(course.length_m > 0.0)) {
-    errors.Add("/course/length_m: must be > 0 (got " + NumberText(course.length_m) + ")");
+    errors.Add({"/course/length_m", "must be > 0", NumberText(course.length_m)});
   }
   if (course.sections.empty()) {
-    errors.Add("/course/sections: must have at least one section (got none)");
+    errors.Add({"/course/sections", "must have at least one section", "none"});
   }
   CheckChainages(course.sections, course.length_m, "/course/sections", errors);
   for (std::size_t i = 0; i < course.sections.size(); ++i) {
@@ -122,7 +120,7 @@ PiecewiseLinear CurvatureOf(const AlignmentSectionsSpec& course, ErrorList& erro
     CheckRadius(course.sections[i].radius_start_m, pointer + "/radius_start_m", errors);
     CheckRadius(course.sections[i].radius_end_m, pointer + "/radius_end_m", errors);
   }
-  if (errors.lines().size() > num_faults) return Straight();
+  if (errors.size() > num_faults) return Straight();
 
   std::vector<LinearPiece> pieces;
   pieces.reserve(course.sections.size());
@@ -132,23 +130,23 @@ PiecewiseLinear CurvatureOf(const AlignmentSectionsSpec& course, ErrorList& erro
   }
   PiecewiseLinear curvature(std::move(pieces), course.length_m);
   CheckTurns(curvature, "/course/sections", errors);
-  return errors.lines().size() > num_faults ? Straight() : curvature;
+  return errors.size() > num_faults ? Straight() : curvature;
 }
 
 PiecewiseLinear CurvatureOf(const AlignmentElementsSpec& course, ErrorList& errors) {
-  const std::size_t num_faults = errors.lines().size();
+  const std::size_t num_faults = errors.size();
   if (course.elements.empty()) {
-    errors.Add("/course/elements: must have at least one element (got none)");
+    errors.Add({"/course/elements", "must have at least one element", "none"});
   }
   for (std::size_t i = 0; i < course.elements.size(); ++i) CheckElement(course.elements, i, errors);
-  if (errors.lines().size() > num_faults) return Straight();
+  if (errors.size() > num_faults) return Straight();
 
   std::vector<LinearPiece> pieces;
   pieces.reserve(course.elements.size());
   double s_m = 0.0;
   for (std::size_t i = 0; i < course.elements.size(); ++i) {
-    const bool is_clothoid = course.elements[i].type == "clothoid";
-    // Wraps round to "beyond the end" for the first element's neighbour.
+    const bool is_clothoid = course.elements[i].type == ElementType::kClothoid;
+    // For i = 0, i - 1 wraps to a value beyond the end, where the curvature is 0.
     const std::size_t before = is_clothoid ? i - 1 : i;
     const std::size_t after = is_clothoid ? i + 1 : i;
     pieces.push_back({s_m, ConstantCurvature(course.elements, before),
@@ -157,7 +155,7 @@ PiecewiseLinear CurvatureOf(const AlignmentElementsSpec& course, ErrorList& erro
   }
   PiecewiseLinear curvature(std::move(pieces), s_m);
   CheckTurns(curvature, "/course/elements", errors);
-  return errors.lines().size() > num_faults ? Straight() : curvature;
+  return errors.size() > num_faults ? Straight() : curvature;
 }
 
 PiecewiseLinear StepsOf(const std::vector<ChainageValue>& values,
@@ -165,9 +163,9 @@ PiecewiseLinear StepsOf(const std::vector<ChainageValue>& values,
                         double otherwise,
                         const std::string& pointer,
                         ErrorList& errors) {
-  const std::size_t num_faults = errors.lines().size();
+  const std::size_t num_faults = errors.size();
   CheckChainages(values, length_m, pointer, errors);
-  if (values.empty() || errors.lines().size() > num_faults) {
+  if (values.empty() || errors.size() > num_faults) {
     return {{{0.0, otherwise, otherwise}}, length_m};
   }
   std::vector<LinearPiece> pieces;

@@ -19,7 +19,7 @@ struct Stretch {
   double begin_curvature_per_m{}, end_curvature_per_m{};
 };
 
-// Where the rule reaches 0 or its maximum: between these chainages it is linear.
+// The chainages between which the rule is linear: where it reaches 0 or its maximum.
 std::vector<double> CornersOf(const Stretch& stretch,
                               double speed_kmph,
                               const AlignmentSpec& spec) {
@@ -31,7 +31,7 @@ std::vector<double> CornersOf(const Stretch& stretch,
     for (const double curvature_per_m : {-corner_per_m, corner_per_m}) {
       const double part = (curvature_per_m - stretch.begin_curvature_per_m) / rise_per_m;
       const double s_m = stretch.begin_s_m + part * (stretch.end_s_m - stretch.begin_s_m);
-      // Also false where there is no rise and the division gives no number.
+      // Also false if there is no change of curvature and the division yields NaN or infinity.
       if (s_m > stretch.begin_s_m && s_m < stretch.end_s_m) corners_s_m.push_back(s_m);
     }
   }

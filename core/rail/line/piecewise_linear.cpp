@@ -9,7 +9,7 @@
 namespace railcast {
 namespace {
 
-// What rounding leaves of a piece between two smoothed jumps that meet is no piece.
+// A shorter piece between two adjoining smoothed jumps is a rounding residue and is dropped.
 constexpr double kShortestPiece_m = 1e-9;
 
 }  // namespace
@@ -84,7 +84,7 @@ SmoothedFunction SmoothJumps(const PiecewiseLinear& function, double max_length_
 
   std::vector<LinearPiece> smooth;
   std::vector<Jump> jumps;
-  double begin_s_m = pieces.front().begin_s_m;  // Of what is left of the piece.
+  double begin_s_m = pieces.front().begin_s_m;  // Start of the remainder of the current piece.
   double begin_value = pieces.front().begin_value;
   for (std::size_t i = 0; i < count; ++i) {
     const double end_s_m = function.EndOf(i);

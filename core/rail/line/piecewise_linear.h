@@ -5,23 +5,23 @@
 
 namespace railcast {
 
-/// A stretch of chainage over which a value changes linearly.
+/// A section of the chainage over which a value changes linearly.
 struct LinearPiece {
   double begin_s_m{};
   double begin_value{};
   double end_value{};
 };
 
-/// A function of chainage made of linear pieces, with its exact integral. Neighbouring pieces need
-/// not meet: a jump belongs to the piece after it. Before the first piece and beyond the end the
-/// value stays as it is there.
+/// A function of chainage made of linear pieces, with its exact integral. Neighbouring pieces may
+/// be discontinuous; at a jump, the value is that of the piece after it. Before the first piece and
+/// beyond the end, the value is constant.
 class PiecewiseLinear {
  public:
-  /// @pre `pieces` is not empty, its chainages ascend strictly and lie before `end_s_m`.
+  /// @pre `pieces` is not empty; its chainages are strictly ascending and less than `end_s_m`.
   PiecewiseLinear(std::vector<LinearPiece> pieces, double end_s_m);
 
   [[nodiscard]] double Value(double s_m) const;
-  /// From the first piece's begin to `s_m`.
+  /// Integral from the start of the first piece to `s_m`.
   [[nodiscard]] double Integral(double s_m) const;
 
   [[nodiscard]] const std::vector<LinearPiece>& pieces() const { return pieces_; }
@@ -34,7 +34,7 @@ class PiecewiseLinear {
   [[nodiscard]] std::size_t PieceAt(double s_m) const;
 
   std::vector<LinearPiece> pieces_;
-  std::vector<double> integral_before_;  ///< Of each piece.
+  std::vector<double> integral_before_;  ///< Integral up to the start of each piece.
   double end_s_m_{};
 };
 
@@ -51,10 +51,10 @@ struct SmoothedFunction {
   std::vector<Jump> jumps;  ///< In order of chainage.
 };
 
-/// Replaces every jump by a linear change centred on it, at most `max_length_m` long, and shorter
-/// where a neighbouring piece is short: two changes share the piece between them, none reaches
-/// past its neighbouring pieces. Between constant pieces the integral beyond the change stays the
-/// same.
+/// Replaces every jump by a linear change centred on it. The change is at most `max_length_m` long
+/// and shorter where a neighbouring piece is short: two changes share the piece between them, and
+/// none extends past its neighbouring pieces. Between constant pieces, the integral beyond the
+/// change is preserved.
 [[nodiscard]] SmoothedFunction SmoothJumps(const PiecewiseLinear& function, double max_length_m);
 
 }  // namespace railcast

@@ -10,21 +10,21 @@ namespace railcast {
 struct PlanPoint {
   double x_m{};
   double y_m{};
-  double heading_rad{};  ///< Counterclockwise from east; grows on through full turns.
+  double heading_rad{};  ///< Counterclockwise from east; continuous, so it may exceed a full turn.
   double curvature_per_m{};
 };
 
 /// The plan curve of a piecewise linear curvature: straights, clothoids and arcs.
 ///
 /// The heading is the exact integral of the curvature. The position is the integral of (cos, sin)
-/// of the heading by 5-point Gauss-Legendre quadrature from the last of a row of nodes, which lie
-/// at every change of slope and at most kNodeSpacing_m apart: the error of one step is below
-/// 1e-11 m at a radius of kSmallestRadius_m and below the rounding from 50 m on.
+/// of the heading by 5-point Gauss-Legendre quadrature, starting at the last preceding node. Nodes
+/// lie at every change of slope and at most kNodeSpacing_m apart. The error of one step is below
+/// 1e-11 m at a radius of kSmallestRadius_m, and below rounding for radii of 50 m or more.
 class PlanCourse {
  public:
   static constexpr double kNodeSpacing_m = 10.0;
 
-  /// @param start Where chainage 0 lies; its curvature is not used.
+  /// @param start Position and heading at chainage 0; its curvature is not used.
   PlanCourse(const PiecewiseLinear& curvature, const PlanPoint& start);
 
   /// @pre 0 <= s_m <= the end of the curvature.
@@ -34,7 +34,7 @@ class PlanCourse {
   struct Node {
     double s_m{};
     PlanPoint point;
-    double slope_per_m2{};  ///< Of the curvature, to the next node.
+    double slope_per_m2{};  ///< Slope of the curvature up to the next node.
   };
   [[nodiscard]] static PlanPoint Advance(const Node& node, double length_m);
 

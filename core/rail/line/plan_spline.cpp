@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "core/base/number_text.h"
+#include "core/base/text.h"
 #include "core/rail/line/alignment_course.h"
 #include "core/rail/line/gauss_legendre.h"
 
@@ -22,22 +22,21 @@ double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 
 PlanSpline::PlanSpline(std::vector<Eigen::Vector2d> points_m, ErrorList& errors)
     : points_m_(std::move(points_m)) {
-  const std::size_t num_faults = errors.lines().size();
+  const std::size_t num_faults = errors.size();
   if (points_m_.size() < 2) {
-    errors.Add("/course/points_m: must have at least 2 points (got " +
-               std::to_string(points_m_.size()) + ")");
+    errors.Add({"/course/points_m", "must have at least 2 points", NumberText(points_m_.size())});
   }
   for (std::size_t i = 1; i < points_m_.size(); ++i) {
     if (!(ChordLength(i - 1) > 1e-3)) {
-      errors.Add("/course/points_m/" + std::to_string(i) +
-                 ": must be at least 0.001 m from the point before (got " +
-                 NumberText(ChordLength(i - 1)) + ")");
+      errors.Add({"/course/points_m/" + std::to_string(i),
+                  "must be at least 0.001 m from the point before",
+                  NumberText(ChordLength(i - 1))});
     }
   }
-  if (errors.lines().size() > num_faults) return;
+  if (errors.size() > num_faults) return;
   SolveBends();
   CheckRadii(errors);
-  if (errors.lines().size() > num_faults) return;
+  if (errors.size() > num_faults) return;
   Tabulate();
 }
 
@@ -45,8 +44,8 @@ double PlanSpline::ChordLength(std::size_t segment) const {
   return (points_m_[segment + 1] - points_m_[segment]).norm();
 }
 
-// The tridiagonal system of the natural cubic spline (de Boor 1978, A Practical Guide to Splines,
-// chapter IV), solved by elimination.
+// Solves the tridiagonal system of the natural cubic spline by elimination (de Boor 1978, A
+// Practical Guide to Splines, chapter IV).
 void PlanSpline::SolveBends() {
   const std::size_t count = points_m_.size();
   bends_per_m_.assign(count, Eigen::Vector2d::Zero());
@@ -83,13 +82,14 @@ double PlanSpline::Jet::curvature_per_m() const {
   return Cross(tangent, bend_per_m) / (speed * speed * speed);
 }
 
-// The radius is least near a least speed (where the tangent and its derivative are at right
-// angles); at a cusp the speed is 0. So we look there besides looking everywhere.
+// The radius has its minimum near a minimum of the parametric speed, where the tangent and its
+// derivative are perpendicular; at a cusp the speed is 0. These places are therefore checked in
+// addition to regular samples.
 void PlanSpline::CheckRadii(ErrorList& errors) {
   constexpr int kSteps = 64;
   tightest_radius_m_ = std::numeric_limits<double>::infinity();
   const auto radius_m = [](const Jet& jet) {
-    // A spline that turns back on a straight line has no curvature there, yet it is a cusp.
+    // A spline that reverses on a straight line has no curvature there but is a cusp nevertheless.
     constexpr double kStandstill = 1e-6;
     return jet.tangent.norm() < kStandstill ? 0.0 : 1.0 / std::abs(jet.curvature_per_m());
   };
@@ -110,10 +110,11 @@ void PlanSpline::CheckRadii(ErrorList& errors) {
       least_m = std::min(least_m, radius_m(At(segment, from_m)));
     }
     if (least_m < kSmallestRadius_m) {
-      errors.Add("/course/points_m/" + std::to_string(segment) +
-                 ": the spline must not have a cusp between this point and the next, its radius "
-                 "be at least " +
-                 NumberText(kSmallestRadius_m) + " m (got " + NumberText(least_m) + ")");
+      errors.Add({"/course/points_m/" + std::to_string(segment),
+                  "the spline must not have a cusp between this point and the next, its radius be "
+                  "at least " +
+                      NumberText(kSmallestRadius_m) + " m",
+                  NumberText(least_m)});
     }
     tightest_radius_m_ = std::min(tightest_radius_m_, least_m);
   }
@@ -152,7 +153,7 @@ PlanPoint PlanSpline::At(double s_m) const {
                                       [](double s, const Node& node) { return s < node.s_m; });
   const Node& node = *(after - 1);
   const Eigen::Vector2d tangent_at_node = At(node.segment, node.inside_m).tangent;
-  // Newton's method on arc length; chord and arc length hardly differ, so it ends at once.
+  // Newton's method on arc length. Chord and arc length are nearly equal, so it converges at once.
   double inside_m = node.inside_m + (s_m - node.s_m) / tangent_at_node.norm();
   Jet jet = At(node.segment, inside_m);
   for (int iteration = 0; iteration < 8; ++iteration) {

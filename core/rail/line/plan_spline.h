@@ -8,13 +8,14 @@
 
 namespace railcast {
 
-/// The natural cubic spline through plan points, parametrised by chord length and re-parametrised
-/// by its own arc length. It goes through every point; tangent and curvature are continuous, the
-/// curvature is 0 at both ends.
+/// The natural cubic spline through plan points, parametrised by chord length and then
+/// reparametrised by arc length. It passes through every point; tangent and curvature are
+/// continuous, and the curvature is 0 at both ends.
 class PlanSpline {
  public:
-  /// Faults go to `errors` with pointers below "/course/points_m": too few or coincident points,
-  /// and a cusp (a radius below kSmallestRadius_m). If there are any, the spline must not be used.
+  /// Faults are appended to `errors` with pointers below "/course/points_m": too few or coincident
+  /// points, and cusps (radii below kSmallestRadius_m). If there are any, the spline must not be
+  /// used.
   PlanSpline(std::vector<Eigen::Vector2d> points_m, ErrorList& errors);
 
   [[nodiscard]] double length_m() const { return length_m_; }
@@ -24,17 +25,17 @@ class PlanSpline {
   [[nodiscard]] PlanPoint At(double s_m) const;
 
  private:
-  /// Where the spline is at a parameter, with its first two derivatives.
+  /// Position of the spline at a parameter, and its first two derivatives.
   struct Jet {
     Eigen::Vector2d position_m, tangent, bend_per_m;
     [[nodiscard]] double curvature_per_m() const;
   };
-  /// Arc length is tabulated at nodes.
+  /// Tabulated arc length.
   struct Node {
     double s_m{};
     std::size_t segment{};
-    double inside_m{};     ///< Chord-length parameter from the segment's begin.
-    double heading_rad{};  ///< Grows on through full turns.
+    double inside_m{};     ///< Chord-length parameter relative to the start of the segment.
+    double heading_rad{};  ///< Continuous, so it may exceed a full turn.
   };
 
   void SolveBends();

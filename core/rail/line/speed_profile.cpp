@@ -5,20 +5,17 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "core/base/number_text.h"
+#include "core/base/text.h"
 
 namespace railcast {
 namespace {
 
-std::string PlaceOf(std::size_t point) {
+std::string PlaceOfPoint(std::size_t point) {
   return "/profile/" + std::to_string(point);
 }
 
-std::string Got(double value) {
-  return " (got " + NumberText(value) + ")";
-}
-
-// A point's time or, in the direction of travel, its distance from the start.
+// Measures the progress of a point: its time, or its distance from the start in the direction of
+// travel.
 struct ProgressRule {
   bool in_time{};
   double start_s_m{};
@@ -38,11 +35,13 @@ void CheckKinds(const MotionSpec& motion, ErrorList& errors) {
   for (std::size_t i = 0; i < motion.profile.size(); ++i) {
     const SpeedPoint& point = motion.profile[i];
     if (point.time_s.has_value() == point.s_m.has_value()) {
-      errors.Add(PlaceOf(i) + ": must have exactly one of time_s and s_m (got " +
-                 (point.time_s ? "both)" : "none)"));
+      errors.Add({PlaceOfPoint(i), "must have exactly one of time_s and s_m",
+                  point.time_s ? "both" : "none"});
     } else if (point.time_s.has_value() != in_time) {
-      errors.Add(PlaceOf(i) + (in_time ? ": must be at a time_s like the first point (got s_m)"
-                                       : ": must be at an s_m like the first point (got time_s)"));
+      errors.Add({PlaceOfPoint(i),
+                  in_time ? "must be at a time_s like the first point"
+                          : "must be at an s_m like the first point",
+                  in_time ? "s_m" : "time_s"});
     }
   }
 }
@@ -50,23 +49,28 @@ void CheckKinds(const MotionSpec& motion, ErrorList& errors) {
 void CheckProgress(const MotionSpec& motion, const ProgressRule& rule, ErrorList& errors) {
   for (std::size_t i = 0; i < motion.profile.size(); ++i) {
     const SpeedPoint& point = motion.profile[i];
-    const std::string place = PlaceOf(i) + (rule.in_time ? "/time_s" : "/s_m");
+    const std::string place = PlaceOfPoint(i) + (rule.in_time ? "/time_s" : "/s_m");
     const double value = rule.Value(point);
     const double progress = rule.Of(point);
     const char* beyond = rule.reverse && !rule.in_time ? "less than " : "greater than ";
     if (i == 0) {
       if (!(progress >= 0.0)) {
-        errors.Add(rule.in_time ? place + ": must be >= 0" + Got(value)
-                                : place + ": must not be behind the start at " +
-                                      NumberText(rule.start_s_m) + " m" + Got(value));
+        errors.Add({place,
+                    rule.in_time
+                        ? "must be >= 0"
+                        : "must not be behind the start at " + NumberText(rule.start_s_m) + " m",
+                    NumberText(value)});
       }
     } else if (!(progress > rule.Of(motion.profile[i - 1]))) {
-      errors.Add(place + ": must be " + beyond + NumberText(rule.Value(motion.profile[i - 1])) +
-                 " of the point before it" + Got(value));
+      errors.Add({place,
+                  std::string("must be ") + beyond + NumberText(rule.Value(motion.profile[i - 1])) +
+                      " of the point before it",
+                  NumberText(value)});
     }
     const double speed_before_mps = i == 0 ? point.speed_mps : motion.profile[i - 1].speed_mps;
     if (!rule.in_time && progress > 0.0 && speed_before_mps == 0.0 && point.speed_mps == 0.0) {
-      errors.Add(place + ": is never reached, the speed being 0 up to it and at it" + Got(value));
+      errors.Add(
+          {place, "is never reached, the speed being 0 up to it and at it", NumberText(value)});
     }
   }
 }
@@ -80,7 +84,7 @@ SpeedProfile::SpeedProfile(const MotionSpec& motion, double start_s_m)
   for (std::size_t i = 0; i < motion.profile.size(); ++i) {
     const double speed_mps = motion.profile[i].speed_mps;
     if (!(speed_mps >= 0.0)) {
-      errors.Add(PlaceOf(i) + "/speed_mps: must be >= 0" + Got(speed_mps));
+      errors.Add({PlaceOfPoint(i) + "/speed_mps", "must be >= 0", NumberText(speed_mps)});
     }
   }
   CheckKinds(motion, errors);
@@ -103,7 +107,7 @@ SpeedProfile::SpeedProfile(const MotionSpec& motion, double start_s_m)
       next.time_s = distance_m > 0.0 ? last.time_s + 2.0 * distance_m / speed_sum_mps : 0.0;
     }
     const double duration_s = next.time_s - last.time_s;
-    // The first point may lie at the start itself, and then is the start.
+    // A first point at the start itself replaces the start.
     if (duration_s == 0.0) {
       last = next;
       continue;

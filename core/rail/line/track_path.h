@@ -2,27 +2,27 @@
 
 #include <cstdint>
 
-#include "core/base/transform.h"
-#include "core/rail/line/alignment.h"
 #include "core/rail/line/speed_profile.h"
+#include "railcast/alignment.h"
+#include "railcast/transform.h"
 
 namespace railcast {
 
-/// Where something stands across a track, and how.
+/// Position of an object across a track, and its orientation.
 struct TrackPose {
   double d_m{};          ///< From the alignment's axis, left positive.
   double h_m{};          ///< Above top of rail.
-  double heading_rad{};  ///< Turned left against the direction of the chainage.
-  bool is_upright{};     ///< Its z is the world's; else it follows gradient and cant.
+  double heading_rad{};  ///< Counterclockwise from the direction of increasing chainage.
+  bool is_upright{};  ///< Whether its z axis is vertical; otherwise it follows gradient and cant.
 };
 
-/// The way of something along the line.
+/// The motion of an object or vehicle along the line.
 class TrackPath {
  public:
-  /// @param begin_ns When the profile's time is 0.
+  /// @param begin_ns Time at which the profile's time is 0.
   TrackPath(const TrackPose& pose, SpeedProfile profile, std::int64_t begin_ns = 0);
 
-  /// For times from `from_ns` on: see SpeedProfile::WithSpeedFrom.
+  /// Valid for times from `from_ns` on; see SpeedProfile::WithSpeedFrom.
   [[nodiscard]] TrackPath WithSpeedFrom(std::int64_t from_ns,
                                         double speed_mps,
                                         double acceleration_mps2) const;

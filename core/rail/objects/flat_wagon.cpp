@@ -2,8 +2,7 @@
 #include <vector>
 
 #include "core/rail/model_parts.h"
-#include "core/rail/objects/rolling_stock.h"
-#include "core/rail/objects/running_gear.h"
+#include "core/rail/objects/object_models.h"
 #include "core/rail/objects/wagon_parts.h"
 #include "core/scene/shapes.h"
 
@@ -12,8 +11,8 @@ namespace {
 
 using Point2 = Eigen::Vector2d;
 
-constexpr double kLength_m = 19.74;
-constexpr double kPivotDistance_m = 14.2;
+constexpr double kFlatWagonLength_m = 19.74;
+constexpr double kFlatWagonPivotDistance_m = 14.2;
 
 /// I-section side sill of the container wagon: deep between the bogies, shallow above them.
 void AddFishBelliedSill(double side, Mesh& frame) {
@@ -37,7 +36,7 @@ void AddFishBelliedSill(double side, Mesh& frame) {
   }
 }
 
-/// Supports and spigots for three 20-foot containers, or a 40-foot and a 20-foot one.
+/// Adds supports and spigots for three 20-foot containers, or for a 40-foot and a 20-foot one.
 void AddContainerSpigots(double side, Mesh& frame) {
   for (const double x_m : {2.93, 3.17, 6.0, 9.02}) {
     for (const double end : kBothSides) {
@@ -52,7 +51,7 @@ void AddContainerSpigots(double side, Mesh& frame) {
   }
 }
 
-/// Cross members between the sills, chequer plates and hand rails at the ends.
+/// Adds cross members between the sills, and chequer plates and hand rails at the ends.
 void AddCrossMembers(Mesh& frame) {
   for (const double x_m : {0.95, 2.85, 4.0, 5.7, 8.6}) {
     for (const double end : kBothSides) {
@@ -63,14 +62,14 @@ void AddCrossMembers(Mesh& frame) {
     frame.Append(MakeEndBlock(end, {4.0, -0.32, 0.94}, {9.20, 0.32, 1.08}));  // Draft sill.
     frame.Append(MakeEndBlock(end, {8.75, -1.25, 1.11}, {9.25, 1.25, 1.13}));
     frame.Append(MakeEndBlock(end, {7.1 - 0.25, -1.13, kBogieTop_m}, {7.1 + 0.25, 1.13, 1.10}));
-    // Diagonals that carry the pull of the coupling into the side sills.
+    // Diagonals that transfer the coupling force into the side sills.
     for (const double side : kBothSides) {
       frame.Append(MakeBar({end * 4.1, side * 0.2, 1.0}, {end * 2.9, side * 1.1, 1.0}, 0.06));
     }
   }
 }
 
-/// Hand brake wheel on either side.
+/// Adds a hand brake wheel on either side.
 void AddHandBrake(Mesh& frame) {
   const std::vector<Point2> wheel = {{0.0, 0.20}, {0.03, 0.20}};
   for (const double side : kBothSides) {
@@ -93,10 +92,11 @@ Model MakeFlatWagon(const RailSurfaces& surfaces) {
   MeshOf(surfaces.wagon_body, wagon) = std::move(body);
   Mesh& frame = MeshOf(surfaces.wagon_frame, wagon);
   AddHandBrake(frame);
-  frame.Append(MakeBrakeGear(kPivotDistance_m));
+  frame.Append(MakeBrakeGear(kFlatWagonPivotDistance_m));
   frame.Append(MakeCornerSteps(8.9, 1.15, 0.95));
-  for (const double end : kBothSides) AddBogie(end * kPivotDistance_m / 2.0, surfaces, wagon);
-  AddDrawAndBufferGear(kLength_m, surfaces, wagon);
+  for (const double end : kBothSides)
+    AddBogie(end * kFlatWagonPivotDistance_m / 2.0, surfaces, wagon);
+  AddDrawAndBufferGear(kFlatWagonLength_m, surfaces, wagon);
   return wagon;
 }
 

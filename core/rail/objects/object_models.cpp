@@ -5,11 +5,9 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "core/base/number_text.h"
 #include "core/base/out_of_memory.h"
+#include "core/base/text.h"
 #include "core/rail/model_parts.h"
-#include "core/rail/objects/person.h"
-#include "core/rail/objects/rolling_stock.h"
 #include "core/scene/obj_import.h"
 #include "core/scene/shapes.h"
 
@@ -22,7 +20,7 @@ namespace {
 
 /// Length, width, height.
 Vector3 RequiredSize(const ObjectSpec& spec) {
-  if (!spec.size_m) Fail("size_m: required for type \"" + spec.type + "\"");
+  if (!spec.size_m) Fail("size_m: required for type \"" + std::string(NameOf(spec.type)) + "\"");
   Vector3 size_m((*spec.size_m)[0], (*spec.size_m)[1], (*spec.size_m)[2]);
   if (!(size_m.array() > 0.0).all() || !size_m.allFinite()) {
     Fail("size_m: must be > 0 (got " + NumberText(size_m.x()) + ", " + NumberText(size_m.y()) +
@@ -49,11 +47,8 @@ Mesh MakePole(const ObjectSpec& spec) {
 
 Mesh MakeFromFile(const ObjectSpec& spec) {
   if (!spec.file) Fail("file: required for type \"mesh\"");
-  if (spec.up != "y" && spec.up != "z") {
-    Fail("up: must be \"y\" or \"z\" (got \"" + spec.up + "\")");
-  }
   Mesh mesh = WithinMemory([&] { return ReadingText(*spec.file); },
-                           [&] { return ReadObj(*spec.file, spec.unit_m, spec.up == "y"); });
+                           [&] { return ReadObj(*spec.file, spec.unit_m, spec.up == UpAxis::kY); });
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3f& vertex : mesh.vertices) box.extend(vertex.cast<double>());
   const Vector3 foot_m(box.center().x(), box.center().y(), box.min().z());
@@ -73,38 +68,39 @@ Mesh MakeFromFile(const ObjectSpec& spec) {
 
 Model MakeWagon(const ObjectSpec& spec, const RailSurfaces& surfaces) {
   if (spec.size_m) Fail("size_m: a wagon has its own");
-  if (spec.type == "open_wagon") return MakeOpenWagon(surfaces);
-  if (spec.type == "flat_wagon") return MakeFlatWagon(surfaces);
+  if (spec.type == ObjectType::kOpenWagon) return MakeOpenWagon(surfaces);
+  if (spec.type == ObjectType::kFlatWagon) return MakeFlatWagon(surfaces);
   return MakeTankWagon(surfaces);
 }
 
-/// What a type is by default; for wagons and persons only the label counts.
-SurfaceClass DefaultSurface(const ObjectSpec& spec, const RailSurfaces& surfaces) {
-  if (spec.type == "box" || spec.type == "mesh") return surfaces.box;
-  if (spec.type == "pole") return surfaces.pole;
-  if (spec.type == "person") return surfaces.clothing;
-  if (spec.type == "open_wagon" || spec.type == "flat_wagon" || spec.type == "tank_wagon") {
-    return surfaces.wagon_body;
+/// Default surface of a type; for wagons and persons only its label is used.
+SurfaceClass DefaultSurface(ObjectType type, const RailSurfaces& surfaces) {
+  switch (type) {
+    case ObjectType::kPole:
+      return surfaces.pole;
+    case ObjectType::kPerson:
+      return surfaces.clothing;
+    case ObjectType::kOpenWagon:
+    case ObjectType::kFlatWagon:
+    case ObjectType::kTankWagon:
+      return surfaces.wagon_body;
+    case ObjectType::kBox:
+    case ObjectType::kMesh:
+      break;
   }
-  Fail("type: must be box, pole, person, open_wagon, flat_wagon, tank_wagon or mesh (got \"" +
-       spec.type + "\")");
+  return surfaces.box;
 }
 
 Model MakeByType(const ObjectSpec& spec, const RailSurfaces& surfaces) {
-  const SurfaceClass surface = DefaultSurface(spec, surfaces);
-  if (spec.type == "person") {
+  if (IsWagon(spec.type)) return MakeWagon(spec, surfaces);
+  if (spec.type == ObjectType::kPerson) {
     return MakePerson(surfaces, spec.size_m ? RequiredSize(spec).z() : kPersonHeight_m);
   }
   Model model;
-  if (spec.type == "box") {
-    MeshOf(surface, model) = MakeStandingBox(RequiredSize(spec));
-  } else if (spec.type == "pole") {
-    MeshOf(surface, model) = MakePole(spec);
-  } else if (spec.type == "mesh") {
-    MeshOf(surface, model) = MakeFromFile(spec);
-  } else {
-    model = MakeWagon(spec, surfaces);
-  }
+  MeshOf(DefaultSurface(spec.type, surfaces), model) =
+      spec.type == ObjectType::kPole   ? MakePole(spec)
+      : spec.type == ObjectType::kMesh ? MakeFromFile(spec)
+                                       : MakeStandingBox(RequiredSize(spec));
   return model;
 }
 
@@ -137,7 +133,7 @@ std::shared_ptr<const Model> MakeObjectModel(const ObjectSpec& spec,
 std::uint32_t ObjectLabel(const ObjectSpec& spec,
                           const RailSurfaces& surfaces,
                           const LabelTable& labels) {
-  const std::uint32_t of_type = DefaultSurface(spec, surfaces).label;
+  const std::uint32_t of_type = DefaultSurface(spec.type, surfaces).label;
   if (!spec.label) return of_type;
   const Label* label = labels.Find(*spec.label);
   if (label == nullptr) {

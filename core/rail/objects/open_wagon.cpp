@@ -1,18 +1,18 @@
 #include <vector>
 
 #include "core/rail/model_parts.h"
-#include "core/rail/objects/rolling_stock.h"
-#include "core/rail/objects/running_gear.h"
+#include "core/rail/objects/object_models.h"
 #include "core/rail/objects/wagon_parts.h"
 
 namespace railcast {
 namespace {
 
-constexpr double kLength_m = 14.04;
-constexpr double kPivotDistance_m = 9.0;
+constexpr double kOpenWagonLength_m = 14.04;
+constexpr double kOpenWagonPivotDistance_m = 9.0;
 constexpr double kFloor_m = 1.24;
 
-/// Doors with their posts, lock bars and stiffeners, and the plain posts between, on one side.
+/// Adds doors with their posts, lock bars and stiffeners, and the plain posts in between, on one
+/// side.
 void AddOpenWagonSide(double side, const RailSurfaces& surfaces, Model& wagon) {
   constexpr double kDoorMiddle_m = 3.2;
   constexpr double kDoorHalfWidth_m = 0.9;
@@ -66,9 +66,9 @@ void AddOpenWagonFrame(Mesh& frame) {
     const double x_m = 1.0 * i;
     frame.Append(MakeBlock({x_m - 0.05, -1.34, 1.02}, {x_m + 0.05, 1.34, 1.18}));
   }
-  frame.Append(MakeCentreSill(6.30, kPivotDistance_m, 1.18));
+  frame.Append(MakeCentreSill(6.30, kOpenWagonPivotDistance_m, 1.18));
   frame.Append(MakeCornerSteps(6.0, 1.36, 1.0));
-  frame.Append(MakeBrakeGear(kPivotDistance_m));
+  frame.Append(MakeBrakeGear(kOpenWagonPivotDistance_m));
 }
 
 }  // namespace
@@ -81,9 +81,9 @@ Model MakeOpenWagon(const RailSurfaces& surfaces) {
   for (const double side : kBothSides) {
     AddOpenWagonSide(side, surfaces, wagon);
     AddOpenWagonEnd(side, MeshOf(surfaces.wagon_body, wagon));
-    AddBogie(side * kPivotDistance_m / 2.0, surfaces, wagon);
+    AddBogie(side * kOpenWagonPivotDistance_m / 2.0, surfaces, wagon);
   }
-  AddDrawAndBufferGear(kLength_m, surfaces, wagon);
+  AddDrawAndBufferGear(kOpenWagonLength_m, surfaces, wagon);
   return wagon;
 }
 

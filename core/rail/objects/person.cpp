@@ -1,4 +1,4 @@
-#include "core/rail/objects/person.h"
+#include "core/rail/objects/object_models.h"
 
 #include <cmath>
 #include <numbers>
@@ -10,21 +10,21 @@
 namespace railcast {
 namespace {
 
-/// A horizontal, elliptical section of the body.
+/// A horizontal, elliptical cross-section of the body.
 struct Section {
   double z_m{};
   double half_depth_m{};  ///< Along x.
   double half_width_m{};  ///< Along y.
-  double x_m{};           ///< Of its middle.
+  double x_m{};           ///< Of its centre.
 };
 
-/// A closed body through sections from the bottom up.
+/// A closed body lofted through sections from the bottom up.
 Mesh MakeLoft(const std::vector<Section>& sections, int num_sides) {
   std::vector<Eigen::Vector2d> profile;
   for (const Section& section : sections) {
     profile.emplace_back(section.z_m, section.half_depth_m > 0.0 ? 1.0 : 0.0);
   }
-  // The lathe's rings follow the profile: shape each into its section, its axis turned upright.
+  // The lathe's rings follow the profile: reshape each to its section and turn the axis upright.
   Mesh body = MakeLathe(profile, num_sides);
   std::size_t vertex = 0;
   for (const Section& section : sections) {
@@ -67,14 +67,14 @@ Mesh MakeHead() {
                   14);
 }
 
-/// One limb from joint to joint, with a round end at its tip.
+/// A limb from joint to joint, with a rounded tip.
 Mesh MakeLimb(const std::vector<Vector3>& joints, const std::vector<double>& radii_m) {
   Mesh limb = MakeTube(joints, radii_m, 10);
   limb.Append(MakeEllipsoid(joints.front(), Vector3::Constant(radii_m.front()), 10));
   return limb;
 }
 
-/// A shoe with its heel below the ankle; turned about y by the foot's pitch.
+/// A shoe with its heel below the ankle, rotated about y by the foot's pitch.
 Mesh MakeShoe(const Vector3& ankle_m, double pitch_rad) {
   Mesh shoe = MakeEllipsoid({0.065, 0.0, -0.045}, {0.145, 0.05, 0.045}, 12);
   shoe.Append(MakeEllipsoid({-0.02, 0.0, -0.02}, {0.06, 0.045, 0.07}, 10));
@@ -83,7 +83,8 @@ Mesh MakeShoe(const Vector3& ankle_m, double pitch_rad) {
   return placed;
 }
 
-/// `side` 1 is the left; `stride` 1 puts the leg forward and the arm back, -1 the other way round.
+/// Adds the limbs of one side: `side` 1 is the left. `stride` 1 puts the leg forward and the arm
+/// back, -1 the opposite.
 void AddSide(double side, double stride, const RailSurfaces& surfaces, Model& person) {
   Mesh clothes;
   const double hip_y_m = side * 0.09;
@@ -115,7 +116,7 @@ Model MakePerson(const RailSurfaces& surfaces, double height_m) {
   AddSide(1.0, 1.0, surfaces, person);
   AddSide(-1.0, -1.0, surfaces, person);
 
-  // The shoes' soles decide where the ground is.
+  // The soles of the shoes define the ground.
   const double ground_m = person.Bounds().min().z();
   const double scale = height_m / (kPersonHeight_m - ground_m);
   for (Part& part : person.parts) {

@@ -1,11 +1,10 @@
-#include "core/rail/objects/running_gear.h"
+#include "core/rail/objects/wagon_parts.h"
 
 #include <algorithm>
 #include <numbers>
 #include <vector>
 
 #include "core/rail/model_parts.h"
-#include "core/rail/objects/wagon_parts.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {
@@ -16,13 +15,13 @@ using Point2 = Eigen::Vector2d;
 constexpr double kQuarterTurn_rad = std::numbers::pi / 2.0;
 constexpr int kWheelSides = 16;
 
-/// Turns what lies along x towards +y or -y.
+/// Rotates a body that lies along x towards +y or -y.
 Transform TowardsSide(double side, const Vector3& origin_m) {
   return MakeTransform(RotationFromYawPitchRoll(side * kQuarterTurn_rad, 0, 0), origin_m);
 }
 
-/// A wheel about the x axis, x outwards from the back of the flange: hub, web, rim, and the UIC
-/// 510-2 tread with its flange.
+/// A wheel about the x axis, with x pointing outwards from the back of the flange: hub, web, rim,
+/// and the UIC 510-2 tread with its flange.
 Mesh MakeWheel() {
   const std::vector<Point2> profile = {{0.04, 0.39},
                                        {0.0, kWheelRadius_m + 0.018},
@@ -44,7 +43,7 @@ void AddWheelset(double x_m, const RailSurfaces& surfaces, Model& wagon) {
   mesh.Append(MakeBar({x_m, -0.9, kWheelRadius_m}, {x_m, 0.9, kWheelRadius_m}, 0.1));
 }
 
-/// Axle box, its cover, the wings under the springs, and the two springs.
+/// Adds an axle box with its cover, the wings under the springs, and the two springs.
 void AddAxleBox(double x_m, double side, Mesh& mesh) {
   const auto between = [&](double x0, double x1, double y0, double y1, double z0, double z1) {
     const double a = side * y0;
@@ -64,7 +63,7 @@ void AddAxleBox(double x_m, double side, Mesh& mesh) {
   }
 }
 
-/// A side member with its belly between the axles and its arches above the axle boxes.
+/// Outline of a bogie side frame: deep between the axles, arched above the axle boxes.
 std::vector<Point2> SideFrameOutline() {
   const std::vector<Point2> half = {{0.24, 0.42}, {0.42, 0.60}, {1.46, 0.60}, {1.54, 0.64},
                                     {1.54, 0.72}, {1.20, 0.80}, {0.62, 0.80}, {0.38, 0.73}};
@@ -75,9 +74,9 @@ std::vector<Point2> SideFrameOutline() {
   return outline;
 }
 
-/// One end of the wagon, x forward.
+/// One buffer, with x pointing out of the wagon.
 Mesh MakeBuffer() {
-  // Sleeve, plunger, and a disc whose face is a cap of 1.5 m radius.
+  // Sleeve, plunger, and a disc whose face is a spherical cap of 1.5 m radius.
   const std::vector<Point2> profile = {{0.0, 0.11},
                                        {0.33, 0.11},
                                        {0.33, 0.085},
@@ -90,8 +89,8 @@ Mesh MakeBuffer() {
   return buffer;
 }
 
-/// Draw hook with the screw coupling hanging from it; origin in the headstock's face at buffer
-/// height.
+/// A draw hook with the screw coupling hanging from it. The origin is in the face of the headstock
+/// at buffer height.
 Mesh MakeCoupling() {
   const std::vector<Point2> hook = {{0.0, -0.05}, {0.24, -0.05}, {0.32, -0.13}, {0.38, -0.10},
                                     {0.40, 0.0},  {0.33, 0.08},  {0.28, 0.05},  {0.31, -0.01},

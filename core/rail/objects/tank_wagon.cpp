@@ -3,8 +3,7 @@
 #include <vector>
 
 #include "core/rail/model_parts.h"
-#include "core/rail/objects/rolling_stock.h"
-#include "core/rail/objects/running_gear.h"
+#include "core/rail/objects/object_models.h"
 #include "core/rail/objects/wagon_parts.h"
 #include "core/scene/shapes.h"
 
@@ -13,14 +12,14 @@ namespace {
 
 using Point2 = Eigen::Vector2d;
 
-constexpr double kLength_m = 16.0;
-constexpr double kPivotDistance_m = 10.5;
+constexpr double kTankWagonLength_m = 16.0;
+constexpr double kTankWagonPivotDistance_m = 10.5;
 constexpr double kTankRadius_m = 1.45;
 constexpr double kTankAxis_m = 2.62;  ///< Above top of rail.
 constexpr double kTankHalfLength_m = 7.2;
 constexpr double kTop_m = 4.27;
 
-/// The shell with its dished ends, drawn as half ellipses.
+/// The shell with its dished ends, modelled as half ellipses.
 Mesh MakeTankShell() {
   constexpr double kDish_m = 0.5;
   constexpr int kDishSteps = 4;
@@ -39,7 +38,7 @@ Mesh MakeTankShell() {
   return shell;
 }
 
-/// Manhole with its cover, safety valve, and the valve box below.
+/// Manhole with cover, safety valve, and the valve box below.
 Mesh MakeFittings() {
   const Transform upright =
       MakeTransform(RotationFromYawPitchRoll(0, -0.5 * std::numbers::pi, 0), Vector3::Zero());
@@ -56,7 +55,7 @@ Mesh MakeFittings() {
   return fittings;
 }
 
-/// Gratings on top with their brackets.
+/// Adds the gratings on top of the tank, with their brackets.
 void AddWalkway(Mesh& frame) {
   for (const double side : kBothSides) {
     frame.Append(MakeSideBlock(side, {-2.4, 0.38, 4.10}, {2.4, 0.78, 4.13}));
@@ -66,7 +65,7 @@ void AddWalkway(Mesh& frame) {
   }
 }
 
-/// A ladder up each side of the tank to the walkway, bent around the shell.
+/// Adds a ladder on each side of the tank up to the walkway, bent around the shell.
 void AddLadders(Mesh& frame) {
   constexpr double kRungSpacing_m = 0.28;
   for (const double side : kBothSides) {
@@ -92,7 +91,7 @@ void AddLadders(Mesh& frame) {
   }
 }
 
-/// Platform with its railing at the back end.
+/// Adds the platform with its railing at the back end.
 void AddEndPlatform(Mesh& frame) {
   frame.Append(MakeBlock({-7.38, -1.25, 1.22}, {-6.75, 1.25, 1.25}));
   for (const double y_m : {-1.2, -0.4, 0.4, 1.2}) {
@@ -103,7 +102,7 @@ void AddEndPlatform(Mesh& frame) {
   }
 }
 
-/// Side sills, and the saddles that carry the tank above the bogies.
+/// Adds side sills, and the saddles that carry the tank above the bogies.
 void AddFrame(Mesh& frame) {
   for (const double side : kBothSides) {
     frame.Append(MakeSideBlock(side, {-7.2, 0.92, 0.96}, {7.2, 1.05, 1.20}));
@@ -114,7 +113,8 @@ void AddFrame(Mesh& frame) {
       frame.Append(MakeEndBlock(end, {x_m - 0.06, -1.0, 0.98}, {x_m + 0.06, 1.0, 1.16}));
     }
   }
-  // A saddle fills the space between frame and shell up to 50 degrees either side of the bottom.
+  // The saddle fills the space between frame and shell up to 50 degrees to either side of the
+  // bottom.
   std::vector<Point2> saddle = {{1.25, 1.18}};
   for (int i = -5; i <= 5; ++i) {
     const double angle_rad = -0.17 * i;
@@ -125,14 +125,14 @@ void AddFrame(Mesh& frame) {
   saddle.emplace_back(-1.1, 1.0);
   saddle.emplace_back(1.1, 1.0);
   for (const double end : kBothSides) {
-    const double pivot_m = end * kPivotDistance_m / 2.0;
+    const double pivot_m = end * kTankWagonPivotDistance_m / 2.0;
     for (const double offset : {-0.45, 0.45}) {
       frame.Append(MakeExtrusion(saddle, pivot_m + offset - 0.04, pivot_m + offset + 0.04));
     }
   }
-  frame.Append(MakeCentreSill(7.2, kPivotDistance_m, 1.15));
+  frame.Append(MakeCentreSill(7.2, kTankWagonPivotDistance_m, 1.15));
   frame.Append(MakeCornerSteps(7.05, 1.15, 1.0));
-  frame.Append(MakeBrakeGear(kPivotDistance_m));
+  frame.Append(MakeBrakeGear(kTankWagonPivotDistance_m));
 }
 
 }  // namespace
@@ -148,8 +148,9 @@ Model MakeTankWagon(const RailSurfaces& surfaces) {
   AddLadders(frame);
   AddEndPlatform(frame);
   MeshOf(surfaces.wagon_frame, wagon) = std::move(frame);
-  for (const double end : kBothSides) AddBogie(end * kPivotDistance_m / 2.0, surfaces, wagon);
-  AddDrawAndBufferGear(kLength_m, surfaces, wagon);
+  for (const double end : kBothSides)
+    AddBogie(end * kTankWagonPivotDistance_m / 2.0, surfaces, wagon);
+  AddDrawAndBufferGear(kTankWagonLength_m, surfaces, wagon);
   return wagon;
 }
 

@@ -3,7 +3,6 @@
 #include <numbers>
 #include <vector>
 
-#include "core/rail/objects/running_gear.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {

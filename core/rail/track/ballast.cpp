@@ -1,4 +1,4 @@
-#include "core/rail/track/ballast.h"
+#include "core/rail/track/track_structure.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,25 +13,27 @@
 namespace railcast {
 namespace {
 
-/// A third of the sleeper spacing: a row under every sleeper, where grain does not show, and two in
+/// A third of the sleeper spacing: one row under every sleeper, where grain is hidden, and two in
 /// every crib.
-constexpr double kGridAlong_m = kSleeperSpacing_m / 3.0;
+constexpr double kBallastGridAlong_m = kSleeperSpacing_m / 3.0;
 constexpr double kGridAcross_m = 0.16;
 
-/// Standard deviation of the points' heights: sigma_z of physics.md 7.1.
+/// Standard deviation of the heights: sigma_z of docs/physics.md 7.1.
 constexpr double kGrainSigma_m = 0.020;
 
-/// How far below the ground the sheet goes on: four sigmas of the ground's roughness and this.
+/// Depth below the ground to which the sheet continues, in addition to four sigmas of the ground's
+/// roughness.
 constexpr double kBelowGround_m = 0.1;
 
-/// Columns, as multiples of kGridAcross_m, that reach all the tracks' ballast.
+/// Grid columns, in multiples of kGridAcross_m, that cover the ballast of all tracks.
 struct Columns {
   std::int64_t first{};
   std::int64_t last{};
 };
 
 Columns ColumnsOf(const WorldSpec& spec) {
-  // Shoulder and slope down to below the ground, with cant; what lies deeper is not kept anyway.
+  // Covers shoulder and slope down to below the ground, with cant. Anything deeper is dropped
+  // anyway.
   constexpr double kReach_m = CrossSection::kShoulder_m + 2.0;
   double right_m = std::numeric_limits<double>::infinity();
   double left_m = -right_m;
@@ -55,7 +57,7 @@ void AddBallast(const ChunkContext& context, Chunk& chunk) {
 
   std::vector<Vector3> points_m;
   std::vector<bool> shows;
-  for (const double s_m : GridStations(range, kGridAlong_m)) {
+  for (const double s_m : GridStations(range, kBallastGridAlong_m)) {
     const CrossSection section(context, s_m);
     for (std::int64_t column = columns.first; column <= columns.last; ++column) {
       const double d_m = static_cast<double>(column) * kGridAcross_m;
@@ -63,8 +65,9 @@ void AddBallast(const ChunkContext& context, Chunk& chunk) {
       const double ballast_m = section.BallastHeight_m(d_m);
       shows.push_back(ballast_m - formation_m > lowest_m);
       const double grain_m = kGrainSigma_m / NoiseField::kLatticeSigma *
-                             grain.At(s_m / kGridAlong_m, static_cast<double>(column));
-      // Cells at the sheet's edge have corners beyond the ballast's end; they lie in the ground.
+                             grain.At(s_m / kBallastGridAlong_m, static_cast<double>(column));
+      // Cells at the edge of the sheet have corners beyond the end of the ballast; keep them in the
+      // ground.
       points_m.push_back(
           section.PointAt(d_m, std::max(ballast_m, formation_m + 2.0 * lowest_m) + grain_m));
     }

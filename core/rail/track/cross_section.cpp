@@ -13,11 +13,11 @@ namespace {
 constexpr double kBallastBelowSleeperTop_m = 0.020;
 constexpr double kBallastSlope = 1.0 / 1.5;
 
-/// Where the ballast is shallower around a sleeper.
+/// Depth and extent of the hollow in the ballast around a sleeper.
 constexpr double kSleeperHollow_m = 0.020;
 constexpr double kSleeperHollowReach_m = 0.2;
 
-/// Between the rails: the ballast follows a concrete sleeper's low middle.
+/// Between the rails, the ballast follows the lower middle part of a concrete sleeper.
 constexpr double kMiddleEnd_m = 0.45;
 constexpr double kSeatBegin_m = 0.60;
 
@@ -28,11 +28,10 @@ double ClosenessToASleeper(double s_m) {
 
 }  // namespace
 
-SleeperSeat SeatOf(const std::string& sleeper) {
+SleeperSeat SeatOf(SleeperType sleeper) {
   // B70: 214 mm high below the rail on a 10 mm pad, 175 mm in the middle. Wood: level, below a
   // baseplate 18 mm thick.
-  if (sleeper == "concrete") return {.top_m = -0.182, .middle_drop_m = 0.039};
-  Check(sleeper == "wood", "a sleeper is of concrete or wood");
+  if (sleeper == SleeperType::kConcrete) return {.top_m = -0.182, .middle_drop_m = 0.039};
   return {.top_m = -0.190, .middle_drop_m = 0.0};
 }
 
@@ -70,7 +69,7 @@ double CrossSection::FormationHeight_m(double d_m) const {
 double CrossSection::BallastHeight_m(double d_m) const {
   double height_m = -std::numeric_limits<double>::infinity();
   for (const TrackHere& track : tracks_) {
-    // From a shoulder the slope needs about 0.8 m to the formation.
+    // From the shoulder, the slope takes about 0.8 m to reach the formation.
     constexpr double kReach_m = 3.0;
     const double beyond_m = std::max(std::abs(d_m - track.d_m) - kShoulder_m, track.beyond_end_m);
     if (beyond_m < kReach_m) height_m = std::max(height_m, BallastHeightOf(track, d_m));

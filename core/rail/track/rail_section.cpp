@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kRunningBandHalfWidth_mm = 26.0;
 
-/// Right half of the 60E1 section, from the crown down (physics.md 7.1).
+/// Right half of the 60E1 section, from the crown downwards (docs/physics.md 7.1).
 constexpr std::array<std::array<double, 2>, 18> kHalfSection_mm{{{0, 0},
                                                                  {10, -0.2},
                                                                  {20.5, -1.1},
@@ -30,14 +30,14 @@ constexpr std::array<std::array<double, 2>, 18> kHalfSection_mm{{{0, 0},
                                                                  {75, -160.5},
                                                                  {75, -172}}};
 
-/// Tilts an upright section, so that its top leans towards the track's middle (smaller y).
+/// Tilts an upright section so that its top leans towards the middle of the track (smaller y).
 Eigen::Vector2d Inclined(const Eigen::Vector2d& point) {
   const double angle_rad = std::atan(kRailInclination);
   return {point.x() * std::cos(angle_rad) - point.y() * std::sin(angle_rad),
           point.x() * std::sin(angle_rad) + point.y() * std::cos(angle_rad)};
 }
 
-/// Where the inner side of an outline crosses a height: its least y there.
+/// Smallest y at which an outline crosses a height: its inner side.
 double InnerSideAt(const std::vector<Eigen::Vector2d>& outline_m, double z_m) {
   double inner_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i + 1 < outline_m.size(); ++i) {
@@ -60,7 +60,8 @@ std::vector<Eigen::Vector2d> InclinedOutline() {
   return outline_m;
 }
 
-/// From the tilted section about its own crown to its place in the left half of the track.
+/// Offset from the tilted section about its own crown to its position in the left half of the
+/// track.
 Eigen::Vector2d PlaceOfCrown(const std::vector<Eigen::Vector2d>& outline_m) {
   double top_m = -std::numeric_limits<double>::infinity();
   for (const Eigen::Vector2d& point : outline_m) top_m = std::max(top_m, point.y());

@@ -1,4 +1,4 @@
-#include "core/rail/track/sleeper_models.h"
+#include "core/rail/infrastructure_models.h"
 
 #include <array>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 
 using Outline = std::vector<Eigen::Vector2d>;
 
-/// A symmetric trapezoid across a sleeper.
+/// A symmetric trapezoidal cross-section of a sleeper.
 struct SleeperStation {
   double y_m{};
   double top_m{};
@@ -25,8 +25,8 @@ struct SleeperStation {
 
 constexpr double kConcreteUnderside_m = -0.396;
 
-/// From the right end to the left one, four corners each.
-Mesh MakeLoft(std::span<const SleeperStation> stations, double underside_m) {
+/// Lofts a sleeper through sections from the right end to the left one, with four corners each.
+Mesh MakeSleeperLoft(std::span<const SleeperStation> stations, double underside_m) {
   Mesh mesh;
   for (const SleeperStation& station : stations) {
     const auto add = [&](double x_m, double z_m) {
@@ -53,7 +53,8 @@ Mesh MakeLoft(std::span<const SleeperStation> stations, double underside_m) {
   return mesh;
 }
 
-/// Right half of the B70, from the end inwards (DB drawing Ios 8; heights from physics.md 7.1).
+/// Right half of the B70, from the end inwards (DB drawing Ios 8; heights from
+/// docs/physics.md 7.1).
 std::vector<SleeperStation> ConcreteStations() {
   constexpr double kSeat_m = -0.182;
   constexpr double kSeatSlope = kRailInclination;
@@ -76,8 +77,8 @@ std::vector<SleeperStation> ConcreteStations() {
   return stations;
 }
 
-/// One rail seat: `side` is +1 for the left rail. Shapes are drawn on the canted seat, across
-/// outwards from the rail foot's middle and up from its underside.
+/// One rail seat; `side` is +1 for the left rail. Shapes are given on the canted seat: across
+/// (outwards from the middle of the rail foot) and up (from its underside).
 class RailSeat {
  public:
   RailSeat(double side, Mesh& mesh) : side_(side), mesh_(mesh) {}
@@ -96,7 +97,7 @@ class RailSeat {
     mesh_.Append(MakeExtrusion(outline_m, -half_width_m, half_width_m));
   }
 
-  /// Guide plate, clamp and screw on both sides of the foot, 0.1 m high (physics.md 7.1).
+  /// Adds guide plate, clamp and screw on both sides of the foot, 0.1 m high (docs/physics.md 7.1).
   void AddFastenings(double below_foot_m) {
     for (const double out : {-1.0, 1.0}) {
       const auto at = [&](double across_m, double up_m) {
@@ -122,7 +123,8 @@ class RailSeat {
 Model MakeConcreteSleeper(const RailSurfaces& surfaces) {
   constexpr double kPad_m = 0.010;
   Model model{.name = "concrete_sleeper", .parts = {}};
-  MeshOf(surfaces.sleeper_concrete, model) = MakeLoft(ConcreteStations(), kConcreteUnderside_m);
+  MeshOf(surfaces.sleeper_concrete, model) =
+      MakeSleeperLoft(ConcreteStations(), kConcreteUnderside_m);
   for (const double side : {-1.0, 1.0}) {
     RailSeat seat(side, MeshOf(surfaces.fastening, model));
     seat.Add({{-0.074, -kPad_m - 0.002}, {0.074, -kPad_m - 0.002}, {0.074, 0.0}, {-0.074, 0.0}},
@@ -133,7 +135,7 @@ Model MakeConcreteSleeper(const RailSurfaces& surfaces) {
 }
 
 Model MakeWoodSleeper(const RailSurfaces& surfaces) {
-  const double top_m = SeatOf("wood").top_m;
+  const double top_m = SeatOf(SleeperType::kWood).top_m;
   constexpr double kHeight_m = 0.160;
   constexpr double kHalfWidth_m = 0.130;
   constexpr double kPlate_m = 0.018;
@@ -143,7 +145,7 @@ Model MakeWoodSleeper(const RailSurfaces& surfaces) {
                Vector3(kHalfWidth_m, kSleeperHalfLength_m, top_m)});
   for (const double side : {-1.0, 1.0}) {
     RailSeat seat(side, MeshOf(surfaces.fastening, model));
-    // Its lower edge goes into the wood, so that the canted plate leaves no gap.
+    // The lower edge extends into the wood, so that the canted plate leaves no gap.
     seat.Add({{-0.180, -kPlate_m - 0.005}, {0.180, -kPlate_m - 0.005}, {0.180, 0.0}, {-0.180, 0.0}},
              0.080);
     seat.AddFastenings(kPlate_m);

@@ -9,9 +9,9 @@
 namespace railcast {
 namespace {
 
-/// Of a line `offset_m` left of the axis, in plan and elevation together, as a step L of chainage
-/// feels it: there the radius is R - d and the chord L (R - d) / R, so that the sagitta is
-/// L^2 (1 - d / R) / (8 R).
+/// Highest curvature of a line `offset_m` left of the axis, in plan and elevation combined,
+/// relative to a step L of the axis' chainage: the line has the radius R - d and the chord L (R -
+/// d) / R, so that the sagitta is L^2 (1 - d / R) / (8 R).
 double StrongestCurvature_per_m(const Alignment& alignment,
                                 const ChainageRange& range,
                                 double offset_m) {
@@ -23,7 +23,7 @@ double StrongestCurvature_per_m(const Alignment& alignment,
     const double s_m = range.begin_s_m + length_m * i / num_samples;
     const double axis_per_m = alignment.At(s_m).curvature_per_m;
     const double plan_per_m = axis_per_m * (1.0 - axis_per_m * offset_m);
-    // Beyond its ends the line is level, whatever its gradient before.
+    // Beyond its ends, the line is level whatever the gradient at the end.
     const double before_s_m = std::max(0.0, s_m - 0.5 * kSampling_m);
     const double after_s_m = std::min(alignment.length_m(), s_m + 0.5 * kSampling_m);
     const double elevation_per_m =

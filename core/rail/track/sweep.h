@@ -5,49 +5,50 @@
 #include <span>
 #include <vector>
 
-#include "core/base/transform.h"
 #include "core/rail/chunk_context.h"
-#include "core/scene/mesh.h"
+#include "railcast/scene.h"
+#include "railcast/transform.h"
 
 namespace railcast {
 
-/// A stretch of the line.
+/// A section of the line.
 struct ChainageRange {
   double begin_s_m{};
   double end_s_m{};
 };
 
-/// What of `track` a chunk's swept surfaces cover: the chunk with half the overlap at either end,
-/// or less where the track begins or ends; ends before it begins where the track is elsewhere.
+/// The range of `track` that a chunk's swept surfaces cover: the chunk with half the overlap at
+/// either end, or less where the track begins or ends. If the track does not extend into the chunk,
+/// the range ends before it begins.
 [[nodiscard]] ChainageRange SweptRange(const ChunkContext& context, const TrackSpec& track);
 
-/// Where the track ends: its own figure or the line's end.
+/// Chainage of the track's end: as specified, or the end of the line.
 [[nodiscard]] double TrackEnd_m(const TrackSpec& track, const Alignment& alignment);
 
-/// Chainages from end to end of the range, evenly spaced, so that a chord between neighbours is off
-/// a line `offset_m` left of the axis by at most `tolerance_m`: the sagitta L^2 kappa / 8 of the
-/// strongest curvature in the range, in plan and elevation together, gives
-/// L = sqrt(8 tolerance / kappa), and never more than `max_step_m`.
+/// Evenly spaced chainages over the range, such that chords between neighbours deviate from a line
+/// `offset_m` left of the axis by at most `tolerance_m`. From the sagitta L^2 kappa / 8 at the
+/// highest curvature in the range, in plan and elevation combined, the spacing is at most L =
+/// sqrt(8 tolerance / kappa), and never more than `max_step_m`.
 [[nodiscard]] std::vector<double> SweepStations(const Alignment& alignment,
                                                 const ChainageRange& range,
                                                 double offset_m,
                                                 double tolerance_m,
                                                 double max_step_m);
 
-/// The whole multiples of `step_m` in the range, and the range's ends. A multiple nearer to an end
-/// than a quarter of a step gives way to it.
+/// The integer multiples of `step_m` in the range, and the ends of the range. A multiple closer to
+/// an end than a quarter of a step is dropped.
 [[nodiscard]] std::vector<double> GridStations(const ChainageRange& range, double step_m);
 
-/// Draws an open outline of (y, z) points along a row of frames (x forward). Outside is to the left
-/// of the outline's direction on paper with y to the right and z up: clockwise outlines face
-/// outwards.
+/// Sweeps an open outline of (y, z) points along a sequence of frames (x forward). With y drawn to
+/// the right and z up, the outside is to the left of the outline's direction, so clockwise outlines
+/// face outwards.
 void AppendSweep(std::span<const Transform> mesh_from_station,
                  std::span<const Eigen::Vector2d> outline_m,
                  Mesh& mesh);
 
-/// Triangles over a grid of points, row by row, for the cells that `keeps(row, column)` (of their
-/// first corner) names. Rows run forward and columns to the left, so that the surface faces up.
-/// Points of no kept cell are left out.
+/// Triangulates a grid of points, given row by row, for the cells that `keeps(row, column)` selects
+/// by their first corner. Rows run forward and columns to the left, so that the surface faces up.
+/// Points that belong to no selected cell are left out.
 [[nodiscard]] Mesh MeshOfGrid(std::span<const Vector3> points_m,
                               std::size_t num_columns,
                               const std::function<bool(std::size_t, std::size_t)>& keeps);

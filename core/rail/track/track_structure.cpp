@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/rail/model_parts.h"
-#include "core/rail/track/ballast.h"
 #include "core/rail/track/cross_section.h"
 #include "core/rail/track/rail_section.h"
 #include "core/rail/track/sweep.h"
@@ -17,7 +16,7 @@ constexpr double kRailTolerance_m = 1e-3;
 constexpr double kLongestRailChord_m = 2.5;
 
 /// Closes a rail where it begins or ends. Point i of the section mirrors point size - 1 - i, so
-/// that strips between mirrored points fill it.
+/// strips between mirrored points fill it.
 void AppendRailEnd(const Transform& chunk_from_track,
                    const RailSection& section,
                    bool faces_ahead,
@@ -54,7 +53,7 @@ void AddRail(const ChunkContext& context,
   AppendSweep(stations, outline.subspan(section.head_first, band_length),
               MeshOf(context.surfaces.rail_head, chunk.ground));
 
-  // The rest runs from the band down, below the foot and up again.
+  // The rest of the outline runs from the band down, below the foot and up again.
   std::vector<Eigen::Vector2d> rest(
       outline.begin() + static_cast<std::ptrdiff_t>(section.head_last), outline.end());
   rest.insert(rest.end(), outline.begin(),
@@ -72,9 +71,10 @@ void AddSleepers(const ChunkContext& context,
                  const InfrastructureModels& models,
                  Chunk& chunk) {
   const std::shared_ptr<const Model>& model =
-      track.sleeper == "concrete" ? models.concrete_sleeper : models.wood_sleeper;
+      track.sleeper == SleeperType::kConcrete ? models.concrete_sleeper : models.wood_sleeper;
   const double end_s_m = TrackEnd_m(track, context.alignment);
-  // One before the chunk to one after it, so that rounding loses and doubles none.
+  // One step beyond the chunk on either side, so that rounding neither loses nor duplicates a
+  // sleeper.
   const auto first = static_cast<std::int64_t>(std::floor(context.begin_s_m / kSleeperSpacing_m));
   const auto last = static_cast<std::int64_t>(std::ceil(context.end_s_m / kSleeperSpacing_m));
   for (std::int64_t k = first; k <= last; ++k) {
@@ -96,7 +96,7 @@ void AddTracks(const ChunkContext& context, const InfrastructureModels& models, 
   for (const TrackSpec& track : context.spec.tracks) {
     AddSleepers(context, track, models, chunk);
     const ChainageRange range = SweptRange(context, track);
-    // Shorter, it is nothing but the overlap with the chunk where the track begins or ends.
+    // A shorter range is only the overlap with the chunk in which the track begins or ends.
     if (range.end_s_m - range.begin_s_m < kChunkOverlap_m) continue;
     AddRail(context, track, left, range, chunk);
     AddRail(context, track, right, range, chunk);

@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "analysis/compare/ablation_report.h"
-#include "analysis/report/files.h"
-#include "core/scenario/effects.h"
+#include "analysis/compare/compare_report.h"
+#include "analysis/report/formats.h"
+#include "railcast/effects.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/scan_once.h"
 #include "tests/support/simple_world.h"
@@ -24,13 +24,13 @@ constexpr auto kBelowThreshold = static_cast<std::size_t>(Outcome::kBelowThresho
 constexpr auto kSensorDropout = static_cast<std::size_t>(Outcome::kSensorDropout);
 constexpr auto kOutOfRange = static_cast<std::size_t>(Outcome::kOutOfRange);
 
-// Ground and a wall before the sensor, in rain and noise.
+// Ground and a wall in front of the sensor, in rain and noise.
 Simulator MakeStudied(const EffectSet& effects) {
   auto world = std::make_shared<SimpleWorld>();
   world->ground.parts = {{MakeFloor(-2.0F, 200.0F), 2, 1}, {MakeWall(60.0F, 20.0F), 1, 2}};
-  SimulatorSpec spec{.range_max_m = 150.0, .effects = effects};
-  spec.plausibility.dropout_probability = 0.05;
-  spec.weather.rain_rate_mmph = 30.0;
+  SimulatorSpec spec{.detector = {.range_max_m = 150.0, .effects = effects}};
+  spec.detector.plausibility.dropout_probability = 0.05;
+  spec.detector.weather.rain_rate_mmph = 30.0;
   return {world, MakeRaster(40.0, 30.0, 0.25), TestMaterials(), spec, 1};
 }
 
@@ -47,13 +47,13 @@ EffectStudy Of(const std::vector<EffectStudy>& studies, const std::string& effec
   return *at;
 }
 
-// How many beams changed their outcome otherwise than from one to the other.
+// Number of beams whose outcome changed in any other way than between the two given.
 std::uint64_t OtherTransitions(const BeamChanges& beams, std::size_t from, std::size_t to) {
   return beams.num_outcome_changed - beams.transitions[from][to];
 }
 
 TEST(Ablation, FindsThatRainTakesBeamsAndTouchesNoOther) {
-  const EffectStudy rain = Of(Study(EffectsOfRung("plausibility")), "rain");
+  const EffectStudy rain = Of(Study(EffectsOfRung(Fidelity::kPlausibility)), "rain");
   EXPECT_TRUE(rain.is_in_scenario);
   EXPECT_GT(rain.beams.num_removed, 100U);
   EXPECT_EQ(rain.beams.num_added, 0U);
@@ -64,17 +64,17 @@ TEST(Ablation, FindsThatRainTakesBeamsAndTouchesNoOther) {
 }
 
 TEST(Ablation, FindsThatNoiseMovesPointsAndChangesNoOutcomeButAtTheGate) {
-  const EffectStudy noise = Of(Study(EffectsOfRung("plausibility")), "noise");
+  const EffectStudy noise = Of(Study(EffectsOfRung(Fidelity::kPlausibility)), "noise");
   EXPECT_EQ(OtherTransitions(noise.beams, kReturned, kOutOfRange), 0U);
   EXPECT_EQ(noise.beams.num_moved, noise.beams.num_both);
   EXPECT_EQ(noise.beams.num_intensity_changed, 0U);
-  // Isotropic noise of 10 to 25 mm: its length's median is 1.54 sigma.
+  // The noise is isotropic with a sigma of 10 to 25 mm; the median of its length is 1.54 sigma.
   EXPECT_GT(noise.beams.moved_m.Median().value, 0.015);
   EXPECT_LT(noise.beams.moved_m.Median().value, 0.04);
 }
 
 TEST(Ablation, FindsThatTheSensorsDropoutTakesItsShare) {
-  const EffectStudy dropout = Of(Study(EffectsOfRung("plausibility")), "sensor_dropout");
+  const EffectStudy dropout = Of(Study(EffectsOfRung(Fidelity::kPlausibility)), "sensor_dropout");
   std::uint64_t num_dropped = 0;
   for (const auto& row : dropout.beams.transitions) num_dropped += row[kSensorDropout];
   const double num_beams = static_cast<double>(dropout.beams.num_beams);
@@ -85,24 +85,24 @@ TEST(Ablation, FindsThatTheSensorsDropoutTakesItsShare) {
 }
 
 TEST(Ablation, SwitchesOnWhatTheScenarioLeavesOff) {
-  EffectSet effects = EffectsOfRung("plausibility");
+  EffectSet effects = EffectsOfRung(Fidelity::kPlausibility);
   effects.rain = false;
   const EffectStudy off = Of(Study(effects), "rain");
-  const EffectStudy on = Of(Study(EffectsOfRung("plausibility")), "rain");
+  const EffectStudy on = Of(Study(EffectsOfRung(Fidelity::kPlausibility)), "rain");
   EXPECT_FALSE(off.is_in_scenario);
-  // Either way round, "with" is with rain.
+  // The study compares without and with rain, whichever of both the scenario has.
   EXPECT_EQ(off.beams.transitions, on.beams.transitions);
   EXPECT_EQ(off.beams.num_removed, on.beams.num_removed);
 }
 
 TEST(Ablation, FindsNothingOfAnEffectWithoutItsWeather) {
-  const EffectStudy snow = Of(Study(EffectsOfRung("plausibility")), "snow");
+  const EffectStudy snow = Of(Study(EffectsOfRung(Fidelity::kPlausibility)), "snow");
   EXPECT_EQ(snow.beams.num_identical, snow.beams.num_beams);
   EXPECT_EQ(snow.clouds.summaries()[0].largest, 0.0);
 }
 
 TEST(Ablation, BinsByTheRangeOfTheSurface) {
-  const EffectStudy threshold = Of(Study(EffectsOfRung("plausibility")), "threshold");
+  const EffectStudy threshold = Of(Study(EffectsOfRung(Fidelity::kPlausibility)), "threshold");
   std::uint64_t num_beams = 0, num_changed = 0;
   for (const BeamChanges::RangeBin& bin : threshold.beams.range_bins) {
     num_beams += bin.num_beams;
@@ -110,34 +110,34 @@ TEST(Ablation, BinsByTheRangeOfTheSurface) {
   }
   EXPECT_GT(threshold.beams.transitions[kReturned][kBelowThreshold], 0U);
   EXPECT_EQ(num_changed, threshold.beams.num_outcome_changed);
-  EXPECT_LT(num_beams, threshold.beams.num_beams);  // The sky has no range.
+  EXPECT_LT(num_beams, threshold.beams.num_beams);  // Beams into the sky have no range.
 }
 
 TEST(Ablation, LeavesTheSimulatorAsItWas) {
-  Simulator simulator = MakeStudied(EffectsOfRung("plausibility"));
+  Simulator simulator = MakeStudied(EffectsOfRung(Fidelity::kPlausibility));
   Frame before, after;
   simulator.Scan(3, before);
   (void)Ablate(simulator, {0}, {0.1}, [](const std::string&, double) {});
   simulator.Scan(3, after);
   EXPECT_EQ(before.outcome, after.outcome);
-  EXPECT_TRUE(simulator.spec().effects == EffectsOfRung("plausibility"));
+  EXPECT_TRUE(simulator.spec().detector.effects == EffectsOfRung(Fidelity::kPlausibility));
 }
 
 TEST(StudiedEffects, GoTogetherWithTheOthers) {
-  EXPECT_THAT(StudiedEffects(EffectsOfRung("plausibility")),
+  EXPECT_THAT(StudiedEffects(EffectsOfRung(Fidelity::kPlausibility)),
               ElementsAre("threshold", "rain", "snow", "noise", "sensor_dropout"));
-  const std::vector<std::string> of_footprint = StudiedEffects(EffectsOfRung("footprint"));
+  const std::vector<std::string> of_footprint = StudiedEffects(EffectsOfRung(Fidelity::kFootprint));
   EXPECT_THAT(of_footprint, Contains("thin_conductors"));
   EXPECT_THAT(of_footprint, Contains("sampled_waveform"));
   EXPECT_THAT(of_footprint, Not(Contains("rain")));
-  // It would count wires a second time.
+  // It would count wires twice.
   EXPECT_THAT(of_footprint, Not(Contains("dense_footprint")));
-  // The dense footprint needs it.
-  EXPECT_THAT(StudiedEffects(EffectsOfRung("reference")), Not(Contains("footprint")));
+  // The dense footprint needs the effect footprint.
+  EXPECT_THAT(StudiedEffects(EffectsOfRung(Fidelity::kReference)), Not(Contains("footprint")));
 }
 
 TEST(AblationReport, HasARowForEveryEffect) {
-  const std::vector<EffectStudy> studies = Study(EffectsOfRung("plausibility"));
+  const std::vector<EffectStudy> studies = Study(EffectsOfRung(Fidelity::kPlausibility));
   const Report report = MakeAblationReport(studies, "Effects", {}, "");
   for (const Section& section : report.sections) {
     for (const Table& table : section.tables) {

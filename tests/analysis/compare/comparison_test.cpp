@@ -5,7 +5,7 @@
 #include <tbb/global_control.h>
 
 #include "analysis/compare/compare_report.h"
-#include "analysis/report/files.h"
+#include "analysis/report/formats.h"
 #include "tests/analysis/compare/made_clouds.h"
 #include "tests/analysis/held_recording.h"
 
@@ -28,7 +28,7 @@ HeldRecording AtTimes(const std::vector<int>& stamps_ms) {
   return HeldRecording(std::move(frames));
 }
 
-// The indices of all pairs.
+// Indices of all pairs.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> AllPairs(FramePairs& pairs) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
   while (const auto pair = pairs.Next()) {
@@ -48,7 +48,7 @@ TEST(FramePairs, GoByIndexToTheShorterOnesEnd) {
 TEST(FramePairs, GoByTheNearestStamp) {
   HeldRecording a = AtTimes({0, 100, 200, 300}), b = AtTimes({90, 140, 210, 420});
   FramePairs pairs(a, b, Pairing::kStamp);
-  // 0 and 300 have none within 50 ms; 140 is farther from 100 than 90 is.
+  // 0 and 300 have no partner within 50 ms; 140 is farther from 100 than 90 is.
   EXPECT_THAT(AllPairs(pairs), ElementsAre(Pair(1, 0), Pair(2, 2)));
   EXPECT_EQ(pairs.num_alone_a(), 2U);
   EXPECT_EQ(pairs.num_alone_b(), 2U);
@@ -93,9 +93,9 @@ std::vector<RecordedFrame> NoisyPlanes(int num, double sigma_m) {
   return frames;
 }
 
-std::string ReportOf(std::vector<RecordedFrame> frames_a,
-                     std::vector<RecordedFrame> frames_b,
-                     std::size_t num_threads) {
+std::string ComparisonReportOf(std::vector<RecordedFrame> frames_a,
+                               std::vector<RecordedFrame> frames_b,
+                               std::size_t num_threads) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, num_threads);
   HeldRecording a(std::move(frames_a)), b(std::move(frames_b));
   FramePairs pairs(a, b, std::nullopt);
@@ -111,9 +111,9 @@ std::string ReportOf(std::vector<RecordedFrame> frames_a,
 }
 
 TEST(Comparison, IsTheSameAtAnyNumberOfThreads) {
-  const std::string one = ReportOf(NoisyPlanes(12, 0.05), NoisyPlanes(12, 0.1), 1);
-  EXPECT_EQ(ReportOf(NoisyPlanes(12, 0.05), NoisyPlanes(12, 0.1), 2), one);
-  EXPECT_EQ(ReportOf(NoisyPlanes(12, 0.05), NoisyPlanes(12, 0.1), 5), one);
+  const std::string one = ComparisonReportOf(NoisyPlanes(12, 0.05), NoisyPlanes(12, 0.1), 1);
+  EXPECT_EQ(ComparisonReportOf(NoisyPlanes(12, 0.05), NoisyPlanes(12, 0.1), 2), one);
+  EXPECT_EQ(ComparisonReportOf(NoisyPlanes(12, 0.05), NoisyPlanes(12, 0.1), 5), one);
   EXPECT_THAT(one, HasSubstr("\"12, by stamp\""));
 }
 

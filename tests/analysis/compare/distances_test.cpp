@@ -13,10 +13,10 @@
 namespace railcast {
 namespace {
 
-const std::vector<double> kDistances_m = {0.05, 0.2};
+const std::vector<double> kBinEnds_m = {0.05, 0.2};
 
 CloudDistances Distances(const std::vector<MadePoint>& a, const std::vector<MadePoint>& b) {
-  return DistancesOf(MadeCloud(a), MadeCloud(b), kDistances_m).value();
+  return DistancesOf(MadeCloud(a), MadeCloud(b), kBinEnds_m).value();
 }
 
 TEST(CloudDistances, AreNoneBetweenIdenticalClouds) {
@@ -31,7 +31,7 @@ TEST(CloudDistances, AreNoneBetweenIdenticalClouds) {
 
 TEST(CloudDistances, OfAShiftedPlaneAreItsShift) {
   const double shift_m = 0.1;
-  const double tolerance_m = 1e-6;  // Of float32 at 20 m.
+  const double tolerance_m = 1e-6;  // Precision of float32 at 20 m.
   const CloudDistances shifted = Distances(MadePlane(0.0F), MadePlane(0.1F));
   EXPECT_NEAR(shifted.a_to_b_m, shift_m, tolerance_m);
   EXPECT_NEAR(shifted.chamfer_m, shift_m, tolerance_m);
@@ -44,7 +44,7 @@ TEST(CloudDistances, OfAShiftedPlaneAreItsShift) {
 }
 
 TEST(CloudDistances, TellPrecisionFromRecall) {
-  // B has all of A, and as much again far above it.
+  // B contains A and the same number of points far above it.
   std::vector<MadePoint> b = MadePlane(0.0F);
   for (const MadePoint& point : MadePlane(10.0F)) b.push_back(point);
   const CloudDistances found = Distances(MadePlane(0.0F), b);
@@ -59,7 +59,7 @@ TEST(CloudDistances, TellPrecisionFromRecall) {
 
 TEST(CloudDistances, LeaveTheOutermostTwentiethToTheHausdorffDistance) {
   std::vector<MadePoint> b = MadePlane(0.0F);
-  // 20 of 420 points, less than 5 %.
+  // 20 of 420 points are less than 5 %.
   for (int i = 0; i < 20; ++i) b.push_back({static_cast<float>(i), 0.0F, 50.0F});
   const CloudDistances found = Distances(MadePlane(0.0F), b);
   EXPECT_NEAR(found.hausdorff_m, 50.0, 1e-5);
@@ -67,7 +67,8 @@ TEST(CloudDistances, LeaveTheOutermostTwentiethToTheHausdorffDistance) {
 }
 
 TEST(CloudDistances, CountDensityWhereChamferDoesNot) {
-  // Every point of B twice: from A each finds one of its own, from B two share one.
+  // Every point of B is there twice: each point of A has its own nearest point, but two points of B
+  // share one.
   std::vector<MadePoint> twice = MadePlane(0.0F);
   for (const MadePoint& point : MadePlane(0.0F)) twice.push_back(point);
   const CloudDistances found = Distances(MadePlane(0.0F), twice);
@@ -77,10 +78,9 @@ TEST(CloudDistances, CountDensityWhereChamferDoesNot) {
 
 TEST(CloudDistances, AreNotKnownWithoutPoints) {
   const float none = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_FALSE(DistancesOf(MadeCloud({}), MadeCloud(MadePlane(0.0F)), kDistances_m));
-  EXPECT_FALSE(DistancesOf(MadeCloud(MadePlane(0.0F)), MadeCloud({}), kDistances_m));
-  EXPECT_FALSE(
-      DistancesOf(MadeCloud({{none, none, none}}), MadeCloud({{1, 2, none}}), kDistances_m));
+  EXPECT_FALSE(DistancesOf(MadeCloud({}), MadeCloud(MadePlane(0.0F)), kBinEnds_m));
+  EXPECT_FALSE(DistancesOf(MadeCloud(MadePlane(0.0F)), MadeCloud({}), kBinEnds_m));
+  EXPECT_FALSE(DistancesOf(MadeCloud({{none, none, none}}), MadeCloud({{1, 2, none}}), kBinEnds_m));
 }
 
 TEST(CloudDistances, AreOfTwoSinglePointsTheirDistance) {
@@ -100,12 +100,12 @@ TEST(CloudDistances, GrowWithNoise) {
     density_aware = found.density_aware;
     f_score = found.within[1].f_score;
   }
-  // 0.2 m is far less than half the points' distance: the noise's mean length, 2 sqrt(2 / pi)
-  // sigma.
+  // 0.2 m is far less than half the spacing of the points; the mean length of the noise is
+  // 2 sqrt(2 / pi) sigma.
   EXPECT_NEAR(chamfer_m, 2.0 * std::sqrt(2.0 / std::numbers::pi) * 0.2, 0.02);
 }
 
-// Mean and largest distance of each cloud from the other, as Open3D finds them.
+// Compares the mean and largest distance in both directions with those of Open3D.
 TEST(CloudDistances, AreThoseOfOpen3d) {
   if (std::system("/usr/bin/python3 -c 'import open3d' >/dev/null 2>&1") != 0) {
     GTEST_SKIP() << "python3-open3d is not installed";
@@ -127,7 +127,7 @@ TEST(CloudDistances, AreThoseOfOpen3d) {
   std::istringstream said(ended.said);
   double a_to_b_m{}, b_to_a_m{}, hausdorff_m{}, recall{}, precision{};
   ASSERT_TRUE(said >> a_to_b_m >> b_to_a_m >> hausdorff_m >> recall >> precision) << ended.said;
-  const CloudDistances found = DistancesOf(a, b, kDistances_m).value();
+  const CloudDistances found = DistancesOf(a, b, kBinEnds_m).value();
   EXPECT_NEAR(found.a_to_b_m, a_to_b_m, 1e-6);
   EXPECT_NEAR(found.b_to_a_m, b_to_a_m, 1e-6);
   EXPECT_NEAR(found.hausdorff_m, hausdorff_m, 1e-6);

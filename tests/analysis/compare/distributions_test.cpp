@@ -10,13 +10,13 @@ namespace {
 
 TEST(JensenShannonDivergence, IsZeroOfTheSameAndOneOfNothingInCommon) {
   const Histogram some({1, 1, 2, 5});
-  // Shares count, not counts.
+  // The divergence depends on shares, not on counts.
   EXPECT_EQ(JensenShannonDivergence(some, Histogram({1, 1, 1, 1, 2, 2, 5, 5})), 0.0);
   EXPECT_NEAR(JensenShannonDivergence(some, Histogram({3, 4})), 1.0, 1e-12);
 }
 
 TEST(JensenShannonDivergence, IsWhatItsFormulaSays) {
-  // Of (1, 0) and (1/2, 1/2): H(3/4, 1/4) - 1/2.
+  // Distributions (1, 0) and (1/2, 1/2): H(3/4, 1/4) - 1/2.
   const double expected = -0.75 * std::log2(0.75) - 0.25 * std::log2(0.25) - 0.5;
   EXPECT_NEAR(JensenShannonDivergence(Histogram({7}), Histogram({7, 9})), expected, 1e-12);
   EXPECT_NEAR(JensenShannonDivergence(Histogram({7, 9}), Histogram({7})), expected, 1e-12);
@@ -57,7 +57,7 @@ TEST(CloudHistograms, LeaveOutIntensitiesThatAreNone) {
   EXPECT_EQ(found.intensity.num(), 0U);
 }
 
-// `num` points about `range_m` ahead.
+// Adds `num` points around `range_m` ahead of the sensor.
 void AddPoints(std::vector<MadePoint>& points, int num, float range_m, float intensity) {
   for (int i = 0; i < num; ++i)
     points.push_back({range_m, 0.001F * static_cast<float>(i), 0, intensity});

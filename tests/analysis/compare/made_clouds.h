@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analysis/compare/cloud.h"
-#include "core/io/recording/recording.h"
+#include "railcast/io/recording.h"
 
 namespace railcast {
 
@@ -16,7 +16,7 @@ struct MadePoint {
   std::uint16_t ring = 0;
 };
 
-/// A frame of one row with these points, as another's sensor records it.
+/// A frame of one row with these points, as a foreign recording has it.
 [[nodiscard]] inline RecordedFrame FrameOf(const std::vector<MadePoint>& points,
                                            std::int64_t stamp_ns = 0) {
   RecordedFrame recorded;
@@ -34,7 +34,7 @@ struct MadePoint {
   return recorded;
 }
 
-/// 20 x 20 points a metre apart, at a height.
+/// 20 x 20 points, 1 m apart, at a height.
 [[nodiscard]] inline std::vector<MadePoint> MadePlane(float z_m) {
   std::vector<MadePoint> points;
   for (int i = 0; i < 20; ++i) {
@@ -45,7 +45,8 @@ struct MadePoint {
   return points;
 }
 
-/// The same with normal noise in all directions. The seed is fixed: so are its figures.
+/// The points with normal noise in all directions. The seed is fixed, and so are the figures of the
+/// tests.
 [[nodiscard]] inline std::vector<MadePoint> WithNoise(std::vector<MadePoint> points,
                                                       double sigma_m) {
   std::mt19937 words(1);

@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A run in which a person is approached from 200 m on at 10 m/s, 1 m a frame, with 5 points from
+/// A run that approaches a person from 200 m at 10 m/s, 1 m per frame, with 5 points per frame from
 /// `first_m` on.
 DetectRun MadeRun(std::uint64_t seed,
                   double first_m,
@@ -64,7 +64,7 @@ TEST(DetectReport, GivesTheFirstDetectionOfEachRun) {
   const Report report = ReportOf({MadeRun(1, 150.0), MadeRun(2, 130.0)});
   const Table& runs = TableOf(report, "runs");
   ASSERT_EQ(runs.rows.size(), 2U);
-  // The third frame of five points is 2 m nearer. Needed: 20 m + 100 m + 15 m.
+  // The third frame with five points is 2 m nearer. The distance needed is 20 m + 100 m + 15 m.
   EXPECT_EQ(std::get<double>(CellOf(runs, 0, "detected_at_m")), 148.0);
   EXPECT_EQ(std::get<double>(CellOf(runs, 0, "needed_m")), 135.0);
   EXPECT_EQ(std::get<double>(CellOf(runs, 0, "spare_m")), 13.0);
@@ -88,7 +88,8 @@ TEST(DetectReport, HasAnIntervalOverManySeedsOnly) {
   runs.push_back(MadeRun(10, 150.0));
   const Report many = ReportOf(runs);
   const auto spare = std::get<Estimate>(CellOf(TableOf(many, "means"), 0, "spare_m"));
-  // 141 to 150, less 2 m, less 135 m: 8.5 m on average, s = 3.028 m; Student's t of 9 is 2.262.
+  // Distances 141 to 150 m minus 2 m minus 135 m: 8.5 m on average, s = 3.028 m; Student's t for 9
+  // degrees of freedom is 2.262.
   EXPECT_NEAR(spare.value, 8.5, 1e-9);
   EXPECT_NEAR(spare.high - spare.value, 2.2622 * 3.02765 / std::sqrt(10.0), 1e-3);
   const auto share = std::get<Estimate>(CellOf(TableOf(many, "means"), 0, "in_time"));
@@ -103,7 +104,8 @@ TEST(DetectReport, SaysThatOneRunHasNoInterval) {
             "in time in the one run");
 }
 
-// Seen from its first frames on, a run says how far off at least the object is detected.
+// If the object is seen from the first frames on, the run only gives a lower bound of the distance
+// of detection.
 TEST(DetectReport, LeavesOpenWhatARunThatBeginsTooNearCannotTell) {
   DetectRun near = MadeRun(1, 300.0);
   const Report enough = ReportOf({near});
@@ -112,7 +114,7 @@ TEST(DetectReport, LeavesOpenWhatARunThatBeginsTooNearCannotTell) {
   EXPECT_EQ(std::get<std::string>(CellOf(TableOf(enough, "runs"), 0, "outcome")),
             "in time, at once");
   DetectSpec fast;
-  fast.speed_mps = 20.0;  // Needs 455 m.
+  fast.speed_mps = 20.0;  // The train needs 455 m to stop.
   near = DetectInRun("run", 1, near.courses, fast);
   const Report report = ReportOf({near});
   const Table& verdicts = TableOf(report, "verdicts");
@@ -121,7 +123,7 @@ TEST(DetectReport, LeavesOpenWhatARunThatBeginsTooNearCannotTell) {
   EXPECT_TRUE(std::isnan(std::get<double>(CellOf(verdicts, 0, "least_spare_m"))));
   EXPECT_EQ(std::get<std::uint64_t>(CellOf(verdicts, 0, "begun_too_near")), 1U);
   EXPECT_EQ(std::get<Estimate>(CellOf(TableOf(report, "means"), 0, "in_time")).num, 0U);
-  // Of the points, the rule and what is needed; nothing of a detection.
+  // Series of the points, the rule and the distance needed, but none of a detection.
   EXPECT_EQ(SectionOf(report, "points").charts[0].series.size(), 3U);
 }
 
@@ -138,7 +140,7 @@ TEST(DetectReport, TellsWhatWasNeverSeenOrNeverApproached) {
   EXPECT_EQ(std::get<double>(CellOf(verdicts, 0, "needed_m")), 135.0);
   EXPECT_EQ(std::get<std::string>(CellOf(verdicts, 1, "verdict")), "never approached");
   EXPECT_TRUE(std::isnan(std::get<double>(CellOf(TableOf(report, "runs"), 1, "needed_m"))));
-  // One chart: there is nothing to brake for in the other.
+  // One chart only: the other object is no reason to brake.
   EXPECT_EQ(SectionOf(report, "points").charts.size(), 1U);
 }
 
@@ -148,7 +150,7 @@ TEST(DetectReport, ChartsPointsBesideWhatIsNeeded) {
   EXPECT_EQ(chart.key, "points_person");
   EXPECT_TRUE(chart.y.is_log);
   ASSERT_EQ(chart.series.size(), 4U);
-  // Bins of 10 m from 10 to 200 m, in each 20 frames.
+  // Bins of 10 m from 10 to 200 m, with 20 frames each.
   EXPECT_EQ(chart.series[0].points.size(), 20U);
   EXPECT_EQ(chart.series[0].points.front().x, 15.0);
   EXPECT_EQ(chart.series[0].points.front().y, 5.0);
@@ -157,7 +159,8 @@ TEST(DetectReport, ChartsPointsBesideWhatIsNeeded) {
   EXPECT_EQ(chart.series[2].points[0].x, 135.0);
   EXPECT_EQ(chart.series[3].title, "detected at: 138 m");
   const Table& points = TableOf(report, "points_by_distance");
-  EXPECT_EQ(std::get<std::string>(CellOf(points, 0, "distance_m")), "10 to 20");
+  EXPECT_EQ(std::get<Span>(CellOf(points, 0, "distance_m")).low, 10.0);
+  EXPECT_EQ(std::get<Span>(CellOf(points, 0, "distance_m")).high, 20.0);
   EXPECT_EQ(std::get<std::uint64_t>(CellOf(points, 0, "frames")), 18U);
 }
 
@@ -180,7 +183,7 @@ TEST(DetectReport, JudgesOnlyWhatIsInTheWay) {
   run.courses.objects["man_beside"] = beside.courses.objects.at("person");
   run = DetectInRun("run", 1, run.courses, {});
   const Report report = ReportOf({run});
-  // First, and open.
+  // The verdicts come first and are unfolded.
   const Table& verdicts = report.sections.at(0).tables.at(0);
   EXPECT_EQ(verdicts.key, "verdicts");
   EXPECT_TRUE(verdicts.is_open);
@@ -193,7 +196,7 @@ TEST(DetectReport, JudgesOnlyWhatIsInTheWay) {
   EXPECT_EQ(std::get<std::string>(CellOf(TableOf(report, "runs"), 0, "outcome")),
             "beside the track");
   EXPECT_TRUE(std::isnan(std::get<double>(CellOf(TableOf(report, "runs"), 0, "spare_m"))));
-  // Detected at 28 m, it would have been 107 m too late.
+  // Detected at 28 m, which is 107 m too late.
   EXPECT_THAT(HeadlinesOf(report),
               testing::ElementsAre(
                   "person: in time in the one run", "In the way, and judged: 1",
@@ -203,12 +206,12 @@ TEST(DetectReport, JudgesOnlyWhatIsInTheWay) {
 
 TEST(DetectReport, NamesWhatBeganTooNearAndDoesNotCountIt) {
   DetectSpec fast;
-  fast.speed_mps = 20.0;  // Needs 455 m, of 200 m.
+  fast.speed_mps = 20.0;  // The train needs 455 m, but the approach begins at 200 m.
   const DetectRun run = DetectInRun("run", 1, MadeRun(1, 300.0).courses, fast);
   EXPECT_THAT(HeadlinesOf(ReportOf({run})),
               testing::ElementsAre("In the way, and judged: 0", "Always detected in time: 0",
                                    "Begun too near to judge: person"));
-  // With another run that saw it later, that one counts.
+  // Another run that detects the person later is decisive.
   DetectRun later = DetectInRun("later", 2, MadeRun(2, 150.0).courses, fast);
   EXPECT_THAT(HeadlinesOf(ReportOf({run, later})),
               testing::ElementsAre("person: too late in 1 of 2 runs, not known, begun too near in "

@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "analysis/detectability/own_track.h"
-#include "core/scenario/scenario.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 
 /// A line of one element, from (0, 0) eastward, with a second track 4 m to the left of the
 /// vehicle's.
-[[nodiscard]] inline ScenarioSpec ScenarioOn(const std::string& element,
+[[nodiscard]] inline ScenarioSpec ScenarioOn(ElementType element,
                                              double length_m,
                                              std::optional<double> radius_m = std::nullopt) {
   ScenarioSpec scenario =
@@ -27,9 +27,9 @@ namespace railcast {
   return scenario;
 }
 
-/// 2000 m of it.
+/// A straight track of 2000 m.
 [[nodiscard]] inline const OwnTrack& StraightTrack() {
-  static const OwnTrack track(ScenarioOn("straight", 2'000.0));
+  static const OwnTrack track(ScenarioOn(ElementType::kStraight, 2'000.0));
   return track;
 }
 

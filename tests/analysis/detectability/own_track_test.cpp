@@ -14,7 +14,7 @@ namespace {
 const Vector3 kPerson_m(0.5, 0.6, 1.8);
 const Vector3 kWagon_m(20.0, 3.0, 4.0);
 
-/// A box that stands on the rails' height at a place and heading of the plane.
+/// A box standing at rail level, at a position and heading in the plane.
 Transform BoxAt(double x_m, double y_m, const Vector3& size_m, double heading_rad = 0.0) {
   return MakeTransform(RotationFromYawPitchRoll(heading_rad, 0.0, 0.0),
                        Vector3(x_m, y_m, 0.5 * size_m.z()));
@@ -48,10 +48,10 @@ TEST(OwnTrack, IsTheWayThatTheVehicleGoes) {
   EXPECT_FALSE(IsInWay(2'010.0, 0.0)) << "beyond the track's end";
 }
 
-// 300 m ahead along a curve of 300 m the track lies 138 m to the left of straight ahead.
+// At 300 m along a curve of 300 m radius the track lies 138 m to the left of the tangent.
 TEST(OwnTrack, FollowsTheCurve) {
   constexpr double kRadius_m = 300.0;
-  const OwnTrack track(ScenarioOn("arc", 800.0, kRadius_m));
+  const OwnTrack track(ScenarioOn(ElementType::kArc, 800.0, kRadius_m));
   const auto at = [&](double s_m, double d_m, const Vector3& size_m) {
     const double angle_rad = s_m / kRadius_m;
     const double radius_m = kRadius_m - d_m;
@@ -66,8 +66,8 @@ TEST(OwnTrack, FollowsTheCurve) {
   const auto straight_ahead =
       track.ClearanceAhead(VehicleAt(0.0), BoxAt(280.0, 0.0, kPerson_m), kPerson_m);
   EXPECT_FALSE(straight_ahead.is_inside);
-  // The ends of a wagon are 10^2 / (2 R) = 0.17 m farther out than its middle: nearer to the axis
-  // where it stands inside the curve.
+  // The ends of a wagon are 10^2 / (2 R) = 0.17 m farther out than its middle, so they are nearer
+  // to the axis if it stands inside the curve.
   const GaugeClearance inside = at(300.0, 4.0, kWagon_m);
   EXPECT_FALSE(inside.is_inside);
   EXPECT_NEAR(inside.from_axis_m, 4.0 - 1.5 - 0.167, 0.01);

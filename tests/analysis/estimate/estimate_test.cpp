@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kRuns = 2000;
-// Of 2000 intervals that hold the truth with 95 %, 1900 +- 4 x 9.7 do.
+// Of 2000 intervals that hold the truth with a probability of 95 %, 1900 +- 4 x 9.7 do.
 constexpr int kLeastHits = 1861;
 constexpr int kMostHits = 1939;
 
@@ -43,7 +43,7 @@ TEST(Proportion, HoldsTheTruthAsOftenAsItSays) {
   std::binomial_distribution<std::uint64_t> draw(200, 0.1);
   int hits = 0;
   for (int run = 0; run < kRuns; ++run) hits += Holds(Proportion(draw(random), 200), 0.1) ? 1 : 0;
-  // Wilson's interval errs by up to 2 % at single p and n.
+  // The coverage of Wilson's interval is off by up to 2 % for particular p and n.
   EXPECT_NEAR(hits, 0.95 * kRuns, 0.025 * kRuns);
 }
 
@@ -90,7 +90,7 @@ TEST(Moments, HoldTheTruthAsOftenAsTheySay) {
 
 TEST(Moments, OfPartsAreThoseOfTheWhole) {
   std::mt19937_64 random(3);
-  // A large mean beside a small deviation: where sums of squares would lose all digits.
+  // With a large mean and a small deviation, sums of squares would lose all digits.
   const std::vector<double> samples = Normals(random, 1000, 1e6, 1e-3);
   Moments parts = MomentsOf({samples.begin(), samples.begin() + 1});
   parts.Add(MomentsOf({}));
@@ -143,7 +143,7 @@ TEST(RobustEstimators, HoldTheTruthAsOftenAsTheySay) {
     median_hits += Holds(Median(samples), 3.0) ? 1 : 0;
     scale_hits += Holds(RobustScale(samples), 0.5) ? 1 : 0;
   }
-  // The median's ranks are rounded outwards: it may hold more often.
+  // The ranks of the median's interval are rounded outwards, so its coverage may be higher.
   EXPECT_GE(median_hits, kLeastHits);
   EXPECT_NEAR(scale_hits, 0.95 * kRuns, 0.02 * kRuns);
 }
@@ -168,7 +168,7 @@ TEST(LogHistogram, HasTheMedianOfItsSamplesToHalfAPercent) {
   histogram.Add(LogHistogram());
   const Estimate median = histogram.Median();
   const double truth = std::exp(-3.0);
-  // The median's standard error is 1.25 sigma / sqrt(n) = 0.9 %.
+  // The standard error of the median is 1.25 sigma / sqrt(n) = 0.9 %.
   EXPECT_NEAR(median.value / truth, 1.0, 0.035);
   EXPECT_TRUE(Holds(median, median.value));
   EXPECT_EQ(median.num, 20000U);
@@ -190,7 +190,7 @@ TEST(LogHistogram, KnowsZerosAndNegativeNumbers) {
 
 TEST(LogHistogram, HasTheRobustScaleOfItsSamples) {
   std::mt19937_64 random(8);
-  // About 0, and far from it: the scale is about the median.
+  // Samples around 0, and far from it: the scale is measured about the median.
   for (const double mean : {0.0, 0.2}) {
     std::vector<double> samples = Normals(random, 20000, mean, 0.01);
     LogHistogram histogram;
@@ -223,7 +223,7 @@ TEST(FitPowerLaw, HoldsTheTruthAsOftenAsItSays) {
     }
     hits += Holds(FitPowerLaw(points).exponent, -2.0) ? 1 : 0;
   }
-  // At least: the wider of two standard errors is taken.
+  // The coverage may be higher, since the wider of two standard errors is taken.
   EXPECT_GE(hits, kLeastHits);
 }
 
@@ -253,7 +253,7 @@ TEST(FitPowerLaw, TakesNoPartOfWhatHasNoLogarithm) {
                                     {0, 5, 0.1}});
   EXPECT_EQ(law.exponent.num, 4U);
   EXPECT_NEAR(law.exponent.value, 2.0, 1e-9);
-  // All at one place: no line goes through.
+  // All points have the same x, so no line can be fitted.
   EXPECT_FALSE(
       FitPowerLaw({{2, 1, 0.1}, {2, 2, 0.1}, {2, 3, 0.1}, {2, 4, 0.1}}).exponent.is_enough());
 }

@@ -17,7 +17,7 @@ using testing::HasSubstr;
 using testing::Not;
 using Json = nlohmann::json;
 
-// What the page looks like to a browser, written into a copy of it.
+// A script, inserted into a copy of the page, that reports how a browser renders it.
 constexpr const char* kProbe = R"(<pre id="probe"></pre><script>
 const box = e => { const b = e.getBoundingClientRect(); return [b.left, b.right, b.width, b.height]; };
 const style = (selector, name) => getComputedStyle(document.querySelector(selector))[name];
@@ -50,7 +50,7 @@ class ReportInBrowser : public testing::Test {
     testing::internal::GetCapturedStdout();
   }
 
-  // Chromium without a window, and with nobody to talk to.
+  // Runs Chromium headless and without network.
   Ended Browse(const std::string& options, const std::string& page) const {
     return RunCommand(
         "chromium --headless --no-sandbox --disable-gpu --disable-quic --no-first-run "
@@ -61,7 +61,7 @@ class ReportInBrowser : public testing::Test {
         "'");
   }
 
-  // What the probe finds in a window of a size.
+  // Result of the probe in a window of the given size.
   Json Probe(const std::string& options) const {
     std::string page = ReadFileWhole(here_ / "report.html");
     const std::size_t policy = page.find("<meta http-equiv");
@@ -84,7 +84,7 @@ TEST_F(ReportInBrowser, SaysNothingToTheConsole) {
   const Ended shown = Browse("--enable-logging=stderr --dump-dom", "report.html");
   EXPECT_EQ(shown.status, 0);
   EXPECT_THAT(shown.said, HasSubstr("<svg"));
-  // A request would break the page's own policy, which the console would say.
+  // A request would violate the page's content security policy, which the console would report.
   EXPECT_THAT(shown.said, Not(HasSubstr("CONSOLE")));
 }
 
@@ -121,7 +121,7 @@ TEST_F(ReportInBrowser, UnfoldsTablesOnPaper) {
   }
   const Ended text = RunCommand("pdftotext -layout '" + pdf.string() + "' -");
   EXPECT_THAT(text.said, HasSubstr("it's rain & fog"));
-  // Also of tables that are wider than paper.
+  // This includes the last columns of tables that are wider than paper.
   EXPECT_THAT(text.said, HasSubstr("Column30"));
   EXPECT_THAT(text.said, HasSubstr("[299.0, 301.0]"));
 }

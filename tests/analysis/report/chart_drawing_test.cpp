@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 
-#include "analysis/report/axis.h"
+#include "analysis/report/chart_script.h"
 #include "analysis/report/draw.h"
-#include "analysis/report/svg.h"
 #include "core/base/error.h"
 #include "core/io/write_file.h"
 #include "tests/analysis/report/made_report.h"
@@ -26,7 +26,7 @@ std::vector<std::string> Labels(const AxisRange& range, bool is_log) {
   return labels;
 }
 
-// The SVG of one chart, as it is drawn.
+// Draws one chart and returns its SVG.
 std::string Drawn(Chart chart, const TemporaryFolder& folder) {
   chart.key = "chart";
   Report report;
@@ -83,12 +83,6 @@ TEST(AxisRange, IsNoneWithoutAPointThatHasAPlace) {
   EXPECT_FALSE(RangeOfX({"", "", "", {}, {}, {}}));
 }
 
-TEST(BarAt, ReachesHalfwayToItsNeighbours) {
-  EXPECT_EQ(BarAt(2.0, {1.0, 2.0, 3.0}, false).low, 1.5);
-  EXPECT_EQ(BarAt(3.0, {1.0, 2.0, 3.0}, false).high, 3.5);
-  EXPECT_NEAR(BarAt(10.0, {1.0, 10.0, 100.0}, true).high, 31.6, 0.1);
-}
-
 TEST(DrawCharts, DrawsOneElementForEveryPoint) {
   const TemporaryFolder folder;
   const std::string svg = Drawn(
@@ -128,9 +122,65 @@ TEST(DrawCharts, SetsTextAsItIs) {
 
 TEST(DrawCharts, PutsLongNamesInFull) {
   const TemporaryFolder folder;
-  const std::string svg = Drawn(MadeCharts()[4], folder);
+  const std::string svg = Drawn(MadeCharts()[3], folder);
   EXPECT_THAT(svg, HasSubstr("<text>sensor_dropout</text>"));
   EXPECT_THAT(svg, HasSubstr("a name that is far longer"));
+}
+
+// Two nearly coincident points, each with a label.
+Chart LabelledChart() {
+  Chart chart = {"", "", "", {"Time", "s"}, {"Error", "mm"}, {{"a", kLinePoints, {}}}};
+  chart.series[0].points = {{1.0, 5.0}, {1.02, 5.1}, {9.0, 1.0}};
+  chart.series[0].points[0].label = "it's first";
+  chart.series[0].points[1].label = "second";
+  return chart;
+}
+
+TEST(DrawCharts, SetsLabelsBesideTheirPoints) {
+  const TemporaryFolder folder;
+  const std::string svg = Drawn(LabelledChart(), folder);
+  EXPECT_EQ(CountOf(svg, "it's first"), 1);
+  EXPECT_EQ(CountOf(svg, "second"), 1);
+}
+
+TEST(LabelsText, KeepsTheLabelsOfNeighboursApart) {
+  const Chart chart = LabelledChart();
+  const std::string text = LabelsText({chart, *RangeOfX(chart), *RangeOfY(chart)});
+  const std::string first = text.substr(0, text.find('\n'));
+  const std::string second = text.substr(text.find('\n') + 1);
+  EXPECT_THAT(first, StartsWith("set label 'it''s first' at 1,5 "));
+  EXPECT_THAT(second, StartsWith("set label 'second' at 1.02,5.1 "));
+  const auto side_of = [](const std::string& line) {
+    return line.substr(line.find("offset"), line.find("textcolor") - line.find("offset"));
+  };
+  EXPECT_NE(side_of(first), side_of(second));
+}
+
+TEST(DrawSheet, MakesAPngAnSvgAndTheirScript) {
+  const TemporaryFolder folder;
+  const auto picture = folder.Write("here", "").parent_path() / "it's a picture";
+  DrawSheet({LabelledChart(), MadeCharts()[0], MadeCharts()[3]}, "it's a title", picture);
+  EXPECT_THAT(ReadFileWhole(picture.string() + ".png"), StartsWith("\x89PNG\r\n"));
+  EXPECT_THAT(ReadFileWhole(picture.string() + ".gnuplot"), Not(HasSubstr("set output")));
+  const std::string svg = ReadFileWhole(picture.string() + ".svg");
+  for (const char* const text : {"it's a title", "Error (mm)", "mast &amp; wire", "near_range"}) {
+    EXPECT_THAT(svg, HasSubstr(text));
+  }
+}
+
+TEST(DrawSheet, SaysThatGnuplotFailed) {
+  const TemporaryFolder folder;
+  const auto fake = folder.Write("gnuplot", "#!/bin/sh\nexit 1\n");
+  std::filesystem::permissions(fake, std::filesystem::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", fake.parent_path().c_str(), 1);
+  try {
+    DrawSheet({LabelledChart()}, "", fake.parent_path() / "picture");
+    ADD_FAILURE() << "expected InputError";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "gnuplot: failed (the numbers are written)");
+  }
+  ::setenv("PATH", path.c_str(), 1);
 }
 
 TEST(DrawCharts, DrawsNothingWithoutCharts) {

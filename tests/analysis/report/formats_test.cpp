@@ -3,8 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "analysis/report/files.h"
-#include "analysis/report/text.h"
+#include "analysis/report/formats.h"
 #include "tests/analysis/report/made_report.h"
 
 namespace railcast {
@@ -53,9 +52,26 @@ TEST(ReportJson, HoldsEveryKindOfCell) {
 TEST(ReportJson, HoldsWhatChartsShow) {
   const Json charts = Json::parse(ReportJson(MadeReport()))["sections"][0]["charts"];
   EXPECT_EQ(charts[1]["x"]["is_log"], true);
-  EXPECT_EQ(charts[3]["x"]["categories"][2], "snow");
+  EXPECT_EQ(charts[2]["x"]["categories"][2], "snow");
   EXPECT_TRUE(charts[0]["series"][0]["points"][4]["y"].is_null());
   EXPECT_EQ(charts[0]["series"][0]["points"][5]["x"], 6);
+}
+
+TEST(ReportJson, HasTheDetailsBesideTheReport) {
+  const Json json = Json::parse(ReportJson(MadeReport(), R"({"seed": 7})"));
+  EXPECT_EQ(json["seed"], 7);
+  EXPECT_EQ(json["facts"]["Frames"], "50");
+}
+
+TEST(ReportFormats, CallABinByItsEnds) {
+  Report report;
+  report.sections = {
+      {"s", "S", {}, {}, {{"t", "T", "", {{"range_m", "Range", "m"}}, {{Span{2.5, 5}}}}}}};
+  EXPECT_EQ(TableCsv(report.sections[0].tables[0]), "range_m\n2.5 to 5\n");
+  EXPECT_EQ(Json::parse(ReportJson(report))["sections"][0]["tables"][0]["rows"][0]["range_m"],
+            "2.5 to 5");
+  EXPECT_THAT(ReportText(report), HasSubstr("  Range (m)\n  2.5 to 5\n"));
+  EXPECT_THAT(ReportPage(report, {}), HasSubstr("<th scope=\"row\">2.5 to 5</th>"));
 }
 
 TEST(ReportJson, KeepsTheOrderOfColumns) {

@@ -11,7 +11,7 @@ namespace railcast {
 
 inline constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
 
-/// Cells of every kind, and text that every format must escape.
+/// A table with cells of every type, and with text that every format must escape.
 [[nodiscard]] inline Table MadeTable() {
   return {"dropout_by_range",
           "Dropout by range",
@@ -27,7 +27,7 @@ inline constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
             Estimate{0.5, kNoFigure, kNoFigure, 20}}}};
 }
 
-/// More columns than paper takes.
+/// A table with more columns than fit on paper.
 [[nodiscard]] inline Table MadeWideTable() {
   Table table = {"wide", "Wide", "", {{"name", "Name", ""}}, {{std::string("row")}}};
   for (int i = 1; i <= 30; ++i) {
@@ -37,7 +37,7 @@ inline constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
   return table;
 }
 
-/// y = x^exponent at 1, 2, ... with intervals, and a gap.
+/// y = x^exponent at 1, 2, ... with intervals and one gap.
 [[nodiscard]] inline ChartSeries MadeCurve(const std::string& title,
                                            SeriesStyle style,
                                            double exponent,
@@ -69,12 +69,6 @@ inline constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
                     {"Range", "m", true, {}},
                     {"Density", "1/m²", true, {}},
                     {MadeCurve("ground", kPoints, -3.0, 60), MadeCurve("fit", kLine, -3.0, 60)}});
-  charts.push_back({"histogram",
-                    "A histogram",
-                    "",
-                    range,
-                    {"Points", "", false, {}},
-                    {MadeCurve("", kBars, 1.5, 12)}});
   charts.push_back({"few_bars",
                     "Short names stand below",
                     "",
@@ -103,9 +97,9 @@ inline constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
   charts.push_back({"all_absent",
                     "All absent",
                     "",
-                    range,
+                    {"", "", false, {"rain", "fog"}},
                     {"Share", "%", true, {}},
-                    {{"none", kBars, {{1, kNoFigure}, {2, kNoFigure}}}}});
+                    {{"none", kBars, {{0, kNoFigure}, {1, kNoFigure}}}}});
   charts.push_back({"one_point",
                     "One point",
                     "",

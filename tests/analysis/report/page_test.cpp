@@ -1,4 +1,4 @@
-#include "analysis/report/page.h"
+#include "analysis/report/formats.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,7 +23,8 @@ TEST(ReportPage, EscapesWhatUsersName) {
               HasSubstr("<title>Statistics of &lt;out/demo&gt; &amp; &quot;more&quot;</title>"));
   EXPECT_THAT(page, HasSubstr("<dd>VLP-16 &lt;script&gt;alert(1)&lt;/script&gt;</dd>"));
   EXPECT_THAT(page, HasSubstr("no &quot;surface&quot;, &lt;b&gt;bold&lt;/b&gt;</th>"));
-  EXPECT_THAT(page, HasSubstr("<code>railcast-analyze stats &#39;out/demo&#39; --out &lt;dir&gt;"));
+  EXPECT_THAT(page,
+              HasSubstr("<code>railcast-analyze stats &apos;out/demo&apos; --out &lt;dir&gt;"));
   EXPECT_THAT(page, HasSubstr("Bands are the 95 % intervals &lt;of each&gt;.\""));
   EXPECT_THAT(page, Not(HasSubstr("<b>")));
   EXPECT_THAT(page, Not(HasSubstr("<script")));
@@ -40,7 +41,7 @@ TEST(ReportPage, SaysWhatIsAbsent) {
   const std::string page = MadePage();
   EXPECT_THAT(page, HasSubstr("<td class=\"absent\" colspan=\"3\">not enough (n = 3)</td>"));
   EXPECT_THAT(page, HasSubstr("<td class=\"absent\">-</td>"));
-  // The word "nan" alone, in any case.
+  // "nan" as a whole word, in any case.
   EXPECT_FALSE(std::regex_search(page, std::regex("\\bnan\\b", std::regex::icase)));
 }
 

@@ -9,7 +9,7 @@
 namespace railcast {
 namespace {
 
-// The environment is this process's own: tests of one program run one after another.
+// Changing the environment is safe, since the tests of one program run one after another.
 class ReportDate : public testing::Test {
  protected:
   void SetUp() override { ASSERT_EQ(::setenv("SOURCE_DATE_EPOCH", "1700000000", 1), 0); }
@@ -70,7 +70,7 @@ TEST(WeatherText, NamesWhatDiffersFromAClearDryNight) {
   WeatherSpec weather;
   weather.visibility_m = 200.0;
   weather.snow_rate_mmph = 2.5;
-  weather.snow_type = "wet";
+  weather.snow_type = SnowType::kWet;
   weather.wetness = 1.0;
   weather.snow_cover = 0.5;
   weather.sun.illuminance_klx = 40.0;

@@ -27,7 +27,7 @@ Frame ScanFloor(float height_m = 2.5F) {
   return ScanOnce(world, Raster());
 }
 
-// A wall that faces the sensor, small enough to be met under nearly one incidence.
+// A wall that faces the sensor, small enough to be met at nearly constant incidence.
 Frame ScanWall(float x_m) {
   auto world = std::make_shared<SimpleWorld>();
   world->ground.parts = {{MakeWall(x_m, 0.1F * x_m), 2, 6}};
@@ -44,7 +44,7 @@ TEST(Density, FallsWithTheThirdPowerOfRangeOnGround) {
   EXPECT_NEAR(law.exponent.value, -3.0, 0.1);
   EXPECT_LE(law.exponent.low, -3.0);
   EXPECT_GE(law.exponent.high, -3.0);
-  // n(R) = h / (W R^3) with W = the solid angle of a beam near the horizon.
+  // n(R) = h / (W R^3), where W is the solid angle of a beam near the horizon.
   EXPECT_NEAR(law.factor / (2.5 / (kStep_rad * kStep_rad)), 1.0, 0.05);
 }
 
@@ -73,8 +73,8 @@ TEST(Density, HasTheSameLawsFromPointsAlone) {
 }
 
 TEST(Density, CountsLostPointsAsAreaWithoutPoints) {
-  SimulatorSpec spec{.effects = {.sensor_dropout = true}};
-  spec.plausibility.dropout_probability = 0.3;
+  SimulatorSpec spec{.detector = {.effects = {.sensor_dropout = true}}};
+  spec.detector.plausibility.dropout_probability = 0.3;
   auto world = std::make_shared<SimpleWorld>();
   world->ground.parts = {{MakeWall(20.0F, 40.0F), 2, 6}};
   const auto scan = MakeScanTable(Raster());
@@ -90,8 +90,8 @@ TEST(Density, CountsLostPointsAsAreaWithoutPoints) {
 }
 
 TEST(Density, FromPointsAloneSeesLossesToo) {
-  SimulatorSpec spec{.effects = {.sensor_dropout = true}};
-  spec.plausibility.dropout_probability = 0.4;
+  SimulatorSpec spec{.detector = {.effects = {.sensor_dropout = true}}};
+  spec.detector.plausibility.dropout_probability = 0.4;
   auto world = std::make_shared<SimpleWorld>();
   world->ground.parts = {{MakeWall(20.0F, 40.0F), 2, 6}};
   const auto scan = MakeScanTable(Raster());
@@ -103,7 +103,7 @@ TEST(Density, FromPointsAloneSeesLossesToo) {
     const Density::Count& count = density.by_attitude().at("upright")[bin];
     return static_cast<double>(count.num_points) / count.area_m2;
   };
-  // 13 % of the firings have all four neighbours: more than 1000 here.
+  // 13 % of the firings have all four neighbours: more than 1000 firings here.
   const Density::Count& count = thinned.by_attitude().at("upright")[bin];
   ASSERT_GT(count.num_firings, 1000U);
   EXPECT_NEAR(density_per_m2(thinned) / density_per_m2(all), 0.6, 0.06);

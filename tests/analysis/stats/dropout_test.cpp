@@ -16,7 +16,7 @@
 namespace railcast {
 namespace {
 
-// A wall at 20 m that fills the lower half of the view; above it is the sky.
+// A wall at 20 m that fills the lower half of the field of view, with the sky above it.
 std::shared_ptr<SimpleWorld> WallAndSky() {
   auto world = std::make_shared<SimpleWorld>();
   world->ground.parts = {
@@ -25,12 +25,12 @@ std::shared_ptr<SimpleWorld> WallAndSky() {
 }
 
 Frame ScanWithDropout(double probability, std::uint32_t index = 0) {
-  SimulatorSpec spec{.effects = {.sensor_dropout = true}};
-  spec.plausibility.dropout_probability = probability;
+  SimulatorSpec spec{.detector = {.effects = {.sensor_dropout = true}}};
+  spec.detector.plausibility.dropout_probability = probability;
   return ScanOnce(WallAndSky(), MakeRaster(60.0, 30.0, 0.25), spec, index);
 }
 
-const Table& TableOf(const Section& section, const std::string& key) {
+const Table& SectionTableOf(const Section& section, const std::string& key) {
   for (const Table& table : section.tables) {
     if (table.key == key) return table;
   }
@@ -41,9 +41,9 @@ TEST(Dropout, IsTheShareOfBeamsThatMetASurfaceAndBroughtNothingBack) {
   Dropout dropout;
   dropout.Add(Record(ScanWithDropout(0.1)));
   const Estimate share = dropout.Share();
-  // Half of the 28,800 beams go into the sky, and have nothing to lose.
+  // Half of the 28,800 beams go into the sky and have nothing to lose.
   EXPECT_NEAR(static_cast<double>(share.num), 14400.0, 240.0);
-  // Four standard errors, and the interval is two of them to both sides.
+  // The tolerance is four standard errors; the interval reaches two of them to either side.
   EXPECT_NEAR(share.value, 0.1, 0.01);
   EXPECT_NEAR(share.high - share.low, 4.0 * std::sqrt(0.09 / 14400.0), 0.001);
 }
@@ -52,7 +52,7 @@ TEST(Dropout, DoesNotCountBeamsOntoTheOwnVehicle) {
   Frame frame = ScanWithDropout(0.1);
   Dropout scene;
   scene.Add(Record(frame));
-  // Every second beam that came back meets the nose instead.
+  // Let every second beam that returned meet the vehicle's nose instead.
   for (std::size_t slot = 0; slot < frame.num_slots(); slot += 2) {
     if (frame.outcome[slot] == Outcome::kReturned) frame.outcome[slot] = Outcome::kEgo;
   }
@@ -66,17 +66,17 @@ TEST(Dropout, DoesNotCountBeamsOntoTheOwnVehicle) {
 }
 
 TEST(Dropout, NamesItsCauses) {
-  SimulatorSpec spec{.effects = {.threshold = true, .sensor_dropout = true}};
-  spec.plausibility.dropout_probability = 0.05;
-  // Reflectivity 0.5 at 20 m is seen up to an incidence of acos(0.8) = 37 deg, here 27 deg at most;
-  // the whole wall is too dark for a threshold of 0.6.
-  spec.plausibility.reference_threshold = 0.6;
-  spec.plausibility.reference_range_m = 20.0;
+  SimulatorSpec spec{.detector = {.effects = {.threshold = true, .sensor_dropout = true}}};
+  spec.detector.plausibility.dropout_probability = 0.05;
+  // A reflectivity of 0.5 at 20 m is detected up to an incidence of acos(0.8) = 37 deg, and the
+  // incidence is at most 27 deg here; for a threshold of 0.6 the whole wall is too dark.
+  spec.detector.plausibility.reference_threshold = 0.6;
+  spec.detector.plausibility.reference_range_m = 20.0;
   Dropout dropout;
   dropout.Add(Record(ScanOnce(WallAndSky(), MakeRaster(60.0, 30.0, 0.25), spec)));
   EXPECT_EQ(dropout.Share().value, 1.0);
   const Section section = dropout.MakeSection(Names(RecordingInfo{}));
-  const Table& labels = TableOf(section, "dropout_by_label");
+  const Table& labels = SectionTableOf(section, "dropout_by_label");
   ASSERT_EQ(labels.columns.size(), 5U);
   EXPECT_EQ(labels.columns[3].key, "below_threshold");
   EXPECT_EQ(labels.columns[4].key, "sensor_dropout");
@@ -99,7 +99,7 @@ TEST(Dropout, OfPartsIsThatOfTheWhole) {
   EXPECT_EQ(parts.Share().num, whole.Share().num);
   const Names names{RecordingInfo{}};
   for (const Table& table : whole.MakeSection(names).tables) {
-    EXPECT_EQ(TableOf(parts.MakeSection(names), table.key).rows.size(), table.rows.size());
+    EXPECT_EQ(SectionTableOf(parts.MakeSection(names), table.key).rows.size(), table.rows.size());
   }
 }
 
@@ -130,7 +130,7 @@ TEST(Holes, RecoverTheDropoutOfIndependentLosses) {
   }
 }
 
-// Where few rows see anything, whole columns are lost at once.
+// With few rows, dropout often removes whole columns.
 TEST(Holes, RecoverTheDropoutOfTwoRows) {
   Holes holes;
   for (int i = 0; i < 10; ++i) {
@@ -153,7 +153,7 @@ TEST(Holes, AreNotInTheSky) {
 }
 
 TEST(Holes, AreNotWhereNoBeamWasFired) {
-  // A turn of which half was recorded: the other columns hold no point.
+  // Only half of the turn was recorded: the other columns hold no point.
   Frame frame = ScanWithDropout(0.0);
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
     if (slot % frame.width() >= frame.width() / 2) frame.range_m[slot] = std::nanf("");
@@ -164,7 +164,7 @@ TEST(Holes, AreNotWhereNoBeamWasFired) {
   EXPECT_NEAR(holes.Filled().value, 0.5, 0.01);
 }
 
-// Every fourth column looks at a mirror of the own vehicle.
+// Every fourth column meets a mirror of the own vehicle.
 TEST(Holes, AreNotWhereTheOwnVehicleIsInTheWay) {
   Frame frame = ScanWithDropout(0.0);
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
@@ -184,8 +184,8 @@ TEST(Holes, AreNotWhereTheOwnVehicleIsInTheWay) {
   Coverage coverage;
   coverage.Add(recorded, nullptr);
   const Section section = coverage.MakeSection(Names(RecordingInfo()));
-  // The lowest ring meets the wall everywhere else.
-  EXPECT_EQ(std::get<Estimate>(TableOf(section, "rings").rows.at(0).at(3)).value, 1.0);
+  // Elsewhere the lowest ring meets the wall everywhere.
+  EXPECT_EQ(std::get<Estimate>(SectionTableOf(section, "rings").rows.at(0).at(3)).value, 1.0);
 }
 
 TEST(Holes, OfAFrameWithoutAPointOrAGridAreNoNumber) {

@@ -17,17 +17,17 @@
 namespace railcast {
 namespace {
 
-constexpr int kNumFrames = 20;
+constexpr int kNumNoiseFrames = 20;
 
-ScanPattern Raster() {
+ScanPattern NoiseRaster() {
   return MakeRaster(60.0, 30.0, 0.25);
 }
 
-/// A wall at `x_m` that fills the view, scanned with noise of `sigma_m` at any range.
+/// A wall at `x_m` that fills the field of view, scanned with noise of `sigma_m` at any range.
 class NoisyWall {
  public:
-  NoisyWall(float x_m, double sigma_m, const std::string& shape)
-      : simulator_(MakeWorld(x_m), Raster(), TestMaterials(), SpecOf(sigma_m, shape), 0) {}
+  NoisyWall(float x_m, double sigma_m, NoiseShape shape)
+      : simulator_(MakeWorld(x_m), NoiseRaster(), TestMaterials(), SpecOf(sigma_m, shape), 0) {}
 
   Frame Scan(std::uint32_t index) {
     Frame frame;
@@ -41,11 +41,11 @@ class NoisyWall {
     world->ground.parts = {{MakeWall(x_m, 2.0F * x_m), 2, 1}};
     return world;
   }
-  static SimulatorSpec SpecOf(double sigma_m, const std::string& shape) {
-    SimulatorSpec spec{.effects = {.threshold = true, .noise = true}};
-    spec.plausibility.noise_sigma0_m = sigma_m;
-    spec.plausibility.noise_sigma1 = 0.0;
-    spec.plausibility.noise_shape = shape;
+  static SimulatorSpec SpecOf(double sigma_m, NoiseShape shape) {
+    SimulatorSpec spec{.detector = {.effects = {.threshold = true, .noise = true}}};
+    spec.detector.plausibility.noise_sigma0_m = sigma_m;
+    spec.detector.plausibility.noise_sigma1 = 0.0;
+    spec.detector.plausibility.noise_shape = shape;
     return spec;
   }
 
@@ -54,8 +54,8 @@ class NoisyWall {
 
 Noise MeasureNoise(NoisyWall& wall, double outlier_share = 0.0) {
   Noise noise;
-  const auto scan = MakeScanTable(Raster());
-  for (std::uint32_t index = 0; index < kNumFrames; ++index) {
+  const auto scan = MakeScanTable(NoiseRaster());
+  for (std::uint32_t index = 0; index < kNumNoiseFrames; ++index) {
     Frame frame = wall.Scan(index);
     for (std::uint32_t slot = 0; slot < frame.num_slots(); ++slot) {
       const auto words = RandomWords(9, RandomUse::kNoise, index, slot);
@@ -77,7 +77,7 @@ class RangeNoise : public testing::TestWithParam<double> {};
 
 TEST_P(RangeNoise, AlongTheBeamsIsRecoveredWithinFivePercent) {
   const double sigma_m = GetParam();
-  NoisyWall wall(25.0F, sigma_m, "beam");
+  NoisyWall wall(25.0F, sigma_m, NoiseShape::kBeam);
   const Noise::Planes bin = PlanesAt(MeasureNoise(wall), 25.0);
   ASSERT_GT(bin.range_sigmas_m.num(), 500U);
   EXPECT_NEAR(bin.RangeSigma_m().value / sigma_m, 1.0, 0.05);
@@ -86,7 +86,7 @@ TEST_P(RangeNoise, AlongTheBeamsIsRecoveredWithinFivePercent) {
 
 TEST_P(RangeNoise, AlikeInAllDirectionsIsThatSquareToThePlane) {
   const double sigma_m = GetParam();
-  NoisyWall wall(25.0F, sigma_m, "isotropic");
+  NoisyWall wall(25.0F, sigma_m, NoiseShape::kIsotropic);
   const Noise::Planes bin = PlanesAt(MeasureNoise(wall), 25.0);
   EXPECT_NEAR(bin.PlaneSigma_m().value / sigma_m, 1.0, 0.05);
   EXPECT_NEAR(bin.RobustPlaneSigma_m().value / sigma_m, 1.0, 0.05);
@@ -94,10 +94,10 @@ TEST_P(RangeNoise, AlikeInAllDirectionsIsThatSquareToThePlane) {
 
 TEST_P(RangeNoise, IsExactFromTheTruth) {
   const double sigma_m = GetParam();
-  NoisyWall wall(25.0F, sigma_m, "beam");
+  NoisyWall wall(25.0F, sigma_m, NoiseShape::kBeam);
   const Noise noise = MeasureNoise(wall);
   const Noise::Truth& bin = noise.truth()[RangeBins().Find(25.0).value()];
-  // Four standard errors of 300,000 samples and more.
+  // The tolerance is four standard errors for 300,000 samples or more.
   EXPECT_NEAR(bin.errors_m.StandardDeviation().value / sigma_m, 1.0, 0.006);
   EXPECT_NEAR(bin.robust_errors_m.RobustScale().value / sigma_m, 1.0, 0.015);
   EXPECT_NEAR(bin.errors_m.Mean().value / sigma_m, 0.0, 0.01);
@@ -108,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(FromMillimetresToDecimetres,
                          testing::Values(0.002, 0.015, 0.06));
 
 TEST(Noise, StandsOnePointInTwentyGoneWild) {
-  NoisyWall wall(25.0F, 0.015, "beam");
+  NoisyWall wall(25.0F, 0.015, NoiseShape::kBeam);
   const Noise::Planes bin = PlanesAt(MeasureNoise(wall, 0.05), 25.0);
   ASSERT_GT(bin.range_sigmas_m.num(), 100U);
   EXPECT_NEAR(bin.RobustRangeSigma_m().value / 0.015, 1.0, 0.05);
@@ -116,7 +116,7 @@ TEST(Noise, StandsOnePointInTwentyGoneWild) {
 }
 
 TEST(Noise, WithoutAGridComesFromNeighboursInSpace) {
-  NoisyWall wall(25.0F, 0.015, "beam");
+  NoisyWall wall(25.0F, 0.015, NoiseShape::kBeam);
   Noise noise;
   for (std::uint32_t index = 0; index < 3; ++index) {
     RecordedFrame recorded = RecordPointsOnly(wall.Scan(index));
@@ -128,8 +128,8 @@ TEST(Noise, WithoutAGridComesFromNeighboursInSpace) {
 }
 
 TEST(Noise, OfTooFewPointsIsNoNumber) {
-  NoisyWall wall(25.0F, 0.015, "beam");
-  const auto scan = MakeScanTable(Raster());
+  NoisyWall wall(25.0F, 0.015, NoiseShape::kBeam);
+  const auto scan = MakeScanTable(NoiseRaster());
   for (const std::size_t num_points : {0U, 1U, 2U, 11U}) {
     Frame frame = wall.Scan(0);
     for (std::size_t slot = num_points; slot < frame.num_slots(); ++slot) {
@@ -148,8 +148,8 @@ TEST(Noise, OfTooFewPointsIsNoNumber) {
 }
 
 TEST(TemporalNoise, IsRecoveredWithinFivePercent) {
-  NoisyWall wall(25.0F, 0.015, "beam");
-  const auto scan = MakeScanTable(Raster());
+  NoisyWall wall(25.0F, 0.015, NoiseShape::kBeam);
+  const auto scan = MakeScanTable(NoiseRaster());
   TemporalNoise noise;
   for (std::uint32_t index = 0; index < 10; index += 2) {
     noise.Add(Record(wall.Scan(index)), Record(wall.Scan(index + 1)), &*scan, &*scan);
@@ -160,22 +160,22 @@ TEST(TemporalNoise, IsRecoveredWithinFivePercent) {
   EXPECT_EQ(noise.num_pairs(), 5U);
 }
 
-// A capture's turns begin anywhere: here the second frame's columns lie 0.4 columns beside the
-// first one's, on a wall so slanted that this alone is 40 mm.
+// The turns of a capture begin at any azimuth: here the second frame is offset by 0.4 columns from
+// the first, on a wall so slanted that this alone changes the range by 40 mm.
 TEST(TemporalNoise, CorrectsForColumnsBesideEachOther) {
-  NoisyWall wall(25.0F, 0.015, "beam");
-  const auto scan = MakeScanTable(Raster());
+  NoisyWall wall(25.0F, 0.015, NoiseShape::kBeam);
+  const auto scan = MakeScanTable(NoiseRaster());
   auto slanted = std::make_shared<SimpleWorld>();
   slanted->ground.parts = {
       {{{{20, 20, -20}, {40, -20, -20}, {40, -20, 20}, {20, 20, 20}}, {{0, 1, 2}, {0, 2, 3}}},
        2,
        1}};
-  SimulatorSpec spec{.effects = {.threshold = true, .noise = true}};
-  spec.plausibility.noise_sigma0_m = 0.015;
-  spec.plausibility.noise_sigma1 = 0.0;
-  spec.plausibility.noise_shape = "beam";
+  SimulatorSpec spec{.detector = {.effects = {.threshold = true, .noise = true}}};
+  spec.detector.plausibility.noise_sigma0_m = 0.015;
+  spec.detector.plausibility.noise_sigma1 = 0.0;
+  spec.detector.plausibility.noise_shape = NoiseShape::kBeam;
   const Frame first = ScanOnce(slanted, MakeRaster(40.0, 20.0, 0.25), spec, 0);
-  // The sensor turned by 0.1 deg, and its points turned back: as if its columns stood elsewhere.
+  // Turn the sensor by 0.1 deg and its points back, which has the effect of offset columns.
   const Eigen::AngleAxisd turn(0.1 * 3.141592653589793 / 180.0, Vector3::UnitZ());
   spec.vehicle_from_sensor = Transform::Identity();
   spec.vehicle_from_sensor.rotate(turn);
@@ -199,21 +199,21 @@ TEST(TemporalNoise, CorrectsForColumnsBesideEachOther) {
 }
 
 TEST(TemporalNoise, IsNotWhatAllBeamsShare) {
-  NoisyWall wall(25.0F, 0.015, "beam");
-  const auto scan = MakeScanTable(Raster());
+  NoisyWall wall(25.0F, 0.015, NoiseShape::kBeam);
+  const auto scan = MakeScanTable(NoiseRaster());
   Frame second = wall.Scan(1);
   for (float& range_m : second.range_m) range_m += 0.1F;
   TemporalNoise noise;
   noise.Add(Record(wall.Scan(0)), Record(second), &*scan, &*scan);
   const TemporalNoise::Bin& bin = noise.bins()[RangeBins().Find(25.0).value()];
-  // Both about their middle, and so alike.
+  // Plain and robust estimate agree, since both are taken about the middle.
   EXPECT_NEAR(bin.Sigma_m().value / 0.015, 1.0, 0.05);
   EXPECT_NEAR(bin.RobustSigma_m().value / 0.015, 1.0, 0.08);
 }
 
 TEST(TemporalNoise, TakesNoPartOfFramesBetweenWhichTheSensorMoved) {
-  NoisyWall wall(25.0F, 0.015, "beam");
-  const auto scan = MakeScanTable(Raster());
+  NoisyWall wall(25.0F, 0.015, NoiseShape::kBeam);
+  const auto scan = MakeScanTable(NoiseRaster());
   Frame second = wall.Scan(1);
   second.world_from_sensor.translate(Vector3(0.01, 0, 0));
   TemporalNoise noise;
@@ -224,27 +224,27 @@ TEST(TemporalNoise, TakesNoPartOfFramesBetweenWhichTheSensorMoved) {
 }
 
 TEST(Intensity, OfAFlatPieceIsThatOfThePointsThatHaveOne) {
-  NoisyWall wall(25.0F, 0.002, "beam");
+  NoisyWall wall(25.0F, 0.002, NoiseShape::kBeam);
   RecordedFrame points = RecordPointsOnly(wall.Scan(0));
   for (std::size_t slot = 0; slot < points.frame.num_slots(); slot += 5) {
     points.frame.intensity[slot] = std::nanf("");
   }
-  const auto scan = MakeScanTable(Raster());
+  const auto scan = MakeScanTable(NoiseRaster());
   for (const PlanePatch& patch : FindPlanePatches(points, &*scan)) {
     EXPECT_NEAR(patch.intensity, 0.5 * std::cos(patch.incidence_rad), 0.01);
   }
 }
 
 TEST(Intensity, OfALambertianFallsWithTheCosine) {
-  NoisyWall wall(25.0F, 0.002, "beam");
+  NoisyWall wall(25.0F, 0.002, NoiseShape::kBeam);
   const RecordedFrame recorded = Record(wall.Scan(0));
-  const auto scan = MakeScanTable(Raster());
+  const auto scan = MakeScanTable(NoiseRaster());
   Intensity exact, from_planes;
   exact.Add(recorded, {});
   const RecordedFrame points = RecordPointsOnly(recorded.frame);
   from_planes.Add(points, FindPlanePatches(points, &*scan));
   const std::size_t bin = IncidenceBins().Find(25.0).value();
-  // Reflectivity 0.5; the bin's mean lies between those at its ends.
+  // The reflectivity is 0.5; the bin's mean lies between the values at its ends.
   for (const Intensity* intensity : {&exact, &from_planes}) {
     const Estimate mean = intensity->by_incidence()[bin].plain.Mean();
     EXPECT_GT(mean.value, 0.5 * std::cos(30.0 * 3.14159265 / 180.0));

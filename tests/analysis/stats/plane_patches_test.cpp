@@ -17,13 +17,13 @@
 namespace railcast {
 namespace {
 
-// 5 x 5 beams on a wall: one neighbourhood.
+// 5 x 5 beams on a wall, which are one neighbourhood.
 Frame ScanFewBeams(double sigma_m) {
   auto world = std::make_shared<SimpleWorld>();
   world->ground.parts = {{MakeWall(20.0F, 10.0F), 2, 1}};
-  SimulatorSpec spec{.effects = {.threshold = true, .noise = true}};
-  spec.plausibility.noise_sigma0_m = sigma_m;
-  spec.plausibility.noise_sigma1 = 0.0;
+  SimulatorSpec spec{.detector = {.effects = {.threshold = true, .noise = true}}};
+  spec.detector.plausibility.noise_sigma0_m = sigma_m;
+  spec.detector.plausibility.noise_sigma1 = 0.0;
   return ScanOnce(world, MakeRaster(1.25, 1.25, 0.25), spec);
 }
 
@@ -50,7 +50,7 @@ TEST(PlanePatches, HaveTheSpreadThatPclFinds) {
 
 TEST(PlanePatches, AreNotFoundAcrossAnEdge) {
   Frame frame = ScanFewBeams(0.01);
-  // A step of 2 m through the middle column.
+  // Make a step of 2 m at the middle column.
   for (std::size_t slot = 0; slot < 25; ++slot) {
     if (slot % 5 < 2) continue;
     for (auto* field : {&frame.x, &frame.y, &frame.z, &frame.range_m}) (*field)[slot] *= 1.1F;
@@ -76,7 +76,7 @@ TEST(PlanePatches, AreNoneOnWhatIsMetAlmostEdgeOn) {
   world->ground.parts = {{MakeFloor(-2.0F, 100.0F), 2, 1}};
   const RecordedFrame recorded = Record(ScanOnce(world, MakeRaster(30.0, 30.0, 0.5)));
   const auto scan = MakeScanTable(recorded.frame);
-  // The steepest beam of 15 deg meets the ground under 75 deg.
+  // The steepest beam, at 15 deg, meets the ground at an incidence of 75 deg.
   EXPECT_TRUE(FindPlanePatches(recorded, &*scan).empty());
 }
 

@@ -20,8 +20,9 @@ namespace {
 std::vector<RecordedFrame> NoisyFrames(std::uint32_t num) {
   auto world = std::make_shared<SimpleWorld>();
   world->ground.parts = {{MakeFloor(-2.0F, 100.0F), 2, 1}, {MakeWall(30.0F, 10.0F), 3, 2}};
-  SimulatorSpec spec{.effects = {.threshold = true, .noise = true, .sensor_dropout = true}};
-  spec.plausibility.dropout_probability = 0.1;
+  SimulatorSpec spec{
+      .detector = {.effects = {.threshold = true, .noise = true, .sensor_dropout = true}}};
+  spec.detector.plausibility.dropout_probability = 0.1;
   std::vector<RecordedFrame> frames;
   for (std::uint32_t index = 0; index < num; ++index) {
     frames.push_back(Record(ScanOnce(world, MakeRaster(30.0, 20.0, 0.5), spec, index)));
@@ -63,7 +64,8 @@ TEST(Statistics, AreTheSameAtAnyNumberOfThreads) {
 
 TEST(Statistics, AgreeWithTheScenariosOwnNumbers) {
   const Statistics statistics = Measure(NoisyFrames(10), 2);
-  // The second from points alone, of the same frames. Four standard errors.
+  // The second share is estimated from the points alone, of the same frames. The tolerance is four
+  // standard errors.
   for (const Estimate& share : {statistics.dropout.Share(), statistics.holes.Share()}) {
     ASSERT_GT(share.num, 5000U);
     EXPECT_NEAR(share.value, 0.1, 4.0 * std::sqrt(0.09 / static_cast<double>(share.num)));

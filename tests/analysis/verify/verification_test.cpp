@@ -27,7 +27,7 @@ std::vector<std::string> FaultsOf(const std::filesystem::path& directory) {
   return VerifySequence(directory, [](double) {}).faults;
 }
 
-/// A run of three example frames, from frame 3 on. Files can be changed one after another.
+/// A run of three example frames, starting at frame 3. The tests change its files one by one.
 class Verify : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
@@ -37,7 +37,7 @@ class Verify : public testing::TestWithParam<const char*> {
   }
   [[nodiscard]] const std::filesystem::path& path() const { return directory_.path(); }
   [[nodiscard]] bool is_kitti() const { return GetParam() == std::string("kitti"); }
-  /// Of the faults, each without the folder.
+  /// The fault lines, each without the folder.
   [[nodiscard]] std::vector<std::string> Faults() const {
     std::vector<std::string> faults = FaultsOf(path());
     for (std::string& fault : faults) {
@@ -50,7 +50,7 @@ class Verify : public testing::TestWithParam<const char*> {
   void Replace(const std::string& file, const std::string& from, const std::string& to) const {
     WriteFileWhole(path() / file, Replaced(ReadFileWhole(path() / file), from, to));
   }
-  /// And hashes it again, so that only what it says is wrong.
+  /// Replaces text and updates the manifest's own hash, so that only its contents are wrong.
   void ReplaceInManifest(const std::string& from, const std::string& to) const {
     const std::string whole = ReadFileWhole(path() / "manifest.json");
     const std::string members = whole.substr(0, whole.find(",\n  \"manifest_xxh3\"")) + "\n}\n";
@@ -68,7 +68,7 @@ TEST_P(Verify, FindsNothingInWhatWasJustWritten) {
   std::uint64_t num_bytes = 0;
   const auto contents = Contents(path());
   for (const auto& [name, bytes] : contents) num_bytes += bytes.size();
-  EXPECT_EQ(found.num_files, contents.size() - 1);  // All but the manifest.
+  EXPECT_EQ(found.num_files, contents.size() - 1);  // All files except the manifest.
   EXPECT_EQ(found.num_bytes, num_bytes - contents.at("manifest.json").size());
 }
 
@@ -79,9 +79,9 @@ TEST_P(Verify, FindsAFlippedBitWhereverItIs) {
     try {
       for (const std::string& fault : Faults()) said += fault + "\n";
     } catch (const InputError& error) {
-      said = error.what();  // run.json must be legible.
+      said = error.what();  // A damaged run.json cannot be parsed.
     }
-    // A line of frames.jsonl may name what it does not mean any more.
+    // A damaged line of frames.jsonl may name another file.
     EXPECT_THAT(said, testing::AnyOf(HasSubstr(name), HasSubstr("frames.jsonl"))) << name;
     WriteFileWhole(path() / name, bytes);
   }
@@ -120,7 +120,7 @@ TEST_P(Verify, FindsAMissingLineOnceAndGoesOn) {
   EXPECT_THAT(faults[0], testing::StartsWith("frames.jsonl: must have the hash "));
   EXPECT_EQ(faults[1], "frames.jsonl: must have a line for each of 3 frames (got 2)");
   EXPECT_EQ(faults[2], "frames.jsonl:2: frame: must be 4, one after another (got 5)");
-  // What the line named.
+  // The file that the removed line named.
   EXPECT_THAT(faults[3], HasSubstr(": is named neither in manifest.json nor in frames.jsonl"));
 }
 
@@ -169,20 +169,20 @@ TEST_P(Verify, SaysThatTheManifestIsNotAsItWasWritten) {
                           ", that of all before it (got " + hash + ")"));
 }
 
-// A byte is flipped in one bit, each in another than the one before it.
+// Flips one bit of each byte, a different one from byte to byte.
 TEST_P(Verify, FindsEveryFlippedByteOfWhatSaysWhatItHolds) {
   for (const char* name : {"manifest.json", "run.json", "frames.jsonl"}) {
     const std::string whole = ReadFileWhole(path() / name);
     for (std::size_t i = 0; i < whole.size(); ++i) {
       std::string bytes = whole;
       bytes[i] = static_cast<char>(bytes[i] ^ (1U << (i % 8)));
-      // Not WriteFileWhole, which waits for the disk each time.
+      // Not WriteFileWhole(), which syncs to disk each time.
       std::ofstream(path() / name, std::ios::binary) << bytes;
       bool is_found = false;
       try {
         is_found = !Faults().empty();
       } catch (const InputError&) {
-        is_found = true;  // run.json must be legible.
+        is_found = true;  // A damaged run.json cannot be parsed.
       }
       EXPECT_TRUE(is_found) << name << ", byte " << i;
     }
@@ -214,7 +214,7 @@ TEST_P(Verify, GoesAsFarAsAnUnfinishedRunDoes) {
   std::filesystem::remove(path() / "manifest.json");
   const std::string lines = ReadFileWhole(path() / "frames.jsonl");
   const std::size_t last = lines.rfind('\n', lines.size() - 2) + 1;
-  WriteFileWhole(path() / "frames.jsonl", lines.substr(0, last + 5));  // A torn line.
+  WriteFileWhole(path() / "frames.jsonl", lines.substr(0, last + 5));  // An incomplete line.
   WriteFileWhole(
       path() / (is_kitti() ? "sequences/00/velodyne/000002.bin.part" : "frames/000005.pcd.part"),
       "half");

@@ -8,8 +8,8 @@ namespace {
 TEST(ErrorList, ThrowsEveryLineAtOnce) {
   ErrorList errors;
   EXPECT_NO_THROW(errors.ThrowIfAny());
-  errors.Add("a.json: /x: must be > 0 (got -1)");
-  errors.Add("a.json: /y: missing");
+  errors.Add({"a.json: /x", "must be > 0", "-1"});
+  errors.Add({"a.json: /y", "missing", ""});
   try {
     errors.ThrowIfAny();
     FAIL() << "expected InputError";
@@ -20,7 +20,7 @@ TEST(ErrorList, ThrowsEveryLineAtOnce) {
 
 TEST(ErrorList, KeepsEachLineOnce) {
   ErrorList errors;
-  for (const char* line : {"a", "b", "a"}) errors.Add(line);
+  for (const char* line : {"a", "b", "a"}) errors.AddLine(line);
   EXPECT_EQ(errors.lines(), (std::vector<std::string>{"a", "b"}));
 }
 

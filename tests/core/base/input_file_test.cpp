@@ -30,7 +30,7 @@ TEST(OpenInput, ReadsRegularFilesAndWhatLinksToThem) {
   }
 }
 
-// Opening the FIFO would wait for a writer, that is for ever.
+// Opening the FIFO would wait for a writer indefinitely.
 TEST(OpenInput, WaitsForNothing) {
   const TemporaryDirectory directory;
   const std::string fifo = (directory.path() / "fifo").string();

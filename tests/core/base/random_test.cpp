@@ -19,7 +19,7 @@ TEST(RandomWords, DependOnEveryPartOfTheKey) {
   EXPECT_NE(base, RandomWords(1, RandomUse::kRain, 2, 3, 1));
 }
 
-// Known answers published with Random123 (kat_vectors: philox4x32 10).
+// Known-answer test published with Random123 (kat_vectors: philox4x32 10).
 TEST(RandomWords, AgreeWithThePublishedVector) {
   const auto words = RandomWords(0, RandomUse{0}, 0, 0, 0);
   EXPECT_EQ(words[0], 0x6627e8d5U);
@@ -39,7 +39,8 @@ TEST(UnitFloat, IsUniformInTheHalfOpenUnitInterval) {
     sum += u;
     sum_of_squares += u * u;
   }
-  // Five standard errors of the mean (variance 1/12) and of the second moment (variance 4/45).
+  // Tolerances are five standard errors of the mean (variance 1/12) and of the second moment
+  // (variance 4/45).
   EXPECT_NEAR(sum / kDraws, 0.5, 5.0 * std::sqrt(1.0 / 12.0 / kDraws));
   EXPECT_NEAR(sum_of_squares / kDraws, 1.0 / 3.0, 5.0 * std::sqrt(4.0 / 45.0 / kDraws));
 }

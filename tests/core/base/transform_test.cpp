@@ -1,4 +1,4 @@
-#include "core/base/transform.h"
+#include "railcast/transform.h"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 namespace railcast {
 namespace {
 
-// Of the tables of physics.md 3: three digits.
+// Rounding of the tables of docs/physics.md 3.1, which give three decimals.
 constexpr double kHalfOfTheLastDigit = 0.00051;
 
 LaneOptics Diffuse(double slope_deg) {
@@ -26,7 +26,7 @@ double ReflectanceAt(const LaneOptics& optics, double incidence_deg) {
       optics, static_cast<float>(std::cos(RadFromDeg(incidence_deg)))));
 }
 
-// Full width at half maximum of c tau / 2.
+// The pulse has a full width at half maximum of c tau / 2.
 TEST(PulseSigma, MakesTheHalfWidthThatOfThePulse) {
   const double sigma_m = PulseSigma_m({.pulse_length_ns = 5.0});
   const double half_width_m = 0.25 * 0.299792458 * 5.0;
@@ -71,7 +71,7 @@ TEST(OrenNayar, FallsWithIncidenceAsPublished) {
                             {40, {.702, .703, .686, .636, .575, .490, .438, .404}}};
   for (const Row& row : kTable) {
     for (std::size_t k = 0; k < 8; ++k) {
-      // The published ones were summed from rounded A and B.
+      // The values of the table were computed from rounded A and B.
       EXPECT_NEAR(ReflectanceAt(Diffuse(row.slope_deg), kAngles_deg[k]), row.reflectance[k],
                   2.0 * kHalfOfTheLastDigit)
           << row.slope_deg << " " << kAngles_deg[k];
@@ -95,7 +95,7 @@ TEST(Ggx, FallsWithIncidenceAsPublished) {
       const double reflectance = static_cast<double>(
           baseline::MonostaticGgx(static_cast<float>(std::cos(RadFromDeg(kAngles_deg[k]))), 0.6F,
                                   static_cast<float>(row.roughness * row.roughness)));
-      // Two digits.
+      // The table of docs/physics.md 3.2 gives two digits.
       EXPECT_NEAR(reflectance / row.reflectance[k], 1.0, 0.05)
           << row.roughness << " " << kAngles_deg[k];
     }

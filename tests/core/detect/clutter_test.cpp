@@ -1,4 +1,5 @@
-// Echoes of drops, flakes, fog and nothing at all, against the closed forms of physics.md 4.2.
+// Compares echoes of drops, flakes and fog, and false alarms, with the closed forms of
+// docs/physics.md 4.2 and 4.3.
 #include "core/detect/clutter.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +24,7 @@ DetectorSpec RainSpec(double clutter_gain) {
   spec.beam.divergence_mrad = {3.0, 3.0};
   spec.receiver.clutter_gain = clutter_gain;
   spec.weather.rain_rate_mmph = 50.0;
-  spec.labels = kLabels;
+  spec.clutter_labels = kLabels;
   return spec;
 }
 
@@ -37,7 +38,8 @@ double MaxwellCdf(double r, double a) {
          std::sqrt(2.0 / std::numbers::pi) * r / a * std::exp(-r * r / (2.0 * a * a));
 }
 
-// The largest distance between the sample's distribution function and `cdf`.
+// The Kolmogorov-Smirnov distance: the largest difference between the sample's distribution
+// function and `cdf`.
 template <typename Cdf>
 double KolmogorovSmirnov(std::vector<double> sample, const Cdf& cdf) {
   std::sort(sample.begin(), sample.end());
@@ -116,7 +118,7 @@ TEST(Clutter, StandsInFrontOfTheFirstSurfaceOnly) {
   EXPECT_NEAR(static_cast<double>(clutter.size()), mean, 4.0 * std::sqrt(mean));
 }
 
-// physics.md 4.2: rho 0.5 at 30 m leaves a 58th of the drops stronger than itself.
+// docs/physics.md 4.2: one in 58 drops is stronger than a target of reflectance 0.5 at 30 m.
 TEST(Clutter, IsSeldomStrongerThanABrightTarget) {
   const DetectorSpec spec = RainSpec(10.0);
   FacingBeams beams;
@@ -154,7 +156,7 @@ TEST(Clutter, DropsStayWhereTheyAreWhateverElseIsOn) {
   EXPECT_EQ(rain, only_rain);
 }
 
-// One number for two echoes would be one draw for both.
+// Two echoes with the same number would share their random draws.
 TEST(Clutter, GivesEveryDropAndFlakeOfAFiringItsOwnNumber) {
   DetectorSpec spec = RainSpec(1.0);
   spec.weather.snow_rate_mmph = 2.0;
@@ -176,7 +178,7 @@ TEST(Clutter, ComesFromNothingWithoutWeather) {
 TEST(FogEcho, StandsInEveryBeamWithItsClosedFormsPower) {
   DetectorSpec spec{.range_min_m = 0.0, .effects = {.fog_echo = true}};
   spec.weather.visibility_m = 50.0;
-  spec.labels = kLabels;
+  spec.clutter_labels = kLabels;
   FacingBeams beams;
   beams.num_firings = kTileSize;
   const FogEcho fog = FogEchoOf(spec.weather, spec.beam);
@@ -189,7 +191,7 @@ TEST(FogEcho, StandsInEveryBeamWithItsClosedFormsPower) {
     EXPECT_NEAR(static_cast<double>(echo.range_m), fog.range_m, 1e-6);
     EXPECT_NEAR(static_cast<double>(echo.power_ratio) / ratio, 1.0, 1e-6);
   }
-  // A wall in front of it takes its place.
+  // A wall in front of the fog echo hides it.
   beams.range_m = [](std::uint32_t) { return 1.2; };
   EXPECT_TRUE(ClutterOf(DetectFacing(spec, beams)).empty());
 }
@@ -197,7 +199,7 @@ TEST(FogEcho, StandsInEveryBeamWithItsClosedFormsPower) {
 TEST(FalseAlarms, ComeAtTheStatedRateAnywhereWithinTheGate) {
   DetectorSpec spec{.range_min_m = 10.0, .range_max_m = 210.0, .effects = {.sunlight = true}};
   spec.weather.sun.illuminance_klx = 100.0;
-  spec.labels = kLabels;
+  spec.clutter_labels = kLabels;
   FacingBeams beams;
   beams.num_firings = 1U << 22U;
   const auto alarms = ClutterOf(DetectFacing(spec, beams));

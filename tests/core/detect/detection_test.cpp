@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint32_t kNumDraws = 1U << 18U;
 constexpr DetectionParameters kParameters{.seed = 11, .snr_at_threshold = 5.0F};
 
-// How many of kNumDraws firings of that power are detected.
+// Counts how many of kNumDraws firings with that power are detected.
 template <bool kIsSmooth>
 double CountDetected(float power_ratio) {
   auto tile = std::make_unique<DetectTile>();
@@ -72,7 +72,7 @@ TEST(Sunlight, RaisesTheThresholdByTheRootOfTheBackground) {
   tile.num_rays = 2;
   tile.power_ratio[0] = tile.power_ratio[1] = 4.0F;
   tile.reflectivity[0] = 0.8F;
-  tile.reflectivity[1] = 0.0F;  // A drop in front of nothing.
+  tile.reflectivity[1] = 0.0F;  // A drop with no surface behind it.
   baseline::ApplySunlight(tile, {.background_gain = 3.0F});
   EXPECT_FLOAT_EQ(tile.power_ratio[0], 4.0F / std::sqrt(3.4F));
   EXPECT_EQ(tile.power_ratio[1], 4.0F);

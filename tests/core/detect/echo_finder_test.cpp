@@ -85,7 +85,8 @@ TEST(EchoFinder, ResolvesFarPulsesEachAtItsOwnRangeAndPower) {
   }
 }
 
-// Nearer than a sigma the peak is the mean of both, by power, to third order in the distance.
+// If two pulses are less than a sigma apart, the peak is their power-weighted mean, up to third
+// order in the distance.
 TEST(EchoFinder, PutsAMixedPixelBetweenItsSurfaces) {
   for (const bool is_sampled : {false, true}) {
     const float step_m = 0.3F * kSigma_m;
@@ -114,7 +115,7 @@ TEST(EchoFinder, GivesTheStretchedComponentLessSay) {
   EXPECT_GT(with[0].peak_range_m, without[0].peak_range_m + 0.05F * kSigma_m);
 }
 
-// Lists of 1 to 40 components within 6 m, a few surfaces, all powers and spreads.
+// A random list of 1 to 40 components within 6 m on a few surfaces, with varied powers and spreads.
 std::vector<Component> RandomComponents(std::uint32_t item) {
   const auto words = RandomWords(3, RandomUse::kNoise, 1, item);
   std::vector<Component> components;

@@ -8,21 +8,22 @@
 
 #include "core/detect/detector.h"
 #include "core/detect/echo_tiles.h"
-#include "core/frame/outcome.h"
+#include "railcast/outcome.h"
 
 namespace railcast {
 
-/// Beams along +x at surfaces that face them, for tests of a detector without any geometry.
+/// Beams along +x that meet surfaces at normal incidence, for tests of a detector without a scene.
 struct FacingBeams {
   std::uint32_t frame = 1;
   std::uint32_t num_firings = 1U << 18U;  ///< A multiple of kTileSize.
   LaneOptics optics = LaneOpticsOf({.diffuse = 0.5F, .specular_roughness = 0.3F});
-  /// By firing; NaN = no surface.
+  /// Range of the surface by firing; NaN = no surface.
   std::function<double(std::uint32_t)> range_m = [](std::uint32_t) { return std::nan(""); };
   std::function<std::uint32_t(std::uint32_t)> channel = [](std::uint32_t) { return 0U; };
+  std::uint32_t num_channels = 1;
 };
 
-/// Fills the hits of 256 firings from `begin` on, up to where Detector::Respond takes over.
+/// Fills the hits of 256 firings from `begin` on with everything that Detector::Respond expects.
 inline void FillHits(const FacingBeams& beams, std::uint32_t begin, EchoTiles& echoes) {
   echoes.ClearMore();
   DetectTile& tile = echoes.first;
@@ -55,7 +56,7 @@ inline void FillHits(const FacingBeams& beams, std::uint32_t begin, EchoTiles& e
   }
 }
 
-/// What became of one echo.
+/// The result of one echo.
 struct FacingEcho {
   std::uint32_t firing{};
   std::uint32_t echo{};
@@ -66,9 +67,10 @@ struct FacingEcho {
   bool operator==(const FacingEcho&) const = default;
 };
 
-/// All echoes, the first of every firing in front of what was added to its tile.
+/// Detects all firings and returns all echoes. In each tile, the first echoes of the firings
+/// precede the echoes that were added.
 inline std::vector<FacingEcho> DetectFacing(const DetectorSpec& spec, const FacingBeams& beams) {
-  const Detector detector(spec);
+  const Detector detector(spec, {.num_channels = beams.num_channels});
   auto echoes = std::make_unique<EchoTiles>();
   std::vector<FacingEcho> all;
   const auto store = [&](const DetectTile& tile, std::size_t i) {
@@ -89,7 +91,7 @@ inline std::vector<FacingEcho> DetectFacing(const DetectorSpec& spec, const Faci
   return all;
 }
 
-/// Echoes that no surface sends.
+/// Selects the echoes that no surface sends.
 inline std::vector<FacingEcho> ClutterOf(const std::vector<FacingEcho>& all) {
   std::vector<FacingEcho> clutter;
   for (const FacingEcho& echo : all) {

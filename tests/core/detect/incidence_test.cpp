@@ -1,4 +1,4 @@
-// What a slanting surface does to a Gaussian beam: by formula, and by a great many rays.
+// Compares the formulas for a Gaussian beam on an oblique surface with sums over many rays.
 #include "core/detect/incidence.h"
 
 #include <gtest/gtest.h>
@@ -9,9 +9,9 @@
 #include <memory>
 #include <vector>
 
-#include "core/base/transform.h"
 #include "core/detect/beam_optics.h"
 #include "core/detect/surface_response.h"
+#include "railcast/transform.h"
 
 namespace railcast {
 namespace {
@@ -54,7 +54,7 @@ struct WeightedRange {
   double range_m{}, weight{};
 };
 
-// Ranges of the plane over the beam's profile, on a grid of +-5 sigma.
+// Samples the ranges of the plane over the beam's profile on a grid of +-5 sigma.
 std::vector<WeightedRange> BruteForce(const Slant& slant) {
   const Vector3 d = slant.direction.normalized();
   const Vector3 h = Vector3::UnitZ().cross(d).normalized();
@@ -85,7 +85,7 @@ double Deviation_m(const std::vector<WeightedRange>& ranges) {
   return std::sqrt(squares / weight);
 }
 
-// Peak of all the pulses that come back, over that of a plane that faces the beam.
+// Peak of the sum of all returned pulses relative to that of a plane at normal incidence.
 double PeakShare(const std::vector<WeightedRange>& ranges, double mean_m, double pulse_sigma_m) {
   double weight = 0.0;
   for (const auto& [range_m, w] : ranges) weight += w;
@@ -124,7 +124,7 @@ TEST(Incidence, KnowsHowSteepASurfaceIs) {
 TEST(Spread, IsTheDeviationOfTheRangeOverAGaussianBeam) {
   for (const Slant& slant : kSlants) {
     const double spread_m = static_cast<double>(Spread(slant)->detect.spread_m[0]);
-    // The formula is linear in the angles: within a fifth of (spread / range).
+    // The formula is linear in the angles; its relative error is below a fifth of spread / range.
     const double truth_m = Deviation_m(BruteForce(slant));
     EXPECT_NEAR(spread_m, truth_m, 0.01 * truth_m + 1e-4) << slant.normal.transpose();
   }
@@ -149,9 +149,7 @@ TEST(PulseStretch, IsThePeakOfAllPulsesThatASlantingPlaneSendsBack) {
   }
 }
 
-// physics.md 3's case (1.5 mrad, 5 ns, ground seen from 2 and 3.5 m), recomputed for a Gaussian
-// beam of that 1/e^2 angle and a Gaussian pulse of that half width; there, for a disc and its full
-// width, 0.93, 0.37, 0.15, 0.10 and 0.97, 0.57, 0.26, 0.17.
+// Values from the table of docs/physics.md 3.4.
 TEST(PulseStretch, FadesGrazedGround) {
   struct Row {
     double height_m, range_m, share;

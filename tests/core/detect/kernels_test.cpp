@@ -9,7 +9,13 @@
 #include <vector>
 
 #include "core/base/random.h"
-#include "core/frame/outcome.h"
+#include "core/detect/detection.h"
+#include "core/detect/measurement.h"
+#include "core/detect/rain_dropout.h"
+#include "core/detect/sensor_dropout.h"
+#include "core/detect/snow_clutter.h"
+#include "core/detect/threshold.h"
+#include "railcast/outcome.h"
 
 namespace railcast {
 namespace {
@@ -59,14 +65,14 @@ TEST(Kernels, GiveTheSameBitsOnEveryInstructionSet) {
   for (const Kernels& kernels : all) {
     const auto tile = MixedTile();
     RunAll(kernels, *tile);
-    // Bits, so that a NaN equals itself; the padding was made zero with the tile.
+    // Compare bits, so that a NaN equals itself. The padding was set to zero with the tile.
     // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
     EXPECT_EQ(std::memcmp(tile.get(), expected.get(), sizeof(DetectTile)), 0) << kernels.isa;
   }
   if (all.size() == 1) GTEST_SKIP() << "this machine runs only the baseline instruction set";
 }
 
-// Rays that hit planes of all slopes, or nothing.
+// Rays of which some hit planes of various slopes and the others hit nothing.
 std::unique_ptr<RayTile> MixedRays() {
   auto rays = std::make_unique<RayTile>();
   std::memset(static_cast<void*>(rays.get()), 0, sizeof(RayTile));
@@ -86,7 +92,7 @@ std::unique_ptr<RayTile> MixedRays() {
   return rays;
 }
 
-// Every kernel of the physical rungs in its order; returns the bits that are not in the tiles.
+// Runs every kernel of the physical rungs in order; returns the results that are not in the tiles.
 std::vector<float> RunPhysics(const Kernels& kernels, RayTile& rays, DetectTile& tile) {
   BeamFrame beam;
   beam.sigma_h_rad = 7.5e-4F;
@@ -120,7 +126,7 @@ std::vector<float> RunPhysics(const Kernels& kernels, RayTile& rays, DetectTile&
   return values;
 }
 
-// The optics that physics wants on top.
+// A mixed tile with the optics that the physical effects need in addition.
 std::unique_ptr<DetectTile> MixedPhysicalTile() {
   auto tile = MixedTile();
   for (std::uint32_t i = 0; i < kTileSize; ++i) {

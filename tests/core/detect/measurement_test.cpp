@@ -1,4 +1,4 @@
-// Range noise and channel bias through the whole detector.
+// Tests range noise and channel bias with the whole detector.
 #include "core/detect/measurement.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 // Standard deviation of the measured range where the power ratio is `ratio`.
 double NoiseAt_m(double ratio) {
   const DetectorSpec spec{.range_min_m = 0.0, .range_max_m = 1e4, .effects = {.range_noise = true}};
-  // Facing, rho 0.5, R0 200 m: ratio = 5 (200 / r)^2.
+  // At normal incidence with rho 0.5 and R0 200 m, ratio = 5 (200 / r)^2.
   const double range_m = 200.0 * std::sqrt(5.0 / ratio);
   FacingBeams beams;
   beams.num_firings = 1U << 15U;
@@ -28,7 +28,8 @@ double NoiseAt_m(double ratio) {
   return std::sqrt(squares / beams.num_firings);
 }
 
-// A deviation of 2^15 normals is right to 4 / sqrt(2 x 2^15) = 1.6 %.
+// Four standard errors of the standard deviation of 2^15 normal deviates: 4 / sqrt(2 x 2^15) = 1.6
+// %.
 constexpr double kRelative = 0.016;
 
 TEST(RangeNoise, FollowsTheSignalToNoiseRatio) {
@@ -38,7 +39,7 @@ TEST(RangeNoise, FollowsTheSignalToNoiseRatio) {
   }
 }
 
-// physics.md 5: 1.5 cm on a near wall, 3.2 to 5 cm at the range limit.
+// docs/physics.md 5: 1.5 cm on a near wall, 3.2 to 5 cm at the threshold.
 TEST(RangeNoise, HasThePublishedSizeNearAndFar) {
   EXPECT_NEAR(NoiseAt_m(1e5), 0.015, 0.05 * 0.015);
   const double far_m = NoiseAt_m(1.0);
@@ -49,11 +50,11 @@ TEST(RangeNoise, HasThePublishedSizeNearAndFar) {
 std::vector<double> BiasOfChannels(std::uint32_t num_channels,
                                    std::uint32_t frame,
                                    std::uint64_t seed) {
-  const DetectorSpec spec{
-      .seed = seed, .num_channels = num_channels, .effects = {.channel_bias = true}};
+  const DetectorSpec spec{.seed = seed, .effects = {.channel_bias = true}};
   FacingBeams beams;
   beams.frame = frame;
   beams.num_firings = num_channels;
+  beams.num_channels = num_channels;
   beams.range_m = [](std::uint32_t) { return 16.0; };
   beams.channel = [](std::uint32_t firing) { return firing; };
   std::vector<double> bias_m;
@@ -79,7 +80,7 @@ TEST(ChannelBias, IsNormalOverTheChannels) {
     worst = std::max({worst, std::abs(cdf - static_cast<double>(i) / kNumChannels),
                       std::abs(cdf - static_cast<double>(i + 1) / kNumChannels)});
   }
-  // Kolmogorov and Smirnov: 1.95 / sqrt(n) is exceeded once in a thousand.
+  // The Kolmogorov-Smirnov distance exceeds 1.95 / sqrt(n) in one case of 1000.
   EXPECT_LE(worst, 1.95 / std::sqrt(kNumChannels));
 }
 
@@ -91,7 +92,7 @@ TEST(Measurement, ReportsWhereTheEchoPeaksNotWhereTheSurfaceIs) {
   tile.peak_shift_m[0] = 0.25F;
   tile.power_ratio[0] = 10.0F;
   const float bias_m = 0.0F;
-  baseline::ApplyMeasurement<NoiseShape::kSignal>(
+  baseline::ApplyMeasurement<RangeErrors::kSignal>(
       tile, {.range_max_m = 100.0F, .snr_at_threshold = 5.0F, .channel_bias_m = &bias_m});
   EXPECT_EQ(tile.range_m[0], 20.25F);
   EXPECT_EQ(tile.x[0], 20.25F);

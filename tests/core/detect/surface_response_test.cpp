@@ -15,7 +15,7 @@ namespace {
 
 constexpr float kInversePower_m2 = 200.0F * 200.0F / 0.1F;
 
-// One lane: a surface of these optics at `range_m`.
+// A tile with one lane: a surface with these optics at `range_m`.
 std::unique_ptr<DetectTile> OneHit(const LaneOptics& optics, float cosine, float range_m) {
   auto tile = std::make_unique<DetectTile>();
   tile->num_rays = 1;
@@ -109,8 +109,9 @@ TEST(SurfaceResponse, PutsSnowOnFacesLessSteepThan45Degrees) {
   }
 }
 
-// Over all facets D cos integrates to 1, so that without shadowing rho 4 cos^2 / pi = F0 D cos
-// integrates to F0 over the half space; shadowing only takes. A smooth surface shadows nothing.
+// D cos integrates to 1 over all facets, so that without shadowing rho 4 cos^2 / pi = F0 D cos
+// integrates to F0 over the half space. Shadowing can only reduce the integral; a smooth surface
+// has none.
 TEST(SurfaceResponse, LetsTheSpecularLobeGiveNoMoreThanItsReflectance) {
   constexpr double kF0 = 0.6;
   for (const double roughness : {0.02, 0.1, 0.3, 0.6, 1.0}) {

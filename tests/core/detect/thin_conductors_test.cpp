@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/detect/wire_in_beam.h"
-#include "core/scan/scan_pattern.h"
+#include "railcast/lidar.h"
 
 namespace railcast {
 namespace {
@@ -28,7 +28,7 @@ void SetRay(RayTile& rays, std::size_t i, const Vector3& origin_m, const Vector3
   rays.direction_z[i] = static_cast<float>(direction.z());
 }
 
-/// Columns of beams 4 mrad apart round a point, from a sensor that moves 0.5 m meanwhile.
+/// Columns of beams 4 mrad apart around a point, from a sensor that moves by 0.5 m during the scan.
 std::unique_ptr<RayTile> RasterTowards(const Vector3& target_m, std::size_t num_columns = 16) {
   auto rays = std::make_unique<RayTile>();
   rays->num_rays = kTileSize;
@@ -54,7 +54,7 @@ Vector3 DirectionOf(const RayTile& rays, std::size_t i) {
       .cast<double>();
 }
 
-/// Beams in any direction from anywhere within some metres.
+/// Beams in random directions from random origins within a few metres.
 std::unique_ptr<RayTile> ScatteredRays() {
   auto rays = std::make_unique<RayTile>();
   rays->num_rays = kTileSize;
@@ -68,7 +68,7 @@ std::unique_ptr<RayTile> ScatteredRays() {
   return rays;
 }
 
-/// Two tracks of contact and messenger wire with droppers, and wires in all directions.
+/// Contact wires, messenger wires and droppers of two tracks, and wires in all directions.
 WireSet MakeWires() {
   WireSet wires;
   for (const double y_m : {0.1, 4.2}) {
@@ -92,7 +92,7 @@ WireSet MakeWires() {
   return wires;
 }
 
-/// Every beam against every segment, as the header says.
+/// Tests every beam against every segment, without the bounds that CaptureWires uses.
 std::vector<WireCapture> CaptureSlowly(const RayTile& rays,
                                        const BeamShape& shape,
                                        const WireSet& wires) {
@@ -172,7 +172,7 @@ TEST(CaptureWires, ABeamsCapturesDoNotDependOnItsTile) {
   const auto scattered = ScatteredRays();
   const auto alone = Capture(*raster, wires);
   ASSERT_GT(alone.size(), 100U);
-  // Every fourth beam of the raster among beams of all directions.
+  // Mix every fourth beam of the raster with beams in all directions.
   auto mixed = std::make_unique<RayTile>(*scattered);
   const auto is_raster = [](std::uint32_t lane) { return lane % 4 == 0; };
   for (std::uint32_t i = 0; i < kTileSize; ++i) {
@@ -196,7 +196,7 @@ TEST(CaptureWires, TwoWiresInABeamAreTwoCapturesTheNearerFirst) {
   for (std::size_t i = 0; i < kPacketSize; ++i) {
     SetRay(*rays, i, Vector3::Zero(), Vector3(i == 5 ? 1.0 : -1.0, 0.0, 0.0));
   }
-  std::vector<WireCapture> captures(1);  // What is there stays.
+  std::vector<WireCapture> captures(1);  // Captures that exist already must be kept.
   CaptureWires(*rays, vlp16_beam, wires, captures);
   ASSERT_EQ(captures.size(), 3U);
   EXPECT_EQ(captures[1].lane, 5U);
@@ -234,8 +234,8 @@ TEST(CaptureWires, TurningEverythingChangesNothing) {
     ASSERT_EQ(after.size(), before.size());
     for (std::size_t i = 0; i < after.size(); ++i) {
       EXPECT_EQ(after[i].lane, before[i].lane);
-      // Rounding turns a beam by 1e-7 rad, 1.3e-4 sigma; a share changes by at most
-      // 2 a phi'(1) = 0.48 * 6e-3 / (60 * 0.75e-3) = 0.065 a sigma.
+      // Rounding turns a beam by 1e-7 rad, which is 1.3e-4 sigma. A share changes by at most
+      // 2 a phi'(1) = 0.48 * 6e-3 / (60 * 0.75e-3) = 0.065 per sigma.
       EXPECT_NEAR(after[i].share, before[i].share, 1e-5F);
       EXPECT_NEAR(after[i].range_m, before[i].range_m, 1e-3F);
     }

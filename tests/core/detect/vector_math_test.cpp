@@ -105,7 +105,7 @@ TEST(LaneNormals, HaveTheMomentsOfANormalDistribution) {
     }
   }
   constexpr double kCount = 4.0 * kDraws;
-  // Five standard errors: variances of v, v^2 and v^4 are 1, 2 and 96.
+  // Tolerances are five standard errors: the variances of v, v^2 and v^4 are 1, 2 and 96.
   EXPECT_NEAR(sum / kCount, 0.0, 5.0 / std::sqrt(kCount));
   EXPECT_NEAR(sum2 / kCount, 1.0, 5.0 * std::sqrt(2.0 / kCount));
   EXPECT_NEAR(sum4 / kCount, 3.0, 5.0 * std::sqrt(96.0 / kCount));

@@ -1,4 +1,4 @@
-// Air and what floats in it, against the published figures (physics.md 4; sources in the headers).
+// Compares the optics of fog, rain and snow with the tables of docs/physics.md 4.
 #include "core/detect/weather_optics.h"
 
 #include <gtest/gtest.h>
@@ -12,15 +12,15 @@
 namespace railcast {
 namespace {
 
-// The tables round to whole metres and two or three digits.
-constexpr double kRelative = 0.03;
+// The tables are rounded to whole metres and to two or three digits.
+constexpr double kPublishedRelative = 0.03;
 constexpr double kHalfAMetre_m = 0.51;
 
 double PowerMin(double range_at_10_percent_m) {
   return 0.1 / (range_at_10_percent_m * range_at_10_percent_m);
 }
 
-// The largest r with `power(r)` >= power_min; power falls with r.
+// The largest r with `power(r)` >= power_min; the power must decrease with r.
 double Reach_m(const std::function<double(double)>& power, double power_min) {
   double near_m = 1e-3;
   double far_m = 1e5;
@@ -41,14 +41,14 @@ void ExpectRange(double range_m, double published_m) {
   EXPECT_NEAR(range_m, published_m, std::max(kHalfAMetre_m, 0.01 * published_m));
 }
 
-WeatherSpec Rain(double rate_mmph, const char* sizes = "marshall_palmer") {
+WeatherSpec Rain(double rate_mmph, RainDrops sizes = RainDrops::kMarshallPalmer) {
   WeatherSpec weather;
   weather.rain_rate_mmph = rate_mmph;
   weather.rain_drop_sizes = sizes;
   return weather;
 }
 
-WeatherSpec Snow(double rate_mmph, const char* type = "dry") {
+WeatherSpec Snow(double rate_mmph, SnowType type = SnowType::kDry) {
   WeatherSpec weather;
   weather.snow_rate_mmph = rate_mmph;
   weather.snow_type = type;
@@ -78,7 +78,7 @@ TEST(RainExtinction, IsThatOfThePublishedTable) {
   EXPECT_EQ(RainExtinction_per_m(Rain(0.0)), 0.0);
   for (const RainRow& row : kRainTable) {
     const double extinction_per_m = RainExtinction_per_m(Rain(row.rate_mmph));
-    EXPECT_NEAR(extinction_per_m / row.extinction_per_m, 1.0, kRelative) << row.rate_mmph;
+    EXPECT_NEAR(extinction_per_m / row.extinction_per_m, 1.0, kPublishedRelative) << row.rate_mmph;
     EXPECT_NEAR(extinction_per_m / (3.65e-4 * std::pow(row.rate_mmph, 0.63)), 1.0, 0.002);
   }
 }
@@ -96,9 +96,9 @@ TEST(RainExtinction, GivesTheRangesOfThePublishedTable) {
   }
 }
 
-// Twice the cross-section of each drop, summed by Simpson's rule up to 20 mm.
+// Integrates twice the cross-section of the drops by Simpson's rule up to 20 mm.
 TEST(RainExtinction, IsTheIntegralOverTheDropsOfEverySizeDistribution) {
-  for (const char* sizes : {"marshall_palmer", "drizzle", "thunderstorm"}) {
+  for (const auto& [sizes, name] : kEnumNames<RainDrops>) {
     for (const double rate_mmph : {0.5, 10.0, 100.0}) {
       const WeatherSpec weather = Rain(rate_mmph, sizes);
       const ParticleSizes drops = RainDropSizes(weather);
@@ -112,21 +112,22 @@ TEST(RainExtinction, IsTheIntegralOverTheDropsOfEverySizeDistribution) {
                drops.intercept_per_m3_mm * std::exp(-drops.slope_per_mm * d_mm);
       }
       EXPECT_NEAR(RainExtinction_per_m(weather) / (sum * kStep_mm / 3.0), 1.0, 1e-6)
-          << sizes << " " << rate_mmph;
+          << name << " " << rate_mmph;
     }
   }
 }
 
 TEST(RainDropSizes, AreThoseOfTheNamedDistributions) {
-  const ParticleSizes drizzle = RainDropSizes(Rain(1.0, "drizzle"));
+  const ParticleSizes drizzle = RainDropSizes(Rain(1.0, RainDrops::kDrizzle));
   EXPECT_EQ(drizzle.intercept_per_m3_mm, 30'000.0);
   EXPECT_EQ(drizzle.slope_per_mm, 5.7);
-  const ParticleSizes thunderstorm = RainDropSizes(Rain(1.0, "thunderstorm"));
+  const ParticleSizes thunderstorm = RainDropSizes(Rain(1.0, RainDrops::kThunderstorm));
   EXPECT_EQ(thunderstorm.intercept_per_m3_mm, 1'400.0);
   EXPECT_EQ(thunderstorm.slope_per_mm, 3.0);
-  // Small drops hide more per millimetre of water.
-  EXPECT_GT(RainExtinction_per_m(Rain(2.0, "drizzle")), RainExtinction_per_m(Rain(2.0)));
-  EXPECT_LT(RainExtinction_per_m(Rain(2.0, "thunderstorm")), RainExtinction_per_m(Rain(2.0)));
+  // Small drops extinguish more light per millimetre of water.
+  EXPECT_GT(RainExtinction_per_m(Rain(2.0, RainDrops::kDrizzle)), RainExtinction_per_m(Rain(2.0)));
+  EXPECT_LT(RainExtinction_per_m(Rain(2.0, RainDrops::kThunderstorm)),
+            RainExtinction_per_m(Rain(2.0)));
 }
 
 TEST(FogExtinction, IsTheLogarithmOfTwentyOverTheVisibility) {
@@ -171,10 +172,10 @@ TEST(SnowExtinction, IsThatOfThePublishedTableWetAndDry) {
                             {2.5, 1.7e-3, 153, 4.5e-3, 118},
                             {5.0, 2.8e-3, 136, 1.2e-2, 79}};
   for (const Row& row : kTable) {
-    const double wet_per_m = SnowExtinction_per_m(Snow(row.rate_mmph, "wet"), 905);
-    const double dry_per_m = SnowExtinction_per_m(Snow(row.rate_mmph, "dry"), 905);
-    EXPECT_NEAR(wet_per_m / row.wet_per_m, 1.0, kRelative);
-    EXPECT_NEAR(dry_per_m / row.dry_per_m, 1.0, kRelative);
+    const double wet_per_m = SnowExtinction_per_m(Snow(row.rate_mmph, SnowType::kWet), 905);
+    const double dry_per_m = SnowExtinction_per_m(Snow(row.rate_mmph, SnowType::kDry), 905);
+    EXPECT_NEAR(wet_per_m / row.wet_per_m, 1.0, kPublishedRelative);
+    EXPECT_NEAR(dry_per_m / row.dry_per_m, 1.0, kPublishedRelative);
     ExpectRange(RangeMax_m(0.1, wet_per_m, 200.0), row.wet_range_m);
     ExpectRange(RangeMax_m(0.1, dry_per_m, 200.0), row.dry_range_m);
   }
@@ -219,7 +220,7 @@ TEST(ParticleEchoes, AreThoseOfThePublishedTable) {
           is_rain ? RainDropSizes(row.weather) : SnowFlakeSizes(row.weather),
           is_rain ? kDropReflectance : kFlakeReflectance, beam, PowerMin(kSensors[k].range_m));
       const auto& [mean, median_m, p95_m] = row.echoes[k];
-      // Two digits: up to 4 % off by rounding.
+      // Rounding to two digits causes errors of up to 4 %.
       EXPECT_NEAR(echoes.mean_count / mean, 1.0, 0.04);
       EXPECT_NEAR(1.538 * echoes.range_scale_m / median_m, 1.0, 0.04);
       EXPECT_NEAR(2.795 * echoes.range_scale_m / p95_m, 1.0, 0.04);
@@ -227,7 +228,7 @@ TEST(ParticleEchoes, AreThoseOfThePublishedTable) {
   }
 }
 
-// physics.md 4.2: a target of rho 0.5 at 30 m cuts the number of drops that outdo it by 58.
+// docs/physics.md 4.2: one in 58 detectable drops is stronger than a target of rho 0.5 at 30 m.
 TEST(ParticleEchoes, OfThoseThatOutdoABrightTargetThereAreFew) {
   const BeamSpec beam{.divergence_mrad = {3.0, 3.0}};
   const ParticleSizes drops = RainDropSizes(Rain(10.0));
@@ -246,7 +247,8 @@ TEST(ParticleEchoes, TakeAnEllipticBeamAsADiscOfTheSameSolidAngle) {
   EXPECT_EQ(echoes(0.0, 1.0).mean_count, 0.0);
 }
 
-// rho_eq e^(-2 alpha r) / r^2 >= 0.1 / 200^2 up to the ranges of physics.md 4.3 for 65 sr.
+// rho_eq e^(-2 alpha r) / r^2 >= 0.1 / 200^2 holds up to the ranges of docs/physics.md 4.3 for 65
+// sr.
 TEST(FogEcho, ReachesAsFarAsPublished) {
   struct Row {
     double visibility_m, reach_m;
@@ -279,7 +281,8 @@ TEST(FogEcho, PeaksWhereTheProductOfOverlapAndLossIsGreatest) {
   }
 }
 
-// The threshold goes with R^-2, so 0.71 of the range is a threshold of 0.71^-2.
+// The received power is proportional to R^-2, so that 0.71 of the range corresponds to 0.71^-2
+// times the threshold.
 TEST(SunBackground, TakesThePublishedShareOfTheRangeInFullSun) {
   const double gain = SunBackgroundGain({.illuminance_klx = 100.0});
   const double threshold_factor = std::sqrt(1.0 + 0.8 * gain);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kNumSamples = 1'000'000;
 constexpr double kMilli = 1e-3;
-// 3.0 x 1.5 mrad full angle between the 1/e^2 points.
+// A beam of 3.0 x 1.5 mrad, the full angle between the 1/e^2 points.
 constexpr double kSigmaWide_rad = 0.75 * kMilli;
 constexpr double kSigmaNarrow_rad = 0.375 * kMilli;
 constexpr double kContact_m = 6e-3;
@@ -26,12 +26,12 @@ void ExpectAsSampled(const std::string& name, const WideBeam& beam, const WireSe
   SCOPED_TRACE(name + ": share " + std::to_string(sampled.share) + ", spread " +
                std::to_string(sampled.spread_m));
   ASSERT_GT(sampled.num_hits, 100.0);
-  // Five standard errors; besides them a relative 1e-3 of the closed form's own.
+  // Five standard errors plus a relative error of 1e-3 of the closed form.
   const double share_error = std::sqrt(sampled.share * (1.0 - sampled.share) / kNumSamples);
   EXPECT_NEAR(found.share, sampled.share, 5.0 * share_error + 1e-3 * sampled.share);
   const double mean_error_m = sampled.spread_m / std::sqrt(sampled.num_hits);
   EXPECT_NEAR(found.range_m, sampled.range_m, 6.0 * mean_error_m + 2e-3);
-  // A standard deviation of n samples of a normal distribution errs by 1 / sqrt(2 n) of itself.
+  // The relative standard error of a standard deviation is 1 / sqrt(2 n) for n normal samples.
   const double spread_error = 5.0 / std::sqrt(2.0 * sampled.num_hits) + 0.03;
   EXPECT_NEAR(found.spread_m, sampled.spread_m, spread_error * sampled.spread_m + 2e-3);
 }
@@ -80,7 +80,8 @@ TEST(WireInBeam, AnOverheadWireThatRunsAwaySmearsItsEchoAsRandomRaysSay) {
   EXPECT_NEAR(found.sin_axis, 0.03, 1e-4);
 }
 
-// A sigma of the beam changes the range by a third: the linear picture gives 15 % less spread.
+// The range changes by a third within one sigma of the beam; linearising once over the whole beam
+// would give 15 % less spread.
 TEST(WireInBeam, AWireThatRunsAwayBarelyOverheadIsCutIntoParts) {
   for (const double range_m : {40.0, 60.0}) {
     const double height_m = range_m * kSigmaWide_rad / 0.35;
@@ -104,7 +105,8 @@ TEST(WireInBeam, AWireWiderThanTheBeamCatchesAllOfIt) {
   const WideBeam beam = BeamTowards({1, 0, 0}, kSigmaNarrow_rad, kSigmaNarrow_rad);
   EXPECT_NEAR(FindWireInBeam(beam, MakeWire({2, -1, 0}, {2, 1, 0}, 0.01)).share, 1.0, 1e-6);
   const WireInBeam half = FindWireInBeam(beam, MakeWire({2, -1, 0.01}, {2, 1, 0.01}, 0.01));
-  // Its edge is on the beam's axis but for radius / range squared: 13 sigmas wide, 2.5e-5 of that.
+  // The wire's edge is on the beam's axis except for radius / range squared. The wire is 13 sigmas
+  // wide, and its edge is off by 2.5e-5 of that.
   EXPECT_NEAR(half.share, 0.5, 1e-3);
   EXPECT_NEAR(half.range_m, 1.995, 0.005);
 }
@@ -119,8 +121,8 @@ TEST(WireInBeam, AThinWireThroughTheMiddleCatchesItsWidthOverTheBeamsDensity) {
   EXPECT_NEAR(share / thin, 1.0, 1e-4);
 }
 
-// Range at which the echo of a wire through the beam's middle meets the threshold.
-double RangeMax_m(double diameter_m, double divergence_rad, double range_at_10_percent_m) {
+// The range at which the echo of a wire through the beam's middle equals the threshold.
+double WireRangeMax_m(double diameter_m, double divergence_rad, double range_at_10_percent_m) {
   const double sigma_rad = divergence_rad / 4.0;
   const auto excess = [&](double range_m) {
     const auto wire = MakeWire({range_m, -50, 0}, {range_m, 50, 0}, 0.5 * diameter_m);
@@ -138,20 +140,22 @@ double RangeMax_m(double diameter_m, double divergence_rad, double range_at_10_p
   return near_m;
 }
 
-// physics.md 1.6 with a Gaussian beam instead of a uniform disc: share * rho pi / 4 / R^2 = P_min.
+// docs/physics.md 1.6: share * rho pi / 4 / R^2 = P_min.
 TEST(WireInBeam, TheEchoOfAWireFallsWithRangeCubed) {
   for (const double divergence_rad : {1.5e-3, 3.0e-3}) {
     const double sigma_rad = divergence_rad / 4.0;
     const double closed_m = std::cbrt(0.4 * std::numbers::pi / 4.0 * 0.012 * 200.0 * 200.0 /
                                       (0.1 * std::sqrt(2.0 * std::numbers::pi) * sigma_rad));
-    // a < 0.14 there: the thin wire's a^2 / 6 of the share is a ninth of 1 % of the range.
-    EXPECT_NEAR(RangeMax_m(0.012, divergence_rad, 200.0) / closed_m, 1.0, 2e-3);
+    // a < 0.14 there. The thin-wire formula's relative error of the share, a^2 / 6, corresponds to
+    // a ninth of 1 % of the range.
+    EXPECT_NEAR(WireRangeMax_m(0.012, divergence_rad, 200.0) / closed_m, 1.0, 2e-3);
   }
-  // Twice as thick or as narrow a beam, or 8 times the threshold: R^3.
-  const double range_m = RangeMax_m(0.002, 3e-3, 200.0);
-  EXPECT_NEAR(RangeMax_m(0.001, 3e-3, 200.0) / range_m, std::cbrt(0.5), 1e-3);
-  EXPECT_NEAR(RangeMax_m(0.002, 1.5e-3, 200.0) / range_m, std::cbrt(2.0), 1e-3);
-  EXPECT_NEAR(RangeMax_m(0.002, 3e-3, 200.0 / std::sqrt(8.0)) / range_m, 0.5, 1e-3);
+  // R^3 is proportional to the diameter and inversely proportional to divergence and threshold. The
+  // last case has 8 times the threshold.
+  const double range_m = WireRangeMax_m(0.002, 3e-3, 200.0);
+  EXPECT_NEAR(WireRangeMax_m(0.001, 3e-3, 200.0) / range_m, std::cbrt(0.5), 1e-3);
+  EXPECT_NEAR(WireRangeMax_m(0.002, 1.5e-3, 200.0) / range_m, std::cbrt(2.0), 1e-3);
+  EXPECT_NEAR(WireRangeMax_m(0.002, 3e-3, 200.0 / std::sqrt(8.0)) / range_m, 0.5, 1e-3);
 }
 
 TEST(WireInBeam, AWireCutIntoChordsIsTheSameWire) {
@@ -167,7 +171,7 @@ TEST(WireInBeam, AWireCutIntoChordsIsTheSameWire) {
   struct Case {
     Vector3 target_m, begin_m, end_m;
   };
-  // Coordinates that float32 holds exactly, so that the chords lie on the wire.
+  // Coordinates that float32 represents exactly, so that the parts lie on the wire.
   for (const Case& c :
        {Case{{50, 0, 0}, {50, -2, 0}, {50, 2, 0}}, Case{{64, 0, 0.01}, {56, -2, -1}, {72, 2, 1}},
         Case{{100, 0, 3}, {36, 0, 3}, {164, 0, 3}}}) {

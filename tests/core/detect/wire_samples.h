@@ -30,13 +30,13 @@ namespace railcast {
   return {begin_m.cast<float>(), end_m.cast<float>(), static_cast<float>(radius_m), 1};
 }
 
-/// Where a ray enters the side of a cylinder, and the cosine round its section there.
+/// The point where a ray enters the side of a cylinder, and the cosine around its section there.
 struct CylinderHit {
   double range_m{};
   double section_cosine{};
 };
 
-/// The quadratic equation of |p - (p . axis) axis| = radius for p = origin + t direction.
+/// Solves |p - (p . axis) axis| = radius for p = origin + t direction, a quadratic equation in t.
 [[nodiscard]] inline std::optional<CylinderHit> HitCylinder(const Vector3& origin_m,
                                                             const Vector3& direction,
                                                             const WireSegment& wire) {
@@ -58,7 +58,7 @@ struct CylinderHit {
   return CylinderHit{range_m, -normal.dot(d) / std::sqrt(a)};
 }
 
-/// What a beam of many random rays meets of the true cylinder.
+/// The part of the exact cylinder that a beam of many random rays meets.
 struct WireSamples {
   double share{}, range_m{}, spread_m{};
   double num_hits{};

@@ -1,4 +1,4 @@
-#include "core/fidelity/choice.h"
+#include "railcast/fidelity.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,9 +6,10 @@
 #include <string>
 
 #include "core/fidelity/choice_report.h"
+#include "core/fidelity/effect_search.h"
 #include "core/fidelity/sample_frames.h"
-#include "core/scenario/effects.h"
-#include "core/scenario/scenario.h"
+#include "railcast/effects.h"
+#include "railcast/scenario.h"
 #include "tests/core/scenario/scenario_files.h"
 
 namespace railcast {
@@ -19,11 +20,11 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-/// A straight line of 1 km without plants, seen by few beams.
+/// A straight line of 1 km without plants, scanned by few beams.
 struct Line {
   bool has_wires = true;
   std::string mount = "{}";
-  std::string more = "";  ///< Keys of the scenario.
+  std::string more = "";  ///< Further keys of the scenario.
   std::string start_s_m = "400";
 };
 
@@ -89,7 +90,7 @@ TEST(ChooseFidelity, KeepsAllThatMattersAtNoTolerance) {
   EXPECT_TRUE(choice.effects.thin_conductors);
   EXPECT_TRUE(choice.effects.surface_response);
   EXPECT_TRUE(choice.effects.detection);
-  // What is left out takes nothing away.
+  // Leaving out the other effects must not increase any deviation.
   for (const DeviationQuantity& quantity : kDeviationQuantities) {
     EXPECT_LE(choice.deviation.*quantity.value, choice.full_deviation.*quantity.value);
   }
@@ -152,18 +153,18 @@ TEST(ChooseFidelity, LeavesTheSimulatorAsItWas) {
   const ScenarioSpec scenario = Read({.has_wires = false, .mount = kSideways});
   const auto simulator = MakeSimulator(scenario, 0);
   static_cast<void>(ChooseFidelity(*simulator, scenario, [](double) {}));
-  EXPECT_EQ(simulator->spec().effects, EffectsOfRung("footprint"));
+  EXPECT_EQ(simulator->spec().detector.effects, EffectsOfRung(Fidelity::kFootprint));
 }
 
 TEST(UseChosenFidelity, GivesTheSimulatorTheChosenEffects) {
   const ScenarioSpec scenario = Read({.has_wires = false, .mount = kSideways});
   const auto simulator = MakeSimulator(scenario, 0);
-  ASSERT_NE(simulator->spec().effects, Choose(scenario).effects);
+  ASSERT_NE(simulator->spec().detector.effects, Choose(scenario).effects);
   double done = -1.0;
   const FidelityChoice choice =
       UseChosenFidelity(*simulator, scenario, [&](double share) { done = share; });
   EXPECT_EQ(choice.effects, Choose(scenario).effects);
-  EXPECT_EQ(simulator->spec().effects, choice.effects);
+  EXPECT_EQ(simulator->spec().detector.effects, choice.effects);
   EXPECT_GT(done, 0.0);
 }
 
@@ -177,7 +178,8 @@ TEST(SampleFrames, AreSoManySecondsApart) {
 }
 
 TEST(SampleFrames, AreNearerWhereTheTrackEndsBefore) {
-  // 10 m/s, 5 m to go: half a second, so 20 and 10 frames are too many and 4 are not.
+  // At 10 m/s the remaining 5 m last half a second, so that a span of 20 or 10 frames is too long
+  // and one of 4 frames is not.
   EXPECT_THAT(FramesFrom("995"), ElementsAre(0, 2, 4));
   EXPECT_THAT(FramesFrom("1000"), ElementsAre(0, 1, 2));
 }

@@ -14,7 +14,7 @@ const std::vector<EffectCost> kCandidates = {{&EffectSet::extinction, 1.0},
                                              {&EffectSet::thin_conductors, 10.0}};
 constexpr ToleranceSpec kTenPercent{.missed_share = 0.1};
 
-// What is missed: so much for each effect that is off.
+// Makes a measure in which each effect that is off adds a fixed missed share.
 std::function<Deviation(const EffectSet&)> MissedWithout(double extinction,
                                                          double footprint,
                                                          double thin_conductors,
@@ -49,8 +49,8 @@ TEST(EffectSearch, SaysWhatEachEffectWouldChange) {
 }
 
 TEST(EffectSearch, PutsBackWhatIsMissedMostWhereEffectsWorkOnEachOther) {
-  // Each alone changes nothing; without both wires and footprint half is missed, and most of that
-  // is the wires'.
+  // Without thin_conductors alone nothing is missed, without footprint alone 2 % of the echoes are,
+  // without both of them half.
   const auto measure = [](const EffectSet& effects) {
     const bool is_poor = !effects.footprint && !effects.thin_conductors;
     return Deviation{.missed_share = is_poor ? 0.5 : effects.footprint ? 0.0 : 0.02};
@@ -79,7 +79,7 @@ TEST(EffectSearch, KeepsAMarginForOtherFrames) {
 }
 
 TEST(EffectSearch, AllowsLittleMoreThanAllEffectsReach) {
-  // 0.0015 is within 0.02 of the tolerance, twice that is beyond; wires are dearer.
+  // 0.0015 is within 0.02 of the tolerance, twice as much is not. Wires are more expensive.
   const auto result =
       FindCheapestEffects(kFull, kCandidates, kTenPercent, MissedWithout(0.0015, 0.5, 0.0015, 0.3));
   EXPECT_EQ(result.effects, (EffectSet{.extinction = true, .footprint = true}));
@@ -97,7 +97,8 @@ TEST(EffectSearch, KeepsWhatChangesAnythingAtNoTolerance) {
 }
 
 TEST(EffectSearch, IsNotDeceivedByAChangeForTheBetter) {
-  // Without extinction less is missed, by chance: that leaves no room for another.
+  // By chance fewer echoes are missed without extinction. That must not allow leaving out another
+  // effect.
   const auto result =
       FindCheapestEffects(kFull, kCandidates, kTenPercent, MissedWithout(-0.05, 0.12, 0.0, 0.0));
   EXPECT_TRUE(result.effects.footprint);

@@ -30,7 +30,7 @@ FrameDifference Compare(const Firings& reference,
 }
 
 TEST(MatchEchoes, TakesTheNearestPairFirst) {
-  // In the order of the lists 10.0 would take 10.25 away from 10.3.
+  // Matching in the order of the lists would pair 10.0 with 10.25, which is nearer to 10.3.
   EXPECT_THAT(MatchEchoes({10.0F, 10.3F}, {10.25F, 9.9F}, 0.375F),
               ElementsAre(Pair(1, 0), Pair(0, 1)));
 }
@@ -86,14 +86,14 @@ TEST(FrameComparison, CountsWhatIsMissedAndWhatIsFalseByLabel) {
 TEST(FrameComparison, TakesQuantilesOfMatchedEchoes) {
   Firings reference;
   Firings other;
-  // Errors of 1, 2 ... 100 thousandths, of range as of intensity.
+  // Errors of 1, 2 ... 100 thousandths, both in range and in intensity.
   for (int i = 1; i <= 100; ++i) {
     const float error = 1e-3F * static_cast<float>(i);
     reference.push_back({{8.0F, 3, 1.0F}});
     other.push_back({{8.0F + error, 3, 1.0F - error}});
   }
   const FrameDifference d = Compare(reference, other);
-  const double round_off = 1e-6;  // float32 at 8 m: 4.8e-7.
+  const double round_off = 1e-6;  // The rounding of float32 at 8 m is 4.8e-7.
   EXPECT_NEAR(d.range_m.median, 0.050, round_off);
   EXPECT_NEAR(d.range_m.p95, 0.095, round_off);
   EXPECT_NEAR(d.intensity.median, 0.050, round_off);
@@ -108,7 +108,8 @@ TEST(FrameComparison, HasNoIntensityErrorWhereThereIsNoIntensity) {
 }
 
 TEST(FrameComparison, AveragesTheDropoutErrorOverRangeBins) {
-  // Bins of 10 m. In the first both firings return, then one of two; in the third none, then one.
+  // Bins of 10 m. In the first bin both firings return in the reference and one of two in the other
+  // frame; in the third bin none and then one.
   Firings reference = {{{5.0F}}, {{6.0F}}, {{25.0F, 3, 0.2F, 0.5F, Outcome::kBelowThreshold}}};
   Firings other = {{{5.0F}}, {}, {{25.0F}}};
   const FrameDifference d = Compare(reference, other);

@@ -5,7 +5,7 @@
 namespace railcast {
 namespace {
 
-// XXH3's published value for no input and seed 0.
+// XXH3's published value for empty input and seed 0.
 TEST(ContentHash, IsXxh3) {
   EXPECT_EQ(ContentHash(""), "2d06800538d394c2");
 }

@@ -7,7 +7,7 @@
 
 namespace railcast {
 
-/// The text with the first `from` in it turned into `to`.
+/// Returns the text with the first occurrence of `from` replaced by `to`.
 [[nodiscard]] inline std::string Replaced(std::string text,
                                           const std::string& from,
                                           const std::string& to) {
@@ -16,7 +16,7 @@ namespace railcast {
   return text.replace(place, from.size(), to);
 }
 
-/// The bytes with some bits of one of them flipped.
+/// Returns the bytes with some bits of one byte flipped.
 [[nodiscard]] inline std::string Flipped(std::string bytes, std::size_t place) {
   bytes[place] = static_cast<char>(bytes[place] ^ 0x15);
   return bytes;

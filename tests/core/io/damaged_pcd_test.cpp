@@ -1,9 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "core/io/pcd_encoder.h"
 #include "core/io/pcd_header.h"
-#include "core/io/pcd_reader.h"
 #include "core/io/write_file.h"
+#include "railcast/io/cloud_files.h"
 #include "tests/core/io/damage.h"
 #include "tests/core/io/example_frame.h"
 #include "tests/core/io/message_of.h"
@@ -88,7 +87,7 @@ TEST(ReadPcd, SurvivesEveryTruncation) {
   for (const auto encoding :
        {PcdEncoding::kBinary, PcdEncoding::kBinaryCompressed, PcdEncoding::kAscii}) {
     const std::string sound = Example(encoding);
-    // An ASCII file may lose its last end of line, and the last digits of its last number.
+    // An ASCII file may lose its last line end, and the last digits of its last number, unnoticed.
     const std::size_t slack = encoding == PcdEncoding::kAscii ? 2 : 0;
     for (std::size_t size = 0; size + slack < sound.size(); ++size) {
       WriteFileWhole(file, sound.substr(0, size));
@@ -108,7 +107,7 @@ TEST(ReadPcd, SurvivesEveryFlippedByte) {
     for (std::size_t place = 0; place < sound.size(); ++place) {
       WriteFileWhole(file, Flipped(sound, place));
       const std::string message = MessageOf([&] { (void)ReadPcd(file); });
-      // Some flips only change a value, a name or a comment.
+      // Some flips change only a value, a name or a comment.
       EXPECT_TRUE(message == "no error" || message.find(file.string() + ": ") == 0U) << message;
     }
   }

@@ -4,8 +4,7 @@
 #include <limits>
 
 #include "core/base/random.h"
-#include "core/frame/frame.h"
-#include "core/frame/labels.h"
+#include "railcast/frame.h"
 
 namespace railcast {
 
@@ -18,8 +17,8 @@ inline LabelTable ExampleLabels() {
   return LabelTable(labels);
 }
 
-/// A frame whose every field has many different values: floats with all their bits in use, every
-/// outcome in turn, NaN where there is no point. A function of its arguments.
+/// Returns a frame whose every field has many different values: floats with all their bits in use,
+/// every outcome in turn, NaN where there is no point. Equal arguments give equal frames.
 inline Frame ExampleFrame(std::uint32_t index, std::uint32_t rows = 6, std::uint32_t columns = 9) {
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
   Frame frame;

@@ -1,4 +1,4 @@
-#include "core/io/field_selection.h"
+#include "railcast/io/cloud_files.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,10 @@
-#include "core/io/frame_files.h"
+#include "railcast/io/cloud_files.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "core/io/recording/point_table.h"
 #include "tests/core/io/example_frame.h"
 #include "tests/core/io/message_of.h"
 
@@ -10,7 +13,8 @@ namespace {
 
 std::vector<std::string> Names(const std::string& format, std::uint32_t number) {
   std::vector<FrameFile> files;
-  EncodeFrameFiles(ExampleFrame(0), {ParseFrameFormat(format), {}, ExampleLabels()}, number, files);
+  EncodeFrameFiles(ExampleFrame(0), {&ParseFrameFormat(format), {}, ExampleLabels()}, number,
+                   files);
   std::vector<std::string> names;
   for (const FrameFile& file : files) names.push_back(file.name);
   return names;
@@ -29,27 +33,54 @@ TEST(FrameFiles, AreNamedByFormatAndNumber) {
 
 TEST(FrameFiles, OfOneFrameAreTheSameWhateverWasEncodedBefore) {
   std::vector<FrameFile> used;
-  for (const char* format :
-       {"pcd", "pcd-compressed", "pcd-ascii", "ply", "ply-cloudcompare", "kitti"}) {
-    const FrameFileSpec spec{ParseFrameFormat(format), {}, ExampleLabels()};
+  for (const FrameFormat& format : FrameFormats()) {
+    const FrameFileSpec spec{&format, {}, ExampleLabels()};
     EncodeFrameFiles(ExampleFrame(5, 8, 20), spec, 0, used);
     EncodeFrameFiles(ExampleFrame(1), spec, 0, used);
     std::vector<FrameFile> fresh;
     EncodeFrameFiles(ExampleFrame(1), spec, 0, fresh);
     ASSERT_EQ(used.size(), fresh.size());
     for (std::size_t i = 0; i < fresh.size(); ++i)
-      EXPECT_EQ(used[i].bytes, fresh[i].bytes) << format;
+      EXPECT_EQ(used[i].bytes, fresh[i].bytes) << format.name;
   }
 }
 
 TEST(FrameFormat, NamesReadBack) {
-  for (const char* name :
-       {"pcd", "pcd-compressed", "pcd-ascii", "ply", "ply-cloudcompare", "kitti"}) {
-    EXPECT_EQ(FrameFormatName(ParseFrameFormat(name)), name);
+  for (const std::string& name : FrameFormatNames()) {
+    EXPECT_EQ(ParseFrameFormat(name).name, name);
   }
   EXPECT_EQ(MessageOf([] { (void)ParseFrameFormat("las"); }),
             "--format: unknown format \"las\" (valid: pcd, pcd-compressed, pcd-ascii, ply, "
             "ply-cloudcompare, kitti)");
+}
+
+TEST(FrameFormat, ReadsBackAsManyPointsAsItHolds) {
+  const Frame frame = ExampleFrame(5, 8, 20);
+  const auto num_points =
+      static_cast<std::size_t>(std::count_if(frame.outcome.begin(), frame.outcome.end(), HasPoint));
+  ASSERT_LT(num_points, frame.num_slots());
+  for (const FrameFormat& format : FrameFormats()) {
+    if (format.parse == nullptr) continue;
+    std::vector<FrameFile> files;
+    EncodeFrameFiles(frame, {&format, {}, ExampleLabels()}, 7, files);
+    const auto second = files.size() > 1 ? std::optional(files[1].bytes) : std::nullopt;
+    EXPECT_EQ(format.parse(files[0].name, files[0].bytes, second).num_points(),
+              format.has_all_slots ? frame.num_slots() : num_points)
+        << format.name;
+    EXPECT_EQ(FindReader(files[0].name)->files.front().extension, format.files.front().extension);
+  }
+}
+
+TEST(FrameFormat, IsFoundByNoOtherName) {
+  EXPECT_EQ(FindFrameFormat("las"), nullptr);
+  EXPECT_EQ(FindReader("frames/000001.las"), nullptr);
+  EXPECT_EQ(FindReader("frames/pcd"), nullptr);
+}
+
+TEST(FrameFormat, SaysWhichExtensionsAreRead) {
+  EXPECT_EQ(ReadableExtensions(false), ".pcd or .ply");
+  EXPECT_EQ(ReadableExtensions(true), ".pcd, .ply or .bin");
+  EXPECT_EQ(ReadableExtensions(true, {".pcap", ".pcapng"}), ".pcd, .ply, .bin, .pcap or .pcapng");
 }
 
 }  // namespace

@@ -7,15 +7,14 @@
 #include <string>
 
 #include "core/io/pcap/pcap_reader.h"
-#include "core/io/pcd_reader.h"
-#include "core/io/ply_reader.h"
 #include "core/io/recording/line_reader.h"
-#include "core/io/recording/recording.h"
 #include "core/io/write_file.h"
-#include "core/scan/scan_pattern.h"
 #include "core/scenario/command_log.h"
-#include "core/scenario/scenario.h"
 #include "core/scene/obj_import.h"
+#include "railcast/io/cloud_files.h"
+#include "railcast/io/recording.h"
+#include "railcast/lidar.h"
+#include "railcast/scenario.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
 
@@ -24,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the reader of such files does with one, by the end of its name.
+/// The reader of each kind of file, by the file's extension.
 const std::map<std::string, std::function<void(const fs::path&)>> kReaders = {
     {"pcd", [](const fs::path& file) { static_cast<void>(ReadPcd(file)); }},
     {"ply", [](const fs::path& file) { static_cast<void>(ReadPly(file)); }},

@@ -14,7 +14,7 @@
 namespace railcast {
 namespace {
 
-std::size_t NumPoints(const Frame& frame) {
+std::size_t NumPointsIn(const Frame& frame) {
   std::size_t count = 0;
   for (const Outcome outcome : frame.outcome) count += HasPoint(outcome) ? 1 : 0;
   return count;
@@ -22,10 +22,10 @@ std::size_t NumPoints(const Frame& frame) {
 
 TEST(KittiPoints, AreFourFloatsForEveryPoint) {
   Frame frame = ExampleFrame(1);
-  frame.intensity[0] = std::numeric_limits<float>::quiet_NaN();  // As the geometry rung has it.
+  frame.intensity[0] = std::numeric_limits<float>::quiet_NaN();  // As at the geometry rung.
   std::string bytes;
   EncodeKittiPoints(frame, bytes);
-  ASSERT_EQ(bytes.size(), NumPoints(frame) * 16);
+  ASSERT_EQ(bytes.size(), NumPointsIn(frame) * 16);
   std::size_t point = 0;
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
     if (!HasPoint(frame.outcome[slot])) continue;
@@ -40,7 +40,7 @@ TEST(KittiLabels, HoldTheClassBelowAndTheInstanceAbove) {
   const Frame frame = ExampleFrame(1);
   std::string bytes;
   EncodeKittiLabels(frame, ExampleLabels(), {}, bytes);
-  ASSERT_EQ(bytes.size(), NumPoints(frame) * 4);
+  ASSERT_EQ(bytes.size(), NumPointsIn(frame) * 4);
   std::size_t point = 0;
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
     if (!HasPoint(frame.outcome[slot])) continue;
@@ -54,7 +54,8 @@ TEST(KittiLabels, HoldTheClassBelowAndTheInstanceAbove) {
 TEST(KittiLabels, TellWhatMovesOfAClassThatHasAnIdForIt) {
   Frame frame = ExampleFrame(1);
   for (std::size_t slot = 0; slot < 27; ++slot) {
-    if (frame.instance[slot] != 0) frame.instance[slot] = 4;  // Others stay instance 3, and stand.
+    // All others are instance 3, which does not move.
+    if (frame.instance[slot] != 0) frame.instance[slot] = 4;
   }
   std::string bytes;
   EncodeKittiLabels(frame, ExampleLabels(), {4, 5}, bytes);
@@ -68,7 +69,7 @@ TEST(KittiLabels, TellWhatMovesOfAClassThatHasAnIdForIt) {
     EXPECT_EQ(stored >> 16U, frame.instance[slot]);
   }
   EXPECT_EQ(MovingSemanticKitti(30), 254);
-  EXPECT_EQ(MovingSemanticKitti(50), 50);  // Buildings do not.
+  EXPECT_EQ(MovingSemanticKitti(50), 50);  // Buildings have no moving variant.
 }
 
 TEST(KittiLabels, RefuseAnInstanceTheyCannotHold) {
@@ -106,7 +107,7 @@ TEST(SemanticKittiYaml, NamesAllLabelsThatShareAClass) {
             std::string::npos);
 }
 
-// The strings as Python has them, so that both sides are ASCII.
+// Both sides are compared as Python's ASCII representation of the strings.
 TEST(SemanticKittiYaml, IsReadByPythonWhateverLabelsAreCalled) {
   if (RunCommand("/usr/bin/python3 -c 'import yaml'").status != 0) {
     GTEST_SKIP() << "python3-yaml is not installed";

@@ -7,7 +7,7 @@
 
 namespace railcast {
 
-/// What `work` says when it throws InputError; "no error" if it does not.
+/// Returns the message of the InputError that `work` throws, or "no error" if it throws none.
 template <typename Work>
 std::string MessageOf(Work&& work) {
   try {

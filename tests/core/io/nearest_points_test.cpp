@@ -9,7 +9,7 @@
 namespace railcast {
 namespace {
 
-/// Points about a plane, 400 m2 of it.
+/// Returns points near 400 m2 of a horizontal plane.
 pcl::PointCloud<pcl::PointXYZ>::Ptr MadeCloud(std::size_t num_points, float z_m, unsigned seed) {
   pcl::PointCloud<pcl::PointXYZ>::Ptr cloud(new pcl::PointCloud<pcl::PointXYZ>());
   std::mt19937 random(seed);
@@ -22,7 +22,7 @@ pcl::PointCloud<pcl::PointXYZ>::Ptr MadeCloud(std::size_t num_points, float z_m,
 }
 
 TEST(NearestSearch, FindsWhatPclsBruteForceFinds) {
-  // More queries than one thread takes at once.
+  // Enough queries for several threads.
   const auto queries = MadeCloud(3000, 0.0F, 1);
   const auto cloud = MadeCloud(500, 0.3F, 2);
   const NearestPoints nearest = NearestSearch(cloud).Of(*queries);

@@ -6,20 +6,21 @@
 #include <memory>
 #include <string>
 
-#include "core/io/frame_files.h"
 #include "core/io/write_file.h"
+#include "railcast/io/cloud_files.h"
 #include "tests/core/io/example_frame.h"
 #include "tests/core/io/temporary_directory.h"
 
 namespace railcast {
 namespace {
 
-// Debian's package python3-open3d belongs to Debian's interpreter, not to the first on the path.
+// /usr/bin/python3 is given in full because Debian's package python3-open3d belongs to Debian's
+// interpreter, which need not be the first on the path.
 bool HasOpen3d() {
   return std::system("/usr/bin/python3 -c 'import open3d' >/dev/null 2>&1") == 0;
 }
 
-// What Open3D's tensor reader finds: each attribute's name, element type and sum.
+// Returns what Open3D's tensor reader finds: each attribute's name, element type and sum.
 std::string Open3dReads(const std::filesystem::path& file) {
   const std::string command =
       "/usr/bin/python3 -c \"import open3d, numpy; p = open3d.t.io.read_point_cloud('" +
@@ -40,7 +41,7 @@ TEST_P(Open3d, ReadsEveryFieldThatAPlyOrPcdCarries) {
   const TemporaryDirectory directory;
   const Frame frame = ExampleFrame(4);
   std::vector<FrameFile> files;
-  EncodeFrameFiles(frame, {ParseFrameFormat(GetParam()), {}, ExampleLabels()}, 0, files);
+  EncodeFrameFiles(frame, {&ParseFrameFormat(GetParam()), {}, ExampleLabels()}, 0, files);
   const auto file = directory.path() / std::filesystem::path(files[0].name).filename();
   WriteFileWhole(file, files[0].bytes);
 

@@ -1,4 +1,4 @@
-#include "core/io/pcd_encoder.h"
+#include "railcast/io/cloud_files.h"
 
 #include <gtest/gtest.h>
 #include <pcl/io/pcd_io.h>
@@ -7,7 +7,6 @@
 #include <cstring>
 
 #include "core/io/field_layout.h"
-#include "core/io/pcd_reader.h"
 #include "core/io/write_file.h"
 #include "tests/core/io/example_frame.h"
 #include "tests/core/io/temporary_directory.h"
@@ -22,7 +21,7 @@ const pcl::PCLPointField* FieldOf(const pcl::PCLPointCloud2& cloud, std::string_
   return nullptr;
 }
 
-// The bit pattern is the same, or both are NaN (text knows only one).
+// Whether both have the same bit pattern or are both NaN, since text knows only one NaN.
 template <typename T>
 bool IsSame(T a, T b) {
   if constexpr (std::is_floating_point_v<T>) {

@@ -1,4 +1,4 @@
-#include "core/io/ply_encoder.h"
+#include "railcast/io/cloud_files.h"
 
 #include <gtest/gtest.h>
 #include <pcl/conversions.h>
@@ -7,7 +7,6 @@
 
 #include <cstring>
 
-#include "core/io/ply_reader.h"
 #include "core/io/write_file.h"
 #include "tests/core/io/example_frame.h"
 #include "tests/core/io/message_of.h"

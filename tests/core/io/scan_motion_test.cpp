@@ -16,7 +16,7 @@ namespace railcast {
 namespace {
 
 TEST(ScanMotion, PutsWhatStandsWhereItWasSeenAtTheStamp) {
-  // 3 m ahead and 6 deg to the left in a scan, on an arc.
+  // During the scan the sensor moves 3 m ahead on an arc and turns 6 deg to the left.
   constexpr double kTurn_rad = 0.1;
   constexpr double kRadius_m = 3.0 / kTurn_rad;
   const Transform world_from_stamp =
@@ -35,8 +35,8 @@ TEST(ScanMotion, PutsWhatStandsWhereItWasSeenAtTheStamp) {
   for (const double share : {0.0, 0.25, 0.5, 1.0}) {
     const Vector3 seen = stamp_from_sensor(share).inverse() * seen_at_stamp;
     const auto time_ns = static_cast<std::uint32_t>(share * 1e8);
-    // A straight line instead of the arc: off by turn x way / 8 in the middle, 37.5 mm, and a
-    // little more.
+    // ScanMotion follows the chord instead of the arc, which is off by turn x path / 8 = 37.5 mm in
+    // the middle; 10 % are added.
     const double tolerance_m = 1e-7 + 1.1 * 4.0 * share * (1.0 - share) * 3.0 * kTurn_rad / 8.0;
     EXPECT_LT((motion.AtStamp(seen, time_ns) - seen_at_stamp).norm(), tolerance_m) << share;
   }
@@ -65,11 +65,11 @@ TEST(ScanMotion, FlattensAWallForKittiThatAMovingSensorSeesSlanted) {
   const Frame frame = ScanOnce(world, MakeRaster(60.0, 30.0, 0.5), spec, 5);
   ASSERT_EQ(std::count_if(frame.outcome.begin(), frame.outcome.end(), HasPoint),
             static_cast<std::ptrdiff_t>(frame.num_slots()));
-  // At the stamp, 0.5 s, the wall is 60 - 15 - 2 m ahead; columns are seen until 0.1 s later.
+  // At the stamp, 0.5 s, the wall is 60 - 15 - 2 m ahead; columns are fired until 0.1 s later.
   const auto [kitti_least, kitti_most] = std::ranges::minmax(KittiX(frame));
   EXPECT_NEAR(kitti_least, 43.0F, 2e-3F);
   EXPECT_NEAR(kitti_most, 43.0F, 2e-3F);
-  // What PCD and PLY hold: x as it was seen.
+  // PCD and PLY hold x as it was measured.
   const auto [least, most] = std::ranges::minmax(frame.x);
   EXPECT_NEAR(most - least, 30.0 * frame.duration_ns * 1e-9, 2e-3);
   EXPECT_GT(frame.duration_ns, 90'000'000U);

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/io/content_hash.h"
-#include "core/scenario/scenario.h"
+#include "railcast/scenario.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/project_folder.h"
@@ -51,7 +51,7 @@ TEST(ScenarioIdentity, ChangesWithTheContentOfAFile) {
   }
 }
 
-// The list of inputs is then the same.
+// Both scenarios have the same list of inputs.
 TEST(ScenarioIdentity, TellsWhichObjectHasWhichOfTwoFilesOfOneName) {
   const TemporaryDirectory directory;
   ScenarioSpec scenario = ReadScenario(MakeProject(directory.path() / "a"));

@@ -18,9 +18,10 @@
 
 namespace railcast {
 
-/// What a process on a small disk said, or why the system gave it none.
+/// The result of a process on a small disk, or why the system refused to run it.
 struct SmallDiskResult {
-  std::string refused;  ///< "unshare: Operation not permitted"; empty if the work was done.
+  /// For example "unshare: Operation not permitted"; empty if the work was done.
+  std::string refused;
   std::string said;
 };
 
@@ -37,7 +38,7 @@ inline bool WriteTo(int descriptor, std::string_view bytes) {
   return true;
 }
 
-// A user namespace in which nobody has a name makes no files.
+// Maps the user to root of the user namespace; without such a mapping it cannot create files.
 inline bool KeepUser(uid_t user, gid_t group) {
   const auto write_file = [](const char* file, const std::string& text) {
     const int descriptor = ::open(file, O_WRONLY | O_CLOEXEC);
@@ -50,8 +51,8 @@ inline bool KeepUser(uid_t user, gid_t group) {
          write_file("/proc/self/gid_map", "0 " + std::to_string(group) + " 1");
 }
 
-/// Mounts an empty 1 MiB tmpfs that this process alone sees.
-/// @return What the system refused; empty if nothing.
+/// Mounts an empty 1 MiB tmpfs that only this process sees.
+/// @return The call that the system refused; empty if none.
 inline std::string MountSmallDisk(const std::filesystem::path& disk) {
   const uid_t user = ::getuid();
   const gid_t group = ::getgid();
@@ -66,14 +67,14 @@ inline std::string MountSmallDisk(const std::filesystem::path& disk) {
   return {};
 }
 
-// How what the child says begins.
+// The first character of each message from the child.
 inline constexpr char kSaysRefused = 'r';
-inline constexpr char kSaysMounted = 'm';  // Before the work; after it:
+inline constexpr char kSaysMounted = 'm';  // Sent before the work; the two below, after it.
 inline constexpr char kSaysDone = 'd';
 inline constexpr char kSaysThrown = 't';
 
-/// In the child: mounts, works, says how it went. Nothing may be thrown beyond this: the parent's
-/// destructors would run a second time, in here.
+/// Runs in the child: mounts the disk, does the work and reports the result. No exception may leave
+/// this function, or the parent's destructors would run a second time in the child.
 [[noreturn]] inline void WorkOnSmallDisk(
     const std::filesystem::path& disk,
     const std::function<std::string(const std::filesystem::path&)>& work,
@@ -92,9 +93,10 @@ inline constexpr char kSaysThrown = 't';
 }
 
 /// Runs `work(disk)` in a child process that sees an empty 1 MiB tmpfs at `disk`, in a mount
-/// namespace of its own (and a user namespace, where we are not root). Gives back what it returns.
-/// @throws std::runtime_error if the work throws or its process dies: only what the system refuses
-///   is no failure.
+/// namespace of its own (and a user namespace, where the test is not run as root). Returns the
+/// result of `work`.
+/// @throws std::runtime_error if the work throws or its process dies. Calls that the system refuses
+///   are not failures; SmallDiskResult::refused names them.
 inline SmallDiskResult RunOnSmallDisk(
     const std::filesystem::path& disk,
     const std::function<std::string(const std::filesystem::path&)>& work) {

@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What the test that asks for the work would fail with; "no error" if it would not.
+// Returns the error with which a test that asks for this work would fail, or "no error".
 std::string FailureOf(const std::function<std::string(const fs::path&)>& work) {
   const TemporaryDirectory directory;
   try {

@@ -6,7 +6,7 @@ namespace railcast {
 namespace {
 
 template <typename T>
-std::string FaultOf(const std::string& text) {
+std::string JsonFaultOf(const std::string& text) {
   try {
     static_cast<void>(StrictJson::parse(text).get<T>());
   } catch (const StrictJson::exception& error) {
@@ -30,18 +30,18 @@ TEST(StrictJson, GivesWholeNumbersToThoseThatHoldThem) {
 }
 
 TEST(StrictJson, RefusesNumbersThatWouldBecomeOthers) {
-  EXPECT_EQ(FaultOf<std::uint32_t>("4294967296"), NotUnsigned("4294967296"));
-  EXPECT_EQ(FaultOf<std::uint32_t>("-1"), NotUnsigned("-1"));
-  EXPECT_EQ(FaultOf<std::uint32_t>("1.5"), NotUnsigned("1.5"));
-  EXPECT_EQ(FaultOf<std::uint32_t>("1e30"), NotUnsigned("1e+30"));
-  EXPECT_EQ(FaultOf<std::uint32_t>("true"), NotUnsigned("boolean"));
-  EXPECT_EQ(FaultOf<std::uint32_t>(std::string(100'000, '[') + std::string(100'000, ']')),
+  EXPECT_EQ(JsonFaultOf<std::uint32_t>("4294967296"), NotUnsigned("4294967296"));
+  EXPECT_EQ(JsonFaultOf<std::uint32_t>("-1"), NotUnsigned("-1"));
+  EXPECT_EQ(JsonFaultOf<std::uint32_t>("1.5"), NotUnsigned("1.5"));
+  EXPECT_EQ(JsonFaultOf<std::uint32_t>("1e30"), NotUnsigned("1e+30"));
+  EXPECT_EQ(JsonFaultOf<std::uint32_t>("true"), NotUnsigned("boolean"));
+  EXPECT_EQ(JsonFaultOf<std::uint32_t>(std::string(100'000, '[') + std::string(100'000, ']')),
             NotUnsigned("array"));
-  EXPECT_EQ(FaultOf<std::int64_t>("9223372036854775808"),
+  EXPECT_EQ(JsonFaultOf<std::int64_t>("9223372036854775808"),
             "[json.exception.type_error.302] must be a whole number from -9223372036854775808 to "
             "9223372036854775807, not 9223372036854775808");
   using Counts = std::map<std::string, std::uint64_t>;
-  EXPECT_NE(FaultOf<Counts>(R"({"rail": 1e30})"), "");
+  EXPECT_NE(JsonFaultOf<Counts>(R"({"rail": 1e30})"), "");
 }
 
 }  // namespace

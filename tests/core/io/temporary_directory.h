@@ -17,9 +17,9 @@ inline std::filesystem::path MakeDirectory(std::string name) {
   return name;
 }
 
-/// A new directory, in memory where the system has it, since tests need no disk to be waited for.
-/// It goes away with its contents when this process ends, however it ends: a failed Check or a
-/// signal runs no destructor, so that a shell in a session of its own waits for the end.
+/// Makes a new directory, in memory where the system allows it, so that tests do not wait for a
+/// disk. It is deleted with its contents when this process ends, in whatever way: a failed Check or
+/// a signal runs no destructors, so a shell in a session of its own waits for the end.
 inline std::filesystem::path MakeDirectoryForLife() {
   const std::filesystem::path memory = "/dev/shm";
   const auto parent =
@@ -30,7 +30,8 @@ inline std::filesystem::path MakeDirectoryForLife() {
   posix_spawn_file_actions_t streams;
   ::posix_spawn_file_actions_init(&streams);
   ::posix_spawn_file_actions_adddup2(&streams, ends[0], STDIN_FILENO);
-  // Whoever reads what the test says does not wait for the shell.
+  // The shell must not hold stdout and stderr open, or readers of the test's output would wait for
+  // it.
   ::posix_spawn_file_actions_addopen(&streams, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   ::posix_spawn_file_actions_addopen(&streams, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawnattr_t own_session;
@@ -52,7 +53,7 @@ inline std::filesystem::path MakeDirectoryForLife() {
   return directory;
 }
 
-/// A new directory that goes away with its contents.
+/// A new directory that is deleted with its contents.
 class TemporaryDirectory {
  public:
   TemporaryDirectory() {

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The directory that a process of its own made for life before the signal ended it.
+// Returns the directory that a separate process made for life before the signal ended it.
 fs::path LeftBehindBy(int signal) {
   std::array<int, 2> ends{};
   EXPECT_EQ(::pipe(ends.data()), 0);

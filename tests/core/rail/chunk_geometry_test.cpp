@@ -1,4 +1,4 @@
-// Tracks, contact line and ground together: what holds for every chunk.
+// Properties of tracks, contact line and ground together that hold for every chunk.
 
 #include <gtest/gtest.h>
 
@@ -20,12 +20,12 @@ WorldSpec RealLineOfTwoTracks() {
   spec.tracks.push_back(spec.tracks[0]);
   spec.tracks[1].name = "second";
   spec.tracks[1].offset_m = -4.0;
-  spec.tracks[1].sleeper = "wood";
+  spec.tracks[1].sleeper = SleeperType::kWood;
   return spec;
 }
 
 void ExpectSoundTriangles(const Mesh& mesh, const std::string& name) {
-  // A tenth of a millimetre squared.
+  // The square of a tenth of a millimetre.
   constexpr double kLeastArea_m2 = 1e-8;
   double least_m2 = 1.0;
   bool is_finite = true;
@@ -79,7 +79,7 @@ TEST(ChunkGeometry, ChangesWithTheSeedOnlyWhereItIsRandom) {
   }
 }
 
-/// In the level frame of the axis at chainage `s_m`, those within a millimetre of its plane x = 0.
+/// Points within a millimetre of the plane x = 0 in the level frame of the axis at chainage `s_m`.
 std::vector<Vector3> PointsAtSeam(const TestLine& line,
                                   int chunk_index,
                                   const SurfaceClass& surface,
@@ -97,8 +97,8 @@ std::vector<Vector3> PointsAtSeam(const TestLine& line,
   return points;
 }
 
-// Both chunks sample the same functions 1 mm of chainage apart: at d left of an axis of radius R
-// the gap is 1 - d / R mm. Heights differ by slope times 1 mm, float32 by 0.01 mm.
+// Both chunks sample the same functions, 1 mm of chainage apart: at d left of an axis of radius R,
+// the distance is 1 - d / R mm. Heights differ by slope times 1 mm, and float32 adds 0.01 mm.
 TEST(ChunkGeometry, OverlapsItsNeighbourByAMillimetre) {
   const TestLine line(CantedArc(500.0, 400.0));
   const auto& surfaces = line.surfaces();
@@ -111,8 +111,8 @@ TEST(ChunkGeometry, OverlapsItsNeighbourByAMillimetre) {
       EXPECT_GT(end.x(), 0.0);
       double nearest_m = std::numeric_limits<double>::infinity();
       for (const Vector3& begin : begins) nearest_m = std::min(nearest_m, (end - begin).norm());
-      // At the seam's row, whether a neighbouring cell is drawn may differ where ballast hides in
-      // the ground or ground below the ballast.
+      // Where ballast lies below the ground, or ground below the ballast, the chunks may differ in
+      // which cells at the seam are drawn.
       const bool is_hidden =
           surface.label == surfaces.ballast.label
               ? end.z() < -0.6

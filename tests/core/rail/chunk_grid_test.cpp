@@ -13,17 +13,17 @@ namespace {
 constexpr double kChunkLength_m = 50.0;
 constexpr double kHalfWidth_m = 80.0;
 
-Alignment Line(std::vector<AlignmentElement> elements) {
+Alignment LineOf(std::vector<AlignmentElement> elements) {
   AlignmentSpec spec;
   spec.course = AlignmentElementsSpec{std::move(elements)};
   return Alignment(spec);
 }
 
-/// 1 km out, half a circle of 100 m radius, 1 km back.
+/// 1 km straight, a semicircle of 100 m radius, and 1 km back.
 Alignment Hairpin() {
-  return Line({{"straight", 1000.0, {}},
-               {"arc", 100.0 * std::numbers::pi, 100.0},
-               {"straight", 1000.0, {}}});
+  return LineOf({{ElementType::kStraight, 1000.0, {}},
+                 {ElementType::kArc, 100.0 * std::numbers::pi, 100.0},
+                 {ElementType::kStraight, 1000.0, {}}});
 }
 
 std::vector<int> Range(int first, int last) {
@@ -33,7 +33,7 @@ std::vector<int> Range(int first, int last) {
 }
 
 TEST(ChunkGrid, EndsWithAShorterChunk) {
-  const ChunkGrid grid(Line({{"straight", 120.0, {}}}), kChunkLength_m, kHalfWidth_m);
+  const ChunkGrid grid(LineOf({{ElementType::kStraight, 120.0, {}}}), kChunkLength_m, kHalfWidth_m);
   EXPECT_EQ(grid.num_chunks(), 3);
   EXPECT_EQ(grid.BeginOf(2), 100.0);
   EXPECT_EQ(grid.EndOf(1), 100.0);
@@ -42,12 +42,12 @@ TEST(ChunkGrid, EndsWithAShorterChunk) {
 }
 
 TEST(ChunkGrid, HasNoEmptyChunkAtTheEnd) {
-  const ChunkGrid grid(Line({{"straight", 100.0, {}}}), kChunkLength_m, kHalfWidth_m);
+  const ChunkGrid grid(LineOf({{ElementType::kStraight, 100.0, {}}}), kChunkLength_m, kHalfWidth_m);
   EXPECT_EQ(grid.num_chunks(), 2);
 }
 
 TEST(ChunkGrid, GivesTheFirstOrLastChunkBeyondTheLine) {
-  const ChunkGrid grid(Line({{"straight", 120.0, {}}}), kChunkLength_m, kHalfWidth_m);
+  const ChunkGrid grid(LineOf({{ElementType::kStraight, 120.0, {}}}), kChunkLength_m, kHalfWidth_m);
   EXPECT_EQ(grid.ChunkAt(-10.0), 0);
   EXPECT_EQ(grid.ChunkAt(0.0), 0);
   EXPECT_EQ(grid.ChunkAt(50.0), 1);
@@ -56,7 +56,7 @@ TEST(ChunkGrid, GivesTheFirstOrLastChunkBeyondTheLine) {
 
 TEST(ChunkGrid, HasLevelChunkFrames) {
   AlignmentSpec spec;
-  spec.course = AlignmentElementsSpec{{{"arc", 200.0, 400.0}}};
+  spec.course = AlignmentElementsSpec{{{ElementType::kArc, 200.0, 400.0}}};
   spec.gradients_permil = {{0.0, 30.0}};
   spec.speed_limits_kmph = {{0.0, 90.0}};
   const Alignment alignment(spec);
@@ -70,8 +70,9 @@ TEST(ChunkGrid, HasLevelChunkFrames) {
 }
 
 TEST(ChunkGrid, ReachesAlongAStraightLineAsFarAsAsked) {
-  const ChunkGrid grid(Line({{"straight", 5000.0, {}}}), kChunkLength_m, kHalfWidth_m);
-  // Home is 2000 to 2050 m; 310 m and a slack of 7.5 m lead from 1682.5 m to 2367.5 m.
+  const ChunkGrid grid(LineOf({{ElementType::kStraight, 5000.0, {}}}), kChunkLength_m,
+                       kHalfWidth_m);
+  // The home chunk is 2000 to 2050 m; 310 m plus a slack of 7.5 m extend from 1682.5 m to 2367.5 m.
   EXPECT_EQ(grid.WithinReach(40, 310.0), Range(33, 47));
   EXPECT_EQ(grid.WithinReach(0, 310.0), Range(0, 7));
   EXPECT_EQ(grid.WithinReach(99, 310.0), Range(92, 99));
@@ -79,8 +80,7 @@ TEST(ChunkGrid, ReachesAlongAStraightLineAsFarAsAsked) {
 
 TEST(ChunkGrid, ReachesTheOtherSideOfAHairpin) {
   const ChunkGrid grid(Hairpin(), kChunkLength_m, kHalfWidth_m);
-  // Chunk 4 (200 to 250 m) looks across 200 m to the line at 2114.16 - 50 n; its ground's edge is
-  // 120 m away.
+  // Chunk 4 (200 to 250 m) is 200 m from the returning line, whose ground has its edge 120 m away.
   const std::vector<int> near = grid.WithinReach(4, 130.0);
   EXPECT_THAT(near, testing::IsSupersetOf(Range(2, 6)));
   EXPECT_THAT(near, testing::Contains(grid.ChunkAt(2314.16 - 225.0)));
@@ -89,7 +89,7 @@ TEST(ChunkGrid, ReachesTheOtherSideOfAHairpin) {
   EXPECT_EQ(grid.WithinReach(4, 100.0), Range(1, 7));
 }
 
-// The whole definition by brute force: no ground point that is within reach is missed.
+// Checks the definition by brute force: no ground point within reach is missed.
 TEST(ChunkGrid, MissesNoGroundWithinReach) {
   const Alignment alignment = Hairpin();
   const ChunkGrid grid(alignment, kChunkLength_m, kHalfWidth_m);

@@ -4,21 +4,20 @@
 #include <vector>
 
 #include "core/rail/rail_surfaces.h"
-#include "core/scene/mesh.h"
-#include "core/scene/world.h"
+#include "railcast/scene.h"
 
 namespace railcast {
 
-/// The vertices of a model's part of that surface; empty if it has none.
+/// The vertices of the model's part with that surface; empty if it has none.
 [[nodiscard]] std::vector<Vector3> VerticesOf(const Model& model, const SurfaceClass& surface);
 
-/// The longest edge of every triangle of that surface.
+/// Length of the longest edge of every triangle with that surface.
 [[nodiscard]] std::vector<double> LongestEdges_m(const Model& model, const SurfaceClass& surface);
 
-/// Triangles with an index out of range, a coordinate that is no number, or no area.
+/// Number of triangles with an index out of range, a non-finite coordinate, or no area.
 [[nodiscard]] std::size_t CountBadTriangles(const Model& model);
 
-/// Expects the same bytes of ground and models, in the same places with the same instances.
+/// Expects bitwise equal ground and models, with the same placements and instances.
 void ExpectSameChunk(const Chunk& first, const Chunk& second);
 
 }  // namespace railcast

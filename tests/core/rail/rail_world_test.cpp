@@ -1,4 +1,4 @@
-#include "core/rail/rail_world.h"
+#include "railcast/rail_world.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/base/units.h"
 #include "core/rail/catenary/catenary.h"
 #include "tests/core/rail/model_checks.h"
 #include "tests/core/rail/test_tables.h"
@@ -13,12 +14,11 @@
 namespace railcast {
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
-
 WorldSpec CurvedWorld() {
   WorldSpec world;
-  world.alignment.course = AlignmentElementsSpec{
-      {{"straight", 200.0, {}}, {"clothoid", 100.0, {}}, {"arc", 325.0, 400.0}}};
+  world.alignment.course = AlignmentElementsSpec{{{ElementType::kStraight, 200.0, {}},
+                                                  {ElementType::kClothoid, 100.0, {}},
+                                                  {ElementType::kArc, 325.0, 400.0}}};
   world.alignment.gradients_permil = {{0.0, 5.0}};
   world.alignment.speed_limits_kmph = {{0.0, 80.0}};
   TrackSpec second;
@@ -28,7 +28,7 @@ WorldSpec CurvedWorld() {
   return world;
 }
 
-ObjectSpec Object(const std::string& name, const std::string& type, double s_m) {
+ObjectSpec ObjectAt(const std::string& name, ObjectType type, double s_m) {
   ObjectSpec object;
   object.name = name;
   object.type = type;
@@ -43,13 +43,13 @@ VehicleSpec MovingVehicle() {
   return vehicle;
 }
 
-RailWorld Make(const WorldSpec& world, const VehicleSpec& vehicle) {
+RailWorld MakeRailWorld(const WorldSpec& world, const VehicleSpec& vehicle) {
   return RailWorld(world, vehicle, TestLabels(), TestMaterials(), 7);
 }
 
-std::string FaultOf(const WorldSpec& world, const VehicleSpec& vehicle) {
+std::string WorldFaultOf(const WorldSpec& world, const VehicleSpec& vehicle) {
   try {
-    Make(world, vehicle);
+    MakeRailWorld(world, vehicle);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -71,21 +71,21 @@ Eigen::AlignedBox3d BoundsOf(const Chunk& chunk) {
 TEST(RailWorld, MovesTheVehicleAlongItsTrack) {
   VehicleSpec vehicle = MovingVehicle();
   vehicle.track = "second";
-  const RailWorld world = Make(CurvedWorld(), vehicle);
-  EXPECT_TRUE(world.WorldFromVehicle(20 * kSecond_ns)
+  const RailWorld world = MakeRailWorld(CurvedWorld(), vehicle);
+  EXPECT_TRUE(world.WorldFromVehicle(20 * kNsPerS)
                   .isApprox(world.alignment().WorldFromTrack(430.0, 4.0), 1e-12));
   EXPECT_EQ(world.HomeChunk(0), 0);
-  EXPECT_EQ(world.HomeChunk(1 * kSecond_ns), 1);
-  EXPECT_EQ(world.HomeChunk(20 * kSecond_ns), 8);
+  EXPECT_EQ(world.HomeChunk(1 * kNsPerS), 1);
+  EXPECT_EQ(world.HomeChunk(20 * kNsPerS), 8);
 }
 
 TEST(RailWorld, LetsAVehicleInReverseLookWhereItGoes) {
   VehicleSpec vehicle = MovingVehicle();
   vehicle.start_s_m = 400.0;
   vehicle.motion.reverse = true;
-  const RailWorld world = Make(CurvedWorld(), vehicle);
+  const RailWorld world = MakeRailWorld(CurvedWorld(), vehicle);
   const Transform before = world.WorldFromVehicle(0);
-  const Transform after = world.WorldFromVehicle(kSecond_ns);
+  const Transform after = world.WorldFromVehicle(kNsPerS);
   const Vector3 way = (after.translation() - before.translation()).normalized();
   EXPECT_GT(way.dot(before.linear().col(0)), 0.99);
   EXPECT_TRUE(
@@ -94,11 +94,12 @@ TEST(RailWorld, LetsAVehicleInReverseLookWhereItGoes) {
 
 TEST(RailWorld, NumbersItsObjectsAndPutsTheVehicleLast) {
   WorldSpec spec = CurvedWorld();
-  spec.objects = {Object("wagon", "open_wagon", 100.0), Object("walker", "person", 120.0)};
+  spec.objects = {ObjectAt("wagon", ObjectType::kOpenWagon, 100.0),
+                  ObjectAt("walker", ObjectType::kPerson, 120.0)};
   spec.objects[1].motion = MotionSpec{{{0.0, std::nullopt, 1.5}}};
   VehicleSpec vehicle = MovingVehicle();
   vehicle.ego_boxes_m = {{-4.0, -1.5, 0.2, 0.5, 1.5, 2.0}, {-4.0, -1.5, 2.0, -1.0, 1.5, 4.0}};
-  const RailWorld world = Make(spec, vehicle);
+  const RailWorld world = MakeRailWorld(spec, vehicle);
   ASSERT_EQ(world.objects().size(), 3U);
   const SceneObject& wagon = world.objects()[0];
   EXPECT_EQ(wagon.instance, 1U);
@@ -115,17 +116,17 @@ TEST(RailWorld, NumbersItsObjectsAndPutsTheVehicleLast) {
   EXPECT_TRUE(ego.moves);
   EXPECT_EQ(ego.model->num_triangles(), 24U);
   EXPECT_TRUE(ego.model->Bounds().min().isApprox(Vector3(-4.0, -1.5, 0.2), 1e-6));
-  EXPECT_TRUE(
-      world.WorldFromObject(2, kSecond_ns).isApprox(world.WorldFromVehicle(kSecond_ns), 1e-12));
+  EXPECT_TRUE(world.WorldFromObject(2, kNsPerS).isApprox(world.WorldFromVehicle(kNsPerS), 1e-12));
 }
 
 TEST(RailWorld, PlacesObjectsByTheirTrack) {
   WorldSpec spec = CurvedWorld();
-  spec.objects = {Object("wagon", "tank_wagon", 500.0), Object("walker", "person", 500.0)};
+  spec.objects = {ObjectAt("wagon", ObjectType::kTankWagon, 500.0),
+                  ObjectAt("walker", ObjectType::kPerson, 500.0)};
   spec.objects[0].track = "second";
   spec.objects[1].d_m = -2.0;
   spec.objects[1].heading_deg = 90.0;
-  const RailWorld world = Make(spec, {});
+  const RailWorld world = MakeRailWorld(spec, {});
   const Alignment& alignment = world.alignment();
   EXPECT_TRUE(world.WorldFromObject(0, 0).isApprox(alignment.WorldFromTrack(500.0, 4.0), 1e-12));
   const Transform world_from_walker = world.WorldFromObject(1, 0);
@@ -134,12 +135,12 @@ TEST(RailWorld, PlacesObjectsByTheirTrack) {
   EXPECT_TRUE(world_from_walker.linear().col(2).isApprox(Vector3::UnitZ(), 1e-12));
   EXPECT_NEAR(
       world_from_walker.linear().col(0).dot(alignment.WorldFromTrack(500.0).linear().col(0)), 0.0,
-      0.01);  // Across the track, but for its gradient and cant.
+      0.01);  // Across the track, except for gradient and cant.
 }
 
 TEST(RailWorld, FillsEveryChunkWithGroundTracksAndMasts) {
-  const RailWorld world = Make(CurvedWorld(), {});
-  const int last = world.HomeChunk(3600 * kSecond_ns) + 12;
+  const RailWorld world = MakeRailWorld(CurvedWorld(), {});
+  const int last = world.HomeChunk(3600 * kNsPerS) + 12;
   bool has_mast = false;
   for (int chunk = 0; chunk <= last; ++chunk) {
     const Chunk built = world.BuildChunk(chunk);
@@ -155,27 +156,28 @@ TEST(RailWorld, FillsEveryChunkWithGroundTracksAndMasts) {
 }
 
 TEST(RailWorld, BuildsTheSameChunkEveryTime) {
-  const RailWorld world = Make(CurvedWorld(), {});
-  const RailWorld again = Make(CurvedWorld(), {});
+  const RailWorld world = MakeRailWorld(CurvedWorld(), {});
+  const RailWorld again = MakeRailWorld(CurvedWorld(), {});
   ExpectSameChunk(world.BuildChunk(5), again.BuildChunk(5));
 }
 
 TEST(RailWorld, ReachesAllChunksThatABeamMayHit) {
-  const RailWorld world = Make(CurvedWorld(), {});
-  // From chunk 0: 100 m of range, 8 m of overhang, 7.5 m of slack.
+  const RailWorld world = MakeRailWorld(CurvedWorld(), {});
+  // From chunk 0: 100 m range, 8 m overhang, 7.5 m slack.
   EXPECT_THAT(world.ChunksInReach(0, 100.0), testing::ElementsAre(0, 1, 2, 3));
 }
 
 TEST(RailWorld, ReportsTheFaultsOfLinePlacesAndProfilesTogether) {
   WorldSpec world = CurvedWorld();
   world.alignment.gradients_permil = {{3.0, 1.0}};
-  world.objects = {Object("a", "person", 10.0), Object("b", "person", 10.0)};
+  world.objects = {ObjectAt("a", ObjectType::kPerson, 10.0),
+                   ObjectAt("b", ObjectType::kPerson, 10.0)};
   world.objects[0].motion = MotionSpec{{{0.0, std::nullopt, -1.0}}};
   world.objects[1].track = "third";
   VehicleSpec vehicle = MovingVehicle();
   vehicle.motion.profile.push_back({std::nullopt, 50.0, 1.0});
   EXPECT_EQ(
-      FaultOf(world, vehicle),
+      WorldFaultOf(world, vehicle),
       "/world/alignment/gradients_permil/0/s_m: must be 0, the beginning of the line (got 3)\n"
       "/world/objects/1/track: must be one of \"main\", \"second\" (got \"third\")\n"
       "/vehicle/motion/profile/1: must be at a time_s like the first point (got s_m)\n"
@@ -184,11 +186,10 @@ TEST(RailWorld, ReportsTheFaultsOfLinePlacesAndProfilesTogether) {
 
 TEST(RailWorld, ReportsTheFaultsOfAllObjectsTogether) {
   WorldSpec world = CurvedWorld();
-  world.objects = {Object("a", "box", 10.0), Object("b", "tram", 10.0)};
-  EXPECT_EQ(FaultOf(world, {}),
+  world.objects = {ObjectAt("a", ObjectType::kBox, 10.0), ObjectAt("b", ObjectType::kMesh, 10.0)};
+  EXPECT_EQ(WorldFaultOf(world, {}),
             "/world/objects/0: size_m: required for type \"box\"\n"
-            "/world/objects/1: type: must be box, pole, person, open_wagon, "
-            "flat_wagon, tank_wagon or mesh (got \"tram\")");
+            "/world/objects/1: file: required for type \"mesh\"");
 }
 
 }  // namespace

@@ -7,14 +7,15 @@
 #include <limits>
 #include <numbers>
 
-#include "core/rail/rail_world.h"
+#include "railcast/rail_world.h"
 #include "tests/core/rail/test_line.h"
 #include "tests/core/rail/test_tables.h"
 
 namespace railcast {
 namespace {
 
-/// The highest point of the mesh straight above or below (x, y); minus infinity if there is none.
+/// Height of the mesh's highest point on the vertical through (x, y); minus infinity if there is
+/// none.
 double TopAt(const Mesh& mesh, const Transform& world_from_mesh, const Eigen::Vector2d& at_m) {
   double top_m = -std::numeric_limits<double>::infinity();
   for (const auto& triangle : mesh.triangles) {
@@ -33,7 +34,7 @@ double TopAt(const Mesh& mesh, const Transform& world_from_mesh, const Eigen::Ve
   return top_m;
 }
 
-/// Of the surfaces that the chunk draws.
+/// Height of the surfaces that the chunk draws.
 double DrawnHeight_m(const TestLine& line, int chunk, const Eigen::Vector2d& at_m) {
   const Chunk built = line.Build(chunk);
   const Transform world_from_chunk = line.WorldFromChunk(chunk);
@@ -41,8 +42,8 @@ double DrawnHeight_m(const TestLine& line, int chunk, const Eigen::Vector2d& at_
                   TopAt(MeshOfSurface(built, line.surfaces().ballast), world_from_chunk, at_m));
 }
 
-// Ballast has grains of sigma 20 mm on a grid of 0.2 m and, in the model, dips around sleepers;
-// ground roughness has waves of 2 m on a grid of 0.5 m and wider.
+// Tolerances: ballast has grains of sigma 20 mm on a grid of 0.2 m and hollows around sleepers;
+// ground roughness has a wavelength of 2 m on a grid of 0.5 m and coarser.
 TEST(StandingHeight, IsThatOfTheDrawnSurfaceOnTheTrackBesideItAndInTheField) {
   for (const WorldSpec& spec : {StraightLine(300.0), CantedArc(300.0, 400.0)}) {
     const TestLine line(spec);
@@ -50,7 +51,7 @@ TEST(StandingHeight, IsThatOfTheDrawnSurfaceOnTheTrackBesideItAndInTheField) {
     context.chunk_from_world = Transform::Identity();
     for (const double d_m : {0.0, 2.0, 2.6, -3.2, 5.0, -9.0, 14.0, 40.0}) {
       const double s_m = 122.3;
-      const Footprint point{s_m, d_m, 0.0, {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}};
+      const StandingPlace point{s_m, d_m, 0.0, {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}};
       const Vector3 place = line.alignment().WorldFromTrack(s_m, d_m).translation();
       EXPECT_NEAR(StandingHeight_m(context, point), DrawnHeight_m(line, 2, place.head<2>()), 0.08)
           << d_m;
@@ -63,11 +64,13 @@ TEST(StandingHeight, TakesTheLowestCornerOnASlope) {
   ChunkContext context = line.Context(2);
   context.chunk_from_world = Transform::Identity();
   // Across the ballast's slope of 1:1.5.
-  const Footprint wide{122.3, 2.0, 0.0, {Eigen::Vector2d(-0.1, -0.2), Eigen::Vector2d(0.1, 0.2)}};
-  const Footprint lower{122.3, 2.2, 0.0, {Eigen::Vector2d(-0.1, 0.0), Eigen::Vector2d(0.1, 0.0)}};
+  const StandingPlace wide{
+      122.3, 2.0, 0.0, {Eigen::Vector2d(-0.1, -0.2), Eigen::Vector2d(0.1, 0.2)}};
+  const StandingPlace lower{
+      122.3, 2.2, 0.0, {Eigen::Vector2d(-0.1, 0.0), Eigen::Vector2d(0.1, 0.0)}};
   EXPECT_NEAR(StandingHeight_m(context, wide), StandingHeight_m(context, lower), 1e-9);
-  // Turned by a quarter it reaches as far to the side as it is long.
-  Footprint turned = wide;
+  // Turned by 90 degrees, it extends as far to the side as it is long.
+  StandingPlace turned = wide;
   turned.heading_rad = std::numbers::pi / 2.0;
   EXPECT_GT(StandingHeight_m(context, turned), StandingHeight_m(context, wide) + 0.05);
 }
@@ -77,7 +80,7 @@ TEST(RailWorld, StandsObjectsOnTheGroundUnlessAHeightIsGiven) {
   for (const double h_m : {0.0, 1.5}) {
     ObjectSpec object;
     object.name = h_m == 0.0 ? "standing" : "hanging";
-    object.type = "person";
+    object.type = ObjectType::kPerson;
     object.s_m = 120.0;
     object.d_m = -8.0;
     if (h_m > 0.0) object.h_m = h_m;
@@ -85,7 +88,7 @@ TEST(RailWorld, StandsObjectsOnTheGroundUnlessAHeightIsGiven) {
   }
   ObjectSpec wagon = spec.objects.front();
   wagon.name = "wagon";
-  wagon.type = "flat_wagon";
+  wagon.type = ObjectType::kFlatWagon;
   spec.objects.push_back(wagon);
   const RailWorld world(spec, {}, TestLabels(), TestMaterials(), 1);
   const double top_of_rail_m = world.alignment().At(120.0).position_m.z();

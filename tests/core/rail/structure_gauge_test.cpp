@@ -30,8 +30,8 @@ TEST(StructureGauge, HasTheEnvelopeOfWagonsWithThePantographsAboveIt) {
                                    Corner(-1.575, 0.0)));
 }
 
-/// A box of 2 m x 1 m x 1.8 m that stands on the rails' height, its centre `d_m` from the axis.
-GaugeClearance Standing(double d_m, double heading_deg = 0.0, double h_m = 0.0) {
+/// A box of 2 m x 1 m x 1.8 m standing at top of rail + `h_m`, with its centre `d_m` from the axis.
+GaugeClearance StandingClearance(double d_m, double heading_deg = 0.0, double h_m = 0.0) {
   const Vector3 size_m(2.0, 1.0, 1.8);
   Transform track_from_box = Transform::Identity();
   track_from_box.translate(Vector3(40.0, d_m, h_m + 0.9));
@@ -40,39 +40,41 @@ GaugeClearance Standing(double d_m, double heading_deg = 0.0, double h_m = 0.0) 
 }
 
 TEST(StructureGauge, HoldsWhatReachesOverItsEdge) {
-  EXPECT_TRUE(Standing(0.0).is_inside);
-  EXPECT_EQ(Standing(0.0).from_axis_m, 0.0);
+  EXPECT_TRUE(StandingClearance(0.0).is_inside);
+  EXPECT_EQ(StandingClearance(0.0).from_axis_m, 0.0);
   for (const double side : {-1.0, 1.0}) {
-    EXPECT_TRUE(Standing(side * 2.074).is_inside);
-    EXPECT_FALSE(Standing(side * 2.076).is_inside);
-    EXPECT_NEAR(Standing(side * 2.4).from_axis_m, 1.9, 1e-12);
+    EXPECT_TRUE(StandingClearance(side * 2.074).is_inside);
+    EXPECT_FALSE(StandingClearance(side * 2.076).is_inside);
+    EXPECT_NEAR(StandingClearance(side * 2.4).from_axis_m, 1.9, 1e-12);
   }
-  // Turned about, its corner is nearest: sqrt(5) / 2 at atan(1 / 2).
+  // When it is rotated, a corner is nearest to the axis: sqrt(5) / 2 from the centre at atan(1 /
+  // 2).
   const double heading_deg = DegFromRad(std::atan(2.0));
   const double reach_m = std::sqrt(5.0) / 2.0;
   const double corner_deg = 90.0 - DegFromRad(std::atan(0.5));
   EXPECT_NEAR(corner_deg, heading_deg, 1e-9);
-  EXPECT_TRUE(Standing(1.574 + reach_m, heading_deg).is_inside);
-  EXPECT_FALSE(Standing(1.576 + reach_m, heading_deg).is_inside);
+  EXPECT_TRUE(StandingClearance(1.574 + reach_m, heading_deg).is_inside);
+  EXPECT_FALSE(StandingClearance(1.576 + reach_m, heading_deg).is_inside);
 }
 
 TEST(StructureGauge, LeavesOutWhatIsBelowTheRailsAndAboveTrains) {
-  EXPECT_TRUE(Standing(0.0, 0.0, -1.799).is_inside);
-  EXPECT_FALSE(Standing(0.0, 0.0, -1.801).is_inside);
-  EXPECT_TRUE(Standing(0.0, 0.0, 5.199).is_inside);
-  EXPECT_FALSE(Standing(0.0, 0.0, 5.201).is_inside);
-  // Beside the pantographs, above the wagons.
-  EXPECT_FALSE(Standing(1.95, 0.0, 4.3).is_inside);
-  EXPECT_TRUE(Standing(1.93, 0.0, 4.3).is_inside);
-  EXPECT_TRUE(Standing(1.95, 0.0, 4.2).is_inside);
+  EXPECT_TRUE(StandingClearance(0.0, 0.0, -1.799).is_inside);
+  EXPECT_FALSE(StandingClearance(0.0, 0.0, -1.801).is_inside);
+  EXPECT_TRUE(StandingClearance(0.0, 0.0, 5.199).is_inside);
+  EXPECT_FALSE(StandingClearance(0.0, 0.0, 5.201).is_inside);
+  // Above the wagons, but beside the space for pantographs.
+  EXPECT_FALSE(StandingClearance(1.95, 0.0, 4.3).is_inside);
+  EXPECT_TRUE(StandingClearance(1.93, 0.0, 4.3).is_inside);
+  EXPECT_TRUE(StandingClearance(1.95, 0.0, 4.2).is_inside);
 }
 
-// A beam that leans over the track: both its bounding intervals meet the gauge, it does not.
+// A beam leaning over the track: both its bounding intervals overlap the gauge, but the beam does
+// not.
 TEST(StructureGauge, LetsPassWhatLeansPastItsCorner) {
   Transform track_from_box = Transform::Identity();
   track_from_box.translate(Vector3(0.0, 2.6, 4.0));
   track_from_box.rotate(Eigen::AngleAxisd(RadFromDeg(45.0), Vector3::UnitX()));
-  // Its middle runs through (2.6, 4.0), up to the right of the corner (1.575, 4.28).
+  // Its axis passes through (2.6, 4.0), to the upper right of the corner (1.575, 4.28).
   const Vector3 thin(0.2, 0.2, 8.0);
   const double from_corner_m = std::abs((2.6 - 1.575) + (4.0 - 4.28)) / std::sqrt(2.0);
   ASSERT_GT(from_corner_m, 0.11);

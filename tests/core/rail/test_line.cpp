@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "core/rail/catenary/catenary.h"
-#include "core/rail/land/terrain.h"
+#include "core/rail/land/land.h"
 #include "core/rail/track/track_structure.h"
 #include "tests/core/rail/test_tables.h"
 
@@ -43,14 +43,14 @@ Chunk TestLine::Build(int chunk) const {
 
 WorldSpec StraightLine(double length_m) {
   WorldSpec spec;
-  spec.alignment.course = AlignmentElementsSpec{{{"straight", length_m, std::nullopt}}};
+  spec.alignment.course = AlignmentElementsSpec{{{ElementType::kStraight, length_m, std::nullopt}}};
   return spec;
 }
 
 WorldSpec CantedArc(double length_m, double radius_m) {
   WorldSpec spec;
-  spec.alignment.course = AlignmentElementsSpec{{{"arc", length_m, radius_m}}};
-  // Far above the equilibrium speed: cant at its maximum.
+  spec.alignment.course = AlignmentElementsSpec{{{ElementType::kArc, length_m, radius_m}}};
+  // Far above the equilibrium speed, so that cant has its maximum.
   spec.alignment.speed_limits_kmph = {{0.0, 200.0}};
   return spec;
 }

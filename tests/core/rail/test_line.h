@@ -7,11 +7,11 @@
 #include "core/rail/chunk_context.h"
 #include "core/rail/infrastructure_models.h"
 #include "core/rail/rail_surfaces.h"
-#include "core/scene/world.h"
+#include "railcast/scene.h"
 
 namespace railcast {
 
-/// A line with all that builders need, in chunks of 50 m.
+/// A line with everything that chunk builders need, in chunks of 50 m.
 class TestLine {
  public:
   static constexpr double kChunkLength_m = 50.0;
@@ -26,7 +26,7 @@ class TestLine {
 
   [[nodiscard]] ChunkContext Context(int chunk) const;
   [[nodiscard]] Transform WorldFromChunk(int chunk) const;
-  /// Tracks, contact line and ground.
+  /// Builds tracks, contact line and ground of a chunk.
   [[nodiscard]] Chunk Build(int chunk) const;
 
  private:
@@ -38,13 +38,13 @@ class TestLine {
   InfrastructureModels models_;
 };
 
-/// A level straight of one track.
+/// A straight, level line with one track.
 [[nodiscard]] WorldSpec StraightLine(double length_m);
 
-/// An arc of one track, with its full cant from beginning to end.
+/// A circular arc with one track and full cant over its whole length.
 [[nodiscard]] WorldSpec CantedArc(double length_m, double radius_m);
 
-/// The chunk's mesh of that surface; empty if it has none.
+/// The chunk's mesh with that surface; empty if it has none.
 [[nodiscard]] Mesh MeshOfSurface(const Chunk& chunk, const SurfaceClass& surface);
 
 }  // namespace railcast

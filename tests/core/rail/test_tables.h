@@ -1,12 +1,12 @@
 #pragma once
 
-#include "core/frame/labels.h"
 #include "core/rail/rail_surfaces.h"
-#include "core/scene/material.h"
+#include "railcast/frame.h"
+#include "railcast/material.h"
 
 namespace railcast {
 
-/// Tables with all that RailSurfaces looks up.
+/// Tables with all names that RailSurfaces looks up.
 [[nodiscard]] LabelTable TestLabels();
 [[nodiscard]] MaterialLibrary TestMaterials();
 [[nodiscard]] RailSurfaces TestSurfaces();

@@ -20,7 +20,7 @@ std::vector<std::string> Faults(const WorldSpec& world, const VehicleSpec& vehic
 ObjectSpec Box(const std::string& name, double s_m) {
   ObjectSpec object;
   object.name = name;
-  object.type = "box";
+  object.type = ObjectType::kBox;
   object.s_m = s_m;
   return object;
 }

@@ -15,7 +15,7 @@ using testing::IsEmpty;
 
 WorldSpec StraightKilometre() {
   WorldSpec world;
-  world.alignment.course = AlignmentElementsSpec{{{"straight", 1000.0, {}}}};
+  world.alignment.course = AlignmentElementsSpec{{{ElementType::kStraight, 1000.0, {}}}};
   return world;
 }
 
@@ -41,7 +41,7 @@ TEST(DraftWorld, FindsFaultsOfEveryPart) {
   world.catenary.system_height_m = 0.1;
   world.objects.resize(1);
   world.objects[0].name = "a";
-  world.objects[0].type = "box";
+  world.objects[0].type = ObjectType::kBox;
   VehicleSpec vehicle;
   vehicle.start_s_m = 1001.0;
   EXPECT_THAT(

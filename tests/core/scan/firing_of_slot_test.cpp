@@ -4,12 +4,13 @@
 #include <fstream>
 #include <vector>
 
-#include "core/scan/scan_pattern.h"
+#include "railcast/lidar.h"
 
 namespace railcast {
 namespace {
 
-/// Whether every slot's firing is of the slot's row and column, and each firing has its own slots.
+/// Expects that the firing of every slot has the slot's row and column, and that no two firings
+/// share a slot.
 void ExpectFiringsOfAllSlots(const ScanPattern& pattern, std::uint32_t returns) {
   std::vector<std::uint32_t> num_slots(pattern.num_firings());
   for (std::size_t slot = 0; slot < std::size_t{returns} * pattern.num_firings(); ++slot) {
@@ -25,7 +26,7 @@ void ExpectFiringsOfAllSlots(const ScanPattern& pattern, std::uint32_t returns) 
 }
 
 TEST(FiringOfSlot, FindsTheColumnsOfARasterInWhateverOrderTheyFire) {
-  for (const char* order : {"columns", "rows"}) {
+  for (const RasterOrder order : {RasterOrder::kColumns, RasterOrder::kRows}) {
     const ScanPattern pattern =
         BuildScanPattern({.rate_hz = 10.0, .pattern = RasterSpec{6.0, 4.0, 1.0, order}});
     ExpectFiringsOfAllSlots(pattern, 1);
@@ -38,7 +39,7 @@ TEST(FiringOfSlot, FindsTheColumnsOfARasterInWhateverOrderTheyFire) {
 }
 
 TEST(FiringOfSlot, FindsTheChannelsOfASpinningSensorWithSeveralReturns) {
-  // Rows go by elevation: the channel that fires first is the highest.
+  // Rows are ordered by elevation: the channel that fires first is the highest.
   const SpinningSpec spinning{.channels = {{.elevation_deg = 5.0, .time_us = 0.0},
                                            {.elevation_deg = -10.0, .time_us = 25.0},
                                            {.elevation_deg = 0.0, .time_us = 50.0}},

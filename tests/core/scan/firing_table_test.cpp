@@ -19,7 +19,7 @@ class FiringTable : public testing::Test {
     return {.rate_hz = rate_hz, .pattern = FiringTableSpec{file_}};
   }
 
-  /// The faults, with the file's name shortened to "table.csv".
+  /// The faults, with the file name shortened to "table.csv".
   std::string FaultsOfText(const std::string& text) const {
     std::string faults = FaultsOf(Write(text));
     for (std::size_t at = 0; (at = faults.find(file_, at)) != std::string::npos;) {

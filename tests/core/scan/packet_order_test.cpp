@@ -10,7 +10,7 @@
 namespace railcast {
 namespace {
 
-/// Azimuth and elevation a packet spans.
+/// Azimuth and elevation range of a packet.
 struct Extent {
   double azimuth_deg{};
   double elevation_deg{};
@@ -34,7 +34,7 @@ Extent ExtentOfPacket(const ScanPattern& pattern, std::size_t packet) {
   return {left_deg - right_deg, high_deg - low_deg};
 }
 
-/// Checks the promise of ScanPattern::packet_order.
+/// Checks the guarantees of ScanPattern::packet_order.
 void ExpectEveryFiringOnce(const ScanPattern& pattern) {
   const std::size_t num_firings = pattern.num_firings();
   ASSERT_EQ(pattern.packet_order.size(), (num_firings + 15) / 16 * 16);
@@ -78,23 +78,23 @@ TEST(PacketOrder, KeepsPacketsTogetherWhereBlocksDoNotFit) {
   const ScanPattern pattern = Raster(61.0, 31.0, 1.0);
   for (std::size_t packet = 0; packet < pattern.packet_order.size() / kPacketSize; ++packet) {
     const Extent extent = ExtentOfPacket(pattern, packet);
-    // A packet that turns at the end of a band of four rows lies in two bands; the last band is
-    // three rows high, so that its packets are six columns wide.
+    // A packet at the end of a band of four rows continues in the next band. The last band is three
+    // rows high, so its packets are six columns wide.
     ASSERT_LE(extent.azimuth_deg, 6.0);
     ASSERT_LE(extent.elevation_deg, 7.0 + kFloatAngle_deg);
   }
 }
 
 TEST(PacketOrder, KeepsPacketsOfASpinningSensorWithAzimuthOffsetsTogether) {
-  // 32 channels 1 deg apart whose offsets differ by up to 9 deg; 0.2 deg from cycle to cycle.
+  // 32 channels 1 deg apart, with azimuth offsets that differ by up to 9 deg; 0.2 deg per cycle.
   SpinningSpec spec{.channels = {}, .cycle_us = 100000.0 / 1800.0, .columns = 1800};
   for (int i = 0; i < 32; ++i) {
     spec.channels.push_back({.elevation_deg = i - 16.0, .azimuth_deg = 3.0 * (i % 4) - 4.5});
   }
   const ScanPattern pattern = BuildScanPattern({.rate_hz = 10.0, .pattern = spec});
   ExpectEveryFiringOnce(pattern);
-  // Bands of round(sqrt(16 x 57600 x 369 / 31) / 1800) = 2 rows: 8 cycles wide. Ends of a turn,
-  // where one row of the band is alone for 3 deg, are twice as wide.
+  // Bands of round(sqrt(16 x 57600 x 369 / 31) / 1800) = 2 rows: 8 cycles wide. At the ends of a
+  // turn, where only one row of the band extends over 3 deg, packets are twice as wide.
   std::size_t num_wide = 0;
   const std::size_t num_packets = pattern.packet_order.size() / kPacketSize;
   for (std::size_t packet = 0; packet < num_packets; ++packet) {
@@ -107,7 +107,7 @@ TEST(PacketOrder, KeepsPacketsOfASpinningSensorWithAzimuthOffsetsTogether) {
 }
 
 TEST(PacketOrder, KeepsPacketsOfAScatteredTableTogether) {
-  // A Lissajous figure, 40 x 20 deg: neighbours in time are no neighbours in angle.
+  // A Lissajous figure, 40 x 20 deg: firings adjacent in time are not adjacent in angle.
   const std::string file = testing::TempDir() + "lissajous.csv";
   constexpr int kFirings = 10000;
   constexpr std::size_t kPackets = kFirings / kPacketSize;

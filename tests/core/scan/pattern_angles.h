@@ -5,13 +5,14 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "core/base/transform.h"
 #include "core/base/units.h"
-#include "core/scan/scan_pattern.h"
+#include "railcast/lidar.h"
+#include "railcast/transform.h"
 
 namespace railcast {
 
-/// A unit vector's components err by at most 2^-25 each, so its angles by some 1e-7 rad.
+/// Each component of a unit vector has an error of at most 2^-25, so angles have errors of about
+/// 1e-7 rad.
 inline constexpr double kFloatAngle_deg = 1e-5;
 
 inline Vector3 Direction(const ScanPattern& pattern, std::size_t i) {
@@ -19,19 +20,19 @@ inline Vector3 Direction(const ScanPattern& pattern, std::size_t i) {
       .cast<double>();
 }
 
-/// Degrees, left positive, 0 = forward, in (-180, 180].
+/// Azimuth in degrees, left positive, 0 = forward, in (-180, 180].
 inline double AzimuthInDegrees(const ScanPattern& pattern, std::size_t i) {
   const Vector3 direction = Direction(pattern, i);
   return DegFromRad(std::atan2(direction.y(), direction.x()));
 }
 
-/// Degrees, up positive.
+/// Elevation in degrees, up positive.
 inline double ElevationInDegrees(const ScanPattern& pattern, std::size_t i) {
   const Vector3 direction = Direction(pattern, i);
   return DegFromRad(std::atan2(direction.z(), direction.head<2>().norm()));
 }
 
-/// What BuildScanPattern complains of; "none" if nothing.
+/// Text of the faults that BuildScanPattern reports; "none" if there are none.
 inline std::string FaultsOf(const ScanSpec& spec) {
   try {
     static_cast<void>(BuildScanPattern(spec));

@@ -41,7 +41,7 @@ TEST(RasterPattern, FiresColumnsEvenlyOverThePeriodAndRowsTogether) {
 
 TEST(RasterPattern, FiresRowsFromTheBottomWhereAskedTo) {
   ScanSpec spec = Published();
-  std::get<RasterSpec>(spec.pattern).order = "rows";
+  std::get<RasterSpec>(spec.pattern).order = RasterOrder::kRows;
   const ScanPattern pattern = BuildScanPattern(spec);
   for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
     ASSERT_EQ(pattern.row[i], i / 240);
@@ -80,10 +80,8 @@ TEST(RasterPattern, ReportsEveryFaultAtOnce) {
   EXPECT_EQ(FaultsOf({.rate_hz = 0.0,
                       .pattern = RasterSpec{.horizontal_fov_deg = 361.0,
                                             .vertical_fov_deg = -1.0,
-                                            .angular_resolution_deg = 0.25,
-                                            .order = "spiral"}}),
+                                            .angular_resolution_deg = 0.25}}),
             "/rate_hz: must be >= 0.01 and <= 1000000 (got 0)\n"
-            "/pattern/order: must be \"columns\" or \"rows\" (got \"spiral\")\n"
             "/pattern/horizontal_fov_deg: must be > 0 and <= 360 (got 361)\n"
             "/pattern/vertical_fov_deg: must be > 0 and <= 180 (got -1)");
   EXPECT_EQ(FaultsOf({.rate_hz = 10.0,

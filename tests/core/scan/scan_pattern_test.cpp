@@ -1,4 +1,4 @@
-#include "core/scan/scan_pattern.h"
+#include "railcast/lidar.h"
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@
 namespace railcast {
 namespace {
 
-constexpr double kTable_deg = 1e-3;  // The tables' own last digit.
+constexpr double kTable_deg = 1e-3;  // One unit of the last digit in the vendors' tables.
 
 std::vector<ChannelSpec> ChannelsOf(const std::string& name) {
   return std::get<SpinningSpec>(ReadSensor(name).pattern).channels;
@@ -147,7 +147,8 @@ INSTANTIATE_TEST_SUITE_P(SensorTables,
 
 TEST(SensorTables, Vlp16TurnsByTheAngleOfTwoCyclesFromBlockToBlock) {
   const ScanPattern pattern = BuildScanPattern(ReadSensor("vlp16"));
-  constexpr double kBlock_deg = 2.0 * 55.296e-6 * 3600.0;  // A real capture: 0.398 deg a block.
+  // A real capture has 0.398 deg per block.
+  constexpr double kBlock_deg = 2.0 * 55.296e-6 * 3600.0;
   EXPECT_NEAR(kBlock_deg, 0.398, 5e-4);
   for (std::size_t block = 1; block < 904; ++block) {
     const double turned_deg =

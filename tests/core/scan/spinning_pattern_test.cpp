@@ -8,7 +8,8 @@
 namespace railcast {
 namespace {
 
-/// Three channels out of order; 1000 cycles of 100 us fill a turn at 10 Hz: 0.36 deg a cycle.
+/// Three channels, not in order of elevation; 1000 cycles of 100 us fill a turn at 10 Hz: 0.36 deg
+/// per cycle.
 SpinningSpec ThreeChannels() {
   return {.channels = {{.elevation_deg = 5.0, .azimuth_deg = 0.0, .time_us = 0.0},
                        {.elevation_deg = -10.0, .azimuth_deg = 1.5, .time_us = 25.0},
@@ -57,7 +58,7 @@ TEST(SpinningPattern, AimsWhereTheRotorIsAtTheFiringsOwnTime) {
 
 TEST(SpinningPattern, TurnsLeftFromItsStartWhereAskedTo) {
   SpinningSpec spec = ThreeChannels();
-  spec.rotation = "counterclockwise";
+  spec.rotation = Rotation::kCounterclockwise;
   spec.start_azimuth_deg = 30.0;
   const ScanPattern pattern = BuildScanPattern({.rate_hz = 10.0, .pattern = spec});
   EXPECT_NEAR(AzimuthInDegrees(pattern, 0), 30.0, kFloatAngle_deg);
@@ -92,13 +93,11 @@ TEST(SpinningPattern, RefusesTurnsThatLastLongerThanThePeriod) {
             "/pattern/columns: columns x cycle_us must be <= 1 / rate_hz (got 100100)");
 }
 
-TEST(SpinningPattern, RefusesWhatIsNoRotationNoCycleAndNoStart) {
+TEST(SpinningPattern, RefusesWhatIsNoCycleAndNoStart) {
   SpinningSpec spec = ThreeChannels();
-  spec.rotation = "left";
   spec.start_azimuth_deg = 400.0;
   spec.cycle_us = 0.0;
   EXPECT_EQ(FaultsOf(spec),
-            "/pattern/rotation: must be \"clockwise\" or \"counterclockwise\" (got \"left\")\n"
             "/pattern/start_azimuth_deg: must be >= -360 and <= 360 (got 400)\n"
             "/pattern/cycle_us: must be > 0 (got 0)");
 }

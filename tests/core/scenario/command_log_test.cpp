@@ -17,7 +17,7 @@ class CommandLogFile : public testing::Test {
   CommandLog Read(const std::string& text) const {
     return ReadCommandLog(folder_.Write("log.jsonl", text));
   }
-  // What is said of the log, without the name of its file.
+  // The message about a faulty log, without the name of its file.
   std::string FaultOf(const std::string& text) const {
     try {
       static_cast<void>(Read(text));
@@ -35,7 +35,7 @@ class CommandLogFile : public testing::Test {
 TEST_F(CommandLogFile, IsReadAsItIsWritten) {
   PlaceObject place;
   place.object.name = "bob";
-  place.object.type = "person";
+  place.object.type = ObjectType::kPerson;
   place.object.s_m = 2240.1;
   const CommandLog log{"5ce0a410",
                        {{0, SetSpeed{11.1, 0.3}},

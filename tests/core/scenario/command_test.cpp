@@ -11,7 +11,7 @@ namespace {
 std::vector<Command> OneOfEach() {
   PlaceObject place;
   place.object.name = "bob \"the\" builder \xC3\xA4";
-  place.object.type = "person";
+  place.object.type = ObjectType::kPerson;
   place.object.s_m = 2240.25;
   place.object.d_m = -0.1;
   place.object.h_m = 0.0;
@@ -26,8 +26,8 @@ std::vector<Command> OneOfEach() {
           RemoveObject{"wagon"}, weather,    Step{}, Reset{}};
 }
 
-// The faults of a line, one after the other.
-std::string FaultsOf(const std::string& line) {
+// All faults of a line in one string.
+std::string LineFaultsOf(const std::string& line) {
   const CommandLine read = ReadCommand(line);
   EXPECT_EQ(read.command.has_value(), read.faults.empty());
   std::string faults;
@@ -70,29 +70,29 @@ TEST(Command, IsWrittenOnOneLine) {
 }
 
 TEST(Command, SaysWhatIsWrongWithALine) {
-  EXPECT_EQ(FaultsOf(""), "command: is empty");
-  EXPECT_EQ(FaultsOf("[]"), "command: must be an object (got [])");
-  EXPECT_EQ(FaultsOf("{}"), "command: /command: missing");
-  EXPECT_EQ(FaultsOf(R"({"command": "dance"})"),
+  EXPECT_EQ(LineFaultsOf(""), "command: is empty");
+  EXPECT_EQ(LineFaultsOf("[]"), "command: must be an object (got [])");
+  EXPECT_EQ(LineFaultsOf("{}"), "command: /command: missing");
+  EXPECT_EQ(LineFaultsOf(R"({"command": "dance"})"),
             "command: /command: must be \"set_speed\", \"brake\", \"stop\", \"place_object\", "
             "\"remove_object\", \"set_weather\", \"step\" or \"reset\" (got \"dance\")");
-  EXPECT_EQ(FaultsOf(R"({"command": "set_speed"})"), "command: /speed_mps: missing");
-  EXPECT_EQ(FaultsOf(R"({"command": "set_speed", "speed_mps": -1})"),
+  EXPECT_EQ(LineFaultsOf(R"({"command": "set_speed"})"), "command: /speed_mps: missing");
+  EXPECT_EQ(LineFaultsOf(R"({"command": "set_speed", "speed_mps": -1})"),
             "command: /speed_mps: must be >= 0 and <= 200 (got -1)");
-  EXPECT_EQ(FaultsOf(R"({"command": "set_speed", "speed_mps": "fast"})"),
+  EXPECT_EQ(LineFaultsOf(R"({"command": "set_speed", "speed_mps": "fast"})"),
             "command: /speed_mps: must be a number (got \"fast\")");
-  EXPECT_EQ(FaultsOf(R"({"command": "set_speed", "speed_mps": 1, "speed_mps": 2})"),
+  EXPECT_EQ(LineFaultsOf(R"({"command": "set_speed", "speed_mps": 1, "speed_mps": 2})"),
             "command: /speed_mps: duplicate key");
-  EXPECT_EQ(FaultsOf(R"({"command": "brake", "decelaration_mps2": 1})"),
+  EXPECT_EQ(LineFaultsOf(R"({"command": "brake", "decelaration_mps2": 1})"),
             "command: /decelaration_mps2: unknown key, the nearest is \"deceleration_mps2\"");
-  EXPECT_EQ(FaultsOf(R"({"command": "stop", "zzzzzzz": 1})"),
+  EXPECT_EQ(LineFaultsOf(R"({"command": "stop", "zzzzzzz": 1})"),
             "command: /zzzzzzz: unknown key, must be \"session\", \"id\" or \"command\"");
-  EXPECT_EQ(FaultsOf(R"({"command": "brake", "deceleration_mps2": 0})"),
+  EXPECT_EQ(LineFaultsOf(R"({"command": "brake", "deceleration_mps2": 0})"),
             "command: /deceleration_mps2: must be >= 0.001 and <= 10 (got 0)");
-  EXPECT_EQ(FaultsOf(R"({"command": "place_object", "object": {"name": "a", "type": "box",
+  EXPECT_EQ(LineFaultsOf(R"({"command": "place_object", "object": {"name": "a", "type": "box",
                          "s_m": 1}})"),
             "command: /object/size_m: must be given for type \"box\"");
-  EXPECT_EQ(FaultsOf("{\"command\": \"stop\"} {}"),
+  EXPECT_EQ(LineFaultsOf("{\"command\": \"stop\"} {}"),
             "command: line 1, column 21: syntax error while parsing value - unexpected '{'; "
             "expected end of input");
 }
@@ -114,53 +114,54 @@ TEST(Command, HasASessionAndAnIdOrNeither) {
             (std::vector<std::string>{"command: /id: must be given with session, which a client "
                                       "chooses when it starts"}));
   EXPECT_EQ(alone.tag, (CommandTag{std::nullopt, 5U}));
-  EXPECT_EQ(FaultsOf(R"({"session": "a", "command": "stop"})"),
+  EXPECT_EQ(LineFaultsOf(R"({"session": "a", "command": "stop"})"),
             "command: /session: must be given with id");
-  EXPECT_EQ(FaultsOf(R"({"session": "", "id": 1, "command": "stop"})"),
+  EXPECT_EQ(LineFaultsOf(R"({"session": "", "id": 1, "command": "stop"})"),
             "command: /session: must not be empty (got \"\")");
-  EXPECT_EQ(FaultsOf(R"({"session": 7, "id": 1, "command": "stop"})"),
+  EXPECT_EQ(LineFaultsOf(R"({"session": 7, "id": 1, "command": "stop"})"),
             "command: /session: must be a string (got 7)");
   const std::string longest(kMaxSessionBytes, 's');
-  EXPECT_EQ(FaultsOf(R"({"session": ")" + longest + R"(", "id": 1, "command": "stop"})"), "");
-  EXPECT_EQ(FaultsOf(R"({"session": ")" + longest + R"(x", "id": 1, "command": "stop"})")
+  EXPECT_EQ(LineFaultsOf(R"({"session": ")" + longest + R"(", "id": 1, "command": "stop"})"), "");
+  EXPECT_EQ(LineFaultsOf(R"({"session": ")" + longest + R"(x", "id": 1, "command": "stop"})")
                 .find("command: /session: must have at most 64 bytes (got \"sss"),
             0U);
 }
 
-// A peer must not make the simulator read files, nor learn from its answers which there are.
+// A peer must not be able to make the simulator read files or to learn from its answers which files
+// exist.
 TEST(Command, NamesNoFiles) {
   EXPECT_EQ(
-      FaultsOf(R"({"command": "place_object", "object": {"name": "a", "type": "mesh",
+      LineFaultsOf(R"({"command": "place_object", "object": {"name": "a", "type": "mesh",
                          "s_m": 1, "file": "/etc/passwd"}})"),
       "command: /object/type: must be no mesh, since a command reads no files (got \"mesh\")");
-  EXPECT_EQ(FaultsOf(R"({"command": "place_object", "object": "/etc/passwd"})"),
+  EXPECT_EQ(LineFaultsOf(R"({"command": "place_object", "object": "/etc/passwd"})"),
             "command: /object: must not name a file (got \"/etc/passwd\")");
-  EXPECT_EQ(FaultsOf(R"({"command": "set_weather", "weather": "/etc/passwd"})"),
+  EXPECT_EQ(LineFaultsOf(R"({"command": "set_weather", "weather": "/etc/passwd"})"),
             "command: /weather: must not name a file (got \"/etc/passwd\")");
-  EXPECT_EQ(FaultsOf(R"({"command": "set_weather", "weather": {"file": "/no/such/file"}})"),
+  EXPECT_EQ(LineFaultsOf(R"({"command": "set_weather", "weather": {"file": "/no/such/file"}})"),
             "command: /weather/file: must not name a file (got \"/no/such/file\")");
-  EXPECT_EQ(FaultsOf(R"({"command": "set_weather", "weather": {"sun": "/etc/passwd"}})"),
+  EXPECT_EQ(LineFaultsOf(R"({"command": "set_weather", "weather": {"sun": "/etc/passwd"}})"),
             "command: /weather/sun: must not name a file (got \"/etc/passwd\")");
-  EXPECT_EQ(FaultsOf(R"({"command": "place_object", "object": {"name": "a", "type": "person",
+  EXPECT_EQ(LineFaultsOf(R"({"command": "place_object", "object": {"name": "a", "type": "person",
                          "s_m": 1, "motion": "/etc/passwd"}})"),
             "command: /object/motion: must not name a file (got \"/etc/passwd\")");
 }
 
 TEST(Command, SurvivesHostileLines) {
-  EXPECT_EQ(FaultsOf(std::string(65'507, '[')),
+  EXPECT_EQ(LineFaultsOf(std::string(65'507, '[')),
             "command: must be at most 8192 bytes long (got 65507)");
-  EXPECT_EQ(FaultsOf(std::string(8000, '[')), "command: nested deeper than 64 levels");
-  EXPECT_EQ(FaultsOf("{\"command\": \"sto\xFFp\"}").find("command: line 1, column "), 0U);
-  EXPECT_EQ(FaultsOf(R"({"command": "set_speed", "speed_mps": 1e999})"),
+  EXPECT_EQ(LineFaultsOf(std::string(8000, '[')), "command: nested deeper than 64 levels");
+  EXPECT_EQ(LineFaultsOf("{\"command\": \"sto\xFFp\"}").find("command: line 1, column "), 0U);
+  EXPECT_EQ(LineFaultsOf(R"({"command": "set_speed", "speed_mps": 1e999})"),
             "command: line 1, column 43: number too large for a double");
-  EXPECT_EQ(FaultsOf(R"({"session": "a", "id": 1e300, "command": "stop"})"),
+  EXPECT_EQ(LineFaultsOf(R"({"session": "a", "id": 1e300, "command": "stop"})"),
             "command: /id: must be a whole number from 0 to 9007199254740992 (got 1e+300)");
-  EXPECT_EQ(FaultsOf(std::string("\0{}", 3)).find("command: line 1, column 1: "), 0U);
+  EXPECT_EQ(LineFaultsOf(std::string("\0{}", 3)).find("command: line 1, column 1: "), 0U);
 }
 
 TEST(Command, SaysEachFaultOnOneLine) {
   EXPECT_EQ(
-      FaultsOf(R"({"command": "stop", "a\nb\u0000\u001b": 1})"),
+      LineFaultsOf(R"({"command": "stop", "a\nb\u0000\u001b": 1})"),
       "command: /a\\nb\\u0000\\u001b: unknown key, must be \"session\", \"id\" or \"command\"");
 }
 
@@ -180,7 +181,7 @@ TEST(Command, AnswersManyFaultsInFewWords) {
 TEST(Command, CutsALongKeyBetweenLetters) {
   std::string name;
   for (int i = 0; i < 1000; ++i) name += "\xC3\xA4";  // Two bytes each.
-  EXPECT_EQ(FaultsOf("{\"command\": \"stop\", \"" + name + "\": 1}"),
+  EXPECT_EQ(LineFaultsOf("{\"command\": \"stop\", \"" + name + "\": 1}"),
             "command: /" + name.substr(0, 60) +
                 "...: unknown key, must be \"session\", \"id\" or \"command\"");
 }

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/scenario/scenario.h"
+#include "railcast/scenario.h"
 #include "tests/core/scenario/scenario_files.h"
 
 namespace railcast {
@@ -38,7 +38,7 @@ TEST(MakeSimulator, PutsTheSensorWhereTheMountSays) {
   const auto simulator = MakeSimulator(spec, 1);
   const Transform vehicle_from_sensor =
       simulator->world().WorldFromVehicle(0).inverse() * simulator->WorldFromSensor(0);
-  // World positions reach 1e3 m, where a double's step is 1e-13 m; some products deep.
+  // World positions reach 1e3 m, where a double's step is 1e-13 m; a few products add up.
   constexpr double kRoundOff_m = 1e-11;
   EXPECT_LT((vehicle_from_sensor.translation() - Vector3(2.0, 0.5, 3.0)).norm(), kRoundOff_m);
   EXPECT_LT((vehicle_from_sensor.linear() * Vector3::UnitX() - Vector3::UnitY()).norm(),
@@ -51,7 +51,7 @@ TEST(MakeSimulator, NamesTheFileWhoseEffectsDoNotFitAnotherRung) {
                                                (ScenariosDir() / "minimal.json").string() +
                                                R"(", "effects": {"rain": true}})");
   ScenarioSpec spec = ReadScenario(file);
-  spec.fidelity = "surface";
+  spec.fidelity = Fidelity::kSurface;
   try {
     static_cast<void>(MakeSimulator(spec, 1));
     FAIL() << "expected InputError";

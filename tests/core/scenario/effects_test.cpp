@@ -1,22 +1,19 @@
-#include "core/scenario/effects.h"
+#include "railcast/effects.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
 #include "core/base/error.h"
-#include "core/scenario/effect_names.h"
-#include "core/scenario/scenario.h"
+#include "core/detect/effect_table.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 namespace {
 
 std::set<std::string> NamesIn(const EffectSet& effects) {
-  std::set<std::string> names;
-  for (const auto& [name, effect] : kEffects) {
-    if (effects.*effect) names.insert(name);
-  }
-  return names;
+  const std::vector<std::string> names = EffectNames(effects);
+  return {names.begin(), names.end()};
 }
 
 const std::set<std::string> surface_effects{
@@ -31,46 +28,47 @@ std::set<std::string> SurfaceAnd(const std::set<std::string>& more) {
   return names;
 }
 
-TEST(EffectNames, NameEachSwitchOnce) {
-  EXPECT_EQ(sizeof(EffectSet), std::size(kEffects));  // It is nothing but flags.
+TEST(EffectTable, HasARowForEachSwitch) {
+  EXPECT_EQ(sizeof(EffectSet), EffectTable().size());  // EffectSet consists of bools only.
   EffectSet all;
-  for (const auto& [name, effect] : kEffects) {
-    EXPECT_FALSE(all.*effect) << name;
-    all.*effect = true;
+  for (const Effect& effect : EffectTable()) {
+    EXPECT_FALSE(all.*effect.is_on) << effect.name;
+    all.*effect.is_on = true;
   }
-  EXPECT_EQ(NamesIn(all).size(), std::size(kEffects));
+  EXPECT_EQ(NamesIn(all).size(), EffectTable().size());
 }
 
 TEST(EffectsOfRung, AreNoneInGeometry) {
-  EXPECT_EQ(EffectsOfRung("geometry"), EffectSet{});
+  EXPECT_EQ(EffectsOfRung(Fidelity::kGeometry), EffectSet{});
 }
 
 TEST(EffectsOfRung, AreThePublishedOnesInPlausibility) {
-  EXPECT_EQ(NamesIn(EffectsOfRung("plausibility")),
+  EXPECT_EQ(NamesIn(EffectsOfRung(Fidelity::kPlausibility)),
             (std::set<std::string>{"threshold", "rain", "snow", "noise", "sensor_dropout"}));
 }
 
 TEST(EffectsOfRung, ArePhysicalFromSurfaceOn) {
-  EXPECT_EQ(NamesIn(EffectsOfRung("surface")), surface_effects);
-  EXPECT_EQ(NamesIn(EffectsOfRung("footprint")), SurfaceAnd({"footprint", "thin_conductors"}));
-  EXPECT_EQ(NamesIn(EffectsOfRung("reference")),
+  EXPECT_EQ(NamesIn(EffectsOfRung(Fidelity::kSurface)), surface_effects);
+  EXPECT_EQ(NamesIn(EffectsOfRung(Fidelity::kFootprint)),
+            SurfaceAnd({"footprint", "thin_conductors"}));
+  EXPECT_EQ(NamesIn(EffectsOfRung(Fidelity::kReference)),
             SurfaceAnd({"footprint", "dense_footprint", "sampled_waveform"}));
 }
 
 TEST(EffectsOfRung, GoTogetherInEveryRung) {
-  for (const std::string& rung : RungNames()) {
-    EXPECT_EQ(ConflictIn(EffectsOfRung(rung)), std::nullopt) << rung;
+  for (const Fidelity rung : kRungs) {
+    EXPECT_EQ(ConflictIn(EffectsOfRung(rung)), std::nullopt) << NameOf(rung);
   }
 }
 
-TEST(EffectsOfRung, ThrowsForAnotherName) {
+TEST(EffectsOfRung, ThrowsForAuto) {
   try {
-    static_cast<void>(EffectsOfRung("best"));
+    static_cast<void>(EffectsOfRung(Fidelity::kAuto));
     FAIL() << "expected InputError";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
                  R"(fidelity: must be "geometry", "plausibility", "surface", "footprint" or )"
-                 R"("reference" (got "best"))");
+                 R"("reference" (got "auto"))");
   }
 }
 
@@ -90,18 +88,18 @@ TEST(ConflictIn, WantsAFootprintWithoutAnalyticWiresForTheDenseOne) {
 
 TEST(EffectsOf, FollowTheSingleSwitches) {
   ScenarioSpec spec;
-  spec.fidelity = "plausibility";
+  spec.fidelity = Fidelity::kPlausibility;
   spec.effects = {{"rain", false}, {"noise", false}};
   EXPECT_EQ(NamesIn(EffectsOf(spec)),
             (std::set<std::string>{"threshold", "snow", "sensor_dropout"}));
-  spec.fidelity = "geometry";
+  spec.fidelity = Fidelity::kGeometry;
   spec.effects = {{"snow", true}};
   EXPECT_EQ(NamesIn(EffectsOf(spec)), std::set<std::string>{"snow"});
 }
 
 TEST(EffectsOf, ThrowsForTheSwitchesOfAnotherRung) {
   ScenarioSpec spec;
-  spec.fidelity = "surface";
+  spec.fidelity = Fidelity::kSurface;
   spec.effects = {{"snow", true}};
   try {
     static_cast<void>(EffectsOf(spec));
@@ -110,6 +108,17 @@ TEST(EffectsOf, ThrowsForTheSwitchesOfAnotherRung) {
     EXPECT_STREQ(error.what(),
                  R"(/effects: "snow" of the published model and "surface_response" of physics )"
                  "must not both be on");
+  }
+}
+
+TEST(EffectsOf, ThrowsForASwitchOfNoEffect) {
+  ScenarioSpec spec;
+  spec.effects = {{"rian", true}};
+  try {
+    static_cast<void>(EffectsOf(spec));
+    FAIL() << "expected InputError";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), R"(/effects: unknown effect "rian", the nearest is "rain")");
   }
 }
 

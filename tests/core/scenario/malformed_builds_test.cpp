@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/scenario/scenario.h"
+#include "railcast/scenario.h"
 #include "tests/core/scenario/malformed_case.h"
 
 namespace railcast {

@@ -9,7 +9,8 @@
 
 namespace railcast {
 
-/// A faulty scenario in `scenarios/malformed/` and, beside it, the lines that it must give.
+/// A faulty scenario in `scenarios/malformed/` and the messages that reading it must give, which
+/// are in the file beside it.
 struct MalformedCase {
   std::filesystem::path file;  ///< Relative to scenarios/, as a user would name it.
   std::string expected;

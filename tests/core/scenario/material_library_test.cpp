@@ -6,7 +6,7 @@
 #include <cstring>
 #include <optional>
 
-#include "core/scenario/scenario.h"
+#include "railcast/scenario.h"
 #include "tests/core/scenario/scenario_files.h"
 
 namespace railcast {
@@ -35,7 +35,7 @@ TEST(MaterialLibrary, GivesBackNoMoreThanItGets) {
   }
 }
 
-// ---- Measured spectra: ENVI spectral libraries, 216 float32 from 350 to 2500 nm in steps of 10.
+// ---- Measured spectra: ENVI libraries, 216 float32 values from 350 to 2500 nm in steps of 10 nm.
 
 constexpr std::size_t kNumBands = 216;
 
@@ -50,7 +50,7 @@ double ReflectanceAt(const std::vector<float>& spectra,
 
 struct Source {
   std::string file;
-  std::string kind;  // Its third level in the file's table.
+  std::string kind;  // The third level of the classification in the file's table.
 };
 
 // The reflectances of all spectra of one kind.
@@ -83,7 +83,7 @@ double Quantile(std::vector<double> values, double share) {
 struct MeasuredMaterial {
   const char* name;
   std::vector<Source> sources;
-  bool with_lobe = false;  // Metal: what was measured is the lobe as well.
+  bool with_lobe = false;  // Metal: the measured reflectance includes the specular lobe.
 };
 
 void PrintTo(const MeasuredMaterial& measured, std::ostream* out) {
@@ -128,7 +128,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 // ---- Optical constants: lines of wavelength in micrometres, n, k; or a formula for n.
 
-// Reflectance at normal incidence.
+// Fresnel reflectance at normal incidence.
 double Fresnel(double n, double k) {
   return ((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k);
 }
@@ -153,7 +153,8 @@ double FresnelOfTable(const std::string& file, double wavelength_nm) {
   return 0.0;
 }
 
-// The database's formula 5: n = c0 + c1 L^c2 + c3 L^c4, L in micrometres; glass absorbs nothing.
+// Formula 5 of the database: n = c0 + c1 L^c2 + c3 L^c4, L in micrometres. Absorption in glass is
+// neglected.
 double FresnelOfFormula(const std::string& file, double wavelength_nm) {
   const std::string text = TextOf(constants_folder / file);
   const std::string key = "coefficients:";
@@ -183,7 +184,7 @@ TEST(MaterialLibrary, HasTheLobeOfIronOnTheRailHead) {
 
 TEST(MaterialLibrary, HasTheLobesOfTwoFacesOfGlassAndOfAFilmOfWater) {
   if (!exists(constants_folder)) GTEST_SKIP() << constants_folder << " is not there";
-  constexpr double kRounding = 0.005;  // The library has two digits.
+  constexpr double kRounding = 0.005;  // The library gives two decimals.
   for (const int wavelength_nm : {905, 1550}) {
     const double face =
         FresnelOfFormula("glass_misc_soda-lime_nk_Rubin-lowiron.yml", wavelength_nm);

@@ -3,22 +3,22 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "core/scenario/scenario.h"
+#include "railcast/scenario.h"
 #include "tests/core/scenario/scenario_files.h"
 
 namespace railcast {
 namespace {
 
-// A key that is another way to say what a base file says takes that key's place.
+// A key that is an alternative to a key of a base file replaces that key.
 class Override : public testing::Test {
  protected:
-  /// A scenario on minimal.json whose weather builds on another file's.
+  /// Reads a scenario based on minimal.json whose weather is based on another file.
   [[nodiscard]] ScenarioSpec ReadWeather(const std::string& base, const std::string& own) const {
     folder_.Write("weather.json", R"({"version": 1, )" + base + "}");
     return ReadOn(ScenariosDir() / "minimal.json",
                   R"("weather": {"file": "weather.json", )" + own + "}");
   }
-  /// A scenario on `base`.
+  /// Reads a scenario based on `base`.
   [[nodiscard]] ScenarioSpec ReadOn(const std::filesystem::path& base,
                                     const std::string& own) const {
     return ReadScenario(folder_.Write(

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/scenario/scenario.h"
+#include "railcast/scenario.h"
 #include "tests/core/scenario/scenario_files.h"
 
 namespace railcast {
@@ -15,7 +15,6 @@ TEST(PublishedFiles, MapOneToOneOntoTheSections) {
   EXPECT_EQ(spec.lidar.scan.rate_hz, 10.0);
   EXPECT_EQ(spec.lidar.range_max_m, 300.0);
   EXPECT_EQ(spec.weather.fog_density_per_m, 0.001);
-  EXPECT_EQ(spec.interfaces.udp, std::vector<std::string>{"127.0.0.1:2368"});
 }
 
 TEST(PublishedFiles, GiveRainAsAnIntensityOfFiftyMillimetresAnHour) {
@@ -23,10 +22,16 @@ TEST(PublishedFiles, GiveRainAsAnIntensityOfFiftyMillimetresAnHour) {
   EXPECT_DOUBLE_EQ(spec.weather.rain_rate_mmph, 0.1 * 50.0);
 }
 
-TEST(PublishedFiles, KeepTheCameraAsItIs) {
+TEST(PublishedFiles, SayWhatTheCameraIs) {
   const ScenarioSpec spec = ReadScenario(ScenariosDir() / "published_files.json");
-  EXPECT_EQ(spec.camera,
-            R"({"version":1,"width_px":1920,"height_px":1080,"horizontal_fov_deg":60})");
+  EXPECT_EQ(spec.camera, (CameraSpec{1920, 1080, 60.0}));
+}
+
+// On a Velodyne sensor's port, programs that do not know the railcast protocol would receive it.
+TEST(PublishedFiles, SendTheProtocolToItsOwnPort) {
+  const ScenarioSpec spec = ReadScenario(ScenariosDir() / "published_files.json");
+  EXPECT_EQ(spec.interfaces.protocol, Protocol::kRailcast);
+  EXPECT_EQ(spec.interfaces.udp, std::vector<std::string>{"127.0.0.1:27400"});
 }
 
 }  // namespace

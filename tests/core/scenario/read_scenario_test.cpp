@@ -3,14 +3,14 @@
 #include <sstream>
 
 #include "core/base/error.h"
-#include "core/scenario/effects.h"
-#include "core/scenario/scenario.h"
+#include "railcast/effects.h"
+#include "railcast/scenario.h"
 #include "tests/core/scenario/scenario_files.h"
 
 namespace railcast {
 namespace {
 
-// A scenario in a folder of its own, on top of the smallest shipped one.
+// A scenario in a folder of its own, based on the smallest shipped one.
 std::string OnMinimal(const std::string& sections) {
   return R"({"version": 1, "file": ")" + (ScenariosDir() / "minimal.json").string() + R"(", )" +
          sections + "}";
@@ -85,7 +85,7 @@ TEST(ReadScenario, ReportsTheFaultsOfEveryFileAtOnce) {
                 file.string() + ": /output/fram: unknown key, the nearest is \"frame\"");
 }
 
-// So many that comparing each with all the others would take minutes.
+// With that many keys, comparing each with all the others would take minutes.
 TEST(ReadScenario, NamesEachOf200000UnknownKeys) {
   const TemporaryFolder folder;
   std::vector<std::string> keys(200'000);
@@ -102,7 +102,7 @@ TEST(ReadScenario, NamesEachOf200000UnknownKeys) {
   EXPECT_FALSE(std::getline(faults, fault)) << fault;
 }
 
-// The parser's own message quotes the text, which may look like the message and be no UTF-8.
+// The parser's own message quotes the text, which may be invalid UTF-8 or look like the message.
 TEST(ReadScenario, QuotesNoTextThatIsNoJson) {
   const TemporaryFolder folder;
   const auto fault = [&](const std::string& text) {
@@ -153,7 +153,8 @@ TEST(ReadScenario, ReadsEverySensorOfTheCatalogue) {
   }
 }
 
-// Two models of one sensor: the data sheet's figure is the same.
+// The published and the physical model of a sensor must use the same range at 10 % of the data
+// sheet.
 TEST(ReadScenario, GivesEverySensorOneRangeAtTenPercent) {
   const TemporaryFolder folder;
   for (const auto& sensor : JsonFilesIn(ScenariosDir() / "sensors")) {
@@ -166,9 +167,10 @@ TEST(ReadScenario, GivesEverySensorOneRangeAtTenPercent) {
 
 TEST(ReadScenario, ReadsEveryRung) {
   const TemporaryFolder folder;
-  for (const std::string& rung : RungNames()) {
-    const auto file = folder.Write("a.json", OnMinimal(R"("fidelity": ")" + rung + '"'));
-    EXPECT_EQ(EffectsOf(ReadScenario(file)), EffectsOfRung(rung)) << rung;
+  for (const Fidelity rung : kRungs) {
+    const std::string name(NameOf(rung));
+    const auto file = folder.Write("a.json", OnMinimal(R"("fidelity": ")" + name + '"'));
+    EXPECT_EQ(EffectsOf(ReadScenario(file)), EffectsOfRung(rung)) << name;
   }
 }
 

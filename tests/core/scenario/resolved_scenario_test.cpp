@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/scenario/scenario.h"
+#include "railcast/scenario.h"
 #include "tests/core/scenario/scenario_files.h"
 
 namespace railcast {
@@ -22,28 +22,31 @@ INSTANTIATE_TEST_SUITE_P(Scenarios,
                          testing::ValuesIn(ShippedScenarios()),
                          [](const auto& test) { return test.param.stem().string(); });
 
-// Every field away from its default, so that one that is not written is missed.
+// A scenario in which every field differs from its default, so that the test notices a field that
+// is not written.
 ScenarioSpec UnusualScenario(const std::string& mesh_file) {
   ScenarioSpec spec;
   spec.seed = 0xFFFF'FFFF'FFFF'FFFFULL;
-  spec.fidelity = "geometry";
+  spec.fidelity = Fidelity::kGeometry;
   spec.effects = {{"rain", true}, {"noise", false}};
   spec.lidar = {
       "odd",
-      {12.5, SpinningSpec{{{-1.5, 0.1, 0}, {2.25, -0.1, 1.5}}, 50.1, 7, "counterclockwise", 12.0}},
+      {12.5,
+       SpinningSpec{
+           {{-1.5, 0.1, 0}, {2.25, -0.1, 1.5}}, 50.1, 7, Rotation::kCounterclockwise, 12.0}},
       1.25,
       99.5,
       {{1, 2, 3}, 4, 5, 6},
-      {0.2, 150, 0.02, 2e-4, "beam", 0.125},
+      {0.2, 150, 0.02, 2e-4, NoiseShape::kBeam, 0.125},
       {1550, {0.5, 0.25}, 3.5, 128},
-      {90, 6, "dual", 0.01, 0.2, 0.02, 0.03, 0.4}};
+      {90, 6, ReturnMode::kDual, 0.01, 0.2, 0.02, 0.03, 0.4}};
   spec.weather.fog_density_per_m = 0.01;
   spec.weather.rain_rate_mmph = 3;
-  spec.weather.rain_drop_sizes = "drizzle";
+  spec.weather.rain_drop_sizes = RainDrops::kDrizzle;
   spec.weather.rain_dropout_per_m = 4e-4;
   spec.weather.rain_dropout_exponent = 0.7;
   spec.weather.snow_rate_mmph = 5;
-  spec.weather.snow_type = "wet";
+  spec.weather.snow_type = SnowType::kWet;
   spec.weather.snow_echoes_per_mmph = 0.03;
   spec.weather.snow_range_scale_m = 6;
   spec.weather.snow_intensity = 0.04;
@@ -51,7 +54,7 @@ ScenarioSpec UnusualScenario(const std::string& mesh_file) {
   spec.weather.snow_cover = 0.75;
   spec.weather.sun = {80, 45, 20};
   spec.interfaces.udp = {"localhost:1", "[::1]:65535"};
-  spec.camera = R"({"b":1,"a":[2.5,null]})";
+  spec.camera = {640, 480, 62.5};
   spec.world.seed = 0xFFFF'FFFF'FFFF'FFFEULL;
   spec.world.alignment = {AlignmentSplineSpec{{{0, 0}, {100, 0.1}}},
                           "a survey",
@@ -64,12 +67,13 @@ ScenarioSpec UnusualScenario(const std::string& mesh_file) {
                           12,
                           13,
                           14};
-  spec.world.tracks = {{"a", 1, 2, 3.0, "wood", false}, {"b", -4, 0, {}, "concrete", true}};
+  spec.world.tracks = {{"a", 1, 2, 3.0, SleeperType::kWood, false},
+                       {"b", -4, 0, {}, SleeperType::kConcrete, true}};
   spec.world.catenary = {false, 5.4, 1.7, 60, 0.3, 7, 3.2};
   spec.world.terrain = {70, 0.03, 1.9, 0.5};
   spec.world.vegetation = {30, 8, 5, 13, false, 3.5, 8.5};
   spec.world.objects = {{"x",
-                         "mesh",
+                         ObjectType::kMesh,
                          "b",
                          1,
                          2,
@@ -77,7 +81,7 @@ ScenarioSpec UnusualScenario(const std::string& mesh_file) {
                          4,
                          {{5, 6, 7}},
                          mesh_file,
-                         "y",
+                         UpAxis::kY,
                          0.001,
                          "rail",
                          "soil",
@@ -87,7 +91,7 @@ ScenarioSpec UnusualScenario(const std::string& mesh_file) {
   spec.vehicle.motion.profile = {{1.0, {}, 2}, {3.0, {}, 0}};
   spec.vehicle.motion.reverse = true;
   spec.vehicle.ego_boxes_m = {{-1, -2, -3, 1, 2, 3}};
-  spec.output = {"world", "left", {1e6, -2, 3.5}};
+  spec.output = {OutputFrame::kWorld, Handedness::kLeft, {1e6, -2, 3.5}};
   spec.materials = {{"soil", 0.25, 0.3, 20, 0.02, 0.03, 0.15, 570}};
   spec.labels = {{1, "rail", {1, 2, 3}, "Rails", "track", 260, 49}};
   return spec;
@@ -112,10 +116,11 @@ TEST(ResolvedScenario, HoldsOtherCoursesAndPatterns) {
   const TemporaryFolder folder;
   ScenarioSpec spec = UnusualScenario(folder.Write("x.obj", "").string());
   spec.lidar.scan.pattern = FiringTableSpec{folder.Write("x.csv", "").string()};
-  spec.world.alignment.course =
-      AlignmentElementsSpec{{{"straight", 10, {}}, {"clothoid", 11, {}}, {"arc", 12, -300.0}}};
+  spec.world.alignment.course = AlignmentElementsSpec{{{ElementType::kStraight, 10, {}},
+                                                       {ElementType::kClothoid, 11, {}},
+                                                       {ElementType::kArc, 12, -300.0}}};
   EXPECT_EQ(ReadScenario(folder.Write("resolved.json", ResolvedScenarioJson(spec))), spec);
-  spec.lidar.scan.pattern = RasterSpec{60, 30, 0.5, "rows"};
+  spec.lidar.scan.pattern = RasterSpec{60, 30, 0.5, RasterOrder::kRows};
   spec.world.alignment.course = AlignmentSectionsSpec{500, {{0, {}, 300.0}, {50, 300.0, -300.0}}};
   EXPECT_EQ(ReadScenario(folder.Write("resolved.json", ResolvedScenarioJson(spec))), spec);
 }

@@ -31,14 +31,14 @@ inline std::vector<std::filesystem::path> JsonFilesIn(const std::filesystem::pat
   return files;
 }
 
-/// The scenarios that the project ships.
+/// The scenarios shipped with the project.
 inline std::vector<std::filesystem::path> ShippedScenarios() {
   std::vector<std::filesystem::path> files = JsonFilesIn(ScenariosDir());
   std::erase_if(files, [](const auto& file) { return file.filename() == "labels.json"; });
   return files;
 }
 
-/// A folder of this test's own, with files written into it; gone at the end.
+/// A temporary folder for one test, into which files can be written; removed at the end.
 class TemporaryFolder {
  public:
   std::filesystem::path Write(const std::string& name, const std::string& text) const {

@@ -1,4 +1,4 @@
-#include "core/scenario/scenario_schema.h"
+#include "tests/core/scenario/scenario_schema.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 namespace railcast {
 namespace {
 
-// After a change of a spec's description, write the schemas anew with
+// After a change of a spec's description, regenerate the schemas with
 //   RAILCAST_WRITE_SCHEMAS=1 build/release/tests/core/scenario/scenario_test
 //     --gtest_filter='ScenarioSchemas.*'
 TEST(ScenarioSchemas, ArePublishedAsTheReaderHasThem) {

@@ -1,11 +1,8 @@
-#include "core/scenario/scenario_sources.h"
-#include "core/scenario/scenario.h"
+#include "railcast/scenario.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
-
-#include "core/scenario/scenario.h"
 
 namespace railcast {
 namespace {
@@ -31,20 +28,24 @@ TEST(ScenarioSources, DoNotMistakeAKeyForOneThatItBeginsWith) {
   EXPECT_EQ(LidarFromAFile().Place("/lidar2/scan"), "demo.json: /lidar2/scan");
 }
 
+std::string Located(const Fault& fault, std::string_view resolved_pointer) {
+  return LidarFromAFile().Locate(fault, resolved_pointer).Line();
+}
+
 TEST(ScenarioSources, LocateABuildersPointerInItsFile) {
-  EXPECT_EQ(LidarFromAFile().Locate("/pattern/columns: must be > 0 (got 0)", "/lidar/scan"),
+  EXPECT_EQ(Located({"/pattern/columns", "must be > 0", "0"}, "/lidar/scan"),
             "sensors/vlp16.json: /scan/pattern/columns: must be > 0 (got 0)");
 }
 
 TEST(ScenarioSources, ShowAFileAsTheUserKnowsIt) {
-  EXPECT_EQ(LidarFromAFile().Locate("/home/anna/rosette.csv:3: must have 3 values", "/lidar/scan"),
+  EXPECT_EQ(Located({"/home/anna/rosette.csv:3", "must have 3 values", ""}, "/lidar/scan"),
             "rosette.csv:3: must have 3 values");
-  EXPECT_EQ(LidarFromAFile().Locate("/pattern: /home/anna/rosette.csv: is empty", "/lidar/scan"),
+  EXPECT_EQ(Located({"/pattern: /home/anna/rosette.csv", "is empty", ""}, "/lidar/scan"),
             "sensors/vlp16.json: /scan/pattern: rosette.csv: is empty");
 }
 
 TEST(ScenarioSources, PutALineWithoutAPlaceWhereItsSpecStands) {
-  EXPECT_EQ(LidarFromAFile().Locate("labels: the table must hold \"rail\"", ""),
+  EXPECT_EQ(Located({"", "labels: the table must hold \"rail\"", ""}, ""),
             "demo.json: labels: the table must hold \"rail\"");
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/scenario/scenario.h"
+#include "railcast/scenario.h"
 #include "tests/core/scenario/scenario_files.h"
 
 namespace railcast {
@@ -34,7 +34,7 @@ TEST(Sensors, AreReadFromAList) {
     ScenarioSpec minimal = ReadScenario(ScenariosDir() / "minimal.json");
     return minimal.lidar;
   }();
-  // Each may build on a file.
+  // Each sensor of the list may be based on a file.
   EXPECT_EQ(spec.lidars[0].receiver, vlp16.receiver);
   EXPECT_EQ(spec.lidars[0].mount.position_m[0], 2.2);
   EXPECT_EQ(spec.lidars[1].range_max_m, 100.0);
@@ -46,7 +46,7 @@ TEST(Sensors, OneOfThemMakesAScenarioOfItsOwn) {
   EXPECT_EQ(roof.lidar, spec.lidars[1]);
   EXPECT_TRUE(roof.lidars.empty());
   EXPECT_EQ(SensorNames(roof), (std::vector<std::string>{"roof"}));
-  EXPECT_EQ(roof.interfaces.protocol, "vlp16");
+  EXPECT_EQ(roof.interfaces.protocol, Protocol::kVlp16);
   EXPECT_TRUE(roof.interfaces.sensors.empty());
   EXPECT_EQ(roof.world, spec.world);
   EXPECT_EQ(PickSensor(roof, std::nullopt), roof);
@@ -77,22 +77,25 @@ TEST(Sensors, ResolveToWhatTheyWereReadFrom) {
 TEST(Sensors, SendEachToReceiversOfItsOwn) {
   const std::vector<std::string> two = {"front", "roof"};
   const auto fault = [&](const std::vector<SensorInterface>& sensors) {
-    return InterfacesFault({{}, "railcast", sensors}, two);
+    return InterfacesFault({{}, Protocol::kRailcast, sensors}, two);
   };
   EXPECT_EQ(fault({}), "");
-  EXPECT_EQ(fault({{"front", "railcast", {}}, {"roof", "vlp16", {}}}), "");
-  EXPECT_EQ(fault({{"front", "vlp16", {"127.0.0.1:2368"}}, {"roof", "vlp16", {"127.0.0.1:2369"}}}),
+  EXPECT_EQ(fault({{"front", Protocol::kRailcast, {}}, {"roof", Protocol::kVlp16, {}}}), "");
+  EXPECT_EQ(fault({{"front", Protocol::kVlp16, {"127.0.0.1:2368"}},
+                   {"roof", Protocol::kVlp16, {"127.0.0.1:2369"}}}),
             "");
-  EXPECT_EQ(fault({{"front", "hdl32e", {}}, {"roof", "vlp16", {}}}),
+  EXPECT_EQ(fault({{"front", Protocol::kHdl32e, {}}, {"roof", Protocol::kVlp16, {}}}),
             "must give each sensor receivers of its own, \"roof\" others than 127.0.0.1:2368");
-  EXPECT_EQ(fault({{"front", "railcast", {"10.0.0.1:9"}}, {"roof", "vlp16", {"10.0.0.1:9"}}}),
+  EXPECT_EQ(fault({{"front", Protocol::kRailcast, {"10.0.0.1:9"}},
+                   {"roof", Protocol::kVlp16, {"10.0.0.1:9"}}}),
             "must give each sensor receivers of its own, \"roof\" others than 10.0.0.1:9");
-  EXPECT_EQ(fault({{"front", "railcast", {}}}), "must name each sensor once, \"roof\" too");
-  EXPECT_EQ(fault({{"front", "railcast", {}}, {"front", "vlp16", {}}}),
+  EXPECT_EQ(fault({{"front", Protocol::kRailcast, {}}}),
+            "must name each sensor once, \"roof\" too");
+  EXPECT_EQ(fault({{"front", Protocol::kRailcast, {}}, {"front", Protocol::kVlp16, {}}}),
             "must name each sensor once, \"front\" too");
-  EXPECT_EQ(fault({{"side", "railcast", {}}, {"roof", "vlp16", {}}}),
+  EXPECT_EQ(fault({{"side", Protocol::kRailcast, {}}, {"roof", Protocol::kVlp16, {}}}),
             "must name sensors of the scenario, \"front\" or \"roof\", not \"side\"");
-  EXPECT_EQ(InterfacesFault({{}, "railcast", {{"a", "railcast", {}}}}, {}),
+  EXPECT_EQ(InterfacesFault({{}, Protocol::kRailcast, {{"a", Protocol::kRailcast, {}}}}, {}),
             "must be left out with \"lidar\", which has but one sensor");
 }
 

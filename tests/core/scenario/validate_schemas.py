@@ -22,15 +22,16 @@ SHIPPED = {
     "lidar": ["sensors/*.json", "published/Lidar.json"],
     "weather": ["weather/*.json", "published/Weather.json"],
     "interfaces": ["published/Interfaces.json"],
+    "camera": ["published/Camera.json"],
     "alignment": ["alignments/*.json"],
     "materials": ["materials/*.json"],
     "labels": ["labels.json"],
 }
-# Faults within one value, which a schema can state.
+# Faults that concern a single value, which a schema can detect.
 REFUSED = """unknown_key unknown_section unknown_key_in_list missing_keys missing_key_nested
 missing_type unknown_type string_for_number null_for_number number_for_flag list_for_object
 wrong_length fraction_for_whole negative_range not_a_choice unknown_effect no_channels no_tracks
-wrong_version no_version rain_twice""".split()
+wrong_version no_version rain_twice camera_of_another_kind""".split()
 
 num_failures = 0
 

@@ -1,4 +1,4 @@
-#include "core/scene/material.h"
+#include "railcast/material.h"
 
 #include <gtest/gtest.h>
 
@@ -62,7 +62,7 @@ TEST_P(WetSurface, DarkensAndSmoothsWithEveryStepOfWetness) {
   }
 }
 
-// A dark and a white one, matt and shining: nothing gives back more than it gets.
+// For dark and white, matt and glossy surfaces: none reflects more than it receives.
 TEST_P(WetSurface, ConservesEnergy) {
   for (const float diffuse : {0.0F, 0.02F, 0.4F, 1.0F}) {
     for (const float f0 : {0.0F, 0.01F, 0.04F, 0.6F}) {

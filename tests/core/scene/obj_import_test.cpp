@@ -16,7 +16,7 @@ using std::filesystem::path;
 
 class ReadObjTest : public testing::Test {
  protected:
-  /// Writes a file of the test's own and returns its path.
+  /// Writes a file used by this test only and returns its path.
   path Write(const std::string& text) {
     const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
     file_ = path(testing::TempDir()) / ("railcast_" + test + ".obj");
@@ -25,7 +25,7 @@ class ReadObjTest : public testing::Test {
   }
   void TearDown() override { std::filesystem::remove(file_); }
 
-  /// What ReadObj says about a text, without the file's name.
+  /// The message of ReadObj about a text, without the file name.
   std::string Complaint(const std::string& text) {
     try {
       (void)ReadObj(Write(text), 1.0, false);
@@ -88,7 +88,7 @@ TEST_F(ReadObjTest, UnderstandsPlusSigns) {
   EXPECT_DOUBLE_EQ(Area(mesh), 0.25);
 }
 
-// The library's own reader skips a coordinate that it cannot read, and with it the vertex.
+// OpenMesh's reader skips a coordinate that it cannot parse, and with it the vertex.
 TEST_F(ReadObjTest, CountsAVertexWithTheSmallestAndTheLongestNumbers) {
   const std::string digits(1000, '1');
   const Mesh mesh = ReadObj(Write("v 1e-310 -1e-46 4.9e-324\nv 1." + digits + " 0 0\nv 0 0." +
@@ -107,7 +107,8 @@ TEST_F(ReadObjTest, CutsAConcaveFaceIntoItsOwnArea) {
   EXPECT_NEAR(Area(mesh), 5.0, 1e-6);
 }
 
-// A square with a triangle upright upon its edge: flat seen from above.
+// A square with a triangle perpendicular to it on one edge: seen from above, the triangle has no
+// area.
 TEST_F(ReadObjTest, KeepsATriangleThatStandsUprightOnItsFace) {
   const Mesh mesh =
       ReadObj(Write("v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nv 0 1 -1\nf 1 2 3 4 5\n"), 1.0, true);
@@ -167,18 +168,18 @@ TEST_F(ReadObjTest, RefusesACoordinateThatIsNoFiniteNumber) {
   EXPECT_EQ(Complaint("# x\nv 0 \x1b" + std::string(100, '0') + " 0\n"),
             rule + "\"\\u001b" + std::string(54, '0') + "...\")");
   EXPECT_EQ(Complaint("# x\nv 1 1 +-1\n"), rule + "\"+-1\")");
-  // Finite in kilometres, not in metres.
+  // Finite in kilometres but not in metres.
   EXPECT_THROW((void)ReadObj(Write("v 0 1e38 0\n"), 1000.0, false), InputError);
 }
 
-/// One row of mesh_report.csv, which an independent reader made.
+/// One row of mesh_report.csv, which was produced by an independent reader.
 struct Report {
-  std::size_t triangles{};   ///< As fans, degenerate ones included.
-  std::size_t polygons{};    ///< Faces of more than three corners.
-  std::size_t degenerate{};  ///< Without an area.
+  std::size_t triangles{};   ///< Counted as fans, including degenerate triangles.
+  std::size_t polygons{};    ///< Faces with more than three corners.
+  std::size_t degenerate{};  ///< Triangles without area.
 };
 
-/// The rows of the files whose every line that reader understood.
+/// The rows of the files of which that reader understood every line.
 std::map<std::string, Report> ReadReports(const path& csv) {
   std::map<std::string, Report> reports;
   std::ifstream in(csv);
@@ -213,9 +214,9 @@ TEST(ReadObjOfRealFiles, GivesTheTrianglesOfTheReportOrOneLine) {
       if (report == reports.end()) continue;
       ++num_compared;
       EXPECT_LE(num_triangles, report->second.triangles);
-      // Which slivers have no area depends on rounding, so all, some or none of them may be gone.
-      // One file holds a polygon whose ears, but not whose fan, have one without an area in
-      // float32.
+      // Which slivers have no area depends on rounding, so all, some or none of them may be
+      // missing. One file contains a polygon for which ear clipping, unlike a fan, yields a
+      // triangle without area in float32.
       const std::size_t num_slivers = name == "meshes_sweethome3d/Scopia/truck.obj" ? 1 : 0;
       EXPECT_GE(num_triangles + report->second.degenerate + num_slivers, report->second.triangles);
     } catch (const InputError& error) {
@@ -225,13 +226,13 @@ TEST(ReadObjOfRealFiles, GivesTheTrianglesOfTheReportOrOneLine) {
   EXPECT_GE(num_compared, 100);
 }
 
-// It has 5478 edges of more than two faces and 46249 faces of more than three corners.
+// It has 5478 edges with more than two faces and 46249 faces with more than three corners.
 TEST(ReadObjOfRealFiles, KeepsALorryThatIsNoManifold) {
   const path file =
       path(RAILCAST_SHARED_DATA_DIR) / "meshes_sweethome3d/BlendSwap-CC-0/peterbilt.obj";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no real meshes: " << file;
   const Mesh mesh = ReadObj(file, 0.01, true);
-  EXPECT_EQ(mesh.triangles.size(), 116472U);  // Of 116501; 29 have no area.
+  EXPECT_EQ(mesh.triangles.size(), 116472U);  // 29 of 116501 triangles have no area.
   const Vector3 size_m = Bounds(mesh).sizes();
   EXPECT_TRUE(size_m.isApprox(Vector3(2.872, 21.05, 4.030), 1e-3)) << size_m.transpose();
 }

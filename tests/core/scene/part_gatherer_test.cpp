@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint32_t kRail = 1, kWagon = 2;
 constexpr std::uint16_t kSteel = 5, kWood = 6;
 
-/// One triangle in the plane x = 0.
+/// A triangle in the plane x = 0.
 Part Triangle(std::uint32_t label, std::uint16_t material) {
   return {Mesh{{{0, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2}}}, material, label};
 }
@@ -36,7 +36,7 @@ TEST(PartGatherer, PutsEveryModelWhereItStands) {
   PartGatherer gatherer;
   const Model model{"a", {Triangle(kRail, kSteel)}};
   gatherer.Add(model, Eigen::Affine3d::Identity());
-  // Twice as large, on its side, 10 m ahead: (x, y, z) goes to (10 + 2x, -2z, 2y).
+  // Scaled by 2, turned on its side and moved 10 m ahead: (x, y, z) becomes (10 + 2x, -2z, 2y).
   const Eigen::Affine3d gathered_from_model =
       Eigen::Translation3d(10, 0, 0) * Eigen::AngleAxisd(RadFromDeg(90.0), Vector3::UnitX()) *
       Eigen::Scaling(2.0);
@@ -45,7 +45,7 @@ TEST(PartGatherer, PutsEveryModelWhereItStands) {
   ASSERT_EQ(mesh.vertices.size(), 6U);
   const Eigen::Vector3f expected[] = {{10, 0, 0}, {10, 0, 2}, {10, -2, 0}};
   const auto& [a, b, c] = mesh.triangles.at(1);
-  // The cosine of a right angle in doubles.
+  // Approximate, because the cosine of a right angle is not exactly 0.
   EXPECT_TRUE(mesh.vertices.at(a).isApprox(expected[0]));
   EXPECT_TRUE(mesh.vertices.at(b).isApprox(expected[1]));
   EXPECT_TRUE(mesh.vertices.at(c).isApprox(expected[2]));

@@ -10,7 +10,7 @@ namespace {
 
 using Outline = std::vector<Eigen::Vector2d>;
 
-double Area(const Outline& outline, const std::array<std::uint32_t, 3>& triangle) {
+double TriangleArea(const Outline& outline, const std::array<std::uint32_t, 3>& triangle) {
   const Eigen::Vector2d b = outline[triangle[1]] - outline[triangle[0]];
   const Eigen::Vector2d c = outline[triangle[2]] - outline[triangle[0]];
   return 0.5 * (b.x() * c.y() - b.y() * c.x());
@@ -27,10 +27,10 @@ TEST(TriangulatePolygon, CutsAStarIntoLeftTurningTrianglesOfItsArea) {
   ASSERT_EQ(triangles.size(), 8U);
   double sum = 0.0;
   for (const auto& triangle : triangles) {
-    EXPECT_GT(Area(star, triangle), 0.0);
-    sum += Area(star, triangle);
+    EXPECT_GT(TriangleArea(star, triangle), 0.0);
+    sum += TriangleArea(star, triangle);
   }
-  // Ten triangles of sides 1 and 0.4 about the centre, 36 degrees apart.
+  // Ten triangles about the centre with sides 1 and 0.4, 36 degrees apart.
   EXPECT_NEAR(sum, 10.0 * 0.5 * 0.4 * std::sin(std::numbers::pi / 5.0), 1e-12);
 }
 
@@ -40,8 +40,8 @@ TEST(TriangulatePolygon, KeepsCornersOnEdgesAndLeavesOutRepeatedOnes) {
   ASSERT_EQ(triangles.size(), 4U);
   double sum = 0.0;
   for (const auto& triangle : triangles) {
-    EXPECT_GT(Area(square, triangle), 0.0);
-    sum += Area(square, triangle);
+    EXPECT_GT(TriangleArea(square, triangle), 0.0);
+    sum += TriangleArea(square, triangle);
   }
   EXPECT_DOUBLE_EQ(sum, 4.0);
 }

@@ -11,7 +11,7 @@
 namespace railcast {
 namespace {
 
-/// By the divergence theorem; positive if the normals of a closed mesh point outwards.
+/// Volume by the divergence theorem; positive if the normals of a closed mesh point outwards.
 double Volume(const Mesh& mesh) {
   double sum = 0.0;
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -21,7 +21,7 @@ double Volume(const Mesh& mesh) {
   return sum;
 }
 
-/// Every edge is walked once each way: closed, manifold and consistently wound.
+/// Whether every edge is traversed once in each direction: closed, manifold and consistently wound.
 bool IsClosed(const Mesh& mesh) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> walks;
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -36,7 +36,7 @@ bool IsClosed(const Mesh& mesh) {
   return true;
 }
 
-Eigen::AlignedBox3d Bounds(const Mesh& mesh) {
+Eigen::AlignedBox3d ShapeBounds(const Mesh& mesh) {
   return Model{.name = "", .parts = {{.mesh = mesh, .material = 0, .label = 0}}}.Bounds();
 }
 
@@ -45,7 +45,8 @@ double PolygonArea(double radius, int num_sides) {
   return 0.5 * num_sides * radius * radius * std::sin(2.0 * std::numbers::pi / num_sides);
 }
 
-// Volumes of a few cubic metres from float32 coordinates of a few metres: about 1e-6 relative.
+// Volumes of a few cubic metres from float32 coordinates of a few metres: relative error of about
+// 1e-6.
 constexpr double kVolumeTolerance_m3 = 2e-5;
 
 TEST(MakeBox, HasItsVolumeAndBounds) {
@@ -53,7 +54,7 @@ TEST(MakeBox, HasItsVolumeAndBounds) {
   const Mesh mesh = MakeBox(box);
   EXPECT_TRUE(IsClosed(mesh));
   EXPECT_NEAR(Volume(mesh), 6.0, kVolumeTolerance_m3);
-  EXPECT_TRUE(Bounds(mesh).isApprox(box));
+  EXPECT_TRUE(ShapeBounds(mesh).isApprox(box));
 }
 
 TEST(MakeTube, IsAPrismOfTheGivenRadius) {
@@ -63,7 +64,7 @@ TEST(MakeTube, IsAPrismOfTheGivenRadius) {
   EXPECT_NEAR(Volume(mesh), 2.0 * PolygonArea(0.5, 8), kVolumeTolerance_m3);
 }
 
-// A mitred bend keeps section and centre line, so by Pappus the volume is section times length.
+// A mitred bend preserves section and centre line, so by Pappus the volume is section times length.
 TEST(MakeTube, KeepsItsSectionThroughBends) {
   const std::vector<Vector3> line = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}, {2, 2, 2}};
   const Mesh mesh = MakeTube(line, 0.1, 12);
@@ -91,7 +92,7 @@ TEST(MakeLathe, TurnsAConeAboutX) {
   EXPECT_TRUE(IsClosed(mesh));
   EXPECT_NEAR(Volume(mesh), PolygonArea(1.0, 20), kVolumeTolerance_m3);
   EXPECT_TRUE(
-      Bounds(mesh).isApprox(Eigen::AlignedBox3d(Vector3(0, -1, -1), Vector3(3, 1, 1)), 1e-6));
+      ShapeBounds(mesh).isApprox(Eigen::AlignedBox3d(Vector3(0, -1, -1), Vector3(3, 1, 1)), 1e-6));
 }
 
 TEST(MakeExtrusion, FillsANotchedOutlineWhicheverWayItTurns) {
@@ -109,7 +110,7 @@ TEST(MakeEllipsoid, FillsItsBox) {
   const Mesh mesh = MakeEllipsoid({1, 2, 3}, {0.5, 1.0, 2.0}, 40);
   EXPECT_TRUE(IsClosed(mesh));
   const Eigen::AlignedBox3d box(Vector3(0.5, 1, 1), Vector3(1.5, 3, 5));
-  EXPECT_TRUE(Bounds(mesh).isApprox(box, 1e-6));
+  EXPECT_TRUE(ShapeBounds(mesh).isApprox(box, 1e-6));
   // Facets cut off at most 1 - cos(pi / 40)^3 = 0.9 % of the volume.
   const double exact = 4.0 / 3.0 * std::numbers::pi;
   EXPECT_LT(Volume(mesh), exact);

@@ -10,7 +10,7 @@
 namespace railcast {
 namespace {
 
-// A few thousand random triangles, many of them crossing: edges, vertices and ties in plenty.
+// Several thousand random triangles, many of which intersect: plenty of edges, vertices and ties.
 std::shared_ptr<SimpleWorld> ThicketWorld() {
   Mesh thicket;
   for (std::uint32_t i = 0; i < 5000; ++i) {
@@ -35,13 +35,15 @@ std::shared_ptr<SimpleWorld> ThicketWorld() {
 }
 
 SimulatorSpec EverythingOn() {
-  SimulatorSpec spec{
-      .seed = 42,
-      .effects = {
-          .threshold = true, .rain = true, .snow = true, .noise = true, .sensor_dropout = true}};
-  spec.weather.rain_rate_mmph = 20.0;
-  spec.weather.snow_rate_mmph = 2.0;
-  spec.plausibility.dropout_probability = 0.05;
+  SimulatorSpec spec{.detector = {.seed = 42,
+                                  .effects = {.threshold = true,
+                                              .rain = true,
+                                              .snow = true,
+                                              .noise = true,
+                                              .sensor_dropout = true}}};
+  spec.detector.weather.rain_rate_mmph = 20.0;
+  spec.detector.weather.snow_rate_mmph = 2.0;
+  spec.detector.plausibility.dropout_probability = 0.05;
   return spec;
 }
 
@@ -79,7 +81,7 @@ TEST(Determinism, AnotherSeedChangesOnlyWhatIsRandom) {
   const auto world = ThicketWorld();
   const ScanPattern pattern = MakeRaster(60, 30, 0.5);
   SimulatorSpec other = EverythingOn();
-  other.seed = 43;
+  other.detector.seed = 43;
   const Frame a = ScanOnce(world, pattern, EverythingOn());
   const Frame b = ScanOnce(world, pattern, other);
   EXPECT_NE(a.outcome, b.outcome);
@@ -94,12 +96,12 @@ TEST(Determinism, AnotherSeedChangesOnlyWhatIsRandom) {
   EXPECT_GT(num_compared, 1000U);
 }
 
-// Keys name the effect: switching snow off must leave every other effect's draws where they were.
+// Random keys include the effect, so switching snow off must not change the draws of other effects.
 TEST(Determinism, SwitchingOneEffectOffLeavesTheOthersDrawsAlone) {
   const auto world = ThicketWorld();
   const ScanPattern pattern = MakeRaster(60, 30, 0.5);
   SimulatorSpec without_snow = EverythingOn();
-  without_snow.effects.snow = false;
+  without_snow.detector.effects.snow = false;
   const Frame with = ScanOnce(world, pattern, EverythingOn());
   const Frame without = ScanOnce(world, pattern, without_snow);
   std::size_t num_compared = 0;

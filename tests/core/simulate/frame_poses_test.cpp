@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t kDuration_ns = 99'583'333;
 
-// A vehicle at 40 m/s braking at 2 m/s^2 in a curve of 300 m radius, 60 m from the origin.
+// A vehicle at 40 m/s, braking at 2 m/s^2 in a curve of 300 m radius, 60 m from the origin.
 Transform BrakingInACurve(std::uint32_t time_ns) {
   const double t = time_ns * 1e-9;
   const double arc_m = 40.0 * t - t * t;
@@ -36,7 +36,8 @@ TEST(FramePoses, StayWithinATenthOfAMillimetreBetweenKnots) {
       }
     }
   }
-  // a dt^2 / 8 with a = v^2/R = 5.3 m/s^2 and dt = 10 ms is 0.067 mm, plus float32 at 64 m.
+  // a dt^2 / 8 with a = v^2/R = 5.3 m/s^2 and dt = 10 ms is 0.067 mm, plus float32 rounding at 64
+  // m.
   EXPECT_LE(worst_m, 1e-4);
   EXPECT_LE(worst_rotation, 4e-7);
 }

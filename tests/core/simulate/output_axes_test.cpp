@@ -10,8 +10,8 @@
 namespace railcast {
 namespace {
 
-// A wall at x = 50 in a chunk that is turned to the left by a quarter and moved by (100, 200, 0):
-// in the world it stands at y = 250.
+// A wall at x = 50 in a chunk that is turned left by 90 degrees and moved by (100, 200, 0): in the
+// world, it stands at y = 250.
 std::shared_ptr<SimpleWorld> TurnedWorld() {
   auto world = std::make_shared<SimpleWorld>();
   world->ground.parts = {{MakeWall(50.0F, 500.0F), 1, 1}};
@@ -21,7 +21,7 @@ std::shared_ptr<SimpleWorld> TurnedWorld() {
   return world;
 }
 
-SimulatorSpec WithAxes(const char* frame, const char* handedness) {
+SimulatorSpec WithAxes(OutputFrame frame, Handedness handedness) {
   SimulatorSpec spec;
   spec.vehicle_from_sensor =
       MakeTransform(RotationFromYawPitchRoll(0.1, 0.05, 0.0), {2.0, 0.5, 3.0});
@@ -31,9 +31,12 @@ SimulatorSpec WithAxes(const char* frame, const char* handedness) {
 
 TEST(OutputAxes, VehicleAxesAreMovedByTheMounting) {
   const ScanPattern pattern = MakeRaster(40, 10, 1);
-  const Frame sensor = ScanOnce(TurnedWorld(), pattern, WithAxes("sensor", "right"));
-  const Frame vehicle = ScanOnce(TurnedWorld(), pattern, WithAxes("vehicle", "right"));
-  const Transform& vehicle_from_sensor = WithAxes("", "").vehicle_from_sensor;
+  const Frame sensor =
+      ScanOnce(TurnedWorld(), pattern, WithAxes(OutputFrame::kSensor, Handedness::kRight));
+  const Frame vehicle =
+      ScanOnce(TurnedWorld(), pattern, WithAxes(OutputFrame::kVehicle, Handedness::kRight));
+  const Transform& vehicle_from_sensor =
+      WithAxes(OutputFrame::kSensor, Handedness::kRight).vehicle_from_sensor;
   for (std::size_t slot = 0; slot < sensor.num_slots(); ++slot) {
     const Vector3 moved =
         vehicle_from_sensor *
@@ -45,7 +48,8 @@ TEST(OutputAxes, VehicleAxesAreMovedByTheMounting) {
 }
 
 TEST(OutputAxes, WorldAxesShowTheWallWithoutMotionDistortion) {
-  const Frame world = ScanOnce(TurnedWorld(), MakeRaster(40, 10, 1), WithAxes("world", "right"));
+  const Frame world = ScanOnce(TurnedWorld(), MakeRaster(40, 10, 1),
+                               WithAxes(OutputFrame::kWorld, Handedness::kRight));
   for (std::size_t slot = 0; slot < world.num_slots(); ++slot) {
     EXPECT_NEAR(static_cast<double>(world.y[slot]), 250.0, 1e-4);
   }
@@ -53,8 +57,10 @@ TEST(OutputAxes, WorldAxesShowTheWallWithoutMotionDistortion) {
 
 TEST(OutputAxes, LeftHandednessNegatesY) {
   const ScanPattern pattern = MakeRaster(40, 10, 1);
-  const Frame right = ScanOnce(TurnedWorld(), pattern, WithAxes("sensor", "right"));
-  const Frame left = ScanOnce(TurnedWorld(), pattern, WithAxes("sensor", "left"));
+  const Frame right =
+      ScanOnce(TurnedWorld(), pattern, WithAxes(OutputFrame::kSensor, Handedness::kRight));
+  const Frame left =
+      ScanOnce(TurnedWorld(), pattern, WithAxes(OutputFrame::kSensor, Handedness::kLeft));
   for (std::size_t slot = 0; slot < right.num_slots(); ++slot) {
     EXPECT_EQ(left.x[slot], right.x[slot]);
     EXPECT_EQ(left.y[slot], -right.y[slot]);
@@ -62,7 +68,7 @@ TEST(OutputAxes, LeftHandednessNegatesY) {
 }
 
 TEST(OutputAxes, WorldCoordinatesAreTakenAboutTheOriginThatIsGiven) {
-  SimulatorSpec spec = WithAxes("world", "right");
+  SimulatorSpec spec = WithAxes(OutputFrame::kWorld, Handedness::kRight);
   spec.output.origin_m = {60.0, 240.0, -1.0};
   const Frame world = ScanOnce(TurnedWorld(), MakeRaster(40, 10, 1), spec);
   for (std::size_t slot = 0; slot < world.num_slots(); ++slot) {
@@ -73,7 +79,7 @@ TEST(OutputAxes, WorldCoordinatesAreTakenAboutTheOriginThatIsGiven) {
 TEST(OutputAxes, WorldCoordinatesFarFromTheOriginAreRefused) {
   auto world = TurnedWorld();
   world->world_from_chunk.translation() = Vector3(6e5, 5.3e6, 400.0);
-  SimulatorSpec spec = WithAxes("world", "right");
+  SimulatorSpec spec = WithAxes(OutputFrame::kWorld, Handedness::kRight);
   const ScanPattern pattern = MakeRaster(40, 10, 1);
   try {
     static_cast<void>(ScanOnce(world, pattern, spec));

@@ -1,4 +1,4 @@
-// Every return mode on echoes made by hand.
+// Tests every return mode on hand-made echoes.
 #include "core/simulate/returns.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/frame/outcome.h"
+#include "railcast/outcome.h"
 
 namespace railcast {
 namespace {
@@ -45,7 +45,7 @@ std::vector<Surface> FiveSurfaces() {
   return surfaces;
 }
 
-// A frame of 2 rows and 2 columns; firing 2 (row 1, column 0) has the echoes, the others nothing.
+// A frame of 2 rows and 2 columns. Firing 2 (row 1, column 0) has the echoes, the others have none.
 Frame StoreOne(ReturnMode mode, const std::vector<HandMade>& hand_made, bool has_shares = true) {
   auto echoes = std::make_unique<EchoTiles>();
   echoes->first.num_rays = 4;
@@ -100,7 +100,7 @@ TEST(Returns, GiveTheSecondStrongestWhereTheStrongestIsLast) {
 }
 
 TEST(Returns, GiveTheNextStrongestWhereTheFirstIsTakenAlready) {
-  // Strongest is first: third slot is the strongest of the rest.
+  // The first echo is the strongest, so the third slot holds the strongest of the rest.
   const std::vector<HandMade> echoes = {{10.0F, 9.0F, Outcome::kReturned, 1},
                                         {20.0F, 2.0F, Outcome::kReturned, 2},
                                         {30.0F, 5.0F, Outcome::kReturned, 3},
@@ -140,7 +140,8 @@ TEST(Returns, StandAtRowTimesWidthPlusColumnTimesReturns) {
 }
 
 TEST(Returns, LetTheFirstSlotSayWhatAFiringWithoutReturnMissed) {
-  // The strongest surface that was too weak, not the stronger drop, nor the first in line.
+  // The strongest surface below the threshold, neither the stronger drop nor the first echo in the
+  // list.
   const std::vector<HandMade> missed = {{40.0F, 0.2F, Outcome::kBelowThreshold, 1},
                                         {10.0F, 0.6F, Outcome::kBelowThreshold, 2},
                                         {5.0F, 0.9F, Outcome::kBelowThreshold, 0, 23}};
@@ -181,16 +182,11 @@ TEST(Returns, KeepAllFieldsOfASurface) {
   EXPECT_EQ(frame.instance[2], 23U);
   EXPECT_EQ(frame.material[2], 3);
   EXPECT_EQ(frame.footprint_share[2], 0.5F);
-  // Without shares the field is the caller's.
+  // Without shares, the field is left unchanged.
   EXPECT_EQ(StoreOne(ReturnMode::kStrongest, kFour, false).footprint_share[2], 0.0F);
 }
 
-TEST(ReturnModeOf, KnowsTheNamesOfTheScenario) {
-  EXPECT_EQ(ReturnModeOf("strongest"), ReturnMode::kStrongest);
-  EXPECT_EQ(ReturnModeOf("first"), ReturnMode::kFirst);
-  EXPECT_EQ(ReturnModeOf("last"), ReturnMode::kLast);
-  EXPECT_EQ(ReturnModeOf("dual"), ReturnMode::kDual);
-  EXPECT_EQ(ReturnModeOf("triple"), ReturnMode::kTriple);
+TEST(NumReturns, IsHowManyAModeReports) {
   EXPECT_EQ(NumReturns(ReturnMode::kLast), 1U);
   EXPECT_EQ(NumReturns(ReturnMode::kDual), 2U);
   EXPECT_EQ(NumReturns(ReturnMode::kTriple), 3U);

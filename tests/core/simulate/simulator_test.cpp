@@ -1,4 +1,4 @@
-#include "core/simulate/simulator.h"
+#include "railcast/simulator.h"
 
 #include <gtest/gtest.h>
 
@@ -48,14 +48,14 @@ TEST(Simulator, FillsEveryFieldOfAReturn) {
     EXPECT_TRUE(std::isnan(frame.intensity[slot]));
     EXPECT_TRUE(std::isnan(frame.power_ratio[slot]));
   }
-  // Row 0 looks down, column 0 looks left.
+  // Row 0 looks down; column 0 looks left.
   EXPECT_LT(frame.z.front(), 0.0F);
   EXPECT_GT(frame.y.front(), 0.0F);
 }
 
 TEST(Simulator, GivesEachBlockedFiringItsCause) {
   const ScanPattern pattern = MakeRaster(10, 10, 1);
-  const SimulatorSpec spec{.range_min_m = 1.0, .range_max_m = 50.0};
+  const SimulatorSpec spec{.detector = {.range_min_m = 1.0, .range_max_m = 50.0}};
   EXPECT_EQ(CountOutcome(ScanOnce(WorldWithWall(0.5F), pattern, spec), Outcome::kNearRange), 100U);
   const Frame far = ScanOnce(WorldWithWall(60.0F), pattern, spec);
   EXPECT_EQ(CountOutcome(far, Outcome::kNoSurface), 100U);
@@ -71,9 +71,41 @@ TEST(Simulator, GivesEachBlockedFiringItsCause) {
   EXPECT_NEAR(static_cast<double>(ego.true_range_m[45]), 0.2, 1e-3);
 }
 
+std::string FaultOf(const SimulatorSpec& spec) {
+  try {
+    Simulator(WorldWithWall(5.0F), MakeRaster(10, 10, 1), TestMaterials(), spec, 1);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(Simulator, ThrowsForNumbersThatItCannotWorkWith) {
+  SimulatorSpec spec{.detector = {.effects = {.surface_response = true}}};
+  EXPECT_EQ(FaultOf(spec), "none");
+  spec.detector.beam.wavelength_nm = 1064;
+  EXPECT_EQ(FaultOf(spec), "/beam/wavelength_nm: must be 905 or 1550 (got 1064)");
+  spec = {};
+  spec.snow_material = 999;
+  EXPECT_EQ(FaultOf(spec), "/snow_material: must be the index of one of " +
+                               std::to_string(TestMaterials().materials().size()) +
+                               " materials (got 999)");
+  spec = {.isa = "avx1"};
+  EXPECT_EQ(FaultOf(spec).find("isa: must be an instruction set of this machine, one of "), 0U);
+}
+
+TEST(Simulator, StaysAsItIsIfItCannotWorkWithANewSpec) {
+  Simulator simulator(WorldWithWall(5.0F), MakeRaster(10, 10, 1), TestMaterials(), {}, 1);
+  SimulatorSpec spec = simulator.spec();
+  spec.detector.seed = 99;
+  spec.detector.beam.wavelength_nm = 1064;
+  EXPECT_THROW(simulator.Use(spec), InputError);
+  EXPECT_EQ(simulator.spec().detector.seed, SimulatorSpec().detector.seed);
+}
+
 TEST(Simulator, ThresholdUsesReflectivityIncidenceAndFog) {
-  SimulatorSpec spec{.effects = {.threshold = true}};
-  spec.weather.fog_density_per_m = 0.005;
+  SimulatorSpec spec{.detector = {.effects = {.threshold = true}}};
+  spec.detector.weather.fog_density_per_m = 0.005;
   const Frame frame = ScanOnce(WorldWithWall(100.0F), MakeRaster(40, 10, 1), spec);
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
     const double range = static_cast<double>(frame.true_range_m[slot]);
@@ -86,8 +118,8 @@ TEST(Simulator, ThresholdUsesReflectivityIncidenceAndFog) {
 }
 
 TEST(Simulator, AFrameKeepsTheTruthOfWhatWasNotDetected) {
-  SimulatorSpec spec{.effects = {.threshold = true}};
-  spec.plausibility.reference_threshold = 1e6;
+  SimulatorSpec spec{.detector = {.effects = {.threshold = true}}};
+  spec.detector.plausibility.reference_threshold = 1e6;
   const Frame frame = ScanOnce(WorldWithWall(100.0F), MakeRaster(10, 10, 1), spec);
   EXPECT_EQ(CountOutcome(frame, Outcome::kBelowThreshold), 100U);
   EXPECT_TRUE(std::isnan(frame.range_m[55]));
@@ -98,10 +130,11 @@ TEST(Simulator, AFrameKeepsTheTruthOfWhatWasNotDetected) {
 TEST(Simulator, TellsTheBeamsShareOnlyWhereBeamsHaveAWidth) {
   const ScanPattern pattern = MakeRaster(10, 10, 1);
   for (const EffectSet& effects : {EffectSet{}, EffectSet{.threshold = true}}) {
-    const Frame frame = ScanOnce(WorldWithWall(20.0F), pattern, {.effects = effects});
+    const Frame frame = ScanOnce(WorldWithWall(20.0F), pattern, {.detector = {.effects = effects}});
     EXPECT_TRUE(std::isnan(frame.footprint_share[55]) && std::isnan(frame.mixed_share[55]));
   }
-  const Frame wide = ScanOnce(WorldWithWall(20.0F), pattern, {.effects = {.footprint = true}});
+  const Frame wide =
+      ScanOnce(WorldWithWall(20.0F), pattern, {.detector = {.effects = {.footprint = true}}});
   EXPECT_NEAR(static_cast<double>(wide.footprint_share[55]), 1.0, 1e-6);
   EXPECT_NEAR(static_cast<double>(wide.mixed_share[55]), 0.0, 1e-6);
 }
@@ -128,7 +161,7 @@ TEST(Simulator, RollingShutterSeesTheWallComeNearer) {
   }
 }
 
-// Packets of a slow pattern spread over more time than lies between two poses.
+// Packets of a slow pattern cover more time than the interval between two poses.
 TEST(Simulator, SlowPatternsGiveEveryFiringItsOwnPose) {
   auto world = WorldWithWall(50.0F);
   world->velocity_chunk_mps = {5.0, 0.0, 0.0};
@@ -169,8 +202,8 @@ TEST(Simulator, CountsTheFiringsOnAnObjectAsIfItStoodAlone) {
   const auto visible = [&](std::uint32_t instance) {
     return std::count(frame.instance.begin(), frame.instance.end(), instance);
   };
-  // Half angles atan(2/20) = 5.7 deg: 22 cells a side; atan(2/40) = 2.9 deg: 12 cells; the first
-  // hides the second; the third is out of range.
+  // Half angles atan(2/20) = 5.7 deg: 22 cells per side; atan(2/40) = 2.9 deg: 12 cells. The first
+  // object hides the second; the third is out of range.
   EXPECT_EQ(alone[0], 22U * 22U);
   EXPECT_EQ(visible(1), 22 * 22);
   EXPECT_EQ(alone[1], 12U * 12U);
@@ -178,10 +211,17 @@ TEST(Simulator, CountsTheFiringsOnAnObjectAsIfItStoodAlone) {
   EXPECT_EQ(alone[2], 0U);
 }
 
+std::vector<std::string> EffectsOn(const FiringStory& story) {
+  std::vector<std::string> effects;
+  for (const FiringStory::Step& step : story.steps) effects.push_back(step.effect);
+  return effects;
+}
+
 TEST(Simulator, ExplainsAFiringAsScanMeasuredIt) {
-  SimulatorSpec spec{.effects = {.threshold = true, .rain = true, .snow = true, .noise = true}};
-  spec.weather.rain_rate_mmph = 30.0;
-  spec.weather.snow_rate_mmph = 10.0;
+  SimulatorSpec spec{
+      .detector = {.effects = {.threshold = true, .rain = true, .snow = true, .noise = true}}};
+  spec.detector.weather.rain_rate_mmph = 30.0;
+  spec.detector.weather.snow_rate_mmph = 10.0;
   Simulator simulator(WorldWithWall(60.0F), MakeRaster(20, 10, 1), TestMaterials(), spec, 1);
   Frame frame;
   simulator.Scan(5, frame);
@@ -196,23 +236,63 @@ TEST(Simulator, ExplainsAFiringAsScanMeasuredIt) {
     }
     EXPECT_EQ(story.material, 2);
   }
-  std::vector<std::string> effects;
-  for (const auto& step : simulator.Explain(5, 0).steps) effects.push_back(step.effect);
-  EXPECT_EQ(effects, (std::vector<std::string>{"hit", "threshold", "rain", "snow", "noise"}));
+  EXPECT_EQ(EffectsOn(simulator.Explain(5, 0)),
+            (std::vector<std::string>{"hit", "threshold", "rain", "snow", "noise"}));
+}
+
+TEST(Simulator, ExplainsWhatWaterAndSnowMadeOfTheSurface) {
+  SimulatorSpec spec{
+      .detector = {.effects = {.surface_response = true, .surface_condition = true}}};
+  const auto explain = [&] {
+    Simulator simulator(WorldWithWall(60.0F), MakeRaster(20, 10, 1), TestMaterials(), spec, 1);
+    return simulator.Explain(5, 105);
+  };
+  const FiringStory dry = explain();
+  EXPECT_EQ(EffectsOn(dry), (std::vector<std::string>{"surface_response", "hit", "measurement"}));
+  spec.detector.weather.wetness = 1.0;
+  const FiringStory wet = explain();
+  EXPECT_EQ(EffectsOn(wet), (std::vector<std::string>{"surface_response", "surface_condition",
+                                                      "hit", "measurement"}));
+  EXPECT_EQ(wet.steps[0].intensity, dry.steps[0].intensity);
+  EXPECT_NE(wet.steps[1].intensity, dry.steps[0].intensity);
+  EXPECT_EQ(wet.steps[2].intensity, wet.steps[1].intensity);
+}
+
+TEST(Simulator, ExplainsWhichEffectsAddedEchoes) {
+  SimulatorSpec spec{.detector = {.effects = {.surface_response = true,
+                                              .clutter = true,
+                                              .fog_echo = true,
+                                              .sunlight = true}}};
+  spec.detector.weather.rain_rate_mmph = 50.0;
+  spec.detector.weather.visibility_m = 100.0;
+  spec.detector.receiver.clutter_gain = 10.0;
+  Simulator simulator(WorldWithWall(60.0F), MakeRaster(20, 10, 1), TestMaterials(), spec, 1);
+  std::size_t num_drops = 0;
+  for (std::uint32_t firing = 0; firing < 20; ++firing) {
+    const FiringStory story = simulator.Explain(5, firing);
+    ASSERT_EQ(EffectsOn(story), (std::vector<std::string>{"surface_response", "clutter", "fog_echo",
+                                                          "hit", "measurement", "false alarms"}));
+    num_drops += story.steps[1].num_added_echoes;
+    EXPECT_EQ(story.steps[2].num_added_echoes, 1U);
+    std::size_t num_added = 0;
+    for (const FiringStory::Step& step : story.steps) num_added += step.num_added_echoes;
+    EXPECT_EQ(story.echoes.size(), 1 + num_added);
+  }
+  EXPECT_GT(num_drops, 20U);
 }
 
 TEST(Simulator, ExplainsEveryEchoWithTheSlotItHasInTheFrame) {
-  SimulatorSpec spec{.seed = 2,
-                     .effects = {.surface_response = true,
-                                 .extinction = true,
-                                 .detection = true,
-                                 .detection_probability = true,
-                                 .clutter = true,
-                                 .range_noise = true,
-                                 .footprint = true}};
-  spec.weather.rain_rate_mmph = 50.0;
-  spec.receiver.clutter_gain = 1.0;
-  spec.receiver.return_mode = "triple";
+  SimulatorSpec spec{.detector = {.seed = 2,
+                                  .effects = {.surface_response = true,
+                                              .extinction = true,
+                                              .detection = true,
+                                              .detection_probability = true,
+                                              .clutter = true,
+                                              .range_noise = true,
+                                              .footprint = true}}};
+  spec.detector.weather.rain_rate_mmph = 50.0;
+  spec.detector.receiver.clutter_gain = 1.0;
+  spec.detector.receiver.return_mode = ReturnMode::kTriple;
   auto world = WorldWithWall(60.0F);
   world->AddObject(WallModel(0.0F, 2.0F, 1),
                    MakeTransform(Eigen::Matrix3d::Identity(), {20.0, 0.0, 0.0}));

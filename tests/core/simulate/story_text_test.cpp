@@ -10,7 +10,7 @@
 namespace railcast {
 namespace {
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNotKnown = std::numeric_limits<float>::quiet_NaN();
 
 LabelTable Labels() {
   Label wagon;
@@ -31,7 +31,7 @@ FiringStory HitOnAWagon() {
   story.material = 2;
   story.reflectivity = 0.5F;
   story.steps = {
-      {"hit", Outcome::kReturned, 20.0F, 0.5F, kNaN, kNaN, kNaN},
+      {"hit", Outcome::kReturned, 20.0F, 0.5F, kNotKnown, kNotKnown, kNotKnown},
       {"noise", Outcome::kReturned, 20.0F, 0.5F, 0.25F, 8.0F, 20.125F},
   };
   return story;
@@ -55,6 +55,13 @@ TEST(StoryText, TellsWhatAFiringHitAndWhatEachEffectMadeOfIt) {
       "     20.125\n");
 }
 
+TEST(StoryText, SaysHowManyEchoesAnEffectAdded) {
+  FiringStory story = HitOnAWagon();
+  story.steps.front() = {"clutter", Outcome::kReturned, 20.0F,     0.5F,
+                         kNotKnown, kNotKnown,          kNotKnown, 2};
+  EXPECT_NE(TextOf(story).find("\nclutter +2        returned  "), std::string::npos);
+}
+
 TEST(StoryText, SaysThatAFiringHitsNothing) {
   FiringStory story = HitOnAWagon();
   story.label = 0;
@@ -72,7 +79,8 @@ TEST(StoryText, ListsEchoesWithTheirSlotsWhereThereIsMoreThanOne) {
   const FiringStory::Echo wagon{12, 20.0F, 20.125F, 8.0F, 0.75F, Outcome::kReturned, 17};
   story.echoes = {wagon};
   EXPECT_EQ(TextOf(story), TextOf(HitOnAWagon()));
-  story.echoes.push_back({0, kNaN, kNaN, kNaN, 0.25F, Outcome::kNoSurface, std::nullopt});
+  story.echoes.push_back(
+      {0, kNotKnown, kNotKnown, kNotKnown, 0.25F, Outcome::kNoSurface, std::nullopt});
   const std::string text = TextOf(story);
   EXPECT_EQ(text.substr(text.find("echo ")),
             "echo              outcome            true_range_m          share"

@@ -1,10 +1,10 @@
-// Where effect footprint sends sub-rays, seen from what the frames tell of the beams.
+// Where effect footprint casts sub-rays, as deduced from the frames.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <memory>
 
-#include "core/simulate/simulator.h"
+#include "railcast/simulator.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/scan_once.h"
 #include "tests/support/simple_world.h"
@@ -15,8 +15,8 @@ namespace {
 constexpr double kSigma_rad = 0.75e-3;
 
 SimulatorSpec WideBeams() {
-  SimulatorSpec spec{.effects = {.footprint = true}};
-  spec.beam.divergence_mrad = {3.0, 3.0};
+  SimulatorSpec spec{.detector = {.effects = {.footprint = true}}};
+  spec.detector.beam.divergence_mrad = {3.0, 3.0};
   return spec;
 }
 
@@ -40,7 +40,7 @@ double AzimuthOf(const ScanPattern& pattern, const Frame& frame, std::size_t slo
 }
 
 TEST(SubRayNeeds, SeesAnEdgeHalfABeamAwayWhereFiringsStandClose) {
-  // 0.35 mrad between firings: the next ones say nothing of an edge a beam's radius away.
+  // 0.35 mrad between firings: adjacent firings do not reveal an edge at a beam's radius.
   const ScanPattern pattern = MakeRaster(0.4, 0.2, 0.02);
   const Frame frame = ScanOnce(HalfAWall(), pattern, WideBeams());
   int num_near = 0;
@@ -48,8 +48,8 @@ TEST(SubRayNeeds, SeesAnEdgeHalfABeamAwayWhereFiringsStandClose) {
     const double off_edge = -AzimuthOf(pattern, frame, slot) / kSigma_rad;
     if (off_edge < 0.0 || off_edge > 1.1) continue;
     const double share = 0.5 * std::erfc(-off_edge / std::sqrt(2.0));
-    // Sixteen sub-rays in rings are up to 0.137 off, as many in Vogel's spiral, too. A beam that
-    // counts as filled is more than that off up to 1.1 sigma.
+    // Sixteen sub-rays in rings have errors of up to 0.137, as do sixteen in Vogel's spiral. If a
+    // beam wrongly counted as filled, its error would be larger up to 1.1 sigma from the edge.
     EXPECT_NEAR(static_cast<double>(frame.footprint_share[slot]), share, 0.14) << off_edge;
     ++num_near;
   }
@@ -57,12 +57,12 @@ TEST(SubRayNeeds, SeesAnEdgeHalfABeamAwayWhereFiringsStandClose) {
 }
 
 TEST(SubRayNeeds, LeavesThePlainAlone) {
-  // Ground at grazing incidence: neighbours' ranges differ by metres and lie on one plane.
+  // Ground at grazing incidence: the ranges of neighbours differ by metres but lie on one plane.
   auto world = std::make_shared<SimpleWorld>();
   world->ground.parts.push_back({MakeFloor(-2.0F, 3000.0F), 1, 2});
   SimulatorSpec spec = WideBeams();
   const Frame wide = ScanOnce(world, MakeRaster(10, 8, 0.25), spec);
-  spec.effects = {.detection = true};
+  spec.detector.effects = {.detection = true};
   const Frame single = ScanOnce(world, MakeRaster(10, 8, 0.25), spec);
   int num_compared = 0;
   for (std::size_t slot = 0; slot + 3 * wide.width() < wide.num_slots() / 2; ++slot) {

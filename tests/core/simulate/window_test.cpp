@@ -28,8 +28,9 @@ constexpr double kChunkLength_m = 50.0;
 constexpr double kRange_m = 100.0;  // Two chunks to either side of home.
 constexpr int kNumChunks = 30;
 
-/// A straight line of chunks: each has ground and a post with a label of its own, and a tree that
-/// all share or, on request, one of its own. Counts what it builds; one chunk may be broken.
+/// A straight line of chunks. Each has ground, a post with a label of its own, and a tree that is
+/// either shared by all chunks or, on request, its own. Counts the chunks it builds; one chunk may
+/// fail to build.
 class LineWorld final : public World {
  public:
   bool own_trees = false;
@@ -80,8 +81,8 @@ class LineWorld final : public World {
   }
 
  private:
-  /// A bent wire, longer in each chunk, whose tube is the ground's part 3; part 2 has the same
-  /// material and label and is none.
+  /// Adds a bent wire, longer in each chunk, with its tube as part 3 of the ground. Part 2 has the
+  /// same material and label but is not a wire.
   static void AddWire(int chunk, Chunk& built) {
     constexpr std::uint32_t kWireLabel = 50;
     const Wire wire{2, kWireLabel, 0.006, {{0, 1, 5}, {10, 2, 4.5}, {20.0 + chunk, 1, 5}}};
@@ -102,7 +103,7 @@ struct Line {
   WindowSource windows{std::make_shared<SceneStore>(world, TestMaterials()), kRange_m};
 };
 
-/// What a fan of rays from the home chunk's origin sees: range, label, instance.
+/// What a fan of rays from the home chunk's origin hits: range, label, instance.
 using View = std::vector<std::tuple<float, std::uint32_t, std::uint32_t>>;
 
 View LookAround(const Window& window) {
@@ -128,7 +129,7 @@ std::size_t NumHits(const View& view) {
       view.begin(), view.end(), [](const auto& seen) { return std::get<1>(seen) != 0; }));
 }
 
-std::vector<std::uint32_t> Labels(const Window& window) {
+std::vector<std::uint32_t> LabelsIn(const Window& window) {
   std::vector<std::uint32_t> labels;
   for (const Surface& surface : window.surfaces) labels.push_back(surface.label);
   return labels;
@@ -144,7 +145,7 @@ TEST(WindowSource, AWindowDoesNotDependOnThoseBeforeIt) {
     const auto window = line.windows.Get(home);
     line.windows.Prepare((home + 1) % kNumChunks);
     const auto fresh = Line().windows.Get(home);
-    EXPECT_EQ(Labels(*window), Labels(*fresh)) << home;
+    EXPECT_EQ(LabelsIn(*window), LabelsIn(*fresh)) << home;
     EXPECT_EQ(LookAround(*window), LookAround(*fresh)) << home;
     EXPECT_GT(NumHits(LookAround(*window)), 10U) << home;
     EXPECT_TRUE(window->window_from_world.isApprox(line.world->WorldFromChunk(home).inverse()));
@@ -185,7 +186,7 @@ TEST(WindowSource, KeepsOnlyTheWindowInUseAndTheLastPrepared) {
   for (const int ahead : {5, 10, 15}) {
     const int before = line.world->num_windows;
     WaitUntil([&] {
-      line.windows.Prepare(ahead);  // Not taken while the one before is on its way.
+      line.windows.Prepare(ahead);  // Ignored while the previous one is being built.
       return line.world->num_windows > before;
     });
   }
@@ -258,7 +259,7 @@ TEST(WindowSource, MayBeDestroyedWhileAWindowIsOnItsWay) {
   line.windows.Prepare(10);
 }
 
-// A mesh in coordinates of its own: its origin is far from here, its geometry is not.
+// A mesh in coordinates of its own: its origin is far away, but its geometry is near.
 TEST(WindowSource, AnObjectIsWhereItsGeometryIsAndNotItsOrigin) {
   auto world = std::make_shared<LineWorld>();
   world->AddStandingObject(std::make_shared<const Model>(
@@ -297,8 +298,8 @@ TEST(SceneStore, BuildsChunksOnceForSensorsOfDifferentReach) {
   for (int chunk = 8; chunk <= 12; ++chunk) EXPECT_EQ(world->num_built[chunk], 1) << chunk;
   WindowSource alone(std::make_shared<SceneStore>(world, TestMaterials()), kChunkLength_m);
   EXPECT_EQ(LookAround(*near_window), LookAround(*alone.Get(10)));
-  EXPECT_EQ(Labels(*near_window), Labels(*alone.Get(10)));
-  EXPECT_NE(Labels(*near_window), Labels(*far_window));
+  EXPECT_EQ(LabelsIn(*near_window), LabelsIn(*alone.Get(10)));
+  EXPECT_NE(LabelsIn(*near_window), LabelsIn(*far_window));
 }
 
 TEST(WindowSource, AWindowListsTheWiresOfItsChunksWhereTheirTubesAre) {
@@ -318,7 +319,7 @@ TEST(WindowSource, AWindowListsTheWiresOfItsChunksWhereTheirTubesAre) {
     EXPECT_TRUE(second.end_m.isApprox(Vector3(x_m + 20.0 + chunk, 1.0, 5.0).cast<float>()));
     EXPECT_EQ(first.radius_m, 0.006F);
     EXPECT_EQ(second.surface, first.surface);
-    // The tube's, not that of the part alike which is no wire; that one comes right before it.
+    // The surface is that of the tube, not of the preceding part with the same material and label.
     EXPECT_EQ(window->surfaces[first.surface].label, 50U);
     EXPECT_EQ(window->surfaces[first.surface].material, 2U);
     EXPECT_EQ(window->surfaces[first.surface - 1].label, 50U);
@@ -332,7 +333,7 @@ TEST(WindowSource, SaysHowFarAWindowIs) {
   line.windows.UseProgress(
       [&](std::size_t num_done, std::size_t num_steps) { said.emplace_back(num_done, num_steps); });
   static_cast<void>(line.windows.Get(0));
-  // Home, two chunks ahead, and the scene.
+  // The home chunk, two chunks ahead, and the scene.
   EXPECT_EQ(said, (std::vector<std::pair<std::size_t, std::size_t>>{
                       {0, 4}, {1, 4}, {2, 4}, {3, 4}, {4, 4}}));
   static_cast<void>(line.windows.Get(0));
@@ -347,7 +348,7 @@ TEST(WindowSource, IsStoppedBetweenTwoChunks) {
   EXPECT_THROW(static_cast<void>(line.windows.Get(0)), std::runtime_error);
   EXPECT_EQ(line.world->num_built[0], 1);
   EXPECT_EQ(line.world->num_built[1], 0);
-  // Whoever waits for one that is built ahead hears of it, too.
+  // An exception while building ahead also reaches the caller that waits for the window.
   line.windows.Prepare(9);
   EXPECT_THROW(static_cast<void>(line.windows.Get(9)), std::runtime_error);
   line.windows.UseProgress([](std::size_t, std::size_t) {});

@@ -14,7 +14,8 @@
 namespace railcast {
 namespace {
 
-// What it throws is said, and the process ends with 1; with 0 if it throws nothing.
+// Runs `make` and prints the message of its exception. The process then exits with 1, or with 0 if
+// nothing was thrown.
 template <typename Make>
 [[noreturn]] void EndAfter(std::size_t more_bytes, const Make& make) {
   LimitMemory(more_bytes);
@@ -27,7 +28,8 @@ template <typename Make>
   std::_Exit(0);
 }
 
-// 980,000 triangles: 12 MB of indices, 6 MB of vertices, some 100 MB of acceleration structure.
+// 980,000 triangles: 12 MB of indices, 6 MB of vertices, and about 100 MB of acceleration
+// structure.
 Model MakeLargeModel() {
   return {"ball", {{MakeSphere(1.0, 700, 700), 1, 1}}};
 }
@@ -72,7 +74,7 @@ class OutOfMemoryDeathTest : public testing::Test {
 TEST_F(OutOfMemoryDeathTest, SaysWhichModelDoesNotFit) {
   const std::string line =
       "^out of memory while building \"ball\" for ray tracing \\(980000 triangles\\)\n$";
-  // Less than the triangles need, and less than their tree needs.
+  // Less than the triangles need, and less than the acceleration structure needs.
   for (const std::size_t more_bytes : {8'000'000, 60'000'000}) {
     EXPECT_EXIT(BuildLargeModelWithin(more_bytes), testing::ExitedWithCode(1), line) << more_bytes;
   }

@@ -11,7 +11,7 @@ TEST(TraceProgram, IsTheOneThatIsAskedFor) {
   EXPECT_EQ(IsaInUse("sse4.2"), "sse4.2");
 }
 
-// What the compiler finds out about this machine, by a way of its own.
+// Compares with the compiler's own detection of the processor's features.
 TEST(TraceProgram, UsesTheBestOfTheMachine) {
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&

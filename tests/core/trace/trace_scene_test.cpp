@@ -16,7 +16,8 @@ constexpr float kWall_m = 20.0F;
 constexpr float kTube_m = 0.2F;
 constexpr float kRangeMax_m = 50.0F;
 
-/// Part 0 is a wall, part 1 an upright wire before it, part 2 a ball beside it that is no wire.
+/// Part 0 is a wall, part 1 a vertical wire in front of it, part 2 a ball beside it that is not a
+/// wire.
 Model WallBehindAWire() {
   Mesh wire;
   wire.Append(MakeCylinder(static_cast<double>(kTube_m), 8.0, 16),
@@ -30,7 +31,7 @@ Model WallBehindAWire() {
            {ball, 1, 3}}};
 }
 
-/// A fan of rays to the left and right of forward.
+/// A fan of rays to the left and right of the forward direction.
 RayTile MakeFan(std::uint32_t mask) {
   RayTile rays{};
   rays.num_rays = kTileSize;

@@ -11,16 +11,16 @@ namespace {
 constexpr Endpoint kAnyLoopbackPort{0x7F000001, 0};
 constexpr Endpoint kLoopbackPeer{0x7F000001, 0};
 constexpr int kPatience_ms = 10'000;
-/// Long enough for what is on its way over loopback to arrive.
+/// Long enough for a datagram to arrive over loopback.
 constexpr int kSilence_ms = 100;
 
-/// Who sends commands.
+/// A peer that sends commands.
 class Controller {
  public:
   explicit Controller(const CommandChannel& channel) : channel_(channel.at()) {}
 
   void Say(const std::string& text) { port_.Answer(text, channel_); }
-  /// Empty if none comes.
+  /// Returns the next answer; empty if none comes.
   [[nodiscard]] std::string Hear(int timeout_ms = kPatience_ms) {
     const auto received = port_.Receive(timeout_ms);
     return received ? std::string(received->bytes.begin(), received->bytes.end()) : "";
@@ -189,7 +189,8 @@ TEST(CommandChannel, AnswersNoAnswer) {
     controller.Say(line);
     const std::string answer = controller.Hear();
     ASSERT_NE(answer, "") << line;
-    // As if the channel's own port had sent the line: its answer comes back to it.
+    // Sent back as if the channel's own port had sent the command, so that its answer returns to
+    // it.
     controller.Say(answer);
     EXPECT_EQ(controller.Hear(kSilence_ms), "") << line;
   }
@@ -239,13 +240,14 @@ TEST(CommandChannel, RefusesMoreThanItCanHold) {
   controller.Say("{\"session\": \"a\", \"id\": 9, \"command\": \"stop\"}");
   const std::string answer = controller.Hear();
   EXPECT_EQ(
-      answer.find("{\"ok\":false,\"session\":\"a\",\"id\":9,\"faults\":[\"too many commands wait"),
+      answer.find(
+          "{\"ok\":false,\"session\":\"a\",\"id\":9,\"faults\":[\"too many commands are waiting"),
       0U)
       << answer;
   for (std::size_t i = 0; i < CommandChannel::kMaxRequests; ++i) {
     ASSERT_TRUE(channel.Next(0).has_value());
   }
-  // The same line again: now there is room.
+  // The same line is sent again and accepted, since there is room now.
   controller.Say("{\"session\": \"a\", \"id\": 9, \"command\": \"stop\"}");
   EXPECT_TRUE(channel.Next(kPatience_ms).has_value());
 }

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "core/io/net/udp_receiver.h"
-#include "core/io/pcd_reader.h"
-#include "core/io/stream/received_frame.h"
 #include "core/io/write_file.h"
+#include "railcast/io/cloud_files.h"
+#include "railcast/io/stream.h"
 #include "tests/generator/project_folder.h"
 #include "tests/generator/run_command.h"
 
@@ -50,12 +50,12 @@ inline std::string CoarseScenario(const std::filesystem::path& folder) {
   return file.string();
 }
 
-/// A port that is free now, and was given to nobody just before.
+/// Returns a port that is free now and has just been assigned by the kernel.
 inline std::string FreePort() {
   return std::to_string(UdpReceiver(kAnyLoopbackPort).at().port);
 }
 
-/// `railcast-generate stream` while it runs.
+/// A running `railcast-generate stream`.
 class Stream {
  public:
   explicit Stream(const std::string& arguments)
@@ -68,12 +68,12 @@ class Stream {
   std::future<Ended> run_;
 };
 
-/// Who drives a vehicle in lockstep.
+/// A controller that drives a vehicle in lockstep.
 class Controller {
  public:
   explicit Controller(const std::string& port) : to_(ParseEndpoint("127.0.0.1:" + port, 1)) {}
 
-  /// Says a command until it is answered, and gives the answer; empty if there is none.
+  /// Sends a command until it is answered and returns the answer; empty if there is none.
   std::string Say(const std::string& command) {
     const std::string id = R"("session":"test","id":)" + std::to_string(++id_) + ",";
     for (int attempt = 0; attempt < 200; ++attempt) {
@@ -92,7 +92,7 @@ class Controller {
   int id_ = 0;
 };
 
-/// The returned points' x, y, z of a PCD frame that are in the received one, and only they.
+/// Expects a received frame to hold exactly the returned points of a PCD frame, by x, y and z.
 inline void ExpectSamePoints(const ReceivedFrame& received, const std::filesystem::path& pcd_file) {
   const pcl::PCLPointCloud2 cloud = ReadPcd(pcd_file);
   ASSERT_TRUE(received.is_complete());

@@ -11,16 +11,16 @@
 #include <thread>
 
 #include "core/base/error.h"
-#include "generator/run_stopped.h"
+#include "core/base/units.h"
+#include "generator/run/stoppable_work.h"
 
 namespace railcast {
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
-constexpr std::int64_t kDay_ns = 86'400 * kSecond_ns;
+constexpr std::int64_t kDay_ns = 86'400 * kNsPerS;
 
-/// A sensor whose frames are two datagrams, due at the stamp and half a period later, that hold
-/// nothing but their frame's number.
+/// A sensor whose frames are two datagrams, due at the stamp and half a period later, that contain
+/// only the number of their frame.
 struct TinySensor {
   struct Sent {
     std::uint32_t frame{};
@@ -81,7 +81,7 @@ LiveRunSpec Lasting(std::int64_t duration_ns) {
 }
 
 TEST(LiveRun, KeepsItsStampsForADay) {
-  // 30 Hz is no whole number of nanoseconds.
+  // The period at 30 Hz is not a whole number of nanoseconds.
   for (const double rate_hz : {10.0, 30.0}) {
     JumpingClock clock;
     TinySensor sensor(rate_hz, clock);
@@ -95,7 +95,7 @@ TEST(LiveRun, KeepsItsStampsForADay) {
       ASSERT_EQ(sent.frame, i / 2);
       const double exact_ns = static_cast<double>(sent.frame) * 1e9 / rate_hz;
       const std::int64_t half_ns = i % 2 == 0 ? 0 : sensor.StampNs(1) / 2;
-      // A double has 2^-53 of a day, 0.01 ns; stamps are rounded to whole nanoseconds.
+      // A double resolves a day to 2^-53, 0.01 ns; stamps are rounded to whole nanoseconds.
       ASSERT_NEAR(static_cast<double>(sent.due_ns - half_ns), exact_ns, 0.52);
       ASSERT_EQ(sent.left_ns, sent.due_ns + sensor.StampNs(1));
     }
@@ -106,7 +106,7 @@ TEST(LiveRun, SpreadsDatagramsOnePeriodAfterTheirFirings) {
   MonotonicClock clock;
   TinySensor sensor(50.0, clock);
   const std::int64_t begin_ns = clock.NowNs();
-  const auto records = RecordsOf(Lasting(kSecond_ns / 5), {sensor.Live("a")}, {}, clock);
+  const auto records = RecordsOf(Lasting(kNsPerS / 5), {sensor.Live("a")}, {}, clock);
   EXPECT_EQ(records.front().frames, 10U);
   EXPECT_EQ(records.front().sent.datagrams, 20U);
   EXPECT_EQ(records.front().sent.bytes, 80U);
@@ -119,7 +119,7 @@ TEST(LiveRun, SpreadsDatagramsOnePeriodAfterTheirFirings) {
 TEST(LiveRun, SendsABurstAsSoonAsItIsMade) {
   JumpingClock clock;
   TinySensor sensor(10.0, clock);
-  LiveRunSpec spec = Lasting(kSecond_ns);
+  LiveRunSpec spec = Lasting(kNsPerS);
   spec.pacing = Pacing::kBurst;
   const auto records = RecordsOf(spec, {sensor.Live("a")}, {}, clock);
   EXPECT_EQ(records.front().late_frames, 0U);
@@ -140,14 +140,14 @@ TEST(LiveRun, MakesTheNextFrameWhileOneIsSent) {
   };
   const auto send = live.send;
   live.send = [&](const Datagrams& datagrams, std::span<const Datagrams::Item> items) {
-    // Sending of frame 0 goes on until frame 1 is in the making.
+    // Keep sending frame 0 until frame 1 is being made.
     for (int i = 0; i < 1000 && !is_second_made; ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     did_overlap = did_overlap || is_second_made;
     send(datagrams, items);
   };
-  static_cast<void>(RunLive(Lasting(3 * kSecond_ns / 20), {live}, {}, clock));
+  static_cast<void>(RunLive(Lasting(3 * kNsPerS / 20), {live}, {}, clock));
   EXPECT_TRUE(did_overlap);
 }
 
@@ -156,7 +156,7 @@ TEST(LiveRun, CountsLateFramesAndSendsThemWhole) {
   for (const Pacing pacing : {Pacing::kSpread, Pacing::kBurst}) {
     TinySensor sensor(10.0, clock);
     sensor.work = [&](std::uint32_t) { clock.JumpTo(clock.NowNs() + sensor.StampNs(1) * 3 / 2); };
-    LiveRunSpec spec = Lasting(kSecond_ns);
+    LiveRunSpec spec = Lasting(kNsPerS);
     spec.pacing = pacing;
     const auto records = RecordsOf(spec, {sensor.Live("a")}, {}, clock);
     EXPECT_EQ(records.front().frames, 10U);
@@ -172,9 +172,9 @@ TEST(LiveRun, CatchesUpAfterAStall) {
   sensor.work = [&](std::uint32_t frame) {
     if (frame == 5) clock.JumpTo(clock.NowNs() + 3 * sensor.StampNs(1));
   };
-  const auto records = RecordsOf(Lasting(3 * kSecond_ns), {sensor.Live("a")}, {}, clock);
+  const auto records = RecordsOf(Lasting(3 * kNsPerS), {sensor.Live("a")}, {}, clock);
   EXPECT_EQ(records.front().frames, 30U);
-  // Frame 5 ends where frame 8 begins: 7 is just in time.
+  // Frame 5 is done when frame 8 begins, so frames 5 and 6 are late and frame 7 is just in time.
   EXPECT_EQ(records.front().late_frames, 2U);
   EXPECT_EQ(sensor.sent.back().left_ns, sensor.sent.back().due_ns + sensor.StampNs(1));
 }
@@ -203,11 +203,11 @@ TEST(LiveRun, DropsWholeFramesThatCannotBeInTime) {
     hooks.end_frames = [&](const RunState& state) {
       worst_ns = std::max(worst_ns, state.behind_ns);
     };
-    LiveRunSpec spec = Lasting(kSecond_ns);
+    LiveRunSpec spec = Lasting(kNsPerS);
     spec.pacing = pacing;
     spec.drops_late = true;
     const auto records = RecordsOf(spec, {sensor.Live("a")}, hooks, clock);
-    // Begun at 0, 2.5, 5 and 7.5 periods: each the first whose period has not ended.
+    // Frames are begun at 0, 2.5, 5 and 7.5 periods; each is the first whose period has not ended.
     EXPECT_EQ(sensor.made, (std::vector<std::uint32_t>{0, 2, 5, 7}));
     EXPECT_EQ(records.front().frames, 4U);
     EXPECT_EQ(records.front().late_frames, 4U);
@@ -218,7 +218,7 @@ TEST(LiveRun, DropsWholeFramesThatCannotBeInTime) {
       EXPECT_EQ(sensor.sent[i].frame, frame);
       EXPECT_EQ(sensor.sent[i].due_ns, sensor.StampNs(frame) + (i % 2 == 0 ? 0 : period_ns / 2));
     }
-    // A frame begins before its period ends, at which the next should begin.
+    // A frame is begun before its period ends, when the next one should begin.
     EXPECT_LT(worst_ns, 5 * period_ns / 2) << "what a frame takes";
   }
 }
@@ -226,7 +226,7 @@ TEST(LiveRun, DropsWholeFramesThatCannotBeInTime) {
 TEST(LiveRun, DropsNothingWhereAllIsInTime) {
   JumpingClock clock;
   TinySensor sensor(10.0, clock);
-  LiveRunSpec spec = Lasting(kSecond_ns);
+  LiveRunSpec spec = Lasting(kNsPerS);
   spec.drops_late = true;
   const auto records = RecordsOf(spec, {sensor.Live("a")}, {}, clock);
   EXPECT_EQ(records.front().frames, 10U);
@@ -244,7 +244,7 @@ TEST(LiveRun, TakesSeveralSensorsInTheOrderOfTheirStamps) {
     return NextFrames::kMake;
   };
   const auto records =
-      RecordsOf(Lasting(kSecond_ns / 5), {slow.Live("slow"), fast.Live("fast")}, hooks, clock);
+      RecordsOf(Lasting(kNsPerS / 5), {slow.Live("slow"), fast.Live("fast")}, hooks, clock);
   EXPECT_EQ(records[0].frames, 2U);
   EXPECT_EQ(records[1].frames, 4U);
   EXPECT_EQ(stamps_ns, (std::vector<std::int64_t>{0, 50'000'000, 100'000'000, 150'000'000}));
@@ -281,7 +281,7 @@ TEST(LiveRun, BeginsAnewOnReset) {
     was_reset = was_reset || reset;
     return reset ? NextFrames::kReset : NextFrames::kMake;
   };
-  const auto records = RecordsOf(Lasting(kSecond_ns / 2), {sensor.Live("a")}, hooks, clock);
+  const auto records = RecordsOf(Lasting(kNsPerS / 2), {sensor.Live("a")}, hooks, clock);
   EXPECT_EQ(sensor.made, (std::vector<std::uint32_t>{0, 1, 2, 0, 1, 2, 3, 4}));
   EXPECT_EQ(records.front().late_frames, 0U);
 }
@@ -326,8 +326,7 @@ TEST(LiveRun, EndsWithWhatSendingThrew) {
   live.send = [](const Datagrams&, std::span<const Datagrams::Item>) {
     throw std::runtime_error("disk full");
   };
-  EXPECT_THROW(static_cast<void>(RunLive(Lasting(kSecond_ns), {live}, {}, clock)),
-               std::runtime_error);
+  EXPECT_THROW(static_cast<void>(RunLive(Lasting(kNsPerS), {live}, {}, clock)), std::runtime_error);
 }
 
 }  // namespace

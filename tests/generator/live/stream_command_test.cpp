@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "core/io/stream/stream_receiver.h"
 #include "core/io/velodyne/velodyne_model.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "core/io/write_file.h"
-#include "core/scenario/scenario.h"
+#include "railcast/io/stream.h"
+#include "railcast/scenario.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/live/live_process.h"
 
@@ -115,7 +115,7 @@ TEST(Stream, SendsSeveralSensorsOfOneVehicleByOneClock) {
   EXPECT_NE(ended.said.find("front: 6 frames, "), std::string::npos) << ended.said;
   EXPECT_NE(ended.said.find("roof: 3 frames, "), std::string::npos) << ended.said;
   for (std::size_t i = 0; i < roof_frames.size(); ++i) {
-    // Mounted alike, they are in one place at one time.
+    // Both sensors have the same mounting, so at the same time they have the same pose.
     const StreamHeader& a = front_frames[2 * i].header;
     const StreamHeader& b = roof_frames[i].header;
     EXPECT_EQ(a.stamp_ns, b.stamp_ns);
@@ -126,10 +126,10 @@ TEST(Stream, SendsSeveralSensorsOfOneVehicleByOneClock) {
 }
 
 TEST(Stream, KnowsTheProtocolsAndPortsThatScenariosName) {
-  EXPECT_EQ(DefaultPort("railcast"), kStreamPort);
-  for (const std::string& protocol : ProtocolNames()) {
-    if (protocol == "railcast") continue;
-    EXPECT_EQ(FindVelodyneFormat(protocol).name, protocol);
+  EXPECT_EQ(DefaultPort(Protocol::kRailcast), kStreamPort);
+  for (const auto& [protocol, name] : kEnumNames<Protocol>) {
+    if (protocol == Protocol::kRailcast) continue;
+    EXPECT_EQ(FindVelodyneFormat(name).name, name);
     EXPECT_EQ(DefaultPort(protocol), kVelodyneDataPort);
   }
 }
@@ -148,13 +148,13 @@ TEST(Stream, SaysWhichOptionsDoNotGoTogether) {
   EXPECT_EQ(fault(scenario + " --commands-log a"),
             "--commands-log: needs --commands-port, where commands are heard (got none)\n");
   EXPECT_EQ(fault(scenario + " --pcap a"),
-            "--pcap: needs --duration where nobody receives, --to (got none)\n");
+            "--pcap: needs --duration where no --to is given (got none)\n");
   EXPECT_EQ(fault(scenario + " --drop-late --lockstep --commands-port 9"),
             "--drop-late: must be left out where frames wait for steps, as with --lockstep\n");
   EXPECT_EQ(fault(scenario + " --no-offload --pcap a --duration 1"),
             "--no-offload: must be left out where nothing is sent, as with --pcap without --to\n");
   EXPECT_EQ(fault(scenario + " --drop-late --pcap a --duration 1"),
-            "--drop-late: must be left out where frames wait for no time, as with --pcap without "
+            "--drop-late: must be left out where frames are never late, as with --pcap without "
             "--to\n");
   EXPECT_EQ(fault(two_sensors + " --to :1000"),
             "--to: is for one sensor, to be named by --sensor (got 2 sensors)\n");
@@ -165,7 +165,7 @@ TEST(Stream, SaysWhichOptionsDoNotGoTogether) {
             "with a leading 0 (got 010.0.0.1)\n");
   EXPECT_EQ(
       fault(scenario + " --to 127.255.255.255:9"),
-      "receivers of coarse: must be no network's broadcast address; 255.255.255.255 is one (got "
+      "receivers of coarse: must not be a network's broadcast address; use 255.255.255.255 (got "
       "127.255.255.255:9)\n");
   EXPECT_NE(fault(scenario + " --protocol vlp16").find("must be \"spinning\""), std::string::npos);
   EXPECT_EQ(fault(scenario + " --protocol vlp16 --fields x"),

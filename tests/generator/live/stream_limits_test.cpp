@@ -3,18 +3,18 @@
 #include <filesystem>
 #include <string>
 
-#include "core/io/stream/stream_receiver.h"
 #include "core/io/write_file.h"
+#include "railcast/io/stream.h"
 #include "tests/core/io/small_disk.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/live/live_process.h"
 
-// What a live run does where something ends: the track, the disk, the machine's speed.
+// Tests how a live run ends at a limit: of the track, of the disk and of the machine's speed.
 
 namespace railcast {
 namespace {
 
-/// The coarse scenario with its vehicle elsewhere.
+/// Returns the coarse scenario with another starting position of its vehicle.
 std::string ScenarioFrom(const std::filesystem::path& folder, const std::string& start_s_m) {
   std::string text = ReadFileWhole(CoarseScenario(folder));
   const std::string start = "\"start_s_m\": 200";
@@ -26,7 +26,7 @@ std::string ScenarioFrom(const std::filesystem::path& folder, const std::string&
 
 TEST(Stream, SaysWhyItEndsWhereTheTrackDoes) {
   const TemporaryDirectory folder;
-  // 5 m at 10 m/s, at 20 Hz: frame 10 begins at the end.
+  // 5 m remain at 10 m/s and 20 Hz, so frame 10 begins at the end of the track.
   const Ended ended = Generate("stream " + ScenarioFrom(folder.path(), "595"));
   EXPECT_EQ(ended.status, 1);
   EXPECT_NE(ended.said.find("coarse: 10 frames"), std::string::npos) << ended.said;
@@ -52,7 +52,7 @@ TEST(Stream, RefusesADurationBeyondTheTrackAsSequenceDoes) {
   const Ended done = Generate(begin + " --duration 0.5");
   EXPECT_EQ(done.status, 0) << done.said;
   EXPECT_TRUE(std::filesystem::exists(capture));
-  // Commands may change where everything goes.
+  // With commands the journey is not known in advance, so the run is not refused.
   const Ended commanded =
       Generate("stream " + scenario + " --duration 0.55 --commands-port " + FreePort());
   EXPECT_NE(commanded.said.find("coarse: 10 frames"), std::string::npos) << commanded.said;
@@ -79,7 +79,7 @@ TEST(Stream, GoesOnWithoutItsCaptureOnAFullDisk) {
   EXPECT_NE(sent.find("coarse: 40 frames"), std::string::npos) << sent;
   EXPECT_NE(sent.find("\ncapture: " + fault), std::string::npos) << sent;
   EXPECT_NE(sent.find(rest), std::string::npos) << sent;
-  // Where nobody receives, there is nothing to go on for.
+  // A run without receivers ends with its capture.
   const std::string alone = run("");
   EXPECT_EQ(alone.find("1 "), 0U) << alone;
   EXPECT_EQ(alone.find("coarse: 40 frames"), std::string::npos) << alone;
@@ -89,12 +89,12 @@ TEST(Stream, GoesOnWithoutItsCaptureOnAFullDisk) {
 TEST(Stream, SaysThatItCannotKeepUpAndDropsFramesIfAskedTo) {
   const TemporaryDirectory folder;
   std::string text = ReadFileWhole(CoarseScenario(folder.path()));
-  // More frames a second than any machine makes.
+  // More frames per second than any machine can make.
   const std::string rate = "\"rate_hz\": 20";
   text.replace(text.find(rate), rate.size(), "\"rate_hz\": 20000");
   const std::string scenario = (folder.path() / "fast.json").string();
   WriteFileWhole(scenario, text);
-  // Runs until it has said so, and gives all that it said.
+  // Runs until the text has been printed, and returns all output.
   const auto run_until = [&](const std::string& said, const std::string& option) {
     const std::string log = (folder.path() / "log").string();
     return RunCommand(RAILCAST_GENERATE " stream " + scenario + option + " --to :" + FreePort() +

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/stream/stream_receiver.h"
+#include "railcast/io/stream.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/live/live_process.h"
 
@@ -96,7 +96,8 @@ TEST(VehicleInTheLoop, IsDrivenByTheClientThatBrakes) {
       commands_port + "; status=$?; kill -INT $pid; wait $pid; exit $status");
   const Ended ended = stream.Wait();
   EXPECT_EQ(ended.status, 0) << ended.said;
-  // From 10 m/s at 2 m/s^2: 25 m; the brake begins one frame, 0.5 m, after the last one seen.
+  // Braking from 10 m/s at 2 m/s^2 takes 25 m; the brake is applied one frame, 0.5 m, after the
+  // last frame received.
   EXPECT_NE(ended.said.find("with 10.00 m/s, braking distance 25.5 m, gap left "),
             std::string::npos)
       << ended.said;

@@ -19,7 +19,8 @@ std::string_view NameOf(ColorMap map) {
   return kColorMapNames.at(static_cast<std::size_t>(map));
 }
 
-/// CIE 1976 L* of an sRGB colour (IEC 61966-2-1; CIE 15:2004), 0 black to 100 white.
+/// Returns CIE 1976 L* of an sRGB colour (IEC 61966-2-1; CIE 15:2004): 0 for black to 100 for
+/// white.
 double Lightness(const Rgb& rgb) {
   std::array<double, 3> linear{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -31,7 +32,7 @@ double Lightness(const Rgb& rgb) {
                                      : 24389.0 / 27.0 * luminance;
 }
 
-/// By how much each of so many equal steps is lighter than the one before.
+/// Returns by how much each of `num_steps` equal steps is lighter than the one before.
 std::vector<double> LightnessSteps(ColorMap map, int num_steps) {
   std::vector<double> steps;
   for (int i = 0; i < num_steps; ++i) {
@@ -41,20 +42,20 @@ std::vector<double> LightnessSteps(ColorMap map, int num_steps) {
   return steps;
 }
 
-/// Where a published place of a map is here, without the darkest fifth.
+/// Converts a place on the published map to the place here, where the darkest fifth is left out.
 double PlaceOf(double published) {
   return (published - 0.2) / 0.8;
 }
 
 TEST(ColorMap, OfAmountsGrowsLighterAllTheWay) {
-  // Steps of 1/64 are about 1 of L*; rounding to 8 bits takes 0.2 off them at most.
+  // A step of 1/64 is about 1 of L*; rounding to 8 bits changes it by 0.2 at most.
   for (const ColorMap map : kSequential) {
     EXPECT_THAT(LightnessSteps(map, 64), Each(Gt(0.0))) << NameOf(map);
   }
 }
 
 TEST(ColorMap, OfAmountsHasEvenStepsToTheEye) {
-  // The maps are even in CAM02-UCS, which is not quite L*.
+  // The maps are uniform in CAM02-UCS, which is not quite L*.
   constexpr double kGreatestUnevenness = 0.25;
   for (const ColorMap map : kSequential) {
     const std::vector<double> steps = LightnessSteps(map, 16);
@@ -66,7 +67,7 @@ TEST(ColorMap, OfAmountsHasEvenStepsToTheEye) {
 }
 
 TEST(ColorMap, OfDifferencesIsAsDarkOnBothSidesOfItsLightMiddle) {
-  // Half a step of 8 bits is 0.2 of L* in each colour.
+  // Half a step of 8 bits is 0.2 of L* in each channel.
   constexpr double kRounding = 0.7;
   for (int i = 0; i < 32; ++i) {
     const double low = Lightness(MapColor(ColorMap::kCoolwarm, i / 64.0));
@@ -83,7 +84,7 @@ TEST(ColorMap, OfDifferencesIsBlueBelowAndRedAboveAndGreyBetween) {
 }
 
 TEST(ColorMap, IsThePublishedOneOfItsName) {
-  // matplotlib 3's at 1/4, 1/2, 3/4 and 1 (at their 256 entries: 1 of 255 to either side).
+  // The colours of matplotlib 3 at 1/4, 1/2, 3/4 and 1 of its 256 entries, within 1 of 255.
   const auto expect_near = [](ColorMap map, double published, const Rgb& rgb) {
     const Rgb ours = MapColor(map, PlaceOf(published));
     for (std::size_t i = 0; i < 3; ++i) {

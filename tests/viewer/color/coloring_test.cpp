@@ -9,7 +9,7 @@
 #include "tests/core/io/example_frame.h"
 #include "tests/core/io/message_of.h"
 #include "tests/viewer/pick/shown_cloud.h"
-#include "viewer/color/outcome_colors.h"
+#include "viewer/color/palette.h"
 
 namespace railcast {
 namespace {
@@ -19,7 +19,7 @@ using testing::IsEmpty;
 using Kind = FieldValues::Kind;
 using Ends = std::array<double, 2>;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 FieldValues Amounts(std::vector<double> values) {
@@ -36,7 +36,7 @@ FieldValues Kinds(std::vector<double> values) {
 
 std::vector<double> ZeroTo(int last) {
   std::vector<double> values;
-  // Not in order.
+  // The values are out of order on purpose.
   for (int i = 0; i <= last; ++i) values.push_back((i * 37) % (last + 1));
   return values;
 }
@@ -68,7 +68,7 @@ TEST(FitScale, TakesAllOfLessThanAHundred) {
 }
 
 TEST(FitScale, PassesOverWhatIsNoNumber) {
-  EXPECT_EQ(FitScale(Amounts({kNaN, 4.0, kInfinity, -2.0, -kInfinity})), (Ends{-2.0, 4.0}));
+  EXPECT_EQ(FitScale(Amounts({kNoValue, 4.0, kInfinity, -2.0, -kInfinity})), (Ends{-2.0, 4.0}));
 }
 
 TEST(FitScale, GoesAsFarToEitherSideOfDifferences) {
@@ -82,7 +82,7 @@ TEST(FitScale, GoesAroundEqualValues) {
 }
 
 TEST(FitScale, NeverHasEqualEndsHoweverGreatTheValues) {
-  // Drivers mark what is missing by the greatest float there is.
+  // Drivers mark missing values with the greatest float.
   for (const double value : {1e20, -1e20, static_cast<double>(std::numeric_limits<float>::max())}) {
     const FieldValues field = Amounts({value, value});
     const Ends ends = FitScale(field);
@@ -93,7 +93,7 @@ TEST(FitScale, NeverHasEqualEndsHoweverGreatTheValues) {
 }
 
 TEST(FitScale, HasEndsWithoutValues) {
-  for (const std::vector<double>& none : {std::vector<double>{}, std::vector{kNaN, kNaN}}) {
+  for (const std::vector<double>& none : {std::vector<double>{}, std::vector{kNoValue, kNoValue}}) {
     EXPECT_EQ(FitScale(Amounts(none)), (Ends{0.0, 1.0}));
     EXPECT_EQ(FitScale(Differences(none)), (Ends{-1.0, 1.0}));
   }
@@ -121,14 +121,15 @@ TEST(ColorByScale, GoesInAStraightLineBetween) {
   for (int i = 0; i <= 100; ++i) {
     const Rgb exact = MapColor(ColorMap::kMagma, i / 100.0);
     for (std::size_t channel = 0; channel < 3; ++channel) {
-      // 1024 steps: half of one is 0.0005 of the way, 0.2 of 255 where the map is steepest.
+      // With 1024 steps, half a step is 0.0005 of the scale: 0.2 of 255 where the map is steepest.
       EXPECT_NEAR(coloring.colors[static_cast<std::size_t>(i)][channel], exact[channel], 1.0) << i;
     }
   }
 }
 
 TEST(ColorByScale, GreysPointsWithoutAValue) {
-  const Coloring coloring = ColorByScale(Amounts({0.0, kNaN, 1.0}), ColorMap::kViridis, {0.0, 1.0});
+  const Coloring coloring =
+      ColorByScale(Amounts({0.0, kNoValue, 1.0}), ColorMap::kViridis, {0.0, 1.0});
   EXPECT_THAT(coloring.colors, ElementsAre(MapColor(ColorMap::kViridis, 0.0), kNoValueColor,
                                            MapColor(ColorMap::kViridis, 1.0)));
 }
@@ -178,7 +179,7 @@ TEST(ColorByCategory, RefusesWhatIsNoWholeNumber) {
   EXPECT_EQ(fault(1.5), "field label must hold whole numbers (got 1.5)");
   EXPECT_EQ(fault(-1.0), "field label must hold whole numbers (got -1)");
   EXPECT_EQ(fault(4294967296.0), "field label must hold whole numbers (got 4294967296)");
-  EXPECT_EQ(fault(kNaN), "field label must hold whole numbers (got nan)");
+  EXPECT_EQ(fault(kNoValue), "field label must hold whole numbers (got nan)");
   EXPECT_EQ(fault(4294967295.0), "no error");
 }
 

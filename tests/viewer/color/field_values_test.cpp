@@ -25,11 +25,11 @@ using Kind = FieldValues::Kind;
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
-/// What a colour's field must be, computed from the frame's own.
+/// What a field to colour by must give, computed from the frame's own fields.
 struct Expected {
   std::string title;
   Kind kind;
-  std::string needs;  ///< In core/frame/frame.h's table.
+  std::string needs;  ///< Name in railcast/frame.h.
   std::function<double(const Frame&, std::size_t slot)> value;
 };
 
@@ -93,11 +93,10 @@ RecordedFrame ForeignCloud() {
 }
 
 TEST(ColorFields, AreAllOfThoseThatAFullFrameHas) {
-  const std::vector<std::string> names = ColorFieldNames();
-  EXPECT_EQ(ColorableFields(*FullFrame().recorded), names);
+  const std::vector<std::string> names = ColorableFields(*FullFrame().recorded);
   EXPECT_THAT(names, SizeIs(AllExpected().size()));
   for (const std::string& name : names) EXPECT_TRUE(AllExpected().contains(name)) << name;
-  // The table of fields and what people look at first.
+  // The fields that users look at most come first.
   EXPECT_THAT(std::vector(names.begin(), names.begin() + 5),
               ElementsAre("label", "instance", "outcome", "range", "height"));
 }
@@ -112,7 +111,7 @@ TEST(ColorFields, HaveTheFramesValuesInTheUnitOfTheirTitle) {
     EXPECT_EQ(field.kind, expected.kind) << name;
     ASSERT_THAT(field.values, SizeIs(shown.num_points())) << name;
     for (std::size_t i = 0; i < shown.num_points(); ++i) {
-      // A product or a quotient of doubles, of 3e5 mm at most.
+      // Rounding of a product or quotient of doubles of 3e5 mm at most.
       ASSERT_NEAR(field.values[i], expected.value(shown.frame(), shown.slots[i]), 1e-9) << name;
     }
   }
@@ -132,7 +131,7 @@ TEST(ColorFields, SayMillisecondsMillimetresAndDegrees) {
 
 TEST(ColorFields, OfPlacesAreWherePointsAreShown) {
   ShownFrame shown = Show(RecordedCloud("a.pcd", {{1, 2, 3}}));
-  shown.positions_m = {1.5F, 2.5F, 3.5F};  // The motion undone.
+  shown.positions_m = {1.5F, 2.5F, 3.5F};  // As if the motion had been undone.
   EXPECT_THAT(ValuesOf(shown, "x").values, ElementsAre(1.5));
   EXPECT_THAT(ValuesOf(shown, "y").values, ElementsAre(2.5));
   EXPECT_THAT(ValuesOf(shown, "height").values, ElementsAre(3.5));
@@ -147,7 +146,7 @@ TEST(ColorFields, AreLeftOutWhereTheFrameLacksWhatTheyAreMadeOf) {
       EXPECT_NE(AllExpected().at(left).needs, expected.needs) << left;
     }
     const ShownFrame shown = MakeShownFrame(std::move(recorded));
-    // Clang 14 captures no names of a structured binding.
+    // Clang 14 cannot capture the names of a structured binding.
     const std::string& missing = name;
     const std::string message = MessageOf([&] { (void)ValuesOf(shown, missing); });
     EXPECT_EQ(message.rfind("has no field " + missing + " to color by (has: ", 0), 0U) << message;
@@ -181,7 +180,7 @@ TEST(ColorFields, OfForeignNamesAreAmountsAsTheFileHasThem) {
   EXPECT_EQ(curvature.kind, Kind::kAmount);
   EXPECT_EQ(curvature.title, "curvature");
   EXPECT_THAT(curvature.values, ElementsAre(0.5, IsNan(), -2.0));
-  // Foreign values are of slots.
+  // Foreign values are stored per slot.
   shown.slots = {2, 0};
   EXPECT_THAT(ValuesOf(shown, "ambient").values, ElementsAre(7.0, 9.0));
 }

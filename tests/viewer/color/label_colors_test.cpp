@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scenario/scenario.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 namespace {
@@ -31,7 +31,8 @@ double Linear(std::uint8_t value) {
   return share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
 }
 
-/// CIELAB 1976 (L*, a*, b*) of a colour as `sight` has it, against white.
+/// Returns CIELAB 1976 (L*, a*, b*) of a colour relative to white, seen with the colour vision
+/// `sight`.
 Eigen::Vector3d Lab(const std::array<std::uint8_t, 3>& rgb, const Eigen::Matrix3d& sight) {
   const Eigen::Vector3d linear(Linear(rgb[0]), Linear(rgb[1]), Linear(rgb[2]));
   const Eigen::Vector3d seen = (sight * linear).cwiseMax(0.0).cwiseMin(1.0);
@@ -48,7 +49,8 @@ std::vector<Label> Labels() {
   return ReadLabelTable(RAILCAST_SOURCE_DIR "/scenarios/labels.json").labels();
 }
 
-/// The least distance of two labels' colours in CIELAB under normal, protan and deutan sight.
+/// Returns the least distance in CIELAB between the colours of two labels under normal, protan and
+/// deutan vision.
 double Apart(const Label& a, const Label& b) {
   double least = 1e9;
   for (const Eigen::Matrix3d& sight :
@@ -58,7 +60,8 @@ double Apart(const Label& a, const Label& b) {
   return least;
 }
 
-/// What stands and lies along an ordinary line: in one picture more often than not.
+/// Returns whether a label is of something found along an ordinary line, so that such labels are
+/// often in one picture.
 bool IsAlongTheLine(const Label& label) {
   static const std::set<std::string> kNames = {
       "rail",         "sleeper",        "ballast", "ground", "grass",      "tree",
@@ -68,12 +71,12 @@ bool IsAlongTheLine(const Label& label) {
 }
 
 TEST(LabelColors, AreMeasuredAsPublished) {
-  // Lindbloom's calculator: sRGB 255, 0, 0 has L* 53.24, a* 80.09, b* 67.20 at D65.
+  // Reference: Lindbloom's calculator gives L* 53.24, a* 80.09, b* 67.20 at D65 for sRGB 255, 0, 0.
   const Eigen::Vector3d red = Lab({255, 0, 0}, Eigen::Matrix3d::Identity());
   EXPECT_NEAR(red.x(), 53.24, 0.01);
   EXPECT_NEAR(red.y(), 80.09, 0.01);
   EXPECT_NEAR(red.z(), 67.20, 0.01);
-  // Greys look the same to everybody: rows of the matrices add up to 1.
+  // Greys look the same with any colour vision, because the rows of the matrices add up to 1.
   const Eigen::Vector3d grey = Lab({128, 128, 128}, Eigen::Matrix3d::Identity());
   for (const Eigen::Matrix3d& sight : {kProtan, kDeutan}) {
     EXPECT_LT((Lab({128, 128, 128}, sight) - grey).norm(), 1e-3);

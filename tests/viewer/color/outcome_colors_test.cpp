@@ -1,4 +1,4 @@
-#include "viewer/color/outcome_colors.h"
+#include "viewer/color/palette.h"
 
 #include <gtest/gtest.h>
 
@@ -18,12 +18,12 @@ std::vector<Rgb> AllColors() {
   return colors;
 }
 
-/// What is left for those without red cones or without green ones, in linear light.
+/// Which cones a dichromat lacks.
 enum class Missing { kRed, kGreen };
 
 std::array<double, 3> Seen(const Rgb& rgb, Missing missing) {
-  // F. Vienot, H. Brettel, J. Mollon: Digital video colourmaps for checking the legibility of
-  // displays by dichromats, Color Research and Application 24 (1999), on linear sRGB.
+  // Simulated in linear sRGB as in F. Vienot, H. Brettel, J. Mollon: Digital video colourmaps for
+  // checking the legibility of displays by dichromats, Color Research and Application 24 (1999).
   std::array<double, 3> linear{};
   for (std::size_t i = 0; i < 3; ++i) linear[i] = std::pow(rgb[i] / 255.0, 2.2);
   const auto& [r, g, b] = linear;
@@ -47,8 +47,8 @@ double Difference(const Rgb& a, const Rgb& b, Missing missing) {
 }
 
 TEST(OutcomeColors, DifferAlsoWithoutRedOrGreenCones) {
-  // As displayed; black and white are 442 apart. Okabe and Ito's blue and
-  // purple are 37 apart.
+  // Distance of the colours as displayed; black and white are 442 apart, Okabe and Ito's blue and
+  // purple 37.
   constexpr double kLeastDifference = 35.0;
   const std::vector<Rgb> colors = AllColors();
   for (std::size_t i = 0; i < colors.size(); ++i) {

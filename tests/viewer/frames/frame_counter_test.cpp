@@ -33,7 +33,7 @@ TEST(FrameCounter, CountsAsFarAsACaptureIsSound) {
   WriteCapture(file, 12);
   fs::resize_file(file, fs::file_size(file) / 2);
   const FrameCounter counter(file);
-  // Half of twelve turns, of which the last is cut short.
+  // The file holds half of twelve turns, the last of them cut short.
   EXPECT_TRUE(Eventually([&] { return counter.num_counted() >= 5; })) << counter.num_counted();
 }
 

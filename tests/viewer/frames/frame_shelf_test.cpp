@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t kSlots = 1000;
 
-/// A frame of so many slots with a point each.
+/// A frame of `num_slots` slots with a point in each.
 std::shared_ptr<const ShownFrame> Full(std::size_t num_slots, std::size_t num_foreign = 0) {
   RecordedFrame recorded;
   recorded.frame.Resize(1, static_cast<std::uint32_t>(num_slots), 1);
@@ -16,9 +16,9 @@ std::shared_ptr<const ShownFrame> Full(std::size_t num_slots, std::size_t num_fo
 }
 
 TEST(NumBytesOf, IsWhatAFrameTakesPerSlotAndPoint) {
-  // x, y, z, intensity, power_ratio, range_m, time_ns, column, label, instance, true_range_m,
-  // incidence_rad, footprint_share and mixed_share of 4 bytes; ring and material of 2;
-  // return_index, return_count and outcome of 1. Then x, y, z and the slot of each point.
+  // Per slot: x, y, z, intensity, power_ratio, range_m, time_ns, column, label, instance,
+  // true_range_m, incidence_rad, footprint_share and mixed_share of 4 bytes; ring and material of
+  // 2; return_index, return_count and outcome of 1. Per point: x, y, z and the slot.
   constexpr std::size_t kPerSlot = 14 * 4 + 2 * 2 + 3;
   constexpr std::size_t kPerPoint = 16;
   EXPECT_EQ(NumBytesOf(*Full(kSlots)) - NumBytesOf(*Full(0)), kSlots * (kPerSlot + kPerPoint));

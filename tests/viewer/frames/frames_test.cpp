@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/io/pcd_encoder.h"
-#include "core/scenario/scenario.h"
+#include "railcast/io/cloud_files.h"
+#include "railcast/scenario.h"
 #include "tests/core/io/example_frame.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"

@@ -20,7 +20,7 @@ bool EventuallyPolls(LiveFrames& frames) {
   return Eventually([&] { return frames.Poll(); });
 }
 
-/// Of a sender of these fields. The larger its run, the later it began.
+/// The stream of a sender with these fields. The larger its run, the later it began.
 StreamSpec Fields(const std::string& fields, std::uint32_t run) {
   StreamSpec spec;
   spec.fields = FieldSelection(fields);
@@ -56,7 +56,8 @@ TEST(LiveFrames, PassOverAllButTheLatest) {
   LiveFrames frames("udp://here", kAnyLoopbackPort);
   LiveStream stream(frames.at());
   std::uint32_t next = 0;
-  // Of a sleepy machine each frame may be polled before the next has come, but not for ever.
+  // On a slow machine each frame may be polled before the next has come, so this is tried
+  // repeatedly.
   EXPECT_TRUE(Eventually([&] {
     const std::size_t num_before = frames.num_known();
     for (int i = 0; i < 3; ++i) stream.Send(next++);
@@ -86,7 +87,7 @@ TEST(LiveFrames, CountThePacketsThatAreLost) {
   LiveFrames frames("udp://here", kAnyLoopbackPort);
   LiveStream stream(frames.at());
   stream.SendWithout(0, 1);
-  // Given up as soon as a later one is complete.
+  // The incomplete frame is given up as soon as a later one is complete.
   stream.Send(1);
   ASSERT_TRUE(Eventually([&] {
     (void)frames.Poll();
@@ -100,7 +101,7 @@ TEST(LiveFrames, SayHowManyPacketsTheFrameShownLacks) {
   LiveFrames frames("udp://here", kAnyLoopbackPort);
   LiveStream stream(frames.at());
   stream.SendWithout(0, 1);
-  // Nothing more comes: after a second the frame is given as it is.
+  // No more packets come, so after a second the frame is delivered incomplete.
   ASSERT_TRUE(EventuallyPolls(frames));
   EXPECT_EQ(frames.num_lost_packets(), 1U);
   const ReceivedFrame whole = ReceiveWhole(StreamFrame(0));

@@ -10,10 +10,10 @@
 
 namespace railcast {
 
-/// A capture of so many turns of a VLP-16.
+/// Writes a capture of `num_frames` turns of a VLP-16.
 inline void WriteCapture(const std::filesystem::path& file, std::uint32_t num_frames) {
   const MadeScan scan(ReadSensor("vlp16"));
-  const auto encoder = MakeVelodyneEncoder("vlp16", scan.spec(), "strongest");
+  const auto encoder = MakeVelodyneEncoder("vlp16", scan.spec(), ReturnMode::kStrongest);
   PcapWriter writer(file, kVelodyneDataPort, kVelodynePositionPort);
   Datagrams datagrams;
   for (std::uint32_t i = 0; i < num_frames; ++i) {

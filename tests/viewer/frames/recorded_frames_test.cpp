@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-#include "core/io/pcd_encoder.h"
+#include "railcast/io/cloud_files.h"
 #include "tests/core/io/example_frame.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/read_all.h"
@@ -41,7 +41,7 @@ void ExpectSame(const ShownFrame& a, const ShownFrame& b) {
   EXPECT_EQ(a.frame().label, b.frame().label);
 }
 
-/// Whether frames asked for in that order are those that are read one after another.
+/// Expects that frames asked for in this order equal those read one after another.
 void ExpectAnyOrder(const fs::path& source, const std::vector<std::size_t>& places) {
   const std::vector<RecordedFrame> expected = ReadAll(source);
   RecordedFrames frames(source);
@@ -76,7 +76,7 @@ TEST(RecordedFrames, OfACaptureAreTheSameInAnyOrder) {
 }
 
 TEST(RecordedFrames, OfALongCaptureAreReadAgainToGoFarBack) {
-  constexpr std::uint32_t kFrames = 70;  // 24 turns are kept.
+  constexpr std::uint32_t kFrames = 70;  // Only the readers of 24 turns are kept.
   const TemporaryDirectory directory;
   const fs::path file = directory.path() / "a.pcap";
   WriteCapture(file, kFrames);

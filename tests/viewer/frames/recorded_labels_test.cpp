@@ -19,12 +19,12 @@ namespace fs = std::filesystem;
 using testing::IsEmpty;
 using testing::IsSupersetOf;
 
-/// A KITTI directory as railcast-generate writes it, with a wagon 50 m ahead.
+/// Makes a KITTI directory as railcast-generate writes it, with a wagon 50 m ahead.
 MadeSequence MakeKitti(const fs::path& directory) {
   return MakeSequence(directory, {.format = "kitti"});
 }
 
-/// The names that the labels of the first frame's points have.
+/// Returns the names of the labels in the first frame.
 std::set<std::string> NamesIn(RecordedFrames& frames) {
   std::set<std::string> names;
   const auto shown = frames.Get(0);
@@ -35,7 +35,8 @@ std::set<std::string> NamesIn(RecordedFrames& frames) {
   return names;
 }
 
-/// The names that SemanticKITTI's numbers leave apart, of what the sequence's frame 0 hit.
+/// Returns the names of the labels that frame 0 hit, as far as SemanticKITTI's numbers can tell
+/// them apart.
 std::set<std::string> ExpectedNames(const MadeSequence& made) {
   const LabelTable own(made.scenario.labels);
   const LabelTable kitti = SemanticKittiLabels(own);
@@ -72,7 +73,7 @@ TEST(LabelsOfKitti, HaveTheColoursOfOurs) {
   EXPECT_EQ(labels.Find(70U)->rgb, own.Find("grass")->rgb);
 }
 
-// As somebody else's, of which nothing is known but what KITTI's files hold.
+// Removes all but KITTI's own files, as in a recording of another program.
 void LeaveKittisFilesAlone(const fs::path& run) {
   for (const char* ours : {"run.json", "frames.jsonl", "labels.json"}) fs::remove(run / ours);
 }

@@ -14,8 +14,8 @@ namespace {
 
 using testing::ElementsAreArray;
 
-/// All there is to know of a frame of 4800 firings, of which two of ten have a point, during which
-/// the sensor went on by 3 m and turned by 0.1 rad.
+/// A frame with every field, of 4800 firings, two of ten with a point, during which the sensor
+/// moved by 3 m and turned by 0.1 rad.
 RecordedFrame MovingFrame() {
   Frame frame = StreamFrame(3);
   frame.world_from_sensor_end =
@@ -24,7 +24,7 @@ RecordedFrame MovingFrame() {
   return Record(std::move(frame));
 }
 
-/// Of every slot that has a point.
+/// Returns the recorded positions of all slots that have a point.
 std::vector<float> RecordedPositions(const Frame& frame) {
   std::vector<float> positions_m;
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
@@ -61,7 +61,7 @@ TEST(ShownFrame, PutsPointsWhereTheyWereAtTheStamp) {
     ASSERT_EQ(expected_m, shown_m) << i;
     furthest_m = std::max(furthest_m, (seen_m - shown_m.cast<double>()).norm());
   }
-  // The last firings are 3 m on, and 0.1 rad at 300 m is 30 m.
+  // The sensor moves by 3 m until the last firings, and 0.1 rad at 300 m is 30 m.
   EXPECT_GT(furthest_m, 3.0);
 }
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/rail/rail_world.h"
+#include "railcast/rail_world.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/viewer/made_run.h"
@@ -21,7 +21,7 @@ TEST(WorldObjects, AreWhereTheirPointsAreSeen) {
     EXPECT_EQ(objects[0].name, "crate");
     EXPECT_EQ(objects[0].type, "box");
     EXPECT_EQ(objects[0].label, "wagon");
-    // The mesh is float32.
+    // The mesh is stored in float32.
     EXPECT_TRUE(objects[0].size_m.isApprox(Vector3(2, 3, 4), 1e-6));
     const ShownFrame shown = MakeShownFrame(std::move(recorded));
     std::size_t num_points = 0;
@@ -30,7 +30,7 @@ TEST(WorldObjects, AreWhereTheirPointsAreSeen) {
       ++num_points;
       const Eigen::Map<const Eigen::Vector3f> point_m(&shown.positions_m[3 * i]);
       const Vector3 in_box_m = objects[0].sensor_from_box.inverse() * point_m.cast<double>();
-      // On one of its faces, but for 1 mm that the vehicle's way within the scan bends.
+      // The point is on a face, within the 1 mm that the vehicle's path bends during the scan.
       constexpr double kMotionTolerance_m = 1.2e-3;
       const Vector3 beyond_m = in_box_m.cwiseAbs() - Vector3(1.0, 1.5, 2.0);
       EXPECT_NEAR(beyond_m.maxCoeff(), 0.0, kMotionTolerance_m);

@@ -10,15 +10,14 @@
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/scan_once.h"
 #include "tests/support/simple_world.h"
-#include "viewer/color/outcome_colors.h"
+#include "viewer/color/palette.h"
 
 namespace railcast {
 namespace {
 
 constexpr double kFarWall_m = 250.0;
 
-/// A grey wall that is seen before a dark one that is too weak, and sky; the sensor moves and
-/// turns.
+/// A grey wall in front of a dark one whose echo is too weak, and sky; the sensor moves and turns.
 std::shared_ptr<SimpleWorld> TwoWalls() {
   auto world = std::make_shared<SimpleWorld>();
   world->ground.parts = {{MakeWall(30.0F, 3.0F), 2, 1},
@@ -38,7 +37,7 @@ RecordedFrame Recorded(Frame frame) {
 }
 
 RecordedFrame ScanTwoWalls(const ScanPattern& pattern) {
-  return Recorded(ScanOnce(TwoWalls(), pattern, {.effects = {.threshold = true}}));
+  return Recorded(ScanOnce(TwoWalls(), pattern, {.detector = {.effects = {.threshold = true}}}));
 }
 
 std::vector<std::size_t> EmptySlots(const Frame& frame) {
@@ -52,7 +51,7 @@ std::vector<std::size_t> EmptySlots(const Frame& frame) {
 TEST(EmptyBeams, AreTheFiringsThatBroughtNothingBackInTheirColours) {
   const ScanPattern pattern = MakeRaster(30.0, 20.0, 0.5);
   const RecordedFrame recorded = ScanTwoWalls(pattern);
-  const Drawing drawing = DrawEmptyBeams(recorded, BeamsOf(pattern));
+  const Overlay drawing = DrawEmptyBeams(recorded, BeamsOf(pattern));
   const std::vector<std::size_t> empty = EmptySlots(recorded.frame);
   ASSERT_EQ(drawing.segments.size(), empty.size());
   int num_weak = 0;
@@ -61,7 +60,7 @@ TEST(EmptyBeams, AreTheFiringsThatBroughtNothingBackInTheirColours) {
     EXPECT_EQ(drawing.segments[i].rgb, OutcomeRgb(outcome));
     num_weak += outcome == Outcome::kBelowThreshold ? 1 : 0;
   }
-  // Of the far wall's 36 x 36 beams at 0.5 deg, less those that the near one takes.
+  // The far wall takes 36 x 36 beams at 0.5 deg, less those that the near one takes.
   EXPECT_GT(num_weak, 500);
   EXPECT_GT(drawing.segments.size(), static_cast<std::size_t>(num_weak) + 500);
 }
@@ -70,13 +69,13 @@ TEST(EmptyBeams, PointWhereTheSensorLookedAtTheirTime) {
   const ScanPattern pattern = MakeRaster(30.0, 20.0, 0.5);
   const RecordedFrame recorded = ScanTwoWalls(pattern);
   const Beams beams = BeamsOf(pattern);
-  const Drawing drawing = DrawEmptyBeams(recorded, beams);
+  const Overlay drawing = DrawEmptyBeams(recorded, beams);
   const std::shared_ptr<SimpleWorld> world = TwoWalls();
   const std::vector<std::size_t> empty = EmptySlots(recorded.frame);
   for (std::size_t i = 0; i < empty.size(); ++i) {
     const Transform world_from_sensor = world->WorldFromVehicle(beams.times_ns[empty[i]]);
     const Vector3 expected = world_from_sensor.linear() * beams.directions[empty[i]].cast<double>();
-    const Drawing::Segment& segment = drawing.segments[i];
+    const Overlay::Segment& segment = drawing.segments[i];
     const Vector3 way =
         recorded.frame.world_from_sensor.linear() * (segment.to_m - segment.from_m).cast<double>();
     ASSERT_LT(way.normalized().cross(expected).norm(), 1e-5);
@@ -89,8 +88,8 @@ TEST(EmptyBeams, PointWhereTheSensorLookedAtTheirTime) {
 TEST(EmptyBeams, EndOnWhatWasTooWeakOrAfterAStub) {
   const ScanPattern pattern = MakeRaster(30.0, 20.0, 0.5);
   const RecordedFrame recorded = ScanTwoWalls(pattern);
-  const Drawing drawing = DrawEmptyBeams(recorded, BeamsOf(pattern));
-  for (const Drawing::Segment& segment : drawing.segments) {
+  const Overlay drawing = DrawEmptyBeams(recorded, BeamsOf(pattern));
+  for (const Overlay::Segment& segment : drawing.segments) {
     if (segment.rgb == OutcomeRgb(Outcome::kBelowThreshold)) {
       const Vector3 end = recorded.frame.world_from_sensor * segment.to_m.cast<double>();
       ASSERT_NEAR(end.x(), kFarWall_m, 1e-3);
@@ -103,7 +102,8 @@ TEST(EmptyBeams, EndOnWhatWasTooWeakOrAfterAStub) {
 TEST(EmptyBeams, PointTheSameWayByTheFramesOwnPoints) {
   const ScanPattern pattern = MakeRaster(8.0, 8.0, 0.5);
   auto world = std::make_shared<SimpleWorld>();
-  // The half below the falling diagonal: all but the last rows and columns have points.
+  // Only the half below the falling diagonal is covered; all but the last rows and columns have
+  // points.
   const Mesh half{{{30.0F, -2.5F, -2.5F}, {30.0F, 2.5F, -2.5F}, {30.0F, -2.5F, 2.5F}}, {{0, 1, 2}}};
   world->ground.parts = {{half, 2, 1}};
   const RecordedFrame recorded = Recorded(ScanOnce(world, pattern));
@@ -126,7 +126,7 @@ TEST(EmptyBeams, TakeNoNoticeOfUnusedSecondReturns) {
   frame.Resize(2, 2, 2);
   std::ranges::fill(frame.range_m, kNaN);
   std::ranges::fill(frame.true_range_m, kNaN);
-  frame.range_m[0] = 5.0F;  // Of firings 0 and 3, once the first and once the second return.
+  frame.range_m[0] = 5.0F;  // The first return of firing 0 and the second of firing 3.
   frame.range_m[7] = 5.0F;
   frame.outcome.assign(8, Outcome::kNoFurtherEcho);
   frame.outcome[2] = Outcome::kNoSurface;
@@ -136,7 +136,7 @@ TEST(EmptyBeams, TakeNoNoticeOfUnusedSecondReturns) {
                     .columns = 2,
                     .directions = std::vector<Eigen::Vector3f>(4, {0.0F, 1.0F, 0.0F}),
                     .times_ns = std::vector<std::uint32_t>(4)};
-  const Drawing drawing = DrawEmptyBeams(Recorded(frame), beams);
+  const Overlay drawing = DrawEmptyBeams(Recorded(frame), beams);
   ASSERT_EQ(drawing.segments.size(), 2U);
   EXPECT_EQ(drawing.segments[0].rgb, OutcomeRgb(Outcome::kNoSurface));
   EXPECT_EQ(drawing.segments[1].rgb, OutcomeRgb(Outcome::kNearRange));
@@ -148,8 +148,8 @@ TEST(EmptyBeams, HaveOneColourWhereOutcomesAreNotKnown) {
   const ScanPattern pattern = MakeRaster(30.0, 20.0, 0.5);
   RecordedFrame recorded = ScanTwoWalls(pattern);
   recorded.fields.clear();
-  const Drawing drawing = DrawEmptyBeams(recorded, BeamsOf(pattern));
-  for (const Drawing::Segment& segment : drawing.segments) {
+  const Overlay drawing = DrawEmptyBeams(recorded, BeamsOf(pattern));
+  for (const Overlay::Segment& segment : drawing.segments) {
     ASSERT_EQ(segment.rgb, kUnknownOutcomeRgb);
     ASSERT_NEAR((segment.to_m - segment.from_m).norm(), 10.0F, 1e-5F);
   }

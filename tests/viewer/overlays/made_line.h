@@ -3,12 +3,12 @@
 #include <filesystem>
 #include <utility>
 
-#include "core/scenario/scenario.h"
-#include "viewer/overlays/surroundings.h"
+#include "railcast/scenario.h"
+#include "viewer/overlays/overlays.h"
 
 namespace railcast {
 
-/// scenarios/minimal.json on another line, the vehicle standing at `start_s_m`.
+/// scenarios/minimal.json on another line, with the vehicle standing at `start_s_m`.
 [[nodiscard]] inline ScenarioSpec ScenarioOnLine(AlignmentSpec alignment, double start_s_m) {
   ScenarioSpec scenario =
       ReadScenario(std::filesystem::path(RAILCAST_SOURCE_DIR) / "scenarios" / "minimal.json");
@@ -23,18 +23,18 @@ namespace railcast {
 
 [[nodiscard]] inline AlignmentSpec Straight(double length_m) {
   AlignmentSpec spec;
-  spec.course = AlignmentElementsSpec{{{"straight", length_m, std::nullopt}}};
+  spec.course = AlignmentElementsSpec{{{ElementType::kStraight, length_m, std::nullopt}}};
   return spec;
 }
 
-/// From (0, 0) eastward; the centre at (0, radius).
+/// An arc from (0, 0) eastward with its centre at (0, radius).
 [[nodiscard]] inline AlignmentSpec Arc(double length_m, double radius_m) {
   AlignmentSpec spec;
-  spec.course = AlignmentElementsSpec{{{"arc", length_m, radius_m}}};
+  spec.course = AlignmentElementsSpec{{{ElementType::kArc, length_m, radius_m}}};
   return spec;
 }
 
-/// A frame without points, seen by the scenario's sensor at the time 0.
+/// A frame without points, seen by the scenario's sensor at time 0.
 [[nodiscard]] inline RecordedFrame FrameOf(const Surroundings& surroundings) {
   RecordedFrame recorded;
   recorded.has_pose = true;

@@ -1,4 +1,4 @@
-#include "viewer/overlays/object_boxes.h"
+#include "viewer/overlays/overlays.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace railcast {
 namespace {
 
-constexpr float kRounding_m = 1e-5F;  // Of float32 at 100 m: 4e-6.
+constexpr float kRounding_m = 1e-5F;  // Rounding of float32 at 100 m is 4e-6.
 
 RecordedObject Wagon(const Vector3& centre_m, double yaw_rad) {
   return {.name = "wagon_7",
@@ -20,7 +20,7 @@ RecordedObject Wagon(const Vector3& centre_m, double yaw_rad) {
           .sensor_from_box = MakeTransform(RotationFromYawPitchRoll(yaw_rad, 0.0, 0.0), centre_m)};
 }
 
-Drawing DrawOne(const RecordedObject& object) {
+Overlay DrawOne(const RecordedObject& object) {
   RecordedFrame recorded;
   recorded.objects = {object};
   Label wagon;
@@ -30,16 +30,16 @@ Drawing DrawOne(const RecordedObject& object) {
   return DrawObjectBoxes(recorded, LabelTable({wagon}));
 }
 
-bool HasEnd(const Drawing& drawing, const Eigen::Vector3f& place_m) {
-  return std::ranges::any_of(drawing.segments, [&](const Drawing::Segment& segment) {
+bool HasEnd(const Overlay& drawing, const Eigen::Vector3f& place_m) {
+  return std::ranges::any_of(drawing.segments, [&](const Overlay::Segment& segment) {
     return (segment.from_m - place_m).norm() < kRounding_m ||
            (segment.to_m - place_m).norm() < kRounding_m;
   });
 }
 
 TEST(ObjectBoxes, HaveTheirCornersWhereSizeAndPoseSay) {
-  // Turned left by 90 deg: its length lies along y.
-  const Drawing drawing = DrawOne(Wagon({50.0, 2.0, 1.0}, 0.5 * std::numbers::pi));
+  // The wagon is turned left by 90 deg, so its length lies along y.
+  const Overlay drawing = DrawOne(Wagon({50.0, 2.0, 1.0}, 0.5 * std::numbers::pi));
   for (const float x : {48.5F, 51.5F}) {
     for (const float y : {-5.0F, 9.0F}) {
       for (const float z : {-1.0F, 3.0F}) {
@@ -50,7 +50,7 @@ TEST(ObjectBoxes, HaveTheirCornersWhereSizeAndPoseSay) {
 }
 
 TEST(ObjectBoxes, HaveFourEdgesAlongEachAxis) {
-  const Drawing drawing = DrawOne(Wagon({50.0, 2.0, 1.0}, 0.0));
+  const Overlay drawing = DrawOne(Wagon({50.0, 2.0, 1.0}, 0.0));
   for (const auto& [axis, length_m] :
        {std::pair{0, 14.0F}, std::pair{1, 3.0F}, std::pair{2, 4.0F}}) {
     EXPECT_EQ(std::ranges::count_if(drawing.segments,
@@ -64,12 +64,13 @@ TEST(ObjectBoxes, HaveFourEdgesAlongEachAxis) {
 }
 
 TEST(ObjectBoxes, PointANoseWhereTheObjectHeads) {
-  // Turned about: it heads towards -x, so its front is at 43 and the nose 1 m before that.
+  // The wagon is turned to head towards -x, so its front is at 43 m and the tip of the nose 1 m
+  // before that.
   EXPECT_TRUE(HasEnd(DrawOne(Wagon({50.0, 2.0, 1.0}, std::numbers::pi)), {42.0F, 2.0F, 1.0F}));
 }
 
 TEST(ObjectBoxes, CarryTheirNamesAtTheMiddleOfTheTop) {
-  const Drawing drawing = DrawOne(Wagon({50.0, 2.0, 1.0}, 0.3));
+  const Overlay drawing = DrawOne(Wagon({50.0, 2.0, 1.0}, 0.3));
   ASSERT_EQ(drawing.words.size(), 1U);
   EXPECT_EQ(drawing.words[0].text, "wagon_7");
   EXPECT_LT((drawing.words[0].at_m - Eigen::Vector3f(50.0F, 2.0F, 3.0F)).norm(), kRounding_m);
@@ -85,7 +86,7 @@ TEST(ObjectBoxes, TakeTheirLabelsColourOrWhite) {
 
 TEST(ObjectBoxes, LeaveOutWhatIsFartherThan400Metres) {
   EXPECT_EQ(DrawOne(Wagon({240.0, 319.9, 0.0}, 0.0)).segments.size(), 14U);
-  const Drawing drawing = DrawOne(Wagon({240.0, 320.1, 0.0}, 0.0));
+  const Overlay drawing = DrawOne(Wagon({240.0, 320.1, 0.0}, 0.0));
   EXPECT_THAT(drawing.segments, testing::IsEmpty());
   EXPECT_THAT(drawing.words, testing::IsEmpty());
 }

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <set>
 
-#include "core/frame/labels.h"
+#include "railcast/frame.h"
 #include "tests/viewer/overlays/made_line.h"
 
 namespace railcast {
@@ -27,9 +27,9 @@ std::size_t NumTriangles(const std::vector<Part>& parts) {
       [](std::size_t sum, const Part& part) { return sum + part.mesh.triangles.size(); });
 }
 
-Eigen::AlignedBox3f BoundsOf(const std::vector<Part>& parts,
-                             const std::string& label,
-                             const ScenarioSpec& scenario) {
+Eigen::AlignedBox3f PartBoundsOf(const std::vector<Part>& parts,
+                                 const std::string& label,
+                                 const ScenarioSpec& scenario) {
   const std::uint32_t id = LabelTable(scenario.labels).Id(label);
   Eigen::AlignedBox3f bounds;
   for (const Part& part : parts) {
@@ -41,8 +41,8 @@ Eigen::AlignedBox3f BoundsOf(const std::vector<Part>& parts,
 
 TEST(StandingScene, HasTheTrackAndTheGroundButNoPlants) {
   const Surroundings surroundings = SurroundingsOf(ScenarioOnLine(Straight(1'000.0), 500.0));
-  const StandingScene scene = GatherStandingScene(surroundings, 10);
-  EXPECT_THAT(LabelsOf(scene.parts, surroundings.scenario),
+  const StandingScene composition = GatherStandingScene(surroundings, 10);
+  EXPECT_THAT(LabelsOf(composition.parts, surroundings.scenario),
               testing::ElementsAre("ballast", "cantilever", "contact_wire", "dropper", "ground",
                                    "mast", "messenger_wire", "rail", "sleeper"));
 }
@@ -52,12 +52,14 @@ TEST(StandingScene, StandsWhereTheWorldHasIt) {
   line.origin_m = {700'000.0, 250'000.0, 400.0};
   line.heading_deg = 90.0;
   const Surroundings surroundings = SurroundingsOf(ScenarioOnLine(line, 500.0));
-  const StandingScene scene = GatherStandingScene(surroundings, 10);
-  // The middle of chunk 10 is at 525 m.
-  EXPECT_LT((scene.world_from_home.translation() - Vector3(700'000.0, 250'525.0, 400.0)).norm(),
-            1e-6);
-  // 60E1 rails of 72 mm heads beside a gauge of 1435 mm, feet of 150 mm; up to top of rail.
-  const Eigen::AlignedBox3f rails = BoundsOf(scene.parts, "rail", surroundings.scenario);
+  const StandingScene composition = GatherStandingScene(surroundings, 10);
+  // The middle of chunk 10 is at chainage 525 m.
+  EXPECT_LT(
+      (composition.world_from_home.translation() - Vector3(700'000.0, 250'525.0, 400.0)).norm(),
+      1e-6);
+  // 60E1 rails have heads of 72 mm beside the gauge of 1435 mm and feet of 150 mm, and end at top
+  // of rail.
+  const Eigen::AlignedBox3f rails = PartBoundsOf(composition.parts, "rail", surroundings.scenario);
   EXPECT_NEAR(rails.max().z(), 0.0F, 1e-3F);
   EXPECT_NEAR(rails.max().y(), 0.7175F + 0.036F + 0.075F, 0.01F);
   EXPECT_NEAR(rails.min().y(), -rails.max().y(), 1e-3F);
@@ -65,23 +67,27 @@ TEST(StandingScene, StandsWhereTheWorldHasIt) {
 
 TEST(StandingScene, ReachesItsRangeFromBothEndsOfTheChunkAndNotMuchFarther) {
   const Surroundings surroundings = SurroundingsOf(ScenarioOnLine(Straight(1'000.0), 500.0));
-  const StandingScene scene = GatherStandingScene(surroundings, 10);
-  // Half a chunk more than the range, and the last triangle: of rails up to a chunk long.
-  const Eigen::AlignedBox3f ground = BoundsOf(scene.parts, "ground", surroundings.scenario);
+  const StandingScene composition = GatherStandingScene(surroundings, 10);
+  // The ground reaches half a chunk beyond the range and to the end of the last triangle; triangles
+  // of rails are up to a chunk long.
+  const Eigen::AlignedBox3f ground =
+      PartBoundsOf(composition.parts, "ground", surroundings.scenario);
   EXPECT_GE(ground.max().x(), 175.0F);
   EXPECT_LE(ground.min().x(), -175.0F);
   EXPECT_LE(ground.max().x(), 180.0F);
-  const Eigen::AlignedBox3f ballast = BoundsOf(scene.parts, "ballast", surroundings.scenario);
-  EXPECT_NEAR(ballast.max().x(), 75.0F, 0.3F);  // Of ballast 0.2 m.
+  const Eigen::AlignedBox3f ballast =
+      PartBoundsOf(composition.parts, "ballast", surroundings.scenario);
+  EXPECT_NEAR(ballast.max().x(), 75.0F, 0.3F);  // Triangles of ballast are 0.2 m long.
   EXPECT_NEAR(ballast.min().x(), -75.0F, 0.3F);
 }
 
 TEST(StandingScene, StaysBelow400ThousandTriangles) {
   const Surroundings surroundings = SurroundingsOf(ReadScenario(
       std::filesystem::path(RAILCAST_SOURCE_DIR) / "scenarios/st_gallen_approach.json"));
-  const StandingScene scene = GatherStandingScene(surroundings, surroundings.world->HomeChunk(0));
-  EXPECT_LT(NumTriangles(scene.parts), 400'000U);
-  EXPECT_GT(NumTriangles(scene.parts), 100'000U);
+  const StandingScene composition =
+      GatherStandingScene(surroundings, surroundings.world->HomeChunk(0));
+  EXPECT_LT(NumTriangles(composition.parts), 400'000U);
+  EXPECT_GT(NumTriangles(composition.parts), 100'000U);
 }
 
 TEST(StandingScene, UsesEveryVertexItHas) {
@@ -98,7 +104,7 @@ TEST(StandingScene, UsesEveryVertexItHas) {
 ObjectSpec Box(const std::string& name, double s_m) {
   ObjectSpec box;
   box.name = name;
-  box.type = "box";
+  box.type = ObjectType::kBox;
   box.s_m = s_m;
   box.d_m = 3.0;
   box.h_m = 0.5;
@@ -115,10 +121,10 @@ TEST(SceneObjects, AreWhereTheyAreAtTheStampInTheSensorsAxes) {
   RecordedFrame recorded = FrameOf(surroundings);
   recorded.frame.stamp_ns = 2'000'000'000;
   const std::vector<Part> parts = GatherSceneObjects(surroundings, recorded);
-  const Eigen::AlignedBox3f bounds = BoundsOf(parts, "object", scenario);
+  const Eigen::AlignedBox3f bounds = PartBoundsOf(parts, "object", scenario);
   const Vector3 sensor(500.0 + scenario.lidar.mount.position_m[0],
                        scenario.lidar.mount.position_m[1], scenario.lidar.mount.position_m[2]);
-  // It has come to 560 m; d and h are of the middle of its foot.
+  // By then it is at 560 m; d and h are those of the middle of its foot.
   const Vector3 low = Vector3(558.0, 2.0, 0.5) - sensor;
   const Vector3 high = Vector3(562.0, 4.0, 1.5) - sensor;
   EXPECT_LT((bounds.min().cast<double>() - low).norm(), 1e-4);

@@ -1,4 +1,4 @@
-#include "viewer/overlays/sensor_frustum.h"
+#include "viewer/overlays/overlays.h"
 
 #include <gtest/gtest.h>
 
@@ -12,16 +12,16 @@
 namespace railcast {
 namespace {
 
-// Of directions in float32: 1e-7 rad.
+// The directions are float32: 1e-7 rad.
 constexpr double kAngle_deg = 1e-4;
 
-Drawing DrawFrustum(const ScanPattern& pattern, double range_m) {
+Overlay DrawFrustum(const ScanPattern& pattern, double range_m) {
   return DrawSensorFrustum(MakeScanTable(pattern).value(), range_m);
 }
 
-std::vector<Vector3> RayEnds(const Drawing& drawing) {
+std::vector<Vector3> RayEnds(const Overlay& drawing) {
   std::vector<Vector3> ends;
-  for (const Drawing::Segment& segment : drawing.segments) {
+  for (const Overlay::Segment& segment : drawing.segments) {
     if (segment.from_m.isZero(0.0F)) ends.emplace_back(segment.to_m.cast<double>());
   }
   return ends;
@@ -50,17 +50,17 @@ TEST(SensorFrustum, HasTheCornersOfAPartTurn) {
 }
 
 TEST(SensorFrustum, RunsFromBeamToBeamAlongItsBorder) {
-  const Drawing drawing = DrawFrustum(MakeRaster(60.0, 30.0, 0.25), 80.0);
+  const Overlay drawing = DrawFrustum(MakeRaster(60.0, 30.0, 0.25), 80.0);
   EXPECT_EQ(drawing.segments.size(), 4U + 2U * 239U + 2U * 119U);
 }
 
 TEST(SensorFrustum, HasTwoConesOfFifteenDegreesForAVlp16) {
   const ScanPattern pattern = BuildScanPattern(ReadSensor("vlp16"));
-  const Drawing drawing = DrawFrustum(pattern, 50.0);
+  const Overlay drawing = DrawFrustum(pattern, 50.0);
   ASSERT_EQ(drawing.segments.size(), 2U * (8U + pattern.columns));
   EXPECT_EQ(RayEnds(drawing).size(), 16U);
   int num_up = 0;
-  for (const Drawing::Segment& segment : drawing.segments) {
+  for (const Overlay::Segment& segment : drawing.segments) {
     const Vector3 end = segment.to_m.cast<double>();
     EXPECT_NEAR(std::abs(Elevation_deg(end)), 15.0, kAngle_deg);
     EXPECT_NEAR(end.norm(), 50.0, 1e-4);
@@ -75,7 +75,7 @@ TEST(SensorFrustum, SpreadsTheRaysOfATurnEvenly) {
   for (std::size_t i = 0; i + 1 < 8; ++i) {
     const double angle_deg = DegFromRad(
         std::acos(ends[i].head<2>().normalized().dot(ends[i + 1].head<2>().normalized())));
-    EXPECT_NEAR(angle_deg, 45.0, 0.2);  // A column's step.
+    EXPECT_NEAR(angle_deg, 45.0, 0.2);  // Tolerance: the step of a column.
   }
 }
 
@@ -83,7 +83,7 @@ TEST(SensorFrustum, TakesTheOutermostRowsAndColumnsThatAreKnown) {
   ScanTable table = MakeScanTable(MakeRaster(60.0, 30.0, 0.25)).value();
   table.elevation_rad.back() = std::nan("");
   table.column_azimuth_rad.front() = std::nan("");
-  const Drawing drawing = DrawSensorFrustum(table, 80.0);
+  const Overlay drawing = DrawSensorFrustum(table, 80.0);
   EXPECT_EQ(drawing.segments.size(), 4U + 2U * 238U + 2U * 118U);
   double highest_deg = -90.0;
   for (const Vector3& end : RayEnds(drawing)) {

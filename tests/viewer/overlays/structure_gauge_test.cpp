@@ -1,4 +1,4 @@
-#include "viewer/overlays/structure_gauge.h"
+#include "viewer/overlays/overlays.h"
 
 #include <gtest/gtest.h>
 
@@ -15,8 +15,9 @@ TEST(StructureGauge, RingsEveryTenMetresOfChainage) {
   ScenarioSpec scenario = ScenarioOnLine(Straight(2'000.0), 1'003.0);
   scenario.world.catenary.enabled = false;
   const Surroundings surroundings = SurroundingsOf(scenario);
-  const Drawing drawing = DrawStructureGauge(surroundings, FrameOf(surroundings));
-  // Tens from 993 to 1153, four sides each; then four edges of 160 m with 161 whole metres within.
+  const Overlay drawing = DrawStructureGauge(surroundings, FrameOf(surroundings));
+  // The rings are at the tens from 993 to 1153 and have four sides each; the four edges follow,
+  // each of 160 segments between 161 whole metres.
   constexpr std::size_t kRings = 16;
   ASSERT_EQ(drawing.segments.size(), 4 * kRings + std::size_t{4} * 160);
   const double sensor_s_m = 1'003.0 + scenario.lidar.mount.position_m[0];
@@ -31,13 +32,13 @@ TEST(StructureGauge, RingsEveryTenMetresOfChainage) {
 TEST(StructureGauge, LeansWithTheCantAndFollowsTheCurve) {
   constexpr double kRadius_m = 300.0;
   AlignmentSpec line = Arc(800.0, kRadius_m);
-  line.speed_limits_kmph = {{0.0, 200.0}};  // Far above equilibrium: the cant is at its most.
+  line.speed_limits_kmph = {{0.0, 200.0}};  // So fast that the cant is at its maximum.
   ScenarioSpec scenario = ScenarioOnLine(line, 300.0);
   scenario.world.catenary.enabled = false;
   const Surroundings surroundings = SurroundingsOf(scenario);
   const RecordedFrame recorded = FrameOf(surroundings);
-  const Drawing drawing = DrawStructureGauge(surroundings, recorded);
-  // 150 mm across 1500 mm; a left curve's left side is the lower.
+  const Overlay drawing = DrawStructureGauge(surroundings, recorded);
+  // The cant is 150 mm across 1500 mm; in a left curve the left side is the lower one.
   const double cant_rad = std::asin(0.1);
   const Eigen::Rotation2Dd lean(-cant_rad);
   const std::vector<Eigen::Vector2d> outline = GaugeOutline(std::nullopt);
@@ -47,7 +48,8 @@ TEST(StructureGauge, LeansWithTheCantAndFollowsTheCurve) {
         recorded.frame.world_from_sensor * drawing.segments[i].from_m.cast<double>();
     const double radius_m = (world - Vector3(0.0, kRadius_m, 0.0)).head<2>().norm();
     const Eigen::Vector2d expected = lean * outline[corner];
-    // Float32 is far better; with the cant's tangent for its sine corners would be 2 mm off.
+    // Float32 is far more precise; with the tangent of the cant in place of its sine, the corners
+    // would be 2 mm off.
     ASSERT_NEAR(kRadius_m - radius_m, expected.x(), 1e-3) << i;
     ASSERT_NEAR(world.z(), expected.y(), 1e-3) << i;
   }

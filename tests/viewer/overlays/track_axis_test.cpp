@@ -1,4 +1,4 @@
-#include "viewer/overlays/track_axis.h"
+#include "viewer/overlays/overlays.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,14 +13,15 @@ namespace {
 
 constexpr double kWordTick_m = 1.3;
 
-/// Of segments along the track, not across it. @pre The sensor looks along the track.
-bool IsTick(const Drawing::Segment& segment) {
+/// Returns whether a segment is a short tick: 1 m long and across the track, not along it.
+/// @pre The sensor looks along the track.
+bool IsTick(const Overlay::Segment& segment) {
   const Eigen::Vector3f way = segment.to_m - segment.from_m;
   return std::abs(way.norm() - 1.0F) < 1e-3F && std::abs(way.y()) > 0.9F;
 }
 
-const Drawing::Word* FindWord(const Drawing& drawing, const std::string& text) {
-  const auto found = std::ranges::find(drawing.words, text, &Drawing::Word::text);
+const Overlay::Word* FindWord(const Overlay& drawing, const std::string& text) {
+  const auto found = std::ranges::find(drawing.words, text, &Overlay::Word::text);
   return found == drawing.words.end() ? nullptr : &*found;
 }
 
@@ -29,8 +30,8 @@ TEST(TrackAxis, PutsTheWordOfAChainageWhereItIs) {
   line.origin_m = {700'000.0, 250'000.0, 400.0};
   line.heading_deg = 30.0;
   const Surroundings surroundings = SurroundingsOf(ScenarioOnLine(line, 29'013.0));
-  const Drawing drawing = DrawTrackAxis(surroundings, FrameOf(surroundings));
-  const Drawing::Word* word = FindWord(drawing, "km 29.350");
+  const Overlay drawing = DrawTrackAxis(surroundings, FrameOf(surroundings));
+  const Overlay::Word* word = FindWord(drawing, "km 29.350");
   ASSERT_NE(word, nullptr);
   const MountSpec& mount = surroundings.scenario.lidar.mount;
   const Vector3 expected(29'350.0 - 29'013.0 - mount.position_m[0],
@@ -40,13 +41,13 @@ TEST(TrackAxis, PutsTheWordOfAChainageWhereItIs) {
 
 TEST(TrackAxis, TicksEveryTenMetresAndWritesEveryFifty) {
   const Surroundings surroundings = SurroundingsOf(ScenarioOnLine(Straight(2'000.0), 1'003.0));
-  const Drawing drawing = DrawTrackAxis(surroundings, FrameOf(surroundings));
+  const Overlay drawing = DrawTrackAxis(surroundings, FrameOf(surroundings));
   std::vector<std::string> texts;
-  for (const Drawing::Word& word : drawing.words) texts.push_back(word.text);
+  for (const Overlay::Word& word : drawing.words) texts.push_back(word.text);
   EXPECT_THAT(texts,
               testing::ElementsAre("km 1.000", "km 1.050", "km 1.100", "km 1.150", "km 1.200",
                                    "km 1.250", "km 1.300", "km 1.350", "km 1.400"));
-  // From 960 to 1400 there are 45 tens, of which nine have words.
+  // There are 45 multiples of 10 m from 960 to 1400, nine of them with words.
   EXPECT_EQ(std::ranges::count_if(drawing.segments, IsTick), 45 - 9);
 }
 
@@ -57,10 +58,11 @@ TEST(TrackAxis, FollowsAnArcToFiveMillimetres) {
   scenario.world.tracks[0].offset_m = kOffset_m;
   const Surroundings surroundings = SurroundingsOf(scenario);
   const RecordedFrame recorded = FrameOf(surroundings);
-  const Drawing drawing = DrawTrackAxis(surroundings, recorded);
-  // One segment a metre, the ends whole; float32 at 400 m adds 3e-5.
+  const Overlay drawing = DrawTrackAxis(surroundings, recorded);
+  // There is one segment per metre, because both ends are whole metres. Rounding of float32 at 400
+  // m adds 3e-5.
   for (std::size_t i = 0; i < 450; ++i) {
-    const Drawing::Segment& segment = drawing.segments[i];
+    const Overlay::Segment& segment = drawing.segments[i];
     const Vector3 middle = 0.5 * (segment.from_m + segment.to_m).cast<double>();
     for (const Vector3& place : {Vector3(segment.from_m.cast<double>()), middle}) {
       const Vector3 world = recorded.frame.world_from_sensor * place;
@@ -73,7 +75,7 @@ TEST(TrackAxis, FollowsAnArcToFiveMillimetres) {
 
 TEST(TrackAxis, GoesFrom50MetresBehindTo400Ahead) {
   const Surroundings surroundings = SurroundingsOf(ScenarioOnLine(Straight(2'000.0), 1'000.5));
-  const Drawing drawing = DrawTrackAxis(surroundings, FrameOf(surroundings));
+  const Overlay drawing = DrawTrackAxis(surroundings, FrameOf(surroundings));
   const auto to_vehicle_m = static_cast<float>(surroundings.scenario.lidar.mount.position_m[0]);
   EXPECT_NEAR(drawing.segments[0].from_m.x() + to_vehicle_m, -50.0F, 1e-4F);
   float farthest_m = 0.0F;
@@ -85,7 +87,7 @@ TEST(TrackAxis, LooksAheadOfAVehicleThatRunsAgainstTheChainage) {
   ScenarioSpec scenario = ScenarioOnLine(Straight(2'000.0), 1'000.0);
   scenario.vehicle.motion.reverse = true;
   const Surroundings surroundings = SurroundingsOf(scenario);
-  const Drawing drawing = DrawTrackAxis(surroundings, FrameOf(surroundings));
+  const Overlay drawing = DrawTrackAxis(surroundings, FrameOf(surroundings));
   EXPECT_NE(FindWord(drawing, "km 0.600"), nullptr);
   EXPECT_NE(FindWord(drawing, "km 1.050"), nullptr);
   EXPECT_EQ(FindWord(drawing, "km 1.100"), nullptr);
@@ -97,7 +99,7 @@ TEST(TrackAxis, EndsWhereTheTrackEnds) {
   scenario.world.tracks[0].end_s_m = 1'105.0;
   scenario.world.tracks[0].start_s_m = 955.0;
   const Surroundings surroundings = SurroundingsOf(scenario);
-  const Drawing drawing = DrawTrackAxis(surroundings, FrameOf(surroundings));
+  const Overlay drawing = DrawTrackAxis(surroundings, FrameOf(surroundings));
   const auto to_vehicle_m = static_cast<float>(scenario.lidar.mount.position_m[0]);
   for (const auto& segment : drawing.segments) {
     EXPECT_GT(segment.from_m.x() + to_vehicle_m, -45.001F);

@@ -10,7 +10,7 @@
 #include "core/io/scenario_identity.h"
 #include "core/io/write_file.h"
 #include "core/scenario/command_log.h"
-#include "core/scenario/scenario.h"
+#include "railcast/scenario.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/project_folder.h"
 #include "tests/generator/run_command.h"
@@ -30,7 +30,7 @@ RecordingInfo InfoOf(const fs::path& scenario) {
   return info;
 }
 
-/// What stands in a frame's slots if nothing else is known of them.
+/// A frame of which nothing is known but its grid of slots.
 RecordedFrame Grid(const Frame& frame) {
   RecordedFrame recorded;
   recorded.frame = frame;
@@ -39,7 +39,7 @@ RecordedFrame Grid(const Frame& frame) {
   return recorded;
 }
 
-/// A scenario's frame, and what says how it came to be.
+/// A frame of a scenario, and the effect trace of its firings.
 class Traced {
  public:
   explicit Traced(const fs::path& scenario, std::uint32_t frame_index = 3)
@@ -56,7 +56,7 @@ class Traced {
     const ScanPattern& pattern = simulator_->pattern();
     return (pattern.row.at(firing) * pattern.columns + pattern.column[firing]) * frame().returns;
   }
-  /// The first firing whose first slot is so.
+  /// Returns the first firing whose first slot fulfils the predicate.
   template <typename Predicate>
   [[nodiscard]] std::uint32_t FindFiring(Predicate&& is_so) const {
     std::uint32_t firing = 0;
@@ -77,7 +77,7 @@ class Traced {
   RecordedFrame recorded_;
 };
 
-/// A scenario that a test writes into a folder, on one of the project's.
+/// Writes a scenario based on one of the project's into a folder.
 fs::path Vary(const TemporaryDirectory& folder, const std::string& base, const std::string& more) {
   fs::path file = folder.path() / "scenario.json";
   WriteFileWhole(file,
@@ -85,7 +85,7 @@ fs::path Vary(const TemporaryDirectory& folder, const std::string& base, const s
   return file;
 }
 
-// The number that ends the last step's line.
+// Returns the number at the end of the last step's line.
 float LastRange_m(const std::string& story) {
   std::istringstream lines(story);
   std::string line;
@@ -147,10 +147,10 @@ TEST(EffectTrace, ChoosesEffectsAsTheProgramDoesWhereFidelityIsAuto) {
   EXPECT_EQ(traced.Of(traced.SlotOf(100)), traced.Printed(100));
 }
 
-/// A project's sequence.
+/// Traces of a generated sequence.
 class TracedSequence : public testing::Test {
  protected:
-  /// Of frames 0 and 1.
+  /// Makes a sequence of frames 0 and 1.
   [[nodiscard]] std::unique_ptr<Recording> Make(const std::string& scenario) const {
     const std::string out = (folder_.path() / "out").string();
     const Ended run = Generate("sequence " + scenario + " --frames 2 --out " + out);
@@ -177,7 +177,7 @@ TEST_F(TracedSequence, MeasuresWhatTheStorySays) {
     const std::string story = trace.Of(recorded, slot);
     EXPECT_EQ(story.substr(0, 15), "frame 1 firing ");
     EXPECT_THAT(story, HasSubstr(" ns, slot " + std::to_string(slot) + "\n"));
-    // Six digits are printed: half of the last is 5e-6 of the number at most.
+    // Six digits are printed, so half of the last is at most 5e-6 of the number.
     EXPECT_NEAR(LastRange_m(story), frame.range_m[slot], 5e-6F * frame.range_m[slot]);
   }
   EXPECT_GT(num_points, 10);
@@ -192,7 +192,7 @@ TEST_F(TracedSequence, IsRefusedIfCommandsChangedIt) {
   const RecordedFrame recorded = (*recording->Next())();
   EXPECT_EQ(EffectTrace(recording->info()).Of(recorded, 0),
             "error: " + Out().string() +
-                "/commands.jsonl: changed the run, so the scenario cannot tell its story");
+                "/commands.jsonl: changed the run, so the scenario alone cannot repeat it");
 }
 
 TEST_F(TracedSequence, NamesAFileThatIsGone) {
@@ -214,14 +214,14 @@ TEST(EffectTrace, SaysWhatIsMissing) {
             "error: cloud.pcd: has no scenario to trace points with");
   EffectTrace trace(InfoOf(scenarios_folder + "minimal.json"));
   EXPECT_EQ(trace.Of(recorded, 0),
-            "error: cloud.pcd: is no grid of firings, so nobody knows which its points are of "
+            "error: cloud.pcd: is no grid of firings, so the firing of a point is not known "
             "(a stream needs the fields ring and column)");
   recorded.is_grid = true;
   EXPECT_EQ(trace.Of(recorded, 0),
             "error: cloud.pcd: must have the firings of its scenario, 120 x 240 (got 1 x 1)");
 }
 
-/// The answer, when it is there.
+/// Waits for the answer.
 std::string Await(EffectTrace& trace) {
   while (true) {
     if (auto answer = trace.Take()) return *answer;
@@ -254,7 +254,7 @@ TEST(EffectTrace, MayEndBeforeItsAnswerIsThere) {
   const Traced traced(scenarios_folder + "minimal.json");
   const auto recorded = std::make_shared<const RecordedFrame>(Grid(traced.frame()));
   RecordingInfo info = InfoOf(scenarios_folder + "minimal.json");
-  info.scenario->fidelity = "auto";
+  info.scenario->fidelity = Fidelity::kAuto;
   EffectTrace trace(info);
   trace.Ask(recorded, 0);
   trace.Ask(recorded, 1);

@@ -9,10 +9,10 @@
 namespace railcast {
 namespace {
 
-// 5 m level and 12 m up are 13 m.
+// The points are 5 m apart horizontally and 12 m vertically, so 13 m in all.
 const std::vector<Vector3> two_points_m = {{10, 1, -2}, {13, 5, 10}};
 
-RecordedFrame Posed(const std::string& name, const Transform& world_from_sensor) {
+RecordedFrame PosedFrame(const std::string& name, const Transform& world_from_sensor) {
   RecordedFrame recorded = RecordedCloud(name, two_points_m);
   recorded.has_pose = true;
   recorded.frame.world_from_sensor = world_from_sensor;
@@ -37,20 +37,20 @@ TEST(DistanceText, KnowsAFrameThatWasReadAgain) {
 }
 
 TEST(DistanceText, SaysTheWayBetweenFramesAlongTheWorldsAxes) {
-  // The sensor looks north at first; then it has gone 20 m and looks east.
+  // The sensor looks north at first; 20 m farther north it looks east.
   const Transform first = MakeTransform(RotationFromYawPitchRoll(std::numbers::pi / 2.0, 0.0, 0.0),
                                         Vector3(5e6, 6e5, 400));
   const Transform second =
       MakeTransform(Eigen::Matrix3d::Identity(), first.translation() + Vector3(0, 20, 0));
-  // (10, 1) seen northwards is 1 m west and 10 m north; (13, 5) seen eastwards is as it stands.
-  EXPECT_EQ(
-      DistanceText(PickOf(Show(Posed("a.pcd", first)), 0), PickOf(Show(Posed("b.pcd", second)), 1)),
-      "23.770 m (east 14.000, north 15.000, up 12.000; level 20.518 m)");
+  // (10, 1) seen looking north is 1 m west and 10 m north; (13, 5) seen looking east is unchanged.
+  EXPECT_EQ(DistanceText(PickOf(Show(PosedFrame("a.pcd", first)), 0),
+                         PickOf(Show(PosedFrame("b.pcd", second)), 1)),
+            "23.770 m (east 14.000, north 15.000, up 12.000; level 20.518 m)");
 }
 
 TEST(DistanceText, IsNothingBetweenFramesWithoutPoses) {
   const ShownFrame bare = Show(RecordedCloud("a.pcd", two_points_m));
-  const ShownFrame posed = Show(Posed("b.pcd", Transform::Identity()));
+  const ShownFrame posed = Show(PosedFrame("b.pcd", Transform::Identity()));
   EXPECT_EQ(DistanceText(PickOf(bare, 0), PickOf(posed, 1)), std::nullopt);
   EXPECT_EQ(DistanceText(PickOf(posed, 0), PickOf(bare, 1)), std::nullopt);
   EXPECT_EQ(DistanceText(PickOf(bare, 0), PickOf(Show(RecordedCloud("c.pcd", two_points_m)), 1)),

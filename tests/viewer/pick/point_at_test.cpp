@@ -10,11 +10,11 @@
 namespace railcast {
 namespace {
 
-using Points = std::vector<float>;
+using Positions = std::vector<float>;
 constexpr std::array<int, 2> kSize_px = {800, 600};
 
-// An eye at the origin that looks along x, y left and z up, with 90 degrees from left to right: at
-// depth d a metre is 400 / d px, wherever it is in the picture. Clipped at 1 m and 100 m.
+// An eye at the origin that looks along x, with y left and z up and a horizontal field of view of
+// 90 degrees: at depth d, a metre is 400 / d px anywhere in the picture. It clips at 1 m and 100 m.
 Eigen::Matrix4d Eye() {
   constexpr double kNear_m = 1.0;
   constexpr double kFar_m = 100.0;
@@ -27,27 +27,27 @@ Eigen::Matrix4d Eye() {
   return clip_from_points;
 }
 
-std::optional<std::size_t> Click(const Points& positions_m, double x_px, double y_px) {
+std::optional<std::size_t> Click(const Positions& positions_m, double x_px, double y_px) {
   return PointAt(positions_m, Eye(), kSize_px, x_px, y_px);
 }
 
 TEST(PointAt, FindsAPointAtThePixelWhereItIsSeen) {
-  // At 10 m depth 2 m to the right are 80 px, 1 m up are 40 px from the middle (400, 300).
-  const Points points = {10, 0, 0, 10, -2, 1};
+  // At 10 m depth, 2 m to the right are 80 px and 1 m up are 40 px from the middle (400, 300).
+  const Positions points = {10, 0, 0, 10, -2, 1};
   EXPECT_EQ(Click(points, 400, 300), 0U);
   EXPECT_EQ(Click(points, 480, 340), 1U);
   EXPECT_EQ(Click(points, 480, 260), std::nullopt);
 }
 
 TEST(PointAt, TakesTheOneNearestToTheEyeOfThoseWithinFivePixels) {
-  // Behind, in the middle of the click; before it, 4 px to the left.
+  // One point is farther away, exactly at the click; the other is nearer, 4 px to the left.
   EXPECT_EQ(Click({20, 0, 0, 10, 0.1F, 0}, 400, 300), 1U);
   EXPECT_EQ(Click({10, 0.1F, 0, 20, 0, 0}, 400, 300), 0U);
 }
 
 TEST(PointAt, TakesTheOneNearestOnTheScreenWithinTwelvePixelsElse) {
-  // At 10 m, 8 px beside; at 5 m, 10 px above.
-  const Points points = {10, 0.2F, 0, 5, 0, 0.125F};
+  // One point is at 10 m, 8 px to the left; the other is at 5 m, 10 px above.
+  const Positions points = {10, 0.2F, 0, 5, 0, 0.125F};
   EXPECT_EQ(Click(points, 400, 300), 0U);
   EXPECT_EQ(Click(points, 400, 302), 1U) << "8 px and 8.2 px";
   EXPECT_EQ(Click({10, 0, 0.29F}, 400, 300), 0U) << "11.6 px";
@@ -55,7 +55,7 @@ TEST(PointAt, TakesTheOneNearestOnTheScreenWithinTwelvePixelsElse) {
 }
 
 TEST(PointAt, PrefersWhatIsWithinFivePixelsToWhatIsNearerToTheEyeBeside) {
-  // 4 px at 20 m; 6 px at 10 m.
+  // One point is off by 4 px at 20 m, the other by 6 px at 10 m.
   EXPECT_EQ(Click({10, 0.15F, 0, 20, 0.2F, 0}, 400, 300), 1U);
 }
 
@@ -78,14 +78,14 @@ TEST(PointAt, NeverTakesWhatIsNotSeen) {
 }
 
 TEST(PointAt, WorksWithoutPerspective) {
-  // 1 m is 100 px in both directions; x from 0 m to 100 m is seen.
+  // 1 m is 100 px in both directions; x from 0 m to 100 m is visible.
   Eigen::Matrix4d clip_from_points = Eigen::Matrix4d::Zero();
   clip_from_points(0, 1) = -100.0 / 400.0;
   clip_from_points(1, 2) = 100.0 / 300.0;
   clip_from_points(2, 0) = 0.02;
   clip_from_points(2, 3) = -1.0;
   clip_from_points(3, 3) = 1.0;
-  const Points points = {80, -1, 2, 60, -1, 2, 70, 0, 0};
+  const Positions points = {80, -1, 2, 60, -1, 2, 70, 0, 0};
   EXPECT_EQ(PointAt(points, clip_from_points, kSize_px, 500, 500), 1U);
   EXPECT_EQ(PointAt(points, clip_from_points, kSize_px, 409, 300), 2U);
 }

@@ -17,7 +17,7 @@ using testing::ElementsAre;
 using testing::Not;
 using testing::StartsWith;
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNotKnown = std::numeric_limits<float>::quiet_NaN();
 
 RecordingInfo NamedInfo() {
   RecordingInfo info;
@@ -26,7 +26,7 @@ RecordingInfo NamedInfo() {
   return info;
 }
 
-// One firing of two returns, with all fields there are.
+// One firing with two returns and all fields.
 RecordedFrame SecondReturn() {
   RecordedFrame recorded = RecordedCloud("out/frames/000003.pcd", {{9, 9, 9}, {40, -3, 1.25}});
   Frame& frame = recorded.frame;
@@ -67,7 +67,7 @@ TEST(PointFacts, SayTheCoordinatesAsStoredOfPositionsFarFromZero) {
 
 TEST(PointFacts, SaysAllThatIsKnownOfAPoint) {
   ShownFrame shown = Show(SecondReturn());
-  // The sensor went on by 37 mm before this firing.
+  // The sensor moved by 37 mm before this firing.
   shown.positions_m[3] = 40.037F;
   EXPECT_THAT(
       PointFacts(shown, NamedInfo(), 1),
@@ -109,7 +109,8 @@ TEST(PointFacts, IsShortWhereTheRecordingIs) {
 TEST(PointFacts, HasWhatForeignCloudsHaveUnderItsOwnName) {
   RecordedFrame recorded = RecordedCloud("cloud.ply", {{3, 4, 12}, {0, 0, 2}});
   recorded.fields.emplace("label");
-  recorded.foreign = {{"curvature", {0.5F, 0.0625F}}, {"second_strongest_return", {kNaN, kNaN}}};
+  recorded.foreign = {{"curvature", {0.5F, 0.0625F}},
+                      {"second_strongest_return", {kNotKnown, kNotKnown}}};
   EXPECT_THAT(
       PointFacts(Show(std::move(recorded)), RecordingInfo(), 1),
       ElementsAre("file             cloud.ply",  //
@@ -151,7 +152,7 @@ TEST(PointFacts, HasADashForWhatIsAbsent) {
   Frame& frame = recorded.frame;
   for (auto* values :
        {&frame.intensity, &frame.true_range_m, &frame.incidence_rad, &frame.footprint_share}) {
-    (*values)[1] = kNaN;
+    (*values)[1] = kNotKnown;
   }
   const auto facts = PointFacts(Show(std::move(recorded)), NamedInfo(), 1);
   for (const char* line : {"intensity        -", "true range       -", "noise            -",

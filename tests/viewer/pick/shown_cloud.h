@@ -8,7 +8,7 @@
 
 namespace railcast {
 
-/// A frame of one row of points, shown where they are.
+/// A frame of one row of points, without motion.
 /// @param points_m In the sensor's axes.
 inline RecordedFrame RecordedCloud(const std::string& name, const std::vector<Vector3>& points_m) {
   RecordedFrame recorded;

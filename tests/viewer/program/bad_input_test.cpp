@@ -19,14 +19,14 @@ class BadInput : public Drawn {
       "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\n"
       "POINTS 1\nDATA ascii\n1 2 3\n";
 
-  /// One line, no picture, no crash.
+  /// Expects one line of error, no picture and no crash.
   void ExpectFault(const std::string& arguments, const std::string& fault) const {
     const Ended ended = View("--screenshot " + PathOf("out.png") + " " + arguments);
     EXPECT_EQ(ended.status, 1) << arguments;
     EXPECT_EQ(ended.said, "error: " + fault + "\n") << arguments;
     EXPECT_FALSE(std::filesystem::exists(PathOf("out.png"))) << arguments;
   }
-  /// Of a file with that content, the fault after its name.
+  /// Writes a file and expects an error that begins with its name.
   void ExpectFaultOf(const std::string& name,
                      const std::string& bytes,
                      const std::string& fault) const {
@@ -98,7 +98,7 @@ TEST_F(BadInput, DamagedSequencesAreNamed) {
   EXPECT_EQ(ended.said.find("error: " + PathOf("cut/frames/000001.pcd: must have ")), 0U)
       << ended.said;
   EXPECT_EQ(std::ranges::count(ended.said, '\n'), 1);
-  // Its first frame is sound, and a video of it ends where it is not.
+  // The first frame is intact, and a video ends before the damaged one.
   EXPECT_GT(Draw(PathOf("cut")).width, 0);
   EXPECT_EQ(View("--video " + PathOf("video") + " " + PathOf("cut")).status, 1);
   EXPECT_TRUE(std::filesystem::exists(PathOf("video/000000.png")));
@@ -231,7 +231,7 @@ TEST_F(BadInput, OptionsWithCommasLeaveTheSourceAlone) {
   }
 }
 
-// What fuzzing found for the readers, under every name that a reader takes.
+// Inputs found by the fuzzers, under every extension that a reader accepts.
 TEST_F(BadInput, FilesOfTheFuzzersCrashNothing) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> corpora = {
       {"cloud", {".pcd", ".ply", ".bin"}},
@@ -248,7 +248,7 @@ TEST_F(BadInput, FilesOfTheFuzzersCrashNothing) {
       for (const std::string& extension : extensions) {
         std::string source = PathOf("case" + extension);
         std::string bytes = ReadFileWhole(entry.path());
-        // The fuzzer of clouds takes a kind from the first byte.
+        // The fuzzer of clouds takes the format from the first byte.
         if (corpus == "cloud" && !bytes.empty()) bytes.erase(0, 1);
         Write("case" + extension, bytes);
         if (extension == ".json") source = PathOf("cloud.pcd") + " --scenario " + source;

@@ -28,7 +28,7 @@ TEST_F(Compared, BesideEachOtherAreWhatTheyAreAlone) {
     const Picture both = Draw(options + " " + clear_ + " --compare " + fog);
     const Picture left = Draw("--size 320x480 " + options + " " + clear_);
     const Picture right = Draw("--size 320x480 " + options + " " + fog);
-    // Less the status at the foot, whose long paths end at different edges.
+    // Without the status in the lower left corner, whose long paths are cut off at different edges.
     EXPECT_TRUE(both.Part({0, 0}, 320, 440) == left.Part({0, 0}, 320, 440)) << options;
     EXPECT_TRUE(both.Part({320, 0}, 320, 440) == right.Part({0, 0}, 320, 440)) << options;
     EXPECT_GT(Differences(left, right).size(), 1000U);
@@ -38,19 +38,19 @@ TEST_F(Compared, BesideEachOtherAreWhatTheyAreAlone) {
 TEST_F(Compared, WithItselfHasOneColour) {
   const Picture picture = Draw("--layout distance " + clear_ + " --compare " + clear_);
   std::set<Rgb> colors;
-  // Two sources have two statuses at the foot; the scale's title is above the points.
+  // Two sources have two statuses at the bottom; the title of the scale is above the points.
   for (int y = kHeight / 5; y < 0.85 * kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       if (IsClearOfWords({x, y}, picture)) colors.insert(picture.At(x, y));
     }
   }
-  EXPECT_EQ(colors.size(), 2U);  // And the background's.
+  EXPECT_EQ(colors.size(), 2U);  // One colour of points, and the background's.
 }
 
 TEST_F(Compared, WithFogHasTheColoursOfWhatIsMissing) {
   const Picture picture = Draw("--camera driver --layout distance --color-range 0,1 " + clear_ +
                                " --compare " + Fog().path().string());
-  // What fog swallowed is far from all that is left; what is near is in both.
+  // Points that the fog swallowed are far from all that are left; nearby points are in both clouds.
   EXPECT_GT(PointsOf(MapColor(ColorMap::kViridis, 1.0), picture).size(), 2000U);
   std::size_t num_near = 0;
   for (int step = 0; step <= 102; ++step) {

@@ -12,7 +12,7 @@ namespace {
 
 using Bytes = Drawn;
 
-// llvmpipe, Mesa's renderer without a graphics card, draws with as many threads as it is told.
+// llvmpipe, Mesa's software renderer, uses as many threads as LP_NUM_THREADS says.
 TEST_F(Bytes, AreTheSameEveryTimeWithAnyNumberOfThreads) {
   const std::string run = RecordedRun::Yard().path().string();
   for (const std::string options :

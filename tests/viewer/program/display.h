@@ -12,12 +12,12 @@
 
 namespace railcast {
 
-/// A screen in memory for all tests of this process: an Xvfb of its own, on a display that the
-/// server itself finds free, so that programs at the same time do not race for one.
+/// A screen in memory for all tests of this process: an Xvfb of its own, on a display number that
+/// the server finds free by itself, so that concurrent programs do not race for one.
 class VirtualScreen {
  public:
-  /// Starts it when it is first asked for and sets DISPLAY.
-  /// @returns Whether there is one: false where Xvfb is missing.
+  /// Starts the screen at the first call and sets DISPLAY.
+  /// @returns Whether there is a screen: false where Xvfb is missing.
   [[nodiscard]] static bool IsThere() {
     static const VirtualScreen screen;
     return screen.is_there_;
@@ -45,7 +45,8 @@ class VirtualScreen {
     }
     ::close(display_pipe[1]);
     std::array<char, 16> number{};
-    // It writes its number and a newline once clients can connect, or ends.
+    // Xvfb writes its display number and a newline once clients can connect; if it fails, the pipe
+    // ends.
     std::string text;
     while (text.find('\n') == std::string::npos) {
       const auto num_read = ::read(display_pipe[0], number.data(), number.size());

@@ -12,8 +12,9 @@
 
 namespace railcast {
 
-/// Words and swatches are drawn over the points: the legend at the left top, the status at the left
-/// bottom, the scale at the right edge. What a test says of points it says of the rest.
+/// Returns whether a pixel is clear of text and swatches, which are drawn over the points: the
+/// legend at the upper left, the status at the lower left, the scale at the right edge. Tests check
+/// points only outside of these.
 inline bool IsClearOfWords(const Pixel& place, const Picture& picture) {
   const bool is_in_legend = place.x < 0.35 * picture.height && place.y < 0.5 * picture.height;
   const bool is_in_status = place.y > 0.92 * picture.height;
@@ -21,7 +22,7 @@ inline bool IsClearOfWords(const Pixel& place, const Picture& picture) {
   return picture.Holds(place) && !is_in_legend && !is_in_status && !is_in_scale;
 }
 
-/// Pixels of a colour, clear of words.
+/// Returns the pixels of a colour that are clear of words.
 inline std::vector<Pixel> PointsOf(const Rgb& rgb, const Picture& picture) {
   std::vector<Pixel> places = picture.PlacesOf(rgb);
   std::erase_if(places, [&](const Pixel& place) { return !IsClearOfWords(place, picture); });
@@ -32,7 +33,7 @@ inline Pixel PixelAt(const Eigen::Vector2d& place_px) {
   return {static_cast<int>(std::floor(place_px.x())), static_cast<int>(std::floor(place_px.y()))};
 }
 
-/// A point of a frame and where the eye sees it.
+/// A point of a frame and where it appears in the picture.
 struct SeenPoint {
   std::size_t point{};
   std::uint32_t slot{};
@@ -44,7 +45,7 @@ inline Vector3 PositionOf(const ShownFrame& shown, std::size_t point) {
   return Eigen::Map<const Eigen::Vector3f>(&shown.positions_m[3 * point]).cast<double>();
 }
 
-/// Those of a frame that are in the picture, clear of words.
+/// Returns the wanted points of a frame that are in the picture and clear of words.
 template <typename Wanted>
 std::vector<SeenPoint> SeenPoints(const ShownFrame& shown,
                                   const Eye& eye,
@@ -67,7 +68,8 @@ inline std::vector<SeenPoint> SeenPoints(const ShownFrame& shown,
   return SeenPoints(shown, eye, picture, [](std::uint32_t) { return true; });
 }
 
-/// Points that no other comes near: nothing else is drawn at their pixels.
+/// Returns the points that are at least `apart_px` from every other, so that nothing else is drawn
+/// at their pixels.
 inline std::vector<SeenPoint> LonePoints(const std::vector<SeenPoint>& seen, double apart_px) {
   std::vector<SeenPoint> lone;
   for (const SeenPoint& point : seen) {
@@ -80,9 +82,9 @@ inline std::vector<SeenPoint> LonePoints(const std::vector<SeenPoint>& seen, dou
   return lone;
 }
 
-/// How many of a line's pixels, one to each pixel of its length, have this colour or a neighbour
-/// that has: a line of 1.5 px is up to 1 px off its middle. NaN if less than 5 px of it can be
-/// seen.
+/// Returns the share of a line's pixels, sampled once per pixel of its length, that have this
+/// colour or a neighbour with it: a line of 1.5 px may be drawn up to 1 px off its middle. NaN if
+/// less than 5 px of it are visible.
 inline double ShareDrawn(const Picture& picture,
                          const Eye& eye,
                          const Vector3& from_m,

@@ -9,16 +9,17 @@
 #include <optional>
 #include <vector>
 
-#include "core/base/transform.h"
-#include "core/io/recording/recording.h"
+#include "railcast/io/recording.h"
+#include "railcast/transform.h"
 #include "tests/viewer/program/picture.h"
 
 namespace railcast {
 
-/// A pinhole camera by the textbook: what the program should draw where, by no code of its own.
+/// A textbook pinhole camera that predicts what the program should draw where, without using its
+/// code.
 class Eye {
  public:
-  static constexpr double kViewAngle_deg = 36.0;  ///< From the picture's top to its bottom.
+  static constexpr double kViewAngle_deg = 36.0;  ///< Vertical field of view.
 
   Eye(const Vector3& eye_m, const Vector3& target_m, int width, int height)
       : Eye(eye_m, target_m, Vector3::UnitZ(), width, height) {}
@@ -32,8 +33,8 @@ class Eye {
   [[nodiscard]] double focal_px() const {
     return 0.5 * height_ / std::tan(0.5 * kViewAngle_deg * std::numbers::pi / 180.0);
   }
-  /// In pixels from the picture's upper left corner; nothing if it is behind the eye. The pixel
-  /// (x, y) covers [x, x + 1) and [y, y + 1).
+  /// Returns the position in pixels from the picture's upper left corner; empty if it is behind the
+  /// eye. The pixel (x, y) covers [x, x + 1) and [y, y + 1).
   [[nodiscard]] std::optional<Eigen::Vector2d> See(const Vector3& place_m) const {
     const Vector3 way_m = place_m - eye_m_;
     const double depth_m = way_m.dot(forward_);
@@ -48,7 +49,8 @@ class Eye {
   double width_, height_;
 };
 
-/// The driver's, chase, side and top view of viewer/draw/cameras.h, in metres in the sensor's axes.
+/// The driver, chase, side and top cameras of viewer/draw/cameras.h, in metres in the sensor's
+/// axes.
 inline Eye DriverEye(int width, int height) {
   return {{-1.0, 0.0, 0.3}, {60.0, 0.0, -1.5}, width, height};
 }
@@ -72,8 +74,9 @@ inline std::array<Vector3, 8> BoxCorners_m(const RecordedObject& object) {
   return corners;
 }
 
-/// The outline of a box in a picture: corners of the convex hull, one after another; empty if a
-/// corner is behind the eye. (A. M. Andrew, "Another efficient algorithm for convex hulls", 1979.)
+/// Returns the outline of a box in a picture, as the corners of its convex hull in order; empty if
+/// a corner is behind the eye. (A. M. Andrew, "Another efficient algorithm for convex hulls",
+/// 1979.)
 inline Corners OutlineOf(const RecordedObject& object, const Eye& eye) {
   Corners seen;
   for (const Vector3& corner : BoxCorners_m(object)) {
@@ -101,7 +104,7 @@ inline Corners OutlineOf(const RecordedObject& object, const Eye& eye) {
   return hull;
 }
 
-/// Of a place from the line between two.
+/// Returns the distance of a place from a line segment.
 inline double DistanceToSegment_px(const Eigen::Vector2d& place,
                                    const Eigen::Vector2d& from,
                                    const Eigen::Vector2d& to) {
@@ -111,7 +114,7 @@ inline double DistanceToSegment_px(const Eigen::Vector2d& place,
   return (place - from - share * way).norm();
 }
 
-/// How far outside an outline a place is; 0 within.
+/// Returns how far outside an outline a place is; 0 if it is inside.
 inline double DistanceOutside_px(const Eigen::Vector2d& place, const Corners& outline) {
   double nearest = std::numeric_limits<double>::infinity();
   bool is_inside = !outline.empty();

@@ -12,23 +12,23 @@
 #include "tests/viewer/program/eye.h"
 #include "tests/viewer/program/recorded_run.h"
 #include "tests/viewer/program/view_program.h"
-#include "viewer/color/okabe_ito.h"
+#include "viewer/color/palette.h"
 
 namespace railcast {
 namespace {
 
-// The sensor is 2.5 m above top of rail, 2.2 m before the vehicle's origin at chainage 400 m.
-constexpr Rgb kDark = {26, 26, 28};
+// The sensor is 2.5 m above top of rail and 2.2 m ahead of the vehicle's origin, which is at
+// chainage 400 m.
 constexpr double kRailTop_m = -2.5;
 constexpr double kSensorChainage_m = 402.2;
 
-/// All points are faint but those of the person, so that colours are those of lines.
+/// All points but the person's are faint, so that every bright colour is that of a line.
 class Overlays : public Drawn {
  protected:
   [[nodiscard]] Picture Show(const std::string& what, const std::string& camera) {
     return Draw("--select person --show " + what + " " + camera + " " + path_);
   }
-  /// Of a line that points may hide in part.
+  /// Expects a line, parts of which may be hidden by points.
   static void ExpectLine(const Picture& picture,
                          const Eye& eye,
                          const Vector3& from_m,
@@ -40,7 +40,7 @@ class Overlays : public Drawn {
 
   const RecordedRun& run_ = RecordedRun::Yard();
   const std::string path_ = run_.path().string();
-  // From the left of the track, above.
+  // A view from above, to the left of the track.
   const std::string beside_ = "--eye 10,14,8 --target 50,0,-1";
   const Eye beside_eye_{{10, 14, 8}, {50, 0, -1}, kWidth, kHeight};
 };
@@ -50,7 +50,7 @@ TEST_F(Overlays, HaveBoxesOnTheObjectsEdges) {
     const Picture picture = Show("boxes --frame " + std::to_string(frame), beside_);
     std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> edges;
     std::vector<Eigen::Vector2d> names;
-    std::vector<double> shares;  // Parts of some are behind points and the line's masts.
+    std::vector<double> shares;  // Parts of some edges are behind points and masts.
     for (const std::string name : {"standing", "train"}) {
       const RecordedObject& object = run_.ObjectOf(frame, name);
       const auto corners = BoxCorners_m(object);
@@ -64,7 +64,7 @@ TEST_F(Overlays, HaveBoxesOnTheObjectsEdges) {
                              *beside_eye_.See(corners[corner | axis]));
         }
       }
-      // The nose before the front face.
+      // The nose is before the front face.
       const double half_m = 0.5 * object.size_m.x();
       const Vector3 tip = object.sensor_from_box * Vector3(half_m + 1.0, 0.0, 0.0);
       for (const double side : {-0.5, 0.5}) {
@@ -79,7 +79,7 @@ TEST_F(Overlays, HaveBoxesOnTheObjectsEdges) {
     EXPECT_GE(*std::ranges::min_element(shares), 0.4);
     EXPECT_GE(std::accumulate(shares.begin(), shares.end(), 0.0),
               0.85 * static_cast<double>(shares.size()));
-    // Nothing else has the colour, but for the names above the boxes' tops.
+    // Nothing else has this colour, except the names above the boxes.
     for (const Pixel& pixel : PointsOf(run_.ColorOf("wagon"), picture)) {
       const Eigen::Vector2d middle = MiddleOf(pixel);
       const bool is_in_name = std::ranges::any_of(names, [&](const Eigen::Vector2d& foot) {
@@ -99,7 +99,7 @@ TEST_F(Overlays, HaveTheTrackAxisBetweenTheRails) {
   const Eye eye({5, 6, 5}, {25, 0, -2.5}, kWidth, kHeight);
   const Picture lines = Show("track", camera);
   ExpectLine(lines, eye, {12, 0, kRailTop_m}, {40, 0, kRailTop_m}, kYellow);
-  // The rails' points are 0.7175 m and half a head beside it.
+  // Points on the rails are 0.7175 m and half a head to the side of the axis.
   const Picture points = Draw(camera + " " + path_);
   int num_left = 0;
   int num_right = 0;
@@ -114,13 +114,14 @@ TEST_F(Overlays, HaveTheTrackAxisBetweenTheRails) {
     const Pixel at = PixelAt(*eye.See(place_m));
     if (!IsClearOfWords(at, points)) continue;
     if (points.At(at.x, at.y) != run_.ColorOf("rail")) continue;
-    // Along the picture's row to where the axis is drawn.
+    // Search along the picture's row for the axis.
     const auto is_axis = [&](int x) { return lines.At(x, at.y) == kYellow; };
     int left = at.x;
     while (left > 0 && !is_axis(left)) --left;
     int right = at.x;
     while (right < kWidth - 1 && !is_axis(right)) ++right;
-    // From the left side of the track, the left rail is nearer: on the left in the picture.
+    // Seen from the left of the track, the left rail is nearer and so to the left of the axis in
+    // the picture.
     EXPECT_TRUE(is_axis(place_m.y() > 0.0 ? right : left)) << place_m.transpose();
     (place_m.y() > 0.0 ? num_left : num_right) += 1;
   }
@@ -137,7 +138,7 @@ TEST_F(Overlays, HaveATickAtEveryTenMetresAndALongOneAtEveryFifty) {
   };
   EXPECT_GE(share(440, 0.1, 0.5), 0.9);
   EXPECT_LE(share(440, 0.6, 1.3), 0.1);
-  EXPECT_GE(share(450, -1.3, 1.3), 0.6);  // Its word is before a part.
+  EXPECT_GE(share(450, -1.3, 1.3), 0.6);  // Its word hides a part of it.
   EXPECT_LE(share(445, 0.1, 0.5), 0.2);
 }
 
@@ -152,12 +153,12 @@ TEST_F(Overlays, HaveRingsAtTheirDistancesFromBelowTheSensor) {
     };
     int num_seen = 0;
     for (double angle_deg = -60.0; angle_deg < 60.0; angle_deg += 5.0) {
-      // Where the words "50 m" are, straight ahead, and the status nothing is asked.
+      // Skip where the words "50 m", straight ahead, and the status hide the ring.
       if (radius_m == 10.0 && angle_deg > 45.0) continue;
       if (std::abs(angle_deg + 2.5) < 10.0) continue;
       const double share = ShareDrawn(picture, eye, at(angle_deg), at(angle_deg + 5.0), kGrey);
       if (std::isnan(share)) continue;
-      EXPECT_GE(share, 0.6) << radius_m << ' ' << angle_deg;  // Points are before it.
+      EXPECT_GE(share, 0.6) << radius_m << ' ' << angle_deg;  // Points hide parts of it.
       ++num_seen;
     }
     EXPECT_GT(num_seen, 3) << radius_m;
@@ -166,7 +167,7 @@ TEST_F(Overlays, HaveRingsAtTheirDistancesFromBelowTheSensor) {
 
 TEST_F(Overlays, HaveTheGaugeRoundTheTrack) {
   const Picture picture = Show("gauge", beside_);
-  // Chainage 440 m; wagons' gauge is 3.15 m x 4.28 m.
+  // At chainage 440 m; the gauge for wagons is 3.15 m x 4.28 m.
   const double x_m = 440.0 - kSensorChainage_m;
   const auto at = [&](double y_m, double height_m) {
     return Vector3(x_m, y_m, kRailTop_m + height_m);
@@ -180,7 +181,7 @@ TEST_F(Overlays, HaveTheGaugeRoundTheTrack) {
 TEST_F(Overlays, HaveTheSensorsAxes) {
   const Picture picture = Show("axes", "--eye -5,-5,3 --target 0,0,0");
   const Eye eye({-5, -5, 3}, {0, 0, 0}, kWidth, kHeight);
-  // Letters are at the ends.
+  // The ends are left out, because the letters are there.
   ExpectLine(picture, eye, {0.1, 0, 0}, {1.7, 0, 0}, kVermillion);
   ExpectLine(picture, eye, {0, 0.1, 0}, {0, 1.7, 0}, kBluishGreen);
   ExpectLine(picture, eye, {0, 0, 0.1}, {0, 0, 1.7}, kBlue);
@@ -188,7 +189,7 @@ TEST_F(Overlays, HaveTheSensorsAxes) {
 
 TEST_F(Overlays, HaveTheFrustumAtTheScansCorners) {
   const Picture picture = Show("frustum", "--camera top");
-  // 60 deg wide, 30 deg high, drawn out to 100 m.
+  // The frustum is 60 deg wide and 30 deg high and drawn out to 100 m.
   const double wide_rad = 30.0 * std::numbers::pi / 180.0;
   const double high_rad = 15.0 * std::numbers::pi / 180.0;
   for (const double side : {-1.0, 1.0}) {
@@ -204,10 +205,10 @@ TEST_F(Overlays, HaveSurfacesBehindThePoints) {
   const Picture points = Draw("--camera driver " + path_);
   const Picture both = Draw("--camera driver --show surfaces " + path_);
   const Eye eye = DriverEye(kWidth, kHeight);
-  // Of the standing wagon, whose rear face fills its outline from here.
+  // Surfaces of the standing wagon, whose rear face fills its outline from here.
   const Corners outline = OutlineOf(run_.ObjectOf(0, "standing"), eye);
   int num_inside = 0;
-  int num_between = 0;  // The points.
+  int num_between = 0;  // Pixels between the points.
   int num_changed = 0;
   int num_reddish = 0;
   for (int y = 0; y < kHeight; ++y) {
@@ -225,7 +226,7 @@ TEST_F(Overlays, HaveSurfacesBehindThePoints) {
   EXPECT_GT(num_between, 500);
   EXPECT_GE(num_changed, 0.95 * num_between);
   EXPECT_GE(num_reddish, 0.8 * num_inside);
-  // The sky stays what it is.
+  // The sky is unchanged.
   const Picture sky = both.Part({400, 0}, 240, 60);
   EXPECT_EQ(sky, points.Part({400, 0}, 240, 60));
 }
@@ -241,11 +242,11 @@ TEST_F(Overlays, HaveTheFanOfFiringsThatBroughtNothingBack) {
   for (const Pixel& pixel : Differences(without, with)) {
     if (!IsClearOfWords(pixel, with)) continue;
     const Eigen::Vector2d way = MiddleOf(pixel) - sensor;
-    // Ahead is up in the picture; a pixel's own width more.
+    // Ahead is up in the picture; the width of a pixel is allowed for.
     const double angle_rad = std::atan2(std::abs(way.x()) - 1.5, -way.y());
     (angle_rad <= 30.0 * std::numbers::pi / 180.0 ? num_in_fan : num_outside) += 1;
   }
-  // A sixth of a circle of 12 m at least.
+  // At least half of the sector of 60 deg with a radius of 12 m.
   EXPECT_GT(static_cast<double>(num_in_fan),
             0.5 * std::numbers::pi / 6.0 * twelve_m_px * twelve_m_px);
   EXPECT_EQ(num_outside, 0U);

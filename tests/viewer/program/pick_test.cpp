@@ -16,7 +16,7 @@ namespace {
 
 class Picked : public Drawn {
  protected:
-  /// A line of the facts.
+  /// Returns a line of the facts.
   static std::string Fact(std::string name, const std::string& value) {
     name.resize(17, ' ');
     return name + value + "\n";
@@ -25,7 +25,8 @@ class Picked : public Drawn {
     return "--pick " + std::to_string(point.pixel().x) + "," + std::to_string(point.pixel().y) +
            " ";
   }
-  /// Points of an object that no other point is near to, so that a click means no other.
+  /// Returns points of an object that no other point is near to, so that a click on them is
+  /// unambiguous.
   [[nodiscard]] std::vector<SeenPoint> LoneOf(const std::string& object, const Eye& eye) const {
     return LoneOf(object, eye, run_.frame(0));
   }
@@ -87,7 +88,7 @@ TEST_F(Picked, PointsHaveTheTraceThatTheGeneratorPrints) {
   const auto lone = LoneOf("standing", eye);
   ASSERT_GT(lone.size(), 3U);
   (void)Draw(PickOption(lone[1]) + "--trace --eye 46,1,0 --target 57,0,-1 " + path_);
-  // The viewer says which firing the slot is of, the generator which slot that firing has.
+  // The viewer tells the firing of a slot, the generator the slot of a firing.
   const std::string head = "frame 0 firing ";
   const std::size_t at = said().find(head);
   ASSERT_NE(at, std::string::npos) << said();
@@ -103,7 +104,7 @@ TEST_F(Picked, PointsHaveTheTraceThatTheGeneratorPrints) {
 TEST_F(Picked, PairsHaveADistance) {
   const Eye eye({46, 1, 0}, {57, 0, -1}, kWidth, kHeight);
   auto lone = LoneOf("standing", eye);
-  // The plate with what is known is over the right half.
+  // The plate with the facts covers the right half.
   std::erase_if(lone, [](const SeenPoint& point) { return point.place_px.x() > 0.5 * kWidth; });
   ASSERT_GT(lone.size(), 3U);
   const Picture one = Draw(PickOption(lone.front()) + "--eye 46,1,0 --target 57,0,-1 " + path_);
@@ -117,7 +118,7 @@ TEST_F(Picked, PairsHaveADistance) {
                 "from the point before\n%.3f m (dx %.3f, dy %.3f, dz %.3f; level %.3f m)",
                 way_m.norm(), way_m.x(), way_m.y(), way_m.z(), way_m.head<2>().norm());
   EXPECT_NE(said().find(expected.data()), std::string::npos) << expected.data() << '\n' << said();
-  // And a white line between them, as the crosses are.
+  // A white line joins them, in the colour of the crosses.
   constexpr Rgb kWhite = {255, 255, 255};
   const Vector3 from_m = PositionOf(run_.frame(0), lone.front().point);
   EXPECT_GE(ShareDrawn(two, eye, from_m, from_m + way_m, kWhite), 0.8);
@@ -135,7 +136,7 @@ TEST_F(Picked, PlacesWithoutPointsAreRefused) {
 TEST_F(Picked, PointsOfACloudWithoutAScenarioHaveNoTrace) {
   const std::string cloud = (run_.path() / "frames/000000.pcd").string();
   const Eye eye({46, 1, 0}, {57, 0, -1}, kWidth, kHeight);
-  // A cloud without a pose: motion within the scan stays in it.
+  // A cloud without a pose, so the motion within the scan is not undone.
   const ShownFrame shown = MakeShownFrame((*OpenRecording(cloud)->Next())());
   const auto lone = LoneOf("standing", eye, shown);
   ASSERT_GT(lone.size(), 3U);

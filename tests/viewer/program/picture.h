@@ -11,11 +11,14 @@
 #include <utility>
 #include <vector>
 
-#include "viewer/color/rgb.h"
+#include "viewer/color/palette.h"
 
 namespace railcast {
 
-/// A place in a picture: columns from the left, rows from the top.
+/// Colour of the background "dark".
+inline constexpr Rgb kDark = {26, 26, 28};
+
+/// A pixel of a picture: column from the left, row from the top.
 struct Pixel {
   int x{};
   int y{};
@@ -23,11 +26,11 @@ struct Pixel {
   auto operator<=>(const Pixel&) const = default;
 };
 
-/// A PNG that the program drew.
+/// A PNG drawn by the program.
 struct Picture {
   int width{};
   int height{};
-  std::vector<Rgb> pixels;  ///< Row by row from the top.
+  std::vector<Rgb> pixels;  ///< Row by row, from the top.
 
   [[nodiscard]] const Rgb& At(int x, int y) const {
     return pixels.at(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
@@ -48,7 +51,7 @@ struct Picture {
   [[nodiscard]] std::size_t Count(const Rgb& rgb) const {
     return static_cast<std::size_t>(std::ranges::count(pixels, rgb));
   }
-  /// The part from (left, top) of that size.
+  /// Returns the part of that size whose upper left corner is `from`.
   [[nodiscard]] Picture Part(const Pixel& from, int part_width, int part_height) const {
     Picture part{part_width, part_height, {}};
     for (int y = 0; y < part_height; ++y) {
@@ -59,7 +62,7 @@ struct Picture {
   bool operator==(const Picture&) const = default;
 };
 
-/// Empty if the file is no PNG.
+/// Returns an empty picture if the file is no PNG.
 inline Picture ReadPicture(const std::filesystem::path& file) {
   Picture picture;
   vtkNew<vtkPNGReader> reader;
@@ -78,7 +81,7 @@ inline Picture ReadPicture(const std::filesystem::path& file) {
   return picture;
 }
 
-/// Where two pictures of one size differ.
+/// Returns the pixels in which two pictures of the same size differ.
 inline std::vector<Pixel> Differences(const Picture& a, const Picture& b) {
   std::vector<Pixel> places;
   for (int y = 0; y < a.height; ++y) {

@@ -17,17 +17,17 @@
 namespace railcast {
 namespace {
 
-// Points are squares of 2 px at this size: up to 1 px from the place to a side, the pixels' middles
-// half a pixel further, and a diagonal of these.
+// Points are squares of 2 px at this size: an edge is up to 1 px from the place, the middle of a
+// pixel half a pixel farther, and this is the diagonal of both.
 constexpr double kReach_px = 2.2;
-constexpr Rgb kDark = {26, 26, 28};
 
 class Points : public Drawn {
  protected:
   const RecordedRun& run_ = RecordedRun::Yard();
   const std::string path_ = run_.path().string();
 
-  /// What moves is scanned on its way, not where it is at the stamp alone.
+  /// Moving objects are scanned over the duration of a frame, so their outlines are taken at
+  /// several times.
   [[nodiscard]] std::vector<Corners> OutlinesDuring(std::size_t frame,
                                                     const std::string& object,
                                                     const Eye& eye) const {
@@ -74,8 +74,8 @@ TEST_F(Points, OfWagonsAreInTheirBoxes) {
         });
       });
       EXPECT_GE(num_inside, 0.99 * static_cast<double>(pixels.size()));
-      // And each of its points is there, but for those behind drops of rain and, from above, below
-      // the contact line and each other.
+      // Each point of the wagon is drawn, except those behind raindrops and, from above, those
+      // below the contact line or below each other.
       const auto seen = SeenOf(frame, "wagon", eye, picture);
       const auto num_drawn = std::ranges::count_if(seen, [&](const SeenPoint& point) {
         return picture.At(point.pixel().x, point.pixel().y) == run_.ColorOf("wagon");
@@ -87,7 +87,7 @@ TEST_F(Points, OfWagonsAreInTheirBoxes) {
 }
 
 TEST_F(Points, AreAsLargeAsAskedFor) {
-  // From the driver's place beams do not overlap: 0.25 deg are 3.2 px.
+  // From the driver's place beams do not overlap: 0.25 deg is 3.2 px.
   const Eye eye = DriverEye(kWidth, kHeight);
   std::size_t last = 0;
   for (const int size_px : {1, 2, 3, 6, 20}) {
@@ -125,7 +125,7 @@ TEST_F(Points, HaveTheColoursOfTheirValues) {
     }
     EXPECT_GT(lone.size(), 1000U);
     EXPECT_EQ(num_right, static_cast<int>(lone.size()));
-    // The scale, from 12 % of the height to 82 %.
+    // The scale extends from 12 % of the height to 82 %.
     EXPECT_EQ(picture.At(570, static_cast<int>(0.87 * kHeight)), MapColor(map, 0.0));
     EXPECT_EQ(picture.At(570, static_cast<int>(0.18 * kHeight)), MapColor(map, 1.0));
   }
@@ -141,7 +141,7 @@ TEST_F(Points, AreFaintWhereTheirLabelIsNotSelected) {
     EXPECT_GT(PointsOf(run_.ColorOf(label), all).size(), 100U) << label;
     EXPECT_EQ(PointsOf(run_.ColorOf(label), selected).size(), 0U) << label;
   }
-  // Faint, not gone.
+  // The other points are faint but still drawn.
   EXPECT_EQ(PointsOf(kDark, selected.Part({0, 0}, kWidth, 400)),
             PointsOf(kDark, all.Part({0, 0}, kWidth, 400)));
 }
@@ -152,7 +152,8 @@ TEST_F(Points, AreListedInTheLegendWithTheirLabelsColours) {
   for (const std::uint32_t slot : run_.frame(0).slots)
     ids.insert(run_.frame(0).frame().label[slot]);
   EXPECT_GE(ids.size(), 10U);
-  // Lines of 3 % of the height from 2 % below the top on, by rising label; swatches from 2 % on.
+  // Lines of 3 % of the height begin 2 % below the top, by rising label; swatches begin 2 % from
+  // the left.
   double middle_px = (0.02 + 0.015) * kHeight;
   for (const std::uint32_t id : ids) {
     const Label& label = *run_.info().labels.Find(id);
@@ -180,7 +181,7 @@ TEST_F(Points, OfSeveralFramesAreWhereTheyWereInTheWorld) {
     return picture.pixels.size() - picture.Count(kDark);
   };
   EXPECT_GT(drawn(six), drawn(one) + 5000);
-  // The post stands: its points of all frames are where it is in the last.
+  // The post stands still, so its points of all frames are where it is in the last.
   const Eye eye = ChaseEye(kWidth, kHeight);
   const auto post = PointsOf(run_.ColorOf("pole"), six);
   const Corners outline = OutlineOf(run_.ObjectOf(5, "post"), eye);
@@ -189,7 +190,7 @@ TEST_F(Points, OfSeveralFramesAreWhereTheyWereInTheWorld) {
   });
   EXPECT_GT(post.size(), PointsOf(run_.ColorOf("pole"), one).size());
   EXPECT_GE(num_inside, 0.99 * static_cast<double>(post.size()));
-  // The train meets it at 15 m/s: its points of each frame are where they were then.
+  // The train moves, so its points of each frame are where it was at that time; it comes at 15 m/s.
   for (std::size_t frame = 0; frame < 6; ++frame) {
     const ShownFrame& shown = run_.frame(frame);
     const Transform last_from_this =
@@ -206,7 +207,7 @@ TEST_F(Points, OfSeveralFramesAreWhereTheyWereInTheWorld) {
       num_drawn += six.At(pixel.x, pixel.y) == run_.ColorOf("wagon") ? 1 : 0;
     }
     EXPECT_GT(num_points, 100U) << frame;
-    // Some are behind the line's masts and wires.
+    // Some points are behind masts and wires.
     EXPECT_GE(static_cast<double>(num_drawn), 0.9 * static_cast<double>(num_points)) << frame;
   }
 }

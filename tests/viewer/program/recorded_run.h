@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "core/io/recording/recording.h"
 #include "core/io/write_file.h"
+#include "railcast/io/recording.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/support/run_command.h"
-#include "viewer/color/rgb.h"
+#include "viewer/color/palette.h"
 #include "viewer/frames/shown_frame.h"
 
 namespace railcast {
@@ -21,9 +21,9 @@ inline Ended Generate(const std::string& arguments) {
   return RunCommand(std::string(RAILCAST_GENERATE) + " " + arguments);
 }
 
-/// A straight line on which a vehicle at 20 m/s comes towards a standing wagon, past a person and a
-/// post, while a train of one wagon meets it on the second track.
-/// @param weather As scenarios have it.
+/// A straight line on which a vehicle approaches a standing wagon at 20 m/s, past a person and a
+/// post, while a train of one wagon comes the other way on the second track.
+/// @param weather The value of that key of a scenario.
 inline std::string YardScenario(const std::string& weather = R"({"rain_rate_mmph": 10})") {
   const std::string scenarios = std::string(RAILCAST_SOURCE_DIR) + "/scenarios/";
   std::string text = R"({
@@ -58,10 +58,10 @@ inline std::string YardScenario(const std::string& weather = R"({"rain_rate_mmph
   return text + "labels.json\"\n}\n";
 }
 
-/// A sequence that railcast-generate made.
+/// A sequence made by railcast-generate.
 class RecordedRun {
  public:
-  /// @throws std::runtime_error if it could not be made.
+  /// @throws std::runtime_error if it cannot be made.
   RecordedRun(const std::string& scenario, int num_frames, const std::string& options = "") {
     WriteFileWhole(scenario_file(), scenario);
     const Ended ended =
@@ -92,7 +92,7 @@ class RecordedRun {
     throw std::runtime_error("no object " + name);
   }
 
-  /// Six frames of YardScenario() in rain, made when a test first asks for them.
+  /// Six frames of YardScenario() in rain, made at the first call.
   static const RecordedRun& Yard() {
     static const RecordedRun run(YardScenario(), 6);
     return run;

@@ -18,11 +18,11 @@
 
 namespace railcast {
 
-/// A program while it runs; killed at the end if it still does.
+/// A running program, killed by the destructor if it is still running.
 class RunningProgram {
  public:
-  /// @param said_file Gets what it says on stdout and stderr.
-  /// @param folder Its working directory; empty: the test's own.
+  /// @param said_file Receives stdout and stderr.
+  /// @param folder Its working directory; empty: that of the test.
   RunningProgram(const std::vector<std::string>& arguments,
                  std::filesystem::path said_file,
                  const std::filesystem::path& folder = {})
@@ -58,7 +58,8 @@ class RunningProgram {
     (void)ExitStatus();
   }
   void Interrupt() const { ::kill(pid_, SIGINT); }
-  /// Waits for the end. A signal gives 128 and its number.
+  /// Waits for the program to end and returns its exit status; 128 plus the number of a signal that
+  /// ended it.
   int ExitStatus() {
     int status = 0;
     if (!status_ && ::waitpid(pid_, &status, 0) == pid_) status_ = status;
@@ -67,14 +68,14 @@ class RunningProgram {
   }
   [[nodiscard]] pid_t pid() const { return pid_; }
 
-  /// So far.
+  /// Returns the output so far.
   [[nodiscard]] std::string Said() const {
     std::ifstream file(said_file_, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
   }
 
-  /// Waits for something to become true while the program lives; a minute is for machines that have
-  /// much else to do.
+  /// Waits for a condition to hold while the program is running, for at most a minute, which is
+  /// enough on busy machines, too.
   template <typename Condition>
   [[nodiscard]] bool WaitUntil(Condition&& is_so) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
@@ -85,7 +86,7 @@ class RunningProgram {
     return true;
   }
 
-  /// Memory in use, in KiB (VmRSS).
+  /// Returns the memory in use, in KiB (VmRSS).
   [[nodiscard]] long Memory_KiB() const {
     std::ifstream status("/proc/" + std::to_string(pid_) + "/status");
     std::string line;

@@ -11,12 +11,10 @@
 namespace railcast {
 namespace {
 
-constexpr Rgb kDark = {26, 26, 28};
-
 class Sources : public Drawn {
  protected:
-  /// Draws a frame from the driver's place and asks for each of its points that it is there. An
-  /// amount colours all of them alike bright.
+  /// Draws a frame from the driver's place and expects each of its points in the picture. Colouring
+  /// by a quantity makes every point bright.
   void ExpectPoints(const std::string& source, std::size_t index, std::size_t num_points) {
     SCOPED_TRACE(source);
     const auto recording = OpenRecording(source);
@@ -34,7 +32,7 @@ class Sources : public Drawn {
     }
     EXPECT_GT(seen.size(), num_points);
     EXPECT_EQ(num_drawn, seen.size());
-    // And nothing that is no point: each is a square of 4 px.
+    // Nothing else is drawn: each point is a square of 4 px.
     std::size_t num_pixels = 0;
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) {
@@ -45,7 +43,7 @@ class Sources : public Drawn {
     EXPECT_LE(num_pixels, 4 * seen.size() + 200);
   }
 
-  /// Two frames of the yard.
+  /// Makes two frames of the yard.
   [[nodiscard]] std::string Generated(const std::string& name, const std::string& options) const {
     Write("scenario.json", YardScenario());
     const Ended ended = Generate("sequence " + PathOf("scenario.json") + " --frames 2 --out " +
@@ -67,7 +65,7 @@ TEST_F(Sources, MayBePlyFiles) {
   ExpectPoints(run, 1, 5000);
   ExpectPoints(run + "/frames", 1, 5000);
   ExpectPoints(run + "/frames/000001.ply", 0, 5000);
-  // A format changes no picture, but for the path at its foot.
+  // The format does not change the picture, except for the path in the status.
   const Picture ply = Draw("--frame 1 " + run);
   const Picture pcd = Draw("--frame 1 " + RecordedRun::Yard().path().string());
   EXPECT_TRUE(ply.Part({0, 0}, kWidth, 400) == pcd.Part({0, 0}, kWidth, 400));
@@ -110,7 +108,7 @@ TEST_F(Sources, MayHoldNoPoints) {
 }
 
 TEST_F(Sources, MayHaveTheNamesOfAScenario) {
-  // A cloud alone does not know what its labels are called, nor their colours.
+  // A cloud alone has neither names nor colours for its labels.
   std::filesystem::copy_file(RecordedRun::Yard().path() / "frames/000000.pcd", PathOf("alone.pcd"));
   const Rgb wagon = RecordedRun::Yard().ColorOf("wagon");
   const std::string scenario = RecordedRun::Yard().scenario_file().string();

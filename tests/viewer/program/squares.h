@@ -8,17 +8,17 @@
 #include <string>
 #include <vector>
 
-#include "core/frame/frame.h"
+#include "railcast/frame.h"
 #include "tests/viewer/program/view_program.h"
 #include "viewer/color/color_map.h"
 
 namespace railcast {
 
-/// Two upright squares of 2 x 2 m at `x_m`: label 1 straight ahead, label 2 5 m to the left; and a
-/// point 80 m nearer.
+/// Two upright squares of 2 x 2 m at `x_m`, with label 1 straight ahead and label 2 5 m to the
+/// left, and a point 80 m nearer.
 class Squares : public Drawn {
  protected:
-  /// As an ASCII PCD; the last point is absent.
+  /// Writes the squares as an ASCII PCD; its last point is absent.
   void WriteSquares(const std::string& name, int x_m = 40) const {
     std::string points = std::to_string(x_m - 80) + " 0 0 0\n";
     int num_points = 2;
@@ -38,7 +38,7 @@ class Squares : public Drawn {
               count + "\nHEIGHT 1\nPOINTS " + count + "\nDATA ascii\n" + points);
   }
 
-  /// As a frame of one row; the last slot has no point.
+  /// Returns the squares as a frame of one row; the last slot has no point.
   static Frame SquaresFrame(std::uint32_t index) {
     std::vector<std::array<float, 3>> points = {{-40.0F, 0.0F, 0.0F}};
     for (int iy = -20; iy <= 20; ++iy) {
@@ -70,28 +70,30 @@ class Squares : public Drawn {
        "semantic_kitti": 0, "semantic_kitti_nearest": 0}]})");
   }
 
-  /// Draws them from the driver's place.
+  /// Draws the squares from the driver's place.
   void DrawSquares(const std::string& arguments) {
     picture_ = Draw("--camera driver " + arguments);
   }
 
-  /// The colour at a number of pixels to the right of and above the picture's centre.
+  /// Returns the colour at a number of pixels to the right of and above the picture's centre.
   [[nodiscard]] Rgb At(double right_px, double above_px) const {
     return picture_.At(static_cast<int>(std::lround(320 + right_px)),
                        kHeight - 1 - static_cast<int>(std::lround(240 + above_px)));
   }
 
-  // The camera is at (-1, 0, 0.3) and looks at (60, 0, -1.5) with 36 deg from bottom to top.
+  // The camera is at (-1, 0, 0.3) and looks at (60, 0, -1.5) with a vertical field of view of 36
+  // deg.
   static constexpr double kTilt = 1.8 / 61.0;
   static double PixelsPerTangent() { return 240.0 / std::tan(18.0 * std::numbers::pi / 180.0); }
-  // Of the plane at x = 40 m: how far above the centre its axis is at a height, and one metre.
+  // In the plane at x = 40 m: how many pixels above the centre a height is, and how many pixels a
+  // metre has.
   [[nodiscard]] static double PixelsAbove(double z_m) {
     const double angle_rad = std::atan((z_m - 0.3) / 41.0) + std::atan(kTilt);
     return PixelsPerTangent() * std::tan(angle_rad);
   }
   static double MetreInPixels() { return PixelsPerTangent() / 41.0; }
 
-  /// Where on the scale a colour is.
+  /// Returns the place of a colour on the scale.
   static double PlaceOnScale(const Rgb& rgb) {
     const auto distance = [&](int step) {
       const Rgb other = MapColor(ColorMap::kViridis, step / 1000.0);

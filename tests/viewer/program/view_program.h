@@ -13,7 +13,7 @@
 
 namespace railcast {
 
-/// Runs railcast-view. A signal gives a status of 128 and its number.
+/// Runs railcast-view. A signal gives a status of 128 plus its number.
 inline Ended View(const std::string& arguments) {
   return RunCommand(RAILCAST_VIEW " " + arguments);
 }
@@ -33,7 +33,7 @@ class RailcastView : public testing::Test {
   TemporaryDirectory folder_;
 };
 
-/// The tests that draw need a display; Xvfb is one without a screen.
+/// Base of the tests that draw, which need a display; Xvfb provides one without a screen.
 class Drawn : public RailcastView {
  protected:
   void SetUp() override {
@@ -43,8 +43,8 @@ class Drawn : public RailcastView {
   static constexpr int kWidth = 640;
   static constexpr int kHeight = 480;
 
-  /// What --screenshot writes, 640 x 480 unless the arguments say otherwise; empty, and the test
-  /// fails, if the program does.
+  /// Returns the picture written by --screenshot, 640 x 480 unless the arguments say otherwise. If
+  /// the program fails, so does the test, and the picture is empty.
   [[nodiscard]] Picture Draw(const std::string& arguments) {
     const bool has_size = arguments.find("--size") != std::string::npos;
     std::filesystem::remove(PathOf("out.png"));
@@ -53,7 +53,7 @@ class Drawn : public RailcastView {
     EXPECT_EQ(said_.status, 0) << arguments << '\n' << said_.said;
     return ReadPicture(PathOf("out.png"));
   }
-  /// By the last Draw().
+  /// Output of the last Draw().
   [[nodiscard]] const std::string& said() const { return said_.said; }
 
  private:

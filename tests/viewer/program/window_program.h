@@ -14,8 +14,8 @@
 
 namespace railcast {
 
-/// The window of 640 x 480 as people use it: keys and the mouse come from the X server (xdotool),
-/// pictures from the key p, which comes after the keys before it.
+/// A window of 640 x 480 driven as by a user: keys and the mouse come from the X server (xdotool),
+/// and pictures from the key p, which takes effect after the keys before it.
 class WindowTest : public Drawn {
  protected:
   void SetUp() override {
@@ -24,18 +24,18 @@ class WindowTest : public Drawn {
   }
   void TearDown() override { window_.reset(); }
 
-  /// Opens it and waits until it hears keys, which is later than that it is there: it prints its
-  /// camera then.
+  /// Opens the window and waits until it responds to keys, which is later than its appearance: it
+  /// then prints its camera.
   void Open(const std::vector<std::string>& arguments) {
     OpenDeaf(arguments);
     ASSERT_TRUE(window_->WaitUntil([&] {
       Press("k");
       return window_->Said().find("--eye") != std::string::npos;
     })) << window_->Said();
-    // With all of these keys.
+    // Waits until all those keys have had their effect.
     (void)Shown();
   }
-  /// Opens it and waits until it is there.
+  /// Opens the window and waits until it appears.
   void OpenDeaf(const std::vector<std::string>& arguments) {
     std::vector<std::string> command = {RAILCAST_VIEW, "--size", "640x480"};
     command.insert(command.end(), arguments.begin(), arguments.end());
@@ -47,8 +47,8 @@ class WindowTest : public Drawn {
     });
     ASSERT_TRUE(is_open) << window_->Said();
     id_ = id_.substr(0, id_.find('\n'));
-    // Without a window manager, keys go to the window that the pointer is in. Away from all that
-    // lights up under it.
+    // Without a window manager, keys go to the window under the pointer. The pointer stays away
+    // from all widgets that light up under it.
     PointAt({600, 60});
     num_pictures_ = 0;
   }
@@ -62,13 +62,13 @@ class WindowTest : public Drawn {
                   .status,
               0);
   }
-  /// By X's names, one after another: "Right Right c".
+  /// Presses keys by their X names, one after another: "Right Right c".
   void Press(const std::string& keys) { EXPECT_EQ(Xdotool("key --delay 5 " + keys).status, 0); }
   void Click(const Pixel& place, int button = 1) {
     PointAt(place);
     EXPECT_EQ(Xdotool("click " + std::to_string(button)).status, 0);
   }
-  /// In steps, as a hand does; held at the end for as long as `while_held` takes.
+  /// Drags in steps, as a hand does; holds the button at the end while `while_held` runs.
   template <typename WhileHeld>
   void Drag(const Pixel& from, const Pixel& to, WhileHeld&& while_held) {
     PointAt(from);
@@ -85,7 +85,7 @@ class WindowTest : public Drawn {
     Drag(from, to, [] {});
   }
 
-  /// What the window shows once it has done all that came before.
+  /// Returns the contents of the window after all earlier input has had its effect.
   [[nodiscard]] Picture Shown() {
     const std::string file =
         PathOf("desk/railcast-view-" + std::to_string(++num_pictures_) + ".png");
@@ -94,17 +94,18 @@ class WindowTest : public Drawn {
         << window_->Said();
     return ReadPicture(file);
   }
-  /// Waits until it shows that: without words, which say whether it plays.
+  /// Waits until the window shows a picture, compared without the words, which say whether it
+  /// plays.
   [[nodiscard]] bool WaitToShow(const Picture& picture) {
     return window_->WaitUntil([&] { return ArePointsAlike(Shown(), picture); });
   }
-  /// What the key k prints.
+  /// Returns what the key k prints.
   [[nodiscard]] std::string PrintedCamera() {
     const std::size_t before = window_->Said().size();
     Press("k");
     std::string line;
     EXPECT_TRUE(window_->WaitUntil([&] {
-      // It may still be saying which picture it wrote.
+      // The message about the last picture may still be under way.
       const std::string said = window_->Said().substr(before);
       const std::size_t at = said.find("--eye");
       if (at == std::string::npos || said.back() != '\n') return false;
@@ -114,7 +115,7 @@ class WindowTest : public Drawn {
     return line;
   }
 
-  /// Above the status and the slider at the foot.
+  /// Returns the part above the status and the slider.
   static Picture AboveFoot(const Picture& picture) {
     return picture.width == 0 ? picture : picture.Part({0, 0}, picture.width, 395);
   }

@@ -31,7 +31,7 @@ class Window : public WindowTest {
         << line;
     return camera;
   }
-  /// A screenshot of what the window should show.
+  /// Returns a screenshot of what the window should show.
   [[nodiscard]] Picture Expected(const std::string& options) { return Draw(options + " " + path_); }
 
   const RecordedRun& run_ = RecordedRun::Yard();
@@ -65,9 +65,10 @@ TEST_F(Window, PlaysToTheEndAndAnew) {
   Press("Home");
   EXPECT_TRUE(ArePointsAlike(Shown(), Expected("")));
   Press("space");
-  // With the words, which say that it has paused.
+  // Compares the words, too, because they say that it has paused.
   EXPECT_TRUE(window().WaitUntil([&] { return Shown() == at_end; }));
-  // From the end it begins anew, now as slowly as it can: 1.6 s to each frame.
+  // From the end, playing starts again at the first frame, now at the lowest speed: 1.6 s per
+  // frame.
   Press("comma comma comma comma space");
   const Picture between[] = {Expected("--frame 1"), Expected("--frame 2"), Expected("--frame 3")};
   EXPECT_TRUE(window().WaitUntil([&] {
@@ -116,7 +117,7 @@ TEST_F(Window, ColoursByTheNextField) {
   EXPECT_TRUE(ArePointsAlike(Shown(), Expected("--color-by range")));
   Press("m");
   EXPECT_TRUE(ArePointsAlike(Shown(), Expected("--color-by range --color-map cividis")));
-  // The scale is the first frame's until it is fitted.
+  // The scale is that of the first frame until it is fitted.
   Press("End");
   const Picture kept = Shown();
   Press("f");
@@ -134,7 +135,7 @@ TEST_F(Window, ListsItsKeys) {
   const Picture before = Shown();
   Press("question");
   const Picture listed = Shown();
-  // A plate in the middle; words are brighter than all else.
+  // The plate is in the middle, and its words are brighter than all else.
   const Picture middle = listed.Part({200, 100}, 240, 280);
   EXPECT_GT(Differences(before.Part({200, 100}, 240, 280), middle).size(), 5000U);
   Press("question");
@@ -148,9 +149,9 @@ TEST_F(Window, TurnsAndZoomsAboutWhatItLooksAt) {
   const Camera before = CameraNow();
   EXPECT_TRUE(before.eye_m.isApprox(Vector3(-20, 0, 12), 1e-6));
   EXPECT_TRUE(before.target_m.isApprox(Vector3(35, 0, -2), 1e-6));
-  // A full turn is the window's width.
+  // Dragging over the window's width is a full turn.
   Drag({300, 250}, {364, 250}, [&] {
-    // While the mouse rests nothing turns.
+    // While the mouse rests, nothing turns.
     const Picture first = Shown();
     EXPECT_TRUE(Shown() == first);
   });
@@ -159,7 +160,7 @@ TEST_F(Window, TurnsAndZoomsAboutWhatItLooksAt) {
   const Vector3 way_before_m = before.eye_m - before.target_m;
   const Vector3 expected_m =
       Eigen::AngleAxisd(-2.0 * std::numbers::pi * 64.0 / 640.0, Vector3::UnitZ()) * way_before_m;
-  // k prints millimetres.
+  // The key k prints millimetres.
   EXPECT_TRUE((turned.eye_m - turned.target_m).isApprox(expected_m, 1e-4))
       << turned.eye_m.transpose();
   char options[160];
@@ -167,14 +168,14 @@ TEST_F(Window, TurnsAndZoomsAboutWhatItLooksAt) {
                 turned.eye_m.x(), turned.eye_m.y(), turned.eye_m.z(), turned.target_m.x(),
                 turned.target_m.y(), turned.target_m.z());
   const auto num_different = Differences(AboveFoot(Shown()), AboveFoot(Expected(options))).size();
-  EXPECT_LT(num_different, 200U);  // Rounded to millimetres.
+  EXPECT_LT(num_different, 200U);  // The camera was rounded to millimetres.
   Click({320, 240}, 4);
   const Camera nearer = CameraNow();
   EXPECT_LT((nearer.eye_m - nearer.target_m).norm(), 0.95 * way_before_m.norm());
   Click({320, 240}, 5);
   const Camera back = CameraNow();
   EXPECT_NEAR((back.eye_m - back.target_m).norm(), way_before_m.norm(), 0.01);
-  // Up to straight above and no further.
+  // The camera turns up to straight above the target and no farther.
   Drag({300, 400}, {300, 5});
   Drag({300, 5}, {300, 400});
   Drag({300, 5}, {300, 400});
@@ -194,7 +195,7 @@ TEST_F(Window, SaysWhatIsKnownOfThePointThatIsClicked) {
   const Pixel place = wagon[wagon.size() / 2];
   Click(place);
   PointAt({600, 60});
-  // The same as --pick says, at the right top.
+  // The facts are those of --pick, in the upper right corner.
   const std::string pick = "--pick " + std::to_string(place.x) + "," + std::to_string(place.y);
   EXPECT_TRUE(ArePointsAlike(Shown(), Expected(pick)));
   EXPECT_NE(said().find("wagon (12)"), std::string::npos) << said();
@@ -229,7 +230,7 @@ TEST_F(Window, MeasuresFromClickToShiftClick) {
 TEST_F(Window, SelectsTheLabelThatIsClickedInTheLegend) {
   Open({path_});
   const Picture before = Shown();
-  // The wagon's line is that whose swatch has its colour.
+  // The wagon's line is the one whose swatch has its colour.
   const auto swatch = before.PlacesOf(run_.ColorOf("wagon"));
   ASSERT_LT(swatch.front().x, 20);
   const Pixel line{swatch.front().x + 20, swatch.front().y + 3};
@@ -246,7 +247,7 @@ TEST_F(Window, SelectsTheLabelThatIsClickedInTheLegend) {
 TEST_F(Window, GoesToTheFrameThatTheSliderIsDraggedTo) {
   Open({path_});
   const Picture before = Shown();
-  // From 2 % of the width to 98 %, 1.6 % above the foot.
+  // The slider extends from 2 % of the width to 98 %, 1.6 % of the height above the bottom.
   const int y = static_cast<int>(std::lround(0.984 * kHeight));
   Drag({static_cast<int>(0.027 * kWidth), y}, {static_cast<int>(0.99 * kWidth), y});
   EXPECT_TRUE(WaitToShow(Expected("--frame 5")));

@@ -11,7 +11,7 @@
 
 namespace railcast {
 
-/// Frames held in memory. A null one cannot be read.
+/// Frames held in memory. A null one stands for a frame that cannot be read.
 class HeldFrames final : public Frames {
  public:
   explicit HeldFrames(std::vector<std::shared_ptr<const ShownFrame>> frames,
@@ -33,7 +33,7 @@ class HeldFrames final : public Frames {
   std::vector<std::shared_ptr<const ShownFrame>> frames_;
 };
 
-/// A frame of so many points, `index` being its number and every point's x.
+/// A frame of `num_points` points; `index` is its number and the x of every point.
 inline RecordedFrame NumberedCloud(std::uint32_t index, std::size_t num_points = 2) {
   std::vector<Vector3> points_m(num_points, Vector3(index, 0, 1));
   if (num_points > 1) points_m[1].z() = 2.0 + index;
@@ -47,7 +47,7 @@ inline std::shared_ptr<const ShownFrame> Share(RecordedFrame recorded) {
   return std::make_shared<const ShownFrame>(Show(std::move(recorded)));
 }
 
-/// The same with labels, the first point's 12 and the others' 1.
+/// As NumberedCloud(), with label 12 for the first point and 1 for the other.
 inline RecordedFrame LabelledCloud(std::uint32_t index) {
   RecordedFrame recorded = NumberedCloud(index);
   recorded.fields.emplace("label");
@@ -55,7 +55,7 @@ inline RecordedFrame LabelledCloud(std::uint32_t index) {
   return recorded;
 }
 
-/// The same seen from 2 m further on with every frame.
+/// As NumberedCloud(), from a sensor that moves on by 2 m per frame.
 inline RecordedFrame MovingCloud(std::uint32_t index) {
   RecordedFrame recorded = NumberedCloud(index);
   recorded.has_pose = true;

@@ -15,9 +15,9 @@ namespace {
 using testing::HasSubstr;
 
 constexpr double kStart_s = 1000.0;
-constexpr double kPeriod_s = 0.2;  // Of NumberedCloud().
+constexpr double kPeriod_s = 0.2;  // That of NumberedCloud().
 
-/// Frames 0 to 4, of which number 3 cannot be read if `is_damaged`.
+/// Returns frames 0 to 4; number 3 cannot be read if `is_damaged`.
 std::vector<std::shared_ptr<const ShownFrame>> FiveFrames(bool is_damaged) {
   std::vector<std::shared_ptr<const ShownFrame>> frames;
   for (std::uint32_t i = 0; i < 5; ++i) frames.push_back(Share(NumberedCloud(i)));
@@ -45,7 +45,7 @@ class PlaybackOfDamaged : public PlaybackOfFive {
 TEST_F(PlaybackOfFive, ShowsAFrameAPeriodAndStopsAtTheEnd) {
   EXPECT_FALSE(playback_.Advance(kStart_s + 10.0)) << "it does not play yet";
   playback_.TogglePlaying(kStart_s);
-  for (std::size_t place = 2; place < 5; ++place) {  // To begin, the next one is shown.
+  for (std::size_t place = 2; place < 5; ++place) {  // Playing begins by showing the next frame.
     const double now_s = kStart_s + (static_cast<double>(place) - 0.9) * kPeriod_s;
     EXPECT_TRUE(playback_.Advance(now_s)) << place;
     EXPECT_EQ(session_.place(), place);
@@ -97,7 +97,7 @@ TEST_F(PlaybackOfDamaged, StepsOverAFrameThatCannotBeRead) {
 
 TEST_F(PlaybackOfDamaged, PlaysBesideAFrameThatCannotBeRead) {
   playback_.SeekTo(4, kStart_s);
-  // The period is asked of the neighbour, which is the damaged one.
+  // The period is taken from the neighbouring frame, which is the damaged one.
   EXPECT_EQ(session_.Period_s(), 0.1);
 }
 

@@ -123,10 +123,11 @@ TEST(Session, SaysThatAFrameLacksTheFieldAndShowsAnother) {
   Session session({&frames}, {});
   ASSERT_TRUE(session.Seek(0));
   ASSERT_TRUE(session.Seek(1));
-  const Scene scene = session.Compose()[0];
-  EXPECT_EQ(scene.status, "held   frame 1   0.200 s   2 points\nhas no field label to color by");
-  EXPECT_EQ(scene.coloring.title, "height [m]");
-  EXPECT_EQ(scene.coloring.ends, (std::array{1.0, 3.0}));
+  const Composition composition = session.Compose()[0];
+  EXPECT_EQ(composition.status,
+            "held   frame 1   0.200 s   2 points\nhas no field label to color by");
+  EXPECT_EQ(composition.coloring.title, "height [m]");
+  EXPECT_EQ(composition.coloring.ends, (std::array{1.0, 3.0}));
   session.FitScale();
   ASSERT_TRUE(session.Seek(2));
   EXPECT_EQ(session.Compose()[0].coloring.title, "label") << "the choice stays";
@@ -152,11 +153,11 @@ TEST(Session, ShowsFramesWithoutLabelsWhileSomeAreSelected) {
   session.ToggleLabel(12);
   EXPECT_EQ(session.Compose()[0].status, "held   frame 0   2 points\nselected wagon: 1 points");
   ASSERT_TRUE(session.Seek(1));
-  const Scene scene = session.Compose()[0];
-  EXPECT_EQ(scene.status,
+  const Composition composition = session.Compose()[0];
+  EXPECT_EQ(composition.status,
             "held   frame 1   0.200 s   2 points\nselected wagon: 0 points\n"
             "has no field label to color by");
-  EXPECT_EQ(scene.coloring.title, "height [m]");
+  EXPECT_EQ(composition.coloring.title, "height [m]");
   session.ColorByNext(true);
   EXPECT_EQ(session.choices().color_by, "x") << "after the height that was shown";
 }
@@ -168,7 +169,7 @@ TEST(Session, TurnsFromTheFieldThatIsShownInstead) {
     ASSERT_TRUE(session.Seek(0));
     ASSERT_TRUE(session.Seek(1));
     session.ColorByNext(forward);
-    // Of range, height, x and y height was.
+    // The fields are range, height, x and y, and height was current.
     EXPECT_EQ(session.choices().color_by, forward ? "x" : "range");
   }
 }
@@ -194,11 +195,11 @@ TEST(Session, AccumulatesAsManyFramesAsThereAre) {
   ASSERT_TRUE(session.Seek(1));
   EXPECT_THAT(session.Compose()[0].clouds, SizeIs(2));
   ASSERT_TRUE(session.Seek(4));
-  const Scene scene = session.Compose()[0];
-  ASSERT_THAT(scene.clouds, SizeIs(3));
+  const Composition composition = session.Compose()[0];
+  ASSERT_THAT(composition.clouds, SizeIs(3));
   for (std::size_t back = 0; back < 3; ++back) {
-    EXPECT_EQ(scene.clouds[back].shown, held[4 - back]);
-    EXPECT_EQ(scene.clouds[back].view_from_sensor.translation().x(),
+    EXPECT_EQ(composition.clouds[back].shown, held[4 - back]);
+    EXPECT_EQ(composition.clouds[back].view_from_sensor.translation().x(),
               -2.0 * static_cast<double>(back));
   }
   EXPECT_EQ(session.Missing(), "");
@@ -250,11 +251,11 @@ TEST(Session, OfTwoSourcesShowsTheSamePlaceOfBothSideBySide) {
   EXPECT_EQ(session.LastPlace(), 1U);
   ASSERT_TRUE(session.Seek(1));
   EXPECT_FALSE(session.Seek(2)) << "only one has it";
-  const auto scenes = session.Compose();
-  ASSERT_THAT(scenes, SizeIs(2));
-  EXPECT_EQ(scenes[0].status, "a   frame 1   0.200 s   2 points");
-  EXPECT_EQ(scenes[1].status, "b   frame 6   1.200 s   2 points");
-  EXPECT_EQ(scenes[1].coloring.ends, scenes[0].coloring.ends) << "one scale for both";
+  const auto compositions = session.Compose();
+  ASSERT_THAT(compositions, SizeIs(2));
+  EXPECT_EQ(compositions[0].status, "a   frame 1   0.200 s   2 points");
+  EXPECT_EQ(compositions[1].status, "b   frame 6   1.200 s   2 points");
+  EXPECT_EQ(compositions[1].coloring.ends, compositions[0].coloring.ends) << "one scale for both";
 }
 
 TEST(Session, ColoursTwoSourcesByWhatBothHave) {
@@ -283,12 +284,13 @@ TEST(Session, OfTwoSourcesShowsTheirDistancesInOneView) {
   Session session({&a, &b}, choices);
   EXPECT_EQ(session.num_views(), 1U);
   ASSERT_TRUE(session.Seek(0));
-  const auto scenes = session.Compose();
-  ASSERT_THAT(scenes, SizeIs(1));
-  EXPECT_THAT(scenes[0].clouds, SizeIs(2));
-  EXPECT_EQ(scenes[0].coloring.title, "to the other's nearest point [m]");
-  EXPECT_EQ(scenes[0].status, "a   frame 0   2 points\nb   frame 3   0.600 s   2 points");
-  EXPECT_EQ(session.choices().distance_ends_m, scenes[0].coloring.ends) << "kept for later frames";
+  const auto compositions = session.Compose();
+  ASSERT_THAT(compositions, SizeIs(1));
+  EXPECT_THAT(compositions[0].clouds, SizeIs(2));
+  EXPECT_EQ(compositions[0].coloring.title, "to the other's nearest point [m]");
+  EXPECT_EQ(compositions[0].status, "a   frame 0   2 points\nb   frame 3   0.600 s   2 points");
+  EXPECT_EQ(session.choices().distance_ends_m, compositions[0].coloring.ends)
+      << "kept for later frames";
   session.FitScale();
   EXPECT_EQ(session.choices().distance_ends_m, std::nullopt) << "to be fitted to the next";
 }

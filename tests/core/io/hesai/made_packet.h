@@ -12,7 +12,8 @@
 
 namespace railcast {
 
-/// Blocks at azimuths 100, 120, ...; channel 0 measures 1 m at 50 %, all others nothing.
+/// Returns a packet with blocks at azimuths 100, 120, ... (in 0.01 deg). Channel 0 measures 1 m at
+/// 50 %; all other channels have no return.
 inline std::vector<char> MadePacket(std::uint8_t mode = kPandar64Strongest) {
   std::vector<char> packet(kPandar64PacketSize, '\0');
   StoreAt<std::uint16_t>(packet.data(), kHesaiFlag);

@@ -10,11 +10,11 @@
 #include <map>
 #include <tuple>
 
-#include "core/base/transform.h"
 #include "core/base/units.h"
 #include "core/io/field_layout.h"
 #include "core/io/hesai/pandar64_packet.h"
 #include "core/io/pcap/pcap_reader.h"
+#include "railcast/transform.h"
 #include "tests/core/io/hesai/made_packet.h"
 #include "tests/support/sensor_file.h"
 
@@ -54,19 +54,19 @@ TEST(Pandar64Decoder, PlacesAPointByItsBlockAndChannel) {
   EXPECT_NEAR(point.z, std::sin(elevation_rad), 1e-6);
 }
 
-// HesaiLidar_SDK: 42.58 us after the last block ends the packet; channel 1 fires 23.18 us, the
-// earliest 54.668 us before its block's end.
+// By HesaiLidar_SDK, the packet ends 42.58 us after its last block; channel 1 fires 23.18 us before
+// the end of its block, and the earliest channel 54.668 us before it.
 TEST(Pandar64Decoder, CountsTimeBackFromThePacketsEnd) {
   const SensorTurn turn = Decoded(MadePacket());
   const std::int64_t packet_ns = 86'403 * 1'000'000'000LL + 500'000'000;
   EXPECT_EQ(turn.stamp_ns, packet_ns - 42'580 - 277'800 - 54'668);
-  EXPECT_EQ(turn.column_time_ns[5], 277'800);  // Five cycles.
+  EXPECT_EQ(turn.column_time_ns[5], 277'800);  // The time of five cycles.
   EXPECT_EQ(turn.stamp_ns + turn.points[5].time_ns, packet_ns - 42'580 - 23'180);
 }
 
 TEST(Pandar64Decoder, TakesTwoBlocksForOneCycleInDualMode) {
   std::vector<char> packet = MadePacket(kPandar64LastAndStrongest);
-  // The second pair's returns differ; the others repeat themselves.
+  // Only the returns of the second pair of blocks differ.
   StoreAt<std::uint16_t>(
       packet.data() + kPandar64HeaderSize + 3 * kPandar64BlockSize + sizeof(std::uint16_t), 200);
   const SensorTurn turn = Decoded(packet);
@@ -104,7 +104,7 @@ TEST(Pandar64Decoder, CutsTheTurnOfARotorThatStandsStill) {
 }
 
 template <typename Number>
-std::string RefusalWith(std::size_t place, Number number) {
+std::string RefusalOfPacketWith(std::size_t place, Number number) {
   std::vector<char> packet = MadePacket(kPandar64LastAndStrongest);
   StoreAt<Number>(packet.data() + place, number);
   Pandar64Decoder decoder;
@@ -117,32 +117,33 @@ TEST(Pandar64Decoder, RefusesWhatIsNoPacketOfIts) {
   Pandar64Decoder decoder;
   std::vector<SensorTurn> turns;
   EXPECT_EQ(decoder.Decode({}, turns), "must be 1198 bytes (got 0)");
-  EXPECT_EQ(RefusalWith<std::uint16_t>(0, 0xEEFF), "flag must be 65518 (got 61183)");
-  EXPECT_EQ(RefusalWith<Byte>(2, 40), "lasers must be 64 (got 40)");
-  EXPECT_EQ(RefusalWith<Byte>(3, 8), "blocks must be 6 (got 8)");
-  EXPECT_EQ(RefusalWith<Byte>(5, 0), "distance unit must be > 0 (got 0)");
-  EXPECT_EQ(RefusalWith<std::uint32_t>(kPandar64TimePlace, 1'000'000),
+  EXPECT_EQ(RefusalOfPacketWith<std::uint16_t>(0, 0xEEFF), "flag must be 65518 (got 61183)");
+  EXPECT_EQ(RefusalOfPacketWith<Byte>(2, 40), "lasers must be 64 (got 40)");
+  EXPECT_EQ(RefusalOfPacketWith<Byte>(3, 8), "blocks must be 6 (got 8)");
+  EXPECT_EQ(RefusalOfPacketWith<Byte>(5, 0), "distance unit must be > 0 (got 0)");
+  EXPECT_EQ(RefusalOfPacketWith<std::uint32_t>(kPandar64TimePlace, 1'000'000),
             "microseconds of the second must be < 1000000 (got 1000000)");
-  EXPECT_EQ(RefusalWith<Byte>(kMode, 0x3A),
+  EXPECT_EQ(RefusalOfPacketWith<Byte>(kMode, 0x3A),
             "return mode must be 51, 55, 56, 57, 59 or 60 (got 58)");
-  EXPECT_EQ(RefusalWith<std::uint16_t>(kPandar64HeaderSize + 2 * kPandar64BlockSize, 36'000),
-            "block 2: azimuth must be <= 35999 (got 36000)");
-  EXPECT_EQ(RefusalWith<std::uint16_t>(kPandar64HeaderSize + 3 * kPandar64BlockSize, 77),
+  EXPECT_EQ(
+      RefusalOfPacketWith<std::uint16_t>(kPandar64HeaderSize + 2 * kPandar64BlockSize, 36'000),
+      "block 2: azimuth must be <= 35999 (got 36000)");
+  EXPECT_EQ(RefusalOfPacketWith<std::uint16_t>(kPandar64HeaderSize + 3 * kPandar64BlockSize, 77),
             "block 3: azimuth must be that of its pair (got 77)");
 }
 
-std::filesystem::path CaptureFile(const char* name) {
+std::filesystem::path HesaiCapture(const char* name) {
   return std::filesystem::path(RAILCAST_SHARED_DATA_DIR "/lidar_packets_nebula") / name;
 }
 
-using Cell = std::tuple<long, long, long>;  // Of 1 cm.
+using Cell = std::tuple<long, long, long>;  // In cells of 1 cm.
 
 Cell CellOf(float x, float y, float z) {
   return {std::lround(100.0F * x), std::lround(100.0F * y), std::lround(100.0F * z)};
 }
 
-/// From a point of theirs, x right and y forward, to the nearest in the cells about it; 1 m if
-/// there is none.
+/// Returns the distance from a point of the other decoder (x right, y forward) to the nearest of
+/// ours in the surrounding cells; 1 m if there is none.
 double NearestOf(const std::multimap<Cell, TurnPoint>& cells, const pcl::PointXYZ& point) {
   double nearest_m = 1.0;
   const auto [x, y, z] = CellOf(point.y, -point.x, point.z);
@@ -160,7 +161,7 @@ double NearestOf(const std::multimap<Cell, TurnPoint>& cells, const pcl::PointXY
 }
 
 TEST(Pandar64Decoder, GivesTheReferenceCloud) {
-  const auto file = CaptureFile("pandar64.pcap");
+  const auto file = HesaiCapture("pandar64.pcap");
   if (!exists(file)) GTEST_SKIP() << file << " is not there";
   PcapReader reader(file);
   Pandar64Decoder decoder;
@@ -168,11 +169,11 @@ TEST(Pandar64Decoder, GivesTheReferenceCloud) {
   while (const auto datagram = reader.Next()) {
     ASSERT_EQ(decoder.Decode(datagram->payload, turns), std::nullopt);
   }
-  // Four whole turns. The published cloud is the third, but for what a laser saw beyond azimuth 0,
-  // on either side, before or after its block was there.
+  // The capture holds four whole turns. The published cloud is the third, except for points that a
+  // laser saw beyond azimuth 0 on either side, before or after its block had passed it.
   ASSERT_EQ(turns.size(), 4U);
   pcl::PointCloud<pcl::PointXYZ> theirs;
-  ASSERT_EQ(pcl::io::loadPCDFile(CaptureFile("pandar64_decoded.pcd").string(), theirs), 0);
+  ASSERT_EQ(pcl::io::loadPCDFile(HesaiCapture("pandar64_decoded.pcd").string(), theirs), 0);
   ASSERT_EQ(theirs.size(), 93'591U);
   std::multimap<Cell, TurnPoint> cells;
   for (std::size_t i = 1; i < 4; ++i) {
@@ -185,7 +186,7 @@ TEST(Pandar64Decoder, GivesTheReferenceCloud) {
   std::vector<double> distances_m;
   for (const pcl::PointXYZ& point : theirs) distances_m.push_back(NearestOf(cells, point));
   std::ranges::sort(distances_m);
-  // Float32 of either side at up to 200 m.
+  // The float32 rounding of both clouds at up to 200 m.
   constexpr double kSame_m = 5e-5;
   const auto num_same = std::ranges::upper_bound(distances_m, kSame_m) - distances_m.begin();
   const double share = static_cast<double>(num_same) / static_cast<double>(theirs.size());

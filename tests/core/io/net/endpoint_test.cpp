@@ -1,4 +1,4 @@
-#include "core/io/net/endpoint.h"
+#include "railcast/io/stream.h"
 
 #include <gtest/gtest.h>
 
@@ -53,7 +53,7 @@ TEST(Endpoint, SaysWhatIsWrongWithAText) {
 TEST(Endpoint, TakesNumericAddressesInDottedDecimalAlone) {
   EXPECT_EQ(ParseEndpoint("10.0.0.1", 1), (Endpoint{0x0A000001, 1}));
   EXPECT_EQ(ParseEndpoint("0.0.0.0", 1), (Endpoint{0, 1}));
-  // inet_aton reads the first as 8.0.0.1, and the others as addresses, too.
+  // inet_aton would read the first as 8.0.0.1, and accept others as addresses, too.
   for (const std::string host :
        {"010.0.0.1", "127.0.0.01", "127.1", "2130706433", "0x7f.0.0.1", "127.0.0.0x1", "0X7F000001",
         "300.1.2.3", "1.2.3.4.5", "127.0.0.1.", "1.2.3.08"}) {

@@ -21,7 +21,7 @@ namespace {
 constexpr Endpoint kAnyLoopbackPort{0x7F000001, 0};
 constexpr int kPatience_ms = 10'000;
 
-// Datagrams of these sizes, each full of its own number.
+// Makes datagrams of these sizes, each filled with its own index.
 Datagrams MakeDatagrams(const std::vector<std::uint16_t>& sizes) {
   Datagrams datagrams;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
@@ -41,7 +41,7 @@ std::vector<std::string> ReceiveAll(UdpReceiver& receiver, std::size_t count) {
   return received;
 }
 
-std::vector<std::string> Expected(const Datagrams& datagrams) {
+std::vector<std::string> ExpectedDatagrams(const Datagrams& datagrams) {
   std::vector<std::string> expected;
   for (const Datagrams::Item& item : datagrams.items) {
     const auto bytes = datagrams.BytesOf(item);
@@ -55,7 +55,7 @@ TEST(UdpSender, DeliversDatagramsOfAnySizesWholeAndInOrder) {
   UdpSender sender({receiver.at()}, 1);
   const Datagrams datagrams = MakeDatagrams({10, 10, 10, 3, 1400, 7, 7, 9, 1206, 1206, 512});
   sender.Send(datagrams, datagrams.items);
-  EXPECT_EQ(ReceiveAll(receiver, datagrams.items.size()), Expected(datagrams));
+  EXPECT_EQ(ReceiveAll(receiver, datagrams.items.size()), ExpectedDatagrams(datagrams));
   EXPECT_EQ(sender.counts().sent, datagrams.items.size());
   EXPECT_EQ(sender.counts().refused, 0U);
 }
@@ -63,17 +63,18 @@ TEST(UdpSender, DeliversDatagramsOfAnySizesWholeAndInOrder) {
 TEST(UdpSender, CutsRunsThatAreLongerThanTheKernelTakes) {
   UdpReceiver receiver(kAnyLoopbackPort);
   UdpSender sender({receiver.at()}, 1);
-  // 65,507 bytes hold 46 of the large ones; 64 is the limit for the small ones.
+  // One GSO call takes at most 65,507 bytes, which hold 46 of the large datagrams, and at most 64
+  // of the small ones.
   std::vector<std::uint16_t> sizes(47, 1400);
   sizes.insert(sizes.end(), 65, 20);
   sizes.push_back(1);
   const Datagrams datagrams = MakeDatagrams(sizes);
   sender.Send(datagrams, datagrams.items);
-  EXPECT_EQ(ReceiveAll(receiver, sizes.size()), Expected(datagrams));
+  EXPECT_EQ(ReceiveAll(receiver, sizes.size()), ExpectedDatagrams(datagrams));
 }
 
-/// How large what the kernel delivers at once is, to a socket that takes whole runs. A capture on
-/// this machine has the same.
+/// Returns the sizes of what the kernel delivers to a socket that accepts whole runs; a capture on
+/// this machine shows the same sizes.
 std::vector<std::size_t> DeliveredSizes(bool has_offload, std::size_t num_datagrams) {
   const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   const int yes = 1;
@@ -112,8 +113,8 @@ TEST(UdpSender, ServesEveryReceiver) {
   UdpSender sender({first.at(), second.at()}, 1);
   const Datagrams datagrams = MakeDatagrams({5, 5, 5});
   sender.Send(datagrams, datagrams.items);
-  EXPECT_EQ(ReceiveAll(first, 3), Expected(datagrams));
-  EXPECT_EQ(ReceiveAll(second, 3), Expected(datagrams));
+  EXPECT_EQ(ReceiveAll(first, 3), ExpectedDatagrams(datagrams));
+  EXPECT_EQ(ReceiveAll(second, 3), ExpectedDatagrams(datagrams));
   EXPECT_EQ(sender.counts().sent, 6U);
 }
 
@@ -124,7 +125,7 @@ TEST(UdpSender, SendsPositionsToTheirOwnPort) {
   Datagrams datagrams = MakeDatagrams({4, 4, 4});
   datagrams.items[1].port = DatagramPort::kPosition;
   sender.Send(datagrams, datagrams.items);
-  const auto expected = Expected(datagrams);
+  const auto expected = ExpectedDatagrams(datagrams);
   EXPECT_EQ(ReceiveAll(data, 2), (std::vector{expected[0], expected[2]}));
   EXPECT_EQ(ReceiveAll(position, 1), (std::vector{expected[1]}));
 }
@@ -132,7 +133,8 @@ TEST(UdpSender, SendsPositionsToTheirOwnPort) {
 TEST(UdpSender, NeverWaitsForAReceiverThatDoesNotRead) {
   UdpReceiver receiver(kAnyLoopbackPort);
   UdpSender sender({receiver.at()}, 1);
-  // More than any receive buffer holds: what does not fit is lost there, and sending goes on.
+  // This exceeds any receive buffer: what does not fit is lost at the receiver, and sending
+  // continues.
   const Datagrams datagrams = MakeDatagrams(std::vector<std::uint16_t>(1000, 1400));
   for (int i = 0; i < 100; ++i) sender.Send(datagrams, datagrams.items);
   EXPECT_EQ(sender.counts().sent + sender.counts().refused, 100'000U);
@@ -156,7 +158,7 @@ TEST(UdpSender, BroadcastsOnlyWhereAskedByName) {
     return MessageOf([&] { static_cast<void>(UdpSender({to}, 1).counts()); });
   };
   EXPECT_EQ(said_of(Endpoint{0x7FFFFFFF, 2368}),
-            "must be no network's broadcast address; 255.255.255.255 is one (got "
+            "must not be a network's broadcast address; use 255.255.255.255 (got "
             "127.255.255.255:2368)");
   EXPECT_EQ(said_of(Endpoint{0xEF000001, 2368}),
             "must be one host, or 255.255.255.255 for all (got 239.0.0.1:2368)");

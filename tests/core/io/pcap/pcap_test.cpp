@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::int64_t kEpoch_ns = 946'684'800'000'000'000;
 
-/// Three datagrams: 1206 bytes, 512 for the position port, an empty one.
+/// Three datagrams: one of 1206 bytes, one of 512 for the position port, and an empty one.
 Datagrams ExampleDatagrams() {
   Datagrams datagrams;
   datagrams.bytes.resize(1206 + 512);
@@ -78,7 +78,7 @@ TEST(PcapWriter, WritesTheHeadersThatDecodersSkip) {
     return values;
   };
   EXPECT_THAT(bytes_at(0, 8), testing::ElementsAre(0xD4, 0xC3, 0xB2, 0xA1, 2, 0, 4, 0));
-  EXPECT_THAT(bytes_at(20, 4), testing::ElementsAre(1, 0, 0, 0));  // Ethernet.
+  EXPECT_THAT(bytes_at(20, 4), testing::ElementsAre(1, 0, 0, 0));  // Link type: Ethernet.
   constexpr std::size_t kIp = 24 + 16 + 14;
   EXPECT_THAT(bytes_at(kIp - 2, 4), testing::ElementsAre(0x08, 0x00, 0x45, 0x00));
   EXPECT_EQ(256 * byte(kIp + 2) + byte(kIp + 3), 1206 + 28);
@@ -86,7 +86,7 @@ TEST(PcapWriter, WritesTheHeadersThatDecodersSkip) {
   EXPECT_THAT(bytes_at(kIp + 12, 8), testing::ElementsAre(192, 168, 1, 201, 255, 255, 255, 255));
   EXPECT_THAT(bytes_at(kIp + 20, 8),
               testing::ElementsAre(0x09, 0x40, 0x09, 0x40, 0x04, 0xBE, 0x00, 0x00));
-  // The sum over a sound header is all ones (RFC 1071).
+  // The one's complement sum over a valid header is all ones (RFC 1071).
   unsigned sum = 0;
   for (std::size_t i = 0; i < 20; i += 2) sum += 256U * byte(kIp + i) + byte(kIp + i + 1);
   EXPECT_EQ((sum & 0xFFFFU) + (sum >> 16U), 0xFFFFU);
@@ -98,7 +98,7 @@ TEST(PcapWriter, LeavesWholePacketsWhereItIsInterrupted) {
   {
     PcapWriter writer(directory.path() / "a.pcap", 2368, 8308);
     writer.Write(datagrams, datagrams.items);
-    // What a kill would leave now.
+    // This is what a killed run would leave now.
     PcapReader reader(directory.path() / "a.pcap.part");
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(reader.Next());
     EXPECT_FALSE(reader.Next());
@@ -158,7 +158,7 @@ TEST(PcapWriter, SaysThatItsFileCannotBeMade) {
             "/no/such/place/a.pcap: no such file or directory");
 }
 
-/// A frame around "abc", sent from port 1 to port 2.
+/// Returns a frame around "abc", sent from port 1 to port 2.
 std::vector<char> MadeEthernetFrame(const std::string& tags = {}, const std::string& options = {}) {
   std::string ip = std::string("\x45\0\0\0\0\0\0\0\x40\x11\0\0\x7F\0\0\1\x7F\0\0\1", 20) + options +
                    std::string("\0\1\0\2\0\x0B\0\0abc", 11);
@@ -189,7 +189,7 @@ TEST(FindDatagram, SkipsTagsOptionsAndPadding) {
 
 TEST(FindDatagram, FindsNothingInWhatIsNoWholeDatagram) {
   const std::vector<char> sound = MadeEthernetFrame();
-  // Cut anywhere before the padding.
+  // The frame is cut anywhere before its padding.
   for (std::size_t size = 0; size + 7 < sound.size(); ++size) {
     EXPECT_EQ(PayloadOf({sound.begin(), sound.begin() + static_cast<std::ptrdiff_t>(size)}),
               "nothing")
@@ -205,7 +205,7 @@ TEST(FindDatagram, FindsNothingInWhatIsNoWholeDatagram) {
   EXPECT_EQ(with(14, 0x44), "nothing");  // Header of 16 bytes.
   EXPECT_EQ(with(14, 0x4F), "nothing");  // Header of 60 bytes.
   EXPECT_EQ(with(16, 0x7F), "nothing");  // Longer than the frame.
-  EXPECT_EQ(with(20, 0x20), "nothing");  // First of several fragments.
+  EXPECT_EQ(with(20, 0x20), "nothing");  // The first of several fragments.
   EXPECT_EQ(with(21, 0x01), "nothing");  // A later fragment.
   EXPECT_EQ(with(23, 6), "nothing");     // TCP.
   EXPECT_EQ(with(39, 7), "nothing");     // Shorter than UDP's header.
@@ -246,7 +246,7 @@ TEST(PcapReader, SaysWhereAFileIsDamaged) {
   too_short[24 + 8] = 20;
   too_short[24 + 9] = 0;
   EXPECT_EQ(said(too_short), "packet 0: must be captured whole (got 20 of 1248 bytes)");
-  // Of another protocol it may keep what it likes.
+  // A frame of another protocol may be cut anywhere.
   const std::size_t ethernet = 24 + 16;
   for (const auto& [place, value] : {std::pair<std::size_t, char>{ethernet + 14 + 9, 6},
                                      {ethernet + 14, 0x65},
@@ -258,7 +258,7 @@ TEST(PcapReader, SaysWhereAFileIsDamaged) {
   std::string huge = sound;
   huge[24 + 11] = 0x7F;
   EXPECT_THAT(said(huge), testing::StartsWith("packet 0: invalid packet capture length"));
-  // pcapng counts in 64 bits: the fuzzer's 4.6e12 s.
+  // pcapng counts in 64 bits; the fuzzer found this time of 4.6e12 s.
   EXPECT_EQ(
       said(ReadFileWhole(RAILCAST_SOURCE_DIR "/tests/fuzz/corpus/velodyne/capture_ng_in_far_future")
                .substr(1)),

@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "core/io/pcap/pcap_writer.h"
-#include "core/io/recording/recording.h"
 #include "core/io/velodyne/reflectivity.h"
 #include "core/io/velodyne/velodyne_model.h"
 #include "core/io/velodyne/velodyne_packet.h"
+#include "railcast/io/recording.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
@@ -42,10 +42,11 @@ TEST_P(CapturedFormat, HasASlotForEveryFiringOfTheFrames) {
   WriteCapture(file, EncodeAll(format, scan, truth));
   const auto frames = ReadAll(file);
   ASSERT_EQ(frames.size(), 3U);
-  // What a packet can say.
+  // The greatest range that a packet can hold.
   const double max_m = 65535.5 * FindVelodyneFormat(format).model->distance_unit_m;
   const auto is_sent = [&](float range_m) { return static_cast<double>(range_m) < max_m; };
-  // The last packet ends with what the next frame would have begun with.
+  // The last packet would end with the beginning of a further frame, so the last frame is cut
+  // short.
   for (std::size_t f = 0; f < 2; ++f) {
     const Frame& frame = frames[f].frame;
     EXPECT_TRUE(frames[f].is_grid);
@@ -58,7 +59,7 @@ TEST_P(CapturedFormat, HasASlotForEveryFiringOfTheFrames) {
     for (std::size_t i = 0; i < frame.num_slots(); i += returns) {
       ASSERT_EQ(frame.ring[i], truth[f].ring[i]);
       ASSERT_EQ(frame.column[i], truth[f].column[i]);
-      // Nothing, one and two returns stay so, whichever comes first.
+      // Firings with no, one or two returns keep that number, in whatever order the returns are.
       std::size_t num = 0;
       for (std::size_t r = i; r < i + returns; ++r) num += is_sent(truth[f].range_m[r]);
       ASSERT_EQ(frame.return_count[i], num);
@@ -116,7 +117,7 @@ TEST(CaptureRecording, OfARealVlp16HasFourTurnsInDualMode) {
   EXPECT_EQ(frames[4].frame.columns, 4U);
 }
 
-// It looked at half a turn: 909 of 1808 cycles.
+// This sensor scanned half a turn: 909 of 1808 cycles.
 TEST(CaptureRecording, OfARealVlp32cHasTheCyclesThatItFired) {
   const auto file = CaptureFile("vlp32c_single.pcap");
   if (!exists(file)) GTEST_SKIP() << file << " is not there";
@@ -153,7 +154,7 @@ TEST(CaptureRecording, OfAVls128SaysThatItIsOne) {
       file.string() + ": must be a capture of VLP-16, HDL-32E, VLP-32C or Pandar64 (got VLS-128)");
 }
 
-/// What OpenRecording says of a capture of these payloads.
+/// Returns the error of OpenRecording for a capture of these payloads.
 std::string MessageOfCapture(const std::vector<std::string>& payloads) {
   const TemporaryDirectory directory;
   const auto file = directory.path() / "a.pcap";
@@ -195,7 +196,7 @@ TEST(CaptureRecording, LeavesOutWhatIsNoPacketOfItsSensor) {
   const MadeScan scan(ReadSensor("vlp16"));
   Datagrams datagrams;
   for (const char byte : {'a', 'b'}) AddDatagram(std::string(100, byte), datagrams);
-  const auto encoder = MakeVelodyneEncoder("vlp16", scan.spec(), "strongest");
+  const auto encoder = MakeVelodyneEncoder("vlp16", scan.spec(), ReturnMode::kStrongest);
   encoder->Encode(scan.MakeFrame(0), datagrams);
   const TemporaryDirectory directory;
   WriteCapture(directory.path() / "a.pcap", datagrams);

@@ -10,10 +10,9 @@
 #include <limits>
 
 #include "core/base/units.h"
-#include "core/io/pcd_encoder.h"
-#include "core/io/ply_encoder.h"
-#include "core/io/recording/recording.h"
 #include "core/io/write_file.h"
+#include "railcast/io/cloud_files.h"
+#include "railcast/io/recording.h"
 #include "tests/core/io/example_frame.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/made_sequence.h"
@@ -25,7 +24,8 @@ namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
-/// A PCD file of text. @param lines A point each.
+/// Returns an ASCII PCD file.
+/// @param lines One for each point.
 std::string AsciiPcd(const std::string& fields,
                      const std::string& sizes,
                      const std::string& types,
@@ -114,11 +114,11 @@ TEST(CloudRecording, MakesATableOfAForeignCloudWithRings) {
     EXPECT_TRUE(recorded.is_grid);
     EXPECT_EQ(frame.rows, 4U);
     EXPECT_EQ(frame.columns, 90U);
-    // Its ring 3 is the lowest.
+    // Ring 3 of the file is the lowest.
     EXPECT_EQ(frame.intensity[0], 3.0F);
     EXPECT_EQ(frame.ring[0], 0U);
     EXPECT_EQ(frame.time_ns[0], 0U);
-    // Float32 of 0.089 s.
+    // 0.089 s rounded to float32.
     EXPECT_NEAR(frame.time_ns[89], 89'000'000, 4);
     EXPECT_NEAR(frame.duration_ns, 89'000'000, 4);
     EXPECT_TRUE(recorded.Has("time_ns"));
@@ -129,7 +129,7 @@ TEST(CloudRecording, TakesNoTimeWhoseUnitIsUncertain) {
   std::vector<std::string> lines;
   for (int i = 0; i < 50; ++i)
     lines.push_back("1 2 " + std::to_string(i) + " " + std::to_string(i));
-  // 49 of something is no scan in seconds.
+  // A span of 49 is no plausible scan duration in seconds.
   EXPECT_FALSE(
       ReadText("a.pcd", AsciiPcd("x y z time", "4 4 4 4", "F F F F", lines)).Has("time_ns"));
   EXPECT_FALSE(ReadText("a.pcd", AsciiPcd("x y z t", "4 4 4 4", "F F F U", lines)).Has("time_ns"));

@@ -28,7 +28,7 @@ struct DamagedRun {
     const std::string bytes = ReadFileWhole(path / file);
     WriteFileWhole(path / file, Flipped(bytes, bytes.size() / 2));
   }
-  /// Takes out a line, counted from 0.
+  /// Removes a line, counted from 0.
   void Cut(const std::string& file, std::size_t line) const {
     std::istringstream lines(ReadFileWhole(path / file));
     std::string kept;

@@ -7,10 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "core/io/pcd_encoder.h"
-#include "core/io/ply_encoder.h"
-#include "core/io/recording/recording.h"
 #include "core/io/write_file.h"
+#include "railcast/io/cloud_files.h"
+#include "railcast/io/recording.h"
 #include "tests/core/io/example_frame.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
@@ -30,8 +29,8 @@ RecordedFrame ReadBytes(const std::string& name, const std::string& bytes) {
   return std::move(frames.at(0));
 }
 
-/// A PLY file of text whose points have these properties behind x, y and z.
-/// @param lines A point each.
+/// Reads an ASCII PLY file whose points have these properties after x, y and z.
+/// @param lines One for each point.
 RecordedFrame ReadPly(const std::vector<std::string>& properties,
                       const std::vector<std::string>& lines) {
   std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(lines.size()) +
@@ -53,13 +52,13 @@ TEST(ForeignFields, AreTheNumbersThatAreNoneOfOursInTheirOrder) {
       ReadPly({"float scalar_curvature", "float intensity", "short ambient"},
               {"1 2 3 0.5 7 -1", "0 0 0 0.25 8 -2", "4 5 6 0.125 9 -3"});
   EXPECT_THAT(NamesOf(recorded), ElementsAre("curvature", "ambient"));
-  // The second is no point and has no slot.
+  // The second entry is not a point and has no slot.
   EXPECT_THAT(recorded.foreign[0].values, ElementsAre(0.5F, 0.125F));
   EXPECT_THAT(recorded.foreign[1].values, ElementsAre(-1.0F, -3.0F));
   EXPECT_FALSE(recorded.Has("curvature"));
 }
 
-// Rows are turned: the lowest comes first.
+// The rows are reversed: the lowest comes first.
 TEST(ForeignFields, StandInTheSlotsOfTheirPoints) {
   pcl::PointCloud<pcl::PointNormal> cloud(2, 2);
   for (int row = 0; row < 2; ++row) {
@@ -101,7 +100,7 @@ TEST(ForeignFields, HoldASecondColumnOfOneMeaning) {
 }
 
 TEST(ForeignFields, HoldATimeOnlyWhereItsUnitIsUncertain) {
-  // A scan of 0.05 s, or of 50 of something.
+  // A span of 0.05 is a scan's duration in seconds; a span of 50 has no certain unit.
   const RecordedFrame certain = ReadPly({"float time"}, {"1 2 3 0", "1 2 4 0.05"});
   EXPECT_TRUE(certain.Has("time_ns"));
   EXPECT_THAT(certain.foreign, IsEmpty());

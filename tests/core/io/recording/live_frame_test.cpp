@@ -22,14 +22,14 @@ StreamSpec Sending(const char* fields, bool has_all_slots = false) {
   return spec;
 }
 
-StreamSpec SendingIn(const char* axes, const char* handedness) {
+StreamSpec SendingIn(OutputFrame axes, Handedness handedness) {
   StreamSpec spec = Sending("x,y,z,ring,column");
   spec.output.frame = axes;
   spec.output.handedness = handedness;
   return spec;
 }
 
-/// The same float or both NaN.
+/// Equal floats, or both NaN.
 MATCHER(IsSame, "") {
   const auto& [a, b] = arg;
   return a == b || (std::isnan(a) && std::isnan(b));
@@ -39,7 +39,7 @@ RecordedFrame Live(const Frame& frame, const StreamSpec& spec) {
   return MakeLiveFrame(ReceiveWhole(frame, spec), "live");
 }
 
-/// What arrives of a frame without its last datagram.
+/// Returns what arrives of a frame without its last datagram.
 ReceivedFrame ReceivePart(const Frame& frame, const StreamSpec& spec) {
   FrameAssembler assembler;
   auto datagrams = DatagramsOf(frame, spec);
@@ -79,7 +79,7 @@ TEST(LiveFrame, SaysWhenAndFromWhere) {
   EXPECT_EQ(live.frame.index, 3U);
   EXPECT_EQ(live.frame.stamp_ns, frame.stamp_ns);
   EXPECT_EQ(live.frame.duration_ns, frame.duration_ns);
-  // A quaternion of doubles and back.
+  // Poses are converted to a quaternion of doubles and back.
   EXPECT_TRUE(live.frame.world_from_sensor.isApprox(frame.world_from_sensor, 1e-14));
   EXPECT_TRUE(live.frame.world_from_sensor_end.isApprox(frame.world_from_sensor_end, 1e-14));
 }
@@ -92,7 +92,7 @@ TEST(LiveFrame, HasAGridOfWhatReturnedIfOnlyThatWasSent) {
   EXPECT_EQ(live.frame.columns, frame.columns);
   EXPECT_THAT(live.frame.y, testing::Pointwise(IsSame(), frame.y));
   EXPECT_EQ(live.frame.return_count, frame.return_count);
-  // Why the others did not return was not sent.
+  // The stream did not say why the other firings did not return.
   EXPECT_FALSE(live.Has("outcome"));
   EXPECT_FALSE(live.Has("time_ns"));
 }
@@ -140,7 +140,7 @@ TEST(LiveFrame, IsOneRowOfThePointsThatArrivedIfSomeWereLost) {
 
 TEST(LiveFrame, PutsTheReturnsOfAFiringBesideEachOther) {
   Frame frame = StreamFrame(1, 4, 2);
-  // The same slots as two returns of half as many firings.
+  // Declare the same slots as two returns of half as many firings.
   frame.columns = 1;
   frame.returns = 2;
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
@@ -158,7 +158,7 @@ TEST(LiveFrame, MakesLeftHandedAxesRightHanded) {
   Frame sent = StreamFrame(1);
   const Frame frame = sent;
   for (float& y : sent.y) y = -y;
-  const RecordedFrame live = Live(sent, SendingIn("sensor", "left"));
+  const RecordedFrame live = Live(sent, SendingIn(OutputFrame::kSensor, Handedness::kLeft));
   EXPECT_TRUE(live.has_pose);
   EXPECT_THAT(live.frame.y, testing::Pointwise(IsSame(), frame.y));
   EXPECT_THAT(live.frame.x, testing::Pointwise(IsSame(), frame.x));
@@ -166,13 +166,13 @@ TEST(LiveFrame, MakesLeftHandedAxesRightHanded) {
 
 TEST(LiveFrame, HasNoPoseForPointsInOtherAxes) {
   const Frame frame = StreamFrame(1);
-  for (const char* axes : {"vehicle", "world"}) {
-    const RecordedFrame live = Live(frame, SendingIn(axes, "right"));
+  for (const OutputFrame axes : {OutputFrame::kVehicle, OutputFrame::kWorld}) {
+    const RecordedFrame live = Live(frame, SendingIn(axes, Handedness::kRight));
     EXPECT_FALSE(live.has_pose);
     EXPECT_THAT(live.frame.x, testing::Pointwise(IsSame(), frame.x));
     EXPECT_FALSE(live.Has("range_m"));
     EXPECT_TRUE(std::ranges::all_of(live.frame.range_m, [](float r) { return std::isnan(r); }));
-    StreamSpec with_ranges = SendingIn(axes, "right");
+    StreamSpec with_ranges = SendingIn(axes, Handedness::kRight);
     with_ranges.fields = FieldSelection("x,y,z,range_m");
     EXPECT_TRUE(Live(frame, with_ranges).Has("range_m"));
   }

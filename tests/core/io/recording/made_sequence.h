@@ -6,13 +6,13 @@
 
 #include "core/io/scenario_identity.h"
 #include "core/io/write_file.h"
-#include "core/scenario/scenario.h"
-#include "generator/run_sequence.h"
-#include "generator/sequence_spec.h"
+#include "generator/sequence/run_sequence.h"
+#include "generator/sequence/sequence_spec.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 
-/// How a sequence is made.
+/// Options of a made sequence.
 struct MadeSequenceSpec {
   std::string format = "pcd";
   std::string fields = "all";
@@ -25,13 +25,13 @@ struct MadeSequenceSpec {
   std::uint32_t num_frames = 2;
 };
 
-/// A sequence in a directory, and the frames that went into it.
+/// The scenario of a sequence and the frames that were written.
 struct MadeSequence {
   ScenarioSpec scenario;
   std::vector<Frame> frames;  ///< In the axes of the output.
 };
 
-/// The text of a scenario: a vehicle at 20 m/s in a curve of 500 m radius, and an object.
+/// Returns the text of a scenario: a vehicle at 20 m/s in a curve of 500 m radius, and an object.
 inline std::string MadeScenario(const MadeSequenceSpec& spec) {
   const std::string folder = RAILCAST_SOURCE_DIR "/scenarios/";
   return R"({"version": 1, "fidelity": ")" + spec.fidelity + R"(", "lidar": {"file": ")" + folder +
@@ -45,7 +45,8 @@ inline std::string MadeScenario(const MadeSequenceSpec& spec) {
          R"(materials/railway.json", "labels": ")" + folder + "labels.json\"}\n";
 }
 
-/// Its frames, as railcast-generate makes them. @param directory Must not exist.
+/// Writes a sequence of that scenario as railcast-generate would.
+/// @param directory Must not exist.
 inline MadeSequence MakeSequence(const std::filesystem::path& directory,
                                  const MadeSequenceSpec& made) {
   std::filesystem::create_directories(directory);
@@ -58,7 +59,7 @@ inline MadeSequence MakeSequence(const std::filesystem::path& directory,
   spec.embree_version = "3.13.5";
   spec.isa = "avx2";
   spec.identity = IdentityOf(result.scenario);
-  spec.files = {ParseFrameFormat(made.format), FieldSelection(made.fields),
+  spec.files = {&ParseFrameFormat(made.format), FieldSelection(made.fields),
                 LabelTable(result.scenario.labels)};
   spec.materials = MaterialLibrary(result.scenario.materials);
   spec.start_frame = made.start_frame;

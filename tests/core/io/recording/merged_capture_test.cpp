@@ -7,9 +7,9 @@
 
 #include "core/io/hesai/pandar64_packet.h"
 #include "core/io/pcap/pcap_writer.h"
-#include "core/io/recording/recording.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "core/io/write_file.h"
+#include "railcast/io/recording.h"
 #include "tests/core/io/hesai/made_packet.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/read_all.h"
@@ -21,10 +21,11 @@
 namespace railcast {
 namespace {
 
-constexpr std::size_t kMostMerged = 46;  // What the kernel takes of datagrams of 1400 bytes.
+constexpr std::size_t kMostMerged = 46;  // The most datagrams of 1400 bytes in one GSO call.
 
-/// The same bytes as UDP segmentation offload shows them on the sending machine: neighbours of one
-/// size as one datagram. Every third run is left single, as between the bursts of a live stream.
+/// Returns the same bytes as a capture on the sending machine shows them under UDP segmentation
+/// offload: neighbours of equal size are merged into one datagram. Every third run is left single,
+/// as between the bursts of a live stream.
 Datagrams Merged(const Datagrams& datagrams, std::size_t most = kMostMerged) {
   Datagrams merged{.bytes = datagrams.bytes, .items = {}};
   std::size_t in_run = most;
@@ -43,7 +44,8 @@ Datagrams Merged(const Datagrams& datagrams, std::size_t most = kMostMerged) {
   return merged;
 }
 
-std::filesystem::path WriteCapture(const std::filesystem::path& file, const Datagrams& datagrams) {
+std::filesystem::path WriteMadeCapture(const std::filesystem::path& file,
+                                       const Datagrams& datagrams) {
   PcapWriter writer(file, kVelodyneDataPort, kVelodynePositionPort);
   writer.Write(datagrams, datagrams.items);
   writer.Finish();
@@ -61,8 +63,8 @@ TEST_P(MergedCapture, GivesTheFramesOfTheUnmergedOne) {
   const Datagrams merged = Merged(datagrams);
   ASSERT_LT(merged.items.size(), datagrams.items.size() / 10);
   const TemporaryDirectory directory;
-  const auto whole = ReadAll(WriteCapture(directory.path() / "whole.pcap", datagrams));
-  const auto cut = ReadAll(WriteCapture(directory.path() / "merged.pcap", merged));
+  const auto whole = ReadAll(WriteMadeCapture(directory.path() / "whole.pcap", datagrams));
+  const auto cut = ReadAll(WriteMadeCapture(directory.path() / "merged.pcap", merged));
   ASSERT_EQ(cut.size(), whole.size());
   for (std::size_t i = 0; i < whole.size(); ++i) {
     EXPECT_TRUE(FrameBytes(cut[i].frame) == FrameBytes(whole[i].frame)) << i;
@@ -78,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(CaptureRecording,
                            return name;
                          });
 
-/// `count` packets of a Pandar64, one after the other.
+/// Returns `count` packets of a Pandar64, one after the other.
 Datagrams PandarPackets(std::size_t count) {
   Datagrams datagrams;
   const std::vector<char> packet = MadePacket();
@@ -94,8 +96,9 @@ Datagrams PandarPackets(std::size_t count) {
 TEST(CaptureRecording, OfAMergedPandar64GivesEveryTurn) {
   const TemporaryDirectory directory;
   const Datagrams datagrams = PandarPackets(100);
-  const auto frames = ReadAll(WriteCapture(directory.path() / "a.pcap", Merged(datagrams)));
-  // Each made packet begins where the one before it did: a turn of its own, of six cycles.
+  const auto frames = ReadAll(WriteMadeCapture(directory.path() / "a.pcap", Merged(datagrams)));
+  // Each made packet begins at the azimuth of the one before it and is therefore a turn of its own,
+  // of six cycles.
   ASSERT_EQ(frames.size(), 100U);
   for (const RecordedFrame& frame : frames) EXPECT_EQ(frame.frame.columns, 6U);
 }
@@ -105,7 +108,7 @@ TEST(CaptureRecording, RefusesAMergedDatagramThatEndsWithinAPacket) {
   const auto file = directory.path() / "a.pcap";
   Datagrams datagrams = Merged(PandarPackets(100));
   datagrams.items[1].size = 3 * kPandar64PacketSize + 500;
-  WriteCapture(file, datagrams);
+  WriteMadeCapture(file, datagrams);
   EXPECT_EQ(MessageOf([&] { static_cast<void>(ReadAll(file)); }),
             file.string() +
                 ": packet 1: must hold whole packets of Pandar64, of 1198 bytes each (got 4094 "
@@ -115,8 +118,8 @@ TEST(CaptureRecording, RefusesAMergedDatagramThatEndsWithinAPacket) {
 TEST(CaptureRecording, RefusesAMergedDatagramThatTheCaptureCut) {
   const TemporaryDirectory directory;
   const auto file = directory.path() / "a.pcap";
-  WriteCapture(file, Merged(PandarPackets(100)));
-  // What "tcpdump -s 1500" would have kept of the first.
+  WriteMadeCapture(file, Merged(PandarPackets(100)));
+  // Cut the first packet as "tcpdump -s 1500" would.
   std::string bytes = ReadFileWhole(file);
   constexpr std::size_t kFileHeader = 24;
   constexpr std::size_t kPacketHeader = 16;

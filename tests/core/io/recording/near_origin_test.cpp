@@ -13,7 +13,7 @@ namespace {
 
 using testing::ElementsAre;
 
-/// A loose cloud with x, y, z stored as so many bytes each.
+/// Returns an unorganised cloud with x, y and z stored as `Number`.
 template <typename Number>
 RecordedFrame FrameOf(const std::vector<Number>& coordinates_m) {
   const auto type = sizeof(Number) == sizeof(double) ? NumberType::kDouble : NumberType::kFloat;
@@ -29,7 +29,7 @@ RecordedFrame FrameOf(const std::vector<Number>& coordinates_m) {
   return MakeCloudFrame(table, "a.pcd");
 }
 
-// In UTM zone 32 north.
+// A position in UTM zone 32 north.
 constexpr double kEast_m = 691234.5;
 constexpr double kNorth_m = 5334567.25;
 
@@ -38,7 +38,7 @@ TEST(NearOrigin, KeepsNeighboursInANationalGridApart) {
                                                   kEast_m + 0.01, kNorth_m, 520.0,  //
                                                   kEast_m, kNorth_m + 0.02, 520.25});
   EXPECT_EQ(recorded.origin_m, Vector3(691000.0, 5335000.0, 1000.0));
-  // Below 512 m float32 rounds by 2^-16 m at most.
+  // Below 512 m, float32 rounds by at most 2^-16 m.
   constexpr double kRounding_m = 1.0 / 32768.0;
   const Frame& frame = recorded.frame;
   EXPECT_NEAR(static_cast<double>(frame.x[1] - frame.x[0]), 0.01, kRounding_m);
@@ -67,7 +67,7 @@ TEST(NearOrigin, StaysZeroOfFloat32WhichHasNothingMoreToGive) {
 
 TEST(NearOrigin, IsNearMostPointsWhereverAFewAre) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const RecordedFrame recorded = FrameOf<double>({0.0, 0.0, 0.0,            // No point.
+  const RecordedFrame recorded = FrameOf<double>({0.0, 0.0, 0.0,            // Not a point.
                                                   nan, nan, nan,            //
                                                   1e9, 1e9, 1e9,            //
                                                   kEast_m, kNorth_m, 20.0,  //

@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/io/recording/recording.h"
+#include "railcast/io/recording.h"
 
 namespace railcast {
 
-/// Every frame of a recording.
+/// Returns every frame of a recording.
 inline std::vector<RecordedFrame> ReadAll(Recording& recording) {
   std::vector<RecordedFrame> frames;
   while (const auto read = recording.Next()) frames.push_back((*read)());

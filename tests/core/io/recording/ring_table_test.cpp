@@ -9,29 +9,28 @@
 #include <set>
 
 #include "core/base/random.h"
-#include "core/base/transform.h"
 #include "core/base/units.h"
-#include "core/io/recording/elevation_rings.h"
 #include "core/io/recording/point_table.h"
+#include "railcast/transform.h"
 
 namespace railcast {
 namespace {
 
-/// A made turn of a spinning sensor.
+/// Parameters of a made turn of a spinning sensor.
 struct MadeTurn {
   std::uint32_t rings = 16;
   std::uint32_t columns = 900;
   double first_deg = 0.0;  ///< Clockwise.
   double step_deg = 0.4;
-  double jitter_steps = 0.0;  ///< Of each firing's azimuth, to either side.
+  double jitter_steps = 0.0;  ///< Jitter of each firing's azimuth, to either side.
   double drop_share = 0.0;
   bool is_counterclockwise = false;
 };
 
-/// The points of a turn and where each belongs.
+/// The points of a turn and the row and column where each belongs.
 struct MadePoints {
   PointPositions positions;
-  std::vector<std::uint32_t> rings;  ///< As a vendor numbers them: not by elevation.
+  std::vector<std::uint32_t> rings;  ///< Numbered as by a vendor, not by elevation.
   std::vector<std::uint32_t> row, column;
 
   void Add(double azimuth_deg, double elevation_deg, double range_m) {
@@ -58,7 +57,7 @@ MadePoints Make(const MadeTurn& turn) {
       const double jitter = (2.0 * static_cast<double>(UnitFloat(words[1])) - 1.0);
       const double clockwise_deg =
           turn.first_deg + turn.step_deg * (column + turn.jitter_steps * jitter);
-      // Lasers fire from the middle outwards, as it were.
+      // Ring numbers alternate between the two ends of the fan and run towards its middle.
       const std::uint32_t row = ring % 2 == 0 ? ring / 2 : turn.rings - 1 - ring / 2;
       made.Add(turn.is_counterclockwise ? clockwise_deg : -clockwise_deg,
                ElevationOf_deg(turn, row), 5.0 + 40.0 * static_cast<double>(UnitFloat(words[2])));
@@ -70,14 +69,14 @@ MadePoints Make(const MadeTurn& turn) {
   return made;
 }
 
-/// How many points are in the row and, but for a common offset, the column where they belong.
+/// Counts the points that are in their row and, up to a common offset, in their column.
 std::size_t NumRight(const MadePoints& made, const SlotPlan& plan) {
   std::map<std::int64_t, std::size_t> by_offset;
   for (std::size_t i = 0; i < made.row.size(); ++i) {
     if (plan.slots[i] == kNoSlot) continue;
     const std::uint32_t cell = plan.slots[i] / plan.returns;
     if (cell / plan.columns != made.row[i]) continue;
-    // The seam may be anywhere.
+    // The first column may lie at any azimuth.
     const std::int64_t offset = std::int64_t{cell % plan.columns} - made.column[i];
     ++by_offset[(offset + std::int64_t{2} * plan.columns) % plan.columns];
   }
@@ -118,13 +117,13 @@ TEST(RingTable, KeepsColumnsInTheOrderInWhichTheyFired) {
 }
 
 TEST(RingTable, CoversOnlyTheAzimuthsSeen) {
-  // From 270 over 0 to 90 deg.
+  // Covers 270 deg through 0 to 90 deg.
   const MadePoints made = Make({.columns = 450, .first_deg = 270.0, .drop_share = 0.1});
   const auto plan = MakeRingTable(made.positions, made.rings);
   ASSERT_TRUE(plan.has_value());
   EXPECT_EQ(plan->columns, 450U);
   const double filled = static_cast<double>(made.row.size()) / (16 * 450);
-  // 7200 firings, of which a tenth is dropped at random: 3 sigma are 0.011.
+  // Of 7200 firings a tenth is dropped at random; 3 sigma are 0.011.
   EXPECT_NEAR(filled, 0.9, 0.011);
   EXPECT_EQ(NumRight(made, *plan), made.row.size());
 }
@@ -211,8 +210,8 @@ TEST(ElevationRings, GiveStraysToTheNearest) {
   EXPECT_EQ(rings->back(), 2U);
 }
 
-// The sensor fired 909 cycles of 0.199 deg over half a turn, and its lasers stand up to 4.2 deg to
-// either side: 42 columns more, which some of them did not reach.
+// The sensor fired 909 cycles of 0.199 deg over half a turn. Its lasers have azimuth offsets of up
+// to 4.2 deg to either side, which adds 42 columns that some of them did not reach.
 TEST(RingTable, OfARealHalfTurnHoldsAllPointsAndCoversHalfATurn) {
   const std::filesystem::path file =
       RAILCAST_SHARED_DATA_DIR "/lidar_packets_nebula/vlp32c_single_decoded.pcd";

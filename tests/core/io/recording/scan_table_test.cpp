@@ -17,7 +17,8 @@ namespace {
 
 class ScanTableOf : public testing::TestWithParam<std::string> {};
 
-// Inside a sphere every firing has a point: the table from points is that of the pattern.
+// Inside a sphere every firing has a point, so the table made from points must be that of the
+// pattern.
 TEST_P(ScanTableOf, PointsIsThatOfThePattern) {
   const ScanPattern pattern = BuildScanPattern(ReadSensor(GetParam()));
   auto world = std::make_shared<SimpleWorld>();
@@ -46,7 +47,7 @@ TEST(ScanTable, OfARasterHasItsSolidAngles) {
   for (std::size_t row = 0; row < table->rows; ++row) {
     sum_sr += table->SolidAngle_sr(row) * table->columns;
   }
-  // All of the field of view: azimuth x (sin top - sin bottom).
+  // The solid angle of the whole field of view is azimuth x (sin top - sin bottom).
   const double expected_sr = std::numbers::pi / 3.0 * 2.0 * std::sin(std::numbers::pi / 12.0);
   EXPECT_NEAR(sum_sr / expected_sr, 1.0, 1e-4);
 }
@@ -71,7 +72,7 @@ TEST(ScanTable, FillsGapsBetweenWhatIsKnown) {
 }
 
 TEST(ScanTable, KnowsWhoLooksIntoTheSameDirection) {
-  // Pandar64's rows look up to 5.2 deg beside each other, to both sides.
+  // The rows of a Pandar64 differ in azimuth by up to 5.2 deg to either side.
   const ScanPattern pattern = BuildScanPattern(ReadSensor("pandar64"));
   const auto table = MakeScanTable(pattern);
   ASSERT_TRUE(table);

@@ -1,4 +1,4 @@
-#include "core/io/recording/recording.h"
+#include "railcast/io/recording.h"
 
 #include <gtest/gtest.h>
 
@@ -15,8 +15,8 @@
 namespace railcast {
 namespace {
 
-/// What a reader of the run says, without the folder.
-std::string Message(const DamagedRun& run) {
+/// Returns the error of reading the run, without the folder's name.
+std::string RunMessage(const DamagedRun& run) {
   std::string message = MessageOf([&] { (void)ReadAll(run.path); });
   const std::string place = run.path.string() + "/";
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
@@ -34,8 +34,8 @@ TEST(SequenceCheck, NoticesAFlippedBitInAFrame) {
     const DamagedRun run(format);
     const std::string before = run.HashOf(file);
     run.Flip(file);
-    EXPECT_EQ(Message(run), std::string(file) + ": must have the hash " + before +
-                                ", as frames.jsonl says (got " + run.HashOf(file) + ")");
+    EXPECT_EQ(RunMessage(run), std::string(file) + ": must have the hash " + before +
+                                   ", as frames.jsonl says (got " + run.HashOf(file) + ")");
   }
 }
 
@@ -44,7 +44,7 @@ TEST(SequenceCheck, NoticesAFrameThatIsCutShort) {
   const auto file = run.path / "frames/000001.pcd";
   const std::string size = std::to_string(std::filesystem::file_size(file));
   std::filesystem::resize_file(file, 1000);
-  EXPECT_EQ(Message(run),
+  EXPECT_EQ(RunMessage(run),
             "frames/000001.pcd: must have " + size + " bytes, as frames.jsonl says (got 1000)");
 }
 
@@ -57,12 +57,13 @@ TEST(SequenceCheck, NoticesAFlippedBitInWhateverElseItReads) {
       run.Flip(file);
       const std::string rule = std::string(file) + ": must have the hash " + ContentHash(whole) +
                                ", as manifest.json says (got " + run.HashOf(file) + ")";
-      // Whose run it is must be legible.
-      const std::string got = Message(run);
+      // A damaged run.json may be refused before its hash is checked, because it must be parsed
+      // first.
+      const std::string got = RunMessage(run);
       EXPECT_TRUE(got == rule || got.starts_with("run.json: ")) << got;
       WriteFileWhole(run.path / file, whole);
     }
-    EXPECT_EQ(Message(run), "no error");
+    EXPECT_EQ(RunMessage(run), "no error");
   }
 }
 
@@ -73,32 +74,32 @@ TEST(SequenceCheck, NoticesAMissingLine) {
     const std::string whole = ReadFileWhole(run.path / file);
     for (const std::size_t line : {1U, 2U}) {
       run.Cut(file, line);
-      EXPECT_EQ(Message(run),
+      EXPECT_EQ(RunMessage(run),
                 std::string(file) + ": must have a line for each of 3 frames (got 2)");
       WriteFileWhole(run.path / file, whole);
     }
   }
-  // Without a manifest the last may not have been written yet, but none before it.
+  // Without a manifest the last line may be missing, but no earlier one.
   std::filesystem::remove(run.path / "manifest.json");
   run.Cut("frames.jsonl", 1);
-  EXPECT_EQ(Message(run), "frames.jsonl:2: frame: must be 1, one after another (got 2)");
+  EXPECT_EQ(RunMessage(run), "frames.jsonl:2: frame: must be 1, one after another (got 2)");
 }
 
 TEST(SequenceCheck, OfAnInterruptedRunGoesAsFarAsTheRun) {
   const DamagedRun run("pcd", 3);
   std::filesystem::remove(run.path / "manifest.json");
-  EXPECT_EQ(Message(run), "no error");
+  EXPECT_EQ(RunMessage(run), "no error");
   const std::string objects = ReadFileWhole(run.path / "objects.jsonl");
   WriteFileWhole(run.path / "objects.jsonl", Replaced(objects, "\"points\":8", "\"points\":9"));
-  EXPECT_TRUE(Message(run).starts_with(
+  EXPECT_TRUE(RunMessage(run).starts_with(
       "frames.jsonl:2: records_xxh3: must be that of the frame's lines in poses.csv:3, "
       "objects.jsonl:2, "))
-      << Message(run);
+      << RunMessage(run);
   WriteFileWhole(run.path / "objects.jsonl", objects);
   const std::string scenario = ReadFileWhole(run.path / "scenario.resolved.json");
   WriteFileWhole(run.path / "scenario.resolved.json", scenario + " ");
-  EXPECT_EQ(Message(run), "scenario.resolved.json: must have the hash " + ContentHash(scenario) +
-                              ", as run.json says (got " + ContentHash(scenario + " ") + ")");
+  EXPECT_EQ(RunMessage(run), "scenario.resolved.json: must have the hash " + ContentHash(scenario) +
+                                 ", as run.json says (got " + ContentHash(scenario + " ") + ")");
 }
 
 TEST(SequenceCheck, OfAnInterruptedRunComparesNamesWithTheScenario) {
@@ -107,12 +108,12 @@ TEST(SequenceCheck, OfAnInterruptedRunComparesNamesWithTheScenario) {
   for (const char* file : {"labels.json", "materials.json"}) {
     const std::string whole = ReadFileWhole(run.path / file);
     WriteFileWhole(run.path / file, Replaced(whole, "\"ballast\"", "\"gravel\""));
-    EXPECT_EQ(Message(run), std::string(file) + ": must say the same as scenario.resolved.json");
+    EXPECT_EQ(RunMessage(run), std::string(file) + ": must agree with scenario.resolved.json");
     WriteFileWhole(run.path / file, whole);
   }
 }
 
-// As railcast left directories before it kept what made them, and copies of what they depend on.
+// Directories of older programs record neither what made them nor copies of their inputs.
 TEST(SequenceCheck, OfAnOlderDirectoryGoesAsFarAsItsHashes) {
   const DamagedRun run("pcd");
   auto summary = nlohmann::ordered_json::parse(ReadFileWhole(run.path / "run.json"));
@@ -127,19 +128,19 @@ TEST(SequenceCheck, OfAnOlderDirectoryGoesAsFarAsItsHashes) {
   manifest["files_xxh3"].erase("scenario.resolved.json");
   manifest["files_xxh3"]["run.json"] = run.HashOf("run.json");
   WriteFileWhole(run.path / "manifest.json", manifest.dump());
-  EXPECT_EQ(Message(run), "no error");
+  EXPECT_EQ(RunMessage(run), "no error");
   const SequenceOrigin origin = *OpenRecording(run.path)->info().origin;
   EXPECT_EQ(origin.isa, "");
   EXPECT_EQ(origin.data_hash, "");
   run.Flip("objects.jsonl");
-  EXPECT_TRUE(Message(run).starts_with("objects.jsonl: must have the hash "));
+  EXPECT_TRUE(RunMessage(run).starts_with("objects.jsonl: must have the hash "));
 }
 
 TEST(SequenceCheck, TakesNoSequenceForMereCloudsWhenItsLinesAreLost) {
   for (const char* format : {"pcd", "kitti"}) {
     const DamagedRun run(format);
     std::filesystem::remove(run.path / "frames.jsonl");
-    EXPECT_EQ(Message(run), "frames.jsonl: no such file or directory");
+    EXPECT_EQ(RunMessage(run), "frames.jsonl: no such file or directory");
   }
 }
 

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "core/io/content_hash.h"
-#include "core/io/recording/recording.h"
+#include "railcast/io/recording.h"
 #include "tests/core/io/damage.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/made_sequence.h"
@@ -16,7 +16,7 @@
 namespace railcast {
 namespace {
 
-// NaN is itself.
+// Compares bits, so that NaN equals itself.
 template <typename Values>
 bool AreSame(const Values& a, const Values& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
@@ -33,7 +33,7 @@ void ExpectSameHead(const Frame& a, const Frame& b) {
   EXPECT_EQ(a.index, b.index);
   EXPECT_EQ(a.stamp_ns, b.stamp_ns);
   EXPECT_EQ(a.duration_ns, b.duration_ns);
-  // Written with all digits, as quaternions.
+  // The poses were written as quaternions with all digits.
   EXPECT_TRUE(a.world_from_sensor.isApprox(b.world_from_sensor, 1e-12));
   EXPECT_TRUE(a.world_from_sensor_end.isApprox(b.world_from_sensor_end, 1e-12));
 }
@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(SequenceRecording,
 
 class PointFormat : public testing::TestWithParam<const char*> {};
 
-// PLY has points only; what firings without one were is lost.
+// PLY holds only points, so the outcome of firings without a point is lost.
 TEST_P(PointFormat, PutsPointsBackIntoTheirSlots) {
   const TemporaryDirectory directory;
   const auto made =
@@ -135,9 +135,9 @@ TEST_P(OutputAxesOf, AreTurnedBackIntoTheSensorsOwn) {
   (void)MakeSequence(directory.path() / "other", spec);
   const auto frames = ReadAll(directory.path() / "other");
   ASSERT_EQ(frames.size(), 2U);
-  // World coordinates reach 1000 m here, where float32 steps by 0.06 mm in each axis. Constant
-  // speed and radius: what ScanMotion neglects is the bow of the way, (20 m/s x 0.1 s)^2 / (8 x 500
-  // m).
+  // World coordinates reach 1000 m here, where float32 has steps of 0.06 mm in each axis. Speed and
+  // radius are constant, so ScanMotion neglects only the sagitta of the path, (20 m/s x 0.1 s)^2 /
+  // (8 x 500 m).
   constexpr double kTolerance_m = 3 * 0.06e-3 + 1.0e-3;
   for (std::size_t f = 0; f < 2; ++f) {
     const Frame& frame = frames[f].frame;
@@ -233,7 +233,8 @@ TEST(SequenceRecording, SaysByWhomItWasMade) {
   }
 }
 
-// Of an unfinished run, whose lines no manifest vouches for. A changed frame gets a line to match.
+// Returns the error of reading an unfinished run, whose lines no manifest vouches for, after a
+// change to one file. A frame's hash in frames.jsonl is adapted to the change.
 std::string MessageAfter(const char* file, const std::string& from, const std::string& to) {
   const TemporaryDirectory directory;
   const auto run = directory.path() / "run";

@@ -26,8 +26,8 @@ std::uint16_t BigEndian(std::size_t value) {
   return static_cast<std::uint16_t>((value & 0xFFU) << 8U | value >> 8U);
 }
 
-// A capture file of UDP datagrams that start at an IPv4 header (link type 101), of each of which
-// it kept so much.
+// Returns a capture file of UDP datagrams that start at an IPv4 header (link type 101), of each of
+// which the capture kept `kept` bytes.
 std::string Capture(const std::vector<std::string>& datagrams,
                     std::uint16_t port,
                     std::size_t kept) {
@@ -62,7 +62,7 @@ class Dissector : public testing::Test {
     if (std::system("command -v tshark >/dev/null") != 0) GTEST_SKIP() << "tshark is missing";
   }
 
-  /// What tshark says of these datagrams.
+  /// Returns the output of tshark for these datagrams.
   static std::string Show(const std::vector<std::string>& datagrams,
                           const std::string& arguments,
                           std::uint16_t port = 27'400,
@@ -123,7 +123,8 @@ TEST_F(Dissector, KnowsItsDatagramsAtAnyPort) {
   EXPECT_EQ(Show({datagrams[0], "hello"}, "-T fields -e railcast.frame_points", 12'345), "960\n\n");
 }
 
-// On the sending machine a capture shows what was sent at once as one datagram, up to 65 kB.
+// On the sending machine a capture shows datagrams that were sent in one call as one datagram of up
+// to 65 kB.
 TEST_F(Dissector, CutsWhatSegmentationOffloadMerged) {
   const std::vector<std::string> all = DatagramsOf(StreamFrame(0));
   ASSERT_EQ(all.size(), 25U);
@@ -135,7 +136,7 @@ TEST_F(Dissector, CutsWhatSegmentationOffloadMerged) {
     packets += (i == 0 ? "" : ",") + std::to_string(i);
     statuses += i == 0 ? "good" : ",good";
   }
-  // The last one is the shortest.
+  // The last datagram is the shortest.
   ASSERT_LT(all.back().size(), all.front().size());
   EXPECT_EQ(
       Show({merged, all[3]}, "-T fields -E separator=/s -e railcast.packet -e railcast.crc.status"),

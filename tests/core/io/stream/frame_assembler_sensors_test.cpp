@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/units.h"
 #include "core/io/stream/frame_assembler.h"
 #include "tests/core/io/stream/numbered_frames.h"
 #include "tests/core/io/stream/stream_example.h"
@@ -14,7 +15,7 @@ TEST(FrameAssembler, FollowsOneSensorOnlyIfItIsBoundToIt) {
   const auto front = DatagramsOfFrames(0, 4, OfRun(1, 0));
   const auto roof = DatagramsOfFrames(0, 4, OfRun(2, 1));
   ASSERT_GT(front.size() / 5, 16U) << "more than the strays that begin anew";
-  std::vector<std::string> both;  // A frame of each in turn.
+  std::vector<std::string> both;  // One frame of each sensor in turn.
   const std::size_t each = front.size() / 5;
   for (std::size_t i = 0; i < front.size(); i += each) {
     for (const auto* sender : {&front, &roof}) {
@@ -52,10 +53,9 @@ TEST(FrameAssembler, SaysWhoElseIsHeard) {
 
 constexpr Endpoint kSender{0x0A000001, 4000};
 constexpr Endpoint kForger{0x0A000001, 4001};
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
-/// What somebody may send to disturb: of a later run, of the far future, of another sensor, nothing
-/// at all.
+/// Returns datagrams with which a forger may try to disturb: of a later run, of the far future, of
+/// another sensor, and empty or meaningless ones.
 std::vector<std::string> ForgedDatagrams() {
   std::vector<std::string> forged = {"", "hello"};
   for (const auto& [index, spec] : {std::pair(0U, OfRun(9)), std::pair(4'000'000'000U, OfRun(1)),
@@ -108,18 +108,18 @@ TEST(FrameAssembler, FollowsTheNextSenderOnceTheFirstIsSilent) {
     for (const std::string& datagram : datagrams) assembler.Take(datagram, frames, origin);
   };
   const auto of_sender = DatagramsOfFrames(500, 500, OfRun(7));
-  take({of_sender.begin(), of_sender.end() - 1}, {kSender, 5 * kSecond_ns});
-  // The same again from another port: an earlier run, and one second too early.
+  take({of_sender.begin(), of_sender.end() - 1}, {kSender, 5 * kNsPerS});
+  // An earlier run from another port, first one second before the hold time is over.
   const auto again = DatagramsOfFrames(0, 1, OfRun(6));
-  take(again, {kForger, 7 * kSecond_ns});
+  take(again, {kForger, 7 * kNsPerS});
   EXPECT_TRUE(frames.empty());
-  take(again, {kForger, 5 * kSecond_ns + FrameAssembler::kHold_ns});
+  take(again, {kForger, 5 * kNsPerS + FrameAssembler::kHold_ns});
   EXPECT_EQ(NumbersOf(frames), (Numbers{500, 0, 1})) << "from its first datagram on";
   EXPECT_FALSE(frames[0].is_complete());
   EXPECT_TRUE(frames[1].is_complete());
   EXPECT_EQ(assembler.counts().restarts, 1U);
-  // The first sender is another now.
-  take({of_sender.back()}, {kSender, 9 * kSecond_ns});
+  // Now the first sender counts as another sender.
+  take({of_sender.back()}, {kSender, 9 * kNsPerS});
   EXPECT_EQ(assembler.counts().other_sender, kSender);
 }
 

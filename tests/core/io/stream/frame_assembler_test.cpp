@@ -42,7 +42,7 @@ TEST(FrameAssembler, PutsReorderedAndDoubledDatagramsInOrder) {
   EXPECT_TRUE(frames[0].is_complete());
   EXPECT_EQ(frames[0].points, expected.points);
   EXPECT_EQ(assembler.counts().duplicate_packets, 1U);
-  // All but the one that was sent last.
+  // All but the datagram that was sent last, which arrives first.
   EXPECT_EQ(assembler.counts().reordered_packets, datagrams.size() - 2);
 }
 
@@ -60,7 +60,7 @@ TEST(FrameAssembler, ReportsEveryPacketAndPointThatWasLost) {
   ASSERT_EQ(frames.size(), 1U);
   const auto last = static_cast<std::uint32_t>(count - 1);
   EXPECT_EQ(frames[0].lost_packets, (Ranges{{2, 2}, {last, 1}}));
-  const std::uint32_t each = 39;  // (1400 - 222 - 4) / 30
+  const std::uint32_t each = 39;  // (1400 - 222 - 4) / 30 points fit into a datagram.
   const std::uint32_t num_points = whole.header.num_points;
   EXPECT_EQ(frames[0].lost_points,
             (Ranges{{2 * each, 2 * each}, {last * each, num_points - last * each}}));
@@ -162,8 +162,8 @@ TEST(FrameAssembler, IsNotMisledByDatagramsOfTheRunBefore) {
   EXPECT_EQ(assembler.counts().stray_packets, 15U);
 }
 
-// What a sender does that is started again with the same run number, or a smaller one, or in place
-// of another sensor.
+// A sender may be restarted with the same run number or a smaller one, or be replaced by another
+// sensor.
 TEST(FrameAssembler, FollowsAnyRestartAfter16Datagrams) {
   for (const StreamSpec& spec : {OfRun(7), OfRun(6), OfRun(7, 1), OfRun(8, 1)}) {
     FrameAssembler assembler;
@@ -194,8 +194,8 @@ TEST(FrameAssembler, RefusesDatagramsThatDisagreeWithTheFirst) {
   Feed(assembler, {datagrams[0]});
   Feed(assembler, {With<std::int64_t>(datagrams[1], 24, 77),     // Stamp.
                    With<std::uint32_t>(datagrams[1], 48, 9999),  // Columns.
-                   With<double>(datagrams[1], 56, 1.0),          // Place.
-                   With<char>(datagrams[1], 172, 'q')});         // Field x is now q.
+                   With<double>(datagrams[1], 56, 1.0),          // Position.
+                   With<char>(datagrams[1], 172, 'q')});         // Name of the field x.
   EXPECT_EQ(assembler.counts().refused[static_cast<std::size_t>(StreamFault::kDisagrees)], 4U);
   EXPECT_EQ(Feed(assembler, {datagrams.begin() + 1, datagrams.end()}).size(), 1U);
   EXPECT_EQ(assembler.counts().complete_frames, 1U);
@@ -215,8 +215,8 @@ TEST(FrameAssembler, CountsWhatItRefusesByReason) {
   EXPECT_EQ(counts.received_packets, 0U);
 }
 
-// Random loss, doubling and delay: every frame that is given is right in what it has and in what it
-// says it lacks, and the counts add up.
+// Under random loss, duplication and delay every frame that is given is right both in what it has
+// and in what it reports as lost, and the counts add up.
 TEST(FrameAssembler, NeverGivesAWrongPointAndCountsEverything) {
   constexpr std::uint32_t kNumFrames = 40;
   struct Sent {

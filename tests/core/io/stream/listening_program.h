@@ -10,18 +10,18 @@
 #include <cstdio>
 #include <string>
 
-#include "core/io/net/endpoint.h"
+#include "railcast/io/stream.h"
 
 namespace railcast {
 
-/// A port of this machine that nobody but this process uses: any 127.x.x.x is loopback.
+/// Returns a port of this machine that only this process uses: any 127.x.x.x is loopback.
 [[nodiscard]] inline Endpoint OwnEndpoint() {
   constexpr std::uint32_t kFirst = 0x7F010000;  // 127.1.0.0
   constexpr std::uint32_t kNum = 0x00FE0000;
   return {kFirst + static_cast<std::uint32_t>(::getpid()) % kNum, 27'400};
 }
 
-/// A program that says "listening at HOST:PORT" first; ended after a minute in any case.
+/// A program that first prints "listening at HOST:PORT"; it is ended after a minute in any case.
 class ListeningProgram {
  public:
   explicit ListeningProgram(const std::string& command)
@@ -41,20 +41,20 @@ class ListeningProgram {
   ListeningProgram& operator=(const ListeningProgram&) = delete;
 
   [[nodiscard]] const Endpoint& at() const { return at_; }
-  /// The next line that it says; empty at the end.
+  /// Returns the next line of its output; empty at the end.
   [[nodiscard]] std::string Line() {
     std::array<char, 512> text{};
     return std::fgets(text.data(), text.size(), pipe_) == nullptr ? "" : text.data();
   }
-  /// All further lines.
+  /// Returns all further lines.
   [[nodiscard]] std::string Rest() {
     std::string rest;
     for (std::string line = Line(); !line.empty(); line = Line()) rest += line;
     return rest;
   }
-  /// As Ctrl-C: timeout passes the signal on.
+  /// Interrupts it as Ctrl-C would; timeout passes the signal on.
   void Interrupt(int signal = SIGINT) const { ::kill(pid_, signal); }
-  /// Waits for the end.
+  /// Waits for its end and returns its exit status.
   [[nodiscard]] int ExitStatus() {
     const int status = ::pclose(pipe_);
     pipe_ = nullptr;

@@ -19,7 +19,7 @@ class LiveStream {
   explicit LiveStream(const Endpoint& to, const StreamSpec& spec = {})
       : encoder_(StreamPattern(), spec), sender_({to}, 0) {}
 
-  /// As a sender that begins anew without another socket.
+  /// Begins anew with the same socket.
   void Restart(const StreamSpec& spec) { encoder_ = StreamEncoder(StreamPattern(), spec); }
 
   void Send(std::uint32_t index) {
@@ -28,7 +28,7 @@ class LiveStream {
     sender_.Send(datagrams_, datagrams_.items);
   }
 
-  /// All but one of the frame's datagrams.
+  /// Sends all but one of the frame's datagrams.
   void SendWithout(std::uint32_t index, std::size_t lost) {
     datagrams_.Clear();
     encoder_.Encode(StreamFrame(index), datagrams_);
@@ -36,7 +36,7 @@ class LiveStream {
     sender_.Send(datagrams_, items.first(lost));
     sender_.Send(datagrams_, items.subspan(lost + 1));
   }
-  /// The one that SendWithout leaves out.
+  /// Sends the datagram that SendWithout leaves out.
   void SendOnly(std::uint32_t index, std::size_t lost) {
     datagrams_.Clear();
     encoder_.Encode(StreamFrame(index), datagrams_);
@@ -49,7 +49,7 @@ class LiveStream {
   Datagrams datagrams_;
 };
 
-/// Whether something comes to be true; the wait is long, since a loaded machine may sleep.
+/// Waits until a condition is true. The wait is long, because a loaded machine may be slow.
 inline bool Eventually(const std::function<bool()>& is_true) {
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::seconds(20);

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/io/stream/received_frame.h"
 #include "core/io/stream/stream_encoder.h"
+#include "railcast/io/stream.h"
 #include "tests/core/io/stream/stream_example.h"
 
 namespace railcast {

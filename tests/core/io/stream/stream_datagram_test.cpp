@@ -17,7 +17,7 @@ std::string FaultOf(const std::string& datagram) {
   return std::string(kStreamFaultNames[static_cast<std::size_t>(fault)]);
 }
 
-/// The first of several datagrams of a frame.
+/// Returns the first of several datagrams of a frame.
 std::string First() {
   return DatagramsOf(StreamFrame(1)).front();
 }
@@ -60,8 +60,8 @@ TEST(CheckStreamDatagram, RefusesEverySingleWrongBit) {
 
 TEST(CheckStreamDatagram, RefusesOtherVersionsAndFlags) {
   EXPECT_EQ(FaultOf(With<std::uint8_t>(First(), 4, 2)), "version");
-  EXPECT_EQ(FaultOf(With<std::uint8_t>(First(), 5, 6)), "version");   // No such axes.
-  EXPECT_EQ(FaultOf(With<std::uint8_t>(First(), 5, 16)), "version");  // No such flag.
+  EXPECT_EQ(FaultOf(With<std::uint8_t>(First(), 5, 6)), "version");   // Undefined axes.
+  EXPECT_EQ(FaultOf(With<std::uint8_t>(First(), 5, 16)), "version");  // Undefined flag.
 }
 
 TEST(CheckStreamDatagram, RefusesSizesThatDoNotAddUp) {
@@ -75,18 +75,18 @@ TEST(CheckStreamDatagram, RefusesFieldListsThatAreNone) {
   const std::string first = First();
   EXPECT_EQ(FaultOf(With<std::uint16_t>(first, 168, 0)), "fields");       // No field.
   EXPECT_EQ(FaultOf(With<std::uint16_t>(first, 168, 7)), "fields");       // One is not counted.
-  EXPECT_EQ(FaultOf(With<std::uint16_t>(first, 168, 65'535)), "fields");  // More than there are.
-  EXPECT_EQ(FaultOf(With<std::uint8_t>(first, 170, 8)), "fields");        // float64 is no type.
+  EXPECT_EQ(FaultOf(With<std::uint16_t>(first, 168, 65'535)), "fields");  // More than listed.
+  EXPECT_EQ(FaultOf(With<std::uint8_t>(first, 170, 8)), "fields");        // Not a field type.
   EXPECT_EQ(FaultOf(With<std::uint8_t>(first, 170, 4)), "fields");        // Not point_size.
-  EXPECT_EQ(FaultOf(With<std::uint8_t>(first, 171, 0)), "fields");        // No name.
-  EXPECT_EQ(FaultOf(With<std::uint8_t>(first, 171, 255)), "fields");      // A name past the list.
-  EXPECT_EQ(FaultOf(With<char>(first, 172, '\x1b')), "fields");           // No letter.
-  EXPECT_EQ(FaultOf(With<char>(first, 172, 'y')), "fields");              // Twice.
+  EXPECT_EQ(FaultOf(With<std::uint8_t>(first, 171, 0)), "fields");        // Empty name.
+  EXPECT_EQ(FaultOf(With<std::uint8_t>(first, 171, 255)), "fields");      // Beyond the list.
+  EXPECT_EQ(FaultOf(With<char>(first, 172, '\x1b')), "fields");           // Not a letter.
+  EXPECT_EQ(FaultOf(With<char>(first, 172, 'y')), "fields");              // The same name twice.
 }
 
 TEST(CheckStreamDatagram, RefusesCountsThatContradictEachOther) {
   const std::string first = First();
-  EXPECT_EQ(FaultOf(With<std::uint16_t>(first, 22, 0)), "counts");    // No packet.
+  EXPECT_EQ(FaultOf(With<std::uint16_t>(first, 22, 0)), "counts");    // No packets.
   EXPECT_EQ(FaultOf(With<std::uint16_t>(first, 22, 1)), "counts");    // Points without packets.
   EXPECT_EQ(FaultOf(With<std::uint16_t>(first, 22, 500)), "counts");  // Packets without points.
   EXPECT_EQ(FaultOf(With<std::uint16_t>(first, 20, 1)), "counts");    // Not where it begins.
@@ -97,7 +97,7 @@ TEST(CheckStreamDatagram, RefusesCountsThatContradictEachOther) {
   EXPECT_EQ(FaultOf(With<std::uint32_t>(first, 44, 0)), "counts");  // Rows.
   EXPECT_EQ(FaultOf(With<std::uint32_t>(first, 44, 1)), "counts");  // More points than slots.
   EXPECT_EQ(FaultOf(With<std::uint16_t>(first, 52, 0)), "counts");  // Returns.
-  EXPECT_EQ(FaultOf(With<std::uint8_t>(first, 5, 1)), "counts");    // All slots: these are fewer.
+  EXPECT_EQ(FaultOf(With<std::uint8_t>(first, 5, 1)), "counts");    // Fewer points than slots.
 }
 
 TEST(CheckStreamDatagram, RefusesPosesThatAreNone) {
@@ -120,7 +120,7 @@ TEST(CheckStreamDatagram, SurvivesWhatever) {
     Seal(hostile);
     if (FaultOf(hostile) == "none") ++num_taken;
   }
-  // Some changes are sound: stamps, poses' last digits, numbers of frames and runs.
+  // Some changes leave a valid datagram: stamps, last digits of poses, frame and run numbers.
   EXPECT_GT(num_taken, 1000);
   EXPECT_LT(num_taken, 15'000);
 }

@@ -58,25 +58,25 @@ TEST(StreamEncoder, SaysWhatTheFrameIs) {
   EXPECT_EQ(header.columns, kStreamColumns);
   EXPECT_EQ(header.returns, 1);
   EXPECT_FALSE(header.has_all_slots);
-  // A matrix to a quaternion and back: some roundings of numbers up to 1; positions stay as they
-  // are.
+  // Converting a matrix to a quaternion and back rounds numbers of up to 1 several times; positions
+  // stay exact.
   EXPECT_TRUE(header.world_from_sensor.linear().isApprox(frame.world_from_sensor.linear(), 1e-15));
   EXPECT_EQ(header.world_from_sensor.translation(), frame.world_from_sensor.translation());
   EXPECT_EQ(header.world_from_sensor_end.translation(), frame.world_from_sensor_end.translation());
 }
 
 TEST(StreamEncoder, SaysWhoseAxesItsPointsAreIn) {
-  const auto header_of = [](const std::string& frame, const std::string& handedness) {
+  const auto header_of = [](OutputFrame frame, Handedness handedness) {
     StreamSpec spec;
     spec.output.frame = frame;
     spec.output.handedness = handedness;
     return ReceiveWhole(StreamFrame(1), spec).header;
   };
-  EXPECT_EQ(header_of("sensor", "right").axes, StreamAxes::kSensor);
-  EXPECT_EQ(header_of("vehicle", "right").axes, StreamAxes::kVehicle);
-  EXPECT_EQ(header_of("world", "left").axes, StreamAxes::kWorld);
-  EXPECT_TRUE(header_of("world", "left").is_left_handed);
-  EXPECT_FALSE(header_of("world", "right").is_left_handed);
+  EXPECT_EQ(header_of(OutputFrame::kSensor, Handedness::kRight).axes, StreamAxes::kSensor);
+  EXPECT_EQ(header_of(OutputFrame::kVehicle, Handedness::kRight).axes, StreamAxes::kVehicle);
+  EXPECT_EQ(header_of(OutputFrame::kWorld, Handedness::kLeft).axes, StreamAxes::kWorld);
+  EXPECT_TRUE(header_of(OutputFrame::kWorld, Handedness::kLeft).is_left_handed);
+  EXPECT_FALSE(header_of(OutputFrame::kWorld, Handedness::kRight).is_left_handed);
 }
 
 TEST(StreamEncoder, FillsDatagramsOfOneSizeUpTo1400Bytes) {
@@ -183,7 +183,8 @@ TEST(StreamEncoder, AppendsToWhatHasNotBeenSent) {
 }
 
 TEST(StreamEncoder, RefusesFramesThatCannotBeCounted) {
-  // All 19 fields: a header of 358 bytes, 16 points of 63, the CRC; 16 x 65535 are 1048560.
+  // With all 19 fields, a datagram has a header of 358 bytes, 16 points of 63 bytes, and the CRC;
+  // 16 x 65535 are 1048560 points.
   Frame frame;
   constexpr std::uint32_t kRows = 1100;
   constexpr std::uint32_t kColumns = 1100;

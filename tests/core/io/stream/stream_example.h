@@ -9,7 +9,7 @@
 
 #include "core/io/stream/frame_assembler.h"
 #include "core/io/stream/stream_encoder.h"
-#include "core/scan/scan_pattern.h"
+#include "railcast/lidar.h"
 #include "tests/core/io/example_frame.h"
 
 namespace railcast {
@@ -18,7 +18,8 @@ inline constexpr std::uint32_t kStreamRows = 16;
 inline constexpr std::uint32_t kStreamColumns = 300;
 inline constexpr std::uint32_t kFiringSpacing_ns = 50'000;
 
-/// Firings column by column, all rows of a column one after the other: not the order of slots.
+/// Fires column by column, all rows of a column one after the other, which is not the order of
+/// slots.
 inline ScanPattern StreamPattern(std::uint32_t rows = kStreamRows,
                                  std::uint32_t columns = kStreamColumns) {
   ScanPattern pattern;
@@ -35,7 +36,7 @@ inline ScanPattern StreamPattern(std::uint32_t rows = kStreamRows,
   return pattern;
 }
 
-/// An example frame whose firings have the times of StreamPattern.
+/// Returns an example frame whose firings have the times of StreamPattern.
 inline Frame StreamFrame(std::uint32_t index,
                          std::uint32_t rows = kStreamRows,
                          std::uint32_t columns = kStreamColumns) {
@@ -47,7 +48,7 @@ inline Frame StreamFrame(std::uint32_t index,
   return frame;
 }
 
-/// One scan's datagrams, each by itself.
+/// Returns the datagrams of one scan as separate strings.
 inline std::vector<std::string> DatagramsOf(const Frame& frame, const StreamSpec& spec = {}) {
   StreamEncoder encoder(StreamPattern(frame.rows, frame.columns), spec);
   Datagrams datagrams;
@@ -60,7 +61,7 @@ inline std::vector<std::string> DatagramsOf(const Frame& frame, const StreamSpec
   return split;
 }
 
-/// Makes the CRC right again: what somebody would do who means harm.
+/// Corrects the CRC, as a forger would.
 inline void Seal(std::string& datagram) {
   const std::size_t checked = datagram.size() - 4;
   const auto crc = static_cast<std::uint32_t>(::crc32(
@@ -68,7 +69,7 @@ inline void Seal(std::string& datagram) {
   std::memcpy(datagram.data() + checked, &crc, sizeof crc);
 }
 
-/// The datagram with another value at a place of its header.
+/// Returns the datagram with another value at an offset of its header and a correct CRC.
 template <typename T>
 std::string With(std::string datagram, std::size_t at, T value) {
   std::memcpy(datagram.data() + at, &value, sizeof value);
@@ -76,7 +77,7 @@ std::string With(std::string datagram, std::size_t at, T value) {
   return datagram;
 }
 
-/// The frames that an assembler gives for these.
+/// Returns the frames that an assembler gives for these datagrams.
 inline std::vector<ReceivedFrame> Feed(FrameAssembler& assembler,
                                        const std::vector<std::string>& datagrams) {
   std::vector<ReceivedFrame> frames;
@@ -84,7 +85,7 @@ inline std::vector<ReceivedFrame> Feed(FrameAssembler& assembler,
   return frames;
 }
 
-/// All that a frame sends, where nothing is lost.
+/// Returns a frame as received without any loss.
 inline ReceivedFrame ReceiveWhole(const Frame& frame, const StreamSpec& spec = {}) {
   FrameAssembler assembler;
   auto frames = Feed(assembler, DatagramsOf(frame, spec));

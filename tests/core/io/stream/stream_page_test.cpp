@@ -9,7 +9,7 @@
 namespace railcast {
 namespace {
 
-// The datagram that docs/stream.md spells out: lines of "offset  hex bytes  meaning".
+// Returns the datagram that docs/stream.md spells out in lines of "offset hex bytes meaning".
 std::string DatagramOfThePage() {
   const std::string page = ReadFileWhole(RAILCAST_SOURCE_DIR "/docs/stream.md");
   const std::size_t begin = page.find("```text\n") + 8;
@@ -60,7 +60,7 @@ TEST(StreamPage, SpellsOutWhatTheEncoderSends) {
   }
 }
 
-// The page's claim about the default fields.
+// Checks the page's statement about the default fields.
 TEST(StreamPage, SaysHowManyPointsADatagramHolds) {
   const ReceivedFrame received = ReceiveWhole(StreamFrame(0));
   EXPECT_EQ(received.header.point_size, 30);

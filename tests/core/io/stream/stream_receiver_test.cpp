@@ -1,4 +1,4 @@
-#include "core/io/stream/stream_receiver.h"
+#include "railcast/io/stream.h"
 
 #include <gtest/gtest.h>
 
@@ -49,7 +49,7 @@ TEST(StreamReceiver, GivesTheFramesOfTheFirstSenderWhateverAForgerSends) {
   later_run.run = 1'000'000;
   LiveStream forger(receiver.at(), later_run);
   for (std::uint32_t index = 1; index < 10; ++index) {
-    // In the middle of a frame, and before each.
+    // The forger's datagrams arrive in the middle of each frame, with a rising run number.
     stream.SendWithout(index, 12);
     forger.Send(4'000'000'000);
     later_run.run += 1000;

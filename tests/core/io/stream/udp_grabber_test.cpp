@@ -1,4 +1,4 @@
-#include "core/io/stream/udp_grabber.h"
+#include "railcast/io/udp_grabber.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ using Xyz = pcl::PointCloud<pcl::PointXYZ>;
 using Xyzi = pcl::PointCloud<pcl::PointXYZI>;
 using Xyzl = pcl::PointCloud<pcl::PointXYZL>;
 
-/// What a program does that knows pcl::Grabber alone: keeps the last cloud of a kind.
+/// A client that knows only the interface pcl::Grabber and keeps the last cloud of each kind.
 template <typename Cloud>
 class Client {
  public:
@@ -48,11 +48,11 @@ class Client {
   boost::signals2::connection connection_;
 };
 
-/// Fails if `work` takes longer than any machine would.
+/// Fails if `work` hangs, that is, takes longer than on any machine.
 void ExpectToReturn(const std::function<void()>& work) {
   auto done = std::async(std::launch::async, work);
   if (done.wait_for(std::chrono::seconds(20)) == std::future_status::ready) return;
-  // The future would wait for ever.
+  // The future's destructor would wait forever.
   std::fprintf(stderr, "it hangs\n");
   std::abort();
 }
@@ -98,7 +98,7 @@ TEST(UdpGrabber, GivesNoPoseForPointsInOtherAxes) {
   Client<Xyz> xyz(grabber);
   grabber.start();
   StreamSpec spec;
-  spec.output.frame = "vehicle";
+  spec.output.frame = OutputFrame::kVehicle;
   LiveStream(grabber.at(), spec).Send(9);
   const auto points = xyz.WaitFor(1);
   EXPECT_EQ(points->sensor_origin_, Eigen::Vector4f::Zero());

@@ -12,20 +12,20 @@
 #include "core/base/units.h"
 #include "core/io/velodyne/velodyne_encoder.h"
 #include "core/scan/channel_rows.h"
-#include "core/scan/scan_pattern.h"
+#include "railcast/lidar.h"
 
 namespace railcast {
 
-/// What a format's name is to the scenario: the sensor's file.
+/// Returns the name of the sensor's file for a format.
 [[nodiscard]] inline std::string_view SensorOf(std::string_view format) {
   return format == "vlp16-dual" ? "vlp16" : format;
 }
-[[nodiscard]] inline std::string_view ReturnModeOfFormat(std::string_view format) {
-  return format == "vlp16-dual" ? "dual" : "strongest";
+[[nodiscard]] inline ReturnMode ReturnModeOfFormat(std::string_view format) {
+  return format == "vlp16-dual" ? ReturnMode::kDual : ReturnMode::kStrongest;
 }
 
-/// Frames of a scan, with a tenth of their slots empty, ranges from 0.5 to 140 m and every kind of
-/// intensity, all at random but the same each time. Points lie in the firings' exact directions.
+/// Frames of a scan, with a tenth of their slots empty, ranges from 0.5 to 140 m and intensities of
+/// every kind: random, but the same each time. Points lie in the firings' exact directions.
 class MadeScan {
  public:
   explicit MadeScan(ScanSpec spec)
@@ -39,7 +39,7 @@ class MadeScan {
   [[nodiscard]] std::uint16_t RowOf(std::size_t laser) const { return rows_[laser]; }
   [[nodiscard]] std::size_t num_lasers() const { return rows_.size(); }
 
-  /// What a block that begins with this column must say.
+  /// Returns the azimuth that a block beginning with this column must have.
   [[nodiscard]] std::int64_t AzimuthUnits(std::uint32_t column) const {
     const double turned_deg = 360.0 * spec_.rate_hz * column * spinning_.cycle_us * 1e-6;
     return std::llround(100.0 * (spinning_.start_azimuth_deg + turned_deg)) % 36'000;
@@ -74,7 +74,7 @@ class MadeScan {
     return frame;
   }
 
-  /// @returns Clockwise, 0 to 360.
+  /// @returns The azimuth, clockwise from 0 to 360 deg.
   [[nodiscard]] static double AzimuthOf(const Frame& frame, std::size_t slot) {
     const double azimuth_deg = DegFromRad(
         std::atan2(-static_cast<double>(frame.y[slot]), static_cast<double>(frame.x[slot])));
@@ -88,7 +88,7 @@ class MadeScan {
   std::vector<std::uint16_t> rows_;
 };
 
-/// The datagrams of frames 0 to n - 1.
+/// Returns the datagrams of frames 0 to n - 1.
 [[nodiscard]] inline Datagrams EncodeAll(std::string_view format,
                                          const MadeScan& scan,
                                          const std::vector<Frame>& frames) {
@@ -98,7 +98,7 @@ class MadeScan {
   return datagrams;
 }
 
-/// The payloads for the data port.
+/// Returns the payloads for the data port.
 [[nodiscard]] inline std::vector<std::span<const char>> DataPackets(const Datagrams& datagrams) {
   std::vector<std::span<const char>> packets;
   for (const Datagrams::Item& item : datagrams.items) {

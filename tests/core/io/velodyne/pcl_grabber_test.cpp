@@ -33,18 +33,20 @@ constexpr std::uint32_t kLoopback = 0x7F000001;
 
 using Sweep = pcl::PointCloud<pcl::PointXYZI>;
 
-/// Which points PCL must make of a turn: the slot, and the azimuth that it takes for it.
-struct Expected {
+/// A point that PCL must make of a turn: its slot, and the azimuth that PCL assumes for it.
+struct ExpectedPoint {
   std::size_t slot{};
   std::size_t laser{};
   double azimuth_deg{};
 };
 
-/// PCL's rules. A VLP block holds two columns, and the second has the azimuth of the block plus
-/// half of the step from the packet's first azimuth to its second, cut to 0.01 deg. Other blocks
-/// hold one azimuth for all their lasers, less a laser's rotCorrection_ where there is a
-/// calibration.
-std::vector<Expected> PclPoints(std::string_view format, const MadeScan& scan, const Frame& frame) {
+/// Returns the points of a frame by PCL's rules. A VLP block holds two columns, and the second has
+/// the azimuth of the block plus half of the step from the packet's first azimuth to its second,
+/// truncated to 0.01 deg. Other blocks have one azimuth for all their lasers, less a laser's
+/// rotCorrection_ where there is a calibration.
+std::vector<ExpectedPoint> PclPoints(std::string_view format,
+                                     const MadeScan& scan,
+                                     const Frame& frame) {
   const VelodyneFormat found = FindVelodyneFormat(format);
   const VelodyneModel& model = *found.model;
   const auto step = static_cast<std::uint32_t>(model.cycles_per_block());
@@ -57,9 +59,9 @@ std::vector<Expected> PclPoints(std::string_view format, const MadeScan& scan, c
   const auto distance = [&](std::size_t slot) {
     const double units =
         std::floor(static_cast<double>(frame.range_m[slot]) / model.distance_unit_m + 0.5);
-    return units < 65536.0 ? units : 0.0;  // And for NaN.
+    return units < 65536.0 ? units : 0.0;  // NaN gives 0, too.
   };
-  std::vector<Expected> points;
+  std::vector<ExpectedPoint> points;
   for (std::uint32_t column = 0; column < frame.columns; ++column) {
     const std::size_t group = frame.index * groups_per_frame + column / step;
     const std::size_t first = group / groups_per_packet * groups_per_packet;
@@ -90,8 +92,8 @@ std::size_t LaserAt(double elevation_deg, const MadeScan& scan) {
   return static_cast<std::size_t>(nearest - channels.begin());
 }
 
-/// Expects in a sweep exactly the points of a frame that the format can say, with our ranges, rings
-/// and intensities, and azimuths by PCL's rules.
+/// Expects a sweep to hold exactly the points of a frame that the format can encode, with
+/// railcast's ranges, rings and intensities, and azimuths by PCL's rules.
 void ExpectFrame(const Sweep& sweep,
                  std::string_view format,
                  const MadeScan& scan,
@@ -99,14 +101,14 @@ void ExpectFrame(const Sweep& sweep,
   const VelodyneModel& model = *FindVelodyneFormat(format).model;
   const auto expected = PclPoints(format, scan, frame);
   ASSERT_EQ(sweep.size(), expected.size());
-  // Half a unit, and what float32 coordinates of up to 131 m leave of it.
+  // Half a unit plus the float32 rounding of coordinates of up to 131 m.
   const double range_tolerance_m = 0.5 * model.distance_unit_m + 5e-5;
-  // PCL takes one azimuth for a firing cycle, in which the rotor turns on until the last laser.
+  // PCL assumes one azimuth for a firing cycle, during which the rotor turns until the last laser.
   const double last_us =
       std::ranges::max(scan.spinning().channels, {}, &ChannelSpec::time_us).time_us;
   const double azimuth_tolerance_deg = 360.0 * scan.spec().rate_hz * last_us * 1e-6 + 0.02;
   for (std::size_t i = 0; i < sweep.size(); ++i) {
-    // PCL: x right, y forward.
+    // PCL's axes: x right, y forward.
     const auto x = static_cast<double>(sweep[i].x);
     const auto y = static_cast<double>(sweep[i].y);
     const auto z = static_cast<double>(sweep[i].z);
@@ -124,7 +126,7 @@ void ExpectFrame(const Sweep& sweep,
   }
 }
 
-/// Keeps what a grabber delivers.
+/// Collects the sweeps that a grabber delivers.
 class Sweeps {
  public:
   explicit Sweeps(pcl::HDLGrabber& grabber)
@@ -138,7 +140,7 @@ class Sweeps {
   Sweeps(const Sweeps&) = delete;
   Sweeps& operator=(const Sweeps&) = delete;
 
-  /// As soon as there are so many; fewer if that takes a minute.
+  /// Returns the sweeps as soon as there are `count` of them, or fewer if that takes a minute.
   [[nodiscard]] std::vector<Sweep::ConstPtr> First(std::size_t count) {
     std::unique_lock lock(mutex_);
     arrived_.wait_for(lock, std::chrono::minutes(1), [&] { return sweeps_.size() >= count; });
@@ -153,7 +155,8 @@ class Sweeps {
   boost::signals2::connection connection_;
 };
 
-/// The frames of a scan in each format. The last sweep is delivered when another begins.
+/// The frames of a scan in each format. One more than needed, since a sweep is delivered when the
+/// next begins.
 std::vector<Frame> MadeFrames(std::string_view format, const MadeScan& scan) {
   std::vector<Frame> frames;
   for (std::uint32_t i = 0; i < 4; ++i) {
@@ -162,7 +165,8 @@ std::vector<Frame> MadeFrames(std::string_view format, const MadeScan& scan) {
   return frames;
 }
 
-/// Between walls, so that beams hit something near, something far, and nothing.
+/// The sensor stands between walls, so that some beams meet near surfaces, some far ones, and some
+/// nothing.
 std::vector<Frame> SimulatedFrames(const MadeScan& scan) {
   auto world = std::make_shared<SimpleWorld>();
   world->ground.parts.push_back({MakeFloor(-2.0F, 60.0F), 1, 1});
@@ -191,7 +195,7 @@ std::unique_ptr<pcl::HDLGrabber> GrabberOfPort(std::string_view format,
   return std::make_unique<pcl::HDLGrabber>(loopback, port, calibration);
 }
 
-/// Bytes that wait in the receive buffer of a UDP port of this machine.
+/// Returns the number of bytes in the receive buffer of a UDP port of this machine.
 std::size_t WaitingBytes(std::uint16_t port) {
   std::ifstream table("/proc/net/udp");
   std::string line;
@@ -211,7 +215,7 @@ class PclGrabber : public testing::TestWithParam<const char*> {
  protected:
   [[nodiscard]] std::string_view format() const { return GetParam(); }
   [[nodiscard]] const MadeScan& scan() const { return scan_; }
-  /// The file for HDLGrabber; no name for the sensors that it knows.
+  /// Returns the calibration file for HDLGrabber; an empty name for sensors that it knows.
   [[nodiscard]] std::string CalibrationFile() const {
     if (format() != "hdl64e") return {};
     const auto file = directory_.path() / "db.xml";
@@ -263,7 +267,7 @@ TEST_P(PclGrabber, HearsOurPacketsOnLoopback) {
   UdpSender sender({Endpoint{kLoopback, port}}, port);
   for (const Datagrams::Item& item : datagrams.items) {
     sender.Send(datagrams, {&item, 1});
-    // Paced by the receiver itself: its buffer holds 92 packets.
+    // The receiver sets the pace, since its buffer holds 92 packets.
     while (WaitingBytes(port) > 0) std::this_thread::yield();
   }
   ExpectSweeps(sweeps.First(frames.size() - 1), frames);

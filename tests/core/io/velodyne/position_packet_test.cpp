@@ -2,24 +2,24 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/units.h"
 #include "core/io/velodyne/velodyne_packet.h"
 
 namespace railcast {
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
-constexpr std::int64_t kHour_ns = 3600 * kSecond_ns;
+constexpr std::int64_t kHour_ns = 3600 * kNsPerS;
 constexpr std::int64_t kDay_ns = 24 * kHour_ns;
 
 TEST(GprmcSentence, CountsFromTheFirstOfJanuary2000) {
-  // Checksums: exclusive or of all characters between $ and *.
+  // The checksum is the exclusive or of all characters between $ and *.
   EXPECT_EQ(GprmcSentence(0),
             "$GPRMC,000000,V,0000.0000,N,00000.0000,E,000.0,000.0,010100,000.0,E,N*03\r\n");
   EXPECT_EQ(GprmcSentence(kDay_ns - 1),
             "$GPRMC,235959,V,0000.0000,N,00000.0000,E,000.0,000.0,010100,000.0,E,N*02\r\n");
   EXPECT_EQ(GprmcSentence(kDay_ns),
             "$GPRMC,000000,V,0000.0000,N,00000.0000,E,000.0,000.0,020100,000.0,E,N*00\r\n");
-  EXPECT_EQ(GprmcSentence(59 * kDay_ns + kHour_ns + 61 * kSecond_ns),
+  EXPECT_EQ(GprmcSentence(59 * kDay_ns + kHour_ns + 61 * kNsPerS),
             "$GPRMC,010101,V,0000.0000,N,00000.0000,E,000.0,000.0,290200,000.0,E,N*0B\r\n");
 }
 
@@ -37,7 +37,7 @@ TEST(GprmcSentence, HasTheChecksumOfItsText) {
 TEST(PositionPacket, SaysClockPulseAndSentenceWhereDecodersLook) {
   Datagrams datagrams;
   datagrams.bytes.resize(10);
-  AppendPositionPacket(25 * kHour_ns + 17 * kSecond_ns, datagrams);
+  AppendPositionPacket(25 * kHour_ns + 17 * kNsPerS, datagrams);
   ASSERT_EQ(datagrams.items.size(), 1U);
   EXPECT_EQ(datagrams.items[0].port, DatagramPort::kPosition);
   const auto packet = datagrams.BytesOf(datagrams.items[0]);

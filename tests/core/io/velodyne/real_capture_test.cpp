@@ -9,15 +9,15 @@
 #include <map>
 #include <ostream>
 
-#include "core/base/transform.h"
 #include "core/base/units.h"
 #include "core/io/pcap/pcap_reader.h"
 #include "core/io/velodyne/velodyne_decoder.h"
+#include "railcast/transform.h"
 
 namespace railcast {
 namespace {
 
-std::filesystem::path CaptureFile(const char* name) {
+std::filesystem::path VelodyneCapture(const char* name) {
   return std::filesystem::path(RAILCAST_SHARED_DATA_DIR "/lidar_packets_nebula") / name;
 }
 constexpr double kHalfTurn_deg = 180.0;
@@ -61,20 +61,23 @@ double Difference_deg(double a_deg, double b_deg) {
 
 /// How another decoder's points compare with ours of the same laser and the same distance.
 struct Comparison {
-  double matched_share{};     ///< Of theirs: one of ours is where they must have it.
-  double last_block_share{};  ///< Of theirs: only as in the last block of a packet.
-  double median_deg{};        ///< Between azimuths, by their rule for both.
+  /// Share of their points that match one of ours under either rule of LeftOver_deg.
+  double matched_share{};
+  /// Share of their points that match only under the rule for the last block of a packet.
+  double last_block_share{};
+  double median_deg{};  ///< Between azimuths, after applying their rule to both.
   double max_deg{};
-  double median_mm{};  ///< Between positions as they are.
+  double median_mm{};  ///< Between positions without correction.
   double max_mm{};
 };
 
-/// Nebula turns a laser's azimuth by 2.304 us x laser (VLP-32C too, whose lasers fire in pairs),
-/// and not at all in the last block of a packet. Gives the difference left under either rule.
+/// Nebula turns a laser's azimuth by 2.304 us x laser (also for VLP-32C, whose lasers fire in
+/// pairs), except in the last block of a packet, where it does not turn it. Returns the difference
+/// that remains under either rule.
 std::pair<double, double> LeftOver_deg(double their_deg,
                                        const TurnPoint& ours,
                                        const VelodyneModel& model) {
-  constexpr double kTurn_deg_per_us = 3600e-6;  // Both captures: 600 rpm.
+  constexpr double kTurn_deg_per_us = 3600e-6;  // Both captures were made at 600 rpm.
   const double our_time_us = model.lasers[ours.laser].time_us;
   const double late_us =
       ours.return_index * model.cycle_us * static_cast<double>(model.cycles_per_block());
@@ -93,8 +96,8 @@ std::pair<double, double> LeftOver_deg(double their_deg,
 Comparison Compare(const pcl::PointCloud<pcl::PointXYZ>& theirs,
                    const std::vector<TurnPoint>& ours,
                    const VelodyneModel& model) {
-  // Azimuths are rounded to 0.01 deg by the packet and by them, and so is the step to the next
-  // block, from which they take the speed.
+  // The packet and the other decoder both round azimuths to 0.01 deg, and so is the step to the
+  // next block rounded, from which that decoder derives the speed.
   constexpr double kTolerance_deg = 0.04;
   std::map<std::pair<std::uint8_t, long>, std::vector<TurnPoint>> by_measurement;
   for (const TurnPoint& point : ours) {
@@ -144,31 +147,32 @@ std::ostream& operator<<(std::ostream& out, const Comparison& c) {
 }
 
 TEST(RealCapture, DecodesVlp16InDualModeAsNebulaDoes) {
-  const auto file = CaptureFile("vlp16_dual.pcap");
+  const auto file = VelodyneCapture("vlp16_dual.pcap");
   if (!exists(file)) GTEST_SKIP() << file << " is not there";
   const VelodyneModel& model = *FindVelodyneFormat("vlp16").model;
   const auto turns = DecodeCapture(file, model);
   pcl::PointCloud<pcl::PointXYZ> theirs;
-  ASSERT_EQ(pcl::io::loadPCDFile(CaptureFile("vlp16_dual_decoded.pcd").string(), theirs), 0);
+  ASSERT_EQ(pcl::io::loadPCDFile(VelodyneCapture("vlp16_dual_decoded.pcd").string(), theirs), 0);
   ASSERT_EQ(theirs.size(), 14'831U);
-  // Four turns, and the first firings of a fifth; the published cloud is the fourth.
+  // The capture holds four turns and the first firings of a fifth; the published cloud is the
+  // fourth.
   ASSERT_EQ(turns.size(), 5U);
   const Comparison comparison = Compare(theirs, turns[3].points, model);
   EXPECT_GT(comparison.matched_share, 0.997) << comparison;
   EXPECT_LT(comparison.last_block_share, 1.0 / 6.0) << comparison;
-  EXPECT_LT(comparison.median_deg, 0.005) << comparison;  // Half of what a packet can say.
+  EXPECT_LT(comparison.median_deg, 0.005) << comparison;  // Half of a packet's resolution.
   EXPECT_LT(comparison.median_mm, 1.0) << comparison;     // Half a unit.
 }
 
 TEST(RealCapture, DecodesVlp32cAsNebulaDoes) {
-  const auto file = CaptureFile("vlp32c_single.pcap");
+  const auto file = VelodyneCapture("vlp32c_single.pcap");
   if (!exists(file)) GTEST_SKIP() << file << " is not there";
   const VelodyneModel& model = *FindVelodyneFormat("vlp32c").model;
   const auto turns = DecodeCapture(file, model);
   pcl::PointCloud<pcl::PointXYZ> theirs;
-  ASSERT_EQ(pcl::io::loadPCDFile(CaptureFile("vlp32c_single_decoded.pcd").string(), theirs), 0);
+  ASSERT_EQ(pcl::io::loadPCDFile(VelodyneCapture("vlp32c_single_decoded.pcd").string(), theirs), 0);
   ASSERT_EQ(theirs.size(), 26'216U);
-  // The sensor looked from 270 to 93 deg; the published cloud is the first such sector, in which
+  // The sensor scanned from 270 to 93 deg; the published cloud is the first such sector, in which
   // the azimuth passes 0.
   constexpr std::int64_t kHalfTurn_ns = 50'000'000;
   std::vector<TurnPoint> sector = turns[0].points;
@@ -178,7 +182,7 @@ TEST(RealCapture, DecodesVlp32cAsNebulaDoes) {
   EXPECT_EQ(comparison.matched_share, 1.0) << comparison;
   EXPECT_LT(comparison.last_block_share, 1.0 / 12.0) << comparison;
   EXPECT_LT(comparison.median_deg, 0.005) << comparison;
-  // Their clock for this sensor turns a median laser 0.07 deg on, at 5 m.
+  // Nebula's firing times turn the median laser of this sensor by a further 0.07 deg, at 5 m.
   EXPECT_LT(comparison.median_mm, 6.0) << comparison;
 }
 

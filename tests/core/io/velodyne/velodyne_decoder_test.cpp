@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/base/transform.h"
 #include "core/io/field_layout.h"
 #include "core/io/velodyne/reflectivity.h"
+#include "railcast/transform.h"
 #include "tests/core/io/velodyne/made_scan.h"
 #include "tests/support/sensor_file.h"
 
@@ -19,7 +19,12 @@ namespace {
 VelodyneDecoder DecoderOf(std::string_view format, const MadeScan& scan) {
   const VelodyneModel& model = *FindVelodyneFormat(format).model;
   if (!model.has_own_angles) return VelodyneDecoder(model);
-  return {model, ReadCalibrationXml(CalibrationXml(scan.spinning()), "db.xml")};
+  std::vector<LaserCalibration> calibration;
+  for (const ChannelSpec& channel : scan.spinning().channels) {
+    calibration.push_back(
+        {.elevation_deg = channel.elevation_deg, .azimuth_deg = channel.azimuth_deg});
+  }
+  return {model, calibration};
 }
 
 std::vector<SensorTurn> DecodeAll(VelodyneDecoder& decoder, const Datagrams& datagrams) {
@@ -37,7 +42,7 @@ struct Expected {
   std::uint8_t return_index{};
 };
 
-/// The slots that packets hold, in the order of the packets.
+/// Returns the slots that packets hold, in the order of the packets.
 std::vector<Expected> PointsOf(const Frame& frame,
                                const MadeScan& scan,
                                const VelodyneModel& model) {
@@ -45,7 +50,7 @@ std::vector<Expected> PointsOf(const Frame& frame,
   const auto units = [&](std::size_t slot) {
     const double distance =
         std::floor(static_cast<double>(frame.range_m[slot]) / model.distance_unit_m + 0.5);
-    return distance < 65536.0 ? distance : 0.0;  // And for NaN.
+    return distance < 65536.0 ? distance : 0.0;  // NaN gives 0, too.
   };
   for (std::uint32_t column = 0; column < frame.columns; ++column) {
     for (std::size_t laser = 0; laser < scan.num_lasers(); ++laser) {
@@ -75,12 +80,13 @@ TEST_P(DecodedFormat, GivesBackTheFramesThatWereEncoded) {
   for (std::uint32_t i = 0; i < 3; ++i) frames.push_back(scan.MakeFrame(i, returns));
   VelodyneDecoder decoder = DecoderOf(format, scan);
   const auto turns = DecodeAll(decoder, EncodeAll(format, scan, frames));
-  ASSERT_EQ(turns.size(), 2U);  // The third ends with a fourth.
-  // A packet over two frames has one time and one speed: what lies between the frames is missing.
+  ASSERT_EQ(turns.size(), 2U);  // The third turn would end where a fourth begins.
+  // A packet that spans two frames has a single time and speed, so it does not account for the gap
+  // between the frames.
   const double gap_us =
       1e6 / scan.spec().rate_hz - scan.spinning().columns * scan.spinning().cycle_us;
   const std::int64_t time_tolerance_ns = 1001 + std::lround(1e3 * gap_us);
-  // Azimuths are rounded to 0.01 deg, the steps between blocks too.
+  // Azimuths and the steps between blocks are rounded to 0.01 deg.
   constexpr double kAzimuthTolerance_deg = 0.02;
   for (std::size_t t = 0; t < turns.size(); ++t) {
     const Frame& frame = frames[t];
@@ -117,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(VelodyneDecoder,
                            return name;
                          });
 
-/// A sound VLP-16 packet.
+/// Returns a valid VLP-16 packet.
 std::vector<char> SoundPacket(std::string_view format = "vlp16") {
   const MadeScan scan(ReadSensor(std::string(SensorOf(format))));
   const Datagrams datagrams = EncodeAll(format, scan, {scan.MakeFrame(0)});
@@ -170,7 +176,7 @@ TEST(VelodyneDecoder, CountsOnOverTheHour) {
   std::vector<char> packet = SoundPacket();
   VelodyneDecoder decoder(*FindVelodyneFormat("vlp16").model);
   std::vector<SensorTurn> turns;
-  // Every packet begins at azimuth 0, so that each is a turn.
+  // Every packet begins at azimuth 0, so each is a turn.
   for (const std::uint32_t time_us : {3'599'900'000U, 0U, 100'000U, 50'000U, 2'000'000'000U}) {
     StoreAt<std::uint32_t>(packet.data() + 1200, time_us);
     EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt);
@@ -178,7 +184,7 @@ TEST(VelodyneDecoder, CountsOnOverTheHour) {
   turns.push_back(decoder.TakeUnfinished());
   std::vector<std::int64_t> stamps_us;
   for (const SensorTurn& turn : turns) stamps_us.push_back(turn.stamp_ns / 1000);
-  // The fourth came late; half an hour and more ahead is taken for behind.
+  // The fourth packet came late; a time half an hour or more ahead is taken for an earlier one.
   EXPECT_THAT(stamps_us, testing::ElementsAre(3'599'900'000, 3'600'000'000, 3'600'100'000,
                                               3'600'050'000, 2'000'000'000));
 }
@@ -189,7 +195,7 @@ TEST(VelodyneDecoder, SurvivesAClockThatLeaps) {
   std::vector<SensorTurn> turns;
   std::int64_t last_ns = 0;
   for (std::uint32_t i = 0; i < 25'000; ++i) {
-    // Each is 29.9 minutes after the one before: 12,458 hours in all.
+    // Each packet comes 29.9 minutes after the one before: 12,458 hours in all.
     StoreAt<std::uint32_t>(packet.data() + 1200,
                            static_cast<std::uint32_t>(i * 1'794'000'000ULL % 3'600'000'000ULL));
     ASSERT_EQ(decoder.Decode(packet, turns), std::nullopt);

@@ -17,7 +17,7 @@
 namespace railcast {
 namespace {
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNoPoint = std::numeric_limits<float>::quiet_NaN();
 
 std::uint16_t AzimuthIn(std::span<const char> packet, std::size_t block) {
   return LoadAt<std::uint16_t>(packet.data() + block * kBlockSize + kAzimuthPlace);
@@ -36,17 +36,18 @@ std::uint32_t TimeIn(std::span<const char> packet) {
 
 TEST(VelodyneEncoder, CompletesWithTheNextFrameWhatAFrameLeaves) {
   const MadeScan scan(ReadSensor("vlp16"));
-  const auto encoder = MakeVelodyneEncoder("vlp16", scan.spec(), "strongest");
+  const auto encoder = MakeVelodyneEncoder("vlp16", scan.spec(), ReturnMode::kStrongest);
   std::vector<std::size_t> num_packets;
   Datagrams datagrams;
   for (std::uint32_t i = 0; i < 3; ++i) {
     encoder->Encode(scan.MakeFrame(i), datagrams);
     num_packets.push_back(DataPackets(datagrams).size());
   }
-  // 1808 columns are 75 1/3 packets of 24.
+  // A frame of 1808 columns fills 75 1/3 packets of 24 columns.
   EXPECT_THAT(num_packets, testing::ElementsAre(75, 150, 226));
   const auto packets = DataPackets(datagrams);
-  // The 76th has 8 columns of the first frame, whose last one begins 0.0009 turns before the next.
+  // The 76th packet has 8 columns of the first frame, whose last one begins 0.0009 turns before the
+  // next frame.
   EXPECT_EQ(AzimuthIn(packets[75], 3), scan.AzimuthUnits(1806));
   EXPECT_EQ(AzimuthIn(packets[75], 4), 0);
   EXPECT_EQ(AzimuthIn(packets[75], 5), scan.AzimuthUnits(2));
@@ -57,7 +58,7 @@ TEST(VelodyneEncoder, LeavesOutEveryPacketThatHasAPartOfAFrameLeftOut) {
     std::string name;
     double blocks_per_column;
   };
-  // Frames are 75 1/3, 347 1/6 and 180 5/6 packets.
+  // Frames fill 75 1/3, 347 1/6 and 180 5/6 packets.
   for (const auto& [name, blocks_per_column] :
        {Format{"vlp16", 0.5}, Format{"hdl64e", 2.0}, Format{"hdl32e", 1.0}}) {
     const MadeScan scan(ReadSensor(name));
@@ -88,7 +89,7 @@ TEST(VelodyneEncoder, LeavesOutEveryPacketThatHasAPartOfAFrameLeftOut) {
 TEST(VelodyneEncoder, WritesBlocksAsTheManualShowsThem) {
   const MadeScan scan(ReadSensor("vlp16"));
   Frame frame = scan.MakeFrame(0);
-  // Laser 2 looks 13 deg down: row 1. The second half of a block is the next column.
+  // Laser 2 has elevation -13 deg: row 1. The second half of a block is the next column.
   frame.range_m[1 * 1808 + 6] = 40.0F;
   frame.range_m[1 * 1808 + 7] = 41.25F;
   const Datagrams datagrams = EncodeAll("vlp16", scan, {frame});
@@ -120,12 +121,12 @@ TEST(VelodyneEncoder, PutsTheUpperHalfOfHdl64eIntoBlocksOfTheirOwn) {
   }
 }
 
-/// The distances and reflectivities of a firing that returned these.
+/// Returns the distances and reflectivities that a firing with these returns gives.
 std::array<int, 4> DualBlocks(std::vector<std::pair<float, float>> returns) {
   const MadeScan scan(ReadSensor("vlp16"));
   const auto num_returns = static_cast<std::uint32_t>(returns.size());
   Frame frame = scan.MakeFrame(0, num_returns);
-  // Laser 0, the lowest row, in the second column.
+  // Laser 0 is the lowest row; its second column is set.
   for (std::uint32_t r = 0; r < num_returns; ++r) {
     frame.range_m[num_returns + r] = returns[r].first;
     frame.intensity[num_returns + r] = returns[r].second;
@@ -150,22 +151,23 @@ TEST(VelodyneEncoder, PutsTheSecondStrongestWhereTheStrongestIsTheLast) {
 }
 
 TEST(VelodyneEncoder, RepeatsTheOnlyReturn) {
-  EXPECT_THAT(DualBlocks({{20.0F, 0.5F}, {kNaN, kNaN}}),
+  EXPECT_THAT(DualBlocks({{20.0F, 0.5F}, {kNoPoint, kNoPoint}}),
               testing::ElementsAre(10000, 50, 10000, 50));
   EXPECT_THAT(DualBlocks({{20.0F, 0.5F}}), testing::ElementsAre(10000, 50, 10000, 50));
-  // The last lies beyond the format.
+  // The last return lies beyond the format's range.
   EXPECT_THAT(DualBlocks({{20.0F, 0.5F}, {131.08F, 0.2F}}),
               testing::ElementsAre(10000, 50, 10000, 50));
   EXPECT_THAT(DualBlocks({{131.08F, 0.5F}, {20.0F, 0.2F}}),
               testing::ElementsAre(10000, 20, 10000, 20));
-  EXPECT_THAT(DualBlocks({{kNaN, kNaN}, {kNaN, kNaN}}), testing::ElementsAre(0, 0, 0, 0));
+  EXPECT_THAT(DualBlocks({{kNoPoint, kNoPoint}, {kNoPoint, kNoPoint}}),
+              testing::ElementsAre(0, 0, 0, 0));
 }
 
 TEST(VelodyneEncoder, RefusesDistancesThatTheFormatCannotSay) {
   const MadeScan scan(ReadSensor("vlp32c"));
   Frame frame = scan.MakeFrame(0);
-  // VLP-32C counts 4 mm: 65535 of them are 262.14 m. Laser 0 is the lowest row.
-  const std::vector<float> ranges_m = {262.14F, 262.143F, 0.002F, 0.0F, -1.0F, kNaN, 1e30F};
+  // VLP-32C counts units of 4 mm, of which 65535 are 262.14 m. Laser 0 is the lowest row.
+  const std::vector<float> ranges_m = {262.14F, 262.143F, 0.002F, 0.0F, -1.0F, kNoPoint, 1e30F};
   std::copy(ranges_m.begin(), ranges_m.end(), frame.range_m.begin());
   const Datagrams datagrams = EncodeAll("vlp32c", scan, {frame});
   std::vector<int> distances;
@@ -193,7 +195,7 @@ TEST(VelodyneEncoder, CountsMicrosecondsPastTheHourWithoutDrift) {
   const MadeScan scan(ReadSensor("vlp16_20hz"));
   Frame frame = scan.MakeFrame(0);
   constexpr std::int64_t kDay_ns = 86'400'000'000'000;
-  // Frames of a rate that is no divisor of anything, near an hour and a day's end.
+  // Frames at arbitrary times and around the ends of an hour and of a day.
   for (const std::int64_t stamp_ns :
        {std::int64_t{0}, 3'599'999'999'000L, 3'599'999'999'999L, 3'600'000'000'000L,
         kDay_ns - 47'000'000, kDay_ns - 1, kDay_ns, 7 * kDay_ns + 123'456'789}) {
@@ -212,14 +214,14 @@ TEST(VelodyneEncoder, StampsAWholeDayOfFrames) {
   spec.rate_hz = 10.0;
   const MadeScan scan(spec);
   const ScanPattern pattern = BuildScanPattern(spec);
-  const auto encoder = MakeVelodyneEncoder("vlp16", spec, "strongest");
+  const auto encoder = MakeVelodyneEncoder("vlp16", spec, ReturnMode::kStrongest);
   Frame frame = scan.MakeFrame(0);
   Datagrams datagrams;
   // Every 1001st frame of 24 h.
   for (std::uint32_t index = 0; index < 864'000; index += 1001) {
     frame.stamp_ns = pattern.StampNs(index);
     datagrams.Clear();
-    MakeVelodyneEncoder("vlp16", spec, "strongest")->Encode(frame, datagrams);
+    MakeVelodyneEncoder("vlp16", spec, ReturnMode::kStrongest)->Encode(frame, datagrams);
     ASSERT_EQ(TimeIn(DataPackets(datagrams)[0]), index * 100'000LL % 3'600'000'000) << index;
   }
 }
@@ -241,7 +243,7 @@ TEST(VelodyneEncoder, LetsAPacketLeaveAtItsLastFiring) {
 TEST(VelodyneEncoder, SaysItsTimeOnceASecond) {
   const MadeScan scan(ReadSensor("vlp16"));
   Frame frame = scan.MakeFrame(0);
-  const auto encoder = MakeVelodyneEncoder("vlp16", scan.spec(), "strongest");
+  const auto encoder = MakeVelodyneEncoder("vlp16", scan.spec(), ReturnMode::kStrongest);
   Datagrams datagrams;
   for (std::int64_t index = 5; index < 26; ++index) {
     frame.stamp_ns = index * 100'000'000;
@@ -256,7 +258,7 @@ TEST(VelodyneEncoder, SaysItsTimeOnceASecond) {
 }
 
 TEST(Reflectivity, IsPercentForDiffuseSurfacesAndLogarithmicForRetroreflectors) {
-  EXPECT_EQ(ReflectivityByte(kNaN), 0);
+  EXPECT_EQ(ReflectivityByte(kNoPoint), 0);
   EXPECT_EQ(ReflectivityByte(-0.1F), 0);
   EXPECT_EQ(ReflectivityByte(0.0F), 0);
   EXPECT_EQ(ReflectivityByte(0.104F), 10);

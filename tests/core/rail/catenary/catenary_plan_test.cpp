@@ -14,7 +14,7 @@ namespace {
 TEST(CatenaryPlan, AlternatesStaggerOverFullSpansOnAStraight) {
   const WorldSpec spec = StraightLine(1000.0);
   const CatenaryPlan plan(spec, Alignment(spec.alignment));
-  // 15 spans of 65 m and the rest.
+  // 15 spans of 65 m and the remainder.
   ASSERT_EQ(plan.supports().size(), 17U);
   for (std::size_t i = 0; i < 16; ++i) {
     EXPECT_NEAR(plan.supports()[i].s_m, 65.0 * static_cast<double>(i), 1e-9);

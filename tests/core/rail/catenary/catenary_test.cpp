@@ -14,7 +14,7 @@
 namespace railcast {
 namespace {
 
-/// Of the wire of that surface at chainage `s_m` of a straight from west to east.
+/// Point of the wire with that surface at chainage `s_m` of a straight from west to east.
 Vector3 WireAt(const TestLine& line, const SurfaceClass& surface, double s_m) {
   const int chunk = static_cast<int>(std::floor(s_m / TestLine::kChunkLength_m));
   for (const Wire& wire : WiresInChunk(line.Context(chunk), line.plan())) {
@@ -35,7 +35,7 @@ TEST(AddCatenary, HangsTheContactWireAtItsHeightAndPresag) {
   EXPECT_NEAR(WireAt(line, contact, 130.0).z(), 5.5, 1e-9);
   EXPECT_NEAR(WireAt(line, contact, 130.0).y(), 0.4, 1e-9);
   EXPECT_NEAR(WireAt(line, contact, 195.0).y(), -0.4, 1e-9);
-  // In the middle, where chords of 5 m are 0.4 mm above the parabola.
+  // At mid-span, where chords of 5 m are 0.4 mm above the parabola.
   EXPECT_NEAR(WireAt(line, contact, 162.5).z(), 5.5 - 0.065, 0.5e-3);
   EXPECT_NEAR(WireAt(line, contact, 162.5).y(), 0.0, 1e-9);
 }
@@ -53,7 +53,7 @@ TEST(AddCatenary, HangsTheMessengerOnItsParabola) {
 TEST(AddCatenary, JoinsContactWireAndMessengerByDroppers) {
   const TestLine line(StraightLine(1000.0));
   int num_droppers = 0;
-  for (int chunk = 0; chunk < 13; ++chunk) {  // Ten whole spans of 65 m.
+  for (int chunk = 0; chunk < 13; ++chunk) {  // Covers ten whole spans of 65 m.
     for (const Wire& wire : WiresInChunk(line.Context(chunk), line.plan())) {
       if (wire.label != line.surfaces().dropper.label) continue;
       ++num_droppers;
@@ -64,10 +64,10 @@ TEST(AddCatenary, JoinsContactWireAndMessengerByDroppers) {
       EXPECT_GT((head - foot).norm(), 0.5);
     }
   }
-  EXPECT_EQ(num_droppers, 10 * 9);  // ceil(65 / 8) each.
+  EXPECT_EQ(num_droppers, 10 * 9);  // ceil(65 / 8) = 9 per span.
 }
 
-/// The chainage at which the track frame's plane x = 0 holds the point.
+/// Chainage whose track frame contains the point in its plane x = 0.
 double ChainageOf(const Alignment& alignment, const Vector3& world_m, double near_s_m) {
   double s_m = near_s_m;
   for (int i = 0; i < 6; ++i) s_m += (alignment.WorldFromTrack(s_m).inverse() * world_m).x();
@@ -97,10 +97,10 @@ TEST(AddCatenary, KeepsTheContactWireAboveThePantographAllAlongARealLine) {
       }
     }
   }
-  // The plan allows 0.45 m at its samples, 2.5 m apart.
+  // The plan permits 0.45 m at its samples, 2.5 m apart.
   EXPECT_LE(widest_m, 0.47);
   EXPECT_GT(widest_m, 0.40);
-  // Presag, and up to 0.45 m beside a canted axis.
+  // Includes the presag and the effect of being up to 0.45 m beside a canted axis.
   EXPECT_GT(lowest_m, 5.5 - 0.065 - 0.05);
   EXPECT_LT(highest_m, 5.5 + 0.05);
 }
@@ -116,7 +116,7 @@ TEST(AddCatenary, CutsTheSameWireAtAChunksEndAndTheNextOnesBegin) {
     }
     return points;
   };
-  // The last stretch of each chunk overlaps the first of the next by 1 mm.
+  // The last piece of each chunk overlaps the first piece of the next by 1 mm.
   const auto before = ends(4, true);
   const auto after = ends(5, false);
   int num_pairs = 0;
@@ -164,8 +164,9 @@ std::vector<Placement> PlacedAt(const TestLine& line, int chunk_index, const std
 TEST(AddCatenary, HoldsTheWiresWithItsCantilevers) {
   const TestLine line(StraightLine(1000.0));
   const Eigen::AlignedBox3d left = PlacedAt(line, 0, "cantilever").at(0).model->Bounds();
-  // From the mast's face on the right to the steady arm's hinge, a metre left of the wire, and the
-  // end of its tube; from the contact wire's clamp to the messenger's.
+  // In y, from the mast's face on the right to the steady arm's hinge, a metre left of the wire,
+  // and the end of its tube; in z, from the clamp of the contact wire to that of the messenger
+  // wire.
   EXPECT_NEAR(left.min().y(), -3.3, 0.02);
   EXPECT_NEAR(left.max().y(), 0.4 + 1.0 + 0.15, 0.03);
   EXPECT_NEAR(left.min().z(), 5.5, 0.01);
@@ -180,7 +181,7 @@ WorldSpec RealLineWithTracksAt(const std::vector<double>& offsets_m) {
   return spec;
 }
 
-/// Of the masts' faces from the axes nearest to them.
+/// Distances of the masts' faces from their nearest track axes.
 struct FaceDistances {
   double least_m = 100.0;
   double most_m = 0.0;
@@ -213,8 +214,8 @@ FaceDistances MeasureMasts(const TestLine& line) {
 }
 
 TEST(AddCatenary, PlacesMastsByTheTracksAxisAllAlongARealLine) {
-  // The mast's origin lies up to 0.03 m below the plane of the rails, where a gradient of 2 % moves
-  // the section through it by less than a millimetre.
+  // The mast's origin lies up to 0.03 m below the plane of the rails. At a gradient of 2 %, this
+  // shifts the section through it by less than a millimetre.
   constexpr double kTolerance_m = 1e-4;
   const FaceDistances two = MeasureMasts(TestLine(RealLineWithTracksAt({0.0, 4.0})));
   EXPECT_EQ(two.num_masts, 944U);
@@ -237,13 +238,13 @@ TEST(AddCatenary, ReachesFromMastsAndPostsToTheShiftedWires) {
   spec.tracks[1].offset_m = 4.0;
   spec.tracks[2].offset_m = 8.0;
   const TestLine line(spec);
-  // Cant of 150 mm to the left, under the wire at 5.5 m.
+  // Displacement at the wire's height of 5.5 m by a cant of 150 mm to the left.
   const double shift_m = 5.5 * 0.1;
   const auto cantilevers = PlacedAt(line, 10, "cantilever");
   ASSERT_EQ(cantilevers.size(), 3U);
   EXPECT_NEAR(cantilevers[0].model->Bounds().min().y(), -3.3 - shift_m, 0.02);
   EXPECT_NEAR(cantilevers[2].model->Bounds().max().y(), 3.3 - shift_m, 0.02);
-  // The post hangs half way between pantographs.
+  // The post hangs halfway between the pantographs.
   EXPECT_NEAR(cantilevers[1].model->Bounds().min().y(), -2.0 + 0.12, 0.02);
 
   const auto portals = PlacedAt(line, 10, "portal");
@@ -252,7 +253,7 @@ TEST(AddCatenary, ReachesFromMastsAndPostsToTheShiftedWires) {
   EXPECT_NEAR(beam.min().y(), -3.42 - 0.12 - shift_m, 1e-3);
   EXPECT_NEAR(beam.max().y(), 8.0 + 3.42 + 0.12 - shift_m, 1e-3);
   EXPECT_NEAR(beam.max().z(), 8.24, 1e-6);
-  // Below the strut's hinge, 0.5 m above the contact wire.
+  // The posts end below the strut's hinge, 0.5 m above the contact wire.
   EXPECT_NEAR(beam.min().z(), 5.8, 1e-6);
   for (const Placement& cantilever : cantilevers) {
     EXPECT_EQ(cantilever.instance, portals[0].instance);

@@ -44,7 +44,7 @@ TEST(LayOutSupport, PutsMastsOnTheRightOfASingleTrackAndOutsideOfTwo) {
 }
 
 TEST(LayOutSupport, PutsAMastHalfWayToTheNextTrackWhereThatLeavesTheTrainsRoom) {
-  // 2.5 m less half a mast; to the left where only that side is wide enough.
+  // 2.5 m less half a mast; on the left where only that side is wide enough.
   ExpectNear(MastsOf(StraightTracks({0.0, 5.0, 10.0})), {-3.42, 2.5, 13.42});
   ExpectNear(MastsOf(StraightTracks({0.0, 4.5, 9.5})), {-3.42, 7.0, 12.92});
 }
@@ -55,7 +55,7 @@ TEST(LayOutSupport, HangsTracksFromAPortalBetweenWhichThereIsNoRoomForMasts) {
   EXPECT_NEAR(layout.portals[0].right_d_m, -3.42, 1e-9);
   EXPECT_NEAR(layout.portals[0].left_d_m, 11.42, 1e-9);
   ExpectNear(layout.portals[0].posts_d_m, {2.0});
-  // The outer tracks' masts carry it: one structure.
+  // The masts of the outer tracks support the portal: a single structure.
   EXPECT_EQ(layout.masts.size(), 2U);
   ASSERT_EQ(layout.cantilevers.size(), 3U);
   EXPECT_TRUE(layout.cantilevers[0].hangs);
@@ -92,7 +92,7 @@ TEST(LayOutSupport, HeedsATrackOnlyWhereItIsAndAWagonsHalfBeyondItsEnd) {
   for (const double s_m : {391.0, 609.0}) {
     const SupportLayout layout = LayoutAt(spec, s_m);
     EXPECT_EQ(layout.portals.size(), 1U);
-    EXPECT_EQ(layout.cantilevers.size(), 2U);  // The third has no wire there.
+    EXPECT_EQ(layout.cantilevers.size(), 2U);  // The third track has no wire there.
   }
 }
 

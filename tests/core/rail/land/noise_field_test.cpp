@@ -12,7 +12,8 @@ struct Moments {
   double sigma{};
 };
 
-/// Over `num_cells` x `num_cells` lattice cells, at `per_cell` x `per_cell` points in each.
+/// Moments over `num_cells` x `num_cells` lattice cells, with `per_cell` x `per_cell` points in
+/// each.
 Moments Measure(const NoiseField& field, int num_cells, int per_cell) {
   double sum = 0.0;
   double sum_of_squares = 0.0;
@@ -28,7 +29,8 @@ Moments Measure(const NoiseField& field, int num_cells, int per_cell) {
   return {.mean = sum / count, .sigma = std::sqrt(sum_of_squares / count)};
 }
 
-// A lattice of n points tells mean and sigma to about 1/sqrt(n) and 1/sqrt(2n); five of those.
+// A lattice of n points determines mean and sigma to about 1/sqrt(n) and 1/sqrt(2n); tolerances are
+// five times that.
 TEST(NoiseField, HasMeanZeroAndSigmaOne) {
   constexpr int kCells = 200;
   const Moments moments = Measure(NoiseField(3, RandomUse::kGroundRoughness, 0), kCells, 5);
@@ -53,7 +55,7 @@ TEST(NoiseField, HasTheStatedSigmaAtLatticePoints) {
 TEST(NoiseField, IsContinuousAcrossLatticeLines) {
   const NoiseField field(3, RandomUse::kGroundRoughness, 0);
   constexpr double kStep = 1e-7;
-  // The quintic is at most 15/8 steep and neighbours differ by at most 8.86.
+  // The quintic has a slope of at most 15/8, and neighbours differ by at most 8.86.
   constexpr double kSteepest = 15.0 / 8.0 * 8.86;
   for (int line = -3; line <= 3; ++line) {
     EXPECT_NEAR(field.At(line - kStep, 0.4), field.At(line + kStep, 0.4), 2.0 * kStep * kSteepest);

@@ -47,7 +47,7 @@ bool CoversFromAbove(const Mesh& mesh,
   return least > 0.0 || most < 0.0;
 }
 
-/// Of grass, whose roots (blades below z = 0) do not count.
+/// Area of grass without its roots (blades below z = 0).
 double AreaAboveGround_m2(const Mesh& mesh) {
   double sum_m2 = 0.0;
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -108,7 +108,7 @@ TEST_F(PlantModelsTest, LetAsMuchLightThroughTheirCrownsAsTheLeafAreaSays) {
     int num_through = 0;
     constexpr int kNumBeams = 1000;
     for (int i = 0; i < kNumBeams; ++i) {
-      // Evenly over the inner three quarters of the crown's radius (Vogel's spiral).
+      // Evenly distributed over the inner three quarters of the crown's radius (Vogel's spiral).
       const double radius_m = 0.75 * crown_radii_m[tree] * std::sqrt((i + 0.5) / kNumBeams);
       const double x_m = radius_m * std::cos(2.4 * i);
       const double y_m = radius_m * std::sin(2.4 * i);
@@ -119,8 +119,8 @@ TEST_F(PlantModelsTest, LetAsMuchLightThroughTheirCrownsAsTheLeafAreaSays) {
       }
     }
     const double gap_fraction = static_cast<double>(num_through) / kNumBeams;
-    // Leaves anywhere in the crown let exp(-0.5 * 3.2) = 0.20 through (Beer, Lambert); crowding
-    // about twigs lets more, the crown's rim is thinner than its middle.
+    // Leaves distributed uniformly in the crown transmit exp(-0.5 * 3.2) = 0.20 (Beer, Lambert).
+    // Clustering about twigs increases that, and the rim of the crown is thinner than its middle.
     EXPECT_GT(gap_fraction, 0.12) << Trees()[tree].model->name;
     EXPECT_LT(gap_fraction, 0.40) << Trees()[tree].model->name;
   }
@@ -142,7 +142,7 @@ TEST_F(PlantModelsTest, HaveGrassOf15To40CentimetresOnItsPatch) {
     const Eigen::AlignedBox3d box = patch->Bounds();
     EXPECT_LE(box.max().z(), 0.40);
     EXPECT_LT(box.min().z(), 0.0);
-    // Feet stand up to a tuft's radius beyond the square, and tips lean over by 0.6 * 0.4 m.
+    // Feet stand up to a tuft's radius beyond the square, and tips lean out by up to 0.6 * 0.4 m.
     EXPECT_LT(box.max().cwiseAbs().head<2>().maxCoeff(), 1.0 + 0.07 + 0.24 + 0.01);
     const Mesh& mesh = patch->parts.front().mesh;
     for (std::size_t tip = 4; tip < mesh.vertices.size(); tip += 5) {

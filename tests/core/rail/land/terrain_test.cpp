@@ -1,4 +1,4 @@
-#include "core/rail/land/terrain.h"
+#include "core/rail/land/land.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,8 @@
 namespace railcast {
 namespace {
 
-/// Root mean square height above the formation of ground points at lateral positions from `begin`.
+/// RMS height above the formation of ground points at lateral positions from `begin_d_m` to
+/// `end_d_m`.
 double GroundSigma(const TestLine& line, double begin_d_m, double end_d_m) {
   double sum_of_squares = 0.0;
   int count = 0;
@@ -29,15 +30,15 @@ double GroundSigma(const TestLine& line, double begin_d_m, double end_d_m) {
   return std::sqrt(sum_of_squares / count);
 }
 
-// 500 m by 20 m of cells of 2 m: 2500 lattice points, relative error 1.3 / sqrt(5000) = 1.8 %.
+// 500 m by 20 m with cells of 2 m: 2500 lattice points, relative error 1.3 / sqrt(5000) = 1.8 %.
 TEST(AddTerrain, HasTheSpecsRoughness) {
   WorldSpec spec = StraightLine(2000.0);
   spec.terrain.undulation_sigma_m = 0.0;
   EXPECT_NEAR(GroundSigma(TestLine(spec), 10.0, 30.0), 0.04, 5.0 * 0.018 * 0.04);
 }
 
-// 500 m by 50 m of cells of 30 m: 28 lattice points hold four fifths of the variance, relative
-// error of sigma up to 1.3 / sqrt(56) = 17 %.
+// 500 m by 50 m with cells of 30 m: 28 lattice points carry four fifths of the variance, so the
+// relative error of sigma is up to 1.3 / sqrt(56) = 17 %.
 TEST(AddTerrain, HasTheSpecsUndulationAwayFromTheTrackAndNoneBesideIt) {
   WorldSpec spec = StraightLine(2000.0);
   spec.terrain.roughness_sigma_m = 0.0;

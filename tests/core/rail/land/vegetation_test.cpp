@@ -1,11 +1,10 @@
-#include "core/rail/land/vegetation.h"
+#include "core/rail/land/land.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/rail/land/terrain.h"
 #include "tests/core/rail/test_line.h"
 #include "tests/core/rail/test_tables.h"
 
@@ -32,7 +31,7 @@ std::vector<Placement> Plant(const TestLine& line, int chunk) {
   return built.placements;
 }
 
-/// A line without grass, whose terrain is cheap.
+/// The line with the given density of trees and without grass.
 WorldSpec Forest(WorldSpec spec, double trees_per_hectare) {
   spec.vegetation.grass = false;
   spec.vegetation.trees_per_hectare = trees_per_hectare;
@@ -49,7 +48,7 @@ void AddTrack(const std::string& name, double offset_m, WorldSpec& spec) {
 TEST(AddVegetation, PlantsTreesAtTheirDensityAsAPoissonProcess) {
   constexpr int kNumChunks = 200;
   const TestLine line(Forest(StraightLine(kNumChunks * TestLine::kChunkLength_m), 40.0));
-  // Two strips from 9 to 80 m: 28.4 trees a chunk.
+  // Two strips from 9 to 80 m: 28.4 trees per chunk.
   constexpr double kMean = 40e-4 * TestLine::kChunkLength_m * 2.0 * 71.0;
   double sum = 0.0;
   double sum_of_squares = 0.0;
@@ -59,7 +58,8 @@ TEST(AddVegetation, PlantsTreesAtTheirDensityAsAPoissonProcess) {
     sum_of_squares += (count - kMean) * (count - kMean);
   }
   EXPECT_NEAR(sum, kMean * kNumChunks, 5.0 * std::sqrt(kMean * kNumChunks));
-  // The variance of a Poisson count is its mean; the estimate's own is about 2 mean^2 / n.
+  // The variance of a Poisson count equals its mean; the variance of that estimate is about 2
+  // mean^2 / n.
   EXPECT_NEAR(sum_of_squares / kNumChunks, kMean, 5.0 * kMean * std::sqrt(2.0 / kNumChunks));
 }
 
@@ -78,7 +78,7 @@ TEST(AddVegetation, KeepsTheDensityInsideAndOutsideOfACurve) {
       (arm_m.head<2>().norm() < kRadius_m ? inside : outside) += 1.0;
     }
   }
-  // Rings between 9 and 80 m from the axis, over 1000 m of it.
+  // Rings between 9 and 80 m from the axis, along 1000 m of it.
   const double angle_rad = kNumChunks * TestLine::kChunkLength_m / kRadius_m;
   const double expected_inside = 0.04 * angle_rad * (291.0 * 291.0 - 220.0 * 220.0) / 2.0;
   const double expected_outside = 0.04 * angle_rad * (380.0 * 380.0 - 309.0 * 309.0) / 2.0;
@@ -134,7 +134,7 @@ TEST(AddVegetation, FillsTheStripsBesideTheTracksWithGrass) {
     EXPECT_LE(beyond_m, 9.0 - 1.0 + 1e-9);
     for (const Eigen::Vector3f& vertex : patch.model->parts.front().mesh.vertices) {
       const double y_m = (patch.chunk_from_model * vertex.cast<double>()).y();
-      // A turned corner, and tips leaning out by 0.24 m, stay clear of the ballast's foot at 2.6 m.
+      // Rotated corners, and tips leaning out by 0.24 m, stay clear of the ballast's foot at 2.6 m.
       EXPECT_GT(std::max(y_m - 4.0, -y_m), 2.9);
     }
   }
@@ -147,7 +147,7 @@ TEST(AddVegetation, RootsGrassInTheGround) {
   const ChunkContext context = line.Context(2);
   for (const Placement& patch : Plant(line, 2)) {
     for (const Eigen::Vector3f& vertex : patch.model->parts.front().mesh.vertices) {
-      if (vertex.z() > -0.14F) continue;  // Only the roots, 0.15 m deep.
+      if (vertex.z() > -0.14F) continue;  // Check the roots only, which are 0.15 m deep.
       const Vector3 root_m = patch.chunk_from_model * vertex.cast<double>();
       const double s_m = 2.5 * TestLine::kChunkLength_m + root_m.x();
       ASSERT_LT(root_m.z(), GroundPoint(context, s_m, root_m.y()).z()) << root_m.transpose();

@@ -2,14 +2,14 @@
 
 #include <filesystem>
 
-#include "core/rail/line/alignment_spec.h"
+#include "railcast/alignment.h"
 
 namespace railcast {
 
-/// Our own file of the real line St.Gallen - Wil, read without any check.
+/// Reads railcast's own file of the real line St.Gallen - Wil without any checks.
 [[nodiscard]] AlignmentSpec ReadStGallenWil();
 
-/// A file of TTOBench, with our sign of radii.
+/// Reads a TTOBench file and converts radii to railcast's sign convention.
 [[nodiscard]] AlignmentSpec ReadTtobench(const std::filesystem::path& file);
 
 }  // namespace railcast

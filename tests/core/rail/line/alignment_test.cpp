@@ -1,4 +1,4 @@
-#include "core/rail/line/alignment.h"
+#include "railcast/alignment.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,18 +14,18 @@ namespace {
 
 AlignmentSpec Straight(double length_m) {
   AlignmentSpec spec;
-  spec.course = AlignmentElementsSpec{{{"straight", length_m, {}}}};
+  spec.course = AlignmentElementsSpec{{{ElementType::kStraight, length_m, {}}}};
   return spec;
 }
 
 /// Straight, clothoid, arc to the left, clothoid, straight: 100 m each.
 AlignmentSpec LeftCurve(double radius_m) {
   AlignmentSpec spec;
-  spec.course = AlignmentElementsSpec{{{"straight", 100.0, {}},
-                                       {"clothoid", 100.0, {}},
-                                       {"arc", 100.0, radius_m},
-                                       {"clothoid", 100.0, {}},
-                                       {"straight", 100.0, {}}}};
+  spec.course = AlignmentElementsSpec{{{ElementType::kStraight, 100.0, {}},
+                                       {ElementType::kClothoid, 100.0, {}},
+                                       {ElementType::kArc, 100.0, radius_m},
+                                       {ElementType::kClothoid, 100.0, {}},
+                                       {ElementType::kStraight, 100.0, {}}}};
   spec.speed_limits_kmph = {{0.0, 80.0}};
   return spec;
 }
@@ -51,8 +51,9 @@ TEST(Alignment, LeadsAClothoidFromTheCurvatureBeforeToTheOneAfter) {
 
 TEST(Alignment, LetsAClothoidAtAnEndBeginOrEndStraight) {
   AlignmentSpec spec;
-  spec.course = AlignmentElementsSpec{
-      {{"clothoid", 50.0, {}}, {"arc", 100.0, -300.0}, {"clothoid", 50.0, {}}}};
+  spec.course = AlignmentElementsSpec{{{ElementType::kClothoid, 50.0, {}},
+                                       {ElementType::kArc, 100.0, -300.0},
+                                       {ElementType::kClothoid, 50.0, {}}}};
   const Alignment alignment(spec);
   EXPECT_EQ(alignment.At(0.0).curvature_per_m, 0.0);
   EXPECT_DOUBLE_EQ(alignment.At(25.0).curvature_per_m, -0.5 / 300.0);
@@ -61,7 +62,8 @@ TEST(Alignment, LetsAClothoidAtAnEndBeginOrEndStraight) {
 
 TEST(Alignment, SmoothsAJumpOfCurvatureAndListsIt) {
   AlignmentSpec spec;
-  spec.course = AlignmentElementsSpec{{{"straight", 100.0, {}}, {"arc", 100.0, 500.0}}};
+  spec.course = AlignmentElementsSpec{
+      {{ElementType::kStraight, 100.0, {}}, {ElementType::kArc, 100.0, 500.0}}};
   const Alignment alignment(spec);
   EXPECT_DOUBLE_EQ(alignment.At(90.0).curvature_per_m, 0.0);
   EXPECT_DOUBLE_EQ(alignment.At(100.0).curvature_per_m, 0.001);
@@ -70,7 +72,7 @@ TEST(Alignment, SmoothsAJumpOfCurvatureAndListsIt) {
   EXPECT_EQ(alignment.smoothed_jumps()[0].quantity, "curvature");
   EXPECT_EQ(alignment.smoothed_jumps()[0].s_m, 100.0);
   EXPECT_EQ(alignment.smoothed_jumps()[0].length_m, 20.0);
-  // The line as a whole turns by as much as without smoothing.
+  // The total change of heading is the same as without smoothing.
   EXPECT_NEAR(alignment.At(200.0).heading_rad, 100.0 / 500.0, 1e-12);
 }
 
@@ -80,7 +82,8 @@ TEST(Alignment, RisesByTheIntegralOfItsGradient) {
   const Alignment alignment(spec);
   EXPECT_DOUBLE_EQ(alignment.At(300.0).position_m.z(), 3.0);
   EXPECT_DOUBLE_EQ(alignment.At(300.0).gradient, 0.010);
-  // A parabola from 380 to 420 m: halfway the gradient is the mean, beyond it nothing is lost.
+  // A parabola from 380 to 420 m: halfway the gradient is the mean, and the height beyond is
+  // unaffected.
   EXPECT_DOUBLE_EQ(alignment.At(400.0).gradient, 0.0025);
   EXPECT_NEAR(alignment.At(400.0).position_m.z(), 3.8 + 20.0 * 0.5 * (0.010 + 0.0025), 1e-12);
   EXPECT_NEAR(alignment.At(1000.0).position_m.z(), 4.0 - 3.0, 1e-12);
@@ -92,7 +95,8 @@ TEST(Alignment, RisesByTheIntegralOfItsGradient) {
 
 TEST(Alignment, GoesOnStraightAndLevelBeyondItsEnds) {
   AlignmentSpec spec;
-  spec.course = AlignmentElementsSpec{{{"arc", 157.07963267948966, 100.0}}};  // A quarter circle.
+  spec.course =
+      AlignmentElementsSpec{{{ElementType::kArc, 157.07963267948966, 100.0}}};  // A quarter circle.
   spec.gradients_permil = {{0.0, 20.0}};
   const Alignment alignment(spec);
   const AxisPoint before = alignment.At(-30.0);
@@ -106,14 +110,14 @@ TEST(Alignment, GoesOnStraightAndLevelBeyondItsEnds) {
 
 TEST(Alignment, TakesCantByRuleFromCurvatureAndSpeed) {
   const Alignment alignment(LeftCurve(400.0));
-  // 11.8 x 80^2 / 400 - 60 = 128.8 mm across 1500 mm, constant within 30 m of the middle.
+  // 11.8 x 80^2 / 400 - 60 = 128.8 mm over 1500 mm, constant within 30 m of the middle.
   const double cant_rad = std::asin(128.8 / 1500.0);
   EXPECT_NEAR(alignment.At(250.0).cant_rad, -cant_rad, 1e-12);
   EXPECT_EQ(alignment.At(50.0).cant_rad, 0.0);
 }
 
 TEST(Alignment, LimitsCantToItsMaximum) {
-  const Alignment alignment(LeftCurve(200.0));  // The rule alone asks for 317.6 mm.
+  const Alignment alignment(LeftCurve(200.0));  // The rule alone would give 317.6 mm.
   EXPECT_NEAR(alignment.At(250.0).cant_rad, -std::asin(150.0 / 1500.0), 1e-12);
 }
 
@@ -141,7 +145,8 @@ TEST(Alignment, RampsCantWithoutAStep) {
   spec.speed_limits_kmph = {{0.0, 80.0}, {250.0, 50.0}};  // 128.8 mm, then 13.75 mm.
   const Alignment alignment(spec);
   EXPECT_NEAR(alignment.At(250.0).cant_rad, -std::asin(0.5 * (128.8 + 13.75) / 1500.0), 1e-12);
-  const double steepest_rad_per_m = 1.01 * 150.0 / 60.0 / 1500.0;  // Full cant in a ramp length.
+  // Full cant within one ramp length.
+  const double steepest_rad_per_m = 1.01 * 150.0 / 60.0 / 1500.0;
   for (double s_m = 0.01; s_m < 500.0; s_m += 0.01) {
     ASSERT_LE(std::abs(alignment.At(s_m).cant_rad - alignment.At(s_m - 0.01).cant_rad),
               steepest_rad_per_m * 0.01);
@@ -192,7 +197,7 @@ TEST(Alignment, CantsASplineByItsCurvature) {
   spec.course = course;
   spec.speed_limits_kmph = {{0.0, 80.0}};
   const Alignment alignment(spec);
-  // The spline's curvature differs from the circle's by 1e-3 of itself: 0.2 mm.
+  // The spline's curvature has a relative error of 1e-3: 0.2 mm of cant.
   EXPECT_NEAR(1500.0 * std::sin(alignment.At(400.0).cant_rad), -128.8, 0.2);
 }
 
@@ -217,18 +222,16 @@ TEST(Alignment, ReportsEveryFaultAtOnce) {
 
 TEST(Alignment, RefusesElementsThatMakeNoLine) {
   AlignmentSpec spec;
-  spec.course = AlignmentElementsSpec{{{"straight", 0.0, 500.0},
-                                       {"arc", 10.0, {}},
-                                       {"clothoid", 10.0, {}},
-                                       {"clothoid", 10.0, {}},
-                                       {"curve", 10.0, {}}}};
+  spec.course = AlignmentElementsSpec{{{ElementType::kStraight, 0.0, 500.0},
+                                       {ElementType::kArc, 10.0, {}},
+                                       {ElementType::kClothoid, 10.0, {}},
+                                       {ElementType::kClothoid, 10.0, {}}}};
   EXPECT_EQ(FaultOf(spec),
             "/course/elements/0/length_m: must be > 0 (got 0)\n"
             "/course/elements/0/radius_m: is for arcs only (got 500)\n"
             "/course/elements/1/radius_m: is required for an arc (got none)\n"
             "/course/elements/3/type: must not be clothoid after a clothoid (put an arc or a "
-            "straight between them)\n"
-            "/course/elements/4/type: must be straight, clothoid or arc (got \"curve\")");
+            "straight between them)");
 }
 
 TEST(Alignment, RefusesACourseWithoutAnything) {

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kRounding = 1e-12;
 
-// 1 up to 10, a jump to 3, down to 1 at 30, and on at 1 to 40.
+// 1 up to chainage 10, a jump to 3, falling to 1 at 30, and constant to 40.
 PiecewiseLinear Example() {
   return {{{0.0, 1.0, 1.0}, {10.0, 3.0, 1.0}, {30.0, 1.0, 1.0}}, 40.0};
 }

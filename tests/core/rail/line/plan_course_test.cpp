@@ -8,7 +8,7 @@
 namespace railcast {
 namespace {
 
-// Of the coordinates, which are sums of some hundred nodes of at most kilometres.
+// Tolerance of coordinates, which are sums over some hundred nodes and reach kilometres.
 constexpr double kPositionTolerance_m = 1e-9;
 
 TEST(PlanCourse, IsAStraightLineWithoutCurvature) {
@@ -36,9 +36,11 @@ TEST_P(PlanCircle, IsACircleOfItsRadius) {
 
 INSTANTIATE_TEST_SUITE_P(LeftAndRight, PlanCircle, testing::Values(10.0, -180.0, 300.0, -4000.0));
 
-// The series of the Fresnel integrals (Abramowitz and Stegun 7.3.11, 7.3.13) for a heading of
-// s^2 / (2 A^2): x = sum (-1)^n t^2n s / ((2n)! (4n + 1)), y = sum (-1)^n t^(2n+1) s / ((2n + 1)!
-// (4n + 3)) with t the heading.
+// Clothoid from the series of the Fresnel integrals (Abramowitz and Stegun 7.3.11, 7.3.13) for the
+// heading t = s^2 / (2 A^2):
+//
+//     x = sum (-1)^n t^2n s / ((2n)! (4n + 1))
+//     y = sum (-1)^n t^(2n+1) s / ((2n + 1)! (4n + 3))
 PlanPoint Clothoid(double s_m, double parameter_m2) {
   const double heading_rad = s_m * s_m / (2.0 * parameter_m2);
   PlanPoint point{0.0, 0.0, heading_rad, s_m / parameter_m2};

@@ -20,7 +20,7 @@ PlanSpline Spline(const std::vector<Eigen::Vector2d>& points_m) {
   return spline;
 }
 
-std::vector<std::string> Faults(const std::vector<Eigen::Vector2d>& points_m) {
+std::vector<std::string> SplineFaults(const std::vector<Eigen::Vector2d>& points_m) {
   ErrorList errors;
   const PlanSpline spline(points_m, errors);
   return errors.lines();
@@ -44,7 +44,7 @@ TEST(PlanSpline, GoesThroughEveryPoint) {
       const PlanPoint point = spline.At(s_m);
       nearest_m = std::min(nearest_m, std::hypot(point.x_m - point_m.x(), point.y_m - point_m.y()));
     }
-    EXPECT_LE(nearest_m, 0.01);  // The step of the search.
+    EXPECT_LE(nearest_m, 0.01);  // Step of the search.
   }
 }
 
@@ -56,7 +56,7 @@ TEST(PlanSpline, IsParametrisedByItsArcLength) {
   for (double s_m = step_m; s_m <= spline.length_m(); s_m += step_m) {
     const PlanPoint point = spline.At(s_m);
     sum_m += std::hypot(point.x_m - before.x_m, point.y_m - before.y_m);
-    // A chord is shorter than its arc by (curvature step)^2 / 24, here less than 1e-8 of it.
+    // A chord is shorter than its arc by (curvature step)^2 / 24, a relative 1e-8 here.
     ASSERT_NEAR(sum_m, s_m, 1e-8 * s_m + 1e-9);
     before = point;
   }
@@ -68,7 +68,7 @@ TEST(PlanSpline, TurnsByTheIntegralOfItsCurvature) {
   double heading_rad = spline.At(0.0).heading_rad;
   for (double s_m = 0.0; s_m + step_m <= spline.length_m(); s_m += step_m) {
     heading_rad += spline.At(s_m + 0.5 * step_m).curvature_per_m * step_m;
-    // Midpoint rule: some 1e-5 /m^3 second derivative x step^2 / 24 over 1.5 km.
+    // Midpoint rule: second derivative of about 1e-5 /m^3 x step^2 / 24 over 1.5 km.
     ASSERT_NEAR(spline.At(s_m + step_m).heading_rad, heading_rad, 1e-6);
   }
 }
@@ -81,7 +81,7 @@ TEST(PlanSpline, HasContinuousCurvatureThatEndsStraight) {
   for (double s_m = step_m; s_m <= spline.length_m(); s_m += step_m) {
     const double rise_per_m =
         spline.At(s_m).curvature_per_m - spline.At(s_m - step_m).curvature_per_m;
-    // The steepest change of this course is below 4e-4 /m^2.
+    // The curvature of this course changes by less than 4e-4 /m^2.
     ASSERT_LE(std::abs(rise_per_m), 4e-4 * step_m);
   }
 }
@@ -94,34 +94,34 @@ TEST(PlanSpline, ComesCloseToACircleThroughItsPoints) {
   }
   const PlanSpline spline = Spline(points_m);
   const PlanPoint middle = spline.At(0.5 * spline.length_m());
-  // Curvature error of a cubic spline is of order (step / radius)^2 / 12 = 8e-4 of itself.
+  // The curvature of a cubic spline has a relative error of order (step / radius)^2 / 12 = 8e-4.
   EXPECT_NEAR(middle.curvature_per_m, 1.0 / radius_m, 1e-3 / radius_m);
   EXPECT_NEAR(std::hypot(middle.x_m, middle.y_m), radius_m, 1e-3);
-  // More than half a turn: the heading does not wrap.
+  // More than half a turn: the heading is continuous.
   EXPECT_GT(spline.At(spline.length_m()).heading_rad, 1.5 * std::numbers::pi);
 }
 
 TEST(PlanSpline, RefusesPointsThatReverse) {
-  EXPECT_THAT(Faults({{0, 0}, {100, 0}, {50, 0}}),
+  EXPECT_THAT(SplineFaults({{0, 0}, {100, 0}, {50, 0}}),
               testing::ElementsAre(
                   "/course/points_m/0: the spline must not have a cusp between this point and the "
                   "next, its radius be at least 10 m (got 0)"));
 }
 
 TEST(PlanSpline, RefusesATurnTighterThanAnyRailway) {
-  EXPECT_THAT(Faults({{0, 0}, {20, 0}, {22, 2}, {20, 4}, {0, 4}}),
+  EXPECT_THAT(SplineFaults({{0, 0}, {20, 0}, {22, 2}, {20, 4}, {0, 4}}),
               testing::Contains(testing::StartsWith(
                   "/course/points_m/1: the spline must not have a cusp between this point")));
 }
 
 TEST(PlanSpline, RefusesCoincidentPoints) {
-  EXPECT_THAT(Faults({{0, 0}, {100, 0}, {100, 0}}),
+  EXPECT_THAT(SplineFaults({{0, 0}, {100, 0}, {100, 0}}),
               testing::ElementsAre(
                   "/course/points_m/2: must be at least 0.001 m from the point before (got 0)"));
 }
 
 TEST(PlanSpline, RefusesASinglePoint) {
-  EXPECT_THAT(Faults({{3, 4}}),
+  EXPECT_THAT(SplineFaults({{3, 4}}),
               testing::ElementsAre("/course/points_m: must have at least 2 points (got 1)"));
 }
 

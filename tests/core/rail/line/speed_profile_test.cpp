@@ -15,7 +15,7 @@ SpeedPoint AtChainage(double s_m, double speed_mps) {
   return {std::nullopt, s_m, speed_mps};
 }
 
-std::string FaultOf(const MotionSpec& motion, double start_s_m = 0.0) {
+std::string ProfileFaultOf(const MotionSpec& motion, double start_s_m = 0.0) {
   try {
     const SpeedProfile profile(motion, start_s_m);
   } catch (const InputError& error) {
@@ -58,7 +58,7 @@ TEST(SpeedProfile, KeepsTheFirstSpeedUntilTheFirstPoint) {
 
 TEST(SpeedProfile, BrakesToAStopAtTheGivenChainage) {
   const SpeedProfile profile({{AtChainage(1000, 20), AtChainage(1200, 0)}}, 1000.0);
-  // v^2 = 2 a s: 1 m/s^2 for 20 s.
+  // v^2 = 2 a s: a deceleration of 1 m/s^2 for 20 s.
   EXPECT_DOUBLE_EQ(profile.At(5.0).speed_mps, 15.0);
   EXPECT_DOUBLE_EQ(profile.At(5.0).s_m, 1000.0 + 100.0 - 12.5);
   EXPECT_DOUBLE_EQ(profile.At(20.0).s_m, 1200.0);
@@ -86,37 +86,37 @@ TEST(SpeedProfile, DoesNotMoveWhenAllSpeedsAreZero) {
 }
 
 TEST(SpeedProfile, RefusesTimesThatDoNotIncrease) {
-  EXPECT_EQ(FaultOf({{AtTime(0, 1), AtTime(5, 2), AtTime(5, 3)}}),
+  EXPECT_EQ(ProfileFaultOf({{AtTime(0, 1), AtTime(5, 2), AtTime(5, 3)}}),
             "/profile/2/time_s: must be greater than 5 of the point before it (got 5)");
-  EXPECT_EQ(FaultOf({{AtTime(-1, 1)}}), "/profile/0/time_s: must be >= 0 (got -1)");
+  EXPECT_EQ(ProfileFaultOf({{AtTime(-1, 1)}}), "/profile/0/time_s: must be >= 0 (got -1)");
 }
 
 TEST(SpeedProfile, RefusesChainagesAgainstTheDirectionOfTravel) {
-  EXPECT_EQ(FaultOf({{AtChainage(10, 1), AtChainage(9.5, 2)}}),
+  EXPECT_EQ(ProfileFaultOf({{AtChainage(10, 1), AtChainage(9.5, 2)}}),
             "/profile/1/s_m: must be greater than 10 of the point before it (got 9.5)");
-  EXPECT_EQ(FaultOf({{AtChainage(10, 1), AtChainage(11, 2)}, true}, 10.0),
+  EXPECT_EQ(ProfileFaultOf({{AtChainage(10, 1), AtChainage(11, 2)}, true}, 10.0),
             "/profile/1/s_m: must be less than 10 of the point before it (got 11)");
-  EXPECT_EQ(FaultOf({{AtChainage(10, 1)}}, 20.0),
+  EXPECT_EQ(ProfileFaultOf({{AtChainage(10, 1)}}, 20.0),
             "/profile/0/s_m: must not be behind the start at 20 m (got 10)");
 }
 
 TEST(SpeedProfile, RefusesAChainageThatIsNeverReached) {
-  EXPECT_EQ(FaultOf({{AtChainage(0, 5), AtChainage(50, 0), AtChainage(60, 0)}}),
+  EXPECT_EQ(ProfileFaultOf({{AtChainage(0, 5), AtChainage(50, 0), AtChainage(60, 0)}}),
             "/profile/2/s_m: is never reached, the speed being 0 up to it and at it (got 60)");
-  EXPECT_EQ(FaultOf({{AtChainage(10, 0), AtChainage(20, 4)}}),
+  EXPECT_EQ(ProfileFaultOf({{AtChainage(10, 0), AtChainage(20, 4)}}),
             "/profile/0/s_m: is never reached, the speed being 0 up to it and at it (got 10)");
 }
 
 TEST(SpeedProfile, RefusesAMixOfTimesAndChainages) {
-  EXPECT_EQ(FaultOf({{AtTime(0, 1), AtChainage(50, 2), {}}}),
+  EXPECT_EQ(ProfileFaultOf({{AtTime(0, 1), AtChainage(50, 2), {}}}),
             "/profile/1: must be at a time_s like the first point (got s_m)\n"
             "/profile/2: must have exactly one of time_s and s_m (got none)");
-  EXPECT_EQ(FaultOf({{{1.0, 2.0, 3.0}}}),
+  EXPECT_EQ(ProfileFaultOf({{{1.0, 2.0, 3.0}}}),
             "/profile/0: must have exactly one of time_s and s_m (got both)");
 }
 
 TEST(SpeedProfile, RefusesANegativeSpeed) {
-  EXPECT_EQ(FaultOf({{AtTime(0, -2)}}), "/profile/0/speed_mps: must be >= 0 (got -2)");
+  EXPECT_EQ(ProfileFaultOf({{AtTime(0, -2)}}), "/profile/0/speed_mps: must be >= 0 (got -2)");
 }
 
 TEST(SpeedProfile, ChangesToAnotherSpeedAtAConstantRateAndKeepsIt) {
@@ -135,7 +135,7 @@ TEST(SpeedProfile, BrakesToAStandstillAfterItsBrakingDistanceInEitherDirection) 
   for (const bool reverse : {false, true}) {
     const SpeedProfile profile({{AtTime(0, 12)}, reverse}, 500.0);
     const SpeedProfile braked = profile.WithSpeedFrom(1.0, 0.0, 0.8);
-    // v^2 / (2 a) = 90 m within 15 s.
+    // v^2 / (2 a) = 90 m in 15 s.
     const double sign = reverse ? -1.0 : 1.0;
     EXPECT_DOUBLE_EQ(braked.At(16.0).s_m, 500.0 + sign * (12.0 + 90.0));
     EXPECT_DOUBLE_EQ(braked.At(1000.0).s_m, 500.0 + sign * 102.0);
@@ -147,7 +147,7 @@ TEST(SpeedProfile, BrakesToAStandstillAfterItsBrakingDistanceInEitherDirection) 
 TEST(SpeedProfile, MayBeChangedWhileItChanges) {
   const SpeedProfile profile({{AtTime(0, 0), AtTime(10, 10)}}, 0.0);
   const SpeedProfile braked = profile.WithSpeedFrom(4.0, 0.0, 2.0);
-  // 8 m and 4 m/s are reached at 4 s; 4 m more are needed to stop.
+  // At 4 s it has travelled 8 m and moves at 4 m/s; it needs 4 m more to stop.
   EXPECT_DOUBLE_EQ(braked.At(6.0).s_m, 12.0);
   EXPECT_DOUBLE_EQ(braked.At(20.0).s_m, 12.0);
   const SpeedProfile again = braked.WithSpeedFrom(5.0, 3.0, 1.0);

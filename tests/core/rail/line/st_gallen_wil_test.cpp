@@ -5,7 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "core/rail/line/alignment.h"
+#include "railcast/alignment.h"
 #include "tests/core/rail/line/alignment_files.h"
 
 namespace railcast {
@@ -20,7 +20,7 @@ double CurvatureOf(const std::optional<double>& radius_m) {
   return radius_m ? 1.0 / *radius_m : 0.0;
 }
 
-// The steepest change of curvature that the figures and the smoothing of their jumps imply.
+// The highest rate of curvature change that follows from the data and the smoothing of jumps.
 double SteepestCurvatureChange() {
   const auto course = std::get<AlignmentSectionsSpec>(ReadStGallenWil().course);
   double steepest_per_m2 = 0.0;
@@ -76,7 +76,7 @@ TEST(StGallenWil, HasChainageExactToAMillimetre) {
   for (int i = 1; i <= num_steps; ++i) {
     const Vector3 position_m = Line().At(i * step_m).position_m;
     sum_m += (position_m - before_m).head<2>().norm();
-    // Chords are shorter than arcs by (step / radius)^2 / 24 < 4e-9 of them: 0.1 mm in 30 km.
+    // Chords are shorter than arcs by a relative (step / radius)^2 / 24 < 4e-9: 0.1 mm in 30 km.
     ASSERT_NEAR(sum_m, i * step_m, 1e-3);
     before_m = position_m;
   }
@@ -95,7 +95,8 @@ TEST(StGallenWil, HasContinuousCurvature) {
 
 TEST(StGallenWil, TurnsByTheIntegralOfItsCurvature) {
   const double step_m = 0.1;
-  // Trapezia are exact but where the slope changes, in 252 places, by at most slope step^2 / 4.
+  // The trapezoidal rule is exact except at the 252 changes of slope, where it errs by at most
+  // slope step^2 / 4.
   const double tolerance_rad = 252.0 * SteepestCurvatureChange() * step_m * step_m / 4.0;
   double heading_rad = Line().At(0.0).heading_rad;
   for (int i = 0; (i + 1) * step_m <= Line().length_m(); ++i) {
@@ -111,7 +112,7 @@ TEST(StGallenWil, IntegratesItsHeadingToAMicrometre) {
   long double x_m = 0.0L;
   long double y_m = 0.0L;
   for (int i = 0; (i + 1) * step_m <= Line().length_m(); ++i) {
-    // Simpson's rule in long double. At a change of slope it errs by less than 1e-9 m.
+    // Simpson's rule in long double; at a change of slope, its error is less than 1e-9 m.
     for (const auto& [part, weight] : {std::pair{0.0, 1.0L}, {0.5, 4.0L}, {1.0, 1.0L}}) {
       const auto heading_rad = static_cast<long double>(Line().At((i + part) * step_m).heading_rad);
       x_m += weight * std::cos(heading_rad) * static_cast<long double>(step_m) / 6.0L;

@@ -8,10 +8,10 @@
 namespace railcast {
 namespace {
 
-/// An arc to the left, rising, canted.
+/// A canted arc to the left with a rising gradient.
 Alignment Arc() {
   AlignmentSpec spec;
-  spec.course = AlignmentElementsSpec{{{"arc", 500.0, 400.0}}};
+  spec.course = AlignmentElementsSpec{{{ElementType::kArc, 500.0, 400.0}}};
   spec.gradients_permil = {{0.0, 20.0}};
   spec.speed_limits_kmph = {{0.0, 80.0}};
   return Alignment(spec);
@@ -27,7 +27,7 @@ TEST(TrackPath, FollowsGradientCurvatureAndCant) {
   EXPECT_FALSE(path.moves());
   const Transform world_from_object = path.WorldFromObject(alignment, 0);
   EXPECT_TRUE(world_from_object.isApprox(alignment.WorldFromTrack(200.0, 1.0, 0.5), 1e-12));
-  // Up the gradient, and leaning to the left.
+  // It follows the gradient and leans to the left.
   EXPECT_NEAR(world_from_object.linear()(2, 0), std::sin(std::atan(0.02)), 1e-12);
   EXPECT_LT(world_from_object.linear()(2, 1), -0.08);
 }

@@ -1,4 +1,4 @@
-#include "core/rail/objects/person.h"
+#include "core/rail/objects/object_models.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ TEST(MakePerson, StandsOnTheGroundAtTheGivenHeight) {
     const Eigen::AlignedBox3d box = MakePerson(TestSurfaces(), height_m).Bounds();
     EXPECT_NEAR(box.min().z(), 0.0, 1e-6);
     EXPECT_NEAR(box.max().z(), height_m, 1e-6);
-    // Arms hang at the sides; a stride is half the height at most.
+    // Arms hang at the sides; the stride is at most half the height.
     EXPECT_NEAR(box.sizes().y() / height_m, 0.6 / 1.75, 0.03);
     EXPECT_LT(box.sizes().x(), 0.5 * height_m);
   }

@@ -1,4 +1,4 @@
-#include "core/rail/objects/rolling_stock.h"
+#include "core/rail/objects/object_models.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <set>
 
-#include "core/rail/objects/running_gear.h"
+#include "core/rail/objects/wagon_parts.h"
 #include "tests/core/rail/model_checks.h"
 #include "tests/core/rail/test_tables.h"
 
@@ -57,7 +57,7 @@ TEST_F(RollingStock, IsMadeOfFewAndSoundTriangles) {
   }
 }
 
-/// Vertices that stand on the rail's top, which is where the tape circle's lowest corner is.
+/// Counts the vertices on top of the rails, where the lowest corner of the tape circle is.
 TEST_F(RollingStock, StandsOnTheRailsWithAllEightWheels) {
   for (const Wagon& wagon : wagons_) {
     std::set<double> contacts_x_m;
@@ -67,7 +67,7 @@ TEST_F(RollingStock, StandsOnTheRailsWithAllEightWheels) {
           std::abs(p.z()) < kFloat32_m) {
         contacts_x_m.insert(std::round(p.x() * 1e3) / 1e3);
       }
-      // The flange clears the rail, whose face is 1435 / 2 from the axis 14 mm below its top.
+      // The flange clears the rail, whose face is 1435 / 2 mm from the axis at 14 mm below its top.
       if (p.z() <= -0.014) {
         EXPECT_LT(outwards_m, 1.435 / 2.0);
       }
@@ -100,7 +100,7 @@ TEST_F(RollingStock, HasBuffersAtUicHeightAndDistance) {
   for (const Wagon& wagon : wagons_) {
     Eigen::AlignedBox3d left;
     for (const Vector3& p : VerticesOf(wagon.model, surfaces_.wagon_frame)) {
-      // Only a buffer reaches into the last 50 mm of the wagon.
+      // Only buffers extend into the last 50 mm of the wagon.
       if (p.x() > wagon.length_m / 2.0 - 0.05 && p.y() > 0.0) left.extend(p);
     }
     EXPECT_NEAR(left.center().y(), 1.750 / 2.0, kFloat32_m) << wagon.model.name;
@@ -111,7 +111,7 @@ TEST_F(RollingStock, HasBuffersAtUicHeightAndDistance) {
 }
 
 TEST_F(RollingStock, LeavesTheOpenWagonsHoldEmpty) {
-  // 12.8 x 2.76 x 2.10 from the floor, less a millimetre all round.
+  // 12.8 x 2.76 x 2.10 from the floor, less a millimetre on all sides.
   const Eigen::AlignedBox3d hold(Vector3(-6.399, -1.379, 1.241), Vector3(6.399, 1.379, 3.339));
   Eigen::AlignedBox3d walls;
   for (const Vector3& p : VerticesOf(wagons_[0].model, surfaces_.wagon_body)) {
@@ -127,7 +127,7 @@ TEST_F(RollingStock, CarriesContainersAt1160Millimetres) {
   const auto num_supports = std::count_if(body.begin(), body.end(), [](const Vector3& p) {
     return std::abs(p.z() - 1.16) < kFloat32_m;
   });
-  EXPECT_GE(num_supports, 16 * 4);  // Corners of sixteen supports, and the spigots on them.
+  EXPECT_GE(num_supports, 16 * 4);  // Corners of sixteen supports and of the spigots on them.
   for (const Vector3& p : body) EXPECT_LE(p.z(), 1.26 + kFloat32_m);
 }
 

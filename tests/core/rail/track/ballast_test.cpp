@@ -1,4 +1,4 @@
-#include "core/rail/track/ballast.h"
+#include "core/rail/track/track_structure.h"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,8 @@ struct Heights {
   double sigma_m{};
 };
 
-/// Of the mesh's vertices at (s, d) that `includes`, on a straight from west to east.
+/// Heights of the mesh's vertices at (s, d) selected by `includes`, on a straight from west to
+/// east.
 Heights HeightsWhere(const TestLine& line, const std::function<bool(double, double)>& includes) {
   Heights heights;
   double sum_of_squares = 0.0;
@@ -47,13 +48,13 @@ double DistanceToASleeper(double s_m) {
 
 TEST(AddBallast, LiesTwentyMillimetresBelowTheSleepersTopWithItsGrain) {
   const TestLine line(StraightLine(300.0));
-  // In the cribs, from where the top is level to the shoulder.
+  // In the cribs, between the level part of the top and the shoulder.
   const Heights heights = HeightsWhere(line, [](double s_m, double d_m) {
     return DistanceToASleeper(s_m) > 0.19 && std::abs(d_m) > 0.62 && std::abs(d_m) < 1.74;
   });
   ASSERT_GT(heights.count, 1000);
   const double five_errors_m = 5.0 * 0.020 / std::sqrt(heights.count);
-  EXPECT_NEAR(heights.mean_m, SeatOf("concrete").top_m - 0.020, five_errors_m);
+  EXPECT_NEAR(heights.mean_m, SeatOf(SleeperType::kConcrete).top_m - 0.020, five_errors_m);
   EXPECT_NEAR(heights.sigma_m, 0.020, five_errors_m / std::sqrt(2.0));
 }
 
@@ -62,7 +63,7 @@ TEST(AddBallast, LeavesSleepersUncovered) {
   const Heights heights = HeightsWhere(line, [](double s_m, double d_m) {
     return DistanceToASleeper(s_m) < 0.01 && std::abs(d_m) > 0.62 && std::abs(d_m) < 1.3;
   });
-  EXPECT_NEAR(heights.mean_m, SeatOf("concrete").top_m - 0.040,
+  EXPECT_NEAR(heights.mean_m, SeatOf(SleeperType::kConcrete).top_m - 0.040,
               5.0 * 0.020 / std::sqrt(heights.count));
 }
 
@@ -74,7 +75,7 @@ TEST(AddBallast, FallsOneToOneAndAHalfBeyondTheShoulder) {
                [=](double, double d_m) { return std::abs(std::abs(d_m) - column_d_m) < 0.01; })
         .mean_m;
   };
-  // Two columns of the grid of 0.16 m on the slope.
+  // Two columns of the 0.16 m grid on the slope.
   const double slope = (mean_at_column(2.40) - mean_at_column(1.92)) / 0.48;
   EXPECT_NEAR(slope, -1.0 / 1.5, 5.0 * 0.020 * std::sqrt(2.0 / 500.0) / 0.48);
 }
@@ -94,7 +95,8 @@ TEST(AddBallast, IsOneSheetThatFacesUpUnderTwoTracks) {
     EXPECT_GT(normal.z(), 0.0);
     plan_area_m2 += 0.5 * normal.z();
   }
-  // Shoulder to shoulder 7.5 m, and slopes of about 0.9 to 1.5 m on either side: nothing twice.
+  // 7.5 m from shoulder to shoulder, and slopes of about 0.9 to 1.5 m on either side, without
+  // overlap.
   EXPECT_GT(plan_area_m2, 50.0 * 9.3);
   EXPECT_LT(plan_area_m2, 50.0 * 10.5);
 }

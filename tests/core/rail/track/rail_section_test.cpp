@@ -18,7 +18,8 @@ double Area(const std::vector<Eigen::Vector2d>& outline_m) {
   return 0.5 * twice_m2;
 }
 
-// Clockwise, hence negative. Physics.md 7.1 gives the polygon's area to four digits.
+// The outline is clockwise, hence the negative sign. docs/physics.md 7.1 gives the polygon's area
+// to four digits.
 TEST(RailSection, HasTheAreaOfThe60E1Polygon) {
   EXPECT_NEAR(Area(MakeRailSection(true).outline_m), -77.07e-4, 0.005e-4);
   EXPECT_NEAR(Area(MakeRailSection(false).outline_m), -77.07e-4, 0.005e-4);
@@ -29,8 +30,8 @@ TEST(RailSection, TouchesTopOfRailAndStandsOneRailHeightHigh) {
   double top_m = -1.0;
   for (const Eigen::Vector2d& point : section.outline_m) top_m = std::max(top_m, point.y());
   EXPECT_DOUBLE_EQ(top_m, 0.0);
-  // Inclined by 1:40 the foot's middle is higher by 172 mm (1 - cos) = 0.05 mm, and the highest
-  // point is not the crown: 0.1 mm.
+  // Due to the inclination of 1:40, the middle of the foot is higher by 172 mm (1 - cos) = 0.05 mm,
+  // and the highest point differs from the crown: 0.1 mm.
   EXPECT_NEAR(RailFootMiddle_m().y(), -kRailHeight_m, 0.15e-3);
 }
 

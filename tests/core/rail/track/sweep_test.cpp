@@ -10,7 +10,7 @@ namespace {
 
 TEST(SweepStations, KeepChordsWithinTheToleranceOnAnArc) {
   constexpr double kRadius_m = 300.0;
-  constexpr double kOffset_m = 4.0;  // Towards the middle: radius 296 m.
+  constexpr double kOffset_m = 4.0;  // Towards the centre of the curve: radius 296 m.
   constexpr double kTolerance_m = 1e-3;
   const TestLine line(CantedArc(500.0, kRadius_m));
   const auto stations_m =
@@ -20,7 +20,7 @@ TEST(SweepStations, KeepChordsWithinTheToleranceOnAnArc) {
   const double step_m = stations_m[1] - stations_m[0];
   const double chord_m = step_m * (kRadius_m - kOffset_m) / kRadius_m;
   EXPECT_LE(chord_m * chord_m / (8.0 * (kRadius_m - kOffset_m)), kTolerance_m);
-  // And no more stations than that takes: one chord less would be too long.
+  // The number of stations is minimal: with one chord less, chords would be too long.
   const double longer_m = chord_m * static_cast<double>(stations_m.size() - 1) /
                           static_cast<double>(stations_m.size() - 2);
   EXPECT_GT(longer_m * longer_m / (8.0 * (kRadius_m - kOffset_m)), 0.95 * kTolerance_m);

@@ -17,14 +17,14 @@
 namespace railcast {
 namespace {
 
-/// Where the edge a-b meets the plane in which coordinate `axis` is `value`.
+/// Intersection of the edge a-b with the plane in which coordinate `axis` is `value`.
 std::optional<Vector3> CutEdge(const Vector3& a, const Vector3& b, int axis, double value) {
   if ((a[axis] < value) == (b[axis] < value)) return std::nullopt;
   return a + (value - a[axis]) / (b[axis] - a[axis]) * (b - a);
 }
 
-/// Between the inner faces of the rails at chainage `s_m`, 14 mm below the top of rail, as the
-/// triangles have it.
+/// Gauge of the triangle mesh: distance between the inner faces of the rails at chainage `s_m`, 14
+/// mm below top of rail.
 double GaugeOfMesh(const TestLine& line, int chunk_index, double s_m) {
   Chunk chunk;
   AddTracks(line.Context(chunk_index), line.models(), chunk);
@@ -59,10 +59,10 @@ TEST(AddTracks, LaysRailsAtGaugeOnAStraight) {
 
 TEST(AddTracks, LaysRailsAtGaugeInACantedCurve) {
   const TestLine line(CantedArc(300.0, -300.0));
-  // 150 mm of cant on a gauge of 1.5 m between rail heads.
+  // 150 mm of cant over 1.5 m between rail heads.
   ASSERT_NEAR(line.alignment().At(120.0).cant_rad, 0.1, 0.002);
-  // Chords of both rails are off their arcs by up to 1 mm to the same side; the plane of the cut is
-  // perpendicular to the arc and not to the chord.
+  // Chords of both rails deviate from their arcs by up to 1 mm to the same side; the cutting plane
+  // is perpendicular to the arc, not to the chord.
   for (const double s_m : {100.4, 113.77, 149.3}) {
     EXPECT_NEAR(GaugeOfMesh(line, 2, s_m), kGauge_m, 0.1e-3) << s_m;
   }
@@ -81,7 +81,7 @@ TEST(AddTracks, SetsASleeperEverySixtyCentimetresOfTheWholeLine) {
               .x());
     }
   }
-  // The line's end belongs to no chunk.
+  // No chunk contains the end of the line.
   ASSERT_EQ(chainages_m.size(), 500U);
   for (std::size_t k = 0; k < chainages_m.size(); ++k) {
     EXPECT_NEAR(chainages_m[k], kSleeperSpacing_m * static_cast<double>(k), 1e-9);
@@ -94,13 +94,13 @@ TEST(AddTracks, TiltsSleepersWithTheCant) {
   AddTracks(line.Context(1), line.models(), chunk);
   ASSERT_FALSE(chunk.placements.empty());
   const Eigen::Matrix3d rotation = chunk.placements[3].chunk_from_model.linear();
-  // A left curve: the right side is raised.
+  // In a left curve, the right side is raised.
   EXPECT_NEAR(rotation(2, 1), std::sin(line.alignment().At(60.0).cant_rad), 1e-9);
   EXPECT_LT(rotation(2, 1), -0.09);
 }
 
-/// Counts, for each edge between two positions, how many more triangles run it one way than the
-/// other. Zero everywhere is a closed surface.
+/// Returns whether the mesh is closed: for each edge between two positions, as many triangles
+/// traverse it in one direction as in the other.
 bool IsClosed(const Mesh& mesh) {
   using Position = std::array<float, 3>;
   std::map<std::pair<Position, Position>, int> balance;
@@ -149,9 +149,9 @@ TEST(AddTracks, RestsRailsOnTheirSeats) {
   const Eigen::AlignedBox3d concrete = line.models().concrete_sleeper->Bounds();
   EXPECT_NEAR(concrete.sizes().y(), 2.6, 1e-6);
   EXPECT_NEAR(concrete.sizes().x(), 0.3, 1e-6);
-  // Fastenings end 0.1 m above the seat, 10 mm below the foot.
+  // Fastenings reach 0.1 m above the seat, which is 10 mm below the foot.
   EXPECT_NEAR(concrete.max().z(), RailFootMiddle_m().y() - 0.010 + 0.100, 5e-3);
-  EXPECT_NEAR(SeatOf("concrete").top_m, RailFootMiddle_m().y() - 0.010, 0.2e-3);
+  EXPECT_NEAR(SeatOf(SleeperType::kConcrete).top_m, RailFootMiddle_m().y() - 0.010, 0.2e-3);
   EXPECT_NEAR(line.models().wood_sleeper->Bounds().min().z(), -0.190 - 0.160, 1e-6);
 }
 

@@ -1,0 +1,61 @@
+#include "analysis/detectability/object_detection.h"
+
+#include <algorithm>
+#include <span>
+
+namespace railcast {
+namespace {
+
+/// The sightings up to the closest one.
+std::span<const Sighting> ApproachIn(const std::vector<Sighting>& sightings) {
+  const auto closest = std::ranges::min_element(sightings, {}, &Sighting::distance_m);
+  const auto num = static_cast<std::size_t>(closest - sightings.begin()) + 1;
+  return std::span(sightings).first(num);
+}
+
+/// Index of the sighting that completes the rule.
+std::optional<std::size_t> FirstDetected(std::span<const Sighting> sightings,
+                                         const DetectionRule& rule) {
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    std::uint32_t num = 0;
+    for (std::size_t j = i + 1; j-- > 0;) {
+      if (sightings[i].frame - sightings[j].frame >= rule.of_frames) break;
+      num += sightings[j].points >= rule.min_points ? 1U : 0U;
+    }
+    if (num >= rule.min_frames) return i;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+ObjectDetection DetectObject(const ObjectCourse& course,
+                             const DetectionRule& rule,
+                             const BrakingSpec& braking,
+                             std::optional<double> speed_mps) {
+  ObjectDetection result;
+  result.fate = Fate::kNeverApproached;
+  if (course.sightings.empty()) return result;
+  const std::span<const Sighting> approach = ApproachIn(course.sightings);
+  result.is_in_way = std::ranges::any_of(approach, &Sighting::is_in_way);
+  result.from_axis_m = std::ranges::min(approach, {}, &Sighting::from_axis_m).from_axis_m;
+  // If vehicle and object both stand still, the distance between them does not change.
+  const auto farthest = std::ranges::max(approach, {}, &Sighting::distance_m).distance_m;
+  if (farthest - approach.back().distance_m < kMinApproach_m) return result;
+  const auto detected = FirstDetected(approach, rule);
+  const Sighting& sighting = approach[detected.value_or(0)];
+  result.fate = detected ? Fate::kDetected : Fate::kNeverDetected;
+  if (detected) {
+    result.distance_m = sighting.distance_m;
+    result.is_from_start = approach.front().frame == 0 && *detected + 1 == rule.min_frames;
+  }
+  result.speed_mps = speed_mps.value_or(sighting.speed_mps);
+  result.gradient = sighting.gradient;
+  const BrakedStop stop = StopOf(braking, result.speed_mps, result.gradient);
+  result.stop_m = stop.distance_m;
+  result.needed_m =
+      stop.distance_m + std::max(0.0, sighting.approach_mps) * stop.time_s + braking.margin_m;
+  return result;
+}
+
+}  // namespace railcast

@@ -1,0 +1,122 @@
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "analysis/frontier/frontier_report.h"
+#include "analysis/frontier/pareto.h"
+#include "core/base/text.h"
+#include "core/detect/effect_table.h"
+
+namespace railcast {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json ObjectOf(const Matched& matched) {
+  return {{"num", matched.num}, {"num_matched", matched.num_matched}, {"share", matched.share()}};
+}
+
+Json PerLabel(const std::map<std::uint32_t, Matched>& counts, const LabelTable& labels) {
+  Json object = Json::object();
+  for (const auto& [id, matched] : counts) {
+    const Label* const label = labels.Find(id);
+    object[label == nullptr ? std::to_string(id) : label->name] = ObjectOf(matched);
+  }
+  return object;
+}
+
+Json EffectsIn(const EffectSet& effects) {
+  return EffectNames(effects);
+}
+
+Json ErrorsOf(const FrameDifference& d, const LabelTable& labels) {
+  Json errors = Json::object();
+  for (const FrontierError& error : kFrontierErrors) errors[error.name] = error.of(d);
+  Json bins = Json::array();
+  for (const FrameDifference::RangeBin& bin : d.range_bins) {
+    bins.push_back({{"num_firings", bin.num_firings},
+                    {"num_reference_returned", bin.num_reference_returned},
+                    {"num_returned", bin.num_returned}});
+  }
+  errors["recall"] = ObjectOf(d.reference_echoes);
+  errors["precision"] = ObjectOf(d.echoes);
+  errors["thin_recall"] = ObjectOf(d.thin);
+  errors["further_echo_recall"] = ObjectOf(d.further);
+  errors["second_surface_recall"] = ObjectOf(d.second);
+  errors["recall_per_label"] = PerLabel(d.reference_echoes_per_label, labels);
+  errors["precision_per_label"] = PerLabel(d.echoes_per_label, labels);
+  errors["range_bins"] = bins;
+  return errors;
+}
+
+Json RowObject(const RowResult& result, const LabelTable& labels) {
+  Json object = {{"name", result.row.name},
+                 {"group", RowGroupName(result.row.group)},
+                 {"effects", EffectsIn(result.row.effects)},
+                 {"num_timed", result.times_ms.size()},
+                 {"p50_ms", result.p50_ms()},
+                 {"p99_ms", result.p99_ms()},
+                 {"ratio_to_raw_trace", result.ratio()}};
+  if (result.row.sub_rays) object["sub_rays"] = *result.row.sub_rays;
+  if (result.difference) object["errors"] = ErrorsOf(*result.difference, labels);
+  return object;
+}
+
+Json ParetoObject(const std::vector<RowResult>& results) {
+  Json object = Json::object();
+  for (const FrontierError& error : kFrontierErrors) {
+    object[error.name] = ParetoFront(results, error);
+  }
+  return object;
+}
+
+Json DefeatsList(const std::vector<RowResult>& results) {
+  Json list = Json::array();
+  for (const Defeat& defeat : FindDefeats(results)) {
+    list.push_back(
+        {{"error", defeat.error}, {"brute_force", defeat.brute_force}, {"ours", defeat.ours}});
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string ProcessorName() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+  }
+  return "unknown";
+}
+
+std::string FrontierJson(const FrontierPlan& plan,
+                         const FrontierCircumstances& circumstances,
+                         const LabelTable& labels,
+                         const std::vector<RowResult>& results) {
+  Json json = {
+      {"version", circumstances.version},
+      {"date", circumstances.date},
+      {"scenario", circumstances.scenario},
+      {"scenario_xxh3", circumstances.scenario_hash},
+      {"weather", circumstances.weather},
+      {"seed", circumstances.seed},
+      {"machine",
+       {{"processor", ProcessorName()}, {"num_threads", std::thread::hardware_concurrency()}}},
+      {"timed_with_threads", plan.num_threads},
+      {"frames", plan.frames},
+      {"yardstick_sub_rays", plan.yardstick_rays},
+      {"matching",
+       {{"rule",
+         "echoes of one firing, nearest pair first, one to one, ranges nearer than "
+         "match_distance_m"},
+        {"match_distance_m", circumstances.match_distance_m}}}};
+  Json rows = Json::array();
+  for (const RowResult& result : results) rows.push_back(RowObject(result, labels));
+  json["rows"] = rows;
+  json["pareto_front"] = ParetoObject(results);
+  json["brute_force_faster_and_more_accurate"] = DefeatsList(results);
+  json["fidelity_auto"] = Json::parse(circumstances.choice_json);
+  return json.dump();
+}
+
+}  // namespace railcast

@@ -1,0 +1,172 @@
+#include "analysis/frontier/frontier_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "analysis/frontier/pareto.h"
+#include "analysis/report/cell_text.h"
+#include "analysis/report/chart_columns.h"
+#include "analysis/report/formats.h"
+#include "analysis/report/provenance.h"
+
+namespace railcast {
+namespace {
+
+constexpr std::size_t kNumCharts = 4;
+constexpr double kPercentOfAll = 100.0;
+
+// All errors of all rows, in SI units or in units for readers.
+Table ErrorsTable(const std::vector<RowResult>& results, bool is_si) {
+  Table table = {"time_and_errors",
+                 "Time and errors",
+                 "Time of a frame, and as a multiple of the raw trace's. Errors are against the "
+                 "reference; less is better.",
+                 {{"row", "Row", ""},
+                  {"group", "Group", ""},
+                  {"p50_ms", "Time p50", "ms"},
+                  {"p99_ms", "Time p99", "ms"},
+                  {"ratio_to_raw_trace", "Time x raw", ""}},
+                 {}};
+  for (const FrontierError& error : kFrontierErrors) {
+    table.columns.push_back({is_si ? error.name : error.shown_name, error.title, error.unit});
+  }
+  for (const RowResult& result : results) {
+    std::vector<Cell> row = {result.row.name, std::string(RowGroupName(result.row.group)),
+                             result.p50_ms(), result.p99_ms(), result.ratio()};
+    for (const FrontierError& error : kFrontierErrors) {
+      const double value = result.difference ? error.of(*result.difference) : std::nan("");
+      row.emplace_back(is_si ? value : error.scale * value);
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Table FoundTable(const std::vector<RowResult>& results) {
+  Table table = {
+      "found",
+      "What was found",
+      "Recall: of the reference's echoes, what the row has, too; precision: of the row's "
+      "echoes, what the reference has, too. Intervals take echoes as independent "
+      "(Wilson).",
+      {{"row", "Row", ""},
+       {"time_ratio", "Time x raw", ""},
+       {"recall_percent", "Recall", "%"},
+       {"precision_percent", "Precision", "%"},
+       {"wires_percent", "Wires", "%"},
+       {"further_percent", "Further echoes", "%"},
+       {"second_percent", "Second surfaces", "%"}},
+      {}};
+  for (const RowResult& result : results) {
+    if (!result.difference) continue;
+    const FrameDifference& d = *result.difference;
+    std::vector<Cell> row = {result.row.name, result.ratio()};
+    for (const Matched& matched : {d.reference_echoes, d.echoes, d.thin, d.further, d.second}) {
+      row.emplace_back(Scaled(Proportion(matched.num_matched, matched.num), kPercentOfAll));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Table ParetoTable(const std::vector<RowResult>& results) {
+  Table table = {"pareto_fronts",
+                 "Pareto fronts",
+                 "For each error the rows that no other row beats, the references apart: none is "
+                 "as fast and as accurate and better in one of both.",
+                 {{"error", "Error", ""}, {"rows", "Rows", ""}},
+                 {}};
+  for (const FrontierError& error : kFrontierErrors) {
+    const std::vector<std::string> names = ParetoFront(results, error);
+    std::string rows;
+    for (const std::string& name : names) rows += (rows.empty() ? "" : ", ") + name;
+    table.rows.push_back({std::string(error.title), rows});
+  }
+  return table;
+}
+
+// One group of rows, from fast to slow.
+ChartSeries GroupSeries(const Table& errors,
+                        const std::string& error,
+                        RowGroup group,
+                        const std::string& title) {
+  const bool is_line = group != RowGroup::kBetween;
+  ChartSeries series = SeriesOf(
+      errors, {"ratio_to_raw_trace", error, is_line ? "row" : "", "group", RowGroupName(group)},
+      title, is_line ? SeriesStyle::kLinePoints : SeriesStyle::kPoints);
+  std::ranges::stable_sort(series.points, {}, &ChartPoint::x);
+  for (ChartPoint& point : series.points) {
+    if (point.label == "surface+thin_conductors") point.label = "surface + wires";
+    // Rows of brute force are labelled with their number of rays.
+    point.label = point.label.substr(point.label.rfind('_') + 1);
+  }
+  return series;
+}
+
+Chart ErrorChart(const Table& errors, const FrontierError& error) {
+  const std::string key = error.shown_name;
+  return {key,
+          Joined({error.title, " against time"}),
+          "",
+          {"Time per frame / raw trace", "", true, {}},
+          {error.title, error.unit, false, {}},
+          {GroupSeries(errors, key, RowGroup::kLadder, "railcast"),
+           GroupSeries(errors, key, RowGroup::kBruteForce, "brute force, rays a beam"),
+           GroupSeries(errors, key, RowGroup::kBetween, "footprint without thin_conductors")}};
+}
+
+Section TimeSection(const std::vector<RowResult>& results) {
+  Section section{.key = "frontier", .title = "Time against error"};
+  const Table errors = ErrorsTable(results, false);
+  for (std::size_t i = 0; i < kNumCharts; ++i) {
+    section.charts.push_back(ErrorChart(errors, kFrontierErrors[i]));
+  }
+  section.paragraphs = {DefeatsText(FindDefeats(results))};
+  section.tables = {errors, FoundTable(results), ParetoTable(results)};
+  for (Table& table : section.tables) table.is_open = true;
+  return section;
+}
+
+Section ChoiceSection(const std::string& choice_text) {
+  Section section{.key = "fidelity_auto", .title = "What the scene needs"};
+  std::istringstream lines(choice_text);
+  for (std::string line; std::getline(lines, line);) section.paragraphs.push_back(line);
+  return section;
+}
+
+std::string TitleOfRow(const FrontierPlan& plan, const std::string& scenario) {
+  return scenario + ": " + std::to_string(plan.frames.size()) + " frames, " +
+         (plan.num_threads == 0 ? "all" : std::to_string(plan.num_threads)) +
+         " thread(s), errors against " + std::to_string(plan.yardstick_rays) + " sub-rays a beam";
+}
+
+}  // namespace
+
+Report MakeFrontierReport(const FrontierPlan& plan,
+                          const FrontierCircumstances& circumstances,
+                          const std::vector<RowResult>& results,
+                          const std::string& command) {
+  Report report;
+  report.title = TitleOfRow(plan, circumstances.scenario);
+  report.command = command;
+  report.facts = {{"Scenario", circumstances.scenario},
+                  {"Scenario hash", circumstances.scenario_hash},
+                  {"Weather", circumstances.weather},
+                  {"Seed", std::to_string(circumstances.seed)},
+                  {"Machine", ProcessorName()},
+                  {"Version", Joined({"railcast ", circumstances.version})},
+                  {"Date", circumstances.date}};
+  for (const RowResult& result : results) {
+    if (result.row.group != RowGroup::kLadder) continue;
+    report.headlines.push_back({result.row.name, "x raw", result.ratio()});
+  }
+  report.sections = {TimeSection(results), ChoiceSection(circumstances.choice_text)};
+  return report;
+}
+
+std::string FrontierCsv(const std::vector<RowResult>& results) {
+  return TableCsv(ErrorsTable(results, true));
+}
+
+}  // namespace railcast

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <iomanip>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace railcast {
+
+/// The shortest text that reads back as the same number: 29556.1, not 29556.100000.
+template <typename Number>
+[[nodiscard]] std::string NumberText(Number number) {
+  std::array<char, 32> digits{};
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr};
+}
+
+[[nodiscard]] constexpr bool IsDigit(char letter) {
+  return letter >= '0' && letter <= '9';
+}
+
+/// The suffix " (got 29556.1)" of a message about a number that violates a rule.
+template <typename Number>
+requires std::is_arithmetic_v<Number>
+[[nodiscard]] std::string Got(Number number) {
+  return " (got " + NumberText(number) + ")";
+}
+
+/// Formats a number with four significant digits, such as 0.0001234.
+[[nodiscard]] inline std::string ShortText(double value) {
+  std::ostringstream text;
+  text << std::setprecision(4) << value;
+  return text.str();
+}
+
+/// Formats a time as "5.4 s". Divides by 1e9, unlike SecondsFromNs: multiplying by 1e-9 would give
+/// 0.30000000000000004.
+[[nodiscard]] inline std::string SecondsText(std::int64_t time_ns) {
+  return NumberText(static_cast<double>(time_ns) / 1e9) + " s";
+}
+
+/// Makes external text safe to show in a message: on a single line, harmless to a terminal and of
+/// limited length. Control characters become \n, \r, \t or \u001b, invalid UTF-8 bytes become \xff,
+/// and text longer than 60 bytes is cut off and ends in "...".
+[[nodiscard]] std::string ShownText(std::string_view text);
+
+/// As ShownText(), for a file name: on a single line, but not shortened.
+[[nodiscard]] std::string ShownPath(const std::filesystem::path& path);
+
+/// As ShownText(), but not shortened and with line breaks kept. Applied to every message just
+/// before it is printed.
+[[nodiscard]] std::string ShownLines(std::string_view text);
+
+/// Levenshtein distance (1966): the minimum number of insertions, deletions and substitutions of
+/// characters that turn one name into the other. Used to suggest what a misspelt word may have
+/// meant.
+[[nodiscard]] std::size_t EditDistance(std::string_view a, std::string_view b);
+
+/// The text as ShownText() shows it, in double quotes.
+[[nodiscard]] inline std::string Quoted(std::string_view text) {
+  return '"' + ShownText(text) + '"';
+}
+
+}  // namespace railcast

@@ -1,0 +1,75 @@
+#include "railcast/effects.h"
+
+#include <cmath>
+#include <string>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+
+namespace railcast {
+namespace {
+
+/// What a number must be. The scenario reader is stricter (core/scenario/describe_lidar.h); these
+/// are the rules without which detection aborts or gives nonsense.
+struct NumberRule {
+  const char* place;
+  double value;
+  bool holds;
+  const char* rule;
+};
+
+bool IsPositive(double value) {
+  return value > 0.0 && std::isfinite(value);
+}
+
+bool IsShare(double value) {
+  return value >= 0.0 && value <= 1.0;
+}
+
+bool IsNonNegative(double value) {
+  return value >= 0.0 && std::isfinite(value);
+}
+
+}  // namespace
+
+void CheckDetectorSpec(const DetectorSpec& spec) {
+  const BeamSpec& beam = spec.beam;
+  const ReceiverSpec& receiver = spec.receiver;
+  const WeatherSpec& weather = spec.weather;
+  constexpr int kMostReferenceRays = 4096;
+  const double visibility_m = weather.visibility_m.value_or(1.0);
+  const NumberRule rules[] = {
+      {"/range_min_m", spec.range_min_m, IsNonNegative(spec.range_min_m), ">= 0"},
+      {"/range_max_m", spec.range_max_m, IsPositive(spec.range_max_m), "> 0"},
+      {"/beam/wavelength_nm", static_cast<double>(beam.wavelength_nm),
+       beam.wavelength_nm == 905 || beam.wavelength_nm == 1550, "905 or 1550"},
+      {"/beam/divergence_mrad/0", beam.divergence_mrad[0], IsNonNegative(beam.divergence_mrad[0]),
+       ">= 0"},
+      {"/beam/divergence_mrad/1", beam.divergence_mrad[1], IsNonNegative(beam.divergence_mrad[1]),
+       ">= 0"},
+      {"/beam/pulse_length_ns", beam.pulse_length_ns, IsPositive(beam.pulse_length_ns), "> 0"},
+      {"/beam/reference_rays", static_cast<double>(beam.reference_rays),
+       beam.reference_rays >= 1 && beam.reference_rays <= kMostReferenceRays, ">= 1 and <= 4096"},
+      {"/receiver/range_at_10_percent_m", receiver.range_at_10_percent_m,
+       IsPositive(receiver.range_at_10_percent_m), "> 0"},
+      {"/receiver/snr_at_threshold", receiver.snr_at_threshold,
+       IsPositive(receiver.snr_at_threshold), "> 0"},
+      {"/weather/fog_density_per_m", weather.fog_density_per_m,
+       IsNonNegative(weather.fog_density_per_m), ">= 0"},
+      {"/weather/visibility_m", visibility_m, visibility_m > 0.0, "> 0"},
+      {"/weather/rain_rate_mmph", weather.rain_rate_mmph, IsNonNegative(weather.rain_rate_mmph),
+       ">= 0"},
+      {"/weather/snow_rate_mmph", weather.snow_rate_mmph, IsNonNegative(weather.snow_rate_mmph),
+       ">= 0"},
+      {"/weather/wetness", weather.wetness, IsShare(weather.wetness), ">= 0 and <= 1"},
+      {"/weather/snow_cover", weather.snow_cover, IsShare(weather.snow_cover), ">= 0 and <= 1"},
+  };
+  ErrorList errors;
+  for (const auto& [place, value, holds, rule] : rules) {
+    if (holds) continue;
+    errors.Add({std::string(place), std::string("must be ") + rule, NumberText(value)});
+  }
+  errors.ThrowIfAny();
+}
+
+}  // namespace railcast

@@ -1,0 +1,234 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "railcast/enum_names.h"
+#include "railcast/material.h"
+
+namespace railcast {
+
+/// How much is modelled: the rungs of the fidelity ladder, from the cheapest to the dearest, and
+/// kAuto, which stands for a choice among the effects of kFootprint.
+enum class Fidelity {
+  kGeometry,
+  kPlausibility,
+  kSurface,
+  kFootprint,
+  kReference,
+  kAuto,  ///< kFootprint without the effects that the scene does not need (railcast/fidelity.h).
+};
+template <>
+inline constexpr auto kEnumNames<Fidelity> =
+    std::to_array<EnumName<Fidelity>>({{Fidelity::kGeometry, "geometry"},
+                                       {Fidelity::kPlausibility, "plausibility"},
+                                       {Fidelity::kSurface, "surface"},
+                                       {Fidelity::kFootprint, "footprint"},
+                                       {Fidelity::kReference, "reference"},
+                                       {Fidelity::kAuto, "auto"}});
+
+/// Which effects are on. A rung of the fidelity ladder is a named set of effects; EffectsOfRung()
+/// gives it and ConflictIn() checks a set:
+///
+///   EffectSet effects = EffectsOfRung(Fidelity::kFootprint);
+///   effects.sunlight = false;
+struct EffectSet {
+  // The published plausibility model.
+  bool threshold = false;  ///< Threshold on reflectivity x cos x fog that rises with range.
+  bool rain = false;       ///< Rain dropout.
+  bool snow = false;       ///< Snow clutter.
+  bool noise = false;      ///< Position noise.
+
+  bool sensor_dropout = false;  ///< Pulses that the sensor misses at random.
+
+  // Physics of surfaces, air and receiver.
+  bool surface_response = false;   ///< Oren-Nayar, GGX and retroreflection instead of Lambert.
+  bool surface_condition = false;  ///< Wet and snow-covered surfaces.
+  bool extinction = false;         ///< Two-way extinction by fog, rain and snow.
+  bool pulse_stretch = false;      ///< Oblique surfaces stretch the pulse and lower its peak.
+  bool detection = false;          ///< Threshold derived from the data sheet's range.
+  /// Smooth detection probability instead of a hard threshold.
+  bool detection_probability = false;
+  bool clutter = false;   ///< Echoes of raindrops and snowflakes.
+  bool fog_echo = false;  ///< Extended echo of fog near the sensor.
+  bool sunlight = false;  ///< Raised threshold, false alarms, and blinding by the solar disc.
+  /// Range error along the beam, depending on the signal-to-noise ratio.
+  bool range_noise = false;
+  bool channel_bias = false;     ///< Constant range error per channel.
+  bool pointing_jitter = false;  ///< Beams deviate from the direction that the sensor reports.
+
+  // Physics of the finite beam width.
+  bool footprint = false;         ///< Sub-rays for beams whose neighbourhood requires them.
+  bool thin_conductors = false;   ///< Wires by closest approach instead of by their triangles.
+  bool dense_footprint = false;   ///< Hundreds of sub-rays in every beam.
+  bool sampled_waveform = false;  ///< Peaks of a sampled waveform instead of closed-form echoes.
+
+  bool operator==(const EffectSet&) const = default;
+};
+
+/// The directions in which the published model's noise displaces a point.
+enum class NoiseShape {
+  kIsotropic,  ///< Equal in all directions, as published.
+  kBeam,       ///< Along the beam only.
+};
+template <>
+inline constexpr auto kEnumNames<NoiseShape> = std::to_array<EnumName<NoiseShape>>(
+    {{NoiseShape::kIsotropic, "isotropic"}, {NoiseShape::kBeam, "beam"}});
+
+/// The parameters of the published plausibility model. The formulas stand in the headers of the
+/// effects (core/detect/threshold.h, rain_dropout.h, snow_clutter.h, measurement.h).
+struct PlausibilitySpec {
+  /// Least detectable reflectivity x cos(incidence) x fog transmission at reference_range_m. The
+  /// threshold grows with the square of the range.
+  double reference_threshold = 0.1;
+  double reference_range_m = 200.0;  ///< Range of that threshold, which grows with range squared.
+  double noise_sigma0_m = 0.01;      ///< Standard deviation of the noise at range 0.
+  double noise_sigma1 = 1e-4;        ///< Increase of the standard deviation per metre of range.
+  NoiseShape noise_shape = NoiseShape::kIsotropic;
+  double dropout_probability = 0.0;  ///< Probability that a firing is lost, whatever it hit.
+
+  bool operator==(const PlausibilitySpec&) const = default;
+};
+
+/// The laser beam: a Gaussian profile in the far field.
+struct BeamSpec {
+  int wavelength_nm = 905;  ///< 905 (stands for 850 to 950) or 1550.
+  /// Beam divergence, horizontal and vertical: the full angle between the 1/e^2 points of the
+  /// profile. 0 = a ray without width.
+  std::array<double, 2> divergence_mrad{3.0, 1.5};
+  double pulse_length_ns = 5.0;  ///< Full width at half maximum of the received pulse.
+  int reference_rays = 256;      ///< Sub-rays per beam of effect dense_footprint.
+
+  bool operator==(const BeamSpec&) const = default;
+};
+
+/// Which of a firing's detected echoes a sensor reports as returns, in the order of its slots.
+enum class ReturnMode {
+  kStrongest,
+  kFirst,
+  kLast,
+  kDual,    ///< Strongest and last; if these coincide, strongest and second strongest.
+  kTriple,  ///< Strongest, last and first; a duplicate is replaced by the next strongest.
+};
+template <>
+inline constexpr auto kEnumNames<ReturnMode> =
+    std::to_array<EnumName<ReturnMode>>({{ReturnMode::kStrongest, "strongest"},
+                                         {ReturnMode::kFirst, "first"},
+                                         {ReturnMode::kLast, "last"},
+                                         {ReturnMode::kDual, "dual"},
+                                         {ReturnMode::kTriple, "triple"}});
+
+/// The receiver: sensitivity, return mode and measurement errors.
+struct ReceiverSpec {
+  /// The data sheet's detection range on a Lambertian target of 10 % at normal incidence.
+  double range_at_10_percent_m = 200.0;
+  double snr_at_threshold = 5.0;  ///< Amplitude signal-to-noise ratio at that range.
+  ReturnMode return_mode = ReturnMode::kStrongest;
+  double range_noise_floor_m = 0.015;  ///< Standard deviation of the range noise at high signal.
+  double range_noise_scale_m = 0.1;    ///< sigma = hypot(floor, scale / sqrt(2 SNR)).
+  /// Standard deviation of the constant range errors of the channels.
+  double channel_bias_sigma_m = 0.01;
+  double pointing_jitter_deg = 0.01;  ///< Standard deviation in each of two directions.
+  double clutter_gain = 0.2;  ///< Factor for the mean number of raindrop and snowflake echoes.
+
+  bool operator==(const ReceiverSpec&) const = default;
+};
+
+/// The sun as seen from the sensor.
+struct SunSpec {
+  double illuminance_klx = 0.0;  ///< 100 = full sun.
+  double azimuth_deg = 180.0;    ///< In the world frame: from +x (east) towards +y (north).
+  double elevation_deg = 35.0;
+
+  bool operator==(const SunSpec&) const = default;
+};
+
+/// Drop-size distribution of rain: Marshall and Palmer's, or one with more small drops (drizzle) or
+/// more large drops (thunderstorm).
+enum class RainDrops { kMarshallPalmer, kDrizzle, kThunderstorm };
+template <>
+inline constexpr auto kEnumNames<RainDrops> =
+    std::to_array<EnumName<RainDrops>>({{RainDrops::kMarshallPalmer, "marshall_palmer"},
+                                        {RainDrops::kDrizzle, "drizzle"},
+                                        {RainDrops::kThunderstorm, "thunderstorm"}});
+
+/// The type of snow, which decides its extinction (ITU-R P.1814).
+enum class SnowType { kDry, kWet };
+template <>
+inline constexpr auto kEnumNames<SnowType> =
+    std::to_array<EnumName<SnowType>>({{SnowType::kDry, "dry"}, {SnowType::kWet, "wet"}});
+
+/// Section `weather`: the air, the precipitation, the state of surfaces and the sun.
+struct WeatherSpec {
+  double fog_density_per_m = 0.0;  ///< Extinction; the published model applies it one way.
+  /// Alternative to fog_density_per_m: extinction = ln 20 / visibility (5 % contrast).
+  std::optional<double> visibility_m;
+  double rain_rate_mmph = 0.0;
+  RainDrops rain_drop_sizes = RainDrops::kMarshallPalmer;
+  double rain_dropout_per_m = 3.65e-4;  ///< Rain dropout rate at 1 mm/h.
+  double rain_dropout_exponent = 0.63;  ///< Exponent of the rain rate.
+  double snow_rate_mmph = 0.0;
+  SnowType snow_type = SnowType::kDry;
+  double snow_echoes_per_mmph = 0.02;  ///< Mean detectable flakes per beam at 1 mm/h.
+  double snow_range_scale_m = 5.0;     ///< Maxwell scale of flake ranges (median 1.538 x this).
+  double snow_intensity = 0.02;        ///< Effective reflectance of a flake.
+  double wetness = 0.0;                ///< Wetness of surfaces: 0 = dry, 1 = soaked.
+  double snow_cover = 0.0;  ///< Share of each upward-facing surface that is covered by snow.
+  SunSpec sun;
+
+  bool operator==(const WeatherSpec&) const = default;
+};
+
+/// Label identifiers of echoes that no surface sends.
+struct ClutterLabels {
+  std::uint32_t rain{};
+  std::uint32_t snow{};
+  std::uint32_t fog{};
+  std::uint32_t false_alarm{};
+};
+
+/// Everything that detection depends on besides the scene: the sensor, the weather and the chosen
+/// effects. CheckDetectorSpec() checks it.
+struct DetectorSpec {
+  std::uint64_t seed = 1;
+  double range_min_m = 0.5;
+  double range_max_m = 300.0;
+  EffectSet effects{};
+  PlausibilitySpec plausibility{};
+  BeamSpec beam{};
+  ReceiverSpec receiver{};
+  WeatherSpec weather{};
+  ClutterLabels clutter_labels{};
+};
+
+/// Input of a Detector from the scan pattern and from the materials.
+struct DetectorSetting {
+  std::uint32_t num_channels = 1;
+  SurfaceOptics snow{};  ///< Optics of the snow on covered surfaces.
+};
+
+/// Checks that every number of the spec is in its valid range.
+/// @throws InputError with a line for every number that is not:
+///   "/beam/wavelength_nm: must be 905 or 1550 (got 1064)".
+void CheckDetectorSpec(const DetectorSpec& spec);
+
+/// The rungs of the fidelity ladder, from the cheapest to the most expensive.
+inline constexpr Fidelity kRungs[] = {Fidelity::kGeometry, Fidelity::kPlausibility,
+                                      Fidelity::kSurface, Fidelity::kFootprint,
+                                      Fidelity::kReference};
+
+/// The effects that a rung stands for.
+/// @throws InputError if `rung` is not one of kRungs; kAuto is not.
+[[nodiscard]] EffectSet EffectsOfRung(Fidelity rung);
+
+/// Checks whether the effects of a set may be on together. Returns a message that names two
+/// conflicting effects, or nothing if the set is sound.
+///
+/// The published model and the physical one describe the same phenomena, so effects of only one of
+/// them may be on; `sensor_dropout` belongs to both. `dense_footprint` requires `footprint`, and
+/// excludes `thin_conductors`: it samples the wires' triangles, so that wires would count twice.
+[[nodiscard]] std::optional<std::string> ConflictIn(const EffectSet& effects);
+
+}  // namespace railcast

@@ -1,0 +1,135 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "railcast/enum_names.h"
+
+namespace railcast {
+
+/// Whether a raster is scanned column by column or row by row.
+enum class RasterOrder { kColumns, kRows };
+template <>
+inline constexpr auto kEnumNames<RasterOrder> = std::to_array<EnumName<RasterOrder>>(
+    {{RasterOrder::kColumns, "columns"}, {RasterOrder::kRows, "rows"}});
+
+/// A rectangular grid of directions, as scanned by the published system.
+///
+/// Beams pass through the centres of the cells: 60 x 30 deg at 0.25 deg give 240 x 120 cells, the
+/// published 28,800 beams. Columns fire from the first (left) to the last, spread evenly over 1 /
+/// rate_hz; all rows of a column fire simultaneously.
+struct RasterSpec {
+  double horizontal_fov_deg{};  ///< > 0, <= 360.
+  double vertical_fov_deg{};    ///< > 0, <= 180, symmetric about the horizon.
+  /// > 0; must divide both fields of view to within 1e-6 of a cell.
+  double angular_resolution_deg{};
+  RasterOrder order = RasterOrder::kColumns;
+
+  bool operator==(const RasterSpec&) const = default;
+};
+
+/// The sense of rotation of a sensor's rotor, seen from above.
+enum class Rotation { kClockwise, kCounterclockwise };
+template <>
+inline constexpr auto kEnumNames<Rotation> = std::to_array<EnumName<Rotation>>(
+    {{Rotation::kClockwise, "clockwise"}, {Rotation::kCounterclockwise, "counterclockwise"}});
+
+/// One laser of a spinning sensor.
+struct ChannelSpec {
+  double elevation_deg{};  ///< Up positive.
+  double azimuth_deg{};    ///< Added to the rotor's azimuth; counted in the sense of rotation.
+  double time_us{};        ///< Time since the start of the firing cycle; the earliest is 0.
+
+  bool operator==(const ChannelSpec&) const = default;
+};
+
+/// A spinning sensor: channels that each fire once per firing cycle while the rotor turns.
+///
+/// All azimuths are positive in the sense of rotation, as in vendors' manuals: the azimuths of a
+/// clockwise sensor grow to the right. A firing at time t has the azimuth
+/// start_azimuth_deg + 360 rate_hz t + the channel's azimuth_deg. The rows of a frame are the
+/// channels by rising elevation, its columns are the firing cycles. A frame consists of a fixed
+/// number of cycles, and stamps are exactly 1 / rate_hz apart, so columns x cycle_us must not
+/// exceed 1 / rate_hz.
+struct SpinningSpec {
+  std::vector<ChannelSpec> channels;  ///< In the vendor's laser order.
+  double cycle_us{};                  ///< Duration of a firing cycle.
+  std::uint32_t columns{};            ///< Firing cycles per frame.
+  Rotation rotation = Rotation::kClockwise;
+  double start_azimuth_deg{};  ///< Azimuth of the rotor at the stamp; 0 = forward (+x).
+
+  bool operator==(const SpinningSpec&) const = default;
+};
+
+/// An arbitrary sequence of firings, read from a CSV file with the header
+/// `azimuth_deg,elevation_deg,time_us`: azimuth positive to the left (counterclockwise), time from
+/// 0 and non-decreasing. The frame has one row and a column for each firing.
+struct FiringTableSpec {
+  std::string file;  ///< Relative to the file that refers to it.
+
+  bool operator==(const FiringTableSpec&) const = default;
+};
+
+/// How a sensor scans: the frame rate and one of three kinds of pattern.
+struct ScanSpec {
+  double rate_hz{};  ///< Frames per second, > 0.
+  std::variant<RasterSpec, SpinningSpec, FiringTableSpec> pattern;
+
+  bool operator==(const ScanSpec&) const = default;
+};
+
+/// Rays per packet: Embree traces 16 rays at once.
+inline constexpr std::size_t kPacketSize = 16;
+
+/// The firings of one frame, the same in every frame: a table of directions and times.
+///
+/// BuildScanPattern() makes it. It is not changed afterwards, so that threads may share one
+/// pattern. All per-firing arrays have num_firings() elements in order of time (ties: by row, then
+/// by column).
+struct ScanPattern {
+  double rate_hz{};
+  std::uint32_t rows{};
+  std::uint32_t columns{};
+
+  std::vector<float> direction_x, direction_y, direction_z;  ///< Unit vectors in the sensor frame.
+  std::vector<std::uint32_t> time_ns;                        ///< Time since the stamp.
+  std::vector<std::uint16_t> row;                            ///< Ring; 0 is the lowest channel.
+  std::vector<std::uint32_t> column;
+
+  /// Firing indices by packet: each run of kPacketSize firings is traced as one packet. The size is
+  /// num_firings() rounded up to a multiple of kPacketSize; the last packet is padded with its last
+  /// firing. The firings of a packet are neighbours in angle, so that packets are coherent. The
+  /// order is fixed, because what a ray on a vertex or edge hits depends on its packet.
+  std::vector<std::uint32_t> packet_order;
+
+  [[nodiscard]] std::size_t num_firings() const { return time_ns.size(); }
+  /// Stamp of a frame, the simulation time from which its time_ns count. Stamps are exactly
+  /// 1 / rate_hz apart.
+  /// @pre frame_index <= LastFrame().
+  [[nodiscard]] std::int64_t StampNs(std::uint32_t frame_index) const;
+  /// Index of the last frame whose times in nanoseconds fit into 64 bits (292 years).
+  [[nodiscard]] std::uint32_t LastFrame() const;
+};
+
+/// Index of the firing that fills a slot of a frame of this pattern.
+/// @param returns Number of slots per firing.
+/// @pre returns > 0 and slot < rows * columns * returns.
+[[nodiscard]] std::uint32_t FiringOfSlot(const ScanPattern& pattern,
+                                         std::uint32_t returns,
+                                         std::size_t slot);
+
+/// Builds the table of firings of a scan:
+///
+///   const ScanPattern pattern = BuildScanPattern({.rate_hz = 10.0, .pattern = RasterSpec{...}});
+///
+/// @throws InputError if the spec has no firing or more than 2^24, a number of cells is not whole,
+///   a frame lasts longer than 1 / rate_hz or 4.29 s (time_ns has 32 bits), or the firing table
+///   cannot be read. The message has a line for every fault, with pointers relative to the scan
+///   object: "/pattern/cycle_us: must be > 0 (got -1)"; lines about a firing table name its file
+///   and line.
+[[nodiscard]] ScanPattern BuildScanPattern(const ScanSpec& spec);
+
+}  // namespace railcast

@@ -1,0 +1,241 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "railcast/alignment.h"
+#include "railcast/enum_names.h"
+#include "railcast/frame.h"
+#include "railcast/material.h"
+#include "railcast/scene.h"
+
+namespace railcast {
+
+/// One point of a speed profile: a speed at a time or at a chainage (exactly one of them is given).
+struct SpeedPoint {
+  std::optional<double> time_s;
+  std::optional<double> s_m;  ///< Chainage.
+  double speed_mps{};         ///< >= 0.
+
+  bool operator==(const SpeedPoint&) const = default;
+};
+
+/// Motion along a track.
+///
+/// Acceleration is constant between the points of the profile; before the first and after the last
+/// point, speed is constant. A profile is either all in time or all in chainage; an empty one means
+/// standing still. `reverse` moves against the chainage. The sensor's own vehicle then also faces
+/// that way, whereas an object faces as its heading says.
+struct MotionSpec {
+  std::vector<SpeedPoint> profile;
+  bool reverse = false;
+
+  bool operator==(const MotionSpec&) const = default;
+};
+
+enum class SleeperType {
+  kConcrete,  ///< B70.
+  kWood,
+};
+template <>
+inline constexpr auto kEnumNames<SleeperType> = std::to_array<EnumName<SleeperType>>(
+    {{SleeperType::kConcrete, "concrete"}, {SleeperType::kWood, "wood"}});
+
+/// A track parallel to the alignment. Track 0 is usually "main" at offset 0.
+struct TrackSpec {
+  std::string name = "main";
+  double offset_m = 0.0;          ///< Lateral, left positive.
+  double start_s_m = 0.0;         ///< First chainage of the track.
+  std::optional<double> end_s_m;  ///< Last chainage of the track; absent = end of the line.
+  SleeperType sleeper = SleeperType::kConcrete;
+  bool electrified = true;  ///< Whether the track has a contact line.
+
+  bool operator==(const TrackSpec&) const = default;
+};
+
+/// Overhead contact line (docs/physics.md 7.2, Re 200). Span lengths follow a rule: at most
+/// max_span_m, shorter in curves so that the wire stays within the lateral limit between supports.
+struct CatenarySpec {
+  bool enabled = true;
+  double contact_height_m = 5.5;
+  double system_height_m = 1.8;
+  double max_span_m = 65.0;
+  double stagger_m = 0.4;
+  double dropper_spacing_m = 8.0;
+  double mast_distance_m = 3.3;  ///< From the track axis to the face of the mast.
+
+  bool operator==(const CatenarySpec&) const = default;
+};
+
+struct TerrainSpec {
+  /// Half width of the ground strip; must be less than the tightest radius.
+  double half_width_m = 80.0;
+  double roughness_sigma_m = 0.04;      ///< Of the ground beside the ballast.
+  double roughness_wavelength_m = 2.0;  ///< Correlation length of the roughness.
+  double undulation_sigma_m = 0.6;      ///< Large-scale relief away from the track.
+
+  bool operator==(const TerrainSpec&) const = default;
+};
+
+struct VegetationSpec {
+  double trees_per_hectare = 40.0;
+  double tree_min_distance_m = 9.0;  ///< From the outermost track axis.
+  double tree_height_min_m = 6.0;
+  double tree_height_max_m = 14.0;
+  bool grass = true;
+  double grass_min_distance_m = 3.6;  ///< From the outermost track axis.
+  double grass_max_distance_m = 9.0;
+
+  bool operator==(const VegetationSpec&) const = default;
+};
+
+enum class ObjectType { kBox, kPole, kPerson, kOpenWagon, kFlatWagon, kTankWagon, kMesh };
+template <>
+inline constexpr auto kEnumNames<ObjectType> =
+    std::to_array<EnumName<ObjectType>>({{ObjectType::kBox, "box"},
+                                         {ObjectType::kPole, "pole"},
+                                         {ObjectType::kPerson, "person"},
+                                         {ObjectType::kOpenWagon, "open_wagon"},
+                                         {ObjectType::kFlatWagon, "flat_wagon"},
+                                         {ObjectType::kTankWagon, "tank_wagon"},
+                                         {ObjectType::kMesh, "mesh"}});
+
+/// Whether the type is a wagon. Wagons follow gradient and cant, stand on the rails and have fixed
+/// sizes.
+[[nodiscard]] constexpr bool IsWagon(ObjectType type) {
+  return type == ObjectType::kOpenWagon || type == ObjectType::kFlatWagon ||
+         type == ObjectType::kTankWagon;
+}
+
+/// The axis of a mesh file that points upwards.
+enum class UpAxis { kY, kZ };
+template <>
+inline constexpr auto kEnumNames<UpAxis> = std::to_array<EnumName<UpAxis>>({{UpAxis::kY, "y"},
+                                                                            {UpAxis::kZ, "z"}});
+
+/// An object placed in track coordinates. Wagons follow gradient and cant; all other objects stand
+/// upright. A moving object keeps its lateral distance from its track, and its speed is measured
+/// along the chainage.
+struct ObjectSpec {
+  std::string name;  ///< Unique.
+  ObjectType type{};
+  std::string track = "main";
+  double s_m{};  ///< Chainage of the object's middle; at time 0 if it moves.
+  double d_m{};  ///< Lateral position of the middle, left of the track's axis.
+  /// Height of the object's foot above top of rail. If absent, wagons stand on the rails and
+  /// everything else on the ground or ballast below it.
+  std::optional<double> h_m;
+  double heading_deg{};  ///< Counterclockwise from the direction of increasing chainage.
+  /// Length, width, height. Required for a box; diameter, diameter, height for a pole. For a person
+  /// or a mesh, scales the model to this height or size if given. Wagons have fixed sizes.
+  std::optional<std::array<double, 3>> size_m;
+  std::optional<std::string> file;      ///< Meshes only: OBJ file.
+  UpAxis up = UpAxis::kZ;               ///< Meshes only.
+  double unit_m = 1.0;                  ///< Meshes only: metres per file unit.
+  std::optional<std::string> label;     ///< Overrides the default of the type.
+  std::optional<std::string> material;  ///< Overrides the default of the type.
+  std::optional<MotionSpec> motion;     ///< Absent = stationary.
+
+  bool operator==(const ObjectSpec&) const = default;
+};
+
+struct WorldSpec {
+  /// Seed of the world's geometry: relief, stones, plants. The scenario's own seed drives the
+  /// sensor and the weather.
+  std::uint64_t seed = 1;
+  AlignmentSpec alignment;
+  std::vector<TrackSpec> tracks{TrackSpec{}};
+  CatenarySpec catenary;
+  TerrainSpec terrain;
+  VegetationSpec vegetation;
+  std::vector<ObjectSpec> objects;
+
+  bool operator==(const WorldSpec&) const = default;
+};
+
+/// The vehicle that carries the sensor.
+struct VehicleSpec {
+  std::string track = "main";
+  double start_s_m{};  ///< Chainage of the vehicle's origin at time 0.
+  MotionSpec motion;
+  /// Boxes of the vehicle's body in the vehicle frame: min x, y, z, max x, y, z. They block beams,
+  /// which then have the outcome `ego`.
+  std::vector<std::array<double, 6>> ego_boxes_m;
+
+  bool operator==(const VehicleSpec&) const = default;
+};
+
+/// The railway world of a scenario. The line is divided into chunks of kChunkLength_m each, from
+/// chainage 0.
+///
+/// Objects have instance ids 1, 2, ... in the order of the spec. If the vehicle has ego boxes, they
+/// form one further object "ego" after them. Masts are numbered from kFirstMastInstance. Moving
+/// objects continue straight and level beyond the ends of the line.
+///
+/// Immutable. WithVehicleSpeed(), WithObject() and WithoutObject() return a modified world that
+/// shares everything else, including its chunks, with this one.
+class RailWorld final : public World {
+ public:
+  static constexpr double kChunkLength_m = 50.0;
+
+  /// @throws InputError if the specs contradict each other or a mesh cannot be read. Each line
+  ///   reads "/world/objects/3/track: rule (got value)", with pointers into the scenario.
+  RailWorld(const WorldSpec& world,
+            const VehicleSpec& vehicle,
+            const LabelTable& labels,
+            const MaterialLibrary& materials,
+            std::uint64_t seed);
+  ~RailWorld() override;
+
+  /// Returns this world as it is from `from_ns` on if the vehicle changes its speed: it accelerates
+  /// at a constant rate to `speed_mps` and then keeps that speed. Its direction does not change.
+  /// @pre from_ns >= 0 and not before an earlier change, speed_mps >= 0, acceleration_mps2 > 0
+  ///   (also for slowing down).
+  [[nodiscard]] std::shared_ptr<const RailWorld> WithVehicleSpeed(std::int64_t from_ns,
+                                                                  double speed_mps,
+                                                                  double acceleration_mps2) const;
+  /// Returns this world as it is from `from_ns` on with one more object. Time 0 of the object's
+  /// motion is `from_ns`. The object gets an instance id that no object of this world, or of those
+  /// it was made from, has ever had; all others keep theirs.
+  /// @throws InputError under the same rules as an object in a scenario; lines read "/object/track:
+  ///   rule (got value)".
+  [[nodiscard]] std::shared_ptr<const RailWorld> WithObject(const ObjectSpec& object,
+                                                            std::int64_t from_ns) const;
+  /// Returns this world without one object of the scenario or of WithObject().
+  /// @throws InputError "/name: rule (got value)" if there is no object of that name.
+  [[nodiscard]] std::shared_ptr<const RailWorld> WithoutObject(const std::string& name) const;
+
+  [[nodiscard]] const Alignment& alignment() const;
+
+  [[nodiscard]] const TrackSpec& vehicle_track() const;
+  /// Whether WithVehicleSpeed() made this world or one that it was made from.
+  [[nodiscard]] bool has_changed_vehicle_speed() const;
+  [[nodiscard]] double VehicleSpeed_mps(std::int64_t time_ns) const;
+  /// Chainage of the vehicle's origin along its track; may lie beyond the ends of the track.
+  [[nodiscard]] double VehicleChainage_m(std::int64_t time_ns) const;
+  /// The track and the chainage of objects()[object].
+  [[nodiscard]] const TrackSpec& object_track(std::size_t object) const;
+  [[nodiscard]] double ObjectChainage_m(std::size_t object, std::int64_t time_ns) const;
+
+  [[nodiscard]] Transform WorldFromVehicle(std::int64_t time_ns) const override;
+  [[nodiscard]] int HomeChunk(std::int64_t time_ns) const override;
+  [[nodiscard]] std::vector<int> ChunksInReach(int home_chunk, double range_m) const override;
+  [[nodiscard]] Transform WorldFromChunk(int chunk) const override;
+  [[nodiscard]] Chunk BuildChunk(int chunk) const override;
+  [[nodiscard]] const std::vector<SceneObject>& objects() const override;
+  [[nodiscard]] Transform WorldFromObject(std::size_t object, std::int64_t time_ns) const override;
+
+ private:
+  struct Line;
+  struct Things;
+  RailWorld(std::shared_ptr<const Line> line, std::shared_ptr<const Things> things);
+
+  std::shared_ptr<const Line> line_;
+  std::shared_ptr<const Things> things_;
+};
+
+}  // namespace railcast

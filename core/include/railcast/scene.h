@@ -1,0 +1,101 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "railcast/transform.h"
+
+namespace railcast {
+
+/// An indexed triangle soup. It need not be manifold, closed or consistently wound.
+struct Mesh {
+  std::vector<Eigen::Vector3f> vertices;                ///< m, in the frame of the owning model.
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Indices into `vertices`.
+
+  /// Appends another mesh, transformed by `this_from_other`.
+  void Append(const Mesh& other, const Transform& this_from_other = Transform::Identity());
+};
+
+/// Triangles that share a material and a label.
+struct Part {
+  Mesh mesh;
+  std::uint16_t material{};  ///< Index into the material library.
+  std::uint32_t label{};     ///< Id in the label table.
+  bool is_wire = false;  ///< Whether the triangles are tubes around the polylines of Chunk::wires.
+};
+
+/// Geometry that may be placed many times.
+struct Model {
+  std::string name;
+  std::vector<Part> parts;
+
+  [[nodiscard]] std::size_t num_triangles() const;
+  /// Axis-aligned bounding box in the model's own frame; empty if there are no vertices.
+  [[nodiscard]] Eigen::AlignedBox3d Bounds() const;
+};
+
+/// A model placed in a chunk. The linear part may include a uniform scale.
+struct Placement {
+  std::shared_ptr<const Model> model;
+  Eigen::Affine3d chunk_from_model = Eigen::Affine3d::Identity();
+  std::uint32_t instance{};  ///< Instance id; 0 = background without instances.
+};
+
+/// One piece of a thin conductor: a polyline with a round cross-section.
+struct Wire {
+  std::uint16_t material{};
+  std::uint32_t label{};
+  double radius_m{};
+  std::vector<Vector3> points_m;  ///< In the chunk's frame; at least two.
+};
+
+/// A piece of the static world, in its own frame. `ground` belongs to this chunk alone;
+/// `placements` are models standing on it.
+struct Chunk {
+  Model ground;
+  std::vector<Placement> placements;
+  /// The wires that `ground` also contains as tubes, in parts with `is_wire`. Ray casters see the
+  /// tubes; effect thin_conductors uses the polylines.
+  std::vector<Wire> wires{};
+};
+
+/// An object with a name, a bounding box and an instance id: wagon, person, pole, ...
+struct SceneObject {
+  std::string name;       ///< Unique.
+  std::string type;       ///< Type as the scenario names it: "box", "open_wagon", "person", ...
+  std::uint32_t label{};  ///< Label of the object as a whole; its parts may have finer labels.
+  std::uint32_t instance{};
+  std::shared_ptr<const Model> model;
+  bool moves{};   ///< Whether World::WorldFromObject() depends on time.
+  bool is_ego{};  ///< Part of the sensor's own vehicle: blocks beams but returns no points.
+};
+
+/// Interface between the simulator and the world it scans. All results depend on the arguments
+/// alone, so frames can be made in any order. All functions are thread-safe.
+class World {
+ public:
+  virtual ~World() = default;
+
+  [[nodiscard]] virtual Transform WorldFromVehicle(std::int64_t time_ns) const = 0;
+
+  /// The chunk that contains the vehicle at this time. Its frame serves as the window frame.
+  [[nodiscard]] virtual int HomeChunk(std::int64_t time_ns) const = 0;
+  /// The chunks that lie within `range_m` of a vehicle's origin anywhere in `home_chunk`, in
+  /// ascending order.
+  [[nodiscard]] virtual std::vector<int> ChunksInReach(int home_chunk, double range_m) const = 0;
+  [[nodiscard]] virtual Transform WorldFromChunk(int chunk) const = 0;
+  [[nodiscard]] virtual Chunk BuildChunk(int chunk) const = 0;
+
+  [[nodiscard]] virtual const std::vector<SceneObject>& objects() const = 0;
+  [[nodiscard]] virtual Transform WorldFromObject(std::size_t object,
+                                                  std::int64_t time_ns) const = 0;
+};
+
+}  // namespace railcast

@@ -1,0 +1,176 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "railcast/effects.h"
+#include "railcast/frame.h"
+#include "railcast/lidar.h"
+#include "railcast/material.h"
+#include "railcast/ray_caster.h"
+#include "railcast/scene.h"
+#include "railcast/transform.h"
+
+namespace railcast {
+
+/// Everything that a simulation depends on besides the world, the scan pattern and the frame index.
+struct SimulatorSpec {
+  DetectorSpec detector{};
+  Transform vehicle_from_sensor = Transform::Identity();
+  OutputSpec output{};
+  std::string origin_place = "/output/origin_m";  ///< Name of output.origin_m in error messages.
+  std::uint16_t snow_material{};  ///< Material of the snow on covered surfaces; 0 = no snow cover.
+  std::string isa{};              ///< Embree instruction set to force; empty = the best available.
+};
+
+/// Callback that reports progress while a window is built: the number of completed steps, most of
+/// which are chunks, of the total. The last call has num_done == num_steps. Several threads may
+/// call it at once. An exception that it throws aborts the build and propagates to every caller
+/// waiting for the window.
+using WindowProgress = std::function<void(std::size_t num_done, std::size_t num_steps)>;
+
+/// The history of one firing from hit to return, as `railcast-generate trace` shows it. The steps
+/// describe its first echo.
+struct FiringStory {
+  std::uint32_t firing{};
+  std::uint32_t time_ns{};  ///< Since the stamp.
+  std::uint32_t slot{};     ///< Slot of the firing's first return.
+  Vector3 direction_sensor;
+  Vector3 origin_world;
+  /// Label of the surface hit; 0 = none. The next three describe the same surface.
+  std::uint32_t label{};
+  std::uint32_t instance{};
+  std::uint16_t material{};
+  float reflectivity{};
+
+  /// State of the firing after one effect. NaN = not known yet.
+  struct Step {
+    std::string effect;
+    Outcome outcome{};
+    float true_range_m{};
+    float cos_incidence{};
+    float intensity{};
+    float power_ratio{};
+    float range_m{};
+    /// Number of echoes this effect added: drops, flakes, further surfaces, ...
+    std::size_t num_added_echoes{};
+  };
+  std::vector<Step> steps;
+
+  /// One echo of the firing, whether detected or too weak, or the record that nothing came back.
+  /// NaN = none or not known.
+  struct Echo {
+    std::uint32_t label{};  ///< Label of the surface or of the clutter.
+    float true_range_m{};
+    float range_m{};
+    float power_ratio{};
+    float footprint_share{};
+    Outcome outcome{};
+    /// Slot of this echo in the frame; absent if it is not a return.
+    std::optional<std::uint32_t> slot;
+  };
+  /// All echoes in the order in which they were found: surfaces by range, then clutter.
+  std::vector<Echo> echoes;
+};
+
+class SceneStore;
+
+/// Makes the store of a world's geometry (chunks and models, ready to be traced), which is built
+/// once for all sensors of a run. The store is thread-safe.
+/// @param isa Embree instruction set to force; empty = the best available.
+[[nodiscard]] std::shared_ptr<SceneStore> MakeSceneStore(std::shared_ptr<const World> world,
+                                                         const MaterialLibrary& materials,
+                                                         const std::string& isa = {});
+
+/// A scene that a host program traces itself, with its own geometry and surface table.
+struct HostScene {
+  const RayCaster& caster;  ///< Traces rays given in the host's window frame.
+  /// Window frame in metres, chosen by the host; its origin must be near the sensor for float32 to
+  /// be precise enough.
+  Transform window_from_world;
+  const std::vector<Surface>& surfaces;  ///< Surface table for the caster's indices; 0 = nothing.
+};
+
+/// Simulates a sensor: turns a frame index into a Frame. Each tile of firings is aimed, traced,
+/// detected and stored.
+///
+/// A frame depends on its index alone, never on earlier frames or on the number of threads.
+/// MakeSimulator() builds the simulator of a scenario.
+///
+///     const auto simulator = MakeSimulator(ReadScenario(file), /*num_threads=*/0);
+///     Frame frame;
+///     simulator->Scan(42, frame);
+class Simulator {
+ public:
+  /// @throws InputError if a number in `spec` is invalid (CheckDetectorSpec), `snow_material` is
+  ///   not an index into `materials`, or this machine lacks the instruction set.
+  Simulator(std::shared_ptr<const World> world,
+            ScanPattern pattern,
+            const MaterialLibrary& materials,
+            const SimulatorSpec& spec,
+            int num_threads);
+  /// Makes one of several sensors. Simulators with the same store share its geometry; each still
+  /// produces the frames that it would produce alone.
+  /// @param store Made with the same materials and with spec.isa.
+  Simulator(std::shared_ptr<SceneStore> store,
+            ScanPattern pattern,
+            const MaterialLibrary& materials,
+            const SimulatorSpec& spec,
+            int num_threads);
+  ~Simulator();
+
+  /// Simulates a frame into `frame`, whose memory is reused if the shape is unchanged. Not
+  /// thread-safe: one caller at a time.
+  void Scan(std::uint32_t frame_index, Frame& frame);
+
+  /// As above, but the host traces the scene. Of the world, only the motion of the vehicle is used.
+  void Scan(std::uint32_t frame_index, const HostScene& host, Frame& frame);
+
+  /// For each of world().objects(), in order: the number of firings of the frame that would hit it
+  /// within range if it were the only object in the world. (Occlusion = 1 - visible / alone.)
+  [[nodiscard]] std::vector<std::uint32_t> FiringsOnObjectAlone(std::uint32_t frame_index);
+
+  /// Replays one firing with the same packet and random numbers as in Scan().
+  /// @pre firing < pattern().num_firings()
+  [[nodiscard]] FiringStory Explain(std::uint32_t frame_index, std::uint32_t firing);
+
+  [[nodiscard]] const SimulatorSpec& spec() const;
+  /// Replaces the detector's spec except its ranges, while keeping the scenes. This lets speed and
+  /// accuracy studies compare effect sets on one scene within one process.
+  /// @pre The rest of `spec` is unchanged.
+  /// @throws InputError as the constructor does; nothing changes in that case.
+  void Use(const SimulatorSpec& spec);
+  /// Switches to a world that differs from the constructor's only in the vehicle's motion and in
+  /// its objects. Built chunks and models are kept; so are windows, unless a stationary object of
+  /// the constructor's world has been removed. Frames do not depend on the worlds used in between.
+  void UseWorld(std::shared_ptr<const World> world);
+  /// Sets the progress callback for windows that are begun from now on, including those built in
+  /// the background. Scan() and any other function that needs a window rethrows what the callback
+  /// throws.
+  void UseProgress(WindowProgress progress);
+  /// Sets the number of threads.
+  /// @param num_threads 0 = all cores.
+  void UseThreads(int num_threads);
+
+  /// Returns the raw trace of a frame, the baseline of all speed figures: its rays are aimed
+  /// beforehand, and every call traces them in packets of 16 and stores the ranges only. Valid as
+  /// long as the simulator exists.
+  [[nodiscard]] std::function<void()> MakeRawTrace(std::uint32_t frame_index);
+
+  /// The world currently in use.
+  [[nodiscard]] const World& world() const;
+  [[nodiscard]] const std::shared_ptr<const World>& shared_world() const;
+  [[nodiscard]] const ScanPattern& pattern() const;
+  [[nodiscard]] Transform WorldFromSensor(std::int64_t time_ns) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace railcast

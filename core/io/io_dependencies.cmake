@@ -1,0 +1,27 @@
+# Finds the libraries that railcast::io is linked with. Both the build and the installed package
+# include this file.
+#
+# PCL's own package file would also require VTK; three of PCL's libraries suffice.
+find_package(TBB REQUIRED)
+find_package(ZLIB REQUIRED)
+find_path(PCL_INCLUDE_DIR pcl/io/pcd_io.h PATH_SUFFIXES pcl-1.13 pcl-1.12 pcl-1.14 REQUIRED)
+find_library(PCL_COMMON_LIBRARY pcl_common REQUIRED)
+find_library(PCL_IO_LIBRARY pcl_io REQUIRED)
+find_library(PCL_KDTREE_LIBRARY pcl_kdtree REQUIRED)
+find_library(XXHASH_LIBRARY xxhash REQUIRED)
+find_library(PCAP_LIBRARY pcap REQUIRED)
+
+# railcast_import(NAME LIBRARY [INCLUDE_DIR]): imports the library as the target railcast::NAME.
+function(railcast_import name library)
+  if(TARGET railcast::${name})
+    return()
+  endif()
+  add_library(railcast::${name} UNKNOWN IMPORTED GLOBAL)
+  set_target_properties(railcast::${name} PROPERTIES IMPORTED_LOCATION ${library}
+                                                     INTERFACE_INCLUDE_DIRECTORIES "${ARGN}")
+endfunction()
+railcast_import(pcl_common ${PCL_COMMON_LIBRARY} ${PCL_INCLUDE_DIR})
+railcast_import(pcl_io ${PCL_IO_LIBRARY} ${PCL_INCLUDE_DIR})
+railcast_import(pcl_kdtree ${PCL_KDTREE_LIBRARY} ${PCL_INCLUDE_DIR})
+railcast_import(pcap ${PCAP_LIBRARY})
+railcast_import(xxhash ${XXHASH_LIBRARY})

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "railcast/io/recording.h"
+
+namespace railcast {
+
+/// Opens a .pcap or .pcapng capture of a VLP-16, HDL-32E, VLP-32C or Pandar64. Each turn is a
+/// frame; the first and the last turn are usually cut short. The first packet of one of these
+/// sensors decides which sensor it is; other and damaged datagrams are skipped. Packets that
+/// segmentation offload merged into one datagram are cut apart.
+/// @throws InputError with one line that says what was found instead; reading throws it, too, where
+///   a merged datagram ends within a packet.
+[[nodiscard]] std::unique_ptr<Recording> OpenCapture(const std::filesystem::path& file);
+
+/// As above, for a capture that `open` opens. `open` is called twice: once to find the sensor, and
+/// once to read.
+/// @param name Names the capture in error messages.
+[[nodiscard]] std::unique_ptr<Recording> OpenCapture(const std::function<std::FILE*()>& open,
+                                                     const std::string& name);
+
+/// Whether a file's extension is that of a cloud: .pcd, .ply or .bin (KITTI's).
+[[nodiscard]] bool IsCloudFile(const std::filesystem::path& file);
+
+/// Returns the cloud files in a directory in the natural order of their names: 9.pcd comes before
+/// 10.pcd.
+[[nodiscard]] std::vector<std::filesystem::path> CloudFilesIn(
+    const std::filesystem::path& directory);
+
+/// Opens clouds without poses, in this order.
+/// @param kind The kind of recording as shown to users.
+[[nodiscard]] std::unique_ptr<Recording> OpenClouds(const std::filesystem::path& source,
+                                                    const std::string& kind,
+                                                    std::vector<std::filesystem::path> files);
+
+/// Opens a directory that `railcast-analyze receive --out` wrote: clouds with the poses of
+/// frames.csv. Their points are assumed to be in the sensor's axes, the default of a stream.
+/// @throws InputError if frames.csv cannot be read.
+[[nodiscard]] std::unique_ptr<Recording> OpenReceived(const std::filesystem::path& directory);
+
+// The kinds of recordings that OpenRecording opens.
+
+/// Opens a directory that `railcast-generate sequence` made, finished or not: the frames whose
+/// lines in frames.jsonl are whole. Every file and line is checked against the hash recorded when
+/// it was written; those of a frame are checked when the frame is read.
+/// @throws InputError with one line if a file cannot be read or has changed since it was written.
+[[nodiscard]] std::unique_ptr<Recording> OpenSequence(const std::filesystem::path& directory);
+
+}  // namespace railcast

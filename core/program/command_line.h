@@ -1,0 +1,79 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/text.h"
+#include "core/program/option_rules.h"
+#include "core/scenario/json_rules.h"
+
+// Helpers that the command lines of all programs share.
+
+namespace railcast {
+
+/// Validator for an option that is a count or an index.
+[[nodiscard]] inline CLI::Validator Whole(const WholeNumberRule& rule) {
+  return {rule, rule.Range()};
+}
+
+/// Validator for an option that is a measured quantity.
+[[nodiscard]] inline CLI::Validator Number(const NumberRule& rule) {
+  return {[rule](std::string& text) { return rule(text); }, rule.Range()};
+}
+
+/// Validator for an option that names a file or folder.
+[[nodiscard]] inline CLI::Validator NonEmpty() {
+  return {[](std::string& text) { return NonEmptyRule(text); }, ""};
+}
+
+/// Returns the program and those of its commands that the command line names.
+[[nodiscard]] inline std::vector<const CLI::App*> AppsInUse(const CLI::App* app) {
+  std::vector<const CLI::App*> apps = {app};
+  for (const CLI::App* command : app->get_subcommands()) apps.push_back(command);
+  return apps;
+}
+
+/// Returns the error line for the first option that neither the program nor its command has; empty
+/// if there is none.
+[[nodiscard]] inline std::string UnknownOption(const CLI::App* app) {
+  constexpr bool kOfCommandsToo = true;
+  std::vector<std::string> names;
+  for (const CLI::App* in_use : AppsInUse(app)) {
+    for (const CLI::Option* option : in_use->get_options()) {
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+  }
+  for (const std::string& word : app->remaining(kOfCommandsToo)) {
+    if (!word.starts_with("--") || word == "--") continue;
+    const std::string name = word.substr(0, word.find('='));
+    const std::optional<std::string> nearest = Nearest(name, names);
+    return "unknown option" + (nearest ? ", the nearest is " + *nearest : "") + " (got " + name +
+           ")";
+  }
+  return "";
+}
+
+/// Returns the error line for a word in the place of a command that is not a command; empty if
+/// there is a command, or no word.
+[[nodiscard]] inline std::string UnknownCommand(const CLI::App* app) {
+  const std::vector<std::string> words = app->remaining();
+  const bool has_word = !words.empty() && !words.front().starts_with('-');
+  const bool lacks_command = !app->get_subcommands({}).empty() && app->get_subcommands().empty();
+  if (!lacks_command || !has_word) return "";
+  std::vector<std::string> names;
+  for (const CLI::App* known : app->get_subcommands({})) names.push_back(known->get_name());
+  return Unknown("command", words.front(), names) + " (got " + words.front() + ")";
+}
+
+/// For CLI::App::failure_message. CLI11 would report a misspelt command or a misspelt required
+/// option as missing. Arguments are shown as ShownLines() shows them.
+[[nodiscard]] inline std::string SayWhatIsWrong(const CLI::App* app, const CLI::Error& error) {
+  for (const std::string& fault : {UnknownOption(app), UnknownCommand(app)}) {
+    if (!fault.empty()) return ShownLines(fault) + "\nRun with --help for more information.\n";
+  }
+  return ShownLines(CLI::FailureMessage::simple(app, error));
+}
+
+}  // namespace railcast

@@ -1,0 +1,126 @@
+#include <iostream>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/fidelity/choice_report.h"
+#include "core/io/write_file.h"
+#include "core/rail/world_check.h"
+#include "generator/check/check_report.h"
+#include "generator/commands.h"
+#include "generator/run/stoppable_work.h"
+#include "railcast/effects.h"
+#include "railcast/lidar.h"
+#include "railcast/rail_world.h"
+#include "railcast/scenario.h"
+
+namespace railcast {
+namespace {
+
+struct CheckOptions {
+  std::filesystem::path scenario;
+  std::optional<std::string> resolved;  ///< File for the resolved scenario; "-" = stdout.
+  bool is_verbose = false;
+};
+
+/// The report on a scenario with one sensor.
+class Report {
+ public:
+  Report(const ScenarioSpec& scenario, std::shared_ptr<const RailWorld> world)
+      : scenario_(scenario),
+        world_(std::move(world)),
+        pattern_(BuildScanPattern(scenario.lidar.scan)),
+        materials_(scenario.materials) {}
+
+  [[nodiscard]] std::string Sensor() const { return SensorText(scenario_.lidar, pattern_); }
+
+  [[nodiscard]] std::string Line(bool is_verbose) const {
+    const TrackSpec& track = *FindTrack(scenario_.world, scenario_.vehicle.track);
+    const double length_m = world_->alignment().length_m();
+    return LineText(world_->alignment(), is_verbose) +
+           VehicleText(track.name, FindVehicleWay(scenario_.vehicle, track, length_m),
+                       pattern_.rate_hz);
+  }
+
+  [[nodiscard]] std::string WhatItSees() const {
+    const double range_m = scenario_.lidar.range_max_m;
+    const auto& mount_m = scenario_.lidar.mount.position_m;
+    const SensorSurroundings around =
+        LookAround(world_, materials_, {mount_m[0], mount_m[1], mount_m[2]}, range_m);
+    return EffectsText(scenario_) + OutputText(scenario_.output, around.position_world) +
+           SurroundingsText(around, *world_, LabelTable(scenario_.labels)) +
+           SceneText(AuditScene(*world_, materials_, pattern_.StampNs(0), range_m));
+  }
+
+  [[nodiscard]] std::string Choice() const {
+    if (scenario_.fidelity != Fidelity::kAuto) return "";
+    const auto simulator = MakeSimulator(scenario_, 0);
+    return ChoiceText(UseChosenFidelity(*simulator, scenario_), scenario_.tolerance);
+  }
+
+ private:
+  const ScenarioSpec& scenario_;
+  std::shared_ptr<const RailWorld> world_;
+  ScanPattern pattern_;
+  MaterialLibrary materials_;
+};
+
+void PrintReport(const ScenarioSpec& scenario, bool is_verbose) {
+  const std::shared_ptr<const RailWorld> world = MakeWorld(scenario);
+  const std::vector<std::string> sensors = SensorNames(scenario);
+  std::string choices;
+  for (const std::string& sensor : sensors) {
+    const ScenarioSpec picked = PickSensor(scenario, sensor);
+    const Report report(picked, world);
+    std::cout << ShownLines(report.Sensor());
+    if (sensor == sensors.front()) std::cout << ShownLines(report.Line(is_verbose));
+    std::cout << ShownLines(report.WhatItSees());
+    if (sensors.size() > 1) choices += ReportLine("sensor", sensor);
+    choices += report.Choice();
+  }
+  constexpr std::int64_t kFrame0_ns = 0;
+  std::cout << ShownLines(ObjectsText(*world, LabelTable(scenario.labels)))
+            << ShownLines(OverlapsText(FindOverlaps(*world, kFrame0_ns), *world));
+  if (scenario.fidelity == Fidelity::kAuto) std::cout << ShownLines(choices);
+  if (scenario.camera) std::cout << "camera    read and checked; nothing uses it yet\n";
+}
+
+int RunCheck(const CheckOptions& options) {
+  ErrorList faults;
+  for (const std::string& fault : CheckScenario(options.scenario)) faults.AddLine(fault);
+  faults.ThrowIfAny();
+  const ScenarioSpec scenario = ReadScenario(options.scenario);
+  if (options.resolved == "-") {
+    std::cout << ResolvedScenarioJson(scenario);
+    return kExitSuccess;
+  }
+  if (options.resolved) WriteFileWhole(*options.resolved, ResolvedScenarioJson(scenario));
+  PrintReport(scenario, options.is_verbose);
+  if (options.resolved)
+    std::cout << "resolved scenario in " << ShownPath(*options.resolved) << "\n";
+  return kExitSuccess;
+}
+
+}  // namespace
+
+void AddCheck(CLI::App& app, ProgramCommand& command) {
+  const auto options = std::make_shared<CheckOptions>();
+  CLI::App* check = app.add_subcommand("check",
+                                       "Report every fault of a scenario or, if it has none, what "
+                                       "its scene contains and what the sensor sees");
+  check->add_option("SCENARIO", options->scenario, "Scenario file")->required()->check(NonEmpty());
+  check
+      ->add_option("--resolved", options->resolved,
+                   "File to write the scenario to, with all defaults and included files filled in; "
+                   "- is stdout, which then gets no other output")
+      ->check(NonEmpty());
+  check->callback([&app, &command, options] {
+    options->is_verbose = app.count("--verbose") > 0;
+    command = [options](const std::string&) { return RunCheck(*options); };
+  });
+}
+
+}  // namespace railcast

@@ -1,0 +1,198 @@
+#include "generator/check/check_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "railcast/scenario.h"
+
+namespace railcast {
+namespace {
+
+// In frames: a moment found by bisection may lie just before the frame at which it occurs.
+constexpr double kRoundOff = 1e-6;
+
+// Rounds to this number of decimal places.
+std::string Rounded(double value, int num_digits) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(num_digits) << value;
+  return text.str();
+}
+
+std::string LabelName(const LabelTable& labels, std::uint32_t id) {
+  const Label* label = labels.Find(id);
+  return label == nullptr ? std::to_string(id) : label->name;
+}
+
+const char* UnitOf(const SmoothedJump& jump) {
+  return jump.quantity == "gradient" ? " permil" : " 1/m";
+}
+
+double HeightOf(const SmoothedJump& jump) {
+  return std::abs(jump.after - jump.before);
+}
+
+// For example "7 curvature jumps smoothed, the largest of 0.001 1/m at s 123 m".
+std::string JumpsText(const std::vector<SmoothedJump>& all,
+                      const std::string& quantity,
+                      const std::string& kind) {
+  std::vector<SmoothedJump> jumps;
+  for (const SmoothedJump& jump : all) {
+    if (jump.quantity == quantity) jumps.push_back(jump);
+  }
+  if (jumps.empty()) return ReportLine("", "no " + kind + "s");
+  const auto largest =
+      std::max_element(jumps.begin(), jumps.end(),
+                       [](const auto& a, const auto& b) { return HeightOf(a) < HeightOf(b); });
+  return ReportLine("", std::to_string(jumps.size()) + " " + kind + (jumps.size() == 1 ? "" : "s") +
+                            " smoothed, the largest of " + ShortText(HeightOf(*largest)) +
+                            UnitOf(*largest) + " at s " + Rounded(largest->s_m, 1) + " m");
+}
+
+std::string WayPointText(const WayPoint& point, double rate_hz) {
+  return "after " + Rounded(point.time_s, 2) + " s (frame " +
+         Rounded(std::floor(point.time_s * rate_hz + kRoundOff), 0) + "), at s " +
+         Rounded(point.s_m, 2) + " m";
+}
+
+std::string SightingText(const SightedSurface& sighting,
+                         const World& world,
+                         const LabelTable& labels) {
+  std::string text = LabelName(labels, sighting.label);
+  for (const SceneObject& object : world.objects()) {
+    if (object.instance == sighting.instance) text += " of \"" + ShownText(object.name) + '"';
+  }
+  return text + ", " + Rounded(sighting.range_m, 2) + " m";
+}
+
+}  // namespace
+
+std::string SensorText(const LidarSpec& lidar, const ScanPattern& pattern) {
+  const std::uint32_t duration_ns =
+      *std::max_element(pattern.time_ns.begin(), pattern.time_ns.end());
+  const auto num_firings = static_cast<double>(pattern.num_firings());
+  const std::string name = lidar.name.empty() ? "" : lidar.name + ": ";
+  return ReportLine("sensor", name + std::to_string(pattern.num_firings()) + " firings a frame (" +
+                                  std::to_string(pattern.rows) + " rows x " +
+                                  std::to_string(pattern.columns) + " columns), range " +
+                                  NumberText(lidar.range_min_m) + " to " +
+                                  NumberText(lidar.range_max_m) + " m") +
+         ReportLine("", NumberText(pattern.rate_hz) + " frames/s, each fired within " +
+                            ShortText(SecondsFromNs(duration_ns)) + " s; at most " +
+                            Rounded(num_firings * pattern.rate_hz, 0) + " points/s");
+}
+
+std::string LineText(const Alignment& alignment, bool is_verbose) {
+  const double radius_m = alignment.tightest_radius_m();
+  const std::vector<SmoothedJump>& jumps = alignment.smoothed_jumps();
+  std::string text = ReportLine(
+      "line",
+      Rounded(alignment.length_m(), 1) + " m, " +
+          (std::isinf(radius_m) ? "straight" : "tightest radius " + Rounded(radius_m, 1) + " m"));
+  if (jumps.empty()) return text;
+  text += JumpsText(jumps, "curvature", "curvature jump");
+  text += JumpsText(jumps, "gradient", "gradient step");
+  if (!is_verbose) return text + ReportLine("", "(-v lists them)");
+  for (const SmoothedJump& jump : jumps) {
+    text += ReportLine("", "  " + jump.quantity + " at s " + NumberText(jump.s_m) + " m: from " +
+                               ShortText(jump.before) + " to " + ShortText(jump.after) +
+                               UnitOf(jump) + " over " + ShortText(jump.length_m) + " m");
+  }
+  return text;
+}
+
+std::string VehicleText(const std::string& track, const VehicleWay& way, double rate_hz) {
+  const auto speed = [](const WayPoint& point) { return ShortText(point.speed_mps) + " m/s"; };
+  std::string text =
+      ReportLine("vehicle", "starts on track \"" + track + "\" at s " + Rounded(way.start.s_m, 2) +
+                                " m with " + speed(way.start));
+  // A profile that ends at the start adds nothing to the line about the start.
+  if (way.profile_end && way.profile_end->time_s > 0.0) {
+    const bool stops = way.profile_end->speed_mps == 0.0;
+    text += ReportLine(
+        "", "reaches the end of its speed profile " + WayPointText(*way.profile_end, rate_hz) +
+                (stops ? ", and stands" : ", and goes on with " + speed(*way.profile_end)));
+  }
+  return text + ReportLine("", way.track_end ? "reaches the end of its track " +
+                                                   WayPointText(*way.track_end, rate_hz)
+                                             : "never reaches the end of its track");
+}
+
+std::string SceneText(const SceneAudit& audit) {
+  std::string materials;
+  for (const std::string& material : audit.materials) materials += " " + material;
+  const auto count = [](std::size_t value) { return std::to_string(value); };
+  return ReportLine("scene", "at frame 0: " + count(audit.num_chunks) + " chunks around chunk " +
+                                 std::to_string(audit.home_chunk)) +
+         ReportLine("", "surfaces: " + count(audit.ground_triangles) + " triangles") +
+         ReportLine("", "things: " + count(audit.num_placements) + " placements of " +
+                            count(audit.num_models) + " models: " + count(audit.placed_triangles) +
+                            " triangles, " + count(audit.model_triangles) + " of them stored") +
+         ReportLine("", "objects: " + count(audit.object_triangles) + " triangles") +
+         ReportLine("", "materials:" + materials);
+}
+
+std::string ObjectsText(const World& world, const LabelTable& labels) {
+  std::string text;
+  for (const SceneObject& object : world.objects()) {
+    const char* const motion = object.is_ego ? "own vehicle" : object.moves ? "moves" : "stands";
+    text += ReportLine(text.empty() ? "objects" : "",
+                       std::to_string(object.instance) + " " + ShownText(object.name) + ": " +
+                           object.type + ", label " + LabelName(labels, object.label) + ", " +
+                           std::to_string(object.model->num_triangles()) + " triangles, " + motion);
+  }
+  return text.empty() ? ReportLine("objects", "none") : text;
+}
+
+std::string OverlapsText(const std::vector<ObjectOverlap>& overlaps, const World& world) {
+  const auto name = [&](std::size_t object) { return '"' + world.objects()[object].name + '"'; };
+  std::string text;
+  for (const ObjectOverlap& overlap : overlaps) {
+    text +=
+        ReportLine(text.empty() ? "overlaps" : "",
+                   "at frame 0: " + name(overlap.one) +
+                       (overlap.is_inside ? " is inside " : " overlaps ") + name(overlap.other));
+  }
+  return text.empty() ? ReportLine("overlaps", "none at frame 0") : text;
+}
+
+std::string SurroundingsText(const SensorSurroundings& around,
+                             const World& world,
+                             const LabelTable& labels) {
+  const Vector3& position_m = around.position_world;
+  const auto sight = [&](const std::optional<SightedSurface>& sighting, const char* otherwise) {
+    return sighting ? SightingText(*sighting, world, labels) : std::string(otherwise);
+  };
+  std::string text = ReportLine(
+      "around", "at frame 0 the sensor is at world " + Rounded(position_m.x(), 2) + " " +
+                    Rounded(position_m.y(), 2) + " " + Rounded(position_m.z(), 2) + " m");
+  text += ReportLine("", "below it: " + sight(around.below, "nothing; is it under the ground?"));
+  text += ReportLine("", "above it: " + sight(around.above, "nothing"));
+  text += ReportLine("", "nearest: " + sight(around.nearest, "nothing"));
+  if (around.inside != 0) {
+    text += ReportLine("", "it is INSIDE the nearest object: every beam ends there");
+  }
+  return text;
+}
+
+std::string OutputText(const OutputSpec& output, const Vector3& sensor_world) {
+  if (output.frame != OutputFrame::kWorld) return "";
+  const Vector3 from_origin_m =
+      sensor_world - Vector3(output.origin_m[0], output.origin_m[1], output.origin_m[2]);
+  const auto largest_m = static_cast<float>(from_origin_m.cwiseAbs().maxCoeff());
+  const float step_m =
+      std::nextafter(largest_m, std::numeric_limits<float>::infinity()) - largest_m;
+  constexpr float kFine_m = 1e-3F;
+  return ReportLine("output", "world coordinates: float32 has steps of " +
+                                  ShortText(1e3 * static_cast<double>(step_m)) +
+                                  " mm where the sensor starts" +
+                                  (step_m > kFine_m ? "; put output.origin_m near there" : ""));
+}
+
+}  // namespace railcast

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <iomanip>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "generator/check/object_overlaps.h"
+#include "generator/check/scene_audit.h"
+#include "generator/check/vehicle_way.h"
+#include "railcast/alignment.h"
+#include "railcast/frame.h"
+#include "railcast/lidar.h"
+#include "railcast/scenario.h"
+
+namespace railcast {
+
+/// Formats one line of a paragraph of `check`; only the first line of a paragraph has a head.
+[[nodiscard]] inline std::string ReportLine(std::string_view head, const std::string& text) {
+  constexpr int kHeadWidth = 10;
+  std::ostringstream line;
+  line << std::left << std::setw(kHeadWidth) << head << text << "\n";
+  return line.str();
+}
+
+/// The rung and the effects that are on, in the order of scenario keys, with their parameters and
+/// what these mean in the scenario's weather; and the keys of the weather that none of them reads.
+/// @throws InputError if effects do not go together.
+[[nodiscard]] std::string EffectsText(const ScenarioSpec& scenario);
+
+// The paragraphs that `railcast-generate check` prints for a valid scenario. Each consists of whole
+// lines and begins with its subject.
+
+[[nodiscard]] std::string SensorText(const LidarSpec& lidar, const ScanPattern& pattern);
+
+/// @param is_verbose Lists every smoothed jump.
+[[nodiscard]] std::string LineText(const Alignment& alignment, bool is_verbose);
+
+[[nodiscard]] std::string VehicleText(const std::string& track,
+                                      const VehicleWay& way,
+                                      double rate_hz);
+
+[[nodiscard]] std::string SceneText(const SceneAudit& audit);
+
+[[nodiscard]] std::string ObjectsText(const World& world, const LabelTable& labels);
+
+/// Lists the objects that overlap at frame 0, as found by FindOverlaps.
+[[nodiscard]] std::string OverlapsText(const std::vector<ObjectOverlap>& overlaps,
+                                       const World& world);
+
+[[nodiscard]] std::string SurroundingsText(const SensorSurroundings& around,
+                                           const World& world,
+                                           const LabelTable& labels);
+
+/// States the resolution of float32 at the sensor's start if points are in world coordinates;
+/// otherwise empty.
+[[nodiscard]] std::string OutputText(const OutputSpec& output, const Vector3& sensor_world);
+
+}  // namespace railcast

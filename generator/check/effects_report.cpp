@@ -1,0 +1,73 @@
+#include <algorithm>
+#include <string_view>
+
+#include "core/detect/effect_table.h"
+#include "generator/check/check_report.h"
+#include "railcast/effects.h"
+#include "railcast/scenario.h"
+
+namespace railcast {
+namespace {
+
+/// A key of section `weather`.
+struct WeatherKey {
+  std::string_view name;
+  bool (*is_given)(const WeatherSpec&);  ///< Whether its value differs from the default.
+};
+
+template <auto kMember>
+bool IsGiven(const WeatherSpec& weather) {
+  return weather.*kMember != WeatherSpec().*kMember;
+}
+
+using W = WeatherSpec;
+constexpr WeatherKey kWeatherKeys[] = {
+    {"fog_density_per_m", &IsGiven<&W::fog_density_per_m>},
+    {"visibility_m", &IsGiven<&W::visibility_m>},
+    {"rain_rate_mmph", &IsGiven<&W::rain_rate_mmph>},
+    {"rain_drop_sizes", &IsGiven<&W::rain_drop_sizes>},
+    {"rain_dropout_per_m", &IsGiven<&W::rain_dropout_per_m>},
+    {"rain_dropout_exponent", &IsGiven<&W::rain_dropout_exponent>},
+    {"snow_rate_mmph", &IsGiven<&W::snow_rate_mmph>},
+    {"snow_type", &IsGiven<&W::snow_type>},
+    {"snow_echoes_per_mmph", &IsGiven<&W::snow_echoes_per_mmph>},
+    {"snow_range_scale_m", &IsGiven<&W::snow_range_scale_m>},
+    {"snow_intensity", &IsGiven<&W::snow_intensity>},
+    {"wetness", &IsGiven<&W::wetness>},
+    {"snow_cover", &IsGiven<&W::snow_cover>},
+    {"sun", &IsGiven<&W::sun>},
+};
+
+bool IsReadByAny(std::string_view key, const EffectSet& effects) {
+  return std::ranges::any_of(EffectTable(), [&](const Effect& effect) {
+    return effects.*effect.is_on &&
+           std::ranges::find(effect.weather_keys, key) != effect.weather_keys.end();
+  });
+}
+
+/// Lists the keys that the scenario gives although no active effect reads them.
+std::string IdleWeatherText(const WeatherSpec& weather, const EffectSet& effects) {
+  std::string names;
+  for (const WeatherKey& key : kWeatherKeys) {
+    if (!key.is_given(weather) || IsReadByAny(key.name, effects)) continue;
+    names += (names.empty() ? "" : ", ") + std::string(key.name);
+  }
+  if (names.empty()) return "";
+  return ReportLine("", "no effect that is on reads these keys of weather: " + names);
+}
+
+}  // namespace
+
+std::string EffectsText(const ScenarioSpec& scenario) {
+  const EffectSet effects = EffectsOf(scenario);
+  const DetectorSpec spec = DetectorSpecOf(scenario, scenario.lidar, effects);
+  std::string text = ReportLine("rung", std::string(NameOf(scenario.fidelity)));
+  for (const Effect& effect : EffectTable()) {
+    if (!(effects.*effect.is_on)) continue;
+    const std::string name = effect.name;
+    text += ReportLine("", effect.text == nullptr ? name : name + ": " + effect.text(spec));
+  }
+  return text + IdleWeatherText(scenario.weather, effects);
+}
+
+}  // namespace railcast

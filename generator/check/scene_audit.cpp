@@ -1,0 +1,89 @@
+#include "generator/check/scene_audit.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "railcast/lidar.h"
+#include "railcast/simulator.h"
+
+namespace railcast {
+namespace {
+
+void AddMaterials(const Model& model, const MaterialLibrary& library, std::set<std::string>& used) {
+  for (const Part& part : model.parts) used.insert(library.materials().at(part.material).name);
+}
+
+// Scans all directions within one microsecond.
+ScanPattern AllAround() {
+  return BuildScanPattern({1e6, RasterSpec{360.0, 180.0, 1.0, RasterOrder::kColumns}});
+}
+
+// Returns the nearest surface among a frame's slots in [begin, end).
+std::optional<SightedSurface> NearestOf(const Frame& frame, std::size_t begin, std::size_t end) {
+  std::optional<SightedSurface> nearest;
+  for (std::size_t slot = begin; slot < end; ++slot) {
+    const auto range_m = static_cast<double>(frame.true_range_m[slot]);
+    if (range_m < (nearest ? nearest->range_m : std::numeric_limits<double>::infinity())) {
+      nearest = {range_m, frame.label[slot], frame.instance[slot]};
+    }
+  }
+  return nearest;
+}
+
+}  // namespace
+
+SceneAudit AuditScene(const World& world,
+                      const MaterialLibrary& materials,
+                      std::int64_t time_ns,
+                      double range_m) {
+  SceneAudit audit;
+  audit.home_chunk = world.HomeChunk(time_ns);
+  std::set<std::shared_ptr<const Model>> models;
+  for (const int index : world.ChunksInReach(audit.home_chunk, range_m)) {
+    const Chunk chunk = world.BuildChunk(index);
+    ++audit.num_chunks;
+    audit.ground_triangles += chunk.ground.num_triangles();
+    AddMaterials(chunk.ground, materials, audit.materials);
+    for (const Placement& placement : chunk.placements) {
+      ++audit.num_placements;
+      audit.placed_triangles += placement.model->num_triangles();
+      models.insert(placement.model);
+    }
+  }
+  for (const auto& model : models) {
+    audit.model_triangles += model->num_triangles();
+    AddMaterials(*model, materials, audit.materials);
+  }
+  audit.num_models = models.size();
+  for (const SceneObject& object : world.objects()) {
+    audit.object_triangles += object.model->num_triangles();
+    AddMaterials(*object.model, materials, audit.materials);
+  }
+  return audit;
+}
+
+SensorSurroundings LookAround(const std::shared_ptr<const World>& world,
+                              const MaterialLibrary& materials,
+                              const Vector3& position_vehicle,
+                              double range_m) {
+  SimulatorSpec spec;
+  spec.detector.range_min_m = 0.0;
+  spec.detector.range_max_m = range_m;
+  spec.vehicle_from_sensor =
+      MakeTransform(world->WorldFromVehicle(0).linear().transpose(), position_vehicle);
+  Simulator simulator(world, AllAround(), materials, spec, 1);
+  Frame frame;
+  simulator.Scan(0, frame);
+
+  SensorSurroundings around;
+  around.position_world = frame.world_from_sensor.translation();
+  around.nearest = NearestOf(frame, 0, frame.num_slots());
+  around.below = NearestOf(frame, 0, frame.width());
+  around.above = NearestOf(frame, frame.num_slots() - frame.width(), frame.num_slots());
+  const std::uint32_t first = frame.instance.front();
+  const auto is_first = [&](std::uint32_t instance) { return instance == first; };
+  if (std::all_of(frame.instance.begin(), frame.instance.end(), is_first)) around.inside = first;
+  return around;
+}
+
+}  // namespace railcast

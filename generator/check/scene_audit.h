@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "railcast/material.h"
+#include "railcast/scene.h"
+
+namespace railcast {
+
+/// The content of the window at one moment.
+struct SceneAudit {
+  int home_chunk{};
+  std::size_t num_chunks{};
+  std::size_t ground_triangles{};   ///< In the chunks' own surfaces.
+  std::size_t num_models{};         ///< Models, each stored once ...
+  std::size_t model_triangles{};    ///< ... with this many triangles in total ...
+  std::size_t num_placements{};     ///< ... and placed this many times ...
+  std::size_t placed_triangles{};   ///< ... which gives this many triangles in the scene.
+  std::size_t object_triangles{};   ///< In all objects of the world, in the window or not.
+  std::set<std::string> materials;  ///< Materials used by any of these.
+};
+
+/// Builds the chunks that a beam of `range_m` may reach at that time and counts their content.
+[[nodiscard]] SceneAudit AuditScene(const World& world,
+                                    const MaterialLibrary& materials,
+                                    std::int64_t time_ns,
+                                    double range_m);
+
+/// The first surface that a sensor sees in some direction.
+struct SightedSurface {
+  double range_m{};
+  std::uint32_t label{};
+  std::uint32_t instance{};
+};
+
+/// The surroundings of a sensor at time 0.
+struct SensorSurroundings {
+  Vector3 position_world;
+  std::optional<SightedSurface> nearest;  ///< Among beams one degree apart in all directions.
+  std::optional<SightedSurface> below;    ///< Within half a degree of straight down.
+  std::optional<SightedSurface> above;    ///< Within half a degree of straight up.
+  std::uint32_t inside{};  ///< The instance that all beams hit, or 0 if there is none.
+};
+
+/// Looks up to `range_m` in all directions from a position in the vehicle frame.
+[[nodiscard]] SensorSurroundings LookAround(const std::shared_ptr<const World>& world,
+                                            const MaterialLibrary& materials,
+                                            const Vector3& position_vehicle,
+                                            double range_m);
+
+}  // namespace railcast

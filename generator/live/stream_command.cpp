@@ -1,0 +1,277 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "core/base/attempt.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/io/scenario_identity.h"
+#include "core/io/stream/stream_encoder.h"
+#include "core/io/velodyne/calibration_xml.h"
+#include "core/io/write_file.h"
+#include "core/program/progress_line.h"
+#include "core/trace/trace_program.h"
+#include "generator/commands.h"
+#include "generator/live/command_loop.h"
+#include "generator/live/lag_report.h"
+#include "generator/live/live_streams.h"
+#include "generator/live/live_summary.h"
+#include "generator/live/stream_options.h"
+#include "generator/run/run_options.h"
+#include "generator/run/stop_signal.h"
+#include "railcast/scenario.h"
+
+namespace railcast {
+namespace {
+
+ScenarioSpec ReadForStream(const StreamOptions& options) {
+  ScenarioSpec scenario = ReadScenario(options.scenario);
+  if (options.sensor) scenario = PickSensor(scenario, options.sensor);
+  if (options.seed) scenario.seed = *options.seed;
+  if (options.fidelity) scenario.fidelity = ValueNamed<Fidelity>(*options.fidelity).value();
+  return scenario;
+}
+
+std::vector<Endpoint> EndpointsOf(const StreamOptions& options,
+                                  const InterfacesSpec& interfaces,
+                                  Protocol protocol) {
+  const bool is_told = !options.to.empty();
+  const std::string place = is_told ? "--to: " : "/interfaces/udp: ";
+  const SensorInterface interface { {}, protocol, is_told ? options.to : interfaces.udp };
+  std::vector<Endpoint> receivers;
+  for (const std::string& to : ReceiversOf(interface)) {
+    receivers.push_back(AtPlace(place, [&] { return ParseEndpoint(to, DefaultPort(protocol)); }));
+  }
+  return receivers;
+}
+
+/// Checks that no receiver gets datagrams of two sensors.
+void CheckPortsDiffer(const std::vector<SensorStreamSpec>& streams) {
+  for (std::size_t i = 0; i < streams.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      for (const Endpoint& to : streams[i].to) {
+        if (std::find(streams[j].to.begin(), streams[j].to.end(), to) == streams[j].to.end()) {
+          continue;
+        }
+        throw InputError("/interfaces/sensors: each sensor must have receivers of its own (got " +
+                         EndpointText(to) + " for " + streams[j].name + " and " + streams[i].name +
+                         ")");
+      }
+    }
+  }
+}
+
+std::vector<SensorStreamSpec> PlanStreams(const StreamOptions& options,
+                                          const ScenarioSpec& scenario) {
+  std::vector<SensorStreamSpec> streams;
+  for (const std::string& name : SensorNames(scenario)) {
+    const InterfacesSpec interfaces = PickSensor(scenario, name).interfaces;
+    const Protocol protocol =
+        options.protocol ? ValueNamed<Protocol>(*options.protocol).value() : interfaces.protocol;
+    streams.push_back(
+        {.name = name,
+         .sensor = static_cast<std::uint16_t>(streams.size()),
+         .protocol = protocol,
+         .to = IsOffline(options) ? std::vector<Endpoint>{}
+                                  : EndpointsOf(options, interfaces, protocol),
+         .has_offload = !options.sends_singly,
+         .pcap = options.pcap,
+         .fields = options.fields ? FieldSelection(*options.fields) : StreamSpec{}.fields,
+         .has_all_slots = options.has_all_slots});
+  }
+  CheckPortsDiffer(streams);
+  const bool has_fields = std::any_of(streams.begin(), streams.end(), [](const auto& stream) {
+    return stream.protocol == Protocol::kRailcast;
+  });
+  if (!has_fields && (options.fields || options.has_all_slots)) {
+    throw InputError(std::string(options.fields ? "--fields" : "--all-slots") +
+                     ": is for protocol railcast (got " +
+                     std::string(NameOf(streams.front().protocol)) + ")");
+  }
+  return streams;
+}
+
+void WriteCalibration(const std::filesystem::path& file,
+                      const ScenarioSpec& scenario,
+                      const std::vector<SensorStreamSpec>& streams) {
+  if (streams.size() != 1 || streams.front().protocol != Protocol::kHdl64e) {
+    throw InputError("--calibration: is for one sensor of protocol hdl64e (got " +
+                     (streams.size() == 1 ? std::string(NameOf(streams.front().protocol))
+                                          : std::to_string(streams.size()) + " sensors") +
+                     ")");
+  }
+  // The protocol fits only spinning scans, which was checked when its stream was made.
+  const ScenarioSpec alone = PickSensor(scenario, streams.front().name);
+  WriteFileWhole(file, CalibrationXml(std::get<SpinningSpec>(alone.lidar.scan.pattern)));
+}
+
+/// Returns a number that distinguishes this start from earlier ones. A run that is only captured
+/// always gets 0, so that it is reproducible.
+std::uint32_t RunNumber(const StreamOptions& options) {
+  if (IsOffline(options)) return 0;
+  // Counted in milliseconds, so that a later start has a larger number even after many resets.
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return static_cast<std::uint32_t>(
+      std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
+}
+
+std::string Describe(const std::vector<SensorStreamSpec>& streams) {
+  std::string text;
+  for (const SensorStreamSpec& stream : streams) {
+    text += stream.name + ": " + std::string(NameOf(stream.protocol));
+    for (const Endpoint& to : stream.to) text += " to " + EndpointText(to);
+    if (stream.to.empty()) text += " to no receiver";
+    if (stream.pcap) text += ", into " + ShownPath(*stream.pcap);
+    text += "\n";
+  }
+  return text;
+}
+
+LiveRunSpec RunSpecOf(const StreamOptions& options) {
+  LiveRunSpec spec;
+  spec.pacing = options.pacing == "burst" ? Pacing::kBurst : Pacing::kSpread;
+  spec.lockstep = options.lockstep;
+  spec.drops_late = options.drops_late;
+  if (options.duration_s) spec.duration_ns = std::llround(1e9 * *options.duration_s);
+  return spec;
+}
+
+std::unique_ptr<CommandChannel> OpenChannel(const StreamOptions& options) {
+  if (!options.commands_port) return nullptr;
+  Endpoint peer = AtPlace("--commands-from: ", [&] {
+    return ParseEndpoint(options.commands_from.value_or("127.0.0.1"), 0);
+  });
+  // A socket on the loopback address cannot be reached from other machines.
+  const std::uint32_t any_address = 0;
+  const std::uint32_t loopback = 0x7F000001;
+  const Endpoint at{peer.is_loopback() ? loopback : any_address, *options.commands_port};
+  auto channel =
+      AtPlace("--commands-port: ", [&] { return std::make_unique<CommandChannel>(at, peer); });
+  std::cout << "commands at " << EndpointText(channel->at()) << "\n";
+  return channel;
+}
+
+/// Connects a run with its commands and the user, and shows its progress.
+class RunSurroundings {
+ public:
+  RunSurroundings(LiveStreams& streams, CommandLoop* commands, const StreamOptions& options)
+      : streams_(streams),
+        commands_(commands),
+        is_offline_(IsOffline(options)),
+        lag_(options.drops_late) {}
+
+  [[nodiscard]] LiveHooks Hooks() {
+    return {.is_stopped = [this] { return IsStopped(); },
+            .begin_frames = [this](std::int64_t stamp_ns) { return BeginFrames(stamp_ns); },
+            .end_frames = [this](const RunState& state) { EndFrames(state); }};
+  }
+  void End() {
+    SayCaptureFaults();
+    line_.End();
+  }
+
+ private:
+  // A run without receivers serves only its capture, so it ends when the capture fails.
+  [[nodiscard]] bool IsStopped() const {
+    return StopRequested() || (is_offline_ && !streams_.CaptureFaults().empty());
+  }
+
+  [[nodiscard]] NextFrames BeginFrames(std::int64_t stamp_ns) {
+    if (commands_ == nullptr) return NextFrames::kMake;
+    const NextFrames next = commands_->BeginFrames(stamp_ns, [this] { return IsStopped(); });
+    if (next == NextFrames::kReset) streams_.Restart();
+    return next;
+  }
+
+  void EndFrames(const RunState& state) {
+    if (commands_ != nullptr) commands_->EndFrames(state.stamp_ns);
+    SayCaptureFaults();
+    if (const auto lag = lag_.After(state)) line_.Say(*lag);
+    line_.Show(LiveProgress(state));
+  }
+
+  void SayCaptureFaults() {
+    const std::vector<std::string> faults = streams_.CaptureFaults();
+    for (; num_faults_said_ < faults.size(); ++num_faults_said_) {
+      line_.Say(faults[num_faults_said_]);
+    }
+  }
+
+  LiveStreams& streams_;
+  CommandLoop* commands_;
+  bool is_offline_;
+  TerminalLine line_;
+  LagReport lag_;
+  std::size_t num_faults_said_ = 0;
+};
+
+/// Prints the outcome of the run and returns the exit status.
+int ReportRun(const LiveResult& result,
+              const LiveStreams& streams,
+              const CommandChannel* channel,
+              bool has_times) {
+  std::cout << ShownLines(LiveSummary(result.records, streams.Delivered(), has_times));
+  const std::vector<std::string> capture_faults = streams.CaptureFaults();
+  for (const std::string& fault : capture_faults)
+    std::cout << "capture: " << ShownLines(fault) << "\n";
+  if (channel != nullptr && channel->num_strangers() > 0) {
+    std::cout << "commands from others than the peer: " << channel->num_strangers()
+              << ", dropped\n";
+  }
+  if (channel != nullptr && channel->num_answers() > 0) {
+    std::cout << "answers that came back as commands: " << channel->num_answers() << ", dropped\n";
+  }
+  if (result.fault) std::cerr << ShownLines(*result.fault) << "\n";
+  return result.fault || !capture_faults.empty() ? kExitFailure : kExitSuccess;
+}
+
+int RunStream(const StreamOptions& options) {
+  const ScenarioSpec scenario = ReadForStream(options);
+  CheckOptionsTogether(options, SensorNames(scenario).size());
+  const std::vector<SensorStreamSpec> plan = PlanStreams(options, scenario);
+  const LiveRunSpec spec = RunSpecOf(options);
+  const std::string isa = AtPlace("--", [&] { return IsaInUse(options.isa); });
+  // With commands, the journeys of moving objects are not known in advance, so they are not
+  // checked.
+  LiveStreams streams(scenario, plan, options.num_threads, RunNumber(options), isa,
+                      options.commands_port ? std::nullopt : spec.duration_ns);
+  if (options.calibration) WriteCalibration(*options.calibration, scenario, plan);
+  const auto channel = OpenChannel(options);
+  std::optional<CommandLoop> commands;
+  if (channel) {
+    commands.emplace(streams.commanded_run(), *channel, options.lockstep, options.commands_log,
+                     IdentityOf(scenario).scenario_hash);
+  }
+  CatchStopSignals();
+  streams.WarmUp(StopRequested);
+  std::cout << ShownLines(Describe(plan)) << std::flush;
+
+  MonotonicClock monotonic;
+  JumpingClock jumping;
+  LiveClock& clock = IsOffline(options) ? static_cast<LiveClock&>(jumping) : monotonic;
+  RunSurroundings surroundings(streams, commands ? &*commands : nullptr, options);
+  const LiveResult result = RunLive(spec, streams.Sensors(), surroundings.Hooks(), clock);
+  if (commands) commands->End(result.fault.value_or("the run has ended"));
+  streams.Finish();
+  surroundings.End();
+  return ReportRun(result, streams, channel.get(), !clock.jumps());
+}
+
+}  // namespace
+
+void AddStream(CLI::App& app, ProgramCommand& command) {
+  const auto options = std::make_shared<StreamOptions>();
+  CLI::App* stream =
+      app.add_subcommand("stream", "Send frames over UDP at the pace of real sensors until Ctrl-C");
+  AddStreamOptions(*stream, *options);
+  stream->callback([&command, options] {
+    if (options->fields) CheckFields(*options->fields);
+    command = [options](const std::string&) { return RunStream(*options); };
+  });
+}
+
+}  // namespace railcast

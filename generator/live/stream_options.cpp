@@ -1,0 +1,112 @@
+#include "generator/live/stream_options.h"
+
+#include "core/base/error.h"
+#include "core/program/command_line.h"
+#include "generator/run/run_options.h"
+#include "railcast/effects.h"
+#include "railcast/scenario.h"
+
+namespace railcast {
+
+void AddStreamOptions(CLI::App& stream, StreamOptions& options) {
+  stream.add_option("SCENARIO", options.scenario, "Scenario file")->required()->check(NonEmpty());
+  stream.add_option(
+      "--sensor", options.sensor,
+      "Name of the sensor to stream, where the scenario has several; default: all of them");
+  stream
+      .add_option("--to", options.to,
+                  "HOST:PORT of a receiver; repeat the option for several, or use 255.255.255.255 "
+                  "to broadcast to the local network; default: the scenario's receivers or, if it "
+                  "has none, this machine")
+      ->allow_extra_args(false);
+  stream.add_option("--protocol", options.protocol, "Protocol to use instead of the scenario's")
+      ->check(CLI::IsMember(NamesOf<Protocol>()));
+  stream.add_option("--fields", options.fields,
+                    "With protocol railcast: fields to send, separated by commas, or all; default: "
+                    "x,y,z,intensity,ring,time_ns,label,instance");
+  stream.add_flag("--all-slots", options.has_all_slots,
+                  "With protocol railcast: also send firings without a return");
+  stream
+      .add_option(
+          "--pacing", options.pacing,
+          "spread: each datagram leaves one period after its last firing, as from a sensor; "
+          "burst: all datagrams of a frame leave at once")
+      ->check(CLI::IsMember({"spread", "burst"}))
+      ->capture_default_str();
+  stream.add_flag(
+      "--drop-late", options.drops_late,
+      "Leave out whole frames that would be late; default: send all frames, even if late");
+  stream.add_flag(
+      "--no-offload", options.sends_singly,
+      "Send datagrams one by one, without UDP segmentation offload, so that captures on "
+      "this machine hold single datagrams");
+  stream
+      .add_option("--pcap", options.pcap,
+                  "Capture file to write; without --to, nothing is sent and the file is written as "
+                  "fast as the machine can compute it")
+      ->check(NonEmpty());
+  stream
+      .add_option("--calibration", options.calibration,
+                  "With protocol hdl64e: file to write the calibration to, which receivers need")
+      ->check(NonEmpty());
+  stream
+      .add_option("--commands-port", options.commands_port,
+                  "UDP port on which to receive commands as lines of JSON; default: none")
+      ->transform(Whole({1, 65535}));
+  stream.add_option("--commands-from", options.commands_from,
+                    "HOST or HOST:PORT whose commands are accepted; default: this machine only");
+  stream
+      .add_option("--commands-log", options.commands_log,
+                  "File to log the commands to, which `sequence --commands` can replay")
+      ->check(NonEmpty());
+  stream.add_flag("--lockstep", options.lockstep, "Wait for the command `step` before each frame");
+  stream
+      .add_option("--duration", options.duration_s,
+                  "Seconds of simulation time after which to end; default: run until stopped")
+      ->check(Number({1e-3, 1e9}));
+  stream.add_option("--seed", options.seed, "Seed to use instead of the scenario's")
+      ->transform(Whole({}));
+  stream.add_option("--threads", options.num_threads, "Number of threads; 0 = all cores")
+      ->transform(Whole({0, 1024}))
+      ->capture_default_str();
+  stream.add_option("--fidelity", options.fidelity, "Fidelity to use instead of the scenario's")
+      ->check(CLI::IsMember(NamesOf<Fidelity>()));
+  AddIsa(stream, options.isa);
+}
+
+bool IsOffline(const StreamOptions& options) {
+  return options.pcap && options.to.empty();
+}
+
+void CheckOptionsTogether(const StreamOptions& options, std::size_t num_sensors) {
+  const auto needs_one_sensor = [&](const std::string& option, bool is_given) {
+    if (!is_given || num_sensors == 1) return;
+    throw InputError(option + ": is for one sensor, to be named by --sensor (got " +
+                     std::to_string(num_sensors) + " sensors)");
+  };
+  needs_one_sensor("--to", !options.to.empty());
+  needs_one_sensor("--protocol", options.protocol.has_value());
+  needs_one_sensor("--pcap", options.pcap.has_value());
+  const auto needs_commands_port = [&](const std::string& option, bool is_given) {
+    if (is_given && !options.commands_port) {
+      throw InputError(option + ": needs --commands-port, where commands are heard (got none)");
+    }
+  };
+  needs_commands_port("--lockstep", options.lockstep);
+  needs_commands_port("--commands-log", options.commands_log.has_value());
+  needs_commands_port("--commands-from", options.commands_from.has_value());
+  if (options.drops_late && (options.lockstep || IsOffline(options))) {
+    throw InputError(std::string("--drop-late: must be left out where frames ") +
+                     (options.lockstep ? "wait for steps, as with --lockstep"
+                                       : "are never late, as with --pcap without --to"));
+  }
+  if (options.sends_singly && IsOffline(options)) {
+    throw InputError(
+        "--no-offload: must be left out where nothing is sent, as with --pcap without --to");
+  }
+  if (IsOffline(options) && !options.duration_s && !options.lockstep) {
+    throw InputError("--pcap: needs --duration where no --to is given (got none)");
+  }
+}
+
+}  // namespace railcast

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace railcast {
+
+/// The options of `railcast-generate stream`.
+struct StreamOptions {
+  std::filesystem::path scenario;
+  std::optional<std::string> sensor;    ///< Absent = all sensors.
+  std::vector<std::string> to;          ///< HOST:PORT of each receiver, instead of the scenario's.
+  std::optional<std::string> protocol;  ///< Protocol instead of the scenario's.
+  std::optional<std::string> fields;    ///< Fields for protocol railcast, instead of its default.
+  bool has_all_slots = false;           ///< For protocol railcast.
+  std::string pacing = "spread";
+  bool drops_late = false;
+  bool sends_singly = false;  ///< Without UDP segmentation offload.
+  std::optional<std::filesystem::path> pcap;
+  std::optional<std::filesystem::path> calibration;  ///< For protocol hdl64e.
+  bool lockstep = false;
+  std::optional<std::uint16_t> commands_port;
+  std::optional<std::string> commands_from;  ///< HOST or HOST:PORT; absent = this machine.
+  std::optional<std::filesystem::path> commands_log;
+  std::optional<double> duration_s;     ///< Simulation time; absent = until stopped.
+  std::optional<std::uint64_t> seed;    ///< Overrides the scenario's.
+  std::optional<std::string> fidelity;  ///< Overrides the scenario's.
+  /// Instruction set of the trace; empty = the machine's best.
+  std::string isa;
+  int num_threads = 0;  ///< 0 = all cores.
+};
+
+/// Adds the options of the command `stream`.
+void AddStreamOptions(CLI::App& stream, StreamOptions& options);
+
+/// Whether there are no receivers, so that frames need not wait for their time.
+[[nodiscard]] bool IsOffline(const StreamOptions& options);
+
+/// @throws InputError if options cannot be combined.
+void CheckOptionsTogether(const StreamOptions& options, std::size_t num_sensors);
+
+}  // namespace railcast

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "railcast/frame.h"
+
+namespace railcast {
+
+/// Counts over one frame, or over many together.
+struct FrameCounts {
+  std::uint64_t points{};  ///< Slots with a point.
+  /// Number of firings with each outcome.
+  std::array<std::uint64_t, kOutcomeNames.size()> outcomes{};
+  /// By the label's name; labels without a point are left out.
+  std::map<std::string, std::uint64_t> points_per_label;
+
+  void Add(const FrameCounts& other);
+  bool operator==(const FrameCounts&) const = default;
+};
+
+[[nodiscard]] FrameCounts CountFrame(const Frame& frame, const LabelTable& labels);
+
+/// Adds the members `points`, `outcomes` and `points_per_label`, as in frames.jsonl and
+/// manifest.json, to `object`.
+void PutCounts(const FrameCounts& counts, nlohmann::ordered_json& object);
+
+/// A file that holds data of a frame.
+struct WrittenFile {
+  std::string name;  ///< Relative to the sequence directory.
+  std::uint64_t size{};
+  std::string hash;  ///< ContentHash of its bytes.
+
+  bool operator==(const WrittenFile&) const = default;
+};
+
+/// Pose and time of the sensor at a frame's last firing.
+struct ScanEnd {
+  std::uint32_t time_ns{};               ///< Time since the stamp.
+  Vector3 position_m = Vector3::Zero();  ///< In the world frame.
+  /// Of the two quaternions for the same rotation, the one nearer to that of poses.csv, so that
+  /// poses in between can be interpolated.
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+
+  bool operator==(const ScanEnd&) const = default;
+};
+
+[[nodiscard]] ScanEnd ScanEndOf(const Frame& frame);
+
+/// A line of frames.jsonl, which states that a frame is complete.
+struct FrameRecord {
+  std::uint32_t frame{};
+  std::int64_t stamp_ns{};
+  ScanEnd scan_end;
+  std::vector<WrittenFile> files;
+  std::string records_hash;  ///< Hash of the frame's lines in the directory's other files.
+  FrameCounts counts;
+
+  bool operator==(const FrameRecord&) const = default;
+};
+
+[[nodiscard]] std::string FrameLine(const FrameRecord& record);
+
+/// Returns nothing if the line is incomplete or was not written by FrameLine.
+[[nodiscard]] std::optional<FrameRecord> ParseFrameLine(std::string_view line);
+
+}  // namespace railcast

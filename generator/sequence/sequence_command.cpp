@@ -1,0 +1,256 @@
+#include <chrono>
+#include <iostream>
+#include <optional>
+#include <utility>
+
+#include "core/base/attempt.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/fidelity/choice_report.h"
+#include "core/io/scenario_identity.h"
+#include "core/program/progress_line.h"
+#include "core/program/version.h"
+#include "core/scenario/command_log.h"
+#include "core/trace/trace_program.h"
+#include "generator/commands.h"
+#include "generator/run/commanded_run.h"
+#include "generator/run/run_options.h"
+#include "generator/run/stop_signal.h"
+#include "generator/run/stoppable_work.h"
+#include "generator/run/track_limits.h"
+#include "generator/sequence/object_survey.h"
+#include "generator/sequence/run_sequence.h"
+#include "generator/sequence/summary.h"
+#include "railcast/effects.h"
+#include "railcast/io/cloud_files.h"
+#include "railcast/scenario.h"
+
+namespace railcast {
+namespace {
+
+struct SequenceOptions {
+  std::filesystem::path scenario;
+  std::filesystem::path out;
+  std::uint32_t num_frames = 10;
+  std::uint32_t start_frame = 0;
+  std::string format = "pcd";
+  std::string fields = "all";
+  std::optional<std::uint64_t> seed;              ///< Overrides the scenario's.
+  std::optional<std::string> fidelity;            ///< Overrides the scenario's.
+  std::optional<std::string> sensor;              ///< Which sensor, if there are several.
+  std::optional<std::filesystem::path> commands;  ///< Log of a live run to replay.
+  std::string isa;                                ///< Of the trace; empty = the machine's best.
+  int num_threads = 0;                            ///< 0 = all cores.
+  bool is_verbose = false;
+};
+
+// The whole scenario, to which a log may belong, and its reduction to the sensor of the frames.
+struct Scenarios {
+  ScenarioSpec whole;
+  ScenarioSpec of_sensor;
+};
+
+Scenarios ReadForSequence(const SequenceOptions& options) {
+  ScenarioSpec scenario = ReadScenario(options.scenario);
+  if (options.seed) scenario.seed = *options.seed;
+  if (options.fidelity) scenario.fidelity = ValueNamed<Fidelity>(*options.fidelity).value();
+  const bool is_sensor_frame = scenario.output.frame == OutputFrame::kSensor &&
+                               scenario.output.handedness == Handedness::kRight;
+  const FrameFormat& format = ParseFrameFormat(options.format);
+  if (format.dataset && !is_sensor_frame) {
+    throw InputError(ShownPath(options.scenario) +
+                     ": /output: must be right-handed sensor coordinates for --format " +
+                     std::string(format.name) + " (got " +
+                     std::string(NameOf(scenario.output.handedness)) + "-handed " +
+                     std::string(NameOf(scenario.output.frame)) + ")");
+  }
+  ScenarioSpec of_sensor = PickSensor(scenario, options.sensor);
+  return {std::move(scenario), std::move(of_sensor)};
+}
+
+// Returns the commands of the log since its last reset. The log may belong to all the scenario's
+// sensors or to this one alone.
+CommandLog ReadLog(const SequenceOptions& options, const Scenarios& scenarios) {
+  CommandLog log;
+  if (!options.commands) return log;
+  log = ReadCommandLog(*options.commands);
+  const std::string whole = IdentityOf(scenarios.whole).scenario_hash;
+  if (log.scenario_xxh3 != whole &&
+      log.scenario_xxh3 != IdentityOf(scenarios.of_sensor).scenario_hash) {
+    throw InputError(ShownPath(*options.commands) +
+                     ": must be the log of this scenario with this --seed and --fidelity, " +
+                     whole + " (got that of " + log.scenario_xxh3 + ")");
+  }
+  // Makes logs of all sensors and of this one alone give the same run.
+  log.scenario_xxh3 = whole;
+  return log;
+}
+
+SequenceSpec MakeSpec(const SequenceOptions& options, const ScenarioSpec& scenario) {
+  SequenceSpec spec;
+  spec.directory = options.out;
+  spec.version = ProgramVersion();
+  spec.embree_version = EmbreeVersion();
+  spec.isa = AtPlace("--", [&] { return IsaInUse(options.isa); });
+  spec.identity = IdentityOf(scenario);
+  spec.seed = scenario.seed;
+  spec.files.format = &ParseFrameFormat(options.format);
+  spec.files.fields = FieldSelection(options.fields);
+  const std::optional<DatasetLayout>& dataset = spec.files.format->dataset;
+  if (dataset && options.fields != "all") {
+    throw InputError("--fields: " + std::string(dataset->title) +
+                     "'s are fixed, so it must be left out with --format " + options.format +
+                     " (got " + options.fields + ")");
+  }
+  spec.files.labels = LabelTable(scenario.labels);
+  spec.materials = MaterialLibrary(scenario.materials);
+  spec.start_frame = options.start_frame;
+  spec.num_frames = options.num_frames;
+  return spec;
+}
+
+/// Makes the frames of a run together with the records of their objects.
+class SurveyedRun {
+ public:
+  SurveyedRun(CommandedRun& run, const LabelTable& labels) : run_(run), labels_(labels) {}
+
+  void Make(std::uint32_t index, Frame& frame, std::vector<ObjectInFrame>& objects) {
+    Simulator& simulator = run_.At(0, index);
+    simulator.Scan(index, frame);
+    if (simulator.shared_world() != world_) {
+      world_ = simulator.shared_world();
+      survey_.emplace(*world_, labels_, simulator.spec().detector.range_max_m,
+                      simulator.spec().output);
+    }
+    objects = survey_->Describe(frame, simulator.FiringsOnObjectAlone(index));
+  }
+
+ private:
+  CommandedRun& run_;
+  const LabelTable& labels_;
+  std::shared_ptr<const World> world_;
+  std::optional<ObjectSurvey> survey_;
+};
+
+class ProgressDisplay {
+ public:
+  void Show(std::uint32_t num_done, std::uint32_t num_frames) {
+    if (!num_resumed_) {
+      num_resumed_ = num_done;
+      begin_ = std::chrono::steady_clock::now();
+    }
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
+    line_.Show(SequenceProgressText(num_done, num_frames, *num_resumed_, elapsed.count()));
+    if (num_done == num_frames) line_.End();
+  }
+  /// Ends the line of a run that is not complete.
+  void Break() const { line_.End(); }
+
+ private:
+  TerminalLine line_;
+  std::optional<std::uint32_t> num_resumed_;
+  std::chrono::steady_clock::time_point begin_;
+};
+
+int RunSequenceCommand(const SequenceOptions& options) {
+  const Scenarios scenarios = ReadForSequence(options);
+  const ScenarioSpec& scenario = scenarios.of_sensor;
+  const CommandLog log = ReadLog(options, scenarios);
+  SequenceSpec spec = MakeSpec(options, scenario);
+  // An empty log makes the same run as no log.
+  if (!log.commands.empty()) spec.commands_jsonl = CommandLogText(log);
+  if (options.is_verbose) std::cerr << "read " << ShownPath(options.scenario) << "\n";
+  const auto simulator = MakeSimulator(scenario, options.num_threads, spec.isa);
+  CheckSameFiles(scenario, spec.identity);
+  if (options.is_verbose) {
+    std::cerr << "made the simulator: " << simulator->pattern().num_firings()
+              << " firings a frame, " << simulator->world().objects().size() << " objects, "
+              << log.commands.size() << " commands\n";
+  }
+  const std::uint32_t last_frame = spec.start_frame + spec.num_frames - 1;
+  CheckHasStamp("--start-frame, --frames", simulator->pattern(), last_frame);
+  CommandedRun run(scenario, {simulator.get()});
+  AtPlace(ShownPath(options.commands.value_or("")) + ": ", [&] { run.Apply(log.commands); });
+  CheckStaysOnTracks(run, simulator->pattern(), spec.start_frame, last_frame);
+  // The directory can be resumed however the program ends.
+  CatchStopSignals();
+  WatchBuilding(*simulator, StopRequested, true);
+  if (scenario.fidelity == Fidelity::kAuto) {
+    try {
+      const FidelityChoice choice = UseChosenFidelity(*simulator, scenario);
+      spec.fidelity_choice_json = ChoiceJson(choice, scenario.tolerance);
+      std::cout << ChoiceText(choice, scenario.tolerance) << std::flush;
+    } catch (const RunStopped&) {
+      std::cerr << "interrupted before the first frame\n";
+      return kExitInterrupted;
+    }
+  }
+  SurveyedRun frames(run, spec.files.labels);
+  ProgressDisplay display;
+  const SequenceHooks hooks = {
+      [&](std::uint32_t num_done, std::uint32_t num_frames) { display.Show(num_done, num_frames); },
+      StopRequested};
+  const SequenceResult result = RunSequence(
+      spec,
+      [&](std::uint32_t index, Frame& frame, std::vector<ObjectInFrame>& objects) {
+        frames.Make(index, frame, objects);
+      },
+      hooks);
+  if (!result.is_complete) display.Break();
+  std::cout << ShownLines(Summary(spec, result));
+  if (result.is_complete) return kExitSuccess;
+  std::cerr << "interrupted; the same command continues with frame "
+            << spec.start_frame + result.num_done << "\n";
+  return kExitInterrupted;
+}
+
+}  // namespace
+
+void AddSequence(CLI::App& app, ProgramCommand& command) {
+  const auto options = std::make_shared<SequenceOptions>();
+  CLI::App* sequence = app.add_subcommand(
+      "sequence",
+      "Write labelled frames to files; run the same command again to continue an interrupted run");
+  sequence->add_option("SCENARIO", options->scenario, "Scenario file")
+      ->required()
+      ->check(NonEmpty());
+  sequence->add_option("--out", options->out, "Directory to write the frames to")
+      ->required()
+      ->check(NonEmpty());
+  sequence->add_option("--frames", options->num_frames, "Number of frames to make")
+      ->transform(Whole({1, kMaxFrame}))
+      ->capture_default_str();
+  sequence->add_option("--start-frame", options->start_frame, "Number of the first frame")
+      ->transform(Whole({0, kMaxFrame}))
+      ->capture_default_str();
+  sequence->add_option("--format", options->format, "File format of the frames")
+      ->check(CLI::IsMember(FrameFormatNames()))
+      ->capture_default_str();
+  sequence->add_option("--fields", options->fields, "Fields to write, separated by commas, or all")
+      ->capture_default_str();
+  sequence->add_option("--seed", options->seed, "Seed to use instead of the scenario's")
+      ->transform(Whole({}));
+  sequence->add_option("--threads", options->num_threads, "Number of threads; 0 = all cores")
+      ->transform(Whole({0, 1024}))
+      ->capture_default_str();
+  sequence->add_option("--fidelity", options->fidelity, "Fidelity to use instead of the scenario's")
+      ->check(CLI::IsMember(NamesOf<Fidelity>()));
+  AddIsa(*sequence, options->isa);
+  sequence->add_option("--sensor", options->sensor,
+                       "Name of the sensor to simulate, where the scenario has several");
+  sequence
+      ->add_option(
+          "--commands", options->commands,
+          "Command log of a live run to replay; with that run's scenario it reproduces its frames")
+      ->check(NonEmpty());
+  sequence->footer(
+      "Exit status: 0 success, 1 bad input or failed run, 2 usage, 130 interrupted (the same\n"
+      "command continues).");
+  sequence->callback([&app, &command, options] {
+    options->is_verbose = app.count("--verbose") > 0;
+    CheckFields(options->fields);
+    command = [options](const std::string&) { return RunSequenceCommand(*options); };
+  });
+}
+
+}  // namespace railcast

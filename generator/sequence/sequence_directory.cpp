@@ -1,0 +1,315 @@
+#include "generator/sequence/sequence_directory.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/io/content_hash.h"
+#include "core/io/recording/sequence_summary.h"
+#include "core/io/sequence_files.h"
+#include "core/io/write_file.h"
+#include "generator/sequence/frame_record.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+void CreateDirectories(const fs::path& directory) {
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (error) throw FileError(directory, error.value());
+}
+
+// Retries, since a run that was just killed may hold the lock until the system has released it.
+bool Lock(int directory) {
+  constexpr int kTries = 20;
+  constexpr std::chrono::milliseconds kPause(50);
+  for (int i = 0; i < kTries; ++i) {
+    if (::flock(directory, LOCK_EX | LOCK_NB) == 0) return true;
+    std::this_thread::sleep_for(kPause);
+  }
+  return false;
+}
+
+bool HasBytes(const fs::path& file, std::string_view bytes) {
+  return fs::exists(file) && ReadFileWhole(file) == bytes;
+}
+
+std::set<std::uint32_t> MovingInstances(const std::vector<ObjectInFrame>& objects) {
+  constexpr double kRounding_mps = 1e-6;
+  std::set<std::uint32_t> moving;
+  for (const ObjectInFrame& object : objects) {
+    if (object.velocity_world_mps.norm() > kRounding_mps) moving.insert(object.instance);
+  }
+  return moving;
+}
+
+// Returns the files below a directory, relative to it. A link counts as a file, whatever it leads
+// to.
+std::vector<std::string> FilesBelow(const fs::path& directory) {
+  std::vector<std::string> names;
+  std::error_code error;
+  fs::recursive_directory_iterator entry(directory, error);
+  for (const fs::recursive_directory_iterator end; !error && entry != end; entry.increment(error)) {
+    if (fs::is_directory(entry->symlink_status(error)) || error) continue;
+    names.push_back(entry->path().lexically_relative(directory).generic_string());
+  }
+  if (error) throw FileError(directory, error.value());
+  std::ranges::sort(names);
+  return names;
+}
+
+// Returns "frames/000012.pcd" for "frames/000012.pcd.part", and nothing for other names.
+std::optional<std::string_view> FinishedName(std::string_view name) {
+  if (!name.ends_with(kUnfinishedSuffix)) return std::nullopt;
+  return name.substr(0, name.size() - kUnfinishedSuffix.size());
+}
+
+// Returns the number in the name of a frame's file: 12 for "frames/000012.pcd".
+std::optional<std::uint32_t> FrameNumber(std::string_view name) {
+  name.remove_prefix(name.rfind('/') + 1);
+  std::uint32_t number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  if (error != std::errc() || end == name.data()) return std::nullopt;
+  return number;
+}
+
+/// The names of a run's files.
+class OwnNames {
+ public:
+  /// @param fixed The files that are known before the first frame.
+  OwnNames(const SequenceSpec& spec, const std::vector<FrameFile>& fixed) : spec_(spec) {
+    names_ = {std::string(kRunFile), std::string(kManifestFile)};
+    for (const FrameFile& file : fixed) names_.insert(file.name);
+    for (const LineFileName& file : LineFileNames(*spec.files.format)) names_.insert(file.name);
+  }
+
+  [[nodiscard]] bool Have(std::string_view name) const {
+    if (names_.contains(name)) return true;
+    const std::optional<std::uint32_t> number = FrameNumber(name);
+    const std::uint32_t first = spec_.files.format->dataset ? 0 : spec_.start_frame;
+    if (!number || *number < first || *number - first >= spec_.num_frames) return false;
+    const std::vector<std::string> names = FrameFileNames(*spec_.files.format, *number);
+    return std::ranges::find(names, name) != names.end();
+  }
+
+ private:
+  const SequenceSpec& spec_;
+  std::set<std::string, std::less<>> names_;
+};
+
+}  // namespace
+
+SequenceDirectory::SequenceDirectory(SequenceSpec spec) : spec_(std::move(spec)) {
+  CreateDirectories(spec_.directory);
+  lock_ = ::open(spec_.directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ < 0) throw FileError(spec_.directory, errno);
+  try {
+    Open();
+  } catch (...) {
+    ::close(lock_);
+    throw;
+  }
+}
+
+SequenceDirectory::~SequenceDirectory() {
+  ::close(lock_);
+}
+
+void SequenceDirectory::Open() {
+  if (!Lock(lock_)) {
+    throw InputError(ShownPath(spec_.directory) + ": another run is writing here");
+  }
+  const fs::path run_file = spec_.directory / kRunFile;
+  const bool is_run = fs::exists(run_file);
+  is_complete_ = is_run && fs::exists(spec_.directory / kManifestFile);
+  if (is_run) CheckSameRun(spec_, ReadFileWhole(run_file), is_complete_);
+  RefuseStrangers(is_run);
+  if (!is_run) WriteFileWhole(run_file, RunJson(spec_));
+  Resume();
+}
+
+// Refuses files of other origin: they could be mistaken for the run's, or be deleted when it cleans
+// up.
+void SequenceDirectory::RefuseStrangers(bool is_run) const {
+  const OwnNames own(spec_, FixedFiles());
+  for (const std::string& name : FilesBelow(spec_.directory)) {
+    const std::optional<std::string_view> finished = FinishedName(name);
+    // A run that was stopped before its first file was complete leaves an unfinished run.json.
+    const bool is_own = is_run ? own.Have(name) || (finished && own.Have(*finished))
+                               : finished == std::string_view(kRunFile);
+    if (is_own) continue;
+    throw InputError(ShownPath(spec_.directory) +
+                     ": holds a file that does not belong to this run (" + ShownPath(name) +
+                     "); move it away or choose another --out");
+  }
+}
+
+void SequenceDirectory::RemoveUnfinished() const {
+  const OwnNames own(spec_, FixedFiles());
+  for (const std::string& name : FilesBelow(spec_.directory)) {
+    // A mesh may have a name that ends so, too.
+    if (FinishedName(name) && !own.Have(name)) fs::remove(spec_.directory / name);
+  }
+}
+
+void SequenceDirectory::Resume() {
+  if (!is_complete_) {
+    WriteFixedFiles();
+    RemoveUnfinished();
+  }
+  const SequenceProgress progress = FindProgress(spec_);
+  num_done_ = progress.num_done;
+  counts_ = progress.counts;
+  if (num_done_ > 0) first_pose_ = ParsePoseLine(progress.first_pose_line);
+  if (is_complete_) return CheckUnchanged(progress);
+  const std::vector<LineFileName> names = LineFileNames(*spec_.files.format);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    line_files_.emplace_back(spec_.directory / names[i].name, progress.keep_bytes[i]);
+    if (progress.keep_bytes[i] == 0) line_files_.back().Append(names[i].header);
+  }
+}
+
+void SequenceDirectory::CheckUnchanged(const SequenceProgress& progress) const {
+  const fs::path& directory = spec_.directory;
+  const auto check = [&](bool is_unchanged, const std::string& what) {
+    if (is_unchanged) return;
+    throw InputError(ShownPath(directory) + ": is complete, but " + what +
+                     " was changed or removed; delete manifest.json to make it anew");
+  };
+  check(num_done_ == spec_.num_frames, "frame " + std::to_string(spec_.start_frame + num_done_));
+  const std::vector<LineFileName> names = LineFileNames(*spec_.files.format);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    check(fs::file_size(directory / names[i].name) == progress.keep_bytes[i], names[i].name);
+  }
+  check(HasBytes(directory / kRunFile, RunJson(spec_)), std::string(kRunFile));
+  for (const auto& [name, bytes] : FixedFiles()) check(HasBytes(directory / name, bytes), name);
+  check(HasBytes(directory / kManifestFile, ManifestJson()), std::string(kManifestFile));
+}
+
+std::vector<FrameFile> SequenceDirectory::FixedFiles() const {
+  std::vector<FrameFile> files;
+  const auto add = [&files](std::string_view name, std::string bytes) {
+    files.push_back({std::string(name), std::move(bytes)});
+  };
+  add(kScenarioFile, spec_.identity.scenario_json);
+  for (const InputFile& input : spec_.identity.inputs) add(input.CopyName(), input.bytes);
+  add(kLabelsFile, LabelsJson(spec_.files.labels));
+  add(kMaterialsFile, MaterialsJson(spec_.materials));
+  if (!spec_.commands_jsonl.empty()) add(kCommandsFile, spec_.commands_jsonl);
+  if (const auto& dataset = spec_.files.format->dataset) {
+    for (FrameFile& file : dataset->fixed_files(spec_.files.labels)) {
+      files.push_back(std::move(file));
+    }
+  }
+  return files;
+}
+
+void SequenceDirectory::WriteFixedFiles() {
+  const fs::path& directory = spec_.directory;
+  for (const FrameFileKind& file : spec_.files.format->files) {
+    CreateDirectories((directory / file.folder).parent_path());
+  }
+  // The file may have the same content in other bytes.
+  if (!HasBytes(directory / kRunFile, RunJson(spec_))) {
+    WriteFileWhole(directory / kRunFile, RunJson(spec_));
+  }
+  for (const auto& [name, bytes] : FixedFiles()) {
+    CreateDirectories((directory / name).parent_path());
+    WriteFileWhole(directory / name, bytes);
+  }
+}
+
+std::vector<std::string> SequenceDirectory::RecordLines(const Frame& frame,
+                                                        const std::vector<ObjectInFrame>& objects) {
+  const PoseRecord pose(frame.stamp_ns, frame.world_from_sensor);
+  if (!first_pose_) first_pose_ = pose;
+  std::vector<std::string> lines = {PoseLine(pose), ObjectsLine(frame, objects)};
+  if (const auto& dataset = spec_.files.format->dataset) {
+    // Computed from the values of poses.csv, so that a resumed run uses the same numbers.
+    for (std::string& line :
+         dataset->record_lines(first_pose_->WorldFromSensor().inverse() * pose.WorldFromSensor(),
+                               SecondsFromNs(pose.stamp_ns - first_pose_->stamp_ns))) {
+      lines.push_back(std::move(line));
+    }
+  }
+  return lines;
+}
+
+void SequenceDirectory::Write(const Frame& frame, const std::vector<ObjectInFrame>& objects) {
+  Check(frame.index == spec_.start_frame + num_done_, "frames are written in their order");
+  EncodeFrameFiles(frame, spec_.files, spec_.files.format->dataset ? num_done_ : frame.index,
+                   frame_files_, MovingInstances(objects));
+
+  FrameRecord record;
+  record.frame = frame.index;
+  record.stamp_ns = frame.stamp_ns;
+  record.scan_end = ScanEndOf(frame);
+  record.counts = CountFrame(frame, spec_.files.labels);
+  for (const FrameFile& file : frame_files_) {
+    record.files.push_back({file.name, file.bytes.size(), ContentHash(file.bytes)});
+    WriteFileWhole(spec_.directory / file.name, file.bytes);
+  }
+  const std::vector<std::string> lines = RecordLines(frame, objects);
+  std::string all_lines;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    line_files_[i].Append(lines[i]);
+    all_lines += lines[i];
+  }
+  record.records_hash = ContentHash(all_lines);
+  line_files_.back().Append(FrameLine(record));
+  counts_.Add(record.counts);
+  ++num_done_;
+}
+
+void SequenceDirectory::Finish() {
+  Check(num_done_ == spec_.num_frames, "only a complete run has a manifest");
+  for (LineFile& file : line_files_) file.Sync();
+  WriteFileWhole(spec_.directory / kManifestFile, ManifestJson());
+  is_complete_ = true;
+}
+
+std::string SequenceDirectory::ManifestJson() const {
+  nlohmann::ordered_json manifest = {{"version", spec_.version},
+                                     {"seed", spec_.seed},
+                                     {"format", spec_.files.format->name},
+                                     {"start_frame", spec_.start_frame},
+                                     {"num_frames", spec_.num_frames}};
+  if (!spec_.fidelity_choice_json.empty()) {
+    manifest["fidelity_choice"] = nlohmann::ordered_json::parse(spec_.fidelity_choice_json);
+  }
+  PutCounts(counts_, manifest);
+  // frames.jsonl holds the hash of every frame's files, so these hashes cover the whole content.
+  // The data's hash leaves out run.json, which names the program that made them.
+  std::vector<KnownFile> known;
+  nlohmann::ordered_json files = nlohmann::ordered_json::object();
+  std::vector<std::string> names = {std::string(kRunFile)};
+  for (const FrameFile& file : FixedFiles()) names.push_back(file.name);
+  for (const LineFileName& file : LineFileNames(*spec_.files.format)) names.push_back(file.name);
+  for (const std::string& name : names) {
+    const std::string hash = ContentHash(ReadFileWhole(spec_.directory / name));
+    files[name] = hash;
+    known.push_back({name, hash, {}});
+  }
+  manifest["files_xxh3"] = files;
+  manifest["data_xxh3"] = DataHash(known);
+  return WithManifestHash(manifest.dump(2) + "\n");
+}
+
+}  // namespace railcast

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "generator/sequence/frame_record.h"
+#include "generator/sequence/line_file.h"
+#include "generator/sequence/object_record.h"
+#include "generator/sequence/pose_record.h"
+#include "generator/sequence/sequence_progress.h"
+#include "generator/sequence/sequence_spec.h"
+#include "railcast/frame.h"
+
+namespace railcast {
+
+/// A directory that holds a sequence of frames, complete or unfinished.
+///
+/// Layout: `frames/NNNNNN.*` (kitti: KITTI's own layout, numbered from 0 because line n of
+/// poses.txt belongs to file n), `poses.csv`, `objects.jsonl`, `frames.jsonl`,
+/// `scenario.resolved.json`, `inputs/HASH/NAME` (the files that the scenario names), `labels.json`,
+/// `materials.json`, `commands.jsonl` (if the run replays any), `run.json` (identifies the run)
+/// and, once complete, `manifest.json`.
+///
+/// A frame counts as done when its line in frames.jsonl is whole and its files and lines have the
+/// hashes that this line states. All other remains of an interrupted run are dropped on opening, so
+/// that a resumed run gives the same bytes as one that was never interrupted.
+class SequenceDirectory {
+ public:
+  /// Creates the directory, or opens it and finds out how far its run has got.
+  /// @throws InputError if it belongs to another run, holds other files, is complete but was
+  ///   changed since, is being written by another process, or the system refuses.
+  explicit SequenceDirectory(SequenceSpec spec);
+  ~SequenceDirectory();
+  SequenceDirectory(const SequenceDirectory&) = delete;
+  SequenceDirectory& operator=(const SequenceDirectory&) = delete;
+
+  /// Whether manifest.json exists.
+  [[nodiscard]] bool is_complete() const { return is_complete_; }
+  [[nodiscard]] std::uint32_t num_done() const { return num_done_; }
+  /// Counts over all frames done.
+  [[nodiscard]] const FrameCounts& counts() const { return counts_; }
+
+  /// Writes frame start_frame + num_done().
+  /// @throws InputError if the system refuses; the directory can be resumed nevertheless.
+  void Write(const Frame& frame, const std::vector<ObjectInFrame>& objects);
+
+  /// Writes the manifest.
+  /// @pre All frames are done.
+  void Finish();
+
+ private:
+  void Open();
+  // @throws InputError if the directory holds a file that does not belong to this run.
+  void RefuseStrangers(bool is_run) const;
+  void RemoveUnfinished() const;
+  void Resume();
+  // Checks a complete directory, whose frames have been counted.
+  void CheckUnchanged(const SequenceProgress& progress) const;
+  // Returns the files that are known before the first frame, except run.json.
+  [[nodiscard]] std::vector<FrameFile> FixedFiles() const;
+  void WriteFixedFiles();
+  [[nodiscard]] std::string ManifestJson() const;
+  [[nodiscard]] std::vector<std::string> RecordLines(const Frame& frame,
+                                                     const std::vector<ObjectInFrame>& objects);
+
+  SequenceSpec spec_;
+  int lock_ = -1;
+  bool is_complete_ = false;
+  std::uint32_t num_done_ = 0;
+  FrameCounts counts_;
+  std::optional<PoseRecord> first_pose_;
+  /// frames.jsonl is last: its line makes the frame count as done.
+  std::vector<LineFile> line_files_;
+  std::vector<FrameFile> frame_files_;
+};
+
+}  // namespace railcast

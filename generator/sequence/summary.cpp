@@ -1,0 +1,74 @@
+#include "generator/sequence/summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "core/base/text.h"
+
+namespace railcast {
+namespace {
+
+using Row = std::pair<std::string, std::uint64_t>;
+
+void PutTable(const std::string& title, std::vector<Row> rows, std::ostringstream& text) {
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const Row& a, const Row& b) { return a.second > b.second; });
+  std::uint64_t total = 0;
+  for (const Row& row : rows) total += row.second;
+  text << title << " (" << total << ")\n";
+  for (const auto& [name, count] : rows) {
+    if (count == 0) continue;
+    const double share = 100.0 * static_cast<double>(count) / static_cast<double>(total);
+    text << "  " << std::left << std::setw(16) << name << std::right << std::setw(12) << count
+         << std::setw(7) << std::fixed << std::setprecision(1) << share << " %\n";
+  }
+}
+
+}  // namespace
+
+std::string Summary(const SequenceSpec& spec, const SequenceResult& result) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1);
+  const std::uint32_t num_made = result.num_done - result.num_resumed;
+  if (result.was_complete) {
+    text << "already complete: nothing to do\n";
+  } else {
+    text << "made " << num_made << (num_made == 1 ? " frame" : " frames") << " in "
+         << result.elapsed_s << " s";
+    if (num_made > 0) text << " (" << num_made / result.elapsed_s << " frames/s)";
+    if (result.num_resumed > 0) text << "; " << result.num_resumed << " were already there";
+    text << "\n";
+  }
+  std::vector<Row> labels(result.counts.points_per_label.begin(),
+                          result.counts.points_per_label.end());
+  PutTable("points by label", std::move(labels), text);
+  std::vector<Row> outcomes;
+  for (std::size_t i = 0; i < kOutcomeNames.size(); ++i) {
+    outcomes.emplace_back(kOutcomeNames[i], result.counts.outcomes[i]);
+  }
+  PutTable("firings by outcome", std::move(outcomes), text);
+  text << result.num_done << " of " << spec.num_frames << " frames in " << ShownPath(spec.directory)
+       << "\n";
+  return text.str();
+}
+
+std::string SequenceProgressText(std::uint32_t num_done,
+                                 std::uint32_t num_frames,
+                                 std::uint32_t num_resumed,
+                                 double elapsed_s) {
+  std::ostringstream text;
+  text << "frame " << num_done << " of " << num_frames;
+  const std::uint32_t num_made = num_done - num_resumed;
+  if (num_made == 0 || elapsed_s <= 0.0) return text.str();
+  const double rate_hz = num_made / elapsed_s;
+  const auto left_s = static_cast<std::uint64_t>(std::ceil((num_frames - num_done) / rate_hz));
+  text << ", " << std::fixed << std::setprecision(1) << rate_hz << " frames/s, " << left_s / 60
+       << ":" << std::setw(2) << std::setfill('0') << left_s % 60 << " left";
+  return text.str();
+}
+
+}  // namespace railcast

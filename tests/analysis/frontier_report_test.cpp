@@ -1,0 +1,125 @@
+#include "analysis/frontier/frontier_report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "analysis/report/formats.h"
+#include "tests/analysis/made_results.h"
+
+namespace railcast {
+namespace {
+
+using Json = nlohmann::json;
+
+std::vector<RowResult> Results() {
+  RowResult footprint = MadeResult("footprint", RowGroup::kLadder, 4.0, 5);
+  footprint.times_ms = {30.0, 40.0, 90.0};
+  footprint.row.effects.footprint = true;
+  footprint.difference->reference_echoes_per_label[4] = {10, 9};
+  return {MadeResult("raw_trace", RowGroup::kRawTrace, 1.0, 0), footprint};
+}
+
+LabelTable Labels() {
+  Label ground;
+  ground.id = 4;
+  ground.name = "ground";
+  return LabelTable({ground});
+}
+
+FrontierCircumstances Circumstances() {
+  return {"1.2.3",
+          "a.json",
+          7,
+          0.375F,
+          R"({"a": 1})",
+          "fidelity auto uses nothing\n  tolerance: 1 mm\n",
+          "2023-11-14 22:13 UTC",
+          "5ce0a410",
+          "clear"};
+}
+
+// A report with the chart of missed echoes.
+Report ChartedReport() {
+  return MakeFrontierReport({}, Circumstances(),
+                            {MadeResult("raw_trace", RowGroup::kRawTrace, 1.0, 0),
+                             MadeResult("footprint", RowGroup::kLadder, 4.0, 5),
+                             MadeResult("surface+thin_conductors", RowGroup::kLadder, 1.25, 40),
+                             MadeResult("brute_force_7", RowGroup::kBruteForce, 4.5, 20),
+                             MadeResult("footprint-thin_conductors", RowGroup::kBetween, 3.5, 9)},
+                            "railcast-analyze frontier a.json");
+}
+
+TEST(FrontierReport, ChartsTheRungsFromLeftToRight) {
+  const Chart chart = ChartedReport().sections[0].charts[0];
+  EXPECT_EQ(chart.key, "missed_percent");
+  ASSERT_EQ(chart.series.size(), 3U);
+  const std::vector<ChartPoint>& rungs = chart.series[0].points;
+  ASSERT_EQ(rungs.size(), 2U);
+  EXPECT_EQ(rungs[0].x, 1.25);
+  EXPECT_DOUBLE_EQ(rungs[0].y, 40.0);
+  EXPECT_EQ(rungs[0].label, "surface + wires");
+  EXPECT_EQ(rungs[1].x, 4.0);
+  EXPECT_EQ(rungs[1].label, "footprint");
+}
+
+TEST(FrontierReport, CallsBruteForceByItsRays) {
+  const Chart chart = ChartedReport().sections[0].charts[0];
+  EXPECT_EQ(chart.series[1].points[0].label, "7");
+  EXPECT_EQ(chart.series[2].points[0].label, "");
+}
+
+TEST(FrontierReport, SaysWhatWasFoundAndWhatTheSceneNeeds) {
+  const Report report = ChartedReport();
+  const std::string text = ReportText(report);
+  EXPECT_THAT(text, testing::HasSubstr("No row of brute force is faster and more accurate"));
+  EXPECT_THAT(text, testing::HasSubstr("fidelity auto uses nothing\n"));
+  const Table& found = report.sections[0].tables[1];
+  EXPECT_EQ(found.key, "found");
+  EXPECT_EQ(std::get<std::string>(found.rows[0][0]), "footprint");
+  EXPECT_NEAR(std::get<Estimate>(found.rows[0][2]).value, 95.0, 1e-12);
+  EXPECT_EQ(std::get<Estimate>(found.rows[0][2]).num, 100U);
+}
+
+TEST(FrontierJson, HoldsNumbersAndCircumstances) {
+  FrontierPlan plan;
+  plan.frames = {0, 10};
+  const FrontierCircumstances circumstances = Circumstances();
+  const Json json = Json::parse(FrontierJson(plan, circumstances, Labels(), Results()));
+  EXPECT_EQ(json["version"], "1.2.3");
+  EXPECT_EQ(json["scenario"], "a.json");
+  EXPECT_EQ(json["seed"], 7);
+  EXPECT_EQ(json["date"], "2023-11-14 22:13 UTC");
+  EXPECT_EQ(json["scenario_xxh3"], "5ce0a410");
+  EXPECT_EQ(json["weather"], "clear");
+  EXPECT_EQ(json["frames"], (Json{0, 10}));
+  EXPECT_EQ(json["matching"]["match_distance_m"], 0.375);
+  EXPECT_EQ(json["fidelity_auto"]["a"], 1);
+  const Json& row = json["rows"][1];
+  EXPECT_EQ(row["p50_ms"], 40.0);
+  EXPECT_EQ(row["p99_ms"], 90.0);
+  EXPECT_EQ(row["ratio_to_raw_trace"], 4.0);
+  EXPECT_EQ(row["effects"], Json{"footprint"});
+  EXPECT_NEAR(row["errors"]["missed_share"].get<double>(), 0.05, 1e-12);
+  EXPECT_TRUE(row["errors"]["range_median_m"].is_null());
+  EXPECT_EQ(row["errors"]["recall_per_label"]["ground"]["num_matched"], 9);
+  EXPECT_EQ(json["pareto_front"]["missed_share"], Json{"footprint"});
+  EXPECT_FALSE(json["rows"][0].contains("errors"));
+}
+
+TEST(FrontierCsv, LeavesEmptyWhatARowLacks) {
+  const std::string csv = FrontierCsv(Results());
+  EXPECT_THAT(csv, testing::StartsWith("row,group,p50_ms,p99_ms,ratio_to_raw_trace,missed_share,"));
+  EXPECT_THAT(csv, testing::HasSubstr("raw_trace,raw_trace,10,10,1,,,,,,,,,,\n"));
+  EXPECT_THAT(csv, testing::HasSubstr("footprint,ladder,40,90,4,"));
+}
+
+TEST(RowResult, TakesTheMedianOfTheRoundsRatios) {
+  RowResult result;
+  result.ratios = {9.0, 1.5, 1.4};
+  EXPECT_EQ(result.ratio(), 1.5);
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,68 @@
+#include "core/base/text.h"
+
+#include <gtest/gtest.h>
+#include <string>
+
+namespace railcast {
+
+namespace {
+
+using std::string_literals::operator""s;
+
+TEST(ShownText, LeavesReadableTextAlone) {
+  for (const std::string text : {"", "range_m", "a \"b\" \\ c", "Zürich → 東京 🚆"}) {
+    EXPECT_EQ(ShownText(text), text);
+  }
+}
+
+TEST(ShownText, StaysOnOneLineAndMovesNoCursor) {
+  EXPECT_EQ(ShownText("a\nb\r\tc"), "a\\nb\\r\\tc");
+  EXPECT_EQ(ShownText("\x1b[2J\0\x7f"s), "\\u001b[2J\\u0000\\u007f");
+  // U+009B starts a control sequence, as ESC [ does.
+  EXPECT_EQ(ShownText("\xc2\x9b"), "\\u009b");
+}
+
+TEST(ShownText, ShowsTheBytesOfWhatIsNoUtf8) {
+  EXPECT_EQ(ShownText("Z\xfcrich"), "Z\\xfcrich");
+  // Truncated, overlong, half of a surrogate pair, and beyond U+10FFFF.
+  for (const std::string bytes : {"\xe2\x82", "\xc0\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80"}) {
+    EXPECT_EQ(ShownText(bytes).substr(0, 2), "\\x") << ShownText(bytes);
+  }
+}
+
+TEST(ShownText, CutsWhatIsLong) {
+  EXPECT_EQ(ShownText(std::string(60, 'a')), std::string(60, 'a'));
+  EXPECT_EQ(ShownText(std::string(61, 'a')), std::string(60, 'a') + "...");
+  EXPECT_EQ(ShownText(std::string(59, 'a') + "\n\n"), std::string(59, 'a') + "...");
+}
+
+TEST(ShownPath, IsOneWholeLine) {
+  const std::string name = std::string(200, 'a') + "/b\nc\x1b.pcd";
+  EXPECT_EQ(ShownPath(name), std::string(200, 'a') + "/b\\nc\\u001b.pcd");
+  EXPECT_EQ(ShownPath("out/Zürich 1.pcd"), "out/Zürich 1.pcd");
+  // Applying the function twice changes nothing.
+  EXPECT_EQ(ShownPath(ShownPath(name)), ShownPath(name));
+}
+
+TEST(ShownLines, KeepsNothingOfControlButLineBreaks) {
+  EXPECT_EQ(ShownLines("a\tb\r\n\x1b]0;title\x07\n\xc2\x9b" + std::string(100, 'z')),
+            "a\\tb\\r\n\\u001b]0;title\\u0007\n\\u009b" + std::string(100, 'z'));
+  EXPECT_EQ(ShownLines("x: rule\ny: rule\n"), "x: rule\ny: rule\n");
+}
+
+}  // namespace
+
+namespace {
+
+TEST(EditDistance, CountsInsertionsDeletionsAndChanges) {
+  EXPECT_EQ(EditDistance("", ""), 0U);
+  EXPECT_EQ(EditDistance("label", "label"), 0U);
+  EXPECT_EQ(EditDistance("labl", "label"), 1U);
+  EXPECT_EQ(EditDistance("label", "labl"), 1U);
+  EXPECT_EQ(EditDistance("kitten", "sitting"), 3U);
+  EXPECT_EQ(EditDistance("", "ring"), 4U);
+}
+
+}  // namespace
+
+}  // namespace railcast

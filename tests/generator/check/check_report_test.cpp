@@ -1,0 +1,106 @@
+#include "generator/check/check_report.h"
+
+#include <gtest/gtest.h>
+
+#include "railcast/scenario.h"
+#include "tests/support/simple_world.h"
+
+namespace railcast {
+namespace {
+
+ScanPattern FourFirings() {
+  return BuildScanPattern({10.0, RasterSpec{40.0, 10.0, 10.0, RasterOrder::kColumns}});
+}
+
+AlignmentSpec CurveAfterAStraight() {
+  AlignmentSpec spec;
+  spec.course = AlignmentElementsSpec{
+      {{ElementType::kStraight, 300.0, {}}, {ElementType::kArc, 200.0, -500.0}}};
+  spec.gradients_permil = {{0.0, 0.0}, {100.0, 2.0}, {200.0, -6.0}};
+  return spec;
+}
+
+TEST(CheckReport, StatesTheSensorsRates) {
+  LidarSpec lidar;
+  lidar.name = "odd";
+  EXPECT_EQ(SensorText(lidar, FourFirings()),
+            "sensor    odd: 4 firings a frame (1 rows x 4 columns), range 0.5 to 300 m\n"
+            "          10 frames/s, each fired within 0.075 s; at most 40 points/s\n");
+}
+
+TEST(CheckReport, CallsALineStraight) {
+  AlignmentSpec spec;
+  spec.course = AlignmentElementsSpec{{{ElementType::kStraight, 300.0, {}}}};
+  EXPECT_EQ(LineText(Alignment(spec), false), "line      300.0 m, straight\n");
+}
+
+TEST(CheckReport, ListsSmoothedJumpsOnlyIfAskedTo) {
+  const Alignment alignment(CurveAfterAStraight());
+  const std::string summary =
+      "line      500.0 m, tightest radius 500.0 m\n"
+      "          1 curvature jump smoothed, the largest of 0.002 1/m at s 300.0 m\n"
+      "          2 gradient steps smoothed, the largest of 8 permil at s 200.0 m\n";
+  EXPECT_EQ(LineText(alignment, false), summary + "          (-v lists them)\n");
+  EXPECT_EQ(LineText(alignment, true),
+            summary +
+                "            curvature at s 300 m: from 0 to -0.002 1/m over 20 m\n"
+                "            gradient at s 100 m: from 0 to 2 permil over 40 m\n"
+                "            gradient at s 200 m: from 2 to -6 permil over 40 m\n");
+}
+
+TEST(CheckReport, SaysWhereTheVehiclesWayEnds) {
+  const VehicleWay way{{0.0, 200.0, 8.0}, WayPoint{13.75, 255.0, 0.0}, std::nullopt};
+  EXPECT_EQ(VehicleText("main", way, 10.0),
+            "vehicle   starts on track \"main\" at s 200.00 m with 8 m/s\n"
+            "          reaches the end of its speed profile after 13.75 s (frame 137), at s 255.00 "
+            "m, and stands\n"
+            "          never reaches the end of its track\n");
+}
+
+TEST(CheckReport, NamesTheFrameThatAMomentFallsOn) {
+  const WayPoint start{0.0, 400.0, 10.0};
+  const VehicleWay way{start, start, WayPoint{60.0 - 1e-10, 1000.0, 10.0}};
+  EXPECT_EQ(VehicleText("main", way, 10.0),
+            "vehicle   starts on track \"main\" at s 400.00 m with 10 m/s\n"
+            "          reaches the end of its track after 60.00 s (frame 600), at s 1000.00 m\n");
+}
+
+TEST(CheckReport, WarnsOfCoarseWorldCoordinates) {
+  const Vector3 far_m(5.3e6, 6e5, 400.0);
+  EXPECT_EQ(OutputText({OutputFrame::kSensor, Handedness::kRight, {0, 0, 0}}, far_m), "");
+  EXPECT_EQ(OutputText({OutputFrame::kWorld, Handedness::kRight, {0, 0, 0}}, far_m),
+            "output    world coordinates: float32 has steps of 500 mm where the sensor starts; put "
+            "output.origin_m near there\n");
+  EXPECT_EQ(OutputText({OutputFrame::kWorld, Handedness::kRight, {5.3e6, 6e5, 0}}, far_m),
+            "output    world coordinates: float32 has steps of 0.03052 mm where the sensor "
+            "starts\n");
+}
+
+TEST(CheckReport, SaysWhatIsAroundTheSensor) {
+  SimpleWorld world;
+  world.AddObject(std::make_shared<const Model>(), Transform::Identity());
+  SensorSurroundings around{
+      Vector3(1, 2, 3), SightedSurface{0.5, 9, 1}, SightedSurface{2.0, 7, 0}, {}, 0};
+  const LabelTable labels({{7, "ballast", {}, "", "", 0, 0}, {9, "wagon", {}, "", "", 0, 0}});
+  EXPECT_EQ(SurroundingsText(around, world, labels),
+            "around    at frame 0 the sensor is at world 1.00 2.00 3.00 m\n"
+            "          below it: ballast, 2.00 m\n"
+            "          above it: nothing\n"
+            "          nearest: wagon of \"object1\", 0.50 m\n");
+  around.inside = 1;
+  EXPECT_NE(SurroundingsText(around, world, labels).find("INSIDE"), std::string::npos);
+}
+
+TEST(CheckReport, NamesObjectsThatOverlap) {
+  SimpleWorld world;
+  for (int i = 0; i < 3; ++i) {
+    world.AddObject(std::make_shared<const Model>(), Transform::Identity());
+  }
+  EXPECT_EQ(OverlapsText({{0, 2, true}, {1, 2, false}}, world),
+            "overlaps  at frame 0: \"object1\" is inside \"object3\"\n"
+            "          at frame 0: \"object2\" overlaps \"object3\"\n");
+  EXPECT_EQ(OverlapsText({}, world), "overlaps  none at frame 0\n");
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,96 @@
+#include "generator/check/check_report.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace railcast {
+namespace {
+
+TEST(EffectsReport, ListsThePublishedEffectsThatAreOn) {
+  ScenarioSpec scenario;
+  scenario.effects = {{"snow", false}, {"sensor_dropout", false}};
+  scenario.weather.rain_rate_mmph = 4.0;
+  scenario.weather.visibility_m = 500.0;
+  EXPECT_EQ(EffectsText(scenario),
+            "rung      plausibility\n"
+            "          threshold: 0.1 at 200 m, fog 0.005991 per m\n"
+            "          rain: 4 mm/h, dropout 0.000365 per m x rate^0.63\n"
+            "          noise: sigma 0.01 m + 0.0001 x range, isotropic\n");
+}
+
+TEST(EffectsReport, SaysNothingOfTheRungWithoutEffects) {
+  ScenarioSpec scenario;
+  scenario.fidelity = Fidelity::kGeometry;
+  EXPECT_EQ(EffectsText(scenario), "rung      geometry\n");
+}
+
+TEST(EffectsReport, NamesTheKeysOfTheWeatherThatNoEffectReads) {
+  ScenarioSpec scenario;
+  scenario.weather.rain_rate_mmph = 4.0;
+  scenario.weather.rain_drop_sizes = RainDrops::kDrizzle;
+  scenario.weather.wetness = 0.5;
+  scenario.weather.snow_cover = 0.25;
+  scenario.weather.sun.illuminance_klx = 80.0;
+  const auto last_line = [&] {
+    const std::string text = EffectsText(scenario);
+    return text.substr(text.rfind('\n', text.size() - 2) + 1);
+  };
+  EXPECT_EQ(last_line(),
+            "          no effect that is on reads these keys of weather: rain_drop_sizes, wetness, "
+            "snow_cover, sun\n");
+  scenario.fidelity = Fidelity::kGeometry;
+  EXPECT_EQ(last_line(),
+            "          no effect that is on reads these keys of weather: rain_rate_mmph, "
+            "rain_drop_sizes, wetness, snow_cover, sun\n");
+  scenario.fidelity = Fidelity::kSurface;
+  scenario.weather.rain_dropout_per_m = 4e-4;
+  scenario.effects["sunlight"] = false;
+  EXPECT_EQ(
+      last_line(),
+      "          no effect that is on reads these keys of weather: rain_dropout_per_m, sun\n");
+  scenario.weather = {};
+  EXPECT_EQ(last_line(), "          pointing_jitter: sigma 0.01 deg\n");
+}
+
+// From docs/physics.md 4.1 and 4.2: at 10 mm/h, 157 m of 200 m, and 0.40 echoes per beam of 3 mrad,
+// half of them within 3.7 m; a clutter_gain of 0.2 makes them 0.08.
+TEST(EffectsReport, SaysWhatTheWeatherDoesToThePhysicalRungs) {
+  ScenarioSpec scenario;
+  scenario.fidelity = Fidelity::kFootprint;
+  scenario.lidar.beam.divergence_mrad = {3.0, 3.0};
+  scenario.weather.rain_rate_mmph = 10.0;
+  EXPECT_EQ(
+      EffectsText(scenario),
+      "rung      footprint\n"
+      "          sensor_dropout: probability 0\n"
+      "          surface_response\n"
+      "          surface_condition: wetness 0, snow cover 0\n"
+      "          extinction: fog 0 per m, rain 0.001556, snow 0, both ways\n"
+      "          pulse_stretch: pulse of 5 ns, sigma 0.3183 m\n"
+      "          detection: 10 % at 200 m, in this weather at 156.7 m, return mode strongest\n"
+      "          detection_probability: SNR 5 at the threshold\n"
+      "          clutter: rain 0.08029 echoes a beam, half within 3.735 m\n"
+      "          fog_echo: none\n"
+      "          sunlight: 0 klx, false alarms in 1e-06 of the firings\n"
+      "          range_noise: sigma 0.015 m, at the threshold 0.035 m\n"
+      "          channel_bias: sigma 0.01 m\n"
+      "          pointing_jitter: sigma 0.01 deg\n"
+      "          footprint: 1/e^2 width 3 x 3 mrad\n"
+      "          thin_conductors\n");
+}
+
+TEST(EffectsReport, NamesTheSubRaysOfTheReferenceAndTheFogsOwnEcho) {
+  ScenarioSpec scenario;
+  scenario.fidelity = Fidelity::kReference;
+  scenario.weather.visibility_m = 100.0;
+  const std::string text = EffectsText(scenario);
+  EXPECT_NE(text.find("dense_footprint: 256 sub-rays a beam\n          sampled_waveform\n"),
+            std::string::npos);
+  EXPECT_NE(text.find("at 200 m, in this weather at 47.79 m"), std::string::npos) << text;
+  // Near 2 m, where half of the overlap is reached.
+  EXPECT_NE(text.find("fog_echo: reflectance 0.000487"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,70 @@
+#include "generator/run/stop_signal.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cstdlib>
+
+#include "core/program/run_program.h"
+
+namespace railcast {
+namespace {
+
+// Each test runs in a process of its own, because the request to stop is global and cannot be
+// withdrawn.
+
+/// Waits until the process is ended, at most 20 s.
+void BeBusy() {
+  for (int i = 0; i < 20; ++i) ::sleep(1);
+}
+
+TEST(StopSignal, IsARequestThatTheProgramAsksFor) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    EXPECT_EXIT(
+        {
+          CatchStopSignals();
+          if (StopRequested()) std::exit(1);
+          ::raise(signal);
+          std::exit(StopRequested() ? 0 : 2);
+        },
+        testing::ExitedWithCode(0), "");
+  }
+}
+
+TEST(StopSignal, EndsAtOnceAtTheSecond) {
+  EXPECT_EXIT(
+      {
+        CatchStopSignals();
+        ::raise(SIGINT);
+        ::raise(SIGINT);
+      },
+      testing::KilledBySignal(SIGINT), "");
+}
+
+TEST(StopSignal, EndsWorkThatCannotBeStopped) {
+  EXPECT_EXIT(
+      {
+        CatchStopSignals();
+        UseStopDeadline(true);
+        ::raise(SIGINT);
+        BeBusy();
+      },
+      testing::ExitedWithCode(kExitInterrupted), "^interrupted\n$");
+}
+
+TEST(StopSignal, LeavesWorkAloneThatIsDoneInTime) {
+  EXPECT_EXIT(
+      {
+        CatchStopSignals();
+        UseStopDeadline(true);
+        ::raise(SIGINT);
+        UseStopDeadline(false);
+        ::sleep(3);
+        std::exit(7);
+      },
+      testing::ExitedWithCode(7), "^$");
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,77 @@
+#include "generator/sequence/frame_record.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "generator/sequence/pose_record.h"
+#include "tests/core/io/example_frame.h"
+
+namespace railcast {
+namespace {
+
+TEST(CountFrame, CountsEveryFiringOnceAndEveryPoint) {
+  const Frame frame = ExampleFrame(0, 6, 10);  // Each of ten outcomes occurs six times.
+  const FrameCounts counts = CountFrame(frame, ExampleLabels());
+  for (const std::uint64_t count : counts.outcomes) EXPECT_EQ(count, 6U);
+  EXPECT_EQ(counts.points, 12U);
+  std::uint64_t labelled = 0;
+  for (const auto& [label, count] : counts.points_per_label) labelled += count;
+  EXPECT_EQ(labelled, 12U);
+}
+
+TEST(CountFrame, CountsAFiringWithTwoReturnsOnceAndItsPointsTwice) {
+  Frame frame = ExampleFrame(0, 1, 2);
+  frame.columns = 1;
+  frame.returns = 2;
+  frame.outcome = {Outcome::kReturned, Outcome::kReturned};
+  frame.label = {1, 12};
+  const FrameCounts counts = CountFrame(frame, ExampleLabels());
+  EXPECT_EQ(counts.outcomes[0], 1U);
+  EXPECT_EQ(counts.points, 2U);
+}
+
+// Near half a turn the canonical quaternions at the stamp and at the end have opposite signs.
+TEST(ScanEndOf, HasTheQuaternionNearerToTheOneAtTheStamp) {
+  constexpr double kHalfTurn_rad = std::numbers::pi;
+  Frame frame;
+  frame.duration_ns = 99'750'000;
+  for (const double turn_rad : {-0.02, 0.02}) {
+    frame.world_from_sensor =
+        MakeTransform(RotationFromYawPitchRoll(kHalfTurn_rad - turn_rad, 0, 0), Vector3(1, 2, 3));
+    frame.world_from_sensor_end =
+        MakeTransform(RotationFromYawPitchRoll(kHalfTurn_rad + turn_rad, 0, 0), Vector3(4, 2, 3));
+    const ScanEnd end = ScanEndOf(frame);
+    EXPECT_EQ(end.time_ns, 99'750'000U);
+    EXPECT_EQ(end.position_m, Vector3(4, 2, 3));
+    // The rotation between them is 2 turn_rad, so the quaternions are turn_rad apart.
+    EXPECT_NEAR(end.rotation.dot(CanonicalRotation(frame.world_from_sensor)), std::cos(turn_rad),
+                1e-12);
+  }
+}
+
+TEST(FrameLine, ReadsBack) {
+  FrameRecord record;
+  record.frame = 7;
+  record.stamp_ns = 700'000'000;
+  record.scan_end = {99'750'000, Vector3(5.3e6 + 1.0 / 3.0, 6e5, 0.1),
+                     Eigen::Quaterniond(-0.1, 0.7, -0.5, 1.0 / 7.0)};
+  record.files = {{"frames/000007.pcd", 1234, "0123456789abcdef"}};
+  record.records_hash = "fedcba9876543210";
+  record.counts = CountFrame(ExampleFrame(7), ExampleLabels());
+  const std::string line = FrameLine(record);
+  EXPECT_EQ(ParseFrameLine(line), record);
+  EXPECT_EQ(line.find('\n'), line.size() - 1);
+}
+
+TEST(ParseFrameLine, GivesNothingForATornLine) {
+  const std::string line = FrameLine(FrameRecord{});
+  for (std::size_t size = 0; size + 1 < line.size(); ++size) {
+    EXPECT_FALSE(ParseFrameLine(line.substr(0, size)).has_value()) << size;
+  }
+  EXPECT_FALSE(ParseFrameLine("{\"frame\": -1}\n").has_value());
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,51 @@
+#include "generator/sequence/summary.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/generator/example_run.h"
+
+namespace railcast {
+namespace {
+
+SequenceResult ExampleResult() {
+  SequenceResult result;
+  result.num_done = 6;
+  result.is_complete = true;
+  result.elapsed_s = 0.5;
+  result.counts.points = 400;
+  result.counts.points_per_label = {{"ballast", 100}, {"rail", 300}};
+  result.counts.outcomes[0] = 400;
+  result.counts.outcomes[4] = 100;
+  return result;
+}
+
+TEST(Summary, TellsRateLabelsOutcomesAndPlace) {
+  EXPECT_EQ(Summary(ExampleRun("/data/run"), ExampleResult()),
+            "made 6 frames in 0.5 s (12.0 frames/s)\n"
+            "points by label (400)\n"
+            "  rail                     300   75.0 %\n"
+            "  ballast                  100   25.0 %\n"
+            "firings by outcome (500)\n"
+            "  returned                 400   80.0 %\n"
+            "  rain_absorbed            100   20.0 %\n"
+            "6 of 6 frames in /data/run\n");
+}
+
+TEST(Summary, TellsWhatWasThereBefore) {
+  SequenceResult result = ExampleResult();
+  result.num_resumed = 5;
+  EXPECT_EQ(Summary(ExampleRun("/data/run"), result).substr(0, 64),
+            "made 1 frame in 0.5 s (2.0 frames/s); 5 were already there\npoint");
+  result.was_complete = true;
+  EXPECT_EQ(Summary(ExampleRun("/data/run"), result).substr(0, 31),
+            "already complete: nothing to do");
+}
+
+TEST(ProgressLine, EstimatesWhatIsLeftFromTheFramesMadeNow) {
+  EXPECT_EQ(SequenceProgressText(0, 50, 0, 0.0), "frame 0 of 50");
+  EXPECT_EQ(SequenceProgressText(12, 50, 2, 5.0), "frame 12 of 50, 2.0 frames/s, 0:19 left");
+  EXPECT_EQ(SequenceProgressText(1, 500, 0, 1.0), "frame 1 of 500, 1.0 frames/s, 8:19 left");
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,177 @@
+#include "viewer/composition/compose.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/attempt.h"
+#include "core/base/error.h"
+#include "railcast/lidar.h"
+#include "railcast/scenario.h"
+#include "viewer/color/coloring.h"
+#include "viewer/color/field_values.h"
+#include "viewer/composition/beam_kinds.h"
+#include "viewer/composition/faint_points.h"
+#include "viewer/overlays/beams.h"
+#include "viewer/overlays/empty_beams.h"
+#include "viewer/overlays/overlays.h"
+#include "viewer/overlays/scene_mesh.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kRingLimit_m = 300.0;
+constexpr double kUnknownRange_m = 100.0;
+
+Coloring ColorFrame(const ShownFrame& shown, const RecordingInfo& info, const Choices& choices) {
+  return AtPlace(shown.recorded->name + ": ", [&] {
+    const FieldValues field = ValuesOf(shown, choices.color_by);
+    if (field.kind == FieldValues::Kind::kCategory) {
+      return ColorByCategory(field, choices.color_by, info, *shown.recorded);
+    }
+    const ColorMap map = choices.map.value_or(
+        field.kind == FieldValues::Kind::kDifference ? ColorMap::kCoolwarm : ColorMap::kViridis);
+    return ColorByScale(field, map, choices.ends ? *choices.ends : FitScale(field));
+  });
+}
+
+void AddTo(Overlay&& part, Overlay& drawing) {
+  std::ranges::move(part.segments, std::back_inserter(drawing.segments));
+  std::ranges::move(part.words, std::back_inserter(drawing.words));
+}
+
+}  // namespace
+
+/// What overlays need from the scenario; each part is made when it is first needed.
+struct Composer::World {
+  Surroundings surroundings;
+  ScanPattern pattern;
+  std::optional<int> home_chunk;  ///< The chunk that `standing` was gathered for.
+  Transform world_from_standing = Transform::Identity();
+  std::shared_ptr<const std::vector<Part>> standing;
+
+  void AddSurfaces(const RecordedFrame& recorded, Composition& composition) {
+    const Frame& frame = recorded.frame;
+    const int home = surroundings.world->HomeChunk(frame.stamp_ns);
+    if (home_chunk != home) {
+      StandingScene gathered = GatherStandingScene(surroundings, home);
+      world_from_standing = gathered.world_from_home;
+      standing = std::make_shared<const std::vector<Part>>(std::move(gathered.parts));
+      home_chunk = home;
+    }
+    composition.surfaces.push_back(
+        {standing, frame.world_from_sensor.inverse() * world_from_standing});
+    composition.surfaces.push_back(
+        {std::make_shared<const std::vector<Part>>(GatherSceneObjects(surroundings, recorded)),
+         Transform::Identity()});
+  }
+};
+
+Composer::Composer(RecordingInfo info) : info_(std::move(info)) {
+  if (!info_.scenario) return;
+  world_ = std::make_unique<World>();
+  world_->surroundings = {*info_.scenario, MakeWorld(*info_.scenario)};
+  world_->pattern = BuildScanPattern(info_.scenario->lidar.scan);
+}
+
+Composer::~Composer() = default;
+Composer::Composer(Composer&&) noexcept = default;
+
+void Composer::AddEmptyBeams(const RecordedFrame& recorded, Composition& composition) const {
+  const Frame& frame = recorded.frame;
+  const bool has_pattern_shape = world_ && recorded.is_grid && frame.rows == world_->pattern.rows &&
+                                 frame.columns == world_->pattern.columns;
+  const auto beams = has_pattern_shape ? BeamsOf(world_->pattern) : BeamsOf(recorded);
+  if (!beams) return;
+  composition.empty_beams = DrawEmptyBeams(recorded, *beams);
+  composition.beam_kinds = BeamKinds(recorded);
+}
+
+std::string Composer::Missing(const ShownFrame& shown, const Choices& choices) const {
+  const OverlayChoices& overlays = choices.overlays;
+  const bool needs_world = overlays.track || overlays.gauge || overlays.mesh;
+  if (choices.empty_beams && !shown.recorded->is_grid) {
+    return "beams without return need a frame in which every firing has its place";
+  }
+  if (overlays.frustum && !world_ && !MakeScanTable(shown.frame())) {
+    return "the frustum needs the scenario or a grid of firings";
+  }
+  if (needs_world && !world_) {
+    return "track, gauge and surfaces need the scenario, which is not known";
+  }
+  if (needs_world && !shown.recorded->has_pose) {
+    return "track, gauge and surfaces need the sensor's pose, which is not known";
+  }
+  if (overlays.boxes && shown.recorded->objects.empty() && info_.kind != "sequence" &&
+      !(world_ && shown.recorded->has_pose)) {
+    return "boxes need a sequence's objects, or a scenario and poses";
+  }
+  return {};
+}
+
+void Composer::AddOverlays(const ShownFrame& shown,
+                           const OverlayChoices& choices,
+                           Composition& composition) {
+  const RecordedFrame& recorded = *shown.recorded;
+  if (choices.boxes) AddTo(DrawObjectBoxes(recorded, info_.labels), composition.overlays);
+  if (choices.axes) AddTo(DrawAxes(), composition.overlays);
+  if (choices.rings) {
+    AddTo(DrawRangeRings(kRingLimit_m,
+                         world_ ? std::optional(info_.scenario->lidar.mount) : std::nullopt),
+          composition.overlays);
+  }
+  if (choices.frustum) {
+    const auto table = world_ ? MakeScanTable(world_->pattern) : MakeScanTable(recorded.frame);
+    const double range_m = world_ ? info_.scenario->lidar.range_max_m : kUnknownRange_m;
+    if (table) AddTo(DrawSensorFrustum(*table, range_m), composition.overlays);
+  }
+  if (!world_ || !recorded.has_pose) return;
+  if (choices.track) AddTo(DrawTrackAxis(world_->surroundings, recorded), composition.overlays);
+  if (choices.mesh) world_->AddSurfaces(recorded, composition);
+  if (choices.gauge)
+    AddTo(DrawStructureGauge(world_->surroundings, recorded), composition.overlays);
+}
+
+Composition Composer::Compose(const ShownFrames& frames, const Choices& choices) {
+  Composition composition;
+  composition.labels = info_.labels;
+  if (frames.empty()) return composition;
+  const ShownFrame& latest = *frames.front();
+  for (const auto& shown : frames) {
+    Transform view_from_sensor = Transform::Identity();
+    if (shown != frames.front()) {
+      if (!shown->recorded->has_pose || !latest.recorded->has_pose) continue;
+      view_from_sensor =
+          latest.frame().world_from_sensor.inverse() * shown->frame().world_from_sensor;
+    }
+    Coloring coloring = ColorFrame(*shown, info_, choices);
+    composition.clouds.push_back({.shown = shown,
+                                  .view_from_sensor = view_from_sensor,
+                                  .colors = std::move(coloring.colors),
+                                  .is_faint = FaintPoints(*shown, choices.labels)});
+    if (shown == frames.front()) composition.coloring = std::move(coloring);
+  }
+  AddOverlays(latest, choices.overlays, composition);
+  if (choices.empty_beams) AddEmptyBeams(*latest.recorded, composition);
+  return composition;
+}
+
+void FitChoices(const ShownFrame& shown, Choices& choices) {
+  if (choices.color_by.empty()) choices.color_by = DefaultColorField(*shown.recorded);
+  AtPlace(shown.recorded->name + ": ", [&] {
+    if (!choices.labels.empty() && !shown.recorded->Has("label")) {
+      throw InputError("has no field label to select by");
+    }
+    const FieldValues field = ValuesOf(shown, choices.color_by);
+    // This also checks that categories are whole numbers.
+    if (field.kind == FieldValues::Kind::kCategory) {
+      (void)ColorByCategory(field, choices.color_by, RecordingInfo(), *shown.recorded);
+    }
+    const bool has_scale = field.kind != FieldValues::Kind::kCategory;
+    if (!has_scale && choices.ends) {
+      throw InputError("field " + choices.color_by + " has no scale with a range");
+    }
+    if (has_scale && !choices.ends) choices.ends = FitScale(field);
+  });
+}
+
+}  // namespace railcast

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "railcast/scene.h"
+#include "railcast/transform.h"
+#include "viewer/color/coloring.h"
+#include "viewer/frames/shown_frame.h"
+#include "viewer/overlays/overlays.h"
+
+namespace railcast {
+
+/// A frame's points and where they are drawn.
+struct PlacedCloud {
+  std::shared_ptr<const ShownFrame> shown;
+  Transform view_from_sensor = Transform::Identity();
+  std::vector<Rgb> colors;       ///< One per point.
+  std::vector<bool> is_faint{};  ///< One per point; empty: no point is faint.
+};
+
+/// Surfaces and where they are drawn.
+struct PlacedParts {
+  std::shared_ptr<const std::vector<Part>> parts;
+  Transform view_from_parts = Transform::Identity();
+};
+
+/// All that one view shows, in the axes of its frame's sensor at the stamp: x forward, y left, z
+/// up. The camera rides along with the sensor, and the standing scene moves past it.
+struct Composition {
+  std::vector<PlacedCloud> clouds;  ///< The frame itself first; empty: there is none yet.
+  Coloring coloring;                ///< The frame's colours, for the legend.
+  Overlay overlays;
+  Overlay empty_beams;
+  std::vector<Category> beam_kinds;  ///< The colours of empty beams, their meaning and number.
+  std::vector<PlacedParts> surfaces;
+  LabelTable labels;   ///< Names and colours for the surfaces.
+  std::string status;  ///< Lines of text: frame, stamp, points, dropout, ...
+};
+
+}  // namespace railcast

@@ -1,0 +1,170 @@
+#include "viewer/draw/actors.h"
+
+#include <vtkBillboardTextActor3D.h>
+#include <vtkCellArray.h>
+#include <vtkFloatArray.h>
+#include <vtkIdTypeArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkTextProperty.h>
+#include <vtkUnsignedCharArray.h>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "viewer/draw/text_style.h"
+#include "viewer/draw/vtk_values.h"
+
+namespace railcast {
+
+namespace {
+
+/// Returns cells of two points each: 0 1, 2 3, ...
+vtkSmartPointer<vtkCellArray> MakePairs(std::size_t num_pairs) {
+  const auto count = static_cast<vtkIdType>(num_pairs);
+  vtkNew<vtkIdTypeArray> offsets;
+  offsets->SetNumberOfValues(count + 1);
+  for (vtkIdType i = 0; i <= count; ++i) offsets->SetValue(i, 2 * i);
+  vtkNew<vtkIdTypeArray> indices;
+  indices->SetNumberOfValues(2 * count);
+  std::iota(indices->GetPointer(0), indices->GetPointer(0) + 2 * count, 0);
+  auto pairs = vtkSmartPointer<vtkCellArray>::New();
+  pairs->SetData(offsets, indices);
+  return pairs;
+}
+
+unsigned char Alpha(float opacity) {
+  return static_cast<unsigned char>(std::lround(255.0F * opacity));
+}
+
+bool IsLight(const Rgb& rgb) {
+  return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2] > 140.0;  // Rec. 709 luma.
+}
+
+/// Makes a colour dark enough for a white background.
+Rgb Darkened(const Rgb& rgb) {
+  return {static_cast<std::uint8_t>(rgb[0] / 2), static_cast<std::uint8_t>(rgb[1] / 2),
+          static_cast<std::uint8_t>(rgb[2] / 2)};
+}
+
+}  // namespace
+
+vtkSmartPointer<vtkActor> MakeLines(const Overlay& drawing, double width_px) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToFloat();
+  points->SetNumberOfPoints(2 * static_cast<vtkIdType>(drawing.segments.size()));
+  vtkNew<vtkUnsignedCharArray> colors;
+  colors->SetNumberOfComponents(4);
+  colors->SetNumberOfTuples(points->GetNumberOfPoints());
+  vtkIdType next = 0;
+  for (const Overlay::Segment& segment : drawing.segments) {
+    for (const Eigen::Vector3f* const end_m : {&segment.from_m, &segment.to_m}) {
+      const Eigen::Vector3d place_m = end_m->cast<double>();
+      points->SetPoint(next, place_m.data());
+      const auto& [red, green, blue] = segment.rgb;
+      const std::array<unsigned char, 4> rgba = {red, green, blue, Alpha(segment.opacity)};
+      colors->SetTypedTuple(next++, rgba.data());
+    }
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetLines(MakePairs(drawing.segments.size()));
+  data->GetPointData()->SetScalars(colors);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetLighting(false);
+  BlendInOrder(*actor);
+  actor->GetProperty()->SetLineWidth(static_cast<float>(width_px));
+  return actor;
+}
+
+std::vector<vtkSmartPointer<vtkProp>> MakeWords(const Overlay& drawing,
+                                                int size_px,
+                                                const Background& background) {
+  std::vector<vtkSmartPointer<vtkProp>> props;
+  for (const Overlay::Word& word : drawing.words) {
+    auto actor = vtkSmartPointer<vtkBillboardTextActor3D>::New();
+    actor->SetInput(word.text.c_str());
+    Eigen::Vector3d at_m = word.at_m.cast<double>();
+    actor->SetPosition(at_m.data());
+    vtkTextProperty& text = *actor->GetTextProperty();
+    text.SetFontSize(size_px);
+    text.SetColor(VtkColor(word.rgb).data());
+    text.SetJustificationToCentered();
+    text.SetVerticalJustificationToBottom();
+    // Without a plate, words would be illegible among points of their own colour.
+    AddPlate(text, background);
+    actor->ForceOpaqueOn();
+    props.emplace_back(actor);
+  }
+  return props;
+}
+
+Overlay OnBackground(Overlay drawing, const Background& background) {
+  if (!IsLight(background.rgb)) return drawing;
+  for (Overlay::Segment& segment : drawing.segments) {
+    if (IsLight(segment.rgb)) segment.rgb = Darkened(segment.rgb);
+  }
+  for (Overlay::Word& word : drawing.words) {
+    if (IsLight(word.rgb)) word.rgb = Darkened(word.rgb);
+  }
+  return drawing;
+}
+
+namespace {
+
+constexpr double kOpacity = 0.35;
+constexpr Rgb kUnknownLabel = {150, 150, 150};
+
+vtkSmartPointer<vtkPolyData> MakeTriangles(const Mesh& mesh) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToFloat();
+  points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.vertices.size()));
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    points->SetPoint(static_cast<vtkIdType>(i), mesh.vertices[i].cast<double>().eval().data());
+  }
+  const auto count = static_cast<vtkIdType>(mesh.triangles.size());
+  vtkNew<vtkIdTypeArray> offsets;
+  offsets->SetNumberOfValues(count + 1);
+  vtkNew<vtkIdTypeArray> indices;
+  indices->SetNumberOfValues(3 * count);
+  for (vtkIdType i = 0; i <= count; ++i) offsets->SetValue(i, 3 * i);
+  for (vtkIdType i = 0; i < 3 * count; ++i) {
+    indices->SetValue(
+        i, mesh.triangles[static_cast<std::size_t>(i / 3)][static_cast<std::size_t>(i % 3)]);
+  }
+  vtkNew<vtkCellArray> faces;
+  faces->SetData(offsets, indices);
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->SetPolys(faces);
+  return data;
+}
+
+}  // namespace
+
+std::vector<vtkSmartPointer<vtkActor>> MakeSurfaces(const std::vector<Part>& parts,
+                                                    const LabelTable& labels) {
+  std::vector<vtkSmartPointer<vtkActor>> actors;
+  for (const Part& part : parts) {
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputData(MakeTriangles(part.mesh));
+    auto actor = vtkSmartPointer<vtkActor>::New();
+    actor->SetMapper(mapper);
+    const Label* const label = labels.Find(part.label);
+    actor->GetProperty()->SetColor(VtkColor(label == nullptr ? kUnknownLabel : label->rgb).data());
+    actor->GetProperty()->SetInterpolationToFlat();
+    actor->GetProperty()->SetOpacity(kOpacity);
+    BlendInOrder(*actor);
+    actors.push_back(std::move(actor));
+  }
+  return actors;
+}
+
+}  // namespace railcast

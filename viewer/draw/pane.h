@@ -1,0 +1,67 @@
+#pragma once
+
+#include <vtkNew.h>
+#include <vtkProp.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "viewer/composition/composition.h"
+#include "viewer/draw/cloud_actor.h"
+#include "viewer/draw/legend.h"
+#include "viewer/draw/look.h"
+
+namespace railcast {
+
+/// One composition in a part of a window.
+class Pane {
+ public:
+  /// @param left, right The part of the window's width that it takes, in [0, 1].
+  Pane(double left, double right);
+
+  /// Replaces what is shown; the camera stays.
+  /// @param window_px Size of the whole window.
+  void Show(std::shared_ptr<const Composition> composition,
+            const Look& look,
+            const std::array<int, 2>& window_px);
+  /// Shows lines of text in the lower left corner.
+  void ShowStatus(const std::string& status, const Look& look);
+  /// Draws marks over the composition: picked points, a measured line.
+  void ShowMarks(const Overlay& marks, const Look& look);
+
+  [[nodiscard]] const std::shared_ptr<const Composition>& shared_composition() const {
+    return composition_;
+  }
+  [[nodiscard]] const Composition& composition() const { return *composition_; }
+  [[nodiscard]] vtkRenderer& renderer() { return *renderer_; }
+  [[nodiscard]] const Legend& legend() const { return legend_; }
+  [[nodiscard]] bool Contains(double x_share) const { return x_share >= left_ && x_share < right_; }
+  /// Returns the view's size in pixels.
+  [[nodiscard]] std::array<int, 2> SizeIn(const std::array<int, 2>& window_px) const;
+  [[nodiscard]] double left() const { return left_; }
+
+ private:
+  void ShowClouds(const Look& look);
+  void ShowSurfaces();
+
+  double left_, right_;
+  std::shared_ptr<const Composition> composition_;
+  vtkNew<vtkRenderer> renderer_;
+  std::vector<std::unique_ptr<CloudActor>> clouds_;
+  Legend legend_;
+  std::vector<vtkSmartPointer<vtkProp>> fleeting_;  ///< Props made anew for each composition.
+  vtkSmartPointer<vtkProp> status_;
+  std::vector<vtkSmartPointer<vtkProp>> marks_;
+  /// Surfaces that stay from one composition to the next are kept, and only their transform
+  /// changes.
+  std::map<std::shared_ptr<const std::vector<Part>>, std::vector<vtkSmartPointer<vtkActor>>>
+      surfaces_;
+  int height_px_{};
+};
+
+}  // namespace railcast

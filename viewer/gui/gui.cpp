@@ -1,0 +1,277 @@
+#include "viewer/gui/gui.h"
+
+#include <vtkCallbackCommand.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "viewer/gui/key_table.h"
+#include "viewer/pick/point_under.h"
+#include "viewer/picture/pictures.h"
+
+namespace railcast {
+namespace {
+
+double Now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+Gui::Gui(Session& session, LiveFrames* live, Stage& stage, const Look& look)
+    : session_(session),
+      stage_(stage),
+      look_(look),
+      playback_(session, live),
+      tracing_(session.num_sources()),
+      style_(vtkSmartPointer<ViewStyle>::New()) {
+  style_->on_key = [this](const std::string& key) { Guard([&] { OnKey(key); }); };
+  style_->on_click = [this](const std::array<int, 2>& place_px, bool with_shift) {
+    Guard([&] { OnClick(place_px, with_shift); });
+  };
+}
+
+Gui::~Gui() = default;
+
+void Gui::Guard(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    message_ = error.what();
+    ShowStatus();
+  } catch (...) {
+    fault_ = std::current_exception();
+    interactor_->TerminateApp();
+  }
+}
+
+std::string Gui::KeysText() {
+  std::string text;
+  for (const KeyBinding& binding : KeyTable::Bindings()) {
+    if (binding.shown.empty()) continue;
+    std::array<char, 128> line{};
+    std::snprintf(line.data(), line.size(), "  %-15s%s\n", std::string(binding.shown).c_str(),
+                  std::string(binding.help).c_str());
+    text += line.data();
+  }
+  return text;
+}
+
+void Gui::Run() {
+  constexpr unsigned long kPeriod_ms = 16;
+  interactor_->SetInteractorStyle(style_);
+  interactor_->SetRenderWindow(&stage_.window());
+  interactor_->Initialize();
+  scrubber_ =
+      std::make_unique<Scrubber>(*interactor_, stage_.plates_renderer(),
+                                 [this](std::size_t place) { Guard([&] { SeekTo(place); }); });
+  vtkNew<vtkCallbackCommand> tick;
+  tick->SetClientData(this);
+  tick->SetCallback([](vtkObject*, unsigned long, void* self_data, void*) {
+    auto& self = *static_cast<Gui*>(self_data);
+    self.Guard([&self] { self.OnTimer(); });
+  });
+  interactor_->AddObserver(vtkCommand::TimerEvent, tick);
+  vtkNew<vtkCallbackCommand> resized;
+  resized->SetClientData(this);
+  resized->SetCallback([](vtkObject*, unsigned long, void* self_data, void*) {
+    auto& self = *static_cast<Gui*>(self_data);
+    self.Guard([&self] { self.Redraw(); });
+  });
+  interactor_->AddObserver(vtkCommand::ConfigureEvent, resized);
+  interactor_->CreateRepeatingTimer(kPeriod_ms);
+  playback_.Begin(Now_s());
+  Guard([this] { Refresh(); });
+  if (!fault_) interactor_->Start();
+  if (fault_) std::rethrow_exception(fault_);
+}
+
+void Gui::OnTimer() {
+  constexpr double kStatusPeriod_s = 0.5;
+  const double now_s = Now_s();
+  const bool has_changed = playback_.Advance(now_s);
+  if (has_changed) Refresh();
+  if (const auto answer = tracing_.Take()) {
+    stage_.ShowPlate(Stage::Plate::kTrace, *answer);
+    interactor_->Render();
+  }
+  // The status also changes without a new frame: a live stream may stop, and a capture's frames are
+  // still being counted.
+  if (!has_changed && now_s > status_at_s_ + kStatusPeriod_s) ShowStatus();
+}
+
+void Gui::SeekTo(std::size_t place) {
+  playback_.SeekTo(place, Now_s());
+  Refresh();
+}
+
+void Gui::Step(std::ptrdiff_t num_frames) {
+  playback_.Step(num_frames, Now_s());
+  Refresh();
+}
+
+void Gui::TogglePlaying() {
+  playback_.TogglePlaying(Now_s());
+  Refresh();
+}
+
+void Gui::ChangeSpeed(bool faster) {
+  faster ? playback_.Faster(Now_s()) : playback_.Slower(Now_s());
+  ShowStatus();
+}
+
+void Gui::Toggle(bool& choice) {
+  choice = !choice;
+  Refresh();
+}
+
+// Begins with a map other than the default, so that the first press shows a change.
+void Gui::NextMap() {
+  auto& map = session_.choices().map;
+  if (map == ColorMap::kViridis) {
+    map.reset();
+  } else {
+    const std::size_t at = map ? static_cast<std::size_t>(*map) : 0;
+    map = static_cast<ColorMap>((at + 1) % kColorMapNames.size());
+  }
+  Refresh();
+}
+
+void Gui::NextBackground() {
+  const auto* const at = std::ranges::find(kBackgrounds, look_.background.name, &Background::name);
+  look_.background = at + 1 == kBackgrounds.end() ? kBackgrounds[0] : at[1];
+  Redraw();
+}
+
+void Gui::ChangePointSize(int by_px) {
+  look_.point_size_px = std::clamp(look_.point_size_px + by_px, 1, kMaxPointSize_px);
+  Redraw();
+}
+
+void Gui::LookFrom(std::string_view preset) {
+  stage_.UseCamera(std::string(preset));
+  interactor_->Render();
+}
+
+void Gui::TurnAboutPick() {
+  const auto target_m = picks_.PlaceIn(stage_.view(0).composition());
+  if (!target_m) return;
+  stage_.TurnAbout(*target_m);
+  interactor_->Render();
+}
+
+void Gui::Refresh() {
+  std::vector<Composition> compositions = session_.Compose();
+  if (!session_.has_frame()) compositions.front().status = "waiting for the first frame";
+  scene_status_ = compositions.front().status;
+  const bool has_pose = session_.has_frame() && session_.shown(0)->recorded->has_pose;
+  if (has_pose) {
+    const Transform& world_from_view = session_.shown(0)->frame().world_from_sensor;
+    if (!rides_along_) stage_.MoveCamera(world_from_view.inverse() * world_from_view_);
+    world_from_view_ = world_from_view;
+  }
+  stage_.Show(std::move(compositions), look_);
+  ShowRest();
+}
+
+void Gui::Redraw() {
+  stage_.Redraw(look_);
+  ShowRest();
+}
+
+void Gui::ShowRest() {
+  stage_.ShowPlate(Stage::Plate::kHelp, shows_help_ ? KeysText() : std::string());
+  stage_.ShowPlate(Stage::Plate::kFacts, picks_.facts());
+  for (std::size_t i = 0; i < stage_.num_views(); ++i) {
+    stage_.ShowMarks(i, picks_.MarksIn(stage_.view(i).composition()));
+  }
+  ShowStatus();
+}
+
+void Gui::ShowStatus() {
+  std::string status = scene_status_;
+  for (const std::string& line :
+       {playback_.StatusText() + "   ? for keys", playback_.fault(), message_}) {
+    if (line.empty()) continue;
+    status += '\n';
+    status += line;
+  }
+  stage_.ShowStatus(status);
+  scrubber_->Show(session_.place(), session_.FirstPlace(), session_.LastPlace(), look_.background);
+  status_at_s_ = Now_s();
+  interactor_->Render();
+}
+
+void Gui::OnClick(const std::array<int, 2>& place_px, bool with_shift) {
+  message_.clear();
+  const std::size_t index = stage_.ViewAt(place_px[0]);
+  const auto in_view_px = stage_.InView(index, place_px[0], place_px[1]);
+  if (const auto line = stage_.view(index).legend().LineAt(in_view_px)) {
+    SelectInLegend(*line);
+    return;
+  }
+  const auto hit = PointUnder(stage_, session_, place_px);
+  if (!hit) return;
+  picked_source_ = hit->source;
+  picks_.Add(*hit->shown, hit->point, session_.source(hit->source).info(), with_shift);
+  tracing_.Forget();
+  stage_.ShowPlate(Stage::Plate::kTrace, {});
+  ShowRest();
+}
+
+void Gui::SelectInLegend(const Legend::Line& line) {
+  if (session_.choices().color_by != "label") return;
+  session_.ToggleLabel(static_cast<std::uint32_t>(line.value));
+  Refresh();
+}
+
+void Gui::SelectPickedLabel() {
+  if (const auto label = picks_.label()) {
+    session_.ToggleLabel(*label);
+    Refresh();
+  }
+}
+
+void Gui::ClearSelection() {
+  session_.choices().labels.clear();
+  picks_.Clear();
+  tracing_.Forget();
+  stage_.ShowPlate(Stage::Plate::kTrace, {});
+  Refresh();
+}
+
+void Gui::AskTrace() {
+  if (picks_.is_empty()) return;
+  tracing_.Ask(picked_source_, session_.source(picked_source_).info(), picks_.recorded(),
+               picks_.slot());
+  stage_.ShowPlate(Stage::Plate::kTrace, "tracing ...");
+  interactor_->Render();
+}
+
+void Gui::SaveScreenshot() {
+  std::string file;
+  for (int number = 1; file.empty() || std::filesystem::exists(file); ++number) {
+    file = "railcast-view-";
+    file += std::to_string(number);
+    file += ".png";
+  }
+  WritePicture(stage_.window(), file);
+  std::fprintf(stderr, "wrote %s\n", ShownPath(file).c_str());
+}
+
+void Gui::OnKey(const std::string& key) {
+  message_.clear();
+  const auto bindings = KeyTable::Bindings();
+  const auto found = std::ranges::find(bindings, key, &KeyBinding::symbol);
+  if (found == bindings.end() || found->action == nullptr) return;
+  if (!session_.has_frame() && key != "q" && key != "question") return;
+  found->action(*this);
+}
+
+}  // namespace railcast

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <vtkNew.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkSmartPointer.h>
+
+#include <array>
+#include <cstddef>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "viewer/draw/stage.h"
+#include "viewer/frames/live_frames.h"
+#include "viewer/gui/scrubber.h"
+#include "viewer/gui/view_style.h"
+#include "viewer/pick/picks.h"
+#include "viewer/pick/tracing.h"
+#include "viewer/session/playback.h"
+#include "viewer/session/session.h"
+
+namespace railcast {
+
+/// The interactive window: what mouse and keyboard do to a session, its playback and its picks, and
+/// when the result is drawn.
+class Gui {
+ public:
+  /// @param live The session's source if that is a live one, else null.
+  Gui(Session& session, LiveFrames* live, Stage& stage, const Look& look);
+  ~Gui();
+  Gui(const Gui&) = delete;
+  Gui& operator=(const Gui&) = delete;
+
+  /// Shows the window until the user closes it. Faults in reading or writing are shown in the
+  /// window.
+  /// @throws Any other error, after closing the window.
+  void Run();
+
+  /// Returns the keys and what they do, as `?` and --help list them.
+  [[nodiscard]] static std::string KeysText();
+
+ private:
+  friend struct KeyTable;
+
+  void OnTimer();
+  void OnClick(const std::array<int, 2>& place_px, bool with_shift);
+  void OnKey(const std::string& key);
+  /// Runs an action. No exception may pass through VTK's event loop: an InputError is shown, any
+  /// other is kept for Run() to rethrow.
+  void Guard(const std::function<void()>& action);
+
+  void Step(std::ptrdiff_t num_frames);
+  void SeekTo(std::size_t place);
+  void TogglePlaying();
+  void ChangeSpeed(bool faster);
+  void Toggle(bool& choice);
+  void NextMap();
+  void NextBackground();
+  void ChangePointSize(int by_px);
+  void LookFrom(std::string_view preset);
+  void TurnAboutPick();
+  void SelectInLegend(const Legend::Line& line);
+  void SelectPickedLabel();
+  void ClearSelection();
+  void AskTrace();
+  void SaveScreenshot();
+
+  /// Composes and draws everything again from the session.
+  void Refresh();
+  /// Draws the same compositions again with another look or size.
+  void Redraw();
+  /// Draws what belongs to the window and not to a composition: status, slider, plates, marks.
+  void ShowRest();
+  void ShowStatus();
+
+  Session& session_;
+  Stage& stage_;
+  Look look_;
+  Playback playback_;
+  Picks picks_;
+  Tracing tracing_;
+  std::size_t picked_source_{};
+  bool rides_along_ = true;
+  bool shows_help_ = false;
+  std::string message_;   ///< The last error.
+  double status_at_s_{};  ///< Time at which the status was last drawn.
+  std::string scene_status_;
+  Transform world_from_view_ = Transform::Identity();
+  vtkNew<vtkRenderWindowInteractor> interactor_;
+  vtkSmartPointer<ViewStyle> style_;
+  std::unique_ptr<Scrubber> scrubber_;
+  std::exception_ptr fault_;
+};
+
+}  // namespace railcast

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/io/recording/scan_table.h"
+#include "railcast/frame.h"
+#include "railcast/io/recording.h"
+#include "railcast/rail_world.h"
+#include "railcast/scenario.h"
+#include "viewer/color/palette.h"
+
+namespace railcast {
+
+/// Lines and words over a cloud, in the sensor's axes at the frame's stamp, metres.
+struct Overlay {
+  struct Segment {
+    Eigen::Vector3f from_m;
+    Eigen::Vector3f to_m;
+    Rgb rgb{};
+    float opacity = 1.0F;
+  };
+  struct Word {
+    Eigen::Vector3f at_m;
+    std::string text;
+    Rgb rgb{};
+  };
+  std::vector<Segment> segments;
+  std::vector<Word> words;
+};
+
+/// The world about the sensor, from a scenario.
+struct Surroundings {
+  ScenarioSpec scenario;  ///< Scenario of one sensor.
+  std::shared_ptr<const RailWorld> world;
+};
+
+/// Draws the sensor's axes, each 2 m long with its letter: x vermillion, y bluish green, z blue.
+/// These pass for red, green and blue and can be told apart with any kind of colour vision.
+[[nodiscard]] Overlay DrawAxes();
+
+/// Draws circles of 10, 25, 50, 100, 150, 200 and 300 m radius about the sensor, up to `limit_m`,
+/// as chords within 1 cm of the circle, with the radius ("50 m") straight ahead and behind.
+/// @param mount Where the sensor sits on its vehicle, if that is known: the circles then lie in the
+///   vehicle's plane at top of rail about the point below the sensor, and ahead is the vehicle's
+///   heading. Otherwise they lie in the sensor's own plane z = 0.
+[[nodiscard]] Overlay DrawRangeRings(double limit_m, const std::optional<MountSpec>& mount);
+
+/// Boxes whose centre is farther than this from the sensor are left out.
+inline constexpr double kMostBoxRange_m = 400.0;
+
+/// Draws the boxes of a frame's objects, in the order in which it lists them: twelve edges, a nose
+/// of two more segments before the front face to show the heading, and the name at the middle of
+/// the top. They have the colour of the object's label, or white where `labels` does not have it.
+[[nodiscard]] Overlay DrawObjectBoxes(const RecordedFrame& recorded, const LabelTable& labels);
+
+/// A longer frustum would reach out of sight and hide what is in it.
+inline constexpr double kMostFrustumRange_m = 100.0;
+
+/// Draws the outline of what a sensor scans, in its axes, out to `range_m` or 100 m, whichever is
+/// less.
+///
+/// For a part of a turn: rays along the four corners, and at their ends the border made of the top
+/// and bottom rows and the first and last columns. For a full turn: the circles of the top and
+/// bottom rows with eight rays each. Chords go from beam to beam. A table made from a frame does
+/// not know outer rows and columns without any return (the sky); the outermost known ones are used
+/// instead.
+/// @param table MakeScanTable() of the scenario's pattern, or of a frame where there is none.
+[[nodiscard]] Overlay DrawSensorFrustum(const ScanTable& table, double range_m);
+
+inline constexpr double kGaugeBehind_m = 10.0;
+inline constexpr double kGaugeAhead_m = 150.0;
+
+/// Draws GaugeOutline() along the vehicle's track, as far as the track extends, from 10 m behind
+/// the vehicle to 150 m ahead: rings at every 10 m of chainage and the edges of the corners between
+/// them, within 5 mm of curves and leaning with the cant. Empty if the frame has no pose.
+[[nodiscard]] Overlay DrawStructureGauge(const Surroundings& surroundings,
+                                         const RecordedFrame& recorded);
+
+inline constexpr double kAxisBehind_m = 50.0;
+inline constexpr double kAxisAhead_m = 400.0;
+
+/// Draws the axis of the vehicle's track at top of rail, as far as the track extends, from 50 m
+/// behind the vehicle to 400 m ahead of it: a line within 5 mm of the axis in all curves of 25 m
+/// radius or more, with a cross tick at every 10 m of chainage and a longer one at every 50 m. At
+/// the left end of the long ticks stands the chainage as railways write it, "km 12.350". Empty if
+/// the frame has no pose.
+[[nodiscard]] Overlay DrawTrackAxis(const Surroundings& surroundings,
+                                    const RecordedFrame& recorded);
+
+}  // namespace railcast
