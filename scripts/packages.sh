@@ -1,20 +1,20 @@
 # The Debian 12 packages that railcast needs, in one place. To be sourced by bash.
 # shellcheck shell=bash disable=SC2034  # The lists are for the scripts that source this.
 
-# To configure and build every target. The tests' libraries are here because the presets build
-# the tests; libpcl-dev and libvtk9-dev are nine tenths of the download.
+# For configuring and building every target. The tests' libraries are included because the presets
+# build the tests; libpcl-dev and libvtk9-dev are nine tenths of the download.
 build_packages=(
   cmake
   g++
-  git  # The version names the commit.
+  git  # The version string contains the commit.
   libbenchmark-dev
   libboost-dev
   libcli11-dev
   libeigen3-dev
   libembree-dev
-  libexpat1-dev
   libgmock-dev
   libgtest-dev
+  libkainjow-mustache-dev
   libopenmesh-dev
   libpcap-dev
   libpcl-dev
@@ -29,14 +29,15 @@ build_packages=(
   zlib1g-dev
 )
 
-# To draw pictures on a machine without a display.
+# For drawing pictures on a machine without a display.
 display_packages=(
   gnuplot-nox
   xauth
   xvfb
 )
 
-# What the tests call: readers and validators that are not ours, and a hand for the viewer's window.
+# Called by the tests: independent readers and validators, and a tool that operates the viewer's
+# window.
 test_packages=(
   "${display_packages[@]}"
   chromium
@@ -50,7 +51,7 @@ test_packages=(
   xdotool
 )
 
-# What scripts/check.sh calls.
+# Called by scripts/check.sh.
 check_packages=(
   clang-14
   clang-format-14
@@ -58,7 +59,7 @@ check_packages=(
   git
 )
 
-# install_packages PACKAGE...: installs those that are missing; asks apt nothing if none is.
+# install_packages PACKAGE...: installs the missing ones; does not call apt if none is missing.
 install_packages() {
   local package missing=()
   for package in "$@"; do
@@ -78,7 +79,10 @@ install_packages() {
     as_root=(sudo)
   fi
   echo "Installing ${missing[*]}"
+  # After an installation that was killed, apt-get refuses to work until dpkg has been repaired.
+  # What dpkg cannot configure for lack of a dependency is left to --fix-broken.
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive dpkg --configure -a || true
   "${as_root[@]}" apt-get update -q
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
-    apt-get install -q -y --no-install-recommends "${missing[@]}"
+    apt-get install -q -y --no-install-recommends --fix-broken "${missing[@]}"
 }
