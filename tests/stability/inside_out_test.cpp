@@ -162,7 +162,8 @@ TEST(InsideOut, AStartAwayFromTheSensorLooksThroughWhatBlocksIt) {
   const Eigen::Vector3f ahead = Eigen::Vector3f::UnitX();
   const std::vector<Ray> rays = {{Eigen::Vector3f::Zero(), ahead}, {0.01F * ahead, ahead}};
   const std::vector<RayHit> hits = CastRays(*scene, rays, 300.0F);
-  EXPECT_EQ(hits[0], (RayHit{0.005F, 1}));
+  EXPECT_FLOAT_EQ(hits[0].range_m, 0.005F);
+  EXPECT_EQ(hits[0].surface, 1U);
   EXPECT_EQ(hits[1].surface, 2U);
 }
 

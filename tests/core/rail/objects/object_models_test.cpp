@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "core/base/error.h"
+#include "tests/core/io/temporary_directory.h"
 #include "tests/core/rail/test_tables.h"
 
 namespace railcast {
@@ -41,10 +42,9 @@ class MakeObjectModelFromFile : public testing::Test {
     spec_.up = UpAxis::kY;
     spec_.unit_m = 0.1;
   }
-  void TearDown() override { std::filesystem::remove(file_); }
 
-  const std::filesystem::path file_ =
-      std::filesystem::path(testing::TempDir()) / "railcast_object_models_test.obj";
+  const TemporaryDirectory folder_;
+  const std::filesystem::path file_ = folder_.path() / "tetrahedron.obj";
   ObjectSpec spec_ = ObjectOfType(ObjectType::kMesh);
 };
 
