@@ -1,8 +1,21 @@
 #include "core/base/out_of_memory.h"
 
+#include <atomic>
+
 #include "core/base/text.h"
 
 namespace railcast {
+
+namespace {
+
+constexpr std::size_t kReserve_bytes = 65536;
+std::atomic<char*> memory_reserve = new char[kReserve_bytes];
+
+}  // namespace
+
+void FreeMemoryReserve() {
+  delete[] memory_reserve.exchange(nullptr);
+}
 
 InputError OutOfMemory(const std::string& doing) {
   return InputError("out of memory while " + doing);

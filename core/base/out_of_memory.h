@@ -19,6 +19,10 @@ namespace railcast {
 /// is no memory for another stack.
 [[nodiscard]] InputError OutOfThreads(const std::string& doing);
 
+/// Frees a small block that the program keeps for the case that even the message about lacking
+/// memory finds none. Thread-safe.
+void FreeMemoryReserve();
+
 /// The text "reading wall.obj (42311802 bytes)" for WithinMemory.
 [[nodiscard]] std::string ReadingText(const std::filesystem::path& file);
 
@@ -36,6 +40,7 @@ decltype(auto) WithinMemory(const Doing& doing, const Make& make) {
   try {
     return make();
   } catch (const std::bad_alloc&) {
+    FreeMemoryReserve();
     throw OutOfMemory(doing());
   } catch (const std::length_error&) {
     // The requested size exceeds even the maximum size of a container.
