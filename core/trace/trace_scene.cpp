@@ -1,156 +1,22 @@
 #include "core/trace/trace_scene.h"
 
 #include <embree3/rtcore.h>
+#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstring>
-#include <new>
-#include <stdexcept>
-#include <type_traits>
+#include <mutex>
+#include <vector>
 
 #include "core/base/error.h"
-#include "core/base/out_of_memory.h"
-#include "core/base/text.h"
-#include "core/trace/trace_program.h"
+#include "core/trace/beam_kernels.h"
+#include "core/trace/trace_handles.h"
 #include "railcast/lidar.h"
 
 namespace railcast {
 
 static_assert(kTileSize % kPacketSize == 0);
-
-namespace {
-
-// Embree does not throw but records the first error of each thread. If it were not queried, a scene
-// that did not fit into memory would let all rays pass through.
-// @param device Null: asks why no device could be made.
-template <typename Doing>
-void ThrowIfFailed(RTCDevice device, const Doing& doing) {
-  const RTCError error = rtcGetDeviceError(device);
-  if (error == RTC_ERROR_NONE) return;
-  if (error == RTC_ERROR_OUT_OF_MEMORY) throw OutOfMemory(doing());
-  throw std::runtime_error("Embree's error " + std::to_string(error) + " while " + doing());
-}
-
-}  // namespace
-
-struct TraceDevice::Handle {
-  explicit Handle(const std::string& config) : device(rtcNewDevice(config.c_str())) {
-    const auto doing = [] { return std::string("making a device for ray tracing"); };
-    if (device == nullptr) ThrowIfFailed(nullptr, doing);
-    Check(device != nullptr, "Embree says why it makes no device");
-    ThrowIfFailed(device, doing);
-  }
-  ~Handle() { rtcReleaseDevice(device); }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-
-  RTCDevice device;
-};
-
-TraceDevice::TraceDevice(const std::string& isa)
-    : handle_(std::make_shared<Handle>(isa.empty() ? "" : "isa=" + IsaInUse(isa))) {}
-
-TraceDevice::~TraceDevice() = default;
-
-namespace {
-
-// The fastest of the settings measured; robust traversal is also the faster one for packets of 16.
-RTCScene NewScene(RTCDevice device) {
-  RTCScene scene = rtcNewScene(device);
-  if (scene == nullptr) throw std::bad_alloc();
-  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
-  return scene;
-}
-
-// Embree builds with the threads of the calling arena. A single thread is used, because the order
-// of primitives in the leaves decides what a ray on an edge hits, and that order must not depend on
-// how the work was shared.
-void Commit(RTCScene scene) {
-  tbb::task_arena one_thread(1);
-  one_thread.execute([scene] { rtcCommitScene(scene); });
-}
-
-// Makes a new scene with the geometry that `attach` adds. Throws an InputError on failure.
-template <typename Doing, typename Attach>
-void BuildScene(RTCDevice device, RTCScene& scene, const Doing& doing, const Attach& attach) {
-  // Clear an error left by an earlier failed build.
-  static_cast<void>(rtcGetDeviceError(device));
-  WithinMemory(doing, [&] {
-    scene = NewScene(device);
-    attach();
-    Commit(scene);
-  });
-  ThrowIfFailed(device, doing);
-}
-
-struct ReleaseGeometry {
-  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
-};
-using OwnedGeometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, ReleaseGeometry>;
-
-// Embree returns null where C++ throws std::bad_alloc; convert it.
-OwnedGeometry NewGeometry(RTCDevice device, RTCGeometryType type) {
-  OwnedGeometry geometry(rtcNewGeometry(device, type));
-  if (geometry == nullptr) throw std::bad_alloc();
-  return geometry;
-}
-
-void AttachPart(RTCDevice device, RTCScene scene, const Part& part, unsigned geometry_id) {
-  const Mesh& mesh = part.mesh;
-  const OwnedGeometry owned = NewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  RTCGeometry geometry = owned.get();
-  if (!mesh.triangles.empty()) {
-    using Corner = std::array<float, 3>;
-    auto* vertices = static_cast<Corner*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                sizeof(Corner), mesh.vertices.size()));
-    using Triangle = std::array<std::uint32_t, 3>;
-    auto* triangles = static_cast<Triangle*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                sizeof(Triangle), mesh.triangles.size()));
-    if (vertices == nullptr || triangles == nullptr) throw std::bad_alloc();
-    std::transform(mesh.vertices.begin(), mesh.vertices.end(), vertices,
-                   [](const Eigen::Vector3f& vertex) {
-                     return Corner{vertex.x(), vertex.y(), vertex.z()};
-                   });
-    std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles);
-  }
-  rtcSetGeometryMask(geometry, part.is_wire ? kWireSurfaces : 0x1U);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(scene, geometry, geometry_id);
-}
-
-}  // namespace
-
-struct TraceModel::Handle {
-  std::shared_ptr<TraceDevice::Handle> device;
-  RTCScene scene{};
-
-  ~Handle() {
-    if (scene != nullptr) rtcReleaseScene(scene);
-  }
-};
-
-TraceModel::TraceModel(const TraceDevice& device, const Model& model)
-    : handle_(std::make_unique<Handle>()) {
-  handle_->device = device.handle();
-  RTCDevice const embree = handle_->device->device;
-  const auto doing = [&] {
-    return "building \"" + ShownText(model.name) + "\" for ray tracing (" +
-           std::to_string(model.num_triangles()) + " triangles)";
-  };
-  BuildScene(embree, handle_->scene, doing, [&] {
-    for (std::size_t i = 0; i < model.parts.size(); ++i) {
-      AttachPart(embree, handle_->scene, model.parts[i], static_cast<unsigned>(i));
-    }
-  });
-}
-
-TraceModel::~TraceModel() = default;
 
 namespace {
 
@@ -186,6 +52,9 @@ struct TraceScene::Parts {
   std::vector<InstanceRecord> instances;
   RTCScene scene{};
 
+  std::vector<Rows> steps;               ///< Places of all instances, one after another.
+  std::vector<std::uint32_t> num_steps;  ///< By instance.
+
   Parts() = default;
   ~Parts() {
     if (scene != nullptr) rtcReleaseScene(scene);
@@ -195,25 +64,38 @@ struct TraceScene::Parts {
 
   void AttachInstance(const TracePlacement& placement);
   void StoreHits(const RTCRayHit16& packet, RayTile& tile, std::size_t first) const;
+  /// The tree for beams. It is built, with those of the models, when it is first needed.
+  [[nodiscard]] const BeamScene& beam_scene() const;
+
+ private:
+  void BuildBeamScene() const;
+
+  mutable std::once_flag beams_once_;
+  mutable BeamTree beam_tree_;
+  mutable std::vector<BeamInstance> beam_instances_;
+  mutable BeamScene beam_scene_;
 };
 
 void TraceScene::Parts::AttachInstance(const TracePlacement& placement) {
-  const auto& steps = placement.window_from_model;
-  Check(!steps.empty(), "a placement has a place");
+  const auto& places = placement.window_from_model;
+  Check(!places.empty(), "a placement has a place");
   const OwnedGeometry owned = NewGeometry(device->device, RTC_GEOMETRY_TYPE_INSTANCE);
   RTCGeometry geometry = owned.get();
   rtcSetGeometryInstancedScene(geometry, placement.model->handle().scene);
-  rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(steps.size()));
-  for (std::size_t step = 0; step < steps.size(); ++step) {
-    const Eigen::Matrix<float, 3, 4> matrix = steps[step].matrix().topRows<3>().cast<float>();
+  rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(places.size()));
+  for (std::size_t step = 0; step < places.size(); ++step) {
+    const Eigen::Matrix<float, 3, 4> matrix = places[step].matrix().topRows<3>().cast<float>();
     rtcSetGeometryTransform(geometry, static_cast<unsigned>(step), RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR,
                             matrix.data());
+    Rows& rows = steps.emplace_back();
+    Eigen::Map<Eigen::Matrix<float, 3, 4, Eigen::RowMajor>>(rows.m) = matrix;
   }
+  num_steps.push_back(static_cast<std::uint32_t>(places.size()));
   rtcCommitGeometry(geometry);
   rtcAttachGeometryByID(scene, geometry, static_cast<unsigned>(instances.size()));
 
-  const Eigen::Matrix3d begin = steps.front().linear();
-  const Eigen::Matrix3d change = steps.back().linear() - begin;
+  const Eigen::Matrix3d begin = places.front().linear();
+  const Eigen::Matrix3d change = places.back().linear() - begin;
   instances.push_back(InstanceRecord{.rotation = ToColumns(begin),
                                      .rotation_change = ToColumns(change),
                                      .first_surface = placement.first_surface,
@@ -234,6 +116,83 @@ TraceScene::TraceScene(const TraceDevice& device, const std::vector<TracePlaceme
 }
 
 TraceScene::~TraceScene() = default;
+
+namespace {
+
+// The box around a model at all of its places. Between two of them, Embree interpolates the matrix
+// linearly, so that every point stays on the straight line between its ends.
+Eigen::AlignedBox3f BoxOf(const Eigen::AlignedBox3f& model, const Rows* steps, std::size_t num) {
+  Eigen::AlignedBox3f box;
+  if (model.isEmpty()) return box;
+  for (std::size_t step = 0; step < num; ++step) {
+    const Eigen::Map<const Eigen::Matrix<float, 3, 4, Eigen::RowMajor>> rows(steps[step].m);
+    for (int k = 0; k < 8; ++k) {
+      const auto corner = static_cast<Eigen::AlignedBox3f::CornerType>(k);
+      box.extend(rows.leftCols<3>() * model.corner(corner) + rows.col(3));
+    }
+  }
+  constexpr float kRounding_m = 1e-3F;  // float32 is ten times as exact at 1 km.
+  box.extend((box.min().array() - kRounding_m).matrix());
+  box.extend((box.max().array() + kRounding_m).matrix());
+  return box;
+}
+
+Rows InverseOf(const Rows& rows) {
+  Eigen::Affine3d transform = Eigen::Affine3d::Identity();
+  using Matrix = Eigen::Matrix<float, 3, 4, Eigen::RowMajor>;
+  transform.matrix().topRows<3>() = Eigen::Map<const Matrix>(rows.m).cast<double>();
+  Rows inverse{};
+  Eigen::Map<Matrix>(inverse.m) = transform.inverse().matrix().topRows<3>().cast<float>();
+  return inverse;
+}
+
+}  // namespace
+
+void TraceScene::Parts::BuildBeamScene() const {
+  // Isolated, so that a thread that waits here does not take up a tile of the frame that needs this
+  // scene.
+  tbb::this_task_arena::isolate([this] {
+    tbb::parallel_for(std::size_t{0}, models.size(), [this](std::size_t i) {
+      static_cast<void>(models[i]->handle().beam_tree());
+    });
+  });
+  std::vector<Eigen::AlignedBox3f> boxes;
+  beam_instances_.clear();
+  const Rows* places = steps.data();
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    const BeamTree& tree = models[i]->handle().beam_tree();
+    boxes.push_back(BoxOf(tree.bounds(), places, num_steps[i]));
+    beam_instances_.push_back({.root = tree.root(),
+                               .first_surface = instances[i].first_surface,
+                               .num_steps = num_steps[i],
+                               .window_from_model = places,
+                               .model_from_window = InverseOf(places[0])});
+    places += num_steps[i];
+  }
+  const auto doing = [this] {
+    return "building a scene for tracing beams (" + std::to_string(instances.size()) + " places)";
+  };
+  BuildWithEmbree(device->device, doing,
+                  [&] { beam_tree_ = BuildSceneTree(device->device, boxes); });
+  beam_scene_ = {beam_tree_.root(), beam_instances_.data()};
+}
+
+const BeamScene& TraceScene::Parts::beam_scene() const {
+  std::call_once(beams_once_, [this] { BuildBeamScene(); });
+  return beam_scene_;
+}
+
+void TraceScene::CastBeam(BeamRays& beam) const {
+  CastBeamWith(AvailableBeamKernels().back(), beam);
+}
+
+void TraceScene::CastBeamWith(const BeamKernel& kernel, BeamRays& beam) const {
+  kernel.trace(parts_->beam_scene(), beam);
+}
+
+void TraceScene::PrepareBeams() const {
+  static_cast<void>(parts_->beam_scene());
+}
 
 void TraceScene::Parts::StoreHits(const RTCRayHit16& packet,
                                   RayTile& tile,

@@ -11,6 +11,8 @@
 
 namespace railcast {
 
+struct BeamKernel;
+
 /// Owns the Embree device. Each acceleration structure is built by a single thread, so that it does
 /// not depend on the number of threads of a run.
 class TraceDevice {
@@ -61,6 +63,14 @@ class TraceScene final : public RayCaster {
   TraceScene& operator=(const TraceScene&) = delete;
 
   void Cast(RayTile& tile) const override;
+
+  /// Traces the sub-rays together through trees of our own (trace_beam.h), which are built on the
+  /// first call: hits are those of Cast(), except within rounding of a triangle's edge.
+  void CastBeam(BeamRays& beam) const override;
+  /// CastBeam() with the kernel of a certain instruction set; the result is the same.
+  void CastBeamWith(const BeamKernel& kernel, BeamRays& beam) const;
+  /// Builds what the first CastBeam() would build.
+  void PrepareBeams() const;
 
   /// Lowers `range_m` as Cast() does but leaves the other fields unchanged. This is the raw trace,
   /// the baseline of all speed figures, and it is sufficient for testing whether a ray hits.

@@ -44,6 +44,49 @@ struct alignas(64) RayTile {
   float normal_x[kTileSize], normal_y[kTileSize], normal_z[kTileSize];
 };
 
+/// The number of sub-rays that sample the cross-section of a beam: whole packets.
+inline constexpr std::size_t kNumSubRays = 64;
+/// The number of sub-rays, the first ones, that sample a beam among a crowd of small surfaces.
+inline constexpr std::size_t kNumCrowdedSubRays = 16;
+
+/// A flat piece of a surface that sub-rays of a beam hit.
+struct Facet {
+  std::uint32_t surface{};                   ///< Index into a surface table; 0 = nothing.
+  float normal_x{}, normal_y{}, normal_z{};  ///< Any non-zero length, either side.
+};
+
+/// The sub-rays of one beam and their hits, in the window frame.
+///
+/// Sub-rays that hit the same facet share an entry of `facets`. If a caster finds a surface nearer
+/// than `range_m[i]`, it lowers `range_m[i]` and points `facet[i]` to an entry that it has added;
+/// otherwise it leaves both unchanged. Several casters may therefore run one after another. Before
+/// the first, `range_m` is the maximum range, and `facets` consists of entry 0, which means
+/// "nothing". Entries may be left without a sub-ray.
+struct alignas(64) BeamRays {
+  /// More facets than sub-rays, so that a caster need not look for entries to reuse at every hit.
+  static constexpr std::size_t kMaxFacets = 4 * kNumSubRays;
+
+  std::uint32_t mask = kAllSurfaces;  ///< As RayTile::mask.
+  float shutter{};                    ///< As RayTile::shutter, for the whole beam.
+  /// kNumSubRays. A caster may lower it to kNumCrowdedSubRays where the beam meets so many small
+  /// surfaces that these sample it well enough; the other sub-rays then have no meaning.
+  std::size_t num_rays = kNumSubRays;
+  /// The number of triangles that casters have intersected with sub-rays so far.
+  std::uint32_t num_met = 0;
+  float origin[3]{};  ///< m
+  float axis[3]{};    ///< Direction of the beam's axis; unit length.
+  /// The semi-axes of the ellipse that contains all sub-rays: every direction is a multiple of
+  /// axis + a half_h + b half_v with a^2 + b^2 <= 1. Perpendicular to `axis`.
+  float half_h[3]{}, half_v[3]{};
+
+  float direction_x[kNumSubRays], direction_y[kNumSubRays], direction_z[kNumSubRays];  ///< Unit.
+  float range_m[kNumSubRays];
+  std::uint32_t facet[kNumSubRays];  ///< Index into `facets`.
+
+  std::uint32_t num_facets = 1;
+  Facet facets[kMaxFacets];
+};
+
 /// Finds the first surface along rays. railcast brings its own, TraceScene; a host program may
 /// supply another one (HostScene).
 class RayCaster {
@@ -53,6 +96,10 @@ class RayCaster {
   /// Traces all rays of a tile. Must be thread-safe. Rays start at range 0, so that surfaces nearer
   /// than range_min_m block the beam; such hits are rejected after the trace.
   virtual void Cast(RayTile& tile) const = 0;
+
+  /// Traces the sub-rays of a beam. Must be thread-safe. This implementation passes them to Cast();
+  /// a caster that exploits how close together they are can be several times faster.
+  virtual void CastBeam(BeamRays& beam) const;
 };
 
 }  // namespace railcast

@@ -1,0 +1,169 @@
+// See core/detect/vector_math.h for why this header has no `#pragma once`.
+#ifndef RAILCAST_TRACE_BEAM_CONE_H_
+#define RAILCAST_TRACE_BEAM_CONE_H_
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
+
+#include "core/trace/beam_tree.h"
+
+#ifndef RAILCAST_ISA
+#define RAILCAST_ISA baseline
+#endif
+
+/// A beam as a cone, and what of a tree it meets.
+namespace railcast::RAILCAST_ISA {
+
+[[nodiscard]] inline float Least(float a, float b) {
+  return a < b ? a : b;
+}
+[[nodiscard]] inline float Most(float a, float b) {
+  return a > b ? a : b;
+}
+
+/// Collects the lanes whose value is negative into a bit mask.
+[[nodiscard]] inline std::uint32_t NegativeLanes(const float* lanes) {
+  std::uint32_t mask = 0;
+#ifdef __SSE__
+  for (std::size_t i = 0; i < kTreeWidth; i += 4) {
+    mask |= static_cast<std::uint32_t>(_mm_movemask_ps(_mm_load_ps(lanes + i))) << i;
+  }
+#else
+  for (std::size_t i = 0; i < kTreeWidth; ++i) mask |= (lanes[i] < 0.0F ? 1U : 0U) << i;
+#endif
+  return mask;
+}
+
+/// A beam as a cone in the frame of a tree.
+struct Cone {
+  float origin[3], axis[3];
+  float half_h[3], half_v[3];  ///< As BeamRays; scaled as `axis` is.
+  float per_axis[3];           ///< 1 / axis.
+  float reach[3];              ///< Half extent of the cone along x, y, z per distance.
+};
+
+/// Room for rounding, relative to a cone's half extent and to the distance.
+constexpr float kConeMargin = 1.0005F;
+constexpr float kRoundingMargin = 1e-6F;
+
+/// Completes a cone whose origin and directions are set.
+inline void FinishCone(Cone& cone) {
+  float length2 = 0.0F;
+  for (int i = 0; i < 3; ++i) length2 += cone.axis[i] * cone.axis[i];
+  const float inverse_norm = 1.0F / std::sqrt(length2);
+  for (int i = 0; i < 3; ++i) {
+    constexpr float kTiny = 1e-9F;
+    const float d = cone.axis[i];
+    cone.per_axis[i] = 1.0F / (std::fabs(d) < kTiny ? (d < 0.0F ? -kTiny : kTiny) : d);
+    const float half2 = cone.half_h[i] * cone.half_h[i] + cone.half_v[i] * cone.half_v[i];
+    cone.reach[i] = kConeMargin * std::sqrt(half2) * inverse_norm + kRoundingMargin;
+  }
+}
+
+/// Returns the children of a node that the cone may meet nearer than `far`, and the parameters
+/// along the axis at which it enters them.
+[[nodiscard]] inline std::uint32_t ChildrenMet(const BeamNode& node,
+                                               const Cone& cone,
+                                               float far,
+                                               float* entry) {
+  alignas(64) float outside[kTreeWidth];
+  const Cone c = cone;  // The copy cannot alias the results.
+  for (std::size_t k = 0; k < kTreeWidth; ++k) {
+    const float xl = node.lower[0][k] - c.origin[0];
+    const float xu = node.upper[0][k] - c.origin[0];
+    const float yl = node.lower[1][k] - c.origin[1];
+    const float yu = node.upper[1][k] - c.origin[1];
+    const float zl = node.lower[2][k] - c.origin[2];
+    const float zu = node.upper[2][k] - c.origin[2];
+    const float x = Most(std::fabs(xl), std::fabs(xu));
+    const float y = Most(std::fabs(yl), std::fabs(yu));
+    const float z = Most(std::fabs(zl), std::fabs(zu));
+    const float farthest = std::sqrt(x * x + y * y + z * z);
+    const float rx = farthest * c.reach[0];
+    const float ry = farthest * c.reach[1];
+    const float rz = farthest * c.reach[2];
+    const float ax = (xl - rx) * c.per_axis[0];
+    const float bx = (xu + rx) * c.per_axis[0];
+    const float ay = (yl - ry) * c.per_axis[1];
+    const float by = (yu + ry) * c.per_axis[1];
+    const float az = (zl - rz) * c.per_axis[2];
+    const float bz = (zu + rz) * c.per_axis[2];
+    const float in = Most(Most(Least(ax, bx), Least(ay, by)), Most(Least(az, bz), 0.0F));
+    const float out = Least(Least(Most(ax, bx), Most(ay, by)), Least(Most(az, bz), far));
+    entry[k] = in;
+    outside[k] = in <= out ? -1.0F : 1.0F;
+  }
+  return NegativeLanes(outside) & ((1U << node.num_children) - 1U);
+}
+
+/// Products of a leaf's triangles that the test of a ray needs, by lane. A ray from the cone's
+/// origin along d passes through a triangle if its products with the three edges' moments have one
+/// sign, and meets its plane at offset / (normal . d) (Plücker coordinates; Embree's robust test).
+struct LeafProducts {
+  alignas(64) float edge[3][3][kTreeWidth];  ///< [edge][axis]
+  alignas(64) float normal[3][kTreeWidth];
+  alignas(64) float offset[kTreeWidth];
+};
+
+/// Fills `products` and returns the lanes that the cone may meet.
+[[nodiscard]] inline std::uint32_t TrianglesMet(const BeamLeaf& leaf,
+                                                const Cone& cone,
+                                                LeafProducts& products) {
+  alignas(64) float missed[kTreeWidth];
+  const Cone c = cone;
+  for (std::size_t k = 0; k < kTreeWidth; ++k) {
+    float v[3][3];
+    for (int corner = 0; corner < 3; ++corner) {
+      for (int i = 0; i < 3; ++i) v[corner][i] = leaf.corner[corner][i][k] - c.origin[i];
+    }
+    bool may_be_left = true;
+    bool may_be_right = true;
+    for (int e = 0; e < 3; ++e) {
+      const float* const a = v[e];
+      const float* const b = v[(e + 1) % 3];
+      const float dx = b[0] - a[0];
+      const float dy = b[1] - a[1];
+      const float dz = b[2] - a[2];
+      const float sx = b[0] + a[0];
+      const float sy = b[1] + a[1];
+      const float sz = b[2] + a[2];
+      const float mx = dy * sz - dz * sy;
+      const float my = dz * sx - dx * sz;
+      const float mz = dx * sy - dy * sx;
+      products.edge[e][0][k] = mx;
+      products.edge[e][1][k] = my;
+      products.edge[e][2][k] = mz;
+      const float along = c.axis[0] * mx + c.axis[1] * my + c.axis[2] * mz;
+      const float h = c.half_h[0] * mx + c.half_h[1] * my + c.half_h[2] * mz;
+      const float w = c.half_v[0] * mx + c.half_v[1] * my + c.half_v[2] * mz;
+      const float reach = kConeMargin * std::sqrt(h * h + w * w) +
+                          kRoundingMargin * (std::fabs(c.axis[0] * mx) + std::fabs(c.axis[1] * my) +
+                                             std::fabs(c.axis[2] * mz));
+      may_be_left = may_be_left & (along >= -reach);
+      may_be_right = may_be_right & (along <= reach);
+    }
+    const float px = v[1][0] - v[0][0];
+    const float py = v[1][1] - v[0][1];
+    const float pz = v[1][2] - v[0][2];
+    const float qx = v[2][0] - v[0][0];
+    const float qy = v[2][1] - v[0][1];
+    const float qz = v[2][2] - v[0][2];
+    const float nx = py * qz - pz * qy;
+    const float ny = pz * qx - px * qz;
+    const float nz = px * qy - py * qx;
+    products.normal[0][k] = nx;
+    products.normal[1][k] = ny;
+    products.normal[2][k] = nz;
+    products.offset[k] = v[0][0] * nx + v[0][1] * ny + v[0][2] * nz;
+    missed[k] = may_be_left | may_be_right ? -1.0F : 1.0F;
+  }
+  return NegativeLanes(missed) & leaf.lanes;
+}
+
+}  // namespace railcast::RAILCAST_ISA
+
+#endif  // RAILCAST_TRACE_BEAM_CONE_H_

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace railcast {
+
+// The trees in which beams are traced (trace_beam.h), as plain data, since the code that traverses
+// them is compiled once per instruction set.
+
+/// Number of children of a node and of triangles of a leaf.
+inline constexpr std::size_t kTreeWidth = 16;
+
+/// Bound of a tree's depth, from which follows how many entries a traversal's stack needs.
+inline constexpr std::size_t kTreeDepth = 48;
+
+/// Points to a child: a node, or, if the lowest bit is set, a leaf. 0 = an empty tree. Leaves of a
+/// model's tree are BeamLeaf; a leaf of a scene's tree is an instance, whose index stands in the
+/// other bits.
+using TreePointer = std::uintptr_t;
+
+/// An inner node: the bounding boxes of its children, by axis.
+struct alignas(64) BeamNode {
+  float lower[3][kTreeWidth], upper[3][kTreeWidth];
+  TreePointer child[kTreeWidth];
+  std::uint32_t num_children;
+};
+
+/// Up to 16 triangles of a model. Unused lanes repeat the last triangle.
+struct alignas(64) BeamLeaf {
+  float corner[3][3][kTreeWidth];  ///< [corner][axis]
+  std::uint32_t part[kTreeWidth];  ///< Part of the model that the triangle belongs to.
+  std::uint32_t lanes;             ///< The lanes in use, a bit each.
+  std::uint32_t wire_lanes;        ///< Those of parts that are wires.
+};
+
+/// A rigid transform with uniform scale: the first three rows of the matrix, row by row.
+struct Rows {
+  float m[12];
+};
+
+/// A placed model.
+struct BeamInstance {
+  TreePointer root{};             ///< The model's tree.
+  std::uint32_t first_surface{};  ///< Surface of the model's part 0.
+  std::uint32_t num_steps{};
+  const Rows* window_from_model{};  ///< At `num_steps` equal steps of the shutter; 1 = stationary.
+  Rows model_from_window{};         ///< If stationary.
+};
+
+/// A scene: a tree of instances.
+struct BeamScene {
+  TreePointer root{};
+  const BeamInstance* instances{};
+};
+
+}  // namespace railcast

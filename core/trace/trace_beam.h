@@ -1,0 +1,235 @@
+// See core/detect/vector_math.h for why this header has no `#pragma once`.
+#ifndef RAILCAST_TRACE_TRACE_BEAM_H_
+#define RAILCAST_TRACE_TRACE_BEAM_H_
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/trace/beam_cone.h"
+#include "core/trace/beam_tree.h"
+#include "core/trace/sub_ray_hits.h"
+#include "railcast/ray_caster.h"
+
+#ifndef RAILCAST_ISA
+#define RAILCAST_ISA baseline
+#endif
+
+/// The trace of a beam: the beam descends the trees as a cone, and only what the cone meets is
+/// intersected with its sub-rays, all at once. Boxes are inflated by the cone's extent at their
+/// farthest corner, so that no box is missed that a sub-ray meets.
+namespace railcast::RAILCAST_ISA {
+
+[[nodiscard]] inline bool IsLeaf(TreePointer pointer) {
+  return (pointer & 1U) != 0;
+}
+
+/// Entries of a tree that are still to be visited.
+class Stack {
+ public:
+  struct Entry {
+    TreePointer pointer;
+    float entry;  ///< Where the cone enters it.
+  };
+
+  explicit Stack(TreePointer root) { entries_[size_++] = {root, 0.0F}; }
+  [[nodiscard]] bool empty() const { return size_ == 0; }
+  [[nodiscard]] Entry Pop() { return entries_[--size_]; }
+
+  /// Pushes children so that the nearest is popped first.
+  void PushSorted(const BeamNode& node, std::uint32_t children, const float* entry) {
+    const std::size_t first = size_;
+    for (; children != 0; children &= children - 1) {
+      const auto k = static_cast<std::size_t>(__builtin_ctz(children));
+      std::size_t place = size_++;
+      for (; place > first && entries_[place - 1].entry < entry[k]; --place) {
+        entries_[place] = entries_[place - 1];
+      }
+      entries_[place] = {node.child[k], entry[k]};
+    }
+  }
+
+ private:
+  Entry entries_[kTreeDepth * kTreeWidth];
+  std::size_t size_ = 0;
+};
+
+/// The transforms between the window and an instance's model at one time.
+struct InstancePlace {
+  Rows window_from_model;
+  Rows model_from_window;
+};
+
+/// Interpolates a moving instance's matrix between its steps, as Embree does.
+[[nodiscard]] inline InstancePlace PlaceAt(const BeamInstance& instance, float shutter) {
+  if (instance.num_steps == 1) return {instance.window_from_model[0], instance.model_from_window};
+  InstancePlace place{};
+  const float last = static_cast<float>(instance.num_steps - 1);
+  const float at = Least(Most(shutter, 0.0F), 1.0F) * last;
+  const float step = Least(std::floor(at), last - 1.0F);
+  const float part = at - step;
+  const Rows& a = instance.window_from_model[static_cast<std::size_t>(step)];
+  const Rows& b = instance.window_from_model[static_cast<std::size_t>(step) + 1];
+  double m[12];
+  for (int i = 0; i < 12; ++i) {
+    place.window_from_model.m[i] = (1.0F - part) * a.m[i] + part * b.m[i];
+    m[i] = static_cast<double>(place.window_from_model.m[i]);
+  }
+  // The inverse by cofactors, in double, since the translation may be large.
+  double inverse[9];
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      const int r1 = (k + 1) % 3;
+      const int r2 = (k + 2) % 3;
+      const int c1 = (i + 1) % 3;
+      const int c2 = (i + 2) % 3;
+      inverse[3 * i + k] = m[4 * r1 + c1] * m[4 * r2 + c2] - m[4 * r1 + c2] * m[4 * r2 + c1];
+    }
+  }
+  const double det = m[0] * inverse[0] + m[1] * inverse[3] + m[2] * inverse[6];
+  for (int i = 0; i < 3; ++i) {
+    double shift = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      const double value = inverse[3 * i + k] / det;
+      place.model_from_window.m[4 * i + k] = static_cast<float>(value);
+      shift -= value * m[4 * k + 3];
+    }
+    place.model_from_window.m[4 * i + 3] = static_cast<float>(shift);
+  }
+  return place;
+}
+
+inline void Turn(const Rows& rows, const float* from, float* to) {
+  for (int i = 0; i < 3; ++i) {
+    to[i] = rows.m[4 * i] * from[0] + rows.m[4 * i + 1] * from[1] + rows.m[4 * i + 2] * from[2];
+  }
+}
+
+/// Adds the facet of the triangle in a lane of a leaf.
+inline void AddFacet(const Rows& window_from_model,
+                     std::uint32_t surface,
+                     const LeafProducts& products,
+                     std::size_t lane,
+                     BeamRays& beam) {
+  const float normal[3] = {products.normal[0][lane], products.normal[1][lane],
+                           products.normal[2][lane]};
+  float turned[3];
+  Turn(window_from_model, normal, turned);
+  beam.facets[beam.num_facets++] = {surface, turned[0], turned[1], turned[2]};
+}
+
+/// Has the first lines of a node or leaf fetched, which is visited after its nearer siblings.
+inline void Prefetch(TreePointer pointer) {
+  const auto* const bytes = reinterpret_cast<const char*>(pointer & ~TreePointer{1});
+  constexpr std::size_t kNumBytes = 384;
+  for (std::size_t at = 0; at < kNumBytes; at += 64) __builtin_prefetch(bytes + at);
+}
+
+/// Pushes those children of a node that the cone and at least one sub-ray meet.
+inline void PushChildren(const BeamNode& node,
+                         const Cone& cone,
+                         float far,
+                         const SubRayDirections& rays,
+                         const BeamRays& beam,
+                         Stack& stack) {
+  alignas(64) float entry[kTreeWidth];
+  std::uint32_t children = ChildrenMet(node, cone, far, entry);
+  for (std::uint32_t left = children; left != 0; left &= left - 1) {
+    const auto k = static_cast<std::size_t>(__builtin_ctz(left));
+    if (IsBoxMet(node, k, cone.origin, rays, beam)) {
+      Prefetch(node.child[k]);
+    } else {
+      children &= ~(1U << k);
+    }
+  }
+  stack.PushSorted(node, children, entry);
+}
+
+/// A beam that meets more triangles than this is sampled by kNumCrowdedSubRays. Leaves and blades
+/// of grass are that many; this saves a third of the time on scenarios/open_line.json.
+constexpr std::uint32_t kCrowd = 64;
+
+/// Intersects the triangles of a leaf with the sub-rays. Returns whether any hit is nearer than
+/// what was hit before, or the number of sub-rays was lowered.
+[[nodiscard]] inline bool TraceLeaf(const BeamLeaf& leaf,
+                                    const Cone& cone,
+                                    const SubRayDirections& rays,
+                                    const Rows& window_from_model,
+                                    std::uint32_t first_surface,
+                                    BeamRays& beam) {
+  LeafProducts products;
+  std::uint32_t lanes = TrianglesMet(leaf, cone, products);
+  if ((beam.mask & kWireSurfaces) == 0) lanes &= ~leaf.wire_lanes;
+  if ((beam.mask & ~kWireSurfaces) == 0) lanes &= leaf.wire_lanes;
+  beam.num_met += static_cast<std::uint32_t>(__builtin_popcount(lanes));
+  bool is_changed = beam.num_met > kCrowd && beam.num_rays > kNumCrowdedSubRays;
+  if (is_changed) beam.num_rays = kNumCrowdedSubRays;
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const auto lane = static_cast<std::size_t>(__builtin_ctz(lanes));
+    if (beam.num_facets == BeamRays::kMaxFacets) DropHiddenFacets(beam);
+    if (!HitTriangle(products, lane, rays, beam.num_facets, beam)) continue;
+    AddFacet(window_from_model, first_surface + leaf.part[lane], products, lane, beam);
+    is_changed = true;
+  }
+  return is_changed;
+}
+
+/// Traces the beam through one instance.
+/// @param far The farthest range among the sub-rays; lowered where they hit.
+inline void TraceInstance(const BeamInstance& instance, BeamRays& beam, float& far) {
+  const InstancePlace place = PlaceAt(instance, beam.shutter);
+  const Rows& model_from_window = place.model_from_window;
+  Cone cone;
+  Turn(model_from_window, beam.origin, cone.origin);
+  for (int i = 0; i < 3; ++i) cone.origin[i] += model_from_window.m[4 * i + 3];
+  Turn(model_from_window, beam.axis, cone.axis);
+  Turn(model_from_window, beam.half_h, cone.half_h);
+  Turn(model_from_window, beam.half_v, cone.half_v);
+  FinishCone(cone);
+  SubRayDirections rays;
+  TurnSubRays(model_from_window, beam, rays);
+  for (Stack stack(instance.root); !stack.empty();) {
+    const Stack::Entry top = stack.Pop();
+    if (top.entry > far) continue;
+    if (IsLeaf(top.pointer)) {
+      const auto& leaf = *reinterpret_cast<const BeamLeaf*>(top.pointer & ~TreePointer{1});
+      if (TraceLeaf(leaf, cone, rays, place.window_from_model, instance.first_surface, beam)) {
+        far = FarthestRange(beam);
+      }
+    } else {
+      const auto& node = *reinterpret_cast<const BeamNode*>(top.pointer);
+      PushChildren(node, cone, far, rays, beam, stack);
+    }
+  }
+}
+
+/// Traces the sub-rays of a beam through a scene, as RayCaster::CastBeam() says.
+inline void TraceBeam(const BeamScene& scene, BeamRays& beam) {
+  if (scene.root == 0) return;
+  Cone cone;
+  for (int i = 0; i < 3; ++i) {
+    cone.origin[i] = beam.origin[i];
+    cone.axis[i] = beam.axis[i];
+    cone.half_h[i] = beam.half_h[i];
+    cone.half_v[i] = beam.half_v[i];
+  }
+  FinishCone(cone);
+  float far = FarthestRange(beam);
+  alignas(64) float entry[kTreeWidth];
+  for (Stack stack(scene.root); !stack.empty();) {
+    const Stack::Entry top = stack.Pop();
+    if (top.entry > far) continue;
+    if (IsLeaf(top.pointer)) {
+      TraceInstance(scene.instances[top.pointer >> 1U], beam, far);
+      continue;
+    }
+    const auto& node = *reinterpret_cast<const BeamNode*>(top.pointer);
+    const std::uint32_t children = ChildrenMet(node, cone, far, entry);
+    stack.PushSorted(node, children, entry);
+  }
+  DropHiddenFacets(beam);
+}
+
+}  // namespace railcast::RAILCAST_ISA
+
+#endif  // RAILCAST_TRACE_TRACE_BEAM_H_

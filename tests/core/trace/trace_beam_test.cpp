@@ -1,0 +1,275 @@
+// The trace of beams against RayCaster::Cast(), that is against Embree.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "core/trace/beam_kernels.h"
+#include "core/trace/trace_scene.h"
+#include "tests/support/analytic_meshes.h"
+
+namespace railcast {
+namespace {
+
+constexpr float kFarthest_m = 200.0F;
+
+/// A beam from the origin, with sub-rays spread over an ellipse as a sensor's are.
+BeamRays BeamAlong(const Eigen::Vector3f& axis, float half_h_rad, float half_v_rad) {
+  BeamRays beam{};
+  const Eigen::Vector3f h = Eigen::Vector3f::UnitZ().cross(axis).normalized() * half_h_rad;
+  const Eigen::Vector3f v = axis.cross(h).normalized() * half_v_rad;
+  Eigen::Map<Eigen::Vector3f>(beam.axis) = axis;
+  Eigen::Map<Eigen::Vector3f>(beam.half_h) = h;
+  Eigen::Map<Eigen::Vector3f>(beam.half_v) = v;
+  for (std::size_t i = 0; i < kNumSubRays; ++i) {
+    const float radius = 0.9999F * std::sqrt((static_cast<float>(i) + 0.5F) / kNumSubRays);
+    const float angle_rad = 2.3999632F * static_cast<float>(i);
+    const Eigen::Vector3f ray =
+        (axis + radius * (std::cos(angle_rad) * h + std::sin(angle_rad) * v)).normalized();
+    beam.direction_x[i] = ray.x();
+    beam.direction_y[i] = ray.y();
+    beam.direction_z[i] = ray.z();
+    beam.range_m[i] = kFarthest_m;
+    beam.facet[i] = 0;
+  }
+  return beam;
+}
+
+/// The same sub-rays as a tile.
+RayTile TileOf(const BeamRays& beam) {
+  RayTile tile{};
+  tile.num_rays = kNumSubRays;
+  tile.mask = beam.mask;
+  for (std::size_t i = 0; i < kNumSubRays; ++i) {
+    tile.origin_x[i] = beam.origin[0];
+    tile.origin_y[i] = beam.origin[1];
+    tile.origin_z[i] = beam.origin[2];
+    tile.direction_x[i] = beam.direction_x[i];
+    tile.direction_y[i] = beam.direction_y[i];
+    tile.direction_z[i] = beam.direction_z[i];
+    tile.shutter[i] = beam.shutter;
+    tile.range_m[i] = kFarthest_m;
+  }
+  return tile;
+}
+
+/// Triangles of up to `size_m` in a ball of 1 m.
+Mesh Confetti(int num, float size_m, std::mt19937& random) {
+  std::uniform_real_distribution<float> uniform(-1.0F, 1.0F);
+  Mesh mesh;
+  for (int i = 0; i < num; ++i) {
+    const Eigen::Vector3f middle(uniform(random), uniform(random), uniform(random));
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (int corner = 0; corner < 3; ++corner) {
+      mesh.vertices.push_back(
+          middle + size_m * Eigen::Vector3f(uniform(random), uniform(random), uniform(random)));
+    }
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  return mesh;
+}
+
+/// Clouds of triangles all around, one of which moves and turns, with wires among them, in front of
+/// a wall on one side.
+class Clouds {
+ public:
+  Clouds() {
+    std::mt19937 random(7);
+    const auto model = std::make_shared<TraceModel>(
+        device_,
+        Model{"cloud",
+              {{Confetti(60, 0.4F, random), 1, 1},
+               {.mesh = Confetti(15, 0.2F, random), .material = 1, .label = 2, .is_wire = true}}});
+    const auto wall =
+        std::make_shared<TraceModel>(device_, Model{"wall", {{MakeWall(60.0F, 40.0F), 1, 1}}});
+    std::vector<TracePlacement> placements;
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    std::uint32_t surface = 1;
+    for (int i = 0; i < 120; ++i) {
+      TracePlacement placement{model, {}, surface};
+      surface += 2;
+      const Eigen::Vector3d at =
+          30.0 * Eigen::Vector3d(uniform(random), uniform(random), 0.3 * uniform(random));
+      const Eigen::Vector3d axis =
+          Eigen::Vector3d(uniform(random), uniform(random), uniform(random)).normalized();
+      const int num_steps = i % 3 == 0 ? 3 : 1;
+      for (int step = 0; step < num_steps; ++step) {
+        Eigen::Affine3d place = Eigen::Affine3d::Identity();
+        place.translate(at + 0.5 * step * axis);
+        place.rotate(Eigen::AngleAxisd(3.0 * uniform(random) * (step == 0 ? 1.0 : 0.01), axis));
+        place.scale(0.5 + 0.01 * i);
+        placement.window_from_model.push_back(place);
+      }
+      placements.push_back(std::move(placement));
+    }
+    placements.push_back({wall, {Eigen::Affine3d::Identity()}, surface});
+    scene_ = std::make_unique<TraceScene>(device_, placements);
+  }
+
+  [[nodiscard]] const TraceScene& scene() const { return *scene_; }
+
+ private:
+  TraceDevice device_;
+  std::unique_ptr<TraceScene> scene_;
+};
+
+/// Beams in all directions, of several widths, at several times.
+std::vector<BeamRays> BeamsAround(std::size_t num) {
+  std::vector<BeamRays> beams;
+  for (std::size_t i = 0; i < num; ++i) {
+    const auto k = static_cast<float>(i);
+    const float z = 0.6F * (2.0F * (k + 0.5F) / static_cast<float>(num) - 1.0F);
+    const float angle_rad = 2.3999632F * k;
+    const float radius = std::sqrt(1.0F - z * z);
+    const float width_rad = i % 2 == 0 ? 3e-3F : 3e-4F;
+    BeamRays beam = BeamAlong({radius * std::cos(angle_rad), radius * std::sin(angle_rad), z},
+                              width_rad, 0.5F * width_rad);
+    beam.shutter = static_cast<float>(i % 11) / 10.0F;
+    beam.mask = i % 5 == 0 ? kAllButWires : kAllSurfaces;
+    beam.origin[2] = 0.1F * static_cast<float>(i % 7);
+    beams.push_back(beam);
+  }
+  return beams;
+}
+
+TEST(TraceBeam, HitsWhatEmbreeHits) {
+  const Clouds clouds;
+  std::size_t num = 0;
+  std::size_t num_hits = 0;
+  std::size_t num_different = 0;
+  for (BeamRays& beam : BeamsAround(20'000)) {
+    RayTile tile = TileOf(beam);
+    clouds.scene().Cast(tile);
+    clouds.scene().CastBeam(beam);
+    for (std::size_t i = 0; i < beam.num_rays; ++i) {
+      ++num;
+      const Facet& facet = beam.facets[beam.facet[i]];
+      num_hits += tile.surface[i] != 0 ? 1U : 0U;
+      if (facet.surface != tile.surface[i] ||
+          std::fabs(beam.range_m[i] - tile.range_m[i]) > 1e-5F * tile.range_m[i] + 1e-5F) {
+        ++num_different;
+        continue;
+      }
+      if (facet.surface == 0) continue;
+      const Eigen::Vector3f ours(facet.normal_x, facet.normal_y, facet.normal_z);
+      const Eigen::Vector3f theirs(tile.normal_x[i], tile.normal_y[i], tile.normal_z[i]);
+      // Cast() takes a moving instance's normal between its first and last step.
+      if (beam.shutter == 0.0F || beam.shutter == 1.0F) {
+        EXPECT_NEAR(std::fabs(ours.normalized().dot(theirs.normalized())), 1.0F, 1e-4F);
+      }
+    }
+  }
+  EXPECT_GT(num, 1'000'000U);
+  EXPECT_GT(num_hits, num / 4);
+  // Rays within rounding of an edge: measured 1.3e-5.
+  EXPECT_LT(static_cast<double>(num_different), 5e-5 * static_cast<double>(num));
+}
+
+TEST(TraceBeam, GivesTheSameBytesOnEveryInstructionSet) {
+  const Clouds clouds;
+  const std::vector<BeamKernel>& kernels = AvailableBeamKernels();
+  for (BeamRays& beam : BeamsAround(500)) {
+    BeamRays first = beam;
+    clouds.scene().CastBeamWith(kernels.front(), first);
+    for (const BeamKernel& kernel : kernels) {
+      BeamRays other = beam;
+      clouds.scene().CastBeamWith(kernel, other);
+      ASSERT_EQ(std::memcmp(first.range_m, other.range_m, sizeof first.range_m), 0) << kernel.isa;
+      ASSERT_EQ(std::memcmp(first.facet, other.facet, sizeof first.facet), 0) << kernel.isa;
+      ASSERT_EQ(first.num_facets, other.num_facets);
+      for (std::uint32_t f = 0; f < first.num_facets; ++f) {
+        ASSERT_EQ(std::memcmp(&first.facets[f], &other.facets[f], sizeof(Facet)), 0) << kernel.isa;
+      }
+    }
+  }
+}
+
+/// `num` plates of 1 m behind each other from 20 m on, the nearest last in the mesh. Each has its
+/// own slope, so that plates far behind pass in front of others somewhere.
+Mesh Plates(int num) {
+  Mesh mesh;
+  for (int i = num; i-- > 0;) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    const float x = 20.0F + 0.01F * static_cast<float>(i);
+    const float slope = i % 2 == 0 ? 3.0F : -3.0F;
+    mesh.vertices.insert(mesh.vertices.end(),
+                         {{x - slope, -1.0F, -1.0F}, {x + slope, 1.0F, -1.0F}, {x, 0.0F, 1.5F}});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  return mesh;
+}
+
+TEST(TraceBeam, FindsTheNearestOfACrowdWithFewerSubRays) {
+  const TraceDevice device;
+  const auto model = std::make_shared<TraceModel>(device, Model{"plates", {{Plates(2000), 1, 1}}});
+  const TraceScene scene(device, {{model, {Eigen::Affine3d::Identity()}, 1}});
+  BeamRays beam = BeamAlong(Eigen::Vector3f::UnitX(), 0.02F, 0.02F);
+  RayTile tile = TileOf(beam);
+  scene.Cast(tile);
+  scene.CastBeam(beam);
+  EXPECT_GT(beam.num_met, 64U);
+  ASSERT_EQ(beam.num_rays, kNumCrowdedSubRays);
+  for (std::size_t i = 0; i < beam.num_rays; ++i) {
+    EXPECT_NEAR(beam.range_m[i], tile.range_m[i], 1e-4F);
+    EXPECT_EQ(beam.facets[beam.facet[i]].surface, 1U);
+  }
+}
+
+TEST(TraceBeam, NamesEveryFacetOnce) {
+  const TraceDevice device;
+  const auto model = std::make_shared<TraceModel>(
+      device, Model{"ball", {{MakeSphere(1.0, 16, 16), 1, 1}, {MakeWall(30.0F, 9.0F), 1, 1}}});
+  Eigen::Affine3d ahead = Eigen::Affine3d::Identity();
+  ahead.translation() = Eigen::Vector3d(10.0, 0.9, 0.0);
+  const TraceScene scene(device, {{model, {ahead}, 5}});
+  BeamRays beam = BeamAlong(Eigen::Vector3f::UnitX(), 0.02F, 0.02F);
+  scene.CastBeam(beam);
+  std::vector<int> num_rays(beam.num_facets);
+  for (std::size_t i = 0; i < beam.num_rays; ++i) ++num_rays[beam.facet[i]];
+  EXPECT_EQ(num_rays[0], 0);
+  std::size_t num_walls = 0;
+  for (std::uint32_t f = 1; f < beam.num_facets; ++f) {
+    EXPECT_GT(num_rays[f], 0);
+    num_walls += beam.facets[f].surface == 6U ? 1U : 0U;
+  }
+  EXPECT_GT(beam.num_facets, 4U);
+  EXPECT_EQ(num_walls, 1U);
+}
+
+/// A host's caster, which knows rays only.
+struct OnlyRays final : RayCaster {
+  explicit OnlyRays(const RayCaster& caster) : caster_(caster) {}
+  void Cast(RayTile& tile) const override { caster_.Cast(tile); }
+  const RayCaster& caster_;
+};
+
+TEST(TraceBeam, OfAHostThatKnowsRaysOnlyGivesTheSameFacets) {
+  const Clouds clouds;
+  const OnlyRays host(clouds.scene());
+  for (BeamRays& beam : BeamsAround(300)) {
+    BeamRays ours = beam;
+    clouds.scene().CastBeam(ours);
+    host.CastBeam(beam);
+    ASSERT_EQ(beam.num_rays, kNumSubRays);
+    for (std::size_t i = 0; i < ours.num_rays; ++i) {
+      ASSERT_EQ(ours.facets[ours.facet[i]].surface, beam.facets[beam.facet[i]].surface);
+      ASSERT_NEAR(ours.range_m[i], beam.range_m[i], 1e-3F);
+    }
+  }
+}
+
+TEST(TraceBeam, LeavesBeamsAloneInAnEmptyScene) {
+  const TraceDevice device;
+  const TraceScene scene(device, {});
+  BeamRays beam = BeamAlong(Eigen::Vector3f::UnitX(), 0.02F, 0.02F);
+  scene.CastBeam(beam);
+  EXPECT_EQ(beam.num_facets, 1U);
+  for (std::size_t i = 0; i < kNumSubRays; ++i) EXPECT_EQ(beam.range_m[i], kFarthest_m);
+}
+
+}  // namespace
+}  // namespace railcast
