@@ -110,15 +110,20 @@ EffectSearchResult FindCheapestEffects(const EffectSet& full,
   EffectBits left_out = PredictLeftOut(result, candidates, limits);
   result.deviation = measure(remaining(left_out));
   while (left_out != 0 && !IsWithin(result.deviation, limits)) {
+    // Bring back the effect that leads nearest to the limits, or the cheaper of two alike.
     double least_excess = std::numeric_limits<double>::infinity();
+    double least_cost = 0.0;
     EffectBits nearest = 0;  // All effects, unless a set with finite excess is found.
     Deviation nearest_deviation = result.full_deviation;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       if (!IsIn(left_out, i)) continue;
       const EffectBits fewer = left_out & ~(1U << i);
       const Deviation deviation = measure(remaining(fewer));
-      if (Excess(deviation, limits) >= least_excess) continue;
-      least_excess = Excess(deviation, limits);
+      const double excess = Excess(deviation, limits);
+      const double cost = candidates[i].instructions;
+      if (excess > least_excess || (excess == least_excess && cost >= least_cost)) continue;
+      least_excess = excess;
+      least_cost = cost;
       nearest = fewer;
       nearest_deviation = deviation;
     }
