@@ -24,6 +24,14 @@ struct BeamFrame {
   float sigma_v_rad{};                  ///< Standard deviation of the profile, vertical.
 };
 
+/// The sub-rays of a beam and the angle by which they are turned about its axis.
+struct SubRayAim {
+  const float* h{};        ///< Horizontal offsets in standard deviations of the profile.
+  const float* v{};        ///< Vertical offsets.
+  float largest_offset{};  ///< The largest distance from the axis.
+  float cosine{}, sine{};
+};
+
 struct PointingParameters {
   std::uint64_t seed{};
   float sigma_rad{};

@@ -3,11 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
+#include <span>
 
-#include "core/base/random.h"
-#include "core/detect/beam_axes.h"
-#include "core/detect/beam_optics.h"
 #include "core/detect/cylinder_mean.h"
 #include "railcast/lidar.h"
 #include "railcast/outcome.h"
@@ -42,123 +39,17 @@ float MixedShare(std::vector<Component>& parts) {
 // Echoes weaker than this are detected in at most one case of 1000.
 constexpr float kLeastRatio = 0.3F;
 
-Component ComponentOf(const DetectTile& hits, std::size_t lane) {
-  return {.range_m = hits.true_range_m[lane],
-          .spread_m = hits.spread_m[lane],
-          .power_ratio = hits.power_ratio[lane],
-          .share = hits.share[lane],
-          .intensity = hits.intensity[lane],
-          .cos_incidence = hits.cos_incidence[lane],
-          .reflectivity = hits.reflectivity[lane],
-          .surface = hits.surface[lane]};
-}
-
 }  // namespace
 
 Footprint::Footprint(const DetectorSpec& spec, const Kernels& kernels)
     : spec_(spec),
-      pulse_variance_m2_(static_cast<float>(PulseSigma_m(spec.beam) * PulseSigma_m(spec.beam))),
-      pattern_(spec.effects.dense_footprint
-                   ? DenseSubRays(static_cast<std::size_t>(spec.beam.reference_rays))
-                   : RingSubRays()),
-      kernels_(kernels),
+      facet_parts_(spec, kernels),
+      sub_ray_parts_(spec, kernels),
       finder_(spec.beam,
               spec.effects.pulse_stretch,
               spec.effects.sampled_waveform,
               spec.effects.detection ? kLeastRatio : 0.0F,
               kernels) {}
-
-// Scales the central ray's response from the whole beam to one cell, which has less spread.
-Component Footprint::CentralCell(const DetectTile& first, std::size_t lane, float share) const {
-  Component cell = ComponentOf(first, lane);
-  const float whole_spread2 = cell.spread_m * cell.spread_m;
-  cell.share *= share;
-  cell.intensity *= share;
-  cell.power_ratio *= share;
-  cell.spread_m *= std::sqrt(share);
-  if (spec_.effects.pulse_stretch) {
-    cell.power_ratio *= std::sqrt((pulse_variance_m2_ + whole_spread2) /
-                                  (pulse_variance_m2_ + share * whole_spread2));
-  }
-  return cell;
-}
-
-void Footprint::FlushBatch(const WideBeams& beams, std::size_t num_rays) {
-  if (num_rays == 0) return;
-  RayTile& rays = batch_.rays;
-  DetectTile& hits = batch_.hits;
-  // Pad the last packet with its last ray.
-  while (num_rays % kPacketSize != 0) {
-    const std::size_t last = num_rays - 1;
-    for (float* values : {rays.origin_x, rays.origin_y, rays.origin_z, rays.direction_x,
-                          rays.direction_y, rays.direction_z, rays.shutter}) {
-      values[num_rays] = values[last];
-    }
-    batch_.share[num_rays] = batch_.share[last];
-    batch_.cell_size[num_rays] = batch_.cell_size[last];
-    ++num_rays;
-  }
-  rays.num_rays = num_rays;
-  rays.mask = beams.rays.mask;
-  std::fill_n(rays.range_m, num_rays, static_cast<float>(spec_.range_max_m));
-  std::fill_n(rays.surface, num_rays, 0U);
-  for (float* values : {rays.normal_x, rays.normal_y, rays.normal_z}) {
-    std::fill_n(values, num_rays, 0.0F);
-  }
-  beams.caster.Cast(rays);
-
-  hits.num_rays = num_rays;
-  ResolveHits(rays, beams.table, hits);
-  kernels_.incidence(rays, hits);
-  kernels_.spread(rays, beams.frame, hits);
-  for (std::size_t i = 0; i < num_rays; ++i) {
-    hits.share[i] = batch_.share[i];
-    hits.spread_m[i] *= batch_.cell_size[i];
-  }
-  beams.detector.Respond(hits);
-}
-
-void Footprint::TraceSubRays(const WideBeams& beams, const EchoTiles& echoes) {
-  sub_components_.clear();
-  RayTile& rays = batch_.rays;
-  std::size_t num_rays = 0;
-  const auto flush = [&] {
-    FlushBatch(beams, num_rays);
-    const DetectTile& hits = batch_.hits;
-    for (std::size_t i = 0; i < num_rays; ++i) sub_components_.push_back(ComponentOf(hits, i));
-    num_rays = 0;
-  };
-  const BeamFrame& frame = beams.frame;
-  for (const std::uint32_t lane : wide_lanes_) {
-    const baseline::Direction d{beams.rays.direction_x[lane], beams.rays.direction_y[lane],
-                                beams.rays.direction_z[lane]};
-    const baseline::BeamAxes axes = baseline::AxesOf(d, frame);
-    const float per_unit = 1.0F / baseline::LengthOf(axes);
-    const float sigma_h = frame.sigma_h_rad * per_unit;
-    const float sigma_v = frame.sigma_v_rad * per_unit;
-    const auto words = RandomWords(spec_.seed, RandomUse::kFootprint, echoes.first.frame,
-                                   echoes.first.firing[lane]);
-    const float turn_rad = 2.0F * std::numbers::pi_v<float> * UnitFloat(words[0]);
-    const float cosine = std::cos(turn_rad);
-    const float sine = std::sin(turn_rad);
-    for (const SubRay& sub_ray : pattern_.sub_rays) {
-      const SubRay turned = Turned(sub_ray, cosine, sine);
-      const baseline::Direction aim =
-          baseline::Beside(d, axes, sigma_h * turned.h, sigma_v * turned.v);
-      rays.origin_x[num_rays] = beams.rays.origin_x[lane];
-      rays.origin_y[num_rays] = beams.rays.origin_y[lane];
-      rays.origin_z[num_rays] = beams.rays.origin_z[lane];
-      rays.direction_x[num_rays] = aim.x;
-      rays.direction_y[num_rays] = aim.y;
-      rays.direction_z[num_rays] = aim.z;
-      rays.shutter[num_rays] = beams.rays.shutter[lane];
-      batch_.share[num_rays] = sub_ray.share;
-      batch_.cell_size[num_rays] = std::sqrt(sub_ray.share);
-      if (++num_rays == kTileSize) flush();
-    }
-  }
-  flush();
-}
 
 void Footprint::StoreEchoes(std::size_t lane, EchoTiles& echoes) const {
   std::uint32_t number = 0;
@@ -178,20 +69,6 @@ void Footprint::StoreEchoes(std::size_t lane, EchoTiles& echoes) const {
     tile.intensity[i] = echo.intensity;
     tile.power_ratio[i] = echo.power_ratio;
     ++number;
-  }
-}
-
-void Footprint::GatherParts(const EchoTiles& echoes,
-                            std::size_t lane,
-                            const Component* sub_components) {
-  beam_parts_.clear();
-  if (sub_components == nullptr) {
-    beam_parts_.push_back(ComponentOf(echoes.first, lane));
-    return;
-  }
-  beam_parts_.assign(sub_components, sub_components + pattern_.sub_rays.size());
-  if (pattern_.central_share > 0.0F) {
-    beam_parts_.push_back(CentralCell(echoes.first, lane, pattern_.central_share));
   }
 }
 
@@ -235,32 +112,39 @@ void Footprint::AddWires(const WideBeams& beams, const WireCapture* begin, const
   }
 }
 
-void Footprint::Resolve(const WideBeams& beams, EchoTiles& echoes) {
-  wide_lanes_.clear();
-  for (std::size_t lane = 0; beams.needs_sub_rays != nullptr && lane < echoes.first.num_rays;
-       ++lane) {
-    if (beams.needs_sub_rays[lane] != 0) wide_lanes_.push_back(static_cast<std::uint32_t>(lane));
+void Footprint::FindParts(const WideBeams& beams, const DetectTile& first) {
+  const bool has_width = beams.frame.sigma_h_rad > 0.0F || beams.frame.sigma_v_rad > 0.0F;
+  if (!spec_.effects.footprint || !has_width) {
+    lists_.parts.clear();
+    lists_.begin.fill(0);
+  } else if (spec_.effects.dense_footprint) {
+    sub_ray_parts_.Find(beams, first, lists_);
+  } else {
+    facet_parts_.Find(beams, first, lists_);
   }
-  TraceSubRays(beams, echoes);
+}
+
+void Footprint::Resolve(const WideBeams& beams, const WireSet* wires, EchoTiles& echoes) {
+  FindParts(beams, echoes.first);
   captures_.clear();
-  if (beams.wires != nullptr) {
+  if (wires != nullptr) {
     const BeamFrame& frame = beams.frame;
     CaptureWires(beams.rays,
                  {.up_window = {frame.up[0], frame.up[1], frame.up[2]},
                   .sigma_horizontal_rad = static_cast<double>(frame.sigma_h_rad),
                   .sigma_vertical_rad = static_cast<double>(frame.sigma_v_rad)},
-                 *beams.wires, captures_);
+                 *wires, captures_);
   }
-  std::size_t wide = 0;
   const WireCapture* capture = captures_.data();
   const WireCapture* const last_capture = capture + captures_.size();
   for (std::size_t lane = 0; lane < echoes.first.num_rays; ++lane) {
     const WireCapture* const first_capture = capture;
     while (capture != last_capture && capture->lane == lane) ++capture;
-    const bool is_wide = wide < wide_lanes_.size() && wide_lanes_[wide] == lane;
+    const std::span<const Component> parts = lists_.of(lane);
+    const bool is_wide = !parts.empty();
     if (!is_wide && first_capture == capture) continue;
-    GatherParts(echoes, lane,
-                is_wide ? sub_components_.data() + wide++ * pattern_.sub_rays.size() : nullptr);
+    beam_parts_.assign(parts.begin(), parts.end());
+    if (!is_wide) beam_parts_.push_back(ComponentOf(echoes.first, lane));
     // Parts nearer than range_min or on the vehicle block their share of the beam and send nothing.
     components_.clear();
     std::copy_if(beam_parts_.begin(), beam_parts_.end(), std::back_inserter(components_),
@@ -272,8 +156,8 @@ void Footprint::Resolve(const WideBeams& beams, EchoTiles& echoes) {
     if (is_wide && components_.empty() &&
         echoes.first.outcome[lane] == static_cast<std::uint32_t>(Outcome::kReturned)) {
       // A surface that only the central ray meets is thin: it fills no more than a sub-ray's cell.
-      const float share = 1.0F / static_cast<float>(pattern_.sub_rays.size() + 1);
-      components_.push_back(CentralCell(echoes.first, lane, share));
+      constexpr float kShare = 1.0F / (kNumSubRays + 1);
+      components_.push_back(CellOf(ComponentOf(echoes.first, lane), kShare, spec_));
     }
     wires_.clear();
     AddWires(beams, first_capture, capture);

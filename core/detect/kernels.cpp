@@ -10,6 +10,7 @@
 #include "core/detect/rain_dropout.h"
 #include "core/detect/sensor_dropout.h"
 #include "core/detect/snow_clutter.h"
+#include "core/detect/sub_ray_aim.h"
 #include "core/detect/surface_response.h"
 #include "core/detect/threshold.h"
 #include "core/detect/waveform.h"

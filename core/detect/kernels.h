@@ -18,6 +18,8 @@ namespace railcast {
   KERNEL(uniforms, DrawUniforms, void(const DetectTile&, const DrawKey&, float*))                \
   KERNEL(pointing, ApplyPointing,                                                                \
          void(RayTile&, const DetectTile&, const BeamFrame&, const PointingParameters&))         \
+  KERNEL(aim_sub_rays, AimSubRays,                                                               \
+         void(const RayTile&, std::size_t lane, const BeamFrame&, const SubRayAim&, BeamRays&))  \
   KERNEL(incidence, ApplyIncidence, void(const RayTile&, DetectTile&))                           \
   KERNEL(spread, ApplySpread, void(const RayTile&, const BeamFrame&, DetectTile&))               \
   KERNEL(hit, ApplyHit, void(DetectTile&, float range_min_m))                                    \

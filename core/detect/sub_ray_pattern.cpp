@@ -1,7 +1,10 @@
 #include "core/detect/sub_ray_pattern.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "core/base/random.h"
 
 namespace railcast {
 namespace {
@@ -12,47 +15,60 @@ double RadiusOutsideOf(double share) {
   return std::sqrt(-2.0 * std::log(share));
 }
 
-void Add(double radius, double angle_rad, double share, SubRayPattern& pattern) {
-  pattern.sub_rays.push_back({static_cast<float>(radius * std::cos(angle_rad)),
-                              static_cast<float>(radius * std::sin(angle_rad)),
-                              static_cast<float>(share)});
+struct Place {
+  double h, v;
+};
+
+// Vogel's spiral of `count` places that fill the whole beam, and each of which represents 1 / count
+// of it. `skipped` of them at the centre belong to something else.
+std::vector<Place> Spiral(std::size_t count, double skipped) {
+  const double golden_rad = std::numbers::pi * (3.0 - std::sqrt(5.0));
+  std::vector<Place> places;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double share_inside =
+        (static_cast<double>(k) + skipped + 0.5) / (static_cast<double>(count) + skipped);
+    const double radius = RadiusOutsideOf(1.0 - share_inside);
+    const double angle_rad = golden_rad * static_cast<double>(k);
+    places.push_back({radius * std::cos(angle_rad), radius * std::sin(angle_rad)});
+  }
+  return places;
 }
 
 }  // namespace
 
-SubRayPattern RingSubRays() {
-  // 16 sub-rays in all: one packet of rays, and the number of components that are summed at a time.
-  struct Ring {
-    int count;
-    double share;
-  };
-  constexpr Ring kRings[] = {{8, 0.30}, {6, 0.56}, {2, 0.14}};
+PatternTurn TurnOfPattern(std::uint64_t seed, std::uint32_t frame, std::uint32_t firing) {
+  const auto words = RandomWords(seed, RandomUse::kFootprint, frame, firing);
+  const float turn_rad = 2.0F * std::numbers::pi_v<float> * UnitFloat(words[0]);
+  return {std::cos(turn_rad), std::sin(turn_rad)};
+}
+
+SubRayPattern DenseSubRays(std::size_t count) {
   SubRayPattern pattern;
-  double share_outside = 0.0;
-  double turn = 0.0;  // In angular steps of a ring; half a step per ring staggers the rays.
-  for (const Ring& ring : kRings) {
-    const double radius = RadiusOutsideOf(share_outside + 0.5 * ring.share);
-    for (int k = 0; k < ring.count; ++k) {
-      Add(radius, 2.0 * std::numbers::pi * (k + turn) / ring.count, ring.share / ring.count,
-          pattern);
-    }
-    share_outside += ring.share;
-    turn += 0.5;
+  const auto share = static_cast<float>(1.0 / static_cast<double>(count + 1));
+  pattern.central_share = share;
+  for (const Place& place : Spiral(count, 1.0)) {
+    pattern.sub_rays.push_back({static_cast<float>(place.h), static_cast<float>(place.v), share});
   }
   return pattern;
 }
 
-SubRayPattern DenseSubRays(std::size_t count) {
-  const double golden_rad = std::numbers::pi * (3.0 - std::sqrt(5.0));
-  const double share = 1.0 / static_cast<double>(count + 1);
-  SubRayPattern pattern;
-  pattern.central_share = static_cast<float>(share);
-  for (std::size_t k = 0; k < count; ++k) {
-    // The central ray represents the innermost part, so that the k-th part follows it.
-    const double share_outside = 1.0 - (static_cast<double>(k) + 1.5) * share;
-    Add(RadiusOutsideOf(share_outside), golden_rad * static_cast<double>(k), share, pattern);
-  }
-  return pattern;
+const BeamSubRays& SubRaysOfBeam() {
+  static const BeamSubRays sub_rays = [] {
+    std::vector<Place> places = Spiral(kNumCrowdedSubRays, 0.0);
+    std::vector<Place> others = Spiral(kNumSubRays - kNumCrowdedSubRays, 0.0);
+    std::sort(others.begin(), others.end(), [](const Place& a, const Place& b) {
+      return std::atan2(a.v, a.h) < std::atan2(b.v, b.h);
+    });
+    places.insert(places.end(), others.begin(), others.end());
+    BeamSubRays all{};
+    for (std::size_t i = 0; i < kNumSubRays; ++i) {
+      all.h[i] = static_cast<float>(places[i].h);
+      all.v[i] = static_cast<float>(places[i].v);
+      all.largest_offset = std::max(all.largest_offset, std::hypot(all.h[i], all.v[i]));
+    }
+    return all;
+  }();
+  return sub_rays;
 }
 
 }  // namespace railcast

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
+
+#include "railcast/ray_caster.h"
 
 namespace railcast {
 
@@ -20,20 +23,33 @@ struct SubRay {
           sub_ray.share};
 }
 
+/// Cosine and sine of the angle by which a firing's pattern is turned.
+struct PatternTurn {
+  float cosine{}, sine{};
+};
+
+/// The random turn of a firing's pattern. Effects `footprint` and `dense_footprint` share it.
+[[nodiscard]] PatternTurn TurnOfPattern(std::uint64_t seed,
+                                        std::uint32_t frame,
+                                        std::uint32_t firing);
+
 /// The sub-rays of a beam. All shares, including the central one, add up to 1.
 struct SubRayPattern {
   std::vector<SubRay> sub_rays;
   float central_share{};  ///< Share of the central ray, which is traced already; 0 = not used.
 };
 
-/// A pattern of few sub-rays that miss little: three rings, each at the median radius of the part
-/// of the beam that it represents. The outer ring, with 30 % of the beam at 1.95 standard
-/// deviations, is so dense that no straight edge that cuts off 5 % of the beam or more passes
-/// between its rays.
-[[nodiscard]] SubRayPattern RingSubRays();
-
-/// A pattern of `count` sub-rays of equal share: the k-th is at the k-th quantile of the radius,
-/// turned by the golden angle from the one before (Vogel 1979).
+/// A pattern of `count` sub-rays and the central ray, of equal share: the k-th is at the k-th
+/// quantile of the radius, turned by the golden angle from the one before (Vogel 1979).
 [[nodiscard]] SubRayPattern DenseSubRays(std::size_t count);
+
+/// The offsets of kNumSubRays sub-rays of equal share, in standard deviations of the profile. The
+/// first kNumCrowdedSubRays are a pattern of Vogel's kind by themselves, and so are the others,
+/// which are sorted by angle, so that a small surface meets few groups of neighbours.
+struct BeamSubRays {
+  float h[kNumSubRays], v[kNumSubRays];
+  float largest_offset{};  ///< From the axis.
+};
+[[nodiscard]] const BeamSubRays& SubRaysOfBeam();
 
 }  // namespace railcast

@@ -42,9 +42,7 @@ BeamTracer::BeamTracer(const SimulatorSpec& spec,
     dry_optics_ = OpticsTable(materials, spec_.beam.wavelength_nm, 0.0);
   }
   const bool has_width = beam_.sigma_h_rad > 0.0F || beam_.sigma_v_rad > 0.0F;
-  if (spec_.effects.footprint && has_width) {
-    needs_.emplace(pattern, spec_.beam, spec_.effects.dense_footprint);
-  }
+  has_footprint_ = spec_.effects.footprint && has_width;
 }
 
 BeamFrame BeamTracer::BeamFrameOf(const CastFrame& frame,
@@ -64,8 +62,9 @@ BeamFrame BeamTracer::BeamFrameOf(const CastFrame& frame,
 void BeamTracer::TraceCenters(const CastFrame& frame,
                               const FiringTiles& tiles,
                               std::size_t tile,
-                              RayTile& rays,
-                              DetectTile& first) const {
+                              Work& work) const {
+  RayTile& rays = work.rays;
+  DetectTile& first = work.echoes.first;
   tiles.Aim(tile, frame.poses, static_cast<float>(spec_.range_max_m), rays);
   if (spec_.effects.pointing_jitter && pointing_.sigma_rad > 0.0F) {
     first.frame = frame.index;
@@ -96,10 +95,10 @@ void BeamTracer::Blind(const CastFrame& frame, const RayTile& rays, EchoTiles& e
 void BeamTracer::MakeEchoes(const CastFrame& frame,
                             const FiringTiles& tiles,
                             std::size_t tile,
-                            const std::vector<RayTile>& centers,
                             Work& work,
                             const EffectObserver& observer) const {
-  const RayTile& rays = needs_ ? centers[tile] : work.rays;
+  TraceCenters(frame, tiles, tile, work);
+  const RayTile& rays = work.rays;
   EchoTiles& echoes = work.echoes;
   DetectTile& first = echoes.first;
   echoes.ClearMore();
@@ -119,14 +118,10 @@ void BeamTracer::MakeEchoes(const CastFrame& frame,
   }
   detector_.Respond(first, observer);
   std::fill_n(echoes.mixed_share, first.num_rays, 0.0F);
-  if (needs_ || spec_.effects.thin_conductors) {
-    std::uint8_t needs_sub_rays[kTileSize];
-    if (needs_) needs_->Mark(tile, centers, needs_sub_rays);
+  if (has_footprint_ || spec_.effects.thin_conductors) {
     const WireSet* const wires = spec_.effects.thin_conductors ? frame.wires : nullptr;
-    work.footprint.Resolve(
-        {rays, beam, frame.caster, table, detector_, wires, needs_ ? needs_sub_rays : nullptr},
-        echoes);
-    if (observer) observer(needs_ ? "footprint" : "thin_conductors");
+    work.footprint.Resolve({rays, beam, frame.caster, table, detector_}, wires, echoes);
+    if (observer) observer(has_footprint_ ? "footprint" : "thin_conductors");
   }
   if (is_sun_up_) {
     Blind(frame, rays, echoes);

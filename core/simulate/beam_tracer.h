@@ -10,7 +10,6 @@
 #include "core/detect/hits.h"
 #include "core/simulate/firing_tiles.h"
 #include "core/simulate/frame_poses.h"
-#include "core/simulate/sub_ray_needs.h"
 #include "railcast/ray_caster.h"
 #include "railcast/simulator.h"
 #include "railcast/transform.h"
@@ -44,30 +43,26 @@ class BeamTracer {
     Footprint footprint;
   };
 
-  /// Whether MakeEchoes() needs the central rays of all tiles to be traced first.
-  [[nodiscard]] bool needs_all_centers() const { return needs_.has_value(); }
-
-  /// Aims and casts a tile's central rays, and fills the fields of `first` that follow from them.
-  void TraceCenters(const CastFrame& frame,
-                    const FiringTiles& tiles,
-                    std::size_t tile,
-                    RayTile& rays,
-                    DetectTile& first) const;
-
-  /// Turns the hits of the central rays into echoes with power, up to the point where the receiver
-  /// (Detector) takes over.
-  /// @param centers Central rays of all tiles; empty unless needs_all_centers().
+  /// Makes the echoes of a tile of firings up to the point where the receiver (Detector) takes
+  /// over. Leaves the central rays in `work.rays`.
   void MakeEchoes(const CastFrame& frame,
                   const FiringTiles& tiles,
                   std::size_t tile,
-                  const std::vector<RayTile>& centers,
                   Work& work,
                   const EffectObserver& observer = {}) const;
 
   [[nodiscard]] const Detector& detector() const { return detector_; }
   [[nodiscard]] bool has_beams() const { return is_physical_; }
+  /// Whether it passes beams to RayCaster::CastBeam().
+  [[nodiscard]] bool casts_beams() const {
+    return has_footprint_ && !spec_.effects.dense_footprint;
+  }
 
  private:
+  void TraceCenters(const CastFrame& frame,
+                    const FiringTiles& tiles,
+                    std::size_t tile,
+                    Work& work) const;
   [[nodiscard]] BeamFrame BeamFrameOf(const CastFrame& frame,
                                       const FiringTiles& tiles,
                                       std::size_t tile) const;
@@ -83,7 +78,7 @@ class BeamTracer {
   std::vector<LaneOptics> dry_optics_;  ///< Optics of the surfaces without water, for FiringStory.
   Detector detector_;
   Kernels kernels_;
-  std::optional<SubRayNeeds> needs_;
+  bool has_footprint_;
 };
 
 }  // namespace railcast

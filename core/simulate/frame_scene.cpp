@@ -34,6 +34,11 @@ void FrameScene::Cast(RayTile& rays) const {
   if (moving != nullptr) moving->Cast(rays);
 }
 
+void FrameScene::CastBeam(BeamRays& beam) const {
+  window->scene->CastBeam(beam);
+  if (moving != nullptr) moving->CastBeam(beam);
+}
+
 void FrameScene::CastRanges(RayTile& rays) const {
   window->scene->CastRanges(rays);
   if (moving != nullptr) moving->CastRanges(rays);

@@ -31,6 +31,7 @@ struct FrameScene final : public RayCaster {
   }
 
   void Cast(RayTile& rays) const override;
+  void CastBeam(BeamRays& beam) const override;
   void CastRanges(RayTile& rays) const;
 };
 
@@ -57,6 +58,9 @@ class FrameScenes {
 
   /// Sets the callback for windows that are begun from now on.
   void UseProgress(WindowProgress progress) { windows_.UseProgress(std::move(progress)); }
+
+  /// Has windows prepared for casting beams.
+  void UseBeams() { store_->UseBeams(); }
 
   /// Returns the scene of a frame. Waits for its window if necessary, and starts preparing the
   /// next.

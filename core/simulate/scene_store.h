@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -44,6 +45,10 @@ class SceneStore {
   };
   [[nodiscard]] StoredObject MakeObject(const SceneObject& object);
 
+  /// Called when a simulator is going to cast beams: windows are prepared for it from now on.
+  void UseBeams() { uses_beams_ = true; }
+  [[nodiscard]] bool uses_beams() const { return uses_beams_; }
+
   [[nodiscard]] Surface MakeSurface(const Part& part, std::uint32_t instance, bool is_ego) const;
   [[nodiscard]] const std::shared_ptr<const World>& world() const { return world_; }
   [[nodiscard]] const TraceDevice& device() const { return device_; }
@@ -52,6 +57,7 @@ class SceneStore {
   std::shared_ptr<const World> world_;
   std::vector<Material> materials_;
   TraceDevice device_;
+  std::atomic<bool> uses_beams_ = false;
 
   std::mutex chunks_mutex_;  // Held while a chunk is built, so that a second caller waits for it.
   std::map<int, std::weak_ptr<const BuiltChunk>> chunks_;

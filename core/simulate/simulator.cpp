@@ -73,7 +73,6 @@ struct Simulator::Parts {
   FrameScenes scenes;
   std::unique_ptr<const BeamTracer> tracer;
   std::unique_ptr<WorkOfThreads> work;
-  std::vector<RayTile> centers;  // Central rays of one frame; empty if tiles need only their own.
   std::unique_ptr<tbb::global_control> parallelism;
   tbb::task_arena arena;
 
@@ -92,7 +91,6 @@ struct Simulator::Parts {
     };
   }
   void UseSpec();
-  void TraceAllCenters(const CastFrame& cast);
   void Scan(const CastFrame& cast, Frame& frame);
   [[nodiscard]] std::vector<std::uint32_t> FiringsOnObjectAlone(std::uint32_t frame_index);
   /// Calls `work(tile)` for every tile, on the run's threads.
@@ -130,7 +128,6 @@ Simulator::Simulator(std::shared_ptr<SceneStore> store,
                          .scenes{std::move(store), scene_spec},
                          .tracer{},
                          .work{},
-                         .centers{},
                          .parallelism{},
                          .arena{}});
   parts_->UseSpec();
@@ -166,7 +163,7 @@ void Simulator::Parts::UseSpec() {
   tracer = std::make_unique<const BeamTracer>(spec, materials, pattern);
   work = std::make_unique<WorkOfThreads>(
       [tracer = tracer.get()] { return BeamTracer::Work(*tracer); });
-  centers.resize(tracer->needs_all_centers() ? tiles.num_tiles() : 0);
+  if (tracer->casts_beams()) scenes.UseBeams();
 }
 
 const SimulatorSpec& Simulator::spec() const {
@@ -187,13 +184,6 @@ void Simulator::UseProgress(WindowProgress progress) {
   parts_->scenes.UseProgress(std::move(progress));
 }
 
-void Simulator::Parts::TraceAllCenters(const CastFrame& cast) {
-  if (!tracer->needs_all_centers()) return;
-  ForEachTile([&](std::size_t tile) {
-    tracer->TraceCenters(cast, tiles, tile, centers[tile], work->local().echoes.first);
-  });
-}
-
 void Simulator::Parts::Scan(const CastFrame& cast, Frame& frame) {
   frame.index = cast.index;
   frame.stamp_ns = pattern.StampNs(cast.index);
@@ -206,13 +196,9 @@ void Simulator::Parts::Scan(const CastFrame& cast, Frame& frame) {
                         cast.window_from_world, frame.world_from_sensor);
   const ReturnStore store(mode, tracer->has_beams());
 
-  TraceAllCenters(cast);
   ForEachTile([&](std::size_t tile) {
     BeamTracer::Work& mine = work->local();
-    if (centers.empty()) {
-      tracer->TraceCenters(cast, tiles, tile, mine.rays, mine.echoes.first);
-    }
-    tracer->MakeEchoes(cast, tiles, tile, centers, mine);
+    tracer->MakeEchoes(cast, tiles, tile, mine);
     tracer->detector().Detect(mine.echoes);
     axes.Apply(cast.poses, tiles.times_ns(tile), mine.echoes);
     store.Store(mine.echoes, cast.surfaces, {tiles.slots(tile), tiles.num_firings(tile)}, frame);
@@ -267,10 +253,8 @@ FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) 
                            .range_m = first.range_m[lane],
                            .num_added_echoes = num_echoes - num_before});
   };
-  parts.TraceAllCenters(cast);
-  if (parts.centers.empty()) parts.tracer->TraceCenters(cast, parts.tiles, tile, work.rays, first);
-  const RayTile& rays = parts.centers.empty() ? work.rays : parts.centers[tile];
-  parts.tracer->MakeEchoes(cast, parts.tiles, tile, parts.centers, work, record);
+  parts.tracer->MakeEchoes(cast, parts.tiles, tile, work, record);
+  const RayTile& rays = work.rays;
   parts.tracer->detector().Detect(work.echoes, record);
   const Surface& surface = scene.surfaces()[first.surface[lane]];
   const Transform world_from_window = scene.window->window_from_world.inverse();

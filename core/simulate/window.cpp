@@ -146,6 +146,7 @@ std::shared_ptr<const Window> WindowSource::Build(int home_chunk,
   progress(chunks.size(), num_steps);
   AddChunks(chunks, *window, placements);
   window->scene = std::make_unique<TraceScene>(store_->device(), placements);
+  if (store_->uses_beams()) window->scene->PrepareBeams();
   progress(num_steps, num_steps);
   KeepChunks(home_chunk, std::move(chunks));
   store_->ForgetUnusedModels();

@@ -60,7 +60,7 @@ struct EffectSet {
   bool pointing_jitter = false;  ///< Beams deviate from the direction that the sensor reports.
 
   // Physics of the finite beam width.
-  bool footprint = false;         ///< Sub-rays for beams whose neighbourhood requires them.
+  bool footprint = false;         ///< What a beam of finite width meets, by sub-rays.
   bool thin_conductors = false;   ///< Wires by closest approach instead of by their triangles.
   bool dense_footprint = false;   ///< Hundreds of sub-rays in every beam.
   bool sampled_waveform = false;  ///< Peaks of a sampled waveform instead of closed-form echoes.

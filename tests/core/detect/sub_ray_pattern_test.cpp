@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -22,7 +23,7 @@ SubRay TurnedBy(const SubRay& sub_ray, double turn_rad) {
 }
 
 TEST(SubRays, HaveSharesThatAddUpToOne) {
-  for (const SubRayPattern& pattern : {RingSubRays(), DenseSubRays(16), DenseSubRays(255)}) {
+  for (const SubRayPattern& pattern : {DenseSubRays(16), DenseSubRays(255)}) {
     double sum = static_cast<double>(pattern.central_share);
     for (const SubRay& sub_ray : pattern.sub_rays) sum += static_cast<double>(sub_ray.share);
     EXPECT_NEAR(sum, 1.0, 1e-6 * static_cast<double>(pattern.sub_rays.size() + 1));
@@ -33,7 +34,7 @@ TEST(SubRays, HaveSharesThatAddUpToOne) {
 // over all angles would not show it.
 TEST(SubRays, AreTurnedRigidly) {
   constexpr double kFloatStep = 1e-6;  // Rounding of radii up to 4 standard deviations.
-  for (const SubRay& sub_ray : RingSubRays().sub_rays) {
+  for (const SubRay& sub_ray : DenseSubRays(16).sub_rays) {
     for (int step = 0; step < 16; ++step) {
       const double turn_rad = 2.0 * std::numbers::pi * step / 16.0;
       const SubRay turned = TurnedBy(sub_ray, turn_rad);
@@ -44,6 +45,46 @@ TEST(SubRays, AreTurnedRigidly) {
       EXPECT_EQ(turned.share, sub_ray.share);
     }
   }
+}
+
+// For the first `num` sub-rays and the share of a beam left of a straight edge at every angle and
+// offset: the largest error.
+double LargestErrorOfAnEdge(std::size_t num) {
+  const BeamSubRays& all = SubRaysOfBeam();
+  double largest = 0.0;
+  for (int step = 0; step < 360; ++step) {
+    const double angle_rad = std::numbers::pi * step / 180.0;
+    for (double edge = -3.0; edge <= 3.0; edge += 0.05) {
+      std::size_t num_left = 0;
+      for (std::size_t i = 0; i < num; ++i) {
+        const double across = std::cos(angle_rad) * static_cast<double>(all.h[i]) +
+                              std::sin(angle_rad) * static_cast<double>(all.v[i]);
+        num_left += across < edge ? 1U : 0U;
+      }
+      const double share = 0.5 * std::erfc(-edge / std::numbers::sqrt2);
+      const double found = static_cast<double>(num_left) / static_cast<double>(num);
+      largest = std::max(largest, std::fabs(found - share));
+    }
+  }
+  return largest;
+}
+
+// Independent rays would have standard deviations of 0.0625 and 0.125.
+TEST(SubRays, OfABeamFindTheShareBesideAnEdge) {
+  EXPECT_LT(LargestErrorOfAnEdge(kNumSubRays), 0.075);
+  EXPECT_LT(LargestErrorOfAnEdge(kNumCrowdedSubRays), 0.15);
+}
+
+TEST(SubRays, OfABeamHaveThePatternsRadius) {
+  const BeamSubRays& all = SubRaysOfBeam();
+  double sum2 = 0.0;
+  for (std::size_t i = 0; i < kNumSubRays; ++i) {
+    const double radius = std::hypot(static_cast<double>(all.h[i]), static_cast<double>(all.v[i]));
+    EXPECT_LE(radius, static_cast<double>(all.largest_offset) + 1e-6);
+    sum2 += radius * radius;
+  }
+  // The mean square radius of a Gaussian beam is 2; the outermost cells are cut at their median.
+  EXPECT_NEAR(sum2 / kNumSubRays, 2.0, 0.05);
 }
 
 }  // namespace

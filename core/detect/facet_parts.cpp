@@ -1,0 +1,172 @@
+#include "core/detect/facet_parts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/detect/sub_ray_pattern.h"
+
+namespace railcast {
+namespace {
+
+// Facets of one surface are one plane if their normals differ by less than 2.5 degrees and the
+// centre of one is as close to the plane of the other as this: the roughness of ballast near the
+// sensor, float32 rounding, and chords of curved surfaces.
+constexpr float kLeastCosine2 = 0.998F;
+constexpr float kStep_m = 0.01F;
+constexpr float kStepPerRange = 3e-4F;
+// Beams with more facets than this are not worth the search for planes.
+constexpr std::size_t kMostPlanes = 8;
+
+float Dot(const Facet& a, const Facet& b) {
+  return a.normal_x * b.normal_x + a.normal_y * b.normal_y + a.normal_z * b.normal_z;
+}
+
+}  // namespace
+
+FacetParts::FacetParts(const DetectorSpec& spec, const Kernels& kernels)
+    : spec_(spec), kernels_(kernels) {}
+
+void FacetParts::Aim(const WideBeams& beams, const DetectTile& first, std::size_t lane) {
+  const BeamSubRays& pattern = SubRaysOfBeam();
+  const PatternTurn turn = TurnOfPattern(spec_.seed, first.frame, first.firing[lane]);
+  // A little wider than the pattern, because its directions are rounded.
+  constexpr float kMargin = 1.0001F;
+  kernels_.aim_sub_rays(
+      beams.rays, lane, beams.frame,
+      {pattern.h, pattern.v, kMargin * pattern.largest_offset, turn.cosine, turn.sine}, beam_);
+  std::fill_n(beam_.range_m, kNumSubRays, static_cast<float>(spec_.range_max_m));
+  std::fill_n(beam_.facet, kNumSubRays, 0U);
+  beam_.num_rays = kNumSubRays;
+  beam_.num_met = 0;
+  beam_.num_facets = 1;
+  beam_.facets[0] = {};
+}
+
+void FacetParts::SumUp() {
+  sums_.assign(beam_.num_facets, Sums{});
+  for (std::size_t i = 0; i < beam_.num_rays; ++i) {
+    Sums& sums = sums_[beam_.facet[i]];
+    if (sums.num++ == 0) {
+      sums.facet = beam_.facet[i];
+      sums.base_m = beam_.range_m[i];
+    }
+    const float range_m = beam_.range_m[i] - sums.base_m;
+    sums.range_m += range_m;
+    sums.range2_m2 += range_m * range_m;
+    sums.x += beam_.direction_x[i];
+    sums.y += beam_.direction_y[i];
+    sums.z += beam_.direction_z[i];
+  }
+  std::erase_if(sums_, [](const Sums& sums) { return sums.num == 0; });
+}
+
+void FacetParts::JoinPlanes() {
+  if (sums_.size() > kMostPlanes) return;
+  const auto are_one_plane = [&](const Sums& a, const Sums& b) {
+    const Facet& plane = beam_.facets[a.facet];
+    const Facet& other = beam_.facets[b.facet];
+    if (plane.surface != other.surface) return false;
+    const float cosine = Dot(plane, other);
+    const float length2 = Dot(plane, plane);
+    if (cosine * cosine < kLeastCosine2 * length2 * Dot(other, other)) return false;
+    const float range_a =
+        (a.base_m + a.range_m / static_cast<float>(a.num)) / static_cast<float>(a.num);
+    const float range_b =
+        (b.base_m + b.range_m / static_cast<float>(b.num)) / static_cast<float>(b.num);
+    const float off = plane.normal_x * (range_b * b.x - range_a * a.x) +
+                      plane.normal_y * (range_b * b.y - range_a * a.y) +
+                      plane.normal_z * (range_b * b.z - range_a * a.z);
+    const float step_m = kStep_m + kStepPerRange * a.base_m;
+    return off * off <= step_m * step_m * length2;
+  };
+  for (std::size_t i = 0; i < sums_.size(); ++i) {
+    for (std::size_t k = sums_.size(); --k > i;) {
+      if (!are_one_plane(sums_[i], sums_[k])) continue;
+      Sums& a = sums_[i];
+      const Sums& b = sums_[k];
+      const float shift_m = b.base_m - a.base_m;
+      const auto num = static_cast<float>(b.num);
+      a.range2_m2 += b.range2_m2 + 2.0F * shift_m * b.range_m + num * shift_m * shift_m;
+      a.range_m += b.range_m + num * shift_m;
+      a.x += b.x;
+      a.y += b.y;
+      a.z += b.z;
+      a.num += b.num;
+      sums_.erase(sums_.begin() + static_cast<std::ptrdiff_t>(k));
+    }
+  }
+}
+
+bool FacetParts::IsOnePlane(std::uint32_t central_surface) const {
+  return sums_.size() == 1 && beam_.facets[sums_[0].facet].surface == central_surface;
+}
+
+void FacetParts::AddParts(const WideBeams& beams, std::size_t lane) {
+  const float per_ray = 1.0F / static_cast<float>(beam_.num_rays);
+  RayTile& rays = batch_.rays;
+  for (const Sums& sums : sums_) {
+    const auto num = static_cast<float>(sums.num);
+    if (sums.facet == 0) {
+      share_on_nothing_[lane] = num * per_ray;
+      continue;
+    }
+    const std::size_t i = num_in_batch_;
+    const float mean_m = sums.range_m / num;
+    const float variance_m2 = std::max(sums.range2_m2 / num - mean_m * mean_m, 0.0F);
+    const float inverse_norm =
+        1.0F / std::sqrt(sums.x * sums.x + sums.y * sums.y + sums.z * sums.z);
+    const Facet& facet = beam_.facets[sums.facet];
+    rays.origin_x[i] = beam_.origin[0];
+    rays.origin_y[i] = beam_.origin[1];
+    rays.origin_z[i] = beam_.origin[2];
+    rays.direction_x[i] = sums.x * inverse_norm;
+    rays.direction_y[i] = sums.y * inverse_norm;
+    rays.direction_z[i] = sums.z * inverse_norm;
+    rays.shutter[i] = beam_.shutter;
+    rays.range_m[i] = sums.base_m + mean_m;
+    rays.surface[i] = facet.surface;
+    rays.normal_x[i] = facet.normal_x;
+    rays.normal_y[i] = facet.normal_y;
+    rays.normal_z[i] = facet.normal_z;
+    batch_.Describe(i, num * per_ray, per_ray, variance_m2);
+    ++num_parts_[lane];
+    if (++num_in_batch_ == kTileSize) Flush(beams);
+  }
+}
+
+void FacetParts::Flush(const WideBeams& beams) {
+  if (num_in_batch_ == 0) return;
+  const std::size_t num = batch_.Pad(num_in_batch_);
+  batch_.Respond(beams, kernels_, num, num_in_batch_, found_);
+  num_in_batch_ = 0;
+}
+
+void FacetParts::StoreLists(std::size_t num_lanes, PartLists& lists) const {
+  lists.parts.clear();
+  auto part = found_.begin();
+  for (std::size_t lane = 0; lane < num_lanes; ++lane) {
+    lists.begin[lane] = lists.parts.size();
+    lists.parts.insert(lists.parts.end(), part, part + num_parts_[lane]);
+    part += num_parts_[lane];
+    const float share = share_on_nothing_[lane];
+    if (share > 0.0F) lists.parts.push_back({.share = share});
+  }
+  lists.begin[num_lanes] = lists.parts.size();
+}
+
+void FacetParts::Find(const WideBeams& beams, const DetectTile& first, PartLists& lists) {
+  found_.clear();
+  num_parts_.fill(0);
+  share_on_nothing_.fill(0.0F);
+  for (std::size_t lane = 0; lane < first.num_rays; ++lane) {
+    Aim(beams, first, lane);
+    beams.caster.CastBeam(beam_);
+    SumUp();
+    JoinPlanes();
+    if (!IsOnePlane(beams.rays.surface[lane])) AddParts(beams, lane);
+  }
+  Flush(beams);
+  StoreLists(first.num_rays, lists);
+}
+
+}  // namespace railcast

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/detect/echo_finder.h"
+#include "core/detect/kernels.h"
+#include "core/detect/part_batch.h"
+#include "railcast/effects.h"
+#include "railcast/ray_caster.h"
+
+namespace railcast {
+
+/// Effect `footprint`: finds what every beam meets with kNumSubRays sub-rays of equal share, turned
+/// about its axis by a random angle for each firing.
+///
+/// The sub-rays on one facet make one part, since the surface responds the same all over it. Its
+/// range is their mean, and its spread has the variance among them and the one within the cell of a
+/// sub-ray. A beam that lies on one plane as a whole is left to its central ray.
+///
+/// Not thread-safe: keeps its working memory.
+class FacetParts {
+ public:
+  FacetParts(const DetectorSpec& spec, const Kernels& kernels);
+
+  /// Fills `lists` for the tile's beams.
+  /// @param first The central rays' hits, with the keys of the firings.
+  void Find(const WideBeams& beams, const DetectTile& first, PartLists& lists);
+
+ private:
+  /// Sums over the sub-rays on one facet, or on several in one plane. Ranges are counted from
+  /// `base_m`.
+  struct Sums {
+    std::uint32_t num;
+    std::uint32_t facet;
+    float base_m, range_m, range2_m2;
+    float x, y, z;
+  };
+
+  void Aim(const WideBeams& beams, const DetectTile& first, std::size_t lane);
+  void SumUp();
+  void JoinPlanes();
+  [[nodiscard]] bool IsOnePlane(std::uint32_t central_surface) const;
+  void AddParts(const WideBeams& beams, std::size_t lane);
+  void Flush(const WideBeams& beams);
+  void StoreLists(std::size_t num_lanes, PartLists& lists) const;
+
+  DetectorSpec spec_;
+  Kernels kernels_;
+  BeamRays beam_;
+  std::vector<Sums> sums_;
+  PartBatch batch_;
+  std::size_t num_in_batch_{};
+  std::vector<Component> found_;  // Responses of the batches so far.
+  // By lane; both are 0 if the central ray represents the beam.
+  std::array<std::uint32_t, kTileSize> num_parts_{};
+  std::array<float, kTileSize> share_on_nothing_{};
+};
+
+}  // namespace railcast

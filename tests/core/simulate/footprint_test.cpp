@@ -1,0 +1,127 @@
+// What effect footprint makes of what its sub-rays meet, as seen in the frames.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "railcast/simulator.h"
+#include "tests/support/analytic_meshes.h"
+#include "tests/support/scan_once.h"
+#include "tests/support/simple_world.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kSigma_rad = 0.75e-3;
+
+SimulatorSpec WideBeams() {
+  SimulatorSpec spec{.detector = {.effects = {.footprint = true}}};
+  spec.detector.beam.divergence_mrad = {3.0, 3.0};
+  return spec;
+}
+
+// A wall 50 m away, right of the forward direction; nothing on the left.
+std::shared_ptr<SimpleWorld> HalfAWall() {
+  auto world = std::make_shared<SimpleWorld>();
+  world->ground.parts = {
+      {{{{50, -60, -30}, {50, 0, -30}, {50, 0, 30}, {50, -60, 30}}, {{0, 1, 2}, {0, 2, 3}}}, 2, 1}};
+  return world;
+}
+
+double AzimuthOf(const ScanPattern& pattern, const Frame& frame, std::size_t slot) {
+  // The middle rows lie near the horizon; a column's azimuth is that of any of its firings.
+  for (std::size_t firing = 0; firing < pattern.num_firings(); ++firing) {
+    if (pattern.row[firing] == frame.ring[slot] && pattern.column[firing] == frame.column[slot]) {
+      return std::atan2(static_cast<double>(pattern.direction_y[firing]),
+                        static_cast<double>(pattern.direction_x[firing]));
+    }
+  }
+  return std::nan("");
+}
+
+TEST(Footprint, SeesTheShareOfABeamBesideAnEdge) {
+  const ScanPattern pattern = MakeRaster(0.4, 0.2, 0.02);
+  const Frame frame = ScanOnce(HalfAWall(), pattern, WideBeams());
+  int num_near = 0;
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    const double off_edge = -AzimuthOf(pattern, frame, slot) / kSigma_rad;
+    if (std::fabs(off_edge) > 2.5) continue;
+    const double share = 0.5 * std::erfc(-off_edge / std::sqrt(2.0));
+    // SubRays.OfABeamFindTheShareBesideAnEdge has the bound of the pattern.
+    EXPECT_NEAR(static_cast<double>(frame.footprint_share[slot]), share, 0.075) << off_edge;
+    ++num_near;
+  }
+  EXPECT_GT(num_near, 80);
+}
+
+TEST(Footprint, LeavesThePlainAlone) {
+  // Ground at grazing incidence: the ranges of neighbours differ by metres but lie on one plane.
+  auto world = std::make_shared<SimpleWorld>();
+  world->ground.parts.push_back({MakeFloor(-2.0F, 3000.0F), 1, 2});
+  SimulatorSpec spec = WideBeams();
+  const Frame wide = ScanOnce(world, MakeRaster(10, 8, 0.25), spec);
+  spec.detector.effects = {.detection = true};
+  const Frame single = ScanOnce(world, MakeRaster(10, 8, 0.25), spec);
+  int num_compared = 0;
+  for (std::size_t slot = 0; slot + 3 * wide.width() < wide.num_slots() / 2; ++slot) {
+    ASSERT_EQ(wide.true_range_m[slot], single.true_range_m[slot]) << slot;
+    EXPECT_EQ(wide.mixed_share[slot], 0.0F);
+    ++num_compared;
+  }
+  EXPECT_GT(num_compared, 400);
+}
+
+// Two surfaces a quarter of the pulse apart merge into one echo, whose range is between them.
+TEST(Footprint, SeesAStepOfATenthOfAMetreAsAMixedPixel) {
+  constexpr float kStep_m = 0.1F;
+  auto world = HalfAWall();
+  world->ground.parts.push_back({MakeWall(50.0F + kStep_m, 60.0F), 2, 1});
+  SimulatorSpec spec = WideBeams();
+  const ScanPattern pattern = MakeRaster(0.4, 0.2, 0.02);
+  const Frame frame = ScanOnce(world, pattern, spec);
+  int num_mixed = 0;
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    const double off_edge = -AzimuthOf(pattern, frame, slot) / kSigma_rad;
+    if (std::fabs(off_edge) > 1.5) continue;
+    const double near_share = 0.5 * std::erfc(-off_edge / std::sqrt(2.0));
+    const double step_m = 50.0 + static_cast<double>(kStep_m) * (1.0 - near_share);
+    EXPECT_NEAR(static_cast<double>(frame.range_m[slot]), step_m, 0.075 * 0.1 + 1e-3) << off_edge;
+    ++num_mixed;
+  }
+  EXPECT_GT(num_mixed, 40);
+}
+
+// Sub-rays in a crowd of triangles are fewer, but what they stand for still fills the beam.
+TEST(Footprint, FillsTheBeamInACrowd) {
+  auto world = std::make_shared<SimpleWorld>();
+  Mesh patches;
+  for (int row = -40; row < 40; ++row) {
+    for (int column = -40; column < 40; ++column) {
+      const auto first = static_cast<std::uint32_t>(patches.vertices.size());
+      const float y = 0.05F * static_cast<float>(column);
+      const float z = 0.05F * static_cast<float>(row);
+      if ((row + column) % 2 != 0) continue;
+      constexpr float x = 50.0F;
+      patches.vertices.insert(
+          patches.vertices.end(),
+          {{x, y, z}, {x, y + 0.05F, z}, {x, y + 0.05F, z + 0.05F}, {x, y, z + 0.05F}});
+      patches.triangles.push_back({first, first + 1, first + 2});
+      patches.triangles.push_back({first, first + 2, first + 3});
+    }
+  }
+  world->ground.parts = {{patches, 2, 1}, {MakeWall(53.0F, 60.0F), 2, 1}};
+  SimulatorSpec spec = WideBeams();
+  spec.detector.beam.divergence_mrad = {8.0, 8.0};
+  spec.detector.receiver.return_mode = ReturnMode::kDual;
+  const Frame frame = ScanOnce(world, MakeRaster(0.5, 0.5, 0.1), spec);
+  for (std::size_t slot = 0; slot < frame.num_slots(); slot += 2) {
+    const double first = static_cast<double>(frame.footprint_share[slot]);
+    const double second = static_cast<double>(frame.footprint_share[slot + 1]);
+    ASSERT_EQ(frame.return_count[slot], 2) << slot;
+    EXPECT_NEAR(first + second, 1.0, 1e-5);
+    EXPECT_NEAR(first, 0.5, 0.3);
+  }
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,117 @@
+// Beams through our own trees against the same rays through Embree, in the scenes of real frames:
+// instances of plants, ground at grazing incidence, rails, and a moving object.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "core/detect/beam_optics.h"
+#include "core/detect/kernels.h"
+#include "core/detect/sub_ray_pattern.h"
+#include "core/simulate/firing_tiles.h"
+#include "core/simulate/frame_scene.h"
+#include "railcast/scenario.h"
+
+namespace railcast {
+namespace {
+
+/// How the sub-rays of a frame's beams compare.
+struct Agreement {
+  std::size_t num_rays{};
+  std::size_t num_elsewhere{};  ///< Hit another surface, or the same one at another range.
+  std::size_t num_lost{};       ///< Hit nothing where Embree hits something.
+  float worst_m{};              ///< Largest difference in range of the others.
+
+  void Compare(const BeamRays& beam, const RayTile& tile) {
+    for (std::size_t i = 0; i < beam.num_rays; ++i) {
+      ++num_rays;
+      const float tolerance_m = 1e-5F * tile.range_m[i] + 1e-4F;
+      const float off_m = std::fabs(beam.range_m[i] - tile.range_m[i]);
+      const std::uint32_t surface = beam.facets[beam.facet[i]].surface;
+      if (surface == 0 && tile.surface[i] != 0) {
+        ++num_lost;
+      } else if (surface != tile.surface[i] || off_m > tolerance_m) {
+        ++num_elsewhere;
+      } else {
+        worst_m = std::max(worst_m, off_m);
+      }
+    }
+  }
+};
+
+RayTile TileOf(const BeamRays& beam, float range_max_m) {
+  RayTile tile{};
+  tile.num_rays = kNumSubRays;
+  tile.mask = beam.mask;
+  std::fill_n(tile.origin_x, kNumSubRays, beam.origin[0]);
+  std::fill_n(tile.origin_y, kNumSubRays, beam.origin[1]);
+  std::fill_n(tile.origin_z, kNumSubRays, beam.origin[2]);
+  std::copy_n(beam.direction_x, kNumSubRays, tile.direction_x);
+  std::copy_n(beam.direction_y, kNumSubRays, tile.direction_y);
+  std::copy_n(beam.direction_z, kNumSubRays, tile.direction_z);
+  std::fill_n(tile.shutter, kNumSubRays, beam.shutter);
+  std::fill_n(tile.range_m, kNumSubRays, range_max_m);
+  return tile;
+}
+
+Agreement AgreementOn(const std::string& scenario_name, std::uint32_t frame_index) {
+  const ScenarioSpec scenario =
+      ReadScenario(std::string(RAILCAST_SOURCE_DIR "/scenarios/") + scenario_name);
+  const auto simulator = MakeSimulator(scenario, 1);
+  const SimulatorSpec& spec = simulator->spec();
+  const auto range_max_m = static_cast<float>(spec.detector.range_max_m);
+  const ScanPattern& pattern = simulator->pattern();
+  const FiringTiles tiles(pattern);
+  FrameScenes scenes(
+      std::make_shared<SceneStore>(simulator->shared_world(), MaterialLibrary(scenario.materials)),
+      {.range_max_m = spec.detector.range_max_m,
+       .vehicle_from_sensor = spec.vehicle_from_sensor,
+       .duration_ns = tiles.duration_ns()});
+  const FrameScene scene = scenes.At(frame_index, pattern.StampNs(frame_index));
+  BeamFrame frame{};
+  frame.sigma_h_rad = static_cast<float>(HorizontalSigma_rad(spec.detector.beam));
+  frame.sigma_v_rad = static_cast<float>(VerticalSigma_rad(spec.detector.beam));
+  const BeamSubRays& sub_rays = SubRaysOfBeam();
+  const SubRayAim aim{sub_rays.h, sub_rays.v, 1.0001F * sub_rays.largest_offset, 1.0F, 0.0F};
+  Agreement agreement;
+  for (std::size_t t = 0; t < tiles.num_tiles(); ++t) {
+    RayTile rays;
+    tiles.Aim(t, scene.poses, range_max_m, rays);
+    for (std::size_t lane = 0; lane < tiles.num_firings(t); ++lane) {
+      BeamRays beam;
+      AvailableKernels().back().aim_sub_rays(rays, lane, frame, aim, beam);
+      std::fill_n(beam.range_m, kNumSubRays, range_max_m);
+      std::fill_n(beam.facet, kNumSubRays, 0U);
+      RayTile tile = TileOf(beam, range_max_m);
+      scene.CastBeam(beam);
+      scene.Cast(tile);
+      agreement.Compare(beam, tile);
+    }
+  }
+  std::cout << scenario_name << ": " << agreement.num_rays << " sub-rays, "
+            << agreement.num_elsewhere << " elsewhere, " << agreement.num_lost
+            << " lost, the others within " << 1000.0F * agreement.worst_m << " mm\n";
+  return agreement;
+}
+
+void ExpectAgreement(const Agreement& agreement) {
+  const auto num = static_cast<double>(agreement.num_rays);
+  EXPECT_GT(num, 1e6);
+  EXPECT_LT(static_cast<double>(agreement.num_elsewhere), 2e-4 * num);
+  EXPECT_LT(static_cast<double>(agreement.num_lost), 1e-5 * num);
+  EXPECT_LT(agreement.worst_m, 3e-3F);
+}
+
+TEST(BeamTrace, AgreesWithEmbreeAmongGrassAndTrees) {
+  ExpectAgreement(AgreementOn("open_line.json", 0));
+}
+
+TEST(BeamTrace, AgreesWithEmbreeWhereObjectsMove) {
+  ExpectAgreement(AgreementOn("brake_person.json", 40));
+}
+
+}  // namespace
+}  // namespace railcast
