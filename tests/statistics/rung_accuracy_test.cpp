@@ -14,6 +14,7 @@
 #include "railcast/effects.h"
 #include "railcast/scenario.h"
 #include "tests/core/io/temporary_directory.h"
+#include "tests/support/sensor_sector.h"
 
 namespace railcast {
 namespace {
@@ -111,6 +112,20 @@ TEST(RungAccuracy, HoldsOnThePublishedRaster) {
   ExpectRow({Fidelity::kPlausibility, 30.3, 16.6, 0.0, 23.0}, kOfRays, frame);
   ExpectRow({Fidelity::kSurface, 28.2, 16.4, 0.0, 7.6}, kOfRays, frame);
   ExpectRow({Fidelity::kFootprint, 6.8, 99.7, 96.2, 4.3}, kOfBeams, frame);
+}
+
+// Nothing about a second surface depends on where the neighbouring beams are: channels may be
+// sparse, staggered and fired one after another. A third of the turn has second surfaces enough.
+TEST(RungAccuracy, FindsSecondSurfacesOnEverySensor) {
+  for (const char* sensor : {"vir2rail", "vlp32c", "pandar64", "vls128"}) {
+    SCOPED_TRACE(sensor);
+    ScenarioSpec scenario = OpenLineOf(sensor);
+    scenario.lidar.scan = CutSector(scenario.lidar.scan, {60.0, -90.0, 90.0});
+    const Matched second =
+        OnFrame0(scenario).DifferenceOf(EffectsOfRung(Fidelity::kFootprint)).second;
+    EXPECT_GE(second.num, 1500U);
+    EXPECT_GE(second.share(), 0.95) << second.num_matched << " of " << second.num;
+  }
 }
 
 // The footprint is half blind here: its neighbours are those of rows and columns, which on
