@@ -25,6 +25,20 @@ Json PerLabel(const std::map<std::uint32_t, Matched>& counts, const LabelTable& 
   return object;
 }
 
+Json QuantilesObject(const ErrorQuantiles& quantiles) {
+  return {{"median", quantiles.median}, {"p95", quantiles.p95}, {"p99", quantiles.p99}};
+}
+
+Json PointsByRange(const TargetPoints& points) {
+  Json bins = Json::array();
+  for (std::size_t i = 0; i < points.bins.size(); ++i) {
+    bins.push_back({{"from_m", TargetPoints::kBin_m * static_cast<float>(i)},
+                    {"num_reference", points.bins[i].num_reference},
+                    {"num", points.bins[i].num}});
+  }
+  return bins;
+}
+
 Json EffectsIn(const EffectSet& effects) {
   return EffectNames(effects);
 }
@@ -43,6 +57,11 @@ Json ErrorsOf(const FrameDifference& d, const LabelTable& labels) {
   errors["thin_recall"] = ObjectOf(d.thin);
   errors["further_echo_recall"] = ObjectOf(d.further);
   errors["second_surface_recall"] = ObjectOf(d.second);
+  errors["step_recall"] = ObjectOf(d.steps);
+  errors["step_range_m"] = QuantilesObject(d.step_range_m);
+  errors["bright_edge_intensity"] = QuantilesObject(d.bright_edges);
+  errors["person_points_by_range"] = PointsByRange(d.persons);
+  errors["pole_points_by_range"] = PointsByRange(d.poles);
   errors["recall_per_label"] = PerLabel(d.reference_echoes_per_label, labels);
   errors["precision_per_label"] = PerLabel(d.echoes_per_label, labels);
   errors["range_bins"] = bins;

@@ -56,16 +56,53 @@ Table FoundTable(const std::vector<RowResult>& results) {
        {"precision_percent", "Precision", "%"},
        {"wires_percent", "Wires", "%"},
        {"further_percent", "Further echoes", "%"},
-       {"second_percent", "Second surfaces", "%"}},
+       {"second_percent", "Second surfaces", "%"},
+       {"step_percent", "Steps", "%"}},
       {}};
   for (const RowResult& result : results) {
     if (!result.difference) continue;
     const FrameDifference& d = *result.difference;
     std::vector<Cell> row = {result.row.name, result.ratio()};
-    for (const Matched& matched : {d.reference_echoes, d.echoes, d.thin, d.further, d.second}) {
+    for (const Matched& matched :
+         {d.reference_echoes, d.echoes, d.thin, d.further, d.second, d.steps}) {
       row.emplace_back(Scaled(Proportion(matched.num_matched, matched.num), kPercentOfAll));
     }
     table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+// The bins in which the reference has points.
+void AddPoints(const std::string& row,
+               const char* target,
+               const TargetPoints& points,
+               Table& table) {
+  for (std::size_t i = 0; i < points.bins.size(); ++i) {
+    const TargetPoints::Bin& bin = points.bins[i];
+    if (bin.num_reference == 0) continue;
+    const double from_m = static_cast<double>(TargetPoints::kBin_m) * static_cast<double>(i);
+    table.rows.push_back({row, std::string(target), from_m, bin.num_reference, bin.num,
+                          static_cast<double>(bin.num) / static_cast<double>(bin.num_reference)});
+  }
+}
+
+Table TargetsTable(const std::vector<RowResult>& results) {
+  Table table = {"targets",
+                 "Points on persons and poles",
+                 "Echoes of persons, and of poles, masts and signals, by their range, in bins of "
+                 "50 m, the last without an end. The error in the table of errors is the mean of "
+                 "|ratio - 1| over the bins with 20 points of the reference or more.",
+                 {{"row", "Row", ""},
+                  {"target", "Target", ""},
+                  {"from_m", "From", "m"},
+                  {"reference_points", "Reference", ""},
+                  {"points", "Points", ""},
+                  {"ratio", "Ratio", ""}},
+                 {}};
+  for (const RowResult& result : results) {
+    if (!result.difference) continue;
+    AddPoints(result.row.name, "persons", result.difference->persons, table);
+    AddPoints(result.row.name, "poles", result.difference->poles, table);
   }
   return table;
 }
@@ -123,7 +160,7 @@ Section TimeSection(const std::vector<RowResult>& results) {
     section.charts.push_back(ErrorChart(errors, kFrontierErrors[i]));
   }
   section.paragraphs = {DefeatsText(FindDefeats(results))};
-  section.tables = {errors, FoundTable(results), ParetoTable(results)};
+  section.tables = {errors, FoundTable(results), TargetsTable(results), ParetoTable(results)};
   for (Table& table : section.tables) table.is_open = true;
   return section;
 }

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "core/base/error.h"
+#include "core/fidelity/beam_steps.h"
 #include "core/fidelity/yardstick.h"
 
 namespace railcast {
@@ -73,6 +75,23 @@ SimulatorSpec ComparedSpec(const FrontierRow& row, const SimulatorSpec& scenario
   return spec;
 }
 
+// The steps within the beams of a frame, with the effects of `compared`. Rays without a width have
+// none.
+std::vector<float> StepsWith(const SimulatorSpec& compared,
+                             const StepLimits& limits,
+                             std::uint32_t frame,
+                             Simulator& simulator) {
+  const EffectSet& effects = compared.detector.effects;
+  if (!effects.footprint && !effects.thin_conductors) {
+    return std::vector<float>(simulator.pattern().num_firings(),
+                              std::numeric_limits<float>::quiet_NaN());
+  }
+  Frame parts;
+  simulator.Use(ShowParts(compared));
+  simulator.Scan(frame, parts);
+  return StepsOf(parts, compared.detector.beam, limits);
+}
+
 }  // namespace
 
 double RowResult::TimeQuantile_ms(double q) const {
@@ -116,14 +135,20 @@ std::vector<RowResult> MeasureFrontier(const FrontierPlan& plan,
     }
     simulator.UseThreads(0);
     advance("reference of frame " + std::to_string(frame), 0.4);
-    simulator.Use(ComparedSpec(yardstick, spec));
+    const SimulatorSpec of_yardstick = ComparedSpec(yardstick, spec);
+    simulator.Use(of_yardstick);
     simulator.Scan(frame, reference);
+    const std::vector<float> reference_steps_m =
+        StepsWith(of_yardstick, kReferenceSteps, frame, simulator);
     advance("errors of frame " + std::to_string(frame), 0.1);
     for (std::size_t i = 0; i < results.size(); ++i) {
       if (results[i].row.group == RowGroup::kRawTrace) continue;
-      simulator.Use(ComparedSpec(results[i].row, spec));
+      const SimulatorSpec of_row = ComparedSpec(results[i].row, spec);
+      simulator.Use(of_row);
       simulator.Scan(frame, other);
       comparisons[i].Add(reference, other);
+      comparisons[i].AddEdges(reference, reference_steps_m, other,
+                              StepsWith(of_row, kFoundSteps, frame, simulator));
     }
   }
   simulator.Use(spec);

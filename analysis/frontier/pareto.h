@@ -25,7 +25,7 @@ struct FrontierError {
 }
 
 /// The first four have charts.
-inline constexpr std::array<FrontierError, 10> kFrontierErrors{{
+inline constexpr std::array<FrontierError, 16> kFrontierErrors{{
     {"missed_share", "missed_percent", "Echoes missed", "%", 100.0,
      [](const FrameDifference& d) { return MissedShare(d.reference_echoes); }},
     {"range_median_m", "range_median_mm", "Range error, median", "mm", 1e3,
@@ -44,6 +44,19 @@ inline constexpr std::array<FrontierError, 10> kFrontierErrors{{
      [](const FrameDifference& d) { return d.intensity.median; }},
     {"intensity_p95", "intensity_p95_percent", "Intensity error, 95 %", "%", 100.0,
      [](const FrameDifference& d) { return d.intensity.p95; }},
+    {"range_p99_m", "range_p99_mm", "Range error, 99 %", "mm", 1e3,
+     [](const FrameDifference& d) { return d.range_m.p99; }},
+    {"step_missed_share", "step_missed_percent", "Steps missed", "%", 100.0,
+     [](const FrameDifference& d) { return MissedShare(d.steps); }},
+    {"step_range_median_m", "step_range_median_mm", "Range error at steps, median", "mm", 1e3,
+     [](const FrameDifference& d) { return d.step_range_m.median; }},
+    {"bright_edge_intensity_median", "bright_edge_intensity_median_percent",
+     "Intensity error of retroreflectors at edges, median", "%", 100.0,
+     [](const FrameDifference& d) { return d.bright_edges.median; }},
+    {"person_points_error", "person_points_percent", "Points on persons, error", "%", 100.0,
+     [](const FrameDifference& d) { return d.persons.Error(); }},
+    {"pole_points_error", "pole_points_percent", "Points on poles, error", "%", 100.0,
+     [](const FrameDifference& d) { return d.poles.Error(); }},
     {"dropout_error", "dropout_percent", "Dropout error", "%", 100.0,
      [](const FrameDifference& d) { return d.dropout_error; }},
 }};

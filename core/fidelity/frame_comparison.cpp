@@ -13,6 +13,8 @@ namespace {
 constexpr float kLeastThinShare = 0.02F;
 constexpr float kLeastSecondShare = 0.05F;
 constexpr float kLeastMixedShare = 1e-3F;  // Smaller shares may be rounding errors.
+// The intensity of a white diffuse surface that faces the sensor.
+constexpr float kWhite = 1.0F;
 
 // The echoes of a firing: their slots and measured ranges.
 struct Echoes {
@@ -42,7 +44,11 @@ double Quantile(std::vector<float>& values, double q) {
 
 ErrorQuantiles QuantilesOf(std::vector<float> errors) {
   if (errors.empty()) return {};
-  return {Quantile(errors, 0.5), Quantile(errors, 0.95)};
+  return {Quantile(errors, 0.5), Quantile(errors, 0.95), Quantile(errors, 0.99)};
+}
+
+bool IsOneOf(const std::vector<std::uint32_t>& labels, std::uint32_t label) {
+  return std::find(labels.begin(), labels.end(), label) != labels.end();
 }
 
 double DropoutError(const decltype(FrameDifference::range_bins)& bins) {
@@ -66,9 +72,14 @@ ComparisonSpec MakeComparisonSpec(const BeamSpec& beam,
   ComparisonSpec spec;
   spec.match_distance_m = static_cast<float>(0.5 * PulseLength_m(beam));
   spec.range_max_m = static_cast<float>(range_max_m);
-  for (const char* name : {"contact_wire", "messenger_wire", "dropper"}) {
-    if (const Label* label = labels.Find(name)) spec.thin_labels.push_back(label->id);
-  }
+  const auto add = [&](std::initializer_list<const char*> names, std::vector<std::uint32_t>& ids) {
+    for (const char* name : names) {
+      if (const Label* label = labels.Find(name)) ids.push_back(label->id);
+    }
+  };
+  add({"contact_wire", "messenger_wire", "dropper"}, spec.thin_labels);
+  add({"person"}, spec.person_labels);
+  add({"pole", "mast", "signal"}, spec.pole_labels);
   return spec;
 }
 
@@ -93,10 +104,62 @@ std::vector<std::pair<std::size_t, std::size_t>> MatchEchoes(const std::vector<f
   return matches;
 }
 
+std::size_t TargetPoints::BinOf(float range_m) {
+  return std::min(static_cast<std::size_t>(range_m / kBin_m), kNumBins - 1);
+}
+
+double TargetPoints::Error() const {
+  double sum = 0.0;
+  int num_bins = 0;
+  for (const Bin& bin : bins) {
+    if (bin.num_reference < kLeastPoints) continue;
+    sum += std::abs(static_cast<double>(bin.num) / static_cast<double>(bin.num_reference) - 1.0);
+    ++num_bins;
+  }
+  return num_bins == 0 ? std::numeric_limits<double>::quiet_NaN() : sum / num_bins;
+}
+
 void FrameComparison::Add(const Frame& reference, const Frame& other) {
   const std::size_t num_firings = reference.num_slots() / reference.returns;
   Check(num_firings == other.num_slots() / other.returns, "both frames have the same firings");
   for (std::size_t i = 0; i < num_firings; ++i) AddFiring(reference, other, i);
+  AddTargets(reference, other);
+}
+
+void FrameComparison::AddTargets(const Frame& reference, const Frame& other) {
+  const auto count = [&](const Frame& frame, std::uint64_t TargetPoints::Bin::*num) {
+    for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+      if (!IsSurface(frame, slot)) continue;
+      const std::size_t bin = TargetPoints::BinOf(frame.true_range_m[slot]);
+      if (IsOneOf(spec_.person_labels, frame.label[slot])) ++(sums_.persons.bins[bin].*num);
+      if (IsOneOf(spec_.pole_labels, frame.label[slot])) ++(sums_.poles.bins[bin].*num);
+    }
+  };
+  count(reference, &TargetPoints::Bin::num_reference);
+  count(other, &TargetPoints::Bin::num);
+}
+
+void FrameComparison::AddEdges(const Frame& reference,
+                               const std::vector<float>& reference_steps_m,
+                               const Frame& other,
+                               const std::vector<float>& other_steps_m) {
+  for (std::size_t firing = 0; firing < reference_steps_m.size(); ++firing) {
+    const bool has_step = !std::isnan(reference_steps_m[firing]);
+    if (has_step) sums_.steps.Count(!std::isnan(other_steps_m[firing]));
+    const std::size_t slot = firing * reference.returns;
+    const std::size_t match = firing * other.returns;
+    if (!IsSurface(reference, slot)) continue;
+    const bool is_found = IsSurface(other, match);
+    if (has_step && is_found) {
+      step_errors_m_.push_back(std::abs(reference.range_m[slot] - other.range_m[match]));
+    }
+    const float expected = reference.intensity[slot];
+    const bool is_edge = has_step || reference.mixed_share[slot] >= kLeastSecondShare;
+    if (!is_edge || !(expected > kWhite)) continue;
+    if (is_found && std::isnan(other.intensity[match])) continue;
+    const float found = is_found ? other.intensity[match] : 0.0F;
+    bright_errors_.push_back(std::abs(found - expected) / expected);
+  }
 }
 
 void FrameComparison::AddFiring(const Frame& reference, const Frame& other, std::size_t firing) {
@@ -115,10 +178,7 @@ void FrameComparison::AddFiring(const Frame& reference, const Frame& other, std:
   if (reference.mixed_share[first_slot] >= kLeastSecondShare) {
     sums_.second.Count(other.mixed_share[firing * other.returns] > kLeastMixedShare);
   }
-  const auto is_thin = [&](std::uint32_t label) {
-    return std::find(spec_.thin_labels.begin(), spec_.thin_labels.end(), label) !=
-           spec_.thin_labels.end();
-  };
+  const auto is_thin = [&](std::uint32_t label) { return IsOneOf(spec_.thin_labels, label); };
   for (std::size_t i = 0; i < ours.slots.size(); ++i) {
     const std::size_t slot = ours.slots[i];
     const auto match =
@@ -164,6 +224,8 @@ FrameDifference FrameComparison::Result() const {
   FrameDifference result = sums_;
   result.range_m = QuantilesOf(range_errors_m_);
   result.intensity = QuantilesOf(intensity_errors_);
+  result.step_range_m = QuantilesOf(step_errors_m_);
+  result.bright_edges = QuantilesOf(bright_errors_);
   result.dropout_error = DropoutError(sums_.range_bins);
   return result;
 }

@@ -19,11 +19,14 @@ struct ComparisonSpec {
   float match_distance_m{};
   float range_max_m{};                     ///< Upper end of the last range bin.
   std::vector<std::uint32_t> thin_labels;  ///< Labels of wires.
+  std::vector<std::uint32_t> person_labels{};
+  std::vector<std::uint32_t> pole_labels{};  ///< Labels of poles, masts and signals.
 };
 
 /// Makes the spec of a comparison. The match distance is half of the pulse's length in range,
 /// c pulse_length / 4: 0.375 m for 5 ns (two equal echoes are resolved from 0.64 m on). The thin
-/// labels are those of contact wires, messenger wires and droppers, as far as the table has them.
+/// labels are those of contact wires, messenger wires and droppers, as far as the table has them,
+/// and poles are those of `pole`, `mast` and `signal`.
 [[nodiscard]] ComparisonSpec MakeComparisonSpec(const BeamSpec& beam,
                                                 double range_max_m,
                                                 const LabelTable& labels);
@@ -52,10 +55,30 @@ struct Matched {
   bool operator==(const Matched&) const = default;
 };
 
-/// Median and 95th percentile of absolute errors; NaN if there are no errors.
+/// Median and percentiles of absolute errors; NaN if there are no errors.
 struct ErrorQuantiles {
   double median = std::numeric_limits<double>::quiet_NaN();
   double p95 = std::numeric_limits<double>::quiet_NaN();
+  double p99 = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Numbers of points on targets of one kind by their range.
+struct TargetPoints {
+  static constexpr std::size_t kNumBins = 6;
+  /// Width of a bin; the last one has no end.
+  static constexpr float kBin_m = 50.0F;
+  /// Bins with fewer points of the reference have no error: one point more would be 5 % of it.
+  static constexpr std::uint64_t kLeastPoints = 20;
+  struct Bin {
+    std::uint64_t num_reference{};
+    std::uint64_t num{};
+  };
+  std::array<Bin, kNumBins> bins{};
+
+  /// The bin of a range; ranges must not be NaN.
+  [[nodiscard]] static std::size_t BinOf(float range_m);
+  /// Mean over the bins with enough points of |num / num_reference - 1|; NaN if there is none.
+  [[nodiscard]] double Error() const;
 };
 
 /// The difference between frames and those of the reference.
@@ -89,6 +112,17 @@ struct FrameDifference {
   /// The reference's firings with at least 5 % of the beam off their main surface (0.5 m or more
   /// apart, or in the sky); matched if part of the other's beam is off its main surface as well.
   Matched second;
+  /// The reference's firings with a step within the beam (core/fidelity/beam_steps.h); matched if
+  /// the other's beam has one, too.
+  Matched steps;
+  /// Range errors of these firings' strongest echoes, whatever their distance.
+  ErrorQuantiles step_range_m;
+  /// Relative intensity errors of retroreflectors at edges: of firings with a step or a second
+  /// surface whose strongest echo in the reference is brighter than any diffuse surface. 1 where
+  /// the other has no echo.
+  ErrorQuantiles bright_edges;
+  TargetPoints persons;  ///< All echoes of persons, by their true range.
+  TargetPoints poles;
 };
 
 /// Compares frames of the same scan under two effect sets and accumulates the differences.
@@ -98,17 +132,26 @@ class FrameComparison {
 
   /// @pre Both are the same frame of the same pattern; their numbers of returns may differ.
   void Add(const Frame& reference, const Frame& other);
+  /// Adds what happens at edges, for frames that Add() was given.
+  /// @param reference_steps_m, other_steps_m By firing, as StepsOf() gives them.
+  void AddEdges(const Frame& reference,
+                const std::vector<float>& reference_steps_m,
+                const Frame& other,
+                const std::vector<float>& other_steps_m);
   [[nodiscard]] FrameDifference Result() const;
 
  private:
   void AddFiring(const Frame& reference, const Frame& other, std::size_t firing);
   void AddMatched(const Frame& reference, std::size_t slot, const Frame& other, std::size_t match);
+  void AddTargets(const Frame& reference, const Frame& other);
   void AddRangeBin(float true_range_m, bool has_reference_return, bool has_return);
 
   ComparisonSpec spec_;
   FrameDifference sums_;  // Result() adds the quantiles and the dropout error.
   std::vector<float> range_errors_m_;
   std::vector<float> intensity_errors_;
+  std::vector<float> step_errors_m_;
+  std::vector<float> bright_errors_;
 };
 
 }  // namespace railcast

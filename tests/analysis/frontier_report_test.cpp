@@ -82,6 +82,46 @@ TEST(FrontierReport, SaysWhatWasFoundAndWhatTheSceneNeeds) {
   EXPECT_EQ(std::get<Estimate>(found.rows[0][2]).num, 100U);
 }
 
+// A row with 30 of 40 points on persons at 50 to 100 m, 3 of 4 steps, and an error there.
+RowResult RowAtEdges() {
+  RowResult row = MadeResult("footprint", RowGroup::kLadder, 4.0, 5);
+  row.difference->persons.bins[1] = {40, 30};
+  row.difference->steps = {4, 3};
+  row.difference->step_range_m = {0.01, 0.1, 0.2};
+  row.difference->bright_edges = {0.3, 0.9, 1.0};
+  row.difference->range_m = {0.001, 0.01, 0.02};
+  return row;
+}
+
+TEST(FrontierReport, TellsPointsOnPersonsByRange) {
+  const Report report = MakeFrontierReport(
+      {}, Circumstances(), {MadeResult("raw_trace", RowGroup::kRawTrace, 1.0, 0), RowAtEdges()},
+      "railcast-analyze frontier a.json");
+  const Table& targets = report.sections[0].tables[2];
+  EXPECT_EQ(targets.key, "targets");
+  ASSERT_EQ(targets.rows.size(), 1U);
+  EXPECT_EQ(std::get<std::string>(targets.rows[0][1]), "persons");
+  EXPECT_EQ(std::get<double>(targets.rows[0][2]), 50.0);
+  EXPECT_EQ(std::get<double>(targets.rows[0][5]), 0.75);
+  const std::string text = ReportText(report);
+  EXPECT_THAT(text, testing::HasSubstr("Range error, 99 %"));
+  EXPECT_THAT(text, testing::HasSubstr("Steps"));
+}
+
+TEST(FrontierJson, HoldsWhatHappensAtEdges) {
+  const Json json = Json::parse(FrontierJson({}, Circumstances(), Labels(), {RowAtEdges()}));
+  const Json& errors = json["rows"][0]["errors"];
+  EXPECT_EQ(errors["range_p99_m"], 0.02);
+  EXPECT_EQ(errors["step_missed_share"], 0.25);
+  EXPECT_EQ(errors["step_range_median_m"], 0.01);
+  EXPECT_EQ(errors["step_range_m"]["p99"], 0.2);
+  EXPECT_EQ(errors["bright_edge_intensity_median"], 0.3);
+  EXPECT_EQ(errors["person_points_error"], 0.25);
+  EXPECT_TRUE(errors["pole_points_error"].is_null());
+  EXPECT_EQ(errors["person_points_by_range"][1]["from_m"], 50.0);
+  EXPECT_EQ(errors["person_points_by_range"][1]["num"], 30);
+}
+
 TEST(FrontierJson, HoldsNumbersAndCircumstances) {
   FrontierPlan plan;
   plan.frames = {0, 10};
@@ -111,7 +151,7 @@ TEST(FrontierJson, HoldsNumbersAndCircumstances) {
 TEST(FrontierCsv, LeavesEmptyWhatARowLacks) {
   const std::string csv = FrontierCsv(Results());
   EXPECT_THAT(csv, testing::StartsWith("row,group,p50_ms,p99_ms,ratio_to_raw_trace,missed_share,"));
-  EXPECT_THAT(csv, testing::HasSubstr("raw_trace,raw_trace,10,10,1,,,,,,,,,,\n"));
+  EXPECT_THAT(csv, testing::HasSubstr("raw_trace,raw_trace,10,10,1,,,,,,,,,,,,,,,,\n"));
   EXPECT_THAT(csv, testing::HasSubstr("footprint,ladder,40,90,4,"));
 }
 

@@ -17,6 +17,8 @@ using testing::Pair;
 constexpr std::uint32_t kGround = 4;
 constexpr std::uint32_t kContactWire = 7;
 constexpr std::uint32_t kDropper = 9;
+constexpr std::uint32_t kPerson = 13;
+constexpr std::uint32_t kPole = 14;
 constexpr std::uint32_t kRain = 23;
 
 using Firings = std::vector<std::vector<MadeEcho>>;
@@ -96,6 +98,7 @@ TEST(FrameComparison, TakesQuantilesOfMatchedEchoes) {
   const double round_off = 1e-6;  // The rounding of float32 at 8 m is 4.8e-7.
   EXPECT_NEAR(d.range_m.median, 0.050, round_off);
   EXPECT_NEAR(d.range_m.p95, 0.095, round_off);
+  EXPECT_NEAR(d.range_m.p99, 0.099, round_off);
   EXPECT_NEAR(d.intensity.median, 0.050, round_off);
   EXPECT_NEAR(d.intensity.p95, 0.095, round_off);
 }
@@ -164,6 +167,81 @@ TEST(FrameComparison, LeavesClutterToTheLabels) {
   EXPECT_EQ(d.reference_echoes, (Matched{1, 1}));
   EXPECT_EQ(d.echoes, (Matched{1, 1}));
   EXPECT_EQ(d.reference_echoes_per_label.at(kRain), (Matched{2, 1}));
+}
+
+TEST(ComparisonSpec, KnowsPersonsAndPolesByTheirLabels) {
+  std::vector<Label> labels;
+  for (const char* name : {"person", "pole", "mast", "signal", "ground"}) {
+    Label label;
+    label.id = static_cast<std::uint32_t>(labels.size());
+    label.name = name;
+    labels.push_back(label);
+  }
+  const ComparisonSpec spec = MakeComparisonSpec({}, 120.0, LabelTable(labels));
+  EXPECT_THAT(spec.person_labels, ElementsAre(0));
+  EXPECT_THAT(spec.pole_labels, ElementsAre(1, 2, 3));
+}
+
+TEST(FrameComparison, CountsPointsOnPersonsAndPolesByRange) {
+  FrameComparison comparison({.match_distance_m = 0.375F,
+                              .range_max_m = 400.0F,
+                              .thin_labels = {},
+                              .person_labels = {kPerson},
+                              .pole_labels = {kPole}});
+  const Frame reference = MakeEchoFrame({{{49.0F, kPerson}, {51.0F, kPole}},
+                                         {{50.0F, kPerson}},
+                                         {{390.0F, kPole}},
+                                         {{20.0F, kPerson, 0.2F, 0.5F, Outcome::kBelowThreshold}}});
+  const Frame other = MakeEchoFrame({{{49.0F, kPerson}}, {{49.0F, kPerson}}, {}, {{51.0F, kPole}}});
+  comparison.Add(reference, other);
+  const FrameDifference d = comparison.Result();
+  EXPECT_EQ(d.persons.bins[0].num_reference, 1U);
+  EXPECT_EQ(d.persons.bins[0].num, 2U);
+  EXPECT_EQ(d.persons.bins[1].num_reference, 1U);
+  EXPECT_EQ(d.persons.bins[1].num, 0U);
+  EXPECT_EQ(d.poles.bins[1].num_reference, 1U);
+  EXPECT_EQ(d.poles.bins[1].num, 1U);
+  EXPECT_EQ(d.poles.bins.back().num_reference, 1U);
+  EXPECT_TRUE(std::isnan(d.poles.Error())) << "too few points";
+}
+
+TEST(TargetPoints, AverageTheirErrorOverTheBinsWithEnoughPoints) {
+  TargetPoints points;
+  points.bins[0] = {20, 15};
+  points.bins[2] = {100, 105};
+  points.bins[3] = {19, 0};
+  points.bins[4] = {0, 7};
+  EXPECT_NEAR(points.Error(), (0.25 + 0.05) / 2.0, 1e-12);
+}
+
+constexpr float kNoStep = std::numeric_limits<float>::quiet_NaN();
+
+TEST(FrameComparison, CountsStepsThatBothBeamsHaveAndTheirRangeErrors) {
+  FrameComparison comparison({0.375F, 100.0F, {}});
+  const Frame reference = MakeEchoFrame({{{10.0F}}, {{10.0F}}, {{10.0F}}, {{10.0F}}});
+  const Frame other = MakeEchoFrame({{{10.1F}}, {{10.5F}}, {}, {{19.0F}}}, 1);
+  comparison.AddEdges(reference, {0.1F, 0.5F, 0.2F, kNoStep}, other,
+                      {0.1F, kNoStep, kNoStep, 0.3F});
+  const FrameDifference d = comparison.Result();
+  EXPECT_EQ(d.steps, (Matched{3, 1}));
+  EXPECT_NEAR(d.step_range_m.median, 0.1, 1e-6);
+  EXPECT_NEAR(d.step_range_m.p95, 0.5, 1e-6) << "beyond the distance of a match";
+}
+
+TEST(FrameComparison, ComparesTheLightOfRetroreflectorsAtEdges) {
+  FrameComparison comparison({0.375F, 100.0F, {}});
+  const auto bright = [](float intensity) { return MadeEcho{10.0F, 3, intensity}; };
+  // At a step, at a second surface, at neither, and a diffuse surface at a step; one not found.
+  Frame reference = MakeEchoFrame(
+      {{bright(100.0F)}, {bright(100.0F)}, {bright(100.0F)}, {bright(0.5F)}, {bright(2.0F)}});
+  reference.mixed_share[3] = 0.3F;
+  const Frame other =
+      MakeEchoFrame({{bright(90.0F)}, {bright(70.0F)}, {bright(0.1F)}, {bright(0.1F)}, {}}, 1);
+  const std::vector<float> steps_m = {0.1F, kNoStep, kNoStep, 0.1F, 0.2F};
+  comparison.AddEdges(reference, steps_m, other, steps_m);
+  const FrameDifference d = comparison.Result();
+  EXPECT_NEAR(d.bright_edges.median, 0.3, 1e-6);
+  EXPECT_NEAR(d.bright_edges.p95, 1.0, 1e-6);
 }
 
 TEST(FrameComparison, SumsUpFrames) {
