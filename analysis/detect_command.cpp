@@ -75,8 +75,7 @@ std::vector<std::pair<std::string, std::string>> FactsOf(const std::vector<Recor
   return {{"Sequences", sources},
           {"Seeds", seeds},
           {"Frames", std::to_string(num_frames)},
-          {"Sensor", scenario.lidar.name},
-          {"Fidelity", std::string(NameOf(scenario.fidelity))}};
+          {"Sensor", scenario.lidar.name}};
 }
 
 int RunDetect(const DetectOptions& options, const std::string& command_line) {
@@ -101,7 +100,8 @@ int RunDetect(const DetectOptions& options, const std::string& command_line) {
   }
   progress.End();
   std::ranges::sort(runs, {}, &DetectRun::seed);
-  Report report = MakeDetectReport(runs, spec, command_line, FactsOf(infos, num_frames));
+  Report report =
+      MakeDetectReport(runs, spec, command_line, FactsOf(infos, num_frames), RungOf(infos));
   AddProvenance(infos, ProgramVersion(), report);
   EmitReport(report, options.output, "detect");
   return kExitSuccess;

@@ -207,10 +207,13 @@ void AddHeadlines(const std::vector<Verdict>& verdicts, Report& report) {
             NamesOf(verdicts, [](const Verdict& each) { return !each.is_in_way; }));
 }
 
-Section VerdictSection(const std::vector<Verdict>& verdicts) {
+Section VerdictSection(const std::vector<Verdict>& verdicts, const RungUsed& rung) {
   Section section{.key = "verdicts", .title = "In the way"};
   const bool is_any_judged = std::ranges::any_of(verdicts, &Verdict::is_judged);
   if (!is_any_judged) section.paragraphs = {"Nothing that was in the way can be judged."};
+  if (const std::string warning = rung.Warning(); !warning.empty()) {
+    section.paragraphs.push_back(warning);
+  }
   section.tables = {VerdictTable(verdicts), MeansTable(verdicts)};
   return section;
 }
@@ -250,15 +253,17 @@ DetectRun DetectInRun(std::filesystem::path source,
 Report MakeDetectReport(const std::vector<DetectRun>& runs,
                         const DetectSpec& spec,
                         const std::string& command,
-                        std::vector<std::pair<std::string, std::string>> facts) {
+                        std::vector<std::pair<std::string, std::string>> facts,
+                        const RungUsed& rung) {
   const std::vector<Verdict> verdicts = MakeVerdicts(runs);
   Report report;
   report.title = "ObjectDetection in time to stop";
   report.command = command;
   report.facts = std::move(facts);
+  report.facts.emplace_back("Rung", rung.InWords());
   AddHeadlines(verdicts, report);
 
-  report.sections.push_back(VerdictSection(verdicts));
+  report.sections.push_back(VerdictSection(verdicts, rung));
   const bool is_any_beside =
       std::ranges::any_of(verdicts, [](const Verdict& each) { return !each.is_in_way; });
   if (is_any_beside) {

@@ -10,6 +10,7 @@
 #include "analysis/detectability/approach.h"
 #include "analysis/detectability/braking.h"
 #include "analysis/detectability/object_detection.h"
+#include "analysis/detectability/rung_used.h"
 #include "analysis/report/report.h"
 
 namespace railcast {
@@ -40,10 +41,12 @@ struct DetectRun {
 /// each run's detection, and number of points against distance beside the distance needed.
 /// @param command Command line that made the report.
 /// @param facts Describe the scenario.
+/// @param rung The rung of the runs, with a warning where it sends one ray per beam.
 /// @pre There is at least one run.
 [[nodiscard]] Report MakeDetectReport(const std::vector<DetectRun>& runs,
                                       const DetectSpec& spec,
                                       const std::string& command,
-                                      std::vector<std::pair<std::string, std::string>> facts);
+                                      std::vector<std::pair<std::string, std::string>> facts,
+                                      const RungUsed& rung);
 
 }  // namespace railcast

@@ -25,7 +25,8 @@ constexpr const char* kVehicle =
 /// 40 frames of an approach at 10 m/s towards a box that is 79 m ahead of the sensor at first.
 std::filesystem::path MakeApproach(const TemporaryFolder& folder,
                                    const std::string& name,
-                                   const std::string& options) {
+                                   const std::string& options,
+                                   const std::string& fidelity = "geometry") {
   const std::string scenarios = ScenariosDir().string();
   const auto scenario = folder.Write(
       name + ".json",
@@ -37,7 +38,7 @@ std::filesystem::path MakeApproach(const TemporaryFolder& folder,
   auto out = scenario.parent_path() / name;
   const Ended run =
       RunCommand(RAILCAST_GENERATE " sequence " + scenario.string() + " --out " + out.string() +
-                 " --frames 40 --fidelity geometry --fields x,y,z " + options);
+                 " --frames 40 --fields x,y,z --fidelity " + fidelity + " " + options);
   if (run.status != 0) throw std::runtime_error(run.said);
   return out;
 }
@@ -85,6 +86,22 @@ TEST(DetectCommand, FindsWhereABoxIsFirstSeenByTwentyBeams) {
   EXPECT_EQ(beside.at(0).at("object"), "man");
   EXPECT_THAT(ended.said, HasSubstr("Beside the track, not judged      man\n"));
   EXPECT_TRUE(exists(out / "report.html"));
+}
+
+TEST(DetectCommand, SaysWhichRungMadeTheFrames) {
+  const TemporaryFolder folder;
+  const auto detect = [&](const std::string& fidelity) {
+    const auto run = MakeApproach(folder, fidelity, "", fidelity);
+    return Analyze("detect " + run.string() + " --format text").said;
+  };
+  EXPECT_THAT(detect("surface"), testing::AllOf(HasSubstr("surface: one ray per beam"),
+                                                HasSubstr("sends one ray into each beam")));
+  EXPECT_THAT(detect("footprint"),
+              testing::AllOf(HasSubstr("footprint: beams with a width"),
+                             testing::Not(HasSubstr("sends one ray into each beam"))));
+  // The manifest records what was chosen.
+  EXPECT_THAT(detect("auto"),
+              testing::ContainsRegex("auto: (beams with a width|one ray per beam)"));
 }
 
 TEST(DetectCommand, RefusesWhatIsNoSetOfRuns) {

@@ -84,7 +84,7 @@ class EdgesOn : public testing::TestWithParam<std::string> {
     return FiringOfSlot(pattern_, frame.returns, slot);
   }
   [[nodiscard]] FramePair Scan(std::shared_ptr<const World> world) const {
-    return ScanBoth(std::move(world), pattern_, EdgeMaterials(), lidar_);
+    return ScanBoth(std::move(world), pattern_, EdgeMaterials(), lidar_, Fidelity::kFootprint);
   }
 
   LidarSpec lidar_;
@@ -108,7 +108,7 @@ TEST_P(EdgesOn, AreNoticedWhereAPlateEndsSixMetresBeforeAWall) {
     for (std::size_t slot = 0; slot < frames.reference.num_slots(); ++slot) {
       if (frames.reference.mixed_share[slot] < 0.05F) continue;
       ++num_mixed;
-      num_noticed += frames.footprint.mixed_share[slot] > 1e-3F ? 1 : 0;
+      num_noticed += frames.rung.mixed_share[slot] > 1e-3F ? 1 : 0;
     }
   }
   RecordProperty("mixed", static_cast<int>(num_mixed));
@@ -146,7 +146,7 @@ TEST_P(EdgesOn, MixRangesWhereAPlateIsATenthToHalfAMetreBeforeAWall) {
       for (std::size_t slot = 0; slot < frames.reference.num_slots(); ++slot) {
         const Vector3 at_plate = At(FiringOf(frames.reference, slot), kPlate_m);
         const auto expected_m = static_cast<double>(frames.reference.range_m[slot]);
-        const auto found_m = static_cast<double>(frames.footprint.range_m[slot]);
+        const auto found_m = static_cast<double>(frames.rung.range_m[slot]);
         const double expected = PlaceOf(expected_m, at_plate, step_m);
         if (!(expected > 0.05 && expected < 0.95)) continue;
         const double found = PlaceOf(found_m, at_plate, step_m);
@@ -190,7 +190,7 @@ TEST_P(EdgesOn, LetARetroreflectorBesideABeamOutshineTheWallThatItsCentreMeets) 
         if (beside_rad < 0.7 * kBeside_rad || beside_rad > 1.3 * kBeside_rad) continue;
         ++num_beams;
         expected += static_cast<double>(frames.reference.intensity[slot]);
-        found += static_cast<double>(frames.footprint.intensity[slot]);
+        found += static_cast<double>(frames.rung.intensity[slot]);
       }
     }
     SCOPED_TRACE(step_m);

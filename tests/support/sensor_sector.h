@@ -88,27 +88,24 @@ struct SectorSpec {
   return spec;
 }
 
-/// The same frame of a scene by the rung `footprint` and by the reference.
+/// The same frame of a scene by a rung and by the reference.
 struct FramePair {
-  Frame footprint;
+  Frame rung;
   Frame reference;
 };
 
 [[nodiscard]] inline FramePair ScanBoth(std::shared_ptr<const World> world,
                                         const ScanPattern& pattern,
                                         const MaterialLibrary& materials,
-                                        const LidarSpec& lidar) {
+                                        const LidarSpec& lidar,
+                                        Fidelity rung) {
   FramePair pair;
-  const SimulatorSpec footprint = SpecOf(lidar, EffectsOfRung(Fidelity::kFootprint));
-  footprint.detector.effects.dense_footprint = true;
-  footprint.detector.effects.thin_conductors = false;
-  footprint.detector.beam.reference_rays = 63;
-}
-Simulator simulator(std::move(world), pattern, materials, footprint, 0);
-simulator.Scan(0, pair.footprint);
-simulator.Use(SpecOf(lidar, YardstickEffects()));
-simulator.Scan(0, pair.reference);
-return pair;
+  const SimulatorSpec spec = SpecOf(lidar, EffectsOfRung(rung));
+  Simulator simulator(std::move(world), pattern, materials, spec, 0);
+  simulator.Scan(0, pair.rung);
+  simulator.Use(SpecOf(lidar, YardstickEffects()));
+  simulator.Scan(0, pair.reference);
+  return pair;
 }
 
 }  // namespace railcast

@@ -77,7 +77,9 @@ SequenceOrigin OriginOf(const SequenceSummary& summary) {
           .scenario_hash = run.scenario_hash,
           .data_hash = summary.manifest ? summary.manifest->data_hash : "",
           .is_finished = summary.manifest.has_value(),
-          .has_commands = run.has_commands};
+          .has_commands = run.has_commands,
+          .chosen_effects =
+              summary.manifest ? summary.manifest->chosen_effects : std::vector<std::string>()};
 }
 
 std::vector<std::string> RecordFiles(std::string_view format) {

@@ -71,6 +71,9 @@ Manifest ReadManifest(const std::string& text, const std::string& place) {
       manifest.files.push_back({name, hash, {}});
     }
     manifest.data_hash = json.value("data_xxh3", "");
+    if (json.contains("fidelity_choice")) {
+      manifest.chosen_effects = json.at("fidelity_choice").at("effects");
+    }
     RefuseUnknownKeys(
         json,
         {"version", "seed", "format", "start_frame", "num_frames", "fidelity_choice", "points",

@@ -40,6 +40,8 @@ struct Manifest {
   /// All files except those of the frames, which frames.jsonl names.
   std::vector<KnownFile> files;
   std::string data_hash;  ///< Empty in directories of older programs.
+  /// Names of the effects that fidelity `auto` chose; empty at another fidelity.
+  std::vector<std::string> chosen_effects{};
 };
 
 /// @throws InputError "place: rule" if the text is not a manifest.json.

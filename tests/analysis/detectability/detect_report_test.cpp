@@ -57,7 +57,7 @@ Cell CellOf(const Table& table, std::size_t row, const std::string& column) {
 }
 
 Report ReportOf(const std::vector<DetectRun>& runs) {
-  return MakeDetectReport(runs, {}, "railcast-analyze detect", {});
+  return MakeDetectReport(runs, {}, "railcast-analyze detect", {}, {"footprint", true});
 }
 
 TEST(DetectReport, GivesTheFirstDetectionOfEachRun) {

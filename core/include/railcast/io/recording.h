@@ -76,6 +76,9 @@ struct SequenceOrigin {
   std::string data_hash;
   bool is_finished{};
   bool has_commands{};  ///< Whether commands changed the scenario during the run.
+  /// Names of the effects that fidelity `auto` chose. Empty if the run has another fidelity, or has
+  /// not finished: until then they are recorded nowhere.
+  std::vector<std::string> chosen_effects{};
 };
 
 /// Properties of a recording as a whole.
