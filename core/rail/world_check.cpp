@@ -157,6 +157,21 @@ void CheckEgoBoxes(const VehicleSpec& vehicle, WorldFaults& faults) {
   }
 }
 
+// A body as long as the radius spans 60 degrees of the arc, within which the steps that find its
+// second pivot (line/track_path.cpp) converge.
+void CheckPivots(const WorldSpec& world,
+                 const VehicleSpec& vehicle,
+                 const LineMeasures& line,
+                 WorldFaults& faults) {
+  const TrackSpec* track = FindTrack(world, vehicle.track);
+  if (track == nullptr || !faults.AreKnown({PointerOf(*track, world) + "/offset_m"})) return;
+  const double radius_m = line.tightest_radius_m - std::abs(track->offset_m);
+  if (vehicle.pivot_distance_m <= radius_m) return;
+  faults.Add("/vehicle/pivot_distance_m",
+             "must be at most its track's tightest radius of " + NumberText(radius_m) + " m",
+             NumberText(vehicle.pivot_distance_m));
+}
+
 void CheckHalfWidth(const WorldSpec& world, const LineMeasures& line, WorldFaults& faults) {
   const double half_width_m = world.terrain.half_width_m;
   if (!faults.AreKnown({kHalfWidth})) return;
@@ -215,6 +230,7 @@ void CheckWorld(const WorldSpec& world,
   CheckPlace(world, {"/vehicle/track", "/vehicle/start_s_m", vehicle.track, vehicle.start_s_m},
              line, faults);
   CheckEgoBoxes(vehicle, faults);
+  CheckPivots(world, vehicle, line, faults);
 }
 
 }  // namespace railcast

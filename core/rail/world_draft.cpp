@@ -56,7 +56,8 @@ std::optional<TrackPath> DraftVehicle(const WorldSource& source, WorldFaults& fa
   if (!profile || track == nullptr) return std::nullopt;
   // A vehicle faces the way it travels.
   const double heading_rad = vehicle.motion.reverse ? std::numbers::pi : 0.0;
-  return TrackPath({track->offset_m, 0.0, heading_rad, false}, std::move(*profile));
+  return TrackPath({track->offset_m, 0.0, heading_rad, false, vehicle.pivot_distance_m},
+                   std::move(*profile));
 }
 
 std::optional<CatenaryPlan> DraftCatenary(const WorldSpec& world,

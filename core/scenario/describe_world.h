@@ -149,6 +149,10 @@ void Describe(Archive& a, VehicleSpec& s) {
   if (s.motion != MotionSpec{}) motion = s.motion;
   a.Optional("motion", motion, "Along its track; absent = stands.");
   if (motion) s.motion = *motion;
+  a.Optional("pivot_distance_m", s.pivot_distance_m,
+             "Between the pivots on which its body rests; the front one is at its origin. 0 = it "
+             "follows the tangent.",
+             Within(0, 30));
   a.Optional("ego_boxes_m", s.ego_boxes_m,
              "Its body in the vehicle frame: min x, y, z, max x, y, z.",
              EachNumber{Within(-1000, 1000)});

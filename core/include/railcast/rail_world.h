@@ -162,6 +162,9 @@ struct VehicleSpec {
   std::string track = "main";
   double start_s_m{};  ///< Chainage of the vehicle's origin at time 0.
   MotionSpec motion;
+  /// Distance between the pivots on which the body rests on the track. The front one is at the
+  /// vehicle's origin. 0 = the body follows the tangent at the origin.
+  double pivot_distance_m = 10.4;
   /// Boxes of the vehicle's body in the vehicle frame: min x, y, z, max x, y, z. They block beams,
   /// which then have the outcome `ego`.
   std::vector<std::array<double, 6>> ego_boxes_m;

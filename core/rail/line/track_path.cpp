@@ -1,10 +1,37 @@
 #include "core/rail/line/track_path.h"
 
+#include <cmath>
 #include <utility>
 
 #include "core/base/units.h"
 
 namespace railcast {
+namespace {
+
+// The pose of a body that rests on the track with two pivots, of which the one at its origin is at
+// chainage s_m: its x axis is the line through both, its roll the mean of the cants there.
+Transform WorldFromBody(const Alignment& alignment, const TrackPose& pose, double s_m) {
+  const Transform front = alignment.WorldFromTrack(s_m, pose.d_m, pose.h_m);
+  const double backwards = std::cos(pose.heading_rad) < 0.0 ? 1.0 : -1.0;
+  Transform rear = front;
+  // The body is rigid, so the distance that counts is that between the pivots, not the one along
+  // the axis. In an arc over which the track turns by the angle 2 p, each step multiplies the error
+  // by 1 - p cot p: by 7e-5 for 10 m at R = 350 m.
+  constexpr int kNumSteps = 4;
+  double along_m = pose.pivot_distance_m;
+  for (int step = 0; step < kNumSteps; ++step) {
+    rear = alignment.WorldFromTrack(s_m + backwards * along_m, pose.d_m, pose.h_m);
+    along_m *= pose.pivot_distance_m / (front.translation() - rear.translation()).norm();
+  }
+  const Vector3 x = (front.translation() - rear.translation()).normalized();
+  const Vector3 up = front.linear().col(2) + rear.linear().col(2);
+  const Vector3 y = up.cross(x).normalized();
+  Eigen::Matrix3d world_from_body;
+  world_from_body << x, y, x.cross(y);
+  return MakeTransform(world_from_body, front.translation());
+}
+
+}  // namespace
 
 TrackPath::TrackPath(const TrackPose& pose, SpeedProfile profile, std::int64_t begin_ns)
     : pose_(pose), profile_(std::move(profile)), begin_ns_(begin_ns) {}
@@ -28,6 +55,7 @@ double TrackPath::ChainageAt(std::int64_t time_ns) const {
 
 Transform TrackPath::WorldFromObject(const Alignment& alignment, std::int64_t time_ns) const {
   const double s_m = ChainageAt(time_ns);
+  if (pose_.pivot_distance_m > 0.0) return WorldFromBody(alignment, pose_, s_m);
   const Transform world_from_track = alignment.WorldFromTrack(s_m, pose_.d_m, pose_.h_m);
   const Eigen::Matrix3d track_from_object = RotationFromYawPitchRoll(pose_.heading_rad, 0.0, 0.0);
   const Eigen::Matrix3d world_from_object =

@@ -14,6 +14,9 @@ struct TrackPose {
   double h_m{};          ///< Above top of rail.
   double heading_rad{};  ///< Counterclockwise from the direction of increasing chainage.
   bool is_upright{};  ///< Whether its z axis is vertical; otherwise it follows gradient and cant.
+  /// Distance of a second pivot behind the object's origin: the object's x axis points from there
+  /// to the origin. 0 = it follows the track's tangent.
+  double pivot_distance_m{};
 };
 
 /// The motion of an object or vehicle along the line.

@@ -32,6 +32,71 @@ TEST(TrackPath, FollowsGradientCurvatureAndCant) {
   EXPECT_LT(world_from_object.linear()(2, 1), -0.08);
 }
 
+/// A level arc of 350 m to the left.
+Alignment LevelArc() {
+  AlignmentSpec spec;
+  spec.course = AlignmentElementsSpec{{{ElementType::kArc, 500.0, 350.0}}};
+  return Alignment(spec);
+}
+
+// A chord of length L between two points of a circle of radius R turns by asin(L / 2R) from the
+// tangent at its end: by 10 mrad for 7 m at 350 m, on the side of the curve's outside.
+TEST(TrackPath, PutsABodyOnTheChordBetweenItsPivots) {
+  const Alignment alignment = LevelArc();
+  for (const double distance_m : {7.0, 10.4, 19.0}) {
+    for (const double d_m : {0.0, -4.0}) {
+      const TrackPath path({.d_m = d_m, .pivot_distance_m = distance_m}, Standing(200.0));
+      const Transform world_from_body = path.WorldFromObject(alignment, 0);
+      const double yaw_rad = 200.0 / 350.0 - std::asin(0.5 * distance_m / (350.0 - d_m));
+      EXPECT_NEAR(world_from_body.linear()(0, 0), std::cos(yaw_rad), 1e-11);
+      EXPECT_NEAR(world_from_body.linear()(1, 0), std::sin(yaw_rad), 1e-11);
+      EXPECT_TRUE(world_from_body.linear().col(2).isApprox(Vector3::UnitZ(), 1e-12));
+      EXPECT_TRUE(world_from_body.translation().isApprox(
+          alignment.WorldFromTrack(200.0, d_m).translation(), 1e-12));
+      // The rear pivot is on the track, too.
+      const Vector3 rear = world_from_body * Vector3(-distance_m, 0.0, 0.0);
+      const Vector3 middle(0.0, 350.0, 0.0);
+      EXPECT_NEAR((rear - middle).norm(), 350.0 - d_m, 1e-9);
+    }
+  }
+}
+
+TEST(TrackPath, TurnsABodyByTenMilliradiansWithSevenMetresAt350) {
+  const Alignment alignment = LevelArc();
+  const TrackPath body({.pivot_distance_m = 7.0}, Standing(200.0));
+  const TrackPath point({}, Standing(200.0));
+  const Vector3 ahead(100.0, 0.0, 0.0);
+  const Vector3 apart =
+      body.WorldFromObject(alignment, 0) * ahead - point.WorldFromObject(alignment, 0) * ahead;
+  EXPECT_NEAR(apart.norm(), 1.0, 1e-3);
+}
+
+TEST(TrackPath, PutsAReversedBodyOnTheChordAheadOfItsChainage) {
+  const Alignment alignment = LevelArc();
+  const TrackPath path({.heading_rad = std::numbers::pi, .pivot_distance_m = 7.0}, Standing(200.0));
+  const Eigen::Matrix3d body = path.WorldFromObject(alignment, 0).linear();
+  const double yaw_rad = 200.0 / 350.0 + std::asin(3.5 / 350.0);
+  EXPECT_NEAR(body(0, 0), -std::cos(yaw_rad), 1e-11);
+  EXPECT_NEAR(body(1, 0), -std::sin(yaw_rad), 1e-11);
+  EXPECT_NEAR(body(2, 2), 1.0, 1e-12);
+}
+
+TEST(TrackPath, LeansABodyByTheMeanOfTheCantsAndPitchesItAlongTheGradient) {
+  const Alignment alignment = Arc();
+  const TrackPath path({.pivot_distance_m = 10.0}, Standing(200.0));
+  const Eigen::Matrix3d body = path.WorldFromObject(alignment, 0).linear();
+  const Eigen::Matrix3d middle = alignment.WorldFromTrack(195.0).linear();
+  // In an arc of constant cant and gradient, the body has the axes of the track between its pivots,
+  // except that its chord is shorter than the arc by (L / 2R)^2 / 6, here 26 ppm, for the gradient.
+  EXPECT_TRUE(body.isApprox(middle, 1e-5));
+  EXPECT_TRUE((body.transpose() * body).isApprox(Eigen::Matrix3d::Identity(), 1e-12));
+}
+
+TEST(TrackPath, PutsABodyOnTheStraightBeforeTheLine) {
+  const TrackPath path({.pivot_distance_m = 10.0}, Standing(0.0));
+  EXPECT_TRUE(path.WorldFromObject(LevelArc(), 0).isApprox(LevelArc().WorldFromTrack(0.0), 1e-12));
+}
+
 TEST(TrackPath, KeepsUprightThingsUprightAtTheirPlace) {
   const TrackPath path({.d_m = 3.0, .h_m = 0.5, .heading_rad = 0.3, .is_upright = true},
                        Standing(200.0));
