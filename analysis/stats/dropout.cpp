@@ -13,9 +13,9 @@ namespace {
 using Count = Dropout::Count;
 
 // Reasons why a surface that was met yields no point.
-constexpr Outcome kCauses[] = {Outcome::kOutOfRange, Outcome::kBelowThreshold,
-                               Outcome::kRainAbsorbed, Outcome::kNearRange,
-                               Outcome::kSensorDropout};
+constexpr Outcome kCauses[] = {Outcome::kOutOfRange,    Outcome::kBelowThreshold,
+                               Outcome::kRainAbsorbed,  Outcome::kNearRange,
+                               Outcome::kSensorDropout, Outcome::kCoverBlocked};
 
 /// Rows of a table: name and counts.
 using NamedCounts = std::vector<std::pair<Cell, const Count*>>;

@@ -20,6 +20,8 @@ enum class RandomUse : std::uint32_t {
   kFogEcho = 10,
   kFalseAlarm = 11,
   kFootprint = 12,
+  kCover = 13,
+  kInterference = 14,
   kGroundRoughness = 100,
   kBallastRoughness = 101,
   kTreePlacement = 102,

@@ -1,43 +1,15 @@
 #include "core/detect/clutter.h"
 
 #include <cmath>
-#include <limits>
 
 #include "core/base/random.h"
+#include "core/detect/added_echo.h"
 #include "core/detect/beam_optics.h"
 #include "core/detect/lane_random.h"
 #include "railcast/outcome.h"
 
 namespace railcast {
 namespace {
-
-constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
-
-/// A clutter echo: one that no surface sends.
-struct Answer {
-  std::uint32_t label{};
-  std::uint32_t echo{};
-  float range_m{};
-  float power_ratio{};
-  float intensity{};
-};
-
-EchoTiles::Place AddEcho(std::size_t beam, const Answer& answer, EchoTiles& echoes) {
-  const EchoTiles::Place place = echoes.Add(beam, answer.echo);
-  const auto [tile, lane] = place;
-  tile.surface[lane] = 0;
-  tile.true_range_m[lane] = answer.range_m;
-  tile.cos_incidence[lane] = kNoValue;
-  tile.spread_m[lane] = 0.0F;
-  tile.share[lane] = kNoValue;
-  tile.peak_shift_m[lane] = 0.0F;
-  tile.reflectivity[lane] = 0.0F;
-  tile.outcome[lane] = static_cast<std::uint32_t>(Outcome::kClutter);
-  tile.clutter[lane] = answer.label;
-  tile.intensity[lane] = answer.intensity;
-  tile.power_ratio[lane] = answer.power_ratio;
-  return place;
-}
 
 // Whether the pulse leaves the vehicle and reaches this range before the first surface.
 bool Reaches(const DetectTile& first, std::size_t beam, float range_m) {
@@ -151,14 +123,10 @@ void Clutter::AddFalseAlarms(EchoTiles& echoes) const {
         RandomWords(spec_.seed, RandomUse::kFalseAlarm, first.frame, first.firing[beam], 1);
     const auto range_m = static_cast<float>(
         std::lerp(spec_.range_min_m, spec_.range_max_m, static_cast<double>(UnitFloat(words[0]))));
-    const Answer alarm{spec_.clutter_labels.false_alarm, EchoTiles::kFalseAlarm, range_m, 1.0F,
-                       static_cast<float>(power_min_) * range_m * range_m};
-    const auto [tile, lane] = AddEcho(beam, alarm, echoes);
-    tile.incidence_rad[lane] = kNoValue;
-    tile.range_m[lane] = range_m;
-    tile.x[lane] = range_m * tile.direction_x[lane];
-    tile.y[lane] = range_m * tile.direction_y[lane];
-    tile.z[lane] = range_m * tile.direction_z[lane];
+    AddMeasuredEcho(beam,
+                    {spec_.clutter_labels.false_alarm, EchoTiles::kFalseAlarm, range_m, 1.0F,
+                     static_cast<float>(power_min_) * range_m * range_m},
+                    echoes);
   }
 }
 

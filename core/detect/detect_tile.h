@@ -36,6 +36,11 @@ struct alignas(64) DetectTile {
   float specular_alpha2[kTileSize];  ///< GGX's alpha squared.
   float retro[kTileSize];
 
+  /// Share of the power that the sensor's window lets through, both ways; set if effect `cover` is
+  /// on.
+  float cover[kTileSize];
+  float bare_ratio[kTileSize];  ///< power_ratio behind a clean window; as `cover`.
+
   std::uint32_t outcome[kTileSize];  ///< An Outcome.
   std::uint32_t clutter[kTileSize];  ///< Label of a clutter echo, or kNoClutter.
   float intensity[kTileSize];        ///< Effective reflectance, unattenuated; NaN if not computed.

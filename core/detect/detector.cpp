@@ -86,8 +86,10 @@ void LeavePowerOut(DetectTile& tile) {
 std::vector<PlacedStep> MakeEffectLoops(const DetectorSpec& spec, const Kernels& kernels) {
   std::vector<PlacedStep> steps;
   for (const Effect& effect : EffectTable()) {
-    if (!(spec.effects.*effect.is_on) || !effect.loop || !effect.has_cause(spec)) continue;
-    steps.push_back({effect.loop->order, {effect.name, effect.loop->make(spec, kernels)}});
+    if (!(spec.effects.*effect.is_on) || effect.loops.empty() || !effect.has_cause(spec)) continue;
+    for (const EffectLoop& loop : effect.loops) {
+      steps.push_back({loop.order, {effect.name, loop.make(spec, kernels)}});
+    }
   }
   return steps;
 }
@@ -126,7 +128,8 @@ Detector::Detector(const DetectorSpec& spec, const DetectorSetting& setting, con
                                                       spec.weather, spec.beam.wavelength_nm))
                                                 : 0.0F),
       channel_bias_m_(MakeChannelBias(spec, setting.num_channels)),
-      clutter_(spec, kernels) {
+      clutter_(spec, kernels),
+      interference_(spec, kernels) {
   if (ShowsSurfaceCondition(spec)) {
     ResponseParameters bare = response_;
     bare.snow_cover = 0.0F;
@@ -179,6 +182,8 @@ void Detector::Detect(EchoTiles& echoes, const EffectObserver& observer) const {
   }
   clutter_.AddFalseAlarms(echoes);
   tell(clutter_.has_false_alarms(), "false alarms");
+  interference_.AddEchoes(echoes);
+  tell(interference_.is_on(), "interference");
 }
 
 }  // namespace railcast

@@ -12,6 +12,7 @@
 #include "core/detect/echo_tiles.h"
 #include "core/detect/effect_parameters.h"
 #include "core/detect/effect_table.h"
+#include "core/detect/interference.h"
 #include "core/detect/kernels.h"
 #include "railcast/effects.h"
 
@@ -25,8 +26,8 @@ using EffectObserver = std::function<void(std::string_view effect)>;
 [[nodiscard]] bool ShowsSurfaceCondition(const DetectorSpec& spec);
 
 /// Turns hits into detected echoes. Runs the loops of the effects that are on and have a cause, in
-/// the order of StepOrder; clutter is added before the receiver's loops, false alarms after them.
-/// Immutable; thread-safe.
+/// the order of StepOrder; clutter is added before the receiver's loops, false alarms and foreign
+/// pulses after them. Immutable; thread-safe.
 class Detector {
  public:
   /// @param kernels The loops of one instruction set; the result does not depend on the choice.
@@ -67,6 +68,7 @@ class Detector {
   std::vector<EffectStep> receiver_;
   std::vector<float> channel_bias_m_;
   Clutter clutter_;
+  Interference interference_;
 };
 
 }  // namespace railcast

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -30,6 +31,29 @@ bool IsNonNegative(double value) {
   return value >= 0.0 && std::isfinite(value);
 }
 
+// Within these limits, the number of spots stays below a million and a beam meets some thousands.
+std::vector<NumberRule> CoverRules(const CoverSpec& cover) {
+  const auto spot = [](const char* place, double diameter_mm) {
+    return NumberRule{place, diameter_mm, diameter_mm >= 1.0 && diameter_mm <= 20.0,
+                      ">= 1 and <= 20"};
+  };
+  const auto share = [](const char* place, double coverage) {
+    return NumberRule{place, coverage, coverage >= 0.0 && coverage <= 0.9, ">= 0 and <= 0.9"};
+  };
+  return {{"/cover/window_radius_mm", cover.window_radius_mm,
+           cover.window_radius_mm >= 20.0 && cover.window_radius_mm <= 150.0, ">= 20 and <= 150"},
+          {"/cover/aperture_mm", cover.aperture_mm,
+           cover.aperture_mm >= 1.0 && cover.aperture_mm <= 30.0, ">= 1 and <= 30"},
+          {"/cover/drop_lifetime_s", cover.drop_lifetime_s,
+           cover.drop_lifetime_s >= 0.1 && std::isfinite(cover.drop_lifetime_s), ">= 0.1"},
+          share("/cover/drop_coverage", cover.drop_coverage),
+          spot("/cover/drop_diameter_mm", cover.drop_diameter_mm),
+          share("/cover/dirt_coverage", cover.dirt_coverage),
+          spot("/cover/dirt_diameter_mm", cover.dirt_diameter_mm),
+          share("/cover/snow_coverage", cover.snow_coverage),
+          spot("/cover/snow_diameter_mm", cover.snow_diameter_mm)};
+}
+
 }  // namespace
 
 void CheckDetectorSpec(const DetectorSpec& spec) {
@@ -38,7 +62,7 @@ void CheckDetectorSpec(const DetectorSpec& spec) {
   const WeatherSpec& weather = spec.weather;
   constexpr int kMostReferenceRays = 4096;
   const double visibility_m = weather.visibility_m.value_or(1.0);
-  const NumberRule rules[] = {
+  std::vector<NumberRule> rules = {
       {"/range_min_m", spec.range_min_m, IsNonNegative(spec.range_min_m), ">= 0"},
       {"/range_max_m", spec.range_max_m, IsPositive(spec.range_max_m), "> 0"},
       {"/beam/wavelength_nm", static_cast<double>(beam.wavelength_nm),
@@ -54,6 +78,12 @@ void CheckDetectorSpec(const DetectorSpec& spec) {
        IsPositive(receiver.range_at_10_percent_m), "> 0"},
       {"/receiver/snr_at_threshold", receiver.snr_at_threshold,
        IsPositive(receiver.snr_at_threshold), "> 0"},
+      {"/receiver/halo_share_at_1_deg", receiver.halo_share_at_1_deg,
+       IsShare(receiver.halo_share_at_1_deg), ">= 0 and <= 1"},
+      {"/receiver/foreign_pulses_hz", receiver.foreign_pulses_hz,
+       IsNonNegative(receiver.foreign_pulses_hz), ">= 0"},
+      {"/receiver/range_walk_m", receiver.range_walk_m, IsNonNegative(receiver.range_walk_m),
+       ">= 0"},
       {"/weather/fog_density_per_m", weather.fog_density_per_m,
        IsNonNegative(weather.fog_density_per_m), ">= 0"},
       {"/weather/visibility_m", visibility_m, visibility_m > 0.0, "> 0"},
@@ -64,6 +94,7 @@ void CheckDetectorSpec(const DetectorSpec& spec) {
       {"/weather/wetness", weather.wetness, IsShare(weather.wetness), ">= 0 and <= 1"},
       {"/weather/snow_cover", weather.snow_cover, IsShare(weather.snow_cover), ">= 0 and <= 1"},
   };
+  for (const NumberRule& rule : CoverRules(spec.cover)) rules.push_back(rule);
   ErrorList errors;
   for (const auto& [place, value, holds, rule] : rules) {
     if (holds) continue;

@@ -15,6 +15,8 @@ namespace railcast {
 class EchoTiles {
  public:
   // Numbers of echoes within a firing, part of their random keys. Echoes of surfaces count from 0.
+  static constexpr std::uint32_t kHalo = 96;
+  static constexpr std::uint32_t kForeignPulse = 97;
   static constexpr std::uint32_t kFalseAlarm = 98;
   static constexpr std::uint32_t kFogEcho = 99;
   static constexpr std::uint32_t kFirstDrop = 100;
@@ -31,7 +33,7 @@ class EchoTiles {
 
   void ClearMore() { num_more_ = 0; }
   /// Adds an echo to the firing in lane `beam` of `first` and copies that firing's frame, index,
-  /// channel and direction. The caller must set everything else.
+  /// channel, direction and cover. The caller must set everything else.
   Place Add(std::size_t beam, std::uint32_t echo) {
     const std::size_t tile_index = num_more_ / kTileSize;
     const std::size_t lane = num_more_ % kTileSize;
@@ -46,6 +48,7 @@ class EchoTiles {
     tile.direction_x[lane] = first.direction_x[beam];
     tile.direction_y[lane] = first.direction_y[beam];
     tile.direction_z[lane] = first.direction_z[beam];
+    tile.cover[lane] = first.cover[beam];
     beam_[num_more_++] = static_cast<std::uint32_t>(beam);
     return {tile, lane};
   }

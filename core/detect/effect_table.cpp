@@ -9,7 +9,8 @@ namespace railcast {
 const std::vector<Effect>& EffectTable() {
   static const std::vector<Effect> table = [] {
     std::vector<Effect> all;
-    for (const auto& part : {PublishedEffects(), PhysicalEffects(), BeamEffects()}) {
+    for (const auto& part :
+         {PublishedEffects(), PhysicalEffects(), SensorEffects(), BeamEffects()}) {
       for (const Effect& effect : part) all.push_back(effect);
     }
     // EffectSet consists of bools only, so that its size is the number of effects.

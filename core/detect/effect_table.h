@@ -33,7 +33,10 @@ enum class StepOrder {
   kRain,
   kSnow,
   kSunlight,
+  kCover,
   kDetection,
+  kCoverBlame,
+  kRangeWalk,
   kMeasurement,
 };
 
@@ -57,7 +60,7 @@ struct Effect {
   std::vector<std::string_view> weather_keys{};
   /// Empty if the effect acts elsewhere: in aiming and tracing beams, in the clutter or in the
   /// measurement.
-  std::optional<EffectLoop> loop{};
+  std::vector<EffectLoop> loops{};
   /// Instructions per firing on top of the other effects. Given for the effects whose need fidelity
   /// `auto` measures by comparing echoes; the others only change statistics, at little cost.
   ///
@@ -73,12 +76,14 @@ struct Effect {
 };
 
 /// The table of all effects, in the order of scenario keys: first the published model, then the
-/// effects of surfaces, air and receiver, then those of the beam's width.
+/// effects of surfaces, air and receiver, then those of the sensor's window and stray light, then
+/// those of the beam's width.
 [[nodiscard]] const std::vector<Effect>& EffectTable();
 
-// The three parts of the table, each in a file of its own.
+// The four parts of the table, each in a file of its own.
 [[nodiscard]] std::vector<Effect> PublishedEffects();
 [[nodiscard]] std::vector<Effect> PhysicalEffects();
+[[nodiscard]] std::vector<Effect> SensorEffects();
 [[nodiscard]] std::vector<Effect> BeamEffects();
 
 /// The effect of that name, or null.

@@ -2,12 +2,14 @@
 // The function below must be the only one with external linkage, or the linker could replace one
 // copy's code by that of another instruction set.
 #include "core/detect/kernels.h"
+#include "core/detect/cover_loss.h"
 #include "core/detect/detection.h"
 #include "core/detect/extinction.h"
 #include "core/detect/incidence.h"
 #include "core/detect/measurement.h"
 #include "core/detect/pointing.h"
 #include "core/detect/rain_dropout.h"
+#include "core/detect/range_walk.h"
 #include "core/detect/sensor_dropout.h"
 #include "core/detect/snow_clutter.h"
 #include "core/detect/sub_ray_aim.h"

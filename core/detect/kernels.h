@@ -34,6 +34,9 @@ namespace railcast {
   KERNEL(pulse_stretch, ApplyPulseStretch, void(DetectTile&, float pulse_sigma_m))               \
   KERNEL(extinction, ApplyExtinction, void(DetectTile&, float extinction_per_m))                 \
   KERNEL(sunlight, ApplySunlight, void(DetectTile&, const struct SunlightParameters&))           \
+  KERNEL(cover_loss, ApplyCoverLoss, void(DetectTile&))                                          \
+  KERNEL(blame_cover, BlameCover, void(DetectTile&))                                             \
+  KERNEL(range_walk, ApplyRangeWalk, void(DetectTile&, float range_walk_m))                      \
   KERNEL(detection, ApplyDetection<false>, void(DetectTile&, const struct DetectionParameters&)) \
   KERNEL(smooth_detection, ApplyDetection<true>,                                                 \
          void(DetectTile&, const struct DetectionParameters&))                                   \

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -54,6 +55,14 @@ void CheckOutput(const ScenarioSpec& spec, ErrorList& errors) {
   }
 }
 
+bool HasHalos(const ScenarioSpec& spec) {
+  const auto sensors = SensorsOf(spec);
+  return SwitchedEffects(spec).halo &&
+         std::any_of(sensors.begin(), sensors.end(), [](const auto& sensor) {
+           return sensor.lidar.receiver.halo_share_at_1_deg > 0.0;
+         });
+}
+
 // Labels and materials that the effects, as opposed to the world, look up by name.
 struct EffectNamesInUse {
   ClutterLabels labels;
@@ -70,6 +79,7 @@ std::optional<EffectNamesInUse> TryNames(const ScenarioSpec& spec, ErrorList& er
       names.labels.rain = labels.Id("rain");
       names.labels.fog = labels.Id("fog");
       names.labels.false_alarm = labels.Id("false_alarm");
+      if (HasHalos(spec)) names.labels.halo = labels.Id("halo");
     }
     if (spec.weather.snow_cover > 0.0) {
       names.snow_material = MaterialLibrary(spec.materials).Index("snow");

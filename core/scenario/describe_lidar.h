@@ -111,6 +111,34 @@ void Describe(Archive& a, ReceiverSpec& s) {
              "Standard deviation of a beam's direction, in each of two directions.", Within(0, 1));
   a.Optional("clutter_gain", s.clutter_gain,
              "Multiplies the mean number of echoes of drops and flakes.", Within(0, 10));
+  a.Optional("halo_share_at_1_deg", s.halo_share_at_1_deg,
+             "Share of a retroreflector's power that a beam receives which points 1 deg beside it.",
+             Within(0, 0.1));
+  a.Optional("range_walk_m", s.range_walk_m,
+             "By how much an echo at the threshold is measured farther than a strong one.",
+             Within(0, 10));
+  a.Optional("foreign_pulses_hz", s.foreign_pulses_hz,
+             "Pulses of other lidars per second that it can detect.", Within(0, 1e6));
+}
+
+/// Limits of the diameter of what lies on a sensor's window.
+[[nodiscard]] inline Limits SpotLimits() {
+  return Within(1, 20);
+}
+
+template <class Archive>
+void Describe(Archive& a, CoverSpec& s) {
+  a.Optional("window_radius_mm", s.window_radius_mm,
+             "Distance of the window from the sensor's origin.", Within(20, 150));
+  a.Optional("aperture_mm", s.aperture_mm, "Diameter of a beam at the window.", Within(1, 30));
+  a.Optional("drop_coverage", s.drop_coverage, "Share of the window under drops.", Within(0, 0.9));
+  a.Optional("drop_diameter_mm", s.drop_diameter_mm, "Diameter of a drop.", SpotLimits());
+  a.Optional("drop_lifetime_s", s.drop_lifetime_s,
+             "Time after which a drop is replaced by one elsewhere.", Within(0.1, 1e6));
+  a.Optional("dirt_coverage", s.dirt_coverage, "Share of the window under dirt.", Within(0, 0.9));
+  a.Optional("dirt_diameter_mm", s.dirt_diameter_mm, "Diameter of a spot of dirt.", SpotLimits());
+  a.Optional("snow_coverage", s.snow_coverage, "Share of the window under snow.", Within(0, 0.9));
+  a.Optional("snow_diameter_mm", s.snow_diameter_mm, "Diameter of a spot of snow.", SpotLimits());
 }
 
 template <>
@@ -128,6 +156,7 @@ void Describe(Archive& a, LidarSpec& s) {
   a.Optional("plausibility", s.plausibility, "Parameters of the published model.");
   a.Optional("beam", s.beam, "The laser beam of the physical rungs.");
   a.Optional("receiver", s.receiver, "The receiver of the physical rungs.");
+  a.Optional("cover", s.cover, "What lies on the sensor's window, on the physical rungs.");
   a.Ensure({"range_min_m", "range_max_m"}, s.range_min_m < s.range_max_m, "must be < range_max_m");
 }
 

@@ -93,6 +93,7 @@ DetectorSpec DetectorSpecOf(const ScenarioSpec& spec,
           .plausibility = lidar.plausibility,
           .beam = lidar.beam,
           .receiver = lidar.receiver,
+          .cover = lidar.cover,
           .weather = spec.weather};
 }
 

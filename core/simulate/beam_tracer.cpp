@@ -43,6 +43,7 @@ BeamTracer::BeamTracer(const SimulatorSpec& spec,
   }
   const bool has_width = beam_.sigma_h_rad > 0.0F || beam_.sigma_v_rad > 0.0F;
   has_footprint_ = spec_.effects.footprint && has_width;
+  if (spec_.effects.cover && HasCover(spec_)) cover_.emplace(spec_, pattern);
 }
 
 BeamFrame BeamTracer::BeamFrameOf(const CastFrame& frame,
@@ -104,6 +105,7 @@ void BeamTracer::MakeEchoes(const CastFrame& frame,
   echoes.ClearMore();
   first.frame = frame.index;
   tiles.Describe(tile, first);
+  if (cover_) cover_->Fill(first, work.drops);
   const SurfaceTable table{frame.surfaces, optics_};
   ResolveHits(rays, table, first);
   kernels_.incidence(rays, first);

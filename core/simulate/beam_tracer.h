@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/detect/cover.h"
 #include "core/detect/detector.h"
 #include "core/detect/echo_tiles.h"
 #include "core/detect/footprint.h"
@@ -41,6 +42,7 @@ class BeamTracer {
     RayTile rays;
     EchoTiles echoes;
     Footprint footprint;
+    Cover::Drops drops;
   };
 
   /// Makes the echoes of a tile of firings up to the point where the receiver (Detector) takes
@@ -79,6 +81,7 @@ class BeamTracer {
   Detector detector_;
   Kernels kernels_;
   bool has_footprint_;
+  std::optional<Cover> cover_;
 };
 
 }  // namespace railcast

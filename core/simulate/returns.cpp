@@ -132,18 +132,21 @@ void Choose(ReturnMode mode, std::vector<Candidate>& detected) {
   if (!is_beyond(2, IsNearerCandidate)) BringFirst(detected, 2, &IsStronger);
 }
 
-// The echo that represents a firing without returns: the strongest surface echo below the threshold
+bool IsTooWeak(const Candidate& echo) {
+  const Outcome outcome = OutcomeOf(echo.place());
+  return outcome == Outcome::kBelowThreshold || outcome == Outcome::kCoverBlocked;
+}
+
+// The echo that represents a firing without returns: the strongest surface echo that was too weak
 // or, if there is none, the first echo.
 Place Missed(const std::vector<Candidate>& all) {
   const auto best =
       std::max_element(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
-        const bool a_lost = OutcomeOf(a.place()) == Outcome::kBelowThreshold &&
-                            a.tile->clutter[a.lane] == kNoClutter;
-        const bool b_lost = OutcomeOf(b.place()) == Outcome::kBelowThreshold &&
-                            b.tile->clutter[b.lane] == kNoClutter;
+        const bool a_lost = IsTooWeak(a) && a.tile->clutter[a.lane] == kNoClutter;
+        const bool b_lost = IsTooWeak(b) && b.tile->clutter[b.lane] == kNoClutter;
         return a_lost == b_lost ? PowerOf(a.place()) < PowerOf(b.place()) : b_lost;
       });
-  return OutcomeOf(best->place()) == Outcome::kBelowThreshold ? best->place() : all.front().place();
+  return IsTooWeak(*best) ? best->place() : all.front().place();
 }
 
 }  // namespace

@@ -8,12 +8,15 @@
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
 #include <limits>
 #include <string>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
+#include "core/detect/effect_table.h"
+#include "core/detect/halo.h"
 #include "core/simulate/beam_tracer.h"
 #include "core/simulate/firing_tiles.h"
 #include "core/simulate/frame_scene.h"
@@ -61,6 +64,17 @@ void CheckSimulatorSpec(const SimulatorSpec& spec, const std::vector<Material>& 
         std::to_string(spec.snow_material)}});
 }
 
+using EchoUse = std::function<void(std::size_t tile, BeamTracer::Work& work)>;
+
+// The sources of all tiles, in the order of the tiles, whichever thread found them.
+std::vector<HaloSource> Joined(const std::vector<std::vector<HaloSource>>& found) {
+  std::vector<HaloSource> all;
+  for (const std::vector<HaloSource>& of_tile : found) {
+    all.insert(all.end(), of_tile.begin(), of_tile.end());
+  }
+  return all;
+}
+
 using WorkOfThreads = tbb::enumerable_thread_specific<BeamTracer::Work>;
 
 }  // namespace
@@ -73,6 +87,7 @@ struct Simulator::Parts {
   FrameScenes scenes;
   std::unique_ptr<const BeamTracer> tracer;
   std::unique_ptr<WorkOfThreads> work;
+  std::optional<Halo> halo;  // If that effect is on and has a cause.
   std::unique_ptr<tbb::global_control> parallelism;
   tbb::task_arena arena;
 
@@ -91,6 +106,9 @@ struct Simulator::Parts {
     };
   }
   void UseSpec();
+  /// Calls `use(tile, work)` on the echoes of every tile as they reach the receiver.
+  void ForAllEchoes(const CastFrame& cast, const EchoUse& use);
+  [[nodiscard]] std::vector<HaloSource> FindHaloSources(const CastFrame& cast);
   void Scan(const CastFrame& cast, Frame& frame);
   [[nodiscard]] std::vector<std::uint32_t> FiringsOnObjectAlone(std::uint32_t frame_index);
   /// Calls `work(tile)` for every tile, on the run's threads.
@@ -128,6 +146,7 @@ Simulator::Simulator(std::shared_ptr<SceneStore> store,
                          .scenes{std::move(store), scene_spec},
                          .tracer{},
                          .work{},
+                         .halo{},
                          .parallelism{},
                          .arena{}});
   parts_->UseSpec();
@@ -164,6 +183,9 @@ void Simulator::Parts::UseSpec() {
   work = std::make_unique<WorkOfThreads>(
       [tracer = tracer.get()] { return BeamTracer::Work(*tracer); });
   if (tracer->casts_beams()) scenes.UseBeams();
+  const DetectorSpec& detector = spec.detector;
+  halo.reset();
+  if (detector.effects.halo && FindEffect("halo")->has_cause(detector)) halo.emplace(detector);
 }
 
 const SimulatorSpec& Simulator::spec() const {
@@ -184,6 +206,38 @@ void Simulator::UseProgress(WindowProgress progress) {
   parts_->scenes.UseProgress(std::move(progress));
 }
 
+void Simulator::Parts::ForAllEchoes(const CastFrame& cast, const EchoUse& use) {
+  // A halo reaches beams of other tiles. Without bright echoes, which are rare, all is done after
+  // one pass; otherwise the tiles that halos reach are made a second time.
+  std::vector<std::vector<HaloSource>> found(halo ? tiles.num_tiles() : 0);
+  ForEachTile([&](std::size_t tile) {
+    BeamTracer::Work& mine = work->local();
+    tracer->MakeEchoes(cast, tiles, tile, mine);
+    if (halo) halo->CollectSources(mine.echoes, found[tile]);
+    use(tile, mine);
+  });
+  const std::vector<HaloSource> sources = Joined(found);
+  if (sources.empty()) return;
+  ForEachTile([&](std::size_t tile) {
+    BeamTracer::Work& mine = work->local();
+    tiles.Describe(tile, mine.echoes.first);
+    if (!halo->Reaches(mine.echoes.first, sources)) return;
+    tracer->MakeEchoes(cast, tiles, tile, mine);
+    halo->AddEchoes(mine.echoes, sources);
+    use(tile, mine);
+  });
+}
+
+std::vector<HaloSource> Simulator::Parts::FindHaloSources(const CastFrame& cast) {
+  std::vector<std::vector<HaloSource>> found(tiles.num_tiles());
+  ForEachTile([&](std::size_t tile) {
+    BeamTracer::Work& mine = work->local();
+    tracer->MakeEchoes(cast, tiles, tile, mine);
+    halo->CollectSources(mine.echoes, found[tile]);
+  });
+  return Joined(found);
+}
+
 void Simulator::Parts::Scan(const CastFrame& cast, Frame& frame) {
   frame.index = cast.index;
   frame.stamp_ns = pattern.StampNs(cast.index);
@@ -196,9 +250,7 @@ void Simulator::Parts::Scan(const CastFrame& cast, Frame& frame) {
                         cast.window_from_world, frame.world_from_sensor);
   const ReturnStore store(mode, tracer->has_beams());
 
-  ForEachTile([&](std::size_t tile) {
-    BeamTracer::Work& mine = work->local();
-    tracer->MakeEchoes(cast, tiles, tile, mine);
+  ForAllEchoes(cast, [&](std::size_t tile, BeamTracer::Work& mine) {
     tracer->detector().Detect(mine.echoes);
     axes.Apply(cast.poses, tiles.times_ns(tile), mine.echoes);
     store.Store(mine.echoes, cast.surfaces, {tiles.slots(tile), tiles.num_firings(tile)}, frame);
@@ -255,6 +307,10 @@ FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) 
   };
   parts.tracer->MakeEchoes(cast, parts.tiles, tile, work, record);
   const RayTile& rays = work.rays;
+  if (parts.halo) {
+    parts.halo->AddEchoes(work.echoes, parts.FindHaloSources(cast));
+    record("halo");
+  }
   parts.tracer->detector().Detect(work.echoes, record);
   const Surface& surface = scene.surfaces()[first.surface[lane]];
   const Transform world_from_window = scene.window->window_from_world.inverse();

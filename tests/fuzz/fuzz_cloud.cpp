@@ -32,7 +32,7 @@ void CheckFrame(const RecordedFrame& recorded) {
     Check(has_point == (std::isfinite(frame.x[i]) && std::isfinite(frame.y[i]) &&
                         std::isfinite(frame.z[i]) && std::isfinite(frame.range_m[i])),
           "a point is somewhere");
-    Check(frame.outcome[i] <= Outcome::kNoFurtherEcho, "an outcome is one");
+    Check(static_cast<std::size_t>(frame.outcome[i]) < kOutcomeNames.size(), "an outcome is one");
     if (!recorded.is_grid) continue;
     Check(frame.ring[i] == i / frame.width() && frame.return_index[i] == i % frame.returns &&
               frame.column[i] == i % frame.width() / frame.returns,

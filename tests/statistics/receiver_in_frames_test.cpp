@@ -146,7 +146,8 @@ TEST(Effects, ChangeNothingWithoutTheirCause) {
   const std::string all = FrameBytes(ScanOnce(WallAndGround(), pattern, spec));
   for (bool EffectSet::*effect :
        {&EffectSet::sensor_dropout, &EffectSet::surface_condition, &EffectSet::extinction,
-        &EffectSet::clutter, &EffectSet::fog_echo}) {
+        &EffectSet::clutter, &EffectSet::fog_echo, &EffectSet::cover, &EffectSet::halo,
+        &EffectSet::range_walk, &EffectSet::interference}) {
     SimulatorSpec fewer = spec;
     fewer.detector.effects.*effect = false;
     EXPECT_EQ(FrameBytes(ScanOnce(WallAndGround(), pattern, fewer)), all);

@@ -59,6 +59,12 @@ struct EffectSet {
   bool channel_bias = false;     ///< Constant range error per channel.
   bool pointing_jitter = false;  ///< Beams deviate from the direction that the sensor reports.
 
+  // The sensor's window, optics and receiver.
+  bool cover = false;         ///< Drops, dirt and snow on the window in front of the sensor.
+  bool halo = false;          ///< Stray light of retroreflectors in the beams around them.
+  bool range_walk = false;    ///< Range error that depends on the strength of the echo.
+  bool interference = false;  ///< False echoes from pulses of other lidars.
+
   // Physics of the finite beam width.
   bool footprint = false;         ///< What a beam of finite width meets, by sub-rays.
   bool thin_conductors = false;   ///< Wires by closest approach instead of by their triangles.
@@ -104,6 +110,24 @@ struct BeamSpec {
   bool operator==(const BeamSpec&) const = default;
 };
 
+/// What lies on the window in front of the sensor. The window is a sphere about the sensor's
+/// origin; the spots on it are opaque discs that lie at random and may overlap
+/// (core/detect/cover.h).
+struct CoverSpec {
+  double window_radius_mm = 50.0;  ///< Distance of the window from the sensor's origin.
+  /// Diameter of the beam at the window, for outgoing and incoming light alike.
+  double aperture_mm = 10.0;
+  double drop_coverage = 0.0;     ///< Share of the window under drops, 0 to 0.9.
+  double drop_diameter_mm = 3.0;  ///< About the capillary length of water; larger drops run off.
+  double drop_lifetime_s = 5.0;   ///< Time after which a drop has been replaced by one elsewhere.
+  double dirt_coverage = 0.0;     ///< Share of the window under dirt, 0 to 0.9.
+  double dirt_diameter_mm = 2.0;
+  double snow_coverage = 0.0;  ///< Share of the window under snow, 0 to 0.9.
+  double snow_diameter_mm = 15.0;
+
+  bool operator==(const CoverSpec&) const = default;
+};
+
 /// Which of a firing's detected echoes a sensor reports as returns, in the order of its slots.
 enum class ReturnMode {
   kStrongest,
@@ -132,6 +156,11 @@ struct ReceiverSpec {
   double channel_bias_sigma_m = 0.01;
   double pointing_jitter_deg = 0.01;  ///< Standard deviation in each of two directions.
   double clutter_gain = 0.2;  ///< Factor for the mean number of raindrop and snowflake echoes.
+  /// Share of a retroreflector's power that a beam still receives which points 1 deg beside it.
+  double halo_share_at_1_deg = 0.0;
+  /// By how much an echo at the detection threshold is measured farther than a strong one.
+  double range_walk_m = 0.0;
+  double foreign_pulses_hz = 0.0;  ///< Detectable pulses of other lidars per second.
 
   bool operator==(const ReceiverSpec&) const = default;
 };
@@ -187,6 +216,7 @@ struct ClutterLabels {
   std::uint32_t snow{};
   std::uint32_t fog{};
   std::uint32_t false_alarm{};
+  std::uint32_t halo{};
 };
 
 /// Everything that detection depends on besides the scene: the sensor, the weather and the chosen
@@ -199,6 +229,7 @@ struct DetectorSpec {
   PlausibilitySpec plausibility{};
   BeamSpec beam{};
   ReceiverSpec receiver{};
+  CoverSpec cover{};
   WeatherSpec weather{};
   ClutterLabels clutter_labels{};
 };

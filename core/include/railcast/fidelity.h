@@ -73,7 +73,8 @@ using ChoiceProgress = std::function<void(double done)>;
 ///
 /// Effects that the user switches on or off stay as set. Cheap statistical effects
 /// (`sensor_dropout`, `clutter`, `fog_echo`, `sunlight`, `range_noise`, `channel_bias`,
-/// `pointing_jitter`) are on if the scenario gives them a cause, because no echo-by-echo comparison
+/// `pointing_jitter`) and the effects of the sensor itself (`cover`, `halo`, `range_walk`,
+/// `interference`) are on if the scenario gives them a cause, because no echo-by-echo comparison
 /// can judge them.
 ///
 /// The comparison uses the returns of the scenario's own return mode, before range noise, with the

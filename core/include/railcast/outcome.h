@@ -17,16 +17,17 @@ enum class Outcome : std::uint8_t {
   kOutOfRange = 2,      ///< The measured range lies beyond the sensor's range gate.
   kBelowThreshold = 3,  ///< The received power is below the detection threshold.
   kRainAbsorbed = 4,    ///< Absorbed by rain on the way.
-  kClutter = 5,         ///< Rain, snow or fog returned an echo instead of a surface.
+  kClutter = 5,         ///< Rain, snow, fog or the sensor itself gave an echo, no surface.
   kNearRange = 6,       ///< Blocked by a surface nearer than range_min_m.
   kEgo = 7,             ///< Blocked by the vehicle's own body.
   kSensorDropout = 8,   ///< The sensor missed the pulse.
   kNoFurtherEcho = 9,   ///< Second or third slot of a firing that has no further echo.
+  kCoverBlocked = 10,   ///< Lost to drops, dirt or snow on the sensor's window.
 };
 
-inline constexpr std::array<std::string_view, 10> kOutcomeNames = {
-    "returned", "no_surface", "out_of_range", "below_threshold", "rain_absorbed",
-    "clutter",  "near_range", "ego",          "sensor_dropout",  "no_further_echo",
+inline constexpr std::array<std::string_view, 11> kOutcomeNames = {
+    "returned",   "no_surface", "out_of_range",   "below_threshold", "rain_absorbed", "clutter",
+    "near_range", "ego",        "sensor_dropout", "no_further_echo", "cover_blocked",
 };
 
 [[nodiscard]] constexpr std::string_view OutcomeName(Outcome outcome) {

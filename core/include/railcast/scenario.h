@@ -83,6 +83,7 @@ struct LidarSpec {
   PlausibilitySpec plausibility;
   BeamSpec beam{};
   ReceiverSpec receiver{};
+  CoverSpec cover{};
 
   bool operator==(const LidarSpec&) const = default;
 };

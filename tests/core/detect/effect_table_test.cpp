@@ -75,6 +75,14 @@ TEST(EffectTable, GivesNoEffectTheCauseOfAnother) {
               UnorderedElementsAre("channel_bias"));
   EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.pointing_jitter_deg = 0.1; }),
               UnorderedElementsAre("pointing_jitter"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.cover.snow_coverage = 0.1; }),
+              UnorderedElementsAre("cover"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.halo_share_at_1_deg = 1e-6; }),
+              UnorderedElementsAre("halo"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.range_walk_m = 0.1; }),
+              UnorderedElementsAre("range_walk"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.foreign_pulses_hz = 1.0; }),
+              UnorderedElementsAre("interference"));
   EXPECT_THAT(
       CausedBy([](DetectorSpec& s) { s.beam.divergence_mrad[1] = 1.0; }),
       UnorderedElementsAre("footprint", "thin_conductors", "dense_footprint", "sampled_waveform"));

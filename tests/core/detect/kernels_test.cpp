@@ -106,8 +106,11 @@ std::vector<float> RunPhysics(const Kernels& kernels, RayTile& rays, DetectTile&
   kernels.pulse_stretch(tile, 0.32F);
   kernels.extinction(tile, 0.004F);
   kernels.sunlight(tile, {2.0F});
+  kernels.cover_loss(tile);
   kernels.detection(tile, {7, 5.0F});
   kernels.smooth_detection(tile, {7, 5.0F});
+  kernels.blame_cover(tile);
+  kernels.range_walk(tile, 0.2F);
   kernels.hit(tile, 0.5F);
   MeasurementParameters measurement = Measurement(0.015F, 0.0F);
   const std::vector<float> bias_m(kTileSize, 0.01F);
@@ -139,6 +142,7 @@ std::unique_ptr<DetectTile> MixedPhysicalTile() {
     tile->specular_alpha2[i] = UnitFloat(words[2]);
     tile->retro[i] = i % 7 == 0 ? 1000.0F : 0.0F;
     tile->peak_shift_m[i] = 0.1F * UnitFloat(words[3]);
+    tile->cover[i] = i % 3 == 0 ? 1.0F : UnitFloat(words[3]);
   }
   return tile;
 }

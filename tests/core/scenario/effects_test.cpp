@@ -17,10 +17,11 @@ std::set<std::string> NamesIn(const EffectSet& effects) {
 }
 
 const std::set<std::string> surface_effects{
-    "channel_bias",     "clutter",        "detection",   "detection_probability",
-    "extinction",       "fog_echo",       "range_noise", "pointing_jitter",
-    "pulse_stretch",    "sensor_dropout", "sunlight",    "surface_response",
-    "surface_condition"};
+    "channel_bias",      "clutter",        "detection",   "detection_probability",
+    "extinction",        "fog_echo",       "range_noise", "pointing_jitter",
+    "pulse_stretch",     "sensor_dropout", "sunlight",    "surface_response",
+    "surface_condition", "cover",          "halo",        "range_walk",
+    "interference"};
 
 std::set<std::string> SurfaceAnd(const std::set<std::string>& more) {
   std::set<std::string> names = surface_effects;
