@@ -22,6 +22,7 @@ enum class RandomUse : std::uint32_t {
   kFootprint = 12,
   kCover = 13,
   kInterference = 14,
+  kSpray = 15,
   kGroundRoughness = 100,
   kBallastRoughness = 101,
   kTreePlacement = 102,

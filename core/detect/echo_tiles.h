@@ -15,6 +15,7 @@ namespace railcast {
 class EchoTiles {
  public:
   // Numbers of echoes within a firing, part of their random keys. Echoes of surfaces count from 0.
+  static constexpr std::uint32_t kSprayCloud = 95;
   static constexpr std::uint32_t kHalo = 96;
   static constexpr std::uint32_t kForeignPulse = 97;
   static constexpr std::uint32_t kFalseAlarm = 98;

@@ -2,9 +2,11 @@
 #include <cmath>
 
 #include "core/base/text.h"
+#include "core/base/units.h"
 #include "core/detect/beam_optics.h"
 #include "core/detect/detection.h"
 #include "core/detect/effect_table.h"
+#include "core/detect/spray.h"
 #include "core/detect/weather_optics.h"
 
 namespace railcast {
@@ -138,6 +140,14 @@ std::string FogEchoText(const DetectorSpec& spec) {
   return "reflectance " + ShortText(echo.intensity) + " at " + ShortText(echo.range_m) + " m";
 }
 
+// Spray: acts between tracing and detection, where the trains are known.
+
+std::string SprayText(const DetectorSpec& spec) {
+  if (!HasSpray(spec)) return "none";
+  return "extinction " + ShortText(SprayExtinction_per_m(spec.weather, MpsFromKmph(100.0))) +
+         " per m at a train of 100 km/h";
+}
+
 // Sunlight.
 
 bool HasSunlight(const DetectorSpec& spec) {
@@ -245,6 +255,12 @@ std::vector<Effect> PhysicalEffects() {
        .has_cause = HasFogEcho,
        .text = &FogEchoText,
        .weather_keys = {"fog_density_per_m", "visibility_m"}},
+      {.name = "spray",
+       .is_on = &EffectSet::spray,
+       .rungs = from_surface_on,
+       .has_cause = HasSpray,
+       .text = &SprayText,
+       .weather_keys = {"spray_extinction_per_m", "wetness", "snow_cover"}},
       {.name = "sunlight",
        .is_on = &EffectSet::sunlight,
        .rungs = from_surface_on,

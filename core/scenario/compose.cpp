@@ -80,6 +80,7 @@ std::optional<EffectNamesInUse> TryNames(const ScenarioSpec& spec, ErrorList& er
       names.labels.fog = labels.Id("fog");
       names.labels.false_alarm = labels.Id("false_alarm");
       if (HasHalos(spec)) names.labels.halo = labels.Id("halo");
+      if (spec.weather.spray_extinction_per_m > 0.0) names.labels.spray = labels.Id("spray");
     }
     if (spec.weather.snow_cover > 0.0) {
       names.snow_material = MaterialLibrary(spec.materials).Index("snow");
@@ -184,6 +185,9 @@ void UseWeather(const ScenarioSpec& scenario, const WeatherSpec& weather, Simula
     spec.snow_material = MaterialLibrary(scenario.materials).Index("snow");
   } else {
     spec.snow_material = 0;
+  }
+  if (weather.spray_extinction_per_m > 0.0) {
+    spec.detector.clutter_labels.spray = LabelTable(scenario.labels).Id("spray");
   }
   spec.detector.weather = weather;
 }

@@ -29,7 +29,8 @@ BeamTracer::BeamTracer(const SimulatorSpec& spec,
       detector_(spec_,
                 {.num_channels = pattern.rows,
                  .snow = OpticsAt(materials[spec.snow_material], spec_.beam.wavelength_nm)}),
-      kernels_(AvailableKernels().back()) {
+      kernels_(AvailableKernels().back()),
+      spray_(spec_) {
   pointing_ = {.seed = spec_.seed,
                .sigma_rad = static_cast<float>(RadFromDeg(spec_.receiver.pointing_jitter_deg))};
   is_sun_up_ = spec_.effects.sunlight && spec_.weather.sun.illuminance_klx > 0.0;
@@ -124,6 +125,10 @@ void BeamTracer::MakeEchoes(const CastFrame& frame,
     const WireSet* const wires = spec_.effects.thin_conductors ? frame.wires : nullptr;
     work.footprint.Resolve({rays, beam, frame.caster, table, detector_}, wires, echoes);
     if (observer) observer(has_footprint_ ? "footprint" : "thin_conductors");
+  }
+  if (!frame.spray.empty()) {
+    spray_.Apply(rays, frame.spray, detector_, echoes);
+    if (observer) observer("spray");
   }
   if (is_sun_up_) {
     Blind(frame, rays, echoes);

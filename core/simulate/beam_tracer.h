@@ -9,6 +9,7 @@
 #include "core/detect/echo_tiles.h"
 #include "core/detect/footprint.h"
 #include "core/detect/hits.h"
+#include "core/detect/spray.h"
 #include "core/simulate/firing_tiles.h"
 #include "core/simulate/frame_poses.h"
 #include "railcast/ray_caster.h"
@@ -25,6 +26,7 @@ struct CastFrame {
   const std::vector<Surface>& surfaces;
   const WireSet* wires{};  ///< Null if the owner of the caster provides no wires.
   Transform window_from_world;
+  std::vector<SprayCloud> spray{};  ///< Empty unless effect `spray` is on and trains move.
 };
 
 /// Makes the echoes of a tile of firings, from aiming the beams to the received power, with the
@@ -82,6 +84,7 @@ class BeamTracer {
   Kernels kernels_;
   bool has_footprint_;
   std::optional<Cover> cover_;
+  Spray spray_;
 };
 
 }  // namespace railcast

@@ -22,13 +22,18 @@
 #include "core/simulate/frame_scene.h"
 #include "core/simulate/output_axes.h"
 #include "core/simulate/returns.h"
+#include "core/simulate/spray_clouds.h"
 
 namespace railcast {
 namespace {
 
-CastFrame CastOf(const FrameScene& scene) {
-  return {scene.index,      scene.poses,          scene,
-          scene.surfaces(), &scene.window->wires, scene.window->window_from_world};
+CastFrame CastOf(const FrameScene& scene, const World& world, const DetectorSpec& spec) {
+  CastFrame cast{scene.index,      scene.poses,          scene,
+                 scene.surfaces(), &scene.window->wires, scene.window->window_from_world};
+  if (spec.effects.spray && HasSpray(spec)) {
+    cast.spray = SprayCloudsOf(world, spec.weather, scene.stamp_ns, cast.window_from_world);
+  }
+  return cast;
 }
 
 void TellEchoes(const std::vector<Surface>& surfaces,
@@ -266,7 +271,7 @@ void Simulator::Parts::Scan(const CastFrame& cast, Frame& frame) {
 void Simulator::Scan(std::uint32_t frame_index, Frame& frame) {
   WithinMemory(parts_->Making(frame_index), [&] {
     const FrameScene scene = parts_->SceneOf(frame_index);
-    parts_->Scan(CastOf(scene), frame);
+    parts_->Scan(CastOf(scene, world(), spec().detector), frame);
   });
 }
 
@@ -274,15 +279,16 @@ void Simulator::Scan(std::uint32_t frame_index, const HostScene& host, Frame& fr
   WithinMemory(parts_->Making(frame_index), [&] {
     const FramePoses poses =
         parts_->scenes.PosesIn(host.window_from_world, parts_->pattern.StampNs(frame_index));
-    parts_->Scan({frame_index, poses, host.caster, host.surfaces, nullptr, host.window_from_world},
-                 frame);
+    parts_->Scan(
+        {frame_index, poses, host.caster, host.surfaces, nullptr, host.window_from_world, {}},
+        frame);
   });
 }
 
 FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) {
   Parts& parts = *parts_;
   const FrameScene scene = parts.SceneOf(frame_index);
-  const CastFrame cast = CastOf(scene);
+  const CastFrame cast = CastOf(scene, world(), spec().detector);
   const FiringTiles::Place place = parts.tiles.PlaceOf(firing);
   const std::size_t tile = place.tile;
   const std::size_t lane = place.lane;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -25,10 +26,11 @@ class SimpleWorld final : public World {
   void AddObject(std::shared_ptr<const Model> model,
                  const Transform& chunk_from_object,
                  const Vector3& object_velocity_mps = Vector3::Zero(),
-                 bool is_ego = false) {
+                 bool is_ego = false,
+                 const std::string& type = "mesh") {
     const auto instance = static_cast<std::uint32_t>(objects_.size() + 1);
     objects_.push_back({.name = "object" + std::to_string(instance),
-                        .type = "mesh",
+                        .type = type,
                         .label = model->parts.empty() ? 0 : model->parts[0].label,
                         .instance = instance,
                         .model = std::move(model),

@@ -53,6 +53,7 @@ struct EffectSet {
   bool detection_probability = false;
   bool clutter = false;   ///< Echoes of raindrops and snowflakes.
   bool fog_echo = false;  ///< Extended echo of fog near the sensor.
+  bool spray = false;     ///< Water and powder snow behind moving trains.
   bool sunlight = false;  ///< Raised threshold, false alarms, and blinding by the solar disc.
   /// Range error along the beam, depending on the signal-to-noise ratio.
   bool range_noise = false;
@@ -205,6 +206,8 @@ struct WeatherSpec {
   double snow_intensity = 0.02;        ///< Effective reflectance of a flake.
   double wetness = 0.0;                ///< Wetness of surfaces: 0 = dry, 1 = soaked.
   double snow_cover = 0.0;  ///< Share of each upward-facing surface that is covered by snow.
+  /// Extinction of the spray at a train of 100 km/h on soaked or snow-covered ground; 0 = no spray.
+  double spray_extinction_per_m = 0.0;
   SunSpec sun;
 
   bool operator==(const WeatherSpec&) const = default;
@@ -217,6 +220,7 @@ struct ClutterLabels {
   std::uint32_t fog{};
   std::uint32_t false_alarm{};
   std::uint32_t halo{};
+  std::uint32_t spray{};
 };
 
 /// Everything that detection depends on besides the scene: the sensor, the weather and the chosen

@@ -75,6 +75,13 @@ TEST(EffectTable, GivesNoEffectTheCauseOfAnother) {
               UnorderedElementsAre("channel_bias"));
   EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.pointing_jitter_deg = 0.1; }),
               UnorderedElementsAre("pointing_jitter"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.weather.spray_extinction_per_m = 0.1; }),
+              UnorderedElementsAre());
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) {
+                s.weather.spray_extinction_per_m = 0.1;
+                s.weather.snow_cover = 0.5;
+              }),
+              UnorderedElementsAre("spray", "surface_condition"));
   EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.cover.snow_coverage = 0.1; }),
               UnorderedElementsAre("cover"));
   EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.halo_share_at_1_deg = 1e-6; }),

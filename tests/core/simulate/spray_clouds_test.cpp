@@ -1,0 +1,109 @@
+#include "core/simulate/spray_clouds.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "railcast/effects.h"
+#include "tests/support/analytic_meshes.h"
+#include "tests/support/frame_bytes.h"
+#include "tests/support/scan_once.h"
+#include "tests/support/simple_world.h"
+
+namespace railcast {
+namespace {
+
+constexpr std::uint32_t kSprayLabel = 29;
+
+WeatherSpec Wet() {
+  WeatherSpec weather;
+  weather.wetness = 1.0;
+  weather.spray_extinction_per_m = 0.1;
+  return weather;
+}
+
+/// A wagon 14 m long, 3 m wide and 4 m high whose middle starts 50 m ahead, 2 m below the sensor.
+std::shared_ptr<SimpleWorld> WagonAhead(double speed_mps, const std::string& type = "open_wagon") {
+  const Mesh box{{{-7, -1.5, 0},
+                  {-7, 1.5, 0},
+                  {-7, 1.5, 4},
+                  {-7, -1.5, 4},
+                  {7, -1.5, 0},
+                  {7, 1.5, 0},
+                  {7, 1.5, 4},
+                  {7, -1.5, 4}},
+                 {{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}}};
+  Model model;
+  model.parts.push_back({box, 2, 12});
+  auto world = std::make_shared<SimpleWorld>();
+  world->ground.parts = {{MakeFloor(-2.0F, 200.0F), 1, 4}};
+  Transform place = Transform::Identity();
+  place.translation() = Vector3(50.0, 0.0, -2.0);
+  world->AddObject(std::make_shared<const Model>(std::move(model)), place,
+                   Vector3(speed_mps, 0.0, 0.0), false, type);
+  return world;
+}
+
+TEST(SprayClouds, TrailAMovingWagonOverTheWayOfASecond) {
+  const auto clouds = SprayCloudsOf(*WagonAhead(20.0), Wet(), 1'000'000'000, Transform::Identity());
+  ASSERT_EQ(clouds.size(), 1U);
+  const SprayCloud& cloud = clouds[0];
+  EXPECT_NEAR(cloud.rear[0], 63.0F, 1e-4F);  // 50 + 20 - 7.
+  EXPECT_NEAR(cloud.rear[2], -2.0F, 1e-4F);
+  EXPECT_NEAR(cloud.back[0], -1.0F, 1e-6F);
+  EXPECT_NEAR(cloud.body_m, 14.0F, 1e-4F);
+  EXPECT_NEAR(cloud.half_width_m, 2.0F, 1e-4F);
+  EXPECT_NEAR(cloud.decay_m, 20.0F, 1e-4F);
+  EXPECT_NEAR(cloud.extinction_per_m, 0.1F * 0.72F * 0.72F, 1e-5F);
+}
+
+TEST(SprayClouds, TrailAWagonThatIsPushedTheOtherWay) {
+  const auto clouds = SprayCloudsOf(*WagonAhead(-20.0), Wet(), 0, Transform::Identity());
+  ASSERT_EQ(clouds.size(), 1U);
+  EXPECT_NEAR(clouds[0].rear[0], 57.0F, 1e-4F);
+  EXPECT_NEAR(clouds[0].back[0], 1.0F, 1e-6F);
+}
+
+TEST(SprayClouds, NeedATrainThatMovesOverWetGround) {
+  const Transform here = Transform::Identity();
+  EXPECT_TRUE(SprayCloudsOf(*WagonAhead(0.0), Wet(), 0, here).empty());
+  EXPECT_TRUE(SprayCloudsOf(*WagonAhead(20.0, "person"), Wet(), 0, here).empty());
+  WeatherSpec dry = Wet();
+  dry.wetness = 0.0;
+  EXPECT_TRUE(SprayCloudsOf(*WagonAhead(20.0), dry, 0, here).empty());
+}
+
+Frame ScanBehind(double speed_mps, const WeatherSpec& weather, int num_threads = 0) {
+  SimulatorSpec spec{.detector = {.effects = EffectsOfRung(Fidelity::kSurface)}};
+  spec.detector.effects.sunlight = false;
+  spec.detector.weather = weather;
+  spec.detector.clutter_labels.spray = kSprayLabel;
+  return ScanOnce(WagonAhead(speed_mps), MakeRaster(20.0, 10.0, 0.25), spec, 0, num_threads);
+}
+
+TEST(SprayClouds, GivePointsBehindTheWagon) {
+  const Frame frame = ScanBehind(30.0, Wet());
+  std::size_t num = 0;
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    if (frame.label[slot] != kSprayLabel) continue;
+    ++num;
+    EXPECT_EQ(frame.outcome[slot], Outcome::kClutter);
+    // Within the cloud, which ends before the wagon's rear for these beams; noise has 5 sigma.
+    EXPECT_LT(frame.x[slot], 43.3F + 14.0F);
+    EXPECT_LT(std::abs(frame.y[slot]), 2.1F);
+    EXPECT_GT(frame.z[slot], -2.3F);
+    EXPECT_LT(frame.z[slot], 1.2F);
+  }
+  EXPECT_GT(num, 20U);
+  EXPECT_EQ(FrameBytes(ScanBehind(30.0, Wet(), 1)), FrameBytes(frame));
+}
+
+TEST(SprayClouds, ChangeNothingWhereTrainsStand) {
+  WeatherSpec without = Wet();
+  without.spray_extinction_per_m = 0.0;
+  EXPECT_EQ(FrameBytes(ScanBehind(0.0, Wet())), FrameBytes(ScanBehind(0.0, without)));
+  EXPECT_NE(FrameBytes(ScanBehind(30.0, Wet())), FrameBytes(ScanBehind(30.0, without)));
+}
+
+}  // namespace
+}  // namespace railcast
