@@ -148,6 +148,8 @@ struct Row {
   bool rain = false;  ///< With neither rain nor snow, the weather is dry.
   bool snow = false;
   Work work;
+  CoverSpec cover{};
+  double halo_share = 0.0;
 };
 
 std::vector<Row> Rows() {
@@ -164,6 +166,9 @@ std::vector<Row> Rows() {
       {"plausibility_in_snow", all, true, true, &ScanFrame},
       {"surface", surface, true, false, &ScanFrame},
       {"surface_in_snow", surface, true, true, &ScanFrame},
+      {"surface_behind_dirt", surface, true, false, &ScanFrame, {.dirt_coverage = 0.1}},
+      {"surface_behind_drops", surface, true, false, &ScanFrame, {.drop_coverage = 0.1}},
+      {"surface_with_halo", surface, true, false, &ScanFrame, {}, 1e-6},
       {"surface+thin_conductors", surface_and_wires, true, false, &ScanFrame},
       {"footprint", EffectsOfRung(Fidelity::kFootprint), true, false, &ScanFrame},
       {"reference", EffectsOfRung(Fidelity::kReference), true, false, &ScanFrame},
@@ -181,6 +186,8 @@ void Run(benchmark::State& state, Bench& bench, const Row& row, int num_threads)
   spec.detector.effects = row.effects;
   spec.detector.weather.rain_rate_mmph = row.rain ? 2.0 : 0.0;
   spec.detector.weather.snow_rate_mmph = row.snow ? 2.0 : 0.0;
+  spec.detector.cover = row.cover;
+  spec.detector.receiver.halo_share_at_1_deg = row.halo_share;
   bench.simulator->UseThreads(num_threads);
   bench.simulator->Use(spec);
   row.work(bench, 0);  // Warms the caches, because the rows before it ran on other memory.
