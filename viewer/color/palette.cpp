@@ -19,7 +19,7 @@ constexpr std::array<Rgb, kOutcomeNames.size()> kOutcomeRgb = {{
     {90, 90, 90},     // ego
     {225, 225, 225},  // sensor_dropout
     {50, 50, 50},     // no_further_echo
-    {150, 150, 150},  // cover_blocked
+    {120, 75, 0},     // cover_blocked: mud
 }};
 
 }  // namespace
