@@ -15,6 +15,7 @@ using SensorLoop = std::function<void(DetectTile&)>;
 // Cover.
 
 std::string CoverText(const DetectorSpec& spec) {
+  if (!HasCover(spec)) return "none";
   const CoverSpec& cover = spec.cover;
   return "drops " + NumberText(100.0 * cover.drop_coverage) + " %, dirt " +
          NumberText(100.0 * cover.dirt_coverage) + " %, snow " +

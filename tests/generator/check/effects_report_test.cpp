@@ -50,7 +50,8 @@ TEST(EffectsReport, NamesTheKeysOfTheWeatherThatNoEffectReads) {
       last_line(),
       "          no effect that is on reads these keys of weather: rain_dropout_per_m, sun\n");
   scenario.weather = {};
-  EXPECT_EQ(last_line(), "          pointing_jitter: sigma 0.01 deg\n");
+  EXPECT_EQ(last_line(),
+            "          interference: 0 pulses per s, false echoes in 0 of the firings\n");
 }
 
 // From docs/physics.md 4.1 and 4.2: at 10 mm/h, 157 m of 200 m, and 0.40 echoes per beam of 3 mrad,
@@ -72,10 +73,15 @@ TEST(EffectsReport, SaysWhatTheWeatherDoesToThePhysicalRungs) {
       "          detection_probability: SNR 5 at the threshold\n"
       "          clutter: rain 0.08029 echoes a beam, half within 3.735 m\n"
       "          fog_echo: none\n"
+      "          spray: none\n"
       "          sunlight: 0 klx, false alarms in 1e-06 of the firings\n"
       "          range_noise: sigma 0.015 m, at the threshold 0.035 m\n"
       "          channel_bias: sigma 0.01 m\n"
       "          pointing_jitter: sigma 0.01 deg\n"
+      "          cover: none\n"
+      "          halo: share of 0 at 1 deg\n"
+      "          range_walk: 0 m at the threshold\n"
+      "          interference: 0 pulses per s, false echoes in 0 of the firings\n"
       "          footprint: 1/e^2 width 3 x 3 mrad\n"
       "          thin_conductors\n");
 }
@@ -90,6 +96,28 @@ TEST(EffectsReport, NamesTheSubRaysOfTheReferenceAndTheFogsOwnEcho) {
   EXPECT_NE(text.find("at 200 m, in this weather at 47.79 m"), std::string::npos) << text;
   // Near 2 m, where half of the overlap is reached.
   EXPECT_NE(text.find("fog_echo: reflectance 0.000487"), std::string::npos) << text;
+}
+
+// A tenth of the window under drops of 3 mm leaves 0.9^((13 / 3)^2) of the beams untouched. 2 x
+// 299.5 m are 1.998 us, and 0.5 of the spray's extinction is left on ground that is half wet.
+TEST(EffectsReport, SaysWhatTheSensorItselfDoes) {
+  ScenarioSpec scenario;
+  scenario.fidelity = Fidelity::kSurface;
+  scenario.lidar.cover.drop_coverage = 0.1;
+  scenario.lidar.receiver.halo_share_at_1_deg = 1e-6;
+  scenario.lidar.receiver.range_walk_m = 0.05;
+  scenario.lidar.receiver.foreign_pulses_hz = 1000.0;
+  scenario.weather.wetness = 0.5;
+  scenario.weather.spray_extinction_per_m = 0.2;
+  const std::string text = EffectsText(scenario);
+  for (const char* line :
+       {"          spray: extinction 0.1 per m at a train of 100 km/h\n",
+        "          cover: drops 10 %, dirt 0 %, snow 0 %, untouched are 13.83 % of the beams\n",
+        "          halo: share of 1e-06 at 1 deg\n",
+        "          range_walk: 0.05 m at the threshold\n",
+        "          interference: 1000 pulses per s, false echoes in 0.001996 of the firings\n"}) {
+    EXPECT_NE(text.find(line), std::string::npos) << line << text;
+  }
 }
 
 }  // namespace
