@@ -15,10 +15,12 @@
 namespace railcast {
 namespace {
 
-constexpr std::array<std::string_view, 4> kFormats = {"vlp16", "hdl32e", "vlp32c", "hdl64e"};
+constexpr std::array<std::string_view, 5> kFormats = {"vlp16", "hdl32e", "vlp32c", "hdl64e",
+                                                      "vls128"};
 
 VelodyneDecoder MakeDecoder(std::string_view format) {
-  const VelodyneModel& model = *FindVelodyneFormat(format).model;
+  const VelodyneModel& model =
+      format == "vls128" ? Vls128Model() : *FindVelodyneFormat(format).model;
   if (!model.has_own_angles) return VelodyneDecoder(model);
   return {model, std::vector<LaserCalibration>(model.lasers.size(), {.elevation_deg = 1.0})};
 }
@@ -30,7 +32,7 @@ void CheckTurn(const SensorTurn& turn) {
     Check(point.azimuth_rad >= 0.0F && point.azimuth_rad < 6.2832F, "an azimuth is of one turn");
     Check(std::isfinite(point.x + point.y + point.z), "a point is somewhere");
     Check(point.column < turn.num_columns(), "a point is of a firing cycle");
-    Check(point.laser < 64 && point.ring < 64 && point.return_index < 2, "a laser is one of 64");
+    Check(point.laser < 128 && point.ring < 128 && point.return_index < 2, "a laser is one of 128");
   }
 }
 
@@ -67,12 +69,12 @@ void ReadCapture(std::span<const char> bytes) {
 }  // namespace
 }  // namespace railcast
 
-/// Entry point for libFuzzer. The first byte selects the format of the rest: 0 to 3 for packets of
+/// Entry point for libFuzzer. The first byte selects the format of the rest: 0 to 4 for packets of
 /// a model, anything else for a capture.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::span bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
-  if (data[0] >= '0' && data[0] <= '3') {
+  if (data[0] >= '0' && data[0] <= '4') {
     railcast::DecodePackets(railcast::kFormats.at(data[0] - std::size_t{'0'}), bytes);
   } else {
     railcast::ReadCapture(bytes);

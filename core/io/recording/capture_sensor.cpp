@@ -10,14 +10,24 @@
 namespace railcast {
 namespace {
 
-constexpr std::array<std::string_view, 3> kVelodyneFormats = {"vlp16", "hdl32e", "vlp32c"};
-
 struct OtherModel {
   std::uint8_t id{};
   std::string_view name;
 };
 constexpr std::array<OtherModel, 4> kOtherModels = {
-    {{0x23, "VLP-32A or VLP-32B"}, {0x24, "Puck Hi-Res"}, {0x31, "Velarray"}, {0xA1, "VLS-128"}}};
+    {{0x23, "VLP-32A or VLP-32B"},
+     {0x24, "Puck Hi-Res"},
+     {0x31, "Velarray"},
+     {0xA1, "VLS-128, of which only single returns are read"}}};
+
+/// The models whose packets do not depend on a calibration.
+std::vector<const VelodyneModel*> ReadableModels() {
+  std::vector<const VelodyneModel*> models{&Vls128Model()};
+  for (const std::string_view name : {"vlp16", "hdl32e", "vlp32c"}) {
+    models.push_back(FindVelodyneFormat(name).model);
+  }
+  return models;
+}
 
 /// Returns the first packet of that size from a payload that may hold several.
 std::span<const char> FirstPacket(std::span<const char> payload, std::size_t size) {
@@ -25,14 +35,13 @@ std::span<const char> FirstPacket(std::span<const char> payload, std::size_t siz
 }
 
 std::optional<CaptureSensor> VelodyneOf(std::span<const char> payload) {
-  for (const std::string_view name : kVelodyneFormats) {
-    const VelodyneModel& model = *FindVelodyneFormat(name).model;
+  for (const VelodyneModel* model : ReadableModels()) {
     std::vector<SensorTurn> turns;
-    if (VelodyneDecoder(model).Decode(payload, turns)) continue;
-    return CaptureSensor{.name = model.name,
+    if (VelodyneDecoder(*model).Decode(payload, turns)) continue;
+    return CaptureSensor{.name = model->name,
                          .packet_size = kVelodynePacketSize,
-                         .shape = ShapeOfTurns(model.lasers, IntensityBytes::kVelodyne),
-                         .decoder = VelodyneDecoder(model)};
+                         .shape = ShapeOfTurns(model->lasers, IntensityBytes::kVelodyne),
+                         .decoder = VelodyneDecoder(*model)};
   }
   return std::nullopt;
 }

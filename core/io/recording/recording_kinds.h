@@ -10,8 +10,8 @@
 
 namespace railcast {
 
-/// Opens a .pcap or .pcapng capture of a VLP-16, HDL-32E, VLP-32C or Pandar64. Each turn is a
-/// frame; the first and the last turn are usually cut short. The first packet of one of these
+/// Opens a .pcap or .pcapng capture of a VLP-16, HDL-32E, VLP-32C, VLS-128 or Pandar64. Each turn
+/// is a frame; the first and the last turn are usually cut short. The first packet of one of these
 /// sensors decides which sensor it is; other and damaged datagrams are skipped. Packets that
 /// segmentation offload merged into one datagram are cut apart.
 /// @throws InputError with one line that says what was found instead; reading throws it, too, where

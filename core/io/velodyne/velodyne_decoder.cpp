@@ -17,7 +17,7 @@ namespace railcast {
 namespace {
 
 /// The most points of a turn; a longer turn is cut, so that a rotor that stands still cannot fill
-/// the memory. The densest real turn (VLP-32C, dual, 5 Hz) has 232 thousand points.
+/// the memory. The densest real turn (VLS-128 at 5 Hz) has 480 thousand points.
 constexpr std::size_t kMaxTurnPoints = std::size_t{1} << 20U;
 constexpr double kFullTurn_deg = 360.0;
 
@@ -42,8 +42,11 @@ std::optional<std::string> RefuseEnd(const VelodyneModel& model, const char* pac
     return "model must be " + NumberText(model.id) + ", " + std::string(model.name) + Got(id);
   }
   const auto mode = LoadAt<std::uint8_t>(packet + kModePlace);
-  if (mode < kStrongestMode || mode > kDualMode) {
-    return "return mode must be 55, 56 or 57" + Got(mode);
+  // A dual packet of VLS-128 holds one cycle and four blocks of padding.
+  const bool has_dual = model.blocks_per_cycle() == 1;
+  if (mode < kStrongestMode || mode > (has_dual ? kDualMode : kLastMode)) {
+    return std::string("return mode must be ") + (has_dual ? "55, 56 or 57" : "55 or 56") +
+           Got(mode);
   }
   return std::nullopt;
 }
@@ -58,10 +61,9 @@ std::optional<std::string> RefuseVelodyne(const VelodyneModel& model,
   const std::size_t in_group = model.blocks_per_cycle() * (IsDualPacket(model, payload) ? 2U : 1U);
   for (std::size_t i = 0; i < kBlocksPerPacket; ++i) {
     const char* const block = payload.data() + i * kBlockSize;
-    const bool is_upper = i % model.blocks_per_cycle() == 1;
-    if (FlagOf(block) != (is_upper ? kUpperBlockFlag : kLowerBlockFlag)) {
-      return "block " + NumberText(i) + ": flag must be " + (is_upper ? "56831" : "61183") +
-             Got(FlagOf(block));
+    const std::uint16_t flag = kBlockFlags.at(i % model.blocks_per_cycle());
+    if (FlagOf(block) != flag) {
+      return "block " + NumberText(i) + ": flag must be " + NumberText(flag) + Got(FlagOf(block));
     }
     if (AzimuthOf(block) >= kAzimuthUnitsPerTurn) {
       return "block " + NumberText(i) + ": azimuth must be <= 35999" + Got(AzimuthOf(block));

@@ -43,4 +43,8 @@ struct VelodyneFormat {
 /// @throws InputError if it is none of them.
 [[nodiscard]] VelodyneFormat FindVelodyneFormat(std::string_view name);
 
+/// VLS-128, whose packets can be read but are no format to send: a cycle takes four blocks, and
+/// dual packets, which are padded, are not known to the decoder.
+[[nodiscard]] const VelodyneModel& Vls128Model();
+
 }  // namespace railcast

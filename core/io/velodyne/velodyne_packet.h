@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -23,6 +24,9 @@ inline constexpr std::size_t kModelPlace = 1205;
 
 inline constexpr std::uint16_t kLowerBlockFlag = 0xEEFF;  ///< Lasers 0 to 31.
 inline constexpr std::uint16_t kUpperBlockFlag = 0xDDFF;  ///< Lasers 32 to 63.
+/// The flags of the blocks of a cycle; VLS-128 has all four, HDL-64E the first two.
+inline constexpr std::array<std::uint16_t, 4> kBlockFlags = {kLowerBlockFlag, kUpperBlockFlag,
+                                                             0xCCFF, 0xBBFF};
 
 inline constexpr std::uint8_t kStrongestMode = 0x37;
 inline constexpr std::uint8_t kLastMode = 0x38;

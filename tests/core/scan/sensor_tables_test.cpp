@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(SensorTables,
                                          Calibration{"hdl32e", "32db.yaml", 46.08, 2170},
                                          Calibration{"vlp32c", "VeloView-VLP-32C.yaml", 55.296,
                                                      1808},
-                                         Calibration{"vls128", "VLS128.yaml", 53.3, 1876}),
+                                         Calibration{"vls128", "VLS128.yaml", 55.277, 1809}),
                          [](const auto& test) { return std::string(test.param.sensor); });
 
 TEST(PandarTable, AgreesWithThePublishedCalibration) {
@@ -142,7 +142,7 @@ INSTANTIATE_TEST_SUITE_P(SensorTables,
                                          Calibration{"hdl64e", "", 48.0, 2083},
                                          Calibration{"vlp32c", "", 55.296, 1808},
                                          Calibration{"pandar64", "", 1e6 / 18000.0, 1800},
-                                         Calibration{"vls128", "", 53.3, 1876}),
+                                         Calibration{"vls128", "", 55.277, 1809}),
                          [](const auto& test) { return std::string(test.param.sensor); });
 
 TEST(SensorTables, Vlp16TurnsByTheAngleOfTwoCyclesFromBlockToBlock) {

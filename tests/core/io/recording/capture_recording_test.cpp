@@ -146,12 +146,19 @@ TEST(CaptureRecording, OfARealPandar64HasFourTurnsInDualMode) {
   }
 }
 
-TEST(CaptureRecording, OfAVls128SaysThatItIsOne) {
+TEST(CaptureRecording, OfARealVls128HasThreeWholeTurns) {
   const auto file = CaptureFile("vls128_single.pcap");
   if (!exists(file)) GTEST_SKIP() << file << " is not there";
-  EXPECT_EQ(
-      MessageOf([&] { (void)OpenRecording(file); }),
-      file.string() + ": must be a capture of VLP-16, HDL-32E, VLP-32C or Pandar64 (got VLS-128)");
+  const auto recording = OpenRecording(file);
+  EXPECT_EQ(recording->info().kind, "capture of VLS-128");
+  const auto frames = ReadAll(*recording);
+  ASSERT_EQ(frames.size(), 5U);
+  for (std::size_t i = 1; i < 4; ++i) {
+    EXPECT_EQ(frames[i].frame.rows, 128U);
+    EXPECT_NEAR(frames[i].frame.columns, 1809.0, 1.0);
+    EXPECT_EQ(frames[i].frame.returns, 1U);
+    EXPECT_NEAR(static_cast<double>(NumPoints(frames[i].frame)), 210'000.0, 100.0);
+  }
 }
 
 /// Returns the error of OpenRecording for a capture of these payloads.
@@ -163,7 +170,7 @@ std::string MessageOfCapture(const std::vector<std::string>& payloads) {
   WriteCapture(file, datagrams);
   const std::string message = MessageOf([&] { (void)OpenRecording(file); });
   const std::string expected =
-      file.string() + ": must be a capture of VLP-16, HDL-32E, VLP-32C or Pandar64 ";
+      file.string() + ": must be a capture of VLP-16, HDL-32E, VLP-32C, VLS-128 or Pandar64 ";
   EXPECT_EQ(message.substr(0, expected.size()), expected);
   return message.substr(expected.size());
 }
@@ -183,6 +190,8 @@ TEST(CaptureRecording, WithoutAKnownPacketSaysWhatWasFound) {
   EXPECT_EQ(MessageOfCapture({}), "(got no UDP datagram)");
   EXPECT_EQ(MessageOfCapture({"abc", "defgh"}), "(got 2 UDP datagrams, the first of 3 bytes)");
   EXPECT_EQ(MessageOfCapture({"abc", VelodynePacketOf(0x24)}), "(got Puck Hi-Res)");
+  EXPECT_EQ(MessageOfCapture({VelodynePacketOf(0xA1)}),
+            "(got VLS-128, of which only single returns are read)");
   EXPECT_EQ(MessageOfCapture({VelodynePacketOf(0x77)}), "(got Velodyne packets of model byte 119)");
   EXPECT_EQ(MessageOfCapture({VelodynePacketOf(0x77, true)}),
             "(got HDL-64E, whose packets lack its calibration)");

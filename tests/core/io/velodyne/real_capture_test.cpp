@@ -71,19 +71,24 @@ struct Comparison {
   double max_mm{};
 };
 
-/// Nebula turns a laser's azimuth by 2.304 us x laser (also for VLP-32C, whose lasers fire in
-/// pairs), except in the last block of a packet, where it does not turn it. Returns the difference
-/// that remains under either rule.
+/// When Nebula takes a laser to fire, since the start of its cycle.
+double TheirTime_us(std::uint8_t laser, const VelodyneModel& model) {
+  // 2.304 us x laser, also for VLP-32C, whose lasers fire in pairs.
+  return model.blocks_per_cycle() == 1 ? 2.304 * laser : model.lasers[laser].time_us;
+}
+
+/// Nebula turns a laser's azimuth until TheirTime_us(), except in the last block of a packet, where
+/// it does not turn it. Returns the difference that remains under either rule.
 std::pair<double, double> LeftOver_deg(double their_deg,
                                        const TurnPoint& ours,
                                        const VelodyneModel& model) {
-  constexpr double kTurn_deg_per_us = 3600e-6;  // Both captures were made at 600 rpm.
+  constexpr double kTurn_deg_per_us = 3600e-6;  // The captures were made at 600 rpm.
   const double our_time_us = model.lasers[ours.laser].time_us;
   const double late_us =
       ours.return_index * model.cycle_us * static_cast<double>(model.cycles_per_block());
   const double apart_deg =
       their_deg - kTurn_deg_per_us * late_us - DegFromRad(static_cast<double>(ours.azimuth_rad));
-  const double earlier_us = 2.304 * ours.laser - our_time_us;
+  const double earlier_us = TheirTime_us(ours.laser, model) - our_time_us;
   const double turned_deg = Difference_deg(apart_deg, kTurn_deg_per_us * earlier_us);
   double still_deg = kHalfTurn_deg;
   for (std::size_t cycle = 0; cycle < model.cycles_per_block(); ++cycle) {
@@ -184,6 +189,25 @@ TEST(RealCapture, DecodesVlp32cAsNebulaDoes) {
   EXPECT_LT(comparison.median_deg, 0.005) << comparison;
   // Nebula's firing times turn the median laser of this sensor by a further 0.07 deg, at 5 m.
   EXPECT_LT(comparison.median_mm, 6.0) << comparison;
+}
+
+// The published cloud is the second turn, the first whole one. Nebula derives the speed from the
+// step to the next block, which is 0 for three of the four blocks of a cycle: it does not turn
+// them.
+TEST(RealCapture, DecodesVls128AsNebulaDoes) {
+  const auto file = VelodyneCapture("vls128_single.pcap");
+  if (!exists(file)) GTEST_SKIP() << file << " is not there";
+  const VelodyneModel& model = Vls128Model();
+  const auto turns = DecodeCapture(file, model);
+  pcl::PointCloud<pcl::PointXYZ> theirs;
+  ASSERT_EQ(pcl::io::loadPCDFile(VelodyneCapture("vls128_single_decoded.pcd").string(), theirs), 0);
+  ASSERT_EQ(theirs.size(), 208'680U);
+  ASSERT_EQ(turns.size(), 5U);
+  const Comparison comparison = Compare(theirs, turns[1].points, model);
+  EXPECT_GT(comparison.matched_share, 0.999) << comparison;
+  EXPECT_LT(comparison.last_block_share, 3.0 / 4.0) << comparison;
+  EXPECT_LT(comparison.median_deg, 0.005) << comparison;
+  EXPECT_LT(comparison.median_mm, 18.0) << comparison;  // Half a cycle's turn, 0.08 deg, at 12 m.
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/base/units.h"
 #include "core/io/field_layout.h"
 #include "core/io/velodyne/reflectivity.h"
 #include "railcast/transform.h"
@@ -170,6 +171,55 @@ TEST(VelodyneDecoder, RefusesWhatIsNoPacketOfItsModel) {
             "block 3: azimuth must be that of its pair (got 77)");
   EXPECT_EQ(RefusalWith<std::uint16_t>("hdl64e", 500, 0xEEFF),
             "block 5: flag must be 56831 (got 61183)");
+}
+
+// A cycle of VLS-128 takes four blocks. Laser 127 fires 17 slots after laser 0, one slot of 2.665
+// us for each group of eight and one of maintenance, in which the rotor turns by 0.16 deg.
+TEST(VelodyneDecoder, TakesTheLasersOfAVls128FromFourBlocks) {
+  std::vector<char> packet(kVelodynePacketSize, '\0');
+  for (std::size_t block = 0; block < kBlocksPerPacket; ++block) {
+    char* const place = packet.data() + block * kBlockSize;
+    StoreAt<std::uint16_t>(place, kBlockFlags[block % 4]);
+    StoreAt<std::uint16_t>(place + kAzimuthPlace, static_cast<std::uint16_t>(19 * (block / 4)));
+  }
+  StoreAt<std::uint8_t>(packet.data() + kModePlace, kStrongestMode);
+  StoreAt<std::uint8_t>(packet.data() + kModelPlace, 0xA1);
+  const auto set_distance = [&](std::size_t block, std::size_t laser) {
+    StoreAt<std::uint16_t>(packet.data() + block * kBlockSize + kReturnsPlace + laser * kReturnSize,
+                           2500);
+  };
+  set_distance(0, 0);
+  set_distance(3, 31);
+  VelodyneDecoder decoder(Vls128Model());
+  std::vector<SensorTurn> turns;
+  ASSERT_EQ(decoder.Decode(packet, turns), std::nullopt);
+  const SensorTurn turn = decoder.TakeUnfinished();
+  ASSERT_EQ(turn.num_columns(), 3U);
+  ASSERT_EQ(turn.points.size(), 2U);
+  EXPECT_EQ(turn.points[0].laser, 0);
+  EXPECT_EQ(turn.points[1].laser, 127);
+  for (const TurnPoint& point : turn.points) EXPECT_FLOAT_EQ(point.range_m, 10.0F);  // 4 mm each.
+  EXPECT_NEAR(DegFromRad(static_cast<double>(turn.points[0].azimuth_rad)), 6.354, 1e-4);
+  const double turned_deg = 0.19 * 16.0 * 2.665 / 55.277;
+  EXPECT_NEAR(DegFromRad(static_cast<double>(turn.points[1].azimuth_rad)),
+              360.0 - 6.354 + turned_deg, 1e-4);
+  StoreAt<std::uint16_t>(packet.data() + 2 * kBlockSize, 0xEEFF);
+  EXPECT_EQ(decoder.Decode(packet, turns), "block 2: flag must be 52479 (got 61183)");
+  StoreAt<std::uint8_t>(packet.data() + kModePlace, kDualMode);
+  EXPECT_EQ(decoder.Decode(packet, turns), "return mode must be 55 or 56 (got 57)");
+}
+
+TEST(VelodyneDecoder, KnowsTheLasersOfAVls128AsItsSensorFileDoes) {
+  const auto spinning = std::get<SpinningSpec>(ReadSensor("vls128").pattern);
+  const VelodyneModel& model = Vls128Model();
+  EXPECT_EQ(spinning.cycle_us, model.cycle_us);
+  ASSERT_EQ(spinning.channels.size(), model.lasers.size());
+  for (std::size_t i = 0; i < model.lasers.size(); ++i) {
+    EXPECT_EQ(spinning.channels[i].elevation_deg, model.lasers[i].elevation_deg) << i;
+    EXPECT_EQ(spinning.channels[i].azimuth_deg, model.lasers[i].azimuth_deg) << i;
+    // The file has microseconds to three places.
+    EXPECT_NEAR(spinning.channels[i].time_us, model.lasers[i].time_us, 0.0005001) << i;
+  }
 }
 
 TEST(VelodyneDecoder, CountsOnOverTheHour) {
