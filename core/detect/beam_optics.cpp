@@ -28,6 +28,10 @@ double LeastPower(const ReceiverSpec& receiver) {
   return 0.1 / (range_m * range_m);
 }
 
+double DeadLength_m(const ReceiverSpec& receiver) {
+  return 0.5 * kSpeedOfLight_m_per_ns * receiver.dead_time_ns;
+}
+
 double HorizontalSigma_rad(const BeamSpec& beam) {
   return SigmaOf_rad(beam.divergence_mrad[0]);
 }

@@ -18,6 +18,9 @@ namespace railcast {
 /// range (docs/physics.md 1.2).
 [[nodiscard]] double LeastPower(const ReceiverSpec& receiver);
 
+/// How far behind an echo the receiver is blind: c x dead time / 2.
+[[nodiscard]] double DeadLength_m(const ReceiverSpec& receiver);
+
 /// Standard deviations of the beam's Gaussian profile: a quarter of the full 1/e^2 angle.
 [[nodiscard]] double HorizontalSigma_rad(const BeamSpec& beam);
 [[nodiscard]] double VerticalSigma_rad(const BeamSpec& beam);

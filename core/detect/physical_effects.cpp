@@ -196,6 +196,17 @@ std::string PointingJitterText(const DetectorSpec& spec) {
   return "sigma " + NumberText(spec.receiver.pointing_jitter_deg) + " deg";
 }
 
+// Dead time acts where the echoes of a firing become returns.
+
+bool HasDeadTime(const DetectorSpec& spec) {
+  return spec.receiver.dead_time_ns > 0.0;
+}
+
+std::string DeadTimeText(const DetectorSpec& spec) {
+  return NumberText(spec.receiver.dead_time_ns) + " ns, " + ShortText(DeadLength_m(spec.receiver)) +
+         " m behind an echo";
+}
+
 }  // namespace
 
 std::vector<Effect> PhysicalEffects() {
@@ -285,6 +296,11 @@ std::vector<Effect> PhysicalEffects() {
        .rungs = from_surface_on,
        .has_cause = HasPointingJitter,
        .text = &PointingJitterText},
+      {.name = "dead_time",
+       .is_on = &EffectSet::dead_time,
+       .rungs = from_surface_on,
+       .has_cause = HasDeadTime,
+       .text = &DeadTimeText},
   };
 }
 

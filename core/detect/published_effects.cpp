@@ -106,16 +106,22 @@ std::string NoiseText(const DetectorSpec& spec) {
 // Sensor dropout.
 
 bool HasSensorDropout(const DetectorSpec& spec) {
-  return spec.plausibility.dropout_probability > 0.0;
+  return spec.plausibility.dropout_probability > 0.0 || spec.plausibility.dropout_per_m > 0.0;
 }
 
 std::string SensorDropoutText(const DetectorSpec& spec) {
-  return "probability " + NumberText(spec.plausibility.dropout_probability);
+  std::string text = "probability " + NumberText(spec.plausibility.dropout_probability);
+  if (spec.plausibility.dropout_per_m > 0.0) {
+    text += ", growing by " + ShortText(spec.plausibility.dropout_per_m) + " per m";
+  }
+  return text;
 }
 
 Loop SensorDropoutLoop(const DetectorSpec& spec, const Kernels& kernels) {
   const SensorDropoutParameters parameters{
-      .seed = spec.seed, .probability = static_cast<float>(spec.plausibility.dropout_probability)};
+      .seed = spec.seed,
+      .probability = static_cast<float>(spec.plausibility.dropout_probability),
+      .per_m = static_cast<float>(spec.plausibility.dropout_per_m)};
   return [=, apply = kernels.sensor_dropout](DetectTile& tile) { apply(tile, parameters); };
 }
 

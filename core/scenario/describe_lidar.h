@@ -76,6 +76,8 @@ void Describe(Archive& a, PlausibilitySpec& s) {
   a.Optional("noise_shape", s.noise_shape, "Equally in all directions, or along the beam.");
   a.Optional("dropout_probability", s.dropout_probability,
              "Probability that a firing is lost, whatever it hit.", Within(0, 1));
+  a.Optional("dropout_per_m", s.dropout_per_m,
+             "Growth of the losses: exp(-this x range) of the firings survive.", Within(0, 1));
 }
 
 template <class Archive>
@@ -111,6 +113,8 @@ void Describe(Archive& a, ReceiverSpec& s) {
              "Standard deviation of a beam's direction, in each of two directions.", Within(0, 1));
   a.Optional("clutter_gain", s.clutter_gain,
              "Multiplies the mean number of echoes of drops and flakes.", Within(0, 10));
+  a.Optional("dead_time_ns", s.dead_time_ns,
+             "How long the receiver is blind after an echo; 0 = not at all.", Within(0, 1000));
   a.Optional("halo_share_at_1_deg", s.halo_share_at_1_deg,
              "Share of a retroreflector's power that a beam receives which points 1 deg beside it.",
              Within(0, 0.1));

@@ -101,6 +101,21 @@ void BringFirst(std::vector<Candidate>& echoes, std::size_t first, const IsBette
   std::iter_swap(from, best);
 }
 
+// Removes the echoes that arrive while the receiver is blind after an earlier one, and sorts the
+// others by range.
+void PassOverBlindTime(float dead_length_m, std::vector<Candidate>& detected) {
+  if (!(dead_length_m > 0.0F) || detected.size() < 2) return;
+  std::stable_sort(detected.begin(), detected.end(), &IsNearerCandidate);
+  float seen_m = RangeOf(detected.front().place());
+  const auto is_unseen = [&](const Candidate& echo) {
+    const float range_m = RangeOf(echo.place());
+    if (range_m - seen_m < dead_length_m) return true;
+    seen_m = range_m;
+    return false;
+  };
+  detected.erase(std::remove_if(detected.begin() + 1, detected.end(), is_unseen), detected.end());
+}
+
 // Moves the echoes that the mode reports to the front, in slot order.
 void Choose(ReturnMode mode, std::vector<Candidate>& detected) {
   switch (mode) {
@@ -163,14 +178,15 @@ std::vector<Place> EchoesOf(EchoTiles& echoes, std::size_t beam) {
   return all;
 }
 
-std::vector<Place> ReturnsOf(ReturnMode mode, EchoTiles& echoes, std::size_t beam) {
+std::vector<Place> ReturnsOf(const ReturnRule& rule, EchoTiles& echoes, std::size_t beam) {
   std::vector<Candidate> detected;
   for (const Place& echo : EchoesOf(echoes, beam)) {
     if (HasPoint(OutcomeOf(echo))) detected.push_back({&echo.tile, echo.lane});
   }
-  Choose(mode, detected);
+  PassOverBlindTime(rule.dead_length_m, detected);
+  Choose(rule.mode, detected);
   std::vector<Place> returns;
-  for (std::size_t r = 0; r < detected.size() && r < NumReturns(mode); ++r) {
+  for (std::size_t r = 0; r < detected.size() && r < NumReturns(rule.mode); ++r) {
     returns.push_back(detected[r].place());
   }
   return returns;
@@ -209,7 +225,8 @@ void ReturnStore::Store(EchoTiles& echoes,
     detected.clear();
     std::copy_if(all.begin(), all.end(), std::back_inserter(detected),
                  [](const Candidate& echo) { return HasPoint(OutcomeOf(echo.place())); });
-    Choose(mode_, detected);
+    PassOverBlindTime(rule_.dead_length_m, detected);
+    Choose(rule_.mode, detected);
     const std::size_t first_slot = std::size_t{slots.slots[i]} * num_returns;
     const std::size_t count = std::min<std::size_t>(detected.size(), num_returns);
     for (std::size_t r = 0; r < num_returns; ++r) {

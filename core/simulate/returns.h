@@ -14,11 +14,22 @@ namespace railcast {
 /// Number of slots per firing.
 [[nodiscard]] std::uint32_t NumReturns(ReturnMode mode);
 
+/// Which of a firing's detected echoes become returns.
+struct ReturnRule {
+  ReturnMode mode{};
+  /// How far behind an echo the receiver is blind, m; 0 without effect `dead_time`.
+  float dead_length_m{};
+};
+
 /// Returns all echoes of one firing: the first one, then the others.
 /// @param beam A lane of `echoes.first`.
 [[nodiscard]] std::vector<EchoTiles::Place> EchoesOf(EchoTiles& echoes, std::size_t beam);
 /// Returns those echoes of a firing that become returns, in slot order.
-[[nodiscard]] std::vector<EchoTiles::Place> ReturnsOf(ReturnMode mode,
+///
+/// Effect `dead_time`: from the nearest detected echo on, an echo is passed over if its measured
+/// range is less than dead_length_m behind the last one that was not; the mode chooses among the
+/// others. Passed-over echoes do not prolong the blindness.
+[[nodiscard]] std::vector<EchoTiles::Place> ReturnsOf(const ReturnRule& rule,
                                                       EchoTiles& echoes,
                                                       std::size_t beam);
 
@@ -36,7 +47,7 @@ class ReturnStore {
  public:
   /// @param has_shares Whether beams have a width. If not, footprint_share and mixed_share are not
   ///   written.
-  ReturnStore(ReturnMode mode, bool has_shares) : mode_(mode), has_shares_(has_shares) {}
+  ReturnStore(const ReturnRule& rule, bool has_shares) : rule_(rule), has_shares_(has_shares) {}
 
   void Store(EchoTiles& echoes,
              const std::vector<Surface>& surfaces,
@@ -44,7 +55,7 @@ class ReturnStore {
              Frame& frame) const;
 
  private:
-  ReturnMode mode_;
+  ReturnRule rule_;
   bool has_shares_;
 };
 

@@ -15,6 +15,7 @@
 
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
+#include "core/detect/beam_optics.h"
 #include "core/detect/effect_table.h"
 #include "core/detect/halo.h"
 #include "core/simulate/beam_tracer.h"
@@ -37,12 +38,12 @@ CastFrame CastOf(const FrameScene& scene, const World& world, const DetectorSpec
 }
 
 void TellEchoes(const std::vector<Surface>& surfaces,
-                ReturnMode mode,
+                const ReturnRule& rule,
                 std::size_t beam,
                 EchoTiles& echoes,
                 FiringStory& story) {
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-  const auto returns = ReturnsOf(mode, echoes, beam);
+  const auto returns = ReturnsOf(rule, echoes, beam);
   for (const auto& [tile, lane] : EchoesOf(echoes, beam)) {
     const bool is_clutter = tile.clutter[lane] != kNoClutter;
     story.echoes.push_back(
@@ -98,6 +99,11 @@ struct Simulator::Parts {
 
   [[nodiscard]] ReturnMode return_mode() const {
     return tracer->has_beams() ? spec.detector.receiver.return_mode : ReturnMode::kStrongest;
+  }
+  [[nodiscard]] ReturnRule return_rule() const {
+    const bool is_blind = spec.detector.effects.dead_time;
+    return {return_mode(),
+            is_blind ? static_cast<float>(DeadLength_m(spec.detector.receiver)) : 0.0F};
   }
   [[nodiscard]] float range_max_m() const { return static_cast<float>(spec.detector.range_max_m); }
   [[nodiscard]] FrameScene SceneOf(std::uint32_t frame_index) {
@@ -249,11 +255,11 @@ void Simulator::Parts::Scan(const CastFrame& cast, Frame& frame) {
   frame.world_from_sensor = scenes.WorldFromSensor(frame.stamp_ns);
   frame.duration_ns = tiles.duration_ns();
   frame.world_from_sensor_end = scenes.WorldFromSensor(frame.stamp_ns + frame.duration_ns);
-  const ReturnMode mode = return_mode();
-  frame.Resize(pattern.rows, pattern.columns, NumReturns(mode));
+  const ReturnRule rule = return_rule();
+  frame.Resize(pattern.rows, pattern.columns, NumReturns(rule.mode));
   const OutputAxes axes(spec.output, spec.origin_place, spec.vehicle_from_sensor,
                         cast.window_from_world, frame.world_from_sensor);
-  const ReturnStore store(mode, tracer->has_beams());
+  const ReturnStore store(rule, tracer->has_beams());
 
   ForAllEchoes(cast, [&](std::size_t tile, BeamTracer::Work& mine) {
     tracer->detector().Detect(mine.echoes);
@@ -333,7 +339,7 @@ FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) 
   story.instance = surface.instance;
   story.material = surface.material;
   story.reflectivity = surface.reflectivity;
-  TellEchoes(scene.surfaces(), parts.return_mode(), lane, work.echoes, story);
+  TellEchoes(scene.surfaces(), parts.return_rule(), lane, work.echoes, story);
   return story;
 }
 

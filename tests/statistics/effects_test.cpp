@@ -244,6 +244,20 @@ TEST(SensorDropout, MissesTheStatedShareWhateverTheRange) {
               4.0 * std::sqrt(n * 0.18 * 0.82));
 }
 
+TEST(SensorDropout, GrowsExponentiallyWithRange) {
+  DetectorSpec spec{.effects = {.sensor_dropout = true}};
+  spec.plausibility.dropout_probability = 0.1;
+  spec.plausibility.dropout_per_m = 2e-3;
+  const double n = kNumFirings;
+  for (const double range_m : {10.0, 100.0, 250.0}) {
+    const auto answers = Detect(spec, [=](std::uint32_t) { return range_m; });
+    const double lost = 1.0 - 0.9 * std::exp(-2e-3 * range_m);
+    EXPECT_NEAR(static_cast<double>(Count(answers, Outcome::kSensorDropout)), lost * n,
+                4.0 * std::sqrt(n * lost * (1.0 - lost)))
+        << range_m;
+  }
+}
+
 TEST(RangeGate, NoiseBeyondTheGateIsOutOfRange) {
   DetectorSpec spec{.range_max_m = 200.0, .effects = {.noise = true}};
   spec.plausibility.noise_sigma0_m = 0.05;

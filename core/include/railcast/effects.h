@@ -59,6 +59,7 @@ struct EffectSet {
   bool range_noise = false;
   bool channel_bias = false;     ///< Constant range error per channel.
   bool pointing_jitter = false;  ///< Beams deviate from the direction that the sensor reports.
+  bool dead_time = false;        ///< After an echo the receiver is blind for a while.
 
   // The sensor's window, optics and receiver.
   bool cover = false;         ///< Drops, dirt and snow on the window in front of the sensor.
@@ -95,6 +96,9 @@ struct PlausibilitySpec {
   double noise_sigma1 = 1e-4;        ///< Increase of the standard deviation per metre of range.
   NoiseShape noise_shape = NoiseShape::kIsotropic;
   double dropout_probability = 0.0;  ///< Probability that a firing is lost, whatever it hit.
+  /// Growth of the losses: a firing whose surface is at range R survives with probability
+  /// (1 - dropout_probability) exp(-dropout_per_m R).
+  double dropout_per_m = 0.0;
 
   bool operator==(const PlausibilitySpec&) const = default;
 };
@@ -157,6 +161,9 @@ struct ReceiverSpec {
   double channel_bias_sigma_m = 0.01;
   double pointing_jitter_deg = 0.01;  ///< Standard deviation in each of two directions.
   double clutter_gain = 0.2;  ///< Factor for the mean number of raindrop and snowflake echoes.
+  /// How long the receiver is blind after an echo that it has detected: an echo less than
+  /// c x dead_time_ns / 2 behind it is no return of its own.
+  double dead_time_ns = 0.0;
   /// Share of a retroreflector's power that a beam still receives which points 1 deg beside it.
   double halo_share_at_1_deg = 0.0;
   /// By how much an echo at the detection threshold is measured farther than a strong one.

@@ -46,7 +46,9 @@ std::vector<Surface> FiveSurfaces() {
 }
 
 // A frame of 2 rows and 2 columns. Firing 2 (row 1, column 0) has the echoes, the others have none.
-Frame StoreOne(ReturnMode mode, const std::vector<HandMade>& hand_made, bool has_shares = true) {
+Frame StoreOne(const ReturnRule& rule,
+               const std::vector<HandMade>& hand_made,
+               bool has_shares = true) {
   auto echoes = std::make_unique<EchoTiles>();
   echoes->first.num_rays = 4;
   for (std::size_t lane = 0; lane < 4; ++lane) {
@@ -58,15 +60,15 @@ Frame StoreOne(ReturnMode mode, const std::vector<HandMade>& hand_made, bool has
     Fill(hand_made[i], tile, lane);
   }
   Frame frame;
-  frame.Resize(2, 2, NumReturns(mode));
+  frame.Resize(2, 2, NumReturns(rule.mode));
   const std::uint32_t slots[] = {0, 1, 2, 3};
-  ReturnStore(mode, has_shares).Store(*echoes, FiveSurfaces(), {slots, 4}, frame);
+  ReturnStore(rule, has_shares).Store(*echoes, FiveSurfaces(), {slots, 4}, frame);
   return frame;
 }
 
 // Surfaces of the slots of row 1, column 0; 0 = none.
-std::vector<std::uint32_t> Chosen(ReturnMode mode, const std::vector<HandMade>& hand_made) {
-  const Frame frame = StoreOne(mode, hand_made);
+std::vector<std::uint32_t> Chosen(const ReturnRule& rule, const std::vector<HandMade>& hand_made) {
+  const Frame frame = StoreOne(rule, hand_made);
   const std::size_t first = std::size_t{frame.width()};  // row x width + 0 x returns
   std::vector<std::uint32_t> surfaces;
   for (std::size_t r = 0; r < frame.returns; ++r) {
@@ -84,19 +86,19 @@ const std::vector<HandMade> kFour = {{40.0F, 3.0F, Outcome::kReturned, 1},
                                      {30.0F, 5.0F, Outcome::kReturned, 4}};
 
 TEST(Returns, ReportTheEchoThatTheModeAsksFor) {
-  EXPECT_EQ(Chosen(ReturnMode::kStrongest, kFour), (Surfaces{3}));
-  EXPECT_EQ(Chosen(ReturnMode::kFirst, kFour), (Surfaces{2}));
-  EXPECT_EQ(Chosen(ReturnMode::kLast, kFour), (Surfaces{1}));
-  EXPECT_EQ(Chosen(ReturnMode::kDual, kFour), (Surfaces{3, 1}));
-  EXPECT_EQ(Chosen(ReturnMode::kTriple, kFour), (Surfaces{3, 1, 2}));
+  EXPECT_EQ(Chosen({.mode = ReturnMode::kStrongest}, kFour), (Surfaces{3}));
+  EXPECT_EQ(Chosen({.mode = ReturnMode::kFirst}, kFour), (Surfaces{2}));
+  EXPECT_EQ(Chosen({.mode = ReturnMode::kLast}, kFour), (Surfaces{1}));
+  EXPECT_EQ(Chosen({.mode = ReturnMode::kDual}, kFour), (Surfaces{3, 1}));
+  EXPECT_EQ(Chosen({.mode = ReturnMode::kTriple}, kFour), (Surfaces{3, 1, 2}));
 }
 
 TEST(Returns, GiveTheSecondStrongestWhereTheStrongestIsLast) {
   const std::vector<HandMade> echoes = {{40.0F, 9.0F, Outcome::kReturned, 1},
                                         {10.0F, 5.0F, Outcome::kReturned, 2},
                                         {20.0F, 2.0F, Outcome::kReturned, 3}};
-  EXPECT_EQ(Chosen(ReturnMode::kDual, echoes), (Surfaces{1, 2}));
-  EXPECT_EQ(Chosen(ReturnMode::kTriple, echoes), (Surfaces{1, 2, 3}));
+  EXPECT_EQ(Chosen({.mode = ReturnMode::kDual}, echoes), (Surfaces{1, 2}));
+  EXPECT_EQ(Chosen({.mode = ReturnMode::kTriple}, echoes), (Surfaces{1, 2, 3}));
 }
 
 TEST(Returns, GiveTheNextStrongestWhereTheFirstIsTakenAlready) {
@@ -105,11 +107,11 @@ TEST(Returns, GiveTheNextStrongestWhereTheFirstIsTakenAlready) {
                                         {20.0F, 2.0F, Outcome::kReturned, 2},
                                         {30.0F, 5.0F, Outcome::kReturned, 3},
                                         {40.0F, 4.0F, Outcome::kReturned, 4}};
-  EXPECT_EQ(Chosen(ReturnMode::kTriple, echoes), (Surfaces{1, 4, 3}));
+  EXPECT_EQ(Chosen({.mode = ReturnMode::kTriple}, echoes), (Surfaces{1, 4, 3}));
 }
 
 TEST(Returns, LeaveSlotsEmptyWhereNothingMoreCameBack) {
-  const Frame frame = StoreOne(ReturnMode::kTriple, {{10.0F, 9.0F}, {20.0F, 5.0F}});
+  const Frame frame = StoreOne({.mode = ReturnMode::kTriple}, {{10.0F, 9.0F}, {20.0F, 5.0F}});
   const std::size_t first = std::size_t{frame.width()};
   EXPECT_EQ(frame.outcome[first], Outcome::kReturned);
   EXPECT_EQ(frame.outcome[first + 1], Outcome::kReturned);
@@ -126,7 +128,7 @@ TEST(Returns, LeaveSlotsEmptyWhereNothingMoreCameBack) {
 }
 
 TEST(Returns, StandAtRowTimesWidthPlusColumnTimesReturns) {
-  const Frame frame = StoreOne(ReturnMode::kDual, kFour);
+  const Frame frame = StoreOne({.mode = ReturnMode::kDual}, kFour);
   ASSERT_EQ(frame.num_slots(), 8U);
   for (std::size_t slot = 0; slot < 8; ++slot) {
     // Row 1, column 0: 1 x 4 + 0 x 2 + r.
@@ -145,7 +147,7 @@ TEST(Returns, LetTheFirstSlotSayWhatAFiringWithoutReturnMissed) {
   const std::vector<HandMade> missed = {{40.0F, 0.2F, Outcome::kBelowThreshold, 1},
                                         {10.0F, 0.6F, Outcome::kBelowThreshold, 2},
                                         {5.0F, 0.9F, Outcome::kBelowThreshold, 0, 23}};
-  const Frame frame = StoreOne(ReturnMode::kDual, missed);
+  const Frame frame = StoreOne({.mode = ReturnMode::kDual}, missed);
   EXPECT_EQ(frame.outcome[4], Outcome::kBelowThreshold);
   EXPECT_EQ(frame.label[4], 12U);
   EXPECT_EQ(frame.true_range_m[4], 10.0F);
@@ -154,15 +156,16 @@ TEST(Returns, LetTheFirstSlotSayWhatAFiringWithoutReturnMissed) {
 }
 
 TEST(Returns, KeepWhatTheCentralRaySaysWhereNoSurfaceWasTooWeak) {
-  EXPECT_EQ(StoreOne(ReturnMode::kStrongest,
+  EXPECT_EQ(StoreOne({.mode = ReturnMode::kStrongest},
                      {{0.3F, 80.0F, Outcome::kEgo}, {1.0F, 2.0F, Outcome::kSensorDropout, 0, 23}})
                 .outcome[2],
             Outcome::kEgo);
 }
 
 TEST(Returns, PreferAnyDetectedEchoToTheLostSurface) {
-  const Frame frame = StoreOne(ReturnMode::kLast, {{40.0F, 0.9F, Outcome::kBelowThreshold, 1},
-                                                   {3.0F, 1.5F, Outcome::kClutter, 0, 23}});
+  const Frame frame = StoreOne(
+      {.mode = ReturnMode::kLast},
+      {{40.0F, 0.9F, Outcome::kBelowThreshold, 1}, {3.0F, 1.5F, Outcome::kClutter, 0, 23}});
   EXPECT_EQ(frame.outcome[2], Outcome::kClutter);
   EXPECT_EQ(frame.label[2], 23U);
   EXPECT_EQ(frame.instance[2], 0U);
@@ -172,7 +175,7 @@ TEST(Returns, PreferAnyDetectedEchoToTheLostSurface) {
 }
 
 TEST(Returns, KeepAllFieldsOfASurface) {
-  const Frame frame = StoreOne(ReturnMode::kStrongest, kFour);
+  const Frame frame = StoreOne({.mode = ReturnMode::kStrongest}, kFour);
   EXPECT_EQ(frame.range_m[2], 20.0F);
   EXPECT_EQ(frame.true_range_m[2], 20.0F);
   EXPECT_EQ(frame.x[2], 20.0F);
@@ -183,7 +186,38 @@ TEST(Returns, KeepAllFieldsOfASurface) {
   EXPECT_EQ(frame.material[2], 3);
   EXPECT_EQ(frame.footprint_share[2], 0.5F);
   // Without shares, the field is left unchanged.
-  EXPECT_EQ(StoreOne(ReturnMode::kStrongest, kFour, false).footprint_share[2], 0.0F);
+  EXPECT_EQ(StoreOne({.mode = ReturnMode::kStrongest}, kFour, false).footprint_share[2], 0.0F);
+}
+
+// Four echoes 0.9 m apart before a receiver that is blind for 8 ns, that is 1.199 m: after the echo
+// at 10.0 m the one at 10.9 m is not seen, that at 11.8 m is, that at 12.7 m is not.
+TEST(DeadTime, HidesTheEchoesThatComeWhileTheReceiverIsBlind) {
+  constexpr float kDead_m = 1.199F;
+  const std::vector<HandMade> echoes = {{12.7F, 4.0F, Outcome::kReturned, 4},
+                                        {10.9F, 9.0F, Outcome::kReturned, 2},
+                                        {10.0F, 2.0F, Outcome::kReturned, 1},
+                                        {11.8F, 3.0F, Outcome::kReturned, 3}};
+  EXPECT_EQ(Chosen({ReturnMode::kStrongest, kDead_m}, echoes), (Surfaces{3}));
+  EXPECT_EQ(Chosen({ReturnMode::kFirst, kDead_m}, echoes), (Surfaces{1}));
+  EXPECT_EQ(Chosen({ReturnMode::kLast, kDead_m}, echoes), (Surfaces{3}));
+  EXPECT_EQ(Chosen({ReturnMode::kDual, kDead_m}, echoes), (Surfaces{3, 1}));
+  EXPECT_EQ(Chosen({ReturnMode::kTriple, kDead_m}, echoes), (Surfaces{3, 1, 0}));
+  EXPECT_EQ(Chosen({ReturnMode::kDual}, echoes), (Surfaces{2, 4}));
+}
+
+TEST(DeadTime, EndsAtItsLengthExactly) {
+  const auto last_of = [](float dead_length_m) {
+    return Chosen({ReturnMode::kLast, dead_length_m},
+                  {{10.0F, 2.0F, Outcome::kReturned, 1}, {11.5F, 2.0F, Outcome::kReturned, 2}});
+  };
+  EXPECT_EQ(last_of(1.5F), (Surfaces{2}));
+  EXPECT_EQ(last_of(1.5000001F), (Surfaces{1}));
+}
+
+TEST(DeadTime, BeginsWithDetectedEchoesOnly) {
+  EXPECT_EQ(Chosen({ReturnMode::kFirst, 2.0F}, {{10.0F, 0.5F, Outcome::kBelowThreshold, 1},
+                                                {11.0F, 2.0F, Outcome::kReturned, 2}}),
+            (Surfaces{2}));
 }
 
 TEST(NumReturns, IsHowManyAModeReports) {

@@ -78,6 +78,7 @@ TEST(EffectsReport, SaysWhatTheWeatherDoesToThePhysicalRungs) {
       "          range_noise: sigma 0.015 m, at the threshold 0.035 m\n"
       "          channel_bias: sigma 0.01 m\n"
       "          pointing_jitter: sigma 0.01 deg\n"
+      "          dead_time: 0 ns, 0 m behind an echo\n"
       "          cover: none\n"
       "          halo: share of 0 at 1 deg\n"
       "          range_walk: 0 m at the threshold\n"
