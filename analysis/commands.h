@@ -22,6 +22,8 @@ void AddDetect(CLI::App& app, ProgramCommand& command);
 void AddFit(CLI::App& app, ProgramCommand& command);
 /// Charts speed against accuracy on a scenario.
 void AddFrontier(CLI::App& app, ProgramCommand& command);
+/// Compares a real sensor's recording with what a preset would have measured in its place.
+void AddPreset(CLI::App& app, ProgramCommand& command);
 /// Compares a sequence directory with the hashes that it was written with.
 void AddVerify(CLI::App& app, ProgramCommand& command);
 /// Counts, and on request records, a live stream in the railcast protocol until a signal ends it.

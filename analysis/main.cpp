@@ -12,6 +12,7 @@ void AddCommands(CLI::App& app, railcast::ProgramCommand& command) {
   railcast::AddDetect(app, command);
   railcast::AddFit(app, command);
   railcast::AddFrontier(app, command);
+  railcast::AddPreset(app, command);
   railcast::AddReceive(app, command);
   railcast::AddVerify(app, command);
 }

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "analysis/estimate/log_histogram.h"
+#include "analysis/estimate/moments.h"
+#include "analysis/preset/replay.h"
+#include "analysis/preset/seen_planes.h"
+#include "analysis/stats/holes.h"
+#include "analysis/stats/noise.h"
+#include "analysis/stats/temporal_noise.h"
+#include "railcast/io/recording.h"
+
+namespace railcast {
+
+/// Means over the points of a cell.
+struct IntensityMeans {
+  Moments intensity;
+  Moments range_m;
+  Moments incidence_deg;
+};
+
+/// What was measured on planes: of the recording, or of its replay.
+struct PlaneFigures {
+  /// By bin of RangeBins(), of the range of the plane: firings that must have met it, and those of
+  /// them without a point.
+  std::vector<Holes::Count> firings;
+
+  [[nodiscard]] std::uint64_t num_points(std::size_t bin) const {
+    return firings[bin].num_expected - firings[bin].num_missing;
+  }
+  Noise noise;
+  TemporalNoise temporal;
+  std::map<PlaneCell, IntensityMeans> intensities;
+
+  /// Adds a turn; points of other firings than the planes' are left out. Intensities are those of
+  /// this turn alone.
+  void Add(const RecordedFrame& masked, const SeenPlanes& seen, std::uint32_t turn);
+};
+
+/// The mean intensity in a cell of a plane. A run of at least four cells of a strip, from one to
+/// the next of which the recorded intensity changes by less than a factor of 1.5 and so shows no
+/// other material, is compared after one factor.
+struct IntensityCell {
+  std::uint32_t turn{};
+  std::size_t plane{};
+  bool is_ground{};
+  double range_m{};
+  double incidence_deg{};
+  double recorded{};
+  double simulated{};  ///< After the factor.
+};
+
+/// Ranges between the two returns of a firing.
+struct EchoGaps {
+  std::uint64_t num_pairs{};
+  double least_m{};             ///< NaN without pairs.
+  std::uint64_t num_in_dead{};  ///< Nearer to each other than the preset's dead time allows.
+};
+
+/// A real sensor's turns compared with their replay by a preset.
+struct PresetComparison {
+  std::size_t num_turns{};
+  std::size_t num_planes{};
+  PlaneFigures recorded, simulated;
+  std::vector<IntensityCell> intensity;
+  EchoGaps gaps;
+
+  // The figures of docs/validation.md, over the bins with at least 500 recorded points (holes: 500
+  // firings), each bin alike.
+  /// Mean absolute relative error of the number of points.
+  [[nodiscard]] double PointsError() const;
+  /// Mean absolute relative error of the intensity over the cells, after one factor per run of
+  /// them.
+  [[nodiscard]] double IntensityError() const;
+  /// Median over the bins of the simulated over the recorded sigma: about planes, from turn to
+  /// turn.
+  [[nodiscard]] double PlaneSigmaRatio() const;
+  [[nodiscard]] double TemporalSigmaRatio() const;
+  /// Holes simulated over holes recorded, in all bins together.
+  [[nodiscard]] double HoleRatio() const;
+};
+
+/// Compares the whole turns of a recording (those of at least 0.9 of the most columns) with what
+/// the scenario's sensor would have measured on the planes that they show.
+/// @throws InputError if the sensor has another number of rings than the recording, or no turn
+///   shows a plane.
+[[nodiscard]] PresetComparison ComparePreset(Recording& recording,
+                                             const ScenarioSpec& scenario,
+                                             Sectors sectors = Sectors::kAll);
+
+}  // namespace railcast

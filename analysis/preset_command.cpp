@@ -1,0 +1,73 @@
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "analysis/commands.h"
+#include "analysis/preset/preset_comparison.h"
+#include "analysis/preset/preset_report.h"
+#include "analysis/report/output.h"
+#include "analysis/report/provenance.h"
+#include "analysis/thread_limit.h"
+#include "core/program/version.h"
+#include "railcast/io/recording.h"
+#include "railcast/scenario.h"
+
+namespace railcast {
+namespace {
+
+struct PresetOptions {
+  std::filesystem::path source;
+  std::filesystem::path scenario;
+  std::string sectors = "all";
+  int num_threads = 0;
+  ReportOutput output;
+};
+
+Sectors SectorsOf(const std::string& name) {
+  if (name == "even") return Sectors::kEven;
+  return name == "odd" ? Sectors::kOdd : Sectors::kAll;
+}
+
+int RunPreset(const PresetOptions& options, const std::string& command_line) {
+  const tbb::global_control limit = LimitThreads(options.num_threads);
+  const ScenarioSpec scenario = PickSensor(ReadScenario(options.scenario), std::nullopt);
+  const auto recording = OpenRecording(options.source);
+  const RecordingInfo info = recording->info();
+  const PresetComparison comparison =
+      ComparePreset(*recording, scenario, SectorsOf(options.sectors));
+  Report report = MakePresetReport(comparison, info, scenario, command_line);
+  AddProvenance({info}, ProgramVersion(), report);
+  EmitReport(report, options.output, "preset");
+  return kExitSuccess;
+}
+
+}  // namespace
+
+void AddPreset(CLI::App& app, ProgramCommand& command) {
+  const auto options = std::make_shared<PresetOptions>();
+  CLI::App* preset = app.add_subcommand(
+      "preset",
+      "Compare a real sensor's recording with what a scenario's sensor measures on its planes");
+  preset
+      ->add_option("SOURCE", options->source,
+                   "Capture or other recording of a sensor that stands, as grids")
+      ->required();
+  preset
+      ->add_option("--scenario", options->scenario,
+                   "Scenario whose sensor, rung, weather and materials are compared")
+      ->required();
+  preset
+      ->add_option("--sectors", options->sectors,
+                   "Which sectors of 30 deg take part: all, even, odd")
+      ->check(CLI::IsMember({"all", "even", "odd"}))
+      ->capture_default_str();
+  preset->add_option("--threads", options->num_threads, "Number of threads; 0 = all cores")
+      ->transform(Whole({0, 1024}))
+      ->capture_default_str();
+  AddReportOptions(*preset, options->output);
+  preset->callback([&command, options] {
+    command = [options](const std::string& line) { return RunPreset(*options, line); };
+  });
+}
+
+}  // namespace railcast
