@@ -109,8 +109,8 @@ def detection(range_min_m, range_max_m, range_at_10_percent_m, noise_sigma0_m, d
     }
 
 
-# Measured on one half of a recording of each sensor (docs/validation.md); VLP-16's pointing as that
-# of VLS-128, by the same maker.
+# Measured on a recording of each sensor (docs/validation.md). The pointing jitter of all is that of
+# VLS-128, the only one that was outdoors.
 VLP16 = [
     {"noise_sigma0_m": 0.008, "noise_sigma1": 0.0, "dropout_probability": 0.01},
     {"range_noise_floor_m": 0.0075, "channel_bias_sigma_m": 0.003, "pointing_jitter_deg": 0.0015,

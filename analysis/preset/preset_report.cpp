@@ -123,7 +123,8 @@ Report MakePresetReport(const PresetComparison& comparison,
   report.facts = {{"Recording", recording.kind},
                   {"Rung", std::string(NameOf(scenario.fidelity))},
                   {"Turns", NumberText(comparison.num_turns)},
-                  {"Planes", NumberText(comparison.num_planes)}};
+                  {"Planes", NumberText(comparison.num_planes)},
+                  {"Cells of intensity", NumberText(comparison.intensity.size())}};
   if (comparison.gaps.num_pairs > 0) {
     report.facts.emplace_back("Pairs of returns", NumberText(comparison.gaps.num_pairs));
     report.facts.emplace_back("Nearest pair", ShortText(comparison.gaps.least_m) + " m");

@@ -43,9 +43,9 @@ TEST_P(RealPreset, MeasuresItsSensorsPlanesAsTheSensorDid) {
   const PresetComparison comparison =
       ComparePreset(*recording, PresetScenario(gate.sensor), gate.sectors);
   std::cout << gate << ": points " << comparison.PointsError() << ", intensity "
-            << comparison.IntensityError() << ", planes " << comparison.PlaneSigmaRatio()
-            << ", turns " << comparison.TemporalSigmaRatio() << ", holes " << comparison.HoleRatio()
-            << '\n';
+            << comparison.IntensityError() << " of " << comparison.intensity.size()
+            << " cells, planes " << comparison.PlaneSigmaRatio() << ", turns "
+            << comparison.TemporalSigmaRatio() << ", holes " << comparison.HoleRatio() << '\n';
   EXPECT_LT(comparison.PointsError(), kGoalOfPoints);
   if (!std::isnan(gate.most_intensity)) {
     EXPECT_LT(comparison.IntensityError(), gate.most_intensity);
