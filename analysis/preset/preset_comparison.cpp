@@ -188,18 +188,22 @@ std::vector<RecordedFrame> WholeTurns(Recording& recording) {
   return turns;
 }
 
-void CompareTurn(const RecordedFrame& turn,
-                 const RecordedFrame* next,
+/// A turn, and the one after it if there is one.
+struct RecordedTurn {
+  const RecordedFrame& turn;
+  const RecordedFrame* next{};
+  std::uint32_t index{};
+};
+
+void CompareTurn(const RecordedTurn& recorded,
                  const Replay& replay,
                  Sectors sectors,
-                 std::uint32_t index,
                  PresetComparison& comparison) {
+  const auto& [turn, next, index] = recorded;
   const auto scan = MakeScanTable(turn.frame);
   if (!scan) return;
   const SeenPlanes seen = FindSeenPlanes(turn.frame, *scan, sectors);
   if (seen.planes.empty()) return;
-  ++comparison.num_turns;
-  comparison.num_planes += seen.planes.size();
   const RecordedFrame masked = Masked(turn, seen);
   comparison.recorded.Add(masked, seen, index);
   if (comparison.recorded.intensities.empty()) return;
@@ -207,8 +211,8 @@ void CompareTurn(const RecordedFrame& turn,
   // Frames of their own, so that no two replays draw the same numbers.
   const auto replayed = [&](const std::map<PlaneCell, double>& reflectivities,
                             std::uint32_t which) {
-    return AsRecorded(replay.Scan(seen, reflectivities, 3 * index + which), replay.least_power_m2(),
-                      index);
+    return AsRecorded(replay.Scan(seen, reflectivities, 3 * recorded.index + which),
+                      replay.least_power_m2(), recorded.index);
   };
   PlaneFigures even;
   const RecordedFrame bright = replayed(EvenReflectivities(comparison.recorded), 0);
@@ -216,6 +220,8 @@ void CompareTurn(const RecordedFrame& turn,
   AddIntensityCells(StripsOf(comparison.recorded, even, seen, index), comparison.intensity);
   const auto local = LocalReflectivities(comparison.recorded, even);
   if (local.empty()) return;
+  ++comparison.num_turns;
+  comparison.num_planes += seen.planes.size();
   const RecordedFrame first = replayed(local, 1);
   comparison.simulated.Add(first, PlanesOfReplay(first.frame, seen, replay_scan), index);
   comparison.simulated.temporal.Add(first, replayed(local, 2), &replay_scan, &replay_scan);
@@ -328,10 +334,12 @@ PresetComparison ComparePreset(Recording& recording,
                        " rings of the scenario's sensor (got " + NumberText(frame.rows) + ")");
     }
     AddGaps(frame, dead_length_m, comparison.gaps);
-    CompareTurn(turns[i], i + 1 < turns.size() ? &turns[i + 1] : nullptr, replay, sectors,
-                static_cast<std::uint32_t>(i), comparison);
+    const RecordedFrame* const next = i + 1 < turns.size() ? &turns[i + 1] : nullptr;
+    CompareTurn({turns[i], next, static_cast<std::uint32_t>(i)}, replay, sectors, comparison);
   }
-  if (comparison.num_turns == 0) throw InputError(source + ": must hold a turn that shows a plane");
+  if (comparison.num_turns == 0) {
+    throw InputError(source + ": must hold a turn with planes and intensities up to 1");
+  }
   return comparison;
 }
 

@@ -68,15 +68,15 @@ struct PresetComparison {
   std::vector<IntensityCell> intensity;
   EchoGaps gaps;
 
-  // The figures of docs/validation.md, over the bins with at least 500 recorded points (holes: 500
-  // firings), each bin alike.
-  /// Mean absolute relative error of the number of points.
+  // The figures of docs/validation.md; each bin counts alike. Those without any bin are NaN.
+  /// Mean absolute relative error of the number of points, over the bins of range with at least 500
+  /// recorded ones.
   [[nodiscard]] double PointsError() const;
   /// Mean absolute relative error of the intensity over the cells, after one factor per run of
   /// them.
   [[nodiscard]] double IntensityError() const;
-  /// Median over the bins of the simulated over the recorded sigma: about planes, from turn to
-  /// turn.
+  /// Median over the bins of the simulated over the recorded robust sigma: about flat pieces, and
+  /// from turn to turn (bins of at least 500 recorded differences).
   [[nodiscard]] double PlaneSigmaRatio() const;
   [[nodiscard]] double TemporalSigmaRatio() const;
   /// Holes simulated over holes recorded, in all bins together.

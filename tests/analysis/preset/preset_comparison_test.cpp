@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.h"
@@ -132,6 +134,16 @@ TEST(PresetComparison, RefusesASensorOfOtherRings) {
   HeldRecording recording(RecordYard(LossyVlp16()));
   EXPECT_EQ(MessageOf([&] { (void)ComparePreset(recording, PresetScenario("vlp32c")); }),
             ": must have the 32 rings of the scenario's sensor (got 16)");
+}
+
+TEST(PresetComparison, RefusesARecordingWithoutIntensities) {
+  std::vector<RecordedFrame> frames = RecordYard(LossyVlp16());
+  for (RecordedFrame& recorded : frames) {
+    std::ranges::fill(recorded.frame.intensity, std::nanf(""));
+  }
+  HeldRecording recording(std::move(frames));
+  EXPECT_EQ(MessageOf([&] { (void)ComparePreset(recording, LossyVlp16()); }),
+            ": must hold a turn with planes and intensities up to 1");
 }
 
 }  // namespace

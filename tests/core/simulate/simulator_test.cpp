@@ -317,5 +317,28 @@ TEST(Simulator, ExplainsEveryEchoWithTheSlotItHasInTheFrame) {
   EXPECT_GT(num_echoes, 1200U);
 }
 
+// A plate 0.9 m before a wall: far enough for two echoes, too near for a receiver that is blind for
+// 8 ns (1.2 m). Without the effect the parameter does nothing.
+TEST(Simulator, ReportsNoEchoFromWithinTheDeadTime) {
+  auto world = WorldWithWall(20.9F);
+  world->AddObject(WallModel(0.0F, 2.0F, 1),
+                   MakeTransform(Eigen::Matrix3d::Identity(), {20.0, 0.0, 0.0}));
+  const auto num_pairs = [&](bool has_dead_time, double dead_time_ns) {
+    SimulatorSpec spec{.detector = {.effects = {.surface_response = true,
+                                                .detection = true,
+                                                .dead_time = has_dead_time,
+                                                .footprint = true}}};
+    spec.detector.receiver.return_mode = ReturnMode::kDual;
+    spec.detector.receiver.dead_time_ns = dead_time_ns;
+    const Frame frame = ScanOnce(world, MakeRaster(20, 10, 0.25), spec);
+    return std::ranges::count(frame.return_count, std::uint8_t{2});
+  };
+  const auto num_seen = num_pairs(true, 0.0);
+  EXPECT_GT(num_seen, 50);
+  EXPECT_EQ(num_pairs(false, 8.0), num_seen);
+  EXPECT_EQ(num_pairs(true, 5.0), num_seen);  // 0.75 m.
+  EXPECT_EQ(num_pairs(true, 8.0), 0);
+}
+
 }  // namespace
 }  // namespace railcast
