@@ -151,12 +151,14 @@ TEST_P(FarTargetsOn, APoleBeforeTheSkyHasAsManyPointsAsInTheReference) {
   constexpr int kNumPoles = 40;
   for (const double diameter_m : {0.02, 0.05, 0.10}) {
     // All rows of a raster meet a pole at the same place of their beams, so that 120 poles are only
-    // 120 samples of where a pole can stand.
+    // 120 samples of where a pole can stand; more turns of the row make
+    // them up to 360.
     Points points;
-    for (const double range_m : {60.0, 80.0, 100.0}) {
+    for (int turn = 0; turn < 9 && (turn < 3 || points.expected < 1000.0); ++turn) {
+      const double range_m = 60.0 + 20.0 * (turn % 3);
       const auto world = std::make_shared<SimpleWorld>();
       for (int i = 0; i < kNumPoles; ++i) {
-        const double place = (i + std::fmod(kGolden * i, 1.0)) / kNumPoles;
+        const double place = (i + std::fmod(kGolden * (i + kNumPoles * turn), 1.0)) / kNumPoles;
         const double azimuth_rad = RadFromDeg(kHalfAzimuth_deg * (1.8 * place - 0.9));
         Mesh pole = MakeCylinder(diameter_m / 2.0, 30.0, 16);
         for (auto& vertex : pole.vertices) {
