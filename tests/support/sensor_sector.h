@@ -48,7 +48,7 @@ struct SectorSpec {
 };
 
 /// The scan reduced to the firings of a sector; their spacing, offsets and times are the sensor's
-/// own. A raster stays symmetric about the horizon.
+/// own. A raster stays symmetric about the horizon; a table of firings stays whole.
 [[nodiscard]] inline ScanSpec CutSector(ScanSpec scan, const SectorSpec& sector) {
   if (auto* raster = std::get_if<RasterSpec>(&scan.pattern)) {
     const auto reduce = [](double& fov_deg, double half_deg) {
@@ -58,6 +58,7 @@ struct SectorSpec {
     reduce(raster->vertical_fov_deg, std::max(std::abs(sector.low_deg), std::abs(sector.high_deg)));
     return scan;
   }
+  if (std::holds_alternative<FiringTableSpec>(scan.pattern)) return scan;
   auto& spinning = std::get<SpinningSpec>(scan.pattern);
   const double step_deg = 360.0 * scan.rate_hz * 1e-6 * spinning.cycle_us;
   spinning.columns = static_cast<std::uint32_t>(2.0 * sector.half_azimuth_deg / step_deg);

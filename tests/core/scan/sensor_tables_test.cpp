@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <complex>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <numbers>
 #include <regex>
 #include <sstream>
 
@@ -75,6 +77,30 @@ INSTANTIATE_TEST_SUITE_P(SensorTables,
                                                      1808},
                                          Calibration{"vls128", "VLS128.yaml", 55.277, 1809}),
                          [](const auto& test) { return std::string(test.param.sensor); });
+
+// Two unit vectors that turn against each other, of 9.6 deg each.
+TEST(RosetteTable, IsThatOfTwoTurningPrisms) {
+  const ScanPattern pattern = BuildScanPattern(
+      {.rate_hz = 10.0,
+       .pattern = FiringTableSpec{RAILCAST_SOURCE_DIR "/scenarios/sensors/rosette.csv"}});
+  ASSERT_EQ(pattern.num_firings(), 10'000U);
+  double widest_deg = 0.0;
+  for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
+    ASSERT_EQ(pattern.time_ns[i], 10'000U * i);
+    const double t_s = 1e-5 * static_cast<double>(i);
+    const std::complex<double> deflection_deg =
+        std::polar(9.6, 2.0 * std::numbers::pi * 121.3 * t_s) +
+        std::polar(9.6, -2.0 * std::numbers::pi * 77.9 * t_s);
+    const double azimuth_deg = DegFromRad(std::atan2(static_cast<double>(pattern.direction_y[i]),
+                                                     static_cast<double>(pattern.direction_x[i])));
+    const double elevation_deg = DegFromRad(std::asin(static_cast<double>(pattern.direction_z[i])));
+    // Half a digit of the table, and directions in float32.
+    ASSERT_NEAR(azimuth_deg, deflection_deg.real(), 0.51e-3);
+    ASSERT_NEAR(elevation_deg, deflection_deg.imag(), 0.51e-3);
+    widest_deg = std::max(widest_deg, std::abs(deflection_deg));
+  }
+  EXPECT_NEAR(widest_deg, 19.2, 0.01);
+}
 
 TEST(PandarTable, AgreesWithThePublishedCalibration) {
   std::ifstream file(RAILCAST_SHARED_DATA_DIR "/lidar_packets_nebula/calibration/Pandar64.csv");
