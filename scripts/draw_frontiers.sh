@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Measures time against accuracy on four scenarios, with the published raster and with three sensors
 # whose beams lie otherwise, and copies the raster's charts to where docs/frontier.md shows them:
-# draw_frontiers.sh [OPTION OF railcast-analyze frontier...]. Prints the reports, and at the end the
-# tables of README and docs. Takes most of an hour; for timings worth quoting nothing else may run
-# on the machine.
+# draw_frontiers.sh [OPTION OF railcast-analyze frontier...]. The options are for the raster. Prints
+# the reports, and at the end the tables of README and docs. Takes long; for timings worth quoting
+# nothing else may run on the machine.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -34,7 +34,7 @@ for scene in "${scenes[@]}"; do
     printf '{"version": 1, "file": "%s", "lidar": {"file": "%s", "mount": %s}}\n' \
       "$PWD/scenarios/$scene.json" "$PWD/scenarios/sensors/$sensor.json" "$mount" >"$scenario"
     frontier "${scene}_$sensor" "$scenario" --frames 1 \
-      --rows surface,surface+thin_conductors,footprint,brute_force_64 "$@"
+      --rows surface,surface+thin_conductors,footprint,brute_force_64
   done
 done
 
