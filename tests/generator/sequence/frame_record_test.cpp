@@ -12,7 +12,7 @@ namespace railcast {
 namespace {
 
 TEST(CountFrame, CountsEveryFiringOnceAndEveryPoint) {
-  const Frame frame = ExampleFrame(0, 6, 10);  // Each of ten outcomes occurs six times.
+  const Frame frame = ExampleFrame(0, 6, 11);  // Each of eleven outcomes occurs six times.
   const FrameCounts counts = CountFrame(frame, ExampleLabels());
   for (const std::uint64_t count : counts.outcomes) EXPECT_EQ(count, 6U);
   EXPECT_EQ(counts.points, 12U);

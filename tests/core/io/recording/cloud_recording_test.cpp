@@ -192,7 +192,7 @@ TEST(CloudRecording, ReadsWhatOpen3dWrites) {
 }
 
 TEST(CloudRecording, OfOneFrameOfOursHasItsSlots) {
-  const Frame truth = ExampleFrame(3, 6, 41);
+  const Frame truth = ExampleFrame(3, 6, 43);
   const TemporaryDirectory directory;
   std::string bytes;
   EncodePcd(truth, FieldSelection(), PcdEncoding::kBinary, bytes);
@@ -205,7 +205,7 @@ TEST(CloudRecording, OfOneFrameOfOursHasItsSlots) {
     const Frame& frame = recorded.frame;
     EXPECT_TRUE(recorded.is_grid);
     ASSERT_EQ(frame.rows, 6U);
-    ASSERT_EQ(frame.columns, 41U);
+    ASSERT_EQ(frame.columns, 43U);
     for (std::size_t i = 0; i < frame.num_slots(); ++i) {
       ASSERT_EQ(frame.ring[i], truth.ring[i]);
       ASSERT_EQ(std::isnan(frame.x[i]), !HasPoint(truth.outcome[i]));
@@ -291,8 +291,8 @@ TEST(CloudRecording, NamesWhatIsWrongWithAFile) {
       "scalar_label: must be a whole number from 0 to 4294967295 (got 0.5)");
   EXPECT_EQ(MessageOfText("a.pcd", AsciiPcd("x y z label", "4 4 4 4", "F F F F", {"1 2 3 nan"})),
             "label: must be a whole number from 0 to 4294967295 (got nan)");
-  EXPECT_EQ(MessageOfText("a.pcd", AsciiPcd("x y z outcome", "4 4 4 1", "F F F U", {"1 2 3 10"})),
-            "outcome: must be a whole number from 0 to 9 (got 10)");
+  EXPECT_EQ(MessageOfText("a.pcd", AsciiPcd("x y z outcome", "4 4 4 1", "F F F U", {"1 2 3 11"})),
+            "outcome: must be a whole number from 0 to 10 (got 11)");
   const std::vector<std::string> twice = {"1 2 3 0 5", "1 2 4 1 5", "1 2 5 0 5"};
   EXPECT_EQ(MessageOfText("a.pcd", AsciiPcd("x y z ring column", "4 4 4 2 4", "F F F U U", twice)),
             "point 2: must be the only one of its ring, column and return_index (got 0, 5, 0)");
