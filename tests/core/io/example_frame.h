@@ -31,7 +31,10 @@ inline Frame ExampleFrame(std::uint32_t index, std::uint32_t rows = 6, std::uint
   frame.duration_ns = 80'000'000U * (rows * columns - 1);
   for (std::uint32_t slot = 0; slot < frame.num_slots(); ++slot) {
     const auto words = RandomWords(7, RandomUse::kNoise, index, slot);
-    const auto outcome = static_cast<Outcome>(slot % kOutcomeNames.size());
+    const auto in_turn = static_cast<Outcome>(slot % 10);
+    // The eleventh outcome takes turns with another one that has no point.
+    const bool is_eleventh = in_turn == Outcome::kSensorDropout && slot / 10 % 2 == 1;
+    const Outcome outcome = is_eleventh ? Outcome::kCoverBlocked : in_turn;
     const bool has_point = HasPoint(outcome);
     frame.x[slot] = has_point ? UnitFloat(words[0]) * 300.0F : kNaN;
     frame.y[slot] = has_point ? UnitFloat(words[1]) * -20.0F : kNaN;
