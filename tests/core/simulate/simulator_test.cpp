@@ -317,11 +317,12 @@ TEST(Simulator, ExplainsEveryEchoWithTheSlotItHasInTheFrame) {
   EXPECT_GT(num_echoes, 1200U);
 }
 
-// A plate 0.9 m before a wall: far enough for two echoes, too near for a receiver that is blind for
-// 8 ns (1.2 m). Without the effect the parameter does nothing.
+// A plate 0.9 m before a wall as bright: far enough for two echoes, too near for a receiver blind
+// for 8 ns (1.2 m). Without the effect the parameter does nothing.
 TEST(Simulator, ReportsNoEchoFromWithinTheDeadTime) {
   auto world = WorldWithWall(20.9F);
-  world->AddObject(WallModel(0.0F, 2.0F, 1),
+  // Its edges run through the middles of the beams at 5.625 deg: 20 m tan 5.625 deg.
+  world->AddObject(WallModel(0.0F, 1.97F),
                    MakeTransform(Eigen::Matrix3d::Identity(), {20.0, 0.0, 0.0}));
   const auto num_pairs = [&](bool has_dead_time, double dead_time_ns) {
     SimulatorSpec spec{.detector = {.effects = {.surface_response = true,
