@@ -60,14 +60,36 @@ bool IsPredictedWithin(const EffectSearchResult& result,
   return IsWithin(sum, limits);
 }
 
+// The candidates that are worth leaving out. An effect that matters and costs next to nothing
+// stays: other frames may need it more than the samples do, above all the one for wires, of which a
+// frame has few.
+EffectBits WorthLeavingOut(const EffectSearchResult& result,
+                           const std::vector<EffectCost>& candidates,
+                           double full_instructions) {
+  constexpr double kNextToNothing = 0.01;
+  EffectBits worth = 0;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const bool changes_nothing = std::all_of(
+        std::begin(kDeviationQuantities), std::end(kDeviationQuantities), [&](const auto& q) {
+          return Growth(result.without[i], result.full_deviation, q) == 0.0;
+        });
+    if (changes_nothing || candidates[i].instructions >= kNextToNothing * full_instructions) {
+      worth |= 1U << i;
+    }
+  }
+  return worth;
+}
+
 // The most expensive set of candidates that may be left out, predicted by adding up the changes
 // that each of them causes alone.
 EffectBits PredictLeftOut(const EffectSearchResult& result,
                           const std::vector<EffectCost>& candidates,
+                          EffectBits worth,
                           const ToleranceSpec& limits) {
   EffectBits best = 0;
   double best_saving = -1.0;
   for (EffectBits bits = 0; bits < 1U << candidates.size(); ++bits) {
+    if ((bits & ~worth) != 0) continue;
     double saving = 0.0;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       if (IsIn(bits, i)) saving += candidates[i].instructions;
@@ -107,7 +129,8 @@ EffectSearchResult FindCheapestEffects(const EffectSet& full,
     result.without.push_back(measure(remaining(1U << i)));
   }
   const ToleranceSpec limits = SearchLimits(tolerance, result.full_deviation);
-  EffectBits left_out = PredictLeftOut(result, candidates, limits);
+  const EffectBits worth = WorthLeavingOut(result, candidates, InstructionsOf(full));
+  EffectBits left_out = PredictLeftOut(result, candidates, worth, limits);
   result.deviation = measure(remaining(left_out));
   while (left_out != 0 && !IsWithin(result.deviation, limits)) {
     // Bring back the effect that leads nearest to the limits, or the cheaper of two alike.
