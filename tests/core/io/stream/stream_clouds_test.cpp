@@ -83,7 +83,7 @@ TEST(MakeFrame, MakesNoneOfSlotsAndOutcomesThatDoNotExist) {
   EXPECT_FALSE(makes());
   frame.column[3] = 3;
   EXPECT_TRUE(makes());
-  frame.outcome[3] = static_cast<Outcome>(10);
+  frame.outcome[3] = static_cast<Outcome>(11);
   EXPECT_FALSE(makes());
 }
 
