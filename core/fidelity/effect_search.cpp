@@ -64,16 +64,16 @@ bool IsPredictedWithin(const EffectSearchResult& result,
 // stays: other frames may need it more than the samples do, above all the one for wires, of which a
 // frame has few.
 EffectBits WorthLeavingOut(const EffectSearchResult& result,
-                           const std::vector<EffectCost>& candidates,
-                           double full_instructions) {
+                           const std::vector<EffectCost>& candidates) {
+  double all_instructions = 0.0;
+  for (const EffectCost& candidate : candidates) all_instructions += candidate.instructions;
   constexpr double kNextToNothing = 0.01;
   EffectBits worth = 0;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const bool changes_nothing = std::all_of(
-        std::begin(kDeviationQuantities), std::end(kDeviationQuantities), [&](const auto& q) {
-          return Growth(result.without[i], result.full_deviation, q) == 0.0;
-        });
-    if (changes_nothing || candidates[i].instructions >= kNextToNothing * full_instructions) {
+        std::begin(kDeviationQuantities), std::end(kDeviationQuantities),
+        [&](const auto& q) { return Growth(result.without[i], result.full_deviation, q) == 0.0; });
+    if (changes_nothing || candidates[i].instructions >= kNextToNothing * all_instructions) {
       worth |= 1U << i;
     }
   }
@@ -129,7 +129,7 @@ EffectSearchResult FindCheapestEffects(const EffectSet& full,
     result.without.push_back(measure(remaining(1U << i)));
   }
   const ToleranceSpec limits = SearchLimits(tolerance, result.full_deviation);
-  const EffectBits worth = WorthLeavingOut(result, candidates, InstructionsOf(full));
+  const EffectBits worth = WorthLeavingOut(result, candidates);
   EffectBits left_out = PredictLeftOut(result, candidates, worth, limits);
   result.deviation = measure(remaining(left_out));
   while (left_out != 0 && !IsWithin(result.deviation, limits)) {

@@ -9,7 +9,7 @@ namespace railcast {
 namespace {
 
 constexpr EffectSet kFull{.extinction = true, .footprint = true, .thin_conductors = true};
-const std::vector<EffectCost> kCandidates = {{&EffectSet::extinction, 1.0},
+const std::vector<EffectCost> kCandidates = {{&EffectSet::extinction, 2.0},
                                              {&EffectSet::footprint, 100.0},
                                              {&EffectSet::thin_conductors, 10.0}};
 constexpr ToleranceSpec kTenPercent{.missed_share = 0.1};
@@ -37,6 +37,15 @@ TEST(EffectSearch, LeavesOutTheDearestWhereNotAllCanGo) {
   const auto result =
       FindCheapestEffects(kFull, kCandidates, kTenPercent, MissedWithout(0.01, 0.065, 0.05));
   EXPECT_EQ(result.effects, (EffectSet{.thin_conductors = true}));
+}
+
+TEST(EffectSearch, KeepsWhatCostsNextToNothingUnlessItChangesNothing) {
+  const std::vector<EffectCost> candidates = {{&EffectSet::extinction, 0.9},
+                                              {&EffectSet::footprint, 100.0},
+                                              {&EffectSet::thin_conductors, 0.9}};
+  const auto result =
+      FindCheapestEffects(kFull, candidates, kTenPercent, MissedWithout(0.001, 0.01, 0.0));
+  EXPECT_EQ(result.effects, EffectSet{.extinction = true});
 }
 
 TEST(EffectSearch, SaysWhatEachEffectWouldChange) {
