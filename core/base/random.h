@@ -23,6 +23,8 @@ enum class RandomUse : std::uint32_t {
   kCover = 13,
   kInterference = 14,
   kSpray = 15,
+  kSensorKey = 16,
+  kFogPatches = 17,
   kGroundRoughness = 100,
   kBallastRoughness = 101,
   kTreePlacement = 102,

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/random.h"
 #include "core/base/text.h"
 #include "core/detect/effect_table.h"
 #include "core/scenario/json_rules.h"
@@ -83,10 +84,22 @@ EffectSet EffectsOf(const ScenarioSpec& spec) {
   return effects;
 }
 
+std::uint64_t SensorSeed(std::uint64_t seed, const std::string& sensor_name) {
+  if (sensor_name.empty()) return seed;
+  std::uint64_t hash = 0xCBF29CE484222325ULL;  // FNV-1a: Fowler, Noll and Vo's offset and prime.
+  for (const char letter : sensor_name) {
+    hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001B3ULL;
+  }
+  const auto words = RandomWords(seed, RandomUse::kSensorKey, static_cast<std::uint32_t>(hash),
+                                 static_cast<std::uint32_t>(hash >> 32U));
+  return std::uint64_t{words[0]} << 32U | words[1];
+}
+
 DetectorSpec DetectorSpecOf(const ScenarioSpec& spec,
                             const LidarSpec& lidar,
                             const EffectSet& effects) {
-  return {.seed = spec.seed,
+  return {.seed = SensorSeed(spec.seed, lidar.name),
+          .air_seed = spec.seed,
           .range_min_m = lidar.range_min_m,
           .range_max_m = lidar.range_max_m,
           .effects = effects,

@@ -34,6 +34,8 @@ constexpr std::array kUses = {
     RandomUse::kFogEcho,
     RandomUse::kFalseAlarm,
     RandomUse::kFootprint,
+    RandomUse::kSensorKey,
+    RandomUse::kFogPatches,
     RandomUse::kGroundRoughness,
     RandomUse::kBallastRoughness,
     RandomUse::kTreePlacement,

@@ -52,7 +52,7 @@ struct EffectSet {
   /// Smooth detection probability instead of a hard threshold.
   bool detection_probability = false;
   bool clutter = false;   ///< Echoes of raindrops and snowflakes.
-  bool fog_echo = false;  ///< Extended echo of fog near the sensor.
+  bool fog_echo = false;  ///< Echoes of the droplets of fog near the sensor.
   bool spray = false;     ///< Water and powder snow behind moving trains.
   bool sunlight = false;  ///< Raised threshold, false alarms, and blinding by the solar disc.
   /// Range error along the beam, depending on the signal-to-noise ratio.
@@ -161,6 +161,10 @@ struct ReceiverSpec {
   double channel_bias_sigma_m = 0.01;
   double pointing_jitter_deg = 0.01;  ///< Standard deviation in each of two directions.
   double clutter_gain = 0.2;  ///< Factor for the mean number of raindrop and snowflake echoes.
+  /// Range at which the receiver has a quarter of its gain for the echoes of fog; it falls with the
+  /// fourth power of the range below. Absent: NearRange_m() (core/detect/fog_profile.h).
+  std::optional<double> near_range_m;
+  double fog_gain = 1.0;  ///< Factor for the power of fog's echoes.
   /// How long the receiver is blind after an echo that it has detected: an echo less than
   /// c x dead_time_ns / 2 behind it is no return of its own.
   double dead_time_ns = 0.0;
@@ -202,6 +206,8 @@ struct WeatherSpec {
   double fog_density_per_m = 0.0;  ///< Extinction; the published model applies it one way.
   /// Alternative to fog_density_per_m: extinction = ln 20 / visibility (5 % contrast).
   std::optional<double> visibility_m;
+  /// Standard deviation of the logarithm of the density of fog's droplets, which varies in space.
+  double fog_variation = 0.2;
   double rain_rate_mmph = 0.0;
   RainDrops rain_drop_sizes = RainDrops::kMarshallPalmer;
   double rain_dropout_per_m = 3.65e-4;  ///< Rain dropout rate at 1 mm/h.
@@ -233,7 +239,8 @@ struct ClutterLabels {
 /// Everything that detection depends on besides the scene: the sensor, the weather and the chosen
 /// effects. CheckDetectorSpec() checks it.
 struct DetectorSpec {
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;      ///< Key of the sensor's own draws (SensorSeed()).
+  std::uint64_t air_seed = 1;  ///< Key of the patches of fog, which all sensors of a vehicle share.
   double range_min_m = 0.5;
   double range_max_m = 300.0;
   EffectSet effects{};

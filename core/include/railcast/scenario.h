@@ -197,6 +197,11 @@ class RailWorld;
 ///   after the scenario was read.
 [[nodiscard]] EffectSet EffectsOf(const ScenarioSpec& spec);
 
+/// The key of a sensor's own draws: the scenario's seed for a sensor without a name, else Philox's
+/// words for that seed and the name's hash (FNV-1a, 64 bits). It depends on nothing else, so that a
+/// sensor draws the same alone and beside others, and sensors of different names independently.
+[[nodiscard]] std::uint64_t SensorSeed(std::uint64_t seed, const std::string& sensor_name);
+
 /// The detector spec of one of the scenario's sensors. The labels of clutter are not set yet: they
 /// are looked up when a simulator is made.
 [[nodiscard]] DetectorSpec DetectorSpecOf(const ScenarioSpec& spec,
