@@ -5,6 +5,7 @@
 #include "analysis/estimate/intervals.h"
 #include "analysis/report/chart_columns.h"
 #include "analysis/stats/bins.h"
+#include "analysis/stats/surface_point.h"
 #include "core/io/recording/firing_truth.h"
 
 namespace railcast {
@@ -113,10 +114,7 @@ void Noise::Add(const RecordedFrame& recorded, const std::vector<PlanePatch>& pa
   truth_.resize(RangeBins().size());
   const Frame& frame = recorded.frame;
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
-    // In files that only hold points, no outcome is known.
-    const bool is_known = recorded.Has("outcome");
-    if (is_known && frame.outcome[slot] != Outcome::kReturned) continue;
-    if (!std::isfinite(frame.range_m[slot])) continue;
+    if (!HasSurfacePoint(recorded, slot)) continue;
     const double true_range_m = static_cast<double>(frame.true_range_m[slot]);
     const auto bin = RangeBins().Find(true_range_m);
     if (!bin) continue;

@@ -16,6 +16,7 @@
 
 #include "analysis/estimate/moments.h"
 #include "analysis/estimate/robust.h"
+#include "analysis/stats/surface_point.h"
 #include "railcast/transform.h"
 
 namespace railcast {
@@ -169,12 +170,14 @@ Window WindowOf(const ScanTable& scan) {
           static_cast<std::size_t>(std::clamp(columns, is_fine ? 2.0 : 4.0, 6.0))};
 }
 
-void Gather(const Frame& frame, std::size_t slot, Points& points) {
-  if (!std::isfinite(frame.range_m[slot])) return;
+void Gather(const RecordedFrame& recorded, std::size_t slot, Points& points) {
+  const Frame& frame = recorded.frame;
+  if (!HasSurfacePoint(recorded, slot)) return;
   points.push_back({PointAt(frame, slot), static_cast<double>(frame.intensity[slot]), slot});
 }
 
-std::vector<FlatPiece> FindInGrid(const Frame& frame, const ScanTable& scan) {
+std::vector<FlatPiece> FindInGrid(const RecordedFrame& recorded, const ScanTable& scan) {
+  const Frame& frame = recorded.frame;
   const Window half = WindowOf(scan);
   const std::size_t height = 2 * half.rows + 1;
   const std::size_t width = 2 * half.columns + 1;
@@ -197,7 +200,7 @@ std::vector<FlatPiece> FindInGrid(const Frame& frame, const ScanTable& scan) {
     for (std::size_t r = row; r < row + height; ++r) {
       for (std::size_t c = column; c < column + width; ++c) {
         const auto beside = scan.ColumnBeside(row + half.rows, c, r);
-        if (beside) Gather(frame, r * frame.width() + *beside * frame.returns, points);
+        if (beside) Gather(recorded, r * frame.width() + *beside * frame.returns, points);
       }
     }
     if (points.size() * 4 < height * width * 3 || points.size() < kLeastPoints) continue;
@@ -206,11 +209,12 @@ std::vector<FlatPiece> FindInGrid(const Frame& frame, const ScanTable& scan) {
   return pieces;
 }
 
-std::vector<FlatPiece> FindInCloud(const Frame& frame) {
+std::vector<FlatPiece> FindInCloud(const RecordedFrame& recorded) {
+  const Frame& frame = recorded.frame;
   const auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
   std::vector<std::size_t> slots;
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
-    if (!std::isfinite(frame.range_m[slot])) continue;
+    if (!HasSurfacePoint(recorded, slot)) continue;
     cloud->emplace_back(frame.x[slot], frame.y[slot], frame.z[slot]);
     slots.push_back(slot);
   }
@@ -224,7 +228,7 @@ std::vector<FlatPiece> FindInCloud(const Frame& frame) {
   for (std::size_t i = frame.index % stride; i < slots.size(); i += stride) {
     tree.nearestKSearch(static_cast<int>(i), static_cast<int>(kNearestPoints), found, squares_m2);
     Points points;
-    for (const int k : found) Gather(frame, slots[static_cast<std::size_t>(k)], points);
+    for (const int k : found) Gather(recorded, slots[static_cast<std::size_t>(k)], points);
     if (auto piece = MakePiece(points)) pieces.push_back(std::move(*piece));
   }
   return pieces;
@@ -233,9 +237,9 @@ std::vector<FlatPiece> FindInCloud(const Frame& frame) {
 }  // namespace
 
 std::vector<FlatPiece> FindFlatPieces(const RecordedFrame& recorded, const ScanTable* scan) {
-  if (!recorded.is_grid) return FindInCloud(recorded.frame);
+  if (!recorded.is_grid) return FindInCloud(recorded);
   if (scan == nullptr) return {};
-  return FindInGrid(recorded.frame, *scan);
+  return FindInGrid(recorded, *scan);
 }
 
 std::vector<PlanePatch> FindPlanePatches(const RecordedFrame& recorded, const ScanTable* scan) {

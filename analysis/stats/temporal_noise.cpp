@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
 #include "analysis/report/chart_columns.h"
 #include "analysis/stats/bins.h"
+#include "analysis/stats/surface_point.h"
 
 namespace railcast {
 namespace {
@@ -23,17 +25,21 @@ bool HasMoved(const RecordedFrame& earlier, const RecordedFrame& later) {
          Eigen::AngleAxisd(motion.linear()).angle() > kStill_rad;
 }
 
-double RangeAt_m(const Frame& frame, std::size_t row, std::size_t column) {
-  return static_cast<double>(frame.range_m[row * frame.width() + column * frame.returns]);
+// NaN where no surface returned.
+double RangeAt_m(const RecordedFrame& recorded, std::size_t row, std::size_t column) {
+  const Frame& frame = recorded.frame;
+  const std::size_t slot = row * frame.width() + column * frame.returns;
+  if (!HasSurfacePoint(recorded, slot)) return std::numeric_limits<double>::quiet_NaN();
+  return static_cast<double>(frame.range_m[slot]);
 }
 
 /// Change of range from one column to the next; nothing where the surface bends or points are
 /// missing.
-std::optional<double> Slope_m(const Frame& frame, std::size_t row, std::size_t column) {
-  if (column == 0 || column + 1 >= frame.columns) return std::nullopt;
-  const double left_m = RangeAt_m(frame, row, column - 1);
-  const double right_m = RangeAt_m(frame, row, column + 1);
-  const double bend_m = RangeAt_m(frame, row, column) - 0.5 * (left_m + right_m);
+std::optional<double> Slope_m(const RecordedFrame& recorded, std::size_t row, std::size_t column) {
+  if (column == 0 || column + 1 >= recorded.frame.columns) return std::nullopt;
+  const double left_m = RangeAt_m(recorded, row, column - 1);
+  const double right_m = RangeAt_m(recorded, row, column + 1);
+  const double bend_m = RangeAt_m(recorded, row, column) - 0.5 * (left_m + right_m);
   const double slope_m = 0.5 * (right_m - left_m);
   // Negated so that NaN fails, too.
   if (!(std::abs(bend_m) < kMostBend_m && std::abs(slope_m) < kMostSlope_m)) return std::nullopt;
@@ -122,12 +128,12 @@ void TemporalNoise::Add(const RecordedFrame& earlier,
     if (!found || std::abs(found->offset_rad) > 0.5 * earlier_scan->column_step_rad) continue;
     const double offset = found->offset_rad / step_rad;  // In columns.
     for (std::size_t row = 0; row < b.rows; ++row) {
-      const auto slope_m = Slope_m(a, row, found->column);
-      const auto later_slope_m = Slope_m(b, row, column);
+      const auto slope_m = Slope_m(earlier, row, found->column);
+      const auto later_slope_m = Slope_m(later, row, column);
       if (!slope_m || !later_slope_m) continue;
-      const double range_m = RangeAt_m(a, row, found->column);
+      const double range_m = RangeAt_m(earlier, row, found->column);
       const double difference_m =
-          RangeAt_m(b, row, column) - range_m - offset * 0.5 * (*slope_m + *later_slope_m);
+          RangeAt_m(later, row, column) - range_m - offset * 0.5 * (*slope_m + *later_slope_m);
       const auto bin = RangeBins().Find(range_m);
       if (!bin) continue;
       bins_[*bin].differences_m.Add(difference_m);

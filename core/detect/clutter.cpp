@@ -5,6 +5,7 @@
 #include "core/base/random.h"
 #include "core/detect/added_echo.h"
 #include "core/detect/beam_optics.h"
+#include "core/detect/fog_echo.h"
 #include "core/detect/lane_random.h"
 #include "railcast/outcome.h"
 
@@ -21,7 +22,12 @@ bool Reaches(const DetectTile& first, std::size_t beam, float range_m) {
 }  // namespace
 
 Clutter::Clutter(const DetectorSpec& spec, const Kernels& kernels)
-    : spec_(spec), uniforms_(kernels.uniforms) {
+    : spec_(spec),
+      uniforms_(kernels.uniforms),
+      find_fog_peaks_(kernels.fog_peaks),
+      fog_patches_(spec.air_seed),
+      extinction_per_m_(
+          static_cast<float>(Extinction_per_m(spec.weather, spec.beam.wavelength_nm))) {
   power_min_ = LeastPower(spec.receiver);
   if (spec.effects.clutter && spec.weather.rain_rate_mmph > 0.0) {
     drops_ = MakePopulation(RainDropSizes(spec.weather), kDropReflectance, spec.clutter_labels.rain,
@@ -31,13 +37,7 @@ Clutter::Clutter(const DetectorSpec& spec, const Kernels& kernels)
     flakes_ = MakePopulation(SnowFlakeSizes(spec.weather), kFlakeReflectance,
                              spec.clutter_labels.snow, EchoTiles::kFirstFlake);
   }
-  if (spec.effects.fog_echo) {
-    fog_echo_ = FogEchoOf(spec.weather, spec.beam);
-    const double loss = std::exp(-2.0 * FogExtinction_per_m(spec.weather) * fog_echo_.range_m);
-    fog_ratio_ = fog_echo_.intensity * loss / (fog_echo_.range_m * fog_echo_.range_m * power_min_);
-    // An echo weaker than a third of the threshold is detected in at most one case of 1000.
-    has_fog_echo_ = fog_ratio_ > 0.3 && fog_echo_.range_m >= spec.range_min_m;
-  }
+  if (spec.effects.fog_echo) fog_ = FogProfileOf(spec);
   if (spec.effects.sunlight) {
     false_alarm_probability_ = static_cast<float>(FalseAlarmProbability(spec.weather.sun));
   }
@@ -100,15 +100,35 @@ void Clutter::AddParticles(EchoTiles& echoes) const {
   AddPopulation(flakes_, echoes);
 }
 
-void Clutter::AddFogEchoes(EchoTiles& echoes) const {
-  if (!has_fog_echo_) return;
-  const auto range_m = static_cast<float>(fog_echo_.range_m);
-  for (std::size_t beam = 0; beam < echoes.first.num_rays; ++beam) {
-    if (!Reaches(echoes.first, beam, range_m)) continue;
-    AddEcho(beam,
-            {spec_.clutter_labels.fog, EchoTiles::kFogEcho, range_m, static_cast<float>(fog_ratio_),
-             static_cast<float>(fog_echo_.intensity)},
-            echoes);
+void Clutter::AddFogEchoes(const AirView& air, EchoTiles& echoes) const {
+  if (!has_fog_echo()) return;
+  const FogEchoParameters parameters{
+      .seed = spec_.seed,
+      .first_gate = static_cast<std::uint32_t>(fog_.first_gate),
+      .num_gates = static_cast<std::uint32_t>(fog_.ratio.size()),
+      .gate_m = static_cast<float>(fog_.gate_m),
+      .mean_ratio = fog_.ratio.data(),
+      .least_ratio = static_cast<float>(kLeastFogRatio),
+      .noise = static_cast<float>(1.0 / spec_.receiver.snr_at_threshold),
+      .variation = static_cast<float>(spec_.weather.fog_variation),
+      .range_min_m = static_cast<float>(spec_.range_min_m)};
+  FogPeaks peaks;
+  const FogWaves waves = fog_patches_.WavesAt(air.world_from_window, air.time_s);
+  find_fog_peaks_({air.rays, echoes.first, waves}, parameters, peaks);
+  const auto power_min = static_cast<float>(power_min_);
+  // A receiver that reports the strongest echo alone looks for the highest peak alone.
+  const std::uint32_t num_peaks = spec_.receiver.return_mode == ReturnMode::kStrongest ? 1 : 2;
+  for (std::uint32_t e = 0; e < num_peaks; ++e) {
+    for (std::size_t beam = 0; beam < echoes.first.num_rays; ++beam) {
+      const float ratio = peaks.ratio[e][beam];
+      if (ratio <= 0.0F) continue;
+      const float r = peaks.range_m[e][beam];
+      // As of a surface, the intensity is that before attenuation.
+      const float intensity =
+          ratio * power_min * r * r * baseline::Exp(2.0F * extinction_per_m_ * r);
+      AddEcho(beam, {spec_.clutter_labels.fog, EchoTiles::kFirstFogEcho + e, r, ratio, intensity},
+              echoes);
+    }
   }
 }
 

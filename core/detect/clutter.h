@@ -5,33 +5,45 @@
 #include <cstdint>
 
 #include "core/detect/echo_tiles.h"
+#include "core/detect/fog_patches.h"
+#include "core/detect/fog_profile.h"
 #include "core/detect/kernels.h"
 #include "core/detect/weather_optics.h"
 #include "railcast/effects.h"
+#include "railcast/ray_caster.h"
+#include "railcast/transform.h"
 
 namespace railcast {
+
+/// Where and when a tile's beams pass through the air.
+struct AirView {
+  const RayTile& rays;  ///< The central rays of the tile's firings, in the frame of a window.
+  Transform world_from_window;
+  double time_s{};  ///< Simulation time.
+};
 
 /// Effects `clutter` and `fog_echo` and the false alarms of `sunlight`: echoes that no surface
 /// sends. They also occur in beams that meet no surface. Immutable; thread-safe.
 ///
 /// Drops and flakes: their number is Poisson distributed, their range follows Maxwell's law
 /// (weather_optics.h), and their power results from an exponential distribution of diameters above
-/// the least detectable one. Fog: one echo where its soft response peaks. Both occur only in front
-/// of the first surface. Extinction up to drops and flakes is neglected, since they lie in the
-/// first metres. False alarms: uniformly distributed over the range gate, as strong as the
-/// threshold. The return mode decides which of a firing's echoes become returns.
+/// the least detectable one. Fog: an echo where its soft response peaks, up to two in other modes
+/// than `strongest` (fog_echo.h). Both occur only in front of the first surface. Extinction up to
+/// drops and flakes is neglected, since they lie in the first metres. False alarms: uniformly
+/// distributed over the range gate, as strong as the threshold. The return mode decides which of a
+/// firing's echoes become returns.
 class Clutter {
  public:
   Clutter(const DetectorSpec& spec, const Kernels& kernels);
 
   [[nodiscard]] bool has_particles() const { return drops_.is_on || flakes_.is_on; }
-  [[nodiscard]] bool has_fog_echo() const { return has_fog_echo_; }
+  [[nodiscard]] bool has_fog_echo() const { return !fog_.ratio.empty(); }
   [[nodiscard]] bool has_false_alarms() const { return false_alarm_probability_ > 0.0F; }
 
   /// Adds drops and flakes. @pre The true ranges and outcomes of `echoes.first` are set.
   void AddParticles(EchoTiles& echoes) const;
   /// Adds fog's echoes. @pre As AddParticles().
-  void AddFogEchoes(EchoTiles& echoes) const;
+  void AddFogEchoes(const AirView& air, EchoTiles& echoes) const;
   /// Adds false alarms. They do not pass detection, so call this after it.
   void AddFalseAlarms(EchoTiles& echoes) const;
 
@@ -56,9 +68,10 @@ class Clutter {
   double power_min_{};
   Population drops_;
   Population flakes_;
-  bool has_fog_echo_ = false;
-  FogEcho fog_echo_;
-  double fog_ratio_{};
+  decltype(Kernels::fog_peaks) find_fog_peaks_;
+  FogProfile fog_;
+  FogPatches fog_patches_;
+  float extinction_per_m_{};
   float false_alarm_probability_{};
 };
 

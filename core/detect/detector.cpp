@@ -168,13 +168,13 @@ void Detector::Respond(DetectTile& tile, const EffectObserver& observer) const {
   }
 }
 
-void Detector::Detect(EchoTiles& echoes, const EffectObserver& observer) const {
+void Detector::Detect(const AirView& air, EchoTiles& echoes, const EffectObserver& observer) const {
   const auto tell = [&](bool is_on, std::string_view effect) {
     if (is_on && observer) observer(effect);
   };
   clutter_.AddParticles(echoes);
   tell(clutter_.has_particles(), "clutter");
-  clutter_.AddFogEchoes(echoes);
+  clutter_.AddFogEchoes(air, echoes);
   tell(clutter_.has_fog_echo(), "fog_echo");
   for (const EffectStep& step : receiver_) {
     echoes.ForEachTile(step.apply);

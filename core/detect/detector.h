@@ -56,7 +56,8 @@ class Detector {
 
   /// Applies the effects of the receiver. Also expects intensity and power_ratio; adds clutter and
   /// false alarms and fills the remaining members.
-  void Detect(EchoTiles& echoes, const EffectObserver& observer = {}) const;
+  /// @param air The rays of the firings in the lanes of `echoes.first`.
+  void Detect(const AirView& air, EchoTiles& echoes, const EffectObserver& observer = {}) const;
 
  private:
   ResponseParameters response_;

@@ -15,11 +15,11 @@ namespace railcast {
 class EchoTiles {
  public:
   // Numbers of echoes within a firing, part of their random keys. Echoes of surfaces count from 0.
+  static constexpr std::uint32_t kFirstFogEcho = 93;  ///< And 94.
   static constexpr std::uint32_t kSprayCloud = 95;
   static constexpr std::uint32_t kHalo = 96;
   static constexpr std::uint32_t kForeignPulse = 97;
   static constexpr std::uint32_t kFalseAlarm = 98;
-  static constexpr std::uint32_t kFogEcho = 99;
   static constexpr std::uint32_t kFirstDrop = 100;
   static constexpr std::uint32_t kFirstFlake = 200;
 

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "core/base/random.h"
+#include "core/detect/detect_tile.h"
+#include "railcast/ray_caster.h"
 
 namespace railcast {
 
@@ -35,6 +38,28 @@ struct SubRayAim {
 struct PointingParameters {
   std::uint64_t seed{};
   float sigma_rad{};
+};
+
+inline constexpr std::size_t kNumFogWaves = 12;
+
+/// The waves of FogPatches in the frame of a tile's rays.
+struct FogWaves {
+  float x[kNumFogWaves], y[kNumFogWaves], z[kNumFogWaves];  ///< Turns per metre along the axes.
+  float phase[kNumFogWaves];                                ///< Turns at the origin.
+  float amplitude[kNumFogWaves];
+};
+
+/// A tile's beams and the waves of the fog in their frame.
+struct FogBeams {
+  const RayTile& rays;
+  const DetectTile& tile;
+  const FogWaves& waves;
+};
+
+/// The highest and the second highest peak of each beam's echo of fog.
+struct FogPeaks {
+  float range_m[2][kTileSize];
+  float ratio[2][kTileSize];  ///< Power over the least detectable; 0 where there is no such peak.
 };
 
 struct ResponseParameters {

@@ -5,6 +5,7 @@
 #include "core/detect/cover_loss.h"
 #include "core/detect/detection.h"
 #include "core/detect/extinction.h"
+#include "core/detect/fog_echo.h"
 #include "core/detect/incidence.h"
 #include "core/detect/measurement.h"
 #include "core/detect/pointing.h"

@@ -40,6 +40,8 @@ namespace railcast {
   KERNEL(detection, ApplyDetection<false>, void(DetectTile&, const struct DetectionParameters&)) \
   KERNEL(smooth_detection, ApplyDetection<true>,                                                 \
          void(DetectTile&, const struct DetectionParameters&))                                   \
+  KERNEL(fog_peaks, FindFogPeaks,                                                                \
+         void(const FogBeams&, const struct FogEchoParameters&, FogPeaks&))                      \
   KERNEL(climb_wave, ClimbWave, WavePeak(const EchoWave&, float from_m, const WaveKnown&))       \
   KERNEL(sample_wave, SampleWave,                                                                \
          void(const EchoWave&, float first_m, float step_m, std::size_t num, float* samples))    \

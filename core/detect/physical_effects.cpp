@@ -1,4 +1,5 @@
 // The table rows of the physical effects of surfaces, air and receiver.
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/text.h"
@@ -6,6 +7,7 @@
 #include "core/detect/beam_optics.h"
 #include "core/detect/detection.h"
 #include "core/detect/effect_table.h"
+#include "core/detect/fog_profile.h"
 #include "core/detect/spray.h"
 #include "core/detect/weather_optics.h"
 
@@ -136,8 +138,13 @@ bool HasFogEcho(const DetectorSpec& spec) {
 
 std::string FogEchoText(const DetectorSpec& spec) {
   if (FogExtinction_per_m(spec.weather) <= 0.0) return "none";
-  const FogEcho echo = FogEchoOf(spec.weather, spec.beam);
-  return "reflectance " + ShortText(echo.intensity) + " at " + ShortText(echo.range_m) + " m";
+  const FogProfile profile = FogProfileOf(spec);
+  if (profile.ratio.empty()) return "none: too weak to be detected";
+  const auto peak = std::max_element(profile.ratio.begin(), profile.ratio.end());
+  const auto gate = static_cast<std::size_t>(peak - profile.ratio.begin());
+  return "at most " + ShortText(static_cast<double>(*peak)) + " of the threshold at " +
+         ShortText(GateRange_m(profile, gate)) + " m, patches of sigma " +
+         NumberText(spec.weather.fog_variation);
 }
 
 // Spray: acts between tracing and detection, where the trains are known.
@@ -265,7 +272,7 @@ std::vector<Effect> PhysicalEffects() {
        .rungs = from_surface_on,
        .has_cause = HasFogEcho,
        .text = &FogEchoText,
-       .weather_keys = {"fog_density_per_m", "visibility_m"}},
+       .weather_keys = {"fog_density_per_m", "visibility_m", "fog_variation"}},
       {.name = "spray",
        .is_on = &EffectSet::spray,
        .rungs = from_surface_on,

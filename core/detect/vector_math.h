@@ -62,7 +62,7 @@ inline constexpr float kLn2Lower = -2.12194440e-4F;
   return fraction * std::bit_cast<float>(exponent);
 }
 
-/// cos(2 pi u) and sin(2 pi u) for u in [0, 1); error <= 2e-7.
+/// cos(2 pi u) and sin(2 pi u) for u in [-1/2, 1); error <= 2e-7.
 inline void CosSinTurn(float u, float& cosine, float& sine) {
   // q is the nearest quarter turn, x the rest in [-1/8, 1/8] turn, in radians.
   constexpr float kRounder = 12582912.0F;

@@ -1,6 +1,5 @@
 #include "core/detect/weather_optics.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -72,23 +71,6 @@ double SunBackgroundGain(const SunSpec& sun) {
 
 double FalseAlarmProbability(const SunSpec& sun) {
   return std::lerp(1e-6, 1e-4, sun.illuminance_klx / 100.0);
-}
-
-FogEcho FogEchoOf(const WeatherSpec& weather, const BeamSpec& beam) {
-  constexpr double kLidarRatio_sr = 65.0;
-  constexpr double kOverlapBegin_m = 1.0;
-  constexpr double kOverlapEnd_m = 3.0;
-  const double extinction = FogExtinction_per_m(weather);
-  const double reflectance = std::numbers::pi * extinction / kLidarRatio_sr * PulseLength_m(beam);
-  // (r - b) e^(-2 alpha r) / r^2 peaks where 1 / (r - b) = 2 alpha + 2 / r.
-  const double b = kOverlapBegin_m;
-  const double p = 1.0 - 2.0 * extinction * b;
-  const double range_m = extinction > 0.0
-                             ? (std::sqrt(p * p + 16.0 * extinction * b) - p) / (4.0 * extinction)
-                             : 2.0 * b;
-  const double peak_m = std::min(range_m, kOverlapEnd_m);
-  const double overlap = (peak_m - b) / (kOverlapEnd_m - b);
-  return {.range_m = peak_m, .intensity = reflectance * overlap};
 }
 
 ParticleEchoes ParticleEchoesOf(const ParticleSizes& sizes,

@@ -46,18 +46,6 @@ struct ParticleSizes {
 /// Probability of a false alarm in a firing: 1e-6 at night, 1e-4 in full sun (docs/physics.md 6).
 [[nodiscard]] double FalseAlarmProbability(const SunSpec& sun);
 
-/// The soft echo of fog (docs/physics.md 4.3): range of its peak and effective reflectance there.
-struct FogEcho {
-  double range_m{};
-  double intensity{};
-};
-
-/// Computes the soft echo of fog. The droplets within a pulse length respond like a surface of
-/// reflectance pi beta c tau / 2 with beta = extinction / 65 sr. The receiver sees them where the
-/// fields of view of transmitter and receiver overlap: not at all up to 1 m, fully from 3 m, and in
-/// linear proportion between.
-[[nodiscard]] FogEcho FogEchoOf(const WeatherSpec& weather, const BeamSpec& beam);
-
 /// Echoes of the drops or flakes in a beam (docs/physics.md 4.2). A particle of diameter D at range
 /// r returns the power rho_p (D / (theta r))^2 / r^2. The number of particles with more than P_min
 /// is Poisson distributed, and their ranges follow Maxwell's law.

@@ -113,6 +113,11 @@ void Describe(Archive& a, ReceiverSpec& s) {
              "Standard deviation of a beam's direction, in each of two directions.", Within(0, 1));
   a.Optional("clutter_gain", s.clutter_gain,
              "Multiplies the mean number of echoes of drops and flakes.", Within(0, 10));
+  a.Optional("near_range_m", s.near_range_m,
+             "Range at which the receiver has a quarter of its gain for the echoes of fog. Left "
+             "out: 0.045 range_at_10_percent_m.",
+             PositiveUpTo(100));
+  a.Optional("fog_gain", s.fog_gain, "Multiplies the power of the echoes of fog.", Within(0, 10));
   a.Optional("dead_time_ns", s.dead_time_ns,
              "How long the receiver is blind after an echo; 0 = not at all.", Within(0, 1000));
   a.Optional("halo_share_at_1_deg", s.halo_share_at_1_deg,

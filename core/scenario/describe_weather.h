@@ -35,6 +35,9 @@ void Describe(Archive& a, WeatherSpec& s) {
              Within(0.3, 1e9));
   a.Ensure({"visibility_m", "fog_density_per_m"}, !s.visibility_m || s.fog_density_per_m == 0.0,
            "must not be given together with \"fog_density_per_m\"");
+  a.Optional("fog_variation", s.fog_variation,
+             "Standard deviation of the logarithm of the droplets' density in space; 0 = uniform.",
+             Within(0, 1));
   a.Optional("rain_rate_mmph", s.rain_rate_mmph, "Rain in mm/h.", PrecipitationLimits());
   a.Alternative("rain_intensity", s.rain_rate_mmph, {"rain_rate_mmph", kRainAtFullIntensity_mmph},
                 "The published intensity, instead of rain_rate_mmph: 1 is 50 mm/h.", Within(0, 1));

@@ -15,6 +15,7 @@
 
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
+#include "core/base/units.h"
 #include "core/detect/beam_optics.h"
 #include "core/detect/effect_table.h"
 #include "core/detect/halo.h"
@@ -260,9 +261,11 @@ void Simulator::Parts::Scan(const CastFrame& cast, Frame& frame) {
   const OutputAxes axes(spec.output, spec.origin_place, spec.vehicle_from_sensor,
                         cast.window_from_world, frame.world_from_sensor);
   const ReturnStore store(rule, tracer->has_beams());
+  const Transform world_from_window = cast.window_from_world.inverse();
+  const double time_s = SecondsFromNs(frame.stamp_ns);
 
   ForAllEchoes(cast, [&](std::size_t tile, BeamTracer::Work& mine) {
-    tracer->detector().Detect(mine.echoes);
+    tracer->detector().Detect({mine.rays, world_from_window, time_s}, mine.echoes);
     axes.Apply(cast.poses, tiles.times_ns(tile), mine.echoes);
     store.Store(mine.echoes, cast.surfaces, {tiles.slots(tile), tiles.num_firings(tile)}, frame);
   });
@@ -323,9 +326,10 @@ FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) 
     parts.halo->AddEchoes(work.echoes, parts.FindHaloSources(cast));
     record("halo");
   }
-  parts.tracer->detector().Detect(work.echoes, record);
-  const Surface& surface = scene.surfaces()[first.surface[lane]];
   const Transform world_from_window = scene.window->window_from_world.inverse();
+  const double time_s = SecondsFromNs(parts.pattern.StampNs(frame_index));
+  parts.tracer->detector().Detect({rays, world_from_window, time_s}, work.echoes, record);
+  const Surface& surface = scene.surfaces()[first.surface[lane]];
   story.firing = firing;
   story.time_ns = parts.tiles.times_ns(tile)[lane];
   story.slot = parts.tiles.slots(tile)[lane] * NumReturns(parts.return_mode());

@@ -24,6 +24,7 @@ using W = WeatherSpec;
 constexpr WeatherKey kWeatherKeys[] = {
     {"fog_density_per_m", &IsGiven<&W::fog_density_per_m>},
     {"visibility_m", &IsGiven<&W::visibility_m>},
+    {"fog_variation", &IsGiven<&W::fog_variation>},
     {"rain_rate_mmph", &IsGiven<&W::rain_rate_mmph>},
     {"rain_drop_sizes", &IsGiven<&W::rain_drop_sizes>},
     {"rain_dropout_per_m", &IsGiven<&W::rain_dropout_per_m>},

@@ -21,6 +21,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -150,6 +151,7 @@ struct Row {
   Work work;
   CoverSpec cover{};
   double halo_share = 0.0;
+  std::optional<double> visibility_m{};  ///< Of fog; none by default.
 };
 
 std::vector<Row> Rows() {
@@ -169,6 +171,9 @@ std::vector<Row> Rows() {
       {"surface_behind_dirt", surface, true, false, &ScanFrame, {.dirt_coverage = 0.1}},
       {"surface_behind_drops", surface, true, false, &ScanFrame, {.drop_coverage = 0.1}},
       {"surface_with_halo", surface, true, false, &ScanFrame, {}, 1e-6},
+      {"surface_in_haze_of_2_km", surface, true, false, &ScanFrame, {}, 0.0, 2000.0},
+      {"surface_in_fog_of_200_m", surface, true, false, &ScanFrame, {}, 0.0, 200.0},
+      {"surface_in_fog_of_50_m", surface, true, false, &ScanFrame, {}, 0.0, 50.0},
       {"surface+thin_conductors", surface_and_wires, true, false, &ScanFrame},
       {"footprint", EffectsOfRung(Fidelity::kFootprint), true, false, &ScanFrame},
       {"reference", EffectsOfRung(Fidelity::kReference), true, false, &ScanFrame},
@@ -188,6 +193,7 @@ void Run(benchmark::State& state, Bench& bench, const Row& row, int num_threads)
   spec.detector.weather.snow_rate_mmph = row.snow ? 2.0 : 0.0;
   spec.detector.cover = row.cover;
   spec.detector.receiver.halo_share_at_1_deg = row.halo_share;
+  spec.detector.weather.visibility_m = row.visibility_m;
   bench.simulator->UseThreads(num_threads);
   bench.simulator->Use(spec);
   row.work(bench, 0);  // Warms the caches, because the rows before it ran on other memory.

@@ -31,6 +31,7 @@ std::vector<Answer> Detect(const DetectorSpec& spec,
                            const std::function<double(std::uint32_t)>& range_m) {
   const Detector detector(spec);
   auto echoes = std::make_unique<EchoTiles>();
+  const auto rays = std::make_unique<RayTile>();  // Only fog would need them.
   DetectTile* const tile = &echoes->first;
   std::vector<Answer> answers;
   answers.reserve(kNumFirings);
@@ -50,7 +51,7 @@ std::vector<Answer> Detect(const DetectorSpec& spec,
       tile->outcome[i] =
           static_cast<std::uint32_t>(std::isnan(range) ? Outcome::kNoSurface : Outcome::kReturned);
     }
-    detector.Detect(*echoes);
+    detector.Detect({*rays, Transform::Identity(), 0.0}, *echoes);
     for (std::uint32_t i = 0; i < kTileSize; ++i) {
       answers.push_back({static_cast<Outcome>(tile->outcome[i]),
                          static_cast<double>(tile->true_range_m[i]),

@@ -71,6 +71,49 @@ TEST(PlanePatches, LeaveOutWhatLiesFarOff) {
   EXPECT_LT(std::sqrt(patches[0].plane_squares_m2 / patches[0].degrees()), 0.02);
 }
 
+// Fog in front of a wall and in front of nothing, at a visibility where it hides most beams.
+Frame ScanFog(bool has_wall) {
+  auto world = std::make_shared<SimpleWorld>();
+  if (has_wall) world->ground.parts = {{MakeWall(30.0F, 30.0F), 2, 1}};
+  SimulatorSpec spec{.detector = {.effects = EffectsOfRung(Fidelity::kSurface)}};
+  spec.detector.effects.channel_bias = false;
+  spec.detector.weather.visibility_m = 70.0;
+  spec.detector.range_max_m = 100.0;
+  return ScanOnce(world, MakeRaster(40.0, 30.0, 0.25), spec);
+}
+
+TEST(PlanePatches, AreNoneInFog) {
+  const Frame frame = ScanFog(false);
+  std::size_t num_fog = 0;
+  for (const Outcome outcome : frame.outcome) num_fog += outcome == Outcome::kClutter ? 1 : 0;
+  EXPECT_GT(num_fog, frame.num_slots() / 3);
+  const RecordedFrame recorded = Record(frame);
+  const auto scan = MakeScanTable(MakeRaster(40.0, 30.0, 0.25));
+  EXPECT_TRUE(FindPlanePatches(recorded, &*scan).empty());
+  // Nor where nothing tells that the points are fog: they scatter too much to be flat.
+  EXPECT_TRUE(FindPlanePatches(RecordPointsOnly(frame), &*scan).empty());
+}
+
+TEST(PlanePatches, OfAWallBehindFogShowTheNoiseOfTheWall) {
+  const Frame frame = ScanFog(true);
+  const auto scan = MakeScanTable(MakeRaster(40.0, 30.0, 0.25));
+  const auto patches = FindPlanePatches(Record(frame), &*scan);
+  double squares_m2 = 0.0;
+  double degrees = 0.0;
+  for (const PlanePatch& patch : patches) {
+    EXPECT_GT(patch.range_m, 29.0);
+    squares_m2 += patch.range_squares_m2;
+    degrees += patch.degrees();
+  }
+  ASSERT_GT(patches.size(), 20U);
+  // The wall of 50 % is 17 times the threshold at its middle, which gives sigma = hypot(15 mm, 0.1
+  // m / sqrt(2 x 85)) = 16.8 mm; at the corners, 33 m away, it is 10 times and 18.1 mm. 20 patches
+  // have at least 400 degrees of freedom: four standard errors are 14 %.
+  const double sigma_m = std::sqrt(squares_m2 / degrees);
+  EXPECT_GT(sigma_m, 0.86 * 0.0168);
+  EXPECT_LT(sigma_m, 1.14 * 0.0181);
+}
+
 TEST(PlanePatches, AreNoneOnWhatIsMetAlmostEdgeOn) {
   auto world = std::make_shared<SimpleWorld>();
   world->ground.parts = {{MakeFloor(-2.0F, 100.0F), 2, 1}};

@@ -1,5 +1,5 @@
-// Compares echoes of drops, flakes and fog, and false alarms, with the closed forms of
-// docs/physics.md 4.2 and 4.3.
+// Compares echoes of drops and flakes, and false alarms, with the closed forms of
+// docs/physics.md 4.2.
 #include "core/detect/clutter.h"
 
 #include <gtest/gtest.h>
@@ -173,27 +173,6 @@ TEST(Clutter, ComesFromNothingWithoutWeather) {
   DetectorSpec spec = RainSpec(1.0);
   spec.weather.rain_rate_mmph = 0.0;
   EXPECT_TRUE(ClutterOf(DetectFacing(spec, {})).empty());
-}
-
-TEST(FogEcho, StandsInEveryBeamWithItsClosedFormsPower) {
-  DetectorSpec spec{.range_min_m = 0.0, .effects = {.fog_echo = true}};
-  spec.weather.visibility_m = 50.0;
-  spec.clutter_labels = kLabels;
-  FacingBeams beams;
-  beams.num_firings = kTileSize;
-  const FogEcho fog = FogEchoOf(spec.weather, spec.beam);
-  const double ratio = fog.intensity * std::exp(-2.0 * std::log(20.0) / 50.0 * fog.range_m) /
-                       (fog.range_m * fog.range_m) / (0.1 / 4e4);
-  const auto clutter = ClutterOf(DetectFacing(spec, beams));
-  ASSERT_EQ(clutter.size(), kTileSize);
-  for (const FacingEcho& echo : clutter) {
-    EXPECT_EQ(echo.clutter, kLabels.fog);
-    EXPECT_NEAR(static_cast<double>(echo.range_m), fog.range_m, 1e-6);
-    EXPECT_NEAR(static_cast<double>(echo.power_ratio) / ratio, 1.0, 1e-6);
-  }
-  // A wall in front of the fog echo hides it.
-  beams.range_m = [](std::uint32_t) { return 1.2; };
-  EXPECT_TRUE(ClutterOf(DetectFacing(spec, beams)).empty());
 }
 
 TEST(FalseAlarms, ComeAtTheStatedRateAnywhereWithinTheGate) {

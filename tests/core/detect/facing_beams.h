@@ -9,6 +9,8 @@
 #include "core/detect/detector.h"
 #include "core/detect/echo_tiles.h"
 #include "railcast/outcome.h"
+#include "railcast/ray_caster.h"
+#include "railcast/transform.h"
 
 namespace railcast {
 
@@ -21,7 +23,22 @@ struct FacingBeams {
   std::function<double(std::uint32_t)> range_m = [](std::uint32_t) { return std::nan(""); };
   std::function<std::uint32_t(std::uint32_t)> channel = [](std::uint32_t) { return 0U; };
   std::uint32_t num_channels = 1;
+  /// Where the beam starts, by firing: fog differs from place to place.
+  std::function<float(std::uint32_t)> origin_y_m = [](std::uint32_t) { return 0.0F; };
 };
+
+/// The rays of 256 firings from `begin` on.
+inline void AimRays(const FacingBeams& beams, std::uint32_t begin, RayTile& rays) {
+  rays.num_rays = kTileSize;
+  for (std::uint32_t i = 0; i < kTileSize; ++i) {
+    rays.origin_x[i] = 0.0F;
+    rays.origin_y[i] = beams.origin_y_m(begin + i);
+    rays.origin_z[i] = 0.0F;
+    rays.direction_x[i] = 1.0F;
+    rays.direction_y[i] = 0.0F;
+    rays.direction_z[i] = 0.0F;
+  }
+}
 
 /// Fills the hits of 256 firings from `begin` on with everything that Detector::Respond expects.
 inline void FillHits(const FacingBeams& beams, std::uint32_t begin, EchoTiles& echoes) {
@@ -72,6 +89,7 @@ struct FacingEcho {
 inline std::vector<FacingEcho> DetectFacing(const DetectorSpec& spec, const FacingBeams& beams) {
   const Detector detector(spec, {.num_channels = beams.num_channels});
   auto echoes = std::make_unique<EchoTiles>();
+  auto rays = std::make_unique<RayTile>();
   std::vector<FacingEcho> all;
   const auto store = [&](const DetectTile& tile, std::size_t i) {
     all.push_back({tile.firing[i], tile.echo[i], tile.clutter[i],
@@ -81,7 +99,8 @@ inline std::vector<FacingEcho> DetectFacing(const DetectorSpec& spec, const Faci
   for (std::uint32_t begin = 0; begin < beams.num_firings; begin += kTileSize) {
     FillHits(beams, begin, *echoes);
     detector.Respond(echoes->first);
-    detector.Detect(*echoes);
+    AimRays(beams, begin, *rays);
+    detector.Detect({*rays, Transform::Identity(), 0.0}, *echoes);
     for (std::size_t i = 0; i < kTileSize; ++i) store(echoes->first, i);
     for (std::size_t i = 0; i < echoes->num_more(); ++i) {
       const auto [tile, lane] = echoes->more(i);

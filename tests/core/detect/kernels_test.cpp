@@ -10,6 +10,8 @@
 
 #include "core/base/random.h"
 #include "core/detect/detection.h"
+#include "core/detect/fog_echo.h"
+#include "core/detect/fog_patches.h"
 #include "core/detect/measurement.h"
 #include "core/detect/rain_dropout.h"
 #include "core/detect/sensor_dropout.h"
@@ -112,6 +114,14 @@ std::vector<float> RunPhysics(const Kernels& kernels, RayTile& rays, DetectTile&
   kernels.blame_cover(tile);
   kernels.range_walk(tile, 0.2F);
   kernels.hit(tile, 0.5F);
+  const std::vector<float> fog_ratio(20, 1.0F);
+  const auto peaks = std::make_unique<FogPeaks>();
+  kernels.fog_peaks({rays, tile, FogPatches(7).WavesAt(Transform::Identity(), 3.0)},
+                    {7, 2, 20, 0.75F, fog_ratio.data(), 0.3F, 0.2F, 0.4F, 0.5F}, *peaks);
+  for (std::size_t e = 0; e < 2; ++e) {
+    values.insert(values.end(), peaks->range_m[e], peaks->range_m[e] + kTileSize);
+    values.insert(values.end(), peaks->ratio[e], peaks->ratio[e] + kTileSize);
+  }
   MeasurementParameters measurement = Measurement(0.015F, 0.0F);
   const std::vector<float> bias_m(kTileSize, 0.01F);
   measurement.scale_m = 0.1F;

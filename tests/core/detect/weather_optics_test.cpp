@@ -249,38 +249,6 @@ TEST(ParticleEchoes, TakeAnEllipticBeamAsADiscOfTheSameSolidAngle) {
 
 // rho_eq e^(-2 alpha r) / r^2 >= 0.1 / 200^2 holds up to the ranges of docs/physics.md 4.3 for 65
 // sr.
-TEST(FogEcho, ReachesAsFarAsPublished) {
-  struct Row {
-    double visibility_m, reach_m;
-  };
-  for (const Row& row : {Row{20, 10}, {50, 13}, {100, 14}, {200, 12}, {500, 9}}) {
-    const FogEcho echo = FogEchoOf(Visibility(row.visibility_m), {.pulse_length_ns = 5.0});
-    const double overlap = std::min(1.0, (echo.range_m - 1.0) / 2.0);
-    ExpectRange(RangeMax_m(echo.intensity / overlap, std::log(20.0) / row.visibility_m, 200.0),
-                row.reach_m);
-  }
-}
-
-TEST(FogEcho, PeaksWhereTheProductOfOverlapAndLossIsGreatest) {
-  for (const double visibility_m : {1.0, 5.0, 20.0, 50.0, 200.0, 5000.0}) {
-    const double extinction_per_m = std::log(20.0) / visibility_m;
-    double best = 0.0;
-    double best_m = 0.0;
-    for (double r = 1.0; r <= 6.0; r += 1e-4) {
-      const double power =
-          std::min(1.0, (r - 1.0) / 2.0) * std::exp(-2.0 * extinction_per_m * r) / (r * r);
-      if (power > best) {
-        best = power;
-        best_m = r;
-      }
-    }
-    const FogEcho echo = FogEchoOf(Visibility(visibility_m), {});
-    EXPECT_NEAR(echo.range_m, best_m, 1e-3) << visibility_m;
-    EXPECT_GE(echo.range_m, 1.0);
-    EXPECT_LE(echo.range_m, 3.0);
-  }
-}
-
 // The received power is proportional to R^-2, so that 0.71 of the range corresponds to 0.71^-2
 // times the threshold.
 TEST(SunBackground, TakesThePublishedShareOfTheRangeInFullSun) {

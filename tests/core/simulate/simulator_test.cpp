@@ -268,17 +268,20 @@ TEST(Simulator, ExplainsWhichEffectsAddedEchoes) {
   spec.detector.receiver.clutter_gain = 10.0;
   Simulator simulator(WorldWithWall(60.0F), MakeRaster(20, 10, 1), TestMaterials(), spec, 1);
   std::size_t num_drops = 0;
+  std::size_t num_fog = 0;
   for (std::uint32_t firing = 0; firing < 20; ++firing) {
     const FiringStory story = simulator.Explain(5, firing);
     ASSERT_EQ(EffectsOn(story), (std::vector<std::string>{"surface_response", "clutter", "fog_echo",
                                                           "hit", "measurement", "false alarms"}));
     num_drops += story.steps[1].num_added_echoes;
-    EXPECT_EQ(story.steps[2].num_added_echoes, 1U);
+    num_fog += story.steps[2].num_added_echoes;
     std::size_t num_added = 0;
     for (const FiringStory::Step& step : story.steps) num_added += step.num_added_echoes;
     EXPECT_EQ(story.echoes.size(), 1 + num_added);
   }
   EXPECT_GT(num_drops, 20U);
+  // At 0.9 of the threshold, hardly a beam has no peak of fog.
+  EXPECT_GT(num_fog, 10U);
 }
 
 TEST(Simulator, ExplainsEveryEchoWithTheSlotItHasInTheFrame) {

@@ -95,8 +95,10 @@ TEST(EffectsReport, NamesTheSubRaysOfTheReferenceAndTheFogsOwnEcho) {
   EXPECT_NE(text.find("dense_footprint: 256 sub-rays a beam\n          sampled_waveform\n"),
             std::string::npos);
   EXPECT_NE(text.find("at 200 m, in this weather at 47.79 m"), std::string::npos) << text;
-  // Near 2 m, where half of the overlap is reached.
-  EXPECT_NE(text.find("fog_echo: reflectance 0.000487"), std::string::npos) << text;
+  // docs/physics.md 4.3 has 0.88 at 7.2 m; the gates are 0.75 m apart.
+  EXPECT_NE(text.find("fog_echo: at most 0.8"), std::string::npos) << text;
+  EXPECT_NE(text.find(" of the threshold at 7.12 m, patches of sigma 0.2\n"), std::string::npos)
+      << text;
 }
 
 // A tenth of the window under drops of 3 mm leaves 0.9^((13 / 3)^2) of the beams untouched. 2 x

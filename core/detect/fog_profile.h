@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "railcast/effects.h"
+
+namespace railcast {
+
+/// Range at which the receiver has a quarter of its gain for the echoes of fog:
+/// `near_range_m`, or 0.045 range_at_10_percent_m if it is absent. That share keeps the echo of
+/// haze of 2 km visibility below a tenth of the threshold on every sensor (docs/physics.md 4.3).
+[[nodiscard]] double NearRange_m(const ReceiverSpec& receiver);
+
+/// The echo of fog of uniform density as a function of range, in units of the least detectable
+/// power: the soft-target integral
+///
+///   fog_gain / P_min * pi beta * integral of p(r - r') g(r') exp(-2 alpha r') / r'^2 dr'
+///   g(r) = (r^2 / (r^2 + near_range^2))^2,  beta = alpha_fog / 65 sr,
+///   p = the pulse, a Gaussian of peak 1, alpha = extinction by fog, rain and snow
+///
+/// (docs/physics.md 4.3). The integral is a sum over the pulse from -5 to 5 standard deviations.
+[[nodiscard]] double MeanFogRatio(const DetectorSpec& spec, double range_m);
+
+/// Greatest value that local patches of fog give the density at three standard deviations.
+[[nodiscard]] double DensestPatch(const WeatherSpec& weather);
+
+/// An echo with less than this share of the threshold is not looked for: with the default
+/// signal-to-noise ratio it is detected in 13 of 10,000 cases.
+inline constexpr double kLeastFogRatio = 0.4;
+
+/// The gates in which fog can be detected: gate k is at range (k + 1/2) gate_m. Gates are a pulse
+/// length (full width at half maximum) apart, so that their noise is independent; farther apart
+/// where it would take more than kMostFogGates of them.
+struct FogProfile {
+  double gate_m{};
+  std::size_t first_gate{};  ///< Nothing is seen in the gates before it.
+  /// MeanFogRatio() at each gate from the first on; empty where no fog can be detected.
+  std::vector<float> ratio;
+};
+
+/// Range of a gate, counted from the first of the profile.
+[[nodiscard]] inline double GateRange_m(const FogProfile& profile, std::size_t gate) {
+  return (static_cast<double>(profile.first_gate + gate) + 0.5) * profile.gate_m;
+}
+inline constexpr std::size_t kMostFogGates = 64;
+
+/// The gates up to the farthest at which the densest patch reaches kLeastFogRatio.
+[[nodiscard]] FogProfile FogProfileOf(const DetectorSpec& spec);
+
+}  // namespace railcast
