@@ -32,9 +32,9 @@ OBSTACLE_LENGTH_M = 1.0  # Points closer than this along the track belong to one
 # small object would.
 SMALLEST_M2 = 0.25
 LEAST_SHARE = 0.3
-# Fog fills the first metres with returns, so new obstacles are not searched for there.
-NEAREST_M = 6.0
-CLOSE_M = 2.0  # Closer than this, its position is no longer measured.
+# The echoes of dense fog lie within 15 m of a sensor like this one, so new obstacles are not
+# searched for there, and the position of a known one is no longer measured.
+NEAREST_M = 16.0
 STANDSTILL_MPS = 0.02
 AXES_FLAGS, VEHICLE_AXES = 0b1110, 0b0010  # docs/stream.md
 PATIENCE_S = 60.0
@@ -236,8 +236,8 @@ class Drive:
         if self.braked_at_m is None:
             places_m = [place_m for place_m in places_m
                         if place_m - self.travelled_m > NEAREST_M]
-        elif self.obstacle_at_m - self.travelled_m < CLOSE_M:
-            return  # After a collision the sensor sees the far side of the obstacle.
+        elif self.obstacle_at_m - self.travelled_m < NEAREST_M:
+            return  # Nor would it be after a collision: the sensor sees the obstacle's far side.
         else:
             # Once the train stands, raindrops and fog keep their positions, too, so only points
             # near the obstacle count.
