@@ -2,8 +2,8 @@
 # Counts the cost of each rung and each effect, for the README and the table of effects
 # (core/detect/effect_table.h): instructions per firing of Simulator::Scan, without those for making
 # the scene, on frame 0 of scenarios/open_line.json in heavy rain (so that every effect has work)
-# with one thread; then the savings without each effect of the rung footprint. Needs valgrind; takes
-# some ten minutes.
+# with one thread; then the savings without each effect of the rung footprint; then what the sensor's
+# own effects cost (docs/effects.md). Needs valgrind; takes some fifteen minutes.
 #
 #   measure_effect_costs.sh [RAILCAST_GENERATE]
 set -euo pipefail
@@ -14,14 +14,8 @@ generate="$(realpath "${1:-build/release/generator/railcast-generate}")"
 work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
 
-# instructions NAME RUNG EFFECT...: prints the instructions per firing with the effects switched
-# off.
-instructions() {
-  local name="$1" rung="$2" effects="" effect
-  shift 2
-  for effect in "$@"; do effects+="${effects:+, }\"$effect\": false"; done
-  printf '{"version": 1, "file": "%s", "weather": "%s", "fidelity": "%s", "effects": {%s}}\n' \
-    "$scenario" "$weather" "$rung" "$effects" >"$work/scenario.json"
+# count NAME: prints the instructions per firing of the scenario in $work.
+count() {
   rm -rf "$work/out"
   valgrind --tool=callgrind --callgrind-out-file=/dev/null \
     --toggle-collect='railcast::Simulator::Parts::Scan*' \
@@ -30,7 +24,27 @@ instructions() {
   local firings collected
   firings="$(sed -n 's/^firings by outcome (\([0-9]*\)).*/\1/p' "$work/said")"
   collected="$(sed -n 's/.*Collected : *\([0-9]*\).*/\1/p' "$work/counted")"
-  printf '%s %s\n' "$name" "$((collected / firings))"
+  printf '%s %s\n' "$1" "$((collected / firings))"
+}
+
+# instructions NAME RUNG EFFECT...: prints the instructions per firing with the effects switched
+# off.
+instructions() {
+  local name="$1" rung="$2" effects="" effect
+  shift 2
+  for effect in "$@"; do effects+="${effects:+, }\"$effect\": false"; done
+  printf '{"version": 1, "file": "%s", "weather": "%s", "fidelity": "%s", "effects": {%s}}\n' \
+    "$scenario" "$weather" "$rung" "$effects" >"$work/scenario.json"
+  count "$name"
+}
+
+# sensor NAME SECTION: prints the instructions per firing of rung surface beside a person in a
+# retroreflecting vest, with a section of `lidar`.
+sensor() {
+  printf '{"version": 1, "file": "%s", "fidelity": "surface", "lidar": {"file": "%s", %s}}\n' \
+    "$PWD/scenarios/parallel_wagons.json" "$PWD/scenarios/sensors/vir2rail.json" \
+    "\"mount\": {\"position_m\": [2.0, 0, 2.5]}${2:+, $2}" >"$work/scenario.json"
+  count "$1"
 }
 
 for rung in geometry plausibility surface reference; do instructions "$rung" "$rung"; done
@@ -41,3 +55,8 @@ for effect in surface_response surface_condition extinction pulse_stretch detect
   without="$(instructions "without_$effect" footprint "$effect")"
   echo "$without: $effect costs $((${all#* } - ${without#* }))"
 done
+
+sensor clean ""
+sensor dirt '"cover": {"dirt_coverage": 0.1}'
+sensor drops '"cover": {"drop_coverage": 0.1}'
+sensor halo '"receiver": {"halo_share_at_1_deg": 1e-6}'
