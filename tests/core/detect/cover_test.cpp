@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <numbers>
 #include <vector>
 
@@ -232,7 +233,8 @@ TEST(CoverLoss, IsToBlameForEchoesThatACleanWindowWouldLetThrough) {
                           .cover = Dirty(0.5, 2.0)};
   const Detector detector(spec);
   detector.Respond(echoes.first);
-  detector.Detect(echoes);
+  const auto rays = std::make_unique<RayTile>();  // No fog looks at them.
+  detector.Detect({*rays, Transform::Identity()}, echoes);
   for (std::size_t i = 0; i < kTileSize; ++i) {
     const double range_m = 10.0 + 3.0 * static_cast<double>(i);
     const Outcome expected = range_m < 223.6   ? Outcome::kReturned

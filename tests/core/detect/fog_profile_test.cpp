@@ -13,7 +13,7 @@
 namespace railcast {
 namespace {
 
-DetectorSpec FogSpec(double visibility_m) {
+DetectorSpec SpecInFog(double visibility_m) {
   DetectorSpec spec;
   spec.weather.visibility_m = visibility_m;
   return spec;
@@ -34,7 +34,7 @@ double SlowRatio(double visibility_m, double near_range_m, double sigma_m, doubl
 
 TEST(FogProfile, IsTheSoftTargetIntegralConvolvedWithThePulse) {
   for (const double visibility_m : {20.0, 100.0, 1000.0}) {
-    DetectorSpec spec = FogSpec(visibility_m);
+    DetectorSpec spec = SpecInFog(visibility_m);
     for (const double pulse_ns : {1.0, 5.0, 20.0}) {
       spec.beam.pulse_length_ns = pulse_ns;
       for (const double r : {0.7, 3.0, 9.0, 25.0}) {
@@ -52,7 +52,7 @@ TEST(FogProfile, IsTheSoftTargetIntegralConvolvedWithThePulse) {
 TEST(FogProfile, OfAShortPulsePeaksAtTheRootOfItsCubic) {
   constexpr double kNear_m = 9.0;
   for (const double visibility_m : {20.0, 50.0, 200.0, 2000.0}) {
-    DetectorSpec spec = FogSpec(visibility_m);
+    DetectorSpec spec = SpecInFog(visibility_m);
     spec.beam.pulse_length_ns = 0.5;
     const double alpha = std::log(20.0) / visibility_m;
     double near_m = 0.0;
@@ -95,7 +95,7 @@ TEST(FogProfile, PeaksWhereThePublishedTableHasIt) {
   constexpr double kRanges_m[] = {50.0, 90.0, 200.0};
   for (const Row& row : kTable) {
     for (std::size_t k = 0; k < 3; ++k) {
-      DetectorSpec spec = FogSpec(row.visibility_m);
+      DetectorSpec spec = SpecInFog(row.visibility_m);
       spec.receiver.range_at_10_percent_m = kRanges_m[k];
       double best = 0.0;
       double best_m = 0.0;
@@ -111,7 +111,7 @@ TEST(FogProfile, PeaksWhereThePublishedTableHasIt) {
 }
 
 TEST(FogProfile, HasAQuarterOfTheGainAtTheNearRange) {
-  DetectorSpec spec = FogSpec(100.0);
+  DetectorSpec spec = SpecInFog(100.0);
   spec.beam.pulse_length_ns = 0.5;
   const double with = MeanFogRatio(spec, NearRange_m(spec.receiver));
   const double range_m = NearRange_m(spec.receiver);
@@ -130,7 +130,7 @@ TEST(FogProfile, NearRangeGrowsWithTheRangeOfTheDataSheetUnlessItIsGiven) {
 }
 
 TEST(FogProfile, GrowsWithTheGainAndIsEmptyWithoutIt) {
-  DetectorSpec spec = FogSpec(100.0);
+  DetectorSpec spec = SpecInFog(100.0);
   const double once = MeanFogRatio(spec, 5.0);
   spec.receiver.fog_gain = 3.0;
   EXPECT_NEAR(MeanFogRatio(spec, 5.0) / once, 3.0, 1e-12);
@@ -142,11 +142,11 @@ TEST(FogProfile, GrowsWithTheGainAndIsEmptyWithoutIt) {
 TEST(FogProfile, IsEmptyInHazeForSensorsOfAnyRange) {
   for (const double range_m : {10.0, 50.0, 90.0, 200.0, 220.0, 500.0}) {
     for (const double visibility_m : {2000.0, 4000.0, 1e6}) {
-      DetectorSpec spec = FogSpec(visibility_m);
+      DetectorSpec spec = SpecInFog(visibility_m);
       spec.receiver.range_at_10_percent_m = range_m;
       EXPECT_TRUE(FogProfileOf(spec).ratio.empty()) << range_m << " " << visibility_m;
     }
-    DetectorSpec fog = FogSpec(100.0);
+    DetectorSpec fog = SpecInFog(100.0);
     fog.receiver.range_at_10_percent_m = range_m;
     EXPECT_FALSE(FogProfileOf(fog).ratio.empty()) << range_m;
   }
@@ -154,7 +154,7 @@ TEST(FogProfile, IsEmptyInHazeForSensorsOfAnyRange) {
 }
 
 TEST(FogProfile, HasItsGatesAPulseLengthApartUpToWhereTheDensestPatchFades) {
-  const DetectorSpec spec = FogSpec(50.0);
+  const DetectorSpec spec = SpecInFog(50.0);
   const FogProfile profile = FogProfileOf(spec);
   EXPECT_DOUBLE_EQ(profile.gate_m, PulseLength_m(spec.beam));
   const double densest = DensestPatch(spec.weather);
@@ -173,7 +173,7 @@ TEST(FogProfile, NeverHasMoreGatesThanItMay) {
   for (const double pulse_ns : {0.5, 1.0, 5.0, 100.0}) {
     for (const double gain : {1.0, 10.0}) {
       for (const double visibility_m : {0.3, 10.0, 100.0, 1000.0}) {
-        DetectorSpec spec = FogSpec(visibility_m);
+        DetectorSpec spec = SpecInFog(visibility_m);
         spec.beam.pulse_length_ns = pulse_ns;
         spec.receiver.fog_gain = gain;
         spec.receiver.near_range_m = 0.1;
