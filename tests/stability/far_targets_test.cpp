@@ -154,7 +154,7 @@ TEST_P(FarTargetsOn, APoleBeforeTheSkyHasAsManyPointsAsInTheReference) {
     // 120 samples of where a pole can stand; more turns of the row make
     // them up to 360.
     Points points;
-    for (int turn = 0; turn < 9 && (turn < 3 || points.expected < 1000.0); ++turn) {
+    for (int turn = 0; turn < 9 && (turn < 3 || points.expected < 12000.0); ++turn) {
       const double range_m = 60.0 + 20.0 * (turn % 3);
       const auto world = std::make_shared<SimpleWorld>();
       for (int i = 0; i < kNumPoles; ++i) {

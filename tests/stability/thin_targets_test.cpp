@@ -214,10 +214,9 @@ std::vector<Column> SharesByColumn(const std::shared_ptr<SimpleWorld>& world,
   return columns;
 }
 
-// A sparse beam has 16 cells of up to 0.093 of its power. Although each beam is turned at random,
-// the mean over a hundred beams leaves up to 0.6 of such a cell uncertain at edges. A dense beam
-// has 257 small cells.
-constexpr double kSparse = 0.6 * 0.093;
+// The mean over a hundred beams, each turned at random. A beam of rung footprint has 64 cells, a
+// dense one 257.
+constexpr double kSparse = 0.012;
 constexpr double kDense = 0.005;
 
 TEST(ThinTargets, APoleTakesItsShareOfTheBeamsThatMeetIt) {

@@ -72,7 +72,7 @@ TEST(RailHeads, FadeOnSurfaceWhileTheRailsSidesStillReturn) {
   EXPECT_NEAR(published.head.share(), 0.45, 0.02) << published.Text();
   EXPECT_NEAR(published.side.share(), 0.64, 0.02) << published.Text();
   EXPECT_NEAR(physical.head.share(), 0.02, 0.01) << physical.Text();
-  EXPECT_NEAR(physical.side.share(), 0.76, 0.02) << physical.Text();
+  EXPECT_NEAR(physical.side.share(), 0.77, 0.02) << physical.Text();
 }
 
 }  // namespace

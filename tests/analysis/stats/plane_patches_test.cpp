@@ -86,7 +86,7 @@ TEST(PlanePatches, AreNoneInFog) {
   const Frame frame = ScanFog(false);
   std::size_t num_fog = 0;
   for (const Outcome outcome : frame.outcome) num_fog += outcome == Outcome::kClutter ? 1 : 0;
-  EXPECT_GT(num_fog, frame.num_slots() / 3);
+  EXPECT_GT(num_fog, frame.num_slots() / 4);
   const RecordedFrame recorded = Record(frame);
   const auto scan = MakeScanTable(MakeRaster(40.0, 30.0, 0.25));
   EXPECT_TRUE(FindPlanePatches(recorded, &*scan).empty());
