@@ -26,7 +26,7 @@ ScenarioSpec OpenLineWith(const std::string& sensor) {
                       << R"(.json", "mount": {"position_m": [2.0, 0, 4.6], "pitch_deg": 3}}})";
   ScenarioSpec scenario = ReadScenario(file);
   scenario.lidar.scan = CutSector(scenario.lidar.scan, {40.0, -90.0, 90.0});
-  scenario.lidar.beam.reference_rays = 128;
+  scenario.lidar.beam.reference_rays = 64;
   return scenario;
 }
 

@@ -147,10 +147,8 @@ TEST(ShippedSensors, SeeNoFogInHaze) {
       sensor.weather.visibility_m = visibility_m;
       std::size_t num_fog = 0;
       const std::uint32_t fog = LabelTable(sensor.labels).Id("fog");
-      for (std::uint32_t index = 0; index < 2; ++index) {
-        for (const Frame& frame : Scan(sensor, index)) {
-          for (const std::uint32_t label : frame.label) num_fog += label == fog ? 1U : 0U;
-        }
+      for (const Frame& frame : Scan(sensor, 0)) {
+        for (const std::uint32_t label : frame.label) num_fog += label == fog ? 1U : 0U;
       }
       if (visibility_m < 100.0) {
         EXPECT_GT(num_fog, 1000U) << file;
