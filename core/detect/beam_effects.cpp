@@ -34,7 +34,7 @@ std::vector<Effect> BeamEffects() {
        .is_on = &EffectSet::thin_conductors,
        .rungs = {Fidelity::kFootprint},
        .has_cause = HasWidth,
-       .instructions = 125.0},
+       .instructions = 190.0},
       // It extends the footprint, and it samples the triangles of wires, which thin_conductors
       // would count a second time.
       {.name = "dense_footprint",

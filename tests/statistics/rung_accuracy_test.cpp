@@ -103,7 +103,7 @@ void ExpectRow(const Row& row, const Tolerance& tolerance, OnFrame0& frame) {
 // Few beams of frame 0 meet a wire, so a ray's luck with them is known less exactly than the rest.
 constexpr Tolerance kOfRays{1.2, 3.0, 0.0, 0.12};
 // One of some 100 echoes of wires is 1 percentage point.
-constexpr Tolerance kOfBeams{0.5, 1.2, 0.9, 0.1};
+constexpr Tolerance kOfBeams{0.5, 1.2, 0.9, 0.15};
 
 TEST(RungAccuracy, HoldsOnThePublishedRaster) {
   OnFrame0 frame(OpenLine());
@@ -132,7 +132,7 @@ TEST(RungAccuracy, HoldsOnPandar64) {
   OnFrame0 frame(OpenLineOf("pandar64"));
   ExpectRow({Fidelity::kGeometry, 14.9, 27.6, 0.0, 7.0}, kOfRays, frame);
   ExpectRow({Fidelity::kSurface, 15.5, 26.3, 0.0, 1.7}, kOfRays, frame);
-  ExpectRow({Fidelity::kFootprint, 5.6, 99.0, 75.2, 1.6}, kOfBeams, frame);
+  ExpectRow({Fidelity::kFootprint, 2.3, 100.0, 99.4, 2.0}, kOfBeams, frame);
 }
 
 }  // namespace
