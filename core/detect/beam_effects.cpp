@@ -1,13 +1,14 @@
 // The table rows of the effects of the beam's width. They have no loop in the detector: they decide
 // what is traced (core/simulate/beam_tracer.h) and how echoes are found in it (footprint.h).
 #include "core/base/text.h"
+#include "core/detect/beam_optics.h"
 #include "core/detect/effect_table.h"
 
 namespace railcast {
 namespace {
 
 bool HasWidth(const DetectorSpec& spec) {
-  return spec.beam.divergence_mrad[0] > 0.0 || spec.beam.divergence_mrad[1] > 0.0;
+  return IsWide(spec.beam);
 }
 
 std::string FootprintText(const DetectorSpec& spec) {

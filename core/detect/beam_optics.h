@@ -21,6 +21,11 @@ namespace railcast {
 /// How far behind an echo the receiver is blind: c x dead time / 2.
 [[nodiscard]] double DeadLength_m(const ReceiverSpec& receiver);
 
+/// Whether the beam has a width in any direction; a ray has none.
+[[nodiscard]] inline bool IsWide(const BeamSpec& beam) {
+  return beam.divergence_mrad[0] > 0.0 || beam.divergence_mrad[1] > 0.0;
+}
+
 /// Standard deviations of the beam's Gaussian profile: a quarter of the full 1/e^2 angle.
 [[nodiscard]] double HorizontalSigma_rad(const BeamSpec& beam);
 [[nodiscard]] double VerticalSigma_rad(const BeamSpec& beam);

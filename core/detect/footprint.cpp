@@ -5,6 +5,7 @@
 #include <iterator>
 #include <span>
 
+#include "core/detect/beam_optics.h"
 #include "core/detect/cylinder_mean.h"
 #include "railcast/lidar.h"
 #include "railcast/outcome.h"
@@ -40,6 +41,10 @@ float MixedShare(std::vector<Component>& parts) {
 constexpr float kLeastRatio = 0.3F;
 
 }  // namespace
+
+bool HasFootprint(const DetectorSpec& spec) {
+  return spec.effects.footprint && IsWide(spec.beam);
+}
 
 Footprint::Footprint(const DetectorSpec& spec, const Kernels& kernels)
     : spec_(spec),
@@ -113,8 +118,7 @@ void Footprint::AddWires(const WideBeams& beams, const WireCapture* begin, const
 }
 
 void Footprint::FindParts(const WideBeams& beams, const DetectTile& first) {
-  const bool has_width = beams.frame.sigma_h_rad > 0.0F || beams.frame.sigma_v_rad > 0.0F;
-  if (!spec_.effects.footprint || !has_width) {
+  if (!HasFootprint(spec_)) {
     lists_.parts.clear();
     lists_.begin.fill(0);
   } else if (spec_.effects.dense_footprint) {

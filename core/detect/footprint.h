@@ -16,6 +16,9 @@
 
 namespace railcast {
 
+/// Whether effect `footprint` is on and beams have a width.
+[[nodiscard]] bool HasFootprint(const DetectorSpec& spec);
+
 /// Effects `footprint`, `dense_footprint` and `thin_conductors`: turns what a beam of finite width
 /// meets (FacetParts, SubRayParts) into echoes. A beam that lies on one plane is represented by its
 /// central ray, with the spread of the whole beam.

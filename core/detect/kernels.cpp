@@ -18,16 +18,13 @@
 #include "core/detect/threshold.h"
 #include "core/detect/waveform.h"
 
-#define RAILCAST_STRINGIFY_(name) #name
-#define RAILCAST_STRINGIFY(name) RAILCAST_STRINGIFY_(name)
-
 namespace railcast::RAILCAST_ISA {
 
 Kernels MakeKernels();
 
 #define RAILCAST_KERNEL_POINTER(name, function, type) .name = &function,
 Kernels MakeKernels() {
-  return {.isa = RAILCAST_STRINGIFY(RAILCAST_ISA), RAILCAST_KERNELS(RAILCAST_KERNEL_POINTER)};
+  return {.isa = RAILCAST_ISA_NAME, RAILCAST_KERNELS(RAILCAST_KERNEL_POINTER)};
 }
 #undef RAILCAST_KERNEL_POINTER
 

@@ -42,8 +42,6 @@ BeamTracer::BeamTracer(const SimulatorSpec& spec,
                           spec_.effects.surface_condition ? spec_.weather.wetness : 0.0);
     dry_optics_ = OpticsTable(materials, spec_.beam.wavelength_nm, 0.0);
   }
-  const bool has_width = beam_.sigma_h_rad > 0.0F || beam_.sigma_v_rad > 0.0F;
-  has_footprint_ = spec_.effects.footprint && has_width;
   if (spec_.effects.cover && HasCover(spec_)) cover_.emplace(spec_, pattern);
 }
 
@@ -121,10 +119,10 @@ void BeamTracer::MakeEchoes(const CastFrame& frame,
   }
   detector_.Respond(first, observer);
   std::fill_n(echoes.mixed_share, first.num_rays, 0.0F);
-  if (has_footprint_ || spec_.effects.thin_conductors) {
+  if (HasFootprint(spec_) || spec_.effects.thin_conductors) {
     const WireSet* const wires = spec_.effects.thin_conductors ? frame.wires : nullptr;
     work.footprint.Resolve({rays, beam, frame.caster, table, detector_}, wires, echoes);
-    if (observer) observer(has_footprint_ ? "footprint" : "thin_conductors");
+    if (observer) observer(HasFootprint(spec_) ? "footprint" : "thin_conductors");
   }
   if (!frame.spray.empty()) {
     spray_.Apply(rays, frame.spray, detector_, echoes);

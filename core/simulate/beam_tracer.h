@@ -59,7 +59,7 @@ class BeamTracer {
   [[nodiscard]] bool has_beams() const { return is_physical_; }
   /// Whether it passes beams to RayCaster::CastBeam().
   [[nodiscard]] bool casts_beams() const {
-    return has_footprint_ && !spec_.effects.dense_footprint;
+    return HasFootprint(spec_) && !spec_.effects.dense_footprint;
   }
 
  private:
@@ -82,7 +82,6 @@ class BeamTracer {
   std::vector<LaneOptics> dry_optics_;  ///< Optics of the surfaces without water, for FiringStory.
   Detector detector_;
   Kernels kernels_;
-  bool has_footprint_;
   std::optional<Cover> cover_;
   Spray spray_;
 };

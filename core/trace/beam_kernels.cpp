@@ -5,15 +5,12 @@
 
 #include "core/trace/trace_beam.h"
 
-#define RAILCAST_STRINGIFY_(name) #name
-#define RAILCAST_STRINGIFY(name) RAILCAST_STRINGIFY_(name)
-
 namespace railcast::RAILCAST_ISA {
 
 BeamKernel MakeBeamKernel();
 
 BeamKernel MakeBeamKernel() {
-  return {.isa = RAILCAST_STRINGIFY(RAILCAST_ISA), .trace = &TraceBeam};
+  return {.isa = RAILCAST_ISA_NAME, .trace = &TraceBeam};
 }
 
 }  // namespace railcast::RAILCAST_ISA
