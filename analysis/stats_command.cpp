@@ -91,7 +91,8 @@ void AddStats(CLI::App& app, ProgramCommand& command) {
       ->add_option(
           "SOURCE", options->sources,
           "Sequence directory, .pcd or .ply file, directory of such files, or .pcap "
-          "capture of VLP-16, HDL-32E, VLP-32C, VLS-128 or Pandar64; several are summed up")
+          "capture of VLP-16, HDL-32E, VLP-32C, VLS-128, Pandar64, XT32 or QT128; several are "
+          "summed up")
       ->required();
   stats->add_option("--threads", options->num_threads, "Number of threads; 0 = all cores")
       ->transform(Whole({0, 1024}))

@@ -3,8 +3,9 @@
 
 usage: make_sensor_tables.py DATA_DIR OUT_DIR
 
-DATA_DIR holds velodyne_calibration/ (of ros-drivers/velodyne) and lidar_packets_nebula/calibration/
-(of tier4/nebula). scenarios/sensors/README.md names the source of every other figure.
+DATA_DIR holds velodyne_calibration/ (of ros-drivers/velodyne), lidar_packets_nebula/calibration/ (of
+tier4/nebula) and lidar_hesai/calibration/ (of tier4/nebula and HesaiLidar_SDK_2.0).
+scenarios/sensors/README.md names the source of every other figure.
 """
 
 import csv
@@ -24,6 +25,10 @@ PANDAR64_BEFORE_END_US = [
     4.924, 21.876, 14.052, 17.964, 8.836, 19.268, 3.620, 20.572, 12.748, 16.660, 7.532,
     11.444, 6.228, 15.356, 10.140, 4.924, 3.620, 14.052, 8.836, 12.748,
 ]
+
+# QT128: the first firing of a loop, and from one loop to the next: 900 loops in 0.1 s.
+QT128_EARLIEST_US = 0.6
+QT128_LOOP_US = 111.111
 
 
 def velodyne_lasers(path):
@@ -45,6 +50,24 @@ def velodyne_lasers(path):
 def hesai_lasers(path):
     rows = csv.DictReader(path.open())
     return [(float(row["Elevation"]), float(row["Azimuth"])) for row in rows]
+
+
+def qt128_firings(angles_path, times_path):
+    """(elevation, azimuth) in degrees and the time in us of each firing of a cycle of two loops:
+    those of loop 1, then those of loop 2, by rising laser.
+    """
+    angles = hesai_lasers(angles_path)
+    # Three lines of header, then laser and time in loop 1, laser and time in loop 2; 0 = none.
+    rows = list(csv.reader(times_path.open(encoding="utf-8-sig")))[3:]
+    lasers, times_us = [], []
+    for loop in range(2):
+        fired = sorted((int(row[2 * loop]), float(row[2 * loop + 1])) for row in rows if row)
+        for laser, time_us in fired:
+            if laser == 0:
+                continue
+            lasers.append(angles[laser - 1])
+            times_us.append(time_us - QT128_EARLIEST_US + loop * QT128_LOOP_US)
+    return lasers, times_us
 
 
 def hdl64e_lasers(path):
@@ -130,6 +153,8 @@ VLS128 = [
     {"range_noise_floor_m": 0.01, "range_noise_scale_m": 0.05, "channel_bias_sigma_m": 0.01,
      "pointing_jitter_deg": 0.0015},
 ]
+XT32 = []
+QT128 = []
 
 
 def main():
@@ -165,6 +190,14 @@ def main():
     write_sensor(out / "pandar64.json", "Pandar64", hesai_lasers(hesai / "Pandar64.csv"),
                  [earliest_us - before_us for before_us in PANDAR64_BEFORE_END_US],
                  55.5555555556, 1800, detection(0.3, 200.0, 200.0, 0.01, [3.0, 1.5], *PANDAR64))
+    hesai = data / "lidar_hesai" / "calibration"
+    write_sensor(out / "xt32.json", "XT32", hesai_lasers(hesai / "nebula_PandarXT32.csv"),
+                 [1.512 * i for i in range(32)], 50.0, 2000,
+                 detection(0.05, 120.0, 80.0, 0.005, [3.0, 1.5], *XT32))
+    write_sensor(out / "qt128.json", "QT128",
+                 *qt128_firings(hesai / "sdk_QT128C2X_Angle_Correction_File.csv",
+                                hesai / "sdk_QT128C2X_Firetime_Correction_File.csv"),
+                 222.2222222222, 450, detection(0.05, 50.0, 20.0, 0.01, [3.0, 1.5], *QT128))
 
 
 if __name__ == "__main__":

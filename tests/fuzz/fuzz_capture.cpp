@@ -7,17 +7,16 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/io/hesai/pandar64_decoder.h"
-#include "core/io/hesai/pandar64_packet.h"
+#include "core/io/hesai/hesai_decoder.h"
 #include "core/io/recording/recording_kinds.h"
 
 namespace railcast {
 namespace {
 
-void CheckTurn(const SensorTurn& turn) {
+void CheckTurn(const SensorTurn& turn, std::size_t num_rings) {
   Check(turn.num_columns() <= (std::size_t{1} << 14U) + 6, "a turn has an end");
   for (const TurnPoint& point : turn.points) {
-    Check(point.column < turn.num_columns() && point.ring < 64 && point.return_index < 2,
+    Check(point.column < turn.num_columns() && point.ring < num_rings && point.return_index < 2,
           "a point is of a firing");
     Check(turn.is_dual || point.return_index == 0, "a second return is of dual mode");
     Check(point.range_m > 0.0F && point.range_m < 16'712.0F, "a range is within the format");
@@ -26,16 +25,16 @@ void CheckTurn(const SensorTurn& turn) {
 }
 
 // Splits the bytes into packets; the last one may be truncated.
-void DecodePackets(std::span<const char> bytes) {
-  Pandar64Decoder decoder;
+void DecodePackets(const HesaiModel& model, std::span<const char> bytes) {
+  HesaiDecoder decoder(model);
   std::vector<SensorTurn> turns;
   while (!bytes.empty()) {
-    const auto packet = bytes.first(std::min(bytes.size(), kPandar64PacketSize));
+    const auto packet = bytes.first(std::min(bytes.size(), model.layout.packet_size));
     (void)decoder.Decode(packet, turns);
     bytes = bytes.subspan(packet.size());
   }
   turns.push_back(decoder.TakeUnfinished());
-  std::ranges::for_each(turns, CheckTurn);
+  for (const SensorTurn& turn : turns) CheckTurn(turn, model.channels.size());
 }
 
 void CheckFrame(const RecordedFrame& recorded) {
@@ -68,14 +67,22 @@ void ReadCapture(std::span<const char> bytes) {
 }  // namespace railcast
 
 /// Entry point for libFuzzer. The first byte selects the format of the rest: h for packets of a
-/// Pandar64, anything else for a capture.
+/// Pandar64, x of an XT32, q of a QT128, anything else for a capture.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::span bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
-  if (data[0] == 'h') {
-    railcast::DecodePackets(bytes);
-  } else {
-    railcast::ReadCapture(bytes);
+  switch (data[0]) {
+    case 'h':
+      railcast::DecodePackets(railcast::Pandar64Model(), bytes);
+      break;
+    case 'x':
+      railcast::DecodePackets(railcast::Xt32Model(), bytes);
+      break;
+    case 'q':
+      railcast::DecodePackets(railcast::Qt128Model(), bytes);
+      break;
+    default:
+      railcast::ReadCapture(bytes);
   }
   return 0;
 }

@@ -85,7 +85,7 @@ class CaptureRecording : public Recording {
   std::string_view name_;
   std::size_t packet_size_;
   std::shared_ptr<const TurnShape> shape_;
-  std::variant<VelodyneDecoder, Pandar64Decoder> decoder_;
+  std::variant<VelodyneDecoder, HesaiDecoder> decoder_;
   std::deque<SensorTurn> turns_;
   std::uint32_t num_frames_{};
   bool is_at_end_ = false;
@@ -97,7 +97,9 @@ CaptureSensor FindSensor(std::FILE* stream, const std::string& name) {
   while (const auto datagram = reader.Next()) {
     if (auto sensor = finder.Look(datagram->payload)) return std::move(*sensor);
   }
-  throw InputError(name + ": must be a capture of VLP-16, HDL-32E, VLP-32C, VLS-128 or Pandar64 (" +
+  throw InputError(name +
+                   ": must be a capture of VLP-16, HDL-32E, VLP-32C, VLS-128, Pandar64, XT32 or "
+                   "QT128 (" +
                    finder.Findings() + ")");
 }
 

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/base/text.h"
-#include "core/io/hesai/pandar64_packet.h"
+#include "core/io/hesai/hesai_model.h"
 #include "core/io/velodyne/velodyne_packet.h"
 
 namespace railcast {
@@ -47,19 +47,23 @@ std::optional<CaptureSensor> VelodyneOf(std::span<const char> payload) {
 }
 
 std::optional<CaptureSensor> HesaiOf(std::span<const char> payload) {
-  std::vector<SensorTurn> turns;
-  if (Pandar64Decoder().Decode(payload, turns)) return std::nullopt;
-  return CaptureSensor{.name = "Pandar64",
-                       .packet_size = kPandar64PacketSize,
-                       .shape = ShapeOfTurns(Pandar64Channels(), IntensityBytes::kPercent),
-                       .decoder = Pandar64Decoder()};
+  for (const HesaiModel* model : {&Pandar64Model(), &Xt32Model(), &Qt128Model()}) {
+    std::vector<SensorTurn> turns;
+    const std::size_t size = model->layout.packet_size;
+    if (HesaiDecoder(*model).Decode(FirstPacket(payload, size), turns)) continue;
+    return CaptureSensor{.name = model->name,
+                         .packet_size = size,
+                         .shape = ShapeOfTurns(model->channels, IntensityBytes::kPercent),
+                         .decoder = HesaiDecoder(*model)};
+  }
+  return std::nullopt;
 }
 
 /// Describes packets of a sensor that is recognised but cannot be decoded; empty if the payload is
 /// not one of those.
 std::string NameOfStranger(std::span<const char> payload) {
-  if (payload.size() >= kPandar64HeaderSize &&
-      LoadAt<std::uint16_t>(payload.data()) == kHesaiFlag) {
+  constexpr std::size_t kLeastHesaiHeader = 8;
+  if (payload.size() >= kLeastHesaiHeader && LoadAt<std::uint16_t>(payload.data()) == kHesaiFlag) {
     return "packets of " + NumberText(payload.size()) + " bytes of a Hesai sensor";
   }
   constexpr std::string_view kOurs = "RCST";
@@ -85,7 +89,7 @@ std::string NameOfStranger(std::span<const char> payload) {
 std::optional<CaptureSensor> SensorFinder::Look(std::span<const char> payload) {
   if (num_datagrams_++ == 0) first_size_ = payload.size();
   if (auto sensor = VelodyneOf(FirstPacket(payload, kVelodynePacketSize))) return sensor;
-  if (auto sensor = HesaiOf(FirstPacket(payload, kPandar64PacketSize))) return sensor;
+  if (auto sensor = HesaiOf(payload)) return sensor;
   if (stranger_.empty()) stranger_ = NameOfStranger(payload);
   return std::nullopt;
 }

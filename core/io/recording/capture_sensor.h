@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/io/hesai/pandar64_decoder.h"
+#include "core/io/hesai/hesai_decoder.h"
 #include "core/io/recording/turn_frame.h"
 #include "core/io/velodyne/velodyne_decoder.h"
 
@@ -19,7 +19,7 @@ struct CaptureSensor {
   std::string_view name;
   std::size_t packet_size{};  ///< Payload size of its data packets.
   TurnShape shape;
-  std::variant<VelodyneDecoder, Pandar64Decoder> decoder;
+  std::variant<VelodyneDecoder, HesaiDecoder> decoder;
 };
 
 /// Finds out from datagrams which sensor sent them.

@@ -10,10 +10,10 @@
 
 namespace railcast {
 
-/// Opens a .pcap or .pcapng capture of a VLP-16, HDL-32E, VLP-32C, VLS-128 or Pandar64. Each turn
-/// is a frame; the first and the last turn are usually cut short. The first packet of one of these
-/// sensors decides which sensor it is; other and damaged datagrams are skipped. Packets that
-/// segmentation offload merged into one datagram are cut apart.
+/// Opens a .pcap or .pcapng capture of a VLP-16, HDL-32E, VLP-32C, VLS-128, Pandar64, XT32 or
+/// QT128. Each turn is a frame; the first and the last turn are usually cut short. The first packet
+/// of one of these sensors decides which sensor it is; other and damaged datagrams are skipped.
+/// Packets that segmentation offload merged into one datagram are cut apart.
 /// @throws InputError with one line that says what was found instead; reading throws it, too, where
 ///   a merged datagram ends within a packet.
 [[nodiscard]] std::unique_ptr<Recording> OpenCapture(const std::filesystem::path& file);

@@ -7,30 +7,45 @@
 #include <vector>
 
 #include "core/io/field_layout.h"
-#include "core/io/hesai/pandar64_packet.h"
+#include "core/io/hesai/hesai_model.h"
 #include "core/io/velodyne/velodyne_packet.h"
 
 namespace railcast {
 
-/// Returns a packet with blocks at azimuths 100, 120, ... (in 0.01 deg). Channel 0 measures 1 m at
-/// 50 %; all other channels have no return.
-inline std::vector<char> MadePacket(std::uint8_t mode = kPandar64Strongest) {
-  std::vector<char> packet(kPandar64PacketSize, '\0');
+// Return modes.
+inline constexpr std::uint8_t kMadeStrongest = 0x37;
+inline constexpr std::uint8_t kMadeDual = 0x39;  ///< Last and strongest.
+
+/// The place of a laser's distance in a packet of this sensor.
+inline std::size_t DistancePlace(const HesaiModel& model, std::size_t block, std::size_t laser) {
+  const HesaiLayout& layout = model.layout;
+  return layout.header_size + block * layout.block_size() + 2 + laser * layout.return_size;
+}
+
+/// Returns a packet with blocks at azimuths 100, 120, ... (in 0.01 deg), at half a second past
+/// 1970-01-02 00:00:03 and 600 revolutions per minute. Laser 0 measures 1 m at 50 %; all others
+/// have no return.
+inline std::vector<char> MadePacket(const HesaiModel& model = Pandar64Model(),
+                                    std::uint8_t mode = kMadeStrongest) {
+  const HesaiLayout& layout = model.layout;
+  std::vector<char> packet(layout.packet_size, '\0');
   StoreAt<std::uint16_t>(packet.data(), kHesaiFlag);
-  packet[2] = 64;
-  packet[3] = 6;
-  packet[5] = 4;
-  const std::size_t in_group = mode == kPandar64LastAndStrongest ? 2 : 1;
-  for (std::size_t block = 0; block < 6; ++block) {
-    char* const place = packet.data() + kPandar64HeaderSize + block * kPandar64BlockSize;
-    StoreAt<std::uint16_t>(place, 100 + 20 * (block / in_group));
-    StoreAt<std::uint16_t>(place + 2, 250);
-    place[4] = 50;
+  if (layout.version) std::ranges::copy(*layout.version, packet.begin() + 2);
+  packet[layout.lasers_place] = static_cast<char>(layout.lasers);
+  packet[layout.blocks_place] = static_cast<char>(layout.blocks);
+  packet[layout.unit_place] = 4;
+  const std::size_t in_group = mode == kMadeDual ? 2 : 1;
+  for (std::size_t block = 0; block < layout.blocks; ++block) {
+    char* const place = packet.data() + DistancePlace(model, block, 0);
+    StoreAt<std::uint16_t>(place - 2, 100 + 20 * (block / in_group));
+    StoreAt<std::uint16_t>(place, 250);
+    place[2] = 50;
   }
-  StoreAt<std::uint32_t>(packet.data() + kPandar64TimePlace, 500'000);
-  packet[kPandar64ModePlace] = static_cast<char>(mode);
-  const std::array<std::uint8_t, 6> date = {70, 1, 2, 0, 0, 3};  // 1970-01-02 00:00:03
-  std::copy(date.begin(), date.end(), packet.begin() + kPandar64DatePlace);
+  StoreAt<std::uint32_t>(packet.data() + layout.time_place, 500'000);
+  StoreAt<std::uint16_t>(packet.data() + layout.speed_place, 600);
+  packet[layout.mode_place] = static_cast<char>(mode);
+  const std::array<std::uint8_t, 6> date = {70, 1, 2, 0, 0, 3};
+  std::ranges::copy(date, packet.begin() + static_cast<std::ptrdiff_t>(layout.date_place));
   return packet;
 }
 

@@ -11,6 +11,7 @@
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/core/io/velodyne/made_scan.h"
+#include "tests/support/hesai_bag.h"
 #include "tests/support/sensor_file.h"
 
 namespace railcast {
@@ -146,6 +147,40 @@ TEST(CaptureRecording, OfARealPandar64HasFourTurnsInDualMode) {
   }
 }
 
+// The recording begins at 1.1 deg.
+TEST(CaptureRecording, OfARealXt32HasFourTurnsInDualMode) {
+  if (const std::string why = WhyNoHesaiBag("xt32"); !why.empty()) GTEST_SKIP() << why;
+  const TemporaryDirectory folder;
+  const auto recording = OpenRecording(CaptureOfHesaiBag("xt32", folder));
+  EXPECT_EQ(recording->info().kind, "capture of XT32");
+  const auto frames = ReadAll(*recording);
+  ASSERT_EQ(frames.size(), 5U);
+  for (std::size_t i = 1; i < 4; ++i) {
+    const Frame& frame = frames[i].frame;
+    EXPECT_EQ(frame.rows, 32U);
+    EXPECT_EQ(frame.returns, 2U);
+    EXPECT_EQ(frame.columns, 2000U);
+    EXPECT_NEAR(static_cast<double>(NumPoints(frame)), 63'040.0, 20.0);
+    EXPECT_NEAR(static_cast<double>(frame.stamp_ns - frames[i - 1].frame.stamp_ns), 1e8,
+                i == 1 ? 4e5 : 5e4);
+  }
+}
+
+// The recording begins at 10.8 deg.
+TEST(CaptureRecording, OfARealQt128HasTwoTurnsInDualMode) {
+  if (const std::string why = WhyNoHesaiBag("qt128"); !why.empty()) GTEST_SKIP() << why;
+  const TemporaryDirectory folder;
+  const auto recording = OpenRecording(CaptureOfHesaiBag("qt128", folder));
+  EXPECT_EQ(recording->info().kind, "capture of QT128");
+  const auto frames = ReadAll(*recording);
+  ASSERT_EQ(frames.size(), 3U);
+  EXPECT_EQ(frames[0].frame.columns, 436U);
+  EXPECT_EQ(frames[1].frame.columns, 450U);
+  EXPECT_EQ(frames[1].frame.rows, 192U);
+  EXPECT_EQ(frames[1].frame.returns, 2U);
+  EXPECT_EQ(NumPoints(frames[1].frame), 88'495U);
+}
+
 TEST(CaptureRecording, OfARealVls128HasThreeWholeTurns) {
   const auto file = CaptureFile("vls128_single.pcap");
   if (!exists(file)) GTEST_SKIP() << file << " is not there";
@@ -170,7 +205,9 @@ std::string MessageOfCapture(const std::vector<std::string>& payloads) {
   WriteCapture(file, datagrams);
   const std::string message = MessageOf([&] { (void)OpenRecording(file); });
   const std::string expected =
-      file.string() + ": must be a capture of VLP-16, HDL-32E, VLP-32C, VLS-128 or Pandar64 ";
+      file.string() +
+      ": must be a capture of VLP-16, HDL-32E, VLP-32C, VLS-128, Pandar64, XT32 or "
+      "QT128 ";
   EXPECT_EQ(message.substr(0, expected.size()), expected);
   return message.substr(expected.size());
 }

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "core/io/hesai/pandar64_packet.h"
 #include "core/io/pcap/pcap_writer.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "core/io/write_file.h"
@@ -107,7 +106,7 @@ TEST(CaptureRecording, RefusesAMergedDatagramThatEndsWithinAPacket) {
   const TemporaryDirectory directory;
   const auto file = directory.path() / "a.pcap";
   Datagrams datagrams = Merged(PandarPackets(100));
-  datagrams.items[1].size = 3 * kPandar64PacketSize + 500;
+  datagrams.items[1].size = 3 * 1198 + 500;
   WriteMadeCapture(file, datagrams);
   EXPECT_EQ(MessageOf([&] { static_cast<void>(ReadAll(file)); }),
             file.string() +
