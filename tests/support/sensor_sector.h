@@ -26,7 +26,7 @@ inline constexpr int kReferenceSubRays = 256;
 
 /// The published raster and the presets of real sensors.
 [[nodiscard]] inline std::vector<std::string> ScannedSensors() {
-  return {"vir2rail", "vlp16", "hdl32e", "vlp32c", "hdl64e", "pandar64", "vls128"};
+  return {"vir2rail", "vlp16", "hdl32e", "vlp32c", "hdl64e", "pandar64", "vls128", "xt32", "qt128"};
 }
 
 /// Reads scenarios/minimal.json with scenarios/sensors/NAME.json as its sensor.
