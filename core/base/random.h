@@ -30,6 +30,7 @@ enum class RandomUse : std::uint32_t {
   kTreePlacement = 102,
   kGrassPlacement = 103,
   kPlantShape = 104,
+  kPuddles = 105,
 };
 
 /// Four independent, uniform 32-bit words that depend on the arguments only.

@@ -97,6 +97,8 @@ void CheckDetectorSpec(const DetectorSpec& spec) {
        ">= 0"},
       {"/weather/wetness", weather.wetness, IsShare(weather.wetness), ">= 0 and <= 1"},
       {"/weather/snow_cover", weather.snow_cover, IsShare(weather.snow_cover), ">= 0 and <= 1"},
+      {"/weather/puddle_share", weather.puddle_share, IsShare(weather.puddle_share),
+       ">= 0 and <= 1"},
       {"/weather/spray_extinction_per_m", weather.spray_extinction_per_m,
        IsNonNegative(weather.spray_extinction_per_m), ">= 0"},
   };

@@ -36,6 +36,7 @@ void PartBatch::Respond(const WideBeams& beams,
     const float whole_m = hits_.spread_m[i];
     hits_.spread_m[i] = std::sqrt(cell_[i] * whole_m * whole_m + variance_m2_[i]);
   }
+  if (beams.mirrors != nullptr) DimMirrors(*beams.mirrors, rays, hits_);
   beams.detector.Respond(hits_);
   for (std::size_t i = 0; i < num_wanted; ++i) parts.push_back(ComponentOf(hits_, i));
 }

@@ -10,6 +10,7 @@
 #include "core/detect/echo_finder.h"
 #include "core/detect/hits.h"
 #include "core/detect/kernels.h"
+#include "core/detect/mirrors.h"
 #include "railcast/effects.h"
 #include "railcast/ray_caster.h"
 
@@ -22,6 +23,7 @@ struct WideBeams {
   const RayCaster& caster;
   const SurfaceTable& table;
   const Detector& detector;
+  const MirrorScene* mirrors{};  ///< Null if nothing mirrors.
 };
 
 /// Hits of sub-rays on the way to their response. Each stands for a share of its beam.

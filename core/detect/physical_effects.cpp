@@ -8,6 +8,7 @@
 #include "core/detect/detection.h"
 #include "core/detect/effect_table.h"
 #include "core/detect/fog_profile.h"
+#include "core/detect/mirror_paths.h"
 #include "core/detect/spray.h"
 #include "core/detect/weather_optics.h"
 
@@ -63,6 +64,16 @@ std::string PulseStretchText(const DetectorSpec& spec) {
 Loop PulseStretchLoop(const DetectorSpec& spec, const Kernels& kernels) {
   return [sigma_m = static_cast<float>(PulseSigma_m(spec.beam)),
           apply = kernels.pulse_stretch](DetectTile& tile) { apply(tile, sigma_m); };
+}
+
+// Mirror paths act where beams are traced.
+
+std::string MirrorPathsText(const DetectorSpec& spec) {
+  const double share = spec.weather.puddle_share;
+  std::string text =
+      share > 0.0 ? "puddles on " + ShortText(100.0 * share) + " % of the level ground" : "";
+  if (spec.has_mirrors) text += (text.empty() ? "" : ", ") + std::string("smooth surfaces");
+  return text.empty() ? "none: no puddles and nothing smooth" : text;
 }
 
 // Detection.
@@ -248,6 +259,12 @@ std::vector<Effect> PhysicalEffects() {
        .text = &PulseStretchText,
        .loops = {{StepOrder::kPulseStretch, &PulseStretchLoop}},
        .instructions = 10.0},
+      {.name = "mirror_paths",
+       .is_on = &EffectSet::mirror_paths,
+       .rungs = from_surface_on,
+       .has_cause = HasMirrorPaths,
+       .text = &MirrorPathsText,
+       .weather_keys = {"puddle_share"}},
       {.name = "detection",
        .is_on = &EffectSet::detection,
        .rungs = from_surface_on,

@@ -1,42 +1,60 @@
 #include "core/rail/rail_surfaces.h"
 
-#include <string_view>
+#include <algorithm>
 
 #include "core/base/attempt.h"
 
 namespace railcast {
+namespace {
+
+struct SurfaceRow {
+  SurfaceClass RailSurfaces::*surface;
+  std::string_view material;
+  std::string_view label;
+};
+
+constexpr SurfaceRow kSurfaceRows[] = {
+    {&RailSurfaces::rail_head, "rail_head", "rail"},
+    {&RailSurfaces::rail_side, "rail_side", "rail"},
+    {&RailSurfaces::fastening, "rusty_steel", "sleeper"},
+    {&RailSurfaces::sleeper_concrete, "concrete", "sleeper"},
+    {&RailSurfaces::sleeper_wood, "wood", "sleeper"},
+    {&RailSurfaces::ballast, "ballast", "ballast"},
+    {&RailSurfaces::ground, "soil", "ground"},
+    {&RailSurfaces::grass, "grass", "grass"},
+    {&RailSurfaces::leaf, "leaf", "tree"},
+    {&RailSurfaces::bark, "bark", "tree"},
+    {&RailSurfaces::contact_wire, "copper_wire", "contact_wire"},
+    {&RailSurfaces::messenger_wire, "bronze_wire", "messenger_wire"},
+    {&RailSurfaces::dropper, "bronze_wire", "dropper"},
+    {&RailSurfaces::mast, "galvanised_steel", "mast"},
+    {&RailSurfaces::cantilever, "galvanised_steel", "cantilever"},
+    {&RailSurfaces::insulator, "ceramic", "cantilever"},
+    {&RailSurfaces::wagon_body, "wagon_paint", "wagon"},
+    {&RailSurfaces::wagon_frame, "rusty_steel", "wagon"},
+    {&RailSurfaces::wheel, "wheel_steel", "wagon"},
+    {&RailSurfaces::tank, "tank_paint", "wagon"},
+    {&RailSurfaces::skin, "skin", "person"},
+    {&RailSurfaces::clothing, "clothing", "person"},
+    {&RailSurfaces::pole, "galvanised_steel", "pole"},
+    {&RailSurfaces::box, "grey_paint", "object"},
+};
+
+}  // namespace
+
 RailSurfaces::RailSurfaces(const LabelTable& labels, const MaterialLibrary& materials) {
   ErrorList errors;
-  const auto surface = [&](std::string_view material, std::string_view label) {
-    const auto index = Attempt("", errors, [&] { return materials.Index(material); });
-    const auto id = Attempt("", errors, [&] { return labels.Id(label); });
-    return SurfaceClass{index.value_or(0), id.value_or(0)};
-  };
-  rail_head = surface("rail_head", "rail");
-  rail_side = surface("rail_side", "rail");
-  fastening = surface("rusty_steel", "sleeper");
-  sleeper_concrete = surface("concrete", "sleeper");
-  sleeper_wood = surface("wood", "sleeper");
-  ballast = surface("ballast", "ballast");
-  ground = surface("soil", "ground");
-  grass = surface("grass", "grass");
-  leaf = surface("leaf", "tree");
-  bark = surface("bark", "tree");
-  contact_wire = surface("copper_wire", "contact_wire");
-  messenger_wire = surface("bronze_wire", "messenger_wire");
-  dropper = surface("bronze_wire", "dropper");
-  mast = surface("galvanised_steel", "mast");
-  cantilever = surface("galvanised_steel", "cantilever");
-  insulator = surface("ceramic", "cantilever");
-  wagon_body = surface("wagon_paint", "wagon");
-  wagon_frame = surface("rusty_steel", "wagon");
-  wheel = surface("wheel_steel", "wagon");
-  tank = surface("tank_paint", "wagon");
-  skin = surface("skin", "person");
-  clothing = surface("clothing", "person");
-  pole = surface("galvanised_steel", "pole");
-  box = surface("grey_paint", "object");
+  for (const SurfaceRow& row : kSurfaceRows) {
+    const auto index = Attempt("", errors, [&] { return materials.Index(row.material); });
+    const auto id = Attempt("", errors, [&] { return labels.Id(row.label); });
+    this->*row.surface = SurfaceClass{index.value_or(0), id.value_or(0)};
+  }
   errors.ThrowIfAny();
+}
+
+bool IsRailMaterial(std::string_view name) {
+  return std::any_of(std::begin(kSurfaceRows), std::end(kSurfaceRows),
+                     [&](const SurfaceRow& row) { return row.material == name; });
 }
 
 }  // namespace railcast

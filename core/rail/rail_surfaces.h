@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 #include "railcast/frame.h"
 #include "railcast/material.h"
@@ -27,5 +28,8 @@ struct RailSurfaces {
   /// @throws InputError with a line for every name that the tables lack.
   RailSurfaces(const LabelTable& labels, const MaterialLibrary& materials);
 };
+
+/// Whether the railway itself or one of its models has surfaces of the material.
+[[nodiscard]] bool IsRailMaterial(std::string_view name);
 
 }  // namespace railcast

@@ -80,6 +80,12 @@ std::optional<EffectNamesInUse> TryNames(const ScenarioSpec& spec, ErrorList& er
       names.labels.fog = labels.Id("fog");
       names.labels.false_alarm = labels.Id("false_alarm");
       if (HasHalos(spec)) names.labels.halo = labels.Id("halo");
+      if (SwitchedEffects(spec).mirror_paths &&
+          (HasMirrors(spec) || spec.weather.puddle_share > 0.0)) {
+        names.labels.mirror_image = labels.Id("mirror_image");
+      } else if (const Label* label = labels.Find("mirror_image")) {
+        names.labels.mirror_image = label->id;  // Commands may still bring mirrors.
+      }
       if (spec.weather.spray_extinction_per_m > 0.0) names.labels.spray = labels.Id("spray");
     }
     if (spec.weather.snow_cover > 0.0) {
@@ -188,6 +194,9 @@ void UseWeather(const ScenarioSpec& scenario, const WeatherSpec& weather, Simula
   }
   if (weather.spray_extinction_per_m > 0.0) {
     spec.detector.clutter_labels.spray = LabelTable(scenario.labels).Id("spray");
+  }
+  if (weather.puddle_share > 0.0) {
+    spec.detector.clutter_labels.mirror_image = LabelTable(scenario.labels).Id("mirror_image");
   }
   spec.detector.weather = weather;
 }

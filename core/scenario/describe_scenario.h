@@ -102,6 +102,11 @@ void Describe(Archive& a, Material& s) {
   a.Optional("retroreflectance", s.retroreflectance,
              "Reflectance of a retroreflector as a multiple of a white Lambertian.",
              Within(0, 10'000));
+  a.Optional("height_rms_um", s.height_rms_um,
+             "Standard deviation of the heights of a flat surface that mirrors; absent = it does "
+             "not.",
+             Within(0, 100));
+  a.Optional("holds_puddles", s.holds_puddles, "Whether water stands on it (puddle_share).");
   a.Ensure({"name"}, s.name != "none", "must not be \"none\": that is the material of nothing");
 }
 

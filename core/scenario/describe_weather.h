@@ -59,6 +59,8 @@ void Describe(Archive& a, WeatherSpec& s) {
   a.Optional("wetness", s.wetness, "Wetness of surfaces: 0 = dry, 1 = soaked.", Within(0, 1));
   a.Optional("snow_cover", s.snow_cover, "Snow-covered share of each upward surface.",
              Within(0, 1));
+  a.Optional("puddle_share", s.puddle_share,
+             "Share of level ground that holds puddles under standing water.", Within(0, 1));
   a.Optional("spray_extinction_per_m", s.spray_extinction_per_m,
              "Extinction of the spray at a train of 100 km/h on soaked or snow-covered ground.",
              Within(0, 10));

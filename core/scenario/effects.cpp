@@ -1,11 +1,13 @@
 #include "railcast/effects.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "core/base/error.h"
 #include "core/base/random.h"
 #include "core/base/text.h"
 #include "core/detect/effect_table.h"
+#include "core/rail/rail_surfaces.h"
 #include "core/scenario/json_rules.h"
 #include "railcast/scenario.h"
 
@@ -95,11 +97,24 @@ std::uint64_t SensorSeed(std::uint64_t seed, const std::string& sensor_name) {
   return std::uint64_t{words[0]} << 32U | words[1];
 }
 
+bool HasMirrors(const ScenarioSpec& spec) {
+  return std::any_of(spec.materials.begin(), spec.materials.end(), [&](const Material& material) {
+    const auto is_of_it = [&](const ObjectSpec& object) {
+      return object.material == material.name;
+    };
+    const std::vector<ObjectSpec>& objects = spec.world.objects;
+    return material.height_rms_um &&
+           (IsRailMaterial(material.name) || std::any_of(objects.begin(), objects.end(), is_of_it));
+  });
+}
+
 DetectorSpec DetectorSpecOf(const ScenarioSpec& spec,
                             const LidarSpec& lidar,
                             const EffectSet& effects) {
   return {.seed = SensorSeed(spec.seed, lidar.name),
           .air_seed = spec.seed,
+          .ground_seed = spec.world.seed,
+          .has_mirrors = HasMirrors(spec),
           .range_min_m = lidar.range_min_m,
           .range_max_m = lidar.range_max_m,
           .effects = effects,

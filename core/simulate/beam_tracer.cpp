@@ -30,7 +30,8 @@ BeamTracer::BeamTracer(const SimulatorSpec& spec,
                 {.num_channels = pattern.rows,
                  .snow = OpticsAt(materials[spec.snow_material], spec_.beam.wavelength_nm)}),
       kernels_(AvailableKernels().back()),
-      spray_(spec_) {
+      spray_(spec_),
+      mirror_paths_(spec_, kernels_) {
   pointing_ = {.seed = spec_.seed,
                .sigma_rad = static_cast<float>(RadFromDeg(spec_.receiver.pointing_jitter_deg))};
   is_sun_up_ = spec_.effects.sunlight && spec_.weather.sun.illuminance_klx > 0.0;
@@ -42,6 +43,7 @@ BeamTracer::BeamTracer(const SimulatorSpec& spec,
                           spec_.effects.surface_condition ? spec_.weather.wetness : 0.0);
     dry_optics_ = OpticsTable(materials, spec_.beam.wavelength_nm, 0.0);
   }
+  if (spec_.effects.mirror_paths) mirrors_.emplace(spec_, materials);
   if (spec_.effects.cover && HasCover(spec_)) cover_.emplace(spec_, pattern);
 }
 
@@ -117,12 +119,20 @@ void BeamTracer::MakeEchoes(const CastFrame& frame,
     detector_.RespondBare(first, observer);
     ResolveHits(rays, table, first);
   }
+  const WideBeams beams{rays,  beam,      frame.caster,
+                        table, detector_, frame.mirrors ? &*frame.mirrors : nullptr};
+  work.mirrors.hits.clear();
+  if (frame.mirrors) DimMirrors(*frame.mirrors, rays, first, &work.mirrors.hits);
   detector_.Respond(first, observer);
   std::fill_n(echoes.mixed_share, first.num_rays, 0.0F);
   if (HasFootprint(spec_) || spec_.effects.thin_conductors) {
     const WireSet* const wires = spec_.effects.thin_conductors ? frame.wires : nullptr;
-    work.footprint.Resolve({rays, beam, frame.caster, table, detector_}, wires, echoes);
+    work.footprint.Resolve(beams, wires, echoes);
     if (observer) observer(HasFootprint(spec_) ? "footprint" : "thin_conductors");
+  }
+  if (frame.mirrors) {
+    mirror_paths_.AddEchoes(beams, work.mirrors, echoes);
+    if (observer) observer("mirror_paths");
   }
   if (!frame.spray.empty()) {
     spray_.Apply(rays, frame.spray, detector_, echoes);

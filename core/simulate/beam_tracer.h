@@ -9,6 +9,7 @@
 #include "core/detect/echo_tiles.h"
 #include "core/detect/footprint.h"
 #include "core/detect/hits.h"
+#include "core/detect/mirror_paths.h"
 #include "core/detect/spray.h"
 #include "core/simulate/firing_tiles.h"
 #include "core/simulate/frame_poses.h"
@@ -26,7 +27,8 @@ struct CastFrame {
   const std::vector<Surface>& surfaces;
   const WireSet* wires{};  ///< Null if the owner of the caster provides no wires.
   Transform window_from_world;
-  std::vector<SprayCloud> spray{};  ///< Empty unless effect `spray` is on and trains move.
+  std::vector<SprayCloud> spray{};       ///< Empty unless effect `spray` is on and trains move.
+  std::optional<MirrorScene> mirrors{};  ///< Absent unless effect `mirror_paths` has any.
 };
 
 /// Makes the echoes of a tile of firings, from aiming the beams to the received power, with the
@@ -45,6 +47,7 @@ class BeamTracer {
     EchoTiles echoes;
     Footprint footprint;
     Cover::Drops drops;
+    MirrorPaths::Work mirrors;
   };
 
   /// Makes the echoes of a tile of firings up to the point where the receiver (Detector) takes
@@ -54,6 +57,12 @@ class BeamTracer {
                   std::size_t tile,
                   Work& work,
                   const EffectObserver& observer = {}) const;
+
+  /// CastFrame::mirrors of a frame with these surfaces.
+  [[nodiscard]] std::optional<MirrorScene> MirrorsAmong(const std::vector<Surface>& surfaces,
+                                                        const Transform& window_from_world) const {
+    return mirrors_ ? mirrors_->Among(surfaces, window_from_world) : std::nullopt;
+  }
 
   [[nodiscard]] const Detector& detector() const { return detector_; }
   [[nodiscard]] bool has_beams() const { return is_physical_; }
@@ -84,6 +93,8 @@ class BeamTracer {
   Kernels kernels_;
   std::optional<Cover> cover_;
   Spray spray_;
+  std::optional<Mirrors> mirrors_;
+  MirrorPaths mirror_paths_;
 };
 
 }  // namespace railcast

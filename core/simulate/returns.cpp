@@ -42,10 +42,12 @@ void StoreEcho(const Place& echo,
   frame.true_range_m[slot] = tile.true_range_m[lane];
   frame.outcome[slot] = OutcomeOf(echo);
   frame.label[slot] = is_clutter ? tile.clutter[lane] : surface.label;
-  frame.instance[slot] = is_clutter ? 0 : surface.instance;
-  frame.material[slot] = is_clutter ? std::uint16_t{0} : surface.material;
+  // Of clutter, only the physical rungs' mirror images have a surface: the one that is mirrored.
+  const bool has_surface = !is_clutter || has_shares;
+  frame.instance[slot] = has_surface ? surface.instance : 0;
+  frame.material[slot] = has_surface ? surface.material : std::uint16_t{0};
   frame.incidence_rad[slot] = is_clutter ? kNaN : tile.incidence_rad[lane];
-  // Neither a firing without a hit nor an echo from the air has a footprint share.
+  // Neither a firing without a hit nor clutter has a footprint share.
   if (has_shares) {
     frame.footprint_share[slot] = tile.surface[lane] != 0 ? tile.share[lane] : kNaN;
   }

@@ -29,12 +29,16 @@
 namespace railcast {
 namespace {
 
-CastFrame CastOf(const FrameScene& scene, const World& world, const DetectorSpec& spec) {
+CastFrame CastOf(const FrameScene& scene,
+                 const World& world,
+                 const DetectorSpec& spec,
+                 const BeamTracer& tracer) {
   CastFrame cast{scene.index,      scene.poses,          scene,
                  scene.surfaces(), &scene.window->wires, scene.window->window_from_world};
   if (spec.effects.spray && HasSpray(spec)) {
     cast.spray = SprayCloudsOf(world, spec.weather, scene.stamp_ns, cast.window_from_world);
   }
+  cast.mirrors = tracer.MirrorsAmong(cast.surfaces, cast.window_from_world);
   return cast;
 }
 
@@ -280,7 +284,7 @@ void Simulator::Parts::Scan(const CastFrame& cast, Frame& frame) {
 void Simulator::Scan(std::uint32_t frame_index, Frame& frame) {
   WithinMemory(parts_->Making(frame_index), [&] {
     const FrameScene scene = parts_->SceneOf(frame_index);
-    parts_->Scan(CastOf(scene, world(), spec().detector), frame);
+    parts_->Scan(CastOf(scene, world(), spec().detector, *parts_->tracer), frame);
   });
 }
 
@@ -288,16 +292,22 @@ void Simulator::Scan(std::uint32_t frame_index, const HostScene& host, Frame& fr
   WithinMemory(parts_->Making(frame_index), [&] {
     const FramePoses poses =
         parts_->scenes.PosesIn(host.window_from_world, parts_->pattern.StampNs(frame_index));
-    parts_->Scan(
-        {frame_index, poses, host.caster, host.surfaces, nullptr, host.window_from_world, {}},
-        frame);
+    parts_->Scan({.index = frame_index,
+                  .poses = poses,
+                  .caster = host.caster,
+                  .surfaces = host.surfaces,
+                  .wires = nullptr,
+                  .window_from_world = host.window_from_world,
+                  .spray = {},
+                  .mirrors = parts_->tracer->MirrorsAmong(host.surfaces, host.window_from_world)},
+                 frame);
   });
 }
 
 FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) {
   Parts& parts = *parts_;
   const FrameScene scene = parts.SceneOf(frame_index);
-  const CastFrame cast = CastOf(scene, world(), spec().detector);
+  const CastFrame cast = CastOf(scene, world(), spec().detector, *parts.tracer);
   const FiringTiles::Place place = parts.tiles.PlaceOf(firing);
   const std::size_t tile = place.tile;
   const std::size_t lane = place.lane;

@@ -36,6 +36,7 @@ constexpr WeatherKey kWeatherKeys[] = {
     {"snow_intensity", &IsGiven<&W::snow_intensity>},
     {"wetness", &IsGiven<&W::wetness>},
     {"snow_cover", &IsGiven<&W::snow_cover>},
+    {"puddle_share", &IsGiven<&W::puddle_share>},
     {"spray_extinction_per_m", &IsGiven<&W::spray_extinction_per_m>},
     {"sun", &IsGiven<&W::sun>},
 };

@@ -21,10 +21,12 @@ std::unordered_map<std::uint32_t, Seen> CountInstances(const Frame& frame) {
   for (std::size_t first = 0; first < frame.num_slots(); first += frame.returns) {
     for (std::size_t slot = first; slot < first + frame.returns; ++slot) {
       const std::uint32_t instance = frame.instance[slot];
-      if (instance == 0) continue;
+      // The mirror image of an object is no point on it.
+      if (instance == 0 || frame.outcome[slot] == Outcome::kClutter) continue;
       bool is_new = true;
       for (std::size_t earlier = first; earlier < slot; ++earlier) {
-        is_new = is_new && frame.instance[earlier] != instance;
+        is_new = is_new && (frame.instance[earlier] != instance ||
+                            frame.outcome[earlier] == Outcome::kClutter);
       }
       Seen& entry = seen[instance];
       entry.firings += is_new ? 1U : 0U;

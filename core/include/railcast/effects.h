@@ -48,6 +48,7 @@ struct EffectSet {
   bool surface_condition = false;  ///< Wet and snow-covered surfaces.
   bool extinction = false;         ///< Two-way extinction by fog, rain and snow.
   bool pulse_stretch = false;      ///< Oblique surfaces stretch the pulse and lower its peak.
+  bool mirror_paths = false;       ///< Mirror images in puddles and smooth surfaces.
   bool detection = false;          ///< Threshold derived from the data sheet's range.
   /// Smooth detection probability instead of a hard threshold.
   bool detection_probability = false;
@@ -218,7 +219,8 @@ struct WeatherSpec {
   double snow_range_scale_m = 5.0;     ///< Maxwell scale of flake ranges (median 1.538 x this).
   double snow_intensity = 0.02;        ///< Effective reflectance of a flake.
   double wetness = 0.0;                ///< Wetness of surfaces: 0 = dry, 1 = soaked.
-  double snow_cover = 0.0;  ///< Share of each upward-facing surface that is covered by snow.
+  double snow_cover = 0.0;    ///< Share of each upward-facing surface that is covered by snow.
+  double puddle_share = 0.0;  ///< Share of level ground that holds puddles under standing water.
   /// Extinction of the spray at a train of 100 km/h on soaked or snow-covered ground; 0 = no spray.
   double spray_extinction_per_m = 0.0;
   SunSpec sun;
@@ -234,6 +236,7 @@ struct ClutterLabels {
   std::uint32_t false_alarm{};
   std::uint32_t halo{};
   std::uint32_t spray{};
+  std::uint32_t mirror_image{};
 };
 
 /// Everything that detection depends on besides the scene: the sensor, the weather and the chosen
@@ -241,6 +244,9 @@ struct ClutterLabels {
 struct DetectorSpec {
   std::uint64_t seed = 1;      ///< Key of the sensor's own draws (SensorSeed()).
   std::uint64_t air_seed = 1;  ///< Key of the patches of fog, which all sensors of a vehicle share.
+  std::uint64_t ground_seed = 1;  ///< Key of the puddles, which are part of the world.
+  /// Whether anything in the world may be of a material with `height_rms_um`; false = known not to.
+  bool has_mirrors = true;
   double range_min_m = 0.5;
   double range_max_m = 300.0;
   EffectSet effects{};

@@ -197,6 +197,9 @@ class RailWorld;
 ///   after the scenario was read.
 [[nodiscard]] EffectSet EffectsOf(const ScenarioSpec& spec);
 
+/// Whether anything that the scenario names is of a material with `height_rms_um`.
+[[nodiscard]] bool HasMirrors(const ScenarioSpec& spec);
+
 /// The key of a sensor's own draws: the scenario's seed for a sensor without a name, else Philox's
 /// words for that seed and the name's hash (FNV-1a, 64 bits). It depends on nothing else, so that a
 /// sensor draws the same alone and beside others, and sensors of different names independently.
