@@ -3,7 +3,7 @@
 # (core/detect/effect_table.h): instructions per firing of Simulator::Scan, without those for making
 # the scene, on frame 0 of scenarios/open_line.json in heavy rain (so that every effect has work)
 # with one thread; then the savings without each effect of the rung footprint; then what the sensor's
-# own effects cost (docs/effects.md). Needs valgrind; takes some fifteen minutes.
+# own effects and mirror images cost (docs/effects.md). Needs valgrind; takes some fifteen minutes.
 #
 #   measure_effect_costs.sh [RAILCAST_GENERATE]
 set -euo pipefail
@@ -60,3 +60,11 @@ sensor clean ""
 sensor dirt '"cover": {"dirt_coverage": 0.1}'
 sensor drops '"cover": {"drop_coverage": 0.1}'
 sensor halo '"receiver": {"halo_share_at_1_deg": 1e-6}'
+
+# puddles SHARE: prints the instructions per firing of rung surface on the open line with puddles.
+puddles() {
+  printf '{"version": 1, "file": "%s", "fidelity": "surface", "weather": {"puddle_share": %s}}\n' \
+    "$scenario" "$1" >"$work/scenario.json"
+  count "puddles_$1"
+}
+for share in 0 0.2; do puddles "$share"; done

@@ -57,17 +57,17 @@ void MirrorPaths::Bounce(const WideBeams& beams, Work& work) const {
     const float range_m = rays.range_m[i];
     const float along =
         TwiceAlong(hit, rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]);
-    bounced.origin_x[k] =
-        rays.origin_x[i] + range_m * rays.direction_x[i] + hit.lift_m * hit.normal[0];
-    bounced.origin_y[k] =
-        rays.origin_y[i] + range_m * rays.direction_y[i] + hit.lift_m * hit.normal[1];
-    bounced.origin_z[k] =
-        rays.origin_z[i] + range_m * rays.direction_z[i] + hit.lift_m * hit.normal[2];
     bounced.direction_x[k] = rays.direction_x[i] - along * hit.normal[0];
     bounced.direction_y[k] = rays.direction_y[i] - along * hit.normal[1];
     bounced.direction_z[k] = rays.direction_z[i] - along * hit.normal[2];
+    bounced.origin_x[k] = rays.origin_x[i] + range_m * rays.direction_x[i] +
+                          hit.lift_m * hit.normal[0] + hit.ahead_m * bounced.direction_x[k];
+    bounced.origin_y[k] = rays.origin_y[i] + range_m * rays.direction_y[i] +
+                          hit.lift_m * hit.normal[1] + hit.ahead_m * bounced.direction_y[k];
+    bounced.origin_z[k] = rays.origin_z[i] + range_m * rays.direction_z[i] +
+                          hit.lift_m * hit.normal[2] + hit.ahead_m * bounced.direction_z[k];
     bounced.shutter[k] = rays.shutter[i];
-    bounced.range_m[k] = range_max_m_ - range_m;
+    bounced.range_m[k] = std::max(range_max_m_ - range_m - hit.ahead_m, 0.0F);
     bounced.surface[k] = 0;
     bounced.normal_x[k] = bounced.normal_y[k] = bounced.normal_z[k] = 0.0F;
   }
@@ -92,7 +92,7 @@ void MirrorPaths::Unfold(const WideBeams& beams, Work& work) {
     images.direction_y[k] = rays.direction_y[i];
     images.direction_z[k] = rays.direction_z[i];
     images.shutter[k] = rays.shutter[i];
-    images.range_m[k] = rays.range_m[i] + bounced.range_m[k];
+    images.range_m[k] = rays.range_m[i] + hit.ahead_m + bounced.range_m[k];
     images.surface[k] = bounced.surface[k];
     images.normal_x[k] = bounced.normal_x[k] - along * hit.normal[0];
     images.normal_y[k] = bounced.normal_y[k] - along * hit.normal[1];
@@ -131,7 +131,8 @@ void MirrorPaths::AddEchoes(const WideBeams& beams, Work& work, EchoTiles& echoe
   Respond(beams, work);
   for (std::size_t k = 0; k < work.hits.size(); ++k) {
     const MirrorHit& hit = work.hits[k];
-    if (work.bounced.surface[k] == 0 || work.bounced.range_m[k] < same_echo_m_) continue;
+    const float beyond_m = hit.ahead_m + work.bounced.range_m[k];
+    if (work.bounced.surface[k] == 0 || beyond_m < same_echo_m_) continue;
     const float ratio = hit.there_and_back * work.tile.power_ratio[k];
     if (!(ratio >= least_ratio_)) continue;
     const AddedEcho image{label_, EchoTiles::kMirrorImage, work.tile.true_range_m[k], ratio,

@@ -10,20 +10,29 @@
 namespace railcast {
 namespace {
 
-constexpr float kWaterF0 = 0.02F;
+constexpr float kWaterIndex = 1.33F;
 constexpr float kCosLevel = 0.98480775F;  // Of 10 deg, the steepest ground on which water stands.
 constexpr float kCos45 = 0.70710678F;     // Snow lies on faces less steep than 45 deg.
-constexpr float kLeastShare = 1e-5F;      // Weaker images of white surfaces are out of reach.
+constexpr float kLeastReflected = 1e-5F;  // Weaker images of white surfaces are out of reach.
 
-float Dot(const float (&a)[3], const float (&b)[3]) {
+float AlongVector(const float (&a)[3], const float (&b)[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// Fresnel's reflectance at a cosine of incidence (Schlick 1994).
-float Fresnel(float f0, float cosine) {
+// Fresnel's reflectance at a cosine of incidence, from that at normal incidence (Schlick 1994).
+float SchlickReflectance(float f0, float cosine) {
   const float rest = 1.0F - cosine;
   const float rest2 = rest * rest;
   return f0 + (1.0F - f0) * rest2 * rest2 * rest;
+}
+
+// Fresnel's equations for water: the mean of both polarisations.
+float WaterReflectance(float cosine) {
+  const float below = std::sqrt(kWaterIndex * kWaterIndex - 1.0F + cosine * cosine);  // n cos'
+  const float across = (cosine - below) / (cosine + below);
+  const float n2 = kWaterIndex * kWaterIndex;
+  const float along = (n2 * cosine - below) / (n2 * cosine + below);
+  return 0.5F * (across * across + along * along);
 }
 
 /// A lane of a tile that meets a mirror.
@@ -41,8 +50,8 @@ Met MeetAt(const MirrorOptics& optics, const RayTile& rays, std::size_t i) {
           .normal = {rays.normal_x[i], rays.normal_y[i], rays.normal_z[i]},
           .place_m = {rays.origin_x[i], rays.origin_y[i], rays.origin_z[i]},
           .range_m = rays.range_m[i]};
-  const float along = Dot(met.normal, met.direction);
-  const float scale = std::copysign(1.0F / std::sqrt(Dot(met.normal, met.normal)), -along);
+  const float along = AlongVector(met.normal, met.direction);
+  const float scale = std::copysign(1.0F / std::sqrt(AlongVector(met.normal, met.normal)), -along);
   for (int k = 0; k < 3; ++k) {
     met.normal[k] *= scale;
     met.place_m[k] += met.range_m * met.direction[k];
@@ -51,14 +60,14 @@ Met MeetAt(const MirrorOptics& optics, const RayTile& rays, std::size_t i) {
 }
 
 bool IsPuddle(const MirrorScene& scene, const Met& met) {
-  return met.optics.holds_puddles && Dot(met.normal, scene.up) >= kCosLevel &&
-         Dot(met.direction, scene.up) < 0.0F && IsUnderWater(scene.puddles, met.place_m);
+  return met.optics.holds_puddles && AlongVector(met.normal, scene.up) >= kCosLevel &&
+         AlongVector(met.direction, scene.up) < 0.0F && IsUnderWater(scene.puddles, met.place_m);
 }
 
 // The surface of the water is level, whatever the ground below it.
 MirrorHit Flood(const MirrorScene& scene, const Met& met, std::size_t i, DetectTile& tile) {
-  const float cosine = -Dot(met.direction, scene.up);
-  const float fresnel = Fresnel(kWaterF0, cosine);
+  const float cosine = -AlongVector(met.direction, scene.up);
+  const float fresnel = WaterReflectance(cosine);
   const float enters = 1.0F - fresnel;
   tile.cos_incidence[i] = cosine;
   tile.reflectivity[i] = met.optics.soaked_diffuse * enters * enters;
@@ -68,13 +77,16 @@ MirrorHit Flood(const MirrorScene& scene, const Met& met, std::size_t i, DetectT
   tile.retro[i] = 0.0F;
   // The reflected ray meets the water's surface, which is above the ground; on from the mirror
   // image of the place on the ground, it has travelled as far as the beam has to the ground.
-  return {i, fresnel, {scene.up[0], scene.up[1], scene.up[2]}, 2.0F * Mirrors::kPuddleDepth_m};
+  return {.lane = i,
+          .there_and_back = fresnel,
+          .normal = {scene.up[0], scene.up[1], scene.up[2]},
+          .lift_m = 2.0F * Mirrors::kPuddleDepth_m};
 }
 
 MirrorHit Polish(const Met& met, std::size_t i, DetectTile& tile) {
   const float cosine = tile.cos_incidence[i];
   const float f0 = tile.specular_f0[i];
-  const float fresnel = Fresnel(f0, cosine);
+  const float fresnel = SchlickReflectance(f0, cosine);
   const float phase_rad = met.optics.phase_rad * cosine;
   const float share = baseline::Exp(-phase_rad * phase_rad);
   const float enters = f0 < 1.0F ? (1.0F - fresnel) / (1.0F - f0) : 0.0F;
@@ -83,9 +95,13 @@ MirrorHit Polish(const Met& met, std::size_t i, DetectTile& tile) {
   tile.diffuse_a[i] *= diffuse;
   tile.diffuse_b[i] *= diffuse;
   tile.specular_f0[i] *= 1.0F - share;
-  // Off the surface by more than the rounding of its range.
-  const float lift_m = 1e-3F + 2e-5F * met.range_m;
-  return {i, share * fresnel, {met.normal[0], met.normal[1], met.normal[2]}, lift_m};
+  // Off the surface by more than the rounding of its place.
+  constexpr float kMostAhead_m = 0.05F;
+  const float off_m = 3e-4F + 2e-6F * met.range_m;
+  return {.lane = i,
+          .there_and_back = share * fresnel,
+          .normal = {met.normal[0], met.normal[1], met.normal[2]},
+          .ahead_m = off_m < kMostAhead_m * cosine ? off_m / cosine : kMostAhead_m};
 }
 
 }  // namespace
@@ -137,7 +153,7 @@ void DimMirrors(const MirrorScene& scene,
     hit.there_and_back *= bare;
     hit.there_and_back *= hit.there_and_back;
     const bool goes_on = tile.outcome[i] == static_cast<std::uint32_t>(Outcome::kReturned);
-    if (goes_on && hit.there_and_back >= kLeastShare) hits->push_back(hit);
+    if (goes_on && hit.there_and_back >= kLeastReflected) hits->push_back(hit);
   }
 }
 

@@ -35,7 +35,9 @@ struct MirrorHit {
   std::size_t lane{};
   float there_and_back{};  ///< Share of the power that both reflections leave.
   float normal[3]{};       ///< Unit length, on the side of the sensor.
-  float lift_m{};          ///< Along the normal: where the reflected ray starts.
+  // Where the reflected ray starts, from the place of the hit.
+  float lift_m{};   ///< Along the normal.
+  float ahead_m{};  ///< Then along the reflected direction.
 };
 
 /// What mirrors, part of effect `mirror_paths`:
@@ -43,7 +45,8 @@ struct MirrorHit {
 ///   smooth surfaces   m = exp(-(phase cos)^2)      the coherent share of a rough surface
 ///                                                  (Rayleigh's parameter; Beckmann, Spizzichino)
 ///   puddles           m = 1                        level, on ground less steep than 10 deg
-///   reflected         m F,  F = F0 + (1 - F0) (1 - cos)^5          (Schlick 1994); water: F0 0.02
+///   reflected         m F,  F = F0 + (1 - F0) (1 - cos)^5          (Schlick 1994)
+///                           water: Fresnel's equations, n = 1.33
 ///
 /// and what is left of such a surface's own response:
 ///

@@ -152,6 +152,7 @@ struct Row {
   CoverSpec cover{};
   double halo_share = 0.0;
   std::optional<double> visibility_m{};  ///< Of fog; none by default.
+  double puddle_share = 0.0;
 };
 
 std::vector<Row> Rows() {
@@ -171,6 +172,7 @@ std::vector<Row> Rows() {
       {"surface_behind_dirt", surface, true, false, &ScanFrame, {.dirt_coverage = 0.1}},
       {"surface_behind_drops", surface, true, false, &ScanFrame, {.drop_coverage = 0.1}},
       {"surface_with_halo", surface, true, false, &ScanFrame, {}, 1e-6},
+      {"surface_with_puddles", surface, true, false, &ScanFrame, {}, 0.0, {}, 0.2},
       {"surface_in_haze_of_2_km", surface, true, false, &ScanFrame, {}, 0.0, 2000.0},
       {"surface_in_fog_of_200_m", surface, true, false, &ScanFrame, {}, 0.0, 200.0},
       {"surface_in_fog_of_50_m", surface, true, false, &ScanFrame, {}, 0.0, 50.0},
@@ -194,6 +196,7 @@ void Run(benchmark::State& state, Bench& bench, const Row& row, int num_threads)
   spec.detector.cover = row.cover;
   spec.detector.receiver.halo_share_at_1_deg = row.halo_share;
   spec.detector.weather.visibility_m = row.visibility_m;
+  spec.detector.weather.puddle_share = row.puddle_share;
   bench.simulator->UseThreads(num_threads);
   bench.simulator->Use(spec);
   row.work(bench, 0);  // Warms the caches, because the rows before it ran on other memory.

@@ -10,14 +10,15 @@ namespace {
 
 using testing::UnorderedElementsAre;
 
-/// A spec in which no effect has a cause: clear air, dry ground, a receiver and a published model
-/// without errors, a beam without width.
+/// A spec in which no effect has a cause: clear air, dry ground, nothing smooth, a receiver and a
+/// published model without errors, a beam without width.
 DetectorSpec WithoutCauses() {
   DetectorSpec spec;
   spec.plausibility.noise_sigma0_m = spec.plausibility.noise_sigma1 = 0.0;
   spec.receiver.range_noise_floor_m = spec.receiver.range_noise_scale_m = 0.0;
   spec.receiver.channel_bias_sigma_m = spec.receiver.pointing_jitter_deg = 0.0;
   spec.beam.divergence_mrad = {0.0, 0.0};
+  spec.has_mirrors = false;
   return spec;
 }
 
@@ -86,6 +87,10 @@ TEST(EffectTable, GivesNoEffectTheCauseOfAnother) {
                 s.weather.snow_cover = 0.5;
               }),
               UnorderedElementsAre("spray", "surface_condition"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.weather.puddle_share = 0.1; }),
+              UnorderedElementsAre("mirror_paths"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.has_mirrors = true; }),
+              UnorderedElementsAre("mirror_paths"));
   EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.cover.snow_coverage = 0.1; }),
               UnorderedElementsAre("cover"));
   EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.halo_share_at_1_deg = 1e-6; }),

@@ -69,6 +69,7 @@ TEST(EffectsReport, SaysWhatTheWeatherDoesToThePhysicalRungs) {
       "          surface_condition: wetness 0, snow cover 0\n"
       "          extinction: fog 0 per m, rain 0.001556, snow 0, both ways\n"
       "          pulse_stretch: pulse of 5 ns, sigma 0.3183 m\n"
+      "          mirror_paths: none: no puddles and nothing smooth\n"
       "          detection: 10 % at 200 m, in this weather at 156.7 m, return mode strongest\n"
       "          detection_probability: SNR 5 at the threshold\n"
       "          clutter: rain 0.08029 echoes a beam, half within 3.735 m\n"
@@ -121,6 +122,29 @@ TEST(EffectsReport, SaysWhatTheSensorItselfDoes) {
         "          interference: 1000 pulses per s, false echoes in 0.001996 of the firings\n"}) {
     EXPECT_NE(text.find(line), std::string::npos) << line << text;
   }
+}
+
+TEST(EffectsReport, SaysWhatMirrors) {
+  ScenarioSpec scenario;
+  scenario.fidelity = Fidelity::kSurface;
+  scenario.materials = {{.name = "glass", .height_rms_um = 0.002}};
+  const auto line = [&] {
+    const std::string text = EffectsText(scenario);
+    const std::size_t begin = text.find("mirror_paths: ");
+    return text.substr(begin, text.find('\n', begin) - begin);
+  };
+  EXPECT_EQ(line(), "mirror_paths: none: no puddles and nothing smooth");
+  ObjectSpec pane;
+  pane.material = "glass";
+  scenario.world.objects = {pane};
+  EXPECT_EQ(line(), "mirror_paths: smooth surfaces");
+  scenario.weather.puddle_share = 0.3;
+  EXPECT_EQ(line(), "mirror_paths: puddles on 30 % of the level ground, smooth surfaces");
+  // Wagons are painted without a word in the scenario.
+  scenario.world.objects.clear();
+  scenario.weather.puddle_share = 0.0;
+  scenario.materials = {{.name = "wagon_paint", .height_rms_um = 0.05}};
+  EXPECT_EQ(line(), "mirror_paths: smooth surfaces");
 }
 
 }  // namespace

@@ -98,6 +98,18 @@ TEST(ObjectSurvey, CountsAFiringWithTwoEchoesFromOneObjectOnce) {
   EXPECT_EQ(objects[0].points, 4U);
 }
 
+TEST(ObjectSurvey, CountsNoMirrorImages) {
+  Frame frame = FrameWithFiveFiringsOnInstanceThree();
+  frame.outcome[0] = Outcome::kClutter;
+  const auto objects = Survey(frame);
+  EXPECT_EQ(objects[0].firings_visible, 4U);
+  EXPECT_EQ(objects[0].points, 3U);
+  // A firing that meets the object beside its image counts.
+  frame.columns = 4;
+  frame.returns = 2;
+  EXPECT_EQ(Survey(frame)[0].firings_visible, 3U);
+}
+
 // The far box's centre is 402 m east and 0.5 m below; the radius of its sphere is sqrt(29) / 2 m.
 TEST(ObjectSurvey, ListsWhatComesWithinRangeDuringTheScan) {
   const double nearest_m = std::hypot(402.0, 0.5) - std::sqrt(29.0) / 2.0;
