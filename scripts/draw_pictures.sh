@@ -18,6 +18,7 @@ simulate() {
 }
 simulate demo scenarios/st_gallen_approach.json 50
 simulate snow scenarios/snow.json 21
+simulate wet scenarios/wet_yard.json 1
 # The demo scenario in thin fog.
 printf '{"version": 1, "file": "%s", "weather": {"fog_density_per_m": 0.02}}' \
   "$PWD/scenarios/st_gallen_approach.json" > "$runs/fog.json"
@@ -40,6 +41,7 @@ draw view_trace demo --frame 20 --camera driver --select person,wagon \
   --pick 668,352 --pick 761,431 --trace
 draw intensity demo --frame 20 --camera driver --color-by intensity
 draw snow snow --frame 20 --camera driver
+draw mirror_image wet --frame 0 --eye 6,-4,5 --target 28,8,-2
 
 # The report states its date: use that of the commit, so that the picture is reproducible.
 (cd "$runs" && SOURCE_DATE_EPOCH=$(git -C "$images" log -1 --format=%ct) "$analyze" stats demo --out stats > stats.txt)

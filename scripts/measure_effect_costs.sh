@@ -68,3 +68,12 @@ puddles() {
   count "puddles_$1"
 }
 for share in 0 0.2; do puddles "$share"; done
+
+# yard NAME EFFECTS: prints those of rung surface in the yard with puddles.
+yard() {
+  printf '{"version": 1, "file": "%s", "fidelity": "surface", "effects": {%s}}\n' \
+    "$PWD/scenarios/wet_yard.json" "$2" >"$work/scenario.json"
+  count "$1"
+}
+yard yard_without_mirror_paths '"mirror_paths": false'
+yard yard_with_mirror_paths ''
