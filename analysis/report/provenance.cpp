@@ -95,6 +95,7 @@ std::string WeatherText(const WeatherSpec& weather) {
                                         NumberText(weather.snow_rate_mmph) + " mm/h");
   add(weather.wetness > 0.0, "wetness " + NumberText(weather.wetness));
   add(weather.snow_cover > 0.0, "snow cover " + NumberText(weather.snow_cover));
+  add(weather.puddle_share > 0.0, "puddles " + NumberText(weather.puddle_share));
   add(weather.sun.illuminance_klx > 0.0, "sun " + NumberText(weather.sun.illuminance_klx) + " klx");
   return text.empty() ? "clear" : text;
 }

@@ -66,7 +66,7 @@ bool IsPuddle(const MirrorScene& scene, const Met& met) {
 
 // The surface of the water is level, whatever the ground below it.
 MirrorHit Flood(const MirrorScene& scene, const Met& met, std::size_t i, DetectTile& tile) {
-  const float cosine = -AlongVector(met.direction, scene.up);
+  const float cosine = std::min(-AlongVector(met.direction, scene.up), 1.0F);
   const float fresnel = WaterReflectance(cosine);
   const float enters = 1.0F - fresnel;
   tile.cos_incidence[i] = cosine;

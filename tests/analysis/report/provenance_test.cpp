@@ -73,9 +73,11 @@ TEST(WeatherText, NamesWhatDiffersFromAClearDryNight) {
   weather.snow_type = SnowType::kWet;
   weather.wetness = 1.0;
   weather.snow_cover = 0.5;
+  weather.puddle_share = 0.1;
   weather.sun.illuminance_klx = 40.0;
-  EXPECT_EQ(WeatherText(weather),
-            "visibility 200 m, wet snow 2.5 mm/h, wetness 1, snow cover 0.5, sun 40 klx");
+  EXPECT_EQ(
+      WeatherText(weather),
+      "visibility 200 m, wet snow 2.5 mm/h, wetness 1, snow cover 0.5, puddles 0.1, sun 40 klx");
   weather = {};
   weather.fog_density_per_m = 0.01;
   EXPECT_EQ(WeatherText(weather), "fog 0.01 per m");
