@@ -30,7 +30,10 @@ enum class RandomUse : std::uint32_t {
   kTreePlacement = 102,
   kGrassPlacement = 103,
   kPlantShape = 104,
-  kPuddles = 105,
+  kGusts = 105,
+  kTreeSway = 106,
+  kSpanSway = 107,
+  kPuddles = 108,
 };
 
 /// Four independent, uniform 32-bit words that depend on the arguments only.

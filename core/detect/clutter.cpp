@@ -7,6 +7,7 @@
 #include "core/detect/beam_optics.h"
 #include "core/detect/fog_echo.h"
 #include "core/detect/lane_random.h"
+#include "core/detect/wind_velocity.h"
 #include "railcast/outcome.h"
 
 namespace railcast {
@@ -25,7 +26,9 @@ Clutter::Clutter(const DetectorSpec& spec, const Kernels& kernels)
     : spec_(spec),
       uniforms_(kernels.uniforms),
       find_fog_peaks_(kernels.fog_peaks),
-      fog_patches_(spec.air_seed),
+      fog_patches_(spec.air_seed,
+                   spec.weather.wind_speed_mps > 0.0 ? WindVelocity_mps(spec.weather)
+                                                     : FogPatches::CalmDrift_mps()),
       extinction_per_m_(
           static_cast<float>(Extinction_per_m(spec.weather, spec.beam.wavelength_nm))) {
   power_min_ = LeastPower(spec.receiver);

@@ -101,6 +101,10 @@ void CheckDetectorSpec(const DetectorSpec& spec) {
        ">= 0 and <= 1"},
       {"/weather/spray_extinction_per_m", weather.spray_extinction_per_m,
        IsNonNegative(weather.spray_extinction_per_m), ">= 0"},
+      {"/weather/wind_speed_mps", weather.wind_speed_mps, IsNonNegative(weather.wind_speed_mps),
+       ">= 0"},
+      {"/weather/wind_direction_deg", weather.wind_direction_deg,
+       std::isfinite(weather.wind_direction_deg), "finite"},
   };
   for (const NumberRule& rule : CoverRules(spec.cover)) rules.push_back(rule);
   ErrorList errors;

@@ -18,7 +18,7 @@ double FogPatches::Variance(std::size_t wave) {
   return std::pow(Wavelength_m(wave), 2.0 / 3.0) / sum;
 }
 
-FogPatches::FogPatches(std::uint64_t seed) {
+FogPatches::FogPatches(std::uint64_t seed, const Vector3& drift_mps) : drift_mps_(drift_mps) {
   for (std::size_t i = 0; i < kNumFogWaves; ++i) {
     const auto words = RandomWords(seed, RandomUse::kFogPatches, 0, static_cast<std::uint32_t>(i));
     const double azimuth_rad = 2.0 * std::numbers::pi * static_cast<double>(UnitFloat(words[0]));
@@ -31,8 +31,7 @@ FogPatches::FogPatches(std::uint64_t seed) {
 }
 
 FogWaves FogPatches::WavesAt(const Transform& world_from_window, double time_s) const {
-  const Vector3 wind_mps(0.5, 0.33, 0.0);
-  const Vector3 origin_m = world_from_window.translation() - time_s * wind_mps;
+  const Vector3 origin_m = world_from_window.translation() - time_s * drift_mps_;
   FogWaves waves;
   for (std::size_t i = 0; i < kNumFogWaves; ++i) {
     const Vector3 here = world_from_window.linear().transpose() * waves_[i].turns_per_m;

@@ -16,13 +16,16 @@ namespace railcast {
 /// variances a^2 / 2 in proportion to wavelength^(2/3), as what turbulence mixes has (Kolmogorov's
 /// law); their directions and phases are drawn once. Over all seeds, g has mean 0, variance 1 and
 /// as correlation the mean of sin(x) / x, x = 2 pi distance / wavelength, weighted by variance. The
-/// whole field moves with a wind of 0.6 m/s.
+/// whole field moves with the wind, or with an air movement of 0.6 m/s if there is no wind.
 ///
 /// A function of seed, place and time alone, so that all sensors of a vehicle and all its frames
-/// see the same patches. Wavelengths and wind are ours.
+/// see the same patches. Wavelengths and the movement of calm air are ours.
 class FogPatches {
  public:
-  explicit FogPatches(std::uint64_t seed);
+  /// The drift of the patches where the weather has no wind.
+  static Vector3 CalmDrift_mps() { return {0.5, 0.33, 0.0}; }
+
+  explicit FogPatches(std::uint64_t seed, const Vector3& drift_mps = CalmDrift_mps());
 
   /// The waves in the frame of a tile's rays.
   [[nodiscard]] FogWaves WavesAt(const Transform& world_from_window, double time_s) const;
@@ -41,6 +44,7 @@ class FogPatches {
     double amplitude{};
   };
   std::array<Wave, kNumFogWaves> waves_;
+  Vector3 drift_mps_;
 };
 
 }  // namespace railcast

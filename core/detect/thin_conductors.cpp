@@ -34,10 +34,11 @@ struct WireArc {
   float reach{};  ///< Chord from the arc within which a beam may capture part of the segment.
 };
 
-// The wire's radius and the spread of the beams' origins displace a wire from the line that
-// represents it. At a distance of at least kNearest times this displacement, it corresponds to a
-// chord of less than kAsideChord times displacement over distance: asin(x) < 1.02 x up to
-// x = 1 / 5, and from its own origin a beam may be nearer to the wire by the displacement.
+// The wire's radius, its movement during the frame and the spread of the beams' origins displace a
+// wire from the line that represents it. At a distance of at least kNearest times this
+// displacement, it corresponds to a chord of less than kAsideChord times displacement over
+// distance: asin(x) < 1.02 x up to x = 1 / 5, and from its own origin a beam may be nearer to the
+// wire by the displacement.
 constexpr float kNearest = 5.0F;
 constexpr float kAsideChord = 1.3F;
 
@@ -59,7 +60,7 @@ WireDisc BoundByDisc(const WireSegment& wire, const BeamPyramid& beams) {
   const Eigen::Vector3f begin_m = wire.begin_m - beams.origin_m;
   const Eigen::Vector3f end_m = wire.end_m - beams.origin_m;
   const float distance_m = DistanceToOrigin_m(begin_m, end_m - begin_m);
-  const float aside_m = wire.radius_m + beams.spread_m;
+  const float aside_m = wire.radius_m + wire.travel_m + beams.spread_m;
   if (distance_m < kNearest * aside_m) return {Eigen::Vector3f::UnitX(), kAnyChord};
   const Eigen::Vector3f begin = begin_m.normalized();
   const Eigen::Vector3f end = end_m.normalized();
@@ -74,7 +75,7 @@ WireArc BoundByArc(const WireSegment& wire, const BeamCone& cone, float beam_rea
   const Eigen::Vector3f end_m = wire.end_m - cone.origin_m;
   const Eigen::Vector3f run_m = wire.end_m - wire.begin_m;
   const float distance_m = DistanceToOrigin_m(begin_m, run_m);
-  const float aside_m = wire.radius_m + cone.spread_m;
+  const float aside_m = wire.radius_m + wire.travel_m + cone.spread_m;
   if (distance_m < kNearest * aside_m) return arc;
   // The product of begin_m and end_m would suffer from cancellation.
   const Eigen::Vector3f normal_m2 = begin_m.cross(run_m);
@@ -133,7 +134,8 @@ void CaptureLane(const RayTile& rays,
                  const WireSegment& wire,
                  std::size_t lane,
                  std::vector<WireCapture>& captures) {
-  const WireInBeam found = FindWireInBeam(BeamOfLane(rays, lane, shape), wire);
+  const WireSegment now = wire.travel_m > 0.0F ? SegmentAt(wire, rays.shutter[lane]) : wire;
+  const WireInBeam found = FindWireInBeam(BeamOfLane(rays, lane, shape), now);
   if (!(found.share > kLeastWireShare)) return;
   captures.push_back({.lane = static_cast<std::uint32_t>(lane),
                       .surface = wire.surface,

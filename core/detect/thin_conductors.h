@@ -34,7 +34,7 @@ inline constexpr double kLeastWireShare = 1e-4;
 /// then range, then surface. Surfaces in front of a wire are not taken into account. A beam's
 /// captures depend on that beam alone.
 ///
-/// @param rays The beams; only origins and directions are read.
+/// @param rays The beams; only origins and directions are read, and the shutter where wires move.
 void CaptureWires(const RayTile& rays,
                   const BeamShape& beam,
                   const WireSet& wires,

@@ -14,9 +14,21 @@ struct WireSegment {
   Eigen::Vector3f end_m;
   float radius_m{};
   std::uint32_t surface{};  ///< Index into the window's surfaces.
+  /// How far either end moves from shutter 0 to shutter 1.
+  Eigen::Vector3f begin_move_m = Eigen::Vector3f::Zero();
+  Eigen::Vector3f end_move_m = Eigen::Vector3f::Zero();
+  float travel_m = 0.0F;  ///< The greater of these two distances; 0 = it hangs still.
 };
 
-/// A ball that contains wires, including their radii.
+/// Where a segment is at a time of the shutter. Its `travel_m` is 0.
+[[nodiscard]] inline WireSegment SegmentAt(const WireSegment& wire, float shutter) {
+  return {.begin_m = wire.begin_m + shutter * wire.begin_move_m,
+          .end_m = wire.end_m + shutter * wire.end_move_m,
+          .radius_m = wire.radius_m,
+          .surface = wire.surface};
+}
+
+/// A ball that contains wires, including their radii, at all times of the shutter.
 struct WireBall {
   Eigen::Vector3f center_m;
   float radius_m{};
@@ -37,7 +49,11 @@ struct WireSet {
   std::vector<WireGroup> groups;
 
   /// Adds a polyline of at least two points in the window frame.
-  void Add(const std::vector<Vector3>& points_m, double radius_m, std::uint32_t surface);
+  /// @param moves_m How far each point moves from shutter 0 to shutter 1; empty = none does.
+  void Add(const std::vector<Vector3>& points_m,
+           double radius_m,
+           std::uint32_t surface,
+           const std::vector<Vector3>& moves_m = {});
 };
 
 }  // namespace railcast

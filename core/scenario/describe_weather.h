@@ -65,6 +65,12 @@ void Describe(Archive& a, WeatherSpec& s) {
              "Extinction of the spray at a train of 100 km/h on soaked or snow-covered ground.",
              Within(0, 10));
   a.Optional("sun", s.sun, "The sun as the sensor sees it.");
+  a.Optional("wind_speed_mps", s.wind_speed_mps,
+             "Mean wind at 10 m height, in which trees and wires sway; 0 = they stand still.",
+             Within(0, 30));
+  a.Optional("wind_direction_deg", s.wind_direction_deg,
+             "Where the wind blows from, in the world: from +x (east) towards +y (north).",
+             Within(-360, 360));
 }
 
 }  // namespace railcast

@@ -79,12 +79,25 @@ void FrameScenes::UseWorld(std::shared_ptr<const World> world) {
   store_->ForgetUnusedModels();
 }
 
+void FrameScenes::UseWind(const Wind& wind) {
+  wind_ = wind;
+  windows_.UseWind(wind.blows());
+}
+
 FrameScene FrameScenes::At(std::uint32_t index, std::int64_t stamp_ns) {
   const int home_chunk = world_->HomeChunk(stamp_ns);
   std::shared_ptr<const Window> window = windows_.Get(home_chunk);
   PrepareNextWindow(stamp_ns, home_chunk);
-  std::unique_ptr<const TraceScene> moving = MovingScene(stamp_ns, *window);
   FrameScene scene;
+  std::vector<TracePlacement> moving = MovingObjects(stamp_ns, *window);
+  if (wind_.blows()) {
+    SwayedThings swayed = Swayed(stamp_ns, *window);
+    moving.insert(moving.end(), swayed.placements.begin(), swayed.placements.end());
+    scene.swayed_wires = std::move(swayed.wires);
+  }
+  if (!moving.empty()) {
+    scene.moving = std::make_unique<const TraceScene>(store_->device(), moving);
+  }
   scene.index = index;
   scene.stamp_ns = stamp_ns;
   scene.poses = PosesIn(window->window_from_world, stamp_ns);
@@ -94,7 +107,6 @@ FrameScene FrameScenes::At(std::uint32_t index, std::int64_t stamp_ns) {
                                more_surfaces_.end());
   }
   scene.window = std::move(window);
-  scene.moving = std::move(moving);
   return scene;
 }
 
@@ -132,8 +144,8 @@ bool FrameScenes::IsInReach(const TracePlacement& placement,
          spec_.range_max_m + objects_[object].stored.radius_m + travel_m;
 }
 
-std::unique_ptr<const TraceScene> FrameScenes::MovingScene(std::int64_t stamp_ns,
-                                                           const Window& window) const {
+std::vector<TracePlacement> FrameScenes::MovingObjects(std::int64_t stamp_ns,
+                                                       const Window& window) const {
   std::vector<TracePlacement> placements;
   const Vector3 sensor_window_m = SensorInWindow(stamp_ns, window);
   for (std::size_t i = 0; i < objects_.size(); ++i) {
@@ -141,8 +153,17 @@ std::unique_ptr<const TraceScene> FrameScenes::MovingScene(std::int64_t stamp_ns
     TracePlacement placement = Place(i, stamp_ns, window);
     if (IsInReach(placement, i, sensor_window_m)) placements.push_back(std::move(placement));
   }
-  if (placements.empty()) return nullptr;
-  return std::make_unique<TraceScene>(store_->device(), placements);
+  return placements;
+}
+
+SwayedThings FrameScenes::Swayed(std::int64_t stamp_ns, const Window& window) const {
+  const double duration_s = SecondsFromNs(spec_.duration_ns);
+  return Sway(window.swaying, wind_,
+              {.stamp_s = SecondsFromNs(stamp_ns),
+               .duration_s = duration_s,
+               .window_from_world = window.window_from_world,
+               .sensor_window_m = SensorInWindow(stamp_ns, window),
+               .reach_m = spec_.range_max_m + kSpeedMax_mps * duration_s});
 }
 
 std::vector<LoneObject> FrameScenes::LoneObjects(const FrameScene& frame) const {

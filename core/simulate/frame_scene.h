@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -19,13 +20,18 @@ struct FrameScene final : public RayCaster {
   std::uint32_t index{};
   std::int64_t stamp_ns{};
   std::shared_ptr<const Window> window;  ///< Stationary geometry.
-  /// Objects that move or were added later; null if none is within reach.
+  /// Objects that move or were added later, and what the wind moves; null if none is within reach.
   std::unique_ptr<const TraceScene> moving;
   FramePoses poses;  ///< Poses of the sensor in the window frame.
   /// Surfaces of the window and of objects that windows do not know; empty if there are no such
   /// objects.
   std::vector<Surface> more_surfaces;
+  std::optional<WireSet> swayed_wires;  ///< If there is wind.
 
+  /// The wires that the casters also see as tubes.
+  [[nodiscard]] const WireSet& wires() const {
+    return swayed_wires ? *swayed_wires : window->wires;
+  }
   [[nodiscard]] const std::vector<Surface>& surfaces() const {
     return more_surfaces.empty() ? window->surfaces : more_surfaces;
   }
@@ -46,7 +52,7 @@ struct FrameSceneSpec {
 ///
 /// Stationary objects of the store's world are part of the windows. Moving objects, and objects
 /// that a later world adds, go into a small scene made for each frame, so that they do not require
-/// new windows.
+/// new windows. In wind, so do trees and wires.
 class FrameScenes {
  public:
   /// The store's world is in use at first.
@@ -58,6 +64,9 @@ class FrameScenes {
 
   /// Sets the callback for windows that are begun from now on.
   void UseProgress(WindowProgress progress) { windows_.UseProgress(std::move(progress)); }
+
+  /// Sets the wind from now on; at first, there is none.
+  void UseWind(const Wind& wind);
 
   /// Has windows prepared for casting beams.
   void UseBeams() { store_->UseBeams(); }
@@ -89,8 +98,9 @@ class FrameScenes {
   [[nodiscard]] Vector3 SensorInWindow(std::int64_t stamp_ns, const Window& window) const {
     return (window.window_from_world * WorldFromSensor(stamp_ns)).translation();
   }
-  [[nodiscard]] std::unique_ptr<const TraceScene> MovingScene(std::int64_t stamp_ns,
-                                                              const Window& window) const;
+  [[nodiscard]] std::vector<TracePlacement> MovingObjects(std::int64_t stamp_ns,
+                                                          const Window& window) const;
+  [[nodiscard]] SwayedThings Swayed(std::int64_t stamp_ns, const Window& window) const;
   void PrepareNextWindow(std::int64_t stamp_ns, int home_chunk);
 
   /// An object of the world in use.
@@ -110,6 +120,7 @@ class FrameScenes {
   std::shared_ptr<SceneStore> store_;
   FrameSceneSpec spec_;
   WindowSource windows_;
+  Wind wind_;
   std::shared_ptr<const World> world_;
   std::vector<Object> objects_;         // In the order of world_->objects().
   std::vector<Surface> more_surfaces_;  // Surfaces of the objects that windows do not know.

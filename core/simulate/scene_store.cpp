@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/simulate/swaying.h"
 #include "railcast/simulator.h"
 
 namespace railcast {
@@ -30,13 +31,21 @@ double RadiusAboutOrigin(const Model& model) {
 SceneStore::SceneStore(std::shared_ptr<const World> world,
                        const MaterialLibrary& materials,
                        const std::string& isa)
-    : world_(std::move(world)), materials_(materials.materials()), device_(isa) {}
+    : world_(std::move(world)),
+      materials_(materials.materials()),
+      unit_tube_(std::make_shared<const Model>(UnitTube())),
+      device_(isa) {}
 
-std::shared_ptr<const SceneStore::BuiltChunk> SceneStore::GetChunk(int chunk) {
+std::shared_ptr<const SceneStore::BuiltChunk> SceneStore::GetChunk(int chunk, bool has_tubes) {
   const std::lock_guard lock(chunks_mutex_);
-  std::weak_ptr<const BuiltChunk>& entry = chunks_[chunk];
+  std::weak_ptr<const BuiltChunk>& entry = chunks_[{chunk, has_tubes}];
   if (auto built = entry.lock()) return built;
   Chunk made = world_->BuildChunk(chunk);
+  if (!has_tubes) {
+    for (Part& part : made.ground.parts) {
+      if (part.is_wire) part.mesh = {};
+    }
+  }
   auto built = std::make_shared<BuiltChunk>();
   built->ground = std::make_shared<TraceModel>(device_, made.ground);
   built->ground_surfaces = WithoutTriangles(made.ground);

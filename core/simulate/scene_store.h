@@ -31,9 +31,12 @@ class SceneStore {
     std::vector<Wire> wires;
   };
   /// Returns a chunk; builds it, or waits for another thread that is building it, if necessary.
-  [[nodiscard]] std::shared_ptr<const BuiltChunk> GetChunk(int chunk);
+  /// @param has_tubes Whether `ground` holds the wires as tubes.
+  [[nodiscard]] std::shared_ptr<const BuiltChunk> GetChunk(int chunk, bool has_tubes = true);
   [[nodiscard]] std::shared_ptr<const TraceModel> GetModel(
       const std::shared_ptr<const Model>& model);
+  /// UnitTube(), of which wires consist that move.
+  [[nodiscard]] std::shared_ptr<const TraceModel> GetUnitTube() { return GetModel(unit_tube_); }
   /// Drops the models that no world and no chunk uses any more.
   void ForgetUnusedModels();
 
@@ -56,11 +59,12 @@ class SceneStore {
  private:
   std::shared_ptr<const World> world_;
   std::vector<Material> materials_;
+  std::shared_ptr<const Model> unit_tube_;
   TraceDevice device_;
   std::atomic<bool> uses_beams_ = false;
 
   std::mutex chunks_mutex_;  // Held while a chunk is built, so that a second caller waits for it.
-  std::map<int, std::weak_ptr<const BuiltChunk>> chunks_;
+  std::map<std::pair<int, bool>, std::weak_ptr<const BuiltChunk>> chunks_;
   std::mutex models_mutex_;
   std::map<const Model*, std::pair<std::shared_ptr<const Model>, std::shared_ptr<const TraceModel>>>
       models_;

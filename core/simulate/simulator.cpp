@@ -19,6 +19,7 @@
 #include "core/detect/beam_optics.h"
 #include "core/detect/effect_table.h"
 #include "core/detect/halo.h"
+#include "core/detect/wind_velocity.h"
 #include "core/simulate/beam_tracer.h"
 #include "core/simulate/firing_tiles.h"
 #include "core/simulate/frame_scene.h"
@@ -33,8 +34,8 @@ CastFrame CastOf(const FrameScene& scene,
                  const World& world,
                  const DetectorSpec& spec,
                  const BeamTracer& tracer) {
-  CastFrame cast{scene.index,      scene.poses,          scene,
-                 scene.surfaces(), &scene.window->wires, scene.window->window_from_world};
+  CastFrame cast{scene.index,      scene.poses,    scene,
+                 scene.surfaces(), &scene.wires(), scene.window->window_from_world};
   if (spec.effects.spray && HasSpray(spec)) {
     cast.spray = SprayCloudsOf(world, spec.weather, scene.stamp_ns, cast.window_from_world);
   }
@@ -200,6 +201,7 @@ void Simulator::Parts::UseSpec() {
       [tracer = tracer.get()] { return BeamTracer::Work(*tracer); });
   if (tracer->casts_beams()) scenes.UseBeams();
   const DetectorSpec& detector = spec.detector;
+  scenes.UseWind(Wind(WindVelocity_mps(detector.weather), detector.air_seed));
   halo.reset();
   if (detector.effects.halo && FindEffect("halo")->has_cause(detector)) halo.emplace(detector);
 }

@@ -28,15 +28,24 @@ std::uint32_t PartOfWire(const Wire& wire, const Model& ground) {
   return static_cast<std::uint32_t>(part - ground.parts.begin());
 }
 
-void AddWires(const std::vector<Wire>& wires,
+void AddWires(const SceneStore::BuiltChunk& chunk,
               const Transform& window_from_chunk,
-              const Model& ground,
               std::uint32_t ground_surface,
               WireSet& set) {
-  for (const Wire& wire : wires) {
+  for (const Wire& wire : chunk.wires) {
     std::vector<Vector3> points_m = wire.points_m;
     for (Vector3& point : points_m) point = window_from_chunk * point;
-    set.Add(points_m, wire.radius_m, ground_surface + PartOfWire(wire, ground));
+    set.Add(points_m, wire.radius_m, ground_surface + PartOfWire(wire, chunk.ground_surfaces));
+  }
+}
+
+void AddSwayingWires(const SceneStore::BuiltChunk& chunk,
+                     const Transform& world_from_chunk,
+                     std::uint32_t ground_surface,
+                     Window& window) {
+  for (const Wire& wire : chunk.wires) {
+    window.swaying.AddWire(wire, world_from_chunk, window.window_from_world,
+                           ground_surface + PartOfWire(wire, chunk.ground_surfaces));
   }
 }
 
@@ -53,7 +62,7 @@ WindowSource::WindowSource(std::shared_ptr<SceneStore> store, double range_max_m
     const std::vector<Surface>& surfaces = objects_.back().surfaces;
     fixed_surfaces_.insert(fixed_surfaces_.end(), surfaces.begin(), surfaces.end());
   }
-  standing_ = std::make_shared<const std::vector<std::size_t>>(std::move(standing));
+  purpose_.standing = std::make_shared<const std::vector<std::size_t>>(std::move(standing));
   builder_ = std::thread([this] { BuildAhead(); });
 }
 
@@ -68,14 +77,21 @@ WindowSource::~WindowSource() {
 
 void WindowSource::UseStanding(std::vector<std::size_t> objects) {
   const std::lock_guard lock(mutex_);
-  if (*standing_ == objects) return;
-  standing_ = std::make_shared<const std::vector<std::size_t>>(std::move(objects));
+  if (*purpose_.standing == objects) return;
+  purpose_.standing = std::make_shared<const std::vector<std::size_t>>(std::move(objects));
+  windows_.clear();
+}
+
+void WindowSource::UseWind(bool blows) {
+  const std::lock_guard lock(mutex_);
+  if (purpose_.wind_blows == blows) return;
+  purpose_.wind_blows = blows;
   windows_.clear();
 }
 
 void WindowSource::UseProgress(WindowProgress progress) {
   const std::lock_guard lock(mutex_);
-  progress_ = std::move(progress);
+  purpose_.progress = std::move(progress);
 }
 
 void WindowSource::AddObjects(int home_chunk,
@@ -97,6 +113,7 @@ void WindowSource::AddObjects(int home_chunk,
 }
 
 void WindowSource::AddChunks(const Chunks& chunks,
+                             bool wind_blows,
                              Window& window,
                              std::vector<TracePlacement>& placements) const {
   // Placements without an instance id share the surfaces of their model.
@@ -109,42 +126,58 @@ void WindowSource::AddChunks(const Chunks& chunks,
     return first;
   };
   for (const auto& [index, chunk] : chunks) {
-    const Transform window_from_chunk =
-        window.window_from_world * store_->world()->WorldFromChunk(index);
+    const Transform world_from_chunk = store_->world()->WorldFromChunk(index);
+    const Transform window_from_chunk = window.window_from_world * world_from_chunk;
     const std::uint32_t ground_surface = surfaces_of(chunk->ground_surfaces, 0);
     placements.push_back({chunk->ground, {ToAffine(window_from_chunk)}, ground_surface});
-    AddWires(chunk->wires, window_from_chunk, chunk->ground_surfaces, ground_surface, window.wires);
+    if (wind_blows) {
+      AddSwayingWires(*chunk, world_from_chunk, ground_surface, window);
+    } else {
+      AddWires(*chunk, window_from_chunk, ground_surface, window.wires);
+    }
+    std::uint32_t number = 0;
     for (const Placement& placement : chunk->placements) {
       const auto key = std::pair(placement.model.get(), placement.instance);
       auto it = shared.find(key);
       if (it == shared.end()) {
         it = shared.emplace(key, surfaces_of(*placement.model, placement.instance)).first;
       }
-      placements.push_back({store_->GetModel(placement.model),
+      TracePlacement placed{store_->GetModel(placement.model),
                             {ToAffine(window_from_chunk) * placement.chunk_from_model},
-                            it->second});
+                            it->second};
+      ++number;
+      if (wind_blows && placement.sway_height_m > 0.0) {
+        window.swaying.trees.push_back(
+            {std::move(placed),
+             {.foot_world_m = world_from_chunk * placement.chunk_from_model.translation(),
+              .height_m = placement.sway_height_m,
+              .chunk = static_cast<std::uint32_t>(index),
+              .number = number}});
+      } else {
+        placements.push_back(std::move(placed));
+      }
     }
   }
+  if (!window.swaying.wires.empty()) window.swaying.tube = store_->GetUnitTube();
 }
 
-std::shared_ptr<const Window> WindowSource::Build(int home_chunk,
-                                                  const Standing& standing,
-                                                  const WindowProgress& progress) {
+std::shared_ptr<const Window> WindowSource::Build(int home_chunk, const Purpose& purpose) {
+  const WindowProgress& progress = purpose.progress;
   auto window = std::make_shared<Window>();
   window->window_from_world = store_->world()->WorldFromChunk(home_chunk).inverse();
   window->surfaces = fixed_surfaces_;
   std::vector<TracePlacement> placements;
-  AddObjects(home_chunk, *standing, *window, placements);
+  AddObjects(home_chunk, *purpose.standing, *window, placements);
   Chunks chunks;
   const std::vector<int> reach = store_->world()->ChunksInReach(home_chunk, range_max_m_);
   // Building the scene of all chunks counts as a step, too.
   const std::size_t num_steps = reach.size() + 1;
   for (const int index : reach) {
     progress(chunks.size(), num_steps);
-    chunks.emplace(index, store_->GetChunk(index));
+    chunks.emplace(index, store_->GetChunk(index, !purpose.wind_blows));
   }
   progress(chunks.size(), num_steps);
-  AddChunks(chunks, *window, placements);
+  AddChunks(chunks, purpose.wind_blows, *window, placements);
   window->scene = std::make_unique<TraceScene>(store_->device(), placements);
   if (store_->uses_beams()) window->scene->PrepareBeams();
   progress(num_steps, num_steps);
@@ -169,9 +202,7 @@ void WindowSource::KeepChunks(int home_chunk, Chunks chunks) {
 }
 
 WindowSource::WindowTask WindowSource::Remember(int home_chunk) {
-  WindowTask task([this, home_chunk, standing = standing_, progress = progress_] {
-    return Build(home_chunk, standing, progress);
-  });
+  WindowTask task([this, home_chunk, purpose = purpose_] { return Build(home_chunk, purpose); });
   windows_.emplace(home_chunk, task.get_future().share());
   return task;
 }

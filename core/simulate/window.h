@@ -12,6 +12,7 @@
 
 #include "core/detect/wire_set.h"
 #include "core/simulate/scene_store.h"
+#include "core/simulate/swaying.h"
 #include "core/trace/trace_scene.h"
 #include "railcast/ray_caster.h"
 #include "railcast/simulator.h"
@@ -19,12 +20,14 @@
 namespace railcast {
 
 /// All stationary geometry within reach of the vehicle while it is in one chunk, in that chunk's
-/// frame. Depends only on the home chunk and on which objects are stationary.
+/// frame. Depends only on the home chunk, on which objects are stationary, and on whether there is
+/// wind: trees and wires that the wind moves are listed, but not part of the scene.
 struct Window {
   Transform window_from_world;
   std::vector<Surface> surfaces;  ///< 0 = nothing, then the parts of objects, then those of chunks.
   std::unique_ptr<const TraceScene> scene;
   WireSet wires;  ///< The wires that `scene` also contains as tubes.
+  SwayingThings swaying;
 };
 
 /// Makes windows, either on demand or ahead of time on a background thread. Thread-safe.
@@ -52,6 +55,10 @@ class WindowSource {
   /// @pre None of the objects moves.
   void UseStanding(std::vector<std::size_t> objects);
 
+  /// Sets whether there is wind from now on; at first, there is none. If that changes, windows are
+  /// rebuilt.
+  void UseWind(bool blows);
+
   /// Sets the callback for windows that are begun from now on.
   void UseProgress(WindowProgress progress);
 
@@ -69,14 +76,20 @@ class WindowSource {
   using Standing = std::shared_ptr<const std::vector<std::size_t>>;
   using Chunks = std::map<int, std::shared_ptr<const SceneStore::BuiltChunk>>;
 
-  [[nodiscard]] std::shared_ptr<const Window> Build(int home_chunk,
-                                                    const Standing& standing,
-                                                    const WindowProgress& progress);
+  /// What windows are made for.
+  struct Purpose {
+    Standing standing;
+    bool wind_blows{};
+    WindowProgress progress;
+  };
+
+  [[nodiscard]] std::shared_ptr<const Window> Build(int home_chunk, const Purpose& purpose);
   void AddObjects(int home_chunk,
                   const std::vector<std::size_t>& standing,
                   Window& window,
                   std::vector<TracePlacement>& placements) const;
   void AddChunks(const Chunks& chunks,
+                 bool wind_blows,
                  Window& window,
                  std::vector<TracePlacement>& placements) const;
   void KeepChunks(int home_chunk, Chunks chunks);
@@ -95,8 +108,7 @@ class WindowSource {
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  Standing standing_;
-  WindowProgress progress_ = [](std::size_t, std::size_t) {};
+  Purpose purpose_{{}, false, [](std::size_t, std::size_t) {}};
   std::map<int, FutureWindow> windows_;  // Windows of in_use_ and prepared_.
   // Chunks of the same windows, and of earlier ones until the next is built.
   std::map<int, Chunks> chunks_;

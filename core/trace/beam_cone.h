@@ -64,6 +64,22 @@ inline void FinishCone(Cone& cone) {
   }
 }
 
+/// Widens a cone in the frame of a stretched model. FinishCone() takes all directions of the cone
+/// to be as long as its axis; here, some may be shorter by the extents of the cone.
+inline void WidenStretchedCone(Cone& cone) {
+  float axis2 = 0.0F;
+  float half2 = 0.0F;
+  for (int i = 0; i < 3; ++i) {
+    axis2 += cone.axis[i] * cone.axis[i];
+    half2 += cone.half_h[i] * cone.half_h[i] + cone.half_v[i] * cone.half_v[i];
+  }
+  const float axis = std::sqrt(axis2);
+  const float shortest = axis - std::sqrt(half2);
+  constexpr float kMostWidening = 1e6F;
+  const float widening = shortest * kMostWidening > axis ? axis / shortest : kMostWidening;
+  for (float& reach : cone.reach) reach *= widening;
+}
+
 /// Returns the children of a node that the cone may meet nearer than `far`, and the parameters
 /// along the axis at which it enters them.
 [[nodiscard]] inline std::uint32_t ChildrenMet(const BeamNode& node,

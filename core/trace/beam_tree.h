@@ -34,7 +34,7 @@ struct alignas(64) BeamLeaf {
   std::uint32_t wire_lanes;        ///< Those of parts that are wires.
 };
 
-/// A rigid transform with uniform scale: the first three rows of the matrix, row by row.
+/// An affine transform: the first three rows of the matrix, row by row.
 struct Rows {
   float m[12];
 };
@@ -44,6 +44,7 @@ struct BeamInstance {
   TreePointer root{};             ///< The model's tree.
   std::uint32_t first_surface{};  ///< Surface of the model's part 0.
   std::uint32_t num_steps{};
+  bool is_stretched{};  ///< Whether it is scaled by more in one direction than in another.
   const Rows* window_from_model{};  ///< At `num_steps` equal steps of the shutter; 1 = stationary.
   Rows model_from_window{};         ///< If stationary.
 };

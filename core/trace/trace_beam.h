@@ -186,6 +186,7 @@ inline void TraceInstance(const BeamInstance& instance, BeamRays& beam, float& f
   Turn(model_from_window, beam.half_h, cone.half_h);
   Turn(model_from_window, beam.half_v, cone.half_v);
   FinishCone(cone);
+  if (instance.is_stretched) WidenStretchedCone(cone);
   SubRayDirections rays;
   TurnSubRays(model_from_window, beam, rays);
   for (Stack stack(instance.root); !stack.empty();) {

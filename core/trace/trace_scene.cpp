@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <mutex>
 #include <vector>
 
@@ -137,6 +138,20 @@ Eigen::AlignedBox3f BoxOf(const Eigen::AlignedBox3f& model, const Rows* steps, s
   return box;
 }
 
+// Leaning trees are not, though interpolating their matrices shortens them by some 1e-5.
+bool IsStretched(const Rows& rows) {
+  constexpr float kNearlyEqual = 1.01F;
+  float least = std::numeric_limits<float>::infinity();
+  float greatest = 0.0F;
+  for (int column = 0; column < 3; ++column) {
+    const float norm2 = rows.m[column] * rows.m[column] + rows.m[4 + column] * rows.m[4 + column] +
+                        rows.m[8 + column] * rows.m[8 + column];
+    least = std::min(least, norm2);
+    greatest = std::max(greatest, norm2);
+  }
+  return greatest > kNearlyEqual * least;
+}
+
 Rows InverseOf(const Rows& rows) {
   Eigen::Affine3d transform = Eigen::Affine3d::Identity();
   using Matrix = Eigen::Matrix<float, 3, 4, Eigen::RowMajor>;
@@ -165,6 +180,7 @@ void TraceScene::Parts::BuildBeamScene() const {
     beam_instances_.push_back({.root = tree.root(),
                                .first_surface = instances[i].first_surface,
                                .num_steps = num_steps[i],
+                               .is_stretched = IsStretched(places[0]),
                                .window_from_model = places,
                                .model_from_window = InverseOf(places[0])});
     places += num_steps[i];

@@ -41,6 +41,9 @@ constexpr std::array kUses = {
     RandomUse::kTreePlacement,
     RandomUse::kGrassPlacement,
     RandomUse::kPlantShape,
+    RandomUse::kGusts,
+    RandomUse::kTreeSway,
+    RandomUse::kSpanSway,
 };
 
 constexpr std::uint32_t kNumDraws = 20'000;

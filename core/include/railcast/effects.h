@@ -224,6 +224,8 @@ struct WeatherSpec {
   /// Extinction of the spray at a train of 100 km/h on soaked or snow-covered ground; 0 = no spray.
   double spray_extinction_per_m = 0.0;
   SunSpec sun;
+  double wind_speed_mps = 0.0;        ///< 10-minute mean at 10 m height; 0 = no wind.
+  double wind_direction_deg = 180.0;  ///< Where it blows from: from +x (east) towards +y (north).
 
   bool operator==(const WeatherSpec&) const = default;
 };
@@ -243,7 +245,8 @@ struct ClutterLabels {
 /// effects. CheckDetectorSpec() checks it.
 struct DetectorSpec {
   std::uint64_t seed = 1;      ///< Key of the sensor's own draws (SensorSeed()).
-  std::uint64_t air_seed = 1;  ///< Key of the patches of fog, which all sensors of a vehicle share.
+  /// Key of patches of fog and gusts, the same for all sensors.
+  std::uint64_t air_seed = 1;
   std::uint64_t ground_seed = 1;  ///< Key of the puddles, which are part of the world.
   /// Whether anything in the world may be of a material with `height_rms_um`; false = known not to.
   bool has_mirrors = true;

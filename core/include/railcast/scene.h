@@ -46,6 +46,18 @@ struct Placement {
   std::shared_ptr<const Model> model;
   Eigen::Affine3d chunk_from_model = Eigen::Affine3d::Identity();
   std::uint32_t instance{};  ///< Instance id; 0 = background without instances.
+  /// Height of a tree, which leans about the model's origin in the wind; 0 = it stands still.
+  double sway_height_m = 0.0;
+};
+
+/// A span of wires that the wind blows aside together.
+struct WireSpan {
+  std::uint32_t number{};             ///< Among all spans of the world; the same in all chunks.
+  Vector3 begin_m = Vector3::Zero();  ///< At the first support, in the chunk's frame.
+  Vector3 end_m = Vector3::Zero();    ///< At the second support.
+  double tension_n = 0.0;             ///< Sum over its wires; 0 = it hangs still.
+  double mass_kg_per_m = 0.0;         ///< Sum over its wires.
+  double width_m = 0.0;               ///< Sum of the wires' diameters.
 };
 
 /// One piece of a thin conductor: a polyline with a round cross-section.
@@ -54,6 +66,7 @@ struct Wire {
   std::uint32_t label{};
   double radius_m{};
   std::vector<Vector3> points_m;  ///< In the chunk's frame; at least two.
+  WireSpan span{};                ///< The span that it is part of.
 };
 
 /// A piece of the static world, in its own frame. `ground` belongs to this chunk alone;

@@ -42,6 +42,17 @@ class Span {
     system_height_m_ = spec.system_height_m;
   }
 
+  /// The span in world coordinates. The wind moves all its wires alike, since droppers join them.
+  [[nodiscard]] WireSpan InWind(std::uint32_t number) const {
+    constexpr double kGravity_mps2 = 9.80665;
+    return {.number = number,
+            .begin_m = first_m_,
+            .end_m = last_m_,
+            .tension_n = kContactTension_n + kMessengerTension_n,
+            .mass_kg_per_m = kWireWeight_n_per_m / kGravity_mps2,
+            .width_m = 2.0 * (kContactRadius_m + kMessengerRadius_m)};
+  }
+
   [[nodiscard]] double first_s_m() const { return first_s_m_; }
   [[nodiscard]] double length_m() const { return length_m_; }
 
@@ -207,17 +218,25 @@ double CornerRadius_m(double radius_m, int num_sides) {
 std::vector<Wire> WiresInChunk(const ChunkContext& context, const CatenaryPlan& plan) {
   std::vector<Wire> wires;
   const SupportRange around = SupportsAround(context, plan);
-  for (const TrackSpec& track : context.spec.tracks) {
+  const std::vector<TrackSpec>& tracks = context.spec.tracks;
+  for (std::size_t k = 0; k < tracks.size(); ++k) {
+    const TrackSpec& track = tracks[k];
     for (std::size_t i = around.first; i + 1 < around.end; ++i) {
       const CatenarySupport& first = plan.supports()[i];
       const CatenarySupport& last = plan.supports()[i + 1];
       if (!HasWireAt(track, context.alignment, first.s_m)) continue;
       if (!HasWireAt(track, context.alignment, last.s_m)) continue;
-      AddWiresOfSpan(context, Span(context, track, first, last), wires);
+      const Span span(context, track, first, last);
+      const std::size_t num_known = wires.size();
+      AddWiresOfSpan(context, span, wires);
+      const WireSpan in_wind = span.InWind(static_cast<std::uint32_t>(i * tracks.size() + k));
+      for (std::size_t w = num_known; w < wires.size(); ++w) wires[w].span = in_wind;
     }
   }
   for (Wire& wire : wires) {
     for (Vector3& point : wire.points_m) point = context.chunk_from_world * point;
+    wire.span.begin_m = context.chunk_from_world * wire.span.begin_m;
+    wire.span.end_m = context.chunk_from_world * wire.span.end_m;
   }
   return wires;
 }

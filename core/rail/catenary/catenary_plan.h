@@ -13,6 +13,7 @@ namespace railcast {
 /// an AC-100 contact wire at 10 kN.
 inline constexpr double kWireWeight_n_per_m = 13.0;
 inline constexpr double kMessengerTension_n = 10e3;
+inline constexpr double kContactTension_n = 10e3;
 inline constexpr double kContactPresag = 1.0 / 1000.0;  ///< Sag as a fraction of the span.
 
 /// A support of the contact line.

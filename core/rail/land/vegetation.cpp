@@ -58,7 +58,8 @@ Placement MakeTree(const PlantModels& plants,
   return {.model = tree.model,
           .chunk_from_model =
               Planted(ground_m, Uniform(words[1], 0.0, kTurn_rad), height_m / tree.height_m),
-          .instance = 0};
+          .instance = 0,
+          .sway_height_m = height_m};
 }
 
 /// Adds the trees of one strip. In a straight strip of constant width, the chainages of a Poisson

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/simulate/wind.h"
+#include "railcast/transform.h"
+
+namespace railcast {
+
+/// What a tree's sway depends on besides the wind.
+struct TreeInWind {
+  Vector3 foot_world_m = Vector3::Zero();
+  double height_m{};
+  std::uint32_t chunk{};  ///< With `number`, keys the tree's own draws.
+  std::uint32_t number{};
+};
+
+/// A tree as a damped oscillator which the wind drives.
+///
+/// Natural frequency: f0 = 0.0766 + 3.1219 dbh / h^2 (Hz; dbh in cm, h in m; Moore, Maguire 2004,
+/// 602 conifers). Our trees have dbh = 2.2 cm per metre of height (2.14 to 2.27), so that
+/// f0 = 0.0766 + 6.868 / h. Damping ratio 0.1 (8 % and more in leaf: Moore, Maguire 2005).
+///
+/// Mean displacement of the tip, downwind: 0.015 h (U / 10 m/s)^n with n = 4/3. Crowns streamline,
+/// so that their drag grows more slowly than U^2 (about as U: Vollsinger and others 2005; as U^1.3:
+/// de Langre 2008). The factor is a working value: 0.008 if the trunk alone bends as a tapering
+/// beam of 7.5 GPa, 0.036 if an oscillator of f0 with the crown's mass takes the drag.
+///
+/// Sway about the mean, relative to it: n I (sqrt(0.8) g + R r) along the wind, with the gusts g,
+/// the ringing r and R of Wind; across it 0.8 I sqrt(0.8 + R^2) r', all of it at f0, since
+/// sigma_v / sigma_u = 0.8 (Panofsky, Dutton 1984).
+///
+/// The whole tree leans about its foot by tip / h (rad). Trunks bend more towards the tip, branches
+/// sway by themselves and leaves flutter: none of that is modelled.
+[[nodiscard]] Vector3 TreeTip_m(const Wind& wind, const TreeInWind& tree, double time_s);
+
+[[nodiscard]] double TreeFrequency_hz(double height_m);
+[[nodiscard]] double MeanTreeTip_m(double wind_mps, double height_m);
+
+inline constexpr double kTreeDamping = 0.1;
+inline constexpr double kTreeDragExponent = 4.0 / 3.0;
+/// Ratio of the wind's fluctuation across to that along it.
+inline constexpr double kAcrossGusts = 0.8;
+
+}  // namespace railcast
