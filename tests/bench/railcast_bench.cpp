@@ -7,9 +7,9 @@
 // aimed beforehand and ranges kept); sets of effects, complete to a filled Frame; the same written
 // as PCD to tmpfs (to the temporary folder where /dev/shm cannot be written); the same encoded in
 // the railcast protocol and sent to a listener on loopback; and finished frames only encoded and
-// sent. Scenes are the demo, and the demo without some of its parts. Ratios to the raw trace of the
-// same scene and number of threads are printed at the end; compare these, because absolute times
-// are noisy.
+// sent. Scenes are the demo, the demo in a wind of 10 m/s, and the demo without some of its parts.
+// Ratios to the raw trace of the same scene and number of threads are printed at the end; compare
+// these, because absolute times are noisy.
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
@@ -258,6 +258,7 @@ std::map<std::string, ScenarioSpec> Scenes() {
   const ScenarioSpec demo =
       ReadScenario(std::filesystem::path(RAILCAST_SCENARIOS_DIR) / "st_gallen_approach.json");
   std::map<std::string, ScenarioSpec> scenes{{"demo", demo}};
+  scenes.emplace("demo-in-wind", demo).first->second.weather.wind_speed_mps = 10.0;
   const auto without = [&](const std::string& name, const std::function<void(WorldSpec&)>& edit) {
     ScenarioSpec scene = demo;
     edit(scene.world);
@@ -302,7 +303,10 @@ int Main(int argc, char** argv) {
     const auto bench = std::make_shared<Bench>(spec);
     for (const Row& row : Rows()) {
       const bool has_all_rows = scene == "demo" || scene == "demo-without-plants";
-      if (!has_all_rows && row.what != "raw_trace") continue;
+      const bool is_in_wind = scene == "demo-in-wind" &&
+                              (row.what == "surface" || row.what == "surface+thin_conductors" ||
+                               row.what == "footprint");
+      if (!has_all_rows && !is_in_wind && row.what != "raw_trace") continue;
       for (const int num_threads : {1, 2}) {
         const std::string name = row.what + "/" + scene + "/threads:" + std::to_string(num_threads);
         names.push_back(name);

@@ -57,7 +57,9 @@ RayTile TileOf(const BeamRays& beam, float range_max_m) {
   return tile;
 }
 
-Agreement AgreementOn(const std::string& scenario_name, std::uint32_t frame_index) {
+Agreement AgreementOn(const std::string& scenario_name,
+                      std::uint32_t frame_index,
+                      const Wind& wind = {}) {
   const ScenarioSpec scenario =
       ReadScenario(std::string(RAILCAST_SOURCE_DIR "/scenarios/") + scenario_name);
   const auto simulator = MakeSimulator(scenario, 1);
@@ -70,6 +72,7 @@ Agreement AgreementOn(const std::string& scenario_name, std::uint32_t frame_inde
       {.range_max_m = spec.detector.range_max_m,
        .vehicle_from_sensor = spec.vehicle_from_sensor,
        .duration_ns = tiles.duration_ns()});
+  scenes.UseWind(wind);
   const FrameScene scene = scenes.At(frame_index, pattern.StampNs(frame_index));
   BeamFrame frame{};
   frame.sigma_h_rad = static_cast<float>(HorizontalSigma_rad(spec.detector.beam));
@@ -111,6 +114,10 @@ TEST(BeamTrace, AgreesWithEmbreeAmongGrassAndTrees) {
 
 TEST(BeamTrace, AgreesWithEmbreeWhereObjectsMove) {
   ExpectAgreement(AgreementOn("brake_person.json", 40));
+}
+
+TEST(BeamTrace, AgreesWithEmbreeWhereTreesAndWiresSway) {
+  ExpectAgreement(AgreementOn("open_line.json", 0, Wind({6.0, 10.0, 0.0}, 1)));
 }
 
 }  // namespace

@@ -108,6 +108,16 @@ TEST(FogPatches, MoveSlowly) {
   EXPECT_GT(greatest, 1.0);
 }
 
+TEST(FogPatches, MoveWithTheWind) {
+  const FogPatches patches(7, {-3.0, 8.0, 0.0});
+  const FogWaves now = patches.WavesAt(Transform::Identity(), 100.0);
+  const FogWaves later = patches.WavesAt(Transform::Identity(), 160.0);
+  for (int i = 0; i < 100; ++i) {
+    const Vector3 place(0.37 * i, 0.0, 0.0);
+    EXPECT_NEAR(FieldAt(now, place), FieldAt(later, place + Vector3(-180.0, 480.0, 0.0)), 1e-3);
+  }
+}
+
 TEST(FogPatches, OfOtherSeedsAreOthers) {
   const FogWaves a = FogPatches(1).WavesAt(Transform::Identity(), 0.0);
   const FogWaves b = FogPatches(2).WavesAt(Transform::Identity(), 0.0);

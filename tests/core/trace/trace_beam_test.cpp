@@ -271,5 +271,35 @@ TEST(TraceBeam, LeavesBeamsAloneInAnEmptyScene) {
   for (std::size_t i = 0; i < kNumSubRays; ++i) EXPECT_EQ(beam.range_m[i], kFarthest_m);
 }
 
+// A unit tube stretched to a thin wire, along which the beams look: in its frame they are far wider
+// than long.
+TEST(TraceBeam, MissesNothingOfAStretchedModel) {
+  const TraceDevice device;
+  const auto tube = std::make_shared<TraceModel>(
+      device, Model{"tube", {{MakeCylinder(1.0, 1.0, 64), 1, 1}}});  // Along z.
+  Eigen::Affine3d place = Eigen::Affine3d::Identity();
+  place.linear() << 0.0, 0.0, 2.5, 0.02, 0.0, 0.0, 0.0, 0.02, 0.0;
+  place.translation() = Vector3(10.0, 0.0, 0.05);
+  const TraceScene scene(device, {{tube, {place}, 1}});
+  std::size_t num_hits = 0;
+  std::size_t num_different = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const float tilt = 1e-5F * static_cast<float>(i - 1000);
+    BeamRays beam = BeamAlong(Eigen::Vector3f(1.0F, 0.3F * tilt, tilt).normalized(), 3e-3F, 3e-3F);
+    RayTile tile = TileOf(beam);
+    scene.Cast(tile);
+    scene.CastBeam(beam);
+    for (std::size_t ray = 0; ray < beam.num_rays; ++ray) {
+      num_hits += tile.surface[ray] != 0 ? 1U : 0U;
+      const bool is_same = beam.facets[beam.facet[ray]].surface == tile.surface[ray] &&
+                           std::fabs(beam.range_m[ray] - tile.range_m[ray]) < 1e-3F;
+      num_different += is_same ? 0U : 1U;
+    }
+  }
+  EXPECT_GT(num_hits, 10'000U);
+  // At such a slant, rounding moves edges: some rays in ten thousand.
+  EXPECT_LT(static_cast<double>(num_different), 1e-3 * static_cast<double>(num_hits));
+}
+
 }  // namespace
 }  // namespace railcast

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -65,6 +66,47 @@ TEST(AddCatenary, JoinsContactWireAndMessengerByDroppers) {
     }
   }
   EXPECT_EQ(num_droppers, 10 * 9);  // ceil(65 / 8) = 9 per span.
+}
+
+WorldSpec RealLineWithTracksAt(const std::vector<double>& offsets_m) {
+  WorldSpec spec;
+  spec.alignment = ReadStGallenWil();
+  spec.tracks.assign(offsets_m.size(), TrackSpec{});
+  for (std::size_t i = 0; i < offsets_m.size(); ++i) spec.tracks[i].offset_m = offsets_m[i];
+  return spec;
+}
+
+TEST(AddCatenary, TellsEveryWireItsSpan) {
+  const TestLine line(RealLineWithTracksAt({0.0, 4.0}));
+  std::map<std::uint32_t, Vector3> begin_of_span;
+  for (int chunk = 20; chunk < 24; ++chunk) {
+    for (const Wire& wire : WiresInChunk(line.Context(chunk), line.plan())) {
+      const WireSpan& span = wire.span;
+      const Vector3 begin_m = line.WorldFromChunk(chunk) * span.begin_m;
+      const auto [known, is_new] = begin_of_span.try_emplace(span.number, begin_m);
+      EXPECT_LT((known->second - begin_m).norm(), 1e-6);
+      // Its points lie between the supports, straight in plan.
+      const Vector3 way_m = span.end_m - span.begin_m;
+      const Vector3 side = Vector3::UnitZ().cross(way_m).normalized();
+      for (const Vector3& point_m : wire.points_m) {
+        EXPECT_NEAR((point_m - span.begin_m).dot(side), 0.0, 1e-9);
+        const double at =
+            (point_m - span.begin_m).head<2>().dot(way_m.head<2>()) / way_m.head<2>().squaredNorm();
+        EXPECT_GE(at, -1e-9);
+        EXPECT_LE(at, 1.0 + 1e-9);
+      }
+      EXPECT_EQ(span.tension_n, 20e3);
+      EXPECT_NEAR(span.mass_kg_per_m, 0.89 + 0.44, 0.01);
+      EXPECT_DOUBLE_EQ(span.width_m, 0.021);
+    }
+  }
+  // Both tracks' spans of 200 m and what reaches beyond, none twice.
+  EXPECT_GE(begin_of_span.size(), 2U * 4U);
+  for (const auto& [number, begin_m] : begin_of_span) {
+    for (const auto& [other, other_m] : begin_of_span) {
+      EXPECT_TRUE(number == other || (begin_m - other_m).norm() > 1.0);
+    }
+  }
 }
 
 /// Chainage whose track frame contains the point in its plane x = 0.
@@ -171,14 +213,6 @@ TEST(AddCatenary, HoldsTheWiresWithItsCantilevers) {
   EXPECT_NEAR(left.max().y(), 0.4 + 1.0 + 0.15, 0.03);
   EXPECT_NEAR(left.min().z(), 5.5, 0.01);
   EXPECT_NEAR(left.max().z(), 7.3, 0.03);
-}
-
-WorldSpec RealLineWithTracksAt(const std::vector<double>& offsets_m) {
-  WorldSpec spec;
-  spec.alignment = ReadStGallenWil();
-  spec.tracks.assign(offsets_m.size(), TrackSpec{});
-  for (std::size_t i = 0; i < offsets_m.size(); ++i) spec.tracks[i].offset_m = offsets_m[i];
-  return spec;
 }
 
 /// Distances of the masts' faces from their nearest track axes.

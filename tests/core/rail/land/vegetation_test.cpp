@@ -102,6 +102,7 @@ TEST(AddVegetation, KeepsTreesOffTheTracksAndOnTheChunksGround) {
       EXPECT_GE(HeightOf(tree), 6.0 - 1e-9);
       EXPECT_LE(HeightOf(tree), 14.0 + 1e-9);
       EXPECT_EQ(tree.instance, 0U);
+      EXPECT_NEAR(tree.sway_height_m, HeightOf(tree), 1e-6);
     }
   }
 }
@@ -128,6 +129,7 @@ TEST(AddVegetation, FillsTheStripsBesideTheTracksWithGrass) {
   EXPECT_EQ(patches.size(), 25U * 3U * 2U);  // Every 2 m; three rows in 5.4 m; both sides.
   for (const Placement& patch : patches) {
     ASSERT_TRUE(IsGrass(patch));
+    EXPECT_EQ(patch.sway_height_m, 0.0);
     const double d_m = patch.chunk_from_model.translation().y();
     const double beyond_m = std::max(d_m - 4.0, -d_m);
     EXPECT_GE(beyond_m, 3.6 + 1.0 - 1e-9);
