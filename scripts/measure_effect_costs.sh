@@ -60,6 +60,8 @@ sensor clean ""
 sensor dirt '"cover": {"dirt_coverage": 0.1}'
 sensor drops '"cover": {"drop_coverage": 0.1}'
 sensor halo '"receiver": {"halo_share_at_1_deg": 1e-6}'
+sensor saturation '"receiver": {"saturation_power_ratio": 1000}'
+sensor ghost '"receiver": {"ghost_reflectance": 0.1}'
 
 # puddles SHARE: prints the instructions per firing of rung surface on the open line with puddles.
 puddles() {

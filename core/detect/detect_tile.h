@@ -45,6 +45,8 @@ struct alignas(64) DetectTile {
   std::uint32_t clutter[kTileSize];  ///< Label of a clutter echo, or kNoClutter.
   float intensity[kTileSize];        ///< Effective reflectance, unattenuated; NaN if not computed.
   float power_ratio[kTileSize];      ///< Received / threshold; NaN if not computed.
+  /// Half the length over which the echo is above the threshold; set if effect `saturation` is on.
+  float busy_m[kTileSize];
   float incidence_rad[kTileSize];
   float range_m[kTileSize];  ///< Measured range; NaN where the outcome has no point.
   float x[kTileSize], y[kTileSize], z[kTileSize];  ///< Measured point, sensor frame; else NaN.

@@ -129,6 +129,7 @@ Detector::Detector(const DetectorSpec& spec, const DetectorSetting& setting, con
                                                 : 0.0F),
       channel_bias_m_(MakeChannelBias(spec, setting.num_channels)),
       clutter_(spec, kernels),
+      ghost_(spec),
       interference_(spec, kernels) {
   if (ShowsSurfaceCondition(spec)) {
     ResponseParameters bare = response_;
@@ -172,6 +173,8 @@ void Detector::Detect(const AirView& air, EchoTiles& echoes, const EffectObserve
   const auto tell = [&](bool is_on, std::string_view effect) {
     if (is_on && observer) observer(effect);
   };
+  ghost_.AddEchoes(echoes);
+  tell(ghost_.is_on(), "ghost");
   clutter_.AddParticles(echoes);
   tell(clutter_.has_particles(), "clutter");
   clutter_.AddFogEchoes(air, echoes);

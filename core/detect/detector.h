@@ -12,6 +12,7 @@
 #include "core/detect/echo_tiles.h"
 #include "core/detect/effect_parameters.h"
 #include "core/detect/effect_table.h"
+#include "core/detect/ghost.h"
 #include "core/detect/interference.h"
 #include "core/detect/kernels.h"
 #include "railcast/effects.h"
@@ -69,6 +70,7 @@ class Detector {
   std::vector<EffectStep> receiver_;
   std::vector<float> channel_bias_m_;
   Clutter clutter_;
+  Ghost ghost_;
   Interference interference_;
 };
 

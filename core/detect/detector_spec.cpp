@@ -62,6 +62,7 @@ void CheckDetectorSpec(const DetectorSpec& spec) {
   const WeatherSpec& weather = spec.weather;
   constexpr int kMostReferenceRays = 4096;
   const double visibility_m = weather.visibility_m.value_or(1.0);
+  const double saturation = receiver.saturation_power_ratio.value_or(2.0);
   std::vector<NumberRule> rules = {
       {"/range_min_m", spec.range_min_m, IsNonNegative(spec.range_min_m), ">= 0"},
       {"/range_max_m", spec.range_max_m, IsPositive(spec.range_max_m), "> 0"},
@@ -86,6 +87,9 @@ void CheckDetectorSpec(const DetectorSpec& spec) {
        IsShare(receiver.halo_share_at_1_deg), ">= 0 and <= 1"},
       {"/receiver/foreign_pulses_hz", receiver.foreign_pulses_hz,
        IsNonNegative(receiver.foreign_pulses_hz), ">= 0"},
+      {"/receiver/saturation_power_ratio", saturation, saturation >= 2.0, ">= 2"},
+      {"/receiver/ghost_reflectance", receiver.ghost_reflectance,
+       IsShare(receiver.ghost_reflectance), ">= 0 and <= 1"},
       {"/receiver/range_walk_m", receiver.range_walk_m, IsNonNegative(receiver.range_walk_m),
        ">= 0"},
       {"/weather/fog_density_per_m", weather.fog_density_per_m,

@@ -15,6 +15,7 @@ namespace railcast {
 class EchoTiles {
  public:
   // Numbers of echoes within a firing, part of their random keys. Echoes of surfaces count from 0.
+  static constexpr std::uint32_t kGhost = 91;
   static constexpr std::uint32_t kMirrorImage = 92;
   static constexpr std::uint32_t kFirstFogEcho = 93;  ///< And 94.
   static constexpr std::uint32_t kSprayCloud = 95;

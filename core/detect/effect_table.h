@@ -37,6 +37,7 @@ enum class StepOrder {
   kDetection,
   kCoverBlame,
   kRangeWalk,
+  kSaturation,
   kMeasurement,
 };
 

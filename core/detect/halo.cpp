@@ -7,7 +7,7 @@
 #include "core/base/units.h"
 #include "core/detect/added_echo.h"
 #include "core/detect/beam_optics.h"
-#include "railcast/outcome.h"
+#include "core/detect/bright_echo.h"
 
 namespace railcast {
 namespace {
@@ -37,11 +37,7 @@ Halo::Halo(const DetectorSpec& spec)
 void Halo::CollectSources(EchoTiles& echoes, std::vector<HaloSource>& sources) const {
   echoes.ForEachTile([&](const DetectTile& tile) {
     for (std::size_t i = 0; i < tile.num_rays; ++i) {
-      const bool is_bright = tile.intensity[i] > 1.0F && tile.power_ratio[i] > 1.0F &&
-                             tile.true_range_m[i] >= range_min_m_ &&
-                             tile.outcome[i] == static_cast<std::uint32_t>(Outcome::kReturned) &&
-                             tile.clutter[i] == kNoClutter;
-      if (!is_bright) continue;
+      if (!IsRetroreflected(tile, i, range_min_m_)) continue;
       sources.push_back({tile.direction_x[i], tile.direction_y[i], tile.direction_z[i],
                          tile.true_range_m[i] + tile.peak_shift_m[i], tile.power_ratio[i]});
     }

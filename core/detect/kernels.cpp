@@ -11,6 +11,7 @@
 #include "core/detect/pointing.h"
 #include "core/detect/rain_dropout.h"
 #include "core/detect/range_walk.h"
+#include "core/detect/saturation.h"
 #include "core/detect/sensor_dropout.h"
 #include "core/detect/snow_clutter.h"
 #include "core/detect/sub_ray_aim.h"

@@ -37,6 +37,7 @@ namespace railcast {
   KERNEL(cover_loss, ApplyCoverLoss, void(DetectTile&))                                          \
   KERNEL(blame_cover, BlameCover, void(DetectTile&))                                             \
   KERNEL(range_walk, ApplyRangeWalk, void(DetectTile&, float range_walk_m))                      \
+  KERNEL(saturation, ApplySaturation, void(DetectTile&, const struct SaturationParameters&))     \
   KERNEL(detection, ApplyDetection<false>, void(DetectTile&, const struct DetectionParameters&)) \
   KERNEL(smooth_detection, ApplyDetection<true>,                                                 \
          void(DetectTile&, const struct DetectionParameters&))                                   \

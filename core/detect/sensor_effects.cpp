@@ -3,9 +3,11 @@
 #include <cmath>
 
 #include "core/base/text.h"
+#include "core/detect/beam_optics.h"
 #include "core/detect/cover.h"
 #include "core/detect/effect_table.h"
 #include "core/detect/interference.h"
+#include "core/detect/saturation.h"
 
 namespace railcast {
 namespace {
@@ -68,6 +70,36 @@ std::string InterferenceText(const DetectorSpec& spec) {
          ShortText(-std::expm1(-rate_hz * ListeningTime_s(spec))) + " of the firings";
 }
 
+// Saturation.
+
+bool HasSaturation(const DetectorSpec& spec) {
+  return spec.receiver.saturation_power_ratio.has_value();
+}
+
+std::string SaturationText(const DetectorSpec& spec) {
+  const auto& ratio = spec.receiver.saturation_power_ratio;
+  return ratio ? "at " + NumberText(*ratio) + " times the threshold" : "none";
+}
+
+SensorLoop SaturationLoop(const DetectorSpec& spec, const Kernels& kernels) {
+  const SaturationParameters parameters{
+      static_cast<float>(spec.receiver.saturation_power_ratio.value()),
+      static_cast<float>(PulseSigma_m(spec.beam))};
+  return [=, apply = kernels.saturation](DetectTile& tile) { apply(tile, parameters); };
+}
+
+// Ghosts are added before detection.
+
+bool HasGhost(const DetectorSpec& spec) {
+  return spec.receiver.ghost_reflectance > 0.0;
+}
+
+std::string GhostText(const DetectorSpec& spec) {
+  if (!HasGhost(spec)) return "none";
+  return "share of " + NumberText(spec.receiver.ghost_reflectance) + " of the light in " +
+         NumberText(spec.cover.aperture_mm) + " mm goes back";
+}
+
 }  // namespace
 
 std::vector<Effect> SensorEffects() {
@@ -96,6 +128,17 @@ std::vector<Effect> SensorEffects() {
        .rungs = physical,
        .has_cause = HasInterference,
        .text = &InterferenceText},
+      {.name = "saturation",
+       .is_on = &EffectSet::saturation,
+       .rungs = physical,
+       .has_cause = HasSaturation,
+       .text = &SaturationText,
+       .loops = {{StepOrder::kSaturation, &SaturationLoop}}},
+      {.name = "ghost",
+       .is_on = &EffectSet::ghost,
+       .rungs = physical,
+       .has_cause = HasGhost,
+       .text = &GhostText},
   };
 }
 

@@ -63,6 +63,14 @@ bool HasHalos(const ScenarioSpec& spec) {
          });
 }
 
+bool HasGhosts(const ScenarioSpec& spec) {
+  const auto sensors = SensorsOf(spec);
+  return SwitchedEffects(spec).ghost &&
+         std::any_of(sensors.begin(), sensors.end(), [](const auto& sensor) {
+           return sensor.lidar.receiver.ghost_reflectance > 0.0;
+         });
+}
+
 // Labels and materials that the effects, as opposed to the world, look up by name.
 struct EffectNamesInUse {
   ClutterLabels labels;
@@ -86,6 +94,7 @@ std::optional<EffectNamesInUse> TryNames(const ScenarioSpec& spec, ErrorList& er
       } else if (const Label* label = labels.Find("mirror_image")) {
         names.labels.mirror_image = label->id;  // Commands may still bring mirrors.
       }
+      if (HasGhosts(spec)) names.labels.ghost = labels.Id("ghost");
       if (spec.weather.spray_extinction_per_m > 0.0) names.labels.spray = labels.Id("spray");
     }
     if (spec.weather.snow_cover > 0.0) {

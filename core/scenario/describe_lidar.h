@@ -128,6 +128,12 @@ void Describe(Archive& a, ReceiverSpec& s) {
              Within(0, 10));
   a.Optional("foreign_pulses_hz", s.foreign_pulses_hz,
              "Pulses of other lidars per second that it can detect.", Within(0, 1e6));
+  a.Optional("saturation_power_ratio", s.saturation_power_ratio,
+             "Power over the detection threshold at which the receiver saturates. Left out: never.",
+             Within(2, 1e9));
+  a.Optional("ghost_reflectance", s.ghost_reflectance,
+             "Share of the light entering the aperture that goes back the way it came.",
+             Within(0, 1));
 }
 
 /// Limits of the diameter of what lies on a sensor's window.

@@ -103,6 +103,42 @@ void BringFirst(std::vector<Candidate>& echoes, std::size_t first, const IsBette
   std::iter_swap(from, best);
 }
 
+float BusyOf(const Candidate& echo) {
+  return echo.tile->busy_m[echo.lane];
+}
+
+// Replaces echoes that are above the threshold without a gap by the strongest of them where one of
+// them is saturated. That one is above the threshold for longest; the powers of saturated echoes
+// are equal.
+void JoinSaturated(float saturation_ratio, std::vector<Candidate>& detected) {
+  if (!(saturation_ratio > 0.0F) || detected.size() < 2) return;
+  const auto begin_m = [](const Candidate& echo) { return RangeOf(echo.place()) - BusyOf(echo); };
+  std::stable_sort(detected.begin(), detected.end(),
+                   [&](const Candidate& a, const Candidate& b) { return begin_m(a) < begin_m(b); });
+  std::vector<Candidate> kept;
+  for (std::size_t first = 0; first < detected.size();) {
+    std::size_t end = first;
+    std::size_t longest = first;
+    bool is_saturated = false;
+    float end_m = begin_m(detected[first]);
+    while (end < detected.size() && begin_m(detected[end]) <= end_m) {
+      const Candidate& echo = detected[end];
+      is_saturated = is_saturated || PowerOf(echo.place()) >= saturation_ratio;
+      if (BusyOf(echo) > BusyOf(detected[longest])) longest = end;
+      end_m = std::max(end_m, RangeOf(echo.place()) + BusyOf(echo));
+      ++end;
+    }
+    if (is_saturated) {
+      kept.push_back(detected[longest]);
+    } else {
+      kept.insert(kept.end(), detected.begin() + static_cast<std::ptrdiff_t>(first),
+                  detected.begin() + static_cast<std::ptrdiff_t>(end));
+    }
+    first = end;
+  }
+  detected = std::move(kept);
+}
+
 // Removes the echoes that arrive while the receiver is blind after an earlier one, and sorts the
 // others by range.
 void PassOverBlindTime(float dead_length_m, std::vector<Candidate>& detected) {
@@ -185,6 +221,7 @@ std::vector<Place> ReturnsOf(const ReturnRule& rule, EchoTiles& echoes, std::siz
   for (const Place& echo : EchoesOf(echoes, beam)) {
     if (HasPoint(OutcomeOf(echo))) detected.push_back({&echo.tile, echo.lane});
   }
+  JoinSaturated(rule.saturation_ratio, detected);
   PassOverBlindTime(rule.dead_length_m, detected);
   Choose(rule.mode, detected);
   std::vector<Place> returns;
@@ -227,6 +264,7 @@ void ReturnStore::Store(EchoTiles& echoes,
     detected.clear();
     std::copy_if(all.begin(), all.end(), std::back_inserter(detected),
                  [](const Candidate& echo) { return HasPoint(OutcomeOf(echo.place())); });
+    JoinSaturated(rule_.saturation_ratio, detected);
     PassOverBlindTime(rule_.dead_length_m, detected);
     Choose(rule_.mode, detected);
     const std::size_t first_slot = std::size_t{slots.slots[i]} * num_returns;

@@ -19,6 +19,8 @@ struct ReturnRule {
   ReturnMode mode{};
   /// How far behind an echo the receiver is blind, m; 0 without effect `dead_time`.
   float dead_length_m{};
+  /// Power ratio at which the receiver saturates; 0 without effect `saturation`.
+  float saturation_ratio{};
 };
 
 /// Returns all echoes of one firing: the first one, then the others.
@@ -29,6 +31,10 @@ struct ReturnRule {
 /// Effect `dead_time`: from the nearest detected echo on, an echo is passed over if its measured
 /// range is less than dead_length_m behind the last one that was not; the mode chooses among the
 /// others. Passed-over echoes do not prolong the blindness.
+///
+/// Effect `saturation`, which comes before it: echoes that are above the threshold without a gap
+/// are one where part of them is saturated. It is represented by the strongest, which is above the
+/// threshold for longest.
 [[nodiscard]] std::vector<EchoTiles::Place> ReturnsOf(const ReturnRule& rule,
                                                       EchoTiles& echoes,
                                                       std::size_t beam);

@@ -107,9 +107,11 @@ struct Simulator::Parts {
     return tracer->has_beams() ? spec.detector.receiver.return_mode : ReturnMode::kStrongest;
   }
   [[nodiscard]] ReturnRule return_rule() const {
-    const bool is_blind = spec.detector.effects.dead_time;
-    return {return_mode(),
-            is_blind ? static_cast<float>(DeadLength_m(spec.detector.receiver)) : 0.0F};
+    const EffectSet& effects = spec.detector.effects;
+    const ReceiverSpec& receiver = spec.detector.receiver;
+    return {return_mode(), effects.dead_time ? static_cast<float>(DeadLength_m(receiver)) : 0.0F,
+            effects.saturation ? static_cast<float>(receiver.saturation_power_ratio.value_or(0.0))
+                               : 0.0F};
   }
   [[nodiscard]] float range_max_m() const { return static_cast<float>(spec.detector.range_max_m); }
   [[nodiscard]] FrameScene SceneOf(std::uint32_t frame_index) {

@@ -147,7 +147,8 @@ TEST(Effects, ChangeNothingWithoutTheirCause) {
   for (bool EffectSet::*effect :
        {&EffectSet::sensor_dropout, &EffectSet::surface_condition, &EffectSet::extinction,
         &EffectSet::clutter, &EffectSet::fog_echo, &EffectSet::cover, &EffectSet::halo,
-        &EffectSet::range_walk, &EffectSet::interference, &EffectSet::spray}) {
+        &EffectSet::range_walk, &EffectSet::interference, &EffectSet::spray, &EffectSet::saturation,
+        &EffectSet::ghost}) {
     SimulatorSpec fewer = spec;
     fewer.detector.effects.*effect = false;
     EXPECT_EQ(FrameBytes(ScanOnce(WallAndGround(), pattern, fewer)), all);

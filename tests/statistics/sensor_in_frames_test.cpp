@@ -1,9 +1,11 @@
 // Tests the effects of the sensor's window and stray light through the whole simulator.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/base/units.h"
@@ -111,6 +113,65 @@ TEST(HaloInFrames, IsExplainedAsItIsScanned) {
     EXPECT_EQ(is_told, is_halo) << firing;
   }
   EXPECT_GT(num_checked, 2U);
+}
+
+// A small board before a wall, 2.2 m apart, in a sensor with wide beams and two returns.
+struct Pair {
+  double range_m[2];
+  double power_ratio[2];  ///< As it arrives.
+};
+
+std::vector<Pair> PairsBeforeAWall(std::optional<double> saturation_power_ratio) {
+  auto world = std::make_shared<SimpleWorld>();
+  world->ground.parts = {{MakeWall(kBoard_m + 2.2F, 100.0F), kPlainWall, kWallLabel},
+                         {MakeWall(kBoard_m, 0.5F), kSheeting, kBoardLabel}};
+  SimulatorSpec spec{.detector = {.effects = {.surface_response = true,
+                                              .detection = true,
+                                              .saturation = true,
+                                              .footprint = true}}};
+  spec.detector.beam.divergence_mrad = {6.0, 6.0};
+  spec.detector.receiver.return_mode = ReturnMode::kDual;
+  spec.detector.receiver.saturation_power_ratio = saturation_power_ratio;
+  Simulator simulator(world, MakeRaster(4.0, 4.0, 0.05), BoardMaterials(), spec, 0);
+  Frame frame;
+  simulator.Scan(0, frame);
+  std::vector<Pair> pairs;
+  for (std::size_t slot = 0; slot < frame.num_slots(); slot += 2) {
+    if (frame.return_count[slot] != 2) continue;
+    Pair pair{};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto range_m = static_cast<double>(frame.range_m[slot + i]);
+      pair.range_m[i] = range_m;
+      pair.power_ratio[i] =
+          static_cast<double>(frame.intensity[slot + i]) / (range_m * range_m) / 2.5e-6;
+    }
+    pairs.push_back(pair);
+  }
+  return pairs;
+}
+
+// The gap between two pulses of peaks p1 and p2 over the threshold, as long as they touch.
+double TouchingGap_m(const Pair& pair) {
+  constexpr double kSigma_m = 0.31827;  // Of a pulse of 5 ns.
+  return kSigma_m * (std::sqrt(2.0 * std::log(pair.power_ratio[0])) +
+                     std::sqrt(2.0 * std::log(pair.power_ratio[1])));
+}
+
+TEST(SaturationInFrames, HidesTheWallBehindABoardWhereTheirPulsesTouch) {
+  const auto hidden_in = [](const std::vector<Pair>& pairs) {
+    return std::count_if(pairs.begin(), pairs.end(), [](const Pair& pair) {
+      const double gap_m = std::abs(pair.range_m[1] - pair.range_m[0]);
+      return gap_m < TouchingGap_m(pair) - 0.01;
+    });
+  };
+  const std::vector<Pair> linear = PairsBeforeAWall({});
+  const std::vector<Pair> saturated = PairsBeforeAWall(1000.0);
+  EXPECT_GT(hidden_in(linear), 50);
+  EXPECT_EQ(hidden_in(saturated), 0);
+  // Those that do not touch stay.
+  EXPECT_GT(saturated.size(), 50U);
+  EXPECT_NEAR(static_cast<double>(linear.size() - saturated.size()),
+              static_cast<double>(hidden_in(linear)), 5.0);
 }
 
 SimulatorSpec WithDirt(std::uint64_t seed) {

@@ -67,6 +67,8 @@ struct EffectSet {
   bool halo = false;          ///< Stray light of retroreflectors in the beams around them.
   bool range_walk = false;    ///< Range error that depends on the strength of the echo.
   bool interference = false;  ///< False echoes from pulses of other lidars.
+  bool saturation = false;    ///< Echoes that are too strong for the receiver.
+  bool ghost = false;         ///< Echoes of retroreflectors at twice their range.
 
   // Physics of the finite beam width.
   bool footprint = false;         ///< What a beam of finite width meets, by sub-rays.
@@ -174,6 +176,10 @@ struct ReceiverSpec {
   /// By how much an echo at the detection threshold is measured farther than a strong one.
   double range_walk_m = 0.0;
   double foreign_pulses_hz = 0.0;  ///< Detectable pulses of other lidars per second.
+  /// Power over the detection threshold at which the receiver saturates; absent: never.
+  std::optional<double> saturation_power_ratio{};
+  /// Share of the light entering the aperture that the sensor sends back the way it came.
+  double ghost_reflectance = 0.0;
 
   bool operator==(const ReceiverSpec&) const = default;
 };
@@ -239,12 +245,13 @@ struct ClutterLabels {
   std::uint32_t halo{};
   std::uint32_t spray{};
   std::uint32_t mirror_image{};
+  std::uint32_t ghost{};
 };
 
 /// Everything that detection depends on besides the scene: the sensor, the weather and the chosen
 /// effects. CheckDetectorSpec() checks it.
 struct DetectorSpec {
-  std::uint64_t seed = 1;      ///< Key of the sensor's own draws (SensorSeed()).
+  std::uint64_t seed = 1;  ///< Key of the sensor's own draws (SensorSeed()).
   /// Key of patches of fog and gusts, the same for all sensors.
   std::uint64_t air_seed = 1;
   std::uint64_t ground_seed = 1;  ///< Key of the puddles, which are part of the world.

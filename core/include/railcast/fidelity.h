@@ -74,8 +74,8 @@ using ChoiceProgress = std::function<void(double done)>;
 /// Effects that the user switches on or off stay as set. Cheap statistical effects
 /// (`sensor_dropout`, `clutter`, `fog_echo`, `sunlight`, `range_noise`, `channel_bias`,
 /// `pointing_jitter`), `mirror_paths` and the effects of the sensor itself (`cover`, `halo`,
-/// `range_walk`, `interference`) are on if the scenario gives them a cause, because no
-/// echo-by-echo comparison can judge them.
+/// `range_walk`, `interference`, `saturation`, `ghost`) are on if the scenario gives them a cause,
+/// because no echo-by-echo comparison can judge them.
 ///
 /// The comparison uses the returns of the scenario's own return mode, before range noise, with the
 /// same random draws. The result depends on the scenario alone, not on the number of threads or on

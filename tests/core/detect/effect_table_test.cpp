@@ -99,6 +99,10 @@ TEST(EffectTable, GivesNoEffectTheCauseOfAnother) {
               UnorderedElementsAre("range_walk"));
   EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.foreign_pulses_hz = 1.0; }),
               UnorderedElementsAre("interference"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.saturation_power_ratio = 1e3; }),
+              UnorderedElementsAre("saturation"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.ghost_reflectance = 0.1; }),
+              UnorderedElementsAre("ghost"));
   EXPECT_THAT(
       CausedBy([](DetectorSpec& s) { s.beam.divergence_mrad[1] = 1.0; }),
       UnorderedElementsAre("footprint", "thin_conductors", "dense_footprint", "sampled_waveform"));

@@ -14,6 +14,7 @@
 #include "core/detect/fog_patches.h"
 #include "core/detect/measurement.h"
 #include "core/detect/rain_dropout.h"
+#include "core/detect/saturation.h"
 #include "core/detect/sensor_dropout.h"
 #include "core/detect/snow_clutter.h"
 #include "core/detect/threshold.h"
@@ -113,6 +114,7 @@ std::vector<float> RunPhysics(const Kernels& kernels, RayTile& rays, DetectTile&
   kernels.smooth_detection(tile, {7, 5.0F});
   kernels.blame_cover(tile);
   kernels.range_walk(tile, 0.2F);
+  kernels.saturation(tile, {20.0F, 0.32F});
   kernels.hit(tile, 0.5F);
   const std::vector<float> fog_ratio(20, 1.0F);
   const auto peaks = std::make_unique<FogPeaks>();

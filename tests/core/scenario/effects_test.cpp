@@ -21,7 +21,8 @@ const std::set<std::string> surface_effects{
     "extinction",        "fog_echo",       "range_noise", "pointing_jitter",
     "pulse_stretch",     "sensor_dropout", "sunlight",    "surface_response",
     "surface_condition", "cover",          "halo",        "range_walk",
-    "interference",      "spray",          "dead_time",   "mirror_paths"};
+    "interference",      "spray",          "dead_time",   "mirror_paths",
+    "saturation",        "ghost"};
 
 std::set<std::string> SurfaceAnd(const std::set<std::string>& more) {
   std::set<std::string> names = surface_effects;

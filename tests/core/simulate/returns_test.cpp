@@ -21,6 +21,7 @@ struct HandMade {
   Outcome outcome = Outcome::kReturned;
   std::uint32_t surface = 1;
   std::uint32_t clutter = kNoClutter;
+  float busy_m = 0.0F;
 };
 
 void Fill(const HandMade& echo, DetectTile& tile, std::size_t lane) {
@@ -33,6 +34,7 @@ void Fill(const HandMade& echo, DetectTile& tile, std::size_t lane) {
   tile.clutter[lane] = echo.clutter;
   tile.intensity[lane] = 0.125F;
   tile.power_ratio[lane] = echo.power_ratio;
+  tile.busy_m[lane] = echo.busy_m;
   tile.range_m[lane] = has_point ? echo.range_m : kNaN;
   tile.x[lane] = tile.y[lane] = tile.z[lane] = tile.range_m[lane];
 }
@@ -187,6 +189,42 @@ TEST(Returns, KeepAllFieldsOfASurface) {
   EXPECT_EQ(frame.footprint_share[2], 0.5F);
   // Without shares, the field is left unchanged.
   EXPECT_EQ(StoreOne({.mode = ReturnMode::kStrongest}, kFour, false).footprint_share[2], 0.0F);
+}
+
+constexpr ReturnRule kSaturating{.mode = ReturnMode::kTriple, .saturation_ratio = 100.0F};
+
+HandMade Pulse(float range_m, float power_ratio, std::uint32_t surface, float busy_m) {
+  return {range_m, power_ratio, Outcome::kReturned, surface, kNoClutter, busy_m};
+}
+
+// The saturated echo at 10 m falls below the threshold at 11.5 m, where that at 12 m begins if it
+// is above the threshold for 0.5 m on either side.
+TEST(SaturatedReturns, AreOneWithWhatTheyTouch) {
+  const HandMade strong = Pulse(10.0F, 100.0F, 1, 1.5F);
+  EXPECT_EQ(Chosen(kSaturating, {strong, Pulse(12.0F, 5.0F, 2, 0.5F)}), (Surfaces{1, 0, 0}));
+  EXPECT_EQ(Chosen(kSaturating, {strong, Pulse(12.0F, 5.0F, 2, 0.49F)}), (Surfaces{1, 2, 0}));
+  EXPECT_EQ(Chosen(kSaturating, {Pulse(8.0F, 5.0F, 2, 0.5F), strong}), (Surfaces{1, 0, 0}));
+  EXPECT_EQ(Chosen(kSaturating, {Pulse(8.0F, 5.0F, 2, 0.49F), strong}), (Surfaces{1, 2, 0}));
+}
+
+TEST(SaturatedReturns, AreRepresentedByTheLongest) {
+  const std::vector<HandMade> echoes = {Pulse(10.0F, 100.0F, 1, 1.5F),
+                                        Pulse(12.0F, 100.0F, 2, 1.7F)};
+  EXPECT_EQ(Chosen(kSaturating, echoes), (Surfaces{2, 0, 0}));
+}
+
+TEST(SaturatedReturns, JoinChains) {
+  const std::vector<HandMade> echoes = {Pulse(10.0F, 5.0F, 1, 0.5F), Pulse(10.9F, 6.0F, 2, 0.5F),
+                                        Pulse(12.5F, 100.0F, 3, 1.2F), Pulse(20.0F, 5.0F, 4, 0.5F)};
+  EXPECT_EQ(Chosen(kSaturating, echoes), (Surfaces{3, 4, 0}));
+}
+
+TEST(SaturatedReturns, LeaveEchoesBelowTheSaturationApart) {
+  const std::vector<HandMade> echoes = {Pulse(10.0F, 99.0F, 1, 1.5F), Pulse(11.0F, 5.0F, 2, 0.5F)};
+  EXPECT_EQ(Chosen(kSaturating, echoes), (Surfaces{1, 2, 0}));
+  EXPECT_EQ(Chosen({.mode = ReturnMode::kTriple},
+                   {Pulse(10.0F, 100.0F, 1, 1.5F), Pulse(11.0F, 5.0F, 2, 0.5F)}),
+            (Surfaces{1, 2, 0}));
 }
 
 // Four echoes 0.9 m apart before a receiver that is blind for 8 ns, that is 1.199 m: after the echo

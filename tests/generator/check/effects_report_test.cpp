@@ -84,6 +84,8 @@ TEST(EffectsReport, SaysWhatTheWeatherDoesToThePhysicalRungs) {
       "          halo: share of 0 at 1 deg\n"
       "          range_walk: 0 m at the threshold\n"
       "          interference: 0 pulses per s, false echoes in 0 of the firings\n"
+      "          saturation: none\n"
+      "          ghost: none\n"
       "          footprint: 1/e^2 width 3 x 3 mrad\n"
       "          thin_conductors\n");
 }
@@ -111,6 +113,8 @@ TEST(EffectsReport, SaysWhatTheSensorItselfDoes) {
   scenario.lidar.receiver.halo_share_at_1_deg = 1e-6;
   scenario.lidar.receiver.range_walk_m = 0.05;
   scenario.lidar.receiver.foreign_pulses_hz = 1000.0;
+  scenario.lidar.receiver.saturation_power_ratio = 500.0;
+  scenario.lidar.receiver.ghost_reflectance = 0.1;
   scenario.weather.wetness = 0.5;
   scenario.weather.spray_extinction_per_m = 0.2;
   const std::string text = EffectsText(scenario);
@@ -119,7 +123,9 @@ TEST(EffectsReport, SaysWhatTheSensorItselfDoes) {
         "          cover: drops 10 %, dirt 0 %, snow 0 %, untouched are 13.83 % of the beams\n",
         "          halo: share of 1e-06 at 1 deg\n",
         "          range_walk: 0.05 m at the threshold\n",
-        "          interference: 1000 pulses per s, false echoes in 0.001996 of the firings\n"}) {
+        "          interference: 1000 pulses per s, false echoes in 0.001996 of the firings\n",
+        "          saturation: at 500 times the threshold\n",
+        "          ghost: share of 0.1 of the light in 10 mm goes back\n"}) {
     EXPECT_NE(text.find(line), std::string::npos) << line << text;
   }
 }
