@@ -49,7 +49,7 @@ TEST(Xt32Decoder, CountsTimeFromTheCommandToFireTheLastBlock) {
     ASSERT_EQ(turn.num_columns(), static_cast<std::size_t>(cycles));
     const std::int64_t packet_ns = 86'403 * 1'000'000'000LL + 500'000'000;
     EXPECT_EQ(turn.stamp_ns, packet_ns + 6'000 - 50'000 * (cycles - 1));
-    EXPECT_EQ(turn.stamp_ns + turn.points.back().time_ns, packet_ns + 6'000 + 31 * 1'512);
+    EXPECT_EQ(turn.stamp_ns + turn.points.back().time_ns, packet_ns + 6'000 + 46'872);
   }
 }
 
