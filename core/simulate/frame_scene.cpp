@@ -1,6 +1,7 @@
 #include "core/simulate/frame_scene.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -92,7 +93,7 @@ FrameScene FrameScenes::At(std::uint32_t index, std::int64_t stamp_ns) {
   std::vector<TracePlacement> moving = MovingObjects(stamp_ns, *window);
   if (wind_.blows()) {
     SwayedThings swayed = Swayed(stamp_ns, *window);
-    moving.insert(moving.end(), swayed.placements.begin(), swayed.placements.end());
+    std::ranges::move(swayed.placements, std::back_inserter(moving));
     scene.swayed_wires = std::move(swayed.wires);
   }
   if (!moving.empty()) {

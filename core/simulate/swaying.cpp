@@ -12,7 +12,7 @@ namespace railcast {
 namespace {
 
 constexpr double kTreeStep_s = 0.1;
-constexpr int kTubeSides = 16;
+constexpr int kMovingTubeSides = 16;
 
 /// The tree, leaning about its foot by its tip's displacement over its height.
 Eigen::Affine3d Lean(const Eigen::Affine3d& at_rest, const Vector3& tip_window_m, double height_m) {
@@ -131,9 +131,9 @@ void SwayingThings::AddWire(const railcast::Wire& wire,
 }
 
 Model UnitTube() {
-  const double radius = 2.0 / (1.0 + std::cos(std::numbers::pi / kTubeSides));
+  const double radius = 2.0 / (1.0 + std::cos(std::numbers::pi / kMovingTubeSides));
   const std::array<Vector3, 2> line_m{Vector3::Zero(), Vector3::UnitX()};
-  return {"wire", {{MakeTube(line_m, radius, kTubeSides), 0, 0, true}}};
+  return {"wire", {{MakeTube(line_m, radius, kMovingTubeSides), 0, 0, true}}};
 }
 
 SwayedThings Sway(const SwayingThings& things, const Wind& wind, const SwayView& view) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "core/base/text.h"
 #include "core/detect/effect_table.h"
 #include "generator/check/check_report.h"
 #include "railcast/effects.h"
@@ -9,7 +10,7 @@
 namespace railcast {
 namespace {
 
-/// A key of section `weather`.
+/// A key of section `weather` that effects read. The wind moves the world itself.
 struct WeatherKey {
   std::string_view name;
   bool (*is_given)(const WeatherSpec&);  ///< Whether its value differs from the default.
@@ -59,6 +60,13 @@ std::string IdleWeatherText(const WeatherSpec& weather, const EffectSet& effects
   return ReportLine("", "no effect that is on reads these keys of weather: " + names);
 }
 
+std::string WindText(const WeatherSpec& weather) {
+  if (weather.wind_speed_mps == 0.0) return "";
+  return ReportLine("wind", NumberText(weather.wind_speed_mps) + " m/s from " +
+                                NumberText(weather.wind_direction_deg) +
+                                " deg: trees and wires sway, fog drifts");
+}
+
 }  // namespace
 
 std::string EffectsText(const ScenarioSpec& scenario) {
@@ -70,7 +78,7 @@ std::string EffectsText(const ScenarioSpec& scenario) {
     const std::string name = effect.name;
     text += ReportLine("", effect.text == nullptr ? name : name + ": " + effect.text(spec));
   }
-  return text + IdleWeatherText(scenario.weather, effects);
+  return text + IdleWeatherText(scenario.weather, effects) + WindText(scenario.weather);
 }
 
 }  // namespace railcast

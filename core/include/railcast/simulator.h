@@ -87,7 +87,8 @@ class SceneStore;
                                                          const MaterialLibrary& materials,
                                                          const std::string& isa = {});
 
-/// A scene that a host program traces itself, with its own geometry and surface table.
+/// A scene that a host program traces itself, with its own geometry and surface table. The wind of
+/// the weather moves nothing of it.
 struct HostScene {
   const RayCaster& caster;  ///< Traces rays given in the host's window frame.
   /// Window frame in metres, chosen by the host; its origin must be near the sensor for float32 to

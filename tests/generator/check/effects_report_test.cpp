@@ -25,6 +25,15 @@ TEST(EffectsReport, SaysNothingOfTheRungWithoutEffects) {
   EXPECT_EQ(EffectsText(scenario), "rung      geometry\n");
 }
 
+TEST(EffectsReport, TellsTheWindOnEveryRung) {
+  ScenarioSpec scenario;
+  scenario.fidelity = Fidelity::kGeometry;
+  scenario.weather.wind_speed_mps = 7.5;
+  EXPECT_EQ(EffectsText(scenario),
+            "rung      geometry\n"
+            "wind      7.5 m/s from 180 deg: trees and wires sway, fog drifts\n");
+}
+
 TEST(EffectsReport, NamesTheKeysOfTheWeatherThatNoEffectReads) {
   ScenarioSpec scenario;
   scenario.weather.rain_rate_mmph = 4.0;
