@@ -113,14 +113,14 @@ void SwayingThings::AddWire(const railcast::Wire& wire,
                             const Transform& world_from_chunk,
                             const Transform& window_from_world,
                             std::uint32_t surface) {
-  const auto [found, is_new] = span_of_number_.try_emplace(wire.span.number, spans.size());
+  const bool moves = wire.span.tension_n > 0.0;
+  const auto [found, is_new] = span_of_number_.try_emplace({moves, wire.span.number}, spans.size());
   if (is_new) {
     spans.push_back(wire.span);
     spans.back().begin_m = world_from_chunk * wire.span.begin_m;
     spans.back().end_m = world_from_chunk * wire.span.end_m;
   }
   Wire& added = wires.emplace_back();
-  const bool moves = wire.span.tension_n > 0.0;
   for (const Vector3& point_m : wire.points_m) {
     added.shares.push_back(moves ? BlowOffShare(wire.span, point_m) : 0.0);
     added.points_m.emplace_back(window_from_world * (world_from_chunk * point_m));

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/detect/wire_set.h"
@@ -41,7 +42,8 @@ struct SwayingThings {
                std::uint32_t surface);
 
  private:
-  std::map<std::uint32_t, std::size_t> span_of_number_;
+  // By whether it moves, and its number: wires without a span have number 0, too.
+  std::map<std::pair<bool, std::uint32_t>, std::size_t> span_of_number_;
 };
 
 /// The tube about the x axis from 0 to 1 whose faces and corners are equally far from a radius of

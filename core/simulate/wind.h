@@ -56,15 +56,12 @@ class Wind {
   /// R^2 of a thing of width `width_m` across the wind.
   [[nodiscard]] double Resonance(double frequency_hz, double damping, double width_m) const;
 
-  bool operator==(const Wind&) const = default;
-
  private:
   static constexpr std::size_t kNumWaves = 12;
   struct Wave {
     Vector3 turns_per_m = Vector3::Zero();
     double frequency_hz{};
     double phase_turns{};
-    bool operator==(const Wave&) const = default;
   };
   Vector3 downwind_ = Vector3::UnitX();
   double speed_mps_ = 0.0;

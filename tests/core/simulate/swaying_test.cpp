@@ -190,6 +190,16 @@ TEST(Swaying, WiresAreBlownOffByTheirParabolaAndSupportsStay) {
   EXPECT_EQ(dropper.end_m.x(), dropper.begin_m.x());
 }
 
+TEST(Swaying, AWireThatIsPartOfNoSpanHangsStillBesideOthers) {
+  auto world = WorldWithSpan();
+  for (Wire& wire : world->wires) wire.span.number = 0;
+  world->wires.insert(world->wires.begin(), {1, kWireLabel, 0.006, {{9, 0, 5}, {9, 4, 5}}});
+  const SwayedThings now = SwayedWindow(world).At(WindOf(InWind(15.0, 180.0)), 12.3);
+  EXPECT_EQ(now.wires.segments[0].travel_m, 0.0F);
+  EXPECT_EQ(now.wires.segments[0].end_m, Eigen::Vector3f(9.0F, 4.0F, 5.0F));
+  EXPECT_GT(now.wires.segments[1 + 6].begin_m.x(), 15.03F);
+}
+
 // Rays at the middles and the edges of the swayed segments meet the tubes, and just beside them
 // they do not: tubes and segments agree within a hundredth of the radius.
 TEST(Swaying, TubesAndSegmentsOfWiresMoveTogether) {
