@@ -20,6 +20,11 @@ bool Reaches(const DetectTile& first, std::size_t beam, float range_m) {
          !(range_m >= first.true_range_m[beam]);
 }
 
+FogDetection DetectionOf(const EffectSet& effects) {
+  if (!effects.detection) return FogDetection::kAlways;
+  return effects.detection_probability ? FogDetection::kSmooth : FogDetection::kHard;
+}
+
 }  // namespace
 
 Clutter::Clutter(const DetectorSpec& spec, const Kernels& kernels)
@@ -114,14 +119,17 @@ void Clutter::AddFogEchoes(const AirView& air, EchoTiles& echoes) const {
       .least_ratio = static_cast<float>(kLeastFogRatio),
       .noise = static_cast<float>(1.0 / spec_.receiver.snr_at_threshold),
       .variation = static_cast<float>(spec_.weather.fog_variation),
-      .range_min_m = static_cast<float>(spec_.range_min_m)};
+      .range_min_m = static_cast<float>(spec_.range_min_m),
+      // A receiver that reports the strongest echo alone looks for the highest peak alone.
+      .num_peaks = spec_.receiver.return_mode == ReturnMode::kStrongest ? 1U : 2U,
+      .detection = DetectionOf(spec_.effects),
+      .snr_at_threshold = static_cast<float>(spec_.receiver.snr_at_threshold),
+      .first_echo = EchoTiles::kFirstFogEcho};
   FogPeaks peaks;
   const FogWaves waves = fog_patches_.WavesAt(air.world_from_window, air.time_s);
   find_fog_peaks_({air.rays, echoes.first, waves}, parameters, peaks);
   const auto power_min = static_cast<float>(power_min_);
-  // A receiver that reports the strongest echo alone looks for the highest peak alone.
-  const std::uint32_t num_peaks = spec_.receiver.return_mode == ReturnMode::kStrongest ? 1 : 2;
-  for (std::uint32_t e = 0; e < num_peaks; ++e) {
+  for (std::uint32_t e = 0; e < parameters.num_peaks; ++e) {
     for (std::size_t beam = 0; beam < echoes.first.num_rays; ++beam) {
       const float ratio = peaks.ratio[e][beam];
       if (ratio <= 0.0F) continue;

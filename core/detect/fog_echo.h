@@ -8,51 +8,41 @@
 
 #include "core/detect/detect_tile.h"
 #include "core/detect/effect_parameters.h"
+#include "core/detect/fog_echo_parameters.h"
+#include "core/detect/fog_field.h"
 #include "core/detect/lane_random.h"
 #include "core/detect/vector_math.h"
 #include "railcast/outcome.h"
 
-namespace railcast {
-
-struct FogEchoParameters {
-  std::uint64_t seed{};
-  std::uint32_t first_gate{};  ///< FogProfile::first_gate.
-  std::uint32_t num_gates{};   ///< At most kMostFogGates; the last is only compared with.
-  float gate_m{};
-  const float* mean_ratio{};  ///< By gate: FogProfile::ratio.
-  float least_ratio{};        ///< Weaker echoes are left out.
-  float noise{};      ///< Standard deviation of the amplitude over the threshold, 1 / SNR_t.
-  float variation{};  ///< Standard deviation of the logarithm of the density.
-  float range_min_m{};
-};
-
-}  // namespace railcast
-
 namespace railcast::RAILCAST_ISA {
 
-/// Lanes that are processed together, so that their gates stay in the fastest cache.
-inline constexpr std::size_t kFogLanes = 64;
-inline constexpr std::size_t kFogGates = 64;
+/// Beams that are processed together.
+inline constexpr std::size_t kFogGroup = 16;
 
-/// Values of one strip of lanes by gate.
-using FogStrip = float[kFogGates][kFogLanes];
-
-/// Neighbouring lanes that meet the same patches: those of a packet, which are neighbours in angle.
-inline constexpr std::size_t kFogPacket = 16;
-inline constexpr std::size_t kFogPackets = kTileSize / kFogPacket;
-/// The logarithm of the density by gate and packet, in standard deviations.
-using FogField = float[kFogGates][kFogPackets];
-
-/// The gates of a strip.
-struct FogSignal {
-  FogStrip power;          ///< Over the least detectable power.
-  FogStrip amplitude;      ///< Power with the receiver's noise.
-  float end_m[kFogLanes];  ///< FogEnd_m().
+/// Beams that may have a detectable echo of fog, and the power that the droplets return to them.
+struct FogGroup {
+  std::size_t lane[kFogGroup];  ///< In the tile; those beyond num_lanes repeat the last.
+  std::size_t num_lanes;
+  std::uint32_t firing[kFogGroup];
+  float end_m[kFogGroup];  ///< FogEnd_m().
+  /// The gates in which a peak can lie: [first_gate, end_gate).
+  std::size_t first_gate, end_gate;
+  alignas(64) float power[kFogGates][kFogGroup];      ///< Over the least detectable power.
+  alignas(64) float amplitude[kFogGates][kFogGroup];  ///< The same with the receiver's noise.
 };
 
-/// Part of a tile: `num` lanes from lane `begin` on, and the gates that they need.
-struct FogPart {
-  std::size_t begin, num, num_gates;
+/// The highest local maxima of a group's beams.
+struct FogGroupPeaks {
+  alignas(64) float highest[2][kFogGroup];
+  alignas(64) float range_m[2][kFogGroup];
+  alignas(64) float ratio[2][kFogGroup];
+};
+
+/// What a tile's beams can have at most, and the draws that decide whether they have it.
+struct FogChances {
+  float end_m[kTileSize];       ///< FogEnd_m().
+  float most_ratio[kTileSize];  ///< The highest power before it.
+  float draw[2][kTileSize];     ///< That of detection.h, by peak; of FogDetection::kSmooth alone.
 };
 
 /// Range from which on nothing of the fog is seen separately: a gate before the first surface, with
@@ -63,68 +53,6 @@ inline float FogEnd_m(const DetectTile& tile, std::size_t lane, float gate_m) {
   const float end_m = range_m - gate_m;
   // The comparison is false where there is no surface: its range is NaN.
   return is_ego ? 0.0F : range_m >= 0.0F ? end_m : 1e9F;
-}
-
-/// The field of FogPatches along the middle beam of every packet. The phase of a wave is linear in
-/// range, so that one rotation leads from gate to gate.
-inline void FillFogField(const FogBeams& beams, const FogEchoParameters& p, FogField& field) {
-  const RayTile& rays = beams.rays;
-  const FogWaves& waves = beams.waves;
-  for (std::size_t k = 0; k < p.num_gates; ++k) {
-    for (std::size_t i = 0; i < kFogPackets; ++i) field[k][i] = 0.0F;
-  }
-  alignas(64) float x[kFogPackets], y[kFogPackets], z[kFogPackets];
-  alignas(64) float start_x[kFogPackets], start_y[kFogPackets], start_z[kFogPackets];
-  const float first_m = (static_cast<float>(p.first_gate) + 0.5F) * p.gate_m;
-  for (std::size_t i = 0; i < kFogPackets; ++i) {
-    // The last tile of a frame may have fewer packets; what its last ray meets is harmless there.
-    const std::size_t middle = i * kFogPacket + kFogPacket / 2;
-    const std::size_t ray = middle < rays.num_rays ? middle : rays.num_rays - 1;
-    x[i] = rays.direction_x[ray];
-    y[i] = rays.direction_y[ray];
-    z[i] = rays.direction_z[ray];
-    start_x[i] = rays.origin_x[ray] + first_m * x[i];
-    start_y[i] = rays.origin_y[ray] + first_m * y[i];
-    start_z[i] = rays.origin_z[ray] + first_m * z[i];
-  }
-  for (std::size_t w = 0; w < kNumFogWaves; ++w) {
-    const float kx = waves.x[w];
-    const float ky = waves.y[w];
-    const float kz = waves.z[w];
-    const float phase = waves.phase[w];
-    const float amplitude = waves.amplitude[w];
-    alignas(64) float c[kFogPackets], s[kFogPackets];
-    alignas(64) float step_c[kFogPackets], step_s[kFogPackets];
-    for (std::size_t i = 0; i < kFogPackets; ++i) {
-      const float step = p.gate_m * (kx * x[i] + ky * y[i] + kz * z[i]);
-      const float start = kx * start_x[i] + ky * start_y[i] + kz * start_z[i] + phase;
-      // Adding and subtracting 1.5 * 2^23 rounds to whole turns; the rest is in [-1/2, 1/2].
-      constexpr float kRounder = 12582912.0F;
-      CosSinTurn(start - ((start + kRounder) - kRounder), c[i], s[i]);
-      CosSinTurn(step - ((step + kRounder) - kRounder), step_c[i], step_s[i]);
-      c[i] *= amplitude;
-      s[i] *= amplitude;
-    }
-    for (std::size_t k = 0; k < p.num_gates; ++k) {
-      for (std::size_t i = 0; i < kFogPackets; ++i) {
-        field[k][i] += c[i];
-        const float next = c[i] * step_c[i] - s[i] * step_s[i];
-        s[i] = s[i] * step_c[i] + c[i] * step_s[i];
-        c[i] = next;
-      }
-    }
-  }
-}
-
-/// Turns the logarithm of the density into the power over the threshold.
-inline void TurnIntoPower(const FogEchoParameters& p, FogField& field) {
-  const float bias = -0.5F * p.variation * p.variation;
-  for (std::size_t k = 0; k < p.num_gates; ++k) {
-    const float mean = p.mean_ratio[k];
-    for (std::size_t i = 0; i < kFogPackets; ++i) {
-      field[k][i] = mean * Exp(p.variation * field[k][i] + bias);
-    }
-  }
 }
 
 struct FogNoise {
@@ -143,95 +71,189 @@ inline FogNoise FogNoiseOf(std::uint32_t word) {
           (static_cast<float>(static_cast<std::int32_t>(fours >> 16U)) - kMean) * kInverseSigma};
 }
 
-/// Spreads the packets' power over their lanes, and adds the receiver's noise.
-inline void FillFogGates(const DetectTile& tile,
-                         const FogPart& part,
-                         const FogEchoParameters& p,
-                         const FogField& field,
-                         FogSignal& signal) {
-  const LaneKey key{p.seed, RandomUse::kFogEcho, tile.frame};
-  for (std::size_t k = 0; k < part.num_gates; ++k) {
-    for (std::size_t packet = 0; packet < kFogLanes / kFogPacket; ++packet) {
-      const float value = field[k][part.begin / kFogPacket + packet];
-      for (std::size_t i = 0; i < kFogPacket; ++i) {
-        signal.power[k][packet * kFogPacket + i] = value;
-      }
+/// Whether the receiver may detect an echo of this power: with the draw by which it decides, and no
+/// less power than it gets, since a dirty window only weakens echoes. NormalCdf rises but for its
+/// error of 4e-7, hence the margin.
+inline bool MayDetectFog(const FogEchoParameters& p, float ratio, float draw) {
+  constexpr float kMargin = 1e-6F;
+  const float excess = p.snr_at_threshold * (ratio - 1.0F);
+  return draw < NormalCdf(excess > 9.0F ? 9.0F : excess) + kMargin;
+}
+
+/// The number of gates in which a beam can have a peak that lies before end_m.
+inline std::size_t NumFogGates(const FogEchoParameters& p, float end_m) {
+  // A vertex is at most half a gate from the middle of its own.
+  const float gates = end_m / p.gate_m + 1.0F - static_cast<float>(p.first_gate);
+  // The last gate is only compared with.
+  const std::size_t most = p.num_gates - 1;
+  return gates >= static_cast<float>(most) ? most
+         : gates > 0.0F                    ? static_cast<std::size_t>(gates) + 1
+                                           : 0;
+}
+
+inline void FindFogChances(const DetectTile& tile,
+                           const FogEchoParameters& p,
+                           const FogField& field,
+                           FogChances& chances) {
+  FogField most;  // In this gate or nearer.
+  for (std::size_t i = 0; i < kFogPackets; ++i) most[0][i] = field[0][i];
+  for (std::size_t k = 1; k < p.num_gates; ++k) {
+    for (std::size_t i = 0; i < kFogPackets; ++i) {
+      most[k][i] = field[k][i] > most[k - 1][i] ? field[k][i] : most[k - 1][i];
     }
   }
-  for (std::size_t k = 0; k < part.num_gates; k += 8) {
-    const auto block = static_cast<std::uint32_t>(k / 8);
-    // The arrays hold a multiple of 8 gates, of which those beyond the last are not used.
-    for (std::size_t i = 0; i < part.num; ++i) {
-      const Words w = LaneWords(key, tile.firing[part.begin + i], block);
+  for (std::size_t i = 0; i < tile.num_rays; ++i) {
+    const float end_m = FogEnd_m(tile, i, p.gate_m);
+    const std::size_t num_gates = NumFogGates(p, end_m);
+    chances.end_m[i] = end_m;
+    chances.most_ratio[i] = num_gates > 0 ? most[num_gates - 1][i / kFogPacket] : 0.0F;
+  }
+  if (p.detection != FogDetection::kSmooth) return;
+  for (std::uint32_t e = 0; e < p.num_peaks; ++e) {
+    DrawUniforms(tile, {p.seed, RandomUse::kDetection, p.first_echo + e}, chances.draw[e]);
+  }
+}
+
+/// The beams that may have a detectable echo, in the order of their lanes. Returns their number.
+inline std::size_t SelectFogLanes(const FogEchoParameters& p,
+                                  std::size_t num_rays,
+                                  const FogChances& chances,
+                                  std::size_t* lanes) {
+  const float least =
+      p.detection == FogDetection::kHard && p.least_ratio < 1.0F ? 1.0F : p.least_ratio;
+  bool may_detect[kTileSize];
+  for (std::size_t i = 0; i < num_rays; ++i) may_detect[i] = chances.most_ratio[i] >= least;
+  if (p.detection == FogDetection::kSmooth) {
+    for (std::size_t i = 0; i < num_rays; ++i) {
+      // With the lower draw of two, either peak may be detected.
+      const float second = p.num_peaks > 1 ? chances.draw[1][i] : 1.0F;
+      const float draw = chances.draw[0][i] < second ? chances.draw[0][i] : second;
+      may_detect[i] = may_detect[i] & MayDetectFog(p, chances.most_ratio[i], draw);
+    }
+  }
+  std::size_t num = 0;
+  for (std::size_t i = 0; i < num_rays; ++i) {
+    lanes[num] = i;
+    num += may_detect[i] ? 1 : 0;
+  }
+  return num;
+}
+
+/// Gathers beams, and the gates in which they can have a peak: those where the power is enough, up
+/// to the farthest surface.
+inline void GatherFogGroup(const DetectTile& tile,
+                           const FogEchoParameters& p,
+                           const FogField& field,
+                           const FogChances& chances,
+                           FogGroup& group) {
+  float farthest_m = 0.0F;
+  std::size_t packet[kFogGroup];
+  for (std::size_t i = 0; i < kFogGroup; ++i) {
+    const std::size_t lane = group.lane[i];
+    packet[i] = lane / kFogPacket;
+    group.firing[i] = tile.firing[lane];
+    group.end_m[i] = chances.end_m[lane];
+    farthest_m = group.end_m[i] > farthest_m ? group.end_m[i] : farthest_m;
+  }
+  group.first_gate = group.end_gate = 0;
+  const std::size_t num_gates = NumFogGates(p, farthest_m);
+  for (std::size_t k = 0; k < (num_gates + 8) / 8 * 8; ++k) {
+    float highest = 0.0F;
+    for (std::size_t i = 0; i < kFogGroup; ++i) {
+      const float power = k < p.num_gates ? field[k][packet[i]] : 0.0F;
+      group.power[k][i] = power;
+      highest = power > highest ? power : highest;
+    }
+    if (k >= num_gates || !(highest >= p.least_ratio)) continue;
+    if (group.end_gate == 0) group.first_gate = k;
+    group.end_gate = k + 1;
+  }
+}
+
+/// Adds the receiver's noise in the gates of a group and their neighbours.
+inline void FillFogAmplitude(const LaneKey& key, float noise, FogGroup& group) {
+  const std::size_t before_first = group.first_gate > 0 ? group.first_gate - 1 : 0;
+  for (std::size_t block = before_first / 8; block <= group.end_gate / 8; ++block) {
+    const float(*const power)[kFogGroup] = group.power + 8 * block;
+    float(*const gates)[kFogGroup] = group.amplitude + 8 * block;
+    for (std::size_t i = 0; i < kFogGroup; ++i) {
+      const Words w = LaneWords(key, group.firing[i], static_cast<std::uint32_t>(block));
       const FogNoise n0 = FogNoiseOf(w.a);
       const FogNoise n1 = FogNoiseOf(w.b);
       const FogNoise n2 = FogNoiseOf(w.c);
       const FogNoise n3 = FogNoiseOf(w.d);
-      signal.amplitude[k][i] = p.noise * n0.a;
-      signal.amplitude[k + 1][i] = p.noise * n0.b;
-      signal.amplitude[k + 2][i] = p.noise * n1.a;
-      signal.amplitude[k + 3][i] = p.noise * n1.b;
-      signal.amplitude[k + 4][i] = p.noise * n2.a;
-      signal.amplitude[k + 5][i] = p.noise * n2.b;
-      signal.amplitude[k + 6][i] = p.noise * n3.a;
-      signal.amplitude[k + 7][i] = p.noise * n3.b;
+      gates[0][i] = noise * n0.a + power[0][i];
+      gates[1][i] = noise * n0.b + power[1][i];
+      gates[2][i] = noise * n1.a + power[2][i];
+      gates[3][i] = noise * n1.b + power[3][i];
+      gates[4][i] = noise * n2.a + power[4][i];
+      gates[5][i] = noise * n2.b + power[5][i];
+      gates[6][i] = noise * n3.a + power[6][i];
+      gates[7][i] = noise * n3.b + power[7][i];
     }
-  }
-  for (std::size_t k = 0; k < part.num_gates; ++k) {
-    for (std::size_t i = 0; i < part.num; ++i) signal.amplitude[k][i] += signal.power[k][i];
   }
 }
 
-/// The two highest local maxima of the amplitude.
-inline void PickFogPeaks(const FogPart& part,
-                         const FogEchoParameters& p,
-                         const FogSignal& signal,
-                         FogPeaks& peaks) {
-  alignas(64) float highest[2][kFogLanes] = {};
-  alignas(64) float range_m[2][kFogLanes] = {};
-  alignas(64) float ratio[2][kFogLanes] = {};
-  alignas(64) const float zero[kFogLanes] = {};
-  for (std::size_t k = 0; k + 1 < part.num_gates; ++k) {
-    const float* const before = k == 0 ? zero : signal.amplitude[k - 1];
-    const float* const here = signal.amplitude[k];
-    const float* const after = signal.amplitude[k + 1];
-    const float* const value = signal.power[k];
-    const float* const end_m = signal.end_m;
+/// The highest local maximum of the amplitude, or the two highest.
+template <std::size_t kNumPeaks>
+inline void PickFogPeaks(const FogEchoParameters& p, const FogGroup& group, FogGroupPeaks& peaks) {
+  alignas(64) const float zero[kFogGroup] = {};
+  for (std::size_t k = group.first_gate; k < group.end_gate; ++k) {
+    const float* const power = group.power[k];
+    const float* const before = k == 0 ? zero : group.amplitude[k - 1];
+    const float* const here = group.amplitude[k];
+    const float* const after = group.amplitude[k + 1];
     const float gate = static_cast<float>(p.first_gate + k) + 0.5F;
-    for (std::size_t i = 0; i < part.num; ++i) {
+    for (std::size_t i = 0; i < kFogGroup; ++i) {
+      const float value = power[i];
       const float b = before[i];
       const float a = here[i];
       const float n = after[i];
-      const float v = value[i];
       // The vertex of the parabola through three gates.
       const float r = (gate + 0.5F * (b - n) / (b - 2.0F * a + n)) * p.gate_m;
       // Bitwise operators, unlike branches, allow the loop to be vectorised.
-      const bool is_peak =
-          (a > b) & (a >= n) & (v >= p.least_ratio) & (r < end_m[i]) & (r >= p.range_min_m);
+      const bool is_peak = (a > b) & (a >= n) & (value >= p.least_ratio) & (r < group.end_m[i]) &
+                           (r >= p.range_min_m);
       // Reading all before writing any lets the compiler use plain stores instead of masked ones.
-      const float a0 = highest[0][i];
-      const float a1 = highest[1][i];
-      const float r0 = range_m[0][i];
-      const float r1 = range_m[1][i];
-      const float v0 = ratio[0][i];
-      const float v1 = ratio[1][i];
+      const float a0 = peaks.highest[0][i];
+      const float r0 = peaks.range_m[0][i];
+      const float v0 = peaks.ratio[0][i];
       const bool is_first = is_peak & (a > a0);
-      const bool is_second = is_peak & (a > a1);
-      const float second_a = is_second ? a : a1;
-      const float second_r = is_second ? r : r1;
-      const float second_v = is_second ? v : v1;
-      highest[1][i] = is_first ? a0 : second_a;
-      range_m[1][i] = is_first ? r0 : second_r;
-      ratio[1][i] = is_first ? v0 : second_v;
-      highest[0][i] = is_first ? a : a0;
-      range_m[0][i] = is_first ? r : r0;
-      ratio[0][i] = is_first ? v : v0;
+      if constexpr (kNumPeaks > 1) {
+        const float a1 = peaks.highest[1][i];
+        const float r1 = peaks.range_m[1][i];
+        const float v1 = peaks.ratio[1][i];
+        const bool is_second = is_peak & (a > a1);
+        const float second_a = is_second ? a : a1;
+        const float second_r = is_second ? r : r1;
+        const float second_v = is_second ? value : v1;
+        peaks.highest[1][i] = is_first ? a0 : second_a;
+        peaks.range_m[1][i] = is_first ? r0 : second_r;
+        peaks.ratio[1][i] = is_first ? v0 : second_v;
+      }
+      peaks.highest[0][i] = is_first ? a : a0;
+      peaks.range_m[0][i] = is_first ? r : r0;
+      peaks.ratio[0][i] = is_first ? value : v0;
     }
   }
-  for (std::size_t e = 0; e < 2; ++e) {
-    for (std::size_t i = 0; i < part.num; ++i) {
-      peaks.range_m[e][part.begin + i] = range_m[e][i];
-      peaks.ratio[e][part.begin + i] = ratio[e][i];
+}
+
+/// Stores a group's peaks, but for those that the receiver will not detect.
+inline void StoreFogPeaks(const FogEchoParameters& p,
+                          const FogGroup& group,
+                          const FogChances& chances,
+                          const FogGroupPeaks& found,
+                          FogPeaks& peaks) {
+  for (std::size_t e = 0; e < p.num_peaks; ++e) {
+    for (std::size_t i = 0; i < group.num_lanes; ++i) {
+      const std::size_t lane = group.lane[i];
+      const float ratio = found.ratio[e][i];
+      const bool may_detect = p.detection == FogDetection::kAlways ? true
+                              : p.detection == FogDetection::kHard
+                                  ? ratio >= 1.0F
+                                  : MayDetectFog(p, ratio, chances.draw[e][lane]);
+      peaks.range_m[e][lane] = found.range_m[e][i];
+      peaks.ratio[e][lane] = may_detect ? ratio : 0.0F;
     }
   }
 }
@@ -245,7 +267,8 @@ inline void PickFogPeaks(const FogPart& part,
 /// amplitude with its noise is highest, so that the ranges scatter over the whole of the fog's
 /// broad echo. The two highest local maxima before the first surface become echoes, at the vertex
 /// of the parabola through three gates. Their power without noise goes on to the receiver, which
-/// draws anew whether it detects them (effect `detection_probability`).
+/// draws anew whether it detects them (effect `detection_probability`). Echoes that this draw will
+/// not let through are left out at once, and so are beams that can have no other.
 ///
 /// Parameters: visibility or fog density and `fog_variation` of the weather, `near_range_m`,
 /// `fog_gain` and `snr_at_threshold` of the receiver, the pulse. Validity: single scattering;
@@ -256,24 +279,33 @@ inline void FindFogPeaks(const FogBeams& beams,
   const DetectTile& tile = beams.tile;
   const FogEchoParameters p = parameters;  // The copy cannot alias the tile.
   alignas(64) FogField field;
-  alignas(64) FogSignal signal;
+  FogChances chances;
+  FogGroup group;
+  std::size_t lanes[kTileSize];
   FillFogField(beams, p, field);
   TurnIntoPower(p, field);
-  for (std::size_t begin = 0; begin < tile.num_rays; begin += kFogLanes) {
-    const std::size_t rest = tile.num_rays - begin;
-    FogPart part{begin, rest < kFogLanes ? rest : kFogLanes, 0};
-    float farthest_m = 0.0F;
-    for (std::size_t i = 0; i < part.num; ++i) {
-      signal.end_m[i] = FogEnd_m(tile, begin + i, p.gate_m);
-      farthest_m = signal.end_m[i] > farthest_m ? signal.end_m[i] : farthest_m;
+  for (std::size_t e = 0; e < 2; ++e) {
+    for (std::size_t i = 0; i < tile.num_rays; ++i) peaks.ratio[e][i] = 0.0F;
+  }
+  FindFogChances(tile, p, field, chances);
+  const std::size_t num_lanes = SelectFogLanes(p, tile.num_rays, chances, lanes);
+  const LaneKey key{p.seed, RandomUse::kFogEcho, tile.frame};
+  for (std::size_t begin = 0; begin < num_lanes; begin += kFogGroup) {
+    const std::size_t rest = num_lanes - begin;
+    group.num_lanes = rest < kFogGroup ? rest : kFogGroup;
+    for (std::size_t i = 0; i < kFogGroup; ++i) {
+      group.lane[i] = lanes[begin + (i < group.num_lanes ? i : group.num_lanes - 1)];
     }
-    // Gates behind the farthest surface of the strip are not needed, but for one to compare with.
-    const float gates = farthest_m / p.gate_m + 2.0F - static_cast<float>(p.first_gate);
-    part.num_gates = gates >= static_cast<float>(p.num_gates) ? p.num_gates
-                     : gates > 0.0F                           ? static_cast<std::size_t>(gates)
-                                                              : 0;
-    FillFogGates(tile, part, p, field, signal);
-    PickFogPeaks(part, p, signal, peaks);
+    GatherFogGroup(tile, p, field, chances, group);
+    if (group.end_gate == 0) continue;
+    FogGroupPeaks found{};
+    FillFogAmplitude(key, p.noise, group);
+    if (p.num_peaks > 1) {
+      PickFogPeaks<2>(p, group, found);
+    } else {
+      PickFogPeaks<1>(p, group, found);
+    }
+    StoreFogPeaks(p, group, chances, found, peaks);
   }
 }
 

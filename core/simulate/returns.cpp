@@ -185,9 +185,11 @@ void Choose(ReturnMode mode, std::vector<Candidate>& detected) {
   if (!is_beyond(2, IsNearerCandidate)) BringFirst(detected, 2, &IsStronger);
 }
 
-bool IsTooWeak(const Candidate& echo) {
+// Whether the echo is that of a surface that was too weak.
+bool IsLostSurface(const Candidate& echo) {
   const Outcome outcome = OutcomeOf(echo.place());
-  return outcome == Outcome::kBelowThreshold || outcome == Outcome::kCoverBlocked;
+  return echo.tile->clutter[echo.lane] == kNoClutter &&
+         (outcome == Outcome::kBelowThreshold || outcome == Outcome::kCoverBlocked);
 }
 
 // The echo that represents a firing without returns: the strongest surface echo that was too weak
@@ -195,11 +197,11 @@ bool IsTooWeak(const Candidate& echo) {
 Place Missed(const std::vector<Candidate>& all) {
   const auto best =
       std::max_element(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
-        const bool a_lost = IsTooWeak(a) && a.tile->clutter[a.lane] == kNoClutter;
-        const bool b_lost = IsTooWeak(b) && b.tile->clutter[b.lane] == kNoClutter;
+        const bool a_lost = IsLostSurface(a);
+        const bool b_lost = IsLostSurface(b);
         return a_lost == b_lost ? PowerOf(a.place()) < PowerOf(b.place()) : b_lost;
       });
-  return IsTooWeak(*best) ? best->place() : all.front().place();
+  return IsLostSurface(*best) ? best->place() : all.front().place();
 }
 
 }  // namespace
@@ -231,6 +233,15 @@ std::vector<Place> ReturnsOf(const ReturnRule& rule, EchoTiles& echoes, std::siz
   return returns;
 }
 
+// The return of a firing with one echo and one slot.
+void ReturnStore::StoreOnlyEcho(const EchoTiles::Place& echo,
+                                const std::vector<Surface>& surfaces,
+                                std::size_t slot,
+                                Frame& frame) const {
+  StoreEcho(echo, surfaces, has_shares_, slot, frame);
+  frame.return_count[slot] = HasPoint(frame.outcome[slot]) ? 1 : 0;
+}
+
 void ReturnStore::Store(EchoTiles& echoes,
                         const std::vector<Surface>& surfaces,
                         const SlotRange& slots,
@@ -239,9 +250,7 @@ void ReturnStore::Store(EchoTiles& echoes,
   if (has_shares_) StoreMixedShares(echoes, slots, frame);
   if (echoes.num_more() == 0 && num_returns == 1) {
     for (std::size_t i = 0; i < slots.num_firings; ++i) {
-      const std::size_t slot = slots.slots[i];
-      StoreEcho({echoes.first, i}, surfaces, has_shares_, slot, frame);
-      frame.return_count[slot] = HasPoint(frame.outcome[slot]) ? 1 : 0;
+      StoreOnlyEcho({echoes.first, i}, surfaces, slots.slots[i], frame);
     }
     return;
   }
@@ -256,6 +265,10 @@ void ReturnStore::Store(EchoTiles& echoes,
   std::vector<Candidate> all;
   std::vector<Candidate> detected;
   for (std::size_t i = 0; i < slots.num_firings; ++i) {
+    if (head[i] == kNone && num_returns == 1) {
+      StoreOnlyEcho({echoes.first, i}, surfaces, slots.slots[i], frame);
+      continue;
+    }
     all.assign(1, {&echoes.first, i});
     for (std::uint32_t k = head[i]; k != kNone; k = next[k]) {
       const Place place = echoes.more(k);

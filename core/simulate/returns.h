@@ -61,6 +61,11 @@ class ReturnStore {
              Frame& frame) const;
 
  private:
+  void StoreOnlyEcho(const EchoTiles::Place& echo,
+                     const std::vector<Surface>& surfaces,
+                     std::size_t slot,
+                     Frame& frame) const;
+
   ReturnRule rule_;
   bool has_shares_;
 };

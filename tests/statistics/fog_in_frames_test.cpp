@@ -123,6 +123,81 @@ TEST(FogInFrames, FillsBothReturnsOfADualSensor) {
   EXPECT_LT(both / any, 0.7);
 }
 
+// Share of the beams that return `label`, before a wall that they meet head-on.
+double ShareOf(std::uint32_t label, double wall_m, std::uint16_t material, SimulatorSpec spec) {
+  auto world = std::make_shared<SimpleWorld>();
+  world->ground.parts = {{MakeWall(static_cast<float>(wall_m), 50.0F), material, 2}};
+  double num = 0.0;
+  double of_label = 0.0;
+  for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+    spec.detector.seed = spec.detector.air_seed = seed;
+    const Frame frame = ScanOnce(world, MakeRaster(2.0, 2.0, 0.1), spec);
+    for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+      num += 1.0;
+      of_label += HasPoint(frame.outcome[slot]) && frame.label[slot] == label ? 1.0 : 0.0;
+    }
+  }
+  return of_label / num;
+}
+
+// The range up to which half of the beams see a wall.
+double LastVisible_m(std::uint16_t material, const SimulatorSpec& spec) {
+  double near_m = 1.0;
+  double far_m = 100.0;
+  while (far_m - near_m > 0.05) {
+    const double middle_m = 0.5 * (near_m + far_m);
+    (ShareOf(2, middle_m, material, spec) >= 0.5 ? near_m : far_m) = middle_m;
+  }
+  return near_m;
+}
+
+// docs/validation.md compares this table with the code of Seeing Through Fog (Bijelic and others
+// 2020, tools/DatasetFoggification/lidar_foggification.py), which has for an HDL-64E
+//   last visible range = ln((I + g) / n) / (2 alpha),   I: Velodyne's intensity / 255,
+// with n 0.05, g 0.35 (S2) and n 0.04, g 0.45 (S3D). Velodyne gives a white Lambertian 100. What is
+// compared is the surface's own range: fog echoes are off, which would replace the wall.
+TEST(FogInFrames, HidesWallsAtTheRangesOfTheTable) {
+  struct Row {
+    double visibility_m;
+    std::uint16_t material;
+    double reflectivity, s2_m, s3d_m, ours_m;
+  };
+  constexpr Row kTable[] = {
+      {30, 1, 0.1, 10.3, 12.5, 13.3}, {30, 2, 0.5, 12.0, 13.9, 18.2},
+      {30, 3, 1.0, 13.5, 15.3, 20.5}, {40, 1, 0.1, 13.7, 16.7, 15.6},
+      {40, 2, 0.5, 16.0, 18.6, 21.8}, {40, 3, 1.0, 18.0, 20.3, 24.8},
+      {50, 1, 0.1, 17.1, 20.9, 17.5}, {50, 2, 0.5, 20.0, 23.2, 25.0},
+      {50, 3, 1.0, 22.5, 25.4, 28.6},
+  };
+  for (const Row& row : kTable) {
+    SCOPED_TRACE(row.visibility_m);
+    const auto theirs_m = [&](double n, double g) {
+      const double intensity = 100.0 * row.reflectivity / 255.0;
+      return std::log((intensity + g) / n) / (2.0 * std::log(20.0) / row.visibility_m);
+    };
+    EXPECT_NEAR(theirs_m(0.05, 0.35), row.s2_m, 0.05);
+    EXPECT_NEAR(theirs_m(0.04, 0.45), row.s3d_m, 0.05);
+    SimulatorSpec spec = FogOver(row.visibility_m, 50.0);
+    spec.detector.effects.fog_echo = false;
+    EXPECT_NEAR(LastVisible_m(row.material, spec), row.ours_m, 0.15);
+  }
+}
+
+// Of the beams that do not see their wall, the same code returns the share sqrt(n / (I + g)) from
+// fog: 0.29 to 0.36 whatever the visibility.
+TEST(FogInFrames, FillsBeamsThatSeeNoWall) {
+  struct Row {
+    double range_at_10_percent_m, visibility_m, share;
+  };
+  constexpr Row kTable[] = {
+      {50, 50, 0.91}, {50, 100, 0.54}, {50, 150, 0.215}, {200, 50, 0.664}, {200, 100, 0.287}};
+  for (const Row& row : kTable) {
+    SCOPED_TRACE(row.visibility_m);
+    const SimulatorSpec spec = FogOver(row.visibility_m, row.range_at_10_percent_m);
+    EXPECT_NEAR(ShareOf(kFogLabel, 2.5 * row.visibility_m, 1, spec), row.share, 0.01);
+  }
+}
+
 // Fog is a function of seed, place and time: the same bytes at any number of threads.
 TEST(FogInFrames, IsTheSameAtAnyNumberOfThreads) {
   const SimulatorSpec spec = FogOver(100.0, 200.0);

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "core/detect/beam_optics.h"
+#include "core/detect/detection.h"
 #include "core/detect/fog_profile.h"
 #include "tests/core/detect/facing_beams.h"
 
@@ -72,19 +74,52 @@ TEST(FogEcho, OfUniformFogWithoutNoiseIsThePeakOfTheProfile) {
 
 // P(detected) = Phi(SNR (ratio - 1)) of every echo, as of a surface.
 TEST(FogEcho, IsDetectedWithTheProbabilityOfItsPower) {
-  const DetectorSpec spec = DetectedFog(100.0);
   double expected = 0.0;
   double variance = 0.0;
-  double seen = 0.0;
-  for (const FacingEcho& echo : ClutterOf(DetectFacing(spec, FarApart()))) {
+  for (const FacingEcho& echo : ClutterOf(DetectFacing(FogSpec(100.0), FarApart()))) {
     const double snr = 5.0 * (static_cast<double>(echo.power_ratio) - 1.0);
     const double p = 0.5 * std::erfc(-snr / std::sqrt(2.0));
     expected += p;
     variance += p * (1.0 - p);
+  }
+  double seen = 0.0;
+  for (const FacingEcho& echo : ClutterOf(DetectFacing(DetectedFog(100.0), FarApart()))) {
     seen += echo.outcome == Outcome::kClutter ? 1.0 : 0.0;
   }
   EXPECT_GT(expected, 1000.0);
   EXPECT_NEAR(seen, expected, 4.0 * std::sqrt(variance));
+}
+
+// What is left is what the receiver's own draws let through, echo by echo.
+TEST(FogEcho, LeavesOutWhatIsNotDetectedAndNothingElse) {
+  for (const ReturnMode mode : {ReturnMode::kStrongest, ReturnMode::kDual}) {
+    for (const bool is_smooth : {true, false}) {
+      DetectorSpec spec = FogSpec(100.0);
+      spec.receiver.return_mode = mode;
+      FacingBeams beams = FarApart();
+      beams.range_m = [](std::uint32_t firing) { return firing % 3 == 0 ? 8.0 : 60.0; };
+      std::vector<FacingEcho> expected;
+      auto tile = std::make_unique<DetectTile>();
+      for (const FacingEcho& echo : ClutterOf(DetectFacing(spec, beams))) {
+        tile->num_rays = 1;
+        tile->frame = beams.frame;
+        tile->firing[0] = echo.firing;
+        tile->echo[0] = echo.echo;
+        tile->power_ratio[0] = echo.power_ratio;
+        tile->outcome[0] = static_cast<std::uint32_t>(Outcome::kClutter);
+        const Kernels& kernels = AvailableKernels().back();
+        (is_smooth ? kernels.smooth_detection : kernels.detection)(*tile, {spec.seed, 5.0F});
+        if (static_cast<Outcome>(tile->outcome[0]) == Outcome::kClutter) expected.push_back(echo);
+      }
+      spec.effects.detection = true;
+      spec.effects.detection_probability = is_smooth;
+      std::vector<FacingEcho> detected = ClutterOf(DetectFacing(spec, beams));
+      std::erase_if(detected,
+                    [](const FacingEcho& echo) { return echo.outcome != Outcome::kClutter; });
+      EXPECT_GT(detected.size(), 1000U);
+      EXPECT_TRUE(detected == expected);
+    }
+  }
 }
 
 // Droplets fill metres of the beam, so that the noise decides where the peak is found.

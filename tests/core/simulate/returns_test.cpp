@@ -164,6 +164,15 @@ TEST(Returns, KeepWhatTheCentralRaySaysWhereNoSurfaceWasTooWeak) {
             Outcome::kEgo);
 }
 
+// Fog that was too weak says nothing of the surface behind it, which the sensor has missed.
+TEST(Returns, DoNotSayThatEchoesFromTheAirWereMissed) {
+  EXPECT_EQ(
+      StoreOne({.mode = ReturnMode::kStrongest}, {{40.0F, 0.4F, Outcome::kSensorDropout, 1},
+                                                  {7.0F, 0.6F, Outcome::kBelowThreshold, 0, 25}})
+          .outcome[2],
+      Outcome::kSensorDropout);
+}
+
 TEST(Returns, PreferAnyDetectedEchoToTheLostSurface) {
   const Frame frame = StoreOne(
       {.mode = ReturnMode::kLast},
