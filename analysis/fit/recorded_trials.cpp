@@ -7,6 +7,7 @@
 #include <optional>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "analysis/stats/holes.h"
 #include "analysis/stats/plane_patches.h"
@@ -15,10 +16,17 @@
 namespace railcast {
 namespace {
 
-void TakeNoise(const Frame& frame, const FlatPiece& piece, RecordedTrials& trials) {
+// Pieces overlap where the frame has few flat places. A point belongs to the first of its pieces,
+// so that none is counted twice and pieces are independent, as the intervals take them to be.
+void TakeNoise(const Frame& frame,
+               const FlatPiece& piece,
+               std::vector<bool>& is_taken,
+               RecordedTrials& trials) {
   const auto num = static_cast<double>(piece.slots.size());
   const double grow = std::sqrt(num / (num - 3.0));
   for (const std::size_t slot : piece.slots) {
+    if (is_taken[slot]) continue;
+    is_taken[slot] = true;
     const Vector3 direction =
         Eigen::Vector3f(frame.x[slot], frame.y[slot], frame.z[slot]).cast<double>().normalized();
     const double cosine = piece.normal.dot(direction);
@@ -102,8 +110,9 @@ RecordedTrials TakeTrials(const RecordedFrame& recorded) {
     scan = MakeScanTable(recorded.frame);
     TakeLosses(recorded, trials);
   }
+  std::vector<bool> is_taken(recorded.frame.num_slots(), false);
   for (const FlatPiece& piece : FindFlatPieces(recorded, scan ? &*scan : nullptr)) {
-    TakeNoise(recorded.frame, piece, trials);
+    TakeNoise(recorded.frame, piece, is_taken, trials);
   }
   return trials;
 }

@@ -126,11 +126,13 @@ void RoundTrip(Fidelity rung,
       tally.half_widths += 0.5 * (estimate.high - estimate.low) / truth;
     }
   }
+  int holds = 0;
   std::cout
       << "| parameter | truth | mean | interval holds | half width |\n|---|---|---|---|---|\n";
   for (const auto& [place, value] : expected) {
     const Tally tally = tallies[place];
     const double half_width = tally.half_widths / kNumSeeds;
+    holds += tally.holds;
     std::cout << "| `" << place << "` | " << value.truth << " | " << tally.values << " | "
               << tally.holds << " of " << kNumSeeds << " | " << std::setprecision(2)
               << 100.0 * half_width << " % |\n"
@@ -138,6 +140,9 @@ void RoundTrip(Fidelity rung,
     EXPECT_NEAR(tally.values, value.truth, 0.5 * value.most * value.truth) << place;
     EXPECT_LE(half_width, value.most) << place;
   }
+  // 95 % of the intervals minus four standard deviations.
+  const auto num = static_cast<double>(kNumSeeds * expected.size());
+  EXPECT_GE(holds, 0.95 * num - 4.0 * std::sqrt(0.95 * 0.05 * num));
 }
 
 TEST(FitRoundTrip, RecoversPlausibilityFromPoints) {
@@ -145,7 +150,7 @@ TEST(FitRoundTrip, RecoversPlausibilityFromPoints) {
   settings.rain_rate_mmph = 25.0;
   RoundTrip(Fidelity::kPlausibility, settings,
             {{"lidar/plausibility/noise_sigma0_m", {0.02, 0.1}},
-             {"lidar/plausibility/noise_sigma1", {2e-4, 0.3}},
+             {"lidar/plausibility/noise_sigma1", {2e-4, 0.35}},
              {"lidar/plausibility/dropout_probability", {0.1, 0.2}},
              {"weather/rain_dropout_per_m", {3.65e-4, 0.3}}});
 }
@@ -158,7 +163,7 @@ TEST(FitRoundTrip, RecoversSurfaceFromPoints) {
   RoundTrip(Fidelity::kSurface, settings,
             {{"lidar/receiver/range_noise_floor_m", {0.015, 0.1}},
              {"lidar/receiver/range_noise_scale_m", {0.2, 0.3}},
-             {"lidar/receiver/pointing_jitter_deg", {0.02, 0.4}},
+             {"lidar/receiver/pointing_jitter_deg", {0.02, 0.5}},
              {"lidar/plausibility/dropout_probability", {0.1, 0.2}}});
 }
 
