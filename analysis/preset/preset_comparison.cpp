@@ -32,14 +32,7 @@ RecordedFrame Masked(const RecordedFrame& recorded, const SeenPlanes& seen) {
   return masked;
 }
 
-// The frame as a sensor would report it: real intensities follow from the echo's peak, which is
-// lower where the surface stretches the pulse, ours from the surface alone.
-RecordedFrame AsRecorded(Frame frame, double least_power_m2, std::uint32_t index) {
-  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
-    const auto true_range_m = static_cast<double>(frame.true_range_m[slot]);
-    frame.intensity[slot] = static_cast<float>(static_cast<double>(frame.power_ratio[slot]) *
-                                               least_power_m2 * true_range_m * true_range_m);
-  }
+RecordedFrame AsRecorded(Frame frame, std::uint32_t index) {
   RecordedFrame recorded;
   recorded.is_grid = true;
   recorded.fields = {"x", "y", "z", "intensity", "range_m", "ring", "column"};
@@ -81,7 +74,7 @@ constexpr double kEvenReflectivity = 0.5;
 
 std::map<PlaneCell, double> EvenReflectivities(const PlaneFigures& recorded) {
   std::map<PlaneCell, double> reflectivities;
-  for (const auto& [cell, means] : recorded.intensities) reflectivities[cell] = kEvenReflectivity;
+  for (const auto& [cell, points] : recorded.intensities) reflectivities[cell] = kEvenReflectivity;
   return reflectivities;
 }
 
@@ -91,11 +84,11 @@ std::map<PlaneCell, double> LocalReflectivities(const PlaneFigures& recorded,
   constexpr double kLeast = 0.002;
   constexpr double kMost = 1.0;
   std::map<PlaneCell, double> reflectivities;
-  for (const auto& [cell, means] : recorded.intensities) {
+  for (const auto& [cell, points] : recorded.intensities) {
     const auto replayed = even.intensities.find(cell);
     if (replayed == even.intensities.end()) continue;
     const double fitted =
-        kEvenReflectivity * means.intensity.PlainMean() / replayed->second.intensity.PlainMean();
+        kEvenReflectivity * points.MiddleIntensity() / replayed->second.MiddleIntensity();
     reflectivities[cell] = std::clamp(fitted, kLeast, kMost);
   }
   return reflectivities;
@@ -110,67 +103,6 @@ void AddGaps(const Frame& frame, double dead_length_m, EchoGaps& gaps) {
     ++gaps.num_pairs;
     gaps.num_in_dead += gap_m < dead_length_m ? 1 : 0;
     gaps.least_m = gaps.num_pairs == 1 ? gap_m : std::min(gaps.least_m, gap_m);
-  }
-}
-
-// The cells of each strip of a plane that both have.
-std::vector<std::vector<IntensityCell>> StripsOf(const PlaneFigures& recorded,
-                                                 const PlaneFigures& even,
-                                                 const SeenPlanes& seen,
-                                                 std::uint32_t turn) {
-  constexpr std::uint64_t kLeastPoints = 40;
-  constexpr double kLeastIntensity = 0.02;
-  std::vector<std::vector<IntensityCell>> strips;
-  const PlaneCell* last = nullptr;
-  for (const auto& [cell, means] : recorded.intensities) {
-    const auto replayed = even.intensities.find(cell);
-    if (replayed == even.intensities.end()) continue;
-    const Moments& simulated = replayed->second.intensity;
-    if (means.intensity.num() < kLeastPoints || simulated.num() < kLeastPoints) continue;
-    // Of intensities in whole percent, less says little.
-    if (means.intensity.PlainMean() < kLeastIntensity) continue;
-    const bool is_same = last != nullptr && last->plane == cell.plane && last->strip == cell.strip;
-    if (!is_same) strips.emplace_back();
-    strips.back().push_back({.turn = turn,
-                             .plane = cell.plane,
-                             .is_ground = seen.planes[cell.plane].is_ground(),
-                             .range_m = means.range_m.PlainMean(),
-                             .incidence_deg = means.incidence_deg.PlainMean(),
-                             .recorded = means.intensity.PlainMean(),
-                             .simulated = simulated.PlainMean()});
-    last = &cell;
-  }
-  return strips;
-}
-
-// Adds a run of cells after one factor for all of them.
-void AddRun(std::vector<IntensityCell> run, std::vector<IntensityCell>& cells) {
-  constexpr std::size_t kLeastCells = 4;
-  if (run.size() < kLeastCells) return;
-  double sum = 0.0;
-  for (const IntensityCell& cell : run) sum += std::log(cell.recorded / cell.simulated);
-  const double factor = std::exp(sum / static_cast<double>(run.size()));
-  for (IntensityCell& cell : run) {
-    cell.simulated *= factor;
-    cells.push_back(cell);
-  }
-}
-
-// A strip is cut where the recorded intensity jumps, since there another material begins.
-void AddIntensityCells(const std::vector<std::vector<IntensityCell>>& strips,
-                       std::vector<IntensityCell>& cells) {
-  constexpr double kJump = 1.5;
-  for (const auto& strip : strips) {
-    std::vector<IntensityCell> run;
-    for (const IntensityCell& cell : strip) {
-      const double ratio = run.empty() ? 1.0 : cell.recorded / run.back().recorded;
-      if (ratio > kJump || ratio < 1.0 / kJump) {
-        AddRun(std::move(run), cells);
-        run.clear();
-      }
-      run.push_back(cell);
-    }
-    AddRun(std::move(run), cells);
   }
 }
 
@@ -212,12 +144,14 @@ void CompareTurn(const RecordedTurn& recorded,
   const auto replayed = [&](const std::map<PlaneCell, double>& reflectivities,
                             std::uint32_t which) {
     return AsRecorded(replay.Scan(seen, reflectivities, 3 * recorded.index + which),
-                      replay.least_power_m2(), recorded.index);
+                      recorded.index);
   };
   PlaneFigures even;
   const RecordedFrame bright = replayed(EvenReflectivities(comparison.recorded), 0);
   even.Add(bright, PlanesOfReplay(bright.frame, seen, replay_scan), index);
-  AddIntensityCells(StripsOf(comparison.recorded, even, seen, index), comparison.intensity);
+  const auto cells =
+      ComparableCells(comparison.recorded.intensities, even.intensities, seen, index);
+  comparison.intensity.insert(comparison.intensity.end(), cells.begin(), cells.end());
   const auto local = LocalReflectivities(comparison.recorded, even);
   if (local.empty()) return;
   ++comparison.num_turns;
@@ -254,10 +188,10 @@ void PlaneFigures::Add(const RecordedFrame& masked, const SeenPlanes& seen, std:
       // Beyond 1 it is a retroreflector's, on a scale of its own.
       if (!(intensity <= 1.0)) continue;
       const double cosine = std::min(1.0, std::abs(seen.planes[plane].normal.dot(direction)));
-      IntensityMeans& means = intensities[CellOf(seen, plane, direction)];
-      means.intensity.Add(intensity);
-      means.range_m.Add(range_m);
-      means.incidence_deg.Add(DegFromRad(std::acos(cosine)));
+      CellPoints& points = intensities[CellOf(seen, plane, direction)];
+      points.intensities.push_back(static_cast<float>(intensity));
+      points.range_m.Add(range_m);
+      points.incidence_deg.Add(DegFromRad(std::acos(cosine)));
     }
   }
   // The places where flat pieces are looked for follow from the index; one would give too few.
@@ -267,6 +201,12 @@ void PlaneFigures::Add(const RecordedFrame& masked, const SeenPlanes& seen, std:
     looked.frame.index = kLooks * turn + look;
     noise.Add(looked, FindPlanePatches(looked, &seen.scan));
   }
+}
+
+double PlaneFigures::HoleShare() const {
+  Holes::Count all;
+  for (const Holes::Count& count : firings) all.Add(count);
+  return static_cast<double>(all.num_missing) / static_cast<double>(all.num_expected);
 }
 
 double PresetComparison::PointsError() const {
@@ -279,9 +219,9 @@ double PresetComparison::PointsError() const {
   return MeanOf(errors);
 }
 
-double PresetComparison::IntensityError() const {
+double PresetComparison::IntensityError(double like) const {
   std::vector<double> errors;
-  for (const IntensityCell& cell : intensity) {
+  for (const IntensityCell& cell : LikePieces(intensity, like)) {
     errors.push_back(std::abs(cell.simulated / cell.recorded - 1.0));
   }
   return MeanOf(errors);
@@ -310,12 +250,7 @@ double PresetComparison::TemporalSigmaRatio() const {
 }
 
 double PresetComparison::HoleRatio() const {
-  const auto share = [](const PlaneFigures& figures) {
-    Holes::Count all;
-    for (const Holes::Count& count : figures.firings) all.Add(count);
-    return static_cast<double>(all.num_missing) / static_cast<double>(all.num_expected);
-  };
-  return share(simulated) / share(recorded);
+  return simulated.HoleShare() / recorded.HoleShare();
 }
 
 PresetComparison ComparePreset(Recording& recording,

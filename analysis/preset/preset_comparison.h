@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "analysis/estimate/log_histogram.h"
-#include "analysis/estimate/moments.h"
+#include "analysis/preset/intensity_cells.h"
 #include "analysis/preset/replay.h"
 #include "analysis/preset/seen_planes.h"
 #include "analysis/stats/holes.h"
@@ -14,13 +14,6 @@
 #include "railcast/io/recording.h"
 
 namespace railcast {
-
-/// Means over the points of a cell.
-struct IntensityMeans {
-  Moments intensity;
-  Moments range_m;
-  Moments incidence_deg;
-};
 
 /// What was measured on planes: of the recording, or of its replay.
 struct PlaneFigures {
@@ -31,26 +24,15 @@ struct PlaneFigures {
   [[nodiscard]] std::uint64_t num_points(std::size_t bin) const {
     return firings[bin].num_expected - firings[bin].num_missing;
   }
+  /// Of all bins together.
+  [[nodiscard]] double HoleShare() const;
   Noise noise;
   TemporalNoise temporal;
-  std::map<PlaneCell, IntensityMeans> intensities;
+  std::map<PlaneCell, CellPoints> intensities;
 
   /// Adds a turn; points of other firings than the planes' are left out. Intensities are those of
   /// this turn alone.
   void Add(const RecordedFrame& masked, const SeenPlanes& seen, std::uint32_t turn);
-};
-
-/// The mean intensity in a cell of a plane. A run of at least four cells of a strip, from one to
-/// the next of which the recorded intensity changes by less than a factor of 1.5 and so shows no
-/// other material, is compared after one factor.
-struct IntensityCell {
-  std::uint32_t turn{};
-  std::size_t plane{};
-  bool is_ground{};
-  double range_m{};
-  double incidence_deg{};
-  double recorded{};
-  double simulated{};  ///< After the factor.
 };
 
 /// Ranges between the two returns of a firing.
@@ -65,16 +47,16 @@ struct PresetComparison {
   std::size_t num_turns{};
   std::size_t num_planes{};
   PlaneFigures recorded, simulated;
-  std::vector<IntensityCell> intensity;
+  std::vector<IntensityCell> intensity;  ///< Of all turns, with one reflectivity everywhere.
   EchoGaps gaps;
 
   // The figures of docs/validation.md; each bin counts alike. Those without any bin are NaN.
   /// Mean absolute relative error of the number of points, over the bins of range with at least 500
   /// recorded ones.
   [[nodiscard]] double PointsError() const;
-  /// Mean absolute relative error of the intensity over the cells, after one factor per run of
-  /// them.
-  [[nodiscard]] double IntensityError() const;
+  /// Mean absolute relative error of the intensity over the cells of pieces of one material, after
+  /// one factor for each piece (see LikePieces()).
+  [[nodiscard]] double IntensityError(double like = kLikeFactor) const;
   /// Median over the bins of the simulated over the recorded robust sigma: about flat pieces, and
   /// from turn to turn (bins of at least 500 recorded differences).
   [[nodiscard]] double PlaneSigmaRatio() const;

@@ -60,20 +60,23 @@ Table RangeTable(const PresetComparison& comparison) {
 
 Table CellTable(const PresetComparison& comparison) {
   Table table = {"preset_intensity",
-                 "Intensity by plane, range and incidence",
-                 "Means over at least 40 points. The simulated ones are multiplied by one factor "
-                 "for each run of "
-                 "cells without a jump in the recorded intensity.",
+                 "Intensity by piece, range and incidence",
+                 "Means of the middle three fifths of at least 15 points. A piece is made of "
+                 "neighbouring cells whose recorded intensities differ by less than a factor of "
+                 "1.3; the simulated ones are multiplied by one factor for each piece.",
                  {{"turn", "Turn", ""},
+                  {"piece", "Piece", ""},
                   {"plane", "Plane", ""},
+                  {"strip", "Strip", ""},
                   {"kind", "Kind", ""},
                   {"range_m", "Range", "m"},
                   {"incidence_deg", "Incidence", "deg"},
                   {"recorded", "Recorded", ""},
                   {"simulated", "Simulated", ""}},
                  {}};
-  for (const IntensityCell& cell : comparison.intensity) {
-    table.rows.push_back({std::uint64_t{cell.turn}, std::uint64_t{cell.plane},
+  for (const IntensityCell& cell : LikePieces(comparison.intensity)) {
+    table.rows.push_back({std::uint64_t{cell.turn}, std::uint64_t{cell.piece},
+                          std::uint64_t{cell.place.plane}, std::uint64_t{cell.place.strip},
                           std::string(cell.is_ground ? "ground" : "other"), cell.range_m,
                           cell.incidence_deg, cell.recorded, cell.simulated});
   }
@@ -124,7 +127,7 @@ Report MakePresetReport(const PresetComparison& comparison,
                   {"Rung", std::string(NameOf(scenario.fidelity))},
                   {"Turns", NumberText(comparison.num_turns)},
                   {"Planes", NumberText(comparison.num_planes)},
-                  {"Cells of intensity", NumberText(comparison.intensity.size())}};
+                  {"Cells of intensity", NumberText(LikePieces(comparison.intensity).size())}};
   if (comparison.gaps.num_pairs > 0) {
     report.facts.emplace_back("Pairs of returns", NumberText(comparison.gaps.num_pairs));
     report.facts.emplace_back("Nearest pair", ShortText(comparison.gaps.least_m) + " m");
@@ -134,6 +137,8 @@ Report MakePresetReport(const PresetComparison& comparison,
   report.headlines = {
       {"Error of points", "", comparison.PointsError()},
       {"Error of intensity", "", comparison.IntensityError()},
+      {"Error of intensity, pieces cut at a factor of 1.2", "", comparison.IntensityError(1.2)},
+      {"Error of intensity, pieces cut at a factor of 1.5", "", comparison.IntensityError(1.5)},
       {"Noise about planes, simulated / recorded", "", comparison.PlaneSigmaRatio()},
       {"Noise from turn to turn, simulated / recorded", "", comparison.TemporalSigmaRatio()},
       {"Holes, simulated / recorded", "", comparison.HoleRatio()}};

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/detect/beam_optics.h"
 #include "railcast/simulator.h"
 
 namespace railcast {
@@ -141,10 +140,6 @@ ScanTable ScanOf(const ScenarioSpec& scenario) {
 Replay::Replay(const ScenarioSpec& scenario) : scenario_(scenario), scan_(ScanOf(scenario)) {
   (void)MaterialNamed(scenario_, "asphalt");
   (void)MaterialNamed(scenario_, "concrete");
-}
-
-double Replay::least_power_m2() const {
-  return LeastPower(scenario_.lidar.receiver);
 }
 
 Frame Replay::Scan(const SeenPlanes& seen,

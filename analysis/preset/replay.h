@@ -27,8 +27,6 @@ class Replay {
                            const std::map<PlaneCell, double>& reflectivities,
                            std::uint32_t frame_index) const;
 
-  /// The power that the sensor just detects, as reflectance over range squared.
-  [[nodiscard]] double least_power_m2() const;
   /// The directions of the firings.
   [[nodiscard]] const ScanTable& scan() const { return scan_; }
 

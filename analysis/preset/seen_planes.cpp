@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "analysis/preset/local_normal.h"
 #include "analysis/stats/bins.h"
 #include "core/base/units.h"
 
@@ -17,16 +18,10 @@ constexpr double kLeastShare = 0.004;
 
 struct GridPoint {
   Vector3 position_m = Vector3::Zero();
+  Vector3 normal = Vector3::Zero();  // Of the surface about it; zero where that is not known.
   std::size_t row{};
   std::size_t column{};
 };
-
-std::optional<Vector3> PositionAt(const Frame& frame, std::size_t row, std::size_t column) {
-  const std::size_t slot = row * frame.width() + column * frame.returns;
-  if (!std::isfinite(frame.range_m[slot])) return std::nullopt;
-  return Vector3(static_cast<double>(frame.x[slot]), static_cast<double>(frame.y[slot]),
-                 static_cast<double>(frame.z[slot]));
-}
 
 // The points of a ring near the horizon lie on a plane through the sensor, which is no surface.
 bool IsApart(const SeenPlane& plane) {
@@ -44,13 +39,20 @@ bool IsOnPlane(const SeenPlane& plane, const Vector3& position_m) {
   return std::abs(plane.RangeAlong_m(position_m / range_m) - range_m) < kAlong * range_m;
 }
 
+// Whether the surface about the point lies as the plane does. Level planes through hedges and walls
+// hold many points, too, but not their surfaces.
+bool LiesAlong(const SeenPlane& plane, const GridPoint& point) {
+  constexpr double kLeastCosine = 0.9;  // 26 deg.
+  return std::abs(plane.normal.dot(point.normal)) >= kLeastCosine;
+}
+
 // Least squares through the points on the plane.
 SeenPlane Refitted(const SeenPlane& plane, const std::vector<GridPoint>& points) {
   SeenPlane fitted;
   Vector3 sum = Vector3::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   for (const GridPoint& point : points) {
-    if (!IsOnPlane(plane, point.position_m)) continue;
+    if (!LiesAlong(plane, point) || !IsOnPlane(plane, point.position_m)) continue;
     const Vector3 from_middle = point.position_m - plane.middle_m;
     // Weighted by range, since the tolerance grows and far points are few.
     sum += from_middle;
@@ -67,32 +69,9 @@ SeenPlane Refitted(const SeenPlane& plane, const std::vector<GridPoint>& points)
   return fitted;
 }
 
-// A plane through a point, one in the same ring and one in another ring.
-std::optional<SeenPlane> PlaneThrough(const Frame& frame,
-                                      const ScanTable& scan,
-                                      const GridPoint& point) {
-  constexpr std::size_t kColumns = 8;
-  const std::size_t rows = std::max<std::size_t>(1, frame.rows / 32);
-  if (point.row + rows >= frame.rows || point.column + kColumns >= frame.columns) {
-    return std::nullopt;
-  }
-  const auto above_column = scan.ColumnBeside(point.row, point.column, point.row + rows);
-  if (!above_column) return std::nullopt;
-  const auto beside = PositionAt(frame, point.row, point.column + kColumns);
-  const auto above = PositionAt(frame, point.row + rows, *above_column);
-  if (!beside || !above) return std::nullopt;
-  const Vector3 normal = (*beside - point.position_m).cross(*above - point.position_m);
-  if (!(normal.norm() > 0.0)) return std::nullopt;
-  const SeenPlane plane{.middle_m = point.position_m, .normal = normal.normalized()};
-  if (!IsApart(plane)) return std::nullopt;
-  return plane;
-}
-
-// The plane with most points among many tries, spread evenly over the points; counted on every
-// fourth point.
-std::optional<SeenPlane> BestPlane(const Frame& frame,
-                                   const ScanTable& scan,
-                                   const std::vector<GridPoint>& points) {
+// The plane with most points among many tries, those through the surfaces about points that are
+// spread evenly; counted on every fourth point.
+std::optional<SeenPlane> BestPlane(const std::vector<GridPoint>& points) {
   constexpr std::size_t kTries = 200;
   constexpr std::size_t kStride = 4;
   constexpr double kGolden = 0.6180339887498949;
@@ -101,12 +80,14 @@ std::optional<SeenPlane> BestPlane(const Frame& frame,
     const double turn = kGolden * static_cast<double>(i + 1);
     const auto place =
         static_cast<std::size_t>((turn - std::floor(turn)) * static_cast<double>(points.size()));
-    auto plane = PlaneThrough(frame, scan, points[place]);
-    if (!plane) continue;
+    SeenPlane plane{.middle_m = points[place].position_m, .normal = points[place].normal};
+    if (!IsApart(plane)) continue;
     for (std::size_t k = 0; k < points.size(); k += kStride) {
-      plane->num_points += IsOnPlane(*plane, points[k].position_m) ? kStride : 0;
+      const GridPoint& point = points[k];
+      const bool is_in = LiesAlong(plane, point) && IsOnPlane(plane, point.position_m);
+      plane.num_points += is_in ? kStride : 0;
     }
-    if (!best || plane->num_points > best->num_points) best = plane;
+    if (!best || plane.num_points > best->num_points) best = plane;
   }
   return best;
 }
@@ -120,8 +101,13 @@ bool IsInSectors(Sectors sectors, double azimuth_rad) {
   return (sector % 2 == 0) == (sectors == Sectors::kEven);
 }
 
-// Gives the empty firings between two points of one plane to it, and takes short runs from it.
-void CloseRuns(const Frame& frame, std::size_t row, SeenPlanes& seen) {
+// Gives the empty firings between two points of one plane to it. Takes runs from it that are short,
+// or that most of the surface about which lies otherwise.
+// @param lies_along Of the frame's firings: whether the surface about its point lies as the plane.
+void CloseRuns(const Frame& frame,
+               std::size_t row,
+               const std::vector<bool>& lies_along,
+               SeenPlanes& seen) {
   constexpr std::size_t kMostEmpty = 5;
   constexpr std::size_t kLeastRun = 8;
   const auto first = seen.plane.begin() + static_cast<std::ptrdiff_t>(row * seen.scan.columns);
@@ -135,17 +121,20 @@ void CloseRuns(const Frame& frame, std::size_t row, SeenPlanes& seen) {
     // The run ends before the first point of something else and before long gaps.
     std::size_t last = column;
     std::size_t num_points = 1;
+    std::size_t num_along = lies_along[row * columns + column] ? 1 : 0;
     for (std::size_t k = column + 1; k < columns && k - last <= kMostEmpty + 1; ++k) {
       if (first[static_cast<std::ptrdiff_t>(k)] == plane) {
         last = k;
         ++num_points;
-      } else if (PositionAt(frame, row, k)) {
+        num_along += lies_along[row * columns + k] ? 1 : 0;
+      } else if (FirstPointAt(frame, row, k)) {
         break;
       }
     }
     const auto begin = first + static_cast<std::ptrdiff_t>(column);
     const auto end = first + static_cast<std::ptrdiff_t>(last + 1);
-    std::fill(begin, end, num_points >= kLeastRun ? plane : SeenPlanes::kNone);
+    const bool is_kept = num_points >= kLeastRun && 2 * num_along >= num_points;
+    std::fill(begin, end, is_kept ? plane : SeenPlanes::kNone);
     column = last + 1;
   }
 }
@@ -158,7 +147,7 @@ bool SeenPlane::is_ground() const {
 }
 
 PlaneCell CellOf(const SeenPlanes& seen, std::size_t plane, const Vector3& direction) {
-  constexpr double kStrip_deg = 15.0;
+  constexpr double kStrip_deg = 5.0;
   constexpr double kElevation_deg = 6.0;
   constexpr double kIncidence_deg = 5.0;
   const SeenPlane& met = seen.planes[plane];
@@ -182,31 +171,43 @@ SeenPlanes FindSeenPlanes(const Frame& frame, const ScanTable& scan, Sectors sec
   SeenPlanes seen{.scan = scan, .planes = {}, .plane = {}};
   seen.plane.assign(std::size_t{frame.rows} * frame.columns, SeenPlanes::kNone);
   std::vector<GridPoint> points;
+  std::vector<GridPoint> smooth;  // Those of which the surface about them is known.
   for (std::size_t row = 0; row < frame.rows; ++row) {
     for (std::size_t column = 0; column < frame.columns; ++column) {
       if (!IsInSectors(sectors, scan.column_azimuth_rad[column] + scan.row_azimuth_rad[row])) {
         continue;
       }
-      if (const auto position_m = PositionAt(frame, row, column)) {
-        points.push_back({*position_m, row, column});
+      if (const auto position_m = FirstPointAt(frame, row, column)) {
+        points.push_back({*position_m, LocalNormal(frame, scan, row, column), row, column});
+        if (!points.back().normal.isZero()) smooth.push_back(points.back());
       }
     }
   }
   const auto least = static_cast<std::size_t>(kLeastShare * static_cast<double>(points.size()));
-  while (seen.planes.size() < kMostPlanes && points.size() > 3) {
-    auto plane = BestPlane(frame, scan, points);
+  std::vector<bool> lies_along(seen.plane.size(), false);
+  while (seen.planes.size() < kMostPlanes && smooth.size() > 3) {
+    auto plane = BestPlane(smooth);
     if (!plane) break;
-    for (int pass = 0; pass < 4; ++pass) plane = Refitted(*plane, points);
-    if (plane->num_points < std::max<std::size_t>(least, 3) || !IsApart(*plane)) break;
+    for (int pass = 0; pass < 4; ++pass) plane = Refitted(*plane, smooth);
+    if (plane->num_points < std::max<std::size_t>(least, 3)) break;
     const auto index = static_cast<std::uint8_t>(seen.planes.size());
-    std::erase_if(points, [&](const GridPoint& point) {
-      if (!IsOnPlane(*plane, point.position_m)) return false;
-      seen.plane[point.row * scan.columns + point.column] = index;
+    const bool is_apart = IsApart(*plane);
+    std::erase_if(smooth, [&](const GridPoint& point) {
+      if (!LiesAlong(*plane, point) || !IsOnPlane(*plane, point.position_m)) return false;
+      const std::size_t place = point.row * scan.columns + point.column;
+      if (is_apart) seen.plane[place] = index;
+      lies_along[place] = is_apart;
       return true;
     });
+    if (!is_apart) continue;
+    // Points with too few neighbours for a surface of their own go with those of their run.
+    for (const GridPoint& point : points) {
+      std::uint8_t& its = seen.plane[point.row * scan.columns + point.column];
+      if (its == SeenPlanes::kNone && IsOnPlane(*plane, point.position_m)) its = index;
+    }
     seen.planes.push_back(*plane);
   }
-  for (std::size_t row = 0; row < frame.rows; ++row) CloseRuns(frame, row, seen);
+  for (std::size_t row = 0; row < frame.rows; ++row) CloseRuns(frame, row, lies_along, seen);
   return seen;
 }
 

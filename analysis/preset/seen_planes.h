@@ -39,7 +39,7 @@ struct SeenPlanes {
   }
 };
 
-/// A piece of a plane in which one kind of surface is met in one way: on level ground 15 deg of
+/// A piece of a plane in which one kind of surface is met in one way: on level ground 5 deg of
 /// azimuth and a bin of FineRangeBins(), on others 6 deg of elevation, a side of the foot of the
 /// perpendicular, and 5 deg of incidence.
 struct PlaneCell {
@@ -59,12 +59,13 @@ struct PlaneCell {
 enum class Sectors { kAll, kEven, kOdd };
 
 /// Finds the planes of a turn, at most 24, each of at least 0.4 % of its points: the best of many
-/// planes through three neighbouring points (Fischler and Bolles 1981), then least squares.
+/// planes along the surface about a point (Fischler and Bolles 1981, with LocalNormal()), then
+/// least squares. Only points about which the surface lies as the plane does, to 26 deg, count.
 ///
 /// A point belongs to a plane if it lies within 4 cm + 1.5 mm a metre of it, within 10 % of the
-/// range at which its ray meets the plane, and in a run of at least 8 such points of its ring.
-/// Firings without a point belong to the plane of the points on either side if these are at most 5
-/// firings away.
+/// range at which its ray meets the plane, and in a run of at least 8 such points of its ring,
+/// about half of which or more the surface lies as the plane does. Firings without a point belong
+/// to the plane of the points on either side if these are at most 5 firings away.
 [[nodiscard]] SeenPlanes FindSeenPlanes(const Frame& frame,
                                         const ScanTable& scan,
                                         Sectors sectors = Sectors::kAll);

@@ -71,9 +71,13 @@ TEST(SeenPlanes, AreTheFloorAndTheWall) {
     // Far from all, since other planes are pieces of the same faces.
     const double apart_m = std::abs(plane.normal.dot(plane.middle_m));
     constexpr double kSigmas_m = 0.01;  // Noise and bias of channels are below.
-    has_floor = has_floor || (plane.is_ground() && std::abs(apart_m - kHeight_m) < kSigmas_m);
-    has_wall = has_wall || (std::abs(plane.normal.x()) > 0.999 &&
-                            std::abs(apart_m - static_cast<double>(kWall_m)) < kSigmas_m);
+    const bool is_floor = plane.is_ground() && std::abs(apart_m - kHeight_m) < kSigmas_m;
+    const bool is_wall = std::abs(plane.normal.x()) > 0.999 &&
+                         std::abs(apart_m - static_cast<double>(kWall_m)) < kSigmas_m;
+    // Level planes through the rings on the wall are no surfaces.
+    EXPECT_TRUE(is_floor || is_wall) << plane.normal.transpose() << ", " << apart_m << " m";
+    has_floor = has_floor || is_floor;
+    has_wall = has_wall || is_wall;
   }
   EXPECT_TRUE(has_floor);
   EXPECT_TRUE(has_wall);
@@ -128,6 +132,42 @@ TEST(PresetComparison, FindsFacetsThatAreTooRough) {
   const PresetComparison same = CompareYard(LossyVlp16(), LossyVlp16());
   const PresetComparison rough = CompareYard(LossyVlp16(), other);
   EXPECT_GT(rough.IntensityError(), 3.0 * same.IntensityError());
+}
+
+IntensityCell CellAt(std::size_t strip, std::size_t step, double recorded, double simulated) {
+  return {
+      .place = {0, strip, step}, .is_ground = true, .recorded = recorded, .simulated = simulated};
+}
+
+// Two materials side by side and a third behind them; the law is off by a tenth at one step.
+TEST(LikePieces, HaveOneFactorForEachMaterial) {
+  std::vector<IntensityCell> cells;
+  for (std::size_t step = 0; step < 4; ++step) {
+    cells.push_back(CellAt(0, step, 0.10, 0.5));
+    cells.push_back(CellAt(1, step, 0.11, 0.55));
+    cells.push_back(CellAt(2, step, 0.30, 0.5));
+    cells.push_back(CellAt(2, 4 + step, 0.05, 0.5));
+  }
+  const std::vector<IntensityCell> pieces = LikePieces(cells);
+  ASSERT_EQ(pieces.size(), cells.size());
+  std::size_t most = 0;
+  for (const IntensityCell& cell : pieces) {
+    EXPECT_NEAR(cell.simulated, cell.recorded, 1e-12);
+    most = std::max(most, cell.piece);
+  }
+  EXPECT_EQ(most, 2U);
+  // Cut less finely, they are one piece, in which no factor fits.
+  EXPECT_EQ(LikePieces(cells, 10.0).back().piece, 0U);
+}
+
+TEST(LikePieces, ThatAreShortAreLeftOut) {
+  EXPECT_TRUE(LikePieces({CellAt(0, 0, 0.1, 0.1), CellAt(0, 1, 0.1, 0.1)}).empty());
+}
+
+TEST(CellPoints, HaveAMeanWithoutTheirEnds) {
+  CellPoints points;
+  points.intensities = {0.9F, 0.1F, 0.2F, 0.2F, 0.0F};
+  EXPECT_NEAR(points.MiddleIntensity(), 0.5 / 3.0, 1e-6);
 }
 
 TEST(PresetComparison, RefusesASensorOfOtherRings) {
