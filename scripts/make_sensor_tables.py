@@ -150,7 +150,7 @@ PANDAR64 = [
 ]
 VLS128 = [
     {"noise_sigma0_m": 0.014, "noise_sigma1": 0.0, "dropout_per_m": 0.00015},
-    {"range_noise_floor_m": 0.01, "range_noise_scale_m": 0.05, "channel_bias_sigma_m": 0.01,
+    {"range_noise_floor_m": 0.0075, "range_noise_scale_m": 0.13, "channel_bias_sigma_m": 0.01,
      "pointing_jitter_deg": 0.0015},
 ]
 XT32 = [
