@@ -147,6 +147,42 @@ TEST(MirrorPaths, ShowItInAPuddleAtTheLevelOfItsWater) {
   ExpectImagesOfTheWall(ScanMirrors(WallBehindAFloor(kSoil), spec), kMirror_m + 0.03, &OfWater);
 }
 
+// A slope that rises away from the sensor, x = 30 m + z. From the sensor's own image, at the height
+// 2 m for a mirror at m, the beams reach it after (30 m + 2 m) / (dx + dz), under another angle
+// than straight on.
+TEST(MirrorPaths, ShowASlopeFromTheSideOfItsImage) {
+  const ScanPattern pattern = MakeRaster(40.0, 20.0, 0.5);
+  for (const bool is_water : {false, true}) {
+    auto world = std::make_shared<SimpleWorld>();
+    const Mesh slope{{{10, -20, -20}, {10, 20, -20}, {50, 20, 20}, {50, -20, 20}},
+                     {{0, 1, 2}, {0, 2, 3}}};
+    world->ground.parts = {
+        {MakeFloor(static_cast<float>(kMirror_m), 100.0F), is_water ? kSoil : kGlass, kMirrorLabel},
+        {slope, kPlaster, kMirroredLabel}};
+    SimulatorSpec spec = WithMirrors();
+    spec.detector.weather.puddle_share = 1.0;
+    const Frame frame = ScanMirrors(world, spec);
+    const double mirror_m = is_water ? kMirror_m + 0.03 : kMirror_m;
+    std::size_t num_images = 0;
+    for (std::size_t firing = 0; firing < pattern.num_firings(); ++firing) {
+      const std::size_t slot =
+          std::size_t{pattern.row[firing]} * pattern.columns + pattern.column[firing];
+      if (frame.label[slot] != kImageLabel) continue;
+      ++num_images;
+      const Vector3 d = DirectionOf(pattern, firing);
+      const double range_m = (30.0 + 2.0 * mirror_m) / (d.x() + d.z());
+      EXPECT_NEAR(frame.range_m[slot], range_m, 3e-5);
+      const double fresnel = is_water ? OfWater(-d.z()) : OfGlass(-d.z());
+      const double cosine = (d.x() + d.z()) / std::sqrt(2.0);
+      const double rho = 0.5 * cosine + 3.0 * std::pow(cosine, 5.0);
+      const double power_ratio =
+          fresnel * fresnel * rho / (range_m * range_m) / 2.5e-6 * std::exp(-2.0 * 0.005 * range_m);
+      EXPECT_NEAR(static_cast<double>(frame.power_ratio[slot]) / power_ratio, 1.0, 3e-5);
+    }
+    EXPECT_GT(num_images, 500U);
+  }
+}
+
 // Beams that lie on one plane are left to their central ray by the rung footprint; the image needs
 // no other ray.
 TEST(MirrorPaths, AreTheSameForBeamsOfAWidth) {
