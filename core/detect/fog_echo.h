@@ -155,16 +155,31 @@ inline void GatherFogGroup(const DetectTile& tile,
     group.end_m[i] = chances.end_m[lane];
     farthest_m = group.end_m[i] > farthest_m ? group.end_m[i] : farthest_m;
   }
+  // Neighbouring beams are of one packet or of two. The selection between two rows is vectorised,
+  // a look-up for each beam is not.
+  const std::size_t first = packet[0];
+  const std::size_t last = packet[kFogGroup - 1];
+  std::uint32_t is_last[kFogGroup];
+  bool are_two = true;
+  for (std::size_t i = 0; i < kFogGroup; ++i) {
+    is_last[i] = packet[i] == last ? 1 : 0;
+    are_two = are_two & ((packet[i] == first) | (packet[i] == last));
+  }
   group.first_gate = group.end_gate = 0;
   const std::size_t num_gates = NumFogGates(p, farthest_m);
   for (std::size_t k = 0; k < (num_gates + 8) / 8 * 8; ++k) {
-    float highest = 0.0F;
-    for (std::size_t i = 0; i < kFogGroup; ++i) {
-      const float power = k < p.num_gates ? field[k][packet[i]] : 0.0F;
-      group.power[k][i] = power;
-      highest = power > highest ? power : highest;
+    float* const power = group.power[k];
+    const float* const row = field[k < p.num_gates ? k : 0];  // What is beyond is not read.
+    if (are_two) {
+      const float of_first = row[first];
+      const float of_last = row[last];
+      for (std::size_t i = 0; i < kFogGroup; ++i) power[i] = is_last[i] != 0 ? of_last : of_first;
+    } else {
+      for (std::size_t i = 0; i < kFogGroup; ++i) power[i] = row[packet[i]];
     }
-    if (k >= num_gates || !(highest >= p.least_ratio)) continue;
+    bool is_enough = false;
+    for (std::size_t i = 0; i < kFogGroup; ++i) is_enough = is_enough | (power[i] >= p.least_ratio);
+    if (k >= num_gates || !is_enough) continue;
     if (group.end_gate == 0) group.first_gate = k;
     group.end_gate = k + 1;
   }
