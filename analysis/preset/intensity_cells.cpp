@@ -7,6 +7,9 @@
 #include <set>
 #include <tuple>
 
+#include "analysis/estimate/intervals.h"
+#include "analysis/estimate/robust.h"
+
 namespace railcast {
 namespace {
 
@@ -114,6 +117,28 @@ std::vector<IntensityCell> LikePieces(const std::vector<IntensityCell>& cells, d
     ++num_pieces;
   }
   return compared;
+}
+
+Estimate RangeExponentLeft(const std::vector<IntensityCell>& cells) {
+  std::map<CellKey, const IntensityCell*> places;
+  std::set<std::uint32_t> turns;
+  for (const IntensityCell& cell : cells) places[CellKeyOf(cell, 0, 0)] = &cell;
+  std::vector<double> exponents;
+  for (const IntensityCell& cell : cells) {
+    const auto next = places.find(CellKeyOf(cell, 0, 1));
+    if (!cell.is_ground || next == places.end()) continue;
+    const IntensityCell& other = *next->second;
+    const double left = other.recorded / cell.recorded * cell.simulated / other.simulated;
+    exponents.push_back(std::log(left) / std::log(other.range_m / cell.range_m));
+    turns.insert(cell.turn);
+  }
+  const std::uint64_t num = exponents.empty() ? 0 : exponents.size() / turns.size();
+  if (num < kMinSamples) return NotEnough(num);
+  const double value = Median(exponents).value;
+  std::ranges::sort(exponents);
+  const RankInterval ranks = QuantileRanks(num, 0.5);
+  return {value, exponents[(ranks.low - 1) * turns.size()],
+          exponents[ranks.high * turns.size() - 1], num};
 }
 
 }  // namespace railcast

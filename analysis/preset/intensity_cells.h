@@ -4,6 +4,7 @@
 #include <map>
 #include <vector>
 
+#include "analysis/estimate/estimate.h"
 #include "analysis/estimate/moments.h"
 #include "analysis/preset/seen_planes.h"
 
@@ -51,5 +52,11 @@ inline constexpr double kLikeFactor = 1.3;
 /// piece.
 [[nodiscard]] std::vector<IntensityCell> LikePieces(const std::vector<IntensityCell>& cells,
                                                     double like = kLikeFactor);
+
+/// What is left of the ground's intensity as a power of range: the exponent of R in recorded over
+/// simulated, the median over neighbouring cells of a strip. No cut decides it, and other materials
+/// do not as long as more than half of the neighbours are of one. The interval is that of a
+/// median of independent pairs; turns repeat each other and count as one.
+[[nodiscard]] Estimate RangeExponentLeft(const std::vector<IntensityCell>& cells);
 
 }  // namespace railcast

@@ -139,6 +139,8 @@ Report MakePresetReport(const PresetComparison& comparison,
       {"Error of intensity", "", comparison.IntensityError()},
       {"Error of intensity, pieces cut at a factor of 1.2", "", comparison.IntensityError(1.2)},
       {"Error of intensity, pieces cut at a factor of 1.5", "", comparison.IntensityError(1.5)},
+      {"Power of range left in the ground's intensity", "",
+       RangeExponentLeft(comparison.intensity)},
       {"Noise about planes, simulated / recorded", "", comparison.PlaneSigmaRatio()},
       {"Noise from turn to turn, simulated / recorded", "", comparison.TemporalSigmaRatio()},
       {"Holes, simulated / recorded", "", comparison.HoleRatio()}};

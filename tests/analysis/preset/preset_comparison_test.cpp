@@ -164,6 +164,23 @@ TEST(LikePieces, ThatAreShortAreLeftOut) {
   EXPECT_TRUE(LikePieces({CellAt(0, 0, 0.1, 0.1), CellAt(0, 1, 0.1, 0.1)}).empty());
 }
 
+// Every third of the neighbours is of another material.
+TEST(RangeExponentLeft, IsThatOfMostNeighbours) {
+  std::vector<IntensityCell> cells;
+  for (std::size_t strip = 0; strip < 20; ++strip) {
+    for (std::size_t step = 0; step < 7; ++step) {
+      const double range_m = std::exp2(0.25 * static_cast<double>(step));
+      const double material = step < 3 ? 0.1 : step < 6 ? 0.03 : 0.2;
+      cells.push_back(CellAt(strip, step, material * std::pow(range_m, -0.7), 0.5 / range_m));
+      cells.back().range_m = range_m;
+    }
+  }
+  const Estimate left = RangeExponentLeft(cells);
+  EXPECT_NEAR(left.value, 0.3, 1e-9);
+  EXPECT_EQ(left.num, 120U);
+  EXPECT_FALSE(RangeExponentLeft({cells[0], cells[1]}).is_enough());
+}
+
 TEST(CellPoints, HaveAMeanWithoutTheirEnds) {
   CellPoints points;
   points.intensities = {0.9F, 0.1F, 0.2F, 0.2F, 0.0F};

@@ -132,6 +132,12 @@ TEST(RealVls128, SeesTheRoadWhereAStretchedPulseWouldNotSuffice) {
   std::cout << "road from 80 to 125 m: " << num_seen << " points, with stretch "
             << NumFarPoints(with.simulated) << ", without " << NumFarPoints(without.simulated)
             << '\n';
+  // The law of incidence: no power of range is left.
+  const Estimate left = RangeExponentLeft(with.intensity);
+  std::cout << "power of range left: " << left.value << " [" << left.low << ", " << left.high
+            << "] of " << left.num << '\n';
+  EXPECT_LT(left.low, 0.0);
+  EXPECT_GT(left.high, 0.0);
   EXPECT_LT(NumFarPoints(with.simulated), 0.6 * num_seen);
   EXPECT_NEAR(NumFarPoints(without.simulated), num_seen, 4.0 * std::sqrt(0.05 * num_seen));
 }
