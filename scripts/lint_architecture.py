@@ -12,14 +12,14 @@ import re
 import sys
 
 # A folder of core may include only itself and the folders before it.
-CORE_ORDER = "base frame scene rail scan trace detect simulate scenario fidelity io program".split()
+CORE_ORDER = "base frame scene rail scan trace detect simulate scenario fidelity c io program".split()
 # The public headers, included by programs that embed railcast. Each header belongs to the folder
 # that implements it.
 PUBLIC_ROOT = "core/include/"
 PUBLIC_OWNERS = {
     "enum_names": "base", "error": "base", "transform": "base", "frame": "frame", "outcome": "frame", "material": "scene",
     "scene": "scene", "alignment": "rail", "rail_world": "rail", "lidar": "scan", "ray_caster": "trace", "effects": "detect",
-    "simulator": "simulate", "scenario": "scenario", "fidelity": "fidelity",
+    "simulator": "simulate", "scenario": "scenario", "fidelity": "fidelity", "c_api": "c",
 }
 # The programs share core, and nothing else.
 PROGRAMS = ("generator", "analysis", "viewer")
@@ -39,7 +39,7 @@ LIBRARY_OWNERS = {
     "spdlog": (r"spdlog/", PROGRAMS),
 }
 # The libraries that a public header may require of the programs that include it.
-PUBLIC_LIBRARIES = re.compile(r"Eigen/|[a-z_0-9]+$")
+PUBLIC_LIBRARIES = re.compile(r"Eigen/|[a-z_0-9]+$|std(?:def|int)\.h$")
 PUBLIC_IO_LIBRARIES = re.compile(PUBLIC_LIBRARIES.pattern + "|pcl/")
 
 LONG_FILE_LINES = 300
@@ -55,7 +55,7 @@ TYPE_DEFINITION = re.compile(
     r"|using\s+(\w+)\s*=)", re.MULTILINE)
 
 # Sources compiled as one library; release builds compile several of them in one translation unit.
-LIBRARIES = ("core/io", "core/program", "core", *PROGRAMS)
+LIBRARIES = ("core/c", "core/io", "core/program", "core", *PROGRAMS)
 ANONYMOUS_FUNCTION = re.compile(
     r"^(?!using|return|template|TEST|struct|class|enum)(?:\[\[\w+\]\] )?[\w:<>,&*][\w:<>,&* ]*?[ *&](\w+)\(",
     re.MULTILINE)

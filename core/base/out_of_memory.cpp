@@ -1,6 +1,8 @@
 #include "core/base/out_of_memory.h"
 
+#include <algorithm>
 #include <atomic>
+#include <string_view>
 
 #include "core/base/text.h"
 
@@ -11,6 +13,9 @@ namespace {
 constexpr std::size_t kReserve_bytes = 65536;
 std::atomic<char*> memory_reserve = new char[kReserve_bytes];
 
+constexpr std::string_view kOutOfMemory = "out of memory while ";
+constexpr std::string_view kOutOfThreads = "no thread can be started while ";
+
 }  // namespace
 
 void FreeMemoryReserve() {
@@ -18,11 +23,17 @@ void FreeMemoryReserve() {
 }
 
 InputError OutOfMemory(const std::string& doing) {
-  return InputError("out of memory while " + doing);
+  return InputError(std::string(kOutOfMemory) + doing);
 }
 
 InputError OutOfThreads(const std::string& doing) {
-  return InputError("no thread can be started while " + doing);
+  return InputError(std::string(kOutOfThreads) + doing);
+}
+
+bool IsOutOfMemory(const InputError& error) {
+  return std::any_of(error.faults().begin(), error.faults().end(), [](const Fault& fault) {
+    return fault.rule.starts_with(kOutOfMemory) || fault.rule.starts_with(kOutOfThreads);
+  });
 }
 
 std::string ReadingText(const std::filesystem::path& file) {

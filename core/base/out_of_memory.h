@@ -19,6 +19,9 @@ namespace railcast {
 /// is no memory for another stack.
 [[nodiscard]] InputError OutOfThreads(const std::string& doing);
 
+/// Whether one of the faults is OutOfMemory() or OutOfThreads().
+[[nodiscard]] bool IsOutOfMemory(const InputError& error);
+
 /// Frees a small block that the program keeps for the case that even the message about lacking
 /// memory finds none. Thread-safe.
 void FreeMemoryReserve();

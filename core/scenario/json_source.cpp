@@ -23,6 +23,14 @@ std::string ShownName(const Node& node) {
   return ShownPath((fs::path(node.file->shown).parent_path() / name).lexically_normal());
 }
 
+std::string ShownScenario(const fs::path& file) {
+  return ShownPath(file.lexically_normal());
+}
+
+SourceFile ScenarioFile(const fs::path& file) {
+  return {fs::absolute(file).lexically_normal(), ShownScenario(file), nullptr, {}};
+}
+
 // The reason why a file cannot be read; empty if it can be read.
 std::string Obstacle(const fs::path& file) {
   std::error_code error;
@@ -59,13 +67,19 @@ Node Node::Child(std::size_t index) const {
 }
 
 std::optional<Node> JsonSource::Open(const fs::path& file) {
-  const std::string shown = ShownPath(file.lexically_normal());
   if (const std::string obstacle = Obstacle(file); !obstacle.empty()) {
     errors_.Add({ShownPath(file), obstacle, ""});
     return std::nullopt;
   }
-  std::optional<Node> root = Load({fs::absolute(file).lexically_normal(), shown, nullptr, {}}, "");
-  if (root) sources_.Add("", shown, "");
+  return CheckedRoot(Load(ScenarioFile(file), ""), file);
+}
+
+std::optional<Node> JsonSource::OpenAs(const fs::path& file, const std::string& text) {
+  return CheckedRoot(Parse(text, ScenarioFile(file), ""), file);
+}
+
+std::optional<Node> JsonSource::CheckedRoot(std::optional<Node> root, const fs::path& file) {
+  if (root) sources_.Add("", ShownScenario(file), "");
   if (!root || !CheckRoot(*root)) return std::nullopt;
   return root;
 }
@@ -145,7 +159,8 @@ std::optional<Node> JsonSource::FileRoot(const Node& node, std::string resolved_
   std::string chain = shown;
   for (const SourceFile* file = node.file; file != nullptr; file = file->named_by) {
     chain.insert(0, file->shown + " -> ");
-    if (fs::equivalent(file->absolute, *absolute)) {
+    std::error_code no_such_file;  // The scenario's text may stand in no file (OpenAs).
+    if (fs::equivalent(file->absolute, *absolute, no_such_file)) {
       FaultWithoutValue(node, "includes itself: " + chain);
       return std::nullopt;
     }

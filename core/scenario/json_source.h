@@ -61,6 +61,10 @@ class JsonSource {
   /// The scenario's root, or nothing if it cannot be read.
   [[nodiscard]] std::optional<Node> Open(const std::filesystem::path& file);
 
+  /// As Open(), but `text` is the content of the file, which need not exist.
+  [[nodiscard]] std::optional<Node> OpenAs(const std::filesystem::path& file,
+                                           const std::string& text);
+
   /// The root of a text from an untrusted sender, or nothing if it is not JSON. From then on no
   /// value may name a file: the sender must not be able to make this program read files.
   [[nodiscard]] std::optional<Node> OpenText(const std::string& text, const std::string& shown);
@@ -88,6 +92,7 @@ class JsonSource {
   [[nodiscard]] ScenarioSources& sources() { return sources_; }
 
  private:
+  std::optional<Node> CheckedRoot(std::optional<Node> root, const std::filesystem::path& file);
   std::optional<Node> Load(SourceFile file, std::string resolved_pointer);
   std::optional<Node> Parse(const std::string& text, SourceFile file, std::string resolved_pointer);
   [[nodiscard]] bool IsOfFile(const Node& node, const std::string& key) const;

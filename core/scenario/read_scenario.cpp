@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "core/base/out_of_memory.h"
@@ -64,10 +66,12 @@ void CheckNumberOfMaterials(const ScenarioSpec& spec, JsonSource& source) {
   source.unknown().Add(pointer);
 }
 
-ScenarioSpec Read(const std::filesystem::path& file) {
+// `open` opens the scenario's root.
+template <class Open>
+ScenarioSpec ReadRoot(const Open& open) {
   JsonSource source;
   ScenarioSpec spec;
-  if (const auto root = source.Open(file)) {
+  if (const std::optional<Node> root = open(source)) {
     ReadValue(source, *root, spec, Anything{});
     CheckNumberOfMaterials(spec, source);
     CheckReferences(spec, source);
@@ -81,7 +85,16 @@ ScenarioSpec Read(const std::filesystem::path& file) {
 }  // namespace
 
 ScenarioSpec ReadScenario(const std::filesystem::path& file) {
-  return WithinMemory([&] { return ReadingText(file); }, [&] { return Read(file); });
+  return WithinMemory(
+      [&] { return ReadingText(file); },
+      [&] { return ReadRoot([&](JsonSource& source) { return source.Open(file); }); });
+}
+
+ScenarioSpec ReadScenarioText(const std::string& text, const std::filesystem::path& file) {
+  const auto doing = [&] { return "reading a text of " + std::to_string(text.size()) + " bytes"; };
+  return WithinMemory(doing, [&] {
+    return ReadRoot([&](JsonSource& source) { return source.OpenAs(file, text); });
+  });
 }
 
 LabelTable ReadLabelTable(const std::filesystem::path& file) {

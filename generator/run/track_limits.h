@@ -2,33 +2,17 @@
 
 #include <cstdint>
 
+#include "core/scenario/track_limits.h"
 #include "generator/run/commanded_run.h"
 #include "railcast/lidar.h"
-#include "railcast/rail_world.h"
-#include "railcast/scenario.h"
 
 namespace railcast {
 
-/// Checks that nothing leaves its track.
-/// @throws InputError if the vehicle or an object leaves its track before the end of frame
-///   `last_frame`, with a line for each: "file: /vehicle/motion: leaves track "main", from 0 to
-///   1000 m, at frame 54 (5.4 s)".
-/// @param world The world of the scenario, or the one that commands made of it; lines about what
-///   commands changed read "command: the vehicle leaves track ...".
-void CheckStaysOnTracks(const ScenarioSpec& scenario,
-                        const RailWorld& world,
-                        const ScanPattern& pattern,
-                        std::uint32_t first_frame,
-                        std::uint32_t last_frame);
-
-/// As above for the worlds of a run, each for the frames for which it holds.
+/// As CheckStaysOnTracks() of a scenario's world, for the worlds of a run, each for the frames for
+/// which it holds.
 void CheckStaysOnTracks(const CommandedRun& run,
                         const ScanPattern& pattern,
                         std::uint32_t first_frame,
                         std::uint32_t last_frame);
-
-/// Returns the last frame that is stamped before a time, or the last one whose stamp fits into 64
-/// bits if that comes earlier; 0 if there is none.
-[[nodiscard]] std::uint32_t LastFrameBefore(const ScanPattern& pattern, std::int64_t time_ns);
 
 }  // namespace railcast

@@ -177,6 +177,12 @@ class RailWorld;
 ///   only building reveals; faults that merely follow from another one are left out.
 [[nodiscard]] ScenarioSpec ReadScenario(const std::filesystem::path& file);
 
+/// As ReadScenario(), but `text` is the content of `file`, which need not exist: names of other
+/// files are relative to its folder, and messages show its name.
+/// @throws InputError with the lines that ReadScenario() would give for a file of that content.
+[[nodiscard]] ScenarioSpec ReadScenarioText(const std::string& text,
+                                            const std::filesystem::path& file);
+
 /// Reads a label table (labels.json of a scenario or of a sequence) as strictly as ReadScenario().
 /// @throws InputError with a line for every fault.
 [[nodiscard]] LabelTable ReadLabelTable(const std::filesystem::path& file);

@@ -1,0 +1,147 @@
+#include "core/c/host_caster.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <string_view>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/c/guard.h"
+#include "core/scenario/json_rules.h"
+
+namespace railcast {
+namespace {
+
+static_assert(kTileSize == RAILCAST_MAX_RAYS);
+
+railcast_rays RaysOf(RayTile& tile) {
+  return {.num_rays = tile.num_rays,
+          .origin_x = tile.origin_x,
+          .origin_y = tile.origin_y,
+          .origin_z = tile.origin_z,
+          .direction_x = tile.direction_x,
+          .direction_y = tile.direction_y,
+          .direction_z = tile.direction_z,
+          .shutter = tile.shutter,
+          .range_m = tile.range_m,
+          .surface = tile.surface,
+          .normal_x = tile.normal_x,
+          .normal_y = tile.normal_y,
+          .normal_z = tile.normal_z};
+}
+
+// The rule that the callback broke for ray `i`; empty if none.
+std::string BrokenRule(const RayTile& tile,
+                       std::size_t i,
+                       float range_max_m,
+                       std::size_t num_surfaces) {
+  const float range_m = tile.range_m[i];
+  const std::uint32_t surface = tile.surface[i];
+  if (surface >= num_surfaces) {
+    return "surface: must be less than " + std::to_string(num_surfaces) + Got(surface);
+  }
+  if (surface == 0) {
+    if (range_m == range_max_m) return "";
+    return "range_m: must stay as it is where surface is 0" + Got(range_m);
+  }
+  if (!(range_m >= 0.0F && range_m <= range_max_m)) {
+    return "range_m: must be in [0, " + NumberText(range_max_m) + "]" + Got(range_m);
+  }
+  const float length = std::hypot(tile.normal_x[i], tile.normal_y[i], tile.normal_z[i]);
+  if (!(length > 0.0F && std::isfinite(length))) {
+    return "the normal's length must be finite and not 0" + Got(length);
+  }
+  return "";
+}
+
+std::vector<std::string> NamesOfLabels(const LabelTable& labels) {
+  std::vector<std::string> names;
+  for (const Label& label : labels.labels()) names.push_back(label.name);
+  return names;
+}
+
+std::vector<std::string> NamesOfMaterials(const MaterialLibrary& materials) {
+  std::vector<std::string> names;
+  for (const Material& material : materials.materials()) names.push_back(material.name);
+  names.erase(names.begin());  // "none".
+  return names;
+}
+
+// The index of a name, or nothing if it is at fault.
+std::optional<std::size_t> IndexOf(const std::string& place,
+                                   const char* kind,
+                                   const char* name,
+                                   const std::vector<std::string>& known,
+                                   ErrorList& errors) {
+  const std::string whole = place + "." + kind;
+  if (name == nullptr) {
+    errors.Add({whole, "must not be null", ""});
+    return std::nullopt;
+  }
+  const auto found = std::find(known.begin(), known.end(), name);
+  if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
+  errors.Add({whole, Unknown(kind, name, known), Quoted(name)});
+  return std::nullopt;
+}
+
+}  // namespace
+
+void HostCaster::Cast(RayTile& tile) const {
+  float range_max_m[kTileSize];
+  std::copy_n(tile.range_m, tile.num_rays, range_max_m);
+  const railcast_rays rays = RaysOf(tile);
+  const int result = [&] {
+    try {
+      return cast_rays_(user_, &rays);
+    } catch (...) {  // The host may be written in C++.
+      throw CallbackError("the callback threw an exception");
+    }
+  }();
+  if (result != 0) throw CallbackError("the callback returned " + std::to_string(result));
+  for (std::size_t i = 0; i < tile.num_rays; ++i) {
+    const bool is_miss = tile.surface[i] == 0 && tile.range_m[i] == range_max_m[i];
+    if (is_miss) continue;
+    const std::string rule = BrokenRule(tile, i, range_max_m[i], surfaces_.size());
+    if (rule.empty()) continue;
+    throw CallbackError("callback: ray " + std::to_string(i) + " of " +
+                        std::to_string(tile.num_rays) + ": " + rule);
+  }
+}
+
+std::vector<Surface> SurfacesOf(const railcast_surface* surfaces,
+                                std::size_t num_surfaces,
+                                const SurfaceNames& names) {
+  const railcast_surface& nothing = NotNull(surfaces, "surfaces");
+  if (num_surfaces == 0) throw ArgumentError("num_surfaces: must be > 0 (got 0)");
+  if (nothing.material != nullptr || nothing.label != nullptr || nothing.instance != 0 ||
+      nothing.is_ego != 0) {
+    throw ArgumentError("surfaces[0]: must be all zero, since it stands for nothing");
+  }
+  const std::vector<std::string> materials = NamesOfMaterials(names.materials);
+  const std::vector<std::string> labels = NamesOfLabels(names.labels);
+  ErrorList errors;
+  std::vector<Surface> table(1);
+  for (std::size_t i = 1; i < num_surfaces; ++i) {
+    const std::string place = "surfaces[" + std::to_string(i) + "]";
+    const auto material = IndexOf(place, "material", surfaces[i].material, materials, errors);
+    const auto label = IndexOf(place, "label", surfaces[i].label, labels, errors);
+    if (!material || !label) continue;
+    const std::size_t in_library = *material + 1;
+    table.push_back(
+        {.label = names.labels.labels()[*label].id,
+         .instance = surfaces[i].instance,
+         .reflectivity = static_cast<float>(names.materials.materials()[in_library].reflectivity),
+         .material = static_cast<std::uint16_t>(in_library),
+         .is_ego = surfaces[i].is_ego != 0});
+  }
+  if (!errors.empty()) {
+    std::string lines;
+    for (const std::string& line : errors.lines()) lines += (lines.empty() ? "" : "\n") + line;
+    throw ArgumentError(lines);
+  }
+  return table;
+}
+
+}  // namespace railcast

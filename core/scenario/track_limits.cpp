@@ -1,0 +1,115 @@
+#include "core/scenario/track_limits.h"
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+
+namespace railcast {
+namespace {
+
+// A vehicle that stops exactly at the end of its track is still on it, whatever the rounding.
+constexpr double kTolerance_m = 1e-3;
+
+// Returns the first frame for which `is_before` is false, or `end`; it is false for all later
+// frames, too.
+template <typename Predicate>
+std::uint32_t FirstBeyond(std::uint32_t begin, std::uint32_t end, const Predicate& is_before) {
+  while (begin < end) {
+    const std::uint32_t middle = begin + (end - begin) / 2;
+    if (is_before(middle)) {
+      begin = middle + 1;
+    } else {
+      end = middle;
+    }
+  }
+  return begin;
+}
+
+/// A moving object, the track that it may be on, and its position.
+struct Traveller {
+  /// The beginning of an error line about it; rarely needed, so computed on demand.
+  std::function<std::string()> place;
+  const TrackSpec& track;
+  double end_s_m{};
+  std::function<double(std::int64_t)> chainage_m;
+
+  [[nodiscard]] bool IsOnTrack(std::int64_t time_ns) const {
+    const double s_m = chainage_m(time_ns);
+    return s_m >= track.start_s_m - kTolerance_m && s_m <= end_s_m + kTolerance_m;
+  }
+  [[nodiscard]] std::string Leaves(const std::string& when) const {
+    return place() + " leaves track \"" + track.name + "\", from " + NumberText(track.start_s_m) +
+           " to " + NumberText(end_s_m) + " m, at " + when;
+  }
+};
+
+std::vector<Traveller> TravellersOf(const ScenarioSpec& scenario, const RailWorld& world) {
+  std::vector<Traveller> travellers;
+  const auto add = [&](auto place, const TrackSpec& track, auto chainage_m) {
+    const double end_s_m = track.end_s_m.value_or(world.alignment().length_m());
+    travellers.push_back({std::move(place), track, end_s_m, std::move(chainage_m)});
+  };
+  add(
+      [&scenario, &world] {
+        return world.has_changed_vehicle_speed() ? "command: the vehicle"
+                                                 : scenario.sources.Place("/vehicle/motion") + ":";
+      },
+      world.vehicle_track(),
+      [&world](std::int64_t time_ns) { return world.VehicleChainage_m(time_ns); });
+  for (std::size_t i = 0; i < world.objects().size(); ++i) {
+    const SceneObject& object = world.objects()[i];
+    if (object.is_ego) continue;
+    const auto place = [&scenario, &object] {
+      // Instance ids follow the scenario's order; those of objects that commands added come after.
+      if (object.instance > scenario.world.objects.size()) {
+        return "command: object \"" + ShownText(object.name) + '"';
+      }
+      return scenario.sources.Place("/world/objects/" + std::to_string(object.instance - 1) +
+                                    "/motion") +
+             ":";
+    };
+    add(place, world.object_track(i),
+        [&world, i](std::int64_t time_ns) { return world.ObjectChainage_m(i, time_ns); });
+  }
+  return travellers;
+}
+
+}  // namespace
+
+void CheckStaysOnTracks(const ScenarioSpec& scenario,
+                        const RailWorld& world,
+                        const ScanPattern& pattern,
+                        std::uint32_t first_frame,
+                        std::uint32_t last_frame) {
+  ErrorList errors;
+  for (const Traveller& traveller : TravellersOf(scenario, world)) {
+    const auto is_on_track = [&](std::uint32_t frame) {
+      return traveller.IsOnTrack(pattern.StampNs(frame) + pattern.time_ns.back());
+    };
+    // Directions never reverse: an object that has left its track stays off it.
+    if (is_on_track(last_frame)) continue;
+    const std::uint32_t frame = FirstBeyond(first_frame, last_frame, is_on_track);
+    errors.AddLine(traveller.Leaves("frame " + std::to_string(frame) + " (" +
+                                    SecondsText(pattern.StampNs(frame)) + ")"));
+  }
+  errors.ThrowIfAny();
+}
+
+std::uint32_t FirstStampedAt(const ScanPattern& pattern,
+                             std::int64_t time_ns,
+                             std::uint32_t begin,
+                             std::uint32_t end) {
+  return FirstBeyond(begin, end,
+                     [&](std::uint32_t frame) { return pattern.StampNs(frame) < time_ns; });
+}
+
+std::uint32_t LastFrameBefore(const ScanPattern& pattern, std::int64_t time_ns) {
+  const std::uint32_t first = FirstStampedAt(pattern, time_ns, 0, pattern.LastFrame());
+  return pattern.StampNs(first) < time_ns || first == 0 ? first : first - 1;
+}
+
+}  // namespace railcast

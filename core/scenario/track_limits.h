@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+
+#include "railcast/lidar.h"
+#include "railcast/rail_world.h"
+#include "railcast/scenario.h"
+
+namespace railcast {
+
+/// Checks that nothing leaves its track.
+/// @throws InputError if the vehicle or an object leaves its track before the end of frame
+///   `last_frame`, with a line for each: "file: /vehicle/motion: leaves track "main", from 0 to
+///   1000 m, at frame 54 (5.4 s)".
+/// @param world The world of the scenario, or the one that commands made of it; lines about what
+///   commands changed read "command: the vehicle leaves track ...".
+void CheckStaysOnTracks(const ScenarioSpec& scenario,
+                        const RailWorld& world,
+                        const ScanPattern& pattern,
+                        std::uint32_t first_frame,
+                        std::uint32_t last_frame);
+
+/// Returns the first frame of [begin, end) that is stamped at a time or later, or `end`.
+[[nodiscard]] std::uint32_t FirstStampedAt(const ScanPattern& pattern,
+                                           std::int64_t time_ns,
+                                           std::uint32_t begin,
+                                           std::uint32_t end);
+
+/// Returns the last frame that is stamped before a time, or the last one whose stamp fits into 64
+/// bits if that comes earlier; 0 if there is none.
+[[nodiscard]] std::uint32_t LastFrameBefore(const ScanPattern& pattern, std::int64_t time_ns);
+
+}  // namespace railcast
