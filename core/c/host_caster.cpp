@@ -32,6 +32,31 @@ railcast_rays RaysOf(RayTile& tile) {
           .normal_z = tile.normal_z};
 }
 
+// In double, in which squares of float32 neither vanish nor overflow.
+double SquaredLength(const RayTile& tile, std::size_t i) {
+  const double x = static_cast<double>(tile.normal_x[i]);
+  const double y = static_cast<double>(tile.normal_y[i]);
+  const double z = static_cast<double>(tile.normal_z[i]);
+  return x * x + y * y + z * z;
+}
+
+// Whether the callback kept the rules for every ray. Without branches, so that it is vectorised.
+bool IsSound(const RayTile& tile, const float* range_max_m, std::size_t num_surfaces) {
+  bool is_sound = true;
+  // Surfaces 1 to last_surface are those of hits; 0 - 1 wraps around to the greatest number.
+  const auto last_surface = static_cast<std::uint32_t>(num_surfaces - 1);
+  for (std::size_t i = 0; i < tile.num_rays; ++i) {
+    const float range_m = tile.range_m[i];
+    const double squared_length = SquaredLength(tile, i);
+    const bool is_miss = (tile.surface[i] == 0) & (range_m == range_max_m[i]);
+    const bool is_hit = (tile.surface[i] - 1U < last_surface) & (range_m >= 0.0F) &
+                        (range_m <= range_max_m[i]) & (squared_length > 0.0) &
+                        (squared_length < std::numeric_limits<double>::infinity());
+    is_sound &= is_miss | is_hit;
+  }
+  return is_sound;
+}
+
 // The rule that the callback broke for ray `i`; empty if none.
 std::string BrokenRule(const RayTile& tile,
                        std::size_t i,
@@ -49,11 +74,9 @@ std::string BrokenRule(const RayTile& tile,
   if (!(range_m >= 0.0F && range_m <= range_max_m)) {
     return "range_m: must be in [0, " + NumberText(range_max_m) + "]" + Got(range_m);
   }
-  const float length = std::hypot(tile.normal_x[i], tile.normal_y[i], tile.normal_z[i]);
-  if (!(length > 0.0F && std::isfinite(length))) {
-    return "the normal's length must be finite and not 0" + Got(length);
-  }
-  return "";
+  const double length = std::sqrt(SquaredLength(tile, i));
+  if (length > 0.0 && std::isfinite(length)) return "";
+  return "the normal's length must be finite and not 0" + Got(length);
 }
 
 std::vector<std::string> NamesOfLabels(const LabelTable& labels) {
@@ -100,9 +123,8 @@ void HostCaster::Cast(RayTile& tile) const {
     }
   }();
   if (result != 0) throw CallbackError("the callback returned " + std::to_string(result));
+  if (IsSound(tile, range_max_m, surfaces_.size())) return;
   for (std::size_t i = 0; i < tile.num_rays; ++i) {
-    const bool is_miss = tile.surface[i] == 0 && tile.range_m[i] == range_max_m[i];
-    if (is_miss) continue;
     const std::string rule = BrokenRule(tile, i, range_max_m[i], surfaces_.size());
     if (rule.empty()) continue;
     throw CallbackError("callback: ray " + std::to_string(i) + " of " +
