@@ -131,6 +131,18 @@ TEST(CApi, SteppingOffTheTrackFailsAndTheNextStepWorks) {
   EXPECT_EQ(railcast_get_frame(sim.get(), &frame), RAILCAST_OK);
 }
 
+TEST(CApi, RefusesFramesWhoseStampsDoNotFitInto64Bits) {
+  ScenarioText slow = ScenarioText::Of("minimal.json").WithRaster(2.0, 1.0, 0.5);
+  slow.Replace("\"rate_hz\": 10", "\"rate_hz\": 0.25");
+  const Sim sim = CreateSim(slow.Config());
+  ASSERT_TRUE(sim);
+  EXPECT_EQ(railcast_step(sim.get(), 4'294'967'295U), RAILCAST_BAD_ARGUMENT);
+  // 2^63 ns at 4 s a frame.
+  EXPECT_THAT(railcast_last_error(),
+              testing::MatchesRegex("frame_index: must be at most 23058430[0-9]+ "
+                                    "\\(got 4294967295\\)"));
+}
+
 TEST(CApi, PicksTheSensorOfThatName) {
   const ScenarioText two = ScenarioText::Of("two_sensors.json");
   railcast_config config = two.Config();
