@@ -12,14 +12,14 @@ import re
 import sys
 
 # A folder of core may include only itself and the folders before it.
-CORE_ORDER = "base frame scene rail scan trace detect simulate scenario fidelity c io program".split()
+CORE_ORDER = "base frame scene rail scan trace detect simulate camera scenario fidelity c io program".split()
 # The public headers, included by programs that embed railcast. Each header belongs to the folder
 # that implements it.
 PUBLIC_ROOT = "core/include/"
 PUBLIC_OWNERS = {
     "enum_names": "base", "error": "base", "transform": "base", "frame": "frame", "outcome": "frame", "material": "scene",
     "scene": "scene", "alignment": "rail", "rail_world": "rail", "lidar": "scan", "ray_caster": "trace", "effects": "detect",
-    "simulator": "simulate", "scenario": "scenario", "fidelity": "fidelity", "c_api": "c",
+    "simulator": "simulate", "camera": "camera", "scenario": "scenario", "fidelity": "fidelity", "c_api": "c",
 }
 # The programs share core, and nothing else.
 PROGRAMS = ("generator", "analysis", "viewer")
@@ -33,6 +33,7 @@ LIBRARY_OWNERS = {
                  ("core/scenario", "core/fidelity", "core/io", "generator", "analysis")),
     "PCL": (r"pcl/", ("core/io", "core/include/railcast/io", *PROGRAMS)),
     "libpcap": (r"pcap/", ("core/io",)),
+    "libpng": (r"png\.h$", ("core/io",)),
     "VTK": (r"vtk[A-Z]\w+\.h$", ("viewer",)),
     "CLI11": (r"CLI/", ("core/program", *PROGRAMS)),
     "Mustache": (r"kainjow/", ("analysis/report",)),

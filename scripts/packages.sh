@@ -18,6 +18,7 @@ build_packages=(
   libopenmesh-dev
   libpcap-dev
   libpcl-dev
+  libpng-dev
   librandom123-dev
   libtbb-dev
   libvtk9-dev

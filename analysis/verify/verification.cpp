@@ -208,12 +208,19 @@ void Verifier::CheckNames(const FrameLine& line, const std::string& place) {
   const bool is_of_dataset = format != nullptr && format->dataset;
   const std::size_t num_files = format == nullptr ? 1 : format->files.size();
   const std::uint32_t number = is_of_dataset ? line.frame - summary_.run.start_frame : line.frame;
-  std::string digits = NumberText(number);
-  constexpr std::size_t kMinDigits = 6;
-  if (digits.size() < kMinDigits) digits.insert(0, kMinDigits - digits.size(), '0');
-  if (line.files.size() != num_files) {
+  const std::string digits = FrameDigits(number);
+  // A camera's files are beside those of the format, all of them or none.
+  const auto num_of_camera = static_cast<std::size_t>(std::ranges::count_if(
+      line.files, [](const KnownFile& file) { return IsCameraFile(file.name); }));
+  const std::size_t num_of_format = line.files.size() - num_of_camera;
+  if (num_of_format != num_files) {
     faults_.Add(
-        {place + ": /files", "must be " + NumberText(num_files), NumberText(line.files.size())});
+        {place + ": /files", "must be " + NumberText(num_files), NumberText(num_of_format)});
+  }
+  const std::size_t num_of_image = CameraFileKinds().size();
+  if (num_of_camera != 0 && num_of_camera != num_of_image) {
+    faults_.Add({place + ": /files", "must be " + NumberText(num_of_image) + " of a camera",
+                 NumberText(num_of_camera)});
   }
   for (const KnownFile& file : line.files) {
     if (fs::path(file.name).stem() == digits) continue;

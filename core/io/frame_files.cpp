@@ -54,12 +54,6 @@ std::vector<FrameFile> KittiFixedFiles(const LabelTable& labels) {
           {std::string(kKittiLabelsFile), SemanticKittiYaml(labels)}};
 }
 
-std::string SixDigits(std::uint32_t number) {
-  std::string digits = std::to_string(number);
-  if (digits.size() < 6) digits.insert(0, 6 - digits.size(), '0');
-  return digits;
-}
-
 }  // namespace
 
 const std::vector<FrameFormat>& FrameFormats() {
@@ -144,7 +138,7 @@ std::string ReadableExtensions(bool with_datasets, const std::vector<std::string
 std::vector<std::string> FrameFileNames(const FrameFormat& format, std::uint32_t number) {
   std::vector<std::string> names;
   for (const FrameFileKind& file : format.files) {
-    names.push_back(std::string(file.folder) + SixDigits(number) + std::string(file.extension));
+    names.push_back(std::string(file.folder) + FrameDigits(number) + std::string(file.extension));
   }
   return names;
 }

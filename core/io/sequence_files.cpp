@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/base/text.h"
-#include "railcast/io/cloud_files.h"
+#include "railcast/camera.h"
 
 namespace railcast {
 namespace {
@@ -46,7 +46,36 @@ bool IsInput(std::string_view name) {
          name.find('/') == std::string_view::npos;
 }
 
+// Whether the name is like "front/color/000012.png" or "front/calibration.json".
+bool IsOfCamera(std::string_view name) {
+  const std::size_t end = name.find('/');
+  if (end == std::string_view::npos || !IsCameraName(name.substr(0, end))) return false;
+  name.remove_prefix(end + 1);
+  if (name == kCalibrationName) return true;
+  return std::ranges::any_of(CameraFileKinds(), [&](const FrameFileKind& kind) {
+    std::string_view number = name;
+    return Take(number, kind.folder) && IsNumbered(number, kind.extension);
+  });
+}
+
 }  // namespace
+
+const std::vector<FrameFileKind>& CameraFileKinds() {
+  static const std::vector<FrameFileKind> kinds = {
+      {"color/", ".png"}, {"label/", ".png"}, {"instance/", ".png"}, {"depth/", ".npy"}};
+  return kinds;
+}
+
+bool IsCameraFile(std::string_view name) {
+  return Take(name, kCameraFolder) && Take(name, "/") && IsOfCamera(name);
+}
+
+std::string FrameDigits(std::uint32_t number) {
+  constexpr std::size_t kMinDigits = 6;
+  std::string digits = std::to_string(number);
+  if (digits.size() < kMinDigits) digits.insert(0, kMinDigits - digits.size(), '0');
+  return digits;
+}
 
 bool IsSequenceFile(std::string_view name) {
   if (std::ranges::find(kNames, name) != kNames.end()) return true;
@@ -56,6 +85,7 @@ bool IsSequenceFile(std::string_view name) {
       if (Take(number, file.folder) && IsNumbered(number, file.extension)) return true;
     }
   }
+  if (IsCameraFile(name)) return true;
   return Take(name, kInputsFolder) && Take(name, "/") && IsInput(name);
 }
 

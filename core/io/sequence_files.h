@@ -1,6 +1,11 @@
 #pragma once
 
+#include <cstdint>
+#include <string>
 #include <string_view>
+#include <vector>
+
+#include "railcast/io/cloud_files.h"
 
 namespace railcast {
 
@@ -24,9 +29,23 @@ inline constexpr std::string_view kKittiLabelsFile = "semantic-kitti-railcast.ya
 /// file's hash: "inputs/0123456789abcdef/wagon.obj".
 inline constexpr std::string_view kInputsFolder = "inputs";
 
+/// The folder of the cameras' images and the name of a camera's calibration file:
+/// "camera/front/calibration.json".
+inline constexpr std::string_view kCameraFolder = "camera";
+inline constexpr std::string_view kCalibrationName = "calibration.json";
+
+/// The files of an image, in folders below that of its camera.
+[[nodiscard]] const std::vector<FrameFileKind>& CameraFileKinds();
+
+/// Whether the file belongs to a camera.
+[[nodiscard]] bool IsCameraFile(std::string_view name);
+
+/// The number of a frame in the names of its files: at least six digits.
+[[nodiscard]] std::string FrameDigits(std::uint32_t number);
+
 /// Whether a sequence directory of any format may hold a file of this name: one of the names above,
-/// that of a frame or that of an input. While a file is being written, kUnfinishedSuffix follows
-/// its name.
+/// that of a frame, of an image or of an input. While a file is being written, kUnfinishedSuffix
+/// follows its name.
 /// @param name Relative to the directory, with slashes: "frames/000012.pcd".
 [[nodiscard]] bool IsSequenceFile(std::string_view name);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/detect/effect_table.h"
+#include "core/scenario/describe_camera.h"
 #include "core/scenario/describe_lidar.h"
 #include "core/scenario/describe_weather.h"
 #include "core/scenario/describe_world.h"
@@ -53,13 +54,6 @@ void Describe(Archive& a, InterfacesSpec& s) {
   a.Optional("protocol", s.protocol, "How live frames are packed.");
   a.Optional("sensors", s.sensors,
              "With lidars, instead of the other keys: one entry for each sensor.");
-}
-
-template <class Archive>
-void Describe(Archive& a, CameraSpec& s) {
-  a.Required("width_px", s.width_px, "Of the picture.", Within(1, 65'536));
-  a.Required("height_px", s.height_px, "Of the picture.", Within(1, 65'536));
-  a.Required("horizontal_fov_deg", s.horizontal_fov_deg, "Field of view.", PositiveUpTo(360));
 }
 
 template <class Archive>
@@ -161,7 +155,9 @@ void Describe(Archive& a, ScenarioSpec& s) {
   const std::string fault =
       InterfacesFault(s.interfaces, s.lidars.empty() ? std::vector<std::string>() : SensorNames(s));
   a.Ensure({"interfaces", "lidar", "lidars"}, fault.empty(), "sensors " + fault);
-  a.Optional("camera", s.camera, "A camera beside the sensor; not used yet.");
+  a.Optional("camera", s.camera, "A camera beside the sensor.");
+  a.Ensure({"camera", "lidar", "lidars"}, !s.camera || HasFramesForImages(s),
+           "must have a rate_hz that is each sensor's scan rate_hz divided by a whole number");
   a.Required("world", s.world, "The railway and what stands on it.");
   a.Optional("vehicle", s.vehicle, "The sensor's own vehicle.");
   a.Optional("output", s.output, "Axes of the points.");

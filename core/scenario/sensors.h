@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,5 +22,13 @@ struct SensorPlace {
 /// @param sensors The names of all sensors; empty if the scenario has only one, under `lidar`.
 [[nodiscard]] std::string InterfacesFault(const InterfacesSpec& interfaces,
                                           const std::vector<std::string>& sensors);
+
+/// How many frames of a sensor follow each other from one image to the next; absent if the rates do
+/// not allow a whole number of at most 1,000,000.
+[[nodiscard]] std::optional<std::uint32_t> FramesFromImageToImage(const CameraSpec& camera,
+                                                                  double scan_rate_hz);
+/// Whether that number exists for the camera and each of the scenario's sensors.
+/// @pre The scenario has a camera.
+[[nodiscard]] bool HasFramesForImages(const ScenarioSpec& spec);
 
 }  // namespace railcast

@@ -308,6 +308,19 @@ void Simulator::Scan(std::uint32_t frame_index, const HostScene& host, Frame& fr
   });
 }
 
+void Simulator::VisitScene(std::uint32_t frame_index,
+                           const std::function<void(const SceneOfFrame&)>& visit) {
+  const FrameScene scene = parts_->SceneOf(frame_index);
+  const Transform& window_from_world = scene.window->window_from_world;
+  const SceneOfFrame view{
+      .caster = scene,
+      .surfaces = scene.surfaces(),
+      .stamp_ns = scene.stamp_ns,
+      .window_from_world = window_from_world,
+      .window_from_vehicle = window_from_world * world().WorldFromVehicle(scene.stamp_ns)};
+  parts_->arena.execute([&] { visit(view); });
+}
+
 FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) {
   Parts& parts = *parts_;
   const FrameScene scene = parts.SceneOf(frame_index);

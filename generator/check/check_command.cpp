@@ -85,7 +85,7 @@ void PrintReport(const ScenarioSpec& scenario, bool is_verbose) {
   std::cout << ShownLines(ObjectsText(*world, LabelTable(scenario.labels)))
             << ShownLines(OverlapsText(FindOverlaps(*world, kFrame0_ns), *world));
   if (scenario.fidelity == Fidelity::kAuto) std::cout << ShownLines(choices);
-  if (scenario.camera) std::cout << "camera    read and checked; nothing uses it yet\n";
+  if (scenario.camera) std::cout << ShownLines(CameraText(*scenario.camera));
 }
 
 int RunCheck(const CheckOptions& options) {

@@ -88,6 +88,14 @@ std::string SensorText(const LidarSpec& lidar, const ScanPattern& pattern) {
                             Rounded(num_firings * pattern.rate_hz, 0) + " points/s");
 }
 
+std::string CameraText(const CameraSpec& camera) {
+  return ReportLine("camera", camera.name + ": " + NumberText(camera.width_px) + " x " +
+                                  NumberText(camera.height_px) + " pixels, " +
+                                  NumberText(camera.horizontal_fov_deg) + " degrees wide, " +
+                                  (camera.rate_hz ? NumberText(*camera.rate_hz) + " images/s"
+                                                  : "an image with each frame"));
+}
+
 std::string LineText(const Alignment& alignment, bool is_verbose) {
   const double radius_m = alignment.tightest_radius_m();
   const std::vector<SmoothedJump>& jumps = alignment.smoothed_jumps();

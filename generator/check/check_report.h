@@ -10,6 +10,7 @@
 #include "generator/check/scene_audit.h"
 #include "generator/check/vehicle_way.h"
 #include "railcast/alignment.h"
+#include "railcast/camera.h"
 #include "railcast/frame.h"
 #include "railcast/lidar.h"
 #include "railcast/scenario.h"
@@ -33,6 +34,8 @@ namespace railcast {
 // lines and begins with its subject.
 
 [[nodiscard]] std::string SensorText(const LidarSpec& lidar, const ScanPattern& pattern);
+
+[[nodiscard]] std::string CameraText(const CameraSpec& camera);
 
 /// @param is_verbose Lists every smoothed jump.
 [[nodiscard]] std::string LineText(const Alignment& alignment, bool is_verbose);

@@ -14,10 +14,18 @@ namespace {
 struct MadeFrame {
   Frame frame;
   std::vector<ObjectInFrame> objects;
+  CameraImage image;
+  bool has_image = false;
+};
+
+/// What a run makes.
+struct Sources {
+  const FrameSource& frame;
+  const ImageSource& image;
 };
 
 void MakeMissingFrames(const SequenceSpec& spec,
-                       const FrameSource& make_frame,
+                       const Sources& sources,
                        const SequenceHooks& hooks,
                        SequenceDirectory& directory) {
   const std::uint32_t num_resumed = directory.num_done();
@@ -33,7 +41,8 @@ void MakeMissingFrames(const SequenceSpec& spec,
     MadeFrame& next = made[i % 2];
     next.objects.clear();
     try {
-      make_frame(spec.start_frame + i, next.frame, next.objects);
+      sources.frame(spec.start_frame + i, next.frame, next.objects);
+      next.has_image = sources.image && sources.image(spec.start_frame + i, next.image);
     } catch (const RunStopped&) {
       break;
     }
@@ -44,7 +53,9 @@ void MakeMissingFrames(const SequenceSpec& spec,
     };
     writing = WithinMemory(doing, [&] {
       return std::async(std::launch::async, [&directory, &next, doing] {
-        WithinMemory(doing, [&] { directory.Write(next.frame, next.objects); });
+        WithinMemory(doing, [&] {
+          directory.Write(next.frame, next.objects, next.has_image ? &next.image : nullptr);
+        });
       });
     });
   }
@@ -55,7 +66,8 @@ void MakeMissingFrames(const SequenceSpec& spec,
 
 SequenceResult RunSequence(const SequenceSpec& spec,
                            const FrameSource& make_frame,
-                           const SequenceHooks& hooks) {
+                           const SequenceHooks& hooks,
+                           const ImageSource& make_image) {
   SequenceDirectory directory(spec);
   SequenceResult result;
   result.num_resumed = directory.num_done();
@@ -63,7 +75,7 @@ SequenceResult RunSequence(const SequenceSpec& spec,
   if (!result.was_complete) {
     const auto begin = std::chrono::steady_clock::now();
     hooks.on_progress(directory.num_done(), spec.num_frames);
-    MakeMissingFrames(spec, make_frame, hooks, directory);
+    MakeMissingFrames(spec, {make_frame, make_image}, hooks, directory);
     if (directory.num_done() == spec.num_frames) directory.Finish();
     result.elapsed_s =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -7,6 +7,7 @@
 #include "generator/sequence/frame_record.h"
 #include "generator/sequence/object_record.h"
 #include "generator/sequence/sequence_spec.h"
+#include "railcast/camera.h"
 #include "railcast/frame.h"
 
 namespace railcast {
@@ -15,6 +16,10 @@ namespace railcast {
 /// order. If it throws RunStopped, the run ends after the previous frame.
 using FrameSource =
     std::function<void(std::uint32_t index, Frame& frame, std::vector<ObjectInFrame>& objects)>;
+
+/// Makes the camera's image of frame `index`, right after the frame. Returns false if that frame
+/// has none.
+using ImageSource = std::function<bool(std::uint32_t index, CameraImage& image)>;
 
 /// Callbacks of a sequence run.
 struct SequenceHooks {
@@ -35,9 +40,11 @@ struct SequenceResult {
 
 /// Makes the frames of a sequence that its directory does not hold yet. The next frame is computed
 /// while one is written.
+/// @param make_image Empty if there is no camera.
 /// @throws InputError as SequenceDirectory does.
 [[nodiscard]] SequenceResult RunSequence(const SequenceSpec& spec,
                                          const FrameSource& make_frame,
-                                         const SequenceHooks& hooks);
+                                         const SequenceHooks& hooks,
+                                         const ImageSource& make_image = {});
 
 }  // namespace railcast

@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/fidelity/choice_report.h"
+#include "core/io/camera_files.h"
 #include "core/io/scenario_identity.h"
 #include "core/program/progress_line.h"
 #include "core/program/version.h"
@@ -21,6 +22,7 @@
 #include "generator/sequence/object_survey.h"
 #include "generator/sequence/run_sequence.h"
 #include "generator/sequence/summary.h"
+#include "railcast/camera.h"
 #include "railcast/effects.h"
 #include "railcast/io/cloud_files.h"
 #include "railcast/scenario.h"
@@ -104,6 +106,11 @@ SequenceSpec MakeSpec(const SequenceOptions& options, const ScenarioSpec& scenar
   }
   spec.files.labels = LabelTable(scenario.labels);
   spec.materials = MaterialLibrary(scenario.materials);
+  if (scenario.camera) {
+    spec.camera = scenario.camera->name;
+    spec.calibration_json = CalibrationJson(*scenario.camera, VehicleFromCamera(scenario),
+                                            VehicleFromSensor(scenario.lidar.mount));
+  }
   spec.start_frame = options.start_frame;
   spec.num_frames = options.num_frames;
   return spec;
@@ -131,6 +138,18 @@ class SurveyedRun {
   std::shared_ptr<const World> world_;
   std::optional<ObjectSurvey> survey_;
 };
+
+// Renders the scenario's camera images; empty if it has no camera. The result refers to `run`.
+ImageSource ImagesOf(const ScenarioSpec& scenario, CommandedRun& run) {
+  std::optional<Camera> camera = MakeCamera(scenario);
+  if (!camera) return {};
+  return [camera = std::move(*camera), num_frames = FramesPerImage(scenario), &run](
+             std::uint32_t index, CameraImage& image) {
+    if (index % num_frames != 0) return false;
+    camera.Render(run.At(0, index), index, image);
+    return true;
+  };
+}
 
 class ProgressDisplay {
  public:
@@ -195,7 +214,7 @@ int RunSequenceCommand(const SequenceOptions& options) {
       [&](std::uint32_t index, Frame& frame, std::vector<ObjectInFrame>& objects) {
         frames.Make(index, frame, objects);
       },
-      hooks);
+      hooks, ImagesOf(scenario, run));
   if (!result.is_complete) display.Break();
   std::cout << ShownLines(Summary(spec, result));
   if (result.is_complete) return kExitSuccess;

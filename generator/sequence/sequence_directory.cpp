@@ -19,6 +19,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/io/camera_files.h"
 #include "core/io/content_hash.h"
 #include "core/io/recording/sequence_summary.h"
 #include "core/io/sequence_files.h"
@@ -105,7 +106,12 @@ class OwnNames {
     const std::optional<std::uint32_t> number = FrameNumber(name);
     const std::uint32_t first = spec_.files.format->dataset ? 0 : spec_.start_frame;
     if (!number || *number < first || *number - first >= spec_.num_frames) return false;
-    const std::vector<std::string> names = FrameFileNames(*spec_.files.format, *number);
+    std::vector<std::string> names = FrameFileNames(*spec_.files.format, *number);
+    if (!spec_.camera.empty()) {
+      for (std::string& image : CameraFileNames(spec_.camera, *number)) {
+        names.push_back(std::move(image));
+      }
+    }
     return std::ranges::find(names, name) != names.end();
   }
 
@@ -213,6 +219,7 @@ std::vector<FrameFile> SequenceDirectory::FixedFiles() const {
   add(kLabelsFile, LabelsJson(spec_.files.labels));
   add(kMaterialsFile, MaterialsJson(spec_.materials));
   if (!spec_.commands_jsonl.empty()) add(kCommandsFile, spec_.commands_jsonl);
+  if (!spec_.camera.empty()) add(CalibrationFileName(spec_.camera), spec_.calibration_json);
   if (const auto& dataset = spec_.files.format->dataset) {
     for (FrameFile& file : dataset->fixed_files(spec_.files.labels)) {
       files.push_back(std::move(file));
@@ -225,6 +232,11 @@ void SequenceDirectory::WriteFixedFiles() {
   const fs::path& directory = spec_.directory;
   for (const FrameFileKind& file : spec_.files.format->files) {
     CreateDirectories((directory / file.folder).parent_path());
+  }
+  if (!spec_.camera.empty()) {
+    for (const std::string& name : CameraFileNames(spec_.camera, 0)) {
+      CreateDirectories((directory / name).parent_path());
+    }
   }
   // The file may have the same content in other bytes.
   if (!HasBytes(directory / kRunFile, RunJson(spec_))) {
@@ -252,20 +264,26 @@ std::vector<std::string> SequenceDirectory::RecordLines(const Frame& frame,
   return lines;
 }
 
-void SequenceDirectory::Write(const Frame& frame, const std::vector<ObjectInFrame>& objects) {
+void SequenceDirectory::Write(const Frame& frame,
+                              const std::vector<ObjectInFrame>& objects,
+                              const CameraImage* image) {
   Check(frame.index == spec_.start_frame + num_done_, "frames are written in their order");
-  EncodeFrameFiles(frame, spec_.files, spec_.files.format->dataset ? num_done_ : frame.index,
-                   frame_files_, MovingInstances(objects));
+  const std::uint32_t number = spec_.files.format->dataset ? num_done_ : frame.index;
+  EncodeFrameFiles(frame, spec_.files, number, frame_files_, MovingInstances(objects));
+  std::vector<FrameFile> image_files;
+  if (image != nullptr) image_files = EncodeCameraFiles(*image, spec_.camera, number);
 
   FrameRecord record;
   record.frame = frame.index;
   record.stamp_ns = frame.stamp_ns;
   record.scan_end = ScanEndOf(frame);
   record.counts = CountFrame(frame, spec_.files.labels);
-  for (const FrameFile& file : frame_files_) {
+  const auto write = [&](const FrameFile& file) {
     record.files.push_back({file.name, file.bytes.size(), ContentHash(file.bytes)});
     WriteFileWhole(spec_.directory / file.name, file.bytes);
-  }
+  };
+  std::ranges::for_each(frame_files_, write);
+  std::ranges::for_each(image_files, write);
   const std::vector<std::string> lines = RecordLines(frame, objects);
   std::string all_lines;
   for (std::size_t i = 0; i < lines.size(); ++i) {

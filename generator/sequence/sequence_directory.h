@@ -11,6 +11,7 @@
 #include "generator/sequence/pose_record.h"
 #include "generator/sequence/sequence_progress.h"
 #include "generator/sequence/sequence_spec.h"
+#include "railcast/camera.h"
 #include "railcast/frame.h"
 
 namespace railcast {
@@ -20,8 +21,8 @@ namespace railcast {
 /// Layout: `frames/NNNNNN.*` (kitti: KITTI's own layout, numbered from 0 because line n of
 /// poses.txt belongs to file n), `poses.csv`, `objects.jsonl`, `frames.jsonl`,
 /// `scenario.resolved.json`, `inputs/HASH/NAME` (the files that the scenario names), `labels.json`,
-/// `materials.json`, `commands.jsonl` (if the run replays any), `run.json` (identifies the run)
-/// and, once complete, `manifest.json`.
+/// `materials.json`, `camera/NAME/...` (if there is a camera), `commands.jsonl` (if the run replays
+/// any), `run.json` (identifies the run) and, once complete, `manifest.json`.
 ///
 /// A frame counts as done when its line in frames.jsonl is whole and its files and lines have the
 /// hashes that this line states. All other remains of an interrupted run are dropped on opening, so
@@ -43,8 +44,11 @@ class SequenceDirectory {
   [[nodiscard]] const FrameCounts& counts() const { return counts_; }
 
   /// Writes frame start_frame + num_done().
+  /// @param image The camera's image of the frame; null = it has none.
   /// @throws InputError if the system refuses; the directory can be resumed nevertheless.
-  void Write(const Frame& frame, const std::vector<ObjectInFrame>& objects);
+  void Write(const Frame& frame,
+             const std::vector<ObjectInFrame>& objects,
+             const CameraImage* image = nullptr);
 
   /// Writes the manifest.
   /// @pre All frames are done.

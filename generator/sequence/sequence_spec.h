@@ -23,6 +23,8 @@ struct SequenceSpec {
   /// The choice of fidelity auto; empty if the scenario does not use it.
   std::string fidelity_choice_json;
   FrameFileSpec files;
+  std::string camera;            ///< Name of the scenario's camera; empty = it has none.
+  std::string calibration_json;  ///< CalibrationJson() of the camera.
   MaterialLibrary materials;
   std::uint32_t start_frame{};
   std::uint32_t num_frames{};

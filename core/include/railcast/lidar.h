@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -79,6 +80,16 @@ struct ScanSpec {
   std::variant<RasterSpec, SpinningSpec, FiringTableSpec> pattern;
 
   bool operator==(const ScanSpec&) const = default;
+};
+
+/// Position and orientation of a sensor or a camera on the vehicle.
+struct MountSpec {
+  std::array<double, 3> position_m{0.0, 0.0, 2.5};  ///< In the vehicle frame.
+  double yaw_deg = 0.0;                             ///< Positive to the left.
+  double pitch_deg = 0.0;                           ///< Positive nose down.
+  double roll_deg = 0.0;
+
+  bool operator==(const MountSpec&) const = default;
 };
 
 /// Rays per packet: Embree traces 16 rays at once.

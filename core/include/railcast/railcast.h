@@ -13,6 +13,7 @@
 ///     }
 
 #include "railcast/alignment.h"
+#include "railcast/camera.h"
 #include "railcast/effects.h"
 #include "railcast/enum_names.h"
 #include "railcast/error.h"

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "railcast/camera.h"
 #include "railcast/effects.h"
 #include "railcast/enum_names.h"
 #include "railcast/error.h"
@@ -61,16 +62,6 @@ class ScenarioSources {
   };
   std::vector<Entry> entries_;
   std::vector<File> files_;
-};
-
-/// Position and orientation of the sensor on the vehicle.
-struct MountSpec {
-  std::array<double, 3> position_m{0.0, 0.0, 2.5};  ///< In the vehicle frame.
-  double yaw_deg = 0.0;                             ///< Positive to the left.
-  double pitch_deg = 0.0;                           ///< Positive nose down.
-  double roll_deg = 0.0;
-
-  bool operator==(const MountSpec&) const = default;
 };
 
 /// Section `lidar` (the published Lidar.json).
@@ -126,15 +117,6 @@ struct InterfacesSpec {
   std::vector<SensorInterface> sensors;     ///< For several sensors: empty, or one entry for each.
 
   bool operator==(const InterfacesSpec&) const = default;
-};
-
-/// Section `camera` (the published Camera.json). It is read and checked, but not used yet.
-struct CameraSpec {
-  std::uint32_t width_px{};
-  std::uint32_t height_px{};
-  double horizontal_fov_deg{};
-
-  bool operator==(const CameraSpec&) const = default;
 };
 
 /// A complete scenario: everything a run depends on besides the frame index.
@@ -193,6 +175,20 @@ class RailWorld;
 
 /// The transform from the sensor frame to the vehicle frame of a mount.
 [[nodiscard]] Transform VehicleFromSensor(const MountSpec& mount);
+
+/// The transform from the camera's optical axes (x right, y down, z forward) to the vehicle frame.
+/// A camera without a mount of its own is in the place of the scenario's sensor.
+/// @pre The scenario has a camera, and one sensor (PickSensor()).
+[[nodiscard]] Transform VehicleFromCamera(const ScenarioSpec& spec);
+
+/// How many frames of the scenario's sensor follow each other from one image of its camera to the
+/// next: frame k has an image if k is a multiple of it.
+/// @pre The scenario has a camera, and one sensor (PickSensor()).
+[[nodiscard]] std::uint32_t FramesPerImage(const ScenarioSpec& spec);
+
+/// Makes the scenario's camera; absent if it has none.
+/// @pre The scenario has one sensor (PickSensor()).
+[[nodiscard]] std::optional<Camera> MakeCamera(const ScenarioSpec& spec);
 
 /// The effects of the scenario's rung with its switches applied, without a check for conflicts. For
 /// fidelity `auto` these are the effects to choose from. Switches of unknown effects are ignored.

@@ -97,6 +97,16 @@ struct HostScene {
   const std::vector<Surface>& surfaces;  ///< Surface table for the caster's indices; 0 = nothing.
 };
 
+/// The scene of one frame at its stamp, for casting other rays than the sensor's (Camera).
+struct SceneOfFrame {
+  /// Traces rays given in the window frame. RayTile::shutter 0 is the stamp.
+  const RayCaster& caster;
+  const std::vector<Surface>& surfaces;  ///< Surface table for the caster's indices; 0 = nothing.
+  std::int64_t stamp_ns{};
+  Transform window_from_world;
+  Transform window_from_vehicle;  ///< Pose of the vehicle at the stamp.
+};
+
 /// Simulates a sensor: turns a frame index into a Frame. Each tile of firings is aimed, traced,
 /// detected and stored.
 ///
@@ -135,6 +145,10 @@ class Simulator {
   /// For each of world().objects(), in order: the number of firings of the frame that would hit it
   /// within range if it were the only object in the world. (Occlusion = 1 - visible / alone.)
   [[nodiscard]] std::vector<std::uint32_t> FiringsOnObjectAlone(std::uint32_t frame_index);
+
+  /// Calls `visit` with the scene of a frame, on the run's threads: TBB's algorithms within it use
+  /// as many as the simulator.
+  void VisitScene(std::uint32_t frame_index, const std::function<void(const SceneOfFrame&)>& visit);
 
   /// Replays one firing with the same packet and random numbers as in Scan().
   /// @pre firing < pattern().num_firings()

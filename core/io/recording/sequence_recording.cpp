@@ -89,7 +89,8 @@ std::vector<std::string> ReadMaterialNames(const std::filesystem::path& file) {
 RecordedFrame ReadKittiFrame(const std::filesystem::path& directory,
                              const FrameLines& lines,
                              std::uint32_t place) {
-  const FrameLine line = ReadNextFrameLine(lines);
+  FrameLine line = ReadNextFrameLine(lines);
+  std::erase_if(line.files, [](const KnownFile& file) { return IsCameraFile(file.name); });
   if (line.files.size() != 2 || !line.files[0].name.ends_with(".bin") ||
       !line.files[1].name.ends_with(".label")) {
     throw InputError(lines.frame.place + ": files: must name a .bin and a .label file");

@@ -56,7 +56,13 @@ ScenarioSpec UnusualScenario(const std::string& mesh_file) {
   spec.weather.snow_cover = 0.75;
   spec.weather.sun = {80, 45, 20};
   spec.interfaces.udp = {"localhost:1", "[::1]:65535"};
-  spec.camera = {640, 480, 62.5};
+  spec.camera = {640,
+                 480,
+                 62.5,
+                 "front",
+                 2.5,
+                 MountSpec{{4, 5, 6}, 1, 2, 3},
+                 DistortionSpec{-0.1, 0.02, 0.001, -0.002, 0.003}};
   spec.world.seed = 0xFFFF'FFFF'FFFF'FFFEULL;
   spec.world.alignment = {AlignmentSplineSpec{{{0, 0}, {100, 0.1}}},
                           "a survey",

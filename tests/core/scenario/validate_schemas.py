@@ -31,7 +31,8 @@ SHIPPED = {
 REFUSED = """unknown_key unknown_section unknown_key_in_list missing_keys missing_key_nested
 missing_type unknown_type string_for_number null_for_number number_for_flag list_for_object
 wrong_length fraction_for_whole negative_range not_a_choice unknown_effect no_channels no_tracks
-wrong_version no_version rain_twice camera_of_another_kind""".split()
+wrong_version no_version rain_twice camera_of_another_kind
+camera_out_of_limits""".split()
 
 num_failures = 0
 
