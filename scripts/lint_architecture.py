@@ -34,6 +34,7 @@ LIBRARY_OWNERS = {
     "PCL": (r"pcl/", ("core/io", "core/include/railcast/io", *PROGRAMS)),
     "libpcap": (r"pcap/", ("core/io",)),
     "libpng": (r"png\.h$", ("core/io",)),
+    "libjpeg": (r"jpeglib\.h$", ("core/io",)),
     "VTK": (r"vtk[A-Z]\w+\.h$", ("viewer",)),
     "CLI11": (r"CLI/", ("core/program", *PROGRAMS)),
     "Mustache": (r"kainjow/", ("analysis/report",)),

@@ -14,6 +14,7 @@ build_packages=(
   libembree-dev
   libgmock-dev
   libgtest-dev
+  libjpeg62-turbo-dev
   libkainjow-mustache-dev
   libopenmesh-dev
   libpcap-dev

@@ -150,7 +150,8 @@ Radiance ColorOf(const Shot& shot, const BlockWork& work, std::size_t ray) {
   }
   const Radiance reflectance =
       shot.colors[shot.scene.surfaces[rays.surface[ray]].material].cast<float>();
-  const Radiance radiance = shot.daylight.Surface(reflectance, NormalAt(rays, ray), work.is_lit[ray]);
+  const Radiance radiance =
+      shot.daylight.Surface(reflectance, NormalAt(rays, ray), work.is_lit[ray]);
   return shot.daylight.ThroughAir(radiance, rays.range_m[ray]);
 }
 

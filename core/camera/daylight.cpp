@@ -64,7 +64,9 @@ Daylight::Daylight(const WeatherSpec& weather, const Eigen::Matrix3d& window_fro
   zenith_ = diffuse_ * Between(overcast, 1.5F * Radiance(0.45F, 0.75F, 1.35F), clearness);
 }
 
-Radiance Daylight::Surface(const Radiance& reflectance, const Eigen::Vector3f& normal, bool is_lit) const {
+Radiance Daylight::Surface(const Radiance& reflectance,
+                           const Eigen::Vector3f& normal,
+                           bool is_lit) const {
   const float up = normal.dot(up_);
   const float from_sky = 0.5F * (1.0F + up);
   float light = diffuse_ * (from_sky + kGroundShare * (1.0F - from_sky));

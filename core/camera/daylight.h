@@ -34,8 +34,8 @@ class Daylight {
   /// @param normal Of unit length, on the camera's side.
   /// @param is_lit Whether the sun is not hidden.
   [[nodiscard]] Radiance Surface(const Radiance& reflectance,
-                            const Eigen::Vector3f& normal,
-                            bool is_lit) const;
+                                 const Eigen::Vector3f& normal,
+                                 bool is_lit) const;
   /// Returns what is left of a radiance after `range_m` of air, with the airlight on the way.
   [[nodiscard]] Radiance ThroughAir(const Radiance& radiance, float range_m) const;
   /// Returns the radiance in a direction in which there is no surface within `reach_m`. Below the

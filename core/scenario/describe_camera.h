@@ -32,6 +32,13 @@ void Describe(Archive& a, CameraSpec& s) {
              Within(1e-6, 1e6));
   a.Optional("mount", s.mount, "Where it is on the vehicle; absent = in the place of the sensor.");
   a.Optional("distortion", s.distortion, "Of the lens: Brown and Conrady's model as in OpenCV.");
+  a.Optional("udp", s.udp, "host:port of each receiver of live images; empty = they are not sent.",
+             HostAndPort());
+  // The longest side that libjpeg encodes.
+  constexpr std::uint32_t kLongestJpeg = 65'500;
+  a.Ensure({"udp", "width_px", "height_px"},
+           s.udp.empty() || std::max(s.width_px, s.height_px) <= kLongestJpeg,
+           "must be left out with more than 65500 pixels on a side");
   a.Ensure({"name"}, IsCameraName(s.name),
            "must consist of 1 to 64 lower-case letters, digits and _");
   a.Ensure({"width_px", "height_px"}, std::uint64_t{s.width_px} * s.height_px <= kMostPixels,

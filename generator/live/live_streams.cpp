@@ -39,6 +39,10 @@ LiveStreams::LiveStreams(const ScenarioSpec& scenario,
     streams_.push_back(
         std::make_unique<SensorStream>(streams[i], alone, simulators_[i]->pattern(), run));
   }
+  const SensorStreamSpec& first = streams.front();
+  if (first.to.empty() || ImageReceivers(scenario).empty()) return;
+  camera_ =
+      std::make_unique<CameraStream>(PickSensor(scenario, first.name), first.has_offload, run);
 }
 
 void LiveStreams::ChooseFidelity() {
@@ -85,11 +89,26 @@ std::vector<LiveSensor> LiveStreams::Sensors() {
                      const Datagrams& datagrams,
                      std::span<const Datagrams::Item> items) { stream.Send(datagrams, items); }});
   }
+  if (!camera_) return sensors;
+  const ScanPattern& pattern = simulators_.front()->pattern();
+  CameraStream& camera = *camera_;
+  sensors.push_back(
+      {.name = camera.name(),
+       .period_ns = pattern.StampNs(camera.FrameOf(1)),
+       .stamp_ns = [&](std::uint32_t image) { return pattern.StampNs(camera.FrameOf(image)); },
+       .make =
+           [this](std::uint32_t image, Datagrams& datagrams) {
+             camera_->Make(commanded_.At(0, camera_->FrameOf(image)), image, datagrams);
+           },
+       .send = [&camera](
+                   const Datagrams& datagrams,
+                   std::span<const Datagrams::Item> items) { camera.Send(datagrams, items); }});
   return sensors;
 }
 
 void LiveStreams::Restart() {
   ++run_;
+  if (camera_) camera_->Restart(run_);
   for (const auto& stream : streams_) stream->Restart(run_);
 }
 
@@ -108,6 +127,7 @@ std::vector<std::string> LiveStreams::CaptureFaults() const {
 std::vector<UdpSender::Counts> LiveStreams::Delivered() const {
   std::vector<UdpSender::Counts> delivered;
   for (const auto& stream : streams_) delivered.push_back(stream->delivered());
+  if (camera_) delivered.push_back(camera_->delivered());
   return delivered;
 }
 

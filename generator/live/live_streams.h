@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "generator/live/camera_stream.h"
 #include "generator/live/live_run.h"
 #include "generator/live/sensor_stream.h"
 #include "generator/run/commanded_run.h"
@@ -17,7 +18,8 @@
 namespace railcast {
 
 /// All sensors of one vehicle and the destinations of their frames; they share one world and one
-/// clock.
+/// clock. If the scenario has a camera with receivers, its images accompany the frames of the first
+/// sensor, unless nothing is sent.
 class LiveStreams {
  public:
   /// @param streams One for each of the scenario's sensors, in its order.
@@ -41,7 +43,7 @@ class LiveStreams {
   /// @pre No frame has been made.
   void WarmUp(const std::function<bool()>& is_stopped);
 
-  /// Returns the sensors for RunLive(); valid as long as this object.
+  /// Returns the sensors for RunLive(), the camera after them; valid as long as this object.
   [[nodiscard]] std::vector<LiveSensor> Sensors();
 
   /// Restarts all sensors with frame 0.
@@ -52,7 +54,7 @@ class LiveStreams {
   void Finish();
   /// Returns a line for each capture that ended early. Thread-safe.
   [[nodiscard]] std::vector<std::string> CaptureFaults() const;
-  /// Returns the numbers of datagrams delivered, by sensor.
+  /// Returns the numbers of datagrams delivered, in the order of Sensors().
   /// @pre Nothing is being sent.
   [[nodiscard]] std::vector<UdpSender::Counts> Delivered() const;
 
@@ -63,6 +65,7 @@ class LiveStreams {
   std::vector<std::unique_ptr<Simulator>> simulators_;
   CommandedRun commanded_;
   std::vector<std::unique_ptr<SensorStream>> streams_;
+  std::unique_ptr<CameraStream> camera_;  ///< Null if no images are sent.
   std::vector<Frame> frames_;
   std::uint32_t run_;
 };

@@ -49,8 +49,15 @@ std::vector<Endpoint> EndpointsOf(const StreamOptions& options,
   return receivers;
 }
 
-/// Checks that no receiver gets datagrams of two sensors.
-void CheckPortsDiffer(const std::vector<SensorStreamSpec>& streams) {
+/// Checks that no receiver gets datagrams of two sensors, or of a sensor and the camera.
+void CheckPortsDiffer(const std::vector<SensorStreamSpec>& streams, const ScenarioSpec& scenario) {
+  for (const Endpoint& to : ImageReceivers(scenario)) {
+    for (const SensorStreamSpec& stream : streams) {
+      if (std::find(stream.to.begin(), stream.to.end(), to) == stream.to.end()) continue;
+      throw InputError("/camera/udp: must be other receivers than those of the sensors (got " +
+                       EndpointText(to) + ")");
+    }
+  }
   for (std::size_t i = 0; i < streams.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       for (const Endpoint& to : streams[i].to) {
@@ -83,7 +90,7 @@ std::vector<SensorStreamSpec> PlanStreams(const StreamOptions& options,
          .fields = options.fields ? FieldSelection(*options.fields) : StreamSpec{}.fields,
          .has_all_slots = options.has_all_slots});
   }
-  CheckPortsDiffer(streams);
+  CheckPortsDiffer(streams, scenario);
   const bool has_fields = std::any_of(streams.begin(), streams.end(), [](const auto& stream) {
     return stream.protocol == Protocol::kRailcast;
   });
@@ -119,7 +126,7 @@ std::uint32_t RunNumber(const StreamOptions& options) {
       std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
 }
 
-std::string Describe(const std::vector<SensorStreamSpec>& streams) {
+std::string Describe(const std::vector<SensorStreamSpec>& streams, const ScenarioSpec& scenario) {
   std::string text;
   for (const SensorStreamSpec& stream : streams) {
     text += stream.name + ": " + std::string(NameOf(stream.protocol));
@@ -128,6 +135,11 @@ std::string Describe(const std::vector<SensorStreamSpec>& streams) {
     if (stream.pcap) text += ", into " + ShownPath(*stream.pcap);
     text += "\n";
   }
+  const std::vector<Endpoint> receivers = ImageReceivers(scenario);
+  if (receivers.empty() || streams.front().to.empty()) return text;
+  text += scenario.camera->name + ": images";
+  for (const Endpoint& to : receivers) text += " to " + EndpointText(to);
+  text += "\n";
   return text;
 }
 
@@ -248,7 +260,7 @@ int RunStream(const StreamOptions& options) {
   }
   CatchStopSignals();
   streams.WarmUp(StopRequested);
-  std::cout << ShownLines(Describe(plan)) << std::flush;
+  std::cout << ShownLines(Describe(plan, scenario)) << std::flush;
 
   MonotonicClock monotonic;
   JumpingClock jumping;

@@ -49,6 +49,36 @@ TEST(VerifyCommand, SaysALineForEveryFaultAndEndsWithOne) {
   }
 }
 
+TEST(VerifyCommand, KnowsTheImagesOfACamera) {
+  for (const std::string format : {"pcd", "kitti"}) {
+    const TemporaryDirectory directory;
+    (void)MakeProject(directory.path() / "project");
+    const auto scenario = directory.path() / "project/camera.json";
+    WriteFileWhole(scenario, R"({
+      "version": 1,
+      "file": "scenario.json",
+      "camera": {"name": "front", "width_px": 40, "height_px": 30, "horizontal_fov_deg": 60,
+                 "rate_hz": 5}
+    })");
+    const auto out = directory.path() / "out";
+    const Ended made = RunCommand(RAILCAST_GENERATE " sequence " + scenario.string() +
+                                  " --frames 3 --out " + out.string() + " --format " + format);
+    ASSERT_EQ(made.status, 0) << made.said;
+    const Ended whole = Analyze("verify " + out.string());
+    EXPECT_EQ(whole.status, 0) << whole.said;
+    // Every second frame has an image, whatever number its files have.
+    EXPECT_TRUE(std::filesystem::exists(out / "camera/front/depth/000002.npy"));
+    EXPECT_FALSE(std::filesystem::exists(out / "camera/front/depth/000001.npy"));
+    // Reports on clouds are not concerned.
+    EXPECT_EQ(Analyze("stats " + out.string() + " --format text").status, 0);
+    const auto image = out / "camera/front/label/000002.png";
+    std::filesystem::remove(image);
+    const Ended damaged = Analyze("verify " + out.string());
+    EXPECT_EQ(damaged.status, 1);
+    EXPECT_THAT(damaged.said, testing::StartsWith(image.string() + ": no such file"));
+  }
+}
+
 TEST(VerifyCommand, WantsADirectoryOfASequence) {
   EXPECT_EQ(Analyze("verify").status, 2);
   const TemporaryDirectory directory;

@@ -27,6 +27,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/io/camera_files.h"
 #include "core/io/net/udp_receiver.h"
 #include "core/io/net/udp_sender.h"
 #include "core/io/stream/stream_encoder.h"
@@ -97,6 +98,11 @@ struct Bench {
     }
     files.labels = LabelTable(scenario.labels);
     for (std::uint32_t i = 0; i < kNumFrames; ++i) simulator->Scan(i, scanned.emplace_back());
+    ScenarioSpec with_camera = scenario;
+    with_camera.camera = CameraSpec{.width_px = 240, .height_px = 120, .horizontal_fov_deg = 60.0};
+    camera = MakeCamera(with_camera);
+    with_camera.camera = CameraSpec{.width_px = 1250, .height_px = 800, .horizontal_fov_deg = 60.0};
+    large_camera = MakeCamera(with_camera);
     stream = std::make_unique<StreamEncoder>(BuildScanPattern(scenario.lidar.scan), StreamSpec{});
   }
 
@@ -105,6 +111,9 @@ struct Bench {
   std::vector<std::function<void()>> raw_traces;
   std::vector<Frame> scanned;  ///< Scanned with the scenario's own effects and weather.
   Frame frame;
+  std::optional<Camera> camera;
+  std::optional<Camera> large_camera;
+  CameraImage image;
   FrameFileSpec files;
   std::vector<FrameFile> encoded;
   std::unique_ptr<StreamEncoder> stream;
@@ -143,6 +152,20 @@ void ScanAndSend(Bench& bench, std::uint32_t frame) {
   bench.sender.Send(bench.datagrams, bench.datagrams.items);
 }
 
+// As many pixels as the published scan has beams, over nearly the same field of view.
+void RenderImage(Bench& bench, std::uint32_t frame) {
+  bench.camera->Render(*bench.simulator, frame, bench.image);
+}
+
+void RenderMegapixel(Bench& bench, std::uint32_t frame) {
+  bench.large_camera->Render(*bench.simulator, frame, bench.image);
+}
+
+void RenderAndEncodeMegapixel(Bench& bench, std::uint32_t frame) {
+  RenderMegapixel(bench, frame);
+  benchmark::DoNotOptimize(EncodeCameraFiles(bench.image, "camera", frame));
+}
+
 struct Row {
   std::string what;
   EffectSet effects;
@@ -153,6 +176,7 @@ struct Row {
   double halo_share = 0.0;
   std::optional<double> visibility_m{};  ///< Of fog; none by default.
   double puddle_share = 0.0;
+  double sun_klx = 0.0;
 };
 
 std::vector<Row> Rows() {
@@ -184,6 +208,10 @@ std::vector<Row> Rows() {
       {"encode_stream", {}, false, false, &EncodeDatagrams},
       {"send_stream", {}, false, false, &Send},
       {"plausibility_stream", all, true, false, &ScanAndSend},
+      {"camera_of_28800_pixels", {}, false, false, &RenderImage},
+      {"camera_of_28800_pixels_in_sun", {}, false, false, &RenderImage, {}, 0.0, {}, 100.0},
+      {"camera_megapixel_in_sun", {}, false, false, &RenderMegapixel, {}, 0.0, {}, 100.0},
+      {"camera_megapixel_files", {}, false, false, &RenderAndEncodeMegapixel, {}, 0.0, {}, 100.0},
   };
 }
 
@@ -197,6 +225,7 @@ void Run(benchmark::State& state, Bench& bench, const Row& row, int num_threads)
   spec.detector.receiver.halo_share_at_1_deg = row.halo_share;
   spec.detector.weather.visibility_m = row.visibility_m;
   spec.detector.weather.puddle_share = row.puddle_share;
+  spec.detector.weather.sun.illuminance_klx = row.sun_klx;
   bench.simulator->UseThreads(num_threads);
   bench.simulator->Use(spec);
   row.work(bench, 0);  // Warms the caches, because the rows before it ran on other memory.

@@ -37,6 +37,7 @@ struct CameraSpec {
   std::optional<double> rate_hz{};
   std::optional<MountSpec> mount{};  ///< Absent = that of the sensor.
   std::optional<DistortionSpec> distortion{};
+  std::vector<std::string> udp{};  ///< host:port of each receiver of live images.
 
   bool operator==(const CameraSpec&) const = default;
 };

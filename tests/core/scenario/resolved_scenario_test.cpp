@@ -62,7 +62,8 @@ ScenarioSpec UnusualScenario(const std::string& mesh_file) {
                  "front",
                  2.5,
                  MountSpec{{4, 5, 6}, 1, 2, 3},
-                 DistortionSpec{-0.1, 0.02, 0.001, -0.002, 0.003}};
+                 DistortionSpec{-0.1, 0.02, 0.001, -0.002, 0.003},
+                 {"localhost:2"}};
   spec.world.seed = 0xFFFF'FFFF'FFFF'FFFEULL;
   spec.world.alignment = {AlignmentSplineSpec{{{0, 0}, {100, 0.1}}},
                           "a survey",
