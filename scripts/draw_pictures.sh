@@ -43,6 +43,27 @@ draw intensity demo --frame 20 --camera driver --color-by intensity
 draw snow snow --frame 20 --camera driver
 draw mirror_image wet --frame 0 --eye 6,-4,5 --target 28,8,-2
 
+# The camera's images of frame 20, in sun and in fog, at half their size side by side.
+for weather in '"sun": {"illuminance_klx": 100, "azimuth_deg": 200}' '"visibility_m": 150'; do
+  name=camera_$([[ $weather == *sun* ]] && echo sun || echo fog)
+  printf '{"version": 1, "file": "%s", "weather": {%s}, "camera": {"width_px": 1280,
+    "height_px": 800, "horizontal_fov_deg": 60, "mount": {"position_m": [2.2, 0, 2.6], "pitch_deg": 2}}}' \
+    "$PWD/scenarios/st_gallen_approach.json" "$weather" > "$runs/$name.json"
+  "$generate" sequence "$runs/$name.json" --out "$runs/$name" --start-frame 20 --frames 1 > "$runs/$name.txt"
+done
+/usr/bin/python3 - "$runs" "$images/camera.jpg" << 'PYTHON'
+import sys
+import numpy as np
+import open3d as o3d
+
+runs, picture = sys.argv[1:]
+images = [np.asarray(o3d.io.read_image(f"{runs}/camera_{name}/camera/camera/color/000020.png"))
+          for name in ("sun", "fog")]
+halves = [image.reshape(400, 2, 640, 2, 3).mean(axis=(1, 3)) for image in images]
+both = np.concatenate(halves, axis=1).round().astype(np.uint8)
+o3d.io.write_image(picture, o3d.geometry.Image(np.ascontiguousarray(both)), quality=85)
+PYTHON
+
 # The report states its date: use that of the commit, so that the picture is reproducible.
 (cd "$runs" && SOURCE_DATE_EPOCH=$(git -C "$images" log -1 --format=%ct) "$analyze" stats demo --out stats > stats.txt)
 chromium --headless --no-sandbox --disable-gpu --no-first-run --user-data-dir="$runs/profile" \

@@ -209,9 +209,9 @@ std::vector<Row> Rows() {
       {"send_stream", {}, false, false, &Send},
       {"plausibility_stream", all, true, false, &ScanAndSend},
       {"camera_of_28800_pixels", {}, false, false, &RenderImage},
-      {"camera_of_28800_pixels_in_sun", {}, false, false, &RenderImage, {}, 0.0, {}, 100.0},
-      {"camera_megapixel_in_sun", {}, false, false, &RenderMegapixel, {}, 0.0, {}, 100.0},
-      {"camera_megapixel_files", {}, false, false, &RenderAndEncodeMegapixel, {}, 0.0, {}, 100.0},
+      {"camera_of_28800_pixels_in_sun", {}, false, false, &RenderImage, {}, 0.0, {}, 0.0, 100.0},
+      {"camera_megapixel_in_sun", {}, false, false, &RenderMegapixel, {}, 0.0, {}, 0.0, 100.0},
+      {"camera_megapixel_files", {}, false, false, &RenderAndEncodeMegapixel, {}, 0.0, {}, 0.0, 100.0},
   };
 }
 
