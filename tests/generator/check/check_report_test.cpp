@@ -28,6 +28,16 @@ TEST(CheckReport, StatesTheSensorsRates) {
             "          10 frames/s, each fired within 0.075 s; at most 40 points/s\n");
 }
 
+TEST(CheckReport, SaysWhatACameraIs) {
+  CameraSpec camera{.width_px = 640, .height_px = 480, .horizontal_fov_deg = 62.5};
+  EXPECT_EQ(CameraText(camera),
+            "camera    camera: 640 x 480 pixels, 62.5 degrees wide, an image with each frame\n");
+  camera.name = "front";
+  camera.rate_hz = 2.5;
+  EXPECT_EQ(CameraText(camera),
+            "camera    front: 640 x 480 pixels, 62.5 degrees wide, 2.5 images/s\n");
+}
+
 TEST(CheckReport, CallsALineStraight) {
   AlignmentSpec spec;
   spec.course = AlignmentElementsSpec{{{ElementType::kStraight, 300.0, {}}}};
