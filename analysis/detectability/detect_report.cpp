@@ -63,7 +63,7 @@ std::string RunsText(std::size_t num_runs) {
 Table VerdictTable(const std::vector<Verdict>& verdicts) {
   Table table;
   table.key = "verdicts";
-  table.title = "Who is detected in time to stop";
+  table.title = "Which objects are detected in time to stop";
   table.note = "Distances of detection are of the runs that detected the object, but not at once.";
   table.is_open = true;
   table.columns = {{"object", "Object", ""},
@@ -257,7 +257,7 @@ Report MakeDetectReport(const std::vector<DetectRun>& runs,
                         const RungUsed& rung) {
   const std::vector<Verdict> verdicts = MakeVerdicts(runs);
   Report report;
-  report.title = "ObjectDetection in time to stop";
+  report.title = "Which objects are detected in time to stop";
   report.command = command;
   report.facts = std::move(facts);
   report.facts.emplace_back("Rung", rung.InWords());

@@ -93,7 +93,7 @@ std::string WeatherText(const WeatherSpec& weather) {
   add(weather.rain_rate_mmph > 0.0, "rain " + NumberText(weather.rain_rate_mmph) + " mm/h");
   add(weather.snow_rate_mmph > 0.0, std::string(NameOf(weather.snow_type)) + " snow " +
                                         NumberText(weather.snow_rate_mmph) + " mm/h");
-  add(weather.wetness > 0.0, "wetness " + NumberText(weather.wetness));
+  add(WetnessOf(weather) > 0.0, "wetness " + NumberText(WetnessOf(weather)));
   add(weather.snow_cover > 0.0, "snow cover " + NumberText(weather.snow_cover));
   add(weather.puddle_share > 0.0, "puddles " + NumberText(weather.puddle_share));
   add(weather.sun.illuminance_klx > 0.0, "sun " + NumberText(weather.sun.illuminance_klx) + " klx");
