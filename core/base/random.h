@@ -34,6 +34,7 @@ enum class RandomUse : std::uint32_t {
   kTreeSway = 106,
   kSpanSway = 107,
   kPuddles = 108,
+  kRandomWeather = 200,
 };
 
 /// Four independent, uniform 32-bit words that depend on the arguments only.

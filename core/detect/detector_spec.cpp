@@ -63,6 +63,7 @@ void CheckDetectorSpec(const DetectorSpec& spec) {
   constexpr int kMostReferenceRays = 4096;
   const double visibility_m = weather.visibility_m.value_or(1.0);
   const double saturation = receiver.saturation_power_ratio.value_or(2.0);
+  const double wetness = weather.wetness.value_or(0.0);
   std::vector<NumberRule> rules = {
       {"/range_min_m", spec.range_min_m, IsNonNegative(spec.range_min_m), ">= 0"},
       {"/range_max_m", spec.range_max_m, IsPositive(spec.range_max_m), "> 0"},
@@ -99,7 +100,7 @@ void CheckDetectorSpec(const DetectorSpec& spec) {
        ">= 0"},
       {"/weather/snow_rate_mmph", weather.snow_rate_mmph, IsNonNegative(weather.snow_rate_mmph),
        ">= 0"},
-      {"/weather/wetness", weather.wetness, IsShare(weather.wetness), ">= 0 and <= 1"},
+      {"/weather/wetness", wetness, IsShare(wetness), ">= 0 and <= 1"},
       {"/weather/snow_cover", weather.snow_cover, IsShare(weather.snow_cover), ">= 0 and <= 1"},
       {"/weather/puddle_share", weather.puddle_share, IsShare(weather.puddle_share),
        ">= 0 and <= 1"},

@@ -25,11 +25,11 @@ bool Always(const DetectorSpec& /*spec*/) {
 // Surface condition.
 
 bool HasSurfaceCondition(const DetectorSpec& spec) {
-  return spec.weather.wetness > 0.0 || spec.weather.snow_cover > 0.0;
+  return WetnessOf(spec.weather) > 0.0 || spec.weather.snow_cover > 0.0;
 }
 
 std::string SurfaceConditionText(const DetectorSpec& spec) {
-  return "wetness " + NumberText(spec.weather.wetness) + ", snow cover " +
+  return "wetness " + NumberText(WetnessOf(spec.weather)) + ", snow cover " +
          NumberText(spec.weather.snow_cover);
 }
 
@@ -241,7 +241,7 @@ std::vector<Effect> PhysicalEffects() {
        .rungs = from_surface_on,
        .has_cause = HasSurfaceCondition,
        .text = &SurfaceConditionText,
-       .weather_keys = {"wetness", "snow_cover"},
+       .weather_keys = {"wetness", "rain_rate_mmph", "snow_cover"},
        .instructions = 10.0},
       {.name = "extinction",
        .is_on = &EffectSet::extinction,
@@ -295,7 +295,7 @@ std::vector<Effect> PhysicalEffects() {
        .rungs = from_surface_on,
        .has_cause = HasSpray,
        .text = &SprayText,
-       .weather_keys = {"spray_extinction_per_m", "wetness", "snow_cover"}},
+       .weather_keys = {"spray_extinction_per_m", "wetness", "rain_rate_mmph", "snow_cover"}},
       {.name = "sunlight",
        .is_on = &EffectSet::sunlight,
        .rungs = from_surface_on,

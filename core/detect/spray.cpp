@@ -78,7 +78,7 @@ float OpticalDepth(const SprayCloud& cloud, const SprayPath& path, float range_m
 }
 
 double SprayExtinction_per_m(const WeatherSpec& weather, double speed_mps) {
-  const double cause = std::max(weather.wetness, weather.snow_cover);
+  const double cause = std::max(WetnessOf(weather), weather.snow_cover);
   return weather.spray_extinction_per_m * cause * std::pow(speed_mps / MpsFromKmph(100.0), 2);
 }
 

@@ -1,5 +1,6 @@
 #include "core/detect/weather_optics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -54,6 +55,10 @@ double SnowExtinction_per_m(const WeatherSpec& weather, int wavelength_nm) {
                                ? (1.023e-4 * wavelength_nm + 3.7855) * std::pow(rate, 0.72)
                                : (5.42e-5 * wavelength_nm + 5.4959) * std::pow(rate, 1.38);
   return db_per_km / kDbPerKmOf1PerM;
+}
+
+double WetnessOf(const WeatherSpec& weather) {
+  return weather.wetness.value_or(std::min(1.0, weather.rain_rate_mmph / kSoakingRain_mmph));
 }
 
 double Extinction_per_m(const WeatherSpec& weather, int wavelength_nm) {

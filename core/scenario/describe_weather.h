@@ -56,7 +56,10 @@ void Describe(Archive& a, WeatherSpec& s) {
              Within(1e-3, 10'000));
   a.Optional("snow_intensity", s.snow_intensity, "Effective reflectance of a flake.",
              Within(0, 100));
-  a.Optional("wetness", s.wetness, "Wetness of surfaces: 0 = dry, 1 = soaked.", Within(0, 1));
+  a.Optional("wetness", s.wetness,
+             "Wetness of surfaces: 0 = dry, 1 = soaked. If absent, rain wets them: a quarter for "
+             "each mm/h, at most 1.",
+             Within(0, 1));
   a.Optional("snow_cover", s.snow_cover, "Snow-covered share of each upward surface.",
              Within(0, 1));
   a.Optional("puddle_share", s.puddle_share,

@@ -40,7 +40,7 @@ BeamTracer::BeamTracer(const SimulatorSpec& spec,
   beam_.sigma_v_rad = static_cast<float>(VerticalSigma_rad(spec_.beam));
   if (is_physical_) {
     optics_ = OpticsTable(materials, spec_.beam.wavelength_nm,
-                          spec_.effects.surface_condition ? spec_.weather.wetness : 0.0);
+                          spec_.effects.surface_condition ? WetnessOf(spec_.weather) : 0.0);
     dry_optics_ = OpticsTable(materials, spec_.beam.wavelength_nm, 0.0);
   }
   if (spec_.effects.mirror_paths) mirrors_.emplace(spec_, materials);

@@ -224,7 +224,9 @@ struct WeatherSpec {
   double snow_echoes_per_mmph = 0.02;  ///< Mean detectable flakes per beam at 1 mm/h.
   double snow_range_scale_m = 5.0;     ///< Maxwell scale of flake ranges (median 1.538 x this).
   double snow_intensity = 0.02;        ///< Effective reflectance of a flake.
-  double wetness = 0.0;                ///< Wetness of surfaces: 0 = dry, 1 = soaked.
+  /// Wetness of surfaces: 0 = dry, 1 = soaked. Absent: what the rain makes of them; see
+  /// WetnessOf().
+  std::optional<double> wetness;
   double snow_cover = 0.0;    ///< Share of each upward-facing surface that is covered by snow.
   double puddle_share = 0.0;  ///< Share of level ground that holds puddles under standing water.
   /// Extinction of the spray at a train of 100 km/h on soaked or snow-covered ground; 0 = no spray.
@@ -235,6 +237,14 @@ struct WeatherSpec {
 
   bool operator==(const WeatherSpec&) const = default;
 };
+
+/// The rain rate from which on surfaces are soaked, unless the weather says how wet they are. An
+/// assumption: light rain of 1 mm/h wets a quarter of the film that heavy rain leaves.
+inline constexpr double kSoakingRain_mmph = 4.0;
+
+/// The wetness of surfaces, from 0 to 1: as the weather states it, else in proportion to the rain
+/// rate up to kSoakingRain_mmph.
+[[nodiscard]] double WetnessOf(const WeatherSpec& weather);
 
 /// Label identifiers of echoes that no surface sends.
 struct ClutterLabels {

@@ -57,6 +57,11 @@ TEST(EffectTable, SwitchesEachEffectByItsOwnFlag) {
 TEST(EffectTable, GivesNoEffectTheCauseOfAnother) {
   EXPECT_THAT(CausedBy([](DetectorSpec&) {}), UnorderedElementsAre());
   EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.weather.rain_rate_mmph = 1.0; }),
+              UnorderedElementsAre("rain", "extinction", "clutter", "surface_condition"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) {
+                s.weather.rain_rate_mmph = 1.0;
+                s.weather.wetness = 0.0;
+              }),
               UnorderedElementsAre("rain", "extinction", "clutter"));
   EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.weather.snow_rate_mmph = 1.0; }),
               UnorderedElementsAre("snow", "extinction", "clutter"));

@@ -191,6 +191,19 @@ TEST(Extinction, AddsFogRainAndSnow) {
                                                         SnowExtinction_per_m(weather, 1550));
 }
 
+TEST(Wetness, IsWhatTheWeatherStatesElseWhatTheRainMakes) {
+  EXPECT_EQ(WetnessOf({}), 0.0);
+  EXPECT_DOUBLE_EQ(WetnessOf(Rain(1.0)), 0.25);
+  EXPECT_DOUBLE_EQ(WetnessOf(Rain(4.0)), 1.0);
+  EXPECT_DOUBLE_EQ(WetnessOf(Rain(50.0)), 1.0);
+  WeatherSpec weather = Rain(50.0);
+  weather.wetness = 0.0;
+  EXPECT_EQ(WetnessOf(weather), 0.0);
+  weather = {};
+  weather.wetness = 0.7;
+  EXPECT_EQ(WetnessOf(weather), 0.7);
+}
+
 TEST(ParticleEchoes, AreThoseOfThePublishedTable) {
   struct Row {
     WeatherSpec weather;

@@ -75,7 +75,7 @@ TEST(EffectsReport, SaysWhatTheWeatherDoesToThePhysicalRungs) {
       "rung      footprint\n"
       "          sensor_dropout: probability 0\n"
       "          surface_response\n"
-      "          surface_condition: wetness 0, snow cover 0\n"
+      "          surface_condition: wetness 1, snow cover 0\n"
       "          extinction: fog 0 per m, rain 0.001556, snow 0, both ways\n"
       "          pulse_stretch: pulse of 5 ns, sigma 0.3183 m\n"
       "          mirror_paths: none: no puddles and nothing smooth\n"
