@@ -17,6 +17,8 @@ void AddStream(CLI::App& app, ProgramCommand& command);
 void AddCheck(CLI::App& app, ProgramCommand& command);
 /// Writes the scene as triangles: a stretch of the line, or the window of frame 0.
 void AddWorld(CLI::App& app, ProgramCommand& command);
+/// Writes scenarios that differ from a given one in random weather.
+void AddRandomize(CLI::App& app, ProgramCommand& command);
 /// Replays one firing and prints what each effect made of it.
 void AddTrace(CLI::App& app, ProgramCommand& command);
 

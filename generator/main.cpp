@@ -11,6 +11,7 @@ void AddCommands(CLI::App& app, railcast::ProgramCommand& command) {
   railcast::AddCheck(app, command);
   railcast::AddWorld(app, command);
   railcast::AddTrace(app, command);
+  railcast::AddRandomize(app, command);
 }
 
 }  // namespace

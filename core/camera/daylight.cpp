@@ -38,7 +38,7 @@ Radiance Between(const Radiance& a, const Radiance& b, float share_of_b) {
 Daylight::Daylight(const WeatherSpec& weather, const Eigen::Matrix3d& window_from_world)
     : up_((window_from_world * Vector3::UnitZ()).cast<float>()),
       extinction_per_m_(static_cast<float>(Extinction_per_m(weather, 905))),
-      wetness_(static_cast<float>(weather.wetness)),
+      wetness_(static_cast<float>(WetnessOf(weather))),
       snow_cover_(static_cast<float>(weather.snow_cover)) {
   const double azimuth_rad = RadFromDeg(weather.sun.azimuth_deg);
   const double elevation_rad = RadFromDeg(weather.sun.elevation_deg);
