@@ -49,11 +49,17 @@ bool IsReadByAny(std::string_view key, const EffectSet& effects) {
   });
 }
 
-/// Lists the keys that the scenario gives although no active effect reads them.
-std::string IdleWeatherText(const WeatherSpec& weather, const EffectSet& effects) {
+/// Lists the keys that the scenario gives although neither an active effect nor a camera reads
+/// them.
+std::string IdleWeatherText(const ScenarioSpec& scenario, const EffectSet& effects) {
+  // What Extinction_per_m() and Daylight read.
+  constexpr std::string_view kOfCamera[] = {"fog_density_per_m", "visibility_m",   "rain_rate_mmph",
+                                            "rain_drop_sizes",   "snow_rate_mmph", "snow_type",
+                                            "wetness",           "snow_cover",     "sun"};
   std::string names;
   for (const WeatherKey& key : kWeatherKeys) {
-    if (!key.is_given(weather) || IsReadByAny(key.name, effects)) continue;
+    if (!key.is_given(scenario.weather) || IsReadByAny(key.name, effects)) continue;
+    if (scenario.camera && std::ranges::find(kOfCamera, key.name) != std::end(kOfCamera)) continue;
     names += (names.empty() ? "" : ", ") + std::string(key.name);
   }
   if (names.empty()) return "";
@@ -78,7 +84,7 @@ std::string EffectsText(const ScenarioSpec& scenario) {
     const std::string name = effect.name;
     text += ReportLine("", effect.text == nullptr ? name : name + ": " + effect.text(spec));
   }
-  return text + IdleWeatherText(scenario.weather, effects) + WindText(scenario.weather);
+  return text + IdleWeatherText(scenario, effects) + WindText(scenario.weather);
 }
 
 }  // namespace railcast

@@ -63,6 +63,14 @@ TEST(EffectsReport, NamesTheKeysOfTheWeatherThatNoEffectReads) {
             "          interference: 0 pulses per s, false echoes in 0 of the firings\n");
 }
 
+TEST(EffectsReport, CountsAmongTheReadersOfTheWeatherTheCamera) {
+  ScenarioSpec scenario;
+  scenario.weather.sun.illuminance_klx = 80.0;
+  EXPECT_NE(EffectsText(scenario).find("reads these keys of weather: sun\n"), std::string::npos);
+  scenario.camera = CameraSpec{.width_px = 64, .height_px = 32, .horizontal_fov_deg = 60.0};
+  EXPECT_EQ(EffectsText(scenario).find("reads these keys"), std::string::npos);
+}
+
 // From docs/physics.md 4.1 and 4.2: at 10 mm/h, 157 m of 200 m, and 0.40 echoes per beam of 3 mrad,
 // half of them within 3.7 m; a clutter_gain of 0.2 makes them 0.08.
 TEST(EffectsReport, SaysWhatTheWeatherDoesToThePhysicalRungs) {
