@@ -159,10 +159,10 @@ inline void GatherFogGroup(const DetectTile& tile,
   // a look-up for each beam is not.
   const std::size_t first = packet[0];
   const std::size_t last = packet[kFogGroup - 1];
-  std::uint32_t is_last[kFogGroup];
+  float is_last[kFogGroup];  // 0 or 1.
   bool are_two = true;
   for (std::size_t i = 0; i < kFogGroup; ++i) {
-    is_last[i] = packet[i] == last ? 1 : 0;
+    is_last[i] = packet[i] == last ? 1.0F : 0.0F;
     are_two = are_two & ((packet[i] == first) | (packet[i] == last));
   }
   group.first_gate = group.end_gate = 0;
@@ -170,15 +170,18 @@ inline void GatherFogGroup(const DetectTile& tile,
   for (std::size_t k = 0; k < (num_gates + 8) / 8 * 8; ++k) {
     float* const power = group.power[k];
     const float* const row = field[k < p.num_gates ? k : 0];  // What is beyond is not read.
+    bool is_enough = false;
     if (are_two) {
       const float of_first = row[first];
       const float of_last = row[last];
-      for (std::size_t i = 0; i < kFogGroup; ++i) power[i] = is_last[i] != 0 ? of_last : of_first;
+      for (std::size_t i = 0; i < kFogGroup; ++i) power[i] = is_last[i] > 0.0F ? of_last : of_first;
+      is_enough = of_first >= p.least_ratio || of_last >= p.least_ratio;
     } else {
-      for (std::size_t i = 0; i < kFogGroup; ++i) power[i] = row[packet[i]];
+      for (std::size_t i = 0; i < kFogGroup; ++i) {
+        power[i] = row[packet[i]];
+        is_enough = is_enough | (power[i] >= p.least_ratio);
+      }
     }
-    bool is_enough = false;
-    for (std::size_t i = 0; i < kFogGroup; ++i) is_enough = is_enough | (power[i] >= p.least_ratio);
     if (k >= num_gates || !is_enough) continue;
     if (group.end_gate == 0) group.first_gate = k;
     group.end_gate = k + 1;
