@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -81,6 +82,27 @@ TEST(SeenPlanes, AreTheFloorAndTheWall) {
   }
   EXPECT_TRUE(has_floor);
   EXPECT_TRUE(has_wall);
+}
+
+// Each ring of such a hedge lies on a level plane, but the surface about its points does not.
+TEST(SeenPlanes, AreNotFoundInAHedgeAllAround) {
+  RecordedFrame hedge = RecordYard(PresetScenario("vlp16"))[0];
+  const auto scan = MakeScanTable(hedge.frame);
+  ASSERT_TRUE(scan);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> depth_m(10.0, 12.0);
+  for (std::size_t row = 0; row < hedge.frame.rows; ++row) {
+    for (std::size_t column = 0; column < hedge.frame.columns; ++column) {
+      const std::size_t slot = row * hedge.frame.width() + column * hedge.frame.returns;
+      const auto [x, y, z] = scan->Direction(row, column);
+      const double range_m = depth_m(random);
+      hedge.frame.range_m[slot] = static_cast<float>(range_m);
+      hedge.frame.x[slot] = static_cast<float>(range_m * x);
+      hedge.frame.y[slot] = static_cast<float>(range_m * y);
+      hedge.frame.z[slot] = static_cast<float>(range_m * z);
+    }
+  }
+  EXPECT_TRUE(FindSeenPlanes(hedge.frame, *scan).planes.empty());
 }
 
 TEST(SeenPlanes, OfEvenAndOddSectorsShareNoFiring) {
