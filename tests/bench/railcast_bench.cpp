@@ -211,7 +211,16 @@ std::vector<Row> Rows() {
       {"camera_of_28800_pixels", {}, false, false, &RenderImage},
       {"camera_of_28800_pixels_in_sun", {}, false, false, &RenderImage, {}, 0.0, {}, 0.0, 100.0},
       {"camera_megapixel_in_sun", {}, false, false, &RenderMegapixel, {}, 0.0, {}, 0.0, 100.0},
-      {"camera_megapixel_files", {}, false, false, &RenderAndEncodeMegapixel, {}, 0.0, {}, 0.0, 100.0},
+      {"camera_megapixel_files",
+       {},
+       false,
+       false,
+       &RenderAndEncodeMegapixel,
+       {},
+       0.0,
+       {},
+       0.0,
+       100.0},
   };
 }
 

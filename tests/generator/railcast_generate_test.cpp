@@ -96,9 +96,9 @@ TEST(RailcastGenerate, ListsTheEchoesOfAFiringThatHasMoreThanOne) {
   const TemporaryDirectory directory;
   WriteFileWhole(directory.path() / "fog.json",
                  R"({"version": 1, "fidelity": "surface", "file": ")" + scenarios_folder +
-                     R"(minimal.json", "weather": {"visibility_m": 100}})");
+                     R"(minimal.json", "weather": {"visibility_m": 50}})");
   const Ended run =
-      Generate("trace " + (directory.path() / "fog.json").string() + " --frame 3 --firing 0");
+      Generate("trace " + (directory.path() / "fog.json").string() + " --frame 3 --firing 1");
   EXPECT_EQ(run.status, 0) << run.said;
   EXPECT_NE(run.said.find("\necho "), std::string::npos) << run.said;
   EXPECT_NE(run.said.find("\nfog "), std::string::npos) << run.said;

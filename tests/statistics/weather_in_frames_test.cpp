@@ -88,6 +88,7 @@ TEST(WeatherInFrames, ShortensTheRangeAsTheClosedFormSays) {
   }
   SimulatorSpec rain = HardSpec();
   rain.detector.weather.rain_rate_mmph = 50.0;
+  rain.detector.weather.wetness = 0.0;
   ExpectRangeMax(rain, RangeMax_m(0.5, RainExtinction_per_m(rain.detector.weather)));
   SimulatorSpec snow = HardSpec();
   snow.detector.weather.snow_rate_mmph = 2.5;

@@ -59,8 +59,7 @@ TEST(EffectsReport, NamesTheKeysOfTheWeatherThatNoEffectReads) {
       last_line(),
       "          no effect that is on reads these keys of weather: rain_dropout_per_m, sun\n");
   scenario.weather = {};
-  EXPECT_EQ(last_line(),
-            "          interference: 0 pulses per s, false echoes in 0 of the firings\n");
+  EXPECT_EQ(last_line(), "          ghost: none\n");
 }
 
 TEST(EffectsReport, CountsAmongTheReadersOfTheWeatherTheCamera) {
