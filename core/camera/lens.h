@@ -19,8 +19,10 @@ class Lens {
   /// @pre point.z() > 0.
   [[nodiscard]] Eigen::Vector2d Project(const Vector3& point) const;
 
+  [[nodiscard]] bool is_distorted() const { return is_distorted_; }
+
   /// Returns (x, y) of the direction (x, y, 1) that is seen at (u, v). Distortion is inverted by
-  /// Newton's method, to 1e-12.
+  /// Newton's method, to 1e-12. Steps are halved until they come closer.
   /// @return Nothing if the search does not converge.
   [[nodiscard]] std::optional<Eigen::Vector2d> DirectionAt(double u_px, double v_px) const;
 

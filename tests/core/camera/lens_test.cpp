@@ -54,6 +54,31 @@ TEST(Lens, LooksFromEachPixelToWhatIsSeenThere) {
   }
 }
 
+// Newton's method with full steps fails at single pixels of these, between those at which it does
+// not.
+TEST(Lens, LooksFromEveryPixelOfAStronglyDistortedImage) {
+  const DistortionSpec bulge{
+      .k1 = 0.07290808313923929, .k2 = 0.10442730907766491, .k3 = -0.03009446520991182};
+  const DistortionSpec oblique{.k1 = -2.030788525242204,
+                               .k2 = 2.80237634311493,
+                               .p2 = 0.1996657507758857,
+                               .k3 = 3.571066935680261};
+  for (const DistortionSpec& distortion : {bulge, oblique}) {
+    const CameraSpec spec{
+        .width_px = 320, .height_px = 240, .horizontal_fov_deg = 110, .distortion = distortion};
+    ASSERT_TRUE(IsInvertible(spec));
+    const Lens lens(spec);
+    for (std::uint32_t v = 0; v < spec.height_px; ++v) {
+      for (std::uint32_t u = 0; u < spec.width_px; ++u) {
+        const auto direction = lens.DirectionAt(u, v);
+        ASSERT_TRUE(direction) << u << ", " << v;
+        const Eigen::Vector2d seen = SeenAt(spec, {direction->x(), direction->y(), 1.0});
+        ASSERT_NEAR((seen - Eigen::Vector2d(u, v)).norm(), 0.0, 1e-9) << u << ", " << v;
+      }
+    }
+  }
+}
+
 TEST(Lens, IsNotInvertibleWhereTwoDirectionsFallTogether) {
   // x (1 - 0.5 x^2) has its largest value, 0.54, at x = 0.82, that is at a field of view of 57
   // degrees without distortion.
