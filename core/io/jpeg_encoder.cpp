@@ -1,9 +1,10 @@
 #include "core/io/jpeg_encoder.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdio>
-#include <cstdlib>
 #include <new>
+#include <utility>
 
 // jpeglib.h needs the headers above.
 #include <jpeglib.h>
@@ -18,32 +19,56 @@ namespace {
   throw std::bad_alloc();
 }
 
-/// libjpeg's state while one image is encoded, and the bytes that it makes.
+/// libjpeg's state while one image is encoded, and the bytes that it makes. They are kept in memory
+/// of this class: libjpeg's own jpeg_mem_dest() leaves a pointer to freed memory behind when it
+/// fails to grow its buffer.
 class JpegWriter {
  public:
   JpegWriter() {
     state_.err = jpeg_std_error(&errors_);
     errors_.error_exit = &FailJpeg;
     jpeg_create_compress(&state_);
-    jpeg_mem_dest(&state_, &bytes_, &num_bytes_);
+    destination_.init_destination = &StartBlock;
+    destination_.empty_output_buffer = &KeepFullBlock;
+    destination_.term_destination = &KeepLastBlock;
+    state_.dest = &destination_;
+    state_.client_data = this;
   }
-  ~JpegWriter() {
-    jpeg_destroy_compress(&state_);
-    std::free(bytes_);
-  }
+  ~JpegWriter() { jpeg_destroy_compress(&state_); }
   JpegWriter(const JpegWriter&) = delete;
   JpegWriter& operator=(const JpegWriter&) = delete;
 
   [[nodiscard]] jpeg_compress_struct& state() { return state_; }
-  [[nodiscard]] std::string bytes() const {
-    return {reinterpret_cast<const char*>(bytes_), num_bytes_};
-  }
+  [[nodiscard]] std::string TakeBytes() { return std::move(bytes_); }
 
  private:
+  static void StartBlock(j_compress_ptr state) {
+    JpegWriter& writer = *static_cast<JpegWriter*>(state->client_data);
+    writer.destination_.next_output_byte = writer.block_.data();
+    writer.destination_.free_in_buffer = writer.block_.size();
+  }
+  static boolean KeepFullBlock(j_compress_ptr state) {
+    JpegWriter& writer = *static_cast<JpegWriter*>(state->client_data);
+    // All of it: libjpeg does not keep `free_in_buffer` up to date before this call.
+    writer.Keep(writer.block_.size());
+    StartBlock(state);
+    return TRUE;
+  }
+  static void KeepLastBlock(j_compress_ptr state) {
+    JpegWriter& writer = *static_cast<JpegWriter*>(state->client_data);
+    writer.Keep(writer.block_.size() - writer.destination_.free_in_buffer);
+  }
+  // Lack of memory passes through libjpeg as it does from FailJpeg().
+  void Keep(std::size_t num_bytes) {
+    bytes_.append(reinterpret_cast<const char*>(block_.data()), num_bytes);
+  }
+
+  static constexpr std::size_t kBlockSize = 16'384;
   jpeg_error_mgr errors_{};
+  jpeg_destination_mgr destination_{};
   jpeg_compress_struct state_{};
-  unsigned char* bytes_ = nullptr;
-  unsigned long num_bytes_ = 0;  // NOLINT(google-runtime-int): as libjpeg has it.
+  std::array<JOCTET, kBlockSize> block_;
+  std::string bytes_;
 };
 
 }  // namespace
@@ -66,7 +91,7 @@ std::string EncodeJpeg(const ImageSize& size, std::span<const std::uint8_t> rgb,
     jpeg_write_scanlines(&jpeg, &row, 1);
   }
   jpeg_finish_compress(&jpeg);
-  return writer.bytes();
+  return writer.TakeBytes();
 }
 
 }  // namespace railcast
