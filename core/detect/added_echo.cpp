@@ -21,7 +21,7 @@ EchoTiles::Place AddEcho(std::size_t beam, const AddedEcho& added, EchoTiles& ec
   tile.clutter[lane] = added.label;
   tile.intensity[lane] = added.intensity;
   tile.power_ratio[lane] = added.power_ratio;
-  tile.busy_m[lane] = 0.0F;
+  tile.busy_m[lane] = added.busy_m;
   return place;
 }
 

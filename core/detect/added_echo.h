@@ -14,6 +14,9 @@ struct AddedEcho {
   float range_m{};
   float power_ratio{};
   float intensity{};
+  /// Half the range over which it is above the threshold (DetectTile::busy_m), if it comes after
+  /// effect `saturation`.
+  float busy_m = 0.0F;
 };
 
 /// Adds an echo with the outcome `clutter` to the firing in lane `beam`. The receiver's loops have

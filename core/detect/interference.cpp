@@ -1,5 +1,6 @@
 #include "core/detect/interference.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/random.h"
@@ -16,6 +17,10 @@ double ListeningTime_s(const DetectorSpec& spec) {
 Interference::Interference(const DetectorSpec& spec, const Kernels& kernels)
     : spec_(spec), uniforms_(kernels.uniforms) {
   if (!spec.effects.interference) return;
+  if (spec.effects.saturation) {
+    saturation_ = static_cast<float>(spec.receiver.saturation_power_ratio.value_or(0.0));
+    pulse_sigma_m_ = static_cast<float>(PulseSigma_m(spec.beam));
+  }
   probability_ =
       static_cast<float>(-std::expm1(-spec.receiver.foreign_pulses_hz * ListeningTime_s(spec)));
 }
@@ -33,10 +38,13 @@ void Interference::AddEchoes(EchoTiles& echoes) const {
     const auto range_m = static_cast<float>(
         std::lerp(spec_.range_min_m, spec_.range_max_m, static_cast<double>(UnitFloat(words[0]))));
     const float ratio = 1.0F / (1.0F - UnitFloat(words[1]));
-    AddMeasuredEcho(beam,
-                    {spec_.clutter_labels.false_alarm, EchoTiles::kForeignPulse, range_m, ratio,
-                     ratio * power_min * range_m * range_m},
-                    echoes);
+    AddedEcho echo{spec_.clutter_labels.false_alarm, EchoTiles::kForeignPulse, range_m, ratio,
+                   ratio * power_min * range_m * range_m};
+    if (saturation_ > 0.0F) {
+      echo.power_ratio = std::min(ratio, saturation_);
+      echo.busy_m = pulse_sigma_m_ * std::sqrt(2.0F * std::log(ratio));
+    }
+    AddMeasuredEcho(beam, echo, echoes);
   }
 }
 

@@ -20,6 +20,8 @@ namespace railcast {
 /// within a distance grows with its square, where they are spread evenly over the ground: the
 /// power's distribution follows.
 ///
+/// They come after effect `saturation`, which therefore acts on them here: saturation.h.
+///
 /// Validity: sparse interference. Other lidars are not part of the scene, so that their false
 /// echoes neither come in bursts nor from a direction. Immutable; thread-safe.
 class Interference {
@@ -34,6 +36,8 @@ class Interference {
   DetectorSpec spec_;
   decltype(Kernels::uniforms) uniforms_;
   float probability_{};
+  float saturation_{};  // Power ratio at which the receiver saturates; 0 = never.
+  float pulse_sigma_m_{};
 };
 
 }  // namespace railcast

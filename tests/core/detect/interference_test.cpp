@@ -57,5 +57,23 @@ TEST(Interference, SpreadsEvenlyOverTheGateWithPowersThatFallAsTheInverse) {
   EXPECT_LT(DistanceFromUniform(powers), limit);
 }
 
+// One pulse in five is stronger than 5 times the threshold.
+TEST(Interference, IsClippedWhereTheReceiverSaturates) {
+  DetectorSpec spec = WithForeignPulses(50'000.0);
+  const std::vector<FacingEcho> bare = ClutterOf(DetectFacing(spec, {}));
+  spec.effects.saturation = true;
+  spec.receiver.saturation_power_ratio = 5.0;
+  const std::vector<FacingEcho> clipped = ClutterOf(DetectFacing(spec, {}));
+  ASSERT_EQ(clipped.size(), bare.size());
+  std::size_t num_clipped = 0;
+  for (std::size_t i = 0; i < bare.size(); ++i) {
+    EXPECT_EQ(clipped[i].power_ratio, std::min(bare[i].power_ratio, 5.0F));
+    EXPECT_EQ(clipped[i].range_m, bare[i].range_m);
+    num_clipped += bare[i].power_ratio > 5.0F ? 1 : 0;
+  }
+  const auto n = static_cast<double>(bare.size());
+  EXPECT_NEAR(static_cast<double>(num_clipped), 0.2 * n, 4.0 * std::sqrt(0.16 * n));
+}
+
 }  // namespace
 }  // namespace railcast
