@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <string_view>
 
@@ -32,6 +31,10 @@ railcast_rays RaysOf(RayTile& tile) {
           .normal_z = tile.normal_z};
 }
 
+// Lengths of normals of which float32 holds the squares with all their digits.
+constexpr double kLeastNormal = 1e-15;
+constexpr double kLongestNormal = 1e15;
+
 // In double, in which squares of float32 neither vanish nor overflow.
 double SquaredLength(const RayTile& tile, std::size_t i) {
   const double x = static_cast<double>(tile.normal_x[i]);
@@ -50,8 +53,9 @@ bool IsSound(const RayTile& tile, const float* range_max_m, std::size_t num_surf
     const double squared_length = SquaredLength(tile, i);
     const bool is_miss = (tile.surface[i] == 0) & (range_m == range_max_m[i]);
     const bool is_hit = (tile.surface[i] - 1U < last_surface) & (range_m >= 0.0F) &
-                        (range_m <= range_max_m[i]) & (squared_length > 0.0) &
-                        (squared_length < std::numeric_limits<double>::infinity());
+                        (range_m <= range_max_m[i]) &
+                        (squared_length >= kLeastNormal * kLeastNormal) &
+                        (squared_length <= kLongestNormal * kLongestNormal);
     is_sound &= is_miss | is_hit;
   }
   return is_sound;
@@ -75,8 +79,8 @@ std::string BrokenRule(const RayTile& tile,
     return "range_m: must be in [0, " + NumberText(range_max_m) + "]" + Got(range_m);
   }
   const double length = std::sqrt(SquaredLength(tile, i));
-  if (length > 0.0 && std::isfinite(length)) return "";
-  return "the normal's length must be finite and not 0" + Got(length);
+  if (length >= kLeastNormal && length <= kLongestNormal) return "";
+  return "the normal's length must be >= 1e-15 and <= 1e15" + Got(length);
 }
 
 std::vector<std::string> NamesOfLabels(const LabelTable& labels) {

@@ -105,13 +105,14 @@ struct railcast_rays {
   const float* shutter;
   float* range_m;     ///< Before the call: the greatest range.
   uint32_t* surface;  ///< Index into the host's table of surfaces. Before the call: 0.
-  float *normal_x, *normal_y, *normal_z;  ///< Of any length but 0, on either side.
+  float *normal_x, *normal_y, *normal_z;  ///< On either side, of a length from 1e-15 to 1e15.
 };
 typedef struct railcast_rays railcast_rays;
 
 /// Finds the first surface along each ray. Several threads may call it at once, unless the
 /// simulation has one thread: then only the thread that calls railcast_step_host(). It must not
-/// call railcast for the same simulation.
+/// call railcast for the same simulation. It must return: it must neither end or cancel the thread
+/// that it runs on nor leave by longjmp().
 /// @return 0, or any other value to end the step with RAILCAST_BAD_CALLBACK.
 typedef int (*railcast_cast_rays)(void* user, const railcast_rays* rays);
 
@@ -137,7 +138,7 @@ typedef struct railcast_scene railcast_scene;
 /// Makes a simulation whose rays the host traces, in a scene of its own. Of the scenario's world
 /// and vehicle only `lidar.mount` is used, and only for points in vehicle axes. Effects that need
 /// more than rays are without effect: `spray`, and `thin_conductors`, for which wires are surfaces
-/// like any other.
+/// like any other. Wind moves patches of fog only: it does not sway the host's trees and wires.
 /// @param[out] sim As for railcast_create().
 railcast_status railcast_create_with_scene(const railcast_config* config,
                                            const railcast_scene* scene,

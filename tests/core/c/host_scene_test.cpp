@@ -245,7 +245,7 @@ TEST(HostScene, WrongResultsOfTheCallbackEndTheStep) {
          r.range_m[3] = 5.0F;
          r.normal_x[3] = r.normal_y[3] = r.normal_z[3] = 0.0F;
        },
-       0, "the normal's length must be finite and not 0 (got 0)"},
+       0, "the normal's length must be >= 1e-15 and <= 1e15 (got 0)"},
   };
   for (BadWrite& wrong : bad) {
     const HostSim host(&WriteBadly, &wrong);
