@@ -125,6 +125,10 @@ Mirrors::Mirrors(const DetectorSpec& spec, const std::vector<Material>& material
 
 std::optional<MirrorScene> Mirrors::Among(const std::vector<Surface>& surfaces,
                                           const Transform& window_from_world) const {
+  // Where no material mirrors, the surfaces' materials need not be known.
+  const bool may_mirror = std::ranges::any_of(
+      optics_, [](const MirrorOptics& optics) { return optics.is_smooth || optics.holds_puddles; });
+  if (!may_mirror) return std::nullopt;
   const bool any = std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface& surface) {
     const MirrorOptics& optics = optics_[surface.material];
     return optics.is_smooth || optics.holds_puddles;

@@ -59,7 +59,8 @@ class Mirrors {
  public:
   Mirrors(const DetectorSpec& spec, const std::vector<Material>& materials);
 
-  /// The mirrors among a frame's surfaces; absent if there are none. Refers to both arguments.
+  /// The mirrors among a frame's surfaces; absent if there are none. Refers to `surfaces` and
+  /// to this object.
   [[nodiscard]] std::optional<MirrorScene> Among(const std::vector<Surface>& surfaces,
                                                  const Transform& window_from_world) const;
 

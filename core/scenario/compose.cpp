@@ -204,7 +204,7 @@ void UseWeather(const ScenarioSpec& scenario, const WeatherSpec& weather, Simula
   if (weather.spray_extinction_per_m > 0.0) {
     spec.detector.clutter_labels.spray = LabelTable(scenario.labels).Id("spray");
   }
-  if (weather.puddle_share > 0.0) {
+  if (weather.puddle_share > 0.0 && SwitchedEffects(scenario).mirror_paths) {
     spec.detector.clutter_labels.mirror_image = LabelTable(scenario.labels).Id("mirror_image");
   }
   spec.detector.weather = weather;
