@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Receives a camera's images (docs/stream.md), prints a line for each and, with --out, saves them.
 
-Needs only Python.
+An image is saved as FRAME.jpg, those of further runs of the sender as RUN_FRAME.jpg. Datagrams of
+earlier runs are dropped. Needs only Python.
 """
 import argparse
 import pathlib
@@ -31,7 +32,7 @@ def main():
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 22)
     listener.bind((host, int(port)))
     print("listening at %s:%d" % listener.getsockname(), flush=True)
-    current, pieces, left = None, {}, arguments.images
+    first_run, current, pieces, left = None, (0, 0), {}, arguments.images
     while left:
         try:
             head, piece = read_datagram(listener.recv(65536))
@@ -39,6 +40,10 @@ def main():
             continue
         (_, _, _, _, run, frame, stamp_ns, _, num_packets, num_bytes, first, width,
          height) = head[:13]
+        if run < current[0]:
+            continue  # On its way since before a restart.
+        if first_run is None:
+            first_run = run
         if (run, frame) != current:
             if pieces:
                 print(f"frame {current[1]}: incomplete", flush=True)
@@ -54,7 +59,8 @@ def main():
               f"{num_bytes} bytes in {num_packets} packets", flush=True)
         if arguments.out:
             arguments.out.mkdir(parents=True, exist_ok=True)
-            (arguments.out / f"{frame:06}.jpg").write_bytes(jpeg)
+            name = f"{frame:06}.jpg" if run == first_run else f"{run}_{frame:06}.jpg"
+            (arguments.out / name).write_bytes(jpeg)
         left -= 1
 
 

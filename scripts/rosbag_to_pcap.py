@@ -9,6 +9,7 @@ and to port 2368, as the sensor sends them, with the times at which they were re
 nothing but Python's own modules.
 """
 
+import os
 import pathlib
 import sqlite3
 import struct
@@ -33,6 +34,8 @@ def packets_of(message):
     Positions count from the end of the 4 bytes that say how the message is encoded. A number is
     aligned to its own size.
     """
+    if not isinstance(message, bytes):
+        raise ValueError("messages must be blobs")
     if message[:2] != b"\x00\x01":
         raise ValueError("must be little-endian CDR")
     body = message[4:]
@@ -45,6 +48,9 @@ def packets_of(message):
     for seconds, nanoseconds, data, size in PACKET.iter_unpack(body[place:]):
         if size > PACKET_BYTES:
             raise ValueError(f"packets must have at most {PACKET_BYTES} bytes (got {size})")
+        if seconds < 0 or nanoseconds >= 10**9:
+            raise ValueError("times of packets must have >= 0 s and < 1e9 ns "
+                             f"(got {seconds} s, {nanoseconds} ns)")
         yield seconds, nanoseconds, data[:size]
 
 
@@ -70,29 +76,56 @@ def record_of(seconds, nanoseconds, payload):
 
 def messages_in(recording):
     """The scans in the order of their times."""
-    # Read-only, so that a path that is wrong is not made into a new recording.
-    database = sqlite3.connect(f"{recording.resolve().as_uri()}?mode=ro&immutable=1", uri=True)
+    path = recording.resolve()
+    # Read-only, so that a path that is wrong is not made into a new recording; immutable, so that
+    # the folder may be read-only. SQLite then ignores what is still in the write-ahead log.
+    log = path.with_name(path.name + "-wal")
+    if log.exists() and log.stat().st_size > 0:
+        raise ValueError(f"must be closed by its recorder ({log.name} still holds messages)")
+    database = sqlite3.connect(f"{path.as_uri()}?mode=ro&immutable=1", uri=True)
     try:
         rows = database.execute(
             "SELECT data FROM messages JOIN topics ON topics.id = messages.topic_id "
-            "WHERE topics.type = ? ORDER BY messages.timestamp", (SCAN,)).fetchall()
+            "WHERE topics.type = ? ORDER BY messages.timestamp, messages.id", (SCAN,)).fetchall()
     finally:
         database.close()
     return [row[0] for row in rows]
+
+
+def write_whole(path, content):
+    """Writes the file under another name first, so that it is never there in part."""
+    path = path.resolve()
+    if path.exists() and not path.is_file():
+        raise ValueError("must be a file")
+    part = path.with_name(f"{path.name}.{os.getpid()}.part")
+    try:
+        part.write_bytes(content)
+        os.replace(part, path)
+    finally:
+        part.unlink(missing_ok=True)
 
 
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     recording, capture = map(pathlib.Path, sys.argv[1:])
+    if capture.resolve() == recording.resolve():
+        sys.exit(f"{capture}: must be another file than the recording")
     try:
         records = [record_of(*packet)
                    for message in messages_in(recording) for packet in packets_of(message)]
     except (sqlite3.Error, struct.error, ValueError) as error:
         sys.exit(f"{recording}: {error}")
+    except OSError as error:
+        sys.exit(f"{recording}: {error.strerror}")
     if not records:
         sys.exit(f"{recording}: must hold messages of type {SCAN}")
-    capture.write_bytes(FILE_HEADER + b"".join(records))
+    try:
+        write_whole(capture, FILE_HEADER + b"".join(records))
+    except OSError as error:
+        sys.exit(f"{capture}: {error.strerror}")
+    except ValueError as error:
+        sys.exit(f"{capture}: {error}")
 
 
 if __name__ == "__main__":

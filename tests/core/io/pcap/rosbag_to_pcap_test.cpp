@@ -46,11 +46,15 @@ class RosbagToPcap : public testing::Test {
 
   Ended Convert(const std::string& messages) const {
     std::ofstream(folder_.path() / "make.py") << kMaker << messages << "\nbase.commit()\n";
-    const std::string here = "cd " + folder_.path().string() + " && ";
-    EXPECT_EQ(RunCommand(here + "/usr/bin/python3 make.py").said, "");
-    return RunCommand(here + "/usr/bin/python3 " RAILCAST_SOURCE_DIR
-                             "/scripts/rosbag_to_pcap.py recording.db3 capture.pcap");
+    EXPECT_EQ(RunInFolder("make.py").said, "");
+    return RunInFolder(script_ + " recording.db3 capture.pcap");
   }
+
+  Ended RunInFolder(const std::string& command) const {
+    return RunCommand("cd " + folder_.path().string() + " && /usr/bin/python3 " + command);
+  }
+
+  const std::string script_ = RAILCAST_SOURCE_DIR "/scripts/rosbag_to_pcap.py";
 
   TemporaryDirectory folder_;
 };
@@ -98,11 +102,26 @@ TEST_F(RosbagToPcap, RefusesAnotherByteOrder) {
 
 TEST_F(RosbagToPcap, RefusesAFileThatIsNoRecording) {
   std::ofstream(folder_.path() / "text.db3") << "no recording, whatever its name is";
-  const Ended run = RunCommand("cd " + folder_.path().string() +
-                               " && /usr/bin/python3 " RAILCAST_SOURCE_DIR
-                               "/scripts/rosbag_to_pcap.py text.db3 capture.pcap");
+  const Ended run = RunInFolder(script_ + " text.db3 capture.pcap");
   EXPECT_EQ(run.status, 1);
   EXPECT_EQ(run.said, "text.db3: file is not a database\n");
+}
+
+TEST_F(RosbagToPcap, RefusesMessagesThatAreNoBlobs) {
+  for (const char* message : {"None", "5"}) {
+    remove(folder_.path() / "recording.db3");
+    const Ended run = Convert("put(1, 1, " + std::string(message) + ")");
+    EXPECT_EQ(run.status, 1) << message;
+    EXPECT_EQ(run.said, "recording.db3: messages must be blobs\n") << message;
+  }
+}
+
+TEST_F(RosbagToPcap, LeavesARecordingThatIsNamedAsTheCaptureAsItIs) {
+  ASSERT_EQ(Convert(R"(put(1, 1, scan("a", [(1, 2, b"x")])))").status, 0);
+  const Ended run = RunInFolder(script_ + " recording.db3 ./recording.db3");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(run.said, "recording.db3: must be another file than the recording\n");
+  EXPECT_EQ(RunInFolder(script_ + " recording.db3 capture.pcap").status, 0);
 }
 
 }  // namespace
