@@ -35,7 +35,7 @@ std::vector<WeatherFamily> FamiliesOf(const std::vector<std::string>& names) {
   return families;
 }
 
-// "0042_foggy.json". A number keeps its place in lists of names up to the largest count.
+// "000042_foggy.json". A number keeps its place in lists of names up to the largest count.
 std::string NameOfFile(std::uint32_t index, WeatherFamily family) {
   const std::string digits = std::to_string(index);
   const std::size_t num_zeros = digits.size() < 6 ? 6 - digits.size() : 0;
@@ -53,6 +53,18 @@ void MakeEmptyFolder(const fs::path& folder) {
   }
 }
 
+// The scenario's path as its variants in `folder` name it.
+std::string PathInJson(const fs::path& scenario, const fs::path& folder) {
+  const std::string path =
+      fs::weakly_canonical(scenario).lexically_proximate(fs::weakly_canonical(folder));
+  try {
+    static_cast<void>(Json(path).dump());
+  } catch (const Json::exception&) {
+    throw InputError(ShownPath(scenario) + ": the path must be UTF-8, to stand in JSON");
+  }
+  return path;
+}
+
 int RunRandomize(const RandomizeOptions& options) {
   const ScenarioSpec base = ReadScenario(options.scenario);
   const std::vector<WeatherFamily> families = FamiliesOf(options.families);
@@ -60,9 +72,8 @@ int RunRandomize(const RandomizeOptions& options) {
   if (families.back() == WeatherFamily::kSnowy) {
     static_cast<void>(MaterialLibrary(base.materials).Index("snow"));
   }
+  const std::string base_file = PathInJson(options.scenario, options.out);
   MakeEmptyFolder(options.out);
-  const std::string base_file =
-      fs::weakly_canonical(options.scenario).lexically_proximate(fs::weakly_canonical(options.out));
   for (std::uint32_t i = 0; i < options.count; ++i) {
     const RandomWeather weather = DrawWeather(options.seed, i, families);
     const Json scenario = {{"version", 1}, {"file", base_file}, {"weather", weather.section}};

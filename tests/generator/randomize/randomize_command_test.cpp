@@ -74,6 +74,16 @@ TEST(Randomize, LeavesAFolderThatHoldsSomethingAlone) {
   EXPECT_EQ(FilesIn(directory.path()).size(), 3U);
 }
 
+TEST(Randomize, RefusesAPathThatJsonCannotHold) {
+  const TemporaryDirectory directory;
+  const fs::path base = MakeProject(directory.path() / "proj\xff");
+  const std::string out = (directory.path() / "out").string();
+  const Ended run = Generate("randomize '" + base.string() + "' --out " + out);
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.said, EndsWith(": the path must be UTF-8, to stand in JSON\n"));
+  EXPECT_FALSE(fs::exists(out));
+}
+
 TEST(Randomize, NeedsTheMaterialOfSnowForSnow) {
   const TemporaryDirectory directory;
   const fs::path base = MakeProject(directory.path() / "project");
