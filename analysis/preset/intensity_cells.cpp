@@ -129,6 +129,7 @@ Estimate RangeExponentLeft(const std::vector<IntensityCell>& cells) {
     if (!cell.is_ground || next == places.end()) continue;
     const IntensityCell& other = *next->second;
     const double left = other.recorded / cell.recorded * cell.simulated / other.simulated;
+    if (!(left > 0.0 && std::isfinite(left))) continue;  // A cell of which nothing returns.
     exponents.push_back(std::log(left) / std::log(other.range_m / cell.range_m));
     turns.insert(cell.turn);
   }

@@ -6,7 +6,7 @@ cmake_minimum_required(VERSION 3.25)
 
 # Neither building nor using the core may require these packages.
 set(without_extras)
-foreach(extra IN ITEMS PCL VTK GTest benchmark)
+foreach(extra IN ITEMS PCL VTK GTest benchmark JPEG PNG)
   list(APPEND without_extras -D CMAKE_DISABLE_FIND_PACKAGE_${extra}=ON)
 endforeach()
 set(toolchain -G ${GENERATOR} -D CMAKE_CXX_COMPILER=${CXX_COMPILER} -D CMAKE_CXX_FLAGS=${CXX_FLAGS})

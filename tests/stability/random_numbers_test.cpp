@@ -34,6 +34,9 @@ constexpr std::array kUses = {
     RandomUse::kFogEcho,
     RandomUse::kFalseAlarm,
     RandomUse::kFootprint,
+    RandomUse::kCover,
+    RandomUse::kInterference,
+    RandomUse::kSpray,
     RandomUse::kSensorKey,
     RandomUse::kFogPatches,
     RandomUse::kGroundRoughness,
@@ -44,6 +47,8 @@ constexpr std::array kUses = {
     RandomUse::kGusts,
     RandomUse::kTreeSway,
     RandomUse::kSpanSway,
+    RandomUse::kPuddles,
+    RandomUse::kRandomWeather,
 };
 
 constexpr std::uint32_t kNumDraws = 20'000;
