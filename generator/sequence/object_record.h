@@ -23,7 +23,7 @@ struct ObjectInFrame {
   /// Velocity of the box's centre, mean over the scan.
   Vector3 velocity_world_mps = Vector3::Zero();
   std::uint32_t points{};           ///< Slots with a point on the object.
-  std::uint32_t firings_visible{};  ///< Firings that met it first, whether or not it was detected.
+  std::uint32_t firings_visible{};  ///< Firings that show it in a slot, detected or not.
   std::uint32_t firings_alone{};    ///< Firings that would meet it if nothing else stood there.
 };
 

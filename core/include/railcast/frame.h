@@ -113,12 +113,14 @@ struct Frame {
 
   // Ground truth: what the beam hit first, whether or not it was detected.
   std::vector<std::uint32_t> label;  ///< Id in labels.json; 0 = the beam hit nothing.
-  /// 0 = background without instances; see SceneObject::instance.
+  /// 0 = background without instances; see SceneObject::instance. A mirror image has that of the
+  /// mirrored thing.
   std::vector<std::uint32_t> instance;
   std::vector<Outcome> outcome;
-  std::vector<float> true_range_m;      ///< Range to the surface, before noise.
-  std::vector<float> incidence_rad;     ///< Between the beam and the surface normal.
-  std::vector<std::uint16_t> material;  ///< Index into the material library; 0 = none.
+  std::vector<float> true_range_m;   ///< Range to the surface, before noise.
+  std::vector<float> incidence_rad;  ///< Between the beam and the surface normal.
+  /// Index into the material library; 0 = none. A mirror image has that of the mirrored surface.
+  std::vector<std::uint16_t> material;
   /// Share of the beam in this echo; NaN on rungs that trace single rays.
   std::vector<float> footprint_share;
   /// Share of the beam that falls beside the surface taking most of it: on surfaces at least 0.5 m

@@ -17,7 +17,7 @@ enum class Outcome : std::uint8_t {
   kOutOfRange = 2,      ///< The measured range lies beyond the sensor's range gate.
   kBelowThreshold = 3,  ///< The received power is below the detection threshold.
   kRainAbsorbed = 4,    ///< Absorbed by rain on the way.
-  kClutter = 5,         ///< Rain, snow, fog or the sensor itself gave an echo, no surface.
+  kClutter = 5,         ///< Rain, snow, fog, a mirror image or the sensor itself gave an echo.
   kNearRange = 6,       ///< Blocked by a surface nearer than range_min_m.
   kEgo = 7,             ///< Blocked by the vehicle's own body.
   kSensorDropout = 8,   ///< The sensor missed the pulse.
