@@ -9,28 +9,18 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/scene/empty_world.h"
 #include "railcast/simulator.h"
 
 namespace railcast {
 namespace {
 
 /// A world of nothing, in which the vehicle stands.
-class StandingWorld final : public World {
+class StandingWorld final : public EmptyWorld {
  public:
   [[nodiscard]] Transform WorldFromVehicle(std::int64_t) const override {
     return Transform::Identity();
   }
-  [[nodiscard]] int HomeChunk(std::int64_t) const override { return 0; }
-  [[nodiscard]] std::vector<int> ChunksInReach(int, double) const override { return {}; }
-  [[nodiscard]] Transform WorldFromChunk(int) const override { return Transform::Identity(); }
-  [[nodiscard]] Chunk BuildChunk(int) const override { return {}; }
-  [[nodiscard]] const std::vector<SceneObject>& objects() const override { return objects_; }
-  [[nodiscard]] Transform WorldFromObject(std::size_t, std::int64_t) const override {
-    return Transform::Identity();
-  }
-
- private:
-  std::vector<SceneObject> objects_;
 };
 
 /// Casts rays from the sensor's origin at the planes of a recorded turn.

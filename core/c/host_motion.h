@@ -1,11 +1,9 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <vector>
 
+#include "core/scene/empty_world.h"
 #include "railcast/c_api.h"
-#include "railcast/scene.h"
 #include "railcast/transform.h"
 
 namespace railcast {
@@ -17,7 +15,7 @@ struct FrameTime {
 };
 
 /// The world of a host's scene during one frame: the vehicle's motion, and nothing else.
-class HostMotion final : public World {
+class HostMotion final : public EmptyWorld {
  public:
   /// The two parts of a pose, which change independently.
   struct Pose {
@@ -36,22 +34,12 @@ class HostMotion final : public World {
   /// Between the two poses the position changes linearly and the rotation at a constant rate.
   [[nodiscard]] Transform WorldFromVehicle(std::int64_t time_ns) const override;
 
-  [[nodiscard]] int HomeChunk(std::int64_t) const override { return 0; }
-  [[nodiscard]] std::vector<int> ChunksInReach(int, double) const override { return {}; }
-  [[nodiscard]] Transform WorldFromChunk(int) const override { return Transform::Identity(); }
-  [[nodiscard]] Chunk BuildChunk(int) const override { return {}; }
-  [[nodiscard]] const std::vector<SceneObject>& objects() const override { return objects_; }
-  [[nodiscard]] Transform WorldFromObject(std::size_t, std::int64_t) const override {
-    return Transform::Identity();
-  }
-
  private:
   Pose begin_;
   Pose end_;
   Vector3 scene_origin_m_;
   FrameTime time_;
   Transform sensor_from_vehicle_;
-  std::vector<SceneObject> objects_;
 };
 
 /// A transform as the C interface has it, with w >= 0.
