@@ -149,12 +149,14 @@ PANDAR64 = [
      "dead_time_ns": 5.6},
 ]
 VLS128 = [
-    {"noise_sigma0_m": 0.014, "noise_sigma1": 0.0, "dropout_per_m": 0.00015},
-    {"range_noise_floor_m": 0.0075, "range_noise_scale_m": 0.13, "channel_bias_sigma_m": 0.01,
-     "pointing_jitter_deg": 0.0015},
+    {"noise_sigma0_m": 0.014, "noise_sigma1": 0.0, "dropout_probability": 0.00035,
+     "dark_dropout_probability": 0.014, "dark_dropout_intensity": 0.007},
+    {"signal": "energy", "range_noise_floor_m": 0.0075, "range_noise_scale_m": 0.13,
+     "channel_bias_sigma_m": 0.01, "pointing_jitter_deg": 0.0015},
 ]
 XT32 = [
-    {"noise_sigma0_m": 0.004, "noise_sigma1": 0.0},
+    {"noise_sigma0_m": 0.004, "noise_sigma1": 0.0, "dropout_probability": 0.00005,
+     "dark_dropout_probability": 0.012, "dark_dropout_intensity": 0.00115},
     {"range_noise_floor_m": 0.0037, "channel_bias_sigma_m": 0.0, "pointing_jitter_deg": 0.0015,
      "dead_time_ns": 2.6},
 ]

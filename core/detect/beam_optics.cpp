@@ -32,6 +32,10 @@ double DeadLength_m(const ReceiverSpec& receiver) {
   return 0.5 * kSpeedOfLight_m_per_ns * receiver.dead_time_ns;
 }
 
+bool StretchLowersPower(const DetectorSpec& spec) {
+  return spec.effects.pulse_stretch && spec.receiver.signal == EchoSignal::kPeak;
+}
+
 double HorizontalSigma_rad(const BeamSpec& beam) {
   return SigmaOf_rad(beam.divergence_mrad[0]);
 }

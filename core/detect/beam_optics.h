@@ -21,6 +21,10 @@ namespace railcast {
 /// How far behind an echo the receiver is blind: c x dead time / 2.
 [[nodiscard]] double DeadLength_m(const ReceiverSpec& receiver);
 
+/// Whether a surface that stretches the pulse (effect `pulse_stretch`) lowers the power that is
+/// compared with the threshold: it does so for a receiver of peaks, not for one of energy.
+[[nodiscard]] bool StretchLowersPower(const DetectorSpec& spec);
+
 /// Whether the beam has a width in any direction; a ray has none.
 [[nodiscard]] inline bool IsWide(const BeamSpec& beam) {
   return beam.divergence_mrad[0] > 0.0 || beam.divergence_mrad[1] > 0.0;

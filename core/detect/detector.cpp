@@ -123,7 +123,7 @@ bool ShowsSurfaceCondition(const DetectorSpec& spec) {
 Detector::Detector(const DetectorSpec& spec, const DetectorSetting& setting, const Kernels& kernels)
     : response_(MakeResponse(spec, setting.snow)),
       pulse_sigma_m_(static_cast<float>(PulseSigma_m(spec.beam))),
-      has_stretch_(spec.effects.pulse_stretch),
+      has_stretch_(StretchLowersPower(spec)),
       extinction_per_m_(spec.effects.extinction ? static_cast<float>(Extinction_per_m(
                                                       spec.weather, spec.beam.wavelength_nm))
                                                 : 0.0F),

@@ -11,6 +11,10 @@ namespace {
 // Peaks closer together than this many pulse sigmas are one peak that two climbs have reached.
 constexpr float kSamePeak = 0.5F;
 
+// Maxima whose wave falls by less than a tenth between them are one echo of a receiver of energy:
+// the ripple of sub-rays must not divide the energy of a surface.
+constexpr float kShallow = 0.9F;
+
 bool IsNearer(const Component& a, const Component& b) {
   return a.range_m != b.range_m ? a.range_m < b.range_m : a.surface < b.surface;
 }
@@ -49,14 +53,11 @@ Echo Gather(const WavePeak& peak, const Component* begin, const Component* end) 
 
 }  // namespace
 
-EchoFinder::EchoFinder(const BeamSpec& beam,
-                       bool has_stretch,
-                       bool is_sampled,
-                       float least_ratio,
-                       const Kernels& kernels)
-    : pulse_sigma_m_(static_cast<float>(PulseSigma_m(beam))),
-      has_stretch_(has_stretch),
-      is_sampled_(is_sampled),
+EchoFinder::EchoFinder(const DetectorSpec& spec, float least_ratio, const Kernels& kernels)
+    : pulse_sigma_m_(static_cast<float>(PulseSigma_m(spec.beam))),
+      has_stretch_(spec.effects.pulse_stretch),
+      is_energy_(has_stretch_ && !StretchLowersPower(spec)),
+      is_sampled_(spec.effects.sampled_waveform),
       least_ratio_(least_ratio),
       kernels_(kernels) {}
 
@@ -71,6 +72,7 @@ void EchoFinder::MakeWave(const std::vector<Component>& components) {
     range_m_[i] = components[i].range_m;
     peak_[i] = components[i].power_ratio;
     inverse_variance_[i] = 1.0F / (pulse2 + spread_m * spread_m);
+    if (is_energy_) peak_[i] *= pulse_sigma_m_ * std::sqrt(inverse_variance_[i]);
   }
   wave_ = {size, range_m_.data(), peak_.data(), inverse_variance_.data()};
 }
@@ -108,7 +110,11 @@ void EchoFinder::ClimbToPeaks(const std::vector<Component>& components) {
 
 void EchoFinder::SamplePeaks(const std::vector<Component>& components) {
   const float step_m = 0.125F * pulse_sigma_m_;
-  const float margin_m = 2.0F * pulse_sigma_m_;
+  // The widest component decides which of them may have a common peak between them.
+  const float margin_m =
+      2.0F / std::sqrt(*std::min_element(
+                 inverse_variance_.begin(),
+                 inverse_variance_.begin() + static_cast<std::ptrdiff_t>(components.size())));
   std::size_t begin = 0;
   while (begin < components.size()) {
     // Sample components whose windows overlap together.
@@ -135,6 +141,50 @@ void EchoFinder::SamplePeaks(const std::vector<Component>& components) {
   }
 }
 
+void EchoFinder::DropWeakPeaks() {
+  const float strongest =
+      std::max_element(peaks_.begin(), peaks_.end(), [](const WavePeak& a, const WavePeak& b) {
+        return a.value < b.value;
+      })->value;
+  const float least = std::min(strongest, least_ratio_);
+  std::erase_if(peaks_, [&](const WavePeak& peak) { return peak.value < least; });
+}
+
+// Every component belongs to the nearest peak.
+const Component* EchoFinder::EndOfPeak(std::size_t peak,
+                                       const Component* begin,
+                                       const Component* last) const {
+  if (peak + 1 == peaks_.size()) return last;
+  const float middle_m = 0.5F * (peaks_[peak].range_m + peaks_[peak + 1].range_m);
+  return std::partition_point(begin, last,
+                              [&](const Component& c) { return c.range_m < middle_m; });
+}
+
+void EchoFinder::MeltShallowPeaks() {
+  for (std::size_t i = 0; i + 1 < peaks_.size();) {
+    const auto lower = peaks_[i].value < peaks_[i + 1].value ? i : i + 1;
+    float between = 0.0F;
+    kernels_.sample_wave(wave_, 0.5F * (peaks_[i].range_m + peaks_[i + 1].range_m), 0.0F, 1,
+                         &between);
+    if (between < kShallow * peaks_[lower].value) {
+      ++i;
+      continue;
+    }
+    peaks_.erase(peaks_.begin() + static_cast<std::ptrdiff_t>(lower));
+    if (i > 0) --i;
+  }
+}
+
+void EchoFinder::TakeEnergies(const std::vector<Component>& components) {
+  const Component* begin = components.data();
+  const Component* const last = begin + components.size();
+  for (std::size_t i = 0; i < peaks_.size(); ++i) {
+    const Component* const end = EndOfPeak(i, begin, last);
+    peaks_[i].value = 0.0F;
+    for (; begin != end; ++begin) peaks_[i].value += begin->power_ratio;
+  }
+}
+
 void EchoFinder::Find(std::vector<Component>& components, std::vector<Echo>& echoes) {
   echoes.clear();
   peaks_.clear();
@@ -149,22 +199,16 @@ void EchoFinder::Find(std::vector<Component>& components, std::vector<Echo>& ech
   if (peaks_.empty()) return;
   std::sort(peaks_.begin(), peaks_.end(),
             [](const WavePeak& a, const WavePeak& b) { return a.range_m < b.range_m; });
-  const float strongest =
-      std::max_element(peaks_.begin(), peaks_.end(), [](const WavePeak& a, const WavePeak& b) {
-        return a.value < b.value;
-      })->value;
-  const float least = std::min(strongest, least_ratio_);
-  std::erase_if(peaks_, [&](const WavePeak& peak) { return peak.value < least; });
-  // Assign every component to the nearest peak.
+  if (is_energy_) {
+    MeltShallowPeaks();
+    TakeEnergies(components);
+  }
+  DropWeakPeaks();
+  if (is_energy_) TakeEnergies(components);
   const Component* begin = components.data();
   const Component* const last = begin + components.size();
   for (std::size_t i = 0; i < peaks_.size(); ++i) {
-    const Component* end = last;
-    if (i + 1 < peaks_.size()) {
-      const float middle_m = 0.5F * (peaks_[i].range_m + peaks_[i + 1].range_m);
-      end = std::partition_point(begin, last,
-                                 [&](const Component& c) { return c.range_m < middle_m; });
-    }
+    const Component* const end = EndOfPeak(i, begin, last);
     if (begin != end) echoes.push_back(Gather(peaks_[i], begin, end));
     begin = end;
   }

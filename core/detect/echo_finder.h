@@ -13,7 +13,7 @@ namespace railcast {
 struct Component {
   float range_m{};
   float spread_m{};     ///< Standard deviation of the range within the component.
-  float power_ratio{};  ///< Peak of the component alone over the least detectable power.
+  float power_ratio{};  ///< Signal of the component alone over the least detectable power.
   float share{};        ///< Share of the beam.
   float intensity{};    ///< Share x effective reflectance.
   float cos_incidence{};
@@ -25,7 +25,7 @@ struct Component {
 struct Echo {
   float peak_range_m{};   ///< Range of the peak.
   float true_range_m{};   ///< Mean range of the surface that sends most of it.
-  float power_ratio{};    ///< Peak power over the least detectable power.
+  float power_ratio{};    ///< Peak, or energy, over what is least detectable (EchoSignal).
   float share{};          ///< Share of the beam, summed over all components.
   float intensity{};      ///< Intensity, summed over all components.
   float cos_incidence{};  ///< Mean over the surface that sends most of it.
@@ -38,14 +38,10 @@ struct Echo {
 /// the surfaces (a mixed pixel). Not thread-safe: keeps its working memory.
 class EchoFinder {
  public:
-  /// @param is_sampled Effect `sampled_waveform`: samples the waveform at an eighth of the pulse's
-  ///   sigma and looks for local maxima, refined by a parabola through the logarithms. If false,
-  ///   climbs to each maximum with derivatives in closed form.
-  EchoFinder(const BeamSpec& beam,
-             bool has_stretch,
-             bool is_sampled,
-             float least_ratio,
-             const Kernels& kernels);
+  /// With effect `sampled_waveform`, samples the waveform at an eighth of the pulse's sigma and
+  /// looks for local maxima, refined by a parabola through the logarithms. Without, climbs to each
+  /// maximum with derivatives in closed form.
+  EchoFinder(const DetectorSpec& spec, float least_ratio, const Kernels& kernels);
 
   /// Fills `echoes`, sorted by range, with the strongest echo and all that reach `least_ratio`
   /// times the least detectable power. Sorts `components` by range.
@@ -56,9 +52,16 @@ class EchoFinder {
   void ClimbToPeaks(const std::vector<Component>& components);
   void SamplePeaks(const std::vector<Component>& components);
   void AddPeak(const WavePeak& peak);
+  void DropWeakPeaks();
+  void MeltShallowPeaks();
+  void TakeEnergies(const std::vector<Component>& components);
+  [[nodiscard]] const Component* EndOfPeak(std::size_t peak,
+                                           const Component* begin,
+                                           const Component* last) const;
 
   float pulse_sigma_m_;
   bool has_stretch_;
+  bool is_energy_;  ///< Components give their energies, which an echo adds up.
   bool is_sampled_;
   float least_ratio_;
   const Kernels& kernels_;

@@ -50,11 +50,7 @@ Footprint::Footprint(const DetectorSpec& spec, const Kernels& kernels)
     : spec_(spec),
       facet_parts_(spec, kernels),
       sub_ray_parts_(spec, kernels),
-      finder_(spec.beam,
-              spec.effects.pulse_stretch,
-              spec.effects.sampled_waveform,
-              spec.effects.detection ? kLeastRatio : 0.0F,
-              kernels) {}
+      finder_(spec, spec.effects.detection ? kLeastRatio : 0.0F, kernels) {}
 
 void Footprint::StoreEchoes(std::size_t lane, EchoTiles& echoes) const {
   std::uint32_t number = 0;

@@ -59,7 +59,7 @@ Component CellOf(const Component& whole, float share, const DetectorSpec& spec) 
   cell.intensity *= share;
   cell.power_ratio *= share;
   cell.spread_m *= std::sqrt(share);
-  if (spec.effects.pulse_stretch) {
+  if (StretchLowersPower(spec)) {
     const auto pulse_variance_m2 =
         static_cast<float>(PulseSigma_m(spec.beam) * PulseSigma_m(spec.beam));
     cell.power_ratio *= std::sqrt((pulse_variance_m2 + whole_spread2) /

@@ -58,10 +58,12 @@ Loop ExtinctionLoop(const DetectorSpec& spec, const Kernels& kernels) {
 
 std::string PulseStretchText(const DetectorSpec& spec) {
   return "pulse of " + NumberText(spec.beam.pulse_length_ns) + " ns, sigma " +
-         ShortText(PulseSigma_m(spec.beam)) + " m";
+         ShortText(PulseSigma_m(spec.beam)) + " m" +
+         (StretchLowersPower(spec) ? "" : "; the energy is detected, which it leaves as it is");
 }
 
 Loop PulseStretchLoop(const DetectorSpec& spec, const Kernels& kernels) {
+  if (!StretchLowersPower(spec)) return [](DetectTile& /*tile*/) {};
   return [sigma_m = static_cast<float>(PulseSigma_m(spec.beam)),
           apply = kernels.pulse_stretch](DetectTile& tile) { apply(tile, sigma_m); };
 }

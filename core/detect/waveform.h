@@ -2,6 +2,7 @@
 #ifndef RAILCAST_DETECT_WAVEFORM_H_
 #define RAILCAST_DETECT_WAVEFORM_H_
 
+#include <cmath>
 #include <cstddef>
 
 #include "core/detect/echo_wave.h"
@@ -52,7 +53,9 @@ struct WaveSums {
 
 /// Climbs to a maximum of w(r) = sum peak_i exp(-(r - r_i)^2 / 2 variance_i). A step is Newton's
 /// where w is sufficiently concave, else a mean shift: to the mean of r_i weighted by
-/// w_i / variance_i, which never overshoots a maximum (Comaniciu and Meer 2002).
+/// w_i / variance_i, which never overshoots a maximum (Comaniciu and Meer 2002). On a wave much
+/// wider than its components, such as that of grazed ground, mean shifts are too short to arrive;
+/// there a step is Newton's or one sigma of the components, whichever is shorter.
 [[nodiscard]] inline WavePeak ClimbWave(const EchoWave& wave,
                                         float from_m,
                                         const WaveKnown& known) {
@@ -71,8 +74,13 @@ struct WaveSums {
   for (int step = 0; step < kMaxSteps && sums.weight > 0.0F; ++step) {
     const float mean_shift_m = sums.moment / sums.weight;
     const float bend_down = sums.weight - sums.bend;
-    const bool is_newton = bend_down * kTrust > sums.weight;
-    const float shift_m = is_newton ? sums.moment / bend_down : mean_shift_m;
+    bool is_newton = bend_down * kTrust > sums.weight;
+    float shift_m = is_newton ? sums.moment / bend_down : mean_shift_m;
+    const float sigma_m = std::sqrt(sums.value / sums.weight);
+    if (!is_newton && std::fabs(mean_shift_m) < 0.5F * sigma_m) {
+      is_newton = bend_down * sigma_m > std::fabs(sums.moment);
+      shift_m = is_newton ? sums.moment / bend_down : std::copysign(sigma_m, sums.moment);
+    }
     range_m += shift_m;
     if (is_newton && shift_m < kStill_m && shift_m > -kStill_m) {
       return {range_m, sums.value + 0.5F * sums.moment * shift_m};

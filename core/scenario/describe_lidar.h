@@ -102,6 +102,8 @@ void Describe(Archive& a, ReceiverSpec& s) {
              PositiveUpTo(10'000));
   a.Optional("snr_at_threshold", s.snr_at_threshold,
              "Amplitude signal-to-noise ratio at the detection threshold.", PositiveUpTo(100));
+  a.Optional("signal", s.signal,
+             "What of an echo is compared with the threshold: its peak, or its energy.");
   a.Optional("return_mode", s.return_mode, "Which echoes of a beam are reported.");
   a.Optional("range_noise_floor_m", s.range_noise_floor_m,
              "Standard deviation of the range where the signal is strong.", Within(0, 10));

@@ -136,6 +136,15 @@ struct CoverSpec {
   bool operator==(const CoverSpec&) const = default;
 };
 
+/// What of an echo the receiver compares with the detection threshold.
+enum class EchoSignal {
+  kPeak,    ///< The peak of the received pulse, which an oblique surface lowers.
+  kEnergy,  ///< Its energy, which stretching leaves as it is.
+};
+template <>
+inline constexpr auto kEnumNames<EchoSignal> = std::to_array<EnumName<EchoSignal>>(
+    {{EchoSignal::kPeak, "peak"}, {EchoSignal::kEnergy, "energy"}});
+
 /// Which of a firing's detected echoes a sensor reports as returns, in the order of its slots.
 enum class ReturnMode {
   kStrongest,
@@ -157,6 +166,7 @@ struct ReceiverSpec {
   /// The data sheet's detection range on a Lambertian target of 10 % at normal incidence.
   double range_at_10_percent_m = 200.0;
   double snr_at_threshold = 5.0;  ///< Amplitude signal-to-noise ratio at that range.
+  EchoSignal signal = EchoSignal::kPeak;
   ReturnMode return_mode = ReturnMode::kStrongest;
   double range_noise_floor_m = 0.015;  ///< Standard deviation of the range noise at high signal.
   double range_noise_scale_m = 0.1;    ///< sigma = hypot(floor, scale / sqrt(2 SNR)).
@@ -166,7 +176,7 @@ struct ReceiverSpec {
   double clutter_gain = 0.2;  ///< Factor for the mean number of raindrop and snowflake echoes.
   /// Range at which the receiver has a quarter of its gain for the echoes of fog; it falls with the
   /// fourth power of the range below. Absent: NearRange_m() (core/detect/fog_profile.h).
-  std::optional<double> near_range_m;
+  std::optional<double> near_range_m{};
   double fog_gain = 1.0;  ///< Factor for the power of fog's echoes.
   /// How long the receiver is blind after an echo that it has detected: an echo less than
   /// c x dead_time_ns / 2 behind it is no return of its own.

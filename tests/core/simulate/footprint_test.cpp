@@ -72,6 +72,44 @@ TEST(Footprint, LeavesThePlainAlone) {
 }
 
 // Two surfaces a quarter of the pulse apart merge into one echo, whose range is between them.
+// Ground 2 m below the sensor stretches the pulse; a receiver of energy does not mind. Without
+// detection and its fluctuations every beam has its power.
+TEST(Footprint, KeepsTheEnergyOfGrazedGroundWhosePeakFalls) {
+  auto world = std::make_shared<SimpleWorld>();
+  world->ground.parts.push_back({MakeFloor(-2.0F, 3000.0F), 1, 2});
+  const ScanPattern pattern = MakeRaster(1.0, 12.0, 0.1);
+  for (const Fidelity rung : {Fidelity::kSurface, Fidelity::kFootprint, Fidelity::kReference}) {
+    SimulatorSpec spec{.detector = {.effects = EffectsOfRung(rung)}};
+    spec.detector.effects.detection = false;
+    spec.detector.effects.pointing_jitter = false;
+    spec.detector.beam.divergence_mrad = {1.5, 1.5};
+    const Frame peak = ScanOnce(world, pattern, spec);
+    spec.detector.receiver.signal = EchoSignal::kEnergy;
+    const Frame energy = ScanOnce(world, pattern, spec);
+    int num = 0;
+    int num_whole = 0;
+    for (std::size_t slot = 0; slot < peak.num_slots(); ++slot) {
+      const auto range_m = static_cast<double>(energy.true_range_m[slot]);
+      if (!(range_m > 20.0 && range_m < 120.0)) continue;
+      ++num;
+      if (energy.footprint_share[slot] < 0.99F) continue;
+      ++num_whole;
+      const double unstretched = static_cast<double>(energy.intensity[slot]) / (range_m * range_m) *
+                                 std::pow(spec.detector.receiver.range_at_10_percent_m, 2.0) / 0.1;
+      // 0.3183 m of the pulse; the beam's sigma is a quarter of its full angle.
+      const double spread_m = range_m * std::sqrt(range_m * range_m / 4.0 - 1.0) * 1.5e-3 / 4.0;
+      const double stretch = 0.3183 / std::hypot(0.3183, spread_m);
+      EXPECT_NEAR(static_cast<double>(energy.power_ratio[slot]) / unstretched, 1.0, 0.03)
+          << NameOf(rung) << " at " << range_m;
+      EXPECT_NEAR(static_cast<double>(peak.power_ratio[slot]) / unstretched / stretch, 1.0, 0.12)
+          << NameOf(rung) << " at " << range_m;
+    }
+    // Rung `reference` splits some beams that reach far beyond the others.
+    EXPECT_GT(num, 400) << NameOf(rung);
+    EXPECT_GT(num_whole, 0.9 * num) << NameOf(rung);
+  }
+}
+
 TEST(Footprint, SeesAStepOfATenthOfAMetreAsAMixedPixel) {
   constexpr float kStep_m = 0.1F;
   auto world = HalfAWall();
