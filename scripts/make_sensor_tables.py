@@ -135,16 +135,19 @@ def detection(range_min_m, range_max_m, range_at_10_percent_m, noise_sigma0_m, d
 # Measured on a recording of each sensor (docs/validation.md). The pointing jitter of all is that of
 # VLS-128, the only one that was outdoors.
 VLP16 = [
-    {"noise_sigma0_m": 0.008, "noise_sigma1": 0.0, "dropout_probability": 0.01},
+    {"noise_sigma0_m": 0.008, "noise_sigma1": 0.0, "dropout_probability": 0.0002,
+     "dark_dropout_probability": 0.037, "dark_dropout_intensity": 0.021},
     {"range_noise_floor_m": 0.0075, "channel_bias_sigma_m": 0.003, "pointing_jitter_deg": 0.0015,
      "dead_time_ns": 7.9},
 ]
 VLP32C = [
-    {"noise_sigma0_m": 0.015, "noise_sigma1": 0.0, "dropout_per_m": 0.0025},
+    {"noise_sigma0_m": 0.015, "noise_sigma1": 0.0, "dark_dropout_probability": 0.0046,
+     "dark_dropout_intensity": 0.11},
     {"range_noise_floor_m": 0.0045, "channel_bias_sigma_m": 0.014, "pointing_jitter_deg": 0.0015},
 ]
 PANDAR64 = [
-    {"noise_sigma0_m": 0.013, "noise_sigma1": 0.0, "dropout_probability": 0.009},
+    {"noise_sigma0_m": 0.013, "noise_sigma1": 0.0, "dropout_probability": 0.00005,
+     "dark_dropout_probability": 0.004, "dark_dropout_intensity": 0.024},
     {"range_noise_floor_m": 0.009, "channel_bias_sigma_m": 0.009, "pointing_jitter_deg": 0.0015,
      "dead_time_ns": 5.6},
 ]
@@ -161,7 +164,8 @@ XT32 = [
      "dead_time_ns": 2.6},
 ]
 QT128 = [
-    {"noise_sigma0_m": 0.011, "noise_sigma1": 0.0},
+    {"noise_sigma0_m": 0.011, "noise_sigma1": 0.0, "dark_dropout_probability": 0.003,
+     "dark_dropout_intensity": 0.04},
     {"range_noise_floor_m": 0.0077, "channel_bias_sigma_m": 0.0075, "pointing_jitter_deg": 0.0015,
      "dead_time_ns": 2.6},
 ]

@@ -66,6 +66,7 @@ void Holes::Add(const RecordedFrame& recorded) {
         ++num_firings_;
         num_points_ += std::isfinite(Range_m(frame, row, column)) ? 1 : 0;
       }
+      smooth_.AddFiring(frame, row, column);
       const bool is_inside = column > 0 && column + 1 < frame.columns;
       if (is_inside) AddFiring(frame, row, column);
     }
@@ -87,6 +88,7 @@ void Holes::Add(const Holes& other) {
   all_.Add(other.all_);
   AddEach(by_range_, other.by_range_);
   AddEach(by_ring_, other.by_ring_);
+  smooth_.Add(other.smooth_);
 }
 
 Section Holes::MakeSection() const {
@@ -98,7 +100,9 @@ Section Holes::MakeSection() const {
        "hole. Exact if losses are independent of each other, a lower bound where they cluster: "
        "dark, "
        "far and grazing patches. Columns without any point count as never fired, so that half a "
-       "turn is not half a loss; firings known to have met the own vehicle do not count."},
+       "turn is not half a loss; firings known to have met the own vehicle do not count. What the "
+       "sensor itself loses shows in smooth surfaces of one brightness: four points on either side "
+       "on a line to 3 cm, with intensities that differ by less than a factor of 1.5."},
       {},
       {}};
 
@@ -123,6 +127,7 @@ Section Holes::MakeSection() const {
        {"Holes", ""},
        {SeriesOf(by_range, {"range_m", "holes"}, "holes")}});
   section.tables.push_back(std::move(by_range));
+  if (!smooth_.by_intensity().empty()) section.tables.push_back(smooth_.MakeTable());
   Table by_ring = CountTable(by_ring_, nullptr);
   by_ring.key = "holes_by_ring";
   by_ring.title = "Holes by ring";

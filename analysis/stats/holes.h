@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/report/report.h"
+#include "analysis/stats/smooth_holes.h"
 #include "railcast/io/recording.h"
 
 namespace railcast {
@@ -32,15 +33,7 @@ class Holes {
   void Add(const RecordedFrame& recorded);
   void Add(const Holes& other);
 
-  struct Count {
-    std::uint64_t num_expected{};
-    std::uint64_t num_missing{};
-
-    void Add(const Count& other) {
-      num_expected += other.num_expected;
-      num_missing += other.num_missing;
-    }
-  };
+  using Count = HoleCount;
 
   [[nodiscard]] bool is_empty() const { return num_firings_ == 0; }
   [[nodiscard]] Estimate Share() const { return Proportion(all_.num_missing, all_.num_expected); }
@@ -55,6 +48,7 @@ class Holes {
   std::uint64_t num_points_{};
   Count all_;
   std::vector<Count> by_range_, by_ring_;
+  SmoothHoles smooth_;
 };
 
 }  // namespace railcast

@@ -28,8 +28,8 @@ enum class StepOrder {
   kExtinction,
   // Receiver.
   kHit,
-  kSensorDropout,  ///< Before weather: a lost pulse meets neither surface nor snow.
   kThreshold,
+  kSensorDropout,  ///< Before weather: a lost pulse meets neither surface nor snow.
   kRain,
   kSnow,
   kSunlight,

@@ -106,13 +106,18 @@ std::string NoiseText(const DetectorSpec& spec) {
 // Sensor dropout.
 
 bool HasSensorDropout(const DetectorSpec& spec) {
-  return spec.plausibility.dropout_probability > 0.0 || spec.plausibility.dropout_per_m > 0.0;
+  const PlausibilitySpec& model = spec.plausibility;
+  return model.dropout_probability > 0.0 || model.dropout_per_m > 0.0 ||
+         model.dark_dropout_probability > 0.0;
 }
 
 std::string SensorDropoutText(const DetectorSpec& spec) {
   std::string text = "probability " + NumberText(spec.plausibility.dropout_probability);
   if (spec.plausibility.dropout_per_m > 0.0) {
     text += ", growing by " + ShortText(spec.plausibility.dropout_per_m) + " per m";
+  }
+  if (spec.plausibility.dark_dropout_probability > 0.0) {
+    text += ", on dark surfaces up to " + NumberText(spec.plausibility.dark_dropout_probability);
   }
   return text;
 }
@@ -121,7 +126,9 @@ Loop SensorDropoutLoop(const DetectorSpec& spec, const Kernels& kernels) {
   const SensorDropoutParameters parameters{
       .seed = spec.seed,
       .probability = static_cast<float>(spec.plausibility.dropout_probability),
-      .per_m = static_cast<float>(spec.plausibility.dropout_per_m)};
+      .per_m = static_cast<float>(spec.plausibility.dropout_per_m),
+      .dark_probability = static_cast<float>(spec.plausibility.dark_dropout_probability),
+      .inverse_dark_intensity = static_cast<float>(1.0 / spec.plausibility.dark_dropout_intensity)};
   return [=, apply = kernels.sensor_dropout](DetectTile& tile) { apply(tile, parameters); };
 }
 

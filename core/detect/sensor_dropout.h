@@ -13,20 +13,24 @@ struct SensorDropoutParameters {
   std::uint64_t seed{};
   float probability{};
   float per_m{};  ///< Growth with the range of the surface.
+  float dark_probability{};
+  float inverse_dark_intensity{};
 };
 
 }  // namespace railcast
 
 namespace railcast::RAILCAST_ISA {
 
-/// Effect `sensor_dropout`: the sensor loses pulses at random, whatever they would have met.
+/// Effect `sensor_dropout`: the sensor loses pulses at random.
 ///
-///   P(lost) = 1 - (1 - dropout_probability) exp(-dropout_per_m R), independently for each firing
+///   P(lost) = 1 - (1 - dropout_probability) exp(-dropout_per_m R) (1 - dark),
+///   dark    = dark_dropout_probability exp(-I / dark_dropout_intensity)
 ///
-/// R is the true range of the surface, 0 where there is none. All echoes of a firing share one
-/// draw, so that a loss of the nearer echo is a loss of the farther one, too. Real sensors miss a
-/// share of the pulses that should return, and more of them the farther they look; docs/physics.md
-/// 1.3 gives figures.
+/// independently for each firing. R is the true range of the surface, 0 where there is none. I is
+/// the intensity of the echo; `dark` is 0 where there is no surface or no intensity is computed.
+/// All echoes of a firing share one draw, so that at equal intensity a loss of the nearer echo is a
+/// loss of the farther one, too. Of smooth, evenly bright surfaces real sensors lose next to
+/// nothing but on dark ones; docs/validation.md gives figures.
 inline void ApplySensorDropout(DetectTile& tile, const SensorDropoutParameters& parameters) {
   const LaneKey key{parameters.seed, RandomUse::kSensorDropout, tile.frame};
   const SensorDropoutParameters p = parameters;  // The copy cannot alias the tile.
@@ -34,7 +38,13 @@ inline void ApplySensorDropout(DetectTile& tile, const SensorDropoutParameters& 
     const float u = LaneUnit(LaneWords(key, tile.firing[i], 0).a);
     const float true_range_m = tile.true_range_m[i];
     const float range_m = true_range_m > 0.0F ? true_range_m : 0.0F;  // NaN gives 0, too.
-    const float lost = p.probability + (1.0F - p.probability) * (1.0F - Exp(-p.per_m * range_m));
+    const float anywhere =
+        p.probability + (1.0F - p.probability) * (1.0F - Exp(-p.per_m * range_m));
+    const float intensity = tile.intensity[i];
+    const bool is_seen = true_range_m > 0.0F && intensity >= 0.0F;
+    const float dark =
+        is_seen ? p.dark_probability * Exp(-p.inverse_dark_intensity * intensity) : 0.0F;
+    const float lost = anywhere + (1.0F - anywhere) * dark;
     tile.outcome[i] =
         u < lost ? static_cast<std::uint32_t>(Outcome::kSensorDropout) : tile.outcome[i];
   }

@@ -259,6 +259,30 @@ TEST(SensorDropout, GrowsExponentiallyWithRange) {
   }
 }
 
+// Surfaces of intensity 0.5, and none behind every second firing.
+TEST(SensorDropout, LosesDarkSurfacesByTheirIntensityAndNoneWhereThereIsNoSurface) {
+  DetectorSpec spec{.effects = {.threshold = true, .sensor_dropout = true}};
+  spec.plausibility.dark_dropout_probability = 0.4;
+  for (const double scale : {0.1, 0.5, 1.0}) {
+    spec.plausibility.dark_dropout_intensity = scale;
+    const auto answers =
+        Detect(spec, [](std::uint32_t i) { return i % 2 == 0 ? 10.0 : std::nan(""); });
+    const double n = kNumFirings / 2.0;
+    const double lost = 0.4 * std::exp(-0.5 / scale);
+    EXPECT_NEAR(static_cast<double>(Count(answers, Outcome::kSensorDropout)), lost * n,
+                4.0 * std::sqrt(n * lost * (1.0 - lost)))
+        << scale;
+  }
+}
+
+// Without effect `threshold` or a physical rung no intensity is computed.
+TEST(SensorDropout, LosesNothingForDarknessWhereIntensityIsUnknown) {
+  DetectorSpec spec{.effects = {.sensor_dropout = true}};
+  spec.plausibility.dark_dropout_probability = 0.4;
+  const auto answers = Detect(spec, SpreadOverRange);
+  EXPECT_EQ(Count(answers, Outcome::kSensorDropout), 0U);
+}
+
 TEST(RangeGate, NoiseBeyondTheGateIsOutOfRange) {
   DetectorSpec spec{.range_max_m = 200.0, .effects = {.noise = true}};
   spec.plausibility.noise_sigma0_m = 0.05;

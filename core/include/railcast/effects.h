@@ -102,6 +102,10 @@ struct PlausibilitySpec {
   /// Growth of the losses: a firing whose surface is at range R survives with probability
   /// (1 - dropout_probability) exp(-dropout_per_m R).
   double dropout_per_m = 0.0;
+  /// Further losses on dark surfaces: a firing whose echo has intensity I is lost with probability
+  /// dark_dropout_probability exp(-I / dark_dropout_intensity).
+  double dark_dropout_probability = 0.0;
+  double dark_dropout_intensity = 0.02;
 
   bool operator==(const PlausibilitySpec&) const = default;
 };

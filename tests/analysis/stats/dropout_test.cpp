@@ -8,6 +8,7 @@
 #include "analysis/stats/coverage.h"
 #include "analysis/stats/holes.h"
 #include "analysis/stats/names.h"
+#include "analysis/stats/smooth_holes.h"
 #include "tests/analysis/recorded_frames.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/scan_once.h"
@@ -198,6 +199,57 @@ TEST(Holes, OfAFrameWithoutAPointOrAGridAreNoNumber) {
   cloud.is_grid = false;
   holes.Add(cloud);
   EXPECT_TRUE(holes.is_empty());
+}
+
+// Left of the x axis the wall is dark (reflectivity 0.1), right of it grey (0.5).
+TEST(SmoothHoles, RecoverTheLossesOfEachBrightness) {
+  auto world = std::make_shared<SimpleWorld>();
+  const auto half = [](float y0, float y1, std::uint16_t material) {
+    return Part{{{{20, y0, -9}, {20, y1, -9}, {20, y1, 9}, {20, y0, 9}}, {{0, 1, 2}, {0, 2, 3}}},
+                material,
+                7};
+  };
+  world->ground.parts = {half(0, 20, 1), half(-20, 0, 2)};
+  SimulatorSpec spec{.detector = {.effects = {.threshold = true, .sensor_dropout = true}}};
+  spec.detector.plausibility.dark_dropout_probability = 0.2;
+  spec.detector.plausibility.dark_dropout_intensity = 0.2;
+  SmoothHoles smooth;
+  Frame frame;
+  for (std::uint32_t index = 0; index < 20; ++index) {
+    frame = ScanOnce(world, MakeRaster(20.0, 10.0, 0.1), spec, index);
+    for (std::size_t row = 0; row < frame.rows; ++row) {
+      for (std::size_t column = 0; column < frame.columns; ++column) {
+        smooth.AddFiring(frame, row, column);
+      }
+    }
+  }
+  // The wall is met under at most 11 deg, 6 deg on average.
+  for (const double intensity : {0.0993, 0.4967}) {
+    const HoleCount& count = smooth.by_intensity()[*SmoothHoles::Intensities().Find(intensity)];
+    const auto n = static_cast<double>(count.num_expected);
+    ASSERT_GT(n, 10'000.0);
+    const double lost = 0.2 * std::exp(-intensity / 0.2);
+    EXPECT_NEAR(static_cast<double>(count.num_missing), lost * n,
+                4.0 * std::sqrt(n * lost) + 0.02 * n * lost)
+        << intensity;
+  }
+}
+
+TEST(SmoothHoles, AreNotInPatternsAndRoughSurfaces) {
+  for (const bool is_rough : {false, true}) {
+    Frame frame = ScanWithDropout(0.1);
+    for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+      if (is_rough) {
+        frame.range_m[slot] += slot % 2 == 0 ? 0.04F : -0.04F;
+      } else {
+        frame.intensity[slot] = slot % 2 == 0 ? 0.1F : 0.2F;
+      }
+    }
+    SmoothHoles smooth;
+    for (std::size_t column = 0; column < frame.columns; ++column)
+      smooth.AddFiring(frame, 5, column);
+    EXPECT_TRUE(smooth.by_intensity().empty()) << is_rough;
+  }
 }
 
 }  // namespace

@@ -83,6 +83,8 @@ TEST(EffectTable, GivesNoEffectTheCauseOfAnother) {
               UnorderedElementsAre("pointing_jitter"));
   EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.plausibility.dropout_per_m = 1e-4; }),
               UnorderedElementsAre("sensor_dropout"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.plausibility.dark_dropout_probability = 0.1; }),
+              UnorderedElementsAre("sensor_dropout"));
   EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.dead_time_ns = 8.0; }),
               UnorderedElementsAre("dead_time"));
   EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.weather.spray_extinction_per_m = 0.1; }),

@@ -57,7 +57,7 @@ void RunAll(const Kernels& kernels, DetectTile& tile) {
   kernels.threshold(tile, threshold);
   kernels.rain(tile, {7, 0.002F});
   kernels.snow(tile, {7, 0.3F, 8.0F, 0.5F, 0.02F, true, 24, threshold});
-  kernels.sensor_dropout(tile, {7, 0.1F, 1e-3F});
+  kernels.sensor_dropout(tile, {7, 0.1F, 1e-3F, 0.2F, 30.0F});
   kernels.measure_isotropic(tile, Measurement(0.02F, 1e-4F));
 }
 

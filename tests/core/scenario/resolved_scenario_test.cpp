@@ -37,10 +37,10 @@ ScenarioSpec UnusualScenario(const std::string& mesh_file) {
       1.25,
       99.5,
       {{1, 2, 3}, 4, 5, 6},
-      {0.2, 150, 0.02, 2e-4, NoiseShape::kBeam, 0.125, 1e-3},
+      {0.2, 150, 0.02, 2e-4, NoiseShape::kBeam, 0.125, 1e-3, 0.25, 0.0625},
       {1550, {0.5, 0.25}, 3.5, 128},
-      {90, 6, ReturnMode::kDual, 0.01, 0.2, 0.02, 0.03, 0.4, 3.0, 0.7, 8, 1e-6, 0.1, 5, 300.0,
-       0.1}};
+      {90, 6, EchoSignal::kEnergy, ReturnMode::kDual, 0.01, 0.2, 0.02, 0.03, 0.4, 3.0, 0.7, 8, 1e-6,
+       0.1, 5, 300.0, 0.1}};
   spec.weather.fog_density_per_m = 0.01;
   spec.weather.fog_variation = 0.3;
   spec.weather.rain_rate_mmph = 3;

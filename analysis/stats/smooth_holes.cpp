@@ -1,0 +1,82 @@
+#include "analysis/stats/smooth_holes.h"
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstddef>
+
+namespace railcast {
+namespace {
+
+constexpr std::size_t kReach = 4;  // Neighbours on either side.
+constexpr std::size_t kNumNeighbours = 2 * kReach;
+constexpr double kSmooth_m = 0.03;
+constexpr double kLikeFactor = 1.5;
+constexpr double kIntensityStep = 0.01;
+
+using Neighbours = Eigen::Array<double, static_cast<int>(kNumNeighbours), 1>;
+
+// The places of the neighbours in columns from the firing.
+Neighbours Places() {
+  Neighbours places;
+  places << -4, -3, -2, -1, 1, 2, 3, 4;
+  return places;
+}
+
+// Standard deviation of the ranges about their line, which has two parameters.
+double DeviationFromLine_m(const Neighbours& ranges_m) {
+  static const Neighbours kPlaces = Places();
+  const double slope_m = (kPlaces * ranges_m).sum() / kPlaces.square().sum();
+  const Neighbours rest_m = ranges_m - ranges_m.mean() - slope_m * kPlaces;
+  return std::sqrt(rest_m.square().sum() / static_cast<double>(kNumNeighbours - 2));
+}
+
+bool IsOneBrightness(const Neighbours& intensities) {
+  return intensities.maxCoeff() <= 1.0 &&
+         intensities.maxCoeff() <= kLikeFactor * intensities.minCoeff() + 1.01 * kIntensityStep;
+}
+
+}  // namespace
+
+const Bins& SmoothHoles::Intensities() {
+  static const Bins kBins({0.0, 0.0025, 0.005, 0.0075, 0.01, 0.0125, 0.015, 0.02, 0.025, 0.03, 0.04,
+                           0.05, 0.075, 0.1, 0.15, 0.2, 0.3, 0.5, 1.01});
+  return kBins;
+}
+
+void SmoothHoles::AddFiring(const Frame& frame, std::size_t row, std::size_t column) {
+  if (column < kReach || column + kReach >= frame.columns) return;
+  static const Neighbours kPlaces = Places();
+  const std::size_t firing = row * frame.width() + column * frame.returns;
+  Neighbours ranges_m;
+  Neighbours intensities;
+  for (Eigen::Index i = 0; i < kPlaces.size(); ++i) {
+    const auto away = static_cast<std::ptrdiff_t>(kPlaces[i]) * std::ptrdiff_t{frame.returns};
+    const auto slot = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(firing) + away);
+    ranges_m[i] = static_cast<double>(frame.range_m[slot]);
+    intensities[i] = static_cast<double>(frame.intensity[slot]);
+  }
+  // Negated so that NaN counts as no surface.
+  if (!(DeviationFromLine_m(ranges_m) <= kSmooth_m) || !IsOneBrightness(intensities)) return;
+  const auto bin = Intensities().Find(intensities.mean());
+  if (!bin) return;
+  by_intensity_.resize(Intensities().size());
+  by_intensity_[*bin].Add({1, std::isfinite(frame.range_m[firing]) ? 0U : 1U});
+}
+
+Table SmoothHoles::MakeTable() const {
+  Table table;
+  table.key = "smooth_holes_by_intensity";
+  table.title = "Holes in smooth surfaces of one brightness";
+  table.columns = {{"intensity", "Intensity of the neighbours", ""},
+                   {"expected", "Expected", ""},
+                   {"holes", "Holes", ""}};
+  for (std::size_t i = 0; i < by_intensity_.size(); ++i) {
+    const auto& [num_expected, num_missing] = by_intensity_[i];
+    if (num_expected == 0) continue;
+    table.rows.push_back(
+        {Intensities().span(i), num_expected, Proportion(num_missing, num_expected)});
+  }
+  return table;
+}
+
+}  // namespace railcast
