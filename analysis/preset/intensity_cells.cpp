@@ -6,6 +6,7 @@
 #include <numeric>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "analysis/estimate/intervals.h"
 #include "analysis/estimate/robust.h"
@@ -117,6 +118,22 @@ std::vector<IntensityCell> LikePieces(const std::vector<IntensityCell>& cells, d
     ++num_pieces;
   }
   return compared;
+}
+
+std::vector<IntensityCell> MeansOfSteps(const std::vector<IntensityCell>& pieces) {
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<IntensityCell>> steps;
+  for (const IntensityCell& cell : pieces) steps[{cell.piece, cell.place.step}].push_back(cell);
+  std::vector<IntensityCell> means;
+  for (const auto& [step, cells] : steps) {
+    IntensityCell mean = cells.front();
+    mean.recorded = mean.simulated = 0.0;
+    for (const IntensityCell& cell : cells) {
+      mean.recorded += cell.recorded / static_cast<double>(cells.size());
+      mean.simulated += cell.simulated / static_cast<double>(cells.size());
+    }
+    means.push_back(mean);
+  }
+  return means;
 }
 
 Estimate RangeExponentLeft(const std::vector<IntensityCell>& cells) {

@@ -53,6 +53,12 @@ inline constexpr double kLikeFactor = 1.3;
 [[nodiscard]] std::vector<IntensityCell> LikePieces(const std::vector<IntensityCell>& cells,
                                                     double like = kLikeFactor);
 
+/// Puts the cells of each piece together that are at the same range (or incidence): one cell for
+/// each step of the piece, with the mean recorded and the mean simulated intensity. Spots and lanes
+/// of a material even out, incidence does not.
+/// @param pieces From LikePieces().
+[[nodiscard]] std::vector<IntensityCell> MeansOfSteps(const std::vector<IntensityCell>& pieces);
+
 /// What is left of the ground's intensity as a power of range: the exponent of R in recorded over
 /// simulated, the median over neighbouring cells of a strip. No cut decides it, and other materials
 /// do not as long as more than half of the neighbours are of one. The interval is that of a

@@ -62,6 +62,15 @@ double MeanOf(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
+// Mean absolute relative error of the intensities.
+double ErrorOf(const std::vector<IntensityCell>& cells) {
+  std::vector<double> errors;
+  for (const IntensityCell& cell : cells) {
+    errors.push_back(std::abs(cell.simulated / cell.recorded - 1.0));
+  }
+  return MeanOf(errors);
+}
+
 double MedianOfRatios(std::vector<double> values) {
   if (values.empty()) return kNoFigure;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -220,11 +229,11 @@ double PresetComparison::PointsError() const {
 }
 
 double PresetComparison::IntensityError(double like) const {
-  std::vector<double> errors;
-  for (const IntensityCell& cell : LikePieces(intensity, like)) {
-    errors.push_back(std::abs(cell.simulated / cell.recorded - 1.0));
-  }
-  return MeanOf(errors);
+  return ErrorOf(LikePieces(intensity, like));
+}
+
+double PresetComparison::MeanIntensityError(double like) const {
+  return ErrorOf(MeansOfSteps(LikePieces(intensity, like)));
 }
 
 double PresetComparison::PlaneSigmaRatio() const {

@@ -57,6 +57,9 @@ struct PresetComparison {
   /// Mean absolute relative error of the intensity over the cells of pieces of one material, after
   /// one factor for each piece (see LikePieces()).
   [[nodiscard]] double IntensityError(double like = kLikeFactor) const;
+  /// The same of the means of each piece at each range or incidence (see MeansOfSteps()), as Haider
+  /// and others 2022 compare mean intensities on targets.
+  [[nodiscard]] double MeanIntensityError(double like = kLikeFactor) const;
   /// Median over the bins of the simulated over the recorded robust sigma: about flat pieces, and
   /// from turn to turn (bins of at least 500 recorded differences).
   [[nodiscard]] double PlaneSigmaRatio() const;

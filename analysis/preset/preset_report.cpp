@@ -137,6 +137,7 @@ Report MakePresetReport(const PresetComparison& comparison,
   report.headlines = {
       {"Error of points", "", comparison.PointsError()},
       {"Error of intensity", "", comparison.IntensityError()},
+      {"Error of the mean intensity at each range", "", comparison.MeanIntensityError()},
       {"Error of intensity, pieces cut at a factor of 1.2", "", comparison.IntensityError(1.2)},
       {"Error of intensity, pieces cut at a factor of 1.5", "", comparison.IntensityError(1.5)},
       {"Power of range left in the ground's intensity", "",

@@ -182,6 +182,18 @@ TEST(LikePieces, HaveOneFactorForEachMaterial) {
   EXPECT_EQ(LikePieces(cells, 10.0).back().piece, 0U);
 }
 
+TEST(MeansOfSteps, EvenOutWhatLiesSideBySide) {
+  std::vector<IntensityCell> pieces{CellAt(0, 0, 0.1, 0.1), CellAt(1, 0, 0.2, 0.1),
+                                    CellAt(0, 1, 0.3, 0.4), CellAt(0, 0, 0.5, 0.6)};
+  pieces.back().piece = 1;
+  const std::vector<IntensityCell> means = MeansOfSteps(pieces);
+  ASSERT_EQ(means.size(), 3U);
+  EXPECT_NEAR(means[0].recorded, 0.15, 1e-12);
+  EXPECT_NEAR(means[0].simulated, 0.1, 1e-12);
+  EXPECT_EQ(means[1].recorded, 0.3);
+  EXPECT_EQ(means[2].simulated, 0.6);
+}
+
 TEST(LikePieces, ThatAreShortAreLeftOut) {
   EXPECT_TRUE(LikePieces({CellAt(0, 0, 0.1, 0.1), CellAt(0, 1, 0.1, 0.1)}).empty());
 }
