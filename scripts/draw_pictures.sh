@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Draws the pictures of README and docs into docs/images, except for the charts of draw_frontiers.sh
-# and the hand-made SVG; on one machine the files are reproducible byte by byte. Needs a release
-# build, Xvfb and, for the picture of a report, chromium; takes some minutes.
+# and draw_plants.sh and the hand-made data_flow.svg; on one machine the files are reproducible byte
+# by byte. Needs a release build, Xvfb, graphviz and, for the picture of a report, chromium; takes
+# some minutes.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -23,6 +24,8 @@ simulate wet scenarios/wet_yard.json 1
 printf '{"version": 1, "file": "%s", "weather": {"fog_density_per_m": 0.02}}' \
   "$PWD/scenarios/st_gallen_approach.json" > "$runs/fog.json"
 simulate fog "$runs/fog.json" 33
+
+dot -T svg "$images/architecture.dot" -o "$images/architecture.svg"
 
 # draw NAME OPTION...: runs in the folder of the runs, so that no picture shows a temporary path.
 draw() {
