@@ -38,6 +38,12 @@ display_packages=(
   xvfb
 )
 
+# Called by scripts/reproduce_paper.sh; scripts/draw_pictures.sh needs them, too.
+paper_packages=(
+  graphviz
+  python3
+)
+
 # Called by the tests: independent readers and validators, and a tool that operates the viewer's
 # window.
 test_packages=(
