@@ -1,0 +1,78 @@
+"""Whether docs/reference.md is what scripts/write_reference.py prints, and what it makes of small
+schemas."""
+
+import contextlib
+import io
+import json
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "scripts"))
+import write_reference  # noqa: E402 (found through the line above)
+
+
+def printed(*arguments):
+    text = io.StringIO()
+    with contextlib.redirect_stdout(text):
+        write_reference.main(list(arguments))
+    return text.getvalue()
+
+
+def lines_of(properties, **others):
+    """The lines after the head for a scenario of these keys, without empty ones."""
+    schema = {"properties": properties, **others}
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "schema.json"
+        path.write_text(json.dumps(schema), encoding="utf-8")
+        text = printed(str(path))
+    body = text.removeprefix(write_reference.HEAD)
+    return [line for line in body.splitlines() if line and not line.startswith(("| key", "|---"))]
+
+
+def held_by_file(schema):
+    return {"anyOf": [{"type": "string", "description": "A file that holds it."}, schema]}
+
+
+class Reference(unittest.TestCase):
+
+    def test_the_kept_page_is_what_the_schema_gives(self):
+        kept = (ROOT / "docs/reference.md").read_text(encoding="utf-8")
+        self.assertEqual(kept, printed(), "run scripts/write_reference.py > docs/reference.md")
+
+    def test_a_key_has_its_limits_and_its_default(self):
+        self.assertEqual(lines_of({
+            "a_m": {"type": "number", "exclusiveMinimum": 0.0, "maximum": 1e9, "default": 2.5,
+                    "description": "Length."},
+            "kind": {"type": "string", "enum": ["x", "y"], "default": "x", "description": "Or."},
+        })[1:], ["| `a_m` | number | `2.5` | above 0 to 1000000000 | Length. |",
+                 '| `kind` | text | `"x"` | `x`, `y` | Or. |'])
+
+    def test_what_a_file_can_hold_says_so_and_its_keys_follow(self):
+        part = held_by_file({"type": "object", "properties": {
+            "file": {"type": "string", "description": write_reference.INCLUSION},
+            "b": {"type": "boolean", "description": "B."}},
+            "anyOf": [{"required": ["file"]}, {"required": ["b"]}]})
+        self.assertEqual(lines_of({"part": {**part, "description": "Part."}})[1:], [
+            "| `part` | object, or file |  |  | Part. |", "## `part`",
+            "| `b` | true, false | required |  | B. |"])
+
+    def test_elements_of_lists_and_choices_have_tables_of_their_own(self):
+        choice = {"type": "object", "properties": {"type": {"const": "dot"}}, "required": ["type"]}
+        lines = lines_of({"all": {"type": "array", "minItems": 1, "description": "All.", "items": {
+            "type": "object", "properties": {"one": {"oneOf": [choice], "description": "One."}}}}})
+        self.assertEqual(lines[1:], [
+            "| `all` | list of 1 or more objects |  |  | All. |", "## `all[]`",
+            "| `one` | object |  |  | One. |", "### `all[].one (dot)`",
+            "| `type` | `dot` | required |  |  |"])
+
+    def test_what_has_been_described_is_not_described_again(self):
+        part = {"type": "object", "properties": {"b": {"type": "boolean"}}}
+        self.assertEqual(lines_of({"p": part, "q": part})[-2:], ["## `q`", "As `p`."])
+
+
+if __name__ == "__main__":
+    unittest.main()
