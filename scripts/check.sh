@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Runs the checks that a change must pass before it is merged.
 #
-#   check.sh            format, architecture, build, tests, core and the fuzzers with clang
-#   check.sh --fast     format and architecture only: seconds, no build
+#   check.sh            format, architecture, links, build, tests, core and the fuzzers with clang
+#   check.sh --fast     format, architecture and links of the docs only: seconds, no build
 #   check.sh --tidy     all of the above, and clang-tidy over the sources that differ from main
 #   check.sh --tidy-all as --tidy, over every source: takes minutes
 set -euo pipefail
@@ -28,6 +28,11 @@ check_format() {
 check_architecture() {
   echo "== architecture"
   scripts/lint_architecture.py
+}
+
+check_docs() {
+  echo "== docs"
+  scripts/lint_docs.py
 }
 
 # check_tidy GIT-LIST-COMMAND...: runs clang-tidy over those sources listed by the command that are
@@ -79,6 +84,7 @@ esac
 install_packages "${check_packages[@]}"
 check_format
 check_architecture
+check_docs
 if [[ "$mode" == --fast ]]; then
   exit
 fi

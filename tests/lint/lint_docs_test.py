@@ -1,0 +1,65 @@
+"""Each test plants a small tree of pages and reads what scripts/lint_docs.py says of it."""
+
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+import lint_docs  # noqa: E402 (found through the line above)
+
+
+def faults_of(files):
+    """The faults of a tree with these files: {name: text}."""
+    with tempfile.TemporaryDirectory() as folder:
+        root = pathlib.Path(folder).resolve()
+        for name, text in files.items():
+            path = root / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+        return lint_docs.lint(root)
+
+
+class Links(unittest.TestCase):
+
+    def test_a_link_leads_to_a_file_that_exists(self):
+        self.assertEqual(faults_of({"README.md": "\n[a](b.md) [c](d/e.md)", "b.md": ""}),
+                         ["README.md:2: a link leads to a file that exists (d/e.md)"])
+
+    def test_a_link_leads_to_a_heading_of_the_page(self):
+        self.assertEqual(faults_of({"README.md": "[a](b.md#one-two) [a](b.md#two)",
+                                    "b.md": "# One: two!"}),
+                         ["README.md:1: a link leads to a heading of the page (b.md#two)"])
+
+    def test_headings_of_the_page_itself_are_found_and_equal_ones_are_counted(self):
+        self.assertEqual(faults_of({"a.md": "# `x_y` (a)\n## Same\n## Same\n"
+                                            "[a](#x_y-a) [b](#same) [c](#same-1) [d](#same-2)"}),
+                         ["a.md:4: a link leads to a heading of the page (#same-2)"])
+
+    def test_code_has_no_links_and_no_headings(self):
+        self.assertEqual(faults_of({"a.md": "```\n# x\n[a](b)\n```\n`[a](b)` [a](#x)"}),
+                         ["a.md:5: a link leads to a heading of the page (#x)"])
+
+    def test_addresses_of_other_sites_are_not_followed(self):
+        self.assertEqual(faults_of({"a.md": "[a](https://example.org/b.md)"}), [])
+
+    def test_folders_that_are_not_part_of_the_project_are_left_out(self):
+        self.assertEqual(faults_of({"out/a.md": "[a](b.md)", "build/a.md": "[a](b.md)"}), [])
+
+
+class Pages(unittest.TestCase):
+
+    def test_the_start_page_has_a_link_to_every_page_of_docs(self):
+        self.assertEqual(faults_of({"docs/index.md": "[a](a.md)", "docs/a.md": "[b](b.md)",
+                                    "docs/b.md": "", "c.md": ""}),
+                         ["docs/b.md:1: docs/index.md has a link to every page of docs"])
+
+    def test_a_page_shows_every_picture(self):
+        self.assertEqual(faults_of({"a.md": "![x](docs/images/x.png)", "docs/images/x.png": "",
+                                    "docs/images/y.svg": "", "docs/images/y.dot": ""}),
+                         ["docs/images/y.svg:1: a page shows every picture of docs/images"])
+
+
+if __name__ == "__main__":
+    unittest.main()
