@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Draws the pictures of README and docs into docs/images, except for the charts of draw_frontiers.sh
-# and draw_plants.sh and the hand-made data_flow.svg; on one machine the files are reproducible byte
-# by byte. Needs a release build, Xvfb, graphviz and, for the picture of a report, chromium; takes
-# some minutes.
+# Draws the pictures of README and docs into docs/images, except for the charts of draw_frontiers.sh,
+# the pictures of reproduce_paper.sh, that of the tutorial, which makes its own, and the hand-made
+# data_flow.svg; on one machine the files are reproducible byte by byte. Needs a release build, Xvfb,
+# graphviz and, for the picture of a report, chromium; takes some minutes.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

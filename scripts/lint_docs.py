@@ -4,10 +4,12 @@
 Usage: lint_docs.py [ROOT]
 
 Prints one line per fault, "file:line: rule (what was found)", and exits 1 if there is any: links to
-files or headings that do not exist, pages of docs that docs/index.md has no link to, and pictures
-of docs/images that no page shows.
+files or headings that do not exist, pages of docs that docs/index.md has no link to, pictures of
+docs/images that no page shows or that lack words of their source, and scripts of figures that do
+not exist.
 """
 
+import html
 import pathlib
 import re
 import sys
@@ -19,6 +21,8 @@ NOT_OURS = ("build", "out", ".git")  # Folders whose pages are not part of the p
 FENCE = re.compile(r"^(```+|~~~+).*?^\1[ \t]*$", re.MULTILINE | re.DOTALL)
 INLINE_CODE = re.compile(r"(`+)(?!`).+?(?<!`)\1(?!`)")
 LINK = re.compile(r"\]\(\s*<?([^()\s>]+)>?(?:\s+\"[^\"]*\")?\s*\)")
+MADE_BY = re.compile(r"<!-- figures: (scripts/\S+)")  # Beside a table: what made its figures.
+LABEL = re.compile(r'label="([^"]*)"')  # In a text for graphviz.
 HEADING = re.compile(r"^#{1,6}[ \t]+(.+?)[ \t]*#*$", re.MULTILINE)
 
 
@@ -91,10 +95,34 @@ def lint_pictures(root, pages):
             yield f"{path.relative_to(root).as_posix()}:1: a page shows every picture of docs/images"
 
 
+def lint_drawings(root):
+    """Yields the words of the texts for graphviz that the drawings made of them lack."""
+    for path in sorted((root / "docs/images").glob("*.dot")):
+        place, drawing = path.relative_to(root).as_posix(), path.with_suffix(".svg")
+        drawn = html.unescape(drawing.read_text(encoding="utf-8")) if drawing.exists() else ""
+        drawn = drawn.replace("\u00a0", " ")
+        for label in LABEL.findall(path.read_text(encoding="utf-8")):
+            for line in label.split("\\n"):
+                if line not in drawn:
+                    yield f"{place}:1: the drawing has the words of its source ({line})"
+
+
+def lint_figures(root, pages):
+    """Yields the scripts that made figures of a page and do not exist."""
+    for path in pages:
+        text = path.read_text(encoding="utf-8")
+        for match in MADE_BY.finditer(text):
+            if not (root / match[1]).exists():
+                line = text.count("\n", 0, match.start()) + 1
+                yield (f"{path.relative_to(root).as_posix()}:{line}: figures are made by a script "
+                       f"that exists ({match[1]})")
+
+
 def lint(root):
     """Every fault of the pages in the tree at `root`."""
     pages = read_pages(root)
-    return [*lint_links(root, pages), *lint_start_page(root, pages), *lint_pictures(root, pages)]
+    return [*lint_links(root, pages), *lint_start_page(root, pages), *lint_pictures(root, pages),
+            *lint_drawings(root), *lint_figures(root, pages)]
 
 
 def main(arguments):

@@ -60,6 +60,18 @@ class Pages(unittest.TestCase):
                                     "docs/images/y.svg": "", "docs/images/y.dot": ""}),
                          ["docs/images/y.svg:1: a page shows every picture of docs/images"])
 
+    def test_a_drawing_has_the_words_of_its_source(self):
+        self.assertEqual(faults_of({"a.md": "![x](docs/images/x.svg)",
+                                    "docs/images/x.dot": 'a [label="sensor&s\\nA\'s 60°"]',
+                                    "docs/images/x.svg": "<text>A&#39;s 60&#176;</text>"}),
+                         ["docs/images/x.dot:1: the drawing has the words of its source (sensor&s)"])
+
+    def test_figures_are_made_by_a_script_that_exists(self):
+        self.assertEqual(faults_of({"a.md": "\n<!-- figures: scripts/a.sh -->\n"
+                                            "<!-- figures: scripts/b.sh OUT -->\n"
+                                            "<!-- figures: build/c -->", "scripts/b.sh": ""}),
+                         ["a.md:2: figures are made by a script that exists (scripts/a.sh)"])
+
 
 if __name__ == "__main__":
     unittest.main()
