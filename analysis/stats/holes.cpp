@@ -102,7 +102,7 @@ Section Holes::MakeSection() const {
        "far and grazing patches. Columns without any point count as never fired, so that half a "
        "turn is not half a loss; firings known to have met the own vehicle do not count. What the "
        "sensor itself loses shows in smooth surfaces of one brightness: four points on either side "
-       "on a line to 3 cm, with intensities that differ by less than a factor of 1.5."},
+       "on a line to 3 cm, the brightest at most 1.5 times as bright as the darkest plus 0.01."},
       {},
       {}};
 

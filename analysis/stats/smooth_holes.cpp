@@ -38,8 +38,8 @@ bool IsOneBrightness(const Neighbours& intensities) {
 }  // namespace
 
 const Bins& SmoothHoles::Intensities() {
-  static const Bins kBins({0.0, 0.0025, 0.005, 0.0075, 0.01, 0.0125, 0.015, 0.02, 0.025, 0.03, 0.04,
-                           0.05, 0.075, 0.1, 0.15, 0.2, 0.3, 0.5, 1.01});
+  static const Bins kBins({0.0, 0.005, 0.015, 0.025, 0.035, 0.045, 0.055, 0.075, 0.105, 0.155,
+                           0.205, 0.305, 0.505, 1.005});
   return kBins;
 }
 
@@ -60,7 +60,8 @@ void SmoothHoles::AddFiring(const Frame& frame, std::size_t row, std::size_t col
   const auto bin = Intensities().Find(intensities.mean());
   if (!bin) return;
   by_intensity_.resize(Intensities().size());
-  by_intensity_[*bin].Add({1, std::isfinite(frame.range_m[firing]) ? 0U : 1U});
+  by_intensity_[*bin].Add(
+      {{1, std::isfinite(frame.range_m[firing]) ? 0U : 1U}, intensities.mean()});
 }
 
 Table SmoothHoles::MakeTable() const {
@@ -71,7 +72,7 @@ Table SmoothHoles::MakeTable() const {
                    {"expected", "Expected", ""},
                    {"holes", "Holes", ""}};
   for (std::size_t i = 0; i < by_intensity_.size(); ++i) {
-    const auto& [num_expected, num_missing] = by_intensity_[i];
+    const auto& [num_expected, num_missing] = by_intensity_[i].firings;
     if (num_expected == 0) continue;
     table.rows.push_back(
         {Intensities().span(i), num_expected, Proportion(num_missing, num_expected)});

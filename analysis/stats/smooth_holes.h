@@ -26,20 +26,33 @@ struct HoleCount {
 class SmoothHoles {
  public:
   /// Counts a firing if the four points on either side of it in its ring lie on a line over their
-  /// columns (standard deviation of the ranges up to 3 cm) and have intensities up to 1 that differ
-  /// by no more than a factor of 1.5 and a step of 0.01.
+  /// columns (standard deviation of the ranges up to 3 cm) and have intensities up to 1, of which
+  /// the highest is at most 1.5 times the lowest plus a step of 0.01.
   /// @pre `frame` is a grid.
   void AddFiring(const Frame& frame, std::size_t row, std::size_t column);
   void Add(const SmoothHoles& other) { AddEach(by_intensity_, other.by_intensity_); }
 
+  struct Count {
+    HoleCount firings;
+    double sum_intensity{};  ///< Of the firings' neighbours.
+
+    [[nodiscard]] double MeanIntensity() const {
+      return sum_intensity / static_cast<double>(firings.num_expected);
+    }
+    void Add(const Count& other) {
+      firings.Add(other.firings);
+      sum_intensity += other.sum_intensity;
+    }
+  };
   /// By bin of Intensities(), of the mean intensity of the eight points; may be empty.
-  [[nodiscard]] const std::vector<HoleCount>& by_intensity() const { return by_intensity_; }
-  /// Bins of intensity, narrow where it is dark.
+  [[nodiscard]] const std::vector<Count>& by_intensity() const { return by_intensity_; }
+  /// Bins of intensity, narrow where it is dark, with edges between the whole percents in which
+  /// sensors report it.
   [[nodiscard]] static const Bins& Intensities();
   [[nodiscard]] Table MakeTable() const;
 
  private:
-  std::vector<HoleCount> by_intensity_;
+  std::vector<Count> by_intensity_;
 };
 
 }  // namespace railcast

@@ -56,7 +56,7 @@ Echo Gather(const WavePeak& peak, const Component* begin, const Component* end) 
 EchoFinder::EchoFinder(const DetectorSpec& spec, float least_ratio, const Kernels& kernels)
     : pulse_sigma_m_(static_cast<float>(PulseSigma_m(spec.beam))),
       has_stretch_(spec.effects.pulse_stretch),
-      is_energy_(has_stretch_ && !StretchLowersPower(spec)),
+      is_energy_(spec.receiver.signal == EchoSignal::kEnergy),
       is_sampled_(spec.effects.sampled_waveform),
       least_ratio_(least_ratio),
       kernels_(kernels) {}
@@ -110,17 +110,14 @@ void EchoFinder::ClimbToPeaks(const std::vector<Component>& components) {
 
 void EchoFinder::SamplePeaks(const std::vector<Component>& components) {
   const float step_m = 0.125F * pulse_sigma_m_;
-  // The widest component decides which of them may have a common peak between them.
-  const float margin_m =
-      2.0F / std::sqrt(*std::min_element(
-                 inverse_variance_.begin(),
-                 inverse_variance_.begin() + static_cast<std::ptrdiff_t>(components.size())));
+  const float margin_m = 2.0F * pulse_sigma_m_;
+  const auto reach_m = [&](std::size_t i) { return 2.0F / std::sqrt(inverse_variance_[i]); };
   std::size_t begin = 0;
   while (begin < components.size()) {
-    // Sample components whose windows overlap together.
+    // Sample components together that may have a peak between them.
     std::size_t end = begin + 1;
-    while (end < components.size() &&
-           components[end].range_m - components[end - 1].range_m <= 2.0F * margin_m) {
+    while (end < components.size() && components[end].range_m - components[end - 1].range_m <=
+                                          reach_m(end - 1) + reach_m(end)) {
       ++end;
     }
     const float first_m = components[begin].range_m - margin_m;
@@ -160,16 +157,26 @@ const Component* EchoFinder::EndOfPeak(std::size_t peak,
                               [&](const Component& c) { return c.range_m < middle_m; });
 }
 
+// Whether the wave between two peaks falls by a tenth of the lower one anywhere.
+bool EchoFinder::HasValley(const WavePeak& near, const WavePeak& far) {
+  const float deep = kShallow * std::min(near.value, far.value);
+  const float length_m = far.range_m - near.range_m;
+  float middle = 0.0F;
+  kernels_.sample_wave(wave_, near.range_m + 0.5F * length_m, 0.0F, 1, &middle);
+  if (middle < deep) return true;
+  const float step_m = 0.125F * pulse_sigma_m_;
+  samples_.resize(static_cast<std::size_t>(length_m / step_m) + 1);
+  kernels_.sample_wave(wave_, near.range_m, step_m, samples_.size(), samples_.data());
+  return *std::min_element(samples_.begin(), samples_.end()) < deep;
+}
+
 void EchoFinder::MeltShallowPeaks() {
   for (std::size_t i = 0; i + 1 < peaks_.size();) {
-    const auto lower = peaks_[i].value < peaks_[i + 1].value ? i : i + 1;
-    float between = 0.0F;
-    kernels_.sample_wave(wave_, 0.5F * (peaks_[i].range_m + peaks_[i + 1].range_m), 0.0F, 1,
-                         &between);
-    if (between < kShallow * peaks_[lower].value) {
+    if (HasValley(peaks_[i], peaks_[i + 1])) {
       ++i;
       continue;
     }
+    const std::size_t lower = peaks_[i].value < peaks_[i + 1].value ? i : i + 1;
     peaks_.erase(peaks_.begin() + static_cast<std::ptrdiff_t>(lower));
     if (i > 0) --i;
   }
@@ -204,7 +211,6 @@ void EchoFinder::Find(std::vector<Component>& components, std::vector<Echo>& ech
     TakeEnergies(components);
   }
   DropWeakPeaks();
-  if (is_energy_) TakeEnergies(components);
   const Component* begin = components.data();
   const Component* const last = begin + components.size();
   for (std::size_t i = 0; i < peaks_.size(); ++i) {

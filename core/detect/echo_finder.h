@@ -53,6 +53,7 @@ class EchoFinder {
   void SamplePeaks(const std::vector<Component>& components);
   void AddPeak(const WavePeak& peak);
   void DropWeakPeaks();
+  [[nodiscard]] bool HasValley(const WavePeak& near, const WavePeak& far);
   void MeltShallowPeaks();
   void TakeEnergies(const std::vector<Component>& components);
   [[nodiscard]] const Component* EndOfPeak(std::size_t peak,

@@ -29,7 +29,7 @@ enum class StepOrder {
   // Receiver.
   kHit,
   kThreshold,
-  kSensorDropout,  ///< Before weather: a lost pulse meets neither surface nor snow.
+  kSensorDropout,  ///< Before weather: of a lost pulse neither surface nor snow is seen.
   kRain,
   kSnow,
   kSunlight,

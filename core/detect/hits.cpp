@@ -22,6 +22,7 @@ void ResolveHits(const RayTile& rays, const SurfaceTable& table, DetectTile& til
   }
   std::fill_n(tile.echo, tile.num_rays, 0U);
   std::fill_n(tile.clutter, tile.num_rays, kNoClutter);
+  std::fill_n(tile.share, tile.num_rays, 1.0F);
   if (table.optics.empty()) return;
   for (std::size_t i = 0; i < tile.num_rays; ++i) {
     const LaneOptics& optics = table.optics[table.surfaces[rays.surface[i]].material];
@@ -32,7 +33,6 @@ void ResolveHits(const RayTile& rays, const SurfaceTable& table, DetectTile& til
     tile.specular_alpha2[i] = optics.alpha2;
     tile.retro[i] = optics.retro;
   }
-  std::fill_n(tile.share, tile.num_rays, 1.0F);
   std::fill_n(tile.peak_shift_m, tile.num_rays, 0.0F);
 }
 

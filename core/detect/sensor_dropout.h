@@ -27,10 +27,10 @@ namespace railcast::RAILCAST_ISA {
 ///   dark    = dark_dropout_probability exp(-I / dark_dropout_intensity)
 ///
 /// independently for each firing. R is the true range of the surface, 0 where there is none. I is
-/// the intensity of the echo; `dark` is 0 where there is no surface or no intensity is computed.
-/// All echoes of a firing share one draw, so that at equal intensity a loss of the nearer echo is a
-/// loss of the farther one, too. Of smooth, evenly bright surfaces real sensors lose next to
-/// nothing but on dark ones; docs/validation.md gives figures.
+/// the brightness of the surface: the intensity of the echo over the share of the beam that meets
+/// it. `dark` is 0 where there is no surface or no intensity is computed. All echoes of a firing
+/// share one draw, so that at equal brightness a loss of the nearer echo is a loss of the farther
+/// one, too. Real sensors lose more on dark surfaces; docs/validation.md gives figures.
 inline void ApplySensorDropout(DetectTile& tile, const SensorDropoutParameters& parameters) {
   const LaneKey key{parameters.seed, RandomUse::kSensorDropout, tile.frame};
   const SensorDropoutParameters p = parameters;  // The copy cannot alias the tile.
@@ -40,10 +40,10 @@ inline void ApplySensorDropout(DetectTile& tile, const SensorDropoutParameters& 
     const float range_m = true_range_m > 0.0F ? true_range_m : 0.0F;  // NaN gives 0, too.
     const float anywhere =
         p.probability + (1.0F - p.probability) * (1.0F - Exp(-p.per_m * range_m));
-    const float intensity = tile.intensity[i];
-    const bool is_seen = true_range_m > 0.0F && intensity >= 0.0F;
+    const float brightness = tile.intensity[i] / tile.share[i];  // NaN of echoes from the air.
+    const bool is_seen = true_range_m > 0.0F && brightness >= 0.0F;
     const float dark =
-        is_seen ? p.dark_probability * Exp(-p.inverse_dark_intensity * intensity) : 0.0F;
+        is_seen ? p.dark_probability * Exp(-p.inverse_dark_intensity * brightness) : 0.0F;
     const float lost = anywhere + (1.0F - anywhere) * dark;
     tile.outcome[i] =
         u < lost ? static_cast<std::uint32_t>(Outcome::kSensorDropout) : tile.outcome[i];

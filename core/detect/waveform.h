@@ -55,7 +55,8 @@ struct WaveSums {
 /// where w is sufficiently concave, else a mean shift: to the mean of r_i weighted by
 /// w_i / variance_i, which never overshoots a maximum (Comaniciu and Meer 2002). On a wave much
 /// wider than its components, such as that of grazed ground, mean shifts are too short to arrive;
-/// there a step is Newton's or one sigma of the components, whichever is shorter.
+/// there a step is Newton's or one sigma of the components, whichever is shorter. A step that jumps
+/// over a maximum halves the longest one allowed.
 [[nodiscard]] inline WavePeak ClimbWave(const EchoWave& wave,
                                         float from_m,
                                         const WaveKnown& known) {
@@ -64,6 +65,7 @@ struct WaveSums {
   constexpr float kStill_m = 3e-3F;
   // A Newton step is accepted up to this many times the mean shift, which is always too short.
   constexpr float kTrust = 4.0F;
+  constexpr float kWaveEnd_m = 1e9F;
   float range_m = from_m;
   WaveSums sums = SumWave(wave, range_m);
   for (std::size_t i = 0; i < known.num_peaks; ++i) {
@@ -71,6 +73,7 @@ struct WaveSums {
     const bool is_near = ahead_m < known.reach_m && ahead_m > -known.reach_m;
     if (is_near && (ahead_m > 0.0F) == (sums.moment > 0.0F)) return known.peaks[i];
   }
+  float longest_m = kWaveEnd_m;
   for (int step = 0; step < kMaxSteps && sums.weight > 0.0F; ++step) {
     const float mean_shift_m = sums.moment / sums.weight;
     const float bend_down = sums.weight - sums.bend;
@@ -81,11 +84,18 @@ struct WaveSums {
       is_newton = bend_down * sigma_m > std::fabs(sums.moment);
       shift_m = is_newton ? sums.moment / bend_down : std::copysign(sigma_m, sums.moment);
     }
+    if (std::fabs(shift_m) > longest_m) {
+      is_newton = false;
+      shift_m = std::copysign(longest_m, shift_m);
+    }
     range_m += shift_m;
     if (is_newton && shift_m < kStill_m && shift_m > -kStill_m) {
       return {range_m, sums.value + 0.5F * sums.moment * shift_m};
     }
+    const bool rose = sums.moment > 0.0F;
     sums = SumWave(wave, range_m);
+    // A maximum lies between here and the last place: from now on steps close in on it.
+    if (rose != (sums.moment > 0.0F)) longest_m = 0.5F * std::fabs(shift_m);
   }
   return {range_m, sums.value};
 }

@@ -79,7 +79,7 @@ void Describe(Archive& a, PlausibilitySpec& s) {
   a.Optional("dropout_per_m", s.dropout_per_m,
              "Growth of the losses: exp(-this x range) of the firings survive.", Within(0, 1));
   a.Optional("dark_dropout_probability", s.dark_dropout_probability,
-             "Further losses on dark surfaces: the probability where nothing comes back.",
+             "Further losses on dark surfaces: the probability as the intensity approaches 0.",
              Within(0, 1));
   a.Optional("dark_dropout_intensity", s.dark_dropout_intensity,
              "Intensity at which these losses have fallen to 1 / e.", PositiveUpTo(1));

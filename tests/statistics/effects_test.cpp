@@ -46,6 +46,7 @@ std::vector<Answer> Detect(const DetectorSpec& spec,
       tile->direction_z[i] = 0.48F;
       tile->true_range_m[i] = static_cast<float>(range);
       tile->echo[i] = 0;
+      tile->share[i] = 1.0F;
       tile->cos_incidence[i] = 1.0F;
       tile->reflectivity[i] = 0.5F;
       tile->outcome[i] =

@@ -2,6 +2,7 @@
 // docs/validation.md has the figures.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -40,21 +41,23 @@ struct LossLaw {
   }
 };
 
-using Counts = std::vector<HoleCount>;
+using Counts = std::vector<SmoothHoles::Count>;
 
 double LogLikelihood(const Counts& counts, const LossLaw& law) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    const double lost = std::max(law.At(SmoothHoles::Intensities().middle(i)), 1e-9);
-    sum += static_cast<double>(counts[i].num_missing) * std::log(lost) +
-           static_cast<double>(counts[i].num_expected - counts[i].num_missing) * std::log1p(-lost);
+  for (const SmoothHoles::Count& count : counts) {
+    if (count.firings.num_expected == 0) continue;
+    const auto num_missing = static_cast<double>(count.firings.num_missing);
+    const double lost = std::max(law.At(count.MeanIntensity()), 1e-9);
+    sum += num_missing * std::log(lost) +
+           (static_cast<double>(count.firings.num_expected) - num_missing) * std::log1p(-lost);
   }
   return sum;
 }
 
 HoleCount SumOf(const Counts& counts) {
   HoleCount sum;
-  for (const HoleCount& count : counts) sum.Add(count);
+  for (const SmoothHoles::Count& count : counts) sum.Add(count.firings);
   return sum;
 }
 
@@ -128,11 +131,12 @@ TEST_P(DarkLosses, OfThePresetAreTheBestOfOneHalfAndPredictTheOther) {
     double expected_bright = 0.0;
     HoleCount dark;
     HoleCount bright;
-    for (std::size_t i = 0; i < half.size(); ++i) {
-      const double middle = SmoothHoles::Intensities().middle(i);
-      const double num = law.At(middle) * static_cast<double>(half[i].num_expected);
-      (middle < 0.05 ? expected : expected_bright) += num;
-      (middle < 0.05 ? dark : bright).Add(half[i]);
+    for (const SmoothHoles::Count& count : half) {
+      const auto num = static_cast<double>(count.firings.num_expected);
+      if (num == 0.0) continue;
+      const double mean = count.MeanIntensity();
+      (mean < 0.055 ? expected : expected_bright) += num * law.At(mean);
+      (mean < 0.055 ? dark : bright).Add(count.firings);
     }
     std::cout << "  dark " << dark.num_missing << " of " << dark.num_expected << " (preset "
               << expected << "), bright " << bright.num_missing << " of " << bright.num_expected

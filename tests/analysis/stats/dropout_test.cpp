@@ -225,7 +225,8 @@ TEST(SmoothHoles, RecoverTheLossesOfEachBrightness) {
   }
   // The wall is met under at most 11 deg, 6 deg on average.
   for (const double intensity : {0.0993, 0.4967}) {
-    const HoleCount& count = smooth.by_intensity()[*SmoothHoles::Intensities().Find(intensity)];
+    const HoleCount& count =
+        smooth.by_intensity()[*SmoothHoles::Intensities().Find(intensity)].firings;
     const auto n = static_cast<double>(count.num_expected);
     ASSERT_GT(n, 10'000.0);
     const double lost = 0.2 * std::exp(-intensity / 0.2);

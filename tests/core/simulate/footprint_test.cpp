@@ -71,7 +71,6 @@ TEST(Footprint, LeavesThePlainAlone) {
   EXPECT_GT(num_compared, 400);
 }
 
-// Two surfaces a quarter of the pulse apart merge into one echo, whose range is between them.
 // Ground 2 m below the sensor stretches the pulse; a receiver of energy does not mind. Without
 // detection and its fluctuations every beam has its power.
 TEST(Footprint, KeepsTheEnergyOfGrazedGroundWhosePeakFalls) {
@@ -110,6 +109,7 @@ TEST(Footprint, KeepsTheEnergyOfGrazedGroundWhosePeakFalls) {
   }
 }
 
+// Two surfaces a quarter of the pulse apart merge into one echo, whose range is between them.
 TEST(Footprint, SeesAStepOfATenthOfAMetreAsAMixedPixel) {
   constexpr float kStep_m = 0.1F;
   auto world = HalfAWall();
