@@ -185,8 +185,8 @@ std::shared_ptr<const RailWorld> RailWorld::WithObject(const ObjectSpec& object,
                             " objects of a run, those that were removed included");
   }
   auto path = DraftPath(line_->world, object, pointer, from_ns, faults);
-  auto made =
-      DraftObject(object, pointer, {line_->surfaces, line_->labels, line_->materials}, faults);
+  ObjectModels models(*line_->surfaces, line_->labels, line_->materials);
+  auto made = DraftObject(object, pointer, {*line_->surfaces, line_->labels, models}, faults);
   faults.errors.ThrowIfAny();
 
   Things changed = *things_;

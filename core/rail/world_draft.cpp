@@ -9,7 +9,6 @@
 #include "core/base/attempt.h"
 #include "core/base/units.h"
 #include "core/rail/line/speed_profile.h"
-#include "core/rail/objects/object_models.h"
 
 namespace railcast {
 namespace {
@@ -103,12 +102,11 @@ std::optional<SceneObject> DraftObject(const ObjectSpec& object,
   }
   if (!faults.AreKnown({pointer + "/label", "/labels"})) known.label.reset();
   if (!faults.AreKnown({pointer + "/material", "/materials"})) known.material.reset();
-  const RailSurfaces these = tables.surfaces.value_or(RailSurfaces());
   return Attempt(pointer + ": ", faults.errors, [&] {
     return SceneObject{.name = known.name,
                        .type = std::string(NameOf(known.type)),
-                       .label = ObjectLabel(known, these, tables.labels),
-                       .model = MakeObjectModel(known, these, tables.labels, tables.materials)};
+                       .label = ObjectLabel(known, tables.surfaces, tables.labels),
+                       .model = tables.models.Of(known)};
   });
 }
 
@@ -130,7 +128,9 @@ WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
     }
   }
   draft.vehicle_path = DraftVehicle(source, faults);
-  const ObjectTables tables{draft.surfaces, source.labels, source.materials};
+  const RailSurfaces surfaces = draft.surfaces.value_or(RailSurfaces());
+  ObjectModels models(surfaces, source.labels, source.materials);
+  const ObjectTables tables{surfaces, source.labels, models};
   for (std::size_t i = 0; i < world.objects.size(); ++i) {
     const std::string pointer = "/world/objects/" + std::to_string(i);
     auto path = DraftPath(world, world.objects[i], pointer, 0, faults);

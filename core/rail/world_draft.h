@@ -7,6 +7,7 @@
 
 #include "core/rail/catenary/catenary_plan.h"
 #include "core/rail/line/track_path.h"
+#include "core/rail/objects/object_models.h"
 #include "core/rail/rail_surfaces.h"
 #include "core/rail/world_check.h"
 #include "railcast/alignment.h"
@@ -25,12 +26,12 @@ struct WorldSource {
   const MaterialLibrary& materials;
 };
 
-/// Tables from which objects are made. `surfaces` may be missing, if its names were faulty; an
-/// object's shape can then still be made and checked.
+/// What objects are made from. Where names of surfaces are faulty, default surfaces stand for them,
+/// so that an object's shape can still be made and checked.
 struct ObjectTables {
-  const std::optional<RailSurfaces>& surfaces;
+  const RailSurfaces& surfaces;
   const LabelTable& labels;
-  const MaterialLibrary& materials;
+  ObjectModels& models;
 };
 
 /// The parts of a world, as far as their specs are valid; complete if there was no fault.

@@ -31,6 +31,6 @@ void AddCatenary(const ChunkContext& context,
                  const InfrastructureModels& models,
                  Chunk& chunk);
 
-inline constexpr std::uint32_t kFirstMastInstance = 1000;
+inline constexpr std::uint32_t kFirstMastInstance = 20'000;
 
 }  // namespace railcast

@@ -96,7 +96,7 @@ Model MakeByType(const ObjectSpec& spec, const RailSurfaces& surfaces) {
   if (spec.type == ObjectType::kPerson) {
     return MakePerson(surfaces, spec.size_m ? RequiredSize(spec).z() : kPersonHeight_m);
   }
-  Model model;
+  Model model{.name = std::string(NameOf(spec.type)), .parts = {}};
   MeshOf(DefaultSurface(spec.type, surfaces), model) =
       spec.type == ObjectType::kPole   ? MakePole(spec)
       : spec.type == ObjectType::kMesh ? MakeFromFile(spec)
@@ -122,12 +122,21 @@ std::shared_ptr<const Model> MakeObjectModel(const ObjectSpec& spec,
                                              const LabelTable& labels,
                                              const MaterialLibrary& materials) {
   Model model = MakeByType(spec, surfaces);
-  model.name = spec.name;
   for (Part& part : model.parts) {
     if (spec.label) part.label = ObjectLabel(spec, surfaces, labels);
     if (spec.material) part.material = MaterialOf(spec, materials);
   }
   return std::make_shared<const Model>(std::move(model));
+}
+
+std::shared_ptr<const Model> ObjectModels::Of(const ObjectSpec& spec) {
+  const Shape shape{spec.type,   spec.size_m, spec.file,    spec.up,
+                    spec.unit_m, spec.label,  spec.material};
+  auto found = models_.find(shape);
+  if (found == models_.end()) {
+    found = models_.emplace(shape, MakeObjectModel(spec, surfaces_, labels_, materials_)).first;
+  }
+  return found->second;
 }
 
 std::uint32_t ObjectLabel(const ObjectSpec& spec,

@@ -1,7 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
 
 #include "core/rail/rail_surfaces.h"
 #include "railcast/frame.h"
@@ -52,6 +58,31 @@ inline constexpr double kPersonHeight_m = 1.75;
                                                            const RailSurfaces& surfaces,
                                                            const LabelTable& labels,
                                                            const MaterialLibrary& materials);
+
+/// Makes the models of objects. Objects that differ in nothing but name, place and motion share
+/// one. The tables must outlive it.
+class ObjectModels {
+ public:
+  ObjectModels(RailSurfaces surfaces, const LabelTable& labels, const MaterialLibrary& materials)
+      : surfaces_(std::move(surfaces)), labels_(labels), materials_(materials) {}
+
+  /// As MakeObjectModel().
+  [[nodiscard]] std::shared_ptr<const Model> Of(const ObjectSpec& spec);
+
+ private:
+  using Shape = std::tuple<ObjectType,
+                           std::optional<std::array<double, 3>>,
+                           std::optional<std::string>,
+                           UpAxis,
+                           double,
+                           std::optional<std::string>,
+                           std::optional<std::string>>;
+
+  RailSurfaces surfaces_;
+  const LabelTable& labels_;
+  const MaterialLibrary& materials_;
+  std::map<Shape, std::shared_ptr<const Model>> models_;
+};
 
 /// The label of the object as a whole: the spec's or else that of its type.
 /// @throws InputError if the type or the label is unknown.

@@ -91,13 +91,15 @@ TEST(ChangedWorld, NeverGivesAnInstanceIdAgain) {
 
 TEST(ChangedWorld, HasNoInstanceIdsForEver) {
   auto world = Make();
+  ObjectSpec box = Object("a", ObjectType::kBox, 200.0);
+  box.size_m = {1.0, 1.0, 1.0};
   for (std::uint32_t instance = 3; instance < kFirstMastInstance; ++instance) {
-    world = world->WithObject(Object("a", ObjectType::kPerson, 200.0), 0);
+    world = world->WithObject(box, 0);
     ASSERT_EQ(world->objects().back().instance, instance);
     world = world->WithoutObject("a");
   }
-  EXPECT_EQ(FaultOf([&] { return world->WithObject(Object("a", ObjectType::kPerson, 200.0), 0); }),
-            "/object: must be one of at most 999 objects of a run, those that were removed "
+  EXPECT_EQ(FaultOf([&] { return world->WithObject(box, 0); }),
+            "/object: must be one of at most 19999 objects of a run, those that were removed "
             "included");
 }
 

@@ -123,8 +123,8 @@ TEST(CheckWorld, WantsUniqueObjectNames) {
 
 TEST(CheckWorld, LeavesInstanceIdsForMasts) {
   WorldSpec world;
-  for (int i = 0; i < 999; ++i) world.objects.push_back(Box(std::to_string(i), 1.0));
-  EXPECT_THAT(Faults(world), ElementsAre("/world/objects: must be at most 998 (got 999)"));
+  for (int i = 0; i < 19'999; ++i) world.objects.push_back(Box(std::to_string(i), 1.0));
+  EXPECT_THAT(Faults(world), ElementsAre("/world/objects: must be at most 19998 (got 19999)"));
 }
 
 TEST(CheckWorld, KeepsTheVehicleOnItsTrackAndItsBoxesFull) {

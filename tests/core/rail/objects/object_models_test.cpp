@@ -67,10 +67,25 @@ TEST(MakeObjectModel, GivesEveryTypeItsLabelAndMaterials) {
         std::pair(ObjectType::kTankWagon, "wagon"), std::pair(ObjectType::kPerson, "person")}) {
     EXPECT_EQ(ObjectLabel(ObjectOfType(type), surfaces, labels), labels.Id(label));
     const auto model = MakeModel(ObjectOfType(type));
-    EXPECT_EQ(model->name, "it");
     EXPECT_GE(model->parts.size(), 2U) << "more than one material";
     for (const Part& part : model->parts) EXPECT_EQ(part.label, labels.Id(label));
   }
+}
+
+TEST(ObjectModels, ShareTheModelOfObjectsThatDifferOnlyInNameAndPlace) {
+  const LabelTable labels = TestLabels();
+  const MaterialLibrary materials = TestMaterials();
+  ObjectModels models(TestSurfaces(), labels, materials);
+  ObjectSpec person = ObjectOfType(ObjectType::kPerson);
+  const auto first = models.Of(person);
+  person.name = "another";
+  person.s_m = 12.0;
+  person.heading_deg = 90.0;
+  EXPECT_EQ(models.Of(person), first);
+  person.size_m = {0.5, 0.5, 1.2};
+  const auto child = models.Of(person);
+  EXPECT_NE(child, first);
+  EXPECT_NEAR(child->Bounds().sizes().z(), 1.2, 1e-6);
 }
 
 TEST(MakeObjectModel, OverridesLabelAndMaterialOfAllParts) {
