@@ -1,0 +1,215 @@
+#include "core/scene/object_contacts.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/scene/convex_body.h"
+
+namespace railcast {
+namespace {
+
+Eigen::AlignedBox3d Widened(const Eigen::AlignedBox3d& box_m, double by_m) {
+  return {box_m.min() - Vector3::Constant(by_m), box_m.max() + Vector3::Constant(by_m)};
+}
+
+/// A body with its box in the frame in which two objects are compared.
+struct NearBody {
+  const ConvexBody* body{};
+  Eigen::AlignedBox3d box_m;
+};
+
+/// Returns the bodies whose boxes meet an area, by rising x.
+std::vector<NearBody> BodiesWithin(const Eigen::AlignedBox3d& area_m,
+                                   const std::vector<Piece>& pieces,
+                                   const Transform& area_from_pieces) {
+  std::vector<NearBody> near;
+  for (const Piece& piece : pieces) {
+    if (!area_m.intersects(piece.box_m.transformed(area_from_pieces))) continue;
+    for (const ConvexBody& body : piece.bodies) {
+      const Eigen::AlignedBox3d box_m = body.box_m.transformed(area_from_pieces);
+      if (area_m.intersects(box_m)) near.push_back({&body, box_m});
+    }
+  }
+  std::ranges::stable_sort(near, {}, [](const NearBody& body) { return body.box_m.min().x(); });
+  return near;
+}
+
+/// Returns the negative depth of two pieces, or the gap up to `reach_m`.
+double SignedGap_m(const ConvexBody& one,
+                   const Transform& one_from_other,
+                   const ConvexBody& other,
+                   double reach_m) {
+  const double gap_m = Gap_m(one, one_from_other, other, reach_m);
+  return gap_m > 0.0 ? gap_m : -Depth_m(one, one_from_other, other);
+}
+
+/// The shortest move that parts two boxes that meet, along their common axes: an upper limit of the
+/// depth of what they contain.
+double DepthOfBoxes_m(const Eigen::AlignedBox3d& one, const Eigen::AlignedBox3d& other) {
+  return (one.max() - other.min()).cwiseMin(other.max() - one.min()).minCoeff();
+}
+
+/// Rounds a pose to steps in which two coupled wagons of a running train keep theirs: what is found
+/// for one moment then holds for others, and does not depend on which of them came first.
+Transform RoundedPose(const Transform& pose) {
+  constexpr double kSteps = 1e8;  // Per metre, or per unit of a direction.
+  Transform rounded = pose;
+  rounded.matrix() = (pose.matrix() * kSteps).array().round() / kSteps;
+  return rounded;
+}
+
+ConvexBody BodyOf(const Eigen::AlignedBox3d& box_m) {
+  std::vector<Vector3> corners;
+  constexpr int kNumCorners = 8;
+  for (int i = 0; i < kNumCorners; ++i) {
+    corners.push_back(box_m.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
+  }
+  return MakeConvexBody(std::move(corners));
+}
+
+}  // namespace
+
+ContactFinder::ContactFinder(const World& world)
+    : world_(world),
+      world_from_object_(world.objects().size()),
+      boxes_world_(world.objects().size()) {
+  for (std::size_t i = 0; i < world.objects().size(); ++i) {
+    bounds_m_.push_back(world.objects()[i].model->Bounds());
+    Place(i, 0);
+  }
+}
+
+void ContactFinder::Place(std::size_t object, std::int64_t time_ns) {
+  world_from_object_[object] = world_.WorldFromObject(object, time_ns);
+  const Eigen::AlignedBox3d& box_m = bounds_m_[object];
+  if (box_m.isEmpty()) return;
+  boxes_world_[object] = Widened(box_m.transformed(world_from_object_[object]), kTouch_m / 2.0);
+}
+
+void ContactFinder::MoveTo(std::int64_t time_ns) {
+  for (std::size_t i = 0; i < world_.objects().size(); ++i) {
+    if (world_.objects()[i].moves) Place(i, time_ns);
+  }
+}
+
+std::vector<ObjectContact> ContactFinder::FindAll(std::int64_t time_ns) {
+  MoveTo(time_ns);
+  return Measure(PairsNearby());
+}
+
+std::vector<ObjectContact> ContactFinder::FindOfVehicle(std::int64_t time_ns) {
+  const auto is_ego = [](const SceneObject& object) { return object.is_ego; };
+  const auto found = std::ranges::find_if(world_.objects(), is_ego);
+  if (found == world_.objects().end()) return {};
+  MoveTo(time_ns);
+  const auto ego = static_cast<std::size_t>(found - world_.objects().begin());
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < boxes_world_.size(); ++i) {
+    if (i == ego || !boxes_world_[ego].intersects(boxes_world_[i])) continue;
+    pairs.emplace_back(std::min(ego, i), std::max(ego, i));
+  }
+  return Measure(pairs);
+}
+
+// The boxes are sorted along the axis over which they are spread the widest, so that a thousand
+// wagons do not need a million comparisons.
+std::vector<ContactFinder::Pair> ContactFinder::PairsNearby() const {
+  std::vector<std::size_t> order;
+  Eigen::AlignedBox3d all_m;
+  for (std::size_t i = 0; i < boxes_world_.size(); ++i) {
+    if (boxes_world_[i].isEmpty()) continue;
+    order.push_back(i);
+    all_m.extend(boxes_world_[i]);
+  }
+  if (order.empty()) return {};
+  Eigen::Index axis = 0;
+  all_m.sizes().maxCoeff(&axis);
+  std::ranges::sort(order, {}, [&](std::size_t i) { return boxes_world_[i].min()[axis]; });
+  std::vector<Pair> pairs;
+  for (std::size_t a = 0; a < order.size(); ++a) {
+    for (std::size_t b = a + 1; b < order.size(); ++b) {
+      if (boxes_world_[order[b]].min()[axis] > boxes_world_[order[a]].max()[axis]) break;
+      if (boxes_world_[order[a]].intersects(boxes_world_[order[b]])) {
+        pairs.emplace_back(std::min(order[a], order[b]), std::max(order[a], order[b]));
+      }
+    }
+  }
+  std::ranges::sort(pairs);
+  return pairs;
+}
+
+std::vector<ObjectContact> ContactFinder::Measure(const std::vector<Pair>& pairs) {
+  std::vector<ObjectContact> contacts;
+  for (const Pair& pair : pairs) {
+    const Transform one_from_other =
+        RoundedPose(world_from_object_[pair.first].inverse() * world_from_object_[pair.second]);
+    Measured& latest = measured_[pair];
+    if (latest.one_from_other != one_from_other.matrix()) {
+      latest = {one_from_other.matrix(), GapOf_m(pair, one_from_other)};
+    }
+    if (latest.gap_m) contacts.push_back({pair.first, pair.second, *latest.gap_m});
+  }
+  return contacts;
+}
+
+std::optional<double> ContactFinder::GapOf_m(const Pair& pair, const Transform& one_from_other) {
+  const auto [one, other] = pair;
+  const std::optional<double> gap_m = GapOfPieces_m(pair, one_from_other);
+  if (gap_m && *gap_m <= 0.0) return gap_m;
+  if (Surrounds(one, one_from_other, other) || Surrounds(other, one_from_other.inverse(), one)) {
+    return -Depth_m(BodyOf(bounds_m_[one]), one_from_other, BodyOf(bounds_m_[other]));
+  }
+  return gap_m;
+}
+
+bool ContactFinder::Surrounds(std::size_t outer,
+                              const Transform& outer_from_inner,
+                              std::size_t inner) const {
+  for (const Part& part : world_.objects()[inner].model->parts) {
+    if (part.mesh.vertices.empty()) continue;
+    const Vector3 corner = outer_from_inner * part.mesh.vertices.front().cast<double>();
+    return bounds_m_[outer].contains(corner) && Encloses(*world_.objects()[outer].model, corner);
+  }
+  return false;
+}
+
+std::optional<double> ContactFinder::GapOfPieces_m(const Pair& pair,
+                                                   const Transform& one_from_other) {
+  const Eigen::AlignedBox3d area_m =
+      Widened(bounds_m_[pair.first], kTouch_m)
+          .intersection(Widened(bounds_m_[pair.second], kTouch_m).transformed(one_from_other));
+  if (area_m.isEmpty()) return std::nullopt;
+  const auto of_one = BodiesWithin(area_m, PiecesOfObject(pair.first), Transform::Identity());
+  const auto of_other = BodiesWithin(area_m, PiecesOfObject(pair.second), one_from_other);
+  // A value just above the tolerance stands for "apart".
+  constexpr double kApart_m = 1.01 * kTouch_m;
+  double least_m = kApart_m;
+  for (const NearBody& a : of_one) {
+    const Eigen::AlignedBox3d reach_m = Widened(a.box_m, kTouch_m);
+    for (const NearBody& b : of_other) {
+      if (b.box_m.min().x() > reach_m.max().x()) break;
+      if (!reach_m.intersects(b.box_m)) continue;
+      if (-DepthOfBoxes_m(a.box_m, b.box_m) >= least_m) continue;
+      least_m = std::min(least_m, SignedGap_m(*a.body, one_from_other, *b.body, kApart_m));
+    }
+  }
+  return least_m <= kTouch_m ? std::optional(least_m) : std::nullopt;
+}
+
+const std::vector<Piece>& ContactFinder::PiecesOfObject(std::size_t object) {
+  const Model* const model = world_.objects()[object].model.get();
+  const auto found = pieces_.find(model);
+  return found != pieces_.end() ? found->second
+                                : pieces_.emplace(model, PiecesOf(*model)).first->second;
+}
+
+bool AreStillBetween(const World& world, std::int64_t from_ns, std::int64_t to_ns) {
+  for (std::size_t i = 0; i < world.objects().size(); ++i) {
+    if (!world.objects()[i].moves) continue;
+    const Transform begin = world.WorldFromObject(i, from_ns);
+    if (begin.matrix() != world.WorldFromObject(i, to_ns).matrix()) return false;
+  }
+  return true;
+}
+
+}  // namespace railcast

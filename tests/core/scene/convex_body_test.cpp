@@ -1,0 +1,116 @@
+#include "core/scene/convex_body.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/scene/shapes.h"
+#include "railcast/scene.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kReach_m = 100.0;
+// Of the descent that finds a gap.
+constexpr double kExact_m = 1e-5;
+
+ConvexBody BodyOf(const Mesh& mesh) {
+  std::vector<Vector3> corners;
+  for (const Eigen::Vector3f& vertex : mesh.vertices) corners.push_back(vertex.cast<double>());
+  return MakeConvexBody(std::move(corners));
+}
+
+ConvexBody Box(const Vector3& half_size_m) {
+  return BodyOf(MakeBox({-half_size_m, half_size_m}));
+}
+
+const ConvexBody cube = Box(Vector3::Constant(0.5));
+
+Transform At(const Vector3& place, double yaw_rad = 0.0, double pitch_rad = 0.0) {
+  return MakeTransform(RotationFromYawPitchRoll(yaw_rad, pitch_rad, 0.0), place);
+}
+
+void ExpectGap(double expected_m,
+               const ConvexBody& a,
+               const Transform& a_from_b,
+               const ConvexBody& b) {
+  EXPECT_NEAR(Gap_m(a, a_from_b, b, kReach_m), expected_m, kExact_m);
+  EXPECT_NEAR(Gap_m(b, a_from_b.inverse(), a, kReach_m), expected_m, kExact_m);
+}
+
+void ExpectDepth(double expected_m,
+                 const ConvexBody& a,
+                 const Transform& a_from_b,
+                 const ConvexBody& b,
+                 double tolerance_m = kExact_m) {
+  EXPECT_EQ(Gap_m(a, a_from_b, b, kReach_m), 0.0);
+  EXPECT_NEAR(Depth_m(a, a_from_b, b), expected_m, tolerance_m);
+  EXPECT_NEAR(Depth_m(b, a_from_b.inverse(), a), expected_m, tolerance_m);
+}
+
+TEST(ConvexBody, MeasuresTheGapBetweenFacesEdgesAndCorners) {
+  ExpectGap(0.25, cube, At({1.25, 0.3, -0.2}), cube);
+  // Edge against edge, and corner against corner.
+  ExpectGap(std::hypot(0.3, 0.4), cube, At({1.3, 1.4, 0.1}), cube);
+  ExpectGap(std::sqrt(3.0), cube, At({2.0, 2.0, 2.0}), cube);
+}
+
+TEST(ConvexBody, MeasuresTheGapOfARotatedBox) {
+  // On its edge, the cube reaches sqrt(1/2) towards the other one.
+  constexpr double kEighth_rad = std::numbers::pi / 4.0;
+  ExpectGap(2.0 - 0.5 - std::sqrt(0.5), cube, At({2.0, 0.1, 0.0}, kEighth_rad), cube);
+  // Then on its corner: the plane through three neighbours of that corner is normal to the
+  // diagonal, whose half is sqrt(3) / 2.
+  const double tilt_rad = std::atan(std::sqrt(0.5));
+  ExpectGap(2.0 - 0.5 - std::sqrt(0.75), cube,
+            At({2.0, 0.1, 0.0}, 0.0, 0.0) *
+                Transform(Eigen::AngleAxisd(tilt_rad, Vector3::UnitY())) *
+                Transform(Eigen::AngleAxisd(kEighth_rad, Vector3::UnitZ())),
+            cube);
+}
+
+TEST(ConvexBody, MeasuresTheGapOfCrossedBars) {
+  const ConvexBody bar = Box({5.0, 0.1, 0.1});
+  ExpectGap(0.05, bar, At({1.7, 2.2, 0.25}, 1.1), bar);
+}
+
+TEST(ConvexBody, MeasuresTheGapOfTrianglesToABox) {
+  // A flat body: its nearest point lies within the triangle, on its edge, at its corner.
+  const ConvexBody triangle =
+      MakeConvexBody({{-3.0, -3.0, 0.0}, {3.0, -3.0, 0.0}, {0.0, 3.0, 0.0}});
+  ExpectGap(0.2, cube, At({0.0, 0.0, 0.7}), triangle);
+  ExpectGap(0.7, cube, At({0.2, 4.2, 0.0}), triangle);
+  ExpectGap(std::hypot(0.3, 0.4), cube, At({0.0, -3.8, 0.9}), triangle);
+}
+
+TEST(ConvexBody, MeasuresFarFromTheBodiesOwnOrigin) {
+  // A wagon's pieces lie some metres from its origin.
+  const ConvexBody aside = BodyOf(MakeBox({Vector3(6.4, 0.7, 0.8), Vector3(7.0, 1.1, 1.3)}));
+  ExpectGap(0.003, aside, At({14.003, 0.0, 0.0}, std::numbers::pi) * At({0.0, -1.8, 0.0}), aside);
+}
+
+TEST(ConvexBody, GivesTheReachWhereTheGapIsWider) {
+  EXPECT_EQ(Gap_m(cube, At({3.0, 0.0, 0.0}), cube, 0.5), 0.5);
+}
+
+TEST(ConvexBody, MeasuresHowDeepBoxesAreInEachOther) {
+  ExpectDepth(0.25, cube, At({0.75, 0.3, 0.2}), cube);
+  ExpectDepth(0.0, cube, At({1.0, 0.0, 0.0}), cube);
+  // Enclosed: it leaves by the nearest side, with all of its own size.
+  ExpectDepth(0.3 + 0.5 - 0.1, Box({1.0, 0.9, 0.5}), At({0.2, 0.0, 0.1}), Box({0.3, 0.3, 0.3}));
+  constexpr double kEighth_rad = std::numbers::pi / 4.0;
+  ExpectDepth(0.5 + std::sqrt(0.5) - 1.1, cube, At({1.1, 0.0, 0.1}, kEighth_rad), cube);
+}
+
+TEST(ConvexBody, MeasuresHowDeepRoundBodiesAreInEachOther) {
+  constexpr int kSides = 60;
+  const ConvexBody ball = BodyOf(MakeEllipsoid(Vector3::Zero(), Vector3::Ones(), kSides));
+  // Faces lie inside the ball by up to 1 - cos(pi / sides) along either circle.
+  const double within_m = 4.0 * (1.0 - std::cos(std::numbers::pi / kSides));
+  const Vector3 apart(1.1, 1.0, -0.9);
+  ExpectDepth(2.0 - apart.norm() - 0.5 * within_m, ball, At(apart), ball, 0.5 * within_m);
+}
+
+}  // namespace
+}  // namespace railcast
