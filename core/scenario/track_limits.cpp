@@ -99,6 +99,21 @@ void CheckStaysOnTracks(const ScenarioSpec& scenario,
   errors.ThrowIfAny();
 }
 
+std::uint32_t LastFrameOnTracks(const ScenarioSpec& scenario,
+                                const RailWorld& world,
+                                const ScanPattern& pattern,
+                                std::uint32_t last_frame) {
+  for (const Traveller& traveller : TravellersOf(scenario, world)) {
+    const auto is_on_track = [&](std::uint32_t frame) {
+      return traveller.IsOnTrack(pattern.StampNs(frame) + pattern.time_ns.back());
+    };
+    if (is_on_track(last_frame)) continue;
+    const std::uint32_t beyond = FirstBeyond(0, last_frame, is_on_track);
+    last_frame = beyond == 0 ? 0 : beyond - 1;
+  }
+  return last_frame;
+}
+
 std::uint32_t FirstStampedAt(const ScanPattern& pattern,
                              std::int64_t time_ns,
                              std::uint32_t begin,

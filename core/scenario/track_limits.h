@@ -20,6 +20,13 @@ void CheckStaysOnTracks(const ScenarioSpec& scenario,
                         std::uint32_t first_frame,
                         std::uint32_t last_frame);
 
+/// Returns the last frame up to `last_frame` before the vehicle or an object leaves its track; 0 if
+/// one is off its track in frame 0.
+[[nodiscard]] std::uint32_t LastFrameOnTracks(const ScenarioSpec& scenario,
+                                              const RailWorld& world,
+                                              const ScanPattern& pattern,
+                                              std::uint32_t last_frame);
+
 /// Returns the first frame of [begin, end) that is stamped at a time or later, or `end`.
 [[nodiscard]] std::uint32_t FirstStampedAt(const ScanPattern& pattern,
                                            std::int64_t time_ns,

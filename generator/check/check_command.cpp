@@ -9,6 +9,8 @@
 #include "core/fidelity/choice_report.h"
 #include "core/io/write_file.h"
 #include "core/rail/world_check.h"
+#include "core/scenario/track_limits.h"
+#include "core/scenario/vehicle_clearance.h"
 #include "generator/check/check_report.h"
 #include "generator/commands.h"
 #include "generator/run/stoppable_work.h"
@@ -68,8 +70,26 @@ class Report {
   MaterialLibrary materials_;
 };
 
-void PrintReport(const ScenarioSpec& scenario, bool is_verbose) {
-  const std::shared_ptr<const RailWorld> world = MakeWorld(scenario);
+/// The frames, of the first sensor, in which the check looks for contacts.
+struct CheckedFrames {
+  ScanPattern pattern;
+  std::uint32_t last{};
+};
+
+// Ten minutes, or until something leaves its track, where a run would end.
+CheckedFrames FramesToCheck(const ScenarioSpec& scenario, const RailWorld& world) {
+  constexpr std::int64_t kCheckedTime_ns = 600'000'000'000;
+  const ScenarioSpec picked = PickSensor(scenario, SensorNames(scenario).front());
+  CheckedFrames frames{BuildScanPattern(picked.lidar.scan), 0};
+  frames.last = LastFrameOnTracks(scenario, world, frames.pattern,
+                                  LastFrameBefore(frames.pattern, kCheckedTime_ns));
+  return frames;
+}
+
+void PrintReport(const ScenarioSpec& scenario,
+                 const std::shared_ptr<const RailWorld>& world,
+                 const CheckedFrames& frames,
+                 bool is_verbose) {
   const std::vector<std::string> sensors = SensorNames(scenario);
   std::string choices;
   for (const std::string& sensor : sensors) {
@@ -81,9 +101,9 @@ void PrintReport(const ScenarioSpec& scenario, bool is_verbose) {
     if (sensors.size() > 1) choices += ReportLine("sensor", sensor);
     choices += report.Choice();
   }
-  constexpr std::int64_t kFrame0_ns = 0;
   std::cout << ShownLines(ObjectsText(*world, LabelTable(scenario.labels)))
-            << ShownLines(OverlapsText(FindOverlaps(*world, kFrame0_ns), *world));
+            << ShownLines(ContactsText(FindContactRuns(*world, frames.pattern, frames.last), *world,
+                                       frames.last));
   if (scenario.fidelity == Fidelity::kAuto) std::cout << ShownLines(choices);
   if (scenario.camera) std::cout << ShownLines(CameraText(*scenario.camera));
 }
@@ -93,12 +113,15 @@ int RunCheck(const CheckOptions& options) {
   for (const std::string& fault : CheckScenario(options.scenario)) faults.AddLine(fault);
   faults.ThrowIfAny();
   const ScenarioSpec scenario = ReadScenario(options.scenario);
+  const std::shared_ptr<const RailWorld> world = MakeWorld(scenario);
+  const CheckedFrames frames = FramesToCheck(scenario, *world);
+  CheckVehicleIsClear(scenario, *world, frames.pattern, 0, frames.last);
   if (options.resolved == "-") {
     std::cout << ResolvedScenarioJson(scenario);
     return kExitSuccess;
   }
   if (options.resolved) WriteFileWhole(*options.resolved, ResolvedScenarioJson(scenario));
-  PrintReport(scenario, options.is_verbose);
+  PrintReport(scenario, world, frames, options.is_verbose);
   if (options.resolved)
     std::cout << "resolved scenario in " << ShownPath(*options.resolved) << "\n";
   return kExitSuccess;

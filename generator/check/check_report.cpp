@@ -61,6 +61,11 @@ std::string WayPointText(const WayPoint& point, double rate_hz) {
          Rounded(point.s_m, 2) + " m";
 }
 
+std::string FramesText(std::uint32_t first, std::uint32_t last) {
+  if (first == last) return "frame " + std::to_string(first);
+  return "frames " + std::to_string(first) + " to " + std::to_string(last);
+}
+
 std::string SightingText(const SightedSurface& sighting,
                          const World& world,
                          const LabelTable& labels) {
@@ -158,16 +163,24 @@ std::string ObjectsText(const World& world, const LabelTable& labels) {
   return text.empty() ? ReportLine("objects", "none") : text;
 }
 
-std::string OverlapsText(const std::vector<ObjectOverlap>& overlaps, const World& world) {
-  const auto name = [&](std::size_t object) { return '"' + world.objects()[object].name + '"'; };
-  std::string text;
-  for (const ObjectOverlap& overlap : overlaps) {
-    text +=
-        ReportLine(text.empty() ? "overlaps" : "",
-                   "at frame 0: " + name(overlap.one) +
-                       (overlap.is_inside ? " is inside " : " overlaps ") + name(overlap.other));
+std::string ContactsText(const std::vector<ContactRun>& runs,
+                         const World& world,
+                         std::uint32_t last_frame) {
+  constexpr double kShownStep_m = 1e-3;
+  const auto name = [&](std::size_t object) { return Quoted(world.objects()[object].name); };
+  const std::string frames = FramesText(0, last_frame);
+  std::string text =
+      ReportLine("contacts", runs.empty() ? "none in " + frames : "in " + frames + ":");
+  for (const ContactRun& run : runs) {
+    const ObjectContact& nearest = run.nearest;
+    const std::string amount = Rounded(std::abs(nearest.gap_m), 3) + " m";
+    text += ReportLine(
+        "", name(nearest.one) + (nearest.is_overlap() ? " overlaps " : " touches ") +
+                name(nearest.other) + " in " + FramesText(run.first_frame, run.last_frame) + ": " +
+                (nearest.gap_m > -kShownStep_m / 2 ? amount + " apart" : amount + " deep") +
+                " at frame " + std::to_string(run.nearest_frame));
   }
-  return text.empty() ? ReportLine("overlaps", "none at frame 0") : text;
+  return text;
 }
 
 std::string SurroundingsText(const SensorSurroundings& around,

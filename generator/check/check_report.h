@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "generator/check/object_overlaps.h"
+#include "generator/check/contact_runs.h"
 #include "generator/check/scene_audit.h"
 #include "generator/check/vehicle_way.h"
 #include "railcast/alignment.h"
@@ -48,9 +48,10 @@ namespace railcast {
 
 [[nodiscard]] std::string ObjectsText(const World& world, const LabelTable& labels);
 
-/// Lists the objects that overlap at frame 0, as found by FindOverlaps.
-[[nodiscard]] std::string OverlapsText(const std::vector<ObjectOverlap>& overlaps,
-                                       const World& world);
+/// Lists what touches or overlaps in frames 0 to `last_frame`, as found by FindContactRuns.
+[[nodiscard]] std::string ContactsText(const std::vector<ContactRun>& runs,
+                                       const World& world,
+                                       std::uint32_t last_frame);
 
 [[nodiscard]] std::string SurroundingsText(const SensorSurroundings& around,
                                            const World& world,

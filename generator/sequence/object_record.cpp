@@ -1,5 +1,6 @@
 #include "generator/sequence/object_record.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "generator/sequence/pose_record.h"
@@ -11,6 +12,12 @@ using Json = nlohmann::ordered_json;
 
 Json List(const Vector3& vector) {
   return {vector.x(), vector.y(), vector.z()};
+}
+
+double ToTenthOfMillimetre(double length_m) {
+  constexpr double kSteps_per_m = 1e4;
+  // Adding zero makes -0 the same as 0.
+  return std::round(length_m * kSteps_per_m) / kSteps_per_m + 0.0;
 }
 
 Json Box(const Transform& to_from_box, const Vector3& size_m) {
@@ -31,6 +38,12 @@ std::string ObjectsLine(const Frame& frame, const std::vector<ObjectInFrame>& ob
       occlusion = 1.0 - static_cast<double>(object.firings_visible) /
                             static_cast<double>(object.firings_alone);
     }
+    Json contacts = Json::array();
+    for (const ContactInFrame& contact : object.contacts) {
+      contacts.push_back({{"with", contact.with},
+                          {"overlap", contact.is_overlap},
+                          {"gap_m", ToTenthOfMillimetre(contact.gap_m)}});
+    }
     list.push_back({{"name", object.name},
                     {"type", object.type},
                     {"label", object.label},
@@ -42,7 +55,8 @@ std::string ObjectsLine(const Frame& frame, const std::vector<ObjectInFrame>& ob
                     {"points", object.points},
                     {"firings_visible", object.firings_visible},
                     {"firings_alone", object.firings_alone},
-                    {"occlusion", occlusion}});
+                    {"occlusion", occlusion},
+                    {"contacts", contacts}});
   }
   const Json line = {{"frame", frame.index}, {"stamp_ns", frame.stamp_ns}, {"objects", list}};
   return line.dump() + "\n";

@@ -9,6 +9,13 @@
 
 namespace railcast {
 
+/// Something that an object touches or overlaps.
+struct ContactInFrame {
+  std::string with;  ///< Name of the other object.
+  bool is_overlap{};
+  double gap_m{};  ///< As ObjectContact::gap_m.
+};
+
 /// One object as seen in one frame.
 struct ObjectInFrame {
   std::string name;
@@ -25,12 +32,13 @@ struct ObjectInFrame {
   std::uint32_t points{};           ///< Slots with a point on the object.
   std::uint32_t firings_visible{};  ///< Firings that show it in a slot, detected or not.
   std::uint32_t firings_alone{};    ///< Firings that would meet it if nothing else stood there.
+  std::vector<ContactInFrame> contacts{};  ///< At the stamp, in the world's order.
 };
 
 /// Returns a line of objects.jsonl: the stamp and, for every object, its identity, its box at the
 /// stamp in world coordinates, in the sensor's axes (right-handed whatever `output` says) and in
 /// those of the frame's points, velocity, points, firings, and occlusion = 1 - firings_visible /
-/// firings_alone (null where it would not be visible even alone).
+/// firings_alone (null where it would not be visible even alone), and what it touches or overlaps.
 [[nodiscard]] std::string ObjectsLine(const Frame& frame,
                                       const std::vector<ObjectInFrame>& objects);
 

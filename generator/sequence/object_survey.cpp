@@ -57,7 +57,7 @@ ObjectSurvey::ObjectSurvey(const World& world,
                            const LabelTable& labels,
                            double range_max_m,
                            const OutputSpec& output)
-    : world_(world), range_max_m_(range_max_m), output_(output) {
+    : world_(world), range_max_m_(range_max_m), output_(output), contacts_(world) {
   const std::vector<SceneObject>& objects = world.objects();
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Label* label = labels.Find(objects[i].label);
@@ -104,12 +104,13 @@ Transform ObjectSurvey::OutputFromWorld(const Frame& frame) const {
                                                 : frame.world_from_sensor.inverse();
 }
 
-std::vector<ObjectInFrame> ObjectSurvey::Describe(
-    const Frame& frame, const std::vector<std::uint32_t>& firings_alone) const {
+std::vector<ObjectInFrame> ObjectSurvey::Describe(const Frame& frame,
+                                                  const std::vector<std::uint32_t>& firings_alone) {
   const std::vector<SceneObject>& all = world_.objects();
   Check(firings_alone.size() == all.size(), "one count for each object");
   const auto seen = CountInstances(frame);
   const Transform output_from_world = OutputFromWorld(frame);
+  const std::vector<ObjectContact> contacts = contacts_.FindAll(frame.stamp_ns);
   std::vector<ObjectInFrame> described;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const SceneObject& object = all[i];
@@ -127,6 +128,11 @@ std::vector<ObjectInFrame> ObjectSurvey::Describe(
     if (const auto found = seen.find(object.instance); found != seen.end()) {
       entry.points = found->second.points;
       entry.firings_visible = found->second.firings;
+    }
+    for (const ObjectContact& contact : contacts) {
+      if (contact.one != i && contact.other != i) continue;
+      const std::size_t other = contact.one == i ? contact.other : contact.one;
+      entry.contacts.push_back({all[other].name, contact.is_overlap(), contact.gap_m});
     }
     described.push_back(std::move(entry));
   }

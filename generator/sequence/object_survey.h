@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/scene/object_contacts.h"
 #include "generator/sequence/object_record.h"
 #include "railcast/frame.h"
 #include "railcast/scene.h"
@@ -27,7 +28,7 @@ class ObjectSurvey {
   /// @param firings_alone One count for each of world.objects(), from
   ///   Simulator::FiringsOnObjectAlone.
   [[nodiscard]] std::vector<ObjectInFrame> Describe(
-      const Frame& frame, const std::vector<std::uint32_t>& firings_alone) const;
+      const Frame& frame, const std::vector<std::uint32_t>& firings_alone);
 
  private:
   /// What does not change from frame to frame.
@@ -52,6 +53,7 @@ class ObjectSurvey {
   double range_max_m_;
   OutputSpec output_;
   std::vector<Subject> subjects_;  ///< In the order of world.objects().
+  ContactFinder contacts_;
 };
 
 }  // namespace railcast

@@ -12,6 +12,7 @@
 #include "core/program/progress_line.h"
 #include "core/program/version.h"
 #include "core/scenario/command_log.h"
+#include "core/scenario/vehicle_clearance.h"
 #include "core/trace/trace_program.h"
 #include "generator/commands.h"
 #include "generator/run/commanded_run.h"
@@ -191,6 +192,11 @@ int RunSequenceCommand(const SequenceOptions& options) {
   CommandedRun run(scenario, {simulator.get()});
   AtPlace(ShownPath(options.commands.value_or("")) + ": ", [&] { run.Apply(log.commands); });
   CheckStaysOnTracks(run, simulator->pattern(), spec.start_frame, last_frame);
+  // A log of commands reproduces what happened, be it a collision.
+  if (log.commands.empty()) {
+    CheckVehicleIsClear(scenario, simulator->world(), simulator->pattern(), spec.start_frame,
+                        last_frame);
+  }
   // The directory can be resumed however the program ends.
   CatchStopSignals();
   WatchBuilding(*simulator, StopRequested, true);

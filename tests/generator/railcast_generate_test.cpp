@@ -245,6 +245,64 @@ TEST(RailcastGenerate, NamesTheFileWhoseOutputIsOutOfReachAlsoOnTheWay) {
       << run.said;
 }
 
+// Writes a scenario whose vehicle reaches the near side of a crate, 449.5 m, between frames 49
+// and 50.
+void MakeRunIntoACrate(const std::filesystem::path& file, const std::string& key = "") {
+  std::string scenario = ReadFileWhole(MakeProject(file.parent_path()));
+  const auto replace = [&](const std::string& what, const std::string& by) {
+    scenario.replace(scenario.find(what), what.size(), by);
+  };
+  replace("\"objects\": [", R"("objects": [{"name": "crate", "type": "box", "s_m": 450, "h_m": 0.5,
+                                           "size_m": [1, 1, 1]}, )");
+  replace("\"vehicle\": {\"start_s_m\": 400}", R"("vehicle": {)" + key + R"("start_s_m": 400,
+      "motion": {"profile": [{"time_s": 0, "speed_mps": 10}]},
+      "ego_boxes_m": [[-9, -0.9, 0, 0, 0.9, 3]]})");
+  WriteFileWhole(file, scenario);
+}
+
+TEST(RailcastGenerate, RefusesToRunTheVehicleIntoAnObject) {
+  const TemporaryDirectory directory;
+  const std::string file = (directory.path() / "scenario.json").string();
+  MakeRunIntoACrate(file);
+  const std::string fault =
+      file +
+      ": /vehicle: must not be inside an object unless may_overlap is true (got 0.50 m inside "
+      "\"crate\" at frame 50 (5 s))\n";
+  const Ended check = Generate("check " + file);
+  EXPECT_EQ(check.status, 1);
+  EXPECT_EQ(check.said, fault);
+  const std::filesystem::path out = directory.path() / "out";
+  const Ended run = Generate("sequence " + file + " --frames 51 --out " + out.string());
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(run.said, fault);
+  EXPECT_FALSE(std::filesystem::exists(out));
+  EXPECT_EQ(
+      Generate("sequence " + file + " --start-frame 48 --frames 2 --out " + out.string()).status,
+      0);
+}
+
+TEST(RailcastGenerate, RunsTheVehicleIntoAnObjectIfToldTo) {
+  const TemporaryDirectory directory;
+  const std::string file = (directory.path() / "scenario.json").string();
+  MakeRunIntoACrate(file, "\"may_overlap\": true, ");
+  const Ended check = Generate("check " + file);
+  EXPECT_EQ(check.status, 0);
+  // The vehicle leaves its track after frame 600. It is 9 m long, and the shortest way out is
+  // aside: half the crate and half the vehicle.
+  EXPECT_NE(check.said.find("contacts  in frames 0 to 600:\n"
+                            "          \"crate\" overlaps \"ego\" in frames 50 to 59: "
+                            "1.400 m deep at frame 51\n"),
+            std::string::npos)
+      << check.said;
+  const std::filesystem::path out = directory.path() / "out";
+  EXPECT_EQ(
+      Generate("sequence " + file + " --start-frame 50 --frames 1 --out " + out.string()).status,
+      0);
+  EXPECT_NE(ReadFileWhole(out / "objects.jsonl")
+                .find(R"("contacts":[{"with":"ego","overlap":true,"gap_m":-0.5}])"),
+            std::string::npos);
+}
+
 TEST(RailcastGenerate, StartsAtAnyFrame) {
   const TemporaryDirectory directory;
   const std::string command = "sequence " + scenarios_folder + "st_gallen_approach.json --out " +

@@ -101,15 +101,20 @@ TEST(CheckReport, SaysWhatIsAroundTheSensor) {
   EXPECT_NE(SurroundingsText(around, world, labels).find("INSIDE"), std::string::npos);
 }
 
-TEST(CheckReport, NamesObjectsThatOverlap) {
+TEST(CheckReport, NamesObjectsThatTouchOrOverlap) {
   SimpleWorld world;
   for (int i = 0; i < 3; ++i) {
     world.AddObject(std::make_shared<const Model>(), Transform::Identity());
   }
-  EXPECT_EQ(OverlapsText({{0, 2, true}, {1, 2, false}}, world),
-            "overlaps  at frame 0: \"object1\" is inside \"object3\"\n"
-            "          at frame 0: \"object2\" overlaps \"object3\"\n");
-  EXPECT_EQ(OverlapsText({}, world), "overlaps  none at frame 0\n");
+  EXPECT_EQ(
+      ContactsText(
+          {{0, 9, 0, {0, 2, 0.0049}}, {4, 4, 4, {0, 1, -0.02}}, {5, 7, 6, {1, 2, -0.1234}}}, world,
+          9),
+      "contacts  in frames 0 to 9:\n"
+      "          \"object1\" touches \"object3\" in frames 0 to 9: 0.005 m apart at frame 0\n"
+      "          \"object1\" touches \"object2\" in frame 4: 0.020 m deep at frame 4\n"
+      "          \"object2\" overlaps \"object3\" in frames 5 to 7: 0.123 m deep at frame 6\n");
+  EXPECT_EQ(ContactsText({}, world, 9), "contacts  none in frames 0 to 9\n");
 }
 
 }  // namespace

@@ -171,5 +171,24 @@ TEST(ObjectsLine, GivesBoxesVelocityAndOcclusion) {
   EXPECT_TRUE(line.at("objects").at(1).at("occlusion").is_null());
 }
 
+TEST(ObjectsLine, SaysWhatTouchesAnObject) {
+  // The far object and the vehicle are the same flat model at the same place.
+  const Frame frame = FrameWithFiveFiringsOnInstanceThree();
+  const auto line = nlohmann::json::parse(ObjectsLine(frame, Survey(frame)));
+  EXPECT_EQ(line.at("objects").at(0).at("contacts").dump(), "[]");
+  EXPECT_EQ(line.at("objects").at(1).at("contacts").dump(),
+            R"([{"gap_m":0.0,"overlap":false,"with":"ego"}])");
+}
+
+TEST(ObjectsLine, GivesGapsToATenthOfAMillimetre) {
+  ObjectInFrame object{"one", "box", "object", 1};
+  object.contacts = {{"other", true, -0.12345}, {"third", false, -1e-9}};
+  const auto line =
+      nlohmann::json::parse(ObjectsLine(FrameWithFiveFiringsOnInstanceThree(), {object}));
+  EXPECT_EQ(line.at("objects").at(0).at("contacts").dump(),
+            R"([{"gap_m":-0.1235,"overlap":true,"with":"other"},)"
+            R"({"gap_m":0.0,"overlap":false,"with":"third"}])");
+}
+
 }  // namespace
 }  // namespace railcast
