@@ -260,6 +260,17 @@ void MakeRunIntoACrate(const std::filesystem::path& file, const std::string& key
   WriteFileWhole(file, scenario);
 }
 
+TEST(RailcastGenerate, SaysWhenTheBuffersOfTheCouplingScenarioTouch) {
+  const Ended check = Generate("check " + scenarios_folder + "coupling.json");
+  EXPECT_EQ(check.status, 0);
+  EXPECT_TRUE(check.said.ends_with(
+      "contacts  in frames 0 to 5999:\n"
+      "          \"wagon\" touches \"coupled_wagon\" in frames 0 to 5999: 0.000 m apart at frame "
+      "0\n"
+      "          \"wagon\" touches \"ego\" in frames 64 to 5999: 0.000 m apart at frame 67\n"))
+      << check.said;
+}
+
 TEST(RailcastGenerate, RefusesToRunTheVehicleIntoAnObject) {
   const TemporaryDirectory directory;
   const std::string file = (directory.path() / "scenario.json").string();

@@ -89,6 +89,21 @@ TEST_F(VehicleClearance, HoldsForNothingWithoutABody) {
   EXPECT_EQ(Message(10), "no error");
 }
 
+TEST(ShippedScenarios, ClearanceHasAWagonEightCentimetresBesideTheVehicle) {
+  ScenarioSpec scenario = ReadScenario(ScenariosDir() / "clearance.json");
+  const auto message = [&](double wider_m) {
+    constexpr std::size_t kLeft = 4;
+    scenario.vehicle.ego_boxes_m[0][kLeft] = 1.45 + wider_m;
+    const ScanPattern pattern = BuildScanPattern(scenario.lidar.scan);
+    constexpr std::uint32_t kStandsBeforeTheNext = 250;
+    return MessageOf([&] {
+      CheckVehicleIsClear(scenario, *MakeWorld(scenario), pattern, 0, kStandsBeforeTheNext);
+    });
+  };
+  EXPECT_EQ(message(0.08), "no error");
+  EXPECT_NE(message(0.11).find("inside \"close_wagon\" at frame "), std::string::npos);
+}
+
 TEST(ShippedScenarios, KeepTheirVehiclesOutOfTheirObjects) {
   constexpr std::int64_t kTenMinutes_ns = 600'000'000'000;
   for (const auto& file : ShippedScenarios()) {
