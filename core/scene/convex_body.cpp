@@ -209,20 +209,27 @@ double Gap_m(const ConvexBody& one,
   return std::min(nearest.norm(), reach_m);
 }
 
-double Depth_m(const ConvexBody& one, const Transform& one_from_other, const ConvexBody& other) {
+double Depth_m(const ConvexBody& one,
+               const Transform& one_from_other,
+               const ConvexBody& other,
+               double least_m) {
   const Difference difference(one, one_from_other, other);
   Move move;
   for (const Vector3& direction : DirectionsOfAxes(one_from_other.linear())) {
     move.Try(difference, direction);
+    if (move.length_m <= least_m) return least_m;
   }
   if (!one.is_box || !other.is_box) {
     static const std::vector<Vector3> all_around = DirectionsAllAround();
-    for (const Vector3& direction : all_around) move.Try(difference, direction);
+    for (const Vector3& direction : all_around) {
+      move.Try(difference, direction);
+      if (move.length_m <= least_m) return least_m;
+    }
     const Vector3 towards = one_from_other * other.box_m.center() - one.box_m.center();
     if (towards.norm() > 0.0) move.Try(difference, towards.normalized());
     Refine(difference, move);
   }
-  return std::max(0.0, move.length_m);
+  return std::max(least_m, move.length_m);
 }
 
 }  // namespace railcast

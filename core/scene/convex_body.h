@@ -25,7 +25,8 @@ struct ConvexBody {
                            const ConvexBody& other,
                            double reach_m);
 
-/// The length of the shortest straight move that parts two bodies which meet.
+/// The length of the shortest straight move that parts two bodies which meet, or `least_m` where it
+/// is shorter.
 ///
 /// The move is sought along the axes of both frames and their cross products, which is exact for
 /// boxes along these axes (separating axis theorem). For other bodies it is also sought in 200
@@ -33,6 +34,7 @@ struct ConvexBody {
 /// result may be too large, never too small.
 [[nodiscard]] double Depth_m(const ConvexBody& one,
                              const Transform& one_from_other,
-                             const ConvexBody& other);
+                             const ConvexBody& other,
+                             double least_m = 0.0);
 
 }  // namespace railcast

@@ -1,12 +1,16 @@
 #include "core/scene/object_contacts.h"
 
 #include <algorithm>
+#include <unsupported/Eigen/BVH>
 #include <utility>
 
 #include "core/scene/convex_body.h"
 
 namespace railcast {
 namespace {
+
+// A value just above the tolerance stands for "apart".
+constexpr double kApart_m = 1.01 * kTouch_m;
 
 Eigen::AlignedBox3d Widened(const Eigen::AlignedBox3d& box_m, double by_m) {
   return {box_m.min() - Vector3::Constant(by_m), box_m.max() + Vector3::Constant(by_m)};
@@ -18,7 +22,12 @@ struct NearBody {
   Eigen::AlignedBox3d box_m;
 };
 
-/// Returns the bodies whose boxes meet an area, by rising x.
+/// For Eigen's tree of boxes, which finds it by its name.
+Eigen::AlignedBox3d bounding_box(const NearBody& body) {
+  return body.box_m;
+}
+
+/// Returns the bodies whose boxes meet an area.
 std::vector<NearBody> BodiesWithin(const Eigen::AlignedBox3d& area_m,
                                    const std::vector<Piece>& pieces,
                                    const Transform& area_from_pieces) {
@@ -30,17 +39,7 @@ std::vector<NearBody> BodiesWithin(const Eigen::AlignedBox3d& area_m,
       if (area_m.intersects(box_m)) near.push_back({&body, box_m});
     }
   }
-  std::ranges::stable_sort(near, {}, [](const NearBody& body) { return body.box_m.min().x(); });
   return near;
-}
-
-/// Returns the negative depth of two pieces, or the gap up to `reach_m`.
-double SignedGap_m(const ConvexBody& one,
-                   const Transform& one_from_other,
-                   const ConvexBody& other,
-                   double reach_m) {
-  const double gap_m = Gap_m(one, one_from_other, other, reach_m);
-  return gap_m > 0.0 ? gap_m : -Depth_m(one, one_from_other, other);
 }
 
 /// The shortest move that parts two boxes that meet, along their common axes: an upper limit of the
@@ -48,6 +47,39 @@ double SignedGap_m(const ConvexBody& one,
 double DepthOfBoxes_m(const Eigen::AlignedBox3d& one, const Eigen::AlignedBox3d& other) {
   return (one.max() - other.min()).cwiseMin(other.max() - one.min()).minCoeff();
 }
+
+/// Visits those bodies in a tree whose boxes come near a body, and keeps the smallest gap.
+class NearestOf {
+ public:
+  NearestOf(const Transform& one_from_other, double least_m)
+      : one_from_other_(one_from_other), least_m_(least_m) {}
+
+  void Begin(const NearBody& one) {
+    one_ = &one;
+    reach_m_ = Widened(one.box_m, kTouch_m);
+  }
+  // NOLINTBEGIN(readability-identifier-naming): names that Eigen asks for
+  bool intersectVolume(const Eigen::AlignedBox3d& box_m) const {
+    return reach_m_.intersects(box_m);
+  }
+  bool intersectObject(const NearBody& other) {
+    constexpr bool kGoOn = false;
+    if (-DepthOfBoxes_m(one_->box_m, other.box_m) >= least_m_) return kGoOn;
+    const double gap_m = Gap_m(*one_->body, one_from_other_, *other.body, kApart_m);
+    least_m_ = gap_m > 0.0
+                   ? std::min(least_m_, gap_m)
+                   : -Depth_m(*one_->body, one_from_other_, *other.body, std::max(0.0, -least_m_));
+    return kGoOn;
+  }
+  // NOLINTEND(readability-identifier-naming)
+  [[nodiscard]] double least_m() const { return least_m_; }
+
+ private:
+  const Transform& one_from_other_;
+  const NearBody* one_ = nullptr;
+  Eigen::AlignedBox3d reach_m_;
+  double least_m_;
+};
 
 /// Rounds a pose to steps in which two coupled wagons of a running train keep theirs: what is found
 /// for one moment then holds for others, and does not depend on which of them came first.
@@ -181,19 +213,14 @@ std::optional<double> ContactFinder::GapOfPieces_m(const Pair& pair,
   if (area_m.isEmpty()) return std::nullopt;
   const auto of_one = BodiesWithin(area_m, PiecesOfObject(pair.first), Transform::Identity());
   const auto of_other = BodiesWithin(area_m, PiecesOfObject(pair.second), one_from_other);
-  // A value just above the tolerance stands for "apart".
-  constexpr double kApart_m = 1.01 * kTouch_m;
-  double least_m = kApart_m;
-  for (const NearBody& a : of_one) {
-    const Eigen::AlignedBox3d reach_m = Widened(a.box_m, kTouch_m);
-    for (const NearBody& b : of_other) {
-      if (b.box_m.min().x() > reach_m.max().x()) break;
-      if (!reach_m.intersects(b.box_m)) continue;
-      if (-DepthOfBoxes_m(a.box_m, b.box_m) >= least_m) continue;
-      least_m = std::min(least_m, SignedGap_m(*a.body, one_from_other, *b.body, kApart_m));
-    }
+  // Pieces with thousands of triangles are compared in n log n.
+  const Eigen::KdBVH<double, 3, NearBody> tree(of_other.begin(), of_other.end());
+  NearestOf nearest(one_from_other, kApart_m);
+  for (const NearBody& body : of_one) {
+    nearest.Begin(body);
+    Eigen::BVIntersect(tree, nearest);
   }
-  return least_m <= kTouch_m ? std::optional(least_m) : std::nullopt;
+  return nearest.least_m() <= kTouch_m ? std::optional(nearest.least_m()) : std::nullopt;
 }
 
 const std::vector<Piece>& ContactFinder::PiecesOfObject(std::size_t object) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -101,6 +102,31 @@ TEST(ConvexBody, MeasuresHowDeepBoxesAreInEachOther) {
   ExpectDepth(0.3 + 0.5 - 0.1, Box({1.0, 0.9, 0.5}), At({0.2, 0.0, 0.1}), Box({0.3, 0.3, 0.3}));
   constexpr double kEighth_rad = std::numbers::pi / 4.0;
   ExpectDepth(0.5 + std::sqrt(0.5) - 1.1, cube, At({1.1, 0.0, 0.1}, kEighth_rad), cube);
+}
+
+TEST(ConvexBody, PartsCrossedBarsBetweenTheirEdges) {
+  // Both stand on an edge. The way out is along neither's faces but across both bars.
+  const Eigen::AngleAxisd on_edge(std::numbers::pi / 4.0, Vector3::UnitX());
+  const ConvexBody bar = Box({5.0, 0.1, 0.1});
+  const Transform one_from_other =
+      Transform(on_edge.inverse()) * At({0.0, 0.0, 0.25}, 1.2) * Transform(on_edge);
+  ExpectDepth(0.2 * std::sqrt(2.0) - 0.25, bar, one_from_other, bar);
+}
+
+TEST(ConvexBody, PartsRoundBarsBesideEachOther) {
+  // Their middles lie apart lengthwise, too, so that the way out is not along the line through
+  // them.
+  constexpr int kSides = 60;
+  const ConvexBody bar =
+      BodyOf(MakeTube(std::array<Vector3, 2>{Vector3(0, 0, -5), Vector3(0, 0, 5)}, 1.0, kSides));
+  const double within_m = 2.0 * (1.0 - std::cos(std::numbers::pi / kSides));
+  ExpectDepth(2.0 - std::hypot(1.2, 1.0) - 0.5 * within_m, bar, At({1.2, 1.0, 3.0}), bar,
+              0.5 * within_m);
+}
+
+TEST(ConvexBody, GivesTheLeastDepthAskedForWhereTheyAreLessDeep) {
+  EXPECT_EQ(Depth_m(cube, At({0.75, 0.3, 0.2}), cube, 0.3), 0.3);
+  EXPECT_NEAR(Depth_m(cube, At({0.75, 0.3, 0.2}), cube, 0.2), 0.25, kExact_m);
 }
 
 TEST(ConvexBody, MeasuresHowDeepRoundBodiesAreInEachOther) {

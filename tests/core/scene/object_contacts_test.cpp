@@ -137,6 +137,8 @@ TEST(ObjectContacts, FindsEveryPairOnceAtItsMoment) {
   EXPECT_NEAR(contacts[0].gap_m, -0.8, kRounding_m);
   EXPECT_NEAR(contacts[1].gap_m, -0.1, kRounding_m);
   EXPECT_NEAR(contacts[2].gap_m, -0.3, kRounding_m);
+  constexpr std::int64_t kLater_ns = 5'010'000'000;
+  EXPECT_NEAR(finder.FindAll(kLater_ns)[0].gap_m, -0.7, kRounding_m);
   // Moments may be asked for in any order.
   EXPECT_EQ(finder.FindAll(0).size(), 1U);
 }
