@@ -5,37 +5,27 @@
 //
 // Build time, memory and points come from a process of their own for each setting. Then all
 // settings take turns in one process: each makes one frame to warm the caches and three that count.
-#include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
-#include <chrono>
 #include <cstdio>
-#include <ctime>
 #include <functional>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
-#include "core/base/error.h"
 #include "core/program/command_line.h"
 #include "core/program/run_program.h"
 #include "core/trace/trace_program.h"
-#include "generator/check/scene_audit.h"
-#include "railcast/outcome.h"
 #include "railcast/scenario.h"
+#include "tests/bench/scene_cost.h"
 #include "tests/bench/scene_settings.h"
 
 namespace railcast {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 constexpr std::uint32_t kNumFrames = 8;
 constexpr int kFramesOfATurn = 3;
 
@@ -45,103 +35,30 @@ struct SettingsOptions {
   int num_threads = 0;
 };
 
-double Since_s(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
-double Median(std::vector<double> values) {
-  std::ranges::sort(values);
-  return values[values.size() / 2];
-}
-
-/// A setting that is built and makes frames, with images if it has a camera.
-struct BuiltSetting {
-  BuiltSetting(const ScenarioSpec& scenario, int num_threads)
-      : simulator(MakeSimulator(scenario, num_threads)), camera(MakeCamera(scenario)) {}
-
-  void Make(std::uint32_t index) {
-    simulator->Scan(index, frame);
-    if (camera) camera->Render(*simulator, index, image);
-  }
-
-  std::unique_ptr<Simulator> simulator;
-  std::optional<Camera> camera;
-  Frame frame;
-  CameraImage image;
+/// A setting with what was measured of it.
+struct MeasuredSetting {
+  const SceneSetting& setting;
+  BuildCost cost;
+  std::unique_ptr<FrameMaker> maker{};
   std::vector<double> times_ms{};  ///< One for each turn.
 };
 
-/// What a process that builds nothing but one setting tells of it.
-struct Built {
-  double build_s{};  ///< Until the first frame is complete.
-  std::size_t num_points{};
-  double memory_mb{};  ///< The most that the process held.
-};
-
-Built BuildHere(const ScenarioSpec& scenario, int num_threads) {
-  const auto begin = Clock::now();
-  BuiltSetting setting(scenario, num_threads);
-  setting.Make(0);
-  Built built{.build_s = Since_s(begin)};
-  built.num_points = static_cast<std::size_t>(std::ranges::count_if(
-      setting.frame.outcome, [](Outcome outcome) { return HasPoint(outcome); }));
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  built.memory_mb = static_cast<double>(usage.ru_maxrss) * 1024e-6;
-  return built;
-}
-
-// Must be called before this process has threads or much memory, both of which a child inherits.
-Built BuildInAProcess(const ScenarioSpec& scenario, int num_threads) {
-  std::array<int, 2> ends{};
-  if (::pipe(ends.data()) != 0) throw InputError("pipe: must be available");
-  const pid_t child = ::fork();
-  if (child == 0) {
-    const Built built = BuildHere(scenario, num_threads);
-    const bool is_told = ::write(ends[1], &built, sizeof(built)) == sizeof(built);
-    ::_exit(is_told ? kExitSuccess : kExitFailure);
-  }
-  ::close(ends[1]);
-  Built built;
-  const bool is_told = ::read(ends[0], &built, sizeof(built)) == sizeof(built);
-  ::close(ends[0]);
-  ::waitpid(child, nullptr, 0);
-  if (!is_told) throw InputError("a setting's process: must end with its figures");
-  return built;
-}
-
-// Waits until the windows are built that simulators prepare in the background.
-void WaitUntilIdle() {
-  constexpr auto kPause = std::chrono::milliseconds(500);
-  constexpr double kBusyShare = 0.02;
-  std::clock_t used = std::clock();
-  while (true) {
-    std::this_thread::sleep_for(kPause);
-    const std::clock_t now = std::clock();
-    const double busy_s = static_cast<double>(now - used) / CLOCKS_PER_SEC;
-    if (busy_s < kBusyShare * std::chrono::duration<double>(kPause).count()) return;
-    used = now;
-  }
-}
-
-std::vector<std::unique_ptr<BuiltSetting>> Measure(const std::vector<SceneSetting>& settings,
-                                                   const SettingsOptions& options) {
-  std::vector<std::unique_ptr<BuiltSetting>> built;
-  for (const SceneSetting& setting : settings) {
-    built.push_back(std::make_unique<BuiltSetting>(setting.scenario, options.num_threads));
-    for (std::uint32_t index = 0; index < kNumFrames; ++index) built.back()->Make(index);
+void MeasureTimes(std::vector<MeasuredSetting>& settings, const SettingsOptions& options) {
+  for (MeasuredSetting& measured : settings) {
+    measured.maker = std::make_unique<FrameMaker>(measured.setting.scenario, options.num_threads);
+    for (std::uint32_t index = 0; index < kNumFrames; ++index) measured.maker->Make(index);
   }
   WaitUntilIdle();
   for (int turn = 0; turn < options.num_turns; ++turn) {
     const std::uint32_t index = static_cast<std::uint32_t>(turn) % kNumFrames;
-    for (const auto& setting : built) {
-      setting->Make(index);
-      const auto begin = Clock::now();
-      for (int i = 0; i < kFramesOfATurn; ++i) setting->Make(index);
-      setting->times_ms.push_back(1e3 * Since_s(begin) / kFramesOfATurn);
+    for (MeasuredSetting& measured : settings) {
+      measured.maker->Make(index);
+      const double time_ms = TimeOf_ms([&] {
+        for (int i = 0; i < kFramesOfATurn; ++i) measured.maker->Make(index);
+      });
+      measured.times_ms.push_back(time_ms / kFramesOfATurn);
     }
   }
-  return built;
 }
 
 double MedianRatio(const std::vector<double>& times, const std::vector<double>& base) {
@@ -150,32 +67,32 @@ double MedianRatio(const std::vector<double>& times, const std::vector<double>& 
   return Median(ratios);
 }
 
+void Print(const std::vector<MeasuredSetting>& settings) {
+  std::printf(
+      "| | triangles | instances | build s | memory MB | points | ms a frame | x base | "
+      "published |\n|---|---|---|---|---|---|---|---|---|\n");
+  for (const MeasuredSetting& measured : settings) {
+    const SceneSize size = SizeOf(measured.setting.scenario, measured.maker->world());
+    std::printf("| %s | %zu | %zu | %.2f | %.0f | %zu | %.2f | %.2f | no figure |\n",
+                measured.setting.name.c_str(), size.num_triangles, size.num_instances,
+                measured.cost.build_s, measured.cost.memory_mb, measured.cost.num_points,
+                Median(measured.times_ms),
+                MedianRatio(measured.times_ms, settings.front().times_ms));
+  }
+}
+
 int RunSettings(SettingsOptions options) {
   const int num_cores = static_cast<int>(::sysconf(_SC_NPROCESSORS_ONLN));
   if (options.num_threads == 0) options.num_threads = num_cores;
   const std::vector<SceneSetting> settings = SceneSettings(ReadScenario(options.scenario));
-  std::vector<Built> built;
+  std::vector<MeasuredSetting> measured;
   for (const SceneSetting& setting : settings) {
-    built.push_back(BuildInAProcess(setting.scenario, options.num_threads));
+    measured.push_back({setting, BuildInAProcess(setting.scenario, options.num_threads)});
   }
-  const auto measured = Measure(settings, options);
+  MeasureTimes(measured, options);
   std::printf("%d cores, %d threads; Embree %s, %s; %d turns\n\n", num_cores, options.num_threads,
               EmbreeVersion().c_str(), IsaInUse("").c_str(), options.num_turns);
-  std::printf(
-      "| | triangles | instances | build s | memory MB | points | ms a frame | x base | "
-      "published |\n|---|---|---|---|---|---|---|---|---|\n");
-  for (std::size_t i = 0; i < settings.size(); ++i) {
-    const ScenarioSpec& scenario = settings[i].scenario;
-    const World& world = measured[i]->simulator->world();
-    const SceneAudit audit =
-        AuditScene(world, MaterialLibrary(scenario.materials), 0, scenario.lidar.range_max_m);
-    std::printf("| %s | %zu | %zu | %.2f | %.0f | %zu | %.2f | %.2f | no figure |\n",
-                settings[i].name.c_str(),
-                audit.ground_triangles + audit.placed_triangles + audit.object_triangles,
-                audit.num_placements + world.objects().size(), built[i].build_s, built[i].memory_mb,
-                built[i].num_points, Median(measured[i]->times_ms),
-                MedianRatio(measured[i]->times_ms, measured.front()->times_ms));
-  }
+  Print(measured);
   return kExitSuccess;
 }
 
