@@ -67,6 +67,11 @@ check_packages=(
   git
 )
 
+# Built into railcast-peers by scripts/compare_peers.sh.
+peer_packages=(
+  libopen3d-dev
+)
+
 # install_packages PACKAGE...: installs the missing ones; does not call apt if none is missing.
 install_packages() {
   local package missing=()
