@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -128,7 +129,8 @@ int RunPeers(PeersOptions options) {
   if (options.num_threads == 0) {
     options.num_threads = static_cast<int>(::sysconf(_SC_NPROCESSORS_ONLN));
   }
-  const PeerScene scene = MakePeerScene(ReadScenario(options.scenario), options.has_plants);
+  const PeerScene scene =
+      MakePeerScene(PickSensor(ReadScenario(options.scenario), std::nullopt), options.has_plants);
   const std::vector<Peer> peers = MakePeers(scene, options.num_threads);
   const std::vector<Result> results = Measure(peers, scene.rays.size(), options.num_turns);
   const auto num_hits = std::ranges::count_if(

@@ -37,7 +37,8 @@ BuildCost BuildHere(const ScenarioSpec& scenario, int num_threads) {
 
 FrameMaker::FrameMaker(const ScenarioSpec& scenario, int num_threads)
     : simulators_(MakeSimulators(scenario, num_threads)), frames_(simulators_.size()) {
-  if (scenario.camera) camera_ = MakeCamera(scenario);
+  if (!scenario.camera) return;
+  camera_ = MakeCamera(PickSensor(scenario, SensorNames(scenario).front()));
 }
 
 void FrameMaker::Make(std::uint32_t index) {

@@ -11,7 +11,8 @@
 
 namespace railcast {
 
-/// A scenario that is built and makes frames of all of its sensors, with images if it has a camera.
+/// A scenario that is built and makes frames of all of its sensors, with images if it has a camera,
+/// which is with the first sensor.
 class FrameMaker {
  public:
   /// @param num_threads 0 = all cores.

@@ -13,6 +13,7 @@
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -84,7 +85,8 @@ void Print(const std::vector<MeasuredSetting>& settings) {
 int RunSettings(SettingsOptions options) {
   const int num_cores = static_cast<int>(::sysconf(_SC_NPROCESSORS_ONLN));
   if (options.num_threads == 0) options.num_threads = num_cores;
-  const std::vector<SceneSetting> settings = SceneSettings(ReadScenario(options.scenario));
+  const std::vector<SceneSetting> settings =
+      SceneSettings(PickSensor(ReadScenario(options.scenario), std::nullopt));
   std::vector<MeasuredSetting> measured;
   for (const SceneSetting& setting : settings) {
     measured.push_back({setting, BuildInAProcess(setting.scenario, options.num_threads)});
