@@ -93,10 +93,11 @@ def measure_scaling(build, chart):
         command = [build / "tests/bench/railcast-scaling", *files, *chart.options]
         said = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
     lines = list(csv.DictReader(said.splitlines(), delimiter="\t"))
+    is_on_one_thread = all(line["threads"] == "1" for line in lines)
     for line in lines:
         for key in ("raw", "frame"):  # On one thread, what other programs took is left out.
             cpu_ms = line.pop(f"{key}_cpu_ms")
-            line[f"{key}_ms"] = cpu_ms if line["threads"] == "1" else line[f"{key}_ms"]
+            line[f"{key}_ms"] = cpu_ms if is_on_one_thread else line[f"{key}_ms"]
         x = chart.rows[int(pathlib.Path(line.pop("scenario")).stem)][0]
         if x is not None:
             line[chart.column] = x
@@ -202,15 +203,19 @@ def draw(name, chart, lines):
               f"set output '{ROOT / 'docs/images' / f'performance_{name}.png'}'",
               "set grid", "set key top left Left reverse", f"set xlabel '{chart.axis}'",
               "set ylabel 'ms a frame'"]
+    highest = max(y for values in points.values() for _, y in values)
     if chart.shape == "power":
-        script += ["set logscale xy", "set offsets graph 0.05, graph 0.05, graph 0.3, graph 0.1"]
+        lowest = min(y for values in points.values() for _, y in values)
+        x = [line[chart.column] for line in lines]
+        script += ["set logscale xy", f"set xrange [{0.8 * min(x)}:{1.25 * max(x)}]",
+                   f"set yrange [{lowest / 3}:{highest * 8}]"]
         if chart.column in ("threads", "sensors", "length_km"):
             ticks = ", ".join(f"{line[chart.column]:.0f}" for line in lines)
             script.append(f"set xtics ({ticks})")
         else:
             script.append("set format x '%.0s%c'")
     else:
-        script += ["set yrange [0:*]", "set offsets graph 0.02, graph 0.02, graph 0.3, 0"]
+        script += ["set xrange [0:*]", f"set yrange [0:{1.4 * highest}]"]
     for key, values in points.items():
         script += [f"${key} << end", *(f"{x} {y}" for x, y in values), "end"]
     plots = []
