@@ -7,7 +7,6 @@ import pathlib
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SCENARIOS = ROOT / "scenarios"
-MOST_OBJECTS = 998  # Instance ids from 1000 on are masts, and one is the vehicle.
 MOST_TREES_PER_HECTARE = 5000
 
 
@@ -49,11 +48,12 @@ def trees(per_hectare):
 
 
 def persons(count, moving):
-    """So many persons in rows of 20 ahead, up to 200 m away, in place of the demo's objects."""
+    """So many persons ahead, up to 200 m away, in place of the demo's objects."""
+    across, behind_m = (20, 3.9) if count <= 1000 else (40, 0.8)
     scenario = demo()
     scenario["world"]["objects"] = [
-        {"name": f"person_{i}", "type": "person", "s_m": 2200 + 3.9 * (i // 20),
-         "d_m": 2.0 * (i % 20) - 19.0,
+        {"name": f"person_{i}", "type": "person", "s_m": 2200 + behind_m * (i // across),
+         "d_m": 40.0 / across * (i % across + 0.5) - 20.0,
          **({"motion": {"profile": [{"time_s": 0, "speed_mps": 1}]}} if moving else {})}
         for i in range(count)
     ]
