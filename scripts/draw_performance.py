@@ -188,7 +188,7 @@ def fit(shape, points):
     """A fitted growth as a gnuplot expression of x and in words."""
     if shape == "line":
         at_0, slope = fit_line(points)
-        return f"{at_0} + {slope} * x", f"{at_0:.2f} ms + {1e3 * slope:.3g} us each"
+        return f"{at_0} + {slope} * x", f"{at_0:.2f} ms {'+' if slope >= 0 else '-'} {abs(1e3 * slope):.3g} us each"
     log_a, exponent = fit_line([(math.log(x), math.log(y)) for x, y in points])
     exponent = round(exponent, 2) + 0.0  # Never -0.00.
     return f"{math.exp(log_a)} * x ** {exponent}", f"x^{{{exponent:.2f}}}"
