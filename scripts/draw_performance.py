@@ -321,6 +321,8 @@ def show(name):
         columns = [chart.column, "raw_ms", "frame_ms", "ratio", *chart.table]
         text = table(columns, lines)
         fits = f" Fitted: frame {words['frame_ms']}, raw trace {words['raw_ms']}."
+        if name in ("threads", "fields") and "while other programs ran" in note:
+            fits = " Times by the clock do not show a growth while other programs run."
     put(name, f"![{name}](images/performance_{name}.png)\n\n{text}\n\n*{note}.*{fits}")
 
 

@@ -156,8 +156,9 @@ void Describe(Archive& a, VehicleSpec& s) {
   a.Optional("ego_boxes_m", s.ego_boxes_m,
              "Its body in the vehicle frame: min x, y, z, max x, y, z.",
              EachNumber{Within(-1000, 1000)});
-  a.Optional("may_overlap", s.may_overlap,
-             "Whether these boxes may stand or run inside objects, which otherwise is an error.");
+  a.Optional(
+      "may_overlap", s.may_overlap,
+      "Whether these boxes may stand or run inside objects; check and sequence refuse it else.");
 }
 
 }  // namespace railcast

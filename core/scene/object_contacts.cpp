@@ -105,8 +105,11 @@ ContactFinder::ContactFinder(const World& world)
     : world_(world),
       world_from_object_(world.objects().size()),
       boxes_world_(world.objects().size()) {
+  std::map<const Model*, Eigen::AlignedBox3d> bounds_m;  // Many objects share a model.
   for (std::size_t i = 0; i < world.objects().size(); ++i) {
-    bounds_m_.push_back(world.objects()[i].model->Bounds());
+    const Model* const model = world.objects()[i].model.get();
+    if (!bounds_m.contains(model)) bounds_m[model] = model->Bounds();
+    bounds_m_.push_back(bounds_m[model]);
     Place(i, 0);
   }
 }
@@ -187,20 +190,34 @@ std::vector<ObjectContact> ContactFinder::Measure(const std::vector<Pair>& pairs
 std::optional<double> ContactFinder::GapOf_m(const Pair& pair, const Transform& one_from_other) {
   const auto [one, other] = pair;
   const std::optional<double> gap_m = GapOfPieces_m(pair, one_from_other);
-  if (gap_m && *gap_m <= 0.0) return gap_m;
+  if (gap_m && *gap_m < -kTouch_m) return gap_m;
+  // What stands on the floor inside a hall touches it, and is inside it all the same.
   if (Surrounds(one, one_from_other, other) || Surrounds(other, one_from_other.inverse(), one)) {
     return -Depth_m(BodyOf(bounds_m_[one]), one_from_other, BodyOf(bounds_m_[other]));
   }
   return gap_m;
 }
 
+// Vertices are moved inwards a little, so that a face of the one that lies on a face of the other
+// counts by the side on which the body is.
 bool ContactFinder::Surrounds(std::size_t outer,
                               const Transform& outer_from_inner,
                               std::size_t inner) const {
+  constexpr std::size_t kMostVertices = 16;
+  const Vector3 middle_m = bounds_m_[inner].center();
   for (const Part& part : world_.objects()[inner].model->parts) {
-    if (part.mesh.vertices.empty()) continue;
-    const Vector3 corner = outer_from_inner * part.mesh.vertices.front().cast<double>();
-    return bounds_m_[outer].contains(corner) && Encloses(*world_.objects()[outer].model, corner);
+    const auto& vertices = part.mesh.vertices;
+    const std::size_t stride = vertices.size() / kMostVertices + 1;
+    for (std::size_t i = 0; i < vertices.size(); i += stride) {
+      const Vector3 vertex_m = vertices[i].cast<double>();
+      const double share = std::min(1.0, 2.0 * kTouch_m / (middle_m - vertex_m).norm());
+      const Vector3 moved_m = outer_from_inner * (vertex_m + share * (middle_m - vertex_m));
+      if (!bounds_m_[outer].contains(moved_m) ||
+          !Encloses(*world_.objects()[outer].model, moved_m)) {
+        return false;
+      }
+    }
+    if (!vertices.empty()) return true;
   }
   return false;
 }

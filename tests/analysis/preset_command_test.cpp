@@ -36,7 +36,7 @@ TEST(PresetCommand, WritesAReportOfACapture) {
   const nlohmann::json report = nlohmann::json::parse(ReadFileWhole(out / "preset.json"));
   EXPECT_EQ(report.at("facts").at("Recording"), "capture of VLP-16");
   EXPECT_EQ(report.at("facts").at("Turns"), "4");
-  EXPECT_EQ(report.at("headlines").size(), 8U);
+  EXPECT_EQ(report.at("headlines").size(), 9U);
   EXPECT_TRUE(exists(out / "report.html"));
   EXPECT_TRUE(exists(out / "csv" / "preset_by_range.csv"));
 }

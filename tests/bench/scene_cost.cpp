@@ -73,6 +73,7 @@ BuildCost BuildInAProcess(const ScenarioSpec& scenario, int num_threads) {
   std::array<int, 2> ends{};
   if (::pipe(ends.data()) != 0) throw InputError("pipe: must be available");
   const pid_t child = ::fork();
+  if (child < 0) throw InputError("fork: must be possible");
   if (child == 0) {
     const BuildCost cost = BuildHere(scenario, num_threads);
     const bool is_told = ::write(ends[1], &cost, sizeof(cost)) == sizeof(cost);

@@ -168,7 +168,8 @@ struct VehicleSpec {
   /// Boxes of the vehicle's body in the vehicle frame: min x, y, z, max x, y, z. They block beams,
   /// which then have the outcome `ego`.
   std::vector<std::array<double, 6>> ego_boxes_m;
-  /// Whether the boxes may stand or run inside objects. A run is refused otherwise.
+  /// Whether the boxes may stand or run inside objects. If not, `railcast-generate check` and
+  /// `sequence` refuse a run in which they do.
   bool may_overlap = false;
 
   bool operator==(const VehicleSpec&) const = default;
