@@ -52,11 +52,13 @@ check_tidy() {
 }
 
 # The fuzzers need clang; building them compiles all of core with clang, with warnings as errors.
+# The tests beside them replay the corpora with the address and undefined-behaviour sanitizers.
 check_clang() {
   echo "== clang"
   cmake -B build/fuzz -G Ninja --log-level=ERROR -D CMAKE_C_COMPILER=clang-14 \
     -D CMAKE_CXX_COMPILER=clang++-14 -D RAILCAST_BUILD_FUZZERS=ON >/dev/null
   cmake --build build/fuzz --target fuzzers
+  ctest --test-dir build/fuzz/tests/fuzz --output-on-failure --parallel "$(nproc)"
 }
 
 all_sources() {
