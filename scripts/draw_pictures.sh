@@ -54,6 +54,7 @@ for weather in '"sun": {"illuminance_klx": 100, "azimuth_deg": 200}' '"visibilit
     "$PWD/scenarios/st_gallen_approach.json" "$weather" > "$runs/$name.json"
   "$generate" sequence "$runs/$name.json" --out "$runs/$name" --start-frame 20 --frames 1 > "$runs/$name.txt"
 done
+draw view_camera camera_sun --frame 20 --camera driver
 /usr/bin/python3 - "$runs" "$images/camera.jpg" << 'PYTHON'
 import sys
 import numpy as np

@@ -27,6 +27,7 @@ struct RawOptions {
   std::vector<std::string> show;
   std::vector<std::string> picks;
   std::string layout = "beside";
+  std::string image;
 };
 
 /// A name that --show takes, and the choice that it sets.
@@ -159,6 +160,10 @@ void AddLookOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
       ->expected(1)
       ->take_all()
       ->allow_extra_args(false);
+  app.add_option("--image", raw.image,
+                 "The camera's image to show in the corner; default: color where the recording "
+                 "has images")
+      ->check(CLI::IsMember(Strings(kPictureKindNames)));
   app.add_option("--select", options.select,
                  "Labels to show, separated by commas; all others are faint")
       ->delimiter(',')
@@ -232,6 +237,10 @@ void UseRaw(const RawOptions& raw, const CLI::App& app, ViewOptions& options) {
   if (!raw.color_map.empty()) {
     options.choices.map = static_cast<ColorMap>(std::ranges::find(kColorMapNames, raw.color_map) -
                                                 kColorMapNames.begin());
+  }
+  if (!raw.image.empty()) {
+    options.choices.picture = static_cast<PictureKind>(
+        std::ranges::find(kPictureKindNames, raw.image) - kPictureKindNames.begin());
   }
   if (!raw.color_range.empty()) {
     if (!(raw.color_range[0] < raw.color_range[1]) || !std::isfinite(raw.color_range[0]) ||

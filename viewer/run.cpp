@@ -170,6 +170,9 @@ class Viewer {
   void DrawOffScreen() {
     stage_.window().SetOffScreenRendering(true);
     std::vector<Composition> compositions = session_->Compose();
+    for (const Composition& composition : compositions) {
+      if (!composition.picture_fault.empty()) throw InputError(composition.picture_fault);
+    }
     if (live_) {
       compositions.front().status += '\n';
       compositions.front().status += live_->StatusText();

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "viewer/color/color_map.h"
+#include "viewer/frames/camera_picture.h"
 
 namespace railcast {
 
@@ -39,7 +40,9 @@ struct Choices {
   /// Ends of the scale for Layout::kDistance.
   std::optional<std::array<double, 2>> distance_ends_m{};
   std::size_t num_accumulated = 1;  ///< Frames shown at once, in world coordinates.
-  bool empty_beams = false;         ///< The fan of firings without a return.
+  /// The camera's image; empty: colours where there are images.
+  std::optional<PictureKind> picture{};
+  bool empty_beams = false;  ///< The fan of firings without a return.
   OverlayChoices overlays{};
   std::set<std::uint32_t> labels{};  ///< Points of other labels are faint; empty: none are.
   Layout layout = Layout::kBeside;

@@ -7,6 +7,7 @@
 #include "railcast/scene.h"
 #include "railcast/transform.h"
 #include "viewer/color/coloring.h"
+#include "viewer/frames/camera_picture.h"
 #include "viewer/frames/shown_frame.h"
 #include "viewer/overlays/overlays.h"
 
@@ -35,7 +36,9 @@ struct Composition {
   Overlay empty_beams;
   std::vector<Category> beam_kinds;  ///< The colours of empty beams, their meaning and number.
   std::vector<PlacedParts> surfaces;
-  LabelTable labels;   ///< Names and colours for the surfaces.
+  LabelTable labels;                               ///< Names and colours for the surfaces.
+  std::shared_ptr<const CameraPicture> picture{};  ///< The camera's image; null: none.
+  std::string picture_fault{};                     ///< Why it cannot be read; empty if it can.
   std::string status;  ///< Lines of text: frame, stamp, points, dropout, ...
 };
 

@@ -91,6 +91,11 @@ void Pane::Show(std::shared_ptr<const Composition> composition,
   legend_ = MakeLegend(composition_->coloring, composition_->beam_kinds, SizeIn(window_px),
                        look.background);
   fleeting_.insert(fleeting_.end(), legend_.props.begin(), legend_.props.end());
+  inset_ = composition_->picture
+               ? MakeInset(*composition_->picture, SizeIn(window_px),
+                           composition_->coloring.ends.has_value(), look.background)
+               : Inset();
+  fleeting_.insert(fleeting_.end(), inset_.props.begin(), inset_.props.end());
   for (const auto& prop : fleeting_) renderer_->AddViewProp(prop);
   ShowStatus(composition_->status, look);
   renderer_->ResetCameraClippingRange();

@@ -13,6 +13,7 @@
 
 #include "viewer/composition/composition.h"
 #include "viewer/draw/cloud_actor.h"
+#include "viewer/draw/inset.h"
 #include "viewer/draw/legend.h"
 #include "viewer/draw/look.h"
 
@@ -39,6 +40,11 @@ class Pane {
   }
   [[nodiscard]] const Composition& composition() const { return *composition_; }
   [[nodiscard]] vtkRenderer& renderer() { return *renderer_; }
+  /// Whether a place is covered by the camera's image.
+  /// @param place_px In the view, from its lower left corner.
+  [[nodiscard]] bool IsInInset(const std::array<double, 2>& place_px) const {
+    return inset_.Holds(place_px);
+  }
   [[nodiscard]] const Legend& legend() const { return legend_; }
   [[nodiscard]] bool Contains(double x_share) const { return x_share >= left_ && x_share < right_; }
   /// Returns the view's size in pixels.
@@ -54,6 +60,7 @@ class Pane {
   vtkNew<vtkRenderer> renderer_;
   std::vector<std::unique_ptr<CloudActor>> clouds_;
   Legend legend_;
+  Inset inset_;
   std::vector<vtkSmartPointer<vtkProp>> fleeting_;  ///< Props made anew for each composition.
   vtkSmartPointer<vtkProp> status_;
   std::vector<vtkSmartPointer<vtkProp>> marks_;

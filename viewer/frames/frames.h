@@ -5,6 +5,7 @@
 
 #include "railcast/io/recording.h"
 #include "railcast/scene.h"
+#include "viewer/frames/camera_picture.h"
 #include "viewer/frames/shown_frame.h"
 
 namespace railcast {
@@ -24,6 +25,12 @@ class Frames {
   /// the end.
   /// @throws InputError with one line if it cannot be read.
   [[nodiscard]] virtual std::shared_ptr<const ShownFrame> Get(std::size_t place) = 0;
+  /// Returns the camera's picture of a frame; null if there is none.
+  /// @throws InputError with one line if it cannot be read.
+  [[nodiscard]] virtual std::shared_ptr<const CameraPicture> Picture(std::size_t /*place*/,
+                                                                     PictureKind /*kind*/) {
+    return nullptr;
+  }
   /// Returns how many frames are known so far; for most recordings, all of them.
   [[nodiscard]] virtual std::size_t num_known() const = 0;
   /// Returns the oldest place that Get() can give.

@@ -16,7 +16,7 @@ constexpr std::size_t kMaxReaders = 4096;  // For files; a reader holds a few li
 }  // namespace
 
 RecordedFrames::RecordedFrames(const std::filesystem::path& source)
-    : recording_(OpenRecording(source)) {
+    : recording_(OpenRecording(source)), pictures_(source) {
   info_ = recording_->info();
   info_.labels = LabelsOf(info_);
   num_passed_ = info_.num_frames.value_or(0);

@@ -24,6 +24,11 @@ class RecordedFrames final : public Frames {
   /// The frames used last are kept.
   [[nodiscard]] std::shared_ptr<const ShownFrame> Get(std::size_t place) override;
 
+  [[nodiscard]] std::shared_ptr<const CameraPicture> Picture(std::size_t place,
+                                                             PictureKind kind) override {
+    return pictures_.At(place, kind);
+  }
+
   /// Returns the place of the frame with that number in its run (Frame::index), because a sequence
   /// need not begin with 0.
   /// @throws InputError with one line if there is none.
@@ -47,6 +52,7 @@ class RecordedFrames final : public Frames {
   std::size_t num_passed_{};  ///< Number of frames passed so far; for most recordings, all.
   bool is_end_known_ = false;
   FrameShelf kept_{FrameShelf::Limits{}};
+  RecordedPictures pictures_;
   /// Only if the recording does not say how many frames it has.
   std::optional<FrameCounter> counter_;
 };

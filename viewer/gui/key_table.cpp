@@ -56,6 +56,8 @@ std::span<const KeyBinding> KeyTable::Bindings() {
        }},
       {"n", "n", "beams that brought nothing back",
        [](Gui& w) { w.Toggle(w.session_.choices().empty_beams); }},
+      {"i", "i", "camera's image: color, label, depth or none",
+       [](Gui& w) { w.session_.ShowNextPicture(), w.Refresh(); }},
       {"s", "s", "surfaces of the scene",
        [](Gui& w) { w.Toggle(w.session_.choices().overlays.mesh); }},
       {"o", "o", "boxes of objects",

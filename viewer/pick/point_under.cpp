@@ -45,6 +45,7 @@ std::optional<ScreenPoint> PointUnder(Stage& stage,
   const std::size_t index = stage.ViewAt(place_px[0]);
   Pane& view = stage.view(index);
   const auto in_view_px = stage.InView(index, place_px[0], place_px[1]);
+  if (view.IsInInset(in_view_px)) return std::nullopt;
   const Composition& composition = view.composition();
   const auto found = PointAt(AllPositions_m(composition), ClipFromView(view.renderer()),
                              view.SizeIn(stage.size_px()), in_view_px[0], in_view_px[1]);

@@ -28,6 +28,12 @@ std::shared_ptr<const ShownFrame> Session::Source::Get(std::size_t place) const 
   return own < 0 ? nullptr : frames->Get(static_cast<std::size_t>(own));
 }
 
+std::shared_ptr<const CameraPicture> Session::Source::Picture(std::size_t place,
+                                                              PictureKind kind) const {
+  const std::ptrdiff_t own = static_cast<std::ptrdiff_t>(place) + offset;
+  return own < 0 ? nullptr : frames->Picture(static_cast<std::size_t>(own), kind);
+}
+
 Session::Session(const std::vector<Frames*>& frames, Choices choices)
     : choices_(std::move(choices)) {
   for (Frames* const each : frames) {
@@ -109,6 +115,11 @@ void Session::FitScale() {
   if (field.kind != FieldValues::Kind::kCategory) choices_.ends = railcast::FitScale(field);
 }
 
+void Session::ShowNextPicture() {
+  const auto shown = static_cast<std::size_t>(choices_.picture.value_or(PictureKind::kColor));
+  choices_.picture = static_cast<PictureKind>((shown + 1) % kPictureKindNames.size());
+}
+
 void Session::ToggleLabel(std::uint32_t label) {
   if (choices_.labels.erase(label) == 0) choices_.labels.insert(label);
 }
@@ -145,6 +156,25 @@ ShownFrames Session::FramesWith(const Source& source,
   return frames;
 }
 
+bool Session::HasPicture() const {
+  return std::ranges::any_of(sources_, [this](const Source& source) {
+    try {
+      return source.Picture(place_, *choices_.picture) != nullptr;
+    } catch (const InputError&) {
+      return true;  // Composing says why it cannot be read.
+    }
+  });
+}
+
+void Session::AddPicture(const Source& source, Composition& composition) const {
+  try {
+    composition.picture = source.Picture(place_, choices_.picture.value_or(PictureKind::kColor));
+  } catch (const InputError& error) {
+    composition.picture_fault = error.what();
+    AddLine(composition.picture_fault, composition.status);
+  }
+}
+
 std::string Session::Missing() const {
   if (choices_.num_accumulated > 1 && !shown_.front()->recorded->has_pose) {
     return "frames without poses are not accumulated";
@@ -155,6 +185,9 @@ std::string Session::Missing() const {
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     std::string missing = sources_[i].composer.Missing(*shown_[i], choices_);
     if (!missing.empty()) return missing;
+  }
+  if (choices_.picture.value_or(PictureKind::kOff) != PictureKind::kOff && !HasPicture()) {
+    return "images need a sequence whose scenario has a camera";
   }
   return {};
 }
@@ -195,6 +228,7 @@ Composition Session::ComposeOne(std::size_t index) {
   Composition composition = source.composer.Compose(FramesWith(source, shown_[index]), choices);
   composition.status = StatusOf(index, composition);
   AddLine(fault, composition.status);
+  AddPicture(source, composition);
   return composition;
 }
 
@@ -209,6 +243,7 @@ Composition Session::ComposeBoth() {
   composition.coloring = std::move(distances.coloring);
   for (std::size_t i = 0; i < sources_.size(); ++i)
     AddLine(StatusOf(i, composition), composition.status);
+  AddPicture(sources_[0], composition);
   return composition;
 }
 

@@ -38,6 +38,8 @@ class Session {
   void ColorByNext(bool forward);
   /// Fits the scale to the current frame.
   void FitScale();
+  /// Shows the camera's next kind of image, the last being none.
+  void ShowNextPicture();
   /// Adds a label to those selected, or removes it.
   void ToggleLabel(std::uint32_t label);
 
@@ -67,6 +69,9 @@ class Session {
     Choices fallback{};       ///< Colours for frames that lack the chosen field.
 
     [[nodiscard]] std::shared_ptr<const ShownFrame> Get(std::size_t place) const;
+    /// As Frames::Picture(), for a place of the first source.
+    [[nodiscard]] std::shared_ptr<const CameraPicture> Picture(std::size_t place,
+                                                               PictureKind kind) const;
   };
   void PairSources();
   void FitToAll(const std::vector<std::shared_ptr<const ShownFrame>>& shown);
@@ -75,6 +80,8 @@ class Session {
                                        const std::shared_ptr<const ShownFrame>& shown) const;
   [[nodiscard]] Composition ComposeOne(std::size_t index);
   [[nodiscard]] Composition ComposeBoth();
+  [[nodiscard]] bool HasPicture() const;
+  void AddPicture(const Source& source, Composition& composition) const;
   [[nodiscard]] std::string StatusOf(std::size_t index, const Composition& composition) const;
 
   std::vector<Source> sources_;
