@@ -79,10 +79,12 @@ struct WaveSums {
     const float bend_down = sums.weight - sums.bend;
     bool is_newton = bend_down * kTrust > sums.weight;
     float shift_m = is_newton ? sums.moment / bend_down : mean_shift_m;
-    const float sigma_m = std::sqrt(sums.value / sums.weight);
-    if (!is_newton && std::fabs(mean_shift_m) < 0.5F * sigma_m) {
-      is_newton = bend_down * sigma_m > std::fabs(sums.moment);
-      shift_m = is_newton ? sums.moment / bend_down : std::copysign(sigma_m, sums.moment);
+    if (!is_newton) {
+      const float sigma_m = std::sqrt(sums.value / sums.weight);
+      if (std::fabs(mean_shift_m) < 0.5F * sigma_m) {
+        is_newton = bend_down * sigma_m > std::fabs(sums.moment);
+        shift_m = is_newton ? sums.moment / bend_down : std::copysign(sigma_m, sums.moment);
+      }
     }
     if (std::fabs(shift_m) > longest_m) {
       is_newton = false;
