@@ -36,6 +36,16 @@ Table CountTable(const std::vector<Holes::Count>& counts, const Bins* bins) {
   return table;
 }
 
+Table SmoothTable(const SmoothHoles& smooth) {
+  std::vector<HoleCount> counts;
+  for (const SmoothHoles::Count& count : smooth.by_intensity()) counts.push_back(count.firings);
+  Table table = CountTable(counts, &SmoothHoles::Intensities());
+  table.key = "smooth_holes_by_intensity";
+  table.title = "Holes in smooth surfaces of one brightness";
+  table.columns.front() = {"intensity", "Intensity of the neighbours", ""};
+  return table;
+}
+
 }  // namespace
 
 std::optional<double> RangeBetweenNeighbours_m(const Frame& frame,
@@ -127,7 +137,7 @@ Section Holes::MakeSection() const {
        {"Holes", ""},
        {SeriesOf(by_range, {"range_m", "holes"}, "holes")}});
   section.tables.push_back(std::move(by_range));
-  if (!smooth_.by_intensity().empty()) section.tables.push_back(smooth_.MakeTable());
+  if (!smooth_.by_intensity().empty()) section.tables.push_back(SmoothTable(smooth_));
   Table by_ring = CountTable(by_ring_, nullptr);
   by_ring.key = "holes_by_ring";
   by_ring.title = "Holes by ring";

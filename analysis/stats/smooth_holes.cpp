@@ -16,17 +16,16 @@ constexpr double kIntensityStep = 0.01;
 using Neighbours = Eigen::Array<double, static_cast<int>(kNumNeighbours), 1>;
 
 // The places of the neighbours in columns from the firing.
-Neighbours Places() {
-  Neighbours places;
-  places << -4, -3, -2, -1, 1, 2, 3, 4;
-  return places;
+const Neighbours& Places() {
+  static const Neighbours kPlaces{{-4.0, -3.0, -2.0, -1.0, 1.0, 2.0, 3.0, 4.0}};
+  return kPlaces;
 }
 
 // Standard deviation of the ranges about their line, which has two parameters.
 double DeviationFromLine_m(const Neighbours& ranges_m) {
-  static const Neighbours kPlaces = Places();
-  const double slope_m = (kPlaces * ranges_m).sum() / kPlaces.square().sum();
-  const Neighbours rest_m = ranges_m - ranges_m.mean() - slope_m * kPlaces;
+  const Neighbours& places = Places();
+  const double slope_m = (places * ranges_m).sum() / places.square().sum();
+  const Neighbours rest_m = ranges_m - ranges_m.mean() - slope_m * places;
   return std::sqrt(rest_m.square().sum() / static_cast<double>(kNumNeighbours - 2));
 }
 
@@ -45,12 +44,12 @@ const Bins& SmoothHoles::Intensities() {
 
 void SmoothHoles::AddFiring(const Frame& frame, std::size_t row, std::size_t column) {
   if (column < kReach || column + kReach >= frame.columns) return;
-  static const Neighbours kPlaces = Places();
+  const Neighbours& places = Places();
   const std::size_t firing = row * frame.width() + column * frame.returns;
   Neighbours ranges_m;
   Neighbours intensities;
-  for (Eigen::Index i = 0; i < kPlaces.size(); ++i) {
-    const auto away = static_cast<std::ptrdiff_t>(kPlaces[i]) * std::ptrdiff_t{frame.returns};
+  for (Eigen::Index i = 0; i < places.size(); ++i) {
+    const auto away = static_cast<std::ptrdiff_t>(places[i]) * std::ptrdiff_t{frame.returns};
     const auto slot = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(firing) + away);
     ranges_m[i] = static_cast<double>(frame.range_m[slot]);
     intensities[i] = static_cast<double>(frame.intensity[slot]);
@@ -62,22 +61,6 @@ void SmoothHoles::AddFiring(const Frame& frame, std::size_t row, std::size_t col
   by_intensity_.resize(Intensities().size());
   by_intensity_[*bin].Add(
       {{1, std::isfinite(frame.range_m[firing]) ? 0U : 1U}, intensities.mean()});
-}
-
-Table SmoothHoles::MakeTable() const {
-  Table table;
-  table.key = "smooth_holes_by_intensity";
-  table.title = "Holes in smooth surfaces of one brightness";
-  table.columns = {{"intensity", "Intensity of the neighbours", ""},
-                   {"expected", "Expected", ""},
-                   {"holes", "Holes", ""}};
-  for (std::size_t i = 0; i < by_intensity_.size(); ++i) {
-    const auto& [num_expected, num_missing] = by_intensity_[i].firings;
-    if (num_expected == 0) continue;
-    table.rows.push_back(
-        {Intensities().span(i), num_expected, Proportion(num_missing, num_expected)});
-  }
-  return table;
 }
 
 }  // namespace railcast

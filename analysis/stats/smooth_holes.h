@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "analysis/report/report.h"
 #include "analysis/stats/bins.h"
 #include "railcast/frame.h"
 
@@ -49,7 +48,6 @@ class SmoothHoles {
   /// Bins of intensity, narrow where it is dark, with edges between the whole percents in which
   /// sensors report it.
   [[nodiscard]] static const Bins& Intensities();
-  [[nodiscard]] Table MakeTable() const;
 
  private:
   std::vector<Count> by_intensity_;
