@@ -123,7 +123,7 @@ bool ShowsSurfaceCondition(const DetectorSpec& spec) {
 Detector::Detector(const DetectorSpec& spec, const DetectorSetting& setting, const Kernels& kernels)
     : response_(MakeResponse(spec, setting.snow)),
       pulse_sigma_m_(static_cast<float>(PulseSigma_m(spec.beam))),
-      has_stretch_(StretchLowersPower(spec)),
+      stretch_lowers_power_(StretchLowersPower(spec)),
       extinction_per_m_(spec.effects.extinction ? static_cast<float>(Extinction_per_m(
                                                       spec.weather, spec.beam.wavelength_nm))
                                                 : 0.0F),
@@ -153,7 +153,7 @@ float Detector::Reflectance(const LaneOptics& optics, float cosine) const {
 
 float Detector::PowerRatio(float intensity, float range_m, float spread_m) const {
   float ratio = intensity * response_.inverse_power_m2 / (range_m * range_m);
-  if (has_stretch_) ratio *= pulse_sigma_m_ / std::hypot(pulse_sigma_m_, spread_m);
+  if (stretch_lowers_power_) ratio *= pulse_sigma_m_ / std::hypot(pulse_sigma_m_, spread_m);
   return ratio * baseline::Exp(-2.0F * extinction_per_m_ * range_m);
 }
 

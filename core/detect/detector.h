@@ -63,7 +63,7 @@ class Detector {
  private:
   ResponseParameters response_;
   float pulse_sigma_m_;
-  bool has_stretch_;
+  bool stretch_lowers_power_;
   float extinction_per_m_;
   EffectStep bare_response_;
   std::vector<EffectStep> optics_;

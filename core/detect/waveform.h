@@ -65,7 +65,7 @@ struct WaveSums {
   constexpr float kStill_m = 3e-3F;
   // A Newton step is accepted up to this many times the mean shift, which is always too short.
   constexpr float kTrust = 4.0F;
-  constexpr float kWaveEnd_m = 1e9F;
+  constexpr float kUnlimited_m = 1e9F;
   float range_m = from_m;
   WaveSums sums = SumWave(wave, range_m);
   for (std::size_t i = 0; i < known.num_peaks; ++i) {
@@ -73,7 +73,7 @@ struct WaveSums {
     const bool is_near = ahead_m < known.reach_m && ahead_m > -known.reach_m;
     if (is_near && (ahead_m > 0.0F) == (sums.moment > 0.0F)) return known.peaks[i];
   }
-  float longest_m = kWaveEnd_m;
+  float longest_m = kUnlimited_m;
   for (int step = 0; step < kMaxSteps && sums.weight > 0.0F; ++step) {
     const float mean_shift_m = sums.moment / sums.weight;
     const float bend_down = sums.weight - sums.bend;
