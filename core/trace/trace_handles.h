@@ -41,6 +41,7 @@ struct TraceModel::Handle {
   std::shared_ptr<TraceDevice::Handle> device;
   RTCScene scene{};
   std::string name;
+  bool is_foliage{};
   std::vector<PartSize> parts;
 
   ~Handle() {
@@ -69,20 +70,30 @@ inline OwnedGeometry NewGeometry(RTCDevice device, RTCGeometryType type) {
   return geometry;
 }
 
-/// The fastest of the settings measured; robust traversal is also the faster one for packets of 16.
-inline RTCScene NewScene(RTCDevice device) {
+/// Of closed surfaces: no ray passes between two triangles that share an edge.
+inline constexpr RTCSceneFlags kWatertight = RTC_SCENE_FLAG_ROBUST;
+/// Of foliage, which is no closed surface; faster.
+inline constexpr RTCSceneFlags kOpen = RTC_SCENE_FLAG_NONE;
+
+/// Of the settings measured, a higher quality gains nothing (docs/performance.md).
+inline RTCScene NewScene(RTCDevice device, RTCSceneFlags flags) {
   RTCScene scene = rtcNewScene(device);
   if (scene == nullptr) throw std::bad_alloc();
-  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneFlags(scene, flags);
   rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
   return scene;
 }
 
-/// Makes a new scene with the geometry that `attach` adds. Throws an InputError on failure.
+/// Makes a new scene with the geometry that `attach` adds.
+/// @throws InputError if memory runs out.
 template <typename Doing, typename Attach>
-void BuildScene(RTCDevice device, RTCScene& scene, const Doing& doing, const Attach& attach) {
+void BuildScene(RTCDevice device,
+                RTCSceneFlags flags,
+                RTCScene& scene,
+                const Doing& doing,
+                const Attach& attach) {
   BuildWithEmbree(device, doing, [&] {
-    scene = NewScene(device);
+    scene = NewScene(device, flags);
     attach();
     rtcCommitScene(scene);
   });

@@ -92,12 +92,13 @@ TraceModel::TraceModel(const TraceDevice& device, const Model& model)
     : handle_(std::make_unique<Handle>()) {
   handle_->device = device.handle();
   handle_->name = model.name;
+  handle_->is_foliage = model.is_foliage;
   for (const Part& part : model.parts) {
     handle_->parts.push_back({part.mesh.triangles.size(), part.is_wire});
   }
   RTCDevice const embree = handle_->device->device;
   const auto doing = [&] { return handle_->Doing(); };
-  BuildScene(embree, handle_->scene, doing, [&] {
+  BuildScene(embree, model.is_foliage ? kOpen : kWatertight, handle_->scene, doing, [&] {
     for (std::size_t i = 0; i < model.parts.size(); ++i) {
       AttachPart(embree, handle_->scene, model.parts[i], static_cast<unsigned>(i));
     }

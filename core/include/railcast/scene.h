@@ -35,6 +35,9 @@ struct Part {
 struct Model {
   std::string name;
   std::vector<Part> parts;
+  /// Whether it consists of leaves or blades, which are many, small and no closed surface: it is
+  /// traced faster, and a ray may pass between two triangles that share an edge.
+  bool is_foliage = false;
 
   [[nodiscard]] std::size_t num_triangles() const;
   /// Axis-aligned bounding box in the model's own frame; empty if there are no vertices.

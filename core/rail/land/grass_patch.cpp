@@ -39,7 +39,7 @@ Model MakeGrassPatch(const std::string& name, const RailSurfaces& surfaces, Plan
   constexpr int kBladesPerTuft = 8;
   constexpr double kTuftRadius_m = 0.07;
   constexpr double kReach_m = 0.5 * kGrassPatch_m;
-  Model patch{.name = name, .parts = {}};
+  Model patch{.name = name, .parts = {}, .is_foliage = true};
   Mesh& grass = MeshOf(surfaces.grass, patch);
   for (int tuft = 0; tuft < kNumTufts; ++tuft) {
     const double x_m = dice.Uniform(-kReach_m, kReach_m);

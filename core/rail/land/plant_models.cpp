@@ -166,7 +166,7 @@ Model MakeBroadleaf(const TreeForm& form, const RailSurfaces& surfaces, PlantDic
       twigs.push_back(twig);
     }
   }
-  Model tree{.name = form.name, .parts = {}};
+  Model tree{.name = form.name, .parts = {}, .is_foliage = true};
   MeshOf(surfaces.bark, tree) = std::move(wood);
   MeshOf(surfaces.leaf, tree) = MakeLeaves(form, twigs, kBroadLeaf, dice);
   return tree;
@@ -219,7 +219,7 @@ Model MakeSpruce(const TreeForm& form, const RailSurfaces& surfaces, PlantDice d
   }
   const Vector3 top_m(trunk.back().x(), trunk.back().y(), form.height_m);
   twigs.push_back({OnTrunk(trunk, form.height_m - 0.7), top_m});
-  Model tree{.name = form.name, .parts = {}};
+  Model tree{.name = form.name, .parts = {}, .is_foliage = true};
   MeshOf(surfaces.bark, tree) = std::move(wood);
   MeshOf(surfaces.leaf, tree) = MakeLeaves(form, twigs, kNeedleShoot, dice);
   return tree;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <random>
 #include <vector>
 
 #include "tests/support/analytic_meshes.h"
@@ -93,6 +94,78 @@ TEST(TraceScene, RangesAloneObeyTheMaskToo) {
   scene.scene.Cast(full);
   scene.scene.CastRanges(ranges);
   EXPECT_TRUE(std::equal(full.range_m, full.range_m + kTileSize, ranges.range_m));
+}
+
+/// Random leaves of some 0.3 m between 5 and 15 m ahead.
+Model Leaves(bool is_foliage) {
+  std::mt19937 dice(7);
+  std::uniform_real_distribution<float> unit(-1.0F, 1.0F);
+  const auto point = [&](float size_m) -> Eigen::Vector3f {
+    return Eigen::Vector3f(unit(dice), unit(dice), unit(dice)) * size_m;
+  };
+  Mesh leaves;
+  constexpr std::uint32_t kNumLeaves = 3000;
+  for (std::uint32_t i = 0; i < kNumLeaves; ++i) {
+    const Eigen::Vector3f middle = Eigen::Vector3f(10.0F, 0.0F, 0.0F) + point(5.0F);
+    for (int k = 0; k < 3; ++k) leaves.vertices.push_back(middle + point(0.3F));
+    leaves.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  return {.name = "leaves", .parts = {{leaves, 1, 4}}, .is_foliage = is_foliage};
+}
+
+TEST(TraceScene, FoliageIsHitAsOtherModelsAre) {
+  const TraceDevice device;
+  const auto cast = [&](bool is_foliage) {
+    const auto leaves = std::make_shared<TraceModel>(device, Leaves(is_foliage));
+    const TraceScene scene(device, {{leaves, {Eigen::Affine3d::Identity()}, 1}});
+    std::vector<float> ranges_m;
+    for (int tilt = 0; tilt < 20; ++tilt) {
+      RayTile rays = MakeFan(kAllSurfaces);
+      for (std::size_t i = 0; i < kTileSize; ++i) {
+        rays.direction_z[i] = 0.02F * static_cast<float>(tilt - 10);
+        const float norm = std::sqrt(1.0F + rays.direction_z[i] * rays.direction_z[i]);
+        for (float* axis : {rays.direction_x, rays.direction_y, rays.direction_z}) axis[i] /= norm;
+      }
+      scene.Cast(rays);
+      ranges_m.insert(ranges_m.end(), rays.range_m, rays.range_m + kTileSize);
+    }
+    return ranges_m;
+  };
+  const std::vector<float> foliage_m = cast(true);
+  const std::vector<float> other_m = cast(false);
+  std::size_t num_hits = 0;
+  std::size_t num_others = 0;
+  for (std::size_t i = 0; i < foliage_m.size(); ++i) {
+    num_hits += other_m[i] < kRangeMax_m ? 1U : 0U;
+    num_others += std::abs(foliage_m[i] - other_m[i]) > 1e-4F ? 1U : 0U;
+  }
+  EXPECT_GT(num_hits, foliage_m.size() / 4);
+  EXPECT_LE(num_others, 1U);  // A ray at the very edge of a leaf may pass it.
+}
+
+TEST(TraceScene, BehindFoliageNoRayPassesBetweenTriangles) {
+  const TraceDevice device;
+  const auto leaves = std::make_shared<TraceModel>(device, Leaves(true));
+  const auto wall = std::make_shared<TraceModel>(
+      device, Model{.name = "wall", .parts = {{MakeWall(kWall_m, 9.0F), 1, 1}}});
+  const TraceScene scene(device, {{leaves, {Eigen::Affine3d::Identity()}, 1},
+                                  {wall, {Eigen::Affine3d::Identity()}, 2}});
+  // Along both diagonals, one of which its triangles share.
+  for (const float slope : {-1.0F, 1.0F}) {
+    RayTile rays = MakeFan(kAllSurfaces);
+    for (std::size_t i = 0; i < kTileSize; ++i) {
+      const Eigen::Vector3f target(kWall_m, rays.direction_y[i] * kWall_m,
+                                   slope * rays.direction_y[i] * kWall_m);
+      const Eigen::Vector3f direction = target.normalized();
+      rays.direction_x[i] = direction.x();
+      rays.direction_y[i] = direction.y();
+      rays.direction_z[i] = direction.z();
+    }
+    scene.Cast(rays);
+    EXPECT_EQ(std::count(rays.surface, rays.surface + kTileSize, 0U), 0);
+    EXPECT_GT(std::count(rays.surface, rays.surface + kTileSize, 1U), 0);
+    EXPECT_GT(std::count(rays.surface, rays.surface + kTileSize, 2U), 0);
+  }
 }
 
 }  // namespace
