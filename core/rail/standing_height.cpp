@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/rail/land/land.h"
 #include "core/rail/track/cross_section.h"
@@ -10,9 +11,11 @@
 namespace railcast {
 namespace {
 
-double SurfaceHeight_m(const ChunkContext& context, double s_m, double d_m) {
-  const CrossSection section(context, s_m);
-  Vector3 surface = GroundPoint(context, s_m, d_m);
+double SurfaceHeight_m(const ChunkContext& context,
+                       const CrossSection& section,
+                       double s_m,
+                       double d_m) {
+  Vector3 surface = GroundPoint(context, section, s_m, d_m);
   const double ballast_m = section.BallastHeight_m(d_m);
   if (std::isfinite(ballast_m)) {
     const Vector3 ballast = section.PointAt(d_m, ballast_m);
@@ -26,14 +29,20 @@ double SurfaceHeight_m(const ChunkContext& context, double s_m, double d_m) {
 double StandingHeight_m(const ChunkContext& context, const StandingPlace& place) {
   const Eigen::Rotation2Dd turn(place.heading_rad);
   double lowest_m = std::numeric_limits<double>::infinity();
+  // Posing a person consists of little else, and along the line two corners share a section.
+  std::optional<CrossSection> section;
+  double section_s_m = 0.0;
   const auto stand_at = [&](const Eigen::Vector2d& point_m) {
     const Eigen::Vector2d offset_m = turn * point_m;
-    lowest_m = std::min(
-        lowest_m, SurfaceHeight_m(context, place.s_m + offset_m.x(), place.d_m + offset_m.y()));
+    const double s_m = place.s_m + offset_m.x();
+    if (!section || s_m != section_s_m) section.emplace(context, s_m);
+    section_s_m = s_m;
+    lowest_m =
+        std::min(lowest_m, SurfaceHeight_m(context, *section, s_m, place.d_m + offset_m.y()));
   };
   stand_at(place.area_m.center());
-  for (const auto corner : {Eigen::AlignedBox2d::BottomLeft, Eigen::AlignedBox2d::BottomRight,
-                            Eigen::AlignedBox2d::TopLeft, Eigen::AlignedBox2d::TopRight}) {
+  for (const auto corner : {Eigen::AlignedBox2d::BottomLeft, Eigen::AlignedBox2d::TopLeft,
+                            Eigen::AlignedBox2d::BottomRight, Eigen::AlignedBox2d::TopRight}) {
     stand_at(place.area_m.corner(corner));
   }
   return lowest_m;

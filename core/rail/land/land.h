@@ -2,6 +2,7 @@
 
 #include "core/rail/chunk_context.h"
 #include "core/rail/land/plant_models.h"
+#include "core/rail/track/cross_section.h"
 #include "railcast/scene.h"
 
 namespace railcast {
@@ -19,6 +20,11 @@ void AddTerrain(const ChunkContext& context, Chunk& chunk);
 /// The point of the ground at (s, d) in the chunk's frame: on the surface that AddTerrain samples
 /// at its grid points.
 [[nodiscard]] Vector3 GroundPoint(const ChunkContext& context, double s_m, double d_m);
+/// As above, with the cross-section at `s_m`.
+[[nodiscard]] Vector3 GroundPoint(const ChunkContext& context,
+                                  const CrossSection& section,
+                                  double s_m,
+                                  double d_m);
 
 /// Adds the trees and the grass of a chunk, standing on the ground of AddTerrain.
 ///

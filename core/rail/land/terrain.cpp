@@ -108,7 +108,14 @@ Vector3 PointOf(const CrossSection& section, const Relief& relief, double s_m, d
 }  // namespace
 
 Vector3 GroundPoint(const ChunkContext& context, double s_m, double d_m) {
-  return PointOf(CrossSection(context, s_m), Relief(context), s_m, d_m);
+  return GroundPoint(context, CrossSection(context, s_m), s_m, d_m);
+}
+
+Vector3 GroundPoint(const ChunkContext& context,
+                    const CrossSection& section,
+                    double s_m,
+                    double d_m) {
+  return PointOf(section, Relief(context), s_m, d_m);
 }
 
 void AddTerrain(const ChunkContext& context, Chunk& chunk) {

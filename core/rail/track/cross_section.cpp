@@ -42,9 +42,11 @@ CrossSection::CrossSection(const ChunkContext& context, double s_m)
   const Transform world_from_axis =
       MakeTransform(RotationFromYawPitchRoll(axis.heading_rad, 0.0, 0.0), axis.position_m);
   chunk_from_axis_ = context.chunk_from_world * world_from_axis;
+  const Transform axis_from_world = world_from_axis.inverse();
+  const Vector3 left(-std::sin(axis.heading_rad), std::cos(axis.heading_rad), 0.0);
   for (const TrackSpec& track : context.spec.tracks) {
-    const Transform world_from_track = context.alignment.WorldFromTrack(s_m, track.offset_m);
-    const Vector3 middle_m = world_from_axis.inverse() * world_from_track.translation();
+    // As Alignment::WorldFromTrack() has it, which would evaluate the axis once more.
+    const Vector3 middle_m = axis_from_world * (axis.position_m + track.offset_m * left);
     const double end_s_m = TrackEnd_m(track, context.alignment);
     tracks_.push_back({.d_m = middle_m.y(),
                        .height_m = middle_m.z(),
