@@ -88,7 +88,7 @@ const BeamTree& TraceModel::Handle::beam_tree() const {
   return beam_tree_;
 }
 
-TraceModel::TraceModel(const TraceDevice& device, const Model& model)
+TraceModel::TraceModel(const TraceDevice& device, const Model& model, bool is_passable)
     : handle_(std::make_unique<Handle>()) {
   handle_->device = device.handle();
   handle_->name = model.name;
@@ -98,7 +98,9 @@ TraceModel::TraceModel(const TraceDevice& device, const Model& model)
   }
   RTCDevice const embree = handle_->device->device;
   const auto doing = [&] { return handle_->Doing(); };
-  BuildScene(embree, model.is_foliage ? kOpen : kWatertight, handle_->scene, doing, [&] {
+  RTCSceneFlags flags = model.is_foliage ? kOpen : kWatertight;
+  if (is_passable) flags = flags | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
+  BuildScene(embree, flags, handle_->scene, doing, [&] {
     for (std::size_t i = 0; i < model.parts.size(); ++i) {
       AttachPart(embree, handle_->scene, model.parts[i], static_cast<unsigned>(i));
     }

@@ -290,7 +290,55 @@ void TracePackets(RTCScene scene,
   }
 }
 
+/// Collects what a packet hits.
+struct CollectingContext {
+  RTCIntersectContext embree;  // First, since Embree passes on the pointer to it.
+  const float* range_m;        ///< Of the packet's rays.
+  std::vector<PlacementHits>* hits;
+};
+
+void Collect(std::uint32_t placement, std::uint32_t lane_bit, std::vector<PlacementHits>& hits) {
+  // Mostly, further triangles of the same placement.
+  const auto found = std::find_if(hits.rbegin(), hits.rend(), [&](const PlacementHits& each) {
+    return each.placement == placement;
+  });
+  if (found != hits.rend()) {
+    found->lanes |= lane_bit;
+  } else {
+    hits.push_back({placement, lane_bit});
+  }
+}
+
+// Takes note of hits and rejects them, so that the rays go on.
+void CollectAndGoOn(const RTCFilterFunctionNArguments* args) {
+  const auto& context = *reinterpret_cast<const CollectingContext*>(args->context);
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] == 0) continue;
+    args->valid[i] = 0;
+    const unsigned lane = RTCRayN_id(args->ray, args->N, i);
+    if (!(RTCRayN_tfar(args->ray, args->N, i) < context.range_m[lane])) continue;
+    Collect(RTCHitN_instID(args->hit, args->N, i, 0), 1U << lane, *context.hits);
+  }
+}
+
 }  // namespace
+
+void TraceScene::CastThrough(const RayTile& tile,
+                             std::size_t first,
+                             std::vector<PlacementHits>& hits) const {
+  hits.clear();
+  if (parts_->instances.empty()) return;
+  CollectingContext context{{}, tile.range_m + first, &hits};
+  rtcInitIntersectContext(&context.embree);
+  context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  context.embree.filter = &CollectAndGoOn;
+  alignas(64) int valid[kPacketSize];
+  std::fill_n(valid, kPacketSize, -1);
+  alignas(64) RTCRayHit16 packet;
+  LoadRays(tile, first, packet);
+  for (unsigned lane = 0; lane < kPacketSize; ++lane) packet.ray.id[lane] = lane;
+  rtcIntersect16(valid, parts_->scene, &context.embree, &packet);
+}
 
 void TraceScene::Cast(RayTile& tile) const {
   if (parts_->instances.empty()) return;

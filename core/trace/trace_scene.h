@@ -35,7 +35,8 @@ class TraceDevice {
 /// becomes geometry i.
 class TraceModel {
  public:
-  TraceModel(const TraceDevice& device, const Model& model);
+  /// @param is_passable Whether TraceScene::CastThrough() may be used on it.
+  TraceModel(const TraceDevice& device, const Model& model, bool is_passable = false);
   ~TraceModel();
   TraceModel(const TraceModel&) = delete;
   TraceModel& operator=(const TraceModel&) = delete;
@@ -52,6 +53,12 @@ struct TracePlacement {
   std::shared_ptr<const TraceModel> model;
   std::vector<Eigen::Affine3d> window_from_model;  ///< One (stationary), or two or more (moving).
   std::uint32_t first_surface{};                   ///< Surface index of the model's part 0.
+};
+
+/// A placement that rays of a packet hit.
+struct PlacementHits {
+  std::uint32_t placement{};  ///< Its index.
+  std::uint32_t lanes{};      ///< Bit i: the packet's ray i hits it.
 };
 
 /// Placed models, prepared for tracing in packets of 16.
@@ -71,6 +78,11 @@ class TraceScene final : public RayCaster {
   void CastBeamWith(const BeamKernel& kernel, BeamRays& beam) const;
   /// Builds what the first CastBeam() would build.
   void PrepareBeams() const;
+
+  /// Finds all placements that rays of the packet beginning at `first` hit within range, whatever
+  /// stands before them. Replaces `hits`, whose order says nothing.
+  /// @pre All models are passable.
+  void CastThrough(const RayTile& tile, std::size_t first, std::vector<PlacementHits>& hits) const;
 
   /// Lowers `range_m` as Cast() does but leaves the other fields unchanged. This is the raw trace,
   /// the baseline of all speed figures, and it is sufficient for testing whether a ray hits.
