@@ -12,6 +12,7 @@
 #include "core/camera/daylight.h"
 #include "core/camera/lens.h"
 #include "core/camera/material_colors.h"
+#include "core/simulate/frame_scene.h"
 #include "railcast/ray_caster.h"
 
 namespace railcast {
@@ -206,14 +207,18 @@ Camera::Camera(const CameraSpec& spec,
 }
 
 void Camera::Render(Simulator& simulator, std::uint32_t frame_index, CameraImage& image) const {
+  Render(simulator, *simulator.Begin(frame_index), image);
+}
+
+void Camera::Render(Simulator& simulator, BegunFrame& begun, CameraImage& image) const {
   const auto doing = [&] {
-    return "rendering the image of frame " + std::to_string(frame_index) + " (" +
+    return "rendering the image of frame " + std::to_string(begun.index) + " (" +
            std::to_string(spec_.width_px) + " x " + std::to_string(spec_.height_px) + " pixels)";
   };
   WithinMemory(doing, [&] {
     ResizeImage(spec_, image);
     const DetectorSpec& detector = simulator.spec().detector;
-    simulator.VisitScene(frame_index, [&](const SceneOfFrame& scene) {
+    simulator.VisitScene(begun, [&](const SceneOfFrame& scene) {
       const Transform window_from_camera = scene.window_from_vehicle * vehicle_from_camera_;
       image.stamp_ns = scene.stamp_ns;
       image.world_from_camera = scene.window_from_world.inverse() * window_from_camera;

@@ -1,5 +1,8 @@
 #include "core/simulate/frame_scene.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <iterator>
 #include <map>
@@ -58,13 +61,13 @@ void FrameScenes::UseWorld(std::shared_ptr<const World> world) {
 
   std::vector<Object> objects;
   std::vector<Surface> more_surfaces;
-  std::vector<std::size_t> standing;
+  std::map<std::size_t, std::size_t> standing;
   for (const SceneObject& object : world->objects()) {
     const auto found = known.find(object.instance);
     if (found != known.end() && first[found->second].model == object.model) {
       const std::size_t i = found->second;
       const bool stands = !object.moves && !first[i].moves;
-      if (stands) standing.push_back(i);
+      if (stands) standing.emplace(i, objects.size());
       objects.push_back({windows_.object(i), windows_.object_surface(i), true, stands});
       continue;
     }
@@ -73,7 +76,10 @@ void FrameScenes::UseWorld(std::shared_ptr<const World> world) {
     const std::vector<Surface>& surfaces = objects.back().stored.surfaces;
     more_surfaces.insert(more_surfaces.end(), surfaces.begin(), surfaces.end());
   }
-  windows_.UseStanding(std::move(standing));
+  std::vector<std::size_t> stored;
+  for (const auto& [i, object] : standing) stored.push_back(i);
+  windows_.UseStanding(std::move(stored));
+  standing_ = std::move(standing);
   objects_ = std::move(objects);
   more_surfaces_ = std::move(more_surfaces);
   world_ = std::move(world);
@@ -85,21 +91,33 @@ void FrameScenes::UseWind(const Wind& wind) {
   windows_.UseWind(wind.blows());
 }
 
-FrameScene FrameScenes::At(std::uint32_t index, std::int64_t stamp_ns) {
+BegunFrame FrameScenes::Begin(std::uint32_t index, std::int64_t stamp_ns) {
   const int home_chunk = world_->HomeChunk(stamp_ns);
-  std::shared_ptr<const Window> window = windows_.Get(home_chunk);
+  BegunFrame begun{index, stamp_ns, windows_.Get(home_chunk), nullptr};
   PrepareNextWindow(stamp_ns, home_chunk);
-  FrameScene scene;
-  std::vector<TracePlacement> moving = MovingObjects(stamp_ns, *window);
+  return begun;
+}
+
+const FrameScene& FrameScenes::SceneOf(BegunFrame& begun) const {
+  if (begun.scene == nullptr) begun.scene = MakeScene(begun);
+  return *begun.scene;
+}
+
+std::unique_ptr<const FrameScene> FrameScenes::MakeScene(const BegunFrame& begun) const {
+  const std::shared_ptr<const Window>& window = begun.window;
+  const std::int64_t stamp_ns = begun.stamp_ns;
+  auto made = std::make_unique<FrameScene>();
+  FrameScene& scene = *made;
+  std::vector<TracePlacement> moving = MovingObjects(stamp_ns, *window, scene.moving_objects);
   if (wind_.blows()) {
     SwayedThings swayed = Swayed(stamp_ns, *window);
     std::ranges::move(swayed.placements, std::back_inserter(moving));
     scene.swayed_wires = std::move(swayed.wires);
   }
   if (!moving.empty()) {
-    scene.moving = std::make_unique<const TraceScene>(store_->device(), moving);
+    scene.moving = std::make_shared<const TraceScene>(store_->device(), moving);
   }
-  scene.index = index;
+  scene.index = begun.index;
   scene.stamp_ns = stamp_ns;
   scene.poses = PosesIn(window->window_from_world, stamp_ns);
   if (!more_surfaces_.empty()) {
@@ -107,8 +125,8 @@ FrameScene FrameScenes::At(std::uint32_t index, std::int64_t stamp_ns) {
     scene.more_surfaces.insert(scene.more_surfaces.end(), more_surfaces_.begin(),
                                more_surfaces_.end());
   }
-  scene.window = std::move(window);
-  return scene;
+  scene.window = window;
+  return made;
 }
 
 FramePoses FrameScenes::PosesIn(const Transform& window_from_world, std::int64_t stamp_ns) const {
@@ -146,14 +164,24 @@ bool FrameScenes::IsInReach(const TracePlacement& placement,
 }
 
 std::vector<TracePlacement> FrameScenes::MovingObjects(std::int64_t stamp_ns,
-                                                       const Window& window) const {
-  std::vector<TracePlacement> placements;
+                                                       const Window& window,
+                                                       std::vector<std::size_t>& objects) const {
+  std::vector<TracePlacement> placements(objects_.size());
   const Vector3 sensor_window_m = SensorInWindow(stamp_ns, window);
-  for (std::size_t i = 0; i < objects_.size(); ++i) {
-    if (objects_[i].is_in_windows) continue;
-    TracePlacement placement = Place(i, stamp_ns, window);
-    if (IsInReach(placement, i, sensor_window_m)) placements.push_back(std::move(placement));
+  constexpr std::size_t kGrain = 16;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, objects_.size(), kGrain),
+                    [&](const tbb::blocked_range<std::size_t>& some) {
+                      for (std::size_t i = some.begin(); i < some.end(); ++i) {
+                        if (objects_[i].is_in_windows) continue;
+                        TracePlacement placement = Place(i, stamp_ns, window);
+                        if (!IsInReach(placement, i, sensor_window_m)) continue;
+                        placements[i] = std::move(placement);
+                      }
+                    });
+  for (std::size_t i = 0; i < placements.size(); ++i) {
+    if (placements[i].model != nullptr) objects.push_back(i);
   }
+  std::erase_if(placements, [](const TracePlacement& each) { return each.model == nullptr; });
   return placements;
 }
 
@@ -167,22 +195,24 @@ SwayedThings FrameScenes::Swayed(std::int64_t stamp_ns, const Window& window) co
                .reach_m = spec_.range_max_m + kSpeedMax_mps * duration_s});
 }
 
-std::vector<LoneObject> FrameScenes::LoneObjects(const FrameScene& frame) const {
-  std::vector<LoneObject> lone;
-  const Vector3 sensor_window_m = SensorInWindow(frame.stamp_ns, *frame.window);
-  for (std::size_t i = 0; i < world_->objects().size(); ++i) {
-    TracePlacement placement = Place(i, frame.stamp_ns, *frame.window);
-    if (!IsInReach(placement, i, sensor_window_m)) continue;
-    const auto& steps = placement.window_from_model;
-    const Vector3 begin_m = steps.front().translation();
-    const Vector3 end_m = steps.back().translation();
-    lone.push_back({.object = i,
-                    .scene = std::make_unique<TraceScene>(store_->device(), std::vector{placement}),
-                    .center_window_m = (0.5 * (begin_m + end_m)).cast<float>(),
-                    .radius_m = static_cast<float>(objects_[i].stored.radius_m +
-                                                   0.5 * (end_m - begin_m).norm())});
+std::vector<LoneObjects> FrameScenes::ObjectsAlone(const FrameScene& frame) const {
+  std::vector<LoneObjects> alone;
+  const Window& window = *frame.window;
+  if (!window.standing.empty()) {
+    alone.push_back({window.StandingAlone(store_->device()), {}});
+    for (const std::size_t stored : window.standing) {
+      alone.back().objects.push_back(standing_.at(stored));
+    }
   }
-  return lone;
+  if (frame.moving_objects.empty()) return alone;
+  alone.push_back({frame.moving, frame.moving_objects});
+  if (wind_.blows()) {
+    // Rays would go through all leaves that sway.
+    std::vector<std::size_t> objects;
+    alone.back().scene = std::make_shared<const TraceScene>(
+        store_->device(), MovingObjects(frame.stamp_ns, window, objects));
+  }
+  return alone;
 }
 
 void FrameScenes::PrepareNextWindow(std::int64_t stamp_ns, int home_chunk) {

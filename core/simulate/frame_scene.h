@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -21,7 +22,9 @@ struct FrameScene final : public RayCaster {
   std::int64_t stamp_ns{};
   std::shared_ptr<const Window> window;  ///< Stationary geometry.
   /// Objects that move or were added later, and what the wind moves; null if none is within reach.
-  std::unique_ptr<const TraceScene> moving;
+  std::shared_ptr<const TraceScene> moving;
+  /// The objects among them, by index into World::objects(): the first placements of `moving`.
+  std::vector<std::size_t> moving_objects;
   FramePoses poses;  ///< Poses of the sensor in the window frame.
   /// Surfaces of the window and of objects that windows do not know; empty if there are no such
   /// objects.
@@ -39,6 +42,14 @@ struct FrameScene final : public RayCaster {
   void Cast(RayTile& rays) const override;
   void CastBeam(BeamRays& beam) const override;
   void CastRanges(RayTile& rays) const;
+};
+
+/// A frame whose window is there.
+struct BegunFrame {
+  std::uint32_t index{};
+  std::int64_t stamp_ns{};
+  std::shared_ptr<const Window> window;
+  std::unique_ptr<const FrameScene> scene;  ///< Null until FrameScenes::SceneOf().
 };
 
 /// Properties that all frames of a run share.
@@ -71,15 +82,17 @@ class FrameScenes {
   /// Has windows prepared for casting beams.
   void UseBeams() { store_->UseBeams(); }
 
-  /// Returns the scene of a frame. Waits for its window if necessary, and starts preparing the
-  /// next.
-  [[nodiscard]] FrameScene At(std::uint32_t index, std::int64_t stamp_ns);
+  /// Begins a frame. Waits for its window if necessary, and starts preparing the next.
+  [[nodiscard]] BegunFrame Begin(std::uint32_t index, std::int64_t stamp_ns);
+  /// Returns the scene of a frame, which is made on the first call. Scenes of different frames may
+  /// be made at once.
+  const FrameScene& SceneOf(BegunFrame& begun) const;
 
   /// The sensor's poses during a frame, relative to any window frame.
   [[nodiscard]] FramePoses PosesIn(const Transform& window_from_world, std::int64_t stamp_ns) const;
 
-  /// The objects that are within range of the frame's sensor, each in a scene of its own.
-  [[nodiscard]] std::vector<LoneObject> LoneObjects(const FrameScene& frame) const;
+  /// The objects that are within range of the frame's sensor, without anything else.
+  [[nodiscard]] std::vector<LoneObjects> ObjectsAlone(const FrameScene& frame) const;
 
   [[nodiscard]] const World& world() const { return *world_; }
   [[nodiscard]] const std::shared_ptr<const World>& shared_world() const { return world_; }
@@ -98,9 +111,12 @@ class FrameScenes {
   [[nodiscard]] Vector3 SensorInWindow(std::int64_t stamp_ns, const Window& window) const {
     return (window.window_from_world * WorldFromSensor(stamp_ns)).translation();
   }
+  /// @param objects Receives the index of each placement's object.
   [[nodiscard]] std::vector<TracePlacement> MovingObjects(std::int64_t stamp_ns,
-                                                          const Window& window) const;
+                                                          const Window& window,
+                                                          std::vector<std::size_t>& objects) const;
   [[nodiscard]] SwayedThings Swayed(std::int64_t stamp_ns, const Window& window) const;
+  [[nodiscard]] std::unique_ptr<const FrameScene> MakeScene(const BegunFrame& begun) const;
   void PrepareNextWindow(std::int64_t stamp_ns, int home_chunk);
 
   /// An object of the world in use.
@@ -122,7 +138,9 @@ class FrameScenes {
   WindowSource windows_;
   Wind wind_;
   std::shared_ptr<const World> world_;
-  std::vector<Object> objects_;         // In the order of world_->objects().
+  std::vector<Object> objects_;  // In the order of world_->objects().
+  /// Index in world_->objects() of each object in the windows, by its index in the store's world.
+  std::map<std::size_t, std::size_t> standing_;
   std::vector<Surface> more_surfaces_;  // Surfaces of the objects that windows do not know.
 };
 

@@ -1,28 +1,29 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "core/trace/trace_scene.h"
 #include "railcast/ray_caster.h"
-#include "railcast/transform.h"
 
 namespace railcast {
 
-/// A single object at its place in a frame, without anything else.
-struct LoneObject {
-  std::size_t object{};
-  std::unique_ptr<const TraceScene> scene;
-  /// Centre of a sphere that contains the object throughout the frame.
-  Eigen::Vector3f center_window_m;
-  float radius_m{};
+/// Objects of a frame in a scene of their own.
+struct LoneObjects {
+  std::shared_ptr<const TraceScene> scene;
+  /// Indices into World::objects() of the first placements of the scene. Further placements are
+  /// something else.
+  std::vector<std::size_t> objects;
 
-  /// Returns how many of the first `num_firings` rays hit the object within range. Overwrites the
-  /// ranges of the rays.
-  [[nodiscard]] std::uint32_t CountHits(RayTile& rays,
-                                        std::size_t num_firings,
-                                        float range_max_m) const;
+  /// For every object, adds how many of the first `num_firings` rays hit it within range, whatever
+  /// stands before it. Thread-safe.
+  /// @param counts By index into World::objects().
+  void CountHits(const RayTile& rays,
+                 std::size_t num_firings,
+                 std::vector<std::atomic<std::uint32_t>>& counts) const;
 };
 
 }  // namespace railcast

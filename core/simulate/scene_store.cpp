@@ -55,17 +55,19 @@ std::shared_ptr<const SceneStore::BuiltChunk> SceneStore::GetChunk(int chunk, bo
   return built;
 }
 
-std::shared_ptr<const TraceModel> SceneStore::GetModel(const std::shared_ptr<const Model>& model) {
+std::shared_ptr<const TraceModel> SceneStore::GetModel(const std::shared_ptr<const Model>& model,
+                                                       bool is_object) {
+  const auto key = std::pair(model.get(), is_object);
   {
     const std::lock_guard lock(models_mutex_);
-    const auto found = models_.find(model.get());
+    const auto found = models_.find(key);
     if (found != models_.end()) return found->second.second;
   }
   // Built without holding the lock, so that other models are not delayed. Two threads that need the
   // same model at the same time may both build it.
-  auto built = std::make_shared<const TraceModel>(device_, *model);
+  auto built = std::make_shared<const TraceModel>(device_, *model, is_object);
   const std::lock_guard lock(models_mutex_);
-  return models_.try_emplace(model.get(), model, std::move(built)).first->second.second;
+  return models_.try_emplace(key, model, std::move(built)).first->second.second;
 }
 
 void SceneStore::ForgetUnusedModels() {
@@ -74,7 +76,7 @@ void SceneStore::ForgetUnusedModels() {
 }
 
 SceneStore::StoredObject SceneStore::MakeObject(const SceneObject& object) {
-  StoredObject stored{GetModel(object.model), {}, RadiusAboutOrigin(*object.model)};
+  StoredObject stored{GetModel(object.model, true), {}, RadiusAboutOrigin(*object.model)};
   for (const Part& part : object.model->parts) {
     stored.surfaces.push_back(MakeSurface(part, object.instance, object.is_ego));
   }

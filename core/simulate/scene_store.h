@@ -33,8 +33,9 @@ class SceneStore {
   /// Returns a chunk; builds it, or waits for another thread that is building it, if necessary.
   /// @param has_tubes Whether `ground` holds the wires as tubes.
   [[nodiscard]] std::shared_ptr<const BuiltChunk> GetChunk(int chunk, bool has_tubes = true);
+  /// @param is_object Whether it is made for TraceScene::CastThrough().
   [[nodiscard]] std::shared_ptr<const TraceModel> GetModel(
-      const std::shared_ptr<const Model>& model);
+      const std::shared_ptr<const Model>& model, bool is_object = false);
   /// UnitTube(), of which wires consist that move.
   [[nodiscard]] std::shared_ptr<const TraceModel> GetUnitTube() { return GetModel(unit_tube_); }
   /// Drops the models that no world and no chunk uses any more.
@@ -66,7 +67,9 @@ class SceneStore {
   std::mutex chunks_mutex_;  // Held while a chunk is built, so that a second caller waits for it.
   std::map<std::pair<int, bool>, std::weak_ptr<const BuiltChunk>> chunks_;
   std::mutex models_mutex_;
-  std::map<const Model*, std::pair<std::shared_ptr<const Model>, std::shared_ptr<const TraceModel>>>
+  // By model and whether it is an object's.
+  std::map<std::pair<const Model*, bool>,
+           std::pair<std::shared_ptr<const Model>, std::shared_ptr<const TraceModel>>>
       models_;
 };
 

@@ -114,8 +114,12 @@ struct Simulator::Parts {
                                : 0.0F};
   }
   [[nodiscard]] float range_max_m() const { return static_cast<float>(spec.detector.range_max_m); }
-  [[nodiscard]] FrameScene SceneOf(std::uint32_t frame_index) {
-    return scenes.At(frame_index, pattern.StampNs(frame_index));
+  [[nodiscard]] BegunFrame Begin(std::uint32_t frame_index) {
+    return scenes.Begin(frame_index, pattern.StampNs(frame_index));
+  }
+  [[nodiscard]] const FrameScene& SceneOf(BegunFrame& begun) {
+    arena.execute([&] { static_cast<void>(scenes.SceneOf(begun)); });
+    return *begun.scene;
   }
   /// For WithinMemory: "making frame 3 (28800 firings)".
   [[nodiscard]] auto Making(std::uint32_t frame_index) const {
@@ -129,7 +133,7 @@ struct Simulator::Parts {
   void ForAllEchoes(const CastFrame& cast, const EchoUse& use);
   [[nodiscard]] std::vector<HaloSource> FindHaloSources(const CastFrame& cast);
   void Scan(const CastFrame& cast, Frame& frame);
-  [[nodiscard]] std::vector<std::uint32_t> FiringsOnObjectAlone(std::uint32_t frame_index);
+  [[nodiscard]] std::vector<std::uint32_t> FiringsOnObjectAlone(const FrameScene& scene);
   /// Calls `work(tile)` for every tile, on the run's threads.
   template <typename Job>
   void ForEachTile(const Job& job) {
@@ -195,6 +199,10 @@ void Simulator::UseThreads(int num_threads) {
       static_cast<std::size_t>(std::max(num_workers, tbb::info::default_concurrency())));
   parts_->arena.terminate();
   parts_->arena.initialize(num_workers);
+}
+
+std::size_t Simulator::num_threads() const {
+  return static_cast<std::size_t>(parts_->arena.max_concurrency());
 }
 
 void Simulator::Parts::UseSpec() {
@@ -285,11 +293,20 @@ void Simulator::Parts::Scan(const CastFrame& cast, Frame& frame) {
   }
 }
 
-void Simulator::Scan(std::uint32_t frame_index, Frame& frame) {
-  WithinMemory(parts_->Making(frame_index), [&] {
-    const FrameScene scene = parts_->SceneOf(frame_index);
+std::shared_ptr<BegunFrame> Simulator::Begin(std::uint32_t frame_index) {
+  return WithinMemory(parts_->Making(frame_index),
+                      [&] { return std::make_shared<BegunFrame>(parts_->Begin(frame_index)); });
+}
+
+void Simulator::Scan(BegunFrame& begun, Frame& frame) {
+  WithinMemory(parts_->Making(begun.index), [&] {
+    const FrameScene& scene = parts_->SceneOf(begun);
     parts_->Scan(CastOf(scene, world(), spec().detector, *parts_->tracer), frame);
   });
+}
+
+void Simulator::Scan(std::uint32_t frame_index, Frame& frame) {
+  Scan(*Begin(frame_index), frame);
 }
 
 void Simulator::Scan(std::uint32_t frame_index, const HostScene& host, Frame& frame) {
@@ -310,7 +327,12 @@ void Simulator::Scan(std::uint32_t frame_index, const HostScene& host, Frame& fr
 
 void Simulator::VisitScene(std::uint32_t frame_index,
                            const std::function<void(const SceneOfFrame&)>& visit) {
-  const FrameScene scene = parts_->SceneOf(frame_index);
+  VisitScene(*Begin(frame_index), visit);
+}
+
+void Simulator::VisitScene(BegunFrame& begun,
+                           const std::function<void(const SceneOfFrame&)>& visit) {
+  const FrameScene& scene = parts_->SceneOf(begun);
   const Transform& window_from_world = scene.window->window_from_world;
   const SceneOfFrame view{
       .caster = scene,
@@ -318,12 +340,17 @@ void Simulator::VisitScene(std::uint32_t frame_index,
       .stamp_ns = scene.stamp_ns,
       .window_from_world = window_from_world,
       .window_from_vehicle = window_from_world * world().WorldFromVehicle(scene.stamp_ns)};
-  parts_->arena.execute([&] { visit(view); });
+  Execute([&] { visit(view); });
+}
+
+void Simulator::Execute(const std::function<void()>& work) {
+  parts_->arena.execute([&] { work(); });
 }
 
 FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) {
   Parts& parts = *parts_;
-  const FrameScene scene = parts.SceneOf(frame_index);
+  BegunFrame begun = parts.Begin(frame_index);
+  const FrameScene& scene = parts.SceneOf(begun);
   const CastFrame cast = CastOf(scene, world(), spec().detector, *parts.tracer);
   const FiringTiles::Place place = parts.tiles.PlaceOf(firing);
   const std::size_t tile = place.tile;
@@ -375,7 +402,9 @@ FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) 
 }
 
 std::function<void()> Simulator::MakeRawTrace(std::uint32_t frame_index) {
-  auto scene = std::make_shared<const FrameScene>(parts_->SceneOf(frame_index));
+  BegunFrame begun = parts_->Begin(frame_index);
+  static_cast<void>(parts_->SceneOf(begun));
+  const std::shared_ptr<const FrameScene> scene = std::move(begun.scene);
   auto aimed = std::make_shared<std::vector<RayTile>>(parts_->tiles.num_tiles());
   for (std::size_t tile = 0; tile < aimed->size(); ++tile) {
     parts_->tiles.Aim(tile, scene->poses, parts_->range_max_m(), (*aimed)[tile]);
@@ -389,23 +418,26 @@ std::function<void()> Simulator::MakeRawTrace(std::uint32_t frame_index) {
   };
 }
 
-std::vector<std::uint32_t> Simulator::Parts::FiringsOnObjectAlone(std::uint32_t frame_index) {
-  const FrameScene scene = SceneOf(frame_index);
-  const std::vector<LoneObject> lone_objects = scenes.LoneObjects(scene);
+std::vector<std::uint32_t> Simulator::Parts::FiringsOnObjectAlone(const FrameScene& scene) {
+  const std::vector<LoneObjects> alone = scenes.ObjectsAlone(scene);
   std::vector<std::atomic<std::uint32_t>> counts(scenes.world().objects().size());
   ForEachTile([&](std::size_t tile) {
     RayTile rays;
     tiles.Aim(tile, scene.poses, range_max_m(), rays);
-    for (const LoneObject& lone : lone_objects) {
-      counts[lone.object] += lone.CountHits(rays, tiles.num_firings(tile), range_max_m());
+    for (const LoneObjects& objects : alone) {
+      objects.CountHits(rays, tiles.num_firings(tile), counts);
     }
   });
   return {counts.begin(), counts.end()};
 }
 
+std::vector<std::uint32_t> Simulator::FiringsOnObjectAlone(BegunFrame& begun) {
+  return WithinMemory(parts_->Making(begun.index),
+                      [&] { return parts_->FiringsOnObjectAlone(parts_->SceneOf(begun)); });
+}
+
 std::vector<std::uint32_t> Simulator::FiringsOnObjectAlone(std::uint32_t frame_index) {
-  return WithinMemory(parts_->Making(frame_index),
-                      [&] { return parts_->FiringsOnObjectAlone(frame_index); });
+  return FiringsOnObjectAlone(*Begin(frame_index));
 }
 
 }  // namespace railcast

@@ -51,6 +51,13 @@ void AddSwayingWires(const SceneStore::BuiltChunk& chunk,
 
 }  // namespace
 
+std::shared_ptr<const TraceScene> Window::StandingAlone(const TraceDevice& device) const {
+  std::call_once(standing_once_, [&] {
+    standing_alone_ = std::make_shared<const TraceScene>(device, standing_placements);
+  });
+  return standing_alone_;
+}
+
 WindowSource::WindowSource(std::shared_ptr<SceneStore> store, double range_max_m)
     : store_(std::move(store)), range_max_m_(range_max_m) {
   fixed_surfaces_.emplace_back();
@@ -96,8 +103,7 @@ void WindowSource::UseProgress(WindowProgress progress) {
 
 void WindowSource::AddObjects(int home_chunk,
                               const std::vector<std::size_t>& standing,
-                              Window& window,
-                              std::vector<TracePlacement>& placements) const {
+                              Window& window) const {
   const World& world = *store_->world();
   const Vector3 home_world = world.WorldFromChunk(home_chunk).translation();
   for (const std::size_t i : standing) {
@@ -106,9 +112,10 @@ void WindowSource::AddObjects(int home_chunk,
     if (box.isEmpty()) continue;
     const double distance_m = (world_from_object * box.center() - home_world).norm();
     if (distance_m > range_max_m_ + kHomeRadius_m + 0.5 * box.diagonal().norm()) continue;
-    placements.push_back({objects_[i].model,
-                          {ToAffine(window.window_from_world * world_from_object)},
-                          object_surfaces_[i]});
+    window.standing.push_back(i);
+    window.standing_placements.push_back({objects_[i].model,
+                                          {ToAffine(window.window_from_world * world_from_object)},
+                                          object_surfaces_[i]});
   }
 }
 
@@ -167,7 +174,8 @@ std::shared_ptr<const Window> WindowSource::Build(int home_chunk, const Purpose&
   window->window_from_world = store_->world()->WorldFromChunk(home_chunk).inverse();
   window->surfaces = fixed_surfaces_;
   std::vector<TracePlacement> placements;
-  AddObjects(home_chunk, *purpose.standing, *window, placements);
+  AddObjects(home_chunk, *purpose.standing, *window);
+  placements = window->standing_placements;
   Chunks chunks;
   const std::vector<int> reach = store_->world()->ChunksInReach(home_chunk, range_max_m_);
   // Building the scene of all chunks counts as a step, too.

@@ -28,6 +28,17 @@ struct Window {
   std::unique_ptr<const TraceScene> scene;
   WireSet wires;  ///< The wires that `scene` also contains as tubes.
   SwayingThings swaying;
+  /// The stationary objects: indices into the objects of the store's world, and their places.
+  std::vector<std::size_t> standing;
+  std::vector<TracePlacement> standing_placements;
+
+  /// The stationary objects without anything else, in the order of `standing`; made on the first
+  /// call. Thread-safe.
+  [[nodiscard]] std::shared_ptr<const TraceScene> StandingAlone(const TraceDevice& device) const;
+
+ private:
+  mutable std::once_flag standing_once_;
+  mutable std::shared_ptr<const TraceScene> standing_alone_;
 };
 
 /// Makes windows, either on demand or ahead of time on a background thread. Thread-safe.
@@ -84,10 +95,7 @@ class WindowSource {
   };
 
   [[nodiscard]] std::shared_ptr<const Window> Build(int home_chunk, const Purpose& purpose);
-  void AddObjects(int home_chunk,
-                  const std::vector<std::size_t>& standing,
-                  Window& window,
-                  std::vector<TracePlacement>& placements) const;
+  void AddObjects(int home_chunk, const std::vector<std::size_t>& standing, Window& window) const;
   void AddChunks(const Chunks& chunks,
                  bool wind_blows,
                  Window& window,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -12,16 +13,30 @@
 
 namespace railcast {
 
-/// Makes frame `index` and the records of the world's objects in it. Called by one thread, in
-/// order. If it throws RunStopped, the run ends after the previous frame.
-using FrameSource =
-    std::function<void(std::uint32_t index, Frame& frame, std::vector<ObjectInFrame>& objects)>;
+/// What is written of one frame. Its memory is reused.
+struct MadeFrame {
+  Frame frame;
+  std::vector<ObjectInFrame> objects;  ///< The records of the world's objects.
+  CameraImage image;
+  bool has_image = false;  ///< Whether the camera has an image of this frame.
+};
 
-/// Makes the camera's image of frame `index`, right after the frame. Returns false if that frame
-/// has none.
-using ImageSource = std::function<bool(std::uint32_t index, CameraImage& image)>;
+/// Makes one frame. Called once, by any thread, while other frames may be made.
+using FrameJob = std::function<void(MadeFrame& made)>;
 
-/// Callbacks of a sequence run.
+/// Begins frame `index` and returns what makes it. Called in order, by one thread at a time. If it
+/// or the job throws RunStopped, the run ends after the previous frame.
+using BeginFrame = std::function<FrameJob(std::uint32_t index)>;
+
+/// How many frames are made at once, and where.
+struct FramesAtOnce {
+  std::size_t num = 1;
+  /// Calls a function on the run's threads, which TBB's algorithms within it use.
+  std::function<void(const std::function<void()>& work)> execute =
+      [](const std::function<void()>& work) { work(); };
+};
+
+/// Callbacks of a sequence run. Each is called by one thread at a time.
 struct SequenceHooks {
   /// Called after every frame and once before the first.
   std::function<void(std::uint32_t num_done, std::uint32_t num_frames)> on_progress;
@@ -38,13 +53,13 @@ struct SequenceResult {
   double elapsed_s{};           ///< Wall-clock time for the frames made in this run.
 };
 
-/// Makes the frames of a sequence that its directory does not hold yet. The next frame is computed
-/// while one is written.
-/// @param make_image Empty if there is no camera.
+/// Makes the frames of a sequence that its directory does not hold yet. Frames are made and encoded
+/// several at once, and written in their order; one more is being written meanwhile. If one cannot
+/// be made, those before it are written before the exception is passed on.
 /// @throws InputError as SequenceDirectory does.
 [[nodiscard]] SequenceResult RunSequence(const SequenceSpec& spec,
-                                         const FrameSource& make_frame,
+                                         const BeginFrame& begin_frame,
                                          const SequenceHooks& hooks,
-                                         const ImageSource& make_image = {});
+                                         const FramesAtOnce& at_once = {});
 
 }  // namespace railcast

@@ -1,4 +1,5 @@
 #include <chrono>
+#include <functional>
 #include <iostream>
 #include <optional>
 #include <utility>
@@ -20,9 +21,9 @@
 #include "generator/run/stop_signal.h"
 #include "generator/run/stoppable_work.h"
 #include "generator/run/track_limits.h"
-#include "generator/sequence/object_survey.h"
 #include "generator/sequence/run_sequence.h"
 #include "generator/sequence/summary.h"
+#include "generator/sequence/surveyed_run.h"
 #include "railcast/camera.h"
 #include "railcast/effects.h"
 #include "railcast/io/cloud_files.h"
@@ -117,41 +118,6 @@ SequenceSpec MakeSpec(const SequenceOptions& options, const ScenarioSpec& scenar
   return spec;
 }
 
-/// Makes the frames of a run together with the records of their objects.
-class SurveyedRun {
- public:
-  SurveyedRun(CommandedRun& run, const LabelTable& labels) : run_(run), labels_(labels) {}
-
-  void Make(std::uint32_t index, Frame& frame, std::vector<ObjectInFrame>& objects) {
-    Simulator& simulator = run_.At(0, index);
-    simulator.Scan(index, frame);
-    if (simulator.shared_world() != world_) {
-      world_ = simulator.shared_world();
-      survey_.emplace(*world_, labels_, simulator.spec().detector.range_max_m,
-                      simulator.spec().output);
-    }
-    objects = survey_->Describe(frame, simulator.FiringsOnObjectAlone(index));
-  }
-
- private:
-  CommandedRun& run_;
-  const LabelTable& labels_;
-  std::shared_ptr<const World> world_;
-  std::optional<ObjectSurvey> survey_;
-};
-
-// Renders the scenario's camera images; empty if it has no camera. The result refers to `run`.
-ImageSource ImagesOf(const ScenarioSpec& scenario, CommandedRun& run) {
-  std::optional<Camera> camera = MakeCamera(scenario);
-  if (!camera) return {};
-  return [camera = std::move(*camera), num_frames = FramesPerImage(scenario), &run](
-             std::uint32_t index, CameraImage& image) {
-    if (index % num_frames != 0) return false;
-    camera.Render(run.At(0, index), index, image);
-    return true;
-  };
-}
-
 class ProgressDisplay {
  public:
   void Show(std::uint32_t num_done, std::uint32_t num_frames) {
@@ -211,16 +177,16 @@ int RunSequenceCommand(const SequenceOptions& options) {
     }
   }
   SurveyedRun frames(run, spec.files.labels);
+  // Commands change the simulator from one frame to the next.
+  const FramesAtOnce at_once = {
+      log.commands.empty() ? NumFramesAtOnce(*simulator) : 1,
+      [&](const std::function<void()>& work) { simulator->Execute(work); }};
   ProgressDisplay display;
   const SequenceHooks hooks = {
       [&](std::uint32_t num_done, std::uint32_t num_frames) { display.Show(num_done, num_frames); },
       StopRequested};
   const SequenceResult result = RunSequence(
-      spec,
-      [&](std::uint32_t index, Frame& frame, std::vector<ObjectInFrame>& objects) {
-        frames.Make(index, frame, objects);
-      },
-      hooks, ImagesOf(scenario, run));
+      spec, [&](std::uint32_t index) { return frames.Begin(index); }, hooks, at_once);
   if (!result.is_complete) display.Break();
   std::cout << ShownLines(Summary(spec, result));
   if (result.is_complete) return kExitSuccess;

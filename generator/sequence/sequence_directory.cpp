@@ -248,11 +248,10 @@ void SequenceDirectory::WriteFixedFiles() {
   }
 }
 
-std::vector<std::string> SequenceDirectory::RecordLines(const Frame& frame,
-                                                        const std::vector<ObjectInFrame>& objects) {
-  const PoseRecord pose(frame.stamp_ns, frame.world_from_sensor);
+std::vector<std::string> SequenceDirectory::RecordLines(const EncodedFrame& frame) {
+  const PoseRecord& pose = frame.pose;
   if (!first_pose_) first_pose_ = pose;
-  std::vector<std::string> lines = {PoseLine(pose), ObjectsLine(frame, objects)};
+  std::vector<std::string> lines = {PoseLine(pose), frame.objects_line};
   if (const auto& dataset = spec_.files.format->dataset) {
     // Computed from the values of poses.csv, so that a resumed run uses the same numbers.
     for (std::string& line :
@@ -264,27 +263,38 @@ std::vector<std::string> SequenceDirectory::RecordLines(const Frame& frame,
   return lines;
 }
 
-void SequenceDirectory::Write(const Frame& frame,
-                              const std::vector<ObjectInFrame>& objects,
-                              const CameraImage* image) {
-  Check(frame.index == spec_.start_frame + num_done_, "frames are written in their order");
-  const std::uint32_t number = spec_.files.format->dataset ? num_done_ : frame.index;
-  EncodeFrameFiles(frame, spec_.files, number, frame_files_, MovingInstances(objects));
-  std::vector<FrameFile> image_files;
-  if (image != nullptr) image_files = EncodeCameraFiles(*image, spec_.camera, number);
+void SequenceDirectory::Encode(const Frame& frame,
+                               const std::vector<ObjectInFrame>& objects,
+                               const CameraImage* image,
+                               EncodedFrame& encoded) const {
+  const std::uint32_t number =
+      spec_.files.format->dataset ? frame.index - spec_.start_frame : frame.index;
+  EncodeFrameFiles(frame, spec_.files, number, encoded.files, MovingInstances(objects));
+  if (image != nullptr) {
+    for (FrameFile& file : EncodeCameraFiles(*image, spec_.camera, number)) {
+      encoded.files.push_back(std::move(file));
+    }
+  }
+  encoded.record = {.frame = frame.index,
+                    .stamp_ns = frame.stamp_ns,
+                    .scan_end = ScanEndOf(frame),
+                    .files = {},
+                    .records_hash = {},
+                    .counts = CountFrame(frame, spec_.files.labels)};
+  for (const FrameFile& file : encoded.files) {
+    encoded.record.files.push_back({file.name, file.bytes.size(), ContentHash(file.bytes)});
+  }
+  encoded.pose = PoseRecord(frame.stamp_ns, frame.world_from_sensor);
+  encoded.objects_line = ObjectsLine(frame, objects);
+}
 
-  FrameRecord record;
-  record.frame = frame.index;
-  record.stamp_ns = frame.stamp_ns;
-  record.scan_end = ScanEndOf(frame);
-  record.counts = CountFrame(frame, spec_.files.labels);
-  const auto write = [&](const FrameFile& file) {
-    record.files.push_back({file.name, file.bytes.size(), ContentHash(file.bytes)});
+void SequenceDirectory::Write(const EncodedFrame& frame) {
+  FrameRecord record = frame.record;
+  Check(record.frame == spec_.start_frame + num_done_, "frames are written in their order");
+  for (const FrameFile& file : frame.files) {
     WriteFileWhole(spec_.directory / file.name, file.bytes);
-  };
-  std::ranges::for_each(frame_files_, write);
-  std::ranges::for_each(image_files, write);
-  const std::vector<std::string> lines = RecordLines(frame, objects);
+  }
+  const std::vector<std::string> lines = RecordLines(frame);
   std::string all_lines;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     line_files_[i].Append(lines[i]);

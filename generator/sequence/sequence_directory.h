@@ -16,6 +16,14 @@
 
 namespace railcast {
 
+/// A frame as it is written to a sequence directory.
+struct EncodedFrame {
+  std::vector<FrameFile> files;
+  FrameRecord record;  ///< Without records_hash.
+  PoseRecord pose;
+  std::string objects_line;
+};
+
 /// A directory that holds a sequence of frames, complete or unfinished.
 ///
 /// Layout: `frames/NNNNNN.*` (kitti: KITTI's own layout, numbered from 0 because line n of
@@ -43,12 +51,17 @@ class SequenceDirectory {
   /// Counts over all frames done.
   [[nodiscard]] const FrameCounts& counts() const { return counts_; }
 
-  /// Writes frame start_frame + num_done().
+  /// Encodes one of the run's frames. Several threads may do so at once, and while one writes.
   /// @param image The camera's image of the frame; null = it has none.
+  /// @param encoded Its memory is reused.
+  void Encode(const Frame& frame,
+              const std::vector<ObjectInFrame>& objects,
+              const CameraImage* image,
+              EncodedFrame& encoded) const;
+
+  /// Writes frame start_frame + num_done().
   /// @throws InputError if the system refuses; the directory can be resumed nevertheless.
-  void Write(const Frame& frame,
-             const std::vector<ObjectInFrame>& objects,
-             const CameraImage* image = nullptr);
+  void Write(const EncodedFrame& frame);
 
   /// Writes the manifest.
   /// @pre All frames are done.
@@ -66,8 +79,7 @@ class SequenceDirectory {
   [[nodiscard]] std::vector<FrameFile> FixedFiles() const;
   void WriteFixedFiles();
   [[nodiscard]] std::string ManifestJson() const;
-  [[nodiscard]] std::vector<std::string> RecordLines(const Frame& frame,
-                                                     const std::vector<ObjectInFrame>& objects);
+  [[nodiscard]] std::vector<std::string> RecordLines(const EncodedFrame& frame);
 
   SequenceSpec spec_;
   int lock_ = -1;
@@ -77,7 +89,6 @@ class SequenceDirectory {
   std::optional<PoseRecord> first_pose_;
   /// frames.jsonl is last: its line makes the frame count as done.
   std::vector<LineFile> line_files_;
-  std::vector<FrameFile> frame_files_;
 };
 
 }  // namespace railcast

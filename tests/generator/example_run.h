@@ -1,7 +1,10 @@
 #pragma once
 
+#include <tbb/task_arena.h>
+
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <thread>
@@ -45,6 +48,42 @@ inline void MakeExampleFrame(std::uint32_t index,
   wagon.firings_visible = 6;
   wagon.firings_alone = 8;
   objects.push_back(wagon);
+}
+
+using FrameSource =
+    std::function<void(std::uint32_t index, Frame& frame, std::vector<ObjectInFrame>& objects)>;
+using ImageSource = std::function<bool(std::uint32_t index, CameraImage& image)>;
+
+/// Makes each frame with one call.
+inline SequenceResult RunSequence(const SequenceSpec& spec,
+                                  const FrameSource& make_frame,
+                                  const SequenceHooks& hooks,
+                                  const ImageSource& make_image = {},
+                                  const FramesAtOnce& at_once = {}) {
+  const BeginFrame begin = [&](std::uint32_t index) -> FrameJob {
+    return [&, index](MadeFrame& made) {
+      made.objects.clear();
+      make_frame(index, made.frame, made.objects);
+      made.has_image = make_image && make_image(index, made.image);
+    };
+  };
+  return RunSequence(spec, begin, hooks, at_once);
+}
+
+/// So many frames at once, on four threads.
+inline FramesAtOnce AtOnce(std::size_t num) {
+  return {num, [](const std::function<void()>& work) {
+            tbb::task_arena four_threads(4);
+            four_threads.execute([&] { work(); });
+          }};
+}
+
+/// Makes frames of which every other one takes a while, so that later ones are done before it.
+inline void MakeUnevenFrame(std::uint32_t index,
+                            Frame& frame,
+                            std::vector<ObjectInFrame>& objects) {
+  MakeExampleFrame(index, frame, objects);
+  if (index % 2 != 0) std::this_thread::sleep_for(std::chrono::milliseconds(3));
 }
 
 inline SequenceHooks NoHooks() {

@@ -57,7 +57,9 @@ std::string RunWithEveryRoom(const SequenceSpec& spec, const Files& undisturbed)
   std::string lines;
   for (std::uint64_t num_free = 0; num_free <= num_blocks; ++num_free) {
     Fill(disk, num_free);
-    std::string said = MessageOf([&] { (void)RunSequence(spec, MakeExampleFrame, NoHooks()); });
+    const FramesAtOnce at_once = AtOnce(1 + num_free % 4);
+    std::string said =
+        MessageOf([&] { (void)RunSequence(spec, MakeExampleFrame, NoHooks(), {}, at_once); });
     if (said == "no error") return lines;
     if (said.starts_with(place)) said.erase(0, place.size());
     fs::remove(disk / "other");

@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <stdexcept>
@@ -10,9 +11,11 @@
 #include <system_error>
 #include <thread>
 
+#include "core/base/error.h"
 #include "core/io/write_file.h"
 #include "generator/run/stoppable_work.h"
 #include "generator/sequence/run_sequence.h"
+#include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/example_run.h"
 
@@ -140,6 +143,45 @@ TEST_P(InterruptedRun, KeepsWhatWasWrittenWhenAFrameCannotBeMade) {
   EXPECT_THROW((void)RunSequence(Spec(directory.path()), failing, NoHooks()), std::runtime_error);
   const auto result = RunSequence(Spec(directory.path()), MakeExampleFrame, NoHooks());
   EXPECT_EQ(result.num_resumed, 5U);
+  EXPECT_EQ(Contents(directory.path()), Undisturbed());
+}
+
+TEST_P(InterruptedRun, KeepsWhatWasBegunBeforeAFrameThatCannotBeMadeOfSeveralAtOnce) {
+  for (const bool is_begun : {false, true}) {
+    const TemporaryDirectory directory;
+    const BeginFrame failing = [&](std::uint32_t index) -> FrameJob {
+      if (index == 8 && !is_begun) throw InputError("no frame 8");
+      return [index](MadeFrame& made) {
+        if (index == 8) throw InputError("no frame 8");
+        made.objects.clear();
+        MakeUnevenFrame(index, made.frame, made.objects);
+      };
+    };
+    EXPECT_EQ(MessageOf([&] {
+                (void)RunSequence(Spec(directory.path()), failing, NoHooks(), AtOnce(5));
+              }),
+              "no frame 8");
+    const auto result =
+        RunSequence(Spec(directory.path()), MakeUnevenFrame, NoHooks(), {}, AtOnce(5));
+    EXPECT_EQ(result.num_resumed, 5U) << "from frame 3 on";
+    EXPECT_EQ(Contents(directory.path()), Undisturbed());
+  }
+}
+
+TEST_P(InterruptedRun, EndsAfterTheFramesUnderWayWhenItIsStopped) {
+  const TemporaryDirectory directory;
+  std::atomic<std::uint32_t> num_made = 0;
+  const FrameSource counting = [&](std::uint32_t index, Frame& frame, auto& objects) {
+    MakeUnevenFrame(index, frame, objects);
+    ++num_made;
+  };
+  const SequenceHooks stop = {[](std::uint32_t, std::uint32_t) {}, [&] { return num_made >= 5; }};
+  const auto first = RunSequence(Spec(directory.path()), counting, stop, {}, AtOnce(4));
+  EXPECT_FALSE(first.is_complete);
+  EXPECT_EQ(first.num_done, num_made) << "none of the frames under way is lost";
+  EXPECT_LE(first.num_done, 9U);
+  EXPECT_TRUE(
+      RunSequence(Spec(directory.path()), MakeUnevenFrame, NoHooks(), {}, AtOnce(4)).is_complete);
   EXPECT_EQ(Contents(directory.path()), Undisturbed());
 }
 

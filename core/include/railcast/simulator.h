@@ -80,6 +80,10 @@ struct FiringStory {
 
 class SceneStore;
 
+/// A frame that Simulator::Begin() has begun. It holds the stationary geometry that it needs, and
+/// its moving objects from their first use on.
+struct BegunFrame;
+
 /// Makes the store of a world's geometry (chunks and models, ready to be traced), which is built
 /// once for all sensors of a run. The store is thread-safe.
 /// @param isa Embree instruction set to force; empty = the best available.
@@ -142,13 +146,27 @@ class Simulator {
   /// As above, but the host traces the scene. Of the world, only the motion of the vehicle is used.
   void Scan(std::uint32_t frame_index, const HostScene& host, Frame& frame);
 
+  /// Begins a frame: waits for the stationary geometry around the vehicle, which is built if
+  /// necessary. Frames are best begun in their order, since what lies behind the vehicle is
+  /// forgotten. One caller at a time.
+  [[nodiscard]] std::shared_ptr<BegunFrame> Begin(std::uint32_t frame_index);
+  /// As Scan() of its index. Several threads may call this and the other functions that take a
+  /// begun frame at once, for different frames, as long as nothing is changed by Use(), UseWorld()
+  /// or UseThreads().
+  void Scan(BegunFrame& begun, Frame& frame);
+
   /// For each of world().objects(), in order: the number of firings of the frame that would hit it
   /// within range if it were the only object in the world. (Occlusion = 1 - visible / alone.)
   [[nodiscard]] std::vector<std::uint32_t> FiringsOnObjectAlone(std::uint32_t frame_index);
+  [[nodiscard]] std::vector<std::uint32_t> FiringsOnObjectAlone(BegunFrame& begun);
 
   /// Calls `visit` with the scene of a frame, on the run's threads: TBB's algorithms within it use
   /// as many as the simulator.
   void VisitScene(std::uint32_t frame_index, const std::function<void(const SceneOfFrame&)>& visit);
+  void VisitScene(BegunFrame& begun, const std::function<void(const SceneOfFrame&)>& visit);
+
+  /// Calls `work` on the run's threads: TBB's algorithms within it use as many as the simulator.
+  void Execute(const std::function<void()>& work);
 
   /// Replays one firing with the same packet and random numbers as in Scan().
   /// @pre firing < pattern().num_firings()
@@ -171,6 +189,7 @@ class Simulator {
   /// Sets the number of threads.
   /// @param num_threads 0 = all cores.
   void UseThreads(int num_threads);
+  [[nodiscard]] std::size_t num_threads() const;
 
   /// Returns the raw trace of a frame, the baseline of all speed figures: its rays are aimed
   /// beforehand, and every call traces them in packets of 16 and stores the ranges only. Valid as

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
 
 #include <cstring>
 
@@ -75,6 +76,30 @@ TEST(Determinism, AFrameDoesNotDependOnThoseBeforeIt) {
   Frame frame;
   for (std::uint32_t index = 0; index <= 5; ++index) simulator.Scan(index, frame);
   ExpectSameBytes(frame, ScanOnce(world, pattern, EverythingOn(), 5, 2));
+}
+
+TEST(Determinism, FramesMadeAtOnceAreThoseMadeOneAfterAnother) {
+  const auto world = ThicketWorld();
+  const ScanPattern pattern = MakeRaster(60, 30, 0.5);
+  Simulator simulator(world, pattern, TestMaterials(), EverythingOn(), 4);
+  constexpr std::uint32_t kNumFrames = 8;
+  std::vector<Frame> frames(kNumFrames);
+  std::vector<std::vector<std::uint32_t>> alone(kNumFrames);
+  std::vector<std::shared_ptr<BegunFrame>> begun;
+  for (std::uint32_t i = 0; i < kNumFrames; ++i) begun.push_back(simulator.Begin(i));
+  simulator.Execute([&] {
+    tbb::parallel_for(0U, kNumFrames, [&](std::uint32_t i) {
+      simulator.Scan(*begun[i], frames[i]);
+      alone[i] = simulator.FiringsOnObjectAlone(*begun[i]);
+    });
+  });
+  Simulator one(world, pattern, TestMaterials(), EverythingOn(), 1);
+  Frame frame;
+  for (std::uint32_t i = 0; i < kNumFrames; ++i) {
+    one.Scan(i, frame);
+    ExpectSameBytes(frame, frames[i]);
+    EXPECT_EQ(one.FiringsOnObjectAlone(i), alone[i]);
+  }
 }
 
 TEST(Determinism, AnotherSeedChangesOnlyWhatIsRandom) {

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cstring>
+#include <mutex>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <set>
 
 #include "core/io/content_hash.h"
@@ -33,6 +37,50 @@ TEST(RunSequence, WritesEverythingThatASequenceHolds) {
                        "inputs/" + ContentHash("a wagon") + "/wagon.obj", "labels.json",
                        "manifest.json", "materials.json", "objects.jsonl", "poses.csv", "run.json",
                        "scenario.resolved.json"}));
+}
+
+TEST(RunSequence, WritesTheSameBytesInTheSameOrderHoweverManyFramesAreMadeAtOnce) {
+  for (const char* format : {"pcd", "kitti"}) {
+    const TemporaryDirectory one;
+    (void)RunSequence(ExampleRun(one.path(), format, 20), MakeExampleFrame, NoHooks());
+    for (const std::size_t num : {2U, 3U, 7U, 30U}) {
+      const TemporaryDirectory directory;
+      std::vector<std::uint32_t> shown;
+      const SequenceHooks hooks = {
+          [&](std::uint32_t num_done, std::uint32_t) { shown.push_back(num_done); },
+          [] { return false; }};
+      const auto result = RunSequence(ExampleRun(directory.path(), format, 20), MakeUnevenFrame,
+                                      hooks, {}, AtOnce(num));
+      EXPECT_TRUE(result.is_complete);
+      EXPECT_EQ(Contents(directory.path()), Contents(one.path())) << num;
+      std::vector<std::uint32_t> all(21);
+      std::iota(all.begin(), all.end(), 0U);
+      EXPECT_EQ(shown, all);
+    }
+  }
+}
+
+TEST(RunSequence, HoldsNoMoreFramesThanItMakesAtOnceAndWrites) {
+  constexpr std::size_t kAtOnce = 3;
+  const TemporaryDirectory directory;
+  std::mutex mutex;
+  std::set<const Frame*> frames;
+  std::atomic<std::size_t> num_begun = 0;
+  std::atomic<std::size_t> num_written = 0;
+  std::size_t most_ahead = 0;
+  const FrameSource make = [&](std::uint32_t index, Frame& frame, auto& objects) {
+    const std::size_t ahead = ++num_begun - num_written;
+    MakeUnevenFrame(index, frame, objects);
+    const std::lock_guard lock(mutex);
+    frames.insert(&frame);
+    most_ahead = std::max(most_ahead, ahead);
+  };
+  const SequenceHooks hooks = {
+      [&](std::uint32_t num_done, std::uint32_t) { num_written = num_done; }, [] { return false; }};
+  (void)RunSequence(ExampleRun(directory.path(), "pcd", 40), make, hooks, {}, AtOnce(kAtOnce));
+  EXPECT_EQ(frames.size(), kAtOnce + 1);
+  EXPECT_LE(most_ahead, kAtOnce + 1);
+  EXPECT_GT(most_ahead, 1U) << "some were made at once";
 }
 
 TEST(RunSequence, NamesMaterialsByTheIdsThatFramesCarry) {

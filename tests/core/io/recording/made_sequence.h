@@ -65,19 +65,22 @@ inline MadeSequence MakeSequence(const std::filesystem::path& directory,
   spec.start_frame = made.start_frame;
   spec.num_frames = made.num_frames;
   const auto simulator = MakeSimulator(result.scenario, 1);
-  const auto make = [&](std::uint32_t index, Frame& frame, std::vector<ObjectInFrame>& objects) {
-    simulator->Scan(index, frame);
+  const auto make = [&](std::uint32_t index, MadeFrame& to) {
+    simulator->Scan(index, to.frame);
     ObjectInFrame wagon{"wagon", "open_wagon", "wagon", 1};
     wagon.size_m = Vector3(14.0, 3.0, 3.4);
-    wagon.world_from_box = frame.world_from_sensor;
+    wagon.world_from_box = to.frame.world_from_sensor;
     wagon.world_from_box.translate(Vector3(40.0 - 2.0 * index, 1.0, 0.5));
     wagon.points = 7 + index;
     wagon.firings_visible = 9;
     wagon.firings_alone = 11;
-    objects = {wagon};
-    result.frames.push_back(frame);
+    to.objects = {wagon};
+    result.frames.push_back(to.frame);
   };
-  (void)RunSequence(spec, make, {[](std::uint32_t, std::uint32_t) {}, [] { return false; }});
+  const BeginFrame begin = [&](std::uint32_t index) -> FrameJob {
+    return [&make, index](MadeFrame& to) { make(index, to); };
+  };
+  (void)RunSequence(spec, begin, {[](std::uint32_t, std::uint32_t) {}, [] { return false; }});
   return result;
 }
 

@@ -1,0 +1,48 @@
+#include "generator/sequence/surveyed_run.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "generator/run/stop_signal.h"
+#include "generator/run/stoppable_work.h"
+#include "railcast/scenario.h"
+
+namespace railcast {
+
+SurveyedRun::SurveyedRun(CommandedRun& run, const LabelTable& labels)
+    : run_(run), labels_(labels), camera_(MakeCamera(run.scenario())) {
+  if (camera_) frames_per_image_ = FramesPerImage(run.scenario());
+}
+
+FrameJob SurveyedRun::Begin(std::uint32_t index) {
+  Simulator& simulator = run_.At(0, index);
+  // Frames are begun by whichever thread is free: from now on the terminal shows what this one
+  // waits for.
+  WatchBuilding(simulator, StopRequested, true);
+  return [this, &simulator, begun = simulator.Begin(index), index](MadeFrame& made) {
+    simulator.Scan(*begun, made.frame);
+    const std::vector<std::uint32_t> alone = simulator.FiringsOnObjectAlone(*begun);
+    made.objects = SurveyOf(simulator).Describe(made.frame, alone);
+    made.has_image = camera_ && index % frames_per_image_ == 0;
+    if (made.has_image) camera_->Render(simulator, *begun, made.image);
+  };
+}
+
+ObjectSurvey& SurveyedRun::SurveyOf(const Simulator& simulator) {
+  Survey& mine = surveys_.local();
+  if (mine.world != simulator.shared_world()) {
+    mine.survey.reset();
+    mine.world = simulator.shared_world();
+    mine.survey.emplace(*mine.world, labels_, simulator.spec().detector.range_max_m,
+                        simulator.spec().output);
+  }
+  return *mine.survey;
+}
+
+std::size_t NumFramesAtOnce(const Simulator& simulator) {
+  constexpr std::size_t kMostFirings = 4'000'000;
+  const std::size_t num_in_memory = kMostFirings / simulator.pattern().num_firings();
+  return std::clamp<std::size_t>(num_in_memory, 1, simulator.num_threads() + 1);
+}
+
+}  // namespace railcast

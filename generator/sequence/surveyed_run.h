@@ -1,0 +1,49 @@
+#pragma once
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "generator/run/commanded_run.h"
+#include "generator/sequence/object_survey.h"
+#include "generator/sequence/run_sequence.h"
+#include "railcast/camera.h"
+#include "railcast/frame.h"
+#include "railcast/simulator.h"
+
+namespace railcast {
+
+/// Makes the frames of a run together with the records of their objects and the camera's images.
+class SurveyedRun {
+ public:
+  /// @param run Its scenario has one sensor. It must outlive this object, as must `labels`.
+  SurveyedRun(CommandedRun& run, const LabelTable& labels);
+
+  /// As BeginFrame.
+  /// @throws InputError if the vehicle or an object leaves its track in that frame.
+  [[nodiscard]] FrameJob Begin(std::uint32_t index);
+
+ private:
+  /// Remembers what it measured, so that each thread has its own.
+  struct Survey {
+    std::shared_ptr<const World> world;
+    std::optional<ObjectSurvey> survey;
+  };
+  [[nodiscard]] ObjectSurvey& SurveyOf(const Simulator& simulator);
+
+  CommandedRun& run_;
+  const LabelTable& labels_;
+  std::optional<Camera> camera_;
+  std::uint32_t frames_per_image_ = 1;
+  tbb::enumerable_thread_specific<Survey> surveys_;
+};
+
+/// How many frames are made at once where none depends on another: one for each thread, and one
+/// that waits for its turn to be written. Frames of millions of firings keep all threads busy with
+/// their tiles and take much memory: they are made one after another.
+[[nodiscard]] std::size_t NumFramesAtOnce(const Simulator& simulator);
+
+}  // namespace railcast
