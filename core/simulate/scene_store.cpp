@@ -37,10 +37,33 @@ SceneStore::SceneStore(std::shared_ptr<const World> world,
       device_(isa) {}
 
 std::shared_ptr<const SceneStore::BuiltChunk> SceneStore::GetChunk(int chunk, bool has_tubes) {
+  const ChunkKey key(chunk, has_tubes);
+  std::packaged_task<std::shared_ptr<const BuiltChunk>()> build;
+  std::shared_future<std::shared_ptr<const BuiltChunk>> result;
+  {
+    const std::lock_guard lock(chunks_mutex_);
+    ChunkEntry& entry = chunks_[key];
+    if (auto built = entry.built.lock()) return built;
+    if (!entry.being_built.valid()) {
+      build =
+          std::packaged_task<std::shared_ptr<const BuiltChunk>()>([&] { return BuildChunk(key); });
+      entry.being_built = build.get_future().share();
+    }
+    result = entry.being_built;
+  }
+  if (!build.valid()) return result.get();
+  build();
   const std::lock_guard lock(chunks_mutex_);
-  std::weak_ptr<const BuiltChunk>& entry = chunks_[{chunk, has_tubes}];
-  if (auto built = entry.lock()) return built;
-  Chunk made = world_->BuildChunk(chunk);
+  ChunkEntry& entry = chunks_[key];
+  entry.being_built = {};
+  const std::shared_ptr<const BuiltChunk> built = result.get();
+  entry.built = built;
+  return built;
+}
+
+std::shared_ptr<const SceneStore::BuiltChunk> SceneStore::BuildChunk(const ChunkKey& key) const {
+  Chunk made = world_->BuildChunk(key.first);
+  const bool has_tubes = key.second;
   if (!has_tubes) {
     for (Part& part : made.ground.parts) {
       if (part.is_wire) part.mesh = {};
@@ -51,7 +74,6 @@ std::shared_ptr<const SceneStore::BuiltChunk> SceneStore::GetChunk(int chunk, bo
   built->ground_surfaces = WithoutTriangles(made.ground);
   built->placements = std::move(made.placements);
   built->wires = std::move(made.wires);
-  entry = built;
   return built;
 }
 

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <future>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -64,8 +65,16 @@ class SceneStore {
   TraceDevice device_;
   std::atomic<bool> uses_beams_ = false;
 
-  std::mutex chunks_mutex_;  // Held while a chunk is built, so that a second caller waits for it.
-  std::map<std::pair<int, bool>, std::weak_ptr<const BuiltChunk>> chunks_;
+  using ChunkKey = std::pair<int, bool>;  ///< Number, and whether it has tubes.
+  struct ChunkEntry {
+    std::weak_ptr<const BuiltChunk> built;
+    /// Valid while a thread builds the chunk.
+    std::shared_future<std::shared_ptr<const BuiltChunk>> being_built;
+  };
+  [[nodiscard]] std::shared_ptr<const BuiltChunk> BuildChunk(const ChunkKey& key) const;
+
+  std::mutex chunks_mutex_;
+  std::map<ChunkKey, ChunkEntry> chunks_;
   std::mutex models_mutex_;
   // By model and whether it is an object's.
   std::map<std::pair<const Model*, bool>,

@@ -115,7 +115,7 @@ struct Simulator::Parts {
   }
   [[nodiscard]] float range_max_m() const { return static_cast<float>(spec.detector.range_max_m); }
   [[nodiscard]] BegunFrame Begin(std::uint32_t frame_index) {
-    return scenes.Begin(frame_index, pattern.StampNs(frame_index));
+    return arena.execute([&] { return scenes.Begin(frame_index, pattern.StampNs(frame_index)); });
   }
   [[nodiscard]] const FrameScene& SceneOf(BegunFrame& begun) {
     arena.execute([&] { static_cast<void>(scenes.SceneOf(begun)); });

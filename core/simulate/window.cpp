@@ -1,6 +1,8 @@
 #include "core/simulate/window.h"
 
 #include <sys/resource.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <utility>
@@ -47,6 +49,14 @@ void AddSwayingWires(const SceneStore::BuiltChunk& chunk,
     window.swaying.AddWire(wire, world_from_chunk, window.window_from_world,
                            ground_surface + PartOfWire(wire, chunk.ground_surfaces));
   }
+}
+
+/// Thrown when a window that is built ahead is not needed any more.
+struct Abandoned {};
+
+/// Building the scene of all chunks counts as a step, too.
+std::size_t NumSteps(std::size_t num_chunks) {
+  return num_chunks + 1;
 }
 
 }  // namespace
@@ -168,7 +178,30 @@ void WindowSource::AddChunks(const Chunks& chunks,
   if (!window.swaying.wires.empty()) window.swaying.tube = store_->GetUnitTube();
 }
 
-std::shared_ptr<const Window> WindowSource::Build(int home_chunk, const Purpose& purpose) {
+WindowSource::Chunks WindowSource::GetChunks(int home_chunk, const Purpose& purpose, Pace pace) {
+  const std::vector<int> reach = store_->world()->ChunksInReach(home_chunk, range_max_m_);
+  std::vector<std::shared_ptr<const SceneStore::BuiltChunk>> built(reach.size());
+  std::atomic<std::size_t> num_done = 0;
+  const auto get = [&](std::size_t i) {
+    if (pace == Pace::kAhead && stopping_) throw Abandoned();
+    purpose.progress(num_done, NumSteps(reach.size()));
+    built[i] = store_->GetChunk(reach[i], !purpose.wind_blows);
+    ++num_done;
+  };
+  if (pace == Pace::kAwaited) {
+    // Isolated, so that a thread that waits here takes up no frame that needs this window.
+    tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, reach.size(), get); });
+  } else {
+    for (std::size_t i = 0; i < reach.size(); ++i) get(i);
+  }
+  Chunks chunks;
+  for (std::size_t i = 0; i < reach.size(); ++i) chunks.emplace(reach[i], std::move(built[i]));
+  return chunks;
+}
+
+std::shared_ptr<const Window> WindowSource::Build(int home_chunk,
+                                                  const Purpose& purpose,
+                                                  Pace pace) {
   const WindowProgress& progress = purpose.progress;
   auto window = std::make_shared<Window>();
   window->window_from_world = store_->world()->WorldFromChunk(home_chunk).inverse();
@@ -176,14 +209,8 @@ std::shared_ptr<const Window> WindowSource::Build(int home_chunk, const Purpose&
   std::vector<TracePlacement> placements;
   AddObjects(home_chunk, *purpose.standing, *window);
   placements = window->standing_placements;
-  Chunks chunks;
-  const std::vector<int> reach = store_->world()->ChunksInReach(home_chunk, range_max_m_);
-  // Building the scene of all chunks counts as a step, too.
-  const std::size_t num_steps = reach.size() + 1;
-  for (const int index : reach) {
-    progress(chunks.size(), num_steps);
-    chunks.emplace(index, store_->GetChunk(index, !purpose.wind_blows));
-  }
+  Chunks chunks = GetChunks(home_chunk, purpose, pace);
+  const std::size_t num_steps = NumSteps(chunks.size());
   progress(chunks.size(), num_steps);
   AddChunks(chunks, purpose.wind_blows, *window, placements);
   window->scene = std::make_unique<TraceScene>(store_->device(), placements);
@@ -209,8 +236,9 @@ void WindowSource::KeepChunks(int home_chunk, Chunks chunks) {
   }
 }
 
-WindowSource::WindowTask WindowSource::Remember(int home_chunk) {
-  WindowTask task([this, home_chunk, purpose = purpose_] { return Build(home_chunk, purpose); });
+WindowSource::WindowTask WindowSource::Remember(int home_chunk, Pace pace) {
+  WindowTask task(
+      [this, home_chunk, purpose = purpose_, pace] { return Build(home_chunk, purpose, pace); });
   windows_.emplace(home_chunk, task.get_future().share());
   return task;
 }
@@ -226,7 +254,7 @@ std::shared_ptr<const Window> WindowSource::Get(int home_chunk) {
     const std::lock_guard lock(mutex_);
     in_use_ = home_chunk;
     ForgetOthers();
-    if (!windows_.contains(home_chunk)) build = Remember(home_chunk);
+    if (!windows_.contains(home_chunk)) build = Remember(home_chunk, Pace::kAwaited);
     window = windows_.at(home_chunk);
   }
   if (build) (*build)();
@@ -244,7 +272,7 @@ void WindowSource::Prepare(int home_chunk) {
   if (ahead_ || windows_.contains(home_chunk)) return;
   prepared_ = home_chunk;
   ForgetOthers();
-  ahead_ = Remember(home_chunk);
+  ahead_ = Remember(home_chunk, Pace::kAhead);
   changed_.notify_all();
 }
 

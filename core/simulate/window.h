@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <future>
@@ -94,14 +95,21 @@ class WindowSource {
     WindowProgress progress;
   };
 
-  [[nodiscard]] std::shared_ptr<const Window> Build(int home_chunk, const Purpose& purpose);
+  /// Whether a frame waits for a window, whose chunks are then built on all of the caller's TBB
+  /// threads, or it is built ahead by one thread beside the frames.
+  enum class Pace { kAwaited, kAhead };
+
+  [[nodiscard]] Chunks GetChunks(int home_chunk, const Purpose& purpose, Pace pace);
+  [[nodiscard]] std::shared_ptr<const Window> Build(int home_chunk,
+                                                    const Purpose& purpose,
+                                                    Pace pace);
   void AddObjects(int home_chunk, const std::vector<std::size_t>& standing, Window& window) const;
   void AddChunks(const Chunks& chunks,
                  bool wind_blows,
                  Window& window,
                  std::vector<TracePlacement>& placements) const;
   void KeepChunks(int home_chunk, Chunks chunks);
-  [[nodiscard]] WindowTask Remember(int home_chunk);
+  [[nodiscard]] WindowTask Remember(int home_chunk, Pace pace);
   [[nodiscard]] bool IsWanted(int home_chunk) const {
     return home_chunk == in_use_ || home_chunk == prepared_;
   }
@@ -123,7 +131,7 @@ class WindowSource {
   std::optional<int> in_use_;
   std::optional<int> prepared_;
   std::optional<WindowTask> ahead_;  // Waits for the builder thread or is being built by it.
-  bool stopping_ = false;
+  std::atomic<bool> stopping_ = false;
   std::thread builder_;
 };
 

@@ -1,6 +1,7 @@
 #include "core/simulate/window.h"
 
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -327,16 +328,22 @@ TEST(WindowSource, AWindowListsTheWiresOfItsChunksWhereTheirTubesAre) {
   }
 }
 
+// With more threads, chunks are built at once.
+std::shared_ptr<const Window> GetOnOneThread(WindowSource& windows, int home_chunk) {
+  tbb::task_arena one_thread(1);
+  return one_thread.execute([&] { return windows.Get(home_chunk); });
+}
+
 TEST(WindowSource, SaysHowFarAWindowIs) {
   Line line;
   std::vector<std::pair<std::size_t, std::size_t>> said;
   line.windows.UseProgress(
       [&](std::size_t num_done, std::size_t num_steps) { said.emplace_back(num_done, num_steps); });
-  static_cast<void>(line.windows.Get(0));
+  static_cast<void>(GetOnOneThread(line.windows, 0));
   // The home chunk, two chunks ahead, and the scene.
   EXPECT_EQ(said, (std::vector<std::pair<std::size_t, std::size_t>>{
                       {0, 4}, {1, 4}, {2, 4}, {3, 4}, {4, 4}}));
-  static_cast<void>(line.windows.Get(0));
+  static_cast<void>(GetOnOneThread(line.windows, 0));
   EXPECT_EQ(said.size(), 5U) << "it is there";
 }
 
@@ -345,7 +352,7 @@ TEST(WindowSource, IsStoppedBetweenTwoChunks) {
   line.windows.UseProgress([](std::size_t num_done, std::size_t) {
     if (num_done == 1) throw std::runtime_error("stopped");
   });
-  EXPECT_THROW(static_cast<void>(line.windows.Get(0)), std::runtime_error);
+  EXPECT_THROW(static_cast<void>(GetOnOneThread(line.windows, 0)), std::runtime_error);
   EXPECT_EQ(line.world->num_built[0], 1);
   EXPECT_EQ(line.world->num_built[1], 0);
   // An exception while building ahead also reaches the caller that waits for the window.
@@ -353,6 +360,36 @@ TEST(WindowSource, IsStoppedBetweenTwoChunks) {
   EXPECT_THROW(static_cast<void>(line.windows.Get(9)), std::runtime_error);
   line.windows.UseProgress([](std::size_t, std::size_t) {});
   EXPECT_GT(NumHits(LookAround(*line.windows.Get(0))), 0U);
+}
+
+TEST(WindowSource, BuildsTheChunksThatAFrameWaitsForAtOnce) {
+  Line line;
+  line.world->delay_ms = 40;
+  std::atomic<int> num_building = 0;
+  std::atomic<int> most = 0;
+  line.windows.UseProgress([&](std::size_t num_done, std::size_t) {
+    // Of the chunks that are begun, so many are not done.
+    const int now = ++num_building - static_cast<int>(num_done);
+    if (now > most) most = now;
+  });
+  tbb::task_arena three_threads(3);
+  const auto window = three_threads.execute([&] { return line.windows.Get(3); });
+  EXPECT_GT(most, 1);
+  // The same window as one that a single thread built.
+  Line other;
+  EXPECT_EQ(LookAround(*window), LookAround(*GetOnOneThread(other.windows, 3)));
+}
+
+TEST(WindowSource, EndsWithoutFinishingWhatNobodyWaitsFor) {
+  auto line = std::make_unique<Line>();
+  const auto world = line->world;
+  world->delay_ms = 20;
+  line->windows.Prepare(9);
+  WaitUntil([&] { return world->num_windows == 1; });
+  line.reset();
+  int num_built = 0;
+  for (const std::atomic<int>& built : world->num_built) num_built += built;
+  EXPECT_LT(num_built, 5) << "of five chunks in reach";
 }
 
 }  // namespace
