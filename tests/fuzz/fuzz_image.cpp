@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/io/camera_files.h"
+#include "core/io/jpeg_decoder.h"
 #include "core/io/npy_decoder.h"
 #include "core/io/png_decoder.h"
 #include "railcast/camera.h"
@@ -19,10 +20,18 @@ void CheckImage(const DecodedImage<Value>& image, std::size_t num_channels) {
   Check(image.values.size() == num_pixels * num_channels, "an image is whole");
 }
 
+// The size that is expected comes first, a byte each.
+void DecodeJpeg(std::string_view bytes) {
+  if (bytes.size() < 2) return;
+  const ImageSize size{static_cast<std::uint8_t>(bytes[0]), static_cast<std::uint8_t>(bytes[1])};
+  CheckImage(DecodeJpegRgb(bytes.substr(2), size), 3);
+}
+
 void Decode(char kind, std::string_view bytes) {
   try {
     if (kind == 'c') CheckImage(DecodePngRgb(bytes), 3);
     if (kind == 'l') CheckImage(DecodePngGrey16(bytes), 1);
+    if (kind == 'j') DecodeJpeg(bytes);
     if (kind != 'd') return;
     const auto depths = DecodeNpy(bytes);
     CheckImage(depths, 1);
@@ -40,8 +49,8 @@ void Decode(char kind, std::string_view bytes) {
 }  // namespace
 }  // namespace railcast
 
-/// Entry point for libFuzzer: a letter for the kind of image (c: colours, l: labels, d: depths) and
-/// the bytes of its file.
+/// Entry point for libFuzzer: a letter for the kind of image (c: colours, l: labels, d: depths, j:
+/// JPEG) and the bytes of its file.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   railcast::Decode(static_cast<char>(data[0]), {reinterpret_cast<const char*>(data) + 1, size - 1});
