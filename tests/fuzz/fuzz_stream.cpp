@@ -1,8 +1,4 @@
-#include <zlib.h>
-
-#include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,6 +8,7 @@
 #include "core/io/recording/live_frame.h"
 #include "core/io/stream/frame_assembler.h"
 #include "core/io/stream/stream_clouds.h"
+#include "tests/fuzz/input_datagrams.h"
 
 namespace railcast {
 namespace {
@@ -66,31 +63,11 @@ void CheckFrame(const ReceivedFrame& frame) {
   CheckLiveFrame(frame);
 }
 
-void Seal(std::string& datagram) {
-  constexpr std::size_t kCrcSize = 4;
-  if (datagram.size() < kCrcSize) return;
-  const std::size_t checked = datagram.size() - kCrcSize;
-  const auto crc = static_cast<std::uint32_t>(
-      ::crc32_z(0, reinterpret_cast<const unsigned char*>(datagram.data()), checked));
-  std::memcpy(datagram.data() + checked, &crc, kCrcSize);
-}
-
 void Assemble(std::span<const char> bytes) {
-  constexpr unsigned kSealed = 0x8000;
-  const std::size_t num_bytes = bytes.size();
   FrameAssembler assembler;
   std::vector<ReceivedFrame> frames;
-  std::uint64_t num_datagrams = 0;
-  while (bytes.size() >= 2) {
-    std::uint16_t head = 0;
-    std::memcpy(&head, bytes.data(), sizeof head);
-    const auto part = bytes.subspan(2, std::min<std::size_t>(bytes.size() - 2, head & ~kSealed));
-    std::string datagram(part.begin(), part.end());
-    if ((head & kSealed) != 0) Seal(datagram);
-    assembler.Take(datagram, frames);
-    ++num_datagrams;
-    bytes = bytes.subspan(2 + part.size());
-  }
+  const std::uint64_t num_datagrams = ForEachDatagram(
+      bytes, [&](const std::string& datagram) { assembler.Take(datagram, frames); });
   assembler.Flush(frames);
   std::size_t num_kept = 0;
   std::uint64_t num_lost = 0;
@@ -100,7 +77,7 @@ void Assemble(std::span<const char> bytes) {
     num_lost += Sum(frame.lost_packets);
   }
   const StreamCounts& counts = assembler.counts();
-  Check(num_kept <= num_bytes, "memory is for what arrived");
+  Check(num_kept <= bytes.size(), "memory is for what arrived");
   Check(counts.received_packets + counts.stray_packets + counts.other_sender_packets +
                 counts.num_refused() ==
             num_datagrams,
@@ -112,8 +89,7 @@ void Assemble(std::span<const char> bytes) {
 }  // namespace
 }  // namespace railcast
 
-/// Entry point for libFuzzer: datagrams, each preceded by its length in 15 bits; the 16th bit
-/// requests a valid CRC, which random bytes would never have.
+/// Entry point for libFuzzer: datagrams as ForEachDatagram() separates them.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   railcast::Assemble(std::span(reinterpret_cast<const char*>(data), size));
   return 0;

@@ -1,24 +1,14 @@
 #include "core/io/stream/stream_datagram.h"
 
-#include <zlib.h>
-
 #include <algorithm>
-#include <cmath>
 
 #include "core/io/stream/stream_layout.h"
+#include "core/io/stream/wire_values.h"
 
 namespace railcast {
 namespace {
 
 using namespace stream_layout;
-
-using PoseValues = std::array<double, kNumPoseValues>;
-
-bool IsChecksumRight(std::span<const char> bytes) {
-  const std::size_t checked = bytes.size() - kTrailerSize;
-  const auto crc = ::crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data()), checked);
-  return Get<std::uint32_t>(&bytes[checked]) == crc;
-}
 
 bool IsName(std::string_view name) {
   return !name.empty() && std::ranges::all_of(name, [](char c) {
@@ -94,16 +84,7 @@ bool FitsIntoSlots(const char* header) {
   return has_all ? cells * returns == total : cells * returns >= total;
 }
 
-bool IsPose(const PoseValues& pose) {
-  // Allows for quaternions rounded to float32.
-  constexpr double kNormTolerance = 1e-6;
-  const double norm2 =
-      pose[3] * pose[3] + pose[4] * pose[4] + pose[5] * pose[5] + pose[6] * pose[6];
-  return std::ranges::all_of(pose, [](double value) { return std::isfinite(value); }) &&
-         std::abs(norm2 - 1.0) < kNormTolerance;
-}
-
-Transform MakePose(const PoseValues& pose) {
+Transform MakePose(const WirePose& pose) {
   const Eigen::Quaterniond rotation(pose[6], pose[3], pose[4], pose[5]);
   return MakeTransform(rotation.normalized().toRotationMatrix(), {pose[0], pose[1], pose[2]});
 }
@@ -152,7 +133,7 @@ std::optional<StreamDatagram> CheckStreamDatagram(std::span<const char> bytes, S
   if (!points_each || !FitsIntoSlots(header)) return refuse(StreamFault::kCounts);
   datagram.points_each = *points_each;
   for (const std::size_t at : {kPoseAt, kEndPoseAt}) {
-    if (!IsPose(Get<PoseValues>(header + at))) return refuse(StreamFault::kPose);
+    if (!IsPose(Get<WirePose>(header + at))) return refuse(StreamFault::kPose);
   }
   return datagram;
 }
@@ -185,8 +166,8 @@ StreamHeader ReadStreamHeader(std::span<const char> header) {
   read.columns = Get<std::uint32_t>(from + kColumnsAt);
   read.returns = Get<std::uint16_t>(from + kReturnsAt);
   read.point_size = Get<std::uint16_t>(from + kPointSizeAt);
-  read.world_from_sensor = MakePose(Get<PoseValues>(from + kPoseAt));
-  read.world_from_sensor_end = MakePose(Get<PoseValues>(from + kEndPoseAt));
+  read.world_from_sensor = MakePose(Get<WirePose>(from + kPoseAt));
+  read.world_from_sensor_end = MakePose(Get<WirePose>(from + kEndPoseAt));
   std::uint16_t offset = 0;
   std::span<const char> list = header.subspan(kFieldsAt);
   while (const auto field = TakeField(list)) {

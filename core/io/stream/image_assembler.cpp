@@ -1,0 +1,116 @@
+#include "core/io/stream/image_assembler.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace railcast {
+namespace {
+
+constexpr std::size_t kMaxOpenImages = 2;
+constexpr std::uint32_t kMaxImageStrays = 16;
+/// Packets of images at most this many frames behind the last one are late, all others strays.
+constexpr std::uint32_t kLateFrames = 8;
+
+}  // namespace
+
+void ImageAssembler::Take(std::span<const char> bytes,
+                          std::vector<ReceivedImage>& images,
+                          const DatagramOrigin& origin) {
+  const auto datagram = CheckImageDatagram(bytes);
+  if (IsOfAnother(origin)) {
+    ++counts_.other_sender_packets;
+    return;
+  }
+  if (!datagram) {
+    ++counts_.refused_packets;
+    return;
+  }
+  const bool is_next_sender = sender_ && *sender_ != origin.from;
+  sender_ = origin.from;
+  heard_ns_ = origin.time_ns;
+  if (is_next_sender || !FollowsOn(*datagram)) {
+    if (!is_next_sender && !BeginsAnew(*datagram)) {
+      ++counts_.stray_packets;
+      return;
+    }
+    while (!open_.empty()) GiveUpFirst();
+    run_ = datagram->run;
+    last_closed_.reset();
+  }
+  num_strays_ = 0;
+  if (IsPast(*datagram)) {
+    ++counts_.received_packets;
+  } else {
+    Store(*datagram, images);
+  }
+}
+
+bool ImageAssembler::IsOfAnother(const DatagramOrigin& origin) const {
+  if (from_ && !from_->Covers(origin.from)) return true;
+  return sender_ && *sender_ != origin.from &&
+         origin.time_ns - heard_ns_ < FrameAssembler::kHold_ns;
+}
+
+bool ImageAssembler::IsPast(const ImageDatagram& datagram) const {
+  return last_closed_ && datagram.frame <= *last_closed_;
+}
+
+bool ImageAssembler::FollowsOn(const ImageDatagram& datagram) const {
+  if (run_ != datagram.run) return false;
+  return !IsPast(datagram) || *last_closed_ - datagram.frame <= kLateFrames;
+}
+
+bool ImageAssembler::BeginsAnew(const ImageDatagram& datagram) {
+  // Compared as serial numbers (RFC 1982), so that a later run is recognised where the number
+  // wraps.
+  const bool is_later_run = run_ && static_cast<std::int32_t>(datagram.run - *run_) > 0;
+  return !run_ || is_later_run || ++num_strays_ == kMaxImageStrays;
+}
+
+void ImageAssembler::Store(const ImageDatagram& datagram, std::vector<ReceivedImage>& images) {
+  const auto [at, is_new] = open_.try_emplace(datagram.frame);
+  OpenImage& open = at->second;
+  if (is_new) {
+    open.header.assign(datagram.header.begin(), datagram.header.end());
+    open.bytes_each = datagram.bytes_each;
+    open.has_packet.resize(datagram.num_packets);
+  } else if (!DescribeOneImage(open.header, datagram.header) ||
+             open.bytes_each != datagram.bytes_each) {
+    ++counts_.refused_packets;
+    return;
+  }
+  ++counts_.received_packets;
+  if (open.has_packet[datagram.packet]) return;
+  open.has_packet[datagram.packet] = true;
+  open.pieces.push_back({datagram.packet, open.bytes.size(), datagram.piece.size()});
+  open.bytes.append(datagram.piece.begin(), datagram.piece.end());
+  if (open.pieces.size() == datagram.num_packets) {
+    while (open_.begin()->first < datagram.frame) GiveUpFirst();
+    images.push_back({.run = datagram.run,
+                      .frame = datagram.frame,
+                      .stamp_ns = datagram.stamp_ns,
+                      .size = datagram.size,
+                      .jpeg = JoinPieces(open)});
+    ++counts_.complete_images;
+    last_closed_ = datagram.frame;
+    open_.erase(at);
+  }
+  while (open_.size() > kMaxOpenImages) GiveUpFirst();
+}
+
+void ImageAssembler::GiveUpFirst() {
+  ++counts_.incomplete_images;
+  last_closed_ = open_.begin()->first;
+  open_.erase(open_.begin());
+}
+
+std::string ImageAssembler::JoinPieces(OpenImage& open) {
+  if (std::ranges::is_sorted(open.pieces, {}, &Piece::packet)) return std::move(open.bytes);
+  std::ranges::sort(open.pieces, {}, &Piece::packet);
+  std::string joined;
+  joined.reserve(open.bytes.size());
+  for (const Piece& piece : open.pieces) joined.append(open.bytes, piece.offset, piece.size);
+  return joined;
+}
+
+}  // namespace railcast

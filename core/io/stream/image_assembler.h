@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/io/stream/frame_assembler.h"
+#include "core/io/stream/image_datagram.h"
+#include "railcast/io/stream.h"
+
+namespace railcast {
+
+/// An image all of whose datagrams arrived.
+struct ReceivedImage {
+  std::uint32_t run{};
+  std::uint32_t frame{};  ///< Number of the sensor's frame with the same stamp.
+  std::int64_t stamp_ns{};
+  ImageSize size;  ///< As the datagrams say it; at most kMostPixels. The file may differ.
+  std::string jpeg;
+};
+
+/// Statistics of a receiver of images.
+struct ImageCounts {
+  std::uint64_t complete_images{};
+  std::uint64_t incomplete_images{};  ///< Given up, because some of their packets did not come.
+  std::uint64_t received_packets{};   ///< Valid packets, with duplicate and late ones.
+  std::uint64_t stray_packets{};      ///< Valid packets of an earlier run or of an image long past.
+  std::uint64_t other_sender_packets{};
+  std::uint64_t refused_packets{};  ///< Not of this protocol, damaged, or contradictory.
+};
+
+/// Reassembles images from datagrams that may be lost, duplicated, reordered, damaged or forged.
+///
+/// An image is given as soon as it is complete, and only then, in the order of their numbers. An
+/// incomplete one is given up as soon as a later one is complete or two later ones have begun. So
+/// at most two images are open, and memory is in proportion to what arrived, whatever a datagram
+/// claims. Senders and runs are followed as by FrameAssembler.
+class ImageAssembler {
+ public:
+  /// @param from Senders that this endpoint covers; absent: the first one heard.
+  explicit ImageAssembler(const std::optional<Endpoint>& from = {}) : from_(from) {}
+
+  /// Takes a datagram and appends to `images` the one that it completes.
+  void Take(std::span<const char> datagram,
+            std::vector<ReceivedImage>& images,
+            const DatagramOrigin& origin = {});
+
+  [[nodiscard]] const ImageCounts& counts() const { return counts_; }
+
+ private:
+  struct Piece {
+    std::uint16_t packet{};
+    std::size_t offset{};  ///< Offset in OpenImage::bytes.
+    std::size_t size{};
+  };
+  struct OpenImage {
+    std::vector<char> header;
+    std::uint32_t bytes_each{};
+    std::vector<bool> has_packet;
+    std::vector<Piece> pieces;
+    std::string bytes;  ///< In the order of arrival.
+  };
+
+  [[nodiscard]] bool IsOfAnother(const DatagramOrigin& origin) const;
+  [[nodiscard]] bool IsPast(const ImageDatagram& datagram) const;
+  [[nodiscard]] bool FollowsOn(const ImageDatagram& datagram) const;
+  [[nodiscard]] bool BeginsAnew(const ImageDatagram& datagram);
+  void Store(const ImageDatagram& datagram, std::vector<ReceivedImage>& images);
+  void GiveUpFirst();
+  static std::string JoinPieces(OpenImage& open);
+
+  std::optional<Endpoint> from_;
+  ImageCounts counts_;
+  std::optional<Endpoint> sender_;  ///< The sender that is followed.
+  std::int64_t heard_ns_{};         ///< Time of its last datagram.
+  std::optional<std::uint32_t> run_;
+  std::uint32_t num_strays_{};  ///< Number of strays in a row.
+  std::map<std::uint32_t, OpenImage> open_;
+  std::optional<std::uint32_t> last_closed_;  ///< The last image that was given or given up.
+};
+
+}  // namespace railcast
