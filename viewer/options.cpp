@@ -126,6 +126,10 @@ void AddSourceOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
   app.add_option("--sensor", options.sensor, "Name of the sensor, where the scenario has several");
   app.add_option("--from", options.from,
                  "HOST or HOST:PORT whose live frames are shown; default: the first sender heard");
+  app.add_option("--image-port", options.image_port,
+                 "UDP port of this machine to which a live source's camera images are sent; "
+                 "default: images are not received")
+      ->transform(Whole({1, 65535}));
   app.add_option("--wait", options.wait_s,
                  "Seconds to wait for the first whole frame of a live source")
       ->check(Number({1e-3, 1e9}))
@@ -161,8 +165,8 @@ void AddLookOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
       ->take_all()
       ->allow_extra_args(false);
   app.add_option("--image", raw.image,
-                 "The camera's image to show in the corner; default: color where the recording "
-                 "has images")
+                 "The camera's image to show in the corner; default: color where there are images. "
+                 "Of a live source: color or off")
       ->check(CLI::IsMember(Strings(kPictureKindNames)));
   app.add_option("--select", options.select,
                  "Labels to show, separated by commas; all others are faint")
@@ -269,6 +273,17 @@ void UseRaw(const RawOptions& raw, const CLI::App& app, ViewOptions& options) {
   }
 }
 
+/// Of a live camera only the colours are sent, and they go to a port of their own.
+void CheckLiveImage(const ViewOptions& options) {
+  const PictureKind kind = options.choices.picture.value_or(PictureKind::kOff);
+  if (!options.is_live() || kind == PictureKind::kOff) return;
+  if (kind != PictureKind::kColor) {
+    Fail("--image", "must be color or off for a live source (got " +
+                        std::string(kPictureKindNames[static_cast<std::size_t>(kind)]) + ")");
+  }
+  if (!options.image_port) Fail("--image", "needs --image-port for a live source");
+}
+
 void CheckTogether(const ViewOptions& options) {
   if (options.frame && options.is_live()) Fail("--frame", "is not for a live source");
   if (options.is_live() && !options.compare.empty()) {
@@ -281,6 +296,8 @@ void CheckTogether(const ViewOptions& options) {
     Fail("--layout", "needs --compare");
   }
   if (options.from && !options.is_live()) Fail("--from", "is for a live source");
+  if (options.image_port && !options.is_live()) Fail("--image-port", "is for a live source");
+  CheckLiveImage(options);
   if (options.sensor && options.scenario.empty()) Fail("--sensor", "needs --scenario");
 }
 

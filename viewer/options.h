@@ -19,8 +19,9 @@ struct ViewOptions {
   std::filesystem::path source;
   std::filesystem::path compare;  ///< Empty: nothing is compared.
   std::filesystem::path scenario;
-  std::optional<std::string> sensor;  ///< Name of a sensor of the scenario.
-  std::optional<std::string> from;    ///< HOST or HOST:PORT of a live source's sender.
+  std::optional<std::string> sensor;        ///< Name of a sensor of the scenario.
+  std::optional<std::string> from;          ///< HOST or HOST:PORT of a live source's sender.
+  std::optional<std::uint16_t> image_port;  ///< Where a live camera's images come.
   std::optional<std::uint32_t> frame;
   std::filesystem::path screenshot;  ///< Empty: none.
   std::filesystem::path video;       ///< Empty: none.

@@ -40,14 +40,21 @@ std::set<std::uint32_t> SelectedLabels(const std::vector<std::string>& names,
   return ids;
 }
 
-/// Waits until the latest frame of a live source is complete.
-void WaitForFrame(LiveFrames& live, double wait_s) {
+/// Waits for a whole frame of a live source and returns the place of the latest.
+/// @param first The first place that counts.
+/// @param with_picture Whether to wait for the frame's picture, too.
+std::size_t WaitForFrame(LiveFrames& live, std::size_t first, bool with_picture, double wait_s) {
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::duration<double>(wait_s);
-  while (!live.Poll() || live.num_lost_packets() > 0) {
+  while (true) {
+    (void)live.Poll();
+    (void)live.PollImages();
     if (!live.fault().empty()) throw InputError(live.fault());
+    const auto latest = live.LatestWhole(with_picture);
+    if (latest && *latest >= first) return *latest;
     if (Clock::now() > end) {
-      throw InputError(ShownPath(live.info().source) + ": no whole frame came within " +
+      throw InputError(ShownPath(live.info().source) + ": no whole frame " +
+                       (with_picture ? "with an image " : "") + "came within " +
                        NumberText(wait_s) + " s");
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -107,8 +114,7 @@ class Viewer {
   }
 
   void Run() {
-    if (live_) std::fprintf(stderr, "listening at %s\n", EndpointText(live_->at()).c_str());
-    if (live_ && options_.is_headless()) WaitForFrame(*live_, options_.wait_s);
+    if (live_) SayWhereItListens();
     if (!live_ || options_.is_headless()) SeekFirst();
     if (!options_.screenshot.empty()) {
       DrawOffScreen();
@@ -134,9 +140,18 @@ class Viewer {
     if (options_.from) {
       wanted.from = AtPlace("--from: ", [&] { return ParseEndpoint(*options_.from, 0); });
     }
-    live_ = std::make_unique<LiveFrames>(options_.source.string(),
-                                         ParseEndpoint(address, kStreamPort), wanted);
+    const Endpoint at = ParseEndpoint(address, kStreamPort);
+    std::optional<Endpoint> images_at;
+    if (options_.image_port) images_at = Endpoint{at.address, *options_.image_port};
+    live_ = std::make_unique<LiveFrames>(options_.source.string(), at, wanted, images_at);
     UseScenario(*live_);
+  }
+
+  void SayWhereItListens() const {
+    std::fprintf(stderr, "listening at %s\n", EndpointText(live_->at()).c_str());
+    const auto images_at = live_->images_at();
+    if (!images_at) return;
+    std::fprintf(stderr, "listening for images at %s\n", EndpointText(*images_at).c_str());
   }
 
   template <typename Source>
@@ -153,7 +168,7 @@ class Viewer {
 
   void SeekFirst() {
     std::size_t place = session_->FirstPlace();
-    if (live_) place = live_->num_known() - 1;
+    if (live_) place = NextLivePlace(0);
     if (options_.frame) place = recorded_.front()->PlaceOf(*options_.frame);
     if (!session_->Seek(place)) {
       throw InputError(ShownPath(options_.source) + ": has no frame to show");
@@ -183,9 +198,13 @@ class Viewer {
 
   /// Goes to the next frame, if there is one; waits for it if the source is live.
   bool SeekNext() {
-    if (!live_) return session_->Seek(session_->place() + 1);
-    WaitForFrame(*live_, options_.wait_s);
-    return session_->Seek(live_->num_known() - 1);
+    const std::size_t next = session_->place() + 1;
+    return session_->Seek(live_ ? NextLivePlace(next) : next);
+  }
+
+  std::size_t NextLivePlace(std::size_t first) {
+    const bool with_picture = live_->images_at() && options_.choices.picture != PictureKind::kOff;
+    return WaitForFrame(*live_, first, with_picture, options_.wait_s);
   }
 
   void ShowProgress(std::size_t num_pictures, const ProgressLine& line) const {

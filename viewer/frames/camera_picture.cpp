@@ -22,16 +22,6 @@ CameraPicture PictureOf(const ImageSize& size) {
   return picture;
 }
 
-CameraPicture ColorPicture(std::string_view bytes) {
-  const auto image = DecodePngRgb(bytes);
-  CameraPicture picture = PictureOf(image.size);
-  picture.is_blendable = true;
-  for (std::size_t i = 0; i < image.values.size(); i += 3) {
-    picture.pixels.push_back({image.values[i], image.values[i + 1], image.values[i + 2]});
-  }
-  return picture;
-}
-
 CameraPicture LabelPicture(std::string_view bytes, const LabelTable& labels) {
   const auto image = DecodePngGrey16(bytes);
   std::unordered_map<std::uint16_t, Rgb> colors;
@@ -86,6 +76,15 @@ Rgb MeanOf(const CameraPicture& picture,
 
 }  // namespace
 
+CameraPicture MakeColorPicture(const DecodedImage<std::uint8_t>& image) {
+  CameraPicture picture = PictureOf(image.size);
+  picture.is_blendable = true;
+  for (std::size_t i = 0; i < image.values.size(); i += 3) {
+    picture.pixels.push_back({image.values[i], image.values[i + 1], image.values[i + 2]});
+  }
+  return picture;
+}
+
 std::vector<Rgb> ScaledPixels(const CameraPicture& picture, const std::array<int, 2>& size_px) {
   std::vector<Rgb> pixels;
   pixels.reserve(static_cast<std::size_t>(size_px[0]) * static_cast<std::size_t>(size_px[1]));
@@ -111,7 +110,7 @@ CameraPicture RecordedPictures::Read(const ImageList::FrameImages& images, Pictu
   }
   const std::string bytes = list_->Read(*file);
   CameraPicture picture = AtPlace(ShownPath(source_ / file->name) + ": ", [&] {
-    if (kind == PictureKind::kColor) return ColorPicture(bytes);
+    if (kind == PictureKind::kColor) return MakeColorPicture(DecodePngRgb(bytes));
     if (kind == PictureKind::kDepth) return DepthPicture(bytes);
     // Those of KITTI's format have railcast's own ids, too.
     if (!labels_) labels_ = ReadLabelTable(source_ / kLabelsFile);

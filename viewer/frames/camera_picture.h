@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/io/png_decoder.h"
 #include "core/io/recording/image_list.h"
 #include "railcast/frame.h"
 #include "viewer/color/palette.h"
@@ -36,6 +37,9 @@ struct CameraPicture {
   /// Whether neighbouring pixels may be averaged; colours that stand for labels or depths may not.
   bool is_blendable{};
 };
+
+/// Returns the picture of an image in colours, without a title.
+[[nodiscard]] CameraPicture MakeColorPicture(const DecodedImage<std::uint8_t>& image);
 
 /// Returns a picture in another size: the averages of the pixels that fall onto each of the new
 /// ones, or the pixel in their middle where they may not be averaged.

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <string>
 
 #include "railcast/io/recording.h"
 #include "railcast/scene.h"
@@ -30,6 +31,10 @@ class Frames {
   [[nodiscard]] virtual std::shared_ptr<const CameraPicture> Picture(std::size_t /*place*/,
                                                                      PictureKind /*kind*/) {
     return nullptr;
+  }
+  /// Says what a picture needs, for frames that have none.
+  [[nodiscard]] virtual std::string PictureNeeds() const {
+    return "images need a sequence whose scenario has a camera";
   }
   /// Returns how many frames are known so far; for most recordings, all of them.
   [[nodiscard]] virtual std::size_t num_known() const = 0;

@@ -13,7 +13,10 @@
 
 namespace railcast {
 
-LiveFrames::LiveFrames(const std::string& source, const Endpoint& at, const WantedStream& wanted)
+LiveFrames::LiveFrames(const std::string& source,
+                       const Endpoint& at,
+                       const WantedStream& wanted,
+                       const std::optional<Endpoint>& images_at)
     : grabber_(at, wanted) {
   info_.source = source;
   info_.kind = "live stream";
@@ -24,6 +27,11 @@ LiveFrames::LiveFrames(const std::string& source, const Endpoint& at, const Want
         last_arrival_ = std::chrono::steady_clock::now();
       }));
   grabber_.start();
+  if (!images_at) return;
+  // Images leave through another port than frames do.
+  std::optional<Endpoint> from = wanted.from;
+  if (from) from->port = 0;
+  pictures_.emplace(source, *images_at, from);
 }
 
 LiveFrames::~LiveFrames() {
@@ -37,7 +45,6 @@ bool LiveFrames::Poll() {
     received = std::exchange(latest_, nullptr);
   }
   if (!received) return false;
-  num_lost_packets_ = received->num_lost_packets();
   fault_.clear();
   try {
     kept_.Put(num_taken_, Shown(MakeLiveFrame(*received, ShownPath(info_.source))));
@@ -46,11 +53,41 @@ bool LiveFrames::Poll() {
     return false;
   }
   ++num_taken_;
+  taken_.push_back({.instant = {received->header.run, received->header.stamp_ns},
+                    .is_whole = received->is_complete()});
+  while (taken_.size() > kept_.size()) taken_.pop_front();
   return true;
+}
+
+bool LiveFrames::PollImages() {
+  return pictures_ && pictures_->Poll();
+}
+
+std::optional<std::size_t> LiveFrames::LatestWhole(bool with_picture) const {
+  for (std::size_t place = num_taken_; place-- > first_known();) {
+    const Taken& taken = TakenAt(place);
+    if (taken.is_whole && (!with_picture || pictures_->IsSettled(taken.instant))) return place;
+  }
+  return std::nullopt;
 }
 
 std::shared_ptr<const ShownFrame> LiveFrames::Get(std::size_t place) {
   return kept_.Find(place);
+}
+
+std::shared_ptr<const CameraPicture> LiveFrames::Picture(std::size_t place, PictureKind kind) {
+  if (!pictures_ || place < first_known() || place >= num_taken_) return nullptr;
+  return pictures_->At(TakenAt(place).instant, kind);
+}
+
+std::string LiveFrames::PictureNeeds() const {
+  return pictures_ ? "no image of this frame has come"
+                   : "images of a live source need --image-port";
+}
+
+std::optional<Endpoint> LiveFrames::images_at() const {
+  if (!pictures_) return std::nullopt;
+  return pictures_->at();
 }
 
 double LiveFrames::seconds_since_last() const {
@@ -79,6 +116,9 @@ std::string LiveFrames::StatusText() const {
   if (is_silent && std::isfinite(silent_s)) {
     std::snprintf(text.data(), text.size(), "   no frame for %.0f s", std::floor(silent_s));
     status += text.data();
+  }
+  if (const std::string images = pictures_ ? pictures_->StatusText() : ""; !images.empty()) {
+    status += "   " + images;
   }
   if (!fault_.empty()) {
     status += "   not shown: ";

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "railcast/io/udp_grabber.h"
 #include "viewer/frames/frame_shelf.h"
 #include "viewer/frames/frames.h"
+#include "viewer/frames/live_pictures.h"
 
 namespace railcast {
 
@@ -20,13 +22,21 @@ class LiveFrames final : public Frames {
   /// Starts listening.
   /// @param source "udp://...", for messages.
   /// @param wanted Which sender and sensor are shown, if several send to the port.
-  /// @throws InputError if the port cannot be listened to.
-  LiveFrames(const std::string& source, const Endpoint& at, const WantedStream& wanted = {});
+  /// @param images_at Where the camera's images are received; absent: nowhere. They have the same
+  ///   sender's address, but any port.
+  /// @throws InputError if a port cannot be listened to.
+  LiveFrames(const std::string& source,
+             const Endpoint& at,
+             const WantedStream& wanted = {},
+             const std::optional<Endpoint>& images_at = {});
   ~LiveFrames() override;
   LiveFrames(const LiveFrames&) = delete;
   LiveFrames& operator=(const LiveFrames&) = delete;
 
   [[nodiscard]] std::shared_ptr<const ShownFrame> Get(std::size_t place) override;
+  [[nodiscard]] std::shared_ptr<const CameraPicture> Picture(std::size_t place,
+                                                             PictureKind kind) override;
+  [[nodiscard]] std::string PictureNeeds() const override;
   [[nodiscard]] std::size_t num_known() const override { return num_taken_; }
   /// At most the last 64 frames are kept.
   [[nodiscard]] std::size_t first_known() const override { return num_taken_ - kept_.size(); }
@@ -35,29 +45,46 @@ class LiveFrames final : public Frames {
   /// between are skipped, so that a display slower than the stream does not fall behind.
   /// @returns Whether a frame was taken; if one came that cannot be shown, fault() says why.
   bool Poll();
+  /// Takes the images that have come since the last call; returns whether there were any. An image
+  /// may come after its frame, so that the picture of a frame that is shown may change.
+  bool PollImages();
   /// Says what is wrong with the frame that came last; empty if nothing is.
   [[nodiscard]] const std::string& fault() const { return fault_; }
-  /// Number of packets missing from the frame taken last.
-  [[nodiscard]] std::size_t num_lost_packets() const { return num_lost_packets_; }
+  /// Returns the place of the latest frame of which no packet is missing; nothing if none is kept.
+  /// @param with_picture Whether it must also have a picture, and for good.
+  /// @pre Images are received if `with_picture` is set.
+  [[nodiscard]] std::optional<std::size_t> LatestWhole(bool with_picture) const;
 
   [[nodiscard]] Endpoint at() const { return grabber_.at(); }
+  /// Where images are received; nothing if they are not.
+  [[nodiscard]] std::optional<Endpoint> images_at() const;
   /// Returns the time since a frame came, whether or not it was taken or could be shown; infinite
   /// before the first.
   [[nodiscard]] double seconds_since_last() const;
   /// Returns "live 10.0 frames/s   0 packets lost", counted since listening began. "   also heard:
   /// sensor 1" is added if a sensor other than the one shown sends to the port, "   also heard:
-  /// 10.0.0.7:4711" if another sender of that sensor does, and "   no frame for 5 s" once frames
-  /// stop coming.
+  /// 10.0.0.7:4711" if another sender of that sensor does, "   no frame for 5 s" once frames stop
+  /// coming, and what LivePictures says.
   [[nodiscard]] std::string StatusText() const;
 
  private:
+  /// What is known of a frame beside what it shows.
+  struct Taken {
+    LivePictures::Instant instant;
+    bool is_whole{};  ///< Whether all of its packets came.
+  };
+  [[nodiscard]] const Taken& TakenAt(std::size_t place) const {
+    return taken_[taken_.size() - (num_taken_ - place)];
+  }
+
   FrameShelf kept_{{.num_frames = 64}};  ///< The latest frames.
+  std::deque<Taken> taken_;              ///< Likewise, in the order of their places.
   std::size_t num_taken_{};
   std::string fault_;
-  std::size_t num_lost_packets_{};
   mutable std::mutex mutex_;  ///< Guards what the grabber's thread changes.
   std::shared_ptr<const ReceivedFrame> latest_;
   std::optional<std::chrono::steady_clock::time_point> last_arrival_;
+  std::optional<LivePictures> pictures_;  ///< Absent if images are not received.
   /// The last member, so that it ends before what its callback uses is destroyed.
   UdpGrabber grabber_;
 };

@@ -32,7 +32,9 @@ void Playback::NoteFrame(double now_s) {
 }
 
 bool Playback::AdvanceLive(double now_s) {
-  if (!live_->Poll() || !player_.is_playing()) return false;
+  // An image may come after its frame.
+  const bool has_image = live_->PollImages();
+  if (!live_->Poll() || !player_.is_playing()) return has_image;
   NoteFrame(now_s);
   return Show(live_->num_known() - 1);
 }

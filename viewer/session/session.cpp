@@ -187,7 +187,7 @@ std::string Session::Missing() const {
     if (!missing.empty()) return missing;
   }
   if (choices_.picture.value_or(PictureKind::kOff) != PictureKind::kOff && !HasPicture()) {
-    return "images need a sequence whose scenario has a camera";
+    return sources_.front().frames->PictureNeeds();
   }
   return {};
 }

@@ -206,6 +206,8 @@ TEST_F(BadInput, CommandLinesThatDoNotGoTogetherEndWithTwo) {
   wrong.emplace_back("udp://127.0.0.1 --frame 1");
   wrong.push_back("udp://127.0.0.1 --compare " + run_);
   wrong.push_back("--from 127.0.0.1 " + run_);
+  wrong.push_back("--image-port 27500 " + run_);
+  wrong.emplace_back("--image-port 0 udp://127.0.0.1");
   for (const std::string& arguments : wrong) {
     const Ended ended = RunCommand("cd " + PathOf("") + " && " RAILCAST_VIEW " " + arguments);
     EXPECT_EQ(ended.status, 2) << arguments << '\n' << ended.said;

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/core/io/stream/image_example.h"
+#include "tests/core/io/stream/live_stream.h"
 #include "tests/viewer/session/held_frames.h"
 
 namespace railcast {
@@ -99,6 +101,24 @@ TEST_F(PlaybackOfDamaged, PlaysBesideAFrameThatCannotBeRead) {
   playback_.SeekTo(4, kStart_s);
   // The period is taken from the neighbouring frame, which is the damaged one.
   EXPECT_EQ(session_.Period_s(), 0.1);
+}
+
+TEST(PlaybackOfALiveSource, ShowsAnImageThatComesAfterItsFrame) {
+  LiveFrames frames("udp://here", kAnyLoopbackPort, {}, kAnyLoopbackPort);
+  Session session({&frames}, {});
+  Playback playback(session, &frames);
+  playback.Begin(kStart_s);
+  LiveStream stream(frames.at());
+  stream.Send(0);
+  ASSERT_TRUE(Eventually([&] { return playback.Advance(kStart_s); }));
+  EXPECT_EQ(session.Compose().front().picture, nullptr);
+  playback.TogglePlaying(kStart_s);
+  EXPECT_FALSE(playback.Advance(kStart_s)) << "paused";
+  UdpSender camera({*frames.images_at()}, 0);
+  SendImage(0, 0, camera);
+  ASSERT_TRUE(Eventually([&] { return playback.Advance(kStart_s); }));
+  ASSERT_NE(session.Compose().front().picture, nullptr);
+  EXPECT_EQ(session.Compose().front().picture->title, "color   frame 0");
 }
 
 TEST_F(PlaybackOfFive, SaysHowFastFramesCome) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/io/net/udp_sender.h"
 #include "core/io/stream/image_assembler.h"
 #include "core/io/stream/image_encoder.h"
 #include "railcast/camera.h"
@@ -50,6 +51,12 @@ inline std::vector<std::string> ImageDatagramsOf(std::uint32_t frame, std::uint3
     split.emplace_back(bytes.begin(), bytes.end());
   }
   return split;
+}
+
+inline void SendImage(std::uint32_t frame, std::uint32_t run, UdpSender& sender) {
+  Datagrams datagrams;
+  EncodeImage(frame, run, datagrams);
+  sender.Send(datagrams, datagrams.items);
 }
 
 /// Returns the images that an assembler gives for these datagrams.

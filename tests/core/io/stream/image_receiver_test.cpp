@@ -10,17 +10,11 @@
 namespace railcast {
 namespace {
 
-void SendImage(std::uint32_t frame, UdpSender& sender) {
-  Datagrams datagrams;
-  EncodeImage(frame, 1, datagrams);
-  sender.Send(datagrams, datagrams.items);
-}
-
 TEST(ImageReceiver, GivesTheImagesThatASenderSends) {
   ImageReceiver receiver(kAnyLoopbackPort);
   UdpSender sender({receiver.at()}, 0);
   for (std::uint32_t frame = 0; frame < 10; ++frame) {
-    SendImage(frame, sender);
+    SendImage(frame, 1, sender);
     std::vector<ReceivedImage> images;
     ASSERT_TRUE(Eventually([&] { return !(images = receiver.Take()).empty(); }));
     ASSERT_EQ(images.size(), 1U);
@@ -34,7 +28,7 @@ TEST(ImageReceiver, KeepsTheLatestImagesForASlowConsumer) {
   ImageReceiver receiver(kAnyLoopbackPort);
   UdpSender sender({receiver.at()}, 0);
   for (std::uint32_t frame = 0; frame < 6; ++frame) {
-    SendImage(frame, sender);
+    SendImage(frame, 1, sender);
     ASSERT_TRUE(Eventually([&] { return receiver.counts().complete_images == frame + 1; }));
   }
   const auto images = receiver.Take();
