@@ -14,18 +14,21 @@ namespace {
 /// What libpng's simplified interface keeps of one image that it reads.
 class PngReader {
  public:
-  explicit PngReader(std::string_view bytes) {
-    constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
-    if (!bytes.starts_with(kSignature)) throw InputError("is no PNG file");
-    image_.version = PNG_IMAGE_VERSION;
-    (void)png_image_begin_read_from_memory(&image_, bytes.data(), bytes.size());
-    CheckFault();
-  }
+  PngReader() { image_.version = PNG_IMAGE_VERSION; }
   ~PngReader() { png_image_free(&image_); }
   PngReader(const PngReader&) = delete;
   PngReader& operator=(const PngReader&) = delete;
 
   [[nodiscard]] const png_image& image() const { return image_; }
+
+  /// Reads the header. This is not for the constructor: after a warning libpng keeps its memory,
+  /// and only the destructor frees it.
+  void Begin(std::string_view bytes) {
+    constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
+    if (!bytes.starts_with(kSignature)) throw InputError("is no PNG file");
+    (void)png_image_begin_read_from_memory(&image_, bytes.data(), bytes.size());
+    CheckFault();
+  }
 
   void Read(void* pixels) {
     (void)png_image_finish_read(&image_, nullptr, pixels, 0, nullptr);
@@ -47,7 +50,8 @@ class PngReader {
 /// @param kind For the message.
 template <typename Value>
 DecodedImage<Value> DecodePng(std::string_view bytes, png_uint_32 format, const char* kind) {
-  PngReader reader(bytes);
+  PngReader reader;
+  reader.Begin(bytes);
   const png_image& image = reader.image();
   if (image.format != format) throw InputError(std::string("must be a PNG with ") + kind);
   const std::uint64_t num_pixels = std::uint64_t{image.width} * image.height;
