@@ -34,6 +34,7 @@ void Describe(Archive& a, CameraSpec& s) {
   a.Optional("distortion", s.distortion, "Of the lens: Brown and Conrady's model as in OpenCV.");
   a.Optional("udp", s.udp, "host:port of each receiver of live images; empty = they are not sent.",
              HostAndPort());
+  a.Ensure({"udp"}, AreDifferent(s.udp), "must name each receiver once");
   // The longest side that libjpeg encodes.
   constexpr std::uint32_t kLongestJpeg = 65'500;
   a.Ensure({"udp", "width_px", "height_px"},

@@ -43,6 +43,7 @@ void Describe(Archive& a, SensorInterface& s) {
   a.Optional("udp", s.udp,
              "host:port of each receiver; empty = loopback at the protocol's own port.",
              HostAndPort());
+  a.Ensure({"udp"}, AreDifferent(s.udp), "must name each receiver once");
 }
 
 template <class Archive>
@@ -51,6 +52,7 @@ void Describe(Archive& a, InterfacesSpec& s) {
              "host:port of each receiver of live frames; empty = loopback at the protocol's own "
              "port.",
              HostAndPort());
+  a.Ensure({"udp"}, AreDifferent(s.udp), "must name each receiver once");
   a.Optional("protocol", s.protocol, "How live frames are packed.");
   a.Optional("sensors", s.sensors,
              "With lidars, instead of the other keys: one entry for each sensor.");
@@ -155,9 +157,13 @@ void Describe(Archive& a, ScenarioSpec& s) {
   const std::string fault =
       InterfacesFault(s.interfaces, s.lidars.empty() ? std::vector<std::string>() : SensorNames(s));
   a.Ensure({"interfaces", "lidar", "lidars"}, fault.empty(), "sensors " + fault);
+  const std::string positions_fault = PositionsFault(s.interfaces);
+  a.Ensure({"interfaces"}, positions_fault.empty(), positions_fault);
   a.Optional("camera", s.camera, "A camera beside the sensor.");
   a.Ensure({"camera", "lidar", "lidars"}, !s.camera || HasFramesForImages(s),
            "must have a rate_hz that is each sensor's scan rate_hz divided by a whole number");
+  const std::string images_fault = s.camera ? ImagesFault(*s.camera, s.interfaces) : "";
+  a.Ensure({"camera", "interfaces"}, images_fault.empty(), images_fault);
   a.Required("world", s.world, "The railway and what stands on it.");
   a.Optional("vehicle", s.vehicle, "The sensor's own vehicle.");
   a.Optional("output", s.output, "Axes of the points.");

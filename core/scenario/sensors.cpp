@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -13,6 +14,44 @@ namespace {
 
 bool Contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// The interfaces of all sensors.
+std::vector<SensorInterface> AllOf(const InterfacesSpec& interfaces) {
+  if (!interfaces.sensors.empty()) return interfaces.sensors;
+  return {{{}, interfaces.protocol, interfaces.udp}};
+}
+
+std::vector<std::string> FrameReceiversOf(const InterfacesSpec& interfaces) {
+  std::vector<std::string> receivers;
+  for (const SensorInterface& interface : AllOf(interfaces)) {
+    for (std::string& to : ReceiversOf(interface)) receivers.push_back(std::move(to));
+  }
+  return receivers;
+}
+
+std::vector<std::string> PositionReceiversOf(const InterfacesSpec& interfaces) {
+  std::vector<std::string> receivers;
+  for (const SensorInterface& interface : AllOf(interfaces)) {
+    if (interface.protocol == Protocol::kRailcast) continue;
+    for (const std::string& to : ReceiversOf(interface)) {
+      receivers.push_back(to.substr(0, to.rfind(':') + 1) + std::to_string(kVelodynePositionPort));
+    }
+  }
+  return receivers;
+}
+
+/// The rule that is broken by what is sent to `receivers` if one of them gets other datagrams, too.
+std::string SharingFault(const std::vector<std::string>& receivers,
+                         const char* sent,
+                         const std::vector<std::string>& others,
+                         const char* others_sent) {
+  for (const std::string& receiver : receivers) {
+    if (!Contains(others, receiver)) continue;
+    return std::string("must send ") + sent + " elsewhere than to " + ShownText(receiver) +
+           ", which gets " + others_sent;
+  }
+  return "";
 }
 
 }  // namespace
@@ -81,16 +120,35 @@ std::string InterfacesFault(const InterfacesSpec& interfaces,
     if (!named.insert(interface.sensor).second) {
       return "must name each sensor once, " + InWords({interface.sensor}) + " too";
     }
-    for (const std::string& receiver : ReceiversOf(interface)) {
-      if (receivers.insert(receiver).second) continue;
+    const std::vector<std::string> own = ReceiversOf(interface);
+    for (const std::string& receiver : own) {
+      if (!receivers.contains(receiver)) continue;
       return "must give each sensor receivers of its own, " + InWords({interface.sensor}) +
              " others than " + ShownText(receiver);
     }
+    receivers.insert(own.begin(), own.end());
   }
   for (const std::string& sensor : sensors) {
     if (!named.contains(sensor)) return "must name each sensor once, " + InWords({sensor}) + " too";
   }
   return "";
+}
+
+bool AreDifferent(const std::vector<std::string>& receivers) {
+  return std::set<std::string>(receivers.begin(), receivers.end()).size() == receivers.size();
+}
+
+std::string PositionsFault(const InterfacesSpec& interfaces) {
+  return SharingFault(FrameReceiversOf(interfaces), "frames", PositionReceiversOf(interfaces),
+                      "position packets");
+}
+
+std::string ImagesFault(const CameraSpec& camera, const InterfacesSpec& interfaces) {
+  const std::string fault =
+      SharingFault(camera.udp, "images", FrameReceiversOf(interfaces), "a sensor's frames");
+  if (!fault.empty()) return fault;
+  return SharingFault(camera.udp, "images", PositionReceiversOf(interfaces),
+                      "a sensor's position packets");
 }
 
 }  // namespace railcast

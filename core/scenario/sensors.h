@@ -23,6 +23,19 @@ struct SensorPlace {
 [[nodiscard]] std::string InterfacesFault(const InterfacesSpec& interfaces,
                                           const std::vector<std::string>& sensors);
 
+/// The port of each receiver to which sensors of Velodyne's protocols send position packets,
+/// whatever the port of their frames.
+inline constexpr std::uint16_t kVelodynePositionPort = 8308;
+
+/// Whether each receiver is named once.
+[[nodiscard]] bool AreDifferent(const std::vector<std::string>& receivers);
+/// The first receiver of frames that gets position packets, too; a rule that it breaks. Empty if
+/// there is none.
+[[nodiscard]] std::string PositionsFault(const InterfacesSpec& interfaces);
+/// The first receiver of images that gets a sensor's datagrams, too; a rule that it breaks. Empty
+/// if there is none.
+[[nodiscard]] std::string ImagesFault(const CameraSpec& camera, const InterfacesSpec& interfaces);
+
 /// How many frames of a sensor follow each other from one image to the next; absent if the rates do
 /// not allow a whole number of at most 1,000,000.
 [[nodiscard]] std::optional<std::uint32_t> FramesFromImageToImage(const CameraSpec& camera,

@@ -2,7 +2,7 @@
 
 #include "core/base/attempt.h"
 #include "core/io/stream/image_encoder.h"
-#include "core/io/velodyne/velodyne_packet.h"
+#include "core/scenario/sensors.h"
 
 namespace railcast {
 

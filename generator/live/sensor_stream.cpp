@@ -7,7 +7,7 @@
 #include "core/base/text.h"
 #include "core/io/stream/stream_encoder.h"
 #include "core/io/velodyne/velodyne_encoder.h"
-#include "core/io/velodyne/velodyne_packet.h"
+#include "core/scenario/sensors.h"
 #include "railcast/scenario.h"
 
 namespace railcast {

@@ -14,6 +14,7 @@
 #include "core/io/velodyne/calibration_xml.h"
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
+#include "core/scenario/sensors.h"
 #include "core/trace/trace_program.h"
 #include "generator/commands.h"
 #include "generator/live/command_loop.h"
@@ -49,11 +50,41 @@ std::vector<Endpoint> EndpointsOf(const StreamOptions& options,
   return receivers;
 }
 
+bool IsIn(const std::vector<Endpoint>& receivers, const Endpoint& to) {
+  return std::find(receivers.begin(), receivers.end(), to) != receivers.end();
+}
+
+/// Where a sensor's position packets go.
+std::vector<Endpoint> PositionReceivers(const SensorStreamSpec& stream) {
+  std::vector<Endpoint> receivers;
+  if (stream.protocol == Protocol::kRailcast) return receivers;
+  for (const Endpoint& to : stream.to) receivers.push_back({to.address, kVelodynePositionPort});
+  return receivers;
+}
+
+/// Checks that no receiver of frames or images gets position packets, too.
+void CheckPositionsAreApart(const std::vector<SensorStreamSpec>& streams,
+                            const ScenarioSpec& scenario) {
+  for (const SensorStreamSpec& positions : streams) {
+    const std::vector<Endpoint> taken = PositionReceivers(positions);
+    const auto check = [&](const std::string& name, const std::vector<Endpoint>& receivers) {
+      for (const Endpoint& to : receivers) {
+        if (!IsIn(taken, to)) continue;
+        throw InputError("receivers of " + name + ": must not be where " + positions.name +
+                         " sends position packets (got " + EndpointText(to) + ")");
+      }
+    };
+    for (const SensorStreamSpec& stream : streams) check(stream.name, stream.to);
+    if (scenario.camera) check(scenario.camera->name, ImageReceivers(scenario));
+  }
+}
+
 /// Checks that no receiver gets datagrams of two sensors, or of a sensor and the camera.
 void CheckPortsDiffer(const std::vector<SensorStreamSpec>& streams, const ScenarioSpec& scenario) {
+  CheckPositionsAreApart(streams, scenario);
   for (const Endpoint& to : ImageReceivers(scenario)) {
     for (const SensorStreamSpec& stream : streams) {
-      if (std::find(stream.to.begin(), stream.to.end(), to) == stream.to.end()) continue;
+      if (!IsIn(stream.to, to)) continue;
       throw InputError("/camera/udp: must be other receivers than those of the sensors (got " +
                        EndpointText(to) + ")");
     }
@@ -61,9 +92,7 @@ void CheckPortsDiffer(const std::vector<SensorStreamSpec>& streams, const Scenar
   for (std::size_t i = 0; i < streams.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       for (const Endpoint& to : streams[i].to) {
-        if (std::find(streams[j].to.begin(), streams[j].to.end(), to) == streams[j].to.end()) {
-          continue;
-        }
+        if (!IsIn(streams[j].to, to)) continue;
         throw InputError("/interfaces/sensors: each sensor must have receivers of its own (got " +
                          EndpointText(to) + " for " + streams[j].name + " and " + streams[i].name +
                          ")");

@@ -40,7 +40,6 @@ inline constexpr std::int64_t kUsPerHour = 3'600'000'000;
 
 // Sensors use the same port to send from and to send to.
 inline constexpr std::uint16_t kVelodyneDataPort = 2368;
-inline constexpr std::uint16_t kVelodynePositionPort = 8308;
 
 /// Reads a number at an address of any alignment.
 template <typename Number>

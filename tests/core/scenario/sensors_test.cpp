@@ -99,5 +99,38 @@ TEST(Sensors, SendEachToReceiversOfItsOwn) {
             "must be left out with \"lidar\", which has but one sensor");
 }
 
+TEST(Sensors, SendNoFramesWherePositionPacketsGo) {
+  const auto fault = [](const InterfacesSpec& interfaces) { return PositionsFault(interfaces); };
+  EXPECT_EQ(fault({}), "");
+  EXPECT_EQ(fault({{"10.0.0.1:8308"}, Protocol::kRailcast, {}}), "") << "which has none";
+  EXPECT_EQ(fault({{"10.0.0.1:2368", "10.0.0.2:8308"}, Protocol::kVlp16, {}}),
+            "must send frames elsewhere than to 10.0.0.2:8308, which gets position packets");
+  const SensorInterface front{"front", Protocol::kVlp16, {"10.0.0.1:2368"}};
+  EXPECT_EQ(fault({{}, {}, {front, {"roof", Protocol::kRailcast, {"10.0.0.2:8308"}}}}), "");
+  EXPECT_EQ(fault({{}, {}, {front, {"roof", Protocol::kRailcast, {"10.0.0.1:8308"}}}}),
+            "must send frames elsewhere than to 10.0.0.1:8308, which gets position packets");
+  EXPECT_EQ(fault({{}, {}, {front, {"roof", Protocol::kVlp16, {"10.0.0.1:2369"}}}}), "")
+      << "position packets may share their port";
+}
+
+TEST(Sensors, ShareNoReceiverWithTheCamera) {
+  CameraSpec camera;
+  const auto fault = [&](const InterfacesSpec& interfaces) {
+    return ImagesFault(camera, interfaces);
+  };
+  EXPECT_EQ(fault({}), "");
+  camera.udp = {"10.0.0.1:27500", "127.0.0.1:27400"};
+  EXPECT_EQ(fault({{"10.0.0.1:2368"}, Protocol::kVlp16, {}}), "");
+  EXPECT_EQ(fault({}),
+            "must send images elsewhere than to 127.0.0.1:27400, which gets a sensor's frames");
+  const SensorInterface front{"front", Protocol::kRailcast, {"10.0.0.1:27400"}};
+  EXPECT_EQ(fault({{}, {}, {front, {"roof", Protocol::kVlp16, {"10.0.0.1:27500"}}}}),
+            "must send images elsewhere than to 10.0.0.1:27500, which gets a sensor's frames");
+  camera.udp = {"127.0.0.1:8308"};
+  EXPECT_EQ(fault({{}, {}, {front, {"roof", Protocol::kVlp16, {}}}}),
+            "must send images elsewhere than to 127.0.0.1:8308, which gets a sensor's position "
+            "packets");
+}
+
 }  // namespace
 }  // namespace railcast

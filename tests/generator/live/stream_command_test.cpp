@@ -167,6 +167,9 @@ TEST(Stream, SaysWhichOptionsDoNotGoTogether) {
       fault(scenario + " --to 127.255.255.255:9"),
       "receivers of coarse: must not be a network's broadcast address; use 255.255.255.255 (got "
       "127.255.255.255:9)\n");
+  EXPECT_EQ(fault(scenario + " --protocol vlp16 --to 127.0.0.1:8308"),
+            "receivers of coarse: must not be where coarse sends position packets (got "
+            "127.0.0.1:8308)\n");
   EXPECT_NE(fault(scenario + " --protocol vlp16").find("must be \"spinning\""), std::string::npos);
   EXPECT_EQ(fault(scenario + " --protocol vlp16 --fields x"),
             "--fields: is for protocol railcast (got vlp16)\n");

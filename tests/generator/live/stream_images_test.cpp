@@ -84,5 +84,15 @@ TEST(StreamImages, HaveReceiversOfTheirOwn) {
             "127.0.0.1:27999)\n");
 }
 
+TEST(StreamImages, AreNotSentWherePositionPacketsGo) {
+  const TemporaryDirectory folder;
+  const std::string scenario = WithCamera(folder.path(), R"("localhost:8308")");
+  const Ended ended = Generate("stream " + scenario + " --protocol vlp16 --to 127.0.0.1:27999");
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_EQ(ended.said,
+            "receivers of front: must not be where coarse sends position packets (got "
+            "127.0.0.1:8308)\n");
+}
+
 }  // namespace
 }  // namespace railcast

@@ -5,6 +5,7 @@
 
 #include "core/io/pcap/pcap_writer.h"
 #include "core/io/velodyne/velodyne_packet.h"
+#include "core/scenario/sensors.h"
 #include "tests/core/io/velodyne/made_scan.h"
 #include "tests/support/sensor_file.h"
 

@@ -6,6 +6,7 @@
 #include "core/io/velodyne/reflectivity.h"
 #include "core/io/velodyne/velodyne_model.h"
 #include "core/io/velodyne/velodyne_packet.h"
+#include "core/scenario/sensors.h"
 #include "railcast/io/recording.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/read_all.h"

@@ -8,6 +8,7 @@
 #include "core/io/pcap/pcap_writer.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "core/io/write_file.h"
+#include "core/scenario/sensors.h"
 #include "railcast/io/recording.h"
 #include "tests/core/io/hesai/made_packet.h"
 #include "tests/core/io/message_of.h"

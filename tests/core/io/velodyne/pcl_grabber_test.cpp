@@ -19,6 +19,7 @@
 #include "core/io/velodyne/reflectivity.h"
 #include "core/io/velodyne/velodyne_model.h"
 #include "core/io/write_file.h"
+#include "core/scenario/sensors.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/core/io/velodyne/made_scan.h"
 #include "tests/support/analytic_meshes.h"
