@@ -87,7 +87,7 @@ class LiveRun {
   }
 
   [[nodiscard]] bool AwaitBegin() {
-    const std::int64_t begin_ns = clock_from_stamp_ns_ + NextStampNs();
+    const std::int64_t begin_ns = clock_from_stamp_ns_ + NextStampNs() - spec_.lead_ns;
     queue_.SendUntil(begin_ns);
     std::mutex mutex;
     std::condition_variable never;
@@ -144,7 +144,10 @@ class LiveRun {
     outgoing.deadline_ns.reset();
     if (outgoing.is_burst) {
       outgoing.clock_from_due_ns = made_ns;
-      if (!spec_.lockstep) outgoing.deadline_ns = deadline_ns;
+      if (!spec_.lockstep) {
+        outgoing.clock_from_due_ns = std::max(made_ns, clock_from_stamp_ns_ + stamp_ns);
+        outgoing.deadline_ns = deadline_ns;
+      }
     } else if (spec_.lockstep) {
       outgoing.clock_from_due_ns = made_ns - stamp_ns;
     } else {

@@ -29,7 +29,7 @@ struct LiveSensor {
 
 enum class Pacing {
   kSpread,  ///< Each datagram one period after its last firing, while frame n + 1 is being made.
-  kBurst,   ///< All datagrams of a frame at once, as soon as it is made.
+  kBurst,   ///< All datagrams of a frame at once, as soon as it has begun and is made.
 };
 
 /// Statistics of one sensor's frames.
@@ -76,6 +76,10 @@ struct LiveRunSpec {
   Pacing pacing = Pacing::kSpread;
   bool lockstep = false;    ///< Frames are made when begin_frames returns, not at their time.
   bool drops_late = false;  ///< Leave out frames that would be late. Not in lockstep.
+  /// How long before its stamp a frame may be begun, at most a period, so that a frame that takes
+  /// longer than others uses what they left. Not in lockstep, and not with commands: they hold for
+  /// frames that are not begun.
+  std::int64_t lead_ns = 0;
   std::optional<std::int64_t> duration_ns;  ///< Simulation time; absent = until stopped.
 };
 
@@ -89,11 +93,11 @@ struct LiveResult {
 /// cannot be made (InputError). Frames that were made are sent in any case.
 ///
 /// Frame n of a sensor begins at simulation time stamp_ns(n) and is made in the period that begins
-/// at the same time of the clock, counted from the run's start. Deadlines are absolute, so delays
-/// do not accumulate. A late frame is still made and sent in full, and the following frames are
-/// made as fast as possible until the run has caught up. With drops_late, instead, a frame whose
-/// period has ended before work on it begins is left out entirely; the other frames are unaffected.
-/// A sensor's frame 0 is always made.
+/// at the same time of the clock, counted from the run's start, or before. Deadlines are absolute,
+/// so delays do not accumulate. A late frame is still made and sent in full, and the following
+/// frames are made as fast as possible until the run has caught up. With drops_late, instead, a
+/// frame whose period has ended before work on it begins is left out entirely; the other frames are
+/// unaffected. A sensor's frame 0 is always made.
 [[nodiscard]] LiveResult RunLive(const LiveRunSpec& spec,
                                  const std::vector<LiveSensor>& sensors,
                                  const LiveHooks& hooks,

@@ -172,8 +172,18 @@ std::string Describe(const std::vector<SensorStreamSpec>& streams, const Scenari
   return text;
 }
 
-LiveRunSpec RunSpecOf(const StreamOptions& options) {
+// Of the sensors. Images come at most as often.
+std::int64_t ShortestPeriodNs(const ScenarioSpec& scenario) {
+  double rate_hz = scenario.lidar.scan.rate_hz;
+  for (const LidarSpec& lidar : scenario.lidars) rate_hz = std::max(rate_hz, lidar.scan.rate_hz);
+  return std::llround(1e9 / rate_hz);
+}
+
+LiveRunSpec RunSpecOf(const StreamOptions& options, const ScenarioSpec& scenario) {
   LiveRunSpec spec;
+  // Without commands, what a frame will show is known before.
+  const bool is_known = !options.commands_port && !options.lockstep && !IsOffline(options);
+  if (is_known) spec.lead_ns = ShortestPeriodNs(scenario);
   spec.pacing = options.pacing == "burst" ? Pacing::kBurst : Pacing::kSpread;
   spec.lockstep = options.lockstep;
   spec.drops_late = options.drops_late;
@@ -274,7 +284,7 @@ int RunStream(const StreamOptions& options) {
   const ScenarioSpec scenario = ReadForStream(options);
   CheckOptionsTogether(options, SensorNames(scenario).size());
   const std::vector<SensorStreamSpec> plan = PlanStreams(options, scenario);
-  const LiveRunSpec spec = RunSpecOf(options);
+  const LiveRunSpec spec = RunSpecOf(options, scenario);
   const std::string isa = AtPlace("--", [&] { return IsaInUse(options.isa); });
   // With commands, the journeys of moving objects are not known in advance, so they are not
   // checked.

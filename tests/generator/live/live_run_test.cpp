@@ -179,6 +179,42 @@ TEST(LiveRun, CatchesUpAfterAStall) {
   EXPECT_EQ(sensor.sent.back().left_ns, sensor.sent.back().due_ns + sensor.StampNs(1));
 }
 
+TEST(LiveRun, MakesUpForLongFramesWithTheTimeThatOthersLeft) {
+  for (const bool has_lead : {false, true}) {
+    JumpingClock clock;
+    TinySensor sensor(10.0, clock);
+    const std::int64_t period_ns = sensor.StampNs(1);
+    // Every third frame takes 1.6 periods, the others half of one.
+    sensor.work = [&](std::uint32_t frame) {
+      clock.JumpTo(clock.NowNs() + (frame % 3 == 2 ? 16 : 5) * period_ns / 10);
+    };
+    LiveRunSpec spec = Lasting(3 * kNsPerS);
+    if (has_lead) spec.lead_ns = period_ns;
+    const auto records = RecordsOf(spec, {sensor.Live("a")}, {}, clock);
+    EXPECT_EQ(records.front().frames, 30U);
+    // The long ones, and all after them but the last.
+    EXPECT_EQ(records.front().late_frames, has_lead ? 0U : 19U);
+    ASSERT_EQ(sensor.sent.size(), 60U);
+    for (const TinySensor::Sent& sent : sensor.sent) {
+      EXPECT_GE(sent.left_ns, sent.due_ns + period_ns);
+    }
+  }
+}
+
+TEST(LiveRun, SendsNoBurstBeforeItsFrameBegins) {
+  JumpingClock clock;
+  TinySensor sensor(10.0, clock);
+  LiveRunSpec spec = Lasting(kNsPerS);
+  spec.pacing = Pacing::kBurst;
+  spec.lead_ns = sensor.StampNs(1);
+  const auto records = RecordsOf(spec, {sensor.Live("a")}, {}, clock);
+  EXPECT_EQ(records.front().late_frames, 0U);
+  ASSERT_EQ(sensor.sent.size(), 20U);
+  for (const TinySensor::Sent& sent : sensor.sent) {
+    EXPECT_EQ(sent.left_ns, sensor.StampNs(sent.frame));
+  }
+}
+
 TEST(LiveRun, SaysHowFarBehindItIs) {
   JumpingClock clock;
   TinySensor sensor(10.0, clock);
