@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "generator/sequence/pose_record.h"
 
@@ -10,8 +11,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json List(const Vector3& vector) {
-  return {vector.x(), vector.y(), vector.z()};
+// The line is put together as text: of hundreds of objects, a tree of JSON values costs as much as
+// tracing the frame.
+
+std::string Text(const Json& value) {
+  return value.dump();
+}
+
+std::string List(const Vector3& vector) {
+  return Text({vector.x(), vector.y(), vector.z()});
 }
 
 double ToTenthOfMillimetre(double length_m) {
@@ -20,46 +28,63 @@ double ToTenthOfMillimetre(double length_m) {
   return std::round(length_m * kSteps_per_m) / kSteps_per_m + 0.0;
 }
 
-Json Box(const Transform& to_from_box, const Vector3& size_m) {
+// @param size The list of the box's size.
+void AppendBox(const char* key,
+               const Transform& to_from_box,
+               const std::string& size,
+               std::string& line) {
   const Eigen::Quaterniond turn = CanonicalRotation(to_from_box);
-  return {{"center_m", List(to_from_box.translation())},
-          {"size_m", List(size_m)},
-          {"quaternion_xyzw", {turn.x(), turn.y(), turn.z(), turn.w()}}};
+  line.append(",\"").append(key).append("\":{\"center_m\":");
+  line.append(List(to_from_box.translation())).append(",\"size_m\":").append(size);
+  line.append(",\"quaternion_xyzw\":");
+  line.append(Text({turn.x(), turn.y(), turn.z(), turn.w()})).append("}");
+}
+
+std::string Contacts(const ObjectInFrame& object) {
+  Json contacts = Json::array();
+  for (const ContactInFrame& contact : object.contacts) {
+    contacts.push_back({{"with", contact.with},
+                        {"overlap", contact.is_overlap},
+                        {"gap_m", ToTenthOfMillimetre(contact.gap_m)}});
+  }
+  return Text(contacts);
+}
+
+void AppendObject(const ObjectInFrame& object,
+                  const Transform& sensor_from_world,
+                  std::string& line) {
+  const std::string size = List(object.size_m);
+  line.append("{\"name\":").append(Text(object.name));
+  line.append(",\"type\":").append(Text(object.type));
+  line.append(",\"label\":").append(Text(object.label));
+  line.append(",\"instance\":").append(std::to_string(object.instance));
+  AppendBox("world", object.world_from_box, size, line);
+  AppendBox("sensor", sensor_from_world * object.world_from_box, size, line);
+  AppendBox("output", object.output_from_box, size, line);
+  line.append(",\"velocity_mps\":").append(List(object.velocity_world_mps));
+  line.append(",\"points\":").append(std::to_string(object.points));
+  line.append(",\"firings_visible\":").append(std::to_string(object.firings_visible));
+  line.append(",\"firings_alone\":").append(std::to_string(object.firings_alone));
+  Json occlusion;  // Default-constructed, it is written as null.
+  if (object.firings_alone > 0) {
+    occlusion = 1.0 - static_cast<double>(object.firings_visible) /
+                          static_cast<double>(object.firings_alone);
+  }
+  line.append(",\"occlusion\":").append(Text(occlusion));
+  line.append(",\"contacts\":").append(Contacts(object)).append("}");
 }
 
 }  // namespace
 
 std::string ObjectsLine(const Frame& frame, const std::vector<ObjectInFrame>& objects) {
   const Transform sensor_from_world = frame.world_from_sensor.inverse();
-  Json list = Json::array();
+  std::string line = "{\"frame\":" + std::to_string(frame.index) +
+                     ",\"stamp_ns\":" + std::to_string(frame.stamp_ns) + ",\"objects\":[";
   for (const ObjectInFrame& object : objects) {
-    Json occlusion;  // Default-constructed, it is written as null.
-    if (object.firings_alone > 0) {
-      occlusion = 1.0 - static_cast<double>(object.firings_visible) /
-                            static_cast<double>(object.firings_alone);
-    }
-    Json contacts = Json::array();
-    for (const ContactInFrame& contact : object.contacts) {
-      contacts.push_back({{"with", contact.with},
-                          {"overlap", contact.is_overlap},
-                          {"gap_m", ToTenthOfMillimetre(contact.gap_m)}});
-    }
-    list.push_back({{"name", object.name},
-                    {"type", object.type},
-                    {"label", object.label},
-                    {"instance", object.instance},
-                    {"world", Box(object.world_from_box, object.size_m)},
-                    {"sensor", Box(sensor_from_world * object.world_from_box, object.size_m)},
-                    {"output", Box(object.output_from_box, object.size_m)},
-                    {"velocity_mps", List(object.velocity_world_mps)},
-                    {"points", object.points},
-                    {"firings_visible", object.firings_visible},
-                    {"firings_alone", object.firings_alone},
-                    {"occlusion", occlusion},
-                    {"contacts", contacts}});
+    if (&object != objects.data()) line += ',';
+    AppendObject(object, sensor_from_world, line);
   }
-  const Json line = {{"frame", frame.index}, {"stamp_ns", frame.stamp_ns}, {"objects", list}};
-  return line.dump() + "\n";
+  return line + "]}\n";
 }
 
 }  // namespace railcast
