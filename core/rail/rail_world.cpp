@@ -260,6 +260,18 @@ int RailWorld::HomeChunk(std::int64_t time_ns) const {
   return line_->grid.ChunkAt(things_->vehicle.ChainageAt(time_ns));
 }
 
+std::vector<Transform> RailWorld::VehiclePosesIn(int home_chunk) const {
+  const double begin_s_m = line_->grid.BeginOf(home_chunk);
+  const double length_m = line_->grid.EndOf(home_chunk) - begin_s_m;
+  const int num_steps = std::max(1, static_cast<int>(std::ceil(length_m)));
+  std::vector<Transform> poses;
+  for (int i = 0; i <= num_steps; ++i) {
+    poses.push_back(
+        things_->vehicle.WorldFromObjectAt(line_->alignment, begin_s_m + length_m * i / num_steps));
+  }
+  return poses;
+}
+
 std::vector<int> RailWorld::ChunksInReach(int home_chunk, double range_m) const {
   const double aside_m = std::abs(things_->vehicle.pose().d_m);
   return line_->grid.WithinReach(home_chunk, range_m + aside_m + kOverhang_m);

@@ -81,6 +81,15 @@ struct TerrainSpec {
   bool operator==(const TerrainSpec&) const = default;
 };
 
+/// Which models of plants are traced.
+enum class PlantDetail {
+  kAuto,  ///< Coarser ones far away, where the sensor cannot tell them apart.
+  kFull,  ///< The finest ones everywhere.
+};
+template <>
+inline constexpr auto kEnumNames<PlantDetail> = std::to_array<EnumName<PlantDetail>>(
+    {{PlantDetail::kAuto, "auto"}, {PlantDetail::kFull, "full"}});
+
 struct VegetationSpec {
   double trees_per_hectare = 40.0;
   double tree_min_distance_m = 9.0;  ///< From the outermost track axis.
@@ -89,6 +98,7 @@ struct VegetationSpec {
   bool grass = true;
   double grass_min_distance_m = 3.6;  ///< From the outermost track axis.
   double grass_max_distance_m = 9.0;
+  PlantDetail detail = PlantDetail::kAuto;
 
   bool operator==(const VegetationSpec&) const = default;
 };
@@ -229,6 +239,7 @@ class RailWorld final : public World {
 
   [[nodiscard]] Transform WorldFromVehicle(std::int64_t time_ns) const override;
   [[nodiscard]] int HomeChunk(std::int64_t time_ns) const override;
+  [[nodiscard]] std::vector<Transform> VehiclePosesIn(int home_chunk) const override;
   [[nodiscard]] std::vector<int> ChunksInReach(int home_chunk, double range_m) const override;
   [[nodiscard]] Transform WorldFromChunk(int chunk) const override;
   [[nodiscard]] Chunk BuildChunk(int chunk) const override;

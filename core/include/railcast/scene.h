@@ -44,6 +44,15 @@ struct Model {
   [[nodiscard]] Eigen::AlignedBox3d Bounds() const;
 };
 
+/// A model made of fewer and larger pieces, for where a sensor cannot tell the two apart
+/// (docs/detail.md). Both limits count at the model's place and scale with the model.
+struct CoarserModel {
+  /// Its parts have the surfaces of the finest model's parts, in the same order.
+  std::shared_ptr<const Model> model;
+  double ray_spacing_m{};  ///< Least distance of neighbouring rays.
+  double beam_width_m{};   ///< Least width of beams, where they have any; 0 = any width will do.
+};
+
 /// A model placed in a chunk. The linear part may include a uniform scale.
 struct Placement {
   std::shared_ptr<const Model> model;
@@ -51,6 +60,8 @@ struct Placement {
   std::uint32_t instance{};  ///< Instance id; 0 = background without instances.
   /// Height of a tree, which leans about the model's origin in the wind; 0 = it stands still.
   double sway_height_m = 0.0;
+  /// Coarser forms of the model, each coarser than the one before; null = none.
+  std::shared_ptr<const std::vector<CoarserModel>> coarser = nullptr;
 };
 
 /// A span of wires that the wind blows aside together.
@@ -103,6 +114,11 @@ class World {
 
   /// The chunk that contains the vehicle at this time. Its frame serves as the window frame.
   [[nodiscard]] virtual int HomeChunk(std::int64_t time_ns) const = 0;
+  /// Poses of the vehicle along the whole of `home_chunk`, at most 1 m apart; empty if they are not
+  /// known, in which case no placement is traced as one of its coarser models.
+  [[nodiscard]] virtual std::vector<Transform> VehiclePosesIn(int /*home_chunk*/) const {
+    return {};
+  }
   /// The chunks that lie within `range_m` of a vehicle's origin anywhere in `home_chunk`, in
   /// ascending order.
   [[nodiscard]] virtual std::vector<int> ChunksInReach(int home_chunk, double range_m) const = 0;

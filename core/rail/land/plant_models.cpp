@@ -1,15 +1,17 @@
 #include "core/rail/land/plant_models.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "core/base/units.h"
 #include "core/rail/land/plant_dice.h"
+#include "core/rail/land/plant_parts.h"
 #include "core/rail/model_parts.h"
-#include "core/scene/shapes.h"
 
 namespace railcast {
 namespace {
@@ -36,11 +38,23 @@ struct Leaf {
   double width_m{};
   double scatter_m{};  ///< Distance from its twig.
   double along{};      ///< 1 = along the twig, 0 = random direction.
+  /// Area of merged leaves by level, as a share of that of the leaves they stand for. What is
+  /// missing makes up for their hiding each other less and for their reaching out of the crown:
+  /// trees of all levels stop as many beams (measured by the tests).
+  std::array<double, 4> merged_areas{};
 };
 
 constexpr double kLeafAreaIndex = 3.2;
-constexpr Leaf kBroadLeaf{.length_m = 0.09, .width_m = 0.08, .scatter_m = 0.28, .along = 0.0};
-constexpr Leaf kNeedleShoot{.length_m = 0.11, .width_m = 0.05, .scatter_m = 0.14, .along = 0.5};
+constexpr Leaf kBroadLeaf{.length_m = 0.09,
+                          .width_m = 0.08,
+                          .scatter_m = 0.28,
+                          .along = 0.0,
+                          .merged_areas = {0.975, 0.925, 0.92, 0.885}};
+constexpr Leaf kNeedleShoot{.length_m = 0.11,
+                            .width_m = 0.05,
+                            .scatter_m = 0.14,
+                            .along = 0.5,
+                            .merged_areas = {0.94, 0.845, 0.835, 0.79}};
 
 /// A random unit vector perpendicular to `direction`.
 Vector3 PerpendicularTo(const Vector3& direction, PlantDice& dice) {
@@ -84,16 +98,6 @@ Mesh MakeLeaves(const TreeForm& form,
   return leaves;
 }
 
-/// A tube whose radius decreases linearly.
-Mesh MakeStem(std::span<const Vector3> line, double foot_radius_m, double tip_radius_m, int sides) {
-  std::vector<double> radii_m;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const double t = static_cast<double>(i) / static_cast<double>(line.size() - 1);
-    radii_m.push_back(foot_radius_m + t * (tip_radius_m - foot_radius_m));
-  }
-  return MakeTube(line, radii_m, sides);
-}
-
 /// Centre line of a trunk from below the ground to `top_m`, deviating by up to `wander_m` per
 /// metre.
 std::vector<Vector3> TrunkLine(double top_m, double wander_m, PlantDice& dice) {
@@ -131,13 +135,52 @@ double ReachInCrown(const TreeForm& form, const Vector3& from_m, const Vector3& 
   return std::max(0.0, (std::sqrt(discriminant) - b) / d.squaredNorm());
 }
 
-Model MakeBroadleaf(const TreeForm& form, const RailSurfaces& surfaces, PlantDice dice) {
+/// One of a tree's coarser forms. Of 2 and of 4 leaves, one stays as wide as it is, since the width
+/// decides how much of a beam a leaf covers; no beam within range is wide enough for the others.
+struct TreeLevel {
+  std::size_t num{};
+  double widening{};
+  double beam_width_m{};
+};
+constexpr std::array<TreeLevel, 4> kTreeLevels = {
+    {{2, 1.0, 0.0}, {4, 1.0, 0.0}, {8, 2.0, 1.0}, {16, 4.0, 2.0}}};
+
+/// The tree and its coarser forms.
+PlantModel AssembleTree(const std::string& name,
+                        std::span<const Stem> stems,
+                        const Mesh& leaves,
+                        const Leaf& leaf,
+                        const RailSurfaces& surfaces) {
+  // A leaf of a level then has an area of 1.8 x 1.8 spacings.
+  constexpr double kRaySpacingPerPiece = 0.55;
+  const auto make = [&](const std::string& model_name, Mesh wood, Mesh foliage) {
+    Model tree{.name = model_name, .parts = {}};
+    MeshOf(surfaces.bark, tree) = std::move(wood);
+    MeshOf(surfaces.leaf, tree) = std::move(foliage);
+    return std::make_shared<const Model>(std::move(tree));
+  };
+  std::vector<CoarserModel> coarser;
+  for (std::size_t i = 0; i < kTreeLevels.size(); ++i) {
+    const TreeLevel& level = kTreeLevels[i];
+    const double piece_m = std::sqrt(static_cast<double>(level.num)) * leaf.length_m;
+    coarser.push_back(
+        {make(name + "_" + std::to_string(level.num), FlattenedWood(stems, 0.5 * piece_m),
+              MergedLeaves(leaves, {level.num, level.widening, leaf.merged_areas[i]})),
+         kRaySpacingPerPiece * piece_m, level.beam_width_m});
+  }
+  PlantModel tree{make(name, WoodOf(stems), leaves),
+                  std::make_shared<const std::vector<CoarserModel>>(std::move(coarser))};
+  tree.height_m = tree.model->Bounds().max().z();
+  return tree;
+}
+
+PlantModel MakeBroadleaf(const TreeForm& form, const RailSurfaces& surfaces, PlantDice dice) {
   constexpr int kNumBranches = 26;
   constexpr int kTwigsPerBranch = 6;
-  Mesh wood;
+  std::vector<Stem> stems;
   std::vector<Twig> twigs;
   const std::vector<Vector3> trunk = TrunkLine(0.93 * form.height_m, 0.07, dice);
-  wood.Append(MakeStem(trunk, form.trunk_radius_m, 0.02, 8));
+  stems.push_back({trunk, form.trunk_radius_m, 0.02, 8});
   for (int i = 0; i < kNumBranches; ++i) {
     const double t = (i + 0.5) / kNumBranches;
     const double foot_z_m = form.crown_base_m + t * (0.92 * form.height_m - form.crown_base_m);
@@ -149,8 +192,7 @@ Model MakeBroadleaf(const TreeForm& form, const RailSurfaces& surfaces, PlantDic
         std::max(0.5, dice.Uniform(0.75, 0.98) * ReachInCrown(form, foot_m, direction));
     const Vector3 middle_m = foot_m + 0.5 * length_m * direction + dice.Offset(0.08 * length_m);
     const Vector3 tip_m = foot_m + length_m * direction + Vector3(0, 0, 0.10 * length_m);
-    const std::vector<Vector3> branch = {foot_m, middle_m, tip_m};
-    wood.Append(MakeStem(branch, 0.012 + 0.012 * length_m, 0.006, 5));
+    stems.push_back({{foot_m, middle_m, tip_m}, 0.012 + 0.012 * length_m, 0.006, 5});
     twigs.push_back({middle_m, tip_m});
     for (int k = 0; k < kTwigsPerBranch; ++k) {
       const double along = 0.3 + 0.7 * (k + 0.5) / kTwigsPerBranch;
@@ -162,14 +204,12 @@ Model MakeBroadleaf(const TreeForm& form, const RailSurfaces& surfaces, PlantDic
       const double twig_m =
           std::clamp(0.45 * length_m * dice.Uniform(0.7, 1.3), 0.2, std::max(0.25, reach_m));
       const Twig twig{at_m, at_m + twig_m * twig_direction};
-      wood.Append(MakeStem(std::array{twig.begin_m, twig.end_m}, 0.007, 0.003, 3));
+      stems.push_back({{twig.begin_m, twig.end_m}, 0.007, 0.003, 3});
       twigs.push_back(twig);
     }
   }
-  Model tree{.name = form.name, .parts = {}, .is_foliage = true};
-  MeshOf(surfaces.bark, tree) = std::move(wood);
-  MeshOf(surfaces.leaf, tree) = MakeLeaves(form, twigs, kBroadLeaf, dice);
-  return tree;
+  return AssembleTree(form.name, stems, MakeLeaves(form, twigs, kBroadLeaf, dice), kBroadLeaf,
+                      surfaces);
 }
 
 /// Adds slightly hanging shoots on both sides of a spruce's branch, shorter towards its tip.
@@ -193,13 +233,13 @@ void AddSideShoots(const Vector3& foot_m,
   }
 }
 
-Model MakeSpruce(const TreeForm& form, const RailSurfaces& surfaces, PlantDice dice) {
+PlantModel MakeSpruce(const TreeForm& form, const RailSurfaces& surfaces, PlantDice dice) {
   constexpr int kBranchesPerWhorl = 5;
   constexpr double kWhorlSpacing_m = 0.36;
-  Mesh wood;
+  std::vector<Stem> stems;
   std::vector<Twig> twigs;
   const std::vector<Vector3> trunk = TrunkLine(form.height_m - 0.15, 0.01, dice);
-  wood.Append(MakeStem(trunk, form.trunk_radius_m, 0.01, 8));
+  stems.push_back({trunk, form.trunk_radius_m, 0.01, 8});
   const double crown_m = form.height_m - form.crown_base_m;
   for (double z_m = form.crown_base_m; z_m < form.height_m - 0.25; z_m += kWhorlSpacing_m) {
     const double t = (z_m - form.crown_base_m) / crown_m;
@@ -212,22 +252,15 @@ Model MakeSpruce(const TreeForm& form, const RailSurfaces& surfaces, PlantDice d
           (0.25 + (form.crown_radius_m - 0.25) * (1.0 - t)) * dice.Uniform(0.75, 1.0);
       const double elevation_rad = RadFromDeg(-18.0 + 60.0 * t * t + dice.Uniform(-6.0, 6.0));
       const Vector3 tip_m = foot_m + length_m * Slanting(azimuth_rad, elevation_rad);
-      wood.Append(MakeStem(std::array{foot_m, tip_m}, 0.008 + 0.008 * length_m, 0.004, 3));
+      stems.push_back({{foot_m, tip_m}, 0.008 + 0.008 * length_m, 0.004, 3});
       twigs.push_back({foot_m + 0.3 * (tip_m - foot_m), tip_m});
       AddSideShoots(foot_m, tip_m, dice, twigs);
     }
   }
   const Vector3 top_m(trunk.back().x(), trunk.back().y(), form.height_m);
   twigs.push_back({OnTrunk(trunk, form.height_m - 0.7), top_m});
-  Model tree{.name = form.name, .parts = {}, .is_foliage = true};
-  MeshOf(surfaces.bark, tree) = std::move(wood);
-  MeshOf(surfaces.leaf, tree) = MakeLeaves(form, twigs, kNeedleShoot, dice);
-  return tree;
-}
-
-TreeModel Measured(Model model) {
-  const double height_m = model.Bounds().max().z();
-  return {std::make_shared<const Model>(std::move(model)), height_m};
+  return AssembleTree(form.name, stems, MakeLeaves(form, twigs, kNeedleShoot, dice), kNeedleShoot,
+                      surfaces);
 }
 
 }  // namespace
@@ -238,16 +271,15 @@ PlantModels MakePlantModels(const RailSurfaces& surfaces, std::uint64_t seed) {
   const std::vector<TreeForm> broadleaves = {{"broadleaf_low", 7.5, 1.6, 2.1, 0.10},
                                              {"broadleaf_high", 11.0, 2.8, 2.3, 0.14}};
   for (const TreeForm& form : broadleaves) {
-    plants.broadleaves.push_back(Measured(MakeBroadleaf(form, surfaces, PlantDice(seed, plant++))));
+    plants.broadleaves.push_back(MakeBroadleaf(form, surfaces, PlantDice(seed, plant++)));
   }
   const std::vector<TreeForm> spruces = {{"spruce_low", 7.0, 0.6, 1.6, 0.09},
                                          {"spruce_high", 12.0, 1.4, 2.0, 0.15}};
   for (const TreeForm& form : spruces) {
-    plants.conifers.push_back(Measured(MakeSpruce(form, surfaces, PlantDice(seed, plant++))));
+    plants.conifers.push_back(MakeSpruce(form, surfaces, PlantDice(seed, plant++)));
   }
   for (const char* name : {"grass_a", "grass_b", "grass_c"}) {
-    plants.grass.push_back(
-        std::make_shared<const Model>(MakeGrassPatch(name, surfaces, PlantDice(seed, plant++))));
+    plants.grass.push_back(MakeGrassPatch(name, surfaces, PlantDice(seed, plant++)));
   }
   return plants;
 }

@@ -47,19 +47,20 @@ Placement MakeTree(const PlantModels& plants,
                    double height_m,
                    const Vector3& ground_m,
                    const std::array<std::uint32_t, 4>& words) {
-  const std::vector<TreeModel>& kind =
+  const std::vector<PlantModel>& kind =
       UnitFloat(words[0]) < 0.5F ? plants.broadleaves : plants.conifers;
-  const auto misfit = [&](const TreeModel& tree) {
+  const auto misfit = [&](const PlantModel& tree) {
     return std::abs(std::log(height_m / tree.height_m));
   };
-  const TreeModel& tree = *std::min_element(
+  const PlantModel& tree = *std::min_element(
       kind.begin(), kind.end(),
-      [&](const TreeModel& a, const TreeModel& b) { return misfit(a) < misfit(b); });
+      [&](const PlantModel& a, const PlantModel& b) { return misfit(a) < misfit(b); });
   return {.model = tree.model,
           .chunk_from_model =
               Planted(ground_m, Uniform(words[1], 0.0, kTurn_rad), height_m / tree.height_m),
           .instance = 0,
-          .sway_height_m = height_m};
+          .sway_height_m = height_m,
+          .coarser = tree.coarser};
 }
 
 /// Adds the trees of one strip. In a straight strip of constant width, the chainages of a Poisson
@@ -131,10 +132,12 @@ void AddGrass(const ChunkContext& context,
       // repetition.
       const double yaw_rad =
           0.25 * kTurn_rad * std::floor(Uniform(words[0], 0.0, 4.0)) + Uniform(words[1], -0.2, 0.2);
-      const auto& model = plants.grass[words[2] % plants.grass.size()];
+      const PlantModel& patch = plants.grass[words[2] % plants.grass.size()];
       const double d_m = strip.side * (first_m + spacing_m * row);
-      chunk.placements.push_back(
-          {.model = model, .chunk_from_model = LaidOut(context, s_m, d_m, yaw_rad), .instance = 0});
+      chunk.placements.push_back({.model = patch.model,
+                                  .chunk_from_model = LaidOut(context, s_m, d_m, yaw_rad),
+                                  .instance = 0,
+                                  .coarser = patch.coarser});
     }
   }
 }

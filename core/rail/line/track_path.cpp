@@ -53,8 +53,7 @@ double TrackPath::ChainageAt(std::int64_t time_ns) const {
   return profile_.At(SecondsFromNs(time_ns - begin_ns_)).s_m;
 }
 
-Transform TrackPath::WorldFromObject(const Alignment& alignment, std::int64_t time_ns) const {
-  const double s_m = ChainageAt(time_ns);
+Transform TrackPath::WorldFromObjectAt(const Alignment& alignment, double s_m) const {
   if (pose_.pivot_distance_m > 0.0) return WorldFromBody(alignment, pose_, s_m);
   const Transform world_from_track = alignment.WorldFromTrack(s_m, pose_.d_m, pose_.h_m);
   const Eigen::Matrix3d track_from_object = RotationFromYawPitchRoll(pose_.heading_rad, 0.0, 0.0);

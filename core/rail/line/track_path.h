@@ -34,7 +34,10 @@ class TrackPath {
   [[nodiscard]] bool moves() const { return profile_.moves(); }
   [[nodiscard]] double SpeedAt_mps(std::int64_t time_ns) const;
   [[nodiscard]] double ChainageAt(std::int64_t time_ns) const;
-  [[nodiscard]] Transform WorldFromObject(const Alignment& alignment, std::int64_t time_ns) const;
+  [[nodiscard]] Transform WorldFromObject(const Alignment& alignment, std::int64_t time_ns) const {
+    return WorldFromObjectAt(alignment, ChainageAt(time_ns));
+  }
+  [[nodiscard]] Transform WorldFromObjectAt(const Alignment& alignment, double s_m) const;
 
  private:
   TrackPose pose_;

@@ -17,7 +17,7 @@ const PlantModels& Plants() {
 }
 
 bool IsGrass(const Placement& placement) {
-  return std::find(Plants().grass.begin(), Plants().grass.end(), placement.model) !=
+  return std::ranges::find(Plants().grass, placement.model, &PlantModel::model) !=
          Plants().grass.end();
 }
 
