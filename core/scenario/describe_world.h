@@ -66,6 +66,9 @@ void Describe(Archive& a, VegetationSpec& s) {
              "Distance from the outermost track axis.", DistanceLimits());
   a.Optional("grass_max_distance_m", s.grass_max_distance_m,
              "Distance from the outermost track axis.", DistanceLimits());
+  a.Optional("detail", s.detail,
+             "auto: coarser plants far away, where the sensor cannot tell them apart; full: the "
+             "finest everywhere.");
   a.Ensure({"tree_height_min_m", "tree_height_max_m"}, s.tree_height_min_m <= s.tree_height_max_m,
            "must be <= tree_height_max_m");
   a.Ensure({"grass_min_distance_m", "grass_max_distance_m"},

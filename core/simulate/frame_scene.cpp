@@ -49,7 +49,7 @@ void FrameScene::CastRanges(RayTile& rays) const {
 }
 
 FrameScenes::FrameScenes(std::shared_ptr<SceneStore> store, const FrameSceneSpec& spec)
-    : store_(std::move(store)), spec_(spec), windows_(store_, SensorReachOf(spec)) {
+    : store_(std::move(store)), spec_(spec), windows_(store_, SensorReachOf(spec), spec.detail) {
   UseWorld(store_->world());
 }
 

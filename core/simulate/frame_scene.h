@@ -56,6 +56,7 @@ struct BegunFrame {
 struct FrameSceneSpec {
   double range_max_m{};
   Transform vehicle_from_sensor = Transform::Identity();
+  DetailRule detail{};
   std::uint32_t duration_ns{};  ///< From a frame's first firing to its last.
 };
 

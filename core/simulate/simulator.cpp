@@ -21,6 +21,7 @@
 #include "core/detect/halo.h"
 #include "core/detect/wind_velocity.h"
 #include "core/simulate/beam_tracer.h"
+#include "core/simulate/detail_choice.h"
 #include "core/simulate/firing_tiles.h"
 #include "core/simulate/frame_scene.h"
 #include "core/simulate/output_axes.h"
@@ -161,6 +162,7 @@ Simulator::Simulator(std::shared_ptr<SceneStore> store,
   FiringTiles tiles(pattern);
   const FrameSceneSpec scene_spec{.range_max_m = spec.detector.range_max_m,
                                   .vehicle_from_sensor = spec.vehicle_from_sensor,
+                                  .detail = DetailOf(spec, pattern),
                                   .duration_ns = tiles.duration_ns()};
   parts_.reset(new Parts{.pattern = std::move(pattern),
                          .spec = spec,

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/simulate/detail_choice.h"
 
 namespace railcast {
 namespace {
@@ -68,8 +69,10 @@ std::shared_ptr<const TraceScene> Window::StandingAlone(const TraceDevice& devic
   return standing_alone_;
 }
 
-WindowSource::WindowSource(std::shared_ptr<SceneStore> store, double range_max_m)
-    : store_(std::move(store)), range_max_m_(range_max_m) {
+WindowSource::WindowSource(std::shared_ptr<SceneStore> store,
+                           double range_max_m,
+                           const DetailRule& detail)
+    : store_(std::move(store)), range_max_m_(range_max_m), detail_(detail) {
   fixed_surfaces_.emplace_back();
   std::vector<std::size_t> standing;
   for (const SceneObject& object : store_->world()->objects()) {
@@ -129,7 +132,8 @@ void WindowSource::AddObjects(int home_chunk,
   }
 }
 
-void WindowSource::AddChunks(const Chunks& chunks,
+void WindowSource::AddChunks(int home_chunk,
+                             const Chunks& chunks,
                              bool wind_blows,
                              Window& window,
                              std::vector<TracePlacement>& placements) const {
@@ -142,6 +146,7 @@ void WindowSource::AddChunks(const Chunks& chunks,
     }
     return first;
   };
+  DetailChoice choice(*store_->world(), home_chunk, detail_);
   for (const auto& [index, chunk] : chunks) {
     const Transform world_from_chunk = store_->world()->WorldFromChunk(index);
     const Transform window_from_chunk = window.window_from_world * world_from_chunk;
@@ -159,9 +164,12 @@ void WindowSource::AddChunks(const Chunks& chunks,
       if (it == shared.end()) {
         it = shared.emplace(key, surfaces_of(*placement.model, placement.instance)).first;
       }
-      TracePlacement placed{store_->GetModel(placement.model),
-                            {ToAffine(window_from_chunk) * placement.chunk_from_model},
-                            it->second};
+      const Eigen::Affine3d window_from_model =
+          ToAffine(window_from_chunk) * placement.chunk_from_model;
+      TracePlacement placed{
+          store_->GetModel(ModelAt(placement, choice.LevelOf(placement, window_from_model))),
+          {window_from_model},
+          it->second};
       ++number;
       if (wind_blows && placement.sway_height_m > 0.0) {
         window.swaying.trees.push_back(
@@ -212,7 +220,7 @@ std::shared_ptr<const Window> WindowSource::Build(int home_chunk,
   Chunks chunks = GetChunks(home_chunk, purpose, pace);
   const std::size_t num_steps = NumSteps(chunks.size());
   progress(chunks.size(), num_steps);
-  AddChunks(chunks, purpose.wind_blows, *window, placements);
+  AddChunks(home_chunk, chunks, purpose.wind_blows, *window, placements);
   window->scene = std::make_unique<TraceScene>(store_->device(), placements);
   if (store_->uses_beams()) window->scene->PrepareBeams();
   progress(num_steps, num_steps);

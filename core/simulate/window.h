@@ -22,7 +22,9 @@ namespace railcast {
 
 /// All stationary geometry within reach of the vehicle while it is in one chunk, in that chunk's
 /// frame. Depends only on the home chunk, on which objects are stationary, and on whether there is
-/// wind: trees and wires that the wind moves are listed, but not part of the scene.
+/// wind: trees and wires that the wind moves are listed, but not part of the scene. How coarse the
+/// models of plants are follows from the home chunk, too, so that nothing changes its shape while
+/// the vehicle is in one chunk.
 struct Window {
   Transform window_from_world;
   std::vector<Surface> surfaces;  ///< 0 = nothing, then the parts of objects, then those of chunks.
@@ -42,6 +44,13 @@ struct Window {
   mutable std::shared_ptr<const TraceScene> standing_alone_;
 };
 
+/// How coarse the models in a window may be for its sensor; DetailChoice applies it.
+struct DetailRule {
+  Transform vehicle_from_sensor = Transform::Identity();
+  double ray_spacing_rad = 0.0;  ///< Angle between neighbouring firings; 0 = full detail.
+  double beam_width_rad = 0.0;   ///< The lesser divergence; 0 = rays without width.
+};
+
 /// Makes windows, either on demand or ahead of time on a background thread. Thread-safe.
 ///
 /// At most two windows, the one in use and the one prepared, are kept in memory with their chunks.
@@ -49,7 +58,9 @@ class WindowSource {
  public:
   /// Objects are those of the store's world; at first, all that do not move are part of the
   /// windows.
-  WindowSource(std::shared_ptr<SceneStore> store, double range_max_m);
+  WindowSource(std::shared_ptr<SceneStore> store,
+               double range_max_m,
+               const DetailRule& detail = {});
   ~WindowSource();
   WindowSource(const WindowSource&) = delete;
   WindowSource& operator=(const WindowSource&) = delete;
@@ -104,7 +115,8 @@ class WindowSource {
                                                     const Purpose& purpose,
                                                     Pace pace);
   void AddObjects(int home_chunk, const std::vector<std::size_t>& standing, Window& window) const;
-  void AddChunks(const Chunks& chunks,
+  void AddChunks(int home_chunk,
+                 const Chunks& chunks,
                  bool wind_blows,
                  Window& window,
                  std::vector<TracePlacement>& placements) const;
@@ -118,6 +130,7 @@ class WindowSource {
 
   std::shared_ptr<SceneStore> store_;
   double range_max_m_;
+  DetailRule detail_;
   std::vector<SceneStore::StoredObject> objects_;
   std::vector<std::uint32_t> object_surfaces_;
   std::vector<Surface> fixed_surfaces_;  // Surface 0 (nothing) and the objects' parts.

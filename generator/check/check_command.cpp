@@ -11,6 +11,7 @@
 #include "core/rail/world_check.h"
 #include "core/scenario/track_limits.h"
 #include "core/scenario/vehicle_clearance.h"
+#include "core/simulate/detail_choice.h"
 #include "generator/check/check_report.h"
 #include "generator/commands.h"
 #include "generator/run/stoppable_work.h"
@@ -54,7 +55,9 @@ class Report {
         LookAround(world_, materials_, {mount_m[0], mount_m[1], mount_m[2]}, range_m);
     return EffectsText(scenario_) + OutputText(scenario_.output, around.position_world) +
            SurroundingsText(around, *world_, LabelTable(scenario_.labels)) +
-           SceneText(AuditScene(*world_, materials_, pattern_.StampNs(0), range_m));
+           SceneText(AuditScene(*world_, materials_, pattern_.StampNs(0), range_m)) +
+           DetailText(AuditDetail(*world_, pattern_.StampNs(0), range_m, Detail()),
+                      LabelTable(scenario_.labels));
   }
 
   [[nodiscard]] std::string Choice() const {
@@ -64,6 +67,15 @@ class Report {
   }
 
  private:
+  [[nodiscard]] DetailRule Detail() const {
+    const LidarSpec& lidar = scenario_.lidar;
+    const SimulatorSpec spec{
+        .detector = DetectorSpecOf(scenario_, lidar, SwitchedEffects(scenario_)),
+        .vehicle_from_sensor = VehicleFromSensor(lidar.mount),
+        .has_full_detail = scenario_.world.vegetation.detail == PlantDetail::kFull};
+    return DetailOf(spec, pattern_);
+  }
+
   const ScenarioSpec& scenario_;
   std::shared_ptr<const RailWorld> world_;
   ScanPattern pattern_;

@@ -137,6 +137,24 @@ std::string VehicleText(const std::string& track, const VehicleWay& way, double 
                                              : "never reaches the end of its track");
 }
 
+std::string DetailText(const DetailAudit& audit, const LabelTable& labels) {
+  if (audit.levels.empty()) return "";
+  std::string text =
+      ReportLine("detail", "of plants, as traced: " + std::to_string(audit.traced_triangles) +
+                               " of " + std::to_string(audit.full_triangles) + " triangles");
+  for (const auto& [label, levels] : audit.levels) {
+    std::string line;
+    for (const auto& [level, of_level] : levels) {
+      line += (line.empty() ? LabelName(labels, label) + ": " : ", ") +
+              std::to_string(of_level.num_placements) +
+              (level == 0 ? " in full detail" : " at level " + std::to_string(level)) + " from " +
+              Rounded(of_level.nearest_m, 0) + " m";
+    }
+    text += ReportLine("", line);
+  }
+  return text;
+}
+
 std::string SceneText(const SceneAudit& audit) {
   std::string materials;
   for (const std::string& material : audit.materials) materials += " " + material;

@@ -45,6 +45,8 @@ namespace railcast {
                                       double rate_hz);
 
 [[nodiscard]] std::string SceneText(const SceneAudit& audit);
+/// Which models of plants are traced at which distances.
+[[nodiscard]] std::string DetailText(const DetailAudit& audit, const LabelTable& labels);
 
 [[nodiscard]] std::string ObjectsText(const World& world, const LabelTable& labels);
 

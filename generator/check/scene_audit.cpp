@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/simulate/detail_choice.h"
 #include "railcast/lidar.h"
 #include "railcast/simulator.h"
 
@@ -58,6 +59,34 @@ SceneAudit AuditScene(const World& world,
   for (const SceneObject& object : world.objects()) {
     audit.object_triangles += object.model->num_triangles();
     AddMaterials(*object.model, materials, audit.materials);
+  }
+  return audit;
+}
+
+DetailAudit AuditDetail(const World& world,
+                        std::int64_t time_ns,
+                        double range_m,
+                        const DetailRule& rule) {
+  DetailAudit audit;
+  if (!(rule.ray_spacing_rad > 0.0)) return audit;
+  const int home_chunk = world.HomeChunk(time_ns);
+  const Transform window_from_world = world.WorldFromChunk(home_chunk).inverse();
+  DetailChoice choice(world, home_chunk, rule);
+  for (const int index : world.ChunksInReach(home_chunk, range_m)) {
+    const Eigen::Affine3d window_from_chunk(
+        (window_from_world * world.WorldFromChunk(index)).matrix());
+    for (const Placement& placement : world.BuildChunk(index).placements) {
+      if (placement.coarser == nullptr) continue;
+      const Eigen::Affine3d window_from_model = window_from_chunk * placement.chunk_from_model;
+      const std::size_t level = choice.LevelOf(placement, window_from_model);
+      const double distance_m = choice.Distance_m(placement, window_from_model);
+      audit.full_triangles += placement.model->num_triangles();
+      audit.traced_triangles += ModelAt(placement, level)->num_triangles();
+      const auto [found, is_new] = audit.levels[placement.model->parts.front().label].try_emplace(
+          level, DetailAudit::Level{0, distance_m});
+      ++found->second.num_placements;
+      found->second.nearest_m = std::min(found->second.nearest_m, distance_m);
+    }
   }
   return audit;
 }

@@ -2,12 +2,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "core/simulate/window.h"
 #include "railcast/material.h"
 #include "railcast/scene.h"
 
@@ -31,6 +33,24 @@ struct SceneAudit {
                                     const MaterialLibrary& materials,
                                     std::int64_t time_ns,
                                     double range_m);
+
+/// How coarse the plants of a window are for a sensor.
+struct DetailAudit {
+  struct Level {
+    std::size_t num_placements{};
+    double nearest_m{};  ///< Least distance of any of them.
+  };
+  std::size_t full_triangles{};    ///< Of all placements that have coarser models, in full detail.
+  std::size_t traced_triangles{};  ///< Of the same as they are traced.
+  /// By the label of the models' first part, and by level from the finest.
+  std::map<std::uint32_t, std::map<std::size_t, Level>> levels;
+};
+
+/// Looks which models the window at that time holds. Nothing if the rule is for full detail.
+[[nodiscard]] DetailAudit AuditDetail(const World& world,
+                                      std::int64_t time_ns,
+                                      double range_m,
+                                      const DetailRule& rule);
 
 /// The first surface that a sensor sees in some direction.
 struct SightedSurface {

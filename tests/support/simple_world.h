@@ -20,6 +20,7 @@ class SimpleWorld final : public World {
   Transform world_from_chunk = Transform::Identity();
   Transform chunk_from_vehicle = Transform::Identity();  ///< At time 0.
   Vector3 velocity_chunk_mps = Vector3::Zero();
+  std::vector<Transform> vehicle_poses;  ///< VehiclePosesIn().
   double yaw_rate_radps = 0.0;  ///< The vehicle's yaw rate about its own z, positive to the left.
 
   /// Adds an object that starts at `chunk_from_object` and stands or moves at a constant velocity.
@@ -45,6 +46,7 @@ class SimpleWorld final : public World {
     return Moved(turned, velocity_chunk_mps, time_ns);
   }
   [[nodiscard]] int HomeChunk(std::int64_t) const override { return 0; }
+  [[nodiscard]] std::vector<Transform> VehiclePosesIn(int) const override { return vehicle_poses; }
   [[nodiscard]] std::vector<int> ChunksInReach(int, double) const override { return {0}; }
   [[nodiscard]] Transform WorldFromChunk(int) const override { return world_from_chunk; }
   [[nodiscard]] Chunk BuildChunk(int) const override { return {ground, placements, wires}; }

@@ -49,12 +49,12 @@ constexpr Leaf kBroadLeaf{.length_m = 0.09,
                           .width_m = 0.08,
                           .scatter_m = 0.28,
                           .along = 0.0,
-                          .merged_areas = {0.975, 0.925, 0.92, 0.885}};
+                          .merged_areas = {0.975, 0.94, 0.92, 0.885}};
 constexpr Leaf kNeedleShoot{.length_m = 0.11,
                             .width_m = 0.05,
                             .scatter_m = 0.14,
                             .along = 0.5,
-                            .merged_areas = {0.94, 0.845, 0.835, 0.79}};
+                            .merged_areas = {0.94, 0.87, 0.835, 0.79}};
 
 /// A random unit vector perpendicular to `direction`.
 Vector3 PerpendicularTo(const Vector3& direction, PlantDice& dice) {
@@ -154,7 +154,7 @@ PlantModel AssembleTree(const std::string& name,
   // A leaf of a level then has an area of 1.8 x 1.8 spacings.
   constexpr double kRaySpacingPerPiece = 0.55;
   const auto make = [&](const std::string& model_name, Mesh wood, Mesh foliage) {
-    Model tree{.name = model_name, .parts = {}};
+    Model tree{.name = model_name, .parts = {}, .is_foliage = true};
     MeshOf(surfaces.bark, tree) = std::move(wood);
     MeshOf(surfaces.leaf, tree) = std::move(foliage);
     return std::make_shared<const Model>(std::move(tree));

@@ -1,0 +1,93 @@
+#include "core/simulate/detail_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
+
+#include "core/base/units.h"
+
+namespace railcast {
+namespace {
+
+double ScaleOf(const Eigen::Affine3d& window_from_model) {
+  return window_from_model.linear().col(2).norm();
+}
+
+}  // namespace
+
+DetailRule DetailOf(const SimulatorSpec& spec, const ScanPattern& pattern) {
+  const DetectorSpec& detector = spec.detector;
+  if (spec.has_full_detail || detector.effects.dense_footprint) return {};
+  const auto& [horizontal_mrad, vertical_mrad] = detector.beam.divergence_mrad;
+  const double beam_mrad =
+      detector.effects.footprint ? std::min(horizontal_mrad, vertical_mrad) : 0.0;
+  return {.vehicle_from_sensor = spec.vehicle_from_sensor,
+          .ray_spacing_rad = RaySpacing_rad(pattern),
+          .beam_width_rad = 1e-3 * beam_mrad};
+}
+
+double RaySpacing_rad(const ScanPattern& pattern) {
+  // Cells of equal area: equal steps of azimuth and of the sine of the elevation.
+  const double step_rad = RadFromDeg(1.0);
+  std::map<std::pair<int, int>, std::size_t> num_in_cell;
+  for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
+    const auto x = static_cast<double>(pattern.direction_x[i]);
+    const auto y = static_cast<double>(pattern.direction_y[i]);
+    const auto z = static_cast<double>(pattern.direction_z[i]);
+    ++num_in_cell[{static_cast<int>(std::floor(std::atan2(y, x) / step_rad)),
+                   static_cast<int>(std::floor(z / step_rad))}];
+  }
+  std::vector<std::size_t> densities;
+  for (const auto& [cell, num] : num_in_cell) densities.push_back(num);
+  std::sort(densities.begin(), densities.end(), std::greater<>());
+  std::size_t num_denser = 0;
+  for (const std::size_t density : densities) {
+    num_denser += density;
+    if (10 * num_denser >= pattern.num_firings()) {
+      return step_rad / std::sqrt(static_cast<double>(density));
+    }
+  }
+  return 0.0;
+}
+
+DetailChoice::DetailChoice(const World& world, int home_chunk, const DetailRule& rule)
+    : rule_(rule) {
+  if (!(rule.ray_spacing_rad > 0.0)) return;
+  const Transform window_from_world = world.WorldFromChunk(home_chunk).inverse();
+  for (const Transform& world_from_vehicle : world.VehiclePosesIn(home_chunk)) {
+    sensors_window_m_.emplace_back(
+        (window_from_world * world_from_vehicle * rule.vehicle_from_sensor).translation());
+  }
+}
+
+double DetailChoice::Distance_m(const Placement& placement,
+                                const Eigen::Affine3d& window_from_model) {
+  const auto [box, is_new] = boxes_.try_emplace(placement.model.get());
+  if (is_new) box->second = placement.model->Bounds();
+  const Eigen::Affine3d model_from_window = window_from_model.inverse();
+  double distance2 = std::numeric_limits<double>::infinity();
+  for (const Vector3& sensor_m : sensors_window_m_) {
+    distance2 = std::min(
+        distance2, box->second.squaredExteriorDistance(Vector3(model_from_window * sensor_m)));
+  }
+  return std::sqrt(distance2) * ScaleOf(window_from_model);
+}
+
+std::size_t DetailChoice::LevelOf(const Placement& placement,
+                                  const Eigen::Affine3d& window_from_model) {
+  if (placement.coarser == nullptr || sensors_window_m_.empty()) return 0;
+  // Limits are those of the model's own size, and its scale shortens the distance to it.
+  const double distance = Distance_m(placement, window_from_model) / ScaleOf(window_from_model);
+  const auto permits = [&](const CoarserModel& coarser) {
+    return coarser.ray_spacing_m <= rule_.ray_spacing_rad * distance &&
+           (!(rule_.beam_width_rad > 0.0) ||
+            coarser.beam_width_m <= rule_.beam_width_rad * distance);
+  };
+  const auto too_coarse =
+      std::find_if_not(placement.coarser->begin(), placement.coarser->end(), permits);
+  return static_cast<std::size_t>(too_coarse - placement.coarser->begin());
+}
+
+}  // namespace railcast

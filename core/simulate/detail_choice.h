@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "core/simulate/window.h"
+#include "railcast/lidar.h"
+#include "railcast/scene.h"
+#include "railcast/simulator.h"
+
+namespace railcast {
+
+/// The rule for a sensor: rays without width unless effect footprint is on, full detail if the spec
+/// or effect dense_footprint, the yardstick, demands it.
+[[nodiscard]] DetailRule DetailOf(const SimulatorSpec& spec, const ScanPattern& pattern);
+
+/// The angle between neighbouring firings where the pattern is dense: the square root of the solid
+/// angle per firing, in cells of one square degree, that one firing in ten falls below.
+[[nodiscard]] double RaySpacing_rad(const ScanPattern& pattern);
+
+/// Chooses the models of the placements in a window. They depend on nothing but the placement, the
+/// home chunk and the rule: what counts is the least distance between the placement's box and the
+/// places that the sensor can have while the vehicle is in the home chunk.
+class DetailChoice {
+ public:
+  DetailChoice(const World& world, int home_chunk, const DetailRule& rule);
+
+  /// The level of the coarsest model that the rule permits at the placement's distance: 0 is the
+  /// finest, k is placement.coarser[k - 1].
+  [[nodiscard]] std::size_t LevelOf(const Placement& placement,
+                                    const Eigen::Affine3d& window_from_model);
+  /// @pre The rule is not for full detail, and the vehicle's poses are known.
+  [[nodiscard]] double Distance_m(const Placement& placement,
+                                  const Eigen::Affine3d& window_from_model);
+
+ private:
+  DetailRule rule_;
+  std::vector<Vector3> sensors_window_m_;
+  std::map<const Model*, Eigen::AlignedBox3d> boxes_;
+};
+
+/// The model of a placement at a level.
+[[nodiscard]] inline const std::shared_ptr<const Model>& ModelAt(const Placement& placement,
+                                                                 std::size_t level) {
+  return level == 0 ? placement.model : (*placement.coarser)[level - 1].model;
+}
+
+}  // namespace railcast

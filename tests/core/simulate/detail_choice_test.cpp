@@ -1,0 +1,126 @@
+#include "core/simulate/detail_choice.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/units.h"
+#include "tests/support/simple_world.h"
+
+namespace railcast {
+namespace {
+
+DetailRule Rays() {
+  return {.vehicle_from_sensor = Transform::Identity(), .ray_spacing_rad = 0.004};
+}
+
+DetailRule Beams() {
+  DetailRule rule = Rays();
+  rule.beam_width_rad = 0.002;
+  return rule;
+}
+
+/// 2 x 2 m wide and 4 m high, with two coarser forms: where rays are 0.04 m apart, and where they
+/// are 0.08 m apart and beams 0.1 m wide.
+Placement TestTree() {
+  Model tree{"tree", {{{}, 1, 1}}};
+  tree.parts[0].mesh.vertices = {{-1, -1, 0}, {1, 1, 4}, {1, -1, 0}};
+  tree.parts[0].mesh.triangles = {{0, 1, 2}};
+  const auto bare = std::make_shared<const Model>(Model{"bare", {{{}, 1, 1}}});
+  const std::vector<CoarserModel> coarser = {{bare, 0.04, 0.0}, {bare, 0.08, 0.1}};
+  return {.model = std::make_shared<const Model>(std::move(tree)),
+          .coarser = std::make_shared<const std::vector<CoarserModel>>(coarser)};
+}
+
+/// A vehicle that moves along x from 0 to 50 m.
+SimpleWorld TestWay() {
+  SimpleWorld world;
+  for (int x_m = 0; x_m <= 50; ++x_m) {
+    world.vehicle_poses.push_back(MakeTransform(Eigen::Matrix3d::Identity(), Vector3(x_m, 0, 0)));
+  }
+  return world;
+}
+
+/// The level of the tree with its foot at a place, `scale` times as large.
+std::size_t LevelAt(const DetailRule& rule, const Vector3& at_m, double scale = 1.0) {
+  DetailChoice choice(TestWay(), 0, rule);
+  return choice.LevelOf(TestTree(),
+                        Eigen::Affine3d(Eigen::Translation3d(at_m) * Eigen::Scaling(scale)));
+}
+
+TEST(DetailChoice, TakesTheCoarsestModelThatTheSpacingOfTheRaysPermits) {
+  // Rays are 0.04 m apart at 10 m and 0.08 m at 20 m; the tree begins 1 m before its foot.
+  EXPECT_EQ(LevelAt(Rays(), {25, 10.9, 0}), 0U);
+  EXPECT_EQ(LevelAt(Rays(), {25, 11.1, 0}), 1U);
+  EXPECT_EQ(LevelAt(Rays(), {25, -20.9, 0}), 1U);
+  EXPECT_EQ(LevelAt(Rays(), {25, -21.1, 0}), 2U);
+}
+
+TEST(DetailChoice, CountsTheLeastDistanceFromAnyPlaceInTheHomeChunk) {
+  EXPECT_EQ(LevelAt(Rays(), {0, 5, 0}), 0U);
+  EXPECT_EQ(LevelAt(Rays(), {50, 5, 0}), 0U);
+  EXPECT_EQ(LevelAt(Rays(), {60.9, 0, 0}), 0U);
+  EXPECT_EQ(LevelAt(Rays(), {61.1, 0, 0}), 1U);
+  EXPECT_EQ(LevelAt(Rays(), {-11.1, 0, 0}), 1U);
+  DetailRule ahead = Rays();
+  ahead.vehicle_from_sensor = MakeTransform(Eigen::Matrix3d::Identity(), Vector3(2, 0, 0));
+  EXPECT_EQ(LevelAt(ahead, {61.1, 0, 0}), 0U);
+}
+
+TEST(DetailChoice, TakesTheWidthOfBeamsIntoAccountWhereTheyHaveOne) {
+  // Beams are 0.1 m wide at 50 m.
+  EXPECT_EQ(LevelAt(Beams(), {25, 11.1, 0}), 1U);
+  EXPECT_EQ(LevelAt(Beams(), {25, 50.9, 0}), 1U);
+  EXPECT_EQ(LevelAt(Beams(), {25, 51.1, 0}), 2U);
+}
+
+TEST(DetailChoice, LeavesLargerModelsInDetailFartherAway) {
+  EXPECT_EQ(LevelAt(Rays(), {25, 21.9, 0}, 2.0), 0U);
+  EXPECT_EQ(LevelAt(Rays(), {25, 22.1, 0}, 2.0), 1U);
+}
+
+TEST(DetailChoice, IsInFullDetailWhereNothingElseIsKnown) {
+  EXPECT_EQ(LevelAt({}, {25, 1000, 0}), 0U);
+  Placement alone = TestTree();
+  alone.coarser = nullptr;
+  EXPECT_EQ(DetailChoice(TestWay(), 0, Rays()).LevelOf(alone, Eigen::Affine3d::Identity()), 0U);
+  DetailChoice without_poses(SimpleWorld{}, 0, Rays());
+  EXPECT_EQ(
+      without_poses.LevelOf(TestTree(), Eigen::Affine3d(Eigen::Translation3d(25.0, 1000.0, 0.0))),
+      0U);
+}
+
+ScanPattern Raster(double resolution_deg) {
+  return BuildScanPattern({.rate_hz = 10.0,
+                           .pattern = RasterSpec{.horizontal_fov_deg = 60.0,
+                                                 .vertical_fov_deg = 30.0,
+                                                 .angular_resolution_deg = resolution_deg}});
+}
+
+TEST(RaySpacing, IsTheResolutionOfARaster) {
+  for (const double resolution_deg : {1.0, 0.25, 0.1}) {
+    // A cell of one degree that is not a multiple of the spacing holds one row more or less.
+    EXPECT_NEAR(DegFromRad(RaySpacing_rad(Raster(resolution_deg))), resolution_deg,
+                0.2 * resolution_deg);
+  }
+}
+
+TEST(DetailOf, FollowsTheSensorAndTheEffects) {
+  const ScanPattern pattern = Raster(0.25);
+  SimulatorSpec spec;
+  spec.detector.beam.divergence_mrad = {3.0, 1.5};
+  EXPECT_DOUBLE_EQ(DetailOf(spec, pattern).ray_spacing_rad, RaySpacing_rad(pattern));
+  EXPECT_EQ(DetailOf(spec, pattern).beam_width_rad, 0.0);
+  spec.detector.effects.footprint = true;
+  EXPECT_DOUBLE_EQ(DetailOf(spec, pattern).beam_width_rad, 1.5e-3);
+  spec.detector.effects.dense_footprint = true;  // The yardstick.
+  EXPECT_EQ(DetailOf(spec, pattern).ray_spacing_rad, 0.0);
+  spec.detector.effects = {};
+  spec.has_full_detail = true;
+  EXPECT_EQ(DetailOf(spec, pattern).ray_spacing_rad, 0.0);
+}
+
+}  // namespace
+}  // namespace railcast
