@@ -40,7 +40,7 @@ std::set<std::uint32_t> SelectedLabels(const std::vector<std::string>& names,
   return ids;
 }
 
-/// Waits for a whole frame of a live source and returns the place of the latest.
+/// Waits for a whole frame of a live source and returns its place.
 /// @param first The first place that counts.
 /// @param with_picture Whether to wait for the frame's picture, too.
 std::size_t WaitForFrame(LiveFrames& live, std::size_t first, bool with_picture, double wait_s) {
@@ -50,8 +50,7 @@ std::size_t WaitForFrame(LiveFrames& live, std::size_t first, bool with_picture,
     (void)live.Poll();
     (void)live.PollImages();
     if (!live.fault().empty()) throw InputError(live.fault());
-    const auto latest = live.LatestWhole(with_picture);
-    if (latest && *latest >= first) return *latest;
+    if (const auto place = live.FirstWhole(first, with_picture)) return *place;
     if (Clock::now() > end) {
       throw InputError(ShownPath(live.info().source) + ": no whole frame " +
                        (with_picture ? "with an image " : "") + "came within " +

@@ -53,7 +53,8 @@ struct DetailRule {
 
 /// Makes windows, either on demand or ahead of time on a background thread. Thread-safe.
 ///
-/// At most two windows, the one in use and the one prepared, are kept in memory with their chunks.
+/// It keeps two windows with their chunks, the one in use and the one prepared; whoever uses an
+/// earlier one keeps that, too.
 class WindowSource {
  public:
   /// Objects are those of the store's world; at first, all that do not move are part of the

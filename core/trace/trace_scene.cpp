@@ -265,8 +265,9 @@ void LoadRays(const RayTile& tile, std::size_t first, RTCRayHit16& packet) {
   std::memset(packet.hit.instID, 0xFF, kBytes);
 }
 
-// What Embree is told about the rays of a packet, which changes no hit. Neighbouring rays part
-// among leaves: there it is faster not to follow them through the scene together.
+// What Embree is told about the rays of a packet. Neighbouring rays part among leaves: there it is
+// faster not to follow them through the scene together. Ranges are the same but for their last
+// bits; of coplanar faces, another one may be hit.
 RTCIntersectContextFlags CoherenceOf(bool has_foliage) {
   return has_foliage ? RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT : RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
 }

@@ -14,12 +14,12 @@ using Json = nlohmann::ordered_json;
 // The line is put together as text: of hundreds of objects, a tree of JSON values costs as much as
 // tracing the frame.
 
-std::string Text(const Json& value) {
+std::string Dumped(const Json& value) {
   return value.dump();
 }
 
 std::string List(const Vector3& vector) {
-  return Text({vector.x(), vector.y(), vector.z()});
+  return Dumped({vector.x(), vector.y(), vector.z()});
 }
 
 double ToTenthOfMillimetre(double length_m) {
@@ -37,7 +37,7 @@ void AppendBox(const char* key,
   line.append(",\"").append(key).append("\":{\"center_m\":");
   line.append(List(to_from_box.translation())).append(",\"size_m\":").append(size);
   line.append(",\"quaternion_xyzw\":");
-  line.append(Text({turn.x(), turn.y(), turn.z(), turn.w()})).append("}");
+  line.append(Dumped({turn.x(), turn.y(), turn.z(), turn.w()})).append("}");
 }
 
 std::string Contacts(const ObjectInFrame& object) {
@@ -47,16 +47,16 @@ std::string Contacts(const ObjectInFrame& object) {
                         {"overlap", contact.is_overlap},
                         {"gap_m", ToTenthOfMillimetre(contact.gap_m)}});
   }
-  return Text(contacts);
+  return Dumped(contacts);
 }
 
 void AppendObject(const ObjectInFrame& object,
                   const Transform& sensor_from_world,
                   std::string& line) {
   const std::string size = List(object.size_m);
-  line.append("{\"name\":").append(Text(object.name));
-  line.append(",\"type\":").append(Text(object.type));
-  line.append(",\"label\":").append(Text(object.label));
+  line.append("{\"name\":").append(Dumped(object.name));
+  line.append(",\"type\":").append(Dumped(object.type));
+  line.append(",\"label\":").append(Dumped(object.label));
   line.append(",\"instance\":").append(std::to_string(object.instance));
   AppendBox("world", object.world_from_box, size, line);
   AppendBox("sensor", sensor_from_world * object.world_from_box, size, line);
@@ -70,7 +70,7 @@ void AppendObject(const ObjectInFrame& object,
     occlusion = 1.0 - static_cast<double>(object.firings_visible) /
                           static_cast<double>(object.firings_alone);
   }
-  line.append(",\"occlusion\":").append(Text(occlusion));
+  line.append(",\"occlusion\":").append(Dumped(occlusion));
   line.append(",\"contacts\":").append(Contacts(object)).append("}");
 }
 

@@ -179,7 +179,7 @@ int RunSequenceCommand(const SequenceOptions& options) {
   SurveyedRun frames(run, spec.files.labels);
   // Commands change the simulator from one frame to the next.
   const FramesAtOnce at_once = {
-      log.commands.empty() ? NumFramesAtOnce(*simulator) : 1,
+      log.commands.empty() ? NumFramesAtOnce(*simulator, scenario) : 1,
       [&](const std::function<void()>& work) { simulator->Execute(work); }};
   ProgressDisplay display;
   const SequenceHooks hooks = {

@@ -14,7 +14,21 @@ SurveyedRun::SurveyedRun(CommandedRun& run, const LabelTable& labels)
   if (camera_) frames_per_image_ = FramesPerImage(run.scenario());
 }
 
+namespace {
+
+/// A thread other than the one that waits for a window may be the first to see that the run is
+/// stopped; then the deadline is still set, which would cut off frames that are being finished.
+struct NoDeadlineAfterwards {
+  NoDeadlineAfterwards() = default;
+  ~NoDeadlineAfterwards() { UseStopDeadline(false); }
+  NoDeadlineAfterwards(const NoDeadlineAfterwards&) = delete;
+  NoDeadlineAfterwards& operator=(const NoDeadlineAfterwards&) = delete;
+};
+
+}  // namespace
+
 FrameJob SurveyedRun::Begin(std::uint32_t index) {
+  const NoDeadlineAfterwards guard;
   Simulator& simulator = run_.At(0, index);
   // Frames are begun by whichever thread is free: from now on the terminal shows what this one
   // waits for.
@@ -39,10 +53,14 @@ ObjectSurvey& SurveyedRun::SurveyOf(const Simulator& simulator) {
   return *mine.survey;
 }
 
-std::size_t NumFramesAtOnce(const Simulator& simulator) {
-  constexpr std::size_t kMostFirings = 4'000'000;
-  const std::size_t num_in_memory = kMostFirings / simulator.pattern().num_firings();
-  return std::clamp<std::size_t>(num_in_memory, 1, simulator.num_threads() + 1);
+std::size_t NumFramesAtOnce(const Simulator& simulator, const ScenarioSpec& scenario) {
+  // A pixel of the camera's image takes about as much memory as a firing.
+  constexpr std::size_t kMostInMemory = 4'000'000;
+  std::size_t num_each = simulator.pattern().num_firings();
+  if (scenario.camera) {
+    num_each += std::size_t{scenario.camera->width_px} * scenario.camera->height_px;
+  }
+  return std::clamp<std::size_t>(kMostInMemory / num_each, 1, simulator.num_threads() + 1);
 }
 
 }  // namespace railcast

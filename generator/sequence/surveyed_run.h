@@ -42,8 +42,9 @@ class SurveyedRun {
 };
 
 /// How many frames are made at once where none depends on another: one for each thread, and one
-/// that waits for its turn to be written. Frames of millions of firings keep all threads busy with
-/// their tiles and take much memory: they are made one after another.
-[[nodiscard]] std::size_t NumFramesAtOnce(const Simulator& simulator);
+/// that waits for its turn to be written. Frames of millions of firings, or with
+/// images of millions of pixels, keep all threads busy by themselves and take much memory: they are
+/// made one after another.
+[[nodiscard]] std::size_t NumFramesAtOnce(const Simulator& simulator, const ScenarioSpec& scenario);
 
 }  // namespace railcast

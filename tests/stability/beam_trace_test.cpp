@@ -73,7 +73,8 @@ Agreement AgreementOn(const std::string& scenario_name,
        .vehicle_from_sensor = spec.vehicle_from_sensor,
        .duration_ns = tiles.duration_ns()});
   scenes.UseWind(wind);
-  const FrameScene scene = scenes.At(frame_index, pattern.StampNs(frame_index));
+  BegunFrame begun = scenes.Begin(frame_index, pattern.StampNs(frame_index));
+  const FrameScene& scene = scenes.SceneOf(begun);
   BeamFrame frame{};
   frame.sigma_h_rad = static_cast<float>(HorizontalSigma_rad(spec.detector.beam));
   frame.sigma_v_rad = static_cast<float>(VerticalSigma_rad(spec.detector.beam));

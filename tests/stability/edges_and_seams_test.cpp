@@ -139,6 +139,12 @@ TEST(EdgesAndSeams, RobustTraversalClosesEdgesThatPlainTraversalLeavesOpen) {
   const Model sphere{"sphere", {{MakeSphere(7.3, 50, 99), 1, 1}}};
   const TraceDevice device;
   const auto scene = SceneOf(device, sphere);
+  // Foliage is traced without it, and changes how packets go through the scene.
+  const auto leaf = std::make_shared<TraceModel>(
+      device, Model{.name = "leaf", .parts = {{MakeWall(20.0F, 1.0F), 1, 1}}, .is_foliage = true});
+  const auto ball = std::make_shared<TraceModel>(device, sphere);
+  const Eigen::Affine3d here = Eigen::Affine3d::Identity();
+  const TraceScene with_foliage(device, {{ball, {here}, 1}, {leaf, {here}, 2}});
   const PlainEmbree plain(sphere.parts, RTC_SCENE_FLAG_NONE, 1);
   for (const bool at_vertices : {false, true}) {
     const std::vector<Ray> rays = FromInside(sphere.parts[0].mesh, at_vertices);
@@ -148,6 +154,10 @@ TEST(EdgesAndSeams, RobustTraversalClosesEdgesThatPlainTraversalLeavesOpen) {
               << " that are lost: plain " << 100.0 * simple << " %, ours " << 100.0 * ours
               << " %\n";
     EXPECT_LE(ours, at_vertices ? 0.005 : 0.0);
+    const std::vector<RayHit> hits = CastRays(with_foliage, rays, 1000.0F);
+    const auto is_on_ball = [](const RayHit& hit) { return hit.surface == 1; };
+    EXPECT_GE(std::ranges::count_if(hits, is_on_ball),
+              (at_vertices ? 0.995 : 1.0) * static_cast<double>(hits.size()));
     EXPECT_GT(simple, 0.02);
   }
 }

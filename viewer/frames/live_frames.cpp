@@ -1,5 +1,6 @@
 #include "viewer/frames/live_frames.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -63,12 +64,17 @@ bool LiveFrames::PollImages() {
   return pictures_ && pictures_->Poll();
 }
 
-std::optional<std::size_t> LiveFrames::LatestWhole(bool with_picture) const {
-  for (std::size_t place = num_taken_; place-- > first_known();) {
+std::optional<std::size_t> LiveFrames::FirstWhole(std::size_t first, bool with_picture) const {
+  for (std::size_t place = std::max(first, first_known()); place < num_taken_; ++place) {
     const Taken& taken = TakenAt(place);
     if (taken.is_whole && (!with_picture || pictures_->IsSettled(taken.instant))) return place;
   }
   return std::nullopt;
+}
+
+bool LiveFrames::MayGetPicture(std::size_t place) const {
+  return pictures_ && place >= first_known() && place < num_taken_ &&
+         !pictures_->IsSettled(TakenAt(place).instant);
 }
 
 std::shared_ptr<const ShownFrame> LiveFrames::Get(std::size_t place) {

@@ -50,10 +50,13 @@ class LiveFrames final : public Frames {
   bool PollImages();
   /// Says what is wrong with the frame that came last; empty if nothing is.
   [[nodiscard]] const std::string& fault() const { return fault_; }
-  /// Returns the place of the latest frame of which no packet is missing; nothing if none is kept.
+  /// Returns the place of the first kept frame from `first` on of which no packet is missing;
+  /// nothing if there is none.
   /// @param with_picture Whether it must also have a picture, and for good.
   /// @pre Images are received if `with_picture` is set.
-  [[nodiscard]] std::optional<std::size_t> LatestWhole(bool with_picture) const;
+  [[nodiscard]] std::optional<std::size_t> FirstWhole(std::size_t first, bool with_picture) const;
+  /// Whether an image still to come may be the picture of a frame, which must be kept for that.
+  [[nodiscard]] bool MayGetPicture(std::size_t place) const;
 
   [[nodiscard]] Endpoint at() const { return grabber_.at(); }
   /// Where images are received; nothing if they are not.

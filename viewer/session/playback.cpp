@@ -32,8 +32,9 @@ void Playback::NoteFrame(double now_s) {
 }
 
 bool Playback::AdvanceLive(double now_s) {
-  // An image may come after its frame.
-  const bool has_image = live_->PollImages();
+  // An image may come after its frame. Later ones are none of a paused view's.
+  const bool may_get_picture = live_->MayGetPicture(session_.place());
+  const bool has_image = live_->PollImages() && may_get_picture;
   if (!live_->Poll() || !player_.is_playing()) return has_image;
   NoteFrame(now_s);
   return Show(live_->num_known() - 1);

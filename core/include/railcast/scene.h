@@ -35,8 +35,8 @@ struct Part {
 struct Model {
   std::string name;
   std::vector<Part> parts;
-  /// Whether it consists of leaves or blades, which are many, small and no closed surface: it is
-  /// traced faster, and a ray may pass between two triangles that share an edge.
+  /// Whether it is a plant, nearly all of which is leaves or blades, many, small and no closed
+  /// surface: it is traced faster, and a ray may pass between two triangles that share an edge.
   bool is_foliage = false;
 
   [[nodiscard]] std::size_t num_triangles() const;

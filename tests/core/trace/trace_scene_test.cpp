@@ -143,30 +143,5 @@ TEST(TraceScene, FoliageIsHitAsOtherModelsAre) {
   EXPECT_LE(num_others, 1U);  // A ray at the very edge of a leaf may pass it.
 }
 
-TEST(TraceScene, BehindFoliageNoRayPassesBetweenTriangles) {
-  const TraceDevice device;
-  const auto leaves = std::make_shared<TraceModel>(device, Leaves(true));
-  const auto wall = std::make_shared<TraceModel>(
-      device, Model{.name = "wall", .parts = {{MakeWall(kWall_m, 9.0F), 1, 1}}});
-  const TraceScene scene(device, {{leaves, {Eigen::Affine3d::Identity()}, 1},
-                                  {wall, {Eigen::Affine3d::Identity()}, 2}});
-  // Along both diagonals, one of which its triangles share.
-  for (const float slope : {-1.0F, 1.0F}) {
-    RayTile rays = MakeFan(kAllSurfaces);
-    for (std::size_t i = 0; i < kTileSize; ++i) {
-      const Eigen::Vector3f target(kWall_m, rays.direction_y[i] * kWall_m,
-                                   slope * rays.direction_y[i] * kWall_m);
-      const Eigen::Vector3f direction = target.normalized();
-      rays.direction_x[i] = direction.x();
-      rays.direction_y[i] = direction.y();
-      rays.direction_z[i] = direction.z();
-    }
-    scene.Cast(rays);
-    EXPECT_EQ(std::count(rays.surface, rays.surface + kTileSize, 0U), 0);
-    EXPECT_GT(std::count(rays.surface, rays.surface + kTileSize, 1U), 0);
-    EXPECT_GT(std::count(rays.surface, rays.surface + kTileSize, 2U), 0);
-  }
-}
-
 }  // namespace
 }  // namespace railcast

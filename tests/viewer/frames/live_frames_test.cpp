@@ -93,17 +93,17 @@ TEST(LiveFrames, CountThePacketsThatAreLost) {
     (void)frames.Poll();
     return frames.num_known() > 0 && frames.Get(frames.num_known() - 1)->frame().index == 1;
   }));
-  EXPECT_EQ(frames.LatestWhole(false), frames.num_known() - 1);
+  EXPECT_EQ(frames.FirstWhole(0, false), frames.num_known() - 1);
   EXPECT_THAT(frames.StatusText(), HasSubstr("   1 packets lost"));
 }
 
-TEST(LiveFrames, SayWhichIsTheLatestWithoutGaps) {
+TEST(LiveFrames, SayWhichIsWithoutGaps) {
   LiveFrames frames("udp://here", kAnyLoopbackPort);
   LiveStream stream(frames.at());
   stream.SendWithout(0, 1);
   // No more packets come, so after a second the frame is delivered incomplete.
   ASSERT_TRUE(EventuallyPolls(frames));
-  EXPECT_EQ(frames.LatestWhole(false), std::nullopt);
+  EXPECT_EQ(frames.FirstWhole(0, false), std::nullopt);
   const ReceivedFrame whole = ReceiveWhole(StreamFrame(0));
   EXPECT_LT(frames.Get(0)->num_points(), whole.num_points());
   EXPECT_GT(frames.Get(0)->num_points(), 0U);

@@ -62,16 +62,21 @@ TEST_F(LivePicturesTest, AreTheLatestThatWereThereAtTheFramesStamp) {
 
 TEST_F(LivePicturesTest, AreForGoodOnceAnImageOfTheSameTimeOrLaterIsThere) {
   for (std::uint32_t frame = 0; frame < 3; ++frame) SendFrame(frame);
-  EXPECT_EQ(frames_.LatestWhole(true), std::nullopt);
-  EXPECT_EQ(frames_.LatestWhole(false), 2U);
+  EXPECT_EQ(frames_.FirstWhole(0, true), std::nullopt);
+  EXPECT_EQ(frames_.FirstWhole(2, false), 2U);
+  EXPECT_TRUE(frames_.MayGetPicture(0));
   SendPicture(0);
-  EXPECT_EQ(frames_.LatestWhole(true), 0U);
+  EXPECT_EQ(frames_.FirstWhole(0, true), 0U);
+  EXPECT_EQ(frames_.FirstWhole(1, true), std::nullopt);
+  EXPECT_FALSE(frames_.MayGetPicture(0));
+  EXPECT_TRUE(frames_.MayGetPicture(1));
   SendPicture(2);
-  EXPECT_EQ(frames_.LatestWhole(true), 2U);
+  EXPECT_EQ(frames_.FirstWhole(1, true), 1U) << "none is skipped";
   SendFrame(3);
-  EXPECT_EQ(frames_.LatestWhole(true), 2U) << "its own may still come";
+  EXPECT_EQ(frames_.FirstWhole(3, true), std::nullopt) << "its own may still come";
+  EXPECT_FALSE(frames_.MayGetPicture(4)) << "no such frame";
   SendPicture(4);
-  EXPECT_EQ(frames_.LatestWhole(true), 3U);
+  EXPECT_EQ(frames_.FirstWhole(3, true), 3U);
   ExpectPicture(3, 2);
 }
 
