@@ -52,19 +52,37 @@ SubRayPattern DenseSubRays(std::size_t count) {
   return pattern;
 }
 
+// Sorts places such that equal portions of them, one after another, are the groups of neighbours.
+void SortIntoGroups(std::vector<Place>& places) {
+  // A quarter of the places, the innermost, make two groups: halves of a disc. The others are the
+  // sectors of a ring.
+  const auto inner = static_cast<std::ptrdiff_t>(places.size() / 4);
+  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    return std::hypot(a.h, a.v) < std::hypot(b.h, b.v);
+  });
+  const auto by_angle = [](const Place& a, const Place& b) {
+    return std::atan2(a.v, a.h) < std::atan2(b.v, b.h);
+  };
+  std::sort(places.begin(), places.begin() + inner, by_angle);
+  std::sort(places.begin() + inner, places.end(), by_angle);
+}
+
 const BeamSubRays& SubRaysOfBeam() {
   static const BeamSubRays sub_rays = [] {
-    std::vector<Place> places = Spiral(kNumCrowdedSubRays, 0.0);
-    std::vector<Place> others = Spiral(kNumSubRays - kNumCrowdedSubRays, 0.0);
-    std::sort(others.begin(), others.end(), [](const Place& a, const Place& b) {
-      return std::atan2(a.v, a.h) < std::atan2(b.v, b.h);
-    });
-    places.insert(places.end(), others.begin(), others.end());
     BeamSubRays all{};
-    for (std::size_t i = 0; i < kNumSubRays; ++i) {
-      all.h[i] = static_cast<float>(places[i].h);
-      all.v[i] = static_cast<float>(places[i].v);
-      all.largest_offset = std::max(all.largest_offset, std::hypot(all.h[i], all.v[i]));
+    std::size_t first = 0;
+    for (const std::size_t count : {kNumCrowdedSubRays, kNumSubRays - kNumCrowdedSubRays}) {
+      std::vector<Place> places = Spiral(count, 0.0);
+      SortIntoGroups(places);
+      const std::size_t num_in_group = count / kNumSubRayGroups;
+      for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t group = k / num_in_group;
+        const std::size_t i = first + k % num_in_group * kNumSubRayGroups + group;
+        all.h[i] = static_cast<float>(places[k].h);
+        all.v[i] = static_cast<float>(places[k].v);
+        all.largest_offset = std::max(all.largest_offset, std::hypot(all.h[i], all.v[i]));
+      }
+      first += count;
     }
     return all;
   }();

@@ -44,8 +44,8 @@ struct SubRayPattern {
 [[nodiscard]] SubRayPattern DenseSubRays(std::size_t count);
 
 /// The offsets of kNumSubRays sub-rays of equal share, in standard deviations of the profile. The
-/// first kNumCrowdedSubRays are a pattern of Vogel's kind by themselves, and so are the others,
-/// which are sorted by angle, so that a small surface meets few groups of neighbours.
+/// first kNumCrowdedSubRays are a pattern of Vogel's kind by themselves, and so are the others.
+/// Each is divided evenly among the groups of neighbours.
 struct BeamSubRays {
   float h[kNumSubRays], v[kNumSubRays];
   float largest_offset{};  ///< From the axis.

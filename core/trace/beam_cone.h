@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #ifdef __SSE__
-#include <xmmintrin.h>
+#include <immintrin.h>
 #endif
 
 #include "core/trace/beam_tree.h"
@@ -25,42 +25,61 @@ namespace railcast::RAILCAST_ISA {
   return a > b ? a : b;
 }
 
+/// Number of lanes that are masked together.
+constexpr std::size_t kMaskLanes = 8;
+
 /// Collects the lanes whose value is negative into a bit mask.
 [[nodiscard]] inline std::uint32_t NegativeLanes(const float* lanes) {
-  std::uint32_t mask = 0;
-#ifdef __SSE__
-  for (std::size_t i = 0; i < kTreeWidth; i += 4) {
-    mask |= static_cast<std::uint32_t>(_mm_movemask_ps(_mm_load_ps(lanes + i))) << i;
-  }
+#ifdef __AVX__
+  return static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_load_ps(lanes)));
+#elif defined(__SSE__)
+  return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_load_ps(lanes))) |
+         static_cast<std::uint32_t>(_mm_movemask_ps(_mm_load_ps(lanes + 4))) << 4U;
 #else
-  for (std::size_t i = 0; i < kTreeWidth; ++i) mask |= (lanes[i] < 0.0F ? 1U : 0U) << i;
-#endif
+  std::uint32_t mask = 0;
+  for (std::size_t i = 0; i < kMaskLanes; ++i) mask |= (lanes[i] < 0.0F ? 1U : 0U) << i;
   return mask;
+#endif
 }
+
+/// The same of a node's children.
+[[nodiscard]] inline std::uint32_t NegativeOfTree(const float* lanes) {
+  return NegativeLanes(lanes) | NegativeLanes(lanes + kMaskLanes) << kMaskLanes;
+}
+static_assert(kTreeWidth == 2 * kMaskLanes && kLeafWidth == kMaskLanes);
 
 /// A beam as a cone in the frame of a tree.
 struct Cone {
   float origin[3], axis[3];
   float half_h[3], half_v[3];  ///< As BeamRays; scaled as `axis` is.
   float per_axis[3];           ///< 1 / axis.
-  float reach[3];              ///< Half extent of the cone along x, y, z per distance.
+  float spread[3];             ///< Half extent of the directions along x, y, z.
+  float reach[3];              ///< The same per distance, with room for rounding.
+  float inverse_norm;          ///< 1 / length of `axis`.
+  float widening;              ///< See WidenStretchedCone().
 };
 
 /// Room for rounding, relative to a cone's half extent and to the distance.
 constexpr float kConeMargin = 1.0005F;
 constexpr float kRoundingMargin = 1e-6F;
+constexpr float kNearer = 1.0F - kRoundingMargin;
+constexpr float kFarther = 1.0F + kRoundingMargin;
+/// In place of a slope of 0, which is a divisor.
+constexpr float kLeastSlope = 1e-30F;
 
 /// Completes a cone whose origin and directions are set.
 inline void FinishCone(Cone& cone) {
   float length2 = 0.0F;
   for (int i = 0; i < 3; ++i) length2 += cone.axis[i] * cone.axis[i];
-  const float inverse_norm = 1.0F / std::sqrt(length2);
+  cone.inverse_norm = 1.0F / std::sqrt(length2);
+  cone.widening = 1.0F;
   for (int i = 0; i < 3; ++i) {
     constexpr float kTiny = 1e-9F;
     const float d = cone.axis[i];
     cone.per_axis[i] = 1.0F / (std::fabs(d) < kTiny ? (d < 0.0F ? -kTiny : kTiny) : d);
     const float half2 = cone.half_h[i] * cone.half_h[i] + cone.half_v[i] * cone.half_v[i];
-    cone.reach[i] = kConeMargin * std::sqrt(half2) * inverse_norm + kRoundingMargin;
+    cone.spread[i] = std::sqrt(half2);
+    cone.reach[i] = kConeMargin * cone.spread[i] * cone.inverse_norm + kRoundingMargin;
   }
 }
 
@@ -76,16 +95,22 @@ inline void WidenStretchedCone(Cone& cone) {
   const float axis = std::sqrt(axis2);
   const float shortest = axis - std::sqrt(half2);
   constexpr float kMostWidening = 1e6F;
-  const float widening = shortest * kMostWidening > axis ? axis / shortest : kMostWidening;
-  for (float& reach : cone.reach) reach *= widening;
+  cone.widening = shortest * kMostWidening > axis ? axis / shortest : kMostWidening;
+  for (float& reach : cone.reach) reach *= cone.widening;
 }
 
+/// Distances of a node's children.
+struct ChildDistances {
+  alignas(64) float entry[kTreeWidth];
+  alignas(64) float farthest[kTreeWidth];
+};
+
 /// Returns the children of a node that the cone may meet nearer than `far`, and the parameters
-/// along the axis at which it enters them.
+/// along the axis at which it enters them, with the distances of their farthest corners.
 [[nodiscard]] inline std::uint32_t ChildrenMet(const BeamNode& node,
                                                const Cone& cone,
                                                float far,
-                                               float* entry) {
+                                               ChildDistances& distances) {
   alignas(64) float outside[kTreeWidth];
   const Cone c = cone;  // The copy cannot alias the results.
   for (std::size_t k = 0; k < kTreeWidth; ++k) {
@@ -110,28 +135,33 @@ inline void WidenStretchedCone(Cone& cone) {
     const float bz = (zu + rz) * c.per_axis[2];
     const float in = Most(Most(Least(ax, bx), Least(ay, by)), Most(Least(az, bz), 0.0F));
     const float out = Least(Least(Most(ax, bx), Most(ay, by)), Least(Most(az, bz), far));
-    entry[k] = in;
+    distances.entry[k] = in;
+    distances.farthest[k] = farthest;
     outside[k] = in <= out ? -1.0F : 1.0F;
   }
-  return NegativeLanes(outside) & ((1U << node.num_children) - 1U);
+  return NegativeOfTree(outside) & ((1U << node.num_children) - 1U);
 }
 
-/// Products of a leaf's triangles that the test of a ray needs, by lane. A ray from the cone's
-/// origin along d passes through a triangle if its products with the three edges' moments have one
-/// sign, and meets its plane at offset / (normal . d) (Plücker coordinates; Embree's robust test).
+/// What the test of a ray needs of a leaf's triangles, by lane. A ray from the cone's origin along
+/// axis + a half_h + b half_v passes through a triangle if its products with the three edges'
+/// moments have one sign, and meets its plane at offset / (its product with the normal) (Plücker
+/// coordinates; Embree's robust test). All four products are linear in a and b.
 struct LeafProducts {
-  alignas(64) float edge[3][3][kTreeWidth];  ///< [edge][axis]
-  alignas(64) float normal[3][kTreeWidth];
-  alignas(64) float offset[kTreeWidth];
+  /// By edge; the last is the normal.
+  alignas(64) float along[4][kLeafWidth], h[4][kLeafWidth], v[4][kLeafWidth];
+  alignas(64) float normal[3][kLeafWidth];
+  alignas(64) float offset[kLeafWidth];
 };
 
-/// Fills `products` and returns the lanes that the cone may meet.
+/// Fills the products and returns those that the cone may meet nearer than
+/// `far`.
 [[nodiscard]] inline std::uint32_t TrianglesMet(const BeamLeaf& leaf,
                                                 const Cone& cone,
+                                                float far,
                                                 LeafProducts& products) {
-  alignas(64) float missed[kTreeWidth];
+  alignas(64) float missed[kLeafWidth];
   const Cone c = cone;
-  for (std::size_t k = 0; k < kTreeWidth; ++k) {
+  for (std::size_t k = 0; k < kLeafWidth; ++k) {
     float v[3][3];
     for (int corner = 0; corner < 3; ++corner) {
       for (int i = 0; i < 3; ++i) v[corner][i] = leaf.corner[corner][i][k] - c.origin[i];
@@ -150,15 +180,17 @@ struct LeafProducts {
       const float mx = dy * sz - dz * sy;
       const float my = dz * sx - dx * sz;
       const float mz = dx * sy - dy * sx;
-      products.edge[e][0][k] = mx;
-      products.edge[e][1][k] = my;
-      products.edge[e][2][k] = mz;
-      const float along = c.axis[0] * mx + c.axis[1] * my + c.axis[2] * mz;
+      const float ax = c.axis[0] * mx;
+      const float ay = c.axis[1] * my;
+      const float az = c.axis[2] * mz;
+      const float along = ax + ay + az;
       const float h = c.half_h[0] * mx + c.half_h[1] * my + c.half_h[2] * mz;
       const float w = c.half_v[0] * mx + c.half_v[1] * my + c.half_v[2] * mz;
       const float reach = kConeMargin * std::sqrt(h * h + w * w) +
-                          kRoundingMargin * (std::fabs(c.axis[0] * mx) + std::fabs(c.axis[1] * my) +
-                                             std::fabs(c.axis[2] * mz));
+                          kRoundingMargin * (std::fabs(ax) + std::fabs(ay) + std::fabs(az));
+      products.along[e][k] = along;
+      products.h[e][k] = h;
+      products.v[e][k] = w;
       may_be_left = may_be_left & (along >= -reach);
       may_be_right = may_be_right & (along <= reach);
     }
@@ -171,11 +203,20 @@ struct LeafProducts {
     const float nx = py * qz - pz * qy;
     const float ny = pz * qx - px * qz;
     const float nz = px * qy - py * qx;
+    const float offset = v[0][0] * nx + v[0][1] * ny + v[0][2] * nz;
+    const float along = c.axis[0] * nx + c.axis[1] * ny + c.axis[2] * nz;
+    const float h = c.half_h[0] * nx + c.half_h[1] * ny + c.half_h[2] * nz;
+    const float w = c.half_v[0] * nx + c.half_v[1] * ny + c.half_v[2] * nz;
+    const float steepest = std::fabs(along) + std::sqrt(h * h + w * w);
+    const float nearest = kNearer * std::fabs(offset) / Most(steepest, kLeastSlope);
     products.normal[0][k] = nx;
     products.normal[1][k] = ny;
     products.normal[2][k] = nz;
-    products.offset[k] = v[0][0] * nx + v[0][1] * ny + v[0][2] * nz;
-    missed[k] = may_be_left | may_be_right ? -1.0F : 1.0F;
+    products.offset[k] = offset;
+    products.along[3][k] = along;
+    products.h[3][k] = h;
+    products.v[3][k] = w;
+    missed[k] = (may_be_left | may_be_right) & (nearest <= far) ? -1.0F : 1.0F;
   }
   return NegativeLanes(missed) & leaf.lanes;
 }

@@ -8,8 +8,10 @@ namespace railcast {
 // The trees in which beams are traced (trace_beam.h), as plain data, since the code that traverses
 // them is compiled once per instruction set.
 
-/// Number of children of a node and of triangles of a leaf.
+/// Number of children of a node.
 inline constexpr std::size_t kTreeWidth = 16;
+/// Number of triangles of a leaf.
+inline constexpr std::size_t kLeafWidth = 8;
 
 /// Bound of a tree's depth, from which follows how many entries a traversal's stack needs.
 inline constexpr std::size_t kTreeDepth = 48;
@@ -26,12 +28,11 @@ struct alignas(64) BeamNode {
   std::uint32_t num_children;
 };
 
-/// Up to 16 triangles of a model. Unused lanes repeat the last triangle.
+/// Up to kLeafWidth triangles of a model. Unused lanes repeat the last triangle.
 struct alignas(64) BeamLeaf {
-  float corner[3][3][kTreeWidth];  ///< [corner][axis]
-  std::uint32_t part[kTreeWidth];  ///< Part of the model that the triangle belongs to.
+  float corner[3][3][kLeafWidth];  ///< [corner][axis]
+  std::uint32_t part[kLeafWidth];  ///< Part of the model that the triangle belongs to.
   std::uint32_t lanes;             ///< The lanes in use, a bit each.
-  std::uint32_t wire_lanes;        ///< Those of parts that are wires.
 };
 
 /// An affine transform: the first three rows of the matrix, row by row.

@@ -55,14 +55,13 @@ void* MakeTriangleLeaf(RTCThreadLocalAllocator allocator,
   const auto& triangles = *static_cast<const std::vector<BeamTriangle>*>(user);
   auto* const leaf = Allocate<BeamLeaf>(allocator);
   *leaf = BeamLeaf{};
-  for (std::size_t k = 0; k < kTreeWidth; ++k) {
+  for (std::size_t k = 0; k < kLeafWidth; ++k) {
     const BeamTriangle& triangle = triangles[primitives[std::min(k, num - 1)].primID];
     for (int corner = 0; corner < 3; ++corner) {
       for (int i = 0; i < 3; ++i) leaf->corner[corner][i][k] = triangle.corners[corner][i];
     }
     leaf->part[k] = triangle.part;
     if (k < num) leaf->lanes |= 1U << k;
-    if (k < num && triangle.is_wire) leaf->wire_lanes |= 1U << k;
   }
   return std::bit_cast<void*>(PointerTo(leaf) | kIsLeaf);
 }
@@ -107,10 +106,11 @@ class BeamTreeBuilder {
     arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
     arguments.maxBranchingFactor = kTreeWidth;
     arguments.maxDepth = kTreeDepth;
-    // A leaf's triangles are tested together, four at the cost of a node.
-    arguments.sahBlockSize = max_leaf_size > 1 ? 4 : 1;
-    arguments.intersectionCost = max_leaf_size > 1 ? 0.25F : 1.0F;
-    arguments.minLeafSize = 1;
+    // A leaf's triangles are tested together, at the cost of a node; leaves of fewer than fit take
+    // a third more time.
+    arguments.sahBlockSize = max_leaf_size;
+    arguments.intersectionCost = 1.0F;
+    arguments.minLeafSize = max_leaf_size;
     arguments.maxLeafSize = max_leaf_size;
     arguments.bvh = tree.memory_.get();
     arguments.primitives = primitives_.data();
@@ -139,7 +139,7 @@ BeamTree BuildModelTree(RTCDevice device, const std::vector<BeamTriangle>& trian
     primitives.push_back(PrimitiveOf(box, i));
   }
   return BeamTreeBuilder(device, std::move(primitives))
-      .Build(MakeTriangleLeaf, &triangles, kTreeWidth);
+      .Build(MakeTriangleLeaf, &triangles, kLeafWidth);
 }
 
 BeamTree BuildSceneTree(RTCDevice device, const std::vector<Eigen::AlignedBox3f>& boxes) {

@@ -33,12 +33,11 @@ class BeamTree {
 struct BeamTriangle {
   Eigen::Vector3f corners[3];
   std::uint32_t part{};
-  bool is_wire{};
 };
 
 // Both builders must be called within BuildWithEmbree(), which reports their errors.
 
-/// Builds a model's tree, with leaves of up to 16 triangles.
+/// Builds a model's tree, with leaves of up to kLeafWidth triangles.
 [[nodiscard]] BeamTree BuildModelTree(RTCDevice device, const std::vector<BeamTriangle>& triangles);
 
 /// Builds a scene's tree, whose leaves are the indices of the boxes. Empty boxes are left out.

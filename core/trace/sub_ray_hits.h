@@ -17,69 +17,156 @@
 /// Sub-rays of a beam against boxes and triangles.
 namespace railcast::RAILCAST_ISA {
 
-/// Sub-rays that are tested together. NegativeLanes() collects as many.
-constexpr std::size_t kRayGroup = kTreeWidth;
+/// Sub-rays that are tested together.
+constexpr std::size_t kRayLanes = kMaskLanes;
+/// Sub-rays that are neighbours have one lane.
+constexpr std::size_t kNumGroups = kNumSubRayGroups;
+static_assert(kNumGroups == kRayLanes);
+static_assert(kNumCrowdedSubRays % kRayLanes == 0 && kNumSubRays % kRayLanes == 0);
 
-/// The sub-rays' directions in the frame of a model.
-struct SubRayDirections {
-  alignas(64) float x[kNumSubRays];
-  alignas(64) float y[kNumSubRays];
-  alignas(64) float z[kNumSubRays];
-  // 1 / x and so on.
-  alignas(64) float per_x[kNumSubRays];
-  alignas(64) float per_y[kNumSubRays];
-  alignas(64) float per_z[kNumSubRays];
+/// The sub-rays by their places in the beam's cross-section, which are the same in the frame of
+/// every model: a ray's direction is (axis + a half_h + b half_v) / norm. Each group of
+/// neighbours has a disc (in the beam, an ellipse) that contains its places.
+struct SubRayPlaces {
+  alignas(64) float a[kNumSubRays], b[kNumSubRays];
+  alignas(64) float norm[kNumSubRays];
+  alignas(64) float group_a[kNumGroups], group_b[kNumGroups], group_radius[kNumGroups];
+  alignas(64) float group_far[kNumGroups];  ///< The farthest range among the group's rays.
+  bool are_known = false;  ///< Whether all but `group_far` is set, which most beams do not need.
 };
 
-inline void TurnSubRays(const Rows& model_from_window,
-                        const BeamRays& beam,
-                        SubRayDirections& turned) {
-  const Rows r = model_from_window;
-  const std::size_t num_rays = beam.num_rays;
-  for (std::size_t i = 0; i < num_rays; ++i) {
-    const float x = beam.direction_x[i];
-    const float y = beam.direction_y[i];
-    const float z = beam.direction_z[i];
-    turned.x[i] = r.m[0] * x + r.m[1] * y + r.m[2] * z;
-    turned.y[i] = r.m[4] * x + r.m[5] * y + r.m[6] * z;
-    turned.z[i] = r.m[8] * x + r.m[9] * y + r.m[10] * z;
+/// Updates the groups' farthest ranges and returns that of the beam.
+inline float FindFarthest(const BeamRays& beam, SubRayPlaces& places) {
+  float far[kNumGroups];
+  for (std::size_t g = 0; g < kNumGroups; ++g) far[g] = beam.range_m[g];
+  for (std::size_t i = kNumGroups; i < beam.num_rays; i += kNumGroups) {
+    for (std::size_t g = 0; g < kNumGroups; ++g) far[g] = Most(far[g], beam.range_m[i + g]);
   }
-  constexpr float kTiny = 1e-9F;
-  const auto inverse = [](float d) { return 1.0F / (std::fabs(d) < kTiny ? kTiny : d); };
-  for (std::size_t i = 0; i < num_rays; ++i) {
-    turned.per_x[i] = inverse(turned.x[i]);
-    turned.per_y[i] = inverse(turned.y[i]);
-    turned.per_z[i] = inverse(turned.z[i]);
+  for (std::size_t g = 0; g < kNumGroups; ++g) places.group_far[g] = far[g];
+  for (std::size_t half = kNumGroups / 2; half > 0; half /= 2) {
+    for (std::size_t g = 0; g < half; ++g) far[g] = Most(far[g], far[g + half]);
+  }
+  return far[0];
+}
+
+inline void FindDiscs(SubRayPlaces& places) {
+  const SubRayPlaces& all = places;
+  for (std::size_t g = 0; g < kNumGroups; ++g) {
+    float least_a = all.a[g];
+    float most_a = all.a[g];
+    float least_b = all.b[g];
+    float most_b = all.b[g];
+    for (std::size_t i = g + kNumGroups; i < kNumSubRays; i += kNumGroups) {
+      least_a = Least(least_a, all.a[i]);
+      most_a = Most(most_a, all.a[i]);
+      least_b = Least(least_b, all.b[i]);
+      most_b = Most(most_b, all.b[i]);
+    }
+    const float middle_a = 0.5F * (least_a + most_a);
+    const float middle_b = 0.5F * (least_b + most_b);
+    float radius2 = 0.0F;
+    for (std::size_t i = g; i < kNumSubRays; i += kNumGroups) {
+      const float a = all.a[i] - middle_a;
+      const float b = all.b[i] - middle_b;
+      radius2 = Most(radius2, a * a + b * b);
+    }
+    places.group_a[g] = middle_a;
+    places.group_b[g] = middle_b;
+    places.group_radius[g] = std::sqrt(radius2);
   }
 }
 
-/// Whether any sub-ray passes through the box of a node's child nearer than what it has hit.
+inline void PlaceSubRays(const BeamRays& beam, SubRayPlaces& places) {
+  float h2 = 0.0F;
+  float v2 = 0.0F;
+  for (int i = 0; i < 3; ++i) {
+    h2 += beam.half_h[i] * beam.half_h[i];
+    v2 += beam.half_v[i] * beam.half_v[i];
+  }
+  const float per_h2 = h2 > 0.0F ? 1.0F / h2 : 0.0F;
+  const float per_v2 = v2 > 0.0F ? 1.0F / v2 : 0.0F;
+  const float axis[3] = {beam.axis[0], beam.axis[1], beam.axis[2]};
+  const float h[3] = {beam.half_h[0] * per_h2, beam.half_h[1] * per_h2, beam.half_h[2] * per_h2};
+  const float v[3] = {beam.half_v[0] * per_v2, beam.half_v[1] * per_v2, beam.half_v[2] * per_v2};
+  for (std::size_t i = 0; i < kNumSubRays; ++i) {
+    const float x = beam.direction_x[i];
+    const float y = beam.direction_y[i];
+    const float z = beam.direction_z[i];
+    // The products of the short difference to the axis lose less than those of the direction.
+    const float dx = x - axis[0];
+    const float dy = y - axis[1];
+    const float dz = z - axis[2];
+    const float norm = 1.0F / (x * axis[0] + y * axis[1] + z * axis[2]);
+    places.a[i] = (dx * h[0] + dy * h[1] + dz * h[2]) * norm;
+    places.b[i] = (dx * v[0] + dy * v[1] + dz * v[2]) * norm;
+    places.norm[i] = norm;
+  }
+  FindDiscs(places);
+  places.are_known = true;
+}
+
+/// Narrow cones from the beam's origin in the frame of a tree, of which boxes are met by one at
+/// least: the groups of sub-rays, or the single sub-rays of a crowd.
+struct Probes {
+  std::size_t num;  ///< A multiple of kRayLanes.
+  alignas(64) float per_axis[3][kNumCrowdedSubRays];
+  alignas(64) float reach[3][kNumCrowdedSubRays];
+};
+
+inline void AimProbes(const Cone& cone,
+                      const BeamRays& beam,
+                      const SubRayPlaces& places,
+                      Probes& probes) {
+  constexpr float kTiny = 1e-9F;
+  const bool is_crowd = beam.num_rays == kNumCrowdedSubRays;
+  probes.num = is_crowd ? kNumCrowdedSubRays : kNumGroups;
+  const float* const a = is_crowd ? places.a : places.group_a;
+  const float* const b = is_crowd ? places.b : places.group_b;
+  for (int i = 0; i < 3; ++i) {
+    const float axis = cone.axis[i];
+    const float h = cone.half_h[i];
+    const float v = cone.half_v[i];
+    const float reach =
+        is_crowd ? 0.0F : kConeMargin * cone.spread[i] * cone.inverse_norm * cone.widening;
+    const float margin = kRoundingMargin * cone.widening;
+    for (std::size_t first = 0; first < probes.num; first += kRayLanes) {
+      for (std::size_t k = 0; k < kRayLanes; ++k) {
+        const float d = axis + a[first + k] * h + b[first + k] * v;
+        probes.per_axis[i][first + k] = 1.0F / (std::fabs(d) < kTiny ? kTiny : d);
+        probes.reach[i][first + k] = places.group_radius[k] * reach + margin;
+      }
+    }
+  }
+}
+
+/// Whether any sub-ray may pass through the box of a node's child nearer than what it has hit.
 [[nodiscard]] inline bool IsBoxMet(const BeamNode& node,
                                    std::size_t child,
                                    const float* origin,
-                                   const SubRayDirections& rays,
-                                   const BeamRays& beam) {
+                                   float farthest,
+                                   const Probes& probes,
+                                   const float* probe_far) {
   const float xl = node.lower[0][child] - origin[0];
   const float xu = node.upper[0][child] - origin[0];
   const float yl = node.lower[1][child] - origin[1];
   const float yu = node.upper[1][child] - origin[1];
   const float zl = node.lower[2][child] - origin[2];
   const float zu = node.upper[2][child] - origin[2];
-  constexpr float kNearer = 1.0F - kRoundingMargin;
-  constexpr float kFarther = 1.0F + kRoundingMargin;
-  for (std::size_t first = 0; first < beam.num_rays; first += kRayGroup) {
-    alignas(64) float misses[kRayGroup];
-    for (std::size_t k = 0; k < kRayGroup; ++k) {
-      const std::size_t i = first + k;
-      const float ax = xl * rays.per_x[i];
-      const float bx = xu * rays.per_x[i];
-      const float ay = yl * rays.per_y[i];
-      const float by = yu * rays.per_y[i];
-      const float az = zl * rays.per_z[i];
-      const float bz = zu * rays.per_z[i];
+  for (std::size_t first = 0; first < probes.num; first += kRayLanes) {
+    alignas(64) float misses[kRayLanes];
+    for (std::size_t k = 0; k < kRayLanes; ++k) {
+      const std::size_t g = first + k;
+      const float rx = farthest * probes.reach[0][g];
+      const float ry = farthest * probes.reach[1][g];
+      const float rz = farthest * probes.reach[2][g];
+      const float ax = (xl - rx) * probes.per_axis[0][g];
+      const float bx = (xu + rx) * probes.per_axis[0][g];
+      const float ay = (yl - ry) * probes.per_axis[1][g];
+      const float by = (yu + ry) * probes.per_axis[1][g];
+      const float az = (zl - rz) * probes.per_axis[2][g];
+      const float bz = (zu + rz) * probes.per_axis[2][g];
       const float in = Most(Most(Least(ax, bx), Least(ay, by)), Most(Least(az, bz), 0.0F));
-      const float out =
-          Least(Least(Most(ax, bx), Most(ay, by)), Least(Most(az, bz), beam.range_m[i]));
+      const float out = Least(Least(Most(ax, bx), Most(ay, by)), Least(Most(az, bz), probe_far[g]));
       misses[k] = kNearer * in <= kFarther * out ? -1.0F : 1.0F;
     }
     if (NegativeLanes(misses) != 0) return true;
@@ -87,60 +174,88 @@ inline void TurnSubRays(const Rows& model_from_window,
   return false;
 }
 
-/// Intersects all sub-rays with the triangle in a lane of a leaf. Returns whether any hits it
-/// nearer than anything before.
-[[nodiscard]] inline bool HitTriangle(const LeafProducts& products,
-                                      std::size_t lane,
-                                      const SubRayDirections& rays,
-                                      std::uint32_t facet,
-                                      BeamRays& beam) {
-  float e[3][3];
-  float n[3];
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) e[k][i] = products.edge[k][i][lane];
-    n[i] = products.normal[i][lane];
-  }
-  const float offset = products.offset[lane];
-  bool is_any_hit = false;
-  for (std::size_t first = 0; first < beam.num_rays; first += kRayGroup) {
-    // A group that passes the triangle by, as most do, needs no division.
-    alignas(64) float passes[kRayGroup];
-    for (std::size_t k = 0; k < kRayGroup; ++k) {
-      const float x = rays.x[first + k];
-      const float y = rays.y[first + k];
-      const float z = rays.z[first + k];
-      const float u = e[0][0] * x + e[0][1] * y + e[0][2] * z;
-      const float v = e[1][0] * x + e[1][1] * y + e[1][2] * z;
-      const float w = e[2][0] * x + e[2][1] * y + e[2][2] * z;
+/// The products of one triangle, as LeafProducts.
+struct TriangleProducts {
+  float along[4], h[4], v[4];
+  float offset;
+};
+
+/// The first `num` sub-rays that pass through a triangle, or through it extended backwards, as a
+/// bit mask.
+template <std::size_t num>
+[[nodiscard]] inline std::uint64_t RaysInside(const TriangleProducts& triangle,
+                                              const SubRayPlaces& places) {
+  const TriangleProducts t = triangle;
+  std::uint64_t rays = 0;
+  for (std::size_t first = 0; first < num; first += kRayLanes) {
+    alignas(64) float passes[kRayLanes];
+    for (std::size_t k = 0; k < kRayLanes; ++k) {
+      const float a = places.a[first + k];
+      const float b = places.b[first + k];
+      const float u = t.along[0] + a * t.h[0] + b * t.v[0];
+      const float v = t.along[1] + a * t.h[1] + b * t.v[1];
+      const float w = t.along[2] + a * t.h[2] + b * t.v[2];
       const bool is_inside = (Least(u, Least(v, w)) >= 0.0F) | (Most(u, Most(v, w)) <= 0.0F);
       passes[k] = is_inside ? -1.0F : 1.0F;
     }
-    if (NegativeLanes(passes) == 0) continue;
-    alignas(64) float hits[kRayGroup];
-    for (std::size_t k = 0; k < kRayGroup; ++k) {
-      const std::size_t i = first + k;
-      const float t = offset / (n[0] * rays.x[i] + n[1] * rays.y[i] + n[2] * rays.z[i]);
-      const float old = beam.range_m[i];
-      const bool is_hit = (passes[k] < 0.0F) & (t > 0.0F) & (t < old);
-      beam.range_m[i] = is_hit ? t : old;
-      beam.facet[i] = is_hit ? facet : beam.facet[i];
-      hits[k] = is_hit ? -1.0F : 1.0F;
-    }
-    is_any_hit |= NegativeLanes(hits) != 0;
+    rays |= std::uint64_t{NegativeLanes(passes)} << first;
   }
-  return is_any_hit;
+  return rays;
 }
 
-[[nodiscard]] inline float FarthestRange(const BeamRays& beam) {
-  constexpr std::size_t kLanes = 8;
-  float lanes[kLanes];
-  for (std::size_t k = 0; k < kLanes; ++k) lanes[k] = beam.range_m[k];
-  for (std::size_t i = kLanes; i < beam.num_rays; i += kLanes) {
-    for (std::size_t k = 0; k < kLanes; ++k) lanes[k] = Most(lanes[k], beam.range_m[i + k]);
+/// Intersects the sub-rays from `first` on with a triangle. Returns whether any hits it nearer than
+/// anything before.
+[[nodiscard]] inline bool HitLanes(const TriangleProducts& t,
+                                   std::size_t first,
+                                   const SubRayPlaces& places,
+                                   std::uint32_t facet,
+                                   BeamRays& beam) {
+  alignas(64) float hits[kRayLanes];
+  for (std::size_t k = 0; k < kRayLanes; ++k) {
+    const std::size_t i = first + k;
+    const float a = places.a[i];
+    const float b = places.b[i];
+    const float u = t.along[0] + a * t.h[0] + b * t.v[0];
+    const float v = t.along[1] + a * t.h[1] + b * t.v[1];
+    const float w = t.along[2] + a * t.h[2] + b * t.v[2];
+    const bool is_inside = (Least(u, Least(v, w)) >= 0.0F) | (Most(u, Most(v, w)) <= 0.0F);
+    const float slope = t.along[3] + a * t.h[3] + b * t.v[3];
+    const float range_m = t.offset * places.norm[i] / slope;
+    const float old = beam.range_m[i];
+    const bool is_hit = is_inside & (range_m > 0.0F) & (range_m < old);
+    beam.range_m[i] = is_hit ? range_m : old;
+    beam.facet[i] = is_hit ? facet : beam.facet[i];
+    hits[k] = is_hit ? -1.0F : 1.0F;
   }
-  float farthest = lanes[0];
-  for (std::size_t k = 1; k < kLanes; ++k) farthest = Most(farthest, lanes[k]);
-  return farthest;
+  return NegativeLanes(hits) != 0;
+}
+
+/// Intersects the sub-rays with the triangle in a lane of a leaf. Returns whether any hits it
+/// nearer than anything before.
+[[nodiscard]] inline bool HitTriangle(const LeafProducts& products,
+                                      std::size_t lane,
+                                      std::uint32_t facet,
+                                      const SubRayPlaces& places,
+                                      BeamRays& beam) {
+  TriangleProducts triangle;
+  for (int e = 0; e < 4; ++e) {
+    triangle.along[e] = products.along[e][lane];
+    triangle.h[e] = products.h[e][lane];
+    triangle.v[e] = products.v[e][lane];
+  }
+  triangle.offset = products.offset[lane];
+  std::uint64_t rays = beam.num_rays == kNumCrowdedSubRays
+                           ? RaysInside<kNumCrowdedSubRays>(triangle, places)
+                           : RaysInside<kNumSubRays>(triangle, places);
+  bool is_any_hit = false;
+  // Most triangles are passed by, or met by few rays; only these need divisions.
+  while (rays != 0) {
+    const auto ray = static_cast<std::size_t>(__builtin_ctzll(rays));
+    const std::size_t first = ray / kRayLanes * kRayLanes;
+    rays &= ~(((std::uint64_t{1} << kRayLanes) - 1U) << first);
+    is_any_hit |= HitLanes(triangle, first, places, facet, beam);
+  }
+  return is_any_hit;
 }
 
 /// Drops the facets that no sub-ray is left on.

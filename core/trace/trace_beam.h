@@ -105,6 +105,12 @@ inline void Turn(const Rows& rows, const float* from, float* to) {
   }
 }
 
+/// What facets of an instance need.
+struct InstanceSurface {
+  const Rows& window_from_model;
+  std::uint32_t first;  ///< BeamInstance::first_surface.
+};
+
 /// Adds the facet of the triangle in a lane of a leaf.
 inline void AddFacet(const Rows& window_from_model,
                      std::uint32_t surface,
@@ -125,24 +131,37 @@ inline void Prefetch(TreePointer pointer) {
   for (std::size_t at = 0; at < kNumBytes; at += 64) __builtin_prefetch(bytes + at);
 }
 
+/// A beam in the frame of a model.
+struct ModelBeam {
+  Cone cone;
+  Probes probes;
+  std::size_t num_rays_of_probes = 0;  ///< BeamRays::num_rays when `probes` were aimed.
+};
+
 /// Pushes those children of a node that the cone and at least one sub-ray meet.
 inline void PushChildren(const BeamNode& node,
-                         const Cone& cone,
                          float far,
-                         const SubRayDirections& rays,
+                         SubRayPlaces& places,
                          const BeamRays& beam,
+                         ModelBeam& model,
                          Stack& stack) {
-  alignas(64) float entry[kTreeWidth];
-  std::uint32_t children = ChildrenMet(node, cone, far, entry);
+  ChildDistances distances;
+  std::uint32_t children = ChildrenMet(node, model.cone, far, distances);
+  if (children == 0) return;
+  if (!places.are_known) PlaceSubRays(beam, places);
+  if (model.num_rays_of_probes != beam.num_rays) AimProbes(model.cone, beam, places, model.probes);
+  model.num_rays_of_probes = beam.num_rays;
+  const float* const probe_far =
+      beam.num_rays == kNumCrowdedSubRays ? beam.range_m : places.group_far;
   for (std::uint32_t left = children; left != 0; left &= left - 1) {
     const auto k = static_cast<std::size_t>(__builtin_ctz(left));
-    if (IsBoxMet(node, k, cone.origin, rays, beam)) {
+    if (IsBoxMet(node, k, model.cone.origin, distances.farthest[k], model.probes, probe_far)) {
       Prefetch(node.child[k]);
     } else {
       children &= ~(1U << k);
     }
   }
-  stack.PushSorted(node, children, entry);
+  stack.PushSorted(node, children, distances.entry);
 }
 
 /// A beam that meets more triangles than this is sampled by kNumCrowdedSubRays. Leaves and blades
@@ -153,22 +172,22 @@ constexpr std::uint32_t kCrowd = 64;
 /// what was hit before, or the number of sub-rays was lowered.
 [[nodiscard]] inline bool TraceLeaf(const BeamLeaf& leaf,
                                     const Cone& cone,
-                                    const SubRayDirections& rays,
-                                    const Rows& window_from_model,
-                                    std::uint32_t first_surface,
+                                    float far,
+                                    const InstanceSurface& surface,
+                                    SubRayPlaces& places,
                                     BeamRays& beam) {
   LeafProducts products;
-  std::uint32_t lanes = TrianglesMet(leaf, cone, products);
-  if ((beam.mask & kWireSurfaces) == 0) lanes &= ~leaf.wire_lanes;
-  if ((beam.mask & ~kWireSurfaces) == 0) lanes &= leaf.wire_lanes;
+  std::uint32_t lanes = TrianglesMet(leaf, cone, far, products);
+  if (lanes == 0) return false;
+  if (!places.are_known) PlaceSubRays(beam, places);
   beam.num_met += static_cast<std::uint32_t>(__builtin_popcount(lanes));
   bool is_changed = beam.num_met > kCrowd && beam.num_rays > kNumCrowdedSubRays;
   if (is_changed) beam.num_rays = kNumCrowdedSubRays;
   for (; lanes != 0; lanes &= lanes - 1) {
     const auto lane = static_cast<std::size_t>(__builtin_ctz(lanes));
     if (beam.num_facets == BeamRays::kMaxFacets) DropHiddenFacets(beam);
-    if (!HitTriangle(products, lane, rays, beam.num_facets, beam)) continue;
-    AddFacet(window_from_model, first_surface + leaf.part[lane], products, lane, beam);
+    if (!HitTriangle(products, lane, beam.num_facets, places, beam)) continue;
+    AddFacet(surface.window_from_model, surface.first + leaf.part[lane], products, lane, beam);
     is_changed = true;
   }
   return is_changed;
@@ -176,10 +195,14 @@ constexpr std::uint32_t kCrowd = 64;
 
 /// Traces the beam through one instance.
 /// @param far The farthest range among the sub-rays; lowered where they hit.
-inline void TraceInstance(const BeamInstance& instance, BeamRays& beam, float& far) {
+inline void TraceInstance(const BeamInstance& instance,
+                          SubRayPlaces& places,
+                          BeamRays& beam,
+                          float& far) {
   const InstancePlace place = PlaceAt(instance, beam.shutter);
   const Rows& model_from_window = place.model_from_window;
-  Cone cone;
+  ModelBeam model;
+  Cone& cone = model.cone;
   Turn(model_from_window, beam.origin, cone.origin);
   for (int i = 0; i < 3; ++i) cone.origin[i] += model_from_window.m[4 * i + 3];
   Turn(model_from_window, beam.axis, cone.axis);
@@ -187,19 +210,16 @@ inline void TraceInstance(const BeamInstance& instance, BeamRays& beam, float& f
   Turn(model_from_window, beam.half_v, cone.half_v);
   FinishCone(cone);
   if (instance.is_stretched) WidenStretchedCone(cone);
-  SubRayDirections rays;
-  TurnSubRays(model_from_window, beam, rays);
+  const InstanceSurface surface{place.window_from_model, instance.first_surface};
   for (Stack stack(instance.root); !stack.empty();) {
     const Stack::Entry top = stack.Pop();
     if (top.entry > far) continue;
     if (IsLeaf(top.pointer)) {
       const auto& leaf = *reinterpret_cast<const BeamLeaf*>(top.pointer & ~TreePointer{1});
-      if (TraceLeaf(leaf, cone, rays, place.window_from_model, instance.first_surface, beam)) {
-        far = FarthestRange(beam);
-      }
+      if (TraceLeaf(leaf, cone, far, surface, places, beam)) far = FindFarthest(beam, places);
     } else {
       const auto& node = *reinterpret_cast<const BeamNode*>(top.pointer);
-      PushChildren(node, cone, far, rays, beam, stack);
+      PushChildren(node, far, places, beam, model, stack);
     }
   }
 }
@@ -215,20 +235,22 @@ inline void TraceBeam(const BeamScene& scene, BeamRays& beam) {
     cone.half_v[i] = beam.half_v[i];
   }
   FinishCone(cone);
-  float far = FarthestRange(beam);
-  alignas(64) float entry[kTreeWidth];
+  SubRayPlaces places;
+  float far = FindFarthest(beam, places);
+  const std::uint32_t num_facets = beam.num_facets;
+  ChildDistances distances;
   for (Stack stack(scene.root); !stack.empty();) {
     const Stack::Entry top = stack.Pop();
     if (top.entry > far) continue;
     if (IsLeaf(top.pointer)) {
-      TraceInstance(scene.instances[top.pointer >> 1U], beam, far);
+      TraceInstance(scene.instances[top.pointer >> 1U], places, beam, far);
       continue;
     }
     const auto& node = *reinterpret_cast<const BeamNode*>(top.pointer);
-    const std::uint32_t children = ChildrenMet(node, cone, far, entry);
-    stack.PushSorted(node, children, entry);
+    const std::uint32_t children = ChildrenMet(node, cone, far, distances);
+    stack.PushSorted(node, children, distances.entry);
   }
-  DropHiddenFacets(beam);
+  if (beam.num_facets > num_facets) DropHiddenFacets(beam);
 }
 
 }  // namespace railcast::RAILCAST_ISA

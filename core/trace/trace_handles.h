@@ -36,7 +36,14 @@ struct PartSize {
   bool is_wire{};
 };
 
-/// Embree's scene of a model, and its tree for beams.
+/// A model's trees for beams. Wires are apart, because most beams leave them out (effect
+/// thin_conductors).
+struct BeamTrees {
+  BeamTree solid;
+  BeamTree wires;
+};
+
+/// Embree's scene of a model, and its trees for beams.
 struct TraceModel::Handle {
   std::shared_ptr<TraceDevice::Handle> device;
   RTCScene scene{};
@@ -48,14 +55,15 @@ struct TraceModel::Handle {
     if (scene != nullptr) rtcReleaseScene(scene);
   }
 
-  /// The tree for beams. It is built when it is first needed, with triangles read back from Embree.
-  [[nodiscard]] const BeamTree& beam_tree() const;
+  /// The trees for beams. They are built when they are first needed, with triangles read back from
+  /// Embree.
+  [[nodiscard]] const BeamTrees& beam_trees() const;
   /// For WithinMemory: "building "wagon" for ray tracing (3120 triangles)".
   [[nodiscard]] std::string Doing() const;
 
  private:
-  mutable std::once_flag beam_tree_once_;
-  mutable BeamTree beam_tree_;
+  mutable std::once_flag beam_trees_once_;
+  mutable BeamTrees beam_trees_;
 };
 
 struct ReleaseGeometry {

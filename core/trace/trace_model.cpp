@@ -47,11 +47,14 @@ void AttachPart(RTCDevice device, RTCScene scene, const Part& part, unsigned geo
   rtcAttachGeometryByID(scene, geometry, geometry_id);
 }
 
-// Every triangle of an Embree scene that AttachPart() has filled, with the part it belongs to.
-std::vector<BeamTriangle> TrianglesOf(RTCScene scene, const std::vector<PartSize>& parts) {
+// The triangles of the wires, or of all else, in an Embree scene that AttachPart() has filled, with
+// the parts they belong to.
+std::vector<BeamTriangle> TrianglesOf(RTCScene scene,
+                                      const std::vector<PartSize>& parts,
+                                      bool are_wires) {
   std::vector<BeamTriangle> triangles;
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    if (parts[p].num_triangles == 0) continue;
+    if (parts[p].num_triangles == 0 || parts[p].is_wire != are_wires) continue;
     RTCGeometry geometry = rtcGetGeometry(scene, static_cast<unsigned>(p));
     const auto* const vertices =
         static_cast<const Corner*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0));
@@ -60,7 +63,6 @@ std::vector<BeamTriangle> TrianglesOf(RTCScene scene, const std::vector<PartSize
     for (std::size_t i = 0; i < parts[p].num_triangles; ++i) {
       BeamTriangle& triangle = triangles.emplace_back();
       triangle.part = static_cast<std::uint32_t>(p);
-      triangle.is_wire = parts[p].is_wire;
       for (std::size_t k = 0; k < 3; ++k) {
         triangle.corners[k] = Eigen::Vector3f(vertices[indices[i][k]].data());
       }
@@ -78,14 +80,15 @@ std::string TraceModel::Handle::Doing() const {
          " triangles)";
 }
 
-const BeamTree& TraceModel::Handle::beam_tree() const {
-  std::call_once(beam_tree_once_, [this] {
+const BeamTrees& TraceModel::Handle::beam_trees() const {
+  std::call_once(beam_trees_once_, [this] {
     const auto doing = [this] { return Doing() + " in beams"; };
     BuildWithEmbree(device->device, doing, [this] {
-      beam_tree_ = BuildModelTree(device->device, TrianglesOf(scene, parts));
+      beam_trees_.solid = BuildModelTree(device->device, TrianglesOf(scene, parts, false));
+      beam_trees_.wires = BuildModelTree(device->device, TrianglesOf(scene, parts, true));
     });
   });
-  return beam_tree_;
+  return beam_trees_;
 }
 
 TraceModel::TraceModel(const TraceDevice& device, const Model& model, bool is_passable)

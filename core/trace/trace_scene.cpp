@@ -66,16 +66,24 @@ struct TraceScene::Parts {
 
   void AttachInstance(const TracePlacement& placement);
   void StoreHits(const RTCRayHit16& packet, RayTile& tile, std::size_t first) const;
-  /// The tree for beams. It is built, with those of the models, when it is first needed.
-  [[nodiscard]] const BeamScene& beam_scene() const;
+  /// Placed models for beams: all but wires, or wires.
+  struct Beams {
+    BeamTree tree;
+    std::vector<BeamInstance> instances;
+    BeamScene scene;
+  };
+  struct BeamParts {
+    Beams solid;
+    Beams wires;
+  };
+  /// They are built, with the models' trees, when they are first needed.
+  [[nodiscard]] const BeamParts& beams() const;
 
  private:
-  void BuildBeamScene() const;
+  void BuildBeams(BeamTree BeamTrees::*tree, Beams& beams) const;
 
   mutable std::once_flag beams_once_;
-  mutable BeamTree beam_tree_;
-  mutable std::vector<BeamInstance> beam_instances_;
-  mutable BeamScene beam_scene_;
+  mutable BeamParts beams_;
 };
 
 void TraceScene::Parts::AttachInstance(const TracePlacement& placement) {
@@ -165,21 +173,13 @@ Rows InverseOf(const Rows& rows) {
 
 }  // namespace
 
-void TraceScene::Parts::BuildBeamScene() const {
-  // Isolated, so that a thread that waits here does not take up a tile of the frame that needs this
-  // scene.
-  tbb::this_task_arena::isolate([this] {
-    tbb::parallel_for(std::size_t{0}, models.size(), [this](std::size_t i) {
-      static_cast<void>(models[i]->handle().beam_tree());
-    });
-  });
+void TraceScene::Parts::BuildBeams(BeamTree BeamTrees::*tree_of, Beams& beams) const {
   std::vector<Eigen::AlignedBox3f> boxes;
-  beam_instances_.clear();
   const Rows* places = steps.data();
   for (std::size_t i = 0; i < instances.size(); ++i) {
-    const BeamTree& tree = models[i]->handle().beam_tree();
+    const BeamTree& tree = models[i]->handle().beam_trees().*tree_of;
     boxes.push_back(BoxOf(tree.bounds(), places, num_steps[i]));
-    beam_instances_.push_back({.root = tree.root(),
+    beams.instances.push_back({.root = tree.root(),
                                .first_surface = instances[i].first_surface,
                                .num_steps = num_steps[i],
                                .is_stretched = IsStretched(places[0]),
@@ -191,13 +191,24 @@ void TraceScene::Parts::BuildBeamScene() const {
     return "building a scene for tracing beams (" + std::to_string(instances.size()) + " places)";
   };
   BuildWithEmbree(device->device, doing,
-                  [&] { beam_tree_ = BuildSceneTree(device->device, boxes); });
-  beam_scene_ = {beam_tree_.root(), beam_instances_.data()};
+                  [&] { beams.tree = BuildSceneTree(device->device, boxes); });
+  beams.scene = {beams.tree.root(), beams.instances.data()};
 }
 
-const BeamScene& TraceScene::Parts::beam_scene() const {
-  std::call_once(beams_once_, [this] { BuildBeamScene(); });
-  return beam_scene_;
+const TraceScene::Parts::BeamParts& TraceScene::Parts::beams() const {
+  std::call_once(beams_once_, [this] {
+    // Isolated, so that a thread that waits here does not take up a tile of the frame that needs
+    // this scene.
+    tbb::this_task_arena::isolate([this] {
+      tbb::parallel_for(std::size_t{0}, models.size(), [this](std::size_t i) {
+        static_cast<void>(models[i]->handle().beam_trees());
+      });
+    });
+    beams_ = {};
+    BuildBeams(&BeamTrees::solid, beams_.solid);
+    BuildBeams(&BeamTrees::wires, beams_.wires);
+  });
+  return beams_;
 }
 
 void TraceScene::CastBeam(BeamRays& beam) const {
@@ -205,11 +216,13 @@ void TraceScene::CastBeam(BeamRays& beam) const {
 }
 
 void TraceScene::CastBeamWith(const BeamKernel& kernel, BeamRays& beam) const {
-  kernel.trace(parts_->beam_scene(), beam);
+  const Parts::BeamParts& beams = parts_->beams();
+  if ((beam.mask & ~kWireSurfaces) != 0) kernel.trace(beams.solid.scene, beam);
+  if ((beam.mask & kWireSurfaces) != 0) kernel.trace(beams.wires.scene, beam);
 }
 
 void TraceScene::PrepareBeams() const {
-  static_cast<void>(parts_->beam_scene());
+  static_cast<void>(parts_->beams());
 }
 
 void TraceScene::Parts::StoreHits(const RTCRayHit16& packet,

@@ -48,6 +48,9 @@ struct alignas(64) RayTile {
 inline constexpr std::size_t kNumSubRays = 64;
 /// The number of sub-rays, the first ones, that sample a beam among a crowd of small surfaces.
 inline constexpr std::size_t kNumCrowdedSubRays = 16;
+/// Sub-rays i and i + kNumSubRayGroups are neighbours: they belong to the same of so many groups,
+/// each of which fills a piece of the beam's cross-section.
+inline constexpr std::size_t kNumSubRayGroups = 8;
 
 /// A flat piece of a surface that sub-rays of a beam hit.
 struct Facet {

@@ -283,8 +283,8 @@ TEST(TraceBeam, MissesNothingOfAStretchedModel) {
   const TraceScene scene(device, {{rod, {place}, 1}});
   std::size_t num_hits = 0;
   std::size_t num_different = 0;
-  for (int i = 0; i < 2000; ++i) {
-    const float tilt = 3e-5F * static_cast<float>(i - 1000);
+  for (int i = 0; i < 4000; ++i) {
+    const float tilt = 1.5e-5F * static_cast<float>(i - 2000);
     BeamRays beam = BeamAlong(Eigen::Vector3f(1.0F, 0.3F * tilt, tilt).normalized(), 0.02F, 0.02F);
     RayTile tile = TileOf(beam);
     scene.Cast(tile);
