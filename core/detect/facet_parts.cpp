@@ -42,6 +42,12 @@ void FacetParts::Aim(const WideBeams& beams, const DetectTile& first, std::size_
   beam_.facets[0] = {};
 }
 
+bool FacetParts::IsOneFacet() const {
+  const std::uint32_t last = beam_.num_facets - 1;
+  return last <= 1 && std::all_of(beam_.facet, beam_.facet + beam_.num_rays,
+                                  [=](std::uint32_t facet) { return facet == last; });
+}
+
 void FacetParts::SumUp() {
   sums_.assign(beam_.num_facets, Sums{});
   for (std::size_t i = 0; i < beam_.num_rays; ++i) {
@@ -161,9 +167,12 @@ void FacetParts::Find(const WideBeams& beams, const DetectTile& first, PartLists
   for (std::size_t lane = 0; lane < first.num_rays; ++lane) {
     Aim(beams, first, lane);
     beams.caster.CastBeam(beam_);
+    // So are half of all beams, most of them in the sky; sums would tell no more.
+    const std::uint32_t surface = beams.rays.surface[lane];
+    if (IsOneFacet() && beam_.facets[beam_.num_facets - 1].surface == surface) continue;
     SumUp();
     JoinPlanes();
-    if (!IsOnePlane(beams.rays.surface[lane])) AddParts(beams, lane);
+    if (!IsOnePlane(surface)) AddParts(beams, lane);
   }
   Flush(beams);
   StoreLists(first.num_rays, lists);

@@ -40,6 +40,8 @@ class FacetParts {
   };
 
   void Aim(const WideBeams& beams, const DetectTile& first, std::size_t lane);
+  /// Whether all sub-rays are on one facet, or on none.
+  [[nodiscard]] bool IsOneFacet() const;
   void SumUp();
   void JoinPlanes();
   [[nodiscard]] bool IsOnePlane(std::uint32_t central_surface) const;
