@@ -20,6 +20,9 @@ struct WaveSums {
   float bend;    ///< sum of w_i / variance_i^2 x (r_i - r)^2; w''(r) = bend - weight
 };
 
+/// e to this power is 1e-26.
+constexpr float kLeastExponent = -60.0F;
+
 [[nodiscard]] inline WaveSums SumWave(const EchoWave& wave, float range_m) {
   float value[kWaveLanes] = {};
   float weight[kWaveLanes] = {};
@@ -31,7 +34,10 @@ struct WaveSums {
     const float* inverse = wave.inverse_variance_per_m2 + first;
     for (std::size_t i = 0; i < kWaveLanes; ++i) {
       const float ahead_m = r[i] - range_m;
-      const float part = peak[i] * Exp(-0.5F * ahead_m * ahead_m * inverse[i]);
+      const float exponent = -0.5F * ahead_m * ahead_m * inverse[i];
+      // Farther parts add less than the rounding of the sum, and as denormal numbers cost much
+      // time.
+      const float part = exponent < kLeastExponent ? 0.0F : peak[i] * Exp(exponent);
       const float slope = part * inverse[i] * ahead_m;
       value[i] += part;
       weight[i] += part * inverse[i];
