@@ -56,6 +56,14 @@ for effect in surface_response surface_condition extinction pulse_stretch detect
   echo "$without: $effect costs $((${all#* } - ${without#* }))"
 done
 
+# What 64 sub-rays of the footprint cost more than 16 (core/fidelity/effect_search.h).
+printf '{"version": 1, "file": "%s", "weather": "%s", "fidelity": "footprint", "lidar": %s}\n' \
+  "$scenario" "$weather" \
+  "{\"file\": \"$PWD/scenarios/sensors/vir2rail.json\", \"mount\": {\"position_m\": [2.2, 0, 2.5]},
+    \"beam\": {\"divergence_mrad\": [3.0, 1.5], \"footprint_rays\": 16}}" >"$work/scenario.json"
+fewer="$(count footprint_16)"
+echo "$fewer: 64 sub-rays cost $((${all#* } - ${fewer#* })) more"
+
 sensor clean ""
 sensor dirt '"cover": {"dirt_coverage": 0.1}'
 sensor drops '"cover": {"drop_coverage": 0.1}'

@@ -14,7 +14,7 @@ bool HasWidth(const DetectorSpec& spec) {
 std::string FootprintText(const DetectorSpec& spec) {
   const auto& divergence_mrad = spec.beam.divergence_mrad;
   return "1/e^2 width " + NumberText(divergence_mrad[0]) + " x " + NumberText(divergence_mrad[1]) +
-         " mrad";
+         " mrad, " + NumberText(spec.beam.footprint_rays) + " sub-rays";
 }
 
 std::string DenseFootprintText(const DetectorSpec& spec) {

@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "railcast/ray_caster.h"
 
 namespace railcast {
 namespace {
@@ -76,6 +77,10 @@ void CheckDetectorSpec(const DetectorSpec& spec) {
       {"/beam/pulse_length_ns", beam.pulse_length_ns, IsPositive(beam.pulse_length_ns), "> 0"},
       {"/beam/reference_rays", static_cast<double>(beam.reference_rays),
        beam.reference_rays >= 1 && beam.reference_rays <= kMostReferenceRays, ">= 1 and <= 4096"},
+      {"/beam/footprint_rays", static_cast<double>(beam.footprint_rays),
+       beam.footprint_rays == static_cast<int>(kNumCrowdedSubRays) ||
+           beam.footprint_rays == static_cast<int>(kNumSubRays),
+       "16 or 64"},
       {"/receiver/range_at_10_percent_m", receiver.range_at_10_percent_m,
        IsPositive(receiver.range_at_10_percent_m), "> 0"},
       {"/receiver/snr_at_threshold", receiver.snr_at_threshold,

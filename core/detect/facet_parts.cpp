@@ -36,7 +36,7 @@ void FacetParts::Aim(const WideBeams& beams, const DetectTile& first, std::size_
       {pattern.h, pattern.v, kMargin * pattern.largest_offset, turn.cosine, turn.sine}, beam_);
   std::fill_n(beam_.range_m, kNumSubRays, static_cast<float>(spec_.range_max_m));
   std::fill_n(beam_.facet, kNumSubRays, 0U);
-  beam_.num_rays = kNumSubRays;
+  beam_.num_rays = static_cast<std::size_t>(spec_.beam.footprint_rays);
   beam_.num_met = 0;
   beam_.num_facets = 1;
   beam_.facets[0] = {};

@@ -13,8 +13,8 @@
 
 namespace railcast {
 
-/// Effect `footprint`: finds what every beam meets with kNumSubRays sub-rays of equal share, turned
-/// about its axis by a random angle for each firing.
+/// Effect `footprint`: finds what every beam meets with BeamSpec::footprint_rays sub-rays of equal
+/// share, turned about its axis by a random angle for each firing.
 ///
 /// The sub-rays on one facet make one part, since the surface responds the same all over it. Its
 /// range is their mean, and its spread has the variance among them and the one within the cell of a

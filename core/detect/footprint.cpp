@@ -156,8 +156,8 @@ void Footprint::Resolve(const WideBeams& beams, const WireSet* wires, EchoTiles&
     if (is_wide && components_.empty() &&
         echoes.first.outcome[lane] == static_cast<std::uint32_t>(Outcome::kReturned)) {
       // A surface that only the central ray meets is thin: it fills no more than a sub-ray's cell.
-      constexpr float kShare = 1.0F / (kNumSubRays + 1);
-      components_.push_back(CellOf(ComponentOf(echoes.first, lane), kShare, spec_));
+      const float share = 1.0F / static_cast<float>(spec_.beam.footprint_rays + 1);
+      components_.push_back(CellOf(ComponentOf(echoes.first, lane), share, spec_));
     }
     wires_.clear();
     AddWires(beams, first_capture, capture);

@@ -98,6 +98,10 @@ void Describe(Archive& a, BeamSpec& s) {
              "Full width at half maximum of the received pulse.", Within(0.5, 100));
   a.Optional("reference_rays", s.reference_rays, "Sub-rays per beam of effect dense_footprint.",
              Within(16, 4096));
+  a.Optional(
+      "footprint_rays", s.footprint_rays,
+      "Sub-rays per beam of effect footprint. For fidelity auto, the most that it may choose.",
+      OneNumberOf({16, 64}));
 }
 
 template <class Archive>

@@ -118,6 +118,8 @@ struct BeamSpec {
   std::array<double, 2> divergence_mrad{3.0, 1.5};
   double pulse_length_ns = 5.0;  ///< Full width at half maximum of the received pulse.
   int reference_rays = 256;      ///< Sub-rays per beam of effect dense_footprint.
+  /// Sub-rays per beam of effect footprint: kNumSubRays or kNumCrowdedSubRays (ray_caster.h).
+  int footprint_rays = 64;
 
   bool operator==(const BeamSpec&) const = default;
 };

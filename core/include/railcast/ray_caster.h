@@ -46,7 +46,8 @@ struct alignas(64) RayTile {
 
 /// The number of sub-rays that sample the cross-section of a beam: whole packets.
 inline constexpr std::size_t kNumSubRays = 64;
-/// The number of sub-rays, the first ones, that sample a beam among a crowd of small surfaces.
+/// The number of sub-rays, the first ones, that sample a beam among a crowd of small surfaces, or
+/// every beam if the sensor's spec says so.
 inline constexpr std::size_t kNumCrowdedSubRays = 16;
 /// Sub-rays i and i + kNumSubRayGroups are neighbours: they belong to the same of so many groups,
 /// each of which fills a piece of the beam's cross-section.
@@ -71,8 +72,9 @@ struct alignas(64) BeamRays {
 
   std::uint32_t mask = kAllSurfaces;  ///< As RayTile::mask.
   float shutter{};                    ///< As RayTile::shutter, for the whole beam.
-  /// kNumSubRays. A caster may lower it to kNumCrowdedSubRays where the beam meets so many small
-  /// surfaces that these sample it well enough; the other sub-rays then have no meaning.
+  /// kNumSubRays or kNumCrowdedSubRays. A caster may lower it to kNumCrowdedSubRays where the beam
+  /// meets so many small surfaces that these sample it well enough; the other sub-rays then have no
+  /// meaning.
   std::size_t num_rays = kNumSubRays;
   /// The number of triangles that casters have intersected with sub-rays so far.
   std::uint32_t num_met = 0;

@@ -38,6 +38,7 @@ TEST(CheckDetectorSpec, NamesEveryNumberThatBreaksItsRule) {
               s.beam.divergence_mrad = {-1.0, 1.0};
               s.beam.pulse_length_ns = 0.0;
               s.beam.reference_rays = 0;
+              s.beam.footprint_rays = 32;
               s.receiver.range_at_10_percent_m = 0.0;
               s.receiver.snr_at_threshold = -5.0;
             }),
@@ -46,6 +47,7 @@ TEST(CheckDetectorSpec, NamesEveryNumberThatBreaksItsRule) {
             "/beam/divergence_mrad/0: must be >= 0 (got -1)\n"
             "/beam/pulse_length_ns: must be > 0 (got 0)\n"
             "/beam/reference_rays: must be >= 1 and <= 4096 (got 0)\n"
+            "/beam/footprint_rays: must be 16 or 64 (got 32)\n"
             "/receiver/range_at_10_percent_m: must be > 0 (got 0)\n"
             "/receiver/snr_at_threshold: must be > 0 (got -5)");
 }

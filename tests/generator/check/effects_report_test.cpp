@@ -102,7 +102,7 @@ TEST(EffectsReport, SaysWhatTheWeatherDoesToThePhysicalRungs) {
       "          interference: 0 pulses per s, false echoes in 0 of the firings\n"
       "          saturation: none\n"
       "          ghost: none\n"
-      "          footprint: 1/e^2 width 3 x 3 mrad\n"
+      "          footprint: 1/e^2 width 3 x 3 mrad, 64 sub-rays\n"
       "          thin_conductors\n");
 }
 
