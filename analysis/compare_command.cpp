@@ -84,9 +84,7 @@ int RunAblation(const CompareOptions& options, const std::string& command_line) 
   ScenarioSpec scenario = PickSensor(ReadScenario(options.scenario), options.sensor);
   if (options.seed) scenario.seed = *options.seed;
   const auto simulator = MakeSimulator(scenario, options.num_threads);
-  constexpr double kFrameSpacing_s = 1.0;
-  const std::vector<std::uint32_t> frames =
-      SampleFrames(scenario, *simulator, options.num_frames, kFrameSpacing_s);
+  const std::vector<std::uint32_t> frames = SampleFrames(scenario, *simulator, options.num_frames);
   const ProgressLine progress;
   const std::vector<EffectStudy> studies =
       Ablate(*simulator, frames, distances_m,
@@ -96,7 +94,7 @@ int RunAblation(const CompareOptions& options, const std::string& command_line) 
       {"Scenario", ShownPath(options.scenario)},
       {"Fidelity", scenario.fidelity == Fidelity::kAuto ? "auto, studied as footprint"
                                                         : std::string(NameOf(scenario.fidelity))},
-      {"Frames", std::to_string(frames.size()) + ", a second apart"},
+      {"Frames", std::to_string(frames.size()) + ", spread over the run and where objects are"},
       {"Seed", std::to_string(scenario.seed)},
       {"Scenario hash", IdentityOf(scenario).scenario_hash},
       {"Weather", WeatherText(scenario.weather)}};
@@ -121,7 +119,7 @@ void AddAblationOptions(CLI::App& compare, CompareOptions& options) {
                                   ->check(NonEmpty());
   compare
       .add_option("--frames", options.num_frames,
-                  "Number of sample frames, which are a second apart")
+                  "Number of sample frames, spread over the run and where objects are")
       ->transform(Whole({1, 1000}))
       ->capture_default_str()
       ->needs(ablate);

@@ -23,6 +23,9 @@
 namespace railcast {
 namespace {
 
+// On the way to an object, from where it comes within range to where it is nearest.
+constexpr int kNumApproachFrames = 8;
+
 struct FrontierOptions {
   std::filesystem::path scenario;
   std::optional<std::string> sensor;  // Which sensor, where the scenario has several.
@@ -47,25 +50,28 @@ int RunFrontier(const FrontierOptions& options, const std::string& command_line)
   plan.num_threads = options.num_threads;
   const ScenarioSpec scenario = ReadForFrontier(options);
   const auto simulator = MakeSimulator(scenario, options.num_threads);
-  constexpr double kFrameSpacing_s = 1.0;
-  plan.frames = SampleFrames(scenario, *simulator, options.num_frames, kFrameSpacing_s);
+  plan.frames = SampleFrames(scenario, *simulator, options.num_frames);
+  plan.approach_frames = ApproachFrames(scenario, *simulator, kNumApproachFrames);
   std::filesystem::create_directories(options.out);
   // The choice of fidelity takes about a tenth of the time.
   constexpr double kRowsShare = 0.9;
   const ProgressLine progress;
-  const std::vector<RowResult> results = MeasureFrontier(
-      plan, scenario, *simulator,
-      [&](const std::string& what, double done) { progress.Show(what, kRowsShare * done); });
+  simulator->UseThreads(0);
   const FidelityChoice choice = ChooseFidelity(*simulator, scenario, [&](double done) {
-    progress.Show("what the scene needs", kRowsShare + (1.0 - kRowsShare) * done);
+    progress.Show("what the scene needs", (1.0 - kRowsShare) * done);
   });
+  UseChoice(choice, plan.rows);
+  const std::vector<RowResult> results =
+      MeasureFrontier(plan, scenario, *simulator, [&](const std::string& what, double done) {
+        progress.Show(what, 1.0 - kRowsShare + kRowsShare * done);
+      });
   progress.End();
   const FrontierCircumstances circumstances = {
       ProgramVersion(),
       ShownPath(options.scenario),
       scenario.seed,
       MakeComparisonSpec(scenario.lidar.beam, scenario.lidar.range_max_m,
-                         LabelTable(scenario.labels))
+                         LabelTable(scenario.labels), {})
           .match_distance_m,
       ChoiceJson(choice, scenario.tolerance),
       ChoiceText(choice, scenario.tolerance),
@@ -97,7 +103,7 @@ void AddFrontier(CLI::App& app, ProgramCommand& command) {
       ->check(NonEmpty());
   frontier
       ->add_option("--frames", options->num_frames,
-                   "Number of sample frames, which are a second apart")
+                   "Number of sample frames, spread over the run and where objects are")
       ->transform(Whole({1, 1000}))
       ->capture_default_str();
   frontier

@@ -40,7 +40,7 @@ def line_of(sensor, row):
 
 def choice_line(scene, sensor, measured):
     choice = measured["fidelity_auto"]
-    left_out = [effect["effect"] for effect in choice["measured"] if not effect["is_kept"]]
+    left_out = [one["what"] for one in choice["measured"] if not one["is_kept"]]
     deviation = choice["deviation"]
     return (f"| `{scene}` | {sensor} | {', '.join(f'`{name}`' for name in left_out) or 'none'} "
             f"| {100.0 * deviation['missed_share']:.2f} % "

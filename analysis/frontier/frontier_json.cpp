@@ -43,7 +43,7 @@ Json EffectsIn(const EffectSet& effects) {
   return EffectNames(effects);
 }
 
-Json ErrorsOf(const FrameDifference& d, const LabelTable& labels) {
+Json ErrorsOf(const RowErrors& d, const LabelTable& labels) {
   Json errors = Json::object();
   for (const FrontierError& error : kFrontierErrors) errors[error.name] = error.of(d);
   Json bins = Json::array();
@@ -72,6 +72,7 @@ Json RowObject(const RowResult& result, const LabelTable& labels) {
   Json object = {{"name", result.row.name},
                  {"group", RowGroupName(result.row.group)},
                  {"effects", EffectsIn(result.row.effects)},
+                 {"footprint_rays", result.row.footprint_rays},
                  {"num_timed", result.times_ms.size()},
                  {"p50_ms", result.p50_ms()},
                  {"p99_ms", result.p99_ms()},

@@ -128,7 +128,7 @@ ChartSeries GroupSeries(const Table& errors,
                         const std::string& error,
                         RowGroup group,
                         const std::string& title) {
-  const bool is_line = group != RowGroup::kBetween;
+  const bool is_line = group != RowGroup::kBetween && group != RowGroup::kChosen;
   ChartSeries series = SeriesOf(
       errors, {"ratio_to_raw_trace", error, is_line ? "row" : "", "group", RowGroupName(group)},
       title, is_line ? SeriesStyle::kLinePoints : SeriesStyle::kPoints);
@@ -136,7 +136,9 @@ ChartSeries GroupSeries(const Table& errors,
   for (ChartPoint& point : series.points) {
     if (point.label == "surface+thin_conductors") point.label = "surface + wires";
     // Rows of brute force are labelled with their number of rays.
-    point.label = point.label.substr(point.label.rfind('_') + 1);
+    if (group == RowGroup::kBruteForce) {
+      point.label = point.label.substr(point.label.rfind('_') + 1);
+    }
   }
   return series;
 }
@@ -150,7 +152,8 @@ Chart ErrorChart(const Table& errors, const FrontierError& error) {
           {error.title, error.unit, false, {}},
           {GroupSeries(errors, key, RowGroup::kLadder, "railcast"),
            GroupSeries(errors, key, RowGroup::kBruteForce, "brute force, rays a beam"),
-           GroupSeries(errors, key, RowGroup::kBetween, "footprint without thin_conductors")}};
+           GroupSeries(errors, key, RowGroup::kBetween, "footprint without thin_conductors"),
+           GroupSeries(errors, key, RowGroup::kChosen, "fidelity auto")}};
 }
 
 Section TimeSection(const std::vector<RowResult>& results) {
@@ -198,7 +201,8 @@ Report MakeFrontierReport(const FrontierPlan& plan,
     if (result.row.group != RowGroup::kLadder) continue;
     report.headlines.push_back({result.row.name, "x raw", result.ratio()});
   }
-  report.sections = {TimeSection(results), ChoiceSection(circumstances.choice_text)};
+  report.sections = {TimeSection(results), PartsSection(results),
+                     ChoiceSection(circumstances.choice_text)};
   return report;
 }
 

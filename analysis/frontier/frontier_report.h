@@ -23,12 +23,17 @@ struct FrontierCircumstances {
 };
 
 /// Makes the report: charts of time against the first four of kFrontierErrors, then tables of all
-/// errors, of the findings, and of the Pareto fronts.
+/// errors, of the findings, and of the Pareto fronts; the same by range, class and object; and what
+/// the scene needs.
 /// @param command Command line, for a reader to repeat.
 [[nodiscard]] Report MakeFrontierReport(const FrontierPlan& plan,
                                         const FrontierCircumstances& circumstances,
                                         const std::vector<RowResult>& results,
                                         const std::string& command);
+
+/// The errors by range bin, class and object, and the detection distances of objects. Defined in
+/// frontier_parts.cpp.
+[[nodiscard]] Section PartsSection(const std::vector<RowResult>& results);
 
 /// Name of this machine's processor as the operating system reports it.
 [[nodiscard]] std::string ProcessorName();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/fidelity/beam_steps.h"
@@ -92,6 +93,27 @@ std::vector<float> StepsWith(const SimulatorSpec& compared,
   return StepsOf(parts, compared.detector.beam, limits);
 }
 
+// The points of each object on the frames on the way to it, for each row.
+std::vector<std::vector<Approach>> MeasureApproaches(const FrontierPlan& plan,
+                                                     const FrontierRow& yardstick,
+                                                     const SimulatorSpec& spec,
+                                                     Simulator& simulator) {
+  std::vector<std::vector<Approach>> approaches(plan.rows.size(), ApproachesIn(simulator.world()));
+  Frame reference;
+  Frame other;
+  for (const std::uint32_t frame : plan.approach_frames) {
+    simulator.Use(ComparedSpec(yardstick, spec));
+    simulator.Scan(frame, reference);
+    for (std::size_t i = 0; i < plan.rows.size(); ++i) {
+      if (plan.rows[i].group == RowGroup::kRawTrace) continue;
+      simulator.Use(ComparedSpec(plan.rows[i], spec));
+      simulator.Scan(frame, other);
+      AddApproach(simulator, reference, other, approaches[i]);
+    }
+  }
+  return approaches;
+}
+
 }  // namespace
 
 double RowResult::TimeQuantile_ms(double q) const {
@@ -113,8 +135,9 @@ std::vector<RowResult> MeasureFrontier(const FrontierPlan& plan,
   const SimulatorSpec spec = simulator.spec();
   std::vector<RowResult> results;
   for (const FrontierRow& row : plan.rows) results.push_back({row, {}, {}, {}});
-  const ComparisonSpec comparison = MakeComparisonSpec(
-      scenario.lidar.beam, scenario.lidar.range_max_m, LabelTable(scenario.labels));
+  const ComparisonSpec comparison =
+      MakeComparisonSpec(scenario.lidar.beam, scenario.lidar.range_max_m,
+                         LabelTable(scenario.labels), simulator.world().objects());
   std::vector<FrameComparison> comparisons(results.size(), FrameComparison(comparison));
   const FrontierRow yardstick{"yardstick", RowGroup::kReference, YardstickEffects(),
                               plan.yardstick_rays};
@@ -151,11 +174,14 @@ std::vector<RowResult> MeasureFrontier(const FrontierPlan& plan,
                               StepsWith(of_row, kFoundSteps, frame, simulator));
     }
   }
+  on_progress("detection distances", done);
+  std::vector<std::vector<Approach>> approaches =
+      MeasureApproaches(plan, yardstick, spec, simulator);
   simulator.Use(spec);
   for (std::size_t i = 0; i < results.size(); ++i) {
     std::sort(results[i].times_ms.begin(), results[i].times_ms.end());
     if (results[i].row.group != RowGroup::kRawTrace) {
-      results[i].difference = comparisons[i].Result();
+      results[i].difference.emplace(RowErrors{comparisons[i].Result(), std::move(approaches[i])});
     }
   }
   return results;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/frontier/detection_distance.h"
 #include "analysis/frontier/rows.h"
 #include "core/fidelity/frame_comparison.h"
 #include "railcast/scenario.h"
@@ -17,6 +18,8 @@ namespace railcast {
 struct FrontierPlan {
   std::vector<FrontierRow> rows;
   std::vector<std::uint32_t> frames;
+  /// Frames on the way to objects, for their detection distances only.
+  std::vector<std::uint32_t> approach_frames{};
   /// For the timing; errors are computed on all cores, which does not change them.
   int num_threads = 1;
   int num_rounds = 4;  ///< Timing rounds per frame.
@@ -24,11 +27,16 @@ struct FrontierPlan {
   int yardstick_rays = 1024;
 };
 
+/// The errors of a row on all frames.
+struct RowErrors : FrameDifference {
+  std::vector<Approach> approaches;  ///< One for each object that is approached.
+};
+
 /// Result of one row: times over all frames and rounds, and the errors of its frames.
 struct RowResult {
   FrontierRow row;
-  std::vector<double> times_ms;               ///< Times of single frames, sorted at the end.
-  std::optional<FrameDifference> difference;  ///< Absent for the raw trace.
+  std::vector<double> times_ms;         ///< Times of single frames, sorted at the end.
+  std::optional<RowErrors> difference;  ///< Absent for the raw trace.
   /// Median time divided by that of the raw trace in the same round, for each round that timed the
   /// row.
   std::vector<double> ratios;

@@ -35,8 +35,8 @@ bool Beats(const RowResult& a, const RowResult& b, const FrontierError& error) {
 }
 
 bool IsCandidate(const RowResult& result, const FrontierError& error) {
-  return result.row.group != RowGroup::kReference && result.difference &&
-         !std::isnan(error.of(*result.difference));
+  return result.row.group != RowGroup::kReference && result.row.group != RowGroup::kChosen &&
+         result.difference && !std::isnan(error.of(*result.difference));
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ struct FrontierError {
   const char* title;       ///< Title for readers.
   const char* unit;
   double scale;  ///< Factor from SI to `unit`.
-  double (*of)(const FrameDifference& difference);
+  double (*of)(const RowErrors& difference);
 };
 
 /// Share of what is missed; NaN if there is nothing to miss.
@@ -25,45 +25,48 @@ struct FrontierError {
 }
 
 /// The first four have charts.
-inline constexpr std::array<FrontierError, 16> kFrontierErrors{{
+inline constexpr std::array<FrontierError, 17> kFrontierErrors{{
     {"missed_share", "missed_percent", "Echoes missed", "%", 100.0,
-     [](const FrameDifference& d) { return MissedShare(d.reference_echoes); }},
+     [](const RowErrors& d) { return MissedShare(d.reference_echoes); }},
     {"range_median_m", "range_median_mm", "Range error, median", "mm", 1e3,
-     [](const FrameDifference& d) { return d.range_m.median; }},
+     [](const RowErrors& d) { return d.range_m.median; }},
     {"thin_missed_share", "thin_missed_percent", "Wires missed", "%", 100.0,
-     [](const FrameDifference& d) { return MissedShare(d.thin); }},
+     [](const RowErrors& d) { return MissedShare(d.thin); }},
     {"second_missed_share", "second_missed_percent", "Second surfaces missed", "%", 100.0,
-     [](const FrameDifference& d) { return MissedShare(d.second); }},
+     [](const RowErrors& d) { return MissedShare(d.second); }},
     {"further_missed_share", "further_missed_percent", "Further echoes missed", "%", 100.0,
-     [](const FrameDifference& d) { return MissedShare(d.further); }},
+     [](const RowErrors& d) { return MissedShare(d.further); }},
     {"false_share", "false_percent", "False echoes", "%", 100.0,
-     [](const FrameDifference& d) { return MissedShare(d.echoes); }},
+     [](const RowErrors& d) { return MissedShare(d.echoes); }},
     {"range_p95_m", "range_p95_mm", "Range error, 95 %", "mm", 1e3,
-     [](const FrameDifference& d) { return d.range_m.p95; }},
+     [](const RowErrors& d) { return d.range_m.p95; }},
     {"intensity_median", "intensity_median_percent", "Intensity error, median", "%", 100.0,
-     [](const FrameDifference& d) { return d.intensity.median; }},
+     [](const RowErrors& d) { return d.intensity.median; }},
     {"intensity_p95", "intensity_p95_percent", "Intensity error, 95 %", "%", 100.0,
-     [](const FrameDifference& d) { return d.intensity.p95; }},
+     [](const RowErrors& d) { return d.intensity.p95; }},
     {"range_p99_m", "range_p99_mm", "Range error, 99 %", "mm", 1e3,
-     [](const FrameDifference& d) { return d.range_m.p99; }},
+     [](const RowErrors& d) { return d.range_m.p99; }},
     {"step_missed_share", "step_missed_percent", "Steps missed", "%", 100.0,
-     [](const FrameDifference& d) { return MissedShare(d.steps); }},
+     [](const RowErrors& d) { return MissedShare(d.steps); }},
     {"step_range_median_m", "step_range_median_mm", "Range error at steps, median", "mm", 1e3,
-     [](const FrameDifference& d) { return d.step_range_m.median; }},
+     [](const RowErrors& d) { return d.step_range_m.median; }},
     {"bright_edge_intensity_median", "bright_edge_intensity_median_percent",
      "Intensity error of retroreflectors at edges, median", "%", 100.0,
-     [](const FrameDifference& d) { return d.bright_edges.median; }},
+     [](const RowErrors& d) { return d.bright_edges.median; }},
     {"person_points_error", "person_points_percent", "Points on persons, error", "%", 100.0,
-     [](const FrameDifference& d) { return d.persons.Error(); }},
+     [](const RowErrors& d) { return d.persons.Error(); }},
     {"pole_points_error", "pole_points_percent", "Points on poles, error", "%", 100.0,
-     [](const FrameDifference& d) { return d.poles.Error(); }},
+     [](const RowErrors& d) { return d.poles.Error(); }},
+    {"detection_distance_error", "detection_distance_percent",
+     "Detection distance of objects, error", "%", 100.0,
+     [](const RowErrors& d) { return DetectionDistanceError(d.approaches); }},
     {"dropout_error", "dropout_percent", "Dropout error", "%", 100.0,
-     [](const FrameDifference& d) { return d.dropout_error; }},
+     [](const RowErrors& d) { return d.dropout_error; }},
 }};
 
 /// The Pareto front for one error: the rows for which no other row is as fast and as accurate and
-/// better in one of both. The raw trace, the references (too slow for making frames) and rows
-/// without this error are excluded.
+/// better in one of both. The raw trace, the references (too slow for making frames), the row
+/// `auto` (which is one of the others or between them) and rows without this error are excluded.
 [[nodiscard]] std::vector<std::string> ParetoFront(const std::vector<RowResult>& results,
                                                    const FrontierError& error);
 

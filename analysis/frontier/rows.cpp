@@ -31,6 +31,8 @@ const char* RowGroupName(RowGroup group) {
       return "between";
     case RowGroup::kBruteForce:
       return "brute_force";
+    case RowGroup::kChosen:
+      return "chosen";
     case RowGroup::kReference:
       break;
   }
@@ -49,7 +51,9 @@ std::vector<FrontierRow> AllFrontierRows() {
       {"surface+thin_conductors", RowGroup::kLadder,
        With(surface, &EffectSet::thin_conductors, true)},
       {"footprint-thin_conductors", RowGroup::kBetween, sampled_wires},
+      {"footprint_16", RowGroup::kLadder, footprint, {}, 16},
       {"footprint", RowGroup::kLadder, footprint},
+      {"auto", RowGroup::kChosen},
   };
   for (const int sub_rays : kBruteForceSubRays) {
     rows.push_back({"brute_force_" + std::to_string(sub_rays + 1), RowGroup::kBruteForce,
@@ -82,9 +86,18 @@ std::vector<FrontierRow> ChooseFrontierRows(const std::string& names) {
   return rows;
 }
 
+void UseChoice(const FidelityChoice& choice, std::vector<FrontierRow>& rows) {
+  for (FrontierRow& row : rows) {
+    if (row.group != RowGroup::kChosen) continue;
+    row.effects = choice.effects;
+    row.footprint_rays = choice.footprint_rays;
+  }
+}
+
 SimulatorSpec SpecOfRow(const FrontierRow& row, const SimulatorSpec& scenario) {
   SimulatorSpec spec = scenario;
   spec.detector.effects = row.effects;
+  spec.detector.beam.footprint_rays = row.footprint_rays;
   if (row.sub_rays) spec.detector.beam.reference_rays = *row.sub_rays;
   spec.detector.plausibility.reference_threshold = 0.1;
   spec.detector.plausibility.reference_range_m = scenario.detector.receiver.range_at_10_percent_m;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "railcast/effects.h"
+#include "railcast/fidelity.h"
 #include "railcast/simulator.h"
 
 namespace railcast {
@@ -16,6 +17,7 @@ enum class RowGroup {
   kBetween,     ///< A rung without one of its effects.
   kBruteForce,  ///< The same number of sub-rays in every beam, with wires as triangles.
   kReference,   ///< The reference of accuracy with fewer sub-rays.
+  kChosen,      ///< What fidelity auto chooses.
 };
 [[nodiscard]] const char* RowGroupName(RowGroup group);
 
@@ -25,15 +27,19 @@ struct FrontierRow {
   RowGroup group{};
   EffectSet effects{};
   std::optional<int> sub_rays{};  ///< Sub-rays of dense_footprint beside the central ray.
+  int footprint_rays = 64;        ///< BeamSpec::footprint_rays.
 };
 
-/// Returns all rows in the order of the table.
+/// Returns all rows in the order of the table. UseChoice() fills in the row `auto`.
 [[nodiscard]] std::vector<FrontierRow> AllFrontierRows();
 
 /// Chooses rows by a comma-separated list of names, or "all". The raw trace is always included,
 /// since times are given as its multiples.
 /// @throws InputError that names the unknown rows.
 [[nodiscard]] std::vector<FrontierRow> ChooseFrontierRows(const std::string& names);
+
+/// Gives the row `auto` what fidelity auto has chosen.
+void UseChoice(const FidelityChoice& choice, std::vector<FrontierRow>& rows);
 
 /// The scenario's spec with a row's effects. The published model's threshold comes from the same
 /// data-sheet figure as the physical one: 10 % reflectance is just detected at

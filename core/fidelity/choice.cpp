@@ -1,6 +1,8 @@
 #include "railcast/fidelity.h"
 
 #include <algorithm>
+#include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -11,42 +13,101 @@
 #include "core/fidelity/sample_frames.h"
 #include "core/fidelity/yardstick.h"
 #include "railcast/effects.h"
+#include "railcast/ray_caster.h"
 
 namespace railcast {
 namespace {
 
-// Every second frame is held back from the search, to validate its result.
-constexpr int kNumFrames = 6;
-constexpr double kFrameSpacing_s = 0.5;
+// Every second of the frames spread over the run is held back from the search, to validate its
+// result.
+constexpr int kNumSpread = 6;
+constexpr int kMostAtObjects = 4;
 
-/// The effects among which the search chooses.
-struct Candidates {
-  EffectSet full;                  // The set with all of them on.
-  std::vector<const Effect*> all;  // The effects that may be left out.
+struct Frames {
+  std::vector<std::uint32_t> samples;
+  std::vector<std::uint32_t> held_back;
 };
 
-Candidates FindCandidates(const ScenarioSpec& scenario, FidelityChoice& choice) {
-  Candidates candidates{SwitchedEffects(scenario), {}};
-  const DetectorSpec spec = DetectorSpecOf(scenario, scenario.lidar, candidates.full);
-  for (const Effect& effect : EffectTable()) {
-    if (!(candidates.full.*effect.is_on)) continue;
-    const bool is_switched_on = scenario.effects.count(effect.name) > 0;
-    if (!is_switched_on && effect.instructions) {
-      candidates.all.push_back(&effect);
-    } else if (is_switched_on || effect.has_cause(spec)) {
-      choice.kept.emplace_back(effect.name);
-    } else {
-      choice.without_cause.emplace_back(effect.name);
-      candidates.full.*effect.is_on = false;
-    }
+Frames ChooseFrames(const ScenarioSpec& scenario, const Simulator& simulator) {
+  const std::uint32_t last = LastFrameOfRun(scenario, simulator);
+  const std::vector<std::uint32_t> spread = SpreadFrames(last, kNumSpread);
+  Frames frames;
+  for (std::size_t i = 0; i < spread.size(); ++i) {
+    (i % 2 == 0 ? frames.samples : frames.held_back).push_back(spread[i]);
   }
-  return candidates;
+  for (const std::uint32_t frame : FramesAtObjects(scenario, simulator, last, kMostAtObjects)) {
+    if (std::ranges::find(spread, frame) == spread.end()) frames.samples.push_back(frame);
+  }
+  std::ranges::sort(frames.samples);
+  return frames;
 }
 
-std::vector<EffectCost> CostsOf(const std::vector<const Effect*>& effects) {
-  std::vector<EffectCost> costs;
-  for (const Effect* effect : effects) costs.push_back({effect->is_on, *effect->instructions});
-  return costs;
+/// Something that may be left out.
+struct Candidate {
+  std::string name;
+  double saving;           // Instructions per firing.
+  const Effect* effect{};  // Null for the larger number of sub-rays.
+};
+
+/// The candidates among which the search chooses.
+struct Candidates {
+  EffectSet full;  // The set with all of them on.
+  int footprint_rays{};
+  std::vector<Candidate> all;
+
+  [[nodiscard]] EffectSet Without(Omissions left_out) const {
+    EffectSet effects = full;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (IsIn(left_out, i) && all[i].effect != nullptr) effects.*all[i].effect->is_on = false;
+    }
+    return effects;
+  }
+  [[nodiscard]] int RaysWithout(Omissions left_out) const {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (IsIn(left_out, i) && all[i].effect == nullptr) {
+        return static_cast<int>(kNumCrowdedSubRays);
+      }
+    }
+    return footprint_rays;
+  }
+};
+
+// Without a threshold everything far away would return. That it costs little is no reason either:
+// it belongs to the task.
+bool MayBeLeftOut(const Effect& effect) {
+  return effect.instructions && effect.is_on != &EffectSet::detection;
+}
+
+Candidates FindCandidates(const ScenarioSpec& scenario, FidelityChoice& choice) {
+  Candidates candidates{SwitchedEffects(scenario), scenario.lidar.beam.footprint_rays, {}};
+  EffectSet& full = candidates.full;
+  const DetectorSpec spec = DetectorSpecOf(scenario, scenario.lidar, full);
+  const auto is_switched_on = [&](const Effect& effect) {
+    return scenario.effects.count(effect.name) > 0;
+  };
+  for (const Effect& effect : EffectTable()) {
+    if (!(full.*effect.is_on) || is_switched_on(effect) || effect.has_cause(spec)) continue;
+    choice.without_cause.emplace_back(effect.name);
+    full.*effect.is_on = false;
+  }
+  choice.full_instructions = InstructionsOf(full, candidates.footprint_rays);
+  // What saves less than this is not worth any error.
+  constexpr double kNextToNothing = 0.01;
+  const double least_saving = kNextToNothing * choice.full_instructions;
+  for (const Effect& effect : EffectTable()) {
+    if (!(full.*effect.is_on)) continue;
+    if (is_switched_on(effect) || !MayBeLeftOut(effect) || *effect.instructions < least_saving) {
+      choice.kept.emplace_back(effect.name);
+    } else {
+      candidates.all.push_back({effect.name, *effect.instructions, &effect});
+    }
+  }
+  if (full.footprint && !full.dense_footprint &&
+      candidates.footprint_rays > static_cast<int>(kNumCrowdedSubRays)) {
+    candidates.all.push_back({std::to_string(candidates.footprint_rays) + " sub-rays",
+                              kInstructionsOfMoreSubRays, nullptr});
+  }
+  return candidates;
 }
 
 // The same effects, but where the rungs `footprint` and `reference` differ, as `reference` has it:
@@ -62,55 +123,99 @@ EffectSet ReferenceOf(EffectSet effects) {
   return effects;
 }
 
-/// Scans frames with one effect set after another and compares them with those of the reference.
+// Of the classes only those of objects: the task is not about grass.
+ComparisonSpec ComparisonOf(const ScenarioSpec& scenario, const World& world) {
+  ComparisonSpec spec = MakeComparisonSpec(scenario.lidar.beam, scenario.lidar.range_max_m,
+                                           LabelTable(scenario.labels), world.objects());
+  std::erase_if(spec.parts, [&](const ScenePart& part) {
+    return part.kind == ScenePart::Kind::kClass &&
+           std::ranges::find(world.objects(), part.id, &SceneObject::label) ==
+               world.objects().end();
+  });
+  return spec;
+}
+
+/// Scans frames with one setting after another and compares them with those of the reference.
 class Comparer {
  public:
-  Comparer(Simulator& simulator, const ScenarioSpec& scenario)
+  Comparer(Simulator& simulator, const ScenarioSpec& scenario, const EffectSet& reference)
       : simulator_(simulator),
         spec_(simulator.spec()),
-        comparison_(MakeComparisonSpec(
-            scenario.lidar.beam, scenario.lidar.range_max_m, LabelTable(scenario.labels))) {}
+        reference_(reference),
+        comparison_(ComparisonOf(scenario, simulator.world())) {}
   ~Comparer() { simulator_.Use(spec_); }
   Comparer(const Comparer&) = delete;
   Comparer& operator=(const Comparer&) = delete;
 
-  void UseFrames(const std::vector<std::uint32_t>& frames, const EffectSet& reference) {
+  /// @param on_reference Called before the scan of each frame of the reference.
+  void UseFrames(const std::vector<std::uint32_t>& frames,
+                 const std::function<void()>& on_reference) {
     frames_ = frames;
-    references_.resize(frames.size());
-    for (std::size_t i = 0; i < frames.size(); ++i) Scan(frames[i], reference, references_[i]);
+    on_reference_ = on_reference;
+    references_.assign(frames.size(), std::nullopt);
   }
 
-  [[nodiscard]] Deviation Measure(const EffectSet& effects) {
-    FrameComparison comparison(comparison_);
+  /// All sets take their turns on one frame before the next, which may need a window of its own.
+  [[nodiscard]] std::vector<Deviation> Measure(const Candidates& candidates,
+                                               const std::vector<Omissions>& sets) {
+    std::vector<FrameComparison> comparisons(sets.size(), FrameComparison(comparison_));
     Frame frame;
     for (std::size_t i = 0; i < frames_.size(); ++i) {
-      Scan(frames_[i], effects, frame);
-      comparison.Add(references_[i], frame);
+      if (!references_[i]) {
+        on_reference_();
+        Scan(frames_[i], reference_, candidates.footprint_rays, references_[i].emplace());
+      }
+      for (std::size_t k = 0; k < sets.size(); ++k) {
+        Scan(frames_[i], candidates.Without(sets[k]), candidates.RaysWithout(sets[k]), frame);
+        comparisons[k].Add(*references_[i], frame);
+      }
     }
-    return DeviationOf(comparison.Result());
+    std::vector<Deviation> deviations;
+    for (const FrameComparison& of_set : comparisons) {
+      deviations.push_back(DeviationOf(of_set.Result()));
+    }
+    return deviations;
   }
 
   /// Whether the reference has any echo. If not, there is nothing to compare.
   [[nodiscard]] bool HasReferenceEchoes() const {
-    return std::any_of(references_.begin(), references_.end(), [](const Frame& frame) {
-      return std::count(frame.outcome.begin(), frame.outcome.end(), Outcome::kReturned) > 0;
+    return std::ranges::any_of(references_, [](const std::optional<Frame>& frame) {
+      return std::ranges::count(frame->outcome, Outcome::kReturned) > 0;
     });
   }
 
  private:
-  void Scan(std::uint32_t index, const EffectSet& effects, Frame& frame) {
+  void Scan(std::uint32_t index, const EffectSet& effects, int footprint_rays, Frame& frame) {
     SimulatorSpec spec = spec_;
     spec.detector.effects = WithoutRangeErrors(effects);
+    spec.detector.beam.footprint_rays = footprint_rays;
     simulator_.Use(spec);
     simulator_.Scan(index, frame);
   }
 
   Simulator& simulator_;
   SimulatorSpec spec_;
+  EffectSet reference_;
   ComparisonSpec comparison_;
   std::vector<std::uint32_t> frames_;
-  std::vector<Frame> references_;
+  std::function<void()> on_reference_;
+  std::vector<std::optional<Frame>> references_;
 };
+
+void Store(const EffectSearchResult& found,
+           const Candidates& candidates,
+           const ToleranceSpec& tolerance,
+           FidelityChoice& choice) {
+  choice.effects = candidates.Without(found.left_out);
+  choice.footprint_rays = candidates.RaysWithout(found.left_out);
+  choice.deviation = found.deviation;
+  choice.full_deviation = found.full_deviation;
+  choice.is_within_tolerance = IsWithin(choice.deviation, tolerance);
+  choice.instructions = InstructionsOf(choice.effects, choice.footprint_rays);
+  for (std::size_t i = 0; i < candidates.all.size(); ++i) {
+    choice.measured.push_back({candidates.all[i].name, !IsIn(found.left_out, i), found.without[i]});
+  }
+}
 
 }  // namespace
 
@@ -119,37 +224,33 @@ FidelityChoice ChooseFidelity(Simulator& simulator,
                               const ChoiceProgress& on_progress) {
   Check(scenario.fidelity == Fidelity::kAuto, "there is something to choose");
   FidelityChoice choice;
-  Candidates candidates = FindCandidates(scenario, choice);
-  const EffectSet reference = ReferenceOf(candidates.full);
-  // Shares of the progress: scanning the reference frames takes nearly all of the time.
-  constexpr double kSampleShare = 0.45;
-  constexpr double kMeasureShare = 0.1;
-  on_progress(0.0);
-  Comparer comparer(simulator, scenario);
-  const auto frames = SampleFrames(scenario, simulator, kNumFrames, kFrameSpacing_s);
-  for (std::size_t i = 0; i < frames.size(); i += 2) choice.sample_frames.push_back(frames[i]);
-  comparer.UseFrames(choice.sample_frames, reference);
-  on_progress(kSampleShare);
+  const Candidates candidates = FindCandidates(scenario, choice);
+  const Frames frames = ChooseFrames(scenario, simulator);
+  choice.sample_frames = frames.samples;
+  // Scanning the reference frames takes nearly all of the time.
+  const auto num_references = static_cast<double>(frames.samples.size() + frames.held_back.size());
+  int num_done = 0;
+  const auto advance = [&] { on_progress(num_done++ / num_references); };
+  Comparer comparer(simulator, scenario, ReferenceOf(candidates.full));
+  comparer.UseFrames(frames.samples, advance);
+  std::vector<double> savings;
+  for (const Candidate& candidate : candidates.all) savings.push_back(candidate.saving);
+  EffectSearchResult found = FindOmissions(
+      savings, scenario.tolerance,
+      [&](const std::vector<Omissions>& sets) { return comparer.Measure(candidates, sets); });
   choice.has_echoes = comparer.HasReferenceEchoes();
-  if (!choice.has_echoes) candidates.all.clear();
-  const EffectSearchResult found =
-      FindCheapestEffects(candidates.full, CostsOf(candidates.all), scenario.tolerance,
-                          [&](const EffectSet& effects) { return comparer.Measure(effects); });
-  choice.effects = found.effects;
-  choice.deviation = found.deviation;
-  choice.full_deviation = found.full_deviation;
-  choice.is_within_tolerance = IsWithin(choice.deviation, scenario.tolerance);
-  choice.instructions = InstructionsOf(choice.effects);
-  choice.full_instructions = InstructionsOf(candidates.full);
-  for (std::size_t i = 0; i < candidates.all.size(); ++i) {
-    const Effect& effect = *candidates.all[i];
-    choice.measured.push_back({effect.name, found.effects.*effect.is_on, found.without[i]});
+  if (!choice.has_echoes) {
+    found.left_out = 0;
+    found.deviation = found.full_deviation;
   }
-  on_progress(kSampleShare + kMeasureShare);
-  for (std::size_t i = 1; i < frames.size(); i += 2) {
-    comparer.UseFrames({frames[i]}, reference);
-    const Deviation deviation = comparer.Measure(choice.effects);
-    choice.held_back.push_back({frames[i], deviation, IsWithin(deviation, scenario.tolerance)});
+  Store(found, candidates, scenario.tolerance, choice);
+  for (const std::uint32_t frame : frames.held_back) {
+    comparer.UseFrames({frame}, advance);
+    const std::vector<Deviation> chosen_and_full =
+        comparer.Measure(candidates, {found.left_out, Omissions{0}});
+    choice.held_back.push_back(
+        {frame, chosen_and_full[0],
+         IsWithinOrAsFull(chosen_and_full[0], chosen_and_full[1], scenario.tolerance)});
   }
   return choice;
 }
@@ -160,6 +261,7 @@ FidelityChoice UseChosenFidelity(Simulator& simulator,
   FidelityChoice choice = ChooseFidelity(simulator, scenario, on_progress);
   SimulatorSpec spec = simulator.spec();
   spec.detector.effects = choice.effects;
+  spec.detector.beam.footprint_rays = choice.footprint_rays;
   simulator.Use(spec);
   return choice;
 }

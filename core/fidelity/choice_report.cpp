@@ -36,12 +36,82 @@ std::string List(const std::vector<std::string>& names) {
   return text;
 }
 
-Json ObjectOf(const Deviation& d) {
+std::string PercentText(double share) {
+  return Rounded(100.0 * share, 1) + " %";
+}
+
+// What of a part is beyond the tolerance.
+std::string PartText(const PartDeviation& part, const ToleranceSpec& t) {
+  std::vector<std::string> errors;
+  const auto add_share = [&](const char* what, const SampledError& share, std::uint64_t num,
+                             double limit) {
+    if (share.least <= limit) return;
+    errors.push_back(what + (" " + PercentText(share.value)) + " of " + std::to_string(num) +
+                     " echoes (at least " + PercentText(share.least) + ")");
+  };
+  add_share("missed", part.missed_share, part.num_reference, t.missed_share);
+  add_share("false", part.false_share, part.num, t.false_share);
+  if (part.is_object && part.range_m.least > t.range_m) {
+    errors.push_back("range " + Rounded(1e3 * part.range_m.value, 1) + " mm (at least " +
+                     Rounded(1e3 * part.range_m.least, 1) + ")");
+  }
+  if (part.is_object && part.intensity.least > t.intensity) {
+    errors.push_back("intensity " + PercentText(part.intensity.value) + " (at least " +
+                     PercentText(part.intensity.least) + ")");
+  }
+  return part.part + ": " + List(errors);
+}
+
+// The parts beyond the tolerance, the first ones of many.
+std::string PartsText(const Deviation& deviation, const ToleranceSpec& tolerance) {
+  constexpr std::size_t kMost = 5;
+  const std::vector<PartDeviation> beyond = PartsBeyond(deviation, tolerance);
+  std::string text;
+  for (std::size_t i = 0; i < std::min(beyond.size(), kMost); ++i) {
+    text += "    " + PartText(beyond[i], tolerance) + "\n";
+  }
+  if (beyond.size() > kMost) {
+    text += "    and " + std::to_string(beyond.size() - kMost) + " more parts\n";
+  }
+  return text;
+}
+
+Json ObjectOf(const ToleranceSpec& t) {
+  return {{"range_m", t.range_m},
+          {"missed_share", t.missed_share},
+          {"false_share", t.false_share},
+          {"thin_missed_share", t.thin_missed_share},
+          {"intensity", t.intensity}};
+}
+
+Json ErrorObject(const SampledError& error) {
+  return {{"value", error.value}, {"at_least", error.least}};
+}
+
+Json PartsOf(const std::vector<PartDeviation>& parts) {
+  Json list = Json::array();
+  for (const PartDeviation& part : parts) {
+    if (part.num_reference == 0 && part.num == 0) continue;
+    list.push_back({{"part", part.part},
+                    {"num_reference_echoes", part.num_reference},
+                    {"num_echoes", part.num},
+                    {"missed_share", ErrorObject(part.missed_share)},
+                    {"false_share", ErrorObject(part.false_share)},
+                    {"range_m", ErrorObject(part.range_m)},
+                    {"intensity", ErrorObject(part.intensity)}});
+  }
+  return list;
+}
+
+// With the parts beyond the tolerance, or with all.
+Json ObjectOf(const Deviation& d, const ToleranceSpec& tolerance, bool has_all_parts = false) {
   Json object = {{"range_m", d.range_m},
                  {"missed_share", d.missed_share},
                  {"false_share", d.false_share},
                  {"thin_missed_share", d.thin_missed_share},
                  {"intensity", d.intensity}};
+  object[has_all_parts ? "parts" : "parts_beyond_tolerance"] =
+      PartsOf(has_all_parts ? d.parts : PartsBeyond(d, tolerance));
   return object;
 }
 
@@ -56,19 +126,28 @@ std::size_t NumBeyond(const FidelityChoice& choice) {
 std::string ChoiceText(const FidelityChoice& choice, const ToleranceSpec& tolerance) {
   const ToleranceSpec& t = tolerance;
   std::string text = "fidelity auto uses " + List(EffectNames(choice.effects)) + "\n";
+  if (choice.effects.footprint) {
+    text += "  sub-rays:  " + std::to_string(choice.footprint_rays) + "\n";
+  }
   text += "  tolerance: " +
-          Text({t.range_m, t.missed_share, t.false_share, t.thin_missed_share, t.intensity}) + "\n";
+          Text({t.range_m, t.missed_share, t.false_share, t.thin_missed_share, t.intensity, {}}) +
+          "\n";
   text += "  chosen:    " + Text(choice.deviation) + ", about " + Rounded(choice.instructions, 0) +
           " instructions a firing\n";
   text += "  all:       " + Text(choice.full_deviation) + ", about " +
           Rounded(choice.full_instructions, 0) + "\n";
   if (!choice.is_within_tolerance) {
-    text += "  beyond the tolerance, as all effects together are\n";
+    text += "  beyond the tolerance, as all effects together are:\n" +
+            PartsText(choice.deviation, tolerance);
   }
   if (!choice.has_echoes) text += "  the reference has no echo to compare with: all are kept\n";
   for (const FidelityChoice::Measured& measured : choice.measured) {
-    if (measured.is_kept) continue;
-    text += "  without " + measured.effect +
+    if (measured.is_kept) {
+      text += "  needs " + measured.what + ": without it " + Text(measured.without) + "\n" +
+              PartsText(measured.without, tolerance);
+      continue;
+    }
+    text += "  without " + measured.what +
             (measured.without == choice.full_deviation ? ": changes nothing here\n"
                                                        : ": " + Text(measured.without) + "\n");
   }
@@ -83,22 +162,22 @@ std::string ChoiceText(const FidelityChoice& choice, const ToleranceSpec& tolera
 std::string ChoiceJson(const FidelityChoice& choice, const ToleranceSpec& t) {
   Json measured = Json::array();
   for (const FidelityChoice::Measured& effect : choice.measured) {
-    measured.push_back({{"effect", effect.effect},
+    measured.push_back({{"what", effect.what},
                         {"is_kept", effect.is_kept},
-                        {"deviation_without", ObjectOf(effect.without)}});
+                        {"deviation_without", ObjectOf(effect.without, t)}});
   }
   Json held_back = Json::array();
   for (const FidelityChoice::HeldBack& held : choice.held_back) {
     held_back.push_back({{"frame", held.frame},
-                         {"deviation", ObjectOf(held.deviation)},
+                         {"deviation", ObjectOf(held.deviation, t)},
                          {"is_within_tolerance", held.is_within_tolerance}});
   }
   const Json json = {{"effects", EffectNames(choice.effects)},
-                     {"tolerance", ObjectOf({t.range_m, t.missed_share, t.false_share,
-                                             t.thin_missed_share, t.intensity})},
-                     {"deviation", ObjectOf(choice.deviation)},
+                     {"footprint_rays", choice.footprint_rays},
+                     {"tolerance", ObjectOf(t)},
+                     {"deviation", ObjectOf(choice.deviation, t, true)},
                      {"is_within_tolerance", choice.is_within_tolerance},
-                     {"deviation_of_all_effects", ObjectOf(choice.full_deviation)},
+                     {"deviation_of_all_effects", ObjectOf(choice.full_deviation, t, true)},
                      {"instructions_per_firing", choice.instructions},
                      {"instructions_per_firing_of_all_effects", choice.full_instructions},
                      {"measured", measured},

@@ -5,96 +5,92 @@
 #include <limits>
 
 #include "core/detect/effect_table.h"
+#include "railcast/ray_caster.h"
 
 namespace railcast {
 namespace {
 
-/// A set of candidates: bit i stands for candidate i.
-using EffectBits = unsigned;
+// The limits for the sample frames are stricter than the tolerance, so that other frames are likely
+// to be within it as well.
+constexpr double kMargin = 0.8;
+// Share of the tolerance that may be added where everything together exceeds the margin.
+constexpr double kMore = 0.2;
 
-bool IsIn(EffectBits bits, std::size_t i) {
-  return (bits >> i & 1U) != 0;
-}
-
-// The growth of a deviation when an effect is left out. By chance the deviation may also shrink;
-// that counts as 0, since it does not justify leaving out another effect.
-double Growth(const Deviation& without, const Deviation& full, const DeviationQuantity& quantity) {
-  const double growth = without.*quantity.value - full.*quantity.value;
-  return std::isnan(growth) ? 0.0 : std::max(growth, 0.0);
-}
-
-// The limits for the sample frames. They are stricter than the tolerance, so that other frames are
-// likely to be within it as well.
-ToleranceSpec SearchLimits(ToleranceSpec tolerance, const Deviation& full) {
-  constexpr double kMargin = 0.8;
-  // Share of the tolerance that may be added where all effects together exceed the margin.
-  constexpr double kLittle = 0.02;
-  for (const DeviationQuantity& quantity : kDeviationQuantities) {
-    double& limit = tolerance.*quantity.limit;
-    limit = std::max(kMargin * limit, full.*quantity.value + kLittle * limit);
+// All quantities of a deviation in a fixed order, first those over all echoes.
+std::vector<double> ValuesOf(const Deviation& deviation) {
+  std::vector<double> values;
+  for (const DeviationQuantity& q : kDeviationQuantities) values.push_back(deviation.*q.value);
+  for (const PartDeviation& part : deviation.parts) {
+    for (const PartQuantity& q : kPartQuantities) {
+      if (Counts(q, part)) values.push_back((part.*q.value).least);
+    }
   }
-  return tolerance;
+  return values;
 }
 
-// By how much a deviation exceeds the limits: the sum over quantities of excess over limit.
-double Excess(const Deviation& deviation, const ToleranceSpec& limits) {
+std::vector<double> LimitsFor(const ToleranceSpec& tolerance,
+                              const Deviation& full,
+                              double margin) {
+  const auto limit = [margin](double tolerated, double reached) {
+    return std::max(margin * tolerated, reached + kMore * tolerated);
+  };
+  std::vector<double> limits;
+  for (const DeviationQuantity& q : kDeviationQuantities) {
+    limits.push_back(limit(tolerance.*q.limit, full.*q.value));
+  }
+  for (const PartDeviation& part : full.parts) {
+    for (const PartQuantity& q : kPartQuantities) {
+      if (!Counts(q, part)) continue;
+      limits.push_back(limit(tolerance.*q.limit, (part.*q.value).value));
+    }
+  }
+  return limits;
+}
+
+// By how much values exceed the limits: the sum of excess over limit.
+double Excess(const std::vector<double>& values, const std::vector<double>& limits) {
   constexpr double kLeastLimit = 1e-9;  // Avoids a division by a tolerance of 0.
   double excess = 0.0;
-  for (const DeviationQuantity& quantity : kDeviationQuantities) {
-    const double limit = limits.*quantity.limit;
-    excess += std::max(deviation.*quantity.value - limit, 0.0) / std::max(limit, kLeastLimit);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    // Both are infinite where no set has intensities.
+    if (values[i] <= limits[i]) continue;
+    excess += (values[i] - limits[i]) / std::max(limits[i], kLeastLimit);
   }
   return excess;
 }
 
-bool IsPredictedWithin(const EffectSearchResult& result,
-                       EffectBits left_out,
-                       const ToleranceSpec& limits) {
-  Deviation sum = result.full_deviation;
-  for (const DeviationQuantity& quantity : kDeviationQuantities) {
-    for (std::size_t i = 0; i < result.without.size(); ++i) {
-      if (!IsIn(left_out, i)) continue;
-      sum.*quantity.value += Growth(result.without[i], result.full_deviation, quantity);
+// What each candidate adds to each quantity when it is left out. By chance a deviation may also
+// shrink; that counts as 0, since it does not justify leaving out something else.
+std::vector<std::vector<double>> GrowthsOf(const EffectSearchResult& result) {
+  const std::vector<double> full = ValuesOf(result.full_deviation);
+  std::vector<std::vector<double>> growths;
+  for (const Deviation& without : result.without) {
+    std::vector<double> growth = ValuesOf(without);
+    for (std::size_t i = 0; i < growth.size(); ++i) {
+      growth[i] = std::isnan(growth[i] - full[i]) ? 0.0 : std::max(growth[i] - full[i], 0.0);
     }
+    growths.push_back(std::move(growth));
   }
-  return IsWithin(sum, limits);
+  return growths;
 }
 
-// The candidates that are worth leaving out. An effect that matters and costs next to nothing
-// stays: other frames may need it more than the samples do, above all the one for wires, of which a
-// frame has few.
-EffectBits WorthLeavingOut(const EffectSearchResult& result,
-                           const std::vector<EffectCost>& candidates) {
-  double all_instructions = 0.0;
-  for (const EffectCost& candidate : candidates) all_instructions += candidate.instructions;
-  constexpr double kNextToNothing = 0.01;
-  EffectBits worth = 0;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const bool changes_nothing = std::all_of(
-        std::begin(kDeviationQuantities), std::end(kDeviationQuantities),
-        [&](const auto& q) { return Growth(result.without[i], result.full_deviation, q) == 0.0; });
-    if (changes_nothing || candidates[i].instructions >= kNextToNothing * all_instructions) {
-      worth |= 1U << i;
-    }
-  }
-  return worth;
-}
-
-// The most expensive set of candidates that may be left out, predicted by adding up the changes
-// that each of them causes alone.
-EffectBits PredictLeftOut(const EffectSearchResult& result,
-                          const std::vector<EffectCost>& candidates,
-                          EffectBits worth,
-                          const ToleranceSpec& limits) {
-  EffectBits best = 0;
+// The set that saves most, predicted by adding up the changes that each candidate causes alone.
+Omissions PredictLeftOut(const EffectSearchResult& result,
+                         const std::vector<double>& savings,
+                         const std::vector<double>& limits) {
+  const std::vector<double> full = ValuesOf(result.full_deviation);
+  const std::vector<std::vector<double>> growths = GrowthsOf(result);
+  Omissions best = 0;
   double best_saving = -1.0;
-  for (EffectBits bits = 0; bits < 1U << candidates.size(); ++bits) {
-    if ((bits & ~worth) != 0) continue;
+  for (Omissions bits = 0; bits < 1U << savings.size(); ++bits) {
     double saving = 0.0;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      if (IsIn(bits, i)) saving += candidates[i].instructions;
+    std::vector<double> sum = full;
+    for (std::size_t i = 0; i < savings.size(); ++i) {
+      if (!IsIn(bits, i)) continue;
+      saving += savings[i];
+      for (std::size_t q = 0; q < sum.size(); ++q) sum[q] += growths[i][q];
     }
-    if (saving > best_saving && IsPredictedWithin(result, bits, limits)) {
+    if (saving > best_saving && Excess(sum, limits) == 0.0) {
       best = bits;
       best_saving = saving;
     }
@@ -102,76 +98,128 @@ EffectBits PredictLeftOut(const EffectSearchResult& result,
   return best;
 }
 
+// Puts back the candidate that leads nearest to the limits, or the cheaper of two alike.
+void PutOneBack(const std::vector<double>& savings,
+                const std::vector<double>& limits,
+                const MeasureOmissions& measure,
+                EffectSearchResult& result) {
+  std::vector<Omissions> fewer;
+  std::vector<double> saved;
+  for (std::size_t i = 0; i < savings.size(); ++i) {
+    if (!IsIn(result.left_out, i)) continue;
+    fewer.push_back(result.left_out & ~(1U << i));
+    saved.push_back(savings[i]);
+  }
+  const std::vector<Deviation> deviations = measure(fewer);
+  double least_excess = std::numeric_limits<double>::infinity();
+  double least_saved = 0.0;
+  result.left_out = 0;  // Unless a set with a finite excess is found.
+  Deviation nearest = result.full_deviation;
+  for (std::size_t i = 0; i < fewer.size(); ++i) {
+    const double excess = Excess(ValuesOf(deviations[i]), limits);
+    if (excess > least_excess || (excess == least_excess && saved[i] >= least_saved)) continue;
+    least_excess = excess;
+    least_saved = saved[i];
+    result.left_out = fewer[i];
+    nearest = deviations[i];
+  }
+  result.deviation = nearest;
+}
+
+SampledError SampledShare(const Matched& matched) {
+  return {1.0 - matched.share(), LeastShare(matched.num_missed(), matched.num)};
+}
+
+SampledError SampledMedian(const MedianError& error) {
+  return {std::isnan(error.median) ? 0.0 : error.median, error.least};
+}
+
+PartDeviation DeviationIn(const PartDifference& part) {
+  return {part.part.name,
+          part.part.kind != ScenePart::Kind::kRangeBin,
+          part.reference_echoes.num,
+          part.echoes.num,
+          SampledShare(part.reference_echoes),
+          SampledShare(part.echoes),
+          SampledMedian(part.range_m),
+          SampledMedian(part.intensity)};
+}
+
+bool IsPartWithin(const PartDeviation& part, const ToleranceSpec& tolerance) {
+  return std::ranges::all_of(kPartQuantities, [&](const PartQuantity& quantity) {
+    return !Counts(quantity, part) || (part.*quantity.value).least <= tolerance.*quantity.limit;
+  });
+}
+
 }  // namespace
 
-double InstructionsOf(const EffectSet& effects) {
+EffectSearchResult FindOmissions(const std::vector<double>& savings,
+                                 const ToleranceSpec& tolerance,
+                                 const MeasureOmissions& measure) {
+  std::vector<Omissions> alone = {0};
+  for (std::size_t i = 0; i < savings.size(); ++i) alone.push_back(1U << i);
+  std::vector<Deviation> deviations = measure(alone);
+  EffectSearchResult result;
+  result.full_deviation = deviations.front();
+  result.without.assign(deviations.begin() + 1, deviations.end());
+  const std::vector<double> limits = LimitsFor(tolerance, result.full_deviation, kMargin);
+  result.left_out = PredictLeftOut(result, savings, limits);
+  const auto measured = std::ranges::find(alone, result.left_out);
+  result.deviation = measured != alone.end()
+                         ? deviations[static_cast<std::size_t>(measured - alone.begin())]
+                         : measure({result.left_out}).front();
+  while (result.left_out != 0 && Excess(ValuesOf(result.deviation), limits) > 0.0) {
+    PutOneBack(savings, limits, measure, result);
+  }
+  return result;
+}
+
+bool IsWithinOrAsFull(const Deviation& deviation,
+                      const Deviation& full,
+                      const ToleranceSpec& tolerance) {
+  return Excess(ValuesOf(deviation), LimitsFor(tolerance, full, 1.0)) == 0.0;
+}
+
+double InstructionsOf(const EffectSet& effects, int footprint_rays) {
   double sum = kInstructionsOfGeometry;
   for (const Effect& effect : EffectTable()) {
     if (effects.*effect.is_on) sum += effect.instructions.value_or(0.0);
   }
-  return sum;
-}
-
-EffectSearchResult FindCheapestEffects(const EffectSet& full,
-                                       const std::vector<EffectCost>& candidates,
-                                       const ToleranceSpec& tolerance,
-                                       const std::function<Deviation(const EffectSet&)>& measure) {
-  const auto remaining = [&](EffectBits left_out) {
-    EffectSet effects = full;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      if (IsIn(left_out, i)) effects.*candidates[i].effect = false;
-    }
-    return effects;
-  };
-  EffectSearchResult result;
-  result.full_deviation = measure(full);
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    result.without.push_back(measure(remaining(1U << i)));
-  }
-  const ToleranceSpec limits = SearchLimits(tolerance, result.full_deviation);
-  const EffectBits worth = WorthLeavingOut(result, candidates);
-  EffectBits left_out = PredictLeftOut(result, candidates, worth, limits);
-  result.deviation = measure(remaining(left_out));
-  while (left_out != 0 && !IsWithin(result.deviation, limits)) {
-    // Bring back the effect that leads nearest to the limits, or the cheaper of two alike.
-    double least_excess = std::numeric_limits<double>::infinity();
-    double least_cost = 0.0;
-    EffectBits nearest = 0;  // All effects, unless a set with finite excess is found.
-    Deviation nearest_deviation = result.full_deviation;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      if (!IsIn(left_out, i)) continue;
-      const EffectBits fewer = left_out & ~(1U << i);
-      const Deviation deviation = measure(remaining(fewer));
-      const double excess = Excess(deviation, limits);
-      const double cost = candidates[i].instructions;
-      if (excess > least_excess || (excess == least_excess && cost >= least_cost)) continue;
-      least_excess = excess;
-      least_cost = cost;
-      nearest = fewer;
-      nearest_deviation = deviation;
-    }
-    left_out = nearest;
-    result.deviation = nearest_deviation;
-  }
-  result.effects = remaining(left_out);
-  return result;
+  const bool has_fewer = footprint_rays < static_cast<int>(kNumSubRays);
+  return effects.footprint && has_fewer ? sum - kInstructionsOfMoreSubRays : sum;
 }
 
 Deviation DeviationOf(const FrameDifference& difference) {
   const bool lacks_intensity =
       difference.echoes.num_matched > 0 && std::isnan(difference.intensity.median);
   const auto or_zero = [](double value) { return std::isnan(value) ? 0.0 : value; };
-  return {or_zero(difference.range_m.median), 1.0 - difference.reference_echoes.share(),
-          1.0 - difference.echoes.share(), 1.0 - difference.thin.share(),
-          lacks_intensity ? std::numeric_limits<double>::infinity()
-                          : or_zero(difference.intensity.median)};
+  Deviation deviation{or_zero(difference.range_m.median),
+                      1.0 - difference.reference_echoes.share(),
+                      1.0 - difference.echoes.share(),
+                      1.0 - difference.thin.share(),
+                      lacks_intensity ? std::numeric_limits<double>::infinity()
+                                      : or_zero(difference.intensity.median),
+                      {}};
+  for (const PartDifference& part : difference.parts) {
+    deviation.parts.push_back(DeviationIn(part));
+  }
+  return deviation;
 }
 
 bool IsWithin(const Deviation& deviation, const ToleranceSpec& tolerance) {
-  return std::all_of(std::begin(kDeviationQuantities), std::end(kDeviationQuantities),
-                     [&](const DeviationQuantity& quantity) {
-                       return deviation.*quantity.value <= tolerance.*quantity.limit;
-                     });
+  const bool is_mean_within =
+      std::ranges::all_of(kDeviationQuantities, [&](const DeviationQuantity& quantity) {
+        return deviation.*quantity.value <= tolerance.*quantity.limit;
+      });
+  return is_mean_within && PartsBeyond(deviation, tolerance).empty();
+}
+
+std::vector<PartDeviation> PartsBeyond(const Deviation& deviation, const ToleranceSpec& tolerance) {
+  std::vector<PartDeviation> beyond;
+  for (const PartDeviation& part : deviation.parts) {
+    if (!IsPartWithin(part, tolerance)) beyond.push_back(part);
+  }
+  return beyond;
 }
 
 }  // namespace railcast

@@ -22,41 +22,71 @@ inline constexpr DeviationQuantity kDeviationQuantities[] = {
     {&Deviation::intensity, &ToleranceSpec::intensity},
 };
 
+/// The same quantities of a part of the scene, which has no wires of its own.
+struct PartQuantity {
+  SampledError PartDeviation::*value;
+  double ToleranceSpec::*limit;
+  bool is_for_objects_only;  ///< See PartDeviation.
+};
+inline constexpr PartQuantity kPartQuantities[] = {
+    {&PartDeviation::range_m, &ToleranceSpec::range_m, true},
+    {&PartDeviation::missed_share, &ToleranceSpec::missed_share, false},
+    {&PartDeviation::false_share, &ToleranceSpec::false_share, false},
+    {&PartDeviation::intensity, &ToleranceSpec::intensity, true},
+};
+
+/// Whether a quantity of a part is compared with the tolerance.
+[[nodiscard]] constexpr bool Counts(const PartQuantity& quantity, const PartDeviation& part) {
+  return part.is_object || !quantity.is_for_objects_only;
+}
+
 [[nodiscard]] Deviation DeviationOf(const FrameDifference& difference);
+
+/// Whether every quantity is within the tolerance, or beyond it by no more than with all effects
+/// and 0.2 of the tolerance.
+[[nodiscard]] bool IsWithinOrAsFull(const Deviation& deviation,
+                                    const Deviation& full,
+                                    const ToleranceSpec& tolerance);
 
 /// Instructions per firing of Simulator::Scan without any effect (Effect::instructions).
 inline constexpr double kInstructionsOfGeometry = 3413.0;
+/// What kNumSubRays sub-rays of effect `footprint` cost more than kNumCrowdedSubRays; counted in
+/// the same way.
+inline constexpr double kInstructionsOfMoreSubRays = 10261.0;
 
 /// Estimated instructions per firing of Simulator::Scan with a set of effects.
-[[nodiscard]] double InstructionsOf(const EffectSet& effects);
+[[nodiscard]] double InstructionsOf(const EffectSet& effects, int footprint_rays);
 
-/// The cost of one effect.
-struct EffectCost {
-  bool EffectSet::*effect;
-  double instructions;  ///< Per firing, on top of the other effects (Effect::instructions).
-};
+/// A set of things left out: bit i stands for the i-th candidate.
+using Omissions = unsigned;
+[[nodiscard]] constexpr bool IsIn(Omissions omissions, std::size_t candidate) {
+  return (omissions >> candidate & 1U) != 0;
+}
 
-/// The result of a search among effects.
+/// The result of a search among candidates.
 struct EffectSearchResult {
-  EffectSet effects;               ///< The cheapest set within the limits.
-  Deviation deviation;             ///< The deviation of that set.
-  Deviation full_deviation;        ///< The deviation with all effects.
-  std::vector<Deviation> without;  ///< With all effects but one, in the order of the candidates.
+  Omissions left_out{};            ///< The set that saves most within the limits.
+  Deviation deviation;             ///< The deviation without that set.
+  Deviation full_deviation;        ///< The deviation if nothing is left out.
+  std::vector<Deviation> without;  ///< Without one candidate each, in their order.
 };
 
-/// Finds the cheapest set of effects within a tolerance while measuring only a few of all sets.
+/// Returns the deviations without some sets of candidates. All have the same parts. It takes
+/// several at once, because moving from frame to frame takes time of its own.
+using MeasureOmissions = std::function<std::vector<Deviation>(const std::vector<Omissions>&)>;
+
+/// Finds what may be left out within a tolerance while measuring only a few of all sets.
 ///
 /// First, each candidate is left out on its own. Among the sets whose changes, added up, stay
-/// within the limits, the cheapest is measured as a whole, since effects influence each other.
-/// While it exceeds a limit, the effect that reduces the excess most is put back. The limits are
-/// 0.8 of the tolerance, because frames differ. Where all effects together exceed that (the
-/// reference has many more rays), a set may exceed their deviation by 0.02 of the tolerance.
-/// @param candidates At most 16; all of them are on in `full`.
-/// @param measure Returns the deviation of a set; not called concurrently.
-[[nodiscard]] EffectSearchResult FindCheapestEffects(
-    const EffectSet& full,
-    const std::vector<EffectCost>& candidates,
-    const ToleranceSpec& tolerance,
-    const std::function<Deviation(const EffectSet&)>& measure);
+/// within the limits, the one that saves most is measured as a whole, since effects influence each
+/// other. While it exceeds a limit, the candidate that reduces the excess most is put back.
+///
+/// The limits are 0.8 of the tolerance, because frames differ. Where everything together exceeds
+/// that (the reference has many more rays), a set may exceed its error by 0.2 of the tolerance. In
+/// parts of the scene, the lower end of the error's interval must not exceed the limit.
+/// @param savings What leaving out each candidate saves; at most 16.
+[[nodiscard]] EffectSearchResult FindOmissions(const std::vector<double>& savings,
+                                               const ToleranceSpec& tolerance,
+                                               const MeasureOmissions& measure);
 
 }  // namespace railcast

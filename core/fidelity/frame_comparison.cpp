@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "core/base/error.h"
@@ -32,6 +33,10 @@ struct Echoes {
 
 bool IsSurface(const Frame& frame, std::size_t slot) {
   return frame.outcome[slot] == Outcome::kReturned;
+}
+
+EchoPlace PlaceOf(const Frame& frame, std::size_t slot) {
+  return {frame.true_range_m[slot], frame.label[slot], frame.instance[slot]};
 }
 
 // The nearest-rank quantile.
@@ -68,7 +73,8 @@ double DropoutError(const decltype(FrameDifference::range_bins)& bins) {
 
 ComparisonSpec MakeComparisonSpec(const BeamSpec& beam,
                                   double range_max_m,
-                                  const LabelTable& labels) {
+                                  const LabelTable& labels,
+                                  const std::vector<SceneObject>& objects) {
   ComparisonSpec spec;
   spec.match_distance_m = static_cast<float>(0.5 * PulseLength_m(beam));
   spec.range_max_m = static_cast<float>(range_max_m);
@@ -80,6 +86,7 @@ ComparisonSpec MakeComparisonSpec(const BeamSpec& beam,
   add({"contact_wire", "messenger_wire", "dropper"}, spec.thin_labels);
   add({"person"}, spec.person_labels);
   add({"pole", "mast", "signal"}, spec.pole_labels);
+  spec.parts = MakeSceneParts(range_max_m, labels, spec.thin_labels, objects);
   return spec;
 }
 
@@ -171,7 +178,10 @@ void FrameComparison::AddFiring(const Frame& reference, const Frame& other, std:
   for (std::size_t k = 0; k < theirs.slots.size(); ++k) {
     const bool is_matched = std::any_of(matches.begin(), matches.end(),
                                         [k](const auto& match) { return match.second == k; });
-    if (IsSurface(other, theirs.slots[k])) sums_.echoes.Count(is_matched);
+    if (IsSurface(other, theirs.slots[k])) {
+      sums_.echoes.Count(is_matched);
+      parts_.CountOther(PlaceOf(other, theirs.slots[k]), is_matched);
+    }
     sums_.echoes_per_label[other.label[theirs.slots[k]]].Count(is_matched);
   }
   const std::size_t first_slot = firing * reference.returns;
@@ -187,6 +197,7 @@ void FrameComparison::AddFiring(const Frame& reference, const Frame& other, std:
     sums_.reference_echoes_per_label[reference.label[slot]].Count(is_matched);
     if (!IsSurface(reference, slot)) continue;
     sums_.reference_echoes.Count(is_matched);
+    parts_.CountReference(PlaceOf(reference, slot), is_matched);
     const float share = reference.footprint_share[slot];
     if (is_thin(reference.label[slot]) && share >= kLeastThinShare) {
       sums_.thin.Count(is_matched && is_thin(other.label[theirs.slots[match->second]]));
@@ -202,12 +213,15 @@ void FrameComparison::AddMatched(const Frame& reference,
                                  std::size_t slot,
                                  const Frame& other,
                                  std::size_t match) {
-  range_errors_m_.push_back(std::abs(reference.range_m[slot] - other.range_m[match]));
+  const float range_error_m = std::abs(reference.range_m[slot] - other.range_m[match]);
+  range_errors_m_.push_back(range_error_m);
   const float expected = reference.intensity[slot];
   const float found = other.intensity[match];
-  if (expected > 0.0F && std::isfinite(found)) {
-    intensity_errors_.push_back(std::abs(found - expected) / expected);
-  }
+  const bool has_intensity = expected > 0.0F && std::isfinite(found);
+  const float intensity_error = has_intensity ? std::abs(found - expected) / expected
+                                              : std::numeric_limits<float>::quiet_NaN();
+  if (has_intensity) intensity_errors_.push_back(intensity_error);
+  parts_.AddErrors(PlaceOf(reference, slot), range_error_m, intensity_error);
 }
 
 void FrameComparison::AddRangeBin(float true_range_m, bool has_reference_return, bool has_return) {
@@ -227,6 +241,7 @@ FrameDifference FrameComparison::Result() const {
   result.step_range_m = QuantilesOf(step_errors_m_);
   result.bright_edges = QuantilesOf(bright_errors_);
   result.dropout_error = DropoutError(sums_.range_bins);
+  result.parts = parts_.Result();
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/fidelity/scene_parts.h"
 #include "railcast/effects.h"
 #include "railcast/frame.h"
 
@@ -21,15 +22,18 @@ struct ComparisonSpec {
   std::vector<std::uint32_t> thin_labels;  ///< Labels of wires.
   std::vector<std::uint32_t> person_labels{};
   std::vector<std::uint32_t> pole_labels{};  ///< Labels of poles, masts and signals.
+  std::vector<ScenePart> parts{};            ///< FrameDifference::parts.
 };
 
 /// Makes the spec of a comparison. The match distance is half of the pulse's length in range,
 /// c pulse_length / 4: 0.375 m for 5 ns (two equal echoes are resolved from 0.64 m on). The thin
 /// labels are those of contact wires, messenger wires and droppers, as far as the table has them,
-/// and poles are those of `pole`, `mast` and `signal`.
+/// and poles are those of `pole`, `mast` and `signal`. Classes of thin labels are no parts, because
+/// thin echoes are compared by a rule of their own (FrameDifference::thin).
 [[nodiscard]] ComparisonSpec MakeComparisonSpec(const BeamSpec& beam,
                                                 double range_max_m,
-                                                const LabelTable& labels);
+                                                const LabelTable& labels,
+                                                const std::vector<SceneObject>& objects);
 
 /// Pairs of (reference, other) indices that are the same echo. The nearest pair is matched first,
 /// each echo at most once, and only if the ranges differ by less than `match_distance_m`.
@@ -38,22 +42,6 @@ struct ComparisonSpec {
     const std::vector<float>& reference_m,
     const std::vector<float>& other_m,
     float match_distance_m);
-
-/// The number of items of a kind and how many of them match an item of the other side.
-struct Matched {
-  std::uint64_t num{};
-  std::uint64_t num_matched{};
-
-  void Count(bool is_matched) {
-    ++num;
-    num_matched += is_matched ? 1 : 0;
-  }
-  /// Matched share in [0, 1]; 1 if there are no items.
-  [[nodiscard]] double share() const {
-    return num == 0 ? 1.0 : static_cast<double>(num_matched) / static_cast<double>(num);
-  }
-  bool operator==(const Matched&) const = default;
-};
 
 /// Median and percentiles of absolute errors; NaN if there are no errors.
 struct ErrorQuantiles {
@@ -123,12 +111,13 @@ struct FrameDifference {
   ErrorQuantiles bright_edges;
   TargetPoints persons;  ///< All echoes of persons, by their true range.
   TargetPoints poles;
+  std::vector<PartDifference> parts;  ///< In the order of ComparisonSpec::parts.
 };
 
 /// Compares frames of the same scan under two effect sets and accumulates the differences.
 class FrameComparison {
  public:
-  explicit FrameComparison(ComparisonSpec spec) : spec_(std::move(spec)) {}
+  explicit FrameComparison(ComparisonSpec spec) : spec_(std::move(spec)), parts_(spec_.parts) {}
 
   /// @pre Both are the same frame of the same pattern; their numbers of returns may differ.
   void Add(const Frame& reference, const Frame& other);
@@ -147,6 +136,7 @@ class FrameComparison {
   void AddRangeBin(float true_range_m, bool has_reference_return, bool has_return);
 
   ComparisonSpec spec_;
+  PartsComparison parts_;
   FrameDifference sums_;  // Result() adds the quantiles and the dropout error.
   std::vector<float> range_errors_m_;
   std::vector<float> intensity_errors_;

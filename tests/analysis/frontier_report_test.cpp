@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/formats.h"
@@ -47,14 +48,15 @@ Report ChartedReport() {
                              MadeResult("footprint", RowGroup::kLadder, 4.0, 5),
                              MadeResult("surface+thin_conductors", RowGroup::kLadder, 1.25, 40),
                              MadeResult("brute_force_7", RowGroup::kBruteForce, 4.5, 20),
-                             MadeResult("footprint-thin_conductors", RowGroup::kBetween, 3.5, 9)},
+                             MadeResult("footprint-thin_conductors", RowGroup::kBetween, 3.5, 9),
+                             MadeResult("auto", RowGroup::kChosen, 4.1, 5)},
                             "railcast-analyze frontier a.json");
 }
 
 TEST(FrontierReport, ChartsTheRungsFromLeftToRight) {
   const Chart chart = ChartedReport().sections[0].charts[0];
   EXPECT_EQ(chart.key, "missed_percent");
-  ASSERT_EQ(chart.series.size(), 3U);
+  ASSERT_EQ(chart.series.size(), 4U);
   const std::vector<ChartPoint>& rungs = chart.series[0].points;
   ASSERT_EQ(rungs.size(), 2U);
   EXPECT_EQ(rungs[0].x, 1.25);
@@ -68,6 +70,8 @@ TEST(FrontierReport, CallsBruteForceByItsRays) {
   const Chart chart = ChartedReport().sections[0].charts[0];
   EXPECT_EQ(chart.series[1].points[0].label, "7");
   EXPECT_EQ(chart.series[2].points[0].label, "");
+  ASSERT_EQ(chart.series[3].points.size(), 1U) << "what fidelity auto chooses";
+  EXPECT_EQ(chart.series[3].points[0].x, 4.1);
 }
 
 TEST(FrontierReport, SaysWhatWasFoundAndWhatTheSceneNeeds) {
@@ -106,6 +110,64 @@ TEST(FrontierReport, TellsPointsOnPersonsByRange) {
   const std::string text = ReportText(report);
   EXPECT_THAT(text, testing::HasSubstr("Range error, 99 %"));
   EXPECT_THAT(text, testing::HasSubstr("Steps"));
+}
+
+// A row that misses 4 of 90 echoes near by, 5 of 10 far away, of which are the 8 of a person.
+RowResult RowOfParts() {
+  RowResult row = MadeResult("footprint", RowGroup::kLadder, 4.0, 9);
+  row.difference->parts = {
+      {{ScenePart::Kind::kRangeBin, 0, "0 to 50 m"}, {90, 86}, {88, 86}, {0.001, 0.0}, {}},
+      {{ScenePart::Kind::kRangeBin, 1, "50 to 100 m"}, {10, 5}, {5, 5}, {0.01, 0.0}, {}},
+      {{ScenePart::Kind::kClass, 4, "person"}, {8, 4}, {4, 4}, {}, {}},
+      {{ScenePart::Kind::kClass, 5, "wagon"}, {}, {}, {}, {}},
+      {{ScenePart::Kind::kObject, 1, "a person"}, {8, 4}, {4, 4}, {}, {}}};
+  row.difference->approaches = {{"a person", 1, {{100.0, 1, 1}, {50.0, 25, 4}, {25.0, 99, 25}}}};
+  return row;
+}
+
+TEST(FrontierReport, TellsErrorsByRangeClassAndObject) {
+  const Section section = PartsSection({RowOfParts()});
+  ASSERT_EQ(section.tables.size(), 4U);
+  const Table& by_range = section.tables[0];
+  ASSERT_EQ(by_range.rows.size(), 2U);
+  EXPECT_EQ(std::get<Span>(by_range.rows[1][1]).high, 100.0);
+  EXPECT_EQ(std::get<std::uint64_t>(by_range.rows[1][2]), 10U);
+  const Estimate missed = std::get<Estimate>(by_range.rows[1][3]);
+  EXPECT_NEAR(missed.value, 50.0, 1e-9);
+  EXPECT_LT(missed.low, 30.0);
+  EXPECT_EQ(section.tables[1].key, "by_class");
+  EXPECT_EQ(section.tables[1].rows.size(), 1U) << "no wagon was seen";
+  EXPECT_EQ(section.tables[2].key, "by_object");
+  EXPECT_EQ(section.tables[3].key, "detection_distances");
+}
+
+TEST(FrontierReport, ChartsErrorsByRange) {
+  const Chart chart = PartsSection({RowOfParts()}).charts[0];
+  EXPECT_EQ(chart.key, "missed_percent_by_range");
+  ASSERT_EQ(chart.series.size(), 1U);
+  ASSERT_EQ(chart.series[0].points.size(), 2U);
+  EXPECT_EQ(chart.series[0].points[1].x, 75.0);
+  EXPECT_NEAR(chart.series[0].points[1].y, 50.0, 1e-9);
+}
+
+// Points grow with the square of the distance here, so that 5 of them are at 100 / sqrt(5) m.
+TEST(DetectionDistance, IsInterpolatedBetweenFrames) {
+  const RowResult row = RowOfParts();
+  const Approach& approach = row.difference->approaches[0];
+  const double reference_m = DetectionDistance_m(approach, &ApproachPoints::points_in_reference);
+  EXPECT_NEAR(reference_m, 50.0 * std::pow(2.0, std::log(5.0) / std::log(25.0)), 1e-9);
+  const double found_m = DetectionDistance_m(approach, &ApproachPoints::points);
+  EXPECT_GT(found_m, 25.0);
+  EXPECT_LT(found_m, 50.0);
+  EXPECT_NEAR(DetectionDistanceError(row.difference->approaches), 1.0 - found_m / reference_m,
+              1e-9);
+}
+
+TEST(DetectionDistance, IsUnknownIfTheFirstFrameHasEnoughPointsAndZeroIfNoneHas) {
+  const Approach approach{"a", 1, {{100.0, 9, 1}, {50.0, 99, 2}}};
+  EXPECT_TRUE(std::isnan(DetectionDistance_m(approach, &ApproachPoints::points_in_reference)));
+  EXPECT_EQ(DetectionDistance_m(approach, &ApproachPoints::points), 0.0);
+  EXPECT_TRUE(std::isnan(DetectionDistanceError({approach})));
 }
 
 TEST(FrontierJson, HoldsWhatHappensAtEdges) {
@@ -151,7 +213,7 @@ TEST(FrontierJson, HoldsNumbersAndCircumstances) {
 TEST(FrontierCsv, LeavesEmptyWhatARowLacks) {
   const std::string csv = FrontierCsv(Results());
   EXPECT_THAT(csv, testing::StartsWith("row,group,p50_ms,p99_ms,ratio_to_raw_trace,missed_share,"));
-  EXPECT_THAT(csv, testing::HasSubstr("raw_trace,raw_trace,10,10,1,,,,,,,,,,,,,,,,\n"));
+  EXPECT_THAT(csv, testing::HasSubstr("raw_trace,raw_trace,10,10,1,,,,,,,,,,,,,,,,,\n"));
   EXPECT_THAT(csv, testing::HasSubstr("footprint,ladder,40,90,4,"));
 }
 

@@ -18,7 +18,7 @@ namespace railcast {
   result.times_ms = {10.0 * ratio};
   result.ratios = {ratio};
   if (group != RowGroup::kRawTrace) {
-    FrameDifference difference;
+    RowErrors difference;
     difference.reference_echoes = {100, 100 - num_missed};
     result.difference = difference;
   }

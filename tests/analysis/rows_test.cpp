@@ -49,10 +49,22 @@ TEST(FrontierRows, AreNamedWhereOneIsUnknown) {
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
                  "--rows: must be all, or of raw_trace geometry plausibility surface "
-                 "surface+thin_conductors footprint-thin_conductors footprint brute_force_4 "
-                 "brute_force_7 brute_force_19 brute_force_64 reference_16 reference_64 "
-                 "reference_256 (got best)");
+                 "surface+thin_conductors footprint-thin_conductors footprint_16 footprint auto "
+                 "brute_force_4 brute_force_7 brute_force_19 brute_force_64 reference_16 "
+                 "reference_64 reference_256 (got best)");
   }
+}
+
+TEST(FrontierRows, TakeWhatFidelityAutoChooses) {
+  std::vector<FrontierRow> rows = ChooseFrontierRows("footprint,auto");
+  FidelityChoice choice;
+  choice.effects = EffectsOfRung(Fidelity::kSurface);
+  choice.footprint_rays = 16;
+  UseChoice(choice, rows);
+  EXPECT_EQ(SpecOfRow(rows[1], {}).detector.effects, EffectsOfRung(Fidelity::kFootprint));
+  EXPECT_EQ(SpecOfRow(rows[1], {}).detector.beam.footprint_rays, 64);
+  EXPECT_EQ(SpecOfRow(rows[2], {}).detector.effects, EffectsOfRung(Fidelity::kSurface));
+  EXPECT_EQ(SpecOfRow(rows[2], {}).detector.beam.footprint_rays, 16);
 }
 
 TEST(SpecOfRow, GivesThePublishedModelThePhysicalThreshold) {

@@ -46,7 +46,7 @@ class OnFrame0 {
   FrameDifference DifferenceOf(const EffectSet& effects) {
     Scan(WithoutRangeErrors(effects), other_);
     FrameComparison comparison(MakeComparisonSpec(scenario_.lidar.beam, scenario_.lidar.range_max_m,
-                                                  LabelTable(scenario_.labels)));
+                                                  LabelTable(scenario_.labels), {}));
     comparison.Add(reference_, other_);
     return comparison.Result();
   }

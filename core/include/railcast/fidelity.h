@@ -11,6 +11,31 @@
 
 namespace railcast {
 
+/// An error of a sample of echoes.
+struct SampledError {
+  double value{};
+  /// Lower end of its 95 % interval, so that a few echoes cannot exceed a limit by chance.
+  double least{};
+
+  bool operator==(const SampledError&) const = default;
+};
+
+/// The deviation in one part of the scene: in a range bin of 50 m, of a class of objects, or of an
+/// object. Errors of ranges and intensities count for objects only: far away, on grazing ground and
+/// among leaves, they exceed any useful tolerance even with all effects.
+struct PartDeviation {
+  std::string part;               ///< "50 to 100 m", or the name of the class or object.
+  bool is_object{};               ///< Whether it is an object or a class of objects.
+  std::uint64_t num_reference{};  ///< Echoes of the reference.
+  std::uint64_t num{};            ///< Echoes of the other frames.
+  SampledError missed_share;
+  SampledError false_share;
+  SampledError range_m;    ///< Median.
+  SampledError intensity;  ///< Median.
+
+  bool operator==(const PartDeviation&) const = default;
+};
+
 /// How far frames deviate from those of the reference, in the quantities of ToleranceSpec.
 struct Deviation {
   double range_m{};
@@ -18,44 +43,53 @@ struct Deviation {
   double false_share{};
   double thin_missed_share{};
   double intensity{};  ///< Infinite if the echoes have no intensity.
+  /// All parts of the scene, also those without echoes.
+  std::vector<PartDeviation> parts{};
 
   bool operator==(const Deviation&) const = default;
 };
 
-/// Returns whether every quantity is within its limit.
+/// Returns whether every quantity is within its limit: over all echoes, and in every part of the
+/// scene by the lower end of its interval.
 [[nodiscard]] bool IsWithin(const Deviation& deviation, const ToleranceSpec& tolerance);
+/// The parts of the scene in which a quantity is beyond its limit.
+[[nodiscard]] std::vector<PartDeviation> PartsBeyond(const Deviation& deviation,
+                                                     const ToleranceSpec& tolerance);
 
 /// The effects that fidelity `auto` selected, and the measurements behind the selection.
 struct FidelityChoice {
   EffectSet effects;         ///< The selected effects.
+  int footprint_rays{};      ///< The selected BeamSpec::footprint_rays.
   Deviation deviation;       ///< Deviation of `effects` on the sample frames.
   Deviation full_deviation;  ///< Deviation of the full candidate set on the sample frames.
-  /// Whether `effects` is within tolerance on the sample frames. If false, the full set was not
+  /// Whether the selection is within tolerance on the sample frames. If false, the full set was not
   /// either.
   bool is_within_tolerance{};
-  double instructions{};  ///< Estimated instructions per firing with `effects` (effect_search.h).
+  double instructions{};       ///< Estimated instructions per firing of the selection.
   double full_instructions{};  ///< The same estimate for the full candidate set.
   std::vector<std::uint32_t> sample_frames;
   /// Whether the reference has any echoes on the sample frames; if not, no effect was left out.
   bool has_echoes{};
 
-  /// An effect whose necessity was measured.
+  /// Something that costs time and whose necessity was measured.
   struct Measured {
-    std::string effect;
+    std::string what;  ///< The name of an effect, or "64 sub-rays".
     bool is_kept{};
-    Deviation without;  ///< Deviation on the sample frames of all effects but this one.
+    Deviation without;  ///< Deviation on the sample frames of all but this.
   };
   std::vector<Measured> measured;
-  /// Effects kept without measuring: those the user switched on, and statistical effects that have
-  /// a cause in the scenario.
+  /// Effects kept without measuring: those the user switched on, `detection`, those that save next
+  /// to nothing, and statistical effects that have a cause in the scenario.
   std::vector<std::string> kept;
-  /// Statistical effects left out without measuring, because nothing in the scenario causes them.
+  /// Effects left out without measuring, because nothing in the scenario causes them.
   std::vector<std::string> without_cause;
 
   /// A frame that took no part in the selection, and the deviation of the selected effects on it.
   struct HeldBack {
     std::uint32_t frame{};
     Deviation deviation;
+    /// Whether it is within the tolerance, or beyond it by no more than with all effects and 0.2 of
+    /// the tolerance.
     bool is_within_tolerance{};
   };
   std::vector<HeldBack> held_back;
@@ -64,18 +98,19 @@ struct FidelityChoice {
 /// Called before each of the many scans with the completed share of the work, in [0, 1].
 using ChoiceProgress = std::function<void(double done)>;
 
-/// Finds the cheapest set of effects that stays within the scenario's tolerance.
+/// Finds the cheapest selection that stays within the scenario's tolerance.
 ///
-/// The effects of the rung `footprint` are searched on three sample frames (at 0, 1 and 2 s; closer
-/// together where the track ends earlier), as effect_search.h describes, with the fixed costs of
-/// the table of effects. The selection is then verified on three frames halfway between, which took
-/// no part in it.
+/// The effects of the rung `footprint`, and the number of its sub-rays, are searched on sample
+/// frames: three that are spread over the run, and up to four in which objects are nearest or come
+/// near (core/fidelity/sample_frames.h), as effect_search.h describes, with the fixed costs of the
+/// table of effects. The selection is then verified on three frames in between, which took no part
+/// in it.
 ///
-/// Effects that the user switches on or off stay as set. Cheap statistical effects
-/// (`sensor_dropout`, `clutter`, `fog_echo`, `sunlight`, `range_noise`, `channel_bias`,
-/// `pointing_jitter`), `mirror_paths` and the effects of the sensor itself (`cover`, `halo`,
-/// `range_walk`, `interference`, `saturation`, `ghost`) are on if the scenario gives them a cause,
-/// because no echo-by-echo comparison can judge them.
+/// Only what saves at least 1 % of all instructions is left out, and never effect `detection`, so
+/// that chance decides nothing that hardly matters. Effects that the user switches on or off stay
+/// as set. Statistical effects, `mirror_paths` and the effects of the sensor itself (those without
+/// Effect::instructions) are on if the scenario gives them a cause, because no echo-by-echo
+/// comparison can judge them.
 ///
 /// The comparison uses the returns of the scenario's own return mode, before range noise, with the
 /// same random draws. The result depends on the scenario alone, not on the number of threads or on

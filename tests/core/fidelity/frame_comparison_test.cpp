@@ -56,7 +56,7 @@ TEST(ComparisonSpec, MatchesWithinAQuarterOfThePulsesLength) {
   ground.id = 4;
   ground.name = "ground";
   const LabelTable labels({wire, ground});
-  const ComparisonSpec spec = MakeComparisonSpec({.pulse_length_ns = 5.0}, 120.0, labels);
+  const ComparisonSpec spec = MakeComparisonSpec({.pulse_length_ns = 5.0}, 120.0, labels, {});
   EXPECT_NEAR(static_cast<double>(spec.match_distance_m), 0.25 * 0.299792458 * 5.0, 1e-7);
   EXPECT_EQ(spec.range_max_m, 120.0F);
   EXPECT_THAT(spec.thin_labels, ElementsAre(7));
@@ -177,7 +177,7 @@ TEST(ComparisonSpec, KnowsPersonsAndPolesByTheirLabels) {
     label.name = name;
     labels.push_back(label);
   }
-  const ComparisonSpec spec = MakeComparisonSpec({}, 120.0, LabelTable(labels));
+  const ComparisonSpec spec = MakeComparisonSpec({}, 120.0, LabelTable(labels), {});
   EXPECT_THAT(spec.person_labels, ElementsAre(0));
   EXPECT_THAT(spec.pole_labels, ElementsAre(1, 2, 3));
 }

@@ -1,0 +1,123 @@
+// The tables and charts of errors by range, by class and by object.
+#include <algorithm>
+#include <map>
+
+#include "analysis/detectability/object_detection.h"
+#include "analysis/frontier/frontier_report.h"
+#include "analysis/report/chart_columns.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kToPercent = 100.0;
+
+Estimate MissedPercent(const Matched& matched) {
+  return Scaled(Proportion(matched.num_missed(), matched.num), kToPercent);
+}
+
+void AddPart(const std::string& row, const PartDifference& part, Table& table) {
+  if (part.reference_echoes.num == 0 && part.echoes.num == 0) return;
+  const double from_m = kRangeBin_m * part.part.id;
+  const Cell place = part.part.kind == ScenePart::Kind::kRangeBin
+                         ? Cell(Span{from_m, from_m + kRangeBin_m})
+                         : Cell(part.part.name);
+  table.rows.push_back({row, place, part.reference_echoes.num, MissedPercent(part.reference_echoes),
+                        part.echoes.num, MissedPercent(part.echoes), 1e3 * part.range_m.median,
+                        kToPercent * part.intensity.median});
+}
+
+Table PartsTable(const std::vector<RowResult>& results, ScenePart::Kind kind, Table table) {
+  table.columns.insert(table.columns.end(),
+                       {{"reference_echoes", "Reference", ""},
+                        {"missed_percent", "Missed", "%"},
+                        {"echoes", "Echoes", ""},
+                        {"false_percent", "False", "%"},
+                        {"range_median_mm", "Range error, median", "mm"},
+                        {"intensity_percent", "Intensity error, median", "%"}});
+  for (const RowResult& result : results) {
+    if (!result.difference) continue;
+    for (const PartDifference& part : result.difference->parts) {
+      if (part.part.kind == kind) AddPart(result.row.name, part, table);
+    }
+  }
+  return table;
+}
+
+Table DetectionTable(const std::vector<RowResult>& results) {
+  Table table = {"detection_distances",
+                 "Detection distances",
+                 "The distance from which on an object that comes nearer has " +
+                     std::to_string(DetectionRule{}.min_points) +
+                     " points in a frame, interpolated between frames. Absent where the first "
+                     "frame has them already; 0 where no frame has them.",
+                 {{"row", "Row", ""},
+                  {"object", "Object", ""},
+                  {"reference_m", "Reference", "m"},
+                  {"distance_m", "Distance", "m"},
+                  {"most_points", "Most points of the reference", ""}},
+                 {}};
+  for (const RowResult& result : results) {
+    if (!result.difference) continue;
+    for (const Approach& approach : result.difference->approaches) {
+      if (approach.points.size() < 2) continue;
+      std::uint64_t most = 0;
+      for (const ApproachPoints& frame : approach.points) {
+        most = std::max<std::uint64_t>(most, frame.points_in_reference);
+      }
+      if (most == 0) continue;
+      table.rows.push_back({result.row.name, approach.object,
+                            DetectionDistance_m(approach, &ApproachPoints::points_in_reference),
+                            DetectionDistance_m(approach, &ApproachPoints::points), most});
+    }
+  }
+  return table;
+}
+
+// The rungs and the choice; brute force would hide them.
+Chart ErrorByRangeChart(const std::vector<RowResult>& results,
+                        const Table& by_range,
+                        const std::string& column,
+                        const std::string& title) {
+  Chart chart{column + "_by_range",
+              title + " by range",
+              "Bars are intervals of 95 %, which take echoes as independent.",
+              {"Range", "m", false, {}},
+              {title, "%", false, {}},
+              {}};
+  for (const RowResult& result : results) {
+    const RowGroup group = result.row.group;
+    if (!result.difference || (group != RowGroup::kLadder && group != RowGroup::kChosen)) continue;
+    const bool is_choice = group == RowGroup::kChosen;
+    chart.series.push_back(SeriesOf(by_range, {"range", column, "", "row", result.row.name},
+                                    is_choice ? "fidelity auto" : result.row.name,
+                                    is_choice ? SeriesStyle::kPoints : SeriesStyle::kLinePoints));
+  }
+  return chart;
+}
+
+}  // namespace
+
+Section PartsSection(const std::vector<RowResult>& results) {
+  Section section{.key = "parts", .title = "By range, class and object"};
+  const std::string note =
+      "Shares are of the echoes at this range, of this class or of this object, with intervals "
+      "that take echoes as independent (Wilson).";
+  section.tables = {
+      PartsTable(
+          results, ScenePart::Kind::kRangeBin,
+          {"by_range", "Errors by range", note, {{"row", "Row", ""}, {"range", "Range", "m"}}}),
+      PartsTable(
+          results, ScenePart::Kind::kClass,
+          {"by_class", "Errors by class", note, {{"row", "Row", ""}, {"class", "Class", ""}}}),
+      PartsTable(
+          results, ScenePart::Kind::kObject,
+          {"by_object", "Errors by object", note, {{"row", "Row", ""}, {"object", "Object", ""}}}),
+      DetectionTable(results)};
+  section.charts = {
+      ErrorByRangeChart(results, section.tables.front(), "missed_percent", "Echoes missed"),
+      ErrorByRangeChart(results, section.tables.front(), "false_percent", "False echoes")};
+  std::erase_if(section.tables, [](const Table& table) { return table.rows.empty(); });
+  return section;
+}
+
+}  // namespace railcast
