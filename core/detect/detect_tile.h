@@ -25,11 +25,11 @@ struct alignas(64) DetectTile {
   std::uint32_t surface[kTileSize];  ///< Index into the frame's surface table; 0 = nothing.
   float true_range_m[kTileSize];     ///< Range of the surface; NaN where there is none.
   float cos_incidence[kTileSize];    ///< |direction . normal|, in [0, 1]; NaN without a surface.
-  float normal_up[kTileSize];        ///< |vertical component of the unit normal|.
-  float spread_m[kTileSize];         ///< Standard deviation of the range within the beam.
-  float share[kTileSize];            ///< Share of the beam's power that meets the surface.
-  float peak_shift_m[kTileSize];     ///< Range of the echo's peak minus the true range.
-  float reflectivity[kTileSize];     ///< Diffuse reflectance.
+  float normal_up[kTileSize];     ///< Vertical component of the unit normal on the sensor's side.
+  float spread_m[kTileSize];      ///< Standard deviation of the range within the beam.
+  float share[kTileSize];         ///< Share of the beam's power that meets the surface.
+  float peak_shift_m[kTileSize];  ///< Range of the echo's peak minus the true range.
+  float reflectivity[kTileSize];  ///< Diffuse reflectance.
   // The other optical properties of the surface; set if a physical effect is on.
   float diffuse_a[kTileSize], diffuse_b[kTileSize];  ///< LaneOptics::a and b (Oren and Nayar).
   float specular_f0[kTileSize];

@@ -85,13 +85,15 @@ void Footprint::AddWires(const WideBeams& beams, const WireCapture* begin, const
       if (part.surface != 0 && part.range_m < capture->range_m) visible -= part.share;
     }
     // The shares of the rays add up to 1 except for rounding, so that `visible` may be negative.
-    const float share = capture->share * std::max(visible, 0.0F);
+    // What nearer wires hide of it takes nothing more from what lies behind.
+    const float seen = capture->share * (1.0F - HiddenShare(*capture, {begin, capture}));
+    const float share = seen * std::max(visible, 0.0F);
     for (std::vector<Component>* parts : {&components_, &beam_parts_}) {
       for (Component& part : *parts) {
         if (part.surface != 0 && part.range_m < capture->range_m) continue;
-        part.share *= 1.0F - capture->share;
-        part.power_ratio *= 1.0F - capture->share;
-        part.intensity *= 1.0F - capture->share;
+        part.share *= 1.0F - seen;
+        part.power_ratio *= 1.0F - seen;
+        part.intensity *= 1.0F - seen;
       }
     }
     const LaneOptics& optics = beams.table.optics[beams.table.surfaces[capture->surface].material];

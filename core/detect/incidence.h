@@ -32,8 +32,9 @@ inline void ApplyIncidence(const RayTile& rays, DetectTile& tile) {
   }
 }
 
-/// Computes normal_up and spread_m, the standard deviation of the range over the beam's profile on
-/// the tangent plane. Both are 0 where nothing was hit.
+/// Computes normal_up, which is negative for the underside of a surface, and spread_m, the standard
+/// deviation of the range over the beam's profile on the tangent plane. Both are 0 where nothing
+/// was hit.
 ///
 ///   spread = R / |n.d| * hypot(sigma_h n.h, sigma_v n.v)
 ///
@@ -56,7 +57,9 @@ inline void ApplySpread(const RayTile& rays, const BeamFrame& beam, DetectTile& 
     const float n2 = nx * nx + ny * ny + nz * nz;
     const float slope2 =
         (slope_h * slope_h + slope_v * slope_v) / (axes.length2 * (along * along + 1e-12F * n2));
-    const float up = std::fabs(nx * b.vertical[0] + ny * b.vertical[1] + nz * b.vertical[2]);
+    // Of the side that faces the sensor, whichever way the surface is wound.
+    const float wound_up = nx * b.vertical[0] + ny * b.vertical[1] + nz * b.vertical[2];
+    const float up = along > 0.0F ? -wound_up : wound_up;
     tile.spread_m[i] = n2 > 0.0F ? rays.range_m[i] * std::sqrt(slope2) : 0.0F;
     tile.normal_up[i] = n2 > 0.0F ? up / std::sqrt(n2) : 0.0F;
   }

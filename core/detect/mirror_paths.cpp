@@ -115,8 +115,10 @@ void MirrorPaths::Respond(const WideBeams& beams, Work& work) const {
     const float x = real.normal_x[k];
     const float y = real.normal_y[k];
     const float z = real.normal_z[k];
-    const float along = x * up[0] + y * up[1] + z * up[2];
-    tile.normal_up[k] = std::fabs(along) / std::sqrt(x * x + y * y + z * z);
+    const float wound_up = x * up[0] + y * up[1] + z * up[2];
+    const float along = x * real.direction_x[k] + y * real.direction_y[k] + z * real.direction_z[k];
+    const float of_side = along > 0.0F ? -wound_up : wound_up;
+    tile.normal_up[k] = of_side / std::sqrt(x * x + y * y + z * z);
   }
   DimMirrors(*beams.mirrors, work.bounced, tile);
   beams.detector.Respond(tile);

@@ -142,7 +142,8 @@ void CaptureLane(const RayTile& rays,
                       .range_m = static_cast<float>(found.range_m),
                       .share = static_cast<float>(found.share),
                       .spread_m = static_cast<float>(found.spread_m),
-                      .sin_axis = static_cast<float>(found.sin_axis)});
+                      .sin_axis = static_cast<float>(found.sin_axis),
+                      .strip = found.strip});
 }
 
 /// A tile of beams with its bounds, prepared for the search for wires.
@@ -202,6 +203,34 @@ void CaptureSegment(const Tile& tile, const WireSegment& wire, std::vector<WireC
 }
 
 }  // namespace
+
+float HiddenShare(const WireCapture& capture, std::span<const WireCapture> nearer) {
+  if (nearer.empty()) return 0.0F;
+  // Points of the strip: in the middles of equal parts of its length, a quarter of its width to
+  // either side. The beam's power at them is that on the axis, since the strip is narrow.
+  constexpr int kNumAlong = 8;
+  const WireStrip& strip = capture.strip;
+  float sum = 0.0F;
+  float hidden = 0.0F;
+  for (int i = 0; i < kNumAlong; ++i) {
+    const float part = (static_cast<float>(i) + 0.5F) / kNumAlong;
+    const float along = strip.begin + part * (strip.end - strip.begin);
+    const float quarter_width =
+        0.5F * (strip.halves[0] + part * (strip.halves[1] - strip.halves[0]));
+    const float weight = std::exp(-0.5F * along * along);
+    for (const float aside : {-quarter_width, quarter_width}) {
+      const float across = strip.offset + aside;
+      const float horizontal = strip.direction[0] * along - strip.direction[1] * across;
+      const float vertical = strip.direction[1] * along + strip.direction[0] * across;
+      const bool is_hidden = std::ranges::any_of(nearer, [&](const WireCapture& other) {
+        return Covers(other.strip, horizontal, vertical);
+      });
+      sum += weight;
+      hidden += is_hidden ? weight : 0.0F;
+    }
+  }
+  return sum > 0.0F ? hidden / sum : 0.0F;
+}
 
 void CaptureWires(const RayTile& rays,
                   const BeamShape& beam,

@@ -2,8 +2,10 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "core/detect/wire_in_beam.h"
 #include "core/detect/wire_set.h"
 #include "railcast/ray_caster.h"
 
@@ -25,7 +27,13 @@ struct WireCapture {
   float share{};
   float spread_m{};
   float sin_axis{};
+  WireStrip strip{};
 };
+
+/// The share of a capture that nearer captures of the same beam hide, in [0, 1]. Along the track a
+/// contact wire hides the droppers above it completely, although it fills little of the beam.
+/// @param nearer The captures in front of it.
+[[nodiscard]] float HiddenShare(const WireCapture& capture, std::span<const WireCapture> nearer);
 
 /// Least share of a beam on a segment; captures with less are dropped.
 inline constexpr double kLeastWireShare = 1e-4;

@@ -61,6 +61,14 @@ TruncatedNormal TruncateNormal(double begin, double end) {
   return {share, std::clamp(mean, begin, end), std::max(variance, 0.0)};
 }
 
+/// The beam's sigma across the wire in radians. Scaling by the sigmas does not preserve angles, so
+/// it is not the sigma along the normal of the scaled image.
+double SigmaAcross_rad(const Image& image) {
+  const double run_x = image.sigma_h * image.direction[0];
+  const double run_y = image.sigma_v * image.direction[1];
+  return image.sigma_h * image.sigma_v / std::sqrt(run_x * run_x + run_y * run_y);
+}
+
 /// The wire's share, range and spread between two points of its image, linearised; the points must
 /// be close to each other.
 WireInBeam FindPart(const Image& image, const Sight& begin, const Sight& end, double radius_m) {
@@ -75,13 +83,7 @@ WireInBeam FindPart(const Image& image, const Sight& begin, const Sight& end, do
   const double axis_m = sight.norm() / inverse_depth_per_m;
   const double sin_axis = std::min(1.0, sight.normalized().cross(image.axis).norm());
 
-  // The beam's sigma across the wire in radians. Scaling by the sigmas does not preserve angles, so
-  // it is not the sigma along the normal of the scaled image.
-  const double run_x = image.sigma_h * image.direction[0];
-  const double run_y = image.sigma_v * image.direction[1];
-  const double sigma_across =
-      image.sigma_h * image.sigma_v / std::sqrt(run_x * run_x + run_y * run_y);
-  const double half_width = radius_m / axis_m / sigma_across;
+  const double half_width = radius_m / axis_m / SigmaAcross_rad(image);
   const double share =
       NormalShare(image.distance - half_width, image.distance + half_width) * along.share;
 
@@ -186,7 +188,26 @@ WireInBeam FindWireInBeam(const WideBeam& beam, const WireSegment& wire) {
   if (from.across < -kNormalReach)
     from = {-kNormalReach, image.InverseDepthAt_per_m(-kNormalReach)};
   if (to.across > kNormalReach) to = {kNormalReach, image.InverseDepthAt_per_m(kNormalReach)};
-  return AddParts(image, from, to, radius_m);
+  WireInBeam found = AddParts(image, from, to, radius_m);
+  const auto half_width = [&](const Sight& sight) {
+    return static_cast<float>(radius_m * sight.inverse_depth_per_m / SigmaAcross_rad(image));
+  };
+  found.strip = {{static_cast<float>(image.direction[0]), static_cast<float>(image.direction[1])},
+                 static_cast<float>(image.distance),
+                 static_cast<float>(from.across),
+                 static_cast<float>(to.across),
+                 {half_width(from), half_width(to)}};
+  return found;
+}
+
+bool Covers(const WireStrip& strip, float horizontal, float vertical) {
+  const float along = strip.direction[0] * horizontal + strip.direction[1] * vertical;
+  if (along < strip.begin || along > strip.end) return false;
+  const float across =
+      strip.direction[0] * vertical - strip.direction[1] * horizontal - strip.offset;
+  const float part = (along - strip.begin) / (strip.end - strip.begin);
+  const float half_width = strip.halves[0] + part * (strip.halves[1] - strip.halves[0]);
+  return std::fabs(across) <= half_width;
 }
 
 }  // namespace railcast

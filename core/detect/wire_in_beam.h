@@ -16,6 +16,14 @@ struct WideBeam {
   double sigma_vertical_rad{};
 };
 
+/// A piece of wire as a narrow strip in the plane across the beam, in units of the beam's sigmas.
+struct WireStrip {
+  float direction[2]{};  ///< Unit direction of its axis: horizontal, vertical.
+  float offset{};        ///< Signed distance of its axis from the beam's middle.
+  float begin{}, end{};  ///< Along the axis, as far as the beam reaches.
+  float halves[2]{};     ///< Half of its width at begin and end.
+};
+
 /// The part of a straight piece of wire that a beam meets.
 struct WireInBeam {
   double share{};  ///< Share of the beam's power that falls on the wire; 0 = the beam misses it.
@@ -23,6 +31,7 @@ struct WireInBeam {
   double range_m{};
   double spread_m{};  ///< Standard deviation of that range.
   double sin_axis{};  ///< Sine between the wire's axis and the line of sight, in [0, 1].
+  WireStrip strip{};
 };
 
 /// Effect `thin_conductors`: a wire in a Gaussian beam, in closed form.
@@ -47,5 +56,8 @@ struct WireInBeam {
 /// four sigmas (3e-5 of the beam) are left out. A sigma below 1e-7 rad is replaced by 1e-7 rad:
 /// such a beam is a ray, and the wire catches all of it or nothing.
 [[nodiscard]] WireInBeam FindWireInBeam(const WideBeam& beam, const WireSegment& wire);
+
+/// Whether a strip covers a point of the plane across the beam.
+[[nodiscard]] bool Covers(const WireStrip& strip, float horizontal, float vertical);
 
 }  // namespace railcast

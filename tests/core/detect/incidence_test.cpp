@@ -121,6 +121,14 @@ TEST(Incidence, KnowsHowSteepASurfaceIs) {
               0.8, 1e-6);
 }
 
+TEST(Incidence, TellsTheUndersideOfASurfaceHoweverItIsWound) {
+  for (const double winding : {-1.0, 1.0}) {
+    const Vector3 normal = winding * Vector3(3, 0, 4);
+    EXPECT_NEAR(static_cast<double>(Spread({{1, 0, 0}, normal, 10, 0, 0})->detect.normal_up[0]),
+                -0.8, 1e-6);
+  }
+}
+
 TEST(Spread, IsTheDeviationOfTheRangeOverAGaussianBeam) {
   for (const Slant& slant : kSlants) {
     const double spread_m = static_cast<double>(Spread(slant)->detect.spread_m[0]);

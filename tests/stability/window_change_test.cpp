@@ -1,0 +1,91 @@
+// A vehicle at 300 km/h crosses from one chunk into the next within a scan. The frame is traced in
+// the window of the chunk in which it begins, and the next frame in another. Neither the place of
+// the seam nor the change of the window may show: the same world, seen from the same places, looks
+// the same whichever chunk the scan began in.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "railcast/scenario.h"
+#include "tests/core/scenario/scenario_files.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kFastTrain_mps = 83.0;
+
+// A straight line with bumps and wires, scanned from `start_s_m` on.
+ScenarioSpec LineFrom(double start_s_m) {
+  const TemporaryFolder folder;
+  const std::string scenarios = ScenariosDir().string();
+  return ReadScenario(folder.Write("scenario.json", R"({
+    "version": 1, "fidelity": "geometry",
+    "lidar": {"range_max_m": 60, "mount": {"position_m": [0, 0, 3], "pitch_deg": 12},
+              "scan": {"rate_hz": 10, "pattern": {"type": "raster", "horizontal_fov_deg": 40,
+                       "vertical_fov_deg": 20, "angular_resolution_deg": 0.5}}},
+    "world": {"alignment": {"course": {"type": "elements",
+                            "elements": [{"type": "straight", "length_m": 400}]}},
+              "vegetation": {"trees_per_hectare": 0, "grass": false}},
+    "vehicle": {"start_s_m": )" + std::to_string(start_s_m) +
+                                                        R"(, "motion":
+                {"profile": [{"time_s": 0, "speed_mps": 83}]}},
+    "materials": ")" + scenarios + R"(/materials/railway.json",
+    "labels": ")" + scenarios + R"(/labels.json"})"));
+}
+
+Frame FirstFrame(double start_s_m) {
+  const auto simulator = MakeSimulator(LineFrom(start_s_m), 0);
+  Frame frame;
+  simulator->Scan(0, frame);
+  return frame;
+}
+
+// The seam is at 150 m. A millimetre before it the scan begins in one chunk and ends in the other,
+// a millimetre behind it begins and ends in the other.
+TEST(WindowChange, WithinAScanDoesNotShow) {
+  constexpr double kAside_m = 1e-3;
+  const Frame before = FirstFrame(150.0 - kAside_m);
+  const Frame behind = FirstFrame(150.0 + kAside_m);
+  ASSERT_GT(kFastTrain_mps * 1e-9 * before.duration_ns, 5.0);
+  ASSERT_EQ(before.num_slots(), behind.num_slots());
+  std::vector<double> differences_m;
+  std::size_t num_points = 0;
+  std::size_t num_labels_changed = 0;
+  for (std::size_t slot = 0; slot < before.num_slots(); ++slot) {
+    if (!HasPoint(before.outcome[slot]) || !HasPoint(behind.outcome[slot])) continue;
+    ++num_points;
+    num_labels_changed += before.label[slot] != behind.label[slot] ? 1 : 0;
+    differences_m.push_back(
+        static_cast<double>(std::abs(before.range_m[slot] - behind.range_m[slot])));
+  }
+  ASSERT_GT(num_points, 2000U);
+  // 2 mm further, a beam meets the ground 2 mm nearer; only beams at an edge jump.
+  std::ranges::sort(differences_m);
+  EXPECT_LT(differences_m[num_points * 95 / 100], 4e-3);
+  EXPECT_LT(static_cast<double>(num_labels_changed), 0.01 * static_cast<double>(num_points));
+}
+
+// The second frame of one run, in the next window, is the first of a run that begins there.
+TEST(WindowChange, BetweenFramesDoesNotShow) {
+  const auto simulator = MakeSimulator(LineFrom(145.0), 0);
+  Frame second;
+  simulator->Scan(0, second);
+  simulator->Scan(1, second);
+  const Frame first = FirstFrame(145.0 + 0.1 * kFastTrain_mps);
+  ASSERT_EQ(first.num_slots(), second.num_slots());
+  std::size_t num_other = 0;
+  for (std::size_t slot = 0; slot < first.num_slots(); ++slot) {
+    const bool is_same = first.outcome[slot] == second.outcome[slot] &&
+                         (!HasPoint(first.outcome[slot]) ||
+                          std::abs(first.range_m[slot] - second.range_m[slot]) < 2e-3F);
+    num_other += is_same ? 0 : 1;
+  }
+  EXPECT_LE(static_cast<double>(num_other), 1e-3 * static_cast<double>(first.num_slots()));
+}
+
+}  // namespace
+}  // namespace railcast
