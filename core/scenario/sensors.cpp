@@ -144,7 +144,7 @@ std::string PositionsFault(const InterfacesSpec& interfaces) {
 }
 
 std::string ImagesFault(const CameraSpec& camera, const InterfacesSpec& interfaces) {
-  const std::string fault =
+  std::string fault =
       SharingFault(camera.udp, "images", FrameReceiversOf(interfaces), "a sensor's frames");
   if (!fault.empty()) return fault;
   return SharingFault(camera.udp, "images", PositionReceiversOf(interfaces),
