@@ -159,6 +159,26 @@ def measure_fields(build, file):
             for n, (ms, size) in zip(counts, least_of_turns(3, jobs))]
 
 
+def measure_sequence(build, file):
+    """By the number of threads."""
+    jobs = [lambda n=n: run_sequence(build, file, "/dev/shm", ["--threads", str(n)])
+            for n in all_threads()]
+    raw = {line["threads"]: line["raw_ms"]
+           for line in measure_scaling(build, charts()["threads"])}
+    return [{"threads": n, "raw_ms": raw[n], "frame_ms": ms}
+            for n, (ms, _) in zip(all_threads(), least_of_turns(5, jobs))]
+
+
+def measure_stages(build, file):
+    """Of a frame of a sequence, on one thread."""
+    said = subprocess.run([build / "tests/bench/railcast-stages", file], check=True,
+                          stdout=subprocess.PIPE, text=True).stdout
+    rows = [[cell.strip() for cell in line.strip("|").split("|")]
+            for line in said.splitlines()[2:]]
+    return [{"stage": stage, "stage_ms": float(ms), "share": float(share)}
+            for stage, ms, share in rows]
+
+
 def measure_disk(build, file):
     folder = ROOT / "out"
     folder.mkdir(exist_ok=True)
@@ -227,6 +247,13 @@ def draw(name, chart, lines):
     return {key: words.replace("^{", "^").replace("}", "") for key, (_, words) in fits.items()}
 
 
+def serial_share(lines):
+    """Fits frame_ms = serial + parallel / threads; the serial part and its share of one thread's."""
+    serial_ms, parallel_ms = fit_line([(1.0 / line["threads"], line["frame_ms"])
+                                       for line in lines])
+    return max(0.0, serial_ms), max(0.0, serial_ms) / (max(0.0, serial_ms) + parallel_ms)
+
+
 def draw_disk(lines):
     script = ["set terminal pngcairo size 760,460 font 'sans,11'",
               f"set output '{ROOT / 'docs/images/performance_disk.png'}'",
@@ -257,10 +284,13 @@ def table(columns, lines):
     heads = {"raw_ms": "raw trace ms", "frame_ms": "frame ms", "ratio": "x raw trace",
              "firings": "beams", "memory_mb": "memory MB", "build_s": "build s",
              "length_km": "km", "write_ms": "bytes alone ms", "disk_ms": "frame on disk ms",
-             "bytes": "bytes a frame"}
+             "bytes": "bytes a frame", "per_s": "frames/s", "stage_ms": "ms",
+             "share": "x raw trace"}
     text = "| " + " | ".join(heads.get(c, c) for c in columns) + " |\n" + "|---" * len(columns)
     for line in lines:
-        values = {**line, "ratio": line["frame_ms"] / line["raw_ms"]}
+        values = dict(line)
+        if "frame_ms" in line:
+            values.update(ratio=line["frame_ms"] / line["raw_ms"], per_s=1e3 / line["frame_ms"])
         text += "|\n| " + " | ".join(shown(values[c]) for c in columns) + " "
     return text + "|"
 
@@ -279,7 +309,7 @@ def kept(name):
     with open(ROOT / f"docs/reports/performance/{name}.tsv", encoding="utf-8") as file:
         note = file.readline()[2:].strip()
         lines = list(csv.DictReader(file, delimiter="\t"))
-    number = lambda key, text: text if key == "format" else float(text)
+    number = lambda key, text: text if key in ("format", "stage") else float(text)
     return [{k: number(k, v) for k, v in line.items()} for line in lines], note
 
 
@@ -294,11 +324,11 @@ def put(name, text):
 
 def measure(name, build):
     before = load()
-    if name in ("fields", "disk"):
+    if name in OF_THE_DEMO:
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder) / "demo.json"
             file.write_text(json.dumps(scenarios.demo()))
-            lines = (measure_fields if name == "fields" else measure_disk)(build, file)
+            lines = OF_THE_DEMO[name](build, file)
     else:
         lines = measure_scaling(build, charts()[name])
     model = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text()).group(1)
@@ -310,7 +340,17 @@ def measure(name, build):
 
 def show(name):
     lines, note = kept(name)
-    if name == "disk":
+    if name == "stages":
+        put(name, f"{table(['stage', 'stage_ms', 'share'], lines)}\n\n*{note}.*")
+        return
+    if name == "sequence":
+        chart = Chart("sequence", "threads", "threads", [])
+        draw(name, chart, lines)
+        serial_ms, share = serial_share(lines)
+        text = table(["threads", "raw_ms", "frame_ms", "per_s", "ratio"], lines)
+        fits = (f" Fitted: {serial_ms:.2f} ms of a frame do not shrink with the number of threads, "
+                f"{100 * share:.0f} % of its time on one.")
+    elif name == "disk":
         draw_disk(lines)
         text = table(["format", "bytes", "raw_ms", "write_ms", "frame_ms", "disk_ms"], lines)
         fits = ""
@@ -326,9 +366,13 @@ def show(name):
     put(name, f"![{name}](images/performance_{name}.png)\n\n{text}\n\n*{note}.*{fits}")
 
 
+OF_THE_DEMO = {"sequence": measure_sequence, "stages": measure_stages, "fields": measure_fields,
+               "disk": measure_disk}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    names = [*charts(), "fields", "disk"]
+    names = [*charts(), *OF_THE_DEMO]
     parser.add_argument("charts", nargs="*", metavar="CHART", help=", ".join(names))
     parser.add_argument("--redraw", action="store_true", help="draw the kept figures")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release")
@@ -340,7 +384,7 @@ def main():
         if not arguments.redraw:
             measure(name, arguments.build)
         show(name)
-        print(f"{name}: docs/images/performance_{name}.png")
+        print(f"{name}: {PAGE}")
 
 
 if __name__ == "__main__":

@@ -3,8 +3,12 @@
 #include <tbb/parallel_pipeline.h>
 
 #include <chrono>
+#include <condition_variable>
+#include <deque>
 #include <exception>
-#include <future>
+#include <mutex>
+#include <string>
+#include <thread>
 #include <utility>
 
 #include "core/base/out_of_memory.h"
@@ -22,6 +26,85 @@ struct FrameSlot {
   EncodedFrame encoded;
 };
 
+std::string Writing(const Frame& frame) {
+  return "writing frame " + std::to_string(frame.index) + " (" + std::to_string(frame.num_slots()) +
+         " slots)";
+}
+
+/// Writes frames on a thread of its own, in the order in which they come.
+class WritingQueue {
+ public:
+  /// @param most Number of frames that may wait or be written at a time.
+  WritingQueue(SequenceDirectory& directory, std::size_t most)
+      : directory_(directory), most_(most) {
+    thread_ = StartThread("writing frames", [this] { Run(); });
+  }
+  ~WritingQueue() {
+    {
+      const std::lock_guard lock(mutex_);
+      is_ending_ = true;
+    }
+    changed_.notify_all();
+    thread_.join();
+  }
+  WritingQueue(const WritingQueue&) = delete;
+  WritingQueue& operator=(const WritingQueue&) = delete;
+
+  /// Waits until no more than `most` frames wait or are being written.
+  /// @return How many have been written so far.
+  /// @throws What writing a frame has thrown. Nothing is written after that.
+  std::uint32_t Await(std::size_t most) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return fault_ || waiting_.size() <= most; });
+    if (fault_) std::rethrow_exception(fault_);
+    return num_written_;
+  }
+  /// Has a frame written, whose memory must stay as it is until then. Waits for room.
+  std::uint32_t Put(const FrameSlot& slot) {
+    const std::uint32_t num_written = Await(most_ - 1);
+    {
+      const std::lock_guard lock(mutex_);
+      waiting_.push_back(&slot);
+    }
+    changed_.notify_all();
+    return num_written;
+  }
+
+ private:
+  void Run() {
+    std::unique_lock lock(mutex_);
+    while (true) {
+      changed_.wait(lock, [&] { return is_ending_ || !waiting_.empty(); });
+      if (waiting_.empty()) return;
+      const FrameSlot& slot = *waiting_.front();
+      lock.unlock();
+      std::exception_ptr fault;
+      try {
+        WithinMemory([&] { return Writing(slot.made.frame); },
+                     [&] { directory_.Write(slot.encoded); });
+      } catch (...) {
+        fault = std::current_exception();
+      }
+      lock.lock();
+      fault_ = fault;
+      changed_.notify_all();
+      if (fault) return;
+      waiting_.pop_front();
+      ++num_written_;
+    }
+  }
+
+  SequenceDirectory& directory_;
+  std::size_t most_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<const FrameSlot*> waiting_;  ///< The first is being written.
+  std::uint32_t num_written_ = 0;
+  std::exception_ptr fault_;
+  bool is_ending_ = false;
+  std::thread thread_;
+};
+
 class MissingFrames {
  public:
   MissingFrames(const SequenceSpec& spec,
@@ -33,14 +116,18 @@ class MissingFrames {
         begin_frame_(begin_frame),
         hooks_(hooks),
         directory_(directory),
+        num_at_once_(at_once.num),
+        num_resumed_(directory.num_done()),
+        num_shown_(directory.num_done()),
         next_(directory.num_done()),
-        // The pipeline holds at_once.num frames, and the one before them is being written.
-        slots_(at_once.num + 1) {}
+        // The pipeline holds as many frames as are made at once, and as many are being written.
+        slots_(2 * at_once.num),
+        writing_(directory, at_once.num) {}
 
   /// Makes frames until there is none left, or the run is stopped.
   void Make() {
     tbb::parallel_pipeline(
-        slots_.size() - 1,
+        num_at_once_,
         tbb::make_filter<void, FrameSlot*>(tbb::filter_mode::serial_in_order,
                                            [this](tbb::flow_control& flow) {
                                              FrameSlot* const slot = Begin();
@@ -56,12 +143,8 @@ class MissingFrames {
                                                [this](FrameSlot* slot) { Write(*slot); }));
   }
 
-  /// Waits for the frame that is being written.
-  void AwaitWriting() {
-    if (!writing_.valid()) return;
-    writing_.get();
-    hooks_.on_progress(directory_.num_done(), spec_.num_frames);
-  }
+  /// Waits for the frames that are being written.
+  void AwaitWriting() { ShowProgress(writing_.Await(0)); }
 
  private:
   // Returns null if no frame is left.
@@ -85,7 +168,7 @@ class MissingFrames {
     try {
       MadeFrame& made = slot.made;
       std::exchange(slot.job, {})(made);
-      const auto doing = [&made] { return Encoding(made.frame); };
+      const auto doing = [&made] { return Writing(made.frame); };
       WithinMemory(doing, [&] {
         directory_.Encode(made.frame, made.objects, made.has_image ? &made.image : nullptr,
                           slot.encoded);
@@ -95,30 +178,31 @@ class MissingFrames {
     }
   }
 
-  void Write(FrameSlot& slot) {
-    AwaitWriting();
-    if (slot.fault) std::rethrow_exception(slot.fault);
-    const auto doing = [&slot] { return Encoding(slot.made.frame); };
-    writing_ = WithinMemory(doing, [&] {
-      return std::async(std::launch::async, [this, &slot, doing] {
-        WithinMemory(doing, [&] { directory_.Write(slot.encoded); });
-      });
-    });
+  void Write(const FrameSlot& slot) {
+    if (slot.fault) {
+      AwaitWriting();
+      std::rethrow_exception(slot.fault);
+    }
+    ShowProgress(writing_.Put(slot));
   }
 
-  static std::string Encoding(const Frame& frame) {
-    return "writing frame " + std::to_string(frame.index) + " (" +
-           std::to_string(frame.num_slots()) + " slots)";
+  void ShowProgress(std::uint32_t num_written) {
+    while (num_shown_ < num_resumed_ + num_written) {
+      hooks_.on_progress(++num_shown_, spec_.num_frames);
+    }
   }
 
   const SequenceSpec& spec_;
   const BeginFrame& begin_frame_;
   const SequenceHooks& hooks_;
   SequenceDirectory& directory_;
-  std::uint32_t next_;  ///< The frame that is begun next, counted from start_frame.
+  std::size_t num_at_once_;
+  std::uint32_t num_resumed_;
+  std::uint32_t num_shown_;  ///< As on_progress() was told last.
+  std::uint32_t next_;       ///< The frame that is begun next, counted from start_frame.
   bool is_over_ = false;
   std::vector<FrameSlot> slots_;
-  std::future<void> writing_;
+  WritingQueue writing_;  // Last, so that it ends before the memory that it writes.
 };
 
 void MakeMissingFrames(const FramesAtOnce& at_once, MissingFrames& frames) {

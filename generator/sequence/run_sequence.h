@@ -54,8 +54,8 @@ struct SequenceResult {
 };
 
 /// Makes the frames of a sequence that its directory does not hold yet. Frames are made and encoded
-/// several at once, and written in their order; one more is being written meanwhile. If one cannot
-/// be made, those before it are written before the exception is passed on.
+/// several at once, and written in their order; as many more wait to be written meanwhile. If one
+/// cannot be made, those before it are written before the exception is passed on.
 /// @throws InputError as SequenceDirectory does.
 [[nodiscard]] SequenceResult RunSequence(const SequenceSpec& spec,
                                          const BeginFrame& begin_frame,

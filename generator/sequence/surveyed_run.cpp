@@ -55,7 +55,7 @@ ObjectSurvey& SurveyedRun::SurveyOf(const Simulator& simulator) {
 
 std::size_t NumFramesAtOnce(const Simulator& simulator, const ScenarioSpec& scenario) {
   // A pixel of the camera's image takes about as much memory as a firing.
-  constexpr std::size_t kMostInMemory = 4'000'000;
+  constexpr std::size_t kMostInMemory = 1'000'000;
   std::size_t num_each = simulator.pattern().num_firings();
   if (scenario.camera) {
     num_each += std::size_t{scenario.camera->width_px} * scenario.camera->height_px;

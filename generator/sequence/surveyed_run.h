@@ -42,7 +42,7 @@ class SurveyedRun {
 };
 
 /// How many frames are made at once where none depends on another: one for each thread, and one
-/// that waits for its turn to be written. Frames of millions of firings, or with
+/// that waits for its turn to be written. Frames of a million firings, or with
 /// images of millions of pixels, keep all threads busy by themselves and take much memory: they are
 /// made one after another.
 [[nodiscard]] std::size_t NumFramesAtOnce(const Simulator& simulator, const ScenarioSpec& scenario);

@@ -60,7 +60,7 @@ TEST(RunSequence, WritesTheSameBytesInTheSameOrderHoweverManyFramesAreMadeAtOnce
   }
 }
 
-TEST(RunSequence, HoldsNoMoreFramesThanItMakesAtOnceAndWrites) {
+TEST(RunSequence, HoldsTwiceAsManyFramesAsItMakesAtOnce) {
   constexpr std::size_t kAtOnce = 3;
   const TemporaryDirectory directory;
   std::mutex mutex;
@@ -78,8 +78,8 @@ TEST(RunSequence, HoldsNoMoreFramesThanItMakesAtOnceAndWrites) {
   const SequenceHooks hooks = {
       [&](std::uint32_t num_done, std::uint32_t) { num_written = num_done; }, [] { return false; }};
   (void)RunSequence(ExampleRun(directory.path(), "pcd", 40), make, hooks, {}, AtOnce(kAtOnce));
-  EXPECT_EQ(frames.size(), kAtOnce + 1);
-  EXPECT_LE(most_ahead, kAtOnce + 1);
+  EXPECT_LE(frames.size(), 2 * kAtOnce);
+  EXPECT_LE(most_ahead, 2 * kAtOnce + 1) << "one may be written and not yet counted";
   EXPECT_GT(most_ahead, 1U) << "some were made at once";
 }
 
