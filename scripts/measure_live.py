@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """Measures live runs on this machine, sender and receiver on loopback; the tables of docs/live.md.
 
-Usage: measure_live.py BUILD_DIR [steady|clients|limits]... [--seconds S]
+Usage: measure_live.py BUILD_DIR [steady|clients|limits|late]... [--seconds S]
 
 steady: the published scan at 10 and 20 Hz, spread and in bursts: frames lost and late, lateness.
 clients: VLP-16 at 20 Hz and HDL-32E at 10 Hz into PCL's own grabbers.
 limits: the highest rate that each rung sustains without a late frame, in one of three tries: virtual
 machines occasionally pause for tens of milliseconds.
+late: the late frames of the most expensive runs at 10 Hz: VLS-128, and footprint on the published
+scan. For two cores: taskset -c 0,1 measure_live.py BUILD_DIR late.
 """
 
 import argparse
@@ -117,17 +119,26 @@ def limits(bench, seconds):
         print(f"{rung}: {low_hz:.0f} Hz for {seconds:g} s without a late frame", flush=True)
 
 
+def late(bench, seconds):
+    for name, scenario, options in (("VLS-128", lambda: bench.sensor("vls128.json"), []),
+                                    ("published scan, footprint", lambda: bench.published(10),
+                                     ["--fidelity", "footprint"])):
+        sent = bench.stream(scenario(), seconds, *options)
+        print(f"{name}, 10 Hz, {seconds:g} s: {sent['frames']} frames, {sent['late']} late; compute "
+              f"p50 {sent['compute'][0]:.1f}, p99 {sent['compute'][2]:.1f} ms", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("what", nargs="*", choices=["steady", "clients", "limits", []])
-    parser.add_argument("--seconds", type=float, help="of each run (default: 300, 60 and 10)")
+    parser.add_argument("what", nargs="*", choices=["steady", "clients", "limits", "late", []])
+    parser.add_argument("--seconds", type=float, help="of each run (default: 300, 60, 10, 10)")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(options.build, pathlib.Path(folder))
         for name, measure, seconds in (("steady", steady, 300.0), ("clients", clients, 60.0),
-                                       ("limits", limits, 10.0)):
+                                       ("limits", limits, 10.0), ("late", late, 10.0)):
             if not options.what or name in options.what:
                 measure(bench, options.seconds or seconds)
 

@@ -40,6 +40,14 @@ std::terminate_handler default_terminate = nullptr;
   ::_exit(kExitFailure);
 }
 
+constexpr std::string_view kOutOfThreads =
+    "no further thread can be started; fewer threads or more memory are needed\n";
+
+// Compared by text because TBB has no exception type for this.
+bool IsOutOfThreads(const std::exception& error) {
+  return std::string_view(error.what()).starts_with("pthread_create has failed");
+}
+
 // Reports that memory or threads have run out where no exception may be thrown, for example while
 // TBB starts its threads. It must not allocate memory.
 [[noreturn]] void Terminate() {
@@ -48,10 +56,7 @@ std::terminate_handler default_terminate = nullptr;
   } catch (const std::bad_alloc&) {
     EndWith("out of memory\n");
   } catch (const std::exception& error) {
-    // Compared by text because TBB has no exception type for this.
-    if (std::string_view(error.what()).starts_with("pthread_create has failed")) {
-      EndWith("no further thread can be started; fewer threads or more memory are needed\n");
-    }
+    if (IsOutOfThreads(error)) EndWith(kOutOfThreads);
   } catch (...) {
     // Any other exception is a bug; the default handler below reports it.
   }
@@ -69,7 +74,11 @@ int RunMain(const std::string& program,
   } catch (const std::bad_alloc&) {
     complaints << program << ": out of memory\n";
   } catch (const std::exception& error) {
-    complaints << program << ": " << ShownLines(error.what()) << "\n";
+    if (IsOutOfThreads(error)) {
+      complaints << kOutOfThreads;
+    } else {
+      complaints << program << ": " << ShownLines(error.what()) << "\n";
+    }
   }
   return kExitFailure;
 }
