@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Measures time against accuracy on four scenarios, with the published raster and with three sensors
-# whose beams lie otherwise, and copies the raster's charts to where docs/frontier.md shows them:
+# Measures time against accuracy on four scenarios, with the published raster, with three sensors
+# whose beams lie otherwise and with a narrow view, and copies the raster's charts to where docs/frontier.md shows them:
 # draw_frontiers.sh [OPTION OF railcast-analyze frontier...]. The options are for the raster. Prints
 # the reports, and at the end the tables of README and docs. Takes long; for timings worth quoting
 # nothing else may run on the machine.
@@ -36,6 +36,17 @@ for scene in "${scenes[@]}"; do
     frontier "${scene}_$sensor" "$scenario" --frames 1 \
       --rows surface,surface+thin_conductors,footprint,brute_force_64
   done
+done
+
+# A narrow view of 0.05 degrees, in which beams overlap.
+for scene in "${scenes[@]}"; do
+  scenario="out/frontier/scenarios/${scene}_narrow.json"
+  pattern='"type": "raster", "horizontal_fov_deg": 12, "vertical_fov_deg": 6, "angular_resolution_deg": 0.05'
+  printf '{"version": 1, "file": "%s", "lidar": {"file": "%s", "mount": %s, "scan": %s}}\n' \
+    "$PWD/scenarios/$scene.json" "$PWD/scenarios/sensors/vir2rail.json" \
+    '{"position_m": [2.2, 0, 2.5]}' "{\"rate_hz\": 10, \"pattern\": {$pattern}}" >"$scenario"
+  frontier "${scene}_narrow" "$scenario" --frames 1 \
+    --rows surface,surface+thin_conductors,footprint,brute_force_64
 done
 
 scripts/frontier_tables.py out/frontier

@@ -11,7 +11,7 @@ import sys
 
 SCENES = ("open_line", "parallel_wagons", "forest_rain", "fog_yard")
 SENSORS = {"": "Vir2Rail's raster", "_pandar64": "Pandar64", "_vls128": "VLS-128",
-           "_rosette": "rosette"}
+           "_rosette": "rosette", "_narrow": "narrow view"}
 HEADER = ("| sensor | row | time x raw | echoes missed % | wires % | second % | steps % "
           "| range p50, p95, p99 mm | at steps mm | persons % | poles % | bright edges % |")
 
