@@ -87,5 +87,21 @@ TEST(SubRays, OfABeamHaveThePatternsRadius) {
   EXPECT_NEAR(sum2 / kNumSubRays, 2.0, 0.05);
 }
 
+// What a group's ellipse meets, all of its sub-rays are taken to meet.
+TEST(SubRays, OfAGroupAreNeighbours) {
+  const BeamSubRays& all = SubRaysOfBeam();
+  for (std::size_t group = 0; group < kNumSubRayGroups; ++group) {
+    float longest = 0.0F;
+    for (std::size_t i = group; i < kNumSubRays; i += kNumSubRayGroups) {
+      for (std::size_t k = group; k < i; k += kNumSubRayGroups) {
+        longest = std::max(longest, std::hypot(all.h[i] - all.h[k], all.v[i] - all.v[k]));
+      }
+    }
+    // A ring's sector of 60 degrees is as long as the ring's radius; sub-rays of two spirals
+    // overlap.
+    EXPECT_LT(longest, 1.2F * all.largest_offset) << group;
+  }
+}
+
 }  // namespace
 }  // namespace railcast
