@@ -330,7 +330,7 @@ TEST(RailcastGenerate, ChecksAScenario) {
   for (const char* text :
        {"28800 firings a frame (120 rows x 240 columns)", "at most 288000 points/s",
         "7 curvature jumps smoothed", "152 gradient steps smoothed", "(-v lists them)",
-        "foul_wagon: open_wagon, label wagon"}) {
+        "foul_wagon: open_wagon, label wagon", "tree: 11 in full detail from 8 m, 7 at level 1"}) {
     EXPECT_NE(run.said.find(text), std::string::npos) << text;
   }
   EXPECT_EQ(run.said.find("curvature at s "), std::string::npos);

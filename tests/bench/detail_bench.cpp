@@ -1,0 +1,169 @@
+// railcast-detail: compares coarser plants with plants in full detail, echoes by range and times.
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <exception>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "railcast/scenario.h"
+#include "tests/bench/detail_by_range.h"
+#include "tests/bench/scene_cost.h"
+
+namespace railcast {
+namespace {
+
+struct Options {
+  std::filesystem::path scenario;
+  Fidelity rung = Fidelity::kSurface;
+  std::uint32_t num_frames = 60;
+  double step_m = 31.0;
+  int num_turns = 0;
+};
+
+/// The scenario on a rung, in clear air, without objects and with three echoes a firing. Its
+/// vehicle moves `step_m` from frame to frame.
+ScenarioSpec Prepared(const Options& options, PlantDetail detail) {
+  ScenarioSpec spec = ReadScenario(options.scenario);
+  spec.fidelity = options.rung;
+  spec.weather = {};
+  spec.world.objects.clear();
+  spec.world.vegetation.detail = detail;
+  spec.lidar.receiver.return_mode = ReturnMode::kTriple;
+  if (options.num_turns == 0) {
+    spec.vehicle.motion.profile = {
+        {.time_s = 0.0, .s_m = {}, .speed_mps = options.step_m * spec.lidar.scan.rate_hz}};
+  }
+  return spec;
+}
+
+std::string ChangeText(const RelativeChange& change) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1) << std::showpos << 100.0 * change.change
+       << std::noshowpos << " ± " << 100.0 * change.half_width;
+  return text.str();
+}
+
+/// Three cells of a label: first echoes, further ones and intensity, in percent.
+std::string CellsOf(const std::vector<EchoesByRange::Sums>& full,
+                    const std::vector<EchoesByRange::Sums>& coarser) {
+  constexpr double kLeastNumber = 400.0;  // With fewer, an interval is wider than what it is for.
+  using Sums = EchoesByRange::Sums;
+  double first = 0.0;
+  double further = 0.0;
+  for (const Sums& frame : full) {
+    first += frame.first;
+    further += frame.further;
+  }
+  if (first < kLeastNumber) return " | | |";
+  const std::string of_further =
+      further < kLeastNumber ? "" : ChangeText(ChangeOfSum(full, coarser, &Sums::further));
+  return " " + ChangeText(ChangeOfSum(full, coarser, &Sums::first)) + " | " + of_further + " | " +
+         ChangeText(ChangeOfIntensity(full, coarser)) + " |";
+}
+
+void PrintTable(const EchoesByRange& full, const EchoesByRange& coarser, const ScenarioSpec& spec) {
+  const LabelTable labels(spec.labels);
+  std::cout
+      << "| range | trees: first | further | intensity | grass: first | further | intensity | "
+         "ground: first | further | intensity |\n|---|---|---|---|---|---|---|---|---|---|\n";
+  for (int bin = 0; bin * EchoesByRange::kBin_m < spec.lidar.range_max_m; ++bin) {
+    std::cout << "| " << bin * EchoesByRange::kBin_m << " m |";
+    for (const char* label : {"tree", "grass", "ground"}) {
+      std::cout << CellsOf(full.Of(labels.Id(label), bin), coarser.Of(labels.Id(label), bin));
+    }
+    std::cout << "\n";
+  }
+}
+
+void CompareEchoes(const Options& options) {
+  const ScenarioSpec spec = Prepared(options, PlantDetail::kAuto);
+  const auto full = MakeSimulator(Prepared(options, PlantDetail::kFull), 2);
+  const auto coarser = MakeSimulator(spec, 2);
+  EchoesByRange of_full;
+  EchoesByRange of_coarser;
+  Frame frame;
+  for (std::uint32_t index = 0; index < options.num_frames; ++index) {
+    full->Scan(index, frame);
+    of_full.AddFrame(frame);
+    coarser->Scan(index, frame);
+    of_coarser.AddFrame(frame);
+  }
+  PrintTable(of_full, of_coarser, spec);
+}
+
+double CpuTimeOf_ms(const std::function<void()>& work) {
+  const double begin_ms = CpuTime_ms();
+  work();
+  return CpuTime_ms() - begin_ms;
+}
+
+/// Prints the processor's time of frame 0 with coarser plants, and without any, as ratios to that
+/// in full detail: the medians of turns in which all take part.
+void CompareTimes(const Options& options) {
+  ScenarioSpec bare = Prepared(options, PlantDetail::kAuto);
+  bare.world.vegetation.trees_per_hectare = 0.0;
+  bare.world.vegetation.grass = false;
+  std::vector<std::unique_ptr<Simulator>> simulators;
+  simulators.push_back(MakeSimulator(Prepared(options, PlantDetail::kFull), 1));
+  simulators.push_back(MakeSimulator(Prepared(options, PlantDetail::kAuto), 1));
+  simulators.push_back(MakeSimulator(bare, 1));
+  std::vector<std::function<void()>> works;
+  Frame frame;
+  for (const auto& simulator : simulators) works.push_back(simulator->MakeRawTrace(0));
+  for (const auto& simulator : simulators) {
+    works.emplace_back([&frame, of = simulator.get()] { of->Scan(0, frame); });
+  }
+  for (const auto& work : works) work();
+  WaitUntilIdle();
+  std::vector<std::vector<double>> ratios(works.size());
+  for (int turn = 0; turn < options.num_turns; ++turn) {
+    std::vector<double> times_ms;
+    for (const auto& work : works) times_ms.push_back(CpuTimeOf_ms(work));
+    for (std::size_t i = 0; i < works.size(); ++i) ratios[i].push_back(times_ms[i] / times_ms[0]);
+  }
+  std::cout << "x raw trace in full detail: raw trace " << Median(ratios[1]) << ", without plants "
+            << Median(ratios[2]) << "; frame in full detail " << Median(ratios[3]) << ", as it is "
+            << Median(ratios[4]) << ", without plants " << Median(ratios[5]) << "\n";
+}
+
+int Run(int argc, char** argv) {
+  CLI::App app(
+      "Compares coarser plants with plants in full detail: the echoes of trees, grass and "
+      "ground by range in percent, or with --turns the times");
+  Options options;
+  const std::map<std::string, Fidelity> rungs = {{"plausibility", Fidelity::kPlausibility},
+                                                 {"surface", Fidelity::kSurface},
+                                                 {"footprint", Fidelity::kFootprint}};
+  app.add_option("SCENARIO", options.scenario, "Scenario with one sensor")->required();
+  app.add_option("--rung", options.rung, "surface or another")
+      ->transform(CLI::CheckedTransformer(rungs));
+  app.add_option("--frames", options.num_frames, "Frames, each at another place");
+  app.add_option("--step", options.step_m, "Metres between them");
+  app.add_option("--turns", options.num_turns, "Turns in which times are measured");
+  CLI11_PARSE(app, argc, argv);
+  if (options.num_turns > 0) {
+    CompareTimes(options);
+  } else {
+    CompareEchoes(options);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace railcast
+
+int main(int argc, char** argv) {
+  try {
+    return railcast::Run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "error: " << error.what() << "\n";
+    return 1;
+  }
+}

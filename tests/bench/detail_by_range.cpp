@@ -1,0 +1,82 @@
+#include "tests/bench/detail_by_range.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace railcast {
+namespace {
+
+using Sums = EchoesByRange::Sums;
+
+constexpr double kOf95Percent = 1.96;
+
+double Total(const std::vector<Sums>& sums, double Sums::*of) {
+  double total = 0.0;
+  for (const Sums& frame : sums) total += frame.*of;
+  return total;
+}
+
+RelativeChange ChangeWith(double ratio, const std::vector<double>& deviations) {
+  double squares = 0.0;
+  for (const double deviation : deviations) squares += deviation * deviation;
+  return {ratio - 1.0, kOf95Percent * ratio * std::sqrt(squares)};
+}
+
+}  // namespace
+
+void EchoesByRange::AddFrame(const Frame& frame) {
+  ++num_frames_;
+  for (auto& [place, sums] : sums_) sums.resize(num_frames_);
+  for (std::size_t begin = 0; begin < frame.num_slots(); begin += frame.returns) {
+    std::vector<std::size_t> echoes;
+    for (std::size_t slot = begin; slot < begin + frame.returns; ++slot) {
+      if (frame.outcome[slot] == Outcome::kReturned) echoes.push_back(slot);
+    }
+    std::ranges::sort(echoes, {}, [&](std::size_t slot) { return frame.true_range_m[slot]; });
+    for (const std::size_t slot : echoes) {
+      const int bin = static_cast<int>(static_cast<double>(frame.true_range_m[slot]) / kBin_m);
+      std::vector<Sums>& of_place = sums_[{frame.label[slot], bin}];
+      of_place.resize(num_frames_);
+      if (slot != echoes.front()) {
+        of_place.back().further += 1.0;
+        continue;
+      }
+      of_place.back().first += 1.0;
+      of_place.back().intensity += static_cast<double>(frame.intensity[slot]);
+    }
+  }
+}
+
+const std::vector<EchoesByRange::Sums>& EchoesByRange::Of(std::uint32_t label, int bin) const {
+  static const std::vector<Sums> nothing;
+  const auto found = sums_.find({label, bin});
+  return found == sums_.end() ? nothing : found->second;
+}
+
+RelativeChange ChangeOfSum(const std::vector<Sums>& from,
+                           const std::vector<Sums>& to,
+                           double Sums::*of) {
+  const double from_total = Total(from, of);
+  const double to_total = Total(to, of);
+  std::vector<double> deviations;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    deviations.push_back(to[i].*of / to_total - from[i].*of / from_total);
+  }
+  return ChangeWith(to_total / from_total, deviations);
+}
+
+RelativeChange ChangeOfIntensity(const std::vector<Sums>& from, const std::vector<Sums>& to) {
+  const auto mean = [](const std::vector<Sums>& sums) {
+    return Total(sums, &Sums::intensity) / Total(sums, &Sums::first);
+  };
+  const auto deviation = [&](const std::vector<Sums>& sums, std::size_t frame) {
+    return (sums[frame].intensity - mean(sums) * sums[frame].first) / Total(sums, &Sums::intensity);
+  };
+  std::vector<double> deviations;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    deviations.push_back(deviation(to, i) - deviation(from, i));
+  }
+  return ChangeWith(mean(to) / mean(from), deviations);
+}
+
+}  // namespace railcast

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "railcast/frame.h"
+
+namespace railcast {
+
+/// Counts the echoes of frames by label and range, to compare those of the same scene in full
+/// detail and with coarser plants.
+class EchoesByRange {
+ public:
+  static constexpr double kBin_m = 30.0;
+
+  struct Sums {
+    double first{};      ///< Nearest echoes of their firings.
+    double further{};    ///< All others.
+    double intensity{};  ///< Of the first ones.
+  };
+
+  void AddFrame(const Frame& frame);
+
+  [[nodiscard]] const std::vector<Sums>& Of(std::uint32_t label, int bin) const;
+
+ private:
+  std::size_t num_frames_ = 0;
+  // One element for each frame.
+  std::map<std::pair<std::uint32_t, int>, std::vector<Sums>> sums_;
+};
+
+/// A relative change with the half width of its 95 % interval, from the differences between frames.
+struct RelativeChange {
+  double change{};
+  double half_width{};
+};
+
+/// The change of a sum over all frames.
+/// @pre Both have the same number of frames, and neither sum is 0.
+[[nodiscard]] RelativeChange ChangeOfSum(const std::vector<EchoesByRange::Sums>& from,
+                                         const std::vector<EchoesByRange::Sums>& to,
+                                         double EchoesByRange::Sums::*of);
+
+/// The change of the mean intensity.
+[[nodiscard]] RelativeChange ChangeOfIntensity(const std::vector<EchoesByRange::Sums>& from,
+                                               const std::vector<EchoesByRange::Sums>& to);
+
+}  // namespace railcast

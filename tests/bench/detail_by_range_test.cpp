@@ -1,0 +1,46 @@
+#include "tests/bench/detail_by_range.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace railcast {
+namespace {
+
+using Sums = EchoesByRange::Sums;
+
+TEST(EchoesByRange, TellsTheNearestEchoOfAFiringFromItsOthers) {
+  Frame frame;
+  frame.Resize(1, 2, 2);
+  frame.label = {7, 7, 7, 8};
+  frame.true_range_m = {40.0F, 35.0F, 10.0F, 20.0F};
+  frame.intensity = {0.1F, 0.2F, 0.5F, 0.9F};
+  frame.outcome = {Outcome::kReturned, Outcome::kReturned, Outcome::kBelowThreshold,
+                   Outcome::kReturned};
+  EchoesByRange echoes;
+  echoes.AddFrame(frame);
+  echoes.AddFrame(frame);
+  ASSERT_EQ(echoes.Of(7, 1).size(), 2U);
+  EXPECT_EQ(echoes.Of(7, 1)[0].first, 1.0);
+  EXPECT_EQ(echoes.Of(7, 1)[0].further, 1.0);
+  EXPECT_NEAR(echoes.Of(7, 1)[1].intensity, 0.2, 1e-6);
+  EXPECT_TRUE(echoes.Of(7, 0).empty());
+  EXPECT_EQ(echoes.Of(8, 0)[1].first, 1.0);
+}
+
+TEST(RelativeChange, HasAnIntervalFromTheFramesAgainstEachOther) {
+  const std::vector<Sums> from = {{100, 0, 10}, {200, 0, 20}};
+  const std::vector<Sums> doubled = {{200, 0, 40}, {400, 0, 80}};
+  EXPECT_DOUBLE_EQ(ChangeOfSum(from, doubled, &Sums::first).change, 1.0);
+  EXPECT_NEAR(ChangeOfSum(from, doubled, &Sums::first).half_width, 0.0, 1e-12);
+  EXPECT_DOUBLE_EQ(ChangeOfIntensity(from, doubled).change, 1.0);
+  EXPECT_NEAR(ChangeOfIntensity(from, doubled).half_width, 0.0, 1e-12);
+  // Shares of the frames: 1/3 and 2/3 before, 2/3 and 1/3 after.
+  const std::vector<Sums> swapped = {{200, 0, 20}, {100, 0, 10}};
+  EXPECT_DOUBLE_EQ(ChangeOfSum(from, swapped, &Sums::first).change, 0.0);
+  EXPECT_NEAR(ChangeOfSum(from, swapped, &Sums::first).half_width, 1.96 * std::sqrt(2.0 / 9.0),
+              1e-12);
+}
+
+}  // namespace
+}  // namespace railcast
