@@ -10,6 +10,10 @@ using Sums = EchoesByRange::Sums;
 
 constexpr double kOf95Percent = 1.96;
 
+int BinOf(float range_m) {
+  return static_cast<int>(static_cast<double>(range_m) / EchoesByRange::kBin_m);
+}
+
 double Total(const std::vector<Sums>& sums, double Sums::*of) {
   double total = 0.0;
   for (const Sums& frame : sums) total += frame.*of;
@@ -34,8 +38,7 @@ void EchoesByRange::AddFrame(const Frame& frame) {
     }
     std::ranges::sort(echoes, {}, [&](std::size_t slot) { return frame.true_range_m[slot]; });
     for (const std::size_t slot : echoes) {
-      const int bin = static_cast<int>(static_cast<double>(frame.true_range_m[slot]) / kBin_m);
-      std::vector<Sums>& of_place = sums_[{frame.label[slot], bin}];
+      std::vector<Sums>& of_place = sums_[{frame.label[slot], BinOf(frame.true_range_m[slot])}];
       of_place.resize(num_frames_);
       if (slot != echoes.front()) {
         of_place.back().further += 1.0;
@@ -43,6 +46,24 @@ void EchoesByRange::AddFrame(const Frame& frame) {
       }
       of_place.back().first += 1.0;
       of_place.back().intensity += static_cast<double>(frame.intensity[slot]);
+    }
+  }
+  AddNeighbours(frame);
+}
+
+void EchoesByRange::AddNeighbours(const Frame& frame) {
+  constexpr float kNear_m = 0.1F;
+  for (std::size_t slot = 0; slot + frame.returns < frame.num_slots(); slot += frame.returns) {
+    const std::size_t next = slot + frame.returns;
+    const auto is_last_column = next % frame.width() == 0;
+    if (is_last_column || frame.label[slot] != frame.label[next] ||
+        frame.outcome[slot] != Outcome::kReturned || frame.outcome[next] != Outcome::kReturned) {
+      continue;
+    }
+    Sums& sums = sums_.at({frame.label[slot], BinOf(frame.true_range_m[slot])}).back();
+    sums.neighbours += 1.0;
+    if (std::abs(frame.true_range_m[slot] - frame.true_range_m[next]) < kNear_m) {
+      sums.near_neighbours += 1.0;
     }
   }
 }

@@ -20,6 +20,9 @@ class EchoesByRange {
     double first{};      ///< Nearest echoes of their firings.
     double further{};    ///< All others.
     double intensity{};  ///< Of the first ones.
+    /// Firings whose neighbour in the next column has its first return on the same label, too ...
+    double neighbours{};
+    double near_neighbours{};  ///< ... and at the same range within 0.1 m.
   };
 
   void AddFrame(const Frame& frame);
@@ -27,6 +30,8 @@ class EchoesByRange {
   [[nodiscard]] const std::vector<Sums>& Of(std::uint32_t label, int bin) const;
 
  private:
+  void AddNeighbours(const Frame& frame);
+
   std::size_t num_frames_ = 0;
   // One element for each frame.
   std::map<std::pair<std::uint32_t, int>, std::vector<Sums>> sums_;

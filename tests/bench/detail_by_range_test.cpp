@@ -28,15 +28,30 @@ TEST(EchoesByRange, TellsTheNearestEchoOfAFiringFromItsOthers) {
   EXPECT_EQ(echoes.Of(8, 0)[1].first, 1.0);
 }
 
+TEST(EchoesByRange, CountsNeighboursOnTheSameLabel) {
+  Frame frame;
+  frame.Resize(2, 3, 1);
+  frame.label = {7, 7, 8, 7, 7, 7};
+  frame.true_range_m = {10.0F, 10.05F, 10.0F, 10.0F, 11.0F, 11.0F};
+  frame.outcome.assign(6, Outcome::kReturned);
+  EchoesByRange echoes;
+  echoes.AddFrame(frame);
+  EXPECT_EQ(echoes.Of(7, 0)[0].neighbours, 3.0);
+  EXPECT_EQ(echoes.Of(7, 0)[0].near_neighbours, 2.0);
+  EXPECT_EQ(echoes.Of(8, 0)[0].neighbours, 0.0);
+}
+
 TEST(RelativeChange, HasAnIntervalFromTheFramesAgainstEachOther) {
-  const std::vector<Sums> from = {{100, 0, 10}, {200, 0, 20}};
-  const std::vector<Sums> doubled = {{200, 0, 40}, {400, 0, 80}};
+  const std::vector<Sums> from = {{.first = 100, .intensity = 10}, {.first = 200, .intensity = 20}};
+  const std::vector<Sums> doubled = {{.first = 200, .intensity = 40},
+                                     {.first = 400, .intensity = 80}};
   EXPECT_DOUBLE_EQ(ChangeOfSum(from, doubled, &Sums::first).change, 1.0);
   EXPECT_NEAR(ChangeOfSum(from, doubled, &Sums::first).half_width, 0.0, 1e-12);
   EXPECT_DOUBLE_EQ(ChangeOfIntensity(from, doubled).change, 1.0);
   EXPECT_NEAR(ChangeOfIntensity(from, doubled).half_width, 0.0, 1e-12);
   // Shares of the frames: 1/3 and 2/3 before, 2/3 and 1/3 after.
-  const std::vector<Sums> swapped = {{200, 0, 20}, {100, 0, 10}};
+  const std::vector<Sums> swapped = {{.first = 200, .intensity = 20},
+                                     {.first = 100, .intensity = 10}};
   EXPECT_DOUBLE_EQ(ChangeOfSum(from, swapped, &Sums::first).change, 0.0);
   EXPECT_NEAR(ChangeOfSum(from, swapped, &Sums::first).half_width, 1.96 * std::sqrt(2.0 / 9.0),
               1e-12);
