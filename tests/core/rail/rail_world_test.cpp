@@ -104,6 +104,25 @@ TEST(RailWorld, LetsAVehicleInReverseLookWhereItGoes) {
   EXPECT_GT(before.linear().col(2).dot(up), 1.0 - 1e-6);
 }
 
+TEST(RailWorld, KnowsWhereTheVehicleIsInItsHomeChunk) {
+  VehicleSpec vehicle = MovingVehicle();
+  vehicle.track = "second";
+  const RailWorld world = MakeRailWorld(CurvedWorld(), vehicle);
+  const std::vector<Transform> poses = world.VehiclePosesIn(8);  // From 400 to 450 m.
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    // On the outside of an arc of 400 m, 1 m of chainage is 1.01 m long.
+    EXPECT_LE((poses[i].translation() - poses[i - 1].translation()).norm(), 1.011);
+  }
+  // The vehicle leaves s = 30 m at 20 m/s.
+  const auto expect_at = [&](const Transform& pose, double s_m) {
+    const auto time_ns = static_cast<std::int64_t>((s_m - 30.0) / 20.0 * 1e9);
+    EXPECT_TRUE(pose.isApprox(world.WorldFromVehicle(time_ns), 1e-9)) << s_m;
+  };
+  expect_at(poses.front(), 400.0);
+  expect_at(poses.at(poses.size() / 2), 425.0);
+  expect_at(poses.back(), 450.0);
+}
+
 TEST(RailWorld, NumbersItsObjectsAndPutsTheVehicleLast) {
   WorldSpec spec = CurvedWorld();
   spec.objects = {ObjectAt("wagon", ObjectType::kOpenWagon, 100.0),
