@@ -80,7 +80,7 @@ Chart ErrorByRangeChart(const std::vector<RowResult>& results,
                         const std::string& title) {
   Chart chart{column + "_by_range",
               title + " by range",
-              "Bars are intervals of 95 %, which take echoes as independent.",
+              "Bands and bars are intervals of 95 %, which take echoes as independent.",
               {"Range", "m", false, {}},
               {title, "%", false, {}},
               {}};

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "core/detect/effect_table.h"
+#include "core/fidelity/effect_search.h"
 
 namespace railcast {
 namespace {
@@ -74,6 +75,13 @@ std::string PartsText(const Deviation& deviation, const ToleranceSpec& tolerance
     text += "    and " + std::to_string(beyond.size() - kMost) + " more parts\n";
   }
   return text;
+}
+
+ToleranceSpec SearchTolerance(ToleranceSpec tolerance) {
+  for (const DeviationQuantity& quantity : kDeviationQuantities) {
+    tolerance.*quantity.limit *= kSearchMargin;
+  }
+  return tolerance;
 }
 
 Json ObjectOf(const ToleranceSpec& t) {
@@ -144,7 +152,7 @@ std::string ChoiceText(const FidelityChoice& choice, const ToleranceSpec& tolera
   for (const FidelityChoice::Measured& measured : choice.measured) {
     if (measured.is_kept) {
       text += "  needs " + measured.what + ": without it " + Text(measured.without) + "\n" +
-              PartsText(measured.without, tolerance);
+              PartsText(measured.without, SearchTolerance(tolerance));
       continue;
     }
     text += "  without " + measured.what +

@@ -10,9 +10,6 @@
 namespace railcast {
 namespace {
 
-// The limits for the sample frames are stricter than the tolerance, so that other frames are likely
-// to be within it as well.
-constexpr double kMargin = 0.8;
 // Share of the tolerance that may be added where everything together exceeds the margin.
 constexpr double kMore = 0.2;
 
@@ -162,7 +159,7 @@ EffectSearchResult FindOmissions(const std::vector<double>& savings,
   EffectSearchResult result;
   result.full_deviation = deviations.front();
   result.without.assign(deviations.begin() + 1, deviations.end());
-  const std::vector<double> limits = LimitsFor(tolerance, result.full_deviation, kMargin);
+  const std::vector<double> limits = LimitsFor(tolerance, result.full_deviation, kSearchMargin);
   result.left_out = PredictLeftOut(result, savings, limits);
   const auto measured = std::ranges::find(alone, result.left_out);
   result.deviation = measured != alone.end()

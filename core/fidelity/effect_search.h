@@ -57,6 +57,10 @@ inline constexpr double kInstructionsOfMoreSubRays = 10261.0;
 /// Estimated instructions per firing of Simulator::Scan with a set of effects.
 [[nodiscard]] double InstructionsOf(const EffectSet& effects, int footprint_rays);
 
+/// The limits of the search are so much of the tolerance, so that other frames than the samples are
+/// likely to be within it as well.
+inline constexpr double kSearchMargin = 0.8;
+
 /// A set of things left out: bit i stands for the i-th candidate.
 using Omissions = unsigned;
 [[nodiscard]] constexpr bool IsIn(Omissions omissions, std::size_t candidate) {
