@@ -20,6 +20,16 @@ TEST(LeastShare, IsThatOfThePublishedExamples) {
   EXPECT_NEAR(LeastShare(1, 29), 0.0018, 5e-5);
 }
 
+// docs/frontier.md says so.
+TEST(LeastShare, IsBeyondATenthFrom4Of10And7Of30And17Of100On) {
+  EXPECT_LE(LeastShare(3, 10), 0.1);
+  EXPECT_GT(LeastShare(4, 10), 0.1);
+  EXPECT_LE(LeastShare(6, 30), 0.1);
+  EXPECT_GT(LeastShare(7, 30), 0.1);
+  EXPECT_LE(LeastShare(16, 100), 0.1);
+  EXPECT_GT(LeastShare(17, 100), 0.1);
+}
+
 TEST(LeastShare, OfOneEchoIsBelowATenth) {
   EXPECT_LT(LeastShare(1, 1), 0.1);
   EXPECT_EQ(LeastShare(0, 0), 0.0);
