@@ -72,7 +72,8 @@ TEST(RailcastAnalyze, ChartsAScenario) {
             json["rows"][2]["errors"]["thin_recall"]["share"]);
   EXPECT_EQ(json["sections"][0]["charts"].size(), 4U);
   for (const char* name : {"frontier.csv", "frontier.png", "frontier.svg", "frontier.gnuplot",
-                           "report.html", "csv/found.csv", "charts/range_median_mm.svg"}) {
+                           "report.html", "csv/found.csv", "charts/range_median_mm.svg",
+                           "csv/by_range.csv", "charts/missed_percent_by_range.svg"}) {
     EXPECT_TRUE(std::filesystem::exists(out / name)) << name;
   }
 }
