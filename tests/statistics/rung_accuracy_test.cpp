@@ -21,8 +21,15 @@ namespace {
 
 const std::string kScenarios = RAILCAST_SOURCE_DIR "/scenarios/";
 
+/// The figures are those of full detail: rungs and yardstick see the same scene, and how that scene
+/// may be simplified is another question (docs/detail.md).
+ScenarioSpec InFullDetail(ScenarioSpec spec) {
+  spec.world.vegetation.detail = PlantDetail::kFull;
+  return spec;
+}
+
 ScenarioSpec OpenLine() {
-  return ReadScenario(kScenarios + "open_line.json");
+  return InFullDetail(ReadScenario(kScenarios + "open_line.json"));
 }
 
 ScenarioSpec OpenLineOf(const std::string& sensor) {
@@ -32,7 +39,7 @@ ScenarioSpec OpenLineOf(const std::string& sensor) {
     "lidar": {"file": ")"
                       << kScenarios << "sensors/" << sensor << R"(.json",
               "mount": {"position_m": [2.0, 0, 4.6], "pitch_deg": 3}}})";
-  return ReadScenario(file);
+  return InFullDetail(ReadScenario(file));
 }
 
 /// Compares sets of effects with the yardstick on frame 0.
