@@ -159,7 +159,7 @@ struct LeafProducts {
                                                 const Cone& cone,
                                                 float far,
                                                 LeafProducts& products) {
-  alignas(64) float missed[kLeafWidth];
+  alignas(64) float met[kLeafWidth];
   const Cone c = cone;
   for (std::size_t k = 0; k < kLeafWidth; ++k) {
     float v[3][3];
@@ -216,9 +216,10 @@ struct LeafProducts {
     products.along[3][k] = along;
     products.h[3][k] = h;
     products.v[3][k] = w;
-    missed[k] = (may_be_left | may_be_right) & (nearest <= far) ? -1.0F : 1.0F;
+    const bool may_be_met = (may_be_left | may_be_right) & (nearest <= far);
+    met[k] = may_be_met ? -1.0F : 1.0F;
   }
-  return NegativeLanes(missed) & leaf.lanes;
+  return NegativeLanes(met) & leaf.lanes;
 }
 
 }  // namespace railcast::RAILCAST_ISA
