@@ -41,6 +41,8 @@ ScenarioSpec ReadForFrontier(const FrontierOptions& options) {
   ScenarioSpec scenario = PickSensor(ReadScenario(options.scenario), options.sensor);
   scenario.fidelity = Fidelity::kAuto;
   scenario.effects.clear();
+  // Echoes of coarser plants are as many as those of the real ones, but not the same.
+  scenario.world.vegetation.detail = PlantDetail::kFull;
   return scenario;
 }
 

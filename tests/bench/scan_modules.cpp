@@ -37,6 +37,8 @@ ScanModules::ScanModules(ScenarioSpec scenario, int num_threads)
       range_max_m_(static_cast<float>(scenario.lidar.range_max_m)),
       arena_(num_threads) {
   scenario.fidelity = Fidelity::kPlausibility;
+  // All modules trace the same scene.
+  scenario.world.vegetation.detail = PlantDetail::kFull;
   effects_ = MakeSimulator(scenario, num_threads);
   one_thread_ = MakeSimulator(scenario, 1);
   trace_of_all_ = effects_->MakeRawTrace(0);
@@ -47,16 +49,17 @@ ScanModules::ScanModules(ScenarioSpec scenario, int num_threads)
       FrameSceneSpec{.range_max_m = scenario.lidar.range_max_m,
                      .vehicle_from_sensor = VehicleFromSensor(scenario.lidar.mount),
                      .duration_ns = tiles_.duration_ns()});
-  scene_ = scenes_->At(0, pattern_.StampNs(0));
+  begun_ = scenes_->Begin(0, pattern_.StampNs(0));
+  scene_ = &scenes_->SceneOf(begun_);
 }
 
 template <typename Use>
 void ScanModules::TraceTile(std::size_t tile, const Use& use) const {
   RayTile rays;
   DetectTile firings;
-  tiles_.Aim(tile, scene_.poses, range_max_m_, rays);
+  tiles_.Aim(tile, scene_->poses, range_max_m_, rays);
   tiles_.Describe(tile, firings);
-  scene_.Cast(rays);
+  scene_->Cast(rays);
   for (std::size_t lane = 0; lane < tiles_.num_firings(tile); ++lane) {
     if (rays.surface[lane] == 0) continue;
     const float range_m = rays.range_m[lane];
@@ -64,7 +67,7 @@ void ScanModules::TraceTile(std::size_t tile, const Use& use) const {
                                        .x = range_m * firings.direction_x[lane],
                                        .y = range_m * firings.direction_y[lane],
                                        .z = range_m * firings.direction_z[lane],
-                                       .label = scene_.surfaces()[rays.surface[lane]].label});
+                                       .label = scene_->surfaces()[rays.surface[lane]].label});
   }
 }
 

@@ -68,7 +68,8 @@ class ScanModules {
   std::unique_ptr<Simulator> effects_;     // Of module 4.
   std::unique_ptr<Simulator> one_thread_;  // Of the trace alone.
   std::unique_ptr<FrameScenes> scenes_;
-  FrameScene scene_;
+  BegunFrame begun_;
+  const FrameScene* scene_{};
   std::function<void()> trace_of_one_, trace_of_all_;
   tbb::task_arena arena_;
   Frame frame_;
