@@ -109,8 +109,9 @@ void ExpectRow(const Row& row, const Tolerance& tolerance, OnFrame0& frame) {
 
 // Few beams of frame 0 meet a wire, so a ray's luck with them is known less exactly than the rest.
 constexpr Tolerance kOfRays{1.2, 3.0, 0.0, 0.12};
-// One of some 100 echoes of wires is 1 percentage point.
-constexpr Tolerance kOfBeams{0.5, 1.5, 0.9, 0.15};
+// One of some 100 to 200 echoes of wires is 0.5 to 1 percentage point, and 256 sub-rays find one in
+// a hundred that 1,024 do not (docs/frontier.md).
+constexpr Tolerance kOfBeams{0.5, 2.0, 0.9, 0.15};
 
 TEST(RungAccuracy, HoldsOnThePublishedRaster) {
   OnFrame0 frame(OpenLine());

@@ -151,14 +151,22 @@ TEST(Footprint, FillsTheBeamInACrowd) {
   SimulatorSpec spec = WideBeams();
   spec.detector.beam.divergence_mrad = {8.0, 8.0};
   spec.detector.receiver.return_mode = ReturnMode::kDual;
-  const Frame frame = ScanOnce(world, MakeRaster(0.5, 0.5, 0.1), spec);
+  const Frame frame = ScanOnce(world, MakeRaster(2.5, 2.5, 0.1), spec);
+  // The patches fill half of the beam, and 16 sub-rays at least sample it.
+  constexpr double kDeviation = 0.125;
+  double sum = 0.0;
   for (std::size_t slot = 0; slot < frame.num_slots(); slot += 2) {
     const double first = static_cast<double>(frame.footprint_share[slot]);
     const double second = static_cast<double>(frame.footprint_share[slot + 1]);
     ASSERT_EQ(frame.return_count[slot], 2) << slot;
     EXPECT_NEAR(first + second, 1.0, 1e-5);
-    EXPECT_NEAR(first, 0.5, 0.3);
+    // The strongest comes first.
+    const double of_patches = frame.range_m[slot] < 51.5F ? first : second;
+    EXPECT_NEAR(of_patches, 0.5, 3.5 * kDeviation);
+    sum += of_patches;
   }
+  const double num_beams = 0.5 * static_cast<double>(frame.num_slots());
+  EXPECT_NEAR(sum / num_beams, 0.5, 3.5 * kDeviation / std::sqrt(num_beams));
 }
 
 }  // namespace

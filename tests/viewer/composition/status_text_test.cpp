@@ -140,7 +140,9 @@ TEST(DropoutText, IsWhatAnalysisCounts) {
       ReadScenario(std::filesystem::path(RAILCAST_SOURCE_DIR) / "scenarios" / "minimal.json");
   scenario.weather.rain_rate_mmph = 20.0;
   scenario.weather.snow_rate_mmph = 10.0;
-  scenario.lidar.name = "";  // The draws of this sensor put a point of frame 3 beyond the gate.
+  // The draws of this sensor put the point of a leaf in frame 3 beyond the gate.
+  scenario.lidar.name = "";
+  scenario.world.vegetation.detail = PlantDetail::kFull;
   Frame frame;
   MakeSimulator(scenario, 1)->Scan(3, frame);
   const std::string expected = AnalysedText(Record(frame));
