@@ -74,12 +74,11 @@ void Footprint::StoreEchoes(std::size_t lane, EchoTiles& echoes) const {
 }
 
 void Footprint::AddWires(const WideBeams& beams, const WireCapture* begin, const WireCapture* end) {
-  // Captures are sorted by range. Each one reduces the share of what lies behind it.
+  // Captures are sorted by range. Each one reduces the share of what lies behind it, but for those
+  // that are too near to be seen.
+  while (begin != end && begin->range_m < static_cast<float>(spec_.range_min_m)) ++begin;
   for (const WireCapture* capture = begin; capture != end; ++capture) {
-    if (!(capture->range_m >= static_cast<float>(spec_.range_min_m) &&
-          capture->range_m < static_cast<float>(spec_.range_max_m))) {
-      continue;
-    }
+    if (!(capture->range_m < static_cast<float>(spec_.range_max_m))) continue;
     float visible = 1.0F;
     for (const Component& part : beam_parts_) {
       if (part.surface != 0 && part.range_m < capture->range_m) visible -= part.share;

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "core/detect/beam_bounds.h"
+#include "core/detect/normal_table.h"
 #include "core/detect/wire_in_beam.h"
 #include "railcast/lidar.h"
 
@@ -206,30 +207,27 @@ void CaptureSegment(const Tile& tile, const WireSegment& wire, std::vector<WireC
 
 float HiddenShare(const WireCapture& capture, std::span<const WireCapture> nearer) {
   if (nearer.empty()) return 0.0F;
-  // Points of the strip: in the middles of equal parts of its length, a quarter of its width to
-  // either side. The beam's power at them is that on the axis, since the strip is narrow.
-  constexpr int kNumAlong = 8;
   const WireStrip& strip = capture.strip;
-  float sum = 0.0F;
-  float hidden = 0.0F;
-  for (int i = 0; i < kNumAlong; ++i) {
-    const float part = (static_cast<float>(i) + 0.5F) / kNumAlong;
-    const float along = strip.begin + part * (strip.end - strip.begin);
-    const float quarter_width =
-        0.5F * (strip.halves[0] + part * (strip.halves[1] - strip.halves[0]));
-    const float weight = std::exp(-0.5F * along * along);
-    for (const float aside : {-quarter_width, quarter_width}) {
-      const float across = strip.offset + aside;
-      const float horizontal = strip.direction[0] * along - strip.direction[1] * across;
-      const float vertical = strip.direction[1] * along + strip.direction[0] * across;
-      const bool is_hidden = std::ranges::any_of(nearer, [&](const WireCapture& other) {
-        return Covers(other.strip, horizontal, vertical);
-      });
-      sum += weight;
-      hidden += is_hidden ? weight : 0.0F;
+  const double all = NormalShare(strip.begin, strip.end);
+  if (!(all > 0.0)) return 0.0F;
+  // Two lines stand for the width of the strip.
+  const float quarter_width = 0.25F * (strip.halves[0] + strip.halves[1]);
+  double hidden = 0.0;
+  for (const float aside : {-quarter_width, quarter_width}) {
+    std::vector<StripPart> parts;
+    for (const WireCapture& other : nearer) {
+      const StripPart part = CoveredPart(strip, aside, other.strip);
+      if (part.begin < part.end) parts.push_back(part);
+    }
+    std::ranges::sort(parts, {}, &StripPart::begin);
+    float end = strip.begin;
+    for (const StripPart& part : parts) {
+      if (part.end <= end) continue;
+      hidden += 0.5 * NormalShare(std::max(part.begin, end), part.end);
+      end = part.end;
     }
   }
-  return sum > 0.0F ? hidden / sum : 0.0F;
+  return static_cast<float>(std::min(1.0, hidden / all));
 }
 
 void CaptureWires(const RayTile& rays,

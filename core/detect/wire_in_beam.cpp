@@ -200,14 +200,39 @@ WireInBeam FindWireInBeam(const WideBeam& beam, const WireSegment& wire) {
   return found;
 }
 
-bool Covers(const WireStrip& strip, float horizontal, float vertical) {
-  const float along = strip.direction[0] * horizontal + strip.direction[1] * vertical;
-  if (along < strip.begin || along > strip.end) return false;
-  const float across =
-      strip.direction[0] * vertical - strip.direction[1] * horizontal - strip.offset;
-  const float part = (along - strip.begin) / (strip.end - strip.begin);
-  const float half_width = strip.halves[0] + part * (strip.halves[1] - strip.halves[0]);
-  return std::fabs(across) <= half_width;
+namespace {
+
+/// Shortens a part to where constant + slope * position >= 0.
+void Clip(float constant, float slope, StripPart& part) {
+  if (slope > 0.0F) {
+    part.begin = std::max(part.begin, -constant / slope);
+  } else if (slope < 0.0F) {
+    part.end = std::min(part.end, -constant / slope);
+  } else if (constant < 0.0F) {
+    part.end = part.begin;
+  }
+}
+
+}  // namespace
+
+StripPart CoveredPart(const WireStrip& strip, float aside, const WireStrip& other) {
+  if (!(other.begin < other.end)) return {};
+  // Positions along the other strip and across it are linear in the position t along the line.
+  const float across = strip.offset + aside;
+  const float cosine =
+      strip.direction[0] * other.direction[0] + strip.direction[1] * other.direction[1];
+  const float sine =
+      strip.direction[1] * other.direction[0] - strip.direction[0] * other.direction[1];
+  const float along_0 = -sine * across;
+  const float across_0 = cosine * across - other.offset;
+  const float half_slope = (other.halves[1] - other.halves[0]) / (other.end - other.begin);
+  const float half_0 = other.halves[0] + half_slope * (along_0 - other.begin);
+  StripPart part{strip.begin, strip.end};
+  Clip(along_0 - other.begin, cosine, part);
+  Clip(other.end - along_0, -cosine, part);
+  Clip(half_0 - across_0, half_slope * cosine - sine, part);
+  Clip(half_0 + across_0, half_slope * cosine + sine, part);
+  return part;
 }
 
 }  // namespace railcast

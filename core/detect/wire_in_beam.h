@@ -57,7 +57,14 @@ struct WireInBeam {
 /// such a beam is a ray, and the wire catches all of it or nothing.
 [[nodiscard]] WireInBeam FindWireInBeam(const WideBeam& beam, const WireSegment& wire);
 
-/// Whether a strip covers a point of the plane across the beam.
-[[nodiscard]] bool Covers(const WireStrip& strip, float horizontal, float vertical);
+/// A piece of a strip: positions along its axis, empty unless begin < end.
+struct StripPart {
+  float begin{}, end{};
+};
+
+/// The piece of a line along a strip, at a distance from the strip's axis, that another strip
+/// covers.
+/// @param aside Distance of the line from the axis of `strip`.
+[[nodiscard]] StripPart CoveredPart(const WireStrip& strip, float aside, const WireStrip& other);
 
 }  // namespace railcast

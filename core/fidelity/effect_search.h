@@ -49,10 +49,10 @@ inline constexpr PartQuantity kPartQuantities[] = {
                                     const ToleranceSpec& tolerance);
 
 /// Instructions per firing of Simulator::Scan without any effect (Effect::instructions).
-inline constexpr double kInstructionsOfGeometry = 3413.0;
+inline constexpr double kInstructionsOfGeometry = 2594.0;
 /// What kNumSubRays sub-rays of effect `footprint` cost more than kNumCrowdedSubRays; counted in
 /// the same way.
-inline constexpr double kInstructionsOfMoreSubRays = 10261.0;
+inline constexpr double kInstructionsOfMoreSubRays = 7336.0;
 
 /// Estimated instructions per firing of Simulator::Scan with a set of effects.
 [[nodiscard]] double InstructionsOf(const EffectSet& effects, int footprint_rays);

@@ -101,7 +101,8 @@ bool Serves(std::uint32_t frame, const Event& event) {
 std::vector<Course> CoursesOf(const Simulator& simulator) {
   std::vector<Course> courses;
   const std::vector<SceneObject>& objects = simulator.world().objects();
-  const std::size_t step = objects.size() / kMostObjects + 1;
+  const std::size_t step =
+      std::max<std::size_t>((objects.size() + kMostObjects - 1) / kMostObjects, 1);
   for (std::size_t i = 0; i < objects.size(); i += step) {
     if (!objects[i].is_ego) courses.emplace_back(simulator, i);
   }

@@ -285,5 +285,51 @@ TEST(CaptureWires, FindsMovingWiresWhereTheyAreAtTheBeamsTime) {
   EXPECT_GT(num_expected, 100U);
 }
 
+/// A strip of even width through the whole beam at an angle to the horizontal.
+WireCapture StripAt(double angle_rad, float offset, float half_width) {
+  WireCapture capture;
+  capture.strip = {
+      {static_cast<float>(std::cos(angle_rad)), static_cast<float>(std::sin(angle_rad))},
+      offset,
+      -6.0F,
+      6.0F,
+      {half_width, half_width}};
+  return capture;
+}
+
+double ShareBetween(double begin, double end) {
+  return 0.5 * (std::erf(end / std::numbers::sqrt2) - std::erf(begin / std::numbers::sqrt2));
+}
+
+TEST(HiddenShare, OfACrossingWireIsTheBeamOnTheCrossing) {
+  const WireCapture level = StripAt(0.0, 0.3F, 0.01F);
+  const double up_rad = 0.5 * std::numbers::pi;
+  for (const float half_width : {0.05F, 0.4F, 0.7F}) {
+    for (const float place : {0.0F, 0.75F, -1.5F}) {
+      // An axis that points up has its positive side to the left.
+      const WireCapture front[] = {StripAt(up_rad, -place, half_width)};
+      const auto at = static_cast<double>(place);
+      const auto half = static_cast<double>(half_width);
+      EXPECT_NEAR(HiddenShare(level, front), ShareBetween(at - half, at + half), 1e-4);
+    }
+  }
+  // At 30 degrees the crossing is twice as long, and lies where the axes cross.
+  const WireCapture slanting[] = {StripAt(std::numbers::pi / 6.0, 0.0F, 0.2F)};
+  const double middle = 0.3 * std::sqrt(3.0);
+  EXPECT_NEAR(HiddenShare(level, slanting), ShareBetween(middle - 0.4, middle + 0.4), 1e-3);
+}
+
+TEST(HiddenShare, OfTheSameStripIsAllAndOfOverlappingOnesIsCountedOnce) {
+  const WireCapture level = StripAt(0.0, 0.3F, 0.01F);
+  const WireCapture thicker[] = {StripAt(0.0, 0.3F, 0.02F)};
+  EXPECT_NEAR(HiddenShare(level, thicker), 1.0, 1e-6);
+  const WireCapture beside[] = {StripAt(0.0, 0.4F, 0.02F)};
+  EXPECT_EQ(HiddenShare(level, beside), 0.0F);
+  const double up_rad = 0.5 * std::numbers::pi;
+  const WireCapture two[] = {StripAt(up_rad, 0.0F, 0.4F), StripAt(up_rad, -0.3F, 0.4F)};
+  EXPECT_NEAR(HiddenShare(level, two), ShareBetween(-0.4, 0.7), 1e-4);
+  EXPECT_EQ(HiddenShare(level, {}), 0.0F);
+}
+
 }  // namespace
 }  // namespace railcast
