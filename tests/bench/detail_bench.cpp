@@ -2,8 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
-#include <exception>
 #include <filesystem>
+#include <functional>
 #include <iomanip>
 #include <iostream>
 #include <map>
@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "core/program/run_program.h"
 #include "railcast/scenario.h"
 #include "tests/bench/detail_by_range.h"
 #include "tests/bench/scene_cost.h"
@@ -117,12 +118,6 @@ void CompareEchoes(const Options& options) {
   std::cout << "\n";
 }
 
-double CpuTimeOf_ms(const std::function<void()>& work) {
-  const double begin_ms = CpuTime_ms();
-  work();
-  return CpuTime_ms() - begin_ms;
-}
-
 /// Prints the processor's time of frame 0 with coarser plants, and without any, as ratios to that
 /// in full detail: the medians of turns in which all take part.
 void CompareTimes(const Options& options) {
@@ -172,17 +167,13 @@ int Run(int argc, char** argv) {
   } else {
     CompareEchoes(options);
   }
-  return 0;
+  return kExitSuccess;
 }
 
 }  // namespace
 }  // namespace railcast
 
 int main(int argc, char** argv) {
-  try {
-    return railcast::Run(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "error: " << error.what() << "\n";
-    return 1;
-  }
+  return railcast::RunProgram(
+      "railcast-detail", [&] { return railcast::Run(argc, argv); }, std::cerr);
 }

@@ -181,9 +181,9 @@ class Comparison {
     OrderedRays rays = scene_.rays.In(way.order);
     const auto cast = [&] {
       rays.Restore(static_cast<float>(scenario_.lidar.range_max_m));
-      const double begin_ms = CpuTime_ms();
-      for (const Way::Pass& pass : way.passes) CastRanges(*pass.scene, pass.form, rays.tiles);
-      return CpuTime_ms() - begin_ms;
+      return CpuTimeOf_ms([&] {
+        for (const Way::Pass& pass : way.passes) CastRanges(*pass.scene, pass.form, rays.tiles);
+      });
     };
     static_cast<void>(cast());  // Warms the caches.
     result.times_ms.push_back(cast());

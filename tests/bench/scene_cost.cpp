@@ -122,6 +122,12 @@ double CpuTime_ms() {
   return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
+double CpuTimeOf_ms(const std::function<void()>& work) {
+  const double begin_ms = CpuTime_ms();
+  work();
+  return CpuTime_ms() - begin_ms;
+}
+
 double Median(std::vector<double> values) {
   std::ranges::sort(values);
   return values[values.size() / 2];

@@ -59,6 +59,7 @@ void WaitUntilIdle();
 /// What the processor has spent on this process so far, summed over its threads. For work of one
 /// thread, the difference leaves out what other programs took.
 [[nodiscard]] double CpuTime_ms();
+[[nodiscard]] double CpuTimeOf_ms(const std::function<void()>& work);
 [[nodiscard]] double Median(std::vector<double> values);
 
 }  // namespace railcast

@@ -39,9 +39,7 @@ class StageTimes {
  public:
   template <typename Work>
   void Take(const std::string& stage, const Work& work) {
-    const double begin_ms = CpuTime_ms();
-    work();
-    Of(stage).push_back(CpuTime_ms() - begin_ms);
+    Of(stage).push_back(CpuTimeOf_ms(work));
   }
 
   /// @param unit The stage that is 1.

@@ -21,7 +21,7 @@ void FrameAssembler::Take(std::span<const char> bytes,
                           const DatagramOrigin& origin) {
   StreamFault fault{};
   const auto datagram = CheckStreamDatagram(bytes, fault);
-  if (IsOfAnother(origin)) {
+  if (sender_.IsAnother(origin)) {
     ++counts_.other_sender_packets;
     counts_.other_sender = origin.from;
     if (datagram && IsOtherSensor(*datagram)) counts_.other_sensor = datagram->sensor;
@@ -36,9 +36,7 @@ void FrameAssembler::Take(std::span<const char> bytes,
     ++counts_.stray_packets;
     return;
   }
-  const bool is_next_sender = sender_ && *sender_ != origin.from;
-  sender_ = origin.from;
-  heard_ns_ = origin.time_ns;
+  const bool is_next_sender = sender_.Follow(origin);
   Place place = is_next_sender ? Place::kElsewhere : PlaceOf(*datagram);
   if (place == Place::kElsewhere) {
     const bool is_other_sensor = IsOtherSensor(*datagram);
@@ -69,20 +67,13 @@ void FrameAssembler::Flush(std::vector<ReceivedFrame>& frames) {
   while (!open_.empty()) GiveFirst(frames);
 }
 
-bool FrameAssembler::IsOfAnother(const DatagramOrigin& origin) const {
-  if (wanted_.from && !wanted_.from->Covers(origin.from)) return true;
-  return sender_ && *sender_ != origin.from && origin.time_ns - heard_ns_ < kHold_ns;
-}
-
 bool FrameAssembler::IsOtherSensor(const StreamDatagram& datagram) const {
   if (wanted_.sensor) return datagram.sensor != *wanted_.sensor;
   return has_run_ && datagram.sensor != sensor_;
 }
 
 bool FrameAssembler::BeginsAnew(const StreamDatagram& datagram) {
-  // Compared as serial numbers (RFC 1982), so that a later run is recognised where the number
-  // wraps.
-  const bool is_later_run = static_cast<std::int32_t>(datagram.run - run_) > 0;
+  const bool is_later_run = IsLaterRun(datagram.run, run_);
   return !has_run_ || (datagram.sensor == sensor_ && is_later_run) || ++num_strays_ == kMaxStrays;
 }
 
@@ -145,17 +136,7 @@ ReceivedFrame FrameAssembler::Assemble(OpenFrame& open) {
   ReceivedFrame frame;
   frame.header = ReadStreamHeader(open.header);
   frame.num_packets = static_cast<std::uint32_t>(open.has_packet.size());
-  if (std::ranges::is_sorted(open.arrivals, {}, &Arrival::packet)) {
-    frame.points = std::move(open.points);
-  } else {
-    std::ranges::sort(open.arrivals, {}, &Arrival::packet);
-    frame.points.reserve(open.points.size());
-    for (const Arrival& arrival : open.arrivals) {
-      const auto begin = open.points.begin() + static_cast<std::ptrdiff_t>(arrival.offset);
-      frame.points.insert(frame.points.end(), begin,
-                          begin + static_cast<std::ptrdiff_t>(arrival.size));
-    }
-  }
+  frame.points = JoinArrivals(open.arrivals, open.points);
   std::uint32_t next = 0;
   const auto lose = [&](std::uint32_t end) {
     if (next == end) return;

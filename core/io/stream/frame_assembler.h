@@ -9,16 +9,12 @@
 #include <utility>
 #include <vector>
 
+#include "core/io/stream/arrivals.h"
+#include "core/io/stream/followed_sender.h"
 #include "core/io/stream/stream_datagram.h"
 #include "railcast/io/stream.h"
 
 namespace railcast {
-
-/// The sender of a datagram and its time of arrival.
-struct DatagramOrigin {
-  Endpoint from{};
-  std::int64_t time_ns{};  ///< By a monotonic clock.
-};
 
 /// Reassembles the frames of a stream from datagrams that may be lost, duplicated, reordered,
 /// damaged or forged.
@@ -29,20 +25,18 @@ struct DatagramOrigin {
 /// claims.
 ///
 /// One sender is followed: the first that sends a sound datagram of the wanted stream. Datagrams of
-/// other senders have no effect until the followed one has been silent for kHold_ns; then the next
-/// sender takes its place, and frames begin anew. Datagrams carry no signature, so a sender that
-/// forges the followed address and port, or that is first, can still disturb the stream.
+/// other senders have no effect until the followed one has been silent for
+/// FollowedSender::kHold_ns; then the next sender takes its place, and frames begin anew. Datagrams
+/// carry no signature, so a sender that forges the followed address and port, or that is first, can
+/// still disturb the stream.
 ///
 /// A larger run number of the followed sender begins anew at once. So do sixteen of its datagrams
 /// in a row that fit nowhere else (a smaller run, another sensor, frames more than eight behind).
 /// If a sensor is wanted, datagrams of another sensor never begin anew.
 class FrameAssembler {
  public:
-  /// Longer than any sender pauses between two frames, but short enough that the user need not wait
-  /// long for a restarted sender, which has another port.
-  static constexpr std::int64_t kHold_ns = 3'000'000'000;
-
-  explicit FrameAssembler(const WantedStream& wanted = {}) : wanted_(wanted) {}
+  explicit FrameAssembler(const WantedStream& wanted = {})
+      : wanted_(wanted), sender_(wanted.from) {}
 
   /// Takes a datagram and appends to `frames` those that it completes or causes to be given up.
   void Take(std::span<const char> datagram,
@@ -54,11 +48,6 @@ class FrameAssembler {
   [[nodiscard]] const StreamCounts& counts() const { return counts_; }
 
  private:
-  struct Arrival {
-    std::uint32_t packet{};
-    std::size_t offset{};  ///< Offset in OpenFrame::points.
-    std::size_t size{};
-  };
   struct OpenFrame {
     std::vector<char> header;
     std::uint16_t points_each{};
@@ -72,7 +61,6 @@ class FrameAssembler {
   };
   enum class Place : std::uint8_t { kHere, kPast, kElsewhere };
 
-  [[nodiscard]] bool IsOfAnother(const DatagramOrigin& origin) const;
   [[nodiscard]] bool IsOtherSensor(const StreamDatagram& datagram) const;
   [[nodiscard]] Place PlaceOf(const StreamDatagram& datagram) const;
   [[nodiscard]] bool BeginsAnew(const StreamDatagram& datagram);
@@ -83,8 +71,7 @@ class FrameAssembler {
 
   WantedStream wanted_;
   StreamCounts counts_;
-  std::optional<Endpoint> sender_;  ///< The sender that is followed.
-  std::int64_t heard_ns_{};         ///< Time of its last datagram.
+  FollowedSender sender_;
   bool has_run_ = false;
   std::uint32_t run_{};
   std::uint16_t sensor_{};

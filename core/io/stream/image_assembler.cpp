@@ -17,7 +17,7 @@ void ImageAssembler::Take(std::span<const char> bytes,
                           std::vector<ReceivedImage>& images,
                           const DatagramOrigin& origin) {
   const auto datagram = CheckImageDatagram(bytes);
-  if (IsOfAnother(origin)) {
+  if (sender_.IsAnother(origin)) {
     ++counts_.other_sender_packets;
     return;
   }
@@ -25,9 +25,7 @@ void ImageAssembler::Take(std::span<const char> bytes,
     ++counts_.refused_packets;
     return;
   }
-  const bool is_next_sender = sender_ && *sender_ != origin.from;
-  sender_ = origin.from;
-  heard_ns_ = origin.time_ns;
+  const bool is_next_sender = sender_.Follow(origin);
   if (is_next_sender || !FollowsOn(*datagram)) {
     if (!is_next_sender && !BeginsAnew(*datagram)) {
       ++counts_.stray_packets;
@@ -45,12 +43,6 @@ void ImageAssembler::Take(std::span<const char> bytes,
   }
 }
 
-bool ImageAssembler::IsOfAnother(const DatagramOrigin& origin) const {
-  if (from_ && !from_->Covers(origin.from)) return true;
-  return sender_ && *sender_ != origin.from &&
-         origin.time_ns - heard_ns_ < FrameAssembler::kHold_ns;
-}
-
 bool ImageAssembler::IsPast(const ImageDatagram& datagram) const {
   return last_closed_ && datagram.frame <= *last_closed_;
 }
@@ -61,9 +53,7 @@ bool ImageAssembler::FollowsOn(const ImageDatagram& datagram) const {
 }
 
 bool ImageAssembler::BeginsAnew(const ImageDatagram& datagram) {
-  // Compared as serial numbers (RFC 1982), so that a later run is recognised where the number
-  // wraps.
-  const bool is_later_run = run_ && static_cast<std::int32_t>(datagram.run - *run_) > 0;
+  const bool is_later_run = run_ && IsLaterRun(datagram.run, *run_);
   return !run_ || is_later_run || ++num_strays_ == kMaxImageStrays;
 }
 
@@ -90,7 +80,7 @@ void ImageAssembler::Store(const ImageDatagram& datagram, std::vector<ReceivedIm
                       .frame = datagram.frame,
                       .stamp_ns = datagram.stamp_ns,
                       .size = datagram.size,
-                      .jpeg = JoinPieces(open)});
+                      .jpeg = JoinArrivals(open.pieces, open.bytes)});
     ++counts_.complete_images;
     last_closed_ = datagram.frame;
     open_.erase(at);
@@ -102,15 +92,6 @@ void ImageAssembler::GiveUpFirst() {
   ++counts_.incomplete_images;
   last_closed_ = open_.begin()->first;
   open_.erase(open_.begin());
-}
-
-std::string ImageAssembler::JoinPieces(OpenImage& open) {
-  if (std::ranges::is_sorted(open.pieces, {}, &Piece::packet)) return std::move(open.bytes);
-  std::ranges::sort(open.pieces, {}, &Piece::packet);
-  std::string joined;
-  joined.reserve(open.bytes.size());
-  for (const Piece& piece : open.pieces) joined.append(open.bytes, piece.offset, piece.size);
-  return joined;
 }
 
 }  // namespace railcast

@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "core/io/stream/frame_assembler.h"
+#include "core/io/stream/arrivals.h"
+#include "core/io/stream/followed_sender.h"
 #include "core/io/stream/image_datagram.h"
 #include "railcast/io/stream.h"
 
@@ -42,7 +43,7 @@ struct ImageCounts {
 class ImageAssembler {
  public:
   /// @param from Senders that this endpoint covers; absent: the first one heard.
-  explicit ImageAssembler(const std::optional<Endpoint>& from = {}) : from_(from) {}
+  explicit ImageAssembler(const std::optional<Endpoint>& from = {}) : sender_(from) {}
 
   /// Takes a datagram and appends to `images` the one that it completes.
   void Take(std::span<const char> datagram,
@@ -52,31 +53,22 @@ class ImageAssembler {
   [[nodiscard]] const ImageCounts& counts() const { return counts_; }
 
  private:
-  struct Piece {
-    std::uint16_t packet{};
-    std::size_t offset{};  ///< Offset in OpenImage::bytes.
-    std::size_t size{};
-  };
   struct OpenImage {
     std::vector<char> header;
     std::uint32_t bytes_each{};
     std::vector<bool> has_packet;
-    std::vector<Piece> pieces;
+    std::vector<Arrival> pieces;
     std::string bytes;  ///< In the order of arrival.
   };
 
-  [[nodiscard]] bool IsOfAnother(const DatagramOrigin& origin) const;
   [[nodiscard]] bool IsPast(const ImageDatagram& datagram) const;
   [[nodiscard]] bool FollowsOn(const ImageDatagram& datagram) const;
   [[nodiscard]] bool BeginsAnew(const ImageDatagram& datagram);
   void Store(const ImageDatagram& datagram, std::vector<ReceivedImage>& images);
   void GiveUpFirst();
-  static std::string JoinPieces(OpenImage& open);
 
-  std::optional<Endpoint> from_;
   ImageCounts counts_;
-  std::optional<Endpoint> sender_;  ///< The sender that is followed.
-  std::int64_t heard_ns_{};         ///< Time of its last datagram.
+  FollowedSender sender_;
   std::optional<std::uint32_t> run_;
   std::uint32_t num_strays_{};  ///< Number of strays in a row.
   std::map<std::uint32_t, OpenImage> open_;

@@ -25,27 +25,6 @@ bool IsOfThisProtocol(std::span<const char> bytes) {
          Get<std::uint16_t>(&bytes[kImageHeaderSizeAt]) == kImageHeaderSize;
 }
 
-// Returns the number of bytes in each datagram of the image but the last, or nothing if the counts
-// contradict each other.
-std::optional<std::uint32_t> BytesEach(const ImageDatagram& datagram) {
-  const char* const header = datagram.header.data();
-  const std::uint64_t total = Get<std::uint32_t>(header + kImageBytesAt);
-  const std::uint64_t first = Get<std::uint32_t>(header + kFirstByteAt);
-  const std::uint64_t here = datagram.piece.size();
-  if (datagram.packet >= datagram.num_packets) return std::nullopt;
-  const std::uint64_t num_full = datagram.num_packets - 1U;
-  std::uint64_t each = here;
-  if (datagram.packet == num_full) {
-    if (first + here != total) return std::nullopt;
-    if (num_full > 0) each = first / num_full;
-  }
-  const bool is_counted = each * num_full < total && total <= each * (num_full + 1);
-  if (first != each * datagram.packet || !is_counted || each > kMaxStreamDatagram) {
-    return std::nullopt;
-  }
-  return static_cast<std::uint32_t>(each);
-}
-
 bool IsImageSize(const ImageSize& size) {
   const std::uint64_t num_pixels = std::uint64_t{size.width_px} * size.height_px;
   return num_pixels > 0 && num_pixels <= kMostPixels;
@@ -70,7 +49,11 @@ std::optional<ImageDatagram> CheckImageDatagram(std::span<const char> bytes) {
   datagram.packet = Get<std::uint16_t>(header + kImagePacketAt);
   datagram.num_packets = Get<std::uint16_t>(header + kNumImagePacketsAt);
   datagram.size = {Get<std::uint32_t>(header + kWidthAt), Get<std::uint32_t>(header + kHeightAt)};
-  const auto bytes_each = BytesEach(datagram);
+  const auto bytes_each = CountEach({.total = Get<std::uint32_t>(header + kImageBytesAt),
+                                     .first = Get<std::uint32_t>(header + kFirstByteAt),
+                                     .here = datagram.piece.size(),
+                                     .packet = datagram.packet,
+                                     .num_packets = datagram.num_packets});
   if (!bytes_each || !IsImageSize(datagram.size) || !IsPose(Get<WirePose>(header + kImagePoseAt)) ||
       !IsLens(Get<std::array<double, kNumLensValues>>(header + kLensAt))) {
     return std::nullopt;

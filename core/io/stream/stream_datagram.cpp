@@ -50,28 +50,6 @@ bool AreFieldsRight(std::span<const char> header) {
   return list.empty() && point_size == Get<std::uint16_t>(&header[kPointSizeAt]);
 }
 
-// Returns the number of points in each datagram of the frame but the last, or nothing if the counts
-// contradict each other.
-std::optional<std::uint16_t> PointsEach(const StreamDatagram& datagram) {
-  const char* const header = datagram.header.data();
-  const std::uint64_t total = Get<std::uint32_t>(header + kFramePointsAt);
-  const std::uint64_t first = Get<std::uint32_t>(header + kFirstPointAt);
-  const std::uint64_t here = datagram.num_points;
-  if (datagram.packet >= datagram.num_packets) return std::nullopt;
-  const std::uint64_t num_full = datagram.num_packets - 1U;
-  std::uint64_t each = here;
-  if (datagram.packet == num_full) {
-    if (first + here != total) return std::nullopt;
-    if (num_full > 0) each = first / num_full;
-  }
-  const bool is_placed = first == each * datagram.packet;
-  const bool is_counted =
-      num_full == 0 || (each * num_full < total && total <= each * (num_full + 1));
-  // `each` exceeds what a datagram holds where a last datagram misstates `first`.
-  if (!is_placed || !is_counted || each > kMaxStreamDatagram) return std::nullopt;
-  return static_cast<std::uint16_t>(each);
-}
-
 // Whether the frame has no more points than slots. Each product fits into 64 bits.
 bool FitsIntoSlots(const char* header) {
   const std::uint64_t cells =
@@ -129,9 +107,13 @@ std::optional<StreamDatagram> CheckStreamDatagram(std::span<const char> bytes, S
   datagram.num_packets = Get<std::uint16_t>(header + kNumPacketsAt);
   datagram.num_points = Get<std::uint16_t>(header + kDatagramPointsAt);
   if (!AreFieldsRight(datagram.header)) return refuse(StreamFault::kFields);
-  const auto points_each = PointsEach(datagram);
+  const auto points_each = CountEach({.total = Get<std::uint32_t>(header + kFramePointsAt),
+                                      .first = Get<std::uint32_t>(header + kFirstPointAt),
+                                      .here = datagram.num_points,
+                                      .packet = datagram.packet,
+                                      .num_packets = datagram.num_packets});
   if (!points_each || !FitsIntoSlots(header)) return refuse(StreamFault::kCounts);
-  datagram.points_each = *points_each;
+  datagram.points_each = static_cast<std::uint16_t>(*points_each);
   for (const std::size_t at : {kPoseAt, kEndPoseAt}) {
     if (!IsPose(Get<WirePose>(header + at))) return refuse(StreamFault::kPose);
   }

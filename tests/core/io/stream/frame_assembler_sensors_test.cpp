@@ -74,7 +74,7 @@ TEST(FrameAssembler, FollowsTheFirstSenderWhateverOthersSend) {
   for (const std::string& datagram : DatagramsOfFrames(0, 4, OfRun(1))) {
     assembler.Take(datagram, frames, {kSender, 0});
     for (const std::string& forged : ForgedDatagrams()) {
-      assembler.Take(forged, frames, {kForger, FrameAssembler::kHold_ns - 1});
+      assembler.Take(forged, frames, {kForger, FollowedSender::kHold_ns - 1});
       ++num_forged;
     }
   }
@@ -113,7 +113,7 @@ TEST(FrameAssembler, FollowsTheNextSenderOnceTheFirstIsSilent) {
   const auto again = DatagramsOfFrames(0, 1, OfRun(6));
   take(again, {kForger, 7 * kNsPerS});
   EXPECT_TRUE(frames.empty());
-  take(again, {kForger, 5 * kNsPerS + FrameAssembler::kHold_ns});
+  take(again, {kForger, 5 * kNsPerS + FollowedSender::kHold_ns});
   EXPECT_EQ(NumbersOf(frames), (Numbers{500, 0, 1})) << "from its first datagram on";
   EXPECT_FALSE(frames[0].is_complete());
   EXPECT_TRUE(frames[1].is_complete());

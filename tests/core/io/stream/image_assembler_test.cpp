@@ -114,8 +114,8 @@ TEST(ImageAssembler, FollowsARestart) {
 
 TEST(ImageAssembler, FollowsOneSenderUntilItIsSilent) {
   const DatagramOrigin first{{1, 10}, 0};
-  const DatagramOrigin early{{2, 20}, FrameAssembler::kHold_ns - 1};
-  const DatagramOrigin late{{2, 20}, FrameAssembler::kHold_ns};
+  const DatagramOrigin early{{2, 20}, FollowedSender::kHold_ns - 1};
+  const DatagramOrigin late{{2, 20}, FollowedSender::kHold_ns};
   ImageAssembler assembler;
   ExpectGiven(assembler, 5, 1, first);
   const auto others = ImageDatagramsOf(9, 99);
