@@ -42,7 +42,7 @@ ScenarioSpec ReadForFrontier(const FrontierOptions& options) {
   scenario.fidelity = Fidelity::kAuto;
   scenario.effects.clear();
   // Echoes of coarser plants are as many as those of the real ones, but not the same.
-  scenario.world.vegetation.detail = PlantDetail::kFull;
+  scenario.world.detail = SceneDetail::kFull;
   return scenario;
 }
 

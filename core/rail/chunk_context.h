@@ -25,6 +25,9 @@ struct ChunkContext {
   double begin_s_m{};
   double end_s_m{};  ///< Swept surfaces extend kChunkOverlap_m / 2 beyond either end.
   Transform chunk_from_world;
+  /// Whether ballast, ground and rails are built in their coarser form (docs/detail.md), which
+  /// begins and ends with the same points as the finest one.
+  bool is_coarse = false;
 };
 
 }  // namespace railcast

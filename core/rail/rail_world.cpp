@@ -28,6 +28,12 @@
 namespace railcast {
 namespace {
 
+// What permits the coarser form of a chunk (docs/detail.md). Its ballast has cells of up to 0.48 m
+// across, 2.4 spacings; along the track, where it is as fine as ever, most beams run.
+constexpr double kCoarseRaySpacing_m = 0.2;
+constexpr double kCoarseBeamWidth_m = 0.0;
+constexpr double kCoarseSightAngle_rad = 0.5;
+
 // Maximum extent of tree crowns and cantilevers beyond the ground of their chunk.
 constexpr double kOverhang_m = 8.0;
 
@@ -84,6 +90,18 @@ struct RailWorld::Line {
   [[nodiscard]] ChunkContext ContextOf(int chunk, const Transform& chunk_from_world) const {
     return {world, alignment,           *surfaces,         seed,
             chunk, grid.BeginOf(chunk), grid.EndOf(chunk), chunk_from_world};
+  }
+  [[nodiscard]] Chunk Build(const ChunkContext& context) const {
+    Chunk built;
+    built.ground.name = "chunk " + std::to_string(context.chunk);
+    WithinMemory([&] { return "building " + built.ground.name + " of the line"; },
+                 [&] {
+                   AddTerrain(context, built);
+                   AddTracks(context, infrastructure, built);
+                   AddCatenary(context, catenary_plan, infrastructure, built);
+                   AddVegetation(context, plants, built);
+                 });
+    return built;
   }
   [[nodiscard]] LineMeasures Measures() const {
     return {alignment.length_m(), alignment.tightest_radius_m()};
@@ -282,19 +300,34 @@ Transform RailWorld::WorldFromChunk(int chunk) const {
 }
 
 Chunk RailWorld::BuildChunk(int chunk) const {
-  const ChunkContext context = line_->ContextOf(chunk, line_->grid.WorldFromChunk(chunk).inverse());
-  Chunk built;
-  built.ground.name = "chunk " + std::to_string(chunk);
-  WithinMemory([&] { return "building " + built.ground.name + " of the line"; },
-               [&] {
-                 AddTerrain(context, built);
-                 AddTracks(context, line_->infrastructure, built);
-                 AddCatenary(context, line_->catenary_plan, line_->infrastructure, built);
-                 AddVegetation(context, line_->plants, built);
-               });
-  return built;
+  return line_->Build(line_->ContextOf(chunk, line_->grid.WorldFromChunk(chunk).inverse()));
 }
 
+Chunk RailWorld::BuildCoarserChunk(int chunk) const {
+  ChunkContext context = line_->ContextOf(chunk, line_->grid.WorldFromChunk(chunk).inverse());
+  context.is_coarse = true;
+  return line_->Build(context);
+}
+
+std::optional<CoarserSurfaces> RailWorld::CoarserSurfacesOf(int chunk) const {
+  constexpr int kNumSteps = 10;
+  const double half_width_m = line_->world.terrain.half_width_m;
+  const Transform chunk_from_world = line_->grid.WorldFromChunk(chunk).inverse();
+  CoarserSurfaces coarser{.area_m = {},
+                          .ray_spacing_m = kCoarseRaySpacing_m,
+                          .beam_width_m = kCoarseBeamWidth_m,
+                          .sight_angle_rad = kCoarseSightAngle_rad};
+  for (int i = 0; i <= kNumSteps; ++i) {
+    const double s_m =
+        std::lerp(line_->grid.BeginOf(chunk), line_->grid.EndOf(chunk), 1.0 * i / kNumSteps);
+    for (const double d_m : {-half_width_m, half_width_m}) {
+      const Transform chunk_from_edge =
+          chunk_from_world * line_->alignment.WorldFromTrack(s_m, d_m);
+      coarser.area_m.extend(Eigen::Vector2d(chunk_from_edge.translation().head<2>()));
+    }
+  }
+  return coarser;
+}
 const std::vector<SceneObject>& RailWorld::objects() const {
   return *things_->objects;
 }

@@ -175,7 +175,7 @@ std::vector<std::unique_ptr<Simulator>> MakeSimulators(const ScenarioSpec& spec,
                             .output = spec.output,
                             .origin_place = spec.sources.Place("/output/origin_m"),
                             .snow_material = names->snow_material,
-                            .has_full_detail = spec.world.vegetation.detail == PlantDetail::kFull,
+                            .has_full_detail = spec.world.detail == SceneDetail::kFull,
                             .isa = isa};
     simulator.detector.clutter_labels = names->labels;
     const std::size_t num_firings = patterns[i]->num_firings();

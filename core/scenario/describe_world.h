@@ -66,9 +66,6 @@ void Describe(Archive& a, VegetationSpec& s) {
              "Distance from the outermost track axis.", DistanceLimits());
   a.Optional("grass_max_distance_m", s.grass_max_distance_m,
              "Distance from the outermost track axis.", DistanceLimits());
-  a.Optional("detail", s.detail,
-             "auto: coarser plants far away, where the sensor cannot tell them apart; full: the "
-             "finest everywhere.");
   a.Ensure({"tree_height_min_m", "tree_height_max_m"}, s.tree_height_min_m <= s.tree_height_max_m,
            "must be <= tree_height_max_m");
   a.Ensure({"grass_min_distance_m", "grass_max_distance_m"},
@@ -140,6 +137,10 @@ void Describe(Archive& a, WorldSpec& s) {
   a.Optional("terrain", s.terrain, "The ground.");
   a.Optional("vegetation", s.vegetation, "Trees and grass.");
   a.Optional("objects", s.objects, "Things placed by track coordinates.");
+  a.Optional(
+      "detail", s.detail,
+      "auto: plants, ground and tracks are coarser far away, where the sensor cannot tell the "
+      "difference; full: as fine as possible everywhere.");
   a.Unique("tracks", s.tracks, "name", &TrackSpec::name);
   a.Unique("objects", s.objects, "name", &ObjectSpec::name);
 }

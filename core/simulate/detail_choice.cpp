@@ -75,15 +75,30 @@ double DetailChoice::Distance_m(const Placement& placement,
   return std::sqrt(distance2) * ScaleOf(window_from_model);
 }
 
+bool DetailChoice::Permits(double ray_spacing_m, double beam_width_m, double distance_m) const {
+  return ray_spacing_m <= rule_.ray_spacing_rad * distance_m &&
+         (!(rule_.beam_width_rad > 0.0) || beam_width_m <= rule_.beam_width_rad * distance_m);
+}
+
+bool DetailChoice::TakesCoarser(const CoarserSurfaces& surfaces,
+                                const Transform& window_from_chunk) const {
+  const Transform chunk_from_window = window_from_chunk.inverse();
+  const auto permits = [&](const Vector3& sensor_window_m) {
+    const Eigen::Vector2d place_m = (chunk_from_window * sensor_window_m).head<2>();
+    return std::abs(place_m.y()) <= std::tan(surfaces.sight_angle_rad) * std::abs(place_m.x()) &&
+           Permits(surfaces.ray_spacing_m, surfaces.beam_width_m,
+                   surfaces.area_m.exteriorDistance(place_m));
+  };
+  return !sensors_window_m_.empty() && std::ranges::all_of(sensors_window_m_, permits);
+}
+
 std::size_t DetailChoice::LevelOf(const Placement& placement,
                                   const Eigen::Affine3d& window_from_model) {
   if (placement.coarser == nullptr || sensors_window_m_.empty()) return 0;
   // Limits are those of the model's own size, and its scale shortens the distance to it.
   const double distance = Distance_m(placement, window_from_model) / ScaleOf(window_from_model);
   const auto permits = [&](const CoarserModel& coarser) {
-    return coarser.ray_spacing_m <= rule_.ray_spacing_rad * distance &&
-           (!(rule_.beam_width_rad > 0.0) ||
-            coarser.beam_width_m <= rule_.beam_width_rad * distance);
+    return Permits(coarser.ray_spacing_m, coarser.beam_width_m, distance);
   };
   const auto too_coarse =
       std::find_if_not(placement.coarser->begin(), placement.coarser->end(), permits);

@@ -21,9 +21,9 @@ namespace railcast {
 /// angle per firing, in cells of one square degree, that one firing in ten falls below.
 [[nodiscard]] double RaySpacing_rad(const ScanPattern& pattern);
 
-/// Chooses the models of the placements in a window. They depend on nothing but the placement, the
-/// home chunk and the rule: what counts is the least distance between the placement's box and the
-/// places that the sensor can have while the vehicle is in the home chunk.
+/// Chooses the models of the placements in a window, and the form of its chunks. They depend on
+/// nothing but the placement or chunk, the home chunk and the rule: what counts is the least
+/// distance to the places that the sensor can have while the vehicle is in the home chunk.
 class DetailChoice {
  public:
   DetailChoice(const World& world, int home_chunk, const DetailRule& rule);
@@ -32,11 +32,17 @@ class DetailChoice {
   /// finest, k is placement.coarser[k - 1].
   [[nodiscard]] std::size_t LevelOf(const Placement& placement,
                                     const Eigen::Affine3d& window_from_model);
+  /// Whether the rule permits a chunk's coarser surfaces, by the least distance in plan between
+  /// them and the sensor.
+  [[nodiscard]] bool TakesCoarser(const CoarserSurfaces& surfaces,
+                                  const Transform& window_from_chunk) const;
   /// @pre The rule is not for full detail, and the vehicle's poses are known.
   [[nodiscard]] double Distance_m(const Placement& placement,
                                   const Eigen::Affine3d& window_from_model);
 
  private:
+  [[nodiscard]] bool Permits(double ray_spacing_m, double beam_width_m, double distance_m) const;
+
   DetailRule rule_;
   std::vector<Vector3> sensors_window_m_;
   std::map<const Model*, Eigen::AlignedBox3d> boxes_;

@@ -36,17 +36,16 @@ SceneStore::SceneStore(std::shared_ptr<const World> world,
       unit_tube_(std::make_shared<const Model>(UnitTube())),
       device_(isa) {}
 
-std::shared_ptr<const SceneStore::BuiltChunk> SceneStore::GetChunk(int chunk, bool has_tubes) {
-  const ChunkKey key(chunk, has_tubes);
+std::shared_ptr<const SceneStore::BuiltChunk> SceneStore::GetChunk(const ChunkForm& form) {
   std::packaged_task<std::shared_ptr<const BuiltChunk>()> build;
   std::shared_future<std::shared_ptr<const BuiltChunk>> result;
   {
     const std::lock_guard lock(chunks_mutex_);
-    ChunkEntry& entry = chunks_[key];
+    ChunkEntry& entry = chunks_[form];
     if (auto built = entry.built.lock()) return built;
     if (!entry.being_built.valid()) {
       build =
-          std::packaged_task<std::shared_ptr<const BuiltChunk>()>([&] { return BuildChunk(key); });
+          std::packaged_task<std::shared_ptr<const BuiltChunk>()>([&] { return BuildChunk(form); });
       entry.being_built = build.get_future().share();
     }
     result = entry.being_built;
@@ -54,17 +53,17 @@ std::shared_ptr<const SceneStore::BuiltChunk> SceneStore::GetChunk(int chunk, bo
   if (!build.valid()) return result.get();
   build();
   const std::lock_guard lock(chunks_mutex_);
-  ChunkEntry& entry = chunks_[key];
+  ChunkEntry& entry = chunks_[form];
   entry.being_built = {};
   const std::shared_ptr<const BuiltChunk> built = result.get();
   entry.built = built;
   return built;
 }
 
-std::shared_ptr<const SceneStore::BuiltChunk> SceneStore::BuildChunk(const ChunkKey& key) const {
-  Chunk made = world_->BuildChunk(key.first);
-  const bool has_tubes = key.second;
-  if (!has_tubes) {
+std::shared_ptr<const SceneStore::BuiltChunk> SceneStore::BuildChunk(const ChunkForm& form) const {
+  Chunk made =
+      form.is_coarser ? world_->BuildCoarserChunk(form.chunk) : world_->BuildChunk(form.chunk);
+  if (!form.has_tubes) {
     for (Part& part : made.ground.parts) {
       if (part.is_wire) part.mesh = {};
     }

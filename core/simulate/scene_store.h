@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <compare>
 #include <cstdint>
 #include <future>
 #include <map>
@@ -31,9 +32,15 @@ class SceneStore {
     std::vector<Placement> placements;
     std::vector<Wire> wires;
   };
+  /// A chunk in one of its forms.
+  struct ChunkForm {
+    int chunk{};
+    bool has_tubes = true;    ///< Whether `ground` holds the wires as tubes.
+    bool is_coarser = false;  ///< Whether it is World::BuildCoarserChunk()'s.
+    auto operator<=>(const ChunkForm&) const = default;
+  };
   /// Returns a chunk; builds it, or waits for another thread that is building it, if necessary.
-  /// @param has_tubes Whether `ground` holds the wires as tubes.
-  [[nodiscard]] std::shared_ptr<const BuiltChunk> GetChunk(int chunk, bool has_tubes = true);
+  [[nodiscard]] std::shared_ptr<const BuiltChunk> GetChunk(const ChunkForm& form);
   /// @param is_object Whether it is made for TraceScene::CastThrough().
   [[nodiscard]] std::shared_ptr<const TraceModel> GetModel(
       const std::shared_ptr<const Model>& model, bool is_object = false);
@@ -65,16 +72,15 @@ class SceneStore {
   TraceDevice device_;
   std::atomic<bool> uses_beams_ = false;
 
-  using ChunkKey = std::pair<int, bool>;  ///< Number, and whether it has tubes.
   struct ChunkEntry {
     std::weak_ptr<const BuiltChunk> built;
     /// Valid while a thread builds the chunk.
     std::shared_future<std::shared_ptr<const BuiltChunk>> being_built;
   };
-  [[nodiscard]] std::shared_ptr<const BuiltChunk> BuildChunk(const ChunkKey& key) const;
+  [[nodiscard]] std::shared_ptr<const BuiltChunk> BuildChunk(const ChunkForm& form) const;
 
   std::mutex chunks_mutex_;
-  std::map<ChunkKey, ChunkEntry> chunks_;
+  std::map<ChunkForm, ChunkEntry> chunks_;
   std::mutex models_mutex_;
   // By model and whether it is an object's.
   std::map<std::pair<const Model*, bool>,

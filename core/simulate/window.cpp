@@ -5,6 +5,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "core/base/error.h"
@@ -187,13 +188,20 @@ void WindowSource::AddChunks(int home_chunk,
 }
 
 WindowSource::Chunks WindowSource::GetChunks(int home_chunk, const Purpose& purpose, Pace pace) {
-  const std::vector<int> reach = store_->world()->ChunksInReach(home_chunk, range_max_m_);
+  const World& world = *store_->world();
+  const Transform window_from_world = world.WorldFromChunk(home_chunk).inverse();
+  const DetailChoice choice(world, home_chunk, detail_);
+  const std::vector<int> reach = world.ChunksInReach(home_chunk, range_max_m_);
   std::vector<std::shared_ptr<const SceneStore::BuiltChunk>> built(reach.size());
   std::atomic<std::size_t> num_done = 0;
   const auto get = [&](std::size_t i) {
     if (pace == Pace::kAhead && stopping_) throw Abandoned();
     purpose.progress(num_done, NumSteps(reach.size()));
-    built[i] = store_->GetChunk(reach[i], !purpose.wind_blows);
+    const std::optional<CoarserSurfaces> coarser = world.CoarserSurfacesOf(reach[i]);
+    const bool is_coarser =
+        coarser &&
+        choice.TakesCoarser(*coarser, window_from_world * world.WorldFromChunk(reach[i]));
+    built[i] = store_->GetChunk({reach[i], !purpose.wind_blows, is_coarser});
     ++num_done;
   };
   if (pace == Pace::kAwaited) {

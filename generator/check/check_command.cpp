@@ -72,7 +72,7 @@ class Report {
     const SimulatorSpec spec{
         .detector = DetectorSpecOf(scenario_, lidar, SwitchedEffects(scenario_)),
         .vehicle_from_sensor = VehicleFromSensor(lidar.mount),
-        .has_full_detail = scenario_.world.vegetation.detail == PlantDetail::kFull};
+        .has_full_detail = scenario_.world.detail == SceneDetail::kFull};
     return DetailOf(spec, pattern_);
   }
 

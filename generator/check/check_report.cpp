@@ -138,10 +138,15 @@ std::string VehicleText(const std::string& track, const VehicleWay& way, double 
 }
 
 std::string DetailText(const DetailAudit& audit, const LabelTable& labels) {
-  if (audit.levels.empty()) return "";
-  std::string text =
-      ReportLine("detail", "of plants, as traced: " + std::to_string(audit.traced_triangles) +
-                               " of " + std::to_string(audit.full_triangles) + " triangles");
+  if (audit.num_coarser_chunks == 0 && audit.levels.empty()) return "";
+  const auto count = [](std::size_t value) { return std::to_string(value); };
+  std::string text = ReportLine(
+      "detail", "of surfaces, as traced: " + count(audit.traced_surfaces) + " of " +
+                    count(audit.full_surfaces) + " triangles; " + count(audit.num_coarser_chunks) +
+                    " of " + count(audit.num_chunks) + " chunks in their coarser form");
+  if (audit.levels.empty()) return text;
+  text += ReportLine("", "of plants, as traced: " + count(audit.traced_triangles) + " of " +
+                             count(audit.full_triangles) + " triangles");
   for (const auto& [label, levels] : audit.levels) {
     std::string line;
     for (const auto& [level, of_level] : levels) {

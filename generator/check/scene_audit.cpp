@@ -75,7 +75,16 @@ DetailAudit AuditDetail(const World& world,
   for (const int index : world.ChunksInReach(home_chunk, range_m)) {
     const Eigen::Affine3d window_from_chunk(
         (window_from_world * world.WorldFromChunk(index)).matrix());
-    for (const Placement& placement : world.BuildChunk(index).placements) {
+    const Chunk chunk = world.BuildChunk(index);
+    const auto coarser = world.CoarserSurfacesOf(index);
+    const bool is_coarser =
+        coarser && choice.TakesCoarser(*coarser, window_from_world * world.WorldFromChunk(index));
+    ++audit.num_chunks;
+    audit.num_coarser_chunks += is_coarser ? 1 : 0;
+    audit.full_surfaces += chunk.ground.num_triangles();
+    audit.traced_surfaces += is_coarser ? world.BuildCoarserChunk(index).ground.num_triangles()
+                                        : chunk.ground.num_triangles();
+    for (const Placement& placement : chunk.placements) {
       if (placement.coarser == nullptr) continue;
       const Eigen::Affine3d window_from_model = window_from_chunk * placement.chunk_from_model;
       const std::size_t level = choice.LevelOf(placement, window_from_model);

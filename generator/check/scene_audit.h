@@ -34,8 +34,12 @@ struct SceneAudit {
                                     std::int64_t time_ns,
                                     double range_m);
 
-/// How coarse the plants of a window are for a sensor.
+/// How coarse a window is for a sensor.
 struct DetailAudit {
+  std::size_t num_chunks{};          ///< Of which ...
+  std::size_t num_coarser_chunks{};  ///< ... this many are traced in their coarser form.
+  std::size_t full_surfaces{};       ///< Triangles of the chunks' own surfaces in full detail.
+  std::size_t traced_surfaces{};     ///< The same as they are traced.
   struct Level {
     std::size_t num_placements{};
     double nearest_m{};  ///< Least distance of any of them.
@@ -46,7 +50,8 @@ struct DetailAudit {
   std::map<std::uint32_t, std::map<std::size_t, Level>> levels;
 };
 
-/// Looks which models the window at that time holds. Nothing if the rule is for full detail.
+/// Looks which models and chunks the window at that time holds. Nothing if the rule is for full
+/// detail.
 [[nodiscard]] DetailAudit AuditDetail(const World& world,
                                       std::int64_t time_ns,
                                       double range_m,

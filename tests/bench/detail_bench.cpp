@@ -1,4 +1,5 @@
-// railcast-detail: compares coarser plants with plants in full detail, echoes by range and times.
+// railcast-detail: compares a scene that is coarser far away with full detail, echoes by range and
+// times.
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
@@ -15,6 +16,7 @@
 #include "core/program/run_program.h"
 #include "railcast/scenario.h"
 #include "tests/bench/detail_by_range.h"
+#include "tests/bench/mean_surface.h"
 #include "tests/bench/scene_cost.h"
 
 namespace railcast {
@@ -30,12 +32,12 @@ struct Options {
 
 /// The scenario on a rung, in clear air, without objects and with three echoes a firing. Its
 /// vehicle moves `step_m` from frame to frame.
-ScenarioSpec Prepared(const Options& options, PlantDetail detail) {
+ScenarioSpec Prepared(const Options& options, SceneDetail detail) {
   ScenarioSpec spec = ReadScenario(options.scenario);
   spec.fidelity = options.rung;
   spec.weather = {};
   spec.world.objects.clear();
-  spec.world.vegetation.detail = detail;
+  spec.world.detail = detail;
   spec.lidar.receiver.return_mode = ReturnMode::kTriple;
   if (options.num_turns == 0) {
     spec.vehicle.motion.profile = {
@@ -69,6 +71,34 @@ std::string CellsOf(const std::vector<EchoesByRange::Sums>& full,
          ChangeText(ChangeOfIntensity(full, coarser)) + " |";
 }
 
+/// Cells of what is low beside and under the track.
+void PrintSurfaces(const EchoesByRange& full,
+                   const EchoesByRange& coarser,
+                   const ScenarioSpec& spec) {
+  constexpr double kLeastNumber = 400.0;
+  const LabelTable labels(spec.labels);
+  std::cout << "\n| range | ballast: first | further | intensity | heights | ground: heights | "
+               "sleepers: first | rails: first |\n|---|---|---|---|---|---|---|---|\n";
+  for (int bin = 0; bin * EchoesByRange::kBin_m < spec.lidar.range_max_m; ++bin) {
+    const auto heights = [&](const char* label) {
+      const auto& of_full = full.Of(labels.Id(label), bin);
+      double number = 0.0;
+      for (const EchoesByRange::Sums& frame : of_full) number += frame.heights;
+      if (number < kLeastNumber) return std::string(" |");
+      return " " + ChangeText(ChangeOfHeights(of_full, coarser.Of(labels.Id(label), bin))) + " |";
+    };
+    const auto first = [&](const char* label) {
+      const std::string cells =
+          CellsOf(full.Of(labels.Id(label), bin), coarser.Of(labels.Id(label), bin));
+      return cells.substr(0, cells.find('|') + 1);
+    };
+    std::cout << "| " << bin * EchoesByRange::kBin_m << " m |"
+              << CellsOf(full.Of(labels.Id("ballast"), bin), coarser.Of(labels.Id("ballast"), bin))
+              << heights("ballast") << heights("ground") << first("sleeper") << first("rail")
+              << "\n";
+  }
+}
+
 void PrintTable(const EchoesByRange& full, const EchoesByRange& coarser, const ScenarioSpec& spec) {
   const LabelTable labels(spec.labels);
   std::cout
@@ -83,13 +113,13 @@ void PrintTable(const EchoesByRange& full, const EchoesByRange& coarser, const S
   }
 }
 
-/// Prints which share of neighbouring firings on trees, in percent, see the same range.
-void PrintNeighbours(const EchoesByRange& echoes, const ScenarioSpec& spec) {
-  const std::uint32_t tree = LabelTable(spec.labels).Id("tree");
+/// Prints which share of neighbouring firings on a label, in percent, see the same range.
+void PrintNeighbours(const EchoesByRange& echoes, const ScenarioSpec& spec, const char* name) {
+  const std::uint32_t label = LabelTable(spec.labels).Id(name);
   for (int bin = 0; bin * EchoesByRange::kBin_m < spec.lidar.range_max_m; ++bin) {
     double neighbours = 0.0;
     double near_neighbours = 0.0;
-    for (const EchoesByRange::Sums& frame : echoes.Of(tree, bin)) {
+    for (const EchoesByRange::Sums& frame : echoes.Of(label, bin)) {
       neighbours += frame.neighbours;
       near_neighbours += frame.near_neighbours;
     }
@@ -97,36 +127,54 @@ void PrintNeighbours(const EchoesByRange& echoes, const ScenarioSpec& spec) {
   }
 }
 
+/// Where in the world the beam of a slot ended.
+Vector3 TruePlace(const Simulator& simulator, const Frame& frame, std::size_t slot) {
+  const Eigen::Vector3f measured_m(frame.x[slot], frame.y[slot], frame.z[slot]);
+  const Vector3 true_m =
+      static_cast<double>(frame.true_range_m[slot]) * measured_m.cast<double>().normalized();
+  return simulator.WorldFromSensor(frame.stamp_ns + frame.time_ns[slot]) * true_m;
+}
+
 void CompareEchoes(const Options& options) {
-  const ScenarioSpec spec = Prepared(options, PlantDetail::kAuto);
-  const auto full = MakeSimulator(Prepared(options, PlantDetail::kFull), 2);
+  const ScenarioSpec spec = Prepared(options, SceneDetail::kAuto);
+  const auto full = MakeSimulator(Prepared(options, SceneDetail::kFull), 2);
   const auto coarser = MakeSimulator(spec, 2);
-  EchoesByRange of_full;
-  EchoesByRange of_coarser;
+  const MeanSurface surface(spec);
+  double near_s_m = 0.0;
+  const auto height_above = [&](const Frame& frame, std::size_t slot) {
+    return surface.HeightAbove_m(TruePlace(*full, frame, slot), frame.label[slot], near_s_m);
+  };
+  EchoesByRange of_full(height_above);
+  EchoesByRange of_coarser(height_above);
   Frame frame;
   for (std::uint32_t index = 0; index < options.num_frames; ++index) {
+    near_s_m = spec.vehicle.start_s_m + options.step_m * index;
     full->Scan(index, frame);
     of_full.AddFrame(frame);
     coarser->Scan(index, frame);
     of_coarser.AddFrame(frame);
   }
   PrintTable(of_full, of_coarser, spec);
-  std::cout << "\nneighbours on trees at the same range, by range, in percent: in full detail";
-  PrintNeighbours(of_full, spec);
-  std::cout << "; as it is";
-  PrintNeighbours(of_coarser, spec);
-  std::cout << "\n";
+  PrintSurfaces(of_full, of_coarser, spec);
+  for (const char* label : {"tree", "ground", "ballast"}) {
+    std::cout << "\nneighbours on " << label
+              << " at the same range, by range, in percent: in full detail";
+    PrintNeighbours(of_full, spec, label);
+    std::cout << "; as it is";
+    PrintNeighbours(of_coarser, spec, label);
+    std::cout << "\n";
+  }
 }
 
-/// Prints the processor's time of frame 0 with coarser plants, and without any, as ratios to that
-/// in full detail: the medians of turns in which all take part.
+/// Prints the processor's time of frame 0 as it is, and without plants, as ratios to that in full
+/// detail: the medians of turns in which all take part.
 void CompareTimes(const Options& options) {
-  ScenarioSpec bare = Prepared(options, PlantDetail::kAuto);
+  ScenarioSpec bare = Prepared(options, SceneDetail::kAuto);
   bare.world.vegetation.trees_per_hectare = 0.0;
   bare.world.vegetation.grass = false;
   std::vector<std::unique_ptr<Simulator>> simulators;
-  simulators.push_back(MakeSimulator(Prepared(options, PlantDetail::kFull), 1));
-  simulators.push_back(MakeSimulator(Prepared(options, PlantDetail::kAuto), 1));
+  simulators.push_back(MakeSimulator(Prepared(options, SceneDetail::kFull), 1));
+  simulators.push_back(MakeSimulator(Prepared(options, SceneDetail::kAuto), 1));
   simulators.push_back(MakeSimulator(bare, 1));
   std::vector<std::function<void()>> works;
   Frame frame;
@@ -149,8 +197,8 @@ void CompareTimes(const Options& options) {
 
 int Run(int argc, char** argv) {
   CLI::App app(
-      "Compares coarser plants with plants in full detail: the echoes of trees, grass and "
-      "ground by range in percent, or with --turns the times");
+      "Compares a scene that is coarser far away with full detail: the echoes of plants, ground "
+      "and track by range in percent, or with --turns the times");
   Options options;
   const std::map<std::string, Fidelity> rungs = {{"plausibility", Fidelity::kPlausibility},
                                                  {"surface", Fidelity::kSurface},

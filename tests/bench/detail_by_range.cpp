@@ -46,9 +46,18 @@ void EchoesByRange::AddFrame(const Frame& frame) {
       }
       of_place.back().first += 1.0;
       of_place.back().intensity += static_cast<double>(frame.intensity[slot]);
+      if (height_above_) AddHeight(frame, slot, of_place.back());
     }
   }
   AddNeighbours(frame);
+}
+
+void EchoesByRange::AddHeight(const Frame& frame, std::size_t slot, Sums& sums) const {
+  const std::optional<double> height_m = height_above_(frame, slot);
+  if (!height_m) return;
+  sums.heights += 1.0;
+  sums.height_m += *height_m;
+  sums.square_height_m2 += *height_m * *height_m;
 }
 
 void EchoesByRange::AddNeighbours(const Frame& frame) {
@@ -98,6 +107,29 @@ RelativeChange ChangeOfIntensity(const std::vector<Sums>& from, const std::vecto
     deviations.push_back(deviation(to, i) - deviation(from, i));
   }
   return ChangeWith(mean(to) / mean(from), deviations);
+}
+
+RelativeChange ChangeOfHeights(const std::vector<Sums>& from, const std::vector<Sums>& to) {
+  const auto mean_m = [](const std::vector<Sums>& sums) {
+    return Total(sums, &Sums::height_m) / Total(sums, &Sums::heights);
+  };
+  const auto variance_m2 = [&](const std::vector<Sums>& sums) {
+    return Total(sums, &Sums::square_height_m2) / Total(sums, &Sums::heights) -
+           mean_m(sums) * mean_m(sums);
+  };
+  // Of half the logarithm of the variance, as far as one frame makes it.
+  const auto deviation = [&](const std::vector<Sums>& sums, std::size_t i) {
+    const Sums& frame = sums[i];
+    const double squares_m2 = frame.square_height_m2 - 2.0 * mean_m(sums) * frame.height_m +
+                              frame.heights * mean_m(sums) * mean_m(sums);
+    const double variance = variance_m2(sums);
+    return 0.5 * (squares_m2 - frame.heights * variance) / (Total(sums, &Sums::heights) * variance);
+  };
+  std::vector<double> deviations;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    deviations.push_back(deviation(to, i) - deviation(from, i));
+  }
+  return ChangeWith(std::sqrt(variance_m2(to) / variance_m2(from)), deviations);
 }
 
 }  // namespace railcast

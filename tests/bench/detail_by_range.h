@@ -2,7 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -11,15 +13,24 @@
 namespace railcast {
 
 /// Counts the echoes of frames by label and range, to compare those of the same scene in full
-/// detail and with coarser plants.
+/// detail and with coarser forms far away.
 class EchoesByRange {
  public:
   static constexpr double kBin_m = 30.0;
 
+  /// Height of a slot's point above the mean surface with its label; absent where there is none.
+  using HeightAbove = std::function<std::optional<double>(const Frame&, std::size_t slot)>;
+
+  /// @param height_above If empty, no heights are summed.
+  explicit EchoesByRange(HeightAbove height_above = {}) : height_above_(std::move(height_above)) {}
+
   struct Sums {
-    double first{};      ///< Nearest echoes of their firings.
-    double further{};    ///< All others.
-    double intensity{};  ///< Of the first ones.
+    double first{};             ///< Nearest echoes of their firings.
+    double further{};           ///< All others.
+    double intensity{};         ///< Of the first ones.
+    double heights{};           ///< Of the first ones that have any: their number,
+    double height_m{};          ///< sum,
+    double square_height_m2{};  ///< and sum of squares.
     /// Firings whose neighbour in the next column has its first return on the same label, too ...
     double neighbours{};
     double near_neighbours{};  ///< ... and at the same range within 0.1 m.
@@ -31,7 +42,9 @@ class EchoesByRange {
 
  private:
   void AddNeighbours(const Frame& frame);
+  void AddHeight(const Frame& frame, std::size_t slot, Sums& sums) const;
 
+  HeightAbove height_above_;
   std::size_t num_frames_ = 0;
   // One element for each frame.
   std::map<std::pair<std::uint32_t, int>, std::vector<Sums>> sums_;
@@ -52,5 +65,9 @@ struct RelativeChange {
 /// The change of the mean intensity.
 [[nodiscard]] RelativeChange ChangeOfIntensity(const std::vector<EchoesByRange::Sums>& from,
                                                const std::vector<EchoesByRange::Sums>& to);
+
+/// The change of the standard deviation of heights.
+[[nodiscard]] RelativeChange ChangeOfHeights(const std::vector<EchoesByRange::Sums>& from,
+                                             const std::vector<EchoesByRange::Sums>& to);
 
 }  // namespace railcast

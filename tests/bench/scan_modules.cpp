@@ -38,7 +38,7 @@ ScanModules::ScanModules(ScenarioSpec scenario, int num_threads)
       arena_(num_threads) {
   scenario.fidelity = Fidelity::kPlausibility;
   // All modules trace the same scene.
-  scenario.world.vegetation.detail = PlantDetail::kFull;
+  scenario.world.detail = SceneDetail::kFull;
   effects_ = MakeSimulator(scenario, num_threads);
   one_thread_ = MakeSimulator(scenario, 1);
   trace_of_all_ = effects_->MakeRawTrace(0);

@@ -24,7 +24,7 @@ const std::string kScenarios = RAILCAST_SOURCE_DIR "/scenarios/";
 /// The figures are those of full detail: rungs and yardstick see the same scene, and how that scene
 /// may be simplified is another question (docs/detail.md).
 ScenarioSpec InFullDetail(ScenarioSpec spec) {
-  spec.world.vegetation.detail = PlantDetail::kFull;
+  spec.world.detail = SceneDetail::kFull;
   return spec;
 }
 

@@ -81,14 +81,14 @@ struct TerrainSpec {
   bool operator==(const TerrainSpec&) const = default;
 };
 
-/// Which models of plants are traced.
-enum class PlantDetail {
-  kAuto,  ///< Coarser ones far away, where the sensor cannot tell them apart.
-  kFull,  ///< The finest ones everywhere.
+/// How fine plants, ground and tracks are traced.
+enum class SceneDetail {
+  kAuto,  ///< Coarser far away, where the sensor cannot tell the difference.
+  kFull,  ///< As fine as possible everywhere.
 };
 template <>
-inline constexpr auto kEnumNames<PlantDetail> = std::to_array<EnumName<PlantDetail>>(
-    {{PlantDetail::kAuto, "auto"}, {PlantDetail::kFull, "full"}});
+inline constexpr auto kEnumNames<SceneDetail> = std::to_array<EnumName<SceneDetail>>(
+    {{SceneDetail::kAuto, "auto"}, {SceneDetail::kFull, "full"}});
 
 struct VegetationSpec {
   double trees_per_hectare = 40.0;
@@ -98,7 +98,6 @@ struct VegetationSpec {
   bool grass = true;
   double grass_min_distance_m = 3.6;  ///< From the outermost track axis.
   double grass_max_distance_m = 9.0;
-  PlantDetail detail = PlantDetail::kAuto;
 
   bool operator==(const VegetationSpec&) const = default;
 };
@@ -163,6 +162,7 @@ struct WorldSpec {
   TerrainSpec terrain;
   VegetationSpec vegetation;
   std::vector<ObjectSpec> objects;
+  SceneDetail detail = SceneDetail::kAuto;
 
   bool operator==(const WorldSpec&) const = default;
 };
@@ -243,6 +243,8 @@ class RailWorld final : public World {
   [[nodiscard]] std::vector<int> ChunksInReach(int home_chunk, double range_m) const override;
   [[nodiscard]] Transform WorldFromChunk(int chunk) const override;
   [[nodiscard]] Chunk BuildChunk(int chunk) const override;
+  [[nodiscard]] std::optional<CoarserSurfaces> CoarserSurfacesOf(int chunk) const override;
+  [[nodiscard]] Chunk BuildCoarserChunk(int chunk) const override;
   [[nodiscard]] const std::vector<SceneObject>& objects() const override;
   [[nodiscard]] Transform WorldFromObject(std::size_t object, std::int64_t time_ns) const override;
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -93,6 +94,15 @@ struct Chunk {
   std::vector<Wire> wires{};
 };
 
+/// Where a sensor cannot tell a chunk's coarser surfaces from the finest ones (docs/detail.md).
+struct CoarserSurfaces {
+  Eigen::AlignedBox2d area_m;  ///< Where in plan the chunk's surfaces lie, in its frame.
+  double ray_spacing_m{};      ///< Least distance of neighbouring rays.
+  double beam_width_m{};       ///< Least width of beams, where they have any.
+  double sight_angle_rad{};    ///< Greatest angle in plan between the chunk's x axis and the line
+                               ///< from its origin to the sensor, to either side and end.
+};
+
 /// An object with a name, a bounding box and an instance id: wagon, person, pole, ...
 struct SceneObject {
   std::string name;       ///< Unique.
@@ -115,7 +125,7 @@ class World {
   /// The chunk that contains the vehicle at this time. Its frame serves as the window frame.
   [[nodiscard]] virtual int HomeChunk(std::int64_t time_ns) const = 0;
   /// Poses of the vehicle along the whole of `home_chunk`, at most 1 m apart; empty if they are not
-  /// known, in which case no placement is traced as one of its coarser models.
+  /// known, in which case no placement and no chunk is traced in a coarser form.
   [[nodiscard]] virtual std::vector<Transform> VehiclePosesIn(int /*home_chunk*/) const {
     return {};
   }
@@ -124,6 +134,13 @@ class World {
   [[nodiscard]] virtual std::vector<int> ChunksInReach(int home_chunk, double range_m) const = 0;
   [[nodiscard]] virtual Transform WorldFromChunk(int chunk) const = 0;
   [[nodiscard]] virtual Chunk BuildChunk(int chunk) const = 0;
+  /// What is needed to trace a chunk as BuildCoarserChunk() makes it; absent if it has one form
+  /// only.
+  [[nodiscard]] virtual std::optional<CoarserSurfaces> CoarserSurfacesOf(int /*chunk*/) const {
+    return std::nullopt;
+  }
+  /// The chunk with fewer triangles in its `ground`, and with the same placements and wires.
+  [[nodiscard]] virtual Chunk BuildCoarserChunk(int chunk) const { return BuildChunk(chunk); }
 
   [[nodiscard]] virtual const std::vector<SceneObject>& objects() const = 0;
   [[nodiscard]] virtual Transform WorldFromObject(std::size_t object,

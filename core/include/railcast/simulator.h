@@ -25,7 +25,7 @@ struct SimulatorSpec {
   OutputSpec output{};
   std::string origin_place = "/output/origin_m";  ///< Name of output.origin_m in error messages.
   std::uint16_t snow_material{};  ///< Material of the snow on covered surfaces; 0 = no snow cover.
-  bool has_full_detail = false;   ///< Whether no model is replaced by a coarser one far away.
+  bool has_full_detail = false;   ///< Whether nothing has a coarser form far away.
   std::string isa{};              ///< Embree instruction set to force; empty = the best available.
 };
 

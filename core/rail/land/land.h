@@ -15,6 +15,9 @@ namespace railcast {
 /// complete from 30 m on. The grid spacing is 0.5 m along the line; across it, 0.5 m up to 10 m
 /// from the outermost tracks and then increasing by 15 % per grid line up to 2 m. Ground covered by
 /// ballast is left out.
+///
+/// In the coarser form, inner rows are 1 m apart, or half the wavelength of the roughness if that
+/// is from 2 to 4 m; below, they are those of the finest. Cells are up to 2 m wide across.
 void AddTerrain(const ChunkContext& context, Chunk& chunk);
 
 /// The point of the ground at (s, d) in the chunk's frame: on the surface that AddTerrain samples

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "core/rail/land/noise_field.h"
 #include "core/rail/model_parts.h"
+#include "core/rail/track/coarse_grid.h"
 #include "core/rail/track/cross_section.h"
 #include "core/rail/track/sweep.h"
 
@@ -17,6 +19,11 @@ constexpr double kFineAcross_m = 0.5;
 constexpr double kFineReach_m = 10.0;
 constexpr double kCoarsening = 1.15;
 constexpr double kCoarsestAcross_m = 2.0;
+
+/// Of the coarser form: the widest cells across. Where ballast may cover them, all are kept.
+constexpr double kWholeReach_m = 3.0;
+constexpr double kCoarseNearAcross_m = 1.1;
+constexpr double kCoarseGroundAcross_m = 2.1;
 
 /// Distance from a track's axis up to which there is no undulation.
 constexpr double kLevelReach_m = 4.0;
@@ -105,6 +112,79 @@ Vector3 PointOf(const CrossSection& section, const Relief& relief, double s_m, d
   return section.PointAt(d_m, section.FormationHeight_m(d_m) + relief.Height_m(section, s_m, d_m));
 }
 
+/// Rows of the coarser form. Beams at grazing incidence see the slopes along the track, which must
+/// stay. Between two points of its lattice, roughness rises as an S (NoiseField), which is nearly
+/// straight between its quarters: rows there keep the steep middles and the level rest. A longer
+/// lattice is resolved by any rows a metre apart, a shorter one by none but the finest.
+std::vector<double> CoarseStations(const ChainageRange& range, double wavelength_m) {
+  constexpr double kCoarseAlong_m = 1.0;
+  if (wavelength_m < 2.0 * kCoarseAlong_m) return GridStations(range, kGridAlong_m);
+  if (wavelength_m >= 4.0 * kCoarseAlong_m) return GridStations(range, kCoarseAlong_m);
+  const double quarter_m = 0.25 * wavelength_m;
+  std::vector<double> stations_m =
+      GridStations({.begin_s_m = range.begin_s_m - quarter_m, .end_s_m = range.end_s_m - quarter_m},
+                   2.0 * quarter_m);
+  for (double& s_m : stations_m) s_m += quarter_m;
+  stations_m.front() = range.begin_s_m;
+  stations_m.back() = range.end_s_m;
+  return stations_m;
+}
+
+/// The grid of the ground.
+class GroundGrid {
+ public:
+  explicit GroundGrid(const ChunkContext& context)
+      : context_(context), relief_(context), lines_m_(LateralLines(context.spec)) {}
+
+  [[nodiscard]] Mesh WholeMesh(std::span<const double> stations_m) const {
+    std::vector<Vector3> points_m;
+    std::vector<bool> shows;
+    for (const double s_m : stations_m) {
+      const CrossSection section(context_, s_m);
+      for (std::size_t column = 0; column < lines_m_.size(); ++column) {
+        const GridPoint point = PointAt(section, s_m, column);
+        points_m.push_back(point.place_m);
+        shows.push_back(point.shows);
+      }
+    }
+    const auto keeps = [&](std::size_t row, std::size_t column) {
+      const std::size_t corner = row * lines_m_.size() + column;
+      const std::size_t ahead = corner + lines_m_.size();
+      return shows[corner] || shows[corner + 1] || shows[ahead] || shows[ahead + 1];
+    };
+    return MeshOfGrid(points_m, lines_m_.size(), keeps);
+  }
+
+  [[nodiscard]] Mesh CoarseMesh(std::span<const double> stations_m) const {
+    if (stations_m.size() < 3) return WholeMesh(stations_m);
+    std::vector<CrossSection> sections;
+    for (const double s_m : stations_m) sections.emplace_back(context_, s_m);
+    const auto widest_m = [&](double d_m) {
+      const double beside_m = sections.front().DistanceFromTracks_m(d_m);
+      if (beside_m < kWholeReach_m) return 0.0;
+      return beside_m < kFineReach_m ? kCoarseNearAcross_m : kCoarseGroundAcross_m;
+    };
+    return MeshOfCoarseGrid(
+        {sections.size(), lines_m_.size(), ColumnsAlong(lines_m_, {}, 0.0, widest_m)},
+        [&](std::size_t row, std::size_t column) {
+          return PointAt(sections[row], stations_m[row], column);
+        });
+  }
+
+ private:
+  [[nodiscard]] GridPoint PointAt(const CrossSection& section,
+                                  double s_m,
+                                  std::size_t column) const {
+    const double d_m = lines_m_[column];
+    const double ballast_m = section.BallastHeight_m(d_m) - section.FormationHeight_m(d_m);
+    return {PointOf(section, relief_, s_m, d_m), ballast_m <= kHiddenBelow_m};
+  }
+
+  const ChunkContext& context_;
+  Relief relief_;
+  std::vector<double> lines_m_;
+};
+
 }  // namespace
 
 Vector3 GroundPoint(const ChunkContext& context, double s_m, double d_m) {
@@ -121,25 +201,11 @@ Vector3 GroundPoint(const ChunkContext& context,
 void AddTerrain(const ChunkContext& context, Chunk& chunk) {
   const ChainageRange range{.begin_s_m = context.begin_s_m - 0.5 * kChunkOverlap_m,
                             .end_s_m = context.end_s_m + 0.5 * kChunkOverlap_m};
-  const Relief relief(context);
-  const std::vector<double> lines_m = LateralLines(context.spec);
-  std::vector<Vector3> points_m;
-  std::vector<bool> is_hidden;
-  for (const double s_m : GridStations(range, kGridAlong_m)) {
-    const CrossSection section(context, s_m);
-    for (const double d_m : lines_m) {
-      points_m.push_back(PointOf(section, relief, s_m, d_m));
-      is_hidden.push_back(section.BallastHeight_m(d_m) - section.FormationHeight_m(d_m) >
-                          kHiddenBelow_m);
-    }
-  }
-  const std::size_t num_columns = lines_m.size();
-  const auto keeps = [&](std::size_t row, std::size_t column) {
-    const std::size_t corner = row * num_columns + column;
-    return !(is_hidden[corner] && is_hidden[corner + 1] && is_hidden[corner + num_columns] &&
-             is_hidden[corner + num_columns + 1]);
-  };
-  MeshOf(context.surfaces.ground, chunk.ground).Append(MeshOfGrid(points_m, num_columns, keeps));
+  const GroundGrid grid(context);
+  MeshOf(context.surfaces.ground, chunk.ground)
+      .Append(context.is_coarse ? grid.CoarseMesh(CoarseStations(
+                                      range, context.spec.terrain.roughness_wavelength_m))
+                                : grid.WholeMesh(GridStations(range, kGridAlong_m)));
 }
 
 }  // namespace railcast

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "core/rail/land/noise_field.h"
 #include "core/rail/model_parts.h"
+#include "core/rail/track/coarse_grid.h"
 #include "core/rail/track/cross_section.h"
 #include "core/rail/track/sweep.h"
 
@@ -17,6 +19,10 @@ namespace {
 /// every crib.
 constexpr double kBallastGridAlong_m = kSleeperSpacing_m / 3.0;
 constexpr double kGridAcross_m = 0.16;
+
+/// Of the coarser form: the widest cells across, and how far their mean height may deviate.
+constexpr double kCoarseBallastAcross_m = 3.1 * kGridAcross_m;
+constexpr double kCoarseBallastTolerance_m = 0.005;
 
 /// Standard deviation of the heights: sigma_z of docs/physics.md 7.1.
 constexpr double kGrainSigma_m = 0.020;
@@ -45,40 +51,109 @@ Columns ColumnsOf(const WorldSpec& spec) {
           .last = static_cast<std::int64_t>(std::ceil(left_m / kGridAcross_m))};
 }
 
-}  // namespace
+/// The sheet of ballast over a grid whose points are counted by row and column.
+class BallastSheet {
+ public:
+  explicit BallastSheet(const ChunkContext& context)
+      : context_(context),
+        columns_(ColumnsOf(context.spec)),
+        lowest_m_(-(kBelowGround_m + 4.0 * context.spec.terrain.roughness_sigma_m)),
+        grain_(context.seed, RandomUse::kBallastRoughness, 0),
+        stations_m_(GridStations({.begin_s_m = context.begin_s_m - 0.5 * kChunkOverlap_m,
+                                  .end_s_m = context.end_s_m + 0.5 * kChunkOverlap_m},
+                                 kBallastGridAlong_m)) {}
 
-void AddBallast(const ChunkContext& context, Chunk& chunk) {
-  const ChainageRange range{.begin_s_m = context.begin_s_m - 0.5 * kChunkOverlap_m,
-                            .end_s_m = context.end_s_m + 0.5 * kChunkOverlap_m};
-  const NoiseField grain(context.seed, RandomUse::kBallastRoughness, 0);
-  const Columns columns = ColumnsOf(context.spec);
-  const auto num_columns = static_cast<std::size_t>(columns.last - columns.first + 1);
-  const double lowest_m = -(kBelowGround_m + 4.0 * context.spec.terrain.roughness_sigma_m);
+  [[nodiscard]] std::size_t num_columns() const {
+    return static_cast<std::size_t>(columns_.last - columns_.first + 1);
+  }
+  [[nodiscard]] std::span<const double> stations_m() const { return stations_m_; }
 
+  [[nodiscard]] GridPoint PointAt(const CrossSection& section,
+                                  double s_m,
+                                  std::size_t column) const {
+    const double d_m = PlaceOf_m(column);
+    const double formation_m = section.FormationHeight_m(d_m);
+    const double ballast_m = section.BallastHeight_m(d_m);
+    const double grain_m =
+        kGrainSigma_m / NoiseField::kLatticeSigma *
+        grain_.At(s_m / kBallastGridAlong_m,
+                  static_cast<double>(columns_.first + static_cast<std::int64_t>(column)));
+    // Cells at the edge of the sheet have corners beyond the end of the ballast; keep them in the
+    // ground.
+    return {section.PointAt(d_m, std::max(ballast_m, formation_m + 2.0 * lowest_m_) + grain_m),
+            ballast_m - formation_m > lowest_m_};
+  }
+
+  /// The columns of the coarser form: as far apart as kCoarseBallastAcross_m, but for those that
+  /// the shape of the ballast needs, at and between the sleepers.
+  [[nodiscard]] std::vector<std::size_t> CoarseColumns() const {
+    std::vector<double> places_m;
+    for (std::size_t column = 0; column < num_columns(); ++column) {
+      places_m.push_back(PlaceOf_m(column));
+    }
+    const double sleeper_s_m =
+        kSleeperSpacing_m *
+        std::round(0.5 * (context_.begin_s_m + context_.end_s_m) / kSleeperSpacing_m);
+    std::vector<std::vector<double>> profiles_m;
+    for (const double s_m : {sleeper_s_m, sleeper_s_m + 0.5 * kSleeperSpacing_m}) {
+      const CrossSection section(context_, s_m);
+      std::vector<double>& profile_m = profiles_m.emplace_back();
+      for (const double d_m : places_m) {
+        profile_m.push_back(
+            std::max(section.BallastHeight_m(d_m), section.FormationHeight_m(d_m) + lowest_m_));
+      }
+    }
+    return ColumnsAlong(places_m, profiles_m, kCoarseBallastTolerance_m,
+                        [](double) { return kCoarseBallastAcross_m; });
+  }
+
+ private:
+  [[nodiscard]] double PlaceOf_m(std::size_t column) const {
+    return static_cast<double>(columns_.first + static_cast<std::int64_t>(column)) * kGridAcross_m;
+  }
+
+  const ChunkContext& context_;
+  Columns columns_;
+  double lowest_m_;
+  NoiseField grain_;
+  std::vector<double> stations_m_;
+};
+
+Mesh WholeBallast(const ChunkContext& context, const BallastSheet& sheet) {
   std::vector<Vector3> points_m;
   std::vector<bool> shows;
-  for (const double s_m : GridStations(range, kBallastGridAlong_m)) {
+  for (const double s_m : sheet.stations_m()) {
     const CrossSection section(context, s_m);
-    for (std::int64_t column = columns.first; column <= columns.last; ++column) {
-      const double d_m = static_cast<double>(column) * kGridAcross_m;
-      const double formation_m = section.FormationHeight_m(d_m);
-      const double ballast_m = section.BallastHeight_m(d_m);
-      shows.push_back(ballast_m - formation_m > lowest_m);
-      const double grain_m = kGrainSigma_m / NoiseField::kLatticeSigma *
-                             grain.At(s_m / kBallastGridAlong_m, static_cast<double>(column));
-      // Cells at the edge of the sheet have corners beyond the end of the ballast; keep them in the
-      // ground.
-      points_m.push_back(
-          section.PointAt(d_m, std::max(ballast_m, formation_m + 2.0 * lowest_m) + grain_m));
+    for (std::size_t column = 0; column < sheet.num_columns(); ++column) {
+      const GridPoint point = sheet.PointAt(section, s_m, column);
+      points_m.push_back(point.place_m);
+      shows.push_back(point.shows);
     }
   }
   const auto keeps = [&](std::size_t row, std::size_t column) {
-    const std::size_t corner = row * num_columns + column;
-    return shows[corner] || shows[corner + 1] || shows[corner + num_columns] ||
-           shows[corner + num_columns + 1];
+    const std::size_t corner = row * sheet.num_columns() + column;
+    const std::size_t ahead = corner + sheet.num_columns();
+    return shows[corner] || shows[corner + 1] || shows[ahead] || shows[ahead + 1];
   };
-  const Mesh sheet = MeshOfGrid(points_m, num_columns, keeps);
-  if (!sheet.triangles.empty()) MeshOf(context.surfaces.ballast, chunk.ground).Append(sheet);
+  return MeshOfGrid(points_m, sheet.num_columns(), keeps);
+}
+
+Mesh CoarseBallast(const ChunkContext& context, const BallastSheet& sheet) {
+  std::vector<CrossSection> sections;
+  for (const double s_m : sheet.stations_m()) sections.emplace_back(context, s_m);
+  return MeshOfCoarseGrid({sections.size(), sheet.num_columns(), sheet.CoarseColumns()},
+                          [&](std::size_t row, std::size_t column) {
+                            return sheet.PointAt(sections[row], sheet.stations_m()[row], column);
+                          });
+}
+
+}  // namespace
+
+void AddBallast(const ChunkContext& context, Chunk& chunk) {
+  const BallastSheet sheet(context);
+  const bool is_coarse = context.is_coarse && sheet.stations_m().size() > 2;
+  const Mesh mesh = is_coarse ? CoarseBallast(context, sheet) : WholeBallast(context, sheet);
+  if (!mesh.triangles.empty()) MeshOf(context.surfaces.ballast, chunk.ground).Append(mesh);
 }
 
 }  // namespace railcast

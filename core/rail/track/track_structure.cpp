@@ -14,6 +14,8 @@ namespace {
 
 constexpr double kRailTolerance_m = 1e-3;
 constexpr double kLongestRailChord_m = 2.5;
+constexpr double kCoarseRailTolerance_m = 4e-3;
+constexpr double kLongestCoarseRailChord_m = 5.0;
 
 /// Closes a rail where it begins or ends. Point i of the section mirrors point size - 1 - i, so
 /// strips between mirrored points fill it.
@@ -43,8 +45,10 @@ void AddRail(const ChunkContext& context,
              const ChainageRange& range,
              Chunk& chunk) {
   std::vector<Transform> stations;
-  for (const double s_m : SweepStations(context.alignment, range, track.offset_m, kRailTolerance_m,
-                                        kLongestRailChord_m)) {
+  const double tolerance_m = context.is_coarse ? kCoarseRailTolerance_m : kRailTolerance_m;
+  const double chord_m = context.is_coarse ? kLongestCoarseRailChord_m : kLongestRailChord_m;
+  for (const double s_m :
+       SweepStations(context.alignment, range, track.offset_m, tolerance_m, chord_m)) {
     stations.push_back(context.chunk_from_world *
                        context.alignment.WorldFromTrack(s_m, track.offset_m));
   }

@@ -82,6 +82,7 @@ TEST(ChunkGeometry, ChangesWithTheSeedOnlyWhereItIsRandom) {
 /// Points within a millimetre of the plane x = 0 in the level frame of the axis at chainage `s_m`.
 std::vector<Vector3> PointsAtSeam(const TestLine& line,
                                   int chunk_index,
+                                  bool is_coarse,
                                   const SurfaceClass& surface,
                                   double s_m) {
   const AxisPoint axis = line.alignment().At(s_m);
@@ -90,7 +91,8 @@ std::vector<Vector3> PointsAtSeam(const TestLine& line,
           .inverse() *
       line.WorldFromChunk(chunk_index);
   std::vector<Vector3> points;
-  for (const Eigen::Vector3f& vertex : MeshOfSurface(line.Build(chunk_index), surface).vertices) {
+  for (const Eigen::Vector3f& vertex :
+       MeshOfSurface(line.Build(chunk_index, is_coarse), surface).vertices) {
     const Vector3 point = seam_from_chunk * vertex.cast<double>();
     if (std::abs(point.x()) < 1e-3) points.push_back(point);
   }
@@ -99,13 +101,13 @@ std::vector<Vector3> PointsAtSeam(const TestLine& line,
 
 // Both chunks sample the same functions, 1 mm of chainage apart: at d left of an axis of radius R,
 // the distance is 1 - d / R mm. Heights differ by slope times 1 mm, and float32 adds 0.01 mm.
-TEST(ChunkGeometry, OverlapsItsNeighbourByAMillimetre) {
+void ExpectOverlap(bool is_coarse_before, bool is_coarse_after) {
   const TestLine line(CantedArc(500.0, 400.0));
   const auto& surfaces = line.surfaces();
   for (const SurfaceClass& surface :
        {surfaces.rail_head, surfaces.rail_side, surfaces.ballast, surfaces.ground}) {
-    const auto ends = PointsAtSeam(line, 3, surface, 200.0);
-    const auto begins = PointsAtSeam(line, 4, surface, 200.0);
+    const auto ends = PointsAtSeam(line, 3, is_coarse_before, surface, 200.0);
+    const auto begins = PointsAtSeam(line, 4, is_coarse_after, surface, 200.0);
     EXPECT_GT(ends.size(), 8U);
     for (const Vector3& end : ends) {
       EXPECT_GT(end.x(), 0.0);
@@ -121,6 +123,28 @@ TEST(ChunkGeometry, OverlapsItsNeighbourByAMillimetre) {
       EXPECT_LT(nearest_m, 1.5 * kChunkOverlap_m) << end.transpose();
     }
     for (const Vector3& begin : begins) EXPECT_LT(begin.x(), 0.0);
+  }
+}
+
+TEST(ChunkGeometry, OverlapsItsNeighbourByAMillimetre) {
+  ExpectOverlap(false, false);
+}
+
+TEST(ChunkGeometry, BeginsAndEndsAlikeInBothForms) {
+  ExpectOverlap(true, false);
+  ExpectOverlap(false, true);
+  ExpectOverlap(true, true);
+}
+
+TEST(ChunkGeometry, TakesLessThanHalfOfTheTrianglesInItsCoarserForm) {
+  const TestLine line(RealLineOfTwoTracks());
+  for (const int chunk : {46, 250}) {
+    const Chunk fine = line.Build(chunk);
+    const Chunk coarse = line.Build(chunk, true);
+    EXPECT_LT(2 * coarse.ground.num_triangles(), fine.ground.num_triangles());
+    for (const Part& part : coarse.ground.parts) {
+      ExpectSoundTriangles(part.mesh, "label " + std::to_string(part.label));
+    }
   }
 }
 

@@ -32,9 +32,10 @@ ChunkContext TestLine::Context(int chunk) const {
           .chunk_from_world = WorldFromChunk(chunk).inverse()};
 }
 
-Chunk TestLine::Build(int chunk) const {
+Chunk TestLine::Build(int chunk, bool is_coarse) const {
   Chunk built;
-  const ChunkContext context = Context(chunk);
+  ChunkContext context = Context(chunk);
+  context.is_coarse = is_coarse;
   AddTracks(context, models_, built);
   AddCatenary(context, plan_, models_, built);
   AddTerrain(context, built);

@@ -27,7 +27,7 @@ class TestLine {
   [[nodiscard]] ChunkContext Context(int chunk) const;
   [[nodiscard]] Transform WorldFromChunk(int chunk) const;
   /// Builds tracks, contact line and ground of a chunk.
-  [[nodiscard]] Chunk Build(int chunk) const;
+  [[nodiscard]] Chunk Build(int chunk, bool is_coarse = false) const;
 
  private:
   WorldSpec spec_;

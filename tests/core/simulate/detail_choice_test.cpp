@@ -92,6 +92,45 @@ TEST(DetailChoice, IsInFullDetailWhereNothingElseIsKnown) {
       0U);
 }
 
+/// 50 m long about its origin, for rays 0.04 m apart and beams 0.1 m wide, seen within 45 degrees
+/// of its x axis.
+constexpr double kHalfLength_m = 25.0;
+CoarserSurfaces TestSurface() {
+  return {.area_m = {Eigen::Vector2d(-kHalfLength_m, -80.0), Eigen::Vector2d(kHalfLength_m, 80.0)},
+          .ray_spacing_m = 0.04,
+          .beam_width_m = 0.1,
+          .sight_angle_rad = RadFromDeg(45.0)};
+}
+
+bool TakesSurfaceAt(const DetailRule& rule, double x_m, double y_m = 0.0, double yaw_deg = 0.0) {
+  return DetailChoice(TestWay(), 0, rule)
+      .TakesCoarser(TestSurface(),
+                    MakeTransform(RotationFromYawPitchRoll(RadFromDeg(yaw_deg), 0.0, 0.0),
+                                  Vector3(x_m, y_m, 30.0)));
+}
+
+TEST(DetailChoice, TakesTheCoarserFormOfAChunkByItsNearestPointInPlan) {
+  // Rays are 0.04 m apart at 10 m, whatever the difference in height.
+  EXPECT_FALSE(TakesSurfaceAt(Rays(), 50.0 + kHalfLength_m + 9.9));
+  EXPECT_TRUE(TakesSurfaceAt(Rays(), 50.0 + kHalfLength_m + 10.1));
+  EXPECT_FALSE(TakesSurfaceAt(Rays(), -kHalfLength_m - 9.9));
+  EXPECT_TRUE(TakesSurfaceAt(Rays(), -kHalfLength_m - 10.1));
+  // Beams are 0.1 m wide at 50 m.
+  EXPECT_FALSE(TakesSurfaceAt(Beams(), 50.0 + kHalfLength_m + 49.9));
+  EXPECT_TRUE(TakesSurfaceAt(Beams(), 50.0 + kHalfLength_m + 50.1));
+}
+
+TEST(DetailChoice, TakesTheCoarserFormOnlyOfChunksThatAreSeenAlongTheTrack) {
+  EXPECT_TRUE(TakesSurfaceAt(Rays(), 200.0, 149.0));
+  EXPECT_FALSE(TakesSurfaceAt(Rays(), 200.0, 151.0));
+  EXPECT_TRUE(TakesSurfaceAt(Rays(), 200.0, 151.0, 20.0));
+  EXPECT_FALSE(TakesSurfaceAt(Rays(), 400.0, 0.0, 90.0));
+  EXPECT_FALSE(TakesSurfaceAt({}, 1000.0));
+  EXPECT_FALSE(DetailChoice(SimpleWorld{}, 0, Rays())
+                   .TakesCoarser(TestSurface(), MakeTransform(Eigen::Matrix3d::Identity(),
+                                                              Vector3(1000.0, 0.0, 0.0))));
+}
+
 ScanPattern Raster(double resolution_deg) {
   return BuildScanPattern({.rate_hz = 10.0,
                            .pattern = RasterSpec{.horizontal_fov_deg = 60.0,

@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -36,9 +37,11 @@ class LineWorld final : public World {
  public:
   bool own_trees = false;
   bool has_wires = false;
+  bool has_coarser_chunks = false;  ///< For rays that are 0.04 m apart at the chunk.
   std::atomic<int> broken_chunk = -1;
   std::atomic<int> delay_ms = 0;
   mutable std::atomic<int> num_built[kNumChunks] = {};
+  mutable std::atomic<int> num_coarser[kNumChunks] = {};  ///< Not counted in `num_built`.
   mutable std::atomic<int> num_windows = 0;
   mutable std::weak_ptr<const Model> tree_of_chunk_0;
 
@@ -71,6 +74,26 @@ class LineWorld final : public World {
     Eigen::Affine3d chunk_from_tree(Eigen::Translation3d(0.0, 5.0 + 0.3 * chunk, 0.0));
     built.placements.push_back({tree, chunk_from_tree, 0});
     return built;
+  }
+  [[nodiscard]] std::vector<Transform> VehiclePosesIn(int home_chunk) const override {
+    std::vector<Transform> poses;
+    for (double x_m = -0.5 * kChunkLength_m; x_m <= 0.5 * kChunkLength_m; x_m += 1.0) {
+      poses.push_back(MakeTransform(Eigen::Matrix3d::Identity(),
+                                    {kChunkLength_m * home_chunk + x_m, 0.0, 0.0}));
+    }
+    return poses;
+  }
+  [[nodiscard]] std::optional<CoarserSurfaces> CoarserSurfacesOf(int) const override {
+    if (!has_coarser_chunks) return std::nullopt;
+    return CoarserSurfaces{.area_m = {Eigen::Vector2d(-0.5 * kChunkLength_m, -10.0),
+                                      Eigen::Vector2d(0.5 * kChunkLength_m, 10.0)},
+                           .ray_spacing_m = 0.04,
+                           .beam_width_m = 0.0,
+                           .sight_angle_rad = 0.5};
+  }
+  [[nodiscard]] Chunk BuildCoarserChunk(int chunk) const override {
+    ++num_coarser[chunk];
+    return {{"coarser ground", {{MakeFloor(-2.0F, 25.0F), 1, 1}}}, {}};
   }
   [[nodiscard]] const std::vector<SceneObject>& objects() const override { return objects_; }
   [[nodiscard]] Transform WorldFromObject(std::size_t, std::int64_t) const override {
@@ -287,6 +310,25 @@ TEST(WindowSource, MakesWindowsAnewOfTheChunksItHasWhereWhatStandsChanges) {
   static_cast<void>(windows.Get(1));
   static_cast<void>(windows.Get(2));
   for (int chunk = 0; chunk <= 4; ++chunk) EXPECT_EQ(world->num_built[chunk], 1) << chunk;
+}
+
+// The vehicle is within 25 m of its chunk's middle: the next chunk but one is 50 m away.
+TEST(WindowSource, TakesTheCoarserFormOfChunksFarFromTheHomeChunk) {
+  const auto world = std::make_shared<LineWorld>();
+  world->has_coarser_chunks = true;
+  WindowSource windows(
+      std::make_shared<SceneStore>(world, TestMaterials()), kRange_m,
+      {.vehicle_from_sensor = Transform::Identity(), .ray_spacing_rad = 0.04 / 49.0});
+  static_cast<void>(windows.Get(10));
+  const auto built = [&](int chunk) {
+    return std::pair(world->num_built[chunk].load(), world->num_coarser[chunk].load());
+  };
+  for (const int chunk : {9, 10, 11}) EXPECT_EQ(built(chunk), std::pair(1, 0)) << chunk;
+  for (const int chunk : {8, 12}) EXPECT_EQ(built(chunk), std::pair(0, 1)) << chunk;
+  static_cast<void>(windows.Get(11));
+  for (const int chunk : {10, 11}) EXPECT_EQ(built(chunk), std::pair(1, 0)) << chunk;
+  for (const int chunk : {9, 12}) EXPECT_EQ(built(chunk), std::pair(1, 1)) << chunk;
+  EXPECT_EQ(built(13), std::pair(0, 1));
 }
 
 TEST(SceneStore, BuildsChunksOnceForSensorsOfDifferentReach) {

@@ -142,7 +142,7 @@ TEST(DropoutText, IsWhatAnalysisCounts) {
   scenario.weather.snow_rate_mmph = 10.0;
   // The draws of this sensor put the point of a leaf in frame 3 beyond the gate.
   scenario.lidar.name = "";
-  scenario.world.vegetation.detail = PlantDetail::kFull;
+  scenario.world.detail = SceneDetail::kFull;
   Frame frame;
   MakeSimulator(scenario, 1)->Scan(3, frame);
   const std::string expected = AnalysedText(Record(frame));

@@ -1,0 +1,92 @@
+// Coarser plants, ground and tracks far away against full detail everywhere: what a sensor measures
+// of them must stay. docs/detail.md has the comparison with intervals, by sensor.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "railcast/scenario.h"
+
+namespace railcast {
+namespace {
+
+struct Echoes {
+  double count{};
+  double intensity{};  ///< Their sum.
+};
+/// Echoes by label and by range.
+using EchoesByPlace = std::map<std::pair<std::string, int>, Echoes>;
+
+/// The demo without objects and weather. Its vehicle moves 62 m from frame to frame.
+ScenarioSpec Demo(Fidelity rung, SceneDetail detail) {
+  ScenarioSpec spec = ReadScenario(RAILCAST_SOURCE_DIR "/scenarios/st_gallen_approach.json");
+  spec.fidelity = rung;
+  spec.weather = {};
+  spec.world.objects.clear();
+  spec.world.detail = detail;
+  spec.vehicle.motion.profile = {{.time_s = 0.0, .s_m = {}, .speed_mps = 620.0}};
+  spec.lidar.receiver.return_mode = ReturnMode::kTriple;
+  return spec;
+}
+
+EchoesByPlace EchoesOf(const ScenarioSpec& spec, std::uint32_t num_frames) {
+  constexpr double kBin_m = 60.0;
+  const auto simulator = MakeSimulator(spec, 2);
+  const LabelTable labels(spec.labels);
+  EchoesByPlace echoes;
+  Frame frame;
+  for (std::uint32_t index = 0; index < num_frames; ++index) {
+    simulator->Scan(index, frame);
+    for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+      if (frame.outcome[slot] != Outcome::kReturned) continue;
+      const int bin = static_cast<int>(static_cast<double>(frame.true_range_m[slot]) / kBin_m);
+      Echoes& of_place = echoes[{labels.Find(frame.label[slot])->name, bin}];
+      of_place.count += 1.0;
+      of_place.intensity += static_cast<double>(frame.intensity[slot]);
+    }
+  }
+  return echoes;
+}
+
+/// Expects every count above 1,000 to change by less than 5 % and the noise of two Poisson counts,
+/// and so the mean intensity, which varies less than its mean from echo to echo.
+void ExpectAlike(const EchoesByPlace& full, const EchoesByPlace& coarser) {
+  int num_compared = 0;
+  for (const auto& [place, of_full] : full) {
+    if (of_full.count < 1000.0) continue;
+    ++num_compared;
+    const Echoes& now = coarser.at(place);
+    const double tolerance = 0.05 + 3.0 * std::sqrt(2.0 / of_full.count);
+    const std::string where = place.first + " in bin " + std::to_string(place.second) + ", " +
+                              std::to_string(of_full.count) + " echoes";
+    EXPECT_NEAR(now.count / of_full.count, 1.0, tolerance) << where;
+    EXPECT_NEAR(now.intensity / now.count * of_full.count / of_full.intensity, 1.0, tolerance)
+        << where;
+  }
+  EXPECT_GE(num_compared, 8);
+}
+
+TEST(SceneDetail, KeepsTheEchoesOfRaysByLabelAndRange) {
+  ExpectAlike(EchoesOf(Demo(Fidelity::kSurface, SceneDetail::kFull), 6),
+              EchoesOf(Demo(Fidelity::kSurface, SceneDetail::kAuto), 6));
+}
+
+TEST(SceneDetail, KeepsTheEchoesOfBeamsByLabelAndRange) {
+  ExpectAlike(EchoesOf(Demo(Fidelity::kFootprint, SceneDetail::kFull), 3),
+              EchoesOf(Demo(Fidelity::kFootprint, SceneDetail::kAuto), 3));
+}
+
+TEST(SceneDetail, HoldsForTreesThatSwayInTheWind) {
+  ScenarioSpec full = Demo(Fidelity::kSurface, SceneDetail::kFull);
+  ScenarioSpec coarser = Demo(Fidelity::kSurface, SceneDetail::kAuto);
+  full.weather.wind_speed_mps = 10.0;
+  coarser.weather.wind_speed_mps = 10.0;
+  ExpectAlike(EchoesOf(full, 4), EchoesOf(coarser, 4));
+}
+
+}  // namespace
+}  // namespace railcast

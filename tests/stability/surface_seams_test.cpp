@@ -1,0 +1,80 @@
+// Beams at the seams of chunks of which one is in its finest form and the other in its coarser one.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "railcast/scenario.h"
+#include "tests/stability/tunnel.h"
+#include "tests/support/ray_cast.h"
+
+namespace railcast {
+namespace {
+
+constexpr int kHome = 20;  // In a curve of the demo's line, with two tracks.
+constexpr int kNumChunks = 8;
+
+Eigen::Affine3d Placed(const Transform& transform) {
+  return Eigen::Affine3d(transform.matrix());
+}
+
+/// The surfaces of some chunks, every other one in its coarser form, without anything on them.
+class Seams {
+ public:
+  explicit Seams(bool begins_coarse)
+      : world_(MakeWorld(ReadScenario(RAILCAST_SOURCE_DIR "/scenarios/st_gallen_approach.json"))) {
+    const Transform window_from_world = world_->WorldFromChunk(kHome).inverse();
+    std::vector<TracePlacement> placements;
+    for (int i = 0; i < kNumChunks; ++i) {
+      const Chunk chunk = (i % 2 == 0) == begins_coarse ? world_->BuildCoarserChunk(kHome + i)
+                                                        : world_->BuildChunk(kHome + i);
+      placements.push_back({std::make_shared<TraceModel>(device_, chunk.ground),
+                            {Placed(window_from_world * world_->WorldFromChunk(kHome + i))},
+                            1});
+    }
+    scene_ = std::make_unique<TraceScene>(device_, placements);
+  }
+
+  /// From 0.5 to 6 m above the track, 10 to 150 m before a seam, at the surface there: half of the
+  /// beams at the ballast, half also at the ground beside it, where it is nearly level.
+  [[nodiscard]] Ray Aim(std::uint64_t beam) const {
+    const auto [u, v, w, t] = Uniforms(beam);
+    const double seam_s_m = RailWorld::kChunkLength_m * (kHome + 4);
+    const double d_m = beam % 2 == 0 ? std::lerp(-4.5, 8.5, u) : std::lerp(-12.0, 16.0, u);
+    const double height_m = std::lerp(-0.9, -0.1, std::fmod(1e3 * u, 1.0));
+    const double along_m = std::lerp(-0.01, 0.01, std::fmod(1e3 * v, 1.0));
+    const Transform window_from_world = world_->WorldFromChunk(kHome).inverse();
+    const auto place = [&](double s_m, double lateral_m, double above_m) -> Vector3 {
+      return (window_from_world * world_->alignment().WorldFromTrack(s_m, lateral_m, above_m))
+          .translation();
+    };
+    return RayThrough(place(seam_s_m - std::lerp(10.0, 150.0, v), std::lerp(-2.0, 6.0, w),
+                            std::lerp(0.5, 6.0, t)),
+                      place(seam_s_m + along_m, d_m, height_m));
+  }
+
+  [[nodiscard]] std::size_t CountEscapes(std::uint64_t num_beams) const {
+    std::vector<Ray> rays;
+    for (std::uint64_t beam = 0; beam < num_beams; ++beam) rays.push_back(Aim(beam));
+    const std::vector<RayHit> hits = CastRays(*scene_, rays, 1000.0F);
+    return static_cast<std::size_t>(
+        std::ranges::count_if(hits, [](const RayHit& hit) { return hit.surface == 0; }));
+  }
+
+ private:
+  std::shared_ptr<const RailWorld> world_;
+  TraceDevice device_;
+  std::unique_ptr<TraceScene> scene_;
+};
+
+TEST(SurfaceSeams, LetNoBeamThroughWhereTheFormOfChunksChanges) {
+  for (const bool begins_coarse : {false, true}) {
+    EXPECT_EQ(Seams(begins_coarse).CountEscapes(200'000), 0U) << begins_coarse;
+  }
+}
+
+}  // namespace
+}  // namespace railcast
