@@ -29,7 +29,7 @@ struct Frames {
 };
 
 Frames ChooseFrames(const ScenarioSpec& scenario, const Simulator& simulator) {
-  const std::uint32_t last = LastFrameOfRun(scenario, simulator);
+  const std::uint32_t last = LastFrameOfRun(scenario, simulator, kNumSpread);
   const std::vector<std::uint32_t> spread = SpreadFrames(last, kNumSpread);
   Frames frames;
   for (std::size_t i = 0; i < spread.size(); ++i) {

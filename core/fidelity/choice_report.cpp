@@ -162,6 +162,9 @@ std::string ChoiceText(const FidelityChoice& choice, const ToleranceSpec& tolera
   if (!choice.without_cause.empty()) {
     text += "  without " + List(choice.without_cause) + ": no cause in this scenario\n";
   }
+  if (choice.held_back.empty()) {
+    return text + "  on frames held back: not measured, the run has one frame\n";
+  }
   text += "  on frames held back: beyond the tolerance in " + std::to_string(NumBeyond(choice)) +
           " of " + std::to_string(choice.held_back.size()) + "\n";
   return text;

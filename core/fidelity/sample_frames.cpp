@@ -111,7 +111,9 @@ std::vector<Course> CoursesOf(const Simulator& simulator) {
 
 }  // namespace
 
-std::uint32_t LastFrameOfRun(const ScenarioSpec& scenario, const Simulator& simulator) {
+std::uint32_t LastFrameOfRun(const ScenarioSpec& scenario,
+                             const Simulator& simulator,
+                             int num_frames) {
   const ScanPattern& pattern = simulator.pattern();
   const auto* const world = dynamic_cast<const RailWorld*>(&simulator.world());
   // The world of a host program has no tracks that could end.
@@ -132,12 +134,13 @@ std::uint32_t LastFrameOfRun(const ScenarioSpec& scenario, const Simulator& simu
     }
     return true;
   };
-  return FirstWith(0, last, are_at_rest);
+  return std::max(FirstWith(0, last, are_at_rest),
+                  std::min(last, static_cast<std::uint32_t>(num_frames - 1)));
 }
 
 std::vector<std::uint32_t> SpreadFrames(std::uint32_t last_frame, int num_frames) {
-  const auto num = static_cast<std::uint64_t>(num_frames);
-  const std::uint64_t length = std::max(std::uint64_t{last_frame} + 1, num);
+  const std::uint64_t length = std::uint64_t{last_frame} + 1;
+  const std::uint64_t num = std::min(static_cast<std::uint64_t>(num_frames), length);
   std::vector<std::uint32_t> frames;
   for (std::uint64_t i = 0; i < num; ++i) {
     frames.push_back(static_cast<std::uint32_t>((2 * i + 1) * length / (2 * num)));
@@ -174,7 +177,7 @@ std::vector<std::uint32_t> ApproachFrames(const ScenarioSpec& scenario,
                                           const Simulator& simulator,
                                           int num_frames) {
   constexpr double kLeastRatio = 1.5;
-  const std::uint32_t last = LastFrameOfRun(scenario, simulator);
+  const std::uint32_t last = LastFrameOfRun(scenario, simulator, num_frames);
   const std::vector<Course> courses = CoursesOf(simulator);
   const Course* most = nullptr;
   double most_ratio = kLeastRatio;
@@ -202,7 +205,7 @@ std::vector<std::uint32_t> ApproachFrames(const ScenarioSpec& scenario,
 std::vector<std::uint32_t> SampleFrames(const ScenarioSpec& scenario,
                                         const Simulator& simulator,
                                         int num_frames) {
-  const std::uint32_t last = LastFrameOfRun(scenario, simulator);
+  const std::uint32_t last = LastFrameOfRun(scenario, simulator, num_frames);
   const std::vector<std::uint32_t> at_objects =
       FramesAtObjects(scenario, simulator, last, num_frames / 2);
   const std::vector<std::uint32_t> spread =

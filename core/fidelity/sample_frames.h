@@ -12,10 +12,13 @@ namespace railcast {
 /// track, or when nothing moves any more. It depends on the scenario alone, not on the part of the
 /// run that is being simulated.
 /// @param simulator The simulator of the scenario.
+/// @param num_frames At least 1. Where nothing moves, the run still lasts for so many frames if the
+///   tracks permit: they differ in their random draws.
 [[nodiscard]] std::uint32_t LastFrameOfRun(const ScenarioSpec& scenario,
-                                           const Simulator& simulator);
+                                           const Simulator& simulator,
+                                           int num_frames);
 
-/// Frames in the middles of `num_frames` equal parts of a run; the first ones if it is shorter.
+/// Frames in the middles of `num_frames` equal parts of a run; all of its frames if it is shorter.
 [[nodiscard]] std::vector<std::uint32_t> SpreadFrames(std::uint32_t last_frame, int num_frames);
 
 /// The frames in which objects of the world matter most: where they are nearest to the sensor, and
@@ -36,7 +39,7 @@ namespace railcast {
                                                         int num_frames);
 
 /// Frames that represent a scenario, in ascending order: up to half of them are FramesAtObjects(),
-/// and the others are spread over the run.
+/// and the others are spread over the run. Fewer than `num_frames` if the run has fewer.
 [[nodiscard]] std::vector<std::uint32_t> SampleFrames(const ScenarioSpec& scenario,
                                                       const Simulator& simulator,
                                                       int num_frames);

@@ -92,7 +92,7 @@ struct FidelityChoice {
     /// the tolerance.
     bool is_within_tolerance{};
   };
-  std::vector<HeldBack> held_back;
+  std::vector<HeldBack> held_back;  ///< Empty if the run has only one frame.
 };
 
 /// Called before each of the many scans with the completed share of the work, in [0, 1].
@@ -104,7 +104,8 @@ using ChoiceProgress = std::function<void(double done)>;
 /// frames: three that are spread over the run, and up to four in which objects are nearest or come
 /// near (core/fidelity/sample_frames.h), as effect_search.h describes, with the fixed costs of the
 /// table of effects. The selection is then verified on three frames in between, which took no part
-/// in it.
+/// in it. A run of fewer than six frames has fewer of both, and none to verify with if it is one
+/// frame.
 ///
 /// Only what saves at least 1 % of all instructions is left out, and never effect `detection`, so
 /// that chance decides nothing that hardly matters. Effects that the user switches on or off stay

@@ -17,7 +17,9 @@ namespace railcast {
 namespace {
 
 using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::Not;
 
 FidelityChoice Choose(const ScenarioSpec& scenario, int num_threads = 0) {
@@ -151,6 +153,13 @@ TEST(ChooseFidelity, IsNotMadeOnTheFramesItIsCheckedWith) {
     EXPECT_THAT(choice.sample_frames, Not(Contains(held.frame)));
     EXPECT_TRUE(held.is_within_tolerance);
   }
+}
+
+TEST(ChooseFidelity, HoldsNoFrameBackBeyondTheEndOfTheTrack) {
+  const FidelityChoice choice = Choose(ReadLine({.mount = kSideways, .start_s_m = "460"}));
+  EXPECT_THAT(choice.sample_frames, ElementsAre(0));
+  EXPECT_THAT(choice.held_back, IsEmpty());
+  EXPECT_THAT(ChoiceText(choice, {}), HasSubstr("held back: not measured, the run has one frame"));
 }
 
 TEST(ChooseFidelity, KeepsAllWhereNothingIsSeen) {

@@ -13,7 +13,7 @@ using testing::IsEmpty;
 
 std::uint32_t LastFrame(const Line& line) {
   const ScenarioSpec scenario = ReadLine(line);
-  return LastFrameOfRun(scenario, *MakeSimulator(scenario, 1));
+  return LastFrameOfRun(scenario, *MakeSimulator(scenario, 1), 1);
 }
 
 // At 10 m/s and 10 frames per second, 600 m take 600 frames. The scan of the frame that begins at
@@ -30,9 +30,25 @@ TEST(LastFrameOfRun, ComesWhenNothingMovesAnyMore) {
   EXPECT_NEAR(LastFrame({.objects = wagon, .speed_mps = "0"}), 80.0, 2.0);
 }
 
+// Frames of a scene at rest differ in their draws, but where the track ends none may follow.
+TEST(LastFrameOfRun, LeavesAsManyFramesAtRestAsAreWanted) {
+  const auto last = [](const Line& line, int num_frames) {
+    const ScenarioSpec scenario = ReadLine(line);
+    return LastFrameOfRun(scenario, *MakeSimulator(scenario, 1), num_frames);
+  };
+  EXPECT_EQ(last({.speed_mps = "0"}, 6), 5U);
+  EXPECT_EQ(last({.start_s_m = "1000", .end_s_m = "1000"}, 6), 0U);
+  EXPECT_NEAR(last({.end_s_m = "1000"}, 6), 599.0, 1.0);
+}
+
 TEST(SpreadFrames, AreTheMiddlesOfEqualParts) {
   EXPECT_THAT(SpreadFrames(599, 3), ElementsAre(100, 300, 500));
-  EXPECT_THAT(SpreadFrames(0, 3), ElementsAre(0, 1, 2));
+}
+
+TEST(SpreadFrames, AreAllFramesOfAShorterRun) {
+  EXPECT_THAT(SpreadFrames(0, 3), ElementsAre(0));
+  EXPECT_THAT(SpreadFrames(1, 3), ElementsAre(0, 1));
+  EXPECT_THAT(SpreadFrames(2, 3), ElementsAre(0, 1, 2));
 }
 
 std::vector<std::uint32_t> AtObjects(const Line& line, int num_most) {
