@@ -57,9 +57,8 @@ std::string SharingFault(const std::vector<std::string>& receivers,
 }  // namespace
 
 std::uint16_t DefaultPort(Protocol protocol) {
-  constexpr std::uint16_t kVelodynePort = 2368;
   constexpr std::uint16_t kRailcastPort = 27400;
-  return protocol == Protocol::kRailcast ? kRailcastPort : kVelodynePort;
+  return protocol == Protocol::kRailcast ? kRailcastPort : kVelodyneDataPort;
 }
 
 std::vector<std::string> ReceiversOf(const SensorInterface& interface) {

@@ -23,6 +23,8 @@ struct SensorPlace {
 [[nodiscard]] std::string InterfacesFault(const InterfacesSpec& interfaces,
                                           const std::vector<std::string>& sensors);
 
+/// The port that Velodyne's sensors send frames to and from.
+inline constexpr std::uint16_t kVelodyneDataPort = 2368;
 /// The port of each receiver to which sensors of Velodyne's protocols send position packets,
 /// whatever the port of their frames.
 inline constexpr std::uint16_t kVelodynePositionPort = 8308;

@@ -38,9 +38,6 @@ inline constexpr std::int64_t kAzimuthUnitsPerTurn = 36'000;
 inline constexpr double kAzimuthUnit_deg = 0.01;
 inline constexpr std::int64_t kUsPerHour = 3'600'000'000;
 
-// Sensors use the same port to send from and to send to.
-inline constexpr std::uint16_t kVelodyneDataPort = 2368;
-
 /// Reads a number at an address of any alignment.
 template <typename Number>
 [[nodiscard]] Number LoadAt(const char* place) {

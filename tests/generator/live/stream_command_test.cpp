@@ -8,6 +8,7 @@
 #include "core/io/velodyne/velodyne_model.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "core/io/write_file.h"
+#include "core/scenario/sensors.h"
 #include "railcast/io/stream.h"
 #include "railcast/scenario.h"
 #include "tests/core/io/temporary_directory.h"

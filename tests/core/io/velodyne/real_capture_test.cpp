@@ -12,6 +12,7 @@
 #include "core/base/units.h"
 #include "core/io/pcap/pcap_reader.h"
 #include "core/io/velodyne/velodyne_decoder.h"
+#include "core/scenario/sensors.h"
 #include "railcast/transform.h"
 
 namespace railcast {
