@@ -34,29 +34,22 @@ std::span<const char> FirstPacket(std::span<const char> payload, std::size_t siz
   return payload.first(std::min(payload.size(), size));
 }
 
-std::optional<CaptureSensor> VelodyneOf(std::span<const char> payload) {
+/// A sensor of each kind that can be decoded, without any packet so far.
+std::vector<CaptureSensor> ReadableSensors() {
+  std::vector<CaptureSensor> sensors;
   for (const VelodyneModel* model : ReadableModels()) {
-    std::vector<SensorTurn> turns;
-    if (VelodyneDecoder(*model).Decode(payload, turns)) continue;
-    return CaptureSensor{.name = model->name,
-                         .packet_size = kVelodynePacketSize,
-                         .shape = ShapeOfTurns(model->lasers, IntensityBytes::kVelodyne),
-                         .decoder = VelodyneDecoder(*model)};
+    sensors.push_back({.name = model->name,
+                       .packet_size = kVelodynePacketSize,
+                       .shape = ShapeOfTurns(model->lasers, IntensityBytes::kVelodyne),
+                       .decoder = VelodyneDecoder(*model)});
   }
-  return std::nullopt;
-}
-
-std::optional<CaptureSensor> HesaiOf(std::span<const char> payload) {
   for (const HesaiModel* model : {&Pandar64Model(), &Xt32Model(), &Qt128Model()}) {
-    std::vector<SensorTurn> turns;
-    const std::size_t size = model->layout.packet_size;
-    if (HesaiDecoder(*model).Decode(FirstPacket(payload, size), turns)) continue;
-    return CaptureSensor{.name = model->name,
-                         .packet_size = size,
-                         .shape = ShapeOfTurns(model->channels, IntensityBytes::kPercent),
-                         .decoder = HesaiDecoder(*model)};
+    sensors.push_back({.name = model->name,
+                       .packet_size = model->layout.packet_size,
+                       .shape = ShapeOfTurns(model->channels, IntensityBytes::kPercent),
+                       .decoder = HesaiDecoder(*model)});
   }
-  return std::nullopt;
+  return sensors;
 }
 
 /// Describes packets of a sensor that is recognised but cannot be decoded; empty if the payload is
@@ -86,10 +79,17 @@ std::string NameOfStranger(std::span<const char> payload) {
 
 }  // namespace
 
+SensorFinder::SensorFinder() : probes_(ReadableSensors()) {}
+
 std::optional<CaptureSensor> SensorFinder::Look(std::span<const char> payload) {
   if (num_datagrams_++ == 0) first_size_ = payload.size();
-  if (auto sensor = VelodyneOf(FirstPacket(payload, kVelodynePacketSize))) return sensor;
-  if (auto sensor = HesaiOf(payload)) return sensor;
+  for (std::size_t i = 0; i < probes_.size(); ++i) {
+    const std::span<const char> packet = FirstPacket(payload, probes_[i].packet_size);
+    std::vector<SensorTurn> turns;
+    const auto decode = [&](auto& decoder) { return decoder.Decode(packet, turns); };
+    // The probe has used the packet, which the caller will decode.
+    if (!std::visit(decode, probes_[i].decoder)) return ReadableSensors()[i];
+  }
   if (stranger_.empty()) stranger_ = NameOfStranger(payload);
   return std::nullopt;
 }

@@ -25,6 +25,8 @@ struct CaptureSensor {
 /// Finds out from datagrams which sensor sent them.
 class SensorFinder {
  public:
+  SensorFinder();
+
   /// Returns the sensor once a datagram is, or begins with, one of its packets.
   [[nodiscard]] std::optional<CaptureSensor> Look(std::span<const char> payload);
 
@@ -32,6 +34,8 @@ class SensorFinder {
   [[nodiscard]] std::string Findings() const;
 
  private:
+  /// Of a datagram that they refuse they use nothing, so that each can look at all of them.
+  std::vector<CaptureSensor> probes_;
   std::size_t num_datagrams_{};
   std::size_t first_size_{};
   std::string stranger_;  ///< The first sensor that was recognised but cannot be decoded.
