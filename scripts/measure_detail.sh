@@ -6,6 +6,10 @@
 #   measure_detail.sh [FRAMES]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+if [[ ! -x /usr/bin/time ]]; then
+  echo "error: needs GNU time; as root, run: apt-get install time" >&2
+  exit 1
+fi
 compare=build/release/tests/bench/railcast-detail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
