@@ -151,7 +151,7 @@ class LiveRun {
     } else if (spec_.lockstep) {
       outgoing.clock_from_due_ns = made_ns - stamp_ns;
     } else {
-      outgoing.clock_from_due_ns = clock_from_stamp_ns_ + record.period_ns;
+      outgoing.clock_from_due_ns = clock_from_stamp_ns_ + sensors_[sensor].latency_ns;
       if (made_ns > deadline_ns) ++record.late_frames;
     }
   }

@@ -18,6 +18,8 @@ namespace railcast {
 struct LiveSensor {
   std::string name;
   std::int64_t period_ns{};
+  /// How long after its time a datagram leaves with Pacing::kSpread; at most a period.
+  std::int64_t latency_ns = period_ns;
   /// Returns the simulation time at which a frame begins.
   std::function<std::int64_t(std::uint32_t frame)> stamp_ns;
   /// Scans a frame and appends its datagrams. Frames come in order. Throws RunStopped if the run
@@ -28,8 +30,10 @@ struct LiveSensor {
 };
 
 enum class Pacing {
-  kSpread,  ///< Each datagram one period after its last firing, while frame n + 1 is being made.
-  kBurst,   ///< All datagrams of a frame at once, as soon as it has begun and is made.
+  /// Each datagram one period (LiveSensor::latency_ns) after its last firing, while frame n + 1 is
+  /// being made.
+  kSpread,
+  kBurst,  ///< All datagrams of a frame at once, as soon as it has begun and is made.
 };
 
 /// Statistics of one sensor's frames.

@@ -95,6 +95,7 @@ std::vector<LiveSensor> LiveStreams::Sensors() {
   sensors.push_back(
       {.name = camera.name(),
        .period_ns = pattern.StampNs(camera.FrameOf(1)),
+       .latency_ns = pattern.StampNs(1),  // As the frame of the same stamp.
        .stamp_ns = [&](std::uint32_t image) { return pattern.StampNs(camera.FrameOf(image)); },
        .make =
            [this](std::uint32_t image, Datagrams& datagrams) {

@@ -116,6 +116,18 @@ TEST(LiveRun, SpreadsDatagramsOnePeriodAfterTheirFirings) {
   }
 }
 
+TEST(LiveRun, DoesNotWaitForAPeriodWhereTheLatencyIsLess) {
+  JumpingClock clock;
+  TinySensor images(2.0, clock);
+  LiveSensor live = images.Live("camera");
+  live.latency_ns = kNsPerS / 10;
+  static_cast<void>(RecordsOf(Lasting(2 * kNsPerS), {live}, {}, clock));
+  ASSERT_EQ(images.sent.size(), 8U);
+  for (const TinySensor::Sent& sent : images.sent) {
+    EXPECT_EQ(sent.left_ns, sent.due_ns + kNsPerS / 10);
+  }
+}
+
 TEST(LiveRun, SendsABurstAsSoonAsItIsMade) {
   JumpingClock clock;
   TinySensor sensor(10.0, clock);

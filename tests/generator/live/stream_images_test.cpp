@@ -5,6 +5,8 @@
 #include <string>
 
 #include "core/io/write_file.h"
+#include "generator/live/live_streams.h"
+#include "railcast/scenario.h"
 #include "tests/core/io/stream/listening_program.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/live/live_process.h"
@@ -72,6 +74,20 @@ TEST(StreamImages, SendsTheImagesThatSequenceWritesWithTheStampsOfTheFrames) {
   const auto out = folder.path() / "out";
   ASSERT_EQ(Generate("sequence " + scenario + " --frames 5 --out " + out.string()).status, 0);
   EXPECT_EQ(MeanDifferences(jpegs, out / "camera/front/color"), "alike\nalike\nalike\n");
+}
+
+// A camera's period may be seconds, and its images show the same instants as the frames.
+TEST(StreamImages, LeaveAsSoonAsTheFramesOfTheirStamps) {
+  const TemporaryDirectory folder;
+  const ScenarioSpec scenario = ReadScenario(WithCamera(folder.path(), "\"127.0.0.1:9\""));
+  SensorStreamSpec scan;
+  scan.name = scenario.lidar.name;
+  scan.to = {ParseEndpoint("127.0.0.1:9", 0)};
+  LiveStreams streams(scenario, {scan}, 1, 0, "");
+  const std::vector<LiveSensor> sensors = streams.Sensors();
+  ASSERT_EQ(sensors.size(), 2U);
+  EXPECT_EQ(sensors[1].period_ns, 2 * sensors[0].period_ns);
+  EXPECT_EQ(sensors[1].latency_ns, sensors[0].latency_ns);
 }
 
 TEST(StreamImages, HaveReceiversOfTheirOwn) {
