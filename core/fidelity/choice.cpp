@@ -96,10 +96,11 @@ Candidates FindCandidates(const ScenarioSpec& scenario, FidelityChoice& choice) 
   const double least_saving = kNextToNothing * choice.full_instructions;
   for (const Effect& effect : EffectTable()) {
     if (!(full.*effect.is_on)) continue;
-    if (is_switched_on(effect) || !MayBeLeftOut(effect) || *effect.instructions < least_saving) {
+    const double saving = SavingOf(effect, full);
+    if (is_switched_on(effect) || !MayBeLeftOut(effect) || saving < least_saving) {
       choice.kept.emplace_back(effect.name);
     } else {
-      candidates.all.push_back({effect.name, *effect.instructions, &effect});
+      candidates.all.push_back({effect.name, saving, &effect});
     }
   }
   if (full.footprint && !full.dense_footprint &&

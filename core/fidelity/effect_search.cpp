@@ -10,7 +10,7 @@
 namespace railcast {
 namespace {
 
-// Share of the tolerance that may be added where everything together exceeds the margin.
+// Share of the tolerance that may be added to the error of everything together.
 constexpr double kMore = 0.2;
 
 // All quantities of a deviation in a fixed order, first those over all echoes.
@@ -25,6 +25,9 @@ std::vector<double> ValuesOf(const Deviation& deviation) {
   return values;
 }
 
+// So much of the tolerance, or more where everything together reaches it almost: from
+// margin - kMore of the tolerance on. In parts, the lower ends of intervals are compared with these
+// limits, which come from the error itself.
 std::vector<double> LimitsFor(const ToleranceSpec& tolerance,
                               const Deviation& full,
                               double margin) {
@@ -184,6 +187,13 @@ double InstructionsOf(const EffectSet& effects, int footprint_rays) {
   }
   const bool has_fewer = footprint_rays < static_cast<int>(kNumSubRays);
   return effects.footprint && has_fewer ? sum - kInstructionsOfMoreSubRays : sum;
+}
+
+double SavingOf(const Effect& effect, const EffectSet& effects) {
+  EffectSet without = effects;
+  without.*effect.is_on = false;
+  const int num_rays = static_cast<int>(kNumCrowdedSubRays);
+  return InstructionsOf(effects, num_rays) - InstructionsOf(without, num_rays);
 }
 
 Deviation DeviationOf(const FrameDifference& difference) {

@@ -9,6 +9,8 @@
 
 namespace railcast {
 
+struct Effect;
+
 /// A compared quantity: its members in Deviation and in ToleranceSpec.
 struct DeviationQuantity {
   double Deviation::*value;
@@ -42,8 +44,8 @@ inline constexpr PartQuantity kPartQuantities[] = {
 
 [[nodiscard]] Deviation DeviationOf(const FrameDifference& difference);
 
-/// Whether every quantity is within the tolerance, or beyond it by no more than with all effects
-/// and 0.2 of the tolerance.
+/// Whether every quantity is within the tolerance or, if that is larger, within its error with all
+/// effects plus 0.2 of the tolerance.
 [[nodiscard]] bool IsWithinOrAsFull(const Deviation& deviation,
                                     const Deviation& full,
                                     const ToleranceSpec& tolerance);
@@ -56,6 +58,11 @@ inline constexpr double kInstructionsOfMoreSubRays = 7336.0;
 
 /// Estimated instructions per firing of Simulator::Scan with a set of effects.
 [[nodiscard]] double InstructionsOf(const EffectSet& effects, int footprint_rays);
+
+/// Instructions per firing that leaving out an effect of a set saves. Of the footprint it is the
+/// saving with kNumCrowdedSubRays; the further ones are a candidate of their own, so that savings
+/// add up.
+[[nodiscard]] double SavingOf(const Effect& effect, const EffectSet& effects);
 
 /// The limits of the search are so much of the tolerance, so that other frames than the samples are
 /// likely to be within it as well.
@@ -85,9 +92,10 @@ using MeasureOmissions = std::function<std::vector<Deviation>(const std::vector<
 /// within the limits, the one that saves most is measured as a whole, since effects influence each
 /// other. While it exceeds a limit, the candidate that reduces the excess most is put back.
 ///
-/// The limits are 0.8 of the tolerance, because frames differ. Where everything together exceeds
-/// that (the reference has many more rays), a set may exceed its error by 0.2 of the tolerance. In
-/// parts of the scene, the lower end of the error's interval must not exceed the limit.
+/// The limit of each error is 0.8 of the tolerance, because frames differ, or the error of
+/// everything together (the reference has many more rays) plus 0.2 of the tolerance, whichever is
+/// larger: limits widen where that error is above 0.6 of the tolerance. In parts of the scene, the
+/// lower end of the error's interval must not exceed the limit.
 /// @param savings What leaving out each candidate saves; at most 16.
 [[nodiscard]] EffectSearchResult FindOmissions(const std::vector<double>& savings,
                                                const ToleranceSpec& tolerance,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/detect/effect_table.h"
 #include "railcast/effects.h"
 
 namespace railcast {
@@ -171,6 +172,17 @@ TEST(InstructionsOf, CountTheSubRaysOfTheFootprint) {
             kInstructionsOfMoreSubRays);
   const EffectSet surface = EffectsOfRung(Fidelity::kSurface);
   EXPECT_EQ(InstructionsOf(surface, 64), InstructionsOf(surface, 16));
+}
+
+// With 16 sub-rays the footprint saves no more than those cost; with 64, the others save the rest.
+TEST(SavingOf, AddsUpToWhatTheFootprintCosts) {
+  const EffectSet footprint = EffectsOfRung(Fidelity::kFootprint);
+  EffectSet without = footprint;
+  without.footprint = false;
+  const double saving = SavingOf(*FindEffect("footprint"), footprint);
+  EXPECT_EQ(saving, InstructionsOf(footprint, 16) - InstructionsOf(without, 16));
+  EXPECT_EQ(saving + kInstructionsOfMoreSubRays,
+            InstructionsOf(footprint, 64) - InstructionsOf(without, 64));
 }
 
 }  // namespace
