@@ -137,6 +137,11 @@ std::string ChoiceText(const FidelityChoice& choice, const ToleranceSpec& tolera
   if (choice.effects.footprint) {
     text += "  sub-rays:  " + std::to_string(choice.footprint_rays) + "\n";
   }
+  text +=
+      choice.has_full_detail
+          ? "  scene detail: full, as the scenario has it\n"
+          : "  scene detail: auto, as the scenario has it: far away a coarser scene gives about as "
+            "many echoes of about the same intensity, but other ones\n";
   text += "  tolerance: " +
           Text({t.range_m, t.missed_share, t.false_share, t.thin_missed_share, t.intensity, {}}) +
           "\n";
@@ -145,7 +150,7 @@ std::string ChoiceText(const FidelityChoice& choice, const ToleranceSpec& tolera
   text += "  all:       " + Text(choice.full_deviation) + ", about " +
           Rounded(choice.full_instructions, 0) + "\n";
   if (!choice.is_within_tolerance) {
-    text += "  beyond the tolerance, as all effects together are:\n" +
+    text += "  beyond the tolerance, of which all effects together reach 0.8 or more:\n" +
             PartsText(choice.deviation, tolerance);
   }
   if (!choice.has_echoes) text += "  the reference has no echo to compare with: all are kept\n";
@@ -185,6 +190,7 @@ std::string ChoiceJson(const FidelityChoice& choice, const ToleranceSpec& t) {
   }
   const Json json = {{"effects", EffectNames(choice.effects)},
                      {"footprint_rays", choice.footprint_rays},
+                     {"detail", choice.has_full_detail ? "full" : "auto"},
                      {"tolerance", ObjectOf(t)},
                      {"deviation", ObjectOf(choice.deviation, t, true)},
                      {"is_within_tolerance", choice.is_within_tolerance},

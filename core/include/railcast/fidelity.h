@@ -58,12 +58,15 @@ struct Deviation {
 
 /// The effects that fidelity `auto` selected, and the measurements behind the selection.
 struct FidelityChoice {
-  EffectSet effects;         ///< The selected effects.
-  int footprint_rays{};      ///< The selected BeamSpec::footprint_rays.
+  EffectSet effects;     ///< The selected effects.
+  int footprint_rays{};  ///< The selected BeamSpec::footprint_rays.
+  /// The scenario's own scene detail, SimulatorSpec::has_full_detail, which is not searched for.
+  bool has_full_detail{};
   Deviation deviation;       ///< Deviation of `effects` on the sample frames.
   Deviation full_deviation;  ///< Deviation of the full candidate set on the sample frames.
-  /// Whether the selection is within tolerance on the sample frames. If false, the full set was not
-  /// either.
+  /// Whether the selection is within tolerance on the sample frames. If false, the error of the
+  /// full set was above 0.8 of the tolerance, and that of the selection is larger by at most 0.2 of
+  /// it.
   bool is_within_tolerance{};
   double instructions{};       ///< Estimated instructions per firing of the selection.
   double full_instructions{};  ///< The same estimate for the full candidate set.
@@ -88,8 +91,8 @@ struct FidelityChoice {
   struct HeldBack {
     std::uint32_t frame{};
     Deviation deviation;
-    /// Whether it is within the tolerance, or beyond it by no more than with all effects and 0.2 of
-    /// the tolerance.
+    /// Whether it is within the tolerance or, if that is larger, within the deviation of all
+    /// effects plus 0.2 of the tolerance.
     bool is_within_tolerance{};
   };
   std::vector<HeldBack> held_back;  ///< Empty if the run has only one frame.

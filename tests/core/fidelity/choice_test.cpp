@@ -155,6 +155,19 @@ TEST(ChooseFidelity, IsNotMadeOnTheFramesItIsCheckedWith) {
   }
 }
 
+TEST(ChooseFidelity, SaysWhichSceneDetailHolds) {
+  ScenarioSpec scenario = ReadLine({.has_wires = false, .mount = kSideways});
+  const FidelityChoice choice = Choose(scenario);
+  EXPECT_THAT(ChoiceText(choice, {}),
+              HasSubstr("\n  scene detail: auto, as the scenario has it: "));
+  EXPECT_THAT(ChoiceJson(choice, {}), HasSubstr("\"detail\": \"auto\""));
+  scenario.world.detail = SceneDetail::kFull;
+  const FidelityChoice in_full = Choose(scenario);
+  EXPECT_THAT(ChoiceText(in_full, {}),
+              HasSubstr("\n  scene detail: full, as the scenario has it\n"));
+  EXPECT_THAT(ChoiceJson(in_full, {}), HasSubstr("\"detail\": \"full\""));
+}
+
 TEST(ChooseFidelity, HoldsNoFrameBackBeyondTheEndOfTheTrack) {
   const FidelityChoice choice = Choose(ReadLine({.mount = kSideways, .start_s_m = "460"}));
   EXPECT_THAT(choice.sample_frames, ElementsAre(0));
