@@ -13,14 +13,16 @@
 #include <string>
 #include <vector>
 
+#include "core/fidelity/echoes_by_range.h"
 #include "core/program/run_program.h"
 #include "railcast/scenario.h"
-#include "tests/bench/detail_by_range.h"
 #include "tests/bench/mean_surface.h"
 #include "tests/bench/scene_cost.h"
 
 namespace railcast {
 namespace {
+
+constexpr double kBin_m = 30.0;
 
 struct Options {
   std::filesystem::path scenario;
@@ -49,7 +51,7 @@ ScenarioSpec Prepared(const Options& options, SceneDetail detail) {
 std::string ChangeText(const RelativeChange& change) {
   std::ostringstream text;
   text << std::fixed << std::setprecision(1) << std::showpos << 100.0 * change.change
-       << std::noshowpos << " ± " << 100.0 * change.half_width;
+       << std::noshowpos << " ± " << 100.0 * change.margin;
   return text.str();
 }
 
@@ -58,12 +60,8 @@ std::string CellsOf(const std::vector<EchoesByRange::Sums>& full,
                     const std::vector<EchoesByRange::Sums>& coarser) {
   constexpr double kLeastNumber = 400.0;  // With fewer, an interval is wider than what it is for.
   using Sums = EchoesByRange::Sums;
-  double first = 0.0;
-  double further = 0.0;
-  for (const Sums& frame : full) {
-    first += frame.first;
-    further += frame.further;
-  }
+  const double first = TotalOf(full, &Sums::first);
+  const double further = TotalOf(full, &Sums::further);
   if (first < kLeastNumber) return " | | |";
   const std::string of_further =
       further < kLeastNumber ? "" : ChangeText(ChangeOfSum(full, coarser, &Sums::further));
@@ -79,12 +77,10 @@ void PrintSurfaces(const EchoesByRange& full,
   const LabelTable labels(spec.labels);
   std::cout << "\n| range | ballast: first | further | intensity | heights | ground: heights | "
                "sleepers: first | rails: first |\n|---|---|---|---|---|---|---|---|\n";
-  for (int bin = 0; bin * EchoesByRange::kBin_m < spec.lidar.range_max_m; ++bin) {
+  for (int bin = 0; bin * kBin_m < spec.lidar.range_max_m; ++bin) {
     const auto heights = [&](const char* label) {
       const auto& of_full = full.Of(labels.Id(label), bin);
-      double number = 0.0;
-      for (const EchoesByRange::Sums& frame : of_full) number += frame.heights;
-      if (number < kLeastNumber) return std::string(" |");
+      if (TotalOf(of_full, &EchoesByRange::Sums::heights) < kLeastNumber) return std::string(" |");
       return " " + ChangeText(ChangeOfHeights(of_full, coarser.Of(labels.Id(label), bin))) + " |";
     };
     const auto first = [&](const char* label) {
@@ -92,7 +88,7 @@ void PrintSurfaces(const EchoesByRange& full,
           CellsOf(full.Of(labels.Id(label), bin), coarser.Of(labels.Id(label), bin));
       return cells.substr(0, cells.find('|') + 1);
     };
-    std::cout << "| " << bin * EchoesByRange::kBin_m << " m |"
+    std::cout << "| " << bin * kBin_m << " m |"
               << CellsOf(full.Of(labels.Id("ballast"), bin), coarser.Of(labels.Id("ballast"), bin))
               << heights("ballast") << heights("ground") << first("sleeper") << first("rail")
               << "\n";
@@ -104,8 +100,8 @@ void PrintTable(const EchoesByRange& full, const EchoesByRange& coarser, const S
   std::cout
       << "| range | trees: first | further | intensity | grass: first | further | intensity | "
          "ground: first | further | intensity |\n|---|---|---|---|---|---|---|---|---|---|\n";
-  for (int bin = 0; bin * EchoesByRange::kBin_m < spec.lidar.range_max_m; ++bin) {
-    std::cout << "| " << bin * EchoesByRange::kBin_m << " m |";
+  for (int bin = 0; bin * kBin_m < spec.lidar.range_max_m; ++bin) {
+    std::cout << "| " << bin * kBin_m << " m |";
     for (const char* label : {"tree", "grass", "ground"}) {
       std::cout << CellsOf(full.Of(labels.Id(label), bin), coarser.Of(labels.Id(label), bin));
     }
@@ -116,7 +112,7 @@ void PrintTable(const EchoesByRange& full, const EchoesByRange& coarser, const S
 /// Prints which share of neighbouring firings on a label, in percent, see the same range.
 void PrintNeighbours(const EchoesByRange& echoes, const ScenarioSpec& spec, const char* name) {
   const std::uint32_t label = LabelTable(spec.labels).Id(name);
-  for (int bin = 0; bin * EchoesByRange::kBin_m < spec.lidar.range_max_m; ++bin) {
+  for (int bin = 0; bin * kBin_m < spec.lidar.range_max_m; ++bin) {
     double neighbours = 0.0;
     double near_neighbours = 0.0;
     for (const EchoesByRange::Sums& frame : echoes.Of(label, bin)) {
@@ -144,8 +140,8 @@ void CompareEchoes(const Options& options) {
   const auto height_above = [&](const Frame& frame, std::size_t slot) {
     return surface.HeightAbove_m(TruePlace(*full, frame, slot), frame.label[slot], near_s_m);
   };
-  EchoesByRange of_full(height_above);
-  EchoesByRange of_coarser(height_above);
+  EchoesByRange of_full(kBin_m, height_above);
+  EchoesByRange of_coarser(kBin_m, height_above);
   Frame frame;
   for (std::uint32_t index = 0; index < options.num_frames; ++index) {
     near_s_m = spec.vehicle.start_s_m + options.step_m * index;

@@ -13,17 +13,19 @@
 namespace railcast {
 
 /// Counts the echoes of frames by label and range, to compare those of the same scene in full
-/// detail and with coarser forms far away.
+/// detail and with coarser forms far away, which cannot be matched one by one.
 class EchoesByRange {
  public:
-  static constexpr double kBin_m = 30.0;
-
   /// Height of a slot's point above the mean surface with its label; absent where there is none.
   using HeightAbove = std::function<std::optional<double>(const Frame&, std::size_t slot)>;
 
+  /// @param bin_m Width of a range bin.
   /// @param height_above If empty, no heights are summed.
-  explicit EchoesByRange(HeightAbove height_above = {}) : height_above_(std::move(height_above)) {}
+  explicit EchoesByRange(double bin_m, HeightAbove height_above = {})
+      : bin_m_(bin_m), height_above_(std::move(height_above)) {}
 
+  /// A label and the number of a range bin.
+  using Place = std::pair<std::uint32_t, int>;
   struct Sums {
     double first{};             ///< Nearest echoes of their firings.
     double further{};           ///< All others.
@@ -38,22 +40,32 @@ class EchoesByRange {
 
   void AddFrame(const Frame& frame);
 
+  [[nodiscard]] double bin_m() const { return bin_m_; }
+  /// The sums of each frame; empty if no frame has an echo there.
   [[nodiscard]] const std::vector<Sums>& Of(std::uint32_t label, int bin) const;
+  /// Where any frame has an echo, by label and then by range.
+  [[nodiscard]] std::vector<Place> Places() const;
 
  private:
+  [[nodiscard]] int BinOf(float range_m) const;
   void AddNeighbours(const Frame& frame);
   void AddHeight(const Frame& frame, std::size_t slot, Sums& sums) const;
 
+  double bin_m_;
   HeightAbove height_above_;
   std::size_t num_frames_ = 0;
   // One element for each frame.
-  std::map<std::pair<std::uint32_t, int>, std::vector<Sums>> sums_;
+  std::map<Place, std::vector<Sums>> sums_;
 };
 
-/// A relative change with the half width of its 95 % interval, from the differences between frames.
+/// The sum over all frames.
+[[nodiscard]] double TotalOf(const std::vector<EchoesByRange::Sums>& sums,
+                             double EchoesByRange::Sums::*of);
+
+/// A relative change with half of its 95 % interval, from the differences between frames.
 struct RelativeChange {
   double change{};
-  double half_width{};
+  double margin{};
 };
 
 /// The change of a sum over all frames.

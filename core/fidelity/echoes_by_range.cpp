@@ -1,4 +1,4 @@
-#include "tests/bench/detail_by_range.h"
+#include "core/fidelity/echoes_by_range.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,25 +8,25 @@ namespace {
 
 using Sums = EchoesByRange::Sums;
 
-constexpr double kOf95Percent = 1.96;
+constexpr double kNormal95Percent = 1.96;
 
-int BinOf(float range_m) {
-  return static_cast<int>(static_cast<double>(range_m) / EchoesByRange::kBin_m);
+RelativeChange ChangeWithin(double ratio, const std::vector<double>& deviations) {
+  double squares = 0.0;
+  for (const double deviation : deviations) squares += deviation * deviation;
+  return {ratio - 1.0, kNormal95Percent * ratio * std::sqrt(squares)};
 }
 
-double Total(const std::vector<Sums>& sums, double Sums::*of) {
+}  // namespace
+
+int EchoesByRange::BinOf(float range_m) const {
+  return static_cast<int>(static_cast<double>(range_m) / bin_m_);
+}
+
+double TotalOf(const std::vector<Sums>& sums, double Sums::*of) {
   double total = 0.0;
   for (const Sums& frame : sums) total += frame.*of;
   return total;
 }
-
-RelativeChange ChangeWith(double ratio, const std::vector<double>& deviations) {
-  double squares = 0.0;
-  for (const double deviation : deviations) squares += deviation * deviation;
-  return {ratio - 1.0, kOf95Percent * ratio * std::sqrt(squares)};
-}
-
-}  // namespace
 
 void EchoesByRange::AddFrame(const Frame& frame) {
   ++num_frames_;
@@ -83,38 +83,45 @@ const std::vector<EchoesByRange::Sums>& EchoesByRange::Of(std::uint32_t label, i
   return found == sums_.end() ? nothing : found->second;
 }
 
+std::vector<EchoesByRange::Place> EchoesByRange::Places() const {
+  std::vector<Place> places;
+  for (const auto& [place, sums] : sums_) places.push_back(place);
+  return places;
+}
+
 RelativeChange ChangeOfSum(const std::vector<Sums>& from,
                            const std::vector<Sums>& to,
                            double Sums::*of) {
-  const double from_total = Total(from, of);
-  const double to_total = Total(to, of);
+  const double from_total = TotalOf(from, of);
+  const double to_total = TotalOf(to, of);
   std::vector<double> deviations;
   for (std::size_t i = 0; i < from.size(); ++i) {
     deviations.push_back(to[i].*of / to_total - from[i].*of / from_total);
   }
-  return ChangeWith(to_total / from_total, deviations);
+  return ChangeWithin(to_total / from_total, deviations);
 }
 
 RelativeChange ChangeOfIntensity(const std::vector<Sums>& from, const std::vector<Sums>& to) {
   const auto mean = [](const std::vector<Sums>& sums) {
-    return Total(sums, &Sums::intensity) / Total(sums, &Sums::first);
+    return TotalOf(sums, &Sums::intensity) / TotalOf(sums, &Sums::first);
   };
   const auto deviation = [&](const std::vector<Sums>& sums, std::size_t frame) {
-    return (sums[frame].intensity - mean(sums) * sums[frame].first) / Total(sums, &Sums::intensity);
+    return (sums[frame].intensity - mean(sums) * sums[frame].first) /
+           TotalOf(sums, &Sums::intensity);
   };
   std::vector<double> deviations;
   for (std::size_t i = 0; i < from.size(); ++i) {
     deviations.push_back(deviation(to, i) - deviation(from, i));
   }
-  return ChangeWith(mean(to) / mean(from), deviations);
+  return ChangeWithin(mean(to) / mean(from), deviations);
 }
 
 RelativeChange ChangeOfHeights(const std::vector<Sums>& from, const std::vector<Sums>& to) {
   const auto mean_m = [](const std::vector<Sums>& sums) {
-    return Total(sums, &Sums::height_m) / Total(sums, &Sums::heights);
+    return TotalOf(sums, &Sums::height_m) / TotalOf(sums, &Sums::heights);
   };
   const auto variance_m2 = [&](const std::vector<Sums>& sums) {
-    return Total(sums, &Sums::square_height_m2) / Total(sums, &Sums::heights) -
+    return TotalOf(sums, &Sums::square_height_m2) / TotalOf(sums, &Sums::heights) -
            mean_m(sums) * mean_m(sums);
   };
   // Of half the logarithm of the variance, as far as one frame makes it.
@@ -123,13 +130,14 @@ RelativeChange ChangeOfHeights(const std::vector<Sums>& from, const std::vector<
     const double squares_m2 = frame.square_height_m2 - 2.0 * mean_m(sums) * frame.height_m +
                               frame.heights * mean_m(sums) * mean_m(sums);
     const double variance = variance_m2(sums);
-    return 0.5 * (squares_m2 - frame.heights * variance) / (Total(sums, &Sums::heights) * variance);
+    return 0.5 * (squares_m2 - frame.heights * variance) /
+           (TotalOf(sums, &Sums::heights) * variance);
   };
   std::vector<double> deviations;
   for (std::size_t i = 0; i < from.size(); ++i) {
     deviations.push_back(deviation(to, i) - deviation(from, i));
   }
-  return ChangeWith(std::sqrt(variance_m2(to) / variance_m2(from)), deviations);
+  return ChangeWithin(std::sqrt(variance_m2(to) / variance_m2(from)), deviations);
 }
 
 }  // namespace railcast

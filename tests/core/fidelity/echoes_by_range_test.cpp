@@ -1,4 +1,4 @@
-#include "tests/bench/detail_by_range.h"
+#include "core/fidelity/echoes_by_range.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ TEST(EchoesByRange, TellsTheNearestEchoOfAFiringFromItsOthers) {
   frame.intensity = {0.1F, 0.2F, 0.5F, 0.9F};
   frame.outcome = {Outcome::kReturned, Outcome::kReturned, Outcome::kBelowThreshold,
                    Outcome::kReturned};
-  EchoesByRange echoes;
+  EchoesByRange echoes(30.0);
   echoes.AddFrame(frame);
   echoes.AddFrame(frame);
   ASSERT_EQ(echoes.Of(7, 1).size(), 2U);
@@ -26,6 +26,7 @@ TEST(EchoesByRange, TellsTheNearestEchoOfAFiringFromItsOthers) {
   EXPECT_NEAR(echoes.Of(7, 1)[1].intensity, 0.2, 1e-6);
   EXPECT_TRUE(echoes.Of(7, 0).empty());
   EXPECT_EQ(echoes.Of(8, 0)[1].first, 1.0);
+  EXPECT_EQ(echoes.Places(), (std::vector<EchoesByRange::Place>{{7, 1}, {8, 0}}));
 }
 
 TEST(EchoesByRange, CountsNeighboursOnTheSameLabel) {
@@ -34,7 +35,7 @@ TEST(EchoesByRange, CountsNeighboursOnTheSameLabel) {
   frame.label = {7, 7, 8, 7, 7, 7};
   frame.true_range_m = {10.0F, 10.05F, 10.0F, 10.0F, 11.0F, 11.0F};
   frame.outcome.assign(6, Outcome::kReturned);
-  EchoesByRange echoes;
+  EchoesByRange echoes(30.0);
   echoes.AddFrame(frame);
   EXPECT_EQ(echoes.Of(7, 0)[0].neighbours, 3.0);
   EXPECT_EQ(echoes.Of(7, 0)[0].near_neighbours, 2.0);
@@ -46,15 +47,14 @@ TEST(RelativeChange, HasAnIntervalFromTheFramesAgainstEachOther) {
   const std::vector<Sums> doubled = {{.first = 200, .intensity = 40},
                                      {.first = 400, .intensity = 80}};
   EXPECT_DOUBLE_EQ(ChangeOfSum(from, doubled, &Sums::first).change, 1.0);
-  EXPECT_NEAR(ChangeOfSum(from, doubled, &Sums::first).half_width, 0.0, 1e-12);
+  EXPECT_NEAR(ChangeOfSum(from, doubled, &Sums::first).margin, 0.0, 1e-12);
   EXPECT_DOUBLE_EQ(ChangeOfIntensity(from, doubled).change, 1.0);
-  EXPECT_NEAR(ChangeOfIntensity(from, doubled).half_width, 0.0, 1e-12);
+  EXPECT_NEAR(ChangeOfIntensity(from, doubled).margin, 0.0, 1e-12);
   // Shares of the frames: 1/3 and 2/3 before, 2/3 and 1/3 after.
   const std::vector<Sums> swapped = {{.first = 200, .intensity = 20},
                                      {.first = 100, .intensity = 10}};
   EXPECT_DOUBLE_EQ(ChangeOfSum(from, swapped, &Sums::first).change, 0.0);
-  EXPECT_NEAR(ChangeOfSum(from, swapped, &Sums::first).half_width, 1.96 * std::sqrt(2.0 / 9.0),
-              1e-12);
+  EXPECT_NEAR(ChangeOfSum(from, swapped, &Sums::first).margin, 1.96 * std::sqrt(2.0 / 9.0), 1e-12);
 }
 
 TEST(RelativeChange, OfHeightsIsThatOfTheirStandardDeviation) {
@@ -62,7 +62,7 @@ TEST(RelativeChange, OfHeightsIsThatOfTheirStandardDeviation) {
   const std::vector<Sums> from(2, {.heights = 2, .height_m = 6, .square_height_m2 = 20});
   const std::vector<Sums> wider(2, {.heights = 2, .height_m = 10, .square_height_m2 = 58});
   EXPECT_NEAR(ChangeOfHeights(from, wider).change, 1.0, 1e-12);
-  EXPECT_NEAR(ChangeOfHeights(from, wider).half_width, 0.0, 1e-12);
+  EXPECT_NEAR(ChangeOfHeights(from, wider).margin, 0.0, 1e-12);
 }
 
 }  // namespace
