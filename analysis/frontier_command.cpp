@@ -25,6 +25,8 @@ namespace {
 
 // On the way to an object, from where it comes within range to where it is nearest.
 constexpr int kNumApproachFrames = 8;
+// For numbers of echoes, whose intervals come from the differences between frames.
+constexpr int kNumDetailFrames = 24;
 
 struct FrontierOptions {
   std::filesystem::path scenario;
@@ -41,7 +43,8 @@ ScenarioSpec ReadForFrontier(const FrontierOptions& options) {
   ScenarioSpec scenario = PickSensor(ReadScenario(options.scenario), options.sensor);
   scenario.fidelity = Fidelity::kAuto;
   scenario.effects.clear();
-  // Echoes of coarser plants are as many as those of the real ones, but not the same.
+  // Echoes of a coarser scene are as many as those of the finest one, but not the same. The rows
+  // with scene detail `auto` have simulators of their own.
   scenario.world.detail = SceneDetail::kFull;
   return scenario;
 }
@@ -54,6 +57,8 @@ int RunFrontier(const FrontierOptions& options, const std::string& command_line)
   const auto simulator = MakeSimulator(scenario, options.num_threads);
   plan.frames = SampleFrames(scenario, *simulator, options.num_frames);
   plan.approach_frames = ApproachFrames(scenario, *simulator, kNumApproachFrames);
+  plan.detail_frames =
+      SpreadFrames(LastFrameOfRun(scenario, *simulator, kNumDetailFrames), kNumDetailFrames);
   std::filesystem::create_directories(options.out);
   // The choice of fidelity takes about a tenth of the time.
   constexpr double kRowsShare = 0.9;
@@ -81,7 +86,8 @@ int RunFrontier(const FrontierOptions& options, const std::string& command_line)
       IdentityOf(scenario).scenario_hash,
       WeatherText(scenario.weather)};
   WriteFileWhole(options.out / "frontier.csv", FrontierCsv(results));
-  const Report report = MakeFrontierReport(plan, circumstances, results, command_line);
+  const Report report =
+      MakeFrontierReport(plan, circumstances, LabelTable(scenario.labels), results, command_line);
   EmitReport(report, {options.out, true}, "frontier",
              FrontierJson(plan, circumstances, LabelTable(scenario.labels), results));
   DrawSheet(report.sections.front().charts, report.title, options.out / "frontier");

@@ -68,6 +68,27 @@ Json ErrorsOf(const RowErrors& d, const LabelTable& labels) {
   return errors;
 }
 
+Json EstimateObject(const Estimate& estimate) {
+  return {{"value", estimate.value},
+          {"low", estimate.low},
+          {"high", estimate.high},
+          {"num_in_full_detail", estimate.num}};
+}
+
+Json DetailOf(const RowResult& result, const LabelTable& labels) {
+  Json list = Json::array();
+  for (const DetailDifference& difference : result.detail_differences) {
+    const Label* const label = labels.Find(difference.label);
+    list.push_back({{"class", label == nullptr ? std::to_string(difference.label) : label->name},
+                    {"from_m", kDetailBin_m * difference.bin},
+                    {"to_m", kDetailBin_m * (difference.bin + 1)},
+                    {"first_echoes", EstimateObject(difference.first)},
+                    {"further_echoes", EstimateObject(difference.further)},
+                    {"mean_intensity", EstimateObject(difference.intensity)}});
+  }
+  return list;
+}
+
 Json RowObject(const RowResult& result, const LabelTable& labels) {
   Json object = {{"name", result.row.name},
                  {"group", RowGroupName(result.row.group)},
@@ -77,6 +98,10 @@ Json RowObject(const RowResult& result, const LabelTable& labels) {
                  {"p50_ms", result.p50_ms()},
                  {"p99_ms", result.p99_ms()},
                  {"ratio_to_raw_trace", result.ratio()}};
+  object["detail"] = result.row.has_auto_detail() ? "auto" : "full";
+  if (result.row.has_auto_detail()) {
+    object["statistical_differences_from_full_detail"] = DetailOf(result, labels);
+  }
   if (result.row.sub_rays) object["sub_rays"] = *result.row.sub_rays;
   if (result.difference) object["errors"] = ErrorsOf(*result.difference, labels);
   return object;
@@ -124,6 +149,7 @@ std::string FrontierJson(const FrontierPlan& plan,
        {{"processor", ProcessorName()}, {"num_threads", std::thread::hardware_concurrency()}}},
       {"timed_with_threads", plan.num_threads},
       {"frames", plan.frames},
+      {"detail_frames", plan.detail_frames},
       {"yardstick_sub_rays", plan.yardstick_rays},
       {"matching",
        {{"rule",

@@ -21,7 +21,8 @@ Table ErrorsTable(const std::vector<RowResult>& results, bool is_si) {
   Table table = {"time_and_errors",
                  "Time and errors",
                  "Time of a frame, and as a multiple of the raw trace's. Errors are against the "
-                 "reference; less is better.",
+                 "reference; less is better. Rows with +auto_detail have none, since their echoes "
+                 "cannot be matched: see the section on scene detail.",
                  {{"row", "Row", ""},
                   {"group", "Group", ""},
                   {"p50_ms", "Time p50", "ms"},
@@ -185,6 +186,7 @@ std::string TitleOfRow(const FrontierPlan& plan, const std::string& scenario) {
 
 Report MakeFrontierReport(const FrontierPlan& plan,
                           const FrontierCircumstances& circumstances,
+                          const LabelTable& labels,
                           const std::vector<RowResult>& results,
                           const std::string& command) {
   Report report;
@@ -201,8 +203,11 @@ Report MakeFrontierReport(const FrontierPlan& plan,
     if (result.row.group != RowGroup::kLadder) continue;
     report.headlines.push_back({result.row.name, "x raw", result.ratio()});
   }
-  report.sections = {TimeSection(results), PartsSection(results),
-                     ChoiceSection(circumstances.choice_text)};
+  report.sections = {TimeSection(results), PartsSection(results)};
+  if (auto detail = DetailSection(plan, labels, results)) {
+    report.sections.push_back(std::move(*detail));
+  }
+  report.sections.push_back(ChoiceSection(circumstances.choice_text));
   return report;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,17 +24,25 @@ struct FrontierCircumstances {
 };
 
 /// Makes the report: charts of time against the first four of kFrontierErrors, then tables of all
-/// errors, of the findings, and of the Pareto fronts; the same by range, class and object; and what
-/// the scene needs.
+/// errors, of the findings, and of the Pareto fronts; the same by range, class and object; what
+/// scene detail `auto` changes; and what the scene needs.
 /// @param command Command line, for a reader to repeat.
 [[nodiscard]] Report MakeFrontierReport(const FrontierPlan& plan,
                                         const FrontierCircumstances& circumstances,
+                                        const LabelTable& labels,
                                         const std::vector<RowResult>& results,
                                         const std::string& command);
 
 /// The errors by range bin, class and object, and the detection distances of objects. Defined in
 /// frontier_parts.cpp.
 [[nodiscard]] Section PartsSection(const std::vector<RowResult>& results);
+
+/// What scene detail `auto` changes, by class and range. Defined in frontier_detail.cpp.
+[[nodiscard]] Table DetailTable(const LabelTable& labels, const std::vector<RowResult>& results);
+/// The same as a section; absent if no row has it.
+[[nodiscard]] std::optional<Section> DetailSection(const FrontierPlan& plan,
+                                                   const LabelTable& labels,
+                                                   const std::vector<RowResult>& results);
 
 /// Name of this machine's processor as the operating system reports it.
 [[nodiscard]] std::string ProcessorName();

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "analysis/frontier/row_simulators.h"
 #include "core/base/error.h"
 #include "core/fidelity/beam_steps.h"
 #include "core/fidelity/yardstick.h"
@@ -29,7 +30,8 @@ double Time_ms(const std::function<void()>& work) {
 
 class Stopwatch {
  public:
-  Stopwatch(const SimulatorSpec& spec, Simulator& simulator) : spec_(spec), simulator_(simulator) {}
+  Stopwatch(const SimulatorSpec& spec, RowSimulators& simulators)
+      : spec_(spec), simulators_(simulators) {}
 
   // One round of all rows on one frame.
   // @pre The first row is the raw trace.
@@ -40,8 +42,9 @@ class Stopwatch {
     double raw_ms = 0.0;
     for (RowResult& result : results) {
       const bool is_raw = result.row.group == RowGroup::kRawTrace;
-      if (!is_raw) simulator_.Use(SpecOfRow(result.row, spec_));
-      const std::function<void()> scan = [&] { simulator_.Scan(frame, frame_); };
+      Simulator& simulator = simulators_.Of(result.row);
+      if (!is_raw) simulator.Use(SpecOfRow(result.row, spec_));
+      const std::function<void()> scan = [&] { simulator.Scan(frame, frame_); };
       const bool has_enough =
           std::accumulate(result.times_ms.begin(), result.times_ms.end(), 0.0) > kEnough_ms;
       if (has_enough && !is_first_round) continue;
@@ -64,7 +67,7 @@ class Stopwatch {
   }
 
   const SimulatorSpec& spec_;
-  Simulator& simulator_;
+  RowSimulators& simulators_;
   Frame frame_;
 };
 
@@ -105,13 +108,41 @@ std::vector<std::vector<Approach>> MeasureApproaches(const FrontierPlan& plan,
     simulator.Use(ComparedSpec(yardstick, spec));
     simulator.Scan(frame, reference);
     for (std::size_t i = 0; i < plan.rows.size(); ++i) {
-      if (plan.rows[i].group == RowGroup::kRawTrace) continue;
+      if (!plan.rows[i].is_matched()) continue;
       simulator.Use(ComparedSpec(plan.rows[i], spec));
       simulator.Scan(frame, other);
       AddApproach(simulator, reference, other, approaches[i]);
     }
   }
   return approaches;
+}
+
+// The same row in full detail.
+FrontierRow InFullDetail(FrontierRow row) {
+  row.group = RowGroup::kLadder;
+  return row;
+}
+
+void MeasureDetail(const FrontierPlan& plan,
+                   const SimulatorSpec& spec,
+                   RowSimulators& simulators,
+                   std::vector<RowResult>& results) {
+  Frame frame;
+  for (RowResult& result : results) {
+    if (!result.row.has_auto_detail()) continue;
+    const auto count = [&](const FrontierRow& row) {
+      EchoesByRange echoes(kDetailBin_m);
+      Simulator& simulator = simulators.Of(row);
+      simulator.Use(ComparedSpec(row, spec));
+      for (const std::uint32_t index : plan.detail_frames) {
+        simulator.Scan(index, frame);
+        echoes.AddFrame(frame);
+      }
+      return echoes;
+    };
+    const EchoesByRange full = count(InFullDetail(result.row));
+    result.detail_differences = DifferencesOfDetail(full, count(result.row));
+  }
 }
 
 }  // namespace
@@ -141,7 +172,8 @@ std::vector<RowResult> MeasureFrontier(const FrontierPlan& plan,
   std::vector<FrameComparison> comparisons(results.size(), FrameComparison(comparison));
   const FrontierRow yardstick{"yardstick", RowGroup::kReference, YardstickEffects(),
                               plan.yardstick_rays};
-  Stopwatch stopwatch(spec, simulator);
+  RowSimulators simulators(scenario, simulator, plan.rows);
+  Stopwatch stopwatch(spec, simulators);
   Frame reference;
   Frame other;
   double done = 0.0;
@@ -150,13 +182,14 @@ std::vector<RowResult> MeasureFrontier(const FrontierPlan& plan,
     done += steps / static_cast<double>(plan.frames.size());
   };
   for (const std::uint32_t frame : plan.frames) {
-    simulator.UseThreads(plan.num_threads);
+    simulators.UseThreads(plan.num_threads);
+    simulators.BuildWindows(frame);
     const std::function<void()> raw_trace = simulator.MakeRawTrace(frame);
     for (int round = 0; round < plan.num_rounds; ++round) {
       advance("timing frame " + std::to_string(frame), 0.5 / plan.num_rounds);
       stopwatch.Round(frame, raw_trace, round == 0, results);
     }
-    simulator.UseThreads(0);
+    simulators.UseThreads(0);
     advance("reference of frame " + std::to_string(frame), 0.4);
     const SimulatorSpec of_yardstick = ComparedSpec(yardstick, spec);
     simulator.Use(of_yardstick);
@@ -165,7 +198,7 @@ std::vector<RowResult> MeasureFrontier(const FrontierPlan& plan,
         StepsWith(of_yardstick, kReferenceSteps, frame, simulator);
     advance("errors of frame " + std::to_string(frame), 0.1);
     for (std::size_t i = 0; i < results.size(); ++i) {
-      if (results[i].row.group == RowGroup::kRawTrace) continue;
+      if (!results[i].row.is_matched()) continue;
       const SimulatorSpec of_row = ComparedSpec(results[i].row, spec);
       simulator.Use(of_row);
       simulator.Scan(frame, other);
@@ -177,10 +210,12 @@ std::vector<RowResult> MeasureFrontier(const FrontierPlan& plan,
   on_progress("detection distances", done);
   std::vector<std::vector<Approach>> approaches =
       MeasureApproaches(plan, yardstick, spec, simulator);
+  on_progress("scene detail", done);
+  MeasureDetail(plan, spec, simulators, results);
   simulator.Use(spec);
   for (std::size_t i = 0; i < results.size(); ++i) {
     std::sort(results[i].times_ms.begin(), results[i].times_ms.end());
-    if (results[i].row.group != RowGroup::kRawTrace) {
+    if (results[i].row.is_matched()) {
       results[i].difference.emplace(RowErrors{comparisons[i].Result(), std::move(approaches[i])});
     }
   }

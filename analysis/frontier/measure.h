@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/frontier/detail_difference.h"
 #include "analysis/frontier/detection_distance.h"
 #include "analysis/frontier/rows.h"
 #include "core/fidelity/frame_comparison.h"
@@ -20,6 +21,8 @@ struct FrontierPlan {
   std::vector<std::uint32_t> frames;
   /// Frames on the way to objects, for their detection distances only.
   std::vector<std::uint32_t> approach_frames{};
+  /// Frames on which the numbers of echoes of rows with scene detail `auto` are compared.
+  std::vector<std::uint32_t> detail_frames{};
   /// For the timing; errors are computed on all cores, which does not change them.
   int num_threads = 1;
   int num_rounds = 4;  ///< Timing rounds per frame.
@@ -35,11 +38,14 @@ struct RowErrors : FrameDifference {
 /// Result of one row: times over all frames and rounds, and the errors of its frames.
 struct RowResult {
   FrontierRow row;
-  std::vector<double> times_ms;         ///< Times of single frames, sorted at the end.
-  std::optional<RowErrors> difference;  ///< Absent for the raw trace.
+  std::vector<double> times_ms;  ///< Times of single frames, sorted at the end.
+  /// Absent for the raw trace and for rows with scene detail `auto`.
+  std::optional<RowErrors> difference;
   /// Median time divided by that of the raw trace in the same round, for each round that timed the
   /// row.
   std::vector<double> ratios;
+  /// Of a row with scene detail `auto`, against the same row in full detail.
+  std::vector<DetailDifference> detail_differences{};
 
   [[nodiscard]] double p50_ms() const { return TimeQuantile_ms(0.5); }
   [[nodiscard]] double p99_ms() const { return TimeQuantile_ms(0.99); }
@@ -56,6 +62,7 @@ using FrontierProgress = std::function<void(const std::string& what, double done
 
 /// Times the rows, interleaved in this process, and compares their frames with those of the
 /// reference.
+/// @param scenario In full detail.
 /// @param simulator Made from the scenario; its spec is restored afterwards.
 [[nodiscard]] std::vector<RowResult> MeasureFrontier(const FrontierPlan& plan,
                                                      const ScenarioSpec& scenario,

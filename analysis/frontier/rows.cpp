@@ -33,6 +33,8 @@ const char* RowGroupName(RowGroup group) {
       return "brute_force";
     case RowGroup::kChosen:
       return "chosen";
+    case RowGroup::kAutoDetail:
+      return "auto_detail";
     case RowGroup::kReference:
       break;
   }
@@ -43,17 +45,20 @@ std::vector<FrontierRow> AllFrontierRows() {
   const EffectSet surface = EffectsOfRung(Fidelity::kSurface);
   const EffectSet footprint = EffectsOfRung(Fidelity::kFootprint);
   const EffectSet sampled_wires = With(footprint, &EffectSet::thin_conductors, false);
+  const EffectSet surface_wires = With(surface, &EffectSet::thin_conductors, true);
   std::vector<FrontierRow> rows = {
       {"raw_trace", RowGroup::kRawTrace},
       {"geometry", RowGroup::kLadder, EffectsOfRung(Fidelity::kGeometry)},
       {"plausibility", RowGroup::kLadder, EffectsOfRung(Fidelity::kPlausibility)},
       {"surface", RowGroup::kLadder, surface},
-      {"surface+thin_conductors", RowGroup::kLadder,
-       With(surface, &EffectSet::thin_conductors, true)},
+      {"surface+thin_conductors", RowGroup::kLadder, surface_wires},
       {"footprint-thin_conductors", RowGroup::kBetween, sampled_wires},
       {"footprint_16", RowGroup::kLadder, footprint, {}, 16},
       {"footprint", RowGroup::kLadder, footprint},
       {"auto", RowGroup::kChosen},
+      {"surface+thin_conductors+auto_detail", RowGroup::kAutoDetail, surface_wires},
+      {"footprint_16+auto_detail", RowGroup::kAutoDetail, footprint, {}, 16},
+      {"footprint+auto_detail", RowGroup::kAutoDetail, footprint},
   };
   for (const int sub_rays : kBruteForceSubRays) {
     rows.push_back({"brute_force_" + std::to_string(sub_rays + 1), RowGroup::kBruteForce,

@@ -18,6 +18,7 @@ enum class RowGroup {
   kBruteForce,  ///< The same number of sub-rays in every beam, with wires as triangles.
   kReference,   ///< The reference of accuracy with fewer sub-rays.
   kChosen,      ///< What fidelity auto chooses.
+  kAutoDetail,  ///< A rung with scene detail `auto`, whose echoes cannot be matched one by one.
 };
 [[nodiscard]] const char* RowGroupName(RowGroup group);
 
@@ -28,6 +29,13 @@ struct FrontierRow {
   EffectSet effects{};
   std::optional<int> sub_rays{};  ///< Sub-rays of dense_footprint beside the central ray.
   int footprint_rays = 64;        ///< BeamSpec::footprint_rays.
+
+  /// Whether the scene is as coarse as detail `auto` permits; otherwise it is in full detail.
+  [[nodiscard]] bool has_auto_detail() const { return group == RowGroup::kAutoDetail; }
+  /// Whether its echoes are compared with those of the reference.
+  [[nodiscard]] bool is_matched() const {
+    return group != RowGroup::kRawTrace && group != RowGroup::kAutoDetail;
+  }
 };
 
 /// Returns all rows in the order of the table. UseChoice() fills in the row `auto`.

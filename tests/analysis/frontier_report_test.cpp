@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/frontier/pareto.h"
 #include "analysis/report/formats.h"
 #include "tests/analysis/made_results.h"
 
@@ -43,7 +44,7 @@ FrontierCircumstances Circumstances() {
 
 // A report with the chart of missed echoes.
 Report ChartedReport() {
-  return MakeFrontierReport({}, Circumstances(),
+  return MakeFrontierReport({}, Circumstances(), Labels(),
                             {MadeResult("raw_trace", RowGroup::kRawTrace, 1.0, 0),
                              MadeResult("footprint", RowGroup::kLadder, 4.0, 5),
                              MadeResult("surface+thin_conductors", RowGroup::kLadder, 1.25, 40),
@@ -98,9 +99,10 @@ RowResult RowAtEdges() {
 }
 
 TEST(FrontierReport, TellsPointsOnPersonsByRange) {
-  const Report report = MakeFrontierReport(
-      {}, Circumstances(), {MadeResult("raw_trace", RowGroup::kRawTrace, 1.0, 0), RowAtEdges()},
-      "railcast-analyze frontier a.json");
+  const Report report =
+      MakeFrontierReport({}, Circumstances(), Labels(),
+                         {MadeResult("raw_trace", RowGroup::kRawTrace, 1.0, 0), RowAtEdges()},
+                         "railcast-analyze frontier a.json");
   const Table& targets = report.sections[0].tables[2];
   EXPECT_EQ(targets.key, "targets");
   ASSERT_EQ(targets.rows.size(), 1U);
@@ -208,6 +210,76 @@ TEST(FrontierJson, HoldsNumbersAndCircumstances) {
   EXPECT_EQ(row["errors"]["recall_per_label"]["ground"]["num_matched"], 9);
   EXPECT_EQ(json["pareto_front"]["missed_share"], Json{"footprint"});
   EXPECT_FALSE(json["rows"][0].contains("errors"));
+}
+
+// 24 frames of 50 first echoes on ground at 50 to 100 m in full detail; in detail `auto` there are
+// 51 of them in each, which have half the intensity.
+RowResult RowInAutoDetail() {
+  const auto scanned = [](std::uint32_t num, float intensity) {
+    Frame frame;
+    frame.Resize(1, num, 1);
+    frame.label.assign(num, 4);
+    frame.true_range_m.assign(num, 75.0F);
+    frame.intensity.assign(num, intensity);
+    frame.outcome.assign(num, Outcome::kReturned);
+    EchoesByRange echoes(kDetailBin_m);
+    for (int i = 0; i < 24; ++i) echoes.AddFrame(frame);
+    return echoes;
+  };
+  RowResult row = MadeResult("footprint+auto_detail", RowGroup::kAutoDetail, 3.5, 0);
+  row.difference.reset();
+  row.detail_differences = DifferencesOfDetail(scanned(50, 0.4F), scanned(51, 0.2F));
+  return row;
+}
+
+TEST(FrontierReport, TellsWhatSceneDetailChangesApartFromMatchedErrors) {
+  const RowResult raw = MadeResult("raw_trace", RowGroup::kRawTrace, 1.0, 0);
+  FrontierPlan plan;
+  plan.detail_frames.resize(24);
+  const Report report =
+      MakeFrontierReport(plan, Circumstances(), Labels(), {raw, RowInAutoDetail()}, "command");
+  ASSERT_EQ(report.sections.size(), 4U);
+  const Section& section = report.sections[2];
+  EXPECT_THAT(section.paragraphs[0], testing::HasSubstr("over 24 frames"));
+  ASSERT_EQ(section.tables[0].rows.size(), 1U);
+  const std::vector<Cell>& cells = section.tables[0].rows[0];
+  EXPECT_EQ(std::get<std::string>(cells[1]), "ground");
+  EXPECT_EQ(std::get<Span>(cells[2]).low, 50.0);
+  EXPECT_NEAR(std::get<Estimate>(cells[3]).value, 2.0, 1e-9);
+  EXPECT_EQ(std::get<Estimate>(cells[3]).num, 1200U);
+  EXPECT_FALSE(std::get<Estimate>(cells[4]).is_enough()) << "there are no further echoes";
+  EXPECT_NEAR(std::get<Estimate>(cells[5]).value, -50.0, 1e-4);
+  for (const FrontierError& error : kFrontierErrors) {
+    EXPECT_TRUE(ParetoFront({RowInAutoDetail()}, error).empty());
+  }
+}
+
+TEST(FrontierJson, HoldsStatisticalDifferencesInPlaceOfErrors) {
+  const Json json = Json::parse(FrontierJson({}, Circumstances(), Labels(), {RowInAutoDetail()}));
+  const Json& row = json["rows"][0];
+  EXPECT_EQ(row["detail"], "auto");
+  EXPECT_FALSE(row.contains("errors"));
+  const Json& difference = row["statistical_differences_from_full_detail"][0];
+  EXPECT_EQ(difference["class"], "ground");
+  EXPECT_EQ(difference["to_m"], 100.0);
+  EXPECT_NEAR(difference["first_echoes"]["value"].get<double>(), 0.02, 1e-9);
+  EXPECT_TRUE(difference["further_echoes"]["value"].is_null());
+}
+
+TEST(DifferencesOfDetail, NeedTenFrames) {
+  Frame frame;
+  frame.Resize(1, 1000, 1);
+  frame.label.assign(1000, 4);
+  frame.true_range_m.assign(1000, 10.0F);
+  frame.intensity.assign(1000, 0.5F);
+  frame.outcome.assign(1000, Outcome::kReturned);
+  EchoesByRange echoes(kDetailBin_m);
+  for (int i = 0; i < 9; ++i) echoes.AddFrame(frame);
+  EXPECT_FALSE(DifferencesOfDetail(echoes, echoes)[0].first.is_enough());
+  echoes.AddFrame(frame);
+  const Estimate first = DifferencesOfDetail(echoes, echoes)[0].first;
+  EXPECT_EQ(first.value, 0.0);
+  EXPECT_EQ(first.high, 0.0);
 }
 
 TEST(FrontierCsv, LeavesEmptyWhatARowLacks) {

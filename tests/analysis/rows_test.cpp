@@ -50,7 +50,9 @@ TEST(FrontierRows, AreNamedWhereOneIsUnknown) {
     EXPECT_STREQ(error.what(),
                  "--rows: must be all, or of raw_trace geometry plausibility surface "
                  "surface+thin_conductors footprint-thin_conductors footprint_16 footprint auto "
-                 "brute_force_4 brute_force_7 brute_force_19 brute_force_64 reference_16 "
+                 "surface+thin_conductors+auto_detail footprint_16+auto_detail "
+                 "footprint+auto_detail brute_force_4 brute_force_7 brute_force_19 brute_force_64 "
+                 "reference_16 "
                  "reference_64 reference_256 (got best)");
   }
 }
