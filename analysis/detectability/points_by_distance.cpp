@@ -16,12 +16,12 @@ struct Bin {
 };
 
 /// By bin; bins without a frame are absent.
-using Bins = std::map<std::uint32_t, Bin>;
+using BinsByDistance = std::map<std::uint32_t, Bin>;
 
-Bins BinsOf(const std::vector<DetectRun>& runs,
-            const std::string& name,
-            const DetectionRule& rule) {
-  Bins bins;
+BinsByDistance BinsOf(const std::vector<DetectRun>& runs,
+                      const std::string& name,
+                      const DetectionRule& rule) {
+  BinsByDistance bins;
   for (const DetectRun& run : runs) {
     const auto object = run.courses.objects.find(name);
     if (object == run.courses.objects.end()) continue;

@@ -21,7 +21,7 @@ const StrictJson* FindCount(const StrictJson& object, const std::string& key) {
   return found == object.end() ? nullptr : &*found;
 }
 
-std::string CountText(const StrictJson* value) {
+std::string TotalText(const StrictJson* value) {
   if (value == nullptr) return "nothing";
   return value->is_number() ? value->dump() : value->type_name();
 }
@@ -43,7 +43,7 @@ void CompareTo(const StrictJson& sum,
   }
   if (sum.is_number() && got != nullptr && got->is_number() && sum == *got) return;
   const std::string expected = sum.is_number() ? sum.dump() : sum.type_name();
-  faults.Add({place, "must be " + expected + ", the sum over frames.jsonl", CountText(got)});
+  faults.Add({place, "must be " + expected + ", the sum over frames.jsonl", TotalText(got)});
 }
 
 }  // namespace

@@ -12,20 +12,20 @@
 namespace railcast {
 namespace {
 
-using Place = EchoTiles::Place;
+using TilePlace = EchoTiles::Place;
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
-Outcome OutcomeOf(const Place& echo) {
+Outcome OutcomeOf(const TilePlace& echo) {
   return static_cast<Outcome>(echo.tile.outcome[echo.lane]);
 }
-float PowerOf(const Place& echo) {
+float PowerOf(const TilePlace& echo) {
   return echo.tile.power_ratio[echo.lane];
 }
-float RangeOf(const Place& echo) {
+float RangeOf(const TilePlace& echo) {
   return echo.tile.range_m[echo.lane];
 }
 
-void StoreEcho(const Place& echo,
+void StoreEcho(const TilePlace& echo,
                const std::vector<Surface>& surfaces,
                bool has_shares,
                std::size_t slot,
@@ -79,7 +79,7 @@ struct Candidate {
   DetectTile* tile{};
   std::size_t lane{};
 
-  [[nodiscard]] Place place() const { return {*tile, lane}; }
+  [[nodiscard]] TilePlace place() const { return {*tile, lane}; }
 };
 
 bool IsStronger(const Candidate& a, const Candidate& b) {
@@ -194,7 +194,7 @@ bool IsLostSurface(const Candidate& echo) {
 
 // The echo that represents a firing without returns: the strongest surface echo that was too weak
 // or, if there is none, the first echo.
-Place Missed(const std::vector<Candidate>& all) {
+TilePlace Missed(const std::vector<Candidate>& all) {
   const auto best =
       std::max_element(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
         const bool a_lost = IsLostSurface(a);
@@ -210,23 +210,23 @@ std::uint32_t NumReturns(ReturnMode mode) {
   return mode == ReturnMode::kTriple ? 3 : mode == ReturnMode::kDual ? 2 : 1;
 }
 
-std::vector<Place> EchoesOf(EchoTiles& echoes, std::size_t beam) {
-  std::vector<Place> all{{echoes.first, beam}};
+std::vector<TilePlace> EchoesOf(EchoTiles& echoes, std::size_t beam) {
+  std::vector<TilePlace> all{{echoes.first, beam}};
   for (std::size_t i = 0; i < echoes.num_more(); ++i) {
     if (echoes.beam_of(i) == beam) all.push_back(echoes.more(i));
   }
   return all;
 }
 
-std::vector<Place> ReturnsOf(const ReturnRule& rule, EchoTiles& echoes, std::size_t beam) {
+std::vector<TilePlace> ReturnsOf(const ReturnRule& rule, EchoTiles& echoes, std::size_t beam) {
   std::vector<Candidate> detected;
-  for (const Place& echo : EchoesOf(echoes, beam)) {
+  for (const TilePlace& echo : EchoesOf(echoes, beam)) {
     if (HasPoint(OutcomeOf(echo))) detected.push_back({&echo.tile, echo.lane});
   }
   JoinSaturated(rule.saturation_ratio, detected);
   PassOverBlindTime(rule.dead_length_m, detected);
   Choose(rule.mode, detected);
-  std::vector<Place> returns;
+  std::vector<TilePlace> returns;
   for (std::size_t r = 0; r < detected.size() && r < NumReturns(rule.mode); ++r) {
     returns.push_back(detected[r].place());
   }
@@ -271,7 +271,7 @@ void ReturnStore::Store(EchoTiles& echoes,
     }
     all.assign(1, {&echoes.first, i});
     for (std::uint32_t k = head[i]; k != kNone; k = next[k]) {
-      const Place place = echoes.more(k);
+      const TilePlace place = echoes.more(k);
       all.push_back({&place.tile, place.lane});
     }
     detected.clear();

@@ -15,7 +15,7 @@ namespace railcast {
 namespace {
 
 /// Applies one command to the state that held before it.
-struct Effect {
+struct CommandEffect {
   const ScenarioSpec& scenario;
   std::int64_t time_ns;
   CommandedRun::State& state;
@@ -66,7 +66,7 @@ void CommandedRun::Apply(const Command& command, std::int64_t time_ns) {
   if (std::holds_alternative<Step>(command)) return;
   State changed = states_.back();
   changed.time_ns = time_ns;
-  AtPlace("command: ", [&] { std::visit(Effect{scenario_, time_ns, changed}, command); });
+  AtPlace("command: ", [&] { std::visit(CommandEffect{scenario_, time_ns, changed}, command); });
   // If several commands come at one time, only the last state holds: no frame sees those before it.
   if (states_.back().time_ns == time_ns) states_.pop_back();
   states_.push_back(std::move(changed));

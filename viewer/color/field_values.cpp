@@ -63,7 +63,7 @@ std::string FieldNameOf(const ForeignField& field) {
 
 /// Returns the values of the points at `slots`.
 template <typename Values>
-std::vector<double> Pick(const Values& values, const std::vector<std::uint32_t>& slots) {
+std::vector<double> ValuesAt(const Values& values, const std::vector<std::uint32_t>& slots) {
   std::vector<double> picked(slots.size());
   std::ranges::transform(slots, picked.begin(),
                          [&](std::uint32_t slot) { return static_cast<double>(values[slot]); });
@@ -71,8 +71,8 @@ std::vector<double> Pick(const Values& values, const std::vector<std::uint32_t>&
 }
 
 std::vector<double> Noise_mm(const ShownFrame& shown) {
-  std::vector<double> noise_mm = Pick(shown.frame().range_m, shown.slots);
-  const std::vector<double> true_m = Pick(shown.frame().true_range_m, shown.slots);
+  std::vector<double> noise_mm = ValuesAt(shown.frame().range_m, shown.slots);
+  const std::vector<double> true_m = ValuesAt(shown.frame().true_range_m, shown.slots);
   for (std::size_t i = 0; i < noise_mm.size(); ++i) noise_mm[i] = 1e3 * (noise_mm[i] - true_m[i]);
   return noise_mm;
 }
@@ -93,7 +93,7 @@ std::vector<double> Load(const ShownFrame& shown, const ColorField& field) {
   }
   std::vector<double> loaded;
   ForEachField(shown.frame(), [&](std::string_view name, std::string_view, const auto& values) {
-    if (name == field.field) loaded = Pick(values, shown.slots);
+    if (name == field.field) loaded = ValuesAt(values, shown.slots);
   });
   for (double& value : loaded) value *= field.factor;
   return loaded;
@@ -125,7 +125,7 @@ FieldValues ValuesOf(const ShownFrame& shown, const std::string& name) {
     return {.kind = field->kind, .title = std::string(field->title), .values = Load(shown, *field)};
   }
   const auto foreign = std::ranges::find(shown.recorded->foreign, name, FieldNameOf);
-  return {.kind = Kind::kAmount, .title = name, .values = Pick(foreign->values, shown.slots)};
+  return {.kind = Kind::kAmount, .title = name, .values = ValuesAt(foreign->values, shown.slots)};
 }
 
 std::string DefaultColorField(const RecordedFrame& recorded) {
