@@ -122,15 +122,16 @@ TEST(RungAccuracy, HoldsOnThePublishedRaster) {
 }
 
 // Nothing about a second surface depends on where the neighbouring beams are: channels may be
-// sparse, staggered and fired one after another. A sixth of the turn has second surfaces enough.
+// sparse, staggered and fired one after another. A twelfth of the turn has second surfaces enough:
+// of 350, which are some 99 % found, the share varies by 0.5 percentage points.
 TEST(RungAccuracy, FindsSecondSurfacesOnEverySensor) {
   for (const char* sensor : {"vir2rail", "vlp32c", "pandar64", "vls128"}) {
     SCOPED_TRACE(sensor);
     ScenarioSpec scenario = OpenLineOf(sensor);
-    scenario.lidar.scan = CutSector(scenario.lidar.scan, {30.0, -90.0, 90.0});
+    scenario.lidar.scan = CutSector(scenario.lidar.scan, {15.0, -90.0, 90.0});
     const Matched second =
         OnFrame0(scenario).DifferenceOf(EffectsOfRung(Fidelity::kFootprint)).second;
-    EXPECT_GE(second.num, 700U);
+    EXPECT_GE(second.num, 350U);
     EXPECT_GE(second.share(), 0.95) << second.num_matched << " of " << second.num;
   }
 }
