@@ -8,7 +8,7 @@
 namespace railcast {
 namespace {
 
-constexpr std::uint64_t kNumSeeds = 40'000;
+constexpr std::uint64_t kNumPuddleSeeds = 40'000;
 
 bool IsWet(std::uint64_t seed, double share, float x_m, float y_m) {
   return IsUnderWater(Puddles(seed, share).WavesAt(Transform::Identity()), {x_m, y_m, -1.0F});
@@ -17,13 +17,13 @@ bool IsWet(std::uint64_t seed, double share, float x_m, float y_m) {
 TEST(Puddles, CoverTheStatedShareOfTheGround) {
   for (const double share : {0.02, 0.1, 0.3, 0.5, 0.8}) {
     double wet = 0.0;
-    for (std::uint64_t seed = 0; seed < kNumSeeds; ++seed) {
+    for (std::uint64_t seed = 0; seed < kNumPuddleSeeds; ++seed) {
       wet += IsWet(seed, share, 31.0F, -8.0F) ? 1.0 : 0.0;
     }
     // Places of different seeds are independent. Of the Edgeworth series of 16 equal cosines, the
     // term of the kurtosis, 1.5 / 16 / 24 (q^3 - 3 q) phi(q), is at most 0.0022.
-    const double sigma = std::sqrt(share * (1.0 - share) / static_cast<double>(kNumSeeds));
-    EXPECT_NEAR(wet / static_cast<double>(kNumSeeds), share, 4.0 * sigma + 0.0022) << share;
+    const double sigma = std::sqrt(share * (1.0 - share) / static_cast<double>(kNumPuddleSeeds));
+    EXPECT_NEAR(wet / static_cast<double>(kNumPuddleSeeds), share, 4.0 * sigma + 0.0022) << share;
   }
 }
 
@@ -48,15 +48,16 @@ TEST(Puddles, AreSomeMetresLong) {
                      static_cast<double>(kNumPuddleWaves);
     }
     double alike = 0.0;
-    for (std::uint64_t seed = 0; seed < kNumSeeds; ++seed) {
+    for (std::uint64_t seed = 0; seed < kNumPuddleSeeds; ++seed) {
       const auto waves = Puddles(seed, 0.5).WavesAt(Transform::Identity());
       const float x_m = 5.0F + static_cast<float>(distance_m);
       alike += IsUnderWater(waves, {5.0F, 2.0F, 0.0F}) == IsUnderWater(waves, {x_m, 2.0F, 0.0F});
     }
     const double expected = 0.5 + std::asin(correlation) / std::numbers::pi;
-    const double sigma = std::sqrt(expected * (1.0 - expected) / static_cast<double>(kNumSeeds));
+    const double sigma =
+        std::sqrt(expected * (1.0 - expected) / static_cast<double>(kNumPuddleSeeds));
     // The waves are not quite normal, which the first test bounds by 0.002 for a single place.
-    EXPECT_NEAR(alike / static_cast<double>(kNumSeeds), expected, 4.0 * sigma + 0.005)
+    EXPECT_NEAR(alike / static_cast<double>(kNumPuddleSeeds), expected, 4.0 * sigma + 0.005)
         << distance_m;
   }
 }
