@@ -1,7 +1,7 @@
 # Installs the build at BUILD_DIR, as a host program would receive it, and builds and runs the
 # programs of docs/engine.md and docs/embedding.md against the installed files only: first those in C
 # and Python with only the C interface installed, then those of the core with the core beside it,
-# then, if WITH_IO, all of them.
+# then, if WITH_IO, those of the clouds with all three.
 cmake_minimum_required(VERSION 3.25)
 
 # Neither building nor using the core may require these packages.
@@ -62,10 +62,15 @@ function(check_for_leaks)
   endif()
 endfunction()
 
-function(build_and_run_core_programs build)
+# build_programs(BUILD OPTION...): builds the consumer in BUILD.
+function(build_programs build)
   run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B ${build} ${toolchain} ${ARGN}
       -D CMAKE_PREFIX_PATH=${prefix} -D PROGRAMS_DIR=${programs})
   run(${CMAKE_COMMAND} --build ${build})
+endfunction()
+
+function(build_and_run_core_programs build)
+  build_programs(${build} ${without_extras})
   execute_process(COMMAND ${build}/frames ${SOURCE_DIR}/scenarios/minimal.json
                   OUTPUT_VARIABLE said COMMAND_ERROR_IS_FATAL ANY)
   if(frames_of_python AND NOT frames_of_python STREQUAL said)
@@ -113,13 +118,13 @@ run(${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${WORK_DIR}/core_alone ${toolchain} ${w
     -D RAILCAST_BUILD_IO=OFF -D RAILCAST_BUILD_VIEWER=OFF -D RAILCAST_BUILD_TESTS=OFF)
 run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix} --component core)
 check_for_leaks()
-build_and_run_core_programs(${WORK_DIR}/core_programs ${without_extras})
+build_and_run_core_programs(${WORK_DIR}/core_programs)
 
 if(WITH_IO)
   run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix} --component io)
   check_for_leaks()
   set(build ${WORK_DIR}/io_programs)
-  build_and_run_core_programs(${build} -D WITH_IO=ON)
+  build_programs(${build} -D WITH_IO=ON)
   run(${build}/files ${SOURCE_DIR}/scenarios/minimal.json ${WORK_DIR}/frame.pcd)
   # The commands of one call run at the same time.
   execute_process(
