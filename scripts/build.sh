@@ -1,8 +1,11 @@
 #!/usr/bin/env bash
-# Installs what the build needs, then builds the release preset: build.sh [TARGET...], default all.
+# Installs what the build needs, then builds: build.sh [TARGET...], default all. RAILCAST_PRESET names
+# the preset, default release.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source scripts/packages.sh
+
+preset=${RAILCAST_PRESET:-release}
 
 install_packages "${build_packages[@]}"
 
@@ -12,5 +15,5 @@ if command -v ccache >/dev/null; then
   launcher=(-D CMAKE_C_COMPILER_LAUNCHER=ccache -D CMAKE_CXX_COMPILER_LAUNCHER=ccache
     -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON)
 fi
-cmake --preset release "${launcher[@]}"
-cmake --build --preset release --target "${@:-all}"
+cmake --preset "$preset" "${launcher[@]}"
+cmake --build --preset "$preset" --target "${@:-all}"
