@@ -145,7 +145,9 @@ struct ChildDistances {
 /// What the test of a ray needs of a leaf's triangles, by lane. A ray from the cone's origin along
 /// axis + a half_h + b half_v passes through a triangle if its products with the three edges'
 /// moments have one sign, and meets its plane at offset / (its product with the normal) (Plücker
-/// coordinates; Embree's robust test). All four products are linear in a and b.
+/// coordinates; Embree's robust test). All four products are linear in a and b. Seen from the
+/// origin, a triangle's edges run one way round or the other, as the sign of `offset` says; those
+/// of the edges are turned such that rays that pass through it have positive ones.
 struct LeafProducts {
   /// By edge; the last is the normal.
   alignas(64) float along[4][kLeafWidth], h[4][kLeafWidth], v[4][kLeafWidth];
@@ -166,6 +168,17 @@ struct LeafProducts {
     for (int corner = 0; corner < 3; ++corner) {
       for (int i = 0; i < 3; ++i) v[corner][i] = leaf.corner[corner][i][k] - c.origin[i];
     }
+    const float px = v[1][0] - v[0][0];
+    const float py = v[1][1] - v[0][1];
+    const float pz = v[1][2] - v[0][2];
+    const float qx = v[2][0] - v[0][0];
+    const float qy = v[2][1] - v[0][1];
+    const float qz = v[2][2] - v[0][2];
+    const float nx = py * qz - pz * qy;
+    const float ny = pz * qx - px * qz;
+    const float nz = px * qy - py * qx;
+    const float offset = v[0][0] * nx + v[0][1] * ny + v[0][2] * nz;
+    const float way_round = std::copysign(1.0F, -offset);
     bool may_be_left = true;
     bool may_be_right = true;
     for (int e = 0; e < 3; ++e) {
@@ -188,22 +201,12 @@ struct LeafProducts {
       const float w = c.half_v[0] * mx + c.half_v[1] * my + c.half_v[2] * mz;
       const float reach = kConeMargin * std::sqrt(h * h + w * w) +
                           kRoundingMargin * (std::fabs(ax) + std::fabs(ay) + std::fabs(az));
-      products.along[e][k] = along;
-      products.h[e][k] = h;
-      products.v[e][k] = w;
+      products.along[e][k] = way_round * along;
+      products.h[e][k] = way_round * h;
+      products.v[e][k] = way_round * w;
       may_be_left = may_be_left & (along >= -reach);
       may_be_right = may_be_right & (along <= reach);
     }
-    const float px = v[1][0] - v[0][0];
-    const float py = v[1][1] - v[0][1];
-    const float pz = v[1][2] - v[0][2];
-    const float qx = v[2][0] - v[0][0];
-    const float qy = v[2][1] - v[0][1];
-    const float qz = v[2][2] - v[0][2];
-    const float nx = py * qz - pz * qy;
-    const float ny = pz * qx - px * qz;
-    const float nz = px * qy - py * qx;
-    const float offset = v[0][0] * nx + v[0][1] * ny + v[0][2] * nz;
     const float along = c.axis[0] * nx + c.axis[1] * ny + c.axis[2] * nz;
     const float h = c.half_h[0] * nx + c.half_h[1] * ny + c.half_h[2] * nz;
     const float w = c.half_v[0] * nx + c.half_v[1] * ny + c.half_v[2] * nz;

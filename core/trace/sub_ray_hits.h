@@ -180,27 +180,25 @@ struct TriangleProducts {
   float offset;
 };
 
-/// The first `num` sub-rays that pass through a triangle, or through it extended backwards, as a
-/// bit mask.
+/// The first `num` sub-rays that pass through a triangle, as a bit mask.
 template <std::size_t num>
 [[nodiscard]] inline std::uint64_t RaysInside(const TriangleProducts& triangle,
                                               const SubRayPlaces& places) {
   const TriangleProducts t = triangle;
-  std::uint64_t rays = 0;
+  std::uint64_t outside = 0;
   for (std::size_t first = 0; first < num; first += kRayLanes) {
-    alignas(64) float passes[kRayLanes];
+    alignas(64) float least[kRayLanes];
     for (std::size_t k = 0; k < kRayLanes; ++k) {
       const float a = places.a[first + k];
       const float b = places.b[first + k];
       const float u = t.along[0] + a * t.h[0] + b * t.v[0];
       const float v = t.along[1] + a * t.h[1] + b * t.v[1];
       const float w = t.along[2] + a * t.h[2] + b * t.v[2];
-      const bool is_inside = (Least(u, Least(v, w)) >= 0.0F) | (Most(u, Most(v, w)) <= 0.0F);
-      passes[k] = is_inside ? -1.0F : 1.0F;
+      least[k] = Least(u, Least(v, w)) + 0.0F;  // -0 becomes 0, which is inside.
     }
-    rays |= std::uint64_t{NegativeLanes(passes)} << first;
+    outside |= std::uint64_t{NegativeLanes(least)} << first;
   }
-  return rays;
+  return ~outside & (~std::uint64_t{0} >> (kNumSubRays - num));
 }
 
 /// Intersects the sub-rays from `first` on with a triangle. Returns whether any hits it nearer than
@@ -218,7 +216,7 @@ template <std::size_t num>
     const float u = t.along[0] + a * t.h[0] + b * t.v[0];
     const float v = t.along[1] + a * t.h[1] + b * t.v[1];
     const float w = t.along[2] + a * t.h[2] + b * t.v[2];
-    const bool is_inside = (Least(u, Least(v, w)) >= 0.0F) | (Most(u, Most(v, w)) <= 0.0F);
+    const bool is_inside = Least(u, Least(v, w)) >= 0.0F;
     const float slope = t.along[3] + a * t.h[3] + b * t.v[3];
     const float range_m = t.offset * places.norm[i] / slope;
     const float old = beam.range_m[i];
