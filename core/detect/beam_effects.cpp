@@ -30,7 +30,7 @@ std::vector<Effect> BeamEffects() {
        .rungs = {Fidelity::kFootprint, Fidelity::kReference},
        .has_cause = HasWidth,
        .text = &FootprintText,
-       .instructions = 23665.0},
+       .instructions = 22765.0},
       {.name = "thin_conductors",
        .is_on = &EffectSet::thin_conductors,
        .rungs = {Fidelity::kFootprint},
