@@ -19,7 +19,7 @@ namespace {
 constexpr double kFastTrain_mps = 83.0;
 
 // A straight line with bumps and wires, scanned from `start_s_m` on.
-ScenarioSpec LineFrom(double start_s_m) {
+ScenarioSpec LineFrom(double start_s_m, const std::string& detail = "full") {
   const TemporaryFolder folder;
   const std::string scenarios = ScenariosDir().string();
   return ReadScenario(folder.Write("scenario.json", R"({
@@ -29,7 +29,9 @@ ScenarioSpec LineFrom(double start_s_m) {
                        "vertical_fov_deg": 20, "angular_resolution_deg": 0.5}}},
     "world": {"alignment": {"course": {"type": "elements",
                             "elements": [{"type": "straight", "length_m": 400}]}},
-              "vegetation": {"trees_per_hectare": 0, "grass": false}},
+              "vegetation": {"trees_per_hectare": 0, "grass": false}, "detail": ")" +
+                                                        detail +
+                                                        R"("},
     "vehicle": {"start_s_m": )" + std::to_string(start_s_m) +
                                                         R"(, "motion":
                 {"profile": [{"time_s": 0, "speed_mps": 83}]}},
@@ -37,8 +39,8 @@ ScenarioSpec LineFrom(double start_s_m) {
     "labels": ")" + scenarios + R"(/labels.json"})"));
 }
 
-Frame FirstFrame(double start_s_m) {
-  const auto simulator = MakeSimulator(LineFrom(start_s_m), 0);
+Frame FirstFrame(double start_s_m, const std::string& detail = "full") {
+  const auto simulator = MakeSimulator(LineFrom(start_s_m, detail), 0);
   Frame frame;
   simulator->Scan(0, frame);
   return frame;
@@ -67,6 +69,32 @@ TEST(WindowChange, WithinAScanDoesNotShow) {
   std::ranges::sort(differences_m);
   EXPECT_LT(differences_m[num_points * 95 / 100], 4e-3);
   EXPECT_LT(static_cast<double>(num_labels_changed), 0.01 * static_cast<double>(num_points));
+}
+
+// With scene detail `auto`, the ground of chunks that come near enough in the next window becomes
+// finer: single points on it move by its roughness, neither nearer nor farther on the whole.
+TEST(WindowChange, MovesFewPointsWithSceneDetail) {
+  constexpr double kAside_m = 1e-3;
+  const Frame before = FirstFrame(150.0 - kAside_m, "auto");
+  const Frame behind = FirstFrame(150.0 + kAside_m, "auto");
+  std::vector<double> moves_m;
+  std::size_t num_points = 0;
+  for (std::size_t slot = 0; slot < before.num_slots(); ++slot) {
+    if (!HasPoint(before.outcome[slot]) || !HasPoint(behind.outcome[slot])) continue;
+    ++num_points;
+    const double move_m = static_cast<double>(behind.range_m[slot] - before.range_m[slot]);
+    if (std::abs(move_m) > 4e-3) moves_m.push_back(move_m);
+  }
+  ASSERT_GT(moves_m.size(), 20U) << "a chunk changes its form here";
+  EXPECT_LT(static_cast<double>(moves_m.size()), 0.1 * static_cast<double>(num_points));
+  const auto number = static_cast<double>(moves_m.size());
+  double sum_m = 0.0;
+  double squares_m2 = 0.0;
+  for (const double move_m : moves_m) {
+    sum_m += move_m;
+    squares_m2 += move_m * move_m;
+  }
+  EXPECT_LT(std::abs(sum_m / number), 3.0 * std::sqrt(squares_m2) / number);
 }
 
 // The second frame of one run, in the next window, is the first of a run that begins there.
