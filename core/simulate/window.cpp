@@ -296,12 +296,14 @@ void WindowSource::BuildAhead() {
   // On Linux this affects the calling thread only; frames in progress take precedence.
   constexpr int kNice = 10;
   setpriority(PRIO_PROCESS, 0, kNice);
+  // Workers that TBB starts from this thread would have its priority for good, also in frames.
+  tbb::task_arena alone(1);
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [&] { return stopping_ || ahead_; });
     if (stopping_) return;
     lock.unlock();
-    (*ahead_)();
+    alone.execute([&] { (*ahead_)(); });
     lock.lock();
     ahead_.reset();
   }
