@@ -55,7 +55,7 @@ void EchoesByRange::AddFrame(const Frame& frame) {
 void EchoesByRange::AddHeight(const Frame& frame, std::size_t slot, Sums& sums) const {
   const std::optional<double> height_m = height_above_(frame, slot);
   if (!height_m) return;
-  sums.heights += 1.0;
+  sums.num_surveyed += 1.0;
   sums.height_m += *height_m;
   sums.square_height_m2 += *height_m * *height_m;
 }
@@ -118,20 +118,20 @@ RelativeChange ChangeOfIntensity(const std::vector<Sums>& from, const std::vecto
 
 RelativeChange ChangeOfHeights(const std::vector<Sums>& from, const std::vector<Sums>& to) {
   const auto mean_m = [](const std::vector<Sums>& sums) {
-    return TotalOf(sums, &Sums::height_m) / TotalOf(sums, &Sums::heights);
+    return TotalOf(sums, &Sums::height_m) / TotalOf(sums, &Sums::num_surveyed);
   };
   const auto variance_m2 = [&](const std::vector<Sums>& sums) {
-    return TotalOf(sums, &Sums::square_height_m2) / TotalOf(sums, &Sums::heights) -
+    return TotalOf(sums, &Sums::square_height_m2) / TotalOf(sums, &Sums::num_surveyed) -
            mean_m(sums) * mean_m(sums);
   };
   // Of half the logarithm of the variance, as far as one frame makes it.
   const auto deviation = [&](const std::vector<Sums>& sums, std::size_t i) {
     const Sums& frame = sums[i];
     const double squares_m2 = frame.square_height_m2 - 2.0 * mean_m(sums) * frame.height_m +
-                              frame.heights * mean_m(sums) * mean_m(sums);
+                              frame.num_surveyed * mean_m(sums) * mean_m(sums);
     const double variance = variance_m2(sums);
-    return 0.5 * (squares_m2 - frame.heights * variance) /
-           (TotalOf(sums, &Sums::heights) * variance);
+    return 0.5 * (squares_m2 - frame.num_surveyed * variance) /
+           (TotalOf(sums, &Sums::num_surveyed) * variance);
   };
   std::vector<double> deviations;
   for (std::size_t i = 0; i < from.size(); ++i) {

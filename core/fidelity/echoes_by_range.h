@@ -30,7 +30,7 @@ class EchoesByRange {
     double first{};             ///< Nearest echoes of their firings.
     double further{};           ///< All others.
     double intensity{};         ///< Of the first ones.
-    double heights{};           ///< Of the first ones that have any: their number,
+    double num_surveyed{};      ///< First ones that have a height: their number,
     double height_m{};          ///< sum,
     double square_height_m2{};  ///< and sum of squares.
     /// Firings whose neighbour in the next column has its first return on the same label, too ...

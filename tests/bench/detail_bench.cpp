@@ -80,7 +80,8 @@ void PrintSurfaces(const EchoesByRange& full,
   for (int bin = 0; bin * kBin_m < spec.lidar.range_max_m; ++bin) {
     const auto heights = [&](const char* label) {
       const auto& of_full = full.Of(labels.Id(label), bin);
-      if (TotalOf(of_full, &EchoesByRange::Sums::heights) < kLeastNumber) return std::string(" |");
+      if (TotalOf(of_full, &EchoesByRange::Sums::num_surveyed) < kLeastNumber)
+        return std::string(" |");
       return " " + ChangeText(ChangeOfHeights(of_full, coarser.Of(labels.Id(label), bin))) + " |";
     };
     const auto first = [&](const char* label) {

@@ -59,8 +59,8 @@ TEST(RelativeChange, HasAnIntervalFromTheFramesAgainstEachOther) {
 
 TEST(RelativeChange, OfHeightsIsThatOfTheirStandardDeviation) {
   // Two heights a frame: 1 m above and below the mean of 3 m, then 2 m above and below that of 5 m.
-  const std::vector<Sums> from(2, {.heights = 2, .height_m = 6, .square_height_m2 = 20});
-  const std::vector<Sums> wider(2, {.heights = 2, .height_m = 10, .square_height_m2 = 58});
+  const std::vector<Sums> from(2, {.num_surveyed = 2, .height_m = 6, .square_height_m2 = 20});
+  const std::vector<Sums> wider(2, {.num_surveyed = 2, .height_m = 10, .square_height_m2 = 58});
   EXPECT_NEAR(ChangeOfHeights(from, wider).change, 1.0, 1e-12);
   EXPECT_NEAR(ChangeOfHeights(from, wider).margin, 0.0, 1e-12);
 }
