@@ -19,6 +19,9 @@ void AddCheck(CLI::App& app, ProgramCommand& command);
 void AddWorld(CLI::App& app, ProgramCommand& command);
 /// Writes scenarios that differ from a given one in random weather.
 void AddRandomize(CLI::App& app, ProgramCommand& command);
+/// Fits the lines of a map and writes them as alignments. Needs GDAL and PROJ
+/// (RAILCAST_BUILD_IMPORT).
+void AddImport(CLI::App& app, ProgramCommand& command);
 /// Replays one firing and prints what each effect made of it.
 void AddTrace(CLI::App& app, ProgramCommand& command);
 

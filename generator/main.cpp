@@ -12,6 +12,9 @@ void AddCommands(CLI::App& app, railcast::ProgramCommand& command) {
   railcast::AddWorld(app, command);
   railcast::AddTrace(app, command);
   railcast::AddRandomize(app, command);
+#ifdef RAILCAST_HAS_IMPORT
+  railcast::AddImport(app, command);
+#endif
 }
 
 }  // namespace

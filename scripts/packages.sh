@@ -12,6 +12,7 @@ build_packages=(
   libcli11-dev
   libeigen3-dev
   libembree-dev
+  libgdal-dev
   libgmock-dev
   libgtest-dev
   libjpeg62-turbo-dev
@@ -20,6 +21,7 @@ build_packages=(
   libpcap-dev
   libpcl-dev
   libpng-dev
+  libproj-dev
   librandom123-dev
   libtbb-dev
   libvtk9-dev

@@ -7,12 +7,14 @@
 
 namespace railcast {
 
-PlanCourse::PlanCourse(const PiecewiseLinear& curvature, const PlanPoint& start) {
+PlanCourse::PlanCourse(const PiecewiseLinear& curvature,
+                       const PlanPoint& start,
+                       double node_spacing_m) {
   Node node{curvature.pieces().front().begin_s_m, start, 0.0};
   for (std::size_t i = 0; i < curvature.pieces().size(); ++i) {
     const LinearPiece& piece = curvature.pieces()[i];
     const double length_m = curvature.EndOf(i) - piece.begin_s_m;
-    const double num_steps = std::ceil(length_m / kNodeSpacing_m);
+    const double num_steps = std::ceil(length_m / node_spacing_m);
     node.slope_per_m2 = curvature.SlopeOf(i);
     node.point.curvature_per_m = piece.begin_value;
     for (double step = 0.0; step < num_steps; ++step) {

@@ -1,0 +1,199 @@
+#include "generator/import/fit/line_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+#include "generator/import/fit/line_draft.h"
+#include "generator/import/fit/plan_window.h"
+
+namespace railcast {
+namespace {
+
+/// What one more parameter must lower the sum of squares by. The Bayesian information criterion
+/// asks for ln(number of points), some 6; mapped points err together, and half as many elements
+/// explain them nearly as well.
+constexpr double kPrice = 10.0;
+/// A changed plateau is fitted with this many on either side.
+constexpr std::size_t kReach = 2;
+
+double PriceOf(const PlanModel& plan) {
+  const auto num_arcs = std::ranges::count_if(
+      plan.plateaus, [](const Plateau& plateau) { return plateau.curvature_per_m != 0.0; });
+  return kPrice * static_cast<double>(plan.plateaus.size() + plan.clothoids_m.size() +
+                                      static_cast<std::size_t>(num_arcs));
+}
+
+template <typename Value>
+void Erase(std::vector<Value>& values, std::size_t i) {
+  values.erase(values.begin() + static_cast<std::ptrdiff_t>(i));
+}
+template <typename Value>
+void Insert(std::vector<Value>& values, std::size_t i, const Value& value) {
+  values.insert(values.begin() + static_cast<std::ptrdiff_t>(i), value);
+}
+
+/// A plateau's neighbours take its place.
+void Remove(PlanWindow& window, std::size_t i) {
+  PlanModel& plan = window.plan;
+  plan.plateaus[i - 1].length_m += 0.5 * plan.plateaus[i].length_m;
+  plan.plateaus[i + 1].length_m += 0.5 * plan.plateaus[i].length_m;
+  Erase(plan.plateaus, i);
+  Erase(plan.clothoids_m, i);
+  Erase(window.has_fixed_curvature, i);
+  plan.clothoids_m[i - 1] = UsualClothoid_m(window.speed_kmph, plan.plateaus[i - 1].curvature_per_m,
+                                            plan.plateaus[i].curvature_per_m);
+}
+
+/// A plateau and the next one become one.
+void Join(PlanWindow& window, std::size_t i) {
+  PlanModel& plan = window.plan;
+  Plateau& plateau = plan.plateaus[i];
+  const Plateau& next = plan.plateaus[i + 1];
+  const double length_m = plateau.length_m + next.length_m;
+  plateau = {(plateau.curvature_per_m * plateau.length_m + next.curvature_per_m * next.length_m) /
+                 length_m,
+             length_m};
+  Erase(plan.plateaus, i + 1);
+  Erase(plan.clothoids_m, i);
+  Erase(window.has_fixed_curvature, i + 1);
+  window.has_fixed_curvature[i] = false;
+}
+
+/// A plateau becomes two that turn by `turn_rad` more and less.
+void Divide(PlanWindow& window, std::size_t i, double share, double turn_rad) {
+  PlanModel& plan = window.plan;
+  Plateau& plateau = plan.plateaus[i];
+  const Plateau whole = plateau;
+  plateau.length_m = share * whole.length_m;
+  Plateau rest{whole.curvature_per_m, whole.length_m - plateau.length_m};
+  plateau.curvature_per_m += turn_rad / plateau.length_m;
+  rest.curvature_per_m -= turn_rad / rest.length_m;
+  Insert(plan.plateaus, i + 1, rest);
+  Insert(plan.clothoids_m, i, std::min(15.0, 0.25 * whole.length_m));
+  window.has_fixed_curvature[i] = false;
+  Insert(window.has_fixed_curvature, i + 1, false);
+}
+
+/// The change of a line about one plateau that gains most.
+struct Change {
+  double gain{};  ///< Not positive: none.
+  LineDraft::Part part;
+};
+
+class ChangeSearch {
+ public:
+  ChangeSearch(const LineDraft& line, std::size_t plateau)
+      : before_(line.PartOf(plateau >= kReach ? plateau - kReach : 0,
+                            std::min(line.num_plateaus() - 1, plateau + kReach))),
+        at_(plateau - before_.first) {}
+
+  [[nodiscard]] Change Best();
+
+ private:
+  [[nodiscard]] bool IsWhole(std::size_t i) const {
+    return (i > 0 || before_.window.begins_line) &&
+           (i + 1 < before_.window.plan.plateaus.size() || before_.window.ends_line);
+  }
+  template <typename Work>
+  void Try(const Work& work) {
+    LineDraft::Part part = before_;
+    work(part.window);
+    const double cost = part.window.Fit() + PriceOf(part.window.plan);
+    const double gain = cost_ - cost;
+    if (gain > best_.gain) best_ = {gain, std::move(part)};
+  }
+  void TryDivisions();
+
+  LineDraft::Part before_;
+  std::size_t at_;
+  double cost_{};
+  Change best_;
+};
+
+Change ChangeSearch::Best() {
+  cost_ = before_.window.Fit() + PriceOf(before_.window.plan);
+  const std::size_t num_plateaus = before_.window.plan.plateaus.size();
+  if (!before_.window.has_fixed_curvature[at_]) {
+    Try([&](PlanWindow& window) {
+      window.plan.plateaus[at_].curvature_per_m = 0.0;
+      window.has_fixed_curvature[at_] = true;
+    });
+  }
+  if (at_ > 0 && at_ + 1 < num_plateaus) {
+    Try([&](PlanWindow& window) { Remove(window, at_); });
+  }
+  if (at_ + 1 < num_plateaus && IsWhole(at_) && IsWhole(at_ + 1)) {
+    Try([&](PlanWindow& window) { Join(window, at_); });
+  }
+  if (IsWhole(at_)) TryDivisions();
+  return best_;
+}
+
+void ChangeSearch::TryDivisions() {
+  const PlanWindow& window = before_.window;
+  const double begin_m = window.plan.ConstantBegin_m(at_);
+  const double length_m = window.plan.ConstantLength_m(at_);
+  constexpr double kShortest_m = 60.0;
+  if (length_m < kShortest_m) return;
+  const PlanCourse course = window.plan.Course();
+  const double line_m = window.plan.length_m();
+  double worst_m = 0.0;
+  double worst_s_m = 0.0;
+  for (std::size_t i = 0; i < window.points_m.size(); ++i) {
+    const Foot foot = FootOn(course, line_m, window.points_m[i], window.feet_m[i]);
+    const double inside_m = foot.s_m - begin_m;
+    if (inside_m < 0.1 * length_m || inside_m > 0.9 * length_m) continue;
+    if (std::abs(foot.offset_m) <= std::abs(worst_m)) continue;
+    worst_m = foot.offset_m;
+    worst_s_m = foot.s_m;
+  }
+  constexpr double kWorthwhile = 2.0;
+  if (std::abs(worst_m) < kWorthwhile * window.sigma_m) return;
+  const double share = (worst_s_m - begin_m) / length_m;
+  const double turn_rad = 4.0 * std::abs(worst_m) / length_m;
+  Try([&](PlanWindow& changed) { Divide(changed, at_, share, turn_rad); });
+  Try([&](PlanWindow& changed) { Divide(changed, at_, share, -turn_rad); });
+}
+
+/// Makes changes until none gains.
+void Improve(LineDraft& line) {
+  std::vector<std::optional<Change>> changes(line.num_plateaus());
+  while (true) {
+    std::size_t best = 0;
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+      if (!changes[i]) changes[i] = ChangeSearch(line, i).Best();
+      if (changes[i]->gain > changes[best]->gain) best = i;
+    }
+    if (!(changes[best]->gain > 0.0)) return;
+    const std::size_t num_before = line.num_plateaus();
+    const LineDraft::Part part = std::move(changes[best]->part);
+    line.Replace(part);
+
+    // Searches whose parts do not touch the changed one still hold; their numbers move with it.
+    std::vector<std::optional<Change>> kept(line.num_plateaus());
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+      if (i + kReach < part.first) {
+        kept[i] = std::move(changes[i]);
+      } else if (i > part.last + kReach) {
+        const std::size_t moved = i + line.num_plateaus() - num_before;
+        kept[moved] = std::move(changes[i]);
+        kept[moved]->part.first += line.num_plateaus() - num_before;
+        kept[moved]->part.last += line.num_plateaus() - num_before;
+      }
+    }
+    changes = std::move(kept);
+  }
+}
+
+}  // namespace
+
+LineFit FitLine(std::span<const Eigen::Vector2d> points_m, const LinePrior& prior) {
+  LineDraft line(points_m, prior);
+  Improve(line);
+  return line.Fit();
+}
+
+}  // namespace railcast

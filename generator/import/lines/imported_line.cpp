@@ -1,0 +1,175 @@
+#include "generator/import/lines/imported_line.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/rail/line/plan_spline.h"
+#include "generator/import/fit/line_fit.h"
+#include "generator/import/fit/plan_window.h"
+#include "generator/import/lines/speed_limits.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kContradiction_m = 1.5;
+
+/// The points of a line with what belongs to them. Points nearer than 0.5 m to the one before are
+/// left out: mappers put two where two ways were joined.
+struct LinePoints {
+  std::vector<Eigen::Vector2d> places_m;
+  std::vector<std::size_t> nodes;
+  std::vector<double> along_m;
+  std::vector<double> speeds_kmph;  ///< Behind each point.
+};
+
+LinePoints PointsOf(const RailMap& map, const TrackLine& line, double otherwise_kmph) {
+  constexpr double kNearest_m = 0.5;
+  const std::vector<double> speeds_kmph = SpeedsAlong_kmph(map, line, otherwise_kmph);
+  LinePoints points;
+  for (std::size_t i = 0; i < line.nodes.size(); ++i) {
+    const Eigen::Vector2d& place_m = map.nodes[line.nodes[i]].place_m;
+    double step_m = 0.0;
+    if (!points.places_m.empty()) {
+      step_m = (place_m - points.places_m.back()).norm();
+      if (step_m < kNearest_m) continue;
+    }
+    points.along_m.push_back(points.along_m.empty() ? 0.0 : points.along_m.back() + step_m);
+    points.places_m.push_back(place_m);
+    points.nodes.push_back(line.nodes[i]);
+    points.speeds_kmph.push_back(speeds_kmph[std::min(i, speeds_kmph.size() - 1)]);
+  }
+  return points;
+}
+
+std::vector<ChainageValue> SpeedLimitsOf(const LinePoints& points, const LineFit& fit) {
+  std::vector<ChainageValue> limits;
+  for (std::size_t i = 0; i + 1 < points.nodes.size(); ++i) {
+    // An alignment's first entry begins at 0, wherever the first point's foot is.
+    const double s_m = limits.empty() ? 0.0 : std::round(fit.chainages_m[i] * 10.0) / 10.0;
+    if (!limits.empty() && limits.back().value == points.speeds_kmph[i]) continue;
+    if (!limits.empty() && !(s_m > limits.back().s_m)) continue;
+    limits.push_back({s_m, points.speeds_kmph[i]});
+  }
+  return limits;
+}
+
+struct Wiggles {
+  double tightest_radius_m{};  ///< 0 for a cusp.
+  double sign_changes_per_km{};
+};
+
+Wiggles WigglesOfSpline(const std::vector<Eigen::Vector2d>& places_m) {
+  constexpr double kStep_m = 2.0;
+  ErrorList faults;
+  const PlanSpline spline(places_m, faults);
+  // With a cusp, which is a fault, the spline cannot be evaluated: its points can.
+  Wiggles wiggles{faults.empty() ? spline.tightest_radius_m() : 0.0, 0.0};
+  double length_m = 0.0;
+  int num_changes = 0;
+  double before = 0.0;
+  const auto count = [&](double curvature) {
+    if (curvature * before < 0.0) ++num_changes;
+    if (curvature != 0.0) before = curvature;
+  };
+  if (faults.empty()) {
+    length_m = spline.length_m();
+    for (double s_m = 0.0; s_m < length_m; s_m += kStep_m) count(spline.At(s_m).curvature_per_m);
+  } else {
+    for (std::size_t i = 1; i < places_m.size(); ++i) {
+      const Eigen::Vector2d to_m = places_m[i] - places_m[i - 1];
+      length_m += to_m.norm();
+      if (i + 1 == places_m.size()) break;
+      const Eigen::Vector2d next_m = places_m[i + 1] - places_m[i];
+      count(to_m.x() * next_m.y() - to_m.y() * next_m.x());
+    }
+  }
+  wiggles.sign_changes_per_km = 1e3 * num_changes / length_m;
+  return wiggles;
+}
+
+/// The middle and the size of the sharpest arc.
+std::pair<double, double> SharpestOf(const PlanModel& plan) {
+  double sharpest_per_m = 0.0;
+  double s_m = 0.0;
+  for (std::size_t i = 0; i < plan.plateaus.size(); ++i) {
+    const double curvature_per_m = std::abs(plan.plateaus[i].curvature_per_m);
+    if (curvature_per_m <= sharpest_per_m) continue;
+    sharpest_per_m = curvature_per_m;
+    s_m = plan.ConstantBegin_m(i) + 0.5 * plan.ConstantLength_m(i);
+  }
+  return {s_m, sharpest_per_m};
+}
+
+double Quantile(const std::vector<double>& sorted, double share) {
+  return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+}
+
+LineQuality QualityOf(const LinePoints& points, const LineFit& fit) {
+  std::vector<double> distances_m;
+  for (const double offset_m : fit.offsets_m) distances_m.push_back(std::abs(offset_m));
+  std::ranges::sort(distances_m);
+  LineQuality quality;
+  quality.num_points = points.nodes.size();
+  quality.num_elements = fit.plan.Elements().size();
+  quality.length_m = fit.plan.length_m();
+  quality.median_m = Quantile(distances_m, 0.5);
+  quality.p99_m = Quantile(distances_m, 0.99);
+  quality.largest_m = distances_m.back();
+
+  const Wiggles before = WigglesOfSpline(points.places_m);
+  quality.tightest_radius_before_m = before.tightest_radius_m;
+  quality.sign_changes_before_per_km = before.sign_changes_per_km;
+  const auto [s_m, sharpest_per_m] = SharpestOf(fit.plan);
+  quality.tightest_radius_m =
+      sharpest_per_m > 0.0 ? 1.0 / sharpest_per_m : std::numeric_limits<double>::infinity();
+  const auto nearest = std::ranges::upper_bound(fit.chainages_m, s_m);
+  const auto at =
+      static_cast<std::size_t>(std::max<std::ptrdiff_t>(nearest - fit.chainages_m.begin() - 1, 0));
+  quality.needed_radius_m = 1.0 / SharpestCurvature_per_m(points.speeds_kmph[at]);
+
+  int num_changes = 0;
+  double last = 0.0;
+  for (const Plateau& plateau : fit.plan.plateaus) {
+    if (plateau.curvature_per_m * last < 0.0) ++num_changes;
+    if (plateau.curvature_per_m != 0.0) last = plateau.curvature_per_m;
+  }
+  quality.sign_changes_per_km = 1e3 * num_changes / quality.length_m;
+  return quality;
+}
+
+}  // namespace
+
+ImportedLine ImportLine(const RailMap& map, const TrackLine& line, const ImportOptions& options) {
+  const LinePoints points = PointsOf(map, line, options.otherwise_kmph);
+  const auto speed_kmph = [&](double along_m) {
+    const auto after = std::ranges::upper_bound(points.along_m, along_m);
+    const auto at =
+        static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - points.along_m.begin() - 1, 0));
+    return points.speeds_kmph[at];
+  };
+  const LineFit fit =
+      FitLine(points.places_m, {.sigma_m = options.sigma_m, .speed_kmph = speed_kmph});
+
+  ImportedLine imported;
+  imported.name = line.name;
+  AlignmentSpec& alignment = imported.alignment;
+  alignment.course = AlignmentElementsSpec{fit.plan.Elements()};
+  alignment.attribution = map.attribution;
+  alignment.origin_m = {fit.plan.start.x_m, fit.plan.start.y_m, 0.0};
+  alignment.heading_deg =
+      std::remainder(fit.plan.start.heading_rad, 2.0 * std::numbers::pi) * 180.0 / std::numbers::pi;
+  alignment.speed_limits_kmph = SpeedLimitsOf(points, fit);
+  imported.quality = QualityOf(points, fit);
+  for (std::size_t i = 0; i < fit.offsets_m.size(); ++i) {
+    if (std::abs(fit.offsets_m[i]) <= kContradiction_m) continue;
+    imported.contradictions.push_back(
+        {fit.chainages_m[i], fit.offsets_m[i], map.nodes[points.nodes[i]].geographic_deg});
+  }
+  return imported;
+}
+
+}  // namespace railcast

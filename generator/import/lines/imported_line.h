@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "generator/import/lines/track_lines.h"
+#include "generator/import/map/map_projection.h"
+#include "generator/import/map/rail_map.h"
+#include "railcast/alignment.h"
+
+namespace railcast {
+
+/// A point of the map that lies far from the line that all the others make.
+struct Contradiction {
+  double s_m{};       ///< Chainage of its foot.
+  double offset_m{};  ///< Left positive.
+  Eigen::Vector2d geographic_deg = Eigen::Vector2d::Zero();
+};
+
+/// How well a line fits its points, and what it is made of.
+struct LineQuality {
+  std::size_t num_points{};
+  std::size_t num_elements{};
+  double length_m{};
+  double median_m{};  ///< Of the points' distances from the line.
+  double p99_m{};
+  double largest_m{};
+  /// Of a cubic spline through the points, as they were; 0 if it has a cusp.
+  double tightest_radius_before_m{};
+  double tightest_radius_m{};           ///< Infinite if the line is straight.
+  double needed_radius_m{};             ///< For the speed at the tightest place.
+  double sign_changes_before_per_km{};  ///< Of the spline's curvature.
+  double sign_changes_per_km{};
+};
+
+/// A line of the map as an alignment.
+struct ImportedLine {
+  std::string name;
+  AlignmentSpec alignment;
+  LineQuality quality;
+  std::vector<Contradiction> contradictions;  ///< Points farther away than 1.5 m.
+};
+
+struct ImportOptions {
+  double sigma_m = 0.3;          ///< Standard deviation of mapped points across the track.
+  double otherwise_kmph = 80.0;  ///< Where the map gives no speed.
+};
+
+/// Fits straights, arcs and clothoids to a line (FitLine) and takes its speed limits from the map.
+/// Its heights are all 0.
+[[nodiscard]] ImportedLine ImportLine(const RailMap& map,
+                                      const TrackLine& line,
+                                      const ImportOptions& options);
+
+}  // namespace railcast

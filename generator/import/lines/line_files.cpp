@@ -1,0 +1,122 @@
+#include "generator/import/lines/line_files.h"
+
+#include <cmath>
+#include <iomanip>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/base/text.h"
+
+namespace railcast {
+namespace {
+
+using LineJson = nlohmann::ordered_json;
+
+double RoundedTo(double value, double steps_per_unit) {
+  return std::round(value * steps_per_unit) / steps_per_unit;
+}
+
+// Lengths to 0.1 mm and radii to 1 mm: a thousandth of what the map knows, but what is rounded adds
+// up along the line.
+constexpr double kLengthSteps_per_m = 1e4;
+constexpr double kRadiusSteps_per_m = 1e3;
+constexpr double kHeadingSteps_per_deg = 1e9;
+
+/// A list with one item to a line of text.
+template <typename Values, typename Write>
+std::string ListText(const Values& values, const std::string& indent, const Write& write) {
+  std::string text = "[";
+  const char* separator = "\n";
+  for (const auto& value : values) {
+    text += separator + indent + "  " + write(value).dump();
+    separator = ",\n";
+  }
+  return text + "\n" + indent + "]";
+}
+
+LineJson ElementJson(const AlignmentElement& element) {
+  LineJson json = {{"type", NameOf(element.type)},
+                   {"length_m", RoundedTo(element.length_m, kLengthSteps_per_m)}};
+  if (element.radius_m) json["radius_m"] = RoundedTo(*element.radius_m, kRadiusSteps_per_m);
+  return json;
+}
+
+}  // namespace
+
+std::string AlignmentFileText(const ImportedLine& line, const MapProjection& projection) {
+  const AlignmentSpec& alignment = line.alignment;
+  std::ostringstream origin;
+  origin << std::fixed << std::setprecision(3) << projection.origin_m.x() << ", "
+         << projection.origin_m.y();
+  const std::string attribution =
+      (alignment.attribution.empty() ? "" : alignment.attribution + ". ") +
+      "Fitted by railcast-generate import. Coordinates: " + projection.definition + ", minus (" +
+      origin.str() + ") m.";
+  const auto& elements = std::get<AlignmentElementsSpec>(alignment.course).elements;
+  std::string text = "{\n  \"version\": 1,\n";
+  text += "  \"attribution\": " + LineJson(attribution).dump() + ",\n";
+  text += "  \"origin_m\": " +
+          LineJson({RoundedTo(alignment.origin_m[0], kLengthSteps_per_m),
+                    RoundedTo(alignment.origin_m[1], kLengthSteps_per_m), alignment.origin_m[2]})
+              .dump() +
+          ",\n";
+  text += "  \"heading_deg\": " +
+          LineJson(RoundedTo(alignment.heading_deg, kHeadingSteps_per_deg)).dump() + ",\n";
+  text += "  \"speed_limits_kmph\": " +
+          ListText(alignment.speed_limits_kmph, "  ",
+                   [](const ChainageValue& limit) {
+                     return LineJson{{"s_m", limit.s_m}, {"value", limit.value}};
+                   }) +
+          ",\n";
+  text += "  \"course\": {\n    \"type\": \"elements\",\n    \"elements\": " +
+          ListText(elements, "    ", ElementJson) + "\n  }\n}\n";
+  return text;
+}
+
+std::string QualityCsv(const std::vector<ImportedLine>& lines) {
+  std::ostringstream csv;
+  csv << "line,length_m,points,elements,median_m,p99_m,largest_m,tightest_radius_before_m,"
+         "tightest_radius_m,needed_radius_m,sign_changes_before_per_km,sign_changes_per_km,"
+         "contradictions\n";
+  for (const ImportedLine& line : lines) {
+    const LineQuality& q = line.quality;
+    csv << line.name << ',' << q.length_m << ',' << q.num_points << ',' << q.num_elements << ','
+        << q.median_m << ',' << q.p99_m << ',' << q.largest_m << ',' << q.tightest_radius_before_m
+        << ',' << q.tightest_radius_m << ',' << q.needed_radius_m << ','
+        << q.sign_changes_before_per_km << ',' << q.sign_changes_per_km << ','
+        << line.contradictions.size() << '\n';
+  }
+  return csv.str();
+}
+
+std::string QualityTable(const std::vector<ImportedLine>& lines) {
+  std::ostringstream table;
+  table << std::fixed
+        << "| line | km | points off: median, 99 %, largest m | elements/km | tightest radius "
+           "before, now, needed m | sign changes/km before, now |\n"
+        << "|---|---|---|---|---|---|\n";
+  for (const ImportedLine& line : lines) {
+    const LineQuality& q = line.quality;
+    table << "| " << line.name << " | " << std::setprecision(2) << 1e-3 * q.length_m << " | "
+          << q.median_m << ", " << q.p99_m << ", " << q.largest_m << " | " << std::setprecision(1)
+          << 1e3 * static_cast<double>(q.num_elements) / q.length_m << " | " << std::setprecision(0)
+          << q.tightest_radius_before_m << ", " << q.tightest_radius_m << ", " << q.needed_radius_m
+          << " | " << std::setprecision(1) << q.sign_changes_before_per_km << ", "
+          << q.sign_changes_per_km << " |\n";
+  }
+  return table.str();
+}
+
+std::string ContradictionsCsv(const std::vector<ImportedLine>& lines) {
+  std::ostringstream csv;
+  csv << std::setprecision(10) << "line,s_m,offset_m,longitude_deg,latitude_deg\n";
+  for (const ImportedLine& line : lines) {
+    for (const Contradiction& point : line.contradictions) {
+      csv << line.name << ',' << point.s_m << ',' << point.offset_m << ','
+          << point.geographic_deg.x() << ',' << point.geographic_deg.y() << '\n';
+    }
+  }
+  return csv.str();
+}
+
+}  // namespace railcast

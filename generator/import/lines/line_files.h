@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "generator/import/lines/imported_line.h"
+#include "generator/import/map/map_projection.h"
+
+namespace railcast {
+
+/// An alignment as a file that a scenario's world may name, with one element to a line of text.
+[[nodiscard]] std::string AlignmentFileText(const ImportedLine& line,
+                                            const MapProjection& projection);
+
+/// The qualities of all lines as CSV, one row for each.
+[[nodiscard]] std::string QualityCsv(const std::vector<ImportedLine>& lines);
+/// The same as a table to be read.
+[[nodiscard]] std::string QualityTable(const std::vector<ImportedLine>& lines);
+/// All contradictions as CSV.
+[[nodiscard]] std::string ContradictionsCsv(const std::vector<ImportedLine>& lines);
+
+}  // namespace railcast

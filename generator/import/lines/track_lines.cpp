@@ -1,0 +1,168 @@
+#include "generator/import/lines/track_lines.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <unordered_map>
+
+namespace railcast {
+namespace {
+
+constexpr double kSharpestTurn_rad = 20.0 * std::numbers::pi / 180.0;
+constexpr double kOtherRef_rad = 6.0 * std::numbers::pi / 180.0;
+
+double LengthOf_m(const RailMap& map, const MapWay& way) {
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < way.nodes.size(); ++i) {
+    length_m += (map.nodes[way.nodes[i]].place_m - map.nodes[way.nodes[i - 1]].place_m).norm();
+  }
+  return length_m;
+}
+
+/// Follows tracks from way to way, each way once.
+class LineWalk {
+ public:
+  explicit LineWalk(const RailMap& map) : map_(map), is_used_(map.ways.size()) {
+    for (std::size_t i = 0; i < map.ways.size(); ++i) {
+      if (!IsRunning(i)) continue;
+      ways_at_[map.ways[i].nodes.front()].push_back(i);
+      ways_at_[map.ways[i].nodes.back()].push_back(i);
+    }
+  }
+
+  [[nodiscard]] bool IsRunning(std::size_t way) const {
+    return TagOf(map_.ways[way].tags, "service").empty();
+  }
+  [[nodiscard]] bool IsUsed(std::size_t way) const { return is_used_[way]; }
+
+  [[nodiscard]] TrackLine From(std::size_t way) {
+    TrackLine line;
+    line.nodes = map_.ways[way].nodes;
+    line.ways.assign(line.nodes.size() - 1, way);
+    is_used_[way] = true;
+    for (int end = 0; end < 2; ++end) {
+      while (const auto next = Next(line)) Append(*next, line);
+      std::ranges::reverse(line.nodes);
+      std::ranges::reverse(line.ways);
+    }
+    return line;
+  }
+
+ private:
+  [[nodiscard]] std::vector<std::size_t> NodesFrom(std::size_t node, std::size_t way) const {
+    std::vector<std::size_t> nodes = map_.ways[way].nodes;
+    if (nodes.front() != node) std::ranges::reverse(nodes);
+    return nodes;
+  }
+  [[nodiscard]] Eigen::Vector2d Direction(std::size_t from, std::size_t to) const {
+    return (map_.nodes[to].place_m - map_.nodes[from].place_m).normalized();
+  }
+
+  /// The way by which a line goes on at its last node.
+  [[nodiscard]] std::optional<std::size_t> Next(const TrackLine& line) const {
+    const std::size_t node = line.nodes.back();
+    const auto found = ways_at_.find(node);
+    if (found == ways_at_.end()) return std::nullopt;
+    const Eigen::Vector2d ahead = Direction(line.nodes[line.nodes.size() - 2], node);
+    std::optional<std::size_t> best;
+    double least_rad = kSharpestTurn_rad + kOtherRef_rad;
+    for (const std::size_t way : found->second) {
+      if (is_used_[way]) continue;
+      const double turn_rad =
+          std::acos(std::clamp(ahead.dot(Direction(node, NodesFrom(node, way)[1])), -1.0, 1.0));
+      if (turn_rad > kSharpestTurn_rad) continue;
+      const bool is_other =
+          TagOf(map_.ways[way].tags, "ref") != TagOf(map_.ways[line.ways.back()].tags, "ref");
+      const double cost_rad = turn_rad + (is_other ? kOtherRef_rad : 0.0);
+      if (cost_rad >= least_rad) continue;
+      least_rad = cost_rad;
+      best = way;
+    }
+    return best;
+  }
+
+  void Append(std::size_t way, TrackLine& line) {
+    const std::vector<std::size_t> nodes = NodesFrom(line.nodes.back(), way);
+    line.nodes.insert(line.nodes.end(), nodes.begin() + 1, nodes.end());
+    line.ways.insert(line.ways.end(), nodes.size() - 1, way);
+    is_used_[way] = true;
+  }
+
+  const RailMap& map_;
+  std::vector<bool> is_used_;
+  std::unordered_map<std::size_t, std::vector<std::size_t>> ways_at_;  ///< By node.
+};
+
+/// The most frequent value of a key along a line, by length.
+std::string MainTag(const RailMap& map, const TrackLine& line, std::string_view key) {
+  std::map<std::string_view, double> lengths_m;
+  for (std::size_t i = 0; i < line.ways.size(); ++i) {
+    lengths_m[TagOf(map.ways[line.ways[i]].tags, key)] +=
+        (map.nodes[line.nodes[i + 1]].place_m - map.nodes[line.nodes[i]].place_m).norm();
+  }
+  const auto longest =
+      std::ranges::max_element(lengths_m, {}, [](const auto& entry) { return entry.second; });
+  return std::string(longest->first);
+}
+
+/// Lower-case letters and digits, joined by hyphens; other characters are left out.
+std::string FileNameOf(const std::string& text) {
+  std::string name;
+  for (const char character : text) {
+    const auto byte = static_cast<unsigned char>(character);
+    if (byte < 0x80 && std::isalnum(byte) != 0) {
+      name += static_cast<char>(std::tolower(byte));
+    } else if (byte < 0x80 && !name.empty() && name.back() != '-') {
+      name += '-';
+    }
+  }
+  while (!name.empty() && name.back() == '-') name.pop_back();
+  return name;
+}
+
+void NameLines(const RailMap& map, std::vector<TrackLine>& lines) {
+  std::set<std::string> taken;
+  for (TrackLine& line : lines) {
+    std::string name = FileNameOf(MainTag(map, line, "name") + " " + MainTag(map, line, "ref"));
+    if (name.empty()) name = "line";
+    std::string unique = name;
+    for (int number = 2; !taken.insert(unique).second; ++number) {
+      unique = name + "-" + std::to_string(number);
+    }
+    line.name = std::move(unique);
+  }
+}
+
+}  // namespace
+
+std::vector<TrackLine> FindLines(const RailMap& map, double shortest_m) {
+  LineWalk walk(map);
+  std::vector<std::size_t> order(map.ways.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::ranges::greater{},
+                           [&](std::size_t way) { return LengthOf_m(map, map.ways[way]); });
+  std::vector<TrackLine> lines;
+  for (const std::size_t way : order) {
+    if (!walk.IsRunning(way) || walk.IsUsed(way)) continue;
+    TrackLine line = walk.From(way);
+    if (LengthOf_m(map, line) >= shortest_m) lines.push_back(std::move(line));
+  }
+  std::ranges::stable_sort(lines, std::ranges::greater{},
+                           [&](const TrackLine& line) { return LengthOf_m(map, line); });
+  NameLines(map, lines);
+  return lines;
+}
+
+double LengthOf_m(const RailMap& map, const TrackLine& line) {
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < line.nodes.size(); ++i) {
+    length_m += (map.nodes[line.nodes[i]].place_m - map.nodes[line.nodes[i - 1]].place_m).norm();
+  }
+  return length_m;
+}
+
+}  // namespace railcast

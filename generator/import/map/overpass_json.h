@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+
+#include "generator/import/map/rail_map.h"
+
+namespace railcast {
+
+/// Reads the railway ways of an answer of OpenStreetMap's Overpass API in JSON, with their nodes
+/// (`out body; >; out skel;` or `out geom;` with node ids). Ways that are not tracks
+/// (`railway=platform`, ...) and relations are left out.
+/// @throws InputError for each fault, with JSON pointers: no elements, coordinates that are no
+///   degrees, a way whose node is missing, no track at all.
+[[nodiscard]] RailMap ReadOverpassJson(const std::filesystem::path& file);
+
+/// Whether a value of OpenStreetMap's key `railway` is a track that trains can run on.
+[[nodiscard]] bool IsTrack(std::string_view railway);
+
+}  // namespace railcast

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace railcast {
+
+/// Keys and values of a mapped thing, as OpenStreetMap has them ("maxspeed": "120").
+using MapTags = std::map<std::string, std::string, std::less<>>;
+
+/// The value of a key; empty if there is none.
+[[nodiscard]] inline std::string_view TagOf(const MapTags& tags, std::string_view key) {
+  const auto found = tags.find(key);
+  return found == tags.end() ? std::string_view{} : found->second;
+}
+
+struct MapNode {
+  /// As in the source: longitude and latitude in degrees (WGS 84).
+  Eigen::Vector2d geographic_deg = Eigen::Vector2d::Zero();
+  /// In metres, east and north of the map's origin (MapProjection).
+  Eigen::Vector2d place_m = Eigen::Vector2d::Zero();
+  MapTags tags;
+};
+
+/// A stretch of one track between two of the nodes at which mappers divide tracks.
+struct MapWay {
+  std::int64_t id{};               ///< Of the source, for messages.
+  std::vector<std::size_t> nodes;  ///< At least two; no two neighbours are equal.
+  MapTags tags;
+};
+
+/// The railway tracks of a map. Tracks meet where ways share a node.
+struct RailMap {
+  std::vector<MapNode> nodes;
+  std::vector<MapWay> ways;
+  std::string attribution;
+};
+
+}  // namespace railcast

@@ -1,0 +1,30 @@
+#include "generator/import/map/read_map.h"
+
+#include <array>
+#include <string>
+
+#include "core/base/input_file.h"
+#include "generator/import/map/overpass_json.h"
+#include "generator/import/map/vector_map.h"
+
+namespace railcast {
+namespace {
+
+/// GeoJSON is JSON, too, but only Overpass speaks of `elements`, near the beginning.
+bool IsOverpass(const std::filesystem::path& file) {
+  std::array<char, 4096> bytes{};
+  std::ifstream stream = OpenInput(file);
+  stream.read(bytes.data(), bytes.size());
+  const std::string_view begin(bytes.data(), static_cast<std::size_t>(stream.gcount()));
+  const std::size_t first = begin.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  return first != std::string_view::npos && begin[first] == '{' &&
+         begin.find("\"elements\"") != std::string_view::npos;
+}
+
+}  // namespace
+
+RailMap ReadMap(const std::filesystem::path& file) {
+  return IsOverpass(file) ? ReadOverpassJson(file) : ReadVectorMap(file);
+}
+
+}  // namespace railcast

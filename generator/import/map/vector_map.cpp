@@ -1,0 +1,185 @@
+#include "generator/import/map/vector_map.h"
+
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <set>
+#include <unordered_map>
+#include <utility>
+
+#include "core/base/attempt.h"
+#include "core/base/error.h"
+#include "core/base/input_file.h"
+#include "core/base/text.h"
+#include "generator/import/map/overpass_json.h"
+
+namespace railcast {
+namespace {
+
+/// "name"=>"value" pairs, as GDAL gives the tags for which it has no column.
+void AddOtherTags(std::string_view text, MapTags& tags) {
+  const auto quoted = [&]() -> std::optional<std::string> {
+    const std::size_t begin = text.find('"');
+    if (begin == std::string_view::npos) return std::nullopt;
+    std::string value;
+    std::size_t i = begin + 1;
+    for (; i < text.size() && text[i] != '"'; ++i) {
+      if (text[i] == '\\' && i + 1 < text.size()) ++i;
+      value += text[i];
+    }
+    text.remove_prefix(std::min(i + 1, text.size()));
+    return value;
+  };
+  while (auto key = quoted()) {
+    const auto value = quoted();
+    if (!value) return;
+    tags.emplace(*std::move(key), *value);
+  }
+}
+
+MapTags FeatureTags(const OGRFeature& feature) {
+  MapTags tags;
+  for (int i = 0; i < feature.GetFieldCount(); ++i) {
+    if (!feature.IsFieldSetAndNotNull(i)) continue;
+    const char* key = feature.GetFieldDefnRef(i)->GetNameRef();
+    const char* value = feature.GetFieldAsString(i);
+    if (EQUAL(key, "other_tags")) {
+      AddOtherTags(value, tags);
+    } else if (*value != '\0') {
+      // KML calls a line's name Name, GPX name.
+      tags.emplace(EQUAL(key, "name") ? "name" : key, value);
+    }
+  }
+  return tags;
+}
+
+/// A line of the file that may be a track.
+struct Line {
+  std::string place;  ///< For messages: "lines 12".
+  std::vector<Eigen::Vector2d> points_deg;
+  MapTags tags;
+  bool is_area = false;
+};
+
+/// Takes the lines of a geometry; multi-part ones give several.
+void AddLines(const OGRGeometry& geometry, const Line& line, std::vector<Line>& lines) {
+  switch (wkbFlatten(geometry.getGeometryType())) {
+    case wkbLineString: {
+      Line added = line;
+      for (const OGRPoint& point : *geometry.toLineString()) {
+        added.points_deg.emplace_back(point.getX(), point.getY());
+      }
+      lines.push_back(std::move(added));
+      break;
+    }
+    case wkbPolygon:
+    case wkbMultiPolygon: {
+      Line added = line;
+      added.is_area = true;
+      lines.push_back(std::move(added));
+      break;
+    }
+    case wkbMultiLineString:
+    case wkbGeometryCollection:
+      for (const OGRGeometry* part : *geometry.toGeometryCollection()) {
+        AddLines(*part, line, lines);
+      }
+      break;
+    default:
+      break;  // Points are no tracks.
+  }
+}
+
+std::vector<Line> LinesIn(GDALDataset& dataset) {
+  std::vector<Line> lines;
+  OGRLayer* layer = nullptr;
+  // Features come in the order of the file, whatever their layer, which .pbf files need.
+  while (const auto feature = std::unique_ptr<OGRFeature>(
+             dataset.GetNextFeature(&layer, nullptr, nullptr, nullptr))) {
+    const OGRGeometry* geometry = feature->GetGeometryRef();
+    if (geometry == nullptr) continue;
+    const std::string place =
+        std::string(layer->GetName()) + " " + std::to_string(feature->GetFID());
+    AddLines(*geometry, {place, {}, FeatureTags(*feature), false}, lines);
+  }
+  return lines;
+}
+
+/// Makes one node of points with equal coordinates.
+class NodeIndex {
+ public:
+  explicit NodeIndex(RailMap& map) : map_(map) {}
+
+  std::size_t Of(const Eigen::Vector2d& point_deg) {
+    const auto [entry, is_new] =
+        nodes_.try_emplace({point_deg.x(), point_deg.y()}, map_.nodes.size());
+    if (is_new) map_.nodes.push_back({.geographic_deg = point_deg, .tags = {}});
+    return entry->second;
+  }
+
+ private:
+  RailMap& map_;
+  std::map<std::pair<double, double>, std::size_t> nodes_;
+};
+
+bool IsDegrees(const Eigen::Vector2d& point_deg) {
+  return std::abs(point_deg.x()) <= 180.0 && std::abs(point_deg.y()) <= 90.0;
+}
+
+/// Appends a line as a way.
+void AddWay(const Line& line, NodeIndex& nodes, RailMap& map, ErrorList& errors) {
+  if (line.is_area) {
+    errors.Add({line.place, "must be a line, since it is to be a track", "a polygon"});
+    return;
+  }
+  MapWay way{static_cast<std::int64_t>(map.ways.size()), {}, line.tags};
+  for (const Eigen::Vector2d& point_deg : line.points_deg) {
+    if (!IsDegrees(point_deg)) {
+      errors.Add({line.place, "must have longitudes and latitudes in degrees",
+                  NumberText(point_deg.x()) + ", " + NumberText(point_deg.y())});
+      return;
+    }
+    const std::size_t node = nodes.Of(point_deg);
+    if (way.nodes.empty() || way.nodes.back() != node) way.nodes.push_back(node);
+  }
+  if (way.nodes.size() >= 2) map.ways.push_back(std::move(way));
+}
+
+}  // namespace
+
+RailMap ReadVectorMap(const std::filesystem::path& file) {
+  CheckIsReadable(file);
+  GDALAllRegister();
+  CPLPushErrorHandler(CPLQuietErrorHandler);
+  const std::unique_ptr<GDALDataset> dataset(
+      GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
+  const std::string reason = CPLGetLastErrorMsg();
+  CPLPopErrorHandler();
+  if (!dataset) {
+    throw InputError(ShownPath(file) +
+                     ": must be a map: Overpass JSON, .osm, .pbf, GeoJSON, GPX or KML" +
+                     (reason.empty() ? "" : " (" + ShownText(reason) + ")"));
+  }
+  std::vector<Line> lines = LinesIn(*dataset);
+  const bool has_railways = std::ranges::any_of(
+      lines, [](const Line& line) { return !TagOf(line.tags, "railway").empty(); });
+  if (has_railways) {
+    std::erase_if(lines, [](const Line& line) { return !IsTrack(TagOf(line.tags, "railway")); });
+  }
+  RailMap map;
+  NodeIndex nodes(map);
+  ErrorList errors;
+  for (const Line& line : lines) AddWay(line, nodes, map, errors);
+  AtPlace(ShownPath(file) + ": ", [&] { errors.ThrowIfAny(); });
+  if (map.ways.empty()) {
+    throw InputError(ShownPath(file) + ": must have a line that is a track (got " +
+                     std::to_string(lines.size()) + " lines)");
+  }
+  return map;
+}
+
+}  // namespace railcast

@@ -1,0 +1,142 @@
+#include "generator/import/fit/line_fit.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "generator/import/fit/plan_window.h"
+
+namespace railcast {
+namespace {
+
+/// Points of a plan as mappers draw them: more of them in curves, off by sigma_m across the track.
+std::vector<Eigen::Vector2d> MappedPoints(const PlanModel& plan, double sigma_m, unsigned seed) {
+  std::mt19937 dice(seed);
+  std::normal_distribution<double> off(0.0, 1.0);
+  std::uniform_real_distribution<double> step(0.6, 1.4);
+  const PlanCourse course = plan.Course();
+  std::vector<Eigen::Vector2d> points_m;
+  for (double s_m = 0.0; s_m < plan.length_m();) {
+    const PlanPoint at = course.At(s_m);
+    const double offset_m = sigma_m * off(dice);
+    points_m.emplace_back(at.x_m - offset_m * std::sin(at.heading_rad),
+                          at.y_m + offset_m * std::cos(at.heading_rad));
+    s_m += step(dice) * (at.curvature_per_m == 0.0 ? 60.0 : 30.0);
+  }
+  const PlanPoint end = course.At(plan.length_m());
+  points_m.emplace_back(end.x_m, end.y_m);
+  return points_m;
+}
+
+/// The largest distance between two plans, at points of the first one.
+double LargestDistance_m(const PlanModel& plan, const PlanModel& from) {
+  const PlanCourse course = plan.Course();
+  const PlanCourse other = from.Course();
+  double largest_m = 0.0;
+  double guess_m = 0.0;
+  constexpr double kStep_m = 10.0;
+  for (double s_m = 0.0; s_m < plan.length_m(); s_m += kStep_m) {
+    const PlanPoint at = course.At(s_m);
+    const Foot foot = FootOn(other, from.length_m(), {at.x_m, at.y_m}, guess_m);
+    largest_m = std::max(largest_m, std::abs(foot.offset_m));
+    guess_m = foot.s_m + kStep_m;
+  }
+  return largest_m;
+}
+
+/// A line for 120 km/h: straights, a single curve, a reverse curve and a compound one.
+PlanModel MainLine() {
+  PlanModel plan;
+  plan.start.heading_rad = 0.4;
+  plan.plateaus = {{0.0, 900.0},          {1.0 / 800.0, 500.0}, {0.0, 700.0},
+                   {-1.0 / 700.0, 400.0}, {1.0 / 900.0, 450.0}, {0.0, 800.0},
+                   {1.0 / 1500.0, 400.0}, {1.0 / 650.0, 350.0}, {0.0, 600.0}};
+  plan.clothoids_m = {110.0, 110.0, 120.0, 180.0, 100.0, 70.0, 90.0, 130.0};
+  return plan;
+}
+
+LinePrior ForSpeed(double speed_kmph, double sigma_m) {
+  return {.sigma_m = sigma_m, .speed_kmph = [=](double) { return speed_kmph; }};
+}
+
+TEST(LineFit, FindsTheElementsFromWhichPointsWereMade) {
+  const PlanModel truth = MainLine();
+  constexpr double kSigma_m = 0.02;
+  const LineFit fit = FitLine(MappedPoints(truth, kSigma_m, 1), ForSpeed(120.0, kSigma_m));
+  ASSERT_EQ(fit.plan.plateaus.size(), truth.plateaus.size());
+  for (std::size_t i = 0; i < truth.plateaus.size(); ++i) {
+    const double curvature_per_m = truth.plateaus[i].curvature_per_m;
+    EXPECT_NEAR(fit.plan.plateaus[i].curvature_per_m, curvature_per_m,
+                0.02 * std::abs(curvature_per_m))
+        << i;
+    EXPECT_NEAR(fit.plan.plateaus[i].length_m, truth.plateaus[i].length_m, 25.0) << i;
+  }
+  EXPECT_LT(LargestDistance_m(truth, fit.plan), 4.0 * kSigma_m);
+}
+
+TEST(LineFit, NeedsNoMoreElementsThanTheLineHasFromNoisyPoints) {
+  const PlanModel truth = MainLine();
+  constexpr double kSigma_m = 0.3;
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    const LineFit fit = FitLine(MappedPoints(truth, kSigma_m, seed), ForSpeed(120.0, kSigma_m));
+    EXPECT_LE(fit.plan.plateaus.size(), truth.plateaus.size()) << seed;
+    EXPECT_GE(fit.plan.plateaus.size(), truth.plateaus.size() - 2) << seed;
+    // Some ten points hold each element: its place is known to about sigma / 3 in its middle, and
+    // three times worse between elements.
+    EXPECT_LT(LargestDistance_m(truth, fit.plan), 4.0 * kSigma_m) << seed;
+  }
+}
+
+TEST(LineFit, LeavesAStraightLineStraight) {
+  PlanModel truth;
+  truth.start = {.x_m = 5.0, .y_m = -3.0, .heading_rad = 2.0};
+  truth.plateaus = {{0.0, 3000.0}};
+  const LineFit fit = FitLine(MappedPoints(truth, 0.3, 7), ForSpeed(100.0, 0.3));
+  ASSERT_EQ(fit.plan.plateaus.size(), 1U);
+  EXPECT_EQ(fit.plan.plateaus.front().curvature_per_m, 0.0);
+  EXPECT_LT(LargestDistance_m(truth, fit.plan), 0.5);
+  EXPECT_NEAR(fit.plan.length_m(), 3000.0, 1.0);
+}
+
+TEST(LineFit, IsNotBentByOnePointThatIsFarOff) {
+  const PlanModel truth = MainLine();
+  std::vector<Eigen::Vector2d> points_m = MappedPoints(truth, 0.1, 3);
+  points_m[points_m.size() / 2] += Eigen::Vector2d(0.0, 4.0);
+  const LineFit fit = FitLine(points_m, ForSpeed(120.0, 0.3));
+  EXPECT_LT(LargestDistance_m(truth, fit.plan), 1.0);
+}
+
+TEST(LineFit, TakesTwoPointsForAStraight) {
+  const std::vector<Eigen::Vector2d> points_m = {{0.0, 0.0}, {30.0, 40.0}};
+  const LineFit fit = FitLine(points_m, ForSpeed(80.0, 0.3));
+  ASSERT_EQ(fit.plan.plateaus.size(), 1U);
+  EXPECT_NEAR(fit.plan.length_m(), 50.0, 0.1);
+  EXPECT_NEAR(fit.plan.start.heading_rad, std::atan2(4.0, 3.0), 1e-2);
+}
+
+TEST(LineFit, GivesTheElementsOfAnAlignmentOfTheSamePlan) {
+  const PlanModel plan = MainLine();
+  AlignmentSpec spec;
+  spec.course = AlignmentElementsSpec{plan.Elements()};
+  spec.heading_deg = plan.start.heading_rad * 180.0 / M_PI;
+  const Alignment alignment(spec);
+  ASSERT_NEAR(alignment.length_m(), plan.length_m(), 1e-6);
+  const PlanCourse course = plan.Course();
+  for (double s_m = 0.0; s_m < plan.length_m(); s_m += 50.0) {
+    EXPECT_NEAR(alignment.At(s_m).position_m.x(), course.At(s_m).x_m, 1e-5) << s_m;
+    EXPECT_NEAR(alignment.At(s_m).position_m.y(), course.At(s_m).y_m, 1e-5) << s_m;
+  }
+}
+
+TEST(UsualClothoid, IsTheRampOfTheCant) {
+  // 120 km/h and 800 m: 212 mm balance, 127 mm are built, and the ramp rises by 1 mm in 1.2 m.
+  EXPECT_NEAR(UsualClothoid_m(120.0, 0.0, 1.0 / 800.0), 152.9, 0.1);
+  EXPECT_EQ(UsualClothoid_m(40.0, 0.0, 1.0 / 5000.0), 15.0);
+}
+
+}  // namespace
+}  // namespace railcast
