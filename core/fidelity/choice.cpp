@@ -225,7 +225,8 @@ FidelityChoice ChooseFidelity(Simulator& simulator,
                               const ChoiceProgress& on_progress) {
   Check(scenario.fidelity == Fidelity::kAuto, "there is something to choose");
   FidelityChoice choice;
-  choice.has_full_detail = simulator.spec().has_full_detail;
+  choice.has_full_detail =
+      simulator.spec().has_full_detail || simulator.spec().detector.effects.dense_footprint;
   const Candidates candidates = FindCandidates(scenario, choice);
   const Frames frames = ChooseFrames(scenario, simulator);
   choice.sample_frames = frames.samples;

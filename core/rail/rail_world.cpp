@@ -313,10 +313,14 @@ std::optional<CoarserSurfaces> RailWorld::CoarserSurfacesOf(int chunk) const {
   constexpr int kNumSteps = 10;
   const double half_width_m = line_->world.terrain.half_width_m;
   const Transform chunk_from_world = line_->grid.WorldFromChunk(chunk).inverse();
+  const auto heading_rad = [&](double s_m) { return line_->alignment.At(s_m).heading_rad; };
+  // By how much a curve turns the track at the chunk's ends from its middle.
+  const double turn_rad = 0.5 * std::abs(heading_rad(line_->grid.EndOf(chunk)) -
+                                         heading_rad(line_->grid.BeginOf(chunk)));
   CoarserSurfaces coarser{.area_m = {},
                           .ray_spacing_m = kCoarseRaySpacing_m,
                           .beam_width_m = kCoarseBeamWidth_m,
-                          .sight_angle_rad = kCoarseSightAngle_rad};
+                          .sight_angle_rad = std::max(0.0, kCoarseSightAngle_rad - turn_rad)};
   for (int i = 0; i <= kNumSteps; ++i) {
     const double s_m =
         std::lerp(line_->grid.BeginOf(chunk), line_->grid.EndOf(chunk), 1.0 * i / kNumSteps);

@@ -117,9 +117,10 @@ class LiveRun {
         {stamp_ns, now_ns, spec_.lockstep ? 0 : std::max<std::int64_t>(0, behind_ns), records_});
   }
 
-  /// Returns the time at which the frame's period ends.
+  /// Returns the time by which the frame must have been made: the end of its period, of an image
+  /// that of the sensor's frame with the same stamp.
   [[nodiscard]] std::int64_t DeadlineNs(std::size_t sensor, std::int64_t stamp_ns) const {
-    return clock_from_stamp_ns_ + stamp_ns + records_[sensor].period_ns;
+    return clock_from_stamp_ns_ + stamp_ns + sensors_[sensor].latency_ns;
   }
 
   void MakeFrame(std::size_t sensor, std::int64_t stamp_ns) {

@@ -17,7 +17,8 @@ namespace railcast {
 /// ballast is left out.
 ///
 /// In the coarser form, inner rows are 1 m apart, or half the wavelength of the roughness if that
-/// is from 2 to 4 m; below, they are those of the finest. Cells are up to 2 m wide across.
+/// is from 2 to 4 m; below, they are those of the finest, and so are the columns up to 10 m from
+/// the tracks. Cells are up to 2 m wide across.
 void AddTerrain(const ChunkContext& context, Chunk& chunk);
 
 /// The point of the ground at (s, d) in the chunk's frame: on the surface that AddTerrain samples

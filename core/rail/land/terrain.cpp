@@ -22,6 +22,8 @@ constexpr double kCoarsestAcross_m = 2.0;
 
 /// Of the coarser form: the widest cells across. Where ballast may cover them, all are kept.
 constexpr double kWholeReach_m = 3.0;
+/// A shorter roughness would be lost between rows 1 m apart.
+constexpr double kShortWavelength_m = 2.0;
 constexpr double kCoarseNearAcross_m = 1.1;
 constexpr double kCoarseGroundAcross_m = 2.1;
 
@@ -118,7 +120,7 @@ Vector3 PointOf(const CrossSection& section, const Relief& relief, double s_m, d
 /// lattice is resolved by any rows a metre apart, a shorter one by none but the finest.
 std::vector<double> CoarseStations(const ChainageRange& range, double wavelength_m) {
   constexpr double kCoarseAlong_m = 1.0;
-  if (wavelength_m < 2.0 * kCoarseAlong_m) return GridStations(range, kGridAlong_m);
+  if (wavelength_m < kShortWavelength_m) return GridStations(range, kGridAlong_m);
   if (wavelength_m >= 4.0 * kCoarseAlong_m) return GridStations(range, kCoarseAlong_m);
   const double quarter_m = 0.25 * wavelength_m;
   std::vector<double> stations_m =
@@ -161,7 +163,9 @@ class GroundGrid {
     for (const double s_m : stations_m) sections.emplace_back(context_, s_m);
     const auto widest_m = [&](double d_m) {
       const double beside_m = sections.front().DistanceFromTracks_m(d_m);
-      if (beside_m < kWholeReach_m) return 0.0;
+      // Only the finest grid resolves a roughness as short as this, across as along.
+      const bool is_short = context_.spec.terrain.roughness_wavelength_m < kShortWavelength_m;
+      if (beside_m < (is_short ? kFineReach_m : kWholeReach_m)) return 0.0;
       return beside_m < kFineReach_m ? kCoarseNearAcross_m : kCoarseGroundAcross_m;
     };
     return MeshOfCoarseGrid(

@@ -91,11 +91,8 @@ class BallastSheet {
     for (std::size_t column = 0; column < num_columns(); ++column) {
       places_m.push_back(PlaceOf_m(column));
     }
-    const double sleeper_s_m =
-        kSleeperSpacing_m *
-        std::round(0.5 * (context_.begin_s_m + context_.end_s_m) / kSleeperSpacing_m);
     std::vector<std::vector<double>> profiles_m;
-    for (const double s_m : {sleeper_s_m, sleeper_s_m + 0.5 * kSleeperSpacing_m}) {
+    for (const double s_m : ProfilePlaces_m()) {
       const CrossSection section(context_, s_m);
       std::vector<double>& profile_m = profiles_m.emplace_back();
       for (const double d_m : places_m) {
@@ -108,6 +105,25 @@ class BallastSheet {
   }
 
  private:
+  /// Chainages whose cross-sections show the ballast of every track, at and between sleepers: near
+  /// the middle of the chunk, and of what a track that begins or ends inside has of it.
+  [[nodiscard]] std::vector<double> ProfilePlaces_m() const {
+    std::vector<double> places_m;
+    const auto add = [&](double begin_s_m, double end_s_m) {
+      const double sleeper_s_m =
+          kSleeperSpacing_m * std::round(0.5 * (begin_s_m + end_s_m) / kSleeperSpacing_m);
+      places_m.push_back(sleeper_s_m);
+      places_m.push_back(sleeper_s_m + 0.5 * kSleeperSpacing_m);
+    };
+    add(context_.begin_s_m, context_.end_s_m);
+    for (const TrackSpec& track : context_.spec.tracks) {
+      const double begin_s_m = std::max(context_.begin_s_m, track.start_s_m);
+      const double end_s_m = std::min(context_.end_s_m, TrackEnd_m(track, context_.alignment));
+      const bool is_whole = begin_s_m == context_.begin_s_m && end_s_m == context_.end_s_m;
+      if (!is_whole && begin_s_m < end_s_m) add(begin_s_m, end_s_m);
+    }
+    return places_m;
+  }
   [[nodiscard]] double PlaceOf_m(std::size_t column) const {
     return static_cast<double>(columns_.first + static_cast<std::int64_t>(column)) * kGridAcross_m;
   }

@@ -1,5 +1,6 @@
 // Properties of tracks, contact line and ground together that hold for every chunk.
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -134,6 +135,29 @@ TEST(ChunkGeometry, BeginsAndEndsAlikeInBothForms) {
   ExpectOverlap(true, false);
   ExpectOverlap(false, true);
   ExpectOverlap(true, true);
+}
+
+/// Lateral positions, in mm, of the ballast's points from 2 to 8 m behind the beginning of chunk 2.
+std::set<int> BallastColumns_mm(const WorldSpec& spec) {
+  const TestLine line(spec);
+  const Mesh ballast = MeshOfSurface(line.Build(2, true), line.surfaces().ballast);
+  std::set<int> columns_mm;
+  for (const Eigen::Vector3f& vertex_m : ballast.vertices) {
+    const float behind_begin_m = vertex_m.x() + 25.0F;
+    if (behind_begin_m < 2.0F || behind_begin_m > 8.0F) continue;
+    columns_mm.insert(static_cast<int>(std::lround(1e3F * vertex_m.y())));
+  }
+  return columns_mm;
+}
+
+// The columns follow the shape of the ballast, also of a track that has ended before the middle.
+TEST(ChunkGeometry, KeepsTheShapeOfATrackThatEndsInsideInItsCoarserForm) {
+  WorldSpec whole = StraightLine(300.0);
+  WorldSpec ended = whole;
+  ended.tracks[0].end_s_m = 110.0;
+  const std::set<int> of_whole_mm = BallastColumns_mm(whole);
+  EXPECT_GT(of_whole_mm.size(), 5U);
+  EXPECT_THAT(BallastColumns_mm(ended), ::testing::IsSupersetOf(of_whole_mm));
 }
 
 TEST(ChunkGeometry, TakesLessThanHalfOfTheTrianglesInItsCoarserForm) {
