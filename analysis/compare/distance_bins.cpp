@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kPercentOf = 100.0;
 
-double RelativeChange(double from, double to) {
+double RelativeChangeOf(double from, double to) {
   return (to - from) / from;
 }
 
@@ -69,8 +69,8 @@ BinErrors ErrorsOf(const BinnedCloud& a, const BinnedCloud& b) {
   Mean points, intensity;
   for (std::size_t i = 0; i < a.bins.size(); ++i) {
     if (a.bins[i].num_points < kMinSamples) continue;
-    points.Add(std::abs(RelativeChange(PointsOf(a.bins[i]), PointsOf(b.bins[i]))));
-    intensity.Add(std::abs(RelativeChange(a.bins[i].MeanIntensity(), b.bins[i].MeanIntensity())));
+    points.Add(std::abs(RelativeChangeOf(PointsOf(a.bins[i]), PointsOf(b.bins[i]))));
+    intensity.Add(std::abs(RelativeChangeOf(a.bins[i].MeanIntensity(), b.bins[i].MeanIntensity())));
   }
   return {kPercentOf * points.value(), kPercentOf * intensity.value()};
 }
@@ -87,8 +87,8 @@ void BinSums::Add(const BinnedCloud& a, const BinnedCloud& b) {
     bin.intensity_a.Add(intensity_a);
     bin.intensity_b.Add(intensity_b);
     if (a.bins[i].num_points >= kMinSamples) {
-      bin.points_change.Add(RelativeChange(points_a, points_b));
-      const double change = RelativeChange(intensity_a, intensity_b);
+      bin.points_change.Add(RelativeChangeOf(points_a, points_b));
+      const double change = RelativeChangeOf(intensity_a, intensity_b);
       if (std::isfinite(change)) bin.intensity_change.Add(change);
     }
   }
