@@ -49,10 +49,14 @@ LineDraft::Arc LineDraft::LongestArc(std::size_t begin, double tolerance_m) cons
         points_m_[begin], points_m_[static_cast<std::size_t>(middle)], points_m_[end]);
     const Vector2d chord_m = points_m_[end] - points_m_[begin];
     const double chord_length_m = chord_m.norm();
+    double before_m = 0.0;
     for (std::size_t i = begin + 1; i < end; ++i) {
       const Vector2d to_point_m = points_m_[i] - points_m_[begin];
       const double x_m = to_point_m.dot(chord_m) / chord_length_m;
       const double y_m = Cross(chord_m, to_point_m) / chord_length_m;
+      // A line that turns back is no arc, and an arc's points lie between its ends.
+      if (!(x_m > before_m && x_m < chord_length_m)) return longest;
+      before_m = x_m;
       // The parabola through the chord's ends that has the circle's curvature.
       const double arc_y_m = -0.5 * curvature_per_m * x_m * (chord_length_m - x_m);
       if (!(std::abs(y_m - arc_y_m) < tolerance_m)) return longest;
@@ -159,16 +163,6 @@ void LineDraft::FindFeet() {
     before_m = feet_m_[i];
     feet_m_[i] = FootOn(course, plan_.length_m(), points_m_[i], guess_m).s_m;
   }
-}
-
-LineFit LineDraft::Fit() const {
-  LineFit fit{plan_, feet_m_, {}};
-  const PlanCourse course = plan_.Course();
-  for (std::size_t i = 0; i < points_m_.size(); ++i) {
-    const Foot foot = FootOn(course, plan_.length_m(), points_m_[i], feet_m_[i]);
-    fit.offsets_m.push_back(foot.offset_m);
-  }
-  return fit;
 }
 
 }  // namespace railcast

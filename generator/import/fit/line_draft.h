@@ -31,7 +31,8 @@ class LineDraft {
   /// Puts a part that was fitted into the line. What is behind it moves with its end.
   void Replace(const Part& part);
 
-  [[nodiscard]] LineFit Fit() const;
+  /// Chainages of the points' feet on the plan.
+  [[nodiscard]] const std::vector<double>& feet_m() const { return feet_m_; }
 
  private:
   /// An arc between two of the points.

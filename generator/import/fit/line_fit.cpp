@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/error.h"
 #include "generator/import/fit/line_draft.h"
 #include "generator/import/fit/plan_window.h"
 
@@ -158,16 +159,21 @@ void ChangeSearch::TryDivisions() {
   Try([&](PlanWindow& changed) { Divide(changed, at_, share, -turn_rad); });
 }
 
-/// Makes changes until none gains.
+/// A change that gains less is not worth its time, and might be undone by the next one.
+constexpr double kLeastGain = 0.5;
+
+/// Makes changes until none gains. Each lowers the cost, but only of the part that it fits anew, so
+/// that a limit sees to the end.
 void Improve(LineDraft& line) {
   std::vector<std::optional<Change>> changes(line.num_plateaus());
-  while (true) {
+  const std::size_t most_changes = 10 * line.num_plateaus() + 100;
+  for (std::size_t num_changes = 0; num_changes < most_changes; ++num_changes) {
     std::size_t best = 0;
     for (std::size_t i = 0; i < changes.size(); ++i) {
       if (!changes[i]) changes[i] = ChangeSearch(line, i).Best();
       if (changes[i]->gain > changes[best]->gain) best = i;
     }
-    if (!(changes[best]->gain > 0.0)) return;
+    if (!(changes[best]->gain >= kLeastGain)) return;
     const std::size_t num_before = line.num_plateaus();
     const LineDraft::Part part = std::move(changes[best]->part);
     line.Replace(part);
@@ -190,10 +196,24 @@ void Improve(LineDraft& line) {
 
 }  // namespace
 
+LineFit MeasureFit(const PlanModel& plan,
+                   std::span<const Eigen::Vector2d> points_m,
+                   std::span<const double> guesses_m) {
+  LineFit fit{plan, {}, {}};
+  const PlanCourse course = plan.Course();
+  for (std::size_t i = 0; i < points_m.size(); ++i) {
+    const Foot foot = FootOn(course, plan.length_m(), points_m[i], guesses_m[i]);
+    fit.chainages_m.push_back(foot.s_m);
+    fit.offsets_m.push_back(std::copysign(std::hypot(foot.offset_m, foot.beyond_m), foot.offset_m));
+  }
+  return fit;
+}
+
 LineFit FitLine(std::span<const Eigen::Vector2d> points_m, const LinePrior& prior) {
+  Check(points_m.size() >= 2, "a line has two points or more");
   LineDraft line(points_m, prior);
   Improve(line);
-  return line.Fit();
+  return MeasureFit(line.plan(), points_m, line.feet_m());
 }
 
 }  // namespace railcast

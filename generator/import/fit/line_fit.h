@@ -20,17 +20,27 @@ struct LinePrior {
 struct LineFit {
   PlanModel plan;
   std::vector<double> chainages_m;  ///< Of the points' feet on the line, in their order.
-  std::vector<double> offsets_m;    ///< Of the points from the line, left positive.
+  /// Of the points from the line, left positive. Before and behind its ends it is the distance from
+  /// these.
+  std::vector<double> offsets_m;
 };
+
+/// The feet of points on a plan and their offsets, which FitLine gives for its own plan.
+/// @param guesses_m Chainage near each point's foot.
+[[nodiscard]] LineFit MeasureFit(const PlanModel& plan,
+                                 std::span<const Eigen::Vector2d> points_m,
+                                 std::span<const double> guesses_m);
 
 /// Fits straights, arcs and clothoids to the points of a line, as few as explain them.
 ///
 /// The points are divided into circular arcs as long as possible within 2 sigma, which are joined
 /// by clothoids and fitted one after another. Then single changes are made, always the one that
 /// lowers the sum of squares (PlanWindow::Fit) plus a price for each parameter most, until none
-/// does: a plateau is removed, joined with the next one, straightened or divided. A change fits the
-/// few elements about it anew and leaves the rest of the line where it is, so that the time grows
-/// with the line's length only.
+/// does by 0.5 or more: a plateau is removed, joined with the next one, straightened or divided. A
+/// change fits the few elements about it anew and leaves the rest of the line where it is. What a
+/// change costs to fit does not depend on the line's length, but each is followed by finding all
+/// feet anew, and an arc of n points is found with some n^2 / 2 distances: both are small beside
+/// the fits up to 50 km. There are at most 10 changes for each of the first arcs, and 100 more.
 ///
 /// @param points_m At least two, in order along the line, no two neighbours equal.
 ///

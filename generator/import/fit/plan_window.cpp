@@ -5,6 +5,8 @@
 #include <unsupported/Eigen/LevenbergMarquardt>
 #include <unsupported/Eigen/NumericalDiff>
 
+#include "core/rail/line/alignment_course.h"
+
 namespace railcast {
 namespace {
 
@@ -31,6 +33,23 @@ double Robust(double z) {
   return std::copysign(std::sqrt(loss), z);
 }
 
+// Limits of what the solver may try. It must begin between them: on one it would see no slope.
+constexpr double kShortestTried_m = 0.4;
+constexpr double kSharpestTried = 1.0 / kSmallestRadius_m / kCurvatureUnit_per_m;
+
+/// Twice as long as all that the window has.
+double LongestOf_m(const PlanWindow& window) {
+  double along_m = 0.0;
+  for (std::size_t i = 1; i < window.points_m.size(); ++i) {
+    along_m += (window.points_m[i] - window.points_m[i - 1]).norm();
+  }
+  double longest_m = std::max(along_m, window.plan.length_m());
+  for (const double clothoid_m : window.plan.clothoids_m) {
+    longest_m = std::max(longest_m, clothoid_m);
+  }
+  return 2.0 * longest_m;
+}
+
 /// Distances between a window's plan and what it is fitted to, as a function of its parameters: the
 /// logarithms of all lengths, which keeps these positive, the free curvatures, and the pose of its
 /// beginning if that is free.
@@ -44,7 +63,10 @@ class Residuals {
   enum { InputsAtCompileTime = Eigen::Dynamic, ValuesAtCompileTime = Eigen::Dynamic };
 
   explicit Residuals(const PlanWindow& window)
-      : window_(&window), num_inputs_(Parameters().size()), feet_m_(window.feet_m) {}
+      : window_(&window),
+        longest_m_(LongestOf_m(window)),
+        num_inputs_(Parameters().size()),
+        feet_m_(window.feet_m) {}
 
   [[nodiscard]] Eigen::VectorXd Parameters() const;
   [[nodiscard]] PlanModel PlanOf(const Eigen::VectorXd& parameters) const;
@@ -63,6 +85,7 @@ class Residuals {
   static constexpr std::size_t kNumEndResiduals = 5;
 
   const PlanWindow* window_;
+  double longest_m_;  ///< That the solver may try for an element.
   Eigen::Index num_inputs_;
   mutable std::vector<double> feet_m_;  ///< Of the last evaluation: guesses for the next one.
 };
@@ -74,19 +97,19 @@ Eigen::VectorXd Residuals::Parameters() const {
   for (std::size_t i = 0; i < plan.plateaus.size(); ++i) {
     values.push_back(std::log(std::max(0.5, plan.ConstantLength_m(i))));
     if (!window_->has_fixed_curvature[i]) {
-      values.push_back(plan.plateaus[i].curvature_per_m / kCurvatureUnit_per_m);
+      values.push_back(std::clamp(plan.plateaus[i].curvature_per_m / kCurvatureUnit_per_m,
+                                  -0.9 * kSharpestTried, 0.9 * kSharpestTried));
     }
   }
-  for (const double length_m : plan.clothoids_m) values.push_back(std::log(length_m));
+  for (const double length_m : plan.clothoids_m)
+    values.push_back(std::log(std::max(0.5, length_m)));
   return Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
 PlanModel Residuals::PlanOf(const Eigen::VectorXd& parameters) const {
-  // Limits of what the solver may try: lengths of 0.4 m to 60 km, radii from 50 m.
-  const auto length_m = [](double logarithm) {
-    return std::exp(std::clamp(logarithm, -1.0, 11.0));
+  const auto length_m = [&](double logarithm) {
+    return std::exp(std::clamp(logarithm, std::log(kShortestTried_m), std::log(longest_m_)));
   };
-  constexpr double kSharpest = 0.02 / kCurvatureUnit_per_m;
   PlanModel plan = window_->plan;
   Eigen::Index next = 0;
   if (window_->begins_line) {
@@ -100,7 +123,7 @@ PlanModel Residuals::PlanOf(const Eigen::VectorXd& parameters) const {
     plateau.length_m = length_m(parameters[next++]);
     if (window_->has_fixed_curvature[i]) continue;
     plateau.curvature_per_m =
-        kCurvatureUnit_per_m * std::clamp(parameters[next++], -kSharpest, kSharpest);
+        kCurvatureUnit_per_m * std::clamp(parameters[next++], -kSharpestTried, kSharpestTried);
   }
   for (std::size_t i = 0; i < plan.clothoids_m.size(); ++i) {
     const double clothoid_m = length_m(parameters[next++]);

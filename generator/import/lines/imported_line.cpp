@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/rail/line/plan_spline.h"
 #include "generator/import/fit/line_fit.h"
@@ -17,8 +18,7 @@ namespace {
 
 constexpr double kContradiction_m = 1.5;
 
-/// The points of a line with what belongs to them. Points nearer than 0.5 m to the one before are
-/// left out: mappers put two where two ways were joined.
+/// The points of a line with what belongs to them.
 struct LinePoints {
   std::vector<Eigen::Vector2d> places_m;
   std::vector<std::size_t> nodes;
@@ -27,17 +27,12 @@ struct LinePoints {
 };
 
 LinePoints PointsOf(const RailMap& map, const TrackLine& line, double otherwise_kmph) {
-  constexpr double kNearest_m = 0.5;
   const std::vector<double> speeds_kmph = SpeedsAlong_kmph(map, line, otherwise_kmph);
   LinePoints points;
   for (std::size_t i = 0; i < line.nodes.size(); ++i) {
     const Eigen::Vector2d& place_m = map.nodes[line.nodes[i]].place_m;
-    double step_m = 0.0;
-    if (!points.places_m.empty()) {
-      step_m = (place_m - points.places_m.back()).norm();
-      if (step_m < kNearest_m) continue;
-    }
-    points.along_m.push_back(points.along_m.empty() ? 0.0 : points.along_m.back() + step_m);
+    points.along_m.push_back(
+        i == 0 ? 0.0 : points.along_m.back() + (place_m - points.places_m.back()).norm());
     points.places_m.push_back(place_m);
     points.nodes.push_back(line.nodes[i]);
     points.speeds_kmph.push_back(speeds_kmph[std::min(i, speeds_kmph.size() - 1)]);
@@ -46,12 +41,15 @@ LinePoints PointsOf(const RailMap& map, const TrackLine& line, double otherwise_
 }
 
 std::vector<ChainageValue> SpeedLimitsOf(const LinePoints& points, const LineFit& fit) {
+  // Rounded chainages differ by 0.1 m at least, and the last one must lie before the end.
+  constexpr double kNearest_m = 0.05;
+  const double length_m = fit.plan.length_m();
   std::vector<ChainageValue> limits;
   for (std::size_t i = 0; i + 1 < points.nodes.size(); ++i) {
     // An alignment's first entry begins at 0, wherever the first point's foot is.
     const double s_m = limits.empty() ? 0.0 : std::round(fit.chainages_m[i] * 10.0) / 10.0;
     if (!limits.empty() && limits.back().value == points.speeds_kmph[i]) continue;
-    if (!limits.empty() && !(s_m > limits.back().s_m)) continue;
+    if (!limits.empty() && !(s_m > limits.back().s_m && s_m < length_m - kNearest_m)) continue;
     limits.push_back({s_m, points.speeds_kmph[i]});
   }
   return limits;
@@ -163,6 +161,8 @@ ImportedLine ImportLine(const RailMap& map, const TrackLine& line, const ImportO
   alignment.heading_deg =
       std::remainder(fit.plan.start.heading_rad, 2.0 * std::numbers::pi) * 180.0 / std::numbers::pi;
   alignment.speed_limits_kmph = SpeedLimitsOf(points, fit);
+  // Finds what an alignment refuses before anything is written.
+  AtPlace("line " + line.name + ": ", [&] { return Alignment(alignment); });
   imported.quality = QualityOf(points, fit);
   for (std::size_t i = 0; i < fit.offsets_m.size(); ++i) {
     if (std::abs(fit.offsets_m[i]) <= kContradiction_m) continue;

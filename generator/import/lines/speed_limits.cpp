@@ -8,14 +8,19 @@ namespace railcast {
 
 std::optional<double> SpeedOf_kmph(std::string_view maxspeed) {
   constexpr double kMph = 1.609344;
+  constexpr double kFastest_kmph = 1000.0;
   double speed = 0.0;
   const auto [end, error] =
       std::from_chars(maxspeed.data(), maxspeed.data() + maxspeed.size(), speed);
-  if (error != std::errc{} || !(speed > 0.0)) return std::nullopt;
+  if (error != std::errc{}) return std::nullopt;
   const std::string_view unit(end, static_cast<std::size_t>(maxspeed.end() - end));
-  if (unit.empty() || unit == " km/h") return speed;
-  if (unit == " mph" || unit == "mph") return speed * kMph;
-  return std::nullopt;
+  if (unit == " mph" || unit == "mph") {
+    speed *= kMph;
+  } else if (!unit.empty() && unit != " km/h") {
+    return std::nullopt;
+  }
+  // "inf" and "nan" are numbers, too.
+  return speed > 0.0 && speed <= kFastest_kmph ? std::optional(speed) : std::nullopt;
 }
 
 std::vector<double> SpeedsAlong_kmph(const RailMap& map,

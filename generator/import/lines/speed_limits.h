@@ -11,7 +11,7 @@
 namespace railcast {
 
 /// The value of OpenStreetMap's key `maxspeed` in km/h: "120", "50 mph". Absent for anything else
-/// ("none", "signals", "80;100").
+/// ("none", "signals", "80;100") and for what is not above 0 and at most 1000 km/h.
 [[nodiscard]] std::optional<double> SpeedOf_kmph(std::string_view maxspeed);
 
 /// The speed of each of a line's ways, in their order. Where a way has none, that of the nearest

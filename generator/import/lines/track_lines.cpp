@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <span>
 #include <unordered_map>
 
 namespace railcast {
@@ -14,6 +15,10 @@ namespace {
 
 constexpr double kSharpestTurn_rad = 20.0 * std::numbers::pi / 180.0;
 constexpr double kOtherRef_rad = 6.0 * std::numbers::pi / 180.0;
+/// Mappers put two points a few centimetres apart where two ways were joined, and the line through
+/// these has any direction.
+constexpr double kForDirection_m = 5.0;
+constexpr double kNearest_m = 0.5;
 
 double LengthOf_m(const RailMap& map, const MapWay& way) {
   double length_m = 0.0;
@@ -21,6 +26,29 @@ double LengthOf_m(const RailMap& map, const MapWay& way) {
     length_m += (map.nodes[way.nodes[i]].place_m - map.nodes[way.nodes[i - 1]].place_m).norm();
   }
   return length_m;
+}
+
+/// The direction in which a track leaves the first of its nodes: to the first one that is far
+/// enough, or to the last one.
+Eigen::Vector2d DirectionOf(const RailMap& map, std::span<const std::size_t> nodes) {
+  const Eigen::Vector2d& from_m = map.nodes[nodes.front()].place_m;
+  Eigen::Vector2d to_m = Eigen::Vector2d::Zero();
+  for (const std::size_t node : nodes) {
+    to_m = map.nodes[node].place_m - from_m;
+    if (to_m.norm() >= kForDirection_m) break;
+  }
+  return to_m.normalized();
+}
+
+/// The same backwards: the direction in which a track reaches the last of its nodes.
+Eigen::Vector2d ArrivalOf(const RailMap& map, std::span<const std::size_t> nodes) {
+  const Eigen::Vector2d& to_m = map.nodes[nodes.back()].place_m;
+  Eigen::Vector2d along_m = Eigen::Vector2d::Zero();
+  for (std::size_t i = nodes.size(); i-- > 0;) {
+    along_m = to_m - map.nodes[nodes[i]].place_m;
+    if (along_m.norm() >= kForDirection_m) break;
+  }
+  return along_m.normalized();
 }
 
 /// Follows tracks from way to way, each way once.
@@ -58,22 +86,19 @@ class LineWalk {
     if (nodes.front() != node) std::ranges::reverse(nodes);
     return nodes;
   }
-  [[nodiscard]] Eigen::Vector2d Direction(std::size_t from, std::size_t to) const {
-    return (map_.nodes[to].place_m - map_.nodes[from].place_m).normalized();
-  }
 
   /// The way by which a line goes on at its last node.
   [[nodiscard]] std::optional<std::size_t> Next(const TrackLine& line) const {
     const std::size_t node = line.nodes.back();
     const auto found = ways_at_.find(node);
     if (found == ways_at_.end()) return std::nullopt;
-    const Eigen::Vector2d ahead = Direction(line.nodes[line.nodes.size() - 2], node);
+    const Eigen::Vector2d ahead = ArrivalOf(map_, line.nodes);
     std::optional<std::size_t> best;
     double least_rad = kSharpestTurn_rad + kOtherRef_rad;
     for (const std::size_t way : found->second) {
       if (is_used_[way]) continue;
       const double turn_rad =
-          std::acos(std::clamp(ahead.dot(Direction(node, NodesFrom(node, way)[1])), -1.0, 1.0));
+          std::acos(std::clamp(ahead.dot(DirectionOf(map_, NodesFrom(node, way))), -1.0, 1.0));
       if (turn_rad > kSharpestTurn_rad) continue;
       const bool is_other =
           TagOf(map_.ways[way].tags, "ref") != TagOf(map_.ways[line.ways.back()].tags, "ref");
@@ -97,6 +122,35 @@ class LineWalk {
   std::unordered_map<std::size_t, std::vector<std::size_t>> ways_at_;  ///< By node.
 };
 
+/// The parts of a line between the points at which it turns back, that is by more than 90 degrees.
+std::vector<TrackLine> DividedWhereItTurnsBack(const RailMap& map, TrackLine line) {
+  std::vector<TrackLine> parts(1);
+  const std::span<const std::size_t> nodes = line.nodes;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    parts.back().nodes.push_back(nodes[i]);
+    if (i + 1 == nodes.size()) break;
+    if (i > 0 && ArrivalOf(map, nodes.first(i + 1)).dot(DirectionOf(map, nodes.subspan(i))) < 0.0) {
+      parts.push_back({{}, {nodes[i]}, {}});
+    }
+    parts.back().ways.push_back(line.ways[i]);
+  }
+  return parts;
+}
+
+/// Leaves out points that are too near to the one before.
+TrackLine Thinned(const RailMap& map, const TrackLine& line) {
+  TrackLine thin;
+  for (std::size_t i = 0; i < line.nodes.size(); ++i) {
+    const Eigen::Vector2d& place_m = map.nodes[line.nodes[i]].place_m;
+    if (i > 0 && (place_m - map.nodes[thin.nodes.back()].place_m).norm() < kNearest_m) continue;
+    thin.nodes.push_back(line.nodes[i]);
+    // Behind the last one there is none, and behind one whose followers are left out theirs goes.
+    if (i < line.ways.size()) thin.ways.push_back(line.ways[i]);
+  }
+  thin.ways.resize(thin.nodes.size() - 1);
+  return thin;
+}
+
 /// The most frequent value of a key along a line, by length.
 std::string MainTag(const RailMap& map, const TrackLine& line, std::string_view key) {
   std::map<std::string_view, double> lengths_m;
@@ -109,6 +163,9 @@ std::string MainTag(const RailMap& map, const TrackLine& line, std::string_view 
   return std::string(longest->first);
 }
 
+/// Long enough to tell lines apart; file systems take 255 bytes, with all that is appended.
+constexpr std::size_t kLongestName = 100;
+
 /// Lower-case letters and digits, joined by hyphens; other characters are left out.
 std::string FileNameOf(const std::string& text) {
   std::string name;
@@ -120,6 +177,7 @@ std::string FileNameOf(const std::string& text) {
       name += '-';
     }
   }
+  name.resize(std::min(name.size(), kLongestName));
   while (!name.empty() && name.back() == '-') name.pop_back();
   return name;
 }
@@ -131,7 +189,10 @@ void NameLines(const RailMap& map, std::vector<TrackLine>& lines) {
     if (name.empty()) name = "line";
     std::string unique = name;
     for (int number = 2; !taken.insert(unique).second; ++number) {
-      unique = name + "-" + std::to_string(number);
+      const std::string digits = std::to_string(number);
+      unique = name.substr(0, kLongestName - 1 - digits.size());
+      unique += '-';
+      unique += digits;
     }
     line.name = std::move(unique);
   }
@@ -148,8 +209,11 @@ std::vector<TrackLine> FindLines(const RailMap& map, double shortest_m) {
   std::vector<TrackLine> lines;
   for (const std::size_t way : order) {
     if (!walk.IsRunning(way) || walk.IsUsed(way)) continue;
-    TrackLine line = walk.From(way);
-    if (LengthOf_m(map, line) >= shortest_m) lines.push_back(std::move(line));
+    for (const TrackLine& part : DividedWhereItTurnsBack(map, walk.From(way))) {
+      TrackLine line = Thinned(map, part);
+      if (line.ways.empty() || LengthOf_m(map, line) < shortest_m) continue;
+      lines.push_back(std::move(line));
+    }
   }
   std::ranges::stable_sort(lines, std::ranges::greater{},
                            [&](const TrackLine& line) { return LengthOf_m(map, line); });

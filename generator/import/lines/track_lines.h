@@ -10,10 +10,10 @@ namespace railcast {
 
 /// A track through the map, over switches straight on.
 struct TrackLine {
-  std::string name;  ///< Unique, and fit for a file name: "westbahn-101-01".
-  /// Nodes in order.
+  std::string name;  ///< Unique, and fit for a file name (100 bytes at most): "westbahn-101-01".
+  /// Nodes in order, each at least 0.5 m from the one before.
   std::vector<std::size_t> nodes;
-  /// ways[i] leads from nodes[i] to nodes[i + 1].
+  /// ways[i] leads from nodes[i] on, to nodes[i + 1] or to one that was left out before it.
   std::vector<std::size_t> ways;
 };
 
@@ -21,8 +21,11 @@ struct TrackLine {
 ///
 /// The longest way that is left is continued at both ends for as long as there is a way that turns
 /// by at most 20 degrees; of several, that with the smallest angle, where a change of `ref` counts
-/// as 6 degrees. Every way is part of one line at most. Ways may end in the middle of others.
-/// @param shortest_m Lines shorter than this are left out.
+/// as 6 degrees. Directions are those to the first point at least 5 m away. Every way is followed
+/// once at most. Ways may end in the middle of others. Where a way turns back, by more than 90
+/// degrees, its line ends and another begins.
+/// @param shortest_m Lines shorter than this are left out, and those whose points are all nearer
+///   than 0.5 m to the first one.
 /// @returns The longest line first.
 [[nodiscard]] std::vector<TrackLine> FindLines(const RailMap& map, double shortest_m);
 

@@ -118,6 +118,52 @@ TEST(LineFit, TakesTwoPointsForAStraight) {
   EXPECT_NEAR(fit.plan.start.heading_rad, std::atan2(4.0, 3.0), 1e-2);
 }
 
+TEST(LineFit, FindsTheSharpCurveOfATram) {
+  PlanModel truth;
+  truth.plateaus = {{0.0, 100.0}, {1.0 / 20.0, 32.0}, {0.0, 100.0}};
+  truth.clothoids_m = {6.0, 6.0};
+  std::vector<Eigen::Vector2d> points_m;
+  const PlanCourse course = truth.Course();
+  for (double s_m = 0.0; s_m <= truth.length_m(); s_m += 2.0) {
+    points_m.emplace_back(course.At(s_m).x_m, course.At(s_m).y_m);
+  }
+  const LineFit fit = FitLine(points_m, ForSpeed(20.0, 0.05));
+  double sharpest_per_m = 0.0;
+  for (const Plateau& plateau : fit.plan.plateaus) {
+    sharpest_per_m = std::max(sharpest_per_m, plateau.curvature_per_m);
+  }
+  EXPECT_NEAR(1.0 / sharpest_per_m, 20.0, 2.0);
+  EXPECT_LT(LargestDistance_m(truth, fit.plan), 0.2);
+}
+
+TEST(LineFit, KeepsTheLengthOfAStraightAcrossACountry) {
+  std::vector<Eigen::Vector2d> points_m;
+  constexpr double kLength_m = 222e3;
+  for (double x_m = 0.0; x_m <= kLength_m; x_m += 2000.0) points_m.emplace_back(x_m, 0.0);
+  const LineFit fit = FitLine(points_m, ForSpeed(120.0, 0.3));
+  EXPECT_NEAR(fit.plan.length_m(), kLength_m, 1.0);
+}
+
+TEST(LineFit, ShowsThePointsBehindTheEndOfALineThatTurnsBack) {
+  std::vector<Eigen::Vector2d> points_m;
+  for (double x_m = 0.0; x_m <= 2000.0; x_m += 50.0) points_m.emplace_back(x_m, 0.0);
+  for (double x_m = 1950.0; x_m >= 600.0; x_m -= 50.0) points_m.emplace_back(x_m, 0.0);
+  const LineFit fit = FitLine(points_m, ForSpeed(80.0, 0.3));
+  double largest_m = 0.0;
+  for (const double offset_m : fit.offsets_m) largest_m = std::max(largest_m, std::abs(offset_m));
+  EXPECT_TRUE(fit.plan.length_m() > 3000.0 || largest_m > 20.0)
+      << fit.plan.length_m() << ' ' << largest_m;
+}
+
+TEST(LineFit, MeasuresPointsBehindTheEndsFromThese) {
+  PlanModel plan;
+  plan.plateaus = {{0.0, 100.0}};
+  const std::vector<Eigen::Vector2d> points_m = {{-3.0, 4.0}, {50.0, -1.0}, {112.0, -5.0}};
+  const LineFit fit = MeasureFit(plan, points_m, std::vector<double>{0.0, 50.0, 100.0});
+  EXPECT_THAT(fit.offsets_m, ::testing::Pointwise(::testing::DoubleNear(1e-9),
+                                                  std::vector<double>{5.0, -1.0, -13.0}));
+}
+
 TEST(LineFit, GivesTheElementsOfAnAlignmentOfTheSamePlan) {
   const PlanModel plan = MainLine();
   AlignmentSpec spec;

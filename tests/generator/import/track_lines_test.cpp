@@ -80,10 +80,55 @@ TEST(TrackLines, UseEveryWayOnceOnALoop) {
   EXPECT_THAT(lines[0].ways, SizeIs(kNumNodes));
 }
 
+RailMap MapOfOneWay(const std::vector<Eigen::Vector2d>& places_m) {
+  RailMap map;
+  MapWay way{1, {}, {}};
+  for (const Eigen::Vector2d& place_m : places_m) {
+    way.nodes.push_back(map.nodes.size());
+    map.nodes.push_back({.place_m = place_m, .tags = {}});
+  }
+  map.ways = {way};
+  return map;
+}
+
+TEST(TrackLines, LeaveOutWhatStaysWithinHalfAMetre) {
+  const RailMap map = MapOfOneWay({{0.0, 0.0}, {0.3, 0.0}, {0.0, 0.0}, {0.0, 0.3}, {0.1, 0.0}});
+  EXPECT_THAT(FindLines(map, 0.0), SizeIs(0));
+  EXPECT_THAT(FindLines(map, 1.0), SizeIs(0)) << "although 1.2 m were drawn";
+}
+
+TEST(TrackLines, EndWhereTheyTurnBack) {
+  const RailMap map =
+      MapOfOneWay({{0.0, 0.0}, {1000.0, 0.0}, {2000.0, 0.0}, {1000.0, 1.0}, {600.0, 0.0}});
+  const std::vector<TrackLine> lines = FindLines(map, 0.0);
+  ASSERT_THAT(lines, SizeIs(2));
+  EXPECT_NEAR(LengthOf_m(map, lines[0]), 2000.0, 0.1);
+  EXPECT_NEAR(LengthOf_m(map, lines[1]), 1400.0, 0.1);
+}
+
+TEST(TrackLines, GoOnOverAFewCentimetresInAnyDirection) {
+  RailMap map = MapWithBranch(6.0);
+  map.ways.pop_back();
+  // Node 5 lies 6 cm beside node 2, and the next way begins with it.
+  map.nodes[5].place_m = {200.0, 0.06};
+  map.ways[1].nodes = {4, 3, 5, 2};
+  EXPECT_THAT(FindLines(map, 0.0), SizeIs(1));
+}
+
+TEST(TrackLines, HaveNamesThatFitAFileName) {
+  RailMap map = MapWithBranch(6.0);
+  for (MapWay& way : map.ways) way.tags = {{"name", std::string(300, 'a')}};
+  const std::vector<TrackLine> lines = FindLines(map, 0.0);
+  ASSERT_THAT(lines, SizeIs(2));
+  EXPECT_EQ(lines[0].name, std::string(100, 'a'));
+  EXPECT_EQ(lines[1].name, std::string(98, 'a') + "-2");
+}
+
 TEST(SpeedLimits, AreReadInKilometresAndMilesPerHour) {
   EXPECT_EQ(SpeedOf_kmph("120"), 120.0);
   EXPECT_NEAR(*SpeedOf_kmph("50 mph"), 80.47, 0.01);
-  for (const char* other : {"", "none", "signals", "80;100", "-5"}) {
+  for (const char* other :
+       {"", "none", "signals", "80;100", "-5", "inf", "nan", "5000", "1e200", "700 mph"}) {
     EXPECT_EQ(SpeedOf_kmph(other), std::nullopt) << other;
   }
 }
