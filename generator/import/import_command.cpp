@@ -55,6 +55,18 @@ std::vector<ImportedLine> ImportLines(const RailMap& map,
   return lines;
 }
 
+// As randomize has it.
+void MakeEmptyFolder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw InputError(ShownPath(folder) + ": cannot make the folder: " + error.message());
+  }
+  if (!std::filesystem::is_empty(folder)) {
+    throw InputError("--out: must be a new or an empty folder (got " + ShownPath(folder) + ")");
+  }
+}
+
 int RunImport(const ImportCommandOptions& options) {
   RailMap map = ReadMap(options.map);
   const MapProjection projection = ProjectMap(options.crs, map);
@@ -63,9 +75,9 @@ int RunImport(const ImportCommandOptions& options) {
     throw InputError(ShownPath(options.map) + ": must have a line of at least --min-length " +
                      NumberText(options.min_length_m) + " m");
   }
-  std::error_code error;
-  std::filesystem::create_directories(options.out, error);
-  if (error) throw FileError(options.out, error.value());
+  MakeEmptyFolder(options.out);
+  // Before minutes of fitting.
+  CheckCanWrite(options.out / "lines.csv");
   const std::vector<ImportedLine> lines = ImportLines(map, tracks, options.fit);
   for (const ImportedLine& line : lines) {
     WriteFileWhole(options.out / (line.name + ".alignment.json"),
@@ -73,7 +85,7 @@ int RunImport(const ImportCommandOptions& options) {
   }
   WriteFileWhole(options.out / "lines.csv", QualityCsv(lines));
   WriteFileWhole(options.out / "contradictions.csv", ContradictionsCsv(lines));
-  std::cout << "projection: " << ShownText(projection.definition) << ", minus ("
+  std::cout << "projection: " << ShownLines(projection.definition) << ", minus ("
             << NumberText(projection.origin_m.x()) << ", " << NumberText(projection.origin_m.y())
             << ") m\n\n"
             << QualityTable(lines) << '\n'
@@ -95,7 +107,9 @@ void AddImport(CLI::App& app, ProgramCommand& command) {
                    "Overpass JSON, .osm, .pbf, GeoJSON, GPX or KML with tracks as lines")
       ->required()
       ->check(NonEmpty());
-  import->add_option("--out", options->out, "Folder to write to")->required()->check(NonEmpty());
+  import->add_option("--out", options->out, "New or empty folder to write to")
+      ->required()
+      ->check(NonEmpty());
   import->add_option("--crs", options->crs,
                      "Coordinate system in metres for PROJ, such as EPSG:31256; default: a "
                      "transverse Mercator about the middle of the map, without scale");

@@ -20,8 +20,10 @@ struct MapProjection {
 /// Sets MapNode::place_m of all nodes.
 /// @param definition Whatever PROJ takes for a projected system in metres ("EPSG:31256"); empty: a
 ///   local one.
-/// @throws InputError "--crs: ..." if PROJ does not know it, if its unit is not the metre, or if a
-///   node lies outside of where it can be used.
+/// @throws InputError "--crs: ..." if PROJ does not know it, if it is no projected system in
+/// metres,
+///   if its scale in the middle of the map is not within 1 % of 1, or if a node lies outside of
+///   where it can be used; without "--crs: " if that is so of the local one.
 [[nodiscard]] MapProjection ProjectMap(const std::string& definition, RailMap& map);
 
 }  // namespace railcast

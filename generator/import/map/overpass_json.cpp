@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 #include <unordered_map>
+#include <unordered_set>
+#include <utility>
 
 #include "core/base/attempt.h"
 #include "core/base/error.h"
@@ -29,6 +31,10 @@ class OverpassReader {
  private:
   void ReadNode(const StrictJson& element, const std::string& pointer);
   void ReadWay(const StrictJson& element, const std::string& pointer);
+  /// A number of 64 bits with sign; otherwise a fault with this rule.
+  [[nodiscard]] std::optional<std::int64_t> OverpassId(const StrictJson& value,
+                                                       const std::string& place,
+                                                       const std::string& rule);
   [[nodiscard]] std::optional<std::int64_t> IdOf(const StrictJson& element,
                                                  const std::string& pointer);
   [[nodiscard]] std::optional<double> DegreesOf(const StrictJson& element,
@@ -39,6 +45,7 @@ class OverpassReader {
   ErrorList& errors_;
   RailMap map_;
   std::unordered_map<std::int64_t, std::size_t> nodes_;  ///< By id.
+  std::unordered_set<std::int64_t> ways_;                ///< Ids.
 };
 
 MapTags OverpassTags(const StrictJson& element) {
@@ -50,14 +57,28 @@ MapTags OverpassTags(const StrictJson& element) {
   return tags;
 }
 
+std::optional<std::int64_t> OverpassReader::OverpassId(const StrictJson& value,
+                                                       const std::string& place,
+                                                       const std::string& rule) {
+  const bool fits = value.is_number_unsigned()
+                        ? std::in_range<std::int64_t>(value.get<std::uint64_t>())
+                        : value.is_number_integer();
+  if (fits) return value.get<std::int64_t>();
+  if (value.is_number()) {
+    errors_.Add({place, rule + " of 64 bits", value.dump()});
+  } else {
+    errors_.Add({place, rule, value.type_name()});
+  }
+  return std::nullopt;
+}
+
 std::optional<std::int64_t> OverpassReader::IdOf(const StrictJson& element,
                                                  const std::string& pointer) {
-  if (element.contains("id") && element["id"].is_number_integer()) {
-    return element["id"].get<std::int64_t>();
+  if (!element.contains("id")) {
+    errors_.Add({pointer + "/id", "must be a whole number", "none"});
+    return std::nullopt;
   }
-  errors_.Add({pointer + "/id", "must be a whole number",
-               element.contains("id") ? element["id"].type_name() : "none"});
-  return std::nullopt;
+  return OverpassId(element["id"], pointer + "/id", "must be a whole number");
 }
 
 std::optional<double> OverpassReader::DegreesOf(const StrictJson& element,
@@ -92,19 +113,19 @@ void OverpassReader::ReadWay(const StrictJson& element, const std::string& point
   if (!id) return;
   MapTags tags = OverpassTags(element);
   if (!IsTrack(TagOf(tags, "railway"))) return;
+  if (!ways_.insert(*id).second) return;  // An answer may repeat ways, too.
   if (!element.contains("nodes") || !element["nodes"].is_array()) {
-    errors_.Add({pointer + "/nodes", "must be a list of node ids", "none"});
+    errors_.Add({pointer + "/nodes", "must be a list of node ids",
+                 element.contains("nodes") ? element["nodes"].type_name() : "none"});
     return;
   }
   MapWay way{*id, {}, std::move(tags)};
   const StrictJson& nodes = element["nodes"];
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const std::string place = pointer + "/nodes/" + std::to_string(i);
-    if (!nodes[i].is_number_integer()) {
-      errors_.Add({place, "must be a node id", nodes[i].type_name()});
-      return;
-    }
-    const auto found = nodes_.find(nodes[i].get<std::int64_t>());
+    const auto node_id = OverpassId(nodes[i], place, "must be a node id");
+    if (!node_id) return;
+    const auto found = nodes_.find(*node_id);
     if (found == nodes_.end()) {
       errors_.Add({place, "must be a node of this file (ask Overpass for the nodes, too: >; out;)",
                    nodes[i].dump()});
@@ -157,8 +178,10 @@ RailMap ReadOverpassJson(const std::filesystem::path& file) {
     throw InputError(ShownPath(file) + ": must be JSON: " + error.what());
   }
   if (!root.is_object() || !root.contains("elements") || !root["elements"].is_array()) {
-    throw InputError(ShownPath(file) +
-                     ": /elements: must be a list, as the Overpass API returns it (got none)");
+    throw InputError(
+        ShownPath(file) + ": /elements: must be a list, as the Overpass API returns it (got " +
+        (root.is_object() && root.contains("elements") ? root["elements"].type_name() : "none") +
+        ")");
   }
   OverpassReader reader(errors);
   reader.Read(root["elements"]);

@@ -10,7 +10,7 @@
 namespace railcast {
 namespace {
 
-/// GeoJSON is JSON, too, but only Overpass speaks of `elements`, near the beginning.
+/// GeoJSON is JSON, too, and may have a property `elements`, but it begins with what it is.
 bool IsOverpass(const std::filesystem::path& file) {
   std::array<char, 4096> bytes{};
   std::ifstream stream = OpenInput(file);
@@ -18,7 +18,9 @@ bool IsOverpass(const std::filesystem::path& file) {
   const std::string_view begin(bytes.data(), static_cast<std::size_t>(stream.gcount()));
   const std::size_t first = begin.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   return first != std::string_view::npos && begin[first] == '{' &&
-         begin.find("\"elements\"") != std::string_view::npos;
+         begin.find("\"elements\"") != std::string_view::npos &&
+         begin.find("\"Feature\"") == std::string_view::npos &&
+         begin.find("\"FeatureCollection\"") == std::string_view::npos;
 }
 
 }  // namespace

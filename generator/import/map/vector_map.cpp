@@ -4,6 +4,7 @@
 #include <ogrsf_frmts.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -94,12 +95,41 @@ void AddLines(const OGRGeometry& geometry, const Line& line, std::vector<Line>& 
   }
 }
 
+/// Keeps GDAL from printing, and keeps the first of its errors.
+class GdalErrors {
+ public:
+  GdalErrors() { CPLPushErrorHandlerEx(&GdalErrors::Take, this); }
+  ~GdalErrors() { CPLPopErrorHandler(); }
+  GdalErrors(const GdalErrors&) = delete;
+  GdalErrors& operator=(const GdalErrors&) = delete;
+
+  [[nodiscard]] const std::string& first() const { return first_; }
+  /// Formats that do not fit are errors, too, until one does.
+  void Forget() { first_.clear(); }
+
+ private:
+  static void CPL_STDCALL Take(CPLErr kind, CPLErrorNum /*number*/, const char* message) {
+    auto& errors = *static_cast<GdalErrors*>(CPLGetErrorHandlerUserData());
+    if (kind < CE_Failure || !errors.first_.empty()) return;
+    errors.first_ = *message != '\0' ? message : "unknown error";
+  }
+
+  std::string first_;
+};
+
+bool IsOpenStreetMap(GDALDataset& dataset) {
+  return EQUAL(dataset.GetDriver()->GetDescription(), "OSM");
+}
+
 std::vector<Line> LinesIn(GDALDataset& dataset) {
   std::vector<Line> lines;
+  // Its relations have the lines of their ways once more.
+  const bool has_relations = IsOpenStreetMap(dataset);
   OGRLayer* layer = nullptr;
   // Features come in the order of the file, whatever their layer, which .pbf files need.
   while (const auto feature = std::unique_ptr<OGRFeature>(
              dataset.GetNextFeature(&layer, nullptr, nullptr, nullptr))) {
+    if (has_relations && !EQUAL(layer->GetName(), "lines")) continue;
     const OGRGeometry* geometry = feature->GetGeometryRef();
     if (geometry == nullptr) continue;
     const std::string place =
@@ -146,7 +176,12 @@ void AddWay(const Line& line, NodeIndex& nodes, RailMap& map, ErrorList& errors)
     const std::size_t node = nodes.Of(point_deg);
     if (way.nodes.empty() || way.nodes.back() != node) way.nodes.push_back(node);
   }
-  if (way.nodes.size() >= 2) map.ways.push_back(std::move(way));
+  if (way.nodes.size() < 2) {
+    errors.Add(
+        {line.place, "must have two different points or more", std::to_string(way.nodes.size())});
+    return;
+  }
+  map.ways.push_back(std::move(way));
 }
 
 }  // namespace
@@ -154,20 +189,27 @@ void AddWay(const Line& line, NodeIndex& nodes, RailMap& map, ErrorList& errors)
 RailMap ReadVectorMap(const std::filesystem::path& file) {
   CheckIsReadable(file);
   GDALAllRegister();
-  CPLPushErrorHandler(CPLQuietErrorHandler);
+  GdalErrors gdal_errors;
+  constexpr std::array<const char*, 6> kDrivers = {"OSM",    "GeoJSON", "GPX",
+                                                   "LIBKML", "KML",     nullptr};
   const std::unique_ptr<GDALDataset> dataset(
-      GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
-  const std::string reason = CPLGetLastErrorMsg();
-  CPLPopErrorHandler();
+      GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, kDrivers.data()));
+  const std::string reason = gdal_errors.first();
   if (!dataset) {
     throw InputError(ShownPath(file) +
                      ": must be a map: Overpass JSON, .osm, .pbf, GeoJSON, GPX or KML" +
                      (reason.empty() ? "" : " (" + ShownText(reason) + ")"));
   }
+  gdal_errors.Forget();
   std::vector<Line> lines = LinesIn(*dataset);
+  if (!gdal_errors.first().empty()) {
+    throw InputError(ShownPath(file) + ": must be readable to its end (" +
+                     ShownText(gdal_errors.first()) + ")");
+  }
+  const std::size_t num_lines = lines.size();
   const bool has_railways = std::ranges::any_of(
       lines, [](const Line& line) { return !TagOf(line.tags, "railway").empty(); });
-  if (has_railways) {
+  if (has_railways || IsOpenStreetMap(*dataset)) {
     std::erase_if(lines, [](const Line& line) { return !IsTrack(TagOf(line.tags, "railway")); });
   }
   RailMap map;
@@ -177,7 +219,7 @@ RailMap ReadVectorMap(const std::filesystem::path& file) {
   AtPlace(ShownPath(file) + ": ", [&] { errors.ThrowIfAny(); });
   if (map.ways.empty()) {
     throw InputError(ShownPath(file) + ": must have a line that is a track (got " +
-                     std::to_string(lines.size()) + " lines)");
+                     std::to_string(num_lines) + " other lines)");
   }
   return map;
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
 #include <string>
 
 #include "core/io/write_file.h"
@@ -36,14 +37,35 @@ TEST(Import, WritesAnAlignmentAndTheReports) {
 TEST(Import, GivesTheSameBytesAgain) {
   const TemporaryDirectory directory;
   const fs::path map = directory.path() / "map.geojson";
-  WriteFileWhole(map, kMap);
-  std::string texts[2];
+  WriteFileWhole(map, R"({"type": "FeatureCollection", "features": [
+  {"type": "Feature", "properties": {"railway": "rail", "name": "Hill Line", "maxspeed": "60"},
+   "geometry": {"type": "LineString", "coordinates":
+    [[15.60, 48.20], [15.61, 48.20], [15.62, 48.2003], [15.63, 48.201]]}},
+  {"type": "Feature", "properties": {"railway": "rail", "name": "Dale Line"},
+   "geometry": {"type": "LineString", "coordinates":
+    [[15.60, 48.25], [15.61, 48.251], [15.62, 48.2503], [15.64, 48.251]]}},
+  {"type": "Feature", "properties": {"railway": "rail", "name": "Marsh Line"},
+   "geometry": {"type": "LineString", "coordinates": [[15.60, 48.15], [15.62, 48.15]]}}]})");
+  std::map<std::string, std::string> texts[2];
   for (const int run : {0, 1}) {
     const fs::path out = directory.path() / std::to_string(run);
     ASSERT_EQ(Generate("import " + map.string() + " --out " + out.string()).status, 0);
-    texts[run] = ReadFileWhole(out / "hill-line.alignment.json");
+    for (const fs::directory_entry& file : fs::directory_iterator(out)) {
+      texts[run][file.path().filename()] = ReadFileWhole(file.path());
+    }
   }
+  EXPECT_THAT(texts[0], ::testing::SizeIs(5)) << "three lines, lines.csv and contradictions.csv";
   EXPECT_EQ(texts[0], texts[1]);
+}
+
+TEST(Import, RefusesAFolderThatIsNotEmpty) {
+  const TemporaryDirectory directory;
+  const fs::path map = directory.path() / "map.geojson";
+  WriteFileWhole(map, kMap);
+  const Ended run = Generate("import " + map.string() + " --out " + directory.path().string());
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.said, HasSubstr("--out: must be a new or an empty folder (got " +
+                                  directory.path().string() + ")"));
 }
 
 TEST(Import, RefusesWhatItCannotUseInOneLine) {

@@ -98,6 +98,13 @@ TEST_F(Maps, AreReadFromGeoJson) {
   EXPECT_EQ(TagOf(map.ways[0].tags, "maxspeed"), "60");
 }
 
+TEST_F(Maps, AreReadFromGeoJsonThatSpeaksOfElements) {
+  const RailMap map = ReadMap(Write("map.geojson", R"({"type": "FeatureCollection", "features": [
+    {"type": "Feature", "properties": {"elements": "3"},
+     "geometry": {"type": "LineString", "coordinates": [[15.6, 48.2], [15.61, 48.2]]}}]})"));
+  EXPECT_THAT(map.ways, SizeIs(1));
+}
+
 TEST_F(Maps, AreReadFromGpxAndKmlWhereAllLinesAreTracks) {
   const RailMap gpx = ReadMap(Write("map.gpx", R"(<?xml version="1.0"?>
 <gpx version="1.1" creator="test" xmlns="http://www.topografix.com/GPX/1/1">
@@ -118,7 +125,7 @@ TEST_F(Maps, AreReadFromGpxAndKmlWhereAllLinesAreTracks) {
 
 TEST_F(Maps, AreRefusedInOneLineEachWhereTheyAreWrong) {
   EXPECT_EQ(Fault("map.json", R"({"elements": 3})"),
-            "map.json: /elements: must be a list, as the Overpass API returns it (got none)");
+            "map.json: /elements: must be a list, as the Overpass API returns it (got number)");
   EXPECT_EQ(OverpassFault(""),
             "map.json: /elements: must have a way with railway=rail or another kind of track (got "
             "0 elements)");
@@ -149,6 +156,63 @@ TEST_F(Maps, AreRefusedInOneLineEachWhereTheyAreWrong) {
     {"type": "Feature", "properties": {}, "geometry": {"type": "LineString",
      "coordinates": [[612345.0, 5345678.0], [612445.0, 5345678.0]]}}]})"),
               HasSubstr("must have longitudes and latitudes in degrees (got 612345, 5345678)"));
+}
+
+TEST_F(Maps, AreRefusedIfTheyAreCutOff) {
+  const std::string message = Fault("map.gpx", R"(<?xml version="1.0"?>
+<gpx version="1.1" creator="test" xmlns="http://www.topografix.com/GPX/1/1">
+<trk><name>Ride</name><trkseg><trkpt lat="48.20" lon="15.60"/><trkpt lat="48.20" lon="15.61"/>
+</trkseg></trk><trk><name>Cut)");
+  EXPECT_THAT(message, HasSubstr("map.gpx: must be "));
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+}
+
+constexpr const char* kOsmNodes = R"(<?xml version="1.0"?><osm version="0.6">
+  <node id="1" lat="48.20" lon="15.60"/><node id="2" lat="48.20" lon="15.61"/>
+)";
+
+TEST_F(Maps, OfOpenStreetMapHaveNoLinesOfRelations) {
+  const RailMap map = ReadMap(Write("map.osm", std::string(kOsmNodes) + R"(
+  <way id="7"><nd ref="1"/><nd ref="2"/><tag k="railway" v="rail"/></way>
+  <relation id="9"><member type="way" ref="7" role=""/><tag k="type" v="route"/>
+    <tag k="route" v="railway"/><tag k="railway" v="rail"/></relation></osm>)"));
+  EXPECT_THAT(map.ways, SizeIs(1));
+}
+
+TEST_F(Maps, OfOpenStreetMapMustHaveRailways) {
+  EXPECT_EQ(Fault("map.osm", std::string(kOsmNodes) + R"(
+  <way id="7"><nd ref="1"/><nd ref="2"/><tag k="highway" v="primary"/></way></osm>)"),
+            "map.osm: must have a line that is a track (got 1 other lines)");
+}
+
+TEST_F(Maps, AreRefusedInOtherFormatsThatGdalKnows) {
+  EXPECT_THAT(Fault("map.csv", "id,WKT\n1,\"LINESTRING (15.6 48.2,15.61 48.2)\"\n"),
+              HasSubstr("map.csv: must be a map: Overpass JSON, .osm, .pbf, GeoJSON, GPX or KML"));
+}
+
+TEST_F(Maps, MustHaveTwoDifferentPointsInEachTrack) {
+  EXPECT_THAT(Fault("map.geojson", R"({"type": "FeatureCollection", "features": [
+    {"type": "Feature", "properties": {}, "geometry": {"type": "LineString",
+     "coordinates": [[15.6, 48.2], [15.6, 48.2]]}}]})"),
+              HasSubstr("must have two different points or more (got 1)"));
+}
+
+TEST_F(Maps, TakeAWayThatAnAnswerRepeatsOnce) {
+  const std::string way =
+      R"({"type": "way", "id": 7, "nodes": [1, 2], "tags": {"railway": "rail"}})";
+  const RailMap map = ReadMap(
+      Write("map.json", R"({"elements": [)" + std::string(kNodes) + way + "," + way + "]}"));
+  EXPECT_THAT(map.ways, SizeIs(1));
+}
+
+TEST_F(Maps, NameIdsThatAreTooLarge) {
+  EXPECT_EQ(OverpassFault(R"({"type": "node", "id": 9223372036854775808, "lon": 15, "lat": 48})"),
+            "map.json: /elements/0/id: must be a whole number of 64 bits (got "
+            "9223372036854775808)");
+  EXPECT_EQ(OverpassFault(std::string(kNodes) + R"({"type": "way", "id": 7,
+    "nodes": [1, 18446744073709551615], "tags": {"railway": "rail"}})"),
+            "map.json: /elements/3/nodes/1: must be a node id of 64 bits (got "
+            "18446744073709551615)");
 }
 
 RailMap TwoNodes(const Eigen::Vector2d& a_deg, const Eigen::Vector2d& b_deg) {
@@ -187,6 +251,17 @@ TEST(MapProjection, SubtractsWholeMetresFromAGivenSystem) {
               0.05);
 }
 
+TEST(MapProjection, DoesNotBlameASystemThatWasNotGiven) {
+  RailMap map = TwoNodes({-90.0, 0.0}, {90.0, 0.0});
+  try {
+    static_cast<void>(ProjectMap("", map));
+    ADD_FAILURE() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "the map must lie about its middle at 0, 0 degrees (got also -90, 0 degrees)");
+  }
+}
+
 TEST(MapProjection, RefusesSystemsThatAreNotInMetres) {
   const auto fault = [](const std::string& definition) -> std::string {
     RailMap map = TwoNodes({15.6, 48.20}, {15.6, 48.21});
@@ -203,6 +278,11 @@ TEST(MapProjection, RefusesSystemsThatAreNotInMetres) {
   EXPECT_EQ(fault("EPSG:4326"),
             "--crs: must be a projected system, with axes in metres (got EPSG:4326)");
   EXPECT_EQ(fault("EPSG:2263"), "--crs: must have axes in metres (got EPSG:2263)");
+  EXPECT_EQ(fault("EPSG:4978"),
+            "--crs: must be a projected system, with axes in metres (got EPSG:4978)");
+  EXPECT_EQ(fault("EPSG:3857"),
+            "--crs: must have a scale from 0.99 to 1.01 in the middle of the map (got EPSG:3857 "
+            "with 1.502)");
 }
 
 }  // namespace
