@@ -8,6 +8,8 @@ namespace {
 
 /// Shorter elements would be refused by an alignment.
 constexpr double kShortestElement_m = 1e-3;
+constexpr double kLengthSteps_per_m = 1e4;
+constexpr double kRadiusSteps_per_m = 1e6;
 
 }  // namespace
 
@@ -52,17 +54,41 @@ std::vector<AlignmentElement> PlanModel::Elements() const {
   std::vector<AlignmentElement> elements;
   for (std::size_t i = 0; i < plateaus.size(); ++i) {
     const double curvature_per_m = plateaus[i].curvature_per_m;
-    const double constant_m = std::max(ConstantLength_m(i), kShortestElement_m);
+    const double constant_m =
+        std::max(RoundedTo(ConstantLength_m(i), kLengthSteps_per_m), kShortestElement_m);
     if (curvature_per_m == 0.0) {
       elements.push_back({ElementType::kStraight, constant_m, {}});
     } else {
-      elements.push_back({ElementType::kArc, constant_m, 1.0 / curvature_per_m});
+      elements.push_back(
+          {ElementType::kArc, constant_m, RoundedTo(1.0 / curvature_per_m, kRadiusSteps_per_m)});
     }
     if (i < clothoids_m.size()) {
-      elements.push_back({ElementType::kClothoid, clothoids_m[i], {}});
+      elements.push_back(
+          {ElementType::kClothoid, RoundedTo(clothoids_m[i], kLengthSteps_per_m), {}});
     }
   }
   return elements;
+}
+
+PlanModel PlanOf(const PlanPoint& start, const std::vector<AlignmentElement>& elements) {
+  PlanModel plan;
+  plan.start = start;
+  for (const AlignmentElement& element : elements) {
+    if (element.type == ElementType::kClothoid) {
+      plan.clothoids_m.push_back(element.length_m);
+      continue;
+    }
+    plan.plateaus.push_back({element.radius_m ? 1.0 / *element.radius_m : 0.0, element.length_m});
+  }
+  for (std::size_t i = 0; i < plan.clothoids_m.size(); ++i) {
+    plan.plateaus[i].length_m += 0.5 * plan.clothoids_m[i];
+    plan.plateaus[i + 1].length_m += 0.5 * plan.clothoids_m[i];
+  }
+  return plan;
+}
+
+double RoundedTo(double value, double steps_per_unit) {
+  return std::round(value * steps_per_unit) / steps_per_unit;
 }
 
 }  // namespace railcast

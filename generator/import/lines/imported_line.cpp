@@ -149,17 +149,28 @@ ImportedLine ImportLine(const RailMap& map, const TrackLine& line, const ImportO
         static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - points.along_m.begin() - 1, 0));
     return points.speeds_kmph[at];
   };
-  const LineFit fit =
+  const LineFit exact =
       FitLine(points.places_m, {.sigma_m = options.sigma_m, .speed_kmph = speed_kmph});
 
   ImportedLine imported;
   imported.name = line.name;
   AlignmentSpec& alignment = imported.alignment;
-  alignment.course = AlignmentElementsSpec{fit.plan.Elements()};
+  const std::vector<AlignmentElement> elements = exact.plan.Elements();
+  alignment.course = AlignmentElementsSpec{elements};
   alignment.attribution = map.attribution;
-  alignment.origin_m = {fit.plan.start.x_m, fit.plan.start.y_m, 0.0};
+  constexpr double kPlaceSteps_per_m = 1e4;
+  constexpr double kHeadingSteps_per_deg = 1e9;
+  constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+  PlanPoint start = exact.plan.start;
+  start.x_m = RoundedTo(start.x_m, kPlaceSteps_per_m);
+  start.y_m = RoundedTo(start.y_m, kPlaceSteps_per_m);
+  alignment.origin_m = {start.x_m, start.y_m, 0.0};
   alignment.heading_deg =
-      std::remainder(fit.plan.start.heading_rad, 2.0 * std::numbers::pi) * 180.0 / std::numbers::pi;
+      RoundedTo(std::remainder(start.heading_rad, 2.0 * std::numbers::pi) * kDegPerRad,
+                kHeadingSteps_per_deg);
+  start.heading_rad = alignment.heading_deg / kDegPerRad;
+  // Measured on what is written.
+  const LineFit fit = MeasureFit(PlanOf(start, elements), points.places_m, exact.chainages_m);
   alignment.speed_limits_kmph = SpeedLimitsOf(points, fit);
   // Finds what an alignment refuses before anything is written.
   AtPlace("line " + line.name + ": ", [&] { return Alignment(alignment); });

@@ -12,16 +12,6 @@ namespace {
 
 using LineJson = nlohmann::ordered_json;
 
-double RoundedTo(double value, double steps_per_unit) {
-  return std::round(value * steps_per_unit) / steps_per_unit;
-}
-
-// Lengths to 0.1 mm and radii to 1 mm: a thousandth of what the map knows, but what is rounded adds
-// up along the line.
-constexpr double kLengthSteps_per_m = 1e4;
-constexpr double kRadiusSteps_per_m = 1e3;
-constexpr double kHeadingSteps_per_deg = 1e9;
-
 /// A list with one item to a line of text.
 template <typename Values, typename Write>
 std::string ListText(const Values& values, const std::string& indent, const Write& write) {
@@ -35,9 +25,8 @@ std::string ListText(const Values& values, const std::string& indent, const Writ
 }
 
 LineJson ElementJson(const AlignmentElement& element) {
-  LineJson json = {{"type", NameOf(element.type)},
-                   {"length_m", RoundedTo(element.length_m, kLengthSteps_per_m)}};
-  if (element.radius_m) json["radius_m"] = RoundedTo(*element.radius_m, kRadiusSteps_per_m);
+  LineJson json = {{"type", NameOf(element.type)}, {"length_m", element.length_m}};
+  if (element.radius_m) json["radius_m"] = *element.radius_m;
   return json;
 }
 
@@ -56,12 +45,9 @@ std::string AlignmentFileText(const ImportedLine& line, const MapProjection& pro
   std::string text = "{\n  \"version\": 1,\n";
   text += "  \"attribution\": " + LineJson(attribution).dump() + ",\n";
   text += "  \"origin_m\": " +
-          LineJson({RoundedTo(alignment.origin_m[0], kLengthSteps_per_m),
-                    RoundedTo(alignment.origin_m[1], kLengthSteps_per_m), alignment.origin_m[2]})
-              .dump() +
+          LineJson({alignment.origin_m[0], alignment.origin_m[1], alignment.origin_m[2]}).dump() +
           ",\n";
-  text += "  \"heading_deg\": " +
-          LineJson(RoundedTo(alignment.heading_deg, kHeadingSteps_per_deg)).dump() + ",\n";
+  text += "  \"heading_deg\": " + LineJson(alignment.heading_deg).dump() + ",\n";
   text += "  \"speed_limits_kmph\": " +
           ListText(alignment.speed_limits_kmph, "  ",
                    [](const ChainageValue& limit) {
