@@ -13,6 +13,7 @@
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
 #include "generator/commands.h"
+#include "generator/empty_folder.h"
 #include "generator/import/lines/imported_line.h"
 #include "generator/import/lines/line_files.h"
 #include "generator/import/lines/track_lines.h"
@@ -53,18 +54,6 @@ std::vector<ImportedLine> ImportLines(const RailMap& map,
       tbb::simple_partitioner());
   progress.End();
   return lines;
-}
-
-// As randomize has it.
-void MakeEmptyFolder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    throw InputError(ShownPath(folder) + ": cannot make the folder: " + error.message());
-  }
-  if (!std::filesystem::is_empty(folder)) {
-    throw InputError("--out: must be a new or an empty folder (got " + ShownPath(folder) + ")");
-  }
 }
 
 int RunImport(const ImportCommandOptions& options) {

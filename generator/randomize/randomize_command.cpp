@@ -7,6 +7,7 @@
 #include "core/base/text.h"
 #include "core/io/write_file.h"
 #include "generator/commands.h"
+#include "generator/empty_folder.h"
 #include "generator/randomize/random_weather.h"
 #include "railcast/material.h"
 #include "railcast/scenario.h"
@@ -40,17 +41,6 @@ std::string NameOfFile(std::uint32_t index, WeatherFamily family) {
   const std::string digits = std::to_string(index);
   const std::size_t num_zeros = digits.size() < 6 ? 6 - digits.size() : 0;
   return std::string(num_zeros, '0') + digits + "_" + std::string(NameOf(family)) + ".json";
-}
-
-void MakeEmptyFolder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    throw InputError(ShownPath(folder) + ": cannot make the folder: " + error.message());
-  }
-  if (!fs::is_empty(folder)) {
-    throw InputError("--out: must be a new or an empty folder (got " + ShownPath(folder) + ")");
-  }
 }
 
 // The scenario's path as its variants in `folder` name it.
