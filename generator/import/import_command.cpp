@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
@@ -58,7 +59,9 @@ std::vector<ImportedLine> ImportLines(const RailMap& map,
 
 int RunImport(const ImportCommandOptions& options) {
   RailMap map = ReadMap(options.map);
-  const MapProjection projection = ProjectMap(options.crs, map);
+  // Without --crs, it is the map that cannot be projected.
+  const MapProjection projection = AtPlace(options.crs.empty() ? ShownPath(options.map) + ": " : "",
+                                           [&] { return ProjectMap(options.crs, map); });
   const std::vector<TrackLine> tracks = FindLines(map, options.min_length_m);
   if (tracks.empty()) {
     throw InputError(ShownPath(options.map) + ": must have a line of at least --min-length " +

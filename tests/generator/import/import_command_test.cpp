@@ -68,6 +68,16 @@ TEST(Import, RefusesAFolderThatIsNotEmpty) {
                                   directory.path().string() + ")"));
 }
 
+TEST(Import, NamesTheMapThatIsTooLarge) {
+  const TemporaryDirectory directory;
+  const fs::path map = directory.path() / "map.geojson";
+  WriteFileWhole(map, R"({"type": "LineString", "coordinates": [[-90, 0], [90, 0]]})");
+  const Ended run = Generate("import " + map.string() + " --out " + directory.path().string());
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.said,
+              HasSubstr("map.geojson: the map must lie about its middle at 0, 0 degrees"));
+}
+
 TEST(Import, RefusesWhatItCannotUseInOneLine) {
   const TemporaryDirectory directory;
   const fs::path map = directory.path() / "map.geojson";
