@@ -38,9 +38,9 @@ struct LineFit {
 /// lowers the sum of squares (PlanWindow::Fit) plus a price for each parameter most, until none
 /// does by 0.5 or more: a plateau is removed, joined with the next one, straightened or divided. A
 /// change fits the few elements about it anew and leaves the rest of the line where it is. What a
-/// change costs to fit does not depend on the line's length, but each is followed by finding all
-/// feet anew, and an arc of n points is found with some n^2 / 2 distances: both are small beside
-/// the fits up to 50 km. There are at most 10 changes for each of the first arcs, and 100 more.
+/// change costs to fit does not depend on the line's length. Each is followed by finding all feet
+/// anew, and an arc of n points is found with some n^2 / 2 distances, which grow faster than the
+/// line. There are at most 10 changes for each of the first arcs, and 100 more.
 ///
 /// @param points_m At least two, in order along the line, no two neighbours equal.
 ///

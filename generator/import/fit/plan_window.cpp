@@ -101,8 +101,9 @@ Eigen::VectorXd Residuals::Parameters() const {
                                   -0.9 * kSharpestTried, 0.9 * kSharpestTried));
     }
   }
-  for (const double length_m : plan.clothoids_m)
+  for (const double length_m : plan.clothoids_m) {
     values.push_back(std::log(std::max(0.5, length_m)));
+  }
   return Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
