@@ -225,9 +225,7 @@ inline void TraceInstance(const BeamInstance& instance,
   }
 }
 
-/// Traces the sub-rays of a beam through a scene, as RayCaster::CastBeam() says.
-inline void TraceBeam(const BeamScene& scene, BeamRays& beam) {
-  if (scene.root == 0) return;
+inline Cone ConeOf(const BeamRays& beam) {
   Cone cone;
   for (int i = 0; i < 3; ++i) {
     cone.origin[i] = beam.origin[i];
@@ -236,6 +234,13 @@ inline void TraceBeam(const BeamScene& scene, BeamRays& beam) {
     cone.half_v[i] = beam.half_v[i];
   }
   FinishCone(cone);
+  return cone;
+}
+
+/// Traces the sub-rays of a beam through a scene, as RayCaster::CastBeam() says.
+inline void TraceBeam(const BeamScene& scene, BeamRays& beam) {
+  if (scene.root == 0) return;
+  const Cone cone = ConeOf(beam);
   SubRayPlaces places;
   float far = FindFarthest(beam, places);
   const std::uint32_t num_facets = beam.num_facets;

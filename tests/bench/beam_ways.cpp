@@ -55,18 +55,6 @@ void InStages(const BeamScene& scene, BeamRays* beams, std::size_t num) {
   }
 }
 
-Cone ConeOf(const BeamRays& beam) {
-  Cone cone;
-  for (int i = 0; i < 3; ++i) {
-    cone.origin[i] = beam.origin[i];
-    cone.axis[i] = beam.axis[i];
-    cone.half_h[i] = beam.half_h[i];
-    cone.half_v[i] = beam.half_v[i];
-  }
-  FinishCone(cone);
-  return cone;
-}
-
 /// A cone around all beams, which start within `shift_m` of its origin.
 Cone ConeAround(const BeamRays* beams, std::size_t num, float& shift_m) {
   Cone cone = ConeOf(beams[num / 2]);
