@@ -9,7 +9,7 @@ namespace railcast {
 namespace {
 
 double HeightByRuleMm(double curvature_per_m, double speed_kmph, const AlignmentSpec& spec) {
-  const double balanced_mm = 11.8 * speed_kmph * speed_kmph * std::abs(curvature_per_m);
+  const double balanced_mm = kBalancingCant * speed_kmph * speed_kmph * std::abs(curvature_per_m);
   const double cant_mm = std::clamp(balanced_mm - spec.cant_deficiency_mm, 0.0, spec.cant_max_mm);
   return std::copysign(cant_mm, curvature_per_m);
 }
@@ -27,7 +27,7 @@ std::vector<double> CornersOf(const Stretch& stretch,
   const double rise_per_m = stretch.end_curvature_per_m - stretch.begin_curvature_per_m;
   for (const double balanced_mm :
        {spec.cant_deficiency_mm, spec.cant_deficiency_mm + spec.cant_max_mm}) {
-    const double corner_per_m = balanced_mm / (11.8 * speed_kmph * speed_kmph);
+    const double corner_per_m = balanced_mm / (kBalancingCant * speed_kmph * speed_kmph);
     for (const double curvature_per_m : {-corner_per_m, corner_per_m}) {
       const double part = (curvature_per_m - stretch.begin_curvature_per_m) / rise_per_m;
       const double s_m = stretch.begin_s_m + part * (stretch.end_s_m - stretch.begin_s_m);

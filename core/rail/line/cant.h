@@ -8,6 +8,10 @@ namespace railcast {
 /// Distance between the two rail heads, across which cant in millimetres is measured.
 inline constexpr double kRailHeadSpacing_mm = 1500.0;
 
+/// The cant that balances the centrifugal force, in mm, is this times the square of the speed in
+/// km/h times the curvature in 1/m (docs/physics.md 7.5).
+inline constexpr double kBalancingCant = 11.8;
+
 /// The height of the outer above the inner rail as a function of chainage: clamp(11.8 v^2 / |R| -
 /// deficiency, 0, max) with v in km/h and R in m (docs/physics.md 7.5), averaged over the ramp
 /// length so that it is continuous. Positive in left curves.

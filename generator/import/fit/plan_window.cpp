@@ -6,6 +6,7 @@
 #include <unsupported/Eigen/NumericalDiff>
 
 #include "core/rail/line/alignment_course.h"
+#include "core/rail/line/cant.h"
 
 namespace railcast {
 namespace {
@@ -16,8 +17,6 @@ constexpr double kHighestCant_mm = 150.0;
 constexpr double kHighestDeficiency_mm = 130.0;
 constexpr double kShortestUsualClothoid_m = 15.0;
 constexpr double kShortestUsualPlateau_m = 20.0;
-// The balancing cant in mm is this, times the square of the speed in km/h, over the radius in m.
-constexpr double kBalancingCant = 11.8;
 
 constexpr double kHeadingUnit_rad = 1e-3;
 constexpr double kCurvatureUnit_per_m = 1e-4;
