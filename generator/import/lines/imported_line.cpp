@@ -55,6 +55,26 @@ std::vector<ChainageValue> SpeedLimitsOf(const LinePoints& points, const LineFit
   return limits;
 }
 
+/// Counts how often a sequence of curvatures changes its sign; straights do not count.
+class SignChanges {
+ public:
+  void Add(double curvature) {
+    if (curvature * last_ < 0.0) ++num_;
+    if (curvature != 0.0) last_ = curvature;
+  }
+  [[nodiscard]] double PerKm(double length_m) const { return 1e3 * num_ / length_m; }
+
+ private:
+  int num_ = 0;
+  double last_ = 0.0;
+};
+
+/// The last of ascending values that is at most `value`; the first one if none is.
+std::size_t LastUpTo(const std::vector<double>& values, double value) {
+  const auto after = std::ranges::upper_bound(values, value);
+  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - values.begin() - 1, 0));
+}
+
 struct Wiggles {
   double tightest_radius_m{};  ///< 0 for a cusp.
   double sign_changes_per_km{};
@@ -67,25 +87,22 @@ Wiggles WigglesOfSpline(const std::vector<Eigen::Vector2d>& places_m) {
   // With a cusp, which is a fault, the spline cannot be evaluated: its points can.
   Wiggles wiggles{faults.empty() ? spline.tightest_radius_m() : 0.0, 0.0};
   double length_m = 0.0;
-  int num_changes = 0;
-  double before = 0.0;
-  const auto count = [&](double curvature) {
-    if (curvature * before < 0.0) ++num_changes;
-    if (curvature != 0.0) before = curvature;
-  };
+  SignChanges changes;
   if (faults.empty()) {
     length_m = spline.length_m();
-    for (double s_m = 0.0; s_m < length_m; s_m += kStep_m) count(spline.At(s_m).curvature_per_m);
+    for (double s_m = 0.0; s_m < length_m; s_m += kStep_m) {
+      changes.Add(spline.At(s_m).curvature_per_m);
+    }
   } else {
     for (std::size_t i = 1; i < places_m.size(); ++i) {
       const Eigen::Vector2d to_m = places_m[i] - places_m[i - 1];
       length_m += to_m.norm();
       if (i + 1 == places_m.size()) break;
       const Eigen::Vector2d next_m = places_m[i + 1] - places_m[i];
-      count(to_m.x() * next_m.y() - to_m.y() * next_m.x());
+      changes.Add(to_m.x() * next_m.y() - to_m.y() * next_m.x());
     }
   }
-  wiggles.sign_changes_per_km = 1e3 * num_changes / length_m;
+  wiggles.sign_changes_per_km = changes.PerKm(length_m);
   return wiggles;
 }
 
@@ -124,18 +141,12 @@ LineQuality QualityOf(const LinePoints& points, const LineFit& fit) {
   const auto [s_m, sharpest_per_m] = SharpestOf(fit.plan);
   quality.tightest_radius_m =
       sharpest_per_m > 0.0 ? 1.0 / sharpest_per_m : std::numeric_limits<double>::infinity();
-  const auto nearest = std::ranges::upper_bound(fit.chainages_m, s_m);
-  const auto at =
-      static_cast<std::size_t>(std::max<std::ptrdiff_t>(nearest - fit.chainages_m.begin() - 1, 0));
-  quality.needed_radius_m = 1.0 / SharpestCurvature_per_m(points.speeds_kmph[at]);
+  quality.needed_radius_m =
+      1.0 / SharpestCurvature_per_m(points.speeds_kmph[LastUpTo(fit.chainages_m, s_m)]);
 
-  int num_changes = 0;
-  double last = 0.0;
-  for (const Plateau& plateau : fit.plan.plateaus) {
-    if (plateau.curvature_per_m * last < 0.0) ++num_changes;
-    if (plateau.curvature_per_m != 0.0) last = plateau.curvature_per_m;
-  }
-  quality.sign_changes_per_km = 1e3 * num_changes / quality.length_m;
+  SignChanges changes;
+  for (const Plateau& plateau : fit.plan.plateaus) changes.Add(plateau.curvature_per_m);
+  quality.sign_changes_per_km = changes.PerKm(quality.length_m);
   return quality;
 }
 
@@ -144,10 +155,7 @@ LineQuality QualityOf(const LinePoints& points, const LineFit& fit) {
 ImportedLine ImportLine(const RailMap& map, const TrackLine& line, const ImportOptions& options) {
   const LinePoints points = PointsOf(map, line, options.otherwise_kmph);
   const auto speed_kmph = [&](double along_m) {
-    const auto after = std::ranges::upper_bound(points.along_m, along_m);
-    const auto at =
-        static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - points.along_m.begin() - 1, 0));
-    return points.speeds_kmph[at];
+    return points.speeds_kmph[LastUpTo(points.along_m, along_m)];
   };
   const LineFit exact =
       FitLine(points.places_m, {.sigma_m = options.sigma_m, .speed_kmph = speed_kmph});

@@ -1,7 +1,5 @@
 #include "generator/import/map/overpass_json.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <unordered_map>
@@ -131,9 +129,7 @@ void OverpassReader::ReadWay(const StrictJson& element, const std::string& point
                    nodes[i].dump()});
       return;
     }
-    if (way.nodes.empty() || way.nodes.back() != found->second) {
-      way.nodes.push_back(found->second);
-    }
+    AppendNode(found->second, way);
   }
   if (way.nodes.size() < 2) {
     errors_.Add({pointer + "/nodes", "must have two different nodes or more",
@@ -161,12 +157,6 @@ void OverpassReader::Read(const StrictJson& elements) {
 }
 
 }  // namespace
-
-bool IsTrack(std::string_view railway) {
-  constexpr auto kTracks = std::to_array<std::string_view>(
-      {"rail", "light_rail", "narrow_gauge", "subway", "tram", "preserved"});
-  return std::ranges::find(kTracks, railway) != kTracks.end();
-}
 
 RailMap ReadOverpassJson(const std::filesystem::path& file) {
   const std::string text = ReadFileWhole(file);

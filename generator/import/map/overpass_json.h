@@ -14,7 +14,4 @@ namespace railcast {
 ///   degrees, a way whose node is missing, no track at all.
 [[nodiscard]] RailMap ReadOverpassJson(const std::filesystem::path& file);
 
-/// Whether a value of OpenStreetMap's key `railway` is a track that trains can run on.
-[[nodiscard]] bool IsTrack(std::string_view railway);
-
 }  // namespace railcast

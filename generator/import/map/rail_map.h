@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -19,6 +21,13 @@ using MapTags = std::map<std::string, std::string, std::less<>>;
   return found == tags.end() ? std::string_view{} : found->second;
 }
 
+/// Whether a value of OpenStreetMap's key `railway` is a track that trains can run on.
+[[nodiscard]] inline bool IsTrack(std::string_view railway) {
+  constexpr auto kTracks = std::to_array<std::string_view>(
+      {"rail", "light_rail", "narrow_gauge", "subway", "tram", "preserved"});
+  return std::ranges::find(kTracks, railway) != kTracks.end();
+}
+
 struct MapNode {
   /// As in the source: longitude and latitude in degrees (WGS 84).
   Eigen::Vector2d geographic_deg = Eigen::Vector2d::Zero();
@@ -33,6 +42,11 @@ struct MapWay {
   std::vector<std::size_t> nodes;  ///< At least two; no two neighbours are equal.
   MapTags tags;
 };
+
+/// Appends a node, unless the way ends with it already, as sources sometimes repeat it.
+inline void AppendNode(std::size_t node, MapWay& way) {
+  if (way.nodes.empty() || way.nodes.back() != node) way.nodes.push_back(node);
+}
 
 /// The railway tracks of a map. Tracks meet where ways share a node.
 struct RailMap {

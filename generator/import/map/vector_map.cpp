@@ -6,17 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <optional>
-#include <set>
-#include <unordered_map>
 #include <utility>
 
 #include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
-#include "generator/import/map/overpass_json.h"
 
 namespace railcast {
 namespace {
@@ -173,8 +171,7 @@ void AddWay(const Line& line, NodeIndex& nodes, RailMap& map, ErrorList& errors)
                   NumberText(point_deg.x()) + ", " + NumberText(point_deg.y())});
       return;
     }
-    const std::size_t node = nodes.Of(point_deg);
-    if (way.nodes.empty() || way.nodes.back() != node) way.nodes.push_back(node);
+    AppendNode(nodes.Of(point_deg), way);
   }
   if (way.nodes.size() < 2) {
     errors.Add(
