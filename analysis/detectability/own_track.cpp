@@ -23,29 +23,29 @@ int PiecesOf(double length_m) {
 
 }  // namespace
 
-OwnTrack::OwnTrack(const ScenarioSpec& scenario) : alignment_(scenario.world.alignment) {
-  const TrackSpec track = MakeWorld(scenario)->vehicle_track();
-  offset_m_ = track.offset_m;
-  start_s_m_ = track.start_s_m;
-  end_s_m_ = track.end_s_m.value_or(alignment_.length_m());
-  gauge_ = StructureGauge(ContactHeightOver_m(track, scenario.world.catenary));
-  for (double s_m = start_s_m_; s_m < end_s_m_ + kAxisStep_m; s_m += kAxisStep_m) {
-    axis_m_.emplace_back(alignment_.WorldFromTrack(s_m, offset_m_).translation());
+OwnTrack::OwnTrack(const ScenarioSpec& scenario) : OwnTrack(scenario, *MakeWorld(scenario)) {}
+
+OwnTrack::OwnTrack(const ScenarioSpec& scenario, const RailWorld& world)
+    : alignment_(world.alignment()),
+      track_(world.vehicle_course()),
+      gauge_(StructureGauge(ContactHeightOver_m(world.vehicle_track(), scenario.world.catenary))) {
+  for (double s_m = track_.begin_s_m(); s_m < track_.end_s_m() + kAxisStep_m; s_m += kAxisStep_m) {
+    axis_m_.emplace_back(track_.WorldFromTrack(alignment_, s_m).translation());
   }
 }
 
 double OwnTrack::ChainageNear_m(const Vector3& world_m) const {
   const auto nearest = std::ranges::min_element(
       axis_m_, {}, [&](const Vector3& point_m) { return (point_m - world_m).squaredNorm(); });
-  return Refined_m(start_s_m_ + kAxisStep_m * static_cast<double>(nearest - axis_m_.begin()),
-                   world_m);
+  return Refined_m(
+      track_.begin_s_m() + kAxisStep_m * static_cast<double>(nearest - axis_m_.begin()), world_m);
 }
 
 // Newton's method.
 double OwnTrack::Refined_m(double s_m, const Vector3& world_m) const {
   constexpr int kNumSteps = 3;
   for (int i = 0; i < kNumSteps; ++i) {
-    s_m += (alignment_.WorldFromTrack(s_m, offset_m_).inverse() * world_m).x();
+    s_m += (track_.WorldFromTrack(alignment_, s_m).inverse() * world_m).x();
   }
   return s_m;
 }
@@ -54,7 +54,7 @@ GaugeClearance OwnTrack::ClearanceAhead(const Transform& world_from_vehicle,
                                         const Transform& world_from_box,
                                         const Vector3& size_m) const {
   const double vehicle_s_m = ChainageNear_m(world_from_vehicle.translation());
-  const bool is_along = alignment_.WorldFromTrack(vehicle_s_m, offset_m_)
+  const bool is_along = track_.WorldFromTrack(alignment_, vehicle_s_m)
                             .linear()
                             .col(0)
                             .dot(world_from_vehicle.linear().col(0)) > 0.0;
@@ -72,9 +72,9 @@ GaugeClearance OwnTrack::ClearanceAhead(const Transform& world_from_vehicle,
     world_from_piece.translate(center_m);
     const double s_m = Refined_m(box_s_m, world_from_piece.translation());
     const bool is_ahead = is_along ? s_m > vehicle_s_m : s_m < vehicle_s_m;
-    if (!is_ahead || s_m < start_s_m_ || s_m > end_s_m_) continue;
+    if (!is_ahead || s_m < track_.begin_s_m() || s_m > track_.end_s_m()) continue;
     const GaugeClearance piece = ClearanceOf(
-        gauge_, alignment_.WorldFromTrack(s_m, offset_m_).inverse() * world_from_piece, piece_m);
+        gauge_, track_.WorldFromTrack(alignment_, s_m).inverse() * world_from_piece, piece_m);
     nearest.is_inside = nearest.is_inside || piece.is_inside;
     nearest.from_axis_m = std::min(nearest.from_axis_m, piece.from_axis_m);
   }

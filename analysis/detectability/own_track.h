@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/rail/line/track_course.h"
 #include "core/rail/structure_gauge.h"
 #include "railcast/alignment.h"
 #include "railcast/scenario.h"
@@ -26,15 +27,15 @@ class OwnTrack {
                                               const Vector3& size_m) const;
 
  private:
+  OwnTrack(const ScenarioSpec& scenario, const RailWorld& world);
+
   /// Chainage of the point of the axis that is nearest to this point.
   [[nodiscard]] double ChainageNear_m(const Vector3& world_m) const;
   /// As above, but starts from a nearby chainage.
   [[nodiscard]] double Refined_m(double s_m, const Vector3& world_m) const;
 
   Alignment alignment_;
-  double offset_m_{};
-  double start_s_m_{};
-  double end_s_m_{};
+  TrackCourse track_;
   std::vector<GaugePart> gauge_;
   /// One point every kAxisStep_m of chainage from the start of the track.
   std::vector<Vector3> axis_m_;

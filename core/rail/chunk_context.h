@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
+#include "core/rail/line/track_course.h"
 #include "core/rail/rail_surfaces.h"
 #include "railcast/alignment.h"
 #include "railcast/rail_world.h"
@@ -18,6 +20,7 @@ inline constexpr double kChunkOverlap_m = 1e-3;
 struct ChunkContext {
   const WorldSpec& spec;
   const Alignment& alignment;
+  std::span<const TrackCourse> tracks;  ///< In the order of WorldSpec::tracks.
   const RailSurfaces& surfaces;
   std::uint64_t seed{};
   int chunk{};

@@ -18,6 +18,7 @@
 #include "core/rail/chunk_grid.h"
 #include "core/rail/infrastructure_models.h"
 #include "core/rail/land/land.h"
+#include "core/rail/line/network.h"
 #include "core/rail/line/track_path.h"
 #include "core/rail/standing_height.h"
 #include "core/rail/track/track_structure.h"
@@ -62,6 +63,19 @@ Eigen::AlignedBox2d GroundAreaOf(const Model& model) {
   return {bounds_m.min().head<2>(), bounds_m.max().head<2>()};
 }
 
+StandingPlace StandingPlaceOf(const TrackPath& path,
+                              const Alignment& alignment,
+                              double s_m,
+                              const Eigen::AlignedBox2d& area_m) {
+  const TrackOffset offset = path.course().OffsetAt(s_m);
+  const double turn_rad = TurnFromAlignment_rad(alignment.At(s_m), offset);
+  const TrackPose& pose = path.pose();
+  return {.s_m = s_m - pose.d_m * std::sin(turn_rad),
+          .d_m = offset.d_m + pose.d_m * std::cos(turn_rad),
+          .heading_rad = pose.heading_rad + turn_rad,
+          .area_m = area_m};
+}
+
 /// Motion and standing place of an object. The vehicle's own boxes move with the vehicle.
 struct ObjectWay {
   std::optional<TrackPath> path;
@@ -81,6 +95,7 @@ struct RailWorld::Line {
   std::uint64_t seed{};
   std::optional<RailSurfaces> surfaces;
   Alignment alignment;
+  Network network;
   ChunkGrid grid;
   CatenaryPlan catenary_plan;
   InfrastructureModels infrastructure;
@@ -88,8 +103,15 @@ struct RailWorld::Line {
 
   /// If `chunk_from_world` is the identity, builders work in world coordinates.
   [[nodiscard]] ChunkContext ContextOf(int chunk, const Transform& chunk_from_world) const {
-    return {world, alignment,           *surfaces,         seed,
-            chunk, grid.BeginOf(chunk), grid.EndOf(chunk), chunk_from_world};
+    return {.spec = world,
+            .alignment = alignment,
+            .tracks = network.courses,
+            .surfaces = *surfaces,
+            .seed = seed,
+            .chunk = chunk,
+            .begin_s_m = grid.BeginOf(chunk),
+            .end_s_m = grid.EndOf(chunk),
+            .chunk_from_world = chunk_from_world};
   }
   [[nodiscard]] Chunk Build(const ChunkContext& context) const {
     Chunk built;
@@ -139,6 +161,7 @@ RailWorld::RailWorld(const WorldSpec& world,
   const Alignment& alignment = *draft.alignment;
   line_ = std::make_shared<const Line>(
       Line{world, vehicle, labels, materials, seed, surfaces, alignment,
+           Completed(std::move(draft.network)),
            ChunkGrid(alignment, kChunkLength_m, world.terrain.half_width_m),
            std::move(*draft.catenary_plan), MakeInfrastructureModels(world, surfaces),
            MakePlantModels(surfaces, seed)});
@@ -190,7 +213,9 @@ std::shared_ptr<const RailWorld> RailWorld::WithObject(const ObjectSpec& object,
                                                        std::int64_t from_ns) const {
   const std::string pointer = "/object";
   WorldFaults faults;
-  CheckObject(line_->world, object, pointer, line_->Measures(), faults);
+  const std::vector<std::optional<TrackCourse>> courses(line_->network.courses.begin(),
+                                                        line_->network.courses.end());
+  CheckObject(line_->world, object, pointer, {line_->Measures(), courses}, faults);
   const auto has_its_name = [&](const SceneObject& other) { return other.name == object.name; };
   if (object.name == "ego" || std::any_of(objects().begin(), objects().end(), has_its_name)) {
     faults.Add(pointer + "/name",
@@ -202,7 +227,7 @@ std::shared_ptr<const RailWorld> RailWorld::WithObject(const ObjectSpec& object,
     faults.Add(pointer, "must be one of at most " + std::to_string(kFirstMastInstance - 1) +
                             " objects of a run, those that were removed included");
   }
-  auto path = DraftPath(line_->world, object, pointer, from_ns, faults);
+  auto path = DraftPath({line_->world, courses}, object, pointer, from_ns, faults);
   ObjectModels models(*line_->surfaces, line_->labels, line_->materials);
   auto made = DraftObject(object, pointer, {*line_->surfaces, line_->labels, models}, faults);
   faults.errors.ThrowIfAny();
@@ -250,6 +275,14 @@ const TrackSpec& RailWorld::vehicle_track() const {
   return *FindTrack(line_->world, line_->vehicle.track);
 }
 
+const Network& RailWorld::network() const {
+  return line_->network;
+}
+
+const TrackCourse& RailWorld::vehicle_course() const {
+  return things_->vehicle.course();
+}
+
 bool RailWorld::has_changed_vehicle_speed() const {
   return things_->has_changed_vehicle_speed;
 }
@@ -264,6 +297,10 @@ double RailWorld::VehicleChainage_m(std::int64_t time_ns) const {
 
 const TrackSpec& RailWorld::object_track(std::size_t object) const {
   return *things_->ways->at(object).track;
+}
+
+const TrackCourse& RailWorld::object_course(std::size_t object) const {
+  return things_->PathOf(object).course();
 }
 
 double RailWorld::ObjectChainage_m(std::size_t object, std::int64_t time_ns) const {
@@ -291,7 +328,13 @@ std::vector<Transform> RailWorld::VehiclePosesIn(int home_chunk) const {
 }
 
 std::vector<int> RailWorld::ChunksInReach(int home_chunk, double range_m) const {
-  const double aside_m = std::abs(things_->vehicle.pose().d_m);
+  constexpr int kNumSteps = 10;
+  double aside_m = 0.0;
+  for (int i = 0; i <= kNumSteps; ++i) {
+    const double s_m = std::lerp(line_->grid.BeginOf(home_chunk), line_->grid.EndOf(home_chunk),
+                                 1.0 * i / kNumSteps);
+    aside_m = std::max(aside_m, std::abs(things_->vehicle.course().OffsetAt(s_m).d_m));
+  }
   return line_->grid.WithinReach(home_chunk, range_m + aside_m + kOverhang_m);
 }
 
@@ -341,7 +384,7 @@ Transform RailWorld::WorldFromObject(std::size_t object, std::int64_t time_ns) c
   Transform world_from_object = path.WorldFromObject(line_->alignment, time_ns);
   if (const auto& area_m = things_->ways->at(object).ground_area_m) {
     const double s_m = path.ChainageAt(time_ns);
-    const StandingPlace place{s_m, path.pose().d_m, path.pose().heading_rad, *area_m};
+    const StandingPlace place = StandingPlaceOf(path, line_->alignment, s_m, *area_m);
     const int chunk = line_->grid.ChunkAt(s_m);
     world_from_object.translation().z() =
         StandingHeight_m(line_->ContextOf(chunk, Transform::Identity()), place);

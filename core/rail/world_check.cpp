@@ -6,6 +6,7 @@
 
 #include "core/base/text.h"
 #include "core/rail/catenary/catenary.h"
+#include "core/rail/line/turnout_place.h"
 
 namespace railcast {
 namespace {
@@ -35,12 +36,13 @@ void CheckTrack(const WorldSpec& world,
   if (faults.AreKnown({place + "/name"}) && FindTrack(world, track.name) != &track) {
     faults.Add(place + "/name", "must be unique", Quoted(track.name));
   }
-  if (faults.AreKnown({place + "/offset_m", kHalfWidth}) &&
-      !(std::abs(track.offset_m) < world.terrain.half_width_m)) {
+  const double offset_m = track.offset_m.value_or(0.0);
+  if (IsParallel(track) && faults.AreKnown({place + "/offset_m", kHalfWidth}) &&
+      !(std::abs(offset_m) < world.terrain.half_width_m)) {
     faults.Add(place + "/offset_m",
                "must lie within the ground's half width of " +
                    NumberText(world.terrain.half_width_m) + " m",
-               NumberText(track.offset_m));
+               NumberText(offset_m));
   }
   if (!faults.AreKnown({place + "/start_s_m", place + "/end_s_m"})) return;
   if (!(track.start_s_m >= 0.0 && track.start_s_m < line.length_m)) {
@@ -57,7 +59,8 @@ void CheckTrack(const WorldSpec& world,
   }
 }
 
-// Checks a track's distance from those before it in the list.
+// Checks the distance of a track that is parallel to the alignment from those before it in the list
+// that are, too. CheckNetwork() checks all others.
 void CheckDistance(const WorldSpec& world,
                    std::size_t index,
                    const LineMeasures& line,
@@ -66,17 +69,20 @@ void CheckDistance(const WorldSpec& world,
   const std::string place = Item("/world/tracks/", index);
   for (std::size_t i = 0; i < index; ++i) {
     const TrackSpec& other = world.tracks[i];
+    if (!IsParallel(track) || !IsParallel(other)) continue;
     if (!faults.AreKnown({place, Item("/world/tracks/", i)})) continue;
     const double begin_s_m = std::max(track.start_s_m, other.start_s_m);
     const double end_s_m =
         std::min(track.end_s_m.value_or(line.length_m), other.end_s_m.value_or(line.length_m));
     if (!(begin_s_m < end_s_m)) continue;
-    if (std::abs(track.offset_m - other.offset_m) >= kLeastTrackDistance_m) continue;
+    const double offset_m = track.offset_m.value_or(0.0);
+    const double other_m = other.offset_m.value_or(0.0);
+    if (std::abs(offset_m - other_m) >= kLeastTrackDistance_m) continue;
     faults.Add(place + "/offset_m",
                "must be at least " + NumberText(kLeastTrackDistance_m) + " m from track " +
-                   Quoted(other.name) + " at " + NumberText(other.offset_m) +
-                   " m, beside which it runs " + StretchText(begin_s_m, end_s_m),
-               NumberText(track.offset_m));
+                   Quoted(other.name) + " at " + NumberText(other_m) + " m, beside which it runs " +
+                   StretchText(begin_s_m, end_s_m),
+               NumberText(offset_m));
   }
 }
 
@@ -88,38 +94,46 @@ struct TrackPlace {
   double s_m{};
 };
 
-bool AreNamesKnown(const WorldSpec& world, const WorldFaults& faults) {
-  for (std::size_t i = 0; i < world.tracks.size(); ++i) {
-    if (!faults.AreKnown({Item("/world/tracks/", i) + "/name"})) return false;
+/// The chainages that a track has, as far as they are known.
+struct TrackExtent {
+  double begin_s_m{};
+  double end_s_m{};
+};
+
+std::optional<TrackExtent> ExtentOf(const WorldSpec& world,
+                                    const TrackSpec& track,
+                                    const LineOfTracks& line,
+                                    const WorldFaults& faults) {
+  const std::string pointer = PointerOf(track, world);
+  if (!IsParallel(track)) {
+    const auto& course = line.courses[static_cast<std::size_t>(&track - world.tracks.data())];
+    if (!course) return std::nullopt;
+    return TrackExtent{course->begin_s_m(), course->end_s_m()};
   }
-  return true;
+  if (!faults.AreKnown({pointer + "/start_s_m", pointer + "/end_s_m"})) return std::nullopt;
+  return TrackExtent{track.start_s_m, track.end_s_m.value_or(line.measures.length_m)};
 }
 
 // @return The track; null if it is unknown.
 const TrackSpec* CheckPlace(const WorldSpec& world,
                             const TrackPlace& place,
-                            const LineMeasures& line,
+                            const LineOfTracks& line,
                             WorldFaults& faults) {
   if (!faults.AreKnown({place.track_pointer})) return nullptr;
   const TrackSpec* track = FindTrack(world, place.track);
   if (track == nullptr) {
     if (!AreNamesKnown(world, faults)) return nullptr;
-    std::string names;
-    for (const TrackSpec& known : world.tracks) {
-      names += (names.empty() ? "" : ", ") + Quoted(known.name);
-    }
     faults.Add(place.track_pointer,
-               "must be one of " + names + " (got " + Quoted(place.track) + ")");
+               "must be one of " + NamesOfTracks(world) + " (got " + Quoted(place.track) + ")");
     return nullptr;
   }
-  const std::string pointer = PointerOf(*track, world);
-  const double end_s_m = track->end_s_m.value_or(line.length_m);
-  if (faults.AreKnown({place.chainage_pointer, pointer + "/start_s_m", pointer + "/end_s_m"}) &&
-      !(place.s_m >= track->start_s_m && place.s_m <= end_s_m)) {
-    faults.Add(
-        place.chainage_pointer,
-        "must lie on track " + Quoted(track->name) + ", " + StretchText(track->start_s_m, end_s_m),
-        NumberText(place.s_m));
+  const std::optional<TrackExtent> extent = ExtentOf(world, *track, line, faults);
+  if (extent && faults.AreKnown({place.chainage_pointer}) &&
+      !(place.s_m >= extent->begin_s_m && place.s_m <= extent->end_s_m)) {
+    faults.Add(place.chainage_pointer,
+               "must lie on track " + Quoted(track->name) + ", " +
+                   StretchText(extent->begin_s_m, extent->end_s_m),
+               NumberText(place.s_m));
   }
   return track;
 }
@@ -164,8 +178,11 @@ void CheckPivots(const WorldSpec& world,
                  const LineMeasures& line,
                  WorldFaults& faults) {
   const TrackSpec* track = FindTrack(world, vehicle.track);
-  if (track == nullptr || !faults.AreKnown({PointerOf(*track, world) + "/offset_m"})) return;
-  const double radius_m = line.tightest_radius_m - std::abs(track->offset_m);
+  if (track == nullptr || !IsParallel(*track) ||
+      !faults.AreKnown({PointerOf(*track, world) + "/offset_m"})) {
+    return;
+  }
+  const double radius_m = line.tightest_radius_m - std::abs(track->offset_m.value_or(0.0));
   if (vehicle.pivot_distance_m <= radius_m) return;
   faults.Add("/vehicle/pivot_distance_m",
              "must be at most its track's tightest radius of " + NumberText(radius_m) + " m",
@@ -196,33 +213,40 @@ const TrackSpec* FindTrack(const WorldSpec& world, const std::string& name) {
 void CheckObject(const WorldSpec& world,
                  const ObjectSpec& object,
                  const std::string& pointer,
-                 const LineMeasures& line,
+                 const LineOfTracks& line,
                  WorldFaults& faults) {
   const TrackPlace place{pointer + "/track", pointer + "/s_m", object.track, object.s_m};
   const TrackSpec* track = CheckPlace(world, place, line, faults);
   if (track == nullptr) return;
-  const double from_axis_m = track->offset_m + object.d_m;
+  double offset_m = track->offset_m.value_or(0.0);
+  if (!IsParallel(*track)) {
+    const auto& course = line.courses[static_cast<std::size_t>(track - world.tracks.data())];
+    if (!course || !faults.AreKnown({pointer + "/s_m"})) return;
+    offset_m = course->OffsetWithin_m(object.s_m);
+  }
+  const double from_axis_m = offset_m + object.d_m;
   if (faults.AreKnown({pointer + "/d_m", PointerOf(*track, world) + "/offset_m", kHalfWidth}) &&
       !(std::abs(from_axis_m) <= world.terrain.half_width_m)) {
     faults.Add(pointer + "/d_m", "must put it within the ground's half width of " +
                                      NumberText(world.terrain.half_width_m) +
-                                     " m (got track offset " + NumberText(track->offset_m) +
-                                     " + d_m " + NumberText(object.d_m) + " = " +
-                                     NumberText(from_axis_m) + ")");
+                                     " m (got track offset " + NumberText(offset_m) + " + d_m " +
+                                     NumberText(object.d_m) + " = " + NumberText(from_axis_m) +
+                                     ")");
   }
 }
 
 void CheckWorld(const WorldSpec& world,
                 const VehicleSpec& vehicle,
-                const LineMeasures& line,
+                const LineOfTracks& line,
                 WorldFaults& faults) {
-  CheckHalfWidth(world, line, faults);
+  CheckHalfWidth(world, line.measures, faults);
   if (world.tracks.empty()) {
     faults.Add("/world/tracks", "must have at least one track", "none");
     return;  // Without a track, every check below would report another fault.
   }
-  for (std::size_t i = 0; i < world.tracks.size(); ++i) CheckTrack(world, i, line, faults);
-  for (std::size_t i = 1; i < world.tracks.size(); ++i) CheckDistance(world, i, line, faults);
+  for (std::size_t i = 0; i < world.tracks.size(); ++i) CheckTrack(world, i, line.measures, faults);
+  for (std::size_t i = 1; i < world.tracks.size(); ++i)
+    CheckDistance(world, i, line.measures, faults);
   for (std::size_t i = 0; i < world.objects.size(); ++i) {
     CheckObject(world, world.objects[i], Item("/world/objects/", i), line, faults);
   }
@@ -230,7 +254,7 @@ void CheckWorld(const WorldSpec& world,
   CheckPlace(world, {"/vehicle/track", "/vehicle/start_s_m", vehicle.track, vehicle.start_s_m},
              line, faults);
   CheckEgoBoxes(vehicle, faults);
-  CheckPivots(world, vehicle, line, faults);
+  CheckPivots(world, vehicle, line.measures, faults);
 }
 
 }  // namespace railcast

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <algorithm>
-#include <initializer_list>
+#include <optional>
+#include <span>
 #include <string>
 
-#include "core/base/error.h"
-#include "core/base/unknown_places.h"
+#include "core/rail/line/network.h"
+#include "core/rail/world_faults.h"
 #include "railcast/rail_world.h"
 
 namespace railcast {
@@ -16,21 +16,10 @@ struct LineMeasures {
   double tightest_radius_m{};
 };
 
-/// Faults of a world, and the values that are unknown because of these or earlier faults. Pointers
-/// refer to the scenario: "/world/..." and "/vehicle/...".
-struct WorldFaults {
-  ErrorList errors;
-  UnknownPlaces unknown;
-
-  /// Reports a fault of the value at `pointer`, which becomes unknown.
-  void Add(const std::string& pointer, const std::string& rule, const std::string& value = "") {
-    errors.Add({pointer, rule, value});
-    unknown.Add(pointer);
-  }
-  [[nodiscard]] bool AreKnown(std::initializer_list<std::string> pointers) const {
-    return std::all_of(pointers.begin(), pointers.end(),
-                       [&](const std::string& pointer) { return unknown.IsKnown(pointer); });
-  }
+/// A line with the courses of its tracks; those with faults are absent.
+struct LineOfTracks {
+  LineMeasures measures;
+  std::span<const std::optional<TrackCourse>> courses;
 };
 
 /// Minimum distance between the axes of tracks that run side by side.
@@ -38,18 +27,19 @@ inline constexpr double kLeastTrackDistance_m = 3.0;
 
 /// Checks a world and its vehicle for consistency with each other and with the line. Faults are
 /// lines like `/world/objects/3/track: must be one of "main", "siding" (got "sidng")`. Speed
-/// profiles are checked separately (SpeedProfile).
+/// profiles are checked separately (SpeedProfile), and so is the network (DraftNetwork,
+/// CheckNetwork).
 /// @param line Infinite measures if the line is unknown.
 void CheckWorld(const WorldSpec& world,
                 const VehicleSpec& vehicle,
-                const LineMeasures& line,
+                const LineOfTracks& line,
                 WorldFaults& faults);
 
 /// Checks the place of one object. Faults are lines that begin with `pointer`.
 void CheckObject(const WorldSpec& world,
                  const ObjectSpec& object,
                  const std::string& pointer,
-                 const LineMeasures& line,
+                 const LineOfTracks& line,
                  WorldFaults& faults);
 
 /// The track of that name; null if there is none.

@@ -9,6 +9,7 @@
 #include "core/base/attempt.h"
 #include "core/base/units.h"
 #include "core/rail/line/speed_profile.h"
+#include "core/rail/network_check.h"
 
 namespace railcast {
 namespace {
@@ -47,15 +48,17 @@ std::optional<SpeedProfile> DraftProfile(const Mover& mover, WorldFaults& faults
                  [&] { return SpeedProfile(mover.motion, mover.s_m); });
 }
 
-std::optional<TrackPath> DraftVehicle(const WorldSource& source, WorldFaults& faults) {
+std::optional<TrackPath> DraftVehicle(const WorldSource& source,
+                                      const TracksOfWorld& tracks,
+                                      WorldFaults& faults) {
   const VehicleSpec& vehicle = source.vehicle;
   auto profile = DraftProfile(
       {"/vehicle/motion", "/vehicle/start_s_m", vehicle.motion, vehicle.start_s_m}, faults);
-  const TrackSpec* track = FindTrack(source.world, vehicle.track);
-  if (!profile || track == nullptr) return std::nullopt;
+  std::optional<TrackCourse> course = tracks.CourseOf(vehicle.track);
+  if (!profile || !course) return std::nullopt;
   // A vehicle faces the way it travels.
   const double heading_rad = vehicle.motion.reverse ? std::numbers::pi : 0.0;
-  return TrackPath({track->offset_m, 0.0, heading_rad, false, vehicle.pivot_distance_m},
+  return TrackPath(std::move(*course), {0.0, 0.0, heading_rad, false, vehicle.pivot_distance_m},
                    std::move(*profile));
 }
 
@@ -77,18 +80,23 @@ std::optional<CatenaryPlan> DraftCatenary(const WorldSpec& world,
 
 }  // namespace
 
-std::optional<TrackPath> DraftPath(const WorldSpec& world,
+std::optional<TrackCourse> TracksOfWorld::CourseOf(const std::string& name) const {
+  const std::optional<std::size_t> index = TrackIndex(world, name);
+  return index ? courses[*index] : std::nullopt;
+}
+
+std::optional<TrackPath> DraftPath(const TracksOfWorld& tracks,
                                    const ObjectSpec& object,
                                    const std::string& pointer,
                                    std::int64_t begin_ns,
                                    WorldFaults& faults) {
   const MotionSpec motion = object.motion.value_or(MotionSpec{});
   auto profile = DraftProfile({pointer + "/motion", pointer + "/s_m", motion, object.s_m}, faults);
-  const TrackSpec* track = FindTrack(world, object.track);
-  if (!profile || track == nullptr) return std::nullopt;
-  const TrackPose pose{track->offset_m + object.d_m, object.h_m.value_or(0.0),
-                       RadFromDeg(object.heading_deg), !IsWagon(object.type)};
-  return TrackPath(pose, std::move(*profile), begin_ns);
+  std::optional<TrackCourse> course = tracks.CourseOf(object.track);
+  if (!profile || !course) return std::nullopt;
+  const TrackPose pose{object.d_m, object.h_m.value_or(0.0), RadFromDeg(object.heading_deg),
+                       !IsWagon(object.type)};
+  return TrackPath(std::move(*course), pose, std::move(*profile), begin_ns);
 }
 
 std::optional<SceneObject> DraftObject(const ObjectSpec& object,
@@ -119,7 +127,9 @@ WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
   const LineMeasures line = draft.alignment ? LineMeasures{draft.alignment->length_m(),
                                                            draft.alignment->tightest_radius_m()}
                                             : LineMeasures{kEndless_m, kEndless_m};
-  CheckWorld(world, source.vehicle, line, faults);
+  draft.network = DraftNetwork(world, line.length_m, faults);
+  CheckWorld(world, source.vehicle, {line, draft.network.courses}, faults);
+  CheckNetwork(world, draft.network, draft.alignment, faults);
   if (faults.AreKnown({"/labels", "/materials"})) {
     draft.surfaces =
         Attempt("", faults.errors, [&] { return RailSurfaces(source.labels, source.materials); });
@@ -127,13 +137,14 @@ WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
       Attempt("", faults.errors, [&] { return source.labels.Id("ego"); });
     }
   }
-  draft.vehicle_path = DraftVehicle(source, faults);
+  const TracksOfWorld tracks{world, draft.network.courses};
+  draft.vehicle_path = DraftVehicle(source, tracks, faults);
   const RailSurfaces surfaces = draft.surfaces.value_or(RailSurfaces());
   ObjectModels models(surfaces, source.labels, source.materials);
   const ObjectTables tables{surfaces, source.labels, models};
   for (std::size_t i = 0; i < world.objects.size(); ++i) {
     const std::string pointer = "/world/objects/" + std::to_string(i);
-    auto path = DraftPath(world, world.objects[i], pointer, 0, faults);
+    auto path = DraftPath(tracks, world.objects[i], pointer, 0, faults);
     auto object = DraftObject(world.objects[i], pointer, tables, faults);
     if (!path || !object) continue;
     object->moves = path->moves();

@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/rail/catenary/catenary_plan.h"
+#include "core/rail/line/network.h"
 #include "core/rail/line/track_path.h"
 #include "core/rail/objects/object_models.h"
 #include "core/rail/rail_surfaces.h"
@@ -37,6 +39,7 @@ struct ObjectTables {
 /// The parts of a world, as far as their specs are valid; complete if there was no fault.
 struct WorldDraft {
   std::optional<Alignment> alignment;
+  NetworkDraft network;
   std::optional<RailSurfaces> surfaces;
   std::optional<TrackPath> vehicle_path;
   std::vector<TrackPath> object_paths;
@@ -44,9 +47,18 @@ struct WorldDraft {
   std::optional<CatenaryPlan> catenary_plan;
 };
 
+/// The tracks of a world with their courses; those with faults are absent.
+struct TracksOfWorld {
+  const WorldSpec& world;
+  std::span<const std::optional<TrackCourse>> courses;
+
+  /// The course of the track of that name, if there is one.
+  [[nodiscard]] std::optional<TrackCourse> CourseOf(const std::string& name) const;
+};
+
 /// Makes the path of an object, or nothing if a value it depends on is unknown. Faults begin with
 /// `pointer`.
-[[nodiscard]] std::optional<TrackPath> DraftPath(const WorldSpec& world,
+[[nodiscard]] std::optional<TrackPath> DraftPath(const TracksOfWorld& tracks,
                                                  const ObjectSpec& object,
                                                  const std::string& pointer,
                                                  std::int64_t begin_ns,

@@ -10,12 +10,41 @@
 namespace railcast {
 
 template <class Archive>
+void Describe(Archive& a, TurnoutSpec& s) {
+  a.Required("track", s.track, "The track in which it lies, which runs straight through it.",
+             NonEmptyString());
+  a.Optional("s_m", s.s_m,
+             "Chainage of its beginning, at the tips of its blades; absent only at the end of a "
+             "crossover, where it follows.",
+             ChainageLimits());
+  a.Required("turnout", s.turnout, "Its type: angle and radius.");
+  a.Optional("side", s.side,
+             "Side of that track, towards rising chainage, to which the branch leaves; absent = "
+             "where its offset lies.");
+  a.Optional("position", s.position,
+             "Where its blades lead; absent = as the vehicle's route needs it, else straight.");
+}
+
+template <class Archive>
 void Describe(Archive& a, TrackSpec& s) {
   a.Optional("name", s.name, "Objects and the vehicle name their track by it.", NonEmptyString());
-  a.Optional("offset_m", s.offset_m, "From the alignment, left positive.", Within(-1000, 1000));
+  a.Optional("offset_m", s.offset_m, "From the alignment, left positive; absent = 0.",
+             Within(-1000, 1000));
+  a.Optional("offsets_m", s.offsets_m,
+             "Offsets by chainage, instead of offset_m: constant between equal ones, an S-curve "
+             "between others.",
+             EachValue(Within(-1000, 1000)));
+  a.Optional("elements", s.elements,
+             "Elements as if the alignment were straight, from the turnout at its beginning on or "
+             "from start_s_m and offset_m.");
+  a.Optional("heading_deg", s.heading_deg,
+             "Of the first element against the alignment, left positive; without a turnout.",
+             Within(-45, 45));
   a.Optional("start_s_m", s.start_s_m, "Chainage where the track begins.", ChainageLimits());
   a.Optional("end_s_m", s.end_s_m, "Chainage where it ends; absent = the end of the line.",
              ChainageLimits());
+  a.Optional("begin", s.begin, "The turnout where it begins; opens with rising chainage.");
+  a.Optional("end", s.end, "The turnout where it ends; opens with falling chainage.");
   a.Optional("sleeper", s.sleeper, "Kind of sleeper.");
   a.Optional("electrified", s.electrified, "Whether it has a contact line.");
   a.Ensure({"end_s_m", "start_s_m"}, !s.end_s_m || *s.end_s_m > s.start_s_m, "must be > start_s_m");
@@ -132,7 +161,7 @@ template <class Archive>
 void Describe(Archive& a, WorldSpec& s) {
   a.Optional("seed", s.seed, "Seed of the world's shape: relief, stones, plants.");
   a.Required("alignment", s.alignment, "The axis of the line.");
-  a.Optional("tracks", s.tracks, "Parallel to the alignment.", NonEmptyList());
+  a.Optional("tracks", s.tracks, "Along the alignment.", NonEmptyList());
   a.Optional("catenary", s.catenary, "Overhead contact line.");
   a.Optional("terrain", s.terrain, "The ground.");
   a.Optional("vegetation", s.vegetation, "Trees and grass.");

@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/rail/line/track_course.h"
 
 namespace railcast {
 namespace {
@@ -34,31 +35,33 @@ struct Traveller {
   /// The beginning of an error line about it; rarely needed, so computed on demand.
   std::function<std::string()> place;
   const TrackSpec& track;
+  double begin_s_m{};
   double end_s_m{};
   std::function<double(std::int64_t)> chainage_m;
 
   [[nodiscard]] bool IsOnTrack(std::int64_t time_ns) const {
     const double s_m = chainage_m(time_ns);
-    return s_m >= track.start_s_m - kTolerance_m && s_m <= end_s_m + kTolerance_m;
+    return s_m >= begin_s_m - kTolerance_m && s_m <= end_s_m + kTolerance_m;
   }
   [[nodiscard]] std::string Leaves(const std::string& when) const {
-    return place() + " leaves track \"" + track.name + "\", from " + NumberText(track.start_s_m) +
+    return place() + " leaves track \"" + track.name + "\", from " + NumberText(begin_s_m) +
            " to " + NumberText(end_s_m) + " m, at " + when;
   }
 };
 
 std::vector<Traveller> TravellersOf(const ScenarioSpec& scenario, const RailWorld& world) {
   std::vector<Traveller> travellers;
-  const auto add = [&](auto place, const TrackSpec& track, auto chainage_m) {
-    const double end_s_m = track.end_s_m.value_or(world.alignment().length_m());
-    travellers.push_back({std::move(place), track, end_s_m, std::move(chainage_m)});
+  const auto add = [&](auto place, const TrackSpec& track, const TrackCourse& course,
+                       auto chainage_m) {
+    travellers.push_back(
+        {std::move(place), track, course.begin_s_m(), course.end_s_m(), std::move(chainage_m)});
   };
   add(
       [&scenario, &world] {
         return world.has_changed_vehicle_speed() ? "command: the vehicle"
                                                  : scenario.sources.Place("/vehicle/motion") + ":";
       },
-      world.vehicle_track(),
+      world.vehicle_track(), world.vehicle_course(),
       [&world](std::int64_t time_ns) { return world.VehicleChainage_m(time_ns); });
   for (std::size_t i = 0; i < world.objects().size(); ++i) {
     const SceneObject& object = world.objects()[i];
@@ -72,7 +75,7 @@ std::vector<Traveller> TravellersOf(const ScenarioSpec& scenario, const RailWorl
                                     "/motion") +
              ":";
     };
-    add(place, world.object_track(i),
+    add(place, world.object_track(i), world.object_course(i),
         [&world, i](std::int64_t time_ns) { return world.ObjectChainage_m(i, time_ns); });
   }
   return travellers;

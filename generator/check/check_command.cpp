@@ -8,7 +8,6 @@
 #include "core/base/text.h"
 #include "core/fidelity/choice_report.h"
 #include "core/io/write_file.h"
-#include "core/rail/world_check.h"
 #include "core/scenario/track_limits.h"
 #include "core/scenario/vehicle_clearance.h"
 #include "core/simulate/detail_choice.h"
@@ -41,10 +40,9 @@ class Report {
   [[nodiscard]] std::string Sensor() const { return SensorText(scenario_.lidar, pattern_); }
 
   [[nodiscard]] std::string Line(bool is_verbose) const {
-    const TrackSpec& track = *FindTrack(scenario_.world, scenario_.vehicle.track);
-    const double length_m = world_->alignment().length_m();
     return LineText(world_->alignment(), is_verbose) +
-           VehicleText(track.name, FindVehicleWay(scenario_.vehicle, track, length_m),
+           VehicleText(world_->vehicle_track().name,
+                       FindVehicleWay(scenario_.vehicle, world_->vehicle_course()),
                        pattern_.rate_hz);
   }
 

@@ -40,9 +40,7 @@ std::optional<WayPoint> ArrivalAt(const SpeedProfile& profile, double s_m) {
 
 }  // namespace
 
-VehicleWay FindVehicleWay(const VehicleSpec& vehicle,
-                          const TrackSpec& track,
-                          double line_length_m) {
+VehicleWay FindVehicleWay(const VehicleSpec& vehicle, const TrackCourse& track) {
   const SpeedProfile profile(vehicle.motion, vehicle.start_s_m);
   VehicleWay way;
   way.start = PointAt(profile, 0.0);
@@ -51,8 +49,7 @@ VehicleWay FindVehicleWay(const VehicleSpec& vehicle,
     way.profile_end = last.time_s ? PointAt(profile, *last.time_s) : ArrivalAt(profile, *last.s_m);
     if (way.profile_end) way.profile_end->speed_mps = last.speed_mps;
   }
-  way.track_end = ArrivalAt(
-      profile, profile.reverse() ? track.start_s_m : track.end_s_m.value_or(line_length_m));
+  way.track_end = ArrivalAt(profile, profile.reverse() ? track.begin_s_m() : track.end_s_m());
   return way;
 }
 

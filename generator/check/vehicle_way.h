@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "core/rail/line/track_course.h"
 #include "railcast/rail_world.h"
 
 namespace railcast {
@@ -21,9 +22,7 @@ struct VehicleWay {
   std::optional<WayPoint> track_end;  ///< Absent if the vehicle never leaves its track.
 };
 
-/// @pre The vehicle's track is `track`, and its start lies on it.
-[[nodiscard]] VehicleWay FindVehicleWay(const VehicleSpec& vehicle,
-                                        const TrackSpec& track,
-                                        double line_length_m);
+/// @pre The vehicle follows `track`, and its start lies on it.
+[[nodiscard]] VehicleWay FindVehicleWay(const VehicleSpec& vehicle, const TrackCourse& track);
 
 }  // namespace railcast

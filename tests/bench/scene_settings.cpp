@@ -13,7 +13,7 @@ constexpr double kBetweenColumns_m = 66.0;
 constexpr std::size_t kNumRows = 20;
 
 double TrackOffset_m(const WorldSpec& world, const std::string& name) {
-  return std::ranges::find(world.tracks, name, &TrackSpec::name)->offset_m;
+  return std::ranges::find(world.tracks, name, &TrackSpec::name)->offset_m.value_or(0.0);
 }
 
 void CopyObjects(ScenarioSpec& scenario, std::size_t factor) {

@@ -6,7 +6,7 @@
 namespace railcast {
 
 Transform TrackStretch::SensorFromTrack(double s_m) const {
-  return sensor_from_world * alignment.WorldFromTrack(s_m, offset_m);
+  return sensor_from_world * track.WorldFromTrack(alignment, s_m);
 }
 
 std::vector<double> TrackStretch::LineChainages_m() const {
@@ -32,19 +32,18 @@ std::optional<TrackStretch> StretchAbout(const RailWorld& world,
                                          double ahead_m) {
   if (!recorded.has_pose) return std::nullopt;
   const std::int64_t stamp_ns = recorded.frame.stamp_ns;
-  const TrackSpec& track = world.vehicle_track();
+  const TrackCourse& track = world.vehicle_course();
   const Alignment& alignment = world.alignment();
   const double vehicle_s_m = world.VehicleChainage_m(stamp_ns);
-  const bool is_along =
-      world.WorldFromVehicle(stamp_ns).linear().col(0).dot(
-          alignment.WorldFromTrack(vehicle_s_m, track.offset_m).linear().col(0)) > 0.0;
+  const bool is_along = world.WorldFromVehicle(stamp_ns).linear().col(0).dot(
+                            track.WorldFromTrack(alignment, vehicle_s_m).linear().col(0)) > 0.0;
   TrackStretch stretch{.alignment = alignment,
-                       .offset_m = track.offset_m,
+                       .track = track,
                        .from_s_m = vehicle_s_m - (is_along ? behind_m : ahead_m),
                        .to_s_m = vehicle_s_m + (is_along ? ahead_m : behind_m),
                        .sensor_from_world = recorded.frame.world_from_sensor.inverse()};
-  stretch.from_s_m = std::max(stretch.from_s_m, track.start_s_m);
-  stretch.to_s_m = std::min(stretch.to_s_m, track.end_s_m.value_or(alignment.length_m()));
+  stretch.from_s_m = std::max(stretch.from_s_m, track.begin_s_m());
+  stretch.to_s_m = std::min(stretch.to_s_m, track.end_s_m());
   if (!(stretch.from_s_m < stretch.to_s_m)) return std::nullopt;
   return stretch;
 }

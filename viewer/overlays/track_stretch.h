@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/rail/line/track_course.h"
 #include "railcast/io/recording.h"
 #include "railcast/rail_world.h"
 
@@ -11,7 +12,7 @@ namespace railcast {
 /// A stretch of the vehicle's track, as the sensor of one frame sees it.
 struct TrackStretch {
   Alignment alignment;
-  double offset_m{};  ///< Offset of the track to the left of the line's axis.
+  TrackCourse track;
   double from_s_m{};  ///< Chainages between which the track exists: from_s_m < to_s_m.
   double to_s_m{};
   Transform sensor_from_world = Transform::Identity();  ///< At the stamp.

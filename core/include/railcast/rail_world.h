@@ -45,12 +45,59 @@ template <>
 inline constexpr auto kEnumNames<SleeperType> = std::to_array<EnumName<SleeperType>>(
     {{SleeperType::kConcrete, "concrete"}, {SleeperType::kWood, "wood"}});
 
-/// A track parallel to the alignment. Track 0 is usually "main" at offset 0.
+/// Types of turnout by the angle and the radius of their diverging track (line/turnout_geometry.h).
+enum class TurnoutType { k9_190, k9_300, k12_500, k14_760 };
+template <>
+inline constexpr auto kEnumNames<TurnoutType> =
+    std::to_array<EnumName<TurnoutType>>({{TurnoutType::k9_190, "1:9-190"},
+                                          {TurnoutType::k9_300, "1:9-300"},
+                                          {TurnoutType::k12_500, "1:12-500"},
+                                          {TurnoutType::k14_760, "1:14-760"}});
+
+/// A side of a track, looking towards rising chainage.
+enum class TrackSide { kLeft, kRight };
+template <>
+inline constexpr auto kEnumNames<TrackSide> =
+    std::to_array<EnumName<TrackSide>>({{TrackSide::kLeft, "left"}, {TrackSide::kRight, "right"}});
+
+/// Where the blades of a turnout lead.
+enum class TurnoutPosition { kStraight, kDiverging };
+template <>
+inline constexpr auto kEnumNames<TurnoutPosition> = std::to_array<EnumName<TurnoutPosition>>(
+    {{TurnoutPosition::kStraight, "straight"}, {TurnoutPosition::kDiverging, "diverging"}});
+
+/// A turnout at which a track branches off another one.
+struct TurnoutSpec {
+  std::string track;  ///< The track in which it lies, whose way through it is the straight one.
+  /// Chainage where it begins: the end of its blades' tips (the Weichenanfang). Absent only at the
+  /// end of a crossover, where it follows.
+  std::optional<double> s_m{};
+  TurnoutType turnout{};
+  /// Side of `track` to which the branch leaves; absent = where the branch's offset lies.
+  std::optional<TrackSide> side{};
+  /// Absent = as the vehicle's route needs it, else straight.
+  std::optional<TurnoutPosition> position{};
+
+  bool operator==(const TurnoutSpec&) const = default;
+};
+
+/// A track along the alignment. Its course is a lateral offset from the alignment as a function of
+/// chainage. Track 0 is usually "main" at offset 0.
+///
+/// The offset is constant, or changes with chainage, or follows from elements in the plane of
+/// chainage and offset; with a turnout at its beginning or end the track joins another one there
+/// (line/network.h has the rules). With turnouts at both ends and neither offsets nor elements it
+/// is a crossover.
 struct TrackSpec {
   std::string name = "main";
-  double offset_m = 0.0;          ///< Lateral, left positive.
-  double start_s_m = 0.0;         ///< First chainage of the track.
-  std::optional<double> end_s_m;  ///< Last chainage of the track; absent = end of the line.
+  std::optional<double> offset_m{};        ///< Lateral, left positive; absent = 0.
+  std::vector<ChainageValue> offsets_m{};  ///< Instead of offset_m: offsets by chainage.
+  std::vector<AlignmentElement> elements{};
+  double heading_deg = 0.0;         ///< Of the first element, against the alignment; left positive.
+  double start_s_m = 0.0;           ///< First chainage of the track, unless a turnout gives it.
+  std::optional<double> end_s_m{};  ///< Last chainage of the track; absent = end of the line.
+  std::optional<TurnoutSpec> begin{};  ///< Turnout that opens with rising chainage.
+  std::optional<TurnoutSpec> end{};    ///< Turnout that opens with falling chainage.
   SleeperType sleeper = SleeperType::kConcrete;
   bool electrified = true;  ///< Whether the track has a contact line.
 
@@ -185,6 +232,9 @@ struct VehicleSpec {
   bool operator==(const VehicleSpec&) const = default;
 };
 
+class TrackCourse;
+struct Network;
+
 /// The railway world of a scenario. The line is divided into chunks of kChunkLength_m each, from
 /// chainage 0.
 ///
@@ -226,8 +276,12 @@ class RailWorld final : public World {
   [[nodiscard]] std::shared_ptr<const RailWorld> WithoutObject(const std::string& name) const;
 
   [[nodiscard]] const Alignment& alignment() const;
+  /// The courses of all tracks, and the turnouts (core/rail/line/network.h).
+  [[nodiscard]] const Network& network() const;
 
   [[nodiscard]] const TrackSpec& vehicle_track() const;
+  /// The course that the vehicle follows (core/rail/line/track_course.h).
+  [[nodiscard]] const TrackCourse& vehicle_course() const;
   /// Whether WithVehicleSpeed() made this world or one that it was made from.
   [[nodiscard]] bool has_changed_vehicle_speed() const;
   [[nodiscard]] double VehicleSpeed_mps(std::int64_t time_ns) const;
@@ -235,6 +289,7 @@ class RailWorld final : public World {
   [[nodiscard]] double VehicleChainage_m(std::int64_t time_ns) const;
   /// The track and the chainage of objects()[object].
   [[nodiscard]] const TrackSpec& object_track(std::size_t object) const;
+  [[nodiscard]] const TrackCourse& object_course(std::size_t object) const;
   [[nodiscard]] double ObjectChainage_m(std::size_t object, std::int64_t time_ns) const;
 
   [[nodiscard]] Transform WorldFromVehicle(std::int64_t time_ns) const override;

@@ -24,17 +24,20 @@ constexpr double kWireTolerance_m = 2e-3;
 /// deviate by less than 1.6 mm.
 constexpr double kContactChord_m = 5.0;
 
-/// The wires of one track between two supports, in world coordinates.
+/// The wires of one track between two supports, in world coordinates. At the support before its
+/// beginning or behind its end, the wire of a branch lies with that of the track that it leaves or
+/// joins.
 class Span {
  public:
   Span(const ChunkContext& context,
-       const TrackSpec& track,
+       const TrackCourse& track,
        const CatenarySupport& first,
        const CatenarySupport& last)
       : alignment_(context.alignment), first_s_m_(first.s_m), length_m_(last.s_m - first.s_m) {
     const CatenarySpec& spec = context.spec.catenary;
     const auto wire = [&](const CatenarySupport& support) -> Vector3 {
-      return WorldFromSupport(alignment_, context.spec, track, support.s_m) *
+      return WorldFromSupport(alignment_, context.spec, track.OffsetWithin_m(support.s_m),
+                              support.s_m) *
              Vector3(0.0, support.stagger_m, spec.contact_height_m);
     };
     first_m_ = wire(first);
@@ -150,6 +153,19 @@ void AddWiresOfSpan(const ChunkContext& context, const Span& span, std::vector<W
   }
 }
 
+/// Whether a track has a wire between two supports: where it runs past both or, if it begins or
+/// ends in a turnout, past one of them.
+bool HangsBetween(const TrackSpec& track,
+                  const TrackCourse& course,
+                  double first_s_m,
+                  double last_s_m) {
+  if (!track.electrified) return false;
+  const bool begins =
+      course.begin_s_m() <= first_s_m || (track.begin && course.begin_s_m() < last_s_m);
+  const bool ends = last_s_m <= course.end_s_m() || (track.end && first_s_m < course.end_s_m());
+  return begins && ends;
+}
+
 /// The supports of the spans that extend into the chunk.
 struct SupportRange {
   std::size_t first{};
@@ -176,8 +192,12 @@ void AddSupport(const ChunkContext& context,
                 Chunk& chunk) {
   const WorldSpec& spec = context.spec;
   const double shift_m = PantographShift_m(spec.catenary, context.alignment.At(support.s_m));
-  const auto chunk_from_support = [&](const TrackSpec& track) -> Transform {
-    return context.chunk_from_world * WorldFromSupport(context.alignment, spec, track, support.s_m);
+  const auto chunk_from_support = [&](double track_d_m) -> Transform {
+    return context.chunk_from_world *
+           WorldFromSupport(context.alignment, spec, track_d_m, support.s_m);
+  };
+  const auto offset_m = [&](std::size_t track) {
+    return context.tracks[track].OffsetWithin_m(support.s_m);
   };
   const auto add = [&](std::shared_ptr<const Model> model, const Transform& chunk_from_model,
                        std::size_t structure) {
@@ -189,21 +209,21 @@ void AddSupport(const ChunkContext& context,
   };
   const auto shared = [](Model model) { return std::make_shared<const Model>(std::move(model)); };
 
-  const SupportLayout layout = LayOutSupport(spec, context.alignment, support.s_m);
+  const SupportLayout layout = LayOutSupport(spec, context.tracks, support.s_m);
   for (const MastSite& mast : layout.masts) {
     add(models.mast,
-        chunk_from_support(spec.tracks[mast.track]) *
+        chunk_from_support(offset_m(mast.track)) *
             Eigen::Translation3d(0.0, mast.from_axis_m - shift_m, 0.0),
         mast.structure);
   }
   for (const CantileverSite& site : layout.cantilevers) {
     add(shared(MakeCantilever(spec.catenary, site.hangs ? site.face_m : site.face_m - shift_m,
                               support.stagger_m, context.surfaces)),
-        chunk_from_support(spec.tracks[site.track]), site.structure);
+        chunk_from_support(offset_m(site.track)), site.structure);
   }
   for (const PortalSite& site : layout.portals) {
-    add(shared(MakePortal(spec.catenary, site, shift_m, context.surfaces)),
-        chunk_from_support(TrackSpec{}), site.structure);
+    add(shared(MakePortal(spec.catenary, site, shift_m, context.surfaces)), chunk_from_support(0.0),
+        site.structure);
   }
 }
 
@@ -224,9 +244,8 @@ std::vector<Wire> WiresInChunk(const ChunkContext& context, const CatenaryPlan& 
     for (std::size_t i = around.first; i + 1 < around.end; ++i) {
       const CatenarySupport& first = plan.supports()[i];
       const CatenarySupport& last = plan.supports()[i + 1];
-      if (!HasWireAt(track, context.alignment, first.s_m)) continue;
-      if (!HasWireAt(track, context.alignment, last.s_m)) continue;
-      const Span span(context, track, first, last);
+      if (!HangsBetween(track, context.tracks[k], first.s_m, last.s_m)) continue;
+      const Span span(context, context.tracks[k], first, last);
       const std::size_t num_known = wires.size();
       AddWiresOfSpan(context, span, wires);
       const WireSpan in_wind = span.InWind(static_cast<std::uint32_t>(i * tracks.size() + k));

@@ -58,12 +58,12 @@ class CatenaryPlan {
 /// positive.
 [[nodiscard]] double PantographShift_m(const CatenarySpec& spec, const AxisPoint& axis);
 
-/// The level frame of one track at one support, in which cantilever and wires are described: x
-/// along the heading, z up. The origin lies below the middle of a pantograph by the height of the
-/// contact line, at PantographShift_m() from the track's axis.
+/// The level frame of one track, at the offset `track_d_m`, at one support, in which cantilever and
+/// wires are described: x along the heading, z up. The origin lies below the middle of a pantograph
+/// by the height of the contact line, at PantographShift_m() from the track's axis.
 [[nodiscard]] Transform WorldFromSupport(const Alignment& alignment,
                                          const WorldSpec& spec,
-                                         const TrackSpec& track,
+                                         double track_d_m,
                                          double s_m);
 
 }  // namespace railcast

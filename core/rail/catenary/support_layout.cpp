@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/rail/track/sweep.h"
 
 namespace railcast {
 namespace {
@@ -18,51 +17,88 @@ constexpr double kBeyondEnd_m = 10.0;
 /// Mast places closer than this differ by rounding only.
 constexpr double kSamePlace_m = 1e-6;
 
+/// Tracks that are closer to each other belong together: between tracks that run side by side there
+/// are at least 3 m.
+constexpr double kTogether_m = 3.0 - 1e-9;
+
+/// Tracks at one support that are too close for anything between them; most often a single one.
+struct TrackGroup {
+  double right_m{};  ///< Offset of the rightmost of them.
+  double left_m{};
+
+  [[nodiscard]] bool Has(double offset_m) const {
+    return right_m <= offset_m && offset_m <= left_m;
+  }
+  [[nodiscard]] double Edge_m(bool on_left) const { return on_left ? left_m : right_m; }
+};
+
 /// The tracks at one support, and the room between and beside them.
 class Tracks {
  public:
-  Tracks(const WorldSpec& spec, const Alignment& alignment, double s_m)
-      : spec_(spec), to_mast_m_(spec.catenary.mast_distance_m + kMastHalfDepth_m) {
-    for (const TrackSpec& track : spec.tracks) {
-      if (track.start_s_m - kBeyondEnd_m <= s_m &&
-          s_m <= TrackEnd_m(track, alignment) + kBeyondEnd_m) {
-        offsets_m_.push_back(track.offset_m);
+  Tracks(const WorldSpec& spec, std::span<const TrackCourse> tracks, double s_m)
+      : to_mast_m_(spec.catenary.mast_distance_m + kMastHalfDepth_m), num_tracks_(tracks.size()) {
+    std::vector<double> offsets_m;
+    for (const TrackCourse& track : tracks) {
+      const double offset_m = track.OffsetWithin_m(s_m);
+      const bool is_here =
+          track.begin_s_m() - kBeyondEnd_m <= s_m && s_m <= track.end_s_m() + kBeyondEnd_m;
+      if (is_here) offsets_m.push_back(offset_m);
+      if (is_here || track.is_parallel()) leftmost_m_ = std::max(leftmost_m_, offset_m);
+    }
+    std::ranges::sort(offsets_m);
+    for (const double offset_m : offsets_m) {
+      if (groups_.empty() || offset_m - groups_.back().left_m >= kTogether_m) {
+        groups_.push_back({offset_m, offset_m});
+      } else {
+        groups_.back().left_m = offset_m;
       }
-      leftmost_m_ = std::max(leftmost_m_, track.offset_m);
     }
   }
 
-  /// Offset of the next track on that side of the track at `offset_m`.
-  [[nodiscard]] std::optional<double> Next(double offset_m, bool on_left) const {
-    std::optional<double> next_m;
-    for (const double other_m : offsets_m_) {
-      if (on_left ? other_m <= offset_m : other_m >= offset_m) continue;
-      if (!next_m || std::abs(other_m - offset_m) < std::abs(*next_m - offset_m)) next_m = other_m;
-    }
-    return next_m;
+  [[nodiscard]] const TrackGroup& GroupOf(double offset_m) const {
+    const auto found =
+        std::ranges::find_if(groups_, [&](const TrackGroup& group) { return group.Has(offset_m); });
+    Check(found != groups_.end(), "a track with a wire is one of those at its support");
+    return *found;
   }
 
-  /// Place for a mast at its nominal distance from its track, if it is clear: from the track's
-  /// axis, left positive.
-  [[nodiscard]] std::optional<double> MastBeside(double offset_m, bool on_left) const {
+  /// The next group on that side.
+  [[nodiscard]] const TrackGroup* Next(const TrackGroup& group, bool on_left) const {
+    const auto index = &group - groups_.data();
+    if (on_left) return index + 1 < std::ssize(groups_) ? &group + 1 : nullptr;
+    return index > 0 ? &group - 1 : nullptr;
+  }
+
+  /// Place for a mast at its nominal distance from the outermost track of a group, if it is clear:
+  /// from that track's axis, left positive.
+  [[nodiscard]] std::optional<double> MastBeside(const TrackGroup& group, bool on_left) const {
     const double from_axis_m = on_left ? to_mast_m_ : -to_mast_m_;
-    return IsClear(offset_m, offset_m + from_axis_m) ? std::optional(from_axis_m) : std::nullopt;
+    return IsClear(group, group.Edge_m(on_left) + from_axis_m) ? std::optional(from_axis_m)
+                                                               : std::nullopt;
   }
 
-  /// As MastBeside(), halfway to the next track.
-  [[nodiscard]] std::optional<double> MastMidway(double offset_m, bool on_left) const {
-    const std::optional<double> next_m = Next(offset_m, on_left);
-    if (!next_m || !IsClear(offset_m, 0.5 * (offset_m + *next_m))) return std::nullopt;
-    return 0.5 * (*next_m - offset_m);
+  /// As MastBeside(), halfway to the next group.
+  [[nodiscard]] std::optional<double> MastMidway(const TrackGroup& group, bool on_left) const {
+    const TrackGroup* next = Next(group, on_left);
+    if (next == nullptr) return std::nullopt;
+    const double edge_m = group.Edge_m(on_left);
+    const double next_m = next->Edge_m(!on_left);
+    if (!IsClear(group, 0.5 * (edge_m + next_m))) return std::nullopt;
+    return 0.5 * (next_m - edge_m);
   }
 
+  /// The mast of a track: left of that track's axis.
   [[nodiscard]] std::optional<double> OwnMast(double offset_m) const {
-    const bool is_leftmost = spec_.tracks.size() > 1 && offset_m == leftmost_m_;
+    const TrackGroup& group = GroupOf(offset_m);
+    const auto from_axis_m = [&](double from_edge_m, bool on_left) {
+      return (group.Edge_m(on_left) - offset_m) + from_edge_m;
+    };
+    const bool is_leftmost = num_tracks_ > 1 && group.left_m == leftmost_m_;
     for (const bool on_left : {is_leftmost, !is_leftmost}) {
-      if (const auto mast_m = MastBeside(offset_m, on_left)) return mast_m;
+      if (const auto mast_m = MastBeside(group, on_left)) return from_axis_m(*mast_m, on_left);
     }
     for (const bool on_left : {false, true}) {
-      if (const auto mast_m = MastMidway(offset_m, on_left)) return mast_m;
+      if (const auto mast_m = MastMidway(group, on_left)) return from_axis_m(*mast_m, on_left);
     }
     return std::nullopt;
   }
@@ -70,40 +106,50 @@ class Tracks {
   /// The nearest place for a mast on that side of a track, beyond other tracks if necessary.
   /// Measured left of the alignment.
   [[nodiscard]] double NearestMast_d_m(double offset_m, bool on_left) const {
-    std::optional<double> at_m = offset_m;
-    while (at_m) {
-      auto mast_m = MastBeside(*at_m, on_left);
-      if (!mast_m) mast_m = MastMidway(*at_m, on_left);
-      if (mast_m) return *at_m + *mast_m;
-      at_m = Next(*at_m, on_left);
+    for (const TrackGroup* at = &GroupOf(offset_m); at != nullptr; at = Next(*at, on_left)) {
+      auto mast_m = MastBeside(*at, on_left);
+      if (!mast_m) mast_m = MastMidway(*at, on_left);
+      if (mast_m) return at->Edge_m(on_left) + *mast_m;
     }
     Check(false, "there is room beyond the outermost track");
     return offset_m;
   }
 
+  /// The post of a track without a mast, halfway to the group on its right: left of its axis.
+  [[nodiscard]] double PostFromAxis_m(double offset_m) const {
+    const TrackGroup& group = GroupOf(offset_m);
+    const TrackGroup* next = Next(group, false);
+    Check(next != nullptr, "a track without a place for a mast lies between others");
+    return (group.right_m - offset_m) + 0.5 * (next->left_m - group.right_m);
+  }
+
  private:
-  /// Whether the mast is clear of all tracks but its own.
-  [[nodiscard]] bool IsClear(double own_m, double mast_m) const {
-    return std::none_of(offsets_m_.begin(), offsets_m_.end(), [&](double other_m) {
-      if (other_m == own_m) return false;
-      const bool is_beyond = (other_m - own_m) * (other_m - mast_m) < 0.0;
-      return is_beyond || std::abs(other_m - mast_m) < kMastClearance_m + kMastHalfDepth_m;
+  /// Whether the mast is clear of all tracks but those of its own group.
+  [[nodiscard]] bool IsClear(const TrackGroup& own, double mast_m) const {
+    return std::ranges::none_of(groups_, [&](const TrackGroup& group) {
+      if (&group == &own) return false;
+      const auto obstructs = [&](double other_m) {
+        const double own_m = own.Edge_m(mast_m > own.left_m);
+        const bool is_beyond = (other_m - own_m) * (other_m - mast_m) < 0.0;
+        return is_beyond || std::abs(other_m - mast_m) < kMastClearance_m + kMastHalfDepth_m;
+      };
+      return obstructs(group.right_m) || obstructs(group.left_m);
     });
   }
 
-  const WorldSpec& spec_;
   double to_mast_m_;
-  std::vector<double> offsets_m_;
-  double leftmost_m_ = -std::numeric_limits<double>::infinity();  ///< Of the whole line.
+  std::size_t num_tracks_;
+  std::vector<TrackGroup> groups_;  ///< From right to left.
+  double leftmost_m_ = -std::numeric_limits<double>::infinity();
 };
 
 /// Builds a layout track by track.
 class LayoutDraft {
  public:
-  LayoutDraft(const WorldSpec& spec, const Alignment& alignment, double s_m)
-      : spec_(spec), tracks_(spec, alignment, s_m) {
-    for (std::size_t track = 0; track < spec.tracks.size(); ++track) {
-      if (HasWireAt(spec.tracks[track], alignment, s_m)) wired_.push_back(track);
+  LayoutDraft(const WorldSpec& spec, std::span<const TrackCourse> tracks, double s_m)
+      : courses_(tracks), s_m_(s_m), tracks_(spec, tracks, s_m) {
+    for (std::size_t track = 0; track < tracks.size(); ++track) {
+      if (HasWireAt(spec.tracks[track], tracks[track], s_m)) wired_.push_back(track);
     }
   }
 
@@ -122,16 +168,12 @@ class LayoutDraft {
   }
 
  private:
-  [[nodiscard]] double Offset_m(std::size_t track) const { return spec_.tracks[track].offset_m; }
+  [[nodiscard]] double Offset_m(std::size_t track) const {
+    return courses_[track].OffsetWithin_m(s_m_);
+  }
 
   [[nodiscard]] static bool Spans(const PortalSite& portal, double offset_m) {
     return portal.right_d_m < offset_m && offset_m < portal.left_d_m;
-  }
-
-  [[nodiscard]] double PostFromAxis_m(std::size_t track) const {
-    const std::optional<double> next_m = tracks_.Next(Offset_m(track), false);
-    Check(next_m.has_value(), "a track without a place for a mast lies between others");
-    return 0.5 * (*next_m - Offset_m(track));
   }
 
   void Hang(std::size_t track) {
@@ -149,7 +191,11 @@ class LayoutDraft {
       });
       same = portals.insert(same, portal);
     }
-    same->posts_d_m.push_back(offset_m + PostFromAxis_m(track));
+    const double post_d_m = offset_m + tracks_.PostFromAxis_m(offset_m);
+    const bool is_there = std::ranges::any_of(same->posts_d_m, [&](double other_d_m) {
+      return std::abs(other_d_m - post_d_m) < kSamePlace_m;
+    });
+    if (!is_there) same->posts_d_m.push_back(post_d_m);
   }
 
   void AddCantilever(std::size_t track) {
@@ -160,7 +206,7 @@ class LayoutDraft {
     const std::optional<double> mast_m = tracks_.OwnMast(Offset_m(track));
     std::size_t structure = portal == portals.end() ? track : portal->structure;
     if (mast_m) structure = AddMast({track, *mast_m, structure});
-    const double from_axis_m = mast_m ? *mast_m : PostFromAxis_m(track);
+    const double from_axis_m = mast_m ? *mast_m : tracks_.PostFromAxis_m(Offset_m(track));
     layout_.cantilevers.push_back(
         {.track = track,
          .face_m = from_axis_m - std::copysign(kMastHalfDepth_m, from_axis_m),
@@ -180,7 +226,8 @@ class LayoutDraft {
     return site.structure;
   }
 
-  const WorldSpec& spec_;
+  std::span<const TrackCourse> courses_;
+  double s_m_;
   Tracks tracks_;
   std::vector<std::size_t> wired_;
   SupportLayout layout_;
@@ -188,12 +235,14 @@ class LayoutDraft {
 
 }  // namespace
 
-SupportLayout LayOutSupport(const WorldSpec& spec, const Alignment& alignment, double s_m) {
-  return LayoutDraft(spec, alignment, s_m).Make();
+SupportLayout LayOutSupport(const WorldSpec& spec,
+                            std::span<const TrackCourse> tracks,
+                            double s_m) {
+  return LayoutDraft(spec, tracks, s_m).Make();
 }
 
-bool HasWireAt(const TrackSpec& track, const Alignment& alignment, double s_m) {
-  return track.electrified && track.start_s_m <= s_m && s_m <= TrackEnd_m(track, alignment);
+bool HasWireAt(const TrackSpec& track, const TrackCourse& course, double s_m) {
+  return track.electrified && course.begin_s_m() <= s_m && s_m <= course.end_s_m();
 }
 
 }  // namespace railcast

@@ -1,9 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
-#include "railcast/alignment.h"
+#include "core/rail/line/track_course.h"
 #include "railcast/rail_world.h"
 
 namespace railcast {
@@ -59,12 +60,16 @@ struct SupportLayout {
 ///
 /// A track obstructs a mast if the mast would be nearer than kMastClearance_m to its axis, or
 /// beyond it. This applies from 10 m before the track's beginning to 10 m after its end.
+///
+/// Tracks less than 3 m apart, as in and behind a turnout, share one mast or post, which stands
+/// where it would for the outermost of them.
+/// @param tracks In the order of WorldSpec::tracks.
 [[nodiscard]] SupportLayout LayOutSupport(const WorldSpec& spec,
-                                          const Alignment& alignment,
+                                          std::span<const TrackCourse> tracks,
                                           double s_m);
 
-/// Returns whether the track has a wire at chainage `s_m`, provided that the line has a contact
-/// line.
-[[nodiscard]] bool HasWireAt(const TrackSpec& track, const Alignment& alignment, double s_m);
+/// Returns whether the track has a wire of its own at chainage `s_m`, provided that the line has a
+/// contact line.
+[[nodiscard]] bool HasWireAt(const TrackSpec& track, const TrackCourse& course, double s_m);
 
 }  // namespace railcast

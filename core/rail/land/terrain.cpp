@@ -89,14 +89,13 @@ std::vector<double> LinesOutwards(double d_m, double side, double half_width_m) 
   return lines_m;
 }
 
-/// The grid's lateral positions from right to left; they depend on the spec only.
-std::vector<double> LateralLines(const WorldSpec& spec) {
+/// The grid's lateral positions from right to left, the same all along the line.
+std::vector<double> LateralLines(const WorldSpec& spec, std::span<const TrackCourse> tracks) {
   const double edge_m = spec.terrain.half_width_m;
-  const auto [right, left] = std::minmax_element(
-      spec.tracks.begin(), spec.tracks.end(),
-      [](const TrackSpec& a, const TrackSpec& b) { return a.offset_m < b.offset_m; });
-  const double least_m = std::max(right->offset_m - kFineReach_m, -edge_m + kFineAcross_m);
-  const double most_m = std::min(left->offset_m + kFineReach_m, edge_m - kFineAcross_m);
+  const double right_m = std::ranges::min(tracks, {}, &TrackCourse::least_d_m).least_d_m();
+  const double left_m = std::ranges::max(tracks, {}, &TrackCourse::most_d_m).most_d_m();
+  const double least_m = std::max(right_m - kFineReach_m, -edge_m + kFineAcross_m);
+  const double most_m = std::min(left_m + kFineReach_m, edge_m - kFineAcross_m);
   std::vector<double> lines_m;
   for (auto i = static_cast<std::int64_t>(std::ceil(least_m / kFineAcross_m));
        static_cast<double>(i) * kFineAcross_m <= most_m; ++i) {
@@ -136,7 +135,7 @@ std::vector<double> CoarseStations(const ChainageRange& range, double wavelength
 class GroundGrid {
  public:
   explicit GroundGrid(const ChunkContext& context)
-      : context_(context), relief_(context), lines_m_(LateralLines(context.spec)) {}
+      : context_(context), relief_(context), lines_m_(LateralLines(context.spec, context.tracks)) {}
 
   [[nodiscard]] Mesh WholeMesh(std::span<const double> stations_m) const {
     std::vector<Vector3> points_m;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/base/random.h"
@@ -26,15 +27,41 @@ struct Strip {
   [[nodiscard]] double width_m() const { return outer_m - inner_m; }
 };
 
-/// The strip between two distances beyond the outermost track on that side, limited to the ground.
-Strip StripBeyondTracks(const WorldSpec& spec, double side, double least_m, double most_m) {
-  double outermost_m = side * spec.tracks.front().offset_m;
-  for (const TrackSpec& track : spec.tracks) {
-    outermost_m = std::max(outermost_m, side * track.offset_m);
+/// A strip that follows the outermost track on its side.
+struct Border {
+  double side{};
+  double least_m{};  ///< Distances beyond that track.
+  double most_m{};
+};
+
+/// The strip of a border at one chainage, limited to the ground.
+Strip StripAt(const ChunkContext& context, const Border& border, double s_m) {
+  // A track that is parallel to the alignment clears the whole line, as if it continued.
+  constexpr double kBeyondEnd_m = 10.0;
+  double outermost_m = -std::numeric_limits<double>::infinity();
+  for (const TrackCourse& track : context.tracks) {
+    const bool is_near =
+        s_m > track.begin_s_m() - kBeyondEnd_m && s_m < track.end_s_m() + kBeyondEnd_m;
+    if (!is_near && !track.is_parallel()) continue;
+    outermost_m = std::max(outermost_m, border.side * track.OffsetWithin_m(s_m));
   }
-  return {.side = side,
-          .inner_m = outermost_m + least_m,
-          .outer_m = std::min(outermost_m + most_m, spec.terrain.half_width_m)};
+  if (std::isinf(outermost_m)) outermost_m = 0.0;
+  return {.side = border.side,
+          .inner_m = outermost_m + border.least_m,
+          .outer_m = std::min(outermost_m + border.most_m, context.spec.terrain.half_width_m)};
+}
+
+/// The strip that holds those of a border all over the chunk.
+Strip WidestStrip(const ChunkContext& context, const Border& border) {
+  constexpr int kNumSamples = 50;
+  Strip widest = StripAt(context, border, context.begin_s_m);
+  for (int i = 1; i <= kNumSamples; ++i) {
+    const double s_m = std::lerp(context.begin_s_m, context.end_s_m, 1.0 * i / kNumSamples);
+    const Strip here = StripAt(context, border, s_m);
+    widest.inner_m = std::min(widest.inner_m, here.inner_m);
+    widest.outer_m = std::max(widest.outer_m, here.outer_m);
+  }
+  return widest;
 }
 
 /// Pose of an upright plant at a point of the ground.
@@ -66,11 +93,12 @@ Placement MakeTree(const PlantModels& plants,
 /// Adds the trees of one strip. In a straight strip of constant width, the chainages of a Poisson
 /// process have exponentially distributed gaps. In a curve, the strip is longer on the outside and
 /// shorter on the inside by the factor 1 - curvature * d. The process is drawn for the largest such
-/// factor and thinned to the true one (Lewis, Shedler 1979).
+/// factor, and for the widest strip, and thinned to the true one (Lewis, Shedler 1979).
 void AddTrees(const ChunkContext& context,
               const PlantModels& plants,
-              const Strip& strip,
+              const Border& border,
               Chunk& chunk) {
+  const Strip strip = WidestStrip(context, border);
   constexpr double kHectare_m2 = 1e4;
   const VegetationSpec& spec = context.spec.vegetation;
   const double largest_factor =
@@ -90,6 +118,8 @@ void AddTrees(const ChunkContext& context,
     const double d_m = strip.side * Uniform(where[1], strip.inner_m, strip.outer_m);
     const double factor = 1.0 - context.alignment.At(s_m).curvature_per_m * d_m;
     if (Uniform(where[2], 0.0, largest_factor) >= factor) continue;
+    const Strip here = StripAt(context, border, s_m);
+    if (strip.side * d_m < here.inner_m || strip.side * d_m > here.outer_m) continue;
     const double height_m = Uniform(where[3], spec.tree_height_min_m, spec.tree_height_max_m);
     chunk.placements.push_back(MakeTree(plants, height_m, GroundPoint(context, s_m, d_m), which));
   }
@@ -113,17 +143,19 @@ Eigen::Affine3d LaidOut(const ChunkContext& context, double s_m, double d_m, dou
 
 void AddGrass(const ChunkContext& context,
               const PlantModels& plants,
-              const Strip& strip,
+              const Border& border,
               Chunk& chunk) {
-  if (strip.width_m() < kGrassPatch_m) return;
-  const int num_rows = static_cast<int>(std::lround(strip.width_m() / kGrassPatch_m));
-  const double first_m = strip.inner_m + 0.5 * kGrassPatch_m;
-  const double spacing_m = num_rows > 1 ? (strip.width_m() - kGrassPatch_m) / (num_rows - 1) : 0.0;
   const auto first_along = static_cast<std::int64_t>(std::ceil(context.begin_s_m / kGrassPatch_m));
-  const std::uint32_t side_key = strip.side > 0.0 ? 1U : 0U;
+  const std::uint32_t side_key = border.side > 0.0 ? 1U : 0U;
   for (std::int64_t along = first_along;; ++along) {
     const double s_m = static_cast<double>(along) * kGrassPatch_m;
     if (s_m >= context.end_s_m) return;
+    const Strip strip = StripAt(context, border, s_m);
+    if (strip.width_m() < kGrassPatch_m) continue;
+    const int num_rows = static_cast<int>(std::lround(strip.width_m() / kGrassPatch_m));
+    const double first_m = strip.inner_m + 0.5 * kGrassPatch_m;
+    const double spacing_m =
+        num_rows > 1 ? (strip.width_m() - kGrassPatch_m) / (num_rows - 1) : 0.0;
     for (int row = 0; row < num_rows; ++row) {
       const auto item = 2U * static_cast<std::uint32_t>(row) + side_key;
       const auto words = RandomWords(context.seed, RandomUse::kGrassPlacement,
@@ -148,13 +180,9 @@ void AddVegetation(const ChunkContext& context, const PlantModels& plants, Chunk
   const VegetationSpec& spec = context.spec.vegetation;
   const double edge_m = context.spec.terrain.half_width_m;
   for (const double side : kBothSidesOfTrack) {
-    AddTrees(context, plants,
-             StripBeyondTracks(context.spec, side, spec.tree_min_distance_m, 2.0 * edge_m), chunk);
+    AddTrees(context, plants, {side, spec.tree_min_distance_m, 2.0 * edge_m}, chunk);
     if (!spec.grass) continue;
-    AddGrass(
-        context, plants,
-        StripBeyondTracks(context.spec, side, spec.grass_min_distance_m, spec.grass_max_distance_m),
-        chunk);
+    AddGrass(context, plants, {side, spec.grass_min_distance_m, spec.grass_max_distance_m}, chunk);
   }
 }
 

@@ -10,8 +10,11 @@ namespace {
 
 // The pose of a body that rests on the track with two pivots, of which the one at its origin is at
 // chainage s_m: its x axis is the line through both, its roll the mean of the cants there.
-Transform WorldFromBody(const Alignment& alignment, const TrackPose& pose, double s_m) {
-  const Transform front = alignment.WorldFromTrack(s_m, pose.d_m, pose.h_m);
+Transform WorldFromBody(const Alignment& alignment,
+                        const TrackCourse& course,
+                        const TrackPose& pose,
+                        double s_m) {
+  const Transform front = course.WorldFromTrack(alignment, s_m, pose.d_m, pose.h_m);
   const double backwards = std::cos(pose.heading_rad) < 0.0 ? 1.0 : -1.0;
   Transform rear = front;
   // The body is rigid, so the distance that counts is that between the pivots, not the one along
@@ -20,7 +23,7 @@ Transform WorldFromBody(const Alignment& alignment, const TrackPose& pose, doubl
   constexpr int kNumSteps = 4;
   double along_m = pose.pivot_distance_m;
   for (int step = 0; step < kNumSteps; ++step) {
-    rear = alignment.WorldFromTrack(s_m + backwards * along_m, pose.d_m, pose.h_m);
+    rear = course.WorldFromTrack(alignment, s_m + backwards * along_m, pose.d_m, pose.h_m);
     along_m *= pose.pivot_distance_m / (front.translation() - rear.translation()).norm();
   }
   const Vector3 x = (front.translation() - rear.translation()).normalized();
@@ -33,14 +36,17 @@ Transform WorldFromBody(const Alignment& alignment, const TrackPose& pose, doubl
 
 }  // namespace
 
-TrackPath::TrackPath(const TrackPose& pose, SpeedProfile profile, std::int64_t begin_ns)
-    : pose_(pose), profile_(std::move(profile)), begin_ns_(begin_ns) {}
+TrackPath::TrackPath(TrackCourse course,
+                     const TrackPose& pose,
+                     SpeedProfile profile,
+                     std::int64_t begin_ns)
+    : course_(std::move(course)), pose_(pose), profile_(std::move(profile)), begin_ns_(begin_ns) {}
 
 TrackPath TrackPath::WithSpeedFrom(std::int64_t from_ns,
                                    double speed_mps,
                                    double acceleration_mps2) const {
   return TrackPath(
-      pose_,
+      course_, pose_,
       profile_.WithSpeedFrom(SecondsFromNs(from_ns - begin_ns_), speed_mps, acceleration_mps2),
       begin_ns_);
 }
@@ -54,13 +60,13 @@ double TrackPath::ChainageAt(std::int64_t time_ns) const {
 }
 
 Transform TrackPath::WorldFromObjectAt(const Alignment& alignment, double s_m) const {
-  if (pose_.pivot_distance_m > 0.0) return WorldFromBody(alignment, pose_, s_m);
-  const Transform world_from_track = alignment.WorldFromTrack(s_m, pose_.d_m, pose_.h_m);
+  if (pose_.pivot_distance_m > 0.0) return WorldFromBody(alignment, course_, pose_, s_m);
+  const Transform world_from_track = course_.WorldFromTrack(alignment, s_m, pose_.d_m, pose_.h_m);
   const Eigen::Matrix3d track_from_object = RotationFromYawPitchRoll(pose_.heading_rad, 0.0, 0.0);
   const Eigen::Matrix3d world_from_object =
-      pose_.is_upright
-          ? RotationFromYawPitchRoll(alignment.At(s_m).heading_rad + pose_.heading_rad, 0.0, 0.0)
-          : Eigen::Matrix3d(world_from_track.linear() * track_from_object);
+      pose_.is_upright ? RotationFromYawPitchRoll(
+                             course_.Heading_rad(alignment, s_m) + pose_.heading_rad, 0.0, 0.0)
+                       : Eigen::Matrix3d(world_from_track.linear() * track_from_object);
   return MakeTransform(world_from_object, world_from_track.translation());
 }
 

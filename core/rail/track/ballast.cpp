@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/rail/land/noise_field.h"
@@ -37,18 +38,38 @@ struct Columns {
   std::int64_t last{};
 };
 
-Columns ColumnsOf(const WorldSpec& spec) {
+/// The least and the greatest offset that count for a chunk: those of tracks in it or near, and of
+/// all tracks that are parallel to the alignment.
+std::pair<double, double> OffsetsIn(const ChunkContext& context) {
+  constexpr double kStep_m = 1.0;
+  constexpr double kNear_m = 5.0;
+  double least_m = std::numeric_limits<double>::infinity();
+  double most_m = -least_m;
+  const auto add = [&](double d_m) {
+    least_m = std::min(least_m, d_m);
+    most_m = std::max(most_m, d_m);
+  };
+  for (const TrackCourse& track : context.tracks) {
+    if (track.is_parallel()) {
+      add(track.OffsetAt(context.begin_s_m).d_m);
+    } else if (track.begin_s_m() < context.end_s_m + kNear_m &&
+               track.end_s_m() > context.begin_s_m - kNear_m) {
+      for (double s_m = context.begin_s_m; s_m < context.end_s_m + kStep_m; s_m += kStep_m) {
+        add(track.OffsetWithin_m(s_m));
+      }
+    }
+  }
+  return {least_m, most_m};
+}
+
+Columns ColumnsOf(const ChunkContext& context) {
   // Covers shoulder and slope down to below the ground, with cant. Anything deeper is dropped
   // anyway.
   constexpr double kReach_m = CrossSection::kShoulder_m + 2.0;
-  double right_m = std::numeric_limits<double>::infinity();
-  double left_m = -right_m;
-  for (const TrackSpec& track : spec.tracks) {
-    right_m = std::min(right_m, track.offset_m - kReach_m);
-    left_m = std::max(left_m, track.offset_m + kReach_m);
-  }
-  return {.first = static_cast<std::int64_t>(std::floor(right_m / kGridAcross_m)),
-          .last = static_cast<std::int64_t>(std::ceil(left_m / kGridAcross_m))};
+  const auto [least_m, most_m] = OffsetsIn(context);
+  if (!(least_m <= most_m)) return {};
+  return {.first = static_cast<std::int64_t>(std::floor((least_m - kReach_m) / kGridAcross_m)),
+          .last = static_cast<std::int64_t>(std::ceil((most_m + kReach_m) / kGridAcross_m))};
 }
 
 /// The sheet of ballast over a grid whose points are counted by row and column.
@@ -56,7 +77,7 @@ class BallastSheet {
  public:
   explicit BallastSheet(const ChunkContext& context)
       : context_(context),
-        columns_(ColumnsOf(context.spec)),
+        columns_(ColumnsOf(context)),
         lowest_m_(-(kBelowGround_m + 4.0 * context.spec.terrain.roughness_sigma_m)),
         grain_(context.seed, RandomUse::kBallastRoughness, 0),
         stations_m_(GridStations({.begin_s_m = context.begin_s_m - 0.5 * kChunkOverlap_m,
@@ -116,9 +137,9 @@ class BallastSheet {
       places_m.push_back(sleeper_s_m + 0.5 * kSleeperSpacing_m);
     };
     add(context_.begin_s_m, context_.end_s_m);
-    for (const TrackSpec& track : context_.spec.tracks) {
-      const double begin_s_m = std::max(context_.begin_s_m, track.start_s_m);
-      const double end_s_m = std::min(context_.end_s_m, TrackEnd_m(track, context_.alignment));
+    for (const TrackCourse& track : context_.tracks) {
+      const double begin_s_m = std::max(context_.begin_s_m, track.begin_s_m());
+      const double end_s_m = std::min(context_.end_s_m, track.end_s_m());
       const bool is_whole = begin_s_m == context_.begin_s_m && end_s_m == context_.end_s_m;
       if (!is_whole && begin_s_m < end_s_m) add(begin_s_m, end_s_m);
     }
@@ -167,7 +188,11 @@ Mesh CoarseBallast(const ChunkContext& context, const BallastSheet& sheet) {
 
 void AddBallast(const ChunkContext& context, Chunk& chunk) {
   const BallastSheet sheet(context);
-  const bool is_coarse = context.is_coarse && sheet.stations_m().size() > 2;
+  // The coarser form has straight columns, which tracks that wander across them do not permit.
+  const bool is_straight = std::ranges::all_of(context.tracks, [&](const TrackCourse& track) {
+    return track.IsLevelIn(context.begin_s_m, context.end_s_m);
+  });
+  const bool is_coarse = context.is_coarse && is_straight && sheet.stations_m().size() > 2;
   const Mesh mesh = is_coarse ? CoarseBallast(context, sheet) : WholeBallast(context, sheet);
   if (!mesh.triangles.empty()) MeshOf(context.surfaces.ballast, chunk.ground).Append(mesh);
 }

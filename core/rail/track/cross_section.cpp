@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "core/base/error.h"
-#include "core/rail/track/sweep.h"
 
 namespace railcast {
 namespace {
@@ -21,6 +20,7 @@ constexpr double kSleeperHollowReach_m = 0.2;
 constexpr double kMiddleEnd_m = 0.45;
 constexpr double kSeatBegin_m = 0.60;
 
+/// 1 at the middle of a sleeper, falling to 0 within kSleeperHollowReach_m.
 double ClosenessToASleeper(double s_m) {
   const double distance_m = std::abs(s_m - kSleeperSpacing_m * std::round(s_m / kSleeperSpacing_m));
   return std::max(0.0, 1.0 - distance_m / kSleeperHollowReach_m);
@@ -36,7 +36,7 @@ SleeperSeat SeatOf(SleeperType sleeper) {
 }
 
 CrossSection::CrossSection(const ChunkContext& context, double s_m)
-    : sleeper_closeness_(ClosenessToASleeper(s_m)) {
+    : s_m_(s_m), sleeper_closeness_(ClosenessToASleeper(s_m)) {
   Check(!context.spec.tracks.empty(), "a line has a track");
   const AxisPoint axis = context.alignment.At(s_m);
   const Transform world_from_axis =
@@ -44,15 +44,18 @@ CrossSection::CrossSection(const ChunkContext& context, double s_m)
   chunk_from_axis_ = context.chunk_from_world * world_from_axis;
   const Transform axis_from_world = world_from_axis.inverse();
   const Vector3 left(-std::sin(axis.heading_rad), std::cos(axis.heading_rad), 0.0);
-  for (const TrackSpec& track : context.spec.tracks) {
+  for (std::size_t i = 0; i < context.tracks.size(); ++i) {
+    const TrackCourse& track = context.tracks[i];
+    TrackOffset offset = track.OffsetAt(std::clamp(s_m, track.begin_s_m(), track.end_s_m()));
     // As Alignment::WorldFromTrack() has it, which would evaluate the axis once more.
-    const Vector3 middle_m = axis_from_world * (axis.position_m + track.offset_m * left);
-    const double end_s_m = TrackEnd_m(track, context.alignment);
+    const Vector3 middle_m = axis_from_world * (axis.position_m + offset.d_m * left);
     tracks_.push_back({.d_m = middle_m.y(),
                        .height_m = middle_m.z(),
                        .cant_rad = axis.cant_rad,
-                       .beyond_end_m = std::max({0.0, track.start_s_m - s_m, s_m - end_s_m}),
-                       .seat = SeatOf(track.sleeper)});
+                       .turn_rad = TurnFromAlignment_rad(axis, offset),
+                       .begin_s_m = track.begin_s_m(),
+                       .end_s_m = track.end_s_m(),
+                       .seat = SeatOf(context.spec.tracks[i].sleeper)});
   }
   std::sort(tracks_.begin(), tracks_.end(),
             [](const TrackHere& a, const TrackHere& b) { return a.d_m < b.d_m; });
@@ -73,23 +76,36 @@ double CrossSection::BallastHeight_m(double d_m) const {
   for (const TrackHere& track : tracks_) {
     // From the shoulder, the slope takes about 0.8 m to reach the formation.
     constexpr double kReach_m = 3.0;
-    const double beyond_m = std::max(std::abs(d_m - track.d_m) - kShoulder_m, track.beyond_end_m);
+    const double beyond_m =
+        std::max(std::abs(d_m - track.d_m) - kShoulder_m, BeyondEnd_m(track, s_m_));
     if (beyond_m < kReach_m) height_m = std::max(height_m, BallastHeightOf(track, d_m));
   }
   return height_m;
 }
 
+double CrossSection::BeyondEnd_m(const TrackHere& track, double s_m) {
+  return std::max({0.0, track.begin_s_m - s_m, s_m - track.end_s_m});
+}
+
 double CrossSection::BallastHeightOf(const TrackHere& track, double d_m) const {
-  const double lateral_m = (d_m - track.d_m) / std::cos(track.cant_rad);
+  double lateral_m = (d_m - track.d_m) / std::cos(track.cant_rad);
+  double foot_s_m = s_m_;
+  double sleeper_closeness = sleeper_closeness_;
+  if (track.turn_rad != 0.0) {
+    // The nearest point of the track, beside which the sleeper that matters lies.
+    foot_s_m += (d_m - track.d_m) * std::sin(track.turn_rad) * std::cos(track.turn_rad);
+    sleeper_closeness = ClosenessToASleeper(foot_s_m);
+    lateral_m *= std::cos(track.turn_rad);
+  }
   const double on_top_m = std::clamp(lateral_m, -kShoulder_m, kShoulder_m);
-  const double beyond_m = std::max(std::abs(lateral_m - on_top_m), track.beyond_end_m);
+  const double beyond_m = std::max(std::abs(lateral_m - on_top_m), BeyondEnd_m(track, foot_s_m));
   const double seat_fraction =
       std::clamp((std::abs(on_top_m) - kMiddleEnd_m) / (kSeatBegin_m - kMiddleEnd_m), 0.0, 1.0);
   const double sleeper_fraction = std::clamp(
       (kShoulder_m - std::abs(on_top_m)) / (kShoulder_m - kSleeperHalfLength_m), 0.0, 1.0);
   const double top_m = track.seat.top_m - (1.0 - seat_fraction) * track.seat.middle_drop_m -
                        kBallastBelowSleeperTop_m -
-                       sleeper_fraction * sleeper_closeness_ * kSleeperHollow_m;
+                       sleeper_fraction * sleeper_closeness * kSleeperHollow_m;
   return track.height_m + top_m * std::cos(track.cant_rad) + on_top_m * std::sin(track.cant_rad) -
          beyond_m * kBallastSlope;
 }

@@ -41,7 +41,8 @@ class CrossSection {
   [[nodiscard]] double FormationHeight_m(double d_m) const;
   /// The slopes continue below the formation. Minus infinity where no track is near.
   [[nodiscard]] double BallastHeight_m(double d_m) const;
-  /// Distance of `d_m` from the axis of the nearest track, whether or not that track exists here.
+  /// Distance of `d_m` from the axis of the nearest track. Where a track does not exist, its
+  /// nearest end counts, at the same offset.
   [[nodiscard]] double DistanceFromTracks_m(double d_m) const;
 
   /// The point in the chunk's frame.
@@ -52,14 +53,19 @@ class CrossSection {
     double d_m{};
     double height_m{};
     double cant_rad{};
-    double beyond_end_m{};  ///< Distance along the line from the track's end; 0 within the track.
+    double turn_rad{};  ///< Of its heading from that of the alignment.
+    double begin_s_m{};
+    double end_s_m{};
     SleeperSeat seat;
   };
 
+  /// Distance along the line from the track's end; 0 within the track.
+  [[nodiscard]] static double BeyondEnd_m(const TrackHere& track, double s_m);
   [[nodiscard]] double BallastHeightOf(const TrackHere& track, double d_m) const;
 
-  Transform chunk_from_axis_;      ///< Level: x along the heading, y left, z up.
-  double sleeper_closeness_;       ///< 1 at the middle of a sleeper, falling to 0 within 0.2 m.
+  Transform chunk_from_axis_;  ///< Level: x along the heading, y left, z up.
+  double s_m_;
+  double sleeper_closeness_;       ///< Of tracks parallel to the alignment.
   std::vector<TrackHere> tracks_;  ///< From right to left.
 };
 

@@ -9,49 +9,33 @@
 namespace railcast {
 namespace {
 
-/// Highest curvature of a line `offset_m` left of the axis, in plan and elevation combined,
-/// relative to a step L of the axis' chainage: the line has the radius R - d and the chord L (R -
-/// d) / R, so that the sagitta is L^2 (1 - d / R) / (8 R).
+/// Highest curvature of a line in plan and elevation combined, relative to a step of the axis'
+/// chainage: the deviation of a chord over a step L is at most L^2 / 8 times it.
+/// @param plan_per_m The part in plan, as a function of chainage.
+template <typename Plan>
 double StrongestCurvature_per_m(const Alignment& alignment,
                                 const ChainageRange& range,
-                                double offset_m) {
+                                const Plan& plan_per_m) {
   constexpr double kSampling_m = 1.0;
   const double length_m = range.end_s_m - range.begin_s_m;
   const auto num_samples = static_cast<int>(std::ceil(length_m / kSampling_m)) + 1;
   double strongest_per_m = 0.0;
   for (int i = 0; i <= num_samples; ++i) {
     const double s_m = range.begin_s_m + length_m * i / num_samples;
-    const double axis_per_m = alignment.At(s_m).curvature_per_m;
-    const double plan_per_m = axis_per_m * (1.0 - axis_per_m * offset_m);
     // Beyond its ends, the line is level whatever the gradient at the end.
     const double before_s_m = std::max(0.0, s_m - 0.5 * kSampling_m);
     const double after_s_m = std::min(alignment.length_m(), s_m + 0.5 * kSampling_m);
     const double elevation_per_m =
         (alignment.At(after_s_m).gradient - alignment.At(before_s_m).gradient) / kSampling_m;
-    strongest_per_m = std::max(strongest_per_m, std::hypot(plan_per_m, elevation_per_m));
+    strongest_per_m = std::max(strongest_per_m, std::hypot(plan_per_m(s_m), elevation_per_m));
   }
   return strongest_per_m;
 }
 
-}  // namespace
-
-double TrackEnd_m(const TrackSpec& track, const Alignment& alignment) {
-  return track.end_s_m.value_or(alignment.length_m());
-}
-
-ChainageRange SweptRange(const ChunkContext& context, const TrackSpec& track) {
-  return {.begin_s_m = std::max(context.begin_s_m - 0.5 * kChunkOverlap_m, track.start_s_m),
-          .end_s_m = std::min(context.end_s_m + 0.5 * kChunkOverlap_m,
-                              TrackEnd_m(track, context.alignment))};
-}
-
-std::vector<double> SweepStations(const Alignment& alignment,
-                                  const ChainageRange& range,
-                                  double offset_m,
-                                  double tolerance_m,
-                                  double max_step_m) {
-  Check(range.begin_s_m < range.end_s_m, "a sweep has a length");
-  const double curvature_per_m = StrongestCurvature_per_m(alignment, range, offset_m);
+std::vector<double> EvenStations(const ChainageRange& range,
+                                 double curvature_per_m,
+                                 double tolerance_m,
+                                 double max_step_m) {
   const double step_m = std::min(max_step_m, std::sqrt(8.0 * tolerance_m / curvature_per_m));
   const double length_m = range.end_s_m - range.begin_s_m;
   const auto num_steps = static_cast<int>(std::ceil(length_m / step_m));
@@ -60,6 +44,50 @@ std::vector<double> SweepStations(const Alignment& alignment,
     stations_m.push_back(range.begin_s_m + length_m * i / num_steps);
   }
   return stations_m;
+}
+
+}  // namespace
+
+ChainageRange SweptRange(const ChunkContext& context, const TrackCourse& track) {
+  return {.begin_s_m = std::max(context.begin_s_m - 0.5 * kChunkOverlap_m, track.begin_s_m()),
+          .end_s_m = std::min(context.end_s_m + 0.5 * kChunkOverlap_m, track.end_s_m())};
+}
+
+std::vector<double> SweepStations(const Alignment& alignment,
+                                  const ChainageRange& range,
+                                  double offset_m,
+                                  double tolerance_m,
+                                  double max_step_m) {
+  Check(range.begin_s_m < range.end_s_m, "a sweep has a length");
+  // The line has the radius R - d and the chord L (R - d) / R, so that the sagitta is L^2 (1 - d /
+  // R) / (8 R).
+  const auto plan_per_m = [&](double s_m) {
+    const double axis_per_m = alignment.At(s_m).curvature_per_m;
+    return axis_per_m * (1.0 - axis_per_m * offset_m);
+  };
+  return EvenStations(range, StrongestCurvature_per_m(alignment, range, plan_per_m), tolerance_m,
+                      max_step_m);
+}
+
+std::vector<double> SweepStations(const Alignment& alignment,
+                                  const ChainageRange& range,
+                                  const TrackCourse& track,
+                                  double tolerance_m,
+                                  double max_step_m) {
+  if (track.is_parallel()) {
+    return SweepStations(alignment, range, track.OffsetAt(range.begin_s_m).d_m, tolerance_m,
+                         max_step_m);
+  }
+  Check(range.begin_s_m < range.end_s_m, "a sweep has a length");
+  // A step of chainage is longer on the track by hypot(1 - kappa d, d').
+  const auto plan_per_m = [&](double s_m) {
+    const double axis_per_m = alignment.At(s_m).curvature_per_m;
+    const TrackOffset offset = track.OffsetAt(s_m);
+    const double stretch = std::hypot(1.0 - axis_per_m * offset.d_m, offset.slope);
+    return track.CurvatureAt(alignment, s_m) * stretch * stretch;
+  };
+  return EvenStations(range, StrongestCurvature_per_m(alignment, range, plan_per_m), tolerance_m,
+                      max_step_m);
 }
 
 std::vector<double> GridStations(const ChainageRange& range, double step_m) {

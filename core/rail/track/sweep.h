@@ -17,13 +17,10 @@ struct ChainageRange {
   double end_s_m{};
 };
 
-/// The range of `track` that a chunk's swept surfaces cover: the chunk with half the overlap at
+/// The range of a track that a chunk's swept surfaces cover: the chunk with half the overlap at
 /// either end, or less where the track begins or ends. If the track does not extend into the chunk,
 /// the range ends before it begins.
-[[nodiscard]] ChainageRange SweptRange(const ChunkContext& context, const TrackSpec& track);
-
-/// Chainage of the track's end: as specified, or the end of the line.
-[[nodiscard]] double TrackEnd_m(const TrackSpec& track, const Alignment& alignment);
+[[nodiscard]] ChainageRange SweptRange(const ChunkContext& context, const TrackCourse& track);
 
 /// Evenly spaced chainages over the range, such that chords between neighbours deviate from a line
 /// `offset_m` left of the axis by at most `tolerance_m`. From the sagitta L^2 kappa / 8 at the
@@ -32,6 +29,13 @@ struct ChainageRange {
 [[nodiscard]] std::vector<double> SweepStations(const Alignment& alignment,
                                                 const ChainageRange& range,
                                                 double offset_m,
+                                                double tolerance_m,
+                                                double max_step_m);
+
+/// As above, for the axis of a track.
+[[nodiscard]] std::vector<double> SweepStations(const Alignment& alignment,
+                                                const ChainageRange& range,
+                                                const TrackCourse& track,
                                                 double tolerance_m,
                                                 double max_step_m);
 

@@ -40,17 +40,15 @@ void AppendRailEnd(const Transform& chunk_from_track,
 }
 
 void AddRail(const ChunkContext& context,
-             const TrackSpec& track,
+             const TrackCourse& track,
              const RailSection& section,
              const ChainageRange& range,
              Chunk& chunk) {
   std::vector<Transform> stations;
   const double tolerance_m = context.is_coarse ? kCoarseRailTolerance_m : kRailTolerance_m;
   const double chord_m = context.is_coarse ? kLongestCoarseRailChord_m : kLongestRailChord_m;
-  for (const double s_m :
-       SweepStations(context.alignment, range, track.offset_m, tolerance_m, chord_m)) {
-    stations.push_back(context.chunk_from_world *
-                       context.alignment.WorldFromTrack(s_m, track.offset_m));
+  for (const double s_m : SweepStations(context.alignment, range, track, tolerance_m, chord_m)) {
+    stations.push_back(context.chunk_from_world * track.WorldFromTrack(context.alignment, s_m));
   }
   const std::span<const Eigen::Vector2d> outline(section.outline_m);
   const std::size_t band_length = section.head_last - section.head_first + 1;
@@ -64,19 +62,18 @@ void AddRail(const ChunkContext& context,
               outline.begin() + static_cast<std::ptrdiff_t>(section.head_first) + 1);
   Mesh& side = MeshOf(context.surfaces.rail_side, chunk.ground);
   AppendSweep(stations, rest, side);
-  if (range.begin_s_m == track.start_s_m) AppendRailEnd(stations.front(), section, false, side);
-  if (range.end_s_m == TrackEnd_m(track, context.alignment)) {
-    AppendRailEnd(stations.back(), section, true, side);
-  }
+  if (range.begin_s_m == track.begin_s_m()) AppendRailEnd(stations.front(), section, false, side);
+  if (range.end_s_m == track.end_s_m()) AppendRailEnd(stations.back(), section, true, side);
 }
 
 void AddSleepers(const ChunkContext& context,
-                 const TrackSpec& track,
+                 std::size_t index,
                  const InfrastructureModels& models,
                  Chunk& chunk) {
   const std::shared_ptr<const Model>& model =
-      track.sleeper == SleeperType::kConcrete ? models.concrete_sleeper : models.wood_sleeper;
-  const double end_s_m = TrackEnd_m(track, context.alignment);
+      context.spec.tracks[index].sleeper == SleeperType::kConcrete ? models.concrete_sleeper
+                                                                   : models.wood_sleeper;
+  const TrackCourse& track = context.tracks[index];
   // One step beyond the chunk on either side, so that rounding neither loses nor duplicates a
   // sleeper.
   const auto first = static_cast<std::int64_t>(std::floor(context.begin_s_m / kSleeperSpacing_m));
@@ -84,9 +81,9 @@ void AddSleepers(const ChunkContext& context,
   for (std::int64_t k = first; k <= last; ++k) {
     const double s_m = static_cast<double>(k) * kSleeperSpacing_m;
     if (s_m < context.begin_s_m || s_m >= context.end_s_m) continue;
-    if (s_m < track.start_s_m || s_m > end_s_m) continue;
+    if (s_m < track.begin_s_m() || s_m > track.end_s_m()) continue;
     const Transform chunk_from_track =
-        context.chunk_from_world * context.alignment.WorldFromTrack(s_m, track.offset_m);
+        context.chunk_from_world * track.WorldFromTrack(context.alignment, s_m);
     chunk.placements.push_back(
         {.model = model, .chunk_from_model = Eigen::Affine3d(chunk_from_track), .instance = 0});
   }
@@ -97,8 +94,9 @@ void AddSleepers(const ChunkContext& context,
 void AddTracks(const ChunkContext& context, const InfrastructureModels& models, Chunk& chunk) {
   const RailSection left = MakeRailSection(true);
   const RailSection right = MakeRailSection(false);
-  for (const TrackSpec& track : context.spec.tracks) {
-    AddSleepers(context, track, models, chunk);
+  for (std::size_t index = 0; index < context.tracks.size(); ++index) {
+    const TrackCourse& track = context.tracks[index];
+    AddSleepers(context, index, models, chunk);
     const ChainageRange range = SweptRange(context, track);
     // A shorter range is only the overlap with the chunk in which the track begins or ends.
     if (range.end_s_m - range.begin_s_m < kChunkOverlap_m) continue;

@@ -11,6 +11,7 @@ namespace railcast {
 TestLine::TestLine(WorldSpec spec, std::uint64_t seed)
     : spec_(std::move(spec)),
       alignment_(spec_.alignment),
+      network_(MakeNetwork(spec_, alignment_.length_m())),
       surfaces_(TestSurfaces()),
       seed_(seed),
       plan_(spec_, alignment_),
@@ -24,6 +25,7 @@ Transform TestLine::WorldFromChunk(int chunk) const {
 ChunkContext TestLine::Context(int chunk) const {
   return {.spec = spec_,
           .alignment = alignment_,
+          .tracks = network_.courses,
           .surfaces = surfaces_,
           .seed = seed_,
           .chunk = chunk,

@@ -6,6 +6,7 @@
 #include "core/rail/catenary/catenary_plan.h"
 #include "core/rail/chunk_context.h"
 #include "core/rail/infrastructure_models.h"
+#include "core/rail/line/network.h"
 #include "core/rail/rail_surfaces.h"
 #include "railcast/scene.h"
 
@@ -20,6 +21,7 @@ class TestLine {
 
   [[nodiscard]] const WorldSpec& spec() const { return spec_; }
   [[nodiscard]] const Alignment& alignment() const { return alignment_; }
+  [[nodiscard]] const Network& network() const { return network_; }
   [[nodiscard]] const RailSurfaces& surfaces() const { return surfaces_; }
   [[nodiscard]] const CatenaryPlan& plan() const { return plan_; }
   [[nodiscard]] const InfrastructureModels& models() const { return models_; }
@@ -32,6 +34,7 @@ class TestLine {
  private:
   WorldSpec spec_;
   Alignment alignment_;
+  Network network_;
   RailSurfaces surfaces_;
   std::uint64_t seed_;
   CatenaryPlan plan_;

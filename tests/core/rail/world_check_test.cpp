@@ -13,7 +13,8 @@ constexpr LineMeasures kLine{.length_m = 1000.0, .tightest_radius_m = 300.0};
 
 std::vector<std::string> Faults(const WorldSpec& world, const VehicleSpec& vehicle = {}) {
   WorldFaults faults;
-  CheckWorld(world, vehicle, kLine, faults);
+  const NetworkDraft network = DraftNetwork(world, kLine.length_m, faults);
+  CheckWorld(world, vehicle, {kLine, network.courses}, faults);
   return faults.errors.lines();
 }
 
@@ -106,7 +107,8 @@ TEST(CheckWorld, SaysNothingOfWhatFollowsFromAnUnknownValue) {
   WorldFaults faults;
   faults.unknown.Add("/world/tracks/1/end_s_m");
   faults.unknown.Add("/world/terrain/half_width_m");
-  CheckWorld(world, {}, kLine, faults);
+  const NetworkDraft network = DraftNetwork(world, kLine.length_m, faults);
+  CheckWorld(world, {}, {kLine, network.courses}, faults);
   EXPECT_THAT(faults.errors.lines(),
               ElementsAre("/world/objects/1/s_m: must lie on track \"main\", from 0 to 1000 m "
                           "(got 1200)"));

@@ -236,7 +236,7 @@ FaceDistances MeasureMasts(const TestLine& line) {
       const Vector3 left(-std::sin(axis.heading_rad), std::cos(axis.heading_rad), 0.0);
       double nearest_m = 100.0;
       for (const TrackSpec& track : line.spec().tracks) {
-        const double d_m = (world_m - axis.position_m).dot(left) - track.offset_m;
+        const double d_m = (world_m - axis.position_m).dot(left) - track.offset_m.value_or(0.0);
         nearest_m = std::min(nearest_m, std::abs(d_m) - 0.12);
       }
       found.least_m = std::min(found.least_m, nearest_m);

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "core/rail/line/network.h"
 #include "tests/core/rail/test_line.h"
 
 namespace railcast {
@@ -17,13 +18,14 @@ WorldSpec StraightTracks(const std::vector<double>& offsets_m) {
 }
 
 SupportLayout LayoutAt(const WorldSpec& spec, double s_m) {
-  return LayOutSupport(spec, Alignment(spec.alignment), s_m);
+  const Network network = MakeNetwork(spec, Alignment(spec.alignment).length_m());
+  return LayOutSupport(spec, network.courses, s_m);
 }
 
 std::vector<double> MastsOf(const WorldSpec& spec, double s_m = 500.0) {
   std::vector<double> masts_d_m;
   for (const MastSite& mast : LayoutAt(spec, s_m).masts) {
-    masts_d_m.push_back(spec.tracks[mast.track].offset_m + mast.from_axis_m);
+    masts_d_m.push_back(*spec.tracks[mast.track].offset_m + mast.from_axis_m);
   }
   return masts_d_m;
 }

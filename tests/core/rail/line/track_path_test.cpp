@@ -17,12 +17,17 @@ Alignment Arc() {
   return Alignment(spec);
 }
 
+/// A track at the alignment itself.
+TrackCourse Axis() {
+  return {0.0, 1e4, 0.0};
+}
+
 SpeedProfile Standing(double s_m) {
   return {{}, s_m};
 }
 
 TEST(TrackPath, FollowsGradientCurvatureAndCant) {
-  const TrackPath path({.d_m = 1.0, .h_m = 0.5}, Standing(200.0));
+  const TrackPath path(Axis(), {.d_m = 1.0, .h_m = 0.5}, Standing(200.0));
   const Alignment alignment = Arc();
   EXPECT_FALSE(path.moves());
   const Transform world_from_object = path.WorldFromObject(alignment, 0);
@@ -45,7 +50,7 @@ TEST(TrackPath, PutsABodyOnTheChordBetweenItsPivots) {
   const Alignment alignment = LevelArc();
   for (const double distance_m : {7.0, 10.4, 19.0}) {
     for (const double d_m : {0.0, -4.0}) {
-      const TrackPath path({.d_m = d_m, .pivot_distance_m = distance_m}, Standing(200.0));
+      const TrackPath path(Axis(), {.d_m = d_m, .pivot_distance_m = distance_m}, Standing(200.0));
       const Transform world_from_body = path.WorldFromObject(alignment, 0);
       const double yaw_rad = 200.0 / 350.0 - std::asin(0.5 * distance_m / (350.0 - d_m));
       EXPECT_NEAR(world_from_body.linear()(0, 0), std::cos(yaw_rad), 1e-11);
@@ -63,8 +68,8 @@ TEST(TrackPath, PutsABodyOnTheChordBetweenItsPivots) {
 
 TEST(TrackPath, TurnsABodyByTenMilliradiansWithSevenMetresAt350) {
   const Alignment alignment = LevelArc();
-  const TrackPath body({.pivot_distance_m = 7.0}, Standing(200.0));
-  const TrackPath point({}, Standing(200.0));
+  const TrackPath body(Axis(), {.pivot_distance_m = 7.0}, Standing(200.0));
+  const TrackPath point(Axis(), {}, Standing(200.0));
   const Vector3 ahead(100.0, 0.0, 0.0);
   const Vector3 apart =
       body.WorldFromObject(alignment, 0) * ahead - point.WorldFromObject(alignment, 0) * ahead;
@@ -73,7 +78,8 @@ TEST(TrackPath, TurnsABodyByTenMilliradiansWithSevenMetresAt350) {
 
 TEST(TrackPath, PutsAReversedBodyOnTheChordAheadOfItsChainage) {
   const Alignment alignment = LevelArc();
-  const TrackPath path({.heading_rad = std::numbers::pi, .pivot_distance_m = 7.0}, Standing(200.0));
+  const TrackPath path(Axis(), {.heading_rad = std::numbers::pi, .pivot_distance_m = 7.0},
+                       Standing(200.0));
   const Eigen::Matrix3d body = path.WorldFromObject(alignment, 0).linear();
   const double yaw_rad = 200.0 / 350.0 + std::asin(3.5 / 350.0);
   EXPECT_NEAR(body(0, 0), -std::cos(yaw_rad), 1e-11);
@@ -83,7 +89,7 @@ TEST(TrackPath, PutsAReversedBodyOnTheChordAheadOfItsChainage) {
 
 TEST(TrackPath, LeansABodyByTheMeanOfTheCantsAndPitchesItAlongTheGradient) {
   const Alignment alignment = Arc();
-  const TrackPath path({.pivot_distance_m = 10.0}, Standing(200.0));
+  const TrackPath path(Axis(), {.pivot_distance_m = 10.0}, Standing(200.0));
   const Eigen::Matrix3d body = path.WorldFromObject(alignment, 0).linear();
   const Eigen::Matrix3d middle = alignment.WorldFromTrack(195.0).linear();
   // In an arc of constant cant and gradient, the body has the axes of the track between its pivots,
@@ -93,12 +99,12 @@ TEST(TrackPath, LeansABodyByTheMeanOfTheCantsAndPitchesItAlongTheGradient) {
 }
 
 TEST(TrackPath, PutsABodyOnTheStraightBeforeTheLine) {
-  const TrackPath path({.pivot_distance_m = 10.0}, Standing(0.0));
+  const TrackPath path(Axis(), {.pivot_distance_m = 10.0}, Standing(0.0));
   EXPECT_TRUE(path.WorldFromObject(LevelArc(), 0).isApprox(LevelArc().WorldFromTrack(0.0), 1e-12));
 }
 
 TEST(TrackPath, KeepsUprightThingsUprightAtTheirPlace) {
-  const TrackPath path({.d_m = 3.0, .h_m = 0.5, .heading_rad = 0.3, .is_upright = true},
+  const TrackPath path(Axis(), {.d_m = 3.0, .h_m = 0.5, .heading_rad = 0.3, .is_upright = true},
                        Standing(200.0));
   const Alignment alignment = Arc();
   const Transform world_from_object = path.WorldFromObject(alignment, 0);
@@ -111,7 +117,7 @@ TEST(TrackPath, KeepsUprightThingsUprightAtTheirPlace) {
 }
 
 TEST(TrackPath, TurnsInTheTracksPlane) {
-  const TrackPath path({.heading_rad = std::numbers::pi}, Standing(200.0));
+  const TrackPath path(Axis(), {.heading_rad = std::numbers::pi}, Standing(200.0));
   const Alignment alignment = Arc();
   const Eigen::Matrix3d turned = path.WorldFromObject(alignment, 0).linear();
   const Eigen::Matrix3d track = alignment.WorldFromTrack(200.0).linear();
@@ -120,7 +126,7 @@ TEST(TrackPath, TurnsInTheTracksPlane) {
 }
 
 TEST(TrackPath, MovesWithItsProfile) {
-  const TrackPath path({}, SpeedProfile({{{0.0, std::nullopt, 10.0}}}, 100.0));
+  const TrackPath path(Axis(), {}, SpeedProfile({{{0.0, std::nullopt, 10.0}}}, 100.0));
   EXPECT_TRUE(path.moves());
   EXPECT_DOUBLE_EQ(path.ChainageAt(2'500'000'000), 125.0);
   const Alignment alignment = Arc();

@@ -1,0 +1,187 @@
+#include "core/rail/line/track_course.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/rail/line/plan_course.h"
+
+namespace railcast {
+namespace {
+
+/// d = d_0 + (d_1 - d_0) (10 t^3 - 15 t^4 + 6 t^5), whose first two derivatives are 0 at both ends.
+TrackOffset OnSCurve(const CoursePiece& piece, double s_m) {
+  const double length_m = piece.end_s_m - piece.begin_s_m;
+  const double rise_m = piece.end_d_m - piece.begin_d_m;
+  const double t = (s_m - piece.begin_s_m) / length_m;
+  return {piece.begin_d_m + rise_m * t * t * t * (10.0 + t * (-15.0 + 6.0 * t)),
+          rise_m / length_m * 30.0 * t * t * (1.0 - t) * (1.0 - t),
+          rise_m / (length_m * length_m) * 60.0 * t * (1.0 - t) * (1.0 - 2.0 * t)};
+}
+
+/// Newton's method for the length at which the plan course has the given x. Headings are below 45
+/// degrees, so it converges.
+PlanPoint PointAtX(const CoursePiece& piece, double x_m) {
+  constexpr int kMostSteps = 20;
+  constexpr double kExact_m = 1e-11;
+  double along_m = std::clamp(x_m - piece.plan_begin_x_m, 0.0, piece.plan_length_m);
+  PlanPoint point = piece.plan->At(along_m);
+  for (int step = 0; step < kMostSteps && std::abs(x_m - point.x_m) > kExact_m; ++step) {
+    const double next_m = std::clamp(along_m + (x_m - point.x_m) / std::cos(point.heading_rad), 0.0,
+                                     piece.plan_length_m);
+    if (next_m == along_m) break;
+    along_m = next_m;
+    point = piece.plan->At(along_m);
+  }
+  // Straight on beyond either end.
+  point.y_m += (x_m - point.x_m) * std::tan(point.heading_rad);
+  return point;
+}
+
+TrackOffset OnPlan(const CoursePiece& piece, double s_m) {
+  const double side = piece.is_mirrored ? -1.0 : 1.0;
+  const PlanPoint point = PointAtX(piece, side * s_m);
+  const double slope = std::tan(point.heading_rad);
+  return {point.y_m, side * slope, point.curvature_per_m * std::pow(1.0 + slope * slope, 1.5)};
+}
+
+TrackOffset OnPiece(const CoursePiece& piece, double s_m) {
+  switch (piece.kind) {
+    case CoursePiece::Kind::kLevel:
+      return {piece.begin_d_m, 0.0, 0.0};
+    case CoursePiece::Kind::kSCurve:
+      return OnSCurve(piece, s_m);
+    case CoursePiece::Kind::kPlan:
+      return OnPlan(piece, s_m);
+  }
+  return {};
+}
+
+}  // namespace
+
+double TrackOffset::curvature_per_m() const {
+  return bend_per_m / std::pow(1.0 + slope * slope, 1.5);
+}
+
+double TurnFromAlignment_rad(const AxisPoint& axis, const TrackOffset& offset) {
+  if (offset.slope == 0.0) return 0.0;
+  return std::atan(offset.slope / (1.0 - axis.curvature_per_m * offset.d_m));
+}
+
+TrackCourse::TrackCourse(double begin_s_m, double end_s_m, double offset_m)
+    : TrackCourse(begin_s_m,
+                  end_s_m,
+                  {CoursePiece{.kind = CoursePiece::Kind::kLevel,
+                               .begin_s_m = begin_s_m,
+                               .end_s_m = end_s_m,
+                               .begin_d_m = offset_m,
+                               .end_d_m = offset_m,
+                               .plan = nullptr}}) {}
+
+TrackCourse::TrackCourse(double begin_s_m, double end_s_m, std::vector<CoursePiece> pieces)
+    : begin_s_m_(begin_s_m),
+      end_s_m_(end_s_m),
+      pieces_(std::make_shared<const std::vector<CoursePiece>>(std::move(pieces))) {
+  Check(!pieces_->empty(), "a course has a piece");
+  constexpr double kSampling_m = 1.0;
+  least_d_m_ = most_d_m_ = OffsetAt(begin_s_m_).d_m;
+  const auto add = [&](double s_m) {
+    const double d_m = OffsetWithin_m(s_m);
+    least_d_m_ = std::min(least_d_m_, d_m);
+    most_d_m_ = std::max(most_d_m_, d_m);
+  };
+  for (const CoursePiece& piece : *pieces_) {
+    const double from_s_m = std::max(piece.begin_s_m, begin_s_m_);
+    const double to_s_m = std::min(piece.end_s_m, end_s_m_);
+    add(from_s_m);
+    if (piece.kind == CoursePiece::Kind::kLevel) continue;
+    for (double s_m = from_s_m + kSampling_m; s_m < to_s_m; s_m += kSampling_m) add(s_m);
+    add(to_s_m);
+  }
+}
+
+bool TrackCourse::is_parallel() const {
+  return pieces_->size() == 1 && pieces_->front().kind == CoursePiece::Kind::kLevel;
+}
+
+bool TrackCourse::IsLevelIn(double from_s_m, double to_s_m) const {
+  const double from_m = std::clamp(from_s_m, begin_s_m_, end_s_m_);
+  const double to_m = std::clamp(to_s_m, begin_s_m_, end_s_m_);
+  const double d_m = OffsetAt(from_m).d_m;
+  return std::all_of(pieces_->begin(), pieces_->end(), [&](const CoursePiece& piece) {
+    const bool is_outside = piece.end_s_m <= from_m || piece.begin_s_m >= to_m;
+    return is_outside || (piece.kind == CoursePiece::Kind::kLevel && piece.begin_d_m == d_m);
+  });
+}
+
+TrackOffset TrackCourse::OffsetAt(double s_m) const {
+  const std::vector<CoursePiece>& pieces = *pieces_;
+  if (is_parallel()) return OnPiece(pieces.front(), s_m);
+  const double inside_s_m = std::clamp(s_m, begin_s_m_, end_s_m_);
+  const auto after =
+      std::upper_bound(pieces.begin() + 1, pieces.end(), inside_s_m,
+                       [](double s, const CoursePiece& p) { return s < p.begin_s_m; });
+  TrackOffset offset = OnPiece(*(after - 1), inside_s_m);
+  if (s_m != inside_s_m) {
+    offset.d_m += offset.slope * (s_m - inside_s_m);
+    offset.bend_per_m = 0.0;
+  }
+  return offset;
+}
+
+double TrackCourse::OffsetWithin_m(double s_m) const {
+  return OffsetAt(std::clamp(s_m, begin_s_m_, end_s_m_)).d_m;
+}
+
+double TrackCourse::CurvatureAt(const Alignment& alignment, double s_m) const {
+  // With the offset d(s) from an axis of curvature k, the axis of the track has the velocity
+  // (u, v) = (1 - k d, d') in the frame of the alignment, and the acceleration (-2 k d', d'' + k
+  // u).
+  const double axis_per_m = alignment.At(s_m).curvature_per_m;
+  const TrackOffset offset = OffsetAt(s_m);
+  const double u = 1.0 - axis_per_m * offset.d_m;
+  const double v = offset.slope;
+  return (u * (offset.bend_per_m + axis_per_m * u) + 2.0 * axis_per_m * v * v) /
+         std::pow(u * u + v * v, 1.5);
+}
+
+double TrackCourse::Heading_rad(const Alignment& alignment, double s_m) const {
+  const AxisPoint axis = alignment.At(s_m);
+  return axis.heading_rad + TurnFromAlignment_rad(axis, OffsetAt(s_m));
+}
+
+Transform TrackCourse::WorldFromTrack(const Alignment& alignment,
+                                      double s_m,
+                                      double d_m,
+                                      double h_m) const {
+  const TrackOffset offset = OffsetAt(s_m);
+  if (offset.slope == 0.0) return alignment.WorldFromTrack(s_m, offset.d_m + d_m, h_m);
+  const AxisPoint axis = alignment.At(s_m);
+  const double turn_rad = TurnFromAlignment_rad(axis, offset);
+  const double heading_rad = axis.heading_rad + turn_rad;
+  const Eigen::Matrix3d world_from_track = RotationFromYawPitchRoll(
+      heading_rad, -std::atan(axis.gradient * std::cos(turn_rad)), axis.cant_rad);
+  const Vector3 left_of_axis(-std::sin(axis.heading_rad), std::cos(axis.heading_rad), 0.0);
+  const Vector3 left(-std::sin(heading_rad), std::cos(heading_rad), 0.0);
+  return MakeTransform(world_from_track, axis.position_m + offset.d_m * left_of_axis + d_m * left +
+                                             h_m * world_from_track.col(2));
+}
+
+TrackCourse Joined(const TrackCourse& before, const TrackCourse& after, double s_m) {
+  std::vector<CoursePiece> pieces;
+  for (const CoursePiece& piece : before.pieces()) {
+    if (piece.begin_s_m < s_m) pieces.push_back(piece);
+  }
+  if (!pieces.empty()) pieces.back().end_s_m = s_m;
+  bool is_first = true;
+  for (const CoursePiece& piece : after.pieces()) {
+    if (piece.end_s_m <= s_m && &piece != &after.pieces().back()) continue;
+    pieces.push_back(piece);
+    if (is_first) pieces.back().begin_s_m = s_m;
+    is_first = false;
+  }
+  return {before.begin_s_m(), after.end_s_m(), std::move(pieces)};
+}
+
+}  // namespace railcast

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "railcast/alignment.h"
+#include "railcast/transform.h"
+
+namespace railcast {
+
+class PlanCourse;
+
+/// The lateral offset of a track from the alignment, left positive, as a function of chainage: its
+/// value and its first two derivatives.
+struct TrackOffset {
+  double d_m{};
+  double slope{};
+  double bend_per_m{};
+
+  /// Curvature in the plane of chainage and offset, left positive.
+  [[nodiscard]] double curvature_per_m() const;
+};
+
+/// Angle of a track to the alignment at the point `axis` of the latter, left positive:
+/// atan(slope / (1 - curvature d)).
+[[nodiscard]] double TurnFromAlignment_rad(const AxisPoint& axis, const TrackOffset& offset);
+
+/// A section of a course.
+struct CoursePiece {
+  enum class Kind {
+    kLevel,   ///< The offset is constant.
+    kSCurve,  ///< From one offset to another, with neither slope nor curvature at its ends.
+    kPlan,    ///< Follows a plan course.
+  };
+  Kind kind{};
+  double begin_s_m{};
+  double end_s_m{};    ///< Where the next piece begins.
+  double begin_d_m{};  ///< Level: the offset.
+  double end_d_m{};    ///< S-curves only.
+  /// Plan pieces only: its x is the chainage, or minus the chainage if it is mirrored; its y is the
+  /// offset. It may extend beyond the piece.
+  std::shared_ptr<const PlanCourse> plan;
+  double plan_begin_x_m{};
+  double plan_length_m{};
+  bool is_mirrored{};
+};
+
+/// The course of a track: its lateral offset from the alignment as a function of chainage. Heights
+/// and cant are those of the alignment at the same chainage. Immutable, thread-safe, cheap to copy.
+class TrackCourse {
+ public:
+  /// A track parallel to the alignment. `end_s_m` may be infinite.
+  TrackCourse(double begin_s_m, double end_s_m, double offset_m);
+  /// @pre `pieces` is not empty, and each begins where the one before ends. The track may begin
+  ///   within the first and end within the last one.
+  TrackCourse(double begin_s_m, double end_s_m, std::vector<CoursePiece> pieces);
+
+  [[nodiscard]] double begin_s_m() const { return begin_s_m_; }
+  [[nodiscard]] double end_s_m() const { return end_s_m_; }
+  [[nodiscard]] const std::vector<CoursePiece>& pieces() const { return *pieces_; }
+  /// The offsets farthest to the right and to the left, sampled every metre where they change.
+  [[nodiscard]] double least_d_m() const { return least_d_m_; }
+  [[nodiscard]] double most_d_m() const { return most_d_m_; }
+  /// Whether the offset is the same everywhere.
+  [[nodiscard]] bool is_parallel() const;
+
+  /// Whether the offset is the same all over a section, its ends included.
+  [[nodiscard]] bool IsLevelIn(double from_s_m, double to_s_m) const;
+
+  /// Beyond either end, the track continues straight on.
+  [[nodiscard]] TrackOffset OffsetAt(double s_m) const;
+  /// The offset at the chainage of the track that is nearest to `s_m`.
+  [[nodiscard]] double OffsetWithin_m(double s_m) const;
+  /// Curvature of the track's axis in plan, left positive. The change of the alignment's curvature
+  /// along the track is neglected, which contributes less than offset x slope x that change.
+  [[nodiscard]] double CurvatureAt(const Alignment& alignment, double s_m) const;
+
+  /// Counterclockwise from east, towards rising chainage.
+  [[nodiscard]] double Heading_rad(const Alignment& alignment, double s_m) const;
+
+  /// The track frame at chainage `s_m`: x along the track's own heading, y left, z up, with
+  /// gradient and cant of the alignment there. The origin is `h_m` above top of rail and `d_m` left
+  /// of the track's axis, measured horizontally.
+  [[nodiscard]] Transform WorldFromTrack(const Alignment& alignment,
+                                         double s_m,
+                                         double d_m = 0.0,
+                                         double h_m = 0.0) const;
+
+ private:
+  double begin_s_m_{};
+  double end_s_m_{};
+  std::shared_ptr<const std::vector<CoursePiece>> pieces_;
+  double least_d_m_{};
+  double most_d_m_{};
+};
+
+/// Follows one course up to `s_m` and another from there on.
+[[nodiscard]] TrackCourse Joined(const TrackCourse& before, const TrackCourse& after, double s_m);
+
+}  // namespace railcast

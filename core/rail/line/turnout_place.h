@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "core/rail/line/track_course.h"
+#include "core/rail/line/turnout_geometry.h"
+#include "core/rail/world_faults.h"
+#include "railcast/rail_world.h"
+
+namespace railcast {
+
+/// A turnout as specified, on a track whose course is known.
+struct TurnoutPlace {
+  std::string pointer;  ///< Of its spec.
+  TurnoutSpec spec;
+  std::size_t track{};
+  TrackCourse course;  ///< Of that track.
+  TurnoutGeometry geometry;
+  bool opens_ahead{};
+};
+
+/// The chainage of a track where a turnout that begins at `s_m` ends.
+[[nodiscard]] double TurnoutEnd_m(const TurnoutPlace& place, double s_m);
+
+/// Curvature, in the plane of chainage and offset, that the track has all through a turnout.
+/// Returns nothing and adds a fault if the track ends within the turnout or if its curvature
+/// changes.
+[[nodiscard]] std::optional<double> CurvatureThrough_per_m(const TurnoutPlace& place,
+                                                           double s_m,
+                                                           WorldFaults& faults);
+
+/// All names of tracks, as messages list them.
+[[nodiscard]] std::string NamesOfTracks(const WorldSpec& world);
+[[nodiscard]] bool AreNamesKnown(const WorldSpec& world, const WorldFaults& faults);
+
+/// A length to the millimetre.
+[[nodiscard]] std::string MetresText(double length_m);
+
+}  // namespace railcast

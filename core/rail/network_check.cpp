@@ -1,0 +1,225 @@
+#include "core/rail/network_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "core/base/text.h"
+#include "core/rail/line/alignment_course.h"
+#include "core/rail/line/turnout_place.h"
+#include "core/rail/world_check.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kSampling_m = 1.0;
+
+std::string TrackPointer(std::size_t index) {
+  return "/world/tracks/" + std::to_string(index);
+}
+
+void CheckExtent(const WorldSpec& world,
+                 std::size_t index,
+                 const TrackCourse& course,
+                 WorldFaults& faults) {
+  const double half_width_m = world.terrain.half_width_m;
+  const double farthest_m =
+      -course.least_d_m() > course.most_d_m() ? course.least_d_m() : course.most_d_m();
+  if (!faults.AreKnown({"/world/terrain/half_width_m"}) || std::abs(farthest_m) < half_width_m) {
+    return;
+  }
+  faults.Add(TrackPointer(index),
+             "must lie within the ground's half width of " + NumberText(half_width_m) + " m",
+             "offset " + MetresText(farthest_m));
+}
+
+/// The sections of a course whose offset changes.
+std::vector<std::pair<double, double>> ChangingSections(const TrackCourse& course) {
+  std::vector<std::pair<double, double>> sections;
+  for (const CoursePiece& piece : course.pieces()) {
+    if (piece.kind == CoursePiece::Kind::kLevel) continue;
+    const double begin_s_m = std::max(piece.begin_s_m, course.begin_s_m());
+    const double end_s_m = std::min(piece.end_s_m, course.end_s_m());
+    if (begin_s_m < end_s_m) sections.emplace_back(begin_s_m, end_s_m);
+  }
+  return sections;
+}
+
+void CheckRadii(std::size_t index,
+                const TrackCourse& course,
+                const Alignment& alignment,
+                WorldFaults& faults) {
+  double tightest_m = std::numeric_limits<double>::infinity();
+  double tightest_s_m = 0.0;
+  for (const auto& [begin_s_m, end_s_m] : ChangingSections(course)) {
+    const auto num_steps = static_cast<int>(std::ceil((end_s_m - begin_s_m) / kSampling_m));
+    for (int i = 0; i <= num_steps; ++i) {
+      const double s_m = std::lerp(begin_s_m, end_s_m, 1.0 * i / num_steps);
+      const double radius_m = 1.0 / std::abs(course.CurvatureAt(alignment, s_m));
+      if (radius_m < tightest_m) std::tie(tightest_m, tightest_s_m) = std::pair(radius_m, s_m);
+    }
+  }
+  // The elements of a track may have the smallest radius itself.
+  constexpr double kRounding = 1e-6;
+  if (tightest_m >= kSmallestRadius_m * (1.0 - kRounding)) return;
+  faults.Add(TrackPointer(index),
+             "must have no radius below " + NumberText(kSmallestRadius_m) + " m",
+             ShortText(tightest_m) + " m at " + MetresText(tightest_s_m) + " m");
+}
+
+/// A section in which a turnout keeps two tracks together.
+struct JoinedSection {
+  std::size_t track{};
+  std::size_t branch{};
+  double begin_s_m{};
+  double end_s_m{};
+};
+
+std::vector<JoinedSection> JoinedSections(const NetworkDraft& network) {
+  std::vector<JoinedSection> sections;
+  for (const TurnoutSite& turnout : network.turnouts) {
+    const auto& track = network.courses[turnout.track];
+    const auto& branch = network.courses[turnout.branch];
+    if (!track || !branch) continue;
+    const auto clear_s_m = ClearChainage_m(*track, *branch, turnout, kLeastTrackDistance_m);
+    // Without such a place, the turnout at least is allowed, so that the fault is about what is
+    // behind it.
+    const double end_s_m = clear_s_m.value_or(turnout.end_s_m);
+    sections.push_back({turnout.track, turnout.branch, std::min(turnout.s_m, end_s_m),
+                        std::max(turnout.s_m, end_s_m)});
+  }
+  return sections;
+}
+
+/// Whether turnouts keep two tracks together at a chainage, also by way of others.
+bool AreJoined(const std::vector<JoinedSection>& sections,
+               std::size_t one,
+               std::size_t other,
+               double s_m) {
+  std::vector<std::size_t> reached{one};
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    for (const JoinedSection& section : sections) {
+      if (s_m < section.begin_s_m || s_m > section.end_s_m) continue;
+      for (const auto& [from, to] :
+           {std::pair(section.track, section.branch), std::pair(section.branch, section.track)}) {
+        if (from != reached[i] || std::ranges::count(reached, to) > 0) continue;
+        if (to == other) return true;
+        reached.push_back(to);
+      }
+    }
+  }
+  return false;
+}
+
+/// A place where two tracks are too close.
+struct ClosePlace {
+  double s_m{};
+  double distance_m{};
+};
+
+/// Chainages at which the distance of two tracks can be least: every metre where one of them
+/// changes its offset, and once where both do not.
+std::vector<double> DistanceSamples(const TrackCourse& one, const TrackCourse& other) {
+  const double begin_s_m = std::max(one.begin_s_m(), other.begin_s_m());
+  const double end_s_m = std::min(one.end_s_m(), other.end_s_m());
+  std::vector<double> samples;
+  if (!(begin_s_m < end_s_m)) return samples;
+  samples.push_back(begin_s_m);
+  if (std::isfinite(end_s_m)) samples.push_back(end_s_m);
+  for (const TrackCourse* course : {&one, &other}) {
+    for (const CoursePiece& piece : course->pieces()) {
+      const double from_m = std::max(piece.begin_s_m, begin_s_m);
+      const double to_m = std::min(piece.end_s_m, end_s_m);
+      if (!(from_m < to_m)) continue;
+      samples.push_back(from_m);
+      if (piece.kind == CoursePiece::Kind::kLevel) {
+        samples.push_back(std::isfinite(to_m) ? std::midpoint(from_m, to_m) : from_m + 1.0);
+        continue;
+      }
+      for (double s_m = from_m + kSampling_m; s_m < to_m; s_m += kSampling_m)
+        samples.push_back(s_m);
+      samples.push_back(to_m);
+    }
+  }
+  std::ranges::sort(samples);
+  return samples;
+}
+
+void CheckApart(const WorldSpec& world,
+                const NetworkDraft& network,
+                const std::vector<JoinedSection>& joined,
+                std::pair<std::size_t, std::size_t> pair,
+                WorldFaults& faults) {
+  // Tracks that are just as far apart as they must.
+  constexpr double kRounding_m = 1e-6;
+  const TrackCourse& one = *network.courses[pair.first];
+  const TrackCourse& other = *network.courses[pair.second];
+  std::optional<ClosePlace> closest;
+  for (const double s_m : DistanceSamples(one, other)) {
+    const double distance_m = std::abs(one.OffsetAt(s_m).d_m - other.OffsetAt(s_m).d_m);
+    if (distance_m >= kLeastTrackDistance_m - kRounding_m) continue;
+    if (closest && closest->distance_m <= distance_m) continue;
+    if (AreJoined(joined, pair.first, pair.second, s_m)) continue;
+    closest = ClosePlace{s_m, distance_m};
+  }
+  if (!closest) return;
+  faults.Add(TrackPointer(pair.second),
+             "must be at least " + NumberText(kLeastTrackDistance_m) + " m from track " +
+                 Quoted(world.tracks[pair.first].name) + " where no turnout joins them",
+             MetresText(closest->distance_m) + " m at " + MetresText(closest->s_m) + " m");
+}
+
+}  // namespace
+
+std::optional<double> ClearChainage_m(const TrackCourse& track,
+                                      const TrackCourse& branch,
+                                      const TurnoutSite& turnout,
+                                      double distance_m) {
+  const auto is_clear = [&](double s_m) {
+    return std::abs(branch.OffsetAt(s_m).d_m - track.OffsetAt(s_m).d_m) >= distance_m - 1e-9;
+  };
+  constexpr double kFarthest_m = 1000.0;
+  constexpr double kExact_m = 1e-6;
+  const double side = turnout.opens_ahead() ? kSampling_m : -kSampling_m;
+  double before_m = turnout.s_m;
+  double after_m = turnout.s_m;
+  do {
+    before_m = after_m;
+    after_m += side;
+    const bool is_on_both = std::clamp(after_m, branch.begin_s_m(), branch.end_s_m()) == after_m &&
+                            std::clamp(after_m, track.begin_s_m(), track.end_s_m()) == after_m;
+    if (!is_on_both || std::abs(after_m - turnout.s_m) > kFarthest_m) return std::nullopt;
+  } while (!is_clear(after_m));
+  while (std::abs(after_m - before_m) > kExact_m) {
+    const double middle_m = std::midpoint(before_m, after_m);
+    (is_clear(middle_m) ? after_m : before_m) = middle_m;
+  }
+  return after_m;
+}
+
+void CheckNetwork(const WorldSpec& world,
+                  const NetworkDraft& network,
+                  const std::optional<Alignment>& alignment,
+                  WorldFaults& faults) {
+  const auto is_own = [&](std::size_t index) { return !IsParallel(world.tracks[index]); };
+  for (std::size_t i = 0; i < world.tracks.size(); ++i) {
+    if (!is_own(i) || !network.courses[i]) continue;
+    CheckExtent(world, i, *network.courses[i], faults);
+    if (alignment) CheckRadii(i, *network.courses[i], *alignment, faults);
+  }
+  const std::vector<JoinedSection> joined = JoinedSections(network);
+  for (std::size_t i = 0; i < world.tracks.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (!is_own(i) && !is_own(k)) continue;
+      if (!network.courses[i] || !network.courses[k]) continue;
+      CheckApart(world, network, joined, {k, i}, faults);
+    }
+  }
+}
+
+}  // namespace railcast
