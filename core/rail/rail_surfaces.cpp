@@ -7,13 +7,15 @@
 namespace railcast {
 namespace {
 
+/// @tparam Surfaces The struct that has the surface.
+template <class Surfaces>
 struct SurfaceRow {
-  SurfaceClass RailSurfaces::*surface;
+  SurfaceClass Surfaces::*surface;
   std::string_view material;
   std::string_view label;
 };
 
-constexpr SurfaceRow kSurfaceRows[] = {
+constexpr SurfaceRow<RailSurfaces> kSurfaceRows[] = {
     {&RailSurfaces::rail_head, "rail_head", "rail"},
     {&RailSurfaces::rail_side, "rail_side", "rail"},
     {&RailSurfaces::fastening, "rusty_steel", "sleeper"},
@@ -40,21 +42,57 @@ constexpr SurfaceRow kSurfaceRows[] = {
     {&RailSurfaces::box, "grey_paint", "object"},
 };
 
-}  // namespace
+constexpr SurfaceRow<StructureSurfaces> kStructureRows[] = {
+    {&StructureSurfaces::platform, "concrete", "platform"},
+    {&StructureSurfaces::platform_strip, "white_paint", "platform"},
+    {&StructureSurfaces::platform_roof, "grey_paint", "platform"},
+    {&StructureSurfaces::noise_wall, "concrete", "noise_wall"},
+    {&StructureSurfaces::noise_wall_post, "galvanised_steel", "noise_wall"},
+    {&StructureSurfaces::fence, "galvanised_steel", "fence"},
+    {&StructureSurfaces::retaining_wall, "masonry", "retaining_wall"},
+    {&StructureSurfaces::cable_trough, "concrete", "cable_trough"},
+    {&StructureSurfaces::tunnel, "concrete", "tunnel"},
+    {&StructureSurfaces::tunnel_handrail, "galvanised_steel", "tunnel"},
+    {&StructureSurfaces::bridge, "concrete", "bridge"},
+    {&StructureSurfaces::bridge_railing, "galvanised_steel", "bridge"},
+    {&StructureSurfaces::third_rail, "rail_side", "third_rail"},
+    {&StructureSurfaces::third_rail_shield, "plastic", "third_rail"},
+    {&StructureSurfaces::slab_track, "concrete", "slab_track"},
+};
 
-RailSurfaces::RailSurfaces(const LabelTable& labels, const MaterialLibrary& materials) {
+template <class Surfaces, std::size_t kCount>
+void LookUp(const SurfaceRow<Surfaces> (&rows)[kCount],
+            const LabelTable& labels,
+            const MaterialLibrary& materials,
+            Surfaces& surfaces) {
   ErrorList errors;
-  for (const SurfaceRow& row : kSurfaceRows) {
+  for (const SurfaceRow<Surfaces>& row : rows) {
     const auto index = Attempt("", errors, [&] { return materials.Index(row.material); });
     const auto id = Attempt("", errors, [&] { return labels.Id(row.label); });
-    this->*row.surface = SurfaceClass{index.value_or(0), id.value_or(0)};
+    surfaces.*row.surface = SurfaceClass{index.value_or(0), id.value_or(0)};
   }
   errors.ThrowIfAny();
 }
 
+}  // namespace
+
+RailSurfaces::RailSurfaces(const LabelTable& labels, const MaterialLibrary& materials) {
+  LookUp(kSurfaceRows, labels, materials, *this);
+}
+
+void RailSurfaces::AddStructureSurfaces(const LabelTable& labels,
+                                        const MaterialLibrary& materials) {
+  LookUp(kStructureRows, labels, materials, structures);
+}
+
 bool IsRailMaterial(std::string_view name) {
   return std::any_of(std::begin(kSurfaceRows), std::end(kSurfaceRows),
-                     [&](const SurfaceRow& row) { return row.material == name; });
+                     [&](const auto& row) { return row.material == name; });
+}
+
+bool IsStructureMaterial(std::string_view name) {
+  return std::any_of(std::begin(kStructureRows), std::end(kStructureRows),
+                     [&](const auto& row) { return row.material == name; });
 }
 
 }  // namespace railcast

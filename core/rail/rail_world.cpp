@@ -20,6 +20,7 @@
 #include "core/rail/land/land.h"
 #include "core/rail/line/track_path.h"
 #include "core/rail/standing_height.h"
+#include "core/rail/structures/structures.h"
 #include "core/rail/track/track_structure.h"
 #include "core/rail/world_check.h"
 #include "core/rail/world_draft.h"
@@ -99,6 +100,7 @@ struct RailWorld::Line {
                    AddTerrain(context, built);
                    AddTracks(context, infrastructure, built);
                    AddCatenary(context, catenary_plan, infrastructure, built);
+                   AddStructures(context, built);
                    AddVegetation(context, plants, built);
                  });
     return built;

@@ -6,6 +6,7 @@
 
 #include "core/base/text.h"
 #include "core/rail/catenary/catenary.h"
+#include "core/rail/structures/structures.h"
 
 namespace railcast {
 namespace {
@@ -80,48 +81,11 @@ void CheckDistance(const WorldSpec& world,
   }
 }
 
-/// A reference to a place on a track, with the pointers of its values.
-struct TrackPlace {
-  std::string track_pointer;
-  std::string chainage_pointer;
-  const std::string& track;
-  double s_m{};
-};
-
 bool AreNamesKnown(const WorldSpec& world, const WorldFaults& faults) {
   for (std::size_t i = 0; i < world.tracks.size(); ++i) {
     if (!faults.AreKnown({Item("/world/tracks/", i) + "/name"})) return false;
   }
   return true;
-}
-
-// @return The track; null if it is unknown.
-const TrackSpec* CheckPlace(const WorldSpec& world,
-                            const TrackPlace& place,
-                            const LineMeasures& line,
-                            WorldFaults& faults) {
-  if (!faults.AreKnown({place.track_pointer})) return nullptr;
-  const TrackSpec* track = FindTrack(world, place.track);
-  if (track == nullptr) {
-    if (!AreNamesKnown(world, faults)) return nullptr;
-    std::string names;
-    for (const TrackSpec& known : world.tracks) {
-      names += (names.empty() ? "" : ", ") + Quoted(known.name);
-    }
-    faults.Add(place.track_pointer,
-               "must be one of " + names + " (got " + Quoted(place.track) + ")");
-    return nullptr;
-  }
-  const std::string pointer = PointerOf(*track, world);
-  const double end_s_m = track->end_s_m.value_or(line.length_m);
-  if (faults.AreKnown({place.chainage_pointer, pointer + "/start_s_m", pointer + "/end_s_m"}) &&
-      !(place.s_m >= track->start_s_m && place.s_m <= end_s_m)) {
-    faults.Add(
-        place.chainage_pointer,
-        "must lie on track " + Quoted(track->name) + ", " + StretchText(track->start_s_m, end_s_m),
-        NumberText(place.s_m));
-  }
-  return track;
 }
 
 void CheckNames(const WorldSpec& world, WorldFaults& faults) {
@@ -193,13 +157,41 @@ const TrackSpec* FindTrack(const WorldSpec& world, const std::string& name) {
   return found == world.tracks.end() ? nullptr : &*found;
 }
 
+const TrackSpec* CheckTrackPlace(const WorldSpec& world,
+                                 const TrackPlace& place,
+                                 const LineMeasures& line,
+                                 WorldFaults& faults) {
+  if (!faults.AreKnown({place.track_pointer})) return nullptr;
+  const TrackSpec* track = FindTrack(world, place.track);
+  if (track == nullptr) {
+    if (!AreNamesKnown(world, faults)) return nullptr;
+    std::string names;
+    for (const TrackSpec& known : world.tracks) {
+      names += (names.empty() ? "" : ", ") + Quoted(known.name);
+    }
+    faults.Add(place.track_pointer,
+               "must be one of " + names + " (got " + Quoted(place.track) + ")");
+    return nullptr;
+  }
+  const std::string pointer = PointerOf(*track, world);
+  const double end_s_m = track->end_s_m.value_or(line.length_m);
+  if (faults.AreKnown({place.chainage_pointer, pointer + "/start_s_m", pointer + "/end_s_m"}) &&
+      !(place.s_m >= track->start_s_m && place.s_m <= end_s_m)) {
+    faults.Add(
+        place.chainage_pointer,
+        "must lie on track " + Quoted(track->name) + ", " + StretchText(track->start_s_m, end_s_m),
+        NumberText(place.s_m));
+  }
+  return track;
+}
+
 void CheckObject(const WorldSpec& world,
                  const ObjectSpec& object,
                  const std::string& pointer,
                  const LineMeasures& line,
                  WorldFaults& faults) {
   const TrackPlace place{pointer + "/track", pointer + "/s_m", object.track, object.s_m};
-  const TrackSpec* track = CheckPlace(world, place, line, faults);
+  const TrackSpec* track = CheckTrackPlace(world, place, line, faults);
   if (track == nullptr) return;
   const double from_axis_m = track->offset_m + object.d_m;
   if (faults.AreKnown({pointer + "/d_m", PointerOf(*track, world) + "/offset_m", kHalfWidth}) &&
@@ -227,8 +219,9 @@ void CheckWorld(const WorldSpec& world,
     CheckObject(world, world.objects[i], Item("/world/objects/", i), line, faults);
   }
   CheckNames(world, faults);
-  CheckPlace(world, {"/vehicle/track", "/vehicle/start_s_m", vehicle.track, vehicle.start_s_m},
-             line, faults);
+  CheckStructures(world, line, faults);
+  CheckTrackPlace(world, {"/vehicle/track", "/vehicle/start_s_m", vehicle.track, vehicle.start_s_m},
+                  line, faults);
   CheckEgoBoxes(vehicle, faults);
   CheckPivots(world, vehicle, line, faults);
 }

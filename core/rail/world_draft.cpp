@@ -121,8 +121,13 @@ WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
                                             : LineMeasures{kEndless_m, kEndless_m};
   CheckWorld(world, source.vehicle, line, faults);
   if (faults.AreKnown({"/labels", "/materials"})) {
-    draft.surfaces =
-        Attempt("", faults.errors, [&] { return RailSurfaces(source.labels, source.materials); });
+    draft.surfaces = Attempt("", faults.errors, [&] {
+      RailSurfaces surfaces(source.labels, source.materials);
+      if (!world.structures.empty()) {
+        surfaces.AddStructureSurfaces(source.labels, source.materials);
+      }
+      return surfaces;
+    });
     if (!source.vehicle.ego_boxes_m.empty()) {
       Attempt("", faults.errors, [&] { return source.labels.Id("ego"); });
     }

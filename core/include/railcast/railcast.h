@@ -27,4 +27,5 @@
 #include "railcast/scenario.h"
 #include "railcast/scene.h"
 #include "railcast/simulator.h"
+#include "railcast/structures.h"
 #include "railcast/transform.h"

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/base/random.h"
+#include "core/rail/structures/cleared.h"
 
 namespace railcast {
 namespace {
@@ -90,6 +91,7 @@ void AddTrees(const ChunkContext& context,
     const double d_m = strip.side * Uniform(where[1], strip.inner_m, strip.outer_m);
     const double factor = 1.0 - context.alignment.At(s_m).curvature_per_m * d_m;
     if (Uniform(where[2], 0.0, largest_factor) >= factor) continue;
+    if (IsCleared(context, s_m, d_m, Clearing::kTree)) continue;
     const double height_m = Uniform(where[3], spec.tree_height_min_m, spec.tree_height_max_m);
     chunk.placements.push_back(MakeTree(plants, height_m, GroundPoint(context, s_m, d_m), which));
   }
@@ -134,6 +136,7 @@ void AddGrass(const ChunkContext& context,
           0.25 * kTurn_rad * std::floor(Uniform(words[0], 0.0, 4.0)) + Uniform(words[1], -0.2, 0.2);
       const PlantModel& patch = plants.grass[words[2] % plants.grass.size()];
       const double d_m = strip.side * (first_m + spacing_m * row);
+      if (IsCleared(context, s_m, d_m, Clearing::kGrass)) continue;
       chunk.placements.push_back({.model = patch.model,
                                   .chunk_from_model = LaidOut(context, s_m, d_m, yaw_rad),
                                   .instance = 0,
