@@ -58,6 +58,7 @@ constexpr SurfaceRow<StructureSurfaces> kStructureRows[] = {
     {&StructureSurfaces::third_rail, "rail_side", "third_rail"},
     {&StructureSurfaces::third_rail_shield, "plastic", "third_rail"},
     {&StructureSurfaces::slab_track, "concrete", "slab_track"},
+    {&StructureSurfaces::road, "asphalt", "road"},
 };
 
 template <class Surfaces, std::size_t kCount>

@@ -20,7 +20,7 @@ struct StructureSurfaces {
   SurfaceClass platform, platform_strip, platform_roof;
   SurfaceClass noise_wall, noise_wall_post, fence, retaining_wall, cable_trough;
   SurfaceClass tunnel, tunnel_handrail, bridge, bridge_railing;
-  SurfaceClass third_rail, third_rail_shield, slab_track;
+  SurfaceClass third_rail, third_rail_shield, slab_track, road;
 };
 
 /// The surfaces of the railway world, looked up by name once.

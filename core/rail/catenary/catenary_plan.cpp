@@ -95,12 +95,17 @@ bool HasContactLine(const WorldSpec& spec) {
 
 }  // namespace
 
-void CheckSystemHeight(const WorldSpec& world) {
-  if (!HasContactLine(world)) return;
+double LeastSystemHeight_m(const WorldSpec& world) {
   const CatenarySpec& spec = world.catenary;
   const double sag_m =
       kWireWeight_n_per_m * spec.max_span_m * spec.max_span_m / (8.0 * kMessengerTension_n);
-  const double needed_m = sag_m - kContactPresag * spec.max_span_m + kShortestDropper_m;
+  return sag_m - kContactPresag * spec.max_span_m + kShortestDropper_m;
+}
+
+void CheckSystemHeight(const WorldSpec& world) {
+  if (!HasContactLine(world)) return;
+  const CatenarySpec& spec = world.catenary;
+  const double needed_m = LeastSystemHeight_m(world);
   if (spec.system_height_m >= needed_m) return;
   throw InputError({{"/catenary/system_height_m",
                      "must be >= " + NumberText(needed_m) +

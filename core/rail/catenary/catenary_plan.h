@@ -23,6 +23,10 @@ struct CatenarySupport {
   double stagger_m{};
 };
 
+/// The least system height with which the messenger wire, sagging over the longest span, stays 0.3
+/// m above the contact wire.
+[[nodiscard]] double LeastSystemHeight_m(const WorldSpec& world);
+
 /// @throws InputError if the messenger wire would sag to less than 0.3 m above the contact wire:
 ///   "/catenary/system_height_m: rule (got value)", relative to the world's JSON object.
 void CheckSystemHeight(const WorldSpec& world);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/rail/structures/cleared.h"
 #include "core/rail/track/sweep.h"
 
 namespace railcast {
@@ -22,7 +23,7 @@ constexpr double kSamePlace_m = 1e-6;
 class Tracks {
  public:
   Tracks(const WorldSpec& spec, const Alignment& alignment, double s_m)
-      : spec_(spec), to_mast_m_(spec.catenary.mast_distance_m + kMastHalfDepth_m) {
+      : spec_(spec), s_m_(s_m), to_mast_m_(spec.catenary.mast_distance_m + kMastHalfDepth_m) {
     for (const TrackSpec& track : spec.tracks) {
       if (track.start_s_m - kBeyondEnd_m <= s_m &&
           s_m <= TrackEnd_m(track, alignment) + kBeyondEnd_m) {
@@ -45,7 +46,7 @@ class Tracks {
   /// Place for a mast at its nominal distance from its track, if it is clear: from the track's
   /// axis, left positive.
   [[nodiscard]] std::optional<double> MastBeside(double offset_m, bool on_left) const {
-    const double from_axis_m = on_left ? to_mast_m_ : -to_mast_m_;
+    const double from_axis_m = BehindStructures_m(offset_m, on_left ? to_mast_m_ : -to_mast_m_);
     return IsClear(offset_m, offset_m + from_axis_m) ? std::optional(from_axis_m) : std::nullopt;
   }
 
@@ -82,6 +83,18 @@ class Tracks {
   }
 
  private:
+  /// The place for a mast, or one farther out where a structure, such as a platform, leaves no room
+  /// for it; the same place if there is none within reach of a cantilever.
+  [[nodiscard]] double BehindStructures_m(double offset_m, double from_axis_m) const {
+    constexpr double kStep_m = 0.1;
+    constexpr int kNumSteps = 30;
+    for (int step = 0; step <= kNumSteps; ++step) {
+      const double farther_m = from_axis_m + std::copysign(kStep_m * step, from_axis_m);
+      if (!IsCleared(spec_, s_m_, offset_m + farther_m, Clearing::kMast)) return farther_m;
+    }
+    return from_axis_m;
+  }
+
   /// Whether the mast is clear of all tracks but its own.
   [[nodiscard]] bool IsClear(double own_m, double mast_m) const {
     return std::none_of(offsets_m_.begin(), offsets_m_.end(), [&](double other_m) {
@@ -92,6 +105,7 @@ class Tracks {
   }
 
   const WorldSpec& spec_;
+  double s_m_;
   double to_mast_m_;
   std::vector<double> offsets_m_;
   double leftmost_m_ = -std::numeric_limits<double>::infinity();  ///< Of the whole line.

@@ -7,6 +7,7 @@
 
 #include "core/rail/land/noise_field.h"
 #include "core/rail/model_parts.h"
+#include "core/rail/structures/cleared.h"
 #include "core/rail/track/coarse_grid.h"
 #include "core/rail/track/cross_section.h"
 #include "core/rail/track/sweep.h"
@@ -43,7 +44,8 @@ constexpr double kHiddenBelow_m = 0.35;
 class Relief {
  public:
   explicit Relief(const ChunkContext& context)
-      : spec_(context.spec.terrain),
+      : world_(context.spec),
+        spec_(context.spec.terrain),
         roughness_(context.seed, RandomUse::kGroundRoughness, 0),
         long_wave_(context.seed, RandomUse::kGroundRoughness, 1),
         short_wave_(context.seed, RandomUse::kGroundRoughness, 2) {}
@@ -54,7 +56,12 @@ class Relief {
     const double along = s_m / spec_.roughness_wavelength_m;
     const double across = d_m / spec_.roughness_wavelength_m;
     return rough * spec_.roughness_sigma_m * roughness_.At(along, across) +
-           Undulation_m(section.DistanceFromTracks_m(d_m), s_m, d_m);
+           Undulation_m(section.DistanceFromTracks_m(d_m), s_m, d_m) - Drop_m(s_m, d_m);
+  }
+
+  /// How much lower the ground is below and about bridges.
+  [[nodiscard]] double Drop_m(double s_m, double d_m) const {
+    return world_.structures.empty() ? 0.0 : GroundDrop_m(world_, s_m, d_m);
   }
 
  private:
@@ -69,6 +76,7 @@ class Relief {
     return fade * spec_.undulation_sigma_m * waves;
   }
 
+  const WorldSpec& world_;
   const TerrainSpec& spec_;
   NoiseField roughness_;
   NoiseField long_wave_;
@@ -136,7 +144,10 @@ std::vector<double> CoarseStations(const ChainageRange& range, double wavelength
 class GroundGrid {
  public:
   explicit GroundGrid(const ChunkContext& context)
-      : context_(context), relief_(context), lines_m_(LateralLines(context.spec)) {}
+      : context_(context),
+        relief_(context),
+        cleared_(context.spec, Clearing::kGround, context.begin_s_m, context.end_s_m),
+        lines_m_(LateralLines(context.spec)) {}
 
   [[nodiscard]] Mesh WholeMesh(std::span<const double> stations_m) const {
     std::vector<Vector3> points_m;
@@ -181,11 +192,13 @@ class GroundGrid {
                                   std::size_t column) const {
     const double d_m = lines_m_[column];
     const double ballast_m = section.BallastHeight_m(d_m) - section.FormationHeight_m(d_m);
-    return {PointOf(section, relief_, s_m, d_m), ballast_m <= kHiddenBelow_m};
+    const bool is_hidden = ballast_m > kHiddenBelow_m && relief_.Drop_m(s_m, d_m) == 0.0;
+    return {PointOf(section, relief_, s_m, d_m), !is_hidden && !cleared_.Cover(s_m, d_m)};
   }
 
   const ChunkContext& context_;
   Relief relief_;
+  ClearedAreas cleared_;
   std::vector<double> lines_m_;
 };
 

@@ -1,6 +1,7 @@
 #include "core/rail/structures/cleared.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/rail/structures/structure_track.h"
 #include "core/rail/structures/structure_types.h"
@@ -11,7 +12,7 @@ namespace {
 constexpr double kTreeMargin_m = 2.0;
 /// Half of a patch of grass, and of its diagonal's excess.
 constexpr double kGrassMargin_m = 1.2;
-constexpr double kMastMargin_m = 0.5;
+constexpr double kMastMargin_m = 0.2;
 
 ClearedArea WithMargin(const ClearedArea& area, double margin_m, Clearing what) {
   return {.begin_s_m = area.begin_s_m - margin_m,
@@ -21,16 +22,18 @@ ClearedArea WithMargin(const ClearedArea& area, double margin_m, Clearing what) 
           .cleared = {what}};
 }
 
-bool Covers(const ClearedArea& area, const TrackSpec& track, double s_m, double d_m) {
-  if (s_m < area.begin_s_m || s_m > area.end_s_m) return false;
-  const double from_track_m = d_m - TrackOffsetAt_m(track, s_m);
-  return from_track_m >= area.right_m && from_track_m <= area.left_m;
-}
-
 }  // namespace
 
-std::vector<ClearedArea> ClearedAreasOf(const StructureSpec& structure) {
-  return std::visit([](const auto& spec) { return ClearedBy(spec); }, structure);
+std::vector<ClearedArea> ClearedAreasOf(const WorldSpec& world, const StructureSpec& structure) {
+  return std::visit(
+      [&](const auto& spec) {
+        if constexpr (requires { ClearedBy(world, spec); }) {
+          return ClearedBy(world, spec);
+        } else {
+          return ClearedBy(spec);
+        }
+      },
+      structure);
 }
 
 std::vector<ClearedArea> ClearedAround(const ClearedArea& outline) {
@@ -39,18 +42,32 @@ std::vector<ClearedArea> ClearedAround(const ClearedArea& outline) {
           WithMargin(outline, kMastMargin_m, Clearing::kMast)};
 }
 
-bool IsCleared(const WorldSpec& world, double s_m, double d_m, Clearing what) {
-  return std::ranges::any_of(world.structures, [&](const StructureSpec& structure) {
-    const TrackSpec* track = FindTrack(
-        world,
-        std::visit([](const auto& spec) -> const std::string& { return spec.track; }, structure));
-    if (track == nullptr) return false;
-    const std::vector<ClearedArea> areas = ClearedAreasOf(structure);
-    return std::ranges::any_of(areas, [&](const ClearedArea& area) {
-      return std::ranges::find(area.cleared, what) != area.cleared.end() &&
-             Covers(area, *track, s_m, d_m);
-    });
+ClearedAreas::ClearedAreas(const WorldSpec& world,
+                           Clearing what,
+                           double begin_s_m,
+                           double end_s_m) {
+  for (const StructureSpec& structure : world.structures) {
+    const TrackSpec* track =
+        FindTrack(world, std::visit([](const auto& spec) { return spec.track; }, structure));
+    if (track == nullptr) continue;
+    for (ClearedArea& area : ClearedAreasOf(world, structure)) {
+      if (area.end_s_m < begin_s_m || area.begin_s_m > end_s_m) continue;
+      if (std::ranges::find(area.cleared, what) == area.cleared.end()) continue;
+      areas_.push_back({track, std::move(area)});
+    }
+  }
+}
+
+bool ClearedAreas::Cover(double s_m, double d_m) const {
+  return std::ranges::any_of(areas_, [&](const TrackArea& cleared) {
+    if (s_m < cleared.area.begin_s_m || s_m > cleared.area.end_s_m) return false;
+    const double from_track_m = d_m - TrackOffsetAt_m(*cleared.track, s_m);
+    return from_track_m >= cleared.area.right_m && from_track_m <= cleared.area.left_m;
   });
+}
+
+bool IsCleared(const WorldSpec& world, double s_m, double d_m, Clearing what) {
+  return !world.structures.empty() && ClearedAreas(world, what, s_m, s_m).Cover(s_m, d_m);
 }
 
 }  // namespace railcast

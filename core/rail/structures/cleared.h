@@ -14,8 +14,9 @@ namespace railcast {
 enum class Clearing : std::uint8_t {
   kGrass,    ///< A patch of grass, by its middle.
   kTree,     ///< A tree or bush, by its foot.
-  kMast,     ///< A mast of the contact line, by its middle.
-  kBallast,  ///< Ballast and sleepers.
+  kMast,     ///< A mast of the contact line, by its middle: it stands elsewhere if there is room.
+  kSupport,  ///< A mast as well: it is left out, because the structure carries the contact line.
+  kBallast,  ///< The ballast of the track whose axis is there.
   kGround,   ///< The ground itself.
 };
 
@@ -31,13 +32,32 @@ struct ClearedArea {
 
 /// The areas that a structure clears. Trees and grass keep a distance from its outline, which these
 /// areas include.
-[[nodiscard]] std::vector<ClearedArea> ClearedAreasOf(const StructureSpec& structure);
+[[nodiscard]] std::vector<ClearedArea> ClearedAreasOf(const WorldSpec& world,
+                                                      const StructureSpec& structure);
 
-/// The area of a structure with this outline, without trees (crowns of some 2 m), grass (patches of
-/// 2 m) and masts.
+/// The areas of a structure with this outline, without trees (crowns of some 2 m), grass (patches
+/// of 2 m) and masts.
 [[nodiscard]] std::vector<ClearedArea> ClearedAround(const ClearedArea& outline);
 
-/// Whether the structures of a world clear something at (s, d), d being left of the alignment.
+/// All areas that the structures of a world clear of one thing between two chainages. The world
+/// must outlive it.
+class ClearedAreas {
+ public:
+  ClearedAreas(const WorldSpec& world, Clearing what, double begin_s_m, double end_s_m);
+
+  /// Whether (s, d) is cleared, d being left of the alignment.
+  [[nodiscard]] bool Cover(double s_m, double d_m) const;
+
+ private:
+  struct TrackArea {
+    const TrackSpec* track;
+    ClearedArea area;
+  };
+  std::vector<TrackArea> areas_;
+};
+
+/// Whether the structures of a world clear something at (s, d), d being left of the alignment. To
+/// ask for many places, make ClearedAreas once.
 [[nodiscard]] bool IsCleared(const WorldSpec& world, double s_m, double d_m, Clearing what);
 [[nodiscard]] inline bool IsCleared(const ChunkContext& context,
                                     double s_m,
@@ -45,5 +65,9 @@ struct ClearedArea {
                                     Clearing what) {
   return IsCleared(context.spec, s_m, d_m, what);
 }
+
+/// How much lower the ground is at (s, d) where bridges carry the line over a gap; 0 elsewhere. The
+/// gap's banks, and the embankment's cones beside the abutments, have slopes of 1:1.5.
+[[nodiscard]] double GroundDrop_m(const WorldSpec& world, double s_m, double d_m);
 
 }  // namespace railcast

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/error.h"
 #include "core/rail/world_check.h"
@@ -15,6 +16,30 @@ constexpr double kStructureTolerance_m = 1e-3;
 
 double TrackOffsetAt_m(const TrackSpec& track, double /*s_m*/) {
   return track.offset_m;
+}
+
+TrackSpread SpreadOf(const WorldSpec& world, const StretchSpec& stretch, double gap_m) {
+  const TrackSpec* own = FindTrack(world, stretch.track);
+  if (own == nullptr) return {};
+  constexpr double kEndless_m = std::numeric_limits<double>::infinity();
+  std::vector<double> others_m;
+  for (const TrackSpec& track : world.tracks) {
+    if (track.start_s_m >= stretch.end_s_m) continue;
+    if (track.end_s_m.value_or(kEndless_m) <= stretch.begin_s_m) continue;
+    for (const double s_m :
+         {stretch.begin_s_m, 0.5 * (stretch.begin_s_m + stretch.end_s_m), stretch.end_s_m}) {
+      others_m.push_back(TrackOffsetAt_m(track, s_m) - TrackOffsetAt_m(*own, s_m));
+    }
+  }
+  std::ranges::sort(others_m);
+  TrackSpread spread;
+  for (const double d_m : others_m) {
+    if (d_m > spread.left_m && d_m <= spread.left_m + gap_m) spread.left_m = d_m;
+  }
+  for (const double d_m : std::vector<double>(others_m.rbegin(), others_m.rend())) {
+    if (d_m < spread.right_m && d_m >= spread.right_m - gap_m) spread.right_m = d_m;
+  }
+  return spread;
 }
 
 StructureTrack::StructureTrack(const ChunkContext& context, const std::string& track)

@@ -14,6 +14,21 @@ namespace railcast {
 /// Lateral position of a track's axis at a chainage, left of the alignment.
 [[nodiscard]] double TrackOffsetAt_m(const TrackSpec& track, double s_m);
 
+/// The axes of the outermost of several tracks, left of the axis of one of them.
+struct TrackSpread {
+  double right_m{};  ///< At most 0.
+  double left_m{};   ///< At least 0.
+
+  [[nodiscard]] double middle_m() const { return 0.5 * (right_m + left_m); }
+  [[nodiscard]] double half_width_m() const { return 0.5 * (left_m - right_m); }
+};
+
+/// The tracks that a structure along a stretch has room for: its own and, one after another, those
+/// that run somewhere along the stretch within `gap_m` of one of them.
+[[nodiscard]] TrackSpread SpreadOf(const WorldSpec& world,
+                                   const StretchSpec& stretch,
+                                   double gap_m);
+
 /// The frames of the track along which a structure runs, in the frame of a chunk.
 class StructureTrack {
  public:

@@ -14,9 +14,10 @@ namespace railcast {
 // Every type of structure has three functions of these names, found by its spec:
 //
 // - AddStructure() adds the part that lies in a chunk;
-// - ClearedBy() returns the areas that it clears;
+// - ClearedBy() returns the areas that it clears; it has the world as its first argument if they
+//   depend on it;
 // - CheckShape() reports what its description (core/scenario/describe_structures.h) cannot check.
-//   Its name, its track and its chainages are checked for all types alike.
+//   Its name, its track and its chainages are checked for all types alike, so most have none.
 
 /// Where the faults of a structure belong.
 struct StructurePlace {
@@ -24,8 +25,47 @@ struct StructurePlace {
   std::string pointer;  ///< "/world/structures/3".
 };
 
+/// Whether structures of a type are part of a track, so that they belong into its gauge.
+template <class Structure>
+inline constexpr bool kBelongsIntoGauge = false;
+template <>
+inline constexpr bool kBelongsIntoGauge<ThirdRailSpec> = true;
+template <>
+inline constexpr bool kBelongsIntoGauge<SlabTrackSpec> = true;
+
+template <class Structure>
+void CheckShape(const StructurePlace&, const Structure&, WorldFaults&) {}
+
 void AddStructure(const ChunkContext& context, const PlatformSpec& platform, Chunk& chunk);
 [[nodiscard]] std::vector<ClearedArea> ClearedBy(const PlatformSpec& platform);
 void CheckShape(const StructurePlace& place, const PlatformSpec& platform, WorldFaults& faults);
+
+void AddStructure(const ChunkContext& context, const NoiseWallSpec& wall, Chunk& chunk);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const NoiseWallSpec& wall);
+
+void AddStructure(const ChunkContext& context, const FenceSpec& fence, Chunk& chunk);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const FenceSpec& fence);
+
+void AddStructure(const ChunkContext& context, const RetainingWallSpec& wall, Chunk& chunk);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const RetainingWallSpec& wall);
+
+void AddStructure(const ChunkContext& context, const CableTroughSpec& trough, Chunk& chunk);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const CableTroughSpec& trough);
+
+void AddStructure(const ChunkContext& context, const TunnelSpec& tunnel, Chunk& chunk);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const WorldSpec& world, const TunnelSpec& tunnel);
+
+void AddStructure(const ChunkContext& context, const BridgeSpec& bridge, Chunk& chunk);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const WorldSpec& world, const BridgeSpec& bridge);
+
+void AddStructure(const ChunkContext& context, const OverbridgeSpec& bridge, Chunk& chunk);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const WorldSpec& world,
+                                                 const OverbridgeSpec& bridge);
+
+void AddStructure(const ChunkContext& context, const ThirdRailSpec& rail, Chunk& chunk);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const ThirdRailSpec& rail);
+
+void AddStructure(const ChunkContext& context, const SlabTrackSpec& slab, Chunk& chunk);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const SlabTrackSpec& slab);
 
 }  // namespace railcast

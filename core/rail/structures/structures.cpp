@@ -43,7 +43,7 @@ void CheckExtent(const StructurePlace& place, const StructureSpec& structure, Wo
   const double half_width_m = place.world.terrain.half_width_m;
   if (track == nullptr || !faults.AreKnown({place.pointer})) return;
   double farthest_m = 0.0;
-  for (const ClearedArea& area : ClearedAreasOf(structure)) {
+  for (const ClearedArea& area : ClearedAreasOf(place.world, structure)) {
     const double offset_m = TrackOffsetAt_m(*track, area.begin_s_m);
     farthest_m =
         std::max({farthest_m, std::abs(offset_m + area.right_m), std::abs(offset_m + area.left_m)});

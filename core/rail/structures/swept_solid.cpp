@@ -17,16 +17,6 @@ double TwiceAreaOf(std::span<const Eigen::Vector2d> outline_m) {
   return twice_area_m2;
 }
 
-void AppendEnd(const Transform& frame, std::span<const Eigen::Vector2d> outline_m, Mesh& mesh) {
-  const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
-  for (const Eigen::Vector2d& point : outline_m) {
-    mesh.vertices.emplace_back((frame * Vector3(0.0, point.x(), point.y())).cast<float>());
-  }
-  for (const auto& [a, b, c] : TriangulatePolygon(outline_m)) {
-    mesh.triangles.push_back({base + a, base + b, base + c});
-  }
-}
-
 }  // namespace
 
 Outline RectangleOutline(double y0_m, double z0_m, double y1_m, double z1_m) {
@@ -51,16 +41,32 @@ std::optional<Stretch> StretchInChunk(const StructureTrack& track,
   return stretch;
 }
 
+void AppendSection(const Transform& frame, std::span<const Eigen::Vector2d> outline_m, Mesh& mesh) {
+  const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const Eigen::Vector2d& point : outline_m) {
+    mesh.vertices.emplace_back((frame * Vector3(0.0, point.x(), point.y())).cast<float>());
+  }
+  for (const auto& [a, b, c] : TriangulatePolygon(outline_m)) {
+    mesh.triangles.push_back({base + a, base + b, base + c});
+  }
+}
+
+void AppendSweptSheet(const Stretch& stretch,
+                      std::span<const Eigen::Vector2d> outline_m,
+                      Mesh& mesh) {
+  AppendSweep(stretch.frames, outline_m, mesh);
+}
+
 void AppendSweptSolid(const Stretch& stretch,
                       std::span<const Eigen::Vector2d> outline_m,
                       Mesh& mesh) {
   // AppendSweep() wants outlines that turn right, seen with y to the right.
   Outline closed(outline_m.begin(), outline_m.end());
   if (TwiceAreaOf(closed) > 0.0) std::reverse(closed.begin(), closed.end());
-  if (stretch.has_begin) AppendEnd(stretch.frames.front(), closed, mesh);
+  if (stretch.has_begin) AppendSection(stretch.frames.front(), closed, mesh);
   if (stretch.has_end) {
     const Outline facing_ahead(closed.rbegin(), closed.rend());
-    AppendEnd(stretch.frames.back(), facing_ahead, mesh);
+    AppendSection(stretch.frames.back(), facing_ahead, mesh);
   }
   closed.push_back(closed.front());
   AppendSweep(stretch.frames, closed, mesh);

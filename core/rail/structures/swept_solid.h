@@ -37,6 +37,14 @@ struct Stretch {
     double d_m,
     const std::function<Transform(double s_m)>& frame_at);
 
+/// Sweeps an open outline; it faces to the left of its direction, seen with y to the right.
+void AppendSweptSheet(const Stretch& stretch,
+                      std::span<const Eigen::Vector2d> outline_m,
+                      Mesh& mesh);
+
+/// Adds a closed outline as a face across the line.
+void AppendSection(const Transform& frame, std::span<const Eigen::Vector2d> outline_m, Mesh& mesh);
+
 /// Sweeps a closed outline, without repeating its first point, of any orientation; the surface
 /// faces outwards and is closed where the structure begins or ends.
 void AppendSweptSolid(const Stretch& stretch,

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/error.h"
+#include "core/rail/structures/cleared.h"
 #include "core/rail/track/sweep.h"
 
 namespace railcast {
@@ -48,11 +49,13 @@ CrossSection::CrossSection(const ChunkContext& context, double s_m)
     // As Alignment::WorldFromTrack() has it, which would evaluate the axis once more.
     const Vector3 middle_m = axis_from_world * (axis.position_m + track.offset_m * left);
     const double end_s_m = TrackEnd_m(track, context.alignment);
-    tracks_.push_back({.d_m = middle_m.y(),
-                       .height_m = middle_m.z(),
-                       .cant_rad = axis.cant_rad,
-                       .beyond_end_m = std::max({0.0, track.start_s_m - s_m, s_m - end_s_m}),
-                       .seat = SeatOf(track.sleeper)});
+    tracks_.push_back(
+        {.d_m = middle_m.y(),
+         .height_m = middle_m.z(),
+         .cant_rad = axis.cant_rad,
+         .beyond_end_m = std::max({0.0, track.start_s_m - s_m, s_m - end_s_m}),
+         .seat = SeatOf(track.sleeper),
+         .has_ballast = !IsCleared(context, s_m, track.offset_m, Clearing::kBallast)});
   }
   std::sort(tracks_.begin(), tracks_.end(),
             [](const TrackHere& a, const TrackHere& b) { return a.d_m < b.d_m; });
@@ -74,7 +77,8 @@ double CrossSection::BallastHeight_m(double d_m) const {
     // From the shoulder, the slope takes about 0.8 m to reach the formation.
     constexpr double kReach_m = 3.0;
     const double beyond_m = std::max(std::abs(d_m - track.d_m) - kShoulder_m, track.beyond_end_m);
-    if (beyond_m < kReach_m) height_m = std::max(height_m, BallastHeightOf(track, d_m));
+    if (track.has_ballast && beyond_m < kReach_m)
+      height_m = std::max(height_m, BallastHeightOf(track, d_m));
   }
   return height_m;
 }

@@ -54,6 +54,7 @@ class CrossSection {
     double cant_rad{};
     double beyond_end_m{};  ///< Distance along the line from the track's end; 0 within the track.
     SleeperSeat seat;
+    bool has_ballast{};
   };
 
   [[nodiscard]] double BallastHeightOf(const TrackHere& track, double d_m) const;

@@ -12,7 +12,8 @@ LabelTable TestLabels() {
         "tree",         "contact_wire", "messenger_wire", "dropper",    "mast",
         "cantilever",   "wagon",        "person",         "pole",       "object",
         "ego",          "platform",     "noise_wall",     "fence",      "retaining_wall",
-        "cable_trough", "tunnel",       "bridge",         "third_rail", "slab_track"}) {
+        "cable_trough", "tunnel",       "bridge",         "third_rail", "slab_track",
+        "road"}) {
     Label label;
     label.id = static_cast<std::uint32_t>(labels.size() + 1);
     label.name = name;
@@ -45,7 +46,8 @@ MaterialLibrary TestMaterials() {
                            "grey_paint",
                            "white_paint",
                            "masonry",
-                           "plastic"}) {
+                           "plastic",
+                           "asphalt"}) {
     materials.push_back({name, 0.3});
   }
   return MaterialLibrary(materials);
