@@ -14,6 +14,19 @@ struct SurfaceClass {
   std::uint32_t label{};
 };
 
+/// The surfaces of single things beside and in the track (railcast/lineside.h).
+struct LinesideSurfaces {
+  SurfaceClass signal_mast, signal_foot, signal_screen, signal_lamp, signal_board;
+  SurfaceClass board_face, board_steel, marker_white, marker_red;
+  SurfaceClass balise, relay_box, relay_foot;
+  SurfaceClass buffer_frame, buffer_beam, buffer_board;
+  SurfaceClass derailer, derailer_machine;
+  SurfaceClass slab, asphalt;
+  SurfaceClass barrier_white, barrier_red, crossing_steel, crossing_screen, crossing_lamp;
+  SurfaceClass wall, flat_roof, tiled_roof, window;
+  SurfaceClass furniture_steel, furniture_wood, furniture_glass;
+};
+
 /// The surfaces of structures (railcast/structures.h). Tables need their names only if the world
 /// has structures.
 struct StructureSurfaces {
@@ -21,6 +34,7 @@ struct StructureSurfaces {
   SurfaceClass noise_wall, noise_wall_post, fence, retaining_wall, cable_trough;
   SurfaceClass tunnel, tunnel_handrail, bridge, bridge_railing;
   SurfaceClass third_rail, third_rail_shield, slab_track, road;
+  LinesideSurfaces lineside;
 };
 
 /// The surfaces of the railway world, looked up by name once.

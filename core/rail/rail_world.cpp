@@ -20,6 +20,7 @@
 #include "core/rail/land/land.h"
 #include "core/rail/line/track_path.h"
 #include "core/rail/standing_height.h"
+#include "core/rail/structures/structure_types.h"
 #include "core/rail/structures/structures.h"
 #include "core/rail/track/track_structure.h"
 #include "core/rail/world_check.h"
@@ -294,7 +295,11 @@ std::vector<Transform> RailWorld::VehiclePosesIn(int home_chunk) const {
 
 std::vector<int> RailWorld::ChunksInReach(int home_chunk, double range_m) const {
   const double aside_m = std::abs(things_->vehicle.pose().d_m);
-  return line_->grid.WithinReach(home_chunk, range_m + aside_m + kOverhang_m);
+  double overhang_m = kOverhang_m;
+  for (const StructureSpec& structure : line_->world.structures) {
+    overhang_m = std::max(overhang_m, OverhangOf_m(structure));
+  }
+  return line_->grid.WithinReach(home_chunk, range_m + aside_m + overhang_m);
 }
 
 Transform RailWorld::WorldFromChunk(int chunk) const {

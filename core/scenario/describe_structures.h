@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/scenario/describe_alignment.h"
+#include "core/scenario/describe_lineside.h"
 #include "core/scenario/json_rules.h"
 #include "railcast/structures.h"
 

@@ -20,6 +20,7 @@
 #include "railcast/fidelity.h"
 #include "railcast/frame.h"
 #include "railcast/lidar.h"
+#include "railcast/lineside.h"
 #include "railcast/material.h"
 #include "railcast/outcome.h"
 #include "railcast/rail_world.h"
@@ -28,4 +29,5 @@
 #include "railcast/scene.h"
 #include "railcast/simulator.h"
 #include "railcast/structures.h"
+#include "railcast/track_side.h"
 #include "railcast/transform.h"

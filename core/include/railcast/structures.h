@@ -7,20 +7,10 @@
 #include <variant>
 #include <vector>
 
-#include "railcast/enum_names.h"
+#include "railcast/lineside.h"
+#include "railcast/track_side.h"
 
 namespace railcast {
-
-/// A side of a track, seen towards increasing chainage.
-enum class TrackSide { kLeft, kRight };
-template <>
-inline constexpr auto kEnumNames<TrackSide> =
-    std::to_array<EnumName<TrackSide>>({{TrackSide::kLeft, "left"}, {TrackSide::kRight, "right"}});
-
-/// +1 for left, -1 for right: the sign of d.
-[[nodiscard]] constexpr double SignOf(TrackSide side) {
-  return side == TrackSide::kLeft ? 1.0 : -1.0;
-}
 
 /// What every structure along a stretch of track has. Chainages are those of the line.
 struct StretchSpec {
@@ -175,13 +165,32 @@ using StructureSpec = std::variant<PlatformSpec,
                                    BridgeSpec,
                                    OverbridgeSpec,
                                    ThirdRailSpec,
-                                   SlabTrackSpec>;
+                                   SlabTrackSpec,
+                                   SignalSpec,
+                                   BoardSpec,
+                                   BaliseSpec,
+                                   DerailerSpec,
+                                   RelayBoxSpec,
+                                   FurnitureSpec,
+                                   BufferStopSpec,
+                                   LevelCrossingSpec,
+                                   BuildingSpec>;
 
 /// The part that all structures along a stretch have in common.
 [[nodiscard]] inline const StretchSpec* StretchOf(const StructureSpec& structure) {
   return std::visit(
       []<class T>(const T& spec) -> const StretchSpec* {
         if constexpr (std::is_base_of_v<StretchSpec, T>) return &spec;
+        return nullptr;
+      },
+      structure);
+}
+
+/// The part that all structures at one place have in common.
+[[nodiscard]] inline const PointSpec* PointOf(const StructureSpec& structure) {
+  return std::visit(
+      []<class T>(const T& spec) -> const PointSpec* {
+        if constexpr (std::is_base_of_v<PointSpec, T>) return &spec;
         return nullptr;
       },
       structure);

@@ -8,6 +8,7 @@
 #include "core/rail/land/noise_field.h"
 #include "core/rail/model_parts.h"
 #include "core/rail/structures/cleared.h"
+#include "core/rail/structures/crossing_road.h"
 #include "core/rail/track/coarse_grid.h"
 #include "core/rail/track/cross_section.h"
 #include "core/rail/track/sweep.h"
@@ -147,7 +148,8 @@ class GroundGrid {
       : context_(context),
         relief_(context),
         cleared_(context.spec, Clearing::kGround, context.begin_s_m, context.end_s_m),
-        lines_m_(LateralLines(context.spec)) {}
+        lines_m_(LateralLines(context.spec)),
+        roads_(RoadsNear(context, {context.begin_s_m, context.end_s_m})) {}
 
   [[nodiscard]] Mesh WholeMesh(std::span<const double> stations_m) const {
     std::vector<Vector3> points_m;
@@ -193,13 +195,20 @@ class GroundGrid {
     const double d_m = lines_m_[column];
     const double ballast_m = section.BallastHeight_m(d_m) - section.FormationHeight_m(d_m);
     const bool is_hidden = ballast_m > kHiddenBelow_m && relief_.Drop_m(s_m, d_m) == 0.0;
-    return {PointOf(section, relief_, s_m, d_m), !is_hidden && !cleared_.Cover(s_m, d_m)};
+    Vector3 place_m = PointOf(section, relief_, s_m, d_m);
+    for (const CrossingRoad& road : roads_) {
+      if (const auto limit_m = road.GroundLimit_m(s_m, d_m)) {
+        place_m.z() = std::min(place_m.z(), *limit_m);
+      }
+    }
+    return {place_m, !is_hidden && !cleared_.Cover(s_m, d_m)};
   }
 
   const ChunkContext& context_;
   Relief relief_;
   ClearedAreas cleared_;
   std::vector<double> lines_m_;
+  std::vector<CrossingRoad> roads_;  ///< Of level crossings, below which the ground stays.
 };
 
 }  // namespace

@@ -59,14 +59,14 @@ Model MakeHalfBarrier(double boom_length_m, double angle_rad, const LinesideSurf
 
 Model MakeCrossingSign(const LinesideSurfaces& surfaces) {
   constexpr double kPostRadius_m = 0.045;
-  constexpr double kCrossMiddle_m = 2.60;
+  constexpr double kCrossMiddle_m = 3.25;
   constexpr double kBeamLength_m = 1.20;
   constexpr double kBeamWidth_m = 0.15;
   constexpr double kBeamThickness_m = 0.008;
   constexpr double kBeamSlant_rad = 0.96;  // 55 degrees: the cross is higher than wide.
   Model model{.name = "crossing_sign", .parts = {}};
   MeshOf(surfaces.crossing_steel, model)
-      .Append(MakePost({.bottom_m = -0.50, .top_m = 3.10, .radius_m = kPostRadius_m}));
+      .Append(MakePost({.bottom_m = -0.50, .top_m = 3.75, .radius_m = kPostRadius_m}));
   double front_m = -kPostRadius_m;
   for (const double slant : {-kBeamSlant_rad, kBeamSlant_rad}) {
     const Vector3 half_m(0.5 * kBeamThickness_m, 0.5 * kBeamLength_m, 0.5 * kBeamWidth_m);
@@ -78,7 +78,7 @@ Model MakeCrossingSign(const LinesideSurfaces& surfaces) {
                               {front_m + 0.5 * kBeamThickness_m, 0.0, kCrossMiddle_m}));
   }
   constexpr PlateSize kScreen{.width_m = 0.40, .height_m = 0.80};
-  constexpr double kScreenTop_m = 2.00;
+  constexpr double kScreenTop_m = 2.70;
   constexpr double kScreenThickness_m = 0.04;
   const double screen_middle_m = kScreenTop_m - 0.5 * kScreen.height_m;
   MeshOf(surfaces.crossing_screen, model)

@@ -97,15 +97,15 @@ Model MakeBufferStop(const LinesideSurfaces& surfaces) {
 }
 
 Model MakeDerailer(const LinesideSurfaces& surfaces) {
-  constexpr double kShoeLength_m = 0.55;
+  constexpr double kShoeLength_m = 0.60;
   constexpr double kShoeRise_m = 0.10;
   const double rail_m = 0.5 * kRailHeadDistance_m;
   Model model{.name = "derailer", .parts = {}};
   MeshOf(surfaces.derailer, model)
-      .Append(MakeBox({Vector3(-0.5 * kShoeLength_m, rail_m - 0.09, -0.03),
-                       Vector3(0.5 * kShoeLength_m, rail_m + 0.09, kShoeRise_m)}));
+      .Append(MakeBox({Vector3(-0.5 * kShoeLength_m, rail_m - 0.15, -0.10),
+                       Vector3(0.5 * kShoeLength_m, rail_m + 0.15, kShoeRise_m)}));
   Mesh& machine = MeshOf(surfaces.derailer_machine, model);
-  machine.Append(MakeBox({Vector3(-0.03, rail_m + 0.09, -0.10), Vector3(0.03, 1.15, -0.04)}));
+  machine.Append(MakeBox({Vector3(-0.03, rail_m + 0.15, -0.10), Vector3(0.03, 1.15, -0.04)}));
   machine.Append(MakeBox({Vector3(-0.35, 1.15, -0.35), Vector3(0.35, 1.55, 0.02)}));
   return model;
 }

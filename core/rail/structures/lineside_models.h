@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/rail/structures/lineside_surfaces.h"
+#include "core/rail/rail_surfaces.h"
 #include "railcast/scene.h"
 
 namespace railcast {
@@ -66,11 +66,11 @@ inline constexpr double kBaliseHeight_m = 0.050;
 /// at x = 0 and look towards -x; it ends at x = kBufferStopLength_m. 252 triangles.
 inline constexpr double kBufferStopLength_m = 2.5;
 inline constexpr double kBufferStopWidth_m = 2.5;
-inline constexpr double kBufferStopHeight_m = 1.90;
+inline constexpr double kBufferStopHeight_m = 1.60;
 [[nodiscard]] Model MakeBufferStop(const LinesideSurfaces& surfaces);
 
-/// A derailer that lies on the rail at y = 0.75 m, with its machine outside. The shoe is 0.55 m
-/// long and rises 0.10 m above the rail. 36 triangles.
+/// A derailer that lies on the rail at y = 0.75 m, with its machine outside. The shoe is
+/// 0.60 x 0.30 x 0.20 m and rises 0.10 m above the rail. 36 triangles.
 [[nodiscard]] Model MakeDerailer(const LinesideSurfaces& surfaces);
 
 /// A lamp of that height above the ground, where its origin is: a tapered pole with an arm of 1.0 m
@@ -94,7 +94,7 @@ inline constexpr double kBufferStopHeight_m = 1.90;
                                     const LinesideSurfaces& surfaces);
 
 /// A St Andrew's cross, retroreflecting, above two lamps on a black screen, on a post. Its origin
-/// is on the ground; drivers who see it travel along x. Beams of 1.20 x 0.15 m, crossing 2.6 m
+/// is on the ground; drivers who see it travel along x. Beams of 1.20 x 0.15 m, crossing 3.25 m
 /// above the ground. 176 triangles.
 [[nodiscard]] Model MakeCrossingSign(const LinesideSurfaces& surfaces);
 

@@ -68,4 +68,37 @@ void AddStructure(const ChunkContext& context, const ThirdRailSpec& rail, Chunk&
 void AddStructure(const ChunkContext& context, const SlabTrackSpec& slab, Chunk& chunk);
 [[nodiscard]] std::vector<ClearedArea> ClearedBy(const SlabTrackSpec& slab);
 
+void AddStructure(const ChunkContext& context, const SignalSpec& signal, Chunk& chunk);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const SignalSpec& signal);
+
+void AddStructure(const ChunkContext& context, const BoardSpec& board, Chunk& chunk);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const BoardSpec& board);
+
+void AddStructure(const ChunkContext& context, const BaliseSpec& balise, Chunk& chunk);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const BaliseSpec& balise);
+
+void AddStructure(const ChunkContext& context, const DerailerSpec& derailer, Chunk& chunk);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const DerailerSpec& derailer);
+
+void AddStructure(const ChunkContext& context, const RelayBoxSpec& box, Chunk& chunk);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const RelayBoxSpec& box);
+
+void AddStructure(const ChunkContext& context, const FurnitureSpec& furniture, Chunk& chunk);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const FurnitureSpec& furniture);
+
+void AddStructure(const ChunkContext& context, const LevelCrossingSpec& crossing, Chunk& chunk);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const LevelCrossingSpec& crossing);
+
+void AddStructure(const ChunkContext& context, const BufferStopSpec& stop, Chunk& chunk);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const BufferStopSpec& stop);
+void CheckShape(const StructurePlace& place, const BufferStopSpec& stop, WorldFaults& faults);
+
+void AddStructure(const ChunkContext& context, const BuildingSpec& building, Chunk& chunk);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const BuildingSpec& building);
+void CheckShape(const StructurePlace& place, const BuildingSpec& building, WorldFaults& faults);
+
+/// How far the part of a structure that AddStructure() adds to a chunk may reach beyond the chunk's
+/// ground.
+[[nodiscard]] double OverhangOf_m(const StructureSpec& structure);
+
 }  // namespace railcast

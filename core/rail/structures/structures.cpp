@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <string>
 
@@ -37,6 +38,65 @@ void CheckStretch(const StructurePlace& place,
   }
 }
 
+// Checks that the track exists of what has no chainage of its own.
+void CheckTrackName(const StructurePlace& place, const std::string& name, WorldFaults& faults) {
+  const TrackSpec* track = FindTrack(place.world, name);
+  constexpr double kEndless_m = std::numeric_limits<double>::infinity();
+  const std::string pointer = place.pointer + "/track";
+  CheckTrackPlace(place.world, {pointer, pointer, name, track == nullptr ? 0.0 : track->start_s_m},
+                  {kEndless_m, kEndless_m}, faults);
+}
+
+// Checks that the whole of a building stands beside its track.
+void CheckFootprint(const StructurePlace& place,
+                    const BuildingSpec& building,
+                    const LineMeasures& line,
+                    WorldFaults& faults) {
+  for (std::size_t i = 0; i < building.footprint_m.size(); ++i) {
+    const std::string corner = place.pointer + "/footprint_m/" + std::to_string(i);
+    CheckTrackPlace(place.world,
+                    {place.pointer + "/track", corner, building.track, building.footprint_m[i][0]},
+                    line, faults);
+  }
+}
+
+// Checks that a road lies on its track with its whole width.
+void CheckRoad(const StructurePlace& place,
+               const LevelCrossingSpec& crossing,
+               const LineMeasures& line,
+               WorldFaults& faults) {
+  const TrackSpec* track = FindTrack(place.world, crossing.track);
+  if (track == nullptr || !faults.AreKnown({place.pointer})) return;
+  const double half_m = 0.5 * crossing.road_width_m;
+  const double end_s_m = track->end_s_m.value_or(line.length_m);
+  if (crossing.s_m - half_m >= track->start_s_m && crossing.s_m + half_m <= end_s_m) return;
+  faults.Add(place.pointer + "/s_m",
+             "must be at least half the road's width of " + NumberText(crossing.road_width_m) +
+                 " m from both ends of track " + Quoted(track->name),
+             NumberText(crossing.s_m));
+}
+
+// Checks the chainages of any structure.
+void CheckStructureChainages(const StructurePlace& place,
+                             const StructureSpec& structure,
+                             const LineMeasures& line,
+                             WorldFaults& faults) {
+  if (const StretchSpec* stretch = StretchOf(structure)) {
+    CheckStretch(place, *stretch, line, faults);
+  } else if (const PointSpec* point = PointOf(structure)) {
+    CheckTrackPlace(place.world,
+                    {place.pointer + "/track", place.pointer + "/s_m", point->track, point->s_m},
+                    line, faults);
+    if (const auto* crossing = std::get_if<LevelCrossingSpec>(&structure)) {
+      CheckRoad(place, *crossing, line, faults);
+    }
+  } else if (const auto* building = std::get_if<BuildingSpec>(&structure)) {
+    CheckFootprint(place, *building, line, faults);
+  } else {
+    CheckTrackName(place, TrackOfStructure(structure), faults);
+  }
+}
+
 // Checks that the structure stands on ground.
 void CheckExtent(const StructurePlace& place, const StructureSpec& structure, WorldFaults& faults) {
   const TrackSpec* track = FindTrack(place.world, TrackOfStructure(structure));
@@ -63,18 +123,30 @@ void AddStructures(const ChunkContext& context, Chunk& chunk) {
   }
 }
 
+double OverhangOf_m(const StructureSpec& structure) {
+  const auto* building = std::get_if<BuildingSpec>(&structure);
+  if (building == nullptr) return 0.0;
+  double least_m = std::numeric_limits<double>::infinity();
+  double most_m = -least_m;
+  for (const auto& [s_m, d_m] : building->footprint_m) {
+    least_m = std::min(least_m, s_m);
+    most_m = std::max(most_m, s_m);
+  }
+  // Its middle is in the chunk; on the outside of a curve, it is up to twice as long.
+  return most_m - least_m;
+}
+
 void CheckStructures(const WorldSpec& world, const LineMeasures& line, WorldFaults& faults) {
   std::set<std::string> names;
   for (std::size_t i = 0; i < world.structures.size(); ++i) {
     const StructureSpec& structure = world.structures[i];
     const StructurePlace place{world, "/world/structures/" + std::to_string(i)};
+    if (!faults.AreKnown({place.pointer + "/type"})) continue;
     const std::string& name = NameOfStructure(structure);
     if (faults.AreKnown({place.pointer + "/name"}) && !names.insert(name).second) {
       faults.Add(place.pointer + "/name", "must be unique among the structures", Quoted(name));
     }
-    if (const StretchSpec* stretch = StretchOf(structure)) {
-      CheckStretch(place, *stretch, line, faults);
-    }
+    CheckStructureChainages(place, structure, line, faults);
     std::visit([&](const auto& spec) { CheckShape(place, spec, faults); }, structure);
     CheckExtent(place, structure, faults);
   }
