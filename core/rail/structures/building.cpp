@@ -93,7 +93,11 @@ void CheckShape(const StructurePlace& place, const BuildingSpec& building, World
   const std::string pointer = place.pointer + "/footprint_m";
   if (!faults.AreKnown({pointer})) return;
   const std::vector<FootprintCorner>& corners = building.footprint_m;
-  if (corners.size() > kMostCorners) {
+  if (corners.size() < 3) {
+    faults.Add(pointer, "must have at least 3 corners", NumberText(corners.size()));
+  } else if (building.roof == RoofKind::kGable && corners.size() != 4) {
+    faults.Add(pointer, "must have four corners under a gable roof", NumberText(corners.size()));
+  } else if (corners.size() > kMostCorners) {
     faults.Add(pointer, "must have at most " + NumberText(kMostCorners) + " corners",
                NumberText(corners.size()));
   } else if (MeetsItself(corners)) {

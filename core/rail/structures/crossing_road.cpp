@@ -53,7 +53,9 @@ CrossingRoad::CrossingRoad(const ChunkContext& context, const LevelCrossingSpec&
             [](const Lane& a, const Lane& b) { return a.d_m < b.d_m; });
   for (std::size_t i = 1; i < lanes_.size(); ++i) {
     constexpr double kLeastGap_m = 0.1;
-    const double room_m = 0.5 * (lanes_[i].d_m - lanes_[i - 1].d_m - kLeastGap_m);
+    constexpr double kLeastEdge_m = 0.9;  // Beyond the rail, however close the tracks are.
+    const double room_m =
+        std::max(kLeastEdge_m, 0.5 * (lanes_[i].d_m - lanes_[i - 1].d_m - kLeastGap_m));
     lanes_[i].edge_m = std::min(lanes_[i].edge_m, room_m);
     lanes_[i - 1].edge_m = std::min(lanes_[i - 1].edge_m, room_m);
   }

@@ -203,7 +203,9 @@ void AddStructure(const ChunkContext& context, const LevelCrossingSpec& crossing
   for (const CrossingRoad::Lane& lane : road.lanes()) {
     AddPanels(road, lane, surfaces.slab, chunk);
   }
-  for (const AsphaltStrip& strip : StripsOf(road)) StripBuilder(context, road, strip).Add(chunk);
+  for (const AsphaltStrip& strip : StripsOf(road)) {
+    if (strip.right_d_m < strip.left_d_m) StripBuilder(context, road, strip).Add(chunk);
+  }
   for (const double side : {-1.0, 1.0}) AddWarnings(road, crossing, side, surfaces, chunk);
 }
 

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/base/text.h"
 #include "core/rail/structures/lineside_models.h"
 #include "core/rail/structures/lineside_placing.h"
 #include "core/rail/structures/structure_types.h"
@@ -200,17 +199,6 @@ std::vector<ClearedArea> ClearedBy(const FurnitureSpec& furniture) {
 
 std::vector<ClearedArea> ClearedBy(const BufferStopSpec& /*stop*/) {
   return {};
-}
-
-void CheckShape(const StructurePlace& place, const BufferStopSpec& stop, WorldFaults& faults) {
-  const TrackSpec* track = FindTrack(place.world, stop.track);
-  if (track == nullptr || !track->end_s_m || !faults.AreKnown({place.pointer})) return;
-  const double length_m = *track->end_s_m - track->start_s_m;
-  if (length_m >= kBufferStopLength_m) return;
-  faults.Add(
-      place.pointer + "/track",
-      "must be at least as long as the buffer stop, " + NumberText(kBufferStopLength_m) + " m",
-      Quoted(stop.track) + " of " + NumberText(length_m) + " m");
 }
 
 }  // namespace railcast

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/base/text.h"
+#include "core/rail/structures/lineside_models.h"
 #include "core/rail/structures/structure_track.h"
 #include "core/rail/structures/structure_types.h"
 
@@ -38,13 +39,25 @@ void CheckStretch(const StructurePlace& place,
   }
 }
 
-// Checks that the track exists of what has no chainage of its own.
-void CheckTrackName(const StructurePlace& place, const std::string& name, WorldFaults& faults) {
-  const TrackSpec* track = FindTrack(place.world, name);
-  constexpr double kEndless_m = std::numeric_limits<double>::infinity();
+// Checks that the track exists and has room for the buffer stop.
+void CheckBufferStop(const StructurePlace& place,
+                     const BufferStopSpec& stop,
+                     const LineMeasures& line,
+                     WorldFaults& faults) {
+  const TrackSpec* track = FindTrack(place.world, stop.track);
   const std::string pointer = place.pointer + "/track";
-  CheckTrackPlace(place.world, {pointer, pointer, name, track == nullptr ? 0.0 : track->start_s_m},
-                  {kEndless_m, kEndless_m}, faults);
+  const double begin_s_m = track == nullptr ? 0.0 : track->start_s_m;
+  if (CheckTrackPlace(place.world, {pointer, pointer, stop.track, begin_s_m}, line, faults) ==
+          nullptr ||
+      !faults.AreKnown({pointer})) {
+    return;
+  }
+  const double length_m = track->end_s_m.value_or(line.length_m) - begin_s_m;
+  if (length_m >= kBufferStopLength_m) return;
+  faults.Add(
+      pointer,
+      "must be at least as long as the buffer stop, " + NumberText(kBufferStopLength_m) + " m",
+      Quoted(stop.track) + " of " + NumberText(length_m) + " m");
 }
 
 // Checks that the whole of a building stands beside its track.
@@ -92,8 +105,8 @@ void CheckStructureChainages(const StructurePlace& place,
     }
   } else if (const auto* building = std::get_if<BuildingSpec>(&structure)) {
     CheckFootprint(place, *building, line, faults);
-  } else {
-    CheckTrackName(place, TrackOfStructure(structure), faults);
+  } else if (const auto* stop = std::get_if<BufferStopSpec>(&structure)) {
+    CheckBufferStop(place, *stop, line, faults);
   }
 }
 
