@@ -18,8 +18,9 @@ CORE_ORDER = "base frame scene rail scan trace detect simulate camera scenario f
 PUBLIC_ROOT = "core/include/"
 PUBLIC_OWNERS = {
     "enum_names": "base", "error": "base", "transform": "base", "frame": "frame", "outcome": "frame", "material": "scene",
-    "scene": "scene", "alignment": "rail", "rail_world": "rail", "lidar": "scan", "ray_caster": "trace", "effects": "detect",
-    "simulator": "simulate", "camera": "camera", "scenario": "scenario", "fidelity": "fidelity", "c_api": "c",
+    "scene": "scene", "alignment": "rail", "rail_world": "rail", "structures": "rail",
+    "lineside": "rail", "track_side": "rail",
+    "lidar": "scan", "ray_caster": "trace", "effects": "detect", "simulator": "simulate", "camera": "camera", "scenario": "scenario", "fidelity": "fidelity", "c_api": "c",
 }
 # The programs share core, and nothing else.
 PROGRAMS = ("generator", "analysis", "viewer")

@@ -36,7 +36,7 @@ EXPLAINED_IN = {
     "weather": "scenario.md#weather", "interfaces": "live.md", "camera": "camera.md",
     "world": "world.md", "world.alignment": "world.md#the-line", "world.catenary": "world.md#contact-line",
     "world.terrain": "world.md#ground-and-vegetation", "world.vegetation": "world.md#ground-and-vegetation",
-    "world.objects[]": "scenario.md#objects", "vehicle": "world.md#movement",
+    "world.structures[]": "world.md#structures", "world.objects[]": "scenario.md#objects", "vehicle": "world.md#movement",
     "output": "files.md#fields", "materials[]": "scenario.md#materials",
 }
 

@@ -39,7 +39,12 @@ constexpr auto kColors = std::to_array<NamedColor>({{"rail_head", 0.45, 0.45, 0.
                                                     {"black_rubber", 0.03, 0.03, 0.03},
                                                     {"snow", 0.90, 0.91, 0.93},
                                                     {"retro_sheeting", 0.60, 0.60, 0.60},
-                                                    {"hi_vis_vest", 0.90, 0.30, 0.03}});
+                                                    {"hi_vis_vest", 0.90, 0.30, 0.03},
+                                                    {"masonry", 0.55, 0.48, 0.38},
+                                                    {"red_paint", 0.55, 0.05, 0.04},
+                                                    {"plastic", 0.65, 0.50, 0.10},
+                                                    {"black_paint", 0.03, 0.03, 0.03},
+                                                    {"roof_tile", 0.35, 0.13, 0.08}});
 
 }  // namespace
 

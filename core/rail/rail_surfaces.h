@@ -14,6 +14,29 @@ struct SurfaceClass {
   std::uint32_t label{};
 };
 
+/// The surfaces of single things beside and in the track (railcast/lineside.h).
+struct LinesideSurfaces {
+  SurfaceClass signal_mast, signal_foot, signal_screen, signal_lamp, signal_board;
+  SurfaceClass board_face, board_steel, marker_white, marker_red;
+  SurfaceClass balise, relay_box, relay_foot;
+  SurfaceClass buffer_frame, buffer_beam, buffer_board;
+  SurfaceClass derailer, derailer_machine;
+  SurfaceClass slab, asphalt;
+  SurfaceClass barrier_white, barrier_red, crossing_steel, crossing_screen, crossing_lamp;
+  SurfaceClass wall, flat_roof, tiled_roof, window;
+  SurfaceClass furniture_steel, furniture_wood, furniture_glass;
+};
+
+/// The surfaces of structures (railcast/structures.h). Tables need their names only if the world
+/// has structures.
+struct StructureSurfaces {
+  SurfaceClass platform, platform_strip, platform_roof;
+  SurfaceClass noise_wall, noise_wall_post, fence, retaining_wall, cable_trough;
+  SurfaceClass tunnel, tunnel_handrail, bridge, bridge_railing;
+  SurfaceClass third_rail, third_rail_shield, slab_track, road;
+  LinesideSurfaces lineside;
+};
+
 /// The surfaces of the railway world, looked up by name once.
 struct RailSurfaces {
   SurfaceClass rail_head, rail_side, fastening;
@@ -22,14 +45,21 @@ struct RailSurfaces {
   SurfaceClass contact_wire, messenger_wire, dropper, mast, cantilever, insulator;
   SurfaceClass wagon_body, wagon_frame, wheel, tank;
   SurfaceClass skin, clothing, pole, box;
+  StructureSurfaces structures;  ///< All 0 unless AddStructureSurfaces() was called.
 
   /// Sets all materials and labels to 0, for geometry that is built only to be checked.
   RailSurfaces() = default;
   /// @throws InputError with a line for every name that the tables lack.
   RailSurfaces(const LabelTable& labels, const MaterialLibrary& materials);
+
+  /// Looks up the surfaces of structures.
+  /// @throws InputError with a line for every name that the tables lack.
+  void AddStructureSurfaces(const LabelTable& labels, const MaterialLibrary& materials);
 };
 
 /// Whether the railway itself or one of its models has surfaces of the material.
 [[nodiscard]] bool IsRailMaterial(std::string_view name);
+/// Whether any structure has surfaces of the material.
+[[nodiscard]] bool IsStructureMaterial(std::string_view name);
 
 }  // namespace railcast

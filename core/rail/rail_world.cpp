@@ -21,6 +21,8 @@
 #include "core/rail/line/network.h"
 #include "core/rail/line/track_path.h"
 #include "core/rail/standing_height.h"
+#include "core/rail/structures/structure_types.h"
+#include "core/rail/structures/structures.h"
 #include "core/rail/track/track_structure.h"
 #include "core/rail/world_check.h"
 #include "core/rail/world_draft.h"
@@ -121,6 +123,7 @@ struct RailWorld::Line {
                    AddTerrain(context, built);
                    AddTracks(context, infrastructure, built);
                    AddCatenary(context, catenary_plan, infrastructure, built);
+                   AddStructures(context, built);
                    AddVegetation(context, plants, built);
                  });
     return built;
@@ -335,7 +338,11 @@ std::vector<int> RailWorld::ChunksInReach(int home_chunk, double range_m) const 
                                  1.0 * i / kNumSteps);
     aside_m = std::max(aside_m, std::abs(things_->vehicle.course().OffsetAt(s_m).d_m));
   }
-  return line_->grid.WithinReach(home_chunk, range_m + aside_m + kOverhang_m);
+  double overhang_m = kOverhang_m;
+  for (const StructureSpec& structure : line_->world.structures) {
+    overhang_m = std::max(overhang_m, OverhangOf_m(structure));
+  }
+  return line_->grid.WithinReach(home_chunk, range_m + aside_m + overhang_m);
 }
 
 Transform RailWorld::WorldFromChunk(int chunk) const {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/rail/land/land.h"
+#include "core/rail/structures/floors.h"
 #include "core/rail/track/cross_section.h"
 
 namespace railcast {
@@ -13,6 +14,7 @@ namespace {
 
 double SurfaceHeight_m(const ChunkContext& context,
                        const CrossSection& section,
+                       const Floors& floors,
                        double s_m,
                        double d_m) {
   Vector3 surface = GroundPoint(context, section, s_m, d_m);
@@ -21,6 +23,7 @@ double SurfaceHeight_m(const ChunkContext& context,
     const Vector3 ballast = section.PointAt(d_m, ballast_m);
     if (ballast.z() > surface.z()) surface = ballast;
   }
+  surface.z() = std::max(surface.z(), floors.HeightAt_m(s_m, d_m));
   return (context.chunk_from_world.inverse() * surface).z();
 }
 
@@ -29,6 +32,8 @@ double SurfaceHeight_m(const ChunkContext& context,
 double StandingHeight_m(const ChunkContext& context, const StandingPlace& place) {
   const Eigen::Rotation2Dd turn(place.heading_rad);
   double lowest_m = std::numeric_limits<double>::infinity();
+  const double reach_m = place.area_m.sizes().norm();
+  const Floors floors(context, {place.s_m - reach_m, place.s_m + reach_m});
   // Posing a person consists of little else, and along the line two corners share a section.
   std::optional<CrossSection> section;
   double section_s_m = 0.0;
@@ -37,8 +42,8 @@ double StandingHeight_m(const ChunkContext& context, const StandingPlace& place)
     const double s_m = place.s_m + offset_m.x();
     if (!section || s_m != section_s_m) section.emplace(context, s_m);
     section_s_m = s_m;
-    lowest_m =
-        std::min(lowest_m, SurfaceHeight_m(context, *section, s_m, place.d_m + offset_m.y()));
+    lowest_m = std::min(lowest_m,
+                        SurfaceHeight_m(context, *section, floors, s_m, place.d_m + offset_m.y()));
   };
   stand_at(place.area_m.center());
   for (const auto corner : {Eigen::AlignedBox2d::BottomLeft, Eigen::AlignedBox2d::TopLeft,

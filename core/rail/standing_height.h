@@ -14,9 +14,9 @@ struct StandingPlace {
   Eigen::AlignedBox2d area_m;  ///< Footprint about its middle; x forward, y left.
 };
 
-/// World height of the foot of a standing object: the ground or the ballast, whichever is higher,
-/// at the lowest of its middle and corners. On a slope it may sink in slightly, but no part of it
-/// hovers. The grain of the ballast is ignored.
+/// World height of the foot of a standing object: the ground, the ballast or the floor of a
+/// structure (Floors), whichever is higher, at the lowest of its middle and corners. On a slope it
+/// may sink in slightly, but no part of it hovers. The grain of the ballast is ignored.
 [[nodiscard]] double StandingHeight_m(const ChunkContext& context, const StandingPlace& place);
 
 }  // namespace railcast

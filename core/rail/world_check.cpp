@@ -7,6 +7,7 @@
 #include "core/base/text.h"
 #include "core/rail/catenary/catenary.h"
 #include "core/rail/line/turnout_place.h"
+#include "core/rail/structures/structures.h"
 
 namespace railcast {
 namespace {
@@ -86,58 +87,6 @@ void CheckDistance(const WorldSpec& world,
   }
 }
 
-/// A reference to a place on a track, with the pointers of its values.
-struct TrackPlace {
-  std::string track_pointer;
-  std::string chainage_pointer;
-  const std::string& track;
-  double s_m{};
-};
-
-/// The chainages that a track has, as far as they are known.
-struct TrackExtent {
-  double begin_s_m{};
-  double end_s_m{};
-};
-
-std::optional<TrackExtent> ExtentOf(const WorldSpec& world,
-                                    const TrackSpec& track,
-                                    const LineOfTracks& line,
-                                    const WorldFaults& faults) {
-  const std::string pointer = PointerOf(track, world);
-  if (!IsParallel(track)) {
-    const auto& course = line.courses[static_cast<std::size_t>(&track - world.tracks.data())];
-    if (!course) return std::nullopt;
-    return TrackExtent{course->begin_s_m(), course->end_s_m()};
-  }
-  if (!faults.AreKnown({pointer + "/start_s_m", pointer + "/end_s_m"})) return std::nullopt;
-  return TrackExtent{track.start_s_m, track.end_s_m.value_or(line.measures.length_m)};
-}
-
-// @return The track; null if it is unknown.
-const TrackSpec* CheckPlace(const WorldSpec& world,
-                            const TrackPlace& place,
-                            const LineOfTracks& line,
-                            WorldFaults& faults) {
-  if (!faults.AreKnown({place.track_pointer})) return nullptr;
-  const TrackSpec* track = FindTrack(world, place.track);
-  if (track == nullptr) {
-    if (!AreNamesKnown(world, faults)) return nullptr;
-    faults.Add(place.track_pointer,
-               "must be one of " + NamesOfTracks(world) + " (got " + Quoted(place.track) + ")");
-    return nullptr;
-  }
-  const std::optional<TrackExtent> extent = ExtentOf(world, *track, line, faults);
-  if (extent && faults.AreKnown({place.chainage_pointer}) &&
-      !(place.s_m >= extent->begin_s_m && place.s_m <= extent->end_s_m)) {
-    faults.Add(place.chainage_pointer,
-               "must lie on track " + Quoted(track->name) + ", " +
-                   StretchText(extent->begin_s_m, extent->end_s_m),
-               NumberText(place.s_m));
-  }
-  return track;
-}
-
 void CheckNames(const WorldSpec& world, WorldFaults& faults) {
   // Instance ids from kFirstMastInstance on are used for masts, and one id for the vehicle itself.
   constexpr std::size_t kMaxObjects = kFirstMastInstance - 2;
@@ -210,13 +159,50 @@ const TrackSpec* FindTrack(const WorldSpec& world, const std::string& name) {
   return found == world.tracks.end() ? nullptr : &*found;
 }
 
+std::optional<TrackExtent> ExtentOf(const WorldSpec& world,
+                                    const TrackSpec& track,
+                                    const LineOfTracks& line,
+                                    const WorldFaults& faults) {
+  const std::string pointer = PointerOf(track, world);
+  if (!IsParallel(track)) {
+    const auto& course = line.courses[static_cast<std::size_t>(&track - world.tracks.data())];
+    if (!course) return std::nullopt;
+    return TrackExtent{course->begin_s_m(), course->end_s_m()};
+  }
+  if (!faults.AreKnown({pointer + "/start_s_m", pointer + "/end_s_m"})) return std::nullopt;
+  return TrackExtent{track.start_s_m, track.end_s_m.value_or(line.measures.length_m)};
+}
+
+const TrackSpec* CheckTrackPlace(const WorldSpec& world,
+                                 const TrackPlace& place,
+                                 const LineOfTracks& line,
+                                 WorldFaults& faults) {
+  if (!faults.AreKnown({place.track_pointer})) return nullptr;
+  const TrackSpec* track = FindTrack(world, place.track);
+  if (track == nullptr) {
+    if (!AreNamesKnown(world, faults)) return nullptr;
+    faults.Add(place.track_pointer,
+               "must be one of " + NamesOfTracks(world) + " (got " + Quoted(place.track) + ")");
+    return nullptr;
+  }
+  const std::optional<TrackExtent> extent = ExtentOf(world, *track, line, faults);
+  if (extent && faults.AreKnown({place.chainage_pointer}) &&
+      !(place.s_m >= extent->begin_s_m && place.s_m <= extent->end_s_m)) {
+    faults.Add(place.chainage_pointer,
+               "must lie on track " + Quoted(track->name) + ", " +
+                   StretchText(extent->begin_s_m, extent->end_s_m),
+               NumberText(place.s_m));
+  }
+  return track;
+}
+
 void CheckObject(const WorldSpec& world,
                  const ObjectSpec& object,
                  const std::string& pointer,
                  const LineOfTracks& line,
                  WorldFaults& faults) {
   const TrackPlace place{pointer + "/track", pointer + "/s_m", object.track, object.s_m};
-  const TrackSpec* track = CheckPlace(world, place, line, faults);
+  const TrackSpec* track = CheckTrackPlace(world, place, line, faults);
   if (track == nullptr) return;
   double offset_m = track->offset_m.value_or(0.0);
   if (!IsParallel(*track)) {
@@ -251,8 +237,9 @@ void CheckWorld(const WorldSpec& world,
     CheckObject(world, world.objects[i], Item("/world/objects/", i), line, faults);
   }
   CheckNames(world, faults);
-  CheckPlace(world, {"/vehicle/track", "/vehicle/start_s_m", vehicle.track, vehicle.start_s_m},
-             line, faults);
+  CheckStructures(world, line, faults);
+  CheckTrackPlace(world, {"/vehicle/track", "/vehicle/start_s_m", vehicle.track, vehicle.start_s_m},
+                  line, faults);
   CheckEgoBoxes(vehicle, faults);
   CheckPivots(world, vehicle, line.measures, faults);
 }

@@ -42,6 +42,33 @@ void CheckObject(const WorldSpec& world,
                  const LineOfTracks& line,
                  WorldFaults& faults);
 
+/// A reference to a place on a track, with the pointers of its values.
+struct TrackPlace {
+  std::string track_pointer;
+  std::string chainage_pointer;
+  const std::string& track;
+  double s_m{};
+};
+
+/// Checks that the track exists and that the place lies on it.
+/// @return The track; null if it is unknown.
+const TrackSpec* CheckTrackPlace(const WorldSpec& world,
+                                 const TrackPlace& place,
+                                 const LineOfTracks& line,
+                                 WorldFaults& faults);
+
+/// The chainages that a track has.
+struct TrackExtent {
+  double begin_s_m{};
+  double end_s_m{};
+};
+
+/// The extent of a track, as far as it is known.
+[[nodiscard]] std::optional<TrackExtent> ExtentOf(const WorldSpec& world,
+                                                  const TrackSpec& track,
+                                                  const LineOfTracks& line,
+                                                  const WorldFaults& faults);
+
 /// The track of that name; null if there is none.
 [[nodiscard]] const TrackSpec* FindTrack(const WorldSpec& world, const std::string& name);
 

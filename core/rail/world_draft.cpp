@@ -131,8 +131,13 @@ WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
   CheckWorld(world, source.vehicle, {line, draft.network.courses}, faults);
   CheckNetwork(world, draft.network, draft.alignment, faults);
   if (faults.AreKnown({"/labels", "/materials"})) {
-    draft.surfaces =
-        Attempt("", faults.errors, [&] { return RailSurfaces(source.labels, source.materials); });
+    draft.surfaces = Attempt("", faults.errors, [&] {
+      RailSurfaces surfaces(source.labels, source.materials);
+      if (!world.structures.empty()) {
+        surfaces.AddStructureSurfaces(source.labels, source.materials);
+      }
+      return surfaces;
+    });
     if (!source.vehicle.ego_boxes_m.empty()) {
       Attempt("", faults.errors, [&] { return source.labels.Id("ego"); });
     }

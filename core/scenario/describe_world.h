@@ -4,6 +4,7 @@
 
 #include "core/rail/catenary/support_layout.h"
 #include "core/scenario/describe_alignment.h"
+#include "core/scenario/describe_structures.h"
 #include "core/scenario/json_rules.h"
 #include "railcast/rail_world.h"
 
@@ -165,6 +166,7 @@ void Describe(Archive& a, WorldSpec& s) {
   a.Optional("catenary", s.catenary, "Overhead contact line.");
   a.Optional("terrain", s.terrain, "The ground.");
   a.Optional("vegetation", s.vegetation, "Trees and grass.");
+  a.Optional("structures", s.structures, "Platforms and the like, by chainage along a track.");
   a.Optional("objects", s.objects, "Things placed by track coordinates.");
   a.Optional(
       "detail", s.detail,

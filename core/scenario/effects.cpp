@@ -104,7 +104,9 @@ bool HasMirrors(const ScenarioSpec& spec) {
     };
     const std::vector<ObjectSpec>& objects = spec.world.objects;
     return material.height_rms_um &&
-           (IsRailMaterial(material.name) || std::any_of(objects.begin(), objects.end(), is_of_it));
+           (IsRailMaterial(material.name) ||
+            (!spec.world.structures.empty() && IsStructureMaterial(material.name)) ||
+            std::any_of(objects.begin(), objects.end(), is_of_it));
   });
 }
 

@@ -132,7 +132,7 @@ void ReadValue(JsonSource& source,
 /// file.
 template <class T>
 void ReadElement(JsonSource& source, const Node& node, T& value) {
-  if constexpr (kIsArray<T> || kElementMayBeFile<T>) {
+  if constexpr (kIsArray<T> || kIsVariant<T> || kElementMayBeFile<T>) {
     ReadValue(source, node, value, Anything{});
   } else if (auto list = source.PlainMembers(node)) {
     ReadMembers(source, node, std::move(*list), value);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace railcast {
@@ -94,6 +95,12 @@ template <class T>
 inline constexpr bool kIsArray = false;
 template <class T, std::size_t kCount>
 inline constexpr bool kIsArray<std::array<T, kCount>> = true;
+
+/// Whether it is one of several structs, which "type" distinguishes.
+template <class T>
+inline constexpr bool kIsVariant = false;
+template <class... Ts>
+inline constexpr bool kIsVariant<std::variant<Ts...>> = true;
 
 /// Whether elements of this type in a list may be given as a file or build on one. Not possible for
 /// types that have a key "file" of their own.

@@ -112,6 +112,7 @@ void PrintReport(const ScenarioSpec& scenario,
     choices += report.Choice();
   }
   std::cout << ShownLines(ObjectsText(*world, LabelTable(scenario.labels)))
+            << ShownLines(GaugeText(FindGaugeEntries(scenario.world, *world)))
             << ShownLines(ContactsText(FindContactRuns(*world, frames.pattern, frames.last), *world,
                                        frames.last));
   if (scenario.fidelity == Fidelity::kAuto) std::cout << ShownLines(choices);

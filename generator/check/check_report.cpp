@@ -137,6 +137,20 @@ std::string VehicleText(const std::string& track, const VehicleWay& way, double 
                                              : "never reaches the end of its track");
 }
 
+std::string GaugeText(const std::vector<GaugeEntry>& entries) {
+  std::string text;
+  for (const GaugeEntry& entry : entries) {
+    text += ReportLine(text.empty() ? "gauge" : "",
+                       Quoted(entry.name) + " is in the structure gauge of track " +
+                           Quoted(entry.track) + " at s " + Rounded(entry.begin_s_m, 1) + " to " +
+                           Rounded(entry.end_s_m, 1) + " m, deepest at " +
+                           Rounded(entry.deepest_s_m, 1) + " m by " + Rounded(entry.depth_m, 2) +
+                           " m, from " + Rounded(entry.bottom_m, 2) + " to " +
+                           Rounded(entry.top_m, 2) + " m above top of rail");
+  }
+  return text;
+}
+
 std::string DetailText(const DetailAudit& audit, const LabelTable& labels) {
   if (audit.num_coarser_chunks == 0 && audit.levels.empty()) return "";
   const auto count = [](std::size_t value) { return std::to_string(value); };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "generator/check/contact_runs.h"
+#include "generator/check/gauge_entries.h"
 #include "generator/check/scene_audit.h"
 #include "generator/check/vehicle_way.h"
 #include "railcast/alignment.h"
@@ -49,6 +50,9 @@ namespace railcast {
 [[nodiscard]] std::string DetailText(const DetailAudit& audit, const LabelTable& labels);
 
 [[nodiscard]] std::string ObjectsText(const World& world, const LabelTable& labels);
+
+/// Lists what stands in the structure gauge of a track; empty if nothing does.
+[[nodiscard]] std::string GaugeText(const std::vector<GaugeEntry>& entries);
 
 /// Lists what touches or overlaps in frames 0 to `last_frame`, as found by FindContactRuns.
 [[nodiscard]] std::string ContactsText(const std::vector<ContactRun>& runs,

@@ -12,6 +12,7 @@
 #include "railcast/frame.h"
 #include "railcast/material.h"
 #include "railcast/scene.h"
+#include "railcast/structures.h"
 
 namespace railcast {
 
@@ -208,6 +209,7 @@ struct WorldSpec {
   CatenarySpec catenary;
   TerrainSpec terrain;
   VegetationSpec vegetation;
+  std::vector<StructureSpec> structures;
   std::vector<ObjectSpec> objects;
   SceneDetail detail = SceneDetail::kAuto;
 

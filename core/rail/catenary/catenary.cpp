@@ -6,7 +6,9 @@
 
 #include "core/rail/catenary/catenary_models.h"
 #include "core/rail/catenary/support_layout.h"
+#include "core/rail/catenary/system_height.h"
 #include "core/rail/model_parts.h"
+#include "core/rail/structures/cleared.h"
 #include "core/rail/track/sweep.h"
 #include "core/scene/shapes.h"
 
@@ -42,7 +44,8 @@ class Span {
     };
     first_m_ = wire(first);
     last_m_ = wire(last);
-    system_height_m_ = spec.system_height_m;
+    first_system_height_m_ = SystemHeightAt_m(context.spec, first.s_m);
+    last_system_height_m_ = SystemHeightAt_m(context.spec, last.s_m);
   }
 
   /// The span in world coordinates. The wind moves all its wires alike, since droppers join them.
@@ -71,7 +74,9 @@ class Span {
 
   [[nodiscard]] Vector3 Messenger(double fraction) const {
     const double sag_m = kWireWeight_n_per_m * length_m_ * length_m_ / (8.0 * kMessengerTension_n);
-    return Chord(fraction) + Vector3(0.0, 0.0, system_height_m_ - Parabola(fraction) * sag_m);
+    const double system_height_m =
+        std::lerp(first_system_height_m_, last_system_height_m_, fraction);
+    return Chord(fraction) + Vector3(0.0, 0.0, system_height_m - Parabola(fraction) * sag_m);
   }
 
  private:
@@ -86,7 +91,8 @@ class Span {
   double length_m_;
   Vector3 first_m_;
   Vector3 last_m_;
-  double system_height_m_{};
+  double first_system_height_m_{};
+  double last_system_height_m_{};
 };
 
 /// A wire of a span as a polyline with corners at integer multiples of 1 / num_chords.
@@ -210,14 +216,18 @@ void AddSupport(const ChunkContext& context,
   const auto shared = [](Model model) { return std::make_shared<const Model>(std::move(model)); };
 
   const SupportLayout layout = LayOutSupport(spec, context.tracks, support.s_m);
+  CatenarySpec here = spec.catenary;
+  here.system_height_m = SystemHeightAt_m(spec, support.s_m);
   for (const MastSite& mast : layout.masts) {
+    const double d_m = offset_m(mast.track) + mast.from_axis_m;
+    if (IsCleared(context, support.s_m, d_m, Clearing::kSupport)) continue;
     add(models.mast,
         chunk_from_support(offset_m(mast.track)) *
             Eigen::Translation3d(0.0, mast.from_axis_m - shift_m, 0.0),
         mast.structure);
   }
   for (const CantileverSite& site : layout.cantilevers) {
-    add(shared(MakeCantilever(spec.catenary, site.hangs ? site.face_m : site.face_m - shift_m,
+    add(shared(MakeCantilever(here, site.hangs ? site.face_m : site.face_m - shift_m,
                               support.stagger_m, context.surfaces)),
         chunk_from_support(offset_m(site.track)), site.structure);
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <variant>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -68,23 +69,38 @@ std::optional<double> StaggerInCurve(const CatenarySpec& spec, double curvature_
   return curvature_per_m > 0.0 ? -spec.stagger_m : spec.stagger_m;
 }
 
+/// Whether a mast at that chainage would stand in the road of a level crossing or in its shoulders.
+bool StandsInRoad(const WorldSpec& world, double s_m) {
+  constexpr double kBesideRoad_m = 1.5;
+  return std::any_of(
+      world.structures.begin(), world.structures.end(), [&](const StructureSpec& structure) {
+        const auto* crossing = std::get_if<LevelCrossingSpec>(&structure);
+        return crossing != nullptr &&
+               std::abs(s_m - crossing->s_m) < 0.5 * crossing->road_width_m + kBesideRoad_m;
+      });
+}
+
+/// The farthest support that the wire permits; nearer if that one would stand in a road.
 CatenarySupport NextSupport(const CatenarySupport& support,
-                            const CatenarySpec& spec,
+                            const WorldSpec& world,
                             const Alignment& alignment) {
+  const CatenarySpec& spec = world.catenary;
   // The 1e-9 covers rounding if a span at the limit is compared with the limit itself.
   const double limit_m = spec.stagger_m + kLateralMargin_m + 1e-9;
   const Course course = CourseFrom(support.s_m, spec, alignment);
+  std::optional<CatenarySupport> in_road;
   for (std::size_t num_steps = kStepsOfASpan; num_steps > 0; --num_steps) {
     const double s_m = support.s_m + spec.max_span_m * static_cast<double>(num_steps) /
                                          static_cast<double>(kStepsOfASpan);
     const std::optional<double> outside_m = StaggerInCurve(spec, course.curvature_per_m[num_steps]);
     const double stagger_m = outside_m.value_or(-support.stagger_m);
-    if (StaysWithin(course, num_steps, support.stagger_m, stagger_m, limit_m)) {
-      return {.s_m = s_m, .stagger_m = stagger_m};
-    }
+    if (!StaysWithin(course, num_steps, support.stagger_m, stagger_m, limit_m)) continue;
+    const CatenarySupport next{.s_m = s_m, .stagger_m = stagger_m};
+    if (!StandsInRoad(world, s_m)) return next;
+    if (!in_road) in_road = next;
   }
-  Check(false, "a wire between neighbouring samples is within its staggers");
-  return support;
+  Check(in_road.has_value(), "a wire between neighbouring samples is within its staggers");
+  return *in_road;
 }
 
 bool HasContactLine(const WorldSpec& spec) {
@@ -95,12 +111,17 @@ bool HasContactLine(const WorldSpec& spec) {
 
 }  // namespace
 
-void CheckSystemHeight(const WorldSpec& world) {
-  if (!HasContactLine(world)) return;
+double LeastSystemHeight_m(const WorldSpec& world) {
   const CatenarySpec& spec = world.catenary;
   const double sag_m =
       kWireWeight_n_per_m * spec.max_span_m * spec.max_span_m / (8.0 * kMessengerTension_n);
-  const double needed_m = sag_m - kContactPresag * spec.max_span_m + kShortestDropper_m;
+  return sag_m - kContactPresag * spec.max_span_m + kShortestDropper_m;
+}
+
+void CheckSystemHeight(const WorldSpec& world) {
+  if (!HasContactLine(world)) return;
+  const CatenarySpec& spec = world.catenary;
+  const double needed_m = LeastSystemHeight_m(world);
   if (spec.system_height_m >= needed_m) return;
   throw InputError({{"/catenary/system_height_m",
                      "must be >= " + NumberText(needed_m) +
@@ -115,7 +136,7 @@ CatenaryPlan::CatenaryPlan(const WorldSpec& spec, const Alignment& alignment) {
                              .value_or(spec.catenary.stagger_m);
   supports_.push_back({.s_m = 0.0, .stagger_m = first_m});
   while (true) {
-    CatenarySupport next = NextSupport(supports_.back(), spec.catenary, alignment);
+    CatenarySupport next = NextSupport(supports_.back(), spec, alignment);
     if (next.s_m >= alignment.length_m()) {
       const double left_m = alignment.length_m() - supports_.back().s_m;
       next.s_m = alignment.length_m();

@@ -23,6 +23,10 @@ struct CatenarySupport {
   double stagger_m{};
 };
 
+/// The least system height with which the messenger wire, sagging over the longest span, stays 0.3
+/// m above the contact wire.
+[[nodiscard]] double LeastSystemHeight_m(const WorldSpec& world);
+
 /// @throws InputError if the messenger wire would sag to less than 0.3 m above the contact wire:
 ///   "/catenary/system_height_m: rule (got value)", relative to the world's JSON object.
 void CheckSystemHeight(const WorldSpec& world);
@@ -41,7 +45,8 @@ void CheckSystemHeight(const WorldSpec& world);
 ///     L <= sqrt(8 R (2 stagger + 0.05 m))
 ///
 /// Staggers alternate where the rise L^2 / 8R of a full span is less than half the stagger, and lie
-/// on the outside of the curve otherwise. All tracks share the supports.
+/// on the outside of the curve otherwise. All tracks share the supports. A span is shorter where
+/// its second support would stand in the road of a level crossing.
 class CatenaryPlan {
  public:
   /// @throws InputError as CheckSystemHeight() does.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/rail/structures/cleared.h"
 
 namespace railcast {
 namespace {
@@ -36,7 +37,10 @@ struct TrackGroup {
 class Tracks {
  public:
   Tracks(const WorldSpec& spec, std::span<const TrackCourse> tracks, double s_m)
-      : to_mast_m_(spec.catenary.mast_distance_m + kMastHalfDepth_m), num_tracks_(tracks.size()) {
+      : tracks_{spec, tracks},
+        s_m_(s_m),
+        to_mast_m_(spec.catenary.mast_distance_m + kMastHalfDepth_m),
+        num_tracks_(tracks.size()) {
     std::vector<double> offsets_m;
     for (const TrackCourse& track : tracks) {
       const double offset_m = track.OffsetWithin_m(s_m);
@@ -72,7 +76,8 @@ class Tracks {
   /// Place for a mast at its nominal distance from the outermost track of a group, if it is clear:
   /// from that track's axis, left positive.
   [[nodiscard]] std::optional<double> MastBeside(const TrackGroup& group, bool on_left) const {
-    const double from_axis_m = on_left ? to_mast_m_ : -to_mast_m_;
+    const double from_axis_m =
+        BehindStructures_m(group.Edge_m(on_left), on_left ? to_mast_m_ : -to_mast_m_);
     return IsClear(group, group.Edge_m(on_left) + from_axis_m) ? std::optional(from_axis_m)
                                                                : std::nullopt;
   }
@@ -137,6 +142,20 @@ class Tracks {
     });
   }
 
+  /// The place for a mast, or one farther out where a structure, such as a platform, leaves no room
+  /// for it; the same place if there is none within reach of a cantilever.
+  [[nodiscard]] double BehindStructures_m(double offset_m, double from_axis_m) const {
+    constexpr double kStep_m = 0.1;
+    constexpr int kNumSteps = 30;
+    for (int step = 0; step <= kNumSteps; ++step) {
+      const double farther_m = from_axis_m + std::copysign(kStep_m * step, from_axis_m);
+      if (!IsCleared(tracks_, s_m_, offset_m + farther_m, Clearing::kMast)) return farther_m;
+    }
+    return from_axis_m;
+  }
+
+  WorldTracks tracks_;
+  double s_m_;
   double to_mast_m_;
   std::size_t num_tracks_;
   std::vector<TrackGroup> groups_;  ///< From right to left.

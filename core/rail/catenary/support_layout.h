@@ -58,6 +58,8 @@ struct SupportLayout {
 /// well, the cantilever is carried by a post halfway to the track on the right, which hangs from a
 /// portal between the nearest places for masts.
 ///
+/// Where a structure leaves no room for a mast, it stands up to 3 m farther out.
+///
 /// A track obstructs a mast if the mast would be nearer than kMastClearance_m to its axis, or
 /// beyond it. This applies from 10 m before the track's beginning to 10 m after its end.
 ///

@@ -7,6 +7,8 @@
 
 #include "core/rail/land/noise_field.h"
 #include "core/rail/model_parts.h"
+#include "core/rail/structures/cleared.h"
+#include "core/rail/structures/crossing_road.h"
 #include "core/rail/track/coarse_grid.h"
 #include "core/rail/track/cross_section.h"
 #include "core/rail/track/sweep.h"
@@ -43,7 +45,8 @@ constexpr double kHiddenBelow_m = 0.35;
 class Relief {
  public:
   explicit Relief(const ChunkContext& context)
-      : spec_(context.spec.terrain),
+      : tracks_(TracksOf(context)),
+        spec_(context.spec.terrain),
         roughness_(context.seed, RandomUse::kGroundRoughness, 0),
         long_wave_(context.seed, RandomUse::kGroundRoughness, 1),
         short_wave_(context.seed, RandomUse::kGroundRoughness, 2) {}
@@ -54,7 +57,12 @@ class Relief {
     const double along = s_m / spec_.roughness_wavelength_m;
     const double across = d_m / spec_.roughness_wavelength_m;
     return rough * spec_.roughness_sigma_m * roughness_.At(along, across) +
-           Undulation_m(section.DistanceFromTracks_m(d_m), s_m, d_m);
+           Undulation_m(section.DistanceFromTracks_m(d_m), s_m, d_m) - Drop_m(s_m, d_m);
+  }
+
+  /// How much lower the ground is below and about bridges.
+  [[nodiscard]] double Drop_m(double s_m, double d_m) const {
+    return tracks_.world.structures.empty() ? 0.0 : GroundDrop_m(tracks_, s_m, d_m);
   }
 
  private:
@@ -69,6 +77,7 @@ class Relief {
     return fade * spec_.undulation_sigma_m * waves;
   }
 
+  WorldTracks tracks_;
   const TerrainSpec& spec_;
   NoiseField roughness_;
   NoiseField long_wave_;
@@ -135,7 +144,11 @@ std::vector<double> CoarseStations(const ChainageRange& range, double wavelength
 class GroundGrid {
  public:
   explicit GroundGrid(const ChunkContext& context)
-      : context_(context), relief_(context), lines_m_(LateralLines(context.spec, context.tracks)) {}
+      : context_(context),
+        relief_(context),
+        cleared_(TracksOf(context), Clearing::kGround, context.begin_s_m, context.end_s_m),
+        lines_m_(LateralLines(context.spec, context.tracks)),
+        roads_(RoadsNear(context, {context.begin_s_m, context.end_s_m})) {}
 
   [[nodiscard]] Mesh WholeMesh(std::span<const double> stations_m) const {
     std::vector<Vector3> points_m;
@@ -180,12 +193,21 @@ class GroundGrid {
                                   std::size_t column) const {
     const double d_m = lines_m_[column];
     const double ballast_m = section.BallastHeight_m(d_m) - section.FormationHeight_m(d_m);
-    return {PointOf(section, relief_, s_m, d_m), ballast_m <= kHiddenBelow_m};
+    const bool is_hidden = ballast_m > kHiddenBelow_m && relief_.Drop_m(s_m, d_m) == 0.0;
+    Vector3 place_m = PointOf(section, relief_, s_m, d_m);
+    for (const CrossingRoad& road : roads_) {
+      if (const auto limit_m = road.GroundLimit_m(s_m, d_m)) {
+        place_m.z() = std::min(place_m.z(), *limit_m);
+      }
+    }
+    return {place_m, !is_hidden && !cleared_.Cover(s_m, d_m)};
   }
 
   const ChunkContext& context_;
   Relief relief_;
+  ClearedAreas cleared_;
   std::vector<double> lines_m_;
+  std::vector<CrossingRoad> roads_;  ///< Of level crossings, below which the ground stays.
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/base/random.h"
+#include "core/rail/structures/cleared.h"
 
 namespace railcast {
 namespace {
@@ -108,6 +109,8 @@ void AddTrees(const ChunkContext& context,
   if (!(trees_per_m > 0.0)) return;
   const auto chunk_key = static_cast<std::uint32_t>(context.chunk);
   const std::uint32_t side_key = strip.side > 0.0 ? 1U : 0U;
+  const ClearedAreas cleared(TracksOf(context), Clearing::kTree, context.begin_s_m,
+                             context.end_s_m);
   double s_m = context.begin_s_m;
   for (std::uint32_t i = 0;; ++i) {
     const std::uint32_t item = 2U * i + side_key;
@@ -120,6 +123,7 @@ void AddTrees(const ChunkContext& context,
     if (Uniform(where[2], 0.0, largest_factor) >= factor) continue;
     const Strip here = StripAt(context, border, s_m);
     if (strip.side * d_m < here.inner_m || strip.side * d_m > here.outer_m) continue;
+    if (cleared.Cover(s_m, d_m)) continue;
     const double height_m = Uniform(where[3], spec.tree_height_min_m, spec.tree_height_max_m);
     chunk.placements.push_back(MakeTree(plants, height_m, GroundPoint(context, s_m, d_m), which));
   }
@@ -145,6 +149,8 @@ void AddGrass(const ChunkContext& context,
               const PlantModels& plants,
               const Border& border,
               Chunk& chunk) {
+  const ClearedAreas cleared(TracksOf(context), Clearing::kGrass, context.begin_s_m,
+                             context.end_s_m);
   const auto first_along = static_cast<std::int64_t>(std::ceil(context.begin_s_m / kGrassPatch_m));
   const std::uint32_t side_key = border.side > 0.0 ? 1U : 0U;
   for (std::int64_t along = first_along;; ++along) {
@@ -166,6 +172,7 @@ void AddGrass(const ChunkContext& context,
           0.25 * kTurn_rad * std::floor(Uniform(words[0], 0.0, 4.0)) + Uniform(words[1], -0.2, 0.2);
       const PlantModel& patch = plants.grass[words[2] % plants.grass.size()];
       const double d_m = strip.side * (first_m + spacing_m * row);
+      if (cleared.Cover(s_m, d_m)) continue;
       chunk.placements.push_back({.model = patch.model,
                                   .chunk_from_model = LaidOut(context, s_m, d_m, yaw_rad),
                                   .instance = 0,

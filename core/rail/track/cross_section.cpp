@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/error.h"
+#include "core/rail/structures/cleared.h"
 
 namespace railcast {
 namespace {
@@ -55,7 +56,8 @@ CrossSection::CrossSection(const ChunkContext& context, double s_m)
                        .turn_rad = TurnFromAlignment_rad(axis, offset),
                        .begin_s_m = track.begin_s_m(),
                        .end_s_m = track.end_s_m(),
-                       .seat = SeatOf(context.spec.tracks[i].sleeper)});
+                       .seat = SeatOf(context.spec.tracks[i].sleeper),
+                       .has_ballast = !IsCleared(context, s_m, offset.d_m, Clearing::kBallast)});
   }
   std::sort(tracks_.begin(), tracks_.end(),
             [](const TrackHere& a, const TrackHere& b) { return a.d_m < b.d_m; });
@@ -78,7 +80,9 @@ double CrossSection::BallastHeight_m(double d_m) const {
     constexpr double kReach_m = 3.0;
     const double beyond_m =
         std::max(std::abs(d_m - track.d_m) - kShoulder_m, BeyondEnd_m(track, s_m_));
-    if (beyond_m < kReach_m) height_m = std::max(height_m, BallastHeightOf(track, d_m));
+    if (track.has_ballast && beyond_m < kReach_m) {
+      height_m = std::max(height_m, BallastHeightOf(track, d_m));
+    }
   }
   return height_m;
 }

@@ -57,6 +57,7 @@ class CrossSection {
     double begin_s_m{};
     double end_s_m{};
     SleeperSeat seat;
+    bool has_ballast{};
   };
 
   /// Distance along the line from the track's end; 0 within the track.

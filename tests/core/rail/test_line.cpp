@@ -4,6 +4,7 @@
 
 #include "core/rail/catenary/catenary.h"
 #include "core/rail/land/land.h"
+#include "core/rail/structures/structures.h"
 #include "core/rail/track/track_structure.h"
 #include "tests/core/rail/test_tables.h"
 
@@ -41,6 +42,7 @@ Chunk TestLine::Build(int chunk, bool is_coarse) const {
   AddTracks(context, models_, built);
   AddCatenary(context, plan_, models_, built);
   AddTerrain(context, built);
+  AddStructures(context, built);
   return built;
 }
 

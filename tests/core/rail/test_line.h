@@ -28,7 +28,7 @@ class TestLine {
 
   [[nodiscard]] ChunkContext Context(int chunk) const;
   [[nodiscard]] Transform WorldFromChunk(int chunk) const;
-  /// Builds tracks, contact line and ground of a chunk.
+  /// Builds tracks, contact line, ground and structures of a chunk.
   [[nodiscard]] Chunk Build(int chunk, bool is_coarse = false) const;
 
  private:

@@ -8,8 +8,12 @@ namespace railcast {
 LabelTable TestLabels() {
   std::vector<Label> labels;
   for (const char* name :
-       {"rail", "sleeper", "ballast", "ground", "grass", "tree", "contact_wire", "messenger_wire",
-        "dropper", "mast", "cantilever", "wagon", "person", "pole", "object", "ego"}) {
+       {"rail",         "sleeper",        "ballast",      "ground",   "grass",      "tree",
+        "contact_wire", "messenger_wire", "dropper",      "mast",     "cantilever", "wagon",
+        "person",       "pole",           "object",       "ego",      "platform",   "noise_wall",
+        "fence",        "retaining_wall", "cable_trough", "tunnel",   "bridge",     "third_rail",
+        "slab_track",   "signal",         "board",        "balise",   "relay_box",  "buffer_stop",
+        "road",         "level_crossing", "building",     "derailer", "furniture"}) {
     Label label;
     label.id = static_cast<std::uint32_t>(labels.size() + 1);
     label.name = name;
@@ -39,14 +43,25 @@ MaterialLibrary TestMaterials() {
                            "tank_paint",
                            "skin",
                            "clothing",
-                           "grey_paint"}) {
+                           "grey_paint",
+                           "white_paint",
+                           "masonry",
+                           "plastic",
+                           "red_paint",
+                           "black_paint",
+                           "roof_tile",
+                           "asphalt",
+                           "glass",
+                           "retro_sheeting"}) {
     materials.push_back({name, 0.3});
   }
   return MaterialLibrary(materials);
 }
 
 RailSurfaces TestSurfaces() {
-  return {TestLabels(), TestMaterials()};
+  RailSurfaces surfaces(TestLabels(), TestMaterials());
+  surfaces.AddStructureSurfaces(TestLabels(), TestMaterials());
+  return surfaces;
 }
 
 }  // namespace railcast

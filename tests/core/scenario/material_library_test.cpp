@@ -119,6 +119,7 @@ INSTANTIATE_TEST_SUITE_P(
         MeasuredMaterial{"asphalt", {{urban, "asphalt"}, {urban, "road"}, {urban, "parking_lot"}}},
         MeasuredMaterial{"ballast", {{urban, "gravel"}, {bare, "gravel"}}},
         MeasuredMaterial{"soil", {{bare, "soil"}, {bare, "dirt"}}},
+        MeasuredMaterial{"roof_tile", {{urban, "tile"}}},
         MeasuredMaterial{"wood", {{urban, "wood_shingle"}, {plants, "wood"}}},
         MeasuredMaterial{"bark", {{plants, "bark"}}},
         MeasuredMaterial{"galvanised_steel", {{urban, "metal"}}, true},

@@ -130,7 +130,7 @@ Json SchemaWriter::SchemaOf(T& value, const Rule& rule) {
 template <class T>
 Json SchemaWriter::SchemaOfElement() {
   T value{};
-  if constexpr (kIsArray<T> || kElementMayBeFile<T>) {
+  if constexpr (kIsArray<T> || kIsVariant<T> || kElementMayBeFile<T>) {
     return SchemaOf(value, Anything{});
   } else {
     SchemaWriter writer;

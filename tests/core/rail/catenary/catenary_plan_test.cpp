@@ -35,6 +35,18 @@ TEST(CatenaryPlan, HoldsWiresOutsideOfACurveOverSpansThatTheFormulaGives) {
   }
 }
 
+TEST(CatenaryPlan, ShortensASpanWhoseMastsWouldStandInARoad) {
+  WorldSpec spec = StraightLine(1000.0);
+  LevelCrossingSpec crossing;
+  crossing.s_m = 131.0;
+  spec.structures = {crossing};
+  const CatenaryPlan plan(spec, Alignment(spec.alignment));
+  // Not at 130 and 127.5 m, within 1.5 m of a road of 6 m; the next span is a full one again.
+  EXPECT_NEAR(plan.supports()[1].s_m, 65.0, 1e-9);
+  EXPECT_NEAR(plan.supports()[2].s_m, 125.0, 1e-9);
+  EXPECT_NEAR(plan.supports()[3].s_m, 190.0, 1e-9);
+}
+
 TEST(CatenaryPlan, IsEmptyWithoutAContactLine) {
   WorldSpec spec = StraightLine(1000.0);
   spec.catenary.enabled = false;

@@ -1,0 +1,171 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/rail/model_parts.h"
+#include "core/rail/structures/structure_track.h"
+#include "core/rail/structures/structure_types.h"
+#include "core/rail/structures/swept_solid.h"
+#include "core/rail/track/cross_section.h"
+#include "core/scene/shapes.h"
+
+namespace railcast {
+namespace {
+
+/// Tracks this close share a bridge.
+constexpr double kSharedBridge_m = 7.0;
+
+constexpr double kDeckTop_m = -CrossSection::kFormationDepth_m;
+constexpr double kEdgeBeamWidth_m = 0.4;
+constexpr double kEdgeBeamTop_m = -0.35;
+
+/// Abutments reach this far into the gap, and beside the deck.
+constexpr double kAbutmentDepth_m = 1.2;
+constexpr double kAbutmentBeside_m = 0.5;
+constexpr double kFoundation_m = 0.5;  ///< Below the bottom of the gap.
+
+/// Slope of the gap's banks and of the cones: rise over run.
+constexpr double kBankSlope = 1.0 / 1.5;
+
+constexpr double kRailingPostSpacing_m = 2.0;
+constexpr double kRailingPostWidth_m = 0.06;
+constexpr double kRailingBar_m = 0.04;
+constexpr int kNumRailingBars = 3;
+
+/// What carries the line, with y from the axis of its track.
+struct DeckEdges {
+  double right_m{};
+  double left_m{};
+};
+
+DeckEdges EdgesOf(const WorldTracks& tracks, const BridgeSpec& bridge) {
+  const TrackSpread spread = SpreadOf(tracks, bridge, kSharedBridge_m);
+  return {.right_m = spread.right_m - bridge.edge_distance_m,
+          .left_m = spread.left_m + bridge.edge_distance_m};
+}
+
+Outline DeckOutline(const BridgeSpec& bridge, const DeckEdges& edges) {
+  const double bottom_m = kDeckTop_m - bridge.deck_thickness_m;
+  const double right_m = edges.right_m + kEdgeBeamWidth_m;
+  const double left_m = edges.left_m - kEdgeBeamWidth_m;
+  return {{edges.right_m, bottom_m}, {edges.left_m, bottom_m},       {edges.left_m, kEdgeBeamTop_m},
+          {left_m, kEdgeBeamTop_m},  {left_m, kDeckTop_m},           {right_m, kDeckTop_m},
+          {right_m, kEdgeBeamTop_m}, {edges.right_m, kEdgeBeamTop_m}};
+}
+
+class BridgeBuilder {
+ public:
+  BridgeBuilder(const ChunkContext& context, const BridgeSpec& bridge, Chunk& chunk)
+      : context_(context),
+        bridge_(bridge),
+        track_(context, bridge.track),
+        edges_(EdgesOf(TracksOf(context), bridge)),
+        chunk_(chunk) {}
+
+  void Add() {
+    const double farthest_m =
+        std::max(std::abs(edges_.right_m), std::abs(edges_.left_m)) + edges_.left_m;
+    const auto stretch = StretchInChunk(track_, Range(), farthest_m,
+                                        [&](double s_m) { return track_.Upright(s_m); });
+    if (stretch) {
+      AppendSweptSolid(*stretch, DeckOutline(bridge_, edges_), Concrete());
+      if (bridge_.railing_height_m > 0.0) AddRailings(*stretch);
+    }
+    if (track_.Holds(bridge_.begin_s_m)) AddAbutment(bridge_.begin_s_m, 0.0, kAbutmentDepth_m);
+    if (track_.Holds(bridge_.end_s_m)) AddAbutment(bridge_.end_s_m, -kAbutmentDepth_m, 0.0);
+  }
+
+ private:
+  [[nodiscard]] ChainageRange Range() const {
+    return {.begin_s_m = bridge_.begin_s_m, .end_s_m = bridge_.end_s_m};
+  }
+  [[nodiscard]] Mesh& Concrete() {
+    return MeshOf(context_.surfaces.structures.bridge, chunk_.ground);
+  }
+
+  void AddAbutment(double s_m, double begin_x_m, double end_x_m) {
+    Concrete().Append(MakeBox({Vector3(begin_x_m, edges_.right_m - kAbutmentBeside_m,
+                                       -(bridge_.depth_m + kFoundation_m)),
+                               Vector3(end_x_m, edges_.left_m + kAbutmentBeside_m,
+                                       kDeckTop_m - 0.5 * bridge_.deck_thickness_m)}),
+                      track_.Upright(s_m));
+  }
+
+  void AddRailings(const Stretch& stretch) {
+    Mesh& steel = MeshOf(context_.surfaces.structures.bridge_railing, chunk_.ground);
+    const double top_m = kEdgeBeamTop_m + bridge_.railing_height_m;
+    const double half_m = 0.5 * kRailingPostWidth_m;
+    const Mesh post =
+        MakeBox({Vector3(-half_m, -half_m, kEdgeBeamTop_m), Vector3(half_m, half_m, top_m)});
+    for (const double y_m :
+         {edges_.right_m + 0.5 * kEdgeBeamWidth_m, edges_.left_m - 0.5 * kEdgeBeamWidth_m}) {
+      for (int bar = 1; bar <= kNumRailingBars; ++bar) {
+        const double z_m =
+            std::lerp(kEdgeBeamTop_m, top_m, 1.0 * bar / kNumRailingBars) - kRailingBar_m;
+        const double bar_m = 0.5 * kRailingBar_m;
+        AppendSweptSolid(
+            stretch, RectangleOutline(y_m - bar_m, z_m, y_m + bar_m, z_m + kRailingBar_m), steel);
+      }
+      for (const double s_m : track_.Places(Range(), kRailingPostSpacing_m)) {
+        steel.Append(post, track_.Upright(s_m) * Eigen::Translation3d(0.0, y_m, 0.0));
+      }
+    }
+  }
+
+  const ChunkContext& context_;
+  const BridgeSpec& bridge_;
+  StructureTrack track_;
+  DeckEdges edges_;
+  Chunk& chunk_;
+};
+
+/// How much lower the ground is about one bridge; d from the axis of its track.
+double DropAbout_m(const BridgeSpec& bridge, const DeckEdges& edges, double s_m, double d_m) {
+  const double deepest_m = bridge.depth_m - CrossSection::kFormationDepth_m;
+  // Positive outside the gap. Its ends are inside the abutments, which hide the step below the
+  // deck.
+  const double beyond_m = std::max(bridge.begin_s_m + 0.5 * kAbutmentDepth_m - s_m,
+                                   s_m - (bridge.end_s_m - 0.5 * kAbutmentDepth_m));
+  const double beside_m =
+      std::max(edges.right_m - kAbutmentBeside_m - d_m, d_m - (edges.left_m + kAbutmentBeside_m));
+  if (beside_m <= 0.0) return beyond_m < 0.0 ? deepest_m : 0.0;
+  const double from_bank_m = beyond_m > 0.0 ? beside_m : std::hypot(beside_m, beyond_m);
+  const double at_bank_m = deepest_m - kBankSlope * std::max(0.0, beyond_m);
+  return std::clamp(std::min(at_bank_m, kBankSlope * from_bank_m), 0.0, deepest_m);
+}
+
+}  // namespace
+
+void AddStructure(const ChunkContext& context, const BridgeSpec& bridge, Chunk& chunk) {
+  BridgeBuilder(context, bridge, chunk).Add();
+}
+
+std::vector<ClearedArea> ClearedBy(const WorldTracks& tracks, const BridgeSpec& bridge) {
+  const DeckEdges edges = EdgesOf(tracks, bridge);
+  std::vector<ClearedArea> areas = ClearedAround({.begin_s_m = bridge.begin_s_m,
+                                                  .end_s_m = bridge.end_s_m,
+                                                  .right_m = edges.right_m - kAbutmentBeside_m,
+                                                  .left_m = edges.left_m + kAbutmentBeside_m,
+                                                  .cleared = {}});
+  // Masts stand on the deck.
+  std::erase_if(areas, [](const ClearedArea& area) {
+    return area.cleared == std::vector<Clearing>{Clearing::kMast};
+  });
+  return areas;
+}
+
+double GroundDrop_m(const WorldTracks& tracks, double s_m, double d_m) {
+  double drop_m = 0.0;
+  for (const StructureSpec& structure : tracks.world.structures) {
+    const auto* bridge = std::get_if<BridgeSpec>(&structure);
+    if (bridge == nullptr) continue;
+    const double reach_m = bridge->depth_m / kBankSlope;
+    if (s_m < bridge->begin_s_m - reach_m || s_m > bridge->end_s_m + reach_m) continue;
+    const TrackCourse* track = tracks.CourseOf(bridge->track);
+    if (track == nullptr) continue;
+    drop_m = std::max(drop_m, DropAbout_m(*bridge, EdgesOf(tracks, *bridge), s_m,
+                                          d_m - track->OffsetAt(s_m).d_m));
+  }
+  return drop_m;
+}
+
+}  // namespace railcast

@@ -1,0 +1,155 @@
+#include <algorithm>
+#include <optional>
+
+#include "core/base/text.h"
+#include "core/rail/model_parts.h"
+#include "core/rail/structures/structure_track.h"
+#include "core/rail/structures/structure_types.h"
+#include "core/rail/structures/swept_solid.h"
+#include "core/scene/shapes.h"
+
+namespace railcast {
+namespace {
+
+/// The slab at the edge overhangs the wall below it.
+constexpr double kNoseHeight_m = 0.12;
+constexpr double kNoseDepth_m = 0.08;
+/// The wall's foot below top of rail; the ground lies 0.7 m below it.
+constexpr double kPlatformFoot_m = 1.3;
+
+/// Up to 160 km/h, passengers keep 2.5 m from the track's axis; the strip lies behind that line
+/// and is 0.3 m wide (DIN 32984), with ribs of 4 mm.
+constexpr double kDangerZone_m = 2.5;
+constexpr double kStripWidth_m = 0.3;
+constexpr double kStripHeight_m = 0.004;
+constexpr double kStripBevel_m = 0.01;
+
+constexpr double kRoofDepth_m = 0.25;
+constexpr double kRoofRise_m = 0.3;  ///< Of the roof's edges above its valley.
+/// Distance of the roof's edge from the platform's edge, and from the platform's back.
+constexpr double kRoofFromEdge_m = 0.5;
+constexpr double kRoofFromBack_m = 0.1;
+constexpr double kColumnWidth_m = 0.2;
+
+/// The platform's cross-section: y from its edge towards its back, z from its top.
+Outline BodyOutline(const PlatformSpec& platform) {
+  const double foot_m = -(platform.height_m + kPlatformFoot_m);
+  return {{0.0, 0.0},
+          {0.0, -kNoseHeight_m},
+          {kNoseDepth_m, -kNoseHeight_m},
+          {kNoseDepth_m, foot_m},
+          {platform.width_m, foot_m},
+          {platform.width_m, 0.0}};
+}
+
+std::optional<Outline> StripOutline(const PlatformSpec& platform) {
+  const double begin_m = std::max(0.0, kDangerZone_m - platform.edge_distance_m);
+  const double end_m = begin_m + kStripWidth_m;
+  if (!platform.has_edge_strip || end_m > platform.width_m) return std::nullopt;
+  return Outline{{begin_m, 0.0},
+                 {begin_m + kStripBevel_m, kStripHeight_m},
+                 {end_m - kStripBevel_m, kStripHeight_m},
+                 {end_m, 0.0}};
+}
+
+ChainageRange RoofRange(const PlatformSpec& platform) {
+  return {.begin_s_m = platform.roof->begin_s_m.value_or(platform.begin_s_m),
+          .end_s_m = platform.roof->end_s_m.value_or(platform.end_s_m)};
+}
+
+/// A roof with its valley over the columns.
+Outline RoofOutline(const PlatformSpec& platform) {
+  const double front_m = std::min(kRoofFromEdge_m, 0.25 * platform.width_m);
+  const double back_m = platform.width_m - kRoofFromBack_m;
+  const double middle_m = 0.5 * platform.width_m;
+  const double low_m = platform.roof->height_m;
+  const double high_m = low_m + kRoofRise_m;
+  return {{front_m, high_m},
+          {middle_m, low_m},
+          {back_m, high_m},
+          {back_m, high_m + kRoofDepth_m},
+          {middle_m, low_m + kRoofDepth_m},
+          {front_m, high_m + kRoofDepth_m}};
+}
+
+/// Adds what has one cross-section, in the frame of the platform's edge.
+class PlatformBuilder {
+ public:
+  PlatformBuilder(const ChunkContext& context, const PlatformSpec& platform)
+      : context_(context), platform_(platform), track_(context, platform.track) {}
+
+  void Add(Chunk& chunk) const {
+    const ChainageRange whole{.begin_s_m = platform_.begin_s_m, .end_s_m = platform_.end_s_m};
+    const StructureSurfaces& surfaces = context_.surfaces.structures;
+    Sweep(whole, BodyOutline(platform_), MeshOf(surfaces.platform, chunk.ground));
+    if (const auto strip = StripOutline(platform_)) {
+      Sweep(whole, *strip, MeshOf(surfaces.platform_strip, chunk.ground));
+    }
+    if (!platform_.roof) return;
+    Mesh& steel = MeshOf(surfaces.platform_roof, chunk.ground);
+    Sweep(RoofRange(platform_), RoofOutline(platform_), steel);
+    AddColumns(steel);
+  }
+
+ private:
+  [[nodiscard]] Transform EdgeAt(double s_m) const {
+    return track_.UprightAt(s_m, SignOf(platform_.side) * platform_.edge_distance_m,
+                            platform_.height_m);
+  }
+
+  void Sweep(const ChainageRange& range, const Outline& outline_m, Mesh& mesh) const {
+    const double side = SignOf(platform_.side);
+    const double farthest_m = side * (platform_.edge_distance_m + platform_.width_m);
+    const auto stretch =
+        StretchInChunk(track_, range, farthest_m, [&](double s_m) { return EdgeAt(s_m); });
+    if (stretch) AppendSweptSolid(*stretch, OnSide(outline_m, side), mesh);
+  }
+
+  void AddColumns(Mesh& mesh) const {
+    const double half_m = 0.5 * kColumnWidth_m;
+    const ChainageRange roof = RoofRange(platform_);
+    const double end_m = std::min(1.0, 0.25 * (roof.end_s_m - roof.begin_s_m));
+    const Mesh column = MakeBox(
+        {Vector3(-half_m, -half_m, 0.0), Vector3(half_m, half_m, platform_.roof->height_m)});
+    const double middle_m = SignOf(platform_.side) * 0.5 * platform_.width_m;
+    for (const double s_m :
+         track_.Places({.begin_s_m = roof.begin_s_m + end_m, .end_s_m = roof.end_s_m - end_m},
+                       platform_.roof->column_spacing_m)) {
+      mesh.Append(column, EdgeAt(s_m) * Eigen::Translation3d(0.0, middle_m, 0.0));
+    }
+  }
+
+  const ChunkContext& context_;
+  const PlatformSpec& platform_;
+  StructureTrack track_;
+};
+
+}  // namespace
+
+void AddStructure(const ChunkContext& context, const PlatformSpec& platform, Chunk& chunk) {
+  PlatformBuilder(context, platform).Add(chunk);
+}
+
+std::vector<ClearedArea> ClearedBy(const PlatformSpec& platform) {
+  const double near_m = SignOf(platform.side) * platform.edge_distance_m;
+  const double far_m = near_m + SignOf(platform.side) * platform.width_m;
+  return ClearedAround({.begin_s_m = platform.begin_s_m,
+                        .end_s_m = platform.end_s_m,
+                        .right_m = std::min(near_m, far_m),
+                        .left_m = std::max(near_m, far_m),
+                        .cleared = {}});
+}
+
+void CheckShape(const StructurePlace& place, const PlatformSpec& platform, WorldFaults& faults) {
+  if (!platform.roof || !faults.AreKnown({place.pointer})) return;
+  const ChainageRange roof = RoofRange(platform);
+  if (!(roof.begin_s_m >= platform.begin_s_m && roof.end_s_m <= platform.end_s_m &&
+        roof.begin_s_m < roof.end_s_m)) {
+    faults.Add(place.pointer + "/roof",
+               "must lie on the platform, from " + NumberText(platform.begin_s_m) + " to " +
+                   NumberText(platform.end_s_m) + " m",
+               "from " + NumberText(roof.begin_s_m) + " to " + NumberText(roof.end_s_m) + " m");
+  }
+}
+
+}  // namespace railcast

@@ -1,0 +1,91 @@
+#include <array>
+
+#include "core/rail/model_parts.h"
+#include "core/rail/structures/lineside_models.h"
+#include "core/rail/structures/lineside_parts.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kSignalMastRadius_m = 0.070;
+constexpr double kScreenThickness_m = 0.040;
+constexpr double kHoodDepth_m = 0.20;
+
+LampSurfaces LampsOf(const LinesideSurfaces& surfaces) {
+  return {.lens = surfaces.signal_lamp, .hood = surfaces.signal_screen};
+}
+
+/// A mast with a screen in front of it and lamps one above the other in the screen's middle.
+Model MakeSignal(const char* name,
+                 const PlateSize& screen,
+                 int num_lamps,
+                 double height_m,
+                 const LinesideSurfaces& surfaces) {
+  Model model{.name = name, .parts = {}};
+  MeshOf(surfaces.signal_mast, model)
+      .Append(MakePost({.bottom_m = kFoot_m, .top_m = height_m, .radius_m = kSignalMastRadius_m}));
+  constexpr double kFootTop_m = -0.55;
+  constexpr double kFootBottom_m = -1.40;
+  MeshOf(surfaces.signal_foot, model)
+      .Append(MakeBlockAbout({0.0, 0.0, 0.5 * (kFootTop_m + kFootBottom_m)},
+                             {0.60, 0.60, kFootTop_m - kFootBottom_m}));
+  const double front_m = -kSignalMastRadius_m - kScreenThickness_m;
+  MeshOf(surfaces.signal_screen, model)
+      .Append(MakeBlockAbout(
+          {front_m + 0.5 * kScreenThickness_m, 0.0, height_m - 0.5 * screen.height_m},
+          {kScreenThickness_m, screen.width_m, screen.height_m}));
+  for (int i = 0; i < num_lamps; ++i) {
+    const double below_top_m = screen.height_m * (i + 0.5) / num_lamps;
+    AddSignalLamp({front_m, 0.0, height_m - below_top_m}, kHoodDepth_m, LampsOf(surfaces), model);
+  }
+  return model;
+}
+
+/// Adds a retroreflecting plate on the mast's front, below the screen.
+void AddMastPlate(double top_m,
+                  const PlateSize& plate,
+                  const LinesideSurfaces& surfaces,
+                  Model& model) {
+  constexpr double kThickness_m = 0.010;
+  MeshOf(surfaces.signal_board, model)
+      .Append(MakeBlockAbout(
+          {-kSignalMastRadius_m - 0.5 * kThickness_m, 0.0, top_m - 0.5 * plate.height_m},
+          {kThickness_m, plate.width_m, plate.height_m}));
+}
+
+}  // namespace
+
+Model MakeMainSignal(double height_m, const LinesideSurfaces& surfaces) {
+  Model model = MakeSignal("main_signal", kMainScreen, 3, height_m, surfaces);
+  AddMastPlate(height_m - kMainScreen.height_m - 0.3, {0.150, 0.750}, surfaces, model);
+  return model;
+}
+
+Model MakeDistantSignal(double height_m, const LinesideSurfaces& surfaces) {
+  Model model = MakeSignal("distant_signal", kDistantScreen, 2, height_m, surfaces);
+  AddMastPlate(height_m - kDistantScreen.height_m - 0.3, {0.450, 0.900}, surfaces, model);
+  return model;
+}
+
+Model MakeShuntingSignal(double height_m, const LinesideSurfaces& surfaces) {
+  constexpr double kCaseDepth_m = 0.20;
+  constexpr double kShadeDepth_m = 0.10;
+  constexpr double kPostRadius_m = 0.050;
+  Model model{.name = "shunting_signal", .parts = {}};
+  const double case_bottom_m = height_m - kShuntingScreen.height_m;
+  MeshOf(surfaces.signal_mast, model)
+      .Append(MakePost({.bottom_m = kFoot_m, .top_m = case_bottom_m, .radius_m = kPostRadius_m}));
+  MeshOf(surfaces.signal_screen, model)
+      .Append(MakeBlockAbout({0.0, 0.0, case_bottom_m + 0.5 * kShuntingScreen.height_m},
+                             {kCaseDepth_m, kShuntingScreen.width_m, kShuntingScreen.height_m}));
+  // Two lamps above, one below: they show two lights on a slant for "shunting permitted".
+  const std::array<Eigen::Vector2d, 3> lamps_m = {{{-0.12, 0.12}, {0.12, 0.12}, {0.0, -0.12}}};
+  const double middle_m = height_m - 0.5 * kShuntingScreen.height_m;
+  for (const Eigen::Vector2d& lamp_m : lamps_m) {
+    AddSignalLamp({-0.5 * kCaseDepth_m, lamp_m.x(), middle_m + lamp_m.y()}, kShadeDepth_m,
+                  LampsOf(surfaces), model);
+  }
+  return model;
+}
+
+}  // namespace railcast

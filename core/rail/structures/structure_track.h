@@ -1,0 +1,68 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/rail/chunk_context.h"
+#include "core/rail/track/sweep.h"
+#include "core/rail/world_tracks.h"
+#include "railcast/structures.h"
+#include "railcast/transform.h"
+
+namespace railcast {
+
+/// The axes of the outermost of several tracks, left of the axis of one of them.
+struct TrackSpread {
+  double right_m{};  ///< At most 0.
+  double left_m{};   ///< At least 0.
+
+  [[nodiscard]] double middle_m() const { return 0.5 * (right_m + left_m); }
+  [[nodiscard]] double half_width_m() const { return 0.5 * (left_m - right_m); }
+};
+
+/// The tracks that a structure along a stretch has room for: its own and, one after another, those
+/// that run somewhere along the stretch within `gap_m` of one of them.
+[[nodiscard]] TrackSpread SpreadOf(const WorldTracks& tracks,
+                                   const StretchSpec& stretch,
+                                   double gap_m);
+
+/// The frames of the track along which a structure runs, in the frame of a chunk.
+class StructureTrack {
+ public:
+  /// @pre The world has a track of that name.
+  StructureTrack(const ChunkContext& context, const std::string& track);
+
+  [[nodiscard]] const TrackSpec& spec() const { return *track_; }
+  [[nodiscard]] double offset_m(double s_m) const { return course_->OffsetAt(s_m).d_m; }
+  [[nodiscard]] const TrackCourse& course() const { return *course_; }
+
+  /// Origin on the track's axis at top of rail, x along the track, y in the plane of the rails.
+  [[nodiscard]] Transform Canted(double s_m) const;
+  /// The same origin and heading, but z vertical and y level, for what stands upright.
+  [[nodiscard]] Transform Upright(double s_m) const;
+  /// Upright, with its origin at `d_m`, `h_m` of the canted frame: for what follows the rails but
+  /// stands upright, such as the edge of a platform.
+  [[nodiscard]] Transform UprightAt(double s_m, double d_m, double h_m) const;
+
+  /// The part of a stretch that the chunk's swept surfaces cover, with half the overlap at either
+  /// end; nothing if the stretch has no part in the chunk.
+  [[nodiscard]] std::optional<ChainageRange> InChunk(const ChainageRange& stretch) const;
+  /// Chainages between which a chord `d_m` left of the track's axis is at most 1 mm off, and at
+  /// most `max_step_m` long. 2.5 m also meets a kink of 1:400 in a cant ramp within 1 mm.
+  [[nodiscard]] std::vector<double> Stations(const ChainageRange& range,
+                                             double d_m,
+                                             double max_step_m = 2.5) const;
+  /// Those of the evenly spaced places of repeated parts, from the stretch's begin to its end and
+  /// at most `spacing_m` apart, that belong to the chunk.
+  [[nodiscard]] std::vector<double> Places(const ChainageRange& stretch, double spacing_m) const;
+  /// Whether `s_m` belongs to the chunk: the end of the line to the last.
+  [[nodiscard]] bool Holds(double s_m) const;
+
+ private:
+  const ChunkContext* context_;
+  const TrackSpec* track_;
+  const TrackCourse* course_;
+};
+
+}  // namespace railcast

@@ -1,0 +1,149 @@
+#pragma once
+
+#include "core/scenario/describe_alignment.h"
+#include "core/scenario/json_rules.h"
+#include "railcast/lineside.h"
+
+namespace railcast {
+
+template <>
+inline constexpr const char* kTypeName<SignalSpec> = "signal";
+template <>
+inline constexpr const char* kTypeName<BoardSpec> = "board";
+template <>
+inline constexpr const char* kTypeName<BaliseSpec> = "balise";
+template <>
+inline constexpr const char* kTypeName<DerailerSpec> = "derailer";
+template <>
+inline constexpr const char* kTypeName<RelayBoxSpec> = "relay_box";
+template <>
+inline constexpr const char* kTypeName<FurnitureSpec> = "furniture";
+template <>
+inline constexpr const char* kTypeName<BufferStopSpec> = "buffer_stop";
+template <>
+inline constexpr const char* kTypeName<LevelCrossingSpec> = "level_crossing";
+template <>
+inline constexpr const char* kTypeName<BuildingSpec> = "building";
+
+/// Distances from the axis of a track at which something may stand: nothing nearer than rails and
+/// sleepers leave room for.
+[[nodiscard]] inline Limits BesideTrackLimits() {
+  return Within(1.0, 1000);
+}
+
+/// The keys of PointSpec.
+template <class Archive, class Structure>
+void DescribePoint(Archive& a, Structure& s) {
+  a.Required("name", s.name, "Unique among the structures.", NonEmptyString());
+  a.Optional("track", s.track, "The track beside or in which it stands.");
+  a.Required("s_m", s.s_m, "Chainage of its middle.", ChainageLimits());
+}
+
+/// The keys of FacingSpec.
+template <class Archive, class Structure>
+void DescribeFacing(Archive& a, Structure& s) {
+  DescribePoint(a, s);
+  a.Required("kind", s.kind, "Which of them.");
+  a.Optional("direction", s.direction,
+             "It faces trains that run with rising or with falling chainage.");
+  a.Optional("side", s.side,
+             "Side of the track, towards increasing chainage; absent = right of those trains.");
+  a.Optional("distance_m", s.distance_m, "From the track's axis; absent = by kind.",
+             BesideTrackLimits());
+  a.Optional("height_m", s.height_m, "Of its top above top of rail; absent = by kind.",
+             Within(0, 15));
+}
+
+template <class Archive>
+void Describe(Archive& a, SignalSpec& s) {
+  DescribeFacing(a, s);
+  // Else the screen and the boards below it would reach into the ground.
+  const double least_m = s.kind == SignalKind::kShunting ? 0.4 : 2.5;
+  a.Ensure({"height_m", "kind"}, !s.height_m || *s.height_m >= least_m,
+           s.kind == SignalKind::kShunting ? "must be >= 0.4 for a shunting signal"
+                                           : "must be >= 2.5 for a main or distant signal");
+}
+
+template <class Archive>
+void Describe(Archive& a, BoardSpec& s) {
+  DescribeFacing(a, s);
+  a.Optional("size_m", s.size_m, "Width and height of its plate; absent = by kind.",
+             Within(0.1, 5));
+  a.Ensure({"size_m", "kind"}, !s.size_m || s.kind != BoardKind::kFoulingPoint,
+           "must not be given for a fouling point marker");
+}
+
+template <class Archive>
+void Describe(Archive& a, BaliseSpec& s) {
+  DescribePoint(a, s);
+}
+
+template <class Archive>
+void Describe(Archive& a, DerailerSpec& s) {
+  DescribePoint(a, s);
+  a.Optional("side", s.side, "The rail on which it lies, towards increasing chainage.");
+}
+
+template <class Archive>
+void Describe(Archive& a, RelayBoxSpec& s) {
+  DescribePoint(a, s);
+  a.Optional("side", s.side, "Side of the track, towards increasing chainage.");
+  a.Optional("distance_m", s.distance_m, "From the track's axis to its middle.",
+             BesideTrackLimits());
+  a.Optional("size_m", s.size_m, "Length, depth, height.", Within(0.3, 10));
+}
+
+template <class Archive>
+void Describe(Archive& a, FurnitureSpec& s) {
+  DescribePoint(a, s);
+  a.Required("kind", s.kind, "Which of them.");
+  a.Optional("side", s.side, "Side of the track, towards increasing chainage.");
+  a.Optional("distance_m", s.distance_m, "From the track's axis to its middle.",
+             BesideTrackLimits());
+  a.Optional("h_m", s.h_m,
+             "Of its foot above top of rail; absent = on the ground or on the platform there.",
+             Within(-100, 100));
+}
+
+template <class Archive>
+void Describe(Archive& a, BufferStopSpec& s) {
+  a.Required("name", s.name, "Unique among the structures.", NonEmptyString());
+  a.Optional("track", s.track, "The track that ends.");
+  a.Optional("at", s.at, "Whether it stands where the track begins or where it ends.");
+}
+
+template <class Archive>
+void Describe(Archive& a, LevelCrossingSpec& s) {
+  DescribePoint(a, s);
+  // Barriers and shoulders must not reach farther beyond a chunk than windows allow for.
+  a.Optional("road_width_m", s.road_width_m, "Width of the road, along the track.", Within(2, 12));
+  a.Optional("road_length_m", s.road_length_m,
+             "Length of the road to either side of the track's axis.", Within(6, 200));
+  a.Optional("barriers", s.barriers, "Half barriers: none, open or closed.");
+  a.Optional("barrier_angle_deg", s.barrier_angle_deg,
+             "Of barriers on the move, in place of their state: 0 = closed, 90 = upright.",
+             Within(0, 90));
+  a.Optional("has_signs", s.has_signs, "Whether there are St Andrew's crosses with lamps.");
+  a.Ensure({"barrier_angle_deg", "barriers"},
+           !s.barrier_angle_deg || s.barriers != BarrierState::kNone,
+           "must not be given for barriers \"none\"");
+}
+
+template <class Archive>
+void Describe(Archive& a, BuildingSpec& s) {
+  a.Required("name", s.name, "Unique among the structures.", NonEmptyString());
+  a.Optional("track", s.track, "The track in whose coordinates its footprint is given.");
+  a.Required("footprint_m", s.footprint_m,
+             "Corners in plan, one after the other: chainage, and distance from the track's axis, "
+             "left positive.",
+             EachNumber{.limits = Within(-1e7, 1e7), .at_least = 3});
+  a.Optional("height_m", s.height_m, "Of the walls, above the lowest ground at a corner.",
+             Within(1, 200));
+  a.Optional("roof", s.roof, "Flat, or a gable over the longer sides of four corners.");
+  a.Optional("roof_pitch_deg", s.roof_pitch_deg, "Of a gable roof.", Within(5, 75));
+  a.Optional("has_windows", s.has_windows, "Whether there are windows of glass in every storey.");
+  a.Ensure({"footprint_m", "roof"}, s.roof == RoofKind::kFlat || s.footprint_m.size() == 4,
+           "must have four corners under a gable roof");
+}
+
+}  // namespace railcast

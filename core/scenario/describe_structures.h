@@ -1,0 +1,168 @@
+#pragma once
+
+#include "core/scenario/describe_alignment.h"
+#include "core/scenario/describe_lineside.h"
+#include "core/scenario/json_rules.h"
+#include "railcast/structures.h"
+
+namespace railcast {
+
+template <>
+inline constexpr const char* kTypeName<PlatformSpec> = "platform";
+template <>
+inline constexpr const char* kTypeName<NoiseWallSpec> = "noise_wall";
+template <>
+inline constexpr const char* kTypeName<FenceSpec> = "fence";
+template <>
+inline constexpr const char* kTypeName<RetainingWallSpec> = "retaining_wall";
+template <>
+inline constexpr const char* kTypeName<CableTroughSpec> = "cable_trough";
+template <>
+inline constexpr const char* kTypeName<TunnelSpec> = "tunnel";
+template <>
+inline constexpr const char* kTypeName<BridgeSpec> = "bridge";
+template <>
+inline constexpr const char* kTypeName<OverbridgeSpec> = "overbridge";
+template <>
+inline constexpr const char* kTypeName<ThirdRailSpec> = "third_rail";
+template <>
+inline constexpr const char* kTypeName<SlabTrackSpec> = "slab_track";
+
+/// Distance of a structure from its track's axis.
+[[nodiscard]] inline Limits BesideTrackLimits() {
+  return Within(1, 500);
+}
+
+/// The keys of StretchSpec.
+template <class Archive, class Structure>
+void DescribeStretch(Archive& a, Structure& s) {
+  a.Required("name", s.name, "Unique among the structures.", NonEmptyString());
+  a.Optional("track", s.track, "The track along which it runs.");
+  a.Required("begin_s_m", s.begin_s_m, "Chainage where it begins.", ChainageLimits());
+  a.Required("end_s_m", s.end_s_m, "Chainage where it ends.", ChainageLimits());
+  a.Ensure({"end_s_m", "begin_s_m"}, s.end_s_m > s.begin_s_m, "must be > begin_s_m");
+}
+
+/// The keys of SideStretchSpec.
+template <class Archive, class Structure>
+void DescribeSideStretch(Archive& a, Structure& s) {
+  DescribeStretch(a, s);
+  a.Required("side", s.side, "Side of the track, towards increasing chainage.");
+}
+
+template <class Archive>
+void Describe(Archive& a, PlatformRoofSpec& s) {
+  a.Optional("begin_s_m", s.begin_s_m, "Chainage where it begins; absent = with the platform.",
+             ChainageLimits());
+  a.Optional("end_s_m", s.end_s_m, "Chainage where it ends; absent = with the platform.",
+             ChainageLimits());
+  a.Optional("height_m", s.height_m, "Of its lower side above the platform.", Within(2.2, 10));
+  a.Optional("column_spacing_m", s.column_spacing_m, "At most.", Within(2, 50));
+  a.Ensure({"end_s_m", "begin_s_m"}, !s.begin_s_m || !s.end_s_m || *s.end_s_m > *s.begin_s_m,
+           "must be > begin_s_m");
+}
+
+template <class Archive>
+void Describe(Archive& a, PlatformSpec& s) {
+  DescribeSideStretch(a, s);
+  a.Optional("height_m", s.height_m, "Of its edge above top of rail.", Within(0.2, 1.3));
+  a.Optional("edge_distance_m", s.edge_distance_m, "Of its edge from the track's axis.",
+             Within(0.8, 10));
+  a.Optional("width_m", s.width_m, "Across.", Within(0.5, 50));
+  a.Optional("has_edge_strip", s.has_edge_strip,
+             "Whether a white tactile strip runs along the edge.");
+  a.Optional("roof", s.roof, "A roof on a row of columns; absent = none.");
+}
+
+template <class Archive>
+void Describe(Archive& a, NoiseWallSpec& s) {
+  DescribeSideStretch(a, s);
+  a.Optional("distance_m", s.distance_m, "Of its face from the track's axis.", BesideTrackLimits());
+  a.Optional("height_m", s.height_m, "Above top of rail.", Within(0.3, 15));
+  a.Optional("post_spacing_m", s.post_spacing_m, "At most.", Within(1, 20));
+}
+
+template <class Archive>
+void Describe(Archive& a, FenceSpec& s) {
+  DescribeSideStretch(a, s);
+  a.Optional("distance_m", s.distance_m, "From the track's axis.", BesideTrackLimits());
+  a.Optional("height_m", s.height_m, "Above the ground.", Within(0.3, 6));
+  a.Optional("fence", s.fence, "What is between its posts.");
+  a.Optional("post_spacing_m", s.post_spacing_m, "At most.", Within(0.5, 20));
+}
+
+template <class Archive>
+void Describe(Archive& a, RetainingWallSpec& s) {
+  DescribeSideStretch(a, s);
+  a.Optional("distance_m", s.distance_m, "Of its face from the track's axis, at top of rail.",
+             BesideTrackLimits());
+  a.Optional("height_m", s.height_m, "Above top of rail.", Within(-0.6, 30));
+  a.Optional("depth_m", s.depth_m, "Of its foot below top of rail.", Within(0.8, 30));
+}
+
+template <class Archive>
+void Describe(Archive& a, CableTroughSpec& s) {
+  DescribeSideStretch(a, s);
+  a.Optional("distance_m", s.distance_m, "Of its nearer side from the track's axis.",
+             BesideTrackLimits());
+  a.Optional("width_m", s.width_m, "Across.", Within(0.1, 2));
+}
+
+template <class Archive>
+void Describe(Archive& a, TunnelSpec& s) {
+  DescribeStretch(a, s);
+  a.Optional("radius_m", s.radius_m, "Of its vault, inside; absent = as the tracks need.",
+             Within(3, 15));
+  a.Optional("has_portals", s.has_portals, "Whether a wall stands about either mouth.");
+  a.Optional("niche_spacing_m", s.niche_spacing_m, "On both sides; 0 = none.", Within(0, 1000));
+  a.Optional("has_handrail", s.has_handrail, "Along both walls.");
+  a.Ensure({"niche_spacing_m"}, s.niche_spacing_m == 0.0 || s.niche_spacing_m >= 5.0,
+           "must be 0 or >= 5");
+}
+
+template <class Archive>
+void Describe(Archive& a, BridgeSpec& s) {
+  DescribeStretch(a, s);
+  a.Optional("depth_m", s.depth_m, "Of the bottom of the gap below top of rail.", Within(2.5, 100));
+  a.Optional("edge_distance_m", s.edge_distance_m,
+             "Of its edges from the axes of the outermost tracks on it.", Within(2.2, 20));
+  a.Optional("deck_thickness_m", s.deck_thickness_m, "Below the ballast.", Within(0.2, 10));
+  a.Optional("railing_height_m", s.railing_height_m, "Above the edge beam; 0 = none.",
+             Within(0, 5));
+  a.Ensure({"depth_m", "deck_thickness_m"}, s.depth_m >= s.deck_thickness_m + 1.5,
+           "must be at least 1.5 m more than deck_thickness_m");
+}
+
+template <class Archive>
+void Describe(Archive& a, OverbridgeSpec& s) {
+  DescribeStretch(a, s);
+  a.Optional("clearance_m", s.clearance_m, "Of its lower side above top of rail.", Within(3, 50));
+  a.Optional("deck_thickness_m", s.deck_thickness_m, "Of the deck.", Within(0.2, 10));
+  a.Optional("left_m", s.left_m, "Extent to the left of the track's axis.", Within(2, 500));
+  a.Optional("right_m", s.right_m, "Extent to the right of the track's axis.", Within(2, 500));
+  a.Optional("pier_distance_m", s.pier_distance_m,
+             "Of its abutments' faces from the axes of the outermost tracks.", Within(1, 200));
+  a.Optional("crossing_deg", s.crossing_deg, "From the track's direction to the road's.",
+             Within(30, 150));
+}
+
+template <class Archive>
+void Describe(Archive& a, ThirdRailSpec& s) {
+  DescribeSideStretch(a, s);
+  a.Optional("contact", s.contact, "Where the shoes run.");
+  a.Optional("distance_m", s.distance_m,
+             "Of its middle from the track's axis; absent = as usual for the contact.",
+             Within(0.85, 3));
+  a.Optional("height_m", s.height_m,
+             "Of its contact surface above top of rail; absent = as usual for the contact.",
+             Within(0, 0.6));
+  a.Optional("has_shield", s.has_shield, "Boards beside it, or a cover over it.");
+}
+
+template <class Archive>
+void Describe(Archive& a, SlabTrackSpec& s) {
+  DescribeStretch(a, s);
+  a.Optional("width_m", s.width_m, "Across.", Within(2.4, 6));
+}
+
+}  // namespace railcast

@@ -1,0 +1,266 @@
+#include "generator/check/gauge_entries.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "core/rail/line/network.h"
+#include "core/rail/structure_gauge.h"
+#include "core/rail/structures/structure_track.h"
+#include "core/rail/structures/structure_types.h"
+#include "core/rail/track/sweep.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kLeastDepth_m = 1e-3;
+/// Triangles that reach farther along the track are divided. In a curve of 150 m radius, the chord
+/// of such a piece is 3 mm off.
+constexpr double kLongestPiece_m = 2.0;
+/// No part of the gauge is farther from its track's axis.
+constexpr double kGaugeReach_m = 2.5;
+
+using Triangle = std::array<Vector3, 3>;
+using Polygon = std::vector<Eigen::Vector2d>;
+
+/// Chainage of a point in the world, found from a guess by steps along the line.
+double ChainageOf(const Alignment& alignment, const Vector3& point, double guess_s_m) {
+  constexpr int kNumSteps = 12;
+  constexpr double kExact_m = 1e-6;
+  double s_m = guess_s_m;
+  for (int i = 0; i < kNumSteps; ++i) {
+    const AxisPoint axis = alignment.At(s_m);
+    const Eigen::Vector2d ahead(std::cos(axis.heading_rad), std::sin(axis.heading_rad));
+    const Eigen::Vector2d from_axis = (point - axis.position_m).head<2>();
+    const double left_m = ahead.x() * from_axis.y() - ahead.y() * from_axis.x();
+    const double step_m = ahead.dot(from_axis) / std::max(0.2, 1.0 - axis.curvature_per_m * left_m);
+    s_m += step_m;
+    if (std::abs(step_m) < kExact_m) break;
+  }
+  return s_m;
+}
+
+/// The part of a polygon on one side of a line parallel to an axis (Sutherland, Hodgman 1974).
+Polygon Clipped(const Polygon& polygon, int axis, double limit, double sign) {
+  Polygon inside;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d& a = polygon[i];
+    const Eigen::Vector2d& b = polygon[(i + 1) % polygon.size()];
+    const double from_a = sign * (limit - a[axis]);
+    const double from_b = sign * (limit - b[axis]);
+    if (from_a >= 0.0) inside.push_back(a);
+    if ((from_a >= 0.0) != (from_b >= 0.0)) {
+      inside.emplace_back(a + from_a / (from_a - from_b) * (b - a));
+    }
+  }
+  return inside;
+}
+
+/// Collects what one thing has in the gauge of one track.
+class GaugeProbe {
+ public:
+  GaugeProbe(const WorldTracks& tracks, std::size_t track, const Alignment& alignment)
+      : track_(tracks.world.tracks[track]),
+        course_(tracks.courses[track]),
+        alignment_(alignment),
+        gauge_(StructureGauge(ContactHeightOver_m(track_, tracks.world.catenary))) {}
+
+  /// @param s_m Chainages of the triangle's corners.
+  void Add(const Triangle& triangle, const std::array<double, 3>& s_m) {
+    const auto [first, last] = std::minmax_element(s_m.begin(), s_m.end());
+    if (*last < course_.begin_s_m() || *first > course_.end_s_m()) return;
+    const double middle_s_m = 0.5 * (*first + *last);
+    const Transform track_from_world = course_.WorldFromTrack(alignment_, middle_s_m).inverse();
+    Triangle here;
+    std::ranges::transform(triangle, here.begin(),
+                           [&](const Vector3& corner) { return track_from_world * corner; });
+    if (IsFar(here, *last - *first)) return;
+    if (*last - *first > kLongestPiece_m) return Divide(triangle, s_m);
+    for (const GaugePart& part : gauge_) Measure(here, part, middle_s_m);
+  }
+
+  [[nodiscard]] std::optional<GaugeEntry> Entry(const std::string& name) const {
+    if (!(entry_.depth_m > kLeastDepth_m)) return std::nullopt;
+    GaugeEntry entry = entry_;
+    entry.name = name;
+    entry.track = track_.name;
+    return entry;
+  }
+
+ private:
+  /// Whether the triangle is on one side of the gauge, allowing for a curve along its length.
+  [[nodiscard]] bool IsFar(const Triangle& here, double length_m) const {
+    const double reach_m = kGaugeReach_m + length_m * length_m / alignment_.tightest_radius_m();
+    const auto is_beyond = [&](double sign) {
+      return std::ranges::all_of(
+          here, [&](const Vector3& corner) { return sign * corner.y() > reach_m; });
+    };
+    return is_beyond(1.0) || is_beyond(-1.0);
+  }
+
+  // Halves the edge that is longest along the track.
+  void Divide(const Triangle& triangle, const std::array<double, 3>& s_m) {
+    std::size_t longest = 0;
+    const auto length_m = [&](std::size_t i) { return std::abs(s_m[(i + 1) % 3] - s_m[i]); };
+    for (std::size_t i = 1; i < 3; ++i) {
+      if (length_m(i) > length_m(longest)) longest = i;
+    }
+    const std::size_t next = (longest + 1) % 3;
+    const Vector3 middle = 0.5 * (triangle[longest] + triangle[next]);
+    const double middle_s_m = ChainageOf(alignment_, middle, 0.5 * (s_m[longest] + s_m[next]));
+    for (const std::size_t replaced : {longest, next}) {
+      Triangle half = triangle;
+      std::array<double, 3> half_s_m = s_m;
+      half[replaced] = middle;
+      half_s_m[replaced] = middle_s_m;
+      Add(half, half_s_m);
+    }
+  }
+
+  void Measure(const Triangle& here, const GaugePart& part, double s_m) {
+    Polygon polygon;
+    for (const Vector3& corner : here) polygon.emplace_back(corner.y(), corner.z());
+    polygon = Clipped(polygon, 0, part.half_width_m, 1.0);
+    polygon = Clipped(polygon, 0, -part.half_width_m, -1.0);
+    polygon = Clipped(polygon, 1, part.top_m, 1.0);
+    polygon = Clipped(polygon, 1, part.bottom_m, -1.0);
+    if (polygon.empty()) return;
+    double right_m = std::numeric_limits<double>::infinity();
+    double left_m = -right_m;
+    double bottom_m = right_m;
+    double top_m = left_m;
+    for (const Eigen::Vector2d& point : polygon) {
+      right_m = std::min(right_m, point.x());
+      left_m = std::max(left_m, point.x());
+      bottom_m = std::min(bottom_m, point.y());
+      top_m = std::max(top_m, point.y());
+    }
+    const double from_axis_m = std::max({0.0, right_m, -left_m});
+    const double depth_m = part.half_width_m - from_axis_m;
+    // What only touches the gauge from above or below is not in it.
+    const bool touches =
+        top_m - part.bottom_m < kLeastDepth_m || part.top_m - bottom_m < kLeastDepth_m;
+    if (depth_m <= kLeastDepth_m || touches) return;
+    if (entry_.depth_m == 0.0) {
+      entry_.begin_s_m = entry_.end_s_m = s_m;
+      entry_.bottom_m = bottom_m;
+      entry_.top_m = top_m;
+    }
+    entry_.begin_s_m = std::min(entry_.begin_s_m, s_m);
+    entry_.end_s_m = std::max(entry_.end_s_m, s_m);
+    entry_.bottom_m = std::min(entry_.bottom_m, bottom_m);
+    entry_.top_m = std::max(entry_.top_m, top_m);
+    if (depth_m > entry_.depth_m) {
+      entry_.depth_m = depth_m;
+      entry_.deepest_s_m = s_m;
+    }
+  }
+
+  const TrackSpec& track_;
+  const TrackCourse& course_;
+  const Alignment& alignment_;
+  std::vector<GaugePart> gauge_;
+  GaugeEntry entry_;
+};
+
+/// Probes for all tracks.
+class Probes {
+ public:
+  Probes(const WorldTracks& tracks, const Alignment& alignment) : alignment_(alignment) {
+    for (std::size_t i = 0; i < tracks.courses.size(); ++i) {
+      probes_.emplace_back(tracks, i, alignment);
+    }
+  }
+
+  void Add(const Model& model, const Transform& world_from_model, double guess_s_m) {
+    for (const Part& part : model.parts) {
+      std::vector<Vector3> places;
+      std::vector<double> chainages_m;
+      for (const Eigen::Vector3f& vertex : part.mesh.vertices) {
+        places.emplace_back(world_from_model * vertex.cast<double>());
+        guess_s_m = ChainageOf(alignment_, places.back(), guess_s_m);
+        chainages_m.push_back(guess_s_m);
+      }
+      for (const auto& [a, b, c] : part.mesh.triangles) {
+        for (GaugeProbe& probe : probes_) {
+          probe.Add({places[a], places[b], places[c]},
+                    {chainages_m[a], chainages_m[b], chainages_m[c]});
+        }
+      }
+    }
+  }
+
+  void Report(const std::string& name, std::vector<GaugeEntry>& entries) const {
+    for (const GaugeProbe& probe : probes_) {
+      if (auto entry = probe.Entry(name)) entries.push_back(std::move(*entry));
+    }
+  }
+
+ private:
+  const Alignment& alignment_;
+  std::vector<GaugeProbe> probes_;
+};
+
+template <class Structure>
+void ProbeStructure(const Structure& structure,
+                    const WorldSpec& spec,
+                    const RailWorld& world,
+                    Probes& probes) {
+  const RailSurfaces surfaces;
+  const double length_m = world.alignment().length_m();
+  const auto num_chunks = static_cast<int>(std::ceil(length_m / RailWorld::kChunkLength_m));
+  for (int chunk = 0; chunk < num_chunks; ++chunk) {
+    const Transform world_from_chunk = world.WorldFromChunk(chunk);
+    const double begin_s_m = chunk * RailWorld::kChunkLength_m;
+    const double end_s_m = std::min(begin_s_m + RailWorld::kChunkLength_m, length_m);
+    const ChunkContext context{.spec = spec,
+                               .alignment = world.alignment(),
+                               .tracks = world.network().courses,
+                               .surfaces = surfaces,
+                               .seed = spec.seed,
+                               .chunk = chunk,
+                               .begin_s_m = begin_s_m,
+                               .end_s_m = end_s_m,
+                               .chunk_from_world = world_from_chunk.inverse()};
+    Chunk built;
+    AddStructure(context, structure, built);
+    const double middle_s_m = 0.5 * (begin_s_m + end_s_m);
+    probes.Add(built.ground, world_from_chunk, middle_s_m);
+    for (const Placement& placement : built.placements) {
+      Transform chunk_from_model;
+      chunk_from_model.matrix() = placement.chunk_from_model.matrix();
+      probes.Add(*placement.model, world_from_chunk * chunk_from_model, middle_s_m);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<GaugeEntry> FindGaugeEntries(const WorldSpec& spec, const RailWorld& world) {
+  const WorldTracks tracks{spec, world.network().courses};
+  std::vector<GaugeEntry> entries;
+  for (const StructureSpec& structure : spec.structures) {
+    std::visit(
+        [&]<class Structure>(const Structure& given) {
+          if constexpr (!kBelongsIntoGauge<Structure>) {
+            Probes probes(tracks, world.alignment());
+            ProbeStructure(given, spec, world, probes);
+            probes.Report(given.name, entries);
+          }
+        },
+        structure);
+  }
+  for (std::size_t i = 0; i < spec.objects.size(); ++i) {
+    const SceneObject& object = world.objects()[i];
+    if (object.moves || IsWagon(spec.objects[i].type)) continue;
+    Probes probes(tracks, world.alignment());
+    probes.Add(*object.model, world.WorldFromObject(i, 0), spec.objects[i].s_m);
+    probes.Report(object.name, entries);
+  }
+  return entries;
+}
+
+}  // namespace railcast

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "railcast/alignment.h"
+#include "railcast/rail_world.h"
+
+namespace railcast {
+
+/// Something that stands in the structure gauge of a track.
+struct GaugeEntry {
+  std::string name;   ///< As reports show it: `platform "west"`.
+  std::string track;  ///< Name of the track.
+  double begin_s_m{};
+  double end_s_m{};
+  double deepest_s_m{};  ///< Where it reaches farthest in.
+  double depth_m{};   ///< From the gauge's side towards the track's axis; half its width at most.
+  double bottom_m{};  ///< Above top of rail, inside the gauge.
+  double top_m{};
+};
+
+/// What of the world's structures and standing objects is inside the structure gauge
+/// (StructureGauge()) of which track, by more than a millimetre: first structures, then objects, in
+/// their order, each with its tracks in their order. It is found triangle by triangle, so that
+/// whatever lies across a curve is found where it does. Wagons are left out.
+[[nodiscard]] std::vector<GaugeEntry> FindGaugeEntries(const WorldSpec& spec,
+                                                       const RailWorld& world);
+
+}  // namespace railcast

@@ -1,0 +1,119 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/rail/structures/cleared.h"
+#include "railcast/structures.h"
+#include "tests/core/rail/structures/structure_probe.h"
+
+namespace railcast {
+namespace {
+
+/// Chords may be as far from their arcs; the coordinates of chunks are float32.
+constexpr double kSweep_m = 1e-3 + 1e-5;
+
+PlatformSpec PlatformOn(TrackSide side) {
+  PlatformSpec platform;
+  platform.name = "platform";
+  platform.side = side;
+  platform.begin_s_m = 60.0;
+  platform.end_s_m = 190.0;
+  return platform;
+}
+
+WorldSpec CurveWith(const PlatformSpec& platform) {
+  WorldSpec spec = CantedArc(300.0, 400.0);
+  spec.structures = {platform};
+  return spec;
+}
+
+TEST(Platform, HasItsEdgeAtItsDistanceAndHeightInACantedCurve) {
+  for (const TrackSide side : {TrackSide::kLeft, TrackSide::kRight}) {
+    const StructureProbe probe(CurveWith(PlatformOn(side)));
+    const auto& surfaces = probe.line().surfaces().structures;
+    for (const double s_m : {61.3, 99.9, 143.7}) {
+      const auto section = probe.CantedSectionOf(surfaces.platform, s_m);
+      ASSERT_FALSE(section.empty());
+      // The corner nearest to where the edge should be.
+      const Eigen::Vector2d edge(SignOf(side) * 1.65, 0.76);
+      double nearest_m = 1.0;
+      for (const auto& point : section) nearest_m = std::min(nearest_m, (point - edge).norm());
+      EXPECT_LE(nearest_m, kSweep_m) << s_m;
+    }
+  }
+}
+
+TEST(Platform, IsLevelAcrossAndAsWideAsSpecified) {
+  const StructureProbe probe(CurveWith(PlatformOn(TrackSide::kLeft)));
+  const auto section = probe.SectionOf(probe.line().surfaces().structures.platform, 120.4);
+  const double cant_rad = probe.line().alignment().At(120.4).cant_rad;
+  ASSERT_LT(cant_rad, -0.09);
+  const double edge_m = 1.65 * std::cos(cant_rad) - 0.76 * std::sin(cant_rad);
+  const double top_m = 1.65 * std::sin(cant_rad) + 0.76 * std::cos(cant_rad);
+  EXPECT_NEAR(LeastOf(section, 0), edge_m, kSweep_m);
+  EXPECT_NEAR(MostOf(section, 0), edge_m + 3.0, kSweep_m);
+  EXPECT_NEAR(MostOf(section, 1), top_m, kSweep_m);
+}
+
+TEST(Platform, EndsWhereItEnds) {
+  const StructureProbe probe(CurveWith(PlatformOn(TrackSide::kLeft)));
+  const SurfaceClass& concrete = probe.line().surfaces().structures.platform;
+  EXPECT_TRUE(probe.SectionOf(concrete, 59.99).empty());
+  EXPECT_FALSE(probe.SectionOf(concrete, 60.01).empty());
+  EXPECT_FALSE(probe.SectionOf(concrete, 189.99).empty());
+  EXPECT_TRUE(probe.SectionOf(concrete, 190.01).empty());
+}
+
+TEST(Platform, HasAStripThatBeginsTwoAndAHalfMetresFromTheAxis) {
+  WorldSpec spec = StraightLine(300.0);
+  spec.structures = {PlatformOn(TrackSide::kRight)};
+  const StructureProbe probe(spec);
+  const auto section = probe.SectionOf(probe.line().surfaces().structures.platform_strip, 100.3);
+  EXPECT_NEAR(MostOf(section, 0), -2.5, 1e-5);
+  EXPECT_NEAR(LeastOf(section, 0), -2.8, 1e-5);
+  EXPECT_NEAR(MostOf(section, 1), 0.764, 1e-5);
+}
+
+TEST(Platform, IsSeenByBeamsAtItsMiddleAndItsRoof) {
+  PlatformSpec platform = PlatformOn(TrackSide::kLeft);
+  platform.roof = PlatformRoofSpec{};
+  const StructureProbe probe(CurveWith(platform));
+  const std::uint32_t label = probe.line().surfaces().structures.platform.label;
+  EXPECT_EQ(probe.LabelSeen({120.0, 0.0, 2.5}, {125.0, 3.15, 0.6}), label);
+  EXPECT_EQ(probe.LabelSeen({120.0, 0.0, 2.5}, {125.0, 3.15, 4.4}), label);
+  EXPECT_NE(probe.LabelSeen({120.0, 0.0, 2.5}, {125.0, -3.15, 0.0}), label);
+}
+
+TEST(Platform, CarriesItsRoofOnColumnsNoFartherApartThanSpecified) {
+  PlatformSpec platform = PlatformOn(TrackSide::kLeft);
+  platform.roof = PlatformRoofSpec{.begin_s_m = 80.0, .end_s_m = 170.0};
+  WorldSpec spec = StraightLine(300.0);
+  spec.structures = {platform};
+  const StructureProbe probe(spec);
+  const SurfaceClass& steel = probe.line().surfaces().structures.platform_roof;
+  double last_column_m = 80.0;
+  int num_columns = 0;
+  for (double s_m = 75.05; s_m < 175.0; s_m += 0.1) {
+    const auto section = probe.SectionOf(steel, s_m);
+    EXPECT_EQ(section.empty(), s_m < 80.0 || s_m > 170.0) << s_m;
+    // A column stands on the platform.
+    if (section.empty() || LeastOf(section, 1) > 0.8) continue;
+    if (s_m - last_column_m > 0.5) ++num_columns;
+    EXPECT_LE(s_m - last_column_m, 8.1);
+    last_column_m = s_m;
+  }
+  EXPECT_EQ(num_columns, 12);  // 88 m between the first and the last: 11 gaps of 8 m.
+}
+
+TEST(Platform, KeepsPlantsAndMastsOff) {
+  const WorldSpec spec = CurveWith(PlatformOn(TrackSide::kLeft));
+  for (const Clearing what : {Clearing::kTree, Clearing::kGrass, Clearing::kMast}) {
+    EXPECT_TRUE(IsCleared(spec, 100.0, 3.0, what));
+    EXPECT_FALSE(IsCleared(spec, 100.0, -3.0, what));
+    EXPECT_FALSE(IsCleared(spec, 200.0, 3.0, what));
+  }
+  EXPECT_FALSE(IsCleared(spec, 100.0, 3.0, Clearing::kBallast));
+}
+
+}  // namespace
+}  // namespace railcast

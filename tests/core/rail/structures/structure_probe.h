@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "railcast/rail_world.h"
+#include "tests/core/rail/test_line.h"
+
+namespace railcast {
+
+/// Looks at the built chunks of a line with structures.
+class StructureProbe {
+ public:
+  explicit StructureProbe(WorldSpec spec) : line_(std::move(spec)) {}
+
+  [[nodiscard]] const TestLine& line() const { return line_; }
+  /// Points (y, z) where the edges of the surface's triangles cross the plane across the line at
+  /// `s_m`, in the upright frame there whose origin is on the line's axis at top of rail.
+  [[nodiscard]] std::vector<Eigen::Vector2d> SectionOf(const SurfaceClass& surface,
+                                                       double s_m) const;
+  /// As SectionOf(), in the canted frame of the line.
+  [[nodiscard]] std::vector<Eigen::Vector2d> CantedSectionOf(const SurfaceClass& surface,
+                                                             double s_m) const;
+
+  /// The label of the first surface from one point to another, both at (s, d, h) with h vertical
+  /// above the line's top of rail at s; 0 if there is none up to a metre beyond the second. Both
+  /// points are in the chunk of the second.
+  [[nodiscard]] std::uint32_t LabelSeen(const Vector3& from, const Vector3& to) const;
+
+ private:
+  [[nodiscard]] Vector3 WorldAt(const Vector3& place) const;
+  [[nodiscard]] std::vector<Eigen::Vector2d> CutAt(const SurfaceClass& surface,
+                                                   double s_m,
+                                                   const Transform& world_from_plane) const;
+
+  TestLine line_;
+};
+
+/// The largest or smallest y or z of the points.
+[[nodiscard]] double LeastOf(const std::vector<Eigen::Vector2d>& points, int axis);
+[[nodiscard]] double MostOf(const std::vector<Eigen::Vector2d>& points, int axis);
+
+}  // namespace railcast

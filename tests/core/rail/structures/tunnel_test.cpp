@@ -1,0 +1,113 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+
+#include "core/rail/catenary/system_height.h"
+#include "core/rail/structures/cleared.h"
+#include "tests/core/rail/structures/structure_probe.h"
+
+namespace railcast {
+namespace {
+
+/// Chords along the track and, across, faces of the vault may be as far off; float32.
+constexpr double kVault_m = 1e-3 + 2e-3 + 1e-5;
+
+WorldSpec CurveWithTunnel(int num_tracks) {
+  WorldSpec spec = CantedArc(500.0, 600.0);
+  if (num_tracks == 2) spec.tracks.push_back({.name = "second", .offset_m = 4.0, .end_s_m = {}});
+  TunnelSpec tunnel;
+  tunnel.name = "tunnel";
+  tunnel.begin_s_m = 110.0;
+  tunnel.end_s_m = 390.0;
+  spec.structures = {tunnel};
+  return spec;
+}
+
+/// The least distance of the section's points from a place across the line.
+double NearestTo(const std::vector<Eigen::Vector2d>& section, const Eigen::Vector2d& place) {
+  double nearest_m = 100.0;
+  for (const auto& point : section) nearest_m = std::min(nearest_m, (point - place).norm());
+  return nearest_m;
+}
+
+TEST(Tunnel, IsAVaultAsWideAsItsTracksAndWireNeed) {
+  // Above the middle: the wire at 5.5 m, its system of 1.1 m and 0.3 m of air. Beside the axis of a
+  // track: 3.3 m.
+  const double single_m = 5.5 + 1.1 + 0.3 - 1.8;
+  const double double_m = std::hypot(2.0, single_m);
+  for (const auto& [num_tracks, radius_m, middle_m] :
+       {std::tuple(1, single_m, 0.0), std::tuple(2, double_m, 2.0)}) {
+    const StructureProbe probe(CurveWithTunnel(num_tracks));
+    auto section =
+        probe.SectionOf(probe.line().surfaces().structures.tunnel, 187.3);  // No niche there.
+    // The walkways are below.
+    std::erase_if(section, [](const Eigen::Vector2d& point) { return point.y() < 0.1; });
+    EXPECT_NEAR(NearestTo(section, {middle_m, 1.8}), radius_m, kVault_m);
+    EXPECT_NEAR(NearestTo(section, {middle_m, 1.8 + radius_m}), 0.0, 0.15);
+  }
+}
+
+TEST(Tunnel, IsSeenAllAroundFromInside) {
+  const StructureProbe probe(CurveWithTunnel(2));
+  const std::uint32_t label = probe.line().surfaces().structures.tunnel.label;
+  for (double angle_rad = 0.0; angle_rad < 3.2; angle_rad += 0.1) {
+    const Vector3 from(160.0, 2.0, 2.0);
+    const Vector3 to(162.0, 2.0 + 6.0 * std::cos(angle_rad), 2.0 + 6.0 * std::sin(angle_rad));
+    const std::uint32_t seen = probe.LabelSeen(from, to);
+    const auto& wires = probe.line().surfaces();
+    const bool is_wire = seen == wires.contact_wire.label || seen == wires.messenger_wire.label ||
+                         seen == wires.dropper.label || seen == wires.cantilever.label;
+    EXPECT_TRUE(seen == label || is_wire) << angle_rad << ": " << seen;
+  }
+}
+
+TEST(Tunnel, HasNichesOnBothSides) {
+  const StructureProbe probe(CurveWithTunnel(1));
+  const SurfaceClass& concrete = probe.line().surfaces().structures.tunnel;
+  // The first begins 12.5 m behind the mouth and is 2 m long and 0.8 m deep.
+  const double wall_m = std::sqrt(5.1 * 5.1 - 1.8 * 1.8);
+  for (const double side : {-1.0, 1.0}) {
+    const Eigen::Vector2d back(side * (wall_m + 0.8), 0.0);
+    EXPECT_LE(NearestTo(probe.SectionOf(concrete, 123.0), back), kVault_m);
+    EXPECT_GT(NearestTo(probe.SectionOf(concrete, 120.0), back), 0.1);
+  }
+}
+
+TEST(Tunnel, HasPortalsAroundItsMouths) {
+  const StructureProbe probe(CurveWithTunnel(1));
+  const std::uint32_t label = probe.line().surfaces().structures.tunnel.label;
+  EXPECT_EQ(probe.LabelSeen({101.0, 0.0, 2.0}, {110.0, 6.5, 4.0}), label);
+  EXPECT_EQ(probe.LabelSeen({101.0, 0.0, 2.0}, {110.0, 0.0, 7.5}), label);
+  // The mouth is open.
+  EXPECT_NE(probe.LabelSeen({101.0, 0.0, 2.0}, {110.0, 1.0, 3.0}), label);
+}
+
+TEST(Tunnel, LowersTheContactLineAndCarriesIt) {
+  const WorldSpec spec = CurveWithTunnel(1);
+  EXPECT_EQ(SystemHeightAt_m(spec, 30.0), 1.8);
+  EXPECT_EQ(SystemHeightAt_m(spec, 60.0), kLowSystemHeight_m);
+  EXPECT_EQ(SystemHeightAt_m(spec, 250.0), kLowSystemHeight_m);
+  const StructureProbe probe(spec);
+  for (const int chunk : {3, 4, 5, 6}) {
+    for (const Placement& placement : probe.line().Build(chunk).placements) {
+      EXPECT_NE(placement.model->name, "mast");
+    }
+  }
+}
+
+TEST(Tunnel, HasNoGroundAndNoPlantsInside) {
+  const WorldSpec spec = CurveWithTunnel(1);
+  EXPECT_TRUE(IsCleared(spec, 200.0, 3.0, Clearing::kGround));
+  EXPECT_FALSE(IsCleared(spec, 200.0, 5.0, Clearing::kGround));
+  EXPECT_TRUE(IsCleared(spec, 200.0, 5.0, Clearing::kTree));
+  const StructureProbe probe(spec);
+  const RailSurfaces& surfaces = probe.line().surfaces();
+  for (double s_m = 151.0; s_m < 199.0; s_m += 3.7) {
+    const std::uint32_t seen = probe.LabelSeen({s_m, 1.9, 2.0}, {s_m, 1.95, -0.5});
+    EXPECT_TRUE(seen == surfaces.ballast.label || seen == surfaces.structures.tunnel.label) << s_m;
+  }
+}
+
+}  // namespace
+}  // namespace railcast
