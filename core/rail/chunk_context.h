@@ -5,6 +5,7 @@
 
 #include "core/rail/line/track_course.h"
 #include "core/rail/rail_surfaces.h"
+#include "core/rail/turnout/turnout_rails.h"
 #include "railcast/alignment.h"
 #include "railcast/rail_world.h"
 #include "railcast/transform.h"
@@ -21,6 +22,7 @@ struct ChunkContext {
   const WorldSpec& spec;
   const Alignment& alignment;
   std::span<const TrackCourse> tracks;  ///< In the order of WorldSpec::tracks.
+  std::span<const LaidTurnout> turnouts;
   const RailSurfaces& surfaces;
   std::uint64_t seed{};
   int chunk{};

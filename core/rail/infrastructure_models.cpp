@@ -1,6 +1,8 @@
 #include "core/rail/infrastructure_models.h"
 
 #include "core/rail/catenary/catenary_models.h"
+#include "core/rail/track/cross_section.h"
+#include "core/rail/turnout/turnout_structure.h"
 
 namespace railcast {
 
@@ -9,6 +11,15 @@ InfrastructureModels MakeInfrastructureModels(const WorldSpec& spec, const RailS
   InfrastructureModels models;
   models.concrete_sleeper = shared(MakeConcreteSleeper(surfaces));
   models.wood_sleeper = shared(MakeWoodSleeper(surfaces));
+  for (double length_m = 2.0 * kSleeperHalfLength_m; length_m < kLongestBearer_m;
+       length_m += kBearerStep_m) {
+    models.concrete_bearers.push_back(
+        shared(MakeBearer(SleeperType::kConcrete, length_m, surfaces)));
+    models.wood_bearers.push_back(shared(MakeBearer(SleeperType::kWood, length_m, surfaces)));
+  }
+  models.concrete_plate = shared(MakeRailPlate(SleeperType::kConcrete, surfaces));
+  models.wood_plate = shared(MakeRailPlate(SleeperType::kWood, surfaces));
+  models.point_machine = shared(MakePointMachine(surfaces));
   models.mast = shared(MakeMast(spec.catenary, surfaces));
   return models;
 }

@@ -23,6 +23,13 @@ struct InfrastructureModels {
   std::shared_ptr<const Model> concrete_sleeper;
   std::shared_ptr<const Model> wood_sleeper;
 
+  /// Of turnouts (turnout/turnout_structure.h): bearers from 2.6 m on, each 0.1 m longer.
+  std::vector<std::shared_ptr<const Model>> concrete_bearers;
+  std::vector<std::shared_ptr<const Model>> wood_bearers;
+  std::shared_ptr<const Model> concrete_plate;
+  std::shared_ptr<const Model> wood_plate;
+  std::shared_ptr<const Model> point_machine;
+
   /// Upright; the origin is at the mast's middle at the height of top of rail.
   std::shared_ptr<const Model> mast;
 };

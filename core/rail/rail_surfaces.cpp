@@ -95,6 +95,12 @@ constexpr SurfaceRow<LinesideSurfaces> kLinesideRows[] = {
     {&LinesideSurfaces::furniture_glass, "glass", "furniture"},
 };
 
+constexpr SurfaceRow<TurnoutSurfaces> kTurnoutRows[] = {
+    {&TurnoutSurfaces::running_band, "rail_head", "switch"},
+    {&TurnoutSurfaces::rail, "rail_side", "switch"},
+    {&TurnoutSurfaces::point_machine, "grey_paint", "point_machine"},
+};
+
 template <class Surfaces, std::size_t kCount>
 void LookUp(const SurfaceRow<Surfaces> (&rows)[kCount],
             const LabelTable& labels,
@@ -122,6 +128,10 @@ void RailSurfaces::AddStructureSurfaces(const LabelTable& labels,
   LookUp(kStructureRows, labels, materials, structures, errors);
   LookUp(kLinesideRows, labels, materials, structures.lineside, errors);
   errors.ThrowIfAny();
+}
+
+void RailSurfaces::AddTurnoutSurfaces(const LabelTable& labels, const MaterialLibrary& materials) {
+  LookUp(kTurnoutRows, labels, materials, turnouts);
 }
 
 bool IsRailMaterial(std::string_view name) {

@@ -37,6 +37,12 @@ struct StructureSurfaces {
   LinesideSurfaces lineside;
 };
 
+/// The surfaces of turnouts (turnout/turnout_structure.h). Tables need their names only if the world
+/// has turnouts.
+struct TurnoutSurfaces {
+  SurfaceClass running_band, rail, point_machine;
+};
+
 /// The surfaces of the railway world, looked up by name once.
 struct RailSurfaces {
   SurfaceClass rail_head, rail_side, fastening;
@@ -46,6 +52,7 @@ struct RailSurfaces {
   SurfaceClass wagon_body, wagon_frame, wheel, tank;
   SurfaceClass skin, clothing, pole, box;
   StructureSurfaces structures;  ///< All 0 unless AddStructureSurfaces() was called.
+  TurnoutSurfaces turnouts;      ///< All 0 unless AddTurnoutSurfaces() was called.
 
   /// Sets all materials and labels to 0, for geometry that is built only to be checked.
   RailSurfaces() = default;
@@ -55,11 +62,14 @@ struct RailSurfaces {
   /// Looks up the surfaces of structures.
   /// @throws InputError with a line for every name that the tables lack.
   void AddStructureSurfaces(const LabelTable& labels, const MaterialLibrary& materials);
+  /// Looks up the surfaces of turnouts.
+  /// @throws InputError with a line for every name that the tables lack.
+  void AddTurnoutSurfaces(const LabelTable& labels, const MaterialLibrary& materials);
 };
 
 /// Whether the railway itself or one of its models has surfaces of the material.
 [[nodiscard]] bool IsRailMaterial(std::string_view name);
-/// Whether any structure has surfaces of the material.
+/// Whether any structure or turnout has surfaces of the material.
 [[nodiscard]] bool IsStructureMaterial(std::string_view name);
 
 }  // namespace railcast

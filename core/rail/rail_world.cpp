@@ -98,6 +98,7 @@ struct RailWorld::Line {
   std::optional<RailSurfaces> surfaces;
   Alignment alignment;
   Network network;
+  std::vector<LaidTurnout> turnouts;
   ChunkGrid grid;
   CatenaryPlan catenary_plan;
   InfrastructureModels infrastructure;
@@ -108,6 +109,7 @@ struct RailWorld::Line {
     return {.spec = world,
             .alignment = alignment,
             .tracks = network.courses,
+            .turnouts = turnouts,
             .surfaces = *surfaces,
             .seed = seed,
             .chunk = chunk,
@@ -162,10 +164,11 @@ RailWorld::RailWorld(const WorldSpec& world,
 
   const RailSurfaces& surfaces = *draft.surfaces;
   const Alignment& alignment = *draft.alignment;
+  Network network = Completed(std::move(draft.network));
+  std::vector<LaidTurnout> turnouts = LayTurnouts(network);
   line_ = std::make_shared<const Line>(
-      Line{world, vehicle, labels, materials, seed, surfaces, alignment,
-           Completed(std::move(draft.network)),
-           ChunkGrid(alignment, kChunkLength_m, world.terrain.half_width_m),
+      Line{world, vehicle, labels, materials, seed, surfaces, alignment, std::move(network),
+           std::move(turnouts), ChunkGrid(alignment, kChunkLength_m, world.terrain.half_width_m),
            std::move(*draft.catenary_plan), MakeInfrastructureModels(world, surfaces),
            MakePlantModels(surfaces, seed)});
 

@@ -136,6 +136,9 @@ WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
       if (!world.structures.empty()) {
         surfaces.AddStructureSurfaces(source.labels, source.materials);
       }
+      if (!draft.network.turnouts.empty()) {
+        surfaces.AddTurnoutSurfaces(source.labels, source.materials);
+      }
       return surfaces;
     });
     if (!source.vehicle.ego_boxes_m.empty()) {

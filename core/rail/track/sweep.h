@@ -5,17 +5,12 @@
 #include <span>
 #include <vector>
 
+#include "core/rail/chainage_range.h"
 #include "core/rail/chunk_context.h"
 #include "railcast/scene.h"
 #include "railcast/transform.h"
 
 namespace railcast {
-
-/// A section of the line.
-struct ChainageRange {
-  double begin_s_m{};
-  double end_s_m{};
-};
 
 /// The range of a track that a chunk's swept surfaces cover: the chunk with half the overlap at
 /// either end, or less where the track begins or ends. If the track does not extend into the chunk,

@@ -35,6 +35,7 @@ class TestLine {
   WorldSpec spec_;
   Alignment alignment_;
   Network network_;
+  std::vector<LaidTurnout> turnouts_;
   RailSurfaces surfaces_;
   std::uint64_t seed_;
   CatenaryPlan plan_;

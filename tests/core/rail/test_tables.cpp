@@ -13,7 +13,8 @@ LabelTable TestLabels() {
         "person",       "pole",           "object",       "ego",      "platform",   "noise_wall",
         "fence",        "retaining_wall", "cable_trough", "tunnel",   "bridge",     "third_rail",
         "slab_track",   "signal",         "board",        "balise",   "relay_box",  "buffer_stop",
-        "road",         "level_crossing", "building",     "derailer", "furniture"}) {
+        "road",         "level_crossing", "building",     "derailer", "furniture",  "switch",
+        "point_machine"}) {
     Label label;
     label.id = static_cast<std::uint32_t>(labels.size() + 1);
     label.name = name;
@@ -61,6 +62,7 @@ MaterialLibrary TestMaterials() {
 RailSurfaces TestSurfaces() {
   RailSurfaces surfaces(TestLabels(), TestMaterials());
   surfaces.AddStructureSurfaces(TestLabels(), TestMaterials());
+  surfaces.AddTurnoutSurfaces(TestLabels(), TestMaterials());
   return surfaces;
 }
 
