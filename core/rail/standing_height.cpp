@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/rail/land/land.h"
+#include "core/rail/structures/structure_types.h"
 #include "core/rail/track/cross_section.h"
 
 namespace railcast {
@@ -21,7 +22,14 @@ double SurfaceHeight_m(const ChunkContext& context,
     const Vector3 ballast = section.PointAt(d_m, ballast_m);
     if (ballast.z() > surface.z()) surface = ballast;
   }
-  return (context.chunk_from_world.inverse() * surface).z();
+  double height_m = (context.chunk_from_world.inverse() * surface).z();
+  for (const StructureSpec& structure : context.spec.structures) {
+    const auto* platform = std::get_if<PlatformSpec>(&structure);
+    const auto top_m =
+        platform == nullptr ? std::nullopt : PlatformTop_m(context, *platform, s_m, d_m);
+    if (top_m) height_m = std::max(height_m, *top_m);
+  }
+  return height_m;
 }
 
 }  // namespace

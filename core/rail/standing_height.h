@@ -14,7 +14,7 @@ struct StandingPlace {
   Eigen::AlignedBox2d area_m;  ///< Footprint about its middle; x forward, y left.
 };
 
-/// World height of the foot of a standing object: the ground or the ballast, whichever is higher,
+/// World height of the foot of a standing object: the highest of ground, ballast and platforms,
 /// at the lowest of its middle and corners. On a slope it may sink in slightly, but no part of it
 /// hovers. The grain of the ballast is ignored.
 [[nodiscard]] double StandingHeight_m(const ChunkContext& context, const StandingPlace& place);
