@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,12 @@ void CheckShape(const StructurePlace&, const Structure&, WorldFaults&) {}
 void AddStructure(const ChunkContext& context, const PlatformSpec& platform, Chunk& chunk);
 [[nodiscard]] std::vector<ClearedArea> ClearedBy(const PlatformSpec& platform);
 void CheckShape(const StructurePlace& place, const PlatformSpec& platform, WorldFaults& faults);
+/// Height of the platform's top at (s, d) in the chunk's frame, d being left of the alignment;
+/// nothing beside it.
+[[nodiscard]] std::optional<double> PlatformTop_m(const ChunkContext& context,
+                                                  const PlatformSpec& platform,
+                                                  double s_m,
+                                                  double d_m);
 
 void AddStructure(const ChunkContext& context, const NoiseWallSpec& wall, Chunk& chunk);
 [[nodiscard]] std::vector<ClearedArea> ClearedBy(const NoiseWallSpec& wall);
