@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "core/rail/catenary/catenary_plan.h"
+#include "core/rail/land/elevation.h"
+#include "core/rail/land/strip_width.h"
 #include "core/rail/line/track_path.h"
 #include "core/rail/objects/object_models.h"
 #include "core/rail/rail_surfaces.h"
@@ -42,6 +44,8 @@ struct WorldDraft {
   std::vector<TrackPath> object_paths;
   std::vector<SceneObject> objects;
   std::optional<CatenaryPlan> catenary_plan;
+  std::optional<StripWidth> strip_width;
+  std::optional<DemHeights> elevation;  ///< If the spec has any.
 };
 
 /// Makes the path of an object, or nothing if a value it depends on is unknown. Faults begin with

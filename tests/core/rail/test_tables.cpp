@@ -12,7 +12,8 @@ LabelTable TestLabels() {
         "tree",         "contact_wire", "messenger_wire", "dropper",    "mast",
         "cantilever",   "wagon",        "person",         "pole",       "object",
         "ego",          "platform",     "noise_wall",     "fence",      "retaining_wall",
-        "cable_trough", "tunnel",       "bridge",         "third_rail", "slab_track"}) {
+        "cable_trough", "tunnel",       "bridge",         "third_rail", "slab_track",
+        "bush"}) {
     Label label;
     label.id = static_cast<std::uint32_t>(labels.size() + 1);
     label.name = name;
@@ -53,6 +54,7 @@ MaterialLibrary TestMaterials() {
 
 RailSurfaces TestSurfaces() {
   RailSurfaces surfaces(TestLabels(), TestMaterials());
+  surfaces.AddBushSurfaces(TestLabels(), TestMaterials());
   surfaces.AddStructureSurfaces(TestLabels(), TestMaterials());
   return surfaces;
 }
