@@ -4,7 +4,9 @@
 Runs `railcast-generate sequence` on the same stretch of a 30 km and of a 300 km line in turn, and
 prints peak memory and time per frame of both, with their ratios.
 
-  scripts/line_length.py [--generate build/release/generator/railcast-generate] [--runs 5]
+With --hills, the line has the terrain and the plants of scenarios/hills.json.
+
+  scripts/line_length.py [--generate build/release/generator/railcast-generate] [--runs 5] [--hills]
 """
 
 import argparse
@@ -19,7 +21,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
-def scenario(length_km):
+def scenario(length_km, is_hilly):
     """Alternating left and right curves over the given length, a kilometre per pair."""
     pair = []
     for radius_m in (600, -600):
@@ -30,12 +32,15 @@ def scenario(length_km):
             {"type": "clothoid", "length_m": 80},
         ]
     scenarios = ROOT / "scenarios"
+    hills = json.loads((scenarios / "hills.json").read_text())["world"] if is_hilly else {}
+    land = {key: hills[key] for key in ("terrain", "vegetation") if key in hills}
     return {
         "version": 1,
         "lidar": str(scenarios / "sensors/vir2rail.json"),
         "materials": str(scenarios / "materials/railway.json"),
         "labels": str(scenarios / "labels.json"),
-        "world": {
+        "world": land
+        | {
             "alignment": {
                 "course": {"type": "elements", "elements": pair * length_km},
                 "speed_limits_kmph": [{"s_m": 0, "value": 90}],
@@ -67,13 +72,14 @@ def main():
     parser.add_argument("--generate", default=ROOT / "build/release/generator/railcast-generate")
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--frames", type=int, default=200)
+    parser.add_argument("--hills", action="store_true")
     arguments = parser.parse_args()
     results = {30: [], 300: []}
     with tempfile.TemporaryDirectory() as folder:
         for _ in range(arguments.runs):
             for length_km, figures in results.items():
                 file = pathlib.Path(folder) / f"line_{length_km}_km.json"
-                file.write_text(json.dumps(scenario(length_km)))
+                file.write_text(json.dumps(scenario(length_km, arguments.hills)))
                 figures.append(run(arguments.generate, file, arguments.frames))
     medians = {
         length_km: [statistics.median(column) for column in zip(*figures)]

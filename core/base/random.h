@@ -34,6 +34,11 @@ enum class RandomUse : std::uint32_t {
   kTreeSway = 106,
   kSpanSway = 107,
   kPuddles = 108,
+  kRelief = 120,
+  kWoods = 121,
+  kBushPlacement = 122,
+  kGrassFade = 123,
+  kFields = 124,
   kRandomWeather = 200,
 };
 

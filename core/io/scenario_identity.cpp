@@ -35,6 +35,7 @@ class FileNaming {
   void Rename(ScenarioSpec& scenario) {
     Rename(scenario.lidar);
     for (LidarSpec& lidar : scenario.lidars) Rename(lidar);
+    if (auto& elevation = scenario.world.terrain.elevation) Rename(elevation->file);
     for (ObjectSpec& object : scenario.world.objects) {
       if (object.file) Rename(*object.file);
     }

@@ -12,6 +12,8 @@
 
 namespace railcast {
 
+class Landform;
+
 /// Overlap of neighbouring chunks. Each chunk has a frame of its own, so an exact seam would leak
 /// beams: 0.4 % of those aimed at it were measured to pass, and none with this overlap
 /// (docs/accuracy.md).
@@ -33,6 +35,8 @@ struct ChunkContext {
   /// Whether ballast, ground and rails are built in their coarser form (docs/detail.md), which
   /// begins and ends with the same points as the finest one.
   bool is_coarse = false;
+  /// The shape of the land; null: as high as the formation, and equally wide everywhere.
+  const Landform* land = nullptr;
 };
 
 }  // namespace railcast

@@ -18,12 +18,20 @@ double DistanceToCrossSection(const Eigen::Vector2d& point_m,
   return (from_axis_m - across_m * left).norm();
 }
 
+// Half a step along the home axis plus half a step along the ground, whose outer edge is up to
+// twice as long as the axis, or more if it is farther away than the tightest radius.
+double SlackOf(const Alignment& alignment, double half_width_m) {
+  const double lengthening = std::max(2.0, 1.0 + half_width_m / alignment.tightest_radius_m());
+  return 0.5 * (1.0 + lengthening) * ChunkGrid::kSampling_m;
+}
+
 }  // namespace
 
 ChunkGrid::ChunkGrid(const Alignment& alignment, double chunk_length_m, double ground_half_width_m)
     : alignment_(alignment),
       chunk_length_m_(chunk_length_m),
-      ground_half_width_m_(ground_half_width_m) {
+      ground_half_width_m_(ground_half_width_m),
+      reach_slack_m_(SlackOf(alignment, ground_half_width_m)) {
   const auto count = static_cast<std::size_t>(std::ceil(alignment.length_m() / chunk_length_m));
   centres_m_.resize(count);
   for (int chunk = 0; chunk < num_chunks(); ++chunk) {
@@ -68,7 +76,7 @@ std::vector<int> ChunkGrid::WithinReach(int home_chunk, double reach_m) const {
     for (const AxisPoint& section : AxisSamples(chunk)) {
       for (const AxisPoint& sample : home) {
         if (DistanceToCrossSection(sample.position_m.head<2>(), section, ground_half_width_m_) <=
-            reach_m + kReachSlack_m) {
+            reach_m + reach_slack_m_) {
           return true;
         }
       }

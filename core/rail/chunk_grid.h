@@ -25,15 +25,13 @@ class ChunkGrid {
   [[nodiscard]] Transform WorldFromChunk(int chunk) const;
 
   /// The chunks whose ground lies within `reach_m` in plan of the axis of `home_chunk`, in
-  /// ascending order. None is missing, and extra ones are at most kReachSlack_m too far away. A
-  /// line that returns to itself is included wherever it is near.
+  /// ascending order. None is missing. Extra ones are at most 1.5 kSampling_m too far away, or
+  /// somewhat more if the ground is wider than the tightest radius. A line that returns to itself
+  /// is included wherever it is near.
   [[nodiscard]] std::vector<int> WithinReach(int home_chunk, double reach_m) const;
 
   /// Spacing of the samples from which distances are computed.
   static constexpr double kSampling_m = 5.0;
-  /// Half a step along the home axis plus half a step along the ground, whose outer edge is up to
-  /// twice as long as the axis.
-  static constexpr double kReachSlack_m = 1.5 * kSampling_m;
 
  private:
   [[nodiscard]] Eigen::Vector2d CentreOf(int chunk) const {
@@ -44,6 +42,7 @@ class ChunkGrid {
   Alignment alignment_;
   double chunk_length_m_;
   double ground_half_width_m_;
+  double reach_slack_m_;
   /// Axis points at the chunks' middles. No point of a chunk's axis is farther away than half the
   /// chunk's length, whether straight or curved.
   std::vector<Eigen::Vector2d> centres_m_;

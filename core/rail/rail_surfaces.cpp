@@ -23,6 +23,8 @@ constexpr SurfaceRow<RailSurfaces> kSurfaceRows[] = {
     {&RailSurfaces::sleeper_wood, "wood", "sleeper"},
     {&RailSurfaces::ballast, "ballast", "ballast"},
     {&RailSurfaces::ground, "soil", "ground"},
+    {&RailSurfaces::gravel, "ballast", "ground"},
+    {&RailSurfaces::meadow, "grass", "ground"},
     {&RailSurfaces::grass, "grass", "grass"},
     {&RailSurfaces::leaf, "leaf", "tree"},
     {&RailSurfaces::bark, "bark", "tree"},
@@ -40,6 +42,11 @@ constexpr SurfaceRow<RailSurfaces> kSurfaceRows[] = {
     {&RailSurfaces::clothing, "clothing", "person"},
     {&RailSurfaces::pole, "galvanised_steel", "pole"},
     {&RailSurfaces::box, "grey_paint", "object"},
+};
+
+constexpr SurfaceRow<RailSurfaces> kBushRows[] = {
+    {&RailSurfaces::bush_leaf, "leaf", "bush"},
+    {&RailSurfaces::bush_bark, "bark", "bush"},
 };
 
 constexpr SurfaceRow<StructureSurfaces> kStructureRows[] = {
@@ -120,6 +127,10 @@ RailSurfaces::RailSurfaces(const LabelTable& labels, const MaterialLibrary& mate
   ErrorList errors;
   LookUp(kSurfaceRows, labels, materials, *this, errors);
   errors.ThrowIfAny();
+}
+
+void RailSurfaces::AddBushSurfaces(const LabelTable& labels, const MaterialLibrary& materials) {
+  LookUp(kBushRows, labels, materials, *this);
 }
 
 void RailSurfaces::AddStructureSurfaces(const LabelTable& labels,

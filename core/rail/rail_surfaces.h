@@ -48,6 +48,8 @@ struct RailSurfaces {
   SurfaceClass rail_head, rail_side, fastening;
   SurfaceClass sleeper_concrete, sleeper_wood, ballast;
   SurfaceClass ground, grass, leaf, bark;
+  SurfaceClass gravel, meadow;        ///< Ground with other covers.
+  SurfaceClass bush_leaf, bush_bark;  ///< All 0 unless AddBushSurfaces() was called.
   SurfaceClass contact_wire, messenger_wire, dropper, mast, cantilever, insulator;
   SurfaceClass wagon_body, wagon_frame, wheel, tank;
   SurfaceClass skin, clothing, pole, box;
@@ -59,6 +61,9 @@ struct RailSurfaces {
   /// @throws InputError with a line for every name that the tables lack.
   RailSurfaces(const LabelTable& labels, const MaterialLibrary& materials);
 
+  /// Looks up the surfaces of bushes, which tables need only if the world has any.
+  /// @throws InputError with a line for every name that the tables lack.
+  void AddBushSurfaces(const LabelTable& labels, const MaterialLibrary& materials);
   /// Looks up the surfaces of structures.
   /// @throws InputError with a line for every name that the tables lack.
   void AddStructureSurfaces(const LabelTable& labels, const MaterialLibrary& materials);

@@ -18,6 +18,7 @@
 #include "core/rail/chunk_grid.h"
 #include "core/rail/infrastructure_models.h"
 #include "core/rail/land/land.h"
+#include "core/rail/land/landform.h"
 #include "core/rail/line/network.h"
 #include "core/rail/line/track_path.h"
 #include "core/rail/standing_height.h"
@@ -103,6 +104,7 @@ struct RailWorld::Line {
   CatenaryPlan catenary_plan;
   InfrastructureModels infrastructure;
   PlantModels plants;
+  Landform land;
 
   /// If `chunk_from_world` is the identity, builders work in world coordinates.
   [[nodiscard]] ChunkContext ContextOf(int chunk, const Transform& chunk_from_world) const {
@@ -115,7 +117,8 @@ struct RailWorld::Line {
             .chunk = chunk,
             .begin_s_m = grid.BeginOf(chunk),
             .end_s_m = grid.EndOf(chunk),
-            .chunk_from_world = chunk_from_world};
+            .chunk_from_world = chunk_from_world,
+            .land = &land};
   }
   [[nodiscard]] Chunk Build(const ChunkContext& context) const {
     Chunk built;
@@ -166,11 +169,12 @@ RailWorld::RailWorld(const WorldSpec& world,
   const Alignment& alignment = *draft.alignment;
   Network network = Completed(std::move(draft.network));
   std::vector<LaidTurnout> turnouts = LayTurnouts(network);
-  line_ = std::make_shared<const Line>(
-      Line{world, vehicle, labels, materials, seed, surfaces, alignment, std::move(network),
-           std::move(turnouts), ChunkGrid(alignment, kChunkLength_m, world.terrain.half_width_m),
-           std::move(*draft.catenary_plan), MakeInfrastructureModels(world, surfaces),
-           MakePlantModels(surfaces, seed)});
+  line_ = std::make_shared<const Line>(Line{
+      world, vehicle, labels, materials, seed, surfaces, alignment, std::move(network),
+      std::move(turnouts), ChunkGrid(alignment, kChunkLength_m, world.terrain.half_width_m),
+      std::move(*draft.catenary_plan), MakeInfrastructureModels(world, surfaces),
+      MakePlantModels(surfaces, seed),
+      Landform(world.terrain, std::move(*draft.strip_width), std::move(draft.elevation), seed)});
 
   std::vector<SceneObject> objects = std::move(draft.objects);
   std::vector<ObjectWay> ways;
@@ -364,7 +368,6 @@ Chunk RailWorld::BuildCoarserChunk(int chunk) const {
 
 std::optional<CoarserSurfaces> RailWorld::CoarserSurfacesOf(int chunk) const {
   constexpr int kNumSteps = 10;
-  const double half_width_m = line_->world.terrain.half_width_m;
   const Transform chunk_from_world = line_->grid.WorldFromChunk(chunk).inverse();
   const auto heading_rad = [&](double s_m) { return line_->alignment.At(s_m).heading_rad; };
   // By how much a curve turns the track at the chunk's ends from its middle.
@@ -377,7 +380,8 @@ std::optional<CoarserSurfaces> RailWorld::CoarserSurfacesOf(int chunk) const {
   for (int i = 0; i <= kNumSteps; ++i) {
     const double s_m =
         std::lerp(line_->grid.BeginOf(chunk), line_->grid.EndOf(chunk), 1.0 * i / kNumSteps);
-    for (const double d_m : {-half_width_m, half_width_m}) {
+    for (const double side : {-1.0, 1.0}) {
+      const double d_m = side * line_->land.width().At(s_m, side);
       const Transform chunk_from_edge =
           chunk_from_world * line_->alignment.WorldFromTrack(s_m, d_m);
       coarser.area_m.extend(Eigen::Vector2d(chunk_from_edge.translation().head<2>()));

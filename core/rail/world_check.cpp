@@ -138,17 +138,10 @@ void CheckPivots(const WorldSpec& world,
              NumberText(vehicle.pivot_distance_m));
 }
 
-void CheckHalfWidth(const WorldSpec& world, const LineMeasures& line, WorldFaults& faults) {
+void CheckHalfWidth(const WorldSpec& world, WorldFaults& faults) {
   const double half_width_m = world.terrain.half_width_m;
-  if (!faults.AreKnown({kHalfWidth})) return;
-  if (!(half_width_m > 0.0)) {
-    faults.Add(kHalfWidth, "must be > 0", NumberText(half_width_m));
-  } else if (!(half_width_m < line.tightest_radius_m)) {
-    faults.Add(kHalfWidth,
-               "must be less than the line's tightest radius of " +
-                   NumberText(line.tightest_radius_m) + " m",
-               NumberText(half_width_m));
-  }
+  if (!faults.AreKnown({kHalfWidth}) || half_width_m > 0.0) return;
+  faults.Add(kHalfWidth, "must be > 0", NumberText(half_width_m));
 }
 
 }  // namespace
@@ -225,7 +218,7 @@ void CheckWorld(const WorldSpec& world,
                 const VehicleSpec& vehicle,
                 const LineOfTracks& line,
                 WorldFaults& faults) {
-  CheckHalfWidth(world, line.measures, faults);
+  CheckHalfWidth(world, faults);
   if (world.tracks.empty()) {
     faults.Add("/world/tracks", "must have at least one track", "none");
     return;  // Without a track, every check below would report another fault.

@@ -1,13 +1,16 @@
 #include "core/rail/world_draft.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <string>
 #include <utility>
 
 #include "core/base/attempt.h"
+#include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/rail/land/cut_and_fill.h"
 #include "core/rail/line/speed_profile.h"
 #include "core/rail/network_check.h"
 
@@ -78,6 +81,39 @@ std::optional<CatenaryPlan> DraftCatenary(const WorldSpec& world,
   return Attempt("/world", faults.errors, make).value_or(std::nullopt);
 }
 
+std::optional<StripWidth> DraftStripWidth(const WorldSpec& world,
+                                          const std::optional<Alignment>& alignment,
+                                          WorldFaults& faults) {
+  if (!alignment || !faults.AreKnown({"/world/terrain/half_width_m"})) return std::nullopt;
+  const StripWidth width(*alignment, world.terrain.half_width_m);
+  for (std::size_t i = 0; width.narrows() && i < world.tracks.size(); ++i) {
+    const std::string place = "/world/tracks/" + std::to_string(i) + "/offset_m";
+    const double offset_m = world.tracks[i].offset_m;
+    if (!faults.AreKnown({place}) || std::abs(offset_m) + kFormationEdge_m < width.least_m())
+      continue;
+    faults.Add(place,
+               "must leave " + NumberText(kFormationEdge_m) +
+                   " m to the edge of the ground, which narrows to " + ShortText(width.least_m()) +
+                   " m in a curve",
+               NumberText(offset_m));
+  }
+  return width;
+}
+
+std::optional<DemHeights> DraftElevation(const WorldSpec& world,
+                                         const WorldDraft& draft,
+                                         WorldFaults& faults) {
+  const std::optional<ElevationSpec>& spec = world.terrain.elevation;
+  const std::string place = "/world/terrain/elevation";
+  if (!spec || !faults.AreKnown({place})) return std::nullopt;
+  auto elevation = Attempt(place + "/file: ", faults.errors, [&] { return DemHeights(*spec); });
+  if (!elevation || !draft.alignment || !draft.strip_width) return elevation;
+  if (const auto fault = CoverageFault(*elevation, *draft.alignment, *draft.strip_width)) {
+    faults.Add(place + "/file", *fault);
+  }
+  return elevation;
+}
+
 }  // namespace
 
 std::optional<TrackCourse> TracksOfWorld::CourseOf(const std::string& name) const {
@@ -133,6 +169,9 @@ WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
   if (faults.AreKnown({"/labels", "/materials"})) {
     draft.surfaces = Attempt("", faults.errors, [&] {
       RailSurfaces surfaces(source.labels, source.materials);
+      if (world.vegetation.bushes_per_hectare > 0.0) {
+        surfaces.AddBushSurfaces(source.labels, source.materials);
+      }
       if (!world.structures.empty()) {
         surfaces.AddStructureSurfaces(source.labels, source.materials);
       }
@@ -160,6 +199,8 @@ WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
     draft.objects.push_back(std::move(*object));
   }
   draft.catenary_plan = DraftCatenary(world, draft.alignment, faults);
+  draft.strip_width = DraftStripWidth(world, draft.alignment, faults);
+  draft.elevation = DraftElevation(world, draft, faults);
   return draft;
 }
 

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "core/rail/catenary/catenary_plan.h"
+#include "core/rail/land/elevation.h"
+#include "core/rail/land/strip_width.h"
 #include "core/rail/line/network.h"
 #include "core/rail/line/track_path.h"
 #include "core/rail/objects/object_models.h"
@@ -45,6 +47,8 @@ struct WorldDraft {
   std::vector<TrackPath> object_paths;
   std::vector<SceneObject> objects;
   std::optional<CatenaryPlan> catenary_plan;
+  std::optional<StripWidth> strip_width;
+  std::optional<DemHeights> elevation;  ///< If the spec has any.
 };
 
 /// The tracks of a world with their courses; those with faults are absent.

@@ -65,16 +65,42 @@ void Describe(Archive& a, CatenarySpec& s) {
              Within(kMastClearance_m, 20));
 }
 
+/// Its key "file" does not name a file with its other keys.
+template <>
+inline constexpr bool kIsWrittenInPlace<ElevationSpec> = true;
+
+template <class Archive>
+void Describe(Archive& a, ElevationSpec& s) {
+  a.Required("file", s.file, "ESRI ASCII grid (.asc) of heights in metres.", ExistingFile());
+  a.Optional("origin_m", s.origin_m,
+             "The file's coordinates and height of the world's origin, which are subtracted.",
+             CoordinateLimits());
+}
+
+template <class Archive>
+void Describe(Archive& a, ReliefSpec& s) {
+  a.Optional("sigma_m", s.sigma_m, "Standard deviation of the hills' heights.", Within(0, 100));
+  a.Optional("wavelength_m", s.wavelength_m, "Spacing of hills and valleys, about half of it.",
+             Within(50, 10'000));
+}
+
 template <class Archive>
 void Describe(Archive& a, TerrainSpec& s) {
   a.Optional("half_width_m", s.half_width_m,
-             "Half width of the ground strip; less than the tightest radius.", Within(5, 1000));
+             "Half width of the ground strip; it narrows inside curves that are tighter.",
+             Within(5, 1000));
   a.Optional("roughness_sigma_m", s.roughness_sigma_m,
              "Standard deviation of the ground's small heights.", Within(0, 1));
   a.Optional("roughness_wavelength_m", s.roughness_wavelength_m,
              "Correlation length of these heights.", Within(0.1, 100));
   a.Optional("undulation_sigma_m", s.undulation_sigma_m, "Slow rise and fall away from the track.",
              Within(0, 20));
+  a.Optional("relief", s.relief,
+             "Hills, with cuttings and embankments; absent = as high as the formation.");
+  a.Optional("elevation", s.elevation,
+             "Terrain of a file, with cuttings and embankments; not together with relief.");
+  a.Optional("cover", s.cover, "What the ground is covered with.");
+  a.Ensure({"elevation", "relief"}, !s.elevation || !s.relief, "must not be given with relief");
 }
 
 /// The upper limit exceeds the widest ground strip.
@@ -91,11 +117,20 @@ void Describe(Archive& a, VegetationSpec& s) {
              PositiveUpTo(60));
   a.Optional("tree_height_max_m", s.tree_height_max_m, "Height of the tallest tree.",
              PositiveUpTo(60));
+  a.Optional("woods_share", s.woods_share,
+             "Share of the land on which they stand, in woods; 1 = everywhere.", Within(0, 1));
+  a.Optional("woods_size_m", s.woods_size_m, "Width of woods and clearings, about.",
+             Within(5, 10'000));
+  a.Optional("bushes_per_hectare", s.bushes_per_hectare, "0 = none.", Within(0, 5000));
+  a.Optional("bush_min_distance_m", s.bush_min_distance_m,
+             "Distance from the outermost track axis.", DistanceLimits());
   a.Optional("grass", s.grass, "Whether there is any.");
   a.Optional("grass_min_distance_m", s.grass_min_distance_m,
              "Distance from the outermost track axis.", DistanceLimits());
   a.Optional("grass_max_distance_m", s.grass_max_distance_m,
              "Distance from the outermost track axis.", DistanceLimits());
+  a.Optional("grass_fade_m", s.grass_fade_m, "Distance beyond over which it thins out.",
+             DistanceLimits());
   a.Ensure({"tree_height_min_m", "tree_height_max_m"}, s.tree_height_min_m <= s.tree_height_max_m,
            "must be <= tree_height_max_m");
   a.Ensure({"grass_min_distance_m", "grass_max_distance_m"},

@@ -160,12 +160,13 @@ void ReadValue(JsonSource& source, const Node& node, std::variant<Ts...>& value,
   (read_if(Ts{}), ...);
 }
 
-/// Reads a struct with a description. Its object may be given as a file, or name a base file with
-/// the keys that it lacks.
+/// Reads a struct with a description. Unless it is written in place, its object may be given as a
+/// file, or name a base file with the keys that it lacks.
 template <class T>
 requires(std::is_aggregate_v<T> &&
          !kIsArray<T>) void ReadValue(JsonSource& source, const Node& node, T& value, Anything) {
-  if (auto list = source.Members(node)) ReadMembers(source, node, std::move(*list), value);
+  auto list = kIsWrittenInPlace<T> ? source.PlainMembers(node) : source.Members(node);
+  if (list) ReadMembers(source, node, std::move(*list), value);
 }
 
 template <class T, class Rule>

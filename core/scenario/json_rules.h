@@ -107,6 +107,10 @@ inline constexpr bool kIsVariant<std::variant<Ts...>> = true;
 template <class T>
 inline constexpr bool kElementMayBeFile = false;
 
+/// Whether a struct is always written in place, since it has a key "file" of its own.
+template <class T>
+inline constexpr bool kIsWrittenInPlace = false;
+
 /// The rule in words, "must be > 0 and <= 360", if the value breaks it.
 [[nodiscard]] std::optional<std::string> Broken(const Limits& limits, double value);
 [[nodiscard]] std::optional<std::string> Broken(const NumberChoices& choices, int value);

@@ -119,12 +119,45 @@ struct CatenarySpec {
   bool operator==(const CatenarySpec&) const = default;
 };
 
+/// Heights of the terrain from a file, an ESRI ASCII grid in metres.
+struct ElevationSpec {
+  std::string file;
+  /// The file's coordinates of the world's origin: subtracted from the coordinates and heights of
+  /// the file, they are those of the world.
+  std::array<double, 3> origin_m{0, 0, 0};
+
+  bool operator==(const ElevationSpec&) const = default;
+};
+
+/// Hills that the line passes through in cuttings and on embankments.
+struct ReliefSpec {
+  double sigma_m = 4.0;         ///< Standard deviation of their heights about the formation's.
+  double wavelength_m = 200.0;  ///< Spacing of the lattice of their heights.
+
+  bool operator==(const ReliefSpec&) const = default;
+};
+
+/// What the ground is covered with.
+enum class GroundCover {
+  kSoil,    ///< Soil everywhere.
+  kFields,  ///< Gravel on the formation, meadow on its slopes, then meadows and fields.
+};
+template <>
+inline constexpr auto kEnumNames<GroundCover> = std::to_array<EnumName<GroundCover>>(
+    {{GroundCover::kSoil, "soil"}, {GroundCover::kFields, "fields"}});
+
 struct TerrainSpec {
-  /// Half width of the ground strip; must be less than the tightest radius.
+  /// Half width of the ground strip. From the line's tightest radius on, the strip is narrower
+  /// inside tight curves (core/rail/land/strip_width.h).
   double half_width_m = 80.0;
   double roughness_sigma_m = 0.04;      ///< Of the ground beside the ballast.
   double roughness_wavelength_m = 2.0;  ///< Correlation length of the roughness.
   double undulation_sigma_m = 0.6;      ///< Large-scale relief away from the track.
+  /// The terrain that the formation is cut into or raised above; at most one of the two. Without
+  /// either, the terrain is as high as the formation.
+  std::optional<ElevationSpec> elevation;
+  std::optional<ReliefSpec> relief;
+  GroundCover cover = GroundCover::kSoil;
 
   bool operator==(const TerrainSpec&) const = default;
 };
@@ -143,9 +176,16 @@ struct VegetationSpec {
   double tree_min_distance_m = 9.0;  ///< From the outermost track axis.
   double tree_height_min_m = 6.0;
   double tree_height_max_m = 14.0;
+  /// Share of the land on which these trees stand, in woods about `woods_size_m` wide; the rest is
+  /// clear of trees. 1 = everywhere.
+  double woods_share = 1.0;
+  double woods_size_m = 60.0;
+  double bushes_per_hectare = 0.0;   ///< From 0.5 to 2.5 m high.
+  double bush_min_distance_m = 6.0;  ///< From the outermost track axis.
   bool grass = true;
   double grass_min_distance_m = 3.6;  ///< From the outermost track axis.
   double grass_max_distance_m = 9.0;
+  double grass_fade_m = 0.0;  ///< Distance beyond over which the grass thins out.
 
   bool operator==(const VegetationSpec&) const = default;
 };

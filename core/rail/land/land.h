@@ -16,6 +16,11 @@ namespace railcast {
 /// from the outermost tracks and then increasing by 15 % per grid line up to 2 m. Ground covered by
 /// ballast is left out.
 ///
+/// Where the terrain has a shape (landform.h), undulation is added to it, and the ground is the
+/// terrain between the slopes of cuttings and embankments (cut_and_fill.h). Where the strip narrows
+/// (strip_width.h), the columns beyond 10 m from the outermost tracks are squeezed. In both cases,
+/// the cells beyond 100 m from the axis are 4 m long and up to 8 m wide.
+///
 /// In the coarser form, inner rows are 1 m apart, or half the wavelength of the roughness if that
 /// is from 2 to 4 m; below, they are those of the finest, and so are the columns up to 10 m from
 /// the tracks. Cells are up to 2 m wide across.
@@ -40,6 +45,11 @@ void AddTerrain(const ChunkContext& context, Chunk& chunk);
 /// Grass consists of one patch every 2 m along the line, in as many parallel rows as fill the strip
 /// between its minimum and maximum distance beyond the axis of the outermost track. A strip
 /// narrower than a patch has none. Patches lie on the slope of the ground.
+///
+/// With VegetationSpec::woods_share below 1, trees stand in woods (woods.h) only. Bushes form a
+/// Poisson process, too; low ones are the most frequent. With grass_fade_m, patches of grass follow
+/// beyond the strip at random places, ever fewer outwards. Nothing stands where the strip of ground
+/// has narrowed.
 ///
 /// Random numbers are keyed by (seed, chunk, plant), so chunks do not depend on each other.
 void AddVegetation(const ChunkContext& context, const PlantModels& plants, Chunk& chunk);

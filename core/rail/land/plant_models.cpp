@@ -281,6 +281,14 @@ PlantModels MakePlantModels(const RailSurfaces& surfaces, std::uint64_t seed) {
   for (const char* name : {"grass_a", "grass_b", "grass_c"}) {
     plants.grass.push_back(MakeGrassPatch(name, surfaces, PlantDice(seed, plant++)));
   }
+  RailSurfaces of_bushes = surfaces;
+  of_bushes.leaf = surfaces.bush_leaf;
+  of_bushes.bark = surfaces.bush_bark;
+  const std::vector<TreeForm> bushes = {{"bush_low", 1.0, 0.05, 0.6, 0.015},
+                                        {"bush_high", 2.0, 0.1, 1.0, 0.025}};
+  for (const TreeForm& form : bushes) {
+    plants.bushes.push_back(MakeBroadleaf(form, of_bushes, PlantDice(seed, plant++)));
+  }
   return plants;
 }
 

@@ -34,10 +34,11 @@ struct PlantModels {
   std::vector<PlantModel> broadleaves;  ///< In order of height.
   std::vector<PlantModel> conifers;     ///< In order of height.
   std::vector<PlantModel> grass;        ///< Square patches of kGrassPatch_m.
+  std::vector<PlantModel> bushes;       ///< In order of height.
 };
 
-/// Makes two broad-leaved trees (7.5 and 11 m), two spruces (7 and 12 m) and three patches of
-/// grass.
+/// Makes two broad-leaved trees (7.5 and 11 m), two spruces (7 and 12 m), three patches of grass
+/// and two bushes (1 and 2 m), which are low broad-leaved trees with leaves down to the ground.
 ///
 /// Trees consist of trunk, branches and twigs as tapering tubes, and of single leaves. Leaves are
 /// triangles of about 8 x 9 cm (spruces: shoots of 11 x 5 cm) at random positions about the twigs,

@@ -9,6 +9,14 @@
 #include "tests/core/rail/test_tables.h"
 
 namespace railcast {
+namespace {
+
+std::optional<DemHeights> ElevationOf(const TerrainSpec& spec) {
+  return spec.elevation ? std::optional(DemHeights(*spec.elevation)) : std::nullopt;
+}
+
+}  // namespace
+
 TestLine::TestLine(WorldSpec spec, std::uint64_t seed)
     : spec_(std::move(spec)),
       alignment_(spec_.alignment),
@@ -17,7 +25,11 @@ TestLine::TestLine(WorldSpec spec, std::uint64_t seed)
       surfaces_(TestSurfaces()),
       seed_(seed),
       plan_(spec_, alignment_),
-      models_(MakeInfrastructureModels(spec_, surfaces_)) {}
+      models_(MakeInfrastructureModels(spec_, surfaces_)),
+      land_(spec_.terrain,
+            StripWidth(alignment_, spec_.terrain.half_width_m),
+            ElevationOf(spec_.terrain),
+            seed) {}
 
 Transform TestLine::WorldFromChunk(int chunk) const {
   const AxisPoint middle = alignment_.At((chunk + 0.5) * kChunkLength_m);
@@ -34,7 +46,8 @@ ChunkContext TestLine::Context(int chunk) const {
           .chunk = chunk,
           .begin_s_m = chunk * kChunkLength_m,
           .end_s_m = (chunk + 1) * kChunkLength_m,
-          .chunk_from_world = WorldFromChunk(chunk).inverse()};
+          .chunk_from_world = WorldFromChunk(chunk).inverse(),
+          .land = &land_};
 }
 
 Chunk TestLine::Build(int chunk, bool is_coarse) const {

@@ -6,6 +6,7 @@
 #include "core/rail/catenary/catenary_plan.h"
 #include "core/rail/chunk_context.h"
 #include "core/rail/infrastructure_models.h"
+#include "core/rail/land/landform.h"
 #include "core/rail/line/network.h"
 #include "core/rail/rail_surfaces.h"
 #include "railcast/scene.h"
@@ -40,6 +41,7 @@ class TestLine {
   std::uint64_t seed_;
   CatenaryPlan plan_;
   InfrastructureModels models_;
+  Landform land_;
 };
 
 /// A straight, level line with one track.

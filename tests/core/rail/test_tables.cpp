@@ -7,14 +7,16 @@ namespace railcast {
 
 LabelTable TestLabels() {
   std::vector<Label> labels;
-  for (const char* name :
-       {"rail",         "sleeper",        "ballast",      "ground",   "grass",      "tree",
-        "contact_wire", "messenger_wire", "dropper",      "mast",     "cantilever", "wagon",
-        "person",       "pole",           "object",       "ego",      "platform",   "noise_wall",
-        "fence",        "retaining_wall", "cable_trough", "tunnel",   "bridge",     "third_rail",
-        "slab_track",   "signal",         "board",        "balise",   "relay_box",  "buffer_stop",
-        "road",         "level_crossing", "building",     "derailer", "furniture",  "switch",
-        "point_machine"}) {
+  for (const char* name : {"rail",          "sleeper",     "ballast",      "ground",
+                           "grass",         "tree",        "contact_wire", "messenger_wire",
+                           "dropper",       "mast",        "cantilever",   "wagon",
+                           "person",        "pole",        "object",       "ego",
+                           "platform",      "noise_wall",  "fence",        "retaining_wall",
+                           "cable_trough",  "tunnel",      "bridge",       "third_rail",
+                           "slab_track",    "signal",      "board",        "balise",
+                           "relay_box",     "buffer_stop", "road",         "level_crossing",
+                           "building",      "derailer",    "furniture",    "switch",
+                           "point_machine", "bush"}) {
     Label label;
     label.id = static_cast<std::uint32_t>(labels.size() + 1);
     label.name = name;
@@ -61,6 +63,7 @@ MaterialLibrary TestMaterials() {
 
 RailSurfaces TestSurfaces() {
   RailSurfaces surfaces(TestLabels(), TestMaterials());
+  surfaces.AddBushSurfaces(TestLabels(), TestMaterials());
   surfaces.AddStructureSurfaces(TestLabels(), TestMaterials());
   surfaces.AddTurnoutSurfaces(TestLabels(), TestMaterials());
   return surfaces;

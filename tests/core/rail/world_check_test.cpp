@@ -51,14 +51,6 @@ TEST(CheckWorld, KeepsTracksOnTheLineAndItsGround) {
                   "length of 1000 m (got 1200)"));
 }
 
-TEST(CheckWorld, KeepsTheGroundInsideTheTightestCurve) {
-  WorldSpec world;
-  world.terrain.half_width_m = 300.0;
-  EXPECT_THAT(Faults(world),
-              ElementsAre("/world/terrain/half_width_m: must be less than the line's tightest "
-                          "radius of 300 m (got 300)"));
-}
-
 TEST(CheckWorld, KeepsObjectsOnTheirTrack) {
   WorldSpec world;
   world.tracks.push_back({.name = "siding", .offset_m = 4.5, .start_s_m = 100.0, .end_s_m = 400.0});

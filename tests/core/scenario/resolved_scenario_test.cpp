@@ -79,8 +79,9 @@ ScenarioSpec UnusualScenario(const std::string& mesh_file) {
   spec.world.tracks = {{"a", 1, 2, 3.0, SleeperType::kWood, false},
                        {"b", -4, 0, {}, SleeperType::kConcrete, true}};
   spec.world.catenary = {false, 5.4, 1.7, 60, 0.3, 7, 3.2};
-  spec.world.terrain = {70, 0.03, 1.9, 0.5};
-  spec.world.vegetation = {30, 8, 5, 13, false, 3.5, 8.5};
+  spec.world.terrain = {
+      70, 0.03, 1.9, 0.5, ElevationSpec{mesh_file, {1, 2, 3}}, {}, GroundCover::kFields};
+  spec.world.vegetation = {30, 8, 5, 13, 0.5, 50, 20, 7, false, 3.5, 8.5, 12};
   spec.world.objects = {{"x",
                          ObjectType::kMesh,
                          "b",

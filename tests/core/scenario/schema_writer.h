@@ -109,6 +109,7 @@ Json SchemaWriter::SchemaOf(T& value, const Rule& rule) {
   if constexpr (std::is_class_v<T> && !std::is_same_v<T, std::string>) {
     SchemaWriter writer;
     Describe(writer, value);
+    if constexpr (kIsWrittenInPlace<T>) return writer.PlainObject();
     return {{"anyOf", {FileNameSchema(), writer.ObjectWithBase()}}};
   } else {
     Json schema;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tests/core/rail/test_line.h"
@@ -155,6 +156,114 @@ TEST(AddVegetation, RootsGrassInTheGround) {
       ASSERT_LT(root_m.z(), GroundPoint(context, s_m, root_m.y()).z()) << root_m.transpose();
     }
   }
+}
+
+bool IsBush(const Placement& placement) {
+  return std::ranges::find(Plants().bushes, placement.model, &PlantModel::model) !=
+         Plants().bushes.end();
+}
+
+TEST(AddVegetation, PlantsBushesOfHalfAMetreToTwoAndAHalf) {
+  constexpr int kNumChunks = 40;
+  WorldSpec spec = Forest(StraightLine(kNumChunks * TestLine::kChunkLength_m), 0.0);
+  spec.vegetation.bushes_per_hectare = 60.0;
+  const TestLine line(spec);
+  double count = 0.0;
+  for (int chunk = 0; chunk < kNumChunks; ++chunk) {
+    for (const Placement& bush : Plant(line, chunk)) {
+      ASSERT_TRUE(IsBush(bush));
+      EXPECT_GE(HeightOf(bush), 0.5 - 1e-6);
+      EXPECT_LE(HeightOf(bush), 2.5 + 1e-6);
+      EXPECT_GE(std::abs(bush.chunk_from_model.translation().y()), 6.0);
+      count += 1.0;
+    }
+  }
+  const double mean = 60e-4 * kNumChunks * TestLine::kChunkLength_m * 2.0 * 74.0;
+  EXPECT_NEAR(count, mean, 5.0 * std::sqrt(mean));
+}
+
+TEST(AddVegetation, GivesBushesTheirLabelDownToTheGround) {
+  ASSERT_EQ(Plants().bushes.size(), 2U);
+  for (const PlantModel& bush : Plants().bushes) {
+    for (const Part& part : bush.model->parts)
+      EXPECT_EQ(part.label, TestSurfaces().bush_leaf.label);
+    const Eigen::AlignedBox3d box = bush.model->Bounds();
+    EXPECT_LT(box.min().z(), 0.0);
+    EXPECT_GT(box.sizes().x(), 0.8 * bush.height_m);
+    EXPECT_EQ(bush.coarser->size(), 4U);
+  }
+}
+
+// Woods of 60 m in 10 km by 142 m: some 400 lattice points, each of which is wooded or not, so that
+// the share has a standard error of sqrt(0.3 * 0.7 / 400) = 2.3 %; the noise is not quite normal.
+TEST(AddVegetation, GrowsTreesOnTheWoodedShareOfTheLandAndInGroves) {
+  constexpr int kNumChunks = 200;
+  WorldSpec spec = Forest(StraightLine(kNumChunks * TestLine::kChunkLength_m), 100.0);
+  const TestLine everywhere(spec);
+  spec.vegetation.woods_share = 0.3;
+  const TestLine woods(spec);
+  double num_everywhere = 0.0;
+  double num_in_woods = 0.0;
+  double sum_of_squares = 0.0;
+  for (int chunk = 0; chunk < kNumChunks; ++chunk) {
+    num_everywhere += static_cast<double>(Plant(everywhere, chunk).size());
+    const auto count = static_cast<double>(Plant(woods, chunk).size());
+    num_in_woods += count;
+    sum_of_squares += count * count;
+  }
+  EXPECT_NEAR(num_in_woods / num_everywhere, 0.3, 4.0 * 0.023);
+  const double mean = num_in_woods / kNumChunks;
+  EXPECT_GT(sum_of_squares / kNumChunks - mean * mean, 4.0 * mean);  // Of a Poisson process, once.
+}
+
+TEST(AddVegetation, ThinsOutGrassBeyondItsStrip) {
+  WorldSpec spec = StraightLine(2000.0);
+  spec.vegetation.trees_per_hectare = 0.0;
+  const TestLine sharp(spec);
+  spec.vegetation.grass_fade_m = 20.0;
+  const TestLine fading(spec);
+  std::array<double, 4> nums{};  // By 5 m of the distance beyond the strip.
+  for (int chunk = 0; chunk < 40; ++chunk) {
+    std::size_t num_beyond = 0;
+    const std::vector<Placement> patches = Plant(fading, chunk);
+    for (const Placement& patch : patches) {
+      const double beyond_m = std::abs(patch.chunk_from_model.translation().y()) - 9.0;
+      if (beyond_m <= 0.0) continue;
+      ASSERT_TRUE(IsGrass(patch));
+      ASSERT_LT(beyond_m, 20.0);
+      nums.at(static_cast<std::size_t>(beyond_m / 5.0)) += 1.0;
+      ++num_beyond;
+    }
+    EXPECT_EQ(patches.size() - num_beyond, Plant(sharp, chunk).size());
+  }
+  // Places for a patch on 4 m^2 each, of which (1 - x / 20)^2 are taken.
+  const double num_places = 2.0 * 2000.0 * 5.0 / 4.0;
+  for (std::size_t i = 0; i < nums.size(); ++i) {
+    const double from = 1.0 - 0.25 * static_cast<double>(i);
+    const double to = from - 0.25;
+    const double expected = num_places * (from * from * from - to * to * to) / 0.75;
+    EXPECT_NEAR(nums.at(i), expected, 5.0 * std::sqrt(expected)) << i;
+  }
+}
+
+TEST(AddVegetation, PlantsNothingBeyondNarrowedGround) {
+  WorldSpec spec = Forest(CantedArc(600.0, 190.0), 200.0);
+  spec.terrain.half_width_m = 300.0;
+  spec.vegetation.bushes_per_hectare = 50.0;
+  const TestLine line(spec);
+  int num_inside = 0;
+  for (int chunk = 0; chunk < 12; ++chunk) {
+    const Vector3 centre_m =
+        line.WorldFromChunk(chunk).inverse() *
+        (line.alignment().WorldFromTrack(0.0).translation() + Vector3(0, 190.0, 0));
+    for (const Placement& plant : Plant(line, chunk)) {
+      const double from_centre_m =
+          (plant.chunk_from_model.translation() - centre_m).head<2>().norm();
+      EXPECT_GE(from_centre_m, 190.0 - 152.0 - 1e-6);
+      num_inside += from_centre_m < 190.0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(num_inside, 100);
 }
 
 TEST(AddVegetation, GrowsNothingWhereTheSpecHasNoRoom) {
