@@ -130,7 +130,9 @@ RailSurfaces::RailSurfaces(const LabelTable& labels, const MaterialLibrary& mate
 }
 
 void RailSurfaces::AddBushSurfaces(const LabelTable& labels, const MaterialLibrary& materials) {
-  LookUp(kBushRows, labels, materials, *this);
+  ErrorList errors;
+  LookUp(kBushRows, labels, materials, *this, errors);
+  errors.ThrowIfAny();
 }
 
 void RailSurfaces::AddStructureSurfaces(const LabelTable& labels,
@@ -142,7 +144,9 @@ void RailSurfaces::AddStructureSurfaces(const LabelTable& labels,
 }
 
 void RailSurfaces::AddTurnoutSurfaces(const LabelTable& labels, const MaterialLibrary& materials) {
-  LookUp(kTurnoutRows, labels, materials, turnouts);
+  ErrorList errors;
+  LookUp(kTurnoutRows, labels, materials, turnouts, errors);
+  errors.ThrowIfAny();
 }
 
 bool IsRailMaterial(std::string_view name) {

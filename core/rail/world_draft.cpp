@@ -83,14 +83,17 @@ std::optional<CatenaryPlan> DraftCatenary(const WorldSpec& world,
 
 std::optional<StripWidth> DraftStripWidth(const WorldSpec& world,
                                           const std::optional<Alignment>& alignment,
+                                          const NetworkDraft& network,
                                           WorldFaults& faults) {
   if (!alignment || !faults.AreKnown({"/world/terrain/half_width_m"})) return std::nullopt;
   const StripWidth width(*alignment, world.terrain.half_width_m);
   for (std::size_t i = 0; width.narrows() && i < world.tracks.size(); ++i) {
     const std::string place = "/world/tracks/" + std::to_string(i) + "/offset_m";
-    const double offset_m = world.tracks[i].offset_m;
-    if (!faults.AreKnown({place}) || std::abs(offset_m) + kFormationEdge_m < width.least_m())
-      continue;
+    const std::optional<TrackCourse>& course = network.courses[i];
+    if (!course || !faults.AreKnown({place})) continue;
+    const double least_m = course->least_d_m();
+    const double offset_m = -least_m > course->most_d_m() ? least_m : course->most_d_m();
+    if (std::abs(offset_m) + kFormationEdge_m < width.least_m()) continue;
     faults.Add(place,
                "must leave " + NumberText(kFormationEdge_m) +
                    " m to the edge of the ground, which narrows to " + ShortText(width.least_m()) +
@@ -199,7 +202,7 @@ WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
     draft.objects.push_back(std::move(*object));
   }
   draft.catenary_plan = DraftCatenary(world, draft.alignment, faults);
-  draft.strip_width = DraftStripWidth(world, draft.alignment, faults);
+  draft.strip_width = DraftStripWidth(world, draft.alignment, draft.network, faults);
   draft.elevation = DraftElevation(world, draft, faults);
   return draft;
 }

@@ -13,6 +13,7 @@
 #include "railcast/material.h"
 #include "railcast/scene.h"
 #include "railcast/structures.h"
+#include "railcast/track_side.h"
 
 namespace railcast {
 
@@ -54,12 +55,6 @@ inline constexpr auto kEnumNames<TurnoutType> =
                                           {TurnoutType::k9_300, "1:9-300"},
                                           {TurnoutType::k12_500, "1:12-500"},
                                           {TurnoutType::k14_760, "1:14-760"}});
-
-/// A side of a track, looking towards rising chainage.
-enum class TrackSide { kLeft, kRight };
-template <>
-inline constexpr auto kEnumNames<TrackSide> =
-    std::to_array<EnumName<TrackSide>>({{TrackSide::kLeft, "left"}, {TrackSide::kRight, "right"}});
 
 /// Where the blades of a turnout lead.
 enum class TurnoutPosition { kStraight, kDiverging };

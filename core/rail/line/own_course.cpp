@@ -102,10 +102,6 @@ TurnoutSite SiteOf(const TurnoutPlace& place, double s_m, TrackSide side) {
           .has_given_position = place.spec.position.has_value()};
 }
 
-double SignOf(TrackSide side) {
-  return side == TrackSide::kLeft ? 1.0 : -1.0;
-}
-
 /// The side to which the branch leaves towards the offset `d_m`, unless the spec says it.
 std::optional<TrackSide> SideTowards(const TurnoutPlace& place,
                                      double s_m,

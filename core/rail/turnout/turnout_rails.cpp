@@ -68,7 +68,7 @@ class TurnoutPlane {
         length_m_(std::abs(turnout.site.end_s_m - turnout.site.s_m)),
         opens_ahead_(turnout.site.opens_ahead()),
         is_diverging_(turnout.site.position == TurnoutPosition::kDiverging),
-        side_(turnout.site.side == TrackSide::kLeft ? 1.0 : -1.0),
+        side_(SignOf(turnout.site.side)),
         through_outer_(turnout.through, -side_),
         through_inner_(turnout.through, side_),
         branch_inner_(turnout.branch, -side_),

@@ -39,10 +39,6 @@ TurnoutCourses CoursesOf(const ChunkContext& context, const TurnoutSite& site) {
   return {site, context.tracks[site.track], context.tracks[site.branch]};
 }
 
-double SideOf(const TurnoutSite& site) {
-  return site.side == TrackSide::kLeft ? 1.0 : -1.0;
-}
-
 bool IsNear(const ChunkContext& context, const TurnoutSite& site) {
   return site.s_m > context.begin_s_m - kLongestReach_m &&
          site.s_m < context.end_s_m + kLongestReach_m;
@@ -148,7 +144,7 @@ class Bearers {
     const std::size_t index = BearerIndex(length_m, bearers.size());
     const double made_m = 2.0 * kSleeperHalfLength_m + kBearerStep_m * static_cast<double>(index);
     // What the bearer is longer than needed is on the branch's side.
-    const double middle_m = SideOf(site_) * (0.5 * made_m - kSleeperHalfLength_m);
+    const double middle_m = SignOf(site_.side) * (0.5 * made_m - kSleeperHalfLength_m);
     Place(bearers[index], StationOf(context_, site_, false, {s_m, middle_m}), chunk);
     const auto& plate = is_concrete ? models_.concrete_plate : models_.wood_plate;
     for (const bool on_branch : {false, true}) {
@@ -201,13 +197,13 @@ void AddDrive(const ChunkContext& context,
                                               (site.opens_ahead() ? 2.0 : -2.0));
   if (bay_s_m < context.begin_s_m || bay_s_m >= context.end_s_m) return;
   const Transform chunk_from_track = StationOf(context, site, false, {bay_s_m, 0.0});
-  const double machine_m = -SideOf(site) * kMachineFromAxis_m;
+  const double machine_m = -SignOf(site.side) * kMachineFromAxis_m;
   chunk.placements.push_back(
       {.model = models.point_machine,
        .chunk_from_model = Eigen::Affine3d(StationOf(context, site, false, {bay_s_m, machine_m})),
        .instance = 0});
   constexpr double kBarHalfWidth_m = 0.030;
-  const double far_m = SideOf(site) * 0.5 * kGauge_m;
+  const double far_m = SignOf(site.side) * 0.5 * kGauge_m;
   const Mesh bar = MakeBox({Vector3(-kBarHalfWidth_m, std::min(far_m, machine_m), -0.170),
                             Vector3(kBarHalfWidth_m, std::max(far_m, machine_m), -0.140)});
   MeshOf(context.surfaces.turnouts.rail, chunk.ground).Append(bar, chunk_from_track);

@@ -75,6 +75,11 @@ WorldSpec CantedArc(double length_m, double radius_m) {
   return spec;
 }
 
+bool IsCleared(const WorldSpec& spec, double s_m, double d_m, Clearing what) {
+  const Network network = MakeNetwork(spec, Alignment(spec.alignment).length_m());
+  return IsCleared(WorldTracks{spec, network.courses}, s_m, d_m, what);
+}
+
 Mesh MeshOfSurface(const Chunk& chunk, const SurfaceClass& surface) {
   for (const Part& part : chunk.ground.parts) {
     if (part.material == surface.material && part.label == surface.label) return part.mesh;

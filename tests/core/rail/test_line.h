@@ -9,6 +9,7 @@
 #include "core/rail/land/landform.h"
 #include "core/rail/line/network.h"
 #include "core/rail/rail_surfaces.h"
+#include "core/rail/structures/cleared.h"
 #include "railcast/scene.h"
 
 namespace railcast {
@@ -49,6 +50,9 @@ class TestLine {
 
 /// A circular arc with one track and full cant over its whole length.
 [[nodiscard]] WorldSpec CantedArc(double length_m, double radius_m);
+
+/// Whether the structures of the world clear something at (s, d) (core/rail/structures/cleared.h).
+[[nodiscard]] bool IsCleared(const WorldSpec& spec, double s_m, double d_m, Clearing what);
 
 /// The chunk's mesh with that surface; empty if it has none.
 [[nodiscard]] Mesh MeshOfSurface(const Chunk& chunk, const SurfaceClass& surface);
