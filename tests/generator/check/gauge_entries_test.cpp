@@ -133,6 +133,20 @@ TEST(GaugeEntries, LeaveOutWhatBelongsToTheTrackAndWhatStandsClear) {
   EXPECT_TRUE(EntriesOf(world).empty());
 }
 
+TEST(GaugeEntries, HoldAWagonFoulOfAnotherTrackButNotOnItsOwn) {
+  WorldSpec world = CurveOfTwoTracks();
+  ObjectSpec wagon;
+  wagon.name = "wagon";
+  wagon.type = ObjectType::kOpenWagon;
+  wagon.s_m = 150.0;
+  world.objects = {wagon};
+  EXPECT_TRUE(EntriesOf(world).empty());
+  world.objects[0].d_m = 1.5;
+  const std::vector<GaugeEntry> entries = EntriesOf(world);
+  ASSERT_EQ(entries.size(), 2U);
+  EXPECT_EQ(entries[1].track, "second");
+}
+
 TEST(GaugeEntries, AreReportedInALineEach) {
   EXPECT_EQ(GaugeText({}), "");
   const GaugeEntry entry{.name = "west",
