@@ -124,8 +124,8 @@ TEST(ElevationGrid, KeepsTheShapeOfHillsThatBilinearInterpolationLoses) {
   RecordProperty("cubic", std::to_string(cubic.height_m) + " m, " + std::to_string(cubic.slope));
   RecordProperty("bilinear",
                  std::to_string(bilinear.height_m) + " m, " + std::to_string(bilinear.slope));
-  EXPECT_LT(cubic.height_m, 0.07);
-  EXPECT_LT(cubic.slope, 0.012);
+  EXPECT_LT(cubic.height_m, 0.03);
+  EXPECT_LT(cubic.slope, 0.0065);
   EXPECT_GT(bilinear.height_m, 8.0 * cubic.height_m);
   EXPECT_GT(bilinear.slope, 4.0 * cubic.slope);
 }
