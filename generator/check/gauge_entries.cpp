@@ -150,7 +150,7 @@ class GaugeProbe {
     }
     entry_.begin_s_m = std::min(entry_.begin_s_m, s_m);
     entry_.end_s_m = std::max(entry_.end_s_m, s_m);
-    entry_.bottom_m = std::min(entry_.bottom_m, bottom_m);
+    entry_.bottom_m = std::max(0.0, std::min(entry_.bottom_m, bottom_m));
     entry_.top_m = std::max(entry_.top_m, top_m);
     if (depth_m > entry_.depth_m) {
       entry_.depth_m = depth_m;
@@ -167,8 +167,12 @@ class GaugeProbe {
 /// Probes for all tracks.
 class Probes {
  public:
-  Probes(const WorldSpec& spec, const Alignment& alignment) : alignment_(alignment) {
-    for (const TrackSpec& track : spec.tracks) probes_.emplace_back(spec, track, alignment);
+  /// @param own_track Name of a track to leave out.
+  Probes(const WorldSpec& spec, const Alignment& alignment, const std::string& own_track = "")
+      : alignment_(alignment) {
+    for (const TrackSpec& track : spec.tracks) {
+      if (track.name != own_track) probes_.emplace_back(spec, track, alignment);
+    }
   }
 
   void Add(const Model& model, const Transform& world_from_model, double guess_s_m) {
@@ -249,9 +253,12 @@ std::vector<GaugeEntry> FindGaugeEntries(const WorldSpec& spec, const RailWorld&
   }
   for (std::size_t i = 0; i < spec.objects.size(); ++i) {
     const SceneObject& object = world.objects()[i];
-    if (object.moves || IsWagon(spec.objects[i].type)) continue;
-    Probes probes(spec, world.alignment());
-    probes.Add(*object.model, world.WorldFromObject(i, 0), spec.objects[i].s_m);
+    const ObjectSpec& given = spec.objects[i];
+    if (object.moves) continue;
+    // A wagon on its rails is where it belongs, but it may stand foul of another track.
+    const bool is_on_its_track = IsWagon(given.type) && given.d_m == 0.0;
+    Probes probes(spec, world.alignment(), is_on_its_track ? given.track : "");
+    probes.Add(*object.model, world.WorldFromObject(i, 0), given.s_m);
     probes.Report(object.name, entries);
   }
   return entries;

@@ -23,7 +23,8 @@ struct GaugeEntry {
 /// What of the world's structures and standing objects is inside the structure gauge
 /// (StructureGauge()) of which track, by more than a millimetre: first structures, then objects, in
 /// their order, each with its tracks in their order. It is found triangle by triangle, so that
-/// whatever lies across a curve is found where it does. Wagons are left out.
+/// whatever lies across a curve is found where it does. A wagon that stands in the middle of its
+/// own track is left out there.
 [[nodiscard]] std::vector<GaugeEntry> FindGaugeEntries(const WorldSpec& spec,
                                                        const RailWorld& world);
 

@@ -200,8 +200,8 @@ void AddSupport(const ChunkContext& context,
   here.system_height_m = SystemHeightAt_m(spec, support.s_m);
   for (const MastSite& mast : layout.masts) {
     const double d_m = spec.tracks[mast.track].offset_m + mast.from_axis_m;
-    if (IsCleared(spec, support.s_m, d_m, Clearing::kSupport)) continue;
-    add(models.mast,
+    const bool is_carried = IsCleared(spec, support.s_m, d_m, Clearing::kSupport);
+    add(is_carried ? shared(MakeHangingPost(here, context.surfaces)) : models.mast,
         chunk_from_support(spec.tracks[mast.track]) *
             Eigen::Translation3d(0.0, mast.from_axis_m - shift_m, 0.0),
         mast.structure);

@@ -131,6 +131,16 @@ Model MakeMast(const CatenarySpec& spec, const RailSurfaces& surfaces) {
   return model;
 }
 
+Model MakeHangingPost(const CatenarySpec& spec, const RailSurfaces& surfaces) {
+  constexpr double kBelowHinge_m = 0.20;
+  constexpr double kAboveMessenger_m = 0.40;
+  Model model{.name = "hanging post", .parts = {}};
+  MeshOf(surfaces.mast, model)
+      .Append(UprightBeam(StrutHinge_m(spec) - kBelowHinge_m,
+                          spec.contact_height_m + spec.system_height_m + kAboveMessenger_m));
+  return model;
+}
+
 Model MakePortal(const CatenarySpec& spec,
                  const PortalSite& site,
                  double shift_m,

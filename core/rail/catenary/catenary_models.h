@@ -12,6 +12,10 @@ namespace railcast {
 /// triangles.
 [[nodiscard]] Model MakeMast(const CatenarySpec& spec, const RailSurfaces& surfaces);
 
+/// The post below the roof of a tunnel or the deck of a bridge that carries a cantilever in place
+/// of a mast, HEB 240. Origin as that of a mast. 44 triangles.
+[[nodiscard]] Model MakeHangingPost(const CatenarySpec& spec, const RailSurfaces& surfaces);
+
 /// A portal: a beam of HEB 240 on two masts, with posts of the same section that hang from it down
 /// to the lower hinges of their cantilevers. In the frame of WorldFromSupport of a track at offset
 /// 0. 44 triangles, and 44 more per post.

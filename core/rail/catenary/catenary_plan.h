@@ -45,8 +45,8 @@ void CheckSystemHeight(const WorldSpec& world);
 ///     L <= sqrt(8 R (2 stagger + 0.05 m))
 ///
 /// Staggers alternate where the rise L^2 / 8R of a full span is less than half the stagger, and lie
-/// on the outside of the curve otherwise. All tracks share the supports. A span is shorter where its
-/// second support would stand in the road of a level crossing.
+/// on the outside of the curve otherwise. All tracks share the supports. A span is shorter where
+/// its second support would stand in the road of a level crossing.
 class CatenaryPlan {
  public:
   /// @throws InputError as CheckSystemHeight() does.

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <variant>
 
-#include "core/rail/structures/structure_track.h"
+#include "core/rail/structures/structure_types.h"
 
 namespace railcast {
 
@@ -21,17 +22,13 @@ Floors::Floors(const ChunkContext& context, const ChainageRange& range)
 double Floors::HeightAt_m(double s_m, double d_m) const {
   double height_m = -std::numeric_limits<double>::infinity();
   for (const CrossingRoad& road : roads_) {
-    if (road.Covers(s_m, d_m)) height_m = std::max(height_m, road.PointAt(s_m, d_m).z());
+    if (!road.Covers(s_m, d_m)) continue;
+    const Vector3 world_m = context_->chunk_from_world.inverse() * road.PointAt(s_m, d_m);
+    height_m = std::max(height_m, world_m.z());
   }
   for (const PlatformSpec* platform : platforms_) {
-    if (s_m < platform->begin_s_m || s_m > platform->end_s_m) continue;
-    const StructureTrack track(*context_, platform->track);
-    const double side = SignOf(platform->side);
-    const double behind_edge_m = side * (d_m - track.offset_m(s_m)) - platform->edge_distance_m;
-    if (behind_edge_m < 0.0 || behind_edge_m > platform->width_m) continue;
-    const Transform edge =
-        track.UprightAt(s_m, side * platform->edge_distance_m, platform->height_m);
-    height_m = std::max(height_m, edge.translation().z());
+    const std::optional<double> top_m = PlatformTop_m(*context_, *platform, s_m, d_m);
+    if (top_m) height_m = std::max(height_m, *top_m);
   }
   return height_m;
 }

@@ -130,6 +130,22 @@ void AddStructure(const ChunkContext& context, const PlatformSpec& platform, Chu
   PlatformBuilder(context, platform).Add(chunk);
 }
 
+std::optional<double> PlatformTop_m(const ChunkContext& context,
+                                    const PlatformSpec& platform,
+                                    double s_m,
+                                    double d_m) {
+  if (s_m < platform.begin_s_m || s_m > platform.end_s_m) return std::nullopt;
+  const StructureTrack track(context, platform.track);
+  const double side = SignOf(platform.side);
+  const Transform upright = track.Upright(s_m);
+  const Transform chunk_from_edge =
+      track.UprightAt(s_m, side * platform.edge_distance_m, platform.height_m);
+  const double edge_m = (upright.inverse() * chunk_from_edge.translation()).y();
+  const double behind_edge_m = side * (d_m - track.offset_m(s_m) - edge_m);
+  if (behind_edge_m < 0.0 || behind_edge_m > platform.width_m) return std::nullopt;
+  return (context.chunk_from_world.inverse() * chunk_from_edge.translation()).z();
+}
+
 std::vector<ClearedArea> ClearedBy(const PlatformSpec& platform) {
   const double near_m = SignOf(platform.side) * platform.edge_distance_m;
   const double far_m = near_m + SignOf(platform.side) * platform.width_m;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,10 @@ template <>
 inline constexpr bool kBelongsIntoGauge<ThirdRailSpec> = true;
 template <>
 inline constexpr bool kBelongsIntoGauge<SlabTrackSpec> = true;
+template <>
+inline constexpr bool kBelongsIntoGauge<BaliseSpec> = true;
+template <>
+inline constexpr bool kBelongsIntoGauge<BufferStopSpec> = true;
 
 template <class Structure>
 void CheckShape(const StructurePlace&, const Structure&, WorldFaults&) {}
@@ -39,6 +44,11 @@ void CheckShape(const StructurePlace&, const Structure&, WorldFaults&) {}
 void AddStructure(const ChunkContext& context, const PlatformSpec& platform, Chunk& chunk);
 [[nodiscard]] std::vector<ClearedArea> ClearedBy(const PlatformSpec& platform);
 void CheckShape(const StructurePlace& place, const PlatformSpec& platform, WorldFaults& faults);
+/// World height of the platform's top at (s, d), d being left of the alignment; nothing beside it.
+[[nodiscard]] std::optional<double> PlatformTop_m(const ChunkContext& context,
+                                                  const PlatformSpec& platform,
+                                                  double s_m,
+                                                  double d_m);
 
 void AddStructure(const ChunkContext& context, const NoiseWallSpec& wall, Chunk& chunk);
 [[nodiscard]] std::vector<ClearedArea> ClearedBy(const NoiseWallSpec& wall);
@@ -91,9 +101,6 @@ void AddStructure(const ChunkContext& context, const LevelCrossingSpec& crossing
 
 void AddStructure(const ChunkContext& context, const BufferStopSpec& stop, Chunk& chunk);
 [[nodiscard]] std::vector<ClearedArea> ClearedBy(const BufferStopSpec& stop);
-inline void CheckShape(const StructurePlace& /*place*/,
-                       const BufferStopSpec& /*stop*/,
-                       WorldFaults& /*faults*/) {}
 
 void AddStructure(const ChunkContext& context, const BuildingSpec& building, Chunk& chunk);
 [[nodiscard]] std::vector<ClearedArea> ClearedBy(const BuildingSpec& building);

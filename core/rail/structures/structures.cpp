@@ -154,6 +154,7 @@ void CheckStructures(const WorldSpec& world, const LineMeasures& line, WorldFaul
   for (std::size_t i = 0; i < world.structures.size(); ++i) {
     const StructureSpec& structure = world.structures[i];
     const StructurePlace place{world, "/world/structures/" + std::to_string(i)};
+    // Without a known type, nothing else of it is known either.
     if (!faults.AreKnown({place.pointer + "/type"})) continue;
     const std::string& name = NameOfStructure(structure);
     if (faults.AreKnown({place.pointer + "/name"}) && !names.insert(name).second) {

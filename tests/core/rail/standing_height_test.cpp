@@ -97,5 +97,23 @@ TEST(RailWorld, StandsObjectsOnTheGroundUnlessAHeightIsGiven) {
   EXPECT_NEAR(world.WorldFromObject(2, 0).translation().z(), top_of_rail_m, 1e-9);
 }
 
+TEST(StandingHeight, IsThatOfThePlatformOnOne) {
+  WorldSpec spec = CantedArc(300.0, 400.0);
+  PlatformSpec platform;
+  platform.name = "platform";
+  platform.side = TrackSide::kRight;
+  platform.begin_s_m = 0.0;
+  platform.end_s_m = 300.0;
+  spec.structures = {platform};
+  const TestLine line(spec);
+  ChunkContext context = line.Context(2);
+  context.chunk_from_world = Transform::Identity();
+  const Eigen::AlignedBox2d feet(Eigen::Vector2d(-0.2, -0.2), Eigen::Vector2d(0.2, 0.2));
+  const double edge_m = (line.alignment().WorldFromTrack(120.0) * Vector3(0.0, -1.65, 0.76)).z();
+  EXPECT_NEAR(StandingHeight_m(context, {120.0, -3.0, 0.0, feet}), edge_m, 2e-3);
+  // On the other side of the track, on the ground.
+  EXPECT_LT(StandingHeight_m(context, {120.0, 3.0, 0.0, feet}), edge_m - 1.0);
+}
+
 }  // namespace
 }  // namespace railcast

@@ -164,5 +164,27 @@ TEST(AddVegetation, GrowsNothingWhereTheSpecHasNoRoom) {
   EXPECT_TRUE(Plant(TestLine(spec), 0).empty());
 }
 
+TEST(AddVegetation, KeepsPlantsOffStructures) {
+  WorldSpec spec = StraightLine(500.0);
+  spec.vegetation.trees_per_hectare = 1000.0;
+  PlatformSpec platform;
+  platform.name = "platform";
+  platform.side = TrackSide::kLeft;
+  platform.end_s_m = 500.0;
+  platform.width_m = 20.0;
+  spec.structures = {platform};
+  const TestLine line(spec);
+  int num_right = 0;
+  for (int chunk = 0; chunk < 10; ++chunk) {
+    for (const Placement& plant : Plant(line, chunk)) {
+      const double d_m = plant.chunk_from_model.translation().y();
+      // Beyond the edge at 1.65 m and the back at 21.65 m, grass keeps 1.2 m and trees 2 m.
+      EXPECT_FALSE(d_m > 0.0 && d_m < 21.65 + (IsGrass(plant) ? 1.2 : 2.0)) << d_m;
+      if (d_m < -3.6 && d_m > -20.0) ++num_right;
+    }
+  }
+  EXPECT_GT(num_right, 1000);
+}
+
 }  // namespace
 }  // namespace railcast

@@ -1,0 +1,166 @@
+#include "generator/check/gauge_entries.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "generator/check/check_report.h"
+#include "railcast/scenario.h"
+
+namespace railcast {
+namespace {
+
+/// A curve of 400 m radius to the left with two tracks, without cant.
+WorldSpec CurveOfTwoTracks() {
+  WorldSpec world;
+  world.alignment.course = AlignmentElementsSpec{{{ElementType::kArc, 300.0, 400.0}}};
+  world.tracks.push_back({.name = "second", .offset_m = 4.0, .end_s_m = {}});
+  return world;
+}
+
+std::vector<GaugeEntry> EntriesOf(const WorldSpec& world) {
+  ScenarioSpec scenario = ReadScenario(RAILCAST_SOURCE_DIR "/scenarios/minimal.json");
+  scenario.world = world;
+  scenario.vehicle.start_s_m = 0.0;
+  return FindGaugeEntries(world, *MakeWorld(scenario));
+}
+
+PlatformSpec PlatformAt(double edge_distance_m) {
+  PlatformSpec platform;
+  platform.name = "west";
+  platform.side = TrackSide::kRight;
+  platform.begin_s_m = 80.0;
+  platform.end_s_m = 220.0;
+  platform.edge_distance_m = edge_distance_m;
+  return platform;
+}
+
+ObjectSpec BoxAt(double s_m, double d_m, const std::array<double, 3>& size_m) {
+  ObjectSpec object;
+  object.name = "box";
+  object.type = ObjectType::kBox;
+  object.s_m = s_m;
+  object.d_m = d_m;
+  object.h_m = 0.0;
+  object.size_m = size_m;
+  return object;
+}
+
+TEST(GaugeEntries, AreNoneOfAPlatformAtItsUsualDistance) {
+  WorldSpec world = CurveOfTwoTracks();
+  world.structures = {PlatformAt(1.65)};
+  EXPECT_TRUE(EntriesOf(world).empty());
+}
+
+TEST(GaugeEntries, NameAPlatformTooNearWithItsStretchAndDepth) {
+  WorldSpec world = CurveOfTwoTracks();
+  world.structures = {PlatformAt(1.5)};
+  const std::vector<GaugeEntry> entries = EntriesOf(world);
+  ASSERT_EQ(entries.size(), 1U);
+  EXPECT_EQ(entries[0].name, "west");
+  EXPECT_EQ(entries[0].track, "main");
+  // Pieces are measured at their middles, up to 2.5 m apart.
+  EXPECT_NEAR(entries[0].begin_s_m, 80.0, 2.5);
+  EXPECT_NEAR(entries[0].end_s_m, 220.0, 2.5);
+  // Half the width of 3.15 m; chords are at most 1 mm off, twice.
+  EXPECT_NEAR(entries[0].depth_m, 1.575 - 1.5, 2.1e-3);
+  // Only the nose, 0.12 m high: the wall below stands 0.08 m behind it.
+  EXPECT_NEAR(entries[0].bottom_m, 0.76 - 0.12, 2e-3);
+  EXPECT_NEAR(entries[0].top_m, 0.76, 2e-3);
+}
+
+TEST(GaugeEntries, HoldAStraightBoxThatLiesAcrossTheRailsInACurve) {
+  // The line curves away from its middle to the left, by 60^2 / 8 R = 1.125 m at its ends.
+  WorldSpec world = CurveOfTwoTracks();
+  world.tracks.pop_back();
+  world.objects = {BoxAt(150.0, -0.9, {60.0, 0.2, 1.0})};
+  const std::vector<GaugeEntry> entries = EntriesOf(world);
+  ASSERT_EQ(entries.size(), 1U);
+  EXPECT_EQ(entries[0].track, "main");
+  EXPECT_NEAR(entries[0].depth_m, 1.575 - 0.8, 0.01);
+  EXPECT_NEAR(entries[0].top_m, 1.0, 1e-6);
+  // It leaves the gauge where its nearer face is 1.575 m from the axis: a sagitta of 0.775 m.
+  const double half_m = std::sqrt(0.775 * 2.0 * 400.0);
+  EXPECT_NEAR(entries[0].begin_s_m, 150.0 - half_m, 2.0);
+  EXPECT_NEAR(entries[0].end_s_m, 150.0 + half_m, 2.0);
+}
+
+TEST(GaugeEntries, HoldABoxAcrossBothTracks) {
+  WorldSpec world = CurveOfTwoTracks();
+  world.objects = {BoxAt(150.0, 2.0, {1.0, 12.0, 0.5})};
+  const std::vector<GaugeEntry> entries = EntriesOf(world);
+  ASSERT_EQ(entries.size(), 2U);
+  EXPECT_EQ(entries[1].track, "second");
+  EXPECT_NEAR(entries[1].depth_m, 1.575, 1e-6);
+}
+
+TEST(GaugeEntries, HoldADeckThatIsTooLow) {
+  WorldSpec world = CurveOfTwoTracks();
+  OverbridgeSpec bridge;
+  bridge.name = "road bridge";
+  bridge.begin_s_m = 100.0;
+  bridge.end_s_m = 110.0;
+  bridge.clearance_m = 4.0;
+  world.structures = {bridge};
+  const std::vector<GaugeEntry> entries = EntriesOf(world);
+  ASSERT_EQ(entries.size(), 2U);
+  EXPECT_NEAR(entries[0].bottom_m, 4.0, 1e-3);
+  EXPECT_NEAR(entries[0].depth_m, 1.575, 1e-3);
+}
+
+TEST(GaugeEntries, LeaveOutWhatBelongsToTheTrackAndWhatStandsClear) {
+  WorldSpec world = CurveOfTwoTracks();
+  ThirdRailSpec rail;
+  rail.name = "third rail";
+  rail.side = TrackSide::kRight;
+  rail.begin_s_m = 10.0;
+  rail.end_s_m = 290.0;
+  SlabTrackSpec slab;
+  slab.name = "slab";
+  slab.begin_s_m = 10.0;
+  slab.end_s_m = 90.0;
+  TunnelSpec tunnel;
+  tunnel.name = "tunnel";
+  tunnel.begin_s_m = 100.0;
+  tunnel.end_s_m = 180.0;
+  BridgeSpec bridge;
+  bridge.name = "bridge";
+  bridge.begin_s_m = 200.0;
+  bridge.end_s_m = 230.0;
+  world.structures = {rail, slab, tunnel, bridge};
+  EXPECT_TRUE(EntriesOf(world).empty());
+}
+
+TEST(GaugeEntries, HoldAWagonFoulOfAnotherTrackButNotOnItsOwn) {
+  WorldSpec world = CurveOfTwoTracks();
+  ObjectSpec wagon;
+  wagon.name = "wagon";
+  wagon.type = ObjectType::kOpenWagon;
+  wagon.s_m = 150.0;
+  world.objects = {wagon};
+  EXPECT_TRUE(EntriesOf(world).empty());
+  world.objects[0].d_m = 1.5;
+  const std::vector<GaugeEntry> entries = EntriesOf(world);
+  ASSERT_EQ(entries.size(), 2U);
+  EXPECT_EQ(entries[1].track, "second");
+}
+
+TEST(GaugeEntries, AreReportedInALineEach) {
+  EXPECT_EQ(GaugeText({}), "");
+  const GaugeEntry entry{.name = "west",
+                         .track = "main",
+                         .begin_s_m = 81.24,
+                         .end_s_m = 218.76,
+                         .deepest_s_m = 150.0,
+                         .depth_m = 0.0754,
+                         .bottom_m = 0.0,
+                         .top_m = 0.76};
+  EXPECT_EQ(GaugeText({entry}),
+            "gauge     \"west\" is in the structure gauge of track \"main\" at s 81.2 to 218.8 m, "
+            "deepest at 150.0 m by 0.08 m, from 0.00 to 0.76 m above top of rail\n");
+}
+
+}  // namespace
+}  // namespace railcast
