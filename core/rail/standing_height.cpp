@@ -23,8 +23,8 @@ double SurfaceHeight_m(const ChunkContext& context,
     const Vector3 ballast = section.PointAt(d_m, ballast_m);
     if (ballast.z() > surface.z()) surface = ballast;
   }
-  surface.z() = std::max(surface.z(), floors.HeightAt_m(s_m, d_m));
-  return (context.chunk_from_world.inverse() * surface).z();
+  const double height_m = (context.chunk_from_world.inverse() * surface).z();
+  return std::max(height_m, floors.HeightAt_m(s_m, d_m));
 }
 
 }  // namespace
@@ -32,7 +32,7 @@ double SurfaceHeight_m(const ChunkContext& context,
 double StandingHeight_m(const ChunkContext& context, const StandingPlace& place) {
   const Eigen::Rotation2Dd turn(place.heading_rad);
   double lowest_m = std::numeric_limits<double>::infinity();
-  const double reach_m = place.area_m.sizes().norm();
+  const double reach_m = place.area_m.min().norm() + place.area_m.max().norm();
   const Floors floors(context, {place.s_m - reach_m, place.s_m + reach_m});
   // Posing a person consists of little else, and along the line two corners share a section.
   std::optional<CrossSection> section;

@@ -27,7 +27,7 @@ inline constexpr const char* kTypeName<BuildingSpec> = "building";
 
 /// Distances from the axis of a track at which something may stand: nothing nearer than rails and
 /// sleepers leave room for.
-[[nodiscard]] inline Limits BesideTrackLimits() {
+[[nodiscard]] inline Limits StandingDistanceLimits() {
   return Within(1.0, 1000);
 }
 
@@ -49,7 +49,7 @@ void DescribeFacing(Archive& a, Structure& s) {
   a.Optional("side", s.side,
              "Side of the track, towards increasing chainage; absent = right of those trains.");
   a.Optional("distance_m", s.distance_m, "From the track's axis; absent = by kind.",
-             BesideTrackLimits());
+             StandingDistanceLimits());
   a.Optional("height_m", s.height_m, "Of its top above top of rail; absent = by kind.",
              Within(0, 15));
 }
@@ -89,7 +89,7 @@ void Describe(Archive& a, RelayBoxSpec& s) {
   DescribePoint(a, s);
   a.Optional("side", s.side, "Side of the track, towards increasing chainage.");
   a.Optional("distance_m", s.distance_m, "From the track's axis to its middle.",
-             BesideTrackLimits());
+             StandingDistanceLimits());
   a.Optional("size_m", s.size_m, "Length, depth, height.", Within(0.3, 10));
 }
 
@@ -99,7 +99,7 @@ void Describe(Archive& a, FurnitureSpec& s) {
   a.Required("kind", s.kind, "Which of them.");
   a.Optional("side", s.side, "Side of the track, towards increasing chainage.");
   a.Optional("distance_m", s.distance_m, "From the track's axis to its middle.",
-             BesideTrackLimits());
+             StandingDistanceLimits());
   a.Optional("h_m", s.h_m,
              "Of its foot above top of rail; absent = on the ground or on the platform there.",
              Within(-100, 100));

@@ -13,7 +13,7 @@ namespace {
 
 using PlanPoint = Eigen::Vector2d;
 
-constexpr double kWallFoot_m = -1.0;
+constexpr double kBuildingFoot_m = -1.0;
 constexpr double kPaneProud_m = 0.02;
 
 std::vector<PlanPoint> LeftTurning(std::vector<PlanPoint> corners_m) {
@@ -152,7 +152,7 @@ Model MakeBuilding(const BuildingShape& shape, const LinesideSurfaces& surfaces)
   Model model{.name = "building", .parts = {}};
   Mesh& masonry = MeshOf(surfaces.wall, model);
   for (const Wall& wall : walls) {
-    AddFace({At(wall.begin_m, kWallFoot_m), At(wall.end_m, kWallFoot_m),
+    AddFace({At(wall.begin_m, kBuildingFoot_m), At(wall.end_m, kBuildingFoot_m),
              At(wall.end_m, shape.eaves_m), At(wall.begin_m, shape.eaves_m)},
             masonry);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <variant>
 
 #include "core/rail/structures/structure_types.h"
@@ -21,12 +22,13 @@ Floors::Floors(const ChunkContext& context, const ChainageRange& range)
 double Floors::HeightAt_m(double s_m, double d_m) const {
   double height_m = -std::numeric_limits<double>::infinity();
   for (const CrossingRoad& road : roads_) {
-    if (road.Covers(s_m, d_m)) height_m = std::max(height_m, road.PointAt(s_m, d_m).z());
+    if (!road.Covers(s_m, d_m)) continue;
+    const Vector3 world_m = context_->chunk_from_world.inverse() * road.PointAt(s_m, d_m);
+    height_m = std::max(height_m, world_m.z());
   }
   for (const PlatformSpec* platform : platforms_) {
-    if (const auto top_m = PlatformTop_m(*context_, *platform, s_m, d_m)) {
-      height_m = std::max(height_m, *top_m);
-    }
+    const std::optional<double> top_m = PlatformTop_m(*context_, *platform, s_m, d_m);
+    if (top_m) height_m = std::max(height_m, *top_m);
   }
   return height_m;
 }

@@ -15,8 +15,8 @@ class Floors {
  public:
   Floors(const ChunkContext& context, const ChainageRange& range);
 
-  /// The height of the highest floor at a place in the chunk's frame, `d_m` left of the alignment;
-  /// minus infinity where there is none.
+  /// The height of the highest floor at a place, in the world; minus infinity where there is none.
+  /// `d_m` is left of the alignment.
   [[nodiscard]] double HeightAt_m(double s_m, double d_m) const;
 
  private:

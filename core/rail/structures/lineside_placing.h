@@ -7,8 +7,7 @@
 
 namespace railcast {
 
-/// Adds a model to the chunk's own surfaces: what stands alone takes less time to trace there than
-/// as a placement.
+/// Adds a model to the chunk's own surfaces.
 void AppendModel(const Model& model, const Transform& chunk_from_model, Chunk& chunk);
 
 /// A place beside a track, for what stands upright.

@@ -143,7 +143,7 @@ std::optional<double> PlatformTop_m(const ChunkContext& context,
   const double edge_m = (upright.inverse() * chunk_from_edge.translation()).y();
   const double behind_edge_m = side * (d_m - track.offset_m(s_m) - edge_m);
   if (behind_edge_m < 0.0 || behind_edge_m > platform.width_m) return std::nullopt;
-  return chunk_from_edge.translation().z();
+  return (context.chunk_from_world.inverse() * chunk_from_edge.translation()).z();
 }
 
 std::vector<ClearedArea> ClearedBy(const PlatformSpec& platform) {

@@ -34,6 +34,10 @@ template <>
 inline constexpr bool kBelongsIntoGauge<ThirdRailSpec> = true;
 template <>
 inline constexpr bool kBelongsIntoGauge<SlabTrackSpec> = true;
+template <>
+inline constexpr bool kBelongsIntoGauge<BaliseSpec> = true;
+template <>
+inline constexpr bool kBelongsIntoGauge<BufferStopSpec> = true;
 
 template <class Structure>
 void CheckShape(const StructurePlace&, const Structure&, WorldFaults&) {}
@@ -41,8 +45,7 @@ void CheckShape(const StructurePlace&, const Structure&, WorldFaults&) {}
 void AddStructure(const ChunkContext& context, const PlatformSpec& platform, Chunk& chunk);
 [[nodiscard]] std::vector<ClearedArea> ClearedBy(const PlatformSpec& platform);
 void CheckShape(const StructurePlace& place, const PlatformSpec& platform, WorldFaults& faults);
-/// Height of the platform's top at (s, d) in the chunk's frame, d being left of the alignment;
-/// nothing beside it.
+/// World height of the platform's top at (s, d), d being left of the alignment; nothing beside it.
 [[nodiscard]] std::optional<double> PlatformTop_m(const ChunkContext& context,
                                                   const PlatformSpec& platform,
                                                   double s_m,
@@ -101,9 +104,6 @@ void AddStructure(const ChunkContext& context, const LevelCrossingSpec& crossing
 
 void AddStructure(const ChunkContext& context, const BufferStopSpec& stop, Chunk& chunk);
 [[nodiscard]] std::vector<ClearedArea> ClearedBy(const BufferStopSpec& stop);
-inline void CheckShape(const StructurePlace& /*place*/,
-                       const BufferStopSpec& /*stop*/,
-                       WorldFaults& /*faults*/) {}
 
 void AddStructure(const ChunkContext& context, const BuildingSpec& building, Chunk& chunk);
 [[nodiscard]] std::vector<ClearedArea> ClearedBy(const BuildingSpec& building);
