@@ -28,6 +28,11 @@ inline constexpr const char* kTypeName<ThirdRailSpec> = "third_rail";
 template <>
 inline constexpr const char* kTypeName<SlabTrackSpec> = "slab_track";
 
+/// Distance of a structure from its track's axis.
+[[nodiscard]] inline Limits BesideTrackLimits() {
+  return Within(1, 500);
+}
+
 /// The keys of StretchSpec.
 template <class Archive, class Structure>
 void DescribeStretch(Archive& a, Structure& s) {
