@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "core/rail/line/network.h"
@@ -213,8 +214,18 @@ void ProbeStructure(const Structure& structure,
                     Probes& probes) {
   const RailSurfaces surfaces;
   const double length_m = world.alignment().length_m();
-  const auto num_chunks = static_cast<int>(std::ceil(length_m / RailWorld::kChunkLength_m));
-  for (int chunk = 0; chunk < num_chunks; ++chunk) {
+  const double num_chunks = std::ceil(length_m / RailWorld::kChunkLength_m);
+  double first_s_m = 0.0;
+  double last_s_m = length_m;
+  if constexpr (std::is_base_of_v<StretchSpec, Structure>) {
+    first_s_m = structure.begin_s_m;
+    last_s_m = structure.end_s_m;
+  }
+  const auto chunk_at = [&](double s_m) {
+    return std::clamp(std::floor(s_m / RailWorld::kChunkLength_m), 0.0, num_chunks - 1.0);
+  };
+  const auto last = static_cast<int>(chunk_at(last_s_m));
+  for (auto chunk = static_cast<int>(chunk_at(first_s_m)); chunk <= last; ++chunk) {
     const Transform world_from_chunk = world.WorldFromChunk(chunk);
     const double begin_s_m = chunk * RailWorld::kChunkLength_m;
     const double end_s_m = std::min(begin_s_m + RailWorld::kChunkLength_m, length_m);

@@ -153,21 +153,24 @@ class TunnelBuilder {
     }
   }
 
-  /// The lining's inside, from niche to niche.
+  /// The lining's inside, from niche to niche. In a long tunnel, only the niches about the chunk
+  /// are visited.
   void AddWalls() {
-    std::vector<double> niches_m;
-    if (tunnel_.niche_spacing_m > 0.0) {
-      const double half_m = 0.5 * tunnel_.niche_spacing_m;
-      for (double s_m = tunnel_.begin_s_m + half_m; s_m + kNicheLength_m < tunnel_.end_s_m;
-           s_m += tunnel_.niche_spacing_m) {
-        niches_m.push_back(s_m);
-      }
-    }
+    const double spacing_m = tunnel_.niche_spacing_m;
     double begin_s_m = tunnel_.begin_s_m;
-    for (const double niche_s_m : niches_m) {
-      AddWall({.begin_s_m = begin_s_m, .end_s_m = niche_s_m});
-      begin_s_m = niche_s_m + kNicheLength_m;
-      AddNiches({.begin_s_m = niche_s_m, .end_s_m = begin_s_m});
+    if (spacing_m > 0.0) {
+      const auto niche_at = [&](double index) {
+        return tunnel_.begin_s_m + (index + 0.5) * spacing_m;
+      };
+      double index =
+          std::max(0.0, std::floor((context_.begin_s_m - tunnel_.begin_s_m) / spacing_m) - 2.0);
+      if (index > 0.0) begin_s_m = niche_at(index - 1.0) + kNicheLength_m;
+      for (; niche_at(index) + kNicheLength_m < tunnel_.end_s_m; index += 1.0) {
+        if (begin_s_m > context_.end_s_m + spacing_m) return;
+        AddWall({.begin_s_m = begin_s_m, .end_s_m = niche_at(index)});
+        begin_s_m = niche_at(index) + kNicheLength_m;
+        AddNiches({.begin_s_m = niche_at(index), .end_s_m = begin_s_m});
+      }
     }
     AddWall({.begin_s_m = begin_s_m, .end_s_m = tunnel_.end_s_m});
   }
