@@ -177,7 +177,7 @@ void CheckPivots(const WorldSpec& world,
                  const VehicleSpec& vehicle,
                  const LineMeasures& line,
                  WorldFaults& faults) {
-  const TrackSpec* track = FindTrack(world, vehicle.track);
+  const TrackSpec* track = vehicle.route.empty() ? FindTrack(world, vehicle.track) : nullptr;
   if (track == nullptr || !IsParallel(*track) ||
       !faults.AreKnown({PointerOf(*track, world) + "/offset_m"})) {
     return;
@@ -215,6 +215,7 @@ void CheckObject(const WorldSpec& world,
                  const std::string& pointer,
                  const LineOfTracks& line,
                  WorldFaults& faults) {
+  if (!object.route.empty()) return;
   const TrackPlace place{pointer + "/track", pointer + "/s_m", object.track, object.s_m};
   const TrackSpec* track = CheckPlace(world, place, line, faults);
   if (track == nullptr) return;
@@ -251,8 +252,10 @@ void CheckWorld(const WorldSpec& world,
     CheckObject(world, world.objects[i], Item("/world/objects/", i), line, faults);
   }
   CheckNames(world, faults);
-  CheckPlace(world, {"/vehicle/track", "/vehicle/start_s_m", vehicle.track, vehicle.start_s_m},
-             line, faults);
+  if (vehicle.route.empty()) {
+    CheckPlace(world, {"/vehicle/track", "/vehicle/start_s_m", vehicle.track, vehicle.start_s_m},
+               line, faults);
+  }
   CheckEgoBoxes(vehicle, faults);
   CheckPivots(world, vehicle, line.measures, faults);
 }

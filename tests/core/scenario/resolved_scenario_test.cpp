@@ -76,8 +76,22 @@ ScenarioSpec UnusualScenario(const std::string& mesh_file) {
                           12,
                           13,
                           14};
-  spec.world.tracks = {{"a", 1, 2, 3.0, SleeperType::kWood, false},
-                       {"b", -4, 0, {}, SleeperType::kConcrete, true}};
+  spec.world.tracks = {
+      {"a", 1, {}, {}, 0, 2, 3.0, {}, {}, SleeperType::kWood, false},
+      {"b", {}, {{0, -4}, {9, -5}}, {}, 0, 0, {}, {}, {}, SleeperType::kConcrete, true},
+      {"c",
+       {},
+       {},
+       {{ElementType::kArc, 5, 300.0}},
+       0,
+       0,
+       {},
+       TurnoutSpec{"a", 1, TurnoutType::k12_500, TrackSide::kRight, TurnoutPosition::kDiverging},
+       {},
+       SleeperType::kConcrete,
+       true}};
+  spec.world.yards = {
+      {"y", {"a", 5, TurnoutType::k9_190, TrackSide::kLeft, {}}, 3, 5, 50, {}, true}};
   spec.world.catenary = {false, 5.4, 1.7, 60, 0.3, 7, 3.2};
   spec.world.terrain = {70, 0.03, 1.9, 0.5};
   spec.world.vegetation = {30, 8, 5, 13, false, 3.5, 8.5};
