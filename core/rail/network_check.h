@@ -18,11 +18,4 @@ void CheckNetwork(const WorldSpec& world,
                   const std::optional<Alignment>& alignment,
                   WorldFaults& faults);
 
-/// The chainage at which the branch of a turnout is `distance_m` away from the track in which the
-/// turnout lies, measured across the alignment; absent if it never is.
-[[nodiscard]] std::optional<double> ClearChainage_m(const TrackCourse& track,
-                                                    const TrackCourse& branch,
-                                                    const TurnoutSite& turnout,
-                                                    double distance_m);
-
 }  // namespace railcast

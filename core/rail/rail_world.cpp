@@ -84,7 +84,6 @@ struct ObjectWay {
   std::optional<TrackPath> path;
   /// The object's footprint on the ground; absent if its height is given.
   std::optional<Eigen::AlignedBox2d> ground_area_m;
-  const TrackSpec* track{};  ///< Points into the line's spec.
 };
 
 }  // namespace
@@ -170,8 +169,9 @@ RailWorld::RailWorld(const WorldSpec& world,
   Network network = Completed(std::move(draft.network));
   std::vector<LaidTurnout> turnouts = LayTurnouts(network);
   line_ = std::make_shared<const Line>(Line{
-      world, vehicle, labels, materials, seed, surfaces, alignment, std::move(network),
-      std::move(turnouts), ChunkGrid(alignment, kChunkLength_m, world.terrain.half_width_m),
+      std::move(draft.world), vehicle, labels, materials, seed, surfaces, alignment,
+      std::move(network), std::move(turnouts),
+      ChunkGrid(alignment, kChunkLength_m, world.terrain.half_width_m),
       std::move(*draft.catenary_plan), MakeInfrastructureModels(world, surfaces),
       MakePlantModels(surfaces, seed),
       Landform(world.terrain, std::move(*draft.strip_width), std::move(draft.elevation), seed)});
@@ -182,13 +182,12 @@ RailWorld::RailWorld(const WorldSpec& world,
     const ObjectSpec& object = world.objects[i];
     ways.push_back(
         {std::move(draft.object_paths[i]),
-         StandsOnGround(object) ? std::optional(GroundAreaOf(*objects[i].model)) : std::nullopt,
-         FindTrack(line_->world, object.track)});
+         StandsOnGround(object) ? std::optional(GroundAreaOf(*objects[i].model)) : std::nullopt});
   }
   if (!vehicle.ego_boxes_m.empty()) {
     objects.push_back(
         MakeEgo(vehicle, *draft.vehicle_path, {surfaces.box.material, labels.Id("ego")}));
-    ways.push_back({{}, {}, FindTrack(line_->world, vehicle.track)});
+    ways.push_back({{}, {}});
   }
   std::uint32_t next_instance = 1;
   for (SceneObject& object : objects) object.instance = next_instance++;
@@ -237,7 +236,8 @@ std::shared_ptr<const RailWorld> RailWorld::WithObject(const ObjectSpec& object,
     faults.Add(pointer, "must be one of at most " + std::to_string(kFirstMastInstance - 1) +
                             " objects of a run, those that were removed included");
   }
-  auto path = DraftPath({line_->world, courses}, object, pointer, from_ns, faults);
+  const NetworkDraft network{courses, line_->network.turnouts};
+  auto path = DraftPath({line_->world, network}, object, pointer, from_ns, faults);
   ObjectModels models(*line_->surfaces, line_->labels, line_->materials);
   auto made = DraftObject(object, pointer, {*line_->surfaces, line_->labels, models}, faults);
   faults.errors.ThrowIfAny();
@@ -246,10 +246,9 @@ std::shared_ptr<const RailWorld> RailWorld::WithObject(const ObjectSpec& object,
   made->moves = path->moves();
   made->instance = changed.next_instance++;
   auto ways = std::make_shared<std::vector<ObjectWay>>(*changed.ways);
-  ways->push_back(
-      {std::move(*path),
-       StandsOnGround(object) ? std::optional(GroundAreaOf(*made->model)) : std::nullopt,
-       FindTrack(line_->world, object.track)});
+  ways->push_back({std::move(*path), StandsOnGround(object)
+                                         ? std::optional(GroundAreaOf(*made->model))
+                                         : std::nullopt});
   auto objects = std::make_shared<std::vector<SceneObject>>(*changed.objects);
   objects->push_back(std::move(*made));
   changed.ways = std::move(ways);
@@ -282,11 +281,19 @@ const Alignment& RailWorld::alignment() const {
 }
 
 const TrackSpec& RailWorld::vehicle_track() const {
-  return *FindTrack(line_->world, line_->vehicle.track);
+  return *FindTrack(line_->world, vehicle_route().names.front());
 }
 
 const Network& RailWorld::network() const {
   return line_->network;
+}
+
+const std::vector<TrackSpec>& RailWorld::tracks() const {
+  return line_->world.tracks;
+}
+
+const Route& RailWorld::vehicle_route() const {
+  return things_->vehicle.route();
 }
 
 const TrackCourse& RailWorld::vehicle_course() const {
@@ -306,7 +313,11 @@ double RailWorld::VehicleChainage_m(std::int64_t time_ns) const {
 }
 
 const TrackSpec& RailWorld::object_track(std::size_t object) const {
-  return *things_->ways->at(object).track;
+  return *FindTrack(line_->world, object_route(object).names.front());
+}
+
+const Route& RailWorld::object_route(std::size_t object) const {
+  return things_->PathOf(object).route();
 }
 
 const TrackCourse& RailWorld::object_course(std::size_t object) const {

@@ -126,7 +126,7 @@ void CheckPivots(const WorldSpec& world,
                  const VehicleSpec& vehicle,
                  const LineMeasures& line,
                  WorldFaults& faults) {
-  const TrackSpec* track = FindTrack(world, vehicle.track);
+  const TrackSpec* track = vehicle.route.empty() ? FindTrack(world, vehicle.track) : nullptr;
   if (track == nullptr || !IsParallel(*track) ||
       !faults.AreKnown({PointerOf(*track, world) + "/offset_m"})) {
     return;
@@ -194,6 +194,7 @@ void CheckObject(const WorldSpec& world,
                  const std::string& pointer,
                  const LineOfTracks& line,
                  WorldFaults& faults) {
+  if (!object.route.empty()) return;
   const TrackPlace place{pointer + "/track", pointer + "/s_m", object.track, object.s_m};
   const TrackSpec* track = CheckTrackPlace(world, place, line, faults);
   if (track == nullptr) return;
@@ -231,8 +232,11 @@ void CheckWorld(const WorldSpec& world,
   }
   CheckNames(world, faults);
   CheckStructures(world, line, faults);
-  CheckTrackPlace(world, {"/vehicle/track", "/vehicle/start_s_m", vehicle.track, vehicle.start_s_m},
-                  line, faults);
+  if (vehicle.route.empty()) {
+    CheckTrackPlace(world,
+                    {"/vehicle/track", "/vehicle/start_s_m", vehicle.track, vehicle.start_s_m},
+                    line, faults);
+  }
   CheckEgoBoxes(vehicle, faults);
   CheckPivots(world, vehicle, line.measures, faults);
 }

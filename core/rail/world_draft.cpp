@@ -11,7 +11,10 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/rail/land/cut_and_fill.h"
+#include "core/rail/line/route.h"
 #include "core/rail/line/speed_profile.h"
+#include "core/rail/line/turnout_place.h"
+#include "core/rail/line/yard.h"
 #include "core/rail/network_check.h"
 
 namespace railcast {
@@ -51,17 +54,60 @@ std::optional<SpeedProfile> DraftProfile(const Mover& mover, WorldFaults& faults
                  [&] { return SpeedProfile(mover.motion, mover.s_m); });
 }
 
+/// Something that follows a track or a route, and where it begins.
+struct Follower {
+  std::string pointer;
+  const std::string& track;
+  const std::vector<std::string>& route;
+  const MotionSpec& motion;
+  std::string chainage_pointer;
+  double s_m{};
+};
+
+RouteSpec RouteOf(const Follower& follower) {
+  const bool has_route = !follower.route.empty();
+  return {.pointer = follower.pointer + (has_route ? "/route" : "/track"),
+          .tracks = has_route ? follower.route : std::vector<std::string>{follower.track},
+          .runs_back = follower.motion.reverse};
+}
+
+/// The route of a vehicle or an object. That a single track exists and that the beginning lies on
+/// it is checked elsewhere (CheckWorld).
+std::optional<Route> DraftRoute(const TracksOfWorld& tracks,
+                                const Follower& follower,
+                                WorldFaults& faults) {
+  const RouteSpec spec = RouteOf(follower);
+  if (!faults.AreKnown({spec.pointer})) return std::nullopt;
+  std::optional<Route> route = MakeRoute(tracks.world, tracks.network, spec, faults);
+  if (!route || !faults.AreKnown({follower.chainage_pointer})) return route;
+  const double begin_s_m = route->course.begin_s_m();
+  const double end_s_m = route->course.end_s_m();
+  if (!follower.route.empty() && !(follower.s_m >= begin_s_m && follower.s_m <= end_s_m)) {
+    faults.Add(follower.chainage_pointer,
+               "must lie on the route, from " + MetresText(begin_s_m) +
+                   (std::isinf(end_s_m) ? " m on" : " to " + MetresText(end_s_m) + " m"),
+               NumberText(follower.s_m));
+  }
+  if (!follower.motion.profile.empty()) {
+    CheckPositions(tracks.world, tracks.network, *route, spec, follower.s_m, faults);
+  }
+  return route;
+}
+
 std::optional<TrackPath> DraftVehicle(const WorldSource& source,
                                       const TracksOfWorld& tracks,
                                       WorldFaults& faults) {
   const VehicleSpec& vehicle = source.vehicle;
   auto profile = DraftProfile(
       {"/vehicle/motion", "/vehicle/start_s_m", vehicle.motion, vehicle.start_s_m}, faults);
-  std::optional<TrackCourse> course = tracks.CourseOf(vehicle.track);
-  if (!profile || !course) return std::nullopt;
+  std::optional<Route> route = DraftRoute(tracks,
+                                          {"/vehicle", vehicle.track, vehicle.route, vehicle.motion,
+                                           "/vehicle/start_s_m", vehicle.start_s_m},
+                                          faults);
+  if (!profile || !route) return std::nullopt;
   // A vehicle faces the way it travels.
   const double heading_rad = vehicle.motion.reverse ? std::numbers::pi : 0.0;
-  return TrackPath(std::move(*course), {0.0, 0.0, heading_rad, false, vehicle.pivot_distance_m},
+  return TrackPath(std::move(*route), {0.0, 0.0, heading_rad, false, vehicle.pivot_distance_m},
                    std::move(*profile));
 }
 
@@ -119,11 +165,6 @@ std::optional<DemHeights> DraftElevation(const WorldSpec& world,
 
 }  // namespace
 
-std::optional<TrackCourse> TracksOfWorld::CourseOf(const std::string& name) const {
-  const std::optional<std::size_t> index = TrackIndex(world, name);
-  return index ? courses[*index] : std::nullopt;
-}
-
 std::optional<TrackPath> DraftPath(const TracksOfWorld& tracks,
                                    const ObjectSpec& object,
                                    const std::string& pointer,
@@ -131,11 +172,12 @@ std::optional<TrackPath> DraftPath(const TracksOfWorld& tracks,
                                    WorldFaults& faults) {
   const MotionSpec motion = object.motion.value_or(MotionSpec{});
   auto profile = DraftProfile({pointer + "/motion", pointer + "/s_m", motion, object.s_m}, faults);
-  std::optional<TrackCourse> course = tracks.CourseOf(object.track);
-  if (!profile || !course) return std::nullopt;
+  std::optional<Route> route = DraftRoute(
+      tracks, {pointer, object.track, object.route, motion, pointer + "/s_m", object.s_m}, faults);
+  if (!profile || !route) return std::nullopt;
   const TrackPose pose{object.d_m, object.h_m.value_or(0.0), RadFromDeg(object.heading_deg),
                        !IsWagon(object.type)};
-  return TrackPath(std::move(*course), pose, std::move(*profile), begin_ns);
+  return TrackPath(std::move(*route), pose, std::move(*profile), begin_ns);
 }
 
 std::optional<SceneObject> DraftObject(const ObjectSpec& object,
@@ -158,8 +200,14 @@ std::optional<SceneObject> DraftObject(const ObjectSpec& object,
 }
 
 WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
-  const WorldSpec& world = source.world;
   WorldDraft draft;
+  draft.world = source.world;
+  if (faults.AreKnown({"/world/yards"})) {
+    const std::size_t num_faults = faults.errors.size();
+    CheckYards(source.world, faults.errors);
+    if (faults.errors.size() == num_faults) draft.world = WithTracksOfYards(source.world);
+  }
+  const WorldSpec& world = draft.world;
   draft.alignment = DraftAlignment(world, faults);
   // If the line is unknown, no chainage can be beyond it.
   constexpr double kEndless_m = std::numeric_limits<double>::infinity();
@@ -187,8 +235,9 @@ WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
       Attempt("", faults.errors, [&] { return source.labels.Id("ego"); });
     }
   }
-  const TracksOfWorld tracks{world, draft.network.courses};
+  const TracksOfWorld tracks{world, draft.network};
   draft.vehicle_path = DraftVehicle(source, tracks, faults);
+  if (draft.vehicle_path) SetPositions(draft.vehicle_path->route(), draft.network);
   const RailSurfaces surfaces = draft.surfaces.value_or(RailSurfaces());
   ObjectModels models(surfaces, source.labels, source.materials);
   const ObjectTables tables{surfaces, source.labels, models};
@@ -204,6 +253,9 @@ WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
   draft.catenary_plan = DraftCatenary(world, draft.alignment, faults);
   draft.strip_width = DraftStripWidth(world, draft.alignment, draft.network, faults);
   draft.elevation = DraftElevation(world, draft, faults);
+  ErrorList errors;
+  for (const Fault& fault : faults.errors.faults()) errors.Add(FaultOfYard(source.world, fault));
+  faults.errors = std::move(errors);
   return draft;
 }
 

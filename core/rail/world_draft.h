@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -40,6 +39,7 @@ struct ObjectTables {
 
 /// The parts of a world, as far as their specs are valid; complete if there was no fault.
 struct WorldDraft {
+  WorldSpec world;  ///< With the tracks of its yards.
   std::optional<Alignment> alignment;
   NetworkDraft network;
   std::optional<RailSurfaces> surfaces;
@@ -54,10 +54,7 @@ struct WorldDraft {
 /// The tracks of a world with their courses; those with faults are absent.
 struct TracksOfWorld {
   const WorldSpec& world;
-  std::span<const std::optional<TrackCourse>> courses;
-
-  /// The course of the track of that name, if there is one.
-  [[nodiscard]] std::optional<TrackCourse> CourseOf(const std::string& name) const;
+  const NetworkDraft& network;
 };
 
 /// Makes the path of an object, or nothing if a value it depends on is unknown. Faults begin with

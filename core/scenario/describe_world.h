@@ -52,6 +52,42 @@ void Describe(Archive& a, TrackSpec& s) {
 }
 
 template <class Archive>
+void Describe(Archive& a, YardSpec& s) {
+  a.Required("name", s.name, "Its tracks are called NAME_lead, NAME_1, NAME_2 and so on.",
+             NonEmptyString());
+  a.Required("begin", s.begin,
+             "The turnout where its lead begins; its type is that of all turnouts of the yard.");
+  a.Required("num_tracks", s.num_tracks,
+             "Number of tracks, of which the last is the lead itself, turned back.");
+  a.Optional("spacing_m", s.spacing_m, "Between its tracks, and from the track that it leaves.",
+             Within(3, 100));
+  a.Required("usable_length_m", s.usable_length_m,
+             "Of each track, from its fouling point to its end.", PositiveUpTo(1e4));
+  a.Optional("sleeper", s.sleeper, "Kind of sleeper.");
+  a.Optional("electrified", s.electrified, "Whether its tracks have a contact line.");
+  a.Ensure({"num_tracks"}, s.num_tracks >= 1 && s.num_tracks <= 100, "must be from 1 to 100");
+}
+
+/// The tracks that a vehicle or object follows: one, or a route over several.
+template <class Archive>
+void DescribeTracks(Archive& a, std::string& track, std::vector<std::string>& route) {
+  std::optional<std::vector<std::string>> given_route;
+  if (!route.empty()) given_route = route;
+  std::optional<std::string> given_track;
+  if (route.empty() && track != "main") given_track = track;
+  a.OneOfTwo("track", "route");
+  a.Optional("track", given_track, "The track that it runs or stands on; absent = main.");
+  a.Optional("route", given_route,
+             "Instead of track: tracks that turnouts join, one after the other in the direction of "
+             "travel.",
+             NonEmptyString());
+  a.Ensure({"track", "route"}, !given_track || !given_route, "must not be given beside route");
+  a.Ensure({"route"}, !given_route || !given_route->empty(), "must name a track");
+  if (given_track) track = *given_track;
+  if (given_route) route = *given_route;
+}
+
+template <class Archive>
 void Describe(Archive& a, CatenarySpec& s) {
   a.Optional("enabled", s.enabled, "Whether there is any.");
   a.Optional("contact_height_m", s.contact_height_m, "Above top of rail.", Within(4, 8));
@@ -163,7 +199,7 @@ template <class Archive>
 void Describe(Archive& a, ObjectSpec& s) {
   a.Required("name", s.name, "Unique.", NonEmptyString());
   a.Required("type", s.type, "What it is.");
-  a.Optional("track", s.track, "The track whose coordinates it is placed in.");
+  DescribeTracks(a, s.track, s.route);
   a.Required("s_m", s.s_m, "Chainage of its middle, at time 0 where it moves.", PlaceLimits());
   a.Optional("d_m", s.d_m, "Distance from the track's axis, left positive.", Within(-1000, 1000));
   a.Optional("h_m", s.h_m,
@@ -198,6 +234,7 @@ void Describe(Archive& a, WorldSpec& s) {
   a.Optional("seed", s.seed, "Seed of the world's shape: relief, stones, plants.");
   a.Required("alignment", s.alignment, "The axis of the line.");
   a.Optional("tracks", s.tracks, "Along the alignment.", NonEmptyList());
+  a.Optional("yards", s.yards, "Ladders of tracks.");
   a.Optional("catenary", s.catenary, "Overhead contact line.");
   a.Optional("terrain", s.terrain, "The ground.");
   a.Optional("vegetation", s.vegetation, "Trees and grass.");
@@ -208,12 +245,13 @@ void Describe(Archive& a, WorldSpec& s) {
       "auto: plants, ground and tracks are coarser far away, where the sensor cannot tell the "
       "difference; full: as fine as possible everywhere.");
   a.Unique("tracks", s.tracks, "name", &TrackSpec::name);
+  a.Unique("yards", s.yards, "name", &YardSpec::name);
   a.Unique("objects", s.objects, "name", &ObjectSpec::name);
 }
 
 template <class Archive>
 void Describe(Archive& a, VehicleSpec& s) {
-  a.Optional("track", s.track, "The track that it runs on.");
+  DescribeTracks(a, s.track, s.route);
   a.Optional("start_s_m", s.start_s_m, "Chainage of its origin at time 0.", PlaceLimits());
   std::optional<MotionSpec> motion;
   if (s.motion != MotionSpec{}) motion = s.motion;

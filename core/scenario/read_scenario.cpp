@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/base/out_of_memory.h"
+#include "core/rail/line/yard.h"
 #include "core/scenario/build_faults.h"
 #include "core/scenario/describe_scenario.h"
 #include "core/scenario/json_reader.h"
@@ -39,18 +40,28 @@ void CheckReferences(const ScenarioSpec& spec, JsonSource& source) {
     const std::string pointer = object + "/" + kind;
     if (!unknown.IsKnown(pointer) || !known.are_known) return;
     if (std::find(known.names.begin(), known.names.end(), name) != known.names.end()) return;
-    source.errors().Add(
-        {source.sources().Place(pointer), Unknown(kind, name, known.names), ValueText(name)});
+    source.errors().Add({source.sources().Place(pointer),
+                         Unknown(kind.starts_with("route/") ? "track" : kind, name, known.names),
+                         ValueText(name)});
     unknown.Add(pointer);
   };
-  const KnownNames tracks = KnownNamesOf("/world/tracks", spec.world.tracks, unknown);
+  KnownNames tracks = KnownNamesOf("/world/tracks", spec.world.tracks, unknown);
+  for (const TrackSpec& track : TracksOfYards(spec.world)) tracks.names.push_back(track.name);
+  if (!unknown.IsKnown("/world/yards")) tracks.are_known = false;
   const KnownNames labels = KnownNamesOf("/labels", spec.labels, unknown);
   const KnownNames materials = KnownNamesOf("/materials", spec.materials, unknown);
-  check("/vehicle", "track", spec.vehicle.track, tracks);
+  const auto check_tracks = [&](const std::string& object, const std::string& track,
+                                const std::vector<std::string>& route) {
+    if (route.empty()) check(object, "track", track, tracks);
+    for (std::size_t i = 0; i < route.size(); ++i) {
+      check(object, "route/" + std::to_string(i), route[i], tracks);
+    }
+  };
+  check_tracks("/vehicle", spec.vehicle.track, spec.vehicle.route);
   for (std::size_t i = 0; i < spec.world.objects.size(); ++i) {
     const ObjectSpec& object = spec.world.objects[i];
     const std::string place = "/world/objects/" + std::to_string(i);
-    check(place, "track", object.track, tracks);
+    check_tracks(place, object.track, object.route);
     if (object.label) check(place, "label", *object.label, labels);
     if (object.material) check(place, "material", *object.material, materials);
   }

@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/rail/line/track_course.h"
+#include "core/rail/line/route.h"
 
 namespace railcast {
 namespace {
@@ -34,34 +34,38 @@ std::uint32_t FirstBeyond(std::uint32_t begin, std::uint32_t end, const Predicat
 struct Traveller {
   /// The beginning of an error line about it; rarely needed, so computed on demand.
   std::function<std::string()> place;
-  const TrackSpec& track;
+  const Route& route;
   double begin_s_m{};
   double end_s_m{};
   std::function<double(std::int64_t)> chainage_m;
 
+  [[nodiscard]] std::string NameOfWay() const {
+    std::string names;
+    for (const std::string& name : route.names) names += (names.empty() ? "" : ", ") + Quoted(name);
+    return (route.names.size() == 1 ? "track " : "route ") + names;
+  }
   [[nodiscard]] bool IsOnTrack(std::int64_t time_ns) const {
     const double s_m = chainage_m(time_ns);
     return s_m >= begin_s_m - kTolerance_m && s_m <= end_s_m + kTolerance_m;
   }
   [[nodiscard]] std::string Leaves(const std::string& when) const {
-    return place() + " leaves track \"" + track.name + "\", from " + NumberText(begin_s_m) +
-           " to " + NumberText(end_s_m) + " m, at " + when;
+    return place() + " leaves " + NameOfWay() + ", from " + NumberText(begin_s_m) + " to " +
+           NumberText(end_s_m) + " m, at " + when;
   }
 };
 
 std::vector<Traveller> TravellersOf(const ScenarioSpec& scenario, const RailWorld& world) {
   std::vector<Traveller> travellers;
-  const auto add = [&](auto place, const TrackSpec& track, const TrackCourse& course,
-                       auto chainage_m) {
-    travellers.push_back(
-        {std::move(place), track, course.begin_s_m(), course.end_s_m(), std::move(chainage_m)});
+  const auto add = [&](auto place, const Route& route, auto chainage_m) {
+    travellers.push_back({std::move(place), route, route.course.begin_s_m(), route.course.end_s_m(),
+                          std::move(chainage_m)});
   };
   add(
       [&scenario, &world] {
         return world.has_changed_vehicle_speed() ? "command: the vehicle"
                                                  : scenario.sources.Place("/vehicle/motion") + ":";
       },
-      world.vehicle_track(), world.vehicle_course(),
+      world.vehicle_route(),
       [&world](std::int64_t time_ns) { return world.VehicleChainage_m(time_ns); });
   for (std::size_t i = 0; i < world.objects().size(); ++i) {
     const SceneObject& object = world.objects()[i];
@@ -75,7 +79,7 @@ std::vector<Traveller> TravellersOf(const ScenarioSpec& scenario, const RailWorl
                                     "/motion") +
              ":";
     };
-    add(place, world.object_track(i), world.object_course(i),
+    add(place, world.object_route(i),
         [&world, i](std::int64_t time_ns) { return world.ObjectChainage_m(i, time_ns); });
   }
   return travellers;

@@ -12,6 +12,7 @@
 #include "core/scenario/vehicle_clearance.h"
 #include "core/simulate/detail_choice.h"
 #include "generator/check/check_report.h"
+#include "generator/check/network_report.h"
 #include "generator/commands.h"
 #include "generator/run/stoppable_work.h"
 #include "railcast/effects.h"
@@ -40,10 +41,10 @@ class Report {
   [[nodiscard]] std::string Sensor() const { return SensorText(scenario_.lidar, pattern_); }
 
   [[nodiscard]] std::string Line(bool is_verbose) const {
-    return LineText(world_->alignment(), is_verbose) +
-           VehicleText(world_->vehicle_track().name,
-                       FindVehicleWay(scenario_.vehicle, world_->vehicle_course()),
-                       pattern_.rate_hz);
+    const VehicleWay way = FindVehicleWay(scenario_.vehicle, world_->vehicle_course());
+    return LineText(world_->alignment(), is_verbose) + NetworkText(*world_) +
+           VehicleText(StartTrack(*world_, scenario_.vehicle), way, pattern_.rate_hz) +
+           RouteText(*world_, FindLateralPeak(*world_, scenario_.vehicle, way));
   }
 
   [[nodiscard]] std::string WhatItSees() const {

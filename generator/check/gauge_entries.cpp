@@ -253,7 +253,9 @@ void ProbeStructure(const Structure& structure,
 
 }  // namespace
 
-std::vector<GaugeEntry> FindGaugeEntries(const WorldSpec& spec, const RailWorld& world) {
+std::vector<GaugeEntry> FindGaugeEntries(const WorldSpec& given_spec, const RailWorld& world) {
+  WorldSpec spec = given_spec;
+  spec.tracks = world.tracks();
   const WorldTracks tracks{spec, world.network().courses};
   std::vector<GaugeEntry> entries;
   for (const StructureSpec& structure : spec.structures) {

@@ -100,6 +100,22 @@ struct TrackSpec {
   bool operator==(const TrackSpec&) const = default;
 };
 
+/// A ladder of tracks that run parallel to the one that they branch off (line/yard.h).
+struct YardSpec {
+  std::string name;
+  /// The turnout from which the lead runs on at its angle; all tracks of the yard branch off the
+  /// lead in turnouts of the same type.
+  TurnoutSpec begin;
+  std::uint32_t num_tracks = 1;
+  double spacing_m = 4.5;  ///< From the first track where the yard begins, and between its own.
+  /// Length of each track from its fouling point to its end.
+  double usable_length_m = 100.0;
+  SleeperType sleeper = SleeperType::kWood;
+  bool electrified = false;
+
+  bool operator==(const YardSpec&) const = default;
+};
+
 /// Overhead contact line (docs/physics.md 7.2, Re 200). Span lengths follow a rule: at most
 /// max_span_m, shorter in curves so that the wire stays within the lateral limit between supports.
 struct CatenarySpec {
@@ -231,6 +247,8 @@ struct ObjectSpec {
   std::optional<std::string> label;     ///< Overrides the default of the type.
   std::optional<std::string> material;  ///< Overrides the default of the type.
   std::optional<MotionSpec> motion;     ///< Absent = stationary.
+  /// Instead of `track`: tracks that turnouts join, one after the other in the direction of travel.
+  std::vector<std::string> route{};
 
   bool operator==(const ObjectSpec&) const = default;
 };
@@ -247,6 +265,7 @@ struct WorldSpec {
   std::vector<StructureSpec> structures;
   std::vector<ObjectSpec> objects;
   SceneDetail detail = SceneDetail::kAuto;
+  std::vector<YardSpec> yards{};
 
   bool operator==(const WorldSpec&) const = default;
 };
@@ -265,12 +284,15 @@ struct VehicleSpec {
   /// Whether the boxes may stand or run inside objects. If not, `railcast-generate check` and
   /// `sequence` refuse a run in which they do.
   bool may_overlap = false;
+  /// Instead of `track`: tracks that turnouts join, one after the other in the direction of travel.
+  std::vector<std::string> route{};
 
   bool operator==(const VehicleSpec&) const = default;
 };
 
 class TrackCourse;
 struct Network;
+struct Route;
 
 /// The railway world of a scenario. The line is divided into chunks of kChunkLength_m each, from
 /// chainage 0.
@@ -316,16 +338,24 @@ class RailWorld final : public World {
   /// The courses of all tracks, and the turnouts (core/rail/line/network.h).
   [[nodiscard]] const Network& network() const;
 
+  /// The specs of all tracks, those of yards included.
+  [[nodiscard]] const std::vector<TrackSpec>& tracks() const;
+
+  /// The track on which the vehicle begins its route.
   [[nodiscard]] const TrackSpec& vehicle_track() const;
-  /// The course that the vehicle follows (core/rail/line/track_course.h).
+  /// The tracks that the vehicle follows (core/rail/line/route.h), and their common course
+  /// (core/rail/line/track_course.h).
+  [[nodiscard]] const Route& vehicle_route() const;
   [[nodiscard]] const TrackCourse& vehicle_course() const;
   /// Whether WithVehicleSpeed() made this world or one that it was made from.
   [[nodiscard]] bool has_changed_vehicle_speed() const;
   [[nodiscard]] double VehicleSpeed_mps(std::int64_t time_ns) const;
-  /// Chainage of the vehicle's origin along its track; may lie beyond the ends of the track.
+  /// Chainage of the vehicle's origin along its route; may lie beyond the ends of the route.
   [[nodiscard]] double VehicleChainage_m(std::int64_t time_ns) const;
-  /// The track and the chainage of objects()[object].
+  /// The track on which objects()[object] begins its route, the route, its course, and the
+  /// chainage.
   [[nodiscard]] const TrackSpec& object_track(std::size_t object) const;
+  [[nodiscard]] const Route& object_route(std::size_t object) const;
   [[nodiscard]] const TrackCourse& object_course(std::size_t object) const;
   [[nodiscard]] double ObjectChainage_m(std::size_t object, std::int64_t time_ns) const;
 

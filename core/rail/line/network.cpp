@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/rail/line/fouling.h"
 #include "core/rail/line/own_course.h"
 #include "core/rail/line/turnout_place.h"
 
@@ -171,6 +172,10 @@ std::optional<std::size_t> TrackIndex(const WorldSpec& world, const std::string&
 NetworkDraft DraftNetwork(const WorldSpec& world, double length_m, WorldFaults& faults) {
   NetworkDraft draft = NetworkMaker(world, length_m, faults).Make();
   CheckOverlaps(world, draft, faults);
+  for (TurnoutSite& turnout : draft.turnouts) {
+    turnout.fouling_s_m = ClearChainage_m(
+        *draft.courses[turnout.track], *draft.courses[turnout.branch], turnout, kFoulingDistance_m);
+  }
   return draft;
 }
 

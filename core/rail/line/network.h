@@ -21,6 +21,9 @@ struct TurnoutSite {
   double end_s_m{};
   TrackSide side{};  ///< Side of `track` to which the branch leaves, towards rising chainage.
   TurnoutPosition position{};
+  /// Chainage of its fouling point, where the axes of both tracks are kFoulingDistance_m apart;
+  /// absent if they never are.
+  std::optional<double> fouling_s_m;
   bool has_given_position{};  ///< Whether the spec gives the position.
 
   /// Whether it opens with rising chainage: the branch begins in it. Otherwise the branch ends in

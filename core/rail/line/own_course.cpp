@@ -99,6 +99,7 @@ TurnoutSite SiteOf(const TurnoutPlace& place, double s_m, TrackSide side) {
           .end_s_m = TurnoutEnd_m(place, s_m),
           .side = side,
           .position = place.spec.position.value_or(TurnoutPosition::kStraight),
+          .fouling_s_m = {},
           .has_given_position = place.spec.position.has_value()};
 }
 

@@ -36,19 +36,31 @@ Transform WorldFromBody(const Alignment& alignment,
 
 }  // namespace
 
+TrackPath::TrackPath(Route route,
+                     const TrackPose& pose,
+                     SpeedProfile profile,
+                     std::int64_t begin_ns)
+    : route_(std::make_shared<const Route>(std::move(route))),
+      pose_(pose),
+      profile_(std::move(profile)),
+      begin_ns_(begin_ns) {}
+
 TrackPath::TrackPath(TrackCourse course,
                      const TrackPose& pose,
                      SpeedProfile profile,
                      std::int64_t begin_ns)
-    : course_(std::move(course)), pose_(pose), profile_(std::move(profile)), begin_ns_(begin_ns) {}
+    : TrackPath(Route{.course = std::move(course), .names = {}, .sections = {}, .passages = {}},
+                pose,
+                std::move(profile),
+                begin_ns) {}
 
 TrackPath TrackPath::WithSpeedFrom(std::int64_t from_ns,
                                    double speed_mps,
                                    double acceleration_mps2) const {
-  return TrackPath(
-      course_, pose_,
-      profile_.WithSpeedFrom(SecondsFromNs(from_ns - begin_ns_), speed_mps, acceleration_mps2),
-      begin_ns_);
+  TrackPath changed = *this;
+  changed.profile_ =
+      profile_.WithSpeedFrom(SecondsFromNs(from_ns - begin_ns_), speed_mps, acceleration_mps2);
+  return changed;
 }
 
 double TrackPath::SpeedAt_mps(std::int64_t time_ns) const {
@@ -60,12 +72,12 @@ double TrackPath::ChainageAt(std::int64_t time_ns) const {
 }
 
 Transform TrackPath::WorldFromObjectAt(const Alignment& alignment, double s_m) const {
-  if (pose_.pivot_distance_m > 0.0) return WorldFromBody(alignment, course_, pose_, s_m);
-  const Transform world_from_track = course_.WorldFromTrack(alignment, s_m, pose_.d_m, pose_.h_m);
+  if (pose_.pivot_distance_m > 0.0) return WorldFromBody(alignment, course(), pose_, s_m);
+  const Transform world_from_track = course().WorldFromTrack(alignment, s_m, pose_.d_m, pose_.h_m);
   const Eigen::Matrix3d track_from_object = RotationFromYawPitchRoll(pose_.heading_rad, 0.0, 0.0);
   const Eigen::Matrix3d world_from_object =
       pose_.is_upright ? RotationFromYawPitchRoll(
-                             course_.Heading_rad(alignment, s_m) + pose_.heading_rad, 0.0, 0.0)
+                             course().Heading_rad(alignment, s_m) + pose_.heading_rad, 0.0, 0.0)
                        : Eigen::Matrix3d(world_from_track.linear() * track_from_object);
   return MakeTransform(world_from_object, world_from_track.translation());
 }

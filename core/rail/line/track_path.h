@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
+#include "core/rail/line/route.h"
 #include "core/rail/line/speed_profile.h"
 #include "core/rail/line/track_course.h"
 #include "railcast/alignment.h"
@@ -20,10 +22,12 @@ struct TrackPose {
   double pivot_distance_m{};
 };
 
-/// The motion of an object or vehicle along a track.
+/// The motion of an object or vehicle along a route.
 class TrackPath {
  public:
   /// @param begin_ns Time at which the profile's time is 0.
+  TrackPath(Route route, const TrackPose& pose, SpeedProfile profile, std::int64_t begin_ns = 0);
+  /// Along a single track without a name.
   TrackPath(TrackCourse course,
             const TrackPose& pose,
             SpeedProfile profile,
@@ -34,7 +38,8 @@ class TrackPath {
                                         double speed_mps,
                                         double acceleration_mps2) const;
 
-  [[nodiscard]] const TrackCourse& course() const { return course_; }
+  [[nodiscard]] const Route& route() const { return *route_; }
+  [[nodiscard]] const TrackCourse& course() const { return route_->course; }
   [[nodiscard]] const TrackPose& pose() const { return pose_; }
   [[nodiscard]] bool moves() const { return profile_.moves(); }
   [[nodiscard]] double SpeedAt_mps(std::int64_t time_ns) const;
@@ -45,7 +50,7 @@ class TrackPath {
   [[nodiscard]] Transform WorldFromObjectAt(const Alignment& alignment, double s_m) const;
 
  private:
-  TrackCourse course_;
+  std::shared_ptr<const Route> route_;
   TrackPose pose_;
   SpeedProfile profile_;
   std::int64_t begin_ns_;

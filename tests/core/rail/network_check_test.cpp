@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/rail/line/fouling.h"
 #include "core/rail/line/turnout_geometry.h"
 #include "tests/core/rail/test_line.h"
 

@@ -90,6 +90,8 @@ ScenarioSpec UnusualScenario(const std::string& mesh_file) {
        {},
        SleeperType::kConcrete,
        true}};
+  spec.world.yards = {
+      {"y", {"a", 5, TurnoutType::k9_190, TrackSide::kLeft, {}}, 3, 5, 50, {}, true}};
   spec.world.catenary = {false, 5.4, 1.7, 60, 0.3, 7, 3.2};
   spec.world.terrain = {
       70, 0.03, 1.9, 0.5, ElevationSpec{mesh_file, {1, 2, 3}}, {}, GroundCover::kFields};
