@@ -170,11 +170,15 @@ class GaugeProbe {
 /// Probes for all tracks.
 class Probes {
  public:
-  /// @param own_track Name of a track to leave out.
-  Probes(const WorldTracks& tracks, const Alignment& alignment, const std::string& own_track = "")
+  /// @param own_tracks Names of tracks to leave out.
+  Probes(const WorldTracks& tracks,
+         const Alignment& alignment,
+         const std::vector<std::string>& own_tracks = {})
       : alignment_(alignment) {
     for (std::size_t i = 0; i < tracks.courses.size(); ++i) {
-      if (tracks.world.tracks[i].name != own_track) probes_.emplace_back(tracks, i, alignment);
+      const std::string& name = tracks.world.tracks[i].name;
+      const bool is_own = std::ranges::find(own_tracks, name) != own_tracks.end();
+      if (!is_own) probes_.emplace_back(tracks, i, alignment);
     }
   }
 
@@ -275,7 +279,11 @@ std::vector<GaugeEntry> FindGaugeEntries(const WorldSpec& given_spec, const Rail
     if (object.moves) continue;
     // A wagon on its rails is where it belongs, but it may stand foul of another track.
     const bool is_on_its_track = IsWagon(given.type) && given.d_m == 0.0;
-    Probes probes(tracks, world.alignment(), is_on_its_track ? given.track : "");
+    std::vector<std::string> own_tracks;
+    if (is_on_its_track) {
+      own_tracks = given.route.empty() ? std::vector{given.track} : given.route;
+    }
+    Probes probes(tracks, world.alignment(), own_tracks);
     probes.Add(*object.model, world.WorldFromObject(i, 0), given.s_m);
     probes.Report(object.name, entries);
   }
