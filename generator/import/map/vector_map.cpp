@@ -15,6 +15,7 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "generator/import/map/gdal_errors.h"
 
 namespace railcast {
 namespace {
@@ -60,6 +61,7 @@ MapTags FeatureTags(const OGRFeature& feature) {
 struct Line {
   std::string place;  ///< For messages: "lines 12".
   std::vector<Eigen::Vector2d> points_deg;
+  std::vector<double> heights_m;  ///< As many, or none.
   MapTags tags;
   bool is_area = false;
 };
@@ -71,6 +73,7 @@ void AddLines(const OGRGeometry& geometry, const Line& line, std::vector<Line>& 
       Line added = line;
       for (const OGRPoint& point : *geometry.toLineString()) {
         added.points_deg.emplace_back(point.getX(), point.getY());
+        if (geometry.Is3D()) added.heights_m.push_back(point.getZ());
       }
       lines.push_back(std::move(added));
       break;
@@ -93,28 +96,6 @@ void AddLines(const OGRGeometry& geometry, const Line& line, std::vector<Line>& 
   }
 }
 
-/// Keeps GDAL from printing, and keeps the first of its errors.
-class GdalErrors {
- public:
-  GdalErrors() { CPLPushErrorHandlerEx(&GdalErrors::Take, this); }
-  ~GdalErrors() { CPLPopErrorHandler(); }
-  GdalErrors(const GdalErrors&) = delete;
-  GdalErrors& operator=(const GdalErrors&) = delete;
-
-  [[nodiscard]] const std::string& first() const { return first_; }
-  /// Formats that do not fit are errors, too, until one does.
-  void Forget() { first_.clear(); }
-
- private:
-  static void CPL_STDCALL Take(CPLErr kind, CPLErrorNum /*number*/, const char* message) {
-    auto& errors = *static_cast<GdalErrors*>(CPLGetErrorHandlerUserData());
-    if (kind < CE_Failure || !errors.first_.empty()) return;
-    errors.first_ = *message != '\0' ? message : "unknown error";
-  }
-
-  std::string first_;
-};
-
 bool IsOpenStreetMap(GDALDataset& dataset) {
   return EQUAL(dataset.GetDriver()->GetDescription(), "OSM");
 }
@@ -132,7 +113,7 @@ std::vector<Line> LinesIn(GDALDataset& dataset) {
     if (geometry == nullptr) continue;
     const std::string place =
         std::string(layer->GetName()) + " " + std::to_string(feature->GetFID());
-    AddLines(*geometry, {place, {}, FeatureTags(*feature), false}, lines);
+    AddLines(*geometry, {place, {}, {}, FeatureTags(*feature), false}, lines);
   }
   return lines;
 }
@@ -165,13 +146,21 @@ void AddWay(const Line& line, NodeIndex& nodes, RailMap& map, ErrorList& errors)
     return;
   }
   MapWay way{static_cast<std::int64_t>(map.ways.size()), {}, line.tags};
-  for (const Eigen::Vector2d& point_deg : line.points_deg) {
+  for (std::size_t i = 0; i < line.points_deg.size(); ++i) {
+    const Eigen::Vector2d& point_deg = line.points_deg[i];
     if (!IsDegrees(point_deg)) {
       errors.Add({line.place, "must have longitudes and latitudes in degrees",
                   NumberText(point_deg.x()) + ", " + NumberText(point_deg.y())});
       return;
     }
-    AppendNode(nodes.Of(point_deg), way);
+    const std::size_t node = nodes.Of(point_deg);
+    AppendNode(node, way);
+    if (line.heights_m.empty() || map.nodes[node].height_m) continue;
+    if (!IsHeight(line.heights_m[i])) {
+      errors.Add({line.place, kHeightRule, NumberText(line.heights_m[i])});
+      return;
+    }
+    map.nodes[node].height_m = line.heights_m[i];
   }
   if (way.nodes.size() < 2) {
     errors.Add(
