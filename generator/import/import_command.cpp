@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <mutex>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,11 @@
 #include "generator/import/lines/imported_line.h"
 #include "generator/import/lines/line_files.h"
 #include "generator/import/lines/line_heights.h"
+#include "generator/import/lines/line_world.h"
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/map_projection.h"
 #include "generator/import/map/read_map.h"
+#include "generator/import/network/side_tracks.h"
 
 namespace railcast {
 namespace {
@@ -33,6 +36,7 @@ struct ImportCommandOptions {
   std::filesystem::path heights;
   std::string heights_crs;
   bool is_level = false;
+  bool is_main_only = false;
   double min_length_m = 1000.0;
   ImportOptions fit;
 };
@@ -62,6 +66,53 @@ std::vector<ImportedLine> ImportLines(const RailMap& map,
   return lines;
 }
 
+/// A world and how the tracks beside its line came out.
+struct BuiltWorld {
+  LineWorld world;
+  SideTrackQuality beside;
+};
+
+std::vector<BuiltWorld> BuildWorlds(const RailMap& map,
+                                    const std::vector<TrackLine>& tracks,
+                                    const std::vector<ImportedLine>& lines,
+                                    const ImportCommandOptions& options) {
+  std::vector<BuiltWorld> worlds(lines.size());
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, lines.size(), 1),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          worlds[i].world = MakeLineWorld(map, tracks[i], lines[i]);
+          if (options.is_main_only) continue;
+          worlds[i].beside =
+              AddSideTracks(map, tracks[i], lines[i], options.fit.sigma_m, worlds[i].world);
+        }
+      },
+      tbb::simple_partitioner());
+  return worlds;
+}
+
+std::vector<LineWorld> WorldsOf(const std::vector<BuiltWorld>& built) {
+  std::vector<LineWorld> worlds;
+  for (const BuiltWorld& one : built) worlds.push_back(one.world);
+  return worlds;
+}
+
+std::string TracksCsv(const std::vector<ImportedLine>& lines,
+                      const std::vector<BuiltWorld>& worlds) {
+  std::ostringstream csv;
+  csv << "line,tracks,turnouts,length_m,points,median_m,p99_m\n";
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const SideTrackQuality& q = worlds[i].beside;
+    const auto quantile_m = [&](double share) {
+      const auto last = static_cast<double>(q.distances_m.size()) - 1.0;
+      return q.distances_m.empty() ? 0.0 : q.distances_m[static_cast<std::size_t>(share * last)];
+    };
+    csv << lines[i].name << ',' << q.num_tracks << ',' << q.num_turnouts << ',' << q.length_m << ','
+        << q.distances_m.size() << ',' << quantile_m(0.5) << ',' << quantile_m(0.99) << '\n';
+  }
+  return csv.str();
+}
+
 /// So far beside a line its elevation is kept, since so far sensors see.
 constexpr double kElevationMargin_m = 500.0;
 
@@ -88,8 +139,11 @@ std::unique_ptr<const ElevationMap> ReadElevation(const ImportCommandOptions& op
 
 void WriteLine(const std::filesystem::path& out,
                const ImportedLine& line,
-               const MapProjection& projection) {
+               const MapProjection& projection,
+               const LineWorld& world,
+               bool has_elevation) {
   WriteFileWhole(out / (line.name + ".alignment.json"), AlignmentFileText(line, projection));
+  WriteFileWhole(out / (line.name + ".world.json"), WorldFileText(line, world, has_elevation));
 }
 
 int RunImport(const ImportCommandOptions& options) {
@@ -108,6 +162,7 @@ int RunImport(const ImportCommandOptions& options) {
   // Before minutes of fitting.
   CheckCanWrite(options.out / "lines.csv");
   std::vector<ImportedLine> lines = ImportLines(map, tracks, options.fit);
+  const std::vector<BuiltWorld> worlds = BuildWorlds(map, tracks, lines, options);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (elevation) {
       SetHeights(map, tracks[i], *elevation, ShownPath(options.heights), lines[i]);
@@ -116,8 +171,10 @@ int RunImport(const ImportCommandOptions& options) {
     } else if (!options.is_level) {
       SetHeights(map, tracks[i], lines[i]);
     }
-    WriteLine(options.out, lines[i], projection);
+    WriteLine(options.out, lines[i], projection, worlds[i].world, elevation != nullptr);
   }
+  WriteFileWhole(options.out / "left_out.csv", LeftOutCsv(lines, WorldsOf(worlds)));
+  WriteFileWhole(options.out / "tracks.csv", TracksCsv(lines, worlds));
   WriteFileWhole(options.out / "heights.csv", HeightsCsv(lines));
   WriteFileWhole(options.out / "lines.csv", QualityCsv(lines));
   WriteFileWhole(options.out / "contradictions.csv", ContradictionsCsv(lines));
@@ -125,7 +182,7 @@ int RunImport(const ImportCommandOptions& options) {
             << NumberText(projection.origin_m.x()) << ", " << NumberText(projection.origin_m.y())
             << ") m\n\n"
             << QualityTable(lines) << '\n'
-            << "Wrote " << lines.size() << " alignments to " << ShownPath(options.out) << '\n';
+            << "Wrote " << lines.size() << " lines to " << ShownPath(options.out) << '\n';
   return kExitSuccess;
 }
 
@@ -162,7 +219,7 @@ void AddImport(CLI::App& app, ProgramCommand& command) {
       app.add_subcommand("import", "Fit the lines of a map and write them as alignments");
   subcommand
       ->add_option("MAP", options->map,
-                   "Overpass JSON, .osm, .pbf, GeoJSON, GPX or KML with tracks as lines")
+                   "Overpass JSON, .osm, .pbf, GeoJSON, GPX, KML or railML 3 with tracks as lines")
       ->required()
       ->check(NonEmpty());
   subcommand->add_option("--out", options->out, "New or empty folder to write to")
@@ -185,6 +242,8 @@ void AddImport(CLI::App& app, ProgramCommand& command) {
                    "Speed limit in km/h of lines for which the map has none")
       ->capture_default_str()
       ->check(Number(kSpeed));
+  subcommand->add_flag("--main-only", options->is_main_only,
+                       "Leave out the tracks beside each line");
   AddHeightOptions(*subcommand, options);
   subcommand->callback([&command, options] {
     command = [options](const std::string& /*all*/) { return RunImport(*options); };

@@ -267,11 +267,11 @@ void Measure(std::span<const HeightSample> samples, const ProfilePrior& prior, P
     profile.offsets_m.push_back(sample.z_m - profile.start_z_m -
                                 smoothed.function.Integral(sample.s_m));
   }
-  profile.least_radius_share = std::numeric_limits<double>::infinity();
+  profile.least_roundness = std::numeric_limits<double>::infinity();
   for (const Jump& jump : smoothed.jumps) {
     const double radius_m = jump.length_m / std::abs(jump.after - jump.before);
-    profile.least_radius_share = std::min(
-        profile.least_radius_share, radius_m / NeededVerticalRadius_m(prior.speed_kmph(jump.s_m)));
+    profile.least_roundness = std::min(
+        profile.least_roundness, radius_m / NeededVerticalRadius_m(prior.speed_kmph(jump.s_m)));
   }
 }
 

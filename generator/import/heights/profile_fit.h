@@ -31,7 +31,7 @@ struct Profile {
   std::vector<double> offsets_m;
   /// The smallest radius of a vertical curve as a share of the one that its speed needs; infinite
   /// without any curve.
-  double least_radius_share{};
+  double least_roundness{};
 };
 
 /// The vertical radius that a line for this speed has: 0.35 v^2 in m with v in km/h, with which the

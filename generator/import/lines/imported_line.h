@@ -44,7 +44,7 @@ struct HeightQuality {
   double steepest_permil{};
   /// The smallest radius of a vertical curve as a share of the one that its speed needs; infinite
   /// without any.
-  double least_radius_share{};
+  double least_roundness{};
 };
 
 /// A line of the map as an alignment.

@@ -100,13 +100,13 @@ std::string QualityTable(const std::vector<ImportedLine>& lines) {
 std::string HeightsCsv(const std::vector<ImportedLine>& lines) {
   std::ostringstream csv;
   csv << "line,points,median_m,p99_m,gradients,steepest_permil,gradient_smoothing_m,"
-         "least_radius_share\n";
+         "least_roundness\n";
   for (const ImportedLine& line : lines) {
     if (!line.height_quality) continue;
     const HeightQuality& q = *line.height_quality;
     csv << line.name << ',' << q.num_points << ',' << q.median_m << ',' << q.p99_m << ','
         << q.num_gradients << ',' << q.steepest_permil << ',' << line.alignment.gradient_smoothing_m
-        << ',' << q.least_radius_share << '\n';
+        << ',' << q.least_roundness << '\n';
   }
   return csv.str();
 }

@@ -21,7 +21,7 @@ double SpeedAt_kmph(const AlignmentSpec& alignment, double s_m) {
   return (after == limits.begin() ? limits.front() : *std::prev(after)).value;
 }
 
-HeightQuality QualityOf(const Profile& profile) {
+HeightQuality HeightQualityOf(const Profile& profile) {
   HeightQuality quality;
   quality.num_points = profile.offsets_m.size();
   std::vector<double> distances_m;
@@ -37,7 +37,7 @@ HeightQuality QualityOf(const Profile& profile) {
   for (const ChainageValue& gradient : profile.gradients_permil) {
     quality.steepest_permil = std::max(quality.steepest_permil, std::abs(gradient.value));
   }
-  quality.least_radius_share = profile.least_radius_share;
+  quality.least_roundness = profile.least_roundness;
   return quality;
 }
 
@@ -51,7 +51,7 @@ void FitHeights(std::vector<HeightSample> samples, ImportedLine& line) {
   alignment.origin_m[2] = profile.start_z_m;
   alignment.gradients_permil = profile.gradients_permil;
   alignment.gradient_smoothing_m = profile.smoothing_m;
-  line.height_quality = QualityOf(profile);
+  line.height_quality = HeightQualityOf(profile);
 }
 
 /// Chainages at which the model's ground may be the line's.

@@ -113,6 +113,9 @@ void OverpassReader::ReadNode(const StrictJson& element, const std::string& poin
   if (!nodes_.emplace(*id, map_.nodes.size()).second) return;  // An answer may repeat nodes.
   MapNode node{.geographic_deg = {*longitude_deg, *latitude_deg}, .tags = OverpassTags(element)};
   node.height_m = HeightOf_m(TagOf(node.tags, "ele"));
+  if (IsThing(TagOf(node.tags, "railway"))) {
+    map_.things.push_back({{node.geographic_deg}, {}, node.tags});
+  }
   map_.nodes.push_back(std::move(node));
 }
 
@@ -120,7 +123,8 @@ void OverpassReader::ReadWay(const StrictJson& element, const std::string& point
   const auto id = IdOf(element, pointer);
   if (!id) return;
   MapTags tags = OverpassTags(element);
-  if (!IsTrack(TagOf(tags, "railway"))) return;
+  const bool is_track = IsTrack(TagOf(tags, "railway"));
+  if (!is_track && !IsThing(TagOf(tags, "railway"))) return;
   if (!ways_.insert(*id).second) return;  // An answer may repeat ways, too.
   if (!element.contains("nodes") || !element["nodes"].is_array()) {
     errors_.Add({pointer + "/nodes", "must be a list of node ids",
@@ -146,7 +150,15 @@ void OverpassReader::ReadWay(const StrictJson& element, const std::string& point
                  std::to_string(way.nodes.size())});
     return;
   }
-  map_.ways.push_back(std::move(way));
+  if (is_track) {
+    map_.ways.push_back(std::move(way));
+    return;
+  }
+  MapThing thing{{}, {}, std::move(way.tags)};
+  for (const std::size_t node : way.nodes) {
+    thing.geographic_deg.push_back(map_.nodes[node].geographic_deg);
+  }
+  map_.things.push_back(std::move(thing));
 }
 
 void OverpassReader::Read(const StrictJson& elements) {

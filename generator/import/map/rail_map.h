@@ -56,10 +56,25 @@ inline void AppendNode(std::size_t node, MapWay& way) {
   if (way.nodes.empty() || way.nodes.back() != node) way.nodes.push_back(node);
 }
 
+/// Something beside or on tracks, such as a platform or a signal.
+struct MapThing {
+  std::vector<Eigen::Vector2d> geographic_deg;  ///< One point, or those of a line or an outline.
+  std::vector<Eigen::Vector2d> places_m;        ///< As many, once the map is projected.
+  MapTags tags;
+};
+
+/// Whether a value of OpenStreetMap's key `railway` is a thing of which import makes something.
+[[nodiscard]] inline bool IsThing(std::string_view railway) {
+  constexpr auto kThings = std::to_array<std::string_view>(
+      {"platform", "level_crossing", "crossing", "buffer_stop", "signal", "milestone", "derail"});
+  return std::ranges::find(kThings, railway) != kThings.end();
+}
+
 /// The railway tracks of a map. Tracks meet where ways share a node.
 struct RailMap {
   std::vector<MapNode> nodes;
   std::vector<MapWay> ways;
+  std::vector<MapThing> things;
   std::string attribution;
 };
 

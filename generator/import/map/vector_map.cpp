@@ -64,6 +64,7 @@ struct Line {
   std::vector<double> heights_m;  ///< As many, or none.
   MapTags tags;
   bool is_area = false;
+  bool is_point = false;
 };
 
 /// Takes the lines of a geometry; multi-part ones give several.
@@ -78,13 +79,25 @@ void AddLines(const OGRGeometry& geometry, const Line& line, std::vector<Line>& 
       lines.push_back(std::move(added));
       break;
     }
-    case wkbPolygon:
-    case wkbMultiPolygon: {
+    case wkbPoint: {
       Line added = line;
-      added.is_area = true;
+      added.points_deg.emplace_back(geometry.toPoint()->getX(), geometry.toPoint()->getY());
+      added.is_point = true;
       lines.push_back(std::move(added));
       break;
     }
+    case wkbPolygon: {
+      Line added = line;
+      added.is_area = true;
+      if (const OGRLinearRing* outline = geometry.toPolygon()->getExteriorRing()) {
+        for (const OGRPoint& point : *outline) {
+          added.points_deg.emplace_back(point.getX(), point.getY());
+        }
+      }
+      lines.push_back(std::move(added));
+      break;
+    }
+    case wkbMultiPolygon:
     case wkbMultiLineString:
     case wkbGeometryCollection:
       for (const OGRGeometry* part : *geometry.toGeometryCollection()) {
@@ -92,7 +105,7 @@ void AddLines(const OGRGeometry& geometry, const Line& line, std::vector<Line>& 
       }
       break;
     default:
-      break;  // Points are no tracks.
+      break;
   }
 }
 
@@ -108,12 +121,15 @@ std::vector<Line> LinesIn(GDALDataset& dataset) {
   // Features come in the order of the file, whatever their layer, which .pbf files need.
   while (const auto feature = std::unique_ptr<OGRFeature>(
              dataset.GetNextFeature(&layer, nullptr, nullptr, nullptr))) {
-    if (has_relations && !EQUAL(layer->GetName(), "lines")) continue;
+    if (has_relations && (EQUAL(layer->GetName(), "multilinestrings") ||
+                          EQUAL(layer->GetName(), "other_relations"))) {
+      continue;
+    }
     const OGRGeometry* geometry = feature->GetGeometryRef();
     if (geometry == nullptr) continue;
     const std::string place =
         std::string(layer->GetName()) + " " + std::to_string(feature->GetFID());
-    AddLines(*geometry, {place, {}, {}, FeatureTags(*feature), false}, lines);
+    AddLines(*geometry, {place, {}, {}, FeatureTags(*feature), false, false}, lines);
   }
   return lines;
 }
@@ -137,6 +153,20 @@ class NodeIndex {
 
 bool IsDegrees(const Eigen::Vector2d& point_deg) {
   return std::abs(point_deg.x()) <= 180.0 && std::abs(point_deg.y()) <= 90.0;
+}
+
+/// Moves platforms, signals and the like from the lines to the map. Other points are dropped, and
+/// so are OpenStreetMap's other areas.
+void TakeThings(bool is_osm, std::vector<Line>& lines, RailMap& map) {
+  std::erase_if(lines, [&](Line& line) {
+    const bool is_place =
+        !line.points_deg.empty() && std::ranges::all_of(line.points_deg, IsDegrees);
+    if (!IsThing(TagOf(line.tags, "railway")) || !is_place) {
+      return line.is_point || (is_osm && line.is_area);
+    }
+    map.things.push_back({std::move(line.points_deg), {}, std::move(line.tags)});
+    return true;
+  });
 }
 
 /// Appends a line as a way.
@@ -183,7 +213,7 @@ RailMap ReadVectorMap(const std::filesystem::path& file) {
   const std::string reason = gdal_errors.first();
   if (!dataset) {
     throw InputError(ShownPath(file) +
-                     ": must be a map: Overpass JSON, .osm, .pbf, GeoJSON, GPX or KML" +
+                     ": must be a map: Overpass JSON, .osm, .pbf, GeoJSON, GPX, KML or railML 3" +
                      (reason.empty() ? "" : " (" + ShownText(reason) + ")"));
   }
   gdal_errors.Forget();
@@ -192,13 +222,14 @@ RailMap ReadVectorMap(const std::filesystem::path& file) {
     throw InputError(ShownPath(file) + ": must be readable to its end (" +
                      ShownText(gdal_errors.first()) + ")");
   }
+  RailMap map;
+  TakeThings(IsOpenStreetMap(*dataset), lines, map);
   const std::size_t num_lines = lines.size();
   const bool has_railways = std::ranges::any_of(
       lines, [](const Line& line) { return !TagOf(line.tags, "railway").empty(); });
   if (has_railways || IsOpenStreetMap(*dataset)) {
     std::erase_if(lines, [](const Line& line) { return !IsTrack(TagOf(line.tags, "railway")); });
   }
-  RailMap map;
   NodeIndex nodes(map);
   ErrorList errors;
   for (const Line& line : lines) AddWay(line, nodes, map, errors);

@@ -56,7 +56,7 @@ TEST(Import, GivesTheSameBytesAgain) {
       texts[run][file.path().filename()] = ReadFileWhole(file.path());
     }
   }
-  EXPECT_THAT(texts[0], ::testing::SizeIs(6)) << "three lines and three reports";
+  EXPECT_THAT(texts[0], ::testing::SizeIs(11)) << "two files of each line and five reports";
   EXPECT_EQ(texts[0], texts[1]);
 }
 

@@ -103,7 +103,7 @@ TEST(ProfileFit, KeepsToTheLimitsOfRailways) {
   for (const ChainageValue& gradient : profile.gradients_permil) {
     EXPECT_LE(std::abs(gradient.value), 1e3 * kSteepest);
   }
-  EXPECT_GE(profile.least_radius_share, 1.0);
+  EXPECT_GE(profile.least_roundness, 1.0);
 }
 
 TEST(ProfileFit, HasRoundEnoughCurvesOnRoughTerrain) {
@@ -114,7 +114,7 @@ TEST(ProfileFit, HasRoundEnoughCurvesOnRoughTerrain) {
   for (double s_m = 0.0; s_m <= 20000.0; s_m += 50.0) samples.push_back({s_m, z_m += step_m(dice)});
   const Profile profile = FitProfile(samples, For(20000.0, 1.0));
   EXPECT_GT(profile.gradients_permil.size(), 5U);
-  EXPECT_GE(profile.least_radius_share, 1.0);
+  EXPECT_GE(profile.least_roundness, 1.0);
 }
 
 TEST(ProfileFit, IsLevelWithoutHeights) {
