@@ -22,9 +22,10 @@ struct SideTrackQuality {
 /// Ways are followed straight on as those of lines are, whatever their `service`, and cut into runs
 /// with rising chainage that keep within 20 degrees of the line. The longest come first. A run
 /// becomes, whichever is possible first,
-/// - a crossover, if it leads from one track to another within 150 m;
-/// - a track at a constant offset with turnouts where its ends meet other tracks, if its points
-///   keep within 0.6 m of that;
+/// - a crossover, if it leads from one parallel track to another within 150 m;
+/// - a track parallel to the line but for S-curves (LevelsOf), with turnouts where its ends meet
+/// other
+///   tracks;
 /// - straights, arcs and clothoids in the plane of chainage and offset (FitLine), without turnouts,
 ///   as far as it is 3 m from all others.
 /// What cannot be done is left out of the world and says so.

@@ -166,8 +166,14 @@ PlanModel PartOf(const PlanModel& plan, double begin_m, double end_m) {
   for (const AlignmentElement& element : elements) {
     const bool needs_clothoid = !joined.empty() && joined.back().type != ElementType::kClothoid &&
                                 element.type != ElementType::kClothoid;
-    if (needs_clothoid) joined.push_back({ElementType::kClothoid, 0.01, {}});
     joined.push_back(element);
+    if (!needs_clothoid) continue;
+    // Half of it is taken from either neighbour, so that headings behind it stay.
+    AlignmentElement& before = joined[joined.size() - 2];
+    const double half_m = std::min({0.005, 0.25 * before.length_m, 0.25 * element.length_m});
+    before.length_m -= half_m;
+    joined.back().length_m -= half_m;
+    joined.insert(joined.end() - 1, {ElementType::kClothoid, 2.0 * half_m, {}});
   }
   return PlanOf({}, joined);
 }

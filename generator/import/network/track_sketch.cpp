@@ -20,6 +20,13 @@ double TrackSketch::OffsetAt_m(double s_m) const {
   return std::lerp(offsets_m[before], offsets_m[before + 1], along_m - static_cast<double>(before));
 }
 
+bool TrackSketch::IsStraight(double one_s_m, double other_s_m) const {
+  const auto [from_m, to_m] = std::minmax(one_s_m, other_s_m);
+  return std::ranges::any_of(straights_m, [&](const auto& straight) {
+    return straight.first <= from_m && straight.second >= to_m;
+  });
+}
+
 double TurnoutShape::angle_rad() const {
   return std::atan(1.0 / ratio);
 }

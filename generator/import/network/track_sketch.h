@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace railcast {
@@ -12,10 +13,13 @@ struct TrackSketch {
   double begin_s_m{};
   double end_s_m{};
   std::vector<double> offsets_m;  ///< At begin_s_m, begin_s_m + 1, ...; one behind the end.
-  /// Whether it is the line itself or straight against it, so that turnouts may lie in it.
-  bool may_branch = true;
+  /// Where it is straight against the line, or nearly so, so that turnouts may lie in it: from, to.
+  std::vector<std::pair<double, double>> straights_m;
+  bool is_parallel = false;  ///< Whether it is exactly parallel to the line there.
 
   [[nodiscard]] bool Has(double s_m) const { return s_m >= begin_s_m && s_m <= end_s_m; }
+  /// Whether it is straight between two chainages, in either order.
+  [[nodiscard]] bool IsStraight(double one_s_m, double other_s_m) const;
   /// Between the samples linear. @pre Has(s_m).
   [[nodiscard]] double OffsetAt_m(double s_m) const;
 };
