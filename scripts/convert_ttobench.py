@@ -2,7 +2,7 @@
 """Turns a track of TTOBench (https://github.com/nuorail/ttobench) into a railcast alignment file.
 
   scripts/convert_ttobench.py TTOBENCH.json ALIGNMENT.json [--origin X Y] [--heading-deg H]
-      [--places PLACES.csv]
+      [--places PLACES.csv] [--structures STRUCTURES.json]
 
 TTOBench states gradient, radius and speed limit by chainage, but not where the line lies. A positive
 radius turns right, as current files of TTOBench say (tracks/README.md of version 1.4; version 1.2,
@@ -14,7 +14,8 @@ states none. scenarios/alignments/st_gallen_wil.json was made with --heading-deg
 it from St. Gallen to Wil as on the map.
 
 An alignment has neither stops nor tunnels. --places writes them as CSV: type, begin_s_m, end_s_m and
-cross_section_m2, where a stop ends where it begins and has no cross-section.
+cross_section_m2, where a stop ends where it begins and has no cross-section. --structures writes the tunnels as a list
+that a world may name as its `structures`.
 
 A file that breaks a rule is refused with one line on standard error, and nothing is written.
 """
@@ -211,6 +212,14 @@ def places_text(places):
     return "".join(",".join(str(value) for value in row) + "\n" for row in rows)
 
 
+def structures_of(places):
+    """The tunnels among the places, as a world has them."""
+    tunnels = [place for place in places if place[0] == "tunnel"]
+    return {"version": 1, "structures": [
+        {"type": "tunnel", "name": f"tunnel_{number}", "begin_s_m": begin_m, "end_s_m": end_m}
+        for number, (_, begin_m, end_m, _) in enumerate(tunnels, start=1)]}
+
+
 def text_of(value, indent=""):
     """JSON with one list item per line, so that diffs are readable."""
     inner = indent + "  "
@@ -245,6 +254,7 @@ def main(arguments=None):
     parser.add_argument("--origin", type=float, nargs=2, default=[0.0, 0.0], metavar=("X", "Y"))
     parser.add_argument("--heading-deg", type=float, default=0.0, metavar="H")
     parser.add_argument("--places", metavar="CSV", help="where to write stops and tunnels")
+    parser.add_argument("--structures", metavar="JSON", help="where to write tunnels")
     arguments = parser.parse_args(arguments)
     try:
         alignment, places = convert(
@@ -255,6 +265,9 @@ def main(arguments=None):
         if arguments.places:
             with open(arguments.places, "w", encoding="utf-8") as file:
                 file.write(places_text(places))
+        if arguments.structures:
+            with open(arguments.structures, "w", encoding="utf-8") as file:
+                file.write(text_of(structures_of(places)) + "\n")
     except Fault as fault:
         sys.exit(f"{arguments.ttobench}: {fault}")
     except OSError as error:

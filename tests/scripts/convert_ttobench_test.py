@@ -92,6 +92,12 @@ tunnel,1000.0,1050.0,24.0
 stop,2000.0,2000.0,
 """)
 
+    def test_tunnels_are_structures_of_a_world(self):
+        _, places = convert_ttobench.convert(TRACK, [0.0, 0.0], 0.0)
+        self.assertEqual(convert_ttobench.structures_of(places)["structures"], [
+            {"type": "tunnel", "name": "tunnel_1", "begin_s_m": 800.0, "end_s_m": 950.0},
+            {"type": "tunnel", "name": "tunnel_2", "begin_s_m": 1000.0, "end_s_m": 1050.0}])
+
     def test_the_shipped_line_is_what_the_file_gives(self):
         source = ROOT.parent / "shared/data/track_alignment_ttobench/CH_StGallen_Wil.json"
         if not source.exists():
