@@ -3,7 +3,9 @@
 
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <mutex>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -17,9 +19,12 @@
 #include "generator/empty_folder.h"
 #include "generator/import/lines/imported_line.h"
 #include "generator/import/lines/line_files.h"
+#include "generator/import/lines/line_heights.h"
+#include "generator/import/lines/line_world.h"
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/map_projection.h"
 #include "generator/import/map/read_map.h"
+#include "generator/import/network/side_tracks.h"
 
 namespace railcast {
 namespace {
@@ -28,6 +33,10 @@ struct ImportCommandOptions {
   std::filesystem::path map;
   std::filesystem::path out;
   std::string crs;
+  std::filesystem::path heights;
+  std::string heights_crs;
+  bool is_level = false;
+  bool is_main_only = false;
   double min_length_m = 1000.0;
   ImportOptions fit;
 };
@@ -57,6 +66,86 @@ std::vector<ImportedLine> ImportLines(const RailMap& map,
   return lines;
 }
 
+/// A world and how the tracks beside its line came out.
+struct BuiltWorld {
+  LineWorld world;
+  SideTrackQuality beside;
+};
+
+std::vector<BuiltWorld> BuildWorlds(const RailMap& map,
+                                    const std::vector<TrackLine>& tracks,
+                                    const std::vector<ImportedLine>& lines,
+                                    const ImportCommandOptions& options) {
+  std::vector<BuiltWorld> worlds(lines.size());
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, lines.size(), 1),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          worlds[i].world = MakeLineWorld(map, tracks[i], lines[i]);
+          if (options.is_main_only) continue;
+          worlds[i].beside =
+              AddSideTracks(map, tracks[i], lines[i], options.fit.sigma_m, worlds[i].world);
+        }
+      },
+      tbb::simple_partitioner());
+  return worlds;
+}
+
+std::vector<LineWorld> WorldsOf(const std::vector<BuiltWorld>& built) {
+  std::vector<LineWorld> worlds;
+  for (const BuiltWorld& one : built) worlds.push_back(one.world);
+  return worlds;
+}
+
+std::string TracksCsv(const std::vector<ImportedLine>& lines,
+                      const std::vector<BuiltWorld>& worlds) {
+  std::ostringstream csv;
+  csv << "line,tracks,turnouts,length_m,points,median_m,p99_m\n";
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const SideTrackQuality& q = worlds[i].beside;
+    const auto quantile_m = [&](double share) {
+      const auto last = static_cast<double>(q.distances_m.size()) - 1.0;
+      return q.distances_m.empty() ? 0.0 : q.distances_m[static_cast<std::size_t>(share * last)];
+    };
+    csv << lines[i].name << ',' << q.num_tracks << ',' << q.num_turnouts << ',' << q.length_m << ','
+        << q.distances_m.size() << ',' << quantile_m(0.5) << ',' << quantile_m(0.99) << '\n';
+  }
+  return csv.str();
+}
+
+/// So far beside a line its elevation is kept, since so far sensors see.
+constexpr double kElevationMargin_m = 500.0;
+
+Eigen::AlignedBox2d BoundsAbout(const RailMap& map, const TrackLine& track) {
+  Eigen::AlignedBox2d bounds_m;
+  for (const std::size_t node : track.nodes) bounds_m.extend(map.nodes[node].place_m);
+  const Eigen::Vector2d margin_m = Eigen::Vector2d::Constant(kElevationMargin_m);
+  return {bounds_m.min() - margin_m, bounds_m.max() + margin_m};
+}
+
+/// The elevation model about all lines; null if none was given.
+std::unique_ptr<const ElevationMap> ReadElevation(const ImportCommandOptions& options,
+                                                  const MapProjection& projection,
+                                                  const RailMap& map,
+                                                  const std::vector<TrackLine>& tracks) {
+  if (options.heights.empty()) return nullptr;
+  Eigen::AlignedBox2d bounds_m;
+  for (const TrackLine& track : tracks) bounds_m.extend(BoundsAbout(map, track));
+  auto elevation = std::make_unique<const ElevationMap>(options.heights, options.heights_crs,
+                                                        projection, bounds_m);
+  CheckCovers(map, tracks, *elevation, ShownPath(options.heights));
+  return elevation;
+}
+
+void WriteLine(const std::filesystem::path& out,
+               const ImportedLine& line,
+               const MapProjection& projection,
+               const LineWorld& world,
+               bool has_elevation) {
+  WriteFileWhole(out / (line.name + ".alignment.json"), AlignmentFileText(line, projection));
+  WriteFileWhole(out / (line.name + ".world.json"), WorldFileText(line, world, has_elevation));
+}
+
 int RunImport(const ImportCommandOptions& options) {
   RailMap map = ReadMap(options.map);
   // Without --crs, it is the map that cannot be projected.
@@ -67,22 +156,56 @@ int RunImport(const ImportCommandOptions& options) {
     throw InputError(ShownPath(options.map) + ": must have a line of at least --min-length " +
                      NumberText(options.min_length_m) + " m");
   }
+  const std::unique_ptr<const ElevationMap> elevation =
+      ReadElevation(options, projection, map, tracks);
   MakeEmptyFolder(options.out);
   // Before minutes of fitting.
   CheckCanWrite(options.out / "lines.csv");
-  const std::vector<ImportedLine> lines = ImportLines(map, tracks, options.fit);
-  for (const ImportedLine& line : lines) {
-    WriteFileWhole(options.out / (line.name + ".alignment.json"),
-                   AlignmentFileText(line, projection));
+  std::vector<ImportedLine> lines = ImportLines(map, tracks, options.fit);
+  const std::vector<BuiltWorld> worlds = BuildWorlds(map, tracks, lines, options);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (elevation) {
+      SetHeights(map, tracks[i], *elevation, ShownPath(options.heights), lines[i]);
+      WriteFileWhole(options.out / (lines[i].name + ".elevation.asc"),
+                     ElevationGridText(*elevation, BoundsAbout(map, tracks[i])));
+    } else if (!options.is_level) {
+      SetHeights(map, tracks[i], lines[i]);
+    }
+    WriteLine(options.out, lines[i], projection, worlds[i].world, elevation != nullptr);
   }
+  WriteFileWhole(options.out / "left_out.csv", LeftOutCsv(lines, WorldsOf(worlds)));
+  WriteFileWhole(options.out / "tracks.csv", TracksCsv(lines, worlds));
+  WriteFileWhole(options.out / "heights.csv", HeightsCsv(lines));
   WriteFileWhole(options.out / "lines.csv", QualityCsv(lines));
   WriteFileWhole(options.out / "contradictions.csv", ContradictionsCsv(lines));
   std::cout << "projection: " << ShownLines(projection.definition) << ", minus ("
             << NumberText(projection.origin_m.x()) << ", " << NumberText(projection.origin_m.y())
             << ") m\n\n"
             << QualityTable(lines) << '\n'
-            << "Wrote " << lines.size() << " alignments to " << ShownPath(options.out) << '\n';
+            << "Wrote " << lines.size() << " lines to " << ShownPath(options.out) << '\n';
   return kExitSuccess;
+}
+
+void AddHeightOptions(CLI::App& subcommand, const std::shared_ptr<ImportCommandOptions>& options) {
+  constexpr NumberRule kSigma{0.001, 100.0};  // In m.
+  CLI::Option* heights =
+      subcommand
+          .add_option(
+              "--heights", options->heights,
+              "Elevation model: GeoTIFF, ESRI ASCII grid or another raster that GDAL reads; "
+              "default: the heights of the map's points, where it has any")
+          ->check(NonEmpty());
+  subcommand
+      .add_option("--heights-crs", options->heights_crs,
+                  "Coordinate system of an elevation model that names none, such as EPSG:4326")
+      ->needs(heights);
+  subcommand
+      .add_option("--height-sigma", options->fit.height_sigma_m,
+                  "Standard deviation of the heights, in m")
+      ->capture_default_str()
+      ->check(Number(kSigma));
+  subcommand.add_flag("--level", options->is_level, "Leave out the heights of the map's points")
+      ->excludes(heights);
 }
 
 }  // namespace
@@ -92,38 +215,39 @@ void AddImport(CLI::App& app, ProgramCommand& command) {
   constexpr NumberRule kSigma{0.001, 100.0};  // In m.
   constexpr NumberRule kSpeed{1.0, 1000.0};   // In km/h.
   const auto options = std::make_shared<ImportCommandOptions>();
-  CLI::App* import =
+  CLI::App* subcommand =
       app.add_subcommand("import", "Fit the lines of a map and write them as alignments");
-  import
+  subcommand
       ->add_option("MAP", options->map,
-                   "Overpass JSON, .osm, .pbf, GeoJSON, GPX or KML with tracks as lines")
+                   "Overpass JSON, .osm, .pbf, GeoJSON, GPX, KML or railML 3 with tracks as lines")
       ->required()
       ->check(NonEmpty());
-  import->add_option("--out", options->out, "New or empty folder to write to")
+  subcommand->add_option("--out", options->out, "New or empty folder to write to")
       ->required()
       ->check(NonEmpty());
-  import->add_option("--crs", options->crs,
-                     "Coordinate system in metres for PROJ, such as EPSG:31256; default: a "
-                     "transverse Mercator about the middle of the map, without scale");
-  import
+  subcommand->add_option("--crs", options->crs,
+                         "Coordinate system in metres for PROJ, such as EPSG:31256; default: a "
+                         "transverse Mercator about the middle of the map, without scale");
+  subcommand
       ->add_option("--min-length", options->min_length_m, "Leave out lines shorter than this, in m")
       ->capture_default_str()
       ->check(Number(kLength));
-  import
+  subcommand
       ->add_option("--sigma", options->fit.sigma_m,
                    "Standard deviation of the map's points across the track, in m")
       ->capture_default_str()
       ->check(Number(kSigma));
-  import
+  subcommand
       ->add_option("--speed", options->fit.otherwise_kmph,
                    "Speed limit in km/h of lines for which the map has none")
       ->capture_default_str()
       ->check(Number(kSpeed));
-  import->callback([&command, options] {
-    command = [options](const std::string&) { return RunImport(*options);
-};
-}  // namespace railcast
-);
+  subcommand->add_flag("--main-only", options->is_main_only,
+                       "Leave out the tracks beside each line");
+  AddHeightOptions(*subcommand, options);
+  subcommand->callback([&command, options] {
+    command = [options](const std::string& /*all*/) { return RunImport(*options); };
+  });
 }
 
 }  // namespace railcast

@@ -183,6 +183,8 @@ ImportedLine ImportLine(const RailMap& map, const TrackLine& line, const ImportO
   // Finds what an alignment refuses before anything is written.
   AtPlace("line " + line.name + ": ", [&] { return Alignment(alignment); });
   imported.quality = QualityOf(points, fit);
+  imported.chainages_m = fit.chainages_m;
+  imported.height_sigma_m = options.height_sigma_m;
   for (std::size_t i = 0; i < fit.offsets_m.size(); ++i) {
     if (std::abs(fit.offsets_m[i]) <= kContradiction_m) continue;
     imported.contradictions.push_back(

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,21 +35,38 @@ struct LineQuality {
   double sign_changes_per_km{};
 };
 
+/// How well a line's gradients fit its heights.
+struct HeightQuality {
+  std::size_t num_points{};
+  double median_m{};  ///< Of the heights' distances from the line.
+  double p99_m{};
+  std::size_t num_gradients{};
+  double steepest_permil{};
+  /// The smallest radius of a vertical curve as a share of the one that its speed needs; infinite
+  /// without any.
+  double least_roundness{};
+};
+
 /// A line of the map as an alignment.
 struct ImportedLine {
   std::string name;
   AlignmentSpec alignment;
   LineQuality quality;
   std::vector<Contradiction> contradictions;  ///< Points farther away than 1.5 m.
+  std::vector<double> chainages_m;            ///< Of the feet of the TrackLine's nodes.
+  double height_sigma_m{};                    ///< ImportOptions::height_sigma_m.
+  std::optional<HeightQuality>
+      height_quality;  ///< Absent if the line is level for want of heights.
 };
 
 struct ImportOptions {
   double sigma_m = 0.3;          ///< Standard deviation of mapped points across the track.
+  double height_sigma_m = 2.0;   ///< Of the heights.
   double otherwise_kmph = 80.0;  ///< Where the map gives no speed.
 };
 
 /// Fits straights, arcs and clothoids to a line (FitLine) and takes its speed limits from the map.
-/// Its heights are all 0.
+/// Its heights are all 0 until SetHeights.
 [[nodiscard]] ImportedLine ImportLine(const RailMap& map,
                                       const TrackLine& line,
                                       const ImportOptions& options);

@@ -41,6 +41,9 @@ std::string AlignmentFileText(const ImportedLine& line, const MapProjection& pro
       (alignment.attribution.empty() ? "" : alignment.attribution + ". ") +
       "Fitted by railcast-generate import. Coordinates: " + projection.definition + ", minus (" +
       origin.str() + ") m.";
+  const auto value_json = [](const ChainageValue& step) {
+    return LineJson{{"s_m", step.s_m}, {"value", step.value}};
+  };
   const auto& elements = std::get<AlignmentElementsSpec>(alignment.course).elements;
   std::string text = "{\n  \"version\": 1,\n";
   text += "  \"attribution\": " + LineJson(attribution).dump() + ",\n";
@@ -48,12 +51,13 @@ std::string AlignmentFileText(const ImportedLine& line, const MapProjection& pro
           LineJson({alignment.origin_m[0], alignment.origin_m[1], alignment.origin_m[2]}).dump() +
           ",\n";
   text += "  \"heading_deg\": " + LineJson(alignment.heading_deg).dump() + ",\n";
-  text += "  \"speed_limits_kmph\": " +
-          ListText(alignment.speed_limits_kmph, "  ",
-                   [](const ChainageValue& limit) {
-                     return LineJson{{"s_m", limit.s_m}, {"value", limit.value}};
-                   }) +
-          ",\n";
+  text +=
+      "  \"speed_limits_kmph\": " + ListText(alignment.speed_limits_kmph, "  ", value_json) + ",\n";
+  if (!alignment.gradients_permil.empty()) {
+    text += "  \"gradients_permil\": " + ListText(alignment.gradients_permil, "  ", value_json) +
+            ",\n  \"gradient_smoothing_m\": " + LineJson(alignment.gradient_smoothing_m).dump() +
+            ",\n";
+  }
   text += "  \"course\": {\n    \"type\": \"elements\",\n    \"elements\": " +
           ListText(elements, "    ", ElementJson) + "\n  }\n}\n";
   return text;
@@ -91,6 +95,20 @@ std::string QualityTable(const std::vector<ImportedLine>& lines) {
           << q.sign_changes_per_km << " |\n";
   }
   return table.str();
+}
+
+std::string HeightsCsv(const std::vector<ImportedLine>& lines) {
+  std::ostringstream csv;
+  csv << "line,points,median_m,p99_m,gradients,steepest_permil,gradient_smoothing_m,"
+         "least_roundness\n";
+  for (const ImportedLine& line : lines) {
+    if (!line.height_quality) continue;
+    const HeightQuality& q = *line.height_quality;
+    csv << line.name << ',' << q.num_points << ',' << q.median_m << ',' << q.p99_m << ','
+        << q.num_gradients << ',' << q.steepest_permil << ',' << line.alignment.gradient_smoothing_m
+        << ',' << q.least_roundness << '\n';
+  }
+  return csv.str();
 }
 
 std::string ContradictionsCsv(const std::vector<ImportedLine>& lines) {

@@ -17,6 +17,8 @@ namespace railcast {
 [[nodiscard]] std::string QualityCsv(const std::vector<ImportedLine>& lines);
 /// The same as a table to be read.
 [[nodiscard]] std::string QualityTable(const std::vector<ImportedLine>& lines);
+/// The qualities of all lines' heights as CSV, one row for each that has heights.
+[[nodiscard]] std::string HeightsCsv(const std::vector<ImportedLine>& lines);
 /// All contradictions as CSV.
 [[nodiscard]] std::string ContradictionsCsv(const std::vector<ImportedLine>& lines);
 

@@ -3,6 +3,7 @@
 #include <geodesic.h>
 #include <proj.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <sstream>
@@ -135,6 +136,16 @@ MapProjection ProjectMap(const std::string& definition, RailMap& map) {
     throw InputError("the map must lie about its middle at " + NumberText(middle_deg.x()) + ", " +
                      NumberText(middle_deg.y()) + " degrees (got also " + place + ")");
   }
+  for (MapThing& thing : map.things) {
+    thing.places_m.clear();
+    for (const Eigen::Vector2d& place_deg : thing.geographic_deg) {
+      thing.places_m.emplace_back(project(place_deg) - projection.origin_m);
+    }
+  }
+  // One that cannot be projected is far from all tracks.
+  std::erase_if(map.things, [](const MapThing& thing) {
+    return !std::ranges::all_of(thing.places_m, [](const auto& at) { return at.allFinite(); });
+  });
   constexpr double kLargestDifference = 0.01;
   const double scale = ScaleAt(middle_deg, project);
   if (!is_local && !(std::abs(scale - 1.0) <= kLargestDifference)) {

@@ -1,5 +1,6 @@
 #include "generator/import/map/overpass_json.h"
 
+#include <charconv>
 #include <cmath>
 #include <optional>
 #include <unordered_map>
@@ -55,6 +56,14 @@ MapTags OverpassTags(const StrictJson& element) {
   return tags;
 }
 
+/// The value of the key `ele`; absent if it is anything else than a height in metres.
+std::optional<double> HeightOf_m(std::string_view value) {
+  double height_m = 0.0;
+  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), height_m);
+  if (error != std::errc{} || end != value.data() + value.size()) return std::nullopt;
+  return IsHeight(height_m) ? std::optional(height_m) : std::nullopt;
+}
+
 std::optional<std::int64_t> OverpassReader::OverpassId(const StrictJson& value,
                                                        const std::string& place,
                                                        const std::string& rule) {
@@ -102,15 +111,20 @@ void OverpassReader::ReadNode(const StrictJson& element, const std::string& poin
   const auto latitude_deg = DegreesOf(element, pointer, "lat", 90.0);
   if (!id || !longitude_deg || !latitude_deg) return;
   if (!nodes_.emplace(*id, map_.nodes.size()).second) return;  // An answer may repeat nodes.
-  map_.nodes.push_back(
-      {.geographic_deg = {*longitude_deg, *latitude_deg}, .tags = OverpassTags(element)});
+  MapNode node{.geographic_deg = {*longitude_deg, *latitude_deg}, .tags = OverpassTags(element)};
+  node.height_m = HeightOf_m(TagOf(node.tags, "ele"));
+  if (IsThing(TagOf(node.tags, "railway"))) {
+    map_.things.push_back({{node.geographic_deg}, {}, node.tags});
+  }
+  map_.nodes.push_back(std::move(node));
 }
 
 void OverpassReader::ReadWay(const StrictJson& element, const std::string& pointer) {
   const auto id = IdOf(element, pointer);
   if (!id) return;
   MapTags tags = OverpassTags(element);
-  if (!IsTrack(TagOf(tags, "railway"))) return;
+  const bool is_track = IsTrack(TagOf(tags, "railway"));
+  if (!is_track && !IsThing(TagOf(tags, "railway"))) return;
   if (!ways_.insert(*id).second) return;  // An answer may repeat ways, too.
   if (!element.contains("nodes") || !element["nodes"].is_array()) {
     errors_.Add({pointer + "/nodes", "must be a list of node ids",
@@ -136,7 +150,15 @@ void OverpassReader::ReadWay(const StrictJson& element, const std::string& point
                  std::to_string(way.nodes.size())});
     return;
   }
-  map_.ways.push_back(std::move(way));
+  if (is_track) {
+    map_.ways.push_back(std::move(way));
+    return;
+  }
+  MapThing thing{{}, {}, std::move(way.tags)};
+  for (const std::size_t node : way.nodes) {
+    thing.geographic_deg.push_back(map_.nodes[node].geographic_deg);
+  }
+  map_.things.push_back(std::move(thing));
 }
 
 void OverpassReader::Read(const StrictJson& elements) {

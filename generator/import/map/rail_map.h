@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,11 +29,18 @@ using MapTags = std::map<std::string, std::string, std::less<>>;
   return std::ranges::find(kTracks, railway) != kTracks.end();
 }
 
+/// What a height of a source must be, and whether it is.
+inline constexpr const char* kHeightRule = "must have heights from -1000 to 10000 m";
+[[nodiscard]] inline bool IsHeight(double height_m) {
+  return height_m >= -1000.0 && height_m <= 10000.0;
+}
+
 struct MapNode {
   /// As in the source: longitude and latitude in degrees (WGS 84).
   Eigen::Vector2d geographic_deg = Eigen::Vector2d::Zero();
   /// In metres, east and north of the map's origin (MapProjection).
   Eigen::Vector2d place_m = Eigen::Vector2d::Zero();
+  std::optional<double> height_m = std::nullopt;  ///< Where the source has it.
   MapTags tags;
 };
 
@@ -48,10 +56,25 @@ inline void AppendNode(std::size_t node, MapWay& way) {
   if (way.nodes.empty() || way.nodes.back() != node) way.nodes.push_back(node);
 }
 
+/// Something beside or on tracks, such as a platform or a signal.
+struct MapThing {
+  std::vector<Eigen::Vector2d> geographic_deg;  ///< One point, or those of a line or an outline.
+  std::vector<Eigen::Vector2d> places_m;        ///< As many, once the map is projected.
+  MapTags tags;
+};
+
+/// Whether a value of OpenStreetMap's key `railway` is a thing of which import makes something.
+[[nodiscard]] inline bool IsThing(std::string_view railway) {
+  constexpr auto kThings = std::to_array<std::string_view>(
+      {"platform", "level_crossing", "crossing", "buffer_stop", "signal", "milestone", "derail"});
+  return std::ranges::find(kThings, railway) != kThings.end();
+}
+
 /// The railway tracks of a map. Tracks meet where ways share a node.
 struct RailMap {
   std::vector<MapNode> nodes;
   std::vector<MapWay> ways;
+  std::vector<MapThing> things;
   std::string attribution;
 };
 

@@ -15,6 +15,7 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "generator/import/map/gdal_errors.h"
 
 namespace railcast {
 namespace {
@@ -60,8 +61,10 @@ MapTags FeatureTags(const OGRFeature& feature) {
 struct Line {
   std::string place;  ///< For messages: "lines 12".
   std::vector<Eigen::Vector2d> points_deg;
+  std::vector<double> heights_m;  ///< As many, or none.
   MapTags tags;
   bool is_area = false;
+  bool is_point = false;
 };
 
 /// Takes the lines of a geometry; multi-part ones give several.
@@ -71,17 +74,30 @@ void AddLines(const OGRGeometry& geometry, const Line& line, std::vector<Line>& 
       Line added = line;
       for (const OGRPoint& point : *geometry.toLineString()) {
         added.points_deg.emplace_back(point.getX(), point.getY());
+        if (geometry.Is3D()) added.heights_m.push_back(point.getZ());
       }
       lines.push_back(std::move(added));
       break;
     }
-    case wkbPolygon:
-    case wkbMultiPolygon: {
+    case wkbPoint: {
       Line added = line;
-      added.is_area = true;
+      added.points_deg.emplace_back(geometry.toPoint()->getX(), geometry.toPoint()->getY());
+      added.is_point = true;
       lines.push_back(std::move(added));
       break;
     }
+    case wkbPolygon: {
+      Line added = line;
+      added.is_area = true;
+      if (const OGRLinearRing* outline = geometry.toPolygon()->getExteriorRing()) {
+        for (const OGRPoint& point : *outline) {
+          added.points_deg.emplace_back(point.getX(), point.getY());
+        }
+      }
+      lines.push_back(std::move(added));
+      break;
+    }
+    case wkbMultiPolygon:
     case wkbMultiLineString:
     case wkbGeometryCollection:
       for (const OGRGeometry* part : *geometry.toGeometryCollection()) {
@@ -89,31 +105,9 @@ void AddLines(const OGRGeometry& geometry, const Line& line, std::vector<Line>& 
       }
       break;
     default:
-      break;  // Points are no tracks.
+      break;
   }
 }
-
-/// Keeps GDAL from printing, and keeps the first of its errors.
-class GdalErrors {
- public:
-  GdalErrors() { CPLPushErrorHandlerEx(&GdalErrors::Take, this); }
-  ~GdalErrors() { CPLPopErrorHandler(); }
-  GdalErrors(const GdalErrors&) = delete;
-  GdalErrors& operator=(const GdalErrors&) = delete;
-
-  [[nodiscard]] const std::string& first() const { return first_; }
-  /// Formats that do not fit are errors, too, until one does.
-  void Forget() { first_.clear(); }
-
- private:
-  static void CPL_STDCALL Take(CPLErr kind, CPLErrorNum /*number*/, const char* message) {
-    auto& errors = *static_cast<GdalErrors*>(CPLGetErrorHandlerUserData());
-    if (kind < CE_Failure || !errors.first_.empty()) return;
-    errors.first_ = *message != '\0' ? message : "unknown error";
-  }
-
-  std::string first_;
-};
 
 bool IsOpenStreetMap(GDALDataset& dataset) {
   return EQUAL(dataset.GetDriver()->GetDescription(), "OSM");
@@ -127,12 +121,15 @@ std::vector<Line> LinesIn(GDALDataset& dataset) {
   // Features come in the order of the file, whatever their layer, which .pbf files need.
   while (const auto feature = std::unique_ptr<OGRFeature>(
              dataset.GetNextFeature(&layer, nullptr, nullptr, nullptr))) {
-    if (has_relations && !EQUAL(layer->GetName(), "lines")) continue;
+    if (has_relations && (EQUAL(layer->GetName(), "multilinestrings") ||
+                          EQUAL(layer->GetName(), "other_relations"))) {
+      continue;
+    }
     const OGRGeometry* geometry = feature->GetGeometryRef();
     if (geometry == nullptr) continue;
     const std::string place =
         std::string(layer->GetName()) + " " + std::to_string(feature->GetFID());
-    AddLines(*geometry, {place, {}, FeatureTags(*feature), false}, lines);
+    AddLines(*geometry, {place, {}, {}, FeatureTags(*feature), false, false}, lines);
   }
   return lines;
 }
@@ -158,6 +155,20 @@ bool IsDegrees(const Eigen::Vector2d& point_deg) {
   return std::abs(point_deg.x()) <= 180.0 && std::abs(point_deg.y()) <= 90.0;
 }
 
+/// Moves platforms, signals and the like from the lines to the map. Other points are dropped, and
+/// so are OpenStreetMap's other areas.
+void TakeThings(bool is_osm, std::vector<Line>& lines, RailMap& map) {
+  std::erase_if(lines, [&](Line& line) {
+    const bool is_place =
+        !line.points_deg.empty() && std::ranges::all_of(line.points_deg, IsDegrees);
+    if (!IsThing(TagOf(line.tags, "railway")) || !is_place) {
+      return line.is_point || (is_osm && line.is_area);
+    }
+    map.things.push_back({std::move(line.points_deg), {}, std::move(line.tags)});
+    return true;
+  });
+}
+
 /// Appends a line as a way.
 void AddWay(const Line& line, NodeIndex& nodes, RailMap& map, ErrorList& errors) {
   if (line.is_area) {
@@ -165,13 +176,21 @@ void AddWay(const Line& line, NodeIndex& nodes, RailMap& map, ErrorList& errors)
     return;
   }
   MapWay way{static_cast<std::int64_t>(map.ways.size()), {}, line.tags};
-  for (const Eigen::Vector2d& point_deg : line.points_deg) {
+  for (std::size_t i = 0; i < line.points_deg.size(); ++i) {
+    const Eigen::Vector2d& point_deg = line.points_deg[i];
     if (!IsDegrees(point_deg)) {
       errors.Add({line.place, "must have longitudes and latitudes in degrees",
                   NumberText(point_deg.x()) + ", " + NumberText(point_deg.y())});
       return;
     }
-    AppendNode(nodes.Of(point_deg), way);
+    const std::size_t node = nodes.Of(point_deg);
+    AppendNode(node, way);
+    if (line.heights_m.empty() || map.nodes[node].height_m) continue;
+    if (!IsHeight(line.heights_m[i])) {
+      errors.Add({line.place, kHeightRule, NumberText(line.heights_m[i])});
+      return;
+    }
+    map.nodes[node].height_m = line.heights_m[i];
   }
   if (way.nodes.size() < 2) {
     errors.Add(
@@ -194,7 +213,7 @@ RailMap ReadVectorMap(const std::filesystem::path& file) {
   const std::string reason = gdal_errors.first();
   if (!dataset) {
     throw InputError(ShownPath(file) +
-                     ": must be a map: Overpass JSON, .osm, .pbf, GeoJSON, GPX or KML" +
+                     ": must be a map: Overpass JSON, .osm, .pbf, GeoJSON, GPX, KML or railML 3" +
                      (reason.empty() ? "" : " (" + ShownText(reason) + ")"));
   }
   gdal_errors.Forget();
@@ -203,13 +222,14 @@ RailMap ReadVectorMap(const std::filesystem::path& file) {
     throw InputError(ShownPath(file) + ": must be readable to its end (" +
                      ShownText(gdal_errors.first()) + ")");
   }
+  RailMap map;
+  TakeThings(IsOpenStreetMap(*dataset), lines, map);
   const std::size_t num_lines = lines.size();
   const bool has_railways = std::ranges::any_of(
       lines, [](const Line& line) { return !TagOf(line.tags, "railway").empty(); });
   if (has_railways || IsOpenStreetMap(*dataset)) {
     std::erase_if(lines, [](const Line& line) { return !IsTrack(TagOf(line.tags, "railway")); });
   }
-  RailMap map;
   NodeIndex nodes(map);
   ErrorList errors;
   for (const Line& line : lines) AddWay(line, nodes, map, errors);

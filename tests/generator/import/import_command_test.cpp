@@ -3,8 +3,10 @@
 
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/base/text.h"
 #include "core/io/write_file.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/run_command.h"
@@ -54,8 +56,74 @@ TEST(Import, GivesTheSameBytesAgain) {
       texts[run][file.path().filename()] = ReadFileWhole(file.path());
     }
   }
-  EXPECT_THAT(texts[0], ::testing::SizeIs(5)) << "three lines, lines.csv and contradictions.csv";
+  EXPECT_THAT(texts[0], ::testing::SizeIs(11)) << "two files of each line and five reports";
   EXPECT_EQ(texts[0], texts[1]);
+}
+
+/// A grid of 1e-3 degrees about the map of kMap, on which heights rise to the east by 5 m a cell,
+/// which is 6.7 %: too steep for a railway; with `rise_m` 1 it is 1.3 %.
+std::string SlopeGrid(double rise_m) {
+  std::string text =
+      "ncols 60\nnrows 40\nxllcorner 15.58\nyllcorner 48.18\ncellsize 0.001\n"
+      "NODATA_value -9999\n";
+  for (int row = 0; row < 40; ++row) {
+    for (int column = 0; column < 60; ++column) text += NumberText(300.0 + rise_m * column) + " ";
+    text += "\n";
+  }
+  return text;
+}
+
+TEST(Import, TakesHeightsFromAnElevationModel) {
+  const TemporaryDirectory directory;
+  const fs::path map = directory.path() / "map.geojson";
+  const fs::path grid = directory.path() / "dem.asc";
+  const fs::path out = directory.path() / "out";
+  WriteFileWhole(map, kMap);
+  WriteFileWhole(grid, SlopeGrid(1.0));
+  const Ended run = Generate("import " + map.string() + " --out " + out.string() + " --heights " +
+                             grid.string() + " --heights-crs EPSG:4326");
+  ASSERT_EQ(run.status, 0) << run.said;
+  const auto alignment = nlohmann::json::parse(ReadFileWhole(out / "hill-line.alignment.json"));
+  // The middle of column 19.5 is 15.60 degrees. A degree is cos(48.2) * 111.3 km, and the line goes
+  // a little to the north, too.
+  EXPECT_NEAR(alignment["origin_m"][2], 319.5, 0.1);
+  ASSERT_THAT(alignment["gradients_permil"], ::testing::SizeIs(1));
+  EXPECT_NEAR(alignment["gradients_permil"][0]["value"], 1e3 / 74.3, 0.1);
+  EXPECT_THAT(ReadFileWhole(out / "heights.csv"), HasSubstr("hill-line,"));
+  EXPECT_THAT(ReadFileWhole(out / "hill-line.elevation.asc"), HasSubstr("cellsize 112\n"));
+}
+
+TEST(Import, NeedsAnElevationModelThatDoesNotEnd) {
+  const TemporaryDirectory directory;
+  const fs::path map = directory.path() / "map.geojson";
+  const fs::path grid = directory.path() / "dem.asc";
+  WriteFileWhole(map, kMap);
+  WriteFileWhole(
+      grid, "ncols 3\nnrows 2\nxllcorner 15.598\nyllcorner 48.195\ncellsize 0.01\n1 2 3\n4 5 6\n");
+  const Ended run =
+      Generate("import " + map.string() + " --out " + (directory.path() / "out").string() +
+               " --heights " + grid.string() + " --heights-crs EPSG:4326");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.said, HasSubstr("dem.asc: must cover the lines to their ends (got none of "
+                                  "hill-line at 15.6, 48.2 degrees)"));
+  EXPECT_FALSE(fs::exists(directory.path() / "out"));
+}
+
+TEST(Import, TakesHeightsFromTheMap) {
+  const TemporaryDirectory directory;
+  const fs::path map = directory.path() / "map.geojson";
+  WriteFileWhole(map, R"({"type": "LineString", "coordinates":
+    [[15.60, 48.20, 250], [15.61, 48.20, 255], [15.62, 48.20, 260], [15.63, 48.20, 265]]})");
+  const auto origin_z_m = [&](const std::string& options) -> double {
+    const fs::path out = directory.path() / (options.empty() ? "own" : "level");
+    const Ended run = Generate("import " + map.string() + " --out " + out.string() + options);
+    EXPECT_EQ(run.status, 0) << run.said;
+    return nlohmann::json::parse(ReadFileWhole(out / "line.alignment.json"))["origin_m"][2];
+  };
+  // The line may run either way.
+  EXPECT_THAT(origin_z_m(""), ::testing::AnyOf(::testing::DoubleNear(250.0, 0.1),
+                                               ::testing::DoubleNear(265.0, 0.1)));
+  EXPECT_EQ(origin_z_m(" --level"), 0.0);
 }
 
 TEST(Import, RefusesAFolderThatIsNotEmpty) {

@@ -145,8 +145,10 @@ TEST_F(Maps, AreRefusedInOneLineEachWhereTheyAreWrong) {
                           R"({"type": "way", "id": 7, "nodes": [1], "tags": {"railway": "rail"}})"),
             "map.json: /elements/3/nodes: must have two different nodes or more (got 1)");
   EXPECT_THAT(Fault("map.json", R"({"elements": [)"), HasSubstr("map.json: must be JSON: "));
-  EXPECT_THAT(Fault("map.txt", "hello"),
-              HasSubstr("map.txt: must be a map: Overpass JSON, .osm, .pbf, GeoJSON, GPX or KML"));
+  EXPECT_THAT(
+      Fault("map.txt", "hello"),
+      HasSubstr(
+          "map.txt: must be a map: Overpass JSON, .osm, .pbf, GeoJSON, GPX, KML or railML 3"));
   EXPECT_THAT(Fault("map.kml", R"(<?xml version="1.0"?>
 <kml xmlns="http://www.opengis.net/kml/2.2"><Document><Placemark><name>Field</name><Polygon>
 <outerBoundaryIs><LinearRing><coordinates>15.60,48.20 15.61,48.20 15.62,48.21 15.60,48.20
@@ -186,8 +188,10 @@ TEST_F(Maps, OfOpenStreetMapMustHaveRailways) {
 }
 
 TEST_F(Maps, AreRefusedInOtherFormatsThatGdalKnows) {
-  EXPECT_THAT(Fault("map.csv", "id,WKT\n1,\"LINESTRING (15.6 48.2,15.61 48.2)\"\n"),
-              HasSubstr("map.csv: must be a map: Overpass JSON, .osm, .pbf, GeoJSON, GPX or KML"));
+  EXPECT_THAT(
+      Fault("map.csv", "id,WKT\n1,\"LINESTRING (15.6 48.2,15.61 48.2)\"\n"),
+      HasSubstr(
+          "map.csv: must be a map: Overpass JSON, .osm, .pbf, GeoJSON, GPX, KML or railML 3"));
 }
 
 TEST_F(Maps, MustHaveTwoDifferentPointsInEachTrack) {

@@ -1,0 +1,128 @@
+#include "generator/import/lines/line_heights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "generator/import/heights/profile_fit.h"
+#include "generator/import/lines/line_stretches.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kNearestSamples_m = 20.0;
+
+double SpeedAt_kmph(const AlignmentSpec& alignment, double s_m) {
+  const std::vector<ChainageValue>& limits = alignment.speed_limits_kmph;
+  const auto after = std::ranges::upper_bound(limits, s_m, {}, &ChainageValue::s_m);
+  return (after == limits.begin() ? limits.front() : *std::prev(after)).value;
+}
+
+HeightQuality HeightQualityOf(const Profile& profile) {
+  HeightQuality quality;
+  quality.num_points = profile.offsets_m.size();
+  std::vector<double> distances_m;
+  for (const double offset_m : profile.offsets_m) distances_m.push_back(std::abs(offset_m));
+  std::ranges::sort(distances_m);
+  const auto quantile_m = [&](double share) {
+    return distances_m[static_cast<std::size_t>(share *
+                                                static_cast<double>(distances_m.size() - 1))];
+  };
+  quality.median_m = quantile_m(0.5);
+  quality.p99_m = quantile_m(0.99);
+  quality.num_gradients = profile.gradients_permil.size();
+  for (const ChainageValue& gradient : profile.gradients_permil) {
+    quality.steepest_permil = std::max(quality.steepest_permil, std::abs(gradient.value));
+  }
+  quality.least_roundness = profile.least_roundness;
+  return quality;
+}
+
+void FitHeights(std::vector<HeightSample> samples, ImportedLine& line) {
+  std::ranges::stable_sort(samples, {}, &HeightSample::s_m);
+  AlignmentSpec& alignment = line.alignment;
+  const Profile profile =
+      FitProfile(samples, {.length_m = line.quality.length_m,
+                           .sigma_m = line.height_sigma_m,
+                           .speed_kmph = [&](double s_m) { return SpeedAt_kmph(alignment, s_m); }});
+  alignment.origin_m[2] = profile.start_z_m;
+  alignment.gradients_permil = profile.gradients_permil;
+  alignment.gradient_smoothing_m = profile.smoothing_m;
+  line.height_quality = HeightQualityOf(profile);
+}
+
+/// Chainages at which the model's ground may be the line's.
+std::vector<double> ChainagesOnGround(const RailMap& map,
+                                      const TrackLine& track,
+                                      const ImportedLine& line,
+                                      double cell_m) {
+  const std::vector<LineStretch> apart =
+      StretchesWhere(map, track, line.chainages_m, [](const MapTags& tags) {
+        return IsThere(TagOf(tags, "bridge")) || IsThere(TagOf(tags, "tunnel"));
+      });
+  const double step_m = std::max(kNearestSamples_m, cell_m);
+  const double num_steps = std::max(1.0, std::floor(line.quality.length_m / step_m));
+  std::vector<double> chainages_m;
+  for (double step = 0.0; step <= num_steps; ++step) {
+    const double s_m = line.quality.length_m * (step / num_steps);
+    const bool is_apart = std::ranges::any_of(apart, [&](const LineStretch& stretch) {
+      return s_m >= stretch.begin_s_m - cell_m && s_m <= stretch.end_s_m + cell_m;
+    });
+    if (!is_apart) chainages_m.push_back(s_m);
+  }
+  return chainages_m;
+}
+
+}  // namespace
+
+void CheckCovers(const RailMap& map,
+                 const std::vector<TrackLine>& tracks,
+                 const ElevationMap& elevation,
+                 const std::string& name) {
+  for (const TrackLine& track : tracks) {
+    for (const std::size_t i : track.nodes) {
+      const MapNode& node = map.nodes[i];
+      if (elevation.Covers(node.place_m)) continue;
+      throw InputError(name + ": must cover the lines to their ends (got none of " + track.name +
+                       " at " + NumberText(node.geographic_deg.x()) + ", " +
+                       NumberText(node.geographic_deg.y()) + " degrees)");
+    }
+  }
+}
+
+void SetHeights(const RailMap& map,
+                const TrackLine& track,
+                const ElevationMap& elevation,
+                const std::string& name,
+                ImportedLine& line) {
+  const std::vector<double> chainages_m = ChainagesOnGround(map, track, line, elevation.cell_m());
+  const Alignment alignment(line.alignment);
+  std::vector<Eigen::Vector2d> places_m;
+  for (const double s_m : chainages_m) {
+    places_m.emplace_back(alignment.At(s_m).position_m.head<2>());
+  }
+  const std::vector<std::optional<double>> heights_m = elevation.HeightsAt(places_m);
+  std::vector<HeightSample> samples;
+  for (std::size_t i = 0; i < places_m.size(); ++i) {
+    if (heights_m[i]) samples.push_back({chainages_m[i], *heights_m[i]});
+  }
+  if (samples.empty()) {
+    throw InputError(name + ": must have a height along each line (got none for " + line.name +
+                     ")");
+  }
+  FitHeights(std::move(samples), line);
+}
+
+void SetHeights(const RailMap& map, const TrackLine& track, ImportedLine& line) {
+  std::vector<HeightSample> samples;
+  for (std::size_t i = 0; i < track.nodes.size(); ++i) {
+    const std::optional<double>& height_m = map.nodes[track.nodes[i]].height_m;
+    if (height_m) samples.push_back({line.chainages_m[i], *height_m});
+  }
+  if (samples.size() >= 2) FitHeights(std::move(samples), line);
+}
+
+}  // namespace railcast

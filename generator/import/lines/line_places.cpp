@@ -1,0 +1,55 @@
+#include "generator/import/lines/line_places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <variant>
+#include <vector>
+
+#include "generator/import/fit/plan_window.h"
+
+namespace railcast {
+
+LinePlaces::LinePlaces(const RailMap& map, const TrackLine& track, const ImportedLine& line)
+    : map_(map),
+      track_(track),
+      line_(line),
+      plan_(PlanOf({line.alignment.origin_m[0], line.alignment.origin_m[1],
+                    line.alignment.heading_deg * std::numbers::pi / 180.0, 0.0},
+                   std::get<AlignmentElementsSpec>(line.alignment.course).elements)),
+      course_(plan_.Course()) {
+  for (const std::size_t node : track.nodes) bounds_m_.extend(map.nodes[node].place_m);
+}
+
+std::optional<LinePlace> LinePlaces::Of(const Eigen::Vector2d& place_m, double farthest_m) const {
+  if (bounds_m_.exteriorDistance(place_m) > farthest_m) return std::nullopt;
+  LinePlace found;
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i + 1 < track_.nodes.size(); ++i) {
+    const Eigen::Vector2d& a_m = map_.nodes[track_.nodes[i]].place_m;
+    const Eigen::Vector2d along_m = map_.nodes[track_.nodes[i + 1]].place_m - a_m;
+    const double share = std::clamp((place_m - a_m).dot(along_m) / along_m.squaredNorm(), 0.0, 1.0);
+    const double distance_m = (place_m - a_m - share * along_m).norm();
+    if (distance_m >= nearest_m) continue;
+    nearest_m = distance_m;
+    found.node = i;
+    found.s_m = std::lerp(line_.chainages_m[i], line_.chainages_m[i + 1], share);
+  }
+  constexpr double kSlack_m = 5.0;  // Between the points and what is fitted to them.
+  if (nearest_m > farthest_m + kSlack_m) return std::nullopt;
+  const Foot foot = FootOn(course_, plan_.length_m(), place_m, found.s_m);
+  if (std::abs(foot.offset_m) > farthest_m) return std::nullopt;
+  found.s_m = foot.s_m;
+  found.d_m = foot.offset_m;
+  found.beyond_m = foot.beyond_m;
+  return found;
+}
+
+bool LinePlaces::IsForward(std::size_t node) const {
+  const std::vector<std::size_t>& nodes = map_.ways[track_.ways[node]].nodes;
+  const auto first = std::ranges::find(nodes, track_.nodes[node]);
+  return std::find(first, nodes.end(), track_.nodes[node + 1]) != nodes.end();
+}
+
+}  // namespace railcast

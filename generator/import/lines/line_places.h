@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+
+#include "core/rail/line/plan_course.h"
+#include "generator/import/fit/plan_model.h"
+#include "generator/import/lines/imported_line.h"
+#include "generator/import/lines/track_lines.h"
+#include "generator/import/map/rail_map.h"
+
+namespace railcast {
+
+/// Where something lies against a line.
+struct LinePlace {
+  double s_m{};
+  double d_m{};        ///< Left positive.
+  std::size_t node{};  ///< Of the line: the one at or before it.
+  double beyond_m{};   ///< How far before (negative) or behind the ends of the line.
+};
+
+/// Finds chainage and offset of places on the map against a line.
+class LinePlaces {
+ public:
+  LinePlaces(const RailMap& map, const TrackLine& track, const ImportedLine& line);
+
+  /// Absent if the place is farther away than `farthest_m`.
+  [[nodiscard]] std::optional<LinePlace> Of(const Eigen::Vector2d& place_m,
+                                            double farthest_m) const;
+  [[nodiscard]] double length_m() const { return plan_.length_m(); }
+  /// Whether the way at a node of the line is drawn as the line runs.
+  [[nodiscard]] bool IsForward(std::size_t node) const;
+
+ private:
+  const RailMap& map_;
+  const TrackLine& track_;
+  const ImportedLine& line_;
+  PlanModel plan_;
+  PlanCourse course_;
+  Eigen::AlignedBox2d bounds_m_;
+};
+
+}  // namespace railcast

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "generator/import/lines/imported_line.h"
+#include "generator/import/lines/line_world.h"
+#include "generator/import/lines/track_lines.h"
+#include "generator/import/map/rail_map.h"
+
+namespace railcast {
+
+/// How the tracks beside a line came out.
+struct SideTrackQuality {
+  std::size_t num_tracks{};
+  std::size_t num_turnouts{};
+  double length_m{};
+  std::vector<double> distances_m;  ///< Of the map's points from their tracks.
+};
+
+/// Adds the tracks of the map that run along a line, within 60 m of it, to its world.
+///
+/// Ways are followed straight on as those of lines are, whatever their `service`, and cut into runs
+/// with rising chainage that keep within 20 degrees of the line. The longest come first. A run
+/// becomes, whichever is possible first,
+/// - a crossover, if it leads from one parallel track to another within 150 m;
+/// - a track parallel to the line but for S-curves (LevelsOf), with turnouts where its ends meet
+/// other
+///   tracks;
+/// - straights, arcs and clothoids in the plane of chainage and offset (FitLine), without turnouts,
+///   as far as it is 3 m from all others.
+/// What cannot be done is left out of the world and says so.
+[[nodiscard]] SideTrackQuality AddSideTracks(const RailMap& map,
+                                             const TrackLine& track,
+                                             const ImportedLine& line,
+                                             double sigma_m,
+                                             LineWorld& world);
+
+}  // namespace railcast

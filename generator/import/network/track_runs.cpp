@@ -1,0 +1,181 @@
+#include "generator/import/network/track_runs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "generator/import/lines/speed_limits.h"
+
+namespace railcast {
+namespace {
+
+constexpr const char* kServiceKey = "import:service";
+
+/// The ways that a line does not use, all of them running tracks, so that FindLines takes them.
+RailMap OthersThan(const RailMap& map, const TrackLine& line) {
+  const std::set<std::size_t> used(line.ways.begin(), line.ways.end());
+  RailMap others;
+  others.nodes = map.nodes;
+  for (std::size_t i = 0; i < map.ways.size(); ++i) {
+    if (used.contains(i)) continue;
+    MapWay way = map.ways[i];
+    const std::string service(TagOf(way.tags, "service"));
+    way.tags.erase("service");
+    way.tags[kServiceKey] = service;
+    others.ways.push_back(std::move(way));
+  }
+  return others;
+}
+
+/// What most of a stretch of a line of ways has, by number of points.
+std::string CommonTag(const RailMap& map,
+                      std::vector<std::size_t>::const_iterator begin,
+                      std::vector<std::size_t>::const_iterator end,
+                      std::string_view key) {
+  std::map<std::string_view, int> counts;
+  for (auto way = begin; way != end; ++way) ++counts[TagOf(map.ways[*way].tags, key)];
+  if (counts.empty()) return "";
+  return std::string(
+      std::ranges::max_element(counts, {}, [](const auto& entry) { return entry.second; })->first);
+}
+
+class RunCutter {
+ public:
+  RunCutter(const RailMap& map, const LinePlaces& places, std::vector<TrackRun>& runs)
+      : map_(map), places_(places), runs_(runs) {}
+
+  void Cut(const TrackLine& chain) {
+    std::size_t first = 0;
+    std::vector<Eigen::Vector2d> points_m;
+    for (std::size_t i = 0; i < chain.nodes.size(); ++i) {
+      const auto point_m = PointOf(chain.nodes[i]);
+      if (point_m && (points_m.empty() || GoesOn(points_m, *point_m))) {
+        if (points_m.empty()) first = i;
+        points_m.push_back(*point_m);
+        continue;
+      }
+      End(chain, first, points_m);
+      points_m.clear();
+      // The run ends here, and the next one may begin with the same point.
+      if (i > 0 && point_m) {
+        first = i - 1;
+        if (const auto before_m = PointOf(chain.nodes[first])) points_m.push_back(*before_m);
+        if (points_m.empty()) first = i;
+        if (points_m.empty() || GoesOn(points_m, *point_m)) points_m.push_back(*point_m);
+      }
+    }
+    End(chain, first, points_m);
+  }
+
+ private:
+  static constexpr double kStrip_m = 60.0;
+
+  [[nodiscard]] std::optional<Eigen::Vector2d> PointOf(std::size_t node) const {
+    const auto place = places_.Of(map_.nodes[node].place_m, kStrip_m);
+    constexpr double kAtEnd_m = 1.0;
+    if (!place || place->s_m < kAtEnd_m || place->s_m > places_.length_m() - kAtEnd_m) {
+      return std::nullopt;
+    }
+    return Eigen::Vector2d(place->s_m, place->d_m);
+  }
+
+  /// Whether a point continues others in their direction and along the line.
+  [[nodiscard]] static bool GoesOn(const std::vector<Eigen::Vector2d>& points_m,
+                                   const Eigen::Vector2d& point_m) {
+    const double kSteepest = std::tan(20.0 * std::numbers::pi / 180.0);
+    const Eigen::Vector2d step_m = point_m - points_m.back();
+    if (!(std::abs(step_m.y()) < kSteepest * std::abs(step_m.x()))) return false;
+    return points_m.size() < 2 || step_m.x() * (points_m[1].x() - points_m[0].x()) > 0.0;
+  }
+
+  void End(const TrackLine& chain, std::size_t first, std::vector<Eigen::Vector2d> points_m) {
+    constexpr double kShortest_m = 20.0;
+    if (points_m.size() < 2 || std::abs(points_m.back().x() - points_m.front().x()) < kShortest_m) {
+      return;
+    }
+    const auto begin = chain.ways.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto end = begin + static_cast<std::ptrdiff_t>(points_m.size()) - 1;
+    TrackRun run;
+    const std::string service = CommonTag(map_, begin, end, kServiceKey);
+    run.kind = service.empty() ? "running" : service;
+    const bool is_name = std::ranges::all_of(
+        run.kind, [](char letter) { return letter == '_' || (letter >= 'a' && letter <= 'z'); });
+    if (!is_name) run.kind = "other";
+    const std::string electrified = CommonTag(map_, begin, end, "electrified");
+    run.is_electrified = electrified != "no" && electrified != "rail";
+    constexpr double kUsualRunning_kmph = 80.0;
+    constexpr double kUsual_kmph = 40.0;
+    run.speed_kmph = SpeedOf_kmph(CommonTag(map_, begin, end, "maxspeed"))
+                         .value_or(service.empty() ? kUsualRunning_kmph : kUsual_kmph);
+    if (points_m.back().x() < points_m.front().x()) std::ranges::reverse(points_m);
+    run.points_m = std::move(points_m);
+    runs_.push_back(std::move(run));
+  }
+
+  const RailMap& map_;
+  const LinePlaces& places_;
+  std::vector<TrackRun>& runs_;
+};
+
+}  // namespace
+
+std::vector<TrackRun> FindRuns(const RailMap& map,
+                               const TrackLine& line,
+                               const LinePlaces& places) {
+  const RailMap others = OthersThan(map, line);
+  std::vector<TrackRun> runs;
+  RunCutter cutter(others, places, runs);
+  for (const TrackLine& chain : FindLines(others, 0.0)) cutter.Cut(chain);
+  std::ranges::stable_sort(runs, std::ranges::greater{}, [](const TrackRun& run) {
+    return run.points_m.back().x() - run.points_m.front().x();
+  });
+  return runs;
+}
+
+PlanModel PartOf(const PlanModel& plan, double begin_m, double end_m) {
+  // By its elements: those outside are dropped, those at the ends shortened. A clothoid at an end
+  // becomes an arc of its mean curvature, since an end has none.
+  const PiecewiseLinear curvature = plan.Curvature();
+  std::vector<AlignmentElement> elements;
+  for (std::size_t i = 0; i < curvature.pieces().size(); ++i) {
+    const LinearPiece& piece = curvature.pieces()[i];
+    const double from_m = std::max(begin_m, piece.begin_s_m);
+    const double to_m = std::min(end_m, curvature.EndOf(i));
+    if (to_m - from_m < 1e-3) continue;
+    const bool is_cut = from_m > piece.begin_s_m || to_m < curvature.EndOf(i);
+    const bool is_clothoid = piece.begin_value != piece.end_value;
+    const bool is_at_end = elements.empty() || end_m - to_m < 1e-3;
+    if (is_clothoid && !is_cut && !is_at_end) {
+      elements.push_back({ElementType::kClothoid, to_m - from_m, {}});
+      continue;
+    }
+    const double mean_per_m = curvature.Value(0.5 * (from_m + to_m));
+    if (mean_per_m == 0.0) {
+      elements.push_back({ElementType::kStraight, to_m - from_m, {}});
+    } else {
+      elements.push_back({ElementType::kArc, to_m - from_m, 1.0 / mean_per_m});
+    }
+  }
+  // A clothoid that was cut stands beside the arc or straight that it led to: between two plateaus
+  // there must be a clothoid, as short as it may be.
+  std::vector<AlignmentElement> joined;
+  for (const AlignmentElement& element : elements) {
+    const bool needs_clothoid = !joined.empty() && joined.back().type != ElementType::kClothoid &&
+                                element.type != ElementType::kClothoid;
+    joined.push_back(element);
+    if (!needs_clothoid) continue;
+    // Half of it is taken from either neighbour, so that headings behind it stay.
+    AlignmentElement& before = joined[joined.size() - 2];
+    const double half_m = std::min({0.005, 0.25 * before.length_m, 0.25 * element.length_m});
+    before.length_m -= half_m;
+    joined.back().length_m -= half_m;
+    joined.insert(joined.end() - 1, {ElementType::kClothoid, 2.0 * half_m, {}});
+  }
+  return PlanOf({}, joined);
+}
+
+}  // namespace railcast

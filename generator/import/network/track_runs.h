@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "generator/import/fit/plan_model.h"
+#include "generator/import/lines/line_places.h"
+#include "generator/import/lines/track_lines.h"
+#include "generator/import/map/rail_map.h"
+
+namespace railcast {
+
+/// A stretch of track on the map that runs along a line.
+struct TrackRun {
+  std::string kind;  ///< "siding", "yard", "crossover", "spur" or "running".
+  /// Chainage and offset of its points, with rising chainage.
+  std::vector<Eigen::Vector2d> points_m;
+  double speed_kmph{};
+  bool is_electrified = true;
+};
+
+/// All runs beside a line, the longest first.
+[[nodiscard]] std::vector<TrackRun> FindRuns(const RailMap& map,
+                                             const TrackLine& line,
+                                             const LinePlaces& places);
+
+/// The part of a plan between two lengths along it; its start is not set.
+[[nodiscard]] PlanModel PartOf(const PlanModel& plan, double begin_m, double end_m);
+
+}  // namespace railcast

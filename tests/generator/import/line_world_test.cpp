@@ -1,0 +1,137 @@
+#include "generator/import/lines/line_world.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "core/io/write_file.h"
+#include "generator/import/lines/track_lines.h"
+#include "generator/import/map/map_projection.h"
+#include "generator/import/map/read_map.h"
+#include "tests/core/io/temporary_directory.h"
+
+namespace railcast {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+/// 0.01 degrees of longitude in m, 48.2 degrees to the north.
+constexpr double kStep_m = 743.6;
+
+/// A line to the east of four steps with a bridge over the second and a tunnel over the third, and
+/// what stands on it and beside it.
+constexpr const char* kLine = R"(
+  {"type": "node", "id": 1, "lon": 15.60, "lat": 48.20, "tags": {"railway": "buffer_stop"}},
+  {"type": "node", "id": 2, "lon": 15.61, "lat": 48.20},
+  {"type": "node", "id": 3, "lon": 15.62, "lat": 48.20},
+  {"type": "node", "id": 4, "lon": 15.63, "lat": 48.20},
+  {"type": "node", "id": 5, "lon": 15.64, "lat": 48.20},
+  {"type": "way", "id": 11, "nodes": [1, 2], "tags": {"railway": "rail", "electrified": "no"}},
+  {"type": "way", "id": 12, "nodes": [2, 3],
+   "tags": {"railway": "rail", "bridge": "yes", "electrified": "contact_line"}},
+  {"type": "way", "id": 13, "nodes": [3, 4],
+   "tags": {"railway": "rail", "tunnel": "yes", "electrified": "contact_line",
+            "railway:ballastless": "yes"}},
+  {"type": "way", "id": 14, "nodes": [4, 5],
+   "tags": {"railway": "rail", "electrified": "contact_line", "gauge": "760"}})";
+
+class OfOneLine : public ::testing::Test {
+ protected:
+  void Make(const std::string& more) {
+    WriteFileWhole(directory_.path() / "map.json",
+                   R"({"elements": [)" + std::string(kLine) + more + "]}");
+    RailMap map = ReadMap(directory_.path() / "map.json");
+    static_cast<void>(ProjectMap("", map));
+    const TrackLine track = FindLines(map, 0.0).front();
+    runs_east_ = map.nodes[track.nodes.front()].place_m.x() < 0.0;
+    line_ = ImportLine(map, track, {});
+    world_ = MakeLineWorld(map, track, line_);
+  }
+  /// Chainage of a place that is some steps from the western end.
+  [[nodiscard]] double At_m(double steps) const {
+    return (runs_east_ ? steps : 4.0 - steps) * kStep_m;
+  }
+  [[nodiscard]] const WorldJson& Only(const std::string& type) const {
+    static const WorldJson kNone;
+    const WorldJson* found = &kNone;
+    for (const WorldJson& structure : world_.structures) {
+      if (structure["type"] == type) found = &structure;
+    }
+    return *found;
+  }
+  void ExpectStretch(const std::string& type, double from_steps, double to_steps) const {
+    const WorldJson& found = Only(type);
+    ASSERT_FALSE(found.is_null()) << type;
+    // The line was fitted to the points, and a step is known to 0.1 m.
+    EXPECT_NEAR(found["begin_s_m"], std::min(At_m(from_steps), At_m(to_steps)), 1.0) << type;
+    EXPECT_NEAR(found["end_s_m"], std::max(At_m(from_steps), At_m(to_steps)), 1.0) << type;
+  }
+
+  TemporaryDirectory directory_;
+  bool runs_east_ = true;
+  ImportedLine line_;
+  LineWorld world_;
+};
+
+TEST_F(OfOneLine, HasBridgesTunnelsAndSlabTrackFromItsWays) {
+  Make("");
+  ExpectStretch("bridge", 1.0, 2.0);
+  ExpectStretch("tunnel", 2.0, 3.0);
+  ExpectStretch("slab_track", 2.0, 3.0);
+  EXPECT_EQ(world_.tracks[0]["electrified"], true) << "three steps of four";
+  ASSERT_THAT(world_.left_out, SizeIs(1));
+  EXPECT_EQ(world_.left_out[0].reason, "the map has 760 mm, a world 1435 mm");
+}
+
+TEST_F(OfOneLine, HasABufferStopAtItsEnd) {
+  Make("");
+  EXPECT_EQ(Only("buffer_stop")["at"], runs_east_ ? "begin" : "end");
+}
+
+TEST_F(OfOneLine, HasAPlatformWhereTheMapHasOne) {
+  // 0.00002 degrees of latitude are 2.2 m, 0.00006 are 6.7 m.
+  Make(R"(,
+  {"type": "node", "id": 21, "lon": 15.602, "lat": 48.20002},
+  {"type": "node", "id": 22, "lon": 15.604, "lat": 48.20002},
+  {"type": "node", "id": 23, "lon": 15.604, "lat": 48.20006},
+  {"type": "node", "id": 24, "lon": 15.602, "lat": 48.20006},
+  {"type": "way", "id": 31, "nodes": [21, 22, 23, 24, 21],
+   "tags": {"railway": "platform", "height": "0.55", "covered": "yes"}})");
+  ExpectStretch("platform", 0.2, 0.4);
+  EXPECT_EQ(Only("platform")["side"], runs_east_ ? "left" : "right");
+  EXPECT_EQ(Only("platform")["height_m"], 0.55);
+  EXPECT_NEAR(Only("platform")["width_m"], 4.45, 0.1);
+  EXPECT_TRUE(Only("platform").contains("roof"));
+}
+
+TEST_F(OfOneLine, HasCrossingsSignalsAndBoardsOnlyWhereTheyStandOnIt) {
+  // 0.0001 degrees of latitude are 11 m.
+  Make(R"(,
+  {"type": "node", "id": 41, "lon": 15.605, "lat": 48.20, "tags": {"railway": "level_crossing"}},
+  {"type": "node", "id": 42, "lon": 15.606, "lat": 48.2001, "tags": {"railway": "level_crossing"}},
+  {"type": "node", "id": 43, "lon": 15.607, "lat": 48.20, "tags": {"railway": "milestone"}},
+  {"type": "node", "id": 44, "lon": 15.635, "lat": 48.20, "tags": {"railway": "signal",
+   "railway:signal:main": "AT-V2:hauptsignal", "railway:signal:direction": "backward"}},
+  {"type": "node", "id": 45, "lon": 15.636, "lat": 48.20, "tags": {"railway": "signal"}})");
+  EXPECT_NEAR(Only("level_crossing")["s_m"], At_m(0.5), 1.0);
+  EXPECT_EQ(Only("level_crossing")["name"], "level_crossing_1") << "the other is 11 m beside";
+  EXPECT_EQ(Only("board")["kind"], "kilometre");
+  EXPECT_EQ(Only("signal")["kind"], "main");
+  EXPECT_EQ(Only("signal")["direction"], runs_east_ ? "falling" : "rising");
+  EXPECT_THAT(LeftOutCsv({line_}, {world_}), HasSubstr("the map does not say which kind it is"));
+}
+
+TEST_F(OfOneLine, IsAWorldFile) {
+  Make("");
+  const WorldJson world = WorldJson::parse(WorldFileText(line_, world_, true));
+  EXPECT_EQ(world["alignment"], "line.alignment.json");
+  EXPECT_EQ(world["terrain"]["elevation"]["file"], "line.elevation.asc");
+  EXPECT_EQ(world["tracks"][0]["name"], "main");
+  EXPECT_THAT(world["structures"], SizeIs(4));
+}
+
+}  // namespace
+}  // namespace railcast

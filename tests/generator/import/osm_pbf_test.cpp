@@ -1,0 +1,92 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/io/write_file.h"
+#include "generator/import/map/read_map.h"
+#include "railcast/error.h"
+#include "tests/core/io/temporary_directory.h"
+
+namespace railcast {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+// The encoding of https://wiki.openstreetmap.org/wiki/PBF_Format, with blobs that are not
+// compressed.
+
+std::string Varint(std::uint64_t value) {
+  std::string bytes;
+  for (; value >= 0x80; value >>= 7) bytes += static_cast<char>((value & 0x7F) | 0x80);
+  return bytes + static_cast<char>(value);
+}
+std::string Signed(std::int64_t value) {
+  return Varint((static_cast<std::uint64_t>(value) << 1) ^ static_cast<std::uint64_t>(value >> 63));
+}
+std::string Number(int field, const std::string& value) {
+  return Varint(static_cast<std::uint64_t>(field) << 3) + value;
+}
+std::string Bytes(int field, const std::string& value) {
+  return Varint((static_cast<std::uint64_t>(field) << 3) | 2) + Varint(value.size()) + value;
+}
+
+std::string FileBlock(const std::string& type, const std::string& content) {
+  const std::string blob = Bytes(1, content);
+  const std::string header = Bytes(1, type) + Number(3, Varint(blob.size()));
+  std::string block(3, '\0');
+  return block + static_cast<char>(header.size()) + header + blob;
+}
+
+std::string Node(std::int64_t id, double longitude_deg, double latitude_deg) {
+  const auto units = [](double angle_deg) {
+    return Signed(static_cast<std::int64_t>(angle_deg * 1e7 + 0.5));
+  };
+  return Bytes(
+      1, Number(1, Signed(id)) + Number(8, units(latitude_deg)) + Number(9, units(longitude_deg)));
+}
+
+/// Two nodes and a way with railway=rail, maxspeed=90.
+std::string SmallPbf() {
+  const std::string texts =
+      Bytes(1, "") + Bytes(1, "railway") + Bytes(1, "rail") + Bytes(1, "maxspeed") + Bytes(1, "90");
+  const std::string way = Number(1, Varint(7)) + Bytes(2, Varint(1) + Varint(3)) +
+                          Bytes(3, Varint(2) + Varint(4)) + Bytes(8, Signed(1) + Signed(1));
+  const std::string data = Bytes(1, texts) +
+                           Bytes(2, Node(1, 15.60, 48.20) + Node(2, 15.61, 48.21)) +
+                           Bytes(2, Bytes(3, way));
+  return FileBlock("OSMHeader", Bytes(4, "OsmSchema-V0.6")) + FileBlock("OSMData", data);
+}
+
+TEST(OsmPbf, IsReadAsAMap) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path file = directory.path() / "map.osm.pbf";
+  WriteFileWhole(file, SmallPbf());
+  const RailMap map = ReadMap(file);
+  ASSERT_THAT(map.ways, SizeIs(1));
+  ASSERT_THAT(map.nodes, SizeIs(2));
+  EXPECT_NEAR(map.nodes[1].geographic_deg.x(), 15.61, 1e-9);
+  EXPECT_NEAR(map.nodes[1].geographic_deg.y(), 48.21, 1e-9);
+  EXPECT_EQ(TagOf(map.ways[0].tags, "maxspeed"), "90");
+}
+
+TEST(OsmPbf, IsRefusedIfItIsCutOff) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path file = directory.path() / "map.osm.pbf";
+  const std::string whole = SmallPbf();
+  WriteFileWhole(file, whole.substr(0, whole.size() - 20));
+  try {
+    static_cast<void>(ReadMap(file));
+    ADD_FAILURE() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("map.osm.pbf: must be "));
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace railcast

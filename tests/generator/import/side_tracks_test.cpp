@@ -1,0 +1,129 @@
+#include "generator/import/network/side_tracks.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "generator/import/lines/track_lines.h"
+#include "generator/import/network/track_sketch.h"
+
+namespace railcast {
+namespace {
+
+using ::testing::SizeIs;
+
+/// A straight line of 2000 m to the east, and tracks beside it.
+class BesideALine : public ::testing::Test {
+ protected:
+  BesideALine() {
+    map_.attribution = "Test";
+    std::vector<Eigen::Vector2d> points_m;
+    for (double x_m = 0.0; x_m <= 2000.0; x_m += 50.0) points_m.emplace_back(x_m, 0.0);
+    Add(points_m, {{"railway", "rail"}, {"maxspeed", "80"}});
+  }
+  void Add(const std::vector<Eigen::Vector2d>& points_m, const MapTags& tags) {
+    MapWay way{static_cast<std::int64_t>(map_.ways.size()), {}, tags};
+    for (const Eigen::Vector2d& point_m : points_m) {
+      way.nodes.push_back(map_.nodes.size());
+      map_.nodes.push_back({.place_m = point_m, .tags = {}});
+    }
+    map_.ways.push_back(way);
+  }
+  /// A track that leaves the line by 1:9 from x_m on and runs beside it at y_m up to end_x_m.
+  void AddSiding(double x_m, double y_m, double end_x_m, const MapTags& tags) {
+    std::vector<Eigen::Vector2d> points_m = {{x_m, 0.0}};
+    for (double at_m = 5.0; at_m < 9.0 * y_m; at_m += 5.0) {
+      points_m.emplace_back(x_m + at_m, at_m / 9.0);
+    }
+    for (double at_m = x_m + 9.0 * y_m; at_m <= end_x_m; at_m += 20.0) {
+      points_m.emplace_back(at_m, y_m);
+    }
+    Add(points_m, tags);
+  }
+  void Make() {
+    const TrackLine track = FindLines(map_, 1000.0).front();
+    runs_east_ = map_.nodes[track.nodes.front()].place_m.x() < 1000.0;
+    const ImportedLine line = ImportLine(map_, track, {});
+    world_ = MakeLineWorld(map_, track, line);
+    quality_ = AddSideTracks(map_, track, line, 0.3, world_);
+  }
+
+  RailMap map_;
+  bool runs_east_ = true;
+  LineWorld world_;
+  SideTrackQuality quality_;
+};
+
+TEST_F(BesideALine, ATrackOfItsOwnIsParallel) {
+  Add({{200.0, 4.7}, {500.0, 4.8}, {900.0, 4.6}, {1500.0, 4.7}}, {{"electrified", "no"}});
+  Make();
+  ASSERT_THAT(world_.tracks, SizeIs(2));
+  const WorldJson& track = world_.tracks[1];
+  EXPECT_EQ(track["name"], "running_1");
+  EXPECT_NEAR(std::abs(track["offset_m"].get<double>()), 4.7, 0.05);
+  EXPECT_NEAR(track["start_s_m"], runs_east_ ? 200.0 : 500.0, 0.5);
+  EXPECT_NEAR(track["end_s_m"], runs_east_ ? 1500.0 : 1800.0, 0.5);
+  EXPECT_EQ(track["electrified"], false);
+  EXPECT_EQ(quality_.num_turnouts, 0U);
+}
+
+TEST_F(BesideALine, ASidingBeginsInATurnout) {
+  AddSiding(600.0, 4.5, 1200.0, {{"service", "siding"}});
+  Make();
+  ASSERT_THAT(world_.tracks, SizeIs(2));
+  const WorldJson& track = world_.tracks[1];
+  const WorldJson& turnout = track[runs_east_ ? "begin" : "end"];
+  EXPECT_EQ(track["name"], "siding_1");
+  EXPECT_EQ(turnout["track"], "main");
+  EXPECT_EQ(turnout["turnout"], "1:9-190");
+  // The tangents meet at 600 m, 190 tan(atan(1 / 9) / 2) behind the turnout's beginning; points
+  // were made to 0.1 m, and where the branch crosses half the offset is known to 0.2 m.
+  const double begin_x_m = 600.0 - 10.52;
+  EXPECT_NEAR(turnout["s_m"], runs_east_ ? begin_x_m : 2000.0 - begin_x_m, 1.0);
+  EXPECT_EQ(quality_.num_turnouts, 1U);
+  EXPECT_LT(quality_.distances_m.back(), 0.5);
+}
+
+TEST_F(BesideALine, ACrossoverLeadsFromTrackToTrack) {
+  Add({{100.0, 4.5}, {700.0, 4.5}, {1300.0, 4.5}, {1900.0, 4.5}}, {{"maxspeed", "80"}});
+  Add({{800.0, 0.0}, {820.25, 2.25}, {840.5, 4.5}}, {{"service", "crossover"}});
+  Make();
+  ASSERT_THAT(world_.tracks, SizeIs(3));
+  const WorldJson& crossover = world_.tracks[2];
+  EXPECT_EQ(crossover["name"], "crossover_1");
+  EXPECT_EQ(crossover["begin"]["track"], runs_east_ ? "main" : "running_1");
+  EXPECT_EQ(crossover["end"]["track"], runs_east_ ? "running_1" : "main");
+  EXPECT_FALSE(crossover["end"].contains("s_m"));
+  EXPECT_EQ(quality_.num_turnouts, 2U);
+}
+
+TEST_F(BesideALine, ATrackThatCannotBeJoinedIsCutAndSaysSo) {
+  // It leaves the line too slowly for any turnout, and goes on doing so.
+  std::vector<Eigen::Vector2d> points_m;
+  for (double x_m = 300.0; x_m <= 1500.0; x_m += 25.0) {
+    points_m.emplace_back(x_m, 2e-5 * std::pow(x_m - 300.0, 2.0));
+  }
+  Add(points_m, {});
+  Make();
+  ASSERT_THAT(world_.tracks, SizeIs(2));
+  EXPECT_TRUE(world_.tracks[1].contains("elements"));
+  EXPECT_GE(std::abs(world_.tracks[1]["offset_m"].get<double>()), 3.0);
+  ASSERT_FALSE(world_.left_out.empty());
+  EXPECT_EQ(world_.left_out.back().reason, "it is cut where it comes nearer than 3 m to others");
+}
+
+/// EN and DIN give these by their tangents: docs/physics.md 7.1.
+TEST(TurnoutShape, HasTheCoordinatesOfTheNorm) {
+  const TurnoutShape& shape = ShapeFor(60.0);
+  EXPECT_STREQ(shape.name, "1:12-500");
+  EXPECT_NEAR(2.0 * shape.tangent_m(), 41.594, 1e-3);
+  EXPECT_NEAR(shape.OffsetAt_m(shape.length_m, 1e3), shape.tangent_m() / 12.0, 1e-2);
+  EXPECT_EQ(shape.OffsetAt_m(shape.Parallel_m(4.5), 4.5), 4.5);
+  EXPECT_NEAR(shape.OffsetAt_m(0.5 * shape.Parallel_m(4.5), 4.5), 2.25, 1e-9);
+}
+
+}  // namespace
+}  // namespace railcast
