@@ -37,8 +37,8 @@ struct StructureSurfaces {
   LinesideSurfaces lineside;
 };
 
-/// The surfaces of turnouts (turnout/turnout_structure.h). Tables need their names only if the world
-/// has turnouts.
+/// The surfaces of turnouts (turnout/turnout_structure.h). Tables need their names only if the
+/// world has turnouts.
 struct TurnoutSurfaces {
   SurfaceClass running_band, rail, point_machine;
 };

@@ -117,10 +117,10 @@ void CheckStructureChainages(const StructurePlace& place,
 }
 
 // Checks that the structure stands on ground.
-void CheckExtent(const StructurePlace& place,
-                 const StructureSpec& structure,
-                 const WorldTracks& tracks,
-                 WorldFaults& faults) {
+void CheckGroundBelow(const StructurePlace& place,
+                      const StructureSpec& structure,
+                      const WorldTracks& tracks,
+                      WorldFaults& faults) {
   const TrackCourse* track = tracks.CourseOf(TrackOfStructure(structure));
   const double half_width_m = place.world.terrain.half_width_m;
   if (track == nullptr || !faults.AreKnown({place.pointer})) return;
@@ -176,7 +176,7 @@ void CheckStructures(const WorldSpec& world, const LineOfTracks& line, WorldFaul
     }
     CheckStructureChainages(place, structure, line, faults);
     std::visit([&](const auto& spec) { CheckShape(place, spec, faults); }, structure);
-    if (are_courses_known) CheckExtent(place, structure, {world, courses}, faults);
+    if (are_courses_known) CheckGroundBelow(place, structure, {world, courses}, faults);
   }
 }
 

@@ -129,10 +129,10 @@ class TurnoutPlane {
 };
 
 /// The range between two distances along a turnout, in the frames of the track of a gauge line.
-ChainageRange RangeOf(const TurnoutPlane& plane,
-                      const GaugeLine& line,
-                      double from_m,
-                      double to_m) {
+ChainageRange FramesBetween(const TurnoutPlane& plane,
+                            const GaugeLine& line,
+                            double from_m,
+                            double to_m) {
   const double first_m = line.FrameAt_m(plane.ChainageOf_m(from_m));
   const double last_m = line.FrameAt_m(plane.ChainageOf_m(to_m));
   return {.begin_s_m = std::min(first_m, last_m), .end_s_m = std::max(first_m, last_m)};
@@ -162,7 +162,7 @@ class InnerRail {
   }
   /// From the beginning of the turnout to where the rail is whole again.
   [[nodiscard]] ChainageRange Extent() const {
-    return RangeOf(*plane_, line(), 0.0, plane_->WhereFrogSpreads_m(-kNoseSpread_m));
+    return FramesBetween(*plane_, line(), 0.0, plane_->WhereFrogSpreads_m(-kNoseSpread_m));
   }
 
  private:
@@ -192,7 +192,7 @@ class InnerRail {
         .follows_branch = follows_branch_,
         // The rail on the branch's side of the through track, and on the other one of the branch.
         .is_left = (plane_->side() > 0.0) != follows_branch_,
-        .range = RangeOf(*plane_, line(), from_m, to_m),
+        .range = FramesBetween(*plane_, line(), from_m, to_m),
         .aside_m = [](double) { return 0.0; },
         .width_m = [](double) { return kWhole_m; }};
   }
@@ -219,7 +219,7 @@ class InnerRail {
   [[nodiscard]] TurnoutRail Wing(double throat_m, double end_m) const {
     TurnoutRail wing = Piece(RailRole::kWing, throat_m, end_m);
     wing.follows_branch = !follows_branch_;
-    wing.range = RangeOf(*plane_, other(), throat_m, end_m);
+    wing.range = FramesBetween(*plane_, other(), throat_m, end_m);
     ShowEnd(wing, true);
     wing.aside_m = [self = *this, end_m](double s_m) {
       const double along_m = self.AlongAt_m(self.other(), s_m);
@@ -286,7 +286,7 @@ std::vector<CheckRail> CheckRailsOf(const TurnoutCourses& turnout) {
   const double nose_m = plane.WhereFrogSpreads_m(-kNoseTipWidth_m);
   const bool branch_is_left = turnout.site.side == TrackSide::kLeft;
   const auto range = [&](const GaugeLine& line) {
-    return RangeOf(plane, line, nose_m - kCheckBefore_m, nose_m + kCheckBeyond_m);
+    return FramesBetween(plane, line, nose_m - kCheckBefore_m, nose_m + kCheckBeyond_m);
   };
   return {{false, !branch_is_left, range(plane.through_inner())},
           {true, branch_is_left, range(plane.branch_inner())}};

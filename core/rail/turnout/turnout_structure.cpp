@@ -21,7 +21,7 @@ namespace {
 
 /// Chords of 0.5 m deviate by 0.2 mm from the sharpest branch, of 190 m radius, and follow planed
 /// blades and flares.
-constexpr double kStep_m = 0.5;
+constexpr double kTurnoutStep_m = 0.5;
 
 /// Reach of a turnout from its beginning along the line, with its bearers.
 constexpr double kLongestReach_m = 80.0;
@@ -35,7 +35,7 @@ constexpr double kCheckFlareOpening_m = 0.040;
 
 constexpr double kMachineFromAxis_m = 1.75;
 
-TurnoutCourses CoursesOf(const ChunkContext& context, const TurnoutSite& site) {
+TurnoutCourses TurnoutCoursesOf(const ChunkContext& context, const TurnoutSite& site) {
   return {site, context.tracks[site.track], context.tracks[site.branch]};
 }
 
@@ -62,7 +62,7 @@ bool IsEmpty(const ChainageRange& range) {
   return range.end_s_m - range.begin_s_m < kChunkOverlap_m;
 }
 
-bool Contains(const ChainageRange& range, double s_m) {
+bool HoldsChainage(const ChainageRange& range, double s_m) {
   return s_m >= range.begin_s_m && s_m <= range.end_s_m;
 }
 
@@ -73,7 +73,7 @@ void AddRailPiece(const ChunkContext& context,
   const ChainageRange range = InChunk(context, rail.range);
   if (IsEmpty(range)) return;
   std::vector<RailStation> stations;
-  for (const double s_m : GridStations(range, kStep_m)) {
+  for (const double s_m : GridStations(range, kTurnoutStep_m)) {
     stations.push_back({StationOf(context, site, rail.follows_branch, {s_m, rail.aside_m(s_m)}),
                         rail.width_m(s_m)});
   }
@@ -115,7 +115,7 @@ void AddCheckRail(const ChunkContext& context,
                                                   {left_m, kCheckBottom_m},
                                                   {right_m, kCheckBottom_m}};
   std::vector<Transform> stations;
-  for (const double s_m : GridStations(range, kStep_m)) {
+  for (const double s_m : GridStations(range, kTurnoutStep_m)) {
     stations.push_back(
         StationOf(context, site, rail.follows_branch, {s_m, -side * CheckFlareAt_m(rail, s_m)}));
   }
@@ -182,7 +182,7 @@ void AddBearers(const ChunkContext& context,
   for (std::int64_t k = first; k <= last; ++k) {
     const double s_m = static_cast<double>(k) * kSleeperSpacing_m;
     if (s_m < context.begin_s_m || s_m >= context.end_s_m) continue;
-    if (Contains(range, s_m)) bearers.AddAt(s_m, chunk);
+    if (HoldsChainage(range, s_m)) bearers.AddAt(s_m, chunk);
   }
 }
 
@@ -240,7 +240,7 @@ bool HasBearersAt(const ChunkContext& context, std::size_t track, double s_m) {
   return std::any_of(context.turnouts.begin(), context.turnouts.end(),
                      [&](const LaidTurnout& turnout) {
                        return (turnout.site.track == track || turnout.site.branch == track) &&
-                              Contains(turnout.extent.bearers, s_m);
+                              HoldsChainage(turnout.extent.bearers, s_m);
                      });
 }
 
@@ -248,7 +248,7 @@ void AddTurnouts(const ChunkContext& context, const InfrastructureModels& models
   for (const LaidTurnout& turnout : context.turnouts) {
     const TurnoutSite& site = turnout.site;
     if (!IsNear(context, site)) continue;
-    const TurnoutCourses courses = CoursesOf(context, site);
+    const TurnoutCourses courses = TurnoutCoursesOf(context, site);
     for (const TurnoutRail& rail : RailsOf(courses)) AddRailPiece(context, site, rail, chunk);
     for (const CheckRail& rail : CheckRailsOf(courses)) AddCheckRail(context, site, rail, chunk);
     AddBearers(context, turnout, models, chunk);
