@@ -46,6 +46,20 @@ draw intensity demo --frame 20 --camera driver --color-by intensity
 draw snow snow --frame 20 --camera driver
 draw mirror_image wet --frame 0 --eye 6,-4,5 --target 28,8,-2
 
+# A turnout, seen by a fine sensor above it.
+printf '{"version": 1, "file": "%s", "fidelity": "surface",
+  "world": {"alignment": {"course": {"type": "elements", "elements": [{"type": "straight", "length_m": 600}]}},
+    "tracks": [{"name": "main"}, {"name": "siding", "offset_m": 4.5, "end_s_m": 200,
+      "begin": {"track": "main", "s_m": 62, "turnout": "1:9-190"}}],
+    "vegetation": {"trees_per_hectare": 0, "grass": false}},
+  "vehicle": {"start_s_m": 64},
+  "lidar": {"file": "%s", "mount": {"position_m": [0, 0.5, 7], "pitch_deg": 24},
+    "scan": {"rate_hz": 10, "pattern": {"type": "raster", "horizontal_fov_deg": 44,
+      "vertical_fov_deg": 30, "angular_resolution_deg": 0.04}}}}' \
+  "$PWD/scenarios/minimal.json" "$PWD/scenarios/sensors/vir2rail.json" > "$runs/turnout.json"
+simulate turnout "$runs/turnout.json" 1
+draw turnout turnout --eye 11,-1.5,3.2 --target 22.5,0.3,1.6 --point-size 4 --color-by label
+
 # The camera's images of frame 20, in sun and in fog, at half their size side by side.
 for weather in '"sun": {"illuminance_klx": 100, "azimuth_deg": 200}' '"visibility_m": 150'; do
   name=camera_$([[ $weather == *sun* ]] && echo sun || echo fog)
