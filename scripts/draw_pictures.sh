@@ -60,6 +60,15 @@ printf '{"version": 1, "file": "%s", "fidelity": "surface",
 simulate turnout "$runs/turnout.json" 1
 draw turnout turnout --eye 11,-1.5,3.2 --target 22.5,0.3,1.6 --point-size 4 --color-by label
 
+# The yard, with a finer scan than its own.
+printf '{"version": 1, "file": "%s",
+  "lidar": {"file": "%s", "mount": {"position_m": [2, 0, 4], "pitch_deg": 8},
+    "scan": {"rate_hz": 10, "pattern": {"type": "raster", "horizontal_fov_deg": 60,
+      "vertical_fov_deg": 30, "angular_resolution_deg": 0.06}}}}' \
+  "$PWD/scenarios/yard.json" "$PWD/scenarios/sensors/vir2rail.json" > "$runs/yard.json"
+simulate yard "$runs/yard.json" 1
+draw yard yard --camera driver --color-by label --point-size 2
+
 # The camera's images of frame 20, in sun and in fog, at half their size side by side.
 for weather in '"sun": {"illuminance_klx": 100, "azimuth_deg": 200}' '"visibility_m": 150'; do
   name=camera_$([[ $weather == *sun* ]] && echo sun || echo fog)
