@@ -165,6 +165,27 @@ std::optional<DemHeights> DraftElevation(const WorldSpec& world,
 
 }  // namespace
 
+namespace {
+
+// As CheckObject() does it for an object on a single track.
+void CheckOnGround(const WorldSpec& world,
+                   const ObjectSpec& object,
+                   const std::string& pointer,
+                   const TrackCourse& course,
+                   WorldFaults& faults) {
+  const double half_width_m = world.terrain.half_width_m;
+  const double from_axis_m = course.OffsetWithin_m(object.s_m) + object.d_m;
+  if (!faults.AreKnown({pointer + "/d_m", pointer + "/s_m", "/world/terrain/half_width_m"}) ||
+      std::abs(from_axis_m) <= half_width_m) {
+    return;
+  }
+  faults.Add(pointer + "/d_m",
+             "must put it within the ground's half width of " + NumberText(half_width_m) + " m",
+             NumberText(object.d_m));
+}
+
+}  // namespace
+
 std::optional<TrackPath> DraftPath(const TracksOfWorld& tracks,
                                    const ObjectSpec& object,
                                    const std::string& pointer,
@@ -175,6 +196,7 @@ std::optional<TrackPath> DraftPath(const TracksOfWorld& tracks,
   std::optional<Route> route = DraftRoute(
       tracks, {pointer, object.track, object.route, motion, pointer + "/s_m", object.s_m}, faults);
   if (!profile || !route) return std::nullopt;
+  if (!object.route.empty()) CheckOnGround(tracks.world, object, pointer, route->course, faults);
   const TrackPose pose{object.d_m, object.h_m.value_or(0.0), RadFromDeg(object.heading_deg),
                        !IsWagon(object.type)};
   return TrackPath(std::move(*route), pose, std::move(*profile), begin_ns);

@@ -58,14 +58,14 @@ void Describe(Archive& a, YardSpec& s) {
   a.Required("begin", s.begin,
              "The turnout where its lead begins; its type is that of all turnouts of the yard.");
   a.Required("num_tracks", s.num_tracks,
-             "Number of tracks, of which the last is the lead itself, turned back.");
+             "Number of tracks, of which the last is the lead itself, turned back.",
+             Within(1, kMostYardTracks));
   a.Optional("spacing_m", s.spacing_m, "Between its tracks, and from the track that it leaves.",
              Within(3, 100));
   a.Required("usable_length_m", s.usable_length_m,
              "Of each track, from its fouling point to its end.", PositiveUpTo(1e4));
   a.Optional("sleeper", s.sleeper, "Kind of sleeper.");
   a.Optional("electrified", s.electrified, "Whether its tracks have a contact line.");
-  a.Ensure({"num_tracks"}, s.num_tracks >= 1 && s.num_tracks <= 100, "must be from 1 to 100");
 }
 
 /// The tracks that a vehicle or object follows: one, or a route over several.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/rail/line/network.h"
+#include "core/rail/line/route.h"
 #include "core/rail/structure_gauge.h"
 #include "core/rail/structures/structure_track.h"
 #include "core/rail/structures/structure_types.h"
@@ -21,6 +22,8 @@ constexpr double kLeastDepth_m = 1e-3;
 /// Triangles that reach farther along the track are divided. In a curve of 150 m radius, the chord
 /// of such a piece is 3 mm off.
 constexpr double kLongestPiece_m = 2.0;
+/// Triangles are not divided below this size.
+constexpr double kLeastPiece_m = 0.1;
 /// No part of the gauge is farther from its track's axis.
 constexpr double kGaugeReach_m = 2.5;
 
@@ -110,6 +113,8 @@ class GaugeProbe {
       if (length_m(i) > length_m(longest)) longest = i;
     }
     const std::size_t next = (longest + 1) % 3;
+    // Beyond the centre of a curve, chainages of neighbouring places are far apart.
+    if ((triangle[next] - triangle[longest]).norm() < kLeastPiece_m) return;
     const Vector3 middle = 0.5 * (triangle[longest] + triangle[next]);
     const double middle_s_m = ChainageOf(alignment_, middle, 0.5 * (s_m[longest] + s_m[next]));
     for (const std::size_t replaced : {longest, next}) {
@@ -255,6 +260,17 @@ void ProbeStructure(const Structure& structure,
   }
 }
 
+/// Names of the tracks of an object's route on which a wagon there has its wheels.
+std::vector<std::string> TracksUnder(const RailWorld& world, std::size_t object, double s_m) {
+  constexpr double kHalfWagon_m = 10.0;
+  std::vector<std::string> names;
+  for (const RouteSection& section : world.object_route(object).sections) {
+    if (s_m + kHalfWagon_m < section.begin_s_m || s_m - kHalfWagon_m > section.end_s_m) continue;
+    names.push_back(world.tracks()[section.track].name);
+  }
+  return names;
+}
+
 }  // namespace
 
 std::vector<GaugeEntry> FindGaugeEntries(const WorldSpec& given_spec, const RailWorld& world) {
@@ -265,11 +281,11 @@ std::vector<GaugeEntry> FindGaugeEntries(const WorldSpec& given_spec, const Rail
   for (const StructureSpec& structure : spec.structures) {
     std::visit(
         [&]<class Structure>(const Structure& given) {
-          if constexpr (!kBelongsIntoGauge<Structure>) {
-            Probes probes(tracks, world.alignment());
-            ProbeStructure(given, spec, world, probes);
-            probes.Report(given.name, entries);
-          }
+          std::vector<std::string> own_tracks;
+          if (kBelongsIntoGauge<Structure>) own_tracks.push_back(given.track);
+          Probes probes(tracks, world.alignment(), own_tracks);
+          ProbeStructure(given, spec, world, probes);
+          probes.Report(given.name, entries);
         },
         structure);
   }
@@ -281,7 +297,7 @@ std::vector<GaugeEntry> FindGaugeEntries(const WorldSpec& given_spec, const Rail
     const bool is_on_its_track = IsWagon(given.type) && given.d_m == 0.0;
     std::vector<std::string> own_tracks;
     if (is_on_its_track) {
-      own_tracks = given.route.empty() ? std::vector{given.track} : given.route;
+      own_tracks = TracksUnder(world, i, given.s_m);
     }
     Probes probes(tracks, world.alignment(), own_tracks);
     probes.Add(*object.model, world.WorldFromObject(i, 0), given.s_m);

@@ -100,13 +100,15 @@ struct TrackSpec {
   bool operator==(const TrackSpec&) const = default;
 };
 
+inline constexpr std::uint32_t kMostYardTracks = 100;
+
 /// A ladder of tracks that run parallel to the one that they branch off (line/yard.h).
 struct YardSpec {
   std::string name;
   /// The turnout from which the lead runs on at its angle; all tracks of the yard branch off the
   /// lead in turnouts of the same type.
   TurnoutSpec begin;
-  std::uint32_t num_tracks = 1;
+  std::uint32_t num_tracks = 1;  ///< From 1 to kMostYardTracks.
   double spacing_m = 4.5;  ///< From the first track where the yard begins, and between its own.
   /// Length of each track from its fouling point to its end.
   double usable_length_m = 100.0;

@@ -41,9 +41,9 @@ void CheckKeys(const OwnTrackSpec& own, WorldFaults& faults) {
   forbid(track.heading_deg != 0.0 && (!has_elements || track.begin), "/heading_deg",
          "must be given for elements without a turnout at their beginning only");
   forbid(has_elements && track.end, "/end",
-         "must not be given for elements, where the last of which the track ends");
+         "must not be given with elements: the track ends where they do");
   forbid(has_elements && track.end_s_m, "/end_s_m",
-         "must not be given for elements, where the last of which the track ends");
+         "must not be given with elements: the track ends where they do");
   forbid(track.begin && track.start_s_m != 0.0, "/start_s_m",
          "must not be given beside a turnout at the beginning");
   forbid(track.end && track.end_s_m, "/end_s_m", "must not be given beside a turnout at the end");

@@ -78,6 +78,7 @@ void AddTracksOf(const YardSpec& yard, std::vector<TrackSpec>& tracks) {
   const double meet_s_m = yard.begin.s_m.value_or(0.0) + ladder.turnout.tangent_m;
   const bool is_left = yard.begin.side != TrackSide::kRight;
   tracks.push_back(LeadOf(yard, ladder));
+  if (yard.num_tracks > kMostYardTracks) return;  // A fault that reading the spec reports.
   for (std::uint32_t k = 1; k < yard.num_tracks; ++k) {
     const double along_m = k * yard.spacing_m / ladder.sine - ladder.turnout.tangent_m;
     const TurnoutSpec begin{.track = yard.name + "_lead",

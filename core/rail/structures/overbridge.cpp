@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/rail/model_parts.h"
 #include "core/rail/structures/structure_track.h"
@@ -106,6 +107,18 @@ std::vector<ClearedArea> ClearedBy(const WorldTracks&, const OverbridgeSpec& bri
     if (area.cleared.front() == Clearing::kMast) area.cleared.front() = Clearing::kSupport;
   }
   return areas;
+}
+
+void CheckShape(const StructurePlace& place, const OverbridgeSpec& bridge, WorldFaults& faults) {
+  constexpr double kLeastRoad_m = 1.0;
+  const double across = std::cos(RadFromDeg(bridge.crossing_deg - 90.0));
+  const double least_m = (2.0 * kParapetWidth_m + kLeastRoad_m) / across;
+  const double length_m = bridge.end_s_m - bridge.begin_s_m;
+  if (!faults.AreKnown({place.pointer}) || !(length_m > 0.0) || length_m >= least_m) return;
+  faults.Add(place.pointer + "/end_s_m",
+             "must leave " + NumberText(kLeastRoad_m) + " m of road between the parapets, " +
+                 ShortText(least_m) + " m from begin_s_m",
+             NumberText(bridge.end_s_m));
 }
 
 }  // namespace railcast

@@ -74,6 +74,7 @@ void AddStructure(const ChunkContext& context, const BridgeSpec& bridge, Chunk& 
 void AddStructure(const ChunkContext& context, const OverbridgeSpec& bridge, Chunk& chunk);
 [[nodiscard]] std::vector<ClearedArea> ClearedBy(const WorldTracks& tracks,
                                                  const OverbridgeSpec& bridge);
+void CheckShape(const StructurePlace& place, const OverbridgeSpec& bridge, WorldFaults& faults);
 
 void AddStructure(const ChunkContext& context, const ThirdRailSpec& rail, Chunk& chunk);
 [[nodiscard]] std::vector<ClearedArea> ClearedBy(const ThirdRailSpec& rail);

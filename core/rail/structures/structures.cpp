@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/text.h"
+#include "core/rail/line/turnout_geometry.h"
 #include "core/rail/structures/lineside_models.h"
 #include "core/rail/structures/structure_track.h"
 #include "core/rail/structures/structure_types.h"
@@ -55,6 +56,11 @@ void CheckBufferStop(const StructurePlace& place,
       !extent || !faults.AreKnown({pointer})) {
     return;
   }
+  if (stop.at == TrackTip::kEnd ? track->end.has_value() : track->begin.has_value()) {
+    faults.Add(place.pointer + "/at", "must not be an end that lies in a turnout",
+               Quoted(NameOf(stop.at)));
+    return;
+  }
   const double length_m = extent->end_s_m - begin_s_m;
   if (length_m >= kBufferStopLength_m) return;
   faults.Add(
@@ -76,6 +82,18 @@ void CheckFootprint(const StructurePlace& place,
   }
 }
 
+/// Whether a turnout of the tracks' specs lies at some place of a range.
+bool HasTurnoutIn(const WorldSpec& world, double begin_s_m, double end_s_m) {
+  const auto lies_there = [&](const std::optional<TurnoutSpec>& turnout, double direction) {
+    if (!turnout || !turnout->s_m) return false;
+    const double end_m = *turnout->s_m + direction * GeometryOf(turnout->turnout).length_m;
+    return std::min(*turnout->s_m, end_m) < end_s_m && std::max(*turnout->s_m, end_m) > begin_s_m;
+  };
+  return std::ranges::any_of(world.tracks, [&](const TrackSpec& track) {
+    return lies_there(track.begin, 1.0) || lies_there(track.end, -1.0);
+  });
+}
+
 // Checks that a road lies on its track with its whole width.
 void CheckRoad(const StructurePlace& place,
                const LevelCrossingSpec& crossing,
@@ -85,6 +103,11 @@ void CheckRoad(const StructurePlace& place,
   if (track == nullptr || !faults.AreKnown({place.pointer})) return;
   const auto extent = ExtentOf(place.world, *track, line, faults);
   const double half_m = 0.5 * crossing.road_width_m;
+  if (HasTurnoutIn(place.world, crossing.s_m - half_m, crossing.s_m + half_m)) {
+    faults.Add(place.pointer + "/s_m", "must not put the road into a turnout",
+               NumberText(crossing.s_m));
+    return;
+  }
   if (!extent ||
       (crossing.s_m - half_m >= extent->begin_s_m && crossing.s_m + half_m <= extent->end_s_m)) {
     return;

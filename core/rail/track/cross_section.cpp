@@ -57,7 +57,8 @@ CrossSection::CrossSection(const ChunkContext& context, double s_m)
                        .begin_s_m = track.begin_s_m(),
                        .end_s_m = track.end_s_m(),
                        .seat = SeatOf(context.spec.tracks[i].sleeper),
-                       .has_ballast = !IsCleared(context, s_m, offset.d_m, Clearing::kBallast)});
+                       .has_ballast = !IsCleared(context, s_m, offset.d_m, Clearing::kBallast),
+                       .is_everywhere = track.is_parallel()});
   }
   std::sort(tracks_.begin(), tracks_.end(),
             [](const TrackHere& a, const TrackHere& b) { return a.d_m < b.d_m; });
@@ -117,7 +118,9 @@ double CrossSection::BallastHeightOf(const TrackHere& track, double d_m) const {
 double CrossSection::DistanceFromTracks_m(double d_m) const {
   double nearest_m = std::numeric_limits<double>::infinity();
   for (const TrackHere& track : tracks_) {
-    nearest_m = std::min(nearest_m, std::abs(d_m - track.d_m));
+    const double aside_m = std::abs(d_m - track.d_m);
+    const double beyond_m = track.is_everywhere ? 0.0 : BeyondEnd_m(track, s_m_);
+    nearest_m = std::min(nearest_m, beyond_m > 0.0 ? std::hypot(aside_m, beyond_m) : aside_m);
   }
   return nearest_m;
 }

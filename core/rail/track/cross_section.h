@@ -58,6 +58,8 @@ class CrossSection {
     double end_s_m{};
     SleeperSeat seat;
     bool has_ballast{};
+    /// Whether it shapes the ground all along the line, as one that is parallel to the alignment.
+    bool is_everywhere{};
   };
 
   /// Distance along the line from the track's end; 0 within the track.
