@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
@@ -82,6 +83,30 @@ TEST(Relief, CutsAndFillsBetweenTheFormationAndHillsOfTheSpecsHeight) {
   EXPECT_NEAR(std::sqrt(sum_of_squares / count), 4.0, 3.0 * 0.13 * 4.0);
   EXPECT_GT(num_cut, 160);
   EXPECT_GT(num_filled, 160);
+}
+
+TEST(Relief, IsCutByABranchOnlyBesideIt) {
+  WorldSpec spec = Hilly(StraightLine(800.0));
+  spec.terrain.roughness_sigma_m = 0.0;
+  spec.terrain.undulation_sigma_m = 0.0;
+  const TestLine without(spec);
+  TrackSpec branch;
+  branch.name = "branch";
+  branch.offset_m = 30.0;
+  branch.begin = TurnoutSpec{
+      .track = "main", .s_m = 100.0, .turnout = TurnoutType::k9_190, .side = {}, .position = {}};
+  branch.end_s_m = 420.0;
+  spec.tracks.push_back(branch);
+  const TestLine with(spec);
+  // Beside the branch the formation is level; 80 m behind its end the land is as without it.
+  EXPECT_EQ(HeightAboveFormation(with, 415.0, 30.0), 0.0);
+  double largest_m = 0.0;
+  for (double s_m = 500.0; s_m < 790.0; s_m += 7.0) {
+    const double height_m = HeightAboveFormation(with, s_m, 30.0);
+    EXPECT_NEAR(height_m, HeightAboveFormation(without, s_m, 30.0), 1e-9) << s_m;
+    largest_m = std::max(largest_m, std::abs(height_m));
+  }
+  EXPECT_GT(largest_m, 1.0);
 }
 
 TEST(Relief, IsContinuousAndDependsOnTheSeed) {

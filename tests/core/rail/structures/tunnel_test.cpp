@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "core/rail/catenary/system_height.h"
+#include "core/rail/line/network.h"
 #include "core/rail/structures/cleared.h"
+#include "core/rail/structures/structure_track.h"
 #include "tests/core/rail/structures/structure_probe.h"
 
 namespace railcast {
@@ -94,6 +96,32 @@ TEST(Tunnel, LowersTheContactLineAndCarriesIt) {
       EXPECT_NE(placement.model->name, "mast");
     }
   }
+}
+
+TEST(Tunnel, TakesInALoopInOneHalfOfItsLength) {
+  WorldSpec spec = StraightLine(800.0);
+  TrackSpec loop;
+  loop.name = "loop";
+  loop.offset_m = 4.5;
+  loop.begin = TurnoutSpec{
+      .track = "main", .s_m = 420.0, .turnout = TurnoutType::k9_190, .side = {}, .position = {}};
+  loop.end = TurnoutSpec{
+      .track = "main", .s_m = 620.0, .turnout = TurnoutType::k9_190, .side = {}, .position = {}};
+  spec.tracks.push_back(loop);
+  const Network network = MakeNetwork(spec, 800.0);
+  StretchSpec stretch;
+  stretch.track = "main";
+  stretch.begin_s_m = 50.0;
+  stretch.end_s_m = 750.0;
+  const TrackSpread spread = SpreadOf({spec, network.courses}, stretch, 5.5);
+  EXPECT_NEAR(spread.left_m, 4.5, 1e-9);
+  EXPECT_EQ(spread.right_m, 0.0);
+  // A track that leaves for good counts as far as it is near.
+  spec.tracks[1].offset_m = 40.0;
+  const Network wide = MakeNetwork(spec, 800.0);
+  const double left_m = SpreadOf({spec, wide.courses}, stretch, 5.5).left_m;
+  EXPECT_GT(left_m, 5.0);
+  EXPECT_LE(left_m, 5.5);
 }
 
 TEST(Tunnel, HasNoGroundAndNoPlantsInside) {
