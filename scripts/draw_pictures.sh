@@ -45,6 +45,7 @@ draw view_trace demo --frame 20 --camera driver --select person,wagon \
 draw intensity demo --frame 20 --camera driver --color-by intensity
 draw snow snow --frame 20 --camera driver
 draw mirror_image wet --frame 0 --eye 6,-4,5 --target 28,8,-2
+draw plan "$PWD/scenarios/yard.json" --size 1280x400
 
 # The camera's images of frame 20, in sun and in fog, at half their size side by side.
 for weather in '"sun": {"illuminance_klx": 100, "azimuth_deg": 200}' '"visibility_m": 150'; do
