@@ -235,7 +235,6 @@ void AddPlanOptions(CLI::App& app, RawOptions& raw) {
          "FROM TO: chainages in metres between which the plan of a scenario shows the line; "
          "default: where its tracks branch, or the whole line")
       ->expected(2)
-      ->type_name("FROM TO")
       ->allow_extra_args(false);
 }
 

@@ -41,7 +41,7 @@ struct ViewOptions {
 
   [[nodiscard]] bool is_live() const;
   /// Whether the source is a scenario, whose plan is to be drawn.
-  [[nodiscard]] bool is_plan() const { return source.extension() == ".json"; }
+  [[nodiscard]] bool is_plan() const { return !is_live() && source.extension() == ".json"; }
   [[nodiscard]] bool is_headless() const { return !screenshot.empty() || !video.empty(); }
 };
 
