@@ -45,6 +45,7 @@ draw view_trace demo --frame 20 --camera driver --select person,wagon \
 draw intensity demo --frame 20 --camera driver --color-by intensity
 draw snow snow --frame 20 --camera driver
 draw mirror_image wet --frame 0 --eye 6,-4,5 --target 28,8,-2
+draw plan "$PWD/scenarios/yard.json" --size 1280x400
 
 # A turnout, seen by a fine sensor above it.
 printf '{"version": 1, "file": "%s", "fidelity": "surface",

@@ -28,6 +28,7 @@ struct RawOptions {
   std::vector<std::string> picks;
   std::string layout = "beside";
   std::string image;
+  std::vector<double> stretch_s_m;
 };
 
 /// A name that --show takes, and the choice that it sets.
@@ -107,9 +108,11 @@ std::vector<std::string> BackgroundNames() {
 }
 
 void AddSourceOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
-  app.add_option("source", options.source,
-                 "What to show: a sequence directory, a .pcd, .ply or .bin file, a directory of "
-                 "such files, a .pcap or .pcapng capture, or a live stream, udp://HOST:PORT")
+  app.add_option(
+         "source", options.source,
+         "What to show: a sequence directory, a .pcd, .ply or .bin file, a directory of "
+         "such files, a .pcap or .pcapng capture, a live stream, udp://HOST:PORT, or a scenario, "
+         "SCENARIO.json, whose plan --screenshot draws")
       ->required();
   app.add_option("--frame", options.frame, "Number of the frame to begin with; default: the first")
       ->transform(Whole({0, std::numeric_limits<std::uint32_t>::max()}));
@@ -226,6 +229,15 @@ void AddPictureOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
       ->needs(pick);
 }
 
+void AddPlanOptions(CLI::App& app, RawOptions& raw) {
+  app.add_option(
+         "--stretch", raw.stretch_s_m,
+         "FROM TO: chainages in metres between which the plan of a scenario shows the line; "
+         "default: where its tracks branch, or the whole line")
+      ->expected(2)
+      ->allow_extra_args(false);
+}
+
 void UseRaw(const RawOptions& raw, const CLI::App& app, ViewOptions& options) {
   options.size_px = ParseSize(raw.size);
   if (raw.picks.size() > 2) Fail("--pick", "must be given at most twice");
@@ -259,6 +271,14 @@ void UseRaw(const RawOptions& raw, const CLI::App& app, ViewOptions& options) {
     const auto* const found = std::ranges::find(kShowables, name, &Showable::name);
     (found == kShowables.end() ? options.choices.empty_beams
                                : options.choices.overlays.*found->choice) = true;
+  }
+  if (!raw.stretch_s_m.empty()) {
+    if (!(raw.stretch_s_m[0] < raw.stretch_s_m[1])) {
+      Fail("--stretch", "must be two chainages, the lesser first (got " +
+                            NumberText(raw.stretch_s_m[0]) + " and " +
+                            NumberText(raw.stretch_s_m[1]) + ")");
+    }
+    options.stretch_s_m = {raw.stretch_s_m[0], raw.stretch_s_m[1]};
   }
   if (!raw.eye_m.empty()) {
     const auto is_finite = [](double value) { return std::isfinite(value); };
@@ -301,6 +321,23 @@ void CheckTogether(const ViewOptions& options) {
   if (options.sensor && options.scenario.empty()) Fail("--sensor", "needs --scenario");
 }
 
+/// A plan shows no frames, so that few options apply.
+void CheckPlan(const CLI::App& app, const ViewOptions& options) {
+  if (!options.is_plan()) {
+    if (options.stretch_s_m) Fail("--stretch", "is for the plan of a scenario");
+    return;
+  }
+  constexpr std::array<std::string_view, 5> kForPlans = {"source", "--screenshot", "--size",
+                                                         "--background", "--stretch"};
+  for (const CLI::Option* const option : app.get_options()) {
+    if (option->count() == 0 || option->get_name() == "-v") continue;
+    if (std::ranges::find(kForPlans, option->get_name()) == kForPlans.end()) {
+      Fail(option->get_name(), "is not for the plan of a scenario");
+    }
+  }
+  if (options.screenshot.empty()) Fail("--screenshot", "is needed for the plan of a scenario");
+}
+
 void CheckFiles(const CLI::App& app, const ViewOptions& options) {
   for (const char* const option : {"--screenshot", "--video", "--compare", "--scenario"}) {
     if (app.count(option) > 0 && app.get_option(option)->as<std::string>().empty()) {
@@ -324,9 +361,11 @@ void AddViewOptions(CLI::App& app, ViewOptions& options) {
   AddLookOptions(app, options, *raw);
   AddCameraOptions(app, options, *raw);
   AddPictureOptions(app, options, *raw);
+  AddPlanOptions(app, *raw);
   app.add_flag("-v", options.is_verbose, "Print what is shown");
   app.final_callback([&app, &options, raw] {
     UseRaw(*raw, app, options);
+    CheckPlan(app, options);
     CheckTogether(options);
     CheckFiles(app, options);
   });

@@ -30,6 +30,7 @@ struct ViewOptions {
   std::vector<std::array<int, 2>> picks_px;
   bool traces = false;
   std::vector<std::string> select;
+  std::optional<std::array<double, 2>> stretch_s_m;  ///< The part of the line in a plan.
 
   Choices choices;
   Look look;
@@ -39,6 +40,8 @@ struct ViewOptions {
   bool is_verbose = false;
 
   [[nodiscard]] bool is_live() const;
+  /// Whether the source is a scenario, whose plan is to be drawn.
+  [[nodiscard]] bool is_plan() const { return !is_live() && source.extension() == ".json"; }
   [[nodiscard]] bool is_headless() const { return !screenshot.empty() || !video.empty(); }
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <thread>
@@ -20,6 +21,7 @@
 #include "viewer/pick/picks.h"
 #include "viewer/pick/point_under.h"
 #include "viewer/picture/pictures.h"
+#include "viewer/plan/draw_plan.h"
 #include "viewer/session/session.h"
 
 namespace railcast {
@@ -242,9 +244,27 @@ class Viewer {
   std::unique_ptr<Session> session_;
 };
 
+void WritePlan(const ViewOptions& options) {
+  const ScenarioSpec scenario = ReadScenario(options.source);
+  const auto world = MakeWorld(scenario);
+  const PlanStretch stretch = ChosenStretch(*world, options.stretch_s_m);
+  const DisplayConnection display;
+  const std::string title = options.source.filename().string() + ", chainage " +
+                            NumberText(std::round(stretch.from_s_m)) + " to " +
+                            NumberText(std::round(stretch.to_s_m)) + " m";
+  if (options.is_verbose) std::fprintf(stderr, "%s\n", ShownPath(title).c_str());
+  const auto window = DrawPlan(MakePlan(scenario, *world, stretch), ShownPath(title),
+                               options.look.background, options.size_px);
+  WritePicture(*window, options.screenshot);
+}
+
 }  // namespace
 
 void RunViewer(const ViewOptions& options) {
+  if (options.is_plan()) {
+    WritePlan(options);
+    return;
+  }
   Viewer(options).Run();
 }
 

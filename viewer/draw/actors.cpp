@@ -106,14 +106,15 @@ std::vector<vtkSmartPointer<vtkProp>> MakeWords(const Overlay& drawing,
   return props;
 }
 
+Rgb OnBackground(const Rgb& rgb, const Background& background) {
+  return IsLight(background.rgb) && IsLight(rgb) ? Darkened(rgb) : rgb;
+}
+
 Overlay OnBackground(Overlay drawing, const Background& background) {
-  if (!IsLight(background.rgb)) return drawing;
   for (Overlay::Segment& segment : drawing.segments) {
-    if (IsLight(segment.rgb)) segment.rgb = Darkened(segment.rgb);
+    segment.rgb = OnBackground(segment.rgb, background);
   }
-  for (Overlay::Word& word : drawing.words) {
-    if (IsLight(word.rgb)) word.rgb = Darkened(word.rgb);
-  }
+  for (Overlay::Word& word : drawing.words) word.rgb = OnBackground(word.rgb, background);
   return drawing;
 }
 

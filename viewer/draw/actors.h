@@ -21,6 +21,9 @@ namespace railcast {
                                                               int size_px,
                                                               const Background& background);
 
+/// Returns the colour, darkened if both it and the background are light.
+[[nodiscard]] Rgb OnBackground(const Rgb& rgb, const Background& background);
+
 /// Returns the overlay; its light lines and words are darkened if the background is light.
 [[nodiscard]] Overlay OnBackground(Overlay drawing, const Background& background);
 

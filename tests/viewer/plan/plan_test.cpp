@@ -1,0 +1,118 @@
+#include "viewer/plan/plan.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/rail/line/network.h"
+#include "tests/viewer/overlays/made_line.h"
+#include "tests/viewer/plan/planned_yard.h"
+
+namespace railcast {
+namespace {
+
+// Rounding of world coordinates below 1e6 m.
+constexpr double kRounding_m = 1e-8;
+
+const Plan::Line* LineOf(const Plan& plan, const Rgb& rgb) {
+  const auto found = std::ranges::find(plan.lines, rgb, &Plan::Line::rgb);
+  return found == plan.lines.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> TextsOf(const std::vector<Plan::Entry>& entries) {
+  std::vector<std::string> texts;
+  for (const Plan::Entry& entry : entries) texts.push_back(entry.text);
+  return texts;
+}
+
+TEST(Plan, RunsFromLeftToRightWhereverTheLineLies) {
+  AlignmentSpec line = Straight(30'000.0);
+  line.origin_m = {700'000.0, 250'000.0, 400.0};
+  line.heading_deg = 120.0;
+  const ScenarioSpec scenario = ScenarioOnLine(line, 100.0);
+  const Plan plan =
+      MakePlan(scenario, *MakeWorld(scenario), {.from_s_m = 20'000.0, .to_s_m = 20'500.0});
+  const Plan::Line* track = LineOf(plan, PlanTrackRgb(0));
+  ASSERT_NE(track, nullptr);
+  EXPECT_LT(track->points_m.front().norm(), kRounding_m);
+  EXPECT_LT((track->points_m.back() - Eigen::Vector2d(500.0, 0.0)).norm(), kRounding_m);
+  // North is 30 deg to the right of the line's direction.
+  const double tolerance = 2.0 * kRounding_m / 500.0;
+  EXPECT_NEAR(plan.north.x(), std::sqrt(0.75), tolerance);
+  EXPECT_NEAR(plan.north.y(), -0.5, tolerance);
+}
+
+TEST(Plan, FollowsTheCourseOfEveryTrack) {
+  const PlannedYard yard;
+  const PlanStretch stretch{.from_s_m = 100.0, .to_s_m = 300.0};
+  const Plan plan = MakePlan(yard.scenario, *yard.world, stretch);
+  for (std::size_t i = 0; i < yard.world->tracks().size(); ++i) {
+    const TrackCourse& course = yard.world->network().courses[i];
+    const PlanScene scene = ScenePlanned(yard.scenario, *yard.world, stretch);
+    const auto points_m = PlanPoints(scene, course, {.from_s_m = 0.0, .to_s_m = 600.0}, 0.0);
+    ASSERT_FALSE(points_m.empty()) << i;
+    EXPECT_NEAR(points_m.front().x(), std::max(course.begin_s_m(), 100.0) - 100.0, kRounding_m);
+    EXPECT_NEAR(points_m.back().x(), std::min(course.end_s_m(), 300.0) - 100.0, kRounding_m);
+    for (const Eigen::Vector2d& point_m : points_m) {
+      // The line is straight: the offset is the height on the sheet.
+      EXPECT_NEAR(point_m.y(), course.OffsetAt(point_m.x() + 100.0).d_m, 1e-6) << i;
+    }
+  }
+}
+
+TEST(Plan, LeavesOutTracksBeyondTheStretch) {
+  const PlannedYard yard;
+  const Plan plan = MakePlan(yard.scenario, *yard.world, {.from_s_m = 0.0, .to_s_m = 100.0});
+  EXPECT_THAT(TextsOf(plan.entries),
+              testing::ElementsAre("route of the vehicle", "main", "second"));
+  EXPECT_TRUE(plan.marks.empty());
+}
+
+TEST(Plan, MarksTurnoutsAsTheyAreSetWithTheirTipsAtTheBlades) {
+  const PlannedYard yard;
+  const Plan plan = MakePlan(yard.scenario, *yard.world, NetworkStretch(*yard.world));
+  const auto& turnouts = yard.world->network().turnouts;
+  const auto is_turnout = [](const Plan::Mark& mark) { return !mark.from_tip.isZero(); };
+  EXPECT_EQ(std::ranges::count_if(plan.marks, is_turnout),
+            static_cast<std::ptrdiff_t>(turnouts.size()));
+  // The route leads from the main track through the yard's lead into its second track.
+  EXPECT_EQ(std::ranges::count(plan.marks, kPlanDivergingRgb, &Plan::Mark::rgb), 2);
+  const auto first = std::ranges::find_if(plan.marks, is_turnout);
+  ASSERT_NE(first, plan.marks.end());
+  EXPECT_LT((first->at_m - Eigen::Vector2d(kPlanMargin_m, 0.0)).norm(), kRounding_m);
+  EXPECT_GT(first->from_tip.x(), 0.99);
+}
+
+TEST(Plan, DrawsStructuresWhereTheyStand) {
+  ScenarioSpec scenario = ScenarioOnLine(Straight(700.0), 100.0);
+  NoiseWallSpec wall;
+  wall.name = "wall";
+  wall.begin_s_m = 50.0;
+  wall.end_s_m = 650.0;
+  wall.side = TrackSide::kRight;
+  wall.distance_m = 4.5;
+  RelayBoxSpec box;
+  box.name = "box";
+  box.s_m = 150.0;
+  box.side = TrackSide::kLeft;
+  scenario.world.structures = {wall, box};
+  const Plan plan = MakePlan(scenario, *MakeWorld(scenario), {.from_s_m = 100.0, .to_s_m = 200.0});
+  const auto entry = std::ranges::find(plan.entries, "noise wall", &Plan::Entry::text);
+  ASSERT_NE(entry, plan.entries.end());
+  const Plan::Line* line = LineOf(plan, entry->rgb);
+  ASSERT_NE(line, nullptr);
+  EXPECT_LT((line->points_m.front() - Eigen::Vector2d(0.0, -4.5)).norm(), kRounding_m);
+  EXPECT_LT((line->points_m.back() - Eigen::Vector2d(100.0, -4.5)).norm(), kRounding_m);
+  const auto relay_box = std::ranges::find(plan.entries, "relay box", &Plan::Entry::text);
+  ASSERT_NE(relay_box, plan.entries.end());
+  const auto mark = std::ranges::find(plan.marks, relay_box->rgb, &Plan::Mark::rgb);
+  ASSERT_NE(mark, plan.marks.end());
+  EXPECT_LT((mark->at_m - Eigen::Vector2d(50.0, 4.0)).norm(), kRounding_m);
+}
+
+}  // namespace
+}  // namespace railcast
