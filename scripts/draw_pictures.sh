@@ -44,6 +44,15 @@ draw view_trace demo --frame 20 --camera driver --select person,wagon \
   --pick 668,352 --pick 761,431 --trace
 draw intensity demo --frame 20 --camera driver --color-by intensity
 draw snow snow --frame 20 --camera driver
+simulate throat scenarios/osm_sankt_poelten/station_throat.json 61
+draw sankt_poelten throat --frame 60 --eye -15,0,12 --target 60,0,-3 --show surfaces
+/usr/bin/python3 - "$images/sankt_poelten" << 'PYTHON'
+import sys
+import open3d as o3d
+
+o3d.io.write_image(f"{sys.argv[1]}.jpg", o3d.io.read_image(f"{sys.argv[1]}.png"), quality=80)
+PYTHON
+rm "$images/sankt_poelten.png"
 draw mirror_image wet --frame 0 --eye 6,-4,5 --target 28,8,-2
 draw plan "$PWD/scenarios/yard.json" --size 1280x400
 

@@ -22,6 +22,7 @@
 #include "generator/import/lines/line_heights.h"
 #include "generator/import/lines/line_world.h"
 #include "generator/import/lines/track_lines.h"
+#include "generator/import/map/crop_map.h"
 #include "generator/import/map/map_projection.h"
 #include "generator/import/map/read_map.h"
 #include "generator/import/network/side_tracks.h"
@@ -32,6 +33,7 @@ namespace {
 struct ImportCommandOptions {
   std::filesystem::path map;
   std::filesystem::path out;
+  std::vector<double> within_deg;  ///< Longitude and latitude twice, or empty.
   std::string crs;
   std::filesystem::path heights;
   std::string heights_crs;
@@ -146,8 +148,30 @@ void WriteLine(const std::filesystem::path& out,
   WriteFileWhole(out / (line.name + ".world.json"), WorldFileText(line, world, has_elevation));
 }
 
-int RunImport(const ImportCommandOptions& options) {
+/// The map, or what of it lies within the rectangle that was asked for.
+RailMap ReadMapWithin(const ImportCommandOptions& options) {
   RailMap map = ReadMap(options.map);
+  if (options.within_deg.empty()) return map;
+  const std::vector<double>& corners = options.within_deg;
+  const std::string got = NumberText(corners[0]) + "," + NumberText(corners[1]) + "," +
+                          NumberText(corners[2]) + "," + NumberText(corners[3]);
+  if (!(corners[0] < corners[2] && corners[1] < corners[3])) {
+    throw InputError(
+        "--within: must be the corner with the least longitude and latitude, then that "
+        "with the greatest (got " +
+        got + ")");
+  }
+  RailMap cropped = CropMap(
+      map, {Eigen::Vector2d(corners[0], corners[1]), Eigen::Vector2d(corners[2], corners[3])});
+  if (cropped.ways.empty()) {
+    throw InputError("--within: must have a track of " + ShownPath(options.map) + " in it (got " +
+                     got + ")");
+  }
+  return cropped;
+}
+
+int RunImport(const ImportCommandOptions& options) {
+  RailMap map = ReadMapWithin(options);
   // Without --crs, it is the map that cannot be projected.
   const MapProjection projection = AtPlace(options.crs.empty() ? ShownPath(options.map) + ": " : "",
                                            [&] { return ProjectMap(options.crs, map); });
@@ -214,6 +238,7 @@ void AddImport(CLI::App& app, ProgramCommand& command) {
   constexpr NumberRule kLength{1.0, 1e6};     // In m.
   constexpr NumberRule kSigma{0.001, 100.0};  // In m.
   constexpr NumberRule kSpeed{1.0, 1000.0};   // In km/h.
+  constexpr NumberRule kDegrees{-180.0, 180.0};
   const auto options = std::make_shared<ImportCommandOptions>();
   CLI::App* subcommand =
       app.add_subcommand("import", "Fit the lines of a map and write them as alignments");
@@ -225,6 +250,14 @@ void AddImport(CLI::App& app, ProgramCommand& command) {
   subcommand->add_option("--out", options->out, "New or empty folder to write to")
       ->required()
       ->check(NonEmpty());
+  subcommand
+      ->add_option("--within", options->within_deg,
+                   "Cut the map to a rectangle: LONGITUDE,LATITUDE of its south-western and of its "
+                   "north-eastern corner, in degrees")
+      ->expected(4)
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(Number(kDegrees));
   subcommand->add_option("--crs", options->crs,
                          "Coordinate system in metres for PROJ, such as EPSG:31256; default: a "
                          "transverse Mercator about the middle of the map, without scale");

@@ -22,6 +22,18 @@ ClearedArea WithMargin(const ClearedArea& area, double margin_m, Clearing what) 
           .cleared = {what}};
 }
 
+/// Whether a bridge or tunnel surely clears nothing of this kind between two chainages. Their areas
+/// depend on all tracks beside them, and are asked for at each cross-section.
+bool IsElsewhere(const StructureSpec& structure, Clearing what, double begin_s_m, double end_s_m) {
+  if (!std::holds_alternative<BridgeSpec>(structure) &&
+      !std::holds_alternative<TunnelSpec>(structure)) {
+    return false;
+  }
+  if (what == Clearing::kBallast || what == Clearing::kMast) return true;
+  const StretchSpec& stretch = *StretchOf(structure);
+  return stretch.end_s_m + kTreeMargin_m < begin_s_m || stretch.begin_s_m - kTreeMargin_m > end_s_m;
+}
+
 }  // namespace
 
 std::vector<ClearedArea> ClearedAreasOf(const WorldTracks& tracks, const StructureSpec& structure) {
@@ -49,7 +61,7 @@ ClearedAreas::ClearedAreas(const WorldTracks& tracks,
   for (const StructureSpec& structure : tracks.world.structures) {
     const TrackCourse* track =
         tracks.CourseOf(std::visit([](const auto& spec) { return spec.track; }, structure));
-    if (track == nullptr) continue;
+    if (track == nullptr || IsElsewhere(structure, what, begin_s_m, end_s_m)) continue;
     for (ClearedArea& area : ClearedAreasOf(tracks, structure)) {
       if (area.end_s_m < begin_s_m || area.begin_s_m > end_s_m) continue;
       if (std::ranges::find(area.cleared, what) == area.cleared.end()) continue;

@@ -18,12 +18,13 @@ for file in sorted((scenarios / "schema").glob("*.schema.json")):
     validators[file.name.removesuffix(".schema.json")] = Draft202012Validator(schema)
 
 SHIPPED = {
-    "scenario": ["*.json"],
+    "scenario": ["*.json", "osm_sankt_poelten/line.json", "osm_sankt_poelten/station_throat.json"],
+    "world": ["osm_sankt_poelten/*.world.json"],
     "lidar": ["sensors/*.json", "published/Lidar.json"],
     "weather": ["weather/*.json", "published/Weather.json"],
     "interfaces": ["published/Interfaces.json"],
     "camera": ["published/Camera.json"],
-    "alignment": ["alignments/*.json"],
+    "alignment": ["alignments/*.json", "osm_sankt_poelten/*.alignment.json"],
     "materials": ["materials/*.json"],
     "labels": ["labels.json"],
 }

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "generator/import/map/rail_map.h"
+
+namespace railcast {
+
+/// Keeps of a map what lies within a rectangle of longitudes and latitudes.
+///
+/// A way is cut where a point of it lies outside: each run of two or more points inside stays as a
+/// way of its own, with the tags of the whole. Things of which a point lies outside are left out.
+/// Call it before ProjectMap, which takes the middle of what is left.
+[[nodiscard]] RailMap CropMap(const RailMap& map, const Eigen::AlignedBox2d& within_deg);
+
+}  // namespace railcast
