@@ -37,6 +37,7 @@ MeanSurface::MeanSurface(const ScenarioSpec& scenario)
     : spec_(WithoutRoughness(scenario.world)),
       seed_(scenario.world.seed),
       alignment_(scenario.world.alignment),
+      network_(MakeNetwork(spec_, alignment_.length_m())),
       surfaces_(LabelTable(scenario.labels), MaterialLibrary(scenario.materials)) {}
 
 std::optional<double> MeanSurface::HeightAbove_m(const Vector3& place_world_m,
@@ -46,6 +47,8 @@ std::optional<double> MeanSurface::HeightAbove_m(const Vector3& place_world_m,
   const Eigen::Vector2d place_m = TrackPlace(alignment_, place_world_m, near_s_m);
   const ChunkContext context{.spec = spec_,
                              .alignment = alignment_,
+                             .tracks = network_.courses,
+                             .turnouts = {},
                              .surfaces = surfaces_,
                              .seed = seed_,
                              .chunk_from_world = Transform::Identity()};

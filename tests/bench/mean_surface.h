@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/rail/line/network.h"
 #include "core/rail/rail_surfaces.h"
 #include "railcast/alignment.h"
 #include "railcast/scenario.h"
@@ -24,6 +25,7 @@ class MeanSurface {
   WorldSpec spec_;
   std::uint64_t seed_;
   Alignment alignment_;
+  Network network_;
   RailSurfaces surfaces_;
 };
 

@@ -118,6 +118,9 @@ TEST(Tunnel, TakesInALoopInOneHalfOfItsLength) {
   EXPECT_EQ(spread.right_m, 0.0);
   // A track that leaves for good counts as far as it is near.
   spec.tracks[1].offset_m = 40.0;
+  spec.tracks[1].begin->s_m = 60.0;
+  spec.tracks[1].end.reset();
+  spec.tracks[1].end_s_m = 700.0;
   const Network wide = MakeNetwork(spec, 800.0);
   const double left_m = SpreadOf({spec, wide.courses}, stretch, 5.5).left_m;
   EXPECT_GT(left_m, 5.0);
