@@ -51,11 +51,16 @@ constexpr double kSmoothBelow_m = 0.25;
 /// Cells whose corners are all lower than this below the ballast are left out.
 constexpr double kHiddenBelow_m = 0.35;
 
+/// How far beyond its chunk the ground may be asked for: plants and objects at its ends.
+constexpr double kBeyondChunk_m = 100.0;
+
 /// The height of the ground above the formation.
 class GroundRise {
  public:
   explicit GroundRise(const ChunkContext& context)
-      : tracks_(TracksOf(context)),
+      : gaps_(TracksOf(context),
+              context.begin_s_m - kBeyondChunk_m,
+              context.end_s_m + kBeyondChunk_m),
         spec_(context.spec.terrain),
         land_(context.land != nullptr && context.land->has_terrain() ? context.land : nullptr),
         roughness_(context.seed, RandomUse::kGroundRoughness, 0),
@@ -81,9 +86,7 @@ class GroundRise {
   }
 
   /// How much lower the ground is below and about bridges.
-  [[nodiscard]] double Drop_m(double s_m, double d_m) const {
-    return tracks_.world.structures.empty() ? 0.0 : GroundDrop_m(tracks_, s_m, d_m);
-  }
+  [[nodiscard]] double Drop_m(double s_m, double d_m) const { return gaps_.Drop_m(s_m, d_m); }
 
  private:
   [[nodiscard]] double Undulation_m(double distance_m, double s_m, double d_m) const {
@@ -97,7 +100,7 @@ class GroundRise {
     return fade * spec_.undulation_sigma_m * waves;
   }
 
-  WorldTracks tracks_;
+  BridgeGaps gaps_;
   const TerrainSpec& spec_;
   const Landform* land_;  ///< Null: as high as the formation.
   Transform world_from_chunk_ = Transform::Identity();

@@ -153,17 +153,26 @@ std::vector<ClearedArea> ClearedBy(const WorldTracks& tracks, const BridgeSpec& 
   return areas;
 }
 
-double GroundDrop_m(const WorldTracks& tracks, double s_m, double d_m) {
-  double drop_m = 0.0;
+BridgeGaps::BridgeGaps(const WorldTracks& tracks, double begin_s_m, double end_s_m) {
   for (const StructureSpec& structure : tracks.world.structures) {
     const auto* bridge = std::get_if<BridgeSpec>(&structure);
     if (bridge == nullptr) continue;
     const double reach_m = bridge->depth_m / kBankSlope;
-    if (s_m < bridge->begin_s_m - reach_m || s_m > bridge->end_s_m + reach_m) continue;
+    if (end_s_m < bridge->begin_s_m - reach_m || begin_s_m > bridge->end_s_m + reach_m) continue;
     const TrackCourse* track = tracks.CourseOf(bridge->track);
     if (track == nullptr) continue;
-    drop_m = std::max(drop_m, DropAbout_m(*bridge, EdgesOf(tracks, *bridge), s_m,
-                                          d_m - track->OffsetAt(s_m).d_m));
+    const DeckEdges edges = EdgesOf(tracks, *bridge);
+    gaps_.push_back({bridge, track, edges.right_m, edges.left_m});
+  }
+}
+
+double BridgeGaps::Drop_m(double s_m, double d_m) const {
+  double drop_m = 0.0;
+  for (const Gap& gap : gaps_) {
+    const double reach_m = gap.bridge->depth_m / kBankSlope;
+    if (s_m < gap.bridge->begin_s_m - reach_m || s_m > gap.bridge->end_s_m + reach_m) continue;
+    drop_m = std::max(drop_m, DropAbout_m(*gap.bridge, {gap.right_m, gap.left_m}, s_m,
+                                          d_m - gap.track->OffsetAt(s_m).d_m));
   }
   return drop_m;
 }

@@ -67,8 +67,23 @@ class ClearedAreas {
   return IsCleared(TracksOf(context), s_m, d_m, what);
 }
 
-/// How much lower the ground is at (s, d) where bridges carry the line over a gap; 0 elsewhere. The
-/// gap's banks, and the embankment's cones beside the abutments, have slopes of 1:1.5.
-[[nodiscard]] double GroundDrop_m(const WorldTracks& tracks, double s_m, double d_m);
+/// The gaps over which the bridges carry the line between two chainages. The world must outlive it.
+class BridgeGaps {
+ public:
+  BridgeGaps(const WorldTracks& tracks, double begin_s_m, double end_s_m);
+
+  /// How much lower the ground is at (s, d), d being left of the alignment; 0 beside the gaps. A
+  /// gap's banks, and the embankment's cones beside the abutments, have slopes of 1:1.5.
+  [[nodiscard]] double Drop_m(double s_m, double d_m) const;
+
+ private:
+  struct Gap {
+    const BridgeSpec* bridge;
+    const TrackCourse* track;
+    double right_m;  ///< Edges of the deck, left of the track's axis.
+    double left_m;
+  };
+  std::vector<Gap> gaps_;
+};
 
 }  // namespace railcast

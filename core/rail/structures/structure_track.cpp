@@ -26,7 +26,10 @@ double FarthestWithin_m(const TrackCourse& track,
   const double begin_s_m = std::max(stretch.begin_s_m, track.begin_s_m());
   const double end_s_m = std::min(stretch.end_s_m, track.end_s_m());
   const bool is_parallel = track.is_parallel() && own.is_parallel();
-  const int num_steps = is_parallel ? 1 : static_cast<int>(std::ceil(end_s_m - begin_s_m));
+  // A loop runs beside its track for most of its length.
+  constexpr double kMostSteps = 32.0;
+  const int num_steps =
+      is_parallel ? 1 : static_cast<int>(std::ceil(std::min(kMostSteps, end_s_m - begin_s_m)));
   std::optional<double> within_m;
   double nearest_m = std::numeric_limits<double>::infinity();
   for (int i = 0; i <= num_steps; ++i) {
