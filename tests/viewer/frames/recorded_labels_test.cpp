@@ -69,7 +69,7 @@ TEST(LabelsOfKitti, HaveTheColoursOfOurs) {
   const LabelTable labels = RecordedFrames(directory.path() / "kitti").info().labels;
   const LabelTable own(made.scenario.labels);
   EXPECT_EQ(labels.Find(16U)->rgb, own.Find("wagon")->rgb);
-  EXPECT_EQ(labels.Find(70U)->name, "grass/tree");
+  EXPECT_EQ(labels.Find(70U)->name, "grass/tree/bush");
   EXPECT_EQ(labels.Find(70U)->rgb, own.Find("grass")->rgb);
 }
 
