@@ -27,6 +27,7 @@ std::optional<Alignment> DraftAlignment(const WorldSpec& world, WorldFaults& fau
   AlignmentSpec known = world.alignment;
   if (!faults.AreKnown({place + "/gradients_permil"})) known.gradients_permil.clear();
   if (!faults.AreKnown({place + "/speed_limits_kmph"})) known.speed_limits_kmph.clear();
+  if (!faults.AreKnown({place + "/cants_mm"})) known.cants_mm.clear();
   if (auto alignment = Attempt(place, faults.errors, [&] { return Alignment(known); })) {
     return alignment;
   }

@@ -121,8 +121,12 @@ void Describe(Archive& a, AlignmentSpec& s) {
   a.Optional("gradients_permil", s.gradients_permil, "Gradients by chainage; none = level.",
              EachValue(Within(-500, 500)));
   a.Optional("speed_limits_kmph", s.speed_limits_kmph,
-             "Speed limits by chainage, from which cant follows; none = no cant.",
+             "Speed limits by chainage, from which cant follows; none = no cant by the rule.",
              EachValue(PositiveUpTo(1000)));
+  a.Optional("cants_mm", s.cants_mm,
+             "Surveyed cant by chainage, linear between the entries: the right above the left "
+             "rail. It takes the place of the rule.",
+             EachValue(Within(-300, 300)));
   a.Optional("curvature_smoothing_m", s.curvature_smoothing_m,
              "Jumps of curvature become clothoids of at most this length.", SmoothingLimits());
   a.Optional("gradient_smoothing_m", s.gradient_smoothing_m,

@@ -18,6 +18,7 @@
 #include "generator/commands.h"
 #include "generator/empty_folder.h"
 #include "generator/import/lines/imported_line.h"
+#include "generator/import/lines/line_cants.h"
 #include "generator/import/lines/line_files.h"
 #include "generator/import/lines/line_heights.h"
 #include "generator/import/lines/line_world.h"
@@ -195,6 +196,7 @@ int RunImport(const ImportCommandOptions& options) {
     } else if (!options.is_level) {
       SetHeights(map, tracks[i], lines[i]);
     }
+    SetCants(map, tracks[i], lines[i]);
     WriteLine(options.out, lines[i], projection, worlds[i].world, elevation != nullptr);
   }
   WriteFileWhole(options.out / "left_out.csv", LeftOutCsv(lines, WorldsOf(worlds)));

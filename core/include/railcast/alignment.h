@@ -90,14 +90,18 @@ struct AlignmentSpec {
   double heading_deg = 0.0;
 
   std::vector<ChainageValue> gradients_permil;   ///< Empty = level.
-  std::vector<ChainageValue> speed_limits_kmph;  ///< Empty = no cant.
+  std::vector<ChainageValue> speed_limits_kmph;  ///< Empty = no cant by the rule.
+  /// Surveyed cant, linear between the entries: the height of the right above the left rail. It
+  /// takes the place of the rule; empty = by the rule.
+  std::vector<ChainageValue> cants_mm;
 
   /// Length (at most) of the clothoids that replace jumps in curvature.
   double curvature_smoothing_m = 20.0;
   /// Length (at most) of the parabolas that replace jumps in gradient.
   double gradient_smoothing_m = 40.0;
 
-  /// Cant follows the rule clamp(11.8 v^2 / R - deficiency, 0, max), averaged over the ramp length.
+  /// Cant that was not surveyed follows the rule clamp(11.8 v^2 / R - deficiency, 0, max), averaged
+  /// over the ramp length.
   double cant_deficiency_mm = 60.0;
   double cant_max_mm = 150.0;
   double cant_ramp_m = 60.0;

@@ -41,6 +41,11 @@ void CheckRules(const AlignmentSpec& spec, ErrorList& errors) {
     const double speed_kmph = spec.speed_limits_kmph[i].value;
     check(speed_kmph > 0.0, place.c_str(), "must be > 0", speed_kmph);
   }
+  for (std::size_t i = 0; i < spec.cants_mm.size(); ++i) {
+    const std::string place = "/cants_mm/" + std::to_string(i) + "/value";
+    const double cant_mm = spec.cants_mm[i].value;
+    check(std::abs(cant_mm) <= 300.0, place.c_str(), "must be from -300 to 300", cant_mm);
+  }
 }
 
 /// A course in plan, independent of how it was specified.
@@ -137,10 +142,12 @@ Alignment::Alignment(const AlignmentSpec& spec) {
       StepsOf(spec.gradients_permil, length_m, 0.0, "/gradients_permil", errors);
   PiecewiseLinear speed_kmph =
       StepsOf(spec.speed_limits_kmph, length_m, 0.0, "/speed_limits_kmph", errors);
+  PiecewiseLinear surveyed_mm = LinesThrough(spec.cants_mm, length_m, "/cants_mm", errors);
   errors.ThrowIfAny();
 
   SmoothedFunction smooth_gradient = SmoothJumps(gradient, spec.gradient_smoothing_m);
-  Cant cant(plan->curvature, speed_kmph, spec);
+  Cant cant = spec.cants_mm.empty() ? Cant(plan->curvature, speed_kmph, spec)
+                                    : Cant(std::move(surveyed_mm));
   std::vector<SmoothedJump> jumps = Listed(plan->jumps, smooth_gradient.jumps);
   parts_ = std::make_shared<const Parts>(Parts{
       std::move(*plan), spec.origin_m[2], std::move(smooth_gradient.function),

@@ -174,4 +174,14 @@ PiecewiseLinear StepsOf(const std::vector<ChainageValue>& values,
   return {std::move(pieces), length_m};
 }
 
+PiecewiseLinear LinesThrough(const std::vector<ChainageValue>& values,
+                             double length_m,
+                             const std::string& pointer,
+                             ErrorList& errors) {
+  const PiecewiseLinear steps = StepsOf(values, length_m, 0.0, pointer, errors);
+  std::vector<LinearPiece> pieces = steps.pieces();
+  for (std::size_t i = 1; i < pieces.size(); ++i) pieces[i - 1].end_value = pieces[i].begin_value;
+  return {std::move(pieces), length_m};
+}
+
 }  // namespace railcast

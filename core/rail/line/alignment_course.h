@@ -26,4 +26,10 @@ inline constexpr double kSmallestRadius_m = 10.0;
                                       const std::string& pointer,
                                       ErrorList& errors);
 
+/// As above, but linear between the entries and constant behind the last one; 0 without values.
+[[nodiscard]] PiecewiseLinear LinesThrough(const std::vector<ChainageValue>& values,
+                                           double length_m,
+                                           const std::string& pointer,
+                                           ErrorList& errors);
+
 }  // namespace railcast

@@ -71,11 +71,14 @@ PiecewiseLinear HeightByRule(const PiecewiseLinear& curvature,
 Cant::Cant(const PiecewiseLinear& curvature,
            const PiecewiseLinear& speed_kmph,
            const AlignmentSpec& spec)
-    : by_rule_mm_(HeightByRule(curvature, speed_kmph, spec)), ramp_m_(spec.cant_ramp_m) {}
+    : height_mm_(HeightByRule(curvature, speed_kmph, spec)), ramp_m_(spec.cant_ramp_m) {}
+
+Cant::Cant(PiecewiseLinear surveyed_mm) : height_mm_(std::move(surveyed_mm)), ramp_m_(0.0) {}
 
 double Cant::HeightMm(double s_m) const {
+  if (ramp_m_ == 0.0) return height_mm_.Value(s_m);
   const double half_m = 0.5 * ramp_m_;
-  return (by_rule_mm_.Integral(s_m + half_m) - by_rule_mm_.Integral(s_m - half_m)) / ramp_m_;
+  return (height_mm_.Integral(s_m + half_m) - height_mm_.Integral(s_m - half_m)) / ramp_m_;
 }
 
 double Cant::RollRad(double s_m) const {

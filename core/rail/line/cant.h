@@ -12,9 +12,9 @@ inline constexpr double kRailHeadSpacing_mm = 1500.0;
 /// km/h times the curvature in 1/m (docs/physics.md 7.5).
 inline constexpr double kBalancingCant = 11.8;
 
-/// The height of the outer above the inner rail as a function of chainage: clamp(11.8 v^2 / |R| -
-/// deficiency, 0, max) with v in km/h and R in m (docs/physics.md 7.5), averaged over the ramp
-/// length so that it is continuous. Positive in left curves.
+/// The height of the right above the left rail as a function of chainage, so that it is positive in
+/// left curves: surveyed, or by the rule clamp(11.8 v^2 / |R| - deficiency, 0, max) with v in km/h
+/// and R in m (docs/physics.md 7.5), averaged over the ramp length so that it is continuous.
 class Cant {
  public:
   /// @param curvature Without jumps.
@@ -22,14 +22,16 @@ class Cant {
   Cant(const PiecewiseLinear& curvature,
        const PiecewiseLinear& speed_kmph,
        const AlignmentSpec& spec);
+  /// @param surveyed_mm Without jumps.
+  explicit Cant(PiecewiseLinear surveyed_mm);
 
   [[nodiscard]] double HeightMm(double s_m) const;
   /// The corresponding roll about the axis: negative (left side down) in left curves.
   [[nodiscard]] double RollRad(double s_m) const;
 
  private:
-  PiecewiseLinear by_rule_mm_;  ///< Before averaging.
-  double ramp_m_;
+  PiecewiseLinear height_mm_;  ///< Before averaging.
+  double ramp_m_;              ///< Over which it is averaged; 0 if it is not.
 };
 
 }  // namespace railcast

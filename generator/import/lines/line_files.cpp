@@ -53,6 +53,9 @@ std::string AlignmentFileText(const ImportedLine& line, const MapProjection& pro
   text += "  \"heading_deg\": " + LineJson(alignment.heading_deg).dump() + ",\n";
   text +=
       "  \"speed_limits_kmph\": " + ListText(alignment.speed_limits_kmph, "  ", value_json) + ",\n";
+  if (!alignment.cants_mm.empty()) {
+    text += "  \"cants_mm\": " + ListText(alignment.cants_mm, "  ", value_json) + ",\n";
+  }
   if (!alignment.gradients_permil.empty()) {
     text += "  \"gradients_permil\": " + ListText(alignment.gradients_permil, "  ", value_json) +
             ",\n  \"gradient_smoothing_m\": " + LineJson(alignment.gradient_smoothing_m).dump() +

@@ -41,6 +41,8 @@ struct MapNode {
   /// In metres, east and north of the map's origin (MapProjection).
   Eigen::Vector2d place_m = Eigen::Vector2d::Zero();
   std::optional<double> height_m = std::nullopt;  ///< Where the source has it.
+  /// Surveyed height of the outer above the inner rail, where the source has it.
+  std::optional<double> cant_mm = std::nullopt;
   MapTags tags;
 };
 

@@ -60,11 +60,20 @@ struct RailMlPoint {
   std::optional<double> height_m;
 };
 
+/// Where the outer rail is higher than the inner one; linear between the intrinsic coordinates.
+struct CantedStretch {
+  double begin{};
+  double end{};
+  double begin_mm{};
+  double end_mm{};
+};
+
 struct NetElement {
   std::string id;
   std::string name;
   std::vector<RailMlPoint> points;
   std::map<double, std::string> speeds;  ///< From an intrinsic coordinate on; empty: none.
+  std::vector<CantedStretch> cants;
 };
 
 using ToDegrees = std::unique_ptr<OGRCoordinateTransformation>;
@@ -80,9 +89,12 @@ class RailMlReader {
   void ReadNetElement(const CPLXMLNode& element);
   void ReadPoint(const CPLXMLNode& intrinsic, const std::string& place, NetElement& net);
   void ReadSpeedSection(const CPLXMLNode& element);
-  void ReadSpeedOn(const CPLXMLNode& associated,
-                   const std::string& place,
-                   const std::string& speed);
+  void ReadSuperelevation(const CPLXMLNode& element);
+  /// Visits the net elements with coordinates on which something is, with its intrinsic
+  /// coordinates.
+  void VisitStretches(const CPLXMLNode& element,
+                      const std::string& place,
+                      const std::function<void(NetElement&, double begin, double end)>& visit);
   [[nodiscard]] std::optional<double> NumberOf(const CPLXMLNode& element,
                                                const std::string& place,
                                                const char* name,
@@ -167,7 +179,7 @@ void RailMlReader::ReadPoint(const CPLXMLNode& intrinsic,
 }
 
 void RailMlReader::ReadNetElement(const CPLXMLNode& element) {
-  NetElement net{Attribute(element, "id"), CPLGetXMLValue(&element, "name.name", ""), {}, {}};
+  NetElement net{Attribute(element, "id"), CPLGetXMLValue(&element, "name.name", ""), {}, {}, {}};
   const std::string place = "netElement " + ShownText(net.id);
   const std::size_t num_faults = errors_.size();
   VisitElements(element.psChild, "intrinsicCoordinate",
@@ -191,26 +203,24 @@ void RailMlReader::ReadNetElement(const CPLXMLNode& element) {
   nets_.push_back(std::move(net));
 }
 
-void RailMlReader::ReadSpeedOn(const CPLXMLNode& associated,
-                               const std::string& place,
-                               const std::string& speed) {
-  const auto net = net_ids_.find(Attribute(associated, "netElementRef"));
-  // Those of upper levels have no coordinates.
-  if (net == net_ids_.end()) return;
-  const auto begin = NumberOf(associated, place, "intrinsicCoordBegin", 0.0);
-  const auto end = NumberOf(associated, place, "intrinsicCoordEnd", 1.0);
-  if (!begin || !end) return;
-  if (!(*begin >= 0.0 && *end <= 1.0 && *begin < *end)) {
-    errors_.Add({place, "must have intrinsicCoordBegin < intrinsicCoordEnd, both from 0 to 1",
-                 NumberText(*begin) + ", " + NumberText(*end)});
-    return;
-  }
-  std::map<double, std::string>& speeds = nets_[net->second].speeds;
-  const auto after = speeds.upper_bound(*end);
-  const std::string behind = after == speeds.begin() ? "" : std::prev(after)->second;
-  speeds.erase(speeds.lower_bound(*begin), after);
-  speeds[*begin] = speed;
-  speeds[*end] = behind;
+void RailMlReader::VisitStretches(
+    const CPLXMLNode& element,
+    const std::string& place,
+    const std::function<void(NetElement&, double begin, double end)>& visit) {
+  VisitElements(element.psChild, "associatedNetElement", [&](const CPLXMLNode& associated) {
+    const auto net = net_ids_.find(Attribute(associated, "netElementRef"));
+    // Those of upper levels have no coordinates.
+    if (net == net_ids_.end()) return;
+    const auto begin = NumberOf(associated, place, "intrinsicCoordBegin", 0.0);
+    const auto end = NumberOf(associated, place, "intrinsicCoordEnd", 1.0);
+    if (!begin || !end) return;
+    if (!(*begin >= 0.0 && *end <= 1.0 && *begin < *end)) {
+      errors_.Add({place, "must have intrinsicCoordBegin < intrinsicCoordEnd, both from 0 to 1",
+                   NumberText(*begin) + ", " + NumberText(*end)});
+      return;
+    }
+    visit(nets_[net->second], *begin, *end);
+  });
 }
 
 void RailMlReader::ReadSpeedSection(const CPLXMLNode& element) {
@@ -223,8 +233,31 @@ void RailMlReader::ReadSpeedSection(const CPLXMLNode& element) {
     errors_.Add({place + "/maxSpeed", "must be > 0", ShownText(speed)});
     return;
   }
-  VisitElements(element.psChild, "associatedNetElement",
-                [&](const CPLXMLNode& associated) { ReadSpeedOn(associated, place, speed); });
+  VisitStretches(element, place, [&](NetElement& net, double begin, double end) {
+    const auto after = net.speeds.upper_bound(end);
+    const std::string behind = after == net.speeds.begin() ? "" : std::prev(after)->second;
+    net.speeds.erase(net.speeds.lower_bound(begin), after);
+    net.speeds[begin] = speed;
+    net.speeds[end] = behind;
+  });
+}
+
+void RailMlReader::ReadSuperelevation(const CPLXMLNode& element) {
+  const std::string place = "superelevationCurve " + ShownText(Attribute(element, "id"));
+  const auto begin_mm =
+      NumberOf(element, place, "superelevation", std::numeric_limits<double>::quiet_NaN());
+  const auto change_mm = NumberOf(element, place, "deltaSuperelevation", 0.0);
+  if (!begin_mm || !change_mm) return;
+  const double end_mm = *begin_mm + *change_mm;
+  const auto is_cant = [](double cant_mm) { return cant_mm >= 0.0 && cant_mm <= 300.0; };
+  if (!is_cant(*begin_mm) || !is_cant(end_mm)) {
+    errors_.Add({place, "must have cants from 0 to 300 mm",
+                 NumberText(*begin_mm) + ", " + NumberText(end_mm)});
+    return;
+  }
+  VisitStretches(element, place, [&](NetElement& net, double begin, double end) {
+    net.cants.push_back({begin, end, *begin_mm, end_mm});
+  });
 }
 
 void RailMlReader::Read(const CPLXMLNode* root) {
@@ -233,6 +266,21 @@ void RailMlReader::Read(const CPLXMLNode* root) {
   VisitElements(root, "netElement", [&](const CPLXMLNode& element) { ReadNetElement(element); });
   VisitElements(root, "speedSection",
                 [&](const CPLXMLNode& element) { ReadSpeedSection(element); });
+  VisitElements(root, "superelevationCurve",
+                [&](const CPLXMLNode& element) { ReadSuperelevation(element); });
+}
+
+/// The surveyed cant of a net element: 0 where it says nothing, the larger one where two meet; none
+/// if it says nothing at all.
+std::optional<double> CantOn(const NetElement& net, double intrinsic) {
+  if (net.cants.empty()) return std::nullopt;
+  double cant_mm = 0.0;
+  for (const CantedStretch& stretch : net.cants) {
+    if (intrinsic < stretch.begin || intrinsic > stretch.end) continue;
+    const double share = (intrinsic - stretch.begin) / (stretch.end - stretch.begin);
+    cant_mm = std::max(cant_mm, stretch.begin_mm + share * (stretch.end_mm - stretch.begin_mm));
+  }
+  return cant_mm;
 }
 
 /// The point at an intrinsic coordinate: a given one, or one between two.
@@ -250,19 +298,33 @@ RailMlPoint PointOnNet(const std::vector<RailMlPoint>& points, double intrinsic)
   return point;
 }
 
+/// The points of a net element and those at which its cant changes in another way than before.
+std::vector<RailMlPoint> PointsWithCants(const NetElement& net) {
+  std::set<double> added;
+  for (const CantedStretch& stretch : net.cants) added.insert({stretch.begin, stretch.end});
+  for (const RailMlPoint& point : net.points) added.erase(point.intrinsic);
+  std::vector<RailMlPoint> points = net.points;
+  for (const double intrinsic : added) points.push_back(PointOnNet(net.points, intrinsic));
+  std::ranges::sort(points, {}, &RailMlPoint::intrinsic);
+  return points;
+}
+
 RailMap RailMlReader::Map() const {
   RailMap map;
   std::map<std::pair<double, double>, std::size_t> nodes;
-  const auto append = [&](const RailMlPoint& point, MapWay& way) {
+  const auto append = [&](const NetElement& net, const RailMlPoint& point, MapWay& way) {
     const auto [entry, is_new] =
         nodes.try_emplace({point.geographic_deg.x(), point.geographic_deg.y()}, map.nodes.size());
     if (is_new) {
-      map.nodes.push_back(
-          {.geographic_deg = point.geographic_deg, .height_m = point.height_m, .tags = {}});
+      map.nodes.push_back({.geographic_deg = point.geographic_deg,
+                           .height_m = point.height_m,
+                           .cant_mm = CantOn(net, point.intrinsic),
+                           .tags = {}});
     }
     AppendNode(entry->second, way);
   };
   for (const NetElement& net : nets_) {
+    const std::vector<RailMlPoint> points = PointsWithCants(net);
     std::set<double> ends = {0.0, 1.0};
     for (const auto& [begin, speed] : net.speeds) ends.insert(begin);
     for (auto end = std::next(ends.begin()); end != ends.end(); ++end) {
@@ -273,11 +335,11 @@ RailMap RailMlReader::Map() const {
       if (after != net.speeds.begin() && !std::prev(after)->second.empty()) {
         way.tags["maxspeed"] = std::prev(after)->second;
       }
-      append(PointOnNet(net.points, begin), way);
-      for (const RailMlPoint& point : net.points) {
-        if (point.intrinsic > begin && point.intrinsic < *end) append(point, way);
+      append(net, PointOnNet(net.points, begin), way);
+      for (const RailMlPoint& point : points) {
+        if (point.intrinsic > begin && point.intrinsic < *end) append(net, point, way);
       }
-      append(PointOnNet(net.points, *end), way);
+      append(net, PointOnNet(net.points, *end), way);
       if (way.nodes.size() >= 2) map.ways.push_back(std::move(way));
     }
   }

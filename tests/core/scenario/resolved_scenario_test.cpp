@@ -71,6 +71,7 @@ ScenarioSpec UnusualScenario(const std::string& mesh_file) {
                           45,
                           {{0, 1.5}},
                           {{0, 80}},
+                          {{0, 20}, {50, -30}},
                           10,
                           11,
                           12,

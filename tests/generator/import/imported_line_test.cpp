@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/io/write_file.h"
+#include "generator/import/lines/line_cants.h"
 #include "generator/import/lines/line_files.h"
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/map_projection.h"
@@ -46,6 +47,52 @@ RailMap Corner() {
   }
   map.ways = {before, after};
   return map;
+}
+
+/// The corner with 90 mm of cant in its arc and ramps of 60 m, as a survey has it.
+RailMap CantedCorner() {
+  RailMap map = Corner();
+  for (std::size_t i = 0; i < map.nodes.size(); ++i) {
+    const double s_m = 20.0 * static_cast<double>(i);
+    const double inside_m = std::min(s_m - 600.0, 600.0 + 250.0 * M_PI - s_m);
+    map.nodes[i].cant_mm = std::clamp(90.0 * (inside_m / 60.0 + 0.5), 0.0, 90.0);
+  }
+  return map;
+}
+
+TEST(ImportedLine, TakesSurveyedCantsWithTheOuterRailHigher) {
+  RailMap map = CantedCorner();
+  const auto cants = [&] {
+    const TrackLine track = FindLines(map, 0.0).front();
+    ImportedLine line = ImportLine(map, track, {});
+    SetCants(map, track, line);
+    return line.alignment;
+  };
+  const AlignmentSpec left = cants();
+  // Both ends of either ramp, as points lie; the others are between two.
+  EXPECT_THAT(left.cants_mm, SizeIs(::testing::AllOf(::testing::Ge(6U), ::testing::Le(10U))));
+  const double middle_s_m = 600.0 + 125.0 * M_PI;
+  const auto height_mm = [](const AlignmentSpec& spec, double s_m) {
+    return -1500.0 * std::sin(Alignment(spec).At(s_m).cant_rad);
+  };
+  // Lines may begin at either end.
+  const double turn = std::copysign(1.0, Alignment(left).At(middle_s_m).curvature_per_m);
+  EXPECT_NEAR(height_mm(left, middle_s_m), turn * 90.0, 1e-6);
+  EXPECT_EQ(height_mm(left, 300.0), 0.0);
+  EXPECT_EQ(height_mm(left, 1600.0), 0.0);
+  for (MapNode& node : map.nodes) node.place_m.y() *= -1.0;
+  EXPECT_NEAR(height_mm(cants(), middle_s_m), -turn * 90.0, 1e-6);
+  ImportedLine line;
+  line.alignment = left;
+  EXPECT_THAT(AlignmentFileText(line, {}), HasSubstr(R"("cants_mm": [)"));
+}
+
+TEST(ImportedLine, HasCantsByTheRuleWithoutASurvey) {
+  const RailMap map = Corner();
+  const TrackLine track = FindLines(map, 0.0).front();
+  ImportedLine line = ImportLine(map, track, {});
+  SetCants(map, track, line);
+  EXPECT_TRUE(line.alignment.cants_mm.empty());
 }
 
 TEST(ImportedLine, HasTheMapsCurveAndSpeeds) {

@@ -61,6 +61,14 @@ class RailMl : public ::testing::Test {
            R"("><linearLocation><associatedNetElement netElementRef="ne1" )" + range +
            "/></linearLocation></speedSection></speedSections></functionalInfrastructure>";
   }
+  static std::string Cant(const std::string& begin_mm,
+                          const std::string& change_mm,
+                          const std::string& range) {
+    return R"(<geometry><superelevationCurves><superelevationCurve id="c1" superelevation=")" +
+           begin_mm + R"(" deltaSuperelevation=")" + change_mm +
+           R"("><linearLocation><associatedNetElement netElementRef="ne1" )" + range +
+           "/></linearLocation></superelevationCurve></superelevationCurves></geometry>";
+  }
 
  private:
   [[nodiscard]] std::filesystem::path file() const { return directory_.path() / "net.xml"; }
@@ -86,6 +94,21 @@ TEST_F(RailMl, DividesNetElementsWhereTheSpeedChanges) {
   EXPECT_NEAR(begin.geographic_deg.x(), 15.605, 1e-9);
   EXPECT_NEAR(begin.height_m.value(), 251.0, 1e-9);
   EXPECT_EQ(map.ways[0].nodes.back(), map.ways[1].nodes.front());
+}
+
+TEST_F(RailMl, GivesSurveyedCants) {
+  // A ramp, and 90 mm behind it; nothing is said of the rest.
+  const RailMap map =
+      Read(Track() + Cant("0", "90", R"(intrinsicCoordBegin="0.2" intrinsicCoordEnd="0.6")") +
+           Cant("90", "0", R"(intrinsicCoordBegin="0.6" intrinsicCoordEnd="0.8")"));
+  ASSERT_THAT(map.ways, SizeIs(1));
+  std::vector<double> cants_mm;
+  for (const std::size_t node : map.ways[0].nodes) {
+    cants_mm.push_back(map.nodes[node].cant_mm.value());
+  }
+  EXPECT_THAT(cants_mm,
+              ::testing::Pointwise(::testing::DoubleNear(1e-9), {0.0, 0.0, 67.5, 90.0, 90.0, 0.0}));
+  EXPECT_EQ(Read(Track()).nodes[0].cant_mm, std::nullopt);
 }
 
 TEST_F(RailMl, TakesOtherCoordinateSystems) {
@@ -125,6 +148,10 @@ TEST_F(RailMl, IsRefusedInOneLineWhereItIsWrong) {
   EXPECT_EQ(Fault(Track() + Speed("80", R"(intrinsicCoordBegin="0.7" intrinsicCoordEnd="0.2")")),
             "net.xml: speedSection s1: must have intrinsicCoordBegin < intrinsicCoordEnd, both "
             "from 0 to 1 (got 0.7, 0.2)");
+  EXPECT_EQ(Fault(Track() + Cant("90", "250", "")),
+            "net.xml: superelevationCurve c1: must have cants from 0 to 300 mm (got 90, 340)");
+  EXPECT_EQ(Fault(Track() + Cant("", "0", "")),
+            "net.xml: superelevationCurve c1/superelevation: must be a number (got none)");
   const std::string cut = FaultOf(R"(<?xml version="1.0"?><railML version="3.2"><common>)");
   EXPECT_THAT(cut, ::testing::HasSubstr("net.xml: must be XML to its end ("));
 }

@@ -153,6 +153,18 @@ TEST(Alignment, RampsCantWithoutAStep) {
   }
 }
 
+TEST(Alignment, TakesSurveyedCantInPlaceOfTheRule) {
+  AlignmentSpec spec = LeftCurve(400.0);
+  spec.cants_mm = {{0.0, 0.0}, {100.0, 0.0}, {140.0, 100.0}, {400.0, 100.0}};
+  const Alignment alignment(spec);
+  EXPECT_EQ(alignment.At(100.0).cant_rad, 0.0);
+  EXPECT_NEAR(alignment.At(130.0).cant_rad, -std::asin(75.0 / 1500.0), 1e-12);
+  EXPECT_NEAR(alignment.At(250.0).cant_rad, -std::asin(100.0 / 1500.0), 1e-12);
+  EXPECT_NEAR(alignment.At(450.0).cant_rad, -std::asin(100.0 / 1500.0), 1e-12);
+  // The right rail is the higher one.
+  EXPECT_NEAR((alignment.WorldFromTrack(250.0) * Vector3(0.0, -0.75, 0.0)).z(), 0.05, 1e-12);
+}
+
 TEST(Alignment, HasNoCantAndNoLimitWithoutSpeedLimits) {
   AlignmentSpec spec = LeftCurve(400.0);
   spec.speed_limits_kmph.clear();
@@ -206,10 +218,12 @@ TEST(Alignment, ReportsEveryFaultAtOnce) {
   spec.course = AlignmentSectionsSpec{100.0, {{5.0, 3.0, {}}, {5.0, {}, -9.5}, {120.0, {}, {}}}};
   spec.gradients_permil = {{0.0, 1.0}, {-1.0, 2.0}};
   spec.speed_limits_kmph = {{0.0, 0.0}};
+  spec.cants_mm = {{0.0, -301.0}};
   spec.cant_ramp_m = 0.0;
   EXPECT_EQ(FaultOf(spec),
             "/cant_ramp_m: must be > 0 (got 0)\n"
             "/speed_limits_kmph/0/value: must be > 0 (got 0)\n"
+            "/cants_mm/0/value: must be from -300 to 300 (got -301)\n"
             "/course/sections/0/s_m: must be 0, the beginning of the line (got 5)\n"
             "/course/sections/1/s_m: must be greater than 5 before it (got 5)\n"
             "/course/sections/2/s_m: must be less than the line's length of 100 m (got 120)\n"
@@ -247,8 +261,10 @@ TEST(Alignment, RefusesACourseWithoutAnything) {
 TEST(Alignment, RefusesFiguresBeyondTheEndOfTheLine) {
   AlignmentSpec spec = Straight(100.0);
   spec.speed_limits_kmph = {{0.0, 80.0}, {100.0, 60.0}};
+  spec.cants_mm = {{0.0, 0.0}, {120.0, 60.0}};
   EXPECT_EQ(FaultOf(spec),
-            "/speed_limits_kmph/1/s_m: must be less than the line's length of 100 m (got 100)");
+            "/speed_limits_kmph/1/s_m: must be less than the line's length of 100 m (got 100)\n"
+            "/cants_mm/1/s_m: must be less than the line's length of 100 m (got 120)");
 }
 
 }  // namespace
