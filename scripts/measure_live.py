@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Measures live runs on this machine, sender and receiver on loopback; the tables of docs/live.md.
 
-Usage: measure_live.py BUILD_DIR [steady|clients|limits|late]... [--seconds S]
+Usage: measure_live.py BUILD_DIR [steady|clients|limits|late|fast]... [--seconds S]
 
 steady: the published scan at 10 and 20 Hz, spread and in bursts: frames lost and late, lateness.
 clients: VLP-16 at 20 Hz and HDL-32E at 10 Hz into PCL's own grabbers.
@@ -9,6 +9,8 @@ limits: the highest rate that each rung sustains without a late frame, in one of
 machines occasionally pause for tens of milliseconds.
 late: the late frames of the most expensive runs at 10 Hz: VLS-128, and footprint on the published
 scan. For two cores: taskset -c 0,1 measure_live.py BUILD_DIR late.
+fast: the published scan at 10 Hz from a train at 160 km/h, on an open line, through hills and through
+a station: what a frame takes, and how long the longest one, which waits for the world if any does.
 """
 
 import argparse
@@ -128,17 +130,33 @@ def late(bench, seconds):
               f"p50 {sent['compute'][0]:.1f}, p99 {sent['compute'][2]:.1f} ms", flush=True)
 
 
+def fast(bench, seconds):
+    for name in ("open_line.json", "hills.json", "osm_sankt_poelten/line.json"):
+        file = bench.folder / "fast.json"
+        vehicle = json.loads((SCENARIOS / name).read_text(encoding="utf-8"))["vehicle"]
+        file.write_text(json.dumps({
+            "version": 1, "file": str(SCENARIOS / name), "fidelity": "plausibility",
+            "lidar": {"file": str(SCENARIOS / "sensors" / "vir2rail.json"),
+                      "mount": {"position_m": [2.2, 0, 2.5]}},
+            "vehicle": vehicle | {"motion": {"profile": [{"time_s": 0, "speed_mps": 160 / 3.6}]}}}))
+        sent = bench.stream(file, seconds)
+        print(f"{name}, 160 km/h, {seconds:g} s: {sent['frames']} frames, {sent['late']} late; compute "
+              f"p50 {sent['compute'][0]:.1f}, p99 {sent['compute'][2]:.1f}, "
+              f"max {sent['compute'][3]:.1f} ms", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("what", nargs="*", choices=["steady", "clients", "limits", "late", []])
-    parser.add_argument("--seconds", type=float, help="of each run (default: 300, 60, 10, 10)")
+    parser.add_argument("what", nargs="*", choices=["steady", "clients", "limits", "late", "fast", []])
+    parser.add_argument("--seconds", type=float, help="of each run (default: 300, 60, 10, 10, 30)")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(options.build, pathlib.Path(folder))
         for name, measure, seconds in (("steady", steady, 300.0), ("clients", clients, 60.0),
-                                       ("limits", limits, 10.0), ("late", late, 10.0)):
+                                       ("limits", limits, 10.0), ("late", late, 10.0),
+                                       ("fast", fast, 30.0)):
             if not options.what or name in options.what:
                 measure(bench, options.seconds or seconds)
 
