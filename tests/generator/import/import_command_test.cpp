@@ -126,6 +126,34 @@ TEST(Import, TakesHeightsFromTheMap) {
   EXPECT_EQ(origin_z_m(" --level"), 0.0);
 }
 
+TEST(Import, CutsTheMapToARectangle) {
+  const TemporaryDirectory directory;
+  const fs::path map = directory.path() / "map.geojson";
+  WriteFileWhole(map, kMap);
+  const auto import = [&](const std::string& corners, const std::string& out) {
+    return Generate("import " + map.string() + " --min-length 500 --within " + corners + " --out " +
+                    (directory.path() / out).string());
+  };
+  const Ended run = import("15.605,48.1,15.625,48.3", "cut");
+  ASSERT_EQ(run.status, 0) << run.said;
+  // From 15.61 to 15.62 degrees; the whole line has 2.2 km.
+  EXPECT_THAT(run.said, HasSubstr("| hill-line | 0.74"));
+
+  const Ended wrong_way = import("15.625,48.1,15.605,48.3", "wrong");
+  EXPECT_EQ(wrong_way.status, 1);
+  EXPECT_THAT(wrong_way.said,
+              HasSubstr("--within: must be the corner with the least longitude and latitude, then "
+                        "that with the greatest (got 15.625,48.1,15.605,48.3)"));
+  const Ended elsewhere = import("10,48,11,49", "elsewhere");
+  EXPECT_EQ(elsewhere.status, 1);
+  EXPECT_THAT(elsewhere.said, HasSubstr("map.geojson in it (got 10,48,11,49)"));
+  EXPECT_EQ(import("15.6,48.1,15.7", "three").status, 2);
+  EXPECT_EQ(import("15.6,48.1,15.7,99999", "far").status, 2);
+  for (const char* refused : {"wrong", "elsewhere", "three", "far"}) {
+    EXPECT_FALSE(fs::exists(directory.path() / refused)) << refused;
+  }
+}
+
 TEST(Import, RefusesAFolderThatIsNotEmpty) {
   const TemporaryDirectory directory;
   const fs::path map = directory.path() / "map.geojson";
