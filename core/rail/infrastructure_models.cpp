@@ -2,6 +2,7 @@
 
 #include "core/rail/catenary/catenary_models.h"
 #include "core/rail/track/cross_section.h"
+#include "core/rail/track/rail_section.h"
 #include "core/rail/turnout/turnout_structure.h"
 
 namespace railcast {
@@ -9,8 +10,9 @@ namespace railcast {
 InfrastructureModels MakeInfrastructureModels(const WorldSpec& spec, const RailSurfaces& surfaces) {
   const auto shared = [](Model model) { return std::make_shared<const Model>(std::move(model)); };
   InfrastructureModels models;
-  models.concrete_sleeper = shared(MakeConcreteSleeper(surfaces));
-  models.wood_sleeper = shared(MakeWoodSleeper(surfaces));
+  const double shift_m = RailShift_m(spec.alignment);
+  models.concrete_sleeper = shared(MakeConcreteSleeper(surfaces, shift_m));
+  models.wood_sleeper = shared(MakeWoodSleeper(surfaces, shift_m));
   for (double length_m = 2.0 * kSleeperHalfLength_m; length_m < kLongestBearer_m;
        length_m += kBearerStep_m) {
     models.concrete_bearers.push_back(

@@ -11,10 +11,11 @@ namespace railcast {
 
 /// A B70 sleeper in the track frame: 2600 x 300 mm; 214 mm high below the rail, 234 mm outside it
 /// and 175 mm in the middle, where it is 220 mm wide; W14 fastenings on rail seats canted 1:40.
-[[nodiscard]] Model MakeConcreteSleeper(const RailSurfaces& surfaces);
+/// @param shift_m How much farther from the middle its rails lie, and its ends (RailShift_m).
+[[nodiscard]] Model MakeConcreteSleeper(const RailSurfaces& surfaces, double shift_m);
 
 /// A wooden sleeper in the track frame: 2600 x 260 x 160 mm, with baseplates canted 1:40.
-[[nodiscard]] Model MakeWoodSleeper(const RailSurfaces& surfaces);
+[[nodiscard]] Model MakeWoodSleeper(const RailSurfaces& surfaces, double shift_m);
 
 /// Models that are placed repeatedly along the line.
 struct InfrastructureModels {

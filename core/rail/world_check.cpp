@@ -28,6 +28,25 @@ std::string StretchText(double begin_s_m, double end_s_m) {
          (std::isinf(end_s_m) ? " m on" : " to " + NumberText(end_s_m) + " m");
 }
 
+constexpr const char* kGauge = "/world/alignment/gauge_mm";
+
+// Turnouts and wagons are those of standard gauge.
+bool IsStandardGauge(const WorldSpec& world, const WorldFaults& faults) {
+  return world.alignment.gauge_mm == 1435.0 || !faults.AreKnown({kGauge});
+}
+
+void CheckTurnoutsFitGauge(const WorldSpec& world, std::size_t index, WorldFaults& faults) {
+  if (IsStandardGauge(world, faults)) return;
+  const TrackSpec& track = world.tracks[index];
+  for (const auto& [key, turnout] : {std::pair("/begin", &track.begin), {"/end", &track.end}}) {
+    if (!*turnout) continue;
+    faults.Add(Item("/world/tracks/", index) + key,
+               "must be absent: there are turnouts of 1435 mm only, and gauge_mm is " +
+                   NumberText(world.alignment.gauge_mm),
+               Quoted(std::string(NameOf((*turnout)->turnout))));
+  }
+}
+
 void CheckTrack(const WorldSpec& world,
                 std::size_t index,
                 const LineMeasures& line,
@@ -45,6 +64,7 @@ void CheckTrack(const WorldSpec& world,
                    NumberText(world.terrain.half_width_m) + " m",
                NumberText(offset_m));
   }
+  CheckTurnoutsFitGauge(world, index, faults);
   if (!faults.AreKnown({place + "/start_s_m", place + "/end_s_m"})) return;
   if (!(track.start_s_m >= 0.0 && track.start_s_m < line.length_m)) {
     faults.Add(
@@ -194,6 +214,12 @@ void CheckObject(const WorldSpec& world,
                  const std::string& pointer,
                  const LineOfTracks& line,
                  WorldFaults& faults) {
+  if (IsWagon(object.type) && !IsStandardGauge(world, faults)) {
+    faults.Add(pointer + "/type",
+               "must not be a wagon: they have wheels of 1435 mm only, and gauge_mm is " +
+                   NumberText(world.alignment.gauge_mm),
+               Quoted(std::string(NameOf(object.type))));
+  }
   if (!object.route.empty()) return;
   const TrackPlace place{pointer + "/track", pointer + "/s_m", object.track, object.s_m};
   const TrackSpec* track = CheckTrackPlace(world, place, line, faults);

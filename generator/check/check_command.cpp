@@ -42,7 +42,8 @@ class Report {
 
   [[nodiscard]] std::string Line(bool is_verbose) const {
     const VehicleWay way = FindVehicleWay(scenario_.vehicle, world_->vehicle_course());
-    return LineText(world_->alignment(), is_verbose) + NetworkText(*world_) +
+    return LineText(world_->alignment(), scenario_.world.alignment.gauge_mm, is_verbose) +
+           NetworkText(*world_) +
            VehicleText(StartTrack(*world_, scenario_.vehicle), way, pattern_.rate_hz) +
            RouteText(*world_, FindLateralPeak(*world_, scenario_.vehicle, way));
   }

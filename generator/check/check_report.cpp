@@ -101,13 +101,14 @@ std::string CameraText(const CameraSpec& camera) {
                                                   : "an image with each frame"));
 }
 
-std::string LineText(const Alignment& alignment, bool is_verbose) {
+std::string LineText(const Alignment& alignment, double gauge_mm, bool is_verbose) {
   const double radius_m = alignment.tightest_radius_m();
   const std::vector<SmoothedJump>& jumps = alignment.smoothed_jumps();
   std::string text = ReportLine(
       "line",
       Rounded(alignment.length_m(), 1) + " m, " +
-          (std::isinf(radius_m) ? "straight" : "tightest radius " + Rounded(radius_m, 1) + " m"));
+          (std::isinf(radius_m) ? "straight" : "tightest radius " + Rounded(radius_m, 1) + " m") +
+          (gauge_mm == 1435.0 ? "" : ", gauge " + NumberText(gauge_mm) + " mm"));
   if (jumps.empty()) return text;
   text += JumpsText(jumps, "curvature", "curvature jump");
   text += JumpsText(jumps, "gradient", "gradient step");

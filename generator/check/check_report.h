@@ -39,7 +39,7 @@ namespace railcast {
 [[nodiscard]] std::string CameraText(const CameraSpec& camera);
 
 /// @param is_verbose Lists every smoothed jump.
-[[nodiscard]] std::string LineText(const Alignment& alignment, bool is_verbose);
+[[nodiscard]] std::string LineText(const Alignment& alignment, double gauge_mm, bool is_verbose);
 
 [[nodiscard]] std::string VehicleText(const std::string& track,
                                       const VehicleWay& way,

@@ -95,6 +95,8 @@ struct AlignmentSpec {
   /// takes the place of the rule; empty = by the rule.
   std::vector<ChainageValue> cants_mm;
 
+  double gauge_mm = 1435.0;  ///< Of all tracks: between the running edges of the rails.
+
   /// Length (at most) of the clothoids that replace jumps in curvature.
   double curvature_smoothing_m = 20.0;
   /// Length (at most) of the parabolas that replace jumps in gradient.

@@ -23,6 +23,10 @@ constexpr double kPermil = 1e-3;
 // Sampling of a spline's curvature. Used for the cant only, which is averaged over some 60 m.
 constexpr double kCurvatureSampling_m = 5.0;
 
+// From field railways to broader than India's 1676 mm.
+constexpr double kNarrowestGauge_mm = 600.0;
+constexpr double kWidestGauge_mm = 1700.0;
+
 void CheckRules(const AlignmentSpec& spec, ErrorList& errors) {
   const auto check = [&](bool holds, const char* place, const char* rule, double value) {
     if (!holds) errors.Add({place, rule, NumberText(value)});
@@ -31,6 +35,8 @@ void CheckRules(const AlignmentSpec& spec, ErrorList& errors) {
         spec.curvature_smoothing_m);
   check(spec.gradient_smoothing_m > 0.0, "/gradient_smoothing_m", "must be > 0",
         spec.gradient_smoothing_m);
+  check(spec.gauge_mm >= kNarrowestGauge_mm && spec.gauge_mm <= kWidestGauge_mm, "/gauge_mm",
+        "must be from 600 to 1700", spec.gauge_mm);
   check(spec.cant_ramp_m > 0.0, "/cant_ramp_m", "must be > 0", spec.cant_ramp_m);
   check(spec.cant_deficiency_mm >= 0.0, "/cant_deficiency_mm", "must be >= 0",
         spec.cant_deficiency_mm);
@@ -147,7 +153,7 @@ Alignment::Alignment(const AlignmentSpec& spec) {
 
   SmoothedFunction smooth_gradient = SmoothJumps(gradient, spec.gradient_smoothing_m);
   Cant cant = spec.cants_mm.empty() ? Cant(plan->curvature, speed_kmph, spec)
-                                    : Cant(std::move(surveyed_mm));
+                                    : Cant(std::move(surveyed_mm), spec);
   std::vector<SmoothedJump> jumps = Listed(plan->jumps, smooth_gradient.jumps);
   parts_ = std::make_shared<const Parts>(Parts{
       std::move(*plan), spec.origin_m[2], std::move(smooth_gradient.function),

@@ -8,8 +8,18 @@
 namespace railcast {
 namespace {
 
+double SpacingOf_mm(const AlignmentSpec& spec) {
+  return spec.gauge_mm + kRailHeadWidth_mm;
+}
+
+/// Balancing cant in mm over the square of the speed in km/h and the curvature in 1/m.
+double BalancingCantOf(const AlignmentSpec& spec) {
+  return kBalancingCant * (SpacingOf_mm(spec) / kStandardSpacing_mm);
+}
+
 double HeightByRuleMm(double curvature_per_m, double speed_kmph, const AlignmentSpec& spec) {
-  const double balanced_mm = kBalancingCant * speed_kmph * speed_kmph * std::abs(curvature_per_m);
+  const double balanced_mm =
+      BalancingCantOf(spec) * speed_kmph * speed_kmph * std::abs(curvature_per_m);
   const double cant_mm = std::clamp(balanced_mm - spec.cant_deficiency_mm, 0.0, spec.cant_max_mm);
   return std::copysign(cant_mm, curvature_per_m);
 }
@@ -27,7 +37,7 @@ std::vector<double> CornersOf(const Stretch& stretch,
   const double rise_per_m = stretch.end_curvature_per_m - stretch.begin_curvature_per_m;
   for (const double balanced_mm :
        {spec.cant_deficiency_mm, spec.cant_deficiency_mm + spec.cant_max_mm}) {
-    const double corner_per_m = balanced_mm / (kBalancingCant * speed_kmph * speed_kmph);
+    const double corner_per_m = balanced_mm / (BalancingCantOf(spec) * speed_kmph * speed_kmph);
     for (const double curvature_per_m : {-corner_per_m, corner_per_m}) {
       const double part = (curvature_per_m - stretch.begin_curvature_per_m) / rise_per_m;
       const double s_m = stretch.begin_s_m + part * (stretch.end_s_m - stretch.begin_s_m);
@@ -71,9 +81,12 @@ PiecewiseLinear HeightByRule(const PiecewiseLinear& curvature,
 Cant::Cant(const PiecewiseLinear& curvature,
            const PiecewiseLinear& speed_kmph,
            const AlignmentSpec& spec)
-    : height_mm_(HeightByRule(curvature, speed_kmph, spec)), ramp_m_(spec.cant_ramp_m) {}
+    : height_mm_(HeightByRule(curvature, speed_kmph, spec)),
+      ramp_m_(spec.cant_ramp_m),
+      spacing_mm_(SpacingOf_mm(spec)) {}
 
-Cant::Cant(PiecewiseLinear surveyed_mm) : height_mm_(std::move(surveyed_mm)), ramp_m_(0.0) {}
+Cant::Cant(PiecewiseLinear surveyed_mm, const AlignmentSpec& spec)
+    : height_mm_(std::move(surveyed_mm)), ramp_m_(0.0), spacing_mm_(SpacingOf_mm(spec)) {}
 
 double Cant::HeightMm(double s_m) const {
   if (ramp_m_ == 0.0) return height_mm_.Value(s_m);
@@ -82,7 +95,7 @@ double Cant::HeightMm(double s_m) const {
 }
 
 double Cant::RollRad(double s_m) const {
-  return -std::asin(HeightMm(s_m) / kRailHeadSpacing_mm);
+  return -std::asin(HeightMm(s_m) / spacing_mm_);
 }
 
 }  // namespace railcast

@@ -5,11 +5,13 @@
 
 namespace railcast {
 
-/// Distance between the two rail heads, across which cant in millimetres is measured.
-inline constexpr double kRailHeadSpacing_mm = 1500.0;
+/// The distance between the middles of the two rail heads, across which cant in millimetres is
+/// measured, is that much more than the gauge: 1500 mm on standard gauge.
+inline constexpr double kRailHeadWidth_mm = 65.0;
+inline constexpr double kStandardSpacing_mm = 1500.0;
 
 /// The cant that balances the centrifugal force, in mm, is this times the square of the speed in
-/// km/h times the curvature in 1/m (docs/physics.md 7.5).
+/// km/h times the curvature in 1/m (docs/physics.md 7.5), on standard gauge.
 inline constexpr double kBalancingCant = 11.8;
 
 /// The height of the right above the left rail as a function of chainage, so that it is positive in
@@ -23,7 +25,7 @@ class Cant {
        const PiecewiseLinear& speed_kmph,
        const AlignmentSpec& spec);
   /// @param surveyed_mm Without jumps.
-  explicit Cant(PiecewiseLinear surveyed_mm);
+  Cant(PiecewiseLinear surveyed_mm, const AlignmentSpec& spec);
 
   [[nodiscard]] double HeightMm(double s_m) const;
   /// The corresponding roll about the axis: negative (left side down) in left curves.
@@ -32,6 +34,7 @@ class Cant {
  private:
   PiecewiseLinear height_mm_;  ///< Before averaging.
   double ramp_m_;              ///< Over which it is averaged; 0 if it is not.
+  double spacing_mm_;          ///< Of the rail heads.
 };
 
 }  // namespace railcast

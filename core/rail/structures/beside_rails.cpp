@@ -4,6 +4,7 @@
 #include "core/rail/structures/structure_track.h"
 #include "core/rail/structures/structure_types.h"
 #include "core/rail/structures/swept_solid.h"
+#include "core/rail/track/rail_section.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {
@@ -61,13 +62,13 @@ struct ConductorPlace {
   double base_m{};  ///< Lowest edge of the conductor rail above top of rail.
 };
 
-ConductorPlace ConductorPlaceOf(const ThirdRailSpec& rail) {
+ConductorPlace ConductorPlaceOf(const ThirdRailSpec& rail, double shift_m) {
   const bool is_top = rail.contact == ContactSide::kTop;
   const double height_m =
       rail.height_m.value_or(is_top ? kTopContactHeight_m : kBottomContactHeight_m);
   return {.is_top = is_top,
-          .distance_m =
-              rail.distance_m.value_or(is_top ? kTopContactDistance_m : kBottomContactDistance_m),
+          .distance_m = rail.distance_m.value_or(
+              shift_m + (is_top ? kTopContactDistance_m : kBottomContactDistance_m)),
           .base_m = is_top ? height_m - kConductorHeight_m : height_m};
 }
 
@@ -131,7 +132,7 @@ std::vector<ClearedArea> ClearedBy(const CableTroughSpec& trough) {
 void AddStructure(const ChunkContext& context, const ThirdRailSpec& rail, Chunk& chunk) {
   const StructureTrack track(context, rail.track);
   const StructureSurfaces& surfaces = context.surfaces.structures;
-  const ConductorPlace place = ConductorPlaceOf(rail);
+  const ConductorPlace place = ConductorPlaceOf(rail, RailShift_m(context.spec.alignment));
   const double side = SignOf(rail.side);
   const ChainageRange range{.begin_s_m = rail.begin_s_m, .end_s_m = rail.end_s_m};
   const auto frame_at = [&](double s_m) -> Transform {

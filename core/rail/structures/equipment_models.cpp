@@ -77,13 +77,13 @@ Model MakeRelayBox(const Vector3& size_m, const LinesideSurfaces& surfaces) {
   return model;
 }
 
-Model MakeBufferStop(const LinesideSurfaces& surfaces) {
+Model MakeBufferStop(const LinesideSurfaces& surfaces, double shift_m) {
   Model model{.name = "buffer_stop", .parts = {}};
   AddBufferBeam(surfaces, model);
   constexpr double kBar_m = 0.09;
   Mesh& frame = MeshOf(surfaces.buffer_frame, model);
   for (const double side : kBothRails) {
-    const double y_m = 0.5 * side * kRailHeadDistance_m;
+    const double y_m = side * (0.5 * kRailHeadDistance_m + shift_m);
     const Vector3 head_m(kBeamBack_m + kBar_m, y_m, kStopBufferHeight_m);
     const Vector3 heel_m(kBufferStopLength_m - kBar_m, y_m, kBar_m);
     frame.Append(MakeSquareBar({head_m.x(), y_m, 0.0}, head_m + Vector3(0, 0, 0.2), kBar_m));
@@ -91,22 +91,24 @@ Model MakeBufferStop(const LinesideSurfaces& surfaces) {
     frame.Append(MakeBox({Vector3(kBeamFront_m, y_m - kBar_m, 0.0),
                           Vector3(kBufferStopLength_m, y_m + kBar_m, kBar_m)}));
   }
-  const double y_m = 0.5 * kRailHeadDistance_m;
+  const double y_m = 0.5 * kRailHeadDistance_m + shift_m;
   frame.Append(MakeSquareBar({1.5, -y_m, 0.55}, {1.5, y_m, 0.55}, kBar_m));
   return model;
 }
 
-Model MakeDerailer(const LinesideSurfaces& surfaces) {
+Model MakeDerailer(const LinesideSurfaces& surfaces, double shift_m) {
   constexpr double kShoeLength_m = 0.60;
   constexpr double kShoeRise_m = 0.10;
-  const double rail_m = 0.5 * kRailHeadDistance_m;
+  const double rail_m = 0.5 * kRailHeadDistance_m + shift_m;
   Model model{.name = "derailer", .parts = {}};
   MeshOf(surfaces.derailer, model)
       .Append(MakeBox({Vector3(-0.5 * kShoeLength_m, rail_m - 0.15, -0.10),
                        Vector3(0.5 * kShoeLength_m, rail_m + 0.15, kShoeRise_m)}));
   Mesh& machine = MeshOf(surfaces.derailer_machine, model);
-  machine.Append(MakeBox({Vector3(-0.03, rail_m + 0.15, -0.10), Vector3(0.03, 1.15, -0.04)}));
-  machine.Append(MakeBox({Vector3(-0.35, 1.15, -0.35), Vector3(0.35, 1.55, 0.02)}));
+  machine.Append(
+      MakeBox({Vector3(-0.03, rail_m + 0.15, -0.10), Vector3(0.03, rail_m + 0.40, -0.04)}));
+  machine.Append(
+      MakeBox({Vector3(-0.35, rail_m + 0.40, -0.35), Vector3(0.35, rail_m + 0.80, 0.02)}));
   return model;
 }
 

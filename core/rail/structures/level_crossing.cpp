@@ -10,6 +10,7 @@
 #include "core/rail/structures/lineside_placing.h"
 #include "core/rail/structures/structure_types.h"
 #include "core/rail/structures/swept_solid.h"
+#include "core/rail/track/rail_section.h"
 #include "core/rail/track/sweep.h"
 
 namespace railcast {
@@ -36,6 +37,7 @@ constexpr double kUprightBarrier_deg = 85.0;
 
 void AddPanels(const CrossingRoad& road,
                const CrossingRoad::Lane& lane,
+               double shift_m,
                const SurfaceClass& surface,
                Chunk& chunk) {
   Stretch stretch{.frames = {}, .has_begin = true, .has_end = true};
@@ -46,11 +48,14 @@ void AddPanels(const CrossingRoad& road,
   const auto sweep = [&](double right_m, double left_m, double top_m) {
     AppendSweptSolid(stretch, RectangleOutline(right_m, -kPanelDepth_m, left_m, top_m), mesh);
   };
-  sweep(-kInnerPanel_m, kInnerPanel_m, 0.0);
-  sweep(kInnerPanel_m, kFlangewayEnd_m, -kFlangewayDepth_m);
-  sweep(-kFlangewayEnd_m, -kInnerPanel_m, -kFlangewayDepth_m);
-  sweep(kOuterPanel_m, lane.edge_m, 0.0);
-  sweep(-lane.edge_m, -kOuterPanel_m, 0.0);
+  const double inner_m = kInnerPanel_m + shift_m;
+  const double flangeway_m = kFlangewayEnd_m + shift_m;
+  const double outer_m = kOuterPanel_m + shift_m;
+  sweep(-inner_m, inner_m, 0.0);
+  sweep(inner_m, flangeway_m, -kFlangewayDepth_m);
+  sweep(-flangeway_m, -inner_m, -kFlangewayDepth_m);
+  sweep(outer_m, lane.edge_m, 0.0);
+  sweep(-lane.edge_m, -outer_m, 0.0);
 }
 
 /// A strip of asphalt between two lateral positions. Where it ends at a lane's panels, it meets
@@ -201,7 +206,7 @@ void AddStructure(const ChunkContext& context, const LevelCrossingSpec& crossing
   const CrossingRoad road(context, crossing);
   const LinesideSurfaces& surfaces = context.surfaces.structures.lineside;
   for (const CrossingRoad::Lane& lane : road.lanes()) {
-    AddPanels(road, lane, surfaces.slab, chunk);
+    AddPanels(road, lane, RailShift_m(context.spec.alignment), surfaces.slab, chunk);
   }
   for (const AsphaltStrip& strip : StripsOf(road)) {
     if (strip.right_d_m < strip.left_d_m) StripBuilder(context, road, strip).Add(chunk);

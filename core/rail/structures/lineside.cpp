@@ -6,6 +6,7 @@
 #include "core/rail/structures/lineside_placing.h"
 #include "core/rail/structures/structure_types.h"
 #include "core/rail/track/cross_section.h"
+#include "core/rail/track/rail_section.h"
 
 namespace railcast {
 namespace {
@@ -129,8 +130,9 @@ void AddStructure(const ChunkContext& context, const DerailerSpec& derailer, Chu
   const StructureTrack track(context, derailer.track);
   if (!track.Holds(derailer.s_m)) return;
   const double yaw_rad = derailer.side == TrackSide::kLeft ? 0.0 : std::numbers::pi;
-  AppendModel(MakeDerailer(context.surfaces.structures.lineside),
-              track.Canted(derailer.s_m) * Eigen::AngleAxisd(yaw_rad, Vector3::UnitZ()), chunk);
+  AppendModel(
+      MakeDerailer(context.surfaces.structures.lineside, RailShift_m(context.spec.alignment)),
+      track.Canted(derailer.s_m) * Eigen::AngleAxisd(yaw_rad, Vector3::UnitZ()), chunk);
 }
 
 void AddStructure(const ChunkContext& context, const RelayBoxSpec& box, Chunk& chunk) {
@@ -164,8 +166,9 @@ void AddStructure(const ChunkContext& context, const BufferStopSpec& stop, Chunk
                                  : track.course().begin_s_m() + kBufferStopLength_m;
   if (!track.Holds(face_s_m)) return;
   const double yaw_rad = is_end ? 0.0 : std::numbers::pi;
-  AppendModel(MakeBufferStop(context.surfaces.structures.lineside),
-              track.Canted(face_s_m) * Eigen::AngleAxisd(yaw_rad, Vector3::UnitZ()), chunk);
+  AppendModel(
+      MakeBufferStop(context.surfaces.structures.lineside, RailShift_m(context.spec.alignment)),
+      track.Canted(face_s_m) * Eigen::AngleAxisd(yaw_rad, Vector3::UnitZ()), chunk);
 }
 
 std::vector<ClearedArea> ClearedBy(const SignalSpec& signal) {

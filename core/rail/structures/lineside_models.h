@@ -64,14 +64,15 @@ inline constexpr double kBaliseHeight_m = 0.050;
 /// A fixed buffer stop on the last metres of a track: two frames of steel on the rails, a beam with
 /// two buffers (1.06 m high, 1.75 m apart, UIC) and a retroreflecting board. The buffers' faces are
 /// at x = 0 and look towards -x; it ends at x = kBufferStopLength_m. 252 triangles.
+/// @param shift_m How much farther from the middle the rails lie than on standard gauge.
 inline constexpr double kBufferStopLength_m = 2.5;
 inline constexpr double kBufferStopWidth_m = 2.5;
 inline constexpr double kBufferStopHeight_m = 1.60;
-[[nodiscard]] Model MakeBufferStop(const LinesideSurfaces& surfaces);
+[[nodiscard]] Model MakeBufferStop(const LinesideSurfaces& surfaces, double shift_m);
 
-/// A derailer that lies on the rail at y = 0.75 m, with its machine outside. The shoe is
-/// 0.60 x 0.30 x 0.20 m and rises 0.10 m above the rail. 36 triangles.
-[[nodiscard]] Model MakeDerailer(const LinesideSurfaces& surfaces);
+/// A derailer that lies on the rail at y = 0.75 m + shift_m (RailShift_m), with its machine
+/// outside. The shoe is 0.60 x 0.30 x 0.20 m and rises 0.10 m above the rail. 36 triangles.
+[[nodiscard]] Model MakeDerailer(const LinesideSurfaces& surfaces, double shift_m);
 
 /// A lamp of that height above the ground, where its origin is: a tapered pole with an arm of 1.0 m
 /// towards -y. 60 triangles.

@@ -11,6 +11,7 @@
 #include "core/rail/model_parts.h"
 #include "core/rail/track/coarse_grid.h"
 #include "core/rail/track/cross_section.h"
+#include "core/rail/track/rail_section.h"
 #include "core/rail/track/sweep.h"
 
 namespace railcast {
@@ -65,11 +66,11 @@ std::pair<double, double> OffsetsIn(const ChunkContext& context) {
 Columns ColumnsOf(const ChunkContext& context) {
   // Covers shoulder and slope down to below the ground, with cant. Anything deeper is dropped
   // anyway.
-  constexpr double kReach_m = CrossSection::kShoulder_m + 2.0;
+  const double reach_m = CrossSection::kShoulder_m + RailShift_m(context.spec.alignment) + 2.0;
   const auto [least_m, most_m] = OffsetsIn(context);
   if (!(least_m <= most_m)) return {};
-  return {.first = static_cast<std::int64_t>(std::floor((least_m - kReach_m) / kGridAcross_m)),
-          .last = static_cast<std::int64_t>(std::ceil((most_m + kReach_m) / kGridAcross_m))};
+  return {.first = static_cast<std::int64_t>(std::floor((least_m - reach_m) / kGridAcross_m)),
+          .last = static_cast<std::int64_t>(std::ceil((most_m + reach_m) / kGridAcross_m))};
 }
 
 /// The sheet of ballast over a grid whose points are counted by row and column.

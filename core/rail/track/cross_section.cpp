@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/rail/structures/cleared.h"
+#include "core/rail/track/rail_section.h"
 
 namespace railcast {
 namespace {
@@ -37,7 +38,9 @@ SleeperSeat SeatOf(SleeperType sleeper) {
 }
 
 CrossSection::CrossSection(const ChunkContext& context, double s_m)
-    : s_m_(s_m), sleeper_closeness_(ClosenessToASleeper(s_m)) {
+    : s_m_(s_m),
+      shift_m_(RailShift_m(context.spec.alignment)),
+      sleeper_closeness_(ClosenessToASleeper(s_m)) {
   Check(!context.spec.tracks.empty(), "a line has a track");
   const AxisPoint axis = context.alignment.At(s_m);
   const Transform world_from_axis =
@@ -80,7 +83,7 @@ double CrossSection::BallastHeight_m(double d_m) const {
     // From the shoulder, the slope takes about 0.8 m to reach the formation.
     constexpr double kReach_m = 3.0;
     const double beyond_m =
-        std::max(std::abs(d_m - track.d_m) - kShoulder_m, BeyondEnd_m(track, s_m_));
+        std::max(std::abs(d_m - track.d_m) - (kShoulder_m + shift_m_), BeyondEnd_m(track, s_m_));
     if (track.has_ballast && beyond_m < kReach_m) {
       height_m = std::max(height_m, BallastHeightOf(track, d_m));
     }
@@ -102,12 +105,15 @@ double CrossSection::BallastHeightOf(const TrackHere& track, double d_m) const {
     sleeper_closeness = ClosenessToASleeper(foot_s_m);
     lateral_m *= std::cos(track.turn_rad);
   }
-  const double on_top_m = std::clamp(lateral_m, -kShoulder_m, kShoulder_m);
+  const double shoulder_m = kShoulder_m + shift_m_;
+  const double on_top_m = std::clamp(lateral_m, -shoulder_m, shoulder_m);
+  // Where it would be on standard gauge, but for the middle of the sleeper.
+  const double on_standard_m = std::abs(on_top_m) - shift_m_;
   const double beyond_m = std::max(std::abs(lateral_m - on_top_m), BeyondEnd_m(track, foot_s_m));
   const double seat_fraction =
-      std::clamp((std::abs(on_top_m) - kMiddleEnd_m) / (kSeatBegin_m - kMiddleEnd_m), 0.0, 1.0);
-  const double sleeper_fraction = std::clamp(
-      (kShoulder_m - std::abs(on_top_m)) / (kShoulder_m - kSleeperHalfLength_m), 0.0, 1.0);
+      std::clamp((on_standard_m - kMiddleEnd_m) / (kSeatBegin_m - kMiddleEnd_m), 0.0, 1.0);
+  const double sleeper_fraction =
+      std::clamp((kShoulder_m - on_standard_m) / (kShoulder_m - kSleeperHalfLength_m), 0.0, 1.0);
   const double top_m = track.seat.top_m - (1.0 - seat_fraction) * track.seat.middle_drop_m -
                        kBallastBelowSleeperTop_m -
                        sleeper_fraction * sleeper_closeness * kSleeperHollow_m;

@@ -32,7 +32,7 @@ class CrossSection {
  public:
   /// Below the axis' top of rail; gives 0.30 m of ballast under a concrete sleeper.
   static constexpr double kFormationDepth_m = 0.70;
-  /// Distance from a track's axis at which its ballast begins to fall.
+  /// Distance from a track's axis at which its ballast begins to fall, on standard gauge.
   static constexpr double kShoulder_m = kSleeperHalfLength_m + 0.45;
 
   CrossSection(const ChunkContext& context, double s_m);
@@ -68,6 +68,7 @@ class CrossSection {
 
   Transform chunk_from_axis_;  ///< Level: x along the heading, y left, z up.
   double s_m_;
+  double shift_m_;                 ///< Of rails, sleepers' ends and shoulders (RailShift_m).
   double sleeper_closeness_;       ///< Of tracks parallel to the alignment.
   std::vector<TrackHere> tracks_;  ///< From right to left.
 };

@@ -3,10 +3,16 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "railcast/alignment.h"
+
 namespace railcast {
 
 /// Track dimensions, docs/physics.md 7.1.
 inline constexpr double kGauge_m = 1.435;
+/// How much farther from the axis each rail of a line lies than on standard gauge.
+[[nodiscard]] inline double RailShift_m(const AlignmentSpec& line) {
+  return 0.5e-3 * (line.gauge_mm - 1435.0);
+}
 /// Depth below top of rail at which the gauge is measured.
 inline constexpr double kGaugeDepth_m = 0.014;
 inline constexpr double kRailHeight_m = 0.172;

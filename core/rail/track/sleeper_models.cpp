@@ -55,7 +55,7 @@ Mesh MakeSleeperLoft(std::span<const SleeperStation> stations, double underside_
 
 /// Right half of the B70, from the end inwards (DB drawing Ios 8; heights from
 /// docs/physics.md 7.1).
-std::vector<SleeperStation> ConcreteStations() {
+std::vector<SleeperStation> ConcreteStations(double shift_m) {
   constexpr double kSeat_m = -0.182;
   constexpr double kSeatSlope = kRailInclination;
   const double seat_y_m = RailFootMiddle_m().x();
@@ -69,6 +69,7 @@ std::vector<SleeperStation> ConcreteStations() {
       {-inner_m, kSeat_m + (inner_m - seat_y_m) * kSeatSlope, 0.090, 0.145},
   };
   half.push_back({-0.45, -0.221, 0.080, 0.110});
+  for (SleeperStation& station : half) station.y_m -= shift_m;
   std::vector<SleeperStation> stations = half;
   for (auto station = half.rbegin(); station != half.rend(); ++station) {
     stations.push_back(*station);
@@ -81,7 +82,7 @@ std::vector<SleeperStation> ConcreteStations() {
 /// (outwards from the middle of the rail foot) and up (from its underside).
 class RailSeat {
  public:
-  RailSeat(double side, Mesh& mesh) : side_(side), mesh_(mesh) {}
+  RailSeat(double side, double shift_m, Mesh& mesh) : side_(side), shift_m_(shift_m), mesh_(mesh) {}
 
   void Add(const Outline& across_up_m, double half_width_m) {
     const Eigen::Vector2d foot_m = RailFootMiddle_m();
@@ -89,7 +90,7 @@ class RailSeat {
     Outline outline_m;
     for (const Eigen::Vector2d& point : across_up_m) {
       const double y_m =
-          foot_m.x() + point.x() * std::cos(angle_rad) - point.y() * std::sin(angle_rad);
+          foot_m.x() + shift_m_ + point.x() * std::cos(angle_rad) - point.y() * std::sin(angle_rad);
       const double z_m =
           foot_m.y() + point.x() * std::sin(angle_rad) + point.y() * std::cos(angle_rad);
       outline_m.emplace_back(side_ * y_m, z_m);
@@ -115,18 +116,19 @@ class RailSeat {
 
  private:
   double side_;
+  double shift_m_;
   Mesh& mesh_;
 };
 
 }  // namespace
 
-Model MakeConcreteSleeper(const RailSurfaces& surfaces) {
+Model MakeConcreteSleeper(const RailSurfaces& surfaces, double shift_m) {
   constexpr double kPad_m = 0.010;
   Model model{.name = "concrete_sleeper", .parts = {}};
   MeshOf(surfaces.sleeper_concrete, model) =
-      MakeSleeperLoft(ConcreteStations(), kConcreteUnderside_m);
+      MakeSleeperLoft(ConcreteStations(shift_m), kConcreteUnderside_m);
   for (const double side : {-1.0, 1.0}) {
-    RailSeat seat(side, MeshOf(surfaces.fastening, model));
+    RailSeat seat(side, shift_m, MeshOf(surfaces.fastening, model));
     seat.Add({{-0.074, -kPad_m - 0.002}, {0.074, -kPad_m - 0.002}, {0.074, 0.0}, {-0.074, 0.0}},
              0.090);
     seat.AddFastenings(kPad_m);
@@ -134,17 +136,17 @@ Model MakeConcreteSleeper(const RailSurfaces& surfaces) {
   return model;
 }
 
-Model MakeWoodSleeper(const RailSurfaces& surfaces) {
+Model MakeWoodSleeper(const RailSurfaces& surfaces, double shift_m) {
   const double top_m = SeatOf(SleeperType::kWood).top_m;
   constexpr double kHeight_m = 0.160;
   constexpr double kHalfWidth_m = 0.130;
   constexpr double kPlate_m = 0.018;
   Model model{.name = "wood_sleeper", .parts = {}};
   MeshOf(surfaces.sleeper_wood, model) =
-      MakeBox({Vector3(-kHalfWidth_m, -kSleeperHalfLength_m, top_m - kHeight_m),
-               Vector3(kHalfWidth_m, kSleeperHalfLength_m, top_m)});
+      MakeBox({Vector3(-kHalfWidth_m, -kSleeperHalfLength_m - shift_m, top_m - kHeight_m),
+               Vector3(kHalfWidth_m, kSleeperHalfLength_m + shift_m, top_m)});
   for (const double side : {-1.0, 1.0}) {
-    RailSeat seat(side, MeshOf(surfaces.fastening, model));
+    RailSeat seat(side, shift_m, MeshOf(surfaces.fastening, model));
     // The lower edge extends into the wood, so that the canted plate leaves no gap.
     seat.Add({{-0.180, -kPlate_m - 0.005}, {0.180, -kPlate_m - 0.005}, {0.180, 0.0}, {-0.180, 0.0}},
              0.080);

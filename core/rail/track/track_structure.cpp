@@ -25,8 +25,10 @@ void AddRail(const ChunkContext& context,
   std::vector<RailStation> stations;
   const double tolerance_m = context.is_coarse ? kCoarseRailTolerance_m : kRailTolerance_m;
   const double chord_m = context.is_coarse ? kLongestCoarseRailChord_m : kLongestRailChord_m;
+  const double shift_m = RailShift_m(context.spec.alignment);
   for (const double s_m : SweepStations(context.alignment, range, track, tolerance_m, chord_m)) {
-    stations.push_back({context.chunk_from_world * track.WorldFromTrack(context.alignment, s_m)});
+    stations.push_back({context.chunk_from_world * track.WorldFromTrack(context.alignment, s_m) *
+                        Eigen::Translation3d(0.0, is_left ? shift_m : -shift_m, 0.0)});
   }
   RailMeshes meshes = SweepRail(is_left, stations);
   if (range.begin_s_m == track.begin_s_m()) {

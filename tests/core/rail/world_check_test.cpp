@@ -51,6 +51,23 @@ TEST(CheckWorld, KeepsTracksOnTheLineAndItsGround) {
                   "length of 1000 m (got 1200)"));
 }
 
+TEST(CheckWorld, HasTurnoutsAndWagonsOfStandardGaugeOnly) {
+  WorldSpec world;
+  world.alignment.gauge_mm = 1000.0;
+  world.tracks.push_back({.name = "loop",
+                          .offset_m = 4.5,
+                          .begin = TurnoutSpec{"main", 300.0, TurnoutType::k9_190, {}, {}}});
+  world.objects = {Box("box", 100.0), Box("wagon", 150.0)};
+  world.objects[1].type = ObjectType::kTankWagon;
+  EXPECT_THAT(Faults(world),
+              ElementsAre("/world/tracks/1/begin: must be absent: there are turnouts of 1435 mm "
+                          "only, and gauge_mm is 1000 (got \"1:9-190\")",
+                          "/world/objects/1/type: must not be a wagon: they have wheels of 1435 mm "
+                          "only, and gauge_mm is 1000 (got \"tank_wagon\")"));
+  world.alignment.gauge_mm = 1435.0;
+  EXPECT_THAT(Faults(world), IsEmpty());
+}
+
 TEST(CheckWorld, KeepsObjectsOnTheirTrack) {
   WorldSpec world;
   world.tracks.push_back({.name = "siding", .offset_m = 4.5, .start_s_m = 100.0, .end_s_m = 400.0});

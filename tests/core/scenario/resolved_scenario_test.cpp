@@ -72,6 +72,7 @@ ScenarioSpec UnusualScenario(const std::string& mesh_file) {
                           {{0, 1.5}},
                           {{0, 80}},
                           {{0, 20}, {50, -30}},
+                          1000,
                           10,
                           11,
                           12,

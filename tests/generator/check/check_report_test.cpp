@@ -41,7 +41,7 @@ TEST(CheckReport, SaysWhatACameraIs) {
 TEST(CheckReport, CallsALineStraight) {
   AlignmentSpec spec;
   spec.course = AlignmentElementsSpec{{{ElementType::kStraight, 300.0, {}}}};
-  EXPECT_EQ(LineText(Alignment(spec), false), "line      300.0 m, straight\n");
+  EXPECT_EQ(LineText(Alignment(spec), 1435.0, false), "line      300.0 m, straight\n");
 }
 
 TEST(CheckReport, ListsSmoothedJumpsOnlyIfAskedTo) {
@@ -50,8 +50,8 @@ TEST(CheckReport, ListsSmoothedJumpsOnlyIfAskedTo) {
       "line      500.0 m, tightest radius 500.0 m\n"
       "          1 curvature jump smoothed, the largest of 0.002 1/m at s 300.0 m\n"
       "          2 gradient steps smoothed, the largest of 8 permil at s 200.0 m\n";
-  EXPECT_EQ(LineText(alignment, false), summary + "          (-v lists them)\n");
-  EXPECT_EQ(LineText(alignment, true),
+  EXPECT_EQ(LineText(alignment, 1435.0, false), summary + "          (-v lists them)\n");
+  EXPECT_EQ(LineText(alignment, 1435.0, true),
             summary +
                 "            curvature at s 300 m: from 0 to -0.002 1/m over 20 m\n"
                 "            gradient at s 100 m: from 0 to 2 permil over 40 m\n"

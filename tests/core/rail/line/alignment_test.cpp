@@ -165,6 +165,17 @@ TEST(Alignment, TakesSurveyedCantInPlaceOfTheRule) {
   EXPECT_NEAR((alignment.WorldFromTrack(250.0) * Vector3(0.0, -0.75, 0.0)).z(), 0.05, 1e-12);
 }
 
+TEST(Alignment, MeasuresCantAcrossTheRailHeadsOfItsGauge) {
+  AlignmentSpec spec = LeftCurve(400.0);
+  spec.gauge_mm = 1000.0;
+  // 11.8 x 1065 / 1500 x 80^2 / 400 - 60 = 74.048 mm over 1065 mm.
+  EXPECT_NEAR(Alignment(spec).At(250.0).cant_rad, -std::asin(74.048 / 1065.0), 1e-12);
+  spec.cants_mm = {{0.0, 100.0}};
+  EXPECT_NEAR(Alignment(spec).At(250.0).cant_rad, -std::asin(100.0 / 1065.0), 1e-12);
+  spec.gauge_mm = 599.0;
+  EXPECT_EQ(FaultOf(spec), "/gauge_mm: must be from 600 to 1700 (got 599)");
+}
+
 TEST(Alignment, HasNoCantAndNoLimitWithoutSpeedLimits) {
   AlignmentSpec spec = LeftCurve(400.0);
   spec.speed_limits_kmph.clear();

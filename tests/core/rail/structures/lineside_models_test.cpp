@@ -57,8 +57,8 @@ TEST_F(LinesideModels, AreMadeOfAsManySoundTrianglesAsTheirDocumentationSays) {
                                  {MakeFoulingMarker(0.35, surfaces_), 36},
                                  {MakeBalise(surfaces_), 12},
                                  {MakeRelayBox({1.2, 0.5, 1.25}, surfaces_), 36},
-                                 {MakeBufferStop(surfaces_), 252},
-                                 {MakeDerailer(surfaces_), 36},
+                                 {MakeBufferStop(surfaces_, 0.0), 252},
+                                 {MakeDerailer(surfaces_, 0.0), 36},
                                  {MakeLamp(6.0, surfaces_), 60},
                                  {MakeBench(surfaces_), 48},
                                  {MakeShelter({4.0, 1.5, 2.5}, surfaces_), 108},
@@ -128,7 +128,7 @@ TEST_F(LinesideModels, GiveTheRelayBoxTheSizeAskedFor) {
 }
 
 TEST_F(LinesideModels, MeetWagonsAtTheBufferStopWithBuffersAtUicHeightAndDistance) {
-  const Model stop = MakeBufferStop(surfaces_);
+  const Model stop = MakeBufferStop(surfaces_, 0.0);
   Eigen::AlignedBox3d left;
   for (const Vector3& p : VerticesOf(stop, surfaces_.buffer_frame)) {
     if (p.x() < 0.05 && p.y() > 0.0) left.extend(p);

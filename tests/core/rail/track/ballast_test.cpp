@@ -67,6 +67,22 @@ TEST(AddBallast, LeavesSleepersUncovered) {
               5.0 * 0.020 / std::sqrt(heights.count));
 }
 
+TEST(AddBallast, EndsNearerOnANarrowerGauge) {
+  WorldSpec spec = StraightLine(300.0);
+  spec.alignment.gauge_mm = 1000.0;
+  const TestLine narrow(spec);
+  const TestLine standard(StraightLine(300.0));
+  const auto mean_at = [](const TestLine& line, double column_d_m) {
+    return HeightsWhere(
+        line, [=](double, double d_m) { return std::abs(std::abs(d_m) - column_d_m) < 0.01; });
+  };
+  // Columns on both slopes, whose shoulders are 0.2175 m apart.
+  const Heights inner = mean_at(narrow, 1.92);
+  const Heights outer = mean_at(standard, 1.92);
+  EXPECT_NEAR(outer.mean_m - inner.mean_m, 0.2175 / 1.5,
+              5.0 * 0.020 * std::sqrt(1.0 / inner.count + 1.0 / outer.count));
+}
+
 TEST(AddBallast, FallsOneToOneAndAHalfBeyondTheShoulder) {
   const TestLine line(StraightLine(300.0));
   const auto mean_at_column = [&](double column_d_m) {

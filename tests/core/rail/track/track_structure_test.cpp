@@ -50,6 +50,26 @@ double GaugeOfMesh(const TestLine& line, int chunk_index, double s_m) {
   return left_m - right_m;
 }
 
+/// Returns whether the mesh is closed: for each edge between two positions, as many triangles
+/// traverse it in one direction as in the other.
+bool IsClosed(const Mesh& mesh) {
+  using Position = std::array<float, 3>;
+  std::map<std::pair<Position, Position>, int> balance;
+  const auto position = [&](std::uint32_t vertex) {
+    const Eigen::Vector3f& v = mesh.vertices[vertex];
+    return Position{v.x(), v.y(), v.z()};
+  };
+  for (const auto& triangle : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Position a = position(triangle[i]);
+      const Position b = position(triangle[(i + 1) % 3]);
+      a < b ? ++balance[{a, b}] : --balance[{b, a}];
+    }
+  }
+  return std::all_of(balance.begin(), balance.end(),
+                     [](const auto& edge) { return edge.second == 0; });
+}
+
 TEST(AddTracks, LaysRailsAtGaugeOnAStraight) {
   const TestLine line(StraightLine(300.0));
   for (const double s_m : {100.4, 113.77, 149.3}) {
@@ -65,6 +85,29 @@ TEST(AddTracks, LaysRailsAtGaugeInACantedCurve) {
   // is perpendicular to the arc, not to the chord.
   for (const double s_m : {100.4, 113.77, 149.3}) {
     EXPECT_NEAR(GaugeOfMesh(line, 2, s_m), kGauge_m, 0.1e-3) << s_m;
+  }
+}
+
+TEST(AddTracks, LaysRailsAtTheGaugeOfTheLine) {
+  for (const double gauge_mm : {600.0, 1000.0, 1668.0}) {
+    WorldSpec spec = CantedArc(300.0, -300.0);
+    spec.alignment.gauge_mm = gauge_mm;
+    const TestLine line(spec);
+    EXPECT_NEAR(GaugeOfMesh(line, 2, 113.77), 1e-3 * gauge_mm, 0.1e-3) << gauge_mm;
+    // Rails stay on their seats, and sleepers are as much longer than the gauge as B70 are.
+    for (const auto& model : {line.models().concrete_sleeper, line.models().wood_sleeper}) {
+      EXPECT_NEAR(model->Bounds().sizes().y(), 2.6 + 1e-3 * gauge_mm - 1.435, 1e-6) << gauge_mm;
+      for (const Part& part : model->parts) EXPECT_TRUE(IsClosed(part.mesh)) << model->name;
+    }
+    double outermost_m = 0.0;
+    for (const Part& part : line.models().concrete_sleeper->parts) {
+      if (part.material != line.surfaces().fastening.material) continue;
+      for (const Eigen::Vector3f& vertex : part.mesh.vertices) {
+        outermost_m = std::max(outermost_m, std::abs(static_cast<double>(vertex.y())));
+      }
+    }
+    const double foot_m = RailFootMiddle_m().x() + RailShift_m(spec.alignment);
+    EXPECT_NEAR(outermost_m, foot_m + 0.180, 2e-3) << gauge_mm;
   }
 }
 
@@ -97,26 +140,6 @@ TEST(AddTracks, TiltsSleepersWithTheCant) {
   // In a left curve, the right side is raised.
   EXPECT_NEAR(rotation(2, 1), std::sin(line.alignment().At(60.0).cant_rad), 1e-9);
   EXPECT_LT(rotation(2, 1), -0.09);
-}
-
-/// Returns whether the mesh is closed: for each edge between two positions, as many triangles
-/// traverse it in one direction as in the other.
-bool IsClosed(const Mesh& mesh) {
-  using Position = std::array<float, 3>;
-  std::map<std::pair<Position, Position>, int> balance;
-  const auto position = [&](std::uint32_t vertex) {
-    const Eigen::Vector3f& v = mesh.vertices[vertex];
-    return Position{v.x(), v.y(), v.z()};
-  };
-  for (const auto& triangle : mesh.triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Position a = position(triangle[i]);
-      const Position b = position(triangle[(i + 1) % 3]);
-      a < b ? ++balance[{a, b}] : --balance[{b, a}];
-    }
-  }
-  return std::all_of(balance.begin(), balance.end(),
-                     [](const auto& edge) { return edge.second == 0; });
 }
 
 TEST(AddTracks, ClosesRailsWhereTheTrackBeginsAndEnds) {
