@@ -117,9 +117,11 @@ struct RailWorld::Line {
             .begin_s_m = grid.BeginOf(chunk),
             .end_s_m = grid.EndOf(chunk),
             .chunk_from_world = chunk_from_world,
-            .land = &land};
+            .land = &land,
+            .diamonds = diamonds};
   }
-  [[nodiscard]] Chunk Build(const ChunkContext& context) const {
+  std::vector<LaidDiamond> diamonds;
+  [[nodiscard]] Chunk Build(ChunkContext context) const {
     Chunk built;
     built.ground.name = "chunk " + std::to_string(context.chunk);
     WithinMemory([&] { return "building " + built.ground.name + " of the line"; },
@@ -141,6 +143,11 @@ struct RailWorld::Line {
 struct RailWorld::Things {
   TrackPath vehicle;
   bool has_changed_vehicle_speed = false;
+    // Cross-sections beyond are few.
+    constexpr double kBeyond_m = 10.0;
+    const ClearedAreas unballasted(TracksOf(context), Clearing::kBallast,
+                                   context.begin_s_m - kBeyond_m, context.end_s_m + kBeyond_m);
+    context.unballasted = &unballasted;
   // Shared between worlds, because most commands change only the vehicle's motion.
   std::shared_ptr<const std::vector<SceneObject>> objects;
   std::shared_ptr<const std::vector<ObjectWay>> ways;  ///< In the order of `objects`.
@@ -170,7 +177,7 @@ RailWorld::RailWorld(const WorldSpec& world,
   std::vector<LaidTurnout> turnouts = LayTurnouts(network);
   line_ = std::make_shared<const Line>(Line{
       std::move(draft.world), vehicle, labels, materials, seed, surfaces, alignment,
-      std::move(network), std::move(turnouts),
+      std::move(network), std::move(turnouts), std::move(diamonds),
       ChunkGrid(alignment, kChunkLength_m, world.terrain.half_width_m),
       std::move(*draft.catenary_plan), MakeInfrastructureModels(world, surfaces),
       MakePlantModels(surfaces, seed),
@@ -201,6 +208,7 @@ RailWorld::~RailWorld() = default;
 
 std::shared_ptr<const RailWorld> RailWorld::WithVehicleSpeed(std::int64_t from_ns,
                                                              double speed_mps,
+  std::vector<LaidDiamond> diamonds = LayDiamonds(network);
                                                              double acceleration_mps2) const {
   Things changed = *things_;
   changed.vehicle = changed.vehicle.WithSpeedFrom(from_ns, speed_mps, acceleration_mps2);

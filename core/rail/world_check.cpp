@@ -94,7 +94,6 @@ void CheckNames(const WorldSpec& world, WorldFaults& faults) {
     faults.errors.Add({"/world/objects", "must be at most " + NumberText(kMaxObjects),
                        NumberText(world.objects.size())});
   }
-  std::set<std::string> names{"ego"};
   for (std::size_t i = 0; i < world.objects.size(); ++i) {
     const std::string& name = world.objects[i].name;
     const std::string pointer = Item("/world/objects/", i) + "/name";
@@ -147,9 +146,8 @@ void CheckHalfWidth(const WorldSpec& world, WorldFaults& faults) {
 }  // namespace
 
 const TrackSpec* FindTrack(const WorldSpec& world, const std::string& name) {
-  const auto found = std::find_if(world.tracks.begin(), world.tracks.end(),
-                                  [&](const TrackSpec& track) { return track.name == name; });
-  return found == world.tracks.end() ? nullptr : &*found;
+  const std::optional<std::size_t> index = TrackIndex(world, name);
+  return index ? &world.tracks[*index] : nullptr;
 }
 
 std::optional<TrackExtent> ExtentOf(const WorldSpec& world,

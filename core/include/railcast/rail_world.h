@@ -118,6 +118,14 @@ struct YardSpec {
   bool operator==(const YardSpec&) const = default;
 };
 
+/// A place where two tracks cross at the height of their rails, at an angle from 1:20 to 1:4.
+struct DiamondCrossingSpec {
+  std::vector<std::string> tracks;  ///< Names of the two.
+  double s_m{};                     ///< Where their axes cross, within 5 m.
+
+  bool operator==(const DiamondCrossingSpec&) const = default;
+};
+
 /// Overhead contact line (docs/physics.md 7.2, Re 200). Span lengths follow a rule: at most
 /// max_span_m, shorter in curves so that the wire stays within the lateral limit between supports.
 struct CatenarySpec {
@@ -268,6 +276,7 @@ struct WorldSpec {
   std::vector<ObjectSpec> objects;
   SceneDetail detail = SceneDetail::kAuto;
   std::vector<YardSpec> yards{};
+  std::vector<DiamondCrossingSpec> diamond_crossings{};
 
   bool operator==(const WorldSpec&) const = default;
 };
