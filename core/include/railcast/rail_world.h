@@ -309,8 +309,10 @@ struct Route;
 /// chainage 0.
 ///
 /// Objects have instance ids 1, 2, ... in the order of the spec. If the vehicle has ego boxes, they
-/// form one further object "ego" after them. Masts are numbered from kFirstMastInstance. Moving
-/// objects continue straight and level beyond the ends of the line.
+/// form one further object "ego" after them, and moving barriers two more for each level crossing,
+/// "NAME/right" and "NAME/left" after the side of the track from which one drives towards them.
+/// Masts are numbered from kFirstMastInstance. Moving objects continue straight and level beyond
+/// the ends of the line.
 ///
 /// Immutable. WithVehicleSpeed(), WithObject() and WithoutObject() return a modified world that
 /// shares everything else, including its chunks, with this one.
