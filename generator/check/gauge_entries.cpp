@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/rail/line/line_place.h"
 #include "core/rail/line/network.h"
 #include "core/rail/line/route.h"
 #include "core/rail/structure_gauge.h"
@@ -32,34 +33,25 @@ constexpr double kGaugeReach_m = 2.5;
 using Triangle = std::array<Vector3, 3>;
 using Polygon = std::vector<Eigen::Vector2d>;
 
-/// A point of a triangle, in the world and seen from the line.
+/// A point of a triangle, in the world and as seen from the line.
 struct Corner {
-  Vector3 place;
-  double s_m{};
-  double left_m{};   ///< Of the line's axis, horizontally.
-  double above_m{};  ///< Above top of rail on the axis, vertically.
+  Vector3 place_m;
+  PlaceBesideLine line;
 };
 using Corners = std::array<Corner, 3>;
 
-/// Finds a point from a guess of its chainage, by steps along the line.
-Corner CornerAt(const Alignment& alignment, const Vector3& point, double guess_s_m) {
-  constexpr int kNumSteps = 12;
-  constexpr double kExact_m = 1e-6;
-  double s_m = guess_s_m;
-  Corner corner{.place = point};
-  for (int i = 0; i < kNumSteps; ++i) {
-    const AxisPoint axis = alignment.At(s_m);
-    const Eigen::Vector2d ahead(std::cos(axis.heading_rad), std::sin(axis.heading_rad));
-    const Eigen::Vector2d from_axis = (point - axis.position_m).head<2>();
-    const double left_m = ahead.x() * from_axis.y() - ahead.y() * from_axis.x();
-    const double step_m = ahead.dot(from_axis) / std::max(0.2, 1.0 - axis.curvature_per_m * left_m);
-    s_m += step_m;
-    corner.left_m = left_m;
-    corner.above_m = point.z() - axis.position_m.z();
-    if (std::abs(step_m) < kExact_m) break;
-  }
-  corner.s_m = s_m;
-  return corner;
+Corner CornerAt(const Alignment& alignment, const Vector3& place_m, double near_s_m) {
+  return {place_m, PlaceOnLine(alignment, place_m, near_s_m)};
+}
+
+double CornerChainage_m(const Corner& corner) {
+  return corner.line.s_m;
+}
+double CornerLateral_m(const Corner& corner) {
+  return corner.line.d_m;
+}
+double CornerHeight_m(const Corner& corner) {
+  return corner.line.h_m;
 }
 
 /// The part of a polygon on one side of a line parallel to an axis (Sutherland, Hodgman 1974).
@@ -90,15 +82,15 @@ class GaugeProbe {
   }
 
   void Add(const Corners& triangle) {
-    const auto [first, last] = std::ranges::minmax(triangle, {}, &Corner::s_m);
-    if (last.s_m < course_.begin_s_m() || first.s_m > course_.end_s_m()) return;
-    const double length_m = last.s_m - first.s_m;
+    const auto [first, last] = std::ranges::minmax(triangle, {}, &CornerChainage_m);
+    if (last.line.s_m < course_.begin_s_m() || first.line.s_m > course_.end_s_m()) return;
+    const double length_m = last.line.s_m - first.line.s_m;
     if (IsSurelyOutside(triangle, length_m)) return;
-    const double middle_s_m = 0.5 * (first.s_m + last.s_m);
+    const double middle_s_m = 0.5 * (first.line.s_m + last.line.s_m);
     const Transform track_from_world = course_.WorldFromTrack(alignment_, middle_s_m).inverse();
     Triangle here;
     std::ranges::transform(triangle, here.begin(),
-                           [&](const Corner& corner) { return track_from_world * corner.place; });
+                           [&](const Corner& corner) { return track_from_world * corner.place_m; });
     if (IsFar(here, length_m)) return;
     if (length_m > kLongestPiece_m) return Divide(triangle);
     for (const GaugePart& part : gauge_) Measure(here, part, middle_s_m);
@@ -118,14 +110,14 @@ class GaugeProbe {
   [[nodiscard]] bool IsSurelyOutside(const Corners& triangle, double length_m) const {
     constexpr double kMargin_m = 1.0;
     constexpr double kSteepest = 0.1;  // Of gradients and cant.
-    const auto [rightmost, leftmost] = std::ranges::minmax(triangle, {}, &Corner::left_m);
+    const auto [rightmost, leftmost] = std::ranges::minmax(triangle, {}, &CornerLateral_m);
     const double reach_m =
         kGaugeReach_m + kMargin_m + length_m + length_m * length_m / alignment_.tightest_radius_m();
-    if (rightmost.left_m > course_.most_d_m() + reach_m) return true;
-    if (leftmost.left_m < course_.least_d_m() - reach_m) return true;
+    if (rightmost.line.d_m > course_.most_d_m() + reach_m) return true;
+    if (leftmost.line.d_m < course_.least_d_m() - reach_m) return true;
     const double width_m =
-        std::max(leftmost.left_m - course_.least_d_m(), course_.most_d_m() - rightmost.left_m);
-    const double lowest_m = std::ranges::min(triangle, {}, &Corner::above_m).above_m;
+        std::max(leftmost.line.d_m - course_.least_d_m(), course_.most_d_m() - rightmost.line.d_m);
+    const double lowest_m = std::ranges::min(triangle, {}, &CornerHeight_m).line.h_m;
     return lowest_m > top_m_ + kMargin_m + kSteepest * (length_m + width_m);
   }
   /// Whether the triangle is on one side of the gauge, allowing for a curve along its length.
@@ -142,17 +134,17 @@ class GaugeProbe {
   void Divide(const Corners& triangle) {
     std::size_t longest = 0;
     const auto length_m = [&](std::size_t i) {
-      return std::abs(triangle[(i + 1) % 3].s_m - triangle[i].s_m);
+      return std::abs(triangle[(i + 1) % 3].line.s_m - triangle[i].line.s_m);
     };
     for (std::size_t i = 1; i < 3; ++i) {
       if (length_m(i) > length_m(longest)) longest = i;
     }
     const std::size_t next = (longest + 1) % 3;
     // Beyond the centre of a curve, chainages of neighbouring places are far apart.
-    if ((triangle[next].place - triangle[longest].place).norm() < kLeastPiece_m) return;
+    if ((triangle[next].place_m - triangle[longest].place_m).norm() < kLeastPiece_m) return;
     const Corner middle =
-        CornerAt(alignment_, 0.5 * (triangle[longest].place + triangle[next].place),
-                 0.5 * (triangle[longest].s_m + triangle[next].s_m));
+        CornerAt(alignment_, 0.5 * (triangle[longest].place_m + triangle[next].place_m),
+                 0.5 * (triangle[longest].line.s_m + triangle[next].line.s_m));
     for (const std::size_t replaced : {longest, next}) {
       Corners half = triangle;
       half[replaced] = middle;
@@ -228,7 +220,7 @@ class Probes {
       for (const Eigen::Vector3f& vertex : part.mesh.vertices) {
         corners.push_back(
             CornerAt(alignment_, world_from_model * vertex.cast<double>(), guess_s_m));
-        guess_s_m = corners.back().s_m;
+        guess_s_m = corners.back().line.s_m;
       }
       for (const auto& [a, b, c] : part.mesh.triangles) {
         for (GaugeProbe& probe : probes_) probe.Add({corners[a], corners[b], corners[c]});
