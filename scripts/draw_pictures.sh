@@ -70,6 +70,21 @@ printf '{"version": 1, "file": "%s", "fidelity": "surface",
 simulate turnout "$runs/turnout.json" 1
 draw turnout turnout --eye 11,-1.5,3.2 --target 22.5,0.3,1.6 --point-size 4 --color-by label
 
+# A diamond crossing, likewise.
+printf '{"version": 1, "file": "%s", "fidelity": "surface",
+  "world": {"alignment": {"course": {"type": "elements", "elements": [{"type": "straight", "length_m": 600}]}},
+    "tracks": [{"name": "main"}, {"name": "across", "offset_m": 9, "heading_deg": -6.34019, "sleeper": "wood",
+      "elements": [{"type": "straight", "length_m": 300}]}],
+    "diamond_crossings": [{"tracks": ["main", "across"], "s_m": 81}],
+    "catenary": {"enabled": false}, "vegetation": {"trees_per_hectare": 0, "grass": false}},
+  "vehicle": {"start_s_m": 54},
+  "lidar": {"file": "%s", "mount": {"position_m": [0, 0.5, 7], "pitch_deg": 22},
+    "scan": {"rate_hz": 10, "pattern": {"type": "raster", "horizontal_fov_deg": 44,
+      "vertical_fov_deg": 30, "angular_resolution_deg": 0.04}}}}' \
+  "$PWD/scenarios/minimal.json" "$PWD/scenarios/sensors/vir2rail.json" > "$runs/diamond.json"
+simulate diamond "$runs/diamond.json" 1
+draw diamond diamond --eye 4,0.6,4.6 --target 18,0.3,0.5 --point-size 3 --color-by label
+
 # The yard, with a finer scan than its own.
 printf '{"version": 1, "file": "%s",
   "lidar": {"file": "%s", "mount": {"position_m": [2, 0, 4], "pitch_deg": 8},

@@ -5,6 +5,7 @@
 
 #include "core/rail/line/track_course.h"
 #include "core/rail/rail_surfaces.h"
+#include "core/rail/turnout/diamond_rails.h"
 #include "core/rail/turnout/turnout_rails.h"
 #include "railcast/alignment.h"
 #include "railcast/rail_world.h"
@@ -12,6 +13,7 @@
 
 namespace railcast {
 
+class ClearedAreas;
 class Landform;
 
 /// Overlap of neighbouring chunks. Each chunk has a frame of its own, so an exact seam would leak
@@ -37,6 +39,10 @@ struct ChunkContext {
   bool is_coarse = false;
   /// The shape of the land; null: as high as the formation, and equally wide everywhere.
   const Landform* land = nullptr;
+  std::span<const LaidDiamond> diamonds{};
+  /// Where structures take the place of ballast, known for some range of chainages; null: looked up
+  /// for each place.
+  const ClearedAreas* unballasted = nullptr;
 };
 
 }  // namespace railcast

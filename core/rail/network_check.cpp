@@ -13,6 +13,7 @@
 #include "core/rail/line/alignment_course.h"
 #include "core/rail/line/fouling.h"
 #include "core/rail/line/turnout_place.h"
+#include "core/rail/turnout/diamond_site.h"
 #include "core/rail/world_check.h"
 
 namespace railcast {
@@ -73,7 +74,7 @@ void CheckRadii(std::size_t index,
              ShortText(tightest_m) + " m at " + MetresText(tightest_s_m) + " m");
 }
 
-/// A section in which a turnout keeps two tracks together.
+/// A section in which a turnout or a crossing keeps two tracks together.
 struct JoinedSection {
   std::size_t track{};
   std::size_t branch{};
@@ -94,10 +95,14 @@ std::vector<JoinedSection> JoinedSections(const NetworkDraft& network) {
     sections.push_back({turnout.track, turnout.branch, std::min(turnout.s_m, end_s_m),
                         std::max(turnout.s_m, end_s_m)});
   }
+  for (const DiamondSite& diamond : network.diamonds) {
+    const ChainageRange close = CloseTo(diamond, network, kLeastTrackDistance_m);
+    sections.push_back({diamond.first, diamond.second, close.begin_s_m, close.end_s_m});
+  }
   return sections;
 }
 
-/// Whether turnouts keep two tracks together at a chainage, also by way of others.
+/// Whether turnouts or crossings keep two tracks together at a chainage, also by way of others.
 bool AreJoined(const std::vector<JoinedSection>& sections,
                std::size_t one,
                std::size_t other,
@@ -151,6 +156,20 @@ std::vector<double> DistanceSamples(const TrackCourse& one, const TrackCourse& o
   return samples;
 }
 
+/// Whether an entry of the crossings that has a fault names one of the tracks.
+bool AreNamedToCross(const WorldSpec& world,
+                     std::pair<std::size_t, std::size_t> pair,
+                     const WorldFaults& faults) {
+  for (std::size_t i = 0; i < world.diamond_crossings.size(); ++i) {
+    const std::vector<std::string>& names = world.diamond_crossings[i].tracks;
+    const bool has_one = std::ranges::count(names, world.tracks[pair.first].name) > 0 ||
+                         std::ranges::count(names, world.tracks[pair.second].name) > 0;
+    const std::string place = "/world/diamond_crossings/" + std::to_string(i);
+    if (has_one && !faults.AreKnown({place})) return true;
+  }
+  return false;
+}
+
 void CheckApart(const WorldSpec& world,
                 const NetworkDraft& network,
                 const std::vector<JoinedSection>& joined,
@@ -160,19 +179,67 @@ void CheckApart(const WorldSpec& world,
   constexpr double kRounding_m = 1e-6;
   const TrackCourse& one = *network.courses[pair.first];
   const TrackCourse& other = *network.courses[pair.second];
+  // Their outermost offsets are sampled, so that some more is asked for.
+  constexpr double kSurely_m = kLeastTrackDistance_m + 0.5;
+  if (one.least_d_m() - other.most_d_m() > kSurely_m) return;
+  if (other.least_d_m() - one.most_d_m() > kSurely_m) return;
   std::optional<ClosePlace> closest;
+  bool is_on_left = false;
+  bool is_on_right = false;
   for (const double s_m : DistanceSamples(one, other)) {
-    const double distance_m = std::abs(one.OffsetAt(s_m).d_m - other.OffsetAt(s_m).d_m);
+    const double left_m = one.OffsetAt(s_m).d_m - other.OffsetAt(s_m).d_m;
+    const double distance_m = std::abs(left_m);
     if (distance_m >= kLeastTrackDistance_m - kRounding_m) continue;
-    if (closest && closest->distance_m <= distance_m) continue;
     if (AreJoined(joined, pair.first, pair.second, s_m)) continue;
+    (left_m > 0.0 ? is_on_left : is_on_right) = true;
+    if (closest && closest->distance_m <= distance_m) continue;
     closest = ClosePlace{s_m, distance_m};
   }
   if (!closest) return;
+  if (is_on_left && is_on_right) {
+    if (AreNamedToCross(world, pair, faults)) return;
+    faults.Add(TrackPointer(pair.second),
+               "must not cross track " + Quoted(world.tracks[pair.first].name) +
+                   " without an entry of /world/diamond_crossings",
+               "at " + MetresText(closest->s_m) + " m");
+    return;
+  }
   faults.Add(TrackPointer(pair.second),
              "must be at least " + NumberText(kLeastTrackDistance_m) + " m from track " +
                  Quoted(world.tracks[pair.first].name) + " where no turnout joins them",
              MetresText(closest->distance_m) + " m at " + MetresText(closest->s_m) + " m");
+}
+
+// Roads have no slabs for rails that cross.
+void CheckRoads(const WorldSpec& world, const DiamondSite& diamond, WorldFaults& faults) {
+  for (std::size_t i = 0; i < world.structures.size(); ++i) {
+    const auto* road = std::get_if<LevelCrossingSpec>(&world.structures[i]);
+    const std::string place = "/world/structures/" + std::to_string(i);
+    if (road == nullptr || !faults.AreKnown({place})) continue;
+    const double half_m = 0.5 * road->road_width_m;
+    if (road->s_m + half_m < diamond.begin_s_m || road->s_m - half_m > diamond.end_s_m) continue;
+    faults.Add(place + "/s_m",
+               "must not put the road into the crossing of tracks " +
+                   Quoted(world.tracks[diamond.first].name) + " and " +
+                   Quoted(world.tracks[diamond.second].name) + ", from " +
+                   MetresText(diamond.begin_s_m) + " to " + MetresText(diamond.end_s_m) + " m",
+               NumberText(road->s_m));
+  }
+}
+
+// Every track is canted about its own axis, so that rails which cross would not be equally high.
+void CheckLevel(const DiamondSite& diamond, const Alignment& alignment, WorldFaults& faults) {
+  constexpr double kMost_rad = 1e-3;  // The rails of an acute frog differ by 1.4 mm then.
+  double steepest_rad = 0.0;
+  for (double s_m = diamond.begin_s_m; s_m < diamond.end_s_m + kSampling_m; s_m += kSampling_m) {
+    const double cant_rad = std::abs(alignment.At(std::min(s_m, diamond.end_s_m)).cant_rad);
+    steepest_rad = std::max(steepest_rad, cant_rad);
+  }
+  if (steepest_rad <= kMost_rad) return;
+  constexpr double kRailHeads_m = 1.5;
+  faults.Add("/world/diamond_crossings/" + std::to_string(diamond.entry) + "/s_m",
+             "must be where the line has no cant",
+             NumberText(std::round(1e3 * kRailHeads_m * std::sin(steepest_rad))) + " mm");
 }
 
 }  // namespace
@@ -186,6 +253,10 @@ void CheckNetwork(const WorldSpec& world,
     if (!is_own(i) || !network.courses[i]) continue;
     CheckExtent(world, i, *network.courses[i], faults);
     if (alignment) CheckRadii(i, *network.courses[i], *alignment, faults);
+  }
+  for (const DiamondSite& diamond : network.diamonds) {
+    if (alignment) CheckLevel(diamond, *alignment, faults);
+    CheckRoads(world, diamond, faults);
   }
   const std::vector<JoinedSection> joined = JoinedSections(network);
   for (std::size_t i = 0; i < world.tracks.size(); ++i) {

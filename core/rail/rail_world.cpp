@@ -22,6 +22,8 @@
 #include "core/rail/line/network.h"
 #include "core/rail/line/track_path.h"
 #include "core/rail/standing_height.h"
+#include "core/rail/structures/cleared.h"
+#include "core/rail/structures/moving_booms.h"
 #include "core/rail/structures/structure_types.h"
 #include "core/rail/structures/structures.h"
 #include "core/rail/track/track_structure.h"
@@ -79,11 +81,29 @@ StandingPlace StandingPlaceOf(const TrackPath& path,
           .area_m = area_m};
 }
 
+/// The places of all moving booms on their tracks, two for each level crossing.
+std::vector<TrackPath> BoomPaths(const WorldDraft& draft) {
+  std::vector<TrackPath> paths;
+  for (const StructureSpec& structure : draft.world.structures) {
+    const auto* crossing = std::get_if<LevelCrossingSpec>(&structure);
+    if (crossing == nullptr || crossing->barrier_angles_deg.empty()) continue;
+    WorldFaults faults;
+    const auto route =
+        MakeRoute(draft.world, draft.network, {"", {crossing->track}, false}, faults);
+    Check(route.has_value(), "a level crossing's track exists");
+    paths.insert(paths.end(), 2,
+                 TrackPath(*route, TrackPose{.is_upright = true},
+                           SpeedProfile(MotionSpec{}, crossing->s_m)));
+  }
+  return paths;
+}
+
 /// Motion and standing place of an object. The vehicle's own boxes move with the vehicle.
 struct ObjectWay {
   std::optional<TrackPath> path;
   /// The object's footprint on the ground; absent if its height is given.
   std::optional<Eigen::AlignedBox2d> ground_area_m;
+  std::optional<MovingBoom> boom{};
 };
 
 }  // namespace
@@ -99,6 +119,7 @@ struct RailWorld::Line {
   Alignment alignment;
   Network network;
   std::vector<LaidTurnout> turnouts;
+  std::vector<LaidDiamond> diamonds;
   ChunkGrid grid;
   CatenaryPlan catenary_plan;
   InfrastructureModels infrastructure;
@@ -117,10 +138,16 @@ struct RailWorld::Line {
             .begin_s_m = grid.BeginOf(chunk),
             .end_s_m = grid.EndOf(chunk),
             .chunk_from_world = chunk_from_world,
-            .land = &land};
+            .land = &land,
+            .diamonds = diamonds};
   }
-  [[nodiscard]] Chunk Build(const ChunkContext& context) const {
+  [[nodiscard]] Chunk Build(ChunkContext context) const {
     Chunk built;
+    // Cross-sections beyond are few.
+    constexpr double kBeyond_m = 10.0;
+    const ClearedAreas unballasted(TracksOf(context), Clearing::kBallast,
+                                   context.begin_s_m - kBeyond_m, context.end_s_m + kBeyond_m);
+    context.unballasted = &unballasted;
     built.ground.name = "chunk " + std::to_string(context.chunk);
     WithinMemory([&] { return "building " + built.ground.name + " of the line"; },
                  [&] {
@@ -131,6 +158,18 @@ struct RailWorld::Line {
                    AddVegetation(context, plants, built);
                  });
     return built;
+  }
+  /// The booms of all level crossings whose barriers move.
+  [[nodiscard]] std::vector<MovingBoom> Booms() const {
+    std::vector<MovingBoom> booms;
+    for (const StructureSpec& structure : world.structures) {
+      const auto* crossing = std::get_if<LevelCrossingSpec>(&structure);
+      if (crossing == nullptr) continue;
+      const int chunk = grid.ChunkAt(crossing->s_m);
+      const ChunkContext context = ContextOf(chunk, grid.WorldFromChunk(chunk).inverse());
+      for (MovingBoom& boom : MovingBoomsOf(context, *crossing)) booms.push_back(std::move(boom));
+    }
+    return booms;
   }
   [[nodiscard]] LineMeasures Measures() const {
     return {alignment.length_m(), alignment.tightest_radius_m()};
@@ -166,11 +205,13 @@ RailWorld::RailWorld(const WorldSpec& world,
 
   const RailSurfaces& surfaces = *draft.surfaces;
   const Alignment& alignment = *draft.alignment;
+  std::vector<TrackPath> boom_paths = BoomPaths(draft);
   Network network = Completed(std::move(draft.network));
   std::vector<LaidTurnout> turnouts = LayTurnouts(network);
+  std::vector<LaidDiamond> diamonds = LayDiamonds(network);
   line_ = std::make_shared<const Line>(Line{
       std::move(draft.world), vehicle, labels, materials, seed, surfaces, alignment,
-      std::move(network), std::move(turnouts),
+      std::move(network), std::move(turnouts), std::move(diamonds),
       ChunkGrid(alignment, kChunkLength_m, world.terrain.half_width_m),
       std::move(*draft.catenary_plan), MakeInfrastructureModels(world, surfaces),
       MakePlantModels(surfaces, seed),
@@ -188,6 +229,15 @@ RailWorld::RailWorld(const WorldSpec& world,
     objects.push_back(
         MakeEgo(vehicle, *draft.vehicle_path, {surfaces.box.material, labels.Id("ego")}));
     ways.push_back({{}, {}});
+  }
+  std::size_t boom_index = 0;
+  for (MovingBoom& boom : line_->Booms()) {
+    objects.push_back({.name = boom.name,
+                       .type = "barrier",
+                       .label = surfaces.structures.lineside.barrier_red.label,
+                       .model = boom.model,
+                       .moves = true});
+    ways.push_back({std::move(boom_paths.at(boom_index++)), {}, std::move(boom)});
   }
   std::uint32_t next_instance = 1;
   for (SceneObject& object : objects) object.instance = next_instance++;
@@ -261,7 +311,7 @@ std::shared_ptr<const RailWorld> RailWorld::WithoutObject(const std::string& nam
   const auto found = std::find_if(
       objects().begin(), objects().end(),
       [&](const SceneObject& object) { return !object.is_ego && object.name == name; });
-  if (found == objects().end()) {
+  if (found == objects().end() || things_->ways->at(found - objects().begin()).boom) {
     throw InputError({{"/name", "must be the name of an object that is there", Quoted(name)}});
   }
   const auto index = found - objects().begin();
@@ -405,6 +455,7 @@ const std::vector<SceneObject>& RailWorld::objects() const {
 }
 
 Transform RailWorld::WorldFromObject(std::size_t object, std::int64_t time_ns) const {
+  if (const auto& boom = things_->ways->at(object).boom) return boom->WorldFromBoom(time_ns);
   const TrackPath& path = things_->PathOf(object);
   Transform world_from_object = path.WorldFromObject(line_->alignment, time_ns);
   if (const auto& area_m = things_->ways->at(object).ground_area_m) {

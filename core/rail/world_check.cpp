@@ -7,6 +7,7 @@
 #include "core/base/text.h"
 #include "core/rail/catenary/catenary.h"
 #include "core/rail/line/turnout_place.h"
+#include "core/rail/structures/moving_booms.h"
 #include "core/rail/structures/structures.h"
 
 namespace railcast {
@@ -108,13 +109,19 @@ void CheckDistance(const WorldSpec& world,
 }
 
 void CheckNames(const WorldSpec& world, WorldFaults& faults) {
-  // Instance ids from kFirstMastInstance on are used for masts, and one id for the vehicle itself.
-  constexpr std::size_t kMaxObjects = kFirstMastInstance - 2;
-  if (world.objects.size() > kMaxObjects) {
-    faults.errors.Add({"/world/objects", "must be at most " + NumberText(kMaxObjects),
+  // Instance ids from kFirstMastInstance on are used for masts, and one id for the vehicle itself
+  // and each moving boom.
+  std::set<std::string> names{"ego"};
+  for (const StructureSpec& structure : world.structures) {
+    const auto* crossing = std::get_if<LevelCrossingSpec>(&structure);
+    if (crossing == nullptr || crossing->barrier_angles_deg.empty()) continue;
+    for (const double side : {-1.0, 1.0}) names.insert(BoomName(crossing->name, side));
+  }
+  const std::size_t max_objects = kFirstMastInstance - 1 - names.size();
+  if (world.objects.size() > max_objects) {
+    faults.errors.Add({"/world/objects", "must be at most " + NumberText(max_objects),
                        NumberText(world.objects.size())});
   }
-  std::set<std::string> names{"ego"};
   for (std::size_t i = 0; i < world.objects.size(); ++i) {
     const std::string& name = world.objects[i].name;
     const std::string pointer = Item("/world/objects/", i) + "/name";
@@ -167,9 +174,8 @@ void CheckHalfWidth(const WorldSpec& world, WorldFaults& faults) {
 }  // namespace
 
 const TrackSpec* FindTrack(const WorldSpec& world, const std::string& name) {
-  const auto found = std::find_if(world.tracks.begin(), world.tracks.end(),
-                                  [&](const TrackSpec& track) { return track.name == name; });
-  return found == world.tracks.end() ? nullptr : &*found;
+  const std::optional<std::size_t> index = TrackIndex(world, name);
+  return index ? &world.tracks[*index] : nullptr;
 }
 
 std::optional<TrackExtent> ExtentOf(const WorldSpec& world,

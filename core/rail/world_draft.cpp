@@ -249,7 +249,7 @@ WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
       if (!world.structures.empty()) {
         surfaces.AddStructureSurfaces(source.labels, source.materials);
       }
-      if (!draft.network.turnouts.empty()) {
+      if (!draft.network.turnouts.empty() || !draft.network.diamonds.empty()) {
         surfaces.AddTurnoutSurfaces(source.labels, source.materials);
       }
       return surfaces;

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 
 #include "core/rail/chunk_context.h"
+#include "core/rail/line/network.h"
 #include "core/rail/line/track_course.h"
 #include "railcast/rail_world.h"
 
@@ -16,10 +18,8 @@ struct WorldTracks {
 
   /// The course of the track of that name; null if there is none.
   [[nodiscard]] const TrackCourse* CourseOf(const std::string& name) const {
-    for (std::size_t i = 0; i < courses.size(); ++i) {
-      if (world.tracks[i].name == name) return &courses[i];
-    }
-    return nullptr;
+    const std::optional<std::size_t> index = TrackIndex(world, name);
+    return index ? &courses[*index] : nullptr;
   }
 };
 

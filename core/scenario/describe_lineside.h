@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "core/scenario/describe_alignment.h"
 #include "core/scenario/json_rules.h"
 #include "railcast/lineside.h"
@@ -31,17 +33,23 @@ inline constexpr const char* kTypeName<BuildingSpec> = "building";
   return Within(1.0, 1000);
 }
 
+/// The keys that all structures have.
+template <class Archive, class Structure>
+void DescribeNameAndTrack(Archive& a, Structure& s, const char* track_doc) {
+  a.Required("name", s.name, "Unique among the structures.", NonEmptyString());
+  a.Optional("track", s.track, track_doc);
+}
+
 /// The keys of PointSpec.
 template <class Archive, class Structure>
 void DescribePoint(Archive& a, Structure& s) {
-  a.Required("name", s.name, "Unique among the structures.", NonEmptyString());
-  a.Optional("track", s.track, "The track beside or in which it stands.");
+  DescribeNameAndTrack(a, s, "The track beside or in which it stands.");
   a.Required("s_m", s.s_m, "Chainage of its middle.", ChainageLimits());
 }
 
 /// The keys of FacingSpec.
 template <class Archive, class Structure>
-void DescribeFacing(Archive& a, Structure& s) {
+void DescribeFacing(Archive& a, Structure& s, const char* height_doc) {
   DescribePoint(a, s);
   a.Required("kind", s.kind, "Which of them.");
   a.Optional("direction", s.direction,
@@ -50,13 +58,14 @@ void DescribeFacing(Archive& a, Structure& s) {
              "Side of the track, towards increasing chainage; absent = right of those trains.");
   a.Optional("distance_m", s.distance_m, "From the track's axis; absent = by kind.",
              StandingDistanceLimits());
-  a.Optional("height_m", s.height_m, "Of its top above top of rail; absent = by kind.",
-             Within(0, 15));
+  a.Optional("height_m", s.height_m, height_doc, Within(0, 15));
 }
 
 template <class Archive>
 void Describe(Archive& a, SignalSpec& s) {
-  DescribeFacing(a, s);
+  DescribeFacing(a, s,
+                 "Of its top above top of rail: at least 2.5 for a main or distant signal, 0.4 for "
+                 "a shunting signal; absent = by kind.");
   // Else the screen and the boards below it would reach into the ground.
   const double least_m = s.kind == SignalKind::kShunting ? 0.4 : 2.5;
   a.Ensure({"height_m", "kind"}, !s.height_m || *s.height_m >= least_m,
@@ -66,7 +75,7 @@ void Describe(Archive& a, SignalSpec& s) {
 
 template <class Archive>
 void Describe(Archive& a, BoardSpec& s) {
-  DescribeFacing(a, s);
+  DescribeFacing(a, s, "Of its top above top of rail; absent = by kind.");
   a.Optional("size_m", s.size_m, "Width and height of its plate; absent = by kind.",
              Within(0.1, 5));
   a.Ensure({"size_m", "kind"}, !s.size_m || s.kind != BoardKind::kFoulingPoint,
@@ -107,9 +116,14 @@ void Describe(Archive& a, FurnitureSpec& s) {
 
 template <class Archive>
 void Describe(Archive& a, BufferStopSpec& s) {
-  a.Required("name", s.name, "Unique among the structures.", NonEmptyString());
-  a.Optional("track", s.track, "The track that ends.");
+  DescribeNameAndTrack(a, s, "The track that ends.");
   a.Optional("at", s.at, "Whether it stands where the track begins or where it ends.");
+}
+
+template <class Archive>
+void Describe(Archive& a, TimedValue& s) {
+  a.Required("time_s", s.time_s, "Simulation time.", Within(0, 1e9));
+  a.Required("value", s.value, "Value at that time.", Within(0, 90));
 }
 
 template <class Archive>
@@ -121,18 +135,33 @@ void Describe(Archive& a, LevelCrossingSpec& s) {
              "Length of the road to either side of the track's axis.", Within(6, 200));
   a.Optional("barriers", s.barriers, "Half barriers: none, open or closed.");
   a.Optional("barrier_angle_deg", s.barrier_angle_deg,
-             "Of barriers on the move, in place of their state: 0 = closed, 90 = upright.",
+             "Of barriers that stand still half way, in place of their state: 0 = closed, 90 = "
+             "upright.",
              Within(0, 90));
+  a.Optional("barrier_angles_deg", s.barrier_angles_deg,
+             "Of barriers that move while the scenario runs, by time, linear between the entries.");
   a.Optional("has_signs", s.has_signs, "Whether there are St Andrew's crosses with lamps.");
   a.Ensure({"barrier_angle_deg", "barriers"},
            !s.barrier_angle_deg || s.barriers != BarrierState::kNone,
            "must not be given for barriers \"none\"");
+  a.Ensure({"barrier_angles_deg", "barriers"},
+           s.barrier_angles_deg.empty() || s.barriers != BarrierState::kNone,
+           "must not be given for barriers \"none\"");
+  a.Ensure({"barrier_angles_deg", "barrier_angle_deg"},
+           s.barrier_angles_deg.empty() || !s.barrier_angle_deg,
+           "must not be given beside barrier_angle_deg");
+  const auto is_not_after = [](const TimedValue& one, const TimedValue& next) {
+    return one.time_s >= next.time_s;
+  };
+  a.Ensure(
+      {"barrier_angles_deg"},
+      std::ranges::adjacent_find(s.barrier_angles_deg, is_not_after) == s.barrier_angles_deg.end(),
+      "must have rising times");
 }
 
 template <class Archive>
 void Describe(Archive& a, BuildingSpec& s) {
-  a.Required("name", s.name, "Unique among the structures.", NonEmptyString());
-  a.Optional("track", s.track, "The track in whose coordinates its footprint is given.");
+  DescribeNameAndTrack(a, s, "The track in whose coordinates its footprint is given.");
   a.Required("footprint_m", s.footprint_m,
              "Corners in plan, one after the other: chainage, and distance from the track's axis, "
              "left positive.",

@@ -36,8 +36,7 @@ inline constexpr const char* kTypeName<SlabTrackSpec> = "slab_track";
 /// The keys of StretchSpec.
 template <class Archive, class Structure>
 void DescribeStretch(Archive& a, Structure& s) {
-  a.Required("name", s.name, "Unique among the structures.", NonEmptyString());
-  a.Optional("track", s.track, "The track along which it runs.");
+  DescribeNameAndTrack(a, s, "The track along which it runs.");
   a.Required("begin_s_m", s.begin_s_m, "Chainage where it begins.", ChainageLimits());
   a.Required("end_s_m", s.end_s_m, "Chainage where it ends.", ChainageLimits());
   a.Ensure({"end_s_m", "begin_s_m"}, s.end_s_m > s.begin_s_m, "must be > begin_s_m");
@@ -114,7 +113,8 @@ void Describe(Archive& a, TunnelSpec& s) {
   a.Optional("radius_m", s.radius_m, "Of its vault, inside; absent = as the tracks need.",
              Within(3, 15));
   a.Optional("has_portals", s.has_portals, "Whether a wall stands about either mouth.");
-  a.Optional("niche_spacing_m", s.niche_spacing_m, "On both sides; 0 = none.", Within(0, 1000));
+  a.Optional("niche_spacing_m", s.niche_spacing_m, "On both sides, at least 5; 0 = none.",
+             Within(0, 1000));
   a.Optional("has_handrail", s.has_handrail, "Along both walls.");
   a.Ensure({"niche_spacing_m"}, s.niche_spacing_m == 0.0 || s.niche_spacing_m >= 5.0,
            "must be 0 or >= 5");
@@ -123,7 +123,9 @@ void Describe(Archive& a, TunnelSpec& s) {
 template <class Archive>
 void Describe(Archive& a, BridgeSpec& s) {
   DescribeStretch(a, s);
-  a.Optional("depth_m", s.depth_m, "Of the bottom of the gap below top of rail.", Within(2.5, 100));
+  a.Optional("depth_m", s.depth_m,
+             "Of the bottom of the gap below top of rail, at least 1.5 more than deck_thickness_m.",
+             Within(2.5, 100));
   a.Optional("edge_distance_m", s.edge_distance_m,
              "Of its edges from the axes of the outermost tracks on it.", Within(2.2, 20));
   a.Optional("deck_thickness_m", s.deck_thickness_m, "Below the ballast.", Within(0.2, 10));

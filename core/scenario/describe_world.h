@@ -68,6 +68,13 @@ void Describe(Archive& a, YardSpec& s) {
   a.Optional("electrified", s.electrified, "Whether its tracks have a contact line.");
 }
 
+template <class Archive>
+void Describe(Archive& a, DiamondCrossingSpec& s) {
+  a.Required("tracks", s.tracks, "The two tracks that cross.", NonEmptyString());
+  a.Required("s_m", s.s_m, "Chainage where their axes cross, within 5 m.", PlaceLimits());
+  a.Ensure({"tracks"}, s.tracks.size() == 2, "must name two tracks");
+}
+
 /// The tracks that a vehicle or object follows: one, or a route over several.
 template <class Archive>
 void DescribeTracks(Archive& a, std::string& track, std::vector<std::string>& route) {
@@ -235,6 +242,8 @@ void Describe(Archive& a, WorldSpec& s) {
   a.Required("alignment", s.alignment, "The axis of the line.");
   a.Optional("tracks", s.tracks, "Along the alignment.", NonEmptyList());
   a.Optional("yards", s.yards, "Ladders of tracks.");
+  a.Optional("diamond_crossings", s.diamond_crossings,
+             "Where two tracks cross at the height of their rails, at an angle from 1:20 to 1:4.");
   a.Optional("catenary", s.catenary, "Overhead contact line.");
   a.Optional("terrain", s.terrain, "The ground.");
   a.Optional("vegetation", s.vegetation, "Trees and grass.");

@@ -53,10 +53,12 @@ class Report {
     const auto& mount_m = scenario_.lidar.mount.position_m;
     const SensorSurroundings around =
         LookAround(world_, materials_, {mount_m[0], mount_m[1], mount_m[2]}, range_m);
+    const std::int64_t stamp_ns = pattern_.StampNs(0);
+    const std::vector<BuiltChunk> chunks = BuildChunksInReach(*world_, stamp_ns, range_m);
     return EffectsText(scenario_) + OutputText(scenario_.output, around.position_world) +
            SurroundingsText(around, *world_, LabelTable(scenario_.labels)) +
-           SceneText(AuditScene(*world_, materials_, pattern_.StampNs(0), range_m)) +
-           DetailText(AuditDetail(*world_, pattern_.StampNs(0), range_m, Detail()),
+           SceneText(AuditScene(*world_, materials_, stamp_ns, chunks)) +
+           DetailText(AuditDetail(*world_, stamp_ns, chunks, Detail()),
                       LabelTable(scenario_.labels));
   }
 

@@ -1,5 +1,7 @@
 #include "generator/check/gauge_entries.h"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +10,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/rail/line/line_place.h"
 #include "core/rail/line/network.h"
 #include "core/rail/line/route.h"
 #include "core/rail/structure_gauge.h"
@@ -30,21 +33,25 @@ constexpr double kGaugeReach_m = 2.5;
 using Triangle = std::array<Vector3, 3>;
 using Polygon = std::vector<Eigen::Vector2d>;
 
-/// Chainage of a point in the world, found from a guess by steps along the line.
-double ChainageOf(const Alignment& alignment, const Vector3& point, double guess_s_m) {
-  constexpr int kNumSteps = 12;
-  constexpr double kExact_m = 1e-6;
-  double s_m = guess_s_m;
-  for (int i = 0; i < kNumSteps; ++i) {
-    const AxisPoint axis = alignment.At(s_m);
-    const Eigen::Vector2d ahead(std::cos(axis.heading_rad), std::sin(axis.heading_rad));
-    const Eigen::Vector2d from_axis = (point - axis.position_m).head<2>();
-    const double left_m = ahead.x() * from_axis.y() - ahead.y() * from_axis.x();
-    const double step_m = ahead.dot(from_axis) / std::max(0.2, 1.0 - axis.curvature_per_m * left_m);
-    s_m += step_m;
-    if (std::abs(step_m) < kExact_m) break;
-  }
-  return s_m;
+/// A point of a triangle, in the world and as seen from the line.
+struct Corner {
+  Vector3 place_m;
+  PlaceBesideLine line;
+};
+using Corners = std::array<Corner, 3>;
+
+Corner CornerAt(const Alignment& alignment, const Vector3& place_m, double near_s_m) {
+  return {place_m, PlaceOnLine(alignment, place_m, near_s_m)};
+}
+
+double CornerChainage_m(const Corner& corner) {
+  return corner.line.s_m;
+}
+double CornerLateral_m(const Corner& corner) {
+  return corner.line.d_m;
+}
+double CornerHeight_m(const Corner& corner) {
+  return corner.line.h_m;
 }
 
 /// The part of a polygon on one side of a line parallel to an axis (Sutherland, Hodgman 1974).
@@ -70,19 +77,22 @@ class GaugeProbe {
       : track_(tracks.world.tracks[track]),
         course_(tracks.courses[track]),
         alignment_(alignment),
-        gauge_(StructureGauge(ContactHeightOver_m(track_, tracks.world.catenary))) {}
+        gauge_(StructureGauge(ContactHeightOver_m(track_, tracks.world.catenary))) {
+    for (const GaugePart& part : gauge_) top_m_ = std::max(top_m_, part.top_m);
+  }
 
-  /// @param s_m Chainages of the triangle's corners.
-  void Add(const Triangle& triangle, const std::array<double, 3>& s_m) {
-    const auto [first, last] = std::minmax_element(s_m.begin(), s_m.end());
-    if (*last < course_.begin_s_m() || *first > course_.end_s_m()) return;
-    const double middle_s_m = 0.5 * (*first + *last);
+  void Add(const Corners& triangle) {
+    const auto [first, last] = std::ranges::minmax(triangle, {}, &CornerChainage_m);
+    if (last.line.s_m < course_.begin_s_m() || first.line.s_m > course_.end_s_m()) return;
+    const double length_m = last.line.s_m - first.line.s_m;
+    if (IsSurelyOutside(triangle, length_m)) return;
+    const double middle_s_m = 0.5 * (first.line.s_m + last.line.s_m);
     const Transform track_from_world = course_.WorldFromTrack(alignment_, middle_s_m).inverse();
     Triangle here;
     std::ranges::transform(triangle, here.begin(),
-                           [&](const Vector3& corner) { return track_from_world * corner; });
-    if (IsFar(here, *last - *first)) return;
-    if (*last - *first > kLongestPiece_m) return Divide(triangle, s_m);
+                           [&](const Corner& corner) { return track_from_world * corner.place_m; });
+    if (IsFar(here, length_m)) return;
+    if (length_m > kLongestPiece_m) return Divide(triangle);
     for (const GaugePart& part : gauge_) Measure(here, part, middle_s_m);
   }
 
@@ -95,6 +105,21 @@ class GaugeProbe {
   }
 
  private:
+  /// Whether the triangle is outside the gauge wherever the track lies between its outermost
+  /// offsets. Does not need the track's frame, but allows a metre for what differs from it.
+  [[nodiscard]] bool IsSurelyOutside(const Corners& triangle, double length_m) const {
+    constexpr double kMargin_m = 1.0;
+    constexpr double kSteepest = 0.1;  // Of gradients and cant.
+    const auto [rightmost, leftmost] = std::ranges::minmax(triangle, {}, &CornerLateral_m);
+    const double reach_m =
+        kGaugeReach_m + kMargin_m + length_m + length_m * length_m / alignment_.tightest_radius_m();
+    if (rightmost.line.d_m > course_.most_d_m() + reach_m) return true;
+    if (leftmost.line.d_m < course_.least_d_m() - reach_m) return true;
+    const double width_m =
+        std::max(leftmost.line.d_m - course_.least_d_m(), course_.most_d_m() - rightmost.line.d_m);
+    const double lowest_m = std::ranges::min(triangle, {}, &CornerHeight_m).line.h_m;
+    return lowest_m > top_m_ + kMargin_m + kSteepest * (length_m + width_m);
+  }
   /// Whether the triangle is on one side of the gauge, allowing for a curve along its length.
   [[nodiscard]] bool IsFar(const Triangle& here, double length_m) const {
     const double reach_m = kGaugeReach_m + length_m * length_m / alignment_.tightest_radius_m();
@@ -106,23 +131,24 @@ class GaugeProbe {
   }
 
   // Halves the edge that is longest along the track.
-  void Divide(const Triangle& triangle, const std::array<double, 3>& s_m) {
+  void Divide(const Corners& triangle) {
     std::size_t longest = 0;
-    const auto length_m = [&](std::size_t i) { return std::abs(s_m[(i + 1) % 3] - s_m[i]); };
+    const auto length_m = [&](std::size_t i) {
+      return std::abs(triangle[(i + 1) % 3].line.s_m - triangle[i].line.s_m);
+    };
     for (std::size_t i = 1; i < 3; ++i) {
       if (length_m(i) > length_m(longest)) longest = i;
     }
     const std::size_t next = (longest + 1) % 3;
     // Beyond the centre of a curve, chainages of neighbouring places are far apart.
-    if ((triangle[next] - triangle[longest]).norm() < kLeastPiece_m) return;
-    const Vector3 middle = 0.5 * (triangle[longest] + triangle[next]);
-    const double middle_s_m = ChainageOf(alignment_, middle, 0.5 * (s_m[longest] + s_m[next]));
+    if ((triangle[next].place_m - triangle[longest].place_m).norm() < kLeastPiece_m) return;
+    const Corner middle =
+        CornerAt(alignment_, 0.5 * (triangle[longest].place_m + triangle[next].place_m),
+                 0.5 * (triangle[longest].line.s_m + triangle[next].line.s_m));
     for (const std::size_t replaced : {longest, next}) {
-      Triangle half = triangle;
-      std::array<double, 3> half_s_m = s_m;
+      Corners half = triangle;
       half[replaced] = middle;
-      half_s_m[replaced] = middle_s_m;
-      Add(half, half_s_m);
+      Add(half);
     }
   }
 
@@ -169,6 +195,7 @@ class GaugeProbe {
   const TrackCourse& course_;
   const Alignment& alignment_;
   std::vector<GaugePart> gauge_;
+  double top_m_ = 0.0;
   GaugeEntry entry_;
 };
 
@@ -189,18 +216,14 @@ class Probes {
 
   void Add(const Model& model, const Transform& world_from_model, double guess_s_m) {
     for (const Part& part : model.parts) {
-      std::vector<Vector3> places;
-      std::vector<double> chainages_m;
+      std::vector<Corner> corners;
       for (const Eigen::Vector3f& vertex : part.mesh.vertices) {
-        places.emplace_back(world_from_model * vertex.cast<double>());
-        guess_s_m = ChainageOf(alignment_, places.back(), guess_s_m);
-        chainages_m.push_back(guess_s_m);
+        corners.push_back(
+            CornerAt(alignment_, world_from_model * vertex.cast<double>(), guess_s_m));
+        guess_s_m = corners.back().line.s_m;
       }
       for (const auto& [a, b, c] : part.mesh.triangles) {
-        for (GaugeProbe& probe : probes_) {
-          probe.Add({places[a], places[b], places[c]},
-                    {chainages_m[a], chainages_m[b], chainages_m[c]});
-        }
+        for (GaugeProbe& probe : probes_) probe.Add({corners[a], corners[b], corners[c]});
       }
     }
   }
@@ -277,17 +300,21 @@ std::vector<GaugeEntry> FindGaugeEntries(const WorldSpec& given_spec, const Rail
   WorldSpec spec = given_spec;
   spec.tracks = world.tracks();
   const WorldTracks tracks{spec, world.network().courses};
-  std::vector<GaugeEntry> entries;
-  for (const StructureSpec& structure : spec.structures) {
+  std::vector<std::vector<GaugeEntry>> of_structures(spec.structures.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, spec.structures.size(), [&](std::size_t i) {
     std::visit(
         [&]<class Structure>(const Structure& given) {
           std::vector<std::string> own_tracks;
           if (kBelongsIntoGauge<Structure>) own_tracks.push_back(given.track);
           Probes probes(tracks, world.alignment(), own_tracks);
           ProbeStructure(given, spec, world, probes);
-          probes.Report(given.name, entries);
+          probes.Report(given.name, of_structures[i]);
         },
-        structure);
+        spec.structures[i]);
+  });
+  std::vector<GaugeEntry> entries;
+  for (const std::vector<GaugeEntry>& some : of_structures) {
+    entries.insert(entries.end(), some.begin(), some.end());
   }
   for (std::size_t i = 0; i < spec.objects.size(); ++i) {
     const SceneObject& object = world.objects()[i];

@@ -58,6 +58,14 @@ std::string TurnoutText(const RailWorld& world, const TurnoutSite& turnout) {
   return text;
 }
 
+std::string DiamondText(const RailWorld& world, const DiamondSite& diamond) {
+  const double n = 1.0 / std::tan(diamond.angle_rad);
+  return "  crosses track " + Quoted(world.tracks()[diamond.second].name) + " at s " +
+         MetreText(diamond.s_m) + ": 1:" + NumberText(std::round(n * 10.0) / 10.0) +
+         ", frogs and check rails from s " + MetreText(diamond.begin_s_m) + " to " +
+         MetreText(diamond.end_s_m);
+}
+
 /// In the plane of the rails, positive towards the outside of the curve.
 double UnbalancedAt_mps2(const RailWorld& world, double s_m, double speed_mps) {
   const double roll_rad = world.alignment().At(s_m).cant_rad;
@@ -85,6 +93,9 @@ std::string NetworkText(const RailWorld& world) {
                                       MetreText(measures.tightest_s_m)));
     for (const TurnoutSite& turnout : world.network().turnouts) {
       if (turnout.track == i) text += ReportLine("", TurnoutText(world, turnout));
+    }
+    for (const DiamondSite& diamond : world.network().diamonds) {
+      if (diamond.first == i) text += ReportLine("", DiamondText(world, diamond));
     }
   }
   return text;

@@ -9,7 +9,7 @@
 namespace railcast {
 
 /// The tracks of a world with more than one: name, length, chainages and tightest radius of each,
-/// and the turnouts that lie in it.
+/// the turnouts that lie in it, and the tracks that it crosses.
 [[nodiscard]] std::string NetworkText(const RailWorld& world);
 
 /// Name of the track on which the vehicle starts.

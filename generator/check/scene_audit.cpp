@@ -1,5 +1,7 @@
 #include "generator/check/scene_audit.h"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -33,15 +35,25 @@ std::optional<SightedSurface> NearestOf(const Frame& frame, std::size_t begin, s
 
 }  // namespace
 
+std::vector<BuiltChunk> BuildChunksInReach(const World& world,
+                                           std::int64_t time_ns,
+                                           double range_m) {
+  const std::vector<int> indices = world.ChunksInReach(world.HomeChunk(time_ns), range_m);
+  std::vector<BuiltChunk> chunks(indices.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, indices.size(), [&](std::size_t i) {
+    chunks[i] = {indices[i], world.BuildChunk(indices[i])};
+  });
+  return chunks;
+}
+
 SceneAudit AuditScene(const World& world,
                       const MaterialLibrary& materials,
                       std::int64_t time_ns,
-                      double range_m) {
+                      std::span<const BuiltChunk> chunks) {
   SceneAudit audit;
   audit.home_chunk = world.HomeChunk(time_ns);
   std::set<std::shared_ptr<const Model>> models;
-  for (const int index : world.ChunksInReach(audit.home_chunk, range_m)) {
-    const Chunk chunk = world.BuildChunk(index);
+  for (const auto& [index, chunk] : chunks) {
     ++audit.num_chunks;
     audit.ground_triangles += chunk.ground.num_triangles();
     AddMaterials(chunk.ground, materials, audit.materials);
@@ -65,25 +77,27 @@ SceneAudit AuditScene(const World& world,
 
 DetailAudit AuditDetail(const World& world,
                         std::int64_t time_ns,
-                        double range_m,
+                        std::span<const BuiltChunk> chunks,
                         const DetailRule& rule) {
   DetailAudit audit;
   if (!(rule.ray_spacing_rad > 0.0)) return audit;
   const int home_chunk = world.HomeChunk(time_ns);
   const Transform window_from_world = world.WorldFromChunk(home_chunk).inverse();
   DetailChoice choice(world, home_chunk, rule);
-  for (const int index : world.ChunksInReach(home_chunk, range_m)) {
+  std::vector<int> coarser_chunks;
+  for (const auto& [index, chunk] : chunks) {
     const Eigen::Affine3d window_from_chunk(
         (window_from_world * world.WorldFromChunk(index)).matrix());
-    const Chunk chunk = world.BuildChunk(index);
     const auto coarser = world.CoarserSurfacesOf(index);
     const bool is_coarser =
         coarser && choice.TakesCoarser(*coarser, window_from_world * world.WorldFromChunk(index));
     ++audit.num_chunks;
-    audit.num_coarser_chunks += is_coarser ? 1 : 0;
     audit.full_surfaces += chunk.ground.num_triangles();
-    audit.traced_surfaces += is_coarser ? world.BuildCoarserChunk(index).ground.num_triangles()
-                                        : chunk.ground.num_triangles();
+    if (is_coarser) {
+      coarser_chunks.push_back(index);
+    } else {
+      audit.traced_surfaces += chunk.ground.num_triangles();
+    }
     for (const Placement& placement : chunk.placements) {
       if (placement.coarser == nullptr) continue;
       const Eigen::Affine3d window_from_model = window_from_chunk * placement.chunk_from_model;
@@ -97,6 +111,12 @@ DetailAudit AuditDetail(const World& world,
       found->second.nearest_m = std::min(found->second.nearest_m, distance_m);
     }
   }
+  std::vector<std::size_t> coarser_triangles(coarser_chunks.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, coarser_chunks.size(), [&](std::size_t i) {
+    coarser_triangles[i] = world.BuildCoarserChunk(coarser_chunks[i]).ground.num_triangles();
+  });
+  audit.num_coarser_chunks = coarser_chunks.size();
+  for (const std::size_t num_triangles : coarser_triangles) audit.traced_surfaces += num_triangles;
   return audit;
 }
 
@@ -109,7 +129,7 @@ SensorSurroundings LookAround(const std::shared_ptr<const World>& world,
   spec.detector.range_max_m = range_m;
   spec.vehicle_from_sensor =
       MakeTransform(world->WorldFromVehicle(0).linear().transpose(), position_vehicle);
-  Simulator simulator(world, AllAround(), materials, spec, 1);
+  Simulator simulator(world, AllAround(), materials, spec, 0);
   Frame frame;
   simulator.Scan(0, frame);
 

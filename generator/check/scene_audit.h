@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,17 @@
 #include "railcast/scene.h"
 
 namespace railcast {
+
+/// A chunk of a window in full detail.
+struct BuiltChunk {
+  int index{};
+  Chunk chunk;
+};
+
+/// Builds the chunks that a beam of `range_m` may reach at that time, several at once.
+[[nodiscard]] std::vector<BuiltChunk> BuildChunksInReach(const World& world,
+                                                         std::int64_t time_ns,
+                                                         double range_m);
 
 /// The content of the window at one moment.
 struct SceneAudit {
@@ -28,11 +40,11 @@ struct SceneAudit {
   std::set<std::string> materials;  ///< Materials used by any of these.
 };
 
-/// Builds the chunks that a beam of `range_m` may reach at that time and counts their content.
+/// Counts the content of the chunks in reach at that time.
 [[nodiscard]] SceneAudit AuditScene(const World& world,
                                     const MaterialLibrary& materials,
                                     std::int64_t time_ns,
-                                    double range_m);
+                                    std::span<const BuiltChunk> chunks);
 
 /// How coarse a window is for a sensor.
 struct DetailAudit {
@@ -50,11 +62,11 @@ struct DetailAudit {
   std::map<std::uint32_t, std::map<std::size_t, Level>> levels;
 };
 
-/// Looks which models and chunks the window at that time holds. Nothing if the rule is for full
-/// detail.
+/// Looks which models and chunks the window at that time holds, of the chunks in reach. Nothing if
+/// the rule is for full detail.
 [[nodiscard]] DetailAudit AuditDetail(const World& world,
                                       std::int64_t time_ns,
-                                      double range_m,
+                                      std::span<const BuiltChunk> chunks,
                                       const DetailRule& rule);
 
 /// The first surface that a sensor sees in some direction.

@@ -93,7 +93,8 @@ SceneSize SizeOf(const ScenarioSpec& scenario, const World& world) {
   for (const std::string& sensor : SensorNames(scenario)) {
     range_max_m = std::max(range_max_m, PickSensor(scenario, sensor).lidar.range_max_m);
   }
-  const SceneAudit audit = AuditScene(world, MaterialLibrary(scenario.materials), 0, range_max_m);
+  const SceneAudit audit = AuditScene(world, MaterialLibrary(scenario.materials), 0,
+                                      BuildChunksInReach(world, 0, range_max_m));
   return {audit.ground_triangles + audit.placed_triangles + audit.object_triangles,
           audit.num_placements + world.objects().size()};
 }

@@ -28,8 +28,9 @@ ScenarioSpec SettingNamed(const std::string& name) {
 
 SceneAudit AuditOf(const std::string& name) {
   const ScenarioSpec scenario = SettingNamed(name);
-  return AuditScene(*MakeWorld(scenario), MaterialLibrary(scenario.materials), 0,
-                    scenario.lidar.range_max_m);
+  const auto world = MakeWorld(scenario);
+  return AuditScene(*world, MaterialLibrary(scenario.materials), 0,
+                    BuildChunksInReach(*world, 0, scenario.lidar.range_max_m));
 }
 
 // Triangles of the placements that `chooses` picks, in all chunks in reach.

@@ -131,6 +131,14 @@ inline constexpr auto kEnumNames<BarrierState> =
                                            {BarrierState::kOpen, "open"},
                                            {BarrierState::kClosed, "closed"}});
 
+/// A value at a time of the simulation.
+struct TimedValue {
+  double time_s{};
+  double value{};
+
+  bool operator==(const TimedValue&) const = default;
+};
+
 /// A road that crosses all tracks at a right angle, at the height of their rails, in traffic that
 /// keeps to the right.
 struct LevelCrossingSpec : PointSpec {
@@ -139,6 +147,9 @@ struct LevelCrossingSpec : PointSpec {
   BarrierState barriers = BarrierState::kClosed;  ///< Half barriers.
   /// For barriers on the move: 0 = closed to 90 = upright, in place of the state's angle.
   std::optional<double> barrier_angle_deg;
+  /// As above, for barriers that move while the scenario runs: linear between the entries, constant
+  /// before the first and after the last. Their booms are objects of the world then.
+  std::vector<TimedValue> barrier_angles_deg{};
   bool has_signs = true;  ///< Whether there are St Andrew's crosses with lamps.
 
   bool operator==(const LevelCrossingSpec&) const = default;

@@ -118,6 +118,14 @@ struct YardSpec {
   bool operator==(const YardSpec&) const = default;
 };
 
+/// A place where two tracks cross at the height of their rails, at an angle from 1:20 to 1:4.
+struct DiamondCrossingSpec {
+  std::vector<std::string> tracks;  ///< Names of the two.
+  double s_m{};                     ///< Where their axes cross, within 5 m.
+
+  bool operator==(const DiamondCrossingSpec&) const = default;
+};
+
 /// Overhead contact line (docs/physics.md 7.2, Re 200). Span lengths follow a rule: at most
 /// max_span_m, shorter in curves so that the wire stays within the lateral limit between supports.
 struct CatenarySpec {
@@ -268,6 +276,7 @@ struct WorldSpec {
   std::vector<ObjectSpec> objects;
   SceneDetail detail = SceneDetail::kAuto;
   std::vector<YardSpec> yards{};
+  std::vector<DiamondCrossingSpec> diamond_crossings{};
 
   bool operator==(const WorldSpec&) const = default;
 };
@@ -300,8 +309,10 @@ struct Route;
 /// chainage 0.
 ///
 /// Objects have instance ids 1, 2, ... in the order of the spec. If the vehicle has ego boxes, they
-/// form one further object "ego" after them. Masts are numbered from kFirstMastInstance. Moving
-/// objects continue straight and level beyond the ends of the line.
+/// form one further object "ego" after them, and moving barriers two more for each level crossing,
+/// "NAME/right" and "NAME/left" after the side of the track from which one drives towards them.
+/// Masts are numbered from kFirstMastInstance. Moving objects continue straight and level beyond
+/// the ends of the line.
 ///
 /// Immutable. WithVehicleSpeed(), WithObject() and WithoutObject() return a modified world that
 /// shares everything else, including its chunks, with this one.

@@ -11,6 +11,7 @@
 #include "core/rail/line/fouling.h"
 #include "core/rail/line/own_course.h"
 #include "core/rail/line/turnout_place.h"
+#include "core/rail/turnout/diamond_site.h"
 
 namespace railcast {
 namespace {
@@ -176,6 +177,7 @@ NetworkDraft DraftNetwork(const WorldSpec& world, double length_m, WorldFaults& 
     turnout.fouling_s_m = ClearChainage_m(
         *draft.courses[turnout.track], *draft.courses[turnout.branch], turnout, kFoulingDistance_m);
   }
+  FindDiamonds(world, draft, faults);
   return draft;
 }
 
@@ -187,7 +189,8 @@ Network MakeNetwork(const WorldSpec& world, double length_m) {
 }
 
 Network Completed(NetworkDraft draft) {
-  Network network{.courses = {}, .turnouts = std::move(draft.turnouts)};
+  Network network{
+      .courses = {}, .turnouts = std::move(draft.turnouts), .diamonds = std::move(draft.diamonds)};
   for (std::optional<TrackCourse>& course : draft.courses) {
     Check(course.has_value(), "a network without faults has all its courses");
     network.courses.push_back(std::move(*course));

@@ -31,8 +31,19 @@ struct TurnoutSite {
   [[nodiscard]] bool opens_ahead() const { return end_s_m > s_m; }
 };
 
+/// A place where two tracks cross at the height of their rails.
+struct DiamondSite {
+  std::size_t entry{};   ///< Index in WorldSpec::diamond_crossings.
+  std::size_t first{};   ///< Index of the track that comes from the right of the other one.
+  std::size_t second{};  ///< As above, from its left, seen towards rising chainage.
+  double s_m{};          ///< Where their axes cross.
+  double angle_rad{};    ///< Between the axes there.
+  double begin_s_m{};    ///< Between these chainages lie its frogs and check rails.
+  double end_s_m{};
+};
+
 /// The tracks of a line and the turnouts that join them, in the order of WorldSpec::tracks; at most
-/// two turnouts for each track, first that of its beginning.
+/// two turnouts for each track, first that of its beginning; and where tracks cross.
 ///
 /// Tracks with neither turnouts, elements nor offsets_m are parallel to the alignment. For all
 /// others these rules hold:
@@ -48,6 +59,7 @@ struct TurnoutSite {
 struct Network {
   std::vector<TrackCourse> courses;
   std::vector<TurnoutSite> turnouts;
+  std::vector<DiamondSite> diamonds{};
 };
 
 /// The parts of a network that could be made: courses of tracks with faults are absent, and so are
@@ -55,6 +67,7 @@ struct Network {
 struct NetworkDraft {
   std::vector<std::optional<TrackCourse>> courses;
   std::vector<TurnoutSite> turnouts;
+  std::vector<DiamondSite> diamonds{};
 };
 
 /// Makes what can be made of a network and adds all faults found in doing so. Values that `faults`

@@ -57,7 +57,8 @@ std::vector<ClearedArea> ClearedAround(const ClearedArea& outline) {
 ClearedAreas::ClearedAreas(const WorldTracks& tracks,
                            Clearing what,
                            double begin_s_m,
-                           double end_s_m) {
+                           double end_s_m)
+    : begin_s_m_(begin_s_m), end_s_m_(end_s_m) {
   for (const StructureSpec& structure : tracks.world.structures) {
     const TrackCourse* track =
         tracks.CourseOf(std::visit([](const auto& spec) { return spec.track; }, structure));

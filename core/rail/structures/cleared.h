@@ -46,7 +46,9 @@ class ClearedAreas {
  public:
   ClearedAreas(const WorldTracks& tracks, Clearing what, double begin_s_m, double end_s_m);
 
-  /// Whether (s, d) is cleared, d being left of the alignment.
+  /// Whether all areas at that chainage are known.
+  [[nodiscard]] bool Know(double s_m) const { return s_m >= begin_s_m_ && s_m <= end_s_m_; }
+  /// Whether (s, d) is cleared, d being left of the alignment. @pre Know(s_m)
   [[nodiscard]] bool Cover(double s_m, double d_m) const;
 
  private:
@@ -54,6 +56,8 @@ class ClearedAreas {
     const TrackCourse* track;
     ClearedArea area;
   };
+  double begin_s_m_;
+  double end_s_m_;
   std::vector<TrackArea> areas_;
 };
 

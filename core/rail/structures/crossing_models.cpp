@@ -10,10 +10,19 @@
 namespace railcast {
 namespace {
 
-constexpr double kBoomHeight_m = 0.95;
 constexpr double kStripe_m = 0.60;
 
-/// The boom with its counterweight, closed, about its axis at the origin.
+void AppendPedestal(const LinesideSurfaces& surfaces, Model& model) {
+  constexpr double kPedestal_m = 0.30;
+  constexpr double kPedestalTop_m = 1.10;
+  constexpr double kPedestalFoot_m = -0.50;
+  MeshOf(surfaces.crossing_steel, model)
+      .Append(MakeBlockAbout({0.0, 0.0, 0.5 * (kPedestalTop_m + kPedestalFoot_m)},
+                             {kPedestal_m, kPedestal_m, kPedestalTop_m - kPedestalFoot_m}));
+}
+
+}  // namespace
+
 Model MakeBoom(double length_m, const LinesideSurfaces& surfaces) {
   constexpr double kBoomDepth_m = 0.05;
   constexpr double kBoomRise_m = 0.12;
@@ -36,24 +45,26 @@ Model MakeBoom(double length_m, const LinesideSurfaces& surfaces) {
   return model;
 }
 
-}  // namespace
+Model MakeBoomPedestal(const LinesideSurfaces& surfaces) {
+  Model model{.name = "boom_pedestal", .parts = {}};
+  AppendPedestal(surfaces, model);
+  return model;
+}
+
+Transform BarrierFromBoom(double angle_rad) {
+  return MakeTransform(RotationFromYawPitchRoll(0.0, -angle_rad, 0.0), {0.0, 0.0, kBoomAxis_m});
+}
 
 Model MakeHalfBarrier(double boom_length_m, double angle_rad, const LinesideSurfaces& surfaces) {
-  constexpr double kPedestal_m = 0.30;
-  constexpr double kPedestalTop_m = 1.10;
-  constexpr double kPedestalFoot_m = -0.50;
   Model model = MakeBoom(boom_length_m, surfaces);
   model.name = "half_barrier";
-  const Transform upright_from_boom =
-      MakeTransform(RotationFromYawPitchRoll(0.0, -angle_rad, 0.0), {0.0, 0.0, kBoomHeight_m});
+  const Transform upright_from_boom = BarrierFromBoom(angle_rad);
   for (Part& part : model.parts) {
     Mesh turned;
     turned.Append(part.mesh, upright_from_boom);
     part.mesh = std::move(turned);
   }
-  MeshOf(surfaces.crossing_steel, model)
-      .Append(MakeBlockAbout({0.0, 0.0, 0.5 * (kPedestalTop_m + kPedestalFoot_m)},
-                             {kPedestal_m, kPedestal_m, kPedestalTop_m - kPedestalFoot_m}));
+  AppendPedestal(surfaces, model);
   return model;
 }
 

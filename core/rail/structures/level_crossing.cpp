@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "core/base/units.h"
@@ -8,6 +9,7 @@
 #include "core/rail/structures/crossing_road.h"
 #include "core/rail/structures/lineside_models.h"
 #include "core/rail/structures/lineside_placing.h"
+#include "core/rail/structures/moving_booms.h"
 #include "core/rail/structures/structure_types.h"
 #include "core/rail/structures/swept_solid.h"
 #include "core/rail/track/rail_section.h"
@@ -169,34 +171,56 @@ double BarrierAngle_rad(const LevelCrossingSpec& crossing) {
   return RadFromDeg(crossing.barrier_angle_deg.value_or(state_deg));
 }
 
-/// Adds what drivers from one side meet: their barrier and their sign, on the right of the road.
-/// @param side Where they come from: +1 from the left of the track.
-void AddWarnings(const CrossingRoad& road,
+/// Where what drivers meet stands: on the right of the road, on their side of the tracks.
+class WarningPlaces {
+ public:
+  /// @param side Where they come from: +1 from the left of the track.
+  WarningPlaces(const CrossingRoad& road, const LevelCrossingSpec& crossing, double side)
+      : road_(road),
+        crossing_(crossing),
+        lane_(side > 0.0 ? road.lanes().back() : road.lanes().front()),
+        side_(side) {}
+
+  [[nodiscard]] double boom_length_m() const {
+    return 0.5 * crossing_.road_width_m + kBarrierBeside_m;
+  }
+  [[nodiscard]] Transform Barrier() const {
+    return At(kBarrierBeside_m, kBarrierDistance_m, side_ > 0.0 ? 0.0 : std::numbers::pi);
+  }
+  [[nodiscard]] Transform Sign() const {
+    return At(kSignBeside_m, kSignDistance_m, -side_ * 0.5 * std::numbers::pi);
+  }
+
+ private:
+  [[nodiscard]] Transform At(double beside_m, double distance_m, double yaw_rad) const {
+    const double s_m = crossing_.s_m - side_ * (0.5 * crossing_.road_width_m + beside_m);
+    Transform pose = lane_.track.Upright(s_m);
+    const double on_s_m = std::clamp(s_m, road_.begin_s_m(), road_.end_s_m());
+    const double d_m =
+        std::clamp(lane_.d_m + side_ * distance_m, road_.right_d_m(), road_.left_d_m());
+    pose.translation() = pose * Vector3(0.0, d_m - lane_.d_m, 0.0);
+    pose.translation().z() = road_.PointAt(on_s_m, d_m).z();
+    return Transform(pose * Eigen::AngleAxisd(yaw_rad, Vector3::UnitZ()));
+  }
+
+  const CrossingRoad& road_;
+  const LevelCrossingSpec& crossing_;
+  const CrossingRoad::Lane& lane_;
+  double side_;
+};
+
+/// Adds barrier and sign on one side; the booms of moving barriers are objects.
+void AddWarnings(const WarningPlaces& places,
                  const LevelCrossingSpec& crossing,
-                 double side,
                  const LinesideSurfaces& surfaces,
                  Chunk& chunk) {
-  const CrossingRoad::Lane& lane = side > 0.0 ? road.lanes().back() : road.lanes().front();
-  const double half_width_m = 0.5 * crossing.road_width_m;
-  const auto place = [&](double beside_m, double distance_m, double yaw_rad) {
-    const double s_m = crossing.s_m - side * (half_width_m + beside_m);
-    Transform pose = lane.track.Upright(s_m);
-    const double on_s_m = std::clamp(s_m, road.begin_s_m(), road.end_s_m());
-    const double d_m = std::clamp(lane.d_m + side * distance_m, road.right_d_m(), road.left_d_m());
-    pose.translation() = pose * Vector3(0.0, d_m - lane.d_m, 0.0);
-    pose.translation().z() = road.PointAt(on_s_m, d_m).z();
-    return Transform(pose * Eigen::AngleAxisd(yaw_rad, Vector3::UnitZ()));
-  };
-  if (crossing.barriers != BarrierState::kNone) {
-    const double yaw_rad = side > 0.0 ? 0.0 : std::numbers::pi;
-    AppendModel(
-        MakeHalfBarrier(half_width_m + kBarrierBeside_m, BarrierAngle_rad(crossing), surfaces),
-        place(kBarrierBeside_m, kBarrierDistance_m, yaw_rad), chunk);
+  if (!crossing.barrier_angles_deg.empty()) {
+    AppendModel(MakeBoomPedestal(surfaces), places.Barrier(), chunk);
+  } else if (crossing.barriers != BarrierState::kNone) {
+    AppendModel(MakeHalfBarrier(places.boom_length_m(), BarrierAngle_rad(crossing), surfaces),
+                places.Barrier(), chunk);
   }
-  if (crossing.has_signs) {
-    AppendModel(MakeCrossingSign(surfaces),
-                place(kSignBeside_m, kSignDistance_m, -side * 0.5 * std::numbers::pi), chunk);
-  }
+  if (crossing.has_signs) AppendModel(MakeCrossingSign(surfaces), places.Sign(), chunk);
 }
 
 }  // namespace
@@ -211,7 +235,26 @@ void AddStructure(const ChunkContext& context, const LevelCrossingSpec& crossing
   for (const AsphaltStrip& strip : StripsOf(road)) {
     if (strip.right_d_m < strip.left_d_m) StripBuilder(context, road, strip).Add(chunk);
   }
-  for (const double side : {-1.0, 1.0}) AddWarnings(road, crossing, side, surfaces, chunk);
+  for (const double side : {-1.0, 1.0}) {
+    AddWarnings(WarningPlaces(road, crossing, side), crossing, surfaces, chunk);
+  }
+}
+
+std::vector<MovingBoom> MovingBoomsOf(const ChunkContext& context,
+                                      const LevelCrossingSpec& crossing) {
+  std::vector<MovingBoom> booms;
+  if (crossing.barrier_angles_deg.empty()) return booms;
+  const CrossingRoad road(context, crossing);
+  const LinesideSurfaces& surfaces = context.surfaces.structures.lineside;
+  for (const double side : {-1.0, 1.0}) {
+    const WarningPlaces places(road, crossing, side);
+    booms.push_back(
+        {.name = BoomName(crossing.name, side),
+         .model = std::make_shared<const Model>(MakeBoom(places.boom_length_m(), surfaces)),
+         .world_from_barrier = context.chunk_from_world.inverse() * places.Barrier(),
+         .angles_deg = crossing.barrier_angles_deg});
+  }
+  return booms;
 }
 
 std::vector<ClearedArea> ClearedBy(const LevelCrossingSpec& crossing) {

@@ -94,6 +94,15 @@ inline constexpr double kBufferStopHeight_m = 1.60;
                                     double angle_rad,
                                     const LinesideSurfaces& surfaces);
 
+/// Height of a half barrier's axis, about which its boom turns, above the road.
+inline constexpr double kBoomAxis_m = 0.95;
+/// The two parts of a half barrier: the boom with its counterweight, about its axis at the origin
+/// and closed, and the pedestal on the road's surface. They turn by angle_rad about y.
+[[nodiscard]] Model MakeBoom(double boom_length_m, const LinesideSurfaces& surfaces);
+[[nodiscard]] Model MakeBoomPedestal(const LinesideSurfaces& surfaces);
+/// Turns a boom and puts it on its pedestal.
+[[nodiscard]] Transform BarrierFromBoom(double angle_rad);
+
 /// A St Andrew's cross, retroreflecting, above two lamps on a black screen, on a post. Its origin
 /// is on the ground; drivers who see it travel along x. Beams of 1.20 x 0.15 m, crossing 3.25 m
 /// above the ground. 176 triangles.

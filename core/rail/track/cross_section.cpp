@@ -28,6 +28,16 @@ double ClosenessToASleeper(double s_m) {
   return std::max(0.0, 1.0 - distance_m / kSleeperHollowReach_m);
 }
 
+/// From the shoulder, the slope takes about 0.8 m to reach the formation.
+constexpr double kBallastReach_m = 3.0;
+
+bool IsBallasted(const ChunkContext& context, double s_m, double d_m) {
+  if (context.unballasted != nullptr && context.unballasted->Know(s_m)) {
+    return !context.unballasted->Cover(s_m, d_m);
+  }
+  return !IsCleared(context, s_m, d_m, Clearing::kBallast);
+}
+
 }  // namespace
 
 SleeperSeat SeatOf(SleeperType sleeper) {
@@ -60,11 +70,16 @@ CrossSection::CrossSection(const ChunkContext& context, double s_m)
                        .begin_s_m = track.begin_s_m(),
                        .end_s_m = track.end_s_m(),
                        .seat = SeatOf(context.spec.tracks[i].sleeper),
-                       .has_ballast = !IsCleared(context, s_m, offset.d_m, Clearing::kBallast),
+                       .has_ballast = std::max(track.begin_s_m() - s_m, s_m - track.end_s_m()) <
+                                          kBallastReach_m &&
+                                      IsBallasted(context, s_m, offset.d_m),
                        .is_everywhere = track.is_parallel()});
   }
   std::sort(tracks_.begin(), tracks_.end(),
             [](const TrackHere& a, const TrackHere& b) { return a.d_m < b.d_m; });
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if (tracks_[i].has_ballast) ballasted_.push_back(i);
+  }
 }
 
 double CrossSection::FormationHeight_m(double d_m) const {
@@ -79,12 +94,9 @@ double CrossSection::FormationHeight_m(double d_m) const {
 
 double CrossSection::BallastHeight_m(double d_m) const {
   double height_m = -std::numeric_limits<double>::infinity();
-  for (const TrackHere& track : tracks_) {
-    // From the shoulder, the slope takes about 0.8 m to reach the formation.
-    constexpr double kReach_m = 3.0;
-    const double beyond_m =
-        std::max(std::abs(d_m - track.d_m) - (kShoulder_m + shift_m_), BeyondEnd_m(track, s_m_));
-    if (track.has_ballast && beyond_m < kReach_m) {
+  for (const std::size_t index : ballasted_) {
+    const TrackHere& track = tracks_[index];
+    if (std::abs(d_m - track.d_m) - (kShoulder_m + shift_m_) < kBallastReach_m) {
       height_m = std::max(height_m, BallastHeightOf(track, d_m));
     }
   }
@@ -126,6 +138,7 @@ double CrossSection::DistanceFromTracks_m(double d_m) const {
   for (const TrackHere& track : tracks_) {
     const double aside_m = std::abs(d_m - track.d_m);
     const double beyond_m = track.is_everywhere ? 0.0 : BeyondEnd_m(track, s_m_);
+    if (std::max(aside_m, beyond_m) >= nearest_m) continue;
     nearest_m = std::min(nearest_m, beyond_m > 0.0 ? std::hypot(aside_m, beyond_m) : aside_m);
   }
   return nearest_m;

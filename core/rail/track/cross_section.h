@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "core/rail/chunk_context.h"
@@ -57,7 +58,7 @@ class CrossSection {
     double begin_s_m{};
     double end_s_m{};
     SleeperSeat seat;
-    bool has_ballast{};
+    bool has_ballast{};  ///< Here, or close beyond its end.
     /// Whether it shapes the ground all along the line, as one that is parallel to the alignment.
     bool is_everywhere{};
   };
@@ -68,9 +69,10 @@ class CrossSection {
 
   Transform chunk_from_axis_;  ///< Level: x along the heading, y left, z up.
   double s_m_;
-  double shift_m_;                 ///< Of rails, sleepers' ends and shoulders (RailShift_m).
-  double sleeper_closeness_;       ///< Of tracks parallel to the alignment.
-  std::vector<TrackHere> tracks_;  ///< From right to left.
+  double shift_m_;                      ///< Of rails, sleepers' ends and shoulders (RailShift_m).
+  double sleeper_closeness_;            ///< Of tracks parallel to the alignment.
+  std::vector<TrackHere> tracks_;       ///< From right to left.
+  std::vector<std::size_t> ballasted_;  ///< Those that have ballast.
 };
 
 }  // namespace railcast

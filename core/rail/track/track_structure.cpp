@@ -77,6 +77,7 @@ void AddTracks(const ChunkContext& context, const InfrastructureModels& models, 
     }
   }
   AddTurnouts(context, models, chunk);
+  AddDiamonds(context, models, chunk);
   AddBallast(context, chunk);
 }
 

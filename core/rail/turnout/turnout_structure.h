@@ -11,7 +11,7 @@
 namespace railcast {
 
 /// The parts of a track's left or right rail that lie in the chunk and are not replaced by pieces
-/// of turnouts, in rising chainage.
+/// of turnouts and diamond crossings, in rising chainage.
 [[nodiscard]] std::vector<ChainageRange> PlainRailRanges(const ChunkContext& context,
                                                          std::size_t track,
                                                          bool is_left);
@@ -40,5 +40,10 @@ inline constexpr double kLongestBearer_m = 5.4;
 /// rails, long bearers with plates, stretcher bars and the point machine. The blades lie as
 /// TurnoutSite says, the open one 160 mm off at its tip.
 void AddTurnouts(const ChunkContext& context, const InfrastructureModels& models, Chunk& chunk);
+
+/// Adds the diamond crossings of the chunk: acute frogs with wing rails, noses and check rails,
+/// obtuse frogs with their knuckles and check rails, the rails between them, and long bearers with
+/// plates, square to the middle between both tracks.
+void AddDiamonds(const ChunkContext& context, const InfrastructureModels& models, Chunk& chunk);
 
 }  // namespace railcast

@@ -58,8 +58,8 @@ TEST(CheckNetwork, ReportsTracksThatCross) {
                           .heading_deg = -8.0,
                           .start_s_m = 100.0});
   EXPECT_THAT(FaultsOfNetwork(world),
-              ElementsAre(testing::StartsWith("/world/tracks/1: must be at least 3 m from track "
-                                              "\"main\" where no turnout joins them (got 0.")));
+              ElementsAre("/world/tracks/1: must not cross track \"main\" without an entry of "
+                          "/world/diamond_crossings (got at 242 m)"));
 }
 
 TEST(CheckNetwork, ReportsOffsetsBeyondTheGroundAndTightCurves) {

@@ -22,6 +22,7 @@ TestLine::TestLine(WorldSpec spec, std::uint64_t seed)
       alignment_(spec_.alignment),
       network_(MakeNetwork(spec_, alignment_.length_m())),
       turnouts_(LayTurnouts(network_)),
+      diamonds_(LayDiamonds(network_)),
       surfaces_(TestSurfaces()),
       seed_(seed),
       plan_(spec_, alignment_),
@@ -47,7 +48,8 @@ ChunkContext TestLine::Context(int chunk) const {
           .begin_s_m = chunk * kChunkLength_m,
           .end_s_m = (chunk + 1) * kChunkLength_m,
           .chunk_from_world = WorldFromChunk(chunk).inverse(),
-          .land = &land_};
+          .land = &land_,
+          .diamonds = diamonds_};
 }
 
 Chunk TestLine::Build(int chunk, bool is_coarse) const {

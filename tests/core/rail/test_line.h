@@ -38,6 +38,7 @@ class TestLine {
   Alignment alignment_;
   Network network_;
   std::vector<LaidTurnout> turnouts_;
+  std::vector<LaidDiamond> diamonds_;
   RailSurfaces surfaces_;
   std::uint64_t seed_;
   CatenaryPlan plan_;

@@ -28,7 +28,7 @@ TEST(AuditScene, CountsWhatIsStoredAndWhatIsSeen) {
   world.AddObject(Triangles(12, 3), Transform::Identity());
   const MaterialLibrary library({{"soil", 0.25}, {"leaf", 0.5}, {"paint", 0.3}, {"glass", 0.02}});
 
-  const SceneAudit audit = AuditScene(world, library, 0, 300.0);
+  const SceneAudit audit = AuditScene(world, library, 0, BuildChunksInReach(world, 0, 300.0));
   EXPECT_EQ(audit.num_chunks, 1U);
   EXPECT_EQ(audit.ground_triangles, 7U);
   EXPECT_EQ(audit.num_models, 2U);

@@ -1,4 +1,5 @@
 #include "core/rail/catenary/catenary.h"
+#include "core/rail/line/line_place.h"
 
 #include <gtest/gtest.h>
 
@@ -109,13 +110,6 @@ TEST(AddCatenary, TellsEveryWireItsSpan) {
   }
 }
 
-/// Chainage whose track frame contains the point in its plane x = 0.
-double ChainageOf(const Alignment& alignment, const Vector3& world_m, double near_s_m) {
-  double s_m = near_s_m;
-  for (int i = 0; i < 6; ++i) s_m += (alignment.WorldFromTrack(s_m).inverse() * world_m).x();
-  return s_m;
-}
-
 TEST(AddCatenary, KeepsTheContactWireAboveThePantographAllAlongARealLine) {
   WorldSpec spec;
   spec.alignment = ReadStGallenWil();
@@ -131,7 +125,7 @@ TEST(AddCatenary, KeepsTheContactWireAboveThePantographAllAlongARealLine) {
       for (const Vector3& point : wire.points_m) {
         const Vector3 world_m = world_from_chunk * point;
         const double s_m =
-            ChainageOf(line.alignment(), world_m, (chunk + 0.5) * TestLine::kChunkLength_m);
+            PlaceOnLine(line.alignment(), world_m, (chunk + 0.5) * TestLine::kChunkLength_m).s_m;
         const Vector3 track_m = line.alignment().WorldFromTrack(s_m).inverse() * world_m;
         widest_m = std::max(widest_m, std::abs(track_m.y()));
         lowest_m = std::min(lowest_m, track_m.z());
@@ -231,7 +225,7 @@ FaceDistances MeasureMasts(const TestLine& line) {
       const Vector3 world_m =
           line.WorldFromChunk(chunk) * Vector3(mast.chunk_from_model.translation());
       const double s_m =
-          ChainageOf(line.alignment(), world_m, (chunk + 0.5) * TestLine::kChunkLength_m);
+          PlaceOnLine(line.alignment(), world_m, (chunk + 0.5) * TestLine::kChunkLength_m).s_m;
       const AxisPoint axis = line.alignment().At(s_m);
       const Vector3 left(-std::sin(axis.heading_rad), std::cos(axis.heading_rad), 0.0);
       double nearest_m = 100.0;
