@@ -48,6 +48,16 @@ void CheckTurnoutsFitGauge(const WorldSpec& world, std::size_t index, WorldFault
   }
 }
 
+void CheckDiamondsFitGauge(const WorldSpec& world, WorldFaults& faults) {
+  if (IsStandardGauge(world, faults)) return;
+  for (std::size_t i = 0; i < world.diamond_crossings.size(); ++i) {
+    faults.Add(Item("/world/diamond_crossings/", i),
+               "must be absent: there are crossings of 1435 mm only, and gauge_mm is " +
+                   NumberText(world.alignment.gauge_mm),
+               "one");
+  }
+}
+
 void CheckTrack(const WorldSpec& world,
                 std::size_t index,
                 const LineMeasures& line,
@@ -257,6 +267,7 @@ void CheckWorld(const WorldSpec& world,
     return;  // Without a track, every check below would report another fault.
   }
   for (std::size_t i = 0; i < world.tracks.size(); ++i) CheckTrack(world, i, line.measures, faults);
+  CheckDiamondsFitGauge(world, faults);
   for (std::size_t i = 1; i < world.tracks.size(); ++i)
     CheckDistance(world, i, line.measures, faults);
   for (std::size_t i = 0; i < world.objects.size(); ++i) {
