@@ -94,5 +94,14 @@ TEST(NetworkReport, IsEmptyOfASingleTrack) {
                                FindVehicleWay(scenario.vehicle, world->vehicle_course())));
 }
 
+TEST(NetworkReport, NamesTheTracksThatATrackCrosses) {
+  const auto world = MakeWorld(ReadScenario(RAILCAST_SOURCE_DIR "/scenarios/diamond.json"));
+  const std::string text = NetworkText(*world);
+  // 16 m to the left at 1:9. Frogs 0.7175 m / tan(3.17 deg) = 12.95 m off, rails whole 2.25 m on.
+  EXPECT_THAT(text, HasSubstr("crosses track \"works_line\" at s 144 m: 1:9, frogs and check rails "
+                              "from s 128.8 m to 159.2 m\n"));
+  EXPECT_THAT(text, HasSubstr("crosses track \"works_line\" at s 216 m: 1:9"));
+}
+
 }  // namespace
 }  // namespace railcast
