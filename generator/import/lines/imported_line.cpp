@@ -11,6 +11,7 @@
 #include "core/rail/line/plan_spline.h"
 #include "generator/import/fit/line_fit.h"
 #include "generator/import/fit/plan_window.h"
+#include "generator/import/lines/line_gauge.h"
 #include "generator/import/lines/speed_limits.h"
 
 namespace railcast {
@@ -166,6 +167,7 @@ ImportedLine ImportLine(const RailMap& map, const TrackLine& line, const ImportO
   const std::vector<AlignmentElement> elements = exact.plan.Elements();
   alignment.course = AlignmentElementsSpec{elements};
   alignment.attribution = map.attribution;
+  alignment.gauge_mm = GaugeAlong_mm(map, line);
   constexpr double kPlaceSteps_per_m = 1e4;
   constexpr double kHeadingSteps_per_deg = 1e9;
   constexpr double kDegPerRad = 180.0 / std::numbers::pi;

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/base/text.h"
+#include "generator/import/lines/line_gauge.h"
 
 namespace railcast {
 namespace {
@@ -53,6 +54,9 @@ std::string AlignmentFileText(const ImportedLine& line, const MapProjection& pro
   text += "  \"heading_deg\": " + LineJson(alignment.heading_deg).dump() + ",\n";
   text +=
       "  \"speed_limits_kmph\": " + ListText(alignment.speed_limits_kmph, "  ", value_json) + ",\n";
+  if (alignment.gauge_mm != kStandardGauge_mm) {
+    text += "  \"gauge_mm\": " + LineJson(alignment.gauge_mm).dump() + ",\n";
+  }
   if (!alignment.cants_mm.empty()) {
     text += "  \"cants_mm\": " + ListText(alignment.cants_mm, "  ", value_json) + ",\n";
   }

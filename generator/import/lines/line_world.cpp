@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/base/text.h"
+#include "generator/import/lines/line_gauge.h"
 #include "generator/import/lines/line_places.h"
 #include "generator/import/lines/line_stretches.h"
 
@@ -64,15 +65,16 @@ void AddStretches(const RailMap& map,
   // Its side is not mapped.
   add("third_rail", [](const MapTags& tags) { return TagOf(tags, "electrified") == "rail"; },
       {{"side", "right"}});
-  const auto has_other_gauge = [](const MapTags& tags) {
+  const double gauge_mm = line.alignment.gauge_mm;
+  const auto has_other_gauge = [&](const MapTags& tags) {
     const std::string_view gauge = TagOf(tags, "gauge");
-    return !gauge.empty() && gauge.find("1435") == std::string_view::npos;
+    return !gauge.empty() && GaugeOf_mm(gauge) != gauge_mm;
   };
   for (const LineStretch& stretch : StretchesWhere(map, track, line.chainages_m, has_other_gauge)) {
     world.left_out.push_back({"gauge", stretch.begin_s_m,
                               "the map has " +
                                   TextOfGauge(TagOf(map.ways[stretch.way].tags, "gauge")) +
-                                  " mm, a world 1435 mm"});
+                                  " mm, the world " + NumberText(gauge_mm) + " mm"});
   }
 }
 

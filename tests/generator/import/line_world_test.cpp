@@ -7,6 +7,8 @@
 #include <string>
 
 #include "core/io/write_file.h"
+#include "generator/import/lines/line_files.h"
+#include "generator/import/lines/line_gauge.h"
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/map_projection.h"
 #include "generator/import/map/read_map.h"
@@ -16,6 +18,7 @@ namespace railcast {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::SizeIs;
 
 /// 0.01 degrees of longitude in m, 48.2 degrees to the north.
@@ -40,9 +43,9 @@ constexpr const char* kLine = R"(
 
 class OfOneLine : public ::testing::Test {
  protected:
-  void Make(const std::string& more) {
-    WriteFileWhole(directory_.path() / "map.json",
-                   R"({"elements": [)" + std::string(kLine) + more + "]}");
+  void Make(const std::string& more) { MakeMap(std::string(kLine) + more); }
+  void MakeMap(const std::string& elements) {
+    WriteFileWhole(directory_.path() / "map.json", R"({"elements": [)" + elements + "]}");
     RailMap map = ReadMap(directory_.path() / "map.json");
     static_cast<void>(ProjectMap("", map));
     const TrackLine track = FindLines(map, 0.0).front();
@@ -83,7 +86,32 @@ TEST_F(OfOneLine, HasBridgesTunnelsAndSlabTrackFromItsWays) {
   ExpectStretch("slab_track", 2.0, 3.0);
   EXPECT_EQ(world_.tracks[0]["electrified"], true) << "three steps of four";
   ASSERT_THAT(world_.left_out, SizeIs(1));
-  EXPECT_EQ(world_.left_out[0].reason, "the map has 760 mm, a world 1435 mm");
+  EXPECT_EQ(world_.left_out[0].reason, "the map has 760 mm, the world 1435 mm");
+}
+
+TEST(GaugeOf, IsTheStandardOneOfSeveralOrTheFirst) {
+  EXPECT_EQ(GaugeOf_mm("760"), 760.0);
+  EXPECT_EQ(GaugeOf_mm("1000;1435"), 1435.0);
+  EXPECT_EQ(GaugeOf_mm("1000; 1668"), 1000.0);
+  EXPECT_EQ(GaugeOf_mm("narrow; 1668"), 1668.0);
+  for (const char* none : {"", "narrow", "381", "1435 mm", "nan", ";"}) {
+    EXPECT_EQ(GaugeOf_mm(none), std::nullopt) << none;
+  }
+}
+
+TEST_F(OfOneLine, HasTheGaugeOfItsGreatestPart) {
+  Make("");
+  EXPECT_EQ(line_.alignment.gauge_mm, 1435.0);
+  EXPECT_THAT(AlignmentFileText(line_, {}), Not(HasSubstr("gauge_mm")));
+  std::string narrow = kLine;
+  narrow.replace(narrow.find(R"(, "gauge": "760")"), 16, "");
+  for (std::size_t at = 0; (at = narrow.find(R"("railway": "rail")", at)) != std::string::npos;) {
+    narrow.replace(at, 17, R"("gauge": "1000", "railway": "rail")");
+    at += 34;
+  }
+  MakeMap(narrow);
+  EXPECT_EQ(line_.alignment.gauge_mm, 1000.0);
+  EXPECT_THAT(AlignmentFileText(line_, {}), HasSubstr(R"("gauge_mm": 1000.0)"));
 }
 
 TEST_F(OfOneLine, HasABufferStopAtItsEnd) {
