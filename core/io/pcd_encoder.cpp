@@ -45,6 +45,13 @@ pcl::PCLPointCloud2 DescribeCloud(const Frame& frame, const FieldSelection& sele
   return cloud;
 }
 
+// Writes values `step` bytes apart. Its arguments are values, since the compiler must assume that
+// what is written through a char* changes anything that is referred to.
+template <typename Stored, typename T>
+void StoreColumn(const T* from, std::size_t count, std::size_t step, char* to) {
+  for (std::size_t i = 0; i < count; ++i, to += step) StoreAt<Stored>(to, from[i]);
+}
+
 // Interleaves the fields point by point.
 // @pre `to` has room for num_slots() * step bytes.
 void WeaveRows(const Frame& frame, const FieldSelection& selection, std::size_t step, char* to) {
@@ -57,8 +64,7 @@ void WeaveRows(const Frame& frame, const FieldSelection& selection, std::size_t 
     ForEachField(frame, [&](std::string_view name, std::string_view, const auto& values) {
       if (!selection.Has(name)) return;
       using Stored = typename StoredType<ElementOf<decltype(values)>>::Type;
-      const auto* from = values.data() + first;
-      for (std::size_t i = 0; i < count; ++i) StoreAt<Stored>(place + i * step, from[i]);
+      StoreColumn<Stored>(values.data() + first, count, step, place);
       place += sizeof(Stored);
     });
   }

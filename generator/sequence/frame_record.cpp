@@ -69,6 +69,9 @@ void FrameCounts::Add(const FrameCounts& other) {
 FrameCounts CountFrame(const Frame& frame, const LabelTable& labels) {
   FrameCounts counts;
   std::map<std::uint32_t, std::uint64_t> points_per_id;
+  // Neighbouring points mostly have the same label.
+  std::uint32_t last_id = 0;
+  std::uint64_t* num_of_last = nullptr;
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
     const Outcome outcome = frame.outcome[slot];
     // The outcome of a firing is that of its first slot; the others only say whether they hold a
@@ -76,7 +79,10 @@ FrameCounts CountFrame(const Frame& frame, const LabelTable& labels) {
     if (slot % frame.returns == 0) ++counts.outcomes[static_cast<std::size_t>(outcome)];
     if (!HasPoint(outcome)) continue;
     ++counts.points;
-    ++points_per_id[frame.label[slot]];
+    const std::uint32_t id = frame.label[slot];
+    if (num_of_last == nullptr || id != last_id) num_of_last = &points_per_id[id];
+    last_id = id;
+    ++*num_of_last;
   }
   for (const auto& [id, count] : points_per_id) {
     const Label* label = labels.Find(id);
