@@ -114,6 +114,7 @@ std::optional<TrackPath> DraftVehicle(const WorldSource& source,
 
 std::optional<CatenaryPlan> DraftCatenary(const WorldSpec& world,
                                           const std::optional<Alignment>& alignment,
+                                          const NetworkDraft& network,
                                           WorldFaults& faults) {
   if (!faults.AreKnown({"/world/catenary"})) return std::nullopt;
   for (std::size_t i = 0; i < world.tracks.size(); ++i) {
@@ -122,8 +123,12 @@ std::optional<CatenaryPlan> DraftCatenary(const WorldSpec& world,
   }
   const auto make = [&]() -> std::optional<CatenaryPlan> {
     CheckSystemHeight(world);
-    if (!alignment) return std::nullopt;
-    return CatenaryPlan(world, *alignment);
+    std::vector<TrackCourse> courses;
+    for (const auto& course : network.courses) {
+      if (course) courses.push_back(*course);
+    }
+    if (!alignment || courses.size() < world.tracks.size()) return std::nullopt;
+    return CatenaryPlan({world, courses}, *alignment);
   };
   return Attempt("/world", faults.errors, make).value_or(std::nullopt);
 }
@@ -273,7 +278,7 @@ WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
     draft.object_paths.push_back(std::move(*path));
     draft.objects.push_back(std::move(*object));
   }
-  draft.catenary_plan = DraftCatenary(world, draft.alignment, faults);
+  draft.catenary_plan = DraftCatenary(world, draft.alignment, draft.network, faults);
   draft.strip_width = DraftStripWidth(world, draft.alignment, draft.network, faults);
   draft.elevation = DraftElevation(world, draft, faults);
   ErrorList errors;

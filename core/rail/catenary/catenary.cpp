@@ -7,6 +7,7 @@
 #include "core/rail/catenary/catenary_models.h"
 #include "core/rail/catenary/support_layout.h"
 #include "core/rail/catenary/system_height.h"
+#include "core/rail/catenary/wire_span.h"
 #include "core/rail/model_parts.h"
 #include "core/rail/structures/cleared.h"
 #include "core/rail/track/sweep.h"
@@ -25,75 +26,6 @@ constexpr double kWireTolerance_m = 2e-3;
 /// The contact wire follows the track's vertical curves: at a radius of 2000 m, chords of 5 m
 /// deviate by less than 1.6 mm.
 constexpr double kContactChord_m = 5.0;
-
-/// The wires of one track between two supports, in world coordinates. At the support before its
-/// beginning or behind its end, the wire of a branch lies with that of the track that it leaves or
-/// joins.
-class Span {
- public:
-  Span(const ChunkContext& context,
-       const TrackCourse& track,
-       const CatenarySupport& first,
-       const CatenarySupport& last)
-      : alignment_(context.alignment), first_s_m_(first.s_m), length_m_(last.s_m - first.s_m) {
-    const CatenarySpec& spec = context.spec.catenary;
-    const auto wire = [&](const CatenarySupport& support) -> Vector3 {
-      return WorldFromSupport(alignment_, context.spec, track.OffsetWithin_m(support.s_m),
-                              support.s_m) *
-             Vector3(0.0, support.stagger_m, spec.contact_height_m);
-    };
-    first_m_ = wire(first);
-    last_m_ = wire(last);
-    first_system_height_m_ = SystemHeightAt_m(context.spec, first.s_m);
-    last_system_height_m_ = SystemHeightAt_m(context.spec, last.s_m);
-  }
-
-  /// The span in world coordinates. The wind moves all its wires alike, since droppers join them.
-  [[nodiscard]] WireSpan InWind(std::uint32_t number) const {
-    constexpr double kGravity_mps2 = 9.80665;
-    return {.number = number,
-            .begin_m = first_m_,
-            .end_m = last_m_,
-            .tension_n = kContactTension_n + kMessengerTension_n,
-            .mass_kg_per_m = kWireWeight_n_per_m / kGravity_mps2,
-            .width_m = 2.0 * (kContactRadius_m + kMessengerRadius_m)};
-  }
-
-  [[nodiscard]] double first_s_m() const { return first_s_m_; }
-  [[nodiscard]] double length_m() const { return length_m_; }
-
-  [[nodiscard]] Vector3 Contact(double fraction) const {
-    const auto axis_height_m = [&](double at) {
-      return alignment_.At(first_s_m_ + at * length_m_).position_m.z();
-    };
-    const double along_track_m =
-        axis_height_m(fraction) - std::lerp(axis_height_m(0.0), axis_height_m(1.0), fraction);
-    return Chord(fraction) +
-           Vector3(0.0, 0.0, along_track_m - Parabola(fraction) * kContactPresag * length_m_);
-  }
-
-  [[nodiscard]] Vector3 Messenger(double fraction) const {
-    const double sag_m = kWireWeight_n_per_m * length_m_ * length_m_ / (8.0 * kMessengerTension_n);
-    const double system_height_m =
-        std::lerp(first_system_height_m_, last_system_height_m_, fraction);
-    return Chord(fraction) + Vector3(0.0, 0.0, system_height_m - Parabola(fraction) * sag_m);
-  }
-
- private:
-  /// 0 at the supports, 1 in the middle of the span.
-  static double Parabola(double fraction) { return 4.0 * fraction * (1.0 - fraction); }
-  [[nodiscard]] Vector3 Chord(double fraction) const {
-    return first_m_ + fraction * (last_m_ - first_m_);
-  }
-
-  const Alignment& alignment_;
-  double first_s_m_;
-  double length_m_;
-  Vector3 first_m_;
-  Vector3 last_m_;
-  double first_system_height_m_{};
-  double last_system_height_m_{};
-};
 
 /// A wire of a span as a polyline with corners at integer multiples of 1 / num_chords.
 template <typename Curve>
@@ -128,7 +60,30 @@ class Polyline {
   double num_chords_;
 };
 
-void AddWiresOfSpan(const ChunkContext& context, const Span& span, std::vector<Wire>& wires) {
+/// Places of the droppers as fractions of a span, clear of where other wires pass.
+std::vector<double> DroppersOf(const CatenarySpec& spec,
+                               double length_m,
+                               const std::vector<double>& crossings) {
+  // A wire that is led to a mast 3 m aside passes at an angle of 1:20 or more.
+  const double clear = 1.0 / length_m;
+  const auto num = static_cast<int>(std::ceil(length_m / spec.dropper_spacing_m));
+  std::vector<double> places;
+  for (int i = 0; i < num; ++i) {
+    double at = (i + 0.5) / num;
+    for (const double crossing : crossings) {
+      if (std::abs(at - crossing) >= clear) continue;
+      const bool goes_back = at < crossing ? crossing > 2.0 * clear : crossing > 1.0 - 2.0 * clear;
+      at = goes_back ? crossing - clear : crossing + clear;
+    }
+    places.push_back(at);
+  }
+  return places;
+}
+
+void AddWiresOfSpan(const ChunkContext& context,
+                    const WireSpanShape& span,
+                    const std::vector<double>& crossings,
+                    std::vector<Wire>& wires) {
   const double messenger_chord_m =
       std::sqrt(8.0 * kWireTolerance_m * kMessengerTension_n / kWireWeight_n_per_m);
   const Polyline contact([&](double at) { return span.Contact(at); }, span.length_m(),
@@ -149,27 +104,11 @@ void AddWiresOfSpan(const ChunkContext& context, const Span& span, std::vector<W
   add(surfaces.contact_wire, kContactRadius_m, contact.Between(first, last));
   add(surfaces.messenger_wire, kMessengerRadius_m, messenger.Between(first, last));
 
-  const double spacing_m = context.spec.catenary.dropper_spacing_m;
-  const auto num_droppers = static_cast<int>(std::ceil(span.length_m() / spacing_m));
-  for (int i = 0; i < num_droppers; ++i) {
-    const double at = (i + 0.5) / num_droppers;
+  for (const double at : DroppersOf(context.spec.catenary, span.length_m(), crossings)) {
     const double s_m = span.first_s_m() + at * span.length_m();
     if (s_m < context.begin_s_m || s_m >= context.end_s_m) continue;
     add(surfaces.dropper, kDropperRadius_m, {contact.At(at), messenger.At(at)});
   }
-}
-
-/// Whether a track has a wire between two supports: where it runs past both or, if it begins or
-/// ends in a turnout, past one of them.
-bool HangsBetween(const TrackSpec& track,
-                  const TrackCourse& course,
-                  double first_s_m,
-                  double last_s_m) {
-  if (!track.electrified) return false;
-  const bool begins =
-      course.begin_s_m() <= first_s_m || (track.begin && course.begin_s_m() < last_s_m);
-  const bool ends = last_s_m <= course.end_s_m() || (track.end && first_s_m < course.end_s_m());
-  return begins && ends;
 }
 
 /// The supports of the spans that extend into the chunk.
@@ -192,18 +131,16 @@ SupportRange SupportsAround(const ChunkContext& context, const CatenaryPlan& pla
 }
 
 void AddSupport(const ChunkContext& context,
-                const CatenarySupport& support,
+                const CatenaryPlan& plan,
                 const InfrastructureModels& models,
-                std::uint32_t number,
+                std::size_t number,
                 Chunk& chunk) {
   const WorldSpec& spec = context.spec;
+  const CatenarySupport& support = plan.supports()[number];
   const double shift_m = PantographShift_m(spec.catenary, context.alignment.At(support.s_m));
   const auto chunk_from_support = [&](double track_d_m) -> Transform {
     return context.chunk_from_world *
            WorldFromSupport(context.alignment, spec, track_d_m, support.s_m);
-  };
-  const auto offset_m = [&](std::size_t track) {
-    return context.tracks[track].OffsetWithin_m(support.s_m);
   };
   const auto add = [&](std::shared_ptr<const Model> model, const Transform& chunk_from_model,
                        std::size_t structure) {
@@ -215,21 +152,26 @@ void AddSupport(const ChunkContext& context,
   };
   const auto shared = [](Model model) { return std::make_shared<const Model>(std::move(model)); };
 
-  const SupportLayout layout = LayOutSupport(spec, context.tracks, support.s_m);
+  const SupportLayout layout =
+      LayOutSupport(spec, context.tracks, support.s_m, plan.WiresAt(TracksOf(context), number));
   CatenarySpec here = spec.catenary;
   here.system_height_m = SystemHeightAt_m(spec, support.s_m);
   for (const MastSite& mast : layout.masts) {
-    const double d_m = offset_m(mast.track) + mast.from_axis_m;
-    const bool is_carried = IsCleared(context, support.s_m, d_m, Clearing::kSupport);
+    const bool is_carried = IsCleared(context, support.s_m, mast.d_m(), Clearing::kSupport);
     add(is_carried ? shared(MakeHangingPost(here, context.surfaces)) : models.mast,
-        chunk_from_support(offset_m(mast.track)) *
+        chunk_from_support(mast.axis_d_m) *
             Eigen::Translation3d(0.0, mast.from_axis_m - shift_m, 0.0),
         mast.structure);
   }
   for (const CantileverSite& site : layout.cantilevers) {
-    add(shared(MakeCantilever(here, site.hangs ? site.face_m : site.face_m - shift_m,
-                              support.stagger_m, context.surfaces)),
-        chunk_from_support(offset_m(site.track)), site.structure);
+    CantileverShape shape{.face_m = site.hangs ? site.face_m : site.face_m - shift_m,
+                          .wires = {},
+                          .room_m = site.room_m};
+    for (const HungWire& wire : site.wires) {
+      shape.wires.push_back({wire.axis_d_m - site.axis_d_m + wire.stagger_m, wire.is_lifted});
+    }
+    add(shared(MakeCantilever(here, shape, context.surfaces)), chunk_from_support(site.axis_d_m),
+        site.structure);
   }
   for (const PortalSite& site : layout.portals) {
     add(shared(MakePortal(spec.catenary, site, shift_m, context.surfaces)), chunk_from_support(0.0),
@@ -248,18 +190,21 @@ double CornerRadius_m(double radius_m, int num_sides) {
 std::vector<Wire> WiresInChunk(const ChunkContext& context, const CatenaryPlan& plan) {
   std::vector<Wire> wires;
   const SupportRange around = SupportsAround(context, plan);
-  const std::vector<TrackSpec>& tracks = context.spec.tracks;
-  for (std::size_t k = 0; k < tracks.size(); ++k) {
-    const TrackSpec& track = tracks[k];
-    for (std::size_t i = around.first; i + 1 < around.end; ++i) {
-      const CatenarySupport& first = plan.supports()[i];
-      const CatenarySupport& last = plan.supports()[i + 1];
-      if (!HangsBetween(track, context.tracks[k], first.s_m, last.s_m)) continue;
-      const Span span(context, context.tracks[k], first, last);
-      const std::size_t num_known = wires.size();
-      AddWiresOfSpan(context, span, wires);
-      const WireSpan in_wind = span.InWind(static_cast<std::uint32_t>(i * tracks.size() + k));
-      for (std::size_t w = num_known; w < wires.size(); ++w) wires[w].span = in_wind;
+  std::vector<std::vector<SpanOfTrack>> spans;
+  for (std::size_t i = around.first; i + 1 < around.end; ++i) {
+    spans.push_back(SpansBehind(context, plan, i));
+  }
+  // Track by track along the chunk.
+  for (std::size_t track = 0; track < context.tracks.size(); ++track) {
+    for (std::size_t i = 0; i < spans.size(); ++i) {
+      for (std::size_t j = 0; j < spans[i].size(); ++j) {
+        if (spans[i][j].track != track) continue;
+        const std::size_t num_known = wires.size();
+        AddWiresOfSpan(context, spans[i][j].shape, CrossingsOf(spans[i], j), wires);
+        const WireSpan in_wind = spans[i][j].shape.InWind(
+            static_cast<std::uint32_t>((around.first + i) * context.tracks.size() + track));
+        for (std::size_t w = num_known; w < wires.size(); ++w) wires[w].span = in_wind;
+      }
     }
   }
   for (Wire& wire : wires) {
@@ -282,7 +227,7 @@ void AddCatenary(const ChunkContext& context,
     if (support.s_m < context.begin_s_m || (support.s_m >= context.end_s_m && !is_last_of_line)) {
       continue;
     }
-    AddSupport(context, support, models, static_cast<std::uint32_t>(i), chunk);
+    AddSupport(context, plan, models, i, chunk);
   }
   chunk.wires = WiresInChunk(context, plan);
   for (const Wire& wire : chunk.wires) {

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
+#include "core/rail/catenary/own_wires.h"
 #include "core/rail/model_parts.h"
 #include "core/scene/shapes.h"
 
@@ -115,6 +117,20 @@ double StrutHinge_m(const CatenarySpec& spec) {
   return spec.contact_height_m + kRegistrationHeight_m + 0.10;
 }
 
+/// Where the steady arm of a wire is hinged to the registration tube that begins at `root_y_m`. The
+/// wire pulls towards the middle of the track, and the arm holds it from its own side; of several
+/// wires, or where there is no room for that, from the side of the mast.
+double SteadyArmHinge_m(const CantileverShape& shape, const CantileverWire& wire, double root_y_m) {
+  const double mast_side = shape.face_m < 0.0 ? -1.0 : 1.0;
+  const double stagger_side = wire.y_m < 0.0 ? -1.0 : 1.0;
+  const double beyond_m = -mast_side * (shape.room_m - wire.y_m) - kTubeBeyondHinge_m;
+  if (stagger_side != mast_side && shape.wires.size() == 1 && beyond_m >= kSteadyArmLength_m) {
+    return wire.y_m + stagger_side * kSteadyArmLength_m;
+  }
+  const double room_m = std::abs(root_y_m - wire.y_m) - kTubeBeyondHinge_m;
+  return wire.y_m + mast_side * std::min(kSteadyArmLength_m, room_m);
+}
+
 }  // namespace
 
 Model MakeMast(const CatenarySpec& spec, const RailSurfaces& surfaces) {
@@ -163,46 +179,54 @@ Model MakePortal(const CatenarySpec& spec,
 }
 
 Model MakeCantilever(const CatenarySpec& spec,
-                     double face_m,
-                     double stagger_m,
+                     const CantileverShape& shape,
                      const RailSurfaces& surfaces) {
   Model model{.name = "cantilever", .parts = {}};
   CantileverPen pen(surfaces, model);
-  const double mast_side = face_m < 0.0 ? -1.0 : 1.0;
-  const double stagger_side = stagger_m < 0.0 ? -1.0 : 1.0;
-  const double contact_m = spec.contact_height_m;
-  const double registration_m = contact_m + kRegistrationHeight_m;
+  const double mast_side = shape.face_m < 0.0 ? -1.0 : 1.0;
+  const double registration_m = spec.contact_height_m + kRegistrationHeight_m;
+  const double farthest_m =
+      std::ranges::min_element(shape.wires, {}, [&](const CantileverWire& wire) {
+        return mast_side * wire.y_m;
+      })->y_m;
 
   // Tubes end below the messenger wire, which a clamp holds.
-  const Vector3 messenger(0.0, stagger_m, contact_m + spec.system_height_m);
-  const Vector3 head = messenger - Vector3(0.0, 0.0, 0.075);
-  const Vector3 top_hinge(0.0, face_m, head.z());
-  const Vector3 strut_hinge(0.0, face_m, StrutHinge_m(spec));
+  const double messenger_m = spec.contact_height_m + spec.system_height_m;
+  const Vector3 head = Vector3(0.0, farthest_m, messenger_m) - Vector3(0.0, 0.0, 0.075);
+  const Vector3 top_hinge(0.0, shape.face_m, head.z());
+  const Vector3 strut_hinge(0.0, shape.face_m, StrutHinge_m(spec));
   pen.InsulatedTube(top_hinge, head, kThinTubeRadius_m);
   pen.InsulatedTube(strut_hinge, head, kThickTubeRadius_m);
-  pen.Clamp(messenger - Vector3(0.0, 0.0, 0.04), {0.05, 0.03, 0.05});
+  for (const CantileverWire& wire : shape.wires) {
+    const double half_lift_m = wire.is_lifted ? 0.5 * kMessengerLift_m : 0.0;
+    pen.Clamp(Vector3(0.0, wire.y_m, messenger_m) - Vector3(0.0, 0.0, 0.04 - half_lift_m),
+              {0.05, 0.03, 0.05 + half_lift_m});
+  }
   for (const Vector3& hinge : {top_hinge, strut_hinge}) {
     pen.Clamp(hinge + Vector3(0.0, -0.02 * mast_side, 0.0), {0.06, 0.03, 0.06});
   }
 
-  // The wire pulls towards the middle of the track. The steady arm holds it from its own side and
-  // is hinged to the registration tube, which extends slightly beyond both hinge and wire.
-  const Vector3 wire(0.0, stagger_m, contact_m);
+  // The registration tube extends slightly beyond all hinges and wires.
   const Vector3 strut = (head - strut_hinge).normalized();
   const Vector3 root = strut_hinge + strut * kTubeRoot_m;
-  const double room_m = std::abs(root.y() - stagger_m) - kTubeBeyondHinge_m;
-  const double arm_m =
-      stagger_side == mast_side ? std::min(kSteadyArmLength_m, room_m) : kSteadyArmLength_m;
-  const double hinge_y_m = stagger_m + stagger_side * arm_m;
-  const double innermost_m = std::min(mast_side * hinge_y_m, mast_side * stagger_m);
+  std::vector<double> hinges_y_m;
+  double innermost_m = std::numeric_limits<double>::infinity();
+  for (const CantileverWire& wire : shape.wires) {
+    hinges_y_m.push_back(SteadyArmHinge_m(shape, wire, root.y()));
+    innermost_m = std::min({innermost_m, mast_side * hinges_y_m.back(), mast_side * wire.y_m});
+  }
   const Vector3 tube_end(0.0, mast_side * (innermost_m - kTubeBeyondHinge_m), registration_m);
   const auto on_tube = [&](double y_m) -> Vector3 {
     return root + (y_m - root.y()) / (tube_end.y() - root.y()) * (tube_end - root);
   };
   pen.Tube(root, tube_end, kThinTubeRadius_m);
   pen.Tube(head, on_tube(tube_end.y() + 0.10 * mast_side), kHangerRadius_m);
-  pen.Tube(on_tube(hinge_y_m), wire + Vector3(0.0, 0.0, 0.02), kSteadyArmRadius_m);
-  pen.Clamp(wire + Vector3(0.0, 0.0, 0.016), {0.04, 0.012, 0.014});
+  for (std::size_t i = 0; i < shape.wires.size(); ++i) {
+    const double lift_m = shape.wires[i].is_lifted ? kRunInLift_m : 0.0;
+    const Vector3 wire(0.0, shape.wires[i].y_m, spec.contact_height_m + lift_m);
+    pen.Tube(on_tube(hinges_y_m[i]), wire + Vector3(0.0, 0.0, 0.02), kSteadyArmRadius_m);
+    pen.Clamp(wire + Vector3(0.0, 0.0, 0.016), {0.04, 0.012, 0.014});
+  }
   return model;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "core/rail/catenary/support_layout.h"
 #include "core/rail/rail_surfaces.h"
 #include "railcast/rail_world.h"
@@ -25,13 +27,24 @@ namespace railcast {
                                double shift_m,
                                const RailSurfaces& surfaces);
 
-/// A cantilever in the frame of WorldFromSupport: a top tube from the mast to the messenger wire, a
-/// strut below it, both on ceramic insulators, a registration tube, and the steady arm that pulls
-/// the contact wire to its stagger. Tubes of 42 and 60 mm. 620 triangles.
-/// @param face_m Face of the mast or post that carries it, left positive.
+/// A wire on a cantilever.
+struct CantileverWire {
+  double y_m{};      ///< Lateral position, left positive.
+  bool is_lifted{};  ///< As HungWire's.
+};
+
+/// What a cantilever carries, in the frame of WorldFromSupport.
+struct CantileverShape {
+  double face_m{};                    ///< Face of the mast or post that carries it, left positive.
+  std::vector<CantileverWire> wires;  ///< At least one.
+  double room_m{};  ///< Where its room ends on the other side; infinite if it does not.
+};
+
+/// A cantilever: a top tube from the mast to the farthest messenger wire, a strut below it, both on
+/// ceramic insulators, a registration tube, and for each wire the steady arm that pulls the contact
+/// wire to its stagger. Tubes of 42 and 60 mm. 620 triangles with one wire.
 [[nodiscard]] Model MakeCantilever(const CatenarySpec& spec,
-                                   double face_m,
-                                   double stagger_m,
+                                   const CantileverShape& shape,
                                    const RailSurfaces& surfaces);
 
 }  // namespace railcast

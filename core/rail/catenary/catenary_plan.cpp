@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <utility>
 #include <variant>
 
 #include "core/base/error.h"
@@ -12,8 +14,11 @@
 namespace railcast {
 namespace {
 
-constexpr std::size_t kStepsOfASpan = 26;
 constexpr double kLateralMargin_m = 0.05;
+/// Working half width of a pantograph's head of 1950 mm, and distances between two wires in plan.
+constexpr double kWorkingHalfWidth_m = 0.55;
+constexpr double kWiresApart_m = 0.2;
+constexpr double kLeastApart_m = 0.1;
 constexpr double kShortestDropper_m = 0.3;
 /// Minimum length of the last span; a shorter remainder of the line has no wire.
 constexpr double kShortestSpan_m = 5.0;
@@ -61,14 +66,6 @@ bool StaysWithin(const Course& course,
   return true;
 }
 
-/// Stagger towards the outside of a curve; nothing where the line is straight enough for staggers
-/// to alternate.
-std::optional<double> StaggerInCurve(const CatenarySpec& spec, double curvature_per_m) {
-  const double rise_m = spec.max_span_m * spec.max_span_m * std::abs(curvature_per_m) / 8.0;
-  if (rise_m <= 0.5 * spec.stagger_m) return std::nullopt;
-  return curvature_per_m > 0.0 ? -spec.stagger_m : spec.stagger_m;
-}
-
 /// Whether a mast at that chainage would stand in the road of a level crossing or in its shoulders.
 bool StandsInRoad(const WorldSpec& world, double s_m) {
   constexpr double kBesideRoad_m = 1.5;
@@ -80,28 +77,92 @@ bool StandsInRoad(const WorldSpec& world, double s_m) {
       });
 }
 
-/// The farthest support that the wire permits; nearer if that one would stand in a road.
-CatenarySupport NextSupport(const CatenarySupport& support,
-                            const WorldSpec& world,
-                            const Alignment& alignment) {
-  const CatenarySpec& spec = world.catenary;
-  // The 1e-9 covers rounding if a span at the limit is compared with the limit itself.
-  const double limit_m = spec.stagger_m + kLateralMargin_m + 1e-9;
-  const Course course = CourseFrom(support.s_m, spec, alignment);
-  std::optional<CatenarySupport> in_road;
-  for (std::size_t num_steps = kStepsOfASpan; num_steps > 0; --num_steps) {
-    const double s_m = support.s_m + spec.max_span_m * static_cast<double>(num_steps) /
-                                         static_cast<double>(kStepsOfASpan);
-    const std::optional<double> outside_m = StaggerInCurve(spec, course.curvature_per_m[num_steps]);
-    const double stagger_m = outside_m.value_or(-support.stagger_m);
-    if (!StaysWithin(course, num_steps, support.stagger_m, stagger_m, limit_m)) continue;
-    const CatenarySupport next{.s_m = s_m, .stagger_m = stagger_m};
-    if (!StandsInRoad(world, s_m)) return next;
-    if (!in_road) in_road = next;
+/// A support with the staggers of the tracks that do not follow the alignment, there and along the
+/// span before it.
+struct PlannedSupport {
+  CatenarySupport support;
+  OwnWires::Staggers own;
+  OwnWires::SpanStaggers span_before;
+};
+
+/// Finds one support after the other.
+class SupportSearch {
+ public:
+  SupportSearch(const WorldTracks& tracks, const Alignment& alignment)
+      : world_(tracks.world), alignment_(alignment), own_(tracks, alignment) {}
+
+  /// The farthest support that the wires permit; nearer if that one would stand in a road.
+  [[nodiscard]] PlannedSupport After(const PlannedSupport& from) const {
+    // Beyond a support it must go on, too: two spans ahead are enough to begin at a turnout.
+    constexpr int kSpansAhead = 2;
+    const double limit_m = world_.catenary.stagger_m + kLateralMargin_m;
+    for (const WireRules& rules : {WireRules{limit_m, kWiresApart_m},
+                                   WireRules{std::max(kWorkingHalfWidth_m, limit_m), kLeastApart_m},
+                                   WireRules{std::max(kWorkingHalfWidth_m, limit_m), 0.0},
+                                   WireRules{std::numeric_limits<double>::infinity(), 0.0}}) {
+      if (auto next = Next(from, rules, kSpansAhead)) return *std::move(next);
+    }
+    Check(false, "a wire between neighbouring samples is within its staggers");
+    return from;
   }
-  Check(in_road.has_value(), "a wire between neighbouring samples is within its staggers");
-  return *in_road;
-}
+
+ private:
+  [[nodiscard]] std::optional<PlannedSupport> Next(const PlannedSupport& from,
+                                                   const WireRules& rules,
+                                                   int num_spans_ahead) const {
+    const CatenarySpec& spec = world_.catenary;
+    // The 1e-9 covers rounding if a span at the limit is compared with the limit itself.
+    const double limit_m = spec.stagger_m + kLateralMargin_m + 1e-9;
+    const double first_m = from.support.stagger_m;
+    const Course course = CourseFrom(from.support.s_m, spec, alignment_);
+    std::optional<PlannedSupport> in_road;
+    for (std::size_t num_steps = kStepsOfASpan; num_steps > 0; --num_steps) {
+      const double s_m = from.support.s_m + spec.max_span_m * static_cast<double>(num_steps) /
+                                                static_cast<double>(kStepsOfASpan);
+      const double best_m =
+          StaggerInCurve(spec, course.curvature_per_m[num_steps]).value_or(-first_m);
+      const bool has_own = own_.HangIn(from.support.s_m, std::min(s_m, alignment_.length_m()));
+      for (const double stagger_m : has_own ? std::vector{best_m, -best_m} : std::vector{best_m}) {
+        if (!StaysWithin(course, num_steps, first_m, stagger_m, limit_m)) continue;
+        auto next = WithOwnWires(from, {.s_m = s_m, .stagger_m = stagger_m}, rules);
+        if (!next || !GoesOn(*next, rules, num_spans_ahead)) continue;
+        if (!StandsInRoad(world_, s_m)) return next;
+        if (!in_road) in_road = std::move(next);
+      }
+    }
+    return in_road;
+  }
+
+  [[nodiscard]] bool GoesOn(const PlannedSupport& from,
+                            const WireRules& rules,
+                            int num_spans_ahead) const {
+    const double s_m = from.support.s_m;
+    const double ahead_s_m = std::min(s_m + world_.catenary.max_span_m, alignment_.length_m());
+    if (num_spans_ahead == 0 || s_m >= alignment_.length_m()) return true;
+    return !own_.HangIn(s_m, ahead_s_m) || Next(from, rules, num_spans_ahead - 1).has_value();
+  }
+
+  [[nodiscard]] std::optional<PlannedSupport> WithOwnWires(const PlannedSupport& from,
+                                                           const CatenarySupport& to,
+                                                           const WireRules& rules) const {
+    PlannedSupport next{.support = to, .own = {}, .span_before = {}};
+    auto staggers = own_.Place({.first_s_m = from.support.s_m,
+                                .last_s_m = std::min(to.s_m, alignment_.length_m()),
+                                .first_stagger_m = from.support.stagger_m,
+                                .last_stagger_m = to.stagger_m},
+                               from.own, rules);
+    if (!staggers) return std::nullopt;
+    for (const auto& span : *staggers) {
+      next.own.push_back(span ? std::optional(span->second) : std::nullopt);
+    }
+    next.span_before = *std::move(staggers);
+    return next;
+  }
+
+  const WorldSpec& world_;
+  const Alignment& alignment_;
+  OwnWires own_;
+};
 
 bool HasContactLine(const WorldSpec& spec) {
   return spec.catenary.enabled &&
@@ -110,6 +171,12 @@ bool HasContactLine(const WorldSpec& spec) {
 }
 
 }  // namespace
+
+std::optional<double> StaggerInCurve(const CatenarySpec& spec, double curvature_per_m) {
+  const double rise_m = spec.max_span_m * spec.max_span_m * std::abs(curvature_per_m) / 8.0;
+  if (rise_m <= 0.5 * spec.stagger_m) return std::nullopt;
+  return curvature_per_m > 0.0 ? -spec.stagger_m : spec.stagger_m;
+}
 
 double LeastSystemHeight_m(const WorldSpec& world) {
   const CatenarySpec& spec = world.catenary;
@@ -129,22 +196,54 @@ void CheckSystemHeight(const WorldSpec& world) {
                      NumberText(spec.system_height_m)}});
 }
 
-CatenaryPlan::CatenaryPlan(const WorldSpec& spec, const Alignment& alignment) {
+CatenaryPlan::CatenaryPlan(const WorldTracks& tracks, const Alignment& alignment)
+    : own_wires_(tracks.courses.size()) {
+  const WorldSpec& spec = tracks.world;
   if (!HasContactLine(spec)) return;
   CheckSystemHeight(spec);
+  const OwnWires own(tracks, alignment);
+  const SupportSearch search(tracks, alignment);
   const double first_m = StaggerInCurve(spec.catenary, alignment.At(0.0).curvature_per_m)
                              .value_or(spec.catenary.stagger_m);
-  supports_.push_back({.s_m = 0.0, .stagger_m = first_m});
-  while (true) {
-    CatenarySupport next = NextSupport(supports_.back(), spec, alignment);
-    if (next.s_m >= alignment.length_m()) {
-      const double left_m = alignment.length_m() - supports_.back().s_m;
-      next.s_m = alignment.length_m();
-      if (left_m >= kShortestSpan_m) supports_.push_back(next);
-      return;
+  PlannedSupport last{.support = {.s_m = 0.0, .stagger_m = first_m},
+                      .own = OwnWires::Staggers(tracks.courses.size()),
+                      .span_before = {}};
+  supports_.push_back(last.support);
+  while (last.support.s_m < alignment.length_m()) {
+    PlannedSupport next = search.After(last);
+    if (next.support.s_m >= alignment.length_m()) {
+      if (alignment.length_m() - last.support.s_m < kShortestSpan_m) return;
+      next.support.s_m = alignment.length_m();
     }
-    supports_.push_back(next);
+    supports_.push_back(next.support);
+    for (std::size_t k = 0; k < own_wires_.size(); ++k) {
+      if (!next.span_before[k]) continue;
+      OwnWire& wire = own_wires_[k];
+      if (wire.at.empty()) {
+        wire.first_support = supports_.size() - 2;
+        wire.at.push_back(own.WireAt(k, last.support.s_m, next.span_before[k]->first));
+      }
+      wire.at.push_back(own.WireAt(k, next.support.s_m, next.span_before[k]->second));
+    }
+    last = std::move(next);
   }
+}
+
+std::vector<HungWire> CatenaryPlan::WiresAt(const WorldTracks& tracks, std::size_t support) const {
+  const CatenarySupport& at = supports_[support];
+  std::vector<HungWire> wires;
+  for (std::size_t k = 0; k < tracks.courses.size(); ++k) {
+    const TrackSpec& track = tracks.world.tracks[k];
+    const TrackCourse& course = tracks.courses[k];
+    const OwnWire& own = own_wires_[k];
+    if (FollowsAlignment(track, course)) {
+      if (!HasWireAt(track, course, at.s_m)) continue;
+      wires.push_back({k, course.OffsetWithin_m(at.s_m), at.stagger_m, false});
+    } else if (!own.at.empty() && own.first_support <= support && support <= own.last_support()) {
+      wires.push_back(own.at[support - own.first_support]);
+    }
+  }
+  return wires;
 }
 
 double PantographShift_m(const CatenarySpec& spec, const AxisPoint& axis) {

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
+#include "core/rail/catenary/own_wires.h"
+#include "core/rail/world_tracks.h"
 #include "railcast/alignment.h"
 #include "railcast/rail_world.h"
 #include "railcast/transform.h"
@@ -16,12 +19,29 @@ inline constexpr double kMessengerTension_n = 10e3;
 inline constexpr double kContactTension_n = 10e3;
 inline constexpr double kContactPresag = 1.0 / 1000.0;  ///< Sag as a fraction of the span.
 
+/// Supports stand at multiples of this part of the longest span.
+inline constexpr std::size_t kStepsOfASpan = 26;
+
 /// A support of the contact line.
 struct CatenarySupport {
   double s_m{};
-  /// Lateral position of the wires relative to the middle of the pantograph, left positive.
+  /// Lateral position of the wires relative to the middle of the pantograph, left positive: of the
+  /// tracks that are parallel to the alignment.
   double stagger_m{};
 };
+
+/// The wire of a track with a course of its own (own_wires.h), at consecutive supports.
+struct OwnWire {
+  std::size_t first_support{};
+  std::vector<HungWire> at;  ///< Empty: the track has none.
+
+  [[nodiscard]] std::size_t last_support() const { return first_support + at.size() - 1; }
+};
+
+/// Stagger towards the outside of a curve; nothing where the line is straight enough for staggers
+/// to alternate.
+[[nodiscard]] std::optional<double> StaggerInCurve(const CatenarySpec& spec,
+                                                   double curvature_per_m);
 
 /// The least system height with which the messenger wire, sagging over the longest span, stays 0.3
 /// m above the contact wire.
@@ -47,16 +67,27 @@ void CheckSystemHeight(const WorldSpec& world);
 /// Staggers alternate where the rise L^2 / 8R of a full span is less than half the stagger, and lie
 /// on the outside of the curve otherwise. All tracks share the supports. A span is shorter where
 /// its second support would stand in the road of a level crossing.
+///
+/// Tracks with a course of their own have staggers of their own (own_wires.h), and spans are
+/// shorter where the wire of such a track would leave its limits: within stagger + 0.05 m of the
+/// pantograph's middle, and 0.2 m from all other wires. Where no span keeps them, 0.55 m (the
+/// working width of the pantograph's head) and 0.1 m must do; where none keeps these, the wires of
+/// such tracks do not shorten the span.
 class CatenaryPlan {
  public:
   /// @throws InputError as CheckSystemHeight() does.
-  CatenaryPlan(const WorldSpec& spec, const Alignment& alignment);
+  CatenaryPlan(const WorldTracks& tracks, const Alignment& alignment);
 
   /// In ascending order; empty without a contact line.
   [[nodiscard]] const std::vector<CatenarySupport>& supports() const { return supports_; }
+  /// The wire of a track that does not follow the alignment's staggers.
+  [[nodiscard]] const OwnWire& OwnWireOf(std::size_t track) const { return own_wires_[track]; }
+  /// All wires that a support carries, in the order of tracks.
+  [[nodiscard]] std::vector<HungWire> WiresAt(const WorldTracks& tracks, std::size_t support) const;
 
  private:
   std::vector<CatenarySupport> supports_;
+  std::vector<OwnWire> own_wires_;  ///< In the order of tracks.
 };
 
 /// Lateral displacement of a pantograph's middle by cant, at the height of the contact line, left

@@ -36,7 +36,10 @@ struct TrackGroup {
 /// The tracks at one support, and the room between and beside them.
 class Tracks {
  public:
-  Tracks(const WorldSpec& spec, std::span<const TrackCourse> tracks, double s_m)
+  Tracks(const WorldSpec& spec,
+         std::span<const TrackCourse> tracks,
+         double s_m,
+         const std::vector<HungWire>& wires)
       : tracks_{spec, tracks},
         s_m_(s_m),
         to_mast_m_(spec.catenary.mast_distance_m + kMastHalfDepth_m),
@@ -49,6 +52,7 @@ class Tracks {
       if (is_here) offsets_m.push_back(offset_m);
       if (is_here || track.is_parallel()) leftmost_m_ = std::max(leftmost_m_, offset_m);
     }
+    for (const HungWire& wire : wires) offsets_m.push_back(wire.axis_d_m);
     std::ranges::sort(offsets_m);
     for (const double offset_m : offsets_m) {
       if (groups_.empty() || offset_m - groups_.back().left_m >= kTogether_m) {
@@ -120,6 +124,16 @@ class Tracks {
     return offset_m;
   }
 
+  /// Where the room of a group ends: left of the alignment, on its left or right.
+  [[nodiscard]] double RoomEnd_d_m(const TrackGroup& group, bool on_left) const {
+    // Half a post and some air.
+    constexpr double kBesideMiddle_m = kMastHalfDepth_m + 0.05;
+    const double side = on_left ? 1.0 : -1.0;
+    const TrackGroup* next = Next(group, on_left);
+    if (next == nullptr) return side * std::numeric_limits<double>::infinity();
+    return 0.5 * (group.Edge_m(on_left) + next->Edge_m(!on_left)) - side * kBesideMiddle_m;
+  }
+
   /// The post of a track without a mast, halfway to the group on its right: left of its axis.
   [[nodiscard]] double PostFromAxis_m(double offset_m) const {
     const TrackGroup& group = GroupOf(offset_m);
@@ -162,41 +176,37 @@ class Tracks {
   double leftmost_m_ = -std::numeric_limits<double>::infinity();
 };
 
-/// Builds a layout track by track.
+/// Builds a layout wire by wire.
 class LayoutDraft {
  public:
-  LayoutDraft(const WorldSpec& spec, std::span<const TrackCourse> tracks, double s_m)
-      : courses_(tracks), s_m_(s_m), tracks_(spec, tracks, s_m) {
-    for (std::size_t track = 0; track < tracks.size(); ++track) {
-      if (HasWireAt(spec.tracks[track], tracks[track], s_m)) wired_.push_back(track);
-    }
-  }
+  LayoutDraft(const WorldSpec& spec,
+              std::span<const TrackCourse> tracks,
+              double s_m,
+              const std::vector<HungWire>& wires)
+      : tracks_(spec, tracks, s_m, wires), wires_(wires) {}
 
   SupportLayout Make() {
     // Portals first, because masts of other tracks may be part of them.
-    for (const std::size_t track : wired_) {
-      if (!tracks_.OwnMast(Offset_m(track))) Hang(track);
+    for (const HungWire& wire : wires_) {
+      if (!tracks_.OwnMast(wire.axis_d_m)) Hang(wire.axis_d_m);
     }
-    for (const std::size_t track : wired_) AddCantilever(track);
+    for (const HungWire& wire : wires_) AddCantilever(wire);
     for (const PortalSite& portal : layout_.portals) {
+      const double axis_d_m =
+          std::ranges::find(wires_, portal.structure, &HungWire::track)->axis_d_m;
       for (const double d_m : {portal.right_d_m, portal.left_d_m}) {
-        AddMast({portal.structure, d_m - Offset_m(portal.structure), portal.structure});
+        AddMast({portal.structure, axis_d_m, d_m - axis_d_m, portal.structure});
       }
     }
     return std::move(layout_);
   }
 
  private:
-  [[nodiscard]] double Offset_m(std::size_t track) const {
-    return courses_[track].OffsetWithin_m(s_m_);
-  }
-
   [[nodiscard]] static bool Spans(const PortalSite& portal, double offset_m) {
     return portal.right_d_m < offset_m && offset_m < portal.left_d_m;
   }
 
-  void Hang(std::size_t track) {
-    const double offset_m = Offset_m(track);
+  void Hang(double offset_m) {
     PortalSite portal{.right_d_m = tracks_.NearestMast_d_m(offset_m, false),
                       .left_d_m = tracks_.NearestMast_d_m(offset_m, true),
                       .posts_d_m = {},
@@ -205,9 +215,9 @@ class LayoutDraft {
     auto same = std::find_if(portals.begin(), portals.end(),
                              [&](const PortalSite& other) { return Spans(other, offset_m); });
     if (same == portals.end()) {
-      portal.structure = *std::find_if(wired_.begin(), wired_.end(), [&](std::size_t other) {
-        return Spans(portal, Offset_m(other));
-      });
+      portal.structure = std::find_if(wires_.begin(), wires_.end(), [&](const HungWire& other) {
+                           return Spans(portal, other.axis_d_m);
+                         })->track;
       same = portals.insert(same, portal);
     }
     const double post_d_m = offset_m + tracks_.PostFromAxis_m(offset_m);
@@ -217,38 +227,45 @@ class LayoutDraft {
     if (!is_there) same->posts_d_m.push_back(post_d_m);
   }
 
-  void AddCantilever(std::size_t track) {
+  void AddCantilever(const HungWire& wire) {
+    const TrackGroup& group = tracks_.GroupOf(wire.axis_d_m);
+    const auto shared = std::ranges::find_if(
+        layout_.cantilevers, [&](const CantileverSite& site) { return group.Has(site.axis_d_m); });
+    if (shared != layout_.cantilevers.end()) {
+      shared->wires.push_back(wire);
+      return;
+    }
     const auto& portals = layout_.portals;
     const auto portal = std::find_if(portals.begin(), portals.end(), [&](const PortalSite& other) {
-      return Spans(other, Offset_m(track));
+      return Spans(other, wire.axis_d_m);
     });
-    const std::optional<double> mast_m = tracks_.OwnMast(Offset_m(track));
-    std::size_t structure = portal == portals.end() ? track : portal->structure;
-    if (mast_m) structure = AddMast({track, *mast_m, structure});
-    const double from_axis_m = mast_m ? *mast_m : tracks_.PostFromAxis_m(Offset_m(track));
+    const std::optional<double> mast_m = tracks_.OwnMast(wire.axis_d_m);
+    std::size_t structure = portal == portals.end() ? wire.track : portal->structure;
+    if (mast_m) structure = AddMast({wire.track, wire.axis_d_m, *mast_m, structure});
+    const double from_axis_m = mast_m ? *mast_m : tracks_.PostFromAxis_m(wire.axis_d_m);
     layout_.cantilevers.push_back(
-        {.track = track,
+        {.track = wire.track,
+         .axis_d_m = wire.axis_d_m,
          .face_m = from_axis_m - std::copysign(kMastHalfDepth_m, from_axis_m),
          .hangs = !mast_m,
-         .structure = structure});
+         .structure = structure,
+         .wires = {wire},
+         .room_m = tracks_.RoomEnd_d_m(group, from_axis_m < 0.0) - wire.axis_d_m});
   }
 
   /// Adds a mast unless there is one at that place.
   /// @return The structure of the mast there.
   std::size_t AddMast(const MastSite& site) {
-    const auto d_m = [&](const MastSite& mast) { return Offset_m(mast.track) + mast.from_axis_m; };
     const auto same = std::find_if(
         layout_.masts.begin(), layout_.masts.end(),
-        [&](const MastSite& other) { return std::abs(d_m(other) - d_m(site)) < kSamePlace_m; });
+        [&](const MastSite& other) { return std::abs(other.d_m() - site.d_m()) < kSamePlace_m; });
     if (same != layout_.masts.end()) return same->structure;
     layout_.masts.push_back(site);
     return site.structure;
   }
 
-  std::span<const TrackCourse> courses_;
-  double s_m_;
   Tracks tracks_;
-  std::vector<std::size_t> wired_;
+  const std::vector<HungWire>& wires_;
   SupportLayout layout_;
 };
 
@@ -256,12 +273,9 @@ class LayoutDraft {
 
 SupportLayout LayOutSupport(const WorldSpec& spec,
                             std::span<const TrackCourse> tracks,
-                            double s_m) {
-  return LayoutDraft(spec, tracks, s_m).Make();
-}
-
-bool HasWireAt(const TrackSpec& track, const TrackCourse& course, double s_m) {
-  return track.electrified && course.begin_s_m() <= s_m && s_m <= course.end_s_m();
+                            double s_m,
+                            const std::vector<HungWire>& wires) {
+  return LayoutDraft(spec, tracks, s_m, wires).Make();
 }
 
 }  // namespace railcast

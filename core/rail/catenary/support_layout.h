@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/rail/catenary/own_wires.h"
 #include "core/rail/line/track_course.h"
 #include "railcast/rail_world.h"
 
@@ -16,19 +17,27 @@ inline constexpr double kMastHalfDepth_m = 0.12;
 /// to the side, and a cant of 160 mm moves its corner at 4.28 m height by 0.46 m.
 inline constexpr double kMastClearance_m = 2.2;
 
-/// The structure that carries a track's cantilever.
+/// A cantilever, and the structure that carries it.
 struct CantileverSite {
-  std::size_t track{};  ///< Index of the track.
-  /// Face of the mast or post: left of the track's axis or, if `hangs`, of the pantograph's middle.
+  std::size_t track{};  ///< The first of its tracks.
+  double axis_d_m{};    ///< Where the wire of that one hangs (HungWire).
+  /// Face of the mast or post: left of that axis or, if `hangs`, of the pantograph's middle.
   double face_m{};
   bool hangs{};  ///< Whether it is on a post below a portal's beam; otherwise it is on a mast.
-  std::size_t structure{};  ///< Index of the first of the tracks that share the mast or portal.
+  std::size_t structure{};      ///< Index of the first of the tracks that share the mast or portal.
+  std::vector<HungWire> wires;  ///< Those that it carries: of tracks less than 3 m apart.
+  /// Where its room ends on the side away from the face, left of the axis: halfway to the next
+  /// tracks, less a post. Infinite if there are none.
+  double room_m{};
 };
 
 struct MastSite {
   std::size_t track{};   ///< Track beside which the mast stands.
-  double from_axis_m{};  ///< Middle of the mast, left of that track's axis.
+  double axis_d_m{};     ///< Where the wire of that track hangs.
+  double from_axis_m{};  ///< Middle of the mast, left of that axis.
   std::size_t structure{};
+
+  [[nodiscard]] double d_m() const { return axis_d_m + from_axis_m; }
 };
 
 /// A beam between two masts, over tracks that leave no room for masts between them. Posts hang from
@@ -45,7 +54,7 @@ struct PortalSite {
 
 /// All structures at one support of the contact line.
 struct SupportLayout {
-  std::vector<CantileverSite> cantilevers;  ///< One per wire, in the order of tracks.
+  std::vector<CantileverSite> cantilevers;  ///< In the order of their first tracks.
   std::vector<MastSite> masts;              ///< No two at the same place.
   std::vector<PortalSite> portals;
 };
@@ -64,14 +73,12 @@ struct SupportLayout {
 /// beyond it. This applies from 10 m before the track's beginning to 10 m after its end.
 ///
 /// Tracks less than 3 m apart, as in and behind a turnout, share one mast or post, which stands
-/// where it would for the outermost of them.
+/// where it would for the outermost of them, with one cantilever for all their wires.
 /// @param tracks In the order of WorldSpec::tracks.
+/// @param wires Those that the support carries, in the same order.
 [[nodiscard]] SupportLayout LayOutSupport(const WorldSpec& spec,
                                           std::span<const TrackCourse> tracks,
-                                          double s_m);
-
-/// Returns whether the track has a wire of its own at chainage `s_m`, provided that the line has a
-/// contact line.
-[[nodiscard]] bool HasWireAt(const TrackSpec& track, const TrackCourse& course, double s_m);
+                                          double s_m,
+                                          const std::vector<HungWire>& wires);
 
 }  // namespace railcast

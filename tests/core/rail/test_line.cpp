@@ -25,7 +25,7 @@ TestLine::TestLine(WorldSpec spec, std::uint64_t seed)
       diamonds_(LayDiamonds(network_)),
       surfaces_(TestSurfaces()),
       seed_(seed),
-      plan_(spec_, alignment_),
+      plan_({spec_, network_.courses}, alignment_),
       models_(MakeInfrastructureModels(spec_, surfaces_)),
       land_(spec_.terrain,
             StripWidth(alignment_, spec_.terrain.half_width_m),

@@ -288,5 +288,57 @@ TEST(AddCatenary, ReachesFromMastsAndPostsToTheShiftedWires) {
   }
 }
 
+/// A loop beside a straight track, from one turnout to another.
+WorldSpec LoopBeside(TurnoutType type, double offset_m, double begin_s_m) {
+  WorldSpec spec = StraightLine(1000.0);
+  spec.tracks.assign(2, TrackSpec{});
+  spec.tracks[1].name = "loop";
+  spec.tracks[1].offset_m = offset_m;
+  spec.tracks[1].begin = TurnoutSpec{.track = "main", .s_m = begin_s_m, .turnout = type};
+  spec.tracks[1].end = TurnoutSpec{.track = "main", .s_m = begin_s_m + 600.0, .turnout = type};
+  return spec;
+}
+
+TEST(AddCatenary, KeepsTheWiresOfABranchAboveItsPantographAndApartFromTheOthers) {
+  for (const TurnoutType type :
+       {TurnoutType::k9_190, TurnoutType::k9_300, TurnoutType::k12_500, TurnoutType::k14_760}) {
+    for (const double offset_m : {4.5, -4.5}) {
+      for (const double begin_s_m : {150.0, 171.0, 196.0}) {
+        const TestLine line(LoopBeside(type, offset_m, begin_s_m));
+        const TrackCourse& loop = line.network().courses[1];
+        double widest_m = 0.0;
+        double nearest_m = 100.0;
+        double covered_m = 0.0;
+        for (int chunk = 0; chunk < 20; ++chunk) {
+          for (const Wire& wire : WiresInChunk(line.Context(chunk), line.plan())) {
+            if (wire.label != line.surfaces().contact_wire.label || wire.span.number % 2 == 0 ||
+                wire.material != line.surfaces().contact_wire.material || wire.radius_m != 0.006) {
+              continue;
+            }
+            const Transform world_from_chunk = line.WorldFromChunk(chunk);
+            for (const Vector3& point : wire.points_m) {
+              const Vector3 own_m = world_from_chunk * point;
+              if (own_m.x() < loop.begin_s_m() || own_m.x() > loop.end_s_m()) continue;
+              covered_m = std::max(covered_m, own_m.x());
+              const TrackOffset axis = loop.OffsetAt(own_m.x());
+              widest_m = std::max(widest_m, std::abs(own_m.y() - axis.d_m));
+              // A rounded chainage may lie in the chunk before.
+              if (std::abs(std::remainder(own_m.x(), TestLine::kChunkLength_m)) < 1e-3) continue;
+              const Vector3 main_m = WireAt(line, line.surfaces().contact_wire, own_m.x());
+              nearest_m = std::min(nearest_m, (own_m - main_m).norm());
+            }
+          }
+        }
+        // The plan permits 0.55 m at its samples, 2.5 m apart; across a track at 1:9, 0.6 % more.
+        EXPECT_LE(widest_m, 0.57) << begin_s_m;
+        EXPECT_GT(widest_m, 0.2);
+        EXPECT_GT(covered_m, loop.end_s_m() - 5.0);
+        // 20 mm of air between two wires of 12 mm.
+        EXPECT_GE(nearest_m, 0.032) << begin_s_m;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace railcast

@@ -19,7 +19,12 @@ WorldSpec StraightTracks(const std::vector<double>& offsets_m) {
 
 SupportLayout LayoutAt(const WorldSpec& spec, double s_m) {
   const Network network = MakeNetwork(spec, Alignment(spec.alignment).length_m());
-  return LayOutSupport(spec, network.courses, s_m);
+  std::vector<HungWire> wires;
+  for (std::size_t k = 0; k < network.courses.size(); ++k) {
+    if (!HasWireAt(spec.tracks[k], network.courses[k], s_m)) continue;
+    wires.push_back({k, network.courses[k].OffsetWithin_m(s_m), 0.4, false});
+  }
+  return LayOutSupport(spec, network.courses, s_m, wires);
 }
 
 std::vector<double> MastsOf(const WorldSpec& spec, double s_m = 500.0) {

@@ -1,0 +1,209 @@
+#include "core/rail/catenary/own_wires.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/rail/catenary/catenary_plan.h"
+#include "core/rail/line/network.h"
+
+namespace railcast {
+namespace {
+
+/// Distance of a branch's axis from that of its turnout's other track up to which its wire is
+/// lifted: half a pantograph of 1.95 m and the largest stagger.
+constexpr double kBesideOther_m = 1.4;
+
+double CrossInPlan(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+}  // namespace
+
+bool FollowsAlignment(const TrackSpec& track, const TrackCourse& course) {
+  return course.is_parallel() && !track.begin && !track.end;
+}
+
+bool HasWireAt(const TrackSpec& track, const TrackCourse& course, double s_m) {
+  return track.electrified && course.begin_s_m() <= s_m && s_m <= course.end_s_m();
+}
+
+OwnWires::OwnWires(const WorldTracks& tracks, const Alignment& alignment)
+    : tracks_(tracks),
+      alignment_(alignment),
+      step_m_(tracks.world.catenary.max_span_m / static_cast<double>(kStepsOfASpan)) {
+  const std::vector<TrackSpec>& specs = tracks.world.tracks;
+  for (const TrackSpec& track : specs) {
+    const auto other = [&](const std::optional<TurnoutSpec>& turnout) {
+      return turnout ? TrackIndex(tracks.world, turnout->track) : std::nullopt;
+    };
+    turnouts_.push_back({other(track.begin), other(track.end)});
+  }
+  for (std::size_t k = 0; k < specs.size(); ++k) {
+    if (!specs[k].electrified || FollowsAlignment(specs[k], tracks.courses[k])) continue;
+    own_.push_back(SampledCourse(k));
+  }
+  std::ranges::stable_sort(own_, {}, [&](const Own& own) { return DepthOf(own.track); });
+}
+
+OwnWires::Own OwnWires::SampledCourse(std::size_t track) const {
+  const TrackCourse& course = tracks_.courses[track];
+  const double height_m = tracks_.world.catenary.contact_height_m;
+  const double end_s_m = std::min(course.end_s_m(), alignment_.length_m());
+  Own own{.track = track,
+          .first_sample =
+              static_cast<std::ptrdiff_t>(std::ceil(std::max(0.0, course.begin_s_m()) / step_m_)),
+          .samples = {}};
+  for (auto i = own.first_sample; static_cast<double>(i) * step_m_ <= end_s_m; ++i) {
+    const Transform frame =
+        course.WorldFromTrack(alignment_, static_cast<double>(i) * step_m_, 0.0, height_m);
+    const Eigen::Vector2d left = frame.linear().col(1).head<2>();
+    own.samples.push_back({frame.translation().head<2>(), left.normalized()});
+  }
+  return own;
+}
+
+std::size_t OwnWires::DepthOf(std::size_t track) const {
+  std::size_t depth = 0;
+  for (const auto& other : {turnouts_[track].begin, turnouts_[track].end}) {
+    if (other) depth = std::max(depth, 1 + DepthOf(*other));
+  }
+  return depth;
+}
+
+bool OwnWires::HangsIn(std::size_t track, double first_s_m, double last_s_m) const {
+  const TrackCourse& course = tracks_.courses[track];
+  const bool begins =
+      course.begin_s_m() <= first_s_m || (turnouts_[track].begin && course.begin_s_m() < last_s_m);
+  const bool ends =
+      last_s_m <= course.end_s_m() || (turnouts_[track].end && first_s_m < course.end_s_m());
+  return begins && ends;
+}
+
+bool OwnWires::HangIn(double first_s_m, double last_s_m) const {
+  return std::ranges::any_of(
+      own_, [&](const Own& own) { return HangsIn(own.track, first_s_m, last_s_m); });
+}
+
+double OwnWires::AxisAt_m(std::size_t track, double s_m) const {
+  const TrackCourse& course = tracks_.courses[track];
+  if (s_m < course.begin_s_m() && turnouts_[track].begin) {
+    return AxisAt_m(*turnouts_[track].begin, s_m);
+  }
+  if (s_m > course.end_s_m() && turnouts_[track].end) return AxisAt_m(*turnouts_[track].end, s_m);
+  return course.OffsetWithin_m(s_m);
+}
+
+HungWire OwnWires::WireAt(std::size_t track, double s_m, double stagger_m) const {
+  HungWire wire{.track = track, .axis_d_m = AxisAt_m(track, s_m), .stagger_m = stagger_m};
+  for (const auto& other : {turnouts_[track].begin, turnouts_[track].end}) {
+    if (other && std::abs(wire.axis_d_m - AxisAt_m(*other, s_m)) < kBesideOther_m) {
+      wire.is_lifted = true;
+    }
+  }
+  return wire;
+}
+
+std::vector<double> OwnWires::CandidatesAt(std::size_t track, double s_m, double before_m) const {
+  const CatenarySpec& spec = tracks_.world.catenary;
+  const double curvature_per_m = tracks_.courses[track].CurvatureAt(alignment_, s_m);
+  const double best_m = StaggerInCurve(spec, curvature_per_m)
+                            .value_or(before_m > 0.0 ? -spec.stagger_m : spec.stagger_m);
+  return {best_m, 0.5 * best_m, 0.0, -0.5 * best_m, -best_m};
+}
+
+/// The wires of a span while their staggers are chosen, one after the other.
+class OwnWires::Trial {
+ public:
+  Trial(const OwnWires& wires, const SpanTrial& span, const WireRules& rules)
+      : wires_(wires), span_(span), rules_(rules) {
+    const WorldTracks& tracks = wires.tracks_;
+    for (std::size_t k = 0; k < tracks.courses.size(); ++k) {
+      const TrackSpec& track = tracks.world.tracks[k];
+      const TrackCourse& course = tracks.courses[k];
+      if (!FollowsAlignment(track, course) || !HasWireAt(track, course, span.first_s_m) ||
+          !HasWireAt(track, course, span.last_s_m)) {
+        continue;
+      }
+      const double d_m = course.OffsetWithin_m(span.first_s_m);
+      placed_m_.emplace_back(d_m + span.first_stagger_m, d_m + span.last_stagger_m);
+    }
+  }
+
+  /// Takes the first staggers out of two lists that keep the rules.
+  [[nodiscard]] std::optional<std::pair<double, double>> Choose(
+      const Own& own, const std::vector<double>& firsts_m, const std::vector<double>& lasts_m) {
+    for (const double first_m : firsts_m) {
+      for (const double last_m : lasts_m) {
+        const HungWire first = wires_.WireAt(own.track, span_.first_s_m, first_m);
+        const HungWire last = wires_.WireAt(own.track, span_.last_s_m, last_m);
+        if (!IsApart(first.d_m(), last.d_m()) || !StaysWithin(own, first, last)) continue;
+        placed_m_.emplace_back(first.d_m(), last.d_m());
+        return std::pair(first_m, last_m);
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  /// Wires are straight in plan, so they are nearest at an end.
+  [[nodiscard]] bool IsApart(double first_d_m, double last_d_m) const {
+    if (rules_.apart_m <= 0.0) return true;
+    return std::ranges::all_of(placed_m_, [&](const std::pair<double, double>& other) {
+      const double side = first_d_m < other.first ? -1.0 : 1.0;
+      return side * (first_d_m - other.first) >= rules_.apart_m &&
+             side * (last_d_m - other.second) >= rules_.apart_m;
+    });
+  }
+
+  [[nodiscard]] Eigen::Vector2d PlaceOf(const HungWire& wire, double s_m) const {
+    const WorldSpec& world = wires_.tracks_.world;
+    const Vector3 place_m = WorldFromSupport(wires_.alignment_, world, wire.axis_d_m, s_m) *
+                            Vector3(0.0, wire.stagger_m, world.catenary.contact_height_m);
+    return place_m.head<2>();
+  }
+
+  [[nodiscard]] bool StaysWithin(const Own& own,
+                                 const HungWire& first,
+                                 const HungWire& last) const {
+    const Eigen::Vector2d first_m = PlaceOf(first, span_.first_s_m);
+    const Eigen::Vector2d way = PlaceOf(last, span_.last_s_m) - first_m;
+    const auto sample_at = [&](double s_m) {
+      return static_cast<std::ptrdiff_t>(std::lround(s_m / wires_.step_m_)) - own.first_sample;
+    };
+    const auto begin = std::max<std::ptrdiff_t>(0, sample_at(span_.first_s_m));
+    const auto end = std::min(std::ssize(own.samples), sample_at(span_.last_s_m) + 1);
+    for (auto i = begin; i < end; ++i) {
+      const Pantograph& at = own.samples[static_cast<std::size_t>(i)];
+      const double off_m = CrossInPlan(way, first_m - at.middle_m) / CrossInPlan(way, at.left);
+      if (std::abs(off_m) > rules_.reach_m) return false;
+    }
+    return true;
+  }
+
+  const OwnWires& wires_;
+  const SpanTrial& span_;
+  const WireRules& rules_;
+  std::vector<std::pair<double, double>> placed_m_;  ///< Left of the alignment at both ends.
+};
+
+std::optional<OwnWires::SpanStaggers> OwnWires::Place(const SpanTrial& span,
+                                                      const Staggers& first,
+                                                      const WireRules& rules) const {
+  SpanStaggers chosen(tracks_.courses.size());
+  Trial trial(*this, span, rules);
+  for (const Own& own : own_) {
+    if (!HangsIn(own.track, span.first_s_m, span.last_s_m)) continue;
+    const std::optional<double>& known_m = first[own.track];
+    const std::vector<double> firsts_m =
+        known_m ? std::vector{*known_m}
+                : CandidatesAt(own.track, span.first_s_m, span.last_stagger_m);
+    const std::vector<double> lasts_m =
+        CandidatesAt(own.track, span.last_s_m, known_m.value_or(span.first_stagger_m));
+    chosen[own.track] = trial.Choose(own, firsts_m, lasts_m);
+    if (!chosen[own.track]) return std::nullopt;
+  }
+  return chosen;
+}
+
+}  // namespace railcast
