@@ -74,52 +74,18 @@ void CheckRadii(std::size_t index,
              ShortText(tightest_m) + " m at " + MetresText(tightest_s_m) + " m");
 }
 
-/// A section in which a turnout or a crossing keeps two tracks together.
-struct JoinedSection {
-  std::size_t track{};
-  std::size_t branch{};
-  double begin_s_m{};
-  double end_s_m{};
-};
-
 std::vector<JoinedSection> JoinedSections(const NetworkDraft& network) {
   std::vector<JoinedSection> sections;
   for (const TurnoutSite& turnout : network.turnouts) {
     const auto& track = network.courses[turnout.track];
     const auto& branch = network.courses[turnout.branch];
-    if (!track || !branch) continue;
-    const auto clear_s_m = ClearChainage_m(*track, *branch, turnout, kLeastTrackDistance_m);
-    // Without such a place, the turnout at least is allowed, so that the fault is about what is
-    // behind it.
-    const double end_s_m = clear_s_m.value_or(turnout.end_s_m);
-    sections.push_back({turnout.track, turnout.branch, std::min(turnout.s_m, end_s_m),
-                        std::max(turnout.s_m, end_s_m)});
+    if (track && branch) sections.push_back(JoinedSectionOf(*track, *branch, turnout));
   }
   for (const DiamondSite& diamond : network.diamonds) {
     const ChainageRange close = CloseTo(diamond, network, kLeastTrackDistance_m);
     sections.push_back({diamond.first, diamond.second, close.begin_s_m, close.end_s_m});
   }
   return sections;
-}
-
-/// Whether turnouts or crossings keep two tracks together at a chainage, also by way of others.
-bool AreJoined(const std::vector<JoinedSection>& sections,
-               std::size_t one,
-               std::size_t other,
-               double s_m) {
-  std::vector<std::size_t> reached{one};
-  for (std::size_t i = 0; i < reached.size(); ++i) {
-    for (const JoinedSection& section : sections) {
-      if (s_m < section.begin_s_m || s_m > section.end_s_m) continue;
-      for (const auto& [from, to] :
-           {std::pair(section.track, section.branch), std::pair(section.branch, section.track)}) {
-        if (from != reached[i] || std::ranges::count(reached, to) > 0) continue;
-        if (to == other) return true;
-        reached.push_back(to);
-      }
-    }
-  }
-  return false;
 }
 
 /// A place where two tracks are too close.
@@ -243,6 +209,36 @@ void CheckLevel(const DiamondSite& diamond, const Alignment& alignment, WorldFau
 }
 
 }  // namespace
+
+JoinedSection JoinedSectionOf(const TrackCourse& track,
+                              const TrackCourse& branch,
+                              const TurnoutSite& turnout) {
+  const auto clear_s_m = ClearChainage_m(track, branch, turnout, kLeastTrackDistance_m);
+  // Without such a place, the turnout at least is allowed, so that the fault is about what is
+  // behind it.
+  const double end_s_m = clear_s_m.value_or(turnout.end_s_m);
+  return {turnout.track, turnout.branch, std::min(turnout.s_m, end_s_m),
+          std::max(turnout.s_m, end_s_m)};
+}
+
+bool AreJoined(std::span<const JoinedSection> sections,
+               std::size_t one,
+               std::size_t other,
+               double s_m) {
+  std::vector<std::size_t> reached{one};
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    for (const JoinedSection& section : sections) {
+      if (s_m < section.begin_s_m || s_m > section.end_s_m) continue;
+      for (const auto& [from, to] :
+           {std::pair(section.track, section.branch), std::pair(section.branch, section.track)}) {
+        if (from != reached[i] || std::ranges::count(reached, to) > 0) continue;
+        if (to == other) return true;
+        reached.push_back(to);
+      }
+    }
+  }
+  return false;
+}
 
 void CheckNetwork(const WorldSpec& world,
                   const NetworkDraft& network,

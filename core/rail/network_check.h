@@ -1,12 +1,34 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <span>
 
 #include "core/rail/line/network.h"
 #include "core/rail/world_faults.h"
 #include "railcast/alignment.h"
 
 namespace railcast {
+
+/// A section in which a turnout keeps two tracks together.
+struct JoinedSection {
+  std::size_t track{};
+  std::size_t branch{};
+  double begin_s_m{};
+  double end_s_m{};
+};
+
+/// The section of a turnout: from its beginning to where its tracks are kLeastTrackDistance_m
+/// apart, or to its end if they never are.
+[[nodiscard]] JoinedSection JoinedSectionOf(const TrackCourse& track,
+                                            const TrackCourse& branch,
+                                            const TurnoutSite& turnout);
+
+/// Whether turnouts keep two tracks together at a chainage, also by way of others.
+[[nodiscard]] bool AreJoined(std::span<const JoinedSection> sections,
+                             std::size_t one,
+                             std::size_t other,
+                             double s_m);
 
 /// Checks the courses of the tracks that are not parallel to the alignment: offsets within the
 /// ground's half width, radii of at least kSmallestRadius_m, and at least kLeastTrackDistance_m

@@ -103,15 +103,18 @@ std::vector<LineWorld> WorldsOf(const std::vector<BuiltWorld>& built) {
 std::string TracksCsv(const std::vector<ImportedLine>& lines,
                       const std::vector<BuiltWorld>& worlds) {
   std::ostringstream csv;
-  csv << "line,tracks,turnouts,length_m,points,median_m,p99_m\n";
+  csv << "line,tracks,turnouts,switches,made,median_shift_m,p95_shift_m,length_m,points,median_m,"
+         "p99_m\n";
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const SideTrackQuality& q = worlds[i].beside;
-    const auto quantile_m = [&](double share) {
-      const auto last = static_cast<double>(q.distances_m.size()) - 1.0;
-      return q.distances_m.empty() ? 0.0 : q.distances_m[static_cast<std::size_t>(share * last)];
+    const auto quantile_m = [](const std::vector<double>& values_m, double share) {
+      const auto last = static_cast<double>(values_m.size()) - 1.0;
+      return values_m.empty() ? 0.0 : values_m[static_cast<std::size_t>(share * last)];
     };
-    csv << lines[i].name << ',' << q.num_tracks << ',' << q.num_turnouts << ',' << q.length_m << ','
-        << q.distances_m.size() << ',' << quantile_m(0.5) << ',' << quantile_m(0.99) << '\n';
+    csv << lines[i].name << ',' << q.num_tracks << ',' << q.num_turnouts << ',' << q.num_switches
+        << ',' << q.num_made << ',' << quantile_m(q.shifts_m, 0.5) << ','
+        << quantile_m(q.shifts_m, 0.95) << ',' << q.length_m << ',' << q.distances_m.size() << ','
+        << quantile_m(q.distances_m, 0.5) << ',' << quantile_m(q.distances_m, 0.99) << '\n';
   }
   return csv.str();
 }

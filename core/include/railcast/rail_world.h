@@ -65,8 +65,8 @@ inline constexpr auto kEnumNames<TurnoutPosition> = std::to_array<EnumName<Turno
 /// A turnout at which a track branches off another one.
 struct TurnoutSpec {
   std::string track;  ///< The track in which it lies, whose way through it is the straight one.
-  /// Chainage where it begins: the end of its blades' tips (the Weichenanfang). Absent only at the
-  /// end of a crossover, where it follows.
+  /// Chainage where it begins: the end of its blades' tips (the Weichenanfang). May be absent at
+  /// the end of a crossover between parallel tracks, where it follows.
   std::optional<double> s_m{};
   TurnoutType turnout{};
   /// Side of `track` to which the branch leaves; absent = where the branch's offset lies.

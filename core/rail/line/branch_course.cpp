@@ -24,10 +24,44 @@ BranchCourse::BranchCourse(const TrackCourse& track, double s_m, bool is_mirrore
 BranchCourse::BranchCourse(const PlanPoint& start)
     : start_(start), end_(start), is_mirrored_(false), steepest_rad_(std::abs(start.heading_rad)) {}
 
-void BranchCourse::AddTurnout(const TurnoutGeometry& turnout, double side, double main_per_m) {
-  const double diverging_per_m = main_per_m + side / turnout.radius_m;
-  Add(turnout.arc_m(), diverging_per_m, diverging_per_m);
-  Add(turnout.straight_m(), main_per_m, main_per_m);
+void BranchCourse::AddTurnout(const TurnoutGeometry& turnout,
+                              double side,
+                              const std::vector<LinearPiece>& through) {
+  const double diverging_per_m = side / turnout.radius_m;
+  if (through.size() == 1) {
+    const double main_per_m = through.front().begin_value;
+    Add(turnout.arc_m(), main_per_m + diverging_per_m, main_per_m + diverging_per_m);
+    Add(turnout.straight_m(), main_per_m, main_per_m);
+    return;
+  }
+  const double arc_m = turnout.arc_m();
+  const double length_m = arc_m + turnout.straight_m();
+  for (std::size_t i = 0; i < through.size(); ++i) {
+    const LinearPiece& piece = through[i];
+    const bool is_last = i + 1 == through.size();
+    const double end_m = is_last ? length_m : std::min(through[i + 1].begin_s_m, length_m);
+    const auto value_per_m = [&](double at_m) {
+      return std::lerp(piece.begin_value, piece.end_value,
+                       (at_m - piece.begin_s_m) / (end_m - piece.begin_s_m));
+    };
+    if (!(end_m > piece.begin_s_m)) break;
+    const double bent_to_m = std::clamp(arc_m, piece.begin_s_m, end_m);
+    Add(bent_to_m - piece.begin_s_m, piece.begin_value + diverging_per_m,
+        value_per_m(bent_to_m) + diverging_per_m);
+    Add(end_m - bent_to_m, value_per_m(bent_to_m), piece.end_value);
+  }
+}
+
+void BranchCourse::AddBackwards(const BranchCourse& way_out) {
+  for (std::size_t i = way_out.curvature_.size(); i-- > 0;) {
+    const LinearPiece& piece = way_out.curvature_[i];
+    const bool is_last = i + 1 == way_out.curvature_.size();
+    const double end_m = is_last ? way_out.length_m_ : way_out.curvature_[i + 1].begin_s_m;
+    // Running back turns a course's curvature round; so does a mirrored plane, whose curvature is
+    // that of the plane in which this course lies.
+    const double side = way_out.is_mirrored_ == is_mirrored_ ? -1.0 : 1.0;
+    Add(end_m - piece.begin_s_m, side * piece.end_value, side * piece.begin_value);
+  }
 }
 
 void BranchCourse::AddTurnoutBackwards(const TurnoutGeometry& turnout,

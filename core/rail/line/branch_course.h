@@ -23,9 +23,14 @@ class BranchCourse {
 
   /// Appends the diverging axis of a turnout.
   /// @param side 1 if it leaves to the left (towards rising chainage), else -1.
-  /// @param main_per_m Curvature of the track in which the turnout lies.
-  void AddTurnout(const TurnoutGeometry& turnout, double side, double main_per_m);
-  /// As above, from the turnout's end to its beginning.
+  /// @param through Curvature of the track in which the turnout lies (CurvatureThrough).
+  void AddTurnout(const TurnoutGeometry& turnout,
+                  double side,
+                  const std::vector<LinearPiece>& through);
+  /// Appends the diverging axis of the turnout `way_out`, whose beginning is its first point, from
+  /// the turnout's end to its beginning.
+  void AddBackwards(const BranchCourse& way_out);
+  /// As above, of a turnout in a track that is straight.
   void AddTurnoutBackwards(const TurnoutGeometry& turnout, double side, double main_per_m);
   /// Appends an element; nothing if it is too short to matter.
   void Add(double length_m, double begin_per_m, double end_per_m);

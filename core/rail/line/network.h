@@ -54,8 +54,11 @@ struct DiamondSite {
 ///   it runs straight on and turns back with the turnout's radius until it is parallel at its own
 ///   offset.
 /// - With elements it continues with these from the turnout's end, or begins with them at
-///   start_s_m and offset_m.
-/// - A crossover runs straight on to the turnout at its end, whose chainage follows.
+///   start_s_m and offset_m; two arcs (BiarcBetween) lead on to the turnout at its end, if any.
+/// - A crossover runs straight on to the turnout at its end, whose chainage follows; if that is
+///   given, two arcs lead there.
+/// - Where the curvature of a track changes within a turnout, that of the branch is sampled at 64
+///   places, and linear between them.
 struct Network {
   std::vector<TrackCourse> courses;
   std::vector<TurnoutSite> turnouts;

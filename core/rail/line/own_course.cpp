@@ -10,6 +10,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/rail/line/alignment_course.h"
+#include "core/rail/line/biarc.h"
 #include "core/rail/line/branch_course.h"
 
 namespace railcast {
@@ -40,10 +41,8 @@ void CheckKeys(const OwnTrackSpec& own, WorldFaults& faults) {
          "must not be given for elements behind a turnout");
   forbid(track.heading_deg != 0.0 && (!has_elements || track.begin), "/heading_deg",
          "must be given for elements without a turnout at their beginning only");
-  forbid(has_elements && track.end, "/end",
-         "must not be given with elements: the track ends where they do");
   forbid(has_elements && track.end_s_m, "/end_s_m",
-         "must not be given with elements: the track ends where they do");
+         "must not be given with elements: the track ends where they do, or in a turnout");
   forbid(track.begin && track.start_s_m != 0.0, "/start_s_m",
          "must not be given beside a turnout at the beginning");
   forbid(track.end && track.end_s_m, "/end_s_m", "must not be given beside a turnout at the end");
@@ -51,8 +50,6 @@ void CheckKeys(const OwnTrackSpec& own, WorldFaults& faults) {
          "must have s_m, the chainage of the turnout's beginning");
   forbid(track.end && !track.end->s_m && !IsCrossover(track), "/end",
          "must have s_m, the chainage of the turnout's beginning");
-  forbid(IsCrossover(track) && track.end->s_m, "/end/s_m",
-         "must not be given for a crossover, where it follows from the beginning");
 }
 
 /// The offsets of a track between its turnouts, over all chainages. Absent after a fault.
@@ -130,10 +127,10 @@ std::optional<WayOut> LeaveTurnout(const TurnoutPlace& place,
                                    WorldFaults& faults) {
   const double s_m = *place.spec.s_m;
   const auto side = SideTowards(place, s_m, d_m, faults);
-  const auto main_per_m = CurvatureThrough_per_m(place, s_m, faults);
-  if (!side || !main_per_m) return std::nullopt;
+  const auto through = CurvatureThrough(place, s_m, faults);
+  if (!side || !through) return std::nullopt;
   WayOut way{BranchCourse(place.course, s_m, !place.opens_ahead), SiteOf(place, s_m, *side)};
-  way.branch.AddTurnout(place.geometry, SignOf(*side), *main_per_m);
+  way.branch.AddTurnout(place.geometry, SignOf(*side), *through);
   return way;
 }
 
@@ -223,6 +220,30 @@ OwnCourse CourseOfOffsets(const OwnTrackSpec& own, WorldFaults& faults) {
   return made;
 }
 
+/// Leads a branch by two arcs to the turnout in which its track ends, and through it.
+std::optional<TurnoutSite> LeadToEnd(const TurnoutPlace& place,
+                                     std::optional<double> d_m,
+                                     BranchCourse& branch,
+                                     WorldFaults& faults) {
+  const std::optional<WayOut> end = LeaveTurnout(place, d_m, faults);
+  if (!end) return std::nullopt;
+  const PlanPoint& out = end->branch.end();
+  const PlanPoint in{-out.x_m, out.y_m, -out.heading_rad, 0.0};
+  const PlanPoint& from = branch.end();
+  const std::optional<Biarc> arcs = from.x_m < in.x_m ? BiarcBetween(from, in) : std::nullopt;
+  if (!arcs) {
+    faults.Add(place.pointer + "/s_m",
+               "must put the end of the turnout ahead of where the track leads to it, at " +
+                   MetresText(from.x_m) + " m",
+               MetresText(in.x_m) + " m");
+    return std::nullopt;
+  }
+  branch.Add(arcs->first_m, arcs->first_per_m, arcs->first_per_m);
+  branch.Add(arcs->second_m, arcs->second_per_m, arcs->second_per_m);
+  branch.AddBackwards(end->branch);
+  return end->site;
+}
+
 /// Tracks with elements, from a turnout on or without one.
 OwnCourse CourseOfElements(const OwnTrackSpec& own, WorldFaults& faults) {
   ErrorList errors;
@@ -253,9 +274,33 @@ OwnCourse CourseOfElements(const OwnTrackSpec& own, WorldFaults& faults) {
   CheckSteepness(own, branch, faults);
   if (faults.errors.size() > num_faults) return {};
   OwnCourse made;
-  const double end_s_m = branch.end_s_m();
+  if (own.end) {
+    made.end = LeadToEnd(*own.end, std::nullopt, branch, faults);
+    if (!made.end) return {};
+    CheckSteepness(own, branch, faults);
+    if (faults.errors.size() > num_faults) return {};
+  }
+  const double end_s_m = made.end ? made.end->s_m : branch.end_s_m();
   made.course = TrackCourse(begin_s_m, end_s_m, {branch.Piece(begin_s_m, end_s_m)});
   if (begin) made.begin = begin->site;
+  return made;
+}
+
+/// The track between two turnouts whose places are given.
+OwnCourse CourseBetweenTurnouts(const OwnTrackSpec& own, WorldFaults& faults) {
+  const double from_s_m = *own.begin->spec.s_m;
+  const double to_s_m = *own.end->spec.s_m;
+  std::optional<WayOut> way =
+      LeaveTurnout(*own.begin, own.end->course.OffsetWithin_m(from_s_m), faults);
+  if (!way) return {};
+  OwnCourse made;
+  made.begin = way->site;
+  made.end = LeadToEnd(*own.end, own.begin->course.OffsetWithin_m(to_s_m), way->branch, faults);
+  if (!made.end) return {};
+  const std::size_t num_faults = faults.errors.size();
+  CheckSteepness(own, way->branch, faults);
+  if (faults.errors.size() > num_faults) return {};
+  made.course = TrackCourse(from_s_m, to_s_m, {way->branch.Piece(from_s_m, to_s_m)});
   return made;
 }
 
@@ -300,7 +345,7 @@ OwnCourse CourseOfCrossover(const OwnTrackSpec& own, WorldFaults& faults) {
         MetresText(std::abs(to_d_m - main_d_m)));
     return {};
   }
-  if (!CurvatureThrough_per_m(to, end_s_m, faults)) return {};
+  if (!CurvatureThrough(to, end_s_m, faults)) return {};
   if (to.course.OffsetAt(end_s_m).slope != 0.0 ||
       to.course.OffsetAt(TurnoutEnd_m(to, end_s_m)).d_m != to_d_m) {
     faults.Add(to.pointer, "must lie where track " + Quoted(to.spec.track) +
@@ -322,9 +367,12 @@ OwnCourse MakeOwnCourse(const OwnTrackSpec& own, WorldFaults& faults) {
   const std::size_t num_faults = faults.errors.size();
   CheckKeys(own, faults);
   if (faults.errors.size() > num_faults) return {};
-  OwnCourse made = IsCrossover(own.spec)       ? CourseOfCrossover(own, faults)
-                   : own.spec.elements.empty() ? CourseOfOffsets(own, faults)
-                                               : CourseOfElements(own, faults);
+  OwnCourse made;
+  if (IsCrossover(own.spec)) {
+    made = own.end->spec.s_m ? CourseBetweenTurnouts(own, faults) : CourseOfCrossover(own, faults);
+  } else {
+    made = own.spec.elements.empty() ? CourseOfOffsets(own, faults) : CourseOfElements(own, faults);
+  }
   if (!made.course) return made;
   const double begin_s_m = made.course->begin_s_m();
   const double end_s_m = made.course->end_s_m();

@@ -17,9 +17,9 @@ double TurnoutEnd_m(const TurnoutPlace& place, double s_m) {
   return main.end_s_m();
 }
 
-std::optional<double> CurvatureThrough_per_m(const TurnoutPlace& place,
-                                             double s_m,
-                                             WorldFaults& faults) {
+std::optional<std::vector<LinearPiece>> CurvatureThrough(const TurnoutPlace& place,
+                                                         double s_m,
+                                                         WorldFaults& faults) {
   constexpr int kNumSamples = 64;
   constexpr double kSameCurvature_per_m = 1e-7;
   constexpr double kSamePlace_m = 1e-3;
@@ -46,14 +46,20 @@ std::optional<double> CurvatureThrough_per_m(const TurnoutPlace& place,
     least_per_m = std::min(least_per_m, per_m);
     most_per_m = std::max(most_per_m, per_m);
   }
-  if (most_per_m - least_per_m > kSameCurvature_per_m) {
-    faults.Add(chainage,
-               "must put the turnout where track " + name +
-                   " has one curvature against the alignment all through it",
-               "from " + MetresText(least_m) + " to " + MetresText(most_m) + " m");
-    return std::nullopt;
+  if (most_per_m - least_per_m <= kSameCurvature_per_m) {
+    const double per_m = 0.5 * (least_per_m + most_per_m);
+    return std::vector<LinearPiece>{{0.0, per_m, per_m}};
   }
-  return 0.5 * (least_per_m + most_per_m);
+  std::vector<LinearPiece> pieces;
+  const auto curvature_per_m = [&](int sample) {
+    return place.course.OffsetAt(std::lerp(s_m, end_s_m, 1.0 * sample / kNumSamples))
+        .curvature_per_m();
+  };
+  for (int i = 0; i < kNumSamples; ++i) {
+    pieces.push_back(
+        {place.geometry.length_m * i / kNumSamples, curvature_per_m(i), curvature_per_m(i + 1)});
+  }
+  return pieces;
 }
 
 std::string NamesOfTracks(const WorldSpec& world) {

@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "core/rail/line/piecewise_linear.h"
 #include "core/rail/line/track_course.h"
 #include "core/rail/line/turnout_geometry.h"
 #include "core/rail/world_faults.h"
@@ -25,12 +27,12 @@ struct TurnoutPlace {
 /// The chainage of a track where a turnout that begins at `s_m` ends.
 [[nodiscard]] double TurnoutEnd_m(const TurnoutPlace& place, double s_m);
 
-/// Curvature, in the plane of chainage and offset, that the track has all through a turnout.
-/// Returns nothing and adds a fault if the track ends within the turnout or if its curvature
-/// changes.
-[[nodiscard]] std::optional<double> CurvatureThrough_per_m(const TurnoutPlace& place,
-                                                           double s_m,
-                                                           WorldFaults& faults);
+/// Curvature of the track through a turnout that begins at `s_m`, in the plane of chainage and
+/// offset, by the length from the turnout's beginning on: one piece where it is the same
+/// throughout, else many. Returns nothing and adds a fault if the track ends within the turnout.
+[[nodiscard]] std::optional<std::vector<LinearPiece>> CurvatureThrough(const TurnoutPlace& place,
+                                                                       double s_m,
+                                                                       WorldFaults& faults);
 
 /// All names of tracks, as messages list them.
 [[nodiscard]] std::string NamesOfTracks(const WorldSpec& world);

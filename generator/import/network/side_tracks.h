@@ -13,22 +13,27 @@ namespace railcast {
 struct SideTrackQuality {
   std::size_t num_tracks{};
   std::size_t num_turnouts{};
+  std::size_t num_switches{};  ///< Of the map, on tracks of the world.
+  std::size_t num_made{};      ///< Of these, those that are turnouts of the world.
   double length_m{};
-  std::vector<double> distances_m;  ///< Of the map's points from their tracks.
+  std::vector<double> distances_m;  ///< Of the map's points from their tracks, ascending.
+  /// From the map's switches to the beginnings of their turnouts, along the line, ascending.
+  std::vector<double> shifts_m;
 };
 
 /// Adds the tracks of the map that run along a line, within 60 m of it, to its world.
 ///
 /// Ways are followed straight on as those of lines are, whatever their `service`, and cut into runs
-/// with rising chainage that keep within 20 degrees of the line. The longest come first. A run
-/// becomes, whichever is possible first,
-/// - a crossover, if it leads from one parallel track to another within 150 m;
+/// with rising chainage that keep within 20 degrees of the line (FindRuns). A run becomes,
+/// whichever is possible first,
 /// - a track parallel to the line but for S-curves (LevelsOf), with turnouts where its ends meet
-/// other
-///   tracks;
-/// - straights, arcs and clothoids in the plane of chainage and offset (FitLine), without turnouts,
-///   as far as it is 3 m from all others.
-/// What cannot be done is left out of the world and says so.
+///   other tracks;
+/// - straights, arcs and clothoids in the plane of chainage and offset (FitLine), with turnouts at
+///   such ends, to which arcs lead (TurnoutChoices);
+/// - two such tracks, one from each end, or one without turnouts, as far as they are 3 m from all
+///   others.
+/// What cannot be done is left out of the world and says so, and so do switches of the map on its
+/// tracks that are no turnouts.
 [[nodiscard]] SideTrackQuality AddSideTracks(const RailMap& map,
                                              const TrackLine& track,
                                              const ImportedLine& line,

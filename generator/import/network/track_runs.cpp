@@ -72,10 +72,8 @@ class RunCutter {
   }
 
  private:
-  static constexpr double kStrip_m = 60.0;
-
   [[nodiscard]] std::optional<Eigen::Vector2d> PointOf(std::size_t node) const {
-    const auto place = places_.Of(map_.nodes[node].place_m, kStrip_m);
+    const auto place = places_.Of(map_.nodes[node].place_m, kRunStrip_m);
     constexpr double kAtEnd_m = 1.0;
     if (!place || place->s_m < kAtEnd_m || place->s_m > places_.length_m() - kAtEnd_m) {
       return std::nullopt;
@@ -111,7 +109,12 @@ class RunCutter {
     constexpr double kUsual_kmph = 40.0;
     run.speed_kmph = SpeedOf_kmph(CommonTag(map_, begin, end, "maxspeed"))
                          .value_or(service.empty() ? kUsualRunning_kmph : kUsual_kmph);
-    if (points_m.back().x() < points_m.front().x()) std::ranges::reverse(points_m);
+    const auto node = chain.nodes.begin() + static_cast<std::ptrdiff_t>(first);
+    run.nodes.assign(node, node + static_cast<std::ptrdiff_t>(points_m.size()));
+    if (points_m.back().x() < points_m.front().x()) {
+      std::ranges::reverse(points_m);
+      std::ranges::reverse(run.nodes);
+    }
     run.points_m = std::move(points_m);
     runs_.push_back(std::move(run));
   }
@@ -120,6 +123,55 @@ class RunCutter {
   const LinePlaces& places_;
   std::vector<TrackRun>& runs_;
 };
+
+/// For each run those within which it begins or ends.
+std::vector<std::vector<std::size_t>> TracksMet(const std::vector<TrackRun>& runs) {
+  std::map<std::size_t, std::vector<std::size_t>> runs_through;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    for (std::size_t k = 1; k + 1 < runs[i].nodes.size(); ++k) {
+      runs_through[runs[i].nodes[k]].push_back(i);
+    }
+  }
+  std::vector<std::vector<std::size_t>> met(runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    for (const std::size_t node : {runs[i].nodes.front(), runs[i].nodes.back()}) {
+      const auto found = runs_through.find(node);
+      if (found == runs_through.end()) continue;
+      met[i].insert(met[i].end(), found->second.begin(), found->second.end());
+    }
+  }
+  return met;
+}
+
+/// @param runs The longest first.
+std::vector<TrackRun> InOrderOfMeetings(std::vector<TrackRun> runs) {
+  const std::vector<std::vector<std::size_t>> met = TracksMet(runs);
+  std::vector<bool> is_taken(runs.size());
+  const auto waits_for = [&](std::size_t run) -> std::optional<std::size_t> {
+    const auto found =
+        std::ranges::find_if(met[run], [&](std::size_t other) { return !is_taken[other]; });
+    return found == met[run].end() ? std::nullopt : std::optional(*found);
+  };
+  std::vector<TrackRun> ordered;
+  while (ordered.size() < runs.size()) {
+    std::size_t next = 0;
+    while (next < runs.size() && (is_taken[next] || waits_for(next))) ++next;
+    if (next == runs.size()) {
+      // All wait for each other: the longest of a circle goes first.
+      std::size_t at = 0;
+      while (is_taken[at]) ++at;
+      for (std::size_t step = 0; step < runs.size(); ++step) at = *waits_for(at);
+      next = at;
+      for (std::size_t in_circle = *waits_for(at); in_circle != at;) {
+        next = std::min(next, in_circle);
+        in_circle = *waits_for(in_circle);
+      }
+    }
+    is_taken[next] = true;
+    ordered.push_back(std::move(runs[next]));
+  }
+  return ordered;
+}
 
 }  // namespace
 
@@ -133,7 +185,7 @@ std::vector<TrackRun> FindRuns(const RailMap& map,
   std::ranges::stable_sort(runs, std::ranges::greater{}, [](const TrackRun& run) {
     return run.points_m.back().x() - run.points_m.front().x();
   });
-  return runs;
+  return InOrderOfMeetings(std::move(runs));
 }
 
 PlanModel PartOf(const PlanModel& plan, double begin_m, double end_m) {

@@ -16,11 +16,16 @@ struct TrackRun {
   std::string kind;  ///< "siding", "yard", "crossover", "spur" or "running".
   /// Chainage and offset of its points, with rising chainage.
   std::vector<Eigen::Vector2d> points_m;
+  std::vector<std::size_t> nodes;  ///< Of the map, one for each point.
   double speed_kmph{};
   bool is_electrified = true;
 };
 
-/// All runs beside a line, the longest first.
+/// How far from their line runs are looked for.
+inline constexpr double kRunStrip_m = 60.0;
+
+/// All runs beside a line. The longest come first, but none before those within which it begins or
+/// ends; of runs that begin or end in each other, the longest comes first.
 [[nodiscard]] std::vector<TrackRun> FindRuns(const RailMap& map,
                                              const TrackLine& line,
                                              const LinePlaces& places);

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "generator/import/lines/track_lines.h"
-#include "generator/import/network/track_sketch.h"
 
 namespace railcast {
 namespace {
@@ -113,16 +112,6 @@ TEST_F(BesideALine, ATrackThatCannotBeJoinedIsCutAndSaysSo) {
   EXPECT_GE(std::abs(world_.tracks[1]["offset_m"].get<double>()), 3.0);
   ASSERT_FALSE(world_.left_out.empty());
   EXPECT_EQ(world_.left_out.back().reason, "it is cut where it comes nearer than 3 m to others");
-}
-
-/// EN and DIN give these by their tangents: docs/physics.md 7.1.
-TEST(TurnoutShape, HasTheCoordinatesOfTheNorm) {
-  const TurnoutShape& shape = ShapeFor(60.0);
-  EXPECT_STREQ(shape.name, "1:12-500");
-  EXPECT_NEAR(2.0 * shape.tangent_m(), 41.594, 1e-3);
-  EXPECT_NEAR(shape.OffsetAt_m(shape.length_m, 1e3), shape.tangent_m() / 12.0, 1e-2);
-  EXPECT_EQ(shape.OffsetAt_m(shape.Parallel_m(4.5), 4.5), 4.5);
-  EXPECT_NEAR(shape.OffsetAt_m(0.5 * shape.Parallel_m(4.5), 4.5), 2.25, 1e-9);
 }
 
 }  // namespace

@@ -194,15 +194,83 @@ TEST(Network, ReportsGeometryThatDoesNotFit) {
                   "turnouts to fit between them (got 3.5)"));
 }
 
-TEST(Network, ReportsATurnoutWhereItsTrackChangesItsCurvature) {
+TEST(Network, BendsATurnoutWithATrackThatChangesItsCurvature) {
   WorldSpec world = StraightWith({});
   world.tracks.push_back({.name = "wide", .offsets_m = {{300.0, 10.0}, {400.0, 12.5}}});
   world.tracks.push_back({.name = "a", .offset_m = 20.0, .begin = On("wide", 350.0)});
-  EXPECT_THAT(
-      FaultsOf(world),
-      ElementsAre("/world/tracks/2/begin/s_m: must put the turnout where track \"wide\" has "
-                  "one curvature against the alignment all through it (got from 350 to "
-                  "383.216 m)"));
+  const Network network = MakeNetwork(world, 1000.0);
+  const TrackCourse& wide = network.courses[1];
+  const TrackCourse& branch = network.courses[2];
+  EXPECT_NEAR(branch.OffsetAt(350.0).slope, wide.OffsetAt(350.0).slope, 1e-12);
+  for (const double s_m : {350.1, 360.0, 370.0, 382.0}) {
+    // The branch is up to 0.02 m longer than the track, and sampled every 0.5 m.
+    EXPECT_NEAR(branch.OffsetAt(s_m).curvature_per_m(),
+                wide.OffsetAt(s_m).curvature_per_m() + 1.0 / 300.0, 3e-6)
+        << s_m;
+  }
+}
+
+/// Where the course of a track jumps or has a kink, by samples every 0.05 m.
+void ExpectSmooth(const TrackCourse& course) {
+  for (double s_m = course.begin_s_m(); s_m + 0.05 < course.end_s_m(); s_m += 0.05) {
+    const TrackOffset here = course.OffsetAt(s_m);
+    const TrackOffset next = course.OffsetAt(s_m + 0.05);
+    // Half the sharpest bend, 1 / 100 m, over 0.05 m squared.
+    ASSERT_NEAR(next.d_m, here.d_m + 0.05 * here.slope, 1.3e-5) << s_m;
+    ASSERT_NEAR(next.slope, here.slope, 6e-4) << s_m;
+  }
+}
+
+TEST(Network, LeadsElementsToATurnoutAtTheirEnd) {
+  TurnoutSpec end = On("main", 500.0, TurnoutType::k9_190);
+  end.side = TrackSide::kLeft;
+  const Network network =
+      MakeNetwork(StraightWith({{.name = "a",
+                                 .offset_m = 10.0,
+                                 .elements = {{ElementType::kStraight, 200.0, std::nullopt}},
+                                 .start_s_m = 100.0,
+                                 .end = end}}),
+                  1000.0);
+  const TrackCourse& track = network.courses[1];
+  EXPECT_EQ(track.OffsetAt(250.0).d_m, 10.0);
+  EXPECT_EQ(track.end_s_m(), 500.0);
+  EXPECT_NEAR(track.OffsetAt(500.0).d_m, 0.0, kExact_m);
+  EXPECT_NEAR(track.OffsetAt(500.0).slope, 0.0, kExact_m);
+  EXPECT_NEAR(track.OffsetAt(490.0).curvature_per_m(), 1.0 / 190.0, 1e-9);
+  ASSERT_EQ(network.turnouts.size(), 1U);
+  EXPECT_FALSE(network.turnouts[0].opens_ahead());
+  ExpectSmooth(track);
+}
+
+TEST(Network, JoinsTracksThatAreNotParallelByTwoArcs) {
+  const Network network = MakeNetwork(
+      StraightWith({{.name = "second",
+                     .offset_m = -4.0,
+                     .elements = {{ElementType::kArc, 500.0, -9000.0}},
+                     .heading_deg = 0.3,
+                     .start_s_m = 200.0},
+                    {.name = "x", .begin = On("main", 400.0), .end = On("second", 470.0)}}),
+      1000.0);
+  const TrackCourse& second = network.courses[1];
+  const TrackCourse& crossover = network.courses[2];
+  EXPECT_NEAR(crossover.OffsetAt(400.0).d_m, 0.0, kExact_m);
+  EXPECT_NEAR(crossover.OffsetAt(470.0).d_m, second.OffsetAt(470.0).d_m, kExact_m);
+  EXPECT_NEAR(crossover.OffsetAt(470.0).slope, second.OffsetAt(470.0).slope, kExact_m);
+  EXPECT_EQ(network.turnouts[0].side, TrackSide::kRight);
+  EXPECT_EQ(network.turnouts[1].side, TrackSide::kLeft);
+  ExpectSmooth(crossover);
+}
+
+TEST(Network, ReportsAnEndTurnoutBehindItsElements) {
+  TurnoutSpec end = On("main", 300.0, TurnoutType::k9_190);
+  end.side = TrackSide::kLeft;
+  EXPECT_THAT(FaultsOf(StraightWith({{.name = "a",
+                                      .offset_m = 10.0,
+                                      .elements = {{ElementType::kStraight, 200.0, std::nullopt}},
+                                      .start_s_m = 100.0,
+                                      .end = end}})),
+              ElementsAre("/world/tracks/1/end/s_m: must put the end of the turnout ahead of where "
+                          "the track leads to it, at 300 m (got 272.964 m)"));
 }
 
 TEST(Network, ReportsTurnoutsThatOverlap) {

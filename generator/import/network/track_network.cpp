@@ -1,0 +1,150 @@
+#include "generator/import/network/track_network.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "core/rail/line/own_course.h"
+#include "core/rail/world_check.h"
+
+namespace railcast {
+namespace {
+
+/// What a world asks for, and a little for the chainages between whole metres.
+constexpr double kLeastApart_m = kLeastTrackDistance_m + 0.02;
+
+TrackDraft DraftOf(TrackSpec spec, TrackCourse course) {
+  TrackDraft draft{std::move(spec), std::move(course), {}, {}, 0};
+  draft.first_m = static_cast<int>(std::ceil(draft.course.begin_s_m()));
+  for (int at_m = draft.first_m; at_m <= draft.course.end_s_m(); ++at_m) {
+    draft.offsets_m.push_back(draft.course.OffsetAt(at_m).d_m);
+  }
+  return draft;
+}
+
+/// Whether a turnout lies in a track, or the track begins or ends in it.
+bool IsIn(const TurnoutSite& turnout, std::size_t track) {
+  return turnout.track == track || turnout.branch == track;
+}
+
+bool Overlap(const TurnoutSite& turnout, double one_s_m, double other_s_m) {
+  constexpr double kTouching_m = 0.01;
+  return std::min(std::max(turnout.s_m, turnout.end_s_m), std::max(one_s_m, other_s_m)) -
+             std::max(std::min(turnout.s_m, turnout.end_s_m), std::min(one_s_m, other_s_m)) >=
+         kTouching_m;
+}
+
+}  // namespace
+
+TrackNetwork::TrackNetwork(double length_m, PiecewiseLinear curvature)
+    : length_m_(length_m), curvature_(std::move(curvature)) {
+  tracks_.push_back(DraftOf({}, TrackCourse(0.0, length_m, 0.0)));
+}
+
+TurnoutPlace TrackNetwork::PlaceOf(const TurnoutSpec& spec, bool opens_ahead) const {
+  const auto found = std::ranges::find_if(
+      tracks_, [&](const TrackDraft& track) { return track.spec.name == spec.track; });
+  return {.pointer = "",
+          .spec = spec,
+          .track = static_cast<std::size_t>(found - tracks_.begin()),
+          .course = found->course,
+          .geometry = GeometryOf(spec.turnout),
+          .opens_ahead = opens_ahead};
+}
+
+bool TrackNetwork::IsFree(std::size_t track, double one_s_m, double other_s_m) const {
+  return std::ranges::none_of(tracks_, [&](const TrackDraft& other) {
+    return std::ranges::any_of(other.turnouts, [&](const TurnoutSite& turnout) {
+      return IsIn(turnout, track) && Overlap(turnout, one_s_m, other_s_m);
+    });
+  });
+}
+
+std::optional<TrackDraft> TrackNetwork::Make(const TrackSpec& spec) const {
+  std::optional<TurnoutPlace> begin;
+  std::optional<TurnoutPlace> end;
+  if (spec.begin) begin = PlaceOf(*spec.begin, true);
+  if (spec.end) end = PlaceOf(*spec.end, false);
+  WorldFaults faults;
+  std::optional<TrackCourse> course;
+  OwnCourse made;
+  if (IsParallel(spec)) {
+    course = TrackCourse(spec.start_s_m, spec.end_s_m.value_or(length_m_), *spec.offset_m);
+  } else {
+    made = MakeOwnCourse({"", spec, begin, end, length_m_}, faults);
+    course = made.course;
+  }
+  if (!course || !faults.errors.empty() || !(course->begin_s_m() < course->end_s_m())) {
+    return std::nullopt;
+  }
+  TrackDraft draft = DraftOf(spec, *course);
+  for (const std::optional<TurnoutSite>& site : {made.begin, made.end}) {
+    if (!site) continue;
+    if (!IsFree(site->track, site->s_m, site->end_s_m)) return std::nullopt;
+    for (const TurnoutSite& other : draft.turnouts) {
+      if (Overlap(other, site->s_m, site->end_s_m)) return std::nullopt;
+    }
+    draft.turnouts.push_back(*site);
+    draft.turnouts.back().branch = tracks_.size();
+  }
+  constexpr double kSharpest_per_m = 0.01;
+  for (int at_m = draft.first_m; at_m < draft.end_m(); ++at_m) {
+    const double per_m = course->OffsetAt(at_m).curvature_per_m() + curvature_.Value(at_m);
+    if (std::abs(per_m) > kSharpest_per_m) return std::nullopt;
+  }
+  return draft;
+}
+
+std::optional<double> TrackNetwork::FirstConflict_m(const TrackDraft& draft, bool backwards) const {
+  std::vector<JoinedSection> joined = joined_;
+  for (const TurnoutSite& turnout : draft.turnouts) {
+    joined.push_back(JoinedSectionOf(tracks_[turnout.track].course, draft.course, turnout));
+  }
+  std::optional<double> first_m;
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    const TrackDraft& track = tracks_[i];
+    // Where either begins or ends, which may be between whole metres.
+    for (const double at_m : {std::max(track.course.begin_s_m(), draft.course.begin_s_m()),
+                              std::min(track.course.end_s_m(), draft.course.end_s_m())}) {
+      if (!track.Has(at_m) || !draft.Has(at_m)) continue;
+      const double apart_m = track.course.OffsetAt(at_m).d_m - draft.course.OffsetAt(at_m).d_m;
+      if (std::abs(apart_m) >= kLeastApart_m || AreJoined(joined, tracks_.size(), i, at_m))
+        continue;
+      if (!first_m || (backwards ? at_m > *first_m : at_m < *first_m)) first_m = at_m;
+    }
+    const int from_m = std::max(track.first_m, draft.first_m);
+    const int to_m = std::min(track.end_m(), draft.end_m());
+    for (int k = 0; k < to_m - from_m; ++k) {
+      const int at_m = backwards ? to_m - 1 - k : from_m + k;
+      if (first_m && (backwards ? at_m <= *first_m : at_m >= *first_m)) break;
+      const double apart_m = draft.offsets_m[static_cast<std::size_t>(at_m - draft.first_m)] -
+                             track.offsets_m[static_cast<std::size_t>(at_m - track.first_m)];
+      if (std::abs(apart_m) >= kLeastApart_m) continue;
+      if (AreJoined(joined, tracks_.size(), i, at_m)) continue;
+      first_m = at_m;
+      break;
+    }
+  }
+  return first_m;
+}
+
+bool TrackNetwork::IsApartAt(double s_m, double d_m) const {
+  constexpr double kSlack_m = 0.13;  // For what is cut, and rounded, later.
+  return std::ranges::none_of(tracks_, [&](const TrackDraft& track) {
+    if (!track.Has(s_m) || track.offsets_m.empty()) return false;
+    const auto nearest_m =
+        std::clamp(static_cast<int>(std::lround(s_m)), track.first_m, track.end_m() - 1);
+    return std::abs(track.offsets_m[static_cast<std::size_t>(nearest_m - track.first_m)] - d_m) <
+           kLeastApart_m + kSlack_m;
+  });
+}
+
+void TrackNetwork::Add(TrackDraft draft) {
+  for (const TurnoutSite& turnout : draft.turnouts) {
+    joined_.push_back(JoinedSectionOf(tracks_[turnout.track].course, draft.course, turnout));
+  }
+  tracks_.push_back(std::move(draft));
+}
+
+}  // namespace railcast

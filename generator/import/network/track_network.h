@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/rail/line/network.h"
+#include "core/rail/line/piecewise_linear.h"
+#include "core/rail/line/turnout_place.h"
+#include "core/rail/network_check.h"
+#include "railcast/rail_world.h"
+
+namespace railcast {
+
+/// A track as it would be in a world.
+struct TrackDraft {
+  TrackSpec spec;
+  TrackCourse course;
+  std::vector<TurnoutSite> turnouts;  ///< At its ends; `branch` is the number of the next track.
+  std::vector<double> offsets_m;      ///< At every whole metre of chainage from first_m on.
+  int first_m{};
+
+  [[nodiscard]] bool Has(double s_m) const {
+    return s_m >= course.begin_s_m() && s_m <= course.end_s_m();
+  }
+  [[nodiscard]] int end_m() const { return first_m + static_cast<int>(offsets_m.size()); }
+};
+
+/// The tracks of a world that is being made, by the rules of Network and CheckNetwork.
+class TrackNetwork {
+ public:
+  /// Begins with "main" at offset 0.
+  /// @param curvature Of the line, by chainage.
+  TrackNetwork(double length_m, PiecewiseLinear curvature);
+
+  [[nodiscard]] double length_m() const { return length_m_; }
+  [[nodiscard]] const std::vector<TrackDraft>& tracks() const { return tracks_; }
+
+  /// The place of a turnout on one of the tracks.
+  [[nodiscard]] TurnoutPlace PlaceOf(const TurnoutSpec& spec, bool opens_ahead) const;
+  /// Whether no turnout lies between two chainages of a track, in either order.
+  [[nodiscard]] bool IsFree(std::size_t track, double one_s_m, double other_s_m) const;
+
+  /// A track by its specification; absent if it cannot be, has radii below 100 m, or its turnouts
+  /// overlap with others.
+  [[nodiscard]] std::optional<TrackDraft> Make(const TrackSpec& spec) const;
+  /// The first chainage, or with `backwards` the last one, at which a draft is too near to a track
+  /// that no turnout joins to it.
+  [[nodiscard]] std::optional<double> FirstConflict_m(const TrackDraft& draft,
+                                                      bool backwards = false) const;
+  /// Whether a place is far enough from all tracks for a track that no turnout joins to them.
+  [[nodiscard]] bool IsApartAt(double s_m, double d_m) const;
+  void Add(TrackDraft draft);
+
+ private:
+  double length_m_;
+  PiecewiseLinear curvature_;
+  std::vector<TrackDraft> tracks_;
+  std::vector<JoinedSection> joined_;
+};
+
+}  // namespace railcast
