@@ -56,6 +56,7 @@ struct DiamondSite {
 /// - With elements it continues with these from the turnout's end, or begins with them at
 ///   start_s_m and offset_m.
 /// - A crossover runs straight on to the turnout at its end, whose chainage follows.
+/// - Over a turnout, the branch lies in the canted plane of the track (InPlanesOfTurnouts).
 struct Network {
   std::vector<TrackCourse> courses;
   std::vector<TurnoutSite> turnouts;

@@ -60,11 +60,12 @@ CrossSection::CrossSection(const ChunkContext& context, double s_m)
   const Vector3 left(-std::sin(axis.heading_rad), std::cos(axis.heading_rad), 0.0);
   for (std::size_t i = 0; i < context.tracks.size(); ++i) {
     const TrackCourse& track = context.tracks[i];
-    TrackOffset offset = track.OffsetAt(std::clamp(s_m, track.begin_s_m(), track.end_s_m()));
+    const double on_s_m = std::clamp(s_m, track.begin_s_m(), track.end_s_m());
+    const TrackOffset offset = track.OffsetAt(on_s_m);
     // As Alignment::WorldFromTrack() has it, which would evaluate the axis once more.
     const Vector3 middle_m = axis_from_world * (axis.position_m + offset.d_m * left);
     tracks_.push_back({.d_m = middle_m.y(),
-                       .height_m = middle_m.z(),
+                       .height_m = middle_m.z() + track.LiftAt(context.alignment, on_s_m).h_m,
                        .cant_rad = axis.cant_rad,
                        .turn_rad = TurnFromAlignment_rad(axis, offset),
                        .begin_s_m = track.begin_s_m(),
