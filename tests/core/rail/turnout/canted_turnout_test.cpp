@@ -188,6 +188,21 @@ TEST(CantedTurnout, HasBallastBelowTheSleepersOfBothTracks) {
   }
 }
 
+TEST(CantedTurnout, LeavesTheFormationToTheLineBehindTheEndOfItsBranch) {
+  WorldSpec spec = CantedLoop(TurnoutType::k9_300, -4.5, TurnoutPosition::kStraight);
+  spec.tracks[1].end.reset();
+  spec.tracks[1].end_s_m = 135.0;
+  const TestLine line(spec);
+  EXPECT_GT(line.network().courses[1].LiftAt(line.alignment(), 135.0).h_m, 0.1);
+  const auto formation_m = [&](double s_m) {
+    const int chunk = static_cast<int>(s_m / TestLine::kChunkLength_m);
+    return CrossSection(line.Context(chunk), s_m).FormationHeight_m(-6.0);
+  };
+  EXPECT_GT(formation_m(134.9), 0.1 - CrossSection::kFormationDepth_m);
+  EXPECT_NEAR(formation_m(135.1), formation_m(134.9), 5e-3);
+  EXPECT_NEAR(formation_m(165.1), -CrossSection::kFormationDepth_m, 1e-9);
+}
+
 /// The largest change of a track's gradient, every `step_m`, against the chainage.
 double SharpestBend_per_m(const TestLine& line, std::size_t track, double step_m) {
   const TrackCourse& course = line.network().courses[track];
