@@ -109,6 +109,18 @@ std::vector<Course> CoursesOf(const Simulator& simulator) {
   return courses;
 }
 
+/// The first frame from which on no barrier of a level crossing moves.
+std::uint32_t FirstFrameOfStillBarriers(const WorldSpec& world, const ScanPattern& pattern) {
+  double last_s = 0.0;
+  for (const StructureSpec& structure : world.structures) {
+    const auto* crossing = std::get_if<LevelCrossingSpec>(&structure);
+    if (crossing == nullptr || crossing->barrier_angles_deg.empty()) continue;
+    last_s = std::max(last_s, crossing->barrier_angles_deg.back().time_s);
+  }
+  return static_cast<std::uint32_t>(
+      std::min(std::ceil(last_s * pattern.rate_hz), static_cast<double>(pattern.LastFrame())));
+}
+
 }  // namespace
 
 std::uint32_t LastFrameOfRun(const ScenarioSpec& scenario,
@@ -134,8 +146,9 @@ std::uint32_t LastFrameOfRun(const ScenarioSpec& scenario,
     }
     return true;
   };
-  return std::max(FirstWith(0, last, are_at_rest),
-                  std::min(last, static_cast<std::uint32_t>(num_frames - 1)));
+  return std::max({FirstWith(0, last, are_at_rest),
+                   std::min(last, FirstFrameOfStillBarriers(scenario.world, pattern)),
+                   std::min(last, static_cast<std::uint32_t>(num_frames - 1))});
 }
 
 std::vector<std::uint32_t> SpreadFrames(std::uint32_t last_frame, int num_frames) {

@@ -141,12 +141,15 @@ struct RailWorld::Line {
             .land = &land,
             .diamonds = diamonds};
   }
-  [[nodiscard]] Chunk Build(ChunkContext context) const {
-    Chunk built;
+  [[nodiscard]] static ClearedAreas UnballastedAbout(const ChunkContext& context) {
     // Cross-sections beyond are few.
     constexpr double kBeyond_m = 10.0;
-    const ClearedAreas unballasted(TracksOf(context), Clearing::kBallast,
-                                   context.begin_s_m - kBeyond_m, context.end_s_m + kBeyond_m);
+    return {TracksOf(context), Clearing::kBallast, context.begin_s_m - kBeyond_m,
+            context.end_s_m + kBeyond_m};
+  }
+  [[nodiscard]] Chunk Build(ChunkContext context) const {
+    Chunk built;
+    const ClearedAreas unballasted = UnballastedAbout(context);
     context.unballasted = &unballasted;
     built.ground.name = "chunk " + std::to_string(context.chunk);
     WithinMemory([&] { return "building " + built.ground.name + " of the line"; },
@@ -164,9 +167,11 @@ struct RailWorld::Line {
     std::vector<MovingBoom> booms;
     for (const StructureSpec& structure : world.structures) {
       const auto* crossing = std::get_if<LevelCrossingSpec>(&structure);
-      if (crossing == nullptr) continue;
+      if (crossing == nullptr || crossing->barrier_angles_deg.empty()) continue;
       const int chunk = grid.ChunkAt(crossing->s_m);
-      const ChunkContext context = ContextOf(chunk, grid.WorldFromChunk(chunk).inverse());
+      ChunkContext context = ContextOf(chunk, grid.WorldFromChunk(chunk).inverse());
+      const ClearedAreas unballasted = UnballastedAbout(context);
+      context.unballasted = &unballasted;
       for (MovingBoom& boom : MovingBoomsOf(context, *crossing)) booms.push_back(std::move(boom));
     }
     return booms;

@@ -127,10 +127,15 @@ void CheckNames(const WorldSpec& world, WorldFaults& faults) {
     if (crossing == nullptr || crossing->barrier_angles_deg.empty()) continue;
     for (const double side : {-1.0, 1.0}) names.insert(BoomName(crossing->name, side));
   }
-  const std::size_t max_objects = kFirstMastInstance - 1 - names.size();
-  if (world.objects.size() > max_objects) {
-    faults.errors.Add({"/world/objects", "must be at most " + NumberText(max_objects),
-                       NumberText(world.objects.size())});
+  const std::size_t num_booms = names.size() - 1;
+  constexpr std::size_t kMostWithBooms = kFirstMastInstance - 2;
+  if (world.objects.size() + num_booms > kMostWithBooms) {
+    const std::string with_booms =
+        " together with the " + NumberText(num_booms) + " booms of moving barriers";
+    faults.errors.Add(
+        {"/world/objects",
+         "must be at most " + NumberText(kMostWithBooms) + (num_booms > 0 ? with_booms : ""),
+         NumberText(world.objects.size())});
   }
   for (std::size_t i = 0; i < world.objects.size(); ++i) {
     const std::string& name = world.objects[i].name;

@@ -106,8 +106,10 @@ void Describe(Archive& a, AlignmentSplineSpec& s) {
 
 template <class Archive>
 void Describe(Archive& a, ChainageValue& s) {
-  a.Required("s_m", s.s_m, "Chainage from which the value applies.", ChainageLimits());
-  a.Required("value", s.value, "Value from this chainage on.");
+  a.Required("s_m", s.s_m, "Chainage of the value.", ChainageLimits());
+  a.Required(
+      "value", s.value,
+      "Value from this chainage on, or, in a list that is linear between its entries, at it.");
 }
 
 template <class Archive>

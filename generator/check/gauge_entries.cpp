@@ -283,6 +283,20 @@ void ProbeStructure(const Structure& structure,
   }
 }
 
+/// The structure as it stands; barriers that move, at their lowest.
+template <class Structure>
+Structure AtRest(Structure structure) {
+  if constexpr (std::is_same_v<Structure, LevelCrossingSpec>) {
+    std::vector<TimedValue>& angles_deg = structure.barrier_angles_deg;
+    if (!angles_deg.empty()) {
+      structure.barrier_angle_deg =
+          std::ranges::min_element(angles_deg, {}, &TimedValue::value)->value;
+      angles_deg.clear();
+    }
+  }
+  return structure;
+}
+
 /// Names of the tracks of an object's route on which a wagon there has its wheels.
 std::vector<std::string> TracksUnder(const RailWorld& world, std::size_t object, double s_m) {
   constexpr double kHalfWagon_m = 10.0;
@@ -307,7 +321,7 @@ std::vector<GaugeEntry> FindGaugeEntries(const WorldSpec& given_spec, const Rail
           std::vector<std::string> own_tracks;
           if (kBelongsIntoGauge<Structure>) own_tracks.push_back(given.track);
           Probes probes(tracks, world.alignment(), own_tracks);
-          ProbeStructure(given, spec, world, probes);
+          ProbeStructure(AtRest(given), spec, world, probes);
           probes.Report(given.name, of_structures[i]);
         },
         spec.structures[i]);

@@ -10,6 +10,7 @@
 #include "core/base/text.h"
 #include "core/rail/line/fouling.h"
 #include "core/rail/line/own_course.h"
+#include "core/rail/line/shared_planes.h"
 #include "core/rail/line/turnout_place.h"
 #include "core/rail/turnout/diamond_site.h"
 
@@ -105,7 +106,9 @@ class NetworkMaker {
       site.branch = index;
       draft_.turnouts.push_back(site);
     }
-    return std::move(made.course);
+    if (!made.course) return std::nullopt;
+    return InPlanesOfTurnouts(*made.course, begin ? &begin->course : nullptr,
+                              end ? &end->course : nullptr);
   }
 
   const WorldSpec& world_;

@@ -59,6 +59,7 @@ struct DiamondSite {
 ///   given, two arcs lead there.
 /// - Where the curvature of a track changes within a turnout, that of the branch is sampled at 64
 ///   places, and linear between them.
+/// - Over a turnout, the branch lies in the canted plane of the track (InPlanesOfTurnouts).
 struct Network {
   std::vector<TrackCourse> courses;
   std::vector<TurnoutSite> turnouts;

@@ -20,6 +20,35 @@ TrackOffset OnSCurve(const CoursePiece& piece, double s_m) {
           rise_m / (length_m * length_m) * 60.0 * t * (1.0 - t) * (1.0 - 2.0 * t)};
 }
 
+/// How much of a plane's height counts, from 1 to 0 with no slope and no curvature at its ends.
+TrackLift ShareOf(const SharedPlane& plane, double s_m) {
+  const double length_m = plane.none_s_m - plane.whole_s_m;
+  const double t = (s_m - plane.whole_s_m) / length_m;
+  if (t <= 0.0) return {1.0, 0.0};
+  if (t >= 1.0) return {0.0, 0.0};
+  return {1.0 - t * t * t * (10.0 + t * (-15.0 + 6.0 * t)),
+          -30.0 * t * t * (1.0 - t) * (1.0 - t) / length_m};
+}
+
+/// The height of a place at the offset `own` in the canted plane of a track. The gradient's
+/// influence on the plane's cross slope is neglected: less than its square times the height.
+TrackLift HeightInPlaneOf(const TrackCourse& track,
+                          const Alignment& alignment,
+                          double s_m,
+                          const TrackOffset& own) {
+  const AxisPoint axis = alignment.At(s_m);
+  const TrackOffset of_track = track.OffsetAt(s_m);
+  const double turn_rad = TurnFromAlignment_rad(axis, of_track);
+  const double apart_m = own.d_m - of_track.d_m;
+  // The place lies square to the track at this chainage.
+  const double foot_per_apart = std::sin(turn_rad) * std::cos(turn_rad);
+  const TrackLift at_foot = track.LiftAt(alignment, s_m + apart_m * foot_per_apart);
+  const double cross_slope = std::cos(turn_rad) * std::tan(axis.cant_rad);
+  const double parting = own.slope - of_track.slope;
+  return {at_foot.h_m + apart_m * cross_slope,
+          at_foot.slope * (1.0 + parting * foot_per_apart) + parting * cross_slope};
+}
+
 /// Newton's method for the length at which the plan course has the given x. Headings are below 45
 /// degrees, so it converges.
 PlanPoint PointAtX(const CoursePiece& piece, double x_m) {
@@ -115,14 +144,17 @@ bool TrackCourse::IsLevelIn(double from_s_m, double to_s_m) const {
   });
 }
 
-TrackOffset TrackCourse::OffsetAt(double s_m) const {
-  const std::vector<CoursePiece>& pieces = *pieces_;
-  if (is_parallel()) return OnPiece(pieces.front(), s_m);
-  const double inside_s_m = std::clamp(s_m, begin_s_m_, end_s_m_);
+const CoursePiece& TrackCourse::PieceAt(double s_m) const {
   const auto after =
-      std::upper_bound(pieces.begin() + 1, pieces.end(), inside_s_m,
+      std::upper_bound(pieces_->begin() + 1, pieces_->end(), s_m,
                        [](double s, const CoursePiece& p) { return s < p.begin_s_m; });
-  TrackOffset offset = OnPiece(*(after - 1), inside_s_m);
+  return *(after - 1);
+}
+
+TrackOffset TrackCourse::OffsetAt(double s_m) const {
+  if (is_parallel()) return OnPiece(pieces_->front(), s_m);
+  const double inside_s_m = std::clamp(s_m, begin_s_m_, end_s_m_);
+  TrackOffset offset = OnPiece(PieceAt(inside_s_m), inside_s_m);
   if (s_m != inside_s_m) {
     offset.d_m += offset.slope * (s_m - inside_s_m);
     offset.bend_per_m = 0.0;
@@ -151,13 +183,41 @@ double TrackCourse::Heading_rad(const Alignment& alignment, double s_m) const {
   return axis.heading_rad + TurnFromAlignment_rad(axis, OffsetAt(s_m));
 }
 
+TrackLift TrackCourse::LiftAt(const Alignment& alignment, double s_m) const {
+  TrackLift lift;
+  const CoursePiece& piece = PieceAt(std::clamp(s_m, begin_s_m_, end_s_m_));
+  if (piece.planes == nullptr) return lift;
+  for (const SharedPlane& plane : *piece.planes) {
+    const TrackLift share = ShareOf(plane, s_m);
+    if (share.h_m == 0.0) continue;
+    const TrackLift whole = HeightInPlaneOf(plane.track, alignment, s_m, OffsetAt(s_m));
+    lift.h_m += share.h_m * whole.h_m;
+    lift.slope += share.h_m * whole.slope + share.slope * whole.h_m;
+  }
+  return lift;
+}
+
+TrackCourse TrackCourse::InPlanes(std::vector<SharedPlane> planes) const {
+  const auto shared = std::make_shared<const std::vector<SharedPlane>>(std::move(planes));
+  std::vector<CoursePiece> pieces = *pieces_;
+  for (CoursePiece& piece : pieces) piece.planes = shared;
+  TrackCourse course = *this;
+  course.pieces_ = std::make_shared<const std::vector<CoursePiece>>(std::move(pieces));
+  return course;
+}
+
 Transform TrackCourse::WorldFromTrack(const Alignment& alignment,
                                       double s_m,
                                       double d_m,
                                       double h_m) const {
   const TrackOffset offset = OffsetAt(s_m);
-  if (offset.slope == 0.0) return alignment.WorldFromTrack(s_m, offset.d_m + d_m, h_m);
-  const AxisPoint axis = alignment.At(s_m);
+  const TrackLift lift = LiftAt(alignment, s_m);
+  if (offset.slope == 0.0 && lift.h_m == 0.0 && lift.slope == 0.0) {
+    return alignment.WorldFromTrack(s_m, offset.d_m + d_m, h_m);
+  }
+  AxisPoint axis = alignment.At(s_m);
+  axis.position_m.z() += lift.h_m;
+  axis.gradient += lift.slope;
   const double turn_rad = TurnFromAlignment_rad(axis, offset);
   const double heading_rad = axis.heading_rad + turn_rad;
   const Eigen::Matrix3d world_from_track = RotationFromYawPitchRoll(

@@ -9,6 +9,7 @@
 namespace railcast {
 
 class PlanCourse;
+struct SharedPlane;
 
 /// The lateral offset of a track from the alignment, left positive, as a function of chainage: its
 /// value and its first two derivatives.
@@ -24,6 +25,12 @@ struct TrackOffset {
 /// Angle of a track to the alignment at the point `axis` of the latter, left positive:
 /// atan(slope / (1 - curvature d)).
 [[nodiscard]] double TurnFromAlignment_rad(const AxisPoint& axis, const TrackOffset& offset);
+
+/// How much higher than the alignment a track lies at the same chainage.
+struct TrackLift {
+  double h_m{};
+  double slope{};  ///< Of h_m against the chainage.
+};
 
 /// A section of a course.
 struct CoursePiece {
@@ -43,10 +50,13 @@ struct CoursePiece {
   double plan_begin_x_m{};
   double plan_length_m{};
   bool is_mirrored{};
+  /// Planes of the tracks that turnouts join to this one; null if there are none.
+  std::shared_ptr<const std::vector<SharedPlane>> planes{};
 };
 
-/// The course of a track: its lateral offset from the alignment as a function of chainage. Heights
-/// and cant are those of the alignment at the same chainage. Immutable, thread-safe, cheap to copy.
+/// The course of a track: its lateral offset from the alignment as a function of chainage. Cant is
+/// that of the alignment at the same chainage, and so is the height but for the planes that it
+/// shares with other tracks. Immutable, thread-safe, cheap to copy.
 class TrackCourse {
  public:
   /// A track parallel to the alignment. `end_s_m` may be infinite.
@@ -78,20 +88,37 @@ class TrackCourse {
   /// Counterclockwise from east, towards rising chainage.
   [[nodiscard]] double Heading_rad(const Alignment& alignment, double s_m) const;
 
-  /// The track frame at chainage `s_m`: x along the track's own heading, y left, z up, with
-  /// gradient and cant of the alignment there. The origin is `h_m` above top of rail and `d_m` left
-  /// of the track's axis, measured horizontally.
+  /// How much higher than the alignment the track lies. The changes of cant and of the other
+  /// tracks' headings along the line are neglected in its slope.
+  [[nodiscard]] TrackLift LiftAt(const Alignment& alignment, double s_m) const;
+
+  /// The same course, which shares the planes of other tracks.
+  [[nodiscard]] TrackCourse InPlanes(std::vector<SharedPlane> planes) const;
+
+  /// The track frame at chainage `s_m`: x along the track's own heading, y left, z up, with the
+  /// track's gradient and the cant of the alignment there. The origin is `h_m` above top of rail
+  /// and `d_m` left of the track's axis, measured horizontally.
   [[nodiscard]] Transform WorldFromTrack(const Alignment& alignment,
                                          double s_m,
                                          double d_m = 0.0,
                                          double h_m = 0.0) const;
 
  private:
+  [[nodiscard]] const CoursePiece& PieceAt(double s_m) const;
+
   double begin_s_m_{};
   double end_s_m_{};
   std::shared_ptr<const std::vector<CoursePiece>> pieces_;
   double least_d_m_{};
   double most_d_m_{};
+};
+
+/// A turnout lies in the canted plane of the track in which it was built: so does its branch, which
+/// then returns to its own height, or passes to the plane of the turnout at its other end.
+struct SharedPlane {
+  TrackCourse track;
+  double whole_s_m{};  ///< Up to this chainage, from its turnout on, the course lies in the plane.
+  double none_s_m{};   ///< From this chainage on, the plane does not matter.
 };
 
 /// Follows one course up to `s_m` and another from there on.

@@ -31,6 +31,10 @@ double ClosenessToASleeper(double s_m) {
 /// From the shoulder, the slope takes about 0.8 m to reach the formation.
 constexpr double kBallastReach_m = 3.0;
 
+/// Beyond the end of a track that is not as high as the line there, the formation returns to the
+/// height of the line over this length.
+constexpr double kLiftFades_m = 30.0;
+
 bool IsBallasted(const ChunkContext& context, double s_m, double d_m) {
   if (context.unballasted != nullptr && context.unballasted->Know(s_m)) {
     return !context.unballasted->Cover(s_m, d_m);
@@ -60,11 +64,14 @@ CrossSection::CrossSection(const ChunkContext& context, double s_m)
   const Vector3 left(-std::sin(axis.heading_rad), std::cos(axis.heading_rad), 0.0);
   for (std::size_t i = 0; i < context.tracks.size(); ++i) {
     const TrackCourse& track = context.tracks[i];
-    TrackOffset offset = track.OffsetAt(std::clamp(s_m, track.begin_s_m(), track.end_s_m()));
+    const double on_s_m = std::clamp(s_m, track.begin_s_m(), track.end_s_m());
+    const TrackOffset offset = track.OffsetAt(on_s_m);
+    const TrackLift lift = track.LiftAt(context.alignment, on_s_m);
+    const double lift_share = std::max(0.0, 1.0 - std::abs(s_m - on_s_m) / kLiftFades_m);
     // As Alignment::WorldFromTrack() has it, which would evaluate the axis once more.
     const Vector3 middle_m = axis_from_world * (axis.position_m + offset.d_m * left);
     tracks_.push_back({.d_m = middle_m.y(),
-                       .height_m = middle_m.z(),
+                       .height_m = middle_m.z() + lift_share * lift.h_m,
                        .cant_rad = axis.cant_rad,
                        .turn_rad = TurnFromAlignment_rad(axis, offset),
                        .begin_s_m = track.begin_s_m(),

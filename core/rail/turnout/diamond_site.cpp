@@ -83,13 +83,16 @@ class DiamondFinder {
   [[nodiscard]] std::vector<double> CrossingPlaces(std::size_t one, std::size_t other) const {
     constexpr double kStep_m = 1.0;
     constexpr double kExact_m = 1e-7;
+    // Places are sampled off the round chainages that people write, where the tracks' distance may
+    // be exactly 0, which is no change of sign.
+    constexpr double kOffRound_m = 0.381966;
     const auto [begin_s_m, end_s_m] = Common(one, other);
     const auto apart_m = [&](double s_m) {
       return Course(one).OffsetAt(s_m).d_m - Course(other).OffsetAt(s_m).d_m;
     };
     std::vector<double> places_m;
-    for (double s_m = begin_s_m; s_m < end_s_m; s_m += kStep_m) {
-      double low_m = s_m;
+    for (double s_m = begin_s_m - kOffRound_m; s_m < end_s_m; s_m += kStep_m) {
+      double low_m = std::max(begin_s_m, s_m);
       double high_m = std::min(end_s_m, s_m + kStep_m);
       // A track that begins or ends on another one does so in a turnout.
       if (apart_m(low_m) * apart_m(high_m) >= 0.0) continue;

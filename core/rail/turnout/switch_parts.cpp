@@ -45,8 +45,13 @@ Transform StationOf(const ChunkContext& context,
                     bool on_branch,
                     const std::pair<double, double>& place) {
   const TrackCourse& course = context.tracks[on_branch ? tracks.branch : tracks.track];
-  return context.chunk_from_world *
-         course.WorldFromTrack(context.alignment, place.first, place.second);
+  const auto [s_m, d_m] = place;
+  // Without cant the same, but for rounding.
+  if (context.alignment.At(s_m).cant_rad == 0.0) {
+    return context.chunk_from_world * course.WorldFromTrack(context.alignment, s_m, d_m);
+  }
+  return context.chunk_from_world * course.WorldFromTrack(context.alignment, s_m) *
+         Eigen::Translation3d(0.0, d_m, 0.0);
 }
 
 bool HoldsChainage(const ChainageRange& range, double s_m) {

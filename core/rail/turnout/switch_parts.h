@@ -18,7 +18,8 @@ struct PairOfTracks {
   std::size_t branch{};  ///< Or the second track of a diamond.
 };
 
-/// The frame of one of the tracks at a place (s, d), in that of the chunk.
+/// The frame of one of the tracks at a place (s, d), in that of the chunk; d is measured in the
+/// canted plane of the track.
 [[nodiscard]] Transform StationOf(const ChunkContext& context,
                                   const PairOfTracks& tracks,
                                   bool on_branch,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include "generator/import/fit/plan_model.h"
@@ -11,15 +10,21 @@
 namespace railcast {
 namespace {
 
-/// 1 where a line turns left about a chainage, -1 where it turns right, 0 where it is straight. The
-/// ramp of a cant may reach into the straight, so that some way before and behind counts, too.
+/// 1 where a line turns left, -1 where it turns right. On a straight, into which the ramp of a cant
+/// may reach, that of the nearest curve; 0 if none is near.
 double TurnOf(const Alignment& alignment, double s_m) {
-  constexpr double kReach_m = 60.0;
-  constexpr double kStraight_rad = 1e-6;
-  const double turn_rad =
-      alignment.At(s_m + kReach_m).heading_rad - alignment.At(s_m - kReach_m).heading_rad;
-  if (std::abs(turn_rad) < kStraight_rad) return 0.0;
-  return turn_rad > 0.0 ? 1.0 : -1.0;
+  constexpr double kReach_m = 100.0;
+  constexpr double kStep_m = 5.0;
+  constexpr double kStraight_per_m = 1e-6;
+  for (double away_m = 0.0; away_m <= kReach_m; away_m += kStep_m) {
+    double sharpest_per_m = 0.0;
+    for (const double at_s_m : {s_m - away_m, s_m + away_m}) {
+      const double curvature_per_m = alignment.At(at_s_m).curvature_per_m;
+      if (std::abs(curvature_per_m) > std::abs(sharpest_per_m)) sharpest_per_m = curvature_per_m;
+    }
+    if (std::abs(sharpest_per_m) > kStraight_per_m) return std::copysign(1.0, sharpest_per_m);
+  }
+  return 0.0;
 }
 
 /// Whether the middle one of three entries is where a line through the others is.
@@ -37,13 +42,14 @@ void SetCants(const RailMap& map, const TrackLine& track, ImportedLine& line) {
   const Alignment alignment(line.alignment);
   const double last_s_m = alignment.length_m() - kNearest_m;
   std::vector<ChainageValue> cants_mm;
+  const auto is_surveyed = [&](std::size_t node) { return map.nodes[node].cant_mm.has_value(); };
+  if (std::ranges::none_of(track.nodes, is_surveyed)) return;
   for (std::size_t i = 0; i < track.nodes.size(); ++i) {
-    const std::optional<double>& cant_mm = map.nodes[track.nodes[i]].cant_mm;
-    if (!cant_mm) continue;
+    const double cant_mm = map.nodes[track.nodes[i]].cant_mm.value_or(0.0);
     const double s_m = line.chainages_m[i];
     // An alignment's first entry is at 0.
     const ChainageValue entry{cants_mm.empty() ? 0.0 : RoundedTo(s_m, kSteps_per_m),
-                              TurnOf(alignment, s_m) * *cant_mm};
+                              cant_mm == 0.0 ? 0.0 : TurnOf(alignment, s_m) * cant_mm};
     if (!cants_mm.empty() && !(entry.s_m > cants_mm.back().s_m)) continue;
     if (entry.s_m > last_s_m) continue;
     const std::size_t num = cants_mm.size();

@@ -318,9 +318,12 @@ RailMap RailMlReader::Map() const {
     if (is_new) {
       map.nodes.push_back({.geographic_deg = point.geographic_deg,
                            .height_m = point.height_m,
-                           .cant_mm = CantOn(net, point.intrinsic),
+                           .cant_mm = std::nullopt,
                            .tags = {}});
     }
+    // Where two net elements meet, one that says nothing of its cant leaves it to the other.
+    std::optional<double>& cant_mm = map.nodes[entry->second].cant_mm;
+    if (!cant_mm) cant_mm = CantOn(net, point.intrinsic);
     AppendNode(entry->second, way);
   };
   for (const NetElement& net : nets_) {

@@ -30,6 +30,16 @@ TEST(LastFrameOfRun, ComesWhenNothingMovesAnyMore) {
   EXPECT_NEAR(LastFrame({.objects = wagon, .speed_mps = "0"}), 80.0, 2.0);
 }
 
+TEST(LastFrameOfRun, ComesWhenBarriersHaveMoved) {
+  ScenarioSpec scenario = ReadLine({.speed_mps = "0"});
+  LevelCrossingSpec crossing;
+  crossing.name = "crossing";
+  crossing.s_m = 430.0;
+  crossing.barrier_angles_deg = {{2.0, 85.0}, {8.0, 0.0}, {14.0, 85.0}};
+  scenario.world.structures = {crossing};
+  EXPECT_EQ(LastFrameOfRun(scenario, *MakeSimulator(scenario, 1), 1), 140U);
+}
+
 // Frames of a scene at rest differ in their draws, but where the track ends none may follow.
 TEST(LastFrameOfRun, LeavesAsManyFramesAtRestAsAreWanted) {
   const auto last = [](const Line& line, int num_frames) {

@@ -54,6 +54,26 @@ TEST(GaugeEntries, AreNoneOfAPlatformAtItsUsualDistance) {
   EXPECT_TRUE(EntriesOf(world).empty());
 }
 
+TEST(GaugeEntries, TakeMovingBarriersAtTheirLowest) {
+  LevelCrossingSpec crossing;
+  crossing.name = "crossing";
+  crossing.s_m = 148.0;
+  crossing.road_length_m = 25.0;
+  WorldSpec world = CurveOfTwoTracks();
+  // A track that ends before the road, in whose gauge its closed boom lies.
+  world.tracks[1].offset_m = 4.7;
+  world.tracks[1].end_s_m = 150.0;
+  world.structures = {crossing};
+  const std::vector<GaugeEntry> closed = EntriesOf(world);
+  ASSERT_FALSE(closed.empty());
+  crossing.barrier_angles_deg = {{0.0, 85.0}, {10.0, 0.0}, {20.0, 85.0}};
+  world.structures = {crossing};
+  const std::vector<GaugeEntry> moving = EntriesOf(world);
+  ASSERT_EQ(moving.size(), closed.size());
+  EXPECT_EQ(moving[0].begin_s_m, closed[0].begin_s_m);
+  EXPECT_EQ(moving[0].depth_m, closed[0].depth_m);
+}
+
 TEST(GaugeEntries, NameAPlatformTooNearWithItsStretchAndDepth) {
   WorldSpec world = CurveOfTwoTracks();
   world.structures = {PlatformAt(1.5)};

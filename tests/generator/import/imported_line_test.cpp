@@ -87,6 +87,53 @@ TEST(ImportedLine, TakesSurveyedCantsWithTheOuterRailHigher) {
   EXPECT_THAT(AlignmentFileText(line, {}), HasSubstr(R"("cants_mm": [)"));
 }
 
+TEST(ImportedLine, HasNoCantWhereASurveyedLineSaysNothing) {
+  RailMap map = CantedCorner();
+  for (std::size_t i = 0; i < 25; ++i) map.nodes[i].cant_mm.reset();
+  const TrackLine track = FindLines(map, 0.0).front();
+  ImportedLine line = ImportLine(map, track, {});
+  // The first point with a cant, which is 0 there, and one in the straight with none.
+  map.nodes[25].cant_mm = 60.0;
+  SetCants(map, track, line);
+  const double from_west_m = Alignment(line.alignment).At(0.0).position_m.x() < 600.0
+                                 ? 0.0
+                                 : Alignment(line.alignment).length_m();
+  const auto cant_rad = [&](double west_m) {
+    return Alignment(line.alignment).At(std::abs(from_west_m - west_m)).cant_rad;
+  };
+  EXPECT_EQ(cant_rad(200.0), 0.0);
+  EXPECT_EQ(cant_rad(470.0), 0.0);
+  EXPECT_NE(cant_rad(500.0), 0.0);
+}
+
+TEST(ImportedLine, LeansByItsOwnCurveBesideASharperOne) {
+  // A left arc of 2,000 m radius and a right one of 300 m, point by point.
+  RailMap map;
+  Eigen::Vector2d place_m(0.0, 0.0);
+  double heading_rad = 0.0;
+  MapWay way{1, {}, {}};
+  for (int i = 0; i <= 80; ++i) {
+    const double s_m = 10.0 * i;
+    way.nodes.push_back(map.nodes.size());
+    map.nodes.push_back({.place_m = place_m,
+                         .cant_mm = s_m < 700.0 ? std::min(40.0, 700.0 - s_m)
+                                                : std::min(130.0, 2.0 * (s_m - 700.0)),
+                         .tags = {}});
+    heading_rad += 10.0 * (s_m < 700.0 ? 1.0 / 2000.0 : -1.0 / 300.0);
+    place_m += 10.0 * Eigen::Vector2d(std::cos(heading_rad), std::sin(heading_rad));
+  }
+  map.ways = {way};
+  const TrackLine track = FindLines(map, 0.0).front();
+  ImportedLine line = ImportLine(map, track, {});
+  SetCants(map, track, line);
+  const Alignment alignment(line.alignment);
+  for (const ChainageValue& entry : line.alignment.cants_mm) {
+    const double curvature_per_m = alignment.At(entry.s_m).curvature_per_m;
+    EXPECT_GE(entry.value * curvature_per_m, 0.0) << entry.s_m;
+    EXPECT_FALSE(std::signbit(entry.value) && entry.value == 0.0);
+  }
+}
+
 TEST(ImportedLine, HasCantsByTheRuleWithoutASurvey) {
   const RailMap map = Corner();
   const TrackLine track = FindLines(map, 0.0).front();

@@ -109,6 +109,12 @@ TEST_F(RailMl, GivesSurveyedCants) {
   EXPECT_THAT(cants_mm,
               ::testing::Pointwise(::testing::DoubleNear(1e-9), {0.0, 0.0, 67.5, 90.0, 90.0, 0.0}));
   EXPECT_EQ(Read(Track()).nodes[0].cant_mm, std::nullopt);
+  // The element before it, which ends at its first point, says nothing.
+  const RailMap two =
+      Read(Net("ne0", Point("0", R"(x="15.59" y="48.20")") + Point("1", R"(x="15.60" y="48.20")")) +
+           Track() + Cant("90", "0", ""));
+  EXPECT_EQ(two.nodes[0].cant_mm, std::nullopt);
+  EXPECT_EQ(two.nodes[1].cant_mm, 90.0);
 }
 
 TEST_F(RailMl, TakesOtherCoordinateSystems) {

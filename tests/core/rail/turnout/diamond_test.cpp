@@ -96,6 +96,16 @@ TEST(Diamond, HasItsFrogsWhereTheGaugeLinesCross) {
   }
 }
 
+TEST(Diamond, IsFoundWhereTracksCrossAtARoundChainage) {
+  WorldSpec line = StraightLine(300.0);
+  line.tracks.push_back(
+      {.name = "across", .offsets_m = {{0.0, -4.0}, {100.0, -4.0}, {200.0, 4.0}}});
+  line.diamond_crossings.push_back({{"main", "across"}, 150.0});
+  const TestLine made(line);
+  ASSERT_THAT(made.network().diamonds, testing::SizeIs(1));
+  EXPECT_NEAR(made.network().diamonds[0].s_m, 150.0, 1e-6);
+}
+
 TEST(Diamond, HasItsFrogsWhereTheGaugeLinesCrossInAnArcToo) {
   const TestLine line(LineWithDiamondInAnArc());
   const double middle_s_m = kCrossing_m - kArc_m * std::sin(kArcAngle_rad);
