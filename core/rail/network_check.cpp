@@ -83,12 +83,6 @@ std::vector<JoinedSection> JoinedSections(const NetworkDraft& network) {
   return sections;
 }
 
-/// A place where two tracks are too close.
-struct ClosePlace {
-  double s_m{};
-  double distance_m{};
-};
-
 /// Chainages at which the distance of two tracks can be least: every metre where one of them
 /// changes its offset, and once where both do not.
 std::vector<double> DistanceSamples(const TrackCourse& one, const TrackCourse& other) {
@@ -122,18 +116,8 @@ void CheckApart(const WorldSpec& world,
                 const std::vector<JoinedSection>& joined,
                 std::pair<std::size_t, std::size_t> pair,
                 WorldFaults& faults) {
-  // Tracks that are just as far apart as they must.
-  constexpr double kRounding_m = 1e-6;
-  const TrackCourse& one = *network.courses[pair.first];
-  const TrackCourse& other = *network.courses[pair.second];
-  std::optional<ClosePlace> closest;
-  for (const double s_m : DistanceSamples(one, other)) {
-    const double distance_m = std::abs(one.OffsetAt(s_m).d_m - other.OffsetAt(s_m).d_m);
-    if (distance_m >= kLeastTrackDistance_m - kRounding_m) continue;
-    if (closest && closest->distance_m <= distance_m) continue;
-    if (AreJoined(joined, pair.first, pair.second, s_m)) continue;
-    closest = ClosePlace{s_m, distance_m};
-  }
+  const auto closest = FindClosePlace(joined, {{pair.first, *network.courses[pair.first]},
+                                               {pair.second, *network.courses[pair.second]}});
   if (!closest) return;
   faults.Add(TrackPointer(pair.second),
              "must be at least " + NumberText(kLeastTrackDistance_m) + " m from track " +
@@ -171,6 +155,22 @@ bool AreJoined(std::span<const JoinedSection> sections,
     }
   }
   return false;
+}
+
+std::optional<ClosePlace> FindClosePlace(std::span<const JoinedSection> joined,
+                                         const TrackPair& pair) {
+  // Tracks that are just as far apart as they must.
+  constexpr double kRounding_m = 1e-6;
+  std::optional<ClosePlace> closest;
+  for (const double s_m : DistanceSamples(pair.one.course, pair.other.course)) {
+    const double distance_m =
+        std::abs(pair.one.course.OffsetAt(s_m).d_m - pair.other.course.OffsetAt(s_m).d_m);
+    if (distance_m >= kLeastTrackDistance_m - kRounding_m) continue;
+    if (closest && closest->distance_m <= distance_m) continue;
+    if (AreJoined(joined, pair.one.index, pair.other.index, s_m)) continue;
+    closest = ClosePlace{s_m, distance_m};
+  }
+  return closest;
 }
 
 void CheckNetwork(const WorldSpec& world,
