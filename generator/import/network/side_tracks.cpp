@@ -50,6 +50,26 @@ std::optional<TrackRun> PartOfRun(const TrackRun& run, double from_s_m, double t
   return part;
 }
 
+/// A cut is this far from where a track comes too near to others, and sought in these steps.
+constexpr double kCutMargin_m = 1.0;
+constexpr double kCutStep_m = 0.5;
+
+/// The length of a fit, not above another one, at which it is cut before a chainage.
+double EndBefore_m(const RunFit& fit, double most_m, double conflict_s_m) {
+  double at_m = most_m;
+  while (at_m > 0.0 && fit.course.At(at_m).x_m > conflict_s_m - kCutMargin_m) at_m -= kCutStep_m;
+  return fit.OutOfClothoid_m(at_m, true);
+}
+
+/// The length of a fit from which on it lies behind a chainage.
+double BeginBehind_m(const RunFit& fit, double conflict_s_m) {
+  double at_m = 0.0;
+  while (at_m < fit.plan.length_m() && fit.course.At(at_m).x_m < conflict_s_m + kCutMargin_m) {
+    at_m += kCutStep_m;
+  }
+  return fit.OutOfClothoid_m(at_m, false);
+}
+
 class SideTrackSearch {
  public:
   SideTrackSearch(TrackNetwork network, double sigma_m, LineWorld& world)
@@ -86,6 +106,15 @@ class SideTrackSearch {
   /// Makes a track of the whole run with turnouts wherever it meets others.
   bool TakeWhole(const OpenRun& open, const RunFit& fit);
   void TakeParts(OpenRun open, const RunFit& fit, std::optional<TrackDraft> level);
+  /// A track with one turnout that is apart from others, or, if there is none, the chainage
+  /// farthest from its turnout at which one comes too near to them.
+  struct OneEnded {
+    std::optional<TrackDraft> draft;
+    std::optional<double> conflict_m;
+  };
+  /// The first of some tracks that is possible.
+  [[nodiscard]] OneEnded BestWithOneEnd(const TrackRun& run,
+                                        const std::vector<TrackSpec>& specs) const;
   /// Makes a track from a turnout at one end of the run as far as it is apart from others.
   /// @return Where it ends.
   std::optional<double> TakeFromOneEnd(const OpenRun& open, const RunFit& fit, bool is_begin);
@@ -136,51 +165,48 @@ bool SideTrackSearch::TakeWhole(const OpenRun& open, const RunFit& fit) {
   return false;
 }
 
+SideTrackSearch::OneEnded SideTrackSearch::BestWithOneEnd(
+    const TrackRun& run, const std::vector<TrackSpec>& specs) const {
+  constexpr double kShortest_m = 20.0;
+  OneEnded best;
+  for (const TrackSpec& spec : specs) {
+    best.draft = network_.Make(spec);
+    if (!best.draft || !Follows(*best.draft, run)) continue;
+    const TurnoutSite& turnout = best.draft->turnouts.front();
+    const auto near_m = network_.FirstConflict_m(*best.draft, !turnout.opens_ahead());
+    if (!near_m) return best;
+    if (std::abs(*near_m - turnout.s_m) < std::abs(turnout.end_s_m - turnout.s_m) + kShortest_m) {
+      continue;
+    }
+    if (!best.conflict_m ||
+        std::abs(*near_m - turnout.s_m) > std::abs(*best.conflict_m - turnout.s_m)) {
+      best.conflict_m = near_m;
+    }
+  }
+  best.draft.reset();
+  return best;
+}
+
 std::optional<double> SideTrackSearch::TakeFromOneEnd(const OpenRun& open,
                                                       const RunFit& fit,
                                                       bool is_begin) {
-  constexpr double kShortest_m = 20.0;
-  constexpr double kMargin_m = 1.0;
   const std::vector<TurnoutChoice> choices =
       TurnoutChoices(network_, open.run, fit, is_begin ? *open.begin : *open.end);
   double free_end_m = is_begin ? fit.plan.length_m() : 0.0;
   // Cut, where it comes near to others, once for the best choice, and once more for rounding.
   for (int attempt = 0; attempt < 3; ++attempt) {
-    std::optional<double> conflict_m;
-    for (const TrackSpec& spec : TracksBetween(fit, is_begin ? &choices : nullptr,
-                                               is_begin ? nullptr : &choices, free_end_m)) {
-      std::optional<TrackDraft> draft = network_.Make(spec);
-      if (!draft || !Follows(*draft, open.run)) continue;
-      const auto near_m = network_.FirstConflict_m(*draft, !is_begin);
-      if (!near_m) {
-        const TrackCourse& course = draft->course;
-        const double end_s_m = is_begin ? course.end_s_m() : course.begin_s_m();
-        Accept(open.run, std::move(*draft));
-        return end_s_m;
-      }
-      const TurnoutSite& turnout = draft->turnouts.front();
-      if (std::abs(*near_m - turnout.s_m) < std::abs(turnout.end_s_m - turnout.s_m) + kShortest_m) {
-        continue;
-      }
-      if (!conflict_m || std::abs(*near_m - turnout.s_m) > std::abs(*conflict_m - turnout.s_m)) {
-        conflict_m = near_m;
-      }
+    OneEnded best =
+        BestWithOneEnd(open.run, TracksBetween(fit, is_begin ? &choices : nullptr,
+                                               is_begin ? nullptr : &choices, free_end_m));
+    if (best.draft) {
+      const TrackCourse& course = best.draft->course;
+      const double end_s_m = is_begin ? course.end_s_m() : course.begin_s_m();
+      Accept(open.run, std::move(*best.draft));
+      return end_s_m;
     }
-    if (!conflict_m) return std::nullopt;
-    const double side = is_begin ? 1.0 : -1.0;
-    double at_m = free_end_m;
-    while (at_m > 0.0 && at_m <= fit.plan.length_m() + kMargin_m &&
-           side * (fit.course.At(std::clamp(at_m, 0.0, fit.plan.length_m())).x_m - *conflict_m) >
-               -kMargin_m) {
-      at_m -= side * 0.5;
-    }
-    if (!is_begin) {
-      at_m = 0.0;
-      while (at_m < fit.plan.length_m() && fit.course.At(at_m).x_m < *conflict_m + kMargin_m) {
-        at_m += 0.5;
-      }
-    }
-    free_end_m = fit.OutOfClothoid_m(at_m, is_begin);
+    if (!best.conflict_m) return std::nullopt;
+    free_end_m = is_begin ? EndBefore_m(fit, free_end_m, *best.conflict_m)
+                          : BeginBehind_m(fit, *best.conflict_m);
   }
   return std::nullopt;
 }

@@ -24,7 +24,7 @@ TrackDraft DraftOf(TrackSpec spec, TrackCourse course) {
 }
 
 /// Whether a turnout lies in a track, or the track begins or ends in it.
-bool IsIn(const TurnoutSite& turnout, std::size_t track) {
+bool LiesIn(const TurnoutSite& turnout, std::size_t track) {
   return turnout.track == track || turnout.branch == track;
 }
 
@@ -56,7 +56,7 @@ TurnoutPlace TrackNetwork::PlaceOf(const TurnoutSpec& spec, bool opens_ahead) co
 bool TrackNetwork::IsFree(std::size_t track, double one_s_m, double other_s_m) const {
   return std::ranges::none_of(tracks_, [&](const TrackDraft& other) {
     return std::ranges::any_of(other.turnouts, [&](const TurnoutSite& turnout) {
-      return IsIn(turnout, track) && Overlap(turnout, one_s_m, other_s_m);
+      return LiesIn(turnout, track) && Overlap(turnout, one_s_m, other_s_m);
     });
   });
 }
