@@ -88,12 +88,6 @@ std::vector<JoinedSection> JoinedSections(const NetworkDraft& network) {
   return sections;
 }
 
-/// A place where two tracks are too close.
-struct ClosePlace {
-  double s_m{};
-  double distance_m{};
-};
-
 /// Chainages at which the distance of two tracks can be least: every metre where one of them
 /// changes its offset, and once where both do not.
 std::vector<double> DistanceSamples(const TrackCourse& one, const TrackCourse& other) {
@@ -141,28 +135,10 @@ void CheckApart(const WorldSpec& world,
                 const std::vector<JoinedSection>& joined,
                 std::pair<std::size_t, std::size_t> pair,
                 WorldFaults& faults) {
-  // Tracks that are just as far apart as they must.
-  constexpr double kRounding_m = 1e-6;
-  const TrackCourse& one = *network.courses[pair.first];
-  const TrackCourse& other = *network.courses[pair.second];
-  // Their outermost offsets are sampled, so that some more is asked for.
-  constexpr double kSurely_m = kLeastTrackDistance_m + 0.5;
-  if (one.least_d_m() - other.most_d_m() > kSurely_m) return;
-  if (other.least_d_m() - one.most_d_m() > kSurely_m) return;
-  std::optional<ClosePlace> closest;
-  bool is_on_left = false;
-  bool is_on_right = false;
-  for (const double s_m : DistanceSamples(one, other)) {
-    const double left_m = one.OffsetAt(s_m).d_m - other.OffsetAt(s_m).d_m;
-    const double distance_m = std::abs(left_m);
-    if (distance_m >= kLeastTrackDistance_m - kRounding_m) continue;
-    if (AreJoined(joined, pair.first, pair.second, s_m)) continue;
-    (left_m > 0.0 ? is_on_left : is_on_right) = true;
-    if (closest && closest->distance_m <= distance_m) continue;
-    closest = ClosePlace{s_m, distance_m};
-  }
+  const auto closest = FindClosePlace(joined, {{pair.first, *network.courses[pair.first]},
+                                               {pair.second, *network.courses[pair.second]}});
   if (!closest) return;
-  if (is_on_left && is_on_right) {
+  if (closest->tracks_cross) {
     if (AreNamedToCross(world, pair, faults)) return;
     faults.Add(TrackPointer(pair.second),
                "must not cross track " + Quoted(world.tracks[pair.first].name) +
@@ -238,6 +214,32 @@ bool AreJoined(std::span<const JoinedSection> sections,
     }
   }
   return false;
+}
+
+std::optional<ClosePlace> FindClosePlace(std::span<const JoinedSection> joined,
+                                         const TrackPair& pair) {
+  // Tracks that are just as far apart as they must.
+  constexpr double kRounding_m = 1e-6;
+  const TrackCourse& one = pair.one.course;
+  const TrackCourse& other = pair.other.course;
+  // Their outermost offsets are sampled, so that some more is asked for.
+  constexpr double kSurely_m = kLeastTrackDistance_m + 0.5;
+  if (one.least_d_m() - other.most_d_m() > kSurely_m) return std::nullopt;
+  if (other.least_d_m() - one.most_d_m() > kSurely_m) return std::nullopt;
+  std::optional<ClosePlace> closest;
+  bool is_on_left = false;
+  bool is_on_right = false;
+  for (const double s_m : DistanceSamples(one, other)) {
+    const double left_m = one.OffsetAt(s_m).d_m - other.OffsetAt(s_m).d_m;
+    const double distance_m = std::abs(left_m);
+    if (distance_m >= kLeastTrackDistance_m - kRounding_m) continue;
+    if (AreJoined(joined, pair.one.index, pair.other.index, s_m)) continue;
+    (left_m > 0.0 ? is_on_left : is_on_right) = true;
+    if (closest && closest->distance_m <= distance_m) continue;
+    closest = ClosePlace{s_m, distance_m};
+  }
+  if (closest) closest->tracks_cross = is_on_left && is_on_right;
+  return closest;
 }
 
 void CheckNetwork(const WorldSpec& world,

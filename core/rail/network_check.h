@@ -30,6 +30,28 @@ struct JoinedSection {
                              std::size_t other,
                              double s_m);
 
+/// A place where two tracks are too close.
+struct ClosePlace {
+  double s_m{};
+  double distance_m{};
+  bool tracks_cross = false;  ///< Whether they are too close with either of them on the left.
+};
+
+/// Two tracks of a network by their numbers.
+struct TrackPair {
+  struct Track {
+    std::size_t index{};
+    const TrackCourse& course;
+  };
+  Track one;
+  Track other;
+};
+
+/// Where two tracks that no turnout joins are closest to each other, by samples at most 1 m apart.
+/// Absent if they are kLeastTrackDistance_m apart everywhere.
+[[nodiscard]] std::optional<ClosePlace> FindClosePlace(std::span<const JoinedSection> joined,
+                                                       const TrackPair& pair);
+
 /// Checks the courses of the tracks that are not parallel to the alignment: offsets within the
 /// ground's half width, radii of at least kSmallestRadius_m, and at least kLeastTrackDistance_m
 /// from every other track. Tracks that a turnout joins may be closer from its beginning to where

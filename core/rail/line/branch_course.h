@@ -30,7 +30,10 @@ class BranchCourse {
   /// Appends the diverging axis of the turnout `way_out`, whose beginning is its first point, from
   /// the turnout's end to its beginning.
   void AddBackwards(const BranchCourse& way_out);
-  /// As above, of a turnout in a track that is straight.
+  /// Appends the diverging axis of a turnout in a track of one curvature, from its end to its
+  /// beginning.
+  /// @param side 1 if the axis bends to the left (towards rising chainage) there, else -1.
+  /// @param main_per_m Curvature of the track in which the turnout lies.
   void AddTurnoutBackwards(const TurnoutGeometry& turnout, double side, double main_per_m);
   /// Appends an element; nothing if it is too short to matter.
   void Add(double length_m, double begin_per_m, double end_per_m);

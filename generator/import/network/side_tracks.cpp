@@ -1,4 +1,5 @@
 #include "generator/import/network/side_tracks.h"
+#include "generator/import/lines/line_gauge.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,10 +51,33 @@ std::optional<TrackRun> PartOfRun(const TrackRun& run, double from_s_m, double t
   return part;
 }
 
+/// A cut is this far from where a track comes too near to others, and sought in these steps.
+constexpr double kCutMargin_m = 1.0;
+constexpr double kCutStep_m = 0.5;
+
+/// The length of a fit, not above another one, at which it is cut before a chainage.
+double EndBefore_m(const RunFit& fit, double most_m, double conflict_s_m) {
+  double at_m = most_m;
+  while (at_m > 0.0 && fit.course.At(at_m).x_m > conflict_s_m - kCutMargin_m) at_m -= kCutStep_m;
+  return fit.OutOfClothoid_m(at_m, true);
+}
+
+/// The length of a fit from which on it lies behind a chainage.
+double BeginBehind_m(const RunFit& fit, double conflict_s_m) {
+  double at_m = 0.0;
+  while (at_m < fit.plan.length_m() && fit.course.At(at_m).x_m < conflict_s_m + kCutMargin_m) {
+    at_m += kCutStep_m;
+  }
+  return fit.OutOfClothoid_m(at_m, false);
+}
+
 class SideTrackSearch {
  public:
-  SideTrackSearch(TrackNetwork network, double sigma_m, LineWorld& world)
-      : network_(std::move(network)), sigma_m_(sigma_m), world_(world) {}
+  SideTrackSearch(TrackNetwork network, const ImportedLine& line, double sigma_m, LineWorld& world)
+      : network_(std::move(network)),
+        has_turnouts_(line.alignment.gauge_mm == kStandardGauge_mm),
+        sigma_m_(sigma_m),
+        world_(world) {}
 
   void Take(const TrackRun& run) {
     OpenRun open{run, MeetingAt(run.points_m.front(), true), MeetingAt(run.points_m.back(), false)};
@@ -86,6 +110,15 @@ class SideTrackSearch {
   /// Makes a track of the whole run with turnouts wherever it meets others.
   bool TakeWhole(const OpenRun& open, const RunFit& fit);
   void TakeParts(OpenRun open, const RunFit& fit, std::optional<TrackDraft> level);
+  /// A track with one turnout that is apart from others, or, if there is none, the chainage
+  /// farthest from its turnout at which one comes too near to them.
+  struct OneEnded {
+    std::optional<TrackDraft> draft;
+    std::optional<double> conflict_m;
+  };
+  /// The first of some tracks that is possible.
+  [[nodiscard]] OneEnded BestWithOneEnd(const TrackRun& run,
+                                        const std::vector<TrackSpec>& specs) const;
   /// Makes a track from a turnout at one end of the run as far as it is apart from others.
   /// @return Where it ends.
   std::optional<double> TakeFromOneEnd(const OpenRun& open, const RunFit& fit, bool is_begin);
@@ -96,6 +129,7 @@ class SideTrackSearch {
   }
 
   TrackNetwork network_;
+  bool has_turnouts_;  ///< There are none of other gauges.
   double sigma_m_;
   LineWorld& world_;
   std::map<std::string, int> num_of_kind_;
@@ -105,6 +139,7 @@ class SideTrackSearch {
 
 std::optional<Meeting> SideTrackSearch::MeetingAt(const Eigen::Vector2d& point_m,
                                                   bool opens_ahead) const {
+  if (!has_turnouts_) return std::nullopt;
   constexpr double kFarthest_m = 1.5;
   std::optional<Meeting> nearest;
   double least_m = kFarthest_m;
@@ -136,51 +171,48 @@ bool SideTrackSearch::TakeWhole(const OpenRun& open, const RunFit& fit) {
   return false;
 }
 
+SideTrackSearch::OneEnded SideTrackSearch::BestWithOneEnd(
+    const TrackRun& run, const std::vector<TrackSpec>& specs) const {
+  constexpr double kShortest_m = 20.0;
+  OneEnded best;
+  for (const TrackSpec& spec : specs) {
+    best.draft = network_.Make(spec);
+    if (!best.draft || !Follows(*best.draft, run)) continue;
+    const TurnoutSite& turnout = best.draft->turnouts.front();
+    const auto near_m = network_.FirstConflict_m(*best.draft, !turnout.opens_ahead());
+    if (!near_m) return best;
+    if (std::abs(*near_m - turnout.s_m) < std::abs(turnout.end_s_m - turnout.s_m) + kShortest_m) {
+      continue;
+    }
+    if (!best.conflict_m ||
+        std::abs(*near_m - turnout.s_m) > std::abs(*best.conflict_m - turnout.s_m)) {
+      best.conflict_m = near_m;
+    }
+  }
+  best.draft.reset();
+  return best;
+}
+
 std::optional<double> SideTrackSearch::TakeFromOneEnd(const OpenRun& open,
                                                       const RunFit& fit,
                                                       bool is_begin) {
-  constexpr double kShortest_m = 20.0;
-  constexpr double kMargin_m = 1.0;
   const std::vector<TurnoutChoice> choices =
       TurnoutChoices(network_, open.run, fit, is_begin ? *open.begin : *open.end);
   double free_end_m = is_begin ? fit.plan.length_m() : 0.0;
   // Cut, where it comes near to others, once for the best choice, and once more for rounding.
   for (int attempt = 0; attempt < 3; ++attempt) {
-    std::optional<double> conflict_m;
-    for (const TrackSpec& spec : TracksBetween(fit, is_begin ? &choices : nullptr,
-                                               is_begin ? nullptr : &choices, free_end_m)) {
-      std::optional<TrackDraft> draft = network_.Make(spec);
-      if (!draft || !Follows(*draft, open.run)) continue;
-      const auto near_m = network_.FirstConflict_m(*draft, !is_begin);
-      if (!near_m) {
-        const TrackCourse& course = draft->course;
-        const double end_s_m = is_begin ? course.end_s_m() : course.begin_s_m();
-        Accept(open.run, std::move(*draft));
-        return end_s_m;
-      }
-      const TurnoutSite& turnout = draft->turnouts.front();
-      if (std::abs(*near_m - turnout.s_m) < std::abs(turnout.end_s_m - turnout.s_m) + kShortest_m) {
-        continue;
-      }
-      if (!conflict_m || std::abs(*near_m - turnout.s_m) > std::abs(*conflict_m - turnout.s_m)) {
-        conflict_m = near_m;
-      }
+    OneEnded best =
+        BestWithOneEnd(open.run, TracksBetween(fit, is_begin ? &choices : nullptr,
+                                               is_begin ? nullptr : &choices, free_end_m));
+    if (best.draft) {
+      const TrackCourse& course = best.draft->course;
+      const double end_s_m = is_begin ? course.end_s_m() : course.begin_s_m();
+      Accept(open.run, std::move(*best.draft));
+      return end_s_m;
     }
-    if (!conflict_m) return std::nullopt;
-    const double side = is_begin ? 1.0 : -1.0;
-    double at_m = free_end_m;
-    while (at_m > 0.0 && at_m <= fit.plan.length_m() + kMargin_m &&
-           side * (fit.course.At(std::clamp(at_m, 0.0, fit.plan.length_m())).x_m - *conflict_m) >
-               -kMargin_m) {
-      at_m -= side * 0.5;
-    }
-    if (!is_begin) {
-      at_m = 0.0;
-      while (at_m < fit.plan.length_m() && fit.course.At(at_m).x_m < *conflict_m + kMargin_m) {
-        at_m += 0.5;
-      }
-    }
-    free_end_m = fit.OutOfClothoid_m(at_m, is_begin);
+    if (!best.conflict_m) return std::nullopt;
+    free_end_m = is_begin ? EndBefore_m(fit, free_end_m, *best.conflict_m)
+                          : BeginBehind_m(fit, *best.conflict_m);
   }
   return std::nullopt;
 }
@@ -303,7 +335,7 @@ SideTrackQuality AddSideTracks(const RailMap& map,
   const LinePlaces places(map, track, line);
   const auto& elements = std::get<AlignmentElementsSpec>(line.alignment.course);
   TrackNetwork network(places.length_m(), PlanOf({}, elements.elements).Curvature());
-  SideTrackSearch search(std::move(network), sigma_m, world);
+  SideTrackSearch search(std::move(network), line, sigma_m, world);
   for (const TrackRun& run : FindRuns(map, track, places)) search.Take(run);
   search.CountSwitches(FindSwitches(map, places, kRunStrip_m));
   std::ranges::sort(search.quality().distances_m);

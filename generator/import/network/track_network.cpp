@@ -24,7 +24,7 @@ TrackDraft DraftOf(TrackSpec spec, TrackCourse course) {
 }
 
 /// Whether a turnout lies in a track, or the track begins or ends in it.
-bool IsIn(const TurnoutSite& turnout, std::size_t track) {
+bool LiesIn(const TurnoutSite& turnout, std::size_t track) {
   return turnout.track == track || turnout.branch == track;
 }
 
@@ -56,7 +56,7 @@ TurnoutPlace TrackNetwork::PlaceOf(const TurnoutSpec& spec, bool opens_ahead) co
 bool TrackNetwork::IsFree(std::size_t track, double one_s_m, double other_s_m) const {
   return std::ranges::none_of(tracks_, [&](const TrackDraft& other) {
     return std::ranges::any_of(other.turnouts, [&](const TurnoutSite& turnout) {
-      return IsIn(turnout, track) && Overlap(turnout, one_s_m, other_s_m);
+      return LiesIn(turnout, track) && Overlap(turnout, one_s_m, other_s_m);
     });
   });
 }
@@ -104,15 +104,6 @@ std::optional<double> TrackNetwork::FirstConflict_m(const TrackDraft& draft, boo
   std::optional<double> first_m;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     const TrackDraft& track = tracks_[i];
-    // Where either begins or ends, which may be between whole metres.
-    for (const double at_m : {std::max(track.course.begin_s_m(), draft.course.begin_s_m()),
-                              std::min(track.course.end_s_m(), draft.course.end_s_m())}) {
-      if (!track.Has(at_m) || !draft.Has(at_m)) continue;
-      const double apart_m = track.course.OffsetAt(at_m).d_m - draft.course.OffsetAt(at_m).d_m;
-      if (std::abs(apart_m) >= kLeastApart_m || AreJoined(joined, tracks_.size(), i, at_m))
-        continue;
-      if (!first_m || (backwards ? at_m > *first_m : at_m < *first_m)) first_m = at_m;
-    }
     const int from_m = std::max(track.first_m, draft.first_m);
     const int to_m = std::min(track.end_m(), draft.end_m());
     for (int k = 0; k < to_m - from_m; ++k) {
@@ -126,7 +117,14 @@ std::optional<double> TrackNetwork::FirstConflict_m(const TrackDraft& draft, boo
       break;
     }
   }
-  return first_m;
+  if (first_m) return first_m;
+  // Sections that turnouts join end between whole metres, and a world is refused there, too.
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    const auto close =
+        FindClosePlace(joined, {{i, tracks_[i].course}, {tracks_.size(), draft.course}});
+    if (close) return close->s_m;
+  }
+  return std::nullopt;
 }
 
 bool TrackNetwork::IsApartAt(double s_m, double d_m) const {

@@ -3,15 +3,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "core/rail/line/turnout_geometry.h"
 #include "generator/import/lines/track_lines.h"
 
 namespace railcast {
 namespace {
 
+using ::testing::DoubleNear;
+using ::testing::ElementsAre;
 using ::testing::SizeIs;
 
 /// A straight line of 2000 m to the east, and tracks beside it.
@@ -26,8 +30,9 @@ class BesideALine : public ::testing::Test {
   void Add(const std::vector<Eigen::Vector2d>& points_m, const MapTags& tags) {
     MapWay way{static_cast<std::int64_t>(map_.ways.size()), {}, tags};
     for (const Eigen::Vector2d& point_m : points_m) {
-      way.nodes.push_back(map_.nodes.size());
-      map_.nodes.push_back({.place_m = point_m, .tags = {}});
+      const auto known = std::ranges::find(map_.nodes, point_m, &MapNode::place_m);
+      way.nodes.push_back(static_cast<std::size_t>(known - map_.nodes.begin()));
+      if (known == map_.nodes.end()) map_.nodes.push_back({.place_m = point_m, .tags = {}});
     }
     map_.ways.push_back(way);
   }
@@ -41,6 +46,22 @@ class BesideALine : public ::testing::Test {
       points_m.emplace_back(at_m, y_m);
     }
     Add(points_m, tags);
+  }
+  /// Where tangents meet in the turnouts that the world has on a track, ascending.
+  [[nodiscard]] std::vector<double> TangentsOn_x_m(const std::string& track) const {
+    std::vector<double> places_m;
+    for (const WorldJson& other : world_.tracks) {
+      for (const char* end : {"begin", "end"}) {
+        if (!other.contains(end) || other[end]["track"] != track) continue;
+        const TurnoutType type =
+            other[end]["turnout"] == "1:9-300" ? TurnoutType::k9_300 : TurnoutType::k9_190;
+        const double forwards = std::string(end) == "begin" ? 1.0 : -1.0;
+        const double s_m = other[end]["s_m"].get<double>() + forwards * GeometryOf(type).tangent_m;
+        places_m.push_back(runs_east_ ? s_m : 2000.0 - s_m);
+      }
+    }
+    std::ranges::sort(places_m);
+    return places_m;
   }
   void Make() {
     const TrackLine track = FindLines(map_, 1000.0).front();
@@ -95,8 +116,36 @@ TEST_F(BesideALine, ACrossoverLeadsFromTrackToTrack) {
   EXPECT_EQ(crossover["name"], "crossover_1");
   EXPECT_EQ(crossover["begin"]["track"], runs_east_ ? "main" : "running_1");
   EXPECT_EQ(crossover["end"]["track"], runs_east_ ? "running_1" : "main");
-  EXPECT_FALSE(crossover["end"].contains("s_m"));
+  // Tangents of 10.52 m at either end of 40.5 m at 1:9; tracks were fitted to 0.1 m.
+  const double from_s_m = crossover["begin"]["s_m"].get<double>();
+  EXPECT_NEAR(crossover["end"]["s_m"].get<double>(), from_s_m + 61.54, 6.0);
   EXPECT_EQ(quality_.num_turnouts, 2U);
+}
+
+/// Turnouts 1:9-190 whose nodes on the map are 4 m behind the tips of their blades.
+TEST_F(BesideALine, EverySwitchOfADoubleTrackWithASidingIsATurnout) {
+  Add({{100.0, 4.5}, {400.0, 4.5}, {653.5, 4.5}, {896.5, 4.5}, {1200.0, 4.5}, {1900.0, 4.5}},
+      {{"maxspeed", "80"}});
+  // Arcs end at 21.05 m and 1.162 m, and tangents meet after 10.52 m.
+  Add({{600.0, 0.0}, {617.05, 1.162}, {626.75, 2.25}, {636.5, 3.338}, {653.5, 4.5}},
+      {{"service", "crossover"}});
+  Add({{896.5, 4.5}, {913.5, 3.338}, {923.25, 2.25}, {932.95, 1.162}, {950.0, 0.0}},
+      {{"service", "crossover"}});
+  std::vector<Eigen::Vector2d> siding_m = {
+      {1200.0, 0.0}, {1217.05, -1.162}, {1228.0, -2.386}, {1236.5, -3.338}};
+  for (double x_m = 1260.0; x_m <= 1600.0; x_m += 20.0) siding_m.emplace_back(x_m, -4.5);
+  Add(siding_m, {{"service", "siding"}});
+  Make();
+  EXPECT_EQ(quality_.num_switches, 5U);
+  EXPECT_EQ(quality_.num_made, 5U);
+  EXPECT_EQ(quality_.num_turnouts, 5U);
+  // Places are sought in steps of 1 m, for 1:9-300 as well, and points are fitted to 0.1 m at 1:9.
+  constexpr double kOff_m = 2.0;
+  EXPECT_THAT(TangentsOn_x_m("main"),
+              ElementsAre(DoubleNear(606.5, kOff_m), DoubleNear(943.5, kOff_m),
+                          DoubleNear(1206.5, kOff_m)));
+  EXPECT_THAT(TangentsOn_x_m("running_1"),
+              ElementsAre(DoubleNear(647.0, kOff_m), DoubleNear(903.0, kOff_m)));
 }
 
 TEST_F(BesideALine, ATrackThatCannotBeJoinedIsCutAndSaysSo) {
@@ -110,8 +159,11 @@ TEST_F(BesideALine, ATrackThatCannotBeJoinedIsCutAndSaysSo) {
   ASSERT_THAT(world_.tracks, SizeIs(2));
   EXPECT_TRUE(world_.tracks[1].contains("elements"));
   EXPECT_GE(std::abs(world_.tracks[1]["offset_m"].get<double>()), 3.0);
-  ASSERT_FALSE(world_.left_out.empty());
-  EXPECT_EQ(world_.left_out.back().reason, "it is cut where it comes nearer than 3 m to others");
+  ASSERT_THAT(world_.left_out, SizeIs(2));
+  EXPECT_EQ(world_.left_out[0].reason, "it is cut where it comes nearer than 3 m to others");
+  EXPECT_EQ(world_.left_out[1].what, "switch");
+  EXPECT_EQ(world_.left_out[1].reason,
+            "no turnout fits there that leads to the branch, apart from others");
 }
 
 }  // namespace

@@ -249,13 +249,13 @@ TEST(Network, JoinsTracksThatAreNotParallelByTwoArcs) {
                      .elements = {{ElementType::kArc, 500.0, -9000.0}},
                      .heading_deg = 0.3,
                      .start_s_m = 200.0},
-                    {.name = "x", .begin = On("main", 400.0), .end = On("second", 470.0)}}),
+                    {.name = "x", .begin = On("main", 400.0), .end = On("second", 500.0)}}),
       1000.0);
   const TrackCourse& second = network.courses[1];
   const TrackCourse& crossover = network.courses[2];
   EXPECT_NEAR(crossover.OffsetAt(400.0).d_m, 0.0, kExact_m);
-  EXPECT_NEAR(crossover.OffsetAt(470.0).d_m, second.OffsetAt(470.0).d_m, kExact_m);
-  EXPECT_NEAR(crossover.OffsetAt(470.0).slope, second.OffsetAt(470.0).slope, kExact_m);
+  EXPECT_NEAR(crossover.OffsetAt(500.0).d_m, second.OffsetAt(500.0).d_m, kExact_m);
+  EXPECT_NEAR(crossover.OffsetAt(500.0).slope, second.OffsetAt(500.0).slope, kExact_m);
   EXPECT_EQ(network.turnouts[0].side, TrackSide::kRight);
   EXPECT_EQ(network.turnouts[1].side, TrackSide::kLeft);
   ExpectSmooth(crossover);
@@ -270,7 +270,7 @@ TEST(Network, ReportsAnEndTurnoutBehindItsElements) {
                                       .start_s_m = 100.0,
                                       .end = end}})),
               ElementsAre("/world/tracks/1/end/s_m: must put the end of the turnout ahead of where "
-                          "the track leads to it, at 300 m (got 272.964 m)"));
+                          "the track leads to it, at 300 m (got 272.963 m)"));
 }
 
 TEST(Network, ReportsTurnoutsThatOverlap) {
