@@ -1,5 +1,4 @@
 #include "generator/import/network/side_tracks.h"
-#include "generator/import/lines/line_gauge.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <variant>
 
 #include "core/rail/line/alignment_course.h"
+#include "generator/import/lines/line_gauge.h"
 #include "generator/import/lines/line_places.h"
 #include "generator/import/network/level_tracks.h"
 #include "generator/import/network/switch_nodes.h"
