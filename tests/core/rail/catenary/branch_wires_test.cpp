@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "core/rail/catenary/catenary.h"
+#include "core/rail/line/network.h"
 #include "core/rail/line/yard.h"
 #include "core/rail/world_draft.h"
+#include "railcast/scenario.h"
 #include "tests/core/rail/test_line.h"
 
 namespace railcast {
@@ -53,6 +55,20 @@ std::vector<BranchCase> BranchCases() {
     }
   }
   return cases;
+}
+
+TEST(BranchWires, KeepTheStrictLimitsButForThreeSpansOfARealStation) {
+  for (const BranchCase& branch : BranchCases()) {
+    EXPECT_EQ(TestLine(branch.world).plan().num_relaxed_spans(), 0U) << branch.name;
+  }
+  const ScenarioSpec throat =
+      ReadScenario(RAILCAST_SOURCE_DIR "/scenarios/osm_sankt_poelten/station_throat.json");
+  const Alignment alignment(throat.world.alignment);
+  const Network network = MakeNetwork(throat.world, alignment.length_m());
+  const CatenaryPlan plan({throat.world, network.courses}, alignment);
+  EXPECT_EQ(plan.supports().size(), 240U);
+  // At 1047.5, 1052.5 and 1062.5 m.
+  EXPECT_EQ(plan.num_relaxed_spans(), 3U);
 }
 
 struct Piece {
