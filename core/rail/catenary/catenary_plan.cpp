@@ -83,6 +83,7 @@ struct PlannedSupport {
   CatenarySupport support;
   OwnWires::Staggers own;
   OwnWires::SpanStaggers span_before;
+  bool is_relaxed{};  ///< Whether the span before it does not keep the first of the rules.
 };
 
 /// Finds one support after the other.
@@ -100,7 +101,10 @@ class SupportSearch {
                                    WireRules{std::max(kWorkingHalfWidth_m, limit_m), kLeastApart_m},
                                    WireRules{std::max(kWorkingHalfWidth_m, limit_m), 0.0},
                                    WireRules{std::numeric_limits<double>::infinity(), 0.0}}) {
-      if (auto next = Next(from, rules, kSpansAhead)) return *std::move(next);
+      auto next = Next(from, rules, kSpansAhead);
+      if (!next) continue;
+      next->is_relaxed = rules.apart_m < kWiresApart_m;
+      return *std::move(next);
     }
     Check(false, "a wire between neighbouring samples is within its staggers");
     return from;
@@ -145,7 +149,7 @@ class SupportSearch {
   [[nodiscard]] std::optional<PlannedSupport> WithOwnWires(const PlannedSupport& from,
                                                            const CatenarySupport& to,
                                                            const WireRules& rules) const {
-    PlannedSupport next{.support = to, .own = {}, .span_before = {}};
+    PlannedSupport next{.support = to, .own = {}, .span_before = {}, .is_relaxed = false};
     auto staggers = own_.Place({.first_s_m = from.support.s_m,
                                 .last_s_m = std::min(to.s_m, alignment_.length_m()),
                                 .first_stagger_m = from.support.stagger_m,
@@ -207,7 +211,8 @@ CatenaryPlan::CatenaryPlan(const WorldTracks& tracks, const Alignment& alignment
                              .value_or(spec.catenary.stagger_m);
   PlannedSupport last{.support = {.s_m = 0.0, .stagger_m = first_m},
                       .own = OwnWires::Staggers(tracks.courses.size()),
-                      .span_before = {}};
+                      .span_before = {},
+                      .is_relaxed = false};
   supports_.push_back(last.support);
   while (last.support.s_m < alignment.length_m()) {
     PlannedSupport next = search.After(last);
@@ -216,6 +221,7 @@ CatenaryPlan::CatenaryPlan(const WorldTracks& tracks, const Alignment& alignment
       next.support.s_m = alignment.length_m();
     }
     supports_.push_back(next.support);
+    if (next.is_relaxed) ++num_relaxed_spans_;
     for (std::size_t k = 0; k < own_wires_.size(); ++k) {
       if (!next.span_before[k]) continue;
       OwnWire& wire = own_wires_[k];

@@ -80,6 +80,8 @@ class CatenaryPlan {
 
   /// In ascending order; empty without a contact line.
   [[nodiscard]] const std::vector<CatenarySupport>& supports() const { return supports_; }
+  /// Number of spans that do not keep the strict limits of stagger + 0.05 m and 0.2 m.
+  [[nodiscard]] std::size_t num_relaxed_spans() const { return num_relaxed_spans_; }
   /// The wire of a track that does not follow the alignment's staggers.
   [[nodiscard]] const OwnWire& OwnWireOf(std::size_t track) const { return own_wires_[track]; }
   /// All wires that a support carries, in the order of tracks.
@@ -88,6 +90,7 @@ class CatenaryPlan {
  private:
   std::vector<CatenarySupport> supports_;
   std::vector<OwnWire> own_wires_;  ///< In the order of tracks.
+  std::size_t num_relaxed_spans_ = 0;
 };
 
 /// Lateral displacement of a pantograph's middle by cant, at the height of the contact line, left

@@ -125,8 +125,10 @@ class OwnWires::Trial {
           !HasWireAt(track, course, span.last_s_m)) {
         continue;
       }
-      const double d_m = course.OffsetWithin_m(span.first_s_m);
-      placed_m_.emplace_back(d_m + span.first_stagger_m, d_m + span.last_stagger_m);
+      const double first_m = course.OffsetWithin_m(span.first_s_m);
+      const double last_m = course.OffsetWithin_m(span.last_s_m);
+      placed_.push_back(
+          {first_m + last_m, first_m + span.first_stagger_m, last_m + span.last_stagger_m});
     }
   }
 
@@ -137,8 +139,9 @@ class OwnWires::Trial {
       for (const double last_m : lasts_m) {
         const HungWire first = wires_.WireAt(own.track, span_.first_s_m, first_m);
         const HungWire last = wires_.WireAt(own.track, span_.last_s_m, last_m);
-        if (!IsApart(first.d_m(), last.d_m()) || !StaysWithin(own, first, last)) continue;
-        placed_m_.emplace_back(first.d_m(), last.d_m());
+        const Placed placed{first.axis_d_m + last.axis_d_m, first.d_m(), last.d_m()};
+        if (!IsApart(placed) || !StaysWithin(own, first, last)) continue;
+        placed_.push_back(placed);
         return std::pair(first_m, last_m);
       }
     }
@@ -146,13 +149,23 @@ class OwnWires::Trial {
   }
 
  private:
-  /// Wires are straight in plan, so they are nearest at an end.
-  [[nodiscard]] bool IsApart(double first_d_m, double last_d_m) const {
+  /// A wire at both ends of the span, left of the alignment.
+  struct Placed {
+    double axes_m{};  ///< Sum of the offsets of its axis.
+    double first_d_m{};
+    double last_d_m{};
+  };
+
+  /// Wires are straight in plan, so they are nearest at an end. Each lies on its track's side of
+  /// the other even where a turnout has not yet parted the two: it could not pass over later.
+  [[nodiscard]] bool IsApart(const Placed& wire) const {
     if (rules_.apart_m <= 0.0) return true;
-    return std::ranges::all_of(placed_m_, [&](const std::pair<double, double>& other) {
-      const double side = first_d_m < other.first ? -1.0 : 1.0;
-      return side * (first_d_m - other.first) >= rules_.apart_m &&
-             side * (last_d_m - other.second) >= rules_.apart_m;
+    // 0.2 m between 4.4 and 4.6 m is less by rounding.
+    const double apart_m = rules_.apart_m - 1e-9;
+    return std::ranges::all_of(placed_, [&](const Placed& other) {
+      const double side = wire.axes_m < other.axes_m ? -1.0 : 1.0;
+      return side * (wire.first_d_m - other.first_d_m) >= apart_m &&
+             side * (wire.last_d_m - other.last_d_m) >= apart_m;
     });
   }
 
@@ -184,7 +197,7 @@ class OwnWires::Trial {
   const OwnWires& wires_;
   const SpanTrial& span_;
   const WireRules& rules_;
-  std::vector<std::pair<double, double>> placed_m_;  ///< Left of the alignment at both ends.
+  std::vector<Placed> placed_;
 };
 
 std::optional<OwnWires::SpanStaggers> OwnWires::Place(const SpanTrial& span,

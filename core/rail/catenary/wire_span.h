@@ -11,7 +11,7 @@ namespace railcast {
 /// Lowest height of a wire's end above the contact height where it is anchored, and that of the
 /// messenger above its height at supports.
 inline constexpr double kAnchoredContact_m = 0.5;
-inline constexpr double kAnchoredMessenger_m = 0.3;
+inline constexpr double kAnchoredMessenger_m = 0.4;
 
 /// Where the wires of a track end a span.
 struct WireEnd {
