@@ -32,7 +32,7 @@ constexpr double kTunnelFloor_m = -0.72;
 constexpr double kWalkwayTop_m = 0.0;
 /// Beside the outermost axis: behind the ballast's shoulder at 1.75 m.
 constexpr double kWalkwayBegin_m = 2.0;
-constexpr double kRailHeight_m = 1.0;  ///< Of the handrail above the walkway.
+constexpr double kHandrailHeight_m = 1.0;  ///< Of the handrail above the walkway.
 constexpr double kRailRadius_m = 0.02;
 constexpr double kRailFromWall_m = 0.08;
 constexpr int kRailSides = 8;
@@ -237,7 +237,7 @@ class TunnelBuilder {
 
   void AddHandrails(const Stretch& whole) {
     Mesh& steel = MeshOf(context_.surfaces.structures.tunnel_handrail, chunk_.ground);
-    const double height_m = kWalkwayTop_m + kRailHeight_m;
+    const double height_m = kWalkwayTop_m + kHandrailHeight_m;
     for (const double side : {-1.0, 1.0}) {
       const double y_m = side * (shape_.WallAt_m(height_m) - kRailFromWall_m);
       std::vector<Vector3> centreline;
