@@ -43,6 +43,10 @@ class BranchCourse {
   [[nodiscard]] std::optional<double> AddReturnTo(double d_m, double radius_m);
 
   [[nodiscard]] const PlanPoint& end() const { return end_; }
+  /// The end in the plane of chainage and offset, heading towards rising chainage.
+  [[nodiscard]] PlanPoint EndTowardsRising() const {
+    return is_mirrored_ ? PlanPoint{-end_.x_m, end_.y_m, -end_.heading_rad, 0.0} : end_;
+  }
   [[nodiscard]] double end_s_m() const { return is_mirrored_ ? -end_.x_m : end_.x_m; }
   /// The steepest heading so far.
   [[nodiscard]] double steepest_rad() const { return steepest_rad_; }

@@ -227,8 +227,7 @@ std::optional<TurnoutSite> LeadToEnd(const TurnoutPlace& place,
                                      WorldFaults& faults) {
   const std::optional<WayOut> end = LeaveTurnout(place, d_m, faults);
   if (!end) return std::nullopt;
-  const PlanPoint& out = end->branch.end();
-  const PlanPoint in{-out.x_m, out.y_m, -out.heading_rad, 0.0};
+  const PlanPoint in = end->branch.EndTowardsRising();
   const PlanPoint& from = branch.end();
   const std::optional<Biarc> arcs = from.x_m < in.x_m ? BiarcBetween(from, in) : std::nullopt;
   if (!arcs) {

@@ -82,11 +82,8 @@ std::optional<TurnoutChoice> ChoiceAt(const TrackNetwork& network,
   const auto through = CurvatureThrough(place, s_m, faults);
   if (!through) return std::nullopt;
   BranchCourse branch(course, s_m, !meeting.opens_ahead);
-  branch.AddTurnout(place.geometry, spec.side == TrackSide::kLeft ? 1.0 : -1.0, *through);
-  TurnoutChoice choice{.spec = spec, .behind = branch.end()};
-  if (!meeting.opens_ahead) {
-    choice.behind = {-branch.end().x_m, branch.end().y_m, -branch.end().heading_rad, 0.0};
-  }
+  branch.AddTurnout(place.geometry, SignOf(*spec.side), *through);
+  TurnoutChoice choice{.spec = spec, .behind = branch.EndTowardsRising()};
   const double guess_m = choice.behind.x_m - fit.plan.start.x_m;
   const Foot foot =
       FootOn(fit.course, fit.plan.length_m(), {choice.behind.x_m, choice.behind.y_m}, guess_m);
