@@ -38,8 +38,7 @@ double GaugeAlong_mm(const RailMap& map, const TrackLine& line) {
   std::map<double, double> lengths_m;
   for (std::size_t i = 0; i < line.ways.size(); ++i) {
     const std::optional<double> gauge_mm = GaugeOf_mm(TagOf(map.ways[line.ways[i]].tags, "gauge"));
-    lengths_m[gauge_mm.value_or(kStandardGauge_mm)] +=
-        (map.nodes[line.nodes[i + 1]].place_m - map.nodes[line.nodes[i]].place_m).norm();
+    lengths_m[gauge_mm.value_or(kStandardGauge_mm)] += StepLength_m(map, line, i);
   }
   const auto longest =
       std::ranges::max_element(lengths_m, {}, [](const auto& of_gauge) { return of_gauge.second; });

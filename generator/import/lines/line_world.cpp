@@ -84,8 +84,7 @@ WorldJson MainTrack(const RailMap& map, const TrackLine& track) {
   double without_m = 0.0;
   for (std::size_t i = 0; i < track.ways.size(); ++i) {
     const std::string_view electrified = TagOf(map.ways[track.ways[i]].tags, "electrified");
-    const double length_m =
-        (map.nodes[track.nodes[i + 1]].place_m - map.nodes[track.nodes[i]].place_m).norm();
+    const double length_m = StepLength_m(map, track, i);
     if (electrified == "contact_line" || electrified == "yes") with_m += length_m;
     if (electrified == "no" || electrified == "rail") without_m += length_m;
   }

@@ -31,8 +31,7 @@ std::vector<double> SpeedsAlong_kmph(const RailMap& map,
   double along_m = 0.0;
   for (std::size_t i = 0; i < line.ways.size(); ++i) {
     given.push_back(SpeedOf_kmph(TagOf(map.ways[line.ways[i]].tags, "maxspeed")));
-    const double length_m =
-        (map.nodes[line.nodes[i + 1]].place_m - map.nodes[line.nodes[i]].place_m).norm();
+    const double length_m = StepLength_m(map, line, i);
     middle_m.push_back(along_m + 0.5 * length_m);
     along_m += length_m;
   }

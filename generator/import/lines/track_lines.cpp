@@ -155,8 +155,7 @@ TrackLine Thinned(const RailMap& map, const TrackLine& line) {
 std::string MainTag(const RailMap& map, const TrackLine& line, std::string_view key) {
   std::map<std::string_view, double> lengths_m;
   for (std::size_t i = 0; i < line.ways.size(); ++i) {
-    lengths_m[TagOf(map.ways[line.ways[i]].tags, key)] +=
-        (map.nodes[line.nodes[i + 1]].place_m - map.nodes[line.nodes[i]].place_m).norm();
+    lengths_m[TagOf(map.ways[line.ways[i]].tags, key)] += StepLength_m(map, line, i);
   }
   const auto longest =
       std::ranges::max_element(lengths_m, {}, [](const auto& entry) { return entry.second; });
@@ -221,11 +220,13 @@ std::vector<TrackLine> FindLines(const RailMap& map, double shortest_m) {
   return lines;
 }
 
+double StepLength_m(const RailMap& map, const TrackLine& line, std::size_t node) {
+  return (map.nodes[line.nodes[node + 1]].place_m - map.nodes[line.nodes[node]].place_m).norm();
+}
+
 double LengthOf_m(const RailMap& map, const TrackLine& line) {
   double length_m = 0.0;
-  for (std::size_t i = 1; i < line.nodes.size(); ++i) {
-    length_m += (map.nodes[line.nodes[i]].place_m - map.nodes[line.nodes[i - 1]].place_m).norm();
-  }
+  for (std::size_t i = 0; i + 1 < line.nodes.size(); ++i) length_m += StepLength_m(map, line, i);
   return length_m;
 }
 

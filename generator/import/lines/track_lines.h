@@ -29,6 +29,9 @@ struct TrackLine {
 /// @returns The longest line first.
 [[nodiscard]] std::vector<TrackLine> FindLines(const RailMap& map, double shortest_m);
 
+/// Length from a node of a line to its next one.
+[[nodiscard]] double StepLength_m(const RailMap& map, const TrackLine& line, std::size_t node);
+
 /// Length of a line along its points.
 [[nodiscard]] double LengthOf_m(const RailMap& map, const TrackLine& line);
 
