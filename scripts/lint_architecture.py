@@ -12,7 +12,7 @@ import re
 import sys
 
 # A folder of core may include only itself and the folders before it.
-CORE_ORDER = "base frame scene rail scan trace detect simulate camera scenario fidelity c io program".split()
+CORE_ORDER = "base frame scene mesh rail scan trace detect simulate camera scenario fidelity c io program".split()
 # The public headers, included by programs that embed railcast. Each header belongs to the folder
 # that implements it.
 PUBLIC_ROOT = "core/include/"
@@ -29,7 +29,8 @@ TREES = ("core", *PROGRAMS, "tests", "scripts")
 # The folders that may include a library; tests may include any.
 LIBRARY_OWNERS = {
     "Embree": (r"embree\d/", ("core/trace",)),
-    "OpenMesh": (r"OpenMesh/", ("core/scene",)),
+    "OpenMesh": (r"OpenMesh/", ("core/mesh",)),
+    "assimp": (r"assimp/", ("core/mesh",)),
     "nlohmann": (r"nlohmann/",
                  ("core/scenario", "core/fidelity", "core/io", "generator", "analysis")),
     "PCL": (r"pcl/", ("core/io", "core/include/railcast/io", *PROGRAMS)),

@@ -7,6 +7,7 @@ build_packages=(
   cmake
   g++
   git  # The version string contains the commit.
+  libassimp-dev
   libbenchmark-dev
   libboost-dev
   libcli11-dev

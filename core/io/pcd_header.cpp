@@ -9,7 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/io/text_cursor.h"
+#include "core/base/text_cursor.h"
 
 namespace railcast {
 namespace {

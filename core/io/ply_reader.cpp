@@ -9,8 +9,8 @@
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
 #include "core/base/text.h"
+#include "core/base/text_cursor.h"
 #include "core/io/ply_header.h"
-#include "core/io/text_cursor.h"
 #include "core/io/write_file.h"
 
 namespace railcast {

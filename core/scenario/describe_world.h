@@ -217,9 +217,12 @@ void Describe(Archive& a, ObjectSpec& s) {
   a.Optional("size_m", s.size_m,
              "Length, width, height. Required for box and pole; scales a person or mesh.",
              Within(1e-3, 1000));
-  a.Optional("file", s.file, "OBJ file of a mesh.", ExistingFile());
-  a.Optional("up", s.up, "Upward axis of a mesh.");
-  a.Optional("unit_m", s.unit_m, "Metres per file unit of a mesh.", Within(1e-6, 1e6));
+  a.Optional("file", s.file, "File of a mesh: OBJ, PLY, STL, OFF, glTF, FBX, DAE or 3DS.",
+             ExistingFile());
+  a.Optional("up", s.up, "Upward axis of a mesh; absent: as its file says, otherwise z.");
+  a.Optional("unit_m", s.unit_m,
+             "Metres per file unit of a mesh; absent: as its file says, otherwise 1.",
+             Within(1e-6, 1e6));
   a.Optional("label", s.label, "Overrides the type's; of the label table.");
   a.Optional("material", s.material, "Overrides the type's; of the materials.");
   a.Optional("motion", s.motion, "Along its track; absent = stands.");

@@ -251,9 +251,11 @@ struct ObjectSpec {
   /// Length, width, height. Required for a box; diameter, diameter, height for a pole. For a person
   /// or a mesh, scales the model to this height or size if given. Wagons have fixed sizes.
   std::optional<std::array<double, 3>> size_m;
-  std::optional<std::string> file;      ///< Meshes only: OBJ file.
-  UpAxis up = UpAxis::kZ;               ///< Meshes only.
-  double unit_m = 1.0;                  ///< Meshes only: metres per file unit.
+  std::optional<std::string> file;  ///< Meshes only: OBJ, PLY, STL, OFF, glTF, FBX, DAE, 3DS.
+  /// Meshes only; absent = as a glTF, FBX, DAE or 3DS file says, for others z.
+  std::optional<UpAxis> up;
+  /// Meshes only: metres per file unit; absent = as the file says, for other formats 1.
+  std::optional<double> unit_m;
   std::optional<std::string> label;     ///< Overrides the default of the type.
   std::optional<std::string> material;  ///< Overrides the default of the type.
   std::optional<MotionSpec> motion;     ///< Absent = stationary.

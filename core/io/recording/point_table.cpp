@@ -9,8 +9,8 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/text_cursor.h"
 #include "core/io/pcd_header.h"
-#include "core/io/text_cursor.h"
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"
 

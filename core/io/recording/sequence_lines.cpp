@@ -5,8 +5,8 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/text_cursor.h"
 #include "core/io/recording/recorded_json.h"
-#include "core/io/text_cursor.h"
 
 namespace railcast {
 namespace {

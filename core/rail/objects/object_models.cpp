@@ -7,8 +7,8 @@
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
 #include "core/base/text.h"
+#include "core/mesh/mesh_import.h"
 #include "core/rail/model_parts.h"
-#include "core/scene/obj_import.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {
@@ -45,10 +45,18 @@ Mesh MakePole(const ObjectSpec& spec) {
   return MakeTube(axis, 0.5 * size_m.x(), kSides);
 }
 
+MeshUnits UnitsOf(const ObjectSpec& spec) {
+  MeshUnits units{.unit_m = spec.unit_m, .y_up = std::nullopt};
+  if (spec.up) units.y_up = *spec.up == UpAxis::kY;
+  return units;
+}
+
 Mesh MakeFromFile(const ObjectSpec& spec) {
   if (!spec.file) Fail("file: required for type \"mesh\"");
-  Mesh mesh = WithinMemory([&] { return ReadingText(*spec.file); },
-                           [&] { return ReadObj(*spec.file, spec.unit_m, spec.up == UpAxis::kY); });
+  const ImportedMesh imported = WithinMemory([&] { return ReadingText(*spec.file); },
+                                             [&] { return ReadMesh(*spec.file, UnitsOf(spec)); });
+  Mesh mesh;
+  for (const NamedMesh& part : imported.parts) mesh.Append(part.mesh);
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3f& vertex : mesh.vertices) box.extend(vertex.cast<double>());
   const Vector3 foot_m(box.center().x(), box.center().y(), box.min().z());

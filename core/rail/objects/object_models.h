@@ -53,7 +53,7 @@ inline constexpr double kPersonHeight_m = 1.75;
 /// `material` of the spec, if given, apply to all parts.
 ///
 /// @pre ObjectSpec::file is absolute or relative to the working directory.
-/// @throws InputError with one line, `key: rule (got value)`, or as ReadObj does.
+/// @throws InputError with one line, `key: rule (got value)`, or as ReadMesh does.
 [[nodiscard]] std::shared_ptr<const Model> MakeObjectModel(const ObjectSpec& spec,
                                                            const RailSurfaces& surfaces,
                                                            const LabelTable& labels,
@@ -73,8 +73,8 @@ class ObjectModels {
   using Shape = std::tuple<ObjectType,
                            std::optional<std::array<double, 3>>,
                            std::optional<std::string>,
-                           UpAxis,
-                           double,
+                           std::optional<UpAxis>,
+                           std::optional<double>,
                            std::optional<std::string>,
                            std::optional<std::string>>;
 

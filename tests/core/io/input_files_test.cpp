@@ -9,8 +9,8 @@
 #include "core/io/pcap/pcap_reader.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/write_file.h"
+#include "core/mesh/mesh_import.h"
 #include "core/scenario/command_log.h"
-#include "core/scene/obj_import.h"
 #include "railcast/io/cloud_files.h"
 #include "railcast/io/recording.h"
 #include "railcast/lidar.h"
@@ -32,7 +32,7 @@ const std::map<std::string, std::function<void(const fs::path&)>> kReaders = {
     {"csv", [](const fs::path& file) { const LineReader reader(file); }},
     {"jsonl", [](const fs::path& file) { static_cast<void>(ReadCommandLog(file)); }},
     {"lines", [](const fs::path& file) { static_cast<void>(CountLines(file)); }},
-    {"obj", [](const fs::path& file) { static_cast<void>(ReadObj(file, 1.0, false)); }},
+    {"obj", [](const fs::path& file) { static_cast<void>(ReadMesh(file)); }},
 };
 
 TEST(InputFiles, AreNoFifosWhoeverReadsThem) {

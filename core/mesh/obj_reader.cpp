@@ -1,11 +1,10 @@
-#include "core/scene/obj_sieve.h"
+#include "core/mesh/obj_reader.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <istream>
 #include <optional>
-#include <unordered_set>
 #include <utility>
 
 #include "core/base/error.h"
@@ -41,10 +40,10 @@ std::optional<Number> Parse(std::string_view token) {
 
 }  // namespace
 
-ObjSieve::ObjSieve(std::string shown, double largest)
+ObjReader::ObjReader(std::string shown, double largest)
     : shown_(std::move(shown)), largest_(largest) {}
 
-std::string ObjSieve::Sift(std::istream& in) {
+PolygonSoup ObjReader::Read(std::istream& in) {
   std::string line;
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   while (ReadLogicalLine(in, line)) {
@@ -53,20 +52,21 @@ std::string ObjSieve::Sift(std::istream& in) {
       rest.remove_prefix(kByteOrderMark.size());
     }
     const std::string_view keyword = NextToken(rest);
-    if (keyword == "v") SiftVertex(rest);
-    if (keyword == "f") SiftFace(rest);
+    if (keyword == "v") ReadVertex(rest);
+    if (keyword == "f") ReadFace(rest);
+    if (keyword == "usemtl") ReadName(rest, materials_, soup_.materials, material_);
+    if (keyword == "g" || keyword == "o") ReadName(rest, groups_, soup_.groups, group_);
   }
-  // Forward references are valid, because OpenMesh reads all vertices before any face. The highest
-  // index can therefore be checked only here.
-  if (highest_index_ > num_vertices_) {
+  // Faces may name vertices that come later, so that the highest index can be checked only here.
+  if (highest_index_ > static_cast<int>(soup_.points.size())) {
     line_ = highest_index_line_;
     FailIndex(std::to_string(highest_index_));
   }
-  return std::move(sifted_);
+  return std::move(soup_);
 }
 
 /// Reads a line, joined with the next if it ends with a backslash.
-bool ObjSieve::ReadLogicalLine(std::istream& in, std::string& line) {
+bool ObjReader::ReadLogicalLine(std::istream& in, std::string& line) {
   line_ = next_line_;
   line.clear();
   std::string piece;
@@ -82,52 +82,64 @@ bool ObjSieve::ReadLogicalLine(std::istream& in, std::string& line) {
   return any;
 }
 
-void ObjSieve::SiftVertex(std::string_view rest) {
-  sifted_ += 'v';
+void ObjReader::ReadVertex(std::string_view rest) {
+  Vector3 point;
   for (int axis = 0; axis < 3; ++axis) {
     const std::string_view token = NextToken(rest);
     const std::optional<double> number = Parse<double>(token);
     if (!number || !(std::abs(*number) <= largest_)) {
       Fail("a vertex must have three finite coordinates", token);
     }
-    sifted_ += ' ';
-    sifted_ += WithoutPlus(token);
+    point[axis] = *number;
   }
-  sifted_ += '\n';
-  ++num_vertices_;
+  soup_.points.push_back(point);
 }
 
-void ObjSieve::SiftFace(std::string_view rest) {
-  std::string corners;
-  std::unordered_set<int> vertices;
+void ObjReader::ReadFace(std::string_view rest) {
+  std::vector<std::uint32_t> corners;
   for (std::string_view token = NextToken(rest); !token.empty() && token.front() != '#';
        token = NextToken(rest)) {
-    const int vertex = VertexOf(token);
-    if (vertices.insert(vertex).second) corners += ' ' + std::to_string(vertex);
+    corners.push_back(static_cast<std::uint32_t>(VertexOf(token)) - 1);
   }
-  if (vertices.size() < 3) return;
-  sifted_ += 'f' + corners + '\n';
-  ++num_faces_;
+  soup_.AddFace(std::move(corners), material_, group_);
+}
+
+/// Names may contain blanks. A line without one ends what the line before it began.
+void ObjReader::ReadName(std::string_view rest,
+                         Indices& indices,
+                         std::vector<std::string>& names,
+                         std::uint32_t& current) const {
+  rest.remove_prefix(std::min(rest.find_first_not_of(kBlanks), rest.size()));
+  rest = rest.substr(0, rest.find_last_not_of(kBlanks) + 1);
+  if (rest.empty()) {
+    current = PolygonSoup::kUnnamed;
+    return;
+  }
+  const auto [it, is_new] =
+      indices.try_emplace(std::string(rest), static_cast<std::uint32_t>(names.size()));
+  if (is_new) names.emplace_back(rest);
+  current = it->second;
 }
 
 /// The vertex index of a face corner: 1 is the first vertex, and -1 is the last one read so far.
-int ObjSieve::VertexOf(std::string_view corner) {
+int ObjReader::VertexOf(std::string_view corner) {
   const std::string_view index = corner.substr(0, corner.find('/'));
   const std::optional<int> number = Parse<int>(index);
   if (!number) Fail("a face must name vertices by number", corner);
-  if (*number == 0 || *number < -num_vertices_) FailIndex(index);
+  const auto num_vertices = static_cast<int>(soup_.points.size());
+  if (*number == 0 || *number < -num_vertices) FailIndex(index);
   if (*number > highest_index_) {
     highest_index_ = *number;
     highest_index_line_ = line_;
   }
-  return *number > 0 ? *number : num_vertices_ + 1 + *number;
+  return *number > 0 ? *number : num_vertices + 1 + *number;
 }
 
-void ObjSieve::FailIndex(std::string_view index) const {
-  Fail("a face must name one of the " + std::to_string(num_vertices_) + " vertices", index);
+void ObjReader::FailIndex(std::string_view index) const {
+  Fail("a face must name one of the " + std::to_string(soup_.points.size()) + " vertices", index);
 }
 
-void ObjSieve::Fail(const std::string& rule, std::string_view got) const {
+void ObjReader::Fail(const std::string& rule, std::string_view got) const {
   throw InputError(shown_ + ": line " + std::to_string(line_) + ": " + rule + " (got \"" +
                    ShownText(got) + "\")");
 }

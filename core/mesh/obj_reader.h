@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "core/mesh/polygon_soup.h"
+
+namespace railcast {
+
+/// Reads a Wavefront OBJ file: `v` and `f` lines, with negative indices and continued lines; the
+/// names of `usemtl`, and of `g` or else `o`. Normals, texture coordinates, lines and points are
+/// passed over, as are faces of fewer than three different corners in a row (which occur in
+/// well-known files).
+///
+/// It is railcast's own because OpenMesh gives coordinates of OBJ files in single precision, leaves
+/// out corners that a face names twice, and passes over what it does not understand.
+class ObjReader {
+ public:
+  /// @param shown Name of the file in error messages.
+  /// @param largest Largest coordinate that is finite in float32, also after conversion to metres.
+  ObjReader(std::string shown, double largest);
+
+  /// @throws InputError "shown: line N: rule (got value)".
+  [[nodiscard]] PolygonSoup Read(std::istream& in);
+
+ private:
+  /// Names, each with its index.
+  using Indices = std::unordered_map<std::string, std::uint32_t>;
+
+  bool ReadLogicalLine(std::istream& in, std::string& line);
+  void ReadVertex(std::string_view rest);
+  void ReadFace(std::string_view rest);
+  void ReadName(std::string_view rest,
+                Indices& indices,
+                std::vector<std::string>& names,
+                std::uint32_t& current) const;
+  [[nodiscard]] int VertexOf(std::string_view corner);
+  [[noreturn]] void FailIndex(std::string_view index) const;
+  [[noreturn]] void Fail(const std::string& rule, std::string_view got) const;
+
+  std::string shown_;
+  double largest_;
+  PolygonSoup soup_;
+  Indices materials_;
+  Indices groups_;
+  std::uint32_t material_ = PolygonSoup::kUnnamed;
+  std::uint32_t group_ = PolygonSoup::kUnnamed;
+  int line_ = 1;
+  int next_line_ = 1;
+  int highest_index_ = 0;
+  int highest_index_line_ = 0;
+};
+
+}  // namespace railcast

@@ -1,0 +1,266 @@
+#include "core/mesh/ply_mesh_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/base/text_cursor.h"
+
+namespace railcast {
+namespace {
+
+enum class Type { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
+
+constexpr std::array<std::pair<std::string_view, Type>, 16> kTypeNames = {
+    {{"char", Type::kInt8},
+     {"int8", Type::kInt8},
+     {"uchar", Type::kUint8},
+     {"uint8", Type::kUint8},
+     {"short", Type::kInt16},
+     {"int16", Type::kInt16},
+     {"ushort", Type::kUint16},
+     {"uint16", Type::kUint16},
+     {"int", Type::kInt32},
+     {"int32", Type::kInt32},
+     {"uint", Type::kUint32},
+     {"uint32", Type::kUint32},
+     {"float", Type::kFloat32},
+     {"float32", Type::kFloat32},
+     {"double", Type::kFloat64},
+     {"float64", Type::kFloat64}}};
+
+struct Property {
+  std::string name;
+  Type type{};
+  std::optional<Type> length;  ///< The type of a list's length; absent = one number.
+};
+
+struct Element {
+  std::string name;
+  std::uint64_t count{};
+  std::vector<Property> properties;
+};
+
+enum class Encoding { kAscii, kLittleEndian, kBigEndian };
+
+struct Header {
+  Encoding encoding{};
+  std::vector<Element> elements;
+};
+
+class Reader {
+ public:
+  Reader(const std::string& shown, std::string_view bytes, double largest)
+      : shown_(shown), rest_(bytes), largest_(largest) {}
+
+  PolygonSoup Read() {
+    ReadHeader();
+    for (const Element& element : header_.elements) {
+      // Each one has at least a byte: a count beyond that would only fill the memory.
+      if (element.count > 0 && element.properties.empty()) {
+        Fail("element " + ShownText(element.name) + ": has no property");
+      }
+      if (element.count > rest_.size()) FailShort(element);
+      element.name == "vertex" ? ReadVertices(element) : ReadOthers(element);
+    }
+    CheckCorners();
+    return std::move(soup_);
+  }
+
+ private:
+  [[noreturn]] void Fail(const std::string& rule) const { throw InputError(shown_ + ": " + rule); }
+
+  [[noreturn]] void FailShort(const Element& element) const {
+    Fail("ends within its " + std::to_string(element.count) + " elements " +
+         ShownText(element.name));
+  }
+
+  void ReadHeader() {
+    bool has_format = false;
+    (void)TakeLine(rest_);  // "ply"
+    for (;;) {
+      const auto line = TakeLine(rest_);
+      if (!line) Fail("its header has no end_header line");
+      const auto words = Words(*line);
+      if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
+      if (words[0] == "end_header") break;
+      if (words[0] == "format") {
+        header_.encoding = EncodingOf(words);
+        has_format = true;
+      } else if (words[0] == "element" && words.size() == 3) {
+        const auto count = ParseNumber<std::uint32_t>(words[2]);
+        if (!count) FailLine(*line);
+        header_.elements.push_back({std::string(words[1]), *count, {}});
+      } else if (words[0] == "property" && !header_.elements.empty()) {
+        header_.elements.back().properties.push_back(PropertyOf(words, *line));
+      } else {
+        FailLine(*line);
+      }
+    }
+    if (!has_format) Fail("its header has no format line");
+  }
+
+  [[noreturn]] void FailLine(std::string_view line) const {
+    Fail("its header must have lines of the PLY format (got \"" + ShownText(line) + "\")");
+  }
+
+  [[nodiscard]] Encoding EncodingOf(const std::vector<std::string_view>& words) const {
+    const std::string_view name = words.size() > 1 ? words[1] : std::string_view();
+    if (name == "ascii") return Encoding::kAscii;
+    if (name == "binary_little_endian") return Encoding::kLittleEndian;
+    if (name == "binary_big_endian") return Encoding::kBigEndian;
+    Fail("format: must be ascii, binary_little_endian or binary_big_endian (got \"" +
+         ShownText(name) + "\")");
+  }
+
+  [[nodiscard]] Property PropertyOf(const std::vector<std::string_view>& words,
+                                    std::string_view line) const {
+    const auto type_of = [&](std::string_view name) {
+      const auto* it = std::find_if(kTypeNames.begin(), kTypeNames.end(),
+                                    [&](const auto& known) { return known.first == name; });
+      if (it == kTypeNames.end()) FailLine(line);
+      return it->second;
+    };
+    if (words.size() == 5 && words[1] == "list") {
+      return {std::string(words[4]), type_of(words[3]), type_of(words[2])};
+    }
+    if (words.size() != 3) FailLine(line);
+    return {std::string(words[2]), type_of(words[1]), std::nullopt};
+  }
+
+  void ReadVertices(const Element& element) {
+    soup_.points.reserve(element.count);
+    std::array<bool, 3> found{};
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      Vector3 point = Vector3::Zero();
+      for (const Property& property : element.properties) {
+        const std::size_t num = property.length ? Length(element, *property.length) : 1;
+        for (std::size_t k = 0; k < num; ++k) {
+          const double value = Next(element, property.type);
+          if (property.length || property.name.size() != 1) continue;
+          const std::size_t axis = std::string_view("xyz").find(property.name[0]);
+          if (axis >= 3) continue;
+          if (!(std::abs(value) <= largest_)) {
+            Fail("vertex " + std::to_string(i) + " must have three finite coordinates" +
+                 Got(value));
+          }
+          point[static_cast<Eigen::Index>(axis)] = value;
+          found[axis] = true;
+        }
+      }
+      soup_.points.push_back(point);
+    }
+    if (element.count > 0 && !(found[0] && found[1] && found[2])) {
+      Fail("element vertex: must have the properties x, y and z");
+    }
+  }
+
+  /// Reads the faces, and passes over all other elements.
+  void ReadOthers(const Element& element) {
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      for (const Property& property : element.properties) {
+        const bool is_corners = element.name == "face" && (property.name == "vertex_indices" ||
+                                                           property.name == "vertex_index");
+        const std::size_t num = property.length ? Length(element, *property.length) : 1;
+        std::vector<std::uint32_t> corners;
+        for (std::size_t k = 0; k < num; ++k) {
+          const double value = Next(element, property.type);
+          if (!is_corners) continue;
+          if (!(value >= 0.0 && value < kMaxIndex)) FailCorner(i, value);
+          corners.push_back(static_cast<std::uint32_t>(value));
+        }
+        soup_.AddFace(std::move(corners));
+      }
+    }
+  }
+
+  void CheckCorners() const {
+    for (std::size_t i = 0; i < soup_.faces.size(); ++i) {
+      for (const std::uint32_t corner : soup_.faces[i].corners) {
+        if (corner >= soup_.points.size()) FailCorner(i, corner);
+      }
+    }
+  }
+
+  [[noreturn]] void FailCorner(std::uint64_t face, double corner) const {
+    Fail("face " + std::to_string(face) + " must name one of the " +
+         std::to_string(soup_.points.size()) + " vertices, counted from 0" + Got(corner));
+  }
+
+  [[nodiscard]] std::size_t Length(const Element& element, Type type) {
+    const double length = Next(element, type);
+    if (!(length >= 0.0 && length <= static_cast<double>(rest_.size()))) FailShort(element);
+    return static_cast<std::size_t>(length);
+  }
+
+  /// The next number.
+  double Next(const Element& element, Type type) {
+    if (header_.encoding == Encoding::kAscii) return NextWord(element);
+    switch (type) {
+      case Type::kInt8:
+        return NextBytes<std::int8_t>(element);
+      case Type::kUint8:
+        return NextBytes<std::uint8_t>(element);
+      case Type::kInt16:
+        return NextBytes<std::int16_t>(element);
+      case Type::kUint16:
+        return NextBytes<std::uint16_t>(element);
+      case Type::kInt32:
+        return NextBytes<std::int32_t>(element);
+      case Type::kUint32:
+        return NextBytes<std::uint32_t>(element);
+      case Type::kFloat32:
+        return static_cast<double>(NextBytes<float>(element));
+      case Type::kFloat64:
+        break;
+    }
+    return NextBytes<double>(element);
+  }
+
+  double NextWord(const Element& element) {
+    constexpr std::string_view kBlanks = " \t\r\n\v\f";
+    rest_.remove_prefix(std::min(rest_.find_first_not_of(kBlanks), rest_.size()));
+    std::string_view word = rest_.substr(0, rest_.find_first_of(kBlanks));
+    if (word.empty()) FailShort(element);
+    rest_.remove_prefix(word.size());
+    if (word.starts_with('+')) word.remove_prefix(1);
+    const auto number = ParseNumber<double>(word);
+    if (!number) {
+      Fail("element " + ShownText(element.name) + ": must consist of numbers (got \"" +
+           ShownText(word) + "\")");
+    }
+    return *number;
+  }
+
+  template <typename Number>
+  Number NextBytes(const Element& element) {
+    std::array<char, sizeof(Number)> bytes{};
+    if (rest_.size() < bytes.size()) FailShort(element);
+    std::copy_n(rest_.begin(), bytes.size(), bytes.begin());
+    rest_.remove_prefix(bytes.size());
+    if (header_.encoding == Encoding::kBigEndian) std::reverse(bytes.begin(), bytes.end());
+    return std::bit_cast<Number>(bytes);
+  }
+
+  static constexpr double kMaxIndex = 4294967295.0;
+
+  const std::string& shown_;
+  std::string_view rest_;
+  double largest_;
+  Header header_;
+  PolygonSoup soup_;
+};
+
+}  // namespace
+
+PolygonSoup ReadPlyMesh(const std::string& shown, std::string_view bytes, double largest) {
+  return Reader(shown, bytes, largest).Read();
+}
+
+}  // namespace railcast

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/mesh/polygon_soup.h"
+
+namespace railcast {
+
+/// Reads the polygons of a PLY file held in `bytes`: ASCII or binary, in either byte order, with
+/// coordinates of any type, and faces as `vertex_indices` or `vertex_index`. All else is passed
+/// over.
+///
+/// It is railcast's own because OpenMesh reads double coordinates of binary files as 0.
+/// @param shown Name of the file in error messages.
+/// @param largest Largest coordinate that is allowed.
+/// @throws InputError "shown: rule (got value)" if the file is damaged or ends early.
+[[nodiscard]] PolygonSoup ReadPlyMesh(const std::string& shown,
+                                      std::string_view bytes,
+                                      double largest);
+
+}  // namespace railcast

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "railcast/scene.h"
+
+namespace railcast {
+
+/// What a mesh file holds, in the file's own units and axes: polygons that need not be manifold,
+/// closed, planar or convex. A face with a hole is an outline that goes to the hole and back along
+/// the same edge, and names some points twice.
+struct PolygonSoup {
+  static constexpr std::uint32_t kUnnamed = 0xFFFFFFFF;
+
+  struct Face {
+    std::vector<std::uint32_t> corners;  ///< Indices into `points`, at least three.
+    std::uint32_t material = kUnnamed;   ///< Index into `materials`.
+    std::uint32_t group = kUnnamed;      ///< Index into `groups`.
+  };
+
+  std::vector<Vector3> points;
+  std::vector<Face> faces;
+  std::vector<std::string> materials;  ///< Their names in the file, each once.
+  std::vector<std::string> groups;     ///< Names of groups or objects, each once.
+
+  /// Adds a face without corners equal to the one before, unless fewer than three are left.
+  void AddFace(std::vector<std::uint32_t> corners,
+               std::uint32_t material = kUnnamed,
+               std::uint32_t group = kUnnamed);
+};
+
+/// Triangles whose faces have the same names in their file.
+struct NamedMesh {
+  std::string material;  ///< Empty = none.
+  std::string group;     ///< Empty = none.
+  Mesh mesh;             ///< m, z up, relative to ImportedMesh::origin_m.
+};
+
+/// A mesh file as triangles in metres, z up.
+struct ImportedMesh {
+  std::vector<NamedMesh> parts;  ///< In the order in which the file names them; none is empty.
+  Vector3 origin_m;              ///< The middle of the file's bounding box, in the file's frame.
+  std::size_t num_faces{};       ///< Faces in the file.
+  std::size_t num_flat{};        ///< Triangles left out because they have no area in float32.
+  double area_m2{};              ///< Of all triangles.
+
+  [[nodiscard]] std::size_t num_triangles() const;
+};
+
+/// Cuts all faces into triangles. Every face keeps its area. Lengths are multiplied by `unit_m`; if
+/// `y_up`, y becomes z and z becomes -y. Vertices are centred in double precision before they are
+/// rounded to float32, so that a mesh in map coordinates is as exact as one about its origin.
+/// Triangles without area in float32 and unused points are left out.
+[[nodiscard]] ImportedMesh MakeTriangles(const PolygonSoup& soup, double unit_m, bool y_up);
+
+}  // namespace railcast

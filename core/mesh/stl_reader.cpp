@@ -1,0 +1,168 @@
+#include "core/mesh/stl_reader.h"
+
+#include <OpenMesh/Core/IO/importer/BaseImporter.hh>
+#include <OpenMesh/Core/IO/reader/STLReader.hh>
+#include <OpenMesh/Core/System/omstream.hh>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/base/text_cursor.h"
+
+namespace railcast {
+namespace {
+
+/// Collects the vertices and faces that OpenMesh reads, without requiring a manifold, and ignores
+/// everything else.
+class SoupImporter final : public OpenMesh::IO::BaseImporter {
+ public:
+  using VertexHandle = OpenMesh::VertexHandle;
+  using FaceHandle = OpenMesh::FaceHandle;
+  using HalfedgeHandle = OpenMesh::HalfedgeHandle;
+  using EdgeHandle = OpenMesh::EdgeHandle;
+
+  VertexHandle add_vertex(const OpenMesh::Vec3f& point) override {
+    return add_vertex(OpenMesh::Vec3d(point));
+  }
+  VertexHandle add_vertex(const OpenMesh::Vec3d& point) override {
+    soup_.points.emplace_back(point[0], point[1], point[2]);
+    return VertexHandle(static_cast<int>(soup_.points.size()) - 1);
+  }
+  FaceHandle add_face(const VHandles& corners) override {
+    PolygonSoup::Face face;
+    for (const VertexHandle corner : corners) {
+      face.corners.push_back(static_cast<std::uint32_t>(corner.idx()));
+    }
+    soup_.faces.push_back(std::move(face));
+    return FaceHandle(static_cast<int>(soup_.faces.size()) - 1);
+  }
+  size_t n_vertices() const override { return soup_.points.size(); }
+  size_t n_faces() const override { return soup_.faces.size(); }
+  size_t n_edges() const override { return 0; }
+
+  [[nodiscard]] PolygonSoup Take() { return std::move(soup_); }
+
+  VertexHandle add_vertex() override { return VertexHandle(); }
+  HalfedgeHandle add_edge(VertexHandle, VertexHandle) override { return HalfedgeHandle(); }
+  FaceHandle add_face(HalfedgeHandle) override { return FaceHandle(); }
+  void add_face_texcoords(FaceHandle, VertexHandle, const std::vector<OpenMesh::Vec2f>&) override {}
+  void add_face_texcoords(FaceHandle, VertexHandle, const std::vector<OpenMesh::Vec3f>&) override {}
+  void set_face_texindex(FaceHandle, int) override {}
+  void set_point(VertexHandle, const OpenMesh::Vec3f&) override {}
+  void set_halfedge(VertexHandle, HalfedgeHandle) override {}
+  void set_normal(VertexHandle, const OpenMesh::Vec3f&) override {}
+  void set_normal(VertexHandle, const OpenMesh::Vec3d&) override {}
+  void set_color(VertexHandle, const OpenMesh::Vec3uc&) override {}
+  void set_color(VertexHandle, const OpenMesh::Vec4uc&) override {}
+  void set_color(VertexHandle, const OpenMesh::Vec3f&) override {}
+  void set_color(VertexHandle, const OpenMesh::Vec4f&) override {}
+  void set_texcoord(VertexHandle, const OpenMesh::Vec2f&) override {}
+  void set_status(VertexHandle, const OpenMesh::Attributes::StatusInfo&) override {}
+  void set_next(HalfedgeHandle, HalfedgeHandle) override {}
+  void set_face(HalfedgeHandle, FaceHandle) override {}
+  void request_face_texcoords2D() override {}
+  void set_texcoord(HalfedgeHandle, const OpenMesh::Vec2f&) override {}
+  void set_texcoord(VertexHandle, const OpenMesh::Vec3f&) override {}
+  void set_texcoord(HalfedgeHandle, const OpenMesh::Vec3f&) override {}
+  void set_status(HalfedgeHandle, const OpenMesh::Attributes::StatusInfo&) override {}
+  void set_color(EdgeHandle, const OpenMesh::Vec3uc&) override {}
+  void set_color(EdgeHandle, const OpenMesh::Vec4uc&) override {}
+  void set_color(EdgeHandle, const OpenMesh::Vec3f&) override {}
+  void set_color(EdgeHandle, const OpenMesh::Vec4f&) override {}
+  void set_status(EdgeHandle, const OpenMesh::Attributes::StatusInfo&) override {}
+  void set_normal(FaceHandle, const OpenMesh::Vec3f&) override {}
+  void set_normal(FaceHandle, const OpenMesh::Vec3d&) override {}
+  void set_color(FaceHandle, const OpenMesh::Vec3uc&) override {}
+  void set_color(FaceHandle, const OpenMesh::Vec4uc&) override {}
+  void set_color(FaceHandle, const OpenMesh::Vec3f&) override {}
+  void set_color(FaceHandle, const OpenMesh::Vec4f&) override {}
+  void set_status(FaceHandle, const OpenMesh::Attributes::StatusInfo&) override {}
+  void add_texture_information(int, std::string) override {}
+
+ private:
+  PolygonSoup soup_;
+};
+
+constexpr std::size_t kStlHeaderBytes = 84;
+constexpr std::size_t kStlTriangleBytes = 50;
+
+std::uint32_t NumBinaryTriangles(const std::string& bytes) {
+  std::uint32_t num = 0;
+  if (bytes.size() >= kStlHeaderBytes) std::memcpy(&num, bytes.data() + 80, sizeof(num));
+  return num;
+}
+
+PolygonSoup ReadStl(OpenMesh::IO::Options options,
+                    const std::string& shown,
+                    const std::string& bytes) {
+  // What the reader has to say about a file would be printed as it is in the file.
+  omerr().disable();
+  SoupImporter importer;
+  std::istringstream in(bytes);
+  if (!OpenMesh::IO::STLReader().read(in, importer, options)) {
+    throw InputError(shown + ": cannot be read as STL");
+  }
+  return importer.Take();
+}
+
+/// Checks what OpenMesh would pass over in an ASCII STL file.
+void CheckAsciiStl(const std::string& shown, std::string_view rest) {
+  std::size_t num_loops = 0;
+  std::size_t num_vertices = 0;
+  for (std::size_t line_number = 1; const auto line = TakeLine(rest); ++line_number) {
+    const auto words = Words(*line);
+    if (words.empty()) continue;
+    if (words[0] == "outer" || words[0] == "OUTER") ++num_loops;
+    if (words[0] != "vertex" && words[0] != "VERTEX") continue;
+    ++num_vertices;
+    bool is_good = words.size() == 4;
+    for (std::size_t i = 1; is_good && i < 4; ++i) {
+      const auto number = ParseNumber<float>(words[i].substr(words[i].starts_with('+') ? 1 : 0));
+      is_good = number && std::isfinite(*number);
+    }
+    if (!is_good) {
+      throw InputError(shown + ": line " + std::to_string(line_number) +
+                       ": a vertex must have three finite coordinates (got \"" + ShownText(*line) +
+                       "\")");
+    }
+  }
+  if (num_vertices != 3 * num_loops) {
+    throw InputError(shown + ": each of its " + std::to_string(num_loops) +
+                     " facets must have three vertices (got " + std::to_string(num_vertices) +
+                     " in all)");
+  }
+}
+
+}  // namespace
+
+bool IsBinaryStl(const std::string& bytes) {
+  return bytes.size() >= kStlHeaderBytes &&
+         bytes.size() == kStlHeaderBytes + kStlTriangleBytes * NumBinaryTriangles(bytes);
+}
+
+PolygonSoup ReadBinaryStl(const std::string& shown, const std::string& bytes) {
+  // OpenMesh looks corners up by their place, where one that is not a number equals any other.
+  for (std::size_t i = 0; i < NumBinaryTriangles(bytes); ++i) {
+    std::array<float, 9> corners{};
+    std::memcpy(corners.data(), bytes.data() + kStlHeaderBytes + i * kStlTriangleBytes + 12, 36);
+    for (const float value : corners) {
+      if (!std::isfinite(value)) {
+        throw InputError(shown + ": triangle " + std::to_string(i) +
+                         " must have finite coordinates" + Got(value));
+      }
+    }
+  }
+  return ReadStl(OpenMesh::IO::Options::Binary, shown, bytes);
+}
+
+PolygonSoup ReadAsciiStl(const std::string& shown, const std::string& bytes) {
+  CheckAsciiStl(shown, bytes);
+  return ReadStl(OpenMesh::IO::Options::Default, shown, bytes);
+}
+
+}  // namespace railcast

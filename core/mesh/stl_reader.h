@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "core/mesh/polygon_soup.h"
+
+namespace railcast {
+
+/// Reads STL files held in `bytes`, by OpenMesh.
+/// @param shown Name of the file in error messages.
+/// @throws InputError "shown: rule (got value)" if the file is damaged or ends early.
+[[nodiscard]] PolygonSoup ReadAsciiStl(const std::string& shown, const std::string& bytes);
+[[nodiscard]] PolygonSoup ReadBinaryStl(const std::string& shown, const std::string& bytes);
+
+/// Whether `bytes` are a binary STL file: its length follows from its number of triangles. ASCII
+/// files begin with "solid", but so do some binary ones.
+[[nodiscard]] bool IsBinaryStl(const std::string& bytes);
+
+}  // namespace railcast

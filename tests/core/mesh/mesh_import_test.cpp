@@ -1,0 +1,191 @@
+#include "core/mesh/mesh_import.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstring>
+
+#include "core/base/error.h"
+#include "core/mesh/assimp_reader.h"
+#include "tests/core/mesh/imported_meshes.h"
+
+namespace railcast {
+namespace {
+
+// A tetrahedron of legs 1, 2 and 3 in each format.
+constexpr const char* kObj =
+    "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+constexpr const char* kPly =
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+    "property float z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n"
+    "0 0 0\n1 0 0\n0 2 0\n0 0 3\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+constexpr const char* kOff =
+    "# by hand\nOFF\n4 4 6 # no edges are read\n0 0 0\n\n1 0 0\n0 2 0\n0 0 3\n3 0 2 1\n3 0 1 3\n"
+    "3 0 3 2\n3 1 2 3\n";
+
+constexpr std::array<std::array<std::array<float, 3>, 3>, 4> kTriangles = {
+    {{{{0, 0, 0}, {0, 2, 0}, {1, 0, 0}}},
+     {{{0, 0, 0}, {1, 0, 0}, {0, 0, 3}}},
+     {{{0, 0, 0}, {0, 0, 3}, {0, 2, 0}}},
+     {{{1, 0, 0}, {0, 2, 0}, {0, 0, 3}}}}};
+
+std::string AsciiStl() {
+  std::string text = "solid by hand\n";
+  for (const auto& triangle : kTriangles) {
+    text += "facet normal 0 0 0\n outer loop\n";
+    for (const auto& [x, y, z] : triangle) {
+      text += "  vertex " + std::to_string(x) + ' ' + std::to_string(y) + ' ' + std::to_string(z) +
+              '\n';
+    }
+    text += " endloop\nendfacet\n";
+  }
+  return text + "endsolid by hand\n";
+}
+
+/// Begins with "solid", as files of some programs do.
+std::string BinaryStl() {
+  std::string bytes = "solid, facet by facet";
+  bytes.resize(80, ' ');
+  const auto append = [&](const auto& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
+  };
+  append(std::uint32_t{4});
+  for (const auto& triangle : kTriangles) {
+    append(std::array<float, 3>{});
+    append(triangle);
+    append(std::uint16_t{0});
+  }
+  return bytes;
+}
+
+/// glTF in JSON with its buffer within; y is up.
+std::string Gltf() {
+  return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+    "nodes": [{"mesh": 0, "name": "body", "scale": [2, 2, 2]}],
+    "materials": [{"name": "Window"}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                   "min": [0, 0, 0], "max": [1, 1, 0]}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,)"
+         "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}";
+}
+
+TEST(ParseMesh, KnowsFormatsByTheirContent) {
+  for (const std::string& bytes :
+       {std::string(kObj), std::string(kPly), std::string(kOff), AsciiStl(), BinaryStl()}) {
+    SCOPED_TRACE(bytes.substr(0, 20));
+    const ImportedMesh mesh = ParseMesh(bytes, "wrong.dae");
+    EXPECT_EQ(mesh.num_triangles(), 4U);
+    EXPECT_EQ(mesh.num_faces, 4U);
+    // Halves of the products of the legs, and a triangle of sides square roots of 5, 13 and 10.
+    EXPECT_NEAR(mesh.area_m2, 1.0 + 3.0 + 1.5 + 3.5, 1e-6);
+    EXPECT_NEAR(Area(Merged(mesh)), mesh.area_m2, 1e-6);
+    EXPECT_TRUE(Bounds(Merged(mesh))
+                    .translated(mesh.origin_m)
+                    .isApprox(Eigen::AlignedBox3d(Vector3(0, 0, 0), Vector3(1, 2, 3)), 1e-6));
+  }
+}
+
+TEST(ParseMesh, TakesUnitAndUpAxisFromAFileThatHasThem) {
+  if (!HasAssimp()) GTEST_SKIP() << "built without assimp";
+  const auto bounds = [](const ImportedMesh& mesh) {
+    return Bounds(Merged(mesh)).translated(mesh.origin_m);
+  };
+  const ImportedMesh mesh = ParseMesh(Gltf(), "wrong.stl");
+  ASSERT_EQ(mesh.parts.size(), 1U);
+  EXPECT_EQ(mesh.parts[0].material, "Window");
+  EXPECT_EQ(mesh.parts[0].group, "body");
+  EXPECT_TRUE(bounds(mesh).isApprox(Eigen::AlignedBox3d(Vector3(0, 0, 0), Vector3(2, 0, 2)), 1e-6));
+  const ImportedMesh given = ParseMesh(Gltf(), "a.gltf", {.unit_m = 0.5, .y_up = false});
+  EXPECT_TRUE(
+      bounds(given).isApprox(Eigen::AlignedBox3d(Vector3(0, 0, 0), Vector3(1, 1, 0)), 1e-6));
+}
+
+std::string Complaint(const std::string& bytes, const std::string& file = "a.mesh") {
+  try {
+    (void)ParseMesh(bytes, file);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ParseMesh, SaysWhichFormatsItReads) {
+  const std::string rule =
+      HasAssimp()
+          ? "a.mesh: is of no known format; OBJ, PLY, STL, OFF, glTF, FBX, DAE and 3DS files "
+            "can be read"
+          : "a.mesh: is of no known format; OBJ, PLY, STL and OFF files can be read";
+  EXPECT_EQ(Complaint(""), rule);
+  EXPECT_EQ(Complaint(std::string(100, '\0')), rule);
+  EXPECT_EQ(Complaint("solid\x1b[31m"), rule);
+  EXPECT_EQ(Complaint("", "a.obj"), "a.obj: holds no triangle");
+}
+
+TEST(ParseMesh, RefusesCoordinatesThatSinglePrecisionCannotHold) {
+  std::string text = AsciiStl();
+  text.replace(text.find("2.000000"), 8, "5411935.");
+  EXPECT_EQ(
+      Complaint(text),
+      "a.mesh: coordinates of this format must lie within 8192 m of its origin, for they have "
+      "single precision (got 5411935); OBJ, PLY and OFF files keep all their digits");
+}
+
+TEST(ParseMesh, RefusesADamagedStl) {
+  std::string text = AsciiStl();
+  text.replace(text.find("vertex 1.0"), 10, "vertex one");
+  EXPECT_THAT(Complaint(text),
+              testing::StartsWith("a.mesh: line 6: a vertex must have three finite "
+                                  "coordinates (got \"  vertex one"));
+  const std::string whole = AsciiStl();
+  EXPECT_EQ(Complaint(whole.substr(0, whole.rfind("  vertex"))),
+            "a.mesh: each of its 4 facets must have three vertices (got 11 in all)");
+  std::string bytes = BinaryStl();
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  std::memcpy(bytes.data() + 84 + 50 + 12, &nan, sizeof(nan));
+  EXPECT_EQ(Complaint(bytes), "a.mesh: triangle 1 must have finite coordinates (got nan)");
+  EXPECT_THAT(Complaint(BinaryStl().substr(0, 200)), testing::HasSubstr("of no known format"));
+}
+
+// OpenMesh's reader takes a colour for the next face.
+TEST(ParseMesh, PassesOverColoursInOffFiles) {
+  const ImportedMesh mesh = ParseMesh(
+      "COFF 4 2 0\n0 0 0 255 0 0\n1 0 0 255 0 0\n1 1 0 255 0 0\n0 1 0 255 0 0\n"
+      "3 0 1 2 1.0 0.5 0.5 0.75\n3 0 2 3 3\n",
+      "a.off");
+  EXPECT_EQ(mesh.num_triangles(), 2U);
+  EXPECT_DOUBLE_EQ(mesh.area_m2, 1.0);
+}
+
+TEST(ParseMesh, RefusesADamagedOff) {
+  const std::string counts = "a.mesh: line 2: must give the numbers of vertices and faces (got ";
+  EXPECT_EQ(Complaint("OFF\n3 one 0\n"), counts + "\"one\")");
+  EXPECT_EQ(Complaint("OFF\n3\n"), counts + "\"\")");
+  EXPECT_EQ(Complaint("4OFF\n3 1 0\n"),
+            "a.mesh: line 1: vertices must have three coordinates (got \"4OFF\")");
+  EXPECT_EQ(Complaint("OFF\n3 4000000000 0\n0 0 0\n"),
+            "a.mesh: ends within its 3 vertices and 4000000000 faces");
+  EXPECT_EQ(Complaint("OFF\n3 1 0\n0 0 inf\n"),
+            "a.mesh: line 3: a vertex must have three finite coordinates (got \"inf\")");
+  const std::string vertices = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n";
+  EXPECT_EQ(Complaint(vertices + "3 0 1 3\n"),
+            "a.mesh: line 6: a face must name one of the 3 vertices, counted from 0 (got \"3\")");
+  EXPECT_EQ(Complaint(vertices + "3 0 1 -1\n"),
+            "a.mesh: line 6: a face must name one of the 3 vertices, counted from 0 (got \"-1\")");
+  EXPECT_EQ(Complaint(vertices + "4 0 1 2\n"),
+            "a.mesh: line 6: a face must name its corners (got \"4\")");
+}
+
+TEST(ParseMesh, SaysWhyASceneCannotBeRead) {
+  if (!HasAssimp()) GTEST_SKIP() << "built without assimp";
+  EXPECT_THAT(Complaint("glTF\2\0\0\0garbage"),
+              testing::StartsWith("a.mesh: cannot be read as glb"));
+  EXPECT_THAT(Complaint(R"({"asset": {"version": "2.0"}})"),
+              testing::AnyOf(testing::StartsWith("a.mesh: cannot be read as gltf"),
+                             testing::EndsWith("holds no triangle")));
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,150 @@
+#include "core/mesh/ply_mesh_reader.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstring>
+
+#include "core/base/error.h"
+
+namespace railcast {
+namespace {
+
+/// A pyramid in map coordinates, whose faces follow a list property of another name, and an element
+/// that nobody knows.
+struct Pyramid {
+  std::vector<Vector3> points = {
+      {0, 0, 0}, {0.25, 0, 0}, {0.25, 0.0625, 0}, {0, 0.0625, 0}, {0.125, 0.03125, 0.5}};
+  std::vector<std::vector<std::uint32_t>> faces = {
+      {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {3, 2, 1, 0}};
+
+  [[nodiscard]] std::string Header(const std::string& format) const {
+    return "ply\r\nformat " + format + " 1.0\r\ncomment made by hand\nelement vertex " +
+           std::to_string(points.size()) +
+           "\nproperty double x\nproperty uchar red\nproperty double y\nproperty float64 z\n"
+           "element odd 1\nproperty list uchar short what\nelement face " +
+           std::to_string(faces.size()) +
+           "\nproperty list uchar uint vertex_indices\nproperty float quality\nend_header\n";
+  }
+};
+
+template <typename Number>
+void Append(std::string& bytes, Number number, bool is_big) {
+  std::array<char, sizeof(Number)> raw = std::bit_cast<std::array<char, sizeof(Number)>>(number);
+  if (is_big) std::reverse(raw.begin(), raw.end());
+  bytes.append(raw.begin(), raw.end());
+}
+
+std::string Binary(const Pyramid& pyramid, const Vector3& by, bool is_big) {
+  std::string bytes = pyramid.Header(is_big ? "binary_big_endian" : "binary_little_endian");
+  for (const Vector3& point : pyramid.points) {
+    Append(bytes, point.x() + by.x(), is_big);
+    bytes += '\xFF';
+    Append(bytes, point.y() + by.y(), is_big);
+    Append(bytes, point.z() + by.z(), is_big);
+  }
+  bytes += '\2';
+  Append(bytes, std::int16_t{-1}, is_big);
+  Append(bytes, std::int16_t{300}, is_big);
+  for (const auto& face : pyramid.faces) {
+    bytes += static_cast<char>(face.size());
+    for (const std::uint32_t corner : face) Append(bytes, corner, is_big);
+    Append(bytes, 0.5F, is_big);
+  }
+  return bytes;
+}
+
+constexpr double kLargest = 1e9;
+
+void ExpectPyramid(const std::string& bytes, const Pyramid& pyramid, const Vector3& by) {
+  const PolygonSoup soup = ReadPlyMesh("p.ply", bytes, kLargest);
+  ASSERT_EQ(soup.points.size(), pyramid.points.size());
+  for (std::size_t i = 0; i < soup.points.size(); ++i) {
+    EXPECT_EQ(soup.points[i], Vector3(pyramid.points[i] + by));
+  }
+  ASSERT_EQ(soup.faces.size(), pyramid.faces.size());
+  for (std::size_t i = 0; i < soup.faces.size(); ++i) {
+    EXPECT_EQ(soup.faces[i].corners, pyramid.faces[i]);
+  }
+}
+
+const Vector3 kUtm(447240.0, 5411935.0, 267.0);
+
+TEST(ReadPlyMesh, KeepsAllDigitsOfDoublesInEitherByteOrder) {
+  const Pyramid pyramid;
+  ExpectPyramid(Binary(pyramid, kUtm, false), pyramid, kUtm);
+  ExpectPyramid(Binary(pyramid, kUtm, true), pyramid, kUtm);
+}
+
+TEST(ReadPlyMesh, ReadsNumbersAsText) {
+  const Pyramid pyramid;
+  ExpectPyramid(pyramid.Header("ascii") +
+                    "0 255 0 0\n+0.25 255 0 0\r\n0.25 255 6.25e-2 0\n0 255 0.0625 0\n"
+                    "0.125 255 0.03125 0.5\n2 -1 300\n3 0 1 4 0.5\n3 1 2 4 0.5 3 2 3 4 0.5\n"
+                    "3 3 0 4 0.5\n4 3 2 1 0 0.5",
+                pyramid, Vector3::Zero());
+}
+
+std::string PlyComplaint(const std::string& bytes) {
+  try {
+    (void)ReadPlyMesh("p.ply", bytes, kLargest);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ReadPlyMesh, SaysWhereAFileEnds) {
+  const Pyramid pyramid;
+  const std::string whole = Binary(pyramid, Vector3::Zero(), false);
+  EXPECT_EQ(PlyComplaint(whole.substr(0, whole.size() - 1)),
+            "p.ply: ends within its 5 elements face");
+  EXPECT_EQ(PlyComplaint(whole.substr(0, whole.size() - 90)),
+            "p.ply: ends within its 1 elements odd");
+  EXPECT_EQ(PlyComplaint(whole.substr(0, whole.size() - 150)),
+            "p.ply: ends within its 5 elements vertex");
+  EXPECT_EQ(PlyComplaint(whole.substr(0, whole.find("property double x"))),
+            "p.ply: its header has no end_header line");
+}
+
+TEST(ReadPlyMesh, RefusesACountThatWouldFillTheMemory) {
+  EXPECT_EQ(PlyComplaint("ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\n"
+                         "end_header\n0\n"),
+            "p.ply: ends within its 4000000000 elements vertex");
+  EXPECT_EQ(PlyComplaint("ply\nformat ascii 1.0\nelement vertex 1\nend_header\n0\n"),
+            "p.ply: element vertex: has no property");
+}
+
+TEST(ReadPlyMesh, RefusesWhatIsNoNumberAndNoVertex) {
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar int vertex_index\nend_header\n";
+  EXPECT_EQ(PlyComplaint(header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"),
+            "p.ply: face 0 must name one of the 3 vertices, counted from 0 (got 3)");
+  EXPECT_EQ(PlyComplaint(header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n"),
+            "p.ply: face 0 must name one of the 3 vertices, counted from 0 (got -1)");
+  EXPECT_EQ(PlyComplaint(header + "0 0 0\n1 0 nan\n0 1 0\n3 0 1 2\n"),
+            "p.ply: vertex 1 must have three finite coordinates (got nan)");
+  EXPECT_EQ(PlyComplaint(header + "0 0 0\n1 0 2e9\n0 1 0\n3 0 1 2\n"),
+            "p.ply: vertex 1 must have three finite coordinates (got 2e+09)");
+  EXPECT_EQ(PlyComplaint(header + "0 0 0\n1 zero 0\n0 1 0\n3 0 1 2\n"),
+            "p.ply: element vertex: must consist of numbers (got \"zero\")");
+}
+
+TEST(ReadPlyMesh, RefusesAHeaderOfAnotherFormat) {
+  EXPECT_EQ(PlyComplaint("ply\nformat binary 1.0\nend_header\n"),
+            "p.ply: format: must be ascii, binary_little_endian or binary_big_endian (got "
+            "\"binary\")");
+  EXPECT_EQ(PlyComplaint("ply\nend_header\n"), "p.ply: its header has no format line");
+  EXPECT_EQ(PlyComplaint("ply\nformat ascii 1.0\nelement vertex many\nend_header\n"),
+            "p.ply: its header must have lines of the PLY format (got \"element vertex many\")");
+  EXPECT_EQ(PlyComplaint("ply\nformat ascii 1.0\nelement vertex 1\nproperty half x\nend_header\n"),
+            "p.ply: its header must have lines of the PLY format (got \"property half x\")");
+  EXPECT_EQ(
+      PlyComplaint("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                   "end_header\n1 1\n"),
+      "p.ply: element vertex: must have the properties x, y and z");
+}
+
+}  // namespace
+}  // namespace railcast
