@@ -45,6 +45,13 @@ void CheckShape(const StructurePlace&, const Structure&, WorldFaults&) {}
 void AddStructure(const ChunkContext& context, const PlatformSpec& platform, Chunk& chunk);
 [[nodiscard]] std::vector<ClearedArea> ClearedBy(const PlatformSpec& platform);
 void CheckShape(const StructurePlace& place, const PlatformSpec& platform, WorldFaults& faults);
+/// How much farther from a track's axis than on the straight a platform's edge must be at a
+/// chainage (CurveWidening_m). The curve is that of the 20 m about the place, so that an edge has
+/// no steps where the curvature of a turnout does. @param side > 0 for the left.
+[[nodiscard]] double PlatformWidening_m(const Alignment& alignment,
+                                        const TrackCourse& track,
+                                        double side,
+                                        double s_m);
 /// World height of the platform's top at (s, d), d being left of the alignment; nothing beside it.
 [[nodiscard]] std::optional<double> PlatformTop_m(const ChunkContext& context,
                                                   const PlatformSpec& platform,
