@@ -78,7 +78,8 @@ struct FenceSpec : SideStretchSpec {
   bool operator==(const FenceSpec&) const = default;
 };
 
-/// A wall that holds back the ground beside it. Its face leans away from the track by 1:10.
+/// A wall that holds back the ground beside it, which is as high as its top. Its face leans away
+/// from the track by 1:10.
 struct RetainingWallSpec : SideStretchSpec {
   double distance_m = 4.0;  ///< Of its face from the track's axis, at top of rail.
   double height_m = 2.0;    ///< Above top of rail.

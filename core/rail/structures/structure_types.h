@@ -65,6 +65,8 @@ void AddStructure(const ChunkContext& context, const FenceSpec& fence, Chunk& ch
 [[nodiscard]] std::vector<ClearedArea> ClearedBy(const FenceSpec& fence);
 
 void AddStructure(const ChunkContext& context, const RetainingWallSpec& wall, Chunk& chunk);
+/// Distance of the wall's back, which is upright, from its track's axis.
+[[nodiscard]] double BackOf_m(const RetainingWallSpec& wall);
 [[nodiscard]] std::vector<ClearedArea> ClearedBy(const RetainingWallSpec& wall);
 
 void AddStructure(const ChunkContext& context, const CableTroughSpec& trough, Chunk& chunk);
