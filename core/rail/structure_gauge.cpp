@@ -52,6 +52,14 @@ std::optional<double> PantographHalfWidth_m(double contact_height_m) {
   return std::nullopt;
 }
 
+double CurveWidening_m(double curvature_per_m, double side) {
+  constexpr double kTight_per_m = 1.0 / 250.0;
+  const double bend_per_m = std::abs(curvature_per_m);
+  if (bend_per_m <= kTight_per_m) return 3.75 * bend_per_m;
+  const bool is_inside = curvature_per_m * side > 0.0;
+  return is_inside ? 50.0 * bend_per_m - 0.185 : 60.0 * bend_per_m - 0.225;
+}
+
 std::vector<GaugePart> StructureGauge(std::optional<double> contact_height_m) {
   std::vector<GaugePart> parts = {{kWagonHalfWidth_m, 0.0, kWagonHeight_m}};
   const std::optional<double> half_width_m =

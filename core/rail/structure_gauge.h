@@ -13,6 +13,17 @@ namespace railcast {
 /// nothing for higher wires, which the table does not cover.
 [[nodiscard]] std::optional<double> PantographHalfWidth_m(double contact_height_m);
 
+/// How much farther from a track's axis things stand in a curve than on the straight (EN 15273-3):
+/// 3.75 m^2 / R; in curves of less than 250 m radius 50 m^2 / R - 0.185 m inside and 60 m^2 / R -
+/// 0.225 m outside, which is the same at 250 m. The standard has these down to 150 m; they are
+/// continued below.
+/// @param curvature_per_m Left positive.
+/// @param side > 0 for what stands on the left.
+[[nodiscard]] double CurveWidening_m(double curvature_per_m, double side);
+
+/// Least distance of a platform's edge from the axis of a straight track: EBO § 13.
+inline constexpr double kLeastPlatformEdge_m = 1.65;
+
 /// A rectangle of the gauge, symmetric about the track's axis.
 struct GaugePart {
   double half_width_m{};

@@ -65,8 +65,8 @@ template <class Archive>
 void Describe(Archive& a, PlatformSpec& s) {
   DescribeSideStretch(a, s);
   a.Optional("height_m", s.height_m, "Of its edge above top of rail.", Within(0.2, 1.3));
-  a.Optional("edge_distance_m", s.edge_distance_m, "Of its edge from the track's axis.",
-             Within(0.8, 10));
+  a.Optional("edge_distance_m", s.edge_distance_m,
+             "Of its edge from the axis of straight track; curves add to it.", Within(0.8, 10));
   a.Optional("width_m", s.width_m, "Across.", Within(0.5, 50));
   a.Optional("has_edge_strip", s.has_edge_strip,
              "Whether a white tactile strip runs along the edge.");

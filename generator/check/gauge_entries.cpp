@@ -27,6 +27,10 @@ constexpr double kLeastDepth_m = 1e-3;
 constexpr double kLongestPiece_m = 2.0;
 /// Triangles are not divided below this size.
 constexpr double kLeastPiece_m = 0.1;
+/// Of platforms' edges: chords of the platform and of such pieces.
+constexpr double kEdgeTolerance_m = 5e-3;
+/// The edge is looked for within this height; the wall below stands back.
+constexpr double kAboutEdge_m = 0.12;
 /// No part of the gauge is farther from its track's axis.
 constexpr double kGaugeReach_m = 2.5;
 
@@ -73,10 +77,15 @@ Polygon Clipped(const Polygon& polygon, int axis, double limit, double sign) {
 /// Collects what one thing has in the gauge of one track.
 class GaugeProbe {
  public:
-  GaugeProbe(const WorldTracks& tracks, std::size_t track, const Alignment& alignment)
+  /// @param platform If it measures one, for which the gauge is wider.
+  GaugeProbe(const WorldTracks& tracks,
+             std::size_t track,
+             const Alignment& alignment,
+             const PlatformSpec* platform)
       : track_(tracks.world.tracks[track]),
         course_(tracks.courses[track]),
         alignment_(alignment),
+        platform_(platform),
         gauge_(StructureGauge(ContactHeightOver_m(track_, tracks.world.catenary))) {
     for (const GaugePart& part : gauge_) top_m_ = std::max(top_m_, part.top_m);
   }
@@ -94,6 +103,7 @@ class GaugeProbe {
     if (IsFar(here, length_m)) return;
     if (length_m > kLongestPiece_m) return Divide(triangle);
     for (const GaugePart& part : gauge_) Measure(here, part, middle_s_m);
+    if (platform_ != nullptr) MeasurePlatform(here, middle_s_m);
   }
 
   [[nodiscard]] std::optional<GaugeEntry> Entry(const std::string& name) const {
@@ -152,6 +162,15 @@ class GaugeProbe {
     }
   }
 
+  /// Platforms stand farther from the axis than the gauge of wagons reaches.
+  void MeasurePlatform(const Triangle& here, double s_m) {
+    const double side = here[0].y() > 0.0 ? 1.0 : -1.0;
+    const double edge_m = kLeastPlatformEdge_m - kEdgeTolerance_m +
+                          PlatformWidening_m(alignment_, course_, side, s_m);
+    const double top_m = platform_->height_m + kAboutEdge_m;
+    Measure(here, {edge_m, platform_->height_m - kAboutEdge_m, top_m}, s_m);
+  }
+
   void Measure(const Triangle& here, const GaugePart& part, double s_m) {
     Polygon polygon;
     for (const Vector3& corner : here) polygon.emplace_back(corner.y(), corner.z());
@@ -194,6 +213,7 @@ class GaugeProbe {
   const TrackSpec& track_;
   const TrackCourse& course_;
   const Alignment& alignment_;
+  const PlatformSpec* platform_;
   std::vector<GaugePart> gauge_;
   double top_m_ = 0.0;
   GaugeEntry entry_;
@@ -203,14 +223,16 @@ class GaugeProbe {
 class Probes {
  public:
   /// @param own_tracks Names of tracks to leave out.
+  /// @param platform If it is one that is probed.
   Probes(const WorldTracks& tracks,
          const Alignment& alignment,
-         const std::vector<std::string>& own_tracks = {})
+         const std::vector<std::string>& own_tracks = {},
+         const PlatformSpec* platform = nullptr)
       : alignment_(alignment) {
     for (std::size_t i = 0; i < tracks.courses.size(); ++i) {
       const std::string& name = tracks.world.tracks[i].name;
       const bool is_own = std::ranges::find(own_tracks, name) != own_tracks.end();
-      if (!is_own) probes_.emplace_back(tracks, i, alignment);
+      if (!is_own) probes_.emplace_back(tracks, i, alignment, platform);
     }
   }
 
@@ -320,7 +342,9 @@ std::vector<GaugeEntry> FindGaugeEntries(const WorldSpec& given_spec, const Rail
         [&]<class Structure>(const Structure& given) {
           std::vector<std::string> own_tracks;
           if (kBelongsIntoGauge<Structure>) own_tracks.push_back(given.track);
-          Probes probes(tracks, world.alignment(), own_tracks);
+          const PlatformSpec* platform = nullptr;
+          if constexpr (std::is_same_v<Structure, PlatformSpec>) platform = &given;
+          Probes probes(tracks, world.alignment(), own_tracks, platform);
           ProbeStructure(AtRest(given), spec, world, probes);
           probes.Report(given.name, of_structures[i]);
         },

@@ -24,7 +24,8 @@ struct GaugeEntry {
 /// (StructureGauge()) of which track, by more than a millimetre: first structures, then objects, in
 /// their order, each with its tracks in their order. It is found triangle by triangle, so that
 /// whatever lies across a curve is found where it does. A wagon that stands in the middle of its
-/// own track is left out there.
+/// own track is left out there. Platforms must be as far from the axis as EBO § 13 and EN 15273-3
+/// want their edges, up to a tolerance of 5 mm.
 [[nodiscard]] std::vector<GaugeEntry> FindGaugeEntries(const WorldSpec& spec,
                                                        const RailWorld& world);
 

@@ -40,10 +40,10 @@ struct PlatformRoofSpec {
 };
 
 /// A platform. Its edge lies in the frame of the track, so that it follows the cant; its top is
-/// level across.
+/// level across. In curves, it is farther from the axis (EN 15273-3).
 struct PlatformSpec : SideStretchSpec {
   double height_m = 0.76;         ///< Of the edge above top of rail.
-  double edge_distance_m = 1.65;  ///< Of the edge from the track's axis.
+  double edge_distance_m = 1.65;  ///< Of the edge from the axis of straight track.
   double width_m = 3.0;
   bool has_edge_strip = true;  ///< Whether a white tactile strip runs along the edge.
   std::optional<PlatformRoofSpec> roof;
@@ -78,7 +78,8 @@ struct FenceSpec : SideStretchSpec {
   bool operator==(const FenceSpec&) const = default;
 };
 
-/// A wall that holds back the ground beside it. Its face leans away from the track by 1:10.
+/// A wall that holds back the ground beside it, which is as high as its top. Its face leans away
+/// from the track by 1:10.
 struct RetainingWallSpec : SideStretchSpec {
   double distance_m = 4.0;  ///< Of its face from the track's axis, at top of rail.
   double height_m = 2.0;    ///< Above top of rail.

@@ -21,6 +21,10 @@ namespace railcast {
 /// (strip_width.h), the columns beyond 10 m from the outermost tracks are squeezed. In both cases,
 /// the cells beyond 100 m from the axis are 4 m long and up to 8 m wide.
 ///
+/// Behind retaining walls the ground is as high as their tops (retained_ground.h). The step is
+/// inside the wall, in cells of its own; chunks near such walls have all columns in their coarser
+/// form.
+///
 /// In the coarser form, inner rows are 1 m apart, or half the wavelength of the roughness if that
 /// is from 2 to 4 m; below, they are those of the finest, and so are the columns up to 10 m from
 /// the tracks. Cells are up to 2 m wide across.

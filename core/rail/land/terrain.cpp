@@ -6,10 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/rail/land/cut_and_fill.h"
 #include "core/rail/land/ground_cover.h"
+#include "core/rail/land/ground_rise.h"
 #include "core/rail/land/landform.h"
-#include "core/rail/land/noise_field.h"
 #include "core/rail/land/outer_ground.h"
 #include "core/rail/structures/cleared.h"
 #include "core/rail/structures/crossing_road.h"
@@ -39,75 +38,8 @@ constexpr double kCoarseGroundAcross_m = 2.1;
 /// Cuttings and embankments need their edges: the lesser cells reach farther there.
 constexpr double kShapedReach_m = 25.0;
 
-/// Distance from a track's axis up to which there is no undulation.
-constexpr double kLevelReach_m = 4.0;
-constexpr double kFullReach_m = 30.0;  ///< Distance from which undulation has its full height.
-constexpr double kLongWave_m = 30.0;
-constexpr double kShortWave_m = 12.0;
-constexpr double kLongWaveShare = 0.8;  ///< Share of the variance.
-
-/// Depth below the top of the ballast over which roughness fades out.
-constexpr double kSmoothBelow_m = 0.25;
 /// Cells whose corners are all lower than this below the ballast are left out.
 constexpr double kHiddenBelow_m = 0.35;
-
-/// How far beyond its chunk the ground may be asked for: plants and objects at its ends.
-constexpr double kBeyondChunk_m = 100.0;
-
-/// The height of the ground above the formation.
-class GroundRise {
- public:
-  explicit GroundRise(const ChunkContext& context)
-      : gaps_(TracksOf(context),
-              context.begin_s_m - kBeyondChunk_m,
-              context.end_s_m + kBeyondChunk_m),
-        spec_(context.spec.terrain),
-        land_(context.land != nullptr && context.land->has_terrain() ? context.land : nullptr),
-        roughness_(context.seed, RandomUse::kGroundRoughness, 0),
-        long_wave_(context.seed, RandomUse::kGroundRoughness, 1),
-        short_wave_(context.seed, RandomUse::kGroundRoughness, 2) {
-    if (land_ != nullptr) world_from_chunk_ = context.chunk_from_world.inverse();
-  }
-
-  [[nodiscard]] double Height_m(const CrossSection& section, double s_m, double d_m) const {
-    const double ballast_m = section.BallastHeight_m(d_m) - section.FormationHeight_m(d_m);
-    const double rough = std::clamp(1.0 - ballast_m / kSmoothBelow_m, 0.0, 1.0);
-    const double along = s_m / spec_.roughness_wavelength_m;
-    const double across = d_m / spec_.roughness_wavelength_m;
-    const double distance_m = section.DistanceFromTracks_m(d_m);
-    double height_m = Undulation_m(distance_m, s_m, d_m);
-    if (land_ != nullptr) {
-      const Vector3 formation_m = section.PointAt(d_m, section.FormationHeight_m(d_m));
-      const double rise_m = land_->Rise_m(world_from_chunk_ * formation_m);
-      height_m = CutAndFill_m(rise_m + height_m, distance_m - kFormationEdge_m);
-    }
-    return rough * spec_.roughness_sigma_m * roughness_.At(along, across) + height_m -
-           Drop_m(s_m, d_m);
-  }
-
-  /// How much lower the ground is below and about bridges.
-  [[nodiscard]] double Drop_m(double s_m, double d_m) const { return gaps_.Drop_m(s_m, d_m); }
-
- private:
-  [[nodiscard]] double Undulation_m(double distance_m, double s_m, double d_m) const {
-    const double t =
-        std::clamp((distance_m - kLevelReach_m) / (kFullReach_m - kLevelReach_m), 0.0, 1.0);
-    if (t == 0.0) return 0.0;
-    const double fade = t * t * (3.0 - 2.0 * t);
-    const double waves =
-        std::sqrt(kLongWaveShare) * long_wave_.At(s_m / kLongWave_m, d_m / kLongWave_m) +
-        std::sqrt(1.0 - kLongWaveShare) * short_wave_.At(s_m / kShortWave_m, d_m / kShortWave_m);
-    return fade * spec_.undulation_sigma_m * waves;
-  }
-
-  BridgeGaps gaps_;
-  const TerrainSpec& spec_;
-  const Landform* land_;  ///< Null: as high as the formation.
-  Transform world_from_chunk_ = Transform::Identity();
-  NoiseField roughness_;
-  NoiseField long_wave_;
-  NoiseField short_wave_;
-};
 
 /// The width of the strip, and whether cells may be larger far from the track.
 struct GroundExtent {
@@ -242,21 +174,27 @@ class GroundGrid {
     for (const double s_m : stations_m) {
       const CrossSection section(context_, s_m);
       for (std::size_t column = 0; column < num_columns_; ++column) {
-        const GridPoint point = PointAt(section, s_m, column);
+        const GridPoint point = PointAt(section, s_m, columns_.PlaceOf_m(s_m, first_ + column));
         points_m.push_back(point.place_m);
         shows.push_back(point.shows);
       }
     }
+    const std::vector<StepGap> gaps = GapsAtSteps(stations_m);
     const auto keeps = [&](std::size_t row, std::size_t column) {
       const std::size_t corner = row * num_columns_ + column;
       const std::size_t ahead = corner + num_columns_;
-      return shows[corner] || shows[corner + 1] || shows[ahead] || shows[ahead + 1];
+      return (shows[corner] || shows[corner + 1] || shows[ahead] || shows[ahead + 1]) &&
+             std::ranges::none_of(gaps, [&](const StepGap& gap) {
+               return gap.row == row && column >= gap.right && column < gap.left;
+             });
     };
-    return MeshOfGrid(points_m, num_columns_, keeps);
+    Mesh mesh = MeshOfGrid(points_m, num_columns_, keeps);
+    for (const StepGap& gap : gaps) FillBesideStep(stations_m, gap, mesh);
+    return mesh;
   }
 
   [[nodiscard]] Mesh CoarseMesh(std::span<const double> stations_m) const {
-    if (stations_m.size() < 3) return WholeMesh(stations_m);
+    if (stations_m.size() < 3 || !rise_.retained().empty()) return WholeMesh(stations_m);
     std::vector<CrossSection> sections;
     for (const double s_m : stations_m) sections.emplace_back(context_, s_m);
     const bool is_shaped = context_.land != nullptr && context_.land->has_terrain();
@@ -272,7 +210,8 @@ class GroundGrid {
     return MeshOfCoarseGrid(
         {sections.size(), num_columns_, ColumnsAlong(lines_m, {}, 0.0, widest_m)},
         [&](std::size_t row, std::size_t column) {
-          return PointAt(sections[row], stations_m[row], column);
+          const double s_m = stations_m[row];
+          return PointAt(sections[row], s_m, columns_.PlaceOf_m(s_m, first_ + column));
         });
   }
 
@@ -307,11 +246,65 @@ class GroundGrid {
     std::vector<CrossSection> sections;
   };
 
-  /// @param column Of the near part.
-  [[nodiscard]] GridPoint PointAt(const CrossSection& section,
-                                  double s_m,
-                                  std::size_t column) const {
-    const double d_m = columns_.PlaceOf_m(s_m, first_ + column);
+  /// Cells that a step at a retaining wall leaves out: those between two columns of the near part,
+  /// from one row to the next.
+  struct StepGap {
+    std::size_t wall{};
+    std::size_t row{};
+    std::size_t right{};
+    std::size_t left{};
+  };
+
+  [[nodiscard]] std::vector<StepGap> GapsAtSteps(std::span<const double> stations_m) const {
+    const RetainedGround& retained = rise_.retained();
+    std::vector<StepGap> gaps;
+    for (std::size_t wall = 0; wall < retained.num_walls(); ++wall) {
+      for (std::size_t row = 0; row + 1 < stations_m.size(); ++row) {
+        if (!retained.Stands(wall, stations_m[row], stations_m[row + 1])) continue;
+        StepGap gap{.wall = wall, .row = row, .right = 0, .left = num_columns_ - 1};
+        for (const double s_m : {stations_m[row], stations_m[row + 1]}) {
+          const auto [front_m, back_m] = retained.StepAt(wall, s_m);
+          std::size_t right = 0;
+          while (right < num_columns_ &&
+                 columns_.PlaceOf_m(s_m, first_ + right) < std::min(front_m, back_m)) {
+            ++right;
+          }
+          std::size_t left = right;
+          while (left < num_columns_ &&
+                 columns_.PlaceOf_m(s_m, first_ + left) <= std::max(front_m, back_m)) {
+            ++left;
+          }
+          const bool is_first = s_m == stations_m[row];
+          gap.right = is_first ? right : std::min(gap.right, right);
+          gap.left = is_first ? left : std::max(gap.left, left);
+        }
+        // Beyond the near part, a wall stands in a slope.
+        if (gap.right == 0 || gap.left >= num_columns_) continue;
+        --gap.right;
+        gaps.push_back(gap);
+      }
+    }
+    return gaps;
+  }
+
+  /// Adds the ground between the columns beside a gap and the step.
+  void FillBesideStep(std::span<const double> stations_m, const StepGap& gap, Mesh& mesh) const {
+    std::vector<Vector3> points_m;
+    for (const double s_m : {stations_m[gap.row], stations_m[gap.row + 1]}) {
+      const CrossSection section(context_, s_m);
+      const auto [front_m, back_m] = rise_.retained().StepAt(gap.wall, s_m);
+      for (const double d_m :
+           {columns_.PlaceOf_m(s_m, first_ + gap.right), std::min(front_m, back_m),
+            std::max(front_m, back_m), columns_.PlaceOf_m(s_m, first_ + gap.left)}) {
+        points_m.push_back(PointAt(section, s_m, d_m).place_m);
+      }
+    }
+    // Not the second of the three cells, which is inside the wall.
+    mesh.Append(
+        MeshOfGrid(points_m, 4, [](std::size_t, std::size_t column) { return column != 1; }));
+  }
+
+  [[nodiscard]] GridPoint PointAt(const CrossSection& section, double s_m, double d_m) const {
     const double ballast_m = section.BallastHeight_m(d_m) - section.FormationHeight_m(d_m);
     const bool is_hidden = ballast_m > kHiddenBelow_m && rise_.Drop_m(s_m, d_m) == 0.0;
     Vector3 place_m = PointOf(section, rise_, s_m, d_m);

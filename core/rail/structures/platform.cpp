@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "core/base/text.h"
 #include "core/rail/model_parts.h"
+#include "core/rail/structure_gauge.h"
 #include "core/rail/structures/structure_track.h"
 #include "core/rail/structures/structure_types.h"
 #include "core/rail/structures/swept_solid.h"
@@ -72,6 +74,31 @@ Outline RoofOutline(const PlatformSpec& platform) {
           {front_m, high_m + kRoofDepth_m}};
 }
 
+/// Curvature of the track's axis over the 20 m about a chainage, left positive.
+double MeanCurvatureAt(const Alignment& alignment, const TrackCourse& track, double s_m) {
+  constexpr double kHalf_m = 10.0;
+  const auto place_at = [&](double at_s_m) {
+    return Vector3(track.WorldFromTrack(alignment, at_s_m).translation());
+  };
+  const double turn_rad =
+      track.Heading_rad(alignment, s_m + kHalf_m) - track.Heading_rad(alignment, s_m - kHalf_m);
+  return turn_rad / (place_at(s_m + kHalf_m) - place_at(s_m - kHalf_m)).head<2>().norm();
+}
+
+/// The frame of a platform's edge. Outside a canted curve, the lower corner of the upright nose
+/// would be nearer to the axis than the edge, which stands back as much.
+Transform EdgeFrameAt(const ChunkContext& context,
+                      const StructureTrack& track,
+                      const PlatformSpec& platform,
+                      double s_m) {
+  const double side = SignOf(platform.side);
+  const double nose_m = kNoseHeight_m * std::sin(context.alignment.At(s_m).cant_rad);
+  const double edge_m = platform.edge_distance_m +
+                        PlatformWidening_m(context.alignment, track.course(), side, s_m) +
+                        std::max(0.0, side * nose_m);
+  return track.UprightAt(s_m, side * edge_m, platform.height_m);
+}
+
 /// Adds what has one cross-section, in the frame of the platform's edge.
 class PlatformBuilder {
  public:
@@ -93,8 +120,7 @@ class PlatformBuilder {
 
  private:
   [[nodiscard]] Transform EdgeAt(double s_m) const {
-    return track_.UprightAt(s_m, SignOf(platform_.side) * platform_.edge_distance_m,
-                            platform_.height_m);
+    return EdgeFrameAt(context_, track_, platform_, s_m);
   }
 
   void Sweep(const ChainageRange& range, const Outline& outline_m, Mesh& mesh) const {
@@ -130,6 +156,13 @@ void AddStructure(const ChunkContext& context, const PlatformSpec& platform, Chu
   PlatformBuilder(context, platform).Add(chunk);
 }
 
+double PlatformWidening_m(const Alignment& alignment,
+                          const TrackCourse& track,
+                          double side,
+                          double s_m) {
+  return CurveWidening_m(MeanCurvatureAt(alignment, track, s_m), side);
+}
+
 std::optional<double> PlatformTop_m(const ChunkContext& context,
                                     const PlatformSpec& platform,
                                     double s_m,
@@ -138,8 +171,7 @@ std::optional<double> PlatformTop_m(const ChunkContext& context,
   const StructureTrack track(context, platform.track);
   const double side = SignOf(platform.side);
   const Transform upright = track.Upright(s_m);
-  const Transform chunk_from_edge =
-      track.UprightAt(s_m, side * platform.edge_distance_m, platform.height_m);
+  const Transform chunk_from_edge = EdgeFrameAt(context, track, platform, s_m);
   const double edge_m = (upright.inverse() * chunk_from_edge.translation()).y();
   const double behind_edge_m = side * (d_m - track.offset_m(s_m) - edge_m);
   if (behind_edge_m < 0.0 || behind_edge_m > platform.width_m) return std::nullopt;

@@ -45,6 +45,13 @@ void CheckShape(const StructurePlace&, const Structure&, WorldFaults&) {}
 void AddStructure(const ChunkContext& context, const PlatformSpec& platform, Chunk& chunk);
 [[nodiscard]] std::vector<ClearedArea> ClearedBy(const PlatformSpec& platform);
 void CheckShape(const StructurePlace& place, const PlatformSpec& platform, WorldFaults& faults);
+/// How much farther from a track's axis than on the straight a platform's edge must be at a
+/// chainage (CurveWidening_m). The curve is that of the 20 m about the place, so that an edge has
+/// no steps where the curvature of a turnout does. @param side > 0 for the left.
+[[nodiscard]] double PlatformWidening_m(const Alignment& alignment,
+                                        const TrackCourse& track,
+                                        double side,
+                                        double s_m);
 /// World height of the platform's top at (s, d), d being left of the alignment; nothing beside it.
 [[nodiscard]] std::optional<double> PlatformTop_m(const ChunkContext& context,
                                                   const PlatformSpec& platform,
@@ -58,6 +65,8 @@ void AddStructure(const ChunkContext& context, const FenceSpec& fence, Chunk& ch
 [[nodiscard]] std::vector<ClearedArea> ClearedBy(const FenceSpec& fence);
 
 void AddStructure(const ChunkContext& context, const RetainingWallSpec& wall, Chunk& chunk);
+/// Distance of the wall's back, which is upright, from its track's axis.
+[[nodiscard]] double BackOf_m(const RetainingWallSpec& wall);
 [[nodiscard]] std::vector<ClearedArea> ClearedBy(const RetainingWallSpec& wall);
 
 void AddStructure(const ChunkContext& context, const CableTroughSpec& trough, Chunk& chunk);

@@ -167,12 +167,16 @@ std::vector<ClearedArea> ClearedBy(const FenceSpec& fence) {
   return ClearedAround(BesideTrack(fence, fence.distance_m - half_m, fence.distance_m + half_m));
 }
 
+double BackOf_m(const RetainingWallSpec& wall) {
+  return wall.distance_m + kRetainingBatter * wall.height_m + kRetainingThickness_m;
+}
+
 void AddStructure(const ChunkContext& context, const RetainingWallSpec& wall, Chunk& chunk) {
   const StructureTrack track(context, wall.track);
   const double side = SignOf(wall.side);
   const double top_m = wall.distance_m + kRetainingBatter * wall.height_m;
   const double foot_m = wall.distance_m - kRetainingBatter * wall.depth_m;
-  const double back_m = top_m + kRetainingThickness_m;
+  const double back_m = BackOf_m(wall);
   const auto stretch = StretchInChunk(track, WholeRangeOf(wall), side * back_m,
                                       [&](double s_m) { return track.Upright(s_m); });
   if (!stretch) return;
@@ -190,8 +194,7 @@ void AddStructure(const ChunkContext& context, const RetainingWallSpec& wall, Ch
 
 std::vector<ClearedArea> ClearedBy(const RetainingWallSpec& wall) {
   return ClearedAround(
-      BesideTrack(wall, wall.distance_m - kRetainingBatter * wall.depth_m,
-                  wall.distance_m + kRetainingBatter * wall.height_m + kRetainingThickness_m));
+      BesideTrack(wall, wall.distance_m - kRetainingBatter * wall.depth_m, BackOf_m(wall)));
 }
 
 }  // namespace railcast

@@ -46,6 +46,10 @@ class CrossSection {
   /// nearest end counts, at the same offset.
   [[nodiscard]] double DistanceFromTracks_m(double d_m) const;
 
+  /// As above, from the tracks whose axes lie beyond `from_d_m` on a side (> 0: to the left);
+  /// infinite if there are none.
+  [[nodiscard]] double DistanceFromTracksBeyond_m(double d_m, double from_d_m, double side) const;
+
   /// The point in the chunk's frame.
   [[nodiscard]] Vector3 PointAt(double d_m, double height_m) const;
 

@@ -109,8 +109,12 @@ TEST(StandingHeight, IsThatOfThePlatformOnOne) {
   ChunkContext context = line.Context(2);
   context.chunk_from_world = Transform::Identity();
   const Eigen::AlignedBox2d feet(Eigen::Vector2d(-0.2, -0.2), Eigen::Vector2d(0.2, 0.2));
-  const double edge_m = (line.alignment().WorldFromTrack(120.0) * Vector3(0.0, -1.65, 0.76)).z();
-  EXPECT_NEAR(StandingHeight_m(context, {120.0, -3.0, 0.0, feet}), edge_m, 2e-3);
+  // In the curve, the edge is farther from the axis by 3.75 m^2 / R, and by what its nose leans.
+  const double lean = line.alignment().At(120.0).cant_rad;
+  const double beside_m = 1.65 + 3.75 / 400.0 - 0.12 * std::sin(lean);
+  const double edge_m =
+      (line.alignment().WorldFromTrack(120.0) * Vector3(0.0, -beside_m, 0.76)).z();
+  EXPECT_NEAR(StandingHeight_m(context, {120.0, -3.0, 0.0, feet}), edge_m, 1e-6);
   // On the other side of the track, on the ground.
   EXPECT_LT(StandingHeight_m(context, {120.0, 3.0, 0.0, feet}), edge_m - 1.0);
 }

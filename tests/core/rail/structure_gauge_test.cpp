@@ -30,6 +30,20 @@ TEST(StructureGauge, HasTheEnvelopeOfWagonsWithThePantographsAboveIt) {
                                    Corner(-1.575, 0.0)));
 }
 
+TEST(StructureGauge, IsWiderInCurvesByTheStandardsFormulas) {
+  EXPECT_EQ(CurveWidening_m(0.0, 1.0), 0.0);
+  EXPECT_NEAR(CurveWidening_m(1.0 / 300.0, 1.0), 0.0125, 1e-12);
+  EXPECT_NEAR(CurveWidening_m(-1.0 / 300.0, 1.0), 0.0125, 1e-12);
+  // Inside and outside agree at 250 m.
+  for (const double side : {-1.0, 1.0}) {
+    EXPECT_NEAR(CurveWidening_m(1.0 / 250.0, side), 0.015, 1e-12);
+    EXPECT_NEAR(CurveWidening_m(1.0 / 249.999, side), 0.015, 1e-6);
+  }
+  EXPECT_NEAR(CurveWidening_m(1.0 / 200.0, 1.0), 0.065, 1e-12);
+  EXPECT_NEAR(CurveWidening_m(1.0 / 200.0, -1.0), 0.075, 1e-12);
+  EXPECT_NEAR(CurveWidening_m(-1.0 / 200.0, -1.0), 0.065, 1e-12);
+}
+
 /// A box of 2 m x 1 m x 1.8 m standing at top of rail + `h_m`, with its centre `d_m` from the axis.
 GaugeClearance StandingClearance(double d_m, double heading_deg = 0.0, double h_m = 0.0) {
   const Vector3 size_m(2.0, 1.0, 1.8);

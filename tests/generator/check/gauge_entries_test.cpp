@@ -54,6 +54,19 @@ TEST(GaugeEntries, AreNoneOfAPlatformAtItsUsualDistance) {
   EXPECT_TRUE(EntriesOf(world).empty());
 }
 
+TEST(GaugeEntries, HoldPlatformsToTheDistanceThatTheCurveNeeds) {
+  WorldSpec world = CurveOfTwoTracks();
+  for (const double radius_m : {300.0, -300.0, 190.0, -190.0}) {
+    world.alignment.course = AlignmentElementsSpec{{{ElementType::kArc, 300.0, radius_m}}};
+    world.structures = {PlatformAt(1.65)};
+    EXPECT_TRUE(EntriesOf(world).empty()) << radius_m;
+    world.structures = {PlatformAt(1.62)};
+    const std::vector<GaugeEntry> entries = EntriesOf(world);
+    ASSERT_EQ(entries.size(), 1U) << radius_m;
+    EXPECT_NEAR(entries[0].depth_m, 0.03 - 0.005, 4e-3) << radius_m;
+  }
+}
+
 TEST(GaugeEntries, TakeMovingBarriersAtTheirLowest) {
   LevelCrossingSpec crossing;
   crossing.name = "crossing";
@@ -84,8 +97,8 @@ TEST(GaugeEntries, NameAPlatformTooNearWithItsStretchAndDepth) {
   // Pieces are measured at their middles, up to 2.5 m apart.
   EXPECT_NEAR(entries[0].begin_s_m, 80.0, 2.5);
   EXPECT_NEAR(entries[0].end_s_m, 220.0, 2.5);
-  // Half the width of 3.15 m; chords are at most 1 mm off, twice.
-  EXPECT_NEAR(entries[0].depth_m, 1.575 - 1.5, 2.1e-3);
+  // Chords are at most 1 mm off, twice.
+  EXPECT_NEAR(entries[0].depth_m, 1.645 - 1.5, 2.1e-3);
   // Only the nose, 0.12 m high: the wall below stands 0.08 m behind it.
   EXPECT_NEAR(entries[0].bottom_m, 0.76 - 0.12, 2e-3);
   EXPECT_NEAR(entries[0].top_m, 0.76, 2e-3);

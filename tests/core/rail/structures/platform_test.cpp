@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "core/rail/structures/cleared.h"
 #include "railcast/structures.h"
@@ -35,10 +37,39 @@ TEST(Platform, HasItsEdgeAtItsDistanceAndHeightInACantedCurve) {
       const auto section = probe.CantedSectionOf(surfaces.platform, s_m);
       ASSERT_FALSE(section.empty());
       // The corner nearest to where the edge should be.
-      const Eigen::Vector2d edge(SignOf(side) * 1.65, 0.76);
+      // On the outside, the nose's lower corner is that far from the axis.
+      const double lean = probe.line().alignment().At(s_m).cant_rad;
+      const double back_m = side == TrackSide::kRight ? -0.12 * std::sin(lean) : 0.0;
+      const Eigen::Vector2d edge(SignOf(side) * (1.65 + 3.75 / 400.0 + back_m), 0.76);
       double nearest_m = 1.0;
       for (const auto& point : section) nearest_m = std::min(nearest_m, (point - edge).norm());
       EXPECT_LE(nearest_m, kSweep_m) << s_m;
+    }
+  }
+}
+
+/// The platform's edge seen from the axis, in the middle of a straight, a clothoid and an arc.
+TEST(Platform, IsFartherFromTheAxisTheTighterTheCurve) {
+  for (const auto& [radius_m, side, in_arc_m, half_way_m] :
+       {std::tuple(300.0, TrackSide::kLeft, 3.75 / 300.0, 3.75 / 600.0),
+        std::tuple(-300.0, TrackSide::kLeft, 3.75 / 300.0, 3.75 / 600.0),
+        std::tuple(190.0, TrackSide::kLeft, 50.0 / 190.0 - 0.185, 3.75 / 380.0),
+        std::tuple(190.0, TrackSide::kRight, 60.0 / 190.0 - 0.225, 3.75 / 380.0)}) {
+    WorldSpec spec;
+    spec.alignment.course = AlignmentElementsSpec{{{ElementType::kStraight, 100.0, {}},
+                                                   {ElementType::kClothoid, 80.0, {}},
+                                                   {ElementType::kArc, 120.0, radius_m}}};
+    PlatformSpec platform = PlatformOn(side);
+    platform.end_s_m = 270.0;
+    spec.structures = {platform};
+    const StructureProbe probe(spec);
+    const SurfaceClass& concrete = probe.line().surfaces().structures.platform;
+    for (const auto& [s_m, wider_m] : {std::pair(80.3, 0.0), std::pair(140.0, half_way_m),
+                                       std::pair(220.4, in_arc_m), std::pair(251.7, in_arc_m)}) {
+      const auto section = probe.SectionOf(concrete, s_m);
+      const double edge_m = side == TrackSide::kLeft ? LeastOf(section, 0) : -MostOf(section, 0);
+      // Chords are measured at the back of the platform, 3 m farther in.
+      EXPECT_NEAR(edge_m, 1.65 + wider_m, 1.02 * kSweep_m) << radius_m << " " << s_m;
     }
   }
 }
@@ -48,8 +79,9 @@ TEST(Platform, IsLevelAcrossAndAsWideAsSpecified) {
   const auto section = probe.SectionOf(probe.line().surfaces().structures.platform, 120.4);
   const double cant_rad = probe.line().alignment().At(120.4).cant_rad;
   ASSERT_LT(cant_rad, -0.09);
-  const double edge_m = 1.65 * std::cos(cant_rad) - 0.76 * std::sin(cant_rad);
-  const double top_m = 1.65 * std::sin(cant_rad) + 0.76 * std::cos(cant_rad);
+  const double beside_m = 1.65 + 3.75 / 400.0;
+  const double edge_m = beside_m * std::cos(cant_rad) - 0.76 * std::sin(cant_rad);
+  const double top_m = beside_m * std::sin(cant_rad) + 0.76 * std::cos(cant_rad);
   EXPECT_NEAR(LeastOf(section, 0), edge_m, kSweep_m);
   EXPECT_NEAR(MostOf(section, 0), edge_m + 3.0, kSweep_m);
   EXPECT_NEAR(MostOf(section, 1), top_m, kSweep_m);

@@ -70,6 +70,26 @@ Vector3 StructureProbe::WorldAt(const Vector3& place) const {
   return on_axis_m + Vector3(0.0, 0.0, place.z());
 }
 
+const Chunk& StructureProbe::BuiltChunk(int index, bool is_coarse) const {
+  const auto [built, is_new] = built_.try_emplace({index, is_coarse});
+  if (is_new) built->second = line_.Build(index, is_coarse);
+  return built->second;
+}
+
+std::optional<double> StructureProbe::HeightBelow_m(const SurfaceClass& surface,
+                                                    const Vector3& place,
+                                                    bool is_coarse) const {
+  const int index = static_cast<int>(std::floor(place.x() / TestLine::kChunkLength_m));
+  const Mesh mesh = MeshOfSurface(BuiltChunk(index, is_coarse), surface);
+  const Vector3 from_m = line_.WorldFromChunk(index).inverse() * WorldAt(place);
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const auto& triangle : mesh.triangles) {
+    nearest_m = std::min(nearest_m, DistanceTo(mesh, triangle, from_m, -Vector3::UnitZ()));
+  }
+  if (std::isinf(nearest_m)) return std::nullopt;
+  return place.z() - nearest_m;
+}
+
 std::uint32_t StructureProbe::LabelSeen(const Vector3& from, const Vector3& to) const {
   const int index = static_cast<int>(std::floor(to.x() / TestLine::kChunkLength_m));
   const Chunk chunk = line_.Build(index);

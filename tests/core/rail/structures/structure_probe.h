@@ -2,6 +2,9 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "railcast/rail_world.h"
@@ -27,14 +30,21 @@ class StructureProbe {
   /// above the line's top of rail at s; 0 if there is none up to a metre beyond the second. Both
   /// points are in the chunk of the second.
   [[nodiscard]] std::uint32_t LabelSeen(const Vector3& from, const Vector3& to) const;
+  /// Height above the line's top of rail at s of the highest part of a surface straight below a
+  /// place (s, d, h); nothing if there is none.
+  [[nodiscard]] std::optional<double> HeightBelow_m(const SurfaceClass& surface,
+                                                    const Vector3& place,
+                                                    bool is_coarse = false) const;
 
  private:
+  [[nodiscard]] const Chunk& BuiltChunk(int index, bool is_coarse) const;
   [[nodiscard]] Vector3 WorldAt(const Vector3& place) const;
   [[nodiscard]] std::vector<Eigen::Vector2d> CutAt(const SurfaceClass& surface,
                                                    double s_m,
                                                    const Transform& world_from_plane) const;
 
   TestLine line_;
+  mutable std::map<std::pair<int, bool>, Chunk> built_;
 };
 
 /// The largest or smallest y or z of the points.

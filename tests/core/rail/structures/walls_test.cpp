@@ -64,6 +64,82 @@ TEST(RetainingWall, LeansAwayFromTheTrackByATenth) {
   EXPECT_EQ(probe.LabelSeen({120.0, 0.0, 2.0}, {122.0, -4.3, 1.0}), masonry.label);
 }
 
+/// Height of the ground of the built chunk straight below a place, above top of rail of the line;
+/// far down if there is none.
+double GroundBelow_m(const StructureProbe& probe, double s_m, double d_m, bool is_coarse = false) {
+  return probe.HeightBelow_m(probe.line().surfaces().ground, {s_m, d_m, 60.0}, is_coarse)
+      .value_or(-1000.0);
+}
+
+WorldSpec SmoothCurveWithWalls(const std::vector<RetainingWallSpec>& walls) {
+  WorldSpec spec = CantedArc(300.0, 400.0);
+  spec.terrain.roughness_sigma_m = 0.0;
+  spec.terrain.undulation_sigma_m = 0.0;
+  spec.structures.assign(walls.begin(), walls.end());
+  return spec;
+}
+
+TEST(RetainingWall, HasTheGroundBehindItAtItsTopAndThatBeforeItAtTheFormation) {
+  for (const TrackSide side : {TrackSide::kLeft, TrackSide::kRight}) {
+    const StructureProbe probe(SmoothCurveWithWalls({Beside<RetainingWallSpec>(side)}));
+    for (const bool is_coarse : {false, true}) {
+      for (const double s_m : {90.3, 120.0, 149.9}) {
+        // The back stands 4.6 m from the axis; the face at the formation's height 3.93 m.
+        for (const double d_m : {3.0, 3.9}) {
+          EXPECT_NEAR(GroundBelow_m(probe, s_m, SignOf(side) * d_m, is_coarse), -0.7, 1e-4);
+        }
+        for (const double behind_m : {0.02, 0.3, 1.0, 3.0}) {
+          // Down to the land at 1:1.5, between columns of 0.5 m.
+          EXPECT_NEAR(GroundBelow_m(probe, s_m, SignOf(side) * (4.6 + behind_m), is_coarse),
+                      1.95 - behind_m / 1.5, 0.02)
+              << s_m << " " << behind_m;
+        }
+        EXPECT_NEAR(GroundBelow_m(probe, s_m, SignOf(side) * 9.5, is_coarse), -0.7, 1e-4);
+      }
+    }
+  }
+}
+
+TEST(RetainingWall, LeavesNoGapToTheGroundOnEitherSide) {
+  const StructureProbe probe(SmoothCurveWithWalls({Beside<RetainingWallSpec>(TrackSide::kLeft)}));
+  const SurfaceClass& masonry = probe.line().surfaces().structures.retaining_wall;
+  for (const double s_m : {90.3, 120.1}) {
+    // The wall is seen straight down wherever the ground is not.
+    for (double d_m = 3.7; d_m < 5.2; d_m += 0.013) {
+      const double wall_m = probe.HeightBelow_m(masonry, {s_m, d_m, 60.0}, false).value_or(-1000.0);
+      EXPECT_GT(std::max(GroundBelow_m(probe, s_m, d_m), wall_m), -0.71) << s_m << " " << d_m;
+    }
+  }
+}
+
+TEST(RetainingWall, PassesToTheOrdinaryGroundTowardsItsEnds) {
+  const StructureProbe probe(SmoothCurveWithWalls({Beside<RetainingWallSpec>(TrackSide::kLeft)}));
+  for (const double from_end_m : {0.75, 1.5, 3.0}) {
+    // From rows 0.5 m apart.
+    EXPECT_NEAR(GroundBelow_m(probe, 60.0 + from_end_m, 4.7), -0.7 + from_end_m / 1.5, 0.05);
+    EXPECT_NEAR(GroundBelow_m(probe, 190.0 - from_end_m, 4.7), -0.7 + from_end_m / 1.5, 0.05);
+  }
+  // A wall that goes on in another one has no such end.
+  RetainingWallSpec first = Beside<RetainingWallSpec>(TrackSide::kLeft);
+  first.end_s_m = 120.0;
+  RetainingWallSpec second = first;
+  second.name = "second";
+  second.begin_s_m = 120.0;
+  second.end_s_m = 190.0;
+  const StructureProbe both(SmoothCurveWithWalls({first, second}));
+  for (const double s_m : {119.2, 119.9, 120.1, 120.8}) {
+    EXPECT_NEAR(GroundBelow_m(both, s_m, 4.9), 1.95 - 0.3 / 1.5, 0.02) << s_m;
+  }
+}
+
+TEST(RetainingWall, LeavesATrackBehindItOnItsFormation) {
+  WorldSpec spec = SmoothCurveWithWalls({Beside<RetainingWallSpec>(TrackSide::kLeft)});
+  spec.tracks.push_back({.name = "upper", .offset_m = 10.5, .end_s_m = {}});
+  const StructureProbe probe(spec);
+  EXPECT_NEAR(GroundBelow_m(probe, 120.0, 7.5), -0.7, 1e-4);
+  EXPECT_GT(GroundBelow_m(probe, 120.0, 4.7), -0.3);
+}
+
 TEST(Fence, StandsOnTheGroundAtItsDistance) {
   for (const FenceType type : {FenceType::kWires, FenceType::kMesh}) {
     FenceSpec fence = Beside<FenceSpec>(TrackSide::kLeft);
