@@ -1,8 +1,10 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
+#include "core/rail/line/track_course.h"
 #include "railcast/alignment.h"
 #include "railcast/rail_world.h"
 
@@ -27,5 +29,12 @@ struct GaugeEntry {
 /// own track is left out there.
 [[nodiscard]] std::vector<GaugeEntry> FindGaugeEntries(const WorldSpec& spec,
                                                        const RailWorld& world);
+
+/// The same for the structures alone.
+/// @param spec With all tracks, also those of yards.
+/// @param courses Of the tracks, in their order.
+[[nodiscard]] std::vector<GaugeEntry> FindStructuresInGauge(const WorldSpec& spec,
+                                                            const Alignment& alignment,
+                                                            std::span<const TrackCourse> courses);
 
 }  // namespace railcast
