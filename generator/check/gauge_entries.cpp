@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/rail/chunk_grid.h"
 #include "core/rail/line/line_place.h"
 #include "core/rail/line/network.h"
 #include "core/rail/line/route.h"
@@ -263,32 +264,28 @@ class Probes {
 
 template <class Structure>
 void ProbeStructure(const Structure& structure,
-                    const WorldSpec& spec,
-                    const RailWorld& world,
+                    const WorldTracks& tracks,
+                    const Alignment& alignment,
+                    const ChunkGrid& grid,
                     Probes& probes) {
   const RailSurfaces surfaces;
-  const double length_m = world.alignment().length_m();
-  const double num_chunks = std::ceil(length_m / RailWorld::kChunkLength_m);
   double first_s_m = 0.0;
-  double last_s_m = length_m;
+  double last_s_m = alignment.length_m();
   if constexpr (std::is_base_of_v<StretchSpec, Structure>) {
     first_s_m = structure.begin_s_m;
     last_s_m = structure.end_s_m;
   }
-  const auto chunk_at = [&](double s_m) {
-    return std::clamp(std::floor(s_m / RailWorld::kChunkLength_m), 0.0, num_chunks - 1.0);
-  };
-  const auto last = static_cast<int>(chunk_at(last_s_m));
-  for (auto chunk = static_cast<int>(chunk_at(first_s_m)); chunk <= last; ++chunk) {
-    const Transform world_from_chunk = world.WorldFromChunk(chunk);
-    const double begin_s_m = chunk * RailWorld::kChunkLength_m;
-    const double end_s_m = std::min(begin_s_m + RailWorld::kChunkLength_m, length_m);
-    const ChunkContext context{.spec = spec,
-                               .alignment = world.alignment(),
-                               .tracks = world.network().courses,
+  const int last = grid.ChunkAt(last_s_m);
+  for (int chunk = grid.ChunkAt(first_s_m); chunk <= last; ++chunk) {
+    const Transform world_from_chunk = grid.WorldFromChunk(chunk);
+    const double begin_s_m = grid.BeginOf(chunk);
+    const double end_s_m = grid.EndOf(chunk);
+    const ChunkContext context{.spec = tracks.world,
+                               .alignment = alignment,
+                               .tracks = tracks.courses,
                                .turnouts = {},
                                .surfaces = surfaces,
-                               .seed = spec.seed,
+                               .seed = tracks.world.seed,
                                .chunk = chunk,
                                .begin_s_m = begin_s_m,
                                .end_s_m = end_s_m,
@@ -332,10 +329,11 @@ std::vector<std::string> TracksUnder(const RailWorld& world, std::size_t object,
 
 }  // namespace
 
-std::vector<GaugeEntry> FindGaugeEntries(const WorldSpec& given_spec, const RailWorld& world) {
-  WorldSpec spec = given_spec;
-  spec.tracks = world.tracks();
-  const WorldTracks tracks{spec, world.network().courses};
+std::vector<GaugeEntry> FindStructuresInGauge(const WorldSpec& spec,
+                                              const Alignment& alignment,
+                                              std::span<const TrackCourse> courses) {
+  const WorldTracks tracks{spec, courses};
+  const ChunkGrid grid(alignment, RailWorld::kChunkLength_m, spec.terrain.half_width_m);
   std::vector<std::vector<GaugeEntry>> of_structures(spec.structures.size());
   oneapi::tbb::parallel_for(std::size_t{0}, spec.structures.size(), [&](std::size_t i) {
     std::visit(
@@ -344,8 +342,8 @@ std::vector<GaugeEntry> FindGaugeEntries(const WorldSpec& given_spec, const Rail
           if (kBelongsIntoGauge<Structure>) own_tracks.push_back(given.track);
           const PlatformSpec* platform = nullptr;
           if constexpr (std::is_same_v<Structure, PlatformSpec>) platform = &given;
-          Probes probes(tracks, world.alignment(), own_tracks, platform);
-          ProbeStructure(AtRest(given), spec, world, probes);
+          Probes probes(tracks, alignment, own_tracks, platform);
+          ProbeStructure(AtRest(given), tracks, alignment, grid, probes);
           probes.Report(given.name, of_structures[i]);
         },
         spec.structures[i]);
@@ -354,6 +352,15 @@ std::vector<GaugeEntry> FindGaugeEntries(const WorldSpec& given_spec, const Rail
   for (const std::vector<GaugeEntry>& some : of_structures) {
     entries.insert(entries.end(), some.begin(), some.end());
   }
+  return entries;
+}
+
+std::vector<GaugeEntry> FindGaugeEntries(const WorldSpec& given_spec, const RailWorld& world) {
+  WorldSpec spec = given_spec;
+  spec.tracks = world.tracks();
+  const WorldTracks tracks{spec, world.network().courses};
+  std::vector<GaugeEntry> entries =
+      FindStructuresInGauge(spec, world.alignment(), world.network().courses);
   for (std::size_t i = 0; i < spec.objects.size(); ++i) {
     const SceneObject& object = world.objects()[i];
     const ObjectSpec& given = spec.objects[i];

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
+#include "core/rail/line/track_course.h"
 #include "railcast/alignment.h"
 #include "railcast/rail_world.h"
 
@@ -28,5 +30,12 @@ struct GaugeEntry {
 /// want their edges, up to a tolerance of 5 mm.
 [[nodiscard]] std::vector<GaugeEntry> FindGaugeEntries(const WorldSpec& spec,
                                                        const RailWorld& world);
+
+/// The same for the structures alone.
+/// @param spec With all tracks, also those of yards.
+/// @param courses Of the tracks, in their order.
+[[nodiscard]] std::vector<GaugeEntry> FindStructuresInGauge(const WorldSpec& spec,
+                                                            const Alignment& alignment,
+                                                            std::span<const TrackCourse> courses);
 
 }  // namespace railcast

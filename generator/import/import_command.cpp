@@ -27,6 +27,8 @@
 #include "generator/import/map/map_projection.h"
 #include "generator/import/map/read_map.h"
 #include "generator/import/network/side_tracks.h"
+#include "generator/import/structures/clear_gauge.h"
+#include "generator/import/structures/line_structures.h"
 
 namespace railcast {
 namespace {
@@ -85,9 +87,11 @@ std::vector<BuiltWorld> BuildWorlds(const RailMap& map,
       [&](const tbb::blocked_range<std::size_t>& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
           worlds[i].world = MakeLineWorld(map, tracks[i], lines[i]);
-          if (options.is_main_only) continue;
-          worlds[i].beside =
-              AddSideTracks(map, tracks[i], lines[i], options.fit.sigma_m, worlds[i].world);
+          if (!options.is_main_only) {
+            worlds[i].beside =
+                AddSideTracks(map, tracks[i], lines[i], options.fit.sigma_m, worlds[i].world);
+          }
+          AddStructures(map, tracks[i], lines[i], worlds[i].world);
         }
       },
       tbb::simple_partitioner());
@@ -190,7 +194,7 @@ int RunImport(const ImportCommandOptions& options) {
   // Before minutes of fitting.
   CheckCanWrite(options.out / "lines.csv");
   std::vector<ImportedLine> lines = ImportLines(map, tracks, options.fit);
-  const std::vector<BuiltWorld> worlds = BuildWorlds(map, tracks, lines, options);
+  std::vector<BuiltWorld> worlds = BuildWorlds(map, tracks, lines, options);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (elevation) {
       SetHeights(map, tracks[i], *elevation, ShownPath(options.heights), lines[i]);
@@ -200,6 +204,7 @@ int RunImport(const ImportCommandOptions& options) {
       SetHeights(map, tracks[i], lines[i]);
     }
     SetCants(map, tracks[i], lines[i]);
+    ClearStructures(lines[i].alignment, worlds[i].world);
     WriteLine(options.out, lines[i], projection, worlds[i].world, elevation != nullptr);
   }
   WriteFileWhole(options.out / "left_out.csv", LeftOutCsv(lines, WorldsOf(worlds)));

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -93,7 +94,9 @@ class SupportSearch {
       : world_(tracks.world), alignment_(alignment), own_(tracks, alignment) {}
 
   /// The farthest support that the wires permit; nearer if that one would stand in a road.
-  [[nodiscard]] PlannedSupport After(const PlannedSupport& from) const {
+  [[nodiscard]] PlannedSupport After(const PlannedSupport& from) {
+    known_.erase(known_.begin(), known_.lower_bound({from.support.s_m, 0}));
+    courses_.erase(courses_.begin(), courses_.lower_bound(from.support.s_m));
     // Beyond a support it must go on, too: two spans ahead are enough to begin at a turnout.
     constexpr int kSpansAhead = 2;
     const double limit_m = world_.catenary.stagger_m + kLateralMargin_m;
@@ -113,12 +116,12 @@ class SupportSearch {
  private:
   [[nodiscard]] std::optional<PlannedSupport> Next(const PlannedSupport& from,
                                                    const WireRules& rules,
-                                                   int num_spans_ahead) const {
+                                                   int num_spans_ahead) {
     const CatenarySpec& spec = world_.catenary;
     // The 1e-9 covers rounding if a span at the limit is compared with the limit itself.
     const double limit_m = spec.stagger_m + kLateralMargin_m + 1e-9;
     const double first_m = from.support.stagger_m;
-    const Course course = CourseFrom(from.support.s_m, spec, alignment_);
+    const Course& course = CourseOf(from.support.s_m);
     std::optional<PlannedSupport> in_road;
     for (std::size_t num_steps = kStepsOfASpan; num_steps > 0; --num_steps) {
       const double s_m = from.support.s_m + spec.max_span_m * static_cast<double>(num_steps) /
@@ -137,9 +140,15 @@ class SupportSearch {
     return in_road;
   }
 
+  [[nodiscard]] const Course& CourseOf(double s_m) {
+    const auto found = courses_.find(s_m);
+    if (found != courses_.end()) return found->second;
+    return courses_.emplace(s_m, CourseFrom(s_m, world_.catenary, alignment_)).first->second;
+  }
+
   [[nodiscard]] bool GoesOn(const PlannedSupport& from,
                             const WireRules& rules,
-                            int num_spans_ahead) const {
+                            int num_spans_ahead) {
     const double s_m = from.support.s_m;
     const double ahead_s_m = std::min(s_m + world_.catenary.max_span_m, alignment_.length_m());
     if (num_spans_ahead == 0 || s_m >= alignment_.length_m()) return true;
@@ -148,13 +157,13 @@ class SupportSearch {
 
   [[nodiscard]] std::optional<PlannedSupport> WithOwnWires(const PlannedSupport& from,
                                                            const CatenarySupport& to,
-                                                           const WireRules& rules) const {
+                                                           const WireRules& rules) {
     PlannedSupport next{.support = to, .own = {}, .span_before = {}, .is_relaxed = false};
     auto staggers = own_.Place({.first_s_m = from.support.s_m,
                                 .last_s_m = std::min(to.s_m, alignment_.length_m()),
                                 .first_stagger_m = from.support.stagger_m,
                                 .last_stagger_m = to.stagger_m},
-                               from.own, rules);
+                               from.own, rules, known_);
     if (!staggers) return std::nullopt;
     for (const auto& span : *staggers) {
       next.own.push_back(span ? std::optional(span->second) : std::nullopt);
@@ -166,6 +175,9 @@ class SupportSearch {
   const WorldSpec& world_;
   const Alignment& alignment_;
   OwnWires own_;
+  // What was computed behind the last support: supports are tried again and again.
+  OwnWires::KnownHangers known_;
+  std::map<double, Course> courses_;
 };
 
 bool HasContactLine(const WorldSpec& spec) {
@@ -206,7 +218,7 @@ CatenaryPlan::CatenaryPlan(const WorldTracks& tracks, const Alignment& alignment
   if (!HasContactLine(spec)) return;
   CheckSystemHeight(spec);
   const OwnWires own(tracks, alignment);
-  const SupportSearch search(tracks, alignment);
+  SupportSearch search(tracks, alignment);
   const double first_m = StaggerInCurve(spec.catenary, alignment.At(0.0).curvature_per_m)
                              .value_or(spec.catenary.stagger_m);
   PlannedSupport last{.support = {.s_m = 0.0, .stagger_m = first_m},

@@ -104,11 +104,25 @@ HungWire OwnWires::WireAt(std::size_t track, double s_m, double stagger_m) const
   return wire;
 }
 
-std::vector<double> OwnWires::CandidatesAt(std::size_t track, double s_m, double before_m) const {
-  const CatenarySpec& spec = tracks_.world.catenary;
+const OwnWires::Hanger& OwnWires::HangerAt(std::size_t track,
+                                           double s_m,
+                                           KnownHangers& known) const {
+  const auto found = known.find({s_m, track});
+  if (found != known.end()) return found->second;
+  const WorldSpec& world = tracks_.world;
+  const HungWire wire = WireAt(track, s_m, 0.0);
   const double curvature_per_m = tracks_.courses[track].CurvatureAt(alignment_, s_m);
-  const double best_m = StaggerInCurve(spec, curvature_per_m)
-                            .value_or(before_m > 0.0 ? -spec.stagger_m : spec.stagger_m);
+  return known
+      .emplace(std::pair(s_m, track),
+               Hanger{.wire = wire,
+                      .world_from_support = WorldFromSupport(alignment_, world, wire.axis_d_m, s_m),
+                      .curve_stagger_m = StaggerInCurve(world.catenary, curvature_per_m)})
+      .first->second;
+}
+
+std::vector<double> OwnWires::CandidatesAt(const Hanger& hanger, double before_m) const {
+  const double usual_m = tracks_.world.catenary.stagger_m;
+  const double best_m = hanger.curve_stagger_m.value_or(before_m > 0.0 ? -usual_m : usual_m);
   return {best_m, 0.5 * best_m, 0.0, -0.5 * best_m, -best_m};
 }
 
@@ -132,15 +146,26 @@ class OwnWires::Trial {
     }
   }
 
+  /// A track's wire at both ends of the span.
+  struct Ends {
+    const Hanger& first;
+    const Hanger& last;
+  };
+
   /// Takes the first staggers out of two lists that keep the rules.
   [[nodiscard]] std::optional<std::pair<double, double>> Choose(
-      const Own& own, const std::vector<double>& firsts_m, const std::vector<double>& lasts_m) {
+      const Own& own,
+      const Ends& ends,
+      const std::vector<double>& firsts_m,
+      const std::vector<double>& lasts_m) {
+    const double first_axis_m = ends.first.wire.axis_d_m;
+    const double last_axis_m = ends.last.wire.axis_d_m;
     for (const double first_m : firsts_m) {
       for (const double last_m : lasts_m) {
-        const HungWire first = wires_.WireAt(own.track, span_.first_s_m, first_m);
-        const HungWire last = wires_.WireAt(own.track, span_.last_s_m, last_m);
-        const Placed placed{first.axis_d_m + last.axis_d_m, first.d_m(), last.d_m()};
-        if (!IsApart(placed) || !StaysWithin(own, first, last)) continue;
+        const Placed placed{first_axis_m + last_axis_m, first_axis_m + first_m,
+                            last_axis_m + last_m};
+        if (!IsApart(placed)) continue;
+        if (!StaysWithin(own, PlaceOf(ends.first, first_m), PlaceOf(ends.last, last_m))) continue;
         placed_.push_back(placed);
         return std::pair(first_m, last_m);
       }
@@ -169,18 +194,16 @@ class OwnWires::Trial {
     });
   }
 
-  [[nodiscard]] Eigen::Vector2d PlaceOf(const HungWire& wire, double s_m) const {
-    const WorldSpec& world = wires_.tracks_.world;
-    const Vector3 place_m = WorldFromSupport(wires_.alignment_, world, wire.axis_d_m, s_m) *
-                            Vector3(0.0, wire.stagger_m, world.catenary.contact_height_m);
+  [[nodiscard]] Eigen::Vector2d PlaceOf(const Hanger& hanger, double stagger_m) const {
+    const double height_m = wires_.tracks_.world.catenary.contact_height_m;
+    const Vector3 place_m = hanger.world_from_support * Vector3(0.0, stagger_m, height_m);
     return place_m.head<2>();
   }
 
   [[nodiscard]] bool StaysWithin(const Own& own,
-                                 const HungWire& first,
-                                 const HungWire& last) const {
-    const Eigen::Vector2d first_m = PlaceOf(first, span_.first_s_m);
-    const Eigen::Vector2d way = PlaceOf(last, span_.last_s_m) - first_m;
+                                 const Eigen::Vector2d& first_m,
+                                 const Eigen::Vector2d& last_m) const {
+    const Eigen::Vector2d way = last_m - first_m;
     const auto sample_at = [&](double s_m) {
       return static_cast<std::ptrdiff_t>(std::lround(s_m / wires_.step_m_)) - own.first_sample;
     };
@@ -202,18 +225,20 @@ class OwnWires::Trial {
 
 std::optional<OwnWires::SpanStaggers> OwnWires::Place(const SpanTrial& span,
                                                       const Staggers& first,
-                                                      const WireRules& rules) const {
+                                                      const WireRules& rules,
+                                                      KnownHangers& known) const {
   SpanStaggers chosen(tracks_.courses.size());
   Trial trial(*this, span, rules);
   for (const Own& own : own_) {
     if (!HangsIn(own.track, span.first_s_m, span.last_s_m)) continue;
+    const Trial::Ends ends{HangerAt(own.track, span.first_s_m, known),
+                           HangerAt(own.track, span.last_s_m, known)};
     const std::optional<double>& known_m = first[own.track];
     const std::vector<double> firsts_m =
-        known_m ? std::vector{*known_m}
-                : CandidatesAt(own.track, span.first_s_m, span.last_stagger_m);
+        known_m ? std::vector{*known_m} : CandidatesAt(ends.first, span.last_stagger_m);
     const std::vector<double> lasts_m =
-        CandidatesAt(own.track, span.last_s_m, known_m.value_or(span.first_stagger_m));
-    chosen[own.track] = trial.Choose(own, firsts_m, lasts_m);
+        CandidatesAt(ends.last, known_m.value_or(span.first_stagger_m));
+    chosen[own.track] = trial.Choose(own, ends, firsts_m, lasts_m);
     if (!chosen[own.track]) return std::nullopt;
   }
   return chosen;

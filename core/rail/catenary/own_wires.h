@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <span>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "core/rail/world_tracks.h"
 #include "railcast/alignment.h"
 #include "railcast/rail_world.h"
+#include "railcast/transform.h"
 
 namespace railcast {
 
@@ -69,14 +71,25 @@ class OwnWires {
   /// Staggers at both ends of a span.
   using SpanStaggers = std::vector<std::optional<std::pair<double, double>>>;
 
+  /// Where a track's wire hangs at a support, whatever its stagger.
+  struct Hanger {
+    HungWire wire;  ///< Without a stagger.
+    Transform world_from_support;
+    std::optional<double> curve_stagger_m;  ///< StaggerInCurve() of the track.
+  };
+  /// Hangers by chainage and track. A search asks for most of them a hundred times.
+  using KnownHangers = std::map<std::pair<double, std::size_t>, Hanger>;
+
   /// Whether any wire of this kind hangs between two chainages.
   [[nodiscard]] bool HangIn(double first_s_m, double last_s_m) const;
   /// Staggers with which all wires of this kind keep the rules in the span; nothing if there are
   /// none.
   /// @param first At the first support; those of wires that begin there are chosen, too.
+  /// @param known Receives what is computed.
   [[nodiscard]] std::optional<SpanStaggers> Place(const SpanTrial& span,
                                                   const Staggers& first,
-                                                  const WireRules& rules) const;
+                                                  const WireRules& rules,
+                                                  KnownHangers& known) const;
   /// The wire of a track at a support.
   [[nodiscard]] HungWire WireAt(std::size_t track, double s_m, double stagger_m) const;
 
@@ -99,9 +112,8 @@ class OwnWires {
 
   [[nodiscard]] bool HangsIn(std::size_t track, double first_s_m, double last_s_m) const;
   [[nodiscard]] double AxisAt_m(std::size_t track, double s_m) const;
-  [[nodiscard]] std::vector<double> CandidatesAt(std::size_t track,
-                                                 double s_m,
-                                                 double before_m) const;
+  [[nodiscard]] const Hanger& HangerAt(std::size_t track, double s_m, KnownHangers& known) const;
+  [[nodiscard]] std::vector<double> CandidatesAt(const Hanger& hanger, double before_m) const;
   [[nodiscard]] std::size_t DepthOf(std::size_t track) const;
   [[nodiscard]] Own SampledCourse(std::size_t track) const;
 

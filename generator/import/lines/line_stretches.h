@@ -18,8 +18,19 @@ struct LineStretch {
   std::size_t way{};  ///< Of the map: the first of those on it.
 };
 
-/// Where the ways of a line have something in common: neighbouring ways that have it make one
+/// The ways of a line from node to node.
+/// @param chainages_m Of the line's nodes.
+[[nodiscard]] std::vector<LineStretch> WaysAlong(const TrackLine& line,
+                                                 std::span<const double> chainages_m);
+
+/// Where ways along a line have something in common: neighbouring ways that have it make one
 /// stretch. Stretches are in order of chainage and longer than 0.
+[[nodiscard]] std::vector<LineStretch> StretchesWhere(
+    const RailMap& map,
+    std::span<const LineStretch> ways,
+    const std::function<bool(const MapTags&)>& has);
+
+/// The same for the ways of a line.
 /// @param chainages_m Of the line's nodes.
 [[nodiscard]] std::vector<LineStretch> StretchesWhere(
     const RailMap& map,

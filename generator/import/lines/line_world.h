@@ -1,16 +1,16 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "generator/import/lines/imported_line.h"
+#include "generator/import/lines/line_stretches.h"
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/rail_map.h"
+#include "generator/import/network/track_network.h"
+#include "railcast/structures.h"
 
 namespace railcast {
-
-using WorldJson = nlohmann::ordered_json;
 
 /// Something on the map that a world cannot have as it is.
 struct LeftOut {
@@ -19,19 +19,20 @@ struct LeftOut {
   std::string reason;
 };
 
-/// What a world has besides its alignment, as in scenario files.
+/// A track of a world and where it comes from.
+struct WorldTrack {
+  TrackDraft draft;
+  std::vector<LineStretch> ways;  ///< Of the map, from point to point; they may reach farther.
+};
+
+/// What a world has besides its alignment.
 struct LineWorld {
-  std::vector<WorldJson> tracks;      ///< The first is "main".
-  std::vector<WorldJson> structures;  ///< Bridges and tunnels first.
+  std::vector<WorldTrack> tracks;  ///< The first is "main".
+  std::vector<StructureSpec> structures;
   std::vector<LeftOut> left_out;
 };
 
-/// Makes a world of what the map says about a line.
-///
-/// Bridges, tunnels, slab track and conductor rails come from the tags of its ways. Things that
-/// stand on the line, within 2 m of its axis, become level crossings, signals, kilometre boards,
-/// derailers and, at its ends, buffer stops. Platforms whose nearest point is between 1 and 4.5 m
-/// from the axis get an edge there.
+/// Begins a world with the track of its line. AddSideTracks and AddStructures add the rest.
 [[nodiscard]] LineWorld MakeLineWorld(const RailMap& map,
                                       const TrackLine& track,
                                       const ImportedLine& line);

@@ -2,6 +2,7 @@
 
 #include <geodesic.h>
 #include <proj.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>

@@ -113,7 +113,7 @@ void OverpassReader::ReadNode(const StrictJson& element, const std::string& poin
   if (!nodes_.emplace(*id, map_.nodes.size()).second) return;  // An answer may repeat nodes.
   MapNode node{.geographic_deg = {*longitude_deg, *latitude_deg}, .tags = OverpassTags(element)};
   node.height_m = HeightOf_m(TagOf(node.tags, "ele"));
-  if (IsThing(TagOf(node.tags, "railway"))) {
+  if (IsThing(node.tags)) {
     map_.things.push_back({{node.geographic_deg}, {}, node.tags});
   }
   map_.nodes.push_back(std::move(node));
@@ -124,7 +124,7 @@ void OverpassReader::ReadWay(const StrictJson& element, const std::string& point
   if (!id) return;
   MapTags tags = OverpassTags(element);
   const bool is_track = IsTrack(TagOf(tags, "railway"));
-  if (!is_track && !IsThing(TagOf(tags, "railway"))) return;
+  if (!is_track && !IsThing(tags)) return;
   if (!ways_.insert(*id).second) return;  // An answer may repeat ways, too.
   if (!element.contains("nodes") || !element["nodes"].is_array()) {
     errors_.Add({pointer + "/nodes", "must be a list of node ids",

@@ -65,11 +65,23 @@ struct MapThing {
   MapTags tags;
 };
 
-/// Whether a value of OpenStreetMap's key `railway` is a thing of which import makes something.
-[[nodiscard]] inline bool IsThing(std::string_view railway) {
+/// Whether OpenStreetMap's tags are those of a platform beside tracks, and not of one for buses or
+/// ships.
+[[nodiscard]] inline bool IsPlatform(const MapTags& tags) {
+  if (TagOf(tags, "railway") == "platform") return true;
+  if (TagOf(tags, "public_transport") != "platform" || !TagOf(tags, "highway").empty())
+    return false;
+  constexpr auto kOthers =
+      std::to_array<std::string_view>({"bus", "trolleybus", "ferry", "aerialway", "share_taxi"});
+  return std::ranges::none_of(kOthers,
+                              [&](std::string_view key) { return TagOf(tags, key) == "yes"; });
+}
+
+/// Whether OpenStreetMap's tags are those of a thing of which import makes something.
+[[nodiscard]] inline bool IsThing(const MapTags& tags) {
   constexpr auto kThings = std::to_array<std::string_view>(
-      {"platform", "level_crossing", "crossing", "buffer_stop", "signal", "milestone", "derail"});
-  return std::ranges::find(kThings, railway) != kThings.end();
+      {"level_crossing", "crossing", "buffer_stop", "signal", "milestone", "derail"});
+  return IsPlatform(tags) || std::ranges::find(kThings, TagOf(tags, "railway")) != kThings.end();
 }
 
 /// The railway tracks of a map. Tracks meet where ways share a node.

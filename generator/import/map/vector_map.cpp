@@ -161,7 +161,7 @@ void TakeThings(bool is_osm, std::vector<Line>& lines, RailMap& map) {
   std::erase_if(lines, [&](Line& line) {
     const bool is_place =
         !line.points_deg.empty() && std::ranges::all_of(line.points_deg, IsDegrees);
-    if (!IsThing(TagOf(line.tags, "railway")) || !is_place) {
+    if (!IsThing(line.tags) || !is_place) {
       return line.is_point || (is_osm && line.is_area);
     }
     map.things.push_back({std::move(line.points_deg), {}, std::move(line.tags)});

@@ -13,7 +13,6 @@
 #include "generator/import/lines/line_places.h"
 #include "generator/import/network/level_tracks.h"
 #include "generator/import/network/switch_nodes.h"
-#include "generator/import/network/track_json.h"
 #include "generator/import/network/track_network.h"
 #include "generator/import/network/track_runs.h"
 #include "generator/import/network/turnout_search.h"
@@ -275,7 +274,7 @@ void SideTrackSearch::TakeFree(const TrackRun& run) {
 void SideTrackSearch::Accept(const TrackRun& run, TrackDraft draft) {
   draft.spec.name = run.kind + "_" + std::to_string(++num_of_kind_[run.kind]);
   draft.spec.electrified = run.is_electrified;
-  world_.tracks.push_back(JsonOf(draft.spec));
+  world_.tracks.push_back({draft, run.ways});
   for (const Eigen::Vector2d& point_m : run.points_m) {
     if (!draft.Has(point_m.x())) continue;
     quality_.distances_m.push_back(std::abs(draft.course.OffsetAt(point_m.x()).d_m - point_m.y()));

@@ -8,6 +8,8 @@
 namespace railcast {
 namespace {
 
+using WorldJson = nlohmann::ordered_json;
+
 WorldJson TurnoutJson(const TurnoutSpec& turnout) {
   WorldJson json = {{"track", turnout.track}};
   if (turnout.s_m) json["s_m"] = *turnout.s_m;
@@ -18,11 +20,11 @@ WorldJson TurnoutJson(const TurnoutSpec& turnout) {
 
 }  // namespace
 
-WorldJson JsonOf(const TrackSpec& track) {
+nlohmann::ordered_json JsonOf(const TrackSpec& track) {
   WorldJson json = {{"name", track.name}};
   if (track.begin) {
     json["begin"] = TurnoutJson(*track.begin);
-  } else {
+  } else if (track.start_s_m != 0.0) {
     json["start_s_m"] = track.start_s_m;
   }
   if (track.end) json["end"] = TurnoutJson(*track.end);

@@ -1,11 +1,12 @@
 #pragma once
 
-#include "generator/import/lines/line_world.h"
+#include <nlohmann/json.hpp>
+
 #include "railcast/rail_world.h"
 
 namespace railcast {
 
 /// A track as scenario files have it.
-[[nodiscard]] WorldJson JsonOf(const TrackSpec& track);
+[[nodiscard]] nlohmann::ordered_json JsonOf(const TrackSpec& track);
 
 }  // namespace railcast

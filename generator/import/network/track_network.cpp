@@ -37,6 +37,15 @@ bool Overlap(const TurnoutSite& turnout, double one_s_m, double other_s_m) {
 
 }  // namespace
 
+double TrackDraft::OffsetNear_m(double s_m) const {
+  if (offsets_m.empty()) return course.OffsetAt(s_m).d_m;
+  const double last = static_cast<double>(offsets_m.size()) - 1.0;
+  const double at = std::clamp(s_m - first_m, 0.0, last);
+  const auto before = static_cast<std::size_t>(std::floor(at));
+  const std::size_t after = std::min(before + 1, offsets_m.size() - 1);
+  return std::lerp(offsets_m[before], offsets_m[after], at - std::floor(at));
+}
+
 TrackNetwork::TrackNetwork(double length_m, PiecewiseLinear curvature)
     : length_m_(length_m), curvature_(std::move(curvature)) {
   tracks_.push_back(DraftOf({}, TrackCourse(0.0, length_m, 0.0)));

@@ -23,6 +23,8 @@ struct TrackDraft {
   [[nodiscard]] bool Has(double s_m) const {
     return s_m >= course.begin_s_m() && s_m <= course.end_s_m();
   }
+  /// Linear between whole metres, and beyond the first and the last of them as there.
+  [[nodiscard]] double OffsetNear_m(double s_m) const;
   [[nodiscard]] int end_m() const { return first_m + static_cast<int>(offsets_m.size()); }
 };
 

@@ -15,18 +15,25 @@ namespace {
 
 constexpr const char* kServiceKey = "import:service";
 
+/// A part of a map.
+struct OtherWays {
+  RailMap map;
+  std::vector<std::size_t> ways;  ///< Of the whole map, in their order.
+};
+
 /// The ways that a line does not use, all of them running tracks, so that FindLines takes them.
-RailMap OthersThan(const RailMap& map, const TrackLine& line) {
+OtherWays OthersThan(const RailMap& map, const TrackLine& line) {
   const std::set<std::size_t> used(line.ways.begin(), line.ways.end());
-  RailMap others;
-  others.nodes = map.nodes;
+  OtherWays others;
+  others.map.nodes = map.nodes;
   for (std::size_t i = 0; i < map.ways.size(); ++i) {
     if (used.contains(i)) continue;
     MapWay way = map.ways[i];
     const std::string service(TagOf(way.tags, "service"));
     way.tags.erase("service");
     way.tags[kServiceKey] = service;
-    others.ways.push_back(std::move(way));
+    others.map.ways.push_back(std::move(way));
+    others.ways.push_back(i);
   }
   return others;
 }
@@ -45,8 +52,8 @@ std::string CommonTag(const RailMap& map,
 
 class RunCutter {
  public:
-  RunCutter(const RailMap& map, const LinePlaces& places, std::vector<TrackRun>& runs)
-      : map_(map), places_(places), runs_(runs) {}
+  RunCutter(const OtherWays& others, const LinePlaces& places, std::vector<TrackRun>& runs)
+      : map_(others.map), ways_(others.ways), places_(places), runs_(runs) {}
 
   void Cut(const TrackLine& chain) {
     std::size_t first = 0;
@@ -111,15 +118,21 @@ class RunCutter {
                          .value_or(service.empty() ? kUsualRunning_kmph : kUsual_kmph);
     const auto node = chain.nodes.begin() + static_cast<std::ptrdiff_t>(first);
     run.nodes.assign(node, node + static_cast<std::ptrdiff_t>(points_m.size()));
+    for (std::size_t i = 0; i + 1 < points_m.size(); ++i) {
+      const auto [from_s_m, to_s_m] = std::minmax(points_m[i].x(), points_m[i + 1].x());
+      run.ways.push_back({from_s_m, to_s_m, ways_[*(begin + static_cast<std::ptrdiff_t>(i))]});
+    }
     if (points_m.back().x() < points_m.front().x()) {
       std::ranges::reverse(points_m);
       std::ranges::reverse(run.nodes);
+      std::ranges::reverse(run.ways);
     }
     run.points_m = std::move(points_m);
     runs_.push_back(std::move(run));
   }
 
   const RailMap& map_;
+  const std::vector<std::size_t>& ways_;
   const LinePlaces& places_;
   std::vector<TrackRun>& runs_;
 };
@@ -178,10 +191,10 @@ std::vector<TrackRun> InOrderOfMeetings(std::vector<TrackRun> runs) {
 std::vector<TrackRun> FindRuns(const RailMap& map,
                                const TrackLine& line,
                                const LinePlaces& places) {
-  const RailMap others = OthersThan(map, line);
+  const OtherWays others = OthersThan(map, line);
   std::vector<TrackRun> runs;
   RunCutter cutter(others, places, runs);
-  for (const TrackLine& chain : FindLines(others, 0.0)) cutter.Cut(chain);
+  for (const TrackLine& chain : FindLines(others.map, 0.0)) cutter.Cut(chain);
   std::ranges::stable_sort(runs, std::ranges::greater{}, [](const TrackRun& run) {
     return run.points_m.back().x() - run.points_m.front().x();
   });

@@ -6,6 +6,7 @@
 
 #include "generator/import/fit/plan_model.h"
 #include "generator/import/lines/line_places.h"
+#include "generator/import/lines/line_stretches.h"
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/rail_map.h"
 
@@ -17,6 +18,7 @@ struct TrackRun {
   /// Chainage and offset of its points, with rising chainage.
   std::vector<Eigen::Vector2d> points_m;
   std::vector<std::size_t> nodes;  ///< Of the map, one for each point.
+  std::vector<LineStretch> ways;   ///< From point to point.
   double speed_kmph{};
   bool is_electrified = true;
 };

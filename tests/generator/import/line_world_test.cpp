@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "core/io/write_file.h"
 #include "generator/import/lines/line_files.h"
@@ -12,11 +14,14 @@
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/map_projection.h"
 #include "generator/import/map/read_map.h"
+#include "generator/import/structures/line_structures.h"
+#include "generator/import/structures/structure_json.h"
 #include "tests/core/io/temporary_directory.h"
 
 namespace railcast {
 namespace {
 
+using WorldJson = nlohmann::ordered_json;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::SizeIs;
@@ -52,6 +57,11 @@ class OfOneLine : public ::testing::Test {
     runs_east_ = map.nodes[track.nodes.front()].place_m.x() < 0.0;
     line_ = ImportLine(map, track, {});
     world_ = MakeLineWorld(map, track, line_);
+    AddStructures(map, track, line_, world_);
+    structures_.clear();
+    for (const StructureSpec& structure : world_.structures) {
+      structures_.push_back(JsonOf(structure));
+    }
   }
   /// Chainage of a place that is some steps from the western end.
   [[nodiscard]] double At_m(double steps) const {
@@ -60,7 +70,7 @@ class OfOneLine : public ::testing::Test {
   [[nodiscard]] const WorldJson& Only(const std::string& type) const {
     static const WorldJson kNone;
     const WorldJson* found = &kNone;
-    for (const WorldJson& structure : world_.structures) {
+    for (const WorldJson& structure : structures_) {
       if (structure["type"] == type) found = &structure;
     }
     return *found;
@@ -77,6 +87,7 @@ class OfOneLine : public ::testing::Test {
   bool runs_east_ = true;
   ImportedLine line_;
   LineWorld world_;
+  std::vector<WorldJson> structures_;
 };
 
 TEST_F(OfOneLine, HasBridgesTunnelsAndSlabTrackFromItsWays) {
@@ -84,7 +95,7 @@ TEST_F(OfOneLine, HasBridgesTunnelsAndSlabTrackFromItsWays) {
   ExpectStretch("bridge", 1.0, 2.0);
   ExpectStretch("tunnel", 2.0, 3.0);
   ExpectStretch("slab_track", 2.0, 3.0);
-  EXPECT_EQ(world_.tracks[0]["electrified"], true) << "three steps of four";
+  EXPECT_EQ(world_.tracks[0].draft.spec.electrified, true) << "three steps of four";
   ASSERT_THAT(world_.left_out, SizeIs(1));
   EXPECT_EQ(world_.left_out[0].reason, "the map has 760 mm, the world 1435 mm");
 }

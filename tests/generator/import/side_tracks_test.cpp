@@ -5,15 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "core/rail/line/turnout_geometry.h"
 #include "generator/import/lines/track_lines.h"
+#include "generator/import/network/track_json.h"
 
 namespace railcast {
 namespace {
 
+using WorldJson = nlohmann::ordered_json;
 using ::testing::DoubleNear;
 using ::testing::ElementsAre;
 using ::testing::SizeIs;
@@ -50,7 +53,7 @@ class BesideALine : public ::testing::Test {
   /// Where tangents meet in the turnouts that the world has on a track, ascending.
   [[nodiscard]] std::vector<double> TangentsOn_x_m(const std::string& track) const {
     std::vector<double> places_m;
-    for (const WorldJson& other : world_.tracks) {
+    for (const WorldJson& other : tracks_) {
       for (const char* end : {"begin", "end"}) {
         if (!other.contains(end) || other[end]["track"] != track) continue;
         const TurnoutType type =
@@ -69,19 +72,21 @@ class BesideALine : public ::testing::Test {
     const ImportedLine line = ImportLine(map_, track, {});
     world_ = MakeLineWorld(map_, track, line);
     quality_ = AddSideTracks(map_, track, line, 0.3, world_);
+    for (const WorldTrack& made : world_.tracks) tracks_.push_back(JsonOf(made.draft.spec));
   }
 
   RailMap map_;
   bool runs_east_ = true;
   LineWorld world_;
+  std::vector<WorldJson> tracks_;
   SideTrackQuality quality_;
 };
 
 TEST_F(BesideALine, ATrackOfItsOwnIsParallel) {
   Add({{200.0, 4.7}, {500.0, 4.8}, {900.0, 4.6}, {1500.0, 4.7}}, {{"electrified", "no"}});
   Make();
-  ASSERT_THAT(world_.tracks, SizeIs(2));
-  const WorldJson& track = world_.tracks[1];
+  ASSERT_THAT(tracks_, SizeIs(2));
+  const WorldJson& track = tracks_[1];
   EXPECT_EQ(track["name"], "running_1");
   EXPECT_NEAR(std::abs(track["offset_m"].get<double>()), 4.7, 0.05);
   EXPECT_NEAR(track["start_s_m"], runs_east_ ? 200.0 : 500.0, 0.5);
@@ -93,8 +98,8 @@ TEST_F(BesideALine, ATrackOfItsOwnIsParallel) {
 TEST_F(BesideALine, ASidingBeginsInATurnout) {
   AddSiding(600.0, 4.5, 1200.0, {{"service", "siding"}});
   Make();
-  ASSERT_THAT(world_.tracks, SizeIs(2));
-  const WorldJson& track = world_.tracks[1];
+  ASSERT_THAT(tracks_, SizeIs(2));
+  const WorldJson& track = tracks_[1];
   const WorldJson& turnout = track[runs_east_ ? "begin" : "end"];
   EXPECT_EQ(track["name"], "siding_1");
   EXPECT_EQ(turnout["track"], "main");
@@ -111,8 +116,8 @@ TEST_F(BesideALine, ACrossoverLeadsFromTrackToTrack) {
   Add({{100.0, 4.5}, {700.0, 4.5}, {1300.0, 4.5}, {1900.0, 4.5}}, {{"maxspeed", "80"}});
   Add({{800.0, 0.0}, {820.25, 2.25}, {840.5, 4.5}}, {{"service", "crossover"}});
   Make();
-  ASSERT_THAT(world_.tracks, SizeIs(3));
-  const WorldJson& crossover = world_.tracks[2];
+  ASSERT_THAT(tracks_, SizeIs(3));
+  const WorldJson& crossover = tracks_[2];
   EXPECT_EQ(crossover["name"], "crossover_1");
   EXPECT_EQ(crossover["begin"]["track"], runs_east_ ? "main" : "running_1");
   EXPECT_EQ(crossover["end"]["track"], runs_east_ ? "running_1" : "main");
@@ -156,9 +161,9 @@ TEST_F(BesideALine, ATrackThatCannotBeJoinedIsCutAndSaysSo) {
   }
   Add(points_m, {});
   Make();
-  ASSERT_THAT(world_.tracks, SizeIs(2));
-  EXPECT_TRUE(world_.tracks[1].contains("elements"));
-  EXPECT_GE(std::abs(world_.tracks[1]["offset_m"].get<double>()), 3.0);
+  ASSERT_THAT(tracks_, SizeIs(2));
+  EXPECT_TRUE(tracks_[1].contains("elements"));
+  EXPECT_GE(std::abs(tracks_[1]["offset_m"].get<double>()), 3.0);
   ASSERT_THAT(world_.left_out, SizeIs(2));
   EXPECT_EQ(world_.left_out[0].reason, "it is cut where it comes nearer than 3 m to others");
   EXPECT_EQ(world_.left_out[1].what, "switch");
