@@ -38,8 +38,11 @@ class Stack {
 
   /// Pushes children so that the nearest is popped first.
   void PushSorted(const BeamNode& node, std::uint32_t children, const float* entry) {
+    if (children == 0) return;
     const std::size_t first = size_;
-    for (; children != 0; children &= children - 1) {
+    const auto nearest = static_cast<std::size_t>(__builtin_ctz(children));
+    entries_[size_++] = {node.child[nearest], entry[nearest]};
+    while ((children &= children - 1) != 0) {
       const auto k = static_cast<std::size_t>(__builtin_ctz(children));
       std::size_t place = size_++;
       for (; place > first && entries_[place - 1].entry < entry[k]; --place) {
