@@ -8,7 +8,7 @@ clients: VLP-16 at 20 Hz and HDL-32E at 10 Hz into PCL's own grabbers.
 limits: the highest rate that each rung sustains without a late frame, in one of three tries: virtual
 machines occasionally pause for tens of milliseconds.
 late: the late frames of the most expensive runs at 10 Hz: VLS-128, and footprint on the published
-scan. For two cores: taskset -c 0,1 measure_live.py BUILD_DIR late.
+scan, received on the same cores. For two cores: taskset -c 0,1 measure_live.py BUILD_DIR late.
 fast: the published scan at 10 Hz from a train at 160 km/h, on an open line, through hills and through
 a station: what a frame takes, and how long the longest one, which waits for the world if any does.
 """
@@ -125,9 +125,12 @@ def late(bench, seconds):
     for name, scenario, options in (("VLS-128", lambda: bench.sensor("vls128.json"), []),
                                     ("published scan, footprint", lambda: bench.published(10),
                                      ["--fidelity", "footprint"])):
-        sent = bench.stream(scenario(), seconds, *options)
+        sent, received = bench.stream_and_receive(scenario(), seconds, *options)
         print(f"{name}, 10 Hz, {seconds:g} s: {sent['frames']} frames, {sent['late']} late; compute "
-              f"p50 {sent['compute'][0]:.1f}, p99 {sent['compute'][2]:.1f} ms", flush=True)
+              f"p50 {sent['compute'][0]:.1f}, p99 {sent['compute'][2]:.1f} ms; send p50 "
+              f"{sent['send'][0]:.1f} ms; lateness p50 {sent['lateness'][0]:.2f}, p99 "
+              f"{sent['lateness'][2]:.2f} ms")
+        print("  " + received.strip().splitlines()[1], flush=True)
 
 
 def fast(bench, seconds):

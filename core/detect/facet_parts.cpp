@@ -16,6 +16,8 @@ constexpr float kStep_m = 0.01F;
 constexpr float kStepPerRange = 3e-4F;
 // Beams with more facets than this are not worth the search for planes.
 constexpr std::size_t kMostPlanes = 8;
+// In place of the index of a surface.
+constexpr std::uint32_t kSeveralPlanes = 0xFFFFFFFFU;
 
 float Dot(const Facet& a, const Facet& b) {
   return a.normal_x * b.normal_x + a.normal_y * b.normal_y + a.normal_z * b.normal_z;
@@ -103,13 +105,10 @@ void FacetParts::JoinPlanes() {
   }
 }
 
-bool FacetParts::IsOnePlane(std::uint32_t central_surface) const {
-  return sums_.size() == 1 && beam_.facets[sums_[0].facet].surface == central_surface;
-}
-
 void FacetParts::AddParts(const WideBeams& beams, std::size_t lane) {
   const float per_ray = 1.0F / static_cast<float>(beam_.num_rays);
   RayTile& rays = batch_.rays;
+  first_part_[lane] = found_.size() + num_in_batch_;
   for (const Sums& sums : sums_) {
     const auto num = static_cast<float>(sums.num);
     if (sums.facet == 0) {
@@ -149,30 +148,59 @@ void FacetParts::Flush(const WideBeams& beams) {
 
 void FacetParts::StoreLists(std::size_t num_lanes, PartLists& lists) const {
   lists.parts.clear();
-  auto part = found_.begin();
   for (std::size_t lane = 0; lane < num_lanes; ++lane) {
     lists.begin[lane] = lists.parts.size();
+    const auto part = found_.begin() + static_cast<std::ptrdiff_t>(first_part_[lane]);
     lists.parts.insert(lists.parts.end(), part, part + num_parts_[lane]);
-    part += num_parts_[lane];
     const float share = share_on_nothing_[lane];
     if (share > 0.0F) lists.parts.push_back({.share = share});
   }
   lists.begin[num_lanes] = lists.parts.size();
 }
 
-void FacetParts::Find(const WideBeams& beams, const DetectTile& first, PartLists& lists) {
+void FacetParts::Trace(const WideBeams& beams, const DetectTile& first) {
   found_.clear();
+  first_part_.fill(0);
   num_parts_.fill(0);
   share_on_nothing_.fill(0.0F);
+  plane_surface_.fill(kSeveralPlanes);
   for (std::size_t lane = 0; lane < first.num_rays; ++lane) {
     Aim(beams, first, lane);
     beams.caster.CastBeam(beam_);
     // So are half of all beams, most of them in the sky; sums would tell no more.
-    const std::uint32_t surface = beams.rays.surface[lane];
-    if (IsOneFacet() && beam_.facets[beam_.num_facets - 1].surface == surface) continue;
+    if (IsOneFacet()) {
+      plane_surface_[lane] = beam_.facets[beam_.num_facets - 1].surface;
+      continue;
+    }
     SumUp();
     JoinPlanes();
-    if (!IsOnePlane(surface)) AddParts(beams, lane);
+    if (sums_.size() == 1) {
+      plane_surface_[lane] = beam_.facets[sums_[0].facet].surface;
+    } else {
+      AddParts(beams, lane);
+    }
+  }
+  Flush(beams);
+}
+
+bool FacetParts::NeedsCenter(const WideBeams& beams, std::size_t lane) const {
+  if (plane_surface_[lane] != kSeveralPlanes) return true;
+  const auto begin = found_.begin() + static_cast<std::ptrdiff_t>(first_part_[lane]);
+  return std::none_of(begin, begin + num_parts_[lane], [&](const Component& part) {
+    return part.power_ratio > 0.0F && SendsLight(part, beams.table.surfaces, spec_);
+  });
+}
+
+void FacetParts::Find(const WideBeams& beams, const DetectTile& first, PartLists& lists) {
+  for (std::size_t lane = 0; lane < first.num_rays; ++lane) {
+    const std::uint32_t surface = plane_surface_[lane];
+    if (surface == kSeveralPlanes || surface == beams.rays.surface[lane]) continue;
+    // The central ray meets something else, which is thin. That is rare, so that nothing was kept.
+    Aim(beams, first, lane);
+    beams.caster.CastBeam(beam_);
+    SumUp();
+    JoinPlanes();
+    AddParts(beams, lane);
   }
   Flush(beams);
   StoreLists(first.num_rays, lists);

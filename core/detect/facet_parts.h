@@ -18,15 +18,24 @@ namespace railcast {
 ///
 /// The sub-rays on one facet make one part, since the surface responds the same all over it. Its
 /// range is their mean, and its spread has the variance among them and the one within the cell of a
-/// sub-ray. A beam that lies on one plane as a whole is left to its central ray.
+/// sub-ray. A beam that lies on one plane as a whole is left to its central ray. Most others need
+/// none, so that the sub-rays come first: Trace(), central rays of those that NeedsCenter(),
+/// Find().
 ///
 /// Not thread-safe: keeps its working memory.
 class FacetParts {
  public:
   FacetParts(const DetectorSpec& spec, const Kernels& kernels);
 
+  /// Traces the tile's beams.
+  /// @param first The keys of the firings.
+  void Trace(const WideBeams& beams, const DetectTile& first);
+
+  /// Whether the beam may be left to its central ray, or has no part that sends light back.
+  [[nodiscard]] bool NeedsCenter(const WideBeams& beams, std::size_t lane) const;
+
   /// Fills `lists` for the tile's beams.
-  /// @param first The central rays' hits, with the keys of the firings.
+  /// @param beams With the hits of the central rays that are needed.
   void Find(const WideBeams& beams, const DetectTile& first, PartLists& lists);
 
  private:
@@ -44,7 +53,6 @@ class FacetParts {
   [[nodiscard]] bool IsOneFacet() const;
   void SumUp();
   void JoinPlanes();
-  [[nodiscard]] bool IsOnePlane(std::uint32_t central_surface) const;
   void AddParts(const WideBeams& beams, std::size_t lane);
   void Flush(const WideBeams& beams);
   void StoreLists(std::size_t num_lanes, PartLists& lists) const;
@@ -56,9 +64,12 @@ class FacetParts {
   PartBatch batch_;
   std::size_t num_in_batch_{};
   std::vector<Component> found_;  // Responses of the batches so far.
-  // By lane; both are 0 if the central ray represents the beam.
+  // By lane; all are 0 if the central ray represents the beam.
+  std::array<std::size_t, kTileSize> first_part_{};  // Index into found_.
   std::array<std::uint32_t, kTileSize> num_parts_{};
   std::array<float, kTileSize> share_on_nothing_{};
+  // By lane; the surface of a beam on one plane, else kSeveralPlanes.
+  std::array<std::uint32_t, kTileSize> plane_surface_{};
 };
 
 }  // namespace railcast

@@ -37,6 +37,11 @@ float MixedShare(std::vector<Component>& parts) {
   return std::max(total - largest, 0.0F);
 }
 
+// Whether beams are traced as such, not as rays.
+bool LooksAtFacets(const DetectorSpec& spec) {
+  return HasFootprint(spec) && !spec.effects.dense_footprint;
+}
+
 // Echoes weaker than this are detected in at most one case of 1000.
 constexpr float kLeastRatio = 0.3F;
 
@@ -125,8 +130,8 @@ void Footprint::FindParts(const WideBeams& beams, const DetectTile& first) {
   }
 }
 
-void Footprint::Resolve(const WideBeams& beams, const WireSet* wires, EchoTiles& echoes) {
-  FindParts(beams, echoes.first);
+void Footprint::Trace(const WideBeams& beams, const WireSet* wires, const DetectTile& first) {
+  if (LooksAtFacets(spec_)) facet_parts_.Trace(beams, first);
   captures_.clear();
   if (wires != nullptr) {
     const BeamFrame& frame = beams.frame;
@@ -136,6 +141,17 @@ void Footprint::Resolve(const WideBeams& beams, const WireSet* wires, EchoTiles&
                   .sigma_vertical_rad = static_cast<double>(frame.sigma_v_rad)},
                  *wires, captures_);
   }
+  has_wire_.fill(false);
+  for (const WireCapture& capture : captures_) has_wire_[capture.lane] = true;
+}
+
+bool Footprint::NeedsCenter(const WideBeams& beams, std::size_t lane) const {
+  // What wires hide may be all that sends light.
+  return !LooksAtFacets(spec_) || has_wire_[lane] || facet_parts_.NeedsCenter(beams, lane);
+}
+
+void Footprint::Resolve(const WideBeams& beams, EchoTiles& echoes) {
+  FindParts(beams, echoes.first);
   const WireCapture* capture = captures_.data();
   const WireCapture* const last_capture = capture + captures_.size();
   for (std::size_t lane = 0; lane < echoes.first.num_rays; ++lane) {
@@ -146,14 +162,10 @@ void Footprint::Resolve(const WideBeams& beams, const WireSet* wires, EchoTiles&
     if (!is_wide && first_capture == capture) continue;
     beam_parts_.assign(parts.begin(), parts.end());
     if (!is_wide) beam_parts_.push_back(ComponentOf(echoes.first, lane));
-    // Parts nearer than range_min or on the vehicle block their share of the beam and send nothing.
     components_.clear();
-    std::copy_if(beam_parts_.begin(), beam_parts_.end(), std::back_inserter(components_),
-                 [&](const Component& part) {
-                   return part.surface != 0 &&
-                          part.range_m >= static_cast<float>(spec_.range_min_m) &&
-                          !beams.table.surfaces[part.surface].is_ego;
-                 });
+    std::copy_if(
+        beam_parts_.begin(), beam_parts_.end(), std::back_inserter(components_),
+        [&](const Component& part) { return SendsLight(part, beams.table.surfaces, spec_); });
     if (is_wide && components_.empty() &&
         echoes.first.outcome[lane] == static_cast<std::uint32_t>(Outcome::kReturned)) {
       // A surface that only the central ray meets is thin: it fills no more than a sub-ray's cell.

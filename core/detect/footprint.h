@@ -32,11 +32,19 @@ class Footprint {
  public:
   Footprint(const DetectorSpec& spec, const Kernels& kernels);
 
-  /// Resolves the tile's beams into echoes.
+  /// Traces the tile's beams, before their central rays.
   /// @param wires Null unless effect `thin_conductors` is on.
+  /// @param first The keys of the firings.
+  void Trace(const WideBeams& beams, const WireSet* wires, const DetectTile& first);
+
+  /// Whether Resolve() needs the central ray of a beam. Where it does not, that ray may as well
+  /// have met nothing.
+  [[nodiscard]] bool NeedsCenter(const WideBeams& beams, std::size_t lane) const;
+
+  /// Resolves the tile's beams into echoes.
   /// @pre `echoes.first` holds the central rays' hits, and Detector::Respond has been applied to
   ///   it.
-  void Resolve(const WideBeams& beams, const WireSet* wires, EchoTiles& echoes);
+  void Resolve(const WideBeams& beams, EchoTiles& echoes);
 
  private:
   void FindParts(const WideBeams& beams, const DetectTile& first);
@@ -49,7 +57,8 @@ class Footprint {
   EchoFinder finder_;
   PartLists lists_;
   std::vector<WireCapture> captures_;
-  std::vector<Component> beam_parts_;  // All parts of one beam, also those that send nothing.
+  std::array<bool, kTileSize> has_wire_{};  // By lane.
+  std::vector<Component> beam_parts_;       // All parts of one beam, also those that send nothing.
   std::vector<Component> wires_;
   std::vector<Component> components_;  // The parts of one beam that send light back, with wires.
   std::vector<Echo> found_;

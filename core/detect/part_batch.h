@@ -16,7 +16,7 @@
 
 namespace railcast {
 
-/// A tile of wide beams whose central rays have been traced.
+/// A tile of wide beams. Their central rays are aimed, and traced unless a function says otherwise.
 struct WideBeams {
   const RayTile& rays;
   const BeamFrame& frame;
@@ -66,6 +66,15 @@ struct PartLists {
     return {parts.data() + begin[lane], begin[lane + 1] - begin[lane]};
   }
 };
+
+/// Whether a part sends light back to the sensor. Parts nearer than range_min or on the vehicle
+/// block their share of the beam and send nothing.
+[[nodiscard]] inline bool SendsLight(const Component& part,
+                                     const std::vector<Surface>& surfaces,
+                                     const DetectorSpec& spec) {
+  return part.surface != 0 && part.range_m >= static_cast<float>(spec.range_min_m) &&
+         !surfaces[part.surface].is_ego;
+}
 
 /// The component that a lane of a tile with responses describes.
 [[nodiscard]] Component ComponentOf(const DetectTile& hits, std::size_t lane);

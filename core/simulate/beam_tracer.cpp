@@ -61,10 +61,10 @@ BeamFrame BeamTracer::BeamFrameOf(const CastFrame& frame,
   return beam;
 }
 
-void BeamTracer::TraceCenters(const CastFrame& frame,
-                              const FiringTiles& tiles,
-                              std::size_t tile,
-                              Work& work) const {
+void BeamTracer::AimCenters(const CastFrame& frame,
+                            const FiringTiles& tiles,
+                            std::size_t tile,
+                            Work& work) const {
   RayTile& rays = work.rays;
   DetectTile& first = work.echoes.first;
   tiles.Aim(tile, frame.poses, static_cast<float>(spec_.range_max_m), rays);
@@ -74,7 +74,17 @@ void BeamTracer::TraceCenters(const CastFrame& frame,
     kernels_.pointing(rays, first, BeamFrameOf(frame, tiles, tile), pointing_);
   }
   rays.mask = spec_.effects.thin_conductors ? kAllButWires : kAllSurfaces;
-  frame.caster.Cast(rays);
+}
+
+void BeamTracer::CastCenters(const WideBeams& beams, bool are_all_needed, Work& work) const {
+  RayTile& rays = work.rays;
+  constexpr float kNoRay_m = -1.0F;
+  for (std::size_t i = 0; i < work.echoes.first.num_rays && !are_all_needed; ++i) {
+    if (!work.footprint.NeedsCenter(beams, i)) rays.range_m[i] = kNoRay_m;
+  }
+  beams.caster.Cast(rays);
+  const auto range_max_m = static_cast<float>(spec_.range_max_m);
+  for (float& range_m : rays.range_m) range_m = range_m < 0.0F ? range_max_m : range_m;
 }
 
 void BeamTracer::Blind(const CastFrame& frame, const RayTile& rays, EchoTiles& echoes) const {
@@ -99,7 +109,7 @@ void BeamTracer::MakeEchoes(const CastFrame& frame,
                             std::size_t tile,
                             Work& work,
                             const EffectObserver& observer) const {
-  TraceCenters(frame, tiles, tile, work);
+  AimCenters(frame, tiles, tile, work);
   const RayTile& rays = work.rays;
   EchoTiles& echoes = work.echoes;
   DetectTile& first = echoes.first;
@@ -108,10 +118,18 @@ void BeamTracer::MakeEchoes(const CastFrame& frame,
   tiles.Describe(tile, first);
   if (cover_) cover_->Fill(first, work.drops);
   const SurfaceTable table{frame.surfaces, optics_};
+  const BeamFrame beam = BeamFrameOf(frame, tiles, tile);
+  const WideBeams beams{rays,  beam,      frame.caster,
+                        table, detector_, frame.mirrors ? &*frame.mirrors : nullptr};
+  const bool is_wide = HasFootprint(spec_) || spec_.effects.thin_conductors;
+  if (is_wide) {
+    work.footprint.Trace(beams, spec_.effects.thin_conductors ? frame.wires : nullptr, first);
+  }
+  // Mirrors continue the central rays, and observers see their effects.
+  CastCenters(beams, !is_wide || !frame.takes_no_rays || frame.mirrors || observer, work);
   ResolveHits(rays, table, first);
   kernels_.incidence(rays, first);
   if (!is_physical_) return;
-  const BeamFrame beam = BeamFrameOf(frame, tiles, tile);
   kernels_.spread(rays, beam, first);
   if (observer && ShowsSurfaceCondition(spec_)) {
     // Let the story show the response of the dry, bare surfaces first; then restore the actual one.
@@ -119,15 +137,12 @@ void BeamTracer::MakeEchoes(const CastFrame& frame,
     detector_.RespondBare(first, observer);
     ResolveHits(rays, table, first);
   }
-  const WideBeams beams{rays,  beam,      frame.caster,
-                        table, detector_, frame.mirrors ? &*frame.mirrors : nullptr};
   work.mirrors.hits.clear();
   if (frame.mirrors) DimMirrors(*frame.mirrors, rays, first, &work.mirrors.hits);
   detector_.Respond(first, observer);
   std::fill_n(echoes.mixed_share, first.num_rays, 0.0F);
-  if (HasFootprint(spec_) || spec_.effects.thin_conductors) {
-    const WireSet* const wires = spec_.effects.thin_conductors ? frame.wires : nullptr;
-    work.footprint.Resolve(beams, wires, echoes);
+  if (is_wide) {
+    work.footprint.Resolve(beams, echoes);
     if (observer) observer(HasFootprint(spec_) ? "footprint" : "thin_conductors");
   }
   if (frame.mirrors) {

@@ -29,6 +29,8 @@ struct CastFrame {
   Transform window_from_world;
   std::vector<SprayCloud> spray{};       ///< Empty unless effect `spray` is on and trains move.
   std::optional<MirrorScene> mirrors{};  ///< Absent unless effect `mirror_paths` has any.
+  /// Whether the caster takes rays that are shorter than 0, which hit nothing.
+  bool takes_no_rays = false;
 };
 
 /// Makes the echoes of a tile of firings, from aiming the beams to the received power, with the
@@ -51,7 +53,7 @@ class BeamTracer {
   };
 
   /// Makes the echoes of a tile of firings up to the point where the receiver (Detector) takes
-  /// over. Leaves the central rays in `work.rays`.
+  /// over. Leaves the central rays in `work.rays`; those that make no difference hit nothing.
   void MakeEchoes(const CastFrame& frame,
                   const FiringTiles& tiles,
                   std::size_t tile,
@@ -72,10 +74,12 @@ class BeamTracer {
   }
 
  private:
-  void TraceCenters(const CastFrame& frame,
-                    const FiringTiles& tiles,
-                    std::size_t tile,
-                    Work& work) const;
+  void AimCenters(const CastFrame& frame,
+                  const FiringTiles& tiles,
+                  std::size_t tile,
+                  Work& work) const;
+  /// Casts the central rays of beams that need one; of all if `are_all_needed`.
+  void CastCenters(const WideBeams& beams, bool are_all_needed, Work& work) const;
   [[nodiscard]] BeamFrame BeamFrameOf(const CastFrame& frame,
                                       const FiringTiles& tiles,
                                       std::size_t tile) const;

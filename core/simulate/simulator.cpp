@@ -41,6 +41,7 @@ CastFrame CastOf(const FrameScene& scene,
     cast.spray = SprayCloudsOf(world, spec.weather, scene.stamp_ns, cast.window_from_world);
   }
   cast.mirrors = tracer.MirrorsAmong(cast.surfaces, cast.window_from_world);
+  cast.takes_no_rays = true;
   return cast;
 }
 
@@ -138,7 +139,10 @@ struct Simulator::Parts {
   /// Calls `work(tile)` for every tile, on the run's threads.
   template <typename Job>
   void ForEachTile(const Job& job) {
-    arena.execute([&] { tbb::parallel_for(std::size_t{0}, tiles.num_tiles(), job); });
+    // One by one, since a tile takes up to milliseconds, for which others would wait at the end.
+    arena.execute([&] {
+      tbb::parallel_for(std::size_t{0}, tiles.num_tiles(), job, tbb::simple_partitioner{});
+    });
   }
 };
 

@@ -105,8 +105,9 @@ struct ChildDistances {
   alignas(64) float farthest[kTreeWidth];
 };
 
-/// Returns the children of a node that the cone may meet nearer than `far`, and the parameters
-/// along the axis at which it enters them, with the distances of their farthest corners.
+/// Returns the children among all of a node's places for them that the cone may meet nearer than
+/// `far`, and the parameters along the axis at which it enters them, with the distances of their
+/// farthest corners.
 [[nodiscard]] inline std::uint32_t ChildrenMet(const BeamNode& node,
                                                const Cone& cone,
                                                float far,
@@ -139,7 +140,7 @@ struct ChildDistances {
     distances.farthest[k] = farthest;
     outside[k] = in <= out ? -1.0F : 1.0F;
   }
-  return NegativeOfTree(outside) & ((1U << node.num_children) - 1U);
+  return NegativeOfTree(outside);
 }
 
 /// What the test of a ray needs of a leaf's triangles, by lane. A ray from the cone's origin along
@@ -155,8 +156,7 @@ struct LeafProducts {
   alignas(64) float offset[kLeafWidth];
 };
 
-/// Fills the products and returns those that the cone may meet nearer than
-/// `far`.
+/// Fills the products and returns those of all lanes that the cone may meet nearer than `far`.
 [[nodiscard]] inline std::uint32_t TrianglesMet(const BeamLeaf& leaf,
                                                 const Cone& cone,
                                                 float far,
@@ -222,7 +222,7 @@ struct LeafProducts {
     const bool may_be_met = (may_be_left | may_be_right) & (nearest <= far);
     met[k] = may_be_met ? -1.0F : 1.0F;
   }
-  return NegativeLanes(met) & leaf.lanes;
+  return NegativeLanes(met);
 }
 
 }  // namespace railcast::RAILCAST_ISA

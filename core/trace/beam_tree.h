@@ -18,21 +18,25 @@ inline constexpr std::size_t kTreeDepth = 48;
 
 /// Points to a child: a node, or, if the lowest bit is set, a leaf. 0 = an empty tree. Leaves of a
 /// model's tree are BeamLeaf; a leaf of a scene's tree is an instance, whose index stands in the
-/// other bits.
+/// other bits. The address of a node or BeamLeaf leaves the lowest bits free: those above the first
+/// hold its number of children or triangles less one, for which nodes and leaves have no room left
+/// in their cache lines.
 using TreePointer = std::uintptr_t;
+inline constexpr TreePointer kIsLeafBit = 1;
+inline constexpr unsigned kNumShift = 1;
+inline constexpr TreePointer kAddressBits = ~TreePointer{0x3F};
 
 /// An inner node: the bounding boxes of its children, by axis.
 struct alignas(64) BeamNode {
   float lower[3][kTreeWidth], upper[3][kTreeWidth];
   TreePointer child[kTreeWidth];
-  std::uint32_t num_children;
 };
+static_assert((kTreeWidth - 1) << kNumShift < alignof(BeamNode));
 
 /// Up to kLeafWidth triangles of a model. Unused lanes repeat the last triangle.
 struct alignas(64) BeamLeaf {
   float corner[3][3][kLeafWidth];  ///< [corner][axis]
   std::uint32_t part[kLeafWidth];  ///< Part of the model that the triangle belongs to.
-  std::uint32_t lanes;             ///< The lanes in use, a bit each.
 };
 
 /// An affine transform: the first three rows of the matrix, row by row.

@@ -8,11 +8,16 @@
 namespace railcast {
 namespace {
 
-// The alignment of nodes and leaves leaves the lowest bit of a pointer free.
-constexpr TreePointer kIsLeaf = 1;
-
 TreePointer PointerTo(const void* child) {
   return std::bit_cast<TreePointer>(child);
+}
+
+void* AsVoid(TreePointer pointer) {
+  return std::bit_cast<void*>(pointer);
+}
+
+BeamNode& NodeAt(void* pointer) {
+  return *std::bit_cast<BeamNode*>(PointerTo(pointer) & kAddressBits);
 }
 
 template <typename Item>
@@ -26,17 +31,16 @@ Item* Allocate(RTCThreadLocalAllocator allocator) {
 void* MakeNode(RTCThreadLocalAllocator allocator, unsigned num_children, void* /*user*/) {
   auto* const node = Allocate<BeamNode>(allocator);
   *node = BeamNode{};
-  node->num_children = num_children;
-  return node;
+  return AsVoid(PointerTo(node) | TreePointer{num_children - 1} << kNumShift);
 }
 
 void SetChildren(void* at, void** children, unsigned num_children, void* /*user*/) {
-  auto& node = *static_cast<BeamNode*>(at);
+  BeamNode& node = NodeAt(at);
   for (unsigned k = 0; k < num_children; ++k) node.child[k] = PointerTo(children[k]);
 }
 
 void SetBounds(void* at, const RTCBounds** bounds, unsigned num_children, void* /*user*/) {
-  auto& node = *static_cast<BeamNode*>(at);
+  BeamNode& node = NodeAt(at);
   for (unsigned k = 0; k < num_children; ++k) {
     const RTCBounds& box = *bounds[k];
     const float lower[3] = {box.lower_x, box.lower_y, box.lower_z};
@@ -61,16 +65,15 @@ void* MakeTriangleLeaf(RTCThreadLocalAllocator allocator,
       for (int i = 0; i < 3; ++i) leaf->corner[corner][i][k] = triangle.corners[corner][i];
     }
     leaf->part[k] = triangle.part;
-    if (k < num) leaf->lanes |= 1U << k;
   }
-  return std::bit_cast<void*>(PointerTo(leaf) | kIsLeaf);
+  return AsVoid(PointerTo(leaf) | TreePointer{num - 1} << kNumShift | kIsLeafBit);
 }
 
 void* MakeInstanceLeaf(RTCThreadLocalAllocator /*allocator*/,
                        const RTCBuildPrimitive* primitives,
                        std::size_t /*num*/,
                        void* /*user*/) {
-  return std::bit_cast<void*>((TreePointer{primitives[0].primID} << 1U) | kIsLeaf);
+  return AsVoid(TreePointer{primitives[0].primID} << kNumShift | kIsLeafBit);
 }
 
 RTCBuildPrimitive PrimitiveOf(const Eigen::AlignedBox3f& box, std::size_t index) {

@@ -174,26 +174,20 @@ inline void AimProbes(const Cone& cone,
   return false;
 }
 
-/// The products of one triangle, as LeafProducts.
-struct TriangleProducts {
-  float along[4], h[4], v[4];
-  float offset;
-};
-
-/// The first `num` sub-rays that pass through a triangle, as a bit mask.
+/// The first `num` sub-rays that pass through the triangle in a lane of a leaf, as a bit mask.
 template <std::size_t num>
-[[nodiscard]] inline std::uint64_t RaysInside(const TriangleProducts& triangle,
+[[nodiscard]] inline std::uint64_t RaysInside(const LeafProducts& t,
+                                              std::size_t lane,
                                               const SubRayPlaces& places) {
-  const TriangleProducts t = triangle;
   std::uint64_t outside = 0;
   for (std::size_t first = 0; first < num; first += kRayLanes) {
     alignas(64) float least[kRayLanes];
     for (std::size_t k = 0; k < kRayLanes; ++k) {
       const float a = places.a[first + k];
       const float b = places.b[first + k];
-      const float u = t.along[0] + a * t.h[0] + b * t.v[0];
-      const float v = t.along[1] + a * t.h[1] + b * t.v[1];
-      const float w = t.along[2] + a * t.h[2] + b * t.v[2];
+      const float u = t.along[0][lane] + a * t.h[0][lane] + b * t.v[0][lane];
+      const float v = t.along[1][lane] + a * t.h[1][lane] + b * t.v[1][lane];
+      const float w = t.along[2][lane] + a * t.h[2][lane] + b * t.v[2][lane];
       least[k] = Least(u, Least(v, w)) + 0.0F;  // -0 becomes 0, which is inside.
     }
     outside |= std::uint64_t{NegativeLanes(least)} << first;
@@ -203,22 +197,27 @@ template <std::size_t num>
 
 /// Intersects the sub-rays from `first` on with a triangle. Returns whether any hits it nearer than
 /// anything before.
-[[nodiscard]] inline bool HitLanes(const TriangleProducts& t,
+[[nodiscard]] inline bool HitLanes(const LeafProducts& t,
+                                   std::size_t lane,
                                    std::size_t first,
                                    const SubRayPlaces& places,
                                    std::uint32_t facet,
                                    BeamRays& beam) {
   alignas(64) float hits[kRayLanes];
+  // The places alias nothing of the beam. Clang finds out by itself.
+#ifndef __clang__
+#pragma GCC ivdep
+#endif
   for (std::size_t k = 0; k < kRayLanes; ++k) {
     const std::size_t i = first + k;
     const float a = places.a[i];
     const float b = places.b[i];
-    const float u = t.along[0] + a * t.h[0] + b * t.v[0];
-    const float v = t.along[1] + a * t.h[1] + b * t.v[1];
-    const float w = t.along[2] + a * t.h[2] + b * t.v[2];
+    const float u = t.along[0][lane] + a * t.h[0][lane] + b * t.v[0][lane];
+    const float v = t.along[1][lane] + a * t.h[1][lane] + b * t.v[1][lane];
+    const float w = t.along[2][lane] + a * t.h[2][lane] + b * t.v[2][lane];
     const bool is_inside = Least(u, Least(v, w)) >= 0.0F;
-    const float slope = t.along[3] + a * t.h[3] + b * t.v[3];
-    const float range_m = t.offset * places.norm[i] / slope;
+    const float slope = t.along[3][lane] + a * t.h[3][lane] + b * t.v[3][lane];
+    const float range_m = t.offset[lane] * places.norm[i] / slope;
     const float old = beam.range_m[i];
     const bool is_hit = is_inside & (range_m > 0.0F) & (range_m < old);
     beam.range_m[i] = is_hit ? range_m : old;
@@ -235,23 +234,16 @@ template <std::size_t num>
                                       std::uint32_t facet,
                                       const SubRayPlaces& places,
                                       BeamRays& beam) {
-  TriangleProducts triangle;
-  for (int e = 0; e < 4; ++e) {
-    triangle.along[e] = products.along[e][lane];
-    triangle.h[e] = products.h[e][lane];
-    triangle.v[e] = products.v[e][lane];
-  }
-  triangle.offset = products.offset[lane];
   std::uint64_t rays = beam.num_rays == kNumCrowdedSubRays
-                           ? RaysInside<kNumCrowdedSubRays>(triangle, places)
-                           : RaysInside<kNumSubRays>(triangle, places);
+                           ? RaysInside<kNumCrowdedSubRays>(products, lane, places)
+                           : RaysInside<kNumSubRays>(products, lane, places);
   bool is_any_hit = false;
   // Most triangles are passed by, or met by few rays; only these need divisions.
   while (rays != 0) {
     const auto ray = static_cast<std::size_t>(__builtin_ctzll(rays));
     const std::size_t first = ray / kRayLanes * kRayLanes;
     rays &= ~(((std::uint64_t{1} << kRayLanes) - 1U) << first);
-    is_any_hit |= HitLanes(triangle, first, places, facet, beam);
+    is_any_hit |= HitLanes(products, lane, first, places, facet, beam);
   }
   return is_any_hit;
 }

@@ -21,7 +21,18 @@
 namespace railcast::RAILCAST_ISA {
 
 [[nodiscard]] inline bool IsLeaf(TreePointer pointer) {
-  return (pointer & 1U) != 0;
+  return (pointer & kIsLeafBit) != 0;
+}
+[[nodiscard]] inline const BeamNode& NodeAt(TreePointer pointer) {
+  return *reinterpret_cast<const BeamNode*>(pointer & kAddressBits);
+}
+[[nodiscard]] inline const BeamLeaf& LeafAt(TreePointer pointer) {
+  return *reinterpret_cast<const BeamLeaf*>(pointer & kAddressBits);
+}
+/// The places of a node or leaf that are in use, a bit each.
+[[nodiscard]] inline std::uint32_t PlacesInUse(TreePointer pointer) {
+  const auto last = static_cast<std::uint32_t>((pointer & ~kAddressBits) >> kNumShift);
+  return (2U << last) - 1U;
 }
 
 /// Entries of a tree that are still to be visited.
@@ -38,8 +49,11 @@ class Stack {
 
   /// Pushes children so that the nearest is popped first.
   void PushSorted(const BeamNode& node, std::uint32_t children, const float* entry) {
+    if (children == 0) return;
     const std::size_t first = size_;
-    for (; children != 0; children &= children - 1) {
+    const auto nearest = static_cast<std::size_t>(__builtin_ctz(children));
+    entries_[size_++] = {node.child[nearest], entry[nearest]};
+    while ((children &= children - 1) != 0) {
       const auto k = static_cast<std::size_t>(__builtin_ctz(children));
       std::size_t place = size_++;
       for (; place > first && entries_[place - 1].entry < entry[k]; --place) {
@@ -126,7 +140,7 @@ inline void AddFacet(const Rows& window_from_model,
 
 /// Has the first lines of a node or leaf fetched, which is visited after its nearer siblings.
 inline void Prefetch(TreePointer pointer) {
-  const auto* const bytes = reinterpret_cast<const char*>(pointer & ~TreePointer{1});
+  const auto* const bytes = reinterpret_cast<const char*>(pointer & kAddressBits);
   constexpr std::size_t kNumBytes = 384;
   for (std::size_t at = 0; at < kNumBytes; at += 64) __builtin_prefetch(bytes + at);
 }
@@ -139,14 +153,15 @@ struct ModelBeam {
 };
 
 /// Pushes those children of a node that the cone and at least one sub-ray meet.
-inline void PushChildren(const BeamNode& node,
+inline void PushChildren(TreePointer pointer,
                          float far,
                          SubRayPlaces& places,
                          const BeamRays& beam,
                          ModelBeam& model,
                          Stack& stack) {
+  const BeamNode& node = NodeAt(pointer);
   ChildDistances distances;
-  std::uint32_t children = ChildrenMet(node, model.cone, far, distances);
+  std::uint32_t children = ChildrenMet(node, model.cone, far, distances) & PlacesInUse(pointer);
   if (children == 0) return;
   if (!places.are_known) PlaceSubRays(beam, places);
   if (model.num_rays_of_probes != beam.num_rays) AimProbes(model.cone, beam, places, model.probes);
@@ -171,14 +186,15 @@ constexpr std::uint32_t kCrowd = 96;
 
 /// Intersects the triangles of a leaf with the sub-rays. Returns whether any hit is nearer than
 /// what was hit before, or the number of sub-rays was lowered.
-[[nodiscard]] inline bool TraceLeaf(const BeamLeaf& leaf,
+[[nodiscard]] inline bool TraceLeaf(TreePointer pointer,
                                     const Cone& cone,
                                     float far,
                                     const InstanceSurface& surface,
                                     SubRayPlaces& places,
                                     BeamRays& beam) {
+  const BeamLeaf& leaf = LeafAt(pointer);
   LeafProducts products;
-  std::uint32_t lanes = TrianglesMet(leaf, cone, far, products);
+  std::uint32_t lanes = TrianglesMet(leaf, cone, far, products) & PlacesInUse(pointer);
   if (lanes == 0) return false;
   if (!places.are_known) PlaceSubRays(beam, places);
   beam.num_met += static_cast<std::uint32_t>(__builtin_popcount(lanes));
@@ -216,11 +232,11 @@ inline void TraceInstance(const BeamInstance& instance,
     const Stack::Entry top = stack.Pop();
     if (top.entry > far) continue;
     if (IsLeaf(top.pointer)) {
-      const auto& leaf = *reinterpret_cast<const BeamLeaf*>(top.pointer & ~TreePointer{1});
-      if (TraceLeaf(leaf, cone, far, surface, places, beam)) far = FindFarthest(beam, places);
+      if (TraceLeaf(top.pointer, cone, far, surface, places, beam)) {
+        far = FindFarthest(beam, places);
+      }
     } else {
-      const auto& node = *reinterpret_cast<const BeamNode*>(top.pointer);
-      PushChildren(node, far, places, beam, model, stack);
+      PushChildren(top.pointer, far, places, beam, model, stack);
     }
   }
 }
@@ -249,11 +265,12 @@ inline void TraceBeam(const BeamScene& scene, BeamRays& beam) {
     const Stack::Entry top = stack.Pop();
     if (top.entry > far) continue;
     if (IsLeaf(top.pointer)) {
-      TraceInstance(scene.instances[top.pointer >> 1U], places, beam, far);
+      TraceInstance(scene.instances[top.pointer >> kNumShift], places, beam, far);
       continue;
     }
-    const auto& node = *reinterpret_cast<const BeamNode*>(top.pointer);
-    const std::uint32_t children = ChildrenMet(node, cone, far, distances);
+    const BeamNode& node = NodeAt(top.pointer);
+    const std::uint32_t children =
+        ChildrenMet(node, cone, far, distances) & PlacesInUse(top.pointer);
     stack.PushSorted(node, children, distances.entry);
   }
   if (beam.num_facets > num_facets) DropHiddenFacets(beam);

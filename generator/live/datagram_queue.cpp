@@ -82,11 +82,20 @@ std::int64_t DatagramQueue::DueNs(const Lane& lane) {
   return frame.clock_from_due_ns + frame.datagrams.items[lane.next].due_ns;
 }
 
+std::int64_t DatagramQueue::LeavesNs(const Lane& lane) {
+  const std::int64_t due_ns = DueNs(lane);
+  const OutgoingFrame& frame = lane.waiting.front();
+  const auto& items = frame.datagrams.items;
+  if (frame.is_burst || lane.next == items.size()) return due_ns;
+  const std::size_t last = std::min(lane.next + kMostTogether, items.size()) - 1;
+  return std::max(due_ns, std::min(lane.rested_ns, frame.clock_from_due_ns + items[last].due_ns));
+}
+
 DatagramQueue::Lane* DatagramQueue::NextLane() {
   Lane* next = nullptr;
   for (Lane& lane : lanes_) {
     if (lane.waiting.empty()) continue;
-    if (next == nullptr || DueNs(lane) < DueNs(*next)) next = &lane;
+    if (next == nullptr || LeavesNs(lane) < LeavesNs(*next)) next = &lane;
   }
   return next;
 }
@@ -102,9 +111,9 @@ void DatagramQueue::Run() {
       changed_.wait(lock);
       continue;
     }
-    const std::int64_t due_ns = DueNs(*lane);
-    if (clock_.NowNs() < due_ns) {
-      clock_.WaitUntil(due_ns, changed_, lock);
+    const std::int64_t leaves_ns = LeavesNs(*lane);
+    if (clock_.NowNs() < leaves_ns) {
+      clock_.WaitUntil(leaves_ns, changed_, lock);
       continue;  // A frame that arrived meanwhile may be due earlier.
     }
     try {
@@ -137,6 +146,7 @@ void DatagramQueue::SendDue(Lane& lane, std::unique_lock<std::mutex>& lock) {
   }
   const std::int64_t end_ns = clock_.NowNs();
   lane.send_ns += end_ns - begin_ns;
+  if (!clock_.jumps()) lane.rested_ns = begin_ns + kRest_ns;
   for (const Datagrams::Item& item : due) {
     lane.record.lateness.Add(end_ns - frame.clock_from_due_ns - (frame.is_burst ? 0 : item.due_ns));
     lane.record.bytes += item.size;

@@ -92,11 +92,16 @@ BeamNode Enlarged(const BeamNode& node, float by_m) {
 /// The tree of places that one cone meets, flattened: its leaves, in nodes of kTreeWidth.
 struct PlacesMet {
   std::vector<BeamNode> nodes;
+  std::size_t num = 0;  ///< Of all leaves.
 
+  /// The places in use of a node.
+  [[nodiscard]] std::uint32_t InUse(std::size_t node) const {
+    return (2U << (std::min(num - node * kTreeWidth, kTreeWidth) - 1)) - 1U;
+  }
   void Add(const BeamNode& from, std::size_t child) {
-    if (nodes.empty() || nodes.back().num_children == kTreeWidth) nodes.emplace_back();
+    const std::size_t k = num++ % kTreeWidth;
+    if (k == 0) nodes.emplace_back();
     BeamNode& to = nodes.back();
-    const std::size_t k = to.num_children++;
     for (int i = 0; i < 3; ++i) {
       to.lower[i][k] = from.lower[i][child];
       to.upper[i][k] = from.upper[i][child];
@@ -107,13 +112,16 @@ struct PlacesMet {
 
 void FindPlaces(const BeamScene& scene, const Cone& cone, float shift_m, PlacesMet& met) {
   met.nodes.clear();
+  met.num = 0;
   constexpr float kFar_m = 1e9F;
   ChildDistances distances;
   std::vector<TreePointer> left{scene.root};
   while (!left.empty()) {
-    const auto& node = *reinterpret_cast<const BeamNode*>(left.back());
+    const TreePointer pointer = left.back();
+    const BeamNode& node = NodeAt(pointer);
     left.pop_back();
-    std::uint32_t children = ChildrenMet(Enlarged(node, shift_m), cone, kFar_m, distances);
+    std::uint32_t children =
+        ChildrenMet(Enlarged(node, shift_m), cone, kFar_m, distances) & PlacesInUse(pointer);
     for (; children != 0; children &= children - 1) {
       const auto k = static_cast<std::size_t>(__builtin_ctz(children));
       if (IsLeaf(node.child[k])) {
@@ -140,8 +148,9 @@ void PlacesOnce(const BeamScene& scene, BeamRays* beams, std::size_t num) {
     ChildDistances distances;
     static thread_local std::vector<Stack::Entry> entries;
     entries.clear();
-    for (const BeamNode& node : met.nodes) {
-      std::uint32_t children = ChildrenMet(node, cone, far, distances);
+    for (std::size_t n = 0; n < met.nodes.size(); ++n) {
+      const BeamNode& node = met.nodes[n];
+      std::uint32_t children = ChildrenMet(node, cone, far, distances) & met.InUse(n);
       for (; children != 0; children &= children - 1) {
         const auto k = static_cast<std::size_t>(__builtin_ctz(children));
         entries.push_back({node.child[k], distances.entry[k]});
@@ -151,7 +160,7 @@ void PlacesOnce(const BeamScene& scene, BeamRays* beams, std::size_t num) {
               [](const auto& x, const auto& y) { return x.entry < y.entry; });
     for (const Stack::Entry& entry : entries) {
       if (entry.entry > far) break;
-      TraceInstance(scene.instances[entry.pointer >> 1U], places, beam, far);
+      TraceInstance(scene.instances[entry.pointer >> kNumShift], places, beam, far);
     }
     if (beam.num_facets > 1) DropHiddenFacets(beam);
   }

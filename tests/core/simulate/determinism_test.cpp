@@ -1,10 +1,9 @@
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
 
-#include <cstring>
-
 #include "core/base/random.h"
 #include "tests/support/analytic_meshes.h"
+#include "tests/support/same_frames.h"
 #include "tests/support/scan_once.h"
 #include "tests/support/simple_world.h"
 
@@ -46,19 +45,6 @@ SimulatorSpec EverythingOn() {
   spec.detector.weather.snow_rate_mmph = 2.0;
   spec.detector.plausibility.dropout_probability = 0.05;
   return spec;
-}
-
-void ExpectSameBytes(const Frame& a, const Frame& b) {
-  std::vector<std::pair<const void*, std::size_t>> fields;
-  ForEachField(a, [&](std::string_view, std::string_view, const auto& values) {
-    fields.emplace_back(values.data(), values.size() * sizeof(values[0]));
-  });
-  std::size_t next = 0;
-  ForEachField(b, [&](std::string_view name, std::string_view, const auto& values) {
-    const auto [data, size] = fields[next++];
-    ASSERT_EQ(size, values.size() * sizeof(values[0])) << name;
-    EXPECT_EQ(std::memcmp(data, values.data(), size), 0) << name;
-  });
 }
 
 TEST(Determinism, SameBytesAtOneTwoAndEightThreads) {

@@ -1,11 +1,13 @@
 // What effect footprint makes of what its sub-rays meet, as seen in the frames.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
 #include "railcast/simulator.h"
 #include "tests/support/analytic_meshes.h"
+#include "tests/support/same_frames.h"
 #include "tests/support/scan_once.h"
 #include "tests/support/simple_world.h"
 
@@ -167,6 +169,46 @@ TEST(Footprint, FillsTheBeamInACrowd) {
   }
   const double num_beams = 0.5 * static_cast<double>(frame.num_slots());
   EXPECT_NEAR(sum / num_beams, 0.5, 3.5 * kDeviation / std::sqrt(num_beams));
+}
+
+Mesh Plate(float x, const Eigen::Vector2f& least, const Eigen::Vector2f& most) {
+  return {{{x, least.x(), least.y()},
+           {x, most.x(), least.y()},
+           {x, most.x(), most.y()},
+           {x, least.x(), most.y()}},
+          {{0, 1, 2}, {0, 2, 3}}};
+}
+
+// A host's caster is given all central rays, the simulator's own only those that are needed. Walls
+// so black that no light comes back, their edges beside the sky, a plate that is too near and the
+// vehicle itself leave many beams to what the central ray meets.
+TEST(Footprint, LeavesOutNoCentralRayThatMakesADifference) {
+  auto world = std::make_shared<SimpleWorld>();
+  world->ground.parts = {{Plate(4.0F, {-9, -9}, {0, 9}), 2, 1},
+                         {Plate(4.5F, {-9, -9}, {0.04F, 9}), 2, 2},
+                         {Plate(280.0F, {-90, -90}, {90, 0}), 3, 3},
+                         {Plate(270.0F, {2, -90}, {4, 0}), 3, 4},
+                         {Plate(0.3F, {-0.02F, -1}, {0.02F, -0.004F}), 2, 5}};
+  world->AddObject(
+      std::make_shared<Model>(Model{"own", {{Plate(2.0F, {0.02F, 0.01F}, {1, 1}), 1, 6}}}),
+      Transform::Identity(), Vector3::Zero(), true);
+  SimulatorSpec spec{.detector = {.effects = EffectsOfRung(Fidelity::kFootprint)}};
+  spec.detector.effects.thin_conductors = false;  // A host has no wires.
+  spec.detector.beam.divergence_mrad = {3.0, 3.0};
+  const MaterialLibrary materials({{"dark", 0.1}, {"grey", 0.5}, {"white", 1.0}, {"black", 0.0}});
+  Simulator simulator(world, MakeRaster(2, 2, 0.02), materials, spec, 0);
+  Frame frame;
+  simulator.Scan(0, frame);
+  for (const Outcome outcome :
+       {Outcome::kReturned, Outcome::kNoSurface, Outcome::kNearRange, Outcome::kEgo}) {
+    EXPECT_GT(std::ranges::count(frame.outcome, outcome), 100) << static_cast<int>(outcome);
+  }
+  EXPECT_GT(std::ranges::count(frame.label, 4U), 100);
+  simulator.VisitScene(0, [&](const SceneOfFrame& scene) {
+    Frame with_all;
+    simulator.Scan(0, HostScene{scene.caster, scene.window_from_world, scene.surfaces}, with_all);
+    ExpectSameBytes(frame, with_all);
+  });
 }
 
 }  // namespace
