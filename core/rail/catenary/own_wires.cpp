@@ -38,6 +38,7 @@ OwnWires::OwnWires(const WorldTracks& tracks, const Alignment& alignment)
       return turnout ? TrackIndex(tracks.world, turnout->track) : std::nullopt;
     };
     turnouts_.push_back({other(track.begin), other(track.end)});
+    axes_.emplace_back(tracks, axes_.size());
   }
   for (std::size_t k = 0; k < specs.size(); ++k) {
     if (!specs[k].electrified || FollowsAlignment(specs[k], tracks.courses[k])) continue;
@@ -85,22 +86,19 @@ bool OwnWires::HangIn(double first_s_m, double last_s_m) const {
       own_, [&](const Own& own) { return HangsIn(own.track, first_s_m, last_s_m); });
 }
 
-double OwnWires::AxisAt_m(std::size_t track, double s_m) const {
-  const TrackCourse& course = tracks_.courses[track];
-  if (s_m < course.begin_s_m() && turnouts_[track].begin) {
-    return AxisAt_m(*turnouts_[track].begin, s_m);
-  }
-  if (s_m > course.end_s_m() && turnouts_[track].end) return AxisAt_m(*turnouts_[track].end, s_m);
-  return course.OffsetWithin_m(s_m);
-}
-
-HungWire OwnWires::WireAt(std::size_t track, double s_m, double stagger_m) const {
-  HungWire wire{.track = track, .axis_d_m = AxisAt_m(track, s_m), .stagger_m = stagger_m};
+HungWire OwnWires::WireInPlan(std::size_t track, double s_m, double stagger_m) const {
+  HungWire wire{.track = track, .axis_d_m = axes_[track].OffsetAt_m(s_m), .stagger_m = stagger_m};
   for (const auto& other : {turnouts_[track].begin, turnouts_[track].end}) {
-    if (other && std::abs(wire.axis_d_m - AxisAt_m(*other, s_m)) < kBesideOther_m) {
+    if (other && std::abs(wire.axis_d_m - axes_[*other].OffsetAt_m(s_m)) < kBesideOther_m) {
       wire.is_lifted = true;
     }
   }
+  return wire;
+}
+
+HungWire OwnWires::WireAt(std::size_t track, double s_m, double stagger_m) const {
+  HungWire wire = WireInPlan(track, s_m, stagger_m);
+  wire.axis_lift_m = axes_[track].LiftAt_m(alignment_, s_m);
   return wire;
 }
 
@@ -137,8 +135,8 @@ class OwnWires::Trial {
       const Own& own, const std::vector<double>& firsts_m, const std::vector<double>& lasts_m) {
     for (const double first_m : firsts_m) {
       for (const double last_m : lasts_m) {
-        const HungWire first = wires_.WireAt(own.track, span_.first_s_m, first_m);
-        const HungWire last = wires_.WireAt(own.track, span_.last_s_m, last_m);
+        const HungWire first = wires_.WireInPlan(own.track, span_.first_s_m, first_m);
+        const HungWire last = wires_.WireInPlan(own.track, span_.last_s_m, last_m);
         const Placed placed{first.axis_d_m + last.axis_d_m, first.d_m(), last.d_m()};
         if (!IsApart(placed) || !StaysWithin(own, first, last)) continue;
         placed_.push_back(placed);
@@ -171,7 +169,7 @@ class OwnWires::Trial {
 
   [[nodiscard]] Eigen::Vector2d PlaceOf(const HungWire& wire, double s_m) const {
     const WorldSpec& world = wires_.tracks_.world;
-    const Vector3 place_m = WorldFromSupport(wires_.alignment_, world, wire.axis_d_m, s_m) *
+    const Vector3 place_m = WorldFromSupport(wires_.alignment_, world, {wire.axis_d_m}, s_m) *
                             Vector3(0.0, wire.stagger_m, world.catenary.contact_height_m);
     return place_m.head<2>();
   }

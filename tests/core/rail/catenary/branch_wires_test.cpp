@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,6 +54,16 @@ std::vector<BranchCase> BranchCases() {
                               .electrified = true});
       cases.push_back({"ladder " + name, WithTracksOfYards(ladder)});
     }
+  }
+  return cases;
+}
+
+/// The same with 100 mm of cant all along the straight.
+std::vector<BranchCase> CantedBranchCases() {
+  std::vector<BranchCase> cases = BranchCases();
+  for (BranchCase& branch : cases) {
+    branch.name = "canted " + branch.name;
+    branch.world.alignment.cants_mm = {{0.0, 100.0}, {500.0, 100.0}};
   }
   return cases;
 }
@@ -111,7 +122,9 @@ double AirBetween_m(const Piece& p, const Piece& q) {
 }
 
 TEST(BranchWires, HaveAirBetweenThemAndTheWiresOfOtherTracks) {
-  for (const BranchCase& branch : BranchCases()) {
+  std::vector<BranchCase> cases = BranchCases();
+  std::ranges::move(CantedBranchCases(), std::back_inserter(cases));
+  for (const BranchCase& branch : cases) {
     const TestLine line(branch.world);
     const std::vector<Piece> pieces = ContactAndMessengerWires(line);
     ASSERT_GT(pieces.size(), 500U) << branch.name;
@@ -127,6 +140,28 @@ TEST(BranchWires, HaveAirBetweenThemAndTheWiresOfOtherTracks) {
     }
     EXPECT_GE(least_m, 0.020) << branch.name << " at " << where_m;
     EXPECT_LT(least_m, 0.5) << branch.name;
+  }
+}
+
+TEST(BranchWires, KeepTheirHeightAboveTheCantedPlaneOfTheirOwnTrack) {
+  constexpr double kChordError_m = 2e-3;
+  for (const BranchCase& branch : CantedBranchCases()) {
+    const TestLine line(branch.world);
+    const CatenarySpec& spec = line.spec().catenary;
+    const double cos_cant = std::cos(line.alignment().At(0.0).cant_rad);
+    double most_lift_m = 0.0;
+    for (const Piece& piece : ContactAndMessengerWires(line)) {
+      const TrackCourse& course = line.network().courses[piece.track];
+      const double s_m = piece.a_m.x();
+      if (piece.radius_m < 0.006 || s_m < course.begin_s_m() || s_m > course.end_s_m()) continue;
+      const Vector3 axis_m = course.WorldFromTrack(line.alignment(), s_m).translation();
+      const double too_high_m = piece.a_m.z() - axis_m.z() - spec.contact_height_m * cos_cant;
+      EXPECT_LE(too_high_m, kRunInLift_m + kChordError_m) << branch.name << " at " << s_m;
+      EXPECT_GE(too_high_m, -kContactPresag * spec.max_span_m - kChordError_m)
+          << branch.name << " at " << s_m;
+      most_lift_m = std::max(most_lift_m, std::abs(axis_m.z()));
+    }
+    EXPECT_GT(most_lift_m, 0.1) << branch.name;
   }
 }
 
