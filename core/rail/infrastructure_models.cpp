@@ -13,8 +13,8 @@ InfrastructureModels MakeInfrastructureModels(const WorldSpec& spec, const RailS
   const double shift_m = RailShift_m(spec.alignment);
   models.concrete_sleeper = shared(MakeConcreteSleeper(surfaces, shift_m));
   models.wood_sleeper = shared(MakeWoodSleeper(surfaces, shift_m));
-  for (double length_m = 2.0 * kSleeperHalfLength_m; length_m < kLongestBearer_m;
-       length_m += kBearerStep_m) {
+  for (int i = 0; kShortestBearer_m + kBearerStep_m * i < kLongestBearer_m; ++i) {
+    const double length_m = kShortestBearer_m + kBearerStep_m * i;
     models.concrete_bearers.push_back(
         shared(MakeBearer(SleeperType::kConcrete, length_m, surfaces)));
     models.wood_bearers.push_back(shared(MakeBearer(SleeperType::kWood, length_m, surfaces)));

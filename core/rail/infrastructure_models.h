@@ -24,7 +24,7 @@ struct InfrastructureModels {
   std::shared_ptr<const Model> concrete_sleeper;
   std::shared_ptr<const Model> wood_sleeper;
 
-  /// Of turnouts (turnout/turnout_structure.h): bearers from 2.6 m on, each 0.1 m longer.
+  /// Of turnouts (turnout/turnout_structure.h): bearers from 1.6 m on, each 0.1 m longer.
   std::vector<std::shared_ptr<const Model>> concrete_bearers;
   std::vector<std::shared_ptr<const Model>> wood_bearers;
   std::shared_ptr<const Model> concrete_plate;

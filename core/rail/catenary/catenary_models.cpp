@@ -172,8 +172,9 @@ Model MakePortal(const CatenarySpec& spec,
                     site.left_d_m - shift_m + kMastHalfDepth_m),
       MakeTransform(beam_from_extrusion, Vector3(0.0, 0.0, MastTop_m(spec) + 0.5 * kDepth_m)));
   for (const double d_m : site.posts_d_m) {
-    mesh.Append(UprightBeam(StrutHinge_m(spec) - kPostBelowHinge_m, MastTop_m(spec)),
-                MakeTransform(Eigen::Matrix3d::Identity(), Vector3(0.0, d_m, 0.0)));
+    mesh.Append(
+        UprightBeam(StrutHinge_m(spec) - kPostBelowHinge_m + site.lowest_lift_m, MastTop_m(spec)),
+        MakeTransform(Eigen::Matrix3d::Identity(), Vector3(0.0, d_m, 0.0)));
   }
   return model;
 }
@@ -192,15 +193,18 @@ Model MakeCantilever(const CatenarySpec& spec,
 
   // Tubes end below the messenger wire, which a clamp holds.
   const double messenger_m = spec.contact_height_m + spec.system_height_m;
-  const Vector3 head = Vector3(0.0, farthest_m, messenger_m) - Vector3(0.0, 0.0, 0.075);
+  const double lowest_m = std::min(
+      0.0, std::ranges::min(shape.wires, {}, &CantileverWire::messenger_lift_m).messenger_lift_m);
+  const Vector3 head = Vector3(0.0, farthest_m, messenger_m) - Vector3(0.0, 0.0, 0.075 - lowest_m);
   const Vector3 top_hinge(0.0, shape.face_m, head.z());
   const Vector3 strut_hinge(0.0, shape.face_m, StrutHinge_m(spec));
   pen.InsulatedTube(top_hinge, head, kThinTubeRadius_m);
   pen.InsulatedTube(strut_hinge, head, kThickTubeRadius_m);
   for (const CantileverWire& wire : shape.wires) {
-    const double half_lift_m = wire.is_lifted ? 0.5 * kMessengerLift_m : 0.0;
-    pen.Clamp(Vector3(0.0, wire.y_m, messenger_m) - Vector3(0.0, 0.0, 0.04 - half_lift_m),
-              {0.05, 0.03, 0.05 + half_lift_m});
+    const double half_lift_m = 0.5 * (wire.messenger_lift_m - lowest_m);
+    pen.Clamp(
+        Vector3(0.0, wire.y_m, messenger_m) - Vector3(0.0, 0.0, 0.04 - lowest_m - half_lift_m),
+        {0.05, 0.03, 0.05 + half_lift_m});
   }
   for (const Vector3& hinge : {top_hinge, strut_hinge}) {
     pen.Clamp(hinge + Vector3(0.0, -0.02 * mast_side, 0.0), {0.06, 0.03, 0.06});
@@ -222,8 +226,8 @@ Model MakeCantilever(const CatenarySpec& spec,
   pen.Tube(root, tube_end, kThinTubeRadius_m);
   pen.Tube(head, on_tube(tube_end.y() + 0.10 * mast_side), kHangerRadius_m);
   for (std::size_t i = 0; i < shape.wires.size(); ++i) {
-    const double lift_m = shape.wires[i].is_lifted ? kRunInLift_m : 0.0;
-    const Vector3 wire(0.0, shape.wires[i].y_m, spec.contact_height_m + lift_m);
+    const Vector3 wire(0.0, shape.wires[i].y_m,
+                       spec.contact_height_m + shape.wires[i].contact_lift_m);
     pen.Tube(on_tube(hinges_y_m[i]), wire + Vector3(0.0, 0.0, 0.02), kSteadyArmRadius_m);
     pen.Clamp(wire + Vector3(0.0, 0.0, 0.016), {0.04, 0.012, 0.014});
   }

@@ -29,8 +29,9 @@ namespace railcast {
 
 /// A wire on a cantilever.
 struct CantileverWire {
-  double y_m{};      ///< Lateral position, left positive.
-  bool is_lifted{};  ///< As HungWire's.
+  double y_m{};               ///< Lateral position, left positive.
+  double contact_lift_m{};    ///< Of its contact wire above contact height.
+  double messenger_lift_m{};  ///< Of its messenger above that of a plain wire.
 };
 
 /// What a cantilever carries, in the frame of WorldFromSupport.

@@ -270,12 +270,12 @@ double PantographShift_m(const CatenarySpec& spec, const AxisPoint& axis) {
 
 Transform WorldFromSupport(const Alignment& alignment,
                            const WorldSpec& spec,
-                           double track_d_m,
+                           const AxisOffset& axis,
                            double s_m) {
   const double height_m = spec.catenary.contact_height_m;
-  const Vector3 contact_m = alignment.WorldFromTrack(s_m, track_d_m) * Vector3(0.0, 0.0, height_m);
+  const Vector3 contact_m = alignment.WorldFromTrack(s_m, axis.d_m) * Vector3(0.0, 0.0, height_m);
   return MakeTransform(RotationFromYawPitchRoll(alignment.At(s_m).heading_rad, 0.0, 0.0),
-                       contact_m - height_m * Vector3::UnitZ());
+                       contact_m + (axis.lift_m - height_m) * Vector3::UnitZ());
 }
 
 }  // namespace railcast

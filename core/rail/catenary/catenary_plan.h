@@ -97,12 +97,18 @@ class CatenaryPlan {
 /// positive.
 [[nodiscard]] double PantographShift_m(const CatenarySpec& spec, const AxisPoint& axis);
 
-/// The level frame of one track, at the offset `track_d_m`, at one support, in which cantilever and
-/// wires are described: x along the heading, z up. The origin lies below the middle of a pantograph
-/// by the height of the contact line, at PantographShift_m() from the track's axis.
+/// A track's axis at a support: left of the alignment, and above it.
+struct AxisOffset {
+  double d_m{};
+  double lift_m = 0.0;
+};
+
+/// The level frame of one track at one support, in which cantilever and wires are described: x
+/// along the heading, z up. The origin lies below the middle of a pantograph by the height of the
+/// contact line, at PantographShift_m() from the track's axis.
 [[nodiscard]] Transform WorldFromSupport(const Alignment& alignment,
                                          const WorldSpec& spec,
-                                         double track_d_m,
+                                         const AxisOffset& axis,
                                          double s_m);
 
 }  // namespace railcast

@@ -38,6 +38,7 @@ OwnWires::OwnWires(const WorldTracks& tracks, const Alignment& alignment)
       return turnout ? TrackIndex(tracks.world, turnout->track) : std::nullopt;
     };
     turnouts_.push_back({other(track.begin), other(track.end)});
+    axes_.emplace_back(tracks, axes_.size());
   }
   for (std::size_t k = 0; k < specs.size(); ++k) {
     if (!specs[k].electrified || FollowsAlignment(specs[k], tracks.courses[k])) continue;
@@ -85,22 +86,19 @@ bool OwnWires::HangIn(double first_s_m, double last_s_m) const {
       own_, [&](const Own& own) { return HangsIn(own.track, first_s_m, last_s_m); });
 }
 
-double OwnWires::AxisAt_m(std::size_t track, double s_m) const {
-  const TrackCourse& course = tracks_.courses[track];
-  if (s_m < course.begin_s_m() && turnouts_[track].begin) {
-    return AxisAt_m(*turnouts_[track].begin, s_m);
-  }
-  if (s_m > course.end_s_m() && turnouts_[track].end) return AxisAt_m(*turnouts_[track].end, s_m);
-  return course.OffsetWithin_m(s_m);
-}
-
-HungWire OwnWires::WireAt(std::size_t track, double s_m, double stagger_m) const {
-  HungWire wire{.track = track, .axis_d_m = AxisAt_m(track, s_m), .stagger_m = stagger_m};
+HungWire OwnWires::WireInPlan(std::size_t track, double s_m, double stagger_m) const {
+  HungWire wire{.track = track, .axis_d_m = axes_[track].OffsetAt_m(s_m), .stagger_m = stagger_m};
   for (const auto& other : {turnouts_[track].begin, turnouts_[track].end}) {
-    if (other && std::abs(wire.axis_d_m - AxisAt_m(*other, s_m)) < kBesideOther_m) {
+    if (other && std::abs(wire.axis_d_m - axes_[*other].OffsetAt_m(s_m)) < kBesideOther_m) {
       wire.is_lifted = true;
     }
   }
+  return wire;
+}
+
+HungWire OwnWires::WireAt(std::size_t track, double s_m, double stagger_m) const {
+  HungWire wire = WireInPlan(track, s_m, stagger_m);
+  wire.axis_lift_m = axes_[track].LiftAt_m(alignment_, s_m);
   return wire;
 }
 
@@ -110,13 +108,14 @@ const OwnWires::Hanger& OwnWires::HangerAt(std::size_t track,
   const auto found = known.find({s_m, track});
   if (found != known.end()) return found->second;
   const WorldSpec& world = tracks_.world;
-  const HungWire wire = WireAt(track, s_m, 0.0);
+  const HungWire wire = WireInPlan(track, s_m, 0.0);
   const double curvature_per_m = tracks_.courses[track].CurvatureAt(alignment_, s_m);
   return known
-      .emplace(std::pair(s_m, track),
-               Hanger{.wire = wire,
-                      .world_from_support = WorldFromSupport(alignment_, world, wire.axis_d_m, s_m),
-                      .curve_stagger_m = StaggerInCurve(world.catenary, curvature_per_m)})
+      .emplace(
+          std::pair(s_m, track),
+          Hanger{.wire = wire,
+                 .world_from_support = WorldFromSupport(alignment_, world, {wire.axis_d_m}, s_m),
+                 .curve_stagger_m = StaggerInCurve(world.catenary, curvature_per_m)})
       .first->second;
 }
 

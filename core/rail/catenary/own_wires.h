@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/rail/catenary/wire_axis.h"
 #include "core/rail/line/track_course.h"
 #include "core/rail/world_tracks.h"
 #include "railcast/alignment.h"
@@ -26,6 +27,9 @@ struct HungWire {
   /// is higher then by kRunInLift_m and its messenger by kMessengerLift_m, so that pantographs and
   /// other wires pass below.
   bool is_lifted{};
+  /// How much higher than the alignment that axis lies: a branch of a canted turnout lies in the
+  /// plane of the track in which that was built.
+  double axis_lift_m{};
 
   [[nodiscard]] double d_m() const { return axis_d_m + stagger_m; }
 };
@@ -73,7 +77,7 @@ class OwnWires {
 
   /// Where a track's wire hangs at a support, whatever its stagger.
   struct Hanger {
-    HungWire wire;  ///< Without a stagger.
+    HungWire wire;  ///< Without stagger and lift.
     Transform world_from_support;
     std::optional<double> curve_stagger_m;  ///< StaggerInCurve() of the track.
   };
@@ -90,7 +94,7 @@ class OwnWires {
                                                   const Staggers& first,
                                                   const WireRules& rules,
                                                   KnownHangers& known) const;
-  /// The wire of a track at a support.
+  /// The wire of a track at a support, with the lift of its axis.
   [[nodiscard]] HungWire WireAt(std::size_t track, double s_m, double stagger_m) const;
 
  private:
@@ -111,7 +115,8 @@ class OwnWires {
   class Trial;
 
   [[nodiscard]] bool HangsIn(std::size_t track, double first_s_m, double last_s_m) const;
-  [[nodiscard]] double AxisAt_m(std::size_t track, double s_m) const;
+  /// As WireAt(), with no lift, which does not matter in plan.
+  [[nodiscard]] HungWire WireInPlan(std::size_t track, double s_m, double stagger_m) const;
   [[nodiscard]] const Hanger& HangerAt(std::size_t track, double s_m, KnownHangers& known) const;
   [[nodiscard]] std::vector<double> CandidatesAt(const Hanger& hanger, double before_m) const;
   [[nodiscard]] std::size_t DepthOf(std::size_t track) const;
@@ -121,6 +126,7 @@ class OwnWires {
   const Alignment& alignment_;
   double step_m_;
   std::vector<Turnouts> turnouts_;
+  std::vector<WireAxis> axes_;
   std::vector<Own> own_;  ///< Those that branch off others after these.
 };
 

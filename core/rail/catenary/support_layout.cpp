@@ -210,6 +210,7 @@ class LayoutDraft {
     PortalSite portal{.right_d_m = tracks_.NearestMast_d_m(offset_m, false),
                       .left_d_m = tracks_.NearestMast_d_m(offset_m, true),
                       .posts_d_m = {},
+                      .lowest_lift_m = 0.0,
                       .structure = 0};
     auto& portals = layout_.portals;
     auto same = std::find_if(portals.begin(), portals.end(),
@@ -235,10 +236,13 @@ class LayoutDraft {
       shared->wires.push_back(wire);
       return;
     }
-    const auto& portals = layout_.portals;
+    auto& portals = layout_.portals;
     const auto portal = std::find_if(portals.begin(), portals.end(), [&](const PortalSite& other) {
       return Spans(other, wire.axis_d_m);
     });
+    if (portal != portals.end()) {
+      portal->lowest_lift_m = std::min(portal->lowest_lift_m, wire.axis_lift_m);
+    }
     const std::optional<double> mast_m = tracks_.OwnMast(wire.axis_d_m);
     std::size_t structure = portal == portals.end() ? wire.track : portal->structure;
     if (mast_m) structure = AddMast({wire.track, wire.axis_d_m, *mast_m, structure});
@@ -246,6 +250,7 @@ class LayoutDraft {
     layout_.cantilevers.push_back(
         {.track = wire.track,
          .axis_d_m = wire.axis_d_m,
+         .lift_m = wire.axis_lift_m,
          .face_m = from_axis_m - std::copysign(kMastHalfDepth_m, from_axis_m),
          .hangs = !mast_m,
          .structure = structure,

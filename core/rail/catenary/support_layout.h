@@ -21,6 +21,7 @@ inline constexpr double kMastClearance_m = 2.2;
 struct CantileverSite {
   std::size_t track{};  ///< The first of its tracks.
   double axis_d_m{};    ///< Where the wire of that one hangs (HungWire).
+  double lift_m{};      ///< Of that wire's axis.
   /// Face of the mast or post: left of that axis or, if `hangs`, of the pantograph's middle.
   double face_m{};
   bool hangs{};  ///< Whether it is on a post below a portal's beam; otherwise it is on a mast.
@@ -49,6 +50,8 @@ struct PortalSite {
   /// Middles of the posts, left of the alignment, where the pantograph is above the middle of its
   /// track. Cant displaces both.
   std::vector<double> posts_d_m;
+  /// How much lower than at the line's height a cantilever hangs from it: 0 or less.
+  double lowest_lift_m{};
   std::size_t structure{};
 };
 

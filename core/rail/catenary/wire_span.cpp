@@ -26,7 +26,9 @@ WireEnd HeldEnd(const ChunkContext& context, const CatenarySupport& at, const Hu
   const double above_m = wire.is_lifted ? kMessengerLift_m - kRunInLift_m : 0.0;
   const Vector3 held_m(0.0, wire.stagger_m, world.catenary.contact_height_m + lift_m);
   return {.s_m = at.s_m,
-          .contact_m = WorldFromSupport(context.alignment, world, wire.axis_d_m, at.s_m) * held_m,
+          .contact_m = WorldFromSupport(context.alignment, world, {wire.axis_d_m, wire.axis_lift_m},
+                                        at.s_m) *
+                       held_m,
           .system_height_m = SystemHeightAt_m(world, at.s_m) + above_m};
 }
 
@@ -70,11 +72,14 @@ std::optional<WireEnd> AnchoredEnd(const ChunkContext& context,
   }
   if (best == nullptr) return std::nullopt;
   const double shift_m = PantographShift_m(world.catenary, context.alignment.At(s_m));
+  const double lift_m =
+      WireAxis(TracksOf(context), wire.held.track).LiftAt_m(context.alignment, s_m);
   const Vector3 end_m(0.0, best->from_axis_m - shift_m,
                       world.catenary.contact_height_m + kAnchoredContact_m);
   return WireEnd{
       .s_m = s_m,
-      .contact_m = WorldFromSupport(context.alignment, world, best->axis_d_m, s_m) * end_m,
+      .contact_m =
+          WorldFromSupport(context.alignment, world, {best->axis_d_m, lift_m}, s_m) * end_m,
       .system_height_m = SystemHeightAt_m(world, s_m) + kAnchoredMessenger_m - kAnchoredContact_m};
 }
 
@@ -87,17 +92,18 @@ std::optional<SpanOfTrack> AnchoredSpan(const ChunkContext& context,
   const OwnWire& own = plan.OwnWireOf(track);
   const auto& supports = plan.supports();
   const TrackSpec& spec = context.spec.tracks[track];
+  const WireAxis axis(TracksOf(context), track);
   if (spec.begin && support + 1 == own.first_support) {
     const auto end = AnchoredEnd(context, plan, {own.at.front(), support + 1, support});
     if (!end) return std::nullopt;
     const WireEnd held = HeldEnd(context, supports[support + 1], own.at.front());
-    return SpanOfTrack{track, {context.alignment, *end, held}, true};
+    return SpanOfTrack{track, {context.alignment, axis, *end, held}, true};
   }
   if (spec.end && support == own.last_support()) {
     const auto end = AnchoredEnd(context, plan, {own.at.back(), support, support + 1});
     if (!end) return std::nullopt;
     const WireEnd held = HeldEnd(context, supports[support], own.at.back());
-    return SpanOfTrack{track, {context.alignment, held, *end}, true};
+    return SpanOfTrack{track, {context.alignment, axis, held, *end}, true};
   }
   return std::nullopt;
 }
@@ -106,7 +112,8 @@ std::optional<SpanOfTrack> AnchoredSpan(const ChunkContext& context,
 
 Vector3 WireSpanShape::Contact(double fraction) const {
   const auto axis_height_m = [&](double at) {
-    return alignment_->At(first_.s_m + at * length_m_).position_m.z();
+    const double s_m = first_.s_m + at * length_m_;
+    return alignment_->At(s_m).position_m.z() + axis_.LiftAt_m(*alignment_, s_m);
   };
   const double along_track_m =
       axis_height_m(fraction) - std::lerp(axis_height_m(0.0), axis_height_m(1.0), fraction);
@@ -118,6 +125,13 @@ Vector3 WireSpanShape::Messenger(double fraction) const {
   const double sag_m = kWireWeight_n_per_m * length_m_ * length_m_ / (8.0 * kMessengerTension_n);
   const double system_height_m = std::lerp(first_.system_height_m, last_.system_height_m, fraction);
   return Chord(fraction) + Vector3(0.0, 0.0, system_height_m - SagParabola(fraction) * sag_m);
+}
+
+bool WireSpanShape::IsLifted(double step_m) const {
+  for (double s_m = first_.s_m; s_m < last_.s_m; s_m += step_m) {
+    if (axis_.LiftAt_m(*alignment_, s_m) != 0.0) return true;
+  }
+  return axis_.LiftAt_m(*alignment_, last_.s_m) != 0.0;
 }
 
 WireSpan WireSpanShape::InWind(std::uint32_t number) const {
@@ -146,10 +160,10 @@ std::vector<SpanOfTrack> SpansBehind(const ChunkContext& context,
   for (const HungWire& wire : plan.WiresAt(TracksOf(context), support)) {
     const auto same = std::ranges::find(lasts, wire.track, &HungWire::track);
     if (same == lasts.end()) continue;
-    spans.push_back(
-        {wire.track,
-         {context.alignment, HeldEnd(context, first, wire), HeldEnd(context, last, *same)},
-         false});
+    spans.push_back({wire.track,
+                     {context.alignment, WireAxis(TracksOf(context), wire.track),
+                      HeldEnd(context, first, wire), HeldEnd(context, last, *same)},
+                     false});
   }
   for (std::size_t track = 0; track < context.tracks.size(); ++track) {
     if (plan.OwnWireOf(track).at.empty()) continue;

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "core/rail/catenary/catenary_plan.h"
+#include "core/rail/catenary/wire_axis.h"
 #include "core/rail/chunk_context.h"
 #include "railcast/scene.h"
 
@@ -23,13 +25,23 @@ struct WireEnd {
 /// The wires of one track between two supports, in world coordinates.
 class WireSpanShape {
  public:
-  WireSpanShape(const Alignment& alignment, const WireEnd& first, const WireEnd& last)
-      : alignment_(&alignment), first_(first), last_(last), length_m_(last.s_m - first.s_m) {}
+  /// @param axis Above which the contact wire keeps its height.
+  WireSpanShape(const Alignment& alignment,
+                WireAxis axis,
+                const WireEnd& first,
+                const WireEnd& last)
+      : alignment_(&alignment),
+        axis_(std::move(axis)),
+        first_(first),
+        last_(last),
+        length_m_(last.s_m - first.s_m) {}
 
   [[nodiscard]] double first_s_m() const { return first_.s_m; }
   [[nodiscard]] double length_m() const { return length_m_; }
   [[nodiscard]] Vector3 Contact(double fraction) const;
   [[nodiscard]] Vector3 Messenger(double fraction) const;
+  /// Whether the track lies higher or lower than the alignment at one of the places `step_m` apart.
+  [[nodiscard]] bool IsLifted(double step_m) const;
 
   /// The span in world coordinates. The wind moves all its wires alike, since droppers join them.
   [[nodiscard]] WireSpan InWind(std::uint32_t number) const;
@@ -42,6 +54,7 @@ class WireSpanShape {
   }
 
   const Alignment* alignment_;
+  WireAxis axis_;
   WireEnd first_;
   WireEnd last_;
   double length_m_;

@@ -7,6 +7,7 @@
 #include "core/rail/track/cross_section.h"
 #include "core/rail/track/planed_rail.h"
 #include "core/rail/track/sweep.h"
+#include "core/rail/turnout/long_bearers.h"
 #include "core/rail/turnout/turnout_structure.h"
 
 namespace railcast {
@@ -43,6 +44,7 @@ void AddRail(const ChunkContext& context,
 
 void AddSleepers(const ChunkContext& context,
                  std::size_t index,
+                 const std::vector<LongBearer>& bearers,
                  const InfrastructureModels& models,
                  Chunk& chunk) {
   const std::shared_ptr<const Model>& model =
@@ -57,7 +59,7 @@ void AddSleepers(const ChunkContext& context,
     const double s_m = static_cast<double>(k) * kSleeperSpacing_m;
     if (s_m < context.begin_s_m || s_m >= context.end_s_m) continue;
     if (s_m < track.begin_s_m() || s_m > track.end_s_m()) continue;
-    if (HasBearersAt(context, index, s_m)) continue;
+    if (ReplacesSleeper(bearers, index, s_m)) continue;
     const Transform chunk_from_track =
         context.chunk_from_world * track.WorldFromTrack(context.alignment, s_m);
     chunk.placements.push_back(
@@ -68,8 +70,9 @@ void AddSleepers(const ChunkContext& context,
 }  // namespace
 
 void AddTracks(const ChunkContext& context, const InfrastructureModels& models, Chunk& chunk) {
+  const std::vector<LongBearer> bearers = LongBearersIn(context);
   for (std::size_t index = 0; index < context.tracks.size(); ++index) {
-    AddSleepers(context, index, models, chunk);
+    AddSleepers(context, index, bearers, models, chunk);
     for (const bool is_left : {true, false}) {
       for (const ChainageRange& range : PlainRailRanges(context, index, is_left)) {
         AddRail(context, context.tracks[index], is_left, range, chunk);
@@ -77,7 +80,8 @@ void AddTracks(const ChunkContext& context, const InfrastructureModels& models, 
     }
   }
   AddTurnouts(context, models, chunk);
-  AddDiamonds(context, models, chunk);
+  AddDiamonds(context, chunk);
+  for (const LongBearer& bearer : bearers) AddLongBearer(context, bearer, models, chunk);
   AddBallast(context, chunk);
 }
 

@@ -124,13 +124,17 @@ std::vector<double> BearerPlaces(const ChunkContext& context, const ChainageRang
   return places_m;
 }
 
-MadeBearer BearerOf(const InfrastructureModels& models, SleeperType sleeper, double length_m) {
+MadeBearer BearerOf(const InfrastructureModels& models,
+                    SleeperType sleeper,
+                    double length_m,
+                    bool is_at_most) {
   const auto& bearers =
       sleeper == SleeperType::kConcrete ? models.concrete_bearers : models.wood_bearers;
-  const double steps = std::ceil((length_m - 2.0 * kSleeperHalfLength_m) / kBearerStep_m - 1e-9);
-  const std::size_t index =
-      std::min(static_cast<std::size_t>(std::max(0.0, steps)), bearers.size() - 1);
-  return {bearers[index], 2.0 * kSleeperHalfLength_m + kBearerStep_m * static_cast<double>(index)};
+  const double steps = (length_m - kShortestBearer_m) / kBearerStep_m;
+  const double whole = is_at_most ? std::floor(steps + 1e-9) : std::ceil(steps - 1e-9);
+  const auto index =
+      static_cast<std::size_t>(std::clamp(whole, 0.0, static_cast<double>(bearers.size() - 1)));
+  return {bearers[index], kShortestBearer_m + kBearerStep_m * static_cast<double>(index)};
 }
 
 const std::shared_ptr<const Model>& PlateOf(const InfrastructureModels& models,

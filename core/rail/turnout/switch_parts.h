@@ -42,14 +42,16 @@ void AddCheckRail(const ChunkContext& context,
 [[nodiscard]] std::vector<double> BearerPlaces(const ChunkContext& context,
                                                const ChainageRange& range);
 
-/// A bearer at least as long as needed, or the longest.
+/// A bearer at least as long as needed, or at most as long; the longest or shortest if there is
+/// none.
 struct MadeBearer {
   std::shared_ptr<const Model> model;
   double length_m{};
 };
 [[nodiscard]] MadeBearer BearerOf(const InfrastructureModels& models,
                                   SleeperType sleeper,
-                                  double length_m);
+                                  double length_m,
+                                  bool is_at_most);
 [[nodiscard]] const std::shared_ptr<const Model>& PlateOf(const InfrastructureModels& models,
                                                           SleeperType sleeper);
 

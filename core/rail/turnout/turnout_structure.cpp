@@ -32,47 +32,6 @@ PairOfTracks PairOf(const TurnoutSite& site) {
   return {site.track, site.branch};
 }
 
-/// A turnout's bearers with the plates of its rails.
-class Bearers {
- public:
-  Bearers(const ChunkContext& context, const TurnoutSite& site, const InfrastructureModels& models)
-      : context_(context), site_(site), models_(models) {}
-
-  void AddAt(double s_m, Chunk& chunk) const {
-    const TrackOffset through = context_.tracks[site_.track].OffsetAt(s_m);
-    const TrackOffset branch = context_.tracks[site_.branch].OffsetAt(s_m);
-    const double apart_m = (branch.d_m - through.d_m) * std::cos(std::atan(through.slope));
-    const double length_m = std::abs(apart_m) + 2.0 * kSleeperHalfLength_m;
-    const SleeperType sleeper = context_.spec.tracks[site_.track].sleeper;
-    const MadeBearer bearer = BearerOf(models_, sleeper, length_m);
-    // What the bearer is longer than needed is on the branch's side.
-    const double middle_m = SignOf(site_.side) * (0.5 * bearer.length_m - kSleeperHalfLength_m);
-    PlaceModel(bearer.model, StationOf(context_, PairOf(site_), false, {s_m, middle_m}), chunk);
-    for (const bool on_branch : {false, true}) {
-      for (const double side : {-1.0, 1.0}) {
-        const double foot_m = side * RailFootMiddle_m().x();
-        PlaceModel(PlateOf(models_, sleeper),
-                   StationOf(context_, PairOf(site_), on_branch, {s_m, foot_m}), chunk);
-      }
-    }
-  }
-
- private:
-  const ChunkContext& context_;
-  const TurnoutSite& site_;
-  const InfrastructureModels& models_;
-};
-
-void AddBearers(const ChunkContext& context,
-                const LaidTurnout& turnout,
-                const InfrastructureModels& models,
-                Chunk& chunk) {
-  const Bearers bearers(context, turnout.site, models);
-  for (const double s_m : BearerPlaces(context, turnout.extent.bearers)) {
-    bearers.AddAt(s_m, chunk);
-  }
-}
-
 /// The stretcher bar between the blades' tips, and the machine beside the through track that moves
 /// it.
 void AddDrive(const ChunkContext& context,
@@ -128,19 +87,6 @@ std::vector<ChainageRange> PlainRailRanges(const ChunkContext& context,
   return ranges;
 }
 
-bool HasBearersAt(const ChunkContext& context, std::size_t track, double s_m) {
-  return std::ranges::any_of(
-             context.turnouts,
-             [&](const LaidTurnout& turnout) {
-               return (turnout.site.track == track || turnout.site.branch == track) &&
-                      HoldsChainage(turnout.extent.bearers, s_m);
-             }) ||
-         std::ranges::any_of(context.diamonds, [&](const LaidDiamond& diamond) {
-           return (diamond.site.first == track || diamond.site.second == track) &&
-                  HoldsChainage(diamond.extent.bearers, s_m);
-         });
-}
-
 void AddTurnouts(const ChunkContext& context, const InfrastructureModels& models, Chunk& chunk) {
   for (const LaidTurnout& turnout : context.turnouts) {
     const TurnoutSite& site = turnout.site;
@@ -152,7 +98,6 @@ void AddTurnouts(const ChunkContext& context, const InfrastructureModels& models
     for (const CheckRail& rail : CheckRailsOf(courses)) {
       AddCheckRail(context, PairOf(site), rail, chunk);
     }
-    AddBearers(context, turnout, models, chunk);
     AddDrive(context, site, models, chunk);
   }
 }

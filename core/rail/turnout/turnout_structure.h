@@ -16,15 +16,14 @@ namespace railcast {
                                                          std::size_t track,
                                                          bool is_left);
 
-/// Whether the sleepers of the track are replaced by long bearers at that chainage.
-[[nodiscard]] bool HasBearersAt(const ChunkContext& context, std::size_t track, double s_m);
-
-/// Lengths in which bearers are made, up to that under two tracks side by side.
+/// Lengths in which bearers are made: from a part in a crossover on cant up to that under all four
+/// tracks of a scissors crossover.
 inline constexpr double kBearerStep_m = 0.1;
-inline constexpr double kLongestBearer_m = 5.4;
+inline constexpr double kShortestBearer_m = 1.6;
+inline constexpr double kLongestBearer_m = 12.0;
 
-/// Long bearers under both tracks of a turnout, from 2.6 m on in steps of 0.1 m as they are made,
-/// in the frame of the through track, of which the middle lies at the origin. 300 (concrete) or
+/// Long bearers under the tracks of a turnout, in steps of 0.1 m as they are made, in the frame of
+/// a track in whose plane they lie, with their middle at the origin. 300 (concrete) or
 /// 260 mm (wood) wide; their tops are as high as those of sleepers. 12 triangles each.
 [[nodiscard]] Model MakeBearer(SleeperType sleeper, double length_m, const RailSurfaces& surfaces);
 
@@ -37,13 +36,12 @@ inline constexpr double kLongestBearer_m = 5.4;
 [[nodiscard]] Model MakePointMachine(const RailSurfaces& surfaces);
 
 /// Adds the turnouts of the chunk: blades, closure rails, frog with wing rails and nose, check
-/// rails, long bearers with plates, stretcher bars and the point machine. The blades lie as
+/// rails, stretcher bars and the point machine. The blades lie as
 /// TurnoutSite says, the open one 160 mm off at its tip.
 void AddTurnouts(const ChunkContext& context, const InfrastructureModels& models, Chunk& chunk);
 
 /// Adds the diamond crossings of the chunk: acute frogs with wing rails, noses and check rails,
-/// obtuse frogs with their knuckles and check rails, the rails between them, and long bearers with
-/// plates, square to the middle between both tracks.
-void AddDiamonds(const ChunkContext& context, const InfrastructureModels& models, Chunk& chunk);
+/// obtuse frogs with their knuckles and check rails, and the rails between them.
+void AddDiamonds(const ChunkContext& context, Chunk& chunk);
 
 }  // namespace railcast

@@ -31,10 +31,14 @@ inline std::vector<std::filesystem::path> JsonFilesIn(const std::filesystem::pat
   return files;
 }
 
-/// The scenarios shipped with the project.
+/// The scenarios shipped with the project, those from maps included.
 inline std::vector<std::filesystem::path> ShippedScenarios() {
   std::vector<std::filesystem::path> files = JsonFilesIn(ScenariosDir());
   std::erase_if(files, [](const auto& file) { return file.filename() == "labels.json"; });
+  for (const auto& file : JsonFilesIn(ScenariosDir() / "osm_sankt_poelten")) {
+    // Beside them lie their sections: NAME.world.json, NAME.alignment.json.
+    if (!file.stem().has_extension()) files.push_back(file);
+  }
   return files;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -57,6 +58,16 @@ std::vector<BranchCase> BranchCases() {
   return cases;
 }
 
+/// The same with 100 mm of cant all along the straight.
+std::vector<BranchCase> CantedBranchCases() {
+  std::vector<BranchCase> cases = BranchCases();
+  for (BranchCase& branch : cases) {
+    branch.name = "canted " + branch.name;
+    branch.world.alignment.cants_mm = {{0.0, 100.0}, {500.0, 100.0}};
+  }
+  return cases;
+}
+
 TEST(BranchWires, KeepTheStrictLimitsButForSomeSpansOfARealStation) {
   for (const BranchCase& branch : BranchCases()) {
     EXPECT_EQ(TestLine(branch.world).plan().num_relaxed_spans(), 0U) << branch.name;
@@ -77,13 +88,15 @@ struct Piece {
   Vector3 b_m;
 };
 
-std::vector<Piece> ContactAndMessengerWires(const TestLine& line) {
+std::vector<Piece> WiresOf(const TestLine& line, bool are_droppers) {
+  // Droppers are thinner than contact wire and messenger.
+  constexpr double kThinnestLongWire_m = 0.004;
   std::vector<Piece> pieces;
   const auto num_tracks = static_cast<std::uint32_t>(line.spec().tracks.size());
   for (int chunk = 0; chunk < kNumChunks; ++chunk) {
     const Transform world_from_chunk = line.WorldFromChunk(chunk);
     for (const Wire& wire : WiresInChunk(line.Context(chunk), line.plan())) {
-      if (wire.label == line.surfaces().dropper.label && wire.radius_m < 0.004) continue;
+      if ((wire.radius_m < kThinnestLongWire_m) != are_droppers) continue;
       for (std::size_t i = 0; i + 1 < wire.points_m.size(); ++i) {
         pieces.push_back({wire.span.number % num_tracks, wire.radius_m,
                           world_from_chunk * wire.points_m[i],
@@ -93,6 +106,10 @@ std::vector<Piece> ContactAndMessengerWires(const TestLine& line) {
   }
   std::ranges::sort(pieces, {}, [](const Piece& piece) { return piece.a_m.x(); });
   return pieces;
+}
+
+std::vector<Piece> ContactAndMessengerWires(const TestLine& line) {
+  return WiresOf(line, false);
 }
 
 /// Nearest distance of two pieces, over chainages in steps of 0.1 m: both are nearly parallel to x.
@@ -111,7 +128,9 @@ double AirBetween_m(const Piece& p, const Piece& q) {
 }
 
 TEST(BranchWires, HaveAirBetweenThemAndTheWiresOfOtherTracks) {
-  for (const BranchCase& branch : BranchCases()) {
+  std::vector<BranchCase> cases = BranchCases();
+  std::ranges::move(CantedBranchCases(), std::back_inserter(cases));
+  for (const BranchCase& branch : cases) {
     const TestLine line(branch.world);
     const std::vector<Piece> pieces = ContactAndMessengerWires(line);
     ASSERT_GT(pieces.size(), 500U) << branch.name;
@@ -127,6 +146,73 @@ TEST(BranchWires, HaveAirBetweenThemAndTheWiresOfOtherTracks) {
     }
     EXPECT_GE(least_m, 0.020) << branch.name << " at " << where_m;
     EXPECT_LT(least_m, 0.5) << branch.name;
+  }
+}
+
+/// From a wire that passes a dropper to that dropper, which is nearly upright.
+double AirBesideDropper_m(const Piece& dropper, const Piece& wire) {
+  const double fraction = (dropper.a_m.x() - wire.a_m.x()) / (wire.b_m.x() - wire.a_m.x());
+  const Vector3 place_m = wire.a_m + fraction * (wire.b_m - wire.a_m);
+  const Vector3 way_m = dropper.b_m - dropper.a_m;
+  const double nearest =
+      std::clamp((place_m - dropper.a_m).dot(way_m) / way_m.squaredNorm(), 0.0, 1.0);
+  return (dropper.a_m + nearest * way_m - place_m).norm() - dropper.radius_m - wire.radius_m;
+}
+
+TEST(BranchWires, HaveAirBetweenTheirDroppersAndTheWiresOfOtherTracks) {
+  std::vector<BranchCase> cases = BranchCases();
+  std::ranges::move(CantedBranchCases(), std::back_inserter(cases));
+  for (const BranchCase& branch : cases) {
+    const TestLine line(branch.world);
+    const std::vector<Piece> wires = ContactAndMessengerWires(line);
+    const std::vector<Piece> droppers = WiresOf(line, true);
+    ASSERT_GT(droppers.size(), 200U) << branch.name;
+    for (const Piece& dropper : droppers) {
+      for (const Piece& wire : wires) {
+        if (wire.a_m.x() > dropper.a_m.x()) break;
+        if (wire.b_m.x() < dropper.a_m.x() || wire.track == dropper.track) continue;
+        EXPECT_GE(AirBesideDropper_m(dropper, wire), 0.020)
+            << branch.name << ", track " << dropper.track << " at " << dropper.a_m.x();
+      }
+    }
+  }
+}
+
+TEST(BranchWires, EndWithTheirTracksWhereNoTurnoutLeadsOn) {
+  for (const BranchCase& branch : BranchCases()) {
+    const TestLine line(branch.world);
+    std::size_t num_free_ends = 0;
+    for (const bool are_droppers : {false, true}) {
+      for (const Piece& piece : WiresOf(line, are_droppers)) {
+        const TrackCourse& course = line.network().courses[piece.track];
+        if (line.spec().tracks[piece.track].end || course.end_s_m() >= 1000.0) continue;
+        EXPECT_LE(piece.b_m.x(), course.end_s_m()) << branch.name << ", track " << piece.track;
+        ++num_free_ends;
+      }
+    }
+    EXPECT_EQ(num_free_ends > 0, branch.name.starts_with("ladder")) << branch.name;
+  }
+}
+
+TEST(BranchWires, KeepTheirHeightAboveTheCantedPlaneOfTheirOwnTrack) {
+  constexpr double kChordError_m = 2e-3;
+  for (const BranchCase& branch : CantedBranchCases()) {
+    const TestLine line(branch.world);
+    const CatenarySpec& spec = line.spec().catenary;
+    const double cos_cant = std::cos(line.alignment().At(0.0).cant_rad);
+    double most_lift_m = 0.0;
+    for (const Piece& piece : ContactAndMessengerWires(line)) {
+      const TrackCourse& course = line.network().courses[piece.track];
+      const double s_m = piece.a_m.x();
+      if (piece.radius_m < 0.006 || s_m < course.begin_s_m() || s_m > course.end_s_m()) continue;
+      const Vector3 axis_m = course.WorldFromTrack(line.alignment(), s_m).translation();
+      const double too_high_m = piece.a_m.z() - axis_m.z() - spec.contact_height_m * cos_cant;
+      EXPECT_LE(too_high_m, kRunInLift_m + kChordError_m) << branch.name << " at " << s_m;
+      EXPECT_GE(too_high_m, -kContactPresag * spec.max_span_m - kChordError_m)
+          << branch.name << " at " << s_m;
+      most_lift_m = std::max(most_lift_m, std::abs(axis_m.z()));
+    }
+    EXPECT_GT(most_lift_m, 0.1) << branch.name;
   }
 }
 
@@ -166,8 +252,11 @@ TEST(BranchWires, HangFromMastsClearOfAllTracks) {
       if (mast.name != "mast") continue;
       ++num_masts;
       for (const TrackCourse& course : line.network().courses) {
-        if (mast.s_m < course.begin_s_m() || mast.s_m > course.end_s_m()) continue;
-        const TrackOffset axis = course.OffsetAt(mast.s_m);
+        // Half a wagon may stand beyond the end of a track.
+        constexpr double kBeyond_m = 10.0;
+        const double on_s_m = std::clamp(mast.s_m, course.begin_s_m(), course.end_s_m());
+        if (std::abs(mast.s_m - on_s_m) > kBeyond_m) continue;
+        const TrackOffset axis = course.OffsetAt(on_s_m);
         const double across = 1.0 / std::hypot(1.0, axis.slope);
         EXPECT_GE(across * (std::abs(0.5 * (mast.right_m + mast.left_m) - axis.d_m) - 0.12), 2.2)
             << branch.name << " at " << mast.s_m;
