@@ -33,7 +33,10 @@ class NearbyTracks {
     }
   }
 
-  [[nodiscard]] double Distance_m(const Eigen::Vector2d& place_m) const {
+  /// Distance from the nearest track; of what is high above the formation, at least
+  /// kFormationEdge_m.
+  [[nodiscard]] double Distance_m(const Vector3& point_m) const {
+    const Eigen::Vector2d place_m = point_m.head<2>();
     std::size_t nearest = 0;
     double least_m2 = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < middles_m_.size(); ++i) {
@@ -42,7 +45,13 @@ class NearbyTracks {
       least_m2 = std::min(least_m2, squared_m2);
     }
     const double d_m = (place_m - middles_m_[nearest]).dot(lefts_[nearest]);
-    return sections_[nearest].DistanceFromTracks_m(d_m);
+    const double distance_m = sections_[nearest].DistanceFromTracks_m(d_m);
+    if (distance_m >= kFormationEdge_m) return distance_m;
+    // The hill above a tunnel is no formation.
+    constexpr double kHill_m = 1.5;
+    const double formation_m = sections_[nearest].FormationHeight_m(d_m);
+    const double rise_m = point_m.z() - sections_[nearest].PointAt(d_m, formation_m).z();
+    return rise_m > kHill_m ? kFormationEdge_m : distance_m;
   }
 
  private:
@@ -105,7 +114,7 @@ void AddGround(const ChunkContext& context, const Mesh& ground, Chunk& chunk) {
     Vector3 middle_m = Vector3::Zero();
     for (const std::uint32_t vertex : triangle) middle_m += ground.vertices[vertex].cast<double>();
     middle_m /= 3.0;
-    const double distance_m = tracks.Distance_m(middle_m.head<2>());
+    const double distance_m = tracks.Distance_m(middle_m);
     if (distance_m < kFormationEdge_m) {
       gravel.Take(triangle);
     } else if (distance_m < kVerge_m ||

@@ -27,6 +27,7 @@ GroundRise::GroundRise(const ChunkContext& context)
     : gaps_(
           TracksOf(context), context.begin_s_m - kBeyondChunk_m, context.end_s_m + kBeyondChunk_m),
       retained_(context, context.begin_s_m - kBeyondChunk_m, context.end_s_m + kBeyondChunk_m),
+      hills_(context, context.begin_s_m - kBeyondChunk_m, context.end_s_m + kBeyondChunk_m),
       spec_(context.spec.terrain),
       land_(context.land != nullptr && context.land->has_terrain() ? context.land : nullptr),
       roughness_(context.seed, RandomUse::kGroundRoughness, 0),
@@ -35,7 +36,10 @@ GroundRise::GroundRise(const ChunkContext& context)
   if (land_ != nullptr) world_from_chunk_ = context.chunk_from_world.inverse();
 }
 
-double GroundRise::Height_m(const CrossSection& section, double s_m, double d_m) const {
+double GroundRise::Height_m(const CrossSection& section,
+                            double s_m,
+                            double d_m,
+                            GroundLevel level) const {
   const double ballast_m = section.BallastHeight_m(d_m) - section.FormationHeight_m(d_m);
   double rough = std::clamp(1.0 - ballast_m / kSmoothBelow_m, 0.0, 1.0);
   const double along = s_m / spec_.roughness_wavelength_m;
@@ -48,6 +52,11 @@ double GroundRise::Height_m(const CrossSection& section, double s_m, double d_m)
     const double rise_m = land_->Rise_m(world_from_chunk_ * formation_m);
     terrain_m = rise_m + height_m;
     height_m = CutAndFill_m(terrain_m, distance_m - kFormationEdge_m);
+  }
+  if (!hills_.empty() && (level == GroundLevel::kOfHill || !hills_.IsInside(s_m, d_m))) {
+    height_m = hills_.Height_m(section, s_m, d_m, {terrain_m, height_m});
+    // Within the lining there is no room for it.
+    if (hills_.PlaceOf(s_m, d_m) == TunnelHills::Place::kOver) rough = 0.0;
   }
   if (!retained_.empty()) {
     height_m = retained_.Height_m(section, s_m, d_m, {terrain_m, height_m});

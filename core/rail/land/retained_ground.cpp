@@ -79,9 +79,9 @@ double RetainedGround::Height_m(const CrossSection& section,
     behind_wall_m = std::clamp(behind_wall_m, height_m - change_m, height_m + change_m);
     // Other tracks behind the wall lie in cuttings or on embankments of their own.
     const double step_d_m = StepAt(static_cast<std::size_t>(&wall - walls_.data()), s_m).front_m;
-    const double beside_m =
-        section.DistanceFromTracksBeyond_m(d_m, step_d_m, SignOf(wall.spec->side)) -
-        kFormationEdge_m;
+    const double beside_m = section.DistanceFromTracksIf_m(d_m, [&](double track_d_m) {
+      return SignOf(wall.spec->side) * (track_d_m - step_d_m) >= 0.0;
+    }) - kFormationEdge_m;
     height_m = CutAndFill_m(behind_wall_m, beside_m);
   }
   return height_m;
@@ -100,6 +100,12 @@ double RetainedGround::Roughness(double s_m, double d_m) const {
 
 bool RetainedGround::Stands(std::size_t wall, double from_s_m, double to_s_m) const {
   return from_s_m >= walls_[wall].spec->begin_s_m && to_s_m <= walls_[wall].spec->end_s_m;
+}
+
+bool RetainedGround::AnyIn(double from_s_m, double to_s_m) const {
+  return std::ranges::any_of(walls_, [&](const Wall& wall) {
+    return wall.spec->begin_s_m <= to_s_m && wall.spec->end_s_m >= from_s_m;
+  });
 }
 
 RetainedGround::Step RetainedGround::StepAt(std::size_t wall, double s_m) const {

@@ -30,6 +30,7 @@ class RetainedGround {
   RetainedGround(const ChunkContext& context, double begin_s_m, double end_s_m);
 
   [[nodiscard]] bool empty() const { return walls_.empty(); }
+  [[nodiscard]] bool AnyIn(double from_s_m, double to_s_m) const;
   [[nodiscard]] std::size_t num_walls() const { return walls_.size(); }
   /// Height of the ground above the formation at (s, d), d being left of the alignment.
   [[nodiscard]] double Height_m(const CrossSection& section,

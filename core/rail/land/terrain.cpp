@@ -88,8 +88,13 @@ std::vector<double> LateralLines(const ChunkContext& context, bool is_wide) {
   return lines_m;
 }
 
-Vector3 PointOf(const CrossSection& section, const GroundRise& rise, double s_m, double d_m) {
-  return section.PointAt(d_m, section.FormationHeight_m(d_m) + rise.Height_m(section, s_m, d_m));
+Vector3 PointOf(const CrossSection& section,
+                const GroundRise& rise,
+                double s_m,
+                double d_m,
+                GroundLevel level = GroundLevel::kOfTrack) {
+  return section.PointAt(d_m,
+                         section.FormationHeight_m(d_m) + rise.Height_m(section, s_m, d_m, level));
 }
 
 /// Rows of the coarser form. Beams at grazing incidence see the slopes along the track, which must
@@ -184,17 +189,26 @@ class GroundGrid {
       const std::size_t corner = row * num_columns_ + column;
       const std::size_t ahead = corner + num_columns_;
       return (shows[corner] || shows[corner + 1] || shows[ahead] || shows[ahead + 1]) &&
-             std::ranges::none_of(gaps, [&](const StepGap& gap) {
-               return gap.row == row && column >= gap.right && column < gap.left;
-             });
+             std::ranges::none_of(gaps,
+                                  [&](const StepGap& gap) {
+                                    return gap.row == row && column >= gap.right &&
+                                           column < gap.left;
+                                  }) &&
+             !IsInMouth(stations_m, row, column);
     };
     Mesh mesh = MeshOfGrid(points_m, num_columns_, keeps);
     for (const StepGap& gap : gaps) FillBesideStep(stations_m, gap, mesh);
     return mesh;
   }
 
+  /// Whether the ground has steps, for which all rows and columns are needed.
+  [[nodiscard]] bool has_steps() const {
+    return rise_.retained().AnyIn(context_.begin_s_m, context_.end_s_m) ||
+           rise_.hills().AnyIn(context_.begin_s_m, context_.end_s_m);
+  }
+
   [[nodiscard]] Mesh CoarseMesh(std::span<const double> stations_m) const {
-    if (stations_m.size() < 3 || !rise_.retained().empty()) return WholeMesh(stations_m);
+    if (stations_m.size() < 3) return WholeMesh(stations_m);
     std::vector<CrossSection> sections;
     for (const double s_m : stations_m) sections.emplace_back(context_, s_m);
     const bool is_shaped = context_.land != nullptr && context_.land->has_terrain();
@@ -287,6 +301,24 @@ class GroundGrid {
     return gaps;
   }
 
+  /// Whether a cell would join the ground in a tunnel's mouth with that above the tunnel.
+  [[nodiscard]] bool IsInMouth(std::span<const double> stations_m,
+                               std::size_t row,
+                               std::size_t column) const {
+    if (rise_.hills().empty()) return false;
+    bool is_mouth = false;
+    bool is_over = false;
+    for (const double s_m : {stations_m[row], stations_m[row + 1]}) {
+      for (const std::size_t corner : {column, column + 1}) {
+        const TunnelHills::Place place =
+            rise_.hills().PlaceOf(s_m, columns_.PlaceOf_m(s_m, first_ + corner));
+        is_mouth = is_mouth || place == TunnelHills::Place::kMouth;
+        is_over = is_over || place == TunnelHills::Place::kOver;
+      }
+    }
+    return is_mouth && is_over;
+  }
+
   /// Adds the ground between the columns beside a gap and the step.
   void FillBesideStep(std::span<const double> stations_m, const StepGap& gap, Mesh& mesh) const {
     std::vector<Vector3> points_m;
@@ -307,13 +339,15 @@ class GroundGrid {
   [[nodiscard]] GridPoint PointAt(const CrossSection& section, double s_m, double d_m) const {
     const double ballast_m = section.BallastHeight_m(d_m) - section.FormationHeight_m(d_m);
     const bool is_hidden = ballast_m > kHiddenBelow_m && rise_.Drop_m(s_m, d_m) == 0.0;
-    Vector3 place_m = PointOf(section, rise_, s_m, d_m);
+    const bool is_over = rise_.hills().PlaceOf(s_m, d_m) == TunnelHills::Place::kOver;
+    const GroundLevel level = is_over ? GroundLevel::kOfHill : GroundLevel::kOfTrack;
+    Vector3 place_m = PointOf(section, rise_, s_m, d_m, level);
     for (const CrossingRoad& road : roads_) {
       if (const auto limit_m = road.GroundLimit_m(s_m, d_m)) {
         place_m.z() = std::min(place_m.z(), *limit_m);
       }
     }
-    return {place_m, !is_hidden && !cleared_.Cover(s_m, d_m)};
+    return {place_m, is_over || (!is_hidden && !cleared_.Cover(s_m, d_m))};
   }
 
   /// @param column Of all.
@@ -353,10 +387,11 @@ void AddTerrain(const ChunkContext& context, Chunk& chunk) {
   const ChainageRange range{.begin_s_m = context.begin_s_m - 0.5 * kChunkOverlap_m,
                             .end_s_m = context.end_s_m + 0.5 * kChunkOverlap_m};
   const GroundGrid grid(context);
+  const bool is_coarse = context.is_coarse && !grid.has_steps();
   const std::vector<double> stations_m =
-      context.is_coarse ? CoarseStations(range, context.spec.terrain.roughness_wavelength_m)
-                        : GridStations(range, kGridAlong_m);
-  Mesh ground = context.is_coarse ? grid.CoarseMesh(stations_m) : grid.WholeMesh(stations_m);
+      is_coarse ? CoarseStations(range, context.spec.terrain.roughness_wavelength_m)
+                : GridStations(range, kGridAlong_m);
+  Mesh ground = is_coarse ? grid.CoarseMesh(stations_m) : grid.WholeMesh(stations_m);
   ground.Append(grid.FarMesh(stations_m));
   AddGround(context, ground, chunk);
 }

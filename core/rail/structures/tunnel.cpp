@@ -2,34 +2,21 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/rail/catenary/system_height.h"
+#include "core/rail/land/land.h"
+#include "core/rail/land/landform.h"
 #include "core/rail/model_parts.h"
 #include "core/rail/structures/structure_track.h"
 #include "core/rail/structures/structure_types.h"
 #include "core/rail/structures/swept_solid.h"
+#include "core/rail/structures/tunnel_shape.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {
 namespace {
 
-/// The vault is a circle about this height above top of rail, down to its foot.
-constexpr double kVaultCentre_m = 1.8;
-constexpr double kVaultFoot_m = -0.9;
-constexpr double kLiningThickness_m = 0.5;
 constexpr double kVaultTolerance_m = 2e-3;  ///< Of the lining's faces in its cross-section.
 
-/// Half the width beside the outermost axis at the vault's widest: a train (1.6 m), a gap (0.5 m)
-/// and a way of escape 1.2 m wide.
-constexpr double kRoomBesideAxis_m = 3.3;
-/// Between the messenger wire and the lining.
-constexpr double kWireClearance_m = 0.3;
-/// Without a contact line: above the wagons' 4.28 m.
-constexpr double kRoomAbove_m = 4.8;
-/// Tracks this close share a tunnel.
-constexpr double kSharedTunnel_m = 5.5;
-
 constexpr double kTunnelFloor_m = -0.72;
-constexpr double kWalkwayTop_m = 0.0;
 /// Beside the outermost axis: behind the ballast's shoulder at 1.75 m.
 constexpr double kWalkwayBegin_m = 2.0;
 constexpr double kHandrailHeight_m = 1.0;  ///< Of the handrail above the walkway.
@@ -37,45 +24,11 @@ constexpr double kRailRadius_m = 0.02;
 constexpr double kRailFromWall_m = 0.08;
 constexpr int kRailSides = 8;
 
-constexpr double kNicheHeight_m = 2.2;
 constexpr double kNicheLength_m = 2.0;
-constexpr double kNicheDepth_m = 0.8;  ///< From the wall at the niche's foot.
 
-constexpr double kPortalDepth_m = 1.0;
-constexpr double kPortalBeside_m = 2.5;
-constexpr double kPortalAbove_m = 1.5;
 constexpr double kPortalFoot_m = -1.5;
 /// The portal's opening, wider than the lining, so that the lining's surface is the one seen.
 constexpr double kPortalGap_m = 0.005;
-
-/// A tunnel's cross-section: y from its middle, z above top of rail.
-struct TunnelShape {
-  TrackSpread spread;
-  double radius_m{};
-
-  [[nodiscard]] double WallAt_m(double height_m) const {
-    const double above_m = height_m - kVaultCentre_m;
-    return std::sqrt(std::max(0.0, radius_m * radius_m - above_m * above_m));
-  }
-  [[nodiscard]] double TopAngle_rad(double height_m) const {
-    return std::asin(std::clamp((height_m - kVaultCentre_m) / radius_m, -1.0, 1.0));
-  }
-};
-
-TunnelShape ShapeOf(const WorldTracks& tracks, const TunnelSpec& tunnel) {
-  const WorldSpec& world = tracks.world;
-  TunnelShape shape{.spread = SpreadOf(tracks, tunnel, kSharedTunnel_m), .radius_m = 0.0};
-  const bool has_wire =
-      world.catenary.enabled &&
-      std::ranges::any_of(world.tracks, [](const TrackSpec& track) { return track.electrified; });
-  const double above_m = has_wire ? world.catenary.contact_height_m +
-                                        SystemHeightAt_m(world, tunnel.begin_s_m) + kWireClearance_m
-                                  : kRoomAbove_m;
-  const double half_m = shape.spread.half_width_m();
-  shape.radius_m = tunnel.radius_m.value_or(
-      std::max(half_m + kRoomBesideAxis_m, std::hypot(half_m, above_m - kVaultCentre_m)));
-  return shape;
-}
 
 /// The arc about the vault's centre between two angles, from the right (0) over the top.
 Outline ArcOutline(double radius_m, double begin_rad, double end_rad) {
@@ -85,7 +38,7 @@ Outline ArcOutline(double radius_m, double begin_rad, double end_rad) {
   for (int i = 0; i <= num_steps; ++i) {
     const double angle_rad = std::lerp(begin_rad, end_rad, 1.0 * i / num_steps);
     arc.emplace_back(-radius_m * std::cos(angle_rad),
-                     kVaultCentre_m + radius_m * std::sin(angle_rad));
+                     TunnelShape::kVaultCentre_m + radius_m * std::sin(angle_rad));
   }
   return arc;
 }
@@ -97,7 +50,7 @@ class TunnelBuilder {
       : context_(context),
         tunnel_(tunnel),
         track_(context, tunnel.track),
-        shape_(ShapeOf(TracksOf(context), tunnel)),
+        shape_(TunnelShapeOf(TracksOf(context), tunnel)),
         chunk_(chunk) {}
 
   void Add() {
@@ -125,12 +78,15 @@ class TunnelBuilder {
   [[nodiscard]] Mesh& Lining() {
     return MeshOf(context_.surfaces.structures.tunnel, chunk_.ground);
   }
-  [[nodiscard]] double FootAngle_rad() const { return shape_.TopAngle_rad(kVaultFoot_m); }
+  [[nodiscard]] double FootAngle_rad() const {
+    return shape_.TopAngle_rad(TunnelShape::kVaultFoot_m);
+  }
 
   /// The lining's outside, the floor and the faces at the mouths.
   void AddShell(const Stretch& whole) {
-    const double outer_m = shape_.radius_m + kLiningThickness_m;
-    const double outer_foot_rad = std::asin((kVaultFoot_m - kVaultCentre_m) / outer_m);
+    const double outer_m = shape_.radius_m + TunnelShape::kLiningThickness_m;
+    const double outer_foot_rad =
+        std::asin((TunnelShape::kVaultFoot_m - TunnelShape::kVaultCentre_m) / outer_m);
     const Outline outer = ArcOutline(outer_m, outer_foot_rad, std::numbers::pi - outer_foot_rad);
     AppendSweptSheet(whole, outer, Lining());
     const double floor_m = shape_.WallAt_m(kTunnelFloor_m);
@@ -144,11 +100,14 @@ class TunnelBuilder {
 
   void AddWalkways(const Stretch& whole) {
     const double begin_m = shape_.spread.half_width_m() + kWalkwayBegin_m;
-    const double wall_m = shape_.WallAt_m(kWalkwayTop_m) + 0.5 * kLiningThickness_m;
-    if (begin_m >= shape_.WallAt_m(kWalkwayTop_m)) return;
+    const double wall_m =
+        shape_.WallAt_m(TunnelShape::kWalkwayTop_m) + 0.5 * TunnelShape::kLiningThickness_m;
+    if (begin_m >= shape_.WallAt_m(TunnelShape::kWalkwayTop_m)) return;
     for (const double side : {-1.0, 1.0}) {
       AppendSweptSolid(
-          whole, OnSide(RectangleOutline(begin_m, kTunnelFloor_m, wall_m, kWalkwayTop_m), side),
+          whole,
+          OnSide(RectangleOutline(begin_m, kTunnelFloor_m, wall_m, TunnelShape::kWalkwayTop_m),
+                 side),
           Lining());
     }
   }
@@ -191,19 +150,21 @@ class TunnelBuilder {
   void AddNiches(const ChainageRange& range) {
     const auto stretch = StretchOf(range);
     if (!stretch) return;
-    const double low_rad = shape_.TopAngle_rad(kWalkwayTop_m);
-    const double high_rad = shape_.TopAngle_rad(kWalkwayTop_m + kNicheHeight_m);
+    const double low_rad = shape_.TopAngle_rad(TunnelShape::kWalkwayTop_m);
+    const double high_rad =
+        shape_.TopAngle_rad(TunnelShape::kWalkwayTop_m + TunnelShape::kNicheHeight_m);
     AddInside(*stretch, FootAngle_rad(), low_rad);
     AddInside(*stretch, high_rad, std::numbers::pi - high_rad);
     AddInside(*stretch, std::numbers::pi - low_rad, std::numbers::pi - FootAngle_rad());
-    const double back_m = shape_.WallAt_m(kWalkwayTop_m) + kNicheDepth_m;
-    const double top_m = kWalkwayTop_m + kNicheHeight_m;
+    const double back_m = shape_.WallAt_m(TunnelShape::kWalkwayTop_m) + TunnelShape::kNicheDepth_m;
+    const double top_m = TunnelShape::kWalkwayTop_m + TunnelShape::kNicheHeight_m;
     for (const double side : {-1.0, 1.0}) {
-      const Outline recess = OnSide({{shape_.WallAt_m(kWalkwayTop_m), kWalkwayTop_m},
-                                     {back_m, kWalkwayTop_m},
-                                     {back_m, top_m},
-                                     {shape_.WallAt_m(top_m), top_m}},
-                                    side);
+      const Outline recess =
+          OnSide({{shape_.WallAt_m(TunnelShape::kWalkwayTop_m), TunnelShape::kWalkwayTop_m},
+                  {back_m, TunnelShape::kWalkwayTop_m},
+                  {back_m, top_m},
+                  {shape_.WallAt_m(top_m), top_m}},
+                 side);
       AppendSweptSheet(*stretch, recess, Lining());
       Outline jamb = ArcOutline(shape_.radius_m, low_rad, high_rad);
       for (Eigen::Vector2d& point : jamb) point.x() *= -side;
@@ -215,10 +176,11 @@ class TunnelBuilder {
   }
 
   void AddPortals() {
-    const double half_m = shape_.radius_m + kPortalBeside_m;
-    const double top_m = kVaultCentre_m + shape_.radius_m + kPortalAbove_m;
+    const double half_m = shape_.PortalHalfWidth_m();
+    const double top_m = shape_.PortalTop_m();
     const double opening_m = shape_.radius_m + kPortalGap_m;
-    const double foot_rad = std::asin((kVaultFoot_m - kVaultCentre_m) / opening_m);
+    const double foot_rad =
+        std::asin((TunnelShape::kVaultFoot_m - TunnelShape::kVaultCentre_m) / opening_m);
     Outline wall = ArcOutline(opening_m, foot_rad, std::numbers::pi - foot_rad);
     const double side_m = wall.back().x();
     wall.insert(wall.begin(), {-side_m, kPortalFoot_m});
@@ -228,16 +190,55 @@ class TunnelBuilder {
                              {-half_m, top_m},
                              {-half_m, kPortalFoot_m}});
     if (track_.Holds(tunnel_.begin_s_m)) {
-      Lining().Append(MakeExtrusion(wall, 0.0, kPortalDepth_m), FrameAt(tunnel_.begin_s_m));
+      Lining().Append(MakeExtrusion(wall, 0.0, TunnelShape::kPortalDepth_m),
+                      FrameAt(tunnel_.begin_s_m));
+      AddWings(tunnel_.begin_s_m, 1.0);
     }
     if (track_.Holds(tunnel_.end_s_m)) {
-      Lining().Append(MakeExtrusion(wall, -kPortalDepth_m, 0.0), FrameAt(tunnel_.end_s_m));
+      Lining().Append(MakeExtrusion(wall, -TunnelShape::kPortalDepth_m, 0.0),
+                      FrameAt(tunnel_.end_s_m));
+      AddWings(tunnel_.end_s_m, -1.0);
+    }
+  }
+
+  /// Walls beside a portal that hold back the hill: from the portal outwards as far as the ground
+  /// behind them is higher than that before them.
+  /// @param into_hill 1 or -1: the direction along the line.
+  void AddWings(double mouth_s_m, double into_hill) {
+    if (context_.land == nullptr || !context_.land->has_terrain()) return;
+    constexpr double kStep_m = 0.5;
+    constexpr double kFarthest_m = 80.0;
+    constexpr double kLeastStep_m = 0.1;
+    constexpr double kAboveGround_m = 0.15;
+    constexpr double kBelowGround_m = 1.0;
+    const Transform frame = FrameAt(mouth_s_m);
+    const Transform frame_from_chunk = frame.inverse();
+    const double middle_m = track_.offset_m(mouth_s_m) + shape_.spread.middle_m();
+    const auto ground_m = [&](double s_m, double y_m) {
+      return (frame_from_chunk * GroundPoint(context_, s_m, middle_m + y_m)).z();
+    };
+    for (const double side : {-1.0, 1.0}) {
+      Outline top;
+      Outline foot;
+      double y_m = shape_.PortalHalfWidth_m() - kStep_m;
+      for (; y_m < kFarthest_m; y_m += kStep_m) {
+        const double before_m = ground_m(mouth_s_m - 0.01 * into_hill, side * y_m);
+        const double behind_m =
+            ground_m(mouth_s_m + into_hill * TunnelShape::kPortalDepth_m, side * y_m);
+        top.emplace_back(side * y_m, std::max(before_m, behind_m) + kAboveGround_m);
+        foot.emplace_back(side * y_m, std::min(before_m, behind_m) - kBelowGround_m);
+        if (y_m > shape_.PortalHalfWidth_m() && behind_m - before_m < kLeastStep_m) break;
+      }
+      if (top.size() <= 3) continue;
+      top.insert(top.end(), foot.rbegin(), foot.rend());
+      const double depth_m = into_hill * TunnelShape::kPortalDepth_m;
+      Lining().Append(MakeExtrusion(top, std::min(0.0, depth_m), std::max(0.0, depth_m)), frame);
     }
   }
 
   void AddHandrails(const Stretch& whole) {
     Mesh& steel = MeshOf(context_.surfaces.structures.tunnel_handrail, chunk_.ground);
-    const double height_m = kWalkwayTop_m + kHandrailHeight_m;
+    const double height_m = TunnelShape::kWalkwayTop_m + kHandrailHeight_m;
     for (const double side : {-1.0, 1.0}) {
       const double y_m = side * (shape_.WallAt_m(height_m) - kRailFromWall_m);
       std::vector<Vector3> centreline;
@@ -267,7 +268,7 @@ TunnelVault VaultOf(const WorldTracks& tracks, const TunnelSpec& tunnel) {
 }
 
 std::vector<ClearedArea> ClearedBy(const WorldTracks& tracks, const TunnelSpec& tunnel) {
-  const TunnelShape shape = ShapeOf(tracks, tunnel);
+  const TunnelShape shape = TunnelShapeOf(tracks, tunnel);
   const double middle_m = shape.spread.middle_m();
   const auto area = [&](double half_m, std::vector<Clearing> cleared) {
     return ClearedArea{.begin_s_m = tunnel.begin_s_m,
@@ -277,9 +278,10 @@ std::vector<ClearedArea> ClearedBy(const WorldTracks& tracks, const TunnelSpec& 
                        .cleared = std::move(cleared)};
   };
   // The ground ends inside the lining.
-  return {area(shape.WallAt_m(kTunnelFloor_m) + 0.5 * kLiningThickness_m, {Clearing::kGround}),
-          area(shape.radius_m + kPortalBeside_m, {Clearing::kTree, Clearing::kGrass}),
-          area(shape.radius_m + kPortalBeside_m, {Clearing::kSupport})};
+  return {area(shape.WallAt_m(kTunnelFloor_m) + 0.5 * TunnelShape::kLiningThickness_m,
+               {Clearing::kGround}),
+          area(shape.PortalHalfWidth_m(), {Clearing::kTree, Clearing::kGrass}),
+          area(shape.PortalHalfWidth_m(), {Clearing::kSupport})};
 }
 
 }  // namespace railcast

@@ -141,19 +141,7 @@ double CrossSection::BallastHeightOf(const TrackHere& track, double d_m) const {
 }
 
 double CrossSection::DistanceFromTracks_m(double d_m) const {
-  return DistanceFromTracksBeyond_m(d_m, -std::numeric_limits<double>::infinity(), 1.0);
-}
-
-double CrossSection::DistanceFromTracksBeyond_m(double d_m, double from_d_m, double side) const {
-  double nearest_m = std::numeric_limits<double>::infinity();
-  for (const TrackHere& track : tracks_) {
-    if (side * (track.d_m - from_d_m) < 0.0) continue;
-    const double aside_m = std::abs(d_m - track.d_m);
-    const double beyond_m = track.is_everywhere ? 0.0 : BeyondEnd_m(track, s_m_);
-    if (std::max(aside_m, beyond_m) >= nearest_m) continue;
-    nearest_m = std::min(nearest_m, beyond_m > 0.0 ? std::hypot(aside_m, beyond_m) : aside_m);
-  }
-  return nearest_m;
+  return DistanceFromTracksIf_m(d_m, [](double) { return true; });
 }
 
 Vector3 CrossSection::PointAt(double d_m, double height_m) const {

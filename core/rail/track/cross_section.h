@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "core/rail/chunk_context.h"
@@ -46,9 +49,20 @@ class CrossSection {
   /// nearest end counts, at the same offset.
   [[nodiscard]] double DistanceFromTracks_m(double d_m) const;
 
-  /// As above, from the tracks whose axes lie beyond `from_d_m` on a side (> 0: to the left);
-  /// infinite if there are none.
-  [[nodiscard]] double DistanceFromTracksBeyond_m(double d_m, double from_d_m, double side) const;
+  /// As above, from those of the tracks for which `counts(d of their axis)`; infinite if there are
+  /// none.
+  template <class Counts>
+  [[nodiscard]] double DistanceFromTracksIf_m(double d_m, const Counts& counts) const {
+    double nearest_m = std::numeric_limits<double>::infinity();
+    for (const TrackHere& track : tracks_) {
+      if (!counts(track.d_m)) continue;
+      const double aside_m = std::abs(d_m - track.d_m);
+      const double beyond_m = track.is_everywhere ? 0.0 : BeyondEnd_m(track, s_m_);
+      if (std::max(aside_m, beyond_m) >= nearest_m) continue;
+      nearest_m = std::min(nearest_m, beyond_m > 0.0 ? std::hypot(aside_m, beyond_m) : aside_m);
+    }
+    return nearest_m;
+  }
 
   /// The point in the chunk's frame.
   [[nodiscard]] Vector3 PointAt(double d_m, double height_m) const;

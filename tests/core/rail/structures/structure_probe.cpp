@@ -91,8 +91,12 @@ std::optional<double> StructureProbe::HeightBelow_m(const SurfaceClass& surface,
 }
 
 std::uint32_t StructureProbe::LabelSeen(const Vector3& from, const Vector3& to) const {
+  return Look(from, to).label;
+}
+
+StructureProbe::Seen StructureProbe::Look(const Vector3& from, const Vector3& to) const {
   const int index = static_cast<int>(std::floor(to.x() / TestLine::kChunkLength_m));
-  const Chunk chunk = line_.Build(index);
+  const Chunk& chunk = BuiltChunk(index, false);
   const Transform chunk_from_world = line_.WorldFromChunk(index).inverse();
   const Vector3 origin = chunk_from_world * WorldAt(from);
   const Vector3 way = chunk_from_world * WorldAt(to) - origin;
@@ -114,7 +118,7 @@ std::uint32_t StructureProbe::LabelSeen(const Vector3& from, const Vector3& to) 
   for (const Placement& placement : chunk.placements) {
     look_at(*placement.model, placement.chunk_from_model.inverse());
   }
-  return label;
+  return {label, nearest_m};
 }
 
 double LeastOf(const std::vector<Eigen::Vector2d>& points, int axis) {

@@ -30,6 +30,14 @@ class StructureProbe {
   /// above the line's top of rail at s; 0 if there is none up to a metre beyond the second. Both
   /// points are in the chunk of the second.
   [[nodiscard]] std::uint32_t LabelSeen(const Vector3& from, const Vector3& to) const;
+  /// As above, with the distance from the first point; a metre beyond the second if nothing is
+  /// seen.
+  struct Seen {
+    std::uint32_t label{};
+    double distance_m{};
+  };
+  [[nodiscard]] Seen Look(const Vector3& from, const Vector3& to) const;
+
   /// Height above the line's top of rail at s of the highest part of a surface straight below a
   /// place (s, d, h); nothing if there is none.
   [[nodiscard]] std::optional<double> HeightBelow_m(const SurfaceClass& surface,
