@@ -25,7 +25,11 @@ PlanePlace GaugeLine::At(double s_m) const {
 double GaugeLine::FrameAt_m(double plane_s_m) const {
   constexpr int kNumSteps = 8;  // Each makes the error smaller by the track's change of slope.
   double s_m = plane_s_m;
-  for (int i = 0; i < kNumSteps; ++i) s_m += plane_s_m - At(s_m).s_m;
+  for (int i = 0; i < kNumSteps; ++i) {
+    const double next_s_m = s_m + (plane_s_m - At(s_m).s_m);
+    if (next_s_m == s_m) break;  // All others would be the same, too.
+    s_m = next_s_m;
+  }
   return s_m;
 }
 

@@ -113,6 +113,10 @@ TrackCourse::TrackCourse(double begin_s_m, double end_s_m, std::vector<CoursePie
       end_s_m_(end_s_m),
       pieces_(std::make_shared<const std::vector<CoursePiece>>(std::move(pieces))) {
   Check(!pieces_->empty(), "a course has a piece");
+  if (!is_parallel()) {
+    at_begin_ = OnPiece(PieceAt(begin_s_m_), begin_s_m_);
+    at_end_ = OnPiece(PieceAt(end_s_m_), end_s_m_);
+  }
   constexpr double kSampling_m = 1.0;
   least_d_m_ = most_d_m_ = OffsetAt(begin_s_m_).d_m;
   const auto add = [&](double s_m) {
@@ -154,7 +158,10 @@ const CoursePiece& TrackCourse::PieceAt(double s_m) const {
 TrackOffset TrackCourse::OffsetAt(double s_m) const {
   if (is_parallel()) return OnPiece(pieces_->front(), s_m);
   const double inside_s_m = std::clamp(s_m, begin_s_m_, end_s_m_);
-  TrackOffset offset = OnPiece(PieceAt(inside_s_m), inside_s_m);
+  // Many places lie beside the end of some track.
+  const bool is_at_end = inside_s_m == end_s_m_;
+  if (!is_at_end && inside_s_m != begin_s_m_) return OnPiece(PieceAt(inside_s_m), inside_s_m);
+  TrackOffset offset = is_at_end ? at_end_ : at_begin_;
   if (s_m != inside_s_m) {
     offset.d_m += offset.slope * (s_m - inside_s_m);
     offset.bend_per_m = 0.0;

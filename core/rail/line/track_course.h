@@ -109,6 +109,8 @@ class TrackCourse {
   double begin_s_m_{};
   double end_s_m_{};
   std::shared_ptr<const std::vector<CoursePiece>> pieces_;
+  TrackOffset at_begin_;  ///< Not of parallel tracks.
+  TrackOffset at_end_;    ///< As above.
   double least_d_m_{};
   double most_d_m_{};
 };

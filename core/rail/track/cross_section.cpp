@@ -66,8 +66,8 @@ CrossSection::CrossSection(const ChunkContext& context, double s_m)
     const TrackCourse& track = context.tracks[i];
     const double on_s_m = std::clamp(s_m, track.begin_s_m(), track.end_s_m());
     const TrackOffset offset = track.OffsetAt(on_s_m);
-    const TrackLift lift = track.LiftAt(context.alignment, on_s_m);
     const double lift_share = std::max(0.0, 1.0 - std::abs(s_m - on_s_m) / kLiftFades_m);
+    const TrackLift lift = lift_share > 0.0 ? track.LiftAt(context.alignment, on_s_m) : TrackLift{};
     // As Alignment::WorldFromTrack() has it, which would evaluate the axis once more.
     const Vector3 middle_m = axis_from_world * (axis.position_m + offset.d_m * left);
     tracks_.push_back({.d_m = middle_m.y(),

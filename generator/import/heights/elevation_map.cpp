@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 #include <sstream>
+#include <string_view>
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"
@@ -92,6 +93,22 @@ GDALRasterBand& BandOf(GDALDataset& dataset, const std::string& name) {
     throw InputError(name + ": must have heights in metres (got " + ShownText(unit) + ")");
   }
   return band;
+}
+
+/// Reads the rows before a row of an ASCII grid, which has no table of where rows begin. Where the
+/// file ends before the row, GDAL would look for it from each row before, and for each of these
+/// likewise: for 2^n steps, n rows behind the file's end.
+/// @returns Whether they could be read; the error handler has the reason.
+bool CanFindRow(GDALRasterBand& band, int row) {
+  if (std::string_view(band.GetDataset()->GetDriverName()) != "AAIGrid") return true;
+  for (int before = 0; before < row; ++before) {
+    float height_m = 0.0F;
+    if (band.RasterIO(GF_Read, 0, before, 1, 1, &height_m, 1, 1, GDT_Float32, 0, 0, nullptr) !=
+        CE_None) {
+      return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace
@@ -192,7 +209,7 @@ void ElevationMap::Raster::Choose(const Eigen::AlignedBox2d& bounds_m,
 
 void ElevationMap::Raster::Read(GDALRasterBand& band) {
   heights_m.resize(static_cast<std::size_t>(num_columns) * static_cast<std::size_t>(num_rows));
-  if (heights_m.empty()) return;
+  if (heights_m.empty() || !CanFindRow(band, first_row)) return;
   if (band.RasterIO(GF_Read, first_column, first_row, num_columns, num_rows, heights_m.data(),
                     num_columns, num_rows, GDT_Float32, 0, 0, nullptr) != CE_None) {
     return;  // The handler has the error.

@@ -187,7 +187,7 @@ RailMap ReadOverpassJson(const std::filesystem::path& file) {
   try {
     root = StrictJson::parse(text);
   } catch (const StrictJson::exception& error) {
-    throw InputError(ShownPath(file) + ": must be JSON: " + error.what());
+    throw InputError(ShownPath(file) + ": must be JSON: " + ShownLines(error.what()));
   }
   if (!root.is_object() || !root.contains("elements") || !root["elements"].is_array()) {
     throw InputError(

@@ -189,8 +189,8 @@ void RailMlReader::ReadNetElement(const CPLXMLNode& element) {
   const auto is_same = [](const RailMlPoint& a, const RailMlPoint& b) {
     return a.geographic_deg == b.geographic_deg;
   };
-  const auto repeated = std::ranges::unique(net.points, is_same);
-  net.points.erase(repeated.begin(), repeated.end());
+  // clang 14 cannot compile std::ranges::unique.
+  net.points.erase(std::unique(net.points.begin(), net.points.end(), is_same), net.points.end());
   if (net.points.size() < 2) {
     errors_.Add(
         {place, "must have two different points or more", std::to_string(net.points.size())});

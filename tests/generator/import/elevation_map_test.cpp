@@ -87,6 +87,16 @@ TEST_F(Elevation, IsReadFromAnAsciiGrid) {
   EXPECT_FALSE(map.Covers({5000.0, 0.0}));
 }
 
+/// GDAL alone takes twice as long for each row that is missing.
+TEST_F(Elevation, OfAGridThatEndsLongBeforeTheMapIsRefusedAtOnce) {
+  std::string text =
+      "ncols 40\nnrows 200\nxllcorner 800\nyllcorner 339800\ncellsize 10\n"
+      "NODATA_value -9999\n";
+  for (int column = 0; column < 40; ++column) text += "200 ";
+  EXPECT_THAT(Fault(Write("dem.asc", text), "EPSG:31256"),
+              HasSubstr("dem.asc: must be readable to its end ("));
+}
+
 /// The same plane in degrees, as a GeoTIFF that knows its coordinate system.
 TEST_F(Elevation, IsReadFromAGeoTiffInAnotherSystem) {
   GDALAllRegister();
