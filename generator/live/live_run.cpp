@@ -66,7 +66,8 @@ class LiveRun {
 
   void Restart() {
     next_.assign(sensors_.size(), 0);
-    clock_from_stamp_ns_ = clock_.NowNs() - NextStampNs();
+    // The first frame is begun at once; it, too, has the time before its stamp.
+    clock_from_stamp_ns_ = clock_.NowNs() + spec_.lead_ns - NextStampNs();
   }
 
   [[nodiscard]] std::int64_t NextStampNs(std::size_t sensor) const {

@@ -70,8 +70,10 @@ void LiveStreams::WarmUp(const std::function<bool()>& is_stopped) {
 }
 
 void LiveStreams::MakeFrame(std::size_t sensor, std::uint32_t frame, Datagrams& datagrams) {
-  commanded_.At(sensor, frame).Scan(frame, frames_[sensor]);
-  streams_[sensor]->Encode(frames_[sensor], datagrams);
+  Simulator& simulator = commanded_.At(sensor, frame);
+  simulator.Scan(frame, frames_[sensor]);
+  // On the threads that scan.
+  simulator.Execute([&] { streams_[sensor]->Encode(frames_[sensor], datagrams); });
 }
 
 std::vector<LiveSensor> LiveStreams::Sensors() {

@@ -1,10 +1,12 @@
 #include "core/io/net/udp_receiver.h"
 
+#include <netinet/udp.h>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -47,6 +49,9 @@ UdpReceiver::UdpReceiver(const Endpoint& at) : at_(at), buffer_(kMaxDatagramByte
   }
   at_ = EndpointOf(bound);
   GrowReceiveBuffer(socket_);
+  // A kernel that does not know of it gives single datagrams.
+  const int yes = 1;
+  ::setsockopt(socket_, SOL_UDP, UDP_GRO, &yes, sizeof yes);
 }
 
 UdpReceiver::~UdpReceiver() {
@@ -54,20 +59,51 @@ UdpReceiver::~UdpReceiver() {
   ::close(wake_);
 }
 
+bool UdpReceiver::TakeFromSocket() {
+  sockaddr_in from{};
+  iovec data{buffer_.data(), buffer_.size()};
+  alignas(cmsghdr) char control[CMSG_SPACE(sizeof(int))] = {};
+  msghdr message{};
+  message.msg_name = &from;
+  message.msg_namelen = sizeof from;
+  message.msg_iov = &data;
+  message.msg_iovlen = 1;
+  message.msg_control = control;
+  message.msg_controllen = sizeof control;
+  const ssize_t size = ::recvmsg(socket_, &message, 0);
+  // The datagram's checksum failed after poll() had announced it.
+  if (size < 0) return false;
+  waiting_ = std::span(buffer_).first(static_cast<std::size_t>(size));
+  segment_size_ = waiting_.size();
+  from_ = EndpointOf(from);
+  const cmsghdr* const option = CMSG_FIRSTHDR(&message);
+  if (option != nullptr && option->cmsg_level == SOL_UDP && option->cmsg_type == UDP_GRO) {
+    int segment = 0;
+    std::memcpy(&segment, CMSG_DATA(option), sizeof segment);
+    if (segment > 0) segment_size_ = static_cast<std::size_t>(segment);
+  }
+  return true;
+}
+
 std::optional<UdpReceiver::Received> UdpReceiver::Receive(int timeout_ms) {
+  if (is_ended_) return std::nullopt;
+  if (!waiting_.empty()) return NextWaiting();
   std::array<pollfd, 2> waits{pollfd{socket_, POLLIN, 0}, pollfd{wake_, POLLIN, 0}};
   if (::poll(waits.data(), waits.size(), timeout_ms) <= 0) return std::nullopt;
   if (waits[1].revents != 0) return std::nullopt;
-  sockaddr_in from{};
-  socklen_t from_size = sizeof from;
-  const ssize_t size = ::recvfrom(socket_, buffer_.data(), buffer_.size(), 0,
-                                  reinterpret_cast<sockaddr*>(&from), &from_size);
-  // The datagram's checksum failed after poll() had announced it.
-  if (size < 0) return std::nullopt;
-  return Received{std::span(buffer_).first(static_cast<std::size_t>(size)), EndpointOf(from)};
+  if (!TakeFromSocket()) return std::nullopt;
+  return NextWaiting();
+}
+
+UdpReceiver::Received UdpReceiver::NextWaiting() {
+  const std::size_t size = std::min(segment_size_, waiting_.size());
+  const Received next{waiting_.first(size), from_};
+  waiting_ = waiting_.subspan(size);
+  return next;
 }
 
 void UdpReceiver::Interrupt() const {
+  is_ended_ = true;
   const std::uint64_t one = 1;
   // The counter is never read back, so it stays set and every later wait ends at once.
   static_cast<void>(!::write(wake_, &one, sizeof one));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -11,6 +12,8 @@
 namespace railcast {
 
 /// A UDP port that is listened to. Another thread may interrupt a thread that waits for a datagram.
+/// Datagrams that were sent in one call on this machine, or that a network card has put together,
+/// are taken from the kernel in one call, too, where it can (UDP GRO).
 class UdpReceiver {
  public:
   /// @param at Loopback accepts datagrams from this machine only, 0.0.0.0 from all; port 0 takes a
@@ -40,10 +43,17 @@ class UdpReceiver {
   void Answer(std::span<const char> bytes, const Endpoint& to) const;
 
  private:
+  [[nodiscard]] bool TakeFromSocket();
+  [[nodiscard]] Received NextWaiting();
+
   int socket_ = -1;
   int wake_ = -1;
   Endpoint at_;
   std::vector<char> buffer_;
+  std::span<const char> waiting_;  ///< Datagrams that were taken together, in `buffer_`.
+  std::size_t segment_size_{};     ///< Size of each; the last one may be smaller.
+  Endpoint from_;
+  mutable std::atomic<bool> is_ended_ = false;
 };
 
 }  // namespace railcast

@@ -1,5 +1,6 @@
 #include "core/io/stream/stream_encoder.h"
 
+#include <tbb/parallel_for.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -114,8 +115,13 @@ void StreamEncoder::WriteFrameHeader(const Frame& frame) {
   PutPose(header + kEndPoseAt, frame.world_from_sensor_end);
 }
 
-void StreamEncoder::WriteDatagram(std::size_t first, std::size_t count, char* datagram) const {
+void StreamEncoder::WriteDatagram(std::size_t packet,
+                                  std::size_t points_each,
+                                  char* datagram) const {
+  const std::size_t first = packet * points_each;
+  const std::size_t count = std::min(points_each, slots_.size() - first);
   std::memcpy(datagram, header_.data(), header_.size());
+  Put(datagram + kPacketAt, static_cast<std::uint16_t>(packet));
   Put(datagram + kDatagramPointsAt, static_cast<std::uint16_t>(count));
   Put(datagram + kFirstPointAt, static_cast<std::uint32_t>(first));
   const std::span slots = std::span(slots_).subspan(first, count);
@@ -152,13 +158,12 @@ void StreamEncoder::Encode(const Frame& frame, Datagrams& datagrams) {
   const std::size_t num_packets =
       std::max<std::size_t>(1, (num_points + points_each - 1) / points_each);
   Put(header_.data() + kNumPacketsAt, static_cast<std::uint16_t>(num_packets));
-  std::size_t offset = datagrams.bytes.size();
+  const std::size_t begin = datagrams.bytes.size();
+  std::size_t offset = begin;
   datagrams.bytes.resize(offset + num_packets * overhead + num_points * point_size_);
   for (std::size_t packet = 0; packet < num_packets; ++packet) {
     const std::size_t first = packet * points_each;
     const std::size_t count = std::min(points_each, num_points - first);
-    Put(header_.data() + kPacketAt, static_cast<std::uint16_t>(packet));
-    WriteDatagram(first, count, datagrams.bytes.data() + offset);
     const std::uint32_t last_ns =
         count == 0 ? frame.duration_ns : frame.time_ns[slots_[first + count - 1]];
     const std::size_t size = overhead + count * point_size_;
@@ -166,6 +171,16 @@ void StreamEncoder::Encode(const Frame& frame, Datagrams& datagrams) {
                                frame.stamp_ns + std::int64_t{last_ns}});
     offset += size;
   }
+  // In pieces, since a frame of a small scan is written within a millisecond.
+  constexpr std::size_t kPacketsEach = 64;
+  const std::size_t size_each = overhead + points_each * point_size_;
+  char* const bytes = datagrams.bytes.data() + begin;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, num_packets, kPacketsEach),
+                    [&](const tbb::blocked_range<std::size_t>& some) {
+                      for (std::size_t packet = some.begin(); packet < some.end(); ++packet) {
+                        WriteDatagram(packet, points_each, bytes + packet * size_each);
+                      }
+                    });
 }
 
 }  // namespace railcast

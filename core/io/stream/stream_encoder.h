@@ -23,7 +23,7 @@ struct StreamSpec {
 /// firings, so that a datagram can leave when its last point has been fired.
 ///
 /// All datagrams of a frame but the last have equal size. A frame without a point is one datagram,
-/// due at its last firing.
+/// due at its last firing. Large frames are written on all threads of the caller's TBB arena.
 class StreamEncoder final : public FrameEncoder {
  public:
   StreamEncoder(const ScanPattern& pattern, const StreamSpec& spec);
@@ -43,8 +43,9 @@ class StreamEncoder final : public FrameEncoder {
   void FindSources(const Frame& frame);
   void ChooseSlots(const Frame& frame);
   void WriteFrameHeader(const Frame& frame);
-  /// Writes the points of slots_[first, first + count) behind the header at `datagram`.
-  void WriteDatagram(std::size_t first, std::size_t count, char* datagram) const;
+  /// Writes the header and the points of a frame's datagram, each but the last of which has as
+  /// many.
+  void WriteDatagram(std::size_t packet, std::size_t points_each, char* datagram) const;
 
   StreamSpec spec_;
   std::uint32_t rows_;

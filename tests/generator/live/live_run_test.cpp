@@ -223,8 +223,22 @@ TEST(LiveRun, SendsNoBurstBeforeItsFrameBegins) {
   EXPECT_EQ(records.front().late_frames, 0U);
   ASSERT_EQ(sensor.sent.size(), 20U);
   for (const TinySensor::Sent& sent : sensor.sent) {
-    EXPECT_EQ(sent.left_ns, sensor.StampNs(sent.frame));
+    EXPECT_EQ(sent.left_ns, spec.lead_ns + sensor.StampNs(sent.frame));
   }
+}
+
+TEST(LiveRun, GivesTheFirstFrameTheTimeBeforeItsStamp) {
+  JumpingClock clock;
+  TinySensor sensor(10.0, clock);
+  const std::int64_t period_ns = sensor.StampNs(1);
+  sensor.work = [&](std::uint32_t frame) {
+    clock.JumpTo(clock.NowNs() + (frame == 0 ? 19 : 8) * period_ns / 10);
+  };
+  LiveRunSpec spec = Lasting(kNsPerS);
+  spec.lead_ns = period_ns;
+  const auto records = RecordsOf(spec, {sensor.Live("a")}, {}, clock);
+  EXPECT_EQ(records.front().frames, 10U);
+  EXPECT_EQ(records.front().late_frames, 0U);
 }
 
 TEST(LiveRun, SaysHowFarBehindItIs) {

@@ -187,6 +187,16 @@ TEST(UdpReceiver, IsInterruptedWhileItWaits) {
   EXPECT_FALSE(receiver.Receive(-1).has_value());
 }
 
+TEST(UdpReceiver, GivesNothingMoreOnceInterruptedOfWhatCameTogether) {
+  UdpReceiver receiver(kAnyLoopbackPort);
+  UdpSender sender({receiver.at()}, 1);
+  const Datagrams datagrams = MakeDatagrams({100, 100, 100});
+  sender.Send(datagrams, datagrams.items);
+  EXPECT_EQ(ReceiveAll(receiver, 1).size(), 1U);
+  receiver.Interrupt();
+  EXPECT_FALSE(receiver.Receive(kPatience_ms));
+}
+
 TEST(UdpReceiver, AnswersWhoAsked) {
   UdpReceiver server(kAnyLoopbackPort);
   UdpReceiver client(kAnyLoopbackPort);
