@@ -116,18 +116,30 @@ std::vector<double> DistanceSamples(const TrackCourse& one, const TrackCourse& o
   return samples;
 }
 
-/// Whether an entry of the crossings that has a fault names one of the tracks.
-bool AreNamedToCross(const WorldSpec& world,
-                     std::pair<std::size_t, std::size_t> pair,
-                     const WorldFaults& faults) {
+/// Whether an entry of the crossings that has a fault may mean the two tracks: it names one of
+/// them, or no track at all.
+bool MayBeNamedToCross(const WorldSpec& world,
+                       std::pair<std::size_t, std::size_t> pair,
+                       const WorldFaults& faults) {
   for (std::size_t i = 0; i < world.diamond_crossings.size(); ++i) {
     const std::vector<std::string>& names = world.diamond_crossings[i].tracks;
     const bool has_one = std::ranges::count(names, world.tracks[pair.first].name) > 0 ||
                          std::ranges::count(names, world.tracks[pair.second].name) > 0;
+    const bool has_none = std::ranges::none_of(
+        names, [&](const std::string& name) { return TrackIndex(world, name).has_value(); });
     const std::string place = "/world/diamond_crossings/" + std::to_string(i);
-    if (has_one && !faults.AreKnown({place})) return true;
+    if ((has_one || has_none) && !faults.AreKnown({place})) return true;
   }
   return false;
+}
+
+/// Where two tracks cross, near a place at which they are close.
+double CrossingNear_m(const TrackCourse& one, const TrackCourse& other, double s_m) {
+  if (std::isinf(std::min(one.end_s_m(), other.end_s_m()))) return s_m;
+  const std::vector<double> places_m = CrossingPlaces(one, other);
+  const auto nearest =
+      std::ranges::min_element(places_m, {}, [&](double at_m) { return std::abs(at_m - s_m); });
+  return nearest == places_m.end() ? s_m : *nearest;
 }
 
 void CheckApart(const WorldSpec& world,
@@ -139,11 +151,14 @@ void CheckApart(const WorldSpec& world,
                                                {pair.second, *network.courses[pair.second]}});
   if (!closest) return;
   if (closest->tracks_cross) {
-    if (AreNamedToCross(world, pair, faults)) return;
+    if (MayBeNamedToCross(world, pair, faults)) return;
     faults.Add(TrackPointer(pair.second),
                "must not cross track " + Quoted(world.tracks[pair.first].name) +
                    " without an entry of /world/diamond_crossings",
-               "at " + MetresText(closest->s_m) + " m");
+               "at " +
+                   MetresText(CrossingNear_m(*network.courses[pair.first],
+                                             *network.courses[pair.second], closest->s_m)) +
+                   " m");
     return;
   }
   faults.Add(TrackPointer(pair.second),
@@ -163,8 +178,8 @@ void CheckRoads(const WorldSpec& world, const DiamondSite& diamond, WorldFaults&
     faults.Add(place + "/s_m",
                "must not put the road into the crossing of tracks " +
                    Quoted(world.tracks[diamond.first].name) + " and " +
-                   Quoted(world.tracks[diamond.second].name) + ", from " +
-                   MetresText(diamond.begin_s_m) + " to " + MetresText(diamond.end_s_m) + " m",
+                   Quoted(world.tracks[diamond.second].name) + ", " +
+                   StretchText(diamond.begin_s_m, diamond.end_s_m),
                NumberText(road->s_m));
   }
 }

@@ -316,10 +316,13 @@ std::shared_ptr<const RailWorld> RailWorld::WithoutObject(const std::string& nam
   const auto found = std::find_if(
       objects().begin(), objects().end(),
       [&](const SceneObject& object) { return !object.is_ego && object.name == name; });
-  if (found == objects().end() || things_->ways->at(found - objects().begin()).boom) {
+  if (found == objects().end()) {
     throw InputError({{"/name", "must be the name of an object that is there", Quoted(name)}});
   }
   const auto index = found - objects().begin();
+  if (things_->ways->at(index).boom) {
+    throw InputError({{"/name", "must not be a barrier of a level crossing", Quoted(name)}});
+  }
   Things changed = *things_;
   auto ways = std::make_shared<std::vector<ObjectWay>>(*changed.ways);
   ways->erase(ways->begin() + index);

@@ -23,38 +23,40 @@ std::string PointerOf(const TrackSpec& track, const WorldSpec& world) {
   return Item("/world/tracks/", static_cast<std::size_t>(&track - world.tracks.data()));
 }
 
-// Returns text such as "from 0 to 1000 m".
-std::string StretchText(double begin_s_m, double end_s_m) {
-  return "from " + NumberText(begin_s_m) +
-         (std::isinf(end_s_m) ? " m on" : " to " + NumberText(end_s_m) + " m");
-}
-
 constexpr const char* kGauge = "/world/alignment/gauge_mm";
 
-// Turnouts and wagons are those of standard gauge.
-bool IsStandardGauge(const WorldSpec& world, const WorldFaults& faults) {
-  return world.alignment.gauge_mm == 1435.0 || !faults.AreKnown({kGauge});
+// Reports what exists for the standard gauge only, on a line of another one. The rule says so far
+// that it does.
+struct OfStandardGauge {
+  std::string place;
+  std::string rule;
+  std::string found;
+};
+void CheckFitsGauge(const WorldSpec& world, const OfStandardGauge& thing, WorldFaults& faults) {
+  const double gauge_mm = world.alignment.gauge_mm;
+  if (gauge_mm == kStandardGauge_mm || !faults.AreKnown({kGauge})) return;
+  faults.Add(thing.place,
+             thing.rule + " of " + NumberText(kStandardGauge_mm) + " mm only, and gauge_mm is " +
+                 NumberText(gauge_mm),
+             thing.found);
 }
 
 void CheckTurnoutsFitGauge(const WorldSpec& world, std::size_t index, WorldFaults& faults) {
-  if (IsStandardGauge(world, faults)) return;
   const TrackSpec& track = world.tracks[index];
   for (const auto& [key, turnout] : {std::pair("/begin", &track.begin), {"/end", &track.end}}) {
     if (!*turnout) continue;
-    faults.Add(Item("/world/tracks/", index) + key,
-               "must be absent: there are turnouts of 1435 mm only, and gauge_mm is " +
-                   NumberText(world.alignment.gauge_mm),
-               Quoted(std::string(NameOf((*turnout)->turnout))));
+    CheckFitsGauge(world,
+                   {Item("/world/tracks/", index) + key, "must be absent: there are turnouts",
+                    Quoted(std::string(NameOf((*turnout)->turnout)))},
+                   faults);
   }
 }
 
 void CheckDiamondsFitGauge(const WorldSpec& world, WorldFaults& faults) {
-  if (IsStandardGauge(world, faults)) return;
   for (std::size_t i = 0; i < world.diamond_crossings.size(); ++i) {
-    faults.Add(Item("/world/diamond_crossings/", i),
-               "must be absent: there are crossings of 1435 mm only, and gauge_mm is " +
-                   NumberText(world.alignment.gauge_mm),
-               "one");
+    CheckFitsGauge(
+        world, {Item("/world/diamond_crossings/", i), "must be absent: there are crossings", "one"},
+        faults);
   }
 }
 
@@ -235,11 +237,11 @@ void CheckObject(const WorldSpec& world,
                  const std::string& pointer,
                  const LineOfTracks& line,
                  WorldFaults& faults) {
-  if (IsWagon(object.type) && !IsStandardGauge(world, faults)) {
-    faults.Add(pointer + "/type",
-               "must not be a wagon: they have wheels of 1435 mm only, and gauge_mm is " +
-                   NumberText(world.alignment.gauge_mm),
-               Quoted(std::string(NameOf(object.type))));
+  if (IsWagon(object.type)) {
+    CheckFitsGauge(world,
+                   {pointer + "/type", "must not be a wagon: they have wheels",
+                    Quoted(std::string(NameOf(object.type)))},
+                   faults);
   }
   if (!object.route.empty()) return;
   const TrackPlace place{pointer + "/track", pointer + "/s_m", object.track, object.s_m};

@@ -85,8 +85,7 @@ std::optional<Route> DraftRoute(const TracksOfWorld& tracks,
   const double end_s_m = route->course.end_s_m();
   if (!follower.route.empty() && !(follower.s_m >= begin_s_m && follower.s_m <= end_s_m)) {
     faults.Add(follower.chainage_pointer,
-               "must lie on the route, from " + MetresText(begin_s_m) +
-                   (std::isinf(end_s_m) ? " m on" : " to " + MetresText(end_s_m) + " m"),
+               "must lie on the route, " + StretchText(begin_s_m, end_s_m),
                NumberText(follower.s_m));
   }
   if (!follower.motion.profile.empty()) {

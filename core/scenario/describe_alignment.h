@@ -129,7 +129,8 @@ void Describe(Archive& a, AlignmentSpec& s) {
              "Surveyed cant by chainage, linear between the entries: the right above the left "
              "rail. It takes the place of the rule.",
              EachValue(Within(-300, 300)));
-  a.Optional("gauge_mm", s.gauge_mm, "Gauge of all tracks.", Within(600, 1700));
+  a.Optional("gauge_mm", s.gauge_mm, "Gauge of all tracks.",
+             Within(kNarrowestGauge_mm, kWidestGauge_mm));
   a.Optional("curvature_smoothing_m", s.curvature_smoothing_m,
              "Jumps of curvature become clothoids of at most this length.", SmoothingLimits());
   a.Optional("gradient_smoothing_m", s.gradient_smoothing_m,

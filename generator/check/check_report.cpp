@@ -108,7 +108,7 @@ std::string LineText(const Alignment& alignment, double gauge_mm, bool is_verbos
       "line",
       Rounded(alignment.length_m(), 1) + " m, " +
           (std::isinf(radius_m) ? "straight" : "tightest radius " + Rounded(radius_m, 1) + " m") +
-          (gauge_mm == 1435.0 ? "" : ", gauge " + NumberText(gauge_mm) + " mm"));
+          (gauge_mm == kStandardGauge_mm ? "" : ", gauge " + NumberText(gauge_mm) + " mm"));
   if (jumps.empty()) return text;
   text += JumpsText(jumps, "curvature", "curvature jump");
   text += JumpsText(jumps, "gradient", "gradient step");

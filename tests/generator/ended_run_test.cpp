@@ -11,6 +11,7 @@
 #include <thread>
 #include <utility>
 
+#include "tests/core/io/default_signals.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/example_run.h"
 #include "tests/generator/project_folder.h"
@@ -26,6 +27,7 @@ class EndlessSequence {
     const std::string file = scenarios_folder + "minimal.json";
     child_ = ::fork();
     if (child_ > 0) return;
+    UseDefaultSignals();
     if (has_nohup) ::signal(SIGHUP, SIG_IGN);
     ::execl(RAILCAST_GENERATE, RAILCAST_GENERATE, "sequence", file.c_str(), "--out", out_.c_str(),
             "--frames", "100000", "--fields", "x,y,z", nullptr);

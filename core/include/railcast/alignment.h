@@ -77,6 +77,12 @@ struct ChainageValue {
 };
 
 /// Geometry of the line's axis: plan, gradients, and the speed limits that determine the cant.
+/// The gauge that is most common, of which all turnouts and wagons are, and the limits of what a
+/// line may have: from field railways to broader than India's 1676 mm.
+inline constexpr double kStandardGauge_mm = 1435.0;
+inline constexpr double kNarrowestGauge_mm = 600.0;
+inline constexpr double kWidestGauge_mm = 1700.0;
+
 /// Chainage is measured in plan.
 struct AlignmentSpec {
   std::variant<AlignmentSectionsSpec, AlignmentElementsSpec, AlignmentSplineSpec> course;
@@ -95,7 +101,7 @@ struct AlignmentSpec {
   /// takes the place of the rule; empty = by the rule.
   std::vector<ChainageValue> cants_mm;
 
-  double gauge_mm = 1435.0;  ///< Of all tracks: between the running edges of the rails.
+  double gauge_mm = kStandardGauge_mm;  ///< Of all tracks: between the running edges of the rails.
 
   /// Length (at most) of the clothoids that replace jumps in curvature.
   double curvature_smoothing_m = 20.0;

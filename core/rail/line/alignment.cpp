@@ -23,10 +23,6 @@ constexpr double kPermil = 1e-3;
 // Sampling of a spline's curvature. Used for the cant only, which is averaged over some 60 m.
 constexpr double kCurvatureSampling_m = 5.0;
 
-// From field railways to broader than India's 1676 mm.
-constexpr double kNarrowestGauge_mm = 600.0;
-constexpr double kWidestGauge_mm = 1700.0;
-
 void CheckRules(const AlignmentSpec& spec, ErrorList& errors) {
   const auto check = [&](bool holds, const char* place, const char* rule, double value) {
     if (!holds) errors.Add({place, rule, NumberText(value)});

@@ -147,14 +147,13 @@ void CheckOverlaps(const WorldSpec& world, const NetworkDraft& draft, WorldFault
             kTouching_m) {
           continue;
         }
-        faults.Add(
-            "/world/tracks/" + std::to_string(other.turnout->branch) +
-                (other.turnout->opens_ahead() ? "/begin" : "/end"),
-            "must not overlap the turnout of track " +
-                Quoted(world.tracks[one.turnout->branch].name) + " on track " +
-                Quoted(world.tracks[track].name) + ", from " + MetresText(one.begin_s_m) + " to " +
-                MetresText(one.end_s_m) + " m",
-            "from " + MetresText(other.begin_s_m) + " to " + MetresText(other.end_s_m) + " m");
+        faults.Add("/world/tracks/" + std::to_string(other.turnout->branch) +
+                       (other.turnout->opens_ahead() ? "/begin" : "/end"),
+                   "must not overlap the turnout of track " +
+                       Quoted(world.tracks[one.turnout->branch].name) + " on track " +
+                       Quoted(world.tracks[track].name) + ", " +
+                       StretchText(one.begin_s_m, one.end_s_m),
+                   StretchText(other.begin_s_m, other.end_s_m));
       }
     }
   }

@@ -376,9 +376,8 @@ OwnCourse MakeOwnCourse(const OwnTrackSpec& own, WorldFaults& faults) {
   const double begin_s_m = made.course->begin_s_m();
   const double end_s_m = made.course->end_s_m();
   if (!(begin_s_m >= 0.0 && end_s_m <= own.line_length_m + kRounding_m)) {
-    faults.Add(own.pointer,
-               "must lie on the line, from 0 to " + MetresText(own.line_length_m) + " m",
-               "from " + MetresText(begin_s_m) + " to " + MetresText(end_s_m) + " m");
+    faults.Add(own.pointer, "must lie on the line, " + StretchText(0.0, own.line_length_m),
+               StretchText(begin_s_m, end_s_m));
     return {};
   }
   return made;

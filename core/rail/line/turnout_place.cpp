@@ -30,12 +30,9 @@ std::optional<std::vector<LinearPiece>> CurvatureThrough(const TurnoutPlace& pla
   if (least_m < place.course.begin_s_m() - kSamePlace_m ||
       most_m > place.course.end_s_m() + kSamePlace_m) {
     faults.Add(chainage,
-               "must put the turnout on track " + name + ", from " +
-                   MetresText(place.course.begin_s_m()) +
-                   (std::isinf(place.course.end_s_m())
-                        ? " m on"
-                        : " to " + MetresText(place.course.end_s_m()) + " m"),
-               "from " + MetresText(least_m) + " to " + MetresText(most_m) + " m");
+               "must put the turnout on track " + name + ", " +
+                   StretchText(place.course.begin_s_m(), place.course.end_s_m()),
+               StretchText(least_m, most_m));
     return std::nullopt;
   }
   double least_per_m = 1e9;
@@ -79,6 +76,11 @@ bool AreNamesKnown(const WorldSpec& world, const WorldFaults& faults) {
 
 std::string MetresText(double length_m) {
   return NumberText(std::round(length_m * 1e3) / 1e3);
+}
+
+std::string StretchText(double begin_s_m, double end_s_m) {
+  return "from " + MetresText(begin_s_m) +
+         (std::isinf(end_s_m) ? " m on" : " to " + MetresText(end_s_m) + " m");
 }
 
 }  // namespace railcast

@@ -40,5 +40,7 @@ struct TurnoutPlace {
 
 /// A length to the millimetre.
 [[nodiscard]] std::string MetresText(double length_m);
+/// Text such as "from 0 to 1000 m", or "from 0 m on" if the end is infinite.
+[[nodiscard]] std::string StretchText(double begin_s_m, double end_s_m);
 
 }  // namespace railcast

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "core/base/error.h"
@@ -43,6 +44,19 @@ bool IsBallasted(const ChunkContext& context, double s_m, double d_m) {
 }
 
 }  // namespace
+
+std::vector<double> SleeperPlaces(const ChunkContext& context) {
+  // One step beyond the chunk on either side, so that rounding neither loses nor duplicates a
+  // sleeper.
+  const auto first = static_cast<std::int64_t>(std::floor(context.begin_s_m / kSleeperSpacing_m));
+  const auto last = static_cast<std::int64_t>(std::ceil(context.end_s_m / kSleeperSpacing_m));
+  std::vector<double> places_m;
+  for (std::int64_t k = first; k <= last; ++k) {
+    const double s_m = static_cast<double>(k) * kSleeperSpacing_m;
+    if (s_m >= context.begin_s_m && s_m < context.end_s_m) places_m.push_back(s_m);
+  }
+  return places_m;
+}
 
 SleeperSeat SeatOf(SleeperType sleeper) {
   // B70: 214 mm high below the rail on a 10 mm pad, 175 mm in the middle. Wood: level, below a

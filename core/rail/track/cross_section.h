@@ -16,6 +16,9 @@ namespace railcast {
 inline constexpr double kSleeperSpacing_m = 0.6;
 inline constexpr double kSleeperHalfLength_m = 1.3;
 
+/// The chainages of the sleepers in the chunk.
+[[nodiscard]] std::vector<double> SleeperPlaces(const ChunkContext& context);
+
 /// Height of a type of sleeper in its track, above top of rail.
 struct SleeperSeat {
   double top_m{};          ///< Top of the sleeper below the rail.

@@ -8,10 +8,10 @@
 namespace railcast {
 
 /// Track dimensions, docs/physics.md 7.1.
-inline constexpr double kGauge_m = 1.435;
+inline constexpr double kGauge_m = kStandardGauge_mm / 1000.0;
 /// How much farther from the axis each rail of a line lies than on standard gauge.
 [[nodiscard]] inline double RailShift_m(const AlignmentSpec& line) {
-  return 0.5e-3 * (line.gauge_mm - 1435.0);
+  return 0.5e-3 * (line.gauge_mm - kStandardGauge_mm);
 }
 /// Depth below top of rail at which the gauge is measured.
 inline constexpr double kGaugeDepth_m = 0.014;

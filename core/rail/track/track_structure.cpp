@@ -51,13 +51,7 @@ void AddSleepers(const ChunkContext& context,
       context.spec.tracks[index].sleeper == SleeperType::kConcrete ? models.concrete_sleeper
                                                                    : models.wood_sleeper;
   const TrackCourse& track = context.tracks[index];
-  // One step beyond the chunk on either side, so that rounding neither loses nor duplicates a
-  // sleeper.
-  const auto first = static_cast<std::int64_t>(std::floor(context.begin_s_m / kSleeperSpacing_m));
-  const auto last = static_cast<std::int64_t>(std::ceil(context.end_s_m / kSleeperSpacing_m));
-  for (std::int64_t k = first; k <= last; ++k) {
-    const double s_m = static_cast<double>(k) * kSleeperSpacing_m;
-    if (s_m < context.begin_s_m || s_m >= context.end_s_m) continue;
+  for (const double s_m : SleeperPlaces(context)) {
     if (s_m < track.begin_s_m() || s_m > track.end_s_m()) continue;
     if (ReplacesSleeper(bearers, index, s_m)) continue;
     const Transform chunk_from_track =

@@ -73,44 +73,12 @@ class DiamondFinder {
     return track;
   }
 
-  /// Where both tracks of a pair run.
-  [[nodiscard]] ChainageRange Common(std::size_t one, std::size_t other) const {
-    return {.begin_s_m = std::max(Course(one).begin_s_m(), Course(other).begin_s_m()),
-            .end_s_m = std::min(Course(one).end_s_m(), Course(other).end_s_m())};
-  }
-
-  /// All chainages at which the axes of two tracks cross.
-  [[nodiscard]] std::vector<double> CrossingPlaces(std::size_t one, std::size_t other) const {
-    constexpr double kStep_m = 1.0;
-    constexpr double kExact_m = 1e-7;
-    // Places are sampled off the round chainages that people write, where the tracks' distance may
-    // be exactly 0, which is no change of sign.
-    constexpr double kOffRound_m = 0.381966;
-    const auto [begin_s_m, end_s_m] = Common(one, other);
-    const auto apart_m = [&](double s_m) {
-      return Course(one).OffsetAt(s_m).d_m - Course(other).OffsetAt(s_m).d_m;
-    };
-    std::vector<double> places_m;
-    for (double s_m = begin_s_m - kOffRound_m; s_m < end_s_m; s_m += kStep_m) {
-      double low_m = std::max(begin_s_m, s_m);
-      double high_m = std::min(end_s_m, s_m + kStep_m);
-      // A track that begins or ends on another one does so in a turnout.
-      if (apart_m(low_m) * apart_m(high_m) >= 0.0) continue;
-      while (high_m - low_m > kExact_m) {
-        const double middle_m = std::midpoint(low_m, high_m);
-        (apart_m(middle_m) * apart_m(high_m) > 0.0 ? high_m : low_m) = middle_m;
-      }
-      places_m.push_back(high_m);
-    }
-    return places_m;
-  }
-
   /// The crossing nearest to the given chainage.
   [[nodiscard]] std::optional<double> CrossingPlace(std::size_t one, std::size_t other) {
     constexpr double kNear_m = 5.0;
     // The line is unknown.
-    if (std::isinf(Common(one, other).end_s_m)) return std::nullopt;
-    const std::vector<double> places_m = CrossingPlaces(one, other);
+    if (std::isinf(std::min(Course(one).end_s_m(), Course(other).end_s_m()))) return std::nullopt;
+    const std::vector<double> places_m = CrossingPlaces(Course(one), Course(other));
     const auto nearest = std::ranges::min_element(
         places_m, {}, [&](double s_m) { return std::abs(s_m - spec_.s_m); });
     if (nearest == places_m.end()) {
@@ -167,17 +135,12 @@ class DiamondFinder {
         continue;
       }
       faults_.Add(pointer_ + "/s_m",
-                  "must put the crossing on track " + Quoted(world_.tracks[track].name) +
-                      ", from " + MetresText(Course(track).begin_s_m()) + " to " +
-                      MetresText(Course(track).end_s_m()) + " m",
-                  StretchOfSite(site));
+                  "must put the crossing on track " + Quoted(world_.tracks[track].name) + ", " +
+                      StretchText(Course(track).begin_s_m(), Course(track).end_s_m()),
+                  StretchText(site.begin_s_m, site.end_s_m));
       return false;
     }
     return true;
-  }
-
-  [[nodiscard]] static std::string StretchOfSite(const DiamondSite& site) {
-    return "from " + MetresText(site.begin_s_m) + " to " + MetresText(site.end_s_m) + " m";
   }
 
   /// Checks that no other crossing and no turnout lies in it.
@@ -192,8 +155,8 @@ class DiamondFinder {
       if (!overlaps(other.begin_s_m, other.end_s_m)) continue;
       faults_.Add(pointer_ + "/s_m",
                   "must not overlap the crossing of tracks " + NamesOf(other.first, other.second) +
-                      ", " + StretchOfSite(other),
-                  StretchOfSite(site));
+                      ", " + StretchText(other.begin_s_m, other.end_s_m),
+                  StretchText(site.begin_s_m, site.end_s_m));
       return;
     }
     for (const TurnoutSite& turnout : network_.turnouts) {
@@ -203,9 +166,9 @@ class DiamondFinder {
       faults_.Add(pointer_ + "/s_m",
                   "must not overlap the turnout of track " +
                       Quoted(world_.tracks[turnout.branch].name) + " on track " +
-                      Quoted(world_.tracks[turnout.track].name) + ", from " + MetresText(from_m) +
-                      " to " + MetresText(to_m) + " m (there are no slips)",
-                  StretchOfSite(site));
+                      Quoted(world_.tracks[turnout.track].name) + ", " + StretchText(from_m, to_m) +
+                      " (there are no slips)",
+                  StretchText(site.begin_s_m, site.end_s_m));
       return;
     }
   }
@@ -224,6 +187,30 @@ void FindDiamonds(const WorldSpec& world, NetworkDraft& network, WorldFaults& fa
   for (std::size_t i = 0; i < world.diamond_crossings.size(); ++i) {
     DiamondFinder(world, i, network, faults).Find();
   }
+}
+
+std::vector<double> CrossingPlaces(const TrackCourse& one, const TrackCourse& other) {
+  constexpr double kStep_m = 1.0;
+  constexpr double kExact_m = 1e-7;
+  // Places are sampled off the round chainages that people write, where the tracks' distance may be
+  // exactly 0, which is no change of sign.
+  constexpr double kOffRound_m = 0.381966;
+  const double begin_s_m = std::max(one.begin_s_m(), other.begin_s_m());
+  const double end_s_m = std::min(one.end_s_m(), other.end_s_m());
+  const auto apart_m = [&](double s_m) { return one.OffsetAt(s_m).d_m - other.OffsetAt(s_m).d_m; };
+  std::vector<double> places_m;
+  for (double s_m = begin_s_m - kOffRound_m; s_m < end_s_m; s_m += kStep_m) {
+    double low_m = std::max(begin_s_m, s_m);
+    double high_m = std::min(end_s_m, s_m + kStep_m);
+    // A track that begins or ends on another one does so in a turnout.
+    if (apart_m(low_m) * apart_m(high_m) >= 0.0) continue;
+    while (high_m - low_m > kExact_m) {
+      const double middle_m = std::midpoint(low_m, high_m);
+      (apart_m(middle_m) * apart_m(high_m) > 0.0 ? high_m : low_m) = middle_m;
+    }
+    places_m.push_back(high_m);
+  }
+  return places_m;
 }
 
 ChainageRange CloseTo(const DiamondSite& diamond, const NetworkDraft& network, double distance_m) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "core/rail/chainage_range.h"
 #include "core/rail/line/network.h"
 #include "core/rail/world_faults.h"
@@ -10,6 +12,10 @@ namespace railcast {
 /// The flattest and the steepest angle at which tracks may cross, as the n of 1:n.
 inline constexpr double kFlattestDiamond = 20.0;
 inline constexpr double kSteepestDiamond = 4.0;
+
+/// All chainages at which the axes of two tracks cross, in rising order.
+/// @pre One of them ends.
+[[nodiscard]] std::vector<double> CrossingPlaces(const TrackCourse& one, const TrackCourse& other);
 
 /// Finds the places that WorldSpec::diamond_crossings names and adds them to the network, which has
 /// its courses and turnouts. Adds a fault where a track is unknown, where the tracks do not cross

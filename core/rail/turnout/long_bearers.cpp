@@ -147,8 +147,7 @@ std::vector<LongBearer> LongBearersAt(const ChunkContext& context, double s_m) {
 
 std::vector<LongBearer> LongBearersIn(const ChunkContext& context) {
   std::vector<LongBearer> bearers;
-  for (const double s_m :
-       BearerPlaces(context, {.begin_s_m = context.begin_s_m, .end_s_m = context.end_s_m})) {
+  for (const double s_m : SleeperPlaces(context)) {
     for (LongBearer& bearer : LongBearersAt(context, s_m)) bearers.push_back(std::move(bearer));
   }
   return bearers;

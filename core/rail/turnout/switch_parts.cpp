@@ -112,18 +112,6 @@ void AddCheckRail(const ChunkContext& context,
   AppendSweep(stations, outline_m, MeshOf(context.surfaces.turnouts.rail, chunk.ground));
 }
 
-std::vector<double> BearerPlaces(const ChunkContext& context, const ChainageRange& range) {
-  const auto first = static_cast<std::int64_t>(std::floor(context.begin_s_m / kSleeperSpacing_m));
-  const auto last = static_cast<std::int64_t>(std::ceil(context.end_s_m / kSleeperSpacing_m));
-  std::vector<double> places_m;
-  for (std::int64_t k = first; k <= last; ++k) {
-    const double s_m = static_cast<double>(k) * kSleeperSpacing_m;
-    if (s_m < context.begin_s_m || s_m >= context.end_s_m) continue;
-    if (HoldsChainage(range, s_m)) places_m.push_back(s_m);
-  }
-  return places_m;
-}
-
 MadeBearer BearerOf(const InfrastructureModels& models,
                     SleeperType sleeper,
                     double length_m,

@@ -38,10 +38,6 @@ void AddCheckRail(const ChunkContext& context,
                   const CheckRail& rail,
                   Chunk& chunk);
 
-/// The chainages of bearers in the chunk, those of the tracks' sleepers.
-[[nodiscard]] std::vector<double> BearerPlaces(const ChunkContext& context,
-                                               const ChainageRange& range);
-
 /// A bearer at least as long as needed, or at most as long; the longest or shortest if there is
 /// none.
 struct MadeBearer {

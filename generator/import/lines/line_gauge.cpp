@@ -9,12 +9,10 @@ namespace {
 
 /// A gauge that an alignment can have (AlignmentSpec::gauge_mm).
 std::optional<double> GaugeIn_mm(std::string_view text) {
-  constexpr double kNarrowest_mm = 600.0;
-  constexpr double kWidest_mm = 1700.0;
   double gauge_mm = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), gauge_mm);
   if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  const bool is_one = gauge_mm >= kNarrowest_mm && gauge_mm <= kWidest_mm;
+  const bool is_one = gauge_mm >= kNarrowestGauge_mm && gauge_mm <= kWidestGauge_mm;
   return is_one ? std::optional(gauge_mm) : std::nullopt;
 }
 

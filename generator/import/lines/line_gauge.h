@@ -5,10 +5,9 @@
 
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/rail_map.h"
+#include "railcast/alignment.h"
 
 namespace railcast {
-
-inline constexpr double kStandardGauge_mm = 1435.0;
 
 /// The gauge that a value of OpenStreetMap's key `gauge` gives, such as "760" or "1435;1000": of
 /// several, 1435 mm or else the first one. Absent if it is none that a world can have.

@@ -1,4 +1,5 @@
 #include "tests/core/io/temporary_directory.h"
+#include "tests/core/io/default_signals.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -23,6 +24,7 @@ fs::path LeftBehindBy(int signal) {
   EXPECT_EQ(::pipe(ends.data()), 0);
   const pid_t child = ::fork();
   if (child == 0) {
+    UseDefaultSignals();
     const std::string directory = MakeDirectoryForLife().string();
     std::ofstream(fs::path(directory) / "file") << "full";
     const bool is_said = ::write(ends[1], directory.data(), directory.size()) > 0;

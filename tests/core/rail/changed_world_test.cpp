@@ -174,5 +174,18 @@ TEST(ChangedWorld, RefusesWhatAScenarioMayNotHold) {
   EXPECT_EQ(removing("ego"), "/name: must be the name of an object that is there (got \"ego\")");
 }
 
+TEST(ChangedWorld, RefusesToRemoveABarrier) {
+  WorldSpec world;
+  world.alignment.course = AlignmentElementsSpec{{{ElementType::kStraight, 600.0, {}}}};
+  LevelCrossingSpec crossing;
+  crossing.name = "crossing";
+  crossing.s_m = 300.0;
+  crossing.barrier_angles_deg = {{2.0, 90.0}, {8.0, 0.0}};
+  world.structures = {crossing};
+  const RailWorld made(world, VehicleSpec{}, TestLabels(), TestMaterials(), 7);
+  EXPECT_EQ(FaultOf([&] { return made.WithoutObject("crossing/left"); }),
+            "/name: must not be a barrier of a level crossing (got \"crossing/left\")");
+}
+
 }  // namespace
 }  // namespace railcast

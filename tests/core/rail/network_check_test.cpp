@@ -59,7 +59,7 @@ TEST(CheckNetwork, ReportsTracksThatCross) {
                           .start_s_m = 100.0});
   EXPECT_THAT(FaultsOfNetwork(world),
               ElementsAre("/world/tracks/1: must not cross track \"main\" without an entry of "
-                          "/world/diamond_crossings (got at 242 m)"));
+                          "/world/diamond_crossings (got at 242.307 m)"));
 }
 
 TEST(CheckNetwork, ReportsOffsetsBeyondTheGroundAndTightCurves) {

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "core/program/run_program.h"
+#include "tests/core/io/default_signals.h"
 
 namespace railcast {
 namespace {
@@ -23,6 +24,7 @@ TEST(StopSignal, IsARequestThatTheProgramAsksFor) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     EXPECT_EXIT(
         {
+          UseDefaultSignals();
           CatchStopSignals();
           if (StopRequested()) std::exit(1);
           ::raise(signal);
@@ -35,6 +37,7 @@ TEST(StopSignal, IsARequestThatTheProgramAsksFor) {
 TEST(StopSignal, EndsAtOnceAtTheSecond) {
   EXPECT_EXIT(
       {
+        UseDefaultSignals();
         CatchStopSignals();
         ::raise(SIGINT);
         ::raise(SIGINT);
@@ -45,6 +48,7 @@ TEST(StopSignal, EndsAtOnceAtTheSecond) {
 TEST(StopSignal, EndsWorkThatCannotBeStopped) {
   EXPECT_EXIT(
       {
+        UseDefaultSignals();
         CatchStopSignals();
         UseStopDeadline(true);
         ::raise(SIGINT);
@@ -56,6 +60,7 @@ TEST(StopSignal, EndsWorkThatCannotBeStopped) {
 TEST(StopSignal, LeavesWorkAloneThatIsDoneInTime) {
   EXPECT_EXIT(
       {
+        UseDefaultSignals();
         CatchStopSignals();
         UseStopDeadline(true);
         ::raise(SIGINT);

@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "tests/core/io/default_signals.h"
+
 namespace railcast {
 
 /// A running program, killed by the destructor if it is still running.
@@ -34,6 +36,7 @@ class RunningProgram {
     pointers.push_back(nullptr);
     pid_ = ::fork();
     if (pid_ != 0) return;
+    UseDefaultSignals();
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     const int file = ::open(said_file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     ::dup2(file, STDOUT_FILENO);
