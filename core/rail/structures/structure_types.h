@@ -75,12 +75,6 @@ void AddStructure(const ChunkContext& context, const CableTroughSpec& trough, Ch
 void AddStructure(const ChunkContext& context, const TunnelSpec& tunnel, Chunk& chunk);
 [[nodiscard]] std::vector<ClearedArea> ClearedBy(const WorldTracks& tracks,
                                                  const TunnelSpec& tunnel);
-/// Where a tunnel's lining is: a circle, whose middle is left of its track's axis.
-struct TunnelVault {
-  double middle_m{};
-  double outer_radius_m{};
-};
-[[nodiscard]] TunnelVault VaultOf(const WorldTracks& tracks, const TunnelSpec& tunnel);
 
 void AddStructure(const ChunkContext& context, const BridgeSpec& bridge, Chunk& chunk);
 [[nodiscard]] std::vector<ClearedArea> ClearedBy(const WorldTracks& tracks,

@@ -262,11 +262,6 @@ void AddStructure(const ChunkContext& context, const TunnelSpec& tunnel, Chunk& 
   TunnelBuilder(context, tunnel, chunk).Add();
 }
 
-TunnelVault VaultOf(const WorldTracks& tracks, const TunnelSpec& tunnel) {
-  const TunnelShape shape = ShapeOf(tracks, tunnel);
-  return {shape.spread.middle_m(), shape.radius_m + kLiningThickness_m};
-}
-
 std::vector<ClearedArea> ClearedBy(const WorldTracks& tracks, const TunnelSpec& tunnel) {
   const TunnelShape shape = TunnelShapeOf(tracks, tunnel);
   const double middle_m = shape.spread.middle_m();

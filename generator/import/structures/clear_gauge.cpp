@@ -12,6 +12,7 @@
 #include "core/rail/line/network.h"
 #include "core/rail/structures/structure_types.h"
 #include "core/rail/structures/structures.h"
+#include "core/rail/structures/tunnel_shape.h"
 #include "core/scenario/describe_structures.h"
 #include "generator/check/gauge_entries.h"
 #include "generator/import/structures/line_structures.h"
@@ -165,15 +166,17 @@ class StructureClearing {
   /// Whether the linings of two tunnels touch.
   [[nodiscard]] bool Meet(const TunnelSpec& one, const TunnelSpec& other) const {
     const WorldTracks tracks{spec_, network_.courses};
-    const TunnelVault vault = VaultOf(tracks, one);
-    const TunnelVault other_vault = VaultOf(tracks, other);
+    const TunnelShape shape = TunnelShapeOf(tracks, one);
+    const TunnelShape other_shape = TunnelShapeOf(tracks, other);
+    const double reach_m =
+        shape.radius_m + other_shape.radius_m + 2.0 * TunnelShape::kLiningThickness_m;
     const TrackCourse* track = tracks.CourseOf(one.track);
     const TrackCourse* other_track = tracks.CourseOf(other.track);
     const double end_s_m = std::min(one.end_s_m, other.end_s_m);
     for (double s_m = std::max(one.begin_s_m, other.begin_s_m); s_m < end_s_m; s_m += 1.0) {
-      const double apart_m = track->OffsetWithin_m(s_m) + vault.middle_m -
-                             other_track->OffsetWithin_m(s_m) - other_vault.middle_m;
-      if (std::abs(apart_m) < vault.outer_radius_m + other_vault.outer_radius_m) return true;
+      const double apart_m = track->OffsetWithin_m(s_m) + shape.spread.middle_m() -
+                             other_track->OffsetWithin_m(s_m) - other_shape.spread.middle_m();
+      if (std::abs(apart_m) < reach_m) return true;
     }
     return false;
   }
