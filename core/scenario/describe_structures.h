@@ -70,6 +70,8 @@ void Describe(Archive& a, PlatformSpec& s) {
   a.Optional("width_m", s.width_m, "Across.", Within(0.5, 50));
   a.Optional("has_edge_strip", s.has_edge_strip,
              "Whether a white tactile strip runs along the edge.");
+  a.Optional("has_ramps", s.has_ramps,
+             "Whether its ends are ramps of 1:12 down to 0.08 m below top of rail.");
   a.Optional("roof", s.roof, "A roof on a row of columns; absent = none.");
 }
 

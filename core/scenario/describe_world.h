@@ -143,6 +143,8 @@ void Describe(Archive& a, TerrainSpec& s) {
   a.Optional("elevation", s.elevation,
              "Terrain of a file, with cuttings and embankments; not together with relief.");
   a.Optional("cover", s.cover, "What the ground is covered with.");
+  a.Optional("has_ditches", s.has_ditches,
+             "Whether ditches run between the formation and the slopes of cuttings.");
   a.Ensure({"elevation", "relief"}, !s.elevation || !s.relief, "must not be given with relief");
 }
 

@@ -179,6 +179,7 @@ struct TerrainSpec {
   std::optional<ElevationSpec> elevation;
   std::optional<ReliefSpec> relief;
   GroundCover cover = GroundCover::kSoil;
+  bool has_ditches = false;  ///< Whether ditches run between formation and slopes of cuttings.
 
   bool operator==(const TerrainSpec&) const = default;
 };

@@ -46,6 +46,8 @@ struct PlatformSpec : SideStretchSpec {
   double edge_distance_m = 1.65;  ///< Of the edge from the axis of straight track.
   double width_m = 3.0;
   bool has_edge_strip = true;  ///< Whether a white tactile strip runs along the edge.
+  /// Whether its ends are ramps of 1:12, down to 0.08 m below top of rail. They are part of it.
+  bool has_ramps = false;
   std::optional<PlatformRoofSpec> roof;
 
   bool operator==(const PlatformSpec&) const = default;

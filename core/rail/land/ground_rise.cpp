@@ -51,7 +51,9 @@ double GroundRise::Height_m(const CrossSection& section,
     const Vector3 formation_m = section.PointAt(d_m, section.FormationHeight_m(d_m));
     const double rise_m = land_->Rise_m(world_from_chunk_ * formation_m);
     terrain_m = rise_m + height_m;
-    height_m = CutAndFill_m(terrain_m, distance_m - kFormationEdge_m);
+    const double beyond_m = distance_m - kFormationEdge_m;
+    height_m = spec_.has_ditches ? CutWithDitchAndFill_m(terrain_m, beyond_m)
+                                 : CutAndFill_m(terrain_m, beyond_m);
   }
   if (!hills_.empty() && (level == GroundLevel::kOfHill || !hills_.IsInside(s_m, d_m))) {
     height_m = hills_.Height_m(section, s_m, d_m, {terrain_m, height_m});

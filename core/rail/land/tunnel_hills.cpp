@@ -22,7 +22,7 @@ constexpr double kMouth_m = 2.0;
 }  // namespace
 
 TunnelHills::TunnelHills(const ChunkContext& context, double begin_s_m, double end_s_m)
-    : context_(&context) {
+    : context_(&context), ditch_m_(context.spec.terrain.has_ditches ? kDitchWidth_m : 0.0) {
   if (context.land == nullptr || !context.land->has_terrain()) return;
   const WorldTracks tracks = TracksOf(context);
   for (const StructureSpec& structure : context.spec.structures) {
@@ -70,9 +70,9 @@ bool TunnelHills::IsInside(double s_m, double d_m) const {
   });
 }
 
-double TunnelHills::Limit_m(const Tunnel& tunnel, double behind_m, double beside_m) {
+double TunnelHills::Limit_m(const Tunnel& tunnel, double behind_m, double beside_m) const {
   // The bottom of the cutting before the mouth.
-  const double formation_m = tunnel.shape.spread.half_width_m() + kFormationEdge_m;
+  const double formation_m = tunnel.shape.spread.half_width_m() + kFormationEdge_m + ditch_m_;
   const auto cone_m = [&](double foot_m, double height_m) {
     return height_m + kCutAndFillSlope * std::hypot(std::max(0.0, beside_m - foot_m), behind_m);
   };
@@ -105,7 +105,7 @@ double TunnelHills::Height_m(const CrossSection& section,
     });
   };
   const double to_others_m = section.DistanceFromTracksIf_m(d_m, is_outside) - kFormationEdge_m;
-  const double cut_m = kCutAndFillSlope * std::max(0.0, to_others_m);
+  const double cut_m = kCutAndFillSlope * std::max(0.0, to_others_m - ditch_m_);
   const double fill_m = CutAndFill_m(-std::numeric_limits<double>::infinity(),
                                      section.DistanceFromTracks_m(d_m) - kFormationEdge_m);
   const double formation_m = section.FormationHeight_m(d_m);

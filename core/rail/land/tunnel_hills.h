@@ -57,9 +57,10 @@ class TunnelHills {
     return s_m > tunnel.hill_begin_s_m && s_m < tunnel.hill_end_s_m;
   }
   /// Height above top of rail at a mouth up to which the ground may rise.
-  [[nodiscard]] static double Limit_m(const Tunnel& tunnel, double behind_m, double beside_m);
+  [[nodiscard]] double Limit_m(const Tunnel& tunnel, double behind_m, double beside_m) const;
 
   const ChunkContext* context_;
+  double ditch_m_;  ///< Width of the ditches between formation and slope.
   std::vector<Tunnel> tunnels_;
 };
 

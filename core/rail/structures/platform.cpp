@@ -54,9 +54,33 @@ std::optional<Outline> StripOutline(const PlatformSpec& platform) {
                  {end_m, 0.0}};
 }
 
+/// Ramps at the ends: 1:12, down to 0.1 m above the ends of concrete sleepers.
+constexpr double kRampSlope = 1.0 / 12.0;
+constexpr double kRampFoot_m = -0.08;
+
+double RampLength_m(const PlatformSpec& platform) {
+  if (!platform.has_ramps) return 0.0;
+  const double half_m = 0.5 * (platform.end_s_m - platform.begin_s_m);
+  return std::min(half_m, (platform.height_m - kRampFoot_m) / kRampSlope);
+}
+
+/// The part between the ramps.
+ChainageRange LevelRange(const PlatformSpec& platform) {
+  const double ramp_m = RampLength_m(platform);
+  return {.begin_s_m = platform.begin_s_m + ramp_m, .end_s_m = platform.end_s_m - ramp_m};
+}
+
+/// Height of the edge above top of rail.
+double EdgeHeight_m(const PlatformSpec& platform, double s_m) {
+  if (!platform.has_ramps) return platform.height_m;
+  const double from_end_m = std::min(s_m - platform.begin_s_m, platform.end_s_m - s_m);
+  return std::min(platform.height_m, kRampFoot_m + kRampSlope * std::max(0.0, from_end_m));
+}
+
 ChainageRange RoofRange(const PlatformSpec& platform) {
-  return {.begin_s_m = platform.roof->begin_s_m.value_or(platform.begin_s_m),
-          .end_s_m = platform.roof->end_s_m.value_or(platform.end_s_m)};
+  const ChainageRange level = LevelRange(platform);
+  return {.begin_s_m = platform.roof->begin_s_m.value_or(level.begin_s_m),
+          .end_s_m = platform.roof->end_s_m.value_or(level.end_s_m)};
 }
 
 /// A roof with its valley over the columns.
@@ -96,7 +120,7 @@ Transform EdgeFrameAt(const ChunkContext& context,
   const double edge_m = platform.edge_distance_m +
                         PlatformWidening_m(context.alignment, track.course(), side, s_m) +
                         std::max(0.0, side * nose_m);
-  return track.UprightAt(s_m, side * edge_m, platform.height_m);
+  return track.UprightAt(s_m, side * edge_m, EdgeHeight_m(platform, s_m));
 }
 
 /// Adds what has one cross-section, in the frame of the platform's edge.
@@ -106,11 +130,16 @@ class PlatformBuilder {
       : context_(context), platform_(platform), track_(context, platform.track) {}
 
   void Add(Chunk& chunk) const {
-    const ChainageRange whole{.begin_s_m = platform_.begin_s_m, .end_s_m = platform_.end_s_m};
+    const ChainageRange level = LevelRange(platform_);
     const StructureSurfaces& surfaces = context_.surfaces.structures;
-    Sweep(whole, BodyOutline(platform_), MeshOf(surfaces.platform, chunk.ground));
+    Mesh& concrete = MeshOf(surfaces.platform, chunk.ground);
+    Sweep(level, BodyOutline(platform_), concrete);
+    if (platform_.has_ramps) {
+      Sweep({platform_.begin_s_m, level.begin_s_m}, BodyOutline(platform_), concrete);
+      Sweep({level.end_s_m, platform_.end_s_m}, BodyOutline(platform_), concrete);
+    }
     if (const auto strip = StripOutline(platform_)) {
-      Sweep(whole, *strip, MeshOf(surfaces.platform_strip, chunk.ground));
+      Sweep(level, *strip, MeshOf(surfaces.platform_strip, chunk.ground));
     }
     if (!platform_.roof) return;
     Mesh& steel = MeshOf(surfaces.platform_roof, chunk.ground);
@@ -191,11 +220,12 @@ std::vector<ClearedArea> ClearedBy(const PlatformSpec& platform) {
 void CheckShape(const StructurePlace& place, const PlatformSpec& platform, WorldFaults& faults) {
   if (!platform.roof || !faults.AreKnown({place.pointer})) return;
   const ChainageRange roof = RoofRange(platform);
-  if (!(roof.begin_s_m >= platform.begin_s_m && roof.end_s_m <= platform.end_s_m &&
+  const ChainageRange level = LevelRange(platform);
+  if (!(roof.begin_s_m >= level.begin_s_m && roof.end_s_m <= level.end_s_m &&
         roof.begin_s_m < roof.end_s_m)) {
     faults.Add(place.pointer + "/roof",
-               "must lie on the platform, from " + NumberText(platform.begin_s_m) + " to " +
-                   NumberText(platform.end_s_m) + " m",
+               "must lie on the platform, from " + NumberText(level.begin_s_m) + " to " +
+                   NumberText(level.end_s_m) + " m",
                "from " + NumberText(roof.begin_s_m) + " to " + NumberText(roof.end_s_m) + " m");
   }
 }

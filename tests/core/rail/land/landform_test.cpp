@@ -57,6 +57,44 @@ TEST(CutAndFill, IsTheTerrainBetweenTheSlopes) {
   EXPECT_EQ(CutAndFill_m(-5.0, 30.0), -5.0);
 }
 
+TEST(CutAndFill, HasADitchInCuttingsOnly) {
+  // 0.6 m down, 0.4 m of bottom, 0.6 m up, then the slope.
+  EXPECT_EQ(CutWithDitchAndFill_m(5.0, -1.0), 0.0);
+  EXPECT_NEAR(CutWithDitchAndFill_m(5.0, 0.3), -0.2, 1e-12);
+  EXPECT_NEAR(CutWithDitchAndFill_m(5.0, 0.6), -0.4, 1e-12);
+  EXPECT_NEAR(CutWithDitchAndFill_m(5.0, 1.0), -0.4, 1e-12);
+  EXPECT_NEAR(CutWithDitchAndFill_m(5.0, 1.6), 0.0, 1e-12);
+  EXPECT_NEAR(CutWithDitchAndFill_m(5.0, 4.6), 2.0, 1e-12);
+  EXPECT_EQ(CutWithDitchAndFill_m(5.0, 40.0), 5.0);
+  // No deeper than the cutting, and none beside embankments.
+  EXPECT_NEAR(CutWithDitchAndFill_m(0.1, 0.8), -0.1, 1e-12);
+  EXPECT_EQ(CutWithDitchAndFill_m(0.0, 0.8), 0.0);
+  EXPECT_EQ(CutWithDitchAndFill_m(-5.0, 3.0), -2.0);
+}
+
+TEST(Relief, HasDitchesBesideTheFormationInCuttings) {
+  WorldSpec spec = Hilly(StraightLine(2000.0));
+  spec.terrain.roughness_sigma_m = 0.0;
+  spec.terrain.undulation_sigma_m = 0.0;
+  const TestLine without(spec);
+  spec.terrain.has_ditches = true;
+  const TestLine with(spec);
+  int num_ditches = 0;
+  for (double s_m = 1.0; s_m < 2000.0; s_m += 10.0) {
+    for (const double d_m : {-5.3, 5.3}) {
+      // In a cutting deeper than its ditch, the land is higher 3 m farther away.
+      const bool is_cut = HeightAboveFormation(without, s_m, d_m > 0.0 ? 8.3 : -8.3) > 1.5;
+      const double height_m = HeightAboveFormation(with, s_m, d_m);
+      if (is_cut) {
+        EXPECT_NEAR(height_m, -0.4, 1e-9) << s_m;
+      }
+      num_ditches += is_cut ? 1 : 0;
+      EXPECT_EQ(HeightAboveFormation(with, s_m, 4.4), 0.0);
+    }
+  }
+  EXPECT_GT(num_ditches, 40);
+}
+
 TEST(Relief, CutsAndFillsBetweenTheFormationAndHillsOfTheSpecsHeight) {
   WorldSpec spec = Hilly(StraightLine(8000.0));
   spec.terrain.roughness_sigma_m = 0.0;

@@ -83,8 +83,10 @@ TEST(TunnelHills, LeaveTheInsideOfTheTunnelFree) {
 }
 
 /// Beams along the line from 5 m before the portal, beside and above the mouth.
-void ExpectNoGapAtThePortal(double land_m) {
-  const StructureProbe probe(LineBelow(land_m));
+void ExpectNoGapAtThePortal(double land_m, bool has_ditches = false) {
+  WorldSpec spec = LineBelow(land_m);
+  spec.terrain.has_ditches = has_ditches;
+  const StructureProbe probe(spec);
   const std::uint32_t ground = probe.line().surfaces().ground.label;
   const std::uint32_t concrete = probe.line().surfaces().structures.tunnel.label;
   for (double d_m = -5.43; d_m < 20.0; d_m += 0.43) {
@@ -104,6 +106,10 @@ void ExpectNoGapAtThePortal(double land_m) {
 
 TEST(TunnelHills, LeaveNoGapAtThePortalOfADeepCutting) {
   ExpectNoGapAtThePortal(30.0);
+}
+
+TEST(TunnelHills, LeaveNoGapAtThePortalOfACuttingWithDitches) {
+  ExpectNoGapAtThePortal(30.0, true);
 }
 
 TEST(TunnelHills, LeaveNoGapAtThePortalOfAShallowCutting) {

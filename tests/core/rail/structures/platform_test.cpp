@@ -87,6 +87,28 @@ TEST(Platform, IsLevelAcrossAndAsWideAsSpecified) {
   EXPECT_NEAR(MostOf(section, 1), top_m, kSweep_m);
 }
 
+TEST(Platform, HasRampsDownToTheSleepersAtItsEnds) {
+  WorldSpec spec = StraightLine(300.0);
+  PlatformSpec platform = PlatformOn(TrackSide::kLeft);
+  platform.has_ramps = true;
+  spec.structures = {platform};
+  const StructureProbe probe(spec);
+  const SurfaceClass& concrete = probe.line().surfaces().structures.platform;
+  // The ramps are 12 (0.76 + 0.08) = 10.08 m long.
+  for (const auto& [from_end_m, height_m] :
+       {std::pair(0.01, -0.08 + 0.01 / 12.0), std::pair(6.0, -0.08 + 0.5),
+        std::pair(10.0, -0.08 + 10.0 / 12.0), std::pair(10.2, 0.76), std::pair(50.0, 0.76)}) {
+    for (const double s_m : {60.0 + from_end_m, 190.0 - from_end_m}) {
+      const auto section = probe.SectionOf(concrete, s_m);
+      EXPECT_NEAR(MostOf(section, 1), height_m, 1e-5) << s_m;
+      EXPECT_NEAR(LeastOf(section, 0), 1.65, 1e-5) << s_m;
+    }
+  }
+  const SurfaceClass& strip = probe.line().surfaces().structures.platform_strip;
+  EXPECT_TRUE(probe.SectionOf(strip, 69.0).empty());
+  EXPECT_FALSE(probe.SectionOf(strip, 71.0).empty());
+}
+
 TEST(Platform, EndsWhereItEnds) {
   const StructureProbe probe(CurveWith(PlatformOn(TrackSide::kLeft)));
   const SurfaceClass& concrete = probe.line().surfaces().structures.platform;
