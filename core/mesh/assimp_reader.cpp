@@ -7,6 +7,7 @@
 
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <cstring>
 #include <unordered_map>
 #include <utility>
 
@@ -72,12 +73,19 @@ class SceneGatherer {
       soup_.points.push_back(point);
     }
     const std::uint32_t group = groups_.IndexOf(node);
-    const std::uint32_t material = materials_.IndexOf(
-        scene_.mNumMaterials > 0 ? scene_.mMaterials[mesh.mMaterialIndex]->GetName().C_Str() : "");
+    const std::uint32_t material =
+        materials_.IndexOf(mesh.mMaterialIndex < scene_.mNumMaterials
+                               ? scene_.mMaterials[mesh.mMaterialIndex]->GetName().C_Str()
+                               : "");
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
       const aiFace& face = mesh.mFaces[i];
       std::vector<std::uint32_t> corners;  // Two of a line, one of a point.
       for (unsigned k = 0; k < face.mNumIndices; ++k) {
+        if (face.mIndices[k] >= mesh.mNumVertices) {
+          throw InputError(shown_ + ": face " + std::to_string(i) + " of \"" + ShownText(node) +
+                           "\" must name one of its " + std::to_string(mesh.mNumVertices) +
+                           " vertices, counted from 0" + Got(face.mIndices[k]));
+        }
         corners.push_back(static_cast<std::uint32_t>(first + face.mIndices[k]));
       }
       soup_.AddFace(std::move(corners), material, group);
@@ -108,6 +116,23 @@ void TakeUnits(const aiScene& scene, const std::string& format, SceneMesh& mesh)
   if (scene.mMetaData->Get("UpAxis", up)) mesh.y_up = up == 1;
 }
 
+/// Checks the lengths in a binary glTF file's header, as much as which assimp would allocate.
+void CheckGlb(const std::string& bytes, const std::string& shown) {
+  constexpr std::size_t kHeaderBytes = 20;
+  const auto number_at = [&](std::size_t place) {
+    std::uint32_t number = 0;
+    std::memcpy(&number, bytes.data() + place, sizeof(number));
+    return number;
+  };
+  if (bytes.size() < kHeaderBytes) throw InputError(shown + ": ends within its header");
+  if (number_at(4) != 2)
+    throw InputError(shown + ": must be glTF of version 2" + Got(number_at(4)));
+  if (number_at(12) > bytes.size() - kHeaderBytes) {
+    throw InputError(shown + ": ends within its first chunk of " + std::to_string(number_at(12)) +
+                     " bytes");
+  }
+}
+
 }  // namespace
 
 bool HasAssimp() {
@@ -118,6 +143,7 @@ SceneMesh ReadScene(const std::string& bytes,
                     const std::filesystem::path& file,
                     const std::string& shown) {
   const std::string format = SceneFormatOf(bytes).value_or("");
+  if (format == "glb") CheckGlb(bytes, shown);
   Assimp::Importer importer;
   // Everything but triangles' corners only takes time.
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,

@@ -36,6 +36,15 @@ std::string_view FirstWord(std::string_view bytes) {
   return bytes.substr(0, bytes.find_first_of(kWordBreaks));
 }
 
+/// Whether a line begins with a word.
+bool HasWord(std::string_view bytes, std::string_view word) {
+  for (std::size_t begin = bytes.find('\n'); begin != std::string_view::npos;
+       begin = bytes.find('\n', begin + 1)) {
+    if (FirstWord(bytes.substr(begin)) == word) return true;
+  }
+  return false;
+}
+
 /// Whether a line begins with one of the keywords of an OBJ file's geometry.
 bool HasObjLine(std::string_view bytes) {
   std::size_t begin = 0;
@@ -57,15 +66,17 @@ bool HasExtension(const std::filesystem::path& file, std::string_view lower) {
 
 std::optional<Format> FormatOf(const std::string& bytes, const std::filesystem::path& file) {
   const std::string_view word = FirstWord(Begin(bytes, 1024));
-  if (word == "ply") return Format::kPly;
+  const bool is_solid = word == "solid" || word == "SOLID";
   if (IsBinaryStl(bytes)) return Format::kBinaryStl;
-  if (word == "solid" && Begin(bytes, 4096).find("facet") != std::string_view::npos) {
+  if (word == "ply") return Format::kPly;
+  if (is_solid &&
+      (HasWord(Begin(bytes, 65536), "facet") || HasWord(Begin(bytes, 65536), "FACET"))) {
     return Format::kAsciiStl;
   }
   if (IsOff(Begin(bytes, 4096))) return Format::kOff;
   if (SceneFormatOf(bytes)) return Format::kScene;
   if (HasExtension(file, ".obj") || HasObjLine(bytes)) return Format::kObj;
-  if (word == "solid") return Format::kAsciiStl;
+  if (is_solid) return Format::kAsciiStl;
   return std::nullopt;
 }
 
@@ -95,6 +106,10 @@ struct MeshBytes {
 
 /// Reads a scene by assimp and takes from it the units that are not given.
 PolygonSoup ReadSceneIn(const MeshBytes& source, const std::string& shown, MeshUnits& units) {
+  if (HasOwnUnits(source.bytes) && (units.unit_m || units.y_up)) {
+    throw InputError(shown + ": says itself what its unit and its upward axis are: leave out " +
+                     "unit_m and up");
+  }
   SceneMesh scene =
       ReadScene(source.bytes, source.is_on_disk ? source.file : std::filesystem::path(), shown);
   if (!units.unit_m) units.unit_m = scene.unit_m;

@@ -29,6 +29,12 @@ std::string_view WithoutPlus(std::string_view token) {
   return token;
 }
 
+/// Whether a line holds a vertex, a face or the like, rather than a name.
+bool IsGeometry(std::string_view line) {
+  const std::string_view keyword = NextToken(line);
+  return keyword != "usemtl" && keyword != "g" && keyword != "o" && keyword != "mtllib";
+}
+
 template <typename Number>
 std::optional<Number> Parse(std::string_view token) {
   token = WithoutPlus(token);
@@ -76,7 +82,9 @@ bool ObjReader::ReadLogicalLine(std::istream& in, std::string& line) {
     ++next_line_;
     if (piece.ends_with('\r')) piece.pop_back();
     line += piece;
-    if (!line.ends_with('\\')) return true;
+    // In comments and names it is a letter like any other.
+    if (!line.ends_with('\\') || line.find('#') != std::string::npos || !IsGeometry(line))
+      return true;
     line.back() = ' ';
   }
   return any;
@@ -97,8 +105,8 @@ void ObjReader::ReadVertex(std::string_view rest) {
 
 void ObjReader::ReadFace(std::string_view rest) {
   std::vector<std::uint32_t> corners;
-  for (std::string_view token = NextToken(rest); !token.empty() && token.front() != '#';
-       token = NextToken(rest)) {
+  rest = rest.substr(0, rest.find('#'));
+  for (std::string_view token = NextToken(rest); !token.empty(); token = NextToken(rest)) {
     corners.push_back(static_cast<std::uint32_t>(VertexOf(token)) - 1);
   }
   soup_.AddFace(std::move(corners), material_, group_);

@@ -172,7 +172,8 @@ class Reader {
         for (std::size_t k = 0; k < num; ++k) {
           const double value = Next(element, property.type);
           if (!is_corners) continue;
-          if (!(value >= 0.0 && value < kMaxIndex)) FailCorner(i, value);
+          if (!(value >= 0.0 && value < kMaxIndex && value == std::floor(value)))
+            FailCorner(i, value);
           corners.push_back(static_cast<std::uint32_t>(value));
         }
         soup_.AddFace(std::move(corners));
@@ -195,7 +196,11 @@ class Reader {
 
   [[nodiscard]] std::size_t Length(const Element& element, Type type) {
     const double length = Next(element, type);
-    if (!(length >= 0.0 && length <= static_cast<double>(rest_.size()))) FailShort(element);
+    if (!(length >= 0.0 && length == std::floor(length))) {
+      Fail("element " + ShownText(element.name) + ": a list's length must be a whole number" +
+           Got(length));
+    }
+    if (length > static_cast<double>(rest_.size())) FailShort(element);
     return static_cast<std::size_t>(length);
   }
 

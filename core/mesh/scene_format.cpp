@@ -14,14 +14,21 @@ std::optional<std::string> SceneFormatOf(const std::string& bytes) {
   if (begin.starts_with("Kaydara FBX Binary") || (begin.starts_with(";") && holds("FBX"))) {
     return "fbx";
   }
-  if (holds("<COLLADA")) return "dae";
-  if (begin.starts_with("MM") && begin.size() > 6 && bytes.size() >= 16) return "3ds";
-  const std::size_t first = begin.find_first_not_of(" \t\r\n");
-  if (first != std::string_view::npos && begin[first] == '{' &&
-      bytes.find("\"asset\"") != std::string::npos) {
+  if (begin.starts_with("MM") && bytes.size() >= 16) return "3ds";
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  const std::size_t first = begin.find_first_not_of(
+      " \t\r\n", begin.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
+  if (first == std::string_view::npos) return std::nullopt;
+  if (begin[first] == '<' && holds("<COLLADA")) return "dae";
+  if (begin[first] == '{' && bytes.find("\"asset\"") != std::string::npos) {
     return "gltf";
   }
   return std::nullopt;
+}
+
+bool HasOwnUnits(const std::string& bytes) {
+  const auto format = SceneFormatOf(bytes);
+  return format == "dae" || format == "3ds";
 }
 
 }  // namespace railcast

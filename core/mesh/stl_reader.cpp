@@ -3,9 +3,11 @@
 #include <OpenMesh/Core/IO/importer/BaseImporter.hh>
 #include <OpenMesh/Core/IO/reader/STLReader.hh>
 #include <OpenMesh/Core/System/omstream.hh>
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstring>
-#include <optional>
+#include <span>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -97,46 +99,64 @@ std::uint32_t NumBinaryTriangles(const std::string& bytes) {
   return num;
 }
 
-PolygonSoup ReadStl(OpenMesh::IO::Options options,
-                    const std::string& shown,
-                    const std::string& bytes) {
-  // What the reader has to say about a file would be printed as it is in the file.
-  omerr().disable();
-  SoupImporter importer;
-  std::istringstream in(bytes);
-  if (!OpenMesh::IO::STLReader().read(in, importer, options)) {
-    throw InputError(shown + ": cannot be read as STL");
-  }
-  return importer.Take();
+/// Whether a word is a keyword, which some programs write in capitals.
+bool IsKeyword(std::string_view word, std::string_view keyword) {
+  return std::ranges::equal(word, keyword, {}, [](unsigned char letter) {
+    return static_cast<char>(std::tolower(letter));
+  });
 }
 
-/// Checks what OpenMesh would pass over in an ASCII STL file.
-void CheckAsciiStl(const std::string& shown, std::string_view rest) {
-  std::size_t num_loops = 0;
-  std::size_t num_vertices = 0;
-  for (std::size_t line_number = 1; const auto line = TakeLine(rest); ++line_number) {
-    const auto words = Words(*line);
-    if (words.empty()) continue;
-    if (words[0] == "outer" || words[0] == "OUTER") ++num_loops;
-    if (words[0] != "vertex" && words[0] != "VERTEX") continue;
-    ++num_vertices;
-    bool is_good = words.size() == 4;
-    for (std::size_t i = 1; is_good && i < 4; ++i) {
-      const auto number = ParseNumber<float>(words[i].substr(words[i].starts_with('+') ? 1 : 0));
-      is_good = number && std::isfinite(*number);
+/// Reads the words of an ASCII STL file, which may be spread over lines in any way.
+class AsciiStlReader {
+ public:
+  AsciiStlReader(const std::string& shown, std::string_view text) : shown_(shown), rest_(text) {}
+
+  PolygonSoup Read() {
+    for (; const auto line = TakeLine(rest_); ++line_) {
+      const auto words = Words(*line);
+      // What follows is a name, which may be anything.
+      if (words.empty() || IsKeyword(words[0], "solid") || IsKeyword(words[0], "endsolid"))
+        continue;
+      for (std::size_t i = 0; i < words.size(); ++i) {
+        if (IsKeyword(words[i], "vertex")) ReadVertex(std::span(words).subspan(i + 1), *line);
+        if (IsKeyword(words[i], "endloop")) EndLoop();
+      }
     }
-    if (!is_good) {
-      throw InputError(shown + ": line " + std::to_string(line_number) +
-                       ": a vertex must have three finite coordinates (got \"" + ShownText(*line) +
-                       "\")");
+    if (!loop_.empty()) throw InputError(shown_ + ": ends within a facet");
+    return std::move(soup_);
+  }
+
+ private:
+  [[noreturn]] void Fail(const std::string& rule, std::string_view got) const {
+    throw InputError(shown_ + ": line " + std::to_string(line_) + ": " + rule + " (got \"" +
+                     ShownText(got) + "\")");
+  }
+
+  void ReadVertex(std::span<const std::string_view> words, std::string_view line) {
+    Vector3 point;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::string_view word = axis < words.size() ? words[axis] : std::string_view();
+      const auto number = ParseNumber<double>(word.substr(word.starts_with('+') ? 1 : 0));
+      if (!number || !std::isfinite(*number)) {
+        Fail("a vertex must have three finite coordinates", line);
+      }
+      point[static_cast<Eigen::Index>(axis)] = *number;
     }
+    loop_.push_back(static_cast<std::uint32_t>(soup_.points.size()));
+    soup_.points.push_back(point);
   }
-  if (num_vertices != 3 * num_loops) {
-    throw InputError(shown + ": each of its " + std::to_string(num_loops) +
-                     " facets must have three vertices (got " + std::to_string(num_vertices) +
-                     " in all)");
+
+  void EndLoop() {
+    if (loop_.size() != 3) Fail("a facet must have three vertices", std::to_string(loop_.size()));
+    soup_.AddFace(std::exchange(loop_, {}));
   }
-}
+
+  const std::string& shown_;
+  std::string_view rest_;
+  std::size_t line_ = 1;
+  PolygonSoup soup_;
+  std::vector<std::uint32_t> loop_;
+};
 
 }  // namespace
 
@@ -157,12 +177,19 @@ PolygonSoup ReadBinaryStl(const std::string& shown, const std::string& bytes) {
       }
     }
   }
-  return ReadStl(OpenMesh::IO::Options::Binary, shown, bytes);
+  // What OpenMesh has to say about a file would be printed as it is in the file.
+  omerr().disable();
+  SoupImporter importer;
+  std::istringstream in(bytes);
+  OpenMesh::IO::Options options = OpenMesh::IO::Options::Binary;
+  if (!OpenMesh::IO::STLReader().read(in, importer, options)) {
+    throw InputError(shown + ": cannot be read as STL");
+  }
+  return importer.Take();
 }
 
 PolygonSoup ReadAsciiStl(const std::string& shown, const std::string& bytes) {
-  CheckAsciiStl(shown, bytes);
-  return ReadStl(OpenMesh::IO::Options::Default, shown, bytes);
+  return AsciiStlReader(shown, bytes).Read();
 }
 
 }  // namespace railcast

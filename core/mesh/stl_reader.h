@@ -6,7 +6,8 @@
 
 namespace railcast {
 
-/// Reads STL files held in `bytes`, by OpenMesh.
+/// Reads STL files held in `bytes`, binary ones by OpenMesh. Of text OpenMesh would pass over
+/// facets whose lines it does not expect.
 /// @param shown Name of the file in error messages.
 /// @throws InputError "shown: rule (got value)" if the file is damaged or ends early.
 [[nodiscard]] PolygonSoup ReadAsciiStl(const std::string& shown, const std::string& bytes);

@@ -140,13 +140,31 @@ TEST(ParseMesh, RefusesADamagedStl) {
               testing::StartsWith("a.mesh: line 6: a vertex must have three finite "
                                   "coordinates (got \"  vertex one"));
   const std::string whole = AsciiStl();
-  EXPECT_EQ(Complaint(whole.substr(0, whole.rfind("  vertex"))),
-            "a.mesh: each of its 4 facets must have three vertices (got 11 in all)");
+  EXPECT_EQ(Complaint(whole.substr(0, whole.rfind("  vertex"))), "a.mesh: ends within a facet");
+  std::string uneven = AsciiStl();
+  uneven.insert(uneven.find(" endloop"), "  vertex 1 1 1\n");
+  EXPECT_EQ(Complaint(uneven), "a.mesh: line 8: a facet must have three vertices (got \"4\")");
   std::string bytes = BinaryStl();
   const float nan = std::numeric_limits<float>::quiet_NaN();
   std::memcpy(bytes.data() + 84 + 50 + 12, &nan, sizeof(nan));
   EXPECT_EQ(Complaint(bytes), "a.mesh: triangle 1 must have finite coordinates (got nan)");
   EXPECT_THAT(Complaint(BinaryStl().substr(0, 200)), testing::HasSubstr("of no known format"));
+}
+
+// OpenMesh takes "router" and "outer_ring" for loops, and the three lines after a loop's beginning
+// for its vertices, whatever they are.
+TEST(ParseMesh, ReadsAsciiStlHoweverItIsSpreadOverLines) {
+  const std::string facets =
+      "FACET NORMAL 0 0 1\nOUTER LOOP\n\nVERTEX 0 0 0\n\nVERTEX 1 0 0\nVERTEX 0 1e-50 0\n"
+      "ENDLOOP\nENDFACET\n"
+      "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 2 0 endloop endfacet\n"
+      "facet normal 0 0 1\nouter loop vertex 0 0 0\nvertex 1 0 0 vertex 0 4 0 endloop\nendfacet\n";
+  for (const char* name : {"solid router vertex\n", "SOLID\n"}) {
+    const ImportedMesh mesh = ParseMesh(name + facets + "endsolid outer_ring\n", "a.stl");
+    EXPECT_DOUBLE_EQ(mesh.area_m2, 1.0 + 2.0);
+    EXPECT_EQ(mesh.num_triangles(), 2U);
+    EXPECT_EQ(mesh.num_flat, 1U);
+  }
 }
 
 // OpenMesh's reader takes a colour for the next face.
@@ -178,10 +196,28 @@ TEST(ParseMesh, RefusesADamagedOff) {
             "a.mesh: line 6: a face must name its corners (got \"4\")");
 }
 
+TEST(ParseMesh, TakesNoWordInACommentForAScene) {
+  EXPECT_EQ(ParseMesh(std::string("# exported from <COLLADA> {\"asset\"}\n") + kObj, "a").num_faces,
+            4U);
+}
+
+TEST(ParseMesh, TakesNoUnitThatAssimpHasAppliedAlready) {
+  try {
+    (void)ParseMesh("<?xml version=\"1.0\"?><COLLADA/>", "a.dae", {.unit_m = 0.01, .y_up = {}});
+    FAIL() << "expected InputError";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "a.dae: says itself what its unit and its upward axis are: leave out unit_m and up");
+  }
+}
+
 TEST(ParseMesh, SaysWhyASceneCannotBeRead) {
   if (!HasAssimp()) GTEST_SKIP() << "built without assimp";
-  EXPECT_THAT(Complaint("glTF\2\0\0\0garbage"),
-              testing::StartsWith("a.mesh: cannot be read as glb"));
+  const std::string header("glTF\2\0\0\0\x40\0\0\0\xF0\xFF\xFF\xFFJSON", 20);
+  EXPECT_EQ(Complaint(header), "a.mesh: ends within its first chunk of 4294967280 bytes");
+  EXPECT_EQ(Complaint(header.substr(0, 19)), "a.mesh: ends within its header");
+  EXPECT_EQ(Complaint("glTF\1" + header.substr(5)), "a.mesh: must be glTF of version 2 (got 1)");
   EXPECT_THAT(Complaint(R"({"asset": {"version": "2.0"}})"),
               testing::AnyOf(testing::StartsWith("a.mesh: cannot be read as gltf"),
                              testing::EndsWith("holds no triangle")));

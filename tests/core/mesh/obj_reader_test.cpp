@@ -72,6 +72,13 @@ TEST_F(ReadObjTest, UnderstandsNegativeIndicesGroupsContinuationsAndCarriageRetu
   EXPECT_DOUBLE_EQ(Area(mesh), 0.5);
 }
 
+TEST_F(ReadObjTest, GoesOnInTheNextLineOnlyWhereGeometryDoes) {
+  const Mesh mesh = ReadMerged(Write("# C:\\\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl C:\\paint\\\n"
+                                     "f 1 2 3# one \\\nf 1 2 \\\n3\n"),
+                               1.0, false);
+  EXPECT_EQ(mesh.triangles.size(), 2U);
+}
+
 TEST_F(ReadObjTest, UnderstandsPlusSigns) {
   const Mesh mesh = ReadMerged(Write("v 0 0 0\nv +1e0 0 0\nv 0 +.5 +0\nf +1 +2 +3\n"), 1.0, false);
   ASSERT_EQ(mesh.triangles.size(), 1U);

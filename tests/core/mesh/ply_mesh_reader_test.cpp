@@ -123,6 +123,10 @@ TEST(ReadPlyMesh, RefusesWhatIsNoNumberAndNoVertex) {
             "p.ply: face 0 must name one of the 3 vertices, counted from 0 (got 3)");
   EXPECT_EQ(PlyComplaint(header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n"),
             "p.ply: face 0 must name one of the 3 vertices, counted from 0 (got -1)");
+  EXPECT_EQ(PlyComplaint(header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 1.5\n"),
+            "p.ply: face 0 must name one of the 3 vertices, counted from 0 (got 1.5)");
+  EXPECT_EQ(PlyComplaint(header + "0 0 0\n1 0 0\n0 1 0\n2.5 0 1 1\n"),
+            "p.ply: element face: a list's length must be a whole number (got 2.5)");
   EXPECT_EQ(PlyComplaint(header + "0 0 0\n1 0 nan\n0 1 0\n3 0 1 2\n"),
             "p.ply: vertex 1 must have three finite coordinates (got nan)");
   EXPECT_EQ(PlyComplaint(header + "0 0 0\n1 0 2e9\n0 1 0\n3 0 1 2\n"),
