@@ -51,9 +51,11 @@ void DescribeSideStretch(Archive& a, Structure& s) {
 
 template <class Archive>
 void Describe(Archive& a, PlatformRoofSpec& s) {
-  a.Optional("begin_s_m", s.begin_s_m, "Chainage where it begins; absent = with the platform.",
+  a.Optional("begin_s_m", s.begin_s_m,
+             "Chainage where it begins; absent = with the platform, or behind its ramp.",
              ChainageLimits());
-  a.Optional("end_s_m", s.end_s_m, "Chainage where it ends; absent = with the platform.",
+  a.Optional("end_s_m", s.end_s_m,
+             "Chainage where it ends; absent = with the platform, or before its ramp.",
              ChainageLimits());
   a.Optional("height_m", s.height_m, "Of its lower side above the platform.", Within(2.2, 10));
   a.Optional("column_spacing_m", s.column_spacing_m, "At most.", Within(2, 50));

@@ -61,11 +61,15 @@ double GroundRise::Height_m(const CrossSection& section,
     if (hills_.PlaceOf(s_m, d_m) == TunnelHills::Place::kOver) rough = 0.0;
   }
   if (!retained_.empty()) {
-    height_m = retained_.Height_m(section, s_m, d_m, {terrain_m, height_m});
+    const auto is_in_tunnel = [&](double track_d_m) { return hills_.IsInside(s_m, track_d_m); };
+    const double behind_walls_m =
+        retained_.Height_m(section, {s_m, d_m}, {terrain_m, height_m}, is_in_tunnel);
+    // Over a tunnel, a wall before it may hold more of the hill, but not less.
+    height_m = level == GroundLevel::kOfHill ? std::max(height_m, behind_walls_m) : behind_walls_m;
     rough *= retained_.Roughness(s_m, d_m);
   }
   return rough * spec_.roughness_sigma_m * roughness_.At(along, across) + height_m -
-         Drop_m(s_m, d_m);
+         (level == GroundLevel::kOfHill ? 0.0 : Drop_m(s_m, d_m));
 }
 
 double GroundRise::Undulation_m(double distance_m, double s_m, double d_m) const {

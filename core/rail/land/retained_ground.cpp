@@ -23,12 +23,16 @@ constexpr double kBelowTop_m = 0.05;
 
 constexpr double kSmoothBehind_m = 1.0;
 
-/// Whether a wall continues the other one at a chainage.
+/// Whether the ground behind the wall goes on behind another one beyond a chainage, at which the
+/// wall begins or ends: the other one stands there, too, and its back is in the same line.
 bool Continues(const RetainingWallSpec& wall, const RetainingWallSpec& other, double at_s_m) {
   constexpr double kSame_m = 0.01;
+  const bool is_begin = at_s_m == wall.begin_s_m;
   const bool is_there =
-      std::abs(other.begin_s_m - at_s_m) < kSame_m || std::abs(other.end_s_m - at_s_m) < kSame_m;
-  return &wall != &other && is_there && wall.track == other.track && wall.side == other.side;
+      is_begin ? other.begin_s_m < at_s_m - kSame_m && other.end_s_m > at_s_m - kSame_m
+               : other.end_s_m > at_s_m + kSame_m && other.begin_s_m < at_s_m + kSame_m;
+  return &wall != &other && is_there && wall.track == other.track && wall.side == other.side &&
+         std::abs(BackOf_m(wall) - BackOf_m(other)) < kFrontEnd_m;
 }
 
 }  // namespace
@@ -60,9 +64,10 @@ double RetainedGround::Behind_m(const Wall& wall, double s_m, double d_m) {
 }
 
 double RetainedGround::Height_m(const CrossSection& section,
-                                double s_m,
-                                double d_m,
-                                const GroundHeights& without) const {
+                                const GroundPlace& place,
+                                const GroundHeights& without,
+                                const std::function<bool(double)>& is_in_tunnel) const {
+  const auto [s_m, d_m] = place;
   double height_m = without.built_m;
   for (const Wall& wall : walls_) {
     if (!Stands(static_cast<std::size_t>(&wall - walls_.data()), s_m, s_m)) continue;
@@ -79,8 +84,9 @@ double RetainedGround::Height_m(const CrossSection& section,
     behind_wall_m = std::clamp(behind_wall_m, height_m - change_m, height_m + change_m);
     // Other tracks behind the wall lie in cuttings or on embankments of their own.
     const double step_d_m = StepAt(static_cast<std::size_t>(&wall - walls_.data()), s_m).front_m;
-    const double beside_m = section.DistanceFromTracksIf_m(d_m, [&](double track_d_m) {
-      return SignOf(wall.spec->side) * (track_d_m - step_d_m) >= 0.0;
+    const double sign = SignOf(wall.spec->side);
+    const double beside_m = section.DistanceFromTracksIf_m(d_m, [&, s_m = s_m](double track_d_m) {
+      return sign * (track_d_m - step_d_m) >= 0.0 && !is_in_tunnel(track_d_m);
     }) - kFormationEdge_m;
     height_m = CutAndFill_m(behind_wall_m, beside_m);
   }

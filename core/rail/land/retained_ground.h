@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "core/rail/chunk_context.h"
@@ -12,6 +13,11 @@ namespace railcast {
 struct GroundHeights {
   double terrain_m{};  ///< Of the land as it was before the line was built.
   double built_m{};    ///< With cuttings and embankments, but without walls.
+};
+
+struct GroundPlace {
+  double s_m{};
+  double d_m{};  ///< Left of the alignment.
 };
 
 /// The ground behind the retaining walls along a stretch of the line. At the wall's back it is as
@@ -33,10 +39,11 @@ class RetainedGround {
   [[nodiscard]] bool AnyIn(double from_s_m, double to_s_m) const;
   [[nodiscard]] std::size_t num_walls() const { return walls_.size(); }
   /// Height of the ground above the formation at (s, d), d being left of the alignment.
+  /// @param is_in_tunnel Tells by its d which tracks have a hill above them instead of a formation.
   [[nodiscard]] double Height_m(const CrossSection& section,
-                                double s_m,
-                                double d_m,
-                                const GroundHeights& without) const;
+                                const GroundPlace& place,
+                                const GroundHeights& without,
+                                const std::function<bool(double)>& is_in_tunnel) const;
   /// From 0 at the back of a wall to 1 a metre and more behind it, and wherever there is none.
   [[nodiscard]] double Roughness(double s_m, double d_m) const;
   /// Whether a wall stands all along a stretch.

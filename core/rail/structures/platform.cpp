@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/base/text.h"
+#include "core/rail/line/turnout_place.h"
 #include "core/rail/model_parts.h"
 #include "core/rail/structure_gauge.h"
 #include "core/rail/structures/structure_track.h"
@@ -104,9 +105,12 @@ double MeanCurvatureAt(const Alignment& alignment, const TrackCourse& track, dou
   const auto place_at = [&](double at_s_m) {
     return Vector3(track.WorldFromTrack(alignment, at_s_m).translation());
   };
+  // Beyond its ends the line is straight.
+  const double from_s_m = std::max(0.0, s_m - kHalf_m);
+  const double to_s_m = std::min(alignment.length_m(), s_m + kHalf_m);
   const double turn_rad =
-      track.Heading_rad(alignment, s_m + kHalf_m) - track.Heading_rad(alignment, s_m - kHalf_m);
-  return turn_rad / (place_at(s_m + kHalf_m) - place_at(s_m - kHalf_m)).head<2>().norm();
+      track.Heading_rad(alignment, to_s_m) - track.Heading_rad(alignment, from_s_m);
+  return turn_rad / (place_at(to_s_m) - place_at(from_s_m)).head<2>().norm();
 }
 
 /// The frame of a platform's edge. Outside a canted curve, the lower corner of the upright nose
@@ -223,10 +227,16 @@ void CheckShape(const StructurePlace& place, const PlatformSpec& platform, World
   const ChainageRange level = LevelRange(platform);
   if (!(roof.begin_s_m >= level.begin_s_m && roof.end_s_m <= level.end_s_m &&
         roof.begin_s_m < roof.end_s_m)) {
+    if (level.begin_s_m >= level.end_s_m) {
+      return faults.Add(place.pointer + "/roof",
+                        "must not be given, since the ramps leave no level part of the platform",
+                        StretchText(platform.begin_s_m, platform.end_s_m));
+    }
     faults.Add(place.pointer + "/roof",
-               "must lie on the platform, from " + NumberText(level.begin_s_m) + " to " +
-                   NumberText(level.end_s_m) + " m",
-               "from " + NumberText(roof.begin_s_m) + " to " + NumberText(roof.end_s_m) + " m");
+               (platform.has_ramps ? "must lie between the platform's ramps, "
+                                   : "must lie on the platform, ") +
+                   StretchText(level.begin_s_m, level.end_s_m),
+               StretchText(roof.begin_s_m, roof.end_s_m));
   }
 }
 

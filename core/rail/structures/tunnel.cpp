@@ -220,8 +220,11 @@ class TunnelBuilder {
     for (const double side : {-1.0, 1.0}) {
       Outline top;
       Outline foot;
+      // No ground is seen beyond its strip.
+      const double edge_m = context_.land->width().At(mouth_s_m, side) - side * middle_m;
+      const double farthest_m = std::min(kFarthest_m, edge_m);
       double y_m = shape_.PortalHalfWidth_m() - kStep_m;
-      for (; y_m < kFarthest_m; y_m += kStep_m) {
+      for (; y_m < farthest_m; y_m += kStep_m) {
         const double before_m = ground_m(mouth_s_m - 0.01 * into_hill, side * y_m);
         const double behind_m =
             ground_m(mouth_s_m + into_hill * TunnelShape::kPortalDepth_m, side * y_m);

@@ -29,11 +29,6 @@ constexpr double kShortestPart_m<TunnelSpec> = 20.0;
 /// So far from what stands in a gauge it is cut.
 constexpr double kGaugeMargin_m = 1.0;
 
-template <class Structure>
-constexpr bool kIsCut =
-    std::is_same_v<Structure, TunnelSpec> || std::is_same_v<Structure, BridgeSpec> ||
-    std::is_same_v<Structure, PlatformSpec>;
-
 /// What is left of a structure without some stretches of chainage.
 template <class Structure>
 std::vector<StructureSpec> PartsOutside(const Structure& structure,

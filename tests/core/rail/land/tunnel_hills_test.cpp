@@ -22,8 +22,9 @@ constexpr double kPortalTop_m = 1.8 + 5.1 + 1.5;
 
 /// A straight line through level land so high above top of rail, with a tunnel from kMouth_s_m on.
 WorldSpec LineBelow(double land_m) {
-  const std::string file =
-      testing::TempDir() + "/plane_" + std::to_string(std::lround(10.0 * land_m)) + ".asc";
+  const std::string file = testing::TempDir() + "/" +
+                           testing::UnitTest::GetInstance()->current_test_info()->name() + "_" +
+                           std::to_string(std::lround(10.0 * land_m)) + ".asc";
   std::ofstream stream(file);
   stream << "ncols 20\nnrows 10\nxllcorner -100\nyllcorner -250\ncellsize 50\n";
   for (int row = 0; row < 10; ++row) {
@@ -156,6 +157,29 @@ TEST(TunnelHills, LeaveATrackBesideTheTunnelInItsCutting) {
   EXPECT_NEAR(probe.HeightBelow_m(ground, {300.0, 28.0, 60.0}).value_or(0.0), -0.7, 1e-4);
   EXPECT_NEAR(probe.HeightBelow_m(ground, {300.0, 10.0, 60.0}).value_or(0.0),
               -0.7 + (25.0 - 10.0 - 4.5) / 1.5, 0.05);
+}
+
+TEST(TunnelHills, AreBehindARetainingWallOfAnotherTrack) {
+  WorldSpec spec = LineBelow(30.0);
+  spec.tracks.push_back({.name = "outside", .offset_m = 25.0, .end_s_m = {}});
+  RetainingWallSpec wall;
+  wall.name = "wall";
+  wall.track = "outside";
+  wall.side = TrackSide::kRight;
+  wall.begin_s_m = kMouth_s_m + 30.0;
+  wall.end_s_m = 400.0;
+  wall.distance_m = 5.0;
+  wall.height_m = 4.0;
+  spec.structures.emplace_back(wall);
+  const StructureProbe probe(spec);
+  const SurfaceClass& ground = probe.line().surfaces().ground;
+  for (const double d_m : {0.0, 5.5, 6.5, 10.0}) {
+    // Its back is 5.8 m from the axis of the track before it.
+    EXPECT_NEAR(probe.HeightBelow_m(ground, {300.0, d_m, 60.0}).value_or(0.0),
+                3.95 + (25.0 - 5.8 - d_m) / 1.5, 0.05)
+        << d_m;
+  }
+  EXPECT_NE(probe.LabelSeen({300.0, 0.0, 1.2}, {300.0, 7.0, 1.2}), ground.label);
 }
 
 TEST(TunnelHills, AreNotWhereThingsStandInTheTunnel) {

@@ -132,6 +132,21 @@ TEST(RetainingWall, PassesToTheOrdinaryGroundTowardsItsEnds) {
   }
 }
 
+TEST(RetainingWall, IsNotContinuedByOneBehindIt) {
+  // Two terraces of the same length, and one behind the end of the other.
+  RetainingWallSpec first = Beside<RetainingWallSpec>(TrackSide::kLeft);
+  RetainingWallSpec behind = first;
+  behind.name = "behind";
+  behind.distance_m = first.distance_m + 4.0;
+  RetainingWallSpec after = behind;
+  after.begin_s_m = 190.0;
+  after.end_s_m = 240.0;
+  for (const RetainingWallSpec& other : {behind, after}) {
+    const StructureProbe probe(SmoothCurveWithWalls({first, other}));
+    EXPECT_NEAR(GroundBelow_m(probe, 190.0 - 0.75, 4.7), -0.7 + 0.75 / 1.5, 0.05);
+  }
+}
+
 TEST(RetainingWall, LeavesATrackBehindItOnItsFormation) {
   WorldSpec spec = SmoothCurveWithWalls({Beside<RetainingWallSpec>(TrackSide::kLeft)});
   spec.tracks.push_back({.name = "upper", .offset_m = 10.5, .end_s_m = {}});
