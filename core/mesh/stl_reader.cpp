@@ -100,7 +100,7 @@ std::uint32_t NumBinaryTriangles(const std::string& bytes) {
 }
 
 /// Whether a word is a keyword, which some programs write in capitals.
-bool IsKeyword(std::string_view word, std::string_view keyword) {
+bool IsStlWord(std::string_view word, std::string_view keyword) {
   return std::ranges::equal(word, keyword, {}, [](unsigned char letter) {
     return static_cast<char>(std::tolower(letter));
   });
@@ -115,11 +115,11 @@ class AsciiStlReader {
     for (; const auto line = TakeLine(rest_); ++line_) {
       const auto words = Words(*line);
       // What follows is a name, which may be anything.
-      if (words.empty() || IsKeyword(words[0], "solid") || IsKeyword(words[0], "endsolid"))
+      if (words.empty() || IsStlWord(words[0], "solid") || IsStlWord(words[0], "endsolid"))
         continue;
       for (std::size_t i = 0; i < words.size(); ++i) {
-        if (IsKeyword(words[i], "vertex")) ReadVertex(std::span(words).subspan(i + 1), *line);
-        if (IsKeyword(words[i], "endloop")) EndLoop();
+        if (IsStlWord(words[i], "vertex")) ReadVertex(std::span(words).subspan(i + 1), *line);
+        if (IsStlWord(words[i], "endloop")) EndLoop();
       }
     }
     if (!loop_.empty()) throw InputError(shown_ + ": ends within a facet");

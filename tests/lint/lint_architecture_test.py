@@ -72,7 +72,7 @@ class Libraries(unittest.TestCase):
     def test_each_library_stays_where_it_belongs(self):
         self.assertEqual(faults_of({
             "core/trace/tracer.cpp": "#include <embree3/rtcore.h>\n",
-            "core/scene/obj_reader.cpp": "#include <OpenMesh/Core/IO/MeshIO.hh>\n",
+            "core/mesh/obj_reader.cpp": "#include <OpenMesh/Core/IO/MeshIO.hh>\n",
             "core/scenario/json_reader.h": "#include <nlohmann/json.hpp>\n",
             "core/io/pcd.cpp": "#include <pcl/io/pcd_io.h>\n",
             "viewer/main.cpp": "#include <vtkRenderer.h>\n#include <CLI/CLI.hpp>\n",
@@ -81,7 +81,7 @@ class Libraries(unittest.TestCase):
     def test_a_library_elsewhere_is_a_fault(self):
         for include, owners in {
             "embree3/rtcore.h": "core/trace and tests include Embree",
-            "OpenMesh/Core/IO/MeshIO.hh": "core/scene and tests include OpenMesh",
+            "OpenMesh/Core/IO/MeshIO.hh": "core/mesh and tests include OpenMesh",
             "nlohmann/json.hpp": "core/scenario, core/fidelity, core/io, generator, analysis and "
                                  "tests include nlohmann",
             "pcl/point_types.h": "core/io, core/include/railcast/io, generator, analysis, viewer and "
