@@ -11,16 +11,16 @@
 namespace railcast {
 namespace {
 
-using PlanPoint = Eigen::Vector2d;
+using FootprintPoint = Eigen::Vector2d;
 
 constexpr double kBuildingFoot_m = -1.0;
 constexpr double kPaneProud_m = 0.02;
 
-std::vector<PlanPoint> LeftTurning(std::vector<PlanPoint> corners_m) {
+std::vector<FootprintPoint> LeftTurning(std::vector<FootprintPoint> corners_m) {
   double twice_area_m2 = 0.0;
   for (std::size_t i = 0; i < corners_m.size(); ++i) {
-    const PlanPoint& a = corners_m[i];
-    const PlanPoint& b = corners_m[(i + 1) % corners_m.size()];
+    const FootprintPoint& a = corners_m[i];
+    const FootprintPoint& b = corners_m[(i + 1) % corners_m.size()];
     twice_area_m2 += a.x() * b.y() - a.y() * b.x();
   }
   if (twice_area_m2 < 0.0) std::reverse(corners_m.begin(), corners_m.end());
@@ -36,19 +36,19 @@ void AddFace(std::initializer_list<Vector3> corners_m, Mesh& mesh) {
   }
 }
 
-Vector3 At(const PlanPoint& point, double z_m) {
+Vector3 At(const FootprintPoint& point, double z_m) {
   return {point.x(), point.y(), z_m};
 }
 
 /// One wall in plan; the outside is on its right.
 struct Wall {
-  PlanPoint begin_m;
-  PlanPoint end_m;
+  FootprintPoint begin_m;
+  FootprintPoint end_m;
 
   [[nodiscard]] double length_m() const { return (end_m - begin_m).norm(); }
 };
 
-std::vector<Wall> WallsOf(const std::vector<PlanPoint>& corners_m) {
+std::vector<Wall> WallsOf(const std::vector<FootprintPoint>& corners_m) {
   std::vector<Wall> walls;
   for (std::size_t i = 0; i < corners_m.size(); ++i) {
     walls.push_back({corners_m[i], corners_m[(i + 1) % corners_m.size()]});
@@ -79,13 +79,13 @@ void AddWindows(const std::vector<Wall>& walls, double eaves_m, Mesh& glass) {
   const int num_storeys = static_cast<int>(eaves_m / kStorey_m);
   const double spacing_m = WindowSpacing_m(walls, num_storeys);
   for (const Wall& wall : walls) {
-    const PlanPoint along = (wall.end_m - wall.begin_m).normalized();
-    const PlanPoint outwards(along.y(), -along.x());
+    const FootprintPoint along = (wall.end_m - wall.begin_m).normalized();
+    const FootprintPoint outwards(along.y(), -along.x());
     const int count = NumWindowsOn(wall, spacing_m);
     for (int i = 0; i < count; ++i) {
-      const PlanPoint middle_m =
+      const FootprintPoint middle_m =
           wall.begin_m + along * (wall.length_m() * (i + 0.5) / count) + kPaneProud_m * outwards;
-      const PlanPoint half_m = 0.5 * kWindowWidth_m * along;
+      const FootprintPoint half_m = 0.5 * kWindowWidth_m * along;
       for (int storey = 0; storey < num_storeys; ++storey) {
         const double sill_m = storey * kStorey_m + kWindowSill_m;
         const double top_m = sill_m + kWindowHeight_m;
@@ -97,9 +97,9 @@ void AddWindows(const std::vector<Wall>& walls, double eaves_m, Mesh& glass) {
   }
 }
 
-void AddFlatRoof(const std::vector<PlanPoint>& corners_m, double eaves_m, Mesh& roof) {
+void AddFlatRoof(const std::vector<FootprintPoint>& corners_m, double eaves_m, Mesh& roof) {
   const auto first = static_cast<std::uint32_t>(roof.vertices.size());
-  for (const PlanPoint& corner : corners_m) {
+  for (const FootprintPoint& corner : corners_m) {
     roof.vertices.emplace_back(At(corner, eaves_m).cast<float>());
   }
   for (const auto& [a, b, c] : TriangulatePolygon(corners_m)) {
@@ -108,19 +108,19 @@ void AddFlatRoof(const std::vector<PlanPoint>& corners_m, double eaves_m, Mesh& 
 }
 
 /// The four corners, beginning with a longer side.
-std::array<PlanPoint, 4> FromALongSide(const std::vector<PlanPoint>& corners_m) {
+std::array<FootprintPoint, 4> FromALongSide(const std::vector<FootprintPoint>& corners_m) {
   Check(corners_m.size() == 4, "a gable roof covers four corners");
   const double first_m =
       (corners_m[1] - corners_m[0]).norm() + (corners_m[3] - corners_m[2]).norm();
   const double other_m =
       (corners_m[2] - corners_m[1]).norm() + (corners_m[0] - corners_m[3]).norm();
   const std::size_t turn = first_m >= other_m ? 0 : 1;
-  std::array<PlanPoint, 4> turned;
+  std::array<FootprintPoint, 4> turned;
   for (std::size_t i = 0; i < 4; ++i) turned[i] = corners_m[(i + turn) % 4];
   return turned;
 }
 
-void AddGableRoof(const std::array<PlanPoint, 4>& corners_m,
+void AddGableRoof(const std::array<FootprintPoint, 4>& corners_m,
                   double eaves_m,
                   double ridge_m,
                   const LinesideSurfaces& surfaces,
@@ -147,7 +147,7 @@ double RidgeRise_m(const BuildingShape& shape) {
 }
 
 Model MakeBuilding(const BuildingShape& shape, const LinesideSurfaces& surfaces) {
-  const std::vector<PlanPoint> corners_m = LeftTurning(shape.footprint_m);
+  const std::vector<FootprintPoint> corners_m = LeftTurning(shape.footprint_m);
   const std::vector<Wall> walls = WallsOf(corners_m);
   Model model{.name = "building", .parts = {}};
   Mesh& masonry = MeshOf(surfaces.wall, model);
