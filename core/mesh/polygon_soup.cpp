@@ -13,10 +13,10 @@
 namespace railcast {
 namespace {
 
-using Corners = std::vector<std::uint32_t>;
+using FaceCorners = std::vector<std::uint32_t>;
 
 /// Newell's normal of a polygon: its mean normal times twice its area.
-Vector3 NewellNormal(const std::vector<Vector3>& points, const Corners& face) {
+Vector3 NewellNormal(const std::vector<Vector3>& points, const FaceCorners& face) {
   Vector3 normal = Vector3::Zero();
   for (std::size_t i = 1; i + 1 < face.size(); ++i) {
     const Vector3& origin = points[face[0]];
@@ -35,7 +35,7 @@ std::vector<std::array<std::uint32_t, 3>> Fan(std::size_t num_corners) {
 /// rather than in the plane of triangulation: in a face that is not planar, a triangle
 /// perpendicular to the mean plane has no area there.
 std::vector<std::array<std::uint32_t, 3>> Triangulate(const std::vector<Vector3>& points,
-                                                      const Corners& face) {
+                                                      const FaceCorners& face) {
   if (face.size() == 3) return {{face[0], face[1], face[2]}};
   double extent = 0.0;
   for (const std::uint32_t corner : face) {
