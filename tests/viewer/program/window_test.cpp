@@ -175,10 +175,10 @@ TEST_F(Window, TurnsAndZoomsAboutWhatItLooksAt) {
   Click({320, 240}, 5);
   const Camera back = CameraNow();
   EXPECT_NEAR((back.eye_m - back.target_m).norm(), way_before_m.norm(), 0.01);
-  // The camera turns up to straight above the target and no farther.
+  // The camera turns up to straight above the target and no farther. Two drags are enough, but on a
+  // busy machine the window may see only the end of one.
   Drag({300, 400}, {300, 5});
-  Drag({300, 5}, {300, 400});
-  Drag({300, 5}, {300, 400});
+  for (int i = 0; i < 4; ++i) Drag({300, 5}, {300, 400});
   const Camera above = CameraNow();
   EXPECT_NEAR(std::abs(above.eye_m.z() - above.target_m.z()), way_before_m.norm(), 0.01);
   Press("4");
