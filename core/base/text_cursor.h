@@ -41,4 +41,12 @@ template <typename Number>
   return number;
 }
 
+/// As ParseNumber(), with a plus sign allowed before the number, which from_chars() rejects. "+-1"
+/// is no number.
+template <typename Number>
+[[nodiscard]] std::optional<Number> ParseSignedNumber(std::string_view word) {
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+  return ParseNumber<Number>(word);
+}
+
 }  // namespace railcast

@@ -1,14 +1,11 @@
 #include "core/mesh/assimp_reader.h"
 
-#include <assimp/commonMetaData.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <assimp/Importer.hpp>
-#include <cmath>
 #include <cstring>
-#include <unordered_map>
 #include <utility>
 
 #include "core/base/error.h"
@@ -23,23 +20,6 @@ Eigen::Affine3d Matrix(const aiMatrix4x4& m) {
       m.d3, m.d4;
   return Eigen::Affine3d(matrix);
 }
-
-/// Names, each once.
-class Names {
- public:
-  explicit Names(std::vector<std::string>& names) : names_(names) {}
-
-  std::uint32_t IndexOf(const std::string& name) {
-    if (name.empty()) return PolygonSoup::kUnnamed;
-    const auto [it, is_new] = indices_.try_emplace(name, static_cast<std::uint32_t>(names_.size()));
-    if (is_new) names_.push_back(name);
-    return it->second;
-  }
-
- private:
-  std::vector<std::string>& names_;
-  std::unordered_map<std::string, std::uint32_t> indices_;
-};
 
 /// Gathers the meshes of a scene's nodes.
 class SceneGatherer {
@@ -72,11 +52,11 @@ class SceneGatherer {
       }
       soup_.points.push_back(point);
     }
-    const std::uint32_t group = groups_.IndexOf(node);
+    const std::uint32_t group = groups_.Of(node);
     const std::uint32_t material =
-        materials_.IndexOf(mesh.mMaterialIndex < scene_.mNumMaterials
-                               ? scene_.mMaterials[mesh.mMaterialIndex]->GetName().C_Str()
-                               : "");
+        materials_.Of(mesh.mMaterialIndex < scene_.mNumMaterials
+                          ? scene_.mMaterials[mesh.mMaterialIndex]->GetName().C_Str()
+                          : "");
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
       const aiFace& face = mesh.mFaces[i];
       std::vector<std::uint32_t> corners;  // Two of a line, one of a point.
@@ -95,8 +75,8 @@ class SceneGatherer {
   const aiScene& scene_;
   const std::string& shown_;
   PolygonSoup soup_;
-  Names materials_;
-  Names groups_;
+  NameIndices materials_;
+  NameIndices groups_;
 };
 
 /// FBX files say what their unit is, in centimetres, and which axis is up. assimp has turned and
@@ -140,9 +120,9 @@ bool HasAssimp() {
 }
 
 SceneMesh ReadScene(const std::string& bytes,
+                    const std::string& format,
                     const std::filesystem::path& file,
                     const std::string& shown) {
-  const std::string format = SceneFormatOf(bytes).value_or("");
   if (format == "glb") CheckGlb(bytes, shown);
   Assimp::Importer importer;
   // Everything but triangles' corners only takes time.

@@ -22,15 +22,13 @@ struct SceneMesh {
 /// like: "glb", "gltf", "fbx", "dae" or "3ds".
 [[nodiscard]] std::optional<std::string> SceneFormatOf(const std::string& bytes);
 
-/// Whether `bytes` are a file, DAE or 3DS, that assimp turns and scales as the file says, so that
-/// no other unit or axis can be given.
-[[nodiscard]] bool HasOwnUnits(const std::string& bytes);
-
 /// Reads a glTF, FBX, DAE or 3DS file held in `bytes` by assimp, with the names of its materials
 /// and nodes. Animations are not played: everything is as in the file's rest pose.
+/// @param format As SceneFormatOf() has it.
 /// @param file Beside it other files that it names are looked for; empty = they are not read.
 /// @throws InputError "shown: rule" if assimp cannot read it, or was not built in.
 [[nodiscard]] SceneMesh ReadScene(const std::string& bytes,
+                                  const std::string& format,
                                   const std::filesystem::path& file,
                                   const std::string& shown);
 

@@ -24,6 +24,11 @@ namespace {
 
 enum class Format { kObj, kPly, kAsciiStl, kBinaryStl, kOff, kScene };
 
+struct KnownFormat {
+  Format format{};
+  std::string scene{};  ///< Of kScene: as SceneFormatOf() has it.
+};
+
 constexpr std::string_view kWordBreaks = " \t\r\n\v\f";
 
 /// The first `length` bytes.
@@ -64,19 +69,19 @@ bool HasExtension(const std::filesystem::path& file, std::string_view lower) {
   return extension == lower;
 }
 
-std::optional<Format> FormatOf(const std::string& bytes, const std::filesystem::path& file) {
+std::optional<KnownFormat> FormatOf(const std::string& bytes, const std::filesystem::path& file) {
   const std::string_view word = FirstWord(Begin(bytes, 1024));
   const bool is_solid = word == "solid" || word == "SOLID";
-  if (IsBinaryStl(bytes)) return Format::kBinaryStl;
-  if (word == "ply") return Format::kPly;
+  if (IsBinaryStl(bytes)) return KnownFormat{Format::kBinaryStl};
+  if (word == "ply") return KnownFormat{Format::kPly};
   if (is_solid &&
       (HasWord(Begin(bytes, 65536), "facet") || HasWord(Begin(bytes, 65536), "FACET"))) {
-    return Format::kAsciiStl;
+    return KnownFormat{Format::kAsciiStl};
   }
-  if (IsOff(Begin(bytes, 4096))) return Format::kOff;
-  if (SceneFormatOf(bytes)) return Format::kScene;
-  if (HasExtension(file, ".obj") || HasObjLine(bytes)) return Format::kObj;
-  if (is_solid) return Format::kAsciiStl;
+  if (IsOff(Begin(bytes, 4096))) return KnownFormat{Format::kOff};
+  if (const auto scene = SceneFormatOf(bytes)) return KnownFormat{Format::kScene, *scene};
+  if (HasExtension(file, ".obj") || HasObjLine(bytes)) return KnownFormat{Format::kObj};
+  if (is_solid) return KnownFormat{Format::kAsciiStl};
   return std::nullopt;
 }
 
@@ -105,13 +110,18 @@ struct MeshBytes {
 };
 
 /// Reads a scene by assimp and takes from it the units that are not given.
-PolygonSoup ReadSceneIn(const MeshBytes& source, const std::string& shown, MeshUnits& units) {
-  if (HasOwnUnits(source.bytes) && (units.unit_m || units.y_up)) {
+PolygonSoup ReadSceneIn(const MeshBytes& source,
+                        const std::string& format,
+                        const std::string& shown,
+                        MeshUnits& units) {
+  // These assimp has turned and scaled as the file says.
+  const bool has_own_units = format == "dae" || format == "3ds";
+  if (has_own_units && (units.unit_m || units.y_up)) {
     throw InputError(shown + ": says itself what its unit and its upward axis are: leave out " +
                      "unit_m and up");
   }
-  SceneMesh scene =
-      ReadScene(source.bytes, source.is_on_disk ? source.file : std::filesystem::path(), shown);
+  SceneMesh scene = ReadScene(source.bytes, format,
+                              source.is_on_disk ? source.file : std::filesystem::path(), shown);
   if (!units.unit_m) units.unit_m = scene.unit_m;
   if (!units.y_up) units.y_up = scene.y_up;
   return std::move(scene.soup);
@@ -119,15 +129,16 @@ PolygonSoup ReadSceneIn(const MeshBytes& source, const std::string& shown, MeshU
 
 ImportedMesh ParseBytes(MeshBytes source, const MeshUnits& given) {
   const std::string shown = ShownPath(source.file);
-  const std::optional<Format> format = FormatOf(source.bytes, source.file);
-  if (!format) {
+  const std::optional<KnownFormat> known = FormatOf(source.bytes, source.file);
+  if (!known) {
     throw InputError(shown + ": is of no known format; " + Readable() + " files can be read");
   }
   MeshUnits units = given;
   const double largest = static_cast<double>(std::numeric_limits<float>::max()) /
                          std::max(1.0, units.unit_m.value_or(1.0));
   PolygonSoup soup;
-  switch (*format) {
+  const Format format = known->format;
+  switch (format) {
     case Format::kObj: {
       std::istringstream in(std::move(source.bytes));
       soup = ObjReader(shown, largest).Read(in);
@@ -146,12 +157,12 @@ ImportedMesh ParseBytes(MeshBytes source, const MeshUnits& given) {
       soup = ReadOff(shown, source.bytes, largest);
       break;
     case Format::kScene:
-      soup = ReadSceneIn(source, shown, units);
+      soup = ReadSceneIn(source, known->scene, shown, units);
       break;
   }
   const double unit_m = units.unit_m.value_or(1.0);
   const bool is_single =
-      *format == Format::kScene || *format == Format::kAsciiStl || *format == Format::kBinaryStl;
+      format == Format::kScene || format == Format::kAsciiStl || format == Format::kBinaryStl;
   if (is_single) CheckPrecision(shown, soup, unit_m);
   ImportedMesh mesh = MakeTriangles(soup, unit_m, units.y_up.value_or(false));
   if (mesh.parts.empty()) throw InputError(shown + ": holds no triangle");

@@ -1,7 +1,6 @@
 #include "core/mesh/obj_reader.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <istream>
 #include <optional>
@@ -9,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/text_cursor.h"
 
 namespace railcast {
 namespace {
@@ -22,26 +22,17 @@ std::string_view NextToken(std::string_view& rest) {
   return token;
 }
 
-/// The token without a leading plus sign, which from_chars() rejects. Only one sign is allowed, so
-/// "+-1" is left unchanged (and rejected).
-std::string_view WithoutPlus(std::string_view token) {
-  if (token.starts_with('+') && !token.starts_with("+-")) token.remove_prefix(1);
-  return token;
+/// The rest of a line as a name, which may contain blanks. Without one, what the line before it
+/// began ends.
+std::string Name(std::string_view rest) {
+  rest.remove_prefix(std::min(rest.find_first_not_of(kBlanks), rest.size()));
+  return std::string(rest.substr(0, rest.find_last_not_of(kBlanks) + 1));
 }
 
 /// Whether a line holds a vertex, a face or the like, rather than a name.
 bool IsGeometry(std::string_view line) {
   const std::string_view keyword = NextToken(line);
   return keyword != "usemtl" && keyword != "g" && keyword != "o" && keyword != "mtllib";
-}
-
-template <typename Number>
-std::optional<Number> Parse(std::string_view token) {
-  token = WithoutPlus(token);
-  Number number{};
-  const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), number);
-  if (error != std::errc{} || end != token.data() + token.size()) return std::nullopt;
-  return number;
 }
 
 }  // namespace
@@ -60,8 +51,8 @@ PolygonSoup ObjReader::Read(std::istream& in) {
     const std::string_view keyword = NextToken(rest);
     if (keyword == "v") ReadVertex(rest);
     if (keyword == "f") ReadFace(rest);
-    if (keyword == "usemtl") ReadName(rest, materials_, soup_.materials, material_);
-    if (keyword == "g" || keyword == "o") ReadName(rest, groups_, soup_.groups, group_);
+    if (keyword == "usemtl") material_ = materials_.Of(Name(rest));
+    if (keyword == "g" || keyword == "o") group_ = groups_.Of(Name(rest));
   }
   // Faces may name vertices that come later, so that the highest index can be checked only here.
   if (highest_index_ > static_cast<int>(soup_.points.size())) {
@@ -94,7 +85,7 @@ void ObjReader::ReadVertex(std::string_view rest) {
   Vector3 point;
   for (int axis = 0; axis < 3; ++axis) {
     const std::string_view token = NextToken(rest);
-    const std::optional<double> number = Parse<double>(token);
+    const std::optional<double> number = ParseSignedNumber<double>(token);
     if (!number || !(std::abs(*number) <= largest_)) {
       Fail("a vertex must have three finite coordinates", token);
     }
@@ -112,27 +103,10 @@ void ObjReader::ReadFace(std::string_view rest) {
   soup_.AddFace(std::move(corners), material_, group_);
 }
 
-/// Names may contain blanks. A line without one ends what the line before it began.
-void ObjReader::ReadName(std::string_view rest,
-                         Indices& indices,
-                         std::vector<std::string>& names,
-                         std::uint32_t& current) const {
-  rest.remove_prefix(std::min(rest.find_first_not_of(kBlanks), rest.size()));
-  rest = rest.substr(0, rest.find_last_not_of(kBlanks) + 1);
-  if (rest.empty()) {
-    current = PolygonSoup::kUnnamed;
-    return;
-  }
-  const auto [it, is_new] =
-      indices.try_emplace(std::string(rest), static_cast<std::uint32_t>(names.size()));
-  if (is_new) names.emplace_back(rest);
-  current = it->second;
-}
-
 /// The vertex index of a face corner: 1 is the first vertex, and -1 is the last one read so far.
 int ObjReader::VertexOf(std::string_view corner) {
   const std::string_view index = corner.substr(0, corner.find('/'));
-  const std::optional<int> number = Parse<int>(index);
+  const std::optional<int> number = ParseSignedNumber<int>(index);
   if (!number) Fail("a face must name vertices by number", corner);
   const auto num_vertices = static_cast<int>(soup_.points.size());
   if (*number == 0 || *number < -num_vertices) FailIndex(index);

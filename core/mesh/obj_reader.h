@@ -4,7 +4,6 @@
 #include <iosfwd>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 
 #include "core/mesh/polygon_soup.h"
 
@@ -27,16 +26,9 @@ class ObjReader {
   [[nodiscard]] PolygonSoup Read(std::istream& in);
 
  private:
-  /// Names, each with its index.
-  using Indices = std::unordered_map<std::string, std::uint32_t>;
-
   bool ReadLogicalLine(std::istream& in, std::string& line);
   void ReadVertex(std::string_view rest);
   void ReadFace(std::string_view rest);
-  void ReadName(std::string_view rest,
-                Indices& indices,
-                std::vector<std::string>& names,
-                std::uint32_t& current) const;
   [[nodiscard]] int VertexOf(std::string_view corner);
   [[noreturn]] void FailIndex(std::string_view index) const;
   [[noreturn]] void Fail(const std::string& rule, std::string_view got) const;
@@ -44,8 +36,8 @@ class ObjReader {
   std::string shown_;
   double largest_;
   PolygonSoup soup_;
-  Indices materials_;
-  Indices groups_;
+  NameIndices materials_{soup_.materials};
+  NameIndices groups_{soup_.groups};
   std::uint32_t material_ = PolygonSoup::kUnnamed;
   std::uint32_t group_ = PolygonSoup::kUnnamed;
   int line_ = 1;

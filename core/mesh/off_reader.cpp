@@ -69,7 +69,7 @@ class OffReader {
   template <typename Number>
   [[nodiscard]] Number NumberAt(std::size_t i, const char* rule) const {
     const std::string_view word = i < lines_.words().size() ? lines_.words()[i] : "";
-    const auto number = ParseNumber<Number>(word.substr(word.starts_with('+') ? 1 : 0));
+    const auto number = ParseSignedNumber<Number>(word);
     if (!number) Fail(rule, word);
     return *number;
   }

@@ -231,11 +231,10 @@ class Reader {
   double NextWord(const Element& element) {
     constexpr std::string_view kBlanks = " \t\r\n\v\f";
     rest_.remove_prefix(std::min(rest_.find_first_not_of(kBlanks), rest_.size()));
-    std::string_view word = rest_.substr(0, rest_.find_first_of(kBlanks));
+    const std::string_view word = rest_.substr(0, rest_.find_first_of(kBlanks));
     if (word.empty()) FailShort(element);
     rest_.remove_prefix(word.size());
-    if (word.starts_with('+')) word.remove_prefix(1);
-    const auto number = ParseNumber<double>(word);
+    const auto number = ParseSignedNumber<double>(word);
     if (!number) {
       Fail("element " + ShownText(element.name) + ": must consist of numbers (got \"" +
            ShownText(word) + "\")");

@@ -25,6 +25,20 @@ Vector3 NewellNormal(const std::vector<Vector3>& points, const FaceCorners& face
   return normal;
 }
 
+/// The outline of a face as seen along a normal.
+std::vector<Eigen::Vector2d> Projected(const std::vector<Vector3>& points,
+                                       const FaceCorners& face,
+                                       const Vector3& normal) {
+  const Eigen::Quaterniond plan_from_file =
+      Eigen::Quaterniond::FromTwoVectors(normal, Vector3::UnitZ());
+  std::vector<Eigen::Vector2d> outline;
+  for (const std::uint32_t corner : face) {
+    const Vector3 offset = plan_from_file * (points[corner] - points[face[0]]);
+    outline.emplace_back(offset.head<2>());
+  }
+  return outline;
+}
+
 std::vector<std::array<std::uint32_t, 3>> Fan(std::size_t num_corners) {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   for (std::uint32_t i = 1; i + 1 < num_corners; ++i) triangles.push_back({0, i, i + 1});
@@ -43,16 +57,9 @@ std::vector<std::array<std::uint32_t, 3>> Triangulate(const std::vector<Vector3>
   }
   // Project the face along its mean normal. One that goes there and back has none, but is seen.
   const Vector3 normal = NewellNormal(points, face);
-  const bool has_normal = normal.norm() > TwiceFlatArea(extent);
-  const Eigen::Quaterniond plan_from_file =
-      Eigen::Quaterniond::FromTwoVectors(normal, Vector3::UnitZ());
-  std::vector<Eigen::Vector2d> outline;
-  for (const std::uint32_t corner : face) {
-    const Vector3 offset = plan_from_file * (points[corner] - points[face[0]]);
-    outline.emplace_back(offset.head<2>());
-  }
   std::vector<std::array<std::uint32_t, 3>> triangles =
-      has_normal ? ClipEars(outline) : Fan(face.size());
+      normal.norm() > TwiceFlatArea(extent) ? ClipEars(Projected(points, face, normal))
+                                            : Fan(face.size());
   for (auto& triangle : triangles) {
     for (std::uint32_t& corner : triangle) corner = face[corner];
   }
@@ -137,6 +144,13 @@ void PolygonSoup::AddFace(std::vector<std::uint32_t> corners,
   while (corners.size() > 1 && corners.back() == corners.front()) corners.pop_back();
   if (corners.size() < 3) return;
   faces.push_back({.corners = std::move(corners), .material = material, .group = group});
+}
+
+std::uint32_t NameIndices::Of(const std::string& name) {
+  if (name.empty()) return PolygonSoup::kUnnamed;
+  const auto [it, is_new] = indices_.try_emplace(name, static_cast<std::uint32_t>(names_.size()));
+  if (is_new) names_.push_back(name);
+  return it->second;
 }
 
 std::size_t ImportedMesh::num_triangles() const {

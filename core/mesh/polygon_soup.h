@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "railcast/scene.h"
@@ -30,6 +31,19 @@ struct PolygonSoup {
   void AddFace(std::vector<std::uint32_t> corners,
                std::uint32_t material = kUnnamed,
                std::uint32_t group = kUnnamed);
+};
+
+/// Finds the places of names in a list of PolygonSoup, which must outlive it.
+class NameIndices {
+ public:
+  explicit NameIndices(std::vector<std::string>& names) : names_(names) {}
+
+  /// The index of a name, which is added if it is new; kUnnamed if it is empty.
+  [[nodiscard]] std::uint32_t Of(const std::string& name);
+
+ private:
+  std::vector<std::string>& names_;
+  std::unordered_map<std::string, std::uint32_t> indices_;
 };
 
 /// Triangles whose faces have the same names in their file.

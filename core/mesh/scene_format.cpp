@@ -26,9 +26,4 @@ std::optional<std::string> SceneFormatOf(const std::string& bytes) {
   return std::nullopt;
 }
 
-bool HasOwnUnits(const std::string& bytes) {
-  const auto format = SceneFormatOf(bytes);
-  return format == "dae" || format == "3ds";
-}
-
 }  // namespace railcast

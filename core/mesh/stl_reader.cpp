@@ -136,7 +136,7 @@ class AsciiStlReader {
     Vector3 point;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::string_view word = axis < words.size() ? words[axis] : std::string_view();
-      const auto number = ParseNumber<double>(word.substr(word.starts_with('+') ? 1 : 0));
+      const auto number = ParseSignedNumber<double>(word);
       if (!number || !std::isfinite(*number)) {
         Fail("a vertex must have three finite coordinates", line);
       }
