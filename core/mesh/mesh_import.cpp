@@ -165,6 +165,7 @@ ImportedMesh ParseBytes(MeshBytes source, const MeshUnits& given) {
       format == Format::kScene || format == Format::kAsciiStl || format == Format::kBinaryStl;
   if (is_single) CheckPrecision(shown, soup, unit_m);
   ImportedMesh mesh = MakeTriangles(soup, unit_m, units.y_up.value_or(false));
+  mesh.has_own_up = format == Format::kScene;
   if (mesh.parts.empty()) throw InputError(shown + ": holds no triangle");
   return mesh;
 }

@@ -18,9 +18,10 @@ struct MeshUnits {
 /// Reads a mesh file: OBJ, PLY, STL or OFF, and if railcast was built with assimp also glTF, FBX,
 /// DAE and 3DS. The content decides which it is; the extension counts only for OBJ files without
 /// vertices.
-/// @throws InputError with one line, "file: rule" or "file: line N: rule (got value)", if the file
-///   cannot be read, is damaged or of no known format, has coordinates that are not finite or too
-///   far from its origin for the precision of its format, or if no triangle remains.
+/// @throws InputError with lines "file: rule" or "file: line N: rule (got value)", of OBJ and OFF
+///   files one for each line with a fault (20 at most), if the file cannot be read, is damaged or
+///   of no known format, has coordinates that are not finite or too far from its origin for the
+///   precision of its format, or if no triangle remains.
 ///
 ///     ImportedMesh wagon = ReadMesh("wagon.obj", {.unit_m = 0.01, .y_up = true});
 [[nodiscard]] ImportedMesh ReadMesh(const std::filesystem::path& file, const MeshUnits& units = {});

@@ -38,7 +38,7 @@ bool IsGeometry(std::string_view line) {
 }  // namespace
 
 ObjReader::ObjReader(std::string shown, double largest)
-    : shown_(std::move(shown)), largest_(largest) {}
+    : shown_(std::move(shown)), largest_(largest), faults_(shown_) {}
 
 PolygonSoup ObjReader::Read(std::istream& in) {
   std::string line;
@@ -49,17 +49,22 @@ PolygonSoup ObjReader::Read(std::istream& in) {
       rest.remove_prefix(kByteOrderMark.size());
     }
     const std::string_view keyword = NextToken(rest);
-    if (keyword == "v") ReadVertex(rest);
-    if (keyword == "f") ReadFace(rest);
-    if (keyword == "usemtl") material_ = materials_.Of(Name(rest));
-    if (keyword == "g" || keyword == "o") group_ = groups_.Of(Name(rest));
+    faults_.Try([&] { ReadKeyword(keyword, rest); });
   }
   // Faces may name vertices that come later, so that the highest index can be checked only here.
   if (highest_index_ > static_cast<int>(soup_.points.size())) {
     line_ = highest_index_line_;
-    FailIndex(std::to_string(highest_index_));
+    faults_.Try([&] { FailIndex(std::to_string(highest_index_)); });
   }
+  faults_.ThrowIfAny();
   return std::move(soup_);
+}
+
+void ObjReader::ReadKeyword(std::string_view keyword, std::string_view rest) {
+  if (keyword == "v") ReadVertex(rest);
+  if (keyword == "f") ReadFace(rest);
+  if (keyword == "usemtl") material_ = materials_.Of(Name(rest));
+  if (keyword == "g" || keyword == "o") group_ = groups_.Of(Name(rest));
 }
 
 /// Reads a line, joined with the next if it ends with a backslash.
@@ -82,7 +87,8 @@ bool ObjReader::ReadLogicalLine(std::istream& in, std::string& line) {
 }
 
 void ObjReader::ReadVertex(std::string_view rest) {
-  Vector3 point;
+  // One with a fault counts, too: faces would name others than they mean.
+  Vector3& point = soup_.points.emplace_back(Vector3::Zero());
   for (int axis = 0; axis < 3; ++axis) {
     const std::string_view token = NextToken(rest);
     const std::optional<double> number = ParseSignedNumber<double>(token);
@@ -91,7 +97,6 @@ void ObjReader::ReadVertex(std::string_view rest) {
     }
     point[axis] = *number;
   }
-  soup_.points.push_back(point);
 }
 
 void ObjReader::ReadFace(std::string_view rest) {

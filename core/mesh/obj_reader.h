@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/mesh/line_faults.h"
 #include "core/mesh/polygon_soup.h"
 
 namespace railcast {
@@ -22,11 +23,12 @@ class ObjReader {
   /// @param largest Largest coordinate that is finite in float32, also after conversion to metres.
   ObjReader(std::string shown, double largest);
 
-  /// @throws InputError "shown: line N: rule (got value)".
+  /// @throws InputError "shown: line N: rule (got value)" for each line with a fault.
   [[nodiscard]] PolygonSoup Read(std::istream& in);
 
  private:
   bool ReadLogicalLine(std::istream& in, std::string& line);
+  void ReadKeyword(std::string_view keyword, std::string_view rest);
   void ReadVertex(std::string_view rest);
   void ReadFace(std::string_view rest);
   [[nodiscard]] int VertexOf(std::string_view corner);
@@ -35,6 +37,7 @@ class ObjReader {
 
   std::string shown_;
   double largest_;
+  LineFaults faults_;
   PolygonSoup soup_;
   NameIndices materials_{soup_.materials};
   NameIndices groups_{soup_.groups};

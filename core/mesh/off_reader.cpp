@@ -6,6 +6,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/text_cursor.h"
+#include "core/mesh/line_faults.h"
 
 namespace railcast {
 namespace {
@@ -45,12 +46,19 @@ bool IsKeyword(std::string_view word) {
 class OffReader {
  public:
   OffReader(const std::string& shown, std::string_view bytes, double largest)
-      : shown_(shown), lines_(bytes), largest_(largest) {}
+      : shown_(shown), lines_(bytes), largest_(largest), faults_(shown) {}
 
   PolygonSoup Read() {
     ReadCounts();
-    for (std::size_t i = 0; i < num_vertices_; ++i) ReadVertex();
-    for (std::size_t i = 0; i < num_faces_; ++i) ReadFace();
+    for (std::size_t i = 0; i < num_vertices_; ++i) {
+      NextLine();
+      faults_.Try([&] { ReadVertex(); });
+    }
+    for (std::size_t i = 0; i < num_faces_; ++i) {
+      NextLine();
+      faults_.Try([&] { ReadFace(); });
+    }
+    faults_.ThrowIfAny();
     return std::move(soup_);
   }
 
@@ -62,8 +70,11 @@ class OffReader {
 
   void NextLine() {
     if (lines_.Next()) return;
-    throw InputError(shown_ + ": ends within its " + std::to_string(num_vertices_) +
-                     " vertices and " + std::to_string(num_faces_) + " faces");
+    faults_.Try([&] {
+      throw InputError(shown_ + ": ends within its " + std::to_string(num_vertices_) +
+                       " vertices and " + std::to_string(num_faces_) + " faces");
+    });
+    faults_.ThrowIfAny();
   }
 
   template <typename Number>
@@ -90,7 +101,6 @@ class OffReader {
 
   void ReadVertex() {
     constexpr const char* kRule = "a vertex must have three finite coordinates";
-    NextLine();
     Vector3 point;
     for (int axis = 0; axis < 3; ++axis) {
       const auto i = static_cast<std::size_t>(axis);
@@ -101,7 +111,6 @@ class OffReader {
   }
 
   void ReadFace() {
-    NextLine();
     const auto num = NumberAt<std::uint32_t>(0, "a face must begin with its number of corners");
     if (num >= lines_.words().size()) Fail("a face must name its corners", lines_.words()[0]);
     std::vector<std::uint32_t> corners;
@@ -118,6 +127,7 @@ class OffReader {
   const std::string& shown_;
   Lines lines_;
   double largest_;
+  LineFaults faults_;
   std::size_t num_vertices_ = 0;
   std::size_t num_faces_ = 0;
   PolygonSoup soup_;

@@ -17,7 +17,8 @@ namespace railcast {
 /// It is railcast's own because OpenMesh takes a face's colour for the next face.
 /// @param shown Name of the file in error messages.
 /// @param largest Largest coordinate that is allowed.
-/// @throws InputError "shown: line N: rule (got value)" if the file is damaged or ends early.
+/// @throws InputError "shown: line N: rule (got value)" for each line with a fault, and if the file
+///   ends early.
 [[nodiscard]] PolygonSoup ReadOff(const std::string& shown, std::string_view bytes, double largest);
 
 }  // namespace railcast

@@ -176,7 +176,7 @@ class Reader {
             FailCorner(i, value);
           corners.push_back(static_cast<std::uint32_t>(value));
         }
-        soup_.AddFace(std::move(corners));
+        if (is_corners) soup_.AddFace(std::move(corners));
       }
     }
   }

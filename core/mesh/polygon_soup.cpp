@@ -142,7 +142,10 @@ void PolygonSoup::AddFace(std::vector<std::uint32_t> corners,
                           std::uint32_t group) {
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
   while (corners.size() > 1 && corners.back() == corners.front()) corners.pop_back();
-  if (corners.size() < 3) return;
+  if (corners.size() < 3) {
+    ++num_cornerless;
+    return;
+  }
   faces.push_back({.corners = std::move(corners), .material = material, .group = group});
 }
 
@@ -169,7 +172,10 @@ ImportedMesh MakeTriangles(const PolygonSoup& soup, double unit_m, bool y_up) {
   positions.reserve(soup.points.size());
   for (const Vector3& p : soup.points) positions.emplace_back(z_up_m(p - middle).cast<float>());
 
-  ImportedMesh result{.parts = {}, .origin_m = z_up_m(middle), .num_faces = soup.faces.size()};
+  ImportedMesh result{.parts = {},
+                      .origin_m = z_up_m(middle),
+                      .num_faces = soup.faces.size(),
+                      .num_cornerless = soup.num_cornerless};
   PartBuilders builders(soup);
   for (const PolygonSoup::Face& face : soup.faces) {
     const auto triangles = Triangulate(soup.points, face.corners);

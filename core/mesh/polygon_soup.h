@@ -26,6 +26,7 @@ struct PolygonSoup {
   std::vector<Face> faces;
   std::vector<std::string> materials;  ///< Their names in the file, each once.
   std::vector<std::string> groups;     ///< Names of groups or objects, each once.
+  std::size_t num_cornerless{};        ///< Faces that AddFace() left out.
 
   /// Adds a face without corners equal to the one before, unless fewer than three are left.
   void AddFace(std::vector<std::uint32_t> corners,
@@ -57,9 +58,11 @@ struct NamedMesh {
 struct ImportedMesh {
   std::vector<NamedMesh> parts;  ///< In the order in which the file names them; none is empty.
   Vector3 origin_m;              ///< The middle of the file's bounding box, in the file's frame.
-  std::size_t num_faces{};       ///< Faces in the file.
+  std::size_t num_faces{};       ///< Faces in the file with three different corners or more.
+  std::size_t num_cornerless{};  ///< Faces left out because they have fewer.
   std::size_t num_flat{};        ///< Triangles left out because they have no area in float32.
   double area_m2{};              ///< Of all triangles.
+  bool has_own_up{};             ///< Whether the file's format says which axis is up.
 
   [[nodiscard]] std::size_t num_triangles() const;
 };

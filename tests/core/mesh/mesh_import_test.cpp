@@ -185,8 +185,10 @@ TEST(ParseMesh, RefusesADamagedOff) {
             "a.mesh: line 1: vertices must have three coordinates (got \"4OFF\")");
   EXPECT_EQ(Complaint("OFF\n3 4000000000 0\n0 0 0\n"),
             "a.mesh: ends within its 3 vertices and 4000000000 faces");
-  EXPECT_EQ(Complaint("OFF\n3 1 0\n0 0 inf\n"),
-            "a.mesh: line 3: a vertex must have three finite coordinates (got \"inf\")");
+  EXPECT_EQ(Complaint("OFF\n3 1 0\n0 0 inf\n0 0 1e99\n0 0 0\n3 0 1 3\n"),
+            "a.mesh: line 3: a vertex must have three finite coordinates (got \"inf\")\n"
+            "a.mesh: line 4: a vertex must have three finite coordinates (got \"1e99\")\n"
+            "a.mesh: line 6: a face must name one of the 3 vertices, counted from 0 (got \"3\")");
   const std::string vertices = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n";
   EXPECT_EQ(Complaint(vertices + "3 0 1 3\n"),
             "a.mesh: line 6: a face must name one of the 3 vertices, counted from 0 (got \"3\")");

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -44,6 +46,25 @@ class ReadObjTest : public testing::Test {
 };
 
 constexpr const char* kThreeVertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+TEST_F(ReadObjTest, ListsAllLinesWithFaultsButNoMoreThanTwenty) {
+  const std::string faults =
+      Complaint("v 0 0 x\nv 1 0 0\nv 0 1 nan\nf 1 2 3\nf 1 2 0\nf 1 2 9\nf 1 b 3\n");
+  const std::string file = (path(testing::TempDir()) / "railcast_").string() +
+                           "ListsAllLinesWithFaultsButNoMoreThanTwenty.obj: ";
+  EXPECT_EQ(faults, "line 1: a vertex must have three finite coordinates (got \"x\")\n" + file +
+                        "line 3: a vertex must have three finite coordinates (got \"nan\")\n" +
+                        file + "line 5: a face must name one of the 3 vertices (got \"0\")\n" +
+                        file + "line 7: a face must name vertices by number (got \"b\")\n" + file +
+                        "line 6: a face must name one of the 3 vertices (got \"9\")");
+  std::string many;
+  for (int i = 0; i < 1000; ++i) many += "v 0 0 x\n";
+  const std::string twenty = Complaint(many);
+  EXPECT_EQ(std::count(twenty.begin(), twenty.end(), '\n'), 20);
+  EXPECT_NE(twenty.find("line 20: "), std::string::npos);
+  EXPECT_EQ(twenty.find("line 21: "), std::string::npos);
+  EXPECT_NE(twenty.find("goes on; this many faults are listed at most"), std::string::npos);
+}
 
 TEST_F(ReadObjTest, KeepsFacesThatShareAnEdgeThreeTimes) {
   const Mesh mesh = ReadMerged(Write("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\n"

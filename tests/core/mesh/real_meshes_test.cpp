@@ -72,7 +72,7 @@ TEST(RealMeshes, GivesTheTrianglesOfTheReportOrOneLine) {
 }
 
 /// Reads all files of a folder with one of the extensions. Those that cannot be read must say why
-/// in a line that names them; the others must have sound triangles.
+/// in lines that name them; the others must have sound triangles.
 struct Reading {
   std::map<std::string, std::size_t> triangles;  ///< By path below the folder.
   std::map<std::string, std::string> complaints;
