@@ -1,130 +1,156 @@
-#include "core/rail/objects/object_models.h"
+#include "core/rail/objects/person.h"
 
 #include <cmath>
-#include <numbers>
-#include <vector>
+#include <limits>
+#include <utility>
 
 #include "core/rail/model_parts.h"
-#include "core/scene/shapes.h"
+#include "core/rail/objects/person_luggage.h"
+#include "core/rail/objects/person_pose.h"
+#include "core/rail/objects/person_shape.h"
 
 namespace railcast {
 namespace {
 
-/// A horizontal, elliptical cross-section of the body.
-struct Section {
-  double z_m{};
-  double half_depth_m{};  ///< Along x.
-  double half_width_m{};  ///< Along y.
-  double x_m{};           ///< Of its centre.
-};
+bool WearsHelmet(const PersonSpec& look) {
+  return look.clothing == Clothing::kHiVis;
+}
 
-/// A closed body lofted through sections from the bottom up.
-Mesh MakeLoft(const std::vector<Section>& sections, int num_sides) {
-  std::vector<Eigen::Vector2d> profile;
-  for (const Section& section : sections) {
-    profile.emplace_back(section.z_m, section.half_depth_m > 0.0 ? 1.0 : 0.0);
+BodyMeasures DressedBody(const PersonBuild& build) {
+  const PersonSpec& look = build.look;
+  return MeasuresOf(look.physique, WearsHelmet(look) ? build.height_m / HelmetHeight(look.physique)
+                                                     : build.height_m);
+}
+
+PersonDress DressOf(const PersonSpec& look, const PersonSurfaces& surfaces) {
+  PersonDress dress{.skin = surfaces.skin,
+                    .hair = surfaces.clothing,
+                    .sleeves = surfaces.clothing,
+                    .torso = surfaces.clothing,
+                    .legs = surfaces.clothing,
+                    .shoes = surfaces.clothing,
+                    .band = {},
+                    .helmet = {}};
+  if (look.clothing == Clothing::kHiVis) {
+    dress.torso = surfaces.hi_vis_fabric;
+    dress.legs = surfaces.hi_vis_fabric;
+    dress.band = surfaces.hi_vis_band;
+    dress.helmet = surfaces.helmet;
+    dress.has_bands = true;
+    dress.has_helmet = true;
   }
-  // The lathe's rings follow the profile: reshape each to its section and turn the axis upright.
-  Mesh body = MakeLathe(profile, num_sides);
-  std::size_t vertex = 0;
-  for (const Section& section : sections) {
-    const int count = section.half_depth_m > 0.0 ? num_sides : 1;
-    for (int i = 0; i < count; ++i, ++vertex) {
-      const double angle_rad = 2.0 * std::numbers::pi * i / num_sides;
-      body.vertices[vertex] = Vector3(section.x_m + section.half_depth_m * std::cos(angle_rad),
-                                      section.half_width_m * std::sin(angle_rad), section.z_m)
-                                  .cast<float>();
+  return dress;
+}
+
+void AppendBone(const Model& other, const Transform& model_from_other, Model& model) {
+  for (const Part& part : other.parts) {
+    MeshOf({part.material, part.label}, model).Append(part.mesh, model_from_other);
+  }
+}
+
+Model Assembled(const PersonBones& bones, const PersonPose& pose) {
+  Model person{.name = "person", .parts = {}};
+  AppendBone(bones.pelvis, pose.pelvis, person);
+  AppendBone(bones.chest, pose.chest, person);
+  AppendBone(bones.head, pose.head, person);
+  for (const PersonPose::Limbs& limbs : pose.sides) {
+    AppendBone(bones.limbs.upper_arm, limbs.upper_arm, person);
+    AppendBone(bones.limbs.forearm, limbs.forearm, person);
+    AppendBone(bones.limbs.thigh, limbs.thigh, person);
+    AppendBone(bones.limbs.shank, limbs.shank, person);
+    AppendBone(bones.limbs.foot, limbs.foot, person);
+  }
+  return person;
+}
+
+/// Scales a model about its origin after moving it by `shift_m`.
+void MoveAndScale(const Vector3& shift_m, double scale, Model& model) {
+  for (Part& part : model.parts) {
+    for (Eigen::Vector3f& vertex : part.mesh.vertices) {
+      vertex = (scale * (vertex.cast<double>() + shift_m)).cast<float>();
     }
   }
-  return body;
 }
 
-Mesh MakeTorso() {
-  return MakeLoft({{0.76, 0.0, 0.0, 0.0},
-                   {0.79, 0.10, 0.13, 0.0},
-                   {0.90, 0.130, 0.180, -0.01},
-                   {0.98, 0.122, 0.172, 0.0},
-                   {1.08, 0.110, 0.155, 0.01},
-                   {1.22, 0.120, 0.170, 0.01},
-                   {1.34, 0.125, 0.195, 0.0},
-                   {1.41, 0.105, 0.205, -0.01},
-                   {1.45, 0.080, 0.150, -0.01},
-                   {1.47, 0.070, 0.100, -0.01},
-                   {1.50, 0.060, 0.065, 0.0}},
-                  18);
-}
-
-Mesh MakeHead() {
-  return MakeLoft({{1.46, 0.055, 0.055, 0.0},
-                   {1.535, 0.055, 0.052, 0.01},
-                   {1.545, 0.078, 0.058, 0.03},
-                   {1.59, 0.092, 0.068, 0.025},
-                   {1.64, 0.098, 0.076, 0.015},
-                   {1.69, 0.093, 0.074, 0.01},
-                   {1.728, 0.066, 0.055, 0.005},
-                   {1.745, 0.033, 0.028, 0.0},
-                   {kPersonHeight_m, 0.0, 0.0, 0.0}},
-                  14);
-}
-
-/// A limb from joint to joint, with a rounded tip.
-Mesh MakeLimb(const std::vector<Vector3>& joints, const std::vector<double>& radii_m) {
-  Mesh limb = MakeTube(joints, radii_m, 10);
-  limb.Append(MakeEllipsoid(joints.front(), Vector3::Constant(radii_m.front()), 10));
-  return limb;
-}
-
-/// A shoe with its heel below the ankle, rotated about y by the foot's pitch.
-Mesh MakeShoe(const Vector3& ankle_m, double pitch_rad) {
-  Mesh shoe = MakeEllipsoid({0.065, 0.0, -0.045}, {0.145, 0.05, 0.045}, 12);
-  shoe.Append(MakeEllipsoid({-0.02, 0.0, -0.02}, {0.06, 0.045, 0.07}, 10));
-  Mesh placed;
-  placed.Append(shoe, MakeTransform(RotationFromYawPitchRoll(0, pitch_rad, 0), ankle_m));
-  return placed;
-}
-
-/// Adds the limbs of one side: `side` 1 is the left. `stride` 1 puts the leg forward and the arm
-/// back, -1 the opposite.
-void AddSide(double side, double stride, const RailSurfaces& surfaces, Model& person) {
-  Mesh clothes;
-  const double hip_y_m = side * 0.09;
-  const bool leads = stride > 0.0;
-  const Vector3 ankle = leads ? Vector3(0.24, hip_y_m, 0.09) : Vector3(-0.30, hip_y_m, 0.145);
-  const Vector3 knee = leads ? Vector3(0.15, hip_y_m, 0.48) : Vector3(-0.06, hip_y_m, 0.475);
-  const Vector3 hip(0.0, hip_y_m, 0.87);
-  clothes.Append(MakeLimb({hip, 0.5 * (hip + knee), knee, 0.65 * knee + 0.35 * ankle, ankle},
-                          {0.090, 0.085, 0.062, 0.060, 0.045}));
-  clothes.Append(MakeShoe(ankle, leads ? -0.05 : 0.42));
-
-  const double swing = -0.16 * stride;
-  const Vector3 shoulder(-0.01, side * 0.195, 1.375);
-  const Vector3 elbow(-0.03 + 0.45 * swing, side * 0.245, 1.13);
-  const Vector3 wrist(0.05 + 1.1 * swing, side * 0.265, 0.90);
-  clothes.Append(
-      MakeLimb({shoulder, 0.5 * (shoulder + elbow), elbow, wrist}, {0.060, 0.056, 0.047, 0.036}));
-  MeshOf(surfaces.clothing, person).Append(clothes);
-  const Vector3 palm = wrist + 0.07 * (wrist - elbow).normalized();
-  MeshOf(surfaces.skin, person).Append(MakeEllipsoid(palm, {0.042, 0.026, 0.085}, 8));
+void Hold(const Handholds& holds, const BodyMeasures& body, PersonPose& pose) {
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (!holds[side]) continue;
+    const Vector3 elbow(-0.6, 0.6 * kSideSigns[side], -0.8);
+    ReachFor(body, side, *holds[side], elbow, pose);
+  }
 }
 
 }  // namespace
 
-Model MakePerson(const RailSurfaces& surfaces, double height_m) {
-  Model person{.name = "person", .parts = {}};
-  MeshOf(surfaces.clothing, person).Append(MakeTorso());
-  MeshOf(surfaces.skin, person).Append(MakeHead());
-  AddSide(1.0, 1.0, surfaces, person);
-  AddSide(-1.0, -1.0, surfaces, person);
-
-  // The soles of the shoes define the ground.
-  const double ground_m = person.Bounds().min().z();
-  const double scale = height_m / (kPersonHeight_m - ground_m);
-  for (Part& part : person.parts) {
-    for (Eigen::Vector3f& vertex : part.mesh.vertices) {
-      vertex = (scale * (vertex.cast<double>() - Vector3(0, 0, ground_m))).cast<float>();
-    }
+double StandardHeight_m(Physique physique) {
+  switch (physique) {
+    case Physique::kWoman:
+      return 1.65;
+    case Physique::kChild:
+      return 1.20;
+    case Physique::kMan:
+      break;
   }
+  return kPersonHeight_m;
+}
+
+double NaturalPace_mps(double height_m) {
+  return 1.3 * std::sqrt(height_m / kPersonHeight_m);
+}
+
+Model MakePerson(const PersonSurfaces& surfaces, const PersonBuild& build) {
+  const PersonSpec& look = build.look;
+  const BodyMeasures body = DressedBody(build);
+  const bool walks = look.posture == Posture::kWalking;
+  const bool is_upright = walks || look.posture == Posture::kStanding;
+  PersonPose pose =
+      walks ? WalkingGait(body, build.steady_speed_mps).WidestPose() : PoseOf(look.posture, body);
+  if (is_upright) Hold(HandholdsOf(look, body), body, pose);
+  const PersonBones bones = MakePersonBones(body, look.physique, DressOf(look, surfaces));
+  Model person = Assembled(bones, pose);
+  const Eigen::AlignedBox3d box = person.Bounds();
+  const Vector3 middle_m = is_upright ? Vector3::Zero() : Vector3(box.center());
+  MoveAndScale(Vector3(-middle_m.x(), 0.0, -box.min().z()), 1.0, person);
+  AddLuggage(look, body, surfaces, person);
+  if (walks) MoveAndScale(Vector3::Zero(), build.height_m / box.sizes().z(), person);
   return person;
+}
+
+std::vector<Model> MakePersonPieces(const PersonSurfaces& surfaces, const PersonBuild& build) {
+  const BodyMeasures body = DressedBody(build);
+  const PersonBones bones =
+      MakePersonBones(body, build.look.physique, DressOf(build.look, surfaces));
+  // The trunk's bones do not move against each other.
+  const PersonPose pose = StandingPose(body);
+  Model trunk = bones.pelvis;
+  AppendBone(bones.chest, pose.pelvis.inverse() * pose.chest, trunk);
+  AppendBone(bones.head, pose.pelvis.inverse() * pose.head, trunk);
+  std::vector<Model> pieces = {std::move(trunk)};
+  const PersonBones::Limbs& limbs = bones.limbs;
+  for (std::size_t side = 0; side < 2; ++side) {
+    pieces.insert(pieces.end(),
+                  {limbs.upper_arm, limbs.forearm, limbs.thigh, limbs.shank, limbs.foot});
+  }
+  if (build.look.luggage != Luggage::kNone) {
+    AddLuggage(build.look, body, surfaces, pieces.emplace_back());
+  }
+  for (Model& piece : pieces) piece.name = "person";
+  return pieces;
+}
+
+WalkingPerson::WalkingPerson(const PersonBuild& build)
+    : look_(build.look), body_(DressedBody(build)), gait_(body_, build.steady_speed_mps) {}
+
+std::vector<Transform> WalkingPerson::ObjectFromPieces(double distance_m, double speed_mps) const {
+  PersonPose pose = gait_.PoseAt(distance_m, speed_mps);
+  Hold(HandholdsOf(look_, body_), body_, pose);
+  std::vector<Transform> pieces = {pose.pelvis};
+  for (const PersonPose::Limbs& limbs : pose.sides) {
+    pieces.insert(pieces.end(),
+                  {limbs.upper_arm, limbs.forearm, limbs.thigh, limbs.shank, limbs.foot});
+  }
+  if (look_.luggage != Luggage::kNone) pieces.push_back(Transform::Identity());
+  return pieces;
 }
 
 }  // namespace railcast
