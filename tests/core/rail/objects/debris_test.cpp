@@ -1,0 +1,149 @@
+#include "core/rail/objects/debris.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "core/rail/track/rail_section.h"
+#include "tests/core/rail/model_checks.h"
+#include "tests/core/rail/test_tables.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kDebrisRounding_m = 1e-6;
+
+class Debris : public testing::Test {
+ protected:
+  const DebrisSurfaces surfaces_ = FindDebrisSurfaces(RailLabels(), RailMaterials());
+};
+
+TEST_F(Debris, HasItsSizesAndItsFootOnTheGround) {
+  const std::vector<std::pair<ObjectType, Vector3>> sizes_m = {
+      {ObjectType::kPallet, {1.200, 0.800, 0.144}},
+      {ObjectType::kTyre, {1.014, 1.014, 0.312}},
+      {ObjectType::kBoulder, {0.80, 0.68, 0.56}},
+      {ObjectType::kBallastHeap, {1.5, 1.5, 0.75 * std::tan(37.0 * std::numbers::pi / 180.0)}},
+      {ObjectType::kLandslide, {8.0, 6.0, 1.2}}};
+  for (const auto& [type, size_m] : sizes_m) {
+    const Model model = MakeDebris(type, surfaces_);
+    const Eigen::AlignedBox3d box = model.Bounds();
+    EXPECT_LT((box.sizes() - size_m).cwiseAbs().maxCoeff(), 1e-3)
+        << model.name << ": " << box.sizes().transpose();
+    EXPECT_LT(box.center().head<2>().norm(), kDebrisRounding_m) << model.name;
+    EXPECT_NEAR(box.min().z(), 0.0, kDebrisRounding_m) << model.name;
+  }
+}
+
+TEST_F(Debris, ConsistsOfClosedBodiesButForLeaves) {
+  for (const EnumName<ObjectType>& name : kEnumNames<ObjectType>) {
+    if (!IsDebris(name.value)) continue;
+    Model model = MakeDebris(name.value, surfaces_);
+    EXPECT_EQ(CountBadTriangles(model), 0U) << model.name;
+    EXPECT_LE(model.num_triangles(), 5000U) << model.name;
+    std::erase_if(model.parts,
+                  [&](const Part& part) { return part.material == surfaces_.leaf.material; });
+    EXPECT_GT(model.num_triangles(), 100U) << model.name;
+    EXPECT_EQ(CountOpenEdges(model), 0U) << model.name;
+  }
+}
+
+/// The boards of EN 13698-1, found by their corners: MakeBox() has eight vertices.
+TEST_F(Debris, HasThePalletsBoardsAndBlocks) {
+  const Model pallet = MakePallet(surfaces_);
+  const auto& vertices = pallet.parts.at(0).mesh.vertices;
+  std::multiset<std::array<int, 3>> boards_mm;
+  for (std::size_t first = 0; first < vertices.size(); first += 8) {
+    Eigen::AlignedBox3f box;
+    for (std::size_t i = first; i < first + 8; ++i) box.extend(vertices[i]);
+    const Eigen::Vector3f size_mm = 1000.0F * box.sizes();
+    boards_mm.insert({static_cast<int>(std::lround(size_mm.x())),
+                      static_cast<int>(std::lround(size_mm.y())),
+                      static_cast<int>(std::lround(size_mm.z()))});
+  }
+  EXPECT_EQ(boards_mm.size(), 20U);
+  EXPECT_EQ(boards_mm.count({1200, 145, 22}), 4U);  // Three of the deck and one at the bottom.
+  EXPECT_EQ(boards_mm.count({1200, 100, 22}), 4U);  // Two of the deck and two at the bottom.
+  EXPECT_EQ(boards_mm.count({145, 800, 22}), 3U);
+  EXPECT_EQ(boards_mm.count({145, 145, 78}), 3U);
+  EXPECT_EQ(boards_mm.count({145, 100, 78}), 6U);
+}
+
+TEST_F(Debris, HangsAWireOfTheLengthOfItsCatenaryStretchAndCoils) {
+  const std::vector<Vector3> axis = HangingWireAxis();
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < axis.size(); ++i) length_m += (axis[i] - axis[i - 1]).norm();
+  // z = a (cosh(x / a) - 1) has the arc length sqrt((z + a)^2 - a^2) from its lowest point.
+  constexpr double kA_m = 0.5;
+  const double high_m = kHangingWireTop_m - 0.5 * kHangingWireDiameter_m + kA_m;
+  const double expected_m =
+      std::sqrt(high_m * high_m - kA_m * kA_m) + 1.5 + 2.5 * 2.0 * std::numbers::pi * 0.35;
+  // Chords of 15 degrees are 0.3 % shorter than their arcs.
+  EXPECT_NEAR(length_m, expected_m, 0.003 * expected_m);
+  EXPECT_LT(length_m, expected_m + 0.01);
+  // It bends like a wire, everywhere by less than 20 degrees from piece to piece.
+  for (std::size_t i = 2; i < axis.size(); ++i) {
+    const Vector3 before = (axis[i - 1] - axis[i - 2]).normalized();
+    EXPECT_GT(before.dot((axis[i] - axis[i - 1]).normalized()), std::cos(0.35)) << i;
+  }
+  const Model wire = MakeHangingWire(surfaces_);
+  EXPECT_NEAR(wire.Bounds().sizes().z(), kHangingWireTop_m, 0.01);
+  EXPECT_EQ(wire.parts.at(0).label, surfaces_.wire.label);
+}
+
+/// The guides of the shoe clear the rail that it lies on, and its sole covers the rail's head.
+TEST_F(Debris, LaysTheDragShoeOnTheRail) {
+  const Model shoe = MakeDragShoe(surfaces_);
+  const Eigen::AlignedBox3d box = shoe.Bounds();
+  EXPECT_NEAR(box.max().z(), 0.125, kDebrisRounding_m);
+  EXPECT_NEAR(box.min().z(), -0.020, kDebrisRounding_m);
+  EXPECT_LT(box.center().head<2>().norm(), kDebrisRounding_m);
+  const RailSection rail = MakeRailSection(true);
+  double middle_m = 0.0;
+  double half_width_m = 0.0;
+  double inner_m = 1e9;
+  double outer_m = -1e9;
+  for (const Eigen::Vector2d& p : rail.outline_m) {
+    if (p.y() < -0.030) continue;
+    inner_m = std::min(inner_m, std::abs(p.x()));
+    outer_m = std::max(outer_m, std::abs(p.x()));
+  }
+  middle_m = 0.5 * (inner_m + outer_m);
+  half_width_m = 0.5 * (outer_m - inner_m);
+  EXPECT_NEAR(middle_m, 0.753, 0.002);  // The d_m of the documentation.
+  EXPECT_LT(half_width_m, 0.038);
+  for (const Part& part : shoe.parts) {
+    for (const Eigen::Vector3f& vertex : part.mesh.vertices) {
+      if (vertex.z() < -1e-4F) {
+        EXPECT_GE(std::abs(vertex.y()), 0.0369F);
+      }
+    }
+  }
+}
+
+TEST_F(Debris, LaysTheFallenTreeAcrossTheTrack) {
+  const Eigen::AlignedBox3d box = MakeFallenTree(surfaces_).Bounds();
+  EXPECT_NEAR(box.sizes().y(), 10.0, 0.6);
+  EXPECT_LT(box.sizes().x(), 6.0);
+  EXPECT_NEAR(box.min().z(), 0.0, kDebrisRounding_m);
+  EXPECT_NEAR(MakeBranch(surfaces_).Bounds().sizes().x(), 2.5, kDebrisRounding_m);
+}
+
+TEST_F(Debris, IsTheSameEveryTime) {
+  for (const ObjectType type : {ObjectType::kBoulder, ObjectType::kBallastHeap,
+                                ObjectType::kLandslide, ObjectType::kFallenTree}) {
+    const Model first = MakeDebris(type, surfaces_);
+    const Model second = MakeDebris(type, surfaces_);
+    ASSERT_EQ(first.parts.size(), second.parts.size());
+    for (std::size_t i = 0; i < first.parts.size(); ++i) {
+      EXPECT_EQ(first.parts[i].mesh.vertices, second.parts[i].mesh.vertices) << first.name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,142 @@
+#include "core/rail/objects/road_vehicles.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/core/rail/model_checks.h"
+#include "tests/core/rail/test_tables.h"
+
+namespace railcast {
+namespace {
+
+struct RoadVehicle {
+  ObjectType type{};
+  Vector3 size_m;          ///< Over everything.
+  double body_width_m{};   ///< Without mirrors.
+  double tyre_radius_m{};  ///< Of its largest tyre.
+  double front_axle_x_m{};
+  double wheelbase_m{};
+};
+
+// Data sheets as in road_vehicles.h; tyres by their names: 205/55 R 16 has 0.055 x 205 x 2 / 100
+// + 16 inches of diameter.
+const std::vector<RoadVehicle> kRoadVehicles = {
+    {ObjectType::kCar, {4.284, 2.073, 1.456}, 1.789, 0.316, 1.272, 2.636},
+    {ObjectType::kLorry, {16.5, 2.55, 4.0}, 2.55, 0.536, 6.83, 3.70},
+    {ObjectType::kBus, {12.135, 2.95, 3.12}, 2.55, 0.478, 3.2625, 5.9},
+    {ObjectType::kTractor, {4.150, 2.275, 2.760}, 2.275, 0.783, 1.295, 2.35},
+    {ObjectType::kBicycle, {1.80, 0.60, 1.07}, 0.60, 0.348, 0.552, 1.104},
+    {ObjectType::kMotorcycle, {2.080, 0.790, 1.060}, 0.790, 0.312, 0.740, 1.410}};
+
+constexpr double kOfDataSheet_m = 0.02;
+constexpr double kVehicleRounding_m = 1e-5;  // Of float32 at 16 m.
+
+class RoadVehicles : public testing::Test {
+ protected:
+  [[nodiscard]] Model Make(const RoadVehicle& vehicle) const {
+    return MakeRoadVehicle(vehicle.type, surfaces_);
+  }
+  const RoadVehicleSurfaces surfaces_ = FindRoadVehicleSurfaces(RailLabels(), RailMaterials());
+};
+
+TEST_F(RoadVehicles, HaveTheSizesOfTheirDataSheets) {
+  for (const RoadVehicle& vehicle : kRoadVehicles) {
+    const Model model = Make(vehicle);
+    const Eigen::AlignedBox3d box = model.Bounds();
+    EXPECT_LT((box.sizes() - vehicle.size_m).cwiseAbs().maxCoeff(), kOfDataSheet_m)
+        << model.name << ": " << box.sizes().transpose();
+    EXPECT_LT((box.center().head<2>().norm()), kVehicleRounding_m) << model.name;
+    EXPECT_NEAR(box.min().z(), 0.0, kVehicleRounding_m) << model.name;
+  }
+}
+
+/// Mirrors are the widest parts, and only bodies reach below them.
+TEST_F(RoadVehicles, AreAsWideAsTheirDataSheetsSayBelowTheirMirrors) {
+  for (const RoadVehicle& vehicle : kRoadVehicles) {
+    if (vehicle.type == ObjectType::kBicycle || vehicle.type == ObjectType::kMotorcycle) continue;
+    double half_width_m = 0.0;
+    const Model model = Make(vehicle);
+    const double mirrors_m = vehicle.type == ObjectType::kCar ? 0.85 : 1.9;
+    for (const Part& part : model.parts) {
+      for (const Eigen::Vector3f& vertex : part.mesh.vertices) {
+        if (static_cast<double>(vertex.z()) > mirrors_m) continue;
+        half_width_m = std::max(half_width_m, std::abs(static_cast<double>(vertex.y())));
+      }
+    }
+    EXPECT_NEAR(2.0 * half_width_m, vehicle.body_width_m, kOfDataSheet_m) << model.name;
+  }
+}
+
+TEST_F(RoadVehicles, StandOnTheirTyresAtTheirWheelbase) {
+  for (const RoadVehicle& vehicle : kRoadVehicles) {
+    const Model model = Make(vehicle);
+    double highest_m = 0.0;
+    double front_m = 0.0;
+    double rear_m = 0.0;
+    for (const Vector3& p : VerticesOf(model, surfaces_.tyre)) {
+      highest_m = std::max(highest_m, p.z());
+      if (p.z() > kVehicleRounding_m) continue;
+      if (std::abs(p.x() - vehicle.front_axle_x_m) < 0.01) front_m = p.x();
+      if (std::abs(p.x() - vehicle.front_axle_x_m + vehicle.wheelbase_m) < 0.01) rear_m = p.x();
+    }
+    EXPECT_NEAR(front_m - rear_m, vehicle.wheelbase_m, kVehicleRounding_m) << model.name;
+    EXPECT_NEAR(highest_m, 2.0 * vehicle.tyre_radius_m, kVehicleRounding_m) << model.name;
+  }
+}
+
+TEST_F(RoadVehicles, AreClosedBodiesOfAFewThousandTriangles) {
+  for (const RoadVehicle& vehicle : kRoadVehicles) {
+    const Model model = Make(vehicle);
+    EXPECT_GE(model.num_triangles(), 500U) << model.name;
+    EXPECT_LE(model.num_triangles(), 5000U) << model.name;
+    EXPECT_EQ(CountBadTriangles(model), 0U) << model.name;
+    EXPECT_EQ(CountOpenEdges(model), 0U) << model.name;
+    for (const Part& part : model.parts) EXPECT_EQ(part.label, surfaces_.paint.label);
+  }
+}
+
+/// Area of the surface's faces that look along `direction` at the model's end there.
+double EndArea_m2(const Model& model, const SurfaceClass& surface, const Vector3& direction) {
+  constexpr double kDepth_m = 0.001;
+  const double end_m = model.Bounds().max().cwiseProduct(direction.cwiseAbs()).sum();
+  double area_m2 = 0.0;
+  for (const Part& part : model.parts) {
+    if (part.material != surface.material) continue;
+    for (const auto& [a, b, c] : part.mesh.triangles) {
+      const Vector3 pa = part.mesh.vertices[a].cast<double>();
+      const Vector3 twice_m2 = (part.mesh.vertices[b].cast<double>() - pa)
+                                   .cross(part.mesh.vertices[c].cast<double>() - pa);
+      const bool is_at_end = pa.dot(direction) > end_m - kDepth_m;
+      if (is_at_end && twice_m2.normalized().dot(direction) > 0.99) {
+        area_m2 += 0.5 * twice_m2.norm();
+      }
+    }
+  }
+  return area_m2;
+}
+
+TEST_F(RoadVehicles, CarryRetroreflectivePlatesOf520By110MillimetresAtBothEnds) {
+  for (const Model& model : {MakeCar(surfaces_), MakeBus(surfaces_)}) {
+    const double front_m2 = EndArea_m2(model, surfaces_.reflector, Vector3::UnitX());
+    EXPECT_NEAR(front_m2, 0.520 * 0.110, 1e-6) << model.name;
+  }
+  const double rear_m2 = EndArea_m2(MakeCar(surfaces_), surfaces_.reflector, -Vector3::UnitX());
+  EXPECT_NEAR(rear_m2, 0.520 * 0.110, 1e-6);
+}
+
+TEST_F(RoadVehicles, HaveWindowsAllAroundWhereTheyHaveABody) {
+  for (const ObjectType type : {ObjectType::kCar, ObjectType::kBus, ObjectType::kTractor}) {
+    const Model model = MakeRoadVehicle(type, surfaces_);
+    Eigen::AlignedBox3d windows;
+    for (const Vector3& p : VerticesOf(model, surfaces_.window)) windows.extend(p);
+    const Vector3 share = windows.sizes().cwiseQuotient(model.Bounds().sizes());
+    EXPECT_GT(share.x(), 0.4) << model.name;
+    EXPECT_GT(share.y(), 0.6) << model.name;
+    EXPECT_GT(share.z(), 0.3) << model.name;
+  }
+}
+
+}  // namespace
+}  // namespace railcast
