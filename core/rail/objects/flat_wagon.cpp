@@ -1,8 +1,9 @@
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "core/rail/model_parts.h"
-#include "core/rail/objects/object_models.h"
+#include "core/rail/objects/rolling_stock.h"
 #include "core/rail/objects/wagon_parts.h"
 #include "core/scene/shapes.h"
 
@@ -11,8 +12,7 @@ namespace {
 
 using Point2 = Eigen::Vector2d;
 
-constexpr double kFlatWagonLength_m = 19.74;
-constexpr double kFlatWagonPivotDistance_m = 14.2;
+constexpr double kFlatWagonPivotDistance_m = kFlatWagonMeasures.pivot_distance_m;
 
 /// I-section side sill of the container wagon: deep between the bogies, shallow above them.
 void AddFishBelliedSill(double side, Mesh& frame) {
@@ -81,7 +81,7 @@ void AddHandBrake(Mesh& frame) {
 
 }  // namespace
 
-Model MakeFlatWagon(const RailSurfaces& surfaces) {
+RailVehicleModel MakeFlatWagon(const RailSurfaces& surfaces) {
   Model wagon{.name = "flat_wagon", .parts = {}};
   Mesh body;
   AddCrossMembers(body);
@@ -94,10 +94,8 @@ Model MakeFlatWagon(const RailSurfaces& surfaces) {
   AddHandBrake(frame);
   frame.Append(MakeBrakeGear(kFlatWagonPivotDistance_m));
   frame.Append(MakeCornerSteps(8.9, 1.15, 0.95));
-  for (const double end : kBothSides)
-    AddBogie(end * kFlatWagonPivotDistance_m / 2.0, surfaces, wagon);
-  AddDrawAndBufferGear(kFlatWagonLength_m, surfaces, wagon);
-  return wagon;
+  AddDrawAndBufferGear(kFlatWagonMeasures.length_m, surfaces.wagon_frame, wagon);
+  return {std::move(wagon), MakeWagonBogie(surfaces)};
 }
 
 }  // namespace railcast

@@ -5,10 +5,15 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "core/base/out_of_memory.h"
 #include "core/base/text.h"
-#include "core/mesh/mesh_import.h"
 #include "core/rail/model_parts.h"
+#include "core/rail/objects/animals.h"
+#include "core/rail/objects/debris.h"
+#include "core/rail/objects/leaning.h"
+#include "core/rail/objects/mesh_object.h"
+#include "core/rail/objects/object_surfaces.h"
+#include "core/rail/objects/rail_vehicles.h"
+#include "core/rail/objects/road_vehicles.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {
@@ -45,70 +50,61 @@ Mesh MakePole(const ObjectSpec& spec) {
   return MakeTube(axis, 0.5 * size_m.x(), kSides);
 }
 
-MeshUnits UnitsOf(const ObjectSpec& spec) {
-  MeshUnits units{.unit_m = spec.unit_m, .y_up = std::nullopt};
-  if (spec.up) units.y_up = *spec.up == UpAxis::kY;
-  return units;
+Model MakeVehicleOnRails(const ObjectSpec& spec, const RailSurfaces& surfaces) {
+  if (spec.size_m) Fail("size_m: a rail vehicle has its own");
+  return WholeOf(MakeRailVehicle(spec.type, surfaces), MeasuresOf(spec.type).pivot_distance_m);
 }
 
-Mesh MakeFromFile(const ObjectSpec& spec) {
-  if (!spec.file) Fail("file: required for type \"mesh\"");
-  const ImportedMesh imported = WithinMemory([&] { return ReadingText(*spec.file); },
-                                             [&] { return ReadMesh(*spec.file, UnitsOf(spec)); });
-  Mesh mesh;
-  for (const NamedMesh& part : imported.parts) mesh.Append(part.mesh);
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3f& vertex : mesh.vertices) box.extend(vertex.cast<double>());
-  const Vector3 foot_m(box.center().x(), box.center().y(), box.min().z());
-  Vector3 scale = Vector3::Ones();
-  if (spec.size_m) {
-    const Vector3 size_m = RequiredSize(spec);
-    if (!(box.sizes().array() > 0.0).all()) {
-      Fail("size_m: cannot stretch a mesh that is flat");
-    }
-    scale = size_m.cwiseQuotient(box.sizes());
+bool IsThing(ObjectType type) {
+  return type == ObjectType::kPerson || IsRoadVehicle(type) || IsAnimal(type) || IsDebris(type);
+}
+
+/// A person, a road vehicle, an animal or debris.
+/// @throws InputError with a line for every name that the tables lack.
+Model MakeThing(const ObjectSpec& spec,
+                const LabelTable& labels,
+                const MaterialLibrary& materials) {
+  if (spec.type == ObjectType::kPerson) {
+    const PersonBuild build = PersonBuildOf(spec);
+    return MakePerson(FindPersonSurfaces(build.look, labels, materials), build);
   }
-  for (Eigen::Vector3f& vertex : mesh.vertices) {
-    vertex = scale.cwiseProduct(vertex.cast<double>() - foot_m).cast<float>();
+  if (spec.size_m) Fail("size_m: type \"" + std::string(NameOf(spec.type)) + "\" has its own");
+  if (IsRoadVehicle(spec.type)) {
+    return MakeRoadVehicle(spec.type, FindRoadVehicleSurfaces(labels, materials));
   }
-  return mesh;
+  if (IsAnimal(spec.type)) return MakeAnimal(spec.type, FindAnimalSurfaces(labels, materials));
+  return MakeDebris(spec.type, FindDebrisSurfaces(labels, materials));
 }
 
-Model MakeWagon(const ObjectSpec& spec, const RailSurfaces& surfaces) {
-  if (spec.size_m) Fail("size_m: a wagon has its own");
-  if (spec.type == ObjectType::kOpenWagon) return MakeOpenWagon(surfaces);
-  if (spec.type == ObjectType::kFlatWagon) return MakeFlatWagon(surfaces);
-  return MakeTankWagon(surfaces);
-}
-
-/// Default surface of a type; for wagons and persons only its label is used.
+/// Default surface of a type; for rail vehicles only its label is used.
 SurfaceClass DefaultSurface(ObjectType type, const RailSurfaces& surfaces) {
   switch (type) {
     case ObjectType::kPole:
       return surfaces.pole;
-    case ObjectType::kPerson:
-      return surfaces.clothing;
     case ObjectType::kOpenWagon:
     case ObjectType::kFlatWagon:
     case ObjectType::kTankWagon:
+    case ObjectType::kContainerWagon:
+    case ObjectType::kCoveredWagon:
+    case ObjectType::kHopperWagon:
       return surfaces.wagon_body;
-    case ObjectType::kBox:
-    case ObjectType::kMesh:
+    case ObjectType::kShuntingLocomotive:
+    case ObjectType::kElectricLocomotive:
+    case ObjectType::kMultipleUnit:
+    case ObjectType::kCoach:
+    case ObjectType::kMetroCar:
+      return surfaces.vehicles.paint;
+    default:
       break;
   }
   return surfaces.box;
 }
 
 Model MakeByType(const ObjectSpec& spec, const RailSurfaces& surfaces) {
-  if (IsWagon(spec.type)) return MakeWagon(spec, surfaces);
-  if (spec.type == ObjectType::kPerson) {
-    return MakePerson(surfaces, spec.size_m ? RequiredSize(spec).z() : kPersonHeight_m);
-  }
+  if (IsRailVehicle(spec.type)) return MakeVehicleOnRails(spec, surfaces);
   Model model{.name = std::string(NameOf(spec.type)), .parts = {}};
   MeshOf(DefaultSurface(spec.type, surfaces), model) =
-      spec.type == ObjectType::kPole   ? MakePole(spec)
-      : spec.type == ObjectType::kMesh ? MakeFromFile(spec)
-                                       : MakeStandingBox(RequiredSize(spec));
+      spec.type == ObjectType::kPole ? MakePole(spec) : MakeStandingBox(RequiredSize(spec));
   return model;
 }
 
@@ -123,23 +119,95 @@ std::uint16_t MaterialOf(const ObjectSpec& spec, const MaterialLibrary& material
   return static_cast<std::uint16_t>(it - all.begin());
 }
 
+/// The highest speed of a motion; 0 if it stands.
+double HighestSpeed_mps(const MotionSpec& motion) {
+  double highest_mps = 0.0;
+  if (motion.path) {
+    highest_mps = motion.path->speed_mps;
+    for (const PathPoint& point : motion.path->points) {
+      highest_mps = std::max(highest_mps, point.speed_mps.value_or(0.0));
+    }
+  }
+  for (const SpeedPoint& point : motion.profile) {
+    highest_mps = std::max(highest_mps, point.speed_mps);
+  }
+  return highest_mps;
+}
+
+/// Gives the model the label and the material of the spec, if it has any.
+void Repaint(const ObjectSpec& spec,
+             const RailSurfaces& surfaces,
+             const LabelTable& labels,
+             const MaterialLibrary& materials,
+             Model& model) {
+  for (Part& part : model.parts) {
+    if (spec.label) part.label = ObjectLabel(spec, surfaces, labels);
+    if (spec.material) part.material = MaterialOf(spec, materials);
+  }
+}
+
 }  // namespace
+
+PersonBuild PersonBuildOf(const ObjectSpec& spec) {
+  PersonBuild build{.look = spec.person.value_or(PersonSpec())};
+  build.height_m = spec.size_m ? RequiredSize(spec).z() : StandardHeight_m(build.look.physique);
+  const double speed_mps = spec.motion ? HighestSpeed_mps(*spec.motion) : 0.0;
+  build.steady_speed_mps = speed_mps > 0.0 ? speed_mps : NaturalPace_mps(build.height_m);
+  return build;
+}
+
+bool WalksAbout(const ObjectSpec& spec) {
+  return spec.type == ObjectType::kPerson && spec.roll_deg == 0.0 && spec.pitch_deg == 0.0 &&
+         spec.motion && HighestSpeed_mps(*spec.motion) > 0.0 &&
+         PersonBuildOf(spec).look.posture == Posture::kWalking;
+}
 
 std::shared_ptr<const Model> MakeObjectModel(const ObjectSpec& spec,
                                              const RailSurfaces& surfaces,
                                              const LabelTable& labels,
                                              const MaterialLibrary& materials) {
-  Model model = MakeByType(spec, surfaces);
-  for (Part& part : model.parts) {
-    if (spec.label) part.label = ObjectLabel(spec, surfaces, labels);
-    if (spec.material) part.material = MaterialOf(spec, materials);
+  Model model;
+  if (spec.type == ObjectType::kMesh) {
+    const SurfaceClass surface = SurfaceOfObject(spec, surfaces, labels, materials);
+    model = MakeMeshObject(spec, {surface, labels, materials}).model;
+  } else {
+    model = IsThing(spec.type) ? MakeThing(spec, labels, materials) : MakeByType(spec, surfaces);
+    Repaint(spec, surfaces, labels, materials, model);
   }
+  Lean(spec.roll_deg, spec.pitch_deg, model);
   return std::make_shared<const Model>(std::move(model));
 }
 
+ObjectModels::Shape ObjectModels::ShapeOf(const ObjectSpec& spec) {
+  std::optional<PersonKey> person;
+  if (spec.type == ObjectType::kPerson) {
+    const PersonBuild build = PersonBuildOf(spec);
+    const PersonSpec& look = build.look;
+    person = {look.posture, look.physique, look.clothing, look.luggage, build.steady_speed_mps};
+  }
+  PartsKey parts;
+  for (const MeshPartSpec& part : spec.parts)
+    parts.emplace_back(part.of, part.material, part.label);
+  return {spec.type,     spec.size_m,   spec.file,      spec.up, spec.unit_m, spec.label,
+          spec.material, spec.roll_deg, spec.pitch_deg, person,  spec.origin, parts};
+}
+
+std::vector<std::shared_ptr<const Model>> ObjectModels::VehiclePiecesOf(const ObjectSpec& spec) {
+  const Shape shape = ShapeOf(spec);
+  const auto found = pieces_.find(shape);
+  if (found != pieces_.end()) return found->second;
+  RailVehicleModel vehicle = MakeRailVehicle(spec.type, surfaces_);
+  std::vector<std::shared_ptr<const Model>> pieces;
+  for (Model* const piece : {&vehicle.body, &vehicle.bogie}) {
+    Repaint(spec, surfaces_, labels_, materials_, *piece);
+    pieces.push_back(std::make_shared<const Model>(std::move(*piece)));
+  }
+  pieces.push_back(pieces.back());
+  return pieces_.emplace(shape, std::move(pieces)).first->second;
+}
+
 std::shared_ptr<const Model> ObjectModels::Of(const ObjectSpec& spec) {
-  const Shape shape{spec.type,   spec.size_m, spec.file,    spec.up,
-                    spec.unit_m, spec.label,  spec.material};
+  const Shape shape = ShapeOf(spec);
   auto found = models_.find(shape);
   if (found == models_.end()) {
     found = models_.emplace(shape, MakeObjectModel(spec, surfaces_, labels_, materials_)).first;
@@ -147,16 +215,52 @@ std::shared_ptr<const Model> ObjectModels::Of(const ObjectSpec& spec) {
   return found->second;
 }
 
+std::vector<std::shared_ptr<const Model>> ObjectModels::WalkingPiecesOf(const ObjectSpec& spec) {
+  if (!WalksAbout(spec)) return {};
+  const Shape shape = ShapeOf(spec);
+  auto found = pieces_.find(shape);
+  if (found == pieces_.end()) {
+    std::vector<std::shared_ptr<const Model>> pieces;
+    const PersonBuild build = PersonBuildOf(spec);
+    const PersonSurfaces surfaces = FindPersonSurfaces(build.look, labels_, materials_);
+    for (Model& piece : MakePersonPieces(surfaces, build)) {
+      Repaint(spec, surfaces_, labels_, materials_, piece);
+      pieces.push_back(std::make_shared<const Model>(std::move(piece)));
+    }
+    found = pieces_.emplace(shape, std::move(pieces)).first;
+  }
+  return found->second;
+}
+
+void GiveLimbs(const ObjectSpec& spec, ObjectModels& models, SceneObject& object) {
+  if (!WalksAbout(spec)) return;
+  object.pieces = models.WalkingPiecesOf(spec);
+  object.pose_step_ns = WalkingPerson::kPoseStep_ns;
+}
+
 std::uint32_t ObjectLabel(const ObjectSpec& spec,
                           const RailSurfaces& surfaces,
                           const LabelTable& labels) {
-  const std::uint32_t of_type = DefaultSurface(spec.type, surfaces).label;
-  if (!spec.label) return of_type;
+  if (!spec.label && IsThing(spec.type)) {
+    // Where the table could not be read, or lacks the name, the model says so.
+    const Label* of_type = labels.Find(LabelNameOf(spec.type));
+    return of_type == nullptr ? 0 : of_type->id;
+  }
+  if (!spec.label) return DefaultSurface(spec.type, surfaces).label;
   const Label* label = labels.Find(*spec.label);
   if (label == nullptr) {
     Fail("label: must be in the label table (got \"" + *spec.label + "\")");
   }
   return label->id;
+}
+
+SurfaceClass SurfaceOfObject(const ObjectSpec& spec,
+                             const RailSurfaces& surfaces,
+                             const LabelTable& labels,
+                             const MaterialLibrary& materials) {
+  return {.material = spec.material ? MaterialOf(spec, materials)
+                                    : DefaultSurface(spec.type, surfaces).material,
+          .label = ObjectLabel(spec, surfaces, labels)};
 }
 
 }  // namespace railcast

@@ -1,14 +1,14 @@
+#include <utility>
 #include <vector>
 
 #include "core/rail/model_parts.h"
-#include "core/rail/objects/object_models.h"
+#include "core/rail/objects/rolling_stock.h"
 #include "core/rail/objects/wagon_parts.h"
 
 namespace railcast {
 namespace {
 
-constexpr double kOpenWagonLength_m = 14.04;
-constexpr double kOpenWagonPivotDistance_m = 9.0;
+constexpr double kOpenWagonPivotDistance_m = kOpenWagonMeasures.pivot_distance_m;
 constexpr double kFloor_m = 1.24;
 
 /// Adds doors with their posts, lock bars and stiffeners, and the plain posts in between, on one
@@ -73,7 +73,7 @@ void AddOpenWagonFrame(Mesh& frame) {
 
 }  // namespace
 
-Model MakeOpenWagon(const RailSurfaces& surfaces) {
+RailVehicleModel MakeOpenWagon(const RailSurfaces& surfaces) {
   Model wagon{.name = "open_wagon", .parts = {}};
   AddOpenWagonFrame(MeshOf(surfaces.wagon_frame, wagon));
   MeshOf(surfaces.wagon_body, wagon)
@@ -81,10 +81,9 @@ Model MakeOpenWagon(const RailSurfaces& surfaces) {
   for (const double side : kBothSides) {
     AddOpenWagonSide(side, surfaces, wagon);
     AddOpenWagonEnd(side, MeshOf(surfaces.wagon_body, wagon));
-    AddBogie(side * kOpenWagonPivotDistance_m / 2.0, surfaces, wagon);
   }
-  AddDrawAndBufferGear(kOpenWagonLength_m, surfaces, wagon);
-  return wagon;
+  AddDrawAndBufferGear(kOpenWagonMeasures.length_m, surfaces.wagon_frame, wagon);
+  return {std::move(wagon), MakeWagonBogie(surfaces)};
 }
 
 }  // namespace railcast

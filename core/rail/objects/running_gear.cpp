@@ -22,25 +22,12 @@ Transform TowardsSide(double side, const Vector3& origin_m) {
 
 /// A wheel about the x axis, with x pointing outwards from the back of the flange: hub, web, rim,
 /// and the UIC 510-2 tread with its flange.
-Mesh MakeWheel() {
-  const std::vector<Point2> profile = {{0.04, 0.39},
-                                       {0.0, kWheelRadius_m + 0.018},
-                                       {0.016, kWheelRadius_m + kFlangeHeight_m},
-                                       {0.0325, kWheelRadius_m + 0.010},
-                                       {0.07, kWheelRadius_m},
-                                       {0.135, kWheelRadius_m - 0.003},
-                                       {0.085, 0.39}};
+Mesh MakeWheel(double radius_m) {
+  const std::vector<Point2> profile = {
+      {0.04, radius_m - 0.07},    {0.0, radius_m + 0.018}, {0.016, radius_m + kFlangeHeight_m},
+      {0.0325, radius_m + 0.010}, {0.07, radius_m},        {0.135, radius_m - 0.003},
+      {0.085, radius_m - 0.07}};
   return MakeLathe(profile, kWheelSides);
-}
-
-void AddWheelset(double x_m, const RailSurfaces& surfaces, Model& wagon) {
-  const Mesh wheel = MakeWheel();
-  Mesh& mesh = MeshOf(surfaces.wheel, wagon);
-  for (const double side : kBothSides) {
-    mesh.Append(wheel,
-                TowardsSide(side, {x_m, side * kFlangeBackDistance_m / 2.0, kWheelRadius_m}));
-  }
-  mesh.Append(MakeBar({x_m, -0.9, kWheelRadius_m}, {x_m, 0.9, kWheelRadius_m}, 0.1));
 }
 
 /// Adds an axle box with its cover, the wings under the springs, and the two springs.
@@ -117,30 +104,40 @@ Mesh MakeCoupling() {
 
 }  // namespace
 
-void AddBogie(double pivot_x_m, const RailSurfaces& surfaces, Model& wagon) {
-  for (const double end : kBothSides) {
-    AddWheelset(pivot_x_m + end * kBogieAxleBase_m / 2.0, surfaces, wagon);
+void AddWheelset(const WheelsetPlace& place, const SurfaceClass& surface, Model& bogie) {
+  const Mesh wheel = MakeWheel(place.radius_m);
+  Mesh& mesh = MeshOf(surface, bogie);
+  for (const double side : kBothSides) {
+    mesh.Append(wheel,
+                TowardsSide(side, {place.x_m, side * kFlangeBackDistance_m / 2.0, place.radius_m}));
   }
-  Mesh bogie;
+  mesh.Append(MakeBar({place.x_m, -0.9, place.radius_m}, {place.x_m, 0.9, place.radius_m}, 0.1));
+}
+
+Model MakeWagonBogie(const RailSurfaces& surfaces) {
+  Model bogie{.name = "wagon_bogie", .parts = {}};
+  for (const double end : kBothSides) {
+    AddWheelset({.x_m = end * kBogieAxleBase_m / 2.0}, surfaces.wheel, bogie);
+  }
+  Mesh& frame = MeshOf(surfaces.wagon_frame, bogie);
   const std::vector<Point2> side_frame = SideFrameOutline();
   for (const double side : kBothSides) {
     const double middle_m = side * 1.005;
-    bogie.Append(MakePlate(side_frame, middle_m - 0.06, middle_m + 0.06));
-    bogie.Append(
+    frame.Append(MakePlate(side_frame, middle_m - 0.06, middle_m + 0.06));
+    frame.Append(
         MakeBlock({-0.14, side * 0.85 - 0.1, 0.70}, {0.14, side * 0.85 + 0.1, kBogieTop_m}));
-    for (const double end : kBothSides) AddAxleBox(end * kBogieAxleBase_m / 2.0, side, bogie);
+    for (const double end : kBothSides) AddAxleBox(end * kBogieAxleBase_m / 2.0, side, frame);
   }
-  bogie.Append(MakeBlock({-0.24, -0.97, 0.46}, {0.24, 0.97, 0.72}));
-  bogie.Append(MakeBar({0, 0, 0.70}, {0, 0, kBogieTop_m}, 0.2));
+  frame.Append(MakeBlock({-0.24, -0.97, 0.46}, {0.24, 0.97, 0.72}));
+  frame.Append(MakeBar({0, 0, 0.70}, {0, 0, kBogieTop_m}, 0.2));
   for (const double end : kBothSides) {
     const double x_m = end * 1.48;
-    bogie.Append(MakeBlock({x_m - 0.05, -0.97, 0.60}, {x_m + 0.05, 0.97, 0.71}));
+    frame.Append(MakeBlock({x_m - 0.05, -0.97, 0.60}, {x_m + 0.05, 0.97, 0.71}));
   }
-  MeshOf(surfaces.wagon_frame, wagon)
-      .Append(bogie, MakeTransform(Eigen::Matrix3d::Identity(), {pivot_x_m, 0, 0}));
+  return bogie;
 }
 
-void AddDrawAndBufferGear(double length_m, const RailSurfaces& surfaces, Model& wagon) {
+void AddDrawAndBufferGear(double length_m, const SurfaceClass& surface, Model& vehicle) {
   const Mesh buffer = MakeBuffer();
   Mesh end_gear = MakeCoupling();
   for (const double side : kBothSides) {
@@ -148,7 +145,7 @@ void AddDrawAndBufferGear(double length_m, const RailSurfaces& surfaces, Model& 
         buffer, MakeTransform(Eigen::Matrix3d::Identity(), {0, side * kBufferDistance_m / 2.0, 0}));
   }
   end_gear.Append(MakeBlock({-0.22, -1.30, -0.19}, {0.0, 1.30, 0.16}));
-  Mesh& mesh = MeshOf(surfaces.wagon_frame, wagon);
+  Mesh& mesh = MeshOf(surface, vehicle);
   const double headstock_x_m = length_m / 2.0 - kBufferLength_m;
   for (const double yaw_rad : {0.0, std::numbers::pi}) {
     const Eigen::Matrix3d turn = RotationFromYawPitchRoll(yaw_rad, 0, 0);

@@ -1,9 +1,10 @@
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "core/rail/model_parts.h"
-#include "core/rail/objects/object_models.h"
+#include "core/rail/objects/rolling_stock.h"
 #include "core/rail/objects/wagon_parts.h"
 #include "core/scene/shapes.h"
 
@@ -12,8 +13,7 @@ namespace {
 
 using Point2 = Eigen::Vector2d;
 
-constexpr double kTankWagonLength_m = 16.0;
-constexpr double kTankWagonPivotDistance_m = 10.5;
+constexpr double kTankWagonPivotDistance_m = kTankWagonMeasures.pivot_distance_m;
 constexpr double kTankRadius_m = 1.45;
 constexpr double kTankAxis_m = 2.62;  ///< Above top of rail.
 constexpr double kTankHalfLength_m = 7.2;
@@ -137,7 +137,7 @@ void AddFrame(Mesh& frame) {
 
 }  // namespace
 
-Model MakeTankWagon(const RailSurfaces& surfaces) {
+RailVehicleModel MakeTankWagon(const RailSurfaces& surfaces) {
   Model wagon{.name = "tank_wagon", .parts = {}};
   Mesh& tank = MeshOf(surfaces.tank, wagon);
   tank = MakeTankShell();
@@ -148,10 +148,8 @@ Model MakeTankWagon(const RailSurfaces& surfaces) {
   AddLadders(frame);
   AddEndPlatform(frame);
   MeshOf(surfaces.wagon_frame, wagon) = std::move(frame);
-  for (const double end : kBothSides)
-    AddBogie(end * kTankWagonPivotDistance_m / 2.0, surfaces, wagon);
-  AddDrawAndBufferGear(kTankWagonLength_m, surfaces, wagon);
-  return wagon;
+  AddDrawAndBufferGear(kTankWagonMeasures.length_m, surfaces.wagon_frame, wagon);
+  return {std::move(wagon), MakeWagonBogie(surfaces)};
 }
 
 }  // namespace railcast

@@ -1,8 +1,10 @@
 #include "core/rail/objects/wagon_parts.h"
 
 #include <numbers>
+#include <utility>
 #include <vector>
 
+#include "core/rail/model_parts.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {
@@ -11,6 +13,12 @@ namespace {
 using Point2 = Eigen::Vector2d;
 
 }  // namespace
+
+Model MakeVehicleOf(std::string name, std::initializer_list<SurfaceClass> surfaces) {
+  Model vehicle{.name = std::move(name), .parts = {}};
+  for (const SurfaceClass& surface : surfaces) (void)PartOf(surface, vehicle);
+  return vehicle;
+}
 
 Mesh MakeBlock(const Vector3& min_m, const Vector3& max_m) {
   return MakeBox(Eigen::AlignedBox3d(min_m, max_m));

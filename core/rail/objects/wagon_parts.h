@@ -2,7 +2,9 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <initializer_list>
 #include <span>
+#include <string>
 
 #include "core/rail/rail_surfaces.h"
 #include "railcast/scene.h"
@@ -24,12 +26,25 @@ inline constexpr double kBufferRadius_m = 0.225;
 inline constexpr double kBufferLength_m = 0.62;  ///< From the headstock to the buffer face.
 inline constexpr double kBogieTop_m = 0.93;      ///< Height at which the wagon's bolster rests.
 
-/// Adds a Y25-type bogie with its pivot at `pivot_x_m`.
-void AddBogie(double pivot_x_m, const RailSurfaces& surfaces, Model& wagon);
+/// A Y25-type bogie about its pivot.
+[[nodiscard]] Model MakeWagonBogie(const RailSurfaces& surfaces);
 
-/// Adds headstock, buffers, draw hook with screw coupling, and brake hoses at both ends of a wagon
-/// whose buffer faces are `length_m` apart.
-void AddDrawAndBufferGear(double length_m, const RailSurfaces& surfaces, Model& wagon);
+/// Place of a wheelset along its bogie, and its size.
+struct WheelsetPlace {
+  double x_m{};
+  double radius_m = kWheelRadius_m;  ///< At the tape circle.
+};
+
+/// Adds two wheels on their axle.
+void AddWheelset(const WheelsetPlace& place, const SurfaceClass& surface, Model& bogie);
+
+/// Adds headstock, buffers, draw hook with screw coupling, and brake hoses at both ends of a
+/// vehicle whose buffer faces are `length_m` apart.
+void AddDrawAndBufferGear(double length_m, const SurfaceClass& surface, Model& vehicle);
+
+/// A model with an empty part for each of these surfaces, so that references to their meshes stay
+/// valid while others are added to (model_parts.h).
+[[nodiscard]] Model MakeVehicleOf(std::string name, std::initializer_list<SurfaceClass> surfaces);
 
 /// Elements from which wagons are composed. Frame: x along the wagon, y left, z up from top of
 /// rail; metres.

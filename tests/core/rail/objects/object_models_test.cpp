@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <vector>
 
 #include "core/base/error.h"
 #include "tests/core/io/temporary_directory.h"
@@ -13,7 +15,7 @@ namespace railcast {
 namespace {
 
 std::shared_ptr<const Model> MakeModel(const ObjectSpec& spec) {
-  return MakeObjectModel(spec, TestSurfaces(), TestLabels(), TestMaterials());
+  return MakeObjectModel(spec, TestSurfaces(), RailLabels(), RailMaterials());
 }
 
 ObjectSpec ObjectOfType(ObjectType type) {
@@ -61,10 +63,14 @@ TEST(MakeObjectModel, StandsBoxesAndPolesOnTheOriginInTheirSize) {
 
 TEST(MakeObjectModel, GivesEveryTypeItsLabelAndMaterials) {
   const RailSurfaces surfaces = TestSurfaces();
-  const LabelTable labels = TestLabels();
+  const LabelTable labels = RailLabels();
   for (const auto& [type, label] :
        {std::pair(ObjectType::kOpenWagon, "wagon"), std::pair(ObjectType::kFlatWagon, "wagon"),
-        std::pair(ObjectType::kTankWagon, "wagon"), std::pair(ObjectType::kPerson, "person")}) {
+        std::pair(ObjectType::kTankWagon, "wagon"), std::pair(ObjectType::kPerson, "person"),
+        std::pair(ObjectType::kCar, "road_vehicle"),
+        std::pair(ObjectType::kBicycle, "road_vehicle"), std::pair(ObjectType::kDeer, "animal"),
+        std::pair(ObjectType::kFallenTree, "tree"), std::pair(ObjectType::kLandslide, "object"),
+        std::pair(ObjectType::kDragShoe, "object")}) {
     EXPECT_EQ(ObjectLabel(ObjectOfType(type), surfaces, labels), labels.Id(label));
     const auto model = MakeModel(ObjectOfType(type));
     EXPECT_GE(model->parts.size(), 2U) << "more than one material";
@@ -73,8 +79,8 @@ TEST(MakeObjectModel, GivesEveryTypeItsLabelAndMaterials) {
 }
 
 TEST(ObjectModels, ShareTheModelOfObjectsThatDifferOnlyInNameAndPlace) {
-  const LabelTable labels = TestLabels();
-  const MaterialLibrary materials = TestMaterials();
+  const LabelTable labels = RailLabels();
+  const MaterialLibrary materials = RailMaterials();
   ObjectModels models(TestSurfaces(), labels, materials);
   ObjectSpec person = ObjectOfType(ObjectType::kPerson);
   const auto first = models.Of(person);
@@ -88,15 +94,52 @@ TEST(ObjectModels, ShareTheModelOfObjectsThatDifferOnlyInNameAndPlace) {
   EXPECT_NEAR(child->Bounds().sizes().z(), 1.2, 1e-6);
 }
 
+TEST(ObjectModels, GivePiecesToPersonsWhoWalkAndToNobodyElse) {
+  const LabelTable labels = RailLabels();
+  const MaterialLibrary materials = RailMaterials();
+  ObjectModels models(TestSurfaces(), labels, materials);
+  ObjectSpec person = ObjectOfType(ObjectType::kPerson);
+  EXPECT_TRUE(models.WalkingPiecesOf(person).empty()) << "without motion";
+  person.motion = MotionSpec{.profile = {{.time_s = 0.0, .s_m = {}, .speed_mps = 1.2}}};
+  const auto pieces = models.WalkingPiecesOf(person);
+  EXPECT_EQ(pieces.size(), 11U);
+  EXPECT_EQ(models.WalkingPiecesOf(person), pieces) << "shared";
+  person.person = PersonSpec{.luggage = Luggage::kPram};
+  EXPECT_EQ(models.WalkingPiecesOf(person).size(), 12U);
+  EXPECT_NE(models.WalkingPiecesOf(person).front(), pieces.front());
+  person.person->posture = Posture::kStanding;
+  EXPECT_TRUE(models.WalkingPiecesOf(person).empty());
+  ObjectSpec box = ObjectOfType(ObjectType::kBox);
+  box.motion = person.motion;
+  EXPECT_TRUE(models.WalkingPiecesOf(box).empty());
+}
+
+TEST(MakeObjectModel, NeedsTheMaterialsOfHiVisClothesOnlyForWhoWearsThem) {
+  const MaterialLibrary plain({{"skin", 0.5}, {"clothing", 0.3}});
+  ObjectSpec person = ObjectOfType(ObjectType::kPerson);
+  const auto complaint = [&] {
+    try {
+      (void)MakeObjectModel(person, TestSurfaces(), RailLabels(), plain);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(complaint(), "");
+  person.person = PersonSpec{.clothing = Clothing::kHiVis};
+  EXPECT_NE(complaint().find("hi_vis_fabric"), std::string::npos) << complaint();
+  EXPECT_NE(complaint().find("hi_vis_band"), std::string::npos) << complaint();
+}
+
 TEST(MakeObjectModel, OverridesLabelAndMaterialOfAllParts) {
   ObjectSpec spec = ObjectOfType(ObjectType::kPerson);
   spec.label = "object";
   spec.material = "wood";
-  EXPECT_EQ(ObjectLabel(spec, TestSurfaces(), TestLabels()), TestLabels().Id("object"));
+  EXPECT_EQ(ObjectLabel(spec, TestSurfaces(), RailLabels()), RailLabels().Id("object"));
   const auto model = MakeModel(spec);
   for (const Part& part : model->parts) {
-    EXPECT_EQ(part.label, TestLabels().Id("object"));
-    EXPECT_EQ(part.material, TestMaterials().Index("wood"));
+    EXPECT_EQ(part.label, RailLabels().Id("object"));
+    EXPECT_EQ(part.material, RailMaterials().Index("wood"));
   }
 }
 
@@ -111,7 +154,22 @@ TEST_F(MakeObjectModelFromFile, PutsTheMiddleOfTheFootprintOnTheOrigin) {
   EXPECT_TRUE(model->Bounds().isApprox(
       Eigen::AlignedBox3d(Vector3(-0.1, -0.15, 0.0), Vector3(0.1, 0.15, 0.4)), 1e-5))
       << model->Bounds().min().transpose() << " to " << model->Bounds().max().transpose();
-  EXPECT_EQ(model->parts.front().label, TestLabels().Id("object"));
+  EXPECT_EQ(model->parts.front().label, RailLabels().Id("object"));
+}
+
+TEST_F(MakeObjectModelFromFile, IsSharedByObjectsOfTheSameOriginAndParts) {
+  const LabelTable labels = RailLabels();
+  const MaterialLibrary materials = RailMaterials();
+  std::ofstream(file_) << "v 10 20 30\nv 12 20 30\nv 10 24 31\ng roof\nf 1 2 3\n";
+  ObjectModels models(TestSurfaces(), labels, materials);
+  const auto plain = models.Of(spec_);
+  spec_.parts = {{.of = "roof", .material = "wood", .label = {}}};
+  const auto wooden = models.Of(spec_);
+  EXPECT_NE(wooden, plain);
+  EXPECT_EQ(models.Of(spec_), wooden);
+  EXPECT_EQ(wooden->parts.front().material, materials.Index("wood"));
+  spec_.origin = MeshOrigin::kFile;
+  EXPECT_NE(models.Of(spec_), wooden);
 }
 
 TEST_F(MakeObjectModelFromFile, StretchesTheMeshToTheSize) {
@@ -138,7 +196,10 @@ TEST(MakeObjectModel, RefusesWhatItCannotMake) {
   EXPECT_EQ(Complaint(spec), "size_m: a pole must have one diameter (got 0.2 and 0.25)");
   spec = ObjectOfType(ObjectType::kOpenWagon);
   spec.size_m = {1.0, 1.0, 1.0};
-  EXPECT_EQ(Complaint(spec), "size_m: a wagon has its own");
+  EXPECT_EQ(Complaint(spec), "size_m: a rail vehicle has its own");
+  spec = ObjectOfType(ObjectType::kCow);
+  spec.size_m = {1.0, 1.0, 1.0};
+  EXPECT_EQ(Complaint(spec), "size_m: type \"cow\" has its own");
   spec = ObjectOfType(ObjectType::kMesh);
   spec.file = "/nowhere.obj";
   EXPECT_EQ(Complaint(spec), "/nowhere.obj: no such file or directory");
@@ -148,6 +209,50 @@ TEST(MakeObjectModel, RefusesWhatItCannotMake) {
   spec = ObjectOfType(ObjectType::kPerson);
   spec.material = "gold";
   EXPECT_EQ(Complaint(spec), "material: must be in the material library (got \"gold\")");
+}
+
+TEST(MakeObjectModel, LeansToTheRightAndThenForwardsOnItsLowestPoint) {
+  ObjectSpec spec = ObjectOfType(ObjectType::kBox);
+  spec.size_m = {1.0, 0.2, 2.0};
+  spec.roll_deg = 30.0;
+  Eigen::AlignedBox3d bounds_m = MakeModel(spec)->Bounds();
+  EXPECT_NEAR(bounds_m.sizes().y(), 0.2 * std::cos(0.5236) + 2.0 * std::sin(0.5236), 1e-4);
+  EXPECT_NEAR(bounds_m.sizes().z(), 0.2 * std::sin(0.5236) + 2.0 * std::cos(0.5236), 1e-4);
+  EXPECT_NEAR(bounds_m.min().z(), 0.0, 1e-6);
+  EXPECT_NEAR(bounds_m.center().y(), 0.0, 1e-6);
+  // The lowest edge is the right one, so the highest vertex is to the right, too.
+  Eigen::Vector3f highest_m = Eigen::Vector3f::Zero();
+  const std::shared_ptr<const Model> leaning = MakeModel(spec);
+  for (const Eigen::Vector3f& vertex : leaning->parts.front().mesh.vertices) {
+    if (vertex.z() > highest_m.z()) highest_m = vertex;
+  }
+  EXPECT_LT(highest_m.y(), 0.0F);
+  spec.roll_deg = 0.0;
+  spec.pitch_deg = 90.0;  // It lies on its front.
+  bounds_m = MakeModel(spec)->Bounds();
+  EXPECT_NEAR(bounds_m.sizes().x(), 2.0, 1e-6);
+  EXPECT_NEAR(bounds_m.sizes().z(), 1.0, 1e-6);
+  EXPECT_NEAR(bounds_m.min().z(), 0.0, 1e-6);
+}
+
+TEST(MakeObjectModel, NeedsMaterialsAndLabelsOfThingsOnlyWhereTheyAre) {
+  const MaterialLibrary library = RailMaterials();
+  std::vector<Material> materials(library.materials().begin() + 1, library.materials().end());
+  std::erase_if(materials, [](const Material& material) { return material.name == "fur"; });
+  std::vector<Label> labels = RailLabels().labels();
+  std::erase_if(labels, [](const Label& label) { return label.name == "animal"; });
+  const auto make = [&](ObjectType type) {
+    return MakeObjectModel(ObjectOfType(type), TestSurfaces(), LabelTable(labels),
+                           MaterialLibrary(materials));
+  };
+  EXPECT_NE(make(ObjectType::kCar), nullptr);
+  try {
+    (void)make(ObjectType::kCow);
+    FAIL() << "a cow without fur";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "type: requires the label \"animal\"\ntype: requires the material \"fur\"");
+  }
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "core/rail/objects/object_models.h"
+#include "core/rail/objects/rolling_stock.h"
 
 #include <gtest/gtest.h>
 
@@ -24,10 +24,14 @@ struct Wagon {
 
 class RollingStock : public testing::Test {
  protected:
+  [[nodiscard]] Model Whole(ObjectType type) const {
+    return WholeOf(MakeRailVehicle(type, surfaces_), MeasuresOf(type).pivot_distance_m);
+  }
+
   const RailSurfaces surfaces_ = TestSurfaces();
-  const std::vector<Wagon> wagons_ = {{MakeOpenWagon(surfaces_), 14.04, 9.0},
-                                      {MakeFlatWagon(surfaces_), 19.74, 14.2},
-                                      {MakeTankWagon(surfaces_), 16.0, 10.5}};
+  const std::vector<Wagon> wagons_ = {{Whole(ObjectType::kOpenWagon), 14.04, 9.0},
+                                      {Whole(ObjectType::kFlatWagon), 19.74, 14.2},
+                                      {Whole(ObjectType::kTankWagon), 16.0, 10.5}};
 };
 
 TEST_F(RollingStock, HasItsLengthOverBuffersInTheMiddleOfTheFrame) {
