@@ -39,6 +39,7 @@ enum class RandomUse : std::uint32_t {
   kBushPlacement = 122,
   kGrassFade = 123,
   kFields = 124,
+  kTrackIrregularity = 125,
   kRandomWeather = 200,
 };
 

@@ -40,11 +40,16 @@ constexpr auto kColors = std::to_array<NamedColor>({{"rail_head", 0.45, 0.45, 0.
                                                     {"snow", 0.90, 0.91, 0.93},
                                                     {"retro_sheeting", 0.60, 0.60, 0.60},
                                                     {"hi_vis_vest", 0.90, 0.30, 0.03},
+                                                    {"hi_vis_fabric", 0.95, 0.32, 0.02},
+                                                    {"hi_vis_band", 0.60, 0.60, 0.60},
                                                     {"masonry", 0.55, 0.48, 0.38},
                                                     {"red_paint", 0.55, 0.05, 0.04},
                                                     {"plastic", 0.65, 0.50, 0.10},
                                                     {"black_paint", 0.03, 0.03, 0.03},
-                                                    {"roof_tile", 0.35, 0.13, 0.08}});
+                                                    {"roof_tile", 0.35, 0.13, 0.08},
+                                                    {"car_paint", 0.10, 0.15, 0.35},
+                                                    {"fur", 0.22, 0.12, 0.06},
+                                                    {"horn", 0.20, 0.16, 0.12}});
 
 }  // namespace
 

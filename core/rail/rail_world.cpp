@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
 #include "core/base/text.h"
@@ -21,15 +22,20 @@
 #include "core/rail/land/landform.h"
 #include "core/rail/line/network.h"
 #include "core/rail/line/track_path.h"
+#include "core/rail/object_way.h"
+#include "core/rail/objects/rail_vehicles.h"
+#include "core/rail/ride/ride.h"
 #include "core/rail/standing_height.h"
 #include "core/rail/structures/cleared.h"
 #include "core/rail/structures/moving_booms.h"
 #include "core/rail/structures/structure_types.h"
 #include "core/rail/structures/structures.h"
 #include "core/rail/track/track_structure.h"
+#include "core/rail/train/bogies.h"
+#include "core/rail/train/own_train.h"
+#include "core/rail/train/train_places.h"
 #include "core/rail/world_check.h"
 #include "core/rail/world_draft.h"
-#include "core/scene/shapes.h"
 
 namespace railcast {
 namespace {
@@ -42,69 +48,6 @@ constexpr double kCoarseSightAngle_rad = 0.5;
 
 // Maximum extent of tree crowns and cantilevers beyond the ground of their chunk.
 constexpr double kOverhang_m = 8.0;
-
-bool StandsOnGround(const ObjectSpec& object) {
-  return !object.h_m && !IsWagon(object.type);
-}
-
-SceneObject MakeEgo(const VehicleSpec& vehicle,
-                    const TrackPath& path,
-                    const SurfaceClass& surface) {
-  Model model{"ego", {{{}, surface.material, surface.label}}};
-  for (const std::array<double, 6>& box : vehicle.ego_boxes_m) {
-    model.parts.front().mesh.Append(
-        MakeBox({Vector3(box[0], box[1], box[2]), Vector3(box[3], box[4], box[5])}));
-  }
-  return {.name = "ego",
-          .type = "ego",
-          .label = surface.label,
-          .model = std::make_shared<const Model>(std::move(model)),
-          .moves = path.moves(),
-          .is_ego = true};
-}
-
-Eigen::AlignedBox2d GroundAreaOf(const Model& model) {
-  const Eigen::AlignedBox3d bounds_m = model.Bounds();
-  return {bounds_m.min().head<2>(), bounds_m.max().head<2>()};
-}
-
-StandingPlace StandingPlaceOf(const TrackPath& path,
-                              const Alignment& alignment,
-                              double s_m,
-                              const Eigen::AlignedBox2d& area_m) {
-  const TrackOffset offset = path.course().OffsetAt(s_m);
-  const double turn_rad = TurnFromAlignment_rad(alignment.At(s_m), offset);
-  const TrackPose& pose = path.pose();
-  return {.s_m = s_m - pose.d_m * std::sin(turn_rad),
-          .d_m = offset.d_m + pose.d_m * std::cos(turn_rad),
-          .heading_rad = pose.heading_rad + turn_rad,
-          .area_m = area_m};
-}
-
-/// The places of all moving booms on their tracks, two for each level crossing.
-std::vector<TrackPath> BoomPaths(const WorldDraft& draft) {
-  std::vector<TrackPath> paths;
-  for (const StructureSpec& structure : draft.world.structures) {
-    const auto* crossing = std::get_if<LevelCrossingSpec>(&structure);
-    if (crossing == nullptr || crossing->barrier_angles_deg.empty()) continue;
-    WorldFaults faults;
-    const auto route =
-        MakeRoute(draft.world, draft.network, {"", {crossing->track}, false}, faults);
-    Check(route.has_value(), "a level crossing's track exists");
-    paths.insert(paths.end(), 2,
-                 TrackPath(*route, TrackPose{.is_upright = true},
-                           SpeedProfile(MotionSpec{}, crossing->s_m)));
-  }
-  return paths;
-}
-
-/// Motion and standing place of an object. The vehicle's own boxes move with the vehicle.
-struct ObjectWay {
-  std::optional<TrackPath> path;
-  /// The object's footprint on the ground; absent if its height is given.
-  std::optional<Eigen::AlignedBox2d> ground_area_m;
-  std::optional<MovingBoom> boom{};
-};
 
 }  // namespace
 
@@ -125,6 +68,7 @@ struct RailWorld::Line {
   InfrastructureModels infrastructure;
   PlantModels plants;
   Landform land;
+  std::optional<Ride> ride;  ///< Of the sensor's vehicle.
 
   /// If `chunk_from_world` is the identity, builders work in world coordinates.
   [[nodiscard]] ChunkContext ContextOf(int chunk, const Transform& chunk_from_world) const {
@@ -176,6 +120,14 @@ struct RailWorld::Line {
     }
     return booms;
   }
+  /// The sensor's vehicle, of which everything but its bogies moves on their springs.
+  [[nodiscard]] Transform WorldFromVehicle(const TrackPath& path, std::int64_t time_ns) const {
+    const double s_m = path.ChainageAt(time_ns);
+    const Transform world_from_perfect = path.WorldFromObjectAt(alignment, s_m);
+    if (!ride) return world_from_perfect;
+    return world_from_perfect *
+           ride->PerfectFromVehicle(ride->At(s_m, path.SpeedAt_mps(time_ns), path.reverse()));
+  }
   [[nodiscard]] LineMeasures Measures() const {
     return {alignment.length_m(), alignment.tightest_radius_m()};
   }
@@ -214,26 +166,35 @@ RailWorld::RailWorld(const WorldSpec& world,
   Network network = Completed(std::move(draft.network));
   std::vector<LaidTurnout> turnouts = LayTurnouts(network);
   std::vector<LaidDiamond> diamonds = LayDiamonds(network);
-  line_ = std::make_shared<const Line>(Line{
-      std::move(draft.world), vehicle, labels, materials, seed, surfaces, alignment,
-      std::move(network), std::move(turnouts), std::move(diamonds),
-      ChunkGrid(alignment, kChunkLength_m, world.terrain.half_width_m),
-      std::move(*draft.catenary_plan), MakeInfrastructureModels(world, surfaces),
-      MakePlantModels(surfaces, seed),
-      Landform(world.terrain, std::move(*draft.strip_width), std::move(draft.elevation), seed)});
+  line_ = std::make_shared<const Line>(
+      Line{std::move(draft.world), vehicle, labels, materials, seed, surfaces, alignment,
+           std::move(network), std::move(turnouts), std::move(diamonds),
+           ChunkGrid(alignment, kChunkLength_m, world.terrain.half_width_m),
+           std::move(*draft.catenary_plan), MakeInfrastructureModels(world, surfaces),
+           MakePlantModels(surfaces, seed),
+           Landform(world.terrain, std::move(*draft.strip_width), std::move(draft.elevation), seed),
+           RideOf(vehicle, world.seed)});
 
   std::vector<SceneObject> objects = std::move(draft.objects);
   std::vector<ObjectWay> ways;
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    const ObjectSpec& object = world.objects[i];
-    ways.push_back(
-        {std::move(draft.object_paths[i]),
-         StandsOnGround(object) ? std::optional(GroundAreaOf(*objects[i].model)) : std::nullopt});
+    if (i < world.objects.size()) {
+      ways.push_back(WayOf(world.objects[i], *objects[i].model, std::move(draft.object_paths[i])));
+    } else {
+      ways.push_back({.path = std::move(draft.object_paths[i].track), .is_in_train = true});
+    }
   }
   if (!vehicle.ego_boxes_m.empty()) {
     objects.push_back(
-        MakeEgo(vehicle, *draft.vehicle_path, {surfaces.box.material, labels.Id("ego")}));
-    ways.push_back({{}, {}});
+        MakeEgoBoxes(vehicle, *draft.vehicle_path, {surfaces.box.material, labels.Id("ego")}));
+    ways.emplace_back();
+  } else if (!vehicle.consist.empty()) {
+    ObjectModels models(surfaces, labels, materials);
+    for (OwnVehicle& own :
+         MakeOwnTrain(vehicle, *draft.vehicle_path, alignment, labels.Id("ego"), models)) {
+      objects.push_back(std::move(own.object));
+      ways.push_back({.path = std::move(own.path)});
+    }
   }
   std::size_t boom_index = 0;
   for (MovingBoom& boom : line_->Booms()) {
@@ -242,7 +203,7 @@ RailWorld::RailWorld(const WorldSpec& world,
                        .label = surfaces.structures.lineside.barrier_red.label,
                        .model = boom.model,
                        .moves = true});
-    ways.push_back({std::move(boom_paths.at(boom_index++)), {}, std::move(boom)});
+    ways.push_back({.path = std::move(boom_paths.at(boom_index++)), .boom = std::move(boom)});
   }
   std::uint32_t next_instance = 1;
   for (SceneObject& object : objects) object.instance = next_instance++;
@@ -260,13 +221,23 @@ std::shared_ptr<const RailWorld> RailWorld::WithVehicleSpeed(std::int64_t from_n
   Things changed = *things_;
   changed.vehicle = changed.vehicle.WithSpeedFrom(from_ns, speed_mps, acceleration_mps2);
   changed.has_changed_vehicle_speed = true;
+  auto ways = std::make_shared<std::vector<ObjectWay>>(*changed.ways);
+  for (std::size_t i = 0; i < ways->size(); ++i) {
+    ObjectWay& way = (*ways)[i];
+    if (way.walk) way.walk = way.walk->WithVehicle(changed.vehicle, from_ns);
+    // The other vehicles of the sensor's train.
+    if (way.path && (*changed.objects)[i].is_ego) {
+      way.path = way.path->WithSpeedFrom(from_ns, speed_mps, acceleration_mps2);
+    }
+  }
+  changed.ways = std::move(ways);
   const auto standing_ego = [](const SceneObject& object) {
     return object.is_ego && !object.moves;
   };
   if (std::any_of(changed.objects->begin(), changed.objects->end(), standing_ego)) {
     auto objects = std::make_shared<std::vector<SceneObject>>(*changed.objects);
     // From now on its place depends on time, even after it has stopped again.
-    std::find_if(objects->begin(), objects->end(), standing_ego)->moves = true;
+    for (SceneObject& object : *objects) object.moves = object.moves || object.is_ego;
     changed.objects = std::move(objects);
   }
   return std::shared_ptr<const RailWorld>(
@@ -293,17 +264,32 @@ std::shared_ptr<const RailWorld> RailWorld::WithObject(const ObjectSpec& object,
   }
   const NetworkDraft network{courses, line_->network.turnouts};
   auto path = DraftPath({line_->world, network}, object, pointer, from_ns, faults);
-  ObjectModels models(*line_->surfaces, line_->labels, line_->materials);
-  auto made = DraftObject(object, pointer, {*line_->surfaces, line_->labels, models}, faults);
+  RailSurfaces surfaces = *line_->surfaces;
+  WorldSpec only_this;
+  only_this.objects = {object};
+  Attempt("", faults.errors, [&] {
+    if (HasVehicleSurfaces(only_this, {})) {
+      surfaces.AddVehicleSurfaces(line_->labels, line_->materials);
+    }
+    return true;
+  });
+  ObjectModels models(surfaces, line_->labels, line_->materials);
+  auto made = DraftObject(object, pointer, {surfaces, line_->labels, models}, faults);
+  ObjectPath object_path;
+  if (path && made) {
+    object_path = DraftObjectPath(
+        {line_->alignment, line_->world.terrain.half_width_m, things_->vehicle, from_ns},
+        {object, *made, pointer}, std::move(*path), faults);
+  }
   faults.errors.ThrowIfAny();
 
   Things changed = *things_;
-  made->moves = path->moves();
+  made->moves = object_path.moves();
+  GiveBogies(object, *object_path.track, line_->alignment, models, *made);
+  GiveLimbs(object, models, *made);
   made->instance = changed.next_instance++;
   auto ways = std::make_shared<std::vector<ObjectWay>>(*changed.ways);
-  ways->push_back({std::move(*path), StandsOnGround(object)
-                                         ? std::optional(GroundAreaOf(*made->model))
-                                         : std::nullopt});
+  ways->push_back(WayOf(object, *made->model, std::move(object_path)));
   auto objects = std::make_shared<std::vector<SceneObject>>(*changed.objects);
   objects->push_back(std::move(*made));
   changed.ways = std::move(ways);
@@ -322,6 +308,9 @@ std::shared_ptr<const RailWorld> RailWorld::WithoutObject(const std::string& nam
   const auto index = found - objects().begin();
   if (things_->ways->at(index).boom) {
     throw InputError({{"/name", "must not be a barrier of a level crossing", Quoted(name)}});
+  }
+  if (things_->ways->at(index).is_in_train) {
+    throw InputError({{"/name", "must not be a vehicle of a train", Quoted(name)}});
   }
   Things changed = *things_;
   auto ways = std::make_shared<std::vector<ObjectWay>>(*changed.ways);
@@ -383,11 +372,12 @@ const TrackCourse& RailWorld::object_course(std::size_t object) const {
 }
 
 double RailWorld::ObjectChainage_m(std::size_t object, std::int64_t time_ns) const {
+  // That of an object which walks is where its path begins: it does not keep to its track.
   return things_->PathOf(object).ChainageAt(time_ns);
 }
 
 Transform RailWorld::WorldFromVehicle(std::int64_t time_ns) const {
-  return things_->vehicle.WorldFromObject(line_->alignment, time_ns);
+  return line_->WorldFromVehicle(things_->vehicle, time_ns);
 }
 
 int RailWorld::HomeChunk(std::int64_t time_ns) const {
@@ -463,17 +453,39 @@ const std::vector<SceneObject>& RailWorld::objects() const {
 }
 
 Transform RailWorld::WorldFromObject(std::size_t object, std::int64_t time_ns) const {
-  if (const auto& boom = things_->ways->at(object).boom) return boom->WorldFromBoom(time_ns);
-  const TrackPath& path = things_->PathOf(object);
-  Transform world_from_object = path.WorldFromObject(line_->alignment, time_ns);
-  if (const auto& area_m = things_->ways->at(object).ground_area_m) {
-    const double s_m = path.ChainageAt(time_ns);
-    const StandingPlace place = StandingPlaceOf(path, line_->alignment, s_m, *area_m);
-    const int chunk = line_->grid.ChunkAt(s_m);
-    world_from_object.translation().z() =
-        StandingHeight_m(line_->ContextOf(chunk, Transform::Identity()), place);
+  const ObjectWay& way = things_->ways->at(object);
+  if (way.boom) return way.boom->WorldFromBoom(time_ns);
+  if (!way.path) return WorldFromVehicle(time_ns);
+  ObjectStance stance = StanceOf(way, things_->PathOf(object), line_->alignment, time_ns);
+  Transform& world_from_object = stance.world_from_object;
+  if (!way.ground_area_m) return world_from_object;
+  const ChunkContext context =
+      line_->ContextOf(line_->grid.ChunkAt(stance.s_m), Transform::Identity());
+  if (way.follow != Follow::kGround) {
+    world_from_object.translation().z() = StandingHeight_m(context, stance.place);
+    return world_from_object;
   }
-  return world_from_object;
+  const SlopeBelow slope = SlopeBelowObject(context, stance.place);
+  world_from_object.translation().z() = slope.height_m;
+  return world_from_object * Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), slope.up);
+}
+
+std::vector<Transform> RailWorld::WorldFromPieces(std::size_t object, std::int64_t time_ns) const {
+  const ObjectWay& way = things_->ways->at(object);
+  if (way.walker) {
+    const Transform world_from_object = WorldFromObject(object, time_ns);
+    std::vector<Transform> limbs = LimbsOf(way, time_ns);
+    for (Transform& limb : limbs) limb = world_from_object * limb;
+    return limbs;
+  }
+  const TrackPath& path = things_->PathOf(object);
+  if (objects()[object].pieces.empty() || !(path.pose().pivot_distance_m > 0.0)) {
+    return World::WorldFromPieces(object, time_ns);
+  }
+  const auto pieces = path.WorldFromVehicleAt(line_->alignment, path.ChainageAt(time_ns));
+  std::vector<Transform> world_from_pieces(pieces.begin(), pieces.end());
+  if (!things_->ways->at(object).path) world_from_pieces.front() = WorldFromVehicle(time_ns);
+  return world_from_pieces;
 }
 
 }  // namespace railcast

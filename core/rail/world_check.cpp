@@ -9,6 +9,9 @@
 #include "core/rail/line/turnout_place.h"
 #include "core/rail/structures/moving_booms.h"
 #include "core/rail/structures/structures.h"
+#include "core/rail/train/own_train.h"
+#include "core/rail/train/train_check.h"
+#include "core/rail/train/train_places.h"
 
 namespace railcast {
 namespace {
@@ -120,24 +123,32 @@ void CheckDistance(const WorldSpec& world,
   }
 }
 
-void CheckNames(const WorldSpec& world, WorldFaults& faults) {
+void CheckNames(const WorldSpec& world, const VehicleSpec& vehicle, WorldFaults& faults) {
   // Instance ids from kFirstMastInstance on are used for masts, and one id for the vehicle itself
   // and each moving boom.
-  std::set<std::string> names{"ego"};
+  std::set<std::string> own_names{"ego"};
+  for (std::size_t i = 0; i < vehicle.consist.size(); ++i) {
+    own_names.insert(NameOfOwnVehicle(vehicle, i));
+  }
+  std::set<std::string> names = own_names;
   for (const StructureSpec& structure : world.structures) {
     const auto* crossing = std::get_if<LevelCrossingSpec>(&structure);
     if (crossing == nullptr || crossing->barrier_angles_deg.empty()) continue;
     for (const double side : {-1.0, 1.0}) names.insert(BoomName(crossing->name, side));
   }
-  const std::size_t num_booms = names.size() - 1;
+  const std::size_t num_booms = names.size() - own_names.size();
+  const std::size_t num_vehicles = NumVehicles(world.trains) + own_names.size() - 1;
   constexpr std::size_t kMostWithBooms = kFirstMastInstance - 2;
-  if (world.objects.size() + num_booms > kMostWithBooms) {
-    const std::string with_booms =
+  if (world.objects.size() + num_booms + num_vehicles > kMostWithBooms) {
+    std::string with_booms =
         " together with the " + NumberText(num_booms) + " booms of moving barriers";
-    faults.errors.Add(
-        {"/world/objects",
-         "must be at most " + NumberText(kMostWithBooms) + (num_booms > 0 ? with_booms : ""),
-         NumberText(world.objects.size())});
+    if (num_vehicles > 0) {
+      with_booms += " and the " + NumberText(num_vehicles) + " vehicles of trains";
+    }
+    faults.errors.Add({"/world/objects",
+                       "must be at most " + NumberText(kMostWithBooms) +
+                           (num_booms + num_vehicles > 0 ? with_booms : ""),
+                       NumberText(world.objects.size())});
   }
   for (std::size_t i = 0; i < world.objects.size(); ++i) {
     const std::string& name = world.objects[i].name;
@@ -148,6 +159,7 @@ void CheckNames(const WorldSpec& world, WorldFaults& faults) {
         std::string("must be unique") + (name == "ego" ? ", and ego is the vehicle itself" : ""),
         Quoted(name));
   }
+  CheckNamesOfTrains(world, names, faults);
 }
 
 void CheckEgoBoxes(const VehicleSpec& vehicle, WorldFaults& faults) {
@@ -176,7 +188,7 @@ void CheckPivots(const WorldSpec& world,
     return;
   }
   const double radius_m = line.tightest_radius_m - std::abs(track->offset_m.value_or(0.0));
-  if (vehicle.pivot_distance_m <= radius_m) return;
+  if (!vehicle.consist.empty() || vehicle.pivot_distance_m <= radius_m) return;
   faults.Add("/vehicle/pivot_distance_m",
              "must be at most its track's tightest radius of " + NumberText(radius_m) + " m",
              NumberText(vehicle.pivot_distance_m));
@@ -232,16 +244,23 @@ const TrackSpec* CheckTrackPlace(const WorldSpec& world,
   return track;
 }
 
+void CheckWheelsFit(const WorldSpec& world,
+                    ObjectType type,
+                    const std::string& pointer,
+                    WorldFaults& faults) {
+  CheckFitsGauge(
+      world,
+      {pointer, "must not be a rail vehicle: they have wheels", Quoted(std::string(NameOf(type)))},
+      faults);
+}
+
 void CheckObject(const WorldSpec& world,
                  const ObjectSpec& object,
                  const std::string& pointer,
                  const LineOfTracks& line,
                  WorldFaults& faults) {
-  if (IsWagon(object.type)) {
-    CheckFitsGauge(world,
-                   {pointer + "/type", "must not be a wagon: they have wheels",
-                    Quoted(std::string(NameOf(object.type)))},
-                   faults);
+  if (IsRailVehicle(object.type)) {
+    CheckWheelsFit(world, object.type, pointer + "/type", faults);
   }
   if (!object.route.empty()) return;
   const TrackPlace place{pointer + "/track", pointer + "/s_m", object.track, object.s_m};
@@ -280,7 +299,8 @@ void CheckWorld(const WorldSpec& world,
   for (std::size_t i = 0; i < world.objects.size(); ++i) {
     CheckObject(world, world.objects[i], Item("/world/objects/", i), line, faults);
   }
-  CheckNames(world, faults);
+  CheckTrains(world, vehicle, line, faults);
+  CheckNames(world, vehicle, faults);
   CheckStructures(world, line, faults);
   if (vehicle.route.empty()) {
     CheckTrackPlace(world,
@@ -288,6 +308,11 @@ void CheckWorld(const WorldSpec& world,
                     line, faults);
   }
   CheckEgoBoxes(vehicle, faults);
+  if (vehicle.ride && vehicle.consist.empty() && !(vehicle.pivot_distance_m > 0.0) &&
+      faults.AreKnown({"/vehicle/ride", "/vehicle/pivot_distance_m"})) {
+    faults.Add("/vehicle/ride", "must be absent: without pivots there is no body on springs",
+               "pivot_distance_m " + NumberText(vehicle.pivot_distance_m));
+  }
   CheckPivots(world, vehicle, line.measures, faults);
 }
 

@@ -42,6 +42,12 @@ void CheckObject(const WorldSpec& world,
                  const LineOfTracks& line,
                  WorldFaults& faults);
 
+/// Reports a rail vehicle on a line of another gauge than its wheels. Faults begin with `pointer`.
+void CheckWheelsFit(const WorldSpec& world,
+                    ObjectType type,
+                    const std::string& pointer,
+                    WorldFaults& faults);
+
 /// A reference to a place on a track, with the pointers of its values.
 struct TrackPlace {
   std::string track_pointer;

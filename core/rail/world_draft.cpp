@@ -16,6 +16,10 @@
 #include "core/rail/line/turnout_place.h"
 #include "core/rail/line/yard.h"
 #include "core/rail/network_check.h"
+#include "core/rail/objects/rail_vehicles.h"
+#include "core/rail/train/bogies.h"
+#include "core/rail/train/own_train.h"
+#include "core/rail/train/train_draft.h"
 
 namespace railcast {
 namespace {
@@ -107,7 +111,10 @@ std::optional<TrackPath> DraftVehicle(const WorldSource& source,
   if (!profile || !route) return std::nullopt;
   // A vehicle faces the way it travels.
   const double heading_rad = vehicle.motion.reverse ? std::numbers::pi : 0.0;
-  return TrackPath(std::move(*route), {0.0, 0.0, heading_rad, false, vehicle.pivot_distance_m},
+  const bool is_train_known = faults.AreKnown({"/vehicle/consist", "/vehicle/sensor_vehicle"});
+  const double pivot_distance_m =
+      is_train_known ? PivotDistance_m(vehicle) : vehicle.pivot_distance_m;
+  return TrackPath(std::move(*route), {0.0, 0.0, heading_rad, false, pivot_distance_m},
                    std::move(*profile));
 }
 
@@ -189,6 +196,27 @@ void CheckOnGround(const WorldSpec& world,
              NumberText(object.d_m));
 }
 
+// The entries for parts of a mesh, without what is unknown of them.
+std::vector<MeshPartSpec> KnownParts(const std::vector<MeshPartSpec>& parts,
+                                     const std::string& list,
+                                     const WorldFaults& faults) {
+  std::vector<MeshPartSpec> known = parts;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::string pointer = list + "/" + std::to_string(i);
+    if (!faults.AreKnown({pointer + "/material", "/materials"})) known[i].material.reset();
+    if (!faults.AreKnown({pointer + "/label", "/labels"})) known[i].label.reset();
+    if (!faults.AreKnown({pointer + "/of"})) return {};
+  }
+  return known;
+}
+
+// Whether the places of an object's faults are pointers that continue the object's.
+bool HasPointers(const InputError& error) {
+  const std::vector<Fault>& all = error.faults();
+  return std::all_of(all.begin(), all.end(),
+                     [](const Fault& fault) { return fault.place.starts_with('/'); });
+}
+
 }  // namespace
 
 std::optional<TrackPath> DraftPath(const TracksOfWorld& tracks,
@@ -202,9 +230,28 @@ std::optional<TrackPath> DraftPath(const TracksOfWorld& tracks,
       tracks, {pointer, object.track, object.route, motion, pointer + "/s_m", object.s_m}, faults);
   if (!profile || !route) return std::nullopt;
   if (!object.route.empty()) CheckOnGround(tracks.world, object, pointer, route->course, faults);
-  const TrackPose pose{object.d_m, object.h_m.value_or(0.0), RadFromDeg(object.heading_deg),
-                       !IsWagon(object.type)};
+  TrackPose pose{object.d_m, object.h_m.value_or(0.0), RadFromDeg(object.heading_deg),
+                 FollowOf(object) != Follow::kTrack};
+  if (RestsOnPivots(object)) {
+    pose.pivot_distance_m = MeasuresOf(object.type).pivot_distance_m;
+    pose.is_midway = true;
+  }
   return TrackPath(std::move(*route), pose, std::move(*profile), begin_ns);
+}
+
+ObjectPath DraftObjectPath(const PathGround& ground,
+                           const DraftedObject& drafted,
+                           TrackPath track,
+                           WorldFaults& faults) {
+  ObjectPath path;
+  if (drafted.spec.motion && drafted.spec.motion->path) {
+    const Eigen::AlignedBox3d bounds_m = drafted.object.model->Bounds();
+    path.walk =
+        DraftPathWay(ground, drafted.spec, track,
+                     {bounds_m.isEmpty() ? 0.0 : bounds_m.sizes().x(), drafted.pointer}, faults);
+  }
+  path.track = std::move(track);
+  return path;
 }
 
 std::optional<SceneObject> DraftObject(const ObjectSpec& object,
@@ -213,18 +260,55 @@ std::optional<SceneObject> DraftObject(const ObjectSpec& object,
                                        WorldFaults& faults) {
   ObjectSpec known = object;
   if (!faults.AreKnown({pointer + "/type", pointer + "/size_m", pointer + "/file", pointer + "/up",
-                        pointer + "/unit_m"})) {
+                        pointer + "/unit_m", pointer + "/origin"})) {
     return std::nullopt;
   }
+  known.parts = KnownParts(object.parts, pointer + "/parts", faults);
   if (!faults.AreKnown({pointer + "/label", "/labels"})) known.label.reset();
   if (!faults.AreKnown({pointer + "/material", "/materials"})) known.material.reset();
-  return Attempt(pointer + ": ", faults.errors, [&] {
+  try {
     return SceneObject{.name = known.name,
                        .type = std::string(NameOf(known.type)),
                        .label = ObjectLabel(known, tables.surfaces, tables.labels),
                        .model = tables.models.Of(known)};
-  });
+  } catch (const InputError& error) {
+    AddPlaced(pointer + (HasPointers(error) ? "" : ": "), error, faults.errors);
+    return std::nullopt;
+  }
 }
+
+namespace {
+
+void DraftObjects(const TracksOfWorld& tracks,
+                  const ObjectTables& tables,
+                  WorldFaults& faults,
+                  WorldDraft& draft) {
+  const WorldSpec& world = tracks.world;
+  ObjectModels& models = tables.models;
+  for (std::size_t i = 0; i < world.objects.size(); ++i) {
+    const std::string pointer = "/world/objects/" + std::to_string(i);
+    auto path = DraftPath(tracks, world.objects[i], pointer, 0, faults);
+    auto object = DraftObject(world.objects[i], pointer, tables, faults);
+    if (!path || !object) continue;
+    if (draft.alignment) GiveBogies(world.objects[i], *path, *draft.alignment, models, *object);
+    ObjectPath object_path{std::move(path), {}};
+    if (draft.alignment && draft.vehicle_path) {
+      object_path = DraftObjectPath(
+          {*draft.alignment, world.terrain.half_width_m, *draft.vehicle_path, 0},
+          {world.objects[i], *object, pointer}, std::move(*object_path.track), faults);
+    }
+    object->moves = object_path.moves();
+    GiveLimbs(world.objects[i], models, *object);
+    draft.object_paths.push_back(std::move(object_path));
+    draft.objects.push_back(std::move(*object));
+  }
+  for (std::size_t i = 0; draft.alignment && i < world.trains.size(); ++i) {
+    DraftTrain(world.trains[i], "/world/trains/" + std::to_string(i),
+               {tracks, *draft.alignment, tables}, faults, draft);
+  }
+}
+
+}  // namespace
 
 WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
   WorldDraft draft;
@@ -256,9 +340,12 @@ WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
       if (!draft.network.turnouts.empty() || !draft.network.diamonds.empty()) {
         surfaces.AddTurnoutSurfaces(source.labels, source.materials);
       }
+      if (HasVehicleSurfaces(world, source.vehicle)) {
+        surfaces.AddVehicleSurfaces(source.labels, source.materials);
+      }
       return surfaces;
     });
-    if (!source.vehicle.ego_boxes_m.empty()) {
+    if (!source.vehicle.ego_boxes_m.empty() || !source.vehicle.consist.empty()) {
       Attempt("", faults.errors, [&] { return source.labels.Id("ego"); });
     }
   }
@@ -268,15 +355,7 @@ WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
   const RailSurfaces surfaces = draft.surfaces.value_or(RailSurfaces());
   ObjectModels models(surfaces, source.labels, source.materials);
   const ObjectTables tables{surfaces, source.labels, models};
-  for (std::size_t i = 0; i < world.objects.size(); ++i) {
-    const std::string pointer = "/world/objects/" + std::to_string(i);
-    auto path = DraftPath(tracks, world.objects[i], pointer, 0, faults);
-    auto object = DraftObject(world.objects[i], pointer, tables, faults);
-    if (!path || !object) continue;
-    object->moves = path->moves();
-    draft.object_paths.push_back(std::move(*path));
-    draft.objects.push_back(std::move(*object));
-  }
+  DraftObjects(tracks, tables, faults, draft);
   draft.catenary_plan = DraftCatenary(world, draft.alignment, draft.network, faults);
   draft.strip_width = DraftStripWidth(world, draft.alignment, draft.network, faults);
   draft.elevation = DraftElevation(world, draft, faults);
@@ -284,6 +363,22 @@ WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
   for (const Fault& fault : faults.errors.faults()) errors.Add(FaultOfYard(source.world, fault));
   faults.errors = std::move(errors);
   return draft;
+}
+
+std::vector<TrackPath> BoomPaths(const WorldDraft& draft) {
+  std::vector<TrackPath> paths;
+  for (const StructureSpec& structure : draft.world.structures) {
+    const auto* crossing = std::get_if<LevelCrossingSpec>(&structure);
+    if (crossing == nullptr || crossing->barrier_angles_deg.empty()) continue;
+    WorldFaults faults;
+    const auto route =
+        MakeRoute(draft.world, draft.network, {"", {crossing->track}, false}, faults);
+    Check(route.has_value(), "a level crossing's track exists");
+    paths.insert(paths.end(), 2,
+                 TrackPath(*route, TrackPose{.is_upright = true},
+                           SpeedProfile(MotionSpec{}, crossing->s_m)));
+  }
+  return paths;
 }
 
 }  // namespace railcast

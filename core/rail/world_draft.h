@@ -10,7 +10,9 @@
 #include "core/rail/land/strip_width.h"
 #include "core/rail/line/network.h"
 #include "core/rail/line/track_path.h"
+#include "core/rail/object_way.h"
 #include "core/rail/objects/object_models.h"
+#include "core/rail/path/path_draft.h"
 #include "core/rail/rail_surfaces.h"
 #include "core/rail/world_check.h"
 #include "railcast/alignment.h"
@@ -44,7 +46,8 @@ struct WorldDraft {
   NetworkDraft network;
   std::optional<RailSurfaces> surfaces;
   std::optional<TrackPath> vehicle_path;
-  std::vector<TrackPath> object_paths;
+  /// Those of the objects of the world, then the vehicles of its trains.
+  std::vector<ObjectPath> object_paths;
   std::vector<SceneObject> objects;
   std::optional<CatenaryPlan> catenary_plan;
   std::optional<StripWidth> strip_width;
@@ -64,6 +67,17 @@ struct TracksOfWorld {
                                                  const std::string& pointer,
                                                  std::int64_t begin_ns,
                                                  WorldFaults& faults);
+/// What the object is, for messages and for its turns.
+struct DraftedObject {
+  const ObjectSpec& spec;
+  const SceneObject& object;
+  const std::string& pointer;
+};
+/// Adds an object's walk to its path along its track.
+[[nodiscard]] ObjectPath DraftObjectPath(const PathGround& ground,
+                                         const DraftedObject& drafted,
+                                         TrackPath track,
+                                         WorldFaults& faults);
 /// As DraftPath(), for the object itself, without its `moves` and `instance`.
 [[nodiscard]] std::optional<SceneObject> DraftObject(const ObjectSpec& object,
                                                      const std::string& pointer,
@@ -73,5 +87,8 @@ struct TracksOfWorld {
 /// Makes every part that can be made and adds all faults found in doing so. Values that `faults`
 /// marks as unknown are skipped, and so is everything that depends on them.
 [[nodiscard]] WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults);
+
+/// The places of all moving booms on their tracks, two for each level crossing.
+[[nodiscard]] std::vector<TrackPath> BoomPaths(const WorldDraft& draft);
 
 }  // namespace railcast

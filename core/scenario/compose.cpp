@@ -49,7 +49,7 @@ void CheckOutput(const ScenarioSpec& spec, ErrorList& errors) {
     const Transform vehicle_from_sensor = VehicleFromSensor(lidar.mount);
     const Transform world_from_sensor = world->WorldFromVehicle(0) * vehicle_from_sensor;
     static_cast<void>(Attempt("", errors, [&] {
-      return OutputAxes(spec.output, spec.sources.Place("/output/origin_m"), vehicle_from_sensor,
+      return OutputAxes(spec.output, spec.sources.Place("/output/origin_m"), {vehicle_from_sensor},
                         Transform::Identity(), world_from_sensor);
     }));
   }
@@ -113,6 +113,13 @@ Transform VehicleFromSensor(const MountSpec& mount) {
       {mount.position_m[0], mount.position_m[1], mount.position_m[2]});
 }
 
+Transform NominalFromTrue(const MountErrorSpec& error) {
+  return MakeTransform(
+      RotationFromYawPitchRoll(RadFromDeg(error.yaw_deg), RadFromDeg(error.pitch_deg),
+                               RadFromDeg(error.roll_deg)),
+      {error.position_m[0], error.position_m[1], error.position_m[2]});
+}
+
 void AddBuildFaults(const ScenarioSpec& spec, const UnknownPlaces& unknown, ErrorList& errors) {
   for (const auto& [lidar, pointer] : SensorsOf(spec)) {
     // A spec left at its default was not read, and its fault has been reported already.
@@ -172,6 +179,7 @@ std::vector<std::unique_ptr<Simulator>> MakeSimulators(const ScenarioSpec& spec,
     const LidarSpec& lidar = sensors[i].lidar;
     SimulatorSpec simulator{.detector = DetectorSpecOf(spec, lidar, *effects),
                             .vehicle_from_sensor = VehicleFromSensor(lidar.mount),
+                            .nominal_from_true = NominalFromTrue(lidar.mount_error),
                             .output = spec.output,
                             .origin_place = spec.sources.Place("/output/origin_m"),
                             .snow_material = names->snow_material,

@@ -63,6 +63,15 @@ void Describe(Archive& a, MountSpec& s) {
 }
 
 template <class Archive>
+void Describe(Archive& a, MountErrorSpec& s) {
+  a.Optional("position_m", s.position_m, "In the axes of the nominal sensor: forward, left, up.",
+             Within(-1, 1));
+  a.Optional("yaw_deg", s.yaw_deg, "Left positive.", Within(-30, 30));
+  a.Optional("pitch_deg", s.pitch_deg, "Nose down positive.", Within(-30, 30));
+  a.Optional("roll_deg", s.roll_deg, "Right side down positive.", Within(-30, 30));
+}
+
+template <class Archive>
 void Describe(Archive& a, PlausibilitySpec& s) {
   a.Optional("reference_threshold", s.reference_threshold,
              "Least detectable reflectivity x cos x fog at the reference range.", Within(0, 1e6));
@@ -179,6 +188,8 @@ void Describe(Archive& a, LidarSpec& s) {
   a.Optional("range_max_m", s.range_max_m, "Greatest range; farther surfaces give no point.",
              PositiveUpTo(10'000));
   a.Optional("mount", s.mount, "Where the sensor sits on the vehicle.");
+  a.Optional("mount_error", s.mount_error,
+             "By how much it does not: rays leave from its true pose, all reports use mount.");
   a.Optional("plausibility", s.plausibility, "Parameters of the published model.");
   a.Optional("beam", s.beam, "The laser beam of the physical rungs.");
   a.Optional("receiver", s.receiver, "The receiver of the physical rungs.");

@@ -4,6 +4,7 @@
 
 #include "core/rail/catenary/support_layout.h"
 #include "core/scenario/describe_alignment.h"
+#include "core/scenario/describe_objects.h"
 #include "core/scenario/describe_structures.h"
 #include "core/scenario/json_rules.h"
 #include "railcast/rail_world.h"
@@ -73,25 +74,6 @@ void Describe(Archive& a, DiamondCrossingSpec& s) {
   a.Required("tracks", s.tracks, "The two tracks that cross.", NonEmptyString());
   a.Required("s_m", s.s_m, "Chainage where their axes cross, within 5 m.", PlaceLimits());
   a.Ensure({"tracks"}, s.tracks.size() == 2, "must name two tracks");
-}
-
-/// The tracks that a vehicle or object follows: one, or a route over several.
-template <class Archive>
-void DescribeTracks(Archive& a, std::string& track, std::vector<std::string>& route) {
-  std::optional<std::vector<std::string>> given_route;
-  if (!route.empty()) given_route = route;
-  std::optional<std::string> given_track;
-  if (route.empty() && track != "main") given_track = track;
-  a.OneOfTwo("track", "route");
-  a.Optional("track", given_track, "The track that it runs or stands on; absent = main.");
-  a.Optional("route", given_route,
-             "Instead of track: tracks that turnouts join, one after the other in the direction of "
-             "travel.",
-             NonEmptyString());
-  a.Ensure({"track", "route"}, !given_track || !given_route, "must not be given beside route");
-  a.Ensure({"route"}, !given_route || !given_route->empty(), "must name a track");
-  if (given_track) track = *given_track;
-  if (given_route) route = *given_route;
 }
 
 template <class Archive>
@@ -183,65 +165,6 @@ void Describe(Archive& a, VegetationSpec& s) {
 }
 
 template <class Archive>
-void Describe(Archive& a, SpeedPoint& s) {
-  a.Optional("time_s", s.time_s, "Simulation time of the point; or s_m instead.", Within(0, 1e9));
-  a.Optional("s_m", s.s_m, "Chainage of the point; or time_s instead.", PlaceLimits());
-  a.Required("speed_mps", s.speed_mps, "Speed there.", Within(0, 200));
-  a.Ensure({"", "time_s", "s_m"}, s.time_s.has_value() != s.s_m.has_value(),
-           "must have either time_s or s_m");
-}
-
-template <class Archive>
-void Describe(Archive& a, MotionSpec& s) {
-  a.Required("profile", s.profile,
-             "Constant acceleration between the points; all by time or all by chainage.",
-             AtLeastElements{1, "; leave motion out to stand still"});
-  a.Optional("reverse", s.reverse, "Runs against the chainage.");
-  const auto by_time = [](const SpeedPoint& point) { return point.time_s.has_value(); };
-  a.Ensure({"profile"},
-           std::all_of(s.profile.begin(), s.profile.end(), by_time) ||
-               std::none_of(s.profile.begin(), s.profile.end(), by_time),
-           "must be all by time_s or all by s_m");
-}
-
-template <class Archive>
-void Describe(Archive& a, ObjectSpec& s) {
-  a.Required("name", s.name, "Unique.", NonEmptyString());
-  a.Required("type", s.type, "What it is.");
-  DescribeTracks(a, s.track, s.route);
-  a.Required("s_m", s.s_m, "Chainage of its middle, at time 0 where it moves.", PlaceLimits());
-  a.Optional("d_m", s.d_m, "Distance from the track's axis, left positive.", Within(-1000, 1000));
-  a.Optional("h_m", s.h_m,
-             "Above top of rail; absent: wagons stand on the rails, all else on the ground.",
-             Within(-1000, 1000));
-  a.Optional("heading_deg", s.heading_deg, "Turned left against the chainage's direction.",
-             HeadingLimits());
-  a.Optional("size_m", s.size_m,
-             "Length, width, height. Required for box and pole; scales a person or mesh.",
-             Within(1e-3, 1000));
-  a.Optional("file", s.file, "File of a mesh: OBJ, PLY, STL, OFF, glTF, FBX, DAE or 3DS.",
-             ExistingFile());
-  a.Optional("up", s.up, "Upward axis of a mesh; absent: as its file says, otherwise z.");
-  a.Optional("unit_m", s.unit_m,
-             "Metres per file unit of a mesh; absent: as its file says, otherwise 1.",
-             Within(1e-6, 1e6));
-  a.Optional("label", s.label, "Overrides the type's; of the label table.");
-  a.Optional("material", s.material, "Overrides the type's; of the materials.");
-  a.Optional("motion", s.motion, "Along its track; absent = stands.");
-
-  const bool is_mesh = s.type == ObjectType::kMesh;
-  const bool is_pole = s.type == ObjectType::kPole;
-  const bool needs_size = s.type == ObjectType::kBox || is_pole;
-  const std::string type = '"' + std::string(NameOf(s.type)) + '"';
-  a.Ensure({"size_m", "type"}, s.size_m || !needs_size, "must be given for type " + type);
-  a.Ensure({"size_m", "type"}, !s.size_m || !IsWagon(s.type), "must not be given for type " + type);
-  a.Ensure({"size_m", "type"}, !is_pole || !s.size_m || (*s.size_m)[0] == (*s.size_m)[1],
-           "must have the same length and width for type \"pole\"");
-  a.Ensure({"file", "type"}, s.file || !is_mesh, "must be given for type \"mesh\"");
-  a.Ensure({"file", "type"}, !s.file || is_mesh, "must be given for type \"mesh\" only");
-}
-
-template <class Archive>
 void Describe(Archive& a, WorldSpec& s) {
   a.Optional("seed", s.seed, "Seed of the world's shape: relief, stones, plants.");
   a.Required("alignment", s.alignment, "The axis of the line.");
@@ -254,6 +177,7 @@ void Describe(Archive& a, WorldSpec& s) {
   a.Optional("vegetation", s.vegetation, "Trees and grass.");
   a.Optional("structures", s.structures, "Platforms and the like, by chainage along a track.");
   a.Optional("objects", s.objects, "Things placed by track coordinates.");
+  a.Optional("trains", s.trains, "Coupled vehicles that stand on the tracks or run along them.");
   a.Optional(
       "detail", s.detail,
       "auto: plants, ground and tracks are coarser far away, where the sensor cannot tell the "
@@ -261,6 +185,12 @@ void Describe(Archive& a, WorldSpec& s) {
   a.Unique("tracks", s.tracks, "name", &TrackSpec::name);
   a.Unique("yards", s.yards, "name", &YardSpec::name);
   a.Unique("objects", s.objects, "name", &ObjectSpec::name);
+  a.Unique("trains", s.trains, "name", &TrainSpec::name);
+}
+
+template <class Archive>
+void Describe(Archive& a, RideSpec& s) {
+  a.Optional("track_quality", s.track_quality, "State of the track that shakes the vehicle.");
 }
 
 template <class Archive>
@@ -271,16 +201,30 @@ void Describe(Archive& a, VehicleSpec& s) {
   if (s.motion != MotionSpec{}) motion = s.motion;
   a.Optional("motion", motion, "Along its track; absent = stands.");
   if (motion) s.motion = *motion;
-  a.Optional("pivot_distance_m", s.pivot_distance_m,
+  a.Ensure({"motion"}, !s.motion.path, "must have a profile: the vehicle keeps to its track");
+  std::optional<double> pivot_distance_m;
+  if (s.pivot_distance_m != VehicleSpec().pivot_distance_m) pivot_distance_m = s.pivot_distance_m;
+  a.Optional("pivot_distance_m", pivot_distance_m,
              "Between the pivots on which its body rests; the front one is at its origin. 0 = it "
-             "follows the tangent.",
+             "follows the tangent; absent = 10.4, or as in consist.",
              Within(0, 30));
+  if (pivot_distance_m) s.pivot_distance_m = *pivot_distance_m;
   a.Optional("ego_boxes_m", s.ego_boxes_m,
              "Its body in the vehicle frame: min x, y, z, max x, y, z.",
              EachNumber{Within(-1000, 1000)});
+  a.Optional("may_overlap", s.may_overlap,
+             "Whether it may stand or run inside objects; check and sequence refuse it else.");
   a.Optional(
-      "may_overlap", s.may_overlap,
-      "Whether these boxes may stand or run inside objects; check and sequence refuse it else.");
+      "consist", s.consist,
+      "The train that the vehicle is part of, from front to rear in its direction of travel.");
+  a.Optional("sensor_vehicle", s.sensor_vehicle,
+             "Index of the one in consist that carries the sensor.");
+  a.Ensure({"pivot_distance_m", "consist"}, s.consist.empty() || !pivot_distance_m,
+           "must not be given beside consist");
+  a.Ensure({"sensor_vehicle", "consist"},
+           s.sensor_vehicle < std::max<std::size_t>(s.consist.size(), 1),
+           "must be the index of a vehicle in consist");
+  a.Optional("ride", s.ride, "How its body moves on its springs; absent = it does not.");
 }
 
 }  // namespace railcast

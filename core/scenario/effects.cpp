@@ -7,6 +7,8 @@
 #include "core/base/random.h"
 #include "core/base/text.h"
 #include "core/detect/effect_table.h"
+#include "core/rail/objects/object_surfaces.h"
+#include "core/rail/objects/rail_vehicles.h"
 #include "core/rail/rail_surfaces.h"
 #include "core/scenario/json_rules.h"
 #include "railcast/scenario.h"
@@ -100,12 +102,18 @@ std::uint64_t SensorSeed(std::uint64_t seed, const std::string& sensor_name) {
 bool HasMirrors(const ScenarioSpec& spec) {
   return std::any_of(spec.materials.begin(), spec.materials.end(), [&](const Material& material) {
     const auto is_of_it = [&](const ObjectSpec& object) {
-      return object.material == material.name;
+      // Words in the names of a mesh may stand for any material.
+      return object.material == material.name ||
+             (!object.material &&
+              (object.type == ObjectType::kMesh || IsMaterialOf(object.type, material.name))) ||
+             std::ranges::find(object.parts, material.name, &MeshPartSpec::material) !=
+                 object.parts.end();
     };
     const std::vector<ObjectSpec>& objects = spec.world.objects;
     return material.height_rms_um &&
            (IsRailMaterial(material.name) ||
             (!spec.world.structures.empty() && IsStructureMaterial(material.name)) ||
+            (HasVehicleSurfaces(spec.world, spec.vehicle) && IsVehicleMaterial(material.name)) ||
             std::any_of(objects.begin(), objects.end(), is_of_it));
   });
 }

@@ -32,6 +32,25 @@ KnownNames KnownNamesOf(const std::string& list,
   return result;
 }
 
+// Checks that each part of a mesh has one entry.
+void CheckPartsDiffer(const std::string& list,
+                      const std::vector<MeshPartSpec>& parts,
+                      JsonSource& source) {
+  for (std::size_t j = 1; j < parts.size(); ++j) {
+    const std::string pointer = list + std::to_string(j) + "/of";
+    const auto same =
+        std::find_if(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(j),
+                     [&](const MeshPartSpec& other) { return other.of == parts[j].of; });
+    const auto index = same - parts.begin();
+    if (index == static_cast<std::ptrdiff_t>(j) || !source.unknown().IsKnown(pointer)) continue;
+    if (!source.unknown().IsKnown(list + std::to_string(index) + "/of")) continue;
+    source.errors().Add({source.sources().Place(pointer),
+                         "must differ from that of parts/" + std::to_string(index),
+                         ValueText(parts[j].of)});
+    source.unknown().Add(pointer);
+  }
+}
+
 // Checks names in one section that must exist in another section.
 void CheckReferences(const ScenarioSpec& spec, JsonSource& source) {
   UnknownPlaces& unknown = source.unknown();
@@ -58,12 +77,23 @@ void CheckReferences(const ScenarioSpec& spec, JsonSource& source) {
     }
   };
   check_tracks("/vehicle", spec.vehicle.track, spec.vehicle.route);
+  for (std::size_t i = 0; i < spec.world.trains.size(); ++i) {
+    const TrainSpec& train = spec.world.trains[i];
+    check_tracks("/world/trains/" + std::to_string(i), train.track, train.route);
+  }
   for (std::size_t i = 0; i < spec.world.objects.size(); ++i) {
     const ObjectSpec& object = spec.world.objects[i];
     const std::string place = "/world/objects/" + std::to_string(i);
     check_tracks(place, object.track, object.route);
     if (object.label) check(place, "label", *object.label, labels);
     if (object.material) check(place, "material", *object.material, materials);
+    for (std::size_t j = 0; j < object.parts.size(); ++j) {
+      const MeshPartSpec& part = object.parts[j];
+      const std::string part_place = place + "/parts/" + std::to_string(j);
+      if (part.label) check(part_place, "label", *part.label, labels);
+      if (part.material) check(part_place, "material", *part.material, materials);
+    }
+    CheckPartsDiffer(place + "/parts/", object.parts, source);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/rail/line/route.h"
+#include "core/rail/train/train_places.h"
 
 namespace railcast {
 namespace {
@@ -69,9 +70,16 @@ std::vector<Traveller> TravellersOf(const ScenarioSpec& scenario, const RailWorl
       [&world](std::int64_t time_ns) { return world.VehicleChainage_m(time_ns); });
   for (std::size_t i = 0; i < world.objects().size(); ++i) {
     const SceneObject& object = world.objects()[i];
-    if (object.is_ego) continue;
-    const auto place = [&scenario, &object] {
+    const auto of_train = VehicleWithInstance(scenario.world, object.instance);
+    // Where the first vehicle of a train is, the others follow.
+    if (object.is_ego || (of_train && of_train->vehicle > 0)) continue;
+    const auto place = [&scenario, &object, of_train] {
       // Instance ids follow the scenario's order; those of objects that commands added come after.
+      if (of_train) {
+        return scenario.sources.Place("/world/trains/" + std::to_string(of_train->train) +
+                                      "/motion") +
+               ":";
+      }
       if (object.instance > scenario.world.objects.size()) {
         return "command: object \"" + ShownText(object.name) + '"';
       }

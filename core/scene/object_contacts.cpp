@@ -129,19 +129,26 @@ void ContactFinder::MoveTo(std::int64_t time_ns) {
 
 std::vector<ObjectContact> ContactFinder::FindAll(std::int64_t time_ns) {
   MoveTo(time_ns);
-  return Measure(PairsNearby());
+  std::vector<Pair> pairs = PairsNearby();
+  // The vehicles of the sensor's own train are coupled, and their springs give.
+  const std::vector<SceneObject>& objects = world_.objects();
+  std::erase_if(pairs, [&](const Pair& pair) {
+    return objects[pair.first].is_ego && objects[pair.second].is_ego;
+  });
+  return Measure(pairs);
 }
 
 std::vector<ObjectContact> ContactFinder::FindOfVehicle(std::int64_t time_ns) {
-  const auto is_ego = [](const SceneObject& object) { return object.is_ego; };
-  const auto found = std::ranges::find_if(world_.objects(), is_ego);
-  if (found == world_.objects().end()) return {};
+  const std::vector<SceneObject>& objects = world_.objects();
+  if (std::ranges::none_of(objects, &SceneObject::is_ego)) return {};
   MoveTo(time_ns);
-  const auto ego = static_cast<std::size_t>(found - world_.objects().begin());
   std::vector<Pair> pairs;
-  for (std::size_t i = 0; i < boxes_world_.size(); ++i) {
-    if (i == ego || !boxes_world_[ego].intersects(boxes_world_[i])) continue;
-    pairs.emplace_back(std::min(ego, i), std::max(ego, i));
+  for (std::size_t own = 0; own < objects.size(); ++own) {
+    if (!objects[own].is_ego) continue;
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+      if (objects[i].is_ego || !boxes_world_[own].intersects(boxes_world_[i])) continue;
+      pairs.emplace_back(std::min(own, i), std::max(own, i));
+    }
   }
   return Measure(pairs);
 }
@@ -248,10 +255,14 @@ const std::vector<Piece>& ContactFinder::PiecesOfObject(std::size_t object) {
 }
 
 bool AreStillBetween(const World& world, std::int64_t from_ns, std::int64_t to_ns) {
+  // Something may return to where it was, but nothing goes and comes back within half a second.
+  constexpr std::int64_t kStep_ns = 500'000'000;
   for (std::size_t i = 0; i < world.objects().size(); ++i) {
     if (!world.objects()[i].moves) continue;
     const Transform begin = world.WorldFromObject(i, from_ns);
-    if (begin.matrix() != world.WorldFromObject(i, to_ns).matrix()) return false;
+    for (std::int64_t time_ns = to_ns; time_ns > from_ns; time_ns -= kStep_ns) {
+      if (begin.matrix() != world.WorldFromObject(i, time_ns).matrix()) return false;
+    }
   }
   return true;
 }

@@ -41,7 +41,7 @@ class ContactFinder {
 
   /// All contacts at one moment, by `one` and `other`.
   [[nodiscard]] std::vector<ObjectContact> FindAll(std::int64_t time_ns);
-  /// Those of the sensor's own vehicle.
+  /// Those of the sensor's own vehicles with all else.
   [[nodiscard]] std::vector<ObjectContact> FindOfVehicle(std::int64_t time_ns);
 
  private:

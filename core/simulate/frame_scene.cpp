@@ -13,10 +13,6 @@
 namespace railcast {
 namespace {
 
-// Moving objects are interpolated linearly between poses this far apart in time. A lateral
-// acceleration of 2 m/s^2 then bends the path by a dt^2 / 8 = 0.6 mm.
-constexpr std::int64_t kShutterStep_ns = 50'000'000;
-
 // Upper bound of the vehicle's speed, above that of any train: limits its travel within a frame.
 constexpr double kSpeedMax_mps = 200.0;
 
@@ -135,22 +131,29 @@ FramePoses FrameScenes::PosesIn(const Transform& window_from_world, std::int64_t
   });
 }
 
-TracePlacement FrameScenes::Place(std::size_t object,
-                                  std::int64_t stamp_ns,
-                                  const Window& window) const {
-  TracePlacement placement{
-      objects_[object].stored.model, {}, FirstSurface(objects_[object], window)};
+std::vector<TracePlacement> FrameScenes::Place(std::size_t object,
+                                               std::int64_t stamp_ns,
+                                               const Window& window) const {
+  const std::uint32_t first_surface = FirstSurface(objects_[object], window);
+  std::vector<TracePlacement> placements;
+  for (const SceneStore::StoredObject::Piece& piece : objects_[object].stored.pieces) {
+    placements.push_back({piece.model, {}, first_surface + piece.first_surface});
+  }
   const std::int64_t duration_ns = spec_.duration_ns;
   const bool moves = world_->objects()[object].moves;
+  const std::int64_t step_ns = world_->objects()[object].pose_step_ns;
   const std::int64_t num_intervals =
-      moves ? std::max<std::int64_t>(1, (duration_ns + kShutterStep_ns - 1) / kShutterStep_ns) : 0;
+      moves ? std::max<std::int64_t>(1, (duration_ns + step_ns - 1) / step_ns) : 0;
   for (std::int64_t step = 0; step <= num_intervals; ++step) {
     const std::int64_t since_stamp_ns = moves ? duration_ns * step / num_intervals : 0;
-    const Transform window_from_object =
-        window.window_from_world * world_->WorldFromObject(object, stamp_ns + since_stamp_ns);
-    placement.window_from_model.emplace_back(window_from_object.matrix());
+    const std::vector<Transform> world_from_pieces =
+        world_->WorldFromPieces(object, stamp_ns + since_stamp_ns);
+    for (std::size_t i = 0; i < placements.size(); ++i) {
+      const Transform window_from_piece = window.window_from_world * world_from_pieces[i];
+      placements[i].window_from_model.emplace_back(window_from_piece.matrix());
+    }
   }
-  return placement;
+  return placements;
 }
 
 bool FrameScenes::IsInReach(const TracePlacement& placement,
@@ -159,29 +162,31 @@ bool FrameScenes::IsInReach(const TracePlacement& placement,
   const auto& steps = placement.window_from_model;
   const double travel_m = (steps.back().translation() - steps.front().translation()).norm() +
                           kSpeedMax_mps * SecondsFromNs(spec_.duration_ns);
+  // The first piece's origin may be up to the object's radius away from the object's own.
   return (steps.front().translation() - sensor_window_m).norm() <=
-         spec_.range_max_m + objects_[object].stored.radius_m + travel_m;
+         spec_.range_max_m + 2.0 * objects_[object].stored.radius_m + travel_m;
 }
 
 std::vector<TracePlacement> FrameScenes::MovingObjects(std::int64_t stamp_ns,
                                                        const Window& window,
                                                        std::vector<std::size_t>& objects) const {
-  std::vector<TracePlacement> placements(objects_.size());
+  std::vector<std::vector<TracePlacement>> pieces(objects_.size());
   const Vector3 sensor_window_m = SensorInWindow(stamp_ns, window);
   constexpr std::size_t kGrain = 16;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, objects_.size(), kGrain),
                     [&](const tbb::blocked_range<std::size_t>& some) {
                       for (std::size_t i = some.begin(); i < some.end(); ++i) {
                         if (objects_[i].is_in_windows) continue;
-                        TracePlacement placement = Place(i, stamp_ns, window);
-                        if (!IsInReach(placement, i, sensor_window_m)) continue;
-                        placements[i] = std::move(placement);
+                        std::vector<TracePlacement> placed = Place(i, stamp_ns, window);
+                        if (!IsInReach(placed.front(), i, sensor_window_m)) continue;
+                        pieces[i] = std::move(placed);
                       }
                     });
-  for (std::size_t i = 0; i < placements.size(); ++i) {
-    if (placements[i].model != nullptr) objects.push_back(i);
+  std::vector<TracePlacement> placements;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    objects.insert(objects.end(), pieces[i].size(), i);
+    std::ranges::move(pieces[i], std::back_inserter(placements));
   }
-  std::erase_if(placements, [](const TracePlacement& each) { return each.model == nullptr; });
   return placements;
 }
 

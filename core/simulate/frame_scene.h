@@ -23,7 +23,8 @@ struct FrameScene final : public RayCaster {
   std::shared_ptr<const Window> window;  ///< Stationary geometry.
   /// Objects that move or were added later, and what the wind moves; null if none is within reach.
   std::shared_ptr<const TraceScene> moving;
-  /// The objects among them, by index into World::objects(): the first placements of `moving`.
+  /// The objects among them, by index into World::objects(), of the first placements of `moving`,
+  /// which are their pieces.
   std::vector<std::size_t> moving_objects;
   FramePoses poses;  ///< Poses of the sensor in the window frame.
   /// Surfaces of the window and of objects that windows do not know; empty if there are no such
@@ -102,16 +103,18 @@ class FrameScenes {
   }
 
  private:
-  [[nodiscard]] TracePlacement Place(std::size_t object,
-                                     std::int64_t stamp_ns,
-                                     const Window& window) const;
-  /// Returns whether a beam of the frame may hit the placed object.
+  /// One placement for each piece of the object.
+  [[nodiscard]] std::vector<TracePlacement> Place(std::size_t object,
+                                                  std::int64_t stamp_ns,
+                                                  const Window& window) const;
+  /// Returns whether a beam of the frame may hit an object whose first piece is placed so.
   [[nodiscard]] bool IsInReach(const TracePlacement& placement,
                                std::size_t object,
                                const Vector3& sensor_window_m) const;
   [[nodiscard]] Vector3 SensorInWindow(std::int64_t stamp_ns, const Window& window) const {
     return (window.window_from_world * WorldFromSensor(stamp_ns)).translation();
   }
+  /// The pieces of all objects that move or were added later, as far as they are in reach.
   /// @param objects Receives the index of each placement's object.
   [[nodiscard]] std::vector<TracePlacement> MovingObjects(std::int64_t stamp_ns,
                                                           const Window& window,

@@ -15,10 +15,15 @@ void LoneObjects::CountHits(const RayTile& rays,
     const std::size_t num_lanes = std::min(kPacketSize, num_firings - first);
     const std::uint32_t firings = (1U << num_lanes) - 1U;
     scene->CastThrough(rays, first, hits);
-    for (const PlacementHits& hit : hits) {
-      if (hit.placement >= objects.size()) continue;
-      counts[objects[hit.placement]] +=
-          static_cast<std::uint32_t>(std::popcount(hit.lanes & firings));
+    std::erase_if(hits, [&](const PlacementHits& hit) { return hit.placement >= objects.size(); });
+    const auto object_of = [&](const PlacementHits& hit) { return objects[hit.placement]; };
+    std::ranges::sort(hits, {}, object_of);
+    for (auto hit = hits.begin(); hit != hits.end();) {
+      const std::size_t object = object_of(*hit);
+      // A ray that goes through several pieces of an object counts once.
+      std::uint32_t lanes = 0;
+      for (; hit != hits.end() && object_of(*hit) == object; ++hit) lanes |= hit->lanes;
+      counts[object] += static_cast<std::uint32_t>(std::popcount(lanes & firings));
     }
   }
 }

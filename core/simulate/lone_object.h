@@ -14,8 +14,8 @@ namespace railcast {
 /// Objects of a frame in a scene of their own.
 struct LoneObjects {
   std::shared_ptr<const TraceScene> scene;
-  /// Indices into World::objects() of the first placements of the scene. Further placements are
-  /// something else.
+  /// Indices into World::objects() of the first placements of the scene, each of which is a piece
+  /// of its object. Further placements are something else.
   std::vector<std::size_t> objects;
 
   /// For every object, adds how many of the first `num_firings` rays hit it within range, whatever

@@ -27,11 +27,11 @@ void CheckReach(const std::string& place, const Vector3& origin_m, const Vector3
 
 OutputAxes::OutputAxes(const OutputSpec& spec,
                        const std::string& origin_place,
-                       const Transform& vehicle_from_sensor,
+                       const ReportedMount& mount,
                        const Transform& window_from_world,
                        const Transform& world_from_sensor)
     : is_left_handed_(spec.handedness == Handedness::kLeft),
-      vehicle_from_sensor_(vehicle_from_sensor),
+      mount_(mount),
       output_from_window_(window_from_world.inverse()) {
   if (spec.frame == OutputFrame::kVehicle) target_ = Target::kVehicle;
   if (spec.frame != OutputFrame::kWorld) return;
@@ -59,8 +59,9 @@ void OutputAxes::Apply(const FramePoses& poses,
   const auto& [tile, lane] = echo;
   Vector3 point(static_cast<double>(tile.x[lane]), static_cast<double>(tile.y[lane]),
                 static_cast<double>(tile.z[lane]));
-  if (target_ == Target::kVehicle) point = vehicle_from_sensor_ * point;
+  if (target_ == Target::kVehicle) point = mount_.vehicle_from_sensor * point;
   if (target_ == Target::kWorld) {
+    point = mount_.true_from_reported * point;
     PoseF change{};
     const PoseF pose = poses.At(time_ns, change);
     Eigen::Map<const Eigen::Matrix<float, 3, 3, Eigen::RowMajor>> rotation(pose.r);

@@ -10,6 +10,13 @@
 
 namespace railcast {
 
+/// Where a sensor is said to be.
+struct ReportedMount {
+  Transform vehicle_from_sensor = Transform::Identity();
+  /// From the sensor that is reported to the one from which rays leave.
+  Transform true_from_reported = Transform::Identity();
+};
+
 /// Transforms measured points into the axes that OutputSpec asks for.
 class OutputAxes {
  public:
@@ -19,7 +26,7 @@ class OutputAxes {
   ///   output origin that float32 would lose millimetres.
   OutputAxes(const OutputSpec& spec,
              const std::string& origin_place,
-             const Transform& vehicle_from_sensor,
+             const ReportedMount& mount,
              const Transform& window_from_world,
              const Transform& world_from_sensor);
 
@@ -34,7 +41,7 @@ class OutputAxes {
 
   Target target_ = Target::kSensor;
   bool is_left_handed_;
-  Transform vehicle_from_sensor_;
+  ReportedMount mount_;
   Transform output_from_window_;  ///< To world axes, relative to the output origin.
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/scene/object_pieces.h"
 #include "core/simulate/swaying.h"
 #include "railcast/simulator.h"
 
@@ -97,9 +98,14 @@ void SceneStore::ForgetUnusedModels() {
 }
 
 SceneStore::StoredObject SceneStore::MakeObject(const SceneObject& object) {
-  StoredObject stored{GetModel(object.model, true), {}, RadiusAboutOrigin(*object.model)};
-  for (const Part& part : object.model->parts) {
-    stored.surfaces.push_back(MakeSurface(part, object.instance, object.is_ego));
+  StoredObject stored{{}, {}, RadiusAboutOrigin(*object.model)};
+  for (std::size_t i = 0; i < NumPieces(object); ++i) {
+    const std::shared_ptr<const Model>& piece = PieceOf(object, i);
+    stored.pieces.push_back(
+        {GetModel(piece, true), static_cast<std::uint32_t>(stored.surfaces.size())});
+    for (const Part& part : piece->parts) {
+      stored.surfaces.push_back(MakeSurface(part, object.instance, object.is_ego));
+    }
   }
   return stored;
 }

@@ -51,8 +51,12 @@ class SceneStore {
 
   /// An object prepared for tracing.
   struct StoredObject {
-    std::shared_ptr<const TraceModel> model;
-    std::vector<Surface> surfaces;  ///< Surfaces of the object's parts.
+    struct Piece {
+      std::shared_ptr<const TraceModel> model;
+      std::uint32_t first_surface{};  ///< Index in `surfaces` of its first part.
+    };
+    std::vector<Piece> pieces;      ///< See NumPieces().
+    std::vector<Surface> surfaces;  ///< Surfaces of the parts of all pieces.
     double radius_m{};              ///< Radius of a sphere about its origin that contains it.
   };
   [[nodiscard]] StoredObject MakeObject(const SceneObject& object);

@@ -108,6 +108,10 @@ struct Simulator::Parts {
   [[nodiscard]] ReturnMode return_mode() const {
     return tracer->has_beams() ? spec.detector.receiver.return_mode : ReturnMode::kStrongest;
   }
+  /// Where the sensor is said to be.
+  [[nodiscard]] Transform ReportedPose(std::int64_t time_ns) const {
+    return scenes.WorldFromSensor(time_ns) * spec.nominal_from_true.inverse();
+  }
   [[nodiscard]] ReturnRule return_rule() const {
     const EffectSet& effects = spec.detector.effects;
     const ReceiverSpec& receiver = spec.detector.receiver;
@@ -164,10 +168,11 @@ Simulator::Simulator(std::shared_ptr<SceneStore> store,
                      int num_threads) {
   CheckSimulatorSpec(spec, materials.materials());
   FiringTiles tiles(pattern);
-  const FrameSceneSpec scene_spec{.range_max_m = spec.detector.range_max_m,
-                                  .vehicle_from_sensor = spec.vehicle_from_sensor,
-                                  .detail = DetailOf(spec, pattern),
-                                  .duration_ns = tiles.duration_ns()};
+  const FrameSceneSpec scene_spec{
+      .range_max_m = spec.detector.range_max_m,
+      .vehicle_from_sensor = spec.vehicle_from_sensor * spec.nominal_from_true,
+      .detail = DetailOf(spec, pattern),
+      .duration_ns = tiles.duration_ns()};
   parts_.reset(new Parts{.pattern = std::move(pattern),
                          .spec = spec,
                          .materials = materials.materials(),
@@ -194,7 +199,7 @@ const ScanPattern& Simulator::pattern() const {
   return parts_->pattern;
 }
 Transform Simulator::WorldFromSensor(std::int64_t time_ns) const {
-  return parts_->scenes.WorldFromSensor(time_ns);
+  return parts_->ReportedPose(time_ns);
 }
 
 void Simulator::UseThreads(int num_threads) {
@@ -275,12 +280,13 @@ std::vector<HaloSource> Simulator::Parts::FindHaloSources(const CastFrame& cast)
 void Simulator::Parts::Scan(const CastFrame& cast, Frame& frame) {
   frame.index = cast.index;
   frame.stamp_ns = pattern.StampNs(cast.index);
-  frame.world_from_sensor = scenes.WorldFromSensor(frame.stamp_ns);
+  frame.world_from_sensor = ReportedPose(frame.stamp_ns);
   frame.duration_ns = tiles.duration_ns();
-  frame.world_from_sensor_end = scenes.WorldFromSensor(frame.stamp_ns + frame.duration_ns);
+  frame.world_from_sensor_end = ReportedPose(frame.stamp_ns + frame.duration_ns);
   const ReturnRule rule = return_rule();
   frame.Resize(pattern.rows, pattern.columns, NumReturns(rule.mode));
-  const OutputAxes axes(spec.output, spec.origin_place, spec.vehicle_from_sensor,
+  const OutputAxes axes(spec.output, spec.origin_place,
+                        {spec.vehicle_from_sensor, spec.nominal_from_true.inverse()},
                         cast.window_from_world, frame.world_from_sensor);
   const ReturnStore store(rule, tracer->has_beams());
   const Transform world_from_window = cast.window_from_world.inverse();

@@ -1,8 +1,9 @@
 #include "core/simulate/spray_clouds.h"
 
-#include <string_view>
+#include <optional>
 
 #include "core/base/units.h"
+#include "railcast/objects.h"
 
 namespace railcast {
 namespace {
@@ -12,7 +13,8 @@ constexpr double kCloudHeight_m = 3.0;
 constexpr double kDecayTime_s = 1.0;
 
 bool IsOfATrain(const SceneObject& object) {
-  return object.moves && !object.is_ego && std::string_view(object.type).ends_with("wagon");
+  const std::optional<ObjectType> type = ValueNamed<ObjectType>(object.type);
+  return object.moves && !object.is_ego && type && IsRailVehicle(*type);
 }
 
 void Put(const Vector3& from, float (&to)[3]) {

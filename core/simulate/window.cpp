@@ -126,10 +126,15 @@ void WindowSource::AddObjects(int home_chunk,
     if (box.isEmpty()) continue;
     const double distance_m = (world_from_object * box.center() - home_world).norm();
     if (distance_m > range_max_m_ + kHomeRadius_m + 0.5 * box.diagonal().norm()) continue;
-    window.standing.push_back(i);
-    window.standing_placements.push_back({objects_[i].model,
-                                          {ToAffine(window.window_from_world * world_from_object)},
-                                          object_surfaces_[i]});
+    const std::vector<Transform> world_from_pieces = world.WorldFromPieces(i, 0);
+    for (std::size_t piece = 0; piece < objects_[i].pieces.size(); ++piece) {
+      const Transform window_from_piece = window.window_from_world * world_from_pieces[piece];
+      window.standing.push_back(i);
+      window.standing_placements.push_back(
+          {objects_[i].pieces[piece].model,
+           {ToAffine(window_from_piece)},
+           object_surfaces_[i] + objects_[i].pieces[piece].first_surface});
+    }
   }
 }
 

@@ -31,7 +31,8 @@ struct Window {
   std::unique_ptr<const TraceScene> scene;
   WireSet wires;  ///< The wires that `scene` also contains as tubes.
   SwayingThings swaying;
-  /// The stationary objects: indices into the objects of the store's world, and their places.
+  /// The pieces of the stationary objects: their objects' indices in the store's world, and their
+  /// places.
   std::vector<std::size_t> standing;
   std::vector<TracePlacement> standing_placements;
 

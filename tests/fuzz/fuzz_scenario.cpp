@@ -91,7 +91,9 @@ void CheckDraft(const ScenarioSpec& spec) {
   Check(draft.alignment && draft.surfaces && draft.vehicle_path && draft.catenary_plan,
         "a world without faults is whole");
   CheckPath(*draft.vehicle_path, *draft.alignment);
-  for (const TrackPath& path : draft.object_paths) CheckPath(path, *draft.alignment);
+  for (const ObjectPath& path : draft.object_paths) {
+    if (path.track) CheckPath(*path.track, *draft.alignment);
+  }
   for (const SceneObject& object : draft.objects) CheckModel(*object.model);
 }
 

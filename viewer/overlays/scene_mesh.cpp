@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "core/rail/rail_surfaces.h"
+#include "core/scene/object_pieces.h"
 #include "core/scene/part_gatherer.h"
 #include "railcast/frame.h"
 #include "railcast/material.h"
@@ -121,7 +122,12 @@ std::vector<Part> GatherSceneObjects(const Surroundings& surroundings,
     const Transform sensor_from_object =
         sensor_from_world * world.WorldFromObject(i, recorded.frame.stamp_ns);
     if (object.is_ego || sensor_from_object.translation().norm() > kSceneRange_m) continue;
-    gatherer.Add(*object.model, Eigen::Affine3d(sensor_from_object));
+    const std::vector<Transform> world_from_pieces =
+        world.WorldFromPieces(i, recorded.frame.stamp_ns);
+    for (std::size_t piece = 0; piece < world_from_pieces.size(); ++piece) {
+      gatherer.Add(*PieceOf(object, piece),
+                   Eigen::Affine3d(sensor_from_world * world_from_pieces[piece]));
+    }
   }
   return gatherer.TakeParts();
 }

@@ -11,33 +11,12 @@
 #include "railcast/enum_names.h"
 #include "railcast/frame.h"
 #include "railcast/material.h"
+#include "railcast/objects.h"
 #include "railcast/scene.h"
 #include "railcast/structures.h"
 #include "railcast/track_side.h"
 
 namespace railcast {
-
-/// One point of a speed profile: a speed at a time or at a chainage (exactly one of them is given).
-struct SpeedPoint {
-  std::optional<double> time_s;
-  std::optional<double> s_m;  ///< Chainage.
-  double speed_mps{};         ///< >= 0.
-
-  bool operator==(const SpeedPoint&) const = default;
-};
-
-/// Motion along a track.
-///
-/// Acceleration is constant between the points of the profile; before the first and after the last
-/// point, speed is constant. A profile is either all in time or all in chainage; an empty one means
-/// standing still. `reverse` moves against the chainage. The sensor's own vehicle then also faces
-/// that way, whereas an object faces as its heading says.
-struct MotionSpec {
-  std::vector<SpeedPoint> profile;
-  bool reverse = false;
-
-  bool operator==(const MotionSpec&) const = default;
-};
 
 enum class SleeperType {
   kConcrete,  ///< B70.
@@ -212,60 +191,6 @@ struct VegetationSpec {
   bool operator==(const VegetationSpec&) const = default;
 };
 
-enum class ObjectType { kBox, kPole, kPerson, kOpenWagon, kFlatWagon, kTankWagon, kMesh };
-template <>
-inline constexpr auto kEnumNames<ObjectType> =
-    std::to_array<EnumName<ObjectType>>({{ObjectType::kBox, "box"},
-                                         {ObjectType::kPole, "pole"},
-                                         {ObjectType::kPerson, "person"},
-                                         {ObjectType::kOpenWagon, "open_wagon"},
-                                         {ObjectType::kFlatWagon, "flat_wagon"},
-                                         {ObjectType::kTankWagon, "tank_wagon"},
-                                         {ObjectType::kMesh, "mesh"}});
-
-/// Whether the type is a wagon. Wagons follow gradient and cant, stand on the rails and have fixed
-/// sizes.
-[[nodiscard]] constexpr bool IsWagon(ObjectType type) {
-  return type == ObjectType::kOpenWagon || type == ObjectType::kFlatWagon ||
-         type == ObjectType::kTankWagon;
-}
-
-/// The axis of a mesh file that points upwards.
-enum class UpAxis { kY, kZ };
-template <>
-inline constexpr auto kEnumNames<UpAxis> = std::to_array<EnumName<UpAxis>>({{UpAxis::kY, "y"},
-                                                                            {UpAxis::kZ, "z"}});
-
-/// An object placed in track coordinates. Wagons follow gradient and cant; all other objects stand
-/// upright. A moving object keeps its lateral distance from its track, and its speed is measured
-/// along the chainage.
-struct ObjectSpec {
-  std::string name;  ///< Unique.
-  ObjectType type{};
-  std::string track = "main";
-  double s_m{};  ///< Chainage of the object's middle; at time 0 if it moves.
-  double d_m{};  ///< Lateral position of the middle, left of the track's axis.
-  /// Height of the object's foot above top of rail. If absent, wagons stand on the rails and
-  /// everything else on the ground or ballast below it.
-  std::optional<double> h_m;
-  double heading_deg{};  ///< Counterclockwise from the direction of increasing chainage.
-  /// Length, width, height. Required for a box; diameter, diameter, height for a pole. For a person
-  /// or a mesh, scales the model to this height or size if given. Wagons have fixed sizes.
-  std::optional<std::array<double, 3>> size_m;
-  std::optional<std::string> file;  ///< Meshes only: OBJ, PLY, STL, OFF, glTF, FBX, DAE, 3DS.
-  /// Meshes only; absent = as a glTF, FBX, DAE or 3DS file says, for others z.
-  std::optional<UpAxis> up;
-  /// Meshes only: metres per file unit; absent = as the file says, for other formats 1.
-  std::optional<double> unit_m;
-  std::optional<std::string> label;     ///< Overrides the default of the type.
-  std::optional<std::string> material;  ///< Overrides the default of the type.
-  std::optional<MotionSpec> motion;     ///< Absent = stationary.
-  /// Instead of `track`: tracks that turnouts join, one after the other in the direction of travel.
-  std::vector<std::string> route{};
-
-  bool operator==(const ObjectSpec&) const = default;
-};
-
 struct WorldSpec {
   /// Seed of the world's geometry: relief, stones, plants. The scenario's own seed drives the
   /// sensor and the weather.
@@ -277,11 +202,25 @@ struct WorldSpec {
   VegetationSpec vegetation;
   std::vector<StructureSpec> structures;
   std::vector<ObjectSpec> objects;
+  std::vector<TrainSpec> trains{};
   SceneDetail detail = SceneDetail::kAuto;
   std::vector<YardSpec> yards{};
   std::vector<DiamondCrossingSpec> diamond_crossings{};
 
   bool operator==(const WorldSpec&) const = default;
+};
+
+/// State of the track that shakes the sensor's vehicle (core/rail/ride/).
+enum class TrackQuality { kGood, kPoor };
+template <>
+inline constexpr auto kEnumNames<TrackQuality> = std::to_array<EnumName<TrackQuality>>(
+    {{TrackQuality::kGood, "good"}, {TrackQuality::kPoor, "poor"}});
+
+/// How the body of the sensor's vehicle moves on its springs.
+struct RideSpec {
+  TrackQuality track_quality = TrackQuality::kGood;
+
+  bool operator==(const RideSpec&) const = default;
 };
 
 /// The vehicle that carries the sensor.
@@ -298,6 +237,11 @@ struct VehicleSpec {
   /// Whether the boxes may stand or run inside objects. If not, `railcast-generate check` and
   /// `sequence` refuse a run in which they do.
   bool may_overlap = false;
+  /// The train that the vehicle is part of, from its front to its rear in the direction of travel.
+  /// If `ego_boxes_m` is empty, its shape follows from this.
+  std::vector<TrainVehicleSpec> consist{};
+  std::uint32_t sensor_vehicle = 0;  ///< Index of the one in `consist` that carries the sensor.
+  std::optional<RideSpec> ride{};    ///< Absent: the body does not move on its springs.
   /// Instead of `track`: tracks that turnouts join, one after the other in the direction of travel.
   std::vector<std::string> route{};
 
@@ -311,9 +255,12 @@ struct Route;
 /// The railway world of a scenario. The line is divided into chunks of kChunkLength_m each, from
 /// chainage 0.
 ///
-/// Objects have instance ids 1, 2, ... in the order of the spec. If the vehicle has ego boxes, they
-/// form one further object "ego" after them, and moving barriers two more for each level crossing,
-/// "NAME/right" and "NAME/left" after the side of the track from which one drives towards them.
+/// Objects have instance ids 1, 2, ... in the order of the spec, followed by the vehicles of the
+/// trains, one train after the other, each from front to rear. After them come those of the
+/// sensor's own train: "ego" carries the sensor, and the others are "ego/1", "ego/2", ... by their
+/// places; ego boxes, if there are any, form a single "ego" instead. Moving barriers are two more
+/// for each level crossing, "NAME/right" and "NAME/left" after the side of the track from which one
+/// drives towards them.
 /// Masts are numbered from kFirstMastInstance. Moving objects continue straight and level beyond
 /// the ends of the line.
 ///
@@ -385,6 +332,8 @@ class RailWorld final : public World {
   [[nodiscard]] Chunk BuildCoarserChunk(int chunk) const override;
   [[nodiscard]] const std::vector<SceneObject>& objects() const override;
   [[nodiscard]] Transform WorldFromObject(std::size_t object, std::int64_t time_ns) const override;
+  [[nodiscard]] std::vector<Transform> WorldFromPieces(std::size_t object,
+                                                       std::int64_t time_ns) const override;
 
  private:
   struct Line;

@@ -64,6 +64,18 @@ class ScenarioSources {
   std::vector<File> files_;
 };
 
+/// By how much a sensor is not where its mount says: its true pose in the axes of the nominal one.
+/// Rays leave from the true pose. Whatever places points or says where the sensor is, uses the
+/// nominal one, as a vehicle does that does not know its error.
+struct MountErrorSpec {
+  std::array<double, 3> position_m{};
+  double yaw_deg = 0.0;
+  double pitch_deg = 0.0;
+  double roll_deg = 0.0;
+
+  bool operator==(const MountErrorSpec&) const = default;
+};
+
 /// Section `lidar` (the published Lidar.json).
 struct LidarSpec {
   std::string name;
@@ -75,6 +87,7 @@ struct LidarSpec {
   BeamSpec beam{};
   ReceiverSpec receiver{};
   CoverSpec cover{};
+  MountErrorSpec mount_error{};
 
   bool operator==(const LidarSpec&) const = default;
 };
@@ -175,6 +188,8 @@ class RailWorld;
 
 /// The transform from the sensor frame to the vehicle frame of a mount.
 [[nodiscard]] Transform VehicleFromSensor(const MountSpec& mount);
+/// The transform from the sensor's true frame to the one that its mount says.
+[[nodiscard]] Transform NominalFromTrue(const MountErrorSpec& error);
 
 /// The transform from the camera's optical axes (x right, y down, z forward) to the vehicle frame.
 /// A camera without a mount of its own is in the place of the scenario's sensor.

@@ -21,7 +21,10 @@ namespace railcast {
 /// Everything that a simulation depends on besides the world, the scan pattern and the frame index.
 struct SimulatorSpec {
   DetectorSpec detector{};
-  Transform vehicle_from_sensor = Transform::Identity();
+  Transform vehicle_from_sensor = Transform::Identity();  ///< As reported: its nominal mount.
+  /// Error of the mount: rays leave from the true sensor, and poses and points in the axes of the
+  /// vehicle or the world are reported as if it were the nominal one.
+  Transform nominal_from_true = Transform::Identity();
   OutputSpec output{};
   std::string origin_place = "/output/origin_m";  ///< Name of output.origin_m in error messages.
   std::uint16_t snow_material{};  ///< Material of the snow on covered surfaces; 0 = no snow cover.

@@ -24,13 +24,13 @@ double HeightByRuleMm(double curvature_per_m, double speed_kmph, const Alignment
   return std::copysign(cant_mm, curvature_per_m);
 }
 
-struct Stretch {
+struct StretchOfTrack {
   double begin_s_m{}, end_s_m{};
   double begin_curvature_per_m{}, end_curvature_per_m{};
 };
 
 // The chainages between which the rule is linear: where it reaches 0 or its maximum.
-std::vector<double> CornersOf(const Stretch& stretch,
+std::vector<double> CornersOf(const StretchOfTrack& stretch,
                               double speed_kmph,
                               const AlignmentSpec& spec) {
   std::vector<double> corners_s_m;
@@ -62,8 +62,8 @@ PiecewiseLinear HeightByRule(const PiecewiseLinear& curvature,
 
   std::vector<LinearPiece> pieces;
   for (std::size_t i = 0; i + 1 < bounds_s_m.size(); ++i) {
-    const Stretch stretch{bounds_s_m[i], bounds_s_m[i + 1], curvature.Value(bounds_s_m[i]),
-                          curvature.Value(bounds_s_m[i + 1])};
+    const StretchOfTrack stretch{bounds_s_m[i], bounds_s_m[i + 1], curvature.Value(bounds_s_m[i]),
+                                 curvature.Value(bounds_s_m[i + 1])};
     const double speed = speed_kmph.Value(stretch.begin_s_m);
     const std::vector<double> corners_s_m = CornersOf(stretch, speed, spec);
     for (std::size_t k = 0; k < corners_s_m.size(); ++k) {

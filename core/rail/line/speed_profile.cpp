@@ -147,6 +147,26 @@ SpeedProfile::State SpeedProfile::At(double time_s) const {
           corner.speed_mps + corner.acceleration_mps2 * inside_s};
 }
 
+std::optional<double> SpeedProfile::TimeAt_s(double s_m) const {
+  const double wanted_m = direction_ * (s_m - start_s_m_);
+  if (wanted_m < corners_.front().travelled_m) return std::nullopt;
+  const auto after = std::ranges::upper_bound(corners_, wanted_m, {}, &Corner::travelled_m);
+  // Where the object stands for a while, the corner before `after` is that at which it goes on.
+  auto corner = after - 1;
+  while (corner != corners_.begin() && corner->travelled_m == wanted_m &&
+         (corner - 1)->travelled_m == wanted_m) {
+    --corner;
+  }
+  const double left_m = wanted_m - corner->travelled_m;
+  if (left_m == 0.0) return corner->time_s;
+  // The lesser root of v t + a t^2 / 2 = left, in the form that also holds for a = 0.
+  const double discriminant =
+      corner->speed_mps * corner->speed_mps + 2.0 * corner->acceleration_mps2 * left_m;
+  const double divisor = corner->speed_mps + std::sqrt(std::max(0.0, discriminant));
+  if (discriminant < 0.0 || divisor <= 0.0) return std::nullopt;
+  return corner->time_s + 2.0 * left_m / divisor;
+}
+
 bool SpeedProfile::moves() const {
   return std::any_of(corners_.begin(), corners_.end(),
                      [](const Corner& corner) { return corner.speed_mps > 0.0; });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "railcast/rail_world.h"
@@ -35,6 +36,9 @@ class SpeedProfile {
 
   /// @pre time_s >= 0, and not before the time of the last change.
   [[nodiscard]] State At(double time_s) const;
+  /// When the chainage is reached for the first time; absent if it lies behind or is never reached.
+  /// The time is not before that of the last change.
+  [[nodiscard]] std::optional<double> TimeAt_s(double s_m) const;
   /// Whether the chainage ever changes.
   [[nodiscard]] bool moves() const;
   [[nodiscard]] bool reverse() const { return direction_ < 0.0; }

@@ -31,7 +31,7 @@ std::shared_ptr<const RailWorld> Make(bool vehicle_moves = true) {
   vehicle.start_s_m = 30.0;
   if (vehicle_moves) vehicle.motion.profile = {{0.0, std::nullopt, 20.0}};
   vehicle.ego_boxes_m = {{-4.0, -1.5, 0.2, 0.5, 1.5, 2.0}};
-  return std::make_shared<const RailWorld>(world, vehicle, TestLabels(), TestMaterials(), 7);
+  return std::make_shared<const RailWorld>(world, vehicle, RailLabels(), RailMaterials(), 7);
 }
 
 std::vector<std::string> NamesAndInstances(const RailWorld& world) {
@@ -120,9 +120,9 @@ TEST(ChangedWorld, PutsAnObjectWhereAScenarioWouldPutIt) {
   person.d_m = -3.0;
   person.heading_deg = 40.0;
   spec.objects = {person};
-  const RailWorld written(spec, {}, TestLabels(), TestMaterials(), 7);
+  const RailWorld written(spec, {}, RailLabels(), RailMaterials(), 7);
   spec.objects = {};
-  const RailWorld empty(spec, {}, TestLabels(), TestMaterials(), 7);
+  const RailWorld empty(spec, {}, RailLabels(), RailMaterials(), 7);
   const auto placed = empty.WithObject(person, 5 * kNsPerS);
   EXPECT_EQ(placed->WorldFromObject(0, 0).matrix(), written.WorldFromObject(0, 0).matrix());
 }
@@ -182,7 +182,7 @@ TEST(ChangedWorld, RefusesToRemoveABarrier) {
   crossing.s_m = 300.0;
   crossing.barrier_angles_deg = {{2.0, 90.0}, {8.0, 0.0}};
   world.structures = {crossing};
-  const RailWorld made(world, VehicleSpec{}, TestLabels(), TestMaterials(), 7);
+  const RailWorld made(world, VehicleSpec{}, RailLabels(), RailMaterials(), 7);
   EXPECT_EQ(FaultOf([&] { return made.WithoutObject("crossing/left"); }),
             "/name: must not be a barrier of a level crossing (got \"crossing/left\")");
 }

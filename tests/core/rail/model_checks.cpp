@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
 
 namespace railcast {
 namespace {
@@ -61,6 +64,25 @@ std::size_t CountBadTriangles(const Model& model) {
     }
   }
   return count;
+}
+
+std::size_t CountOpenEdges(const Model& model) {
+  using Point = std::array<float, 3>;
+  std::map<std::pair<Point, Point>, int> surplus;
+  for (const Part& part : model.parts) {
+    for (const auto& triangle : part.mesh.triangles) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Eigen::Vector3f& a = part.mesh.vertices[triangle[i]];
+        const Eigen::Vector3f& b = part.mesh.vertices[triangle[(i + 1) % 3]];
+        const Point from = {a.x(), a.y(), a.z()};
+        const Point to = {b.x(), b.y(), b.z()};
+        if (from < to) ++surplus[{from, to}];
+        if (to < from) --surplus[{to, from}];
+      }
+    }
+  }
+  return static_cast<std::size_t>(std::count_if(surplus.begin(), surplus.end(),
+                                                [](const auto& edge) { return edge.second != 0; }));
 }
 
 void ExpectSameChunk(const Chunk& first, const Chunk& second) {

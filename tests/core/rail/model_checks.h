@@ -17,6 +17,11 @@ namespace railcast {
 /// Number of triangles with an index out of range, a non-finite coordinate, or no area.
 [[nodiscard]] std::size_t CountBadTriangles(const Model& model);
 
+/// Number of edges at which the surface of the model is open, or its triangles turn to different
+/// sides: those that do not belong to as many triangles in the one direction as in the other. The
+/// parts may share edges.
+[[nodiscard]] std::size_t CountOpenEdges(const Model& model);
+
 /// Expects bitwise equal ground and models, with the same placements and instances.
 void ExpectSameChunk(const Chunk& first, const Chunk& second);
 

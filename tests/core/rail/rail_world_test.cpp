@@ -44,7 +44,7 @@ VehicleSpec MovingVehicle() {
 }
 
 RailWorld MakeRailWorld(const WorldSpec& world, const VehicleSpec& vehicle) {
-  return RailWorld(world, vehicle, TestLabels(), TestMaterials(), 7);
+  return RailWorld(world, vehicle, RailLabels(), RailMaterials(), 7);
 }
 
 std::string WorldFaultOf(const WorldSpec& world, const VehicleSpec& vehicle) {
@@ -134,11 +134,11 @@ TEST(RailWorld, NumbersItsObjectsAndPutsTheVehicleLast) {
   ASSERT_EQ(world.objects().size(), 3U);
   const SceneObject& wagon = world.objects()[0];
   EXPECT_EQ(wagon.instance, 1U);
-  EXPECT_EQ(wagon.label, TestLabels().Id("wagon"));
+  EXPECT_EQ(wagon.label, RailLabels().Id("wagon"));
   EXPECT_FALSE(wagon.moves);
   const SceneObject& walker = world.objects()[1];
   EXPECT_EQ(walker.instance, 2U);
-  EXPECT_EQ(walker.label, TestLabels().Id("person"));
+  EXPECT_EQ(walker.label, RailLabels().Id("person"));
   EXPECT_TRUE(walker.moves);
   const SceneObject& ego = world.objects()[2];
   EXPECT_EQ(ego.name, "ego");
@@ -159,7 +159,13 @@ TEST(RailWorld, PlacesObjectsByTheirTrack) {
   spec.objects[1].heading_deg = 90.0;
   const RailWorld world = MakeRailWorld(spec, {});
   const Alignment& alignment = world.alignment();
-  EXPECT_TRUE(world.WorldFromObject(0, 0).isApprox(alignment.WorldFromTrack(500.0, 4.0), 1e-12));
+  // Its pivots, 10.5 m apart, throw the wagon's middle inwards by their distance squared over 8 R.
+  const Transform axis_from_wagon =
+      alignment.WorldFromTrack(500.0, 4.0).inverse() * world.WorldFromObject(0, 0);
+  const double throw_m = 10.5 * 10.5 / 8.0 * alignment.At(500.0).curvature_per_m;
+  EXPECT_NEAR(axis_from_wagon.translation().y(), throw_m, 2e-3);
+  EXPECT_NEAR(axis_from_wagon.translation().x(), 0.0, 1e-3);
+  EXPECT_TRUE(axis_from_wagon.linear().isApprox(Eigen::Matrix3d::Identity(), 2e-3));
   const Transform world_from_walker = world.WorldFromObject(1, 0);
   EXPECT_TRUE(world_from_walker.translation().head<2>().isApprox(
       alignment.WorldFromTrack(500.0, -2.0).translation().head<2>(), 1e-12));
@@ -167,6 +173,15 @@ TEST(RailWorld, PlacesObjectsByTheirTrack) {
   EXPECT_NEAR(
       world_from_walker.linear().col(0).dot(alignment.WorldFromTrack(500.0).linear().col(0)), 0.0,
       0.01);  // Across the track, except for gradient and cant.
+}
+
+TEST(RailWorld, LaysADragShoeOnTheRail) {
+  WorldSpec spec = CurvedWorld();
+  spec.objects = {ObjectAt("shoe", ObjectType::kDragShoe, 500.0)};
+  spec.objects[0].d_m = 0.753;
+  const RailWorld world = MakeRailWorld(spec, {});
+  EXPECT_TRUE(world.WorldFromObject(0, 0).translation().isApprox(
+      world.alignment().WorldFromTrack(500.0, 0.753).translation(), 1e-9));
 }
 
 TEST(RailWorld, FillsEveryChunkWithGroundTracksAndMasts) {

@@ -90,7 +90,7 @@ TEST(RailWorld, StandsObjectsOnTheGroundUnlessAHeightIsGiven) {
   wagon.name = "wagon";
   wagon.type = ObjectType::kFlatWagon;
   spec.objects.push_back(wagon);
-  const RailWorld world(spec, {}, TestLabels(), TestMaterials(), 1);
+  const RailWorld world(spec, {}, RailLabels(), RailMaterials(), 1);
   const double top_of_rail_m = world.alignment().At(120.0).position_m.z();
   EXPECT_NEAR(world.WorldFromObject(0, 0).translation().z(), top_of_rail_m - 0.7, 0.25);
   EXPECT_NEAR(world.WorldFromObject(1, 0).translation().z(), top_of_rail_m + 1.5, 1e-9);

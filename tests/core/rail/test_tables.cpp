@@ -5,18 +5,18 @@
 
 namespace railcast {
 
-LabelTable TestLabels() {
+LabelTable RailLabels() {
   std::vector<Label> labels;
-  for (const char* name : {"rail",          "sleeper",     "ballast",      "ground",
-                           "grass",         "tree",        "contact_wire", "messenger_wire",
-                           "dropper",       "mast",        "cantilever",   "wagon",
-                           "person",        "pole",        "object",       "ego",
-                           "platform",      "noise_wall",  "fence",        "retaining_wall",
-                           "cable_trough",  "tunnel",      "bridge",       "third_rail",
-                           "slab_track",    "signal",      "board",        "balise",
-                           "relay_box",     "buffer_stop", "road",         "level_crossing",
-                           "building",      "derailer",    "furniture",    "switch",
-                           "point_machine", "bush"}) {
+  for (const char* name :
+       {"rail",         "sleeper",        "ballast",        "ground",     "grass",
+        "tree",         "contact_wire",   "messenger_wire", "dropper",    "mast",
+        "cantilever",   "wagon",          "person",         "pole",       "object",
+        "ego",          "platform",       "noise_wall",     "fence",      "retaining_wall",
+        "cable_trough", "tunnel",         "bridge",         "third_rail", "slab_track",
+        "signal",       "board",          "balise",         "relay_box",  "buffer_stop",
+        "road",         "level_crossing", "building",       "derailer",   "furniture",
+        "switch",       "point_machine",  "bush",           "train",      "road_vehicle",
+        "animal"}) {
     Label label;
     label.id = static_cast<std::uint32_t>(labels.size() + 1);
     label.name = name;
@@ -25,7 +25,7 @@ LabelTable TestLabels() {
   return LabelTable(std::move(labels));
 }
 
-MaterialLibrary TestMaterials() {
+MaterialLibrary RailMaterials() {
   std::vector<Material> materials;
   for (const char* name : {"rail_head",
                            "rail_side",
@@ -55,17 +55,24 @@ MaterialLibrary TestMaterials() {
                            "roof_tile",
                            "asphalt",
                            "glass",
-                           "retro_sheeting"}) {
+                           "retro_sheeting",
+                           "hi_vis_fabric",
+                           "hi_vis_band",
+                           "black_rubber",
+                           "car_paint",
+                           "fur",
+                           "horn"}) {
     materials.push_back({name, 0.3});
   }
   return MaterialLibrary(materials);
 }
 
 RailSurfaces TestSurfaces() {
-  RailSurfaces surfaces(TestLabels(), TestMaterials());
-  surfaces.AddBushSurfaces(TestLabels(), TestMaterials());
-  surfaces.AddStructureSurfaces(TestLabels(), TestMaterials());
-  surfaces.AddTurnoutSurfaces(TestLabels(), TestMaterials());
+  RailSurfaces surfaces(RailLabels(), RailMaterials());
+  surfaces.AddBushSurfaces(RailLabels(), RailMaterials());
+  surfaces.AddStructureSurfaces(RailLabels(), RailMaterials());
+  surfaces.AddTurnoutSurfaces(RailLabels(), RailMaterials());
+  surfaces.AddVehicleSurfaces(RailLabels(), RailMaterials());
   return surfaces;
 }
 

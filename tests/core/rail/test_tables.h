@@ -7,8 +7,8 @@
 namespace railcast {
 
 /// Tables with all names that RailSurfaces looks up.
-[[nodiscard]] LabelTable TestLabels();
-[[nodiscard]] MaterialLibrary TestMaterials();
+[[nodiscard]] LabelTable RailLabels();
+[[nodiscard]] MaterialLibrary RailMaterials();
 [[nodiscard]] RailSurfaces TestSurfaces();
 
 }  // namespace railcast

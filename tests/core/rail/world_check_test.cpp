@@ -67,7 +67,7 @@ TEST(CheckWorld, HasTurnoutsAndWagonsOfStandardGaugeOnly) {
                           "only, and gauge_mm is 1000 (got \"1:9-190\")",
                           "/world/diamond_crossings/0: must be absent: there are crossings of 1435 "
                           "mm only, and gauge_mm is 1000 (got one)",
-                          "/world/objects/1/type: must not be a wagon: they have wheels of 1435 mm "
+                          "/world/objects/1/type: must not be a rail vehicle: they have wheels of 1435 mm "
                           "only, and gauge_mm is 1000 (got \"tank_wagon\")"));
   world.alignment.gauge_mm = 1435.0;
   world.diamond_crossings.clear();

@@ -23,14 +23,14 @@ std::vector<std::string> FaultsOf(const WorldSpec& world,
                                   const VehicleSpec& vehicle = {},
                                   const UnknownPlaces& unknown = {}) {
   WorldFaults faults{{}, unknown};
-  static_cast<void>(DraftWorld({world, vehicle, TestLabels(), TestMaterials()}, faults));
+  static_cast<void>(DraftWorld({world, vehicle, RailLabels(), RailMaterials()}, faults));
   return faults.errors.lines();
 }
 
 TEST(DraftWorld, MakesEveryPartOfASoundWorld) {
   const WorldSpec world = StraightKilometre();
   WorldFaults faults;
-  const WorldDraft draft = DraftWorld({world, {}, TestLabels(), TestMaterials()}, faults);
+  const WorldDraft draft = DraftWorld({world, {}, RailLabels(), RailMaterials()}, faults);
   EXPECT_THAT(faults.errors.lines(), IsEmpty());
   EXPECT_TRUE(draft.alignment && draft.surfaces && draft.vehicle_path && draft.catenary_plan);
 }

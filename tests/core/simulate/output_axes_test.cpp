@@ -76,6 +76,42 @@ TEST(OutputAxes, WorldCoordinatesAreTakenAboutTheOriginThatIsGiven) {
   }
 }
 
+Vector3 PointOf(const Frame& frame, std::size_t slot) {
+  return Eigen::Vector3f(frame.x[slot], frame.y[slot], frame.z[slot]).cast<double>();
+}
+
+// A sensor that is turned and moved in its mount measures what one with that mount would, and says
+// that it is where it should be.
+TEST(OutputAxes, AMountErrorMovesTheRaysButNoReportedPose) {
+  auto world = TurnedWorld();
+  world->velocity_chunk_mps = Vector3::Zero();
+  const ScanPattern pattern = MakeRaster(40, 10, 1);
+  SimulatorSpec nominal = WithAxes(OutputFrame::kSensor, Handedness::kRight);
+  SimulatorSpec wrong = nominal;
+  wrong.nominal_from_true =
+      MakeTransform(RotationFromYawPitchRoll(0.02, -0.01, 0.03), {0.05, -0.02, 0.01});
+  SimulatorSpec moved = nominal;
+  moved.vehicle_from_sensor = nominal.vehicle_from_sensor * wrong.nominal_from_true;
+  const Frame of_nominal = ScanOnce(world, pattern, nominal);
+  const Frame of_wrong = ScanOnce(world, pattern, wrong);
+  const Frame of_moved = ScanOnce(world, pattern, moved);
+  EXPECT_TRUE(of_wrong.world_from_sensor.isApprox(of_nominal.world_from_sensor, 1e-12));
+  EXPECT_TRUE(of_wrong.world_from_sensor_end.isApprox(of_nominal.world_from_sensor_end, 1e-12));
+  SimulatorSpec in_vehicle = wrong;
+  in_vehicle.output.frame = OutputFrame::kVehicle;
+  SimulatorSpec in_world = wrong;
+  in_world.output.frame = OutputFrame::kWorld;
+  const Frame vehicle_points = ScanOnce(world, pattern, in_vehicle);
+  const Frame world_points = ScanOnce(world, pattern, in_world);
+  for (std::size_t slot = 0; slot < of_wrong.num_slots(); ++slot) {
+    const Vector3 point = PointOf(of_wrong, slot);
+    EXPECT_TRUE(point.isApprox(PointOf(of_moved, slot), 1e-6));
+    EXPECT_GT((point - PointOf(of_nominal, slot)).norm(), 0.01);
+    EXPECT_TRUE(PointOf(vehicle_points, slot).isApprox(nominal.vehicle_from_sensor * point, 1e-6));
+    EXPECT_TRUE(PointOf(world_points, slot).isApprox(of_nominal.world_from_sensor * point, 1e-6));
+  }
+}
+
 TEST(OutputAxes, WorldCoordinatesFarFromTheOriginAreRefused) {
   auto world = TurnedWorld();
   world->world_from_chunk.translation() = Vector3(6e5, 5.3e6, 400.0);

@@ -53,7 +53,7 @@ std::vector<std::string> FaultsOfRoute(const std::vector<std::string>& names, bo
 
 std::vector<std::string> FaultsOfWorld(const WorldSpec& world, const VehicleSpec& vehicle) {
   WorldFaults faults;
-  static_cast<void>(DraftWorld({world, vehicle, TestLabels(), TestMaterials()}, faults));
+  static_cast<void>(DraftWorld({world, vehicle, RailLabels(), RailMaterials()}, faults));
   return faults.errors.lines();
 }
 
@@ -167,7 +167,7 @@ TEST(Route, SetsTheTurnoutsThatHaveNoPosition) {
   VehicleSpec vehicle;
   vehicle.route = {"main", "loop"};
   WorldFaults faults;
-  const WorldDraft draft = DraftWorld({world, vehicle, TestLabels(), TestMaterials()}, faults);
+  const WorldDraft draft = DraftWorld({world, vehicle, RailLabels(), RailMaterials()}, faults);
   ASSERT_EQ(draft.network.turnouts.size(), 2U);
   EXPECT_EQ(draft.network.turnouts[0].position, TurnoutPosition::kDiverging);
   EXPECT_EQ(draft.network.turnouts[1].position, TurnoutPosition::kStraight);

@@ -156,5 +156,27 @@ TEST(SpeedProfile, MayBeChangedWhileItChanges) {
   EXPECT_DOUBLE_EQ(again.At(8.0).s_m, 19.5);
 }
 
+TEST(SpeedProfile, TellsWhenAChainageIsReached) {
+  for (const bool reverse : {false, true}) {
+    const double direction = reverse ? -1.0 : 1.0;
+    MotionSpec motion;
+    motion.reverse = reverse;
+    motion.profile = {{0.0, {}, 0.0},  {10.0, {}, 8.0}, {20.0, {}, 8.0},
+                      {30.0, {}, 0.0}, {40.0, {}, 0.0}, {50.0, {}, 5.0}};
+    const SpeedProfile profile(motion, 1000.0);
+    for (double time_s = 0.5; time_s < 80.0; time_s += 0.5) {
+      if (time_s >= 29.5 && time_s <= 40.0) continue;  // It stands.
+      const std::optional<double> reached_s = profile.TimeAt_s(profile.At(time_s).s_m);
+      ASSERT_TRUE(reached_s.has_value()) << time_s;
+      EXPECT_NEAR(*reached_s, time_s, 1e-6);
+    }
+    EXPECT_NEAR(profile.TimeAt_s(1000.0 + direction * 160.0).value_or(0.0), 30.0, 1e-9)
+        << "when it comes to the place where it stands for a while";
+    EXPECT_FALSE(profile.TimeAt_s(1000.0 - direction * 1.0).has_value()) << "behind it";
+    const SpeedProfile stopped = profile.WithSpeedFrom(15.0, 0.0, 2.0);
+    EXPECT_FALSE(stopped.TimeAt_s(1000.0 + direction * 120.0).has_value()) << "it stops before";
+  }
+}
+
 }  // namespace
 }  // namespace railcast

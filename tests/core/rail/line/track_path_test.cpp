@@ -98,6 +98,87 @@ TEST(TrackPath, LeansABodyByTheMeanOfTheCantsAndPitchesItAlongTheGradient) {
   EXPECT_TRUE((body.transpose() * body).isApprox(Eigen::Matrix3d::Identity(), 1e-12));
 }
 
+// A body of length L on pivots a apart in an arc of radius R lies along a chord: its middle is
+// sqrt(R^2 - a^2 / 4) from the arc's centre, inwards of the track, and its ends
+// sqrt(R^2 - a^2 / 4 + L^2 / 4), outwards of it.
+TEST(TrackPath, ThrowsTheMiddleOfABodyInwardsAndItsEndsOutwards) {
+  const Alignment alignment = LevelArc();
+  constexpr double kLength_m = 26.4;
+  constexpr double kPivots_m = 19.0;
+  const Vector3 centre(0.0, 350.0, 0.0);
+  for (const double d_m : {0.0, -4.0, 4.5}) {
+    for (const double heading_rad : {0.0, std::numbers::pi}) {
+      const TrackPath path(Axis(),
+                           {.d_m = d_m,
+                            .heading_rad = heading_rad,
+                            .pivot_distance_m = kPivots_m,
+                            .is_midway = true},
+                           Standing(200.0));
+      const Transform world_from_body = path.WorldFromObject(alignment, 0);
+      const double radius_m = 350.0 - d_m;
+      const double middle_m = std::sqrt(radius_m * radius_m - kPivots_m * kPivots_m / 4.0);
+      EXPECT_NEAR((world_from_body.translation() - centre).norm(), middle_m, 1e-9);
+      EXPECT_NEAR(radius_m - middle_m, kPivots_m * kPivots_m / (8.0 * radius_m), 1e-4);
+      for (const double end : {-0.5, 0.5}) {
+        const Vector3 at_end = world_from_body * Vector3(end * kLength_m, 0.0, 0.0);
+        EXPECT_NEAR((at_end - centre).norm(), std::hypot(middle_m, kLength_m / 2.0), 1e-9);
+      }
+      // It stands symmetrically about its chainage, and faces as it should.
+      const double yaw_rad = 200.0 / 350.0 + heading_rad;
+      EXPECT_NEAR(world_from_body.linear()(0, 0), std::cos(yaw_rad), 1e-9);
+      EXPECT_NEAR(world_from_body.linear()(1, 0), std::sin(yaw_rad), 1e-9);
+    }
+  }
+}
+
+// The tangent at the end of a chord of length a is turned from it by asin(a / 2R).
+TEST(TrackPath, TurnsTheBogiesIntoTheTrackBelowThem) {
+  const Alignment alignment = LevelArc();
+  const double turn_rad = std::asin(7.1 / 350.0);
+  for (const double heading_rad : {0.0, std::numbers::pi}) {
+    const TrackPath path(Axis(),
+                         {.heading_rad = heading_rad, .pivot_distance_m = 14.2, .is_midway = true},
+                         Standing(200.0));
+    const auto [body, front, rear] = path.WorldFromVehicleAt(alignment, 200.0);
+    EXPECT_TRUE(body.isApprox(path.WorldFromObject(alignment, 0), 1e-15));
+    EXPECT_TRUE(front.translation().isApprox(body * Vector3(7.1, 0, 0), 1e-12));
+    EXPECT_TRUE(rear.translation().isApprox(body * Vector3(-7.1, 0, 0), 1e-12));
+    // The arc turns left: ahead of a body that runs with the chainage, it has turned further.
+    const double side = heading_rad == 0.0 ? 1.0 : -1.0;
+    const Eigen::Matrix3d body_from_front = body.linear().transpose() * front.linear();
+    const Eigen::Matrix3d body_from_rear = body.linear().transpose() * rear.linear();
+    EXPECT_NEAR(std::asin(body_from_front(1, 0)), side * turn_rad, 1e-9);
+    EXPECT_NEAR(std::asin(body_from_rear(1, 0)), -side * turn_rad, 1e-9);
+  }
+}
+
+// Where the cant changes, each bogie has that of its own place, and the body the mean of both.
+TEST(TrackPath, TwistsTheBogiesWhereTheCantChanges) {
+  AlignmentSpec spec;
+  spec.course = AlignmentElementsSpec{{{ElementType::kStraight, 1000.0, {}}}};
+  spec.cants_mm = {{0.0, 0.0}, {400.0, 0.0}, {440.0, 100.0}};
+  const Alignment alignment(spec);
+  const TrackPath path(Axis(), {.pivot_distance_m = 10.0, .is_midway = true}, Standing(420.0));
+  const auto roll_rad = [](const Transform& pose) { return std::asin(pose.linear()(2, 1)); };
+  const auto [body, front, rear] = path.WorldFromVehicleAt(alignment, 420.0);
+  EXPECT_NEAR(roll_rad(front), roll_rad(alignment.WorldFromTrack(425.0)), 1e-12);
+  EXPECT_NEAR(roll_rad(rear), roll_rad(alignment.WorldFromTrack(415.0)), 1e-12);
+  EXPECT_NEAR(std::abs(roll_rad(front) - roll_rad(rear)), 0.025 / 1.5, 1e-4);
+  EXPECT_NEAR(roll_rad(body), 0.5 * (roll_rad(front) + roll_rad(rear)), 1e-6);
+}
+
+TEST(TrackPath, TurnsABodyAgainstItsTrackAboutItsMiddle) {
+  const Alignment alignment = LevelArc();
+  const TrackPose along{.pivot_distance_m = 14.2, .is_midway = true};
+  TrackPose turned = along;
+  turned.heading_rad = 0.3;
+  const Transform body = TrackPath(Axis(), along, Standing(200.0)).WorldFromObject(alignment, 0);
+  const Transform derailed =
+      TrackPath(Axis(), turned, Standing(200.0)).WorldFromObject(alignment, 0);
+  EXPECT_TRUE(derailed.translation().isApprox(body.translation(), 1e-12));
+  EXPECT_NEAR((body.linear().transpose() * derailed.linear())(1, 0), std::sin(0.3), 1e-12);
+}
+
 TEST(TrackPath, PutsABodyOnTheStraightBeforeTheLine) {
   const TrackPath path(Axis(), {.pivot_distance_m = 10.0}, Standing(0.0));
   EXPECT_TRUE(path.WorldFromObject(LevelArc(), 0).isApprox(LevelArc().WorldFromTrack(0.0), 1e-12));

@@ -75,7 +75,7 @@ TEST(Yard, KeepsItsTracksApart) {
 
 std::vector<std::string> FaultsOfYard(const WorldSpec& world) {
   WorldFaults faults;
-  static_cast<void>(DraftWorld({world, {}, TestLabels(), TestMaterials()}, faults));
+  static_cast<void>(DraftWorld({world, {}, RailLabels(), RailMaterials()}, faults));
   return faults.errors.lines();
 }
 

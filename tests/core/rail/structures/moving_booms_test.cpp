@@ -79,7 +79,7 @@ RailWorld WorldOf(const WorldSpec& spec, bool has_ego) {
   VehicleSpec vehicle;
   vehicle.start_s_m = 30.0;
   if (has_ego) vehicle.ego_boxes_m = {{-18.0, -1.45, 0.3, 2.0, 1.45, 3.9}};
-  return RailWorld(spec, vehicle, TestLabels(), TestMaterials(), 7);
+  return RailWorld(spec, vehicle, RailLabels(), RailMaterials(), 7);
 }
 
 TEST(MovingBoom, IsAnObjectOfTheWorldAfterAllOthers) {
@@ -97,7 +97,7 @@ TEST(MovingBoom, IsAnObjectOfTheWorldAfterAllOthers) {
   EXPECT_EQ(world.objects()[3].name, "crossing/left");
   for (std::size_t i = 2; i < 4; ++i) {
     EXPECT_EQ(world.objects()[i].instance, i + 1);
-    EXPECT_EQ(world.objects()[i].label, TestLabels().Id("level_crossing"));
+    EXPECT_EQ(world.objects()[i].label, RailLabels().Id("level_crossing"));
     EXPECT_TRUE(world.objects()[i].moves);
     EXPECT_EQ(world.object_track(i).name, "main");
     EXPECT_EQ(world.ObjectChainage_m(i, 5 * kNsPerS), 122.0);

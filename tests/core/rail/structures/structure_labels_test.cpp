@@ -103,10 +103,10 @@ TEST(StructureLabels, ABeamAimedAtEachStructureReturnsItsLabel) {
     spec.structures = {structure};
     const StructureProbe probe(std::move(spec));
     const std::uint32_t seen = probe.LabelSeen(aim.from, aim.to);
-    EXPECT_EQ(seen, TestLabels().Id(aim.label)) << aim.label << " at " << aim.to.transpose();
+    EXPECT_EQ(seen, RailLabels().Id(aim.label)) << aim.label << " at " << aim.to.transpose();
     // Without the structure, the beam meets something else or nothing.
     EXPECT_NE(StructureProbe(StraightLine(300.0)).LabelSeen(aim.from, aim.to),
-              TestLabels().Id(aim.label));
+              RailLabels().Id(aim.label));
   }
 }
 

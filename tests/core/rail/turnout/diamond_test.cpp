@@ -74,7 +74,7 @@ CrossedRailPlaces PlacesOnRail(const TestLine& line, bool on_second, bool is_lef
   return places.value();
 }
 
-constexpr double kExact_m = 1e-5;
+constexpr double kClose_m = 1e-5;
 
 TEST(Diamond, HasItsFrogsWhereTheGaugeLinesCross) {
   for (const double n : {4.0, 9.0, 20.0}) {
@@ -83,15 +83,15 @@ TEST(Diamond, HasItsFrogsWhereTheGaugeLinesCross) {
     // The main track comes from the right. A rhombus of the gauge lines, with its acute corners on
     // the bisector.
     const CrossedRailPlaces left = PlacesOnRail(line, false, true);
-    EXPECT_NEAR(left.acute_s_m, kCrossing_m - kHalf_m / std::tan(half_rad), kExact_m);
-    EXPECT_NEAR(left.obtuse_s_m, kCrossing_m + kHalf_m * std::tan(half_rad), kExact_m);
+    EXPECT_NEAR(left.acute_s_m, kCrossing_m - kHalf_m / std::tan(half_rad), kClose_m);
+    EXPECT_NEAR(left.obtuse_s_m, kCrossing_m + kHalf_m * std::tan(half_rad), kClose_m);
     const CrossedRailPlaces right = PlacesOnRail(line, false, false);
-    EXPECT_NEAR(right.acute_s_m, kCrossing_m + kHalf_m / std::tan(half_rad), kExact_m);
-    EXPECT_NEAR(right.obtuse_s_m, kCrossing_m - kHalf_m * std::tan(half_rad), kExact_m);
+    EXPECT_NEAR(right.acute_s_m, kCrossing_m + kHalf_m / std::tan(half_rad), kClose_m);
+    EXPECT_NEAR(right.obtuse_s_m, kCrossing_m - kHalf_m * std::tan(half_rad), kClose_m);
     // Both tracks' rails meet at the same places.
-    EXPECT_NEAR(PlacesOnRail(line, true, false).acute_s_m, left.acute_s_m, kExact_m);
-    EXPECT_NEAR(PlacesOnRail(line, true, true).acute_s_m, right.acute_s_m, kExact_m);
-    EXPECT_NEAR(PlacesOnRail(line, true, true).obtuse_s_m, left.obtuse_s_m, kExact_m);
+    EXPECT_NEAR(PlacesOnRail(line, true, false).acute_s_m, left.acute_s_m, kClose_m);
+    EXPECT_NEAR(PlacesOnRail(line, true, true).acute_s_m, right.acute_s_m, kClose_m);
+    EXPECT_NEAR(PlacesOnRail(line, true, true).obtuse_s_m, left.obtuse_s_m, kClose_m);
     EXPECT_NEAR(line.network().diamonds[0].angle_rad, 2.0 * half_rad, 1e-9);
   }
 }
@@ -114,11 +114,11 @@ TEST(Diamond, HasItsFrogsWhereTheGaugeLinesCrossInAnArcToo) {
     return middle_s_m + std::sqrt(radius_m * radius_m - std::pow(d_m - middle_d_m, 2));
   };
   const CrossedRailPlaces left = PlacesOnRail(line, false, true);
-  EXPECT_NEAR(left.acute_s_m, meets_at_m(kArc_m - kHalf_m, kHalf_m), kExact_m);
-  EXPECT_NEAR(left.obtuse_s_m, meets_at_m(kArc_m + kHalf_m, kHalf_m), kExact_m);
+  EXPECT_NEAR(left.acute_s_m, meets_at_m(kArc_m - kHalf_m, kHalf_m), kClose_m);
+  EXPECT_NEAR(left.obtuse_s_m, meets_at_m(kArc_m + kHalf_m, kHalf_m), kClose_m);
   const CrossedRailPlaces right = PlacesOnRail(line, false, false);
-  EXPECT_NEAR(right.acute_s_m, meets_at_m(kArc_m + kHalf_m, -kHalf_m), kExact_m);
-  EXPECT_NEAR(right.obtuse_s_m, meets_at_m(kArc_m - kHalf_m, -kHalf_m), kExact_m);
+  EXPECT_NEAR(right.acute_s_m, meets_at_m(kArc_m + kHalf_m, -kHalf_m), kClose_m);
+  EXPECT_NEAR(right.obtuse_s_m, meets_at_m(kArc_m - kHalf_m, -kHalf_m), kClose_m);
 }
 
 TEST(Diamond, LeavesAWayForFlangesOnBothTracks) {
