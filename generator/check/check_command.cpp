@@ -12,6 +12,7 @@
 #include "core/scenario/vehicle_clearance.h"
 #include "core/simulate/detail_choice.h"
 #include "generator/check/check_report.h"
+#include "generator/check/mesh_report.h"
 #include "generator/check/network_report.h"
 #include "generator/commands.h"
 #include "generator/run/stoppable_work.h"
@@ -57,6 +58,10 @@ class Report {
     const std::vector<BuiltChunk> chunks = BuildChunksInReach(*world_, stamp_ns, range_m);
     return EffectsText(scenario_) + OutputText(scenario_.output, around.position_world) +
            SurroundingsText(around, *world_, LabelTable(scenario_.labels)) +
+           OwnHitsText(CountOwnHits(world_, materials_, pattern_,
+                                    VehicleFromSensor(scenario_.lidar.mount) *
+                                        NominalFromTrue(scenario_.lidar.mount_error),
+                                    range_m)) +
            SceneText(AuditScene(*world_, materials_, stamp_ns, chunks)) +
            DetailText(AuditDetail(*world_, stamp_ns, chunks, Detail()),
                       LabelTable(scenario_.labels));
@@ -116,6 +121,8 @@ void PrintReport(const ScenarioSpec& scenario,
     choices += report.Choice();
   }
   std::cout << ShownLines(ObjectsText(*world, LabelTable(scenario.labels)))
+            << ShownLines(MeshesText(scenario.world.objects, LabelTable(scenario.labels),
+                                     MaterialLibrary(scenario.materials)))
             << ShownLines(GaugeText(FindGaugeEntries(scenario.world, *world)))
             << ShownLines(ContactsText(FindContactRuns(*world, frames.pattern, frames.last), *world,
                                        frames.last));

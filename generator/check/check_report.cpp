@@ -240,6 +240,15 @@ std::string SurroundingsText(const SensorSurroundings& around,
   return text;
 }
 
+std::string OwnHitsText(const OwnHits& hits) {
+  if (hits.num_firings == 0) return "";
+  const double percent =
+      100.0 * static_cast<double>(hits.num_on_vehicle) / static_cast<double>(hits.num_firings);
+  return ReportLine("", std::to_string(hits.num_on_vehicle) + " of its " +
+                            std::to_string(hits.num_firings) + " firings, " + Rounded(percent, 1) +
+                            " %, meet the vehicle itself");
+}
+
 std::string OutputText(const OutputSpec& output, const Vector3& sensor_world) {
   if (output.frame != OutputFrame::kWorld) return "";
   const Vector3 from_origin_m =

@@ -59,6 +59,9 @@ namespace railcast {
                                        const World& world,
                                        std::uint32_t last_frame);
 
+/// How many beams the sensor's own vehicle takes; nothing if it has no body.
+[[nodiscard]] std::string OwnHitsText(const OwnHits& hits);
+
 [[nodiscard]] std::string SurroundingsText(const SensorSurroundings& around,
                                            const World& world,
                                            const LabelTable& labels);

@@ -18,6 +18,7 @@
 #include "core/rail/structures/structure_track.h"
 #include "core/rail/structures/structure_types.h"
 #include "core/rail/track/sweep.h"
+#include "core/rail/train/train_places.h"
 
 namespace railcast {
 namespace {
@@ -361,18 +362,20 @@ std::vector<GaugeEntry> FindGaugeEntries(const WorldSpec& given_spec, const Rail
   const WorldTracks tracks{spec, world.network().courses};
   std::vector<GaugeEntry> entries =
       FindStructuresInGauge(spec, world.alignment(), world.network().courses);
-  for (std::size_t i = 0; i < spec.objects.size(); ++i) {
+  const std::size_t num_objects = spec.objects.size();
+  for (std::size_t i = 0; i < num_objects + NumVehicles(spec.trains); ++i) {
     const SceneObject& object = world.objects()[i];
-    const ObjectSpec& given = spec.objects[i];
     if (object.moves) continue;
+    const double s_m = world.ObjectChainage_m(i, 0);
     // A wagon on its rails is where it belongs, but it may stand foul of another track.
-    const bool is_on_its_track = IsWagon(given.type) && given.d_m == 0.0;
+    const bool is_on_its_track =
+        i >= num_objects || (IsRailVehicle(spec.objects[i].type) && spec.objects[i].d_m == 0.0);
     std::vector<std::string> own_tracks;
     if (is_on_its_track) {
-      own_tracks = TracksUnder(world, i, given.s_m);
+      own_tracks = TracksUnder(world, i, s_m);
     }
     Probes probes(tracks, world.alignment(), own_tracks);
-    probes.Add(*object.model, world.WorldFromObject(i, 0), given.s_m);
+    probes.Add(*object.model, world.WorldFromObject(i, 0), s_m);
     probes.Report(object.name, entries);
   }
   return entries;

@@ -144,4 +144,22 @@ SensorSurroundings LookAround(const std::shared_ptr<const World>& world,
   return around;
 }
 
+OwnHits CountOwnHits(const std::shared_ptr<const World>& world,
+                     const MaterialLibrary& materials,
+                     const ScanPattern& pattern,
+                     const Transform& vehicle_from_sensor,
+                     double range_m) {
+  if (std::ranges::none_of(world->objects(), &SceneObject::is_ego)) return {};
+  OwnHits hits{pattern.num_firings(), 0};
+  SimulatorSpec spec;
+  spec.detector.range_min_m = 0.0;
+  spec.detector.range_max_m = range_m;
+  spec.vehicle_from_sensor = vehicle_from_sensor;
+  Simulator simulator(world, pattern, materials, spec, 0);
+  Frame frame;
+  simulator.Scan(0, frame);
+  hits.num_on_vehicle = static_cast<std::size_t>(std::ranges::count(frame.outcome, Outcome::kEgo));
+  return hits;
+}
+
 }  // namespace railcast

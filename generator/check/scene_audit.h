@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/simulate/window.h"
+#include "railcast/lidar.h"
 #include "railcast/material.h"
 #include "railcast/scene.h"
 
@@ -90,5 +91,18 @@ struct SensorSurroundings {
                                             const MaterialLibrary& materials,
                                             const Vector3& position_vehicle,
                                             double range_m);
+
+/// Whether the first surfaces that a frame's beams meet belong to the sensor's own vehicle.
+struct OwnHits {
+  std::size_t num_firings{};
+  std::size_t num_on_vehicle{};
+};
+
+/// Counts those of frame 0, each beam as one ray; none if the vehicle has no body.
+[[nodiscard]] OwnHits CountOwnHits(const std::shared_ptr<const World>& world,
+                                   const MaterialLibrary& materials,
+                                   const ScanPattern& pattern,
+                                   const Transform& vehicle_from_sensor,
+                                   double range_m);
 
 }  // namespace railcast

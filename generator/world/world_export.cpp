@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/field_layout.h"
+#include "core/scene/object_pieces.h"
 #include "core/scene/part_gatherer.h"
 
 namespace railcast {
@@ -87,8 +88,11 @@ ExportedWorld ExportWorld(const World& world,
     }
     for (std::size_t i = 0; i < object_chunks.size(); ++i) {
       if (object_chunks[i] != index) continue;
-      gatherer.Add(*world.objects()[i].model,
-                   Eigen::Affine3d(export_from_world * world.WorldFromObject(i, time_ns)));
+      const std::vector<Transform> world_from_pieces = world.WorldFromPieces(i, time_ns);
+      for (std::size_t piece = 0; piece < world_from_pieces.size(); ++piece) {
+        gatherer.Add(*PieceOf(world.objects()[i], piece),
+                     Eigen::Affine3d(export_from_world * world_from_pieces[piece]));
+      }
     }
     on_progress(++num_gathered);
   }

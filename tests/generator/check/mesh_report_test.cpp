@@ -1,0 +1,132 @@
+#include "generator/check/mesh_report.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/core/io/temporary_directory.h"
+#include "tests/core/rail/test_tables.h"
+
+namespace railcast {
+namespace {
+
+class MeshReport : public testing::Test {
+ protected:
+  ObjectSpec Write(const std::string& text) {
+    std::ofstream(file_) << text;
+    ObjectSpec spec;
+    spec.name = "house";
+    spec.type = ObjectType::kMesh;
+    spec.file = file_.string();
+    return spec;
+  }
+  static std::string Text(const std::vector<ObjectSpec>& objects) {
+    return MeshesText(objects, RailLabels(), RailMaterials());
+  }
+
+  const TemporaryDirectory folder_;
+  const std::filesystem::path file_ = folder_.path() / "house.obj";
+};
+
+/// Stands on z = 0.
+constexpr const char* kGable =
+    "v -2 -1 0\nv 2 -1 0\nv 0 1 3\nv 0 1 3\n"
+    "usemtl Brick\nf 1 2 3\ng front\nf 1 2 3 4\nusemtl \x1b[31mGlass\nf 1 2 3\nf 1 2 2\nf 2 3 4\n";
+
+TEST_F(MeshReport, IsEmptyWithoutMeshes) {
+  ObjectSpec person;
+  person.type = ObjectType::kPerson;
+  EXPECT_EQ(Text({person}), "");
+}
+
+TEST_F(MeshReport, SaysWhatIsKeptAndWhatNotAndWhatEachPartIs) {
+  const ObjectSpec house = Write(kGable);
+  // Each triangle has an area of 0.5 x 4 x sqrt(4 + 9) = 7.211 m2.
+  EXPECT_EQ(
+      Text({house}),
+      "meshes    \"house\": " + file_.string() +
+          "\n"
+          "          4 x 2 x 3 m, 3 triangles of 5 faces, 21.63 m2\n"
+          "          left out: 2 triangles without area and 1 face with fewer than three "
+          "different corners\n"
+          "          \"Brick\": material masonry (by the word \"brick\"), label object (the "
+          "type's), 2 triangles\n"
+          "          \"\\u001b[31mGlass\": material glass (by the word \"glass\"), label object "
+          "(the type's), 1 triangle\n");
+}
+
+TEST_F(MeshReport, NamesObjectsOfOneModelTogether) {
+  ObjectSpec first = Write(kGable);
+  ObjectSpec second = first;
+  second.name = "other";
+  second.s_m = 50.0;
+  second.motion = MotionSpec{};
+  ObjectSpec third = first;
+  third.name = "third";
+  third.material = "wood";
+  const std::string text = Text({first, second, third});
+  EXPECT_NE(text.find("meshes    \"house\" and 1 other: "), std::string::npos) << text;
+  EXPECT_NE(text.find("          \"third\": "), std::string::npos) << text;
+  EXPECT_NE(text.find("\"Brick\": material wood (the object's)"), std::string::npos) << text;
+}
+
+TEST_F(MeshReport, WarnsByNameOfAbsurdSizes) {
+  ObjectSpec house = Write(kGable);
+  EXPECT_EQ(Text({house}).find("WARNING"), std::string::npos);
+  house.unit_m = 25.5;
+  EXPECT_NE(Text({house}).find("WARNING: \"house\" is larger than 100 m: is its unit right?\n"),
+            std::string::npos);
+  house.unit_m = 24.5;  // 98 m.
+  EXPECT_EQ(Text({house}).find("WARNING"), std::string::npos);
+  house.unit_m = 0.0024;
+  EXPECT_NE(Text({house}).find("WARNING: \"house\" is smaller than 1 cm: is its unit right?\n"),
+            std::string::npos);
+}
+
+TEST_F(MeshReport, WarnsOfWhatIsMostlyBelowItsPlace) {
+  ObjectSpec house = Write("v 0 5 -2\nv 1 5 -2\nv 0 6 1\nf 1 2 3\n");
+  EXPECT_EQ(Text({house}).find("WARNING"), std::string::npos);
+  house.origin = MeshOrigin::kFile;
+  EXPECT_NE(
+      Text({house}).find(
+          "WARNING: \"house\" is mostly below the ground, down to 2 m: is its origin right?\n"),
+      std::string::npos);
+  house.h_m = 0.25;
+  EXPECT_NE(Text({house}).find("is mostly below top of rail, down to 1.75 m"), std::string::npos);
+  house.h_m = 0.6;
+  EXPECT_EQ(Text({house}).find("WARNING"), std::string::npos);
+}
+
+TEST_F(MeshReport, WarnsWhereAFileSeemsToHaveYUp) {
+  ObjectSpec car = Write("v -1 0 -2\nv 1 0 -2\nv 1 0 2\nv 0 1.5 0\nf 1 2 3\nf 1 2 4\nf 2 3 4\n");
+  const std::string warning =
+      "WARNING: \"house\" stands on the plane y = 0 of its file, not on z = 0: is its up \"y\"?\n";
+  EXPECT_NE(Text({car}).find(warning), std::string::npos) << Text({car});
+  car.up = UpAxis::kZ;
+  EXPECT_NE(Text({car}).find(warning), std::string::npos);
+  car.up = UpAxis::kY;
+  EXPECT_EQ(Text({car}).find("WARNING"), std::string::npos);
+}
+
+/// The folder's own notes say that these have z up.
+TEST(MeshReportOfRealFiles, RaisesNoFalseAlarmAboutTheUpwardAxis) {
+  const std::filesystem::path folder =
+      std::filesystem::path(RAILCAST_SHARED_DATA_DIR) / "meshes_gazebo";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no real meshes under " << folder;
+  int num_files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".obj") continue;
+    ObjectSpec spec;
+    spec.name = "it";
+    spec.type = ObjectType::kMesh;
+    spec.file = entry.path().string();
+    const std::string text = MeshesText(std::vector{spec}, RailLabels(), RailMaterials());
+    EXPECT_EQ(text.find("is its up"), std::string::npos) << text;
+    ++num_files;
+  }
+  EXPECT_GE(num_files, 7);
+}
+
+}  // namespace
+}  // namespace railcast
