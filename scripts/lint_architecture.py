@@ -18,7 +18,7 @@ CORE_ORDER = "base frame scene mesh rail scan trace detect simulate camera scena
 PUBLIC_ROOT = "core/include/"
 PUBLIC_OWNERS = {
     "enum_names": "base", "error": "base", "transform": "base", "frame": "frame", "outcome": "frame", "material": "scene",
-    "scene": "scene", "alignment": "rail", "rail_world": "rail", "structures": "rail",
+    "scene": "scene", "alignment": "rail", "rail_world": "rail", "objects": "rail", "structures": "rail",
     "lineside": "rail", "track_side": "rail",
     "lidar": "scan", "ray_caster": "trace", "effects": "detect", "simulator": "simulate", "camera": "camera", "scenario": "scenario", "fidelity": "fidelity", "c_api": "c",
 }
