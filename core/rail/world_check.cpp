@@ -7,8 +7,10 @@
 #include "core/base/text.h"
 #include "core/rail/catenary/catenary.h"
 #include "core/rail/line/turnout_place.h"
+#include "core/rail/objects/rail_vehicles.h"
 #include "core/rail/structures/moving_booms.h"
 #include "core/rail/structures/structures.h"
+#include "core/rail/train/bogies.h"
 #include "core/rail/train/own_train.h"
 #include "core/rail/train/train_check.h"
 #include "core/rail/train/train_places.h"
@@ -176,21 +178,66 @@ void CheckEgoBoxes(const VehicleSpec& vehicle, WorldFaults& faults) {
   }
 }
 
-// A body as long as the radius spans 60 degrees of the arc, within which the steps that find its
-// second pivot (line/track_path.cpp) converge.
+/// The greatest distance between the pivots of what runs on a track; absent if unknown. A body as
+/// long as the radius spans 60 degrees of the arc, within which the steps that find its second
+/// pivot (line/track_path.cpp) converge.
+std::optional<double> MostPivotDistance_m(const WorldSpec& world,
+                                          const std::string& track_name,
+                                          const LineMeasures& line,
+                                          const WorldFaults& faults) {
+  const TrackSpec* track = FindTrack(world, track_name);
+  if (track == nullptr || !IsParallel(*track) ||
+      !faults.AreKnown({PointerOf(*track, world) + "/offset_m"})) {
+    return std::nullopt;
+  }
+  return line.tightest_radius_m - std::abs(track->offset_m.value_or(0.0));
+}
+
+/// A rail vehicle that is given by its type.
+struct TypedVehicle {
+  ObjectType type{};
+  std::string pointer;  ///< Of its type.
+};
+
+void CheckPivotsOf(const TypedVehicle& vehicle, std::optional<double> most_m, WorldFaults& faults) {
+  if (!most_m || !faults.AreKnown({vehicle.pointer}) || !IsRailVehicle(vehicle.type)) return;
+  const double distance_m = MeasuresOf(vehicle.type).pivot_distance_m;
+  if (distance_m <= *most_m) return;
+  faults.Add(vehicle.pointer, "must have pivots at most its track's tightest radius of " +
+                                  NumberText(*most_m) + " m apart (got " +
+                                  Quoted(std::string(NameOf(vehicle.type))) + " with " +
+                                  NumberText(distance_m) + " m)");
+}
+
 void CheckPivots(const WorldSpec& world,
                  const VehicleSpec& vehicle,
                  const LineMeasures& line,
                  WorldFaults& faults) {
-  const TrackSpec* track = vehicle.route.empty() ? FindTrack(world, vehicle.track) : nullptr;
-  if (track == nullptr || !IsParallel(*track) ||
-      !faults.AreKnown({PointerOf(*track, world) + "/offset_m"})) {
-    return;
+  const auto most_on = [&](const std::string& track, const std::vector<std::string>& route) {
+    return route.empty() ? MostPivotDistance_m(world, track, line, faults) : std::nullopt;
+  };
+  for (std::size_t i = 0; i < world.objects.size(); ++i) {
+    const ObjectSpec& object = world.objects[i];
+    if (!RestsOnPivots(object)) continue;
+    CheckPivotsOf({object.type, Item("/world/objects/", i) + "/type"},
+                  most_on(object.track, object.route), faults);
   }
-  const double radius_m = line.tightest_radius_m - std::abs(track->offset_m.value_or(0.0));
-  if (!vehicle.consist.empty() || vehicle.pivot_distance_m <= radius_m) return;
+  for (std::size_t i = 0; i < world.trains.size(); ++i) {
+    const TrainSpec& train = world.trains[i];
+    const std::optional<double> most_m = most_on(train.track, train.route);
+    for (std::size_t k = 0; k < train.vehicles.size(); ++k) {
+      const std::string pointer = Item("/world/trains/", i) + Item("/vehicles/", k) + "/type";
+      CheckPivotsOf({train.vehicles[k].type, pointer}, most_m, faults);
+    }
+  }
+  const std::optional<double> most_m = most_on(vehicle.track, vehicle.route);
+  for (std::size_t i = 0; i < vehicle.consist.size(); ++i) {
+    CheckPivotsOf({vehicle.consist[i].type, Item("/vehicle/consist/", i) + "/type"}, most_m,
+                  faults);
+  }
+  if (!most_m || !vehicle.consist.empty() || vehicle.pivot_distance_m <= *most_m) return;
   faults.Add("/vehicle/pivot_distance_m",
-             "must be at most its track's tightest radius of " + NumberText(radius_m) + " m",
+             "must be at most its track's tightest radius of " + NumberText(*most_m) + " m",
              NumberText(vehicle.pivot_distance_m));
 }
 

@@ -351,6 +351,9 @@ WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
   }
   const TracksOfWorld tracks{world, draft.network};
   draft.vehicle_path = DraftVehicle(source, tracks, faults);
+  if (draft.vehicle_path && draft.alignment) {
+    CheckOwnTrain(source.vehicle, tracks, *draft.alignment, *draft.vehicle_path, faults);
+  }
   if (draft.vehicle_path) SetPositions(draft.vehicle_path->route(), draft.network);
   const RailSurfaces surfaces = draft.surfaces.value_or(RailSurfaces());
   ObjectModels models(surfaces, source.labels, source.materials);

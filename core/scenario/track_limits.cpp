@@ -8,6 +8,8 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/rail/line/route.h"
+#include "core/rail/line/track_length.h"
+#include "core/rail/train/own_train.h"
 #include "core/rail/train/train_places.h"
 
 namespace railcast {
@@ -36,9 +38,9 @@ struct Traveller {
   /// The beginning of an error line about it; rarely needed, so computed on demand.
   std::function<std::string()> place;
   const Route& route;
-  double begin_s_m{};
-  double end_s_m{};
   std::function<double(std::int64_t)> chainage_m;
+  double least_s_m{};  ///< Least chainage at which all of it is on the track.
+  double most_s_m{};   ///< Greatest.
 
   [[nodiscard]] std::string NameOfWay() const {
     std::string names;
@@ -47,19 +49,35 @@ struct Traveller {
   }
   [[nodiscard]] bool IsOnTrack(std::int64_t time_ns) const {
     const double s_m = chainage_m(time_ns);
-    return s_m >= begin_s_m - kTolerance_m && s_m <= end_s_m + kTolerance_m;
+    return s_m >= least_s_m - kTolerance_m && s_m <= most_s_m + kTolerance_m;
   }
   [[nodiscard]] std::string Leaves(const std::string& when) const {
-    return place() + " leaves " + NameOfWay() + ", from " + NumberText(begin_s_m) + " to " +
-           NumberText(end_s_m) + " m, at " + when;
+    return place() + " leaves " + NameOfWay() + ", from " + NumberText(route.course.begin_s_m()) +
+           " to " + NumberText(route.course.end_s_m()) + " m, at " + when;
   }
 };
+
+/// A train whose foremost buffers reach its track's end before the point does whose chainage is
+/// known.
+struct TrainFront {
+  double ahead_m{};  ///< Of that point, measured along the track.
+  bool runs_back{};
+};
+
+void KeepOnTrack(const TrainFront& front, const Alignment& alignment, Traveller& traveller) {
+  const TrackLength length(alignment, traveller.route.course);
+  if (front.runs_back) {
+    traveller.least_s_m = length.MovedFrom(traveller.least_s_m, front.ahead_m);
+  } else {
+    traveller.most_s_m = length.MovedFrom(traveller.most_s_m, -front.ahead_m);
+  }
+}
 
 std::vector<Traveller> TravellersOf(const ScenarioSpec& scenario, const RailWorld& world) {
   std::vector<Traveller> travellers;
   const auto add = [&](auto place, const Route& route, auto chainage_m) {
-    travellers.push_back({std::move(place), route, route.course.begin_s_m(), route.course.end_s_m(),
-                          std::move(chainage_m)});
+    travellers.push_back({std::move(place), route, std::move(chainage_m), route.course.begin_s_m(),
+                          route.course.end_s_m()});
   };
   add(
       [&scenario, &world] {
@@ -68,6 +86,10 @@ std::vector<Traveller> TravellersOf(const ScenarioSpec& scenario, const RailWorl
       },
       world.vehicle_route(),
       [&world](std::int64_t time_ns) { return world.VehicleChainage_m(time_ns); });
+  if (!scenario.vehicle.consist.empty()) {
+    KeepOnTrack({OriginBehindFront_m(scenario.vehicle), scenario.vehicle.motion.reverse},
+                world.alignment(), travellers.back());
+  }
   for (std::size_t i = 0; i < world.objects().size(); ++i) {
     const SceneObject& object = world.objects()[i];
     const auto of_train = VehicleWithInstance(scenario.world, object.instance);
@@ -89,6 +111,11 @@ std::vector<Traveller> TravellersOf(const ScenarioSpec& scenario, const RailWorl
     };
     add(place, world.object_route(i),
         [&world, i](std::int64_t time_ns) { return world.ObjectChainage_m(i, time_ns); });
+    if (of_train) {
+      const TrainSpec& train = scenario.world.trains[of_train->train];
+      KeepOnTrack({MiddleBehindFront_m(train.vehicles, 0), RunsBack(train)}, world.alignment(),
+                  travellers.back());
+    }
   }
   return travellers;
 }

@@ -28,7 +28,7 @@ struct PersonBuild {
   double steady_speed_mps{};  ///< At which it walks; for its stride if it walks.
 };
 
-/// A person as one model of 3500 to 6000 triangles. Frame: z = 0 is the lowest point; x in the
+/// A person as one model of 4000 to 8000 triangles. Frame: z = 0 is the lowest point; x in the
 /// direction of view, y left, z up; metres.
 ///
 /// Standing and walking persons have their origin on the ground below the pelvis, and their height

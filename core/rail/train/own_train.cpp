@@ -44,6 +44,11 @@ double PivotDistance_m(const VehicleSpec& vehicle) {
   return MeasuresOf(vehicle.consist[vehicle.sensor_vehicle].type).pivot_distance_m;
 }
 
+double OriginBehindFront_m(const VehicleSpec& vehicle) {
+  return MiddleBehindFront_m(vehicle.consist, vehicle.sensor_vehicle) -
+         0.5 * PivotDistance_m(vehicle);
+}
+
 std::string NameOfOwnVehicle(const VehicleSpec& vehicle, std::size_t index) {
   if (index == vehicle.sensor_vehicle) return kOwnVehicle;
   return std::string(kOwnVehicle) + "/" + std::to_string(index + 1);
@@ -58,8 +63,7 @@ std::vector<OwnVehicle> MakeOwnTrain(const VehicleSpec& vehicle,
   if (vehicle.consist.size() > 1) {
     length = std::make_shared<const TrackLength>(alignment, path.course());
   }
-  const double origin_behind_front_m =
-      MiddleBehindFront_m(vehicle.consist, vehicle.sensor_vehicle) - 0.5 * PivotDistance_m(vehicle);
+  const double origin_behind_front_m = OriginBehindFront_m(vehicle);
   std::vector<OwnVehicle> train;
   for (std::size_t i = 0; i < vehicle.consist.size(); ++i) {
     ObjectSpec spec;

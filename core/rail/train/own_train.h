@@ -19,6 +19,11 @@ namespace railcast {
 /// @pre The train consists of rail vehicles.
 [[nodiscard]] double PivotDistance_m(const VehicleSpec& vehicle);
 
+/// How far the origin of the vehicle frame is behind the foremost buffers of the sensor's train,
+/// along the track.
+/// @pre It is part of a train of rail vehicles.
+[[nodiscard]] double OriginBehindFront_m(const VehicleSpec& vehicle);
+
 /// The name of a vehicle of the sensor's own train: "ego" if it carries the sensor; otherwise, if
 /// it is the third, "ego/3".
 [[nodiscard]] std::string NameOfOwnVehicle(const VehicleSpec& vehicle, std::size_t index);

@@ -23,4 +23,13 @@ void DraftTrain(const TrainSpec& train,
                 WorldFaults& faults,
                 WorldDraft& draft);
 
+/// Reports a train of the sensor's own that is longer than its track or reaches beyond its end at
+/// time 0, and a turnout below it that is set otherwise.
+/// @param path Of the vehicle that carries the sensor.
+void CheckOwnTrain(const VehicleSpec& vehicle,
+                   const TracksOfWorld& tracks,
+                   const Alignment& alignment,
+                   const TrackPath& path,
+                   WorldFaults& faults);
+
 }  // namespace railcast

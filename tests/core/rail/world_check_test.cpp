@@ -60,15 +60,16 @@ TEST(CheckWorld, HasTurnoutsAndWagonsOfStandardGaugeOnly) {
   world.diamond_crossings = {{{"main", "loop"}, 600.0}};
   world.objects = {Box("box", 100.0), Box("wagon", 150.0)};
   world.objects[1].type = ObjectType::kTankWagon;
-  EXPECT_THAT(Faults(world),
-              ElementsAre("/world/diamond_crossings/0/tracks: must be tracks that cross (got "
-                          "\"main\" and \"loop\")",
-                          "/world/tracks/1/begin: must be absent: there are turnouts of 1435 mm "
-                          "only, and gauge_mm is 1000 (got \"1:9-190\")",
-                          "/world/diamond_crossings/0: must be absent: there are crossings of 1435 "
-                          "mm only, and gauge_mm is 1000 (got one)",
-                          "/world/objects/1/type: must not be a rail vehicle: they have wheels of 1435 mm "
-                          "only, and gauge_mm is 1000 (got \"tank_wagon\")"));
+  EXPECT_THAT(
+      Faults(world),
+      ElementsAre("/world/diamond_crossings/0/tracks: must be tracks that cross (got "
+                  "\"main\" and \"loop\")",
+                  "/world/tracks/1/begin: must be absent: there are turnouts of 1435 mm "
+                  "only, and gauge_mm is 1000 (got \"1:9-190\")",
+                  "/world/diamond_crossings/0: must be absent: there are crossings of 1435 "
+                  "mm only, and gauge_mm is 1000 (got one)",
+                  "/world/objects/1/type: must not be a rail vehicle: they have wheels of 1435 mm "
+                  "only, and gauge_mm is 1000 (got \"tank_wagon\")"));
   world.alignment.gauge_mm = 1435.0;
   world.diamond_crossings.clear();
   EXPECT_THAT(Faults(world), IsEmpty());

@@ -163,6 +163,30 @@ TEST(Trains, MustBeOnTheirTracks) {
   EXPECT_EQ(TrainFaultOf(spec), "none");
 }
 
+// Those of an open wagon are 9 m apart.
+TEST(Trains, HavePivotsThatFitIntoTheirCurves) {
+  WorldSpec spec = LineWithTrain("main", 300.0);
+  spec.alignment.course = AlignmentElementsSpec{{{ElementType::kArc, 700.0, 12.0}}};
+  spec.terrain.half_width_m = 5.0;
+  spec.tracks.pop_back();
+  spec.trains[0].vehicles = {{ObjectType::kOpenWagon, {}, false},
+                             {ObjectType::kFlatWagon, {}, false}};
+  ObjectSpec coach;
+  coach.name = "coach";
+  coach.type = ObjectType::kCoach;
+  coach.s_m = 400.0;
+  spec.objects = {coach};
+  VehicleSpec vehicle;
+  vehicle.pivot_distance_m = 13.0;
+  EXPECT_EQ(TrainFaultOf(spec, vehicle),
+            "/world/objects/0/type: must have pivots at most its track's tightest radius of 12 m "
+            "apart (got \"coach\" with 19 m)\n"
+            "/world/trains/0/vehicles/1/type: must have pivots at most its track's tightest radius "
+            "of 12 m apart (got \"flat_wagon\" with 14.2 m)\n"
+            "/vehicle/pivot_distance_m: must be at most its track's tightest radius of 12 m (got "
+            "13)");
+}
+
 TEST(Trains, ConsistOfRailVehiclesWithNamesOfTheirOwn) {
   WorldSpec spec = LineWithTrain("main", 250.0);
   spec.objects = {BoxNamed("freight/3"), BoxNamed("container")};
@@ -277,6 +301,30 @@ TEST(OwnTrain, ShakesItsBodyButNotItsBogies) {
   EXPECT_EQ(TrainFaultOf(spec, vehicle),
             "/vehicle/ride: must be absent: without pivots there is no body on springs (got "
             "pivot_distance_m 0)");
+}
+
+// From front to rear 16, 19.74 and 14.04 m; the front pivot of the second is 18.77 m behind the
+// foremost buffers.
+TEST(OwnTrain, MustBeOnItsTrack) {
+  const auto fault_at = [](double start_s_m, bool reverse) {
+    WorldSpec spec = LineWithTrain("main", 250.0);
+    spec.trains.clear();
+    VehicleSpec vehicle = OwnTrain();
+    vehicle.start_s_m = start_s_m;
+    vehicle.motion.reverse = reverse;
+    return TrainFaultOf(spec, vehicle);
+  };
+  const auto rule = [](const std::string& got) {
+    return "/vehicle/start_s_m: must leave room for the train's 49.78 m on track \"main\", from 0 "
+           "to 700 m (got " +
+           got + ")";
+  };
+  EXPECT_EQ(fault_at(31.1, false), "none");
+  EXPECT_EQ(fault_at(30.9, false), rule("30.9"));
+  EXPECT_EQ(fault_at(681.2, false), "none");
+  EXPECT_EQ(fault_at(681.3, false), rule("681.3"));
+  EXPECT_EQ(fault_at(18.7, true), rule("18.7"));
+  EXPECT_EQ(fault_at(18.8, true), "none");
 }
 
 TEST(OwnTrain, NamesItsFaults) {
