@@ -116,6 +116,49 @@ both = np.concatenate(halves, axis=1).round().astype(np.uint8)
 o3d.io.write_image(picture, o3d.geometry.Image(np.ascontiguousarray(both)), quality=85)
 PYTHON
 
+scripts/draw_rail_vehicles.py "$generate" "$images/rail_vehicles.jpg"
+
+# Workers in every posture 6 m away and others behind them.
+/usr/bin/python3 - "$PWD/scenarios" > "$runs/persons.json" << 'PYTHON'
+import json
+import sys
+
+folder = sys.argv[1]
+
+
+def person(name, ahead_m, left_m, heading_deg, **looks):
+    return {"name": name, "type": "person", "person": looks, "s_m": 400 + ahead_m, "d_m": left_m,
+            "heading_deg": heading_deg}
+
+
+def worker(posture, left_m, heading_deg):
+    return person(posture, 6, left_m, heading_deg, posture=posture, clothing="hi_vis")
+
+
+objects = [worker("standing", 2.6, 170), worker("walking", 1.3, 190), worker("crouching", 0, 160),
+           worker("sitting", -1.1, 145), worker("lying", -2.6, 100),
+           person("traveller", 10, 2.6, 250, posture="walking", luggage="suitcase"),
+           person("child", 10, 1.5, 180, physique="child", posture="standing"),
+           person("mother", 10, 0, 270, physique="woman", posture="walking", luggage="pram"),
+           person("boy", 10, -1.8, 200, physique="child", posture="walking"),
+           person("cyclist", 10, -3.6, 100, posture="walking", luggage="bicycle")]
+json.dump({"version": 1, "file": f"{folder}/minimal.json", "fidelity": "surface",
+           "lidar": {"file": f"{folder}/sensors/vir2rail.json",
+                     "mount": {"position_m": [0, 0, 2.2], "pitch_deg": 8},
+                     "scan": {"rate_hz": 10, "pattern": {
+                         "type": "raster", "horizontal_fov_deg": 64, "vertical_fov_deg": 32,
+                         "angular_resolution_deg": 0.05}}},
+           "world": {"alignment": {"course": {"type": "elements", "elements": [
+                         {"type": "straight", "length_m": 1000}]}},
+                     "structures": [{"type": "level_crossing", "name": "floor", "s_m": 408,
+                                     "road_width_m": 12}],
+                     "catenary": {"enabled": False},
+                     "vegetation": {"trees_per_hectare": 0, "grass": False}, "objects": objects}},
+          sys.stdout)
+PYTHON
+simulate persons "$runs/persons.json" 1
+draw persons persons --eye 0,0,0 --target 10,0,-1.6 --color-by intensity --color-range 0,1 --size 1400x640
+
 # The level crossing, as a camera high above the left track sees it.
 printf '{"version": 1, "file": "%s", "vehicle": {"start_s_m": 240, "ego_boxes_m": []},
   "weather": {"sun": {"illuminance_klx": 100, "azimuth_deg": 200}},
