@@ -68,7 +68,8 @@ bool CheckFits(const StandingTrain& train,
                MetresText(length_m) + " m");
     return false;
   }
-  const auto [least_m, most_m] = std::minmax(train.front_s_m, train.RearOn_s_m(track));
+  const double rear_s_m = train.RearOn_s_m(track);
+  const auto [least_m, most_m] = std::minmax(train.front_s_m, rear_s_m);
   if (least_m >= route.course.begin_s_m() - kRounding_m &&
       most_m <= route.course.end_s_m() + kRounding_m) {
     return true;

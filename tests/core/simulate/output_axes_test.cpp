@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "core/base/error.h"
@@ -103,13 +104,15 @@ TEST(OutputAxes, AMountErrorMovesTheRaysButNoReportedPose) {
   in_world.output.frame = OutputFrame::kWorld;
   const Frame vehicle_points = ScanOnce(world, pattern, in_vehicle);
   const Frame world_points = ScanOnce(world, pattern, in_world);
+  double farthest_m = 0.0;
   for (std::size_t slot = 0; slot < of_wrong.num_slots(); ++slot) {
     const Vector3 point = PointOf(of_wrong, slot);
     EXPECT_TRUE(point.isApprox(PointOf(of_moved, slot), 1e-6));
-    EXPECT_GT((point - PointOf(of_nominal, slot)).norm(), 0.01);
+    farthest_m = std::max(farthest_m, (point - PointOf(of_nominal, slot)).norm());
     EXPECT_TRUE(PointOf(vehicle_points, slot).isApprox(nominal.vehicle_from_sensor * point, 1e-6));
     EXPECT_TRUE(PointOf(world_points, slot).isApprox(of_nominal.world_from_sensor * point, 1e-6));
   }
+  EXPECT_GT(farthest_m, 0.05);
 }
 
 TEST(OutputAxes, WorldCoordinatesFarFromTheOriginAreRefused) {
