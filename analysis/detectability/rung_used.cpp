@@ -32,7 +32,7 @@ std::string RungUsed::Warning() const {
   return begin +
          ": the points on objects far off are wrong, and with them the distance of detection. Of a "
          "person before the sky, rung surface gives 0.62 of the reference's points at 100 m and "
-         "0.51 at 150 m (published raster), because beams whose centre passes beside the person "
+         "0.48 at 150 m (published raster), because beams whose centre passes beside the person "
          "see nothing; where the reference hardly detects the person, it gives several times as "
          "many (VLP-32C at 150 m), because a beam whose centre meets the person counts as filled. "
          "Use footprint for a verdict.";
