@@ -3,17 +3,19 @@
 
     scripts/measure_situations.py BUILD [--write | --check] [--pictures] [NAME...]
 
-For each object with points in a run, the distance of its first detection is the distance of the
-sensor from the object's box in the frame that completes the rule of `railcast-analyze detect`: 5
-points in 3 of 5 consecutive frames. --write puts the table into scenarios/README.md, --check fails
-where the table there differs from this run, and --pictures draws docs/images/situations/NAME.jpg.
+Distances of first detection are those of `railcast-analyze detect`: 5 points in 3 of 5 consecutive
+frames, with what is left of the distance that the train needs to stop. --write puts the table into
+scenarios/README.md, --check fails where the table there differs from this run, and --pictures draws
+docs/images/situations/NAME.jpg.
 Speeds are means over each run with everything written, on the cores that the program may use.
 """
 
 import argparse
+import csv
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -53,34 +55,64 @@ SITUATIONS = {
 }
 
 
-def first_detection(frames, name):
-    """The distance at which the rule is completed, or None. Distances are to the box's nearest point."""
-    seen = []
-    for frame in frames:
-        entry = next((o for o in frame["objects"] if o["name"] == name), None)
-        seen.append((entry["points"] >= LEAST_POINTS, entry) if entry else (False, None))
-        window = seen[-OF_FRAMES:]
-        if window[-1][0] and sum(is_seen for is_seen, _ in window) >= LEAST_FRAMES:
-            return len(seen) - 1, distance_to(entry["sensor"])
-    return None
+def rows_of(report, table):
+    """The rows of a report's table; a table without rows has no file."""
+    file = report / "csv" / f"{table}.csv"
+    if not file.exists():
+        return []
+    with open(file, encoding="utf-8", newline="") as lines:
+        return list(csv.DictReader(lines))
 
 
-def distance_to(box):
-    """Distance of the origin from a box given by its centre, its size and its quaternion."""
-    x, y, z, w = box["quaternion_xyzw"]
-    px, py, pz = (-c for c in box["center_m"])
-    # The inverse rotation of the vector from the box's centre to the origin.
-    qx, qy, qz = -x, -y, -z
-    tx, ty, tz = 2 * (qy * pz - qz * py), 2 * (qz * px - qx * pz), 2 * (qx * py - qy * px)
-    inside = (px + w * tx + qy * tz - qz * ty,
-              py + w * ty + qz * tx - qx * tz,
-              pz + w * tz + qx * ty - qy * tx)
-    beyond = (max(abs(c) - s / 2, 0.0) for c, s in zip(inside, box["size_m"]))
-    return sum(b * b for b in beyond) ** 0.5
+def detections(build, folder):
+    """{object: what the table says} by `railcast-analyze detect` of one run."""
+    report = folder.with_name(folder.name + "_detect")
+    subprocess.run([build / "analysis/railcast-analyze", "detect", folder, "--out", report],
+                   check=True, capture_output=True)
+    # An object that the first frames show may have been there to be seen from farther away.
+    at_once = {row["object"] for row in rows_of(report, "beside_the_track")
+               if row["detected"] != "0" and not row["least_detected_at_m"]}
+    at_once |= {row["object"] for row in rows_of(report, "verdicts")
+                if row["begun_too_near"] not in ("", "0")}
+    texts = {}
+    for row in rows_of(report, "runs"):
+        name = row["object"]
+        if not row["detected_at_m"]:
+            texts[name] = "never"
+            continue
+        texts[name] = f"{float(row['detected_at_m']):.0f} m"
+        if name in at_once:
+            texts[name] += ", at once"
+        elif row["spare_m"]:
+            spare_m = float(row["spare_m"])
+            texts[name] += f" ({spare_m:.0f} m to spare)" if spare_m >= 0 else \
+                f" ({-spare_m:.0f} m too late)"
+    shutil.rmtree(report)
+    return texts
+
+
+def signals_detected(folder):
+    """What the table says of signals, which are structures: the same rule for points of their label."""
+    with open(folder / "frames.jsonl", encoding="utf-8") as lines:
+        counts = [(frame["files"][0]["name"], frame["points_per_label"].get("signal", 0))
+                  for frame in map(json.loads, lines)]
+    seen = [points >= LEAST_POINTS for _, points in counts]
+    for i, (file, _) in enumerate(counts):
+        if seen[i] and sum(seen[max(0, i - OF_FRAMES + 1):i + 1]) >= LEAST_FRAMES:
+            code = ("import json, sys, numpy as np, open3d as o3d\n"
+                    "cloud = o3d.t.io.read_point_cloud(sys.argv[1])\n"
+                    "is_signal = cloud.point['label'].numpy().ravel() == int(sys.argv[2])\n"
+                    "print(np.nanmin(cloud.point['true_range_m'].numpy().ravel()[is_signal]))")
+            labels = json.loads((folder / "labels.json").read_text(encoding="utf-8"))["labels"]
+            signal = next(label["id"] for label in labels if label["name"] == "signal")
+            done = subprocess.run(["/usr/bin/python3", "-c", code, folder / file, str(signal)],
+                                  check=True, capture_output=True, text=True)
+            return f"{float(done.stdout):.0f} m" + (", at once" if i < OF_FRAMES else "")
+    return "never"
 
 
 def run(build, name, folder):
-    """Simulates a situation; returns its frames and the frames per second."""
+    """Simulates a situation and returns the frames per second."""
     num_frames = SITUATIONS[name][0]
     command = [build / "generator/railcast-generate", "sequence", FOLDER / f"{name}.json", "--out",
                folder / name, "--frames", str(num_frames)]
@@ -89,8 +121,7 @@ def run(build, name, folder):
     seconds = time.monotonic() - begin
     if done.returncode != 0:
         sys.exit(f"{name}: {done.stderr.strip()}")
-    with open(folder / name / "objects.jsonl", encoding="utf-8") as lines:
-        return [json.loads(line) for line in lines], num_frames / seconds
+    return num_frames / seconds
 
 
 def draw(build, name, folder):
@@ -111,18 +142,13 @@ def draw(build, name, folder):
                        capture_output=True)
 
 
-def measured(frames, name):
+def measured(build, name, folder):
     """What the table says about a situation's detections."""
-    texts = []
-    for subject in SITUATIONS[name][1]:
-        found = first_detection(frames, subject)
-        if found is None:
-            texts.append(f"`{subject}` never")
-        else:
-            frame, distance_m = found
-            at_once = ", at once" if frame < OF_FRAMES else ""
-            texts.append(f"`{subject}` {distance_m:.0f} m{at_once}")
-    return "; ".join(texts) or "–"
+    found = detections(build, folder)
+    texts = [f"`{subject}` {found.get(subject, 'never')}" for subject in SITUATIONS[name][1]]
+    if name == "signal_in_fog":
+        texts.append(f"signal {signals_detected(folder)}")
+    return "; ".join(texts)
 
 
 def main():
@@ -139,8 +165,8 @@ def main():
     differs = False
     with tempfile.TemporaryDirectory() as scratch:
         for name in options.names or SITUATIONS:
-            frames, rate = run(build, name, Path(scratch))
-            cell = measured(frames, name)
+            rate = run(build, name, Path(scratch))
+            cell = measured(build, name, Path(scratch) / name)
             print(f"{name}: {rate:.1f} frames/s with {len(os.sched_getaffinity(0))} cores; {cell}",
                   flush=True)
             if options.check and shown.get(name) != cell:
@@ -151,7 +177,7 @@ def main():
                               lambda row: row.group(1) + cell + row.group(2), text, flags=re.M)
             if options.pictures:
                 draw(build, name, Path(scratch))
-            subprocess.run(["rm", "-r", Path(scratch) / name], check=True)
+            shutil.rmtree(Path(scratch) / name)
     if options.write:
         README.write_text(text, encoding="utf-8")
     sys.exit(1 if differs else 0)

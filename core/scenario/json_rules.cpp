@@ -53,7 +53,13 @@ std::optional<std::string> Broken(const NumberChoices& choices, int value) {
 std::optional<std::string> Broken(const AllowedNames& choices, std::string_view value) {
   const auto& names = choices.names;
   if (std::find(names.begin(), names.end(), value) != names.end()) return std::nullopt;
-  return "must be " + InWords(names);
+  // As many names as an object has types are more than a line should list.
+  constexpr std::size_t kMany = 16;
+  const std::optional<std::string> nearest =
+      names.size() > kMany ? Nearest(value, names) : std::nullopt;
+  if (!nearest) return "must be " + InWords(names);
+  return "must be one of " + std::to_string(names.size()) + " names, the nearest is " +
+         Quoted(*nearest);
 }
 
 std::optional<std::string> Broken(NonEmptyString, std::string_view value) {
