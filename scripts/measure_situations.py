@@ -27,31 +27,31 @@ FOLDER = ROOT / "scenarios" / "situations"
 README = ROOT / "scenarios" / "README.md"
 LEAST_POINTS, LEAST_FRAMES, OF_FRAMES = 5, 3, 5
 
-# Frames of each run, the objects whose detection it is about, and the frame of its picture.
+# Frames of each run, and the objects whose detection it is about.
 SITUATIONS = {
-    "standing_wagon": (420, ["wagons/3"], 330),
-    "foul_wagon": (300, ["wagons/3"], 240),
-    "person_beside": (170, ["worker", "walker"], 110),
-    "person_between": (170, ["shunter"], 110),
-    "person_crossing": (290, ["walker", "child"], 200),
-    "person_lying": (290, ["lying", "sitting", "crouching"], 240),
-    "coupling": (60, ["wagons/1", "shunter"], 10),
-    "yard_ladder": (270, ["target/2", "shunter"], 130),
-    "hump": (650, ["cut/2"], 560),
-    "level_crossing": (260, ["lorry", "car", "cyclist"], 150),
-    "station_entry": (260, ["at_edge", "pram", "child", "walker"], 160),
-    "tunnel_exit": (200, ["workers_cart", "worker"], 120),
-    "passing_train": (120, ["express/1"], 72),
-    "opposite_train": (150, ["freight/1"], 60),
-    "signal_in_fog": (200, [], 130),
-    "heavy_snow": (260, ["person", "wagons/2"], 210),
-    "wet_rails": (260, ["wagons/2"], 200),
-    "fallen_tree": (230, ["tree", "branch"], 170),
-    "landslide": (230, ["slide", "boulder"], 170),
-    "buffer_stop": (330, ["unit/1"], 250),
-    "deer": (200, ["doe", "second_deer", "dog", "cow"], 110),
-    "debris": (230, ["drag_shoe", "carton", "pallet", "tyre", "boulder", "branch", "ballast_heap"], 200),
-    "hanging_wire": (240, ["wire"], 190),
+    "standing_wagon": (420, ["wagons/3"]),
+    "foul_wagon": (300, ["wagons/3"]),
+    "person_beside": (170, ["worker", "walker"]),
+    "person_between": (170, ["shunter"]),
+    "person_crossing": (290, ["walker", "child"]),
+    "person_lying": (290, ["lying", "sitting", "crouching"]),
+    "coupling": (60, ["wagons/1", "shunter"]),
+    "yard_ladder": (270, ["target/2", "shunter"]),
+    "hump": (650, ["cut/2"]),
+    "level_crossing": (260, ["lorry", "car", "cyclist"]),
+    "station_entry": (260, ["at_edge", "pram", "child", "walker"]),
+    "tunnel_exit": (200, ["workers_cart", "worker"]),
+    "passing_train": (120, ["express/1"]),
+    "opposite_train": (150, ["freight/1"]),
+    "signal_in_fog": (200, []),
+    "heavy_snow": (260, ["person", "wagons/2"]),
+    "wet_rails": (260, ["wagons/2"]),
+    "fallen_tree": (230, ["tree", "branch"]),
+    "landslide": (230, ["slide", "boulder"]),
+    "buffer_stop": (330, ["unit/1"]),
+    "deer": (200, ["doe", "second_deer", "dog", "cow"]),
+    "debris": (230, ["drag_shoe", "carton", "pallet", "tyre", "boulder", "branch", "ballast_heap"]),
+    "hanging_wire": (240, ["wire"]),
 }
 
 
@@ -91,12 +91,17 @@ def detections(build, folder):
     return texts
 
 
+def label_counts(folder):
+    """[(file, {label: points})] of a run's frames."""
+    with open(folder / "frames.jsonl", encoding="utf-8") as lines:
+        return [(frame["files"][0]["name"], frame["points_per_label"])
+                for frame in map(json.loads, lines)]
+
+
 def signals_detected(folder):
     """What the table says of signals, which are structures: the same rule for points of their label."""
-    with open(folder / "frames.jsonl", encoding="utf-8") as lines:
-        counts = [(frame["files"][0]["name"], frame["points_per_label"].get("signal", 0))
-                  for frame in map(json.loads, lines)]
-    seen = [points >= LEAST_POINTS for _, points in counts]
+    counts = label_counts(folder)
+    seen = [labels.get("signal", 0) >= LEAST_POINTS for _, labels in counts]
     for i, (file, _) in enumerate(counts):
         if seen[i] and sum(seen[max(0, i - OF_FRAMES + 1):i + 1]) >= LEAST_FRAMES:
             code = ("import json, sys, numpy as np, open3d as o3d\n"
@@ -124,18 +129,29 @@ def run(build, name, folder):
     return num_frames / seconds
 
 
+def telling_frame(name, folder):
+    """The first frame that shows half as many points on the situation's objects as any."""
+    with open(folder / name / "objects.jsonl", encoding="utf-8") as lines:
+        points = [sum(o["points"] for o in json.loads(line)["objects"]
+                      if o["name"] in SITUATIONS[name][1]) for line in lines]
+    if name == "signal_in_fog":
+        points = [labels.get("signal", 0) for _, labels in label_counts(folder / name)]
+    return next(i for i, count in enumerate(points) if 2 * count >= max(points))
+
+
 def draw(build, name, folder):
     """Draws the picture of a situation from the driver's place."""
     images = ROOT / "docs/images/situations"
     images.mkdir(exist_ok=True)
     with tempfile.TemporaryDirectory() as scratch:
         png = Path(scratch) / f"{name}.png"
+        # In the runs' folder, so that no picture shows a temporary path.
         subprocess.run(["xvfb-run", "--auto-servernum",
                         "--server-args=-noreset -screen 0 1920x1080x24",
-                        build / "viewer/railcast-view", folder / name, "--frame",
-                        str(SITUATIONS[name][2]), "--camera", "driver", "--color-by", "label",
-                        "--size", "960x540", "--screenshot", png],
-                       check=True, capture_output=True)
+                        build / "viewer/railcast-view", name, "--frame",
+                        str(telling_frame(name, folder)), "--camera", "driver", "--color-by",
+                        "label", "--point-size", "3", "--size", "960x540", "--screenshot", png],
+                       check=True, capture_output=True, cwd=folder)
         code = ("import sys, open3d as o3d; "
                 "o3d.io.write_image(sys.argv[2], o3d.io.read_image(sys.argv[1]), quality=60)")
         subprocess.run(["/usr/bin/python3", "-c", code, png, images / f"{name}.jpg"], check=True,
