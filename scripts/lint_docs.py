@@ -90,8 +90,8 @@ def lint_pictures(root, pages):
     """Yields the pictures that no page shows."""
     shown = {target for path, page in pages.items() for _, _, target, _ in targets_of(path, page)}
     sources = {".dot"}  # Of drawings that stand beside them.
-    for path in sorted((root / "docs/images").glob("*")):
-        if path.suffix not in sources and path not in shown:
+    for path in sorted((root / "docs/images").rglob("*")):
+        if path.is_file() and path.suffix not in sources and path not in shown:
             yield f"{path.relative_to(root).as_posix()}:1: a page shows every picture of docs/images"
 
 

@@ -57,8 +57,8 @@ class Pages(unittest.TestCase):
 
     def test_a_page_shows_every_picture(self):
         self.assertEqual(faults_of({"a.md": "![x](docs/images/x.png)", "docs/images/x.png": "",
-                                    "docs/images/y.svg": "", "docs/images/y.dot": ""}),
-                         ["docs/images/y.svg:1: a page shows every picture of docs/images"])
+                                    "docs/images/more/y.svg": "", "docs/images/y.dot": ""}),
+                         ["docs/images/more/y.svg:1: a page shows every picture of docs/images"])
 
     def test_a_drawing_has_the_words_of_its_source(self):
         self.assertEqual(faults_of({"a.md": "![x](docs/images/x.svg)",
