@@ -4,12 +4,16 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <assimp/Importer.hpp>
+#include <cmath>
 #include <cstring>
 #include <utility>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/mesh/face_colors.h"
 
 namespace railcast {
 namespace {
@@ -29,6 +33,7 @@ class SceneGatherer {
 
   PolygonSoup Gather() {
     if (scene_.mRootNode != nullptr) AddNode(*scene_.mRootNode, Eigen::Affine3d::Identity());
+    if (has_colors_) NameMaterialsByColor(colors_, soup_);
     return std::move(soup_);
   }
 
@@ -51,12 +56,11 @@ class SceneGatherer {
                          "\" must have three finite coordinates");
       }
       soup_.points.push_back(point);
+      colors_.push_back(ColorOf(mesh, i));
     }
+    has_colors_ = has_colors_ || mesh.HasVertexColors(0);
     const std::uint32_t group = groups_.Of(node);
-    const std::uint32_t material =
-        materials_.Of(mesh.mMaterialIndex < scene_.mNumMaterials
-                          ? scene_.mMaterials[mesh.mMaterialIndex]->GetName().C_Str()
-                          : "");
+    const std::uint32_t material = materials_.Of(MaterialOf(mesh));
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
       const aiFace& face = mesh.mFaces[i];
       std::vector<std::uint32_t> corners;  // Two of a line, one of a point.
@@ -72,9 +76,28 @@ class SceneGatherer {
     }
   }
 
+  /// assimp makes a material for what has none in the file: then the colours tell parts apart.
+  [[nodiscard]] std::string MaterialOf(const aiMesh& mesh) const {
+    if (mesh.mMaterialIndex >= scene_.mNumMaterials) return "";
+    const std::string name = scene_.mMaterials[mesh.mMaterialIndex]->GetName().C_Str();
+    return mesh.HasVertexColors(0) && name == AI_DEFAULT_MATERIAL_NAME ? "" : name;
+  }
+
+  [[nodiscard]] static Rgb8 ColorOf(const aiMesh& mesh, unsigned vertex) {
+    constexpr Rgb8 kWhite = {255, 255, 255};
+    if (!mesh.HasVertexColors(0)) return kWhite;
+    const aiColor4D& color = mesh.mColors[0][vertex];
+    const auto byte_of = [](ai_real part) {
+      return static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(part, 0.0F, 1.0F)));
+    };
+    return {byte_of(color.r), byte_of(color.g), byte_of(color.b)};
+  }
+
   const aiScene& scene_;
   const std::string& shown_;
   PolygonSoup soup_;
+  std::vector<Rgb8> colors_;  ///< Of the points.
+  bool has_colors_ = false;   ///< Whether the file gives any of them.
   NameIndices materials_;
   NameIndices groups_;
 };
@@ -128,9 +151,9 @@ SceneMesh ReadScene(const std::string& bytes,
   // Everything but triangles' corners only takes time.
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,
                               aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
-                                  aiComponent_COLORS | aiComponent_TEXCOORDS |
-                                  aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
-                                  aiComponent_TEXTURES | aiComponent_LIGHTS | aiComponent_CAMERAS);
+                                  aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS |
+                                  aiComponent_ANIMATIONS | aiComponent_TEXTURES |
+                                  aiComponent_LIGHTS | aiComponent_CAMERAS);
   const unsigned flags = aiProcess_RemoveComponent;
   // A glTF file in JSON may name others beside it, which assimp finds by the file's own name.
   const aiScene* scene =

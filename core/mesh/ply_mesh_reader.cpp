@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/text_cursor.h"
+#include "core/mesh/face_colors.h"
 
 namespace railcast {
 namespace {
@@ -70,6 +71,7 @@ class Reader {
       element.name == "vertex" ? ReadVertices(element) : ReadOthers(element);
     }
     CheckCorners();
+    NameMaterialsByColor(colors_, soup_);
     return std::move(soup_);
   }
 
@@ -134,8 +136,20 @@ class Reader {
     return {std::string(words[2]), type_of(words[1]), std::nullopt};
   }
 
+  /// Which part of a vertex's colour a property is, 0 to 2; absent if it is none.
+  [[nodiscard]] static std::optional<std::size_t> ColorPart(const Property& property) {
+    constexpr std::array<std::string_view, 3> kParts = {"red", "green", "blue"};
+    const auto* it = std::find(kParts.begin(), kParts.end(), property.name);
+    if (it == kParts.end() || property.length) return std::nullopt;
+    return static_cast<std::size_t>(it - kParts.begin());
+  }
+
   void ReadVertices(const Element& element) {
     soup_.points.reserve(element.count);
+    const auto num_color_parts =
+        std::count_if(element.properties.begin(), element.properties.end(),
+                      [](const Property& property) { return ColorPart(property).has_value(); });
+    if (num_color_parts == 3) colors_.resize(element.count);
     std::array<bool, 3> found{};
     for (std::uint64_t i = 0; i < element.count; ++i) {
       Vector3 point = Vector3::Zero();
@@ -143,6 +157,9 @@ class Reader {
         const std::size_t num = property.length ? Length(element, *property.length) : 1;
         for (std::size_t k = 0; k < num; ++k) {
           const double value = Next(element, property.type);
+          if (const auto part = ColorPart(property); part && !colors_.empty()) {
+            colors_[i][*part] = ByteOf(value, property.type);
+          }
           if (property.length || property.name.size() != 1) continue;
           const std::size_t axis = std::string_view("xyz").find(property.name[0]);
           if (axis >= 3) continue;
@@ -159,6 +176,13 @@ class Reader {
     if (element.count > 0 && !(found[0] && found[1] && found[2])) {
       Fail("element vertex: must have the properties x, y and z");
     }
+  }
+
+  /// A part of a colour that is given in bytes or, as a fraction, from 0 to 1.
+  [[nodiscard]] static std::uint8_t ByteOf(double value, Type type) {
+    const bool is_fraction = type == Type::kFloat32 || type == Type::kFloat64;
+    const double byte = is_fraction ? std::round(255.0 * value) : value;
+    return byte >= 0.0 && byte <= 255.0 ? static_cast<std::uint8_t>(byte) : std::uint8_t{0};
   }
 
   /// Reads the faces, and passes over all other elements.
@@ -259,6 +283,7 @@ class Reader {
   double largest_;
   Header header_;
   PolygonSoup soup_;
+  std::vector<Rgb8> colors_;  ///< Of the points; empty if the file has none.
 };
 
 }  // namespace

@@ -109,9 +109,9 @@ struct ExportedFile {
   double unit_m = 1.0;  ///< What the file says, if it says anything.
 };
 
-class AssimpExports : public testing::TestWithParam<ExportedFile> {};
+class AssimpExportsOf : public testing::TestWithParam<ExportedFile> {};
 
-TEST_P(AssimpExports, KeepTrianglesAreaAndHeight) {
+TEST_P(AssimpExportsOf, KeepTrianglesAreaAndHeight) {
   const HalfSphere upper(1.0);
   const HalfSphere lower(-1.0);
   const std::size_t num_triangles = upper.triangles.size() + lower.triangles.size();
@@ -131,8 +131,29 @@ TEST_P(AssimpExports, KeepTrianglesAreaAndHeight) {
   EXPECT_NEAR(height, 2.0 * kRadius * unit_m, 0.04 * unit_m);
 }
 
+TEST(AssimpExports, NameUnnamedMaterialsByTheColoursOfVertices) {
+  auto scene = Sphere(HalfSphere(1.0), HalfSphere(-1.0));
+  for (unsigned i = 0; i < 2; ++i) {
+    scene->mMaterials[i]->Clear();
+    aiMesh& mesh = *scene->mMeshes[i];
+    mesh.mColors[0] = new aiColor4D[mesh.mNumVertices];
+    for (unsigned k = 0; k < mesh.mNumVertices; ++k) {
+      mesh.mColors[0][k] =
+          i == 0 ? aiColor4D(1.0F, 0.0F, 0.0F, 1.0F) : aiColor4D(0.0F, 0.0F, 0.2F, 1.0F);
+    }
+  }
+  const TemporaryDirectory folder;
+  const std::string file = (folder.path() / "it.glb").string();
+  Assimp::Exporter exporter;
+  ASSERT_EQ(exporter.Export(scene.get(), "glb2", file), AI_SUCCESS) << exporter.GetErrorString();
+  const ImportedMesh imported = ReadMesh(file);
+  ASSERT_EQ(imported.parts.size(), 2U);
+  EXPECT_EQ(imported.parts[0].material, "#ff0000");
+  EXPECT_EQ(imported.parts[1].material, "#000033");
+}
+
 INSTANTIATE_TEST_SUITE_P(EveryFormat,
-                         AssimpExports,
+                         AssimpExportsOf,
                          testing::Values(ExportedFile{"obj", "it.obj"},
                                          ExportedFile{"ply", "it_ascii.ply"},
                                          ExportedFile{"plyb", "it.ply"},

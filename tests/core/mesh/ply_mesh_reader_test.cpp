@@ -150,5 +150,35 @@ TEST(ReadPlyMesh, RefusesAHeaderOfAnotherFormat) {
       "p.ply: element vertex: must have the properties x, y and z");
 }
 
+/// A fan of triangles about the first vertex, each with a shade of its own.
+std::string ShadedFan(int num_triangles) {
+  std::string text =
+      "ply\nformat ascii 1.0\nelement vertex " + std::to_string(2 * num_triangles + 1) +
+      "\nproperty float x\nproperty float y\nproperty float z\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+      "element face " +
+      std::to_string(num_triangles) + "\nproperty list uchar int vertex_indices\nend_header\n";
+  std::string faces;
+  for (int i = 0; i < num_triangles; ++i) {
+    const std::string shade = " 160 82 " + std::to_string(i) + '\n';
+    text += std::to_string(i) + " 0 1" + shade + std::to_string(i + 1) + " 0 1" + shade;
+    faces += "3 " + std::to_string(2 * i) + ' ' + std::to_string(2 * i + 1) + ' ' +
+             std::to_string(2 * num_triangles) + '\n';
+  }
+  return text + "0 0 0 1 2 3\n" + faces;
+}
+
+TEST(ReadPlyMesh, NamesMaterialsByTheColoursOfVertices) {
+  const PolygonSoup soup = ReadPlyMesh("p.ply", ShadedFan(3), kLargest);
+  EXPECT_EQ(soup.materials, (std::vector<std::string>{"#a05200", "#a05201", "#a05202"}));
+  ASSERT_EQ(soup.faces.size(), 3U);
+  for (std::uint32_t i = 0; i < 3; ++i) EXPECT_EQ(soup.faces[i].material, i);
+}
+
+TEST(ReadPlyMesh, TakesManyColoursForAPhotograph) {
+  EXPECT_EQ(ReadPlyMesh("p.ply", ShadedFan(32), kLargest).materials.size(), 32U);
+  EXPECT_TRUE(ReadPlyMesh("p.ply", ShadedFan(33), kLargest).materials.empty());
+}
+
 }  // namespace
 }  // namespace railcast

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/mesh/polygon_soup.h"
+
+namespace railcast {
+
+/// Red, green and blue.
+using Rgb8 = std::array<std::uint8_t, 3>;
+
+/// Gives each face without a material's name that of its first corner's colour, like "#a0522d". If
+/// there are more than 32 such colours, the mesh is a photograph rather than painted, and nothing
+/// is changed.
+/// @param of_points A colour for each of the soup's points; may be empty.
+void NameMaterialsByColor(const std::vector<Rgb8>& of_points, PolygonSoup& soup);
+
+}  // namespace railcast
