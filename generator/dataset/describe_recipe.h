@@ -82,6 +82,7 @@ void Describe(Archive& a, RecipeBase& s) {
   a.Required("file", s.file, "A scenario.", ExistingFile());
   a.Optional("weight", s.weight, "How often, relative to the others.", PositiveUpTo(1e9));
   a.Optional("split", s.split, "Part of all scenarios on its line.");
+  a.Optional("start_s_m", s.start_s_m, "Instead of the recipe's.");
 }
 
 template <class Archive>

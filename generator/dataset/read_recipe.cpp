@@ -12,20 +12,17 @@
 namespace railcast {
 namespace {
 
-// Whether the keys of an object are JSON pointers; faults are added.
-bool HasPointers(JsonSource& source, const Node& node) {
+// Calls `read` with each pointer of an object whose keys are JSON pointers, and with its value.
+template <class Read>
+void ReadPointed(JsonSource& source, const Node& node, const Read& read) {
   if (!node.json->is_object()) {
-    source.Fault(node, "must be an object with JSON pointers as its keys");
-    return false;
+    return source.Fault(node, "must be an object with JSON pointers as its keys");
   }
-  bool are_pointers = true;
   for (const auto& [key, value] : node.json->items()) {
-    const auto fault = PointerFault(key);
-    if (!fault) continue;
-    source.FaultWithoutValue(node.Child(key, value), *fault);
-    are_pointers = false;
+    const Node child = node.Child(key, value);
+    if (const auto fault = PointerFault(key)) source.FaultWithoutValue(child, *fault);
+    read(key, child);
   }
-  return are_pointers;
 }
 
 }  // namespace
@@ -59,17 +56,17 @@ void ReadValue(JsonSource& source, const Node& node, ObjectTemplate& object, Any
 }
 
 void ReadValue(JsonSource& source, const Node& node, SetList& list, Anything) {
-  if (!HasPointers(source, node)) return;
-  for (const auto& [key, value] : node.json->items()) list.values.push_back({key, value});
+  ReadPointed(source, node, [&](const std::string& pointer, const Node& value) {
+    list.values.push_back({pointer, *value.json});
+  });
 }
 
 void ReadValue(JsonSource& source, const Node& node, DrawList& list, Anything) {
-  if (!HasPointers(source, node)) return;
-  for (const auto& [key, value] : node.json->items()) {
+  ReadPointed(source, node, [&](const std::string& pointer, const Node& value) {
     Distribution distribution;
-    ReadValue(source, node.Child(key, value), distribution, Anything{});
-    list.draws.push_back({key, std::move(distribution)});
-  }
+    ReadValue(source, value, distribution, Anything{});
+    list.draws.push_back({pointer, std::move(distribution)});
+  });
 }
 
 Recipe ReadRecipe(const std::filesystem::path& file) {

@@ -45,6 +45,7 @@ struct RecipeBase {
   std::string file;  ///< Absolute.
   double weight = 1.0;
   std::optional<Split> split;  ///< Part of all scenarios on its line; for SplitBy::kLine only.
+  std::optional<Distribution> start_s_m;  ///< Instead of the recipe's.
 };
 
 /// A value for one place of a scenario.

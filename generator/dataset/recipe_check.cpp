@@ -102,6 +102,12 @@ class KeyCheck {
     }
     all.insert(all.end(), drawn.begin(), drawn.end());
     if (recipe_.start_s_m) Follow(all, {{"/vehicle/start_s_m", "/start_s_m"}});
+    for (std::size_t i = 0; i < recipe_.bases.size(); ++i) {
+      if (!recipe_.bases[i].start_s_m) continue;
+      std::vector<Written> others = drawn;
+      others.insert(others.end(), earlier.begin(), earlier.end());
+      Follow(others, {{"/vehicle/start_s_m", "/bases" + IndexStep(i) + "/start_s_m"}});
+    }
   }
 
   void CheckNumber(const Distribution& distribution,
@@ -122,6 +128,11 @@ class KeyCheck {
     };
     if (recipe_.start_s_m) {
       CheckNumber(*recipe_.start_s_m, "/start_s_m", "must give numbers", is_any);
+    }
+    for (std::size_t i = 0; i < recipe_.bases.size(); ++i) {
+      if (!recipe_.bases[i].start_s_m) continue;
+      CheckNumber(*recipe_.bases[i].start_s_m, "/bases" + IndexStep(i) + "/start_s_m",
+                  "must give numbers", is_any);
     }
     for (std::size_t i = 0; i < recipe_.objects.size(); ++i) {
       const PlacedObjects& objects = recipe_.objects[i];
@@ -174,10 +185,7 @@ class ExtremesCheck {
   void Run() {
     CheckPins();
     for (base_ = 0; base_ < recipe_.bases.size(); ++base_) {
-      const std::size_t num_faults = errors_.size();
       Try({});
-      // What follows from such faults would only repeat them.
-      if (errors_.size() > num_faults) continue;
       for (const PointedDraw& draw : recipe_.draws.draws) {
         for (const Json& value : ExtremesOf(draw.distribution)) Try({{draw.pointer, value}});
       }
@@ -198,6 +206,23 @@ class ExtremesCheck {
              "must be that of /bases" + IndexStep(j) + ", which is on the same line", ""});
       }
     }
+  }
+
+  // Forces the first extreme of each draw unless another value is forced: so a faulty one gives the
+  // same line again and again, which is listed once.
+  [[nodiscard]] ForcedValues WithFirstExtremes(ForcedValues forced) const {
+    for (const PointedDraw& draw : recipe_.draws.draws) {
+      forced.emplace(draw.pointer, ExtremesOf(draw.distribution).front());
+    }
+    for (const DrawGroup& group : recipe_.groups) {
+      for (const GroupOption& option : group.options) {
+        for (const PointedDraw& draw : option.draws.draws) {
+          forced.emplace(NameOfOptionDraw(group, option, draw.pointer),
+                         ExtremesOf(draw.distribution).front());
+        }
+      }
+    }
+    return forced;
   }
 
   void TryGroup(const DrawGroup& group) {
@@ -226,7 +251,7 @@ class ExtremesCheck {
 
   [[nodiscard]] DraftedScenario Draft(const ForcedValues& forced) const {
     DraftedScenario draft(recipe_, {}, bases_.json(base_), base_);
-    static_cast<void>(PutRecipeValues(recipe_, draws_, 0, forced, draft));
+    static_cast<void>(PutRecipeValues(recipe_, draws_, 0, WithFirstExtremes(forced), draft));
     return draft;
   }
 
@@ -237,7 +262,11 @@ class ExtremesCheck {
   void TryObject(std::size_t index, const ForcedValues& forced) {
     static_cast<void>(Attempt("", errors_, [&] {
       DraftedScenario draft = Draft({});
-      const ObjectDraw drawn = DrawObject(recipe_, index, {draws_, 1, 0, forced}, draft);
+      ForcedValues all = forced;
+      for (const PointedDraw& draw : recipe_.objects[index].draws.draws) {
+        all.emplace(draw.pointer, ExtremesOf(draw.distribution).front());
+      }
+      const ObjectDraw drawn = DrawObject(recipe_, index, {draws_, 1, 0, all}, draft);
       AddObject(drawn, recipe_, index, draft);
       return draft.Read();
     }));

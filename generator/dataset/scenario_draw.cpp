@@ -98,15 +98,19 @@ class OneDraw {
 
   // Draws where the vehicle starts until everything fits.
   void FindStart() {
-    if (!recipe_.start_s_m) {
+    const RecipeBase& base = recipe_.bases[base_];
+    const std::optional<Distribution>& start = base.start_s_m ? base.start_s_m : recipe_.start_s_m;
+    const std::string place =
+        base.start_s_m ? "/bases/" + std::to_string(base_) + "/start_s_m" : "/start_s_m";
+    if (!start) {
       const std::string obstacle = TryStart();
       if (obstacle.empty()) return;
       throw InputError(std::vector<Fault>{draft_.FaultAt("/split/by", obstacle)});
     }
     std::string obstacle;
     for (std::uint32_t attempt = 0; attempt < kMostAttempts; ++attempt) {
-      const Json start_s_m = DrawValue(*recipe_.start_s_m, draws_, "start_s_m", attempt);
-      draft_.Set("/vehicle/start_s_m", start_s_m, "/start_s_m");
+      const Json start_s_m = DrawValue(*start, draws_, "start_s_m", attempt);
+      draft_.Set("/vehicle/start_s_m", start_s_m, place);
       if (IsAcrossParts(start_s_m.get<double>())) {
         obstacle = AcrossParts();
         continue;
@@ -118,9 +122,9 @@ class OneDraw {
       }
       if (obstacle.empty()) return;
     }
-    throw InputError(std::vector<Fault>{
-        draft_.FaultAt("/start_s_m", "no start in " + std::to_string(kMostAttempts) +
-                                         " attempts; at the last one: " + obstacle)});
+    throw InputError(
+        std::vector<Fault>{draft_.FaultAt(place, "no start in " + std::to_string(kMostAttempts) +
+                                                     " attempts; at the last one: " + obstacle)});
   }
 
   // A quick check of the surroundings of the start alone.
