@@ -6,6 +6,7 @@
 #include <string>
 
 #include "analysis/commands.h"
+#include "analysis/verify/dataset_verification.h"
 #include "analysis/verify/verification.h"
 #include "core/base/text.h"
 #include "core/program/progress_line.h"
@@ -29,8 +30,9 @@ std::string SummaryOf(const Verification& found) {
 
 int RunVerify(const std::filesystem::path& directory) {
   const ProgressLine progress;
+  const auto show = [&](double share) { progress.Show("frames", share); };
   const Verification found =
-      VerifySequence(directory, [&](double share) { progress.Show("frames", share); });
+      IsDataset(directory) ? VerifyDataset(directory, show) : VerifySequence(directory, show);
   progress.End();
   for (const std::string& fault : found.faults) std::cout << ShownLines(fault) << "\n";
   std::cout << ShownPath(directory) << ": " << SummaryOf(found) << "\n" << std::flush;
@@ -42,10 +44,11 @@ int RunVerify(const std::filesystem::path& directory) {
 void AddVerify(CLI::App& app, ProgramCommand& command) {
   const auto directory = std::make_shared<std::filesystem::path>();
   CLI::App* verify = app.add_subcommand(
-      "verify", "Check that a sequence directory is as it was written: one line per fault");
+      "verify",
+      "Check that a sequence directory or a data set is as it was written: one line per fault");
   verify
       ->add_option("DIR", *directory,
-                   "Directory that railcast-generate sequence made, any --format")
+                   "Directory that railcast-generate sequence or dataset made, any --format")
       ->required()
       ->check(NonEmpty());
   verify->callback([&command, directory] {

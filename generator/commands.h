@@ -19,6 +19,10 @@ void AddCheck(CLI::App& app, ProgramCommand& command);
 void AddWorld(CLI::App& app, ProgramCommand& command);
 /// Writes scenarios that differ from a given one in random weather.
 void AddRandomize(CLI::App& app, ProgramCommand& command);
+/// Writes a data set of many scenarios that a recipe draws, or finishes an interrupted one.
+void AddDataset(CLI::App& app, ProgramCommand& command);
+/// Makes one data set of its shards.
+void AddMerge(CLI::App& app, ProgramCommand& command);
 /// Fits the lines of a map and writes them as alignments. Needs GDAL and PROJ
 /// (RAILCAST_BUILD_IMPORT).
 void AddImport(CLI::App& app, ProgramCommand& command);

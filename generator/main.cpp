@@ -12,6 +12,8 @@ void AddCommands(CLI::App& app, railcast::ProgramCommand& command) {
   railcast::AddWorld(app, command);
   railcast::AddTrace(app, command);
   railcast::AddRandomize(app, command);
+  railcast::AddDataset(app, command);
+  railcast::AddMerge(app, command);
 #ifdef RAILCAST_HAS_IMPORT
   railcast::AddImport(app, command);
 #endif

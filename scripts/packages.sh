@@ -24,6 +24,7 @@ build_packages=(
   libpng-dev
   libproj-dev
   librandom123-dev
+  libsqlite3-dev
   libtbb-dev
   libvtk9-dev
   libx11-dev

@@ -165,8 +165,9 @@ void Verifier::CheckFrames() {
     });
     has_all_records = has_all_records && is_there;
   }
+  const std::uint32_t stride = summary_.run.stride;
   FrameLines lines{summary_.run.start_frame, {}, {}};
-  for (std::size_t i = 0; auto frame = frames.Next(); ++i, ++lines.expected_frame) {
+  for (std::size_t i = 0; auto frame = frames.Next(); ++i, lines.expected_frame += stride) {
     on_progress_(static_cast<double>(i) / static_cast<double>(result_.num_frames));
     lines.frame = std::move(*frame);
     const auto line =
@@ -176,7 +177,7 @@ void Verifier::CheckFrames() {
     std::uint32_t num_missing = 0;
     if (line && !Try([&] { (void)ReadNextFrameLine(lines); })) {
       has_all_frames = false;
-      num_missing = line->frame - std::min(line->frame, lines.expected_frame);
+      num_missing = (line->frame - std::min(line->frame, lines.expected_frame)) / stride;
       lines.expected_frame = line->frame;
     }
     lines.records.clear();
@@ -207,7 +208,8 @@ void Verifier::CheckNames(const FrameLine& line, const std::string& place) {
   const FrameFormat* const format = FindFrameFormat(summary_.run.format);
   const bool is_of_dataset = format != nullptr && format->dataset;
   const std::size_t num_files = format == nullptr ? 1 : format->files.size();
-  const std::uint32_t number = is_of_dataset ? line.frame - summary_.run.start_frame : line.frame;
+  const std::uint32_t number =
+      is_of_dataset ? (line.frame - summary_.run.start_frame) / summary_.run.stride : line.frame;
   const std::string digits = FrameDigits(number);
   // A camera's files are beside those of the format, all of them or none.
   const auto num_of_camera = static_cast<std::size_t>(std::ranges::count_if(

@@ -41,6 +41,7 @@ enum class RandomUse : std::uint32_t {
   kFields = 124,
   kTrackIrregularity = 125,
   kRandomWeather = 200,
+  kDatasetDraw = 201,
 };
 
 /// Four independent, uniform 32-bit words that depend on the arguments only.

@@ -328,7 +328,34 @@ std::vector<std::string> TracksUnder(const RailWorld& world, std::size_t object,
   return names;
 }
 
+std::vector<GaugeEntry> EntriesOfObject(const WorldTracks& tracks,
+                                        const RailWorld& world,
+                                        std::size_t object,
+                                        bool is_on_its_track,
+                                        std::int64_t time_ns) {
+  const double s_m = world.ObjectChainage_m(object, time_ns);
+  std::vector<std::string> own_tracks;
+  if (is_on_its_track) own_tracks = TracksUnder(world, object, s_m);
+  Probes probes(tracks, world.alignment(), own_tracks);
+  const SceneObject& probed = world.objects()[object];
+  probes.Add(*probed.model, world.WorldFromObject(object, time_ns), s_m);
+  std::vector<GaugeEntry> entries;
+  probes.Report(probed.name, entries);
+  return entries;
+}
+
 }  // namespace
+
+std::vector<GaugeEntry> FindObjectInGauge(const WorldSpec& given_spec,
+                                          const RailWorld& world,
+                                          std::size_t object,
+                                          bool is_on_its_track,
+                                          std::int64_t time_ns) {
+  WorldSpec spec = given_spec;
+  spec.tracks = world.tracks();
+  const WorldTracks tracks{spec, world.network().courses};
+  return EntriesOfObject(tracks, world, object, is_on_its_track, time_ns);
+}
 
 std::vector<GaugeEntry> FindStructuresInGauge(const WorldSpec& spec,
                                               const Alignment& alignment,
@@ -364,19 +391,13 @@ std::vector<GaugeEntry> FindGaugeEntries(const WorldSpec& given_spec, const Rail
       FindStructuresInGauge(spec, world.alignment(), world.network().courses);
   const std::size_t num_objects = spec.objects.size();
   for (std::size_t i = 0; i < num_objects + NumVehicles(spec.trains); ++i) {
-    const SceneObject& object = world.objects()[i];
-    if (object.moves) continue;
-    const double s_m = world.ObjectChainage_m(i, 0);
+    if (world.objects()[i].moves) continue;
     // A wagon on its rails is where it belongs, but it may stand foul of another track.
     const bool is_on_its_track =
         i >= num_objects || (IsRailVehicle(spec.objects[i].type) && spec.objects[i].d_m == 0.0);
-    std::vector<std::string> own_tracks;
-    if (is_on_its_track) {
-      own_tracks = TracksUnder(world, i, s_m);
+    for (GaugeEntry& entry : EntriesOfObject(tracks, world, i, is_on_its_track, 0)) {
+      entries.push_back(std::move(entry));
     }
-    Probes probes(tracks, world.alignment(), own_tracks);
-    probes.Add(*object.model, world.WorldFromObject(i, 0), s_m);
-    probes.Report(object.name, entries);
   }
   return entries;
 }

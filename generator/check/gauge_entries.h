@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,6 +32,15 @@ struct GaugeEntry {
 /// want their edges, up to a tolerance of 5 mm.
 [[nodiscard]] std::vector<GaugeEntry> FindGaugeEntries(const WorldSpec& spec,
                                                        const RailWorld& world);
+
+/// The same for one object, whether it moves or not, at one moment.
+/// @param object Index into world.objects(); also of one that was added to it.
+/// @param is_on_its_track Whether it is left out on the tracks under it, as a wagon on its rails.
+[[nodiscard]] std::vector<GaugeEntry> FindObjectInGauge(const WorldSpec& spec,
+                                                        const RailWorld& world,
+                                                        std::size_t object,
+                                                        bool is_on_its_track,
+                                                        std::int64_t time_ns);
 
 /// The same for the structures alone.
 /// @param spec With all tracks, also those of yards.

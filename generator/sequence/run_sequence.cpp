@@ -153,7 +153,7 @@ class MissingFrames {
     FrameSlot& slot = slots_[next_ % slots_.size()];
     slot.fault = nullptr;
     try {
-      slot.job = begin_frame_(spec_.start_frame + next_);
+      slot.job = begin_frame_(spec_.FrameAt(next_));
     } catch (...) {
       // Passed on in its turn, after the frames before it.
       slot.fault = std::current_exception();
@@ -199,7 +199,7 @@ class MissingFrames {
   std::size_t num_at_once_;
   std::uint32_t num_resumed_;
   std::uint32_t num_shown_;  ///< As on_progress() was told last.
-  std::uint32_t next_;       ///< The frame that is begun next, counted from start_frame.
+  std::uint32_t next_;       ///< Which of the run's frames is begun next.
   bool is_over_ = false;
   std::vector<FrameSlot> slots_;
   WritingQueue writing_;  // Last, so that it ends before the memory that it writes.

@@ -8,13 +8,10 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/fidelity/choice_report.h"
-#include "core/io/camera_files.h"
 #include "core/io/scenario_identity.h"
 #include "core/program/progress_line.h"
-#include "core/program/version.h"
 #include "core/scenario/command_log.h"
 #include "core/scenario/vehicle_clearance.h"
-#include "core/trace/trace_program.h"
 #include "generator/commands.h"
 #include "generator/run/commanded_run.h"
 #include "generator/run/run_options.h"
@@ -22,6 +19,7 @@
 #include "generator/run/stoppable_work.h"
 #include "generator/run/track_limits.h"
 #include "generator/sequence/run_sequence.h"
+#include "generator/sequence/scenario_sequence.h"
 #include "generator/sequence/summary.h"
 #include "generator/sequence/surveyed_run.h"
 #include "railcast/camera.h"
@@ -34,16 +32,11 @@ namespace {
 
 struct SequenceOptions {
   std::filesystem::path scenario;
-  std::filesystem::path out;
-  std::uint32_t num_frames = 10;
-  std::uint32_t start_frame = 0;
-  std::string format = "pcd";
-  std::string fields = "all";
+  SequenceChoices made;
   std::optional<std::uint64_t> seed;              ///< Overrides the scenario's.
   std::optional<std::string> fidelity;            ///< Overrides the scenario's.
   std::optional<std::string> sensor;              ///< Which sensor, if there are several.
   std::optional<std::filesystem::path> commands;  ///< Log of a live run to replay.
-  std::string isa;                                ///< Of the trace; empty = the machine's best.
   int num_threads = 0;                            ///< 0 = all cores.
   bool is_verbose = false;
 };
@@ -58,16 +51,7 @@ Scenarios ReadForSequence(const SequenceOptions& options) {
   ScenarioSpec scenario = ReadScenario(options.scenario);
   if (options.seed) scenario.seed = *options.seed;
   if (options.fidelity) scenario.fidelity = ValueNamed<Fidelity>(*options.fidelity).value();
-  const bool is_sensor_frame = scenario.output.frame == OutputFrame::kSensor &&
-                               scenario.output.handedness == Handedness::kRight;
-  const FrameFormat& format = ParseFrameFormat(options.format);
-  if (format.dataset && !is_sensor_frame) {
-    throw InputError(ShownPath(options.scenario) +
-                     ": /output: must be right-handed sensor coordinates for --format " +
-                     std::string(format.name) + " (got " +
-                     std::string(NameOf(scenario.output.handedness)) + "-handed " +
-                     std::string(NameOf(scenario.output.frame)) + ")");
-  }
+  CheckOutputSuits(options.made.format, scenario, ShownPath(options.scenario));
   ScenarioSpec of_sensor = PickSensor(scenario, options.sensor);
   return {std::move(scenario), std::move(of_sensor)};
 }
@@ -90,32 +74,17 @@ CommandLog ReadLog(const SequenceOptions& options, const Scenarios& scenarios) {
   return log;
 }
 
-SequenceSpec MakeSpec(const SequenceOptions& options, const ScenarioSpec& scenario) {
-  SequenceSpec spec;
-  spec.directory = options.out;
-  spec.version = ProgramVersion();
-  spec.embree_version = EmbreeVersion();
-  spec.isa = AtPlace("--", [&] { return IsaInUse(options.isa); });
-  spec.identity = IdentityOf(scenario);
-  spec.seed = scenario.seed;
-  spec.files.format = &ParseFrameFormat(options.format);
-  spec.files.fields = FieldSelection(options.fields);
-  const std::optional<DatasetLayout>& dataset = spec.files.format->dataset;
-  if (dataset && options.fields != "all") {
-    throw InputError("--fields: " + std::string(dataset->title) +
-                     "'s are fixed, so it must be left out with --format " + options.format +
-                     " (got " + options.fields + ")");
+std::uint32_t LastFrameOf(const SequenceSpec& spec, const ScanPattern& pattern) {
+  constexpr std::uint64_t kMost = 2 * kMaxFrame;
+  const std::uint64_t last =
+      spec.start_frame + std::uint64_t{spec.num_frames - 1} * std::uint64_t{spec.stride};
+  if (last > kMost) {
+    throw InputError("--start-frame, --frames, --stride: must lead to no frame after " +
+                     std::to_string(kMost) + " (got frame " + std::to_string(last) + ")");
   }
-  spec.files.labels = LabelTable(scenario.labels);
-  spec.materials = MaterialLibrary(scenario.materials);
-  if (scenario.camera) {
-    spec.camera = scenario.camera->name;
-    spec.calibration_json = CalibrationJson(*scenario.camera, VehicleFromCamera(scenario),
-                                            VehicleFromSensor(scenario.lidar.mount));
-  }
-  spec.start_frame = options.start_frame;
-  spec.num_frames = options.num_frames;
-  return spec;
+  const auto last_frame = static_cast<std::uint32_t>(last);
+  CheckHasStamp("--start-frame, --frames", pattern, last_frame);
+  return last_frame;
 }
 
 class ProgressDisplay {
@@ -142,7 +111,7 @@ int RunSequenceCommand(const SequenceOptions& options) {
   const Scenarios scenarios = ReadForSequence(options);
   const ScenarioSpec& scenario = scenarios.of_sensor;
   const CommandLog log = ReadLog(options, scenarios);
-  SequenceSpec spec = MakeSpec(options, scenario);
+  SequenceSpec spec = SequenceSpecOf(scenario, options.made);
   // An empty log makes the same run as no log.
   if (!log.commands.empty()) spec.commands_jsonl = CommandLogText(log);
   if (options.is_verbose) std::cerr << "read " << ShownPath(options.scenario) << "\n";
@@ -153,8 +122,7 @@ int RunSequenceCommand(const SequenceOptions& options) {
               << " firings a frame, " << simulator->world().objects().size() << " objects, "
               << log.commands.size() << " commands\n";
   }
-  const std::uint32_t last_frame = spec.start_frame + spec.num_frames - 1;
-  CheckHasStamp("--start-frame, --frames", simulator->pattern(), last_frame);
+  const std::uint32_t last_frame = LastFrameOf(spec, simulator->pattern());
   CommandedRun run(scenario, {simulator.get()});
   AtPlace(ShownPath(options.commands.value_or("")) + ": ", [&] { run.Apply(log.commands); });
   CheckStaysOnTracks(run, simulator->pattern(), spec.start_frame, last_frame);
@@ -191,7 +159,7 @@ int RunSequenceCommand(const SequenceOptions& options) {
   std::cout << ShownLines(Summary(spec, result));
   if (result.is_complete) return kExitSuccess;
   std::cerr << "interrupted; the same command continues with frame "
-            << spec.start_frame + result.num_done << "\n";
+            << spec.FrameAt(result.num_done) << "\n";
   return kExitInterrupted;
 }
 
@@ -205,19 +173,25 @@ void AddSequence(CLI::App& app, ProgramCommand& command) {
   sequence->add_option("SCENARIO", options->scenario, "Scenario file")
       ->required()
       ->check(NonEmpty());
-  sequence->add_option("--out", options->out, "Directory to write the frames to")
+  sequence->add_option("--out", options->made.directory, "Directory to write the frames to")
       ->required()
       ->check(NonEmpty());
-  sequence->add_option("--frames", options->num_frames, "Number of frames to make")
+  sequence->add_option("--frames", options->made.num_frames, "Number of frames to make")
       ->transform(Whole({1, kMaxFrame}))
       ->capture_default_str();
-  sequence->add_option("--start-frame", options->start_frame, "Number of the first frame")
+  sequence->add_option("--start-frame", options->made.start_frame, "Number of the first frame")
       ->transform(Whole({0, kMaxFrame}))
       ->capture_default_str();
-  sequence->add_option("--format", options->format, "File format of the frames")
+  sequence
+      ->add_option("--stride", options->made.stride,
+                   "Every how many-th of the scenario's frames to make; 1 = all")
+      ->transform(Whole({1, kMaxFrame}))
+      ->capture_default_str();
+  sequence->add_option("--format", options->made.format, "File format of the frames")
       ->check(CLI::IsMember(FrameFormatNames()))
       ->capture_default_str();
-  sequence->add_option("--fields", options->fields, "Fields to write, separated by commas, or all")
+  sequence
+      ->add_option("--fields", options->made.fields, "Fields to write, separated by commas, or all")
       ->capture_default_str();
   sequence->add_option("--seed", options->seed, "Seed to use instead of the scenario's")
       ->transform(Whole({}));
@@ -226,7 +200,7 @@ void AddSequence(CLI::App& app, ProgramCommand& command) {
       ->capture_default_str();
   sequence->add_option("--fidelity", options->fidelity, "Fidelity to use instead of the scenario's")
       ->check(CLI::IsMember(NamesOf<Fidelity>()));
-  AddIsa(*sequence, options->isa);
+  AddIsa(*sequence, options->made.isa);
   sequence->add_option("--sensor", options->sensor,
                        "Name of the sensor to simulate, where the scenario has several");
   sequence
@@ -239,7 +213,7 @@ void AddSequence(CLI::App& app, ProgramCommand& command) {
       "command continues).");
   sequence->callback([&app, &command, options] {
     options->is_verbose = app.count("--verbose") > 0;
-    CheckFields(options->fields);
+    CheckFields(options->made.fields);
     command = [options](const std::string&) { return RunSequenceCommand(*options); };
   });
 }

@@ -1,19 +1,12 @@
 #include "generator/sequence/sequence_directory.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string_view>
-#include <thread>
 #include <utility>
 
 #include "core/base/error.h"
@@ -35,17 +28,6 @@ void CreateDirectories(const fs::path& directory) {
   std::error_code error;
   fs::create_directories(directory, error);
   if (error) throw FileError(directory, error.value());
-}
-
-// Retries, since a run that was just killed may hold the lock until the system has released it.
-bool Lock(int directory) {
-  constexpr int kTries = 20;
-  constexpr std::chrono::milliseconds kPause(50);
-  for (int i = 0; i < kTries; ++i) {
-    if (::flock(directory, LOCK_EX | LOCK_NB) == 0) return true;
-    std::this_thread::sleep_for(kPause);
-  }
-  return false;
 }
 
 bool HasBytes(const fs::path& file, std::string_view bytes) {
@@ -104,8 +86,11 @@ class OwnNames {
   [[nodiscard]] bool Have(std::string_view name) const {
     if (names_.contains(name)) return true;
     const std::optional<std::uint32_t> number = FrameNumber(name);
-    const std::uint32_t first = spec_.files.format->dataset ? 0 : spec_.start_frame;
-    if (!number || *number < first || *number - first >= spec_.num_frames) return false;
+    const bool is_counted = spec_.files.format->dataset.has_value();
+    const std::uint32_t first = is_counted ? 0 : spec_.start_frame;
+    const std::uint32_t step = is_counted ? 1 : spec_.stride;
+    if (!number || *number < first || (*number - first) % step != 0) return false;
+    if ((*number - first) / step >= spec_.num_frames) return false;
     std::vector<std::string> names = FrameFileNames(*spec_.files.format, *number);
     if (!spec_.camera.empty()) {
       for (std::string& image : CameraFileNames(spec_.camera, *number)) {
@@ -124,24 +109,11 @@ class OwnNames {
 
 SequenceDirectory::SequenceDirectory(SequenceSpec spec) : spec_(std::move(spec)) {
   CreateDirectories(spec_.directory);
-  lock_ = ::open(spec_.directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock_ < 0) throw FileError(spec_.directory, errno);
-  try {
-    Open();
-  } catch (...) {
-    ::close(lock_);
-    throw;
-  }
-}
-
-SequenceDirectory::~SequenceDirectory() {
-  ::close(lock_);
+  lock_.emplace(spec_.directory);
+  Open();
 }
 
 void SequenceDirectory::Open() {
-  if (!Lock(lock_)) {
-    throw InputError(ShownPath(spec_.directory) + ": another run is writing here");
-  }
   const fs::path run_file = spec_.directory / kRunFile;
   const bool is_run = fs::exists(run_file);
   is_complete_ = is_run && fs::exists(spec_.directory / kManifestFile);
@@ -199,7 +171,7 @@ void SequenceDirectory::CheckUnchanged(const SequenceProgress& progress) const {
     throw InputError(ShownPath(directory) + ": is complete, but " + what +
                      " was changed or removed; delete manifest.json to make it anew");
   };
-  check(num_done_ == spec_.num_frames, "frame " + std::to_string(spec_.start_frame + num_done_));
+  check(num_done_ == spec_.num_frames, "frame " + std::to_string(spec_.FrameAt(num_done_)));
   const std::vector<LineFileName> names = LineFileNames(*spec_.files.format);
   for (std::size_t i = 0; i < names.size(); ++i) {
     check(fs::file_size(directory / names[i].name) == progress.keep_bytes[i], names[i].name);
@@ -268,7 +240,7 @@ void SequenceDirectory::Encode(const Frame& frame,
                                const CameraImage* image,
                                EncodedFrame& encoded) const {
   const std::uint32_t number =
-      spec_.files.format->dataset ? frame.index - spec_.start_frame : frame.index;
+      spec_.files.format->dataset ? (frame.index - spec_.start_frame) / spec_.stride : frame.index;
   EncodeFrameFiles(frame, spec_.files, number, encoded.files, MovingInstances(objects));
   if (image != nullptr) {
     for (FrameFile& file : EncodeCameraFiles(*image, spec_.camera, number)) {
@@ -290,7 +262,7 @@ void SequenceDirectory::Encode(const Frame& frame,
 
 void SequenceDirectory::Write(const EncodedFrame& frame) {
   FrameRecord record = frame.record;
-  Check(record.frame == spec_.start_frame + num_done_, "frames are written in their order");
+  Check(record.frame == spec_.FrameAt(num_done_), "frames are written in their order");
   for (const FrameFile& file : frame.files) {
     WriteFileWhole(spec_.directory / file.name, file.bytes);
   }

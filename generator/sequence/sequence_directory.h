@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "generator/run/folder_lock.h"
 #include "generator/sequence/frame_record.h"
 #include "generator/sequence/line_file.h"
 #include "generator/sequence/object_record.h"
@@ -41,7 +42,7 @@ class SequenceDirectory {
   /// @throws InputError if it belongs to another run, holds other files, is complete but was
   ///   changed since, is being written by another process, or the system refuses.
   explicit SequenceDirectory(SequenceSpec spec);
-  ~SequenceDirectory();
+  ~SequenceDirectory() = default;
   SequenceDirectory(const SequenceDirectory&) = delete;
   SequenceDirectory& operator=(const SequenceDirectory&) = delete;
 
@@ -59,7 +60,7 @@ class SequenceDirectory {
               const CameraImage* image,
               EncodedFrame& encoded) const;
 
-  /// Writes frame start_frame + num_done().
+  /// Writes the next of the run's frames.
   /// @throws InputError if the system refuses; the directory can be resumed nevertheless.
   void Write(const EncodedFrame& frame);
 
@@ -82,7 +83,7 @@ class SequenceDirectory {
   [[nodiscard]] std::vector<std::string> RecordLines(const EncodedFrame& frame);
 
   SequenceSpec spec_;
-  int lock_ = -1;
+  std::optional<FolderLock> lock_;
   bool is_complete_ = false;
   std::uint32_t num_done_ = 0;
   FrameCounts counts_;

@@ -78,7 +78,7 @@ SequenceProgress FindProgress(const SequenceSpec& spec) {
   }
   SequenceProgress progress;
   while (progress.num_done < spec.num_frames) {
-    const auto record = NextWhole(spec, spec.start_frame + progress.num_done, walks);
+    const auto record = NextWhole(spec, spec.FrameAt(progress.num_done), walks);
     if (!record) break;
     if (progress.num_done == 0) progress.first_pose_line = walks.front().Next();
     progress.counts.Add(record->counts);

@@ -31,6 +31,8 @@ Json RunObject(const SequenceSpec& spec) {
   if (!spec.files.format->dataset) run["fields"] = spec.files.fields.Text();
   run["start_frame"] = spec.start_frame;
   run["num_frames"] = spec.num_frames;
+  // Left out where it is 1, as in the directories of older programs.
+  if (spec.stride != 1) run["stride"] = spec.stride;
   return run;
 }
 
@@ -91,6 +93,7 @@ std::string ProgramDifference(const std::string& key,
 std::string NameOf(const std::string& key) {
   if (key == "num_frames") return "--frames";
   if (key == "start_frame") return "--start-frame";
+  if (key == "stride") return "--stride";
   return key;
 }
 
@@ -112,6 +115,10 @@ void CheckSameRun(const SequenceSpec& spec, const std::string& run_json, bool is
   const Json ours = RunObject(spec);
   if (found.contains("commands_xxh3") && spec.commands_jsonl.empty()) {
     throw InputError(place + "holds a run with commands; choose another --out");
+  }
+  if (found.contains("stride") && spec.stride == 1) {
+    throw InputError(place + "holds another run: its --stride is " + Text(found["stride"]) +
+                     " (got 1); choose another --out");
   }
   for (const auto& [key, value] : ours.items()) {
     const Json& other = Member(found, key);

@@ -28,6 +28,10 @@ struct SequenceSpec {
   MaterialLibrary materials;
   std::uint32_t start_frame{};
   std::uint32_t num_frames{};
+  std::uint32_t stride = 1;  ///< Every how many-th of the scenario's frames is made.
+
+  /// The number of the run's i-th frame.
+  [[nodiscard]] std::uint32_t FrameAt(std::uint32_t i) const { return start_frame + i * stride; }
 };
 
 /// Returns run.json, which identifies the run of a directory from its first moment on.

@@ -106,6 +106,7 @@ void CheckNumLines(const std::filesystem::path& file, std::size_t num_frames, bo
 FrameLineReader::FrameLineReader(const SequenceSummary& summary)
     : num_frames_(CountLines(summary.directory / kFramesFile)),
       next_frame_(summary.run.start_frame),
+      stride_(summary.run.stride),
       frames_(summary.directory / kFramesFile) {
   // Lines are counted before files are hashed, since a missing line is a more specific fault than a
   // hash that differs.
@@ -124,7 +125,8 @@ FrameLineReader::FrameLineReader(const SequenceSummary& summary)
 std::optional<FrameLines> FrameLineReader::Next() {
   auto frame = frames_.Next();
   if (!frame) return std::nullopt;
-  FrameLines lines{next_frame_++, std::move(*frame), {}};
+  FrameLines lines{next_frame_, std::move(*frame), {}};
+  next_frame_ += stride_;
   for (LineReader& records : records_) lines.records.push_back(records.Need());
   return lines;
 }

@@ -82,6 +82,7 @@ class FrameLineReader {
  private:
   std::size_t num_frames_{};
   std::uint32_t next_frame_{};
+  std::uint32_t stride_{};
   LineReader frames_;
   std::vector<LineReader> records_;
 };

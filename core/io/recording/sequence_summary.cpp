@@ -39,10 +39,12 @@ RunSummary ReadRunSummary(const std::string& text, const std::string& place) {
     run.format = json.at("format");
     run.start_frame = json.at("start_frame");
     run.num_frames = json.at("num_frames");
+    run.stride = json.value("stride", 1U);
+    if (run.stride == 0) throw InputError(place + ": stride: must be at least 1 (got 0)");
     run.has_commands = json.contains("commands_xxh3");
     RefuseUnknownKeys(json,
                       {"version", "embree", "isa", "seed", "inputs", "scenario_xxh3",
-                       "commands_xxh3", "format", "fields", "start_frame", "num_frames"},
+                       "commands_xxh3", "format", "fields", "start_frame", "num_frames", "stride"},
                       place);
     if (!json.contains("isa")) return run;
     run.embree = json.at("embree");

@@ -1,0 +1,201 @@
+#include "analysis/verify/dataset_verification.h"
+
+#include <charconv>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/attempt.h"
+#include "core/base/error.h"
+#include "core/base/input_file.h"
+#include "core/base/text.h"
+#include "core/io/content_hash.h"
+#include "core/io/dataset_files.h"
+#include "core/io/recording/line_reader.h"
+#include "core/io/recording/recorded_json.h"
+#include "core/io/recording/sequence_check.h"
+#include "core/io/recording/sequence_summary.h"
+#include "core/io/sequence_files.h"
+#include "core/io/write_file.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Which scenarios a folder holds, as its dataset.json says.
+struct DatasetContent {
+  std::uint32_t num_scenarios{};  ///< Of the whole data set.
+  std::string recipe_hash;
+  std::uint32_t shard = 1;
+  std::uint32_t num_shards = 1;
+
+  [[nodiscard]] std::uint32_t NumOwn() const {
+    return num_scenarios < shard ? 0 : (num_scenarios - shard) / num_shards + 1;
+  }
+};
+
+/// What a line of scenarios.jsonl says of a sequence.
+struct ScenarioLine {
+  std::uint32_t scenario{};
+  std::string folder;
+  std::string manifest_hash;
+};
+
+DatasetContent ReadContent(const fs::path& directory) {
+  const fs::path file = directory / kDatasetFile;
+  return ReadRecordedJson<StrictJson>(
+      ReadFileWhole(file), ShownPath(file), [&](const StrictJson& json) {
+        DatasetContent content;
+        content.num_scenarios = json.at("num_scenarios");
+        content.recipe_hash = json.at("recipe_xxh3");
+        if (!json.contains("shard")) return content;
+        const std::string shard = json.at("shard");
+        const char* const end = shard.data() + shard.size();
+        const auto number = std::from_chars(shard.data(), end, content.shard);
+        if (number.ptr != end) std::from_chars(number.ptr + 1, end, content.num_shards);
+        if (content.shard == 0 || content.shard > content.num_shards) {
+          throw InputError(ShownPath(file) + ": is damaged: /shard (got " + ShownText(shard) + ")");
+        }
+        return content;
+      });
+}
+
+class DatasetVerifier {
+ public:
+  DatasetVerifier(const fs::path& directory, const std::function<void(double)>& on_progress)
+      : directory_(directory), on_progress_(on_progress), content_(ReadContent(directory)) {
+    known_ = {std::string(kDatasetFile), std::string(kRecipeFile), std::string(kScenariosFile),
+              std::string(kDatasetManifestFile)};
+  }
+
+  Verification Run() {
+    CheckRecipeCopy();
+    if (content_.num_shards == 1) Try([&] { CheckManifest(); });
+    Try([&] { CheckScenarios(); });
+    Try([&] { FindOthers(); });
+    result_.faults = faults_.lines();
+    return std::move(result_);
+  }
+
+ private:
+  template <typename Work>
+  void Try(const Work& work) {
+    static_cast<void>(Attempt("", faults_, [&] { return work(), true; }));
+  }
+  void Fault(const std::string& name, const std::string& rule) {
+    faults_.Add({ShownPath(directory_ / name), rule, ""});
+  }
+
+  // Reads a file and compares its hash.
+  void CheckHash(const std::string& name, const std::string& hash, std::string_view said_in) {
+    known_.insert(name);
+    Try([&] {
+      const std::string bytes = ReadFileWhole(directory_ / name);
+      ++result_.num_files;
+      result_.num_bytes += bytes.size();
+      const std::string got = ContentHash(bytes);
+      if (got == hash) return;
+      Fault(name, "must have the hash " + ShownText(hash) + ", as " + std::string(said_in) +
+                      " says (got " + got + ")");
+    });
+  }
+
+  void CheckRecipeCopy() {
+    CheckHash(std::string(kRecipeFile), content_.recipe_hash, kDatasetFile);
+  }
+
+  void CheckManifest() {
+    const fs::path file = directory_ / kDatasetManifestFile;
+    if (!IsThere(file)) {
+      return Fault(std::string(kDatasetManifestFile), "missing: the data set is unfinished");
+    }
+    const std::string text = ReadFileWhole(file);
+    Try([&] { CheckManifestHash(text, ShownPath(file)); });
+    ReadRecordedJson<StrictJson>(text, ShownPath(file), [&](const StrictJson& json) {
+      for (const auto& [name, hash] : json.at("files_xxh3").items()) {
+        CheckHash(name, hash, kDatasetManifestFile);
+      }
+      return true;
+    });
+  }
+
+  void CheckScenarios() {
+    LineReader lines(directory_ / kScenariosFile);
+    const std::uint32_t num_own = content_.NumOwn();
+    std::uint32_t num_lines = 0;
+    for (; auto line = lines.Next(); ++num_lines) {
+      on_progress_(static_cast<double>(num_lines) / static_cast<double>(num_own));
+      const auto scenario = Attempt("", faults_, [&] {
+        return ReadRecordedJson<StrictJson>(line->text, line->place, [](const StrictJson& json) {
+          return ScenarioLine{json.at("scenario"), json.at("folder"), json.at("manifest_xxh3")};
+        });
+      });
+      if (scenario) CheckScenario(*scenario, num_lines, line->place);
+    }
+    if (num_lines == num_own) return;
+    Fault(std::string(kScenariosFile), "must have a line for each of " + NumberText(num_own) +
+                                           " scenarios (got " + NumberText(num_lines) + ")");
+  }
+
+  void CheckScenario(const ScenarioLine& line, std::uint32_t index, const std::string& place) {
+    const std::uint32_t expected = content_.shard - 1 + index * content_.num_shards;
+    if (line.scenario != expected || line.folder != SequenceFolderOf(expected)) {
+      faults_.Add({place,
+                   "must be the line of scenario " + NumberText(expected) + " in " +
+                       SequenceFolderOf(expected),
+                   ShownText(line.folder)});
+      return;
+    }
+    sequences_.insert(line.folder);
+    const std::string manifest = line.folder + "/" + std::string(kManifestFile);
+    if (IsThere(directory_ / manifest)) CheckHash(manifest, line.manifest_hash, kScenariosFile);
+    Try([&] {
+      const Verification found = VerifySequence(directory_ / line.folder, [](double) {});
+      for (const std::string& fault : found.faults) faults_.AddLine(fault);
+      result_.num_frames += found.num_frames;
+      result_.num_files += found.num_files;
+      result_.num_bytes += found.num_bytes;
+    });
+  }
+
+  // Files of sequences have been looked at with these.
+  void FindOthers() {
+    std::error_code error;
+    fs::recursive_directory_iterator entry(directory_, error);
+    for (const fs::recursive_directory_iterator end; !error && entry != end;
+         entry.increment(error)) {
+      const std::string name = entry->path().lexically_relative(directory_).generic_string();
+      if (entry->symlink_status(error).type() == fs::file_type::directory) {
+        if (sequences_.contains(name)) entry.disable_recursion_pending();
+        continue;
+      }
+      if (!known_.contains(name)) Fault(name, "belongs to no scenario of the data set");
+    }
+    if (error) throw FileError(directory_, error.value());
+  }
+
+  const fs::path& directory_;
+  const std::function<void(double)>& on_progress_;
+  DatasetContent content_;
+  std::set<std::string, std::less<>> known_;
+  std::set<std::string, std::less<>> sequences_;
+  ErrorList faults_;
+  Verification result_;
+};
+
+}  // namespace
+
+bool IsDataset(const fs::path& directory) {
+  return IsThere(directory / kDatasetFile);
+}
+
+Verification VerifyDataset(const fs::path& directory,
+                           const std::function<void(double)>& on_progress) {
+  return DatasetVerifier(directory, on_progress).Run();
+}
+
+}  // namespace railcast

@@ -1,0 +1,155 @@
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <sstream>
+#include <string>
+
+#include "core/base/text.h"
+#include "core/io/dataset_files.h"
+#include "core/io/scenario_identity.h"
+#include "core/io/write_file.h"
+#include "core/program/progress_line.h"
+#include "generator/commands.h"
+#include "generator/dataset/recipe.h"
+#include "generator/dataset/run_dataset.h"
+#include "generator/empty_folder.h"
+#include "generator/run/run_options.h"
+#include "generator/run/stop_signal.h"
+#include "railcast/io/cloud_files.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct DatasetOptions {
+  fs::path recipe;
+  DatasetChoices choices;
+  std::string shard = "1/1";
+  bool has_scenarios_only = false;
+};
+
+constexpr std::uint32_t kMostShards = 100'000;
+
+// Parses "2/7".
+std::optional<Shard> ParseShard(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  if (slash == std::string::npos) return std::nullopt;
+  const auto number = ParseWholeNumber(std::string_view(text).substr(0, slash));
+  const auto of = ParseWholeNumber(std::string_view(text).substr(slash + 1));
+  if (!number || !of || *number < 1 || *number > *of || *of > kMostShards) return std::nullopt;
+  return Shard{static_cast<std::uint32_t>(*number), static_cast<std::uint32_t>(*of)};
+}
+
+std::string ShardRule(const std::string& text) {
+  if (ParseShard(text)) return "";
+  return "must be I/N with I from 1 to N and N at most " + std::to_string(kMostShards) + " (got " +
+         text + ")";
+}
+
+// Writes the scenarios that frames would be made of, without frames.
+int WriteScenarios(const Recipe& recipe, const DatasetOptions& options) {
+  const ScenarioDrawer drawer(recipe);
+  MakeEmptyFolder(options.choices.directory);
+  const Shard& shard = options.choices.shard;
+  CatchStopSignals();
+  for (std::uint32_t i = 0; i < shard.NumOf(recipe.num_scenarios); ++i) {
+    if (StopRequested()) return kExitInterrupted;
+    const std::uint32_t number = shard.ScenarioAt(i);
+    const ScenarioIdentity identity = IdentityOf(drawer.Draw(number).scenario);
+    const fs::path folder = options.choices.directory / SequenceFolderOf(number);
+    fs::create_directories(folder);
+    for (const InputFile& input : identity.inputs) {
+      fs::create_directories((folder / input.CopyName()).parent_path());
+      WriteFileWhole(folder / input.CopyName(), input.bytes);
+    }
+    const fs::path file = folder / "scenario.resolved.json";
+    WriteFileWhole(file, identity.scenario_json);
+    std::cout << ShownPath(file) << '\n';
+  }
+  return kExitSuccess;
+}
+
+std::string SummaryOfRun(const DatasetResult& result, const DatasetOptions& options) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1);
+  if (result.was_complete) {
+    text << "already complete: nothing to do\n";
+  } else {
+    text << "made " << result.num_done - result.num_resumed << " scenarios, " << result.num_frames
+         << " frames in " << result.elapsed_s << " s";
+    if (result.num_frames > 0) {
+      text << " (" << static_cast<double>(result.num_frames) / result.elapsed_s << " frames/s)";
+    }
+    if (result.num_resumed > 0) text << "; " << result.num_resumed << " were already there";
+    text << "\n";
+  }
+  text << result.num_done << " of " << result.num_scenarios << " scenarios in "
+       << ShownPath(options.choices.directory) << "\n";
+  if (result.is_complete && !options.choices.shard.is_whole()) {
+    text << "shard " << options.shard
+         << " is complete; railcast-generate merge makes one data set of all\n";
+  }
+  return text.str();
+}
+
+int RunDatasetCommand(const DatasetOptions& options) {
+  const Recipe recipe = ReadRecipe(options.recipe);
+  if (options.has_scenarios_only) return WriteScenarios(recipe, options);
+  // The folder can be continued however the program ends.
+  CatchStopSignals();
+  const TerminalLine line;
+  const DatasetHooks hooks = {[&](std::uint32_t num_done, std::uint32_t num_scenarios) {
+                                line.Show("scenario " + std::to_string(num_done + 1) + " of " +
+                                          std::to_string(num_scenarios));
+                              },
+                              StopRequested};
+  const DatasetResult result = RunDataset(recipe, options.choices, hooks);
+  line.Clear();
+  std::cout << SummaryOfRun(result, options);
+  if (result.is_complete) return kExitSuccess;
+  std::cerr << "interrupted; the same command continues\n";
+  return kExitInterrupted;
+}
+
+}  // namespace
+
+void AddDataset(CLI::App& app, ProgramCommand& command) {
+  const auto options = std::make_shared<DatasetOptions>();
+  CLI::App* dataset = app.add_subcommand(
+      "dataset",
+      "Write labelled frames of many scenarios, drawn as a recipe says; run the same command again "
+      "to continue an interrupted run");
+  dataset->add_option("RECIPE", options->recipe, "Recipe file")->required()->check(NonEmpty());
+  dataset->add_option("--out", options->choices.directory, "Folder to write the data set to")
+      ->required()
+      ->check(NonEmpty());
+  dataset
+      ->add_option("--shard", options->shard,
+                   "I/N: make only every N-th scenario, beginning with the I-th")
+      ->check([](const std::string& text) { return ShardRule(text); });
+  dataset->add_flag("--scenarios-only", options->has_scenarios_only,
+                    "Write the scenarios without frames, to a new or an empty folder");
+  dataset->add_option("--format", options->choices.format, "File format of the frames")
+      ->check(CLI::IsMember(FrameFormatNames()))
+      ->capture_default_str();
+  dataset
+      ->add_option("--fields", options->choices.fields,
+                   "Fields to write, separated by commas, or all")
+      ->capture_default_str();
+  dataset->add_option("--threads", options->choices.num_threads, "Number of threads; 0 = all cores")
+      ->transform(Whole({0, 1024}))
+      ->capture_default_str();
+  AddIsa(*dataset, options->choices.isa);
+  dataset->footer(
+      "Exit status: 0 success, 1 bad input or failed run, 2 usage, 130 interrupted (the same\n"
+      "command continues).");
+  dataset->callback([&command, options] {
+    CheckFields(options->choices.fields);
+    options->choices.shard = ParseShard(options->shard).value();
+    command = [options](const std::string&) { return RunDatasetCommand(*options); };
+  });
+}
+
+}  // namespace railcast

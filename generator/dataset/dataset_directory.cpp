@@ -1,0 +1,124 @@
+#include "generator/dataset/dataset_directory.h"
+
+#include <system_error>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/input_file.h"
+#include "core/base/text.h"
+#include "core/io/content_hash.h"
+#include "core/io/dataset_files.h"
+#include "core/io/write_file.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What another value of a key means.
+std::string DatasetDifference(const std::string& key, const Json& found, const Json& ours) {
+  if (key == "recipe_xxh3") return "holds a data set of another recipe;";
+  if (key == "bases_xxh3") return "holds a data set of the same recipe with other bases;";
+  if (key == "version") {
+    return "must be continued by the railcast that began it, " + ShownText(found.dump()) +
+           " (got " + ShownText(ours.dump()) + "); use that one, or";
+  }
+  if (key == "embree") {
+    return "must be continued with the Embree that it was begun with, " + ShownText(found.dump()) +
+           " (got " + ShownText(ours.dump()) + ");";
+  }
+  if (key == "isa") {
+    return "must be continued with the instruction set that it was begun with, " +
+           ShownText(found.dump()) + " (got " + ShownText(ours.dump()) + "); add --isa, or";
+  }
+  return "holds another data set: its " + key + " is " + ShownText(found.dump()) + " (got " +
+         ShownText(ours.dump()) + ");";
+}
+
+}  // namespace
+
+Json DatasetJson(const DatasetSpec& spec) {
+  Json json = {{"version", spec.version},
+               {"embree", spec.embree_version},
+               {"isa", spec.isa},
+               {"recipe_xxh3", ContentHash(spec.recipe)},
+               {"bases_xxh3", spec.base_hashes},
+               {"num_scenarios", spec.num_scenarios},
+               {"format", spec.format},
+               {"fields", spec.fields}};
+  if (!spec.shard.is_whole()) {
+    json["shard"] = std::to_string(spec.shard.number) + "/" + std::to_string(spec.shard.of);
+  }
+  return json;
+}
+
+std::vector<std::string> ScenarioLines(const fs::path& directory,
+                                       const Shard& shard,
+                                       std::uint64_t& size) {
+  const fs::path file = directory / kScenariosFile;
+  const std::string text = fs::exists(file) ? ReadFileWhole(file) : "";
+  std::vector<std::string> lines;
+  size = 0;
+  while (true) {
+    const std::size_t end = text.find('\n', size);
+    if (end == std::string::npos) return lines;
+    std::string line = text.substr(size, end - size);
+    const Json json = Json::parse(line, nullptr, false);
+    const std::uint32_t expected = shard.ScenarioAt(static_cast<std::uint32_t>(lines.size()));
+    if (!json.is_object() || json.value("scenario", Json()) != expected) return lines;
+    lines.push_back(std::move(line));
+    size = end + 1;
+  }
+}
+
+DatasetDirectory::DatasetDirectory(DatasetSpec spec) : spec_(std::move(spec)) {
+  const fs::path& directory = spec_.directory;
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (error) throw FileError(directory, error.value());
+  lock_.emplace(directory);
+  const fs::path unfinished =
+      directory / (std::string(kDatasetFile) + std::string(kUnfinishedSuffix));
+  if (fs::exists(directory / kDatasetFile)) {
+    CheckSameDataset();
+  } else {
+    fs::remove(unfinished);
+    if (!fs::is_empty(directory)) {
+      throw InputError(
+          "--out: must be a new or an empty folder, or that of a data set to continue "
+          "(got " +
+          ShownPath(directory) + ")");
+    }
+    WriteFileWhole(directory / kDatasetFile, DatasetJson(spec_).dump(2) + "\n");
+  }
+  is_complete_ = fs::exists(directory / kDatasetManifestFile);
+  if (!is_complete_) WriteFileWhole(directory / kRecipeFile, spec_.recipe);
+  std::uint64_t size = 0;
+  num_done_ = static_cast<std::uint32_t>(ScenarioLines(directory, spec_.shard, size).size());
+  if (!is_complete_) lines_.emplace(directory / kScenariosFile, size);
+}
+
+void DatasetDirectory::CheckSameDataset() const {
+  const fs::path file = spec_.directory / kDatasetFile;
+  const Json found = Json::parse(ReadFileWhole(file), nullptr, false);
+  if (!found.is_object()) throw InputError(ShownPath(file) + ": is damaged: is no JSON object");
+  Json ours = DatasetJson(spec_);
+  if (found.contains("shard") && !ours.contains("shard")) ours["shard"] = nullptr;
+  for (const auto& [key, value] : ours.items()) {
+    const Json other = found.value(key, Json());
+    if (other == value) continue;
+    throw InputError(ShownPath(spec_.directory) + ": " + DatasetDifference(key, other, value) +
+                     " choose another --out");
+  }
+}
+
+void DatasetDirectory::Append(const Json& line) {
+  lines_->Append(line.dump() + "\n");
+  ++num_done_;
+}
+
+void DatasetDirectory::Sync() {
+  if (lines_) lines_->Sync();
+}
+
+}  // namespace railcast

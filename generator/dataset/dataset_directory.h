@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scenario/json_text.h"
+#include "generator/run/folder_lock.h"
+#include "generator/sequence/line_file.h"
+
+namespace railcast {
+
+/// Every `of`-th scenario, beginning with number - 1.
+struct Shard {
+  std::uint32_t number = 1;  ///< From 1 to `of`.
+  std::uint32_t of = 1;
+
+  [[nodiscard]] bool is_whole() const { return of == 1; }
+  /// Number of its scenarios.
+  [[nodiscard]] std::uint32_t NumOf(std::uint32_t num_scenarios) const {
+    return num_scenarios < number ? 0 : (num_scenarios - number) / of + 1;
+  }
+  /// Its i-th scenario.
+  [[nodiscard]] std::uint32_t ScenarioAt(std::uint32_t i) const { return number - 1 + i * of; }
+};
+
+/// Everything that the bytes of a data set depend on.
+struct DatasetSpec {
+  std::filesystem::path directory;
+  std::string version;         ///< ProgramVersion().
+  std::string embree_version;  ///< EmbreeVersion().
+  std::string isa;             ///< IsaInUse() of the trace.
+  std::string recipe;          ///< Its text.
+  std::vector<std::string> base_hashes;
+  std::uint32_t num_scenarios{};
+  std::string format;
+  std::string fields;
+  Shard shard;
+};
+
+/// dataset.json of a data set.
+[[nodiscard]] Json DatasetJson(const DatasetSpec& spec);
+
+/// A folder with a data set, complete or unfinished: dataset.json, recipe.json, scenarios.jsonl
+/// with a line for each scenario that is done, and sequences/NNN/NNNNNN. manifest.json says that it
+/// is complete.
+class DatasetDirectory {
+ public:
+  /// Creates the folder, or opens it and finds out how far its run has got.
+  /// @throws InputError if it holds anything else, belongs to another data set, or is being written
+  ///   by another process.
+  explicit DatasetDirectory(DatasetSpec spec);
+
+  /// Whether manifest.json exists.
+  [[nodiscard]] bool is_complete() const { return is_complete_; }
+  /// Number of the shard's scenarios that are done.
+  [[nodiscard]] std::uint32_t num_done() const { return num_done_; }
+  [[nodiscard]] const DatasetSpec& spec() const { return spec_; }
+
+  /// Adds the line of the next scenario, whose sequence is complete.
+  void Append(const Json& line);
+  /// Waits until all lines are on the disk.
+  void Sync();
+
+ private:
+  void CheckSameDataset() const;
+
+  DatasetSpec spec_;
+  std::optional<FolderLock> lock_;
+  std::optional<LineFile> lines_;
+  std::uint32_t num_done_ = 0;
+  bool is_complete_ = false;
+};
+
+/// Returns the whole lines of scenarios.jsonl up to the first that is not the one expected there.
+/// @param size Becomes the size of these lines in bytes.
+[[nodiscard]] std::vector<std::string> ScenarioLines(const std::filesystem::path& directory,
+                                                     const Shard& shard,
+                                                     std::uint64_t& size);
+
+}  // namespace railcast

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "generator/dataset/dataset_directory.h"
+
+namespace railcast {
+
+/// Writes the files about all scenarios of a data set whose sequences are complete: index.jsonl,
+/// index.sqlite, split/*.txt, report.json and, last, manifest.json with the hashes of all. They
+/// depend on the files of the sequences alone, so that a merged data set has the same bytes as one
+/// that was made at once.
+/// @throws InputError if a sequence cannot be read or the system refuses.
+void WriteDatasetFiles(const DatasetSpec& spec);
+
+}  // namespace railcast

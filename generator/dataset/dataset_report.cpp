@@ -1,0 +1,155 @@
+#include "generator/dataset/dataset_report.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "core/base/text.h"
+
+namespace railcast {
+namespace {
+
+constexpr std::array<double, 7> kDistances_m = {10, 25, 50, 75, 100, 150, 200};
+constexpr std::array<double, 4> kOcclusions = {0.25, 0.5, 0.75, 1.0};
+
+// Index of the first limit above the value; the number of limits if there is none.
+template <std::size_t kCount>
+std::size_t BinOf(const std::array<double, kCount>& limits, double value) {
+  return static_cast<std::size_t>(std::ranges::upper_bound(limits, value) - limits.begin());
+}
+
+// Limits and counts: {"0 to 10 m": 5, ..., "200 m and more": 7}.
+template <std::size_t kCount>
+Json ByDistance(const std::array<std::uint64_t, kCount>& counts) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const std::string from = i == 0 ? "0" : NumberText(kDistances_m[i - 1]);
+    const std::string name = i < kDistances_m.size()
+                                 ? from + " to " + NumberText(kDistances_m[i]) + " m"
+                                 : from + " m and more";
+    json[name] = counts[i];
+  }
+  return json;
+}
+
+template <std::size_t kCount>
+Json ByOcclusion(const std::array<std::uint64_t, kCount>& counts) {
+  return {{"less than 0.25", counts[0]}, {"0.25 to 0.5", counts[1]}, {"0.5 to 0.75", counts[2]},
+          {"0.75 to 1", counts[3]},      {"1", counts[4]},           {"not visible", counts[5]}};
+}
+
+double ShareOf(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+// The weather in words: "dry", "rain", "rain, fog", ...
+std::string WeatherInWords(const Json& weather) {
+  const auto is_positive = [&](const char* key) {
+    const Json value = weather.value(key, Json());
+    return value.is_number() && value.get<double>() > 0.0;
+  };
+  std::string words;
+  const auto add = [&](bool applies, const char* word) {
+    if (applies) words += (words.empty() ? "" : ", ") + std::string(word);
+  };
+  constexpr double kFoggy_m = 1000.0;  // International definition of fog.
+  const Json visibility_m = weather.value("visibility_m", Json());
+  const Json density = weather.value("fog_density_per_m", Json());
+  constexpr double kFoggy_per_m = 3.0 / kFoggy_m;
+  add(is_positive("rain_rate_mmph"), "rain");
+  add(is_positive("snow_rate_mmph"), "snow");
+  add((visibility_m.is_number() && visibility_m.get<double>() <= kFoggy_m) ||
+          (density.is_number() && density.get<double>() >= kFoggy_per_m),
+      "fog");
+  return words.empty() ? "dry" : words;
+}
+
+}  // namespace
+
+void DatasetReport::Add(const IndexedScenario& scenario) {
+  const Json& record = scenario.record;
+  const auto number = record.at("scenario").get<std::uint64_t>();
+  PerSplit& split = splits_[record.at("split").get<std::string>()];
+  ++split.scenarios;
+  frames_by_base_[record.at("base").get<std::string>()] += scenario.frames.size();
+  frames_by_sensor_[record.at("sensor").get<std::string>()] += scenario.frames.size();
+  for (const auto& [name, value] : record.at("drawn").items()) {
+    if (value.is_string() || value.is_boolean()) {
+      ++drawn_[name][value.is_string() ? value.get<std::string>() : value.dump()];
+    }
+  }
+  ++weathers_[WeatherInWords(record.at("weather"))];
+  for (const IndexedFrame& frame : scenario.frames) AddFrame(frame, number, split);
+}
+
+void DatasetReport::AddFrame(const IndexedFrame& frame, std::uint64_t scenario, PerSplit& split) {
+  ++num_frames_;
+  ++split.frames;
+  const FrameCounts& counts = frame.record.counts;
+  split.points += counts.points;
+  counts_.Add(counts);
+  for (const auto& [label, points] : counts.points_per_label) ++frames_with_label_[label];
+  std::string hashes;
+  for (const WrittenFile& file : frame.record.files) hashes += file.hash;
+  ++frames_by_hash_[hashes];
+  if (counts.points == 0) ++frames_without_points_;
+  bool has_object = false;
+  for (const IndexedObject& object : frame.objects) {
+    AddObject(object, scenario);
+    has_object = has_object || object.points > 0;
+  }
+  if (!has_object) ++frames_without_objects_;
+}
+
+void DatasetReport::AddObject(const IndexedObject& object, std::uint64_t scenario) {
+  PerType& type = types_[object.type];
+  ++type.in_frames;
+  if (object.points > 0) ++type.with_points;
+  type.points += object.points;
+  type.distinct.emplace(scenario, object.name);
+  const std::size_t distance = BinOf(kDistances_m, object.distance_m);
+  ++type.by_distance[distance];
+  type.points_by_distance[distance] += object.points;
+  const std::size_t occlusion =
+      object.occlusion ? BinOf(kOcclusions, *object.occlusion) : kNumOcclusions - 1;
+  ++type.by_occlusion[occlusion];
+}
+
+Json DatasetReport::Write() const {
+  Json splits = Json::object();
+  for (const auto& [name, split] : splits_) {
+    splits[name] = {
+        {"scenarios", split.scenarios}, {"frames", split.frames}, {"points", split.points}};
+  }
+  Json labels = Json::object();
+  for (const auto& [label, points] : counts_.points_per_label) {
+    labels[label] = {{"points", points},
+                     {"share", ShareOf(points, counts_.points)},
+                     {"frames", frames_with_label_.at(label)}};
+  }
+  Json types = Json::object();
+  for (const auto& [name, type] : types_) {
+    types[name] = {{"objects", type.distinct.size()},
+                   {"in_frames", type.in_frames},
+                   {"with_points", type.with_points},
+                   {"points", type.points},
+                   {"by_distance", ByDistance(type.by_distance)},
+                   {"points_by_distance", ByDistance(type.points_by_distance)},
+                   {"by_occlusion", ByOcclusion(type.by_occlusion)}};
+  }
+  Json report = {{"num_frames", num_frames_}, {"splits", std::move(splits)}};
+  report["frames_without_points"] = frames_without_points_;
+  report["frames_without_objects"] = frames_without_objects_;
+  // Of frames with the same bytes, all but one.
+  report["duplicate_frames"] = num_frames_ - frames_by_hash_.size();
+  PutCounts(counts_, report);
+  report["labels"] = std::move(labels);
+  report["objects"] = std::move(types);
+  report["weathers"] = weathers_;
+  report["drawn"] = drawn_;
+  report["frames_by_base"] = frames_by_base_;
+  report["frames_by_sensor"] = frames_by_sensor_;
+  return report;
+}
+
+}  // namespace railcast

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <unordered_map>
+
+#include "core/scenario/json_text.h"
+#include "generator/dataset/indexed_scenario.h"
+
+namespace railcast {
+
+/// Counts what a data set holds: balance of the classes, objects by distance and occlusion,
+/// weathers, frames that are the same or hold nothing.
+class DatasetReport {
+ public:
+  void Add(const IndexedScenario& scenario);
+
+  /// report.json.
+  [[nodiscard]] Json Write() const;
+
+ private:
+  static constexpr std::size_t kNumDistances = 8;
+  static constexpr std::size_t kNumOcclusions = 6;
+
+  struct PerSplit {
+    std::uint64_t scenarios{};
+    std::uint64_t frames{};
+    std::uint64_t points{};
+  };
+  /// Of one type of object.
+  struct PerType {
+    std::uint64_t in_frames{};  ///< Objects, counted in each frame.
+    std::uint64_t with_points{};
+    std::uint64_t points{};
+    std::set<std::pair<std::uint64_t, std::string>> distinct;  ///< By scenario and name.
+    std::array<std::uint64_t, kNumDistances> by_distance{};
+    std::array<std::uint64_t, kNumDistances> points_by_distance{};
+    std::array<std::uint64_t, kNumOcclusions> by_occlusion{};  ///< Last: not visible even alone.
+  };
+  void AddFrame(const IndexedFrame& frame, std::uint64_t scenario, PerSplit& split);
+  void AddObject(const IndexedObject& object, std::uint64_t scenario);
+
+  std::map<std::string, PerSplit> splits_;
+  std::map<std::string, std::uint64_t> frames_by_base_;
+  std::map<std::string, std::uint64_t> frames_by_sensor_;
+  std::map<std::string, std::map<std::string, std::uint64_t>> drawn_;  ///< Words, by draw.
+  std::map<std::string, std::uint64_t> weathers_;                      ///< Scenarios.
+  FrameCounts counts_;
+  std::map<std::string, std::uint64_t> frames_with_label_;
+  std::map<std::string, PerType> types_;
+  std::unordered_map<std::string, std::uint64_t> frames_by_hash_;
+  std::uint64_t num_frames_ = 0;
+  std::uint64_t frames_without_points_ = 0;
+  std::uint64_t frames_without_objects_ = 0;
+};
+
+}  // namespace railcast

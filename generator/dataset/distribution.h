@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/scenario/json_text.h"
+#include "generator/dataset/keyed_draws.h"
+
+namespace railcast {
+
+/// Uniform in [min, max).
+struct UniformDraw {
+  double min{};
+  double max{};
+};
+
+/// A normal distribution, cut off at `min` and `max` where they are given: draws beyond are drawn
+/// again.
+struct NormalDraw {
+  double mean{};
+  double sd{};
+  std::optional<double> min;
+  std::optional<double> max;
+};
+
+/// Uniform in the logarithm: as many between 1 and 10 as between 10 and 100.
+struct LogUniformDraw {
+  double min{};
+  double max{};
+};
+
+/// Whole numbers from min to max, each as often.
+struct IntegerDraw {
+  double min{};
+  double max{};
+};
+
+/// A list of any JSON values.
+struct JsonList {
+  std::vector<Json> values;
+};
+
+/// One weight for each value of a choice; empty: all are equal.
+struct ChoiceWeights {
+  std::vector<double> values;
+};
+
+/// One of several values, which may be objects and lists.
+struct ChoiceDraw {
+  JsonList values;
+  ChoiceWeights weights;
+};
+
+/// What a value of a scenario is drawn from.
+using Distribution = std::variant<UniformDraw, NormalDraw, LogUniformDraw, IntegerDraw, ChoiceDraw>;
+
+/// Draws a value. Numbers have nine significant digits, so that they do not depend on the last bits
+/// of the mathematics library.
+/// @param name Of the draw (KeyedDraws).
+/// @param turn Counts attempts: each draws anew.
+[[nodiscard]] Json DrawValue(const Distribution& distribution,
+                             const KeyedDraws& draws,
+                             const std::string& name,
+                             std::uint32_t turn = 0);
+
+/// The values between which all others lie, or all values of a choice. A normal distribution
+/// without bounds has its mean.
+[[nodiscard]] std::vector<Json> ExtremesOf(const Distribution& distribution);
+
+/// Index of one of several weights, each in proportion to its value.
+/// @pre Their sum is positive.
+[[nodiscard]] std::size_t IndexByWeight(const std::vector<double>& weights, double unit);
+
+/// Share of a normal distribution between its bounds.
+[[nodiscard]] double ShareWithin(const NormalDraw& normal);
+
+}  // namespace railcast

@@ -1,0 +1,105 @@
+#include "generator/dataset/indexed_scenario.h"
+
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/io/recording/recorded_json.h"
+#include "core/io/sequence_files.h"
+#include "core/io/strict_json.h"
+#include "core/io/write_file.h"
+
+namespace railcast {
+namespace {
+
+IndexedObject IndexedObjectOf(const StrictJson& json) {
+  IndexedObject object{.name = json.at("name"),
+                       .type = json.at("type"),
+                       .label = json.at("label"),
+                       .instance = json.at("instance"),
+                       .distance_m = 0.0,
+                       .points = json.at("points"),
+                       .firings_visible = json.at("firings_visible"),
+                       .firings_alone = json.at("firings_alone"),
+                       .occlusion = {}};
+  const auto center_m = json.at("sensor").at("center_m").get<std::array<double, 3>>();
+  constexpr double kMillimetres = 1e3;
+  object.distance_m =
+      std::round(std::hypot(center_m[0], center_m[1], center_m[2]) * kMillimetres) / kMillimetres;
+  if (!json.at("occlusion").is_null()) object.occlusion = json.at("occlusion").get<double>();
+  return object;
+}
+
+Json ObjectJson(const IndexedObject& object) {
+  Json json = {{"name", object.name},
+               {"type", object.type},
+               {"label", object.label},
+               {"instance", object.instance},
+               {"distance_m", object.distance_m},
+               {"points", object.points},
+               {"firings_visible", object.firings_visible},
+               {"firings_alone", object.firings_alone},
+               {"occlusion", nullptr}};
+  if (object.occlusion) json["occlusion"] = *object.occlusion;
+  return json;
+}
+
+}  // namespace
+
+IndexedScenario ReadIndexedScenario(const std::filesystem::path& dataset, const std::string& line) {
+  IndexedScenario scenario{Json::parse(line), {}};
+  const std::filesystem::path folder = dataset / scenario.record.at("folder").get<std::string>();
+  std::istringstream frames(ReadFileWhole(folder / kFramesFile));
+  std::istringstream objects(ReadFileWhole(folder / kObjectsFile));
+  const Json& s_m = scenario.record.at("vehicle_s_m");
+  const Json& speed_mps = scenario.record.at("vehicle_speed_mps");
+  const std::string place = ShownPath(folder / kFramesFile);
+  std::string frame_line;
+  std::string objects_line;
+  for (std::size_t i = 0; std::getline(frames, frame_line); ++i) {
+    auto record = ParseFrameLine(frame_line);
+    if (!record || i >= s_m.size() || !std::getline(objects, objects_line)) {
+      throw InputError(place + ": is damaged at line " + std::to_string(i + 1));
+    }
+    IndexedFrame frame{std::move(*record), s_m[i].get<double>(), speed_mps[i].get<double>(), {}};
+    ReadRecordedJson<StrictJson>(objects_line, ShownPath(folder / kObjectsFile),
+                                 [&](const StrictJson& json) {
+                                   for (const StrictJson& object : json.at("objects")) {
+                                     frame.objects.push_back(IndexedObjectOf(object));
+                                   }
+                                   return true;
+                                 });
+    scenario.frames.push_back(std::move(frame));
+  }
+  if (scenario.frames.size() == s_m.size()) return scenario;
+  throw InputError(place + ": must have a line for each of " + NumberText(s_m.size()) +
+                   " frames (got " + NumberText(scenario.frames.size()) + ")");
+}
+
+std::string IndexLines(const IndexedScenario& scenario) {
+  const Json& record = scenario.record;
+  std::string lines;
+  for (const IndexedFrame& frame : scenario.frames) {
+    Json files = Json::array();
+    for (const WrittenFile& file : frame.record.files) files.push_back(file.name);
+    Json objects = Json::array();
+    for (const IndexedObject& object : frame.objects) objects.push_back(ObjectJson(object));
+    Json line = {
+        {"scenario", record.at("scenario")}, {"frame", frame.record.frame},
+        {"split", record.at("split")},       {"folder", record.at("folder")},
+        {"files", std::move(files)},         {"stamp_ns", frame.record.stamp_ns},
+        {"base", record.at("base")},         {"line", record.at("line")},
+        {"vehicle_s_m", frame.vehicle_s_m},  {"vehicle_speed_mps", frame.vehicle_speed_mps}};
+    PutCounts(frame.record.counts, line);
+    line["objects"] = std::move(objects);
+    line["drawn"] = record.at("drawn");
+    line["weather"] = record.at("weather");
+    lines += line.dump() + "\n";
+  }
+  return lines;
+}
+
+}  // namespace railcast

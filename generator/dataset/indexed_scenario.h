@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scenario/json_text.h"
+#include "generator/sequence/frame_record.h"
+
+namespace railcast {
+
+/// What the index says of an object in a frame.
+struct IndexedObject {
+  std::string name;
+  std::string type;
+  std::string label;
+  std::uint32_t instance{};
+  double distance_m{};  ///< From the sensor to the centre of its box.
+  std::uint32_t points{};
+  std::uint32_t firings_visible{};
+  std::uint32_t firings_alone{};
+  std::optional<double> occlusion;
+};
+
+/// What the index says of a frame.
+struct IndexedFrame {
+  FrameRecord record;
+  double vehicle_s_m{};
+  double vehicle_speed_mps{};
+  std::vector<IndexedObject> objects;
+};
+
+/// A scenario's line of scenarios.jsonl and its frames.
+struct IndexedScenario {
+  Json record;
+  std::vector<IndexedFrame> frames;
+};
+
+/// Reads a scenario and the records of its sequence.
+/// @param line Of scenarios.jsonl.
+/// @throws InputError if a file of the sequence cannot be read or is damaged.
+[[nodiscard]] IndexedScenario ReadIndexedScenario(const std::filesystem::path& dataset,
+                                                  const std::string& line);
+
+/// Lines of index.jsonl, one for each frame.
+[[nodiscard]] std::string IndexLines(const IndexedScenario& scenario);
+
+}  // namespace railcast

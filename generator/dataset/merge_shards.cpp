@@ -1,0 +1,173 @@
+#include "generator/dataset/merge_shards.h"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/base/attempt.h"
+#include "core/base/error.h"
+#include "core/base/input_file.h"
+#include "core/base/text.h"
+#include "core/io/content_hash.h"
+#include "core/io/dataset_files.h"
+#include "core/io/sequence_files.h"
+#include "core/io/write_file.h"
+#include "generator/dataset/dataset_directory.h"
+#include "generator/dataset/dataset_files.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A shard that is to be merged.
+struct GivenShard {
+  DatasetSpec spec;
+  std::vector<std::string> lines;
+};
+
+Shard ParseShardName(const std::string& text) {
+  Shard shard;
+  const char* const end = text.data() + text.size();
+  const auto number = std::from_chars(text.data(), end, shard.number);
+  if (number.ptr != end) std::from_chars(number.ptr + 1, end, shard.of);
+  return shard;
+}
+
+GivenShard ReadShard(const fs::path& directory) {
+  const fs::path file = directory / kDatasetFile;
+  const std::string text = ReadFileWhole(file);
+  GivenShard given;
+  try {
+    const Json json = Json::parse(text);
+    given.spec = {.directory = directory,
+                  .version = json.at("version"),
+                  .embree_version = json.at("embree"),
+                  .isa = json.at("isa"),
+                  .recipe = ReadFileWhole(directory / kRecipeFile),
+                  .base_hashes = json.at("bases_xxh3"),
+                  .num_scenarios = json.at("num_scenarios"),
+                  .format = json.at("format"),
+                  .fields = json.at("fields"),
+                  .shard = {}};
+    if (!json.contains("shard")) throw InputError(ShownPath(directory) + ": is no shard");
+    given.spec.shard = ParseShardName(json.at("shard"));
+  } catch (const Json::exception&) {
+    throw InputError(ShownPath(file) + ": is damaged");
+  }
+  if (DatasetJson(given.spec).dump(2) + "\n" != text) {
+    throw InputError(ShownPath(file) + ": is damaged: does not suit recipe.json");
+  }
+  std::uint64_t size = 0;
+  given.lines = ScenarioLines(directory, given.spec.shard, size);
+  const std::uint32_t num_scenarios = given.spec.shard.NumOf(given.spec.num_scenarios);
+  if (given.lines.size() == num_scenarios) return given;
+  throw InputError(ShownPath(directory) + ": is unfinished, with " +
+                   std::to_string(given.lines.size()) + " of " + std::to_string(num_scenarios) +
+                   " scenarios; the command that began it continues");
+}
+
+std::string WithoutShard(DatasetSpec spec) {
+  spec.shard = {};
+  return DatasetJson(spec).dump();
+}
+
+// Returns the shards by their numbers.
+std::vector<GivenShard> ReadShards(const std::vector<fs::path>& directories) {
+  ErrorList errors;
+  std::vector<GivenShard> shards;
+  for (const fs::path& directory : directories) {
+    if (auto shard = Attempt("", errors, [&] { return ReadShard(directory); })) {
+      shards.push_back(std::move(*shard));
+    }
+  }
+  errors.ThrowIfAny();
+  std::ranges::stable_sort(shards, {},
+                           [](const GivenShard& shard) { return shard.spec.shard.number; });
+  const DatasetSpec& first = shards.front().spec;
+  std::uint32_t expected = 1;
+  for (const auto& [spec, lines] : shards) {
+    const std::string place = ShownPath(spec.directory);
+    if (WithoutShard(spec) != WithoutShard(first) || spec.shard.of != first.shard.of) {
+      errors.Add({place, "is a shard of another data set than " + ShownPath(first.directory), ""});
+    } else if (spec.shard.number < expected) {
+      errors.Add({place, "is a second shard " + std::to_string(spec.shard.number), ""});
+    }
+    for (; expected < spec.shard.number; ++expected) {
+      errors.AddLine("shard " + std::to_string(expected) + " of " + std::to_string(first.shard.of) +
+                     " is missing");
+    }
+    expected = std::max(expected, spec.shard.number + 1);
+  }
+  for (; expected <= first.shard.of; ++expected) {
+    errors.AddLine("shard " + std::to_string(expected) + " of " + std::to_string(first.shard.of) +
+                   " is missing");
+  }
+  errors.ThrowIfAny();
+  return shards;
+}
+
+// Links or copies a file. One that is there already must have the same bytes.
+void PutFile(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::create_hard_link(from, to, error);
+  if (!error) return;
+  if (fs::exists(to)) {
+    if (fs::equivalent(from, to)) return;
+    const std::string bytes = ReadFileWhole(from);
+    if (ReadFileWhole(to) != bytes) WriteFileWhole(to, bytes);
+    return;
+  }
+  WriteFileWhole(to, ReadFileWhole(from));
+}
+
+void PutSequence(const fs::path& from, const fs::path& to) {
+  fs::create_directories(to);
+  std::error_code error;
+  fs::recursive_directory_iterator entry(from, error);
+  for (const fs::recursive_directory_iterator end; !error && entry != end; entry.increment(error)) {
+    const fs::path target = to / entry->path().lexically_relative(from);
+    if (entry->is_directory()) {
+      fs::create_directories(target);
+    } else {
+      PutFile(entry->path(), target);
+    }
+  }
+  if (error) throw FileError(from, error.value());
+}
+
+}  // namespace
+
+std::uint32_t MergeShards(
+    const std::vector<fs::path>& directories,
+    const fs::path& out,
+    const std::function<void(std::uint32_t num_done, std::uint32_t num_scenarios)>& on_progress) {
+  const std::vector<GivenShard> shards = ReadShards(directories);
+  DatasetSpec spec = shards.front().spec;
+  spec.directory = out;
+  spec.shard = {};
+  const auto num_shards = static_cast<std::uint32_t>(shards.size());
+  DatasetDirectory merged(spec);
+  if (merged.is_complete()) return spec.num_scenarios;
+  while (merged.num_done() < spec.num_scenarios) {
+    const std::uint32_t number = merged.num_done();
+    on_progress(number, spec.num_scenarios);
+    const auto& [shard, lines] = shards[number % num_shards];
+    const Json line = Json::parse(lines[number / num_shards]);
+    const std::string folder = line.at("folder");
+    const fs::path manifest = shard.directory / folder / kManifestFile;
+    if (ContentHash(ReadFileWhole(manifest)) != line.at("manifest_xxh3")) {
+      throw InputError(ShownPath(manifest) + ": must have the hash " +
+                       line.at("manifest_xxh3").get<std::string>() + ", as scenarios.jsonl says");
+    }
+    PutSequence(shard.directory / folder, out / folder);
+    merged.Append(line);
+  }
+  merged.Sync();
+  WriteDatasetFiles(merged.spec());
+  return spec.num_scenarios;
+}
+
+}  // namespace railcast

@@ -1,0 +1,148 @@
+#include "generator/dataset/object_placement.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/scene/object_contacts.h"
+#include "generator/check/gauge_entries.h"
+#include "generator/dataset/object_template.h"
+#include "railcast/scenario.h"
+
+namespace railcast {
+namespace {
+
+std::string AtFrame(std::uint32_t frame) {
+  return " in frame " + std::to_string(frame);
+}
+
+/// Looks whether an object of a world may stand where it stands.
+class PlaceCheck {
+ public:
+  PlaceCheck(const RailWorld& world, const std::string& name, const MadeStamps& stamps)
+      : world_(world), stamps_(stamps) {
+    const auto same = std::ranges::find(world.objects(), name, &SceneObject::name);
+    Check(same != world.objects().end(), "a placed object is in its world");
+    object_ = static_cast<std::size_t>(same - world.objects().begin());
+  }
+
+  /// What it meets; nothing if it meets nothing.
+  [[nodiscard]] std::optional<std::string> Collision() const {
+    ContactFinder finder(world_);
+    for (std::size_t i = 0; i < stamps_.frames.size(); ++i) {
+      for (const ObjectContact& contact : finder.FindAll(stamps_.stamps_ns[i])) {
+        if (contact.one != object_ && contact.other != object_) continue;
+        const std::size_t other = contact.one == object_ ? contact.other : contact.one;
+        return "it meets \"" + world_.objects()[other].name + "\"" + AtFrame(stamps_.frames[i]);
+      }
+      if (AreStillBetween(world_, stamps_.stamps_ns[i], stamps_.stamps_ns.back())) break;
+    }
+    return std::nullopt;
+  }
+
+  /// How it breaks the rule; nothing if it does not.
+  [[nodiscard]] std::optional<std::string> GaugeFault(const ScenarioSpec& scenario,
+                                                      GaugeRule rule) const {
+    if (rule == GaugeRule::kAny) return std::nullopt;
+    const ObjectSpec& spec = scenario.world.objects.back();
+    const bool is_on_its_track = IsRailVehicle(spec.type) && spec.d_m == 0.0;
+    const bool moves = world_.objects()[object_].moves;
+    for (std::size_t i = 0; i < (moves ? stamps_.frames.size() : 1); ++i) {
+      const std::vector<GaugeEntry> entries =
+          FindObjectInGauge(scenario.world, world_, object_, is_on_its_track, stamps_.stamps_ns[i]);
+      if (entries.empty()) continue;
+      if (rule == GaugeRule::kFoul) return std::nullopt;
+      return "it is in the gauge of track \"" + entries.front().track + "\"" +
+             AtFrame(stamps_.frames[i]);
+    }
+    if (rule == GaugeRule::kClear) return std::nullopt;
+    return "it is in no track's gauge";
+  }
+
+ private:
+  const RailWorld& world_;
+  const MadeStamps& stamps_;
+  std::size_t object_ = 0;
+};
+
+/// Places objects in one scenario.
+class ObjectPlacer {
+ public:
+  ObjectPlacer(const Recipe& recipe,
+               const KeyedDraws& draws,
+               const MadeStamps& stamps,
+               std::shared_ptr<const RailWorld> world,
+               DraftedScenario& draft)
+      : recipe_(recipe), draws_(draws), stamps_(stamps), world_(std::move(world)), draft_(draft) {}
+
+  Json PlaceAll() {
+    for (std::size_t i = 0; i < recipe_.objects.size(); ++i) {
+      const PlacedObjects& objects = recipe_.objects[i];
+      const auto count =
+          DrawValue(objects.count, draws_, "object\n" + objects.name + "\ncount").get<double>();
+      for (std::uint32_t k = 1; k <= static_cast<std::uint32_t>(count); ++k) Place(i, k);
+    }
+    return std::move(placed_);
+  }
+
+ private:
+  void Place(std::size_t index, std::uint32_t number) {
+    std::string obstacle;
+    for (std::uint32_t attempt = 0; attempt < kMostAttempts; ++attempt) {
+      const ObjectDraw drawn = DrawObject(recipe_, index, {draws_, number, attempt, {}}, draft_);
+      DraftedScenario trial = draft_;
+      AddObject(drawn, recipe_, index, trial);
+      obstacle = TryPlace(trial, recipe_.objects[index].gauge);
+      if (!obstacle.empty()) continue;
+      draft_ = std::move(trial);
+      placed_.push_back({{"name", drawn.object["name"]},
+                         {"s_m", drawn.object["s_m"]},
+                         {"ahead_m", drawn.ahead_m},
+                         {"attempt", attempt + 1},
+                         {"drawn", drawn.drawn}});
+      return;
+    }
+    const std::string name = recipe_.objects[index].name + "/" + std::to_string(number);
+    throw InputError(std::vector<Fault>{draft_.FaultAt(
+        "/objects/" + std::to_string(index), "no place for \"" + name + "\" in " +
+                                                 std::to_string(kMostAttempts) +
+                                                 " attempts; at the last one " + obstacle)});
+  }
+
+  // Returns why the trial's last object cannot stand there; empty if it can: then it is in world_.
+  std::string TryPlace(const DraftedScenario& trial, GaugeRule rule) {
+    const ScenarioSpec scenario = trial.Read();
+    const ObjectSpec& object = scenario.world.objects.back();
+    std::shared_ptr<const RailWorld> world;
+    try {
+      world = world_->WithObject(object, 0);
+    } catch (const InputError& error) {
+      return std::string("it cannot stand there: ") + error.what();
+    }
+    const PlaceCheck check(*world, object.name, stamps_);
+    if (auto fault = check.GaugeFault(scenario, rule)) return *fault;
+    if (auto fault = check.Collision()) return *fault;
+    world_ = std::move(world);
+    return "";
+  }
+
+  const Recipe& recipe_;
+  const KeyedDraws& draws_;
+  const MadeStamps& stamps_;
+  std::shared_ptr<const RailWorld> world_;
+  DraftedScenario& draft_;
+  Json placed_ = Json::array();
+};
+
+}  // namespace
+
+Json PlaceObjects(const Recipe& recipe,
+                  const KeyedDraws& draws,
+                  const MadeStamps& stamps,
+                  std::shared_ptr<const RailWorld> world,
+                  DraftedScenario& draft) {
+  return ObjectPlacer(recipe, draws, stamps, std::move(world), draft).PlaceAll();
+}
+
+}  // namespace railcast

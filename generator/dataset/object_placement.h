@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/scenario/json_text.h"
+#include "generator/dataset/drafted_scenario.h"
+#include "generator/dataset/keyed_draws.h"
+#include "generator/dataset/recipe.h"
+#include "railcast/rail_world.h"
+
+namespace railcast {
+
+/// The moments at which placed objects are compared with all else.
+struct MadeStamps {
+  std::vector<std::uint32_t> frames;    ///< Frame 0 and those that are made.
+  std::vector<std::int64_t> stamps_ns;  ///< Theirs.
+};
+
+/// How often an object is drawn anew until it finds a place.
+inline constexpr std::uint32_t kMostAttempts = 100;
+
+/// Places the recipe's objects in a scenario, one after the other. Each is drawn anew while it
+/// touches or overlaps another object or the sensor's vehicle in any frame, breaks the rule about
+/// the structure gauge, or cannot stand there at all.
+/// @param world The world of the draft without them.
+/// @return A list of what was placed: name, s_m, ahead_m, attempt and what was drawn.
+/// @throws InputError if an object finds no place.
+[[nodiscard]] Json PlaceObjects(const Recipe& recipe,
+                                const KeyedDraws& draws,
+                                const MadeStamps& stamps,
+                                std::shared_ptr<const RailWorld> world,
+                                DraftedScenario& draft);
+
+}  // namespace railcast

@@ -1,0 +1,292 @@
+#include "generator/dataset/recipe_check.h"
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/attempt.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/scenario/json_source.h"
+#include "generator/dataset/dataset_split.h"
+#include "generator/dataset/drafted_scenario.h"
+#include "generator/dataset/json_place.h"
+#include "generator/dataset/object_template.h"
+#include "generator/dataset/recipe_bases.h"
+#include "generator/dataset/recipe_values.h"
+
+namespace railcast {
+namespace {
+
+/// A place of the scenario that the recipe gives a value, and the key that gives it.
+struct Written {
+  std::string pointer;
+  std::string recipe_pointer;
+};
+
+std::vector<Written> WrittenBy(const SetList& set, const std::string& place) {
+  std::vector<Written> written;
+  for (const PointedValue& value : set.values) {
+    written.push_back({value.pointer, place + PointerStep(value.pointer)});
+  }
+  return written;
+}
+
+std::vector<Written> WrittenBy(const DrawList& draws, const std::string& place) {
+  std::vector<Written> written;
+  for (const PointedDraw& draw : draws.draws) {
+    written.push_back({draw.pointer, place + PointerStep(draw.pointer)});
+  }
+  return written;
+}
+
+std::string IndexStep(std::size_t index) {
+  return "/" + std::to_string(index);
+}
+
+/// Checks the rules that concern several keys.
+class KeyCheck {
+ public:
+  KeyCheck(const Recipe& recipe, ErrorList& errors)
+      : recipe_(recipe), shown_(ShownPath(recipe.file.lexically_normal())), errors_(errors) {}
+
+  void Run() {
+    CheckOverwriting();
+    CheckNumbers();
+    CheckOptionNames();
+    CheckSplit();
+  }
+
+ private:
+  void Add(const std::string& pointer, const std::string& rule, const std::string& value = "") {
+    errors_.Add({shown_ + ": " + pointer, rule, value});
+  }
+
+  // What is put later must not hold the place of what was put earlier.
+  void Follow(std::vector<Written>& earlier, const std::vector<Written>& later) {
+    for (const Written& own : later) {
+      for (const Written& other : earlier) {
+        if (!LiesWithin(other.pointer, own.pointer)) continue;
+        Add(own.recipe_pointer, "must not overwrite " + other.recipe_pointer);
+        break;
+      }
+    }
+    earlier.insert(earlier.end(), later.begin(), later.end());
+  }
+
+  void CheckOverwriting() {
+    std::vector<Written> earlier;
+    Follow(earlier, WrittenBy(recipe_.set, "/set"));
+    for (std::size_t i = 0; i < recipe_.groups.size(); ++i) {
+      const DrawGroup& group = recipe_.groups[i];
+      const std::string place = "/groups" + IndexStep(i);
+      std::vector<Written> after = earlier;
+      if (!group.random_weather.empty()) Follow(after, {{"/weather", place + "/random_weather"}});
+      for (std::size_t j = 0; j < group.options.size(); ++j) {
+        const std::string option = place + "/options" + IndexStep(j);
+        std::vector<Written> of_option = earlier;
+        Follow(of_option, WrittenBy(group.options[j].set, option + "/set"));
+        Follow(of_option, WrittenBy(group.options[j].draws, option + "/draws"));
+        const auto begin = of_option.begin() + static_cast<std::ptrdiff_t>(earlier.size());
+        after.insert(after.end(), begin, of_option.end());
+      }
+      earlier = std::move(after);
+    }
+    const std::vector<Written> drawn = WrittenBy(recipe_.draws, "/draws");
+    std::vector<Written> all = earlier;
+    for (const Written& own : drawn) {
+      std::vector<Written> others = earlier;
+      Follow(others, {own});
+    }
+    all.insert(all.end(), drawn.begin(), drawn.end());
+    if (recipe_.start_s_m) Follow(all, {{"/vehicle/start_s_m", "/start_s_m"}});
+    for (std::size_t i = 0; i < recipe_.bases.size(); ++i) {
+      if (!recipe_.bases[i].start_s_m) continue;
+      std::vector<Written> others = drawn;
+      others.insert(others.end(), earlier.begin(), earlier.end());
+      Follow(others, {{"/vehicle/start_s_m", "/bases" + IndexStep(i) + "/start_s_m"}});
+    }
+  }
+
+  void CheckNumber(const Distribution& distribution,
+                   const std::string& place,
+                   const std::string& rule,
+                   const std::function<bool(double)>& holds) {
+    for (const Json& value : ExtremesOf(distribution)) {
+      if (value.is_number() && holds(value.get<double>())) continue;
+      return Add(place, rule, ValueText(value));
+    }
+  }
+
+  void CheckNumbers() {
+    const auto is_any = [](double) { return true; };
+    const auto is_count = [](double value) {
+      constexpr double kMostObjects = 1000.0;
+      return value >= 0.0 && value <= kMostObjects && std::floor(value) == value;
+    };
+    if (recipe_.start_s_m) {
+      CheckNumber(*recipe_.start_s_m, "/start_s_m", "must give numbers", is_any);
+    }
+    for (std::size_t i = 0; i < recipe_.bases.size(); ++i) {
+      if (!recipe_.bases[i].start_s_m) continue;
+      CheckNumber(*recipe_.bases[i].start_s_m, "/bases" + IndexStep(i) + "/start_s_m",
+                  "must give numbers", is_any);
+    }
+    for (std::size_t i = 0; i < recipe_.objects.size(); ++i) {
+      const PlacedObjects& objects = recipe_.objects[i];
+      const std::string place = "/objects" + IndexStep(i);
+      CheckNumber(objects.ahead_m, place + "/ahead_m", "must give numbers", is_any);
+      const bool may_be_broken = std::holds_alternative<UniformDraw>(objects.count) ||
+                                 std::holds_alternative<NormalDraw>(objects.count) ||
+                                 std::holds_alternative<LogUniformDraw>(objects.count);
+      if (may_be_broken) {
+        Add(place + "/count", "must be of type \"integer\" or \"choice\"");
+      } else {
+        CheckNumber(objects.count, place + "/count", "must give whole numbers from 0 to 1000",
+                    is_count);
+      }
+    }
+  }
+
+  void CheckOptionNames() {
+    for (std::size_t i = 0; i < recipe_.groups.size(); ++i) {
+      const std::vector<GroupOption>& options = recipe_.groups[i].options;
+      for (std::size_t j = 1; j < options.size(); ++j) {
+        for (std::size_t k = 0; k < j; ++k) {
+          if (options[k].name != options[j].name) continue;
+          Add("/groups" + IndexStep(i) + "/options" + IndexStep(j) + "/name", "must be unique",
+              ValueText(options[j].name));
+        }
+      }
+    }
+  }
+
+  void CheckSplit() {
+    if (recipe_.split.by == SplitBy::kLine) return;
+    for (std::size_t i = 0; i < recipe_.bases.size(); ++i) {
+      if (!recipe_.bases[i].split) continue;
+      Add("/bases" + IndexStep(i) + "/split", "must be given with /split/by \"line\" only");
+    }
+  }
+
+  const Recipe& recipe_;
+  std::string shown_;
+  ErrorList& errors_;
+};
+
+/// Reads scenarios with the extremes of all draws.
+class ExtremesCheck {
+ public:
+  ExtremesCheck(const Recipe& recipe, ErrorList& errors)
+      : recipe_(recipe), bases_(recipe), draws_(recipe.seed, 0), errors_(errors) {}
+
+  void Run() {
+    CheckPins();
+    for (base_ = 0; base_ < recipe_.bases.size(); ++base_) {
+      Try({});
+      for (const PointedDraw& draw : recipe_.draws.draws) {
+        for (const Json& value : ExtremesOf(draw.distribution)) Try({{draw.pointer, value}});
+      }
+      for (const DrawGroup& group : recipe_.groups) TryGroup(group);
+      for (std::size_t i = 0; i < recipe_.objects.size(); ++i) TryObjects(i);
+    }
+  }
+
+ private:
+  // Bases on one line must not be pinned to several parts.
+  void CheckPins() {
+    for (std::size_t i = 1; i < recipe_.bases.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (recipe_.bases[i].split == recipe_.bases[j].split) continue;
+        if (LineHash(bases_.json(i)) != LineHash(bases_.json(j))) continue;
+        errors_.Add(
+            {ShownPath(recipe_.file.lexically_normal()) + ": /bases" + IndexStep(i) + "/split",
+             "must be that of /bases" + IndexStep(j) + ", which is on the same line", ""});
+      }
+    }
+  }
+
+  // Forces the first extreme of each draw unless another value is forced: so a faulty one gives the
+  // same line again and again, which is listed once.
+  [[nodiscard]] ForcedValues WithFirstExtremes(ForcedValues forced) const {
+    for (const PointedDraw& draw : recipe_.draws.draws) {
+      forced.emplace(draw.pointer, ExtremesOf(draw.distribution).front());
+    }
+    for (const DrawGroup& group : recipe_.groups) {
+      for (const GroupOption& option : group.options) {
+        for (const PointedDraw& draw : option.draws.draws) {
+          forced.emplace(NameOfOptionDraw(group, option, draw.pointer),
+                         ExtremesOf(draw.distribution).front());
+        }
+      }
+    }
+    return forced;
+  }
+
+  void TryGroup(const DrawGroup& group) {
+    const std::string name = NameOfGroupDraw(group);
+    for (const std::string& family : group.random_weather) Try({{name, family}});
+    for (const GroupOption& option : group.options) {
+      Try({{name, option.name}});
+      for (const PointedDraw& draw : option.draws.draws) {
+        const std::string inner = NameOfOptionDraw(group, option, draw.pointer);
+        for (const Json& value : ExtremesOf(draw.distribution)) {
+          Try({{name, option.name}, {inner, value}});
+        }
+      }
+    }
+  }
+
+  void TryObjects(std::size_t index) {
+    const PlacedObjects& objects = recipe_.objects[index];
+    TryObject(index, {});
+    for (const PointedDraw& draw : objects.draws.draws) {
+      for (const Json& value : ExtremesOf(draw.distribution)) {
+        TryObject(index, {{draw.pointer, value}});
+      }
+    }
+  }
+
+  [[nodiscard]] DraftedScenario Draft(const ForcedValues& forced) const {
+    DraftedScenario draft(recipe_, {}, bases_.json(base_), base_);
+    static_cast<void>(PutRecipeValues(recipe_, draws_, 0, WithFirstExtremes(forced), draft));
+    return draft;
+  }
+
+  void Try(const ForcedValues& forced) {
+    static_cast<void>(Attempt("", errors_, [&] { return Draft(forced).Read(); }));
+  }
+
+  void TryObject(std::size_t index, const ForcedValues& forced) {
+    static_cast<void>(Attempt("", errors_, [&] {
+      DraftedScenario draft = Draft({});
+      ForcedValues all = forced;
+      for (const PointedDraw& draw : recipe_.objects[index].draws.draws) {
+        all.emplace(draw.pointer, ExtremesOf(draw.distribution).front());
+      }
+      const ObjectDraw drawn = DrawObject(recipe_, index, {draws_, 1, 0, all}, draft);
+      AddObject(drawn, recipe_, index, draft);
+      return draft.Read();
+    }));
+  }
+
+  const Recipe& recipe_;
+  RecipeBases bases_;
+  KeyedDraws draws_;
+  ErrorList& errors_;
+  std::size_t base_ = 0;
+};
+
+}  // namespace
+
+void CheckRecipe(const Recipe& recipe) {
+  ErrorList errors;
+  KeyCheck(recipe, errors).Run();
+  errors.ThrowIfAny();
+  ExtremesCheck(recipe, errors).Run();
+  errors.ThrowIfAny();
+}
+
+}  // namespace railcast

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/scenario/json_text.h"
+#include "generator/dataset/recipe.h"
+#include "generator/dataset/recipe_bases.h"
+#include "railcast/scenario.h"
+
+namespace railcast {
+
+/// A scenario of a recipe.
+struct DrawnScenario {
+  ScenarioSpec scenario;  ///< With one sensor, as frames are made of.
+  /// What index and report say of it: scenario, base, split, place, seed, start_s_m, drawn,
+  /// objects, weather, and the vehicle's s_m and speed_mps in each frame.
+  Json record;
+};
+
+/// Draws the scenarios of a recipe. Each depends on the recipe and its number alone.
+class ScenarioDrawer {
+ public:
+  /// @param recipe Must outlive the drawer.
+  /// @throws InputError with the faults of the bases.
+  explicit ScenarioDrawer(const Recipe& recipe) : recipe_(recipe), bases_(recipe) {}
+
+  /// @throws InputError that names the recipe's key if the scenario is faulty or something finds no
+  ///   place in it.
+  [[nodiscard]] DrawnScenario Draw(std::uint32_t number) const;
+
+  [[nodiscard]] const RecipeBases& bases() const { return bases_; }
+
+ private:
+  const Recipe& recipe_;
+  RecipeBases bases_;
+};
+
+}  // namespace railcast

@@ -1,0 +1,195 @@
+#include "generator/dataset/run_dataset.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include <atomic>
+#include <sstream>
+#include <string>
+
+#include "generator/dataset/merge_shards.h"
+#include "tests/core/io/message_of.h"
+#include "tests/core/io/temporary_directory.h"
+#include "tests/generator/dataset/recipe_project.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+void NoProgress(std::uint32_t /*num_done*/, std::uint32_t /*num_scenarios*/) {}
+
+/// The only value of a query on an index.sqlite.
+std::int64_t Query(const fs::path& dataset, const std::string& sql) {
+  sqlite3* database = nullptr;
+  EXPECT_EQ(
+      sqlite3_open_v2((dataset / "index.sqlite").c_str(), &database, SQLITE_OPEN_READONLY, nullptr),
+      SQLITE_OK);
+  sqlite3_stmt* statement = nullptr;
+  EXPECT_EQ(sqlite3_prepare_v2(database, sql.c_str(), -1, &statement, nullptr), SQLITE_OK);
+  EXPECT_EQ(sqlite3_step(statement), SQLITE_ROW);
+  const std::int64_t value = sqlite3_column_int64(statement, 0);
+  sqlite3_finalize(statement);
+  sqlite3_close(database);
+  return value;
+}
+
+class RunDatasetTest : public testing::Test {
+ protected:
+  [[nodiscard]] fs::path Path(const std::string& name) const { return directory_.path() / name; }
+  TemporaryDirectory directory_;
+  Recipe recipe_ = ReadProjectRecipe(directory_.path() / "project", ProjectRecipe());
+};
+
+TEST_F(RunDatasetTest, WritesASequenceForEachScenario) {
+  const DatasetResult result = MakeDataset(recipe_, Path("set"));
+  EXPECT_TRUE(result.is_complete);
+  EXPECT_EQ(result.num_frames, 18U);
+  for (int i = 0; i < 6; ++i) {
+    const fs::path folder = Path("set/sequences/000/00000" + std::to_string(i));
+    EXPECT_TRUE(fs::exists(folder / "manifest.json")) << folder;
+    EXPECT_NO_THROW((void)ReadScenario(folder / "scenario.resolved.json"));
+  }
+}
+
+TEST_F(RunDatasetTest, IndexAndDatabaseAgree) {
+  (void)MakeDataset(recipe_, Path("set"));
+  std::istringstream lines(ReadFileWhole(Path("set/index.jsonl")));
+  std::int64_t num_frames = 0;
+  std::int64_t num_points = 0;
+  std::int64_t num_persons = 0;
+  for (std::string line; std::getline(lines, line); ++num_frames) {
+    const Json frame = Json::parse(line);
+    num_points += frame.at("points").get<std::int64_t>();
+    for (const Json& object : frame.at("objects")) {
+      if (object.at("type") == "person") ++num_persons;
+    }
+    const fs::path folder = Path("set") / frame.at("folder").get<std::string>();
+    for (const Json& file : frame.at("files")) {
+      EXPECT_TRUE(fs::exists(folder / file.get<std::string>()));
+    }
+  }
+  EXPECT_EQ(num_frames, 18);
+  EXPECT_EQ(Query(Path("set"), "SELECT count(*) FROM frames"), num_frames);
+  EXPECT_EQ(Query(Path("set"), "SELECT sum(points) FROM frames"), num_points);
+  EXPECT_EQ(Query(Path("set"), "SELECT sum(points) FROM labels"), num_points);
+  EXPECT_GT(num_persons, 0);
+  EXPECT_EQ(Query(Path("set"), "SELECT count(*) FROM objects WHERE type = 'person'"), num_persons);
+  const Json report = Json::parse(ReadFileWhole(Path("set/report.json")));
+  EXPECT_EQ(report.at("num_frames"), num_frames);
+  EXPECT_EQ(report.at("objects").at("person").at("in_frames"), num_persons);
+}
+
+TEST_F(RunDatasetTest, SplitsNameEachScenarioOnce) {
+  (void)MakeDataset(recipe_, Path("set"));
+  std::string all;
+  for (const char* const split : {"train", "val", "test"}) {
+    all += ReadFileWhole(Path("set/split") / (std::string(split) + ".txt"));
+  }
+  for (int i = 0; i < 6; ++i) {
+    const std::string line = "sequences/000/00000" + std::to_string(i) + "\n";
+    EXPECT_EQ(all.find(line), all.rfind(line));
+    EXPECT_NE(all.find(line), std::string::npos);
+  }
+}
+
+TEST_F(RunDatasetTest, MergedShardsHaveTheBytesOfOneRun) {
+  (void)MakeDataset(recipe_, Path("whole"));
+  for (const std::uint32_t num : {2U, 4U}) {
+    std::vector<fs::path> shards;
+    for (std::uint32_t i = num; i > 0; --i) {
+      shards.push_back(Path(std::to_string(i) + "_of_" + std::to_string(num)));
+      EXPECT_TRUE(MakeDataset(recipe_, shards.back(), {i, num}).is_complete);
+    }
+    const fs::path merged = Path("merged_" + std::to_string(num));
+    EXPECT_EQ(MergeShards(shards, merged, NoProgress), 6U);
+    EXPECT_EQ(FilesOfDataset(merged), FilesOfDataset(Path("whole")));
+  }
+}
+
+TEST_F(RunDatasetTest, MergingNeedsAllShardsOfOneDataSet) {
+  (void)MakeDataset(recipe_, Path("a"), {1, 3});
+  (void)MakeDataset(recipe_, Path("b"), {3, 3});
+  const auto message = [&](const std::vector<fs::path>& shards) {
+    return MessageOf([&] { (void)MergeShards(shards, Path("merged"), NoProgress); });
+  };
+  EXPECT_EQ(message({Path("a"), Path("b")}), "shard 2 of 3 is missing");
+  EXPECT_EQ(message({Path("a"), Path("a"), Path("b")}),
+            Path("a").string() + ": is a second shard 1\nshard 2 of 3 is missing");
+  nlohmann::json other = ProjectRecipe();
+  other["seed"] = 6;
+  const Recipe changed = ReadProjectRecipe(directory_.path() / "project", other);
+  (void)MakeDataset(changed, Path("c"), {2, 3});
+  EXPECT_EQ(message({Path("a"), Path("c"), Path("b")}),
+            Path("c").string() + ": is a shard of another data set than " + Path("a").string());
+  EXPECT_FALSE(fs::exists(Path("merged")));
+}
+
+TEST_F(RunDatasetTest, MergingNeedsFinishedShards) {
+  (void)MakeDataset(recipe_, Path("a"), {1, 2});
+  const DatasetHooks hooks = {NoProgress, [] { return true; }};
+  (void)RunDataset(recipe_, OnOneThread(Path("b"), {2, 2}), hooks);
+  EXPECT_EQ(MessageOf([&] {
+              (void)MergeShards({Path("a"), Path("b")}, Path("m"), NoProgress);
+            }),
+            Path("b").string() +
+                ": is unfinished, with 0 of 3 scenarios; the command that began it continues");
+}
+
+TEST_F(RunDatasetTest, AStoppedRunContinuesWithTheSameBytes) {
+  (void)MakeDataset(recipe_, Path("whole"));
+  for (int after = 1; after < 30; after += 4) {
+    const fs::path stopped = Path("stopped_" + std::to_string(after));
+    std::atomic<int> num_asked = 0;
+    const DatasetHooks hooks = {NoProgress, [&] { return ++num_asked > after; }};
+    const DatasetChoices choices = OnOneThread(stopped);
+    EXPECT_FALSE(RunDataset(recipe_, choices, hooks).is_complete);
+    EXPECT_FALSE(fs::exists(stopped / "manifest.json"));
+    EXPECT_TRUE(RunDataset(recipe_, choices, NoDatasetHooks()).is_complete);
+    EXPECT_EQ(FilesOfDataset(stopped), FilesOfDataset(Path("whole")));
+  }
+}
+
+TEST_F(RunDatasetTest, LeavesOtherFoldersAlone) {
+  WriteFileWhole(Path("note.txt"), "mine");
+  EXPECT_THAT(MessageOf([&] { (void)MakeDataset(recipe_, directory_.path()); }),
+              HasSubstr("--out: must be a new or an empty folder, or that of a data set"));
+  (void)MakeDataset(recipe_, Path("set"));
+  nlohmann::json other = ProjectRecipe();
+  other["num_frames"] = 4;
+  const Recipe changed = ReadProjectRecipe(directory_.path() / "project", other);
+  EXPECT_EQ(MessageOf([&] { (void)MakeDataset(changed, Path("set")); }),
+            Path("set").string() + ": holds a data set of another recipe; choose another --out");
+}
+
+TEST_F(RunDatasetTest, NoticesAChangedBase) {
+  (void)MakeDataset(recipe_, Path("set"), {1, 2});
+  const fs::path base = directory_.path() / "project/scenario.json";
+  std::string text = ReadFileWhole(base);
+  text.replace(text.find("\"start_s_m\": 400"), 16, "\"start_s_m\": 401");
+  WriteFileWhole(base, text);
+  EXPECT_EQ(MessageOf([&] {
+              (void)MakeDataset(recipe_, Path("set"), {1, 2});
+            }),
+            Path("set").string() +
+                ": holds a data set of the same recipe with other bases; choose another --out");
+}
+
+TEST_F(RunDatasetTest, StrideAndWarmUpChooseTheFrames) {
+  nlohmann::json sparse = ProjectRecipe();
+  sparse["stride"] = 4;
+  sparse["warm_up_frames"] = 2;
+  const Recipe recipe = ReadProjectRecipe(directory_.path() / "project", sparse);
+  (void)MakeDataset(recipe, Path("set"));
+  std::istringstream lines(ReadFileWhole(Path("set/index.jsonl")));
+  for (const int expected : {2, 6, 10}) {
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_EQ(Json::parse(line).at("frame"), expected);
+  }
+}
+
+}  // namespace
+}  // namespace railcast
