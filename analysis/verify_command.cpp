@@ -1,14 +1,17 @@
+#include <algorithm>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <memory>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "analysis/commands.h"
 #include "analysis/verify/dataset_verification.h"
 #include "analysis/verify/verification.h"
 #include "core/base/text.h"
+#include "core/io/sensor_folders.h"
 #include "core/program/progress_line.h"
 
 namespace railcast {
@@ -39,6 +42,15 @@ int RunVerify(const std::filesystem::path& directory) {
   return found.faults.empty() ? kExitSuccess : kExitFailure;
 }
 
+// A directory of several sensors is as good as its worst sequence.
+int RunVerifyAll(const std::filesystem::path& directory) {
+  const std::vector<std::filesystem::path> folders = SensorFoldersIn(directory);
+  if (folders.empty()) return RunVerify(directory);
+  int exit = kExitSuccess;
+  for (const std::filesystem::path& folder : folders) exit = std::max(exit, RunVerify(folder));
+  return exit;
+}
+
 }  // namespace
 
 void AddVerify(CLI::App& app, ProgramCommand& command) {
@@ -52,7 +64,7 @@ void AddVerify(CLI::App& app, ProgramCommand& command) {
       ->required()
       ->check(NonEmpty());
   verify->callback([&command, directory] {
-    command = [directory](const std::string&) { return RunVerify(*directory); };
+    command = [directory](const std::string&) { return RunVerifyAll(*directory); };
   });
 }
 

@@ -124,7 +124,7 @@ class DatasetRun {
       }
     }
     CommandedRun run(scenario, {simulator.get()});
-    SurveyedRun frames(run, spec.files.labels);
+    SurveyedRun frames(run, 0, scenario, spec.files.labels);
     const FramesAtOnce at_once = {
         NumFramesAtOnce(*simulator, scenario),
         [&](const std::function<void()>& work) { simulator->Execute(work); }};

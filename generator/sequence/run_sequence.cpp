@@ -2,10 +2,12 @@
 
 #include <tbb/parallel_pipeline.h>
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -20,6 +22,7 @@ namespace {
 
 /// The memory of a frame from its beginning until it is written.
 struct FrameSlot {
+  SequenceDirectory* directory = nullptr;
   FrameJob job;
   std::exception_ptr fault;  ///< Why there is no frame.
   MadeFrame made;
@@ -35,8 +38,7 @@ std::string Writing(const Frame& frame) {
 class WritingQueue {
  public:
   /// @param most Number of frames that may wait or be written at a time.
-  WritingQueue(SequenceDirectory& directory, std::size_t most)
-      : directory_(directory), most_(most) {
+  explicit WritingQueue(std::size_t most) : most_(most) {
     thread_ = StartThread("writing frames", [this] { Run(); });
   }
   ~WritingQueue() {
@@ -81,7 +83,7 @@ class WritingQueue {
       std::exception_ptr fault;
       try {
         WithinMemory([&] { return Writing(slot.made.frame); },
-                     [&] { directory_.Write(slot.encoded); });
+                     [&] { slot.directory->Write(slot.encoded); });
       } catch (...) {
         fault = std::current_exception();
       }
@@ -94,7 +96,6 @@ class WritingQueue {
     }
   }
 
-  SequenceDirectory& directory_;
   std::size_t most_;
   std::mutex mutex_;
   std::condition_variable changed_;
@@ -105,24 +106,42 @@ class WritingQueue {
   std::thread thread_;
 };
 
+/// A sequence, its directory, and how far it has been begun.
+struct SequenceUnderWay {
+  explicit SequenceUnderWay(const SensorSequence& sequence)
+      : of(sequence),
+        directory(std::make_unique<SequenceDirectory>(sequence.spec)),
+        num_resumed(directory->num_done()),
+        was_complete(directory->is_complete()),
+        next(num_resumed) {}
+
+  [[nodiscard]] bool is_begun() const { return next >= of.spec.num_frames; }
+
+  const SensorSequence& of;
+  std::unique_ptr<SequenceDirectory> directory;
+  std::uint32_t num_resumed;
+  bool was_complete;
+  std::uint32_t next;  ///< Which of its frames is begun next.
+};
+
 class MissingFrames {
  public:
-  MissingFrames(const SequenceSpec& spec,
-                const BeginFrame& begin_frame,
+  MissingFrames(std::vector<SequenceUnderWay>& sequences,
                 const SequenceHooks& hooks,
-                const FramesAtOnce& at_once,
-                SequenceDirectory& directory)
-      : spec_(spec),
-        begin_frame_(begin_frame),
+                const FramesAtOnce& at_once)
+      : sequences_(sequences),
         hooks_(hooks),
-        directory_(directory),
         num_at_once_(at_once.num),
-        num_resumed_(directory.num_done()),
-        num_shown_(directory.num_done()),
-        next_(directory.num_done()),
         // The pipeline holds as many frames as are made at once, and as many are being written.
         slots_(2 * at_once.num),
-        writing_(directory, at_once.num) {}
+        writing_(at_once.num) {
+    for (const SequenceUnderWay& sequence : sequences) {
+      num_resumed_ += sequence.num_resumed;
+      num_frames_ += sequence.of.spec.num_frames;
+    }
+    num_shown_ = num_resumed_;
+    hooks_.on_progress(num_shown_, num_frames_);
+  }
 
   /// Makes frames until there is none left, or the run is stopped.
   void Make() {
@@ -149,18 +168,35 @@ class MissingFrames {
  private:
   // Returns null if no frame is left.
   FrameSlot* Begin() {
-    if (is_over_ || next_ >= spec_.num_frames || hooks_.is_stopped()) return nullptr;
-    FrameSlot& slot = slots_[next_ % slots_.size()];
+    SequenceUnderWay* const sequence = Earliest();
+    if (is_over_ || sequence == nullptr || hooks_.is_stopped()) return nullptr;
+    FrameSlot& slot = slots_[num_begun_++ % slots_.size()];
+    slot.directory = sequence->directory.get();
     slot.fault = nullptr;
     try {
-      slot.job = begin_frame_(spec_.FrameAt(next_));
+      slot.job = sequence->of.begin_frame(sequence->of.spec.FrameAt(sequence->next));
     } catch (...) {
       // Passed on in its turn, after the frames before it.
       slot.fault = std::current_exception();
       is_over_ = true;
     }
-    ++next_;
+    ++sequence->next;
     return &slot;
+  }
+
+  // The sequence whose next frame begins first; null if none has a frame left.
+  SequenceUnderWay* Earliest() const {
+    SequenceUnderWay* earliest = nullptr;
+    std::int64_t earliest_ns = 0;
+    for (SequenceUnderWay& sequence : sequences_) {
+      if (sequence.is_begun()) continue;
+      const SensorSequence& of = sequence.of;
+      const std::int64_t stamp_ns = of.stamp_ns ? of.stamp_ns(of.spec.FrameAt(sequence.next)) : 0;
+      if (earliest != nullptr && stamp_ns >= earliest_ns) continue;
+      earliest = &sequence;
+      earliest_ns = stamp_ns;
+    }
+    return earliest;
   }
 
   void Finish(FrameSlot& slot) const {
@@ -170,8 +206,8 @@ class MissingFrames {
       std::exchange(slot.job, {})(made);
       const auto doing = [&made] { return Writing(made.frame); };
       WithinMemory(doing, [&] {
-        directory_.Encode(made.frame, made.objects, made.has_image ? &made.image : nullptr,
-                          slot.encoded);
+        slot.directory->Encode(made.frame, made.objects, made.has_image ? &made.image : nullptr,
+                               slot.encoded);
       });
     } catch (...) {
       slot.fault = std::current_exception();
@@ -188,18 +224,17 @@ class MissingFrames {
 
   void ShowProgress(std::uint32_t num_written) {
     while (num_shown_ < num_resumed_ + num_written) {
-      hooks_.on_progress(++num_shown_, spec_.num_frames);
+      hooks_.on_progress(++num_shown_, num_frames_);
     }
   }
 
-  const SequenceSpec& spec_;
-  const BeginFrame& begin_frame_;
+  std::vector<SequenceUnderWay>& sequences_;
   const SequenceHooks& hooks_;
-  SequenceDirectory& directory_;
   std::size_t num_at_once_;
-  std::uint32_t num_resumed_;
-  std::uint32_t num_shown_;  ///< As on_progress() was told last.
-  std::uint32_t next_;       ///< Which of the run's frames is begun next.
+  std::uint32_t num_frames_ = 0;   ///< Of all sequences.
+  std::uint32_t num_resumed_ = 0;  ///< Of these, those that were there.
+  std::uint32_t num_shown_ = 0;    ///< As on_progress() was told last.
+  std::size_t num_begun_ = 0;
   bool is_over_ = false;
   std::vector<FrameSlot> slots_;
   WritingQueue writing_;  // Last, so that it ends before the memory that it writes.
@@ -216,27 +251,42 @@ void MakeMissingFrames(const FramesAtOnce& at_once, MissingFrames& frames) {
 
 }  // namespace
 
+std::vector<SequenceResult> RunSequences(const std::vector<SensorSequence>& sensors,
+                                         const SequenceHooks& hooks,
+                                         const FramesAtOnce& at_once) {
+  std::vector<SequenceUnderWay> sequences;
+  sequences.reserve(sensors.size());
+  for (const SensorSequence& sensor : sensors) sequences.emplace_back(sensor);
+  const auto begin = std::chrono::steady_clock::now();
+  if (!std::all_of(sequences.begin(), sequences.end(),
+                   [](const SequenceUnderWay& each) { return each.was_complete; })) {
+    MissingFrames frames(sequences, hooks, at_once);
+    MakeMissingFrames(at_once, frames);
+  }
+  std::vector<SequenceResult> results;
+  for (const SequenceUnderWay& sequence : sequences) {
+    SequenceDirectory& directory = *sequence.directory;
+    if (!directory.is_complete() && directory.num_done() == sequence.of.spec.num_frames) {
+      directory.Finish();
+    }
+    SequenceResult result;
+    result.num_resumed = sequence.num_resumed;
+    result.num_done = directory.num_done();
+    result.was_complete = sequence.was_complete;
+    result.is_complete = directory.is_complete();
+    result.counts = directory.counts();
+    results.push_back(std::move(result));
+  }
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+  for (SequenceResult& result : results) result.elapsed_s = elapsed.count();
+  return results;
+}
+
 SequenceResult RunSequence(const SequenceSpec& spec,
                            const BeginFrame& begin_frame,
                            const SequenceHooks& hooks,
                            const FramesAtOnce& at_once) {
-  SequenceDirectory directory(spec);
-  SequenceResult result;
-  result.num_resumed = directory.num_done();
-  result.was_complete = directory.is_complete();
-  if (!result.was_complete) {
-    const auto begin = std::chrono::steady_clock::now();
-    hooks.on_progress(directory.num_done(), spec.num_frames);
-    MissingFrames frames(spec, begin_frame, hooks, at_once, directory);
-    MakeMissingFrames(at_once, frames);
-    if (directory.num_done() == spec.num_frames) directory.Finish();
-    result.elapsed_s =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  }
-  result.num_done = directory.num_done();
-  result.is_complete = directory.is_complete();
-  result.counts = directory.counts();
-  return result;
+  return RunSequences({{spec, begin_frame, {}}}, hooks, at_once).front();
 }
 
 }  // namespace railcast

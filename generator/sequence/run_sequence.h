@@ -53,6 +53,21 @@ struct SequenceResult {
   double elapsed_s{};           ///< Wall-clock time for the frames made in this run.
 };
 
+/// One of several sequences that are made together, one for each sensor.
+struct SensorSequence {
+  SequenceSpec spec;
+  BeginFrame begin_frame;
+  /// The time at which a frame of the sensor begins.
+  std::function<std::int64_t(std::uint32_t index)> stamp_ns;
+};
+
+/// Makes the missing frames of several sequences in one pass through simulation time: the frame
+/// that begins first is made first. Otherwise as RunSequence(), with progress over all of them.
+/// @return The results in the order of the sequences; each has the same `elapsed_s`.
+[[nodiscard]] std::vector<SequenceResult> RunSequences(const std::vector<SensorSequence>& sensors,
+                                                       const SequenceHooks& hooks,
+                                                       const FramesAtOnce& at_once = {});
+
 /// Makes the frames of a sequence that its directory does not hold yet. Frames are made and encoded
 /// several at once, and written in their order; as many more wait to be written meanwhile. If one
 /// cannot be made, those before it are written before the exception is passed on.

@@ -1,14 +1,21 @@
+#include <algorithm>
 #include <chrono>
+#include <deque>
 #include <functional>
 #include <iostream>
+#include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/fidelity/choice_report.h"
 #include "core/io/scenario_identity.h"
+#include "core/io/sensor_folders.h"
+#include "core/io/write_file.h"
 #include "core/program/progress_line.h"
 #include "core/scenario/command_log.h"
 #include "core/scenario/vehicle_clearance.h"
@@ -20,6 +27,7 @@
 #include "generator/run/track_limits.h"
 #include "generator/sequence/run_sequence.h"
 #include "generator/sequence/scenario_sequence.h"
+#include "generator/sequence/sensor_runs.h"
 #include "generator/sequence/summary.h"
 #include "generator/sequence/surveyed_run.h"
 #include "railcast/camera.h"
@@ -41,30 +49,46 @@ struct SequenceOptions {
   bool is_verbose = false;
 };
 
-// The whole scenario, to which a log may belong, and its reduction to the sensor of the frames.
-struct Scenarios {
+// The whole scenario, to which a log may belong, and the sequences of its sensors or of one.
+struct Runs {
   ScenarioSpec whole;
-  ScenarioSpec of_sensor;
+  std::vector<SensorRun> sensors;
+  bool is_in_folders{};  ///< Whether each sensor's sequence is in a folder of its own.
+
+  /// The scenario that is simulated.
+  [[nodiscard]] const ScenarioSpec& scenario() const {
+    return is_in_folders ? whole : sensors.front().scenario;
+  }
 };
 
-Scenarios ReadForSequence(const SequenceOptions& options) {
+Runs ReadForSequence(const SequenceOptions& options) {
   ScenarioSpec scenario = ReadScenario(options.scenario);
   if (options.seed) scenario.seed = *options.seed;
   if (options.fidelity) scenario.fidelity = ValueNamed<Fidelity>(*options.fidelity).value();
   CheckOutputSuits(options.made.format, scenario, ShownPath(options.scenario));
-  ScenarioSpec of_sensor = PickSensor(scenario, options.sensor);
-  return {std::move(scenario), std::move(of_sensor)};
+  Runs runs;
+  runs.is_in_folders = !options.sensor && SensorNames(scenario).size() > 1;
+  if (runs.is_in_folders) {
+    runs.sensors = SensorRunsOf(scenario, options.made);
+    RefuseOtherFiles(options.made.directory, runs.sensors);
+  } else {
+    ScenarioSpec of_sensor = PickSensor(scenario, options.sensor);
+    SequenceSpec spec = SequenceSpecOf(of_sensor, options.made);
+    runs.sensors.push_back({of_sensor.lidar.name, std::move(of_sensor), std::move(spec)});
+  }
+  runs.whole = std::move(scenario);
+  return runs;
 }
 
 // Returns the commands of the log since its last reset. The log may belong to all the scenario's
-// sensors or to this one alone.
-CommandLog ReadLog(const SequenceOptions& options, const Scenarios& scenarios) {
+// sensors or to the one that is simulated alone.
+CommandLog ReadLog(const SequenceOptions& options, const Runs& runs) {
   CommandLog log;
   if (!options.commands) return log;
   log = ReadCommandLog(*options.commands);
-  const std::string whole = IdentityOf(scenarios.whole).scenario_hash;
+  const std::string whole = IdentityOf(runs.whole).scenario_hash;
   if (log.scenario_xxh3 != whole &&
-      log.scenario_xxh3 != IdentityOf(scenarios.of_sensor).scenario_hash) {
+      log.scenario_xxh3 != IdentityOf(runs.scenario()).scenario_hash) {
     throw InputError(ShownPath(*options.commands) +
                      ": must be the log of this scenario with this --seed and --fidelity, " +
                      whole + " (got that of " + log.scenario_xxh3 + ")");
@@ -107,60 +131,131 @@ class ProgressDisplay {
   std::chrono::steady_clock::time_point begin_;
 };
 
-int RunSequenceCommand(const SequenceOptions& options) {
-  const Scenarios scenarios = ReadForSequence(options);
-  const ScenarioSpec& scenario = scenarios.of_sensor;
-  const CommandLog log = ReadLog(options, scenarios);
-  SequenceSpec spec = SequenceSpecOf(scenario, options.made);
-  // An empty log makes the same run as no log.
-  if (!log.commands.empty()) spec.commands_jsonl = CommandLogText(log);
-  if (options.is_verbose) std::cerr << "read " << ShownPath(options.scenario) << "\n";
-  const auto simulator = MakeSimulator(scenario, options.num_threads, spec.isa);
-  CheckSameFiles(scenario, spec.identity);
-  if (options.is_verbose) {
-    std::cerr << "made the simulator: " << simulator->pattern().num_firings()
-              << " firings a frame, " << simulator->world().objects().size() << " objects, "
-              << log.commands.size() << " commands\n";
+using Simulators = std::vector<std::unique_ptr<Simulator>>;
+
+// Checks that the run can be made, and chooses the frames of the sensors after the first.
+void CheckFrames(const CommandedRun& run,
+                 const Simulators& simulators,
+                 bool has_commands,
+                 Runs& runs) {
+  const SequenceSpec& first = runs.sensors.front().spec;
+  const ScanPattern& first_pattern = simulators.front()->pattern();
+  for (std::size_t i = 0; i < simulators.size(); ++i) {
+    const ScanPattern& pattern = simulators[i]->pattern();
+    const std::uint32_t last_of_first = LastFrameOf(first, first_pattern);
+    if (i > 0) SetFrames(first, first_pattern, pattern, runs.sensors[i]);
+    const std::uint32_t start_frame = runs.sensors[i].spec.start_frame;
+    const std::uint32_t last = i == 0 ? last_of_first : LastFrameOf(runs.sensors[i].spec, pattern);
+    CheckStaysOnTracks(run, pattern, start_frame, last);
+    // A log of commands reproduces what happened, be it a collision. What the vehicle meets does
+    // not depend on the sensor.
+    if (has_commands || i > 0) continue;
+    CheckVehicleIsClear(runs.scenario(), simulators[i]->world(), pattern, start_frame, last);
   }
-  const std::uint32_t last_frame = LastFrameOf(spec, simulator->pattern());
-  CommandedRun run(scenario, {simulator.get()});
-  AtPlace(ShownPath(options.commands.value_or("")) + ": ", [&] { run.Apply(log.commands); });
-  CheckStaysOnTracks(run, simulator->pattern(), spec.start_frame, last_frame);
-  // A log of commands reproduces what happened, be it a collision.
-  if (log.commands.empty()) {
-    CheckVehicleIsClear(scenario, simulator->world(), simulator->pattern(), spec.start_frame,
-                        last_frame);
+}
+
+// The rung that each sensor's sequence uses if the program is to choose it.
+void ChooseFidelity(const Simulators& simulators, Runs& runs) {
+  if (runs.whole.fidelity != Fidelity::kAuto) return;
+  for (std::size_t i = 0; i < simulators.size(); ++i) {
+    SensorRun& sensor = runs.sensors[i];
+    const FidelityChoice choice = UseChosenFidelity(*simulators[i], sensor.scenario);
+    sensor.spec.fidelity_choice_json = ChoiceJson(choice, sensor.scenario.tolerance);
+    if (runs.is_in_folders) std::cout << ShownLines(sensor.name) << ":\n";
+    std::cout << ChoiceText(choice, sensor.scenario.tolerance) << std::flush;
   }
-  // The directory can be resumed however the program ends.
-  CatchStopSignals();
-  WatchBuilding(*simulator, StopRequested, true);
-  if (scenario.fidelity == Fidelity::kAuto) {
-    try {
-      const FidelityChoice choice = UseChosenFidelity(*simulator, scenario);
-      spec.fidelity_choice_json = ChoiceJson(choice, scenario.tolerance);
-      std::cout << ChoiceText(choice, scenario.tolerance) << std::flush;
-    } catch (const RunStopped&) {
-      std::cerr << "interrupted before the first frame\n";
-      return kExitInterrupted;
+}
+
+int Report(const SequenceOptions& options,
+           const Runs& runs,
+           const std::vector<SequenceResult>& results) {
+  bool is_complete = true;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    std::cout << ShownLines(Summary(runs.sensors[i].spec, results[i]));
+    is_complete = is_complete && results[i].is_complete;
+  }
+  if (is_complete) {
+    if (runs.is_in_folders) {
+      WriteFileWhole(options.made.directory / kSensorsFile, SensorsJson(runs.sensors));
     }
+    return kExitSuccess;
   }
-  SurveyedRun frames(run, spec.files.labels);
-  // Commands change the simulator from one frame to the next.
+  std::cerr << "interrupted; the same command continues with frame ";
+  const char* separator = "";
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const SensorRun& sensor = runs.sensors[i];
+    if (results[i].is_complete) continue;
+    std::cerr << separator << sensor.spec.FrameAt(results[i].num_done);
+    if (runs.is_in_folders) std::cerr << " of " << ShownLines(sensor.name);
+    separator = ", ";
+  }
+  std::cerr << "\n";
+  return kExitInterrupted;
+}
+
+std::vector<SequenceResult> MakeFrames(CommandedRun& run,
+                                       const Simulators& simulators,
+                                       const Runs& runs,
+                                       bool has_commands) {
+  std::deque<SurveyedRun> frames;
+  std::vector<SensorSequence> sequences;
+  // Commands change the simulators from one frame to the next.
+  std::size_t num_at_once = has_commands ? 1 : std::numeric_limits<std::size_t>::max();
+  for (std::size_t i = 0; i < simulators.size(); ++i) {
+    const auto& [name, scenario, spec] = runs.sensors[i];
+    SurveyedRun& survey = frames.emplace_back(run, i, scenario, spec.files.labels);
+    sequences.push_back({spec, [&survey](std::uint32_t index) { return survey.Begin(index); },
+                         [&pattern = simulators[i]->pattern()](std::uint32_t index) {
+                           return pattern.StampNs(index);
+                         }});
+    num_at_once = std::min(num_at_once, NumFramesAtOnce(*simulators[i], scenario));
+  }
   const FramesAtOnce at_once = {
-      log.commands.empty() ? NumFramesAtOnce(*simulator, scenario) : 1,
-      [&](const std::function<void()>& work) { simulator->Execute(work); }};
+      num_at_once, [&](const std::function<void()>& work) { simulators.front()->Execute(work); }};
   ProgressDisplay display;
   const SequenceHooks hooks = {
       [&](std::uint32_t num_done, std::uint32_t num_frames) { display.Show(num_done, num_frames); },
       StopRequested};
-  const SequenceResult result = RunSequence(
-      spec, [&](std::uint32_t index) { return frames.Begin(index); }, hooks, at_once);
-  if (!result.is_complete) display.Break();
-  std::cout << ShownLines(Summary(spec, result));
-  if (result.is_complete) return kExitSuccess;
-  std::cerr << "interrupted; the same command continues with frame "
-            << spec.FrameAt(result.num_done) << "\n";
-  return kExitInterrupted;
+  const std::vector<SequenceResult> results = RunSequences(sequences, hooks, at_once);
+  if (!std::all_of(results.begin(), results.end(),
+                   [](const SequenceResult& each) { return each.is_complete; })) {
+    display.Break();
+  }
+  return results;
+}
+
+int RunSequenceCommand(const SequenceOptions& options) {
+  Runs runs = ReadForSequence(options);
+  const CommandLog log = ReadLog(options, runs);
+  if (options.is_verbose) std::cerr << "read " << ShownPath(options.scenario) << "\n";
+  const Simulators simulators =
+      MakeSimulators(runs.scenario(), options.num_threads, runs.sensors.front().spec.isa);
+  std::vector<Simulator*> pointers;
+  for (std::size_t i = 0; i < simulators.size(); ++i) {
+    SensorRun& sensor = runs.sensors[i];
+    // An empty log makes the same run as no log.
+    if (!log.commands.empty()) sensor.spec.commands_jsonl = CommandLogText(log);
+    CheckSameFiles(sensor.scenario, sensor.spec.identity);
+    pointers.push_back(simulators[i].get());
+    if (options.is_verbose) {
+      std::cerr << "made the simulator: " << pointers.back()->pattern().num_firings()
+                << " firings a frame, " << pointers.back()->world().objects().size() << " objects, "
+                << log.commands.size() << " commands\n";
+    }
+  }
+  CommandedRun run(runs.scenario(), pointers);
+  AtPlace(ShownPath(options.commands.value_or("")) + ": ", [&] { run.Apply(log.commands); });
+  CheckFrames(run, simulators, !log.commands.empty(), runs);
+  // The directory can be resumed however the program ends.
+  CatchStopSignals();
+  for (Simulator* simulator : pointers) WatchBuilding(*simulator, StopRequested, true);
+  try {
+    ChooseFidelity(simulators, runs);
+  } catch (const RunStopped&) {
+    std::cerr << "interrupted before the first frame\n";
+    return kExitInterrupted;
+  }
+  return Report(options, runs, MakeFrames(run, simulators, runs, !log.commands.empty()));
 }
 
 }  // namespace
@@ -176,7 +271,10 @@ void AddSequence(CLI::App& app, ProgramCommand& command) {
   sequence->add_option("--out", options->made.directory, "Directory to write the frames to")
       ->required()
       ->check(NonEmpty());
-  sequence->add_option("--frames", options->made.num_frames, "Number of frames to make")
+  sequence
+      ->add_option(
+          "--frames", options->made.num_frames,
+          "Number of frames to make; other sensors than the first make those of the same time")
       ->transform(Whole({1, kMaxFrame}))
       ->capture_default_str();
   sequence->add_option("--start-frame", options->made.start_frame, "Number of the first frame")
@@ -201,8 +299,10 @@ void AddSequence(CLI::App& app, ProgramCommand& command) {
   sequence->add_option("--fidelity", options->fidelity, "Fidelity to use instead of the scenario's")
       ->check(CLI::IsMember(NamesOf<Fidelity>()));
   AddIsa(*sequence, options->made.isa);
-  sequence->add_option("--sensor", options->sensor,
-                       "Name of the sensor to simulate, where the scenario has several");
+  sequence->add_option(
+      "--sensor", options->sensor,
+      "Name of the only sensor to simulate; without it, each of several sensors gets a "
+      "folder of its name in --out");
   sequence
       ->add_option(
           "--commands", options->commands,

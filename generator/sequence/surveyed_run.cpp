@@ -9,9 +9,12 @@
 
 namespace railcast {
 
-SurveyedRun::SurveyedRun(CommandedRun& run, const LabelTable& labels)
-    : run_(run), labels_(labels), camera_(MakeCamera(run.scenario())) {
-  if (camera_) frames_per_image_ = FramesPerImage(run.scenario());
+SurveyedRun::SurveyedRun(CommandedRun& run,
+                         std::size_t sensor,
+                         const ScenarioSpec& scenario,
+                         const LabelTable& labels)
+    : run_(run), sensor_(sensor), labels_(labels), camera_(MakeCamera(scenario)) {
+  if (camera_) frames_per_image_ = FramesPerImage(scenario);
 }
 
 namespace {
@@ -29,7 +32,7 @@ struct NoDeadlineAfterwards {
 
 FrameJob SurveyedRun::Begin(std::uint32_t index) {
   const NoDeadlineAfterwards guard;
-  Simulator& simulator = run_.At(0, index);
+  Simulator& simulator = run_.At(sensor_, index);
   // Frames are begun by whichever thread is free: from now on the terminal shows what this one
   // waits for.
   WatchBuilding(simulator, StopRequested, true);

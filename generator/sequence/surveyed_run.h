@@ -19,8 +19,14 @@ namespace railcast {
 /// Makes the frames of a run together with the records of their objects and the camera's images.
 class SurveyedRun {
  public:
-  /// @param run Its scenario has one sensor. It must outlive this object, as must `labels`.
-  SurveyedRun(CommandedRun& run, const LabelTable& labels);
+  /// @param run Must outlive this object, as must `labels`.
+  /// @param sensor Which of the run's sensors.
+  /// @param scenario That of the run, reduced to the sensor (PickSensor()); its camera's images are
+  ///   made, too.
+  SurveyedRun(CommandedRun& run,
+              std::size_t sensor,
+              const ScenarioSpec& scenario,
+              const LabelTable& labels);
 
   /// As BeginFrame.
   /// @throws InputError if the vehicle or an object leaves its track in that frame.
@@ -35,6 +41,7 @@ class SurveyedRun {
   [[nodiscard]] ObjectSurvey& SurveyOf(const Simulator& simulator);
 
   CommandedRun& run_;
+  std::size_t sensor_;
   const LabelTable& labels_;
   std::optional<Camera> camera_;
   std::uint32_t frames_per_image_ = 1;

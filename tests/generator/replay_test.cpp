@@ -118,18 +118,5 @@ TEST_F(Replay, SaysWhichCommandOfALogDoesNotFit) {
             "command: the vehicle leaves track \"main\", from 0 to 1000 m, at frame 110 (11 s)\n");
 }
 
-TEST(Sequence, IsOfOneOfSeveralSensors) {
-  const TemporaryDirectory directory;
-  const std::string command = "sequence " + scenarios_folder +
-                              "two_sensors.json --frames 1 --out " +
-                              (directory.path() / "out").string();
-  EXPECT_EQ(Generate(command).said,
-            "sensor: must be \"front\" or \"roof\" (got none of the scenario's sensors)\n");
-  EXPECT_EQ(Generate(command + " --sensor roof").status, 0);
-  EXPECT_EQ(Generate(command + " --sensor front").said,
-            (directory.path() / "out").string() +
-                ": holds a run of another scenario; choose another --out\n");
-}
-
 }  // namespace
 }  // namespace railcast

@@ -1,0 +1,96 @@
+#include "generator/sequence/sensor_runs.h"
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/io/sensor_folders.h"
+#include "core/scenario/track_limits.h"
+#include "generator/sequence/pose_record.h"
+
+namespace railcast {
+namespace {
+
+bool IsNameOfAFolder(const std::string& name) {
+  return name != "." && name != ".." && name.find('/') == std::string::npos &&
+         name != kSensorsFile && name.size() <= 200;
+}
+
+std::vector<double> Components(const Eigen::Ref<const Eigen::VectorXd>& vector) {
+  return {vector.begin(), vector.end()};
+}
+
+}  // namespace
+
+std::vector<SensorRun> SensorRunsOf(const ScenarioSpec& scenario, const SequenceChoices& choices) {
+  std::vector<SensorRun> runs;
+  for (const std::string& name : SensorNames(scenario)) {
+    if (!IsNameOfAFolder(name)) {
+      throw InputError("--sensor: must be given, because a sensor's name is no name of a folder (" +
+                       Quoted(name) + ")");
+    }
+    ScenarioSpec reduced = PickSensor(scenario, name);
+    if (!runs.empty()) reduced.camera.reset();
+    SequenceChoices own = choices;
+    own.directory = choices.directory / name;
+    SequenceSpec spec = SequenceSpecOf(reduced, own);
+    runs.push_back({name, std::move(reduced), std::move(spec)});
+  }
+  return runs;
+}
+
+void SetFrames(const SequenceSpec& first,
+               const ScanPattern& first_pattern,
+               const ScanPattern& pattern,
+               SensorRun& run) {
+  const std::int64_t begin_ns = first_pattern.StampNs(first.start_frame);
+  const std::int64_t end_ns = first_pattern.StampNs(first.FrameAt(first.num_frames - 1) + 1);
+  const std::uint32_t most = pattern.LastFrame();
+  const std::uint32_t begin = FirstStampedAt(pattern, begin_ns, 0, most);
+  const std::uint32_t end = FirstStampedAt(pattern, end_ns, begin, most);
+  if (begin == end) {
+    throw InputError("--frames: must last until a frame of sensor " + Quoted(run.name) +
+                     " begins, " + NumberText(static_cast<double>(pattern.StampNs(begin)) * 1e-9) +
+                     " s (got " + std::to_string(first.num_frames) + " of the first sensor, to " +
+                     NumberText(static_cast<double>(end_ns) * 1e-9) + " s)");
+  }
+  run.spec.start_frame = begin;
+  run.spec.num_frames = (end - begin + run.spec.stride - 1) / run.spec.stride;
+}
+
+void RefuseOtherFiles(const std::filesystem::path& directory, const std::vector<SensorRun>& runs) {
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(directory, none)) {
+    const std::string name = entry.path().filename().string();
+    const bool is_known =
+        name == kSensorsFile || std::any_of(runs.begin(), runs.end(),
+                                            [&](const SensorRun& run) { return run.name == name; });
+    if (is_known) continue;
+    throw InputError(ShownPath(directory) +
+                     ": must hold nothing but the folders of the scenario's sensors and " +
+                     std::string(kSensorsFile) + " (got " + Quoted(name) + ")");
+  }
+}
+
+std::string SensorsJson(const std::vector<SensorRun>& runs) {
+  nlohmann::ordered_json sensors = nlohmann::ordered_json::array();
+  for (const SensorRun& run : runs) {
+    const Transform vehicle_from_sensor = VehicleFromSensor(run.scenario.lidar.mount);
+    const Eigen::Quaterniond rotation = CanonicalRotation(vehicle_from_sensor);
+    sensors.push_back({{"name", run.name},
+                       {"folder", run.name},
+                       {"rate_hz", run.scenario.lidar.scan.rate_hz},
+                       {"start_frame", run.spec.start_frame},
+                       {"num_frames", run.spec.num_frames},
+                       {"stride", run.spec.stride},
+                       {"vehicle_from_sensor",
+                        {{"translation_m", Components(vehicle_from_sensor.translation())},
+                         {"quaternion_xyzw", Components(rotation.coeffs())}}}});
+  }
+  const nlohmann::ordered_json all = {{"version", 1}, {"sensors", std::move(sensors)}};
+  return all.dump(2) + "\n";
+}
+
+}  // namespace railcast

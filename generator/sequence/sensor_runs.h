@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "generator/sequence/scenario_sequence.h"
+#include "generator/sequence/sequence_spec.h"
+#include "railcast/lidar.h"
+#include "railcast/scenario.h"
+
+namespace railcast {
+
+/// The sequence of one of a scenario's sensors.
+struct SensorRun {
+  std::string name;
+  ScenarioSpec scenario;  ///< Reduced to the sensor (PickSensor()).
+  SequenceSpec spec;
+};
+
+/// One sequence for each sensor of a scenario, in their order, in a folder of the sensor's name
+/// below `choices.directory`. The camera, if there is one, belongs to the first sensor's. The
+/// choices are those of the first sensor; SetFrames() adapts them for the others.
+/// @throws InputError if a name cannot be that of a folder, or as SequenceSpecOf() does.
+[[nodiscard]] std::vector<SensorRun> SensorRunsOf(const ScenarioSpec& scenario,
+                                                  const SequenceChoices& choices);
+
+/// Chooses a sensor's frames: every `stride`-th of those that begin while the frames of the first
+/// sensor last, from the first one that does.
+/// @throws InputError if there is none.
+void SetFrames(const SequenceSpec& first,
+               const ScanPattern& first_pattern,
+               const ScanPattern& pattern,
+               SensorRun& run);
+
+/// Refuses a directory that holds anything but the sensors' folders and sensors.json.
+/// @throws InputError "DIR: must hold nothing but ... (got "frames")".
+void RefuseOtherFiles(const std::filesystem::path& directory, const std::vector<SensorRun>& runs);
+
+/// Returns sensors.json: the folders of a scenario's sensors, and where each sensor is on the
+/// vehicle by its nominal mount.
+[[nodiscard]] std::string SensorsJson(const std::vector<SensorRun>& runs);
+
+}  // namespace railcast
