@@ -52,8 +52,8 @@ GivenShard ReadShard(const fs::path& directory) {
                   .format = json.at("format"),
                   .fields = json.at("fields"),
                   .shard = {}};
-    if (!json.contains("shard")) throw InputError(ShownPath(directory) + ": is no shard");
-    given.spec.shard = ParseShardName(json.at("shard"));
+    // A whole data set is the only shard of itself.
+    if (json.contains("shard")) given.spec.shard = ParseShardName(json.at("shard"));
   } catch (const Json::exception&) {
     throw InputError(ShownPath(file) + ": is damaged");
   }
