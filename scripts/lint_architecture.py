@@ -41,6 +41,7 @@ LIBRARY_OWNERS = {
     "CLI11": (r"CLI/", ("core/program", *PROGRAMS)),
     "Mustache": (r"kainjow/", ("analysis/report",)),
     "spdlog": (r"spdlog/", PROGRAMS),
+    "pybind11": (r"pybind11/", ("generator/python",)),
 }
 # The libraries that a public header may require of the programs that include it.
 PUBLIC_LIBRARIES = re.compile(r"Eigen/|[a-z_0-9]+$|std(?:def|int)\.h$")
