@@ -164,6 +164,18 @@ std::vector<RecordedObject> HeldSimulation::Describe(std::size_t sensor,
   return described;
 }
 
+std::vector<RailLines> HeldSimulation::Rails(std::int64_t frame,
+                                             const Sensor& sensor,
+                                             const RailReach& reach) {
+  const std::lock_guard lock(mutex_);
+  const std::size_t index = IndexOf(sensor);
+  const std::uint32_t number = FrameOf(frame, index);
+  const Simulator& simulator = run_->At(index, number);
+  const std::int64_t stamp_ns = simulator.pattern().StampNs(number);
+  return RailLinesAbout(*run_->StateAt(stamp_ns).world, scenario().world.alignment, stamp_ns, reach,
+                        simulator.WorldFromSensor(stamp_ns).inverse());
+}
+
 void HeldSimulation::Apply(const std::string& line, std::int64_t frame, const Sensor& sensor) {
   const std::lock_guard lock(mutex_);
   const Command command = CommandOf(line);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "generator/python/frame_pool.h"
+#include "generator/python/rail_lines.h"
 #include "generator/run/commanded_run.h"
 #include "generator/sequence/object_survey.h"
 #include "railcast/frame.h"
@@ -52,6 +53,11 @@ class HeldSimulation {
   /// Applies a command, as a line of docs/commands.md, at the stamp of a sensor's frame.
   /// @throws InputError with the lines with which a live run answers it.
   void Apply(const std::string& line, std::int64_t frame, const Sensor& sensor);
+
+  /// Returns the rails about the vehicle at a frame's stamp, in the axes of that sensor.
+  [[nodiscard]] std::vector<RailLines> Rails(std::int64_t frame,
+                                             const Sensor& sensor,
+                                             const RailReach& reach);
 
   [[nodiscard]] const ScenarioSpec& scenario() const { return run_->scenario(); }
   [[nodiscard]] const LabelTable& labels() const { return labels_; }

@@ -1,12 +1,15 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "generator/python/bindings.h"
 #include "generator/python/held_simulation.h"
+#include "generator/python/rail_lines.h"
 
 namespace railcast {
 namespace {
@@ -51,6 +54,31 @@ std::unique_ptr<HeldSimulation> MakeSimulation(const py::object& scenario,
   return WithoutGil([&] { return std::make_unique<HeldSimulation>(spec, threads, IsInterrupted); });
 }
 
+py::array_t<double> LineArray(const std::vector<Vector3>& line_m) {
+  py::array_t<double> array(std::vector<py::ssize_t>{static_cast<py::ssize_t>(line_m.size()), 3});
+  double* to = array.mutable_data();
+  for (const Vector3& point : line_m) to = std::copy_n(point.data(), 3, to);
+  return array;
+}
+
+void AddRails(py::module_& module) {
+  py::class_<RailLines>(
+      module, "Rails",
+      "The two rails of a stretch of track, in the order in which the vehicle comes\n"
+      "to them. What other tracks have in common with the vehicle's way is not\n"
+      "part of them.")
+      .def_readonly("track", &RailLines::track, "Name of the track; of a route its first.")
+      .def_readonly("is_ego", &RailLines::is_ego, "Whether it is the vehicle's way.")
+      .def_property_readonly(
+          "left", [](const RailLines& self) { return LineArray(self.left_m); },
+          "Middle of the head of the left rail, as the vehicle faces, at top of rail, every "
+          "metre,\n"
+          "in the sensor's axes in m: float64, (n, 3).")
+      .def_property_readonly(
+          "right", [](const RailLines& self) { return LineArray(self.right_m); },
+          "The same of the right rail: float64, (n, 3).");
+}
+
 void ApplyCommand(HeldSimulation& self,
                   const py::object& command,
                   std::int64_t frame,
@@ -63,6 +91,7 @@ void ApplyCommand(HeldSimulation& self,
 }  // namespace
 
 void AddSimulatorClass(pybind11::module_& module) {
+  AddRails(module);
   py::class_<HeldSimulation>(
       module, "Simulator",
       "Makes the frames of a scenario in memory.\n\n"
@@ -98,6 +127,17 @@ void AddSimulatorClass(pybind11::module_& module) {
           "and\n"
           "otherwise takes effect after the frame. Raises InputError if the vehicle or an object\n"
           "leaves its track in that frame.")
+      .def(
+          "rails",
+          [](HeldSimulation& self, std::int64_t frame, const HeldSimulation::Sensor& sensor,
+             double behind_m, double ahead_m) {
+            return WithoutGil([&] { return self.Rails(frame, sensor, {behind_m, ahead_m}); });
+          },
+          py::arg("frame"), py::arg("sensor") = 0, py::kw_only(), py::arg("behind_m") = 20.0,
+          py::arg("ahead_m") = 200.0,
+          "The rails of all tracks about the vehicle at a frame's stamp, first those of its own "
+          "way.\n\n"
+          "behind_m, ahead_m: how far from the vehicle's origin, along the chainage.")
       .def("apply", &ApplyCommand, py::arg("command"), py::arg("frame"), py::arg("sensor") = 0,
            "Applies a command of docs/commands.md, which holds for frames stamped at the stamp of\n"
            "that frame or later, of all sensors.\n\n"

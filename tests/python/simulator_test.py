@@ -143,6 +143,33 @@ class Errors(unittest.TestCase):
             self.assertEqual(str(raised.exception), line)
 
 
+class Rails(unittest.TestCase):
+
+    def test_points_on_rails_lie_beside_the_lines(self):
+        simulator = railcast.Simulator(SCENARIO)
+        frame = simulator.scan(30)
+        rails = simulator.rails(30)
+        self.assertEqual([(stretch.track, stretch.is_ego) for stretch in rails], [("main", True), ("second", False)])
+        on_rail = frame["label"][frame.has_point] == simulator.labels["rail"]
+        points = frame.points()[on_rail]
+        near = points[(points[:, 0] > 5) & (points[:, 0] < 40)]
+        self.assertGreater(len(near), 100)
+        lines = np.concatenate([line for stretch in rails for line in (stretch.left, stretch.right)])
+        # Lines have a point every metre; a rail's foot is 75 mm beside its middle; motion during the scan.
+        nearest = np.min(np.linalg.norm(near[:, None, 1:] - lines[None, :, 1:] +
+                                        np.where(np.abs(near[:, None, :1] - lines[None, :, :1]) < 0.6, 0, 99), axis=2),
+                         axis=1)
+        self.assertLess(np.quantile(nearest, 0.95), 0.3)
+
+    def test_the_gauge_is_that_of_the_line_and_left_is_left(self):
+        for stretch in railcast.Simulator(SCENARIO).rails(0, behind_m=0, ahead_m=100):
+            apart = np.linalg.norm(stretch.left - stretch.right, axis=1)
+            # 1435 mm between the heads' faces, 14 mm below their tops, and half of each head's 72 mm.
+            np.testing.assert_allclose(apart, 1.505, atol=0.01)
+            self.assertGreater(stretch.left[0, 1], stretch.right[0, 1])
+            self.assertLess(stretch.left[0, 0], stretch.left[-1, 0])
+
+
 class WithOthers(unittest.TestCase):
 
     def test_sensors_are_chosen_by_name_or_index(self):

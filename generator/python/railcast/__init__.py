@@ -8,9 +8,10 @@ open() reads recordings, Simulator makes frames in memory, and Dataset gives fra
 by index, as loaders for training want them. Faults in a user's input raise InputError.
 """
 
-from ._railcast import OUTCOMES, Frame, InputError, Object, Recording, Simulator, __version__, open
+from ._railcast import OUTCOMES, Frame, InputError, Object, Rails, Recording, Simulator, __version__, open
 from .dataset import Dataset
 
 __all__ = [
-    "OUTCOMES", "Dataset", "Frame", "InputError", "Object", "Recording", "Simulator", "__version__", "open"
+    "OUTCOMES", "Dataset", "Frame", "InputError", "Object", "Rails", "Recording", "Simulator",
+    "__version__", "open"
 ]
