@@ -31,6 +31,7 @@ LIBRARY_OWNERS = {
     "Embree": (r"embree\d/", ("core/trace",)),
     "OpenMesh": (r"OpenMesh/", ("core/mesh",)),
     "assimp": (r"assimp/", ("core/mesh",)),
+    "pybind11": (r"pybind11/", ("generator/python",)),
     "nlohmann": (r"nlohmann/",
                  ("core/scenario", "core/fidelity", "core/io", "generator", "analysis")),
     "PCL": (r"pcl/", ("core/io", "core/include/railcast/io", *PROGRAMS)),
@@ -41,7 +42,6 @@ LIBRARY_OWNERS = {
     "CLI11": (r"CLI/", ("core/program", *PROGRAMS)),
     "Mustache": (r"kainjow/", ("analysis/report",)),
     "spdlog": (r"spdlog/", PROGRAMS),
-    "pybind11": (r"pybind11/", ("generator/python",)),
 }
 # The libraries that a public header may require of the programs that include it.
 PUBLIC_LIBRARIES = re.compile(r"Eigen/|[a-z_0-9]+$|std(?:def|int)\.h$")
