@@ -1,7 +1,9 @@
 """railcast.Dataset gives the frames of recordings by index, also in other processes."""
 
+import contextlib
 import multiprocessing
 import pathlib
+import sqlite3
 import tempfile
 import unittest
 
@@ -62,6 +64,32 @@ class Samples(unittest.TestCase):
             # the sensor, which a yaw leaves out.
             for distance, length in ((along, box[3]), (across, box[4])):
                 self.assertLess(np.abs(distance).max(), length / 2 + moved_m + 0.3)
+
+    def test_a_part_of_a_data_set_has_its_frames_only(self):
+        # The columns of index.sqlite that matter here, as docs/dataset.md has them.
+        folder = pathlib.Path(self.temporary.name)
+        with contextlib.closing(sqlite3.connect(folder / "index.sqlite")) as index, index:
+            index.execute("CREATE TABLE scenarios (scenario INTEGER PRIMARY KEY, split TEXT, folder TEXT, "
+                          "num_frames INTEGER)")
+            index.executemany("INSERT INTO scenarios VALUES (?, ?, ?, ?)",
+                              [(1, "val", "b", FRAMES), (0, "train", "a", FRAMES)])
+        self.addCleanup((folder / "index.sqlite").unlink)
+        self.assertEqual(railcast.Dataset(folder).paths, [str(run) for run in self.runs])
+        validation = railcast.Dataset(folder, split="val")
+        self.assertEqual(len(validation), FRAMES)
+        np.testing.assert_array_equal(validation[1]["points"], railcast.Dataset(self.runs[1])[1]["points"])
+        for source, line in ((folder, f"split: must be one of train, val, those of {folder} (got 'test')"),
+                             (self.runs[0], f"split: must be left out for what is no data set, {self.runs[0]} "
+                                            "(got 'test')")):
+            with self.assertRaises(railcast.InputError) as raised:
+                railcast.Dataset(source, split="test")
+            self.assertEqual(str(raised.exception), line)
+
+    def test_no_more_recordings_are_kept_open_than_the_memory_is_meant_for(self):
+        dataset = railcast.Dataset(*self.runs * 40)
+        for index in range(0, len(dataset), FRAMES):
+            self.assertEqual(dataset[index]["source"], index // FRAMES)
+        self.assertEqual(len(dataset._opened), 64)  # pylint: disable=protected-access
 
     def test_a_transform_replaces_the_sample(self):
         dataset = railcast.Dataset(self.runs[0], transform=lambda sample: sample["points"].shape[1])
