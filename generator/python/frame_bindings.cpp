@@ -114,26 +114,28 @@ std::string FieldTable() {
 }
 
 std::string FrameDoc() {
-  return "One scan: arrays of shape (rows, width), with width = columns * returns.\n\n"
-         "    frame[name]   the array of a field, in the frame's own memory: nothing is copied, "
-         "and\n"
-         "                  the array keeps the frame alive\n\n"
-         "Slot [row, column * returns + return_index] belongs to one return of one firing; row 0 "
-         "is\n"
-         "the lowest channel. Slots without a point have NaN in x, y, z and range_m, and "
-         "`outcome`\n"
-         "says why (OUTCOMES). Patterns and clouds that are no grids have one row. Points are in\n"
-         "the sensor's axes (x forward, y left, z up) at the time of each firing; those of\n"
-         "Simulator.scan() in the axes that the scenario's `output` says.\n\nFields:\n\n" +
-         FieldTable() +
-         "\nA recording may lack some of them, and a cloud of another source may have fields of "
-         "its\n"
-         "own, as float32: see `fields`. docs/files.md says what each one means.";
+  return R"(One scan: arrays of shape (rows, width), with width = columns * returns.
+
+    frame[name]   the array of a field, in the frame's own memory: nothing is copied, and
+                  the array keeps the frame alive
+
+Slot [row, column * returns + return_index] belongs to one return of one firing; row 0 is
+the lowest channel. Slots without a point have NaN in x, y, z and range_m, and `outcome`
+says why (OUTCOMES). Patterns and clouds that are no grids have one row. Points are in
+the sensor's axes (x forward, y left, z up) at the time of each firing; those of
+Simulator.scan() in the axes that the scenario's `output` says.
+
+Fields:
+
+)" + FieldTable() +
+         R"(
+A recording may lack some of them, and a cloud of another source may have fields of its
+own, as float32: see `fields`. docs/files.md says what each one means.)";
 }
 
-void AddFrame(py::module_& module) {
-  py::class_<RecordedFrame, std::shared_ptr<RecordedFrame>> frame(module, "Frame");
-  frame.doc() = FrameDoc();
+using FrameClass = py::class_<RecordedFrame, std::shared_ptr<RecordedFrame>>;
+
+void AddNumbers(FrameClass& frame) {
   const auto of_frame = [&](const char* name, auto member, const char* doc) {
     frame.def_property_readonly(
         name, [member](const RecordedFrame& self) { return self.frame.*member; }, doc);
@@ -154,11 +156,15 @@ void AddFrame(py::module_& module) {
       .def_readonly("name", &RecordedFrame::name,
                     "Name in messages, such as that of its file; empty if simulated.")
       .def_readonly("is_grid", &RecordedFrame::is_grid,
-                    "Whether slots are firings, so that those without a point are lost ones.")
-      .def_property_readonly("fields", &FieldsOf, "Names of the fields that the frame has.")
+                    "Whether slots are firings, so that those without a point are lost ones.");
+}
+
+void AddArrays(FrameClass& frame) {
+  frame.def_property_readonly("fields", &FieldsOf, "Names of the fields that the frame has.")
       .def("__getitem__", &FieldNamed, py::arg("field"),
-           "The array of a field, (rows, width), in the frame's own memory.\n\n"
-           "Raises KeyError if the frame lacks it.")
+           R"(The array of a field, (rows, width), in the frame's own memory.
+
+Raises KeyError if the frame lacks it.)")
       .def("__contains__",
            [](const RecordedFrame& self, const std::string& name) {
              const std::vector<std::string> names = FieldsOf(self);
@@ -167,8 +173,12 @@ void AddFrame(py::module_& module) {
       .def_property_readonly("has_point", &PointMask,
                              "Whether each slot has a point: bool, (rows, width).")
       .def("points", &Points,
-           "The points' x, y, z in m, without empty slots: float32, (num_points, 3), a copy. They\n"
-           "are in the order of frame[field][frame.has_point].")
+           R"(The points' x, y, z in m, without empty slots: float32, (num_points, 3), a copy. They
+are in the order of frame[field][frame.has_point].)");
+}
+
+void AddPlaces(FrameClass& frame) {
+  frame
       .def_property_readonly(
           "world_from_sensor",
           [](const RecordedFrame& self) { return PoseOrNone(self, self.frame.world_from_sensor); },
@@ -181,17 +191,25 @@ void AddFrame(py::module_& module) {
           "Pose at the last firing: float64, (4, 4); None where it is not known.")
       .def_property_readonly(
           "origin_m", [](const RecordedFrame& self) { return VectorArray(self.origin_m); },
-          "Add it to positions to get those of the file, in m: float64, (3,). It is 0 unless the\n"
-          "file has them far from 0, as in a national grid.")
+          R"(Add it to positions to get those of the file, in m: float64, (3,). It is 0 unless the
+file has them far from 0, as in a national grid.)")
       .def_readonly("objects", &RecordedFrame::objects,
-                    "The objects within range, those of objects.jsonl. Empty for clouds of others\n"
-                    "and for simulated frames that were not asked for them.")
-      .def("__repr__", [](const RecordedFrame& self) {
-        return "Frame(index=" + std::to_string(self.frame.index) +
-               ", rows=" + std::to_string(self.frame.rows) +
-               ", width=" + std::to_string(self.frame.width()) +
-               ", num_points=" + std::to_string(NumPoints(self.frame)) + ")";
-      });
+                    R"(The objects within range, those of objects.jsonl. Empty for clouds of others
+and for simulated frames that were not asked for them.)");
+}
+
+void AddFrame(py::module_& module) {
+  FrameClass frame(module, "Frame");
+  frame.doc() = FrameDoc();
+  AddNumbers(frame);
+  AddArrays(frame);
+  AddPlaces(frame);
+  frame.def("__repr__", [](const RecordedFrame& self) {
+    return "Frame(index=" + std::to_string(self.frame.index) +
+           ", rows=" + std::to_string(self.frame.rows) +
+           ", width=" + std::to_string(self.frame.width()) +
+           ", num_points=" + std::to_string(NumPoints(self.frame)) + ")";
+  });
 }
 
 void AddObject(py::module_& module) {
@@ -217,8 +235,8 @@ void AddObject(py::module_& module) {
       .def_readonly("firings_alone", &RecordedObject::firings_alone,
                     "Firings that would meet it if nothing else stood there.")
       .def_property_readonly("occlusion", &OcclusionOf,
-                             "1 - firings_visible / firings_alone; None where it would not be\n"
-                             "visible even alone.")
+                             R"(1 - firings_visible / firings_alone; None where it would not be
+visible even alone.)")
       .def("__repr__", [](const RecordedObject& self) {
         return "Object(name=" + Quoted(self.name) + ", label=" + Quoted(self.label) +
                ", points=" + std::to_string(self.points) + ")";

@@ -16,9 +16,11 @@ namespace py = pybind11;
 void AddErrors(py::module_& module) {
   static py::exception<InputError> type(module, "InputError", PyExc_ValueError);
   type.doc() =
-      "A fault in the user's input: a scenario, a command or a file.\n\n"
-      "str(error) has one line per fault, the ones that the programs print, such as\n"
-      "    scenarios/demo.json: /lidar/range_max_m: must be > 0 (got -5)";
+      R"(A fault in the user's input: a scenario, a command or a file.
+
+str(error) has one line per fault, the ones that the programs print, such as
+    scenarios/demo.json: /lidar/range_max_m: must be > 0 (got -5))";
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): the parameter that pybind11 wants.
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);

@@ -52,11 +52,13 @@ void AddRecordingClass(pybind11::module_& module) {
       .def("__next__", &NextOf);
   py::class_<IndexedRecording>(
       module, "Recording",
-      "Frames of a sequence, of cloud files or of a capture, in order of time: open() makes it.\n\n"
-      "    for frame in recording: ...     one pass, which keeps no frame\n"
-      "    recording[i], len(recording)    not for captures, whose length only their end tells\n\n"
-      "Several threads may read frames at once; the interpreter's lock is released meanwhile.\n"
-      "Raises InputError for a file that cannot be read or is damaged.")
+      R"(Frames of a sequence, of cloud files or of a capture, in order of time: open() makes it.
+
+    for frame in recording: ...     one pass, which keeps no frame
+    recording[i], len(recording)    not for captures, whose length only their end tells
+
+Several threads may read frames at once; the interpreter's lock is released meanwhile.
+Raises InputError for a file that cannot be read or is damaged.)")
       .def("__iter__",
            [](const IndexedRecording& self) {
              const py::gil_scoped_release released;
@@ -95,10 +97,10 @@ void AddRecordingClass(pybind11::module_& module) {
       "open",
       [](const std::filesystem::path& path) { return std::make_unique<IndexedRecording>(path); },
       py::arg("path"), ReleasesGil(),
-      "Opens a sequence directory, a .pcd or .ply file, a directory of such files, KITTI's "
-      "folders\n"
-      "or a .pcap or .pcapng capture (docs/recordings.md).\n\n"
-      "Raises InputError if it is none of these.");
+      R"(Opens a sequence directory, a .pcd or .ply file, a directory of such files, KITTI's folders
+or a .pcap or .pcapng capture (docs/recordings.md).
+
+Raises InputError if it is none of these.)");
 }
 
 }  // namespace railcast

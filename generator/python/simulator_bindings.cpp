@@ -64,16 +64,15 @@ py::array_t<double> LineArray(const std::vector<Vector3>& line_m) {
 void AddRails(py::module_& module) {
   py::class_<RailLines>(
       module, "Rails",
-      "The two rails of a stretch of track, in the order in which the vehicle comes\n"
-      "to them. What other tracks have in common with the vehicle's way is not\n"
-      "part of them.")
+      R"(The two rails of a stretch of track, in the order in which the vehicle comes
+to them. What other tracks have in common with the vehicle's way is not
+part of them.)")
       .def_readonly("track", &RailLines::track, "Name of the track; of a route its first.")
       .def_readonly("is_ego", &RailLines::is_ego, "Whether it is the vehicle's way.")
       .def_property_readonly(
           "left", [](const RailLines& self) { return LineArray(self.left_m); },
-          "Middle of the head of the left rail, as the vehicle faces, at top of rail, every "
-          "metre,\n"
-          "in the sensor's axes in m: float64, (n, 3).")
+          R"(Middle of the head of the left rail, as the vehicle faces, at top of rail, every metre,
+in the sensor's axes in m: float64, (n, 3).)")
       .def_property_readonly(
           "right", [](const RailLines& self) { return LineArray(self.right_m); },
           "The same of the right rail: float64, (n, 3).");
@@ -88,29 +87,20 @@ void ApplyCommand(HeldSimulation& self,
   WithoutGil([&] { self.Apply(line, frame, sensor); });
 }
 
-}  // namespace
+using SimulatorClass = py::class_<HeldSimulation>;
 
-void AddSimulatorClass(pybind11::module_& module) {
-  AddRails(module);
-  py::class_<HeldSimulation>(
-      module, "Simulator",
-      "Makes the frames of a scenario in memory.\n\n"
-      "    sim = railcast.Simulator(\"scenarios/st_gallen_approach.json\")\n"
-      "    frame = sim.scan(30)\n\n"
-      "A frame depends on the scenario, its index and the commands alone, never on the frames "
-      "before\n"
-      "or on the number of threads, and equals that of `railcast-generate sequence` bit for bit.\n"
-      "Frames in ascending order are fastest.")
+void AddWork(SimulatorClass& simulator) {
+  simulator
       .def(py::init(&MakeSimulation), py::arg("scenario"), py::kw_only(),
            py::arg("file") = "scenario", py::arg("threads") = 0,
-           "scenario: the path of a scenario file, or the scenario itself as a dict or as JSON "
-           "text\n"
-           "    (a str that begins with \"{\").\n"
-           "file: the file that a dict or a text stands for, which need not exist: names of other\n"
-           "    files are relative to its folder, and messages show its name.\n"
-           "threads: number of threads; 0 = all cores.\n\n"
-           "Raises InputError with all faults of the scenario, the lines of `railcast-generate\n"
-           "check`.")
+           R"(scenario: the path of a scenario file, or the scenario as a dict or as JSON text
+    (a str that begins with "{").
+file: the file that a dict or a text stands for, which need not exist: names of other
+    files are relative to its folder, and messages show its name.
+threads: number of threads; 0 = all cores.
+
+Raises InputError with all faults of the scenario, the lines of `railcast-generate
+check`.)")
       .def(
           "scan",
           [](HeldSimulation& self, std::int64_t frame, const HeldSimulation::Sensor& sensor,
@@ -118,15 +108,16 @@ void AddSimulatorClass(pybind11::module_& module) {
             return WithoutGil([&] { return self.Scan(frame, sensor, objects); });
           },
           py::arg("frame"), py::arg("sensor") = 0, py::kw_only(), py::arg("objects") = false,
-          "Makes a frame with all fields.\n\n"
-          "frame: its index, from 0; frames are 1 / rate_hz apart.\n"
-          "sensor: index or name of the sensor, where the scenario has several.\n"
-          "objects: whether Frame.objects lists the objects within range, which takes rays of its\n"
-          "    own.\n\n"
-          "The interpreter's lock is released meanwhile. Ctrl-C ends the building of the scene, "
-          "and\n"
-          "otherwise takes effect after the frame. Raises InputError if the vehicle or an object\n"
-          "leaves its track in that frame.")
+          R"(Makes a frame with all fields.
+
+frame: its index, from 0; frames are 1 / rate_hz apart.
+sensor: index or name of the sensor, where the scenario has several.
+objects: whether Frame.objects lists the objects within range, which takes rays of its
+    own.
+
+The interpreter's lock is released meanwhile. Ctrl-C ends the building of a scene;
+otherwise it takes effect after the frame. Raises InputError if the vehicle or an object
+leaves its track in that frame.)")
       .def(
           "rails",
           [](HeldSimulation& self, std::int64_t frame, const HeldSimulation::Sensor& sensor,
@@ -135,16 +126,21 @@ void AddSimulatorClass(pybind11::module_& module) {
           },
           py::arg("frame"), py::arg("sensor") = 0, py::kw_only(), py::arg("behind_m") = 20.0,
           py::arg("ahead_m") = 200.0,
-          "The rails of all tracks about the vehicle at a frame's stamp, first those of its own "
-          "way.\n\n"
-          "behind_m, ahead_m: how far from the vehicle's origin, along the chainage.")
+          R"(The rails of all tracks about the vehicle at a frame's stamp; its own way is first.
+
+behind_m, ahead_m: how far from the vehicle's origin, along the chainage.)")
       .def("apply", &ApplyCommand, py::arg("command"), py::arg("frame"), py::arg("sensor") = 0,
-           "Applies a command of docs/commands.md, which holds for frames stamped at the stamp of\n"
-           "that frame or later, of all sensors.\n\n"
-           "command: a dict or JSON text, such as {\"command\": \"brake\"}.\n"
-           "frame, sensor: when; not before the last command. Frames before may still be "
-           "scanned.\n\n"
-           "Raises InputError with the lines that a live run answers; nothing has changed then.")
+           R"(Applies a command of docs/commands.md, which holds for frames stamped at the stamp of
+that frame or later, of all sensors.
+
+command: a dict or JSON text, such as {"command": "brake"}.
+frame, sensor: when; not before the last command. Earlier frames may still be made.
+
+Raises InputError with the lines that a live run answers; nothing has changed then.)");
+}
+
+void AddProperties(SimulatorClass& simulator) {
+  simulator
       .def_property_readonly(
           "sensors", [](const HeldSimulation& self) { return SensorNames(self.scenario()); },
           "Names of the sensors; that of a single one may be empty.")
@@ -166,6 +162,23 @@ void AddSimulatorClass(pybind11::module_& module) {
             return ParsedJson(ResolvedScenarioJson(self.scenario()));
           },
           "The scenario with every default and every file's content in place, as a dict.");
+}
+
+}  // namespace
+
+void AddSimulatorClass(pybind11::module_& module) {
+  AddRails(module);
+  SimulatorClass simulator(module, "Simulator",
+                           R"(Makes the frames of a scenario in memory.
+
+    sim = railcast.Simulator("scenarios/st_gallen_approach.json")
+    frame = sim.scan(30)
+
+A frame depends on the scenario, its index and the commands alone, never on frames
+before or on the number of threads, and equals that of `railcast-generate sequence` bit for bit.
+Frames in ascending order are fastest.)");
+  AddWork(simulator);
+  AddProperties(simulator);
 }
 
 }  // namespace railcast
