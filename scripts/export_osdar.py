@@ -4,9 +4,9 @@
 Usage: export_osdar.py RUN... --out DIR [--ontology osdar26|osdar23] [--merged] [--ascii]
 
 RUN is a directory that railcast-generate sequence wrote. Several runs are one scene with several
-sensors, such as those of one vehicle: their frames must have the same stamps, and their clouds are
-merged in the vehicle's axes, with the number of the run as `sensor_index`; --merged asks for that
-layout with one run, too. Writes
+sensors, those of one vehicle: the frames that all of them have at the same stamp are taken, and
+their clouds are merged in the vehicle's axes, with the number of the run as `sensor_index`;
+--merged asks for that layout with one run, too. Writes
 
     DIR/NAME_labels.json            cuboids, both rails of each track, segmentation by point indices
     DIR/LIDAR/000_12.300000000.pcd  x y z intensity timestamp [sensor_index]: points only
@@ -51,9 +51,14 @@ def matrix_of_mount(mount):
     return matrix
 
 
+def stamps_of(path):
+    """The stamps of a sequence's frames, in ns."""
+    return [int(line.split(",", 1)[0]) for line in (path / "poses.csv").read_text("ascii").splitlines()[1:]]
+
+
 def open_runs(paths):
-    """The recordings, checked to be one scene."""
-    faults, runs = [], []
+    """The recordings, and the places in them of the frames that have their stamps in common."""
+    faults, runs, places = [], [], []
     for path in paths:
         try:
             run = railcast.open(path)
@@ -67,11 +72,16 @@ def open_runs(paths):
         else:
             runs.append(run)
     if not faults:
-        stamps = [[frame.stamp_ns for frame in run] for run in runs]
-        faults += [f"{path}: must have the stamps of {paths[0]}" for path, own in zip(paths, stamps) if own != stamps[0]]
+        # Of a run that is not finished, the last pose may belong to no frame yet.
+        stamps = [{stamp: place for place, stamp in enumerate(stamps_of(path)[:len(run)])}
+                  for path, run in zip(paths, runs)]
+        common = sorted(set(stamps[0]).intersection(*stamps[1:]))
+        places = [[own[stamp] for stamp in common] for own in stamps]
+        if not common:
+            faults.append(f"{paths[0]}: must have a frame of a stamp that all other runs have")
     if faults:
         raise BadInput("\n".join(faults))
-    return runs
+    return runs, list(zip(*places))
 
 
 def write_pcd(path, points, is_ascii):
@@ -105,7 +115,7 @@ def write_ins(path, samples):
 
 def export(arguments):
     paths = [pathlib.Path(path) for path in arguments.runs]
-    runs = open_runs(paths)
+    runs, places = open_runs(paths)
     out = arguments.out
     if out.exists():
         raise BadInput(f"{out}: must not exist")
@@ -121,7 +131,8 @@ def export(arguments):
     (begun / lidar).mkdir(parents=True)
     (begun / "gps_imu").mkdir()
     samples = []
-    for frames in zip(*runs):
+    for of_runs in places:
+        frames = [run[place] for run, place in zip(runs, of_runs)]
         view = osdar_scene.View(frames, mounts, is_merged)
         view.add_rails(simulator.rails(frames[0].index, ahead_m=arguments.ahead_m))
         name = scene.add_frame(view, runs[0])

@@ -142,11 +142,21 @@ class Exported(unittest.TestCase):
                 np.testing.assert_allclose(np.sort(cloud.points()[number == 0], axis=0), np.sort(expected, axis=0),
                                            atol=1e-4)
 
+    def test_frames_are_those_that_all_sensors_have(self):
+        generate("sequence", SCENARIO, "--out", self.folder / "next", "--frames", FRAMES, "--start-frame", 31)
+        out = self.folder / "common"
+        ended = run_script("export_osdar.py", self.folder / "run", self.folder / "next", "--out", out)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        frames = json.loads((out / "common_labels.json").read_text("utf-8"))["openlabel"]["frames"]
+        self.assertEqual(list(frames), ["31"])
+        cloud = railcast.open(out / "lidar_merged")[0]
+        self.assertEqual(cloud.num_points, 2 * self.recording[1].num_points)
+
     def test_bad_runs_are_named_and_nothing_is_written(self):
-        generate("sequence", SCENARIO, "--out", self.folder / "later", "--frames", FRAMES, "--start-frame", 31)
+        generate("sequence", SCENARIO, "--out", self.folder / "later", "--frames", FRAMES, "--start-frame", 40)
         for runs, line in (
-            ((self.folder / "run", self.folder / "later"), f"{self.folder / 'later'}: must have the stamps of "
-                                                           f"{self.folder / 'run'}\n"),
+            ((self.folder / "run", self.folder / "later"), f"{self.folder / 'run'}: must have a frame of a stamp that "
+                                                           "all other runs have\n"),
             ((self.folder / "run" / "frames",), f"{self.folder}/run/frames: must be a sequence of railcast (got "
                                                 "directory of point clouds)\n"),
             ((self.folder / "nowhere",), f"{self.folder}/nowhere: no such file or directory\n"),
