@@ -31,6 +31,7 @@ LIBRARY_OWNERS = {
     "Embree": (r"embree\d/", ("core/trace",)),
     "OpenMesh": (r"OpenMesh/", ("core/mesh",)),
     "assimp": (r"assimp/", ("core/mesh",)),
+    "pybind11": (r"pybind11/", ("generator/python",)),
     "nlohmann": (r"nlohmann/",
                  ("core/scenario", "core/fidelity", "core/io", "generator", "analysis")),
     "PCL": (r"pcl/", ("core/io", "core/include/railcast/io", *PROGRAMS)),

@@ -32,6 +32,8 @@ build_packages=(
   ninja-build
   nlohmann-json3-dev
   pkg-config
+  pybind11-dev
+  python3-dev
   zlib1g-dev
 )
 
@@ -58,6 +60,8 @@ test_packages=(
   python3-jsonschema
   python3-numpy
   python3-open3d
+  python3-pip
+  python3-venv
   python3-yaml
   tshark
   xdotool

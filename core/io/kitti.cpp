@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -39,6 +41,38 @@ std::string YamlString(const std::string& text) {
     rest.remove_prefix(num_kept);
   }
   return '"' + scalar + '"';
+}
+
+std::string YamlKey(std::size_t key) {
+  return "  " + std::to_string(key) + ": ";
+}
+
+/// The classes that networks learn, numbered from 0. An object has one class, whether it moves or
+/// not.
+struct TrainingClasses {
+  std::map<std::uint32_t, std::size_t> class_of;  ///< By SemanticKITTI id.
+  std::vector<std::uint32_t> label_of;            ///< The first SemanticKITTI id of each class.
+};
+
+/// Class 0 is what SemanticKITTI calls unlabeled (0) or an outlier (1), such as rain and ghosts.
+TrainingClasses TrainingClassesOf(const LabelTable& kitti) {
+  constexpr std::uint16_t kOutlier = 1;
+  TrainingClasses training{{}, {0}};
+  for (const Label& label : kitti.labels()) {
+    if (label.semantic_kitti_nearest <= kOutlier) {
+      training.class_of[label.id] = 0;
+      continue;
+    }
+    // A moving class has the id of the standing one as its label's, whose class is known.
+    const auto standing = training.class_of.find(label.semantic_kitti);
+    if (standing != training.class_of.end()) {
+      training.class_of[label.id] = standing->second;
+      continue;
+    }
+    training.class_of[label.id] = training.label_of.size();
+    training.label_of.push_back(label.id);
+  }
+  return training;
 }
 
 }  // namespace
@@ -139,20 +173,33 @@ LabelTable SemanticKittiLabels(const LabelTable& labels) {
 }
 
 std::string SemanticKittiYaml(const LabelTable& labels) {
+  const LabelTable kitti = SemanticKittiLabels(labels);
+  const TrainingClasses training = TrainingClassesOf(kitti);
   std::string names = "labels:\n";
   std::string colours = "color_map: # bgr\n";
-  std::string learning = "learning_map: # to the nearest of SemanticKITTI's own classes\n";
-  const LabelTable kitti = SemanticKittiLabels(labels);
+  std::string content = "content: # shares of points; 0 = not counted\n";
+  std::string learning = "learning_map: # to the classes of training\n";
+  std::string nearest = "nearest_map: # to the nearest of SemanticKITTI's own labels\n";
   for (const Label& label : kitti.labels()) {
-    const std::string key = "  " + std::to_string(label.id) + ": ";
+    const std::string key = YamlKey(label.id);
     const auto& [red, green, blue] = label.rgb;
     names += key + YamlString(label.name) + "\n";
     colours += key + "[" + std::to_string(blue) + ", " + std::to_string(green) + ", " +
                std::to_string(red) + "]\n";
-    learning += key + std::to_string(label.semantic_kitti_nearest) + "\n";
+    content += key + "0.0\n";
+    learning += key + std::to_string(training.class_of.at(label.id)) + "\n";
+    nearest += key + std::to_string(label.semantic_kitti_nearest) + "\n";
   }
-  return "# Classes of the .label files beside; ids above 259 are railcast's own.\n" + names +
-         colours + learning;
+  std::string inverse = "learning_map_inv:\n";
+  std::string ignore = "learning_ignore: # nothing, and points that are of no surface\n";
+  for (std::size_t i = 0; i < training.label_of.size(); ++i) {
+    inverse += YamlKey(i) + std::to_string(training.label_of[i]) + "\n";
+    ignore += YamlKey(i) + (i == 0 ? "true" : "false") + "\n";
+  }
+  return "# Classes of the .label files beside; ids above 259 are railcast's own.\n"
+         "name: \"railcast\"\n" +
+         names + colours + content + learning + inverse + ignore +
+         "split: # sequence numbers\n  train: [0]\n  valid: []\n  test: []\n" + nearest;
 }
 
 }  // namespace railcast

@@ -42,8 +42,10 @@ void EncodeKittiLabels(const Frame& frame,
 /// has the colour of the standing one.
 [[nodiscard]] LabelTable SemanticKittiLabels(const LabelTable& labels);
 
-/// Returns semantic-kitti-railcast.yaml: names, colours (b, g, r as in SemanticKITTI) and the
-/// learning_map to the nearest of SemanticKITTI's own classes.
+/// Returns semantic-kitti-railcast.yaml, with the keys that semantic-kitti-api reads: names,
+/// colours (b, g, r), shares of points (0: not counted yet), the learning_map to the classes of
+/// training 0 to N and back, which of them to ignore, the split of a single sequence; and
+/// nearest_map, to the nearest of SemanticKITTI's own ids.
 [[nodiscard]] std::string SemanticKittiYaml(const LabelTable& labels);
 
 }  // namespace railcast

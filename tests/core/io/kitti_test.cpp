@@ -133,15 +133,32 @@ TEST(SemanticKittiYaml, IsReadByPythonWhateverLabelsAreCalled) {
   EXPECT_EQ(run.said, expected);
 }
 
-TEST(SemanticKittiYaml, MapsOurClassesToTheNearestOriginals) {
+TEST(SemanticKittiYaml, HasTheKeysOfSemanticKittiApi) {
   EXPECT_EQ(
       SemanticKittiYaml(ExampleLabels()),
       "# Classes of the .label files beside; ids above 259 are railcast's own.\n"
+      "name: \"railcast\"\n"
       "labels:\n  0: \"unlabeled\"\n  16: \"wagon\"\n  256: \"moving wagon\"\n  260: \"rail\"\n"
       "color_map: # bgr\n  0: [0, 0, 0]\n  16: [0, 94, 213]\n  256: [0, 94, 213]\n"
       "  260: [0, 159, 230]\n"
-      "learning_map: # to the nearest of SemanticKITTI's own classes\n"
+      "content: # shares of points; 0 = not counted\n"
+      "  0: 0.0\n  16: 0.0\n  256: 0.0\n  260: 0.0\n"
+      "learning_map: # to the classes of training\n  0: 0\n  16: 1\n  256: 1\n  260: 2\n"
+      "learning_map_inv:\n  0: 0\n  1: 16\n  2: 260\n"
+      "learning_ignore: # nothing, and points that are of no surface\n"
+      "  0: true\n  1: false\n  2: false\n"
+      "split: # sequence numbers\n  train: [0]\n  valid: []\n  test: []\n"
+      "nearest_map: # to the nearest of SemanticKITTI's own labels\n"
       "  0: 0\n  16: 16\n  256: 256\n  260: 49\n");
+}
+
+TEST(SemanticKittiYaml, IgnoresWhatIsNoSurfaceInTraining) {
+  std::vector<Label> labels(2);
+  labels[0] = {1, "rain", {}, "", "", 272, 1};
+  labels[1] = {2, "rail", {}, "", "", 260, 49};
+  const std::string yaml = SemanticKittiYaml(LabelTable(labels));
+  EXPECT_NE(yaml.find("learning_map: # to the classes of training\n  260: 1\n  272: 0\n"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -1,0 +1,253 @@
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "generator/python/bindings.h"
+#include "railcast/io/recording.h"
+
+namespace railcast {
+namespace {
+
+namespace py = pybind11;
+
+using Shape = std::vector<py::ssize_t>;
+
+// An array in the frame's own memory, which keeps the frame alive.
+template <typename T>
+py::array ViewOf(std::vector<T>& values, const Frame& frame, const py::object& owner) {
+  using Number = std::conditional_t<std::is_enum_v<T>, std::uint8_t, T>;
+  static_assert(sizeof(Number) == sizeof(T));
+  return py::array_t<Number>(
+      Shape{static_cast<py::ssize_t>(frame.rows), static_cast<py::ssize_t>(frame.width())},
+      reinterpret_cast<Number*>(values.data()), owner);
+}
+
+std::vector<std::string> FieldsOf(const RecordedFrame& recorded) {
+  std::vector<std::string> names;
+  ForEachField(recorded.frame, [&](const char* name, const auto&...) {
+    if (recorded.Has(name)) names.emplace_back(name);
+  });
+  for (const ForeignField& field : recorded.foreign) names.push_back(field.name);
+  return names;
+}
+
+std::string JoinedNames(const std::vector<std::string>& names) {
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+  return all;
+}
+
+py::array FieldNamed(const py::object& self, const std::string& wanted) {
+  auto& recorded = self.cast<RecordedFrame&>();
+  Frame& frame = recorded.frame;
+  py::object found = py::none();
+  if (recorded.Has(wanted)) {
+    ForEachField(frame, [&](const char* name, const char*, auto& values) {
+      if (name == wanted) found = ViewOf(values, frame, self);
+    });
+  }
+  for (ForeignField& field : recorded.foreign) {
+    if (found.is_none() && field.name == wanted) found = ViewOf(field.values, frame, self);
+  }
+  if (!found.is_none()) return found;
+  throw py::key_error("frame: must have the field, it has " + JoinedNames(FieldsOf(recorded)) +
+                      " (got " + Quoted(wanted) + ")");
+}
+
+std::size_t NumPoints(const Frame& frame) {
+  return static_cast<std::size_t>(
+      std::count_if(frame.x.begin(), frame.x.end(), [](float x_m) { return !std::isnan(x_m); }));
+}
+
+py::array_t<bool> PointMask(const RecordedFrame& recorded) {
+  const Frame& frame = recorded.frame;
+  py::array_t<bool> mask(
+      Shape{static_cast<py::ssize_t>(frame.rows), static_cast<py::ssize_t>(frame.width())});
+  std::transform(frame.x.begin(), frame.x.end(), mask.mutable_data(),
+                 [](float x_m) { return !std::isnan(x_m); });
+  return mask;
+}
+
+py::array_t<float> Points(const RecordedFrame& recorded) {
+  const Frame& frame = recorded.frame;
+  py::array_t<float> points(Shape{static_cast<py::ssize_t>(NumPoints(frame)), 3});
+  float* to = points.mutable_data();
+  for (std::size_t i = 0; i < frame.num_slots(); ++i) {
+    if (std::isnan(frame.x[i])) continue;
+    *to++ = frame.x[i];
+    *to++ = frame.y[i];
+    *to++ = frame.z[i];
+  }
+  return points;
+}
+
+py::object PoseOrNone(const RecordedFrame& recorded, const Transform& pose) {
+  if (!recorded.has_pose) return py::none();
+  return MatrixArray(pose);
+}
+
+py::object OcclusionOf(const RecordedObject& object) {
+  if (object.firings_alone == 0) return py::none();
+  return py::float_(1.0 - static_cast<double>(object.firings_visible) /
+                              static_cast<double>(object.firings_alone));
+}
+
+// The table of fields for the docstring, so that it stands in one place, ForEachField.
+std::string FieldTable() {
+  std::string table;
+  const Frame frame;
+  ForEachField(frame, [&](const std::string& name, const std::string& unit, const auto& values) {
+    using T = typename std::decay_t<decltype(values)>::value_type;
+    const std::string type =
+        std::is_floating_point_v<T> ? "float32" : "uint" + std::to_string(8 * sizeof(T));
+    table += "    " + name + std::string(18 - name.size(), ' ') + type +
+             (unit.empty() ? "" : std::string(9 - type.size(), ' ') + unit) + "\n";
+  });
+  return table;
+}
+
+std::string FrameDoc() {
+  return R"(One scan: arrays of shape (rows, width), with width = columns * returns.
+
+    frame[name]   the array of a field, in the frame's own memory: nothing is copied, and
+                  the array keeps the frame alive
+
+Slot [row, column * returns + return_index] belongs to one return of one firing; row 0 is
+the lowest channel. Slots without a point have NaN in x, y, z and range_m, and `outcome`
+says why (OUTCOMES). Patterns and clouds that are no grids have one row. Points are in
+the sensor's axes (x forward, y left, z up) at the time of each firing; those of
+Simulator.scan() in the axes that the scenario's `output` says.
+
+Fields:
+
+)" + FieldTable() +
+         R"(
+A recording may lack some of them, and a cloud of another source may have fields of its
+own, as float32: see `fields`. docs/files.md says what each one means.)";
+}
+
+using FrameClass = py::class_<RecordedFrame, std::shared_ptr<RecordedFrame>>;
+
+void AddNumbers(FrameClass& frame) {
+  const auto of_frame = [&](const char* name, auto member, const char* doc) {
+    frame.def_property_readonly(
+        name, [member](const RecordedFrame& self) { return self.frame.*member; }, doc);
+  };
+  of_frame("index", &Frame::index, "Number of the frame in its run.");
+  of_frame("stamp_ns", &Frame::stamp_ns, "Simulation time of the first firing, in ns.");
+  of_frame("duration_ns", &Frame::duration_ns, "Time from the stamp to the last firing, in ns.");
+  of_frame("rows", &Frame::rows, "Number of channels; 1 where there is no grid.");
+  of_frame("columns", &Frame::columns, "Number of azimuth steps.");
+  of_frame("returns", &Frame::returns, "Slots per firing: 1, 2 or 3.");
+  frame
+      .def_property_readonly(
+          "width", [](const RecordedFrame& self) { return self.frame.width(); },
+          "columns * returns.")
+      .def_property_readonly(
+          "num_points", [](const RecordedFrame& self) { return NumPoints(self.frame); },
+          "Number of slots that have a point.")
+      .def_readonly("name", &RecordedFrame::name,
+                    "Name in messages, such as that of its file; empty if simulated.")
+      .def_readonly("is_grid", &RecordedFrame::is_grid,
+                    "Whether slots are firings, so that those without a point are lost ones.");
+}
+
+void AddArrays(FrameClass& frame) {
+  frame.def_property_readonly("fields", &FieldsOf, "Names of the fields that the frame has.")
+      .def("__getitem__", &FieldNamed, py::arg("field"),
+           R"(The array of a field, (rows, width), in the frame's own memory.
+
+Raises KeyError if the frame lacks it.)")
+      .def("__contains__",
+           [](const RecordedFrame& self, const std::string& name) {
+             const std::vector<std::string> names = FieldsOf(self);
+             return std::find(names.begin(), names.end(), name) != names.end();
+           })
+      .def_property_readonly("has_point", &PointMask,
+                             "Whether each slot has a point: bool, (rows, width).")
+      .def("points", &Points,
+           R"(The points' x, y, z in m, without empty slots: float32, (num_points, 3), a copy. They
+are in the order of frame[field][frame.has_point].)");
+}
+
+void AddPlaces(FrameClass& frame) {
+  frame
+      .def_property_readonly(
+          "world_from_sensor",
+          [](const RecordedFrame& self) { return PoseOrNone(self, self.frame.world_from_sensor); },
+          "Pose at the stamp in m, east-north-up: float64, (4, 4); None where it is not known.")
+      .def_property_readonly(
+          "world_from_sensor_end",
+          [](const RecordedFrame& self) {
+            return PoseOrNone(self, self.frame.world_from_sensor_end);
+          },
+          "Pose at the last firing: float64, (4, 4); None where it is not known.")
+      .def_property_readonly(
+          "origin_m", [](const RecordedFrame& self) { return VectorArray(self.origin_m); },
+          R"(Add it to positions to get those of the file, in m: float64, (3,). It is 0 unless the
+file has them far from 0, as in a national grid.)")
+      .def_readonly("objects", &RecordedFrame::objects,
+                    R"(The objects within range, those of objects.jsonl. Empty for clouds of others
+and for simulated frames that were not asked for them.)");
+}
+
+void AddFrame(py::module_& module) {
+  FrameClass frame(module, "Frame");
+  frame.doc() = FrameDoc();
+  AddNumbers(frame);
+  AddArrays(frame);
+  AddPlaces(frame);
+  frame.def("__repr__", [](const RecordedFrame& self) {
+    return "Frame(index=" + std::to_string(self.frame.index) +
+           ", rows=" + std::to_string(self.frame.rows) +
+           ", width=" + std::to_string(self.frame.width()) +
+           ", num_points=" + std::to_string(NumPoints(self.frame)) + ")";
+  });
+}
+
+void AddObject(py::module_& module) {
+  py::class_<RecordedObject>(module, "Object", "An object as seen in one frame, with its box.")
+      .def_readonly("name", &RecordedObject::name, "Name in the scenario.")
+      .def_readonly("type", &RecordedObject::type, "Type in the scenario, such as \"person\".")
+      .def_readonly("label", &RecordedObject::label, "Name of its label.")
+      .def_readonly("instance", &RecordedObject::instance, "Its number in the field `instance`.")
+      .def_property_readonly(
+          "size_m", [](const RecordedObject& self) { return VectorArray(self.size_m); },
+          "Length, width and height of the box in m: float64, (3,).")
+      .def_property_readonly(
+          "sensor_from_box",
+          [](const RecordedObject& self) { return MatrixArray(self.sensor_from_box); },
+          "Centre and axes of the box at the stamp, in the sensor's axes in m: float64, (4, 4).")
+      .def_property_readonly(
+          "velocity_world_mps",
+          [](const RecordedObject& self) { return VectorArray(self.velocity_world_mps); },
+          "Velocity of the box's centre in world axes, in m/s: float64, (3,).")
+      .def_readonly("points", &RecordedObject::points, "Slots with a point on it.")
+      .def_readonly("firings_visible", &RecordedObject::firings_visible,
+                    "Firings that show it, detected or not.")
+      .def_readonly("firings_alone", &RecordedObject::firings_alone,
+                    "Firings that would meet it if nothing else stood there.")
+      .def_property_readonly("occlusion", &OcclusionOf,
+                             R"(1 - firings_visible / firings_alone; None where it would not be
+visible even alone.)")
+      .def("__repr__", [](const RecordedObject& self) {
+        return "Object(name=" + Quoted(self.name) + ", label=" + Quoted(self.label) +
+               ", points=" + std::to_string(self.points) + ")";
+      });
+}
+
+}  // namespace
+
+void AddFrameClasses(pybind11::module_& module) {
+  AddObject(module);
+  AddFrame(module);
+}
+
+}  // namespace railcast

@@ -1,0 +1,193 @@
+#include "generator/python/held_simulation.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/scenario/command.h"
+#include "railcast/fidelity.h"
+#include "railcast/lidar.h"
+
+namespace railcast {
+namespace {
+
+constexpr std::int64_t kMostThreads = 1024;
+
+int CheckedThreads(std::int64_t num_threads) {
+  if (num_threads >= 0 && num_threads <= kMostThreads) return static_cast<int>(num_threads);
+  throw InputError({{"threads", "must be >= 0 and <= " + std::to_string(kMostThreads),
+                     std::to_string(num_threads)}});
+}
+
+std::set<std::string, std::less<>> AllFields() {
+  std::set<std::string, std::less<>> names;
+  const Frame frame;
+  ForEachField(frame, [&](const char* name, const auto&...) { names.emplace(name); });
+  return names;
+}
+
+Command CommandOf(const std::string& line) {
+  CommandLine read = ReadCommand(line);
+  if (read.command) return std::move(*read.command);
+  ErrorList faults;
+  for (std::string& fault : read.faults) faults.AddLine(std::move(fault));
+  faults.ThrowIfAny();
+  throw InputError("command: must not be empty");
+}
+
+}  // namespace
+
+HeldSimulation::HeldSimulation(const ScenarioSpec& scenario,
+                               std::int64_t num_threads,
+                               std::function<bool()> is_interrupted)
+    : is_interrupted_(std::move(is_interrupted)),
+      labels_(scenario.labels),
+      simulators_(MakeSimulators(scenario, CheckedThreads(num_threads))),
+      surveys_(simulators_.size()) {
+  std::vector<Simulator*> simulators;
+  for (const auto& simulator : simulators_) {
+    simulators.push_back(simulator.get());
+    pools_.push_back(FramePool::Make());
+  }
+  run_.emplace(scenario, std::move(simulators));
+  WatchForInterruption();
+  ChooseEffects();
+}
+
+void HeldSimulation::WatchForInterruption() {
+  for (const auto& simulator : simulators_) {
+    simulator->UseProgress([this](std::size_t, std::size_t) {
+      if (std::this_thread::get_id() == waiting_.load() && is_interrupted_()) {
+        was_interrupted_ = true;
+      }
+      if (was_interrupted_) throw Interrupted();
+    });
+  }
+}
+
+void HeldSimulation::ChooseEffects() {
+  if (scenario().fidelity != Fidelity::kAuto) return;
+  waiting_ = std::this_thread::get_id();
+  const std::vector<std::string> names = SensorNames(scenario());
+  for (std::size_t i = 0; i < simulators_.size(); ++i) {
+    UseChosenFidelity(*simulators_[i], PickSensor(scenario(), names[i]), [this](double) {
+      if (is_interrupted_()) throw Interrupted();
+    });
+  }
+}
+
+std::size_t HeldSimulation::IndexOf(const Sensor& sensor) const {
+  const std::vector<std::string> names = SensorNames(scenario());
+  if (const auto* const name = std::get_if<std::string>(&sensor)) {
+    const auto found = std::find(names.begin(), names.end(), *name);
+    if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+    // Throws the line that names the sensors.
+    static_cast<void>(PickSensor(scenario(), *name));
+  }
+  const std::int64_t index = std::get<std::int64_t>(sensor);
+  if (index >= 0 && std::cmp_less(index, names.size())) return static_cast<std::size_t>(index);
+  throw InputError(
+      {{"sensor", "must be >= 0 and < " + std::to_string(names.size()), std::to_string(index)}});
+}
+
+std::uint32_t HeldSimulation::FrameOf(std::int64_t frame, std::size_t sensor) const {
+  const std::uint32_t last = simulators_.at(sensor)->pattern().LastFrame();
+  if (frame >= 0 && std::cmp_less_equal(frame, last)) return static_cast<std::uint32_t>(frame);
+  throw InputError(
+      {{"frame", "must be >= 0 and <= " + std::to_string(last), std::to_string(frame)}});
+}
+
+std::shared_ptr<RecordedFrame> HeldSimulation::Scan(std::int64_t frame,
+                                                    const Sensor& sensor,
+                                                    bool has_objects) {
+  const std::lock_guard lock(mutex_);
+  const std::size_t index = IndexOf(sensor);
+  const std::uint32_t number = FrameOf(frame, index);
+  std::shared_ptr<RecordedFrame> made = pools_[index]->Take();
+  waiting_ = std::this_thread::get_id();
+  for (;;) {
+    was_interrupted_ = false;
+    try {
+      Make(number, index, has_objects, *made);
+      return made;
+    } catch (const Interrupted&) {
+      // A window that is built ahead may have been ended by the interruption of an earlier frame.
+      if (was_interrupted_) throw;
+    }
+  }
+}
+
+void HeldSimulation::Make(std::uint32_t frame,
+                          std::size_t sensor,
+                          bool has_objects,
+                          RecordedFrame& made) {
+  Simulator& simulator = run_->At(sensor, frame);
+  const auto begun = simulator.Begin(frame);
+  simulator.Scan(*begun, made.frame);
+  made.objects.clear();
+  if (has_objects) {
+    made.objects = Describe(sensor, simulator, made.frame, simulator.FiringsOnObjectAlone(*begun));
+  }
+  if (!made.fields.empty()) return;
+  static const auto all_fields = AllFields();
+  made.fields = all_fields;
+  made.is_grid = true;
+  made.has_pose = true;
+}
+
+std::vector<RecordedObject> HeldSimulation::Describe(std::size_t sensor,
+                                                     const Simulator& simulator,
+                                                     const Frame& frame,
+                                                     const std::vector<std::uint32_t>& alone) {
+  Survey& mine = surveys_[sensor];
+  if (mine.world != simulator.shared_world()) {
+    mine.survey.reset();
+    mine.world = simulator.shared_world();
+    mine.survey.emplace(*mine.world, labels_, simulator.spec().detector.range_max_m,
+                        simulator.spec().output);
+  }
+  const Transform sensor_from_world = frame.world_from_sensor.inverse();
+  std::vector<RecordedObject> described;
+  for (ObjectInFrame& object : mine.survey->Describe(frame, alone)) {
+    described.push_back({.name = std::move(object.name),
+                         .type = std::move(object.type),
+                         .label = std::move(object.label),
+                         .instance = object.instance,
+                         .size_m = object.size_m,
+                         .sensor_from_box = sensor_from_world * object.world_from_box,
+                         .velocity_world_mps = object.velocity_world_mps,
+                         .points = object.points,
+                         .firings_visible = object.firings_visible,
+                         .firings_alone = object.firings_alone});
+  }
+  return described;
+}
+
+std::vector<RailLines> HeldSimulation::Rails(std::int64_t frame,
+                                             const Sensor& sensor,
+                                             const RailReach& reach) {
+  const std::lock_guard lock(mutex_);
+  const std::size_t index = IndexOf(sensor);
+  const std::uint32_t number = FrameOf(frame, index);
+  const Simulator& simulator = run_->At(index, number);
+  const std::int64_t stamp_ns = simulator.pattern().StampNs(number);
+  return RailLinesAbout(*run_->StateAt(stamp_ns).world, scenario().world.alignment, stamp_ns, reach,
+                        simulator.WorldFromSensor(stamp_ns).inverse());
+}
+
+void HeldSimulation::Apply(const std::string& line, std::int64_t frame, const Sensor& sensor) {
+  const std::lock_guard lock(mutex_);
+  const Command command = CommandOf(line);
+  const std::size_t index = IndexOf(sensor);
+  const std::int64_t time_ns = simulators_[index]->pattern().StampNs(FrameOf(frame, index));
+  const std::int64_t last_ns = run_->states().back().time_ns;
+  if (time_ns < last_ns && !std::holds_alternative<Reset>(command)) {
+    throw InputError(
+        {{"frame", "must not be stamped before the last command, at " + SecondsText(last_ns),
+          SecondsText(time_ns)}});
+  }
+  run_->Apply(command, time_ns);
+}
+
+}  // namespace railcast

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <variant>
+#include <vector>
+
+#include "generator/python/frame_pool.h"
+#include "generator/python/rail_lines.h"
+#include "generator/run/commanded_run.h"
+#include "generator/sequence/object_survey.h"
+#include "railcast/frame.h"
+#include "railcast/io/recording.h"
+#include "railcast/scenario.h"
+#include "railcast/simulator.h"
+
+namespace railcast {
+
+/// Thrown when the host program wants work in progress to end (HeldSimulation).
+struct Interrupted {};
+
+/// The simulation behind `railcast.Simulator`: the sensors of a scenario with the commands that
+/// have been given to them. Thread-safe: calls wait for each other.
+class HeldSimulation {
+ public:
+  /// Index or name of a sensor.
+  using Sensor = std::variant<std::int64_t, std::string>;
+
+  /// @param num_threads 0 = all cores.
+  /// @param is_interrupted Called again and again while something takes long, by the thread that
+  ///   waits for it. If it returns true, that work ends with Interrupted.
+  /// @throws InputError with the faults of the scenario or "threads: must be >= 0 and <= 1024 (got
+  ///   -1)".
+  HeldSimulation(const ScenarioSpec& scenario,
+                 std::int64_t num_threads,
+                 std::function<bool()> is_interrupted);
+
+  /// Makes a frame with all of its fields.
+  /// @param has_objects Whether to describe the objects within range, which takes rays of its own.
+  /// @throws InputError "frame: must be ..." or "sensor: must be ...", or if something leaves its
+  ///   track in that frame.
+  [[nodiscard]] std::shared_ptr<RecordedFrame> Scan(std::int64_t frame,
+                                                    const Sensor& sensor,
+                                                    bool has_objects);
+
+  /// Applies a command, as a line of docs/commands.md, at the stamp of a sensor's frame.
+  /// @throws InputError with the lines with which a live run answers it.
+  void Apply(const std::string& line, std::int64_t frame, const Sensor& sensor);
+
+  /// Returns the rails about the vehicle at a frame's stamp, in the axes of that sensor.
+  [[nodiscard]] std::vector<RailLines> Rails(std::int64_t frame,
+                                             const Sensor& sensor,
+                                             const RailReach& reach);
+
+  [[nodiscard]] const ScenarioSpec& scenario() const { return run_->scenario(); }
+  [[nodiscard]] const LabelTable& labels() const { return labels_; }
+
+ private:
+  /// Remembers what it measured of a world for one sensor.
+  struct Survey {
+    std::shared_ptr<const World> world;
+    std::optional<ObjectSurvey> survey;
+  };
+
+  [[nodiscard]] std::size_t IndexOf(const Sensor& sensor) const;
+  [[nodiscard]] std::uint32_t FrameOf(std::int64_t frame, std::size_t sensor) const;
+  void WatchForInterruption();
+  void ChooseEffects();
+  void Make(std::uint32_t frame, std::size_t sensor, bool has_objects, RecordedFrame& made);
+  [[nodiscard]] std::vector<RecordedObject> Describe(std::size_t sensor,
+                                                     const Simulator& simulator,
+                                                     const Frame& frame,
+                                                     const std::vector<std::uint32_t>& alone);
+
+  std::mutex mutex_;
+  std::function<bool()> is_interrupted_;
+  std::atomic<bool> was_interrupted_ = false;
+  std::atomic<std::thread::id> waiting_;
+  LabelTable labels_;
+  std::vector<std::unique_ptr<Simulator>> simulators_;
+  std::optional<CommandedRun> run_;
+  std::vector<Survey> surveys_;                    // By sensor.
+  std::vector<std::shared_ptr<FramePool>> pools_;  // By sensor.
+};
+
+}  // namespace railcast

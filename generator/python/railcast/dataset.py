@@ -1,0 +1,137 @@
+"""Frames of recordings by index, as loaders for training want them (torch.utils.data.DataLoader)."""
+
+from __future__ import annotations
+
+import bisect
+import collections
+import itertools
+import math
+import os
+import pathlib
+import sqlite3
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from ._railcast import Frame, InputError, Object, Recording, open as open_recording
+
+Sample = dict[str, Any]
+
+# Recordings that each process keeps open: one takes milliseconds to open, and its scenario some memory.
+KEPT_OPEN = 64
+
+
+def box_of(thing: Object) -> list[float]:
+    """Centre x, y, z, length, width, height in m and yaw in rad, in the sensor's axes."""
+    pose = thing.sensor_from_box
+    return [*pose[:3, 3], *thing.size_m, math.atan2(pose[1, 0], pose[0, 0])]
+
+
+def recordings_of(source: str, split: str | None) -> list[tuple[str, int]]:
+    """Path and number of frames of each recording of a source."""
+    index = pathlib.Path(source, "index.sqlite")
+    if not index.is_file():
+        if split is not None:
+            raise InputError(f"split: must be left out for what is no data set, {source} (got {split!r})")
+        return [(source, len(open_recording(source)))]
+    query = "SELECT folder, num_frames FROM scenarios WHERE ? IN (split, '') ORDER BY scenario"
+    connection = sqlite3.connect(f"{index.absolute().as_uri()}?mode=ro", uri=True)
+    try:
+        rows = connection.execute(query, (split or "",)).fetchall()
+        splits = sorted(name for name, in connection.execute("SELECT DISTINCT split FROM scenarios"))
+    except sqlite3.Error as error:
+        raise InputError(f"{index}: is damaged: {error}") from error
+    finally:
+        connection.close()
+    if not rows:
+        raise InputError(f"split: must be one of {', '.join(splits)}, those of {source} (got {split!r})")
+    return [(os.path.join(source, folder), num_frames) for folder, num_frames in rows]
+
+
+class Dataset:
+    """The frames of a data set, or of one or several recordings, by index.
+
+    It has `__len__` and `__getitem__`, which is all that torch's DataLoader asks of a dataset; torch
+    itself is not needed. Each process opens the recordings that it reads, so that workers may be
+    forked or spawned. A sample is a dict:
+
+        points      float32, (n, len(fields)): the values of the slots that have a point
+        labels      int64, (n,): their values of the field `label`
+        boxes       float32, (k, 7): centre x, y, z, length, width, height in m and yaw in rad of the
+                    objects with points, in the sensor's axes
+        box_labels  int64, (k,): their labels; the names are in Dataset.labels
+        source      index of the recording
+        frame       index of the frame in its run
+
+    `labels` is absent where a recording has none.
+    """
+
+    def __init__(self,
+                 *sources: str | os.PathLike[str],
+                 split: str | None = None,
+                 fields: Sequence[str] = ("x", "y", "z", "intensity"),
+                 transform: Callable[[Sample], Any] | None = None) -> None:
+        """sources: data sets of `railcast-generate dataset`, or what railcast.open() reads, captures excepted.
+
+        split: the part of data sets, such as "train"; None = all of it.
+        fields: the columns of `points`.
+        transform: called with each sample; what it returns takes its place.
+        """
+        found = [run for source in sources for run in recordings_of(os.fspath(source), split)]
+        self.paths = [path for path, _ in found]
+        self.fields = tuple(fields)
+        self.transform = transform
+        self._ends = list(itertools.accumulate(num_frames for _, num_frames in found))
+        self._process = os.getpid()
+        self._opened: collections.OrderedDict[int, Recording] = collections.OrderedDict()
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_opened": collections.OrderedDict()}
+
+    def __len__(self) -> int:
+        return self._ends[-1] if self._ends else 0
+
+    def __getitem__(self, index: int) -> Any:
+        length = len(self)
+        if not -length <= index < length:
+            raise IndexError(f"index: must be >= 0 and < {length} (got {index})")
+        index %= length
+        source = bisect.bisect_right(self._ends, index)
+        begin = self._ends[source - 1] if source > 0 else 0
+        recording = self._recording(source)
+        sample = self._sample(recording[index - begin], recording.labels)
+        sample["source"] = source
+        return sample if self.transform is None else self.transform(sample)
+
+    @property
+    def labels(self) -> dict[str, int]:
+        """Ids of labels by name, those of the first recording."""
+        return self._recording(0).labels if self.paths else {}
+
+    def _recording(self, source: int) -> Recording:
+        if self._process != os.getpid():  # Threads and files of another process are not ours.
+            self._process = os.getpid()
+            self._opened.clear()
+        if source not in self._opened:
+            if len(self._opened) >= KEPT_OPEN:
+                self._opened.popitem(last=False)
+            self._opened[source] = open_recording(self.paths[source])
+        self._opened.move_to_end(source)
+        return self._opened[source]
+
+    def _sample(self, frame: Frame, labels: dict[str, int]) -> Sample:
+        has_point = frame.has_point
+        points = np.empty((np.count_nonzero(has_point), len(self.fields)), np.float32)
+        for column, field in enumerate(self.fields):
+            points[:, column] = frame[field][has_point]
+        seen = [thing for thing in frame.objects if thing.points > 0]
+        sample: Sample = {
+            "points": points,
+            "boxes": np.array([box_of(thing) for thing in seen], np.float32).reshape(-1, 7),
+            "box_labels": np.array([labels[thing.label] for thing in seen], np.int64),
+            "frame": frame.index,
+        }
+        if "label" in frame:
+            sample["labels"] = frame["label"][has_point].astype(np.int64)
+        return sample

@@ -1,0 +1,106 @@
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "generator/python/bindings.h"
+#include "generator/python/indexed_recording.h"
+
+namespace railcast {
+namespace {
+
+namespace py = pybind11;
+
+using ReleasesGil = py::call_guard<py::gil_scoped_release>;
+
+std::size_t LengthOf(const IndexedRecording& recording) {
+  if (recording.info().num_frames) return *recording.info().num_frames;
+  throw py::type_error(
+      "recording: must be one whose number of frames is known before its end, "
+      "which that of a capture is not");
+}
+
+std::shared_ptr<RecordedFrame> FrameAt(IndexedRecording& recording, py::ssize_t place) {
+  const auto length = static_cast<py::ssize_t>(LengthOf(recording));
+  const py::ssize_t from_begin = place < 0 ? place + length : place;
+  std::shared_ptr<RecordedFrame> frame;
+  if (from_begin >= 0 && from_begin < length) {
+    const py::gil_scoped_release released;
+    frame = recording.At(static_cast<std::size_t>(from_begin));
+  }
+  if (frame) return frame;
+  throw py::index_error("frame: must be >= 0 and < " + std::to_string(length) + Got(place));
+}
+
+std::shared_ptr<RecordedFrame> NextOf(RecordingPass& pass) {
+  std::shared_ptr<RecordedFrame> frame;
+  {
+    const py::gil_scoped_release released;
+    frame = pass.Next();
+  }
+  if (!frame) throw py::stop_iteration();
+  return frame;
+}
+
+}  // namespace
+
+void AddRecordingClass(pybind11::module_& module) {
+  py::class_<RecordingPass>(module, "_RecordingPass", "One pass over a recording.")
+      .def("__iter__", [](py::object self) { return self; })
+      .def("__next__", &NextOf);
+  py::class_<IndexedRecording>(
+      module, "Recording",
+      R"(Frames of a sequence, of cloud files or of a capture, in order of time: open() makes it.
+
+    for frame in recording: ...     one pass, which keeps no frame
+    recording[i], len(recording)    not for captures, whose length only their end tells
+
+Several threads may read frames at once; the interpreter's lock is released meanwhile.
+Raises InputError for a file that cannot be read or is damaged.)")
+      .def("__iter__",
+           [](const IndexedRecording& self) {
+             const py::gil_scoped_release released;
+             return std::make_unique<RecordingPass>(self.source());
+           })
+      .def("__len__", &LengthOf)
+      .def("__getitem__", &FrameAt, py::arg("index"), "The frame at a place, from 0.")
+      .def_property_readonly("path", &IndexedRecording::source, "What was opened.")
+      .def_property_readonly(
+          "kind", [](const IndexedRecording& self) { return self.info().kind; },
+          "What it is: \"sequence\", \"point cloud file\", \"capture of VLP-16\", ...")
+      .def_property_readonly(
+          "num_frames", [](const IndexedRecording& self) { return self.info().num_frames; },
+          "Number of frames; None for a capture.")
+      .def_property_readonly(
+          "labels", [](const IndexedRecording& self) { return LabelDict(self.info().labels); },
+          "Ids in the field `label`, by name; empty where labels have numbers only.")
+      .def_property_readonly(
+          "has_kitti_labels",
+          [](const IndexedRecording& self) { return self.info().has_kitti_labels; },
+          "Whether labels are SemanticKITTI's numbers.")
+      .def_property_readonly(
+          "materials", [](const IndexedRecording& self) { return self.info().materials; },
+          "Names of materials by their number in the field `material`; may be empty.")
+      .def_property_readonly(
+          "scenario",
+          [](const IndexedRecording& self) -> py::object {
+            if (!self.info().scenario) return py::none();
+            return ParsedJson(ResolvedScenarioJson(*self.info().scenario));
+          },
+          "The scenario with every default in place, as a dict; None if it is not known.")
+      .def("__repr__", [](const IndexedRecording& self) {
+        return "Recording(" + Quoted(self.source().string()) + ", " + self.info().kind + ")";
+      });
+  module.def(
+      "open",
+      [](const std::filesystem::path& path) { return std::make_unique<IndexedRecording>(path); },
+      py::arg("path"), ReleasesGil(),
+      R"(Opens a sequence directory, a .pcd or .ply file, a directory of such files, KITTI's folders
+or a .pcap or .pcapng capture (docs/recordings.md).
+
+Raises InputError if it is none of these.)");
+}
+
+}  // namespace railcast

@@ -1,0 +1,166 @@
+#!/usr/bin/python3
+"""Turns recorded sequences into a scene of the OSDaR layout: OpenLABEL, PCD files and an INS's CSV.
+
+Usage: export_osdar.py RUN... --out DIR [--ontology osdar26|osdar23] [--merged] [--ascii]
+
+RUN is a directory that railcast-generate sequence wrote. Several runs are one scene with several
+sensors, those of one vehicle: the frames that all of them have at the same stamp are taken, and
+their clouds are merged in the vehicle's axes, with the number of the run as `sensor_index`;
+--merged asks for that layout with one run, too. Writes
+
+    DIR/NAME_labels.json            cuboids, both rails of each track, segmentation by point indices
+    DIR/LIDAR/000_12.300000000.pcd  x y z intensity timestamp [sensor_index]: points only
+    DIR/gps_imu/ins.csv             pose and motion of the vehicle at each stamp
+
+Needs the Python module railcast (docs/python.md), numpy and yaml. The ontologies are those of
+raillabel-providerkit (--definitions).
+"""
+
+import argparse
+import pathlib
+import shutil
+import sys
+
+import numpy as np
+import yaml
+
+try:
+    import osdar_scene
+    import railcast
+except ImportError as error:
+    sys.exit(f"{error}: the Python module is needed, docs/python.md says how to build it")
+from osdar_truth import Ontology
+
+DEFINITIONS = pathlib.Path(__file__).resolve().parents[2] / "shared" / "data" / "raillabel"
+LIDARS = {"osdar23": "lidar", "osdar26": "lidar_merged"}
+
+
+class BadInput(Exception):
+    """What is wrong, a line for each fault."""
+
+
+def matrix_of_mount(mount):
+    """vehicle_from_sensor of a scenario's `mount`: roll, then pitch, then yaw."""
+    yaw, pitch, roll = (np.radians(mount[key]) for key in ("yaw_deg", "pitch_deg", "roll_deg"))
+    about_z = np.array([[np.cos(yaw), -np.sin(yaw), 0], [np.sin(yaw), np.cos(yaw), 0], [0, 0, 1]])
+    about_y = np.array([[np.cos(pitch), 0, np.sin(pitch)], [0, 1, 0], [-np.sin(pitch), 0, np.cos(pitch)]])
+    about_x = np.array([[1, 0, 0], [0, np.cos(roll), -np.sin(roll)], [0, np.sin(roll), np.cos(roll)]])
+    matrix = np.eye(4)
+    matrix[:3, :3] = about_z @ about_y @ about_x
+    matrix[:3, 3] = mount["position_m"]
+    return matrix
+
+
+def stamps_of(path):
+    """The stamps of a sequence's frames, in ns."""
+    return [int(line.split(",", 1)[0]) for line in (path / "poses.csv").read_text("ascii").splitlines()[1:]]
+
+
+def open_runs(paths):
+    """The recordings, and the places in them of the frames that have their stamps in common."""
+    faults, runs, places = [], [], []
+    for path in paths:
+        try:
+            run = railcast.open(path)
+        except railcast.InputError as error:
+            faults.append(str(error))
+            continue
+        if run.kind != "sequence":
+            faults.append(f"{path}: must be a sequence of railcast (got {run.kind})")
+        elif (path / "commands.jsonl").exists():
+            faults.append(f"{path}: must be a run without commands, which change where the rails are seen from")
+        else:
+            runs.append(run)
+    if not faults:
+        # Of a run that is not finished, the last pose may belong to no frame yet.
+        stamps = [{stamp: place for place, stamp in enumerate(stamps_of(path)[:len(run)])}
+                  for path, run in zip(paths, runs)]
+        common = sorted(set(stamps[0]).intersection(*stamps[1:]))
+        places = [[own[stamp] for stamp in common] for own in stamps]
+        if not common:
+            faults.append(f"{paths[0]}: must have a frame of a stamp that all other runs have")
+    if faults:
+        raise BadInput("\n".join(faults))
+    return runs, list(zip(*places))
+
+
+def write_pcd(path, points, is_ascii):
+    """Writes a structured array of points as PCD."""
+    letters = {"f": "F", "u": "U", "i": "I"}
+    types = [points.dtype[name] for name in points.dtype.names]
+    head = ["# .PCD v0.7 - Point Cloud Data file format", "VERSION 0.7", f"FIELDS {' '.join(points.dtype.names)}",
+            f"SIZE {' '.join(str(kind.itemsize) for kind in types)}",
+            f"TYPE {' '.join(letters[kind.kind] for kind in types)}", f"COUNT {' '.join('1' for _ in types)}",
+            f"WIDTH {len(points)}", "HEIGHT 1", "VIEWPOINT 0 0 0 1 0 0 0", f"POINTS {len(points)}",
+            f"DATA {'ascii' if is_ascii else 'binary'}"]
+    with open(path, "wb") as file:
+        file.write(("\n".join(head) + "\n").encode())
+        if is_ascii:
+            # 9 digits hold any float32; the time is a float64 of nanoseconds.
+            formats = ["%.9f" if kind == np.float64 else "%.9g" if kind.kind == "f" else "%d" for kind in types]
+            np.savetxt(file, points, fmt=formats)
+        else:
+            file.write(points.tobytes())
+
+
+def write_ins(path, samples):
+    """Writes the INS's file: a line for each frame."""
+    columns = ("timestamp_s", "x_m", "y_m", "z_m", "qx", "qy", "qz", "qw", "vx_mps", "vy_mps", "vz_mps", "wx_radps",
+               "wy_radps", "wz_radps")
+    lines = [",".join(columns)]
+    lines += [",".join([osdar_scene.seconds(stamp_ns), *(f"{value:.9g}" for value in values)])
+              for stamp_ns, values in samples]
+    path.write_text("\n".join(lines) + "\n", "ascii")
+
+
+def export(arguments):
+    paths = [pathlib.Path(path) for path in arguments.runs]
+    runs, places = open_runs(paths)
+    out = arguments.out
+    if out.exists():
+        raise BadInput(f"{out}: must not exist")
+    definitions = yaml.safe_load((arguments.definitions / f"{arguments.ontology}.yaml").read_text("utf-8"))
+    lidar = LIDARS[arguments.ontology]
+    is_merged = arguments.merged or len(runs) > 1
+    mounts = [matrix_of_mount(run.scenario["lidar"]["mount"]) for run in runs]
+    scene = osdar_scene.Scene(out.name, Ontology(arguments.ontology, definitions), lidar,
+                              np.eye(4) if is_merged else mounts[0])
+    simulator = railcast.Simulator(paths[0] / "scenario.resolved.json")
+    begun = out.with_name(out.name + ".partial")
+    shutil.rmtree(begun, ignore_errors=True)
+    (begun / lidar).mkdir(parents=True)
+    (begun / "gps_imu").mkdir()
+    samples = []
+    for of_runs in places:
+        frames = [run[place] for run, place in zip(runs, of_runs)]
+        view = osdar_scene.View(frames, mounts, is_merged)
+        view.add_rails(simulator.rails(frames[0].index, ahead_m=arguments.ahead_m))
+        name = scene.add_frame(view, runs[0])
+        write_pcd(begun / lidar / name, view.points(), arguments.ascii)
+        samples.append((frames[0].stamp_ns, osdar_scene.ins_sample(frames[0], mounts[0])))
+    write_ins(begun / "gps_imu" / "ins.csv", samples)
+    (begun / f"{out.name}_labels.json").write_text(scene.json_text(), "utf-8")
+    begun.rename(out)
+    print(f"{out}: {len(samples)} frames, {scene.num_objects} objects, {scene.num_annotations} annotations")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("runs", nargs="+", metavar="RUN")
+    parser.add_argument("--out", type=pathlib.Path, required=True, metavar="DIR")
+    parser.add_argument("--ontology", choices=sorted(LIDARS), default="osdar26")
+    parser.add_argument("--merged", action="store_true")
+    parser.add_argument("--ascii", action="store_true")
+    parser.add_argument("--ahead-m", type=float, default=200.0, help="how far ahead rails are annotated")
+    parser.add_argument("--definitions", type=pathlib.Path, default=DEFINITIONS,
+                        help="folder of osdar23.yaml and osdar26.yaml")
+    try:
+        export(parser.parse_args())
+    except (BadInput, railcast.InputError, OSError) as error:
+        print(error, file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,224 @@
+"""railcast.Simulator makes the frames that railcast-generate writes."""
+
+import gc
+import json
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+from support import ROOT, SCENARIO, faults_of, generate, np, read_pcd
+
+import railcast
+
+FRAMES = 3
+TWO_SENSORS = ROOT / "scenarios" / "two_sensors.json"
+ENDLESS = """
+import railcast
+sim = railcast.Simulator({scenario!r})
+try:
+    print("ready", flush=True)
+    for frame in range(0, 10**9, 40):
+        sim.scan(frame % 600)
+except KeyboardInterrupt:
+    print("interrupted at", sim.scan(0).index, flush=True)
+"""
+
+
+class SameFramesAsASequence(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.run_folder = pathlib.Path(cls.folder.name) / "run"
+        generate("sequence", SCENARIO, "--out", cls.run_folder, "--frames", FRAMES, "--start-frame", 30)
+        cls.simulator = railcast.Simulator(SCENARIO, threads=2)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def test_every_field_has_the_bytes_of_the_file(self):
+        # From the last frame to the first: frames do not depend on those before.
+        for index in reversed(range(30, 30 + FRAMES)):
+            written = read_pcd(self.run_folder / "frames" / f"{index:06}.pcd")
+            made = self.simulator.scan(index)
+            self.assertEqual(made.fields, list(written.dtype.names))
+            for name in made.fields:
+                self.assertEqual(made[name].dtype, written.dtype[name])
+                self.assertEqual(made[name].tobytes(), written[name].tobytes(), name)
+
+    def test_poses_and_objects_are_those_of_the_records(self):
+        lines = (self.run_folder / "objects.jsonl").read_text("utf-8").splitlines()
+        poses = np.genfromtxt(self.run_folder / "poses.csv", delimiter=",", names=True)
+        for line, pose in zip(map(json.loads, lines), poses):
+            made = self.simulator.scan(line["frame"], objects=True)
+            self.assertEqual(made.stamp_ns, line["stamp_ns"])
+            self.assertEqual([thing.name for thing in made.objects], [thing["name"] for thing in line["objects"]])
+            np.testing.assert_array_equal(made.world_from_sensor[:3, 3], [pose["x"], pose["y"], pose["z"]])
+            for thing, recorded in zip(made.objects, line["objects"]):
+                self.assertEqual(thing.points, recorded["points"])
+                self.assertEqual(thing.occlusion, recorded["occlusion"])
+                np.testing.assert_array_equal(thing.size_m, recorded["sensor"]["size_m"])
+                np.testing.assert_array_equal(thing.sensor_from_box[:3, 3], recorded["sensor"]["center_m"])
+
+    def test_a_dict_and_a_text_are_the_scenario_that_they_hold(self):
+        scenario = json.loads(SCENARIO.read_text("utf-8"))
+        expected = self.simulator.scan(30)["x"].tobytes()
+        for same in (scenario, json.dumps(scenario)):
+            self.assertEqual(railcast.Simulator(same, file=SCENARIO).scan(30)["x"].tobytes(), expected)
+        self.assertEqual(railcast.Simulator(self.simulator.scenario).scan(30)["x"].tobytes(), expected)
+
+
+class Arrays(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.simulator = railcast.Simulator(SCENARIO)
+
+    def test_an_array_is_the_frames_own_memory_and_keeps_it(self):
+        frame = self.simulator.scan(0)
+        x = frame["x"]
+        self.assertIs(x.base, frame)
+        self.assertEqual(x.ctypes.data, frame["x"].ctypes.data)
+        kept = x.copy()
+        del frame
+        gc.collect()
+        for index in range(1, 4):
+            self.simulator.scan(index)
+        np.testing.assert_array_equal(x, kept)
+
+    def test_the_memory_of_dropped_frames_is_used_again(self):
+        places = set()
+        for index in range(6):
+            places.add(self.simulator.scan(index)["x"].ctypes.data)
+        self.assertLessEqual(len(places), 2)
+
+    def test_points_are_the_slots_that_have_one(self):
+        frame = self.simulator.scan(0)
+        has_point = frame.has_point
+        self.assertEqual(has_point.shape, (frame.rows, frame.columns * frame.returns))
+        returned = (railcast.OUTCOMES["returned"], railcast.OUTCOMES["clutter"])
+        np.testing.assert_array_equal(has_point, np.isin(frame["outcome"], returned))
+        expected = np.stack([frame[axis][has_point] for axis in "xyz"], axis=1)
+        np.testing.assert_array_equal(frame.points(), expected)
+        self.assertEqual(frame.num_points, len(expected))
+        np.testing.assert_allclose(np.linalg.norm(expected, axis=1), frame["range_m"][has_point], rtol=1e-6)
+
+    def test_a_missing_field_is_a_key_error(self):
+        frame = self.simulator.scan(0)
+        self.assertNotIn("colour", frame)
+        with self.assertRaisesRegex(KeyError, 'must have the field, it has x, y, z, .* \\(got "colour"\\)'):
+            frame["colour"]
+
+
+class Errors(unittest.TestCase):
+
+    def lines_of(self, *arguments, **options):
+        with self.assertRaises(railcast.InputError) as raised:
+            railcast.Simulator(*arguments, **options)
+        return str(raised.exception)
+
+    def test_a_faulty_scenario_has_the_lines_of_the_program(self):
+        path = ROOT / "scenarios" / "malformed" / "read" / "everything_at_once.json"
+        self.assertEqual(self.lines_of(path), faults_of("check", path))
+        self.assertEqual(self.lines_of(path.read_text("utf-8"), file=path), faults_of("check", path))
+
+    def test_a_missing_file_and_faulty_arguments_are_named(self):
+        self.assertEqual(self.lines_of("nowhere.json"), "nowhere.json: no such file")
+        self.assertEqual(self.lines_of(str(SCENARIO), threads=-1),
+                         "threads: must be >= 0 and <= 1024 (got -1)")
+
+    def test_a_wrong_frame_or_sensor_is_named(self):
+        simulator = railcast.Simulator(SCENARIO)
+        for arguments, line in (((-1,), "frame: must be >= 0 and <= 4294967295 (got -1)"),
+                                ((0, 1), "sensor: must be >= 0 and < 1 (got 1)"),
+                                ((0, "roof"), 'sensor: must be "Vir2Rail" (got "roof")')):
+            with self.assertRaises(railcast.InputError) as raised:
+                simulator.scan(*arguments)
+            self.assertEqual(str(raised.exception), line)
+
+
+class Rails(unittest.TestCase):
+
+    def test_points_on_rails_lie_beside_the_lines(self):
+        simulator = railcast.Simulator(SCENARIO)
+        frame = simulator.scan(30)
+        rails = simulator.rails(30)
+        self.assertEqual([(stretch.track, stretch.is_ego) for stretch in rails], [("main", True), ("second", False)])
+        on_rail = frame["label"][frame.has_point] == simulator.labels["rail"]
+        points = frame.points()[on_rail]
+        near = points[(points[:, 0] > 5) & (points[:, 0] < 40)]
+        self.assertGreater(len(near), 100)
+        lines = np.concatenate([line for stretch in rails for line in (stretch.left, stretch.right)])
+        # Lines have a point every metre; a rail's foot is 75 mm beside its middle; motion during the scan.
+        nearest = np.min(np.linalg.norm(near[:, None, 1:] - lines[None, :, 1:] +
+                                        np.where(np.abs(near[:, None, :1] - lines[None, :, :1]) < 0.6, 0, 99), axis=2),
+                         axis=1)
+        self.assertLess(np.quantile(nearest, 0.95), 0.3)
+
+    def test_the_gauge_is_that_of_the_line_and_left_is_left(self):
+        for stretch in railcast.Simulator(SCENARIO).rails(0, behind_m=0, ahead_m=100):
+            apart = np.linalg.norm(stretch.left - stretch.right, axis=1)
+            # 1435 mm between the heads' faces, 14 mm below their tops, and half of each head's 72 mm.
+            np.testing.assert_allclose(apart, 1.505, atol=0.01)
+            self.assertGreater(stretch.left[0, 1], stretch.right[0, 1])
+            self.assertLess(stretch.left[0, 0], stretch.left[-1, 0])
+
+
+class WithOthers(unittest.TestCase):
+
+    def test_sensors_are_chosen_by_name_or_index(self):
+        simulator = railcast.Simulator(TWO_SENSORS)
+        self.assertEqual(len(simulator.sensors), 2)
+        frames = []
+        for index, name in enumerate(simulator.sensors):
+            frames.append(simulator.scan(2, index)["x"].tobytes())
+            self.assertEqual(simulator.scan(2, name)["x"].tobytes(), frames[-1])
+        self.assertNotEqual(*frames)
+
+    def test_other_threads_run_while_a_frame_is_made(self):
+        simulator = railcast.Simulator(SCENARIO)
+        begun = threading.Event()
+
+        def scan():
+            begun.set()
+            simulator.scan(0)  # Builds the scene first.
+
+        thread = threading.Thread(target=scan)
+        thread.start()
+        begun.wait()
+        turns = 0
+        while thread.is_alive():
+            time.sleep(0.001)
+            turns += 1
+        # If the scan kept the interpreter's lock, this thread would have a turn before and one after.
+        self.assertGreater(turns, 4)
+
+    def test_threads_of_python_get_the_frames_that_they_asked_for(self):
+        simulator = railcast.Simulator(SCENARIO)
+        alone = [simulator.scan(index)["x"].tobytes() for index in range(4)]
+        made = {}
+        threads = [threading.Thread(target=lambda index=index: made.update({index: simulator.scan(index)}))
+                   for index in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual([made[index]["x"].tobytes() for index in range(4)], alone)
+
+    def test_ctrl_c_ends_a_loop_and_the_simulator_still_works(self):
+        program = ENDLESS.format(scenario=str(SCENARIO))
+        with subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True) as child:
+            self.assertEqual(child.stdout.readline(), "ready\n")
+            child.send_signal(signal.SIGINT)
+            self.assertEqual(child.stdout.read(), "interrupted at 0\n")
+        self.assertEqual(child.returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
