@@ -71,7 +71,7 @@ TEST_F(DatasetCommand, RefusesShardsThatAreNone) {
 
 TEST_F(DatasetCommand, RefusesAFormatThatCannotHoldTheOutput) {
   nlohmann::json recipe = ProjectRecipe();
-  recipe["set"] = {{"/output", {{"frame", "vehicle"}}}};
+  recipe["set"]["/output"] = {{"frame", "vehicle"}};
   (void)WriteProjectRecipe(directory_.path() / "project", recipe);
   const Ended run = Generate(Command("out", "--format kitti"));
   EXPECT_EQ(run.status, 1);

@@ -12,8 +12,8 @@
 
 namespace railcast {
 
-/// A recipe on the project's scenario (MakeProject), with a person or two ahead. The tests change
-/// its keys.
+/// A recipe on the project's scenario (MakeProject), with a person or two ahead, and without
+/// plants, which take long to build. The tests change its keys.
 inline nlohmann::json ProjectRecipe() {
   return nlohmann::json::parse(R"({
     "version": 1,
@@ -21,6 +21,11 @@ inline nlohmann::json ProjectRecipe() {
     "num_scenarios": 6,
     "num_frames": 3,
     "bases": [{"file": "scenario.json"}],
+    "set": {
+      "/lidar/range_max_m": 60,
+      "/world/vegetation/trees_per_hectare": 0,
+      "/world/vegetation/grass": false
+    },
     "draws": {
       "/weather/rain_rate_mmph": {"type": "log_uniform", "min": 0.5, "max": 50},
       "/weather/wetness": {"type": "uniform", "min": 0.1, "max": 0.9}

@@ -47,7 +47,7 @@ TEST(ScenarioDraw, AnotherKeyMovesNoOtherDraw) {
   nlohmann::json more = ProjectRecipe();
   more["draws"]["/weather/wind_speed_mps"] = {{"type", "uniform"}, {"min", 1}, {"max", 9}};
   more["groups"] = nlohmann::json::parse(
-      R"([{"name": "track", "options": [{"name": "bare"}, {"name": "full", "set": {"/world/vegetation/grass": false}}]}])");
+      R"([{"name": "track", "options": [{"name": "bare"}, {"name": "full", "set": {"/world/terrain/has_ditches": true}}]}])");
   more["objects"].push_back(nlohmann::json::parse(R"({
     "name": "deer", "count": {"type": "choice", "values": [1]}, "object": {"type": "deer", "d_m": 12},
     "ahead_m": {"type": "uniform", "min": 60, "max": 90}})"));
@@ -58,7 +58,7 @@ TEST(ScenarioDraw, AnotherKeyMovesNoOtherDraw) {
     EXPECT_EQ(changed.world.objects.back().name, "deer/1");
     changed.weather.wind_speed_mps = before[i].scenario.weather.wind_speed_mps;
     changed.world.objects.pop_back();
-    changed.world.vegetation.grass = before[i].scenario.world.vegetation.grass;
+    changed.world.terrain.has_ditches = before[i].scenario.world.terrain.has_ditches;
     EXPECT_EQ(changed, before[i].scenario);
   }
 }
@@ -188,6 +188,7 @@ TEST(ScenarioDraw, AllScenariosOfALineAreInOnePart) {
 TEST(ScenarioDraw, PutsAMountIntoADrawnSensor) {
   const TemporaryDirectory directory;
   nlohmann::json recipe = ProjectRecipe();
+  recipe["set"].erase("/lidar/range_max_m");
   recipe["draws"]["/lidar"] = {
       {"type", "choice"},
       {"values",

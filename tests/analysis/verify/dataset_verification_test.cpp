@@ -1,0 +1,91 @@
+#include "analysis/verify/dataset_verification.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/io/write_file.h"
+#include "tests/core/io/temporary_directory.h"
+#include "tests/generator/dataset/recipe_project.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// A data set of two scenarios. The tests change its files one by one.
+class VerifyDatasetTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    nlohmann::json recipe = ProjectRecipe();
+    recipe["num_scenarios"] = 2;
+    recipe["objects"] = nlohmann::json::array();
+    recipe_ = ReadProjectRecipe(directory_.path() / "project", recipe);
+    (void)MakeDataset(recipe_, Path());
+  }
+  [[nodiscard]] fs::path Path(const std::string& name = "") const {
+    return directory_.path() / "set" / name;
+  }
+  [[nodiscard]] std::vector<std::string> Faults() const {
+    return VerifyDataset(directory_.path() / "set", [](double) {}).faults;
+  }
+  TemporaryDirectory directory_;
+  Recipe recipe_;
+};
+
+TEST_F(VerifyDatasetTest, FindsAWholeDataSetWhole) {
+  EXPECT_TRUE(IsDataset(directory_.path() / "set"));
+  EXPECT_FALSE(IsDataset(Path("sequences/000/000000")));
+  const Verification found = VerifyDataset(directory_.path() / "set", [](double) {});
+  EXPECT_THAT(found.faults, IsEmpty());
+  EXPECT_EQ(found.num_frames, 6U);
+}
+
+TEST_F(VerifyDatasetTest, FindsChangedFiles) {
+  WriteFileWhole(Path("split/train.txt"), "mine\n");
+  WriteFileWhole(Path("sequences/000/000001/frames/000002.pcd"), "nothing");
+  EXPECT_THAT(Faults(), ElementsAre(HasSubstr("set/split/train.txt: must have the hash "),
+                                    HasSubstr("000001/frames/000002.pcd: must have ")));
+}
+
+TEST_F(VerifyDatasetTest, FindsMissingAndForeignFiles) {
+  fs::remove(Path("index.sqlite"));
+  fs::remove_all(Path("sequences/000/000000"));
+  WriteFileWhole(Path("note.txt"), "mine");
+  fs::create_directories(Path("sequences/000/000007"));
+  WriteFileWhole(Path("sequences/000/000007/run.json"), "{}");
+  const std::vector<std::string> faults = Faults();
+  EXPECT_EQ(faults.size(), 4U);
+  EXPECT_THAT(faults, Contains(HasSubstr("index.sqlite: no such file")));
+  EXPECT_THAT(faults, Contains(HasSubstr("sequences/000/000000/run.json: no such file")));
+  EXPECT_THAT(faults, Contains(HasSubstr("note.txt: belongs to no scenario of the data set")));
+  EXPECT_THAT(faults, Contains(HasSubstr("000007/run.json: belongs to no scenario")));
+}
+
+TEST_F(VerifyDatasetTest, FindsASequenceOfAnotherRunInPlaceOfItsOwn) {
+  fs::remove_all(Path("sequences/000/000001"));
+  fs::copy(Path("sequences/000/000000"), Path("sequences/000/000001"), fs::copy_options::recursive);
+  EXPECT_THAT(Faults(), ElementsAre(HasSubstr("sequences/000/000001/manifest.json: must have the "
+                                              "hash ")));
+}
+
+TEST_F(VerifyDatasetTest, AnUnfinishedDataSetIsAFaultButAFinishedShardIsNone) {
+  fs::remove(Path("manifest.json"));
+  EXPECT_THAT(Faults(), Contains(HasSubstr("manifest.json: missing: the data set is unfinished")));
+  const fs::path shard = directory_.path() / "shard";
+  (void)MakeDataset(recipe_, shard, {2, 2});
+  EXPECT_THAT(VerifyDataset(shard, [](double) {}).faults, IsEmpty());
+  WriteFileWhole(shard / "scenarios.jsonl", "");
+  EXPECT_THAT(VerifyDataset(shard, [](double) {}).faults,
+              Contains(HasSubstr("must have a line for each of 1 scenarios (got 0)")));
+}
+
+}  // namespace
+}  // namespace railcast
