@@ -97,7 +97,7 @@ TEST_F(RunDatasetTest, SplitsNameEachScenarioOnce) {
 
 TEST_F(RunDatasetTest, MergedShardsHaveTheBytesOfOneRun) {
   (void)MakeDataset(recipe_, Path("whole"));
-  for (const std::uint32_t num : {2U, 4U}) {
+  for (const std::uint32_t num : {2U, 9U}) {
     std::vector<fs::path> shards;
     for (std::uint32_t i = num; i > 0; --i) {
       shards.push_back(Path(std::to_string(i) + "_of_" + std::to_string(num)));
