@@ -147,6 +147,11 @@ void Describe(Archive& a, ObjectSpec& s) {
       "origin of its file.");
   a.Optional("parts", s.parts,
              "Materials and labels of parts of a mesh; the others have those of the object.");
+  a.Optional(
+      "tolerance_mm", s.tolerance_mm,
+      "How far the surfaces of a simplified mesh may be from those of its file; 0 = it stays "
+      "as it is.",
+      Within(0, 100));
   a.Optional("person", s.person, "How a person looks.");
   a.Optional("label", s.label, "Overrides the type's; of the label table.");
   a.Optional("material", s.material, "Overrides the type's; of the materials.");
@@ -166,6 +171,8 @@ void Describe(Archive& a, ObjectSpec& s) {
   a.Ensure({"origin", "type"}, s.origin == MeshOrigin::kFoot || is_mesh,
            "must be given for type \"mesh\" only");
   a.Ensure({"parts", "type"}, s.parts.empty() || is_mesh, "must be given for type \"mesh\" only");
+  a.Ensure({"tolerance_mm", "type"}, s.tolerance_mm == 0.0 || is_mesh,
+           "must be given for type \"mesh\" only");
   a.Ensure({"follow", "h_m"}, s.follow != Follow::kGround || !s.h_m,
            "must not be \"ground\" beside h_m, which puts it above the rails");
   a.Ensure({"motion", "type"}, !IsRailVehicle(s.type) || !s.motion || !s.motion->path,

@@ -31,6 +31,7 @@ ObjectSpec OfModelAlone(const ObjectSpec& object) {
   spec.material = object.material;
   spec.origin = object.origin;
   spec.parts = object.parts;
+  spec.tolerance_mm = object.tolerance_mm;
   return spec;
 }
 
@@ -78,6 +79,19 @@ std::string LeftOutText(const MeshObject& mesh) {
             " with fewer than three different corners";
   }
   return text.empty() ? "" : ReportLine("", "left out: " + text);
+}
+
+/// How far the mesh was simplified.
+std::string SimplifiedText(const ObjectSpec& spec, const MeshObject& mesh) {
+  if (spec.tolerance_mm == 0.0) return "";
+  const std::size_t num_left = mesh.model.num_triangles();
+  const std::string tolerance = "simplified to " + ShortText(spec.tolerance_mm) + " mm: ";
+  if (num_left == mesh.num_read) {
+    return ReportLine("", tolerance + "no triangle can be left out");
+  }
+  return ReportLine("", tolerance + std::to_string(num_left) + " of " +
+                            CountText(mesh.num_read, "triangle") + ", deviation " +
+                            ShortText(1e3 * mesh.deviation_m) + " mm");
 }
 
 /// One line for each name and what became of it.
@@ -166,7 +180,8 @@ std::string MeshesText(std::span<const ObjectSpec> objects,
                                CountText(mesh.model.num_triangles(), "triangle") + " of " +
                                CountText(mesh.num_faces + mesh.num_cornerless, "face") + ", " +
                                ShortText(AreaOf_m2(mesh.model)) + " m2");
-    text += LeftOutText(mesh) + PartsText(mesh, labels, materials);
+    text +=
+        LeftOutText(mesh) + SimplifiedText(users.spec, mesh) + PartsText(mesh, labels, materials);
     for (const ObjectSpec* object : users.objects) text += WarningsText(*object, mesh);
   }
   return text;

@@ -10,9 +10,9 @@
 namespace railcast {
 
 /// Reads the mesh files of all objects and says of each model how large it is, how many triangles
-/// it has, what was left out and why, which of its parts has which material and label and why, and
-/// what about it is likely to be a mistake. Objects with one model share its paragraph. Empty if no
-/// object is a mesh.
+/// it has, what was left out and why, how far it was simplified, which of its parts has which
+/// material and label and why, and what about it is likely to be a mistake. Objects with one model
+/// share its paragraph. Empty if no object is a mesh.
 ///
 /// A mistake is guessed where a model
 /// - is larger than 100 m or smaller than 1 cm;

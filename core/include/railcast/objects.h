@@ -34,7 +34,7 @@ struct PathPoint {
 };
 
 /// A way across the tracks, from the object's own place (ObjectSpec::s_m, d_m) to one point after
-/// the other (core/rail/path/way.h).
+/// the other (core/rail/path/path_course.h).
 struct PathSpec {
   std::vector<PathPoint> points;
   double speed_mps{};  ///< > 0.
@@ -254,6 +254,8 @@ struct ObjectSpec {
   double roll_deg{};
   double pitch_deg{};
   std::optional<PersonSpec> person{};  ///< Persons only; absent = all defaults.
+  /// Meshes only: how far their simplified surfaces may be from those of the file; 0 = as they are.
+  double tolerance_mm{};
 
   bool operator==(const ObjectSpec&) const = default;
 };

@@ -9,6 +9,7 @@
 #include "core/base/out_of_memory.h"
 #include "core/base/text.h"
 #include "core/mesh/mesh_import.h"
+#include "core/mesh/simplify.h"
 #include "core/rail/model_parts.h"
 #include "core/rail/objects/named_materials.h"
 
@@ -17,6 +18,8 @@ namespace {
 
 /// Beyond, float32 has steps of 1 mm.
 constexpr double kFarthestFromOrigin_m = 8192.0;
+
+constexpr double kNormalTolerance_deg = 20.0;
 
 MeshUnits UnitsOfMesh(const ObjectSpec& spec) {
   MeshUnits units{.unit_m = spec.unit_m, .y_up = std::nullopt};
@@ -205,6 +208,16 @@ MeshPlace PlaceOfMesh(const ObjectSpec& spec,
   return place;
 }
 
+/// @return The deviation.
+double SimplifyParts(double tolerance_m, ImportedMesh& mesh) {
+  std::vector<Mesh> parts;
+  for (NamedMesh& part : mesh.parts) parts.push_back(std::move(part.mesh));
+  const auto simplified =
+      SimplifiedOnce(parts, {.deviation_m = tolerance_m, .normal_deg = kNormalTolerance_deg});
+  for (std::size_t p = 0; p < parts.size(); ++p) mesh.parts[p].mesh = simplified->parts[p];
+  return simplified->deviation_m;
+}
+
 }  // namespace
 
 MeshObject MakeMeshObject(const ObjectSpec& spec, const MeshTables& tables) {
@@ -222,11 +235,13 @@ MeshObject MakeMeshObject(const ObjectSpec& spec, const MeshTables& tables) {
                     .has_own_up = mesh.has_own_up,
                     .num_faces = mesh.num_faces,
                     .num_flat = mesh.num_flat,
-                    .num_cornerless = mesh.num_cornerless};
+                    .num_cornerless = mesh.num_cornerless,
+                    .num_read = mesh.num_triangles()};
   const MeshPlace place = PlaceOfMesh(spec, mesh, box);
-  for (NamedMesh& part : mesh.parts) {
+  for (NamedMesh& part : mesh.parts) place.Apply(part.mesh);
+  if (spec.tolerance_mm > 0.0) object.deviation_m = SimplifyParts(1e-3 * spec.tolerance_mm, mesh);
+  for (const NamedMesh& part : mesh.parts) {
     object.parts.push_back(UseOf(part, entries, spec, tables));
-    place.Apply(part.mesh);
     MeshOf(object.parts.back().surface, object.model).Append(part.mesh);
   }
   return object;

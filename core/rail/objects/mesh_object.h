@@ -23,9 +23,9 @@ struct MeshTables {
 
 /// What became of the triangles of one name in a mesh file.
 struct MeshPartUse {
-  std::string material;  ///< In the file; empty = none.
-  std::string group;     ///< In the file; empty = none.
-  std::size_t num_triangles{};
+  std::string material;         ///< In the file; empty = none.
+  std::string group;            ///< In the file; empty = none.
+  std::size_t num_triangles{};  ///< In the model.
   SurfaceClass surface;
   std::string why_material;  ///< In words that name nothing from the file.
   std::string why_label;
@@ -41,6 +41,8 @@ struct MeshObject {
   std::size_t num_faces{};       ///< In the file.
   std::size_t num_flat{};        ///< Triangles left out because they have no area in float32.
   std::size_t num_cornerless{};  ///< Faces left out for lack of three different corners.
+  std::size_t num_read{};        ///< Triangles before the mesh was simplified.
+  double deviation_m{};          ///< The greatest measured between the two; 0 if it was not.
 };
 
 /// Reads a mesh file and gives each of its parts a material and a label.
@@ -50,6 +52,9 @@ struct MeshObject {
 /// word in the name of its material, or of its group if it has no material, stands for
 /// (MaterialOfName), if the library has it; and that of the object's type. Labels likewise, except
 /// that no word stands for one.
+///
+/// With `spec.tolerance_mm`, the parts are simplified at their size in the world
+/// (SimplifiedOnce()), with normals within 20 degrees of those that they stand for.
 ///
 /// Frame: as MakeObjectModel() has it.
 /// @throws InputError as MakeObjectModel() does. Faults of `parts` have the places "/parts/0/of",

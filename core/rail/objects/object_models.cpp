@@ -188,8 +188,9 @@ ObjectModels::Shape ObjectModels::ShapeOf(const ObjectSpec& spec) {
   PartsKey parts;
   for (const MeshPartSpec& part : spec.parts)
     parts.emplace_back(part.of, part.material, part.label);
-  return {spec.type,     spec.size_m,   spec.file,      spec.up, spec.unit_m, spec.label,
-          spec.material, spec.roll_deg, spec.pitch_deg, person,  spec.origin, parts};
+  return {spec.type,   spec.size_m,       spec.file,     spec.up,        spec.unit_m,
+          spec.label,  spec.material,     spec.roll_deg, spec.pitch_deg, person,
+          spec.origin, spec.tolerance_mm, parts};
 }
 
 std::vector<std::shared_ptr<const Model>> ObjectModels::VehiclePiecesOf(const ObjectSpec& spec) {

@@ -82,6 +82,7 @@ class ObjectModels {
                            double,
                            std::optional<PersonKey>,
                            MeshOrigin,
+                           double,
                            PartsKey>;
   [[nodiscard]] static Shape ShapeOf(const ObjectSpec& spec);
 

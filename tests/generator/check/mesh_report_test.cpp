@@ -56,6 +56,24 @@ TEST_F(MeshReport, SaysWhatIsKeptAndWhatNotAndWhatEachPartIs) {
           "(the type's), 1 triangle\n");
 }
 
+TEST_F(MeshReport, SaysHowFarAModelIsSimplified) {
+  // A square with a peak of 2 mm, and a triangle elsewhere.
+  ObjectSpec house = Write(
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.5 0.002\nv 5 0 0\nv 6 0 0\nv 5 0 1\n"
+      "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 6 7 8\n");
+  EXPECT_EQ(Text({house}).find("simplified"), std::string::npos);
+  house.tolerance_mm = 1.5;
+  EXPECT_NE(Text({house}).find("          simplified to 1.5 mm: no triangle can be left out\n"),
+            std::string::npos)
+      << Text({house});
+  house.tolerance_mm = 4.0;
+  const std::string text = Text({house});
+  EXPECT_NE(text.find(", 3 triangles of 5 faces, "), std::string::npos) << text;
+  EXPECT_NE(text.find("          simplified to 4 mm: 3 of 5 triangles, deviation 2 mm\n"),
+            std::string::npos)
+      << text;
+}
+
 TEST_F(MeshReport, NamesObjectsOfOneModelTogether) {
   ObjectSpec first = Write(kGable);
   ObjectSpec second = first;

@@ -146,6 +146,53 @@ TEST_F(MeshObjectOfAFile, KeepsTheFilesOriginIfTold) {
   EXPECT_EQ(Make().model.Bounds().max(), Vector3(6, 12, 66));
 }
 
+/// A fan of 64 triangles in a plane, as a wall of a scan has them, and a pane.
+std::string DenseWall() {
+  std::string text = "v 0 0 0\nv 0 0 10\n";
+  for (int i = 0; i <= 64; ++i) text += "v " + std::to_string(0.125 * i) + " 0 20\n";
+  text += "usemtl brick\n";
+  for (int i = 0; i < 64; ++i) {
+    text += "f 1 " + std::to_string(i + 3) + " " + std::to_string(i + 4) + "\n";
+  }
+  return text + "usemtl glass\nf 1 2 3\n";
+}
+
+TEST_F(MeshObjectOfAFile, IsSimplifiedOnlyWithATolerance) {
+  Write(DenseWall());
+  const MeshObject whole = Make();
+  EXPECT_EQ(whole.num_read, 65);
+  EXPECT_EQ(whole.model.num_triangles(), 65);
+  EXPECT_EQ(whole.deviation_m, 0.0);
+  spec_.tolerance_mm = 2.5;
+  const MeshObject simplified = Make();
+  EXPECT_EQ(simplified.num_read, 65);
+  EXPECT_LT(simplified.model.num_triangles(), 4);
+  EXPECT_LE(simplified.deviation_m, 0.0025);
+  EXPECT_TRUE(simplified.model.Bounds().isApprox(whole.model.Bounds(), 1e-6));
+  EXPECT_EQ(simplified.parts.at(0).num_triangles + 1, simplified.model.num_triangles());
+  EXPECT_EQ(simplified.parts.at(0).surface.material, whole.parts.at(0).surface.material);
+  EXPECT_NE(simplified.parts.at(1).surface.material, whole.parts.at(0).surface.material);
+}
+
+/// The peak is 0.02 of the file's units high: within 2.5 mm where it is scaled down.
+TEST_F(MeshObjectOfAFile, IsSimplifiedAtItsSizeInTheWorld) {
+  Write(
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.5 0.02\n"
+      "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n");
+  spec_.tolerance_mm = 2.5;
+  EXPECT_EQ(Make().model.num_triangles(), 4);
+  spec_.size_m = {0.1, 0.1, 0.002};
+  EXPECT_EQ(Make().model.num_triangles(), 2);
+}
+
+TEST_F(MeshObjectOfAFile, SharesNoModelWithOneOfAnotherTolerance) {
+  Write(DenseWall());
+  ObjectModels models(TestSurfaces(), labels_, materials_);
+  const auto whole = models.Of(spec_);
+  spec_.tolerance_mm = 2.5;
+  EXPECT_LT(models.Of(spec_)->num_triangles(), whole->num_triangles());
+}
+
 TEST_F(MeshObjectOfAFile, RefusesTheOriginOfMapCoordinates) {
   Write("v 2600000 1200000 500\nv 2600001 1200000 500\nv 2600000 1200001 501.5\nf 1 2 3\n");
   EXPECT_EQ(Make().model.Bounds().max(), Vector3(0.5, 0.5, 1.5));

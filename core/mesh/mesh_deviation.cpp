@@ -1,5 +1,7 @@
-#include "tests/bench/mesh_deviation.h"
+#include "core/mesh/mesh_deviation.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,11 +14,9 @@
 namespace railcast {
 namespace {
 
-using Corners = std::array<Vector3, 3>;
-
 /// A triangle with its box, for Eigen's tree, which finds the box by the function's name.
 struct BoxedTriangle {
-  Corners corners;
+  TriangleInSpace corners;
   Eigen::AlignedBox3d box_m;
 
   // NOLINTNEXTLINE(readability-identifier-naming): a name that Eigen asks for
@@ -31,21 +31,6 @@ double SquaredToEdge_m2(const Vector3& point, const Vector3& a, const Vector3& b
   return (point - a - along * ab).squaredNorm();
 }
 
-double Squared_m2(const Vector3& point, const Corners& triangle) {
-  const auto& [a, b, c] = triangle;
-  const Vector3 normal = (b - a).cross(c - a);
-  const double normal2 = normal.squaredNorm();
-  const auto is_inside = [&](const Vector3& from, const Vector3& to) {
-    return (to - from).cross(point - from).dot(normal) >= 0.0;
-  };
-  if (normal2 > 0.0 && is_inside(a, b) && is_inside(b, c) && is_inside(c, a)) {
-    const double height = normal.dot(point - a);
-    return height * height / normal2;
-  }
-  return std::min({SquaredToEdge_m2(point, a, b), SquaredToEdge_m2(point, b, c),
-                   SquaredToEdge_m2(point, c, a)});
-}
-
 /// Finds the triangle of a tree that is nearest to a point.
 class NearestTriangle {
  public:
@@ -58,7 +43,7 @@ class NearestTriangle {
     return box_m.squaredExteriorDistance(point_);
   }
   double minimumOnObject(const BoxedTriangle& triangle) {
-    const double squared_m2 = Squared_m2(point_, triangle.corners);
+    const double squared_m2 = SquaredDistance_m2(point_, triangle.corners);
     if (squared_m2 < least_m2_) {
       least_m2_ = squared_m2;
       nearest_ = &triangle;
@@ -76,19 +61,27 @@ class NearestTriangle {
   double least_m2_ = std::numeric_limits<double>::infinity();
 };
 
-Corners SpanOf(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
+TriangleInSpace SpanOf(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
   return {mesh.vertices[triangle[0]].cast<double>(), mesh.vertices[triangle[1]].cast<double>(),
           mesh.vertices[triangle[2]].cast<double>()};
 }
 
-/// When a search for the deviation goes no further.
-struct Search {
-  double resolution_m{};
-  double pass_m = 0.0;  ///< A triangle that deviates by no more than this needs no closer look.
-  double enough_m = std::numeric_limits<double>::infinity();  ///< More need not be found.
-};
-
 }  // namespace
+
+double SquaredDistance_m2(const Vector3& point, const TriangleInSpace& triangle) {
+  const auto& [a, b, c] = triangle;
+  const Vector3 normal = (b - a).cross(c - a);
+  const double normal2 = normal.squaredNorm();
+  const auto is_inside = [&](const Vector3& from, const Vector3& to) {
+    return (to - from).cross(point - from).dot(normal) >= 0.0;
+  };
+  if (normal2 > 0.0 && is_inside(a, b) && is_inside(b, c) && is_inside(c, a)) {
+    const double height = normal.dot(point - a);
+    return height * height / normal2;
+  }
+  return std::min({SquaredToEdge_m2(point, a, b), SquaredToEdge_m2(point, b, c),
+                   SquaredToEdge_m2(point, c, a)});
+}
 
 struct MeshSurface::Tree {
   Eigen::KdBVH<double, 3, BoxedTriangle> boxes;
@@ -99,34 +92,28 @@ struct MeshSurface::Tree {
     return nearest;
   }
 
-  /// Raises `found_m` to the deviation of a triangle, until it is more than `enough_m`.
-  void Measure(const Corners& piece, const Search& search, double& found_m) const {
+  /// Raises `found_m` to the deviation of a piece of a triangle.
+  /// @return Whether all of the piece is within the limit.
+  [[nodiscard]] bool Measure(const TriangleInSpace& piece, double limit_m, double& found_m) const {
     const auto& [a, b, c] = piece;
-    const NearestTriangle at_middle = NearestTo((a + b + c) / 3.0);
+    const Vector3 middle = (a + b + c) / 3.0;
+    const NearestTriangle at_middle = NearestTo(middle);
     found_m = std::max(found_m, at_middle.least_m());
+    if (found_m > limit_m) return false;
     double at_most_m = 0.0;
+    double reach_m = 0.0;
     for (const Vector3& corner : piece) {
-      at_most_m = std::max(at_most_m, std::sqrt(Squared_m2(corner, at_middle.nearest()->corners)));
+      at_most_m =
+          std::max(at_most_m, std::sqrt(SquaredDistance_m2(corner, at_middle.nearest()->corners)));
+      reach_m = std::max(reach_m, (corner - middle).norm());
     }
-    const double edge_m = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-    const double passed_m = std::max(found_m + search.resolution_m, search.pass_m);
-    if (at_most_m <= passed_m || edge_m <= search.resolution_m || found_m > search.enough_m) return;
+    if (std::min(at_most_m, at_middle.least_m() + reach_m) <= limit_m) return true;
+    if (reach_m <= limit_m / 16.0) return false;
     const Vector3 ab = 0.5 * (a + b);
     const Vector3 bc = 0.5 * (b + c);
     const Vector3 ca = 0.5 * (c + a);
-    for (const Corners& quarter :
-         {Corners{a, ab, ca}, Corners{ab, b, bc}, Corners{ca, bc, c}, Corners{ab, bc, ca}}) {
-      Measure(quarter, search, found_m);
-    }
-  }
-
-  [[nodiscard]] double Measure(const Mesh& other, const Search& search) const {
-    double found_m = 0.0;
-    for (const auto& triangle : other.triangles) {
-      Measure(SpanOf(other, triangle), search, found_m);
-      if (found_m > search.enough_m) break;
-    }
-    return found_m;
+    return Measure({a, ab, ca}, limit_m, found_m) && Measure({ab, b, bc}, limit_m, found_m) &&
+           Measure({ca, bc, c}, limit_m, found_m) && Measure({ab, bc, ca}, limit_m, found_m);
   }
 };
 
@@ -146,13 +133,27 @@ MeshSurface::MeshSurface(const Mesh& mesh) {
 
 MeshSurface::~MeshSurface() = default;
 
-double MeshSurface::DeviationOf_m(const Mesh& other, double resolution_m) const {
-  return tree_->Measure(other, {.resolution_m = resolution_m});
-}
-
-bool MeshSurface::IsWithin(const Mesh& other, double limit_m) const {
-  const Search search{.resolution_m = limit_m / 8.0, .pass_m = limit_m, .enough_m = limit_m};
-  return tree_->Measure(other, search) <= limit_m;
+std::optional<double> MeshSurface::DeviationWithin_m(const Mesh& other, double limit_m) const {
+  constexpr double kBeyond = std::numeric_limits<double>::infinity();
+  const auto deviation_of = [&](const std::array<std::uint32_t, 3>& triangle) {
+    const TriangleInSpace corners = SpanOf(other, triangle);
+    double found_m = 0.0;
+    for (const Vector3& corner : corners) {
+      found_m = std::max(found_m, tree_->NearestTo(corner).least_m());
+    }
+    return tree_->Measure(corners, limit_m, found_m) ? found_m : kBeyond;
+  };
+  const auto most_of = [&](const tbb::blocked_range<std::size_t>& range, double most_m) {
+    for (std::size_t t = range.begin(); t != range.end() && most_m <= limit_m; ++t) {
+      most_m = std::max(most_m, deviation_of(other.triangles[t]));
+    }
+    return most_m;
+  };
+  const double most_m =
+      tbb::parallel_reduce(tbb::blocked_range<std::size_t>(0, other.triangles.size()), 0.0, most_of,
+                           [](double one_m, double two_m) { return std::max(one_m, two_m); });
+  if (most_m > limit_m) return std::nullopt;
+  return most_m;
 }
 
 }  // namespace railcast
