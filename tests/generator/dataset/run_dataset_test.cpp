@@ -145,8 +145,10 @@ TEST_F(RunDatasetTest, AStoppedRunContinuesWithTheSameBytes) {
     std::atomic<int> num_asked = 0;
     const DatasetHooks hooks = {NoProgress, [&] { return ++num_asked > after; }};
     const DatasetChoices choices = OnOneThread(stopped);
-    EXPECT_FALSE(RunDataset(recipe_, choices, hooks).is_complete);
-    EXPECT_FALSE(fs::exists(stopped / "manifest.json"));
+    // How often a run asks depends on how long scenes take to build: it may end before.
+    const bool is_complete = RunDataset(recipe_, choices, hooks).is_complete;
+    EXPECT_EQ(fs::exists(stopped / "manifest.json"), is_complete);
+    EXPECT_FALSE(is_complete && after == 1);
     EXPECT_TRUE(RunDataset(recipe_, choices, NoDatasetHooks()).is_complete);
     EXPECT_EQ(FilesOfDataset(stopped), FilesOfDataset(Path("whole")));
   }
