@@ -45,6 +45,8 @@ void EncodeKittiFiles(const Frame& frame,
   EncodeKittiLabels(frame, spec.labels, moving, files[1].bytes);
 }
 
+void EncodeNothing(const Frame&, const FrameFileSpec&, const Moving&, Files&) {}
+
 std::vector<std::string> KittiLines(const Transform& first_from_sensor, double since_first_s) {
   return {KittiPoseLine(first_from_sensor), NumberText(since_first_s) + "\n"};
 }
@@ -89,6 +91,8 @@ const std::vector<FrameFormat>& FrameFormats() {
                                 .record_files = {kKittiPosesFile, kKittiTimesFile},
                                 .record_lines = &KittiLines,
                                 .fixed_files = &KittiFixedFiles}},
+      // For studies of what can be seen: boxes, visibility and counts without clouds.
+      {.name = "objects", .files = {}, .encode = &EncodeNothing},
   };
   return formats;
 }
@@ -113,8 +117,8 @@ const FrameFormat& ParseFrameFormat(std::string_view name) {
 
 const FrameFormat* FindReader(const std::filesystem::path& file) {
   for (const FrameFormat& format : FrameFormats()) {
-    const bool is_its = file.extension() == format.files.front().extension;
-    if (is_its && format.parse != nullptr) return &format;
+    if (format.parse == nullptr) continue;
+    if (file.extension() == format.files.front().extension) return &format;
   }
   return nullptr;
 }

@@ -24,6 +24,7 @@ namespace {
 /// What all frames of a sequence share.
 struct SequenceContext {
   std::filesystem::path directory;
+  bool has_clouds{};
   ScanPattern pattern;
   OutputSpec output;
   Transform vehicle_from_sensor;
@@ -32,6 +33,12 @@ struct SequenceContext {
     return output.frame == OutputFrame::kSensor && output.handedness == Handedness::kRight;
   }
 };
+
+/// A format that a newer version wrote has clouds as far as we know.
+bool HasClouds(const SequenceSummary& summary) {
+  const FrameFormat* const format = FindFrameFormat(summary.run.format);
+  return format == nullptr || !format->files.empty();
+}
 
 const KnownFile& CloudFileOf(const FrameLine& line, const std::string& place) {
   for (const KnownFile& file : line.files) {
@@ -51,12 +58,17 @@ RecordedFrame ReadFrame(const SequenceContext& context, const FrameLines& lines)
   const FrameLine line = ReadNextFrameLine(lines);
   const PlacedLine& pose = lines.records.at(0);
   const PlacedLine& objects = lines.records.at(1);
-  const KnownFile& known = CloudFileOf(line, lines.frame.place);
-  const std::string file = ShownPath(context.directory / known.name);
-  std::string bytes = ReadKnownFile(context.directory, known, kFramesFile);
-  const FrameFormat& format = *FindReader(known.name);
-  const PointTable table = format.parse(file, std::move(bytes), std::nullopt);
-  RecordedFrame recorded = MakeScanFrame(table, file, context.pattern, format.has_all_slots);
+  RecordedFrame recorded;
+  bool has_ranges = true;
+  if (context.has_clouds) {
+    const KnownFile& known = CloudFileOf(line, lines.frame.place);
+    const std::string file = ShownPath(context.directory / known.name);
+    std::string bytes = ReadKnownFile(context.directory, known, kFramesFile);
+    const FrameFormat& format = *FindReader(known.name);
+    const PointTable table = format.parse(file, std::move(bytes), std::nullopt);
+    recorded = MakeScanFrame(table, file, context.pattern, format.has_all_slots);
+    has_ranges = table.Find("range_m") != nullptr;
+  }
   Frame& frame = recorded.frame;
   frame.index = line.frame;
   frame.stamp_ns = line.stamp_ns;
@@ -68,7 +80,7 @@ RecordedFrame ReadFrame(const SequenceContext& context, const FrameLines& lines)
   CheckRecords(line, lines);
   if (context.is_in_sensor_axes()) return recorded;
   UndoOutputAxes(context.output, context.vehicle_from_sensor, context.pattern, recorded);
-  if (table.Find("range_m") == nullptr) RecomputeRanges(frame);
+  if (!has_ranges) RecomputeRanges(frame);
   return recorded;
 }
 
@@ -107,7 +119,7 @@ RecordedFrame ReadKittiFrame(const std::filesystem::path& directory,
 /// Says what is being read, for WithinMemory: the first of the frame's files is its cloud.
 std::string ReadingFrameText(const std::filesystem::path& directory, const FrameLines& lines) {
   const FrameLine line = ReadFrameLine(lines.frame.text, lines.frame.place);
-  return ReadingText(directory / line.files.at(0).name);
+  return ReadingText(line.files.empty() ? directory : directory / line.files.front().name);
 }
 
 class SequenceRecording : public Recording {
@@ -126,6 +138,7 @@ class SequenceRecording : public Recording {
     const LidarSpec& lidar = info_.scenario->lidar;
     context_ = std::make_shared<const SequenceContext>(
         SequenceContext{.directory = directory,
+                        .has_clouds = HasClouds(summary),
                         .pattern = BuildScanPattern(lidar.scan),
                         .output = info_.scenario->output,
                         .vehicle_from_sensor = VehicleFromSensor(lidar.mount)});
