@@ -107,7 +107,7 @@ struct DatasetLayout {
 
 /// Everything that railcast knows about a file format for frames.
 struct FrameFormat {
-  std::string_view name;             ///< Name on command lines and in run.json.
+  std::string_view name;  ///< Name on command lines and in run.json.
   /// Files per frame; the points file comes first. None if only the records of frames are written.
   std::vector<FrameFileKind> files;
   /// Encodes a frame: fills the bytes of one file for each of `files`.
