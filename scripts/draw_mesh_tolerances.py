@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Charts what simplifying five meshes of the shared data set would gain, for docs/detail.md.
+"""Charts what simplifying five meshes of the shared data set gains, and two of them made as dense as
+a scan, for docs/detail.md.
 
     scripts/draw_mesh_tolerances.py BUILD PICTURE
 
@@ -18,6 +19,10 @@ MESHES = {
     "ICE4": ("meshes_rail_libretrainsim/ICE4.obj", ["--up", "y"]),
     "JFR1_Wagon_1": ("meshes_rail_libretrainsim/JFR1_Wagon_1.obj", ["--up", "y"]),
     "fire_truck": ("meshes_gazebo/fire_truck__fire_truck.obj", ["--unit", "0.0254"]),
+    "fire_truck, dense": ("meshes_gazebo/fire_truck__fire_truck.obj",
+                          ["--unit", "0.0254", "--subdivide", "2"]),
+    "mannequinMale, dense": ("meshes_sweethome3d/Scopia/mannequinMale.obj",
+                             ["--up", "y", "--unit", "0.01", "--subdivide", "2", "--noise", "0.1"]),
 }
 
 
@@ -34,6 +39,11 @@ def measure(build, name):
             for r in rows]
 
 
+def block_of(name):
+    """The name of gnuplot's data block."""
+    return "$" + "".join(letter for letter in name if letter.isalnum())
+
+
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
@@ -43,10 +53,10 @@ def main():
     for name in MESHES:
         rows = measure(Path(sys.argv[1]), name)
         lines = "\n".join(" ".join(map(str, row)) for row in rows)
-        script.append(f"${name} << E\n{lines}\nE")
+        script.append(f"{block_of(name)} << E\n{lines}\nE")
     for column, what in ((2, "triangles / those of the mesh as it is"),
                          (3, "time of a ray / that on the mesh as it is")):
-        curves = ", ".join(f'${name} using 1:{column} with linespoints title "{name}" noenhanced'
+        curves = ", ".join(f'{block_of(name)} using 1:{column} with linespoints title "{name}" noenhanced'
                            for name in MESHES)
         script.append(f"set ylabel '{what}'; plot {curves}")
     subprocess.run(["gnuplot"], input="\n".join(script), text=True, check=True)

@@ -148,7 +148,7 @@ TEST_F(MeshObjectOfAFile, KeepsTheFilesOriginIfTold) {
 
 /// A fan of 64 triangles in a plane, as a wall of a scan has them, and a pane.
 std::string DenseWall() {
-  std::string text = "v 0 0 0\nv 0 0 10\n";
+  std::string text = "v 0 0 0\nv 0 5 10\n";
   for (int i = 0; i <= 64; ++i) text += "v " + std::to_string(0.125 * i) + " 0 20\n";
   text += "usemtl brick\n";
   for (int i = 0; i < 64; ++i) {
@@ -181,7 +181,7 @@ TEST_F(MeshObjectOfAFile, IsSimplifiedAtItsSizeInTheWorld) {
       "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n");
   spec_.tolerance_mm = 2.5;
   EXPECT_EQ(Make().model.num_triangles(), 4);
-  spec_.size_m = {0.1, 0.1, 0.002};
+  spec_.size_m = {0.1, 0.1, 0.001};
   EXPECT_EQ(Make().model.num_triangles(), 2);
 }
 
