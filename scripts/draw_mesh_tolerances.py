@@ -47,8 +47,8 @@ def block_of(name):
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
-    script = [f'set terminal pngcairo size 900,360 font "sans,10"; set output "{sys.argv[2]}"',
-              "set multiplot layout 1,2; set key bottom left; set xlabel 'tolerance in mm'",
+    script = [f'set terminal pngcairo size 900,420 font "sans,10"; set output "{sys.argv[2]}"',
+              "set multiplot layout 1,2; set key outside bottom center horizontal; set xlabel 'tolerance in mm'",
               "set xrange [0:20]; set yrange [0:1.3]; set grid"]
     for name in MESHES:
         rows = measure(Path(sys.argv[1]), name)
