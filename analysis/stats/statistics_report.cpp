@@ -1,7 +1,10 @@
 #include "analysis/stats/statistics.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "analysis/report/cell_text.h"
 #include "analysis/stats/bins.h"
@@ -17,8 +20,12 @@ std::string NameOfPart(const std::filesystem::path& source) {
 }
 
 std::string SourcesText(const std::vector<RecordingInfo>& sources) {
+  constexpr std::size_t kMost = 20;
   std::string text;
   for (const RecordingInfo& info : sources) {
+    if (&info - sources.data() == kMost) {
+      return text + " and " + std::to_string(sources.size() - kMost) + " more";
+    }
     if (!text.empty()) text += ", ";
     text += ShownPath(info.source);
     text += " (";
@@ -28,10 +35,36 @@ std::string SourcesText(const std::vector<RecordingInfo>& sources) {
   return text;
 }
 
-void AddScenarioFacts(const ScenarioSpec& scenario, Report& report) {
-  if (!scenario.lidar.name.empty()) report.facts.emplace_back("Sensor", scenario.lidar.name);
-  report.facts.emplace_back("Fidelity", NameOf(scenario.fidelity));
-  report.facts.emplace_back("Seed", std::to_string(scenario.seed));
+/// The different values of something in all scenarios, in the order of their first places.
+template <typename TextOf>
+void AddFact(const char* name,
+             const std::vector<RecordingInfo>& sources,
+             const TextOf& text_of,
+             Report& report) {
+  constexpr std::size_t kMost = 10;
+  std::vector<std::string> texts;
+  for (const RecordingInfo& info : sources) {
+    if (!info.scenario) continue;
+    std::string text = text_of(*info.scenario);
+    if (text.empty() || std::ranges::find(texts, text) != texts.end()) continue;
+    texts.push_back(std::move(text));
+  }
+  if (texts.empty()) return;
+  std::string all;
+  for (std::size_t i = 0; i < std::min(texts.size(), kMost); ++i)
+    all += (i > 0 ? ", " : "") + texts[i];
+  if (texts.size() > kMost) all += " and " + std::to_string(texts.size() - kMost) + " more";
+  report.facts.emplace_back(name, all);
+}
+
+void AddScenarioFacts(const std::vector<RecordingInfo>& sources, Report& report) {
+  AddFact(
+      "Sensor", sources, [](const ScenarioSpec& s) { return s.lidar.name; }, report);
+  AddFact(
+      "Fidelity", sources, [](const ScenarioSpec& s) { return std::string(NameOf(s.fidelity)); },
+      report);
+  AddFact(
+      "Seed", sources, [](const ScenarioSpec& s) { return std::to_string(s.seed); }, report);
 }
 
 void AddNoiseHeadline(std::string title, std::size_t bin, const Estimate& sigma_m, Report& report) {
@@ -95,7 +128,7 @@ Report MakeStatisticsReport(const Statistics& statistics,
   report.facts.emplace_back("Source", SourcesText(sources));
   report.facts.emplace_back("Frames", std::to_string(statistics.coverage.num_frames()));
   report.facts.emplace_back("Points", std::to_string(statistics.coverage.num_points()));
-  if (sources.front().scenario) AddScenarioFacts(*sources.front().scenario, report);
+  AddScenarioFacts(sources, report);
 
   report.headlines.push_back({"Points a frame", "", statistics.coverage.PointsPerFrame()});
   const bool is_exact = !statistics.dropout.is_empty();

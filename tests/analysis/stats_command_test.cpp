@@ -144,6 +144,51 @@ TEST(StatsCommand, RefusesToSumUpLabelsOfTwoMeanings) {
                           sequence.string() + "\n");
 }
 
+// One sensor of 20 Hz without rings and one of 10 Hz with 16.
+TEST(StatsCommand, SumsUpDifferentSensorsWithoutTheirRings) {
+  const TemporaryFolder folder;
+  const auto out = folder.Write("x", "").parent_path();
+  const auto run = out / "run";
+  const std::string scenario = (ScenariosDir() / "two_sensors.json").string();
+  ASSERT_EQ(
+      RunCommand(RAILCAST_GENERATE " sequence " + scenario + " --frames 4 --out " + run.string())
+          .status,
+      0);
+  const auto points_of = [&](const std::string& sources, const std::string& name) {
+    const Ended ended = Analyze("stats " + sources + " --out " + (out / name).string());
+    EXPECT_EQ(ended.status, 0) << ended.said;
+    return Json::parse(ReadFileWhole(out / name / "stats.json"));
+  };
+  const Json front = points_of((run / "front").string(), "of_front");
+  const Json roof = points_of((run / "roof").string(), "of_roof");
+  const Json both = points_of(run.string(), "of_both");
+  const auto fact = [](const Json& stats, const std::string& name) {
+    return std::stoul(stats.at("facts").at(name).get<std::string>());
+  };
+  EXPECT_EQ(fact(both, "Points"), fact(front, "Points") + fact(roof, "Points"));
+  EXPECT_EQ(fact(both, "Frames"), 6U);
+  EXPECT_NO_THROW(static_cast<void>(JsonTableOf(roof, "rings")));
+  EXPECT_THROW(static_cast<void>(JsonTableOf(both, "rings")), std::out_of_range);
+}
+
+TEST(StatsCommand, SumsUpADataSet) {
+  const TemporaryFolder folder;
+  const auto out = folder.Write("x", "").parent_path();
+  const auto recipe = folder.Write(
+      "recipe.json", R"({"version": 1, "num_scenarios": 3, "num_frames": 2, "bases": [{"file": ")" +
+                         (ScenariosDir() / "minimal.json").string() +
+                         R"("}], "set": {"/lidar/scan/pattern/angular_resolution_deg": 1.0,
+                           "/world/vegetation/trees_per_hectare": 0,
+                           "/world/vegetation/grass": false}})");
+  ASSERT_EQ(RunCommand(RAILCAST_GENERATE " dataset " + recipe.string() + " --out " +
+                       (out / "set").string())
+                .status,
+            0);
+  const Ended run = Analyze("stats " + (out / "set").string() + " --format text");
+  ASSERT_EQ(run.status, 0) << run.said;
+  EXPECT_THAT(run.said, testing::ContainsRegex("Frames +6\n"));
+}
+
 TEST(StatsCommand, RefusesToCountTwice) {
   const TemporaryFolder folder;
   const auto sequence = MakeSequence(folder, "");
