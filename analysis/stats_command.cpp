@@ -96,7 +96,7 @@ int RunStats(const StatsOptions& options, const std::string& command_line) {
       }
     }));
   }
-  if (!has_one_scan) all.coverage.ForgetRings();
+  if (!has_one_scan) all.ForgetRings();
   progress.End();
   if (all.coverage.num_frames() == 0) {
     throw InputError(ShownPath(options.sources.front()) + ": must hold a frame");

@@ -19,7 +19,6 @@ class Coverage {
   /// @param scan Null if the frame is not a grid.
   void Add(const RecordedFrame& recorded, const ScanTable* scan);
   void Add(const Coverage& other);
-  /// For frames of different sensors, whose rings have nothing in common but their numbers.
   void ForgetRings() { rings_.clear(); }
 
   [[nodiscard]] std::uint64_t num_frames() const { return points_.num(); }

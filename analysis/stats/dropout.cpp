@@ -163,7 +163,9 @@ Section Dropout::MakeSection(const Names& names) const {
   }
   add("dropout_by_label", "Dropout by label", {"label", "Label", ""}, labels, LabelChart);
   add("dropout_by_material", "Dropout by material", {"material", "Material", ""}, materials);
-  add("dropout_by_ring", "Dropout by ring", {"ring", "Ring", ""}, rings);
+  if (!by_ring_.empty()) {
+    add("dropout_by_ring", "Dropout by ring", {"ring", "Ring", ""}, rings);
+  }
   return section;
 }
 

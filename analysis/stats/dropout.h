@@ -24,6 +24,7 @@ class Dropout {
   /// Frames without outcomes are skipped.
   void Add(const RecordedFrame& recorded);
   void Add(const Dropout& other);
+  void ForgetRings() { by_ring_.clear(); }
 
   [[nodiscard]] bool is_empty() const { return all_.num == 0; }
   /// Share over all firings that met a surface.

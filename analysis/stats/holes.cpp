@@ -138,6 +138,7 @@ Section Holes::MakeSection() const {
        {SeriesOf(by_range, {"range_m", "holes"}, "holes")}});
   section.tables.push_back(std::move(by_range));
   if (!smooth_.by_intensity().empty()) section.tables.push_back(SmoothTable(smooth_));
+  if (by_ring_.empty()) return section;
   Table by_ring = CountTable(by_ring_, nullptr);
   by_ring.key = "holes_by_ring";
   by_ring.title = "Holes by ring";

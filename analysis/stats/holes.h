@@ -32,6 +32,7 @@ class Holes {
   /// Frames that are not grids are skipped.
   void Add(const RecordedFrame& recorded);
   void Add(const Holes& other);
+  void ForgetRings() { by_ring_.clear(); }
 
   using Count = HoleCount;
 

@@ -76,6 +76,12 @@ void Statistics::Add(const Statistics& other) {
   objects.Add(other.objects);
 }
 
+void Statistics::ForgetRings() {
+  dropout.ForgetRings();
+  holes.ForgetRings();
+  coverage.ForgetRings();
+}
+
 Statistics MeasureStatistics(Recording& recording, const StatisticsProgress& on_progress) {
   const std::optional<ScanTable> fixed = FixedScanTable(recording.info());
   Statistics all;

@@ -35,6 +35,9 @@ struct Statistics {
   /// @param scan Of the frame; null if it is not a grid.
   void Add(const RecordedFrame& recorded, const ScanTable* scan);
   void Add(const Statistics& other);
+  /// Drops what is counted by ring: rings of different sensors have nothing in common but their
+  /// numbers.
+  void ForgetRings();
 };
 
 /// Called after each pair of frames, on one thread at a time.

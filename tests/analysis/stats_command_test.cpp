@@ -167,8 +167,10 @@ TEST(StatsCommand, SumsUpDifferentSensorsWithoutTheirRings) {
   };
   EXPECT_EQ(fact(both, "Points"), fact(front, "Points") + fact(roof, "Points"));
   EXPECT_EQ(fact(both, "Frames"), 6U);
-  EXPECT_NO_THROW(static_cast<void>(JsonTableOf(roof, "rings")));
-  EXPECT_THROW(static_cast<void>(JsonTableOf(both, "rings")), std::out_of_range);
+  for (const char* table : {"rings", "dropout_by_ring", "holes_by_ring"}) {
+    EXPECT_NO_THROW(static_cast<void>(JsonTableOf(roof, table))) << table;
+    EXPECT_THROW(static_cast<void>(JsonTableOf(both, table)), std::out_of_range) << table;
+  }
 }
 
 TEST(StatsCommand, SumsUpADataSet) {
