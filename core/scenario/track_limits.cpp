@@ -1,5 +1,6 @@
 #include "core/scenario/track_limits.h"
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <utility>
@@ -42,18 +43,14 @@ struct Traveller {
   double least_s_m{};  ///< Least chainage at which all of it is on the track.
   double most_s_m{};   ///< Greatest.
 
-  [[nodiscard]] std::string NameOfWay() const {
-    std::string names;
-    for (const std::string& name : route.names) names += (names.empty() ? "" : ", ") + Quoted(name);
-    return (route.names.size() == 1 ? "track " : "route ") + names;
-  }
   [[nodiscard]] bool IsOnTrack(std::int64_t time_ns) const {
     const double s_m = chainage_m(time_ns);
     return s_m >= least_s_m - kTolerance_m && s_m <= most_s_m + kTolerance_m;
   }
   [[nodiscard]] std::string Leaves(const std::string& when) const {
-    return place() + " leaves " + NameOfWay() + ", from " + NumberText(route.course.begin_s_m()) +
-           " to " + NumberText(route.course.end_s_m()) + " m, at " + when;
+    return place() + " leaves " + WayText(route) + ", from " +
+           NumberText(route.course.begin_s_m()) + " to " + NumberText(route.course.end_s_m()) +
+           " m, at " + when;
   }
 };
 
@@ -64,12 +61,19 @@ struct TrainFront {
   bool runs_back{};
 };
 
+// Asked for every frame of a run: measures no more of the track than the last metres. Beside a
+// curve they may be longer or shorter than their chainage, but not by a factor of four.
 void KeepOnTrack(const TrainFront& front, const Alignment& alignment, Traveller& traveller) {
-  const TrackLength length(alignment, traveller.route.course);
+  const TrackCourse& course = traveller.route.course;
+  const double begin_s_m = course.begin_s_m();
+  const double end_s_m = course.end_s_m();
+  const double reach_m = std::min(4.0 * front.ahead_m, end_s_m - begin_s_m);
   if (front.runs_back) {
-    traveller.least_s_m = length.MovedFrom(traveller.least_s_m, front.ahead_m);
+    const TrackLength length(alignment, course, begin_s_m, begin_s_m + reach_m);
+    traveller.least_s_m = length.MovedFrom(begin_s_m, front.ahead_m);
   } else {
-    traveller.most_s_m = length.MovedFrom(traveller.most_s_m, -front.ahead_m);
+    const TrackLength length(alignment, course, end_s_m - reach_m, end_s_m);
+    traveller.most_s_m = length.MovedFrom(end_s_m, -front.ahead_m);
   }
 }
 

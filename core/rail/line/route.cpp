@@ -164,6 +164,12 @@ class RouteMaker {
 
 }  // namespace
 
+std::string WayText(const Route& route) {
+  std::string names;
+  for (const std::string& name : route.names) names += (names.empty() ? "" : ", ") + Quoted(name);
+  return (route.names.size() == 1 ? "track " : "route ") + names;
+}
+
 std::optional<Route> MakeRoute(const WorldSpec& world,
                                const NetworkDraft& network,
                                const RouteSpec& spec,

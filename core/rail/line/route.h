@@ -39,6 +39,9 @@ struct Route {
   std::vector<RoutePassage> passages;  ///< In no particular order.
 };
 
+/// The tracks by name for messages: `track "main"` or `route "main", "siding"`.
+[[nodiscard]] std::string WayText(const Route& route);
+
 /// Makes a route, which begins where its first track does and ends where its last one does. Returns
 /// nothing if a track on it is unknown, and adds a fault where a name is unknown, where no turnout
 /// joins two tracks that follow each other, and where the one that does opens the other way.

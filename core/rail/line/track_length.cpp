@@ -8,9 +8,15 @@
 namespace railcast {
 
 TrackLength::TrackLength(const Alignment& alignment, const TrackCourse& course)
-    : begin_s_m_(course.begin_s_m()) {
+    : TrackLength(alignment, course, course.begin_s_m(), course.end_s_m()) {}
+
+TrackLength::TrackLength(const Alignment& alignment,
+                         const TrackCourse& course,
+                         double begin_s_m,
+                         double end_s_m)
+    : begin_s_m_(begin_s_m) {
   constexpr double kSampling_m = 1.0;
-  const double extent_m = course.end_s_m() - course.begin_s_m();
+  const double extent_m = end_s_m - begin_s_m;
   const auto num_steps = static_cast<std::size_t>(std::max(1.0, std::ceil(extent_m / kSampling_m)));
   step_m_ = extent_m / static_cast<double>(num_steps);
   lengths_m_.push_back(0.0);

@@ -17,6 +17,11 @@ class TrackLength {
  public:
   /// @pre The course has an end.
   TrackLength(const Alignment& alignment, const TrackCourse& course);
+  /// Of a stretch of the course, whose ends take the place of the track's.
+  TrackLength(const Alignment& alignment,
+              const TrackCourse& course,
+              double begin_s_m,
+              double end_s_m);
 
   /// The chainage that lies `length_m` of track from another one, towards rising chainage if it is
   /// positive.

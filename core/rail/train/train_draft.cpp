@@ -18,12 +18,6 @@
 namespace railcast {
 namespace {
 
-std::string WayText(const Route& route) {
-  std::string names;
-  for (const std::string& name : route.names) names += (names.empty() ? "" : ", ") + Quoted(name);
-  return (route.names.size() == 1 ? "track " : "route ") + names;
-}
-
 /// The foremost buffers, as an object that the rest of the train follows.
 ObjectSpec FrontOf(const TrainSpec& train) {
   ObjectSpec front;
