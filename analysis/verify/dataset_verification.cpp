@@ -1,6 +1,5 @@
 #include "analysis/verify/dataset_verification.h"
 
-#include <charconv>
 #include <cstdint>
 #include <optional>
 #include <set>
@@ -19,6 +18,7 @@
 #include "core/io/recording/sequence_check.h"
 #include "core/io/recording/sequence_summary.h"
 #include "core/io/sequence_files.h"
+#include "core/io/shard.h"
 #include "core/io/write_file.h"
 
 namespace railcast {
@@ -30,12 +30,7 @@ namespace fs = std::filesystem;
 struct DatasetContent {
   std::uint32_t num_scenarios{};  ///< Of the whole data set.
   std::string recipe_hash;
-  std::uint32_t shard = 1;
-  std::uint32_t num_shards = 1;
-
-  [[nodiscard]] std::uint32_t NumOwn() const {
-    return num_scenarios < shard ? 0 : (num_scenarios - shard) / num_shards + 1;
-  }
+  Shard shard;
 };
 
 /// What a line of scenarios.jsonl says of a sequence.
@@ -53,13 +48,12 @@ DatasetContent ReadContent(const fs::path& directory) {
         content.num_scenarios = json.at("num_scenarios");
         content.recipe_hash = json.at("recipe_xxh3");
         if (!json.contains("shard")) return content;
-        const std::string shard = json.at("shard");
-        const char* const end = shard.data() + shard.size();
-        const auto number = std::from_chars(shard.data(), end, content.shard);
-        if (number.ptr != end) std::from_chars(number.ptr + 1, end, content.num_shards);
-        if (content.shard == 0 || content.shard > content.num_shards) {
-          throw InputError(ShownPath(file) + ": is damaged: /shard (got " + ShownText(shard) + ")");
+        const std::string text = json.at("shard");
+        const std::optional<Shard> shard = ParseShard(text);
+        if (!shard) {
+          throw InputError(ShownPath(file) + ": is damaged: /shard (got " + ShownText(text) + ")");
         }
+        content.shard = *shard;
         return content;
       });
 }
@@ -74,7 +68,7 @@ class DatasetVerifier {
 
   Verification Run() {
     CheckRecipeCopy();
-    if (content_.num_shards == 1) Try([&] { CheckManifest(); });
+    if (content_.shard.is_whole()) Try([&] { CheckManifest(); });
     Try([&] { CheckScenarios(); });
     Try([&] { FindOthers(); });
     result_.faults = faults_.lines();
@@ -125,7 +119,7 @@ class DatasetVerifier {
 
   void CheckScenarios() {
     LineReader lines(directory_ / kScenariosFile);
-    const std::uint32_t num_own = content_.NumOwn();
+    const std::uint32_t num_own = content_.shard.NumOf(content_.num_scenarios);
     std::uint32_t num_lines = 0;
     for (; auto line = lines.Next(); ++num_lines) {
       on_progress_(static_cast<double>(num_lines) / static_cast<double>(num_own));
@@ -142,7 +136,7 @@ class DatasetVerifier {
   }
 
   void CheckScenario(const ScenarioLine& line, std::uint32_t index, const std::string& place) {
-    const std::uint32_t expected = content_.shard - 1 + index * content_.num_shards;
+    const std::uint32_t expected = content_.shard.ScenarioAt(index);
     if (line.scenario != expected || line.folder != SequenceFolderOf(expected)) {
       faults_.Add({place,
                    "must be the line of scenario " + NumberText(expected) + " in " +

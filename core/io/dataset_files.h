@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/io/sequence_files.h"
+
 namespace railcast {
 
 // The names of the files of a data set (docs/dataset.md), relative to its folder.
@@ -22,13 +24,10 @@ inline constexpr std::array<std::string_view, 3> kSplitFiles = {"split/train.txt
 
 /// The folder of a scenario's sequence, a thousand in one folder: "sequences/012/012345".
 [[nodiscard]] inline std::string SequenceFolderOf(std::uint32_t scenario) {
-  constexpr std::uint32_t kInOneFolder = 1000;
-  const auto digits = [](std::uint32_t number, std::size_t least) {
-    const std::string text = std::to_string(number);
-    return text.size() < least ? std::string(least - text.size(), '0') + text : text;
-  };
-  return std::string(kSequencesFolder) + "/" + digits(scenario / kInOneFolder, 3) + "/" +
-         digits(scenario, 6);
+  constexpr std::size_t kDigitsWithin = 3;
+  const std::string digits = FrameDigits(scenario);
+  return std::string(kSequencesFolder) + "/" + digits.substr(0, digits.size() - kDigitsWithin) +
+         "/" + digits;
 }
 
 }  // namespace railcast

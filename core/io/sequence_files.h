@@ -40,7 +40,8 @@ inline constexpr std::string_view kCalibrationName = "calibration.json";
 /// Whether the file belongs to a camera.
 [[nodiscard]] bool IsCameraFile(std::string_view name);
 
-/// The number of a frame in the names of its files: at least six digits.
+/// The number of a frame, or of a data set's scenario, in the names of its files: at least six
+/// digits.
 [[nodiscard]] std::string FrameDigits(std::uint32_t number);
 
 /// Whether a sequence directory of any format may hold a file of this name: one of the names above,

@@ -30,21 +30,9 @@ struct DatasetOptions {
   bool has_scenarios_only = false;
 };
 
-constexpr std::uint32_t kMostShards = 100'000;
-
-// Parses "2/7".
-std::optional<Shard> ParseShard(const std::string& text) {
-  const std::size_t slash = text.find('/');
-  if (slash == std::string::npos) return std::nullopt;
-  const auto number = ParseWholeNumber(std::string_view(text).substr(0, slash));
-  const auto of = ParseWholeNumber(std::string_view(text).substr(slash + 1));
-  if (!number || !of || *number < 1 || *number > *of || *of > kMostShards) return std::nullopt;
-  return Shard{static_cast<std::uint32_t>(*number), static_cast<std::uint32_t>(*of)};
-}
-
 std::string ShardRule(const std::string& text) {
   if (ParseShard(text)) return "";
-  return "must be I/N with I from 1 to N and N at most " + std::to_string(kMostShards) + " (got " +
+  return "must be I/N with I from 1 to N and N at most " + std::to_string(Shard::kMost) + " (got " +
          text + ")";
 }
 

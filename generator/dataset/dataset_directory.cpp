@@ -47,7 +47,7 @@ Json DatasetJson(const DatasetSpec& spec) {
                {"format", spec.format},
                {"fields", spec.fields}};
   if (!spec.shard.is_whole()) {
-    json["shard"] = std::to_string(spec.shard.number) + "/" + std::to_string(spec.shard.of);
+    json["shard"] = ShardText(spec.shard);
   }
   return json;
 }

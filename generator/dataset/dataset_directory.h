@@ -6,25 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "core/io/shard.h"
 #include "core/scenario/json_text.h"
 #include "generator/run/folder_lock.h"
 #include "generator/sequence/line_file.h"
 
 namespace railcast {
-
-/// Every `of`-th scenario, beginning with number - 1.
-struct Shard {
-  std::uint32_t number = 1;  ///< From 1 to `of`.
-  std::uint32_t of = 1;
-
-  [[nodiscard]] bool is_whole() const { return of == 1; }
-  /// Number of its scenarios.
-  [[nodiscard]] std::uint32_t NumOf(std::uint32_t num_scenarios) const {
-    return num_scenarios < number ? 0 : (num_scenarios - number) / of + 1;
-  }
-  /// Its i-th scenario.
-  [[nodiscard]] std::uint32_t ScenarioAt(std::uint32_t i) const { return number - 1 + i * of; }
-};
 
 /// Everything that the bytes of a data set depend on.
 struct DatasetSpec {

@@ -1,7 +1,6 @@
 #include "generator/dataset/merge_shards.h"
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <string>
 #include <utility>
@@ -28,14 +27,6 @@ struct GivenShard {
   std::vector<std::string> lines;
 };
 
-Shard ParseShardName(const std::string& text) {
-  Shard shard;
-  const char* const end = text.data() + text.size();
-  const auto number = std::from_chars(text.data(), end, shard.number);
-  if (number.ptr != end) std::from_chars(number.ptr + 1, end, shard.of);
-  return shard;
-}
-
 GivenShard ReadShard(const fs::path& directory) {
   const fs::path file = directory / kDatasetFile;
   const std::string text = ReadFileWhole(file);
@@ -53,7 +44,9 @@ GivenShard ReadShard(const fs::path& directory) {
                   .fields = json.at("fields"),
                   .shard = {}};
     // A whole data set is the only shard of itself.
-    if (json.contains("shard")) given.spec.shard = ParseShardName(json.at("shard"));
+    if (json.contains("shard")) {
+      given.spec.shard = ParseShard(json.at("shard").get<std::string>()).value_or(Shard{});
+    }
   } catch (const Json::exception&) {
     throw InputError(ShownPath(file) + ": is damaged");
   }
