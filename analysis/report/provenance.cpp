@@ -60,21 +60,28 @@ Facts MakerFacts(const std::string& version) {
   return {{"Version", "railcast " + version}, {"Date", ReportDate()}};
 }
 
+std::string DifferentTexts(const std::vector<RecordingInfo>& sources,
+                           const std::function<std::string(const RecordingInfo&)>& text_of) {
+  constexpr std::size_t kMost = 20;
+  std::vector<std::string> texts;
+  std::string all;
+  for (const RecordingInfo& info : sources) {
+    std::string text = text_of(info);
+    if (text.empty() || std::ranges::find(texts, text) != texts.end()) continue;
+    if (texts.size() < kMost) all += (all.empty() ? "" : "; ") + text;
+    texts.push_back(std::move(text));
+  }
+  if (texts.size() > kMost) all += "; and " + std::to_string(texts.size() - kMost) + " more";
+  return all;
+}
+
 Facts OriginFacts(const std::vector<RecordingInfo>& sources) {
   Facts facts;
   const auto add = [&](const char* name,
                        const std::function<std::string(const RecordingInfo&)>& text_of) {
-    constexpr std::size_t kMost = 20;
-    std::vector<std::string> texts;
-    std::string all;
-    for (const RecordingInfo& info : sources) {
-      if (!info.origin) continue;
-      std::string text = text_of(info);
-      if (text.empty() || std::ranges::find(texts, text) != texts.end()) continue;
-      if (texts.size() < kMost) all += (all.empty() ? "" : "; ") + text;
-      texts.push_back(std::move(text));
-    }
-    if (texts.size() > kMost) all += "; and " + std::to_string(texts.size() - kMost) + " more";
+    const std::string all = DifferentTexts(sources, [&](const RecordingInfo& info) {
+      return info.origin ? text_of(info) : std::string();
+    });
     if (!all.empty()) facts.emplace_back(name, all);
   };
   add("Data hash", [](const RecordingInfo& info) { return DataText(*info.origin); });

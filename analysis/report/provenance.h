@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +25,13 @@ using Facts = std::vector<std::pair<std::string, std::string>>;
 /// @param version ProgramVersion().
 /// @throws InputError as ReportDate() does.
 [[nodiscard]] Facts MakerFacts(const std::string& version);
+
+/// What the sources say of themselves, each text once, in the order of their first places: "a; b".
+/// Of more than 20 texts the rest is counted. Empty if no source says anything.
+/// @param text_of Returns an empty text if the source says nothing.
+[[nodiscard]] std::string DifferentTexts(
+    const std::vector<RecordingInfo>& sources,
+    const std::function<std::string(const RecordingInfo&)>& text_of);
 
 /// Data hash, scenario, weather and maker of those sources that are railcast sequences. Facts that
 /// several sources share are stated once.

@@ -1,12 +1,13 @@
 #include "analysis/stats/statistics.h"
 
-#include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "analysis/report/cell_text.h"
+#include "analysis/report/provenance.h"
 #include "analysis/stats/bins.h"
 #include "core/base/text.h"
 
@@ -35,36 +36,18 @@ std::string SourcesText(const std::vector<RecordingInfo>& sources) {
   return text;
 }
 
-/// The different values of something in all scenarios, in the order of their first places.
-template <typename TextOf>
-void AddFact(const char* name,
-             const std::vector<RecordingInfo>& sources,
-             const TextOf& text_of,
-             Report& report) {
-  constexpr std::size_t kMost = 10;
-  std::vector<std::string> texts;
-  for (const RecordingInfo& info : sources) {
-    if (!info.scenario) continue;
-    std::string text = text_of(*info.scenario);
-    if (text.empty() || std::ranges::find(texts, text) != texts.end()) continue;
-    texts.push_back(std::move(text));
-  }
-  if (texts.empty()) return;
-  std::string all;
-  for (std::size_t i = 0; i < std::min(texts.size(), kMost); ++i)
-    all += (i > 0 ? ", " : "") + texts[i];
-  if (texts.size() > kMost) all += " and " + std::to_string(texts.size() - kMost) + " more";
-  report.facts.emplace_back(name, all);
-}
-
 void AddScenarioFacts(const std::vector<RecordingInfo>& sources, Report& report) {
-  AddFact(
-      "Sensor", sources, [](const ScenarioSpec& s) { return s.lidar.name; }, report);
-  AddFact(
-      "Fidelity", sources, [](const ScenarioSpec& s) { return std::string(NameOf(s.fidelity)); },
-      report);
-  AddFact(
-      "Seed", sources, [](const ScenarioSpec& s) { return std::to_string(s.seed); }, report);
+  const auto add = [&](const char* name,
+                       const std::function<std::string(const ScenarioSpec&)>& text_of) {
+    const std::string all = DifferentTexts(sources, [&](const RecordingInfo& info) {
+      return info.scenario ? text_of(*info.scenario) : std::string();
+    });
+    if (!all.empty()) report.facts.emplace_back(name, all);
+  };
+  add("Sensor", [](const ScenarioSpec& scenario) { return scenario.lidar.name; });
+  add("Fidelity",
+      [](const ScenarioSpec& scenario) { return std::string(NameOf(scenario.fidelity)); });
+  add("Seed", [](const ScenarioSpec& scenario) { return std::to_string(scenario.seed); });
 }
 
 void AddNoiseHeadline(std::string title, std::size_t bin, const Estimate& sigma_m, Report& report) {
