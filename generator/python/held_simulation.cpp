@@ -140,16 +140,9 @@ std::vector<RecordedObject> HeldSimulation::Describe(std::size_t sensor,
                                                      const Simulator& simulator,
                                                      const Frame& frame,
                                                      const std::vector<std::uint32_t>& alone) {
-  Survey& mine = surveys_[sensor];
-  if (mine.world != simulator.shared_world()) {
-    mine.survey.reset();
-    mine.world = simulator.shared_world();
-    mine.survey.emplace(*mine.world, labels_, simulator.spec().detector.range_max_m,
-                        simulator.spec().output);
-  }
   const Transform sensor_from_world = frame.world_from_sensor.inverse();
   std::vector<RecordedObject> described;
-  for (ObjectInFrame& object : mine.survey->Describe(frame, alone)) {
+  for (ObjectInFrame& object : surveys_[sensor].Of(simulator, labels_).Describe(frame, alone)) {
     described.push_back({.name = std::move(object.name),
                          .type = std::move(object.type),
                          .label = std::move(object.label),

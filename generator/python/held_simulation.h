@@ -63,12 +63,6 @@ class HeldSimulation {
   [[nodiscard]] const LabelTable& labels() const { return labels_; }
 
  private:
-  /// Remembers what it measured of a world for one sensor.
-  struct Survey {
-    std::shared_ptr<const World> world;
-    std::optional<ObjectSurvey> survey;
-  };
-
   [[nodiscard]] std::size_t IndexOf(const Sensor& sensor) const;
   [[nodiscard]] std::uint32_t FrameOf(std::int64_t frame, std::size_t sensor) const;
   void WatchForInterruption();
@@ -86,7 +80,7 @@ class HeldSimulation {
   LabelTable labels_;
   std::vector<std::unique_ptr<Simulator>> simulators_;
   std::optional<CommandedRun> run_;
-  std::vector<Survey> surveys_;                    // By sensor.
+  std::vector<CurrentSurvey> surveys_;             // By sensor.
   std::vector<std::shared_ptr<FramePool>> pools_;  // By sensor.
 };
 

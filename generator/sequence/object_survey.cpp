@@ -139,4 +139,14 @@ std::vector<ObjectInFrame> ObjectSurvey::Describe(const Frame& frame,
   return described;
 }
 
+ObjectSurvey& CurrentSurvey::Of(const Simulator& simulator, const LabelTable& labels) {
+  if (world_ != simulator.shared_world()) {
+    survey_.reset();
+    world_ = simulator.shared_world();
+    survey_.emplace(*world_, labels, simulator.spec().detector.range_max_m,
+                    simulator.spec().output);
+  }
+  return *survey_;
+}
+
 }  // namespace railcast

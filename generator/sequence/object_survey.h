@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "generator/sequence/object_record.h"
 #include "railcast/frame.h"
 #include "railcast/scene.h"
+#include "railcast/simulator.h"
 
 namespace railcast {
 
@@ -54,6 +56,17 @@ class ObjectSurvey {
   OutputSpec output_;
   std::vector<Subject> subjects_;  ///< In the order of world.objects().
   ContactFinder contacts_;
+};
+
+/// The survey of a simulator's world. Commands give a simulator another world.
+class CurrentSurvey {
+ public:
+  /// @param labels Must outlive the survey.
+  [[nodiscard]] ObjectSurvey& Of(const Simulator& simulator, const LabelTable& labels);
+
+ private:
+  std::shared_ptr<const World> world_;
+  std::optional<ObjectSurvey> survey_;
 };
 
 }  // namespace railcast

@@ -39,21 +39,10 @@ FrameJob SurveyedRun::Begin(std::uint32_t index) {
   return [this, &simulator, begun = simulator.Begin(index), index](MadeFrame& made) {
     simulator.Scan(*begun, made.frame);
     const std::vector<std::uint32_t> alone = simulator.FiringsOnObjectAlone(*begun);
-    made.objects = SurveyOf(simulator).Describe(made.frame, alone);
+    made.objects = surveys_.local().Of(simulator, labels_).Describe(made.frame, alone);
     made.has_image = camera_ && index % frames_per_image_ == 0;
     if (made.has_image) camera_->Render(simulator, *begun, made.image);
   };
-}
-
-ObjectSurvey& SurveyedRun::SurveyOf(const Simulator& simulator) {
-  Survey& mine = surveys_.local();
-  if (mine.world != simulator.shared_world()) {
-    mine.survey.reset();
-    mine.world = simulator.shared_world();
-    mine.survey.emplace(*mine.world, labels_, simulator.spec().detector.range_max_m,
-                        simulator.spec().output);
-  }
-  return *mine.survey;
 }
 
 std::size_t NumFramesAtOnce(const Simulator& simulator, const ScenarioSpec& scenario) {

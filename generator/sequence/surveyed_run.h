@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 
 #include "generator/run/commanded_run.h"
@@ -33,19 +32,13 @@ class SurveyedRun {
   [[nodiscard]] FrameJob Begin(std::uint32_t index);
 
  private:
-  /// Remembers what it measured, so that each thread has its own.
-  struct Survey {
-    std::shared_ptr<const World> world;
-    std::optional<ObjectSurvey> survey;
-  };
-  [[nodiscard]] ObjectSurvey& SurveyOf(const Simulator& simulator);
-
   CommandedRun& run_;
   std::size_t sensor_;
   const LabelTable& labels_;
   std::optional<Camera> camera_;
   std::uint32_t frames_per_image_ = 1;
-  tbb::enumerable_thread_specific<Survey> surveys_;
+  /// Each remembers what it measured, so that each thread has its own.
+  tbb::enumerable_thread_specific<CurrentSurvey> surveys_;
 };
 
 /// How many frames are made at once where none depends on another: one for each thread, and one
