@@ -2,7 +2,6 @@
 // of object, standing and moving, on the way to it and while the sensor itself is moving.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -13,6 +12,7 @@
 #include "core/base/units.h"
 #include "railcast/rail_world.h"
 #include "tests/core/io/temporary_directory.h"
+#include "tests/support/bare_line.h"
 #include "tests/support/scan_once.h"
 #include "tests/support/sensor_sector.h"
 
@@ -88,14 +88,7 @@ class AimedBeamsAt : public testing::TestWithParam<ObjectType> {
   }
 
   [[nodiscard]] std::shared_ptr<const RailWorld> WorldWith(const ObjectSpec& object) const {
-    WorldSpec world = scenario_.world;
-    TrackSpec second;
-    second.name = "second";
-    second.offset_m = 8.0;
-    world.tracks.push_back(second);
-    world.catenary.enabled = false;
-    world.vegetation.trees_per_hectare = 0.0;
-    world.vegetation.grass = false;
+    WorldSpec world = BareWithSecondTrack(scenario_.world);
     world.objects = {object};
     VehicleSpec vehicle = scenario_.vehicle;
     vehicle.motion.profile = {{.time_s = 0.0, .s_m = {}, .speed_mps = 4.0}};
@@ -107,14 +100,10 @@ class AimedBeamsAt : public testing::TestWithParam<ObjectType> {
                           const ScanPattern& pattern,
                           std::uint32_t frame_index) const {
     const std::int64_t time_ns = pattern.StampNs(frame_index);
-    const Vector3 toward_m =
-        world->WorldFromVehicle(time_ns).inverse() * MiddleOf(*world, 0, time_ns).point_world -
-        Vector3(0.0, 0.0, kSensorAbove_m);
     SimulatorSpec spec;
-    spec.vehicle_from_sensor = MakeTransform(
-        RotationFromYawPitchRoll(std::atan2(toward_m.y(), toward_m.x()),
-                                 -std::atan2(toward_m.z(), toward_m.head<2>().norm()), 0.0),
-        {0.0, 0.0, kSensorAbove_m});
+    spec.vehicle_from_sensor = VehicleFromSensorAimedAt(
+        world->WorldFromVehicle(time_ns).inverse() * MiddleOf(*world, 0, time_ns).point_world,
+        kSensorAbove_m);
     return ScanOnce(world, pattern, spec, frame_index);
   }
 

@@ -12,6 +12,7 @@
 
 #include "core/base/units.h"
 #include "railcast/rail_world.h"
+#include "tests/support/bare_line.h"
 #include "tests/support/scan_once.h"
 #include "tests/support/sensor_sector.h"
 #include "tests/support/triangle_search.h"
@@ -20,19 +21,6 @@ namespace railcast {
 namespace {
 
 constexpr std::uint32_t kPassingFrame = 12;
-
-/// An arc to the left with a second track on its inside.
-WorldSpec BareCurve(WorldSpec world) {
-  world.alignment.course = AlignmentElementsSpec{{{ElementType::kArc, 700.0, 300.0}}};
-  TrackSpec second;
-  second.name = "second";
-  second.offset_m = 8.0;
-  world.tracks.push_back(second);
-  world.catenary.enabled = false;
-  world.vegetation.trees_per_hectare = 0.0;
-  world.vegetation.grass = false;
-  return world;
-}
 
 /// The range of the first of an object's pieces along a ray, each piece where `poses` has it.
 double RangeOf_m(const SceneObject& object,
@@ -63,7 +51,9 @@ struct RangeErrors {
 
 RangeErrors ErrorsOn(const ObjectSpec& spec) {
   const ScenarioSpec scenario = ReadMinimalWith("vir2rail");
-  WorldSpec bare = BareCurve(scenario.world);
+  // An arc to the left, with the second track on its inside.
+  WorldSpec bare = BareWithSecondTrack(scenario.world);
+  bare.alignment.course = AlignmentElementsSpec{{{ElementType::kArc, 700.0, 300.0}}};
   bare.objects = {spec};
   const auto world = std::make_shared<const RailWorld>(
       bare, scenario.vehicle, LabelTable(scenario.labels), MaterialLibrary(scenario.materials), 7);
@@ -71,14 +61,11 @@ RangeErrors ErrorsOn(const ObjectSpec& spec) {
   EXPECT_GT(object.pieces.size(), 1U);
   const ScanPattern pattern = MakeRaster(36.0, 24.0, 0.2);
   const std::int64_t stamp_ns = pattern.StampNs(kPassingFrame);
-  const Vector3 toward_m = world->WorldFromVehicle(0).inverse() *
-                               (world->WorldFromObject(0, stamp_ns) * Vector3(0, 0, 1.0)) -
-                           Vector3(0.0, 0.0, 3.0);
   SimulatorSpec simulator;
-  simulator.vehicle_from_sensor = MakeTransform(
-      RotationFromYawPitchRoll(std::atan2(toward_m.y(), toward_m.x()),
-                               -std::atan2(toward_m.z(), toward_m.head<2>().norm()), 0.0),
-      {0.0, 0.0, 3.0});
+  simulator.vehicle_from_sensor =
+      VehicleFromSensorAimedAt(world->WorldFromVehicle(0).inverse() *
+                                   (world->WorldFromObject(0, stamp_ns) * Vector3(0, 0, 1.0)),
+                               3.0);
   const Frame frame = ScanOnce(world, pattern, simulator, kPassingFrame);
   const Transform world_from_sensor = world->WorldFromVehicle(0) * simulator.vehicle_from_sensor;
   const std::vector<Transform> at_stamp = world->WorldFromPieces(0, stamp_ns);
