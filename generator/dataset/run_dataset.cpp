@@ -7,7 +7,6 @@
 #include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/fidelity/choice_report.h"
 #include "core/io/content_hash.h"
 #include "core/io/dataset_files.h"
 #include "core/io/scenario_identity.h"
@@ -18,9 +17,8 @@
 #include "generator/dataset/dataset_files.h"
 #include "generator/run/commanded_run.h"
 #include "generator/run/stoppable_work.h"
-#include "generator/sequence/run_sequence.h"
+#include "generator/sequence/make_sequences.h"
 #include "generator/sequence/scenario_sequence.h"
-#include "generator/sequence/surveyed_run.h"
 #include "railcast/simulator.h"
 
 namespace railcast {
@@ -96,41 +94,37 @@ class DatasetRun {
                      ShownPath(recipe_.file) + ": scenario " + std::to_string(number));
     SequenceSpec spec =
         SequenceSpecOf(drawn.scenario, ChoicesOfScenario(recipe_, choices_, number));
-    const SequenceResult made = MakeSequence(drawn.scenario, spec);
+    SensorRun sensor = {drawn.scenario.lidar.name, std::move(drawn.scenario), std::move(spec)};
+    const SequenceResult made = MakeSequence(sensor);
     result_.num_frames += made.num_done - made.num_resumed;
     if (!made.is_complete) return false;
     Json& record = drawn.record;
-    const std::string manifest = ReadFileWhole(spec.directory / kManifestFile);
+    const std::string manifest = ReadFileWhole(sensor.spec.directory / kManifestFile);
     record["folder"] = SequenceFolderOf(number);
     record["num_frames"] = made.num_done;
     record["points"] = made.counts.points;
-    record["scenario_xxh3"] = spec.identity.scenario_hash;
+    record["scenario_xxh3"] = sensor.spec.identity.scenario_hash;
     record["data_xxh3"] = Json::parse(manifest).at("data_xxh3");
     record["manifest_xxh3"] = ContentHash(manifest);
     directory_.Append(record);
     return true;
   }
 
-  [[nodiscard]] SequenceResult MakeSequence(const ScenarioSpec& scenario, SequenceSpec& spec) {
-    const auto simulator = MakeSimulator(scenario, choices_.num_threads, spec.isa);
-    CheckSameFiles(scenario, spec.identity);
-    WatchBuilding(*simulator, hooks_.is_stopped, true);
-    if (scenario.fidelity == Fidelity::kAuto) {
+  [[nodiscard]] SequenceResult MakeSequence(SensorRun& sensor) {
+    const auto simulators = MakeSimulators(sensor.scenario, choices_.num_threads, sensor.spec.isa);
+    Simulator& simulator = *simulators.front();
+    CheckSameFiles(sensor.scenario, sensor.spec.identity);
+    WatchBuilding(simulator, hooks_.is_stopped, true);
+    if (sensor.scenario.fidelity == Fidelity::kAuto) {
       try {
-        const FidelityChoice choice = UseChosenFidelity(*simulator, scenario);
-        spec.fidelity_choice_json = ChoiceJson(choice, scenario.tolerance);
+        static_cast<void>(ChooseFidelity(simulator, sensor));
       } catch (const RunStopped&) {
         return {};
       }
     }
-    CommandedRun run(scenario, {simulator.get()});
-    SurveyedRun frames(run, 0, scenario, spec.files.labels);
-    const FramesAtOnce at_once = {
-        NumFramesAtOnce(*simulator, scenario),
-        [&](const std::function<void()>& work) { simulator->Execute(work); }};
+    CommandedRun run(sensor.scenario, {&simulator});
     const SequenceHooks hooks = {[](std::uint32_t, std::uint32_t) {}, hooks_.is_stopped};
-    return RunSequence(
-        spec, [&](std::uint32_t index) { return frames.Begin(index); }, hooks, at_once);
+    return MakeSequences(run, simulators, {&sensor, 1}, false, hooks).front();
   }
 
   const Recipe& recipe_;

@@ -1,9 +1,6 @@
 #include <algorithm>
 #include <chrono>
-#include <deque>
-#include <functional>
 #include <iostream>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -25,11 +22,11 @@
 #include "generator/run/stop_signal.h"
 #include "generator/run/stoppable_work.h"
 #include "generator/run/track_limits.h"
+#include "generator/sequence/make_sequences.h"
 #include "generator/sequence/run_sequence.h"
 #include "generator/sequence/scenario_sequence.h"
 #include "generator/sequence/sensor_runs.h"
 #include "generator/sequence/summary.h"
-#include "generator/sequence/surveyed_run.h"
 #include "railcast/camera.h"
 #include "railcast/effects.h"
 #include "railcast/io/cloud_files.h"
@@ -155,12 +152,11 @@ void CheckFrames(const CommandedRun& run,
 }
 
 // The rung that each sensor's sequence uses if the program is to choose it.
-void ChooseFidelity(const Simulators& simulators, Runs& runs) {
+void ChooseFidelities(const Simulators& simulators, Runs& runs) {
   if (runs.whole.fidelity != Fidelity::kAuto) return;
   for (std::size_t i = 0; i < simulators.size(); ++i) {
     SensorRun& sensor = runs.sensors[i];
-    const FidelityChoice choice = UseChosenFidelity(*simulators[i], sensor.scenario);
-    sensor.spec.fidelity_choice_json = ChoiceJson(choice, sensor.scenario.tolerance);
+    const FidelityChoice choice = ChooseFidelity(*simulators[i], sensor);
     if (runs.is_in_folders) std::cout << ShownLines(sensor.name) << ":\n";
     std::cout << ChoiceText(choice, sensor.scenario.tolerance) << std::flush;
   }
@@ -197,26 +193,12 @@ std::vector<SequenceResult> MakeFrames(CommandedRun& run,
                                        const Simulators& simulators,
                                        const Runs& runs,
                                        bool has_commands) {
-  std::deque<SurveyedRun> frames;
-  std::vector<SensorSequence> sequences;
-  // Commands change the simulators from one frame to the next.
-  std::size_t num_at_once = has_commands ? 1 : std::numeric_limits<std::size_t>::max();
-  for (std::size_t i = 0; i < simulators.size(); ++i) {
-    const auto& [name, scenario, spec] = runs.sensors[i];
-    SurveyedRun& survey = frames.emplace_back(run, i, scenario, spec.files.labels);
-    sequences.push_back({spec, [&survey](std::uint32_t index) { return survey.Begin(index); },
-                         [&pattern = simulators[i]->pattern()](std::uint32_t index) {
-                           return pattern.StampNs(index);
-                         }});
-    num_at_once = std::min(num_at_once, NumFramesAtOnce(*simulators[i], scenario));
-  }
-  const FramesAtOnce at_once = {
-      num_at_once, [&](const std::function<void()>& work) { simulators.front()->Execute(work); }};
   ProgressDisplay display;
   const SequenceHooks hooks = {
       [&](std::uint32_t num_done, std::uint32_t num_frames) { display.Show(num_done, num_frames); },
       StopRequested};
-  const std::vector<SequenceResult> results = RunSequences(sequences, hooks, at_once);
+  std::vector<SequenceResult> results =
+      MakeSequences(run, simulators, runs.sensors, has_commands, hooks);
   if (!std::all_of(results.begin(), results.end(),
                    [](const SequenceResult& each) { return each.is_complete; })) {
     display.Break();
@@ -250,7 +232,7 @@ int RunSequenceCommand(const SequenceOptions& options) {
   CatchStopSignals();
   for (Simulator* simulator : pointers) WatchBuilding(*simulator, StopRequested, true);
   try {
-    ChooseFidelity(simulators, runs);
+    ChooseFidelities(simulators, runs);
   } catch (const RunStopped&) {
     std::cerr << "interrupted before the first frame\n";
     return kExitInterrupted;
