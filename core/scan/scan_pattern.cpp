@@ -46,18 +46,19 @@ std::int64_t ScanPattern::StampNs(std::uint32_t frame_index) const {
   const std::uint64_t frames_ns = frame_index * std::uint64_t{1'000'000'000};
   if (rate_hz == std::floor(rate_hz)) {
     const auto rate = static_cast<std::uint64_t>(rate_hz);
-    return static_cast<std::int64_t>((frames_ns + rate / 2) / rate);
+    return phase_ns + static_cast<std::int64_t>((frames_ns + rate / 2) / rate);
   }
   // A mantissa of 64 bits represents frames_ns exactly, so only the quotient is rounded.
-  return std::llround(static_cast<long double>(frames_ns) / static_cast<long double>(rate_hz));
+  return phase_ns +
+         std::llround(static_cast<long double>(frames_ns) / static_cast<long double>(rate_hz));
 }
 
 std::uint32_t ScanPattern::LastFrame() const {
   // A frame's firings are up to 2^32 ns after its stamp.
-  constexpr auto kLastStamp_ns =
-      static_cast<long double>(std::numeric_limits<std::int64_t>::max() - (std::int64_t{1} << 32));
+  const auto last_stamp_ns = static_cast<long double>(std::numeric_limits<std::int64_t>::max() -
+                                                      (std::int64_t{1} << 32) - phase_ns);
   constexpr std::uint32_t kMost = std::numeric_limits<std::uint32_t>::max();
-  const long double last = std::floor(kLastStamp_ns / static_cast<long double>(kNsPerS) *
+  const long double last = std::floor(last_stamp_ns / static_cast<long double>(kNsPerS) *
                                       static_cast<long double>(rate_hz));
   return last < static_cast<long double>(kMost) ? static_cast<std::uint32_t>(last) : kMost;
 }
@@ -80,6 +81,9 @@ ScanPattern BuildScanPattern(const ScanSpec& spec) {
   if (!(spec.rate_hz >= 0.01 && spec.rate_hz <= 1e6)) {
     errors.Add(FaultOf("/rate_hz", "must be >= 0.01 and <= 1000000", spec.rate_hz));
   }
+  if (!(spec.phase_s >= 0.0 && spec.phase_s * spec.rate_hz < 1.0)) {
+    errors.Add(FaultOf("/phase_s", "must be >= 0 and < 1 / rate_hz", spec.phase_s));
+  }
   FiringGrid grid = MakeFirings(spec, errors);
   errors.ThrowIfAny();
   std::ranges::sort(grid.firings, {}, [](const Firing& firing) {
@@ -90,6 +94,7 @@ ScanPattern BuildScanPattern(const ScanSpec& spec) {
 
   ScanPattern pattern;
   pattern.rate_hz = spec.rate_hz;
+  pattern.phase_ns = std::llround(spec.phase_s * kNsPerS);
   pattern.rows = grid.rows;
   pattern.columns = grid.columns;
   for (const Firing& firing : grid.firings) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -47,7 +48,8 @@ void CheckOutput(const ScenarioSpec& spec, ErrorList& errors) {
   const auto world = MakeWorld(spec);
   for (const auto& [lidar, pointer] : SensorsOf(spec)) {
     const Transform vehicle_from_sensor = VehicleFromSensor(lidar.mount);
-    const Transform world_from_sensor = world->WorldFromVehicle(0) * vehicle_from_sensor;
+    const std::int64_t stamp_ns = std::llround(lidar.scan.phase_s * kNsPerS);
+    const Transform world_from_sensor = world->WorldFromVehicle(stamp_ns) * vehicle_from_sensor;
     static_cast<void>(Attempt("", errors, [&] {
       return OutputAxes(spec.output, spec.sources.Place("/output/origin_m"), {vehicle_from_sensor},
                         Transform::Identity(), world_from_sensor);
@@ -130,6 +132,7 @@ void AddBuildFaults(const ScenarioSpec& spec, const UnknownPlaces& unknown, Erro
     constexpr double kSlowestRate_hz = 1e9 / 4'294'967'295.0;
     ScanSpec known = lidar.scan;
     if (!unknown.IsKnown(pointer + "/scan/rate_hz")) known.rate_hz = kSlowestRate_hz;
+    known.phase_s = 0.0;  // The reader reports a wrong one.
     static_cast<void>(TryPattern(spec, pointer, known, errors));
   }
   const LabelTable labels(spec.labels);

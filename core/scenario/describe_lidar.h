@@ -183,6 +183,8 @@ template <class Archive>
 void Describe(Archive& a, LidarSpec& s) {
   a.Optional("name", s.name, "Name of the sensor.", OneLine());
   a.Required("scan", s.scan, "The firings of a frame.");
+  a.Optional("phase_s", s.scan.phase_s,
+             "When the sensor's first frame begins, for sensors that take turns.", Within(0, 100));
   a.Optional("range_min_m", s.range_min_m,
              "Least range; nearer surfaces block the beam and give no point.", Within(0, 10'000));
   a.Optional("range_max_m", s.range_max_m, "Greatest range; farther surfaces give no point.",
@@ -194,6 +196,7 @@ void Describe(Archive& a, LidarSpec& s) {
   a.Optional("beam", s.beam, "The laser beam of the physical rungs.");
   a.Optional("receiver", s.receiver, "The receiver of the physical rungs.");
   a.Optional("cover", s.cover, "What lies on the sensor's window, on the physical rungs.");
+  a.Ensure({"phase_s", "scan"}, s.scan.phase_s * s.scan.rate_hz < 1.0, "must be < 1 / rate_hz");
   a.Ensure({"range_min_m", "range_max_m"}, s.range_min_m < s.range_max_m, "must be < range_max_m");
 }
 

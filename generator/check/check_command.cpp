@@ -45,7 +45,7 @@ class Report {
     const VehicleWay way = FindVehicleWay(scenario_.vehicle, world_->vehicle_course());
     return LineText(world_->alignment(), scenario_.world.alignment.gauge_mm, is_verbose) +
            NetworkText(*world_) +
-           VehicleText(StartTrack(*world_, scenario_.vehicle), way, pattern_.rate_hz) +
+           VehicleText(StartTrack(*world_, scenario_.vehicle), way, scenario_.lidar.scan) +
            RouteText(*world_, FindLateralPeak(*world_, scenario_.vehicle, way));
   }
 

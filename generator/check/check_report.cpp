@@ -55,10 +55,11 @@ std::string JumpsText(const std::vector<SmoothedJump>& all,
                             UnitOf(*largest) + " at s " + Rounded(largest->s_m, 1) + " m");
 }
 
-std::string WayPointText(const WayPoint& point, double rate_hz) {
-  return "after " + Rounded(point.time_s, 2) + " s (frame " +
-         Rounded(std::floor(point.time_s * rate_hz + kRoundOff), 0) + "), at s " +
-         Rounded(point.s_m, 2) + " m";
+// The frame under way, or the first if it begins later.
+std::string WayPointText(const WayPoint& point, const ScanSpec& scan) {
+  const double frame = std::floor((point.time_s - scan.phase_s) * scan.rate_hz + kRoundOff);
+  return "after " + Rounded(point.time_s, 2) + " s (frame " + Rounded(std::max(0.0, frame), 0) +
+         "), at s " + Rounded(point.s_m, 2) + " m";
 }
 
 std::string FramesText(std::uint32_t first, std::uint32_t last) {
@@ -83,12 +84,15 @@ std::string SensorText(const LidarSpec& lidar, const ScanPattern& pattern) {
       *std::max_element(pattern.time_ns.begin(), pattern.time_ns.end());
   const auto num_firings = static_cast<double>(pattern.num_firings());
   const std::string name = lidar.name.empty() ? "" : lidar.name + ": ";
+  const std::string begin =
+      pattern.phase_ns == 0 ? ""
+                            : ", the first at " + ShortText(SecondsFromNs(pattern.phase_ns)) + " s";
   return ReportLine("sensor", name + std::to_string(pattern.num_firings()) + " firings a frame (" +
                                   std::to_string(pattern.rows) + " rows x " +
                                   std::to_string(pattern.columns) + " columns), range " +
                                   NumberText(lidar.range_min_m) + " to " +
                                   NumberText(lidar.range_max_m) + " m") +
-         ReportLine("", NumberText(pattern.rate_hz) + " frames/s, each fired within " +
+         ReportLine("", NumberText(pattern.rate_hz) + " frames/s" + begin + ", each fired within " +
                             ShortText(SecondsFromNs(duration_ns)) + " s; at most " +
                             Rounded(num_firings * pattern.rate_hz, 0) + " points/s");
 }
@@ -121,7 +125,7 @@ std::string LineText(const Alignment& alignment, double gauge_mm, bool is_verbos
   return text;
 }
 
-std::string VehicleText(const std::string& track, const VehicleWay& way, double rate_hz) {
+std::string VehicleText(const std::string& track, const VehicleWay& way, const ScanSpec& scan) {
   const auto speed = [](const WayPoint& point) { return ShortText(point.speed_mps) + " m/s"; };
   std::string text =
       ReportLine("vehicle", "starts on track \"" + track + "\" at s " + Rounded(way.start.s_m, 2) +
@@ -130,11 +134,11 @@ std::string VehicleText(const std::string& track, const VehicleWay& way, double 
   if (way.profile_end && way.profile_end->time_s > 0.0) {
     const bool stops = way.profile_end->speed_mps == 0.0;
     text += ReportLine(
-        "", "reaches the end of its speed profile " + WayPointText(*way.profile_end, rate_hz) +
+        "", "reaches the end of its speed profile " + WayPointText(*way.profile_end, scan) +
                 (stops ? ", and stands" : ", and goes on with " + speed(*way.profile_end)));
   }
   return text + ReportLine("", way.track_end ? "reaches the end of its track " +
-                                                   WayPointText(*way.track_end, rate_hz)
+                                                   WayPointText(*way.track_end, scan)
                                              : "never reaches the end of its track");
 }
 

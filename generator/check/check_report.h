@@ -41,9 +41,10 @@ namespace railcast {
 /// @param is_verbose Lists every smoothed jump.
 [[nodiscard]] std::string LineText(const Alignment& alignment, double gauge_mm, bool is_verbose);
 
+/// @param scan Whose frames are counted.
 [[nodiscard]] std::string VehicleText(const std::string& track,
                                       const VehicleWay& way,
-                                      double rate_hz);
+                                      const ScanSpec& scan);
 
 [[nodiscard]] std::string SceneText(const SceneAudit& audit);
 /// Which models of plants are traced at which distances.

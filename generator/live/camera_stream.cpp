@@ -25,7 +25,7 @@ void CameraStream::Make(Simulator& simulator, std::uint32_t image, Datagrams& da
   const std::uint32_t frame = FrameOf(image);
   camera_.Render(simulator, frame, image_);
   // Spread over a period of the sensor, as its own datagrams are.
-  const std::int64_t period_ns = simulator.pattern().StampNs(1);
+  const std::int64_t period_ns = simulator.pattern().PeriodNs();
   EncodeImageDatagrams(image_, camera_.spec(),
                        {.run = run_, .frame = frame, .spread_ns = period_ns}, datagrams);
 }

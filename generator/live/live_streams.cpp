@@ -83,7 +83,7 @@ std::vector<LiveSensor> LiveStreams::Sensors() {
     SensorStream& stream = *streams_[i];
     sensors.push_back(
         {.name = stream.spec().name,
-         .period_ns = pattern.StampNs(1),
+         .period_ns = pattern.PeriodNs(),
          .stamp_ns = [&pattern](std::uint32_t frame) { return pattern.StampNs(frame); },
          .make = [this, i](std::uint32_t frame,
                            Datagrams& datagrams) { MakeFrame(i, frame, datagrams); },
@@ -96,8 +96,8 @@ std::vector<LiveSensor> LiveStreams::Sensors() {
   CameraStream& camera = *camera_;
   sensors.push_back(
       {.name = camera.name(),
-       .period_ns = pattern.StampNs(camera.FrameOf(1)),
-       .latency_ns = pattern.StampNs(1),  // As the frame of the same stamp.
+       .period_ns = pattern.StampNs(camera.FrameOf(1)) - pattern.StampNs(0),
+       .latency_ns = pattern.PeriodNs(),  // As the frame of the same stamp.
        .stamp_ns = [&](std::uint32_t image) { return pattern.StampNs(camera.FrameOf(image)); },
        .make =
            [this](std::uint32_t image, Datagrams& datagrams) {

@@ -151,8 +151,8 @@ railcast_status railcast_set_surfaces(railcast_sim* sim,
 
 // Frames
 
-/// How the sensor scans. Frame k begins at its stamp, k / rate_hz after time 0, and its last firing
-/// is duration_ns later.
+/// How the sensor scans. Frame k begins at its stamp, k / rate_hz after that of frame 0 (the
+/// scenario's `phase_s`), and its last firing is duration_ns later.
 struct railcast_scan {
   double rate_hz;
   uint32_t duration_ns;

@@ -78,6 +78,7 @@ struct FiringTableSpec {
 struct ScanSpec {
   double rate_hz{};  ///< Frames per second, > 0.
   std::variant<RasterSpec, SpinningSpec, FiringTableSpec> pattern;
+  double phase_s = 0.0;  ///< Stamp of frame 0; >= 0 and < 1 / rate_hz.
 
   bool operator==(const ScanSpec&) const = default;
 };
@@ -102,6 +103,7 @@ inline constexpr std::size_t kPacketSize = 16;
 /// by column).
 struct ScanPattern {
   double rate_hz{};
+  std::int64_t phase_ns{};  ///< Stamp of frame 0.
   std::uint32_t rows{};
   std::uint32_t columns{};
 
@@ -117,10 +119,12 @@ struct ScanPattern {
   std::vector<std::uint32_t> packet_order;
 
   [[nodiscard]] std::size_t num_firings() const { return time_ns.size(); }
-  /// Stamp of a frame, the simulation time from which its time_ns count. Stamps are exactly
-  /// 1 / rate_hz apart.
+  /// Stamp of a frame, the simulation time from which its time_ns count: phase_ns for frame 0.
+  /// Stamps are exactly 1 / rate_hz apart.
   /// @pre frame_index <= LastFrame().
   [[nodiscard]] std::int64_t StampNs(std::uint32_t frame_index) const;
+  /// From one stamp to the next: 1 / rate_hz, rounded.
+  [[nodiscard]] std::int64_t PeriodNs() const { return StampNs(1) - StampNs(0); }
   /// Index of the last frame whose times in nanoseconds fit into 64 bits (292 years).
   [[nodiscard]] std::uint32_t LastFrame() const;
 };
@@ -137,10 +141,10 @@ struct ScanPattern {
 ///   const ScanPattern pattern = BuildScanPattern({.rate_hz = 10.0, .pattern = RasterSpec{...}});
 ///
 /// @throws InputError if the spec has no firing or more than 2^24, a number of cells is not whole,
-///   a frame lasts longer than 1 / rate_hz or 4.29 s (time_ns has 32 bits), or the firing table
-///   cannot be read. The message has a line for every fault, with pointers relative to the scan
-///   object: "/pattern/cycle_us: must be > 0 (got -1)"; lines about a firing table name its file
-///   and line.
+///   a frame lasts longer than 1 / rate_hz or 4.29 s (time_ns has 32 bits), frame 0 does not begin
+///   within the first 1 / rate_hz, or the firing table cannot be read. The message has a line for
+///   every fault, with pointers relative to the scan object: "/pattern/cycle_us: must be > 0 (got
+///   -1)"; lines about a firing table name its file and line.
 [[nodiscard]] ScanPattern BuildScanPattern(const ScanSpec& spec);
 
 }  // namespace railcast

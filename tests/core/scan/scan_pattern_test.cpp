@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
+
+#include "railcast/error.h"
 
 namespace railcast {
 namespace {
@@ -29,6 +32,28 @@ TEST(ScanPattern, StampsAreExactForBrokenRates) {
   EXPECT_EQ(StampNs(12.5, 1), 80'000'000);
   EXPECT_EQ(StampNs(12.5, 4'000'000'001), 320'000'000'080'000'000);
   EXPECT_EQ(StampNs(0.5, std::numeric_limits<std::uint32_t>::max()), 8'589'934'590'000'000'000);
+}
+
+TEST(ScanPattern, StampsFramesFromThePhaseOn) {
+  const ScanPattern pattern =
+      BuildScanPattern({.rate_hz = 3.0, .pattern = RasterSpec{10.0, 10.0, 1.0}, .phase_s = 0.25});
+  EXPECT_EQ(pattern.StampNs(0), 250'000'000);
+  EXPECT_EQ(pattern.StampNs(1), 583'333'333);
+  EXPECT_EQ(pattern.PeriodNs(), 333'333'333);
+}
+
+TEST(ScanPattern, BeginsWithinItsFirstPeriod) {
+  const auto error_of = [](double phase_s) -> std::string {
+    try {
+      static_cast<void>(BuildScanPattern(
+          {.rate_hz = 4.0, .pattern = RasterSpec{10.0, 10.0, 1.0}, .phase_s = phase_s}));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(error_of(0.25), "/phase_s: must be >= 0 and < 1 / rate_hz (got 0.25)");
+  EXPECT_EQ(error_of(-0.01), "/phase_s: must be >= 0 and < 1 / rate_hz (got -0.01)");
 }
 
 TEST(ScanPattern, NamesTheLastFrameWhoseTimesFitInto64Bits) {

@@ -60,7 +60,7 @@ TEST(CheckReport, ListsSmoothedJumpsOnlyIfAskedTo) {
 
 TEST(CheckReport, SaysWhereTheVehiclesWayEnds) {
   const VehicleWay way{{0.0, 200.0, 8.0}, WayPoint{13.75, 255.0, 0.0}, std::nullopt};
-  EXPECT_EQ(VehicleText("main", way, 10.0),
+  EXPECT_EQ(VehicleText("main", way, {.rate_hz = 10.0, .pattern = {}}),
             "vehicle   starts on track \"main\" at s 200.00 m with 8 m/s\n"
             "          reaches the end of its speed profile after 13.75 s (frame 137), at s 255.00 "
             "m, and stands\n"
@@ -70,9 +70,18 @@ TEST(CheckReport, SaysWhereTheVehiclesWayEnds) {
 TEST(CheckReport, NamesTheFrameThatAMomentFallsOn) {
   const WayPoint start{0.0, 400.0, 10.0};
   const VehicleWay way{start, start, WayPoint{60.0 - 1e-10, 1000.0, 10.0}};
-  EXPECT_EQ(VehicleText("main", way, 10.0),
+  EXPECT_EQ(VehicleText("main", way, {.rate_hz = 10.0, .pattern = {}}),
             "vehicle   starts on track \"main\" at s 400.00 m with 10 m/s\n"
             "          reaches the end of its track after 60.00 s (frame 600), at s 1000.00 m\n");
+}
+
+TEST(CheckReport, CountsFramesFromThePhaseOfTheSensor) {
+  const VehicleWay way{{0.0, 200.0, 8.0}, WayPoint{0.02, 255.0, 0.0}, WayPoint{1.04, 300.0, 8.0}};
+  EXPECT_EQ(VehicleText("main", way, {.rate_hz = 10.0, .pattern = {}, .phase_s = 0.05}),
+            "vehicle   starts on track \"main\" at s 200.00 m with 8 m/s\n"
+            "          reaches the end of its speed profile after 0.02 s (frame 0), at s 255.00 m, "
+            "and stands\n"
+            "          reaches the end of its track after 1.04 s (frame 9), at s 300.00 m\n");
 }
 
 TEST(CheckReport, WarnsOfCoarseWorldCoordinates) {
