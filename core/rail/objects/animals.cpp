@@ -91,7 +91,7 @@ Model MakeDeer(const AnimalSurfaces& surfaces) {
   coat.Append(
       MakeOvalBody(Ovals{{-0.43, 0.63, 0.02, 0.02}, {-0.46, 0.60, 0.015, 0.015}}, {0, 0}, 6));
   for (const double side : kBothSides) {
-    coat.Append(MakeEar({0.43, side * 0.045, 0.985}, {0.38, side * 0.135, 1.075},
+    coat.Append(MakeEar({0.43, side * 0.045, 0.985}, {0.38, side * 0.152, 1.06},
                         {0.028, side * 0.018, 0.0}));
   }
   AddLegs({.sections = {{0.27, 0.52, 0.075, 0.05},

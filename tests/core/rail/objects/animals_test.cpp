@@ -17,7 +17,7 @@ struct Animal {
   Vector3 size_m;  ///< Over head, antlers and tail.
   double withers_m{};
 };
-const std::vector<Animal> kAnimals = {{ObjectType::kDeer, {1.13, 0.28, 1.21}, kDeerWithers_m},
+const std::vector<Animal> kAnimals = {{ObjectType::kDeer, {1.13, 0.31, 1.21}, kDeerWithers_m},
                                       {ObjectType::kDog, {1.22, 0.24, 0.88}, kDogWithers_m},
                                       {ObjectType::kCow, {2.58, 0.70, 1.64}, kCowWithers_m}};
 
