@@ -9,6 +9,7 @@
 
 #include "analysis/commands.h"
 #include "analysis/verify/dataset_verification.h"
+#include "analysis/verify/merged_verification.h"
 #include "analysis/verify/verification.h"
 #include "core/base/text.h"
 #include "core/io/sensor_folders.h"
@@ -31,15 +32,20 @@ std::string SummaryOf(const Verification& found) {
   return text.str();
 }
 
-int RunVerify(const std::filesystem::path& directory) {
+template <typename Verify>
+int Report(const std::filesystem::path& directory, const Verify& verify) {
   const ProgressLine progress;
-  const auto show = [&](double share) { progress.Show("frames", share); };
-  const Verification found =
-      IsDataset(directory) ? VerifyDataset(directory, show) : VerifySequence(directory, show);
+  const Verification found = verify([&](double share) { progress.Show("frames", share); });
   progress.End();
   for (const std::string& fault : found.faults) std::cout << ShownLines(fault) << "\n";
   std::cout << ShownPath(directory) << ": " << SummaryOf(found) << "\n" << std::flush;
   return found.faults.empty() ? kExitSuccess : kExitFailure;
+}
+
+int RunVerify(const std::filesystem::path& directory) {
+  return Report(directory, [&](const auto& show) {
+    return IsDataset(directory) ? VerifyDataset(directory, show) : VerifySequence(directory, show);
+  });
 }
 
 // A directory of several sensors is as good as its worst sequence.
@@ -48,6 +54,10 @@ int RunVerifyAll(const std::filesystem::path& directory) {
   if (folders.empty()) return RunVerify(directory);
   int exit = kExitSuccess;
   for (const std::filesystem::path& folder : folders) exit = std::max(exit, RunVerify(folder));
+  if (const auto merged = MergedFolderIn(directory)) {
+    exit = std::max(exit, Report(merged->folder,
+                                 [&](const auto& show) { return VerifyMerged(*merged, show); }));
+  }
   return exit;
 }
 

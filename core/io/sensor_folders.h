@@ -1,8 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string_view>
 #include <vector>
+
+#include "core/io/recording/known_file.h"
 
 namespace railcast {
 
@@ -13,5 +16,15 @@ inline constexpr std::string_view kSensorsFile = "sensors.json";
 /// @throws InputError if the file is not what railcast-generate sequence writes.
 [[nodiscard]] std::vector<std::filesystem::path> SensorFoldersIn(
     const std::filesystem::path& directory);
+
+/// The folder of the merged clouds that a directory's sensors.json names, and its files' hashes.
+struct MergedFolder {
+  std::filesystem::path folder;
+  std::vector<KnownFile> files;  ///< Relative to the folder.
+};
+
+/// @return Nothing if sensors.json names none.
+/// @throws InputError as SensorFoldersIn() does.
+[[nodiscard]] std::optional<MergedFolder> MergedFolderIn(const std::filesystem::path& directory);
 
 }  // namespace railcast

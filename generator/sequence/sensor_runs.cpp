@@ -6,7 +6,11 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/io/content_hash.h"
+#include "core/io/merged_files.h"
 #include "core/io/sensor_folders.h"
+#include "core/io/sequence_files.h"
+#include "core/io/write_file.h"
 #include "core/scenario/track_limits.h"
 #include "generator/sequence/pose_record.h"
 
@@ -64,9 +68,9 @@ void RefuseOtherFiles(const std::filesystem::path& directory, const std::vector<
   std::error_code none;
   for (const auto& entry : std::filesystem::directory_iterator(directory, none)) {
     const std::string name = entry.path().filename().string();
-    const bool is_known =
-        name == kSensorsFile || std::any_of(runs.begin(), runs.end(),
-                                            [&](const SensorRun& run) { return run.name == name; });
+    const bool is_known = name == kSensorsFile || name == kMergedFolder ||
+                          std::any_of(runs.begin(), runs.end(),
+                                      [&](const SensorRun& run) { return run.name == name; });
     if (is_known) continue;
     throw InputError(ShownPath(directory) +
                      ": must hold nothing but the folders of the scenario's sensors and " +
@@ -74,7 +78,8 @@ void RefuseOtherFiles(const std::filesystem::path& directory, const std::vector<
   }
 }
 
-std::string SensorsJson(const std::vector<SensorRun>& runs) {
+std::string SensorsJson(const std::vector<SensorRun>& runs,
+                        const std::optional<std::filesystem::path>& merged) {
   nlohmann::ordered_json sensors = nlohmann::ordered_json::array();
   for (const SensorRun& run : runs) {
     const Transform vehicle_from_sensor = VehicleFromSensor(run.scenario.lidar.mount);
@@ -82,6 +87,7 @@ std::string SensorsJson(const std::vector<SensorRun>& runs) {
     sensors.push_back({{"name", run.name},
                        {"folder", run.name},
                        {"rate_hz", run.scenario.lidar.scan.rate_hz},
+                       {"phase_s", run.scenario.lidar.scan.phase_s},
                        {"start_frame", run.spec.start_frame},
                        {"num_frames", run.spec.num_frames},
                        {"stride", run.spec.stride},
@@ -89,7 +95,14 @@ std::string SensorsJson(const std::vector<SensorRun>& runs) {
                         {{"translation_m", Components(vehicle_from_sensor.translation())},
                          {"quaternion_xyzw", Components(rotation.coeffs())}}}});
   }
-  const nlohmann::ordered_json all = {{"version", 1}, {"sensors", std::move(sensors)}};
+  nlohmann::ordered_json all = {{"version", 1}, {"sensors", std::move(sensors)}};
+  if (merged) {
+    nlohmann::ordered_json hashes = nlohmann::ordered_json::object();
+    for (const std::string_view name : {kMergedFile, kPosesFile}) {
+      hashes[std::string(name)] = ContentHash(ReadFileWhole(*merged / name));
+    }
+    all["merged"] = {{"folder", merged->filename().string()}, {"files_xxh3", std::move(hashes)}};
+  }
   return all.dump(2) + "\n";
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,12 +35,16 @@ void SetFrames(const SequenceSpec& first,
                const ScanPattern& pattern,
                SensorRun& run);
 
-/// Refuses a directory that holds anything but the sensors' folders and sensors.json.
+/// Refuses a directory that holds anything but the sensors' folders, that of their merged clouds,
+/// and sensors.json.
 /// @throws InputError "DIR: must hold nothing but ... (got "frames")".
 void RefuseOtherFiles(const std::filesystem::path& directory, const std::vector<SensorRun>& runs);
 
 /// Returns sensors.json: the folders of a scenario's sensors, and where each sensor is on the
 /// vehicle by its nominal mount.
-[[nodiscard]] std::string SensorsJson(const std::vector<SensorRun>& runs);
+/// @param merged The folder of the sensors' merged clouds, if there is one.
+/// @throws InputError if a file of that folder cannot be read.
+[[nodiscard]] std::string SensorsJson(const std::vector<SensorRun>& runs,
+                                      const std::optional<std::filesystem::path>& merged);
 
 }  // namespace railcast

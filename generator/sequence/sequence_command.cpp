@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/fidelity/choice_report.h"
+#include "core/io/merged_files.h"
 #include "core/io/scenario_identity.h"
 #include "core/io/sensor_folders.h"
 #include "core/io/write_file.h"
@@ -23,6 +24,7 @@
 #include "generator/run/stoppable_work.h"
 #include "generator/run/track_limits.h"
 #include "generator/sequence/make_sequences.h"
+#include "generator/sequence/merged_sequence.h"
 #include "generator/sequence/run_sequence.h"
 #include "generator/sequence/scenario_sequence.h"
 #include "generator/sequence/sensor_runs.h"
@@ -43,6 +45,7 @@ struct SequenceOptions {
   std::optional<std::string> sensor;              ///< Which sensor, if there are several.
   std::optional<std::filesystem::path> commands;  ///< Log of a live run to replay.
   int num_threads = 0;                            ///< 0 = all cores.
+  bool is_merged = false;                         ///< Whether sensors' clouds are merged, too.
   bool is_verbose = false;
 };
 
@@ -162,20 +165,48 @@ void ChooseFidelities(const Simulators& simulators, Runs& runs) {
   }
 }
 
+std::vector<MergedSensor> MergedSensorsOf(const Runs& runs, const Simulators& simulators) {
+  std::vector<MergedSensor> sensors;
+  for (std::size_t i = 0; i < simulators.size(); ++i) {
+    sensors.push_back({runs.sensors[i], simulators[i]->pattern()});
+  }
+  return sensors;
+}
+
+// Completes a directory whose sequences are complete.
+int Finish(const SequenceOptions& options, const Runs& runs, const Simulators& simulators) {
+  if (options.is_merged) {
+    const ProgressLine progress;
+    bool is_merged = false;
+    simulators.front()->Execute([&] {
+      is_merged = WriteMergedClouds(
+          options.made.directory, MergedSensorsOf(runs, simulators),
+          [&](double done) { progress.Show("merged clouds", done); }, StopRequested);
+    });
+    progress.End();
+    if (!is_merged) {
+      std::cerr << "interrupted; the same command merges the clouds\n";
+      return kExitInterrupted;
+    }
+  }
+  if (runs.is_in_folders) {
+    std::optional<std::filesystem::path> merged;
+    if (options.is_merged) merged = options.made.directory / kMergedFolder;
+    WriteFileWhole(options.made.directory / kSensorsFile, SensorsJson(runs.sensors, merged));
+  }
+  return kExitSuccess;
+}
+
 int Report(const SequenceOptions& options,
            const Runs& runs,
+           const Simulators& simulators,
            const std::vector<SequenceResult>& results) {
   bool is_complete = true;
   for (std::size_t i = 0; i < results.size(); ++i) {
     std::cout << ShownLines(Summary(runs.sensors[i].spec, results[i]));
     is_complete = is_complete && results[i].is_complete;
   }
-  if (is_complete) {
-    if (runs.is_in_folders) {
-      WriteFileWhole(options.made.directory / kSensorsFile, SensorsJson(runs.sensors));
-    }
-    return kExitSuccess;
-  }
+  if (is_complete) return Finish(options, runs, simulators);
   std::cerr << "interrupted; the same command continues with frame ";
   const char* separator = "";
   for (std::size_t i = 0; i < results.size(); ++i) {
@@ -228,6 +259,7 @@ int RunSequenceCommand(const SequenceOptions& options) {
   CommandedRun run(runs.scenario(), pointers);
   AtPlace(ShownPath(options.commands.value_or("")) + ": ", [&] { run.Apply(log.commands); });
   CheckFrames(run, simulators, !log.commands.empty(), runs);
+  if (options.is_merged) CheckCanMerge(MergedSensorsOf(runs, simulators));
   // The directory can be resumed however the program ends.
   CatchStopSignals();
   for (Simulator* simulator : pointers) WatchBuilding(*simulator, StopRequested, true);
@@ -237,7 +269,8 @@ int RunSequenceCommand(const SequenceOptions& options) {
     std::cerr << "interrupted before the first frame\n";
     return kExitInterrupted;
   }
-  return Report(options, runs, MakeFrames(run, simulators, runs, !log.commands.empty()));
+  return Report(options, runs, simulators,
+                MakeFrames(run, simulators, runs, !log.commands.empty()));
 }
 
 }  // namespace
@@ -285,6 +318,9 @@ void AddSequence(CLI::App& app, ProgramCommand& command) {
       "--sensor", options->sensor,
       "Name of the only sensor to simulate; without it, each of several sensors gets a "
       "folder of its name in --out");
+  sequence->add_flag("--merged", options->is_merged,
+                     "Also write the clouds of all sensors together, in the vehicle's axes, with "
+                     "the field sensor_index");
   sequence
       ->add_option(
           "--commands", options->commands,

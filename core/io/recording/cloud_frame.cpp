@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/io/merged_files.h"
 #include "core/io/recording/cloud_fields.h"
 #include "core/io/recording/ring_table.h"
 #include "core/io/recording/slot_plans.h"
@@ -86,6 +87,8 @@ SlotPlan PlanOfTable(const PointTable& table, const std::string& name) {
   if (table.height > 1) {
     return is_ours ? OrganisedPlan(table, ReturnsOf(table, name)) : SortedRowsPlan(table);
   }
+  // Points of several sensors share no grid.
+  if (FindFieldOf(table, kSensorIndexField) != nullptr) return LoosePlan(table);
   if (is_ours) return PlacedPlan(table, name, std::nullopt);
   const PointPositions positions{.x = LoadFloats(table, *table.Find("x")),
                                  .y = LoadFloats(table, *table.Find("y")),

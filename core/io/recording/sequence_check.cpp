@@ -21,11 +21,17 @@ bool IsThere(const std::filesystem::path& file) {
 std::string ReadKnownFile(const std::filesystem::path& directory,
                           const KnownFile& file,
                           std::string_view said_in) {
-  const std::string said = ", as " + std::string(said_in) + " says (got ";
   if (!IsSequenceFile(file.name)) {
     throw InputError(ShownPath(directory / said_in) + ": must name files of a sequence (got " +
                      ShownText(file.name) + ")");
   }
+  return ReadHashedFile(directory, file, said_in);
+}
+
+std::string ReadHashedFile(const std::filesystem::path& directory,
+                           const KnownFile& file,
+                           std::string_view said_in) {
+  const std::string said = ", as " + std::string(said_in) + " says (got ";
   const std::filesystem::path path = directory / file.name;
   std::string bytes = ReadFileWhole(path);
   if (file.bytes && bytes.size() != *file.bytes) {

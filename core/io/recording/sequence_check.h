@@ -25,6 +25,10 @@ namespace railcast {
 [[nodiscard]] std::string ReadKnownFile(const std::filesystem::path& directory,
                                         const KnownFile& file,
                                         std::string_view said_in);
+/// As ReadKnownFile(), for a file of any name.
+[[nodiscard]] std::string ReadHashedFile(const std::filesystem::path& directory,
+                                         const KnownFile& file,
+                                         std::string_view said_in);
 
 /// The summary that a sequence directory gives of itself.
 struct SequenceSummary {

@@ -154,6 +154,18 @@ TEST(CloudRecording, HasOneRowOfPointsWhereThereAreNoRings) {
               testing::UnorderedElementsAre("x", "y", "z", "label", "instance", "range_m"));
 }
 
+TEST(CloudRecording, HasNoGridWherePointsAreOfSeveralSensors) {
+  // Ring 0 and column 0 of each.
+  const std::vector<std::string> lines = {"1 2 3 0 0 0", "4 5 6 0 0 1"};
+  const RecordedFrame recorded = ReadText(
+      "a.pcd", AsciiPcd("x y z ring column sensor_index", "4 4 4 2 4 1", "F F F U U U", lines));
+  EXPECT_FALSE(recorded.is_grid);
+  EXPECT_THAT(recorded.frame.x, testing::ElementsAre(1.0F, 4.0F));
+  ASSERT_EQ(recorded.foreign.size(), 1U);
+  EXPECT_EQ(recorded.foreign[0].name, "sensor_index");
+  EXPECT_THAT(recorded.foreign[0].values, testing::ElementsAre(0.0F, 1.0F));
+}
+
 TEST(CloudRecording, ReadsWhatPclWritesAsPly) {
   pcl::PointCloud<pcl::PointXYZL> cloud;
   for (std::uint32_t i = 1; i <= 3; ++i) {

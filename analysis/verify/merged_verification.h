@@ -1,0 +1,16 @@
+#pragma once
+
+#include <functional>
+
+#include "analysis/verify/verification.h"
+#include "core/io/sensor_folders.h"
+
+namespace railcast {
+
+/// Compares the merged clouds of several sensors with merged.jsonl, this with sensors.json, and
+/// looks for files that neither names.
+/// @param on_progress Called from time to time with the completed share.
+[[nodiscard]] Verification VerifyMerged(const MergedFolder& merged,
+                                        const std::function<void(double)>& on_progress);
+
+}  // namespace railcast
