@@ -4,9 +4,9 @@
 Usage: export_osdar.py RUN... --out DIR [--ontology osdar26|osdar23] [--merged] [--ascii]
 
 RUN is a directory that railcast-generate sequence wrote. Several runs are one scene with several
-sensors, those of one vehicle: the frames that all of them have at the same stamp are taken, and
-their clouds are merged in the vehicle's axes, with the number of the run as `sensor_index`;
---merged asks for that layout with one run, too. Writes
+sensors, those of one vehicle: each frame of the first is taken with the frames of the others that
+begin during its period, if there is one of each. Their clouds are merged in the vehicle's axes,
+with the number of the run as `sensor_index`; --merged asks for that layout with one run, too. Writes
 
     DIR/NAME_labels.json            cuboids, both rails of each track, segmentation by point indices
     DIR/LIDAR/000_12.300000000.pcd  x y z intensity timestamp [sensor_index]: points only
@@ -56,8 +56,21 @@ def stamps_of(path):
     return [int(line.split(",", 1)[0]) for line in (path / "poses.csv").read_text("ascii").splitlines()[1:]]
 
 
+def places_together(stamps, period_ns):
+    """For each frame of the first run, its place and those of the others' frames that begin during its period.
+
+    Frames are left out during which one of the others begins none.
+    """
+    places = []
+    for place, begin in enumerate(stamps[0]):
+        firsts = [int(np.searchsorted(own, begin)) for own in stamps[1:]]
+        if all(first < len(own) and own[first] < begin + period_ns for first, own in zip(firsts, stamps[1:])):
+            places.append((place, *firsts))
+    return places
+
+
 def open_runs(paths):
-    """The recordings, and the places in them of the frames that have their stamps in common."""
+    """The recordings, and the places in them of the frames that belong together."""
     faults, runs, places = [], [], []
     for path in paths:
         try:
@@ -73,15 +86,13 @@ def open_runs(paths):
             runs.append(run)
     if not faults:
         # Of a run that is not finished, the last pose may belong to no frame yet.
-        stamps = [{stamp: place for place, stamp in enumerate(stamps_of(path)[:len(run)])}
-                  for path, run in zip(paths, runs)]
-        common = sorted(set(stamps[0]).intersection(*stamps[1:]))
-        places = [[own[stamp] for stamp in common] for own in stamps]
-        if not common:
-            faults.append(f"{paths[0]}: must have a frame of a stamp that all other runs have")
+        stamps = [stamps_of(path)[:len(run)] for path, run in zip(paths, runs)]
+        places = places_together(stamps, 1e9 / runs[0].scenario["lidar"]["scan"]["rate_hz"])
+        if not places:
+            faults.append(f"{paths[0]}: must have a frame during which one of each other run begins")
     if faults:
         raise BadInput("\n".join(faults))
-    return runs, list(zip(*places))
+    return runs, places
 
 
 def write_pcd(path, points, is_ascii):

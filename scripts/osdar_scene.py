@@ -124,7 +124,8 @@ class View:
         points = np.zeros(len(self.xyz), fields + ([("sensor_index", "u1")] if self.is_merged else []))
         points["x"], points["y"], points["z"] = self.xyz.T
         points["intensity"] = np.nan_to_num(self.values("intensity"))
-        points["timestamp"] = (self.frame.stamp_ns + self.values("time_ns").astype(np.int64)) * 1e-9
+        points["timestamp"] = 1e-9 * np.concatenate([frame.stamp_ns + frame["time_ns"][frame.has_point].astype(np.int64)
+                                                     for _, frame, _ in self.parts])
         if self.is_merged:
             points["sensor_index"] = np.concatenate([np.full(frame.num_points, number)
                                                      for number, frame, _ in self.parts])

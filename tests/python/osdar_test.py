@@ -17,7 +17,8 @@ DEFINITIONS = pathlib.Path(sys.argv.pop(1)) / "raillabel"
 FRAMES = 2
 TWO = {"version": 1, "file": str(SCENARIO), "lidars": [
     {"file": str(ROOT / "scenarios" / "sensors" / "vlp16.json"), "name": name,
-     "mount": {"position_m": [2.2, y, 2.5], "yaw_deg": 5 * y}} for name, y in (("left", 1.0), ("right", -1.0))]}
+     "mount": {"position_m": [2.2, y, 2.5], "yaw_deg": 5 * y}, "phase_s": phase}
+    for name, y, phase in (("left", 1.0, 0.0), ("right", -1.0, 0.04))]}
 
 
 def run_script(name, *arguments):
@@ -134,6 +135,9 @@ class Exported(unittest.TestCase):
                 frames = [railcast.open(run)[place] for run in runs]
                 number = cloud["sensor_index"][cloud.has_point]
                 self.assertEqual([np.sum(number == index) for index in (0, 1)], [frame.num_points for frame in frames])
+                # Times count from the file's first, which is the left one's; the right one begins 40 ms later.
+                since_ns = [cloud["time_ns"][cloud.has_point][number == index].min() for index in (0, 1)]
+                self.assertAlmostEqual(since_ns[1] - since_ns[0], 4e7, delta=2e6)
                 # The left one is 1 m to the left and turned by 5 degrees.
                 turn = np.radians(5)
                 x, y, z = frames[0].points().astype(float).T
@@ -155,8 +159,8 @@ class Exported(unittest.TestCase):
     def test_bad_runs_are_named_and_nothing_is_written(self):
         generate("sequence", SCENARIO, "--out", self.folder / "later", "--frames", FRAMES, "--start-frame", 40)
         for runs, line in (
-            ((self.folder / "run", self.folder / "later"), f"{self.folder / 'run'}: must have a frame of a stamp that "
-                                                           "all other runs have\n"),
+            ((self.folder / "run", self.folder / "later"), f"{self.folder / 'run'}: must have a frame during which one "
+                                                           "of each other run begins\n"),
             ((self.folder / "run" / "frames",), f"{self.folder}/run/frames: must be a sequence of railcast (got "
                                                 "directory of point clouds)\n"),
             ((self.folder / "nowhere",), f"{self.folder}/nowhere: no such file or directory\n"),
