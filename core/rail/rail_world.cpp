@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -66,7 +67,8 @@ struct RailWorld::Line {
   ChunkGrid grid;
   CatenaryPlan catenary_plan;
   InfrastructureModels infrastructure;
-  PlantModels plants;
+  /// Made by whoever needs them first: a world that is only looked into has no plants.
+  std::shared_future<PlantModels> plants;
   Landform land;
   std::optional<Ride> ride;  ///< Of the sensor's vehicle.
 
@@ -102,7 +104,7 @@ struct RailWorld::Line {
                    AddTracks(context, infrastructure, built);
                    AddCatenary(context, catenary_plan, infrastructure, built);
                    AddStructures(context, built);
-                   AddVegetation(context, plants, built);
+                   AddVegetation(context, plants.get(), built);
                  });
     return built;
   }
@@ -171,7 +173,7 @@ RailWorld::RailWorld(const WorldSpec& world,
            std::move(network), std::move(turnouts), std::move(diamonds),
            ChunkGrid(alignment, kChunkLength_m, world.terrain.half_width_m),
            std::move(*draft.catenary_plan), MakeInfrastructureModels(world, surfaces),
-           MakePlantModels(surfaces, seed),
+           std::async(std::launch::deferred, MakePlantModels, surfaces, seed).share(),
            Landform(world.terrain, std::move(*draft.strip_width), std::move(draft.elevation), seed),
            RideOf(vehicle, world.seed)});
 
