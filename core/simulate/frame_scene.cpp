@@ -223,7 +223,7 @@ std::vector<LoneObjects> FrameScenes::ObjectsAlone(const FrameScene& frame) cons
 void FrameScenes::PrepareNextWindow(std::int64_t stamp_ns, int home_chunk) {
   for (std::int64_t ahead_ns = kLookAheadStep_ns; ahead_ns <= kLookAhead_ns;
        ahead_ns += kLookAheadStep_ns) {
-    const int next = world_->HomeChunk(stamp_ns + ahead_ns);
+    const int next = world_->HomeChunk(std::min(stamp_ns + ahead_ns, last_stamp_ns_));
     if (next == home_chunk) continue;
     windows_.Prepare(next);
     return;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -78,6 +79,9 @@ class FrameScenes {
   /// Sets the callback for windows that are begun from now on.
   void UseProgress(WindowProgress progress) { windows_.UseProgress(std::move(progress)); }
 
+  /// Sets the stamp of the last frame, after which no window is built ahead.
+  void UseLastStamp(std::int64_t stamp_ns) { last_stamp_ns_ = stamp_ns; }
+
   /// Sets the wind from now on; at first, there is none.
   void UseWind(const Wind& wind);
 
@@ -145,6 +149,7 @@ class FrameScenes {
   std::vector<Object> objects_;  // In the order of world_->objects().
   /// Index in world_->objects() of each object in the windows, by its index in the store's world.
   std::map<std::size_t, std::size_t> standing_;
+  std::int64_t last_stamp_ns_ = std::numeric_limits<std::int64_t>::max();
   std::vector<Surface> more_surfaces_;  // Surfaces of the objects that windows do not know.
 };
 

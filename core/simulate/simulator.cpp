@@ -245,6 +245,10 @@ void Simulator::UseProgress(WindowProgress progress) {
   parts_->scenes.UseProgress(std::move(progress));
 }
 
+void Simulator::UseLastStamp(std::int64_t stamp_ns) {
+  parts_->scenes.UseLastStamp(stamp_ns);
+}
+
 void Simulator::Parts::ForAllEchoes(const CastFrame& cast, const EchoUse& use) {
   // A halo reaches beams of other tiles. Without bright echoes, which are rare, all is done after
   // one pass; otherwise the tiles that halos reach are made a second time.

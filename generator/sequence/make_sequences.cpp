@@ -29,12 +29,11 @@ std::vector<SequenceResult> MakeSequences(CommandedRun& run,
   std::size_t num_at_once = has_commands ? 1 : std::numeric_limits<std::size_t>::max();
   for (std::size_t i = 0; i < simulators.size(); ++i) {
     const auto& [name, scenario, spec] = sensors[i];
-    SurveyedRun& survey = surveys.emplace_back(run, i, scenario, spec.files.labels,
-                                               spec.FrameAt(spec.num_frames - 1));
+    const ScanPattern& pattern = simulators[i]->pattern();
+    simulators[i]->UseLastStamp(pattern.StampNs(spec.FrameAt(spec.num_frames - 1)));
+    SurveyedRun& survey = surveys.emplace_back(run, i, scenario, spec.files.labels);
     sequences.push_back({spec, [&survey](std::uint32_t index) { return survey.Begin(index); },
-                         [&pattern = simulators[i]->pattern()](std::uint32_t index) {
-                           return pattern.StampNs(index);
-                         }});
+                         [&pattern](std::uint32_t index) { return pattern.StampNs(index); }});
     num_at_once = std::min(num_at_once, NumFramesAtOnce(*simulators[i], scenario));
   }
   const FramesAtOnce at_once = {

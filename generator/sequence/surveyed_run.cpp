@@ -1,9 +1,6 @@
 #include "generator/sequence/surveyed_run.h"
 
 #include <algorithm>
-#include <atomic>
-#include <memory>
-#include <utility>
 #include <vector>
 
 #include "generator/run/stop_signal.h"
@@ -15,13 +12,8 @@ namespace railcast {
 SurveyedRun::SurveyedRun(CommandedRun& run,
                          std::size_t sensor,
                          const ScenarioSpec& scenario,
-                         const LabelTable& labels,
-                         std::uint32_t last_frame)
-    : run_(run),
-      sensor_(sensor),
-      labels_(labels),
-      last_frame_(last_frame),
-      camera_(MakeCamera(scenario)) {
+                         const LabelTable& labels)
+    : run_(run), sensor_(sensor), labels_(labels), camera_(MakeCamera(scenario)) {
   if (camera_) frames_per_image_ = FramesPerImage(scenario);
 }
 
@@ -43,25 +35,14 @@ FrameJob SurveyedRun::Begin(std::uint32_t index) {
   Simulator& simulator = run_.At(sensor_, index);
   // Frames are begun by whichever thread is free: from now on the terminal shows what this one
   // waits for.
-  const auto has_all_windows = std::make_shared<std::atomic<bool>>(false);
-  WatchBuilding(
-      simulator, [=] { return StopRequested() || *has_all_windows; }, true);
-  std::shared_ptr<BegunFrame> begun = simulator.Begin(index);
-  // No frame needs the window that may just have been begun to be built ahead. In a data set's
-  // short sequences it would take a tenth of the time.
-  *has_all_windows = HomeChunk(simulator, index) == HomeChunk(simulator, last_frame_);
-  return [this, &simulator, begun = std::move(begun), index](MadeFrame& made) {
+  WatchBuilding(simulator, StopRequested, true);
+  return [this, &simulator, begun = simulator.Begin(index), index](MadeFrame& made) {
     simulator.Scan(*begun, made.frame);
     const std::vector<std::uint32_t> alone = simulator.FiringsOnObjectAlone(*begun);
     made.objects = surveys_.local().Of(simulator, labels_).Describe(made.frame, alone);
     made.has_image = camera_ && index % frames_per_image_ == 0;
     if (made.has_image) camera_->Render(simulator, *begun, made.image);
   };
-}
-
-int SurveyedRun::HomeChunk(const Simulator& simulator, std::uint32_t index) const {
-  const std::int64_t stamp_ns = simulator.pattern().StampNs(index);
-  return run_.StateAt(stamp_ns).world->HomeChunk(stamp_ns);
 }
 
 std::size_t NumFramesAtOnce(const Simulator& simulator, const ScenarioSpec& scenario) {

@@ -22,24 +22,19 @@ class SurveyedRun {
   /// @param sensor Which of the run's sensors.
   /// @param scenario That of the run, reduced to the sensor (PickSensor()); its camera's images are
   ///   made, too.
-  /// @param last_frame The last one that will be begun.
   SurveyedRun(CommandedRun& run,
               std::size_t sensor,
               const ScenarioSpec& scenario,
-              const LabelTable& labels,
-              std::uint32_t last_frame);
+              const LabelTable& labels);
 
   /// As BeginFrame.
   /// @throws InputError if the vehicle or an object leaves its track in that frame.
   [[nodiscard]] FrameJob Begin(std::uint32_t index);
 
  private:
-  [[nodiscard]] int HomeChunk(const Simulator& simulator, std::uint32_t index) const;
-
   CommandedRun& run_;
   std::size_t sensor_;
   const LabelTable& labels_;
-  std::uint32_t last_frame_;
   std::optional<Camera> camera_;
   std::uint32_t frames_per_image_ = 1;
   /// Each remembers what it measured, so that each thread has its own.

@@ -190,6 +190,9 @@ class Simulator {
   /// the background. Scan() and any other function that needs a window rethrows what the callback
   /// throws.
   void UseProgress(WindowProgress progress);
+  /// Tells the stamp of the last frame that will be begun: windows that only later ones would need
+  /// are not built ahead. Frames are the same, be it right or wrong.
+  void UseLastStamp(std::int64_t stamp_ns);
   /// Sets the number of threads.
   /// @param num_threads 0 = all cores.
   void UseThreads(int num_threads);

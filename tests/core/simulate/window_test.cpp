@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "core/scene/shapes.h"
+#include "core/simulate/frame_scene.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/scan_once.h"
 
@@ -35,6 +36,7 @@ constexpr int kNumChunks = 30;
 /// fail to build.
 class LineWorld final : public World {
  public:
+  int chunks_per_s = 0;  ///< Speed of the vehicle.
   bool own_trees = false;
   bool has_wires = false;
   bool has_coarser_chunks = false;  ///< For rays that are 0.04 m apart at the chunk.
@@ -48,7 +50,9 @@ class LineWorld final : public World {
   [[nodiscard]] Transform WorldFromVehicle(std::int64_t) const override {
     return Transform::Identity();
   }
-  [[nodiscard]] int HomeChunk(std::int64_t) const override { return 0; }
+  [[nodiscard]] int HomeChunk(std::int64_t time_ns) const override {
+    return static_cast<int>(chunks_per_s * time_ns / 1'000'000'000);
+  }
   [[nodiscard]] std::vector<int> ChunksInReach(int home_chunk, double range_m) const override {
     ++num_windows;
     std::vector<int> chunks;
@@ -281,6 +285,21 @@ TEST(WindowSource, MayBeDestroyedWhileAWindowIsOnItsWay) {
   Line line;
   line.world->delay_ms = 20;
   line.windows.Prepare(10);
+}
+
+TEST(WindowSource, IsNotAskedForWhatOnlyFramesAfterTheLastNeed) {
+  const auto world = std::make_shared<LineWorld>();
+  world->chunks_per_s = 1;
+  FrameScenes scenes(std::make_shared<SceneStore>(world, TestMaterials()),
+                     {.range_max_m = kRange_m});
+  scenes.UseLastStamp(900'000'000);
+  static_cast<void>(scenes.Begin(0, 0));
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_EQ(world->num_windows, 1);
+  scenes.UseLastStamp(1'000'000'000);
+  static_cast<void>(scenes.Begin(1, 500'000'000));
+  WaitUntil([&] { return world->num_windows == 2; });
+  WaitUntil([&] { return world->num_built[3] == 1; });
 }
 
 // A mesh in coordinates of its own: its origin is far away, but its geometry is near.
