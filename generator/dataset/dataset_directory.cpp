@@ -9,6 +9,7 @@
 #include "core/io/content_hash.h"
 #include "core/io/dataset_files.h"
 #include "core/io/write_file.h"
+#include "generator/dataset/scenario_lines.h"
 
 namespace railcast {
 namespace {
@@ -52,25 +53,6 @@ Json DatasetJson(const DatasetSpec& spec) {
   return json;
 }
 
-std::vector<std::string> ScenarioLines(const fs::path& directory,
-                                       const Shard& shard,
-                                       std::uint64_t& size) {
-  const fs::path file = directory / kScenariosFile;
-  const std::string text = fs::exists(file) ? ReadFileWhole(file) : "";
-  std::vector<std::string> lines;
-  size = 0;
-  while (true) {
-    const std::size_t end = text.find('\n', size);
-    if (end == std::string::npos) return lines;
-    std::string line = text.substr(size, end - size);
-    const Json json = Json::parse(line, nullptr, false);
-    const std::uint32_t expected = shard.ScenarioAt(static_cast<std::uint32_t>(lines.size()));
-    if (!json.is_object() || json.value("scenario", Json()) != expected) return lines;
-    lines.push_back(std::move(line));
-    size = end + 1;
-  }
-}
-
 DatasetDirectory::DatasetDirectory(DatasetSpec spec) : spec_(std::move(spec)) {
   const fs::path& directory = spec_.directory;
   std::error_code error;
@@ -93,9 +75,9 @@ DatasetDirectory::DatasetDirectory(DatasetSpec spec) : spec_(std::move(spec)) {
   }
   is_complete_ = fs::exists(directory / kDatasetManifestFile);
   if (!is_complete_) WriteFileWhole(directory / kRecipeFile, spec_.recipe);
-  std::uint64_t size = 0;
-  num_done_ = static_cast<std::uint32_t>(ScenarioLines(directory, spec_.shard, size).size());
-  if (!is_complete_) lines_.emplace(directory / kScenariosFile, size);
+  ScenarioLines lines(directory, spec_.shard);
+  num_done_ = lines.Skip();
+  if (!is_complete_) lines_.emplace(directory / kScenariosFile, lines.size());
 }
 
 void DatasetDirectory::CheckSameDataset() const {

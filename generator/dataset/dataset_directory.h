@@ -61,10 +61,4 @@ class DatasetDirectory {
   bool is_complete_ = false;
 };
 
-/// Returns the whole lines of scenarios.jsonl up to the first that is not the one expected there.
-/// @param size Becomes the size of these lines in bytes.
-[[nodiscard]] std::vector<std::string> ScenarioLines(const std::filesystem::path& directory,
-                                                     const Shard& shard,
-                                                     std::uint64_t& size);
-
 }  // namespace railcast

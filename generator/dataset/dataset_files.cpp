@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -18,6 +20,8 @@
 #include "generator/dataset/index_database.h"
 #include "generator/dataset/indexed_scenario.h"
 #include "generator/dataset/recipe.h"
+#include "generator/dataset/scenario_lines.h"
+#include "generator/sequence/line_file.h"
 
 namespace railcast {
 namespace {
@@ -28,20 +32,41 @@ constexpr std::array<std::string_view, 9> kHashedFiles = {
     kDatasetFile, kRecipeFile,    kScenariosFile, kIndexFile,    kIndexDatabaseFile,
     kReportFile,  kSplitFiles[0], kSplitFiles[1], kSplitFiles[2]};
 
+/// A file that grows line by line under another name until it is whole.
+class NewFile {
+ public:
+  explicit NewFile(fs::path file)
+      : file_(std::move(file)),
+        unfinished_(file_.string() + std::string(kUnfinishedSuffix)),
+        lines_(unfinished_, 0) {}
+
+  void Append(const std::string& lines) { lines_.Append(lines); }
+  void Finish() {
+    lines_.Sync();
+    std::error_code error;
+    fs::rename(unfinished_, file_, error);
+    if (error) throw FileError(file_, error.value());
+  }
+
+ private:
+  fs::path file_;
+  fs::path unfinished_;
+  LineFile lines_;
+};
+
+/// @param sequences The hashes of all sequences' data, one after the other.
 std::string ManifestText(const DatasetSpec& spec,
-                         const std::vector<std::string>& lines,
+                         const std::string& sequences,
                          const Json& report) {
   Json files = Json::object();
   // The program that made the data is named in dataset.json, and SQLite's version in its file.
   std::string data;
   for (const std::string_view name : kHashedFiles) {
-    const std::string hash = ContentHash(ReadFileWhole(spec.directory / name));
+    const std::string hash = HashFile(spec.directory / name).hash;
     files[std::string(name)] = hash;
     if (name != kDatasetFile && name != kIndexDatabaseFile && name != kScenariosFile) data += hash;
   }
-  for (const std::string& line : lines) {
-    data += Json::parse(line).at("data_xxh3").get_ref<const std::string&>();
-  }
+  data += sequences;
   const Json manifest = {{"version", spec.version},
                          {"num_scenarios", spec.num_scenarios},
                          {"num_frames", report.at("num_frames")},
@@ -56,38 +81,35 @@ std::string ManifestText(const DatasetSpec& spec,
 
 void WriteDatasetFiles(const DatasetSpec& spec) {
   const fs::path& directory = spec.directory;
-  std::uint64_t size = 0;
-  const std::vector<std::string> lines = ScenarioLines(directory, spec.shard, size);
-  Check(lines.size() == spec.num_scenarios, "all scenarios are done");
   fs::create_directories((directory / kSplitFiles[0]).parent_path());
   DatasetReport report;
   IndexDatabase database(directory / kIndexDatabaseFile);
-  const fs::path index = directory / kIndexFile;
-  const fs::path unfinished = index.string() + std::string(kUnfinishedSuffix);
-  std::array<std::string, kSplitFiles.size()> splits;
-  {
-    LineFile index_lines(unfinished, 0);
-    for (const std::string& line : lines) {
-      const IndexedScenario scenario = ReadIndexedScenario(directory, line);
-      const Json& record = scenario.record;
-      const auto split = ValueNamed<Split>(record.at("split").get<std::string>()).value();
-      splits.at(static_cast<std::size_t>(split)) += record.at("folder").get<std::string>() + "\n";
-      index_lines.Append(IndexLines(scenario));
-      database.Add(scenario);
-      report.Add(scenario);
-    }
-    index_lines.Sync();
+  NewFile index(directory / kIndexFile);
+  std::vector<NewFile> splits;
+  for (const std::string_view name : kSplitFiles) splits.emplace_back(directory / name);
+  // Of a scenario, nothing else stays in memory.
+  std::string hashes;
+  std::uint32_t num_scenarios = 0;
+  ScenarioLines lines(directory, spec.shard);
+  while (auto line = lines.Next()) {
+    const IndexedScenario scenario = ReadIndexedScenario(directory, std::move(*line));
+    const Json& record = scenario.record;
+    const auto split = ValueNamed<Split>(record.at("split").get<std::string>()).value();
+    splits.at(static_cast<std::size_t>(split))
+        .Append(record.at("folder").get<std::string>() + "\n");
+    index.Append(IndexLines(scenario));
+    database.Add(scenario);
+    report.Add(scenario);
+    hashes += record.at("data_xxh3").get_ref<const std::string&>();
+    ++num_scenarios;
   }
-  std::error_code error;
-  fs::rename(unfinished, index, error);
-  if (error) throw FileError(index, error.value());
+  Check(num_scenarios == spec.num_scenarios, "all scenarios are done");
+  index.Finish();
   database.Finish();
+  for (NewFile& split : splits) split.Finish();
   const Json written = report.Write();
-  for (std::size_t i = 0; i < splits.size(); ++i) {
-    WriteFileWhole(directory / kSplitFiles[i], splits[i]);
-  }
   WriteFileWhole(directory / kReportFile, written.dump(2) + "\n");
-  WriteFileWhole(directory / kDatasetManifestFile, ManifestText(spec, lines, written));
+  WriteFileWhole(directory / kDatasetManifestFile, ManifestText(spec, hashes, written));
 }
 
 }  // namespace railcast

@@ -1,10 +1,11 @@
 #include "generator/dataset/dataset_report.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
-#include <vector>
 
 #include "core/base/text.h"
+#include "core/io/content_hash.h"
 
 namespace railcast {
 namespace {
@@ -68,7 +69,6 @@ std::string WeatherInWords(const Json& weather) {
 
 void DatasetReport::Add(const IndexedScenario& scenario) {
   const Json& record = scenario.record;
-  const auto number = record.at("scenario").get<std::uint64_t>();
   PerSplit& split = splits_[record.at("split").get<std::string>()];
   ++split.scenarios;
   frames_by_base_[record.at("base").get<std::string>()] += scenario.frames.size();
@@ -79,10 +79,15 @@ void DatasetReport::Add(const IndexedScenario& scenario) {
     }
   }
   ++weathers_[WeatherInWords(record.at("weather"))];
-  for (const IndexedFrame& frame : scenario.frames) AddFrame(frame, number, split);
+  std::set<std::pair<std::string, std::string>> objects;  // By type and name.
+  for (const IndexedFrame& frame : scenario.frames) {
+    AddFrame(frame, split);
+    for (const IndexedObject& object : frame.objects) objects.emplace(object.type, object.name);
+  }
+  for (const auto& [type, name] : objects) ++types_.at(type).objects;
 }
 
-void DatasetReport::AddFrame(const IndexedFrame& frame, std::uint64_t scenario, PerSplit& split) {
+void DatasetReport::AddFrame(const IndexedFrame& frame, PerSplit& split) {
   ++num_frames_;
   ++split.frames;
   const FrameCounts& counts = frame.record.counts;
@@ -91,22 +96,21 @@ void DatasetReport::AddFrame(const IndexedFrame& frame, std::uint64_t scenario, 
   for (const auto& [label, points] : counts.points_per_label) ++frames_with_label_[label];
   std::string hashes;
   for (const WrittenFile& file : frame.record.files) hashes += file.hash;
-  ++frames_by_hash_[hashes];
+  frame_hashes_.push_back(ContentHashNumber(hashes));
   if (counts.points == 0) ++frames_without_points_;
   bool has_object = false;
   for (const IndexedObject& object : frame.objects) {
-    AddObject(object, scenario);
+    AddObject(object);
     has_object = has_object || object.points > 0;
   }
   if (!has_object) ++frames_without_objects_;
 }
 
-void DatasetReport::AddObject(const IndexedObject& object, std::uint64_t scenario) {
+void DatasetReport::AddObject(const IndexedObject& object) {
   PerType& type = types_[object.type];
   ++type.in_frames;
   if (object.points > 0) ++type.with_points;
   type.points += object.points;
-  type.distinct.emplace(scenario, object.name);
   const std::size_t distance = BinOf(kDistances_m, object.distance_m);
   ++type.by_distance[distance];
   type.points_by_distance[distance] += object.points;
@@ -115,7 +119,17 @@ void DatasetReport::AddObject(const IndexedObject& object, std::uint64_t scenari
   ++type.by_occlusion[occlusion];
 }
 
-Json DatasetReport::Write() const {
+// Of frames with the same bytes, all but one.
+std::uint64_t DatasetReport::NumDuplicates() {
+  std::ranges::sort(frame_hashes_);
+  std::uint64_t num_duplicates = 0;
+  for (std::size_t i = 1; i < frame_hashes_.size(); ++i) {
+    if (frame_hashes_[i] == frame_hashes_[i - 1]) ++num_duplicates;
+  }
+  return num_duplicates;
+}
+
+Json DatasetReport::Write() {
   Json splits = Json::object();
   for (const auto& [name, split] : splits_) {
     splits[name] = {
@@ -129,7 +143,7 @@ Json DatasetReport::Write() const {
   }
   Json types = Json::object();
   for (const auto& [name, type] : types_) {
-    types[name] = {{"objects", type.distinct.size()},
+    types[name] = {{"objects", type.objects},
                    {"in_frames", type.in_frames},
                    {"with_points", type.with_points},
                    {"points", type.points},
@@ -140,8 +154,7 @@ Json DatasetReport::Write() const {
   Json report = {{"num_frames", num_frames_}, {"splits", std::move(splits)}};
   report["frames_without_points"] = frames_without_points_;
   report["frames_without_objects"] = frames_without_objects_;
-  // Of frames with the same bytes, all but one.
-  report["duplicate_frames"] = num_frames_ - frames_by_hash_.size();
+  report["duplicate_frames"] = NumDuplicates();
   PutCounts(counts_, report);
   report["labels"] = std::move(labels);
   report["objects"] = std::move(types);

@@ -3,9 +3,8 @@
 #include <array>
 #include <cstdint>
 #include <map>
-#include <set>
 #include <string>
-#include <unordered_map>
+#include <vector>
 
 #include "core/scenario/json_text.h"
 #include "generator/dataset/indexed_scenario.h"
@@ -19,7 +18,7 @@ class DatasetReport {
   void Add(const IndexedScenario& scenario);
 
   /// report.json.
-  [[nodiscard]] Json Write() const;
+  [[nodiscard]] Json Write();
 
  private:
   static constexpr std::size_t kNumDistances = 8;
@@ -32,16 +31,17 @@ class DatasetReport {
   };
   /// Of one type of object.
   struct PerType {
+    std::uint64_t objects{};
     std::uint64_t in_frames{};  ///< Objects, counted in each frame.
     std::uint64_t with_points{};
     std::uint64_t points{};
-    std::set<std::pair<std::uint64_t, std::string>> distinct;  ///< By scenario and name.
     std::array<std::uint64_t, kNumDistances> by_distance{};
     std::array<std::uint64_t, kNumDistances> points_by_distance{};
     std::array<std::uint64_t, kNumOcclusions> by_occlusion{};  ///< Last: not visible even alone.
   };
-  void AddFrame(const IndexedFrame& frame, std::uint64_t scenario, PerSplit& split);
-  void AddObject(const IndexedObject& object, std::uint64_t scenario);
+  void AddFrame(const IndexedFrame& frame, PerSplit& split);
+  void AddObject(const IndexedObject& object);
+  [[nodiscard]] std::uint64_t NumDuplicates();
 
   std::map<std::string, PerSplit> splits_;
   std::map<std::string, std::uint64_t> frames_by_base_;
@@ -51,7 +51,9 @@ class DatasetReport {
   FrameCounts counts_;
   std::map<std::string, std::uint64_t> frames_with_label_;
   std::map<std::string, PerType> types_;
-  std::unordered_map<std::string, std::uint64_t> frames_by_hash_;
+  /// One for each frame, of the hashes of its files: of 10 million frames, two that differ have the
+  /// same with a probability of 3e-6.
+  std::vector<std::uint64_t> frame_hashes_;
   std::uint64_t num_frames_ = 0;
   std::uint64_t frames_without_points_ = 0;
   std::uint64_t frames_without_objects_ = 0;

@@ -49,8 +49,8 @@ Json ObjectJson(const IndexedObject& object) {
 
 }  // namespace
 
-IndexedScenario ReadIndexedScenario(const std::filesystem::path& dataset, const std::string& line) {
-  IndexedScenario scenario{Json::parse(line), {}};
+IndexedScenario ReadIndexedScenario(const std::filesystem::path& dataset, Json record) {
+  IndexedScenario scenario{std::move(record), {}};
   const std::filesystem::path folder = dataset / scenario.record.at("folder").get<std::string>();
   std::istringstream frames(ReadFileWhole(folder / kFramesFile));
   std::istringstream objects(ReadFileWhole(folder / kObjectsFile));
@@ -60,11 +60,12 @@ IndexedScenario ReadIndexedScenario(const std::filesystem::path& dataset, const 
   std::string frame_line;
   std::string objects_line;
   for (std::size_t i = 0; std::getline(frames, frame_line); ++i) {
-    auto record = ParseFrameLine(frame_line);
-    if (!record || i >= s_m.size() || !std::getline(objects, objects_line)) {
+    auto frame_record = ParseFrameLine(frame_line);
+    if (!frame_record || i >= s_m.size() || !std::getline(objects, objects_line)) {
       throw InputError(place + ": is damaged at line " + std::to_string(i + 1));
     }
-    IndexedFrame frame{std::move(*record), s_m[i].get<double>(), speed_mps[i].get<double>(), {}};
+    IndexedFrame frame{
+        std::move(*frame_record), s_m[i].get<double>(), speed_mps[i].get<double>(), {}};
     ReadRecordedJson<StrictJson>(objects_line, ShownPath(folder / kObjectsFile),
                                  [&](const StrictJson& json) {
                                    for (const StrictJson& object : json.at("objects")) {

@@ -40,10 +40,10 @@ struct IndexedScenario {
 };
 
 /// Reads a scenario and the records of its sequence.
-/// @param line Of scenarios.jsonl.
+/// @param record Its line of scenarios.jsonl.
 /// @throws InputError if a file of the sequence cannot be read or is damaged.
 [[nodiscard]] IndexedScenario ReadIndexedScenario(const std::filesystem::path& dataset,
-                                                  const std::string& line);
+                                                  Json record);
 
 /// Lines of index.jsonl, one for each frame.
 [[nodiscard]] std::string IndexLines(const IndexedScenario& scenario);

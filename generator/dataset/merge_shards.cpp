@@ -15,6 +15,7 @@
 #include "core/io/write_file.h"
 #include "generator/dataset/dataset_directory.h"
 #include "generator/dataset/dataset_files.h"
+#include "generator/dataset/scenario_lines.h"
 
 namespace railcast {
 namespace {
@@ -24,7 +25,7 @@ namespace fs = std::filesystem;
 /// A shard that is to be merged.
 struct GivenShard {
   DatasetSpec spec;
-  std::vector<std::string> lines;
+  std::optional<ScenarioLines> lines;
 };
 
 GivenShard ReadShard(const fs::path& directory) {
@@ -53,13 +54,16 @@ GivenShard ReadShard(const fs::path& directory) {
   if (DatasetJson(given.spec).dump(2) + "\n" != text) {
     throw InputError(ShownPath(file) + ": is damaged: does not suit recipe.json");
   }
-  std::uint64_t size = 0;
-  given.lines = ScenarioLines(directory, given.spec.shard, size);
+  const std::uint32_t num_lines = ScenarioLines(directory, given.spec.shard).Skip();
   const std::uint32_t num_scenarios = given.spec.shard.NumOf(given.spec.num_scenarios);
-  if (given.lines.size() == num_scenarios) return given;
-  throw InputError(ShownPath(directory) + ": is unfinished, with " +
-                   std::to_string(given.lines.size()) + " of " + std::to_string(num_scenarios) +
-                   " scenarios; the command that began it continues");
+  if (num_lines != num_scenarios) {
+    throw InputError(ShownPath(directory) + ": is unfinished, with " + std::to_string(num_lines) +
+                     " of " + std::to_string(num_scenarios) +
+                     " scenarios; the command that began it continues");
+  }
+  given.lines.emplace(directory, given.spec.shard);
+  given.lines->Pause();
+  return given;
 }
 
 std::string WithoutShard(DatasetSpec spec) {
@@ -137,18 +141,24 @@ std::uint32_t MergeShards(
     const std::vector<fs::path>& directories,
     const fs::path& out,
     const std::function<void(std::uint32_t num_done, std::uint32_t num_scenarios)>& on_progress) {
-  const std::vector<GivenShard> shards = ReadShards(directories);
+  std::vector<GivenShard> shards = ReadShards(directories);
   DatasetSpec spec = shards.front().spec;
   spec.directory = out;
   spec.shard = {};
   const auto num_shards = static_cast<std::uint32_t>(shards.size());
   DatasetDirectory merged(spec);
   if (merged.is_complete()) return spec.num_scenarios;
+  for (auto& [shard, lines] : shards) {
+    static_cast<void>(lines->Skip(shard.shard.NumOf(merged.num_done())));
+    lines->Pause();
+  }
   while (merged.num_done() < spec.num_scenarios) {
     const std::uint32_t number = merged.num_done();
     on_progress(number, spec.num_scenarios);
-    const auto& [shard, lines] = shards[number % num_shards];
-    const Json line = Json::parse(lines[number / num_shards]);
+    auto& [shard, lines] = shards[number % num_shards];
+    const Json line = lines->Next().value();
+    // The system allows a thousand open files; there may be more shards.
+    lines->Pause();
     const std::string folder = line.at("folder");
     const fs::path manifest = shard.directory / folder / kManifestFile;
     if (ContentHash(ReadFileWhole(manifest)) != line.at("manifest_xxh3")) {

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
+#include "core/io/write_file.h"
+#include "tests/core/io/temporary_directory.h"
+
 namespace railcast {
 namespace {
 
@@ -13,6 +18,20 @@ TEST(ContentHash, IsXxh3) {
 TEST(ContentHash, DependsOnEveryByte) {
   EXPECT_NE(ContentHash("frame 0"), ContentHash("frame 1"));
   EXPECT_EQ(ContentHash("frame 0").size(), 16U);
+}
+
+// Files are read in blocks of 256 KiB.
+TEST(ContentHash, OfAFileIsThatOfItsBytes) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path file = directory.path() / "file";
+  for (const std::size_t size : {0UL, 1UL, (1UL << 18U) - 1, 1UL << 18U, (1UL << 19U) + 7}) {
+    std::string bytes(size, '\0');
+    for (std::size_t i = 0; i < size; ++i) bytes[i] = static_cast<char>(i * i % 251);
+    WriteFileWhole(file, bytes);
+    const FileHash hashed = HashFile(file);
+    EXPECT_EQ(hashed.hash, ContentHash(bytes)) << size;
+    EXPECT_EQ(hashed.num_bytes, size);
+  }
 }
 
 }  // namespace

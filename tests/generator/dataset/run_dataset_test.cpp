@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <atomic>
 #include <sstream>
 #include <string>
@@ -106,6 +107,27 @@ TEST_F(RunDatasetTest, MergedShardsHaveTheBytesOfOneRun) {
     const fs::path merged = Path("merged_" + std::to_string(num));
     EXPECT_EQ(MergeShards(shards, merged, NoProgress), 6U);
     EXPECT_EQ(FilesOfDataset(merged), FilesOfDataset(Path("whole")));
+  }
+}
+
+TEST_F(RunDatasetTest, MergingContinuesWhereItWasInterrupted) {
+  (void)MakeDataset(recipe_, Path("a"), {1, 2});
+  (void)MakeDataset(recipe_, Path("b"), {2, 2});
+  (void)MergeShards({Path("a"), Path("b")}, Path("merged"), NoProgress);
+  const auto whole = FilesOfDataset(Path("merged"));
+  const std::string& lines = whole.at("scenarios.jsonl");
+  std::size_t end = 0;
+  for (int i = 0; i < 3; ++i) {
+    end = lines.find('\n', end) + 1;
+    fs::remove(Path("merged/manifest.json"));
+    WriteFileWhole(Path("merged/scenarios.jsonl"), lines.substr(0, end + 10));
+    std::uint32_t first = 6;
+    const auto note_first = [&](std::uint32_t num_done, std::uint32_t /*num_scenarios*/) {
+      first = std::min(first, num_done);
+    };
+    (void)MergeShards({Path("a"), Path("b")}, Path("merged"), note_first);
+    EXPECT_EQ(first, static_cast<std::uint32_t>(i + 1));
+    EXPECT_EQ(FilesOfDataset(Path("merged")), whole);
   }
 }
 

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <optional>
+
+#include "core/io/shard.h"
+#include "core/scenario/json_text.h"
+
+namespace railcast {
+
+/// Reads the lines of scenarios.jsonl one after the other: millions need not fit into memory.
+class ScenarioLines {
+ public:
+  /// @param directory Of a data set or a shard; it may have no lines yet.
+  /// @throws InputError if the file cannot be read.
+  ScenarioLines(const std::filesystem::path& directory, const Shard& shard);
+
+  /// Returns the line of the shard's next scenario; nothing from the first line on that is another
+  /// or incomplete.
+  /// @throws InputError if the file cannot be read.
+  [[nodiscard]] std::optional<Json> Next();
+  /// Skips all further lines, or `most` of them.
+  /// @return How many there were.
+  std::uint32_t Skip(std::uint32_t most = std::numeric_limits<std::uint32_t>::max());
+  /// Closes the file until the next line is asked for.
+  void Pause() { stream_.reset(); }
+
+  /// Size of the lines that have been read, in bytes.
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+
+ private:
+  std::filesystem::path file_;
+  Shard shard_;
+  std::optional<std::ifstream> stream_;
+  std::uint32_t num_read_ = 0;
+  std::uint64_t size_ = 0;
+  bool is_over_ = false;
+};
+
+}  // namespace railcast
