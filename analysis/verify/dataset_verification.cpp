@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/verify/merged_verification.h"
 #include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/input_file.h"
@@ -17,6 +18,7 @@
 #include "core/io/recording/recorded_json.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/recording/sequence_summary.h"
+#include "core/io/sensor_folders.h"
 #include "core/io/sequence_files.h"
 #include "core/io/shard.h"
 #include "core/io/write_file.h"
@@ -34,11 +36,30 @@ struct DatasetContent {
 };
 
 /// What a line of scenarios.jsonl says of a sequence.
-struct ScenarioLine {
-  std::uint32_t scenario{};
+struct SequenceOfLine {
   std::string folder;
   std::string manifest_hash;
 };
+
+/// A line of scenarios.jsonl.
+struct ScenarioLine {
+  std::uint32_t scenario{};
+  std::vector<SequenceOfLine> sequences;
+  std::optional<std::string> sensors_hash;  ///< Of several sensors.
+};
+
+ScenarioLine ReadScenarioLine(const PlacedLine& line) {
+  return ReadRecordedJson<StrictJson>(line.text, line.place, [](const StrictJson& json) {
+    ScenarioLine read{json.at("scenario"), {}, {}};
+    for (const StrictJson& sequence : json.at("sequences")) {
+      read.sequences.push_back({sequence.at("folder"), sequence.at("manifest_xxh3")});
+    }
+    if (json.contains("sensors_xxh3")) {
+      read.sensors_hash = json.at("sensors_xxh3").get<std::string>();
+    }
+    return read;
+  });
+}
 
 DatasetContent ReadContent(const fs::path& directory) {
   const fs::path file = directory / kDatasetFile;
@@ -122,11 +143,7 @@ class DatasetVerifier {
     std::uint32_t num_lines = 0;
     for (; auto line = lines.Next(); ++num_lines) {
       on_progress_(static_cast<double>(num_lines) / static_cast<double>(num_own));
-      const auto scenario = Attempt("", faults_, [&] {
-        return ReadRecordedJson<StrictJson>(line->text, line->place, [](const StrictJson& json) {
-          return ScenarioLine{json.at("scenario"), json.at("folder"), json.at("manifest_xxh3")};
-        });
-      });
+      const auto scenario = Attempt("", faults_, [&] { return ReadScenarioLine(*line); });
       if (scenario) CheckScenario(*scenario, num_lines, line->place);
     }
     if (num_lines == num_own) return;
@@ -136,23 +153,43 @@ class DatasetVerifier {
 
   void CheckScenario(const ScenarioLine& line, std::uint32_t index, const std::string& place) {
     const std::uint32_t expected = content_.shard.ScenarioAt(index);
-    if (line.scenario != expected || line.folder != SequenceFolderOf(expected)) {
-      faults_.Add({place,
-                   "must be the line of scenario " + NumberText(expected) + " in " +
-                       SequenceFolderOf(expected),
-                   ShownText(line.folder)});
-      return;
+    const std::string folder = SequenceFolderOf(expected);
+    const auto fail = [&](const std::string& got) {
+      faults_.Add({place, "must be the line of scenario " + NumberText(expected) + " in " + folder,
+                   ShownText(got)});
+    };
+    if (line.scenario != expected) return fail(NumberText(line.scenario));
+    for (const SequenceOfLine& sequence : line.sequences) {
+      const bool is_in_place =
+          line.sensors_hash ? sequence.folder.starts_with(folder + "/") : sequence.folder == folder;
+      if (!is_in_place) return fail(sequence.folder);
     }
-    sequences_.insert(line.folder);
-    const std::string manifest = line.folder + "/" + std::string(kManifestFile);
-    if (IsThere(directory_ / manifest)) CheckHash(manifest, line.manifest_hash, kScenariosFile);
+    for (const SequenceOfLine& sequence : line.sequences) CheckSequence(sequence);
+    if (!line.sensors_hash) return;
+    CheckHash(folder + "/" + std::string(kSensorsFile), *line.sensors_hash, kScenariosFile);
     Try([&] {
-      const Verification found = VerifySequence(directory_ / line.folder, [](double) {});
-      for (const std::string& fault : found.faults) faults_.AddLine(fault);
-      result_.num_frames += found.num_frames;
-      result_.num_files += found.num_files;
-      result_.num_bytes += found.num_bytes;
+      const auto merged = MergedFolderIn(directory_ / folder);
+      if (!merged) return;
+      sequences_.insert(merged->folder.lexically_relative(directory_).generic_string());
+      Add(VerifyMerged(*merged, [](double) {}), 0);
     });
+  }
+
+  void CheckSequence(const SequenceOfLine& sequence) {
+    sequences_.insert(sequence.folder);
+    const std::string manifest = sequence.folder + "/" + std::string(kManifestFile);
+    if (IsThere(directory_ / manifest)) CheckHash(manifest, sequence.manifest_hash, kScenariosFile);
+    Try([&] {
+      const Verification found = VerifySequence(directory_ / sequence.folder, [](double) {});
+      Add(found, found.num_frames);
+    });
+  }
+
+  void Add(const Verification& found, std::uint64_t num_frames) {
+    for (const std::string& fault : found.faults) faults_.AddLine(fault);
+    result_.num_frames += num_frames;
+    result_.num_files += found.num_files;
+    result_.num_bytes += found.num_bytes;
   }
 
   // Files of sequences have been looked at with these.

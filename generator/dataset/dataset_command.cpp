@@ -126,6 +126,9 @@ void AddDataset(CLI::App& app, ProgramCommand& command) {
       ->add_option("--fields", options->choices.fields,
                    "Fields to write, separated by commas, or all")
       ->capture_default_str();
+  dataset->add_flag("--merged", options->choices.is_merged,
+                    "Also write the clouds of all sensors together, in the vehicle's axes, with "
+                    "the field sensor_index");
   dataset->add_option("--threads", options->choices.num_threads, "Number of threads; 0 = all cores")
       ->transform(Whole({0, 1024}))
       ->capture_default_str();

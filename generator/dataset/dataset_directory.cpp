@@ -46,7 +46,8 @@ Json DatasetJson(const DatasetSpec& spec) {
                {"bases_xxh3", spec.base_hashes},
                {"num_scenarios", spec.num_scenarios},
                {"format", spec.format},
-               {"fields", spec.fields}};
+               {"fields", spec.fields},
+               {"merged", spec.is_merged}};
   if (!spec.shard.is_whole()) {
     json["shard"] = ShardText(spec.shard);
   }

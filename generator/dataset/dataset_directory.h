@@ -24,6 +24,7 @@ struct DatasetSpec {
   std::uint32_t num_scenarios{};
   std::string format;
   std::string fields;
+  bool is_merged{};  ///< Whether the clouds of several sensors are merged, too.
   Shard shard;
 };
 

@@ -95,12 +95,18 @@ void WriteDatasetFiles(const DatasetSpec& spec) {
     const IndexedScenario scenario = ReadIndexedScenario(directory, std::move(*line));
     const Json& record = scenario.record;
     const auto split = ValueNamed<Split>(record.at("split").get<std::string>()).value();
-    splits.at(static_cast<std::size_t>(split))
-        .Append(record.at("folder").get<std::string>() + "\n");
+    for (const IndexedSequence& sequence : scenario.sequences) {
+      const Json& of_sensor = sequence.record;
+      splits.at(static_cast<std::size_t>(split))
+          .Append(of_sensor.at("folder").get<std::string>() + "\n");
+      hashes += of_sensor.at("data_xxh3").get_ref<const std::string&>();
+    }
+    if (record.contains("sensors_xxh3")) {
+      hashes += record.at("sensors_xxh3").get_ref<const std::string&>();
+    }
     index.Append(IndexLines(scenario));
     database.Add(scenario);
     report.Add(scenario);
-    hashes += record.at("data_xxh3").get_ref<const std::string&>();
     ++num_scenarios;
   }
   Check(num_scenarios == spec.num_scenarios, "all scenarios are done");

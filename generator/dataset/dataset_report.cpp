@@ -71,8 +71,6 @@ void DatasetReport::Add(const IndexedScenario& scenario) {
   const Json& record = scenario.record;
   PerSplit& split = splits_[record.at("split").get<std::string>()];
   ++split.scenarios;
-  frames_by_base_[record.at("base").get<std::string>()] += scenario.frames.size();
-  frames_by_sensor_[record.at("sensor").get<std::string>()] += scenario.frames.size();
   for (const auto& [name, value] : record.at("drawn").items()) {
     if (value.is_string() || value.is_boolean()) {
       ++drawn_[name][value.is_string() ? value.get<std::string>() : value.dump()];
@@ -80,9 +78,14 @@ void DatasetReport::Add(const IndexedScenario& scenario) {
   }
   ++weathers_[WeatherInWords(record.at("weather"))];
   std::set<std::pair<std::string, std::string>> objects;  // By type and name.
-  for (const IndexedFrame& frame : scenario.frames) {
-    AddFrame(frame, split);
-    for (const IndexedObject& object : frame.objects) objects.emplace(object.type, object.name);
+  for (const IndexedSequence& sequence : scenario.sequences) {
+    const std::size_t num_frames = sequence.frames.size();
+    frames_by_base_[record.at("base").get<std::string>()] += num_frames;
+    frames_by_sensor_[sequence.record.at("sensor").get<std::string>()] += num_frames;
+    for (const IndexedFrame& frame : sequence.frames) {
+      AddFrame(frame, split);
+      for (const IndexedObject& object : frame.objects) objects.emplace(object.type, object.name);
+    }
   }
   for (const auto& [type, name] : objects) ++types_.at(type).objects;
 }

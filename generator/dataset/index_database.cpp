@@ -18,11 +18,14 @@ namespace {
 
 constexpr const char* kTables = R"(
 CREATE TABLE scenarios (
-  scenario INTEGER PRIMARY KEY, base TEXT, split TEXT, line TEXT, folder TEXT, start_s_m REAL,
-  num_frames INTEGER, points INTEGER, drawn TEXT, placed TEXT, weather TEXT);
+  scenario INTEGER PRIMARY KEY, base TEXT, split TEXT, line TEXT, start_s_m REAL, drawn TEXT,
+  placed TEXT, weather TEXT);
+CREATE TABLE sequences (
+  id INTEGER PRIMARY KEY, scenario INTEGER REFERENCES scenarios, sensor TEXT, folder TEXT,
+  num_frames INTEGER, points INTEGER);
 CREATE TABLE frames (
-  id INTEGER PRIMARY KEY, scenario INTEGER REFERENCES scenarios, frame INTEGER, stamp_ns INTEGER,
-  vehicle_s_m REAL, vehicle_speed_mps REAL, points INTEGER);
+  id INTEGER PRIMARY KEY, sequence_id INTEGER REFERENCES sequences, frame INTEGER,
+  stamp_ns INTEGER, vehicle_s_m REAL, vehicle_speed_mps REAL, points INTEGER);
 CREATE TABLE files (frame_id INTEGER REFERENCES frames, name TEXT, bytes INTEGER, xxh3 TEXT);
 CREATE TABLE objects (
   frame_id INTEGER REFERENCES frames, name TEXT, type TEXT, label TEXT, instance INTEGER,
@@ -31,7 +34,8 @@ CREATE TABLE labels (frame_id INTEGER REFERENCES frames, label TEXT, points INTE
 )";
 
 constexpr const char* kIndices = R"(
-CREATE INDEX frames_by_scenario ON frames (scenario);
+CREATE INDEX sequences_by_scenario ON sequences (scenario);
+CREATE INDEX frames_by_sequence ON frames (sequence_id);
 CREATE INDEX files_by_frame ON files (frame_id);
 CREATE INDEX objects_by_frame ON objects (frame_id);
 CREATE INDEX objects_by_type ON objects (type);
@@ -96,15 +100,22 @@ IndexDatabase::IndexDatabase(std::filesystem::path file)
   Run("PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF;");
   Run("BEGIN;");
   Run(kTables);
-  scenarios_ = std::make_unique<Insert>(database_, "scenarios", 11);
+  scenarios_ = std::make_unique<Insert>(database_, "scenarios", 8);
+  sequences_ = std::make_unique<Insert>(database_, "sequences", 6);
   frames_ = std::make_unique<Insert>(database_, "frames", 7);
   files_ = std::make_unique<Insert>(database_, "files", 4);
   objects_ = std::make_unique<Insert>(database_, "objects", 10);
   labels_ = std::make_unique<Insert>(database_, "labels", 3);
 }
 
+void IndexDatabase::ForgetInserts() {
+  for (auto* const insert : {&scenarios_, &sequences_, &frames_, &files_, &objects_, &labels_}) {
+    insert->reset();
+  }
+}
+
 IndexDatabase::~IndexDatabase() {
-  for (auto* const insert : {&scenarios_, &frames_, &files_, &objects_, &labels_}) insert->reset();
+  ForgetInserts();
   sqlite3_close(database_);
 }
 
@@ -116,19 +127,27 @@ void IndexDatabase::Run(const std::string& sql) {
 void IndexDatabase::Add(const IndexedScenario& scenario) {
   const Json& record = scenario.record;
   const auto text = [&](const char* key) { return record.at(key).get<std::string>(); };
-  const auto whole = [&](const char* key) { return record.at(key).get<std::int64_t>(); };
-  const std::int64_t number = whole("scenario");
-  (*scenarios_)(number, text("base"), text("split"), text("line"), text("folder"),
-                record.at("start_s_m").get<double>(), whole("num_frames"), whole("points"),
-                record.at("drawn").dump(), record.at("placed").dump(), record.at("weather").dump());
-  for (const IndexedFrame& frame : scenario.frames) AddFrame(number, frame);
+  const auto number = record.at("scenario").get<std::int64_t>();
+  (*scenarios_)(number, text("base"), text("split"), text("line"),
+                record.at("start_s_m").get<double>(), record.at("drawn").dump(),
+                record.at("placed").dump(), record.at("weather").dump());
+  for (const IndexedSequence& sequence : scenario.sequences) AddSequence(number, sequence);
 }
 
-void IndexDatabase::AddFrame(std::int64_t scenario, const IndexedFrame& frame) {
+void IndexDatabase::AddSequence(std::int64_t scenario, const IndexedSequence& sequence) {
+  const std::int64_t id = num_sequences_++;
+  const Json& record = sequence.record;
+  (*sequences_)(id, scenario, record.at("sensor").get<std::string>(),
+                record.at("folder").get<std::string>(), record.at("num_frames").get<std::int64_t>(),
+                record.at("points").get<std::int64_t>());
+  for (const IndexedFrame& frame : sequence.frames) AddFrame(id, frame);
+}
+
+void IndexDatabase::AddFrame(std::int64_t sequence, const IndexedFrame& frame) {
   const auto whole = [](auto number) { return static_cast<std::int64_t>(number); };
   const std::int64_t id = num_frames_++;
   const FrameRecord& record = frame.record;
-  (*frames_)(id, scenario, whole(record.frame), record.stamp_ns, frame.vehicle_s_m,
+  (*frames_)(id, sequence, whole(record.frame), record.stamp_ns, frame.vehicle_s_m,
              frame.vehicle_speed_mps, whole(record.counts.points));
   for (const WrittenFile& file : record.files)
     (*files_)(id, file.name, whole(file.size), file.hash);
@@ -145,7 +164,7 @@ void IndexDatabase::AddFrame(std::int64_t scenario, const IndexedFrame& frame) {
 void IndexDatabase::Finish() {
   Run(kIndices);
   Run("COMMIT;");
-  for (auto* const insert : {&scenarios_, &frames_, &files_, &objects_, &labels_}) insert->reset();
+  ForgetInserts();
   const int status = sqlite3_close(std::exchange(database_, nullptr));
   Check(status == SQLITE_OK, "nothing of the index is in use any more");
   const int descriptor = ::open(unfinished_.c_str(), O_RDONLY | O_CLOEXEC);

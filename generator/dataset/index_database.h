@@ -28,13 +28,17 @@ class IndexDatabase {
  private:
   class Insert;
   void Run(const std::string& sql);
-  void AddFrame(std::int64_t scenario, const IndexedFrame& frame);
+  void ForgetInserts();
+  void AddSequence(std::int64_t scenario, const IndexedSequence& sequence);
+  void AddFrame(std::int64_t sequence, const IndexedFrame& frame);
 
   std::filesystem::path file_;
   std::filesystem::path unfinished_;
   sqlite3* database_ = nullptr;
+  std::int64_t num_sequences_ = 0;
   std::int64_t num_frames_ = 0;
   std::unique_ptr<Insert> scenarios_;
+  std::unique_ptr<Insert> sequences_;
   std::unique_ptr<Insert> frames_;
   std::unique_ptr<Insert> files_;
   std::unique_ptr<Insert> objects_;

@@ -47,15 +47,13 @@ Json ObjectJson(const IndexedObject& object) {
   return json;
 }
 
-}  // namespace
-
-IndexedScenario ReadIndexedScenario(const std::filesystem::path& dataset, Json record) {
-  IndexedScenario scenario{std::move(record), {}};
-  const std::filesystem::path folder = dataset / scenario.record.at("folder").get<std::string>();
+IndexedSequence ReadIndexedSequence(const std::filesystem::path& dataset, const Json& record) {
+  IndexedSequence sequence{record, {}};
+  const std::filesystem::path folder = dataset / record.at("folder").get<std::string>();
   std::istringstream frames(ReadFileWhole(folder / kFramesFile));
   std::istringstream objects(ReadFileWhole(folder / kObjectsFile));
-  const Json& s_m = scenario.record.at("vehicle_s_m");
-  const Json& speed_mps = scenario.record.at("vehicle_speed_mps");
+  const Json& s_m = record.at("vehicle_s_m");
+  const Json& speed_mps = record.at("vehicle_speed_mps");
   const std::string place = ShownPath(folder / kFramesFile);
   std::string frame_line;
   std::string objects_line;
@@ -73,32 +71,52 @@ IndexedScenario ReadIndexedScenario(const std::filesystem::path& dataset, Json r
                                    }
                                    return true;
                                  });
-    scenario.frames.push_back(std::move(frame));
+    sequence.frames.push_back(std::move(frame));
   }
-  if (scenario.frames.size() == s_m.size()) return scenario;
+  if (sequence.frames.size() == s_m.size()) return sequence;
   throw InputError(place + ": must have a line for each of " + NumberText(s_m.size()) +
-                   " frames (got " + NumberText(scenario.frames.size()) + ")");
+                   " frames (got " + NumberText(sequence.frames.size()) + ")");
+}
+
+std::string IndexLine(const Json& scenario, const Json& sequence, const IndexedFrame& frame) {
+  Json files = Json::array();
+  for (const WrittenFile& file : frame.record.files) files.push_back(file.name);
+  Json objects = Json::array();
+  for (const IndexedObject& object : frame.objects) objects.push_back(ObjectJson(object));
+  Json line = {{"scenario", scenario.at("scenario")},
+               {"sensor", sequence.at("sensor")},
+               {"frame", frame.record.frame},
+               {"split", scenario.at("split")},
+               {"folder", sequence.at("folder")},
+               {"files", std::move(files)},
+               {"stamp_ns", frame.record.stamp_ns},
+               {"base", scenario.at("base")},
+               {"line", scenario.at("line")},
+               {"vehicle_s_m", frame.vehicle_s_m},
+               {"vehicle_speed_mps", frame.vehicle_speed_mps}};
+  PutCounts(frame.record.counts, line);
+  line["objects"] = std::move(objects);
+  line["drawn"] = scenario.at("drawn");
+  line["weather"] = scenario.at("weather");
+  return line.dump() + "\n";
+}
+
+}  // namespace
+
+IndexedScenario ReadIndexedScenario(const std::filesystem::path& dataset, Json record) {
+  IndexedScenario scenario{std::move(record), {}};
+  for (const Json& sequence : scenario.record.at("sequences")) {
+    scenario.sequences.push_back(ReadIndexedSequence(dataset, sequence));
+  }
+  return scenario;
 }
 
 std::string IndexLines(const IndexedScenario& scenario) {
-  const Json& record = scenario.record;
   std::string lines;
-  for (const IndexedFrame& frame : scenario.frames) {
-    Json files = Json::array();
-    for (const WrittenFile& file : frame.record.files) files.push_back(file.name);
-    Json objects = Json::array();
-    for (const IndexedObject& object : frame.objects) objects.push_back(ObjectJson(object));
-    Json line = {
-        {"scenario", record.at("scenario")}, {"frame", frame.record.frame},
-        {"split", record.at("split")},       {"folder", record.at("folder")},
-        {"files", std::move(files)},         {"stamp_ns", frame.record.stamp_ns},
-        {"base", record.at("base")},         {"line", record.at("line")},
-        {"vehicle_s_m", frame.vehicle_s_m},  {"vehicle_speed_mps", frame.vehicle_speed_mps}};
-    PutCounts(frame.record.counts, line);
-    line["objects"] = std::move(objects);
-    line["drawn"] = record.at("drawn");
-    line["weather"] = record.at("weather");
-    lines += line.dump() + "\n";
+  for (const IndexedSequence& sequence : scenario.sequences) {
+    for (const IndexedFrame& frame : sequence.frames) {
+      lines += IndexLine(scenario.record, sequence.record, frame);
+    }
   }
   return lines;
 }

@@ -33,13 +33,19 @@ struct IndexedFrame {
   std::vector<IndexedObject> objects;
 };
 
-/// A scenario's line of scenarios.jsonl and its frames.
-struct IndexedScenario {
-  Json record;
+/// The sequence of one of a scenario's sensors.
+struct IndexedSequence {
+  Json record;  ///< Its part of the scenario's line.
   std::vector<IndexedFrame> frames;
 };
 
-/// Reads a scenario and the records of its sequence.
+/// A scenario's line of scenarios.jsonl and its sequences.
+struct IndexedScenario {
+  Json record;
+  std::vector<IndexedSequence> sequences;
+};
+
+/// Reads a scenario and the records of its sequences.
 /// @param record Its line of scenarios.jsonl.
 /// @throws InputError if a file of the sequence cannot be read or is damaged.
 [[nodiscard]] IndexedScenario ReadIndexedScenario(const std::filesystem::path& dataset,

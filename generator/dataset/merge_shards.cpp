@@ -11,6 +11,7 @@
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
 #include "core/io/dataset_files.h"
+#include "core/io/sensor_folders.h"
 #include "core/io/sequence_files.h"
 #include "core/io/write_file.h"
 #include "generator/dataset/dataset_directory.h"
@@ -43,6 +44,7 @@ GivenShard ReadShard(const fs::path& directory) {
                   .num_scenarios = json.at("num_scenarios"),
                   .format = json.at("format"),
                   .fields = json.at("fields"),
+                  .is_merged = json.at("merged"),
                   .shard = {}};
     // A whole data set is the only shard of itself.
     if (json.contains("shard")) {
@@ -120,7 +122,12 @@ void PutFile(const fs::path& from, const fs::path& to) {
   WriteFileWhole(to, ReadFileWhole(from));
 }
 
-void PutSequence(const fs::path& from, const fs::path& to) {
+void CheckHash(const fs::path& file, const std::string& hash) {
+  if (ContentHash(ReadFileWhole(file)) == hash) return;
+  throw InputError(ShownPath(file) + ": must have the hash " + hash + ", as scenarios.jsonl says");
+}
+
+void PutScenario(const fs::path& from, const fs::path& to) {
   fs::create_directories(to);
   std::error_code error;
   fs::recursive_directory_iterator entry(from, error);
@@ -159,13 +166,16 @@ std::uint32_t MergeShards(
     const Json line = lines->Next().value();
     // The system allows a thousand open files; there may be more shards.
     lines->Pause();
-    const std::string folder = line.at("folder");
-    const fs::path manifest = shard.directory / folder / kManifestFile;
-    if (ContentHash(ReadFileWhole(manifest)) != line.at("manifest_xxh3")) {
-      throw InputError(ShownPath(manifest) + ": must have the hash " +
-                       line.at("manifest_xxh3").get<std::string>() + ", as scenarios.jsonl says");
+    for (const Json& sequence : line.at("sequences")) {
+      const std::string manifest = sequence.at("folder").get<std::string>() + "/";
+      CheckHash(shard.directory / (manifest + std::string(kManifestFile)),
+                sequence.at("manifest_xxh3"));
     }
-    PutSequence(shard.directory / folder, out / folder);
+    const std::string folder = SequenceFolderOf(number);
+    if (line.contains("sensors_xxh3")) {
+      CheckHash(shard.directory / folder / kSensorsFile, line.at("sensors_xxh3"));
+    }
+    PutScenario(shard.directory / folder, out / folder);
     merged.Append(line);
   }
   merged.Sync();

@@ -2,14 +2,18 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
 #include "core/io/dataset_files.h"
+#include "core/io/merged_files.h"
 #include "core/io/scenario_identity.h"
+#include "core/io/sensor_folders.h"
 #include "core/io/sequence_files.h"
 #include "core/io/write_file.h"
 #include "core/program/version.h"
@@ -18,7 +22,10 @@
 #include "generator/run/commanded_run.h"
 #include "generator/run/stoppable_work.h"
 #include "generator/sequence/make_sequences.h"
+#include "generator/sequence/merged_sequence.h"
 #include "generator/sequence/scenario_sequence.h"
+#include "generator/sequence/sensor_runs.h"
+#include "railcast/rail_world.h"
 #include "railcast/simulator.h"
 
 namespace railcast {
@@ -36,6 +43,7 @@ DatasetSpec SpecOfDataset(const Recipe& recipe,
                    .num_scenarios = recipe.num_scenarios,
                    .format = choices.format,
                    .fields = choices.fields,
+                   .is_merged = choices.is_merged,
                    .shard = choices.shard};
   for (std::size_t i = 0; i < recipe.bases.size(); ++i) spec.base_hashes.push_back(bases.hash(i));
   return spec;
@@ -51,6 +59,14 @@ SequenceChoices ChoicesOfScenario(const Recipe& recipe,
           .start_frame = recipe.warm_up_frames,
           .num_frames = recipe.num_frames,
           .stride = recipe.stride};
+}
+
+using Simulators = std::vector<std::unique_ptr<Simulator>>;
+
+std::vector<Simulator*> PointersTo(const Simulators& simulators) {
+  std::vector<Simulator*> pointers;
+  for (const auto& simulator : simulators) pointers.push_back(simulator.get());
+  return pointers;
 }
 
 /// Makes the sequences of a shard.
@@ -92,39 +108,97 @@ class DatasetRun {
     DrawnScenario drawn = drawer_.Draw(number);
     CheckOutputSuits(choices_.format, drawn.scenario,
                      ShownPath(recipe_.file) + ": scenario " + std::to_string(number));
-    SequenceSpec spec =
-        SequenceSpecOf(drawn.scenario, ChoicesOfScenario(recipe_, choices_, number));
-    SensorRun sensor = {drawn.scenario.lidar.name, std::move(drawn.scenario), std::move(spec)};
-    const SequenceResult made = MakeSequence(sensor);
-    result_.num_frames += made.num_done - made.num_resumed;
-    if (!made.is_complete) return false;
-    Json& record = drawn.record;
-    const std::string manifest = ReadFileWhole(sensor.spec.directory / kManifestFile);
-    record["folder"] = SequenceFolderOf(number);
-    record["num_frames"] = made.num_done;
-    record["points"] = made.counts.points;
-    record["scenario_xxh3"] = sensor.spec.identity.scenario_hash;
-    record["data_xxh3"] = Json::parse(manifest).at("data_xxh3");
-    record["manifest_xxh3"] = ContentHash(manifest);
-    directory_.Append(record);
+    const SequenceChoices choices = ChoicesOfScenario(recipe_, choices_, number);
+    std::vector<SensorRun> sensors;
+    if (drawn.scenario.lidars.empty()) {
+      SequenceSpec spec = SequenceSpecOf(drawn.scenario, choices);
+      sensors.push_back({drawn.scenario.lidar.name, drawn.scenario, std::move(spec)});
+    } else {
+      sensors = AtPlace(ShownPath(recipe_.file) + ": /",
+                        [&] { return SensorRunsOf(drawn.scenario, choices); });
+    }
+    const auto simulators =
+        MakeSimulators(drawn.scenario, choices_.num_threads, sensors.front().spec.isa);
+    CommandedRun run(drawn.scenario, PointersTo(simulators));
+    if (!Prepare(simulators, sensors) || !MakeFrames(run, simulators, sensors)) return false;
+    if (sensors.size() > 1) {
+      std::optional<std::filesystem::path> merged;
+      if (choices_.is_merged) merged = choices.directory / kMergedFolder;
+      const std::string text = SensorsJson(sensors, merged);
+      WriteFileWhole(choices.directory / kSensorsFile, text);
+      drawn.record["sensors_xxh3"] = ContentHash(text);
+    }
+    drawn.record["sequences"] = Json::array();
+    for (std::size_t i = 0; i < sensors.size(); ++i) {
+      drawn.record["sequences"].push_back(RecordOf(run, simulators[i]->pattern(), sensors[i]));
+    }
+    directory_.Append(drawn.record);
     return true;
   }
 
-  [[nodiscard]] SequenceResult MakeSequence(SensorRun& sensor) {
-    const auto simulators = MakeSimulators(sensor.scenario, choices_.num_threads, sensor.spec.isa);
-    Simulator& simulator = *simulators.front();
-    CheckSameFiles(sensor.scenario, sensor.spec.identity);
-    WatchBuilding(simulator, hooks_.is_stopped, true);
-    if (sensor.scenario.fidelity == Fidelity::kAuto) {
+  // Chooses frames and rungs. Returns whether frames can be made; not if the run was stopped.
+  [[nodiscard]] bool Prepare(const Simulators& simulators, std::vector<SensorRun>& sensors) const {
+    for (std::size_t i = 0; i < sensors.size(); ++i) {
+      if (i > 0) {
+        SetFrames(sensors.front().spec, simulators.front()->pattern(), simulators[i]->pattern(),
+                  sensors[i]);
+      }
+      CheckSameFiles(sensors[i].scenario, sensors[i].spec.identity);
+      WatchBuilding(*simulators[i], hooks_.is_stopped, true);
+      if (sensors[i].scenario.fidelity != Fidelity::kAuto) continue;
       try {
-        static_cast<void>(ChooseFidelity(simulator, sensor));
+        static_cast<void>(ChooseFidelity(*simulators[i], sensors[i]));
       } catch (const RunStopped&) {
-        return {};
+        return false;
       }
     }
-    CommandedRun run(sensor.scenario, {&simulator});
+    if (choices_.is_merged) CheckCanMerge(MergedSensorsOf(simulators, sensors));
+    return true;
+  }
+
+  // Makes the frames of all sensors and merges them. Returns whether all are there.
+  [[nodiscard]] bool MakeFrames(CommandedRun& run,
+                                const Simulators& simulators,
+                                const std::vector<SensorRun>& sensors) {
     const SequenceHooks hooks = {[](std::uint32_t, std::uint32_t) {}, hooks_.is_stopped};
-    return MakeSequences(run, simulators, {&sensor, 1}, false, hooks).front();
+    bool is_complete = true;
+    for (const SequenceResult& made : MakeSequences(run, simulators, sensors, false, hooks)) {
+      result_.num_frames += made.num_done - made.num_resumed;
+      is_complete = is_complete && made.is_complete;
+    }
+    if (!is_complete || !choices_.is_merged) return is_complete;
+    simulators.front()->Execute([&] {
+      is_complete = WriteMergedClouds(
+          sensors.front().spec.directory.parent_path(), MergedSensorsOf(simulators, sensors),
+          [](double) {}, hooks_.is_stopped);
+    });
+    return is_complete;
+  }
+
+  // What scenarios.jsonl says of a sequence.
+  [[nodiscard]] Json RecordOf(const CommandedRun& run,
+                              const ScanPattern& pattern,
+                              const SensorRun& sensor) const {
+    const SequenceSpec& spec = sensor.spec;
+    const std::string text = ReadFileWhole(spec.directory / kManifestFile);
+    const Json manifest = Json::parse(text);
+    Json s_m = Json::array();
+    Json speed_mps = Json::array();
+    for (std::uint32_t i = 0; i < spec.num_frames; ++i) {
+      const std::int64_t stamp_ns = pattern.StampNs(spec.FrameAt(i));
+      const RailWorld& world = *run.StateAt(stamp_ns).world;
+      s_m.push_back(world.VehicleChainage_m(stamp_ns));
+      speed_mps.push_back(world.VehicleSpeed_mps(stamp_ns));
+    }
+    return {{"sensor", sensor.name},
+            {"folder", spec.directory.lexically_relative(choices_.directory).generic_string()},
+            {"num_frames", spec.num_frames},
+            {"points", manifest.at("points")},
+            {"scenario_xxh3", spec.identity.scenario_hash},
+            {"data_xxh3", manifest.at("data_xxh3")},
+            {"manifest_xxh3", ContentHash(text)},
+            {"vehicle_s_m", std::move(s_m)},
+            {"vehicle_speed_mps", std::move(speed_mps)}};
   }
 
   const Recipe& recipe_;

@@ -16,8 +16,9 @@ struct DatasetChoices {
   std::filesystem::path directory;
   std::string format = "pcd";
   std::string fields = "all";
-  std::string isa;      ///< Of the trace; empty = the machine's best.
-  int num_threads = 0;  ///< 0 = all cores.
+  bool is_merged = false;  ///< Whether the clouds of several sensors are merged, too.
+  std::string isa;         ///< Of the trace; empty = the machine's best.
+  int num_threads = 0;     ///< 0 = all cores.
   Shard shard;
 };
 

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/scenario/sensors.h"
 #include "core/scenario/track_limits.h"
 #include "core/scenario/vehicle_clearance.h"
 #include "generator/dataset/dataset_split.h"
@@ -63,9 +65,7 @@ class OneDraw {
         {"start_s_m", scenario.vehicle.start_s_m},
         {"drawn", std::move(drawn)},
         {"placed", placed},
-        {"sensor", scenario.lidar.name},
         {"weather", resolved.at("weather")}};
-    AddVehicle(result.record);
     return result;
   }
 
@@ -91,7 +91,9 @@ class OneDraw {
     if (!is_given) draft_.Set("/seed", draws_.Seed("seed") & kMostSeed, "/seed");
   }
 
+  // Without a choice, frames are made of all sensors.
   [[nodiscard]] ScenarioSpec PickIn(const ScenarioSpec& scenario) const {
+    if (!recipe_.sensor && scenario.lidars.size() > 1) return scenario;
     return AtPlace(ShownPath(recipe_.file.lexically_normal()) + ": /",
                    [&] { return PickSensor(scenario, recipe_.sensor); });
   }
@@ -145,15 +147,23 @@ class OneDraw {
   // @throws InputError if the vehicle cannot run from there.
   std::string TryStart() {
     const ScenarioSpec scenario = PickIn(draft_.Read());
-    const ScanPattern pattern = BuildScanPattern(scenario.lidar.scan);
+    const std::vector<SensorPlace> sensors = SensorsOf(scenario);
+    const ScanPattern pattern = BuildScanPattern(sensors.front().lidar.scan);
     stamps_ = StampsOf(recipe_, pattern);
     draft_.Located([&] {
       world_ = MakeWorld(scenario);
       CheckStaysOnTracks(scenario, *world_, pattern, 0, recipe_.last_frame());
       CheckVehicleIsClear(scenario, *world_, pattern, 0, recipe_.last_frame());
+      for (const SensorPlace& other : std::span(sensors).subspan(1)) {
+        CheckOther(scenario, pattern, BuildScanPattern(other.lidar.scan), other.pointer);
+      }
     });
     line_hash_ = LineHash(Json::parse(ResolvedScenarioJson(scenario)));
-    const double sight_m = recipe_.split.sight_m.value_or(scenario.lidar.range_max_m);
+    double range_max_m = 0.0;
+    for (const SensorPlace& sensor : sensors) {
+      range_max_m = std::max(range_max_m, sensor.lidar.range_max_m);
+    }
+    const double sight_m = recipe_.split.sight_m.value_or(range_max_m);
     const auto [least, most] = std::ranges::minmax(VehicleChainages());
     seen_ = {least - sight_m, most + sight_m};
     switch (recipe_.split.by) {
@@ -180,16 +190,19 @@ class OneDraw {
     return chainages_m;
   }
 
-  void AddVehicle(Json& record) const {
-    Json s_m = Json::array();
-    Json speed_mps = Json::array();
-    const std::size_t first = recipe_.warm_up_frames > 0 ? 1 : 0;
-    for (std::size_t i = first; i < stamps_.stamps_ns.size(); ++i) {
-      s_m.push_back(world_->VehicleChainage_m(stamps_.stamps_ns[i]));
-      speed_mps.push_back(world_->VehicleSpeed_mps(stamps_.stamps_ns[i]));
+  // Checks the frames of another sensor, which begin while those of the first one last.
+  void CheckOther(const ScenarioSpec& scenario,
+                  const ScanPattern& first,
+                  const ScanPattern& pattern,
+                  const std::string& pointer) const {
+    const std::int64_t begin_ns = first.StampNs(recipe_.warm_up_frames);
+    const std::int64_t end_ns = first.StampNs(recipe_.last_frame() + 1);
+    const std::uint32_t last = LastFrameBefore(pattern, end_ns);
+    if (pattern.StampNs(last) < begin_ns || pattern.StampNs(last) >= end_ns) {
+      throw InputError(std::vector<Fault>{
+          draft_.FaultAt("/num_frames", "must last until a frame of " + pointer + " begins")});
     }
-    record["vehicle_s_m"] = std::move(s_m);
-    record["vehicle_speed_mps"] = std::move(speed_mps);
+    CheckStaysOnTracks(scenario, *world_, pattern, 0, last);
   }
 
   const Recipe& recipe_;

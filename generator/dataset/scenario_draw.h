@@ -13,9 +13,9 @@ namespace railcast {
 
 /// A scenario of a recipe.
 struct DrawnScenario {
-  ScenarioSpec scenario;  ///< With one sensor, as frames are made of.
+  ScenarioSpec scenario;  ///< With the sensors of which frames are made.
   /// What index and report say of it: scenario, base, split, place, seed, start_s_m, drawn,
-  /// objects, weather, and the vehicle's s_m and speed_mps in each frame.
+  /// objects, weather.
   Json record;
 };
 

@@ -156,6 +156,15 @@ class MergedWriter {
 
 }  // namespace
 
+std::vector<MergedSensor> MergedSensorsOf(const std::vector<std::unique_ptr<Simulator>>& simulators,
+                                          std::span<const SensorRun> runs) {
+  std::vector<MergedSensor> sensors;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    sensors.push_back({runs[i], simulators[i]->pattern()});
+  }
+  return sensors;
+}
+
 std::vector<MergedFrame> MergedFramesOf(std::span<const MergedSensor> sensors) {
   const MergedSensor& first = sensors.front();
   std::vector<MergedFrame> merged;

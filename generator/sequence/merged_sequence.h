@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "generator/sequence/sensor_runs.h"
 #include "railcast/lidar.h"
+#include "railcast/simulator.h"
 
 namespace railcast {
 
@@ -16,6 +18,10 @@ struct MergedSensor {
   const SensorRun& run;
   const ScanPattern& pattern;
 };
+
+/// @param simulators Those of the runs; both must outlive the result.
+[[nodiscard]] std::vector<MergedSensor> MergedSensorsOf(
+    const std::vector<std::unique_ptr<Simulator>>& simulators, std::span<const SensorRun> runs);
 
 /// What goes into one merged cloud: a frame of the first sensor, and the frames of the others that
 /// begin during its period.

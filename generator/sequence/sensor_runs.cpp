@@ -32,7 +32,7 @@ std::vector<SensorRun> SensorRunsOf(const ScenarioSpec& scenario, const Sequence
   std::vector<SensorRun> runs;
   for (const std::string& name : SensorNames(scenario)) {
     if (!IsNameOfAFolder(name)) {
-      throw InputError("--sensor: must be given, because a sensor's name is no name of a folder (" +
+      throw InputError("sensor: must be chosen, because a sensor's name is no name of a folder (" +
                        Quoted(name) + ")");
     }
     ScenarioSpec reduced = PickSensor(scenario, name);
@@ -56,9 +56,9 @@ void SetFrames(const SequenceSpec& first,
   const std::uint32_t end = FirstStampedAt(pattern, end_ns, begin, most);
   if (begin == end) {
     throw InputError("--frames: must last until a frame of sensor " + Quoted(run.name) +
-                     " begins, " + NumberText(static_cast<double>(pattern.StampNs(begin)) * 1e-9) +
-                     " s (got " + std::to_string(first.num_frames) + " of the first sensor, to " +
-                     NumberText(static_cast<double>(end_ns) * 1e-9) + " s)");
+                     " begins, " + SecondsText(pattern.StampNs(begin)) + " (got " +
+                     std::to_string(first.num_frames) + " of the first sensor, to " +
+                     SecondsText(end_ns) + ")");
   }
   run.spec.start_frame = begin;
   run.spec.num_frames = (end - begin + run.spec.stride - 1) / run.spec.stride;

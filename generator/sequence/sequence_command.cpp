@@ -165,14 +165,6 @@ void ChooseFidelities(const Simulators& simulators, Runs& runs) {
   }
 }
 
-std::vector<MergedSensor> MergedSensorsOf(const Runs& runs, const Simulators& simulators) {
-  std::vector<MergedSensor> sensors;
-  for (std::size_t i = 0; i < simulators.size(); ++i) {
-    sensors.push_back({runs.sensors[i], simulators[i]->pattern()});
-  }
-  return sensors;
-}
-
 // Completes a directory whose sequences are complete.
 int Finish(const SequenceOptions& options, const Runs& runs, const Simulators& simulators) {
   if (options.is_merged) {
@@ -180,7 +172,7 @@ int Finish(const SequenceOptions& options, const Runs& runs, const Simulators& s
     bool is_merged = false;
     simulators.front()->Execute([&] {
       is_merged = WriteMergedClouds(
-          options.made.directory, MergedSensorsOf(runs, simulators),
+          options.made.directory, MergedSensorsOf(simulators, runs.sensors),
           [&](double done) { progress.Show("merged clouds", done); }, StopRequested);
     });
     progress.End();
@@ -259,7 +251,7 @@ int RunSequenceCommand(const SequenceOptions& options) {
   CommandedRun run(runs.scenario(), pointers);
   AtPlace(ShownPath(options.commands.value_or("")) + ": ", [&] { run.Apply(log.commands); });
   CheckFrames(run, simulators, !log.commands.empty(), runs);
-  if (options.is_merged) CheckCanMerge(MergedSensorsOf(runs, simulators));
+  if (options.is_merged) CheckCanMerge(MergedSensorsOf(simulators, runs.sensors));
   // The directory can be resumed however the program ends.
   CatchStopSignals();
   for (Simulator* simulator : pointers) WatchBuilding(*simulator, StopRequested, true);

@@ -69,20 +69,26 @@ class Samples(unittest.TestCase):
         # The columns of index.sqlite that matter here, as docs/dataset.md has them.
         folder = pathlib.Path(self.temporary.name)
         with contextlib.closing(sqlite3.connect(folder / "index.sqlite")) as index, index:
-            index.execute("CREATE TABLE scenarios (scenario INTEGER PRIMARY KEY, split TEXT, folder TEXT, "
+            index.execute("CREATE TABLE scenarios (scenario INTEGER PRIMARY KEY, split TEXT)")
+            index.execute("CREATE TABLE sequences (id INTEGER PRIMARY KEY, scenario INTEGER, sensor TEXT, folder TEXT, "
                           "num_frames INTEGER)")
-            index.executemany("INSERT INTO scenarios VALUES (?, ?, ?, ?)",
-                              [(1, "val", "b", FRAMES), (0, "train", "a", FRAMES)])
+            index.executemany("INSERT INTO scenarios VALUES (?, ?)", [(1, "val"), (0, "train")])
+            index.executemany("INSERT INTO sequences VALUES (?, ?, ?, ?, ?)",
+                              [(1, 1, "roof", "b", FRAMES), (0, 0, "front", "a", FRAMES)])
         self.addCleanup((folder / "index.sqlite").unlink)
         self.assertEqual(railcast.Dataset(folder).paths, [str(run) for run in self.runs])
         validation = railcast.Dataset(folder, split="val")
         self.assertEqual(len(validation), FRAMES)
         np.testing.assert_array_equal(validation[1]["points"], railcast.Dataset(self.runs[1])[1]["points"])
-        for source, line in ((folder, f"split: must be one of train, val, those of {folder} (got 'test')"),
-                             (self.runs[0], f"split: must be left out for what is no data set, {self.runs[0]} "
-                                            "(got 'test')")):
+        self.assertEqual(railcast.Dataset(folder, sensor="front").paths, [str(self.runs[0])])
+        self.assertEqual(len(railcast.Dataset(folder, split="val", sensor="front")), 0)
+        for source, wanted, line in (
+            (folder, {"split": "test"}, f"split: must be one of train, val, those of {folder} (got 'test')"),
+            (folder, {"sensor": "rear"}, f"sensor: must be one of front, roof, those of {folder} (got 'rear')"),
+            (self.runs[0], {"split": "test"}, f"split: must be left out for what is no data set, {self.runs[0]} "
+                                              "(got 'test')")):
             with self.assertRaises(railcast.InputError) as raised:
-                railcast.Dataset(source, split="test")
+                railcast.Dataset(source, **wanted)
             self.assertEqual(str(raised.exception), line)
 
     def test_no_more_recordings_are_kept_open_than_the_memory_is_meant_for(self):

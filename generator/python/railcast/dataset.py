@@ -28,25 +28,28 @@ def box_of(thing: Object) -> list[float]:
     return [*pose[:3, 3], *thing.size_m, math.atan2(pose[1, 0], pose[0, 0])]
 
 
-def recordings_of(source: str, split: str | None) -> list[tuple[str, int]]:
+def recordings_of(source: str, split: str | None, sensor: str | None) -> list[tuple[str, int]]:
     """Path and number of frames of each recording of a source."""
     index = pathlib.Path(source, "index.sqlite")
     if not index.is_file():
-        if split is not None:
-            raise InputError(f"split: must be left out for what is no data set, {source} (got {split!r})")
+        for name, value in (("split", split), ("sensor", sensor)):
+            if value is not None:
+                raise InputError(f"{name}: must be left out for what is no data set, {source} (got {value!r})")
         return [(source, len(open_recording(source)))]
-    query = "SELECT folder, num_frames FROM scenarios WHERE ? IN (split, '') ORDER BY scenario"
     connection = sqlite3.connect(f"{index.absolute().as_uri()}?mode=ro", uri=True)
     try:
-        rows = connection.execute(query, (split or "",)).fetchall()
-        splits = sorted(name for name, in connection.execute("SELECT DISTINCT split FROM scenarios"))
+        rows = connection.execute("SELECT folder, num_frames, split, sensor FROM sequences JOIN scenarios "
+                                  "USING (scenario) ORDER BY id").fetchall()
     except sqlite3.Error as error:
         raise InputError(f"{index}: is damaged: {error}") from error
     finally:
         connection.close()
-    if not rows:
-        raise InputError(f"split: must be one of {', '.join(splits)}, those of {source} (got {split!r})")
-    return [(os.path.join(source, folder), num_frames) for folder, num_frames in rows]
+    for name, value, column in (("split", split, 2), ("sensor", sensor, 3)):
+        names = sorted({row[column] for row in rows})
+        if value is not None and value not in names:
+            raise InputError(f"{name}: must be one of {', '.join(names)}, those of {source} (got {value!r})")
+    return [(os.path.join(source, folder), num_frames) for folder, num_frames, of_split, of_sensor in rows
+            if split in (None, of_split) and sensor in (None, of_sensor)]
 
 
 class Dataset:
@@ -70,15 +73,17 @@ class Dataset:
     def __init__(self,
                  *sources: str | os.PathLike[str],
                  split: str | None = None,
+                 sensor: str | None = None,
                  fields: Sequence[str] = ("x", "y", "z", "intensity"),
                  transform: Callable[[Sample], Any] | None = None) -> None:
         """sources: data sets of `railcast-generate dataset`, or what railcast.open() reads, captures excepted.
 
         split: the part of data sets, such as "train"; None = all of it.
+        sensor: the name of the sensor where data sets have several; None = the frames of all.
         fields: the columns of `points`.
         transform: called with each sample; what it returns takes its place.
         """
-        found = [run for source in sources for run in recordings_of(os.fspath(source), split)]
+        found = [run for source in sources for run in recordings_of(os.fspath(source), split, sensor)]
         self.paths = [path for path, _ in found]
         self.fields = tuple(fields)
         self.transform = transform

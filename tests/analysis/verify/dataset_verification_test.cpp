@@ -87,5 +87,22 @@ TEST_F(VerifyDatasetTest, AnUnfinishedDataSetIsAFaultButAFinishedShardIsNone) {
               Contains(HasSubstr("must have a line for each of 1 scenarios (got 0)")));
 }
 
+TEST_F(VerifyDatasetTest, ReadsTheSequencesAndTheMergedCloudsOfSeveralSensors) {
+  const Recipe recipe = ReadProjectRecipe(directory_.path() / "two", RecipeOfTwoSensors());
+  DatasetChoices choices = OnOneThread(directory_.path() / "of_two");
+  choices.is_merged = true;
+  (void)RunDataset(recipe, choices, NoDatasetHooks());
+  const auto faults = [&] { return VerifyDataset(choices.directory, [](double) {}).faults; };
+  EXPECT_THAT(faults(), IsEmpty());
+  EXPECT_EQ(VerifyDataset(choices.directory, [](double) {}).num_frames, 18U);
+  const fs::path scenario = choices.directory / "sequences/000/000001";
+  WriteFileWhole(scenario / "roof/frames/000002.pcd", "nothing");
+  WriteFileWhole(scenario / "merged/frames/000000.pcd", "nothing");
+  WriteFileWhole(scenario / "notes.txt", "mine");
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("000001/roof/frames/000002.pcd: must have "),
+                                    HasSubstr("000001/merged/frames/000000.pcd: must have "),
+                                    HasSubstr("000001/notes.txt: belongs to no scenario")));
+}
+
 }  // namespace
 }  // namespace railcast

@@ -23,10 +23,9 @@ IndexedScenario ScenarioOf(int number, std::vector<IndexedFrame> frames) {
   return {{{"scenario", number},
            {"split", "train"},
            {"base", "base.json"},
-           {"sensor", "front"},
            {"drawn", Json::object()},
            {"weather", Json::object()}},
-          std::move(frames)};
+          {{{{"sensor", "front"}}, std::move(frames)}}};
 }
 
 TEST(DatasetReport, CountsFramesThatAnotherOneHasTheBytesOf) {

@@ -43,6 +43,26 @@ inline nlohmann::json ProjectRecipe() {
   })");
 }
 
+/// ProjectRecipe() with two sensors that take turns: `front` of 10 Hz and `roof` of 20 Hz.
+inline nlohmann::json RecipeOfTwoSensors() {
+  nlohmann::json recipe = ProjectRecipe();
+  recipe["num_scenarios"] = 3;
+  recipe["num_frames"] = 2;
+  recipe["set"].erase("/lidar/range_max_m");
+  nlohmann::json sensor = nlohmann::json::parse(R"({
+    "name": "front", "range_max_m": 60,
+    "scan": {"rate_hz": 10, "pattern": {"type": "raster", "horizontal_fov_deg": 20,
+             "vertical_fov_deg": 10, "angular_resolution_deg": 1}}
+  })");
+  recipe["set"]["/lidars"] = {sensor};
+  sensor["name"] = "roof";
+  sensor["scan"]["rate_hz"] = 20;
+  sensor["phase_s"] = 0.03;
+  sensor["mount"] = {{"position_m", {0, 0, 4}}};
+  recipe["set"]["/lidars"].push_back(sensor);
+  return recipe;
+}
+
 /// Writes the project and the recipe to a folder.
 /// @return The recipe's path.
 inline std::filesystem::path WriteProjectRecipe(const std::filesystem::path& folder,
