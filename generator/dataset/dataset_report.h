@@ -5,8 +5,9 @@
 #include <map>
 #include <set>
 #include <string>
-#include <unordered_map>
+#include <unordered_set>
 
+#include "core/io/dataset_bins.h"
 #include "core/scenario/json_text.h"
 #include "generator/dataset/indexed_scenario.h"
 
@@ -22,9 +23,6 @@ class DatasetReport {
   [[nodiscard]] Json Write() const;
 
  private:
-  static constexpr std::size_t kNumDistances = 8;
-  static constexpr std::size_t kNumOcclusions = 6;
-
   struct PerSplit {
     std::uint64_t scenarios{};
     std::uint64_t frames{};
@@ -36,9 +34,9 @@ class DatasetReport {
     std::uint64_t with_points{};
     std::uint64_t points{};
     std::set<std::pair<std::uint64_t, std::string>> distinct;  ///< By scenario and name.
-    std::array<std::uint64_t, kNumDistances> by_distance{};
-    std::array<std::uint64_t, kNumDistances> points_by_distance{};
-    std::array<std::uint64_t, kNumOcclusions> by_occlusion{};  ///< Last: not visible even alone.
+    std::array<std::uint64_t, kNumDistanceBins> by_distance{};
+    std::array<std::uint64_t, kNumDistanceBins> points_by_distance{};
+    std::array<std::uint64_t, kNumOcclusionBins> by_occlusion{};  ///< Last: not visible even alone.
   };
   void AddFrame(const IndexedFrame& frame, std::uint64_t scenario, PerSplit& split);
   void AddObject(const IndexedObject& object, std::uint64_t scenario);
@@ -51,7 +49,8 @@ class DatasetReport {
   FrameCounts counts_;
   std::map<std::string, std::uint64_t> frames_with_label_;
   std::map<std::string, PerType> types_;
-  std::unordered_map<std::string, std::uint64_t> frames_by_hash_;
+  std::unordered_set<std::string> hashes_;  ///< Of the frames' files.
+  std::uint64_t duplicate_frames_ = 0;      ///< Of frames with the same bytes, all but one.
   std::uint64_t num_frames_ = 0;
   std::uint64_t frames_without_points_ = 0;
   std::uint64_t frames_without_objects_ = 0;
