@@ -36,6 +36,7 @@ LIBRARY_OWNERS = {
                  ("core/scenario", "core/fidelity", "core/io", "generator", "analysis")),
     "PCL": (r"pcl/", ("core/io", "core/include/railcast/io", *PROGRAMS)),
     "libpcap": (r"pcap/", ("core/io",)),
+    "yaml-cpp": (r"yaml-cpp/", ("core/io",)),
     "libpng": (r"png\.h$", ("core/io",)),
     "libjpeg": (r"jpeglib\.h$", ("core/io",)),
     "VTK": (r"vtk[A-Z]\w+\.h$", ("viewer",)),

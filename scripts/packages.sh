@@ -29,6 +29,7 @@ build_packages=(
   libvtk9-dev
   libx11-dev
   libxxhash-dev
+  libyaml-cpp-dev
   ninja-build
   nlohmann-json3-dev
   pkg-config

@@ -77,6 +77,19 @@ std::vector<ChartSeries> SeriesByName(const Table& table, SeriesColumns columns)
   return all;
 }
 
+std::vector<ChartSeries> SeriesByRow(const Table& table, std::size_t max_rows) {
+  std::vector<ChartSeries> all;
+  for (const std::vector<Cell>& row : table.rows) {
+    if (all.size() == max_rows) break;
+    ChartSeries series{TextOf(row[0]).value, SeriesStyle::kLinePoints, {}};
+    for (std::size_t i = 1; i < row.size(); ++i) {
+      series.points.push_back(PointOf(static_cast<double>(i - 1), row[i]));
+    }
+    all.push_back(std::move(series));
+  }
+  return all;
+}
+
 std::vector<std::string> TextsOf(const Table& table, const std::string& column) {
   const std::size_t index = ColumnIndexOf(table, column);
   std::vector<std::string> texts;

@@ -28,6 +28,10 @@ struct SeriesColumns {
 /// point are left out.
 [[nodiscard]] std::vector<ChartSeries> SeriesByName(const Table& table, SeriesColumns columns);
 
+/// Makes a line for each of a table's first rows, named by the first column, over the other
+/// columns, which hold numbers.
+[[nodiscard]] std::vector<ChartSeries> SeriesByRow(const Table& table, std::size_t max_rows);
+
 /// The texts of a column, as the categories of an axis.
 [[nodiscard]] std::vector<std::string> TextsOf(const Table& table, const std::string& column);
 

@@ -36,7 +36,6 @@ void Coverage::Add(const RecordedFrame& recorded, const ScanTable* scan) {
   const Frame& frame = recorded.frame;
   sectors_.resize(kNumSectors);
   std::uint64_t num_points = 0;
-  std::map<std::uint32_t, std::uint64_t> points_per_label;
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
     if (!std::isfinite(frame.range_m[slot])) continue;
     ++num_points;
@@ -44,12 +43,10 @@ void Coverage::Add(const RecordedFrame& recorded, const ScanTable* scan) {
                                                      static_cast<double>(frame.x[slot]));
     const auto sector = static_cast<std::size_t>((azimuth_deg + 180.0) / kSector_deg);
     ++sectors_[std::min(sector, kNumSectors - 1)];
-    if (recorded.Has("label")) ++points_per_label[frame.label[slot]];
   }
   num_points_ += num_points;
   points_.Add(static_cast<double>(num_points));
   cells_.Add(static_cast<double>(CountCells(frame)));
-  for (const auto& [label, num] : points_per_label) labels_[label].Add(static_cast<double>(num));
   if (!recorded.is_grid) return;
   if (rings_.size() < frame.rows) rings_.resize(frame.rows);
   for (std::size_t row = 0; row < frame.rows; ++row) {
@@ -76,10 +73,9 @@ void Coverage::Add(const Coverage& other) {
   }
   if (sectors_.size() < other.sectors_.size()) sectors_.resize(other.sectors_.size());
   for (std::size_t i = 0; i < other.sectors_.size(); ++i) sectors_[i] += other.sectors_[i];
-  for (const auto& [label, points] : other.labels_) labels_[label].Add(points);
 }
 
-Section Coverage::MakeSection(const Names& names) const {
+Section Coverage::MakeSection() const {
   Section section{"coverage",
                   "Coverage",
                   {"Occupancy counts the squares of 1 m, seen from above, that hold a point."},
@@ -94,18 +90,6 @@ Section Coverage::MakeSection(const Names& names) const {
       {{std::string("points"), PointsPerFrame()},
        {std::string("squares of 1 m with a point"), OccupiedCells()}}};
   section.tables.push_back(std::move(frames));
-
-  if (!labels_.empty()) {
-    Table labels = {"points_by_label",
-                    "Points by label",
-                    "Per frame that has any.",
-                    {{"label", "Label", ""}, {"points", "Points", ""}},
-                    {}};
-    for (const auto& [label, points] : labels_) {
-      labels.rows.push_back({names.OfLabel(label), points.Mean()});
-    }
-    section.tables.push_back(std::move(labels));
-  }
 
   Table rings = {"rings",
                  "Rings",

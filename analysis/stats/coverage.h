@@ -1,18 +1,16 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <vector>
 
 #include "analysis/estimate/moments.h"
 #include "analysis/report/report.h"
-#include "analysis/stats/names.h"
 #include "core/io/recording/scan_table.h"
 #include "railcast/io/recording.h"
 
 namespace railcast {
 
-/// Where the points are: number per frame, by label, ring and azimuth, and the ground area they
+/// Where the points are: number per frame, by ring and azimuth, and the ground area they
 /// cover.
 class Coverage {
  public:
@@ -27,7 +25,7 @@ class Coverage {
   [[nodiscard]] Estimate PointsPerFrame() const { return points_.Mean(); }
   /// Number of 1 m squares, seen from above, with at least one point; mean over frames.
   [[nodiscard]] Estimate OccupiedCells() const { return cells_.Mean(); }
-  [[nodiscard]] Section MakeSection(const Names& names) const;
+  [[nodiscard]] Section MakeSection() const;
 
  private:
   struct Ring {
@@ -39,8 +37,7 @@ class Coverage {
   std::uint64_t num_points_{};
   Moments points_, cells_;  ///< Per frame.
   std::vector<Ring> rings_;
-  std::vector<std::uint64_t> sectors_;       ///< Points by azimuth, 5 deg each from -180.
-  std::map<std::uint32_t, Moments> labels_;  ///< Points per frame.
+  std::vector<std::uint64_t> sectors_;  ///< Points by azimuth, 5 deg each from -180.
 };
 
 }  // namespace railcast

@@ -62,6 +62,7 @@ void Statistics::Add(const RecordedFrame& recorded, const ScanTable* scan) {
   noise.Add(recorded, patches);
   intensity.Add(recorded, patches);
   coverage.Add(recorded, scan);
+  classes.Add(recorded);
   objects.Add(recorded);
 }
 
@@ -73,6 +74,7 @@ void Statistics::Add(const Statistics& other) {
   temporal_noise.Add(other.temporal_noise);
   intensity.Add(other.intensity);
   coverage.Add(other.coverage);
+  classes.Add(other.classes);
   objects.Add(other.objects);
 }
 

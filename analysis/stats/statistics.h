@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/report/report.h"
+#include "analysis/stats/class_balance.h"
 #include "analysis/stats/coverage.h"
 #include "analysis/stats/density.h"
 #include "analysis/stats/dropout.h"
@@ -29,6 +30,7 @@ struct Statistics {
   TemporalNoise temporal_noise;
   Intensity intensity;
   Coverage coverage;
+  ClassBalance classes;
   ObjectPoints objects;
 
   /// Adds everything except temporal noise, which needs two frames.

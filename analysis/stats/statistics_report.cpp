@@ -126,6 +126,9 @@ Report MakeStatisticsReport(const Statistics& statistics,
       statistics.density.by_attitude(), [](const std::string& attitude) { return attitude; },
       report);
 
+  if (!statistics.classes.is_empty()) {
+    report.sections.push_back(statistics.classes.MakeSection(names));
+  }
   if (is_exact) report.sections.push_back(statistics.dropout.MakeSection(names));
   if (!statistics.holes.is_empty()) report.sections.push_back(statistics.holes.MakeSection());
   if (!statistics.density.is_empty()) {
@@ -137,7 +140,7 @@ Report MakeStatisticsReport(const Statistics& statistics,
   if (!statistics.intensity.is_empty()) {
     report.sections.push_back(statistics.intensity.MakeSection(names));
   }
-  report.sections.push_back(statistics.coverage.MakeSection(names));
+  report.sections.push_back(statistics.coverage.MakeSection());
   return report;
 }
 

@@ -12,6 +12,7 @@ find_library(PCL_IO_LIBRARY pcl_io REQUIRED)
 find_library(PCL_KDTREE_LIBRARY pcl_kdtree REQUIRED)
 find_library(XXHASH_LIBRARY xxhash REQUIRED)
 find_library(PCAP_LIBRARY pcap REQUIRED)
+find_library(YAML_CPP_LIBRARY yaml-cpp REQUIRED)
 
 # railcast_import(NAME LIBRARY [INCLUDE_DIR]): imports the library as the target railcast::NAME.
 function(railcast_import name library)
@@ -27,3 +28,4 @@ railcast_import(pcl_io ${PCL_IO_LIBRARY} ${PCL_INCLUDE_DIR})
 railcast_import(pcl_kdtree ${PCL_KDTREE_LIBRARY} ${PCL_INCLUDE_DIR})
 railcast_import(pcap ${PCAP_LIBRARY})
 railcast_import(xxhash ${XXHASH_LIBRARY})
+railcast_import(yaml_cpp ${YAML_CPP_LIBRARY})

@@ -4,39 +4,25 @@
 #include <set>
 #include <utility>
 
-#include "core/base/text.h"
 #include "core/io/content_hash.h"
+#include "core/io/dataset_bins.h"
 
 namespace railcast {
 namespace {
 
-constexpr std::array<double, 7> kDistances_m = {10, 25, 50, 75, 100, 150, 200};
-constexpr std::array<double, 4> kOcclusions = {0.25, 0.5, 0.75, 1.0};
-
-// Index of the first limit above the value; the number of limits if there is none.
-template <std::size_t kCount>
-std::size_t BinOf(const std::array<double, kCount>& limits, double value) {
-  return static_cast<std::size_t>(std::ranges::upper_bound(limits, value) - limits.begin());
-}
-
-// Limits and counts: {"0 to 10 m": 5, ..., "200 m and more": 7}.
-template <std::size_t kCount>
-Json ByDistance(const std::array<std::uint64_t, kCount>& counts) {
+// Counts by the names of their bins.
+Json ByDistance(const std::array<std::uint64_t, kNumDistanceBins>& counts) {
   Json json = Json::object();
-  for (std::size_t i = 0; i < kCount; ++i) {
-    const std::string from = i == 0 ? "0" : NumberText(kDistances_m[i - 1]);
-    const std::string name = i < kDistances_m.size()
-                                 ? from + " to " + NumberText(kDistances_m[i]) + " m"
-                                 : from + " m and more";
-    json[name] = counts[i];
-  }
+  for (std::size_t i = 0; i < counts.size(); ++i) json[DistanceBinName(i)] = counts[i];
   return json;
 }
 
-template <std::size_t kCount>
-Json ByOcclusion(const std::array<std::uint64_t, kCount>& counts) {
-  return {{"less than 0.25", counts[0]}, {"0.25 to 0.5", counts[1]}, {"0.5 to 0.75", counts[2]},
-          {"0.75 to 1", counts[3]},      {"1", counts[4]},           {"not visible", counts[5]}};
+Json ByOcclusion(const std::array<std::uint64_t, kNumOcclusionBins>& counts) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    json[std::string(kOcclusionBinNames[i])] = counts[i];
+  }
+  return json;
 }
 
 double ShareOf(std::uint64_t part, std::uint64_t whole) {
@@ -99,7 +85,8 @@ void DatasetReport::AddFrame(const IndexedFrame& frame, PerSplit& split) {
   for (const auto& [label, points] : counts.points_per_label) ++frames_with_label_[label];
   std::string hashes;
   for (const WrittenFile& file : frame.record.files) hashes += file.hash;
-  frame_hashes_.push_back(ContentHashNumber(hashes));
+  // Frames of objects alone have no files that could be compared.
+  if (!hashes.empty()) frame_hashes_.push_back(ContentHashNumber(hashes));
   if (counts.points == 0) ++frames_without_points_;
   bool has_object = false;
   for (const IndexedObject& object : frame.objects) {
@@ -114,11 +101,11 @@ void DatasetReport::AddObject(const IndexedObject& object) {
   ++type.in_frames;
   if (object.points > 0) ++type.with_points;
   type.points += object.points;
-  const std::size_t distance = BinOf(kDistances_m, object.distance_m);
+  const std::size_t distance = BinOf(kBinDistances_m, object.distance_m);
   ++type.by_distance[distance];
   type.points_by_distance[distance] += object.points;
   const std::size_t occlusion =
-      object.occlusion ? BinOf(kOcclusions, *object.occlusion) : kNumOcclusions - 1;
+      object.occlusion ? BinOf(kBinOcclusions, *object.occlusion) : kNumOcclusionBins - 1;
   ++type.by_occlusion[occlusion];
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/io/dataset_bins.h"
 #include "core/scenario/json_text.h"
 #include "generator/dataset/indexed_scenario.h"
 
@@ -21,9 +22,6 @@ class DatasetReport {
   [[nodiscard]] Json Write();
 
  private:
-  static constexpr std::size_t kNumDistances = 8;
-  static constexpr std::size_t kNumOcclusions = 6;
-
   struct PerSplit {
     std::uint64_t scenarios{};
     std::uint64_t frames{};
@@ -35,9 +33,9 @@ class DatasetReport {
     std::uint64_t in_frames{};  ///< Objects, counted in each frame.
     std::uint64_t with_points{};
     std::uint64_t points{};
-    std::array<std::uint64_t, kNumDistances> by_distance{};
-    std::array<std::uint64_t, kNumDistances> points_by_distance{};
-    std::array<std::uint64_t, kNumOcclusions> by_occlusion{};  ///< Last: not visible even alone.
+    std::array<std::uint64_t, kNumDistanceBins> by_distance{};
+    std::array<std::uint64_t, kNumDistanceBins> points_by_distance{};
+    std::array<std::uint64_t, kNumOcclusionBins> by_occlusion{};  ///< Last: not visible even alone.
   };
   void AddFrame(const IndexedFrame& frame, PerSplit& split);
   void AddObject(const IndexedObject& object);
@@ -51,8 +49,8 @@ class DatasetReport {
   FrameCounts counts_;
   std::map<std::string, std::uint64_t> frames_with_label_;
   std::map<std::string, PerType> types_;
-  /// One for each frame, of the hashes of its files: of 10 million frames, two that differ have the
-  /// same with a probability of 3e-6.
+  /// One for each frame that has files, of the hashes of its files: of 10 million frames, two that
+  /// differ have the same with a probability of 3e-6.
   std::vector<std::uint64_t> frame_hashes_;
   std::uint64_t num_frames_ = 0;
   std::uint64_t frames_without_points_ = 0;

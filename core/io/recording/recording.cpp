@@ -15,19 +15,24 @@ namespace {
 /// Opens a directory of clouds: side by side, or in the layout of a sequence, of a received stream
 /// or of KITTI.
 std::unique_ptr<Recording> OpenDirectory(const std::filesystem::path& directory) {
-  const std::filesystem::path kitti = directory / "sequences" / "00" / "velodyne";
   // A run without frames.jsonl is opened as a sequence, too, so that its loss is reported: the
   // clouds alone cannot be checked.
   const bool is_of_run = exists(directory / kRunFile) && exists(directory / kScenarioFile);
   if (is_of_run || exists(directory / kFramesFile)) return OpenSequence(directory);
   if (exists(directory / "frames.csv")) return OpenReceived(directory);
-  for (const auto& place : {directory, directory / "frames", directory / "velodyne", kitti}) {
+  for (const auto& place : {directory, directory / "frames", directory / "velodyne"}) {
     auto files = CloudFilesIn(place);
     if (files.empty()) continue;
     const bool is_kitti = files.front().extension() == ".bin";
     return OpenClouds(directory, is_kitti ? "KITTI sequence" : "directory of point clouds",
                       std::move(files));
   }
+  std::vector<std::filesystem::path> files;
+  for (const std::filesystem::path& sequence : KittiSequencesIn(directory)) {
+    const auto more = CloudFilesIn(sequence / "velodyne");
+    files.insert(files.end(), more.begin(), more.end());
+  }
+  if (!files.empty()) return OpenClouds(directory, "KITTI sequence", std::move(files));
   throw InputError(ShownPath(directory) + ": must be a sequence or hold " +
                    ReadableExtensions(true) + " files (got neither)");
 }

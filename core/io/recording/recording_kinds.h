@@ -32,8 +32,15 @@ namespace railcast {
 [[nodiscard]] std::vector<std::filesystem::path> CloudFilesIn(
     const std::filesystem::path& directory);
 
-/// Opens clouds without poses, in this order.
+/// Returns the sequences in a directory of KITTI's layout, `sequences/00`, `01`, ..., that hold
+/// clouds in `velodyne`, in natural order. None if it has another layout.
+[[nodiscard]] std::vector<std::filesystem::path> KittiSequencesIn(
+    const std::filesystem::path& directory);
+
+/// Opens clouds without poses, in this order. The names of KITTI's labels are those of the
+/// configuration beside the first (FindSemanticKittiYaml).
 /// @param kind The kind of recording as shown to users.
+/// @throws InputError if that cannot be read.
 [[nodiscard]] std::unique_ptr<Recording> OpenClouds(const std::filesystem::path& source,
                                                     const std::string& kind,
                                                     std::vector<std::filesystem::path> files);

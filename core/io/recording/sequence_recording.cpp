@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
 #include "core/base/text.h"
+#include "core/io/kitti_names.h"
 #include "core/io/recording/cloud_frame.h"
 #include "core/io/recording/recorded_json.h"
 #include "core/io/recording/sensor_axes.h"
@@ -186,6 +187,11 @@ class KittiRecording : public Recording {
     info_.kind = "KITTI sequence";
     info_.num_frames = lines_.num_frames();
     info_.has_kitti_labels = true;
+    const std::filesystem::path names = summary.directory / kKittiLabelsFile;
+    // Older programs wrote none.
+    if (exists(names)) {
+      info_.labels = ParseSemanticKittiNames(ReadFileWhole(names), ShownPath(names));
+    }
     info_.origin = OriginOf(summary);
   }
 

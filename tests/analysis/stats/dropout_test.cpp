@@ -184,7 +184,7 @@ TEST(Holes, AreNotWhereTheOwnVehicleIsInTheWay) {
   EXPECT_NEAR(holes.Filled().value, 0.5, 0.01);
   Coverage coverage;
   coverage.Add(recorded, nullptr);
-  const Section section = coverage.MakeSection(Names(RecordingInfo()));
+  const Section section = coverage.MakeSection();
   // Elsewhere the lowest ring meets the wall everywhere.
   EXPECT_EQ(std::get<Estimate>(SectionTableOf(section, "rings").rows.at(0).at(3)).value, 1.0);
 }

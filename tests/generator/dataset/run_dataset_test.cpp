@@ -215,5 +215,17 @@ TEST_F(RunDatasetTest, StrideAndWarmUpChooseTheFrames) {
   }
 }
 
+// Their frames have no files that could be the same.
+TEST_F(RunDatasetTest, FramesOfObjectsAloneAreNoDuplicates) {
+  nlohmann::json recipe = ProjectRecipe();
+  recipe["num_scenarios"] = 1;
+  DatasetChoices choices = OnOneThread(Path("set"));
+  choices.format = "objects";
+  (void)RunDataset(ReadProjectRecipe(Path("project"), recipe), choices, NoDatasetHooks());
+  const Json report = Json::parse(ReadFileWhole(Path("set/report.json")));
+  EXPECT_EQ(report.at("num_frames"), 3U);
+  EXPECT_EQ(report.at("duplicate_frames"), 0U);
+}
+
 }  // namespace
 }  // namespace railcast
