@@ -18,14 +18,10 @@ bool IsThere(const std::filesystem::path& file) {
   return status.type() != std::filesystem::file_type::not_found;
 }
 
-std::string ReadKnownFile(const std::filesystem::path& directory,
-                          const KnownFile& file,
-                          std::string_view said_in) {
+std::string ReadHashedFile(const std::filesystem::path& directory,
+                           const KnownFile& file,
+                           std::string_view said_in) {
   const std::string said = ", as " + std::string(said_in) + " says (got ";
-  if (!IsSequenceFile(file.name)) {
-    throw InputError(ShownPath(directory / said_in) + ": must name files of a sequence (got " +
-                     ShownText(file.name) + ")");
-  }
   const std::filesystem::path path = directory / file.name;
   std::string bytes = ReadFileWhole(path);
   if (file.bytes && bytes.size() != *file.bytes) {
@@ -38,6 +34,16 @@ std::string ReadKnownFile(const std::filesystem::path& directory,
                      hash + ")");
   }
   return bytes;
+}
+
+std::string ReadKnownFile(const std::filesystem::path& directory,
+                          const KnownFile& file,
+                          std::string_view said_in) {
+  if (!IsSequenceFile(file.name)) {
+    throw InputError(ShownPath(directory / said_in) + ": must name files of a sequence (got " +
+                     ShownText(file.name) + ")");
+  }
+  return ReadHashedFile(directory, file, said_in);
 }
 
 SequenceSummary ReadSequenceSummary(const std::filesystem::path& directory) {
