@@ -1,6 +1,6 @@
-#include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,14 +8,13 @@
 #include "analysis/distinct_sources.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
+#include "analysis/stats/dataset_section.h"
+#include "analysis/stats/measured_source.h"
 #include "analysis/stats/statistics.h"
 #include "analysis/thread_limit.h"
-#include "analysis/verify/dataset_verification.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/io/dataset_files.h"
 #include "core/io/scenario_identity.h"
-#include "core/io/sensor_folders.h"
 #include "core/program/progress_line.h"
 #include "core/program/version.h"
 #include "railcast/io/recording.h"
@@ -48,61 +47,93 @@ void CheckSameKind(const RecordingInfo& first, const RecordingInfo& other) {
   }
 }
 
-// The sequences of a data set or of several sensors, in their order; any other source by itself.
-std::vector<std::filesystem::path> SequencesIn(const std::filesystem::path& source) {
-  std::vector<std::filesystem::path> folders = SensorFoldersIn(source);
-  if (!folders.empty()) return folders;
-  if (!IsDataset(source)) return {source};
-  for (const auto& thousand :
-       std::filesystem::directory_iterator(source / std::string(kSequencesFolder))) {
-    for (const auto& sequence : std::filesystem::directory_iterator(thousand)) {
-      folders.push_back(sequence.path());
+/// What is known of the sources before their frames are read.
+struct SourcesAtFirstSight {
+  /// One for each source whose recordings the report does not list, else one for each recording.
+  std::vector<RecordingInfo> infos;
+  bool has_one_scan = true;
+  std::size_t num_frames = 0;  ///< 0 if not known.
+};
+
+// Recordings are opened here and again when they are measured: a data set has more of them than a
+// program may have files open.
+SourcesAtFirstSight LookAtRecordings(const std::vector<MeasuredSource>& sources) {
+  SourcesAtFirstSight seen;
+  std::optional<RecordingInfo> first;
+  for (const MeasuredSource& source : sources) {
+    for (const std::filesystem::path& path : source.recordings) {
+      const RecordingInfo info = OpenRecording(path)->info();
+      if (!first) first = info;
+      CheckSameKind(*first, info);
+      seen.has_one_scan = seen.has_one_scan && HaveSameScan(*first, info);
+      seen.num_frames += info.num_frames.value_or(0);
+      if (source.kind.empty()) {
+        seen.infos.push_back(info);
+      } else if (&path == &source.recordings.front()) {
+        seen.infos.push_back(InfoOfWhole(source, info));
+      }
     }
   }
-  std::sort(folders.begin(), folders.end());
-  return folders;
+  return seen;
+}
+
+std::vector<MeasuredSource> LookAtSources(const std::vector<std::filesystem::path>& paths) {
+  CheckDistinct(paths);
+  std::vector<MeasuredSource> sources;
+  std::vector<std::filesystem::path> recordings;
+  for (const std::filesystem::path& path : paths) {
+    sources.push_back(LookAtSource(path));
+    const auto& within = sources.back().recordings;
+    recordings.insert(recordings.end(), within.begin(), within.end());
+  }
+  CheckDistinct(recordings);
+  return sources;
+}
+
+// The sections of data sets come first.
+void AddDatasetSections(const std::vector<MeasuredSource>& sources, Report& report) {
+  std::vector<Section> sections;
+  for (const MeasuredSource& source : sources) {
+    if (!source.overview) continue;
+    const std::string suffix = sections.empty() ? "" : "_" + std::to_string(sections.size() + 1);
+    sections.push_back(MakeDatasetSection(*source.overview, suffix));
+  }
+  report.sections.insert(report.sections.begin(), sections.begin(), sections.end());
+}
+
+Statistics MeasureAll(const std::vector<MeasuredSource>& sources, std::size_t num_frames) {
+  Statistics all;
+  const ProgressLine progress;
+  for (const MeasuredSource& source : sources) {
+    for (const std::filesystem::path& path : source.recordings) {
+      const std::uint64_t before = all.coverage.num_frames();
+      const auto recording = OpenRecording(path);
+      all.Add(MeasureStatistics(*recording, [&](std::size_t num) {
+        const std::size_t done = before + num;
+        if (num_frames > 0) {
+          progress.Show("frames", static_cast<double>(done) / static_cast<double>(num_frames));
+        } else {
+          progress.Show(std::to_string(done) + " frames");
+        }
+      }));
+    }
+  }
+  progress.End();
+  return all;
 }
 
 int RunStats(const StatsOptions& options, const std::string& command_line) {
   const tbb::global_control limit = LimitThreads(options.num_threads);
-  CheckDistinct(options.sources);
-  std::vector<std::filesystem::path> sequences;
-  for (const std::filesystem::path& source : options.sources) {
-    const std::vector<std::filesystem::path> within = SequencesIn(source);
-    sequences.insert(sequences.end(), within.begin(), within.end());
-  }
-  // Opened twice: a data set has more sequences than a program may have files open.
-  std::vector<RecordingInfo> infos;
-  bool has_one_scan = true;
-  for (const std::filesystem::path& sequence : sequences) {
-    infos.push_back(OpenRecording(sequence)->info());
-    CheckSameKind(infos.front(), infos.back());
-    has_one_scan = has_one_scan && HaveSameScan(infos.front(), infos.back());
-  }
-  std::size_t num_frames = 0;  // 0 if not known.
-  for (const RecordingInfo& info : infos) num_frames += info.num_frames.value_or(0);
-
-  Statistics all;
-  const ProgressLine progress;
-  for (const std::filesystem::path& sequence : sequences) {
-    const std::uint64_t before = all.coverage.num_frames();
-    const auto recording = OpenRecording(sequence);
-    all.Add(MeasureStatistics(*recording, [&](std::size_t num) {
-      const std::size_t done = before + num;
-      if (num_frames > 0) {
-        progress.Show("frames", static_cast<double>(done) / static_cast<double>(num_frames));
-      } else {
-        progress.Show(std::to_string(done) + " frames");
-      }
-    }));
-  }
-  if (!has_one_scan) all.ForgetRings();
-  progress.End();
+  const std::vector<MeasuredSource> sources = LookAtSources(options.sources);
+  const SourcesAtFirstSight seen = LookAtRecordings(sources);
+  Statistics all = MeasureAll(sources, seen.num_frames);
+  if (!seen.has_one_scan) all.ForgetRings();
   if (all.coverage.num_frames() == 0) {
     throw InputError(ShownPath(options.sources.front()) + ": must hold a frame");
   }
-  Report report = MakeStatisticsReport(all, infos, command_line);
-  AddProvenance(infos, ProgramVersion(), report);
+  Report report = MakeStatisticsReport(all, seen.infos, command_line);
+  AddDatasetSections(sources, report);
+  AddProvenance(seen.infos, ProgramVersion(), report);
   EmitReport(report, options.output, "stats");
   return kExitSuccess;
 }
@@ -117,7 +148,8 @@ void AddStats(CLI::App& app, ProgramCommand& command) {
       ->add_option(
           "SOURCE", options->sources,
           "Sequence directory, .pcd or .ply file, directory of such files, or .pcap "
-          "capture of VLP-16, HDL-32E, VLP-32C, VLS-128, Pandar64, XT32 or QT128, or a data set; "
+          "capture of VLP-16, HDL-32E, VLP-32C, VLS-128, Pandar64, XT32 or QT128, or a folder of "
+          "KITTI's layout or a data set; "
           "several are summed up")
       ->required();
   stats->add_option("--threads", options->num_threads, "Number of threads; 0 = all cores")

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/commands.h"
+#include "analysis/verify/dataset_content.h"
 #include "analysis/verify/dataset_verification.h"
 #include "analysis/verify/merged_verification.h"
 #include "analysis/verify/verification.h"

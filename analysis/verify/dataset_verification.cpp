@@ -1,12 +1,12 @@
 #include "analysis/verify/dataset_verification.h"
 
 #include <cstdint>
-#include <optional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "analysis/verify/dataset_content.h"
 #include "analysis/verify/merged_verification.h"
 #include "core/base/attempt.h"
 #include "core/base/error.h"
@@ -20,20 +20,12 @@
 #include "core/io/recording/sequence_summary.h"
 #include "core/io/sensor_folders.h"
 #include "core/io/sequence_files.h"
-#include "core/io/shard.h"
 #include "core/io/write_file.h"
 
 namespace railcast {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Which scenarios a folder holds, as its dataset.json says.
-struct DatasetContent {
-  std::uint32_t num_scenarios{};  ///< Of the whole data set.
-  std::string recipe_hash;
-  Shard shard;
-};
 
 /// What a line of scenarios.jsonl says of a sequence.
 struct SequenceOfLine {
@@ -61,28 +53,10 @@ ScenarioLine ReadScenarioLine(const PlacedLine& line) {
   });
 }
 
-DatasetContent ReadContent(const fs::path& directory) {
-  const fs::path file = directory / kDatasetFile;
-  return ReadRecordedJson<StrictJson>(
-      ReadFileWhole(file), ShownPath(file), [&](const StrictJson& json) {
-        DatasetContent content;
-        content.num_scenarios = json.at("num_scenarios");
-        content.recipe_hash = json.at("recipe_xxh3");
-        if (!json.contains("shard")) return content;
-        const std::string text = json.at("shard");
-        const std::optional<Shard> shard = ParseShard(text);
-        if (!shard) {
-          throw InputError(ShownPath(file) + ": is damaged: /shard (got " + ShownText(text) + ")");
-        }
-        content.shard = *shard;
-        return content;
-      });
-}
-
 class DatasetVerifier {
  public:
   DatasetVerifier(const fs::path& directory, const std::function<void(double)>& on_progress)
-      : directory_(directory), on_progress_(on_progress), content_(ReadContent(directory)) {
+      : directory_(directory), on_progress_(on_progress), content_(ReadDatasetContent(directory)) {
     known_ = {std::string(kDatasetFile), std::string(kRecipeFile), std::string(kScenariosFile),
               std::string(kDatasetManifestFile)};
   }
@@ -218,10 +192,6 @@ class DatasetVerifier {
 };
 
 }  // namespace
-
-bool IsDataset(const fs::path& directory) {
-  return IsThere(directory / kDatasetFile);
-}
 
 Verification VerifyDataset(const fs::path& directory,
                            const std::function<void(double)>& on_progress) {

@@ -7,9 +7,6 @@
 
 namespace railcast {
 
-/// Whether a folder holds a data set of `railcast-generate dataset`, or a shard of one.
-[[nodiscard]] bool IsDataset(const std::filesystem::path& directory);
-
 /// Compares every file of a data set with its manifest.json and scenarios.jsonl, verifies every
 /// sequence, and looks for files and sequences that these do not name. A shard has no manifest, and
 /// is whole if it has all its scenarios.

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 
 #include "core/io/write_file.h"
@@ -173,22 +174,101 @@ TEST(StatsCommand, SumsUpDifferentSensorsWithoutTheirRings) {
   }
 }
 
-TEST(StatsCommand, SumsUpADataSet) {
-  const TemporaryFolder folder;
-  const auto out = folder.Write("x", "").parent_path();
+// A data set of three scenarios of two frames.
+std::filesystem::path MakeSmallDataset(const TemporaryFolder& folder, const std::string& options) {
   const auto recipe = folder.Write(
       "recipe.json", R"({"version": 1, "num_scenarios": 3, "num_frames": 2, "bases": [{"file": ")" +
                          (ScenariosDir() / "minimal.json").string() +
                          R"("}], "set": {"/lidar/scan/pattern/angular_resolution_deg": 1.0,
                            "/world/vegetation/trees_per_hectare": 0,
                            "/world/vegetation/grass": false}})");
-  ASSERT_EQ(RunCommand(RAILCAST_GENERATE " dataset " + recipe.string() + " --out " +
-                       (out / "set").string())
-                .status,
-            0);
-  const Ended run = Analyze("stats " + (out / "set").string() + " --format text");
-  ASSERT_EQ(run.status, 0) << run.said;
-  EXPECT_THAT(run.said, testing::ContainsRegex("Frames +6\n"));
+  const auto out = recipe.parent_path() / "set";
+  const Ended run = RunCommand(RAILCAST_GENERATE " dataset " + recipe.string() + " --out " +
+                               out.string() + " " + options);
+  if (run.status != 0) throw std::runtime_error(run.said);
+  return out;
+}
+
+Json StatsOf(const std::filesystem::path& source, const std::filesystem::path& out) {
+  const Ended run = Analyze("stats " + source.string() + " --out " + out.string());
+  EXPECT_EQ(run.status, 0) << run.said;
+  return Json::parse(ReadFileWhole(out / "stats.json"));
+}
+
+TEST(StatsCommand, SumsUpADataSetAndShowsItsReportFirst) {
+  const TemporaryFolder folder;
+  const auto set = MakeSmallDataset(folder, "");
+  const Json stats = StatsOf(set, set.parent_path() / "out");
+  EXPECT_EQ(stats["title"], "Statistics of set");
+  EXPECT_EQ(stats["facts"]["Frames"], "6");
+  EXPECT_EQ(stats["facts"]["Source"], set.string() + " (data set)");
+  const Json manifest = Json::parse(ReadFileWhole(set / "manifest.json"));
+  EXPECT_EQ(stats["facts"]["Data hash"], manifest["data_xxh3"]);
+  EXPECT_EQ(stats["sections"][0]["key"], "dataset");
+  EXPECT_EQ(stats["sections"][1]["key"], "classes");
+  // The clouds hold what the generator counted.
+  std::map<std::string, std::uint64_t> counted, found;
+  for (const Json& row : JsonTableOf(stats, "points_by_label")["rows"]) {
+    found[row["label"]] = row["points"];
+  }
+  for (const Json& row : JsonTableOf(stats, "dataset_classes")["rows"]) {
+    counted[row["label"]] = row["points"];
+  }
+  EXPECT_EQ(found, counted);
+  EXPECT_GT(found.size(), 1U);
+}
+
+TEST(StatsCommand, RefusesAnUnfinishedDataSetInOneLine) {
+  const TemporaryFolder folder;
+  const auto set = MakeSmallDataset(folder, "");
+  std::filesystem::remove(set / "manifest.json");
+  const Ended run = Analyze("stats " + set.string() + " --format text");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(run.said, set.string() +
+                          ": must be a finished data set (got no manifest.json); the command that "
+                          "began it, railcast-generate dataset, continues it\n");
+}
+
+TEST(StatsCommand, SumsUpAShardWithoutASectionOfItsOwn) {
+  const TemporaryFolder folder;
+  const auto set = MakeSmallDataset(folder, "--shard 1/2");
+  const Json stats = StatsOf(set, set.parent_path() / "out");
+  EXPECT_EQ(stats["facts"]["Frames"], "4");
+  EXPECT_EQ(stats["facts"]["Source"], set.string() + " (shard 1/2 of a data set)");
+  EXPECT_EQ(stats["sections"][0]["key"], "classes");
+}
+
+// Two runs joined as SemanticKITTI has its sequences.
+TEST(StatsCommand, SumsUpAllKittiSequencesByTheNamesBesideThem) {
+  const TemporaryFolder folder;
+  const auto run = MakeSequence(folder, "--format kitti");
+  const Json one = StatsOf(run, run.parent_path() / "of_one");
+  const auto other = run.parent_path() / "other";
+  std::filesystem::copy(run, other, std::filesystem::copy_options::recursive);
+  const auto joined = run.parent_path() / "joined";
+  const Ended join =
+      RunCommand("/usr/bin/python3 " RAILCAST_SOURCE_DIR "/scripts/join_semantic_kitti.py " +
+                 joined.string() + " --train " + run.string() + " --test " + other.string());
+  ASSERT_EQ(join.status, 0) << join.said;
+  const Json both = StatsOf(joined, run.parent_path() / "of_both");
+  EXPECT_EQ(both["facts"]["Source"], joined.string() + " (KITTI data set of 2 sequences)");
+  EXPECT_EQ(both["facts"]["Frames"], "22");
+  const Json& rows = JsonTableOf(one, "points_by_label")["rows"];
+  const Json& sums = JsonTableOf(both, "points_by_label")["rows"];
+  ASSERT_EQ(rows.size(), sums.size());
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    names.insert(sums[i]["label"].get<std::string>());
+    EXPECT_EQ(sums[i]["points"], 2 * rows[i]["points"].get<std::uint64_t>());
+    EXPECT_EQ(sums[i]["points_percent"], rows[i]["points_percent"]);
+  }
+  EXPECT_TRUE(names.contains("rail"));
+  std::filesystem::remove(joined / "semantic-kitti-railcast.yaml");
+  const Json numbers = StatsOf(joined, run.parent_path() / "of_numbers");
+  EXPECT_EQ(JsonTableOf(numbers, "points_by_label")["rows"].size(), rows.size());
+  for (const Json& row : JsonTableOf(numbers, "points_by_label")["rows"]) {
+    EXPECT_FALSE(names.contains(row["label"].get<std::string>()));
+  }
 }
 
 TEST(StatsCommand, RefusesToCountTwice) {

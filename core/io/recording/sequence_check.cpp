@@ -18,16 +18,6 @@ bool IsThere(const std::filesystem::path& file) {
   return status.type() != std::filesystem::file_type::not_found;
 }
 
-std::string ReadKnownFile(const std::filesystem::path& directory,
-                          const KnownFile& file,
-                          std::string_view said_in) {
-  if (!IsSequenceFile(file.name)) {
-    throw InputError(ShownPath(directory / said_in) + ": must name files of a sequence (got " +
-                     ShownText(file.name) + ")");
-  }
-  return ReadHashedFile(directory, file, said_in);
-}
-
 std::string ReadHashedFile(const std::filesystem::path& directory,
                            const KnownFile& file,
                            std::string_view said_in) {
@@ -44,6 +34,16 @@ std::string ReadHashedFile(const std::filesystem::path& directory,
                      hash + ")");
   }
   return bytes;
+}
+
+std::string ReadKnownFile(const std::filesystem::path& directory,
+                          const KnownFile& file,
+                          std::string_view said_in) {
+  if (!IsSequenceFile(file.name)) {
+    throw InputError(ShownPath(directory / said_in) + ": must name files of a sequence (got " +
+                     ShownText(file.name) + ")");
+  }
+  return ReadHashedFile(directory, file, said_in);
 }
 
 SequenceSummary ReadSequenceSummary(const std::filesystem::path& directory) {

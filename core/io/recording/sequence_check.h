@@ -18,17 +18,20 @@ namespace railcast {
 /// Whether an entry of this name exists, even if it is a link to nowhere.
 [[nodiscard]] bool IsThere(const std::filesystem::path& file);
 
-/// Returns the bytes of a file of the directory.
+/// Returns the bytes of a file with a known content.
+/// @param said_in The file that states the expected content, for error messages: "manifest.json".
+/// @throws InputError with one line if the file cannot be read or holds anything else.
+[[nodiscard]] std::string ReadHashedFile(const std::filesystem::path& directory,
+                                         const KnownFile& file,
+                                         std::string_view said_in);
+
+/// As ReadHashedFile(), for a file of a sequence directory.
 /// @param said_in The file that states the expected content, for error messages: "frames.jsonl".
 /// @throws InputError with one line if the file cannot be read or holds anything else, or if a
 ///   sequence directory never has a file of this name.
 [[nodiscard]] std::string ReadKnownFile(const std::filesystem::path& directory,
                                         const KnownFile& file,
                                         std::string_view said_in);
-/// As ReadKnownFile(), for a file of any name.
-[[nodiscard]] std::string ReadHashedFile(const std::filesystem::path& directory,
-                                         const KnownFile& file,
-                                         std::string_view said_in);
 
 /// The summary that a sequence directory gives of itself.
 struct SequenceSummary {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/verify/dataset_content.h"
 #include "core/io/write_file.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/dataset/recipe_project.h"
