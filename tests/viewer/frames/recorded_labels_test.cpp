@@ -75,7 +75,10 @@ TEST(LabelsOfKitti, HaveTheColoursOfOurs) {
 
 // Removes all but KITTI's own files, as in a recording of another program.
 void LeaveKittisFilesAlone(const fs::path& run) {
-  for (const char* ours : {"run.json", "frames.jsonl", "labels.json"}) fs::remove(run / ours);
+  for (const char* ours :
+       {"run.json", "frames.jsonl", "labels.json", "semantic-kitti-railcast.yaml"}) {
+    fs::remove(run / ours);
+  }
 }
 
 TEST(LabelsOfKitti, StayNumbersWithoutALabelTable) {
@@ -101,6 +104,7 @@ TEST(LabelsOfKitti, AreNotSoughtAboveTheSequences) {
   const fs::path run = directory.path() / "kitti";
   (void)MakeKitti(run);
   fs::rename(run / "labels.json", directory.path() / "labels.json");
+  fs::remove(run / "semantic-kitti-railcast.yaml");
   const fs::path file = run / "sequences" / "00" / "velodyne" / "000000.bin";
   EXPECT_THAT(RecordedFrames(file).info().labels.labels(), IsEmpty());
 }
