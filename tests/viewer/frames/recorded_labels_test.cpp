@@ -75,7 +75,10 @@ TEST(LabelsOfKitti, HaveTheColoursOfOurs) {
 
 // Removes all but KITTI's own files, as in a recording of another program.
 void LeaveKittisFilesAlone(const fs::path& run) {
-  for (const char* ours : {"run.json", "frames.jsonl", "labels.json"}) fs::remove(run / ours);
+  for (const char* ours :
+       {"run.json", "frames.jsonl", "labels.json", "semantic-kitti-railcast.yaml"}) {
+    fs::remove(run / ours);
+  }
 }
 
 TEST(LabelsOfKitti, StayNumbersWithoutALabelTable) {
@@ -84,6 +87,15 @@ TEST(LabelsOfKitti, StayNumbersWithoutALabelTable) {
   (void)MakeKitti(run);
   LeaveKittisFilesAlone(run);
   EXPECT_THAT(RecordedFrames(run).info().labels.labels(), IsEmpty());
+}
+
+TEST(LabelsOfKitti, AreThoseOfTheConfigurationWithoutALabelTable) {
+  const TemporaryDirectory directory;
+  const fs::path run = directory.path() / "kitti";
+  const MadeSequence made = MakeKitti(run);
+  for (const char* ours : {"run.json", "frames.jsonl", "labels.json"}) fs::remove(run / ours);
+  RecordedFrames frames(run);
+  EXPECT_EQ(NamesIn(frames), ExpectedNames(made));
 }
 
 TEST(LabelsOfKitti, AreThoseOfAScenarioThatIsGiven) {
@@ -100,7 +112,9 @@ TEST(LabelsOfKitti, AreNotSoughtAboveTheSequences) {
   const TemporaryDirectory directory;
   const fs::path run = directory.path() / "kitti";
   (void)MakeKitti(run);
-  fs::rename(run / "labels.json", directory.path() / "labels.json");
+  for (const char* table : {"labels.json", "semantic-kitti-railcast.yaml"}) {
+    fs::rename(run / table, directory.path() / table);
+  }
   const fs::path file = run / "sequences" / "00" / "velodyne" / "000000.bin";
   EXPECT_THAT(RecordedFrames(file).info().labels.labels(), IsEmpty());
 }
