@@ -25,10 +25,12 @@ std::string Plural(std::uint64_t count, const std::string& noun) {
 }
 
 std::string OverviewText(const DatasetOverview& overview) {
+  const char* const what =
+      "Objects are counted in each frame whose sensor they are in range of, hidden or not; "
+      "distances are those from the sensor to the middle of their boxes.";
   return Joined({Plural(overview.num_scenarios, "scenario"), ", ",
                  Plural(overview.num_frames, "frame"), ", ", Plural(overview.num_points, "point"),
-                 ". Objects are counted in each frame whose sensor they are in range of, hidden or "
-                 "not; distances are those from the sensor to the middle of their boxes."});
+                 ". ", what});
 }
 
 Table FramesTable(const DatasetOverview& overview) {

@@ -81,5 +81,22 @@ TEST(SeriesOfDeathTest, RefusesAColumnThatIsNotThere) {
                "a chart names columns of its table");
 }
 
+TEST(SeriesByRow, AreLinesOverTheOtherColumnsOfTheFirstRows) {
+  const Table table = {"t",
+                       "",
+                       "",
+                       {{"name", "", ""}, {"near", "", ""}, {"far", "", ""}},
+                       {{std::string("a"), std::uint64_t{5}, kNoFigure},
+                        {std::string("b"), std::uint64_t{6}, 2.5},
+                        {std::string("c"), std::uint64_t{7}, 3.5}}};
+  const std::vector<ChartSeries> series = SeriesByRow(table, 2);
+  ASSERT_EQ(series.size(), 2U);
+  EXPECT_EQ(series[1].title, "b");
+  EXPECT_THAT(PlacesOf(series[1]), ElementsAre(0.0, 1.0));
+  EXPECT_EQ(series[1].points[0].y, 6.0);
+  EXPECT_EQ(series[1].points[1].y, 2.5);
+  EXPECT_TRUE(std::isnan(series[0].points[1].y));
+}
+
 }  // namespace
 }  // namespace railcast

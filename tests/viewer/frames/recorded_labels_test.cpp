@@ -89,6 +89,15 @@ TEST(LabelsOfKitti, StayNumbersWithoutALabelTable) {
   EXPECT_THAT(RecordedFrames(run).info().labels.labels(), IsEmpty());
 }
 
+TEST(LabelsOfKitti, AreThoseOfTheConfigurationWithoutALabelTable) {
+  const TemporaryDirectory directory;
+  const fs::path run = directory.path() / "kitti";
+  const MadeSequence made = MakeKitti(run);
+  for (const char* ours : {"run.json", "frames.jsonl", "labels.json"}) fs::remove(run / ours);
+  RecordedFrames frames(run);
+  EXPECT_EQ(NamesIn(frames), ExpectedNames(made));
+}
+
 TEST(LabelsOfKitti, AreThoseOfAScenarioThatIsGiven) {
   const TemporaryDirectory directory;
   const fs::path run = directory.path() / "kitti";
@@ -103,8 +112,9 @@ TEST(LabelsOfKitti, AreNotSoughtAboveTheSequences) {
   const TemporaryDirectory directory;
   const fs::path run = directory.path() / "kitti";
   (void)MakeKitti(run);
-  fs::rename(run / "labels.json", directory.path() / "labels.json");
-  fs::remove(run / "semantic-kitti-railcast.yaml");
+  for (const char* table : {"labels.json", "semantic-kitti-railcast.yaml"}) {
+    fs::rename(run / table, directory.path() / table);
+  }
   const fs::path file = run / "sequences" / "00" / "velodyne" / "000000.bin";
   EXPECT_THAT(RecordedFrames(file).info().labels.labels(), IsEmpty());
 }
