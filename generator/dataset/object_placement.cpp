@@ -8,6 +8,7 @@
 #include "core/scene/object_contacts.h"
 #include "generator/check/gauge_entries.h"
 #include "generator/dataset/object_template.h"
+#include "generator/dataset/structure_contacts.h"
 #include "railcast/scenario.h"
 
 namespace railcast {
@@ -41,14 +42,25 @@ class PlaceCheck {
     return std::nullopt;
   }
 
+  /// What of the line it is in; nothing if it is in nothing.
+  [[nodiscard]] std::optional<std::string> StructureFault(const ObjectSpec& spec,
+                                                          StructureContacts& structures) const {
+    // Rails lead wagons past everything.
+    if (IsOnItsTrack(spec)) return std::nullopt;
+    for (std::size_t i = 0; i < NumPlaces(); ++i) {
+      if (const auto label = structures.Find(world_, object_, stamps_.stamps_ns[i])) {
+        return "it is in \"" + *label + "\" of the line" + AtFrame(stamps_.frames[i]);
+      }
+    }
+    return std::nullopt;
+  }
+
   /// How it breaks the rule; nothing if it does not.
   [[nodiscard]] std::optional<std::string> GaugeFault(const ScenarioSpec& scenario,
                                                       GaugeRule rule) const {
     if (rule == GaugeRule::kAny) return std::nullopt;
-    const ObjectSpec& spec = scenario.world.objects.back();
-    const bool is_on_its_track = IsRailVehicle(spec.type) && spec.d_m == 0.0;
-    const bool moves = world_.objects()[object_].moves;
-    for (std::size_t i = 0; i < (moves ? stamps_.frames.size() : 1); ++i) {
+    const bool is_on_its_track = IsOnItsTrack(scenario.world.objects.back());
+    for (std::size_t i = 0; i < NumPlaces(); ++i) {
       const std::vector<GaugeEntry> entries =
           FindObjectInGauge(scenario.world, world_, object_, is_on_its_track, stamps_.stamps_ns[i]);
       if (entries.empty()) continue;
@@ -61,6 +73,14 @@ class PlaceCheck {
   }
 
  private:
+  [[nodiscard]] static bool IsOnItsTrack(const ObjectSpec& spec) {
+    return IsRailVehicle(spec.type) && spec.d_m == 0.0;
+  }
+  // In how many of the frames it may be elsewhere than before.
+  [[nodiscard]] std::size_t NumPlaces() const {
+    return world_.objects()[object_].moves ? stamps_.frames.size() : 1;
+  }
+
   const RailWorld& world_;
   const MadeStamps& stamps_;
   std::size_t object_ = 0;
@@ -123,6 +143,8 @@ class ObjectPlacer {
     const PlaceCheck check(*world, object.name, stamps_);
     if (auto fault = check.GaugeFault(scenario, rule)) return *fault;
     if (auto fault = check.Collision()) return *fault;
+    if (!structures_) structures_.emplace(world_, LabelTable(scenario.labels));
+    if (auto fault = check.StructureFault(object, *structures_)) return *fault;
     world_ = std::move(world);
     return "";
   }
@@ -131,6 +153,7 @@ class ObjectPlacer {
   const KeyedDraws& draws_;
   const MadeStamps& stamps_;
   std::shared_ptr<const RailWorld> world_;
+  std::optional<StructureContacts> structures_;
   DraftedScenario& draft_;
   Json placed_ = Json::array();
 };

@@ -116,6 +116,28 @@ TEST(ScenarioDraw, PlacedObjectsKeepToTheRuleAboutTheGauge) {
   }
 }
 
+TEST(ScenarioDraw, PlacedObjectsStandInNoStructure) {
+  const TemporaryDirectory directory;
+  nlohmann::json recipe = ProjectRecipe();
+  recipe["set"]["/world/structures"] = nlohmann::json::parse(R"([
+    {"type": "noise_wall", "name": "wall", "side": "left", "begin_s_m": 300, "end_s_m": 700}])");
+  const double in_the_wall_m = 3.85;
+  nlohmann::json& d_m = recipe["objects"][0]["draws"]["/d_m"];
+  d_m = {{"type", "choice"}, {"values", {in_the_wall_m, 6.0}}};
+  bool was_any_drawn_again = false;
+  for (const DrawnScenario& drawn : DrawAll(ReadProjectRecipe(directory.path(), recipe))) {
+    for (const Json& placed : drawn.record.at("placed")) {
+      EXPECT_EQ(placed.at("drawn").at("/d_m"), 6.0);
+      was_any_drawn_again = was_any_drawn_again || placed.at("attempt") != 1;
+    }
+  }
+  EXPECT_TRUE(was_any_drawn_again);
+  d_m["values"] = {in_the_wall_m};
+  const Recipe nowhere = ReadProjectRecipe(directory.path(), recipe);
+  EXPECT_THAT(MessageOf([&] { (void)ScenarioDrawer(nowhere).Draw(0); }),
+              HasSubstr("at the last one it is in \"noise_wall\" of the line in frame 0"));
+}
+
 TEST(ScenarioDraw, SaysWhatFindsNoPlace) {
   const TemporaryDirectory directory;
   nlohmann::json recipe = ProjectRecipe();
