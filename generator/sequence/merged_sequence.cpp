@@ -15,7 +15,6 @@
 #include "core/io/content_hash.h"
 #include "core/io/merged_files.h"
 #include "core/io/recording/line_reader.h"
-#include "core/io/recording/sequence_lines.h"
 #include "core/io/sequence_files.h"
 #include "core/io/write_file.h"
 #include "generator/sequence/merged_cloud.h"
@@ -139,9 +138,8 @@ class MergedWriter {
     static_cast<void>(lines.Need());
     std::string text(kPosesHeader);
     for (const MergedFrame& frame : frames_) {
-      const PlacedLine line = lines.Need();
-      const Transform world_from_sensor = ReadPoseLine(line.text, frame.stamp_ns, line.place);
-      text += PoseLine({frame.stamp_ns, world_from_sensor * sensor_from_vehicle});
+      const PoseRecord sensor = ParsePoseLine(lines.Need().text + "\n");
+      text += PoseLine({frame.stamp_ns, sensor.WorldFromSensor() * sensor_from_vehicle});
     }
     return text;
   }
