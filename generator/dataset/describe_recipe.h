@@ -152,7 +152,8 @@ void Describe(Archive& a, Recipe& s) {
       s.warm_up_frames + (static_cast<double>(s.num_frames) - 1.0) * static_cast<double>(s.stride);
   a.Ensure({"", "num_frames", "stride", "warm_up_frames"}, last <= kMostFrame,
            "must lead to no frame after 1000000000");
-  a.Optional("sensor", s.sensor, "Which sensor, where scenarios have several.", NonEmptyString());
+  a.Optional("sensor", s.sensor,
+             "Which sensor, where scenarios have several; absent = all of them.", NonEmptyString());
   a.Required("bases", s.bases, "Scenarios to draw from.", NonEmptyList());
   a.Optional("set", s.set, "Values by JSON pointer, for all scenarios.");
   a.Optional("groups", s.groups, "Values that belong together.");
