@@ -32,7 +32,7 @@ constexpr std::string_view kCompressed = "pcd-compressed";
 // stay as they are.
 Transform MergedFromCloud(const ScenarioSpec& scenario) {
   if (scenario.output.frame != OutputFrame::kSensor) return Transform::Identity();
-  const Transform vehicle_from_sensor = VehicleFromSensor(scenario.lidar.mount);
+  Transform vehicle_from_sensor = VehicleFromSensor(scenario.lidar.mount);
   if (scenario.output.handedness == Handedness::kRight) return vehicle_from_sensor;
   const Transform mirror(Eigen::Scaling(1.0, -1.0, 1.0));
   return mirror * vehicle_from_sensor * mirror;
