@@ -13,7 +13,6 @@ lidar, looking forward. Objects that it does not see have the box 0 0 0 0 and ar
 Needs Debian's python3-numpy and python3-yaml. Exit status: 0 success, 1 bad input, 2 usage.
 """
 
-import argparse
 import json
 import pathlib
 import shutil
@@ -21,7 +20,7 @@ import sys
 
 import numpy as np
 
-from join_semantic_kitti import BadInput, common_configuration, link_or_copy
+from join_semantic_kitti import BadInput, common_configuration, link_or_copy, read_arguments
 
 SPLITS = ("train", "val", "test")
 # KITTI's class by railcast's label; an object's type says more where it is named in TYPES.
@@ -133,20 +132,13 @@ def export(out, splits):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
-    parser.add_argument("out", type=pathlib.Path, metavar="OUT")
-    for name in SPLITS:
-        parser.add_argument(f"--{name}", type=pathlib.Path, nargs="+", default=[], metavar="RUN")
-    arguments = parser.parse_args()
-    splits = {name: getattr(arguments, name) for name in SPLITS}
-    if not any(splits.values()):
-        parser.error("at least one RUN is needed")
+    out, splits = read_arguments(__doc__.split("\n", maxsplit=1)[0], SPLITS)
     try:
-        num_frames, num_objects = export(arguments.out, splits)
+        num_frames, num_objects = export(out, splits)
     except BadInput as error:
         print(error, file=sys.stderr)
         return 1
-    print(f"{arguments.out}: {num_frames} frames, {num_objects} objects")
+    print(f"{out}: {num_frames} frames, {num_objects} objects")
     return 0
 
 

@@ -109,22 +109,28 @@ def join(out, splits):
     return counts
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+def read_arguments(description, names):
+    """The folder OUT and the runs by the name of their part, from the command line."""
+    parser = argparse.ArgumentParser(description=description)
     parser.add_argument("out", type=pathlib.Path, metavar="OUT")
-    for name in SPLITS:
+    for name in names:
         parser.add_argument(f"--{name}", type=pathlib.Path, nargs="+", default=[], metavar="RUN")
     arguments = parser.parse_args()
-    splits = {name: getattr(arguments, name) for name in SPLITS}
+    splits = {name: getattr(arguments, name) for name in names}
     if not any(splits.values()):
         parser.error("at least one RUN is needed")
+    return arguments.out, splits
+
+
+def main():
+    out, splits = read_arguments(__doc__.split("\n", maxsplit=1)[0], SPLITS)
     try:
-        counts = join(arguments.out, splits)
+        counts = join(out, splits)
     except BadInput as error:
         print(error, file=sys.stderr)
         return 1
     num_runs = sum(map(len, splits.values()))
-    print(f"{arguments.out}: {num_runs} sequences, {counts.sum()} points, {np.count_nonzero(counts)} labels")
+    print(f"{out}: {num_runs} sequences, {counts.sum()} points, {np.count_nonzero(counts)} labels")
     return 0
 
 
