@@ -101,7 +101,7 @@ ScanEnd ScanEndOf(const Frame& frame) {
   return end;
 }
 
-std::string FrameLine(const FrameRecord& record) {
+std::string FrameRecordLine(const FrameRecord& record) {
   Json files = Json::array();
   for (const WrittenFile& file : record.files) {
     files.push_back({{"name", file.name}, {"bytes", file.size}, {"xxh3", file.hash}});

@@ -65,9 +65,9 @@ struct FrameRecord {
   bool operator==(const FrameRecord&) const = default;
 };
 
-[[nodiscard]] std::string FrameLine(const FrameRecord& record);
+[[nodiscard]] std::string FrameRecordLine(const FrameRecord& record);
 
-/// Returns nothing if the line is incomplete or was not written by FrameLine.
+/// Returns nothing if the line is incomplete or was not written by FrameRecordLine.
 [[nodiscard]] std::optional<FrameRecord> ParseFrameLine(std::string_view line);
 
 }  // namespace railcast

@@ -56,7 +56,7 @@ TEST(ScanEndOf, HasTheQuaternionNearerToTheOneAtTheStamp) {
   }
 }
 
-TEST(FrameLine, ReadsBack) {
+TEST(FrameRecordLine, ReadsBack) {
   FrameRecord record;
   record.frame = 7;
   record.stamp_ns = 700'000'000;
@@ -65,13 +65,13 @@ TEST(FrameLine, ReadsBack) {
   record.files = {{"frames/000007.pcd", 1234, "0123456789abcdef"}};
   record.records_hash = "fedcba9876543210";
   record.counts = CountFrame(ExampleFrame(7), ExampleLabels());
-  const std::string line = FrameLine(record);
+  const std::string line = FrameRecordLine(record);
   EXPECT_EQ(ParseFrameLine(line), record);
   EXPECT_EQ(line.find('\n'), line.size() - 1);
 }
 
 TEST(ParseFrameLine, GivesNothingForATornLine) {
-  const std::string line = FrameLine(FrameRecord{});
+  const std::string line = FrameRecordLine(FrameRecord{});
   for (std::size_t size = 0; size + 1 < line.size(); ++size) {
     EXPECT_FALSE(ParseFrameLine(line.substr(0, size)).has_value()) << size;
   }
