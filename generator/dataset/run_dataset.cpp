@@ -109,14 +109,8 @@ class DatasetRun {
     CheckOutputSuits(choices_.format, drawn.scenario,
                      ShownPath(recipe_.file) + ": scenario " + std::to_string(number));
     const SequenceChoices choices = ChoicesOfScenario(recipe_, choices_, number);
-    std::vector<SensorRun> sensors;
-    if (drawn.scenario.lidars.empty()) {
-      SequenceSpec spec = SequenceSpecOf(drawn.scenario, choices);
-      sensors.push_back({drawn.scenario.lidar.name, drawn.scenario, std::move(spec)});
-    } else {
-      sensors = AtPlace(ShownPath(recipe_.file) + ": /",
-                        [&] { return SensorRunsOf(drawn.scenario, choices); });
-    }
+    AtPlace(ShownPath(recipe_.file) + ": /", [&] { CheckNamesOfFolders(drawn.scenario); });
+    std::vector<SensorRun> sensors = SensorRunsOf(drawn.scenario, choices);
     const auto simulators =
         MakeSimulators(drawn.scenario, choices_.num_threads, sensors.front().spec.isa);
     CommandedRun run(drawn.scenario, PointersTo(simulators));

@@ -1,32 +1,27 @@
 #include "generator/sequence/merged_cloud.h"
 
+#include <pcl/common/io.h>
 #include <pcl/io/pcd_io.h>
 
 #include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <sstream>
-#include <string_view>
+#include <string>
 
 #include "core/base/error.h"
+#include "core/io/field_layout.h"
 #include "core/io/merged_files.h"
 
 namespace railcast {
 namespace {
 
-// The place of a field within a point, or nothing.
-const pcl::PCLPointField* FieldOf(const pcl::PCLPointCloud2& cloud, std::string_view name) {
-  for (const pcl::PCLPointField& field : cloud.fields) {
-    if (field.name == name) return &field;
-  }
-  return nullptr;
-}
-
-std::size_t OffsetOf(const pcl::PCLPointCloud2& cloud, std::string_view name) {
-  const pcl::PCLPointField* const field = FieldOf(cloud, name);
-  Check(field != nullptr && field->datatype == pcl::PCLPointField::FLOAT32,
+std::size_t OffsetOf(const pcl::PCLPointCloud2& cloud, const std::string& name) {
+  const int field = pcl::getFieldIndex(cloud, name);
+  Check(field >= 0 &&
+            cloud.fields[static_cast<std::size_t>(field)].datatype == pcl::PCLPointField::FLOAT32,
         "a cloud that is merged has coordinates");
-  return field->offset;
+  return cloud.fields[static_cast<std::size_t>(field)].offset;
 }
 
 template <typename T>
@@ -34,11 +29,6 @@ T ValueAt(const std::uint8_t* place) {
   T value{};
   std::memcpy(&value, place, sizeof value);
   return value;
-}
-
-template <typename T>
-void StoreValue(std::uint8_t* place, T value) {
-  std::memcpy(place, &value, sizeof value);
 }
 
 }  // namespace
@@ -60,7 +50,7 @@ void MergedCloud::Add(const pcl::PCLPointCloud2& cloud, const Part& part) {
   const std::size_t x = OffsetOf(cloud, "x");
   const std::size_t y = OffsetOf(cloud, "y");
   const std::size_t z = OffsetOf(cloud, "z");
-  const pcl::PCLPointField* const time = FieldOf(cloud, "time_ns");
+  const int time = pcl::getFieldIndex(cloud, "time_ns");
   const std::size_t num_slots = std::size_t{cloud.width} * cloud.height;
   merged_.data.reserve(merged_.data.size() + num_slots * (step + 1));
   for (std::size_t slot = 0; slot < num_slots; ++slot) {
@@ -69,15 +59,16 @@ void MergedCloud::Add(const pcl::PCLPointCloud2& cloud, const Part& part) {
     const std::size_t begin = merged_.data.size();
     merged_.data.insert(merged_.data.end(), from, from + step);
     merged_.data.push_back(part.sensor_index);
-    std::uint8_t* const to = merged_.data.data() + begin;
+    char* const to = reinterpret_cast<char*>(merged_.data.data() + begin);
     const Vector3 point =
         part.merged_from_cloud *
         Vector3(ValueAt<float>(from + x), ValueAt<float>(from + y), ValueAt<float>(from + z));
-    StoreValue(to + x, static_cast<float>(point.x()));
-    StoreValue(to + y, static_cast<float>(point.y()));
-    StoreValue(to + z, static_cast<float>(point.z()));
-    if (time != nullptr) {
-      StoreValue(to + time->offset, ValueAt<std::uint32_t>(from + time->offset) + part.later_ns);
+    StoreAt<float>(to + x, point.x());
+    StoreAt<float>(to + y, point.y());
+    StoreAt<float>(to + z, point.z());
+    if (time >= 0) {
+      const std::size_t offset = cloud.fields[static_cast<std::size_t>(time)].offset;
+      StoreAt<std::uint32_t>(to + offset, ValueAt<std::uint32_t>(from + offset) + part.later_ns);
     }
   }
   merged_.width = static_cast<std::uint32_t>(merged_.data.size() / merged_.point_step);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <ranges>
 #include <string>
 
 #include "core/base/error.h"
@@ -15,8 +16,10 @@
 #include "core/io/content_hash.h"
 #include "core/io/merged_files.h"
 #include "core/io/recording/line_reader.h"
+#include "core/io/recording/sequence_lines.h"
 #include "core/io/sequence_files.h"
 #include "core/io/write_file.h"
+#include "generator/empty_folder.h"
 #include "generator/sequence/merged_cloud.h"
 #include "generator/sequence/pose_record.h"
 #include "railcast/io/cloud_files.h"
@@ -43,15 +46,13 @@ std::vector<std::uint32_t> FramesWithin(const MergedSensor& sensor,
                                         std::int64_t begin_ns,
                                         std::int64_t end_ns) {
   const SequenceSpec& spec = sensor.run.spec;
+  const auto stamp_ns = [&](std::uint32_t i) { return sensor.pattern.StampNs(spec.FrameAt(i)); };
+  const auto all = std::views::iota(std::uint32_t{0}, spec.num_frames);
   std::vector<std::uint32_t> frames;
-  std::uint32_t low = 0;
-  std::uint32_t high = spec.num_frames;
-  while (low < high) {
-    const std::uint32_t middle = low + (high - low) / 2;
-    (sensor.pattern.StampNs(spec.FrameAt(middle)) < begin_ns ? low = middle + 1 : high = middle);
-  }
-  for (; low < spec.num_frames && sensor.pattern.StampNs(spec.FrameAt(low)) < end_ns; ++low) {
-    frames.push_back(spec.FrameAt(low));
+  for (auto i = std::ranges::partition_point(
+           all, [&](std::uint32_t frame) { return stamp_ns(frame) < begin_ns; });
+       i != all.end() && stamp_ns(*i) < end_ns; ++i) {
+    frames.push_back(spec.FrameAt(*i));
   }
   return frames;
 }
@@ -92,15 +93,10 @@ class MergedWriter {
  private:
   // Files of another run would be taken for this run's.
   void RefuseOtherFiles() const {
-    std::error_code none;
-    for (const auto& entry : fs::directory_iterator(folder_, none)) {
-      const std::string name = entry.path().filename().string();
-      if (name == "frames" || name.starts_with(kPosesFile) || name.starts_with(kMergedFile)) {
-        continue;
-      }
-      throw InputError(ShownPath(folder_) + ": must hold nothing but merged clouds (got " +
-                       Quoted(name) + ")");
-    }
+    const auto is_known = [](const std::string& name) {
+      return name == "frames" || name.starts_with(kPosesFile) || name.starts_with(kMergedFile);
+    };
+    RefuseOtherEntries(folder_, is_known, "merged clouds");
   }
 
   // Returns the line about it.
@@ -138,8 +134,9 @@ class MergedWriter {
     static_cast<void>(lines.Need());
     std::string text(kPosesHeader);
     for (const MergedFrame& frame : frames_) {
-      const PoseRecord sensor = ParsePoseLine(lines.Need().text + "\n");
-      text += PoseLine({frame.stamp_ns, sensor.WorldFromSensor() * sensor_from_vehicle});
+      const PlacedLine line = lines.Need();
+      const Transform world_from_sensor = ReadPoseLine(line.text, frame.stamp_ns, line.place);
+      text += PoseLine({frame.stamp_ns, world_from_sensor * sensor_from_vehicle});
     }
     return text;
   }

@@ -12,6 +12,7 @@
 #include "core/io/sequence_files.h"
 #include "core/io/write_file.h"
 #include "core/scenario/track_limits.h"
+#include "generator/empty_folder.h"
 #include "generator/sequence/pose_record.h"
 
 namespace railcast {
@@ -28,13 +29,23 @@ std::vector<double> Components(const Eigen::Ref<const Eigen::VectorXd>& vector) 
 
 }  // namespace
 
+void CheckNamesOfFolders(const ScenarioSpec& scenario) {
+  if (scenario.lidars.empty()) return;
+  for (const std::string& name : SensorNames(scenario)) {
+    if (IsNameOfAFolder(name)) continue;
+    throw InputError("sensor: must be chosen, because a sensor's name is no name of a folder (" +
+                     Quoted(name) + ")");
+  }
+}
+
 std::vector<SensorRun> SensorRunsOf(const ScenarioSpec& scenario, const SequenceChoices& choices) {
   std::vector<SensorRun> runs;
+  if (scenario.lidars.empty()) {
+    runs.push_back({scenario.lidar.name, scenario, SequenceSpecOf(scenario, choices)});
+    return runs;
+  }
+  CheckNamesOfFolders(scenario);
   for (const std::string& name : SensorNames(scenario)) {
-    if (!IsNameOfAFolder(name)) {
-      throw InputError("sensor: must be chosen, because a sensor's name is no name of a folder (" +
-                       Quoted(name) + ")");
-    }
     ScenarioSpec reduced = PickSensor(scenario, name);
     if (!runs.empty()) reduced.camera.reset();
     SequenceChoices own = choices;
@@ -65,17 +76,13 @@ void SetFrames(const SequenceSpec& first,
 }
 
 void RefuseOtherFiles(const std::filesystem::path& directory, const std::vector<SensorRun>& runs) {
-  std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator(directory, none)) {
-    const std::string name = entry.path().filename().string();
-    const bool is_known = name == kSensorsFile || name == kMergedFolder ||
-                          std::any_of(runs.begin(), runs.end(),
-                                      [&](const SensorRun& run) { return run.name == name; });
-    if (is_known) continue;
-    throw InputError(ShownPath(directory) +
-                     ": must hold nothing but the folders of the scenario's sensors and " +
-                     std::string(kSensorsFile) + " (got " + Quoted(name) + ")");
-  }
+  const auto is_known = [&](const std::string& name) {
+    return name == kSensorsFile || name == kMergedFolder ||
+           std::any_of(runs.begin(), runs.end(),
+                       [&](const SensorRun& run) { return run.name == name; });
+  };
+  RefuseOtherEntries(directory, is_known,
+                     "the folders of the scenario's sensors and " + std::string(kSensorsFile));
 }
 
 std::string SensorsJson(const std::vector<SensorRun>& runs,

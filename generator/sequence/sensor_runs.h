@@ -20,9 +20,14 @@ struct SensorRun {
   SequenceSpec spec;
 };
 
-/// One sequence for each sensor of a scenario, in their order, in a folder of the sensor's name
-/// below `choices.directory`. The camera, if there is one, belongs to the first sensor's. The
-/// choices are those of the first sensor; SetFrames() adapts them for the others.
+/// Checks that the names of a scenario's `lidars` can be those of folders.
+/// @throws InputError "sensor: must be chosen, ...".
+void CheckNamesOfFolders(const ScenarioSpec& scenario);
+
+/// One sequence for each of a scenario's `lidars`, in their order, in a folder of the sensor's name
+/// below `choices.directory`; that of a single `lidar` is in `choices.directory` itself. The
+/// camera, if there is one, belongs to the first sensor's. The choices are those of the first
+/// sensor; SetFrames() adapts them for the others.
 /// @throws InputError if a name cannot be that of a folder, or as SequenceSpecOf() does.
 [[nodiscard]] std::vector<SensorRun> SensorRunsOf(const ScenarioSpec& scenario,
                                                   const SequenceChoices& choices);

@@ -68,14 +68,9 @@ Runs ReadForSequence(const SequenceOptions& options) {
   CheckOutputSuits(options.made.format, scenario, ShownPath(options.scenario));
   Runs runs;
   runs.is_in_folders = !options.sensor && SensorNames(scenario).size() > 1;
-  if (runs.is_in_folders) {
-    runs.sensors = SensorRunsOf(scenario, options.made);
-    RefuseOtherFiles(options.made.directory, runs.sensors);
-  } else {
-    ScenarioSpec of_sensor = PickSensor(scenario, options.sensor);
-    SequenceSpec spec = SequenceSpecOf(of_sensor, options.made);
-    runs.sensors.push_back({of_sensor.lidar.name, std::move(of_sensor), std::move(spec)});
-  }
+  runs.sensors = SensorRunsOf(runs.is_in_folders ? scenario : PickSensor(scenario, options.sensor),
+                              options.made);
+  if (runs.is_in_folders) RefuseOtherFiles(options.made.directory, runs.sensors);
   runs.whole = std::move(scenario);
   return runs;
 }

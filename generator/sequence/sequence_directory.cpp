@@ -273,7 +273,7 @@ void SequenceDirectory::Write(const EncodedFrame& frame) {
     all_lines += lines[i];
   }
   record.records_hash = ContentHash(all_lines);
-  line_files_.back().Append(FrameLine(record));
+  line_files_.back().Append(FrameRecordLine(record));
   counts_.Add(record.counts);
   ++num_done_;
 }
