@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <iomanip>
@@ -24,6 +25,15 @@ RegularLines& LinesOfLog() {
   return lines;
 }
 
+// Numbers the lines of a program. What is left of one when it is destroyed is over.
+std::shared_ptr<const int> NewJob() {
+  static std::atomic<int> num_jobs = 0;
+  return {new int(++num_jobs), [](const int* job) {
+            LinesOfLog().Show(*job, "");
+            delete job;
+          }};
+}
+
 }  // namespace
 
 std::string DurationText(double duration_s) {
@@ -37,14 +47,14 @@ std::string DurationText(double duration_s) {
   return text.str();
 }
 
-TerminalLine::TerminalLine() : is_terminal_(::isatty(STDERR_FILENO) == 1) {}
+TerminalLine::TerminalLine() : is_terminal_(::isatty(STDERR_FILENO) == 1), job_(NewJob()) {}
 
 void TerminalLine::Show(std::string_view text) const {
   if (is_terminal_) {
     // CR returns to the beginning of the line, ESC [K clears to its end.
-    std::cerr << "\r\033[K" << text << std::flush;
+    std::cerr << "\r\033[K" << ShownLines(text) << std::flush;
   } else {
-    LinesOfLog().Show(text);
+    LinesOfLog().Show(*job_, text);
   }
 }
 
@@ -57,7 +67,7 @@ void TerminalLine::End() const {
   if (is_terminal_) {
     std::cerr << "\n";
   } else {
-    LinesOfLog().Show("");
+    LinesOfLog().Show(*job_, "");
   }
 }
 

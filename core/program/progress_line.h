@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -12,7 +13,7 @@ namespace railcast {
 
 /// A line on stderr that shows the progress of a job. On a terminal it is rewritten in place.
 /// Elsewhere, as in a log, every half minute what is shown last becomes a line, so that a job of
-/// less than that leaves none. All lines of a program share this half minute.
+/// less than that leaves none. Jobs within jobs share these lines. A copy is the same line.
 class TerminalLine {
  public:
   TerminalLine();
@@ -26,6 +27,7 @@ class TerminalLine {
 
  private:
   bool is_terminal_;
+  std::shared_ptr<const int> job_;  ///< Its number among the lines of a log.
 };
 
 /// "42 %, scenario 11 of 24, about 2:05 left".

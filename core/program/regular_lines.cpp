@@ -11,10 +11,14 @@ RegularLines::RegularLines(std::chrono::milliseconds interval,
                            std::function<void(const std::string& line)> print)
     : interval_(interval), print_(std::move(print)) {}
 
-void RegularLines::Show(std::string_view text) {
+void RegularLines::Show(int job, std::string_view text) {
   const std::scoped_lock lock(mutex_);
-  text_ = text;
-  if (!text_.empty() && !std::exchange(has_started_, true)) Start();
+  if (text.empty()) {
+    texts_.erase(job);
+    return;
+  }
+  texts_[job] = text;
+  if (!std::exchange(has_started_, true)) Start();
 }
 
 void RegularLines::Start() {
@@ -29,9 +33,12 @@ void RegularLines::Run(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (!stop.stop_requested()) {
     wake_.wait_for(lock, stop, interval_, [] { return false; });
-    if (stop.stop_requested() || text_.empty()) continue;
+    if (stop.stop_requested() || texts_.empty()) continue;
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
-    print_("after " + DurationText(elapsed.count()) + ": " + text_);
+    std::string line = "after " + DurationText(elapsed.count());
+    const char* separator = ": ";
+    for (const auto& [job, text] : texts_) line += std::exchange(separator, "; ") + text;
+    print_(line);
   }
 }
 

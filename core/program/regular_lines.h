@@ -3,6 +3,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <stop_token>
 #include <string>
@@ -19,8 +20,9 @@ class RegularLines {
   RegularLines(std::chrono::milliseconds interval,
                std::function<void(const std::string& line)> print);
 
-  /// What is being done from now on; nothing is printed while it is empty. Thread-safe.
-  void Show(std::string_view text);
+  /// What a job does from now on; empty once it is over. The texts of jobs within jobs become one
+  /// line; nothing is printed while there is none. Thread-safe.
+  void Show(int job, std::string_view text);
 
  private:
   void Run(const std::stop_token& stop);
@@ -31,7 +33,7 @@ class RegularLines {
   const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   std::mutex mutex_;
   std::condition_variable_any wake_;
-  std::string text_;
+  std::map<int, std::string> texts_;  ///< By job, the outer ones first.
   bool has_started_ = false;
   std::jthread thread_;  // The last member, so that it ends before the others.
 };

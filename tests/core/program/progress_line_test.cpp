@@ -59,7 +59,7 @@ TEST(RegularLines, RepeatWhatIsBeingDoneWhileASingleStepTakesLong) {
   PrintedLines printed;
   RegularLines lines(std::chrono::milliseconds(1),
                      [&](const std::string& line) { printed.Add(line); });
-  lines.Show("step 1 of 2");
+  lines.Show(1, "step 1 of 2");
   for (const std::string& line : printed.WaitFor(3)) {
     EXPECT_TRUE(line.starts_with("after 0:") && line.ends_with(": step 1 of 2")) << line;
   }
@@ -69,23 +69,37 @@ TEST(RegularLines, SayNothingBetweenTwoJobs) {
   PrintedLines printed;
   RegularLines lines(std::chrono::milliseconds(1),
                      [&](const std::string& line) { printed.Add(line); });
-  lines.Show("first job");
+  lines.Show(1, "first job");
   (void)printed.WaitFor(1);
-  lines.Show("");
+  lines.Show(1, "");
   const std::size_t num_of_first = printed.WaitFor(1).size();
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  lines.Show("second job");
+  lines.Show(1, "second job");
   const std::vector<std::string> all = printed.WaitFor(num_of_first + 1);
   for (std::size_t i = num_of_first; i < all.size(); ++i) {
     EXPECT_TRUE(all[i].ends_with(": second job")) << all[i];
   }
 }
 
+TEST(RegularLines, JoinAJobWithTheOneThatItIsPartOf) {
+  PrintedLines printed;
+  RegularLines lines(std::chrono::milliseconds(1),
+                     [&](const std::string& line) { printed.Add(line); });
+  lines.Show(1, "scenario 3 of 9");
+  lines.Show(2, "building the scene");
+  const std::size_t num_before = printed.WaitFor(0).size();
+  EXPECT_TRUE(
+      printed.WaitFor(num_before + 1).back().ends_with(": scenario 3 of 9; building the scene"));
+  lines.Show(2, "");
+  const std::size_t num_of_both = printed.WaitFor(0).size();
+  EXPECT_TRUE(printed.WaitFor(num_of_both + 1).back().ends_with(": scenario 3 of 9"));
+}
+
 TEST(RegularLines, LeaveNoLineOfAJobThatIsShorterThanAnInterval) {
   PrintedLines printed;
   {
     RegularLines lines(std::chrono::hours(1), [&](const std::string& line) { printed.Add(line); });
-    lines.Show("short job");
+    lines.Show(1, "short job");
   }
   EXPECT_TRUE(printed.WaitFor(0).empty());
 }
