@@ -1,5 +1,6 @@
 #include "core/base/error.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <sstream>
@@ -15,13 +16,17 @@ std::vector<Fault> FaultsOfLines(const std::string& lines) {
   return faults;
 }
 
+// More lines than a screen has would hide the first ones, which are often the cause of the others.
 std::string LinesOf(const std::vector<Fault>& faults) {
+  constexpr std::size_t kMostShown = 20;
+  const std::size_t num_shown = std::min(faults.size(), kMostShown);
   std::string lines;
-  for (const Fault& fault : faults) {
+  for (std::size_t i = 0; i < num_shown; ++i) {
     if (!lines.empty()) lines += '\n';
-    lines += fault.Line();
+    lines += faults[i].Line();
   }
-  return lines;
+  if (faults.size() == num_shown) return lines;
+  return lines + "\n... and " + std::to_string(faults.size() - num_shown) + " more faults";
 }
 
 }  // namespace
@@ -31,7 +36,7 @@ std::string Fault::Line() const {
 }
 
 InputError::InputError(const std::string& lines)
-    : std::runtime_error(lines),
+    : std::runtime_error(LinesOf(FaultsOfLines(lines))),
       faults_(std::make_shared<const std::vector<Fault>>(FaultsOfLines(lines))) {}
 
 InputError::InputError(std::vector<Fault> faults)

@@ -38,9 +38,48 @@ std::size_t LengthOfCharacter(std::string_view text) {
 }
 
 std::string Escaped(const char* format, unsigned number) {
-  std::array<char, 8> text{};
+  std::array<char, 12> text{};
   const int length = std::snprintf(text.data(), text.size(), format, number);
   return {text.data(), static_cast<std::size_t>(length)};
+}
+
+/// The code point of a valid UTF-8 character.
+char32_t CodePoint(std::string_view character) {
+  constexpr std::array<unsigned, 5> kFirstBits = {0, 0x7F, 0x1F, 0x0F, 0x07};
+  char32_t point = ByteAt(character, 0) & kFirstBits.at(character.size());
+  for (std::size_t i = 1; i < character.size(); ++i) {
+    point = (point << 6U) | (ByteAt(character, i) & 0x3FU);
+  }
+  return point;
+}
+
+/// Whether a character is never seen, but may change the order of others, end a line or make two
+/// names look the same: Default_Ignorable_Code_Point, line and paragraph separators, the marks of
+/// bidirectional text and annotation controls (Unicode 15, DerivedCoreProperties.txt).
+bool IsInvisible(char32_t point) {
+  struct Range {
+    char32_t first;
+    char32_t last;
+  };
+  constexpr auto kRanges = std::to_array<Range>({{0xAD, 0xAD},
+                                                 {0x34F, 0x34F},
+                                                 {0x61C, 0x61C},
+                                                 {0x115F, 0x1160},
+                                                 {0x17B4, 0x17B5},
+                                                 {0x180B, 0x180F},
+                                                 {0x200B, 0x200F},
+                                                 {0x2028, 0x202E},
+                                                 {0x2060, 0x206F},
+                                                 {0x3164, 0x3164},
+                                                 {0xFE00, 0xFE0F},
+                                                 {0xFEFF, 0xFEFF},
+                                                 {0xFFA0, 0xFFA0},
+                                                 {0xFFF0, 0xFFFB},
+                                                 {0x1BCA0, 0x1BCA3},
+                                                 {0x1D173, 0x1D17A},
+                                                 {0xE0000, 0xE0FFF}});
+  return std::ranges::any_of(
+      kRanges, [&](const Range& range) { return point >= range.first && point <= range.last; });
 }
 
 std::string Shown(std::string_view character) {
@@ -54,11 +93,11 @@ std::string Shown(std::string_view character) {
     default:
       break;
   }
-  const std::uint8_t first = ByteAt(character, 0);
-  const bool is_c0 = first < 0x20 || first == 0x7F;
-  const bool is_c1 = first == 0xC2 && ByteAt(character, 1) < 0xA0;
-  if (is_c0) return Escaped("\\u%04x", first);
-  if (is_c1) return Escaped("\\u%04x", ByteAt(character, 1));
+  const char32_t point = CodePoint(character);
+  const bool is_control = point < 0x20 || (point >= 0x7F && point < 0xA0);
+  if (is_control || IsInvisible(point)) {
+    return Escaped(point > 0xFFFF ? "\\U%08x" : "\\u%04x", static_cast<unsigned>(point));
+  }
   return std::string(character);
 }
 

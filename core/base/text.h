@@ -45,8 +45,9 @@ requires std::is_arithmetic_v<Number>
 }
 
 /// Makes external text safe to show in a message: on a single line, harmless to a terminal and of
-/// limited length. Control characters become \n, \r, \t or \u001b, invalid UTF-8 bytes become \xff,
-/// and text longer than 60 bytes is cut off and ends in "...".
+/// limited length. Control characters become \n, \r, \t or \u001b, invisible ones such as those that
+/// turn the direction of text \u202e, invalid UTF-8 bytes \xff, and text longer than 60 bytes is cut
+/// off and ends in "...".
 [[nodiscard]] std::string ShownText(std::string_view text);
 
 /// As ShownText(), for a file name: on a single line, but not shortened.

@@ -28,5 +28,23 @@ TEST(CheckDeathTest, NamesPlaceAndAssumption) {
   EXPECT_DEATH(Check(false, "sum is one"), "error_test.cpp:[0-9]+: broken assumption: sum is one");
 }
 
+TEST(InputError, ShowsTheFirstTwentyFaultsAndHowManyThereAreMore) {
+  ErrorList errors;
+  for (int i = 0; i < 200'000; ++i)
+    errors.Add({"a.json: /" + std::to_string(i), "unknown key", ""});
+  std::string twenty;
+  for (int i = 0; i < 20; ++i) twenty += "a.json: /" + std::to_string(i) + ": unknown key\n";
+  try {
+    errors.ThrowIfAny();
+    FAIL() << "expected InputError";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.what(), twenty + "... and 199980 more faults");
+    EXPECT_EQ(error.faults().size(), 200'000U);
+  }
+  twenty.pop_back();
+  EXPECT_EQ(InputError(twenty).what(), twenty);
+  EXPECT_EQ(InputError(twenty + "\nb\nc").what(), twenty + "\n... and 2 more faults");
+}
+
 }  // namespace
 }  // namespace railcast

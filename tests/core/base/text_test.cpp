@@ -22,6 +22,15 @@ TEST(ShownText, StaysOnOneLineAndMovesNoCursor) {
   EXPECT_EQ(ShownText("\xc2\x9b"), "\\u009b");
 }
 
+TEST(ShownText, ShowsWhatIsInvisibleByItsNumber) {
+  EXPECT_EQ(ShownText("a\u202Egpj.b"), "a\\u202egpj.b");  // Right to left from here on.
+  EXPECT_EQ(ShownText("a\u200Bb\uFEFF\u00AD"), "a\\u200bb\\ufeff\\u00ad");
+  EXPECT_EQ(ShownText("a\u2028b\u2066\u2069"), "a\\u2028b\\u2066\\u2069");
+  EXPECT_EQ(ShownText("a\U000E0041"), "a\\U000e0041");
+  EXPECT_EQ(ShownPath("out/\u202Egnp.x"), "out/\\u202egnp.x");
+  EXPECT_EQ(ShownLines("a\n\u202Eb"), "a\n\\u202eb");
+}
+
 TEST(ShownText, ShowsTheBytesOfWhatIsNoUtf8) {
   EXPECT_EQ(ShownText("Z\xfcrich"), "Z\\xfcrich");
   // Truncated, overlong, half of a surrogate pair, and beyond U+10FFFF.
