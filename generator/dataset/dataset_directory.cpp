@@ -1,5 +1,6 @@
 #include "generator/dataset/dataset_directory.h"
 
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -36,6 +37,16 @@ std::string DatasetDifference(const std::string& key, const Json& found, const J
          ShownText(ours.dump()) + ");";
 }
 
+// Whether a folder holds no more than the beginning of its first file, which a run that was killed
+// leaves.
+bool HoldsOnlyBeginningOf(const fs::path& unfinished, const std::string& text) {
+  const fs::directory_iterator entry(unfinished.parent_path());
+  if (entry == fs::directory_iterator()) return false;
+  if (entry->path() != unfinished || !entry->is_regular_file() || entry->is_symlink()) return false;
+  return std::next(entry) == fs::directory_iterator() &&
+         text.starts_with(ReadFileWhole(unfinished));
+}
+
 }  // namespace
 
 Json DatasetJson(const DatasetSpec& spec) {
@@ -65,14 +76,14 @@ DatasetDirectory::DatasetDirectory(DatasetSpec spec) : spec_(std::move(spec)) {
   if (fs::exists(directory / kDatasetFile)) {
     CheckSameDataset();
   } else {
-    fs::remove(unfinished);
-    if (!fs::is_empty(directory)) {
+    const std::string text = DatasetJson(spec_).dump(2) + "\n";
+    if (!fs::is_empty(directory) && !HoldsOnlyBeginningOf(unfinished, text)) {
       throw InputError(
           "--out: must be a new or an empty folder, or that of a data set to continue "
           "(got " +
           ShownPath(directory) + ")");
     }
-    WriteFileWhole(directory / kDatasetFile, DatasetJson(spec_).dump(2) + "\n");
+    WriteFileWhole(directory / kDatasetFile, text);
   }
   is_complete_ = fs::exists(directory / kDatasetManifestFile);
   if (!is_complete_) WriteFileWhole(directory / kRecipeFile, spec_.recipe);

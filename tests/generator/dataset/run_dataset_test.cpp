@@ -188,6 +188,29 @@ TEST_F(RunDatasetTest, LeavesOtherFoldersAlone) {
             Path("set").string() + ": holds a data set of another recipe; choose another --out");
 }
 
+TEST_F(RunDatasetTest, LeavesAStrangersUnfinishedFileAlone) {
+  for (const char* const bytes : {"mine", "{\n  \"version\": \"mine"}) {
+    const fs::path file = Path("other") / "dataset.json.part";
+    fs::create_directories(Path("other"));
+    WriteFileWhole(Path("theirs"), bytes);
+    fs::rename(Path("theirs"), file);
+    EXPECT_THAT(MessageOf([&] { (void)MakeDataset(recipe_, Path("other")); }),
+                HasSubstr("--out: must be a new or an empty folder, or that of a data set"));
+    EXPECT_EQ(ReadFileWhole(file), bytes);
+    fs::remove(file);
+  }
+}
+
+TEST_F(RunDatasetTest, ContinuesARunThatWasKilledWhileItBegan) {
+  (void)MakeDataset(recipe_, Path("whole"));
+  const std::string text = ReadFileWhole(Path("whole/dataset.json"));
+  fs::create_directories(Path("killed"));
+  WriteFileWhole(Path("half"), text.substr(0, text.size() / 2));
+  fs::rename(Path("half"), Path("killed/dataset.json.part"));
+  EXPECT_TRUE(MakeDataset(recipe_, Path("killed")).is_complete);
+  EXPECT_EQ(FilesOfDataset(Path("killed")), FilesOfDataset(Path("whole")));
+}
+
 TEST_F(RunDatasetTest, NoticesAChangedBase) {
   (void)MakeDataset(recipe_, Path("set"), {1, 2});
   const fs::path base = directory_.path() / "project/scenario.json";
