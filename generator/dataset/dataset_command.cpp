@@ -2,6 +2,7 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 
@@ -13,6 +14,7 @@
 #include "generator/commands.h"
 #include "generator/dataset/recipe.h"
 #include "generator/dataset/run_dataset.h"
+#include "generator/dataset/scenario_report.h"
 #include "generator/empty_folder.h"
 #include "generator/run/run_options.h"
 #include "generator/run/stop_signal.h"
@@ -39,14 +41,25 @@ std::string ShardRule(const std::string& text) {
 // Writes the scenarios that frames would be made of, without frames.
 int WriteScenarios(const Recipe& recipe, const DatasetOptions& options) {
   const ScenarioDrawer drawer(recipe);
-  MakeEmptyFolder(options.choices.directory);
+  const fs::path& directory = options.choices.directory;
+  MakeEmptyFolder(directory);
+  fs::create_directories((directory / kSplitFiles[0]).parent_path());
   const Shard& shard = options.choices.shard;
+  const std::uint32_t num_scenarios = shard.NumOf(recipe.num_scenarios);
+  const ProgressLine progress;
+  ScenarioReport report;
+  PerPart<std::string> folders;
   CatchStopSignals();
-  for (std::uint32_t i = 0; i < shard.NumOf(recipe.num_scenarios); ++i) {
+  for (std::uint32_t i = 0; i < num_scenarios; ++i) {
     if (StopRequested()) return kExitInterrupted;
+    progress.Show("scenarios", static_cast<double>(i) / num_scenarios);
     const std::uint32_t number = shard.ScenarioAt(i);
-    const ScenarioIdentity identity = IdentityOf(drawer.Draw(number).scenario);
-    const fs::path folder = options.choices.directory / SequenceFolderOf(number);
+    const DrawnScenario drawn = drawer.Draw(number);
+    report.Add(drawn.record);
+    const auto split = ValueNamed<Split>(drawn.record.at("split").get<std::string>()).value();
+    folders.at(static_cast<std::size_t>(split)) += SequenceFolderOf(number) + "\n";
+    const ScenarioIdentity identity = IdentityOf(drawn.scenario);
+    const fs::path folder = directory / SequenceFolderOf(number);
     fs::create_directories(folder);
     for (const InputFile& input : identity.inputs) {
       fs::create_directories((folder / input.CopyName()).parent_path());
@@ -56,10 +69,18 @@ int WriteScenarios(const Recipe& recipe, const DatasetOptions& options) {
     WriteFileWhole(file, identity.scenario_json);
     std::cout << ShownPath(file) << '\n';
   }
+  progress.End();
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    WriteFileWhole(directory / kSplitFiles.at(i), folders[i]);
+  }
+  WriteFileWhole(directory / kReportFile, report.Write(recipe.split).dump(2) + "\n");
+  std::cout << ShownLines(report.Text(recipe.split));
   return kExitSuccess;
 }
 
-std::string SummaryOfRun(const DatasetResult& result, const DatasetOptions& options) {
+std::string SummaryOfRun(const Recipe& recipe,
+                         const DatasetResult& result,
+                         const DatasetOptions& options) {
   std::ostringstream text;
   text << std::fixed << std::setprecision(1);
   if (result.was_complete) {
@@ -75,6 +96,7 @@ std::string SummaryOfRun(const DatasetResult& result, const DatasetOptions& opti
   }
   text << result.num_done << " of " << result.num_scenarios << " scenarios in "
        << ShownPath(options.choices.directory) << "\n";
+  if (result.parts) text << PartsText(*result.parts, recipe.split);
   if (result.is_complete && !options.choices.shard.is_whole()) {
     text << "shard " << options.shard
          << " is complete; railcast-generate merge makes one data set of all\n";
@@ -87,15 +109,17 @@ int RunDatasetCommand(const DatasetOptions& options) {
   if (options.has_scenarios_only) return WriteScenarios(recipe, options);
   // The folder can be continued however the program ends.
   CatchStopSignals();
-  const TerminalLine line;
-  const DatasetHooks hooks = {[&](std::uint32_t num_done, std::uint32_t num_scenarios) {
-                                line.Show("scenario " + std::to_string(num_done + 1) + " of " +
-                                          std::to_string(num_scenarios));
+  std::optional<ProgressLine> line;
+  const DatasetHooks hooks = {[&](const DatasetProgress& progress) {
+                                if (!line) line.emplace(progress.done());
+                                line->Show("scenario " + std::to_string(progress.num_done + 1) +
+                                               " of " + std::to_string(progress.num_scenarios),
+                                           progress.done());
                               },
                               StopRequested};
   const DatasetResult result = RunDataset(recipe, options.choices, hooks);
-  line.Clear();
-  std::cout << SummaryOfRun(result, options);
+  if (line) line->End();
+  std::cout << SummaryOfRun(recipe, result, options);
   if (result.is_complete) return kExitSuccess;
   std::cerr << "interrupted; the same command continues\n";
   return kExitInterrupted;
@@ -118,7 +142,8 @@ void AddDataset(CLI::App& app, ProgramCommand& command) {
                    "I/N: make only every N-th scenario, beginning with the I-th")
       ->check([](const std::string& text) { return ShardRule(text); });
   dataset->add_flag("--scenarios-only", options->has_scenarios_only,
-                    "Write the scenarios without frames, to a new or an empty folder");
+                    "Write the scenarios without frames, to a new or an empty folder, and report "
+                    "their parts, bases, weathers, draws and objects");
   dataset->add_option("--format", options->choices.format, "File format of the frames")
       ->check(CLI::IsMember(FrameFormatNames()))
       ->capture_default_str();

@@ -79,7 +79,7 @@ std::string ManifestText(const DatasetSpec& spec,
 
 }  // namespace
 
-void WriteDatasetFiles(const DatasetSpec& spec) {
+PerPart<std::uint32_t> WriteDatasetFiles(const DatasetSpec& spec) {
   const fs::path& directory = spec.directory;
   fs::create_directories((directory / kSplitFiles[0]).parent_path());
   DatasetReport report;
@@ -90,11 +90,13 @@ void WriteDatasetFiles(const DatasetSpec& spec) {
   // Of a scenario, nothing else stays in memory.
   std::string hashes;
   std::uint32_t num_scenarios = 0;
+  PerPart<std::uint32_t> parts{};
   ScenarioLines lines(directory, spec.shard);
   while (auto line = lines.Next()) {
     const IndexedScenario scenario = ReadIndexedScenario(directory, std::move(*line));
     const Json& record = scenario.record;
     const auto split = ValueNamed<Split>(record.at("split").get<std::string>()).value();
+    ++parts.at(static_cast<std::size_t>(split));
     for (const IndexedSequence& sequence : scenario.sequences) {
       const Json& of_sensor = sequence.record;
       splits.at(static_cast<std::size_t>(split))
@@ -116,6 +118,7 @@ void WriteDatasetFiles(const DatasetSpec& spec) {
   const Json written = report.Write();
   WriteFileWhole(directory / kReportFile, written.dump(2) + "\n");
   WriteFileWhole(directory / kDatasetManifestFile, ManifestText(spec, hashes, written));
+  return parts;
 }
 
 }  // namespace railcast

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
+
 #include "generator/dataset/dataset_directory.h"
+#include "generator/dataset/split_quota.h"
 
 namespace railcast {
 
@@ -8,7 +11,8 @@ namespace railcast {
 /// index.sqlite, split/*.txt, report.json and, last, manifest.json with the hashes of all. They
 /// depend on the files of the sequences alone, so that a merged data set has the same bytes as one
 /// that was made at once.
+/// @return The scenarios of each part.
 /// @throws InputError if a sequence cannot be read or the system refuses.
-void WriteDatasetFiles(const DatasetSpec& spec);
+PerPart<std::uint32_t> WriteDatasetFiles(const DatasetSpec& spec);
 
 }  // namespace railcast

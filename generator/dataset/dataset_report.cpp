@@ -29,40 +29,13 @@ double ShareOf(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-// The weather in words: "dry", "rain", "rain, fog", ...
-std::string WeatherInWords(const Json& weather) {
-  const auto is_positive = [&](const char* key) {
-    const Json value = weather.value(key, Json());
-    return value.is_number() && value.get<double>() > 0.0;
-  };
-  std::string words;
-  const auto add = [&](bool applies, const char* word) {
-    if (applies) words += (words.empty() ? "" : ", ") + std::string(word);
-  };
-  constexpr double kFoggy_m = 1000.0;  // International definition of fog.
-  const Json visibility_m = weather.value("visibility_m", Json());
-  const Json density = weather.value("fog_density_per_m", Json());
-  constexpr double kFoggy_per_m = 3.0 / kFoggy_m;
-  add(is_positive("rain_rate_mmph"), "rain");
-  add(is_positive("snow_rate_mmph"), "snow");
-  add((visibility_m.is_number() && visibility_m.get<double>() <= kFoggy_m) ||
-          (density.is_number() && density.get<double>() >= kFoggy_per_m),
-      "fog");
-  return words.empty() ? "dry" : words;
-}
-
 }  // namespace
 
 void DatasetReport::Add(const IndexedScenario& scenario) {
   const Json& record = scenario.record;
   PerSplit& split = splits_[record.at("split").get<std::string>()];
   ++split.scenarios;
-  for (const auto& [name, value] : record.at("drawn").items()) {
-    if (value.is_string() || value.is_boolean()) {
-      ++drawn_[name][value.is_string() ? value.get<std::string>() : value.dump()];
-    }
-  }
-  ++weathers_[WeatherInWords(record.at("weather"))];
+  scenarios_.Add(record);
   std::set<std::pair<std::string, std::string>> objects;  // By type and name.
   for (const IndexedSequence& sequence : scenario.sequences) {
     const std::size_t num_frames = sequence.frames.size();
@@ -148,8 +121,8 @@ Json DatasetReport::Write() {
   PutCounts(counts_, report);
   report["labels"] = std::move(labels);
   report["objects"] = std::move(types);
-  report["weathers"] = weathers_;
-  report["drawn"] = drawn_;
+  report["weathers"] = scenarios_.Weathers();
+  report["drawn"] = scenarios_.Drawn();
   report["frames_by_base"] = frames_by_base_;
   report["frames_by_sensor"] = frames_by_sensor_;
   return report;

@@ -9,6 +9,7 @@
 #include "core/io/dataset_bins.h"
 #include "core/scenario/json_text.h"
 #include "generator/dataset/indexed_scenario.h"
+#include "generator/dataset/scenario_report.h"
 
 namespace railcast {
 
@@ -44,8 +45,7 @@ class DatasetReport {
   std::map<std::string, PerSplit> splits_;
   std::map<std::string, std::uint64_t> frames_by_base_;
   std::map<std::string, std::uint64_t> frames_by_sensor_;
-  std::map<std::string, std::map<std::string, std::uint64_t>> drawn_;  ///< Words, by draw.
-  std::map<std::string, std::uint64_t> weathers_;                      ///< Scenarios.
+  ScenarioReport scenarios_;
   FrameCounts counts_;
   std::map<std::string, std::uint64_t> frames_with_label_;
   std::map<std::string, PerType> types_;

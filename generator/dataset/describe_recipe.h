@@ -129,7 +129,7 @@ void Describe(Archive& a, SplitSpec& s) {
   a.Optional("test", s.test, "Share.", Within(0, 1));
   a.Ensure({"", "train", "val", "test"}, std::abs(s.train + s.val + s.test - 1.0) < kRounding,
            "must have train, val and test with a sum of 1");
-  a.Optional("cell_m", s.cell_m, "Length of the pieces of line that get a part each.",
+  a.Optional("cell_m", s.cell_m, "Length of the pieces of line that belong to one part.",
              Within(1, 1e6));
   a.Optional("sight_m", s.sight_m,
              "How far a scenario sees along the line; absent = the sensor's greatest range.",
@@ -162,7 +162,10 @@ void Describe(Archive& a, Recipe& s) {
   a.Optional("start_s_m", s.start_s_m, "Chainage of the vehicle's origin at time 0.");
   a.Optional("objects", s.objects, "Objects that are placed by chance.");
   a.Unique("objects", s.objects, "name", &PlacedObjects::name);
-  a.Optional("split", s.split, "How scenarios are divided into train, val and test.");
+  std::optional<SplitSpec> split;
+  a.Optional("split", split, "How scenarios are divided into train, val and test.");
+  s.has_split = split.has_value();
+  if (split) s.split = *split;
 }
 
 }  // namespace railcast

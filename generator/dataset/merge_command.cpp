@@ -1,6 +1,8 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "core/base/text.h"
@@ -17,12 +19,15 @@ struct MergeOptions {
 };
 
 int RunMerge(const MergeOptions& options) {
-  const TerminalLine line;
+  std::optional<ProgressLine> line;
   const std::uint32_t num_scenarios =
       MergeShards(options.shards, options.out, [&](std::uint32_t num_done, std::uint32_t num_all) {
-        line.Show("scenario " + std::to_string(num_done + 1) + " of " + std::to_string(num_all));
+        const double done = static_cast<double>(num_done) / num_all;
+        if (!line) line.emplace(done);
+        line->Show("scenario " + std::to_string(num_done + 1) + " of " + std::to_string(num_all),
+                   done);
       });
-  line.Clear();
+  if (line) line->End();
   std::cout << num_scenarios << " scenarios of " << options.shards.size() << " shards in "
             << ShownPath(options.out) << "\n";
   return kExitSuccess;

@@ -102,7 +102,7 @@ struct SplitSpec {
   double train = 0.8;  ///< Shares; their sum is 1.
   double val = 0.1;
   double test = 0.1;
-  double cell_m = 2000.0;  ///< For kPlace: length of the pieces of line that get a part each.
+  double cell_m = 2000.0;  ///< For kPlace: length of the pieces of line that belong to one part.
   /// For kPlace: how far a scenario sees along the line. Absent = the sensor's greatest range.
   std::optional<double> sight_m;
 };
@@ -123,6 +123,7 @@ struct Recipe {
   std::optional<Distribution> start_s_m;  ///< Chainage of the vehicle at time 0.
   std::vector<PlacedObjects> objects;
   SplitSpec split;
+  bool has_split = false;  ///< Whether the recipe asks for the shares, which then must hold.
 
   /// Number of the last frame that is made of a scenario.
   [[nodiscard]] std::uint32_t last_frame() const {

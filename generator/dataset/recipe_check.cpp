@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -10,12 +11,13 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/scenario/json_source.h"
-#include "generator/dataset/dataset_split.h"
 #include "generator/dataset/drafted_scenario.h"
 #include "generator/dataset/json_place.h"
 #include "generator/dataset/object_template.h"
 #include "generator/dataset/recipe_bases.h"
 #include "generator/dataset/recipe_values.h"
+#include "generator/dataset/split_plan.h"
+#include "generator/dataset/split_quota.h"
 
 namespace railcast {
 namespace {
@@ -164,10 +166,42 @@ class KeyCheck {
   }
 
   void CheckSplit() {
-    if (recipe_.split.by == SplitBy::kLine) return;
+    const PerPart<double> shares = SharesOf(recipe_.split);
+    if (recipe_.has_split) {
+      if (const auto fault = QuotaFault(shares, recipe_.num_scenarios))
+        Add("/num_scenarios", *fault);
+    }
+    if (recipe_.split.by != SplitBy::kScenario) CheckLinesAreFixed();
     for (std::size_t i = 0; i < recipe_.bases.size(); ++i) {
       if (!recipe_.bases[i].split) continue;
-      Add("/bases" + IndexStep(i) + "/split", "must be given with /split/by \"line\" only");
+      const std::string place = "/bases" + IndexStep(i) + "/split";
+      if (recipe_.split.by != SplitBy::kLine) {
+        Add(place, "must be given with /split/by \"line\" only");
+      } else if (shares[static_cast<std::size_t>(*recipe_.bases[i].split)] == 0.0) {
+        Add(place, "must be a part that has a share", ValueText(NameOf(*recipe_.bases[i].split)));
+      }
+    }
+  }
+
+  // Only lines that are known beforehand can be divided so that the shares hold.
+  void CheckLinesAreFixed() {
+    std::vector<Written> drawn = WrittenBy(recipe_.draws, "/draws");
+    for (std::size_t i = 0; i < recipe_.groups.size(); ++i) {
+      for (std::size_t j = 0; j < recipe_.groups[i].options.size(); ++j) {
+        const GroupOption& option = recipe_.groups[i].options[j];
+        const std::string place = "/groups" + IndexStep(i) + "/options" + IndexStep(j);
+        for (const auto& of_option :
+             {WrittenBy(option.set, place + "/set"), WrittenBy(option.draws, place + "/draws")}) {
+          drawn.insert(drawn.end(), of_option.begin(), of_option.end());
+        }
+      }
+    }
+    constexpr std::string_view kLine = "/world/alignment";
+    for (const Written& own : drawn) {
+      if (!LiesWithin(own.pointer, kLine) && !LiesWithin(kLine, own.pointer)) continue;
+      Add(own.recipe_pointer, "must not draw the line with /split/by \"" +
+                                  std::string(NameOf(recipe_.split.by)) +
+                                  "\"; bases may have lines of their own");
     }
   }
 
@@ -287,6 +321,7 @@ void CheckRecipe(const Recipe& recipe) {
   errors.ThrowIfAny();
   ExtremesCheck(recipe, errors).Run();
   errors.ThrowIfAny();
+  static_cast<void>(SplitPlan(recipe, RecipeBases(recipe)));
 }
 
 }  // namespace railcast

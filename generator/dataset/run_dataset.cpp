@@ -86,14 +86,14 @@ class DatasetRun {
     result_.was_complete = directory_.is_complete();
     bool goes_on = !result_.was_complete;
     while (goes_on && directory_.num_done() < result_.num_scenarios) {
-      hooks_.on_progress(directory_.num_done(), result_.num_scenarios);
+      ShowProgress(0.0);
       goes_on = !hooks_.is_stopped() && MakeNext();
     }
     result_.num_done = directory_.num_done();
     const bool has_all = result_.num_done == result_.num_scenarios;
     if (has_all && !result_.was_complete) {
       directory_.Sync();
-      if (choices_.shard.is_whole()) WriteDatasetFiles(directory_.spec());
+      if (choices_.shard.is_whole()) result_.parts = WriteDatasetFiles(directory_.spec());
     }
     result_.is_complete = has_all;
     result_.elapsed_s =
@@ -102,6 +102,10 @@ class DatasetRun {
   }
 
  private:
+  void ShowProgress(double done_of_next) const {
+    hooks_.on_progress({directory_.num_done(), result_.num_scenarios, done_of_next});
+  }
+
   // Returns whether the next scenario is done; not if the run was stopped.
   bool MakeNext() {
     const std::uint32_t number = choices_.shard.ScenarioAt(directory_.num_done());
@@ -154,7 +158,10 @@ class DatasetRun {
   [[nodiscard]] bool MakeFrames(CommandedRun& run,
                                 const Simulators& simulators,
                                 const std::vector<SensorRun>& sensors) {
-    const SequenceHooks hooks = {[](std::uint32_t, std::uint32_t) {}, hooks_.is_stopped};
+    const SequenceHooks hooks = {[&](std::uint32_t num_done, std::uint32_t num_frames) {
+                                   ShowProgress(static_cast<double>(num_done) / num_frames);
+                                 },
+                                 hooks_.is_stopped};
     bool is_complete = true;
     for (const SequenceResult& made : MakeSequences(run, simulators, sensors, false, hooks)) {
       result_.num_frames += made.num_done - made.num_resumed;

@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "generator/dataset/dataset_directory.h"
 #include "generator/dataset/recipe.h"
 #include "generator/dataset/scenario_draw.h"
+#include "generator/dataset/split_quota.h"
 
 namespace railcast {
 
@@ -22,11 +24,20 @@ struct DatasetChoices {
   Shard shard;
 };
 
+/// How far a run has got.
+struct DatasetProgress {
+  std::uint32_t num_done{};       ///< Of the shard's scenarios.
+  std::uint32_t num_scenarios{};  ///< Of the shard.
+  double done_of_next{};          ///< Share of the next scenario's frames, in [0, 1].
+
+  /// Share of the shard, in [0, 1].
+  [[nodiscard]] double done() const { return (num_done + done_of_next) / num_scenarios; }
+};
+
 /// Callbacks of a run.
 struct DatasetHooks {
-  /// Called after every frame.
-  /// @param scenario How many of the shard's scenarios are done.
-  std::function<void(std::uint32_t num_done, std::uint32_t num_scenarios)> on_progress;
+  /// Called before every scenario and after every frame.
+  std::function<void(const DatasetProgress& progress)> on_progress;
   std::function<bool()> is_stopped;
 };
 
@@ -35,6 +46,8 @@ struct DatasetResult {
   std::uint32_t num_done{};       ///< Of the shard's scenarios.
   std::uint32_t num_scenarios{};  ///< Of the shard.
   std::uint64_t num_frames{};     ///< Made by this run.
+  /// Scenarios of each part, of a whole data set that this run completed.
+  std::optional<PerPart<std::uint32_t>> parts;
   bool was_complete{};
   bool is_complete{};  ///< All scenarios are done and, of a whole data set, the files about them.
   double elapsed_s{};

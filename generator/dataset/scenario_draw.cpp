@@ -13,37 +13,33 @@
 #include "core/scenario/sensors.h"
 #include "core/scenario/track_limits.h"
 #include "core/scenario/vehicle_clearance.h"
-#include "generator/dataset/dataset_split.h"
 #include "generator/dataset/drafted_scenario.h"
 #include "generator/dataset/keyed_draws.h"
 #include "generator/dataset/object_placement.h"
 #include "generator/dataset/recipe_values.h"
+#include "generator/dataset/seen_stretch.h"
 #include "railcast/lidar.h"
 #include "railcast/rail_world.h"
 
 namespace railcast {
 namespace {
 
-MadeStamps StampsOf(const Recipe& recipe, const ScanPattern& pattern) {
-  MadeStamps stamps;
-  if (recipe.warm_up_frames > 0) stamps.frames.push_back(0);
-  for (std::uint32_t i = 0; i < recipe.num_frames; ++i) {
-    stamps.frames.push_back(recipe.warm_up_frames + i * recipe.stride);
-  }
-  for (const std::uint32_t frame : stamps.frames) {
-    stamps.stamps_ns.push_back(pattern.StampNs(frame));
-  }
-  return stamps;
-}
+/// How often a start is drawn until what the scenario sees from there may be in its part.
+constexpr std::uint32_t kMostGlances = 10'000;
 
 /// Draws one scenario.
 class OneDraw {
  public:
-  OneDraw(const Recipe& recipe, const RecipeBases& bases, std::uint32_t number)
+  OneDraw(const Recipe& recipe,
+          const RecipeBases& bases,
+          const SplitPlan& plan,
+          std::uint32_t number)
       : recipe_(recipe),
+        plan_(plan),
         number_(number),
         draws_(recipe.seed, number),
-        base_(DrawBase()),
+        split_(plan.PartOf(number)),
+        base_(IndexByWeight(plan.BaseWeights(split_), draws_.Unit("base"))),
         draft_(recipe, number, bases.json(base_), base_) {}
 
   DrawnScenario Run() {
@@ -51,7 +47,7 @@ class OneDraw {
     PutSeed();
     FindStart();
     const Json placed = PlaceObjects(recipe_, draws_, stamps_, world_, draft_);
-    DrawnScenario result{PickIn(draft_.Read()), {}};
+    DrawnScenario result{WithRecipeSensor(recipe_, draft_.Read()), {}};
     const ScenarioSpec& scenario = result.scenario;
     const Json resolved = Json::parse(ResolvedScenarioJson(scenario));
     result.record = {
@@ -70,12 +66,6 @@ class OneDraw {
   }
 
  private:
-  [[nodiscard]] std::size_t DrawBase() const {
-    std::vector<double> weights;
-    for (const RecipeBase& base : recipe_.bases) weights.push_back(base.weight);
-    return IndexByWeight(weights, draws_.Unit("base"));
-  }
-
   // Sensor and weather draw anew in each scenario unless the recipe says otherwise.
   void PutSeed() {
     const auto is_seed = [](const auto& value) { return value.pointer == "/seed"; };
@@ -91,13 +81,6 @@ class OneDraw {
     if (!is_given) draft_.Set("/seed", draws_.Seed("seed") & kMostSeed, "/seed");
   }
 
-  // Without a choice, frames are made of all sensors.
-  [[nodiscard]] ScenarioSpec PickIn(const ScenarioSpec& scenario) const {
-    if (!recipe_.sensor && scenario.lidars.size() > 1) return scenario;
-    return AtPlace(ShownPath(recipe_.file.lexically_normal()) + ": /",
-                   [&] { return PickSensor(scenario, recipe_.sensor); });
-  }
-
   // Draws where the vehicle starts until everything fits.
   void FindStart() {
     const RecipeBase& base = recipe_.bases[base_];
@@ -109,14 +92,17 @@ class OneDraw {
       if (obstacle.empty()) return;
       throw InputError(std::vector<Fault>{draft_.FaultAt("/split/by", obstacle)});
     }
+    const double sight_m = SightOf_m(recipe_, WithRecipeSensor(recipe_, draft_.Read()));
+    from_start_ = {-sight_m, sight_m};
     std::string obstacle;
-    for (std::uint32_t attempt = 0; attempt < kMostAttempts; ++attempt) {
-      const Json start_s_m = DrawValue(*start, draws_, "start_s_m", attempt);
+    std::uint32_t attempt = 0;
+    for (std::uint32_t tried = 0; tried < kMostAttempts && attempt < kMostGlances; ++attempt) {
+      const auto start_s_m = DrawValue(*start, draws_, "start_s_m", attempt).get<double>();
+      seen_ = from_start_.ShiftedBy(start_s_m);
+      obstacle = OtherGround();
+      if (!obstacle.empty()) continue;
       draft_.Set("/vehicle/start_s_m", start_s_m, place);
-      if (IsAcrossParts(start_s_m.get<double>())) {
-        obstacle = AcrossParts();
-        continue;
-      }
+      ++tried;
       try {
         obstacle = TryStart();
       } catch (const InputError& error) {
@@ -125,33 +111,30 @@ class OneDraw {
       if (obstacle.empty()) return;
     }
     throw InputError(
-        std::vector<Fault>{draft_.FaultAt(place, "no start in " + std::to_string(kMostAttempts) +
+        std::vector<Fault>{draft_.FaultAt(place, "no start in " + std::to_string(attempt) +
                                                      " attempts; at the last one: " + obstacle)});
   }
 
-  // A quick check of the surroundings of the start alone.
-  bool IsAcrossParts(double start_s_m) {
-    if (recipe_.split.by != SplitBy::kPlace || !recipe_.split.sight_m) return false;
-    const double sight_m = *recipe_.split.sight_m;
-    seen_ = {start_s_m - sight_m, start_s_m + sight_m};
-    line_hash_ = LineHash(draft_.json());
-    return !SplitOfStretch(recipe_, line_hash_, seen_);
-  }
-
-  [[nodiscard]] std::string AcrossParts() const {
+  // Says that what the scenario sees is not all in its part; empty if it is.
+  [[nodiscard]] std::string OtherGround() const {
+    if (recipe_.split.by != SplitBy::kPlace || plan_.PartOf(base_, seen_) == split_) return "";
     return "what it sees, " + NumberText(std::round(seen_.begin_s_m)) + " to " +
-           NumberText(std::round(seen_.end_s_m)) + " m, reaches into cells of several parts";
+           NumberText(std::round(seen_.end_s_m)) + " m, is not all in places of " +
+           std::string(NameOf(split_));
   }
 
   // Returns what is wrong with the part; empty if nothing is.
   // @throws InputError if the vehicle cannot run from there.
   std::string TryStart() {
-    const ScenarioSpec scenario = PickIn(draft_.Read());
+    const ScenarioSpec scenario = WithRecipeSensor(recipe_, draft_.Read());
     const std::vector<SensorPlace> sensors = SensorsOf(scenario);
     const ScanPattern pattern = BuildScanPattern(sensors.front().lidar.scan);
     stamps_ = StampsOf(recipe_, pattern);
     draft_.Located([&] {
       world_ = MakeWorld(scenario);
+      // Where it leads says where else it may start, also if it cannot start here.
+      seen_ = SeenStretchOf(*world_, stamps_, SightOf_m(recipe_, scenario));
+      from_start_ = seen_.ShiftedBy(-scenario.vehicle.start_s_m);
       CheckStaysOnTracks(scenario, *world_, pattern, 0, recipe_.last_frame());
       CheckVehicleIsClear(scenario, *world_, pattern, 0, recipe_.last_frame());
       for (const SensorPlace& other : std::span(sensors).subspan(1)) {
@@ -159,35 +142,7 @@ class OneDraw {
       }
     });
     line_hash_ = LineHash(Json::parse(ResolvedScenarioJson(scenario)));
-    double range_max_m = 0.0;
-    for (const SensorPlace& sensor : sensors) {
-      range_max_m = std::max(range_max_m, sensor.lidar.range_max_m);
-    }
-    const double sight_m = recipe_.split.sight_m.value_or(range_max_m);
-    const auto [least, most] = std::ranges::minmax(VehicleChainages());
-    seen_ = {least - sight_m, most + sight_m};
-    switch (recipe_.split.by) {
-      case SplitBy::kScenario:
-        split_ = SplitOfScenario(recipe_, number_);
-        return "";
-      case SplitBy::kLine:
-        split_ = SplitOfLine(recipe_, line_hash_, recipe_.bases[base_].split);
-        return "";
-      case SplitBy::kPlace:
-        break;
-    }
-    const std::optional<Split> split = SplitOfStretch(recipe_, line_hash_, seen_);
-    if (!split) return AcrossParts();
-    split_ = *split;
-    return "";
-  }
-
-  [[nodiscard]] std::vector<double> VehicleChainages() const {
-    std::vector<double> chainages_m;
-    for (const std::int64_t stamp_ns : stamps_.stamps_ns) {
-      chainages_m.push_back(world_->VehicleChainage_m(stamp_ns));
-    }
-    return chainages_m;
+    return OtherGround();
   }
 
   // Checks the frames of another sensor, which begin while those of the first one last.
@@ -206,21 +161,23 @@ class OneDraw {
   }
 
   const Recipe& recipe_;
+  const SplitPlan& plan_;
   std::uint32_t number_;
   KeyedDraws draws_;
+  Split split_;
   std::size_t base_;
   DraftedScenario draft_;
   std::shared_ptr<const RailWorld> world_;
   MadeStamps stamps_;
   SeenStretch seen_;
+  SeenStretch from_start_;  ///< What is seen from a start at 0, as far as is known.
   std::string line_hash_;
-  Split split_ = Split::kTrain;
 };
 
 }  // namespace
 
 DrawnScenario ScenarioDrawer::Draw(std::uint32_t number) const {
-  return OneDraw(recipe_, bases_, number).Run();
+  return OneDraw(recipe_, bases_, plan_, number).Run();
 }
 
 }  // namespace railcast

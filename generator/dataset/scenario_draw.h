@@ -7,6 +7,7 @@
 #include "core/scenario/json_text.h"
 #include "generator/dataset/recipe.h"
 #include "generator/dataset/recipe_bases.h"
+#include "generator/dataset/split_plan.h"
 #include "railcast/scenario.h"
 
 namespace railcast {
@@ -23,8 +24,9 @@ struct DrawnScenario {
 class ScenarioDrawer {
  public:
   /// @param recipe Must outlive the drawer.
-  /// @throws InputError with the faults of the bases.
-  explicit ScenarioDrawer(const Recipe& recipe) : recipe_(recipe), bases_(recipe) {}
+  /// @throws InputError with the faults of the bases, or as SplitPlan does.
+  explicit ScenarioDrawer(const Recipe& recipe)
+      : recipe_(recipe), bases_(recipe), plan_(recipe, bases_) {}
 
   /// @throws InputError that names the recipe's key if the scenario is faulty or something finds no
   ///   place in it.
@@ -35,6 +37,7 @@ class ScenarioDrawer {
  private:
   const Recipe& recipe_;
   RecipeBases bases_;
+  SplitPlan plan_;
 };
 
 }  // namespace railcast

@@ -19,8 +19,8 @@ namespace railcast {
 namespace {
 
 bool IsNameOfAFolder(const std::string& name) {
-  return name != "." && name != ".." && name.find('/') == std::string::npos &&
-         name != kSensorsFile && name.size() <= 200;
+  return name.size() <= 200 && name != "." && name != ".." && name != kSensorsFile &&
+         name.find('/') == std::string::npos;
 }
 
 std::vector<double> Components(const Eigen::Ref<const Eigen::VectorXd>& vector) {

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -58,6 +59,31 @@ TEST_F(DatasetCommand, WritesTheScenariosAlone) {
         Path("scenarios/sequences/000/00000" + std::to_string(i)) / "scenario.resolved.json";
     EXPECT_EQ(Generate("check " + file.string()).status, 0) << file;
   }
+}
+
+TEST_F(DatasetCommand, ReportsThePartsOfScenariosAlone) {
+  nlohmann::json recipe = ProjectRecipe();
+  recipe["num_scenarios"] = 20;
+  recipe["objects"][0]["count"] = {{"type", "choice"}, {"values", {1}}};
+  recipe["split"] = {{"train", 0.7}, {"val", 0.15}, {"test", 0.15}};
+  (void)WriteProjectRecipe(directory_.path() / "project", recipe);
+  const Ended run = Generate(Command("scenarios", "--scenarios-only"));
+  EXPECT_THAT(run.said, HasSubstr("  train        14 scenarios, 70.0 % (asked for: 70.0 %)\n"
+                                  "  val           3 scenarios, 15.0 % (asked for: 15.0 %)\n"
+                                  "  test          3 scenarios, 15.0 % (asked for: 15.0 %)\n"
+                                  "  bases: scenario.json 20\n"
+                                  "  weathers: rain 20\n"
+                                  "  placed: person 20\n"));
+  const auto num_lines = [&](const char* part) {
+    const std::string text = ReadFileWhole(Path("scenarios/split") / part);
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  EXPECT_EQ(num_lines("train.txt"), 14);
+  EXPECT_EQ(num_lines("val.txt"), 3);
+  EXPECT_EQ(num_lines("test.txt"), 3);
+  const Json report = Json::parse(ReadFileWhole(Path("scenarios/report.json")));
+  EXPECT_EQ(report.at("splits").at("train").at("scenarios"), 14);
+  EXPECT_EQ(report.at("splits").at("train").at("asked"), 0.7);
 }
 
 TEST_F(DatasetCommand, RefusesShardsThatAreNone) {

@@ -24,6 +24,7 @@ IndexedScenario ScenarioOf(int number, std::vector<IndexedFrame> frames) {
            {"split", "train"},
            {"base", "base.json"},
            {"drawn", Json::object()},
+           {"placed", Json::array()},
            {"weather", Json::object()}},
           {{{{"sensor", "front"}}, std::move(frames)}}};
 }

@@ -88,7 +88,7 @@ inline std::map<std::string, std::string> FilesOfDataset(const std::filesystem::
 }
 
 inline DatasetHooks NoDatasetHooks() {
-  return {[](std::uint32_t, std::uint32_t) {}, [] { return false; }};
+  return {[](const DatasetProgress&) {}, [] { return false; }};
 }
 
 /// A data set, or a shard of one, made on one thread.

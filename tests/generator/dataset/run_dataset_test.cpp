@@ -55,6 +55,28 @@ TEST_F(RunDatasetTest, WritesASequenceForEachScenario) {
   }
 }
 
+TEST_F(RunDatasetTest, TellsItsProgressAfterEveryFrame) {
+  std::vector<double> done;
+  const DatasetHooks hooks = {[&](const DatasetProgress& now) { done.push_back(now.done()); },
+                              [] { return false; }};
+  (void)RunDataset(recipe_, OnOneThread(Path("set")), hooks);
+  EXPECT_TRUE(std::ranges::is_sorted(done));
+  for (int frame = 0; frame <= 18; ++frame) {
+    EXPECT_THAT(done, testing::Contains(testing::DoubleNear(frame / 18.0, 1e-12)));
+  }
+}
+
+TEST_F(RunDatasetTest, TellsWhatAnEarlierRunDid) {
+  int num_asked = 0;
+  const DatasetHooks stopped = {NoDatasetHooks().on_progress, [&] { return ++num_asked > 12; }};
+  const std::uint32_t num_done = RunDataset(recipe_, OnOneThread(Path("set")), stopped).num_done;
+  std::vector<double> done;
+  const DatasetHooks hooks = {[&](const DatasetProgress& now) { done.push_back(now.done()); },
+                              [] { return false; }};
+  (void)RunDataset(recipe_, OnOneThread(Path("set")), hooks);
+  EXPECT_DOUBLE_EQ(done.front(), num_done / 6.0);
+}
+
 TEST_F(RunDatasetTest, IndexAndDatabaseAgree) {
   (void)MakeDataset(recipe_, Path("set"));
   std::istringstream lines(ReadFileWhole(Path("set/index.jsonl")));
@@ -151,7 +173,7 @@ TEST_F(RunDatasetTest, MergingNeedsAllShardsOfOneDataSet) {
 
 TEST_F(RunDatasetTest, MergingNeedsFinishedShards) {
   (void)MakeDataset(recipe_, Path("a"), {1, 2});
-  const DatasetHooks hooks = {NoProgress, [] { return true; }};
+  const DatasetHooks hooks = {NoDatasetHooks().on_progress, [] { return true; }};
   (void)RunDataset(recipe_, OnOneThread(Path("b"), {2, 2}), hooks);
   EXPECT_EQ(MessageOf([&] {
               (void)MergeShards({Path("a"), Path("b")}, Path("m"), NoProgress);
@@ -165,7 +187,7 @@ TEST_F(RunDatasetTest, AStoppedRunContinuesWithTheSameBytes) {
   for (const int after : {1, 6, 11, 16}) {
     const fs::path stopped = Path("stopped_" + std::to_string(after));
     std::atomic<int> num_asked = 0;
-    const DatasetHooks hooks = {NoProgress, [&] { return ++num_asked > after; }};
+    const DatasetHooks hooks = {NoDatasetHooks().on_progress, [&] { return ++num_asked > after; }};
     const DatasetChoices choices = OnOneThread(stopped);
     // How often a run asks depends on how long scenes take to build: it may end before.
     const bool is_complete = RunDataset(recipe_, choices, hooks).is_complete;

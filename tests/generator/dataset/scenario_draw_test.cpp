@@ -173,18 +173,28 @@ TEST(ScenarioDraw, ChainagesOfAPlacedMotionCountFromTheObject) {
   }
 }
 
-TEST(ScenarioDraw, PartsByPlaceSeeNoCommonGround) {
+/// How many of the scenarios are in each part.
+std::map<std::string, int> NumInParts(const std::vector<DrawnScenario>& scenarios) {
+  std::map<std::string, int> num;
+  for (const DrawnScenario& drawn : scenarios) {
+    ++num[drawn.record.at("split").get<std::string>()];
+  }
+  return num;
+}
+
+TEST(ScenarioDraw, PartsByPlaceHoldTheirSharesAndSeeNoCommonGround) {
   const TemporaryDirectory directory;
   nlohmann::json recipe = ProjectRecipe();
-  recipe["num_scenarios"] = 40;
+  recipe["num_scenarios"] = 80;
+  recipe["num_frames"] = 1;
   recipe["objects"] = nlohmann::json::array();
   recipe["start_s_m"] = {{"type", "uniform"}, {"min", 100}, {"max", 900}};
   recipe["split"] = {{"by", "place"}, {"cell_m", 150}, {"sight_m", 50},
-                     {"train", 0.5},  {"val", 0.25},   {"test", 0.25}};
+                     {"train", 0.7},  {"val", 0.15},   {"test", 0.15}};
   const std::vector<DrawnScenario> all = DrawAll(ReadProjectRecipe(directory.path(), recipe));
-  std::set<std::string> splits;
+  EXPECT_EQ(NumInParts(all),
+            (std::map<std::string, int>{{"train", 56}, {"val", 12}, {"test", 12}}));
   for (const DrawnScenario& one : all) {
-    splits.insert(one.record.at("split").get<std::string>());
     for (const DrawnScenario& other : all) {
       if (one.record.at("split") == other.record.at("split")) continue;
       const Json& a = one.record.at("seen_s_m");
@@ -192,7 +202,26 @@ TEST(ScenarioDraw, PartsByPlaceSeeNoCommonGround) {
       EXPECT_TRUE(a[1] < b[0] || b[1] < a[0]);
     }
   }
-  EXPECT_GE(splits.size(), 2U);
+}
+
+TEST(ScenarioDraw, ALongRunKeepsToItsPart) {
+  const TemporaryDirectory directory;
+  nlohmann::json recipe = ProjectRecipe();
+  recipe["num_scenarios"] = 10;
+  recipe["num_frames"] = 2;
+  recipe["stride"] = 50;
+  recipe["objects"] = nlohmann::json::array();
+  // 20 m/s for 5 s, of which no start knows before a world was made.
+  recipe["set"]["/vehicle/motion"] = {{"profile", {{{"time_s", 0}, {"speed_mps", 20}}}}};
+  recipe["start_s_m"] = {{"type", "uniform"}, {"min", 100}, {"max", 800}};
+  recipe["split"] = {{"by", "place"}, {"cell_m", 250}, {"sight_m", 20},
+                     {"train", 0.6},  {"val", 0.2},    {"test", 0.2}};
+  const std::vector<DrawnScenario> all = DrawAll(ReadProjectRecipe(directory.path(), recipe));
+  EXPECT_EQ(NumInParts(all), (std::map<std::string, int>{{"train", 6}, {"val", 2}, {"test", 2}}));
+  for (const DrawnScenario& drawn : all) {
+    const Json& seen_s_m = drawn.record.at("seen_s_m");
+    EXPECT_NEAR(seen_s_m[1].get<double>() - seen_s_m[0].get<double>(), 140.0, 1e-9);
+  }
 }
 
 TEST(ScenarioDraw, AllScenariosOfALineAreInOnePart) {
@@ -200,11 +229,25 @@ TEST(ScenarioDraw, AllScenariosOfALineAreInOnePart) {
   nlohmann::json recipe = ProjectRecipe();
   recipe["num_scenarios"] = 20;
   recipe["objects"] = nlohmann::json::array();
-  recipe["bases"][0]["split"] = "val";
-  recipe["split"] = {{"by", "line"}};
-  for (const DrawnScenario& drawn : DrawAll(ReadProjectRecipe(directory.path(), recipe))) {
-    EXPECT_EQ(drawn.record.at("split"), "val");
+  recipe["bases"] = nlohmann::json::array();
+  for (const int length_m : {1000, 1100, 1200, 1300}) {
+    nlohmann::json scenario = nlohmann::json::parse(ReadFileWhole(MakeProject(directory.path())));
+    scenario["world"]["alignment"]["course"]["elements"][0]["length_m"] = length_m;
+    const std::string name = "line_" + std::to_string(length_m) + ".json";
+    WriteFileWhole(directory.path() / name, scenario.dump());
+    recipe["bases"].push_back({{"file", name}});
   }
+  recipe["bases"][1]["split"] = "val";
+  recipe["split"] = {{"by", "line"}, {"train", 0.7}, {"val", 0.15}, {"test", 0.15}};
+  const std::vector<DrawnScenario> all = DrawAll(ReadProjectRecipe(directory.path(), recipe));
+  EXPECT_EQ(NumInParts(all), (std::map<std::string, int>{{"train", 14}, {"val", 3}, {"test", 3}}));
+  std::map<std::string, std::set<std::string>> parts_of_line;
+  for (const DrawnScenario& drawn : all) {
+    parts_of_line[drawn.record.at("line")].insert(drawn.record.at("split"));
+    EXPECT_EQ(drawn.record.at("split") == "val", drawn.record.at("base") == "line_1100.json");
+  }
+  EXPECT_EQ(parts_of_line.size(), 4U);
+  for (const auto& [line, parts] : parts_of_line) EXPECT_EQ(parts.size(), 1U);
 }
 
 TEST(ScenarioDraw, PutsAMountIntoADrawnSensor) {
