@@ -12,6 +12,9 @@
 #include "generator/python/bindings.h"
 #include "railcast/io/recording.h"
 
+#include "generator/python/interpreter.h"
+#include "railcast/enum_names.h"
+#include "railcast/error.h"
 namespace railcast {
 namespace {
 
@@ -251,3 +254,5 @@ void AddFrameClasses(pybind11::module_& module) {
 }
 
 }  // namespace railcast
+  RefuseUnmade<RecordedObject>();
+  RefuseUnmade<RecordedFrame>();

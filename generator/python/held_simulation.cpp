@@ -1,6 +1,7 @@
 #include "generator/python/held_simulation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/base/error.h"
@@ -18,6 +19,11 @@ int CheckedThreads(std::int64_t num_threads) {
   if (num_threads >= 0 && num_threads <= kMostThreads) return static_cast<int>(num_threads);
   throw InputError({{"threads", "must be >= 0 and <= " + std::to_string(kMostThreads),
                      std::to_string(num_threads)}});
+}
+
+void CheckLength(const char* name, double length_m) {
+  if (std::isfinite(length_m) && length_m >= 0.0) return;
+  throw InputError({{name, "must be finite and >= 0", NumberText(length_m)}});
 }
 
 std::set<std::string, std::less<>> AllFields() {
@@ -171,6 +177,8 @@ std::vector<RailLines> HeldSimulation::Rails(std::int64_t frame,
 
 void HeldSimulation::Apply(const std::string& line, std::int64_t frame, const Sensor& sensor) {
   const std::lock_guard lock(mutex_);
+  CheckLength("behind_m", reach.behind_m);
+  CheckLength("ahead_m", reach.ahead_m);
   const Command command = CommandOf(line);
   const std::size_t index = IndexOf(sensor);
   const std::int64_t time_ns = simulators_[index]->pattern().StampNs(FrameOf(frame, index));
