@@ -42,6 +42,11 @@ Command CommandOf(const std::string& line) {
   throw InputError("command: must not be empty");
 }
 
+std::optional<std::uint32_t> TimeOfPoints(const ObjectInFrame& object) {
+  if (object.points == 0) return std::nullopt;
+  return object.points_time_ns;
+}
+
 }  // namespace
 
 HeldSimulation::HeldSimulation(const ScenarioSpec& scenario,
@@ -138,6 +143,10 @@ void HeldSimulation::Make(std::uint32_t frame,
   if (!made.fields.empty()) return;
   static const auto all_fields = AllFields();
   made.fields = all_fields;
+  const OutputSpec& output = simulator.spec().output;
+  const bool is_in_sensor_axes =
+      output.frame == OutputFrame::kSensor && output.handedness == Handedness::kRight;
+  made.axes = is_in_sensor_axes ? PointAxes::kSensorAtFiring : PointAxes::kOther;
   made.is_grid = true;
   made.has_pose = true;
 }
@@ -157,6 +166,7 @@ std::vector<RecordedObject> HeldSimulation::Describe(std::size_t sensor,
                          .sensor_from_box = sensor_from_world * object.world_from_box,
                          .velocity_world_mps = object.velocity_world_mps,
                          .points = object.points,
+                         .points_time_ns = TimeOfPoints(object),
                          .firings_visible = object.firings_visible,
                          .firings_alone = object.firings_alone});
   }
@@ -167,6 +177,8 @@ std::vector<RailLines> HeldSimulation::Rails(std::int64_t frame,
                                              const Sensor& sensor,
                                              const RailReach& reach) {
   const std::lock_guard lock(mutex_);
+  CheckLength("behind_m", reach.behind_m);
+  CheckLength("ahead_m", reach.ahead_m);
   const std::size_t index = IndexOf(sensor);
   const std::uint32_t number = FrameOf(frame, index);
   const Simulator& simulator = run_->At(index, number);
@@ -177,8 +189,6 @@ std::vector<RailLines> HeldSimulation::Rails(std::int64_t frame,
 
 void HeldSimulation::Apply(const std::string& line, std::int64_t frame, const Sensor& sensor) {
   const std::lock_guard lock(mutex_);
-  CheckLength("behind_m", reach.behind_m);
-  CheckLength("ahead_m", reach.ahead_m);
   const Command command = CommandOf(line);
   const std::size_t index = IndexOf(sensor);
   const std::int64_t time_ns = simulators_[index]->pattern().StampNs(FrameOf(frame, index));

@@ -195,6 +195,37 @@ class Misuse(unittest.TestCase):
             self.assertEqual((ended.returncode, ended.stdout, ended.stderr), (0, "last\n", ""))
 
 
+class Compensated(unittest.TestCase):
+
+    def test_points_of_a_simulated_frame_lie_in_its_boxes(self):
+        simulator = railcast.Simulator(SCENARIO)
+        frame = simulator.scan(30, objects=True)
+        instance = frame["instance"][frame.has_point & (frame["outcome"] == railcast.OUTCOMES["returned"])]
+        self.assertEqual(len(instance), frame.num_points)  # No mirror images in this frame.
+        points = frame.points(compensate="all")
+        for thing in frame.objects:
+            if thing.points == 0:
+                self.assertIsNone(thing.points_time_ns)
+                continue
+            self.assertAlmostEqual(thing.points_time_ns,
+                                   frame["time_ns"][frame.has_point][instance == thing.instance].mean(), delta=1)
+            pose = frame.sensor_from_box(thing)
+            np.testing.assert_array_equal(pose, thing.sensor_from_box)
+            offset = (points[instance == thing.instance] - pose[:3, 3]) @ pose[:3, :3]
+            # Five standard deviations of the range noise, 2 cm.
+            self.assertLessEqual(np.abs(offset).max(axis=0).tolist(), (thing.size_m / 2 + 0.1).tolist())
+
+    def test_points_in_other_axes_are_not_compensated(self):
+        scenario = json.loads(SCENARIO.read_text("utf-8"))
+        for output in ({"frame": "vehicle"}, {"handedness": "left"}):
+            frame = railcast.Simulator({**scenario, "output": output}, file=SCENARIO).scan(0)
+            with self.assertRaises(railcast.InputError) as raised:
+                frame.points(compensate="sensor")
+            self.assertEqual(str(raised.exception), 'compensate: must be "none" for points that the scenario\'s output '
+                                                    'puts into other axes than the sensor\'s (got "sensor")')
+            self.assertEqual(len(frame.points()), frame.num_points)
+
+
 class Rails(unittest.TestCase):
 
     def test_points_on_rails_lie_beside_the_lines(self):
