@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Installs missing packages, builds railcast, simulates 50 frames of an on-sight approach on the
-# St.Gallen - Wil line into out/demo, draws one of them (out/demo.png) and analyses all of them
-# (out/stats).
+# Installs missing packages, builds all that `cmake --install` installs, simulates 50 frames of an
+# on-sight approach on the St.Gallen - Wil line into out/demo, draws one of them (out/demo.png) and
+# analyses all of them (out/stats).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source scripts/packages.sh
 
-install_packages "${build_packages[@]}" "${display_packages[@]}"
-scripts/build.sh railcast-generate railcast-analyze railcast-view
+install_packages "${build_packages[@]}" "${display_packages[@]}" "${python_packages[@]}"
+scripts/build.sh installed
 
 rm -rf out/demo out/demo.png out/stats
 mkdir -p out

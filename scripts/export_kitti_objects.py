@@ -5,7 +5,8 @@ Usage: export_kitti_objects.py OUT [--train RUN...] [--val RUN...] [--test RUN..
 
 Writes OUT/training/velodyne/000000.bin (hard links where the file system allows), calib/000000.txt
 and label_2/000000.txt with a line for each object that has points, and OUT/ImageSets/train.txt,
-val.txt, test.txt. Frames are numbered through, in the order of the runs.
+val.txt, test.txt. Frames are numbered through, in the order of the runs. The box of an object that
+moves is where it was at the mean time of its points, as the clouds have it.
 
 There is no image: boxes in the image are those of a camera like KITTI's own in the place of the
 lidar, looking forward. Objects that it does not see have the box 0 0 0 0 and are truncated by 1.
@@ -80,11 +81,25 @@ def occluded_of(seen):
     return 0 if seen["occlusion"] < PARTLY else 1 if seen["occlusion"] < LARGELY else 2
 
 
+def rotation_of(quaternion_xyzw):
+    x, y, z, w = quaternion_xyzw
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                     [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+
+
+def center_of(seen):
+    """Where the middle of the box was at the mean time of the object's points, in the sensor's axes at the stamp."""
+    sensor_from_box, world_from_box = (rotation_of(seen[axes]["quaternion_xyzw"]) for axes in ("sensor", "world"))
+    way_m = 1e-9 * seen["points_time_ns"] * np.array(seen["velocity_mps"])
+    return np.array(seen["sensor"]["center_m"]) + sensor_from_box @ world_from_box.T @ way_m
+
+
 def label_line(seen):
     """KITTI's line about an object of objects.jsonl: class, truncated, occluded, alpha, box in the image, size as
     height, width and length, middle of the underside in the camera's axes, rotation about its y axis."""
     box = seen["sensor"]
-    center, size = np.array(box["center_m"]), np.array(box["size_m"])
+    center, size = center_of(seen), np.array(box["size_m"])
     yaw = yaw_of(box["quaternion_xyzw"])
     x, y, z = CAMERA_FROM_LIDAR[:, :3] @ (center - [0, 0, size[2] / 2])
     rotation_y = (-yaw - np.pi / 2 + np.pi) % (2 * np.pi) - np.pi
@@ -101,7 +116,11 @@ def export_run(run, training, first):
     for place, line in enumerate(lines):
         name = f"{first + place:06}"
         link_or_copy(run / "sequences" / "00" / "velodyne" / f"{place:06}.bin", training / "velodyne" / f"{name}.bin")
-        seen = [label_line(each) for each in json.loads(line)["objects"] if each["points"] > 0]
+        with_points = [each for each in json.loads(line)["objects"] if each["points"] > 0]
+        if any("points_time_ns" not in each for each in with_points):
+            raise BadInput(f"{run / 'objects.jsonl'}:{place + 1}: must have the key points_time_ns, "
+                           "which older programs did not write")
+        seen = [label_line(each) for each in with_points]
         (training / "label_2" / f"{name}.txt").write_text("".join(f"{text}\n" for text in seen), "ascii")
         (training / "calib" / f"{name}.txt").write_text(calibration_text(), "ascii")
         num_objects += len(seen)

@@ -73,15 +73,20 @@ def ins_sample(frame, vehicle_from_sensor):
 
 
 class Thing:
-    """An object as all sensors of a frame see it."""
+    """An object as all sensors of a frame see it, with its box where it was at the mean time of its points."""
 
-    def __init__(self, seen, lidar_from_sensor):
+    def __init__(self, seen):
         self.name, self.type, self.label, self.instance = seen.name, seen.type, seen.label, seen.instance
         self.size_m = seen.size_m
-        self.lidar_from_box = lidar_from_sensor @ seen.sensor_from_box
+        self.lidar_from_box = None
         self.points = self.visible = self.alone = 0
 
-    def count(self, seen):
+    def count(self, seen, lidar_from_box):
+        if self.lidar_from_box is None:
+            self.lidar_from_box = lidar_from_box
+        elif seen.points > 0:
+            share = seen.points / (self.points + seen.points)
+            self.lidar_from_box[:3, 3] += share * (lidar_from_box - self.lidar_from_box)[:3, 3]
         self.points += seen.points
         self.visible += seen.firings_visible
         self.alone += seen.firings_alone
@@ -92,20 +97,26 @@ class Thing:
 
 
 class View:
-    """What the sensors of a frame see together, in the axes of the scene's lidar."""
+    """What the sensors of a frame see together, in the axes of the scene's lidar at the stamp of the first one's frame.
+
+    The sensors' motion is undone, as a vehicle can that knows its own.
+    """
 
     def __init__(self, frames, mounts, is_merged):
         self.frame = frames[0]
         self.is_merged = is_merged
         self.vehicle_from_lidar = np.eye(4) if is_merged else mounts[0]
         self.things, self.parts, self.rails = {}, [], []
-        for number, (frame, vehicle_from_sensor) in enumerate(zip(frames, mounts)):
-            lidar_from_sensor = vehicle_from_sensor if is_merged else np.eye(4)
+        lidar_from_first = mounts[0] if is_merged else np.eye(4)
+        for number, frame in enumerate(frames):
+            first_from_sensor = np.linalg.inv(frames[0].world_from_sensor) @ frame.world_from_sensor
+            lidar_from_sensor = lidar_from_first @ (first_from_sensor if number > 0 else np.eye(4))
             self.parts.append((number, frame, lidar_from_sensor))
             for seen in frame.objects:
-                self.things.setdefault(seen.name, Thing(seen, lidar_from_sensor)).count(seen)
-        self.xyz = np.concatenate([frame.points() @ turn[:3, :3].T.astype(np.float32) + turn[:3, 3].astype(np.float32)
-                                   for _, frame, turn in self.parts])
+                self.things.setdefault(seen.name, Thing(seen)).count(
+                    seen, lidar_from_sensor @ frame.sensor_from_box(seen, compensate="sensor"))
+        self.xyz = np.concatenate([frame.points(compensate="sensor") @ turn[:3, :3].T.astype(np.float32) +
+                                   turn[:3, 3].astype(np.float32) for _, frame, turn in self.parts])
         self.label, self.instance, self.outcome = (self.values(name) for name in ("label", "instance", "outcome"))
 
     def values(self, field):

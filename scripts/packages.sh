@@ -45,6 +45,11 @@ display_packages=(
   xvfb
 )
 
+# Imported by the Python module.
+python_packages=(
+  python3-numpy
+)
+
 # Called by scripts/reproduce_paper.sh; scripts/draw_pictures.sh needs them, too.
 paper_packages=(
   graphviz
@@ -55,11 +60,11 @@ paper_packages=(
 # window.
 test_packages=(
   "${display_packages[@]}"
+  "${python_packages[@]}"
   chromium
   poppler-utils
   python3
   python3-jsonschema
-  python3-numpy
   python3-open3d
   python3-pip
   python3-venv

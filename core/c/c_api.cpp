@@ -63,8 +63,9 @@ class Use {
 std::unique_ptr<railcast_sim> MakeSim(const railcast_config& config) {
   const std::string text = &NotNull(config.json_text, "config.json_text");
   const std::filesystem::path file = config.file == nullptr ? "scenario" : config.file;
-  if (config.num_threads < 0) {
-    throw ArgumentError("config.num_threads: must be >= 0" + Got(config.num_threads));
+  if (config.num_threads < 0 || config.num_threads > RAILCAST_MAX_THREADS) {
+    throw ArgumentError("config.num_threads: must be >= 0 and <= " +
+                        std::to_string(RAILCAST_MAX_THREADS) + Got(config.num_threads));
   }
   const auto sensor =
       config.sensor == nullptr ? std::nullopt : std::optional<std::string>(config.sensor);

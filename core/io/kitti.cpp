@@ -107,6 +107,11 @@ std::uint16_t MovingSemanticKitti(std::uint16_t id) {
   return id;
 }
 
+bool IsMoving(const Vector3& velocity_mps) {
+  constexpr double kRounding_mps = 1e-6;
+  return velocity_mps.norm() > kRounding_mps;
+}
+
 void EncodeKittiLabels(const Frame& frame,
                        const LabelTable& labels,
                        const std::set<std::uint32_t>& moving,

@@ -19,6 +19,9 @@ void EncodeKittiPoints(const Frame& frame, std::string& bytes);
 /// (on-rails), or `id` itself if the class has no moving variant.
 [[nodiscard]] std::uint16_t MovingSemanticKitti(std::uint16_t id);
 
+/// Whether an object counts as moving, by its velocity in a frame.
+[[nodiscard]] bool IsMoving(const Vector3& velocity_mps);
+
 /// Encodes the labels of the same points as a SemanticKITTI labels/*.label, one uint32 each: the
 /// lower half holds Label::semantic_kitti, or MovingSemanticKitti of it for an instance in
 /// `moving`; the upper half holds the instance.

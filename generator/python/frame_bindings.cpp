@@ -5,11 +5,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
 
+#include "core/io/recorded_motion.h"
 #include "generator/python/bindings.h"
+#include "generator/python/interpreter.h"
+#include "railcast/enum_names.h"
+#include "railcast/error.h"
 #include "railcast/io/recording.h"
 
 namespace railcast {
@@ -75,17 +80,51 @@ py::array_t<bool> PointMask(const RecordedFrame& recorded) {
   return mask;
 }
 
-py::array_t<float> Points(const RecordedFrame& recorded) {
+// Reads what is to be undone, and checks that the frame allows it.
+Compensation CompensationOf(const RecordedFrame& recorded, const std::string& name) {
+  const std::optional<Compensation> wanted = ValueNamed<Compensation>(name);
+  if (!wanted) {
+    throw InputError(
+        {{"compensate", "must be one of " + JoinedNames(NamesOf<Compensation>()), Quoted(name)}});
+  }
+  if (recorded.axes == PointAxes::kOther && wanted != Compensation::kNone) {
+    throw InputError({{"compensate",
+                       "must be \"none\" for points that the scenario's output puts into other "
+                       "axes than the sensor's",
+                       Quoted(name)}});
+  }
+  const bool moves = recorded.axes == PointAxes::kSensorAtFiring && recorded.has_pose &&
+                     recorded.frame.duration_ns > 0 && wanted != Compensation::kNone;
+  if (moves && !recorded.Has("time_ns")) {
+    throw InputError(recorded.name +
+                     ": time_ns: must be among the fields to undo the motion of the scan");
+  }
+  if (moves && wanted == Compensation::kAll && !recorded.objects.empty() &&
+      !recorded.Has("instance")) {
+    throw InputError(recorded.name +
+                     ": instance: must be among the fields to undo the motion of objects");
+  }
+  return *wanted;
+}
+
+py::array_t<float> Points(const RecordedFrame& recorded, const std::string& compensate) {
   const Frame& frame = recorded.frame;
+  const RecordedMotion motion(recorded, CompensationOf(recorded, compensate));
   py::array_t<float> points(Shape{static_cast<py::ssize_t>(NumPoints(frame)), 3});
   float* to = points.mutable_data();
   for (std::size_t i = 0; i < frame.num_slots(); ++i) {
     if (std::isnan(frame.x[i])) continue;
-    *to++ = frame.x[i];
-    *to++ = frame.y[i];
-    *to++ = frame.z[i];
+    const Eigen::Vector3f point_m = motion.PointOf(i);
+    to = std::copy_n(point_m.data(), 3, to);
   }
   return points;
+}
+
+py::array_t<double> BoxOf(const RecordedFrame& recorded,
+                          const RecordedObject& object,
+                          const std::string& compensate) {
+  const Compensation wanted = CompensationOf(recorded, compensate);
+  return MatrixArray(RecordedMotion(recorded, wanted).BoxOf(object));
 }
 
 py::object PoseOrNone(const RecordedFrame& recorded, const Transform& pose) {
@@ -122,8 +161,9 @@ std::string FrameDoc() {
 Slot [row, column * returns + return_index] belongs to one return of one firing; row 0 is
 the lowest channel. Slots without a point have NaN in x, y, z and range_m, and `outcome`
 says why (OUTCOMES). Patterns and clouds that are no grids have one row. Points are in
-the sensor's axes (x forward, y left, z up) at the time of each firing; those of
-Simulator.scan() in the axes that the scenario's `output` says.
+the sensor's axes (x forward, y left, z up) at the time of each firing, those of KITTI's
+clouds at the stamp; those of Simulator.scan() in the axes that the scenario's `output`
+says. points(compensate="all") has them where the boxes are.
 
 Fields:
 
@@ -172,9 +212,28 @@ Raises KeyError if the frame lacks it.)")
            })
       .def_property_readonly("has_point", &PointMask,
                              "Whether each slot has a point: bool, (rows, width).")
-      .def("points", &Points,
+      .def("points", &Points, py::kw_only(), py::arg("compensate") = "none",
            R"(The points' x, y, z in m, without empty slots: float32, (num_points, 3), a copy. They
-are in the order of frame[field][frame.has_point].)");
+are in the order of frame[field][frame.has_point].
+
+compensate: the motion during the scan that is undone, so that points are where they
+    were at the stamp, as boxes are:
+    "none"    none: each point is where its firing met something, in the axes that the
+              sensor had then
+    "sensor"  the sensor's, as a vehicle can that knows its own motion
+    "all"     that of moving objects, too
+
+Where pose or duration are not known there is nothing to undo. KITTI's clouds come with
+the sensor's motion undone and have no times, so that all three are the same for them.
+Raises InputError if the fields `time_ns` and `instance` are needed and missing.)")
+      .def("sensor_from_box", &BoxOf, py::arg("object"), py::kw_only(),
+           py::arg("compensate") = "all",
+           R"(Centre and axes of an object's box where points(compensate) are: float64, (4, 4).
+
+With "all" that is the box at the stamp. Otherwise the points of a moving object are
+spread over its way while it was scanned, and the box is where it was at their mean time
+(Object.points_time_ns); with "none" in the axes that the sensor had at that time. KITTI's
+clouds have the boxes of "sensor".)");
 }
 
 void AddPlaces(FrameClass& frame) {
@@ -216,7 +275,8 @@ void AddObject(py::module_& module) {
   py::class_<RecordedObject>(module, "Object", "An object as seen in one frame, with its box.")
       .def_readonly("name", &RecordedObject::name, "Name in the scenario.")
       .def_readonly("type", &RecordedObject::type, "Type in the scenario, such as \"person\".")
-      .def_readonly("label", &RecordedObject::label, "Name of its label.")
+      .def_readonly("label", &RecordedObject::label,
+                    "Name of its label; in KITTI's format that of its points' class.")
       .def_readonly("instance", &RecordedObject::instance, "Its number in the field `instance`.")
       .def_property_readonly(
           "size_m", [](const RecordedObject& self) { return VectorArray(self.size_m); },
@@ -224,12 +284,17 @@ void AddObject(py::module_& module) {
       .def_property_readonly(
           "sensor_from_box",
           [](const RecordedObject& self) { return MatrixArray(self.sensor_from_box); },
-          "Centre and axes of the box at the stamp, in the sensor's axes in m: float64, (4, 4).")
+          R"(Centre and axes of the box at the stamp, in the sensor's axes in m: float64, (4, 4).
+Frame.sensor_from_box() has it where points are.)")
       .def_property_readonly(
           "velocity_world_mps",
           [](const RecordedObject& self) { return VectorArray(self.velocity_world_mps); },
           "Velocity of the box's centre in world axes, in m/s: float64, (3,).")
       .def_readonly("points", &RecordedObject::points, "Slots with a point on it.")
+      .def_readonly(
+          "points_time_ns", &RecordedObject::points_time_ns,
+          R"(Mean time of these since the stamp, in ns; None without any, and in recordings of
+programs that did not write it.)")
       .def_readonly("firings_visible", &RecordedObject::firings_visible,
                     "Firings that show it, detected or not.")
       .def_readonly("firings_alone", &RecordedObject::firings_alone,
@@ -248,6 +313,8 @@ visible even alone.)")
 void AddFrameClasses(pybind11::module_& module) {
   AddObject(module);
   AddFrame(module);
+  RefuseUnmade<RecordedObject>();
+  RefuseUnmade<RecordedFrame>();
 }
 
 }  // namespace railcast

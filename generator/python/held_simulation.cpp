@@ -1,6 +1,7 @@
 #include "generator/python/held_simulation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/base/error.h"
@@ -20,6 +21,11 @@ int CheckedThreads(std::int64_t num_threads) {
                      std::to_string(num_threads)}});
 }
 
+void CheckLength(const char* name, double length_m) {
+  if (std::isfinite(length_m) && length_m >= 0.0) return;
+  throw InputError({{name, "must be finite and >= 0", NumberText(length_m)}});
+}
+
 std::set<std::string, std::less<>> AllFields() {
   std::set<std::string, std::less<>> names;
   const Frame frame;
@@ -34,6 +40,11 @@ Command CommandOf(const std::string& line) {
   for (std::string& fault : read.faults) faults.AddLine(std::move(fault));
   faults.ThrowIfAny();
   throw InputError("command: must not be empty");
+}
+
+std::optional<std::uint32_t> TimeOfPoints(const ObjectInFrame& object) {
+  if (object.points == 0) return std::nullopt;
+  return object.points_time_ns;
 }
 
 }  // namespace
@@ -132,6 +143,10 @@ void HeldSimulation::Make(std::uint32_t frame,
   if (!made.fields.empty()) return;
   static const auto all_fields = AllFields();
   made.fields = all_fields;
+  const OutputSpec& output = simulator.spec().output;
+  const bool is_in_sensor_axes =
+      output.frame == OutputFrame::kSensor && output.handedness == Handedness::kRight;
+  made.axes = is_in_sensor_axes ? PointAxes::kSensorAtFiring : PointAxes::kOther;
   made.is_grid = true;
   made.has_pose = true;
 }
@@ -151,6 +166,7 @@ std::vector<RecordedObject> HeldSimulation::Describe(std::size_t sensor,
                          .sensor_from_box = sensor_from_world * object.world_from_box,
                          .velocity_world_mps = object.velocity_world_mps,
                          .points = object.points,
+                         .points_time_ns = TimeOfPoints(object),
                          .firings_visible = object.firings_visible,
                          .firings_alone = object.firings_alone});
   }
@@ -161,6 +177,8 @@ std::vector<RailLines> HeldSimulation::Rails(std::int64_t frame,
                                              const Sensor& sensor,
                                              const RailReach& reach) {
   const std::lock_guard lock(mutex_);
+  CheckLength("behind_m", reach.behind_m);
+  CheckLength("ahead_m", reach.ahead_m);
   const std::size_t index = IndexOf(sensor);
   const std::uint32_t number = FrameOf(frame, index);
   const Simulator& simulator = run_->At(index, number);

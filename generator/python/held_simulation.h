@@ -55,6 +55,7 @@ class HeldSimulation {
   void Apply(const std::string& line, std::int64_t frame, const Sensor& sensor);
 
   /// Returns the rails about the vehicle at a frame's stamp, in the axes of that sensor.
+  /// @throws InputError as Scan() does, or "ahead_m: must be finite and >= 0 (got nan)".
   [[nodiscard]] std::vector<RailLines> Rails(std::int64_t frame,
                                              const Sensor& sensor,
                                              const RailReach& reach);

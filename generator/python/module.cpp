@@ -5,6 +5,7 @@
 #include "core/base/text.h"
 #include "core/program/version.h"
 #include "generator/python/bindings.h"
+#include "generator/python/interpreter.h"
 #include "railcast/error.h"
 #include "railcast/outcome.h"
 
@@ -44,6 +45,7 @@ void AddConstants(py::module_& module) {
 
 PYBIND11_MODULE(_railcast, module) {
   module.doc() = "The part of railcast that is C++.";
+  railcast::WatchInterpreter();
   railcast::AddErrors(module);
   railcast::AddConstants(module);
   railcast::AddFrameClasses(module);

@@ -7,13 +7,12 @@
 
 #include "generator/python/bindings.h"
 #include "generator/python/indexed_recording.h"
+#include "generator/python/interpreter.h"
 
 namespace railcast {
 namespace {
 
 namespace py = pybind11;
-
-using ReleasesGil = py::call_guard<py::gil_scoped_release>;
 
 std::size_t LengthOf(const IndexedRecording& recording) {
   if (recording.info().num_frames) return *recording.info().num_frames;
@@ -27,7 +26,7 @@ std::shared_ptr<RecordedFrame> FrameAt(IndexedRecording& recording, py::ssize_t 
   const py::ssize_t from_begin = place < 0 ? place + length : place;
   std::shared_ptr<RecordedFrame> frame;
   if (from_begin >= 0 && from_begin < length) {
-    const py::gil_scoped_release released;
+    const OutsideInterpreter outside;
     frame = recording.At(static_cast<std::size_t>(from_begin));
   }
   if (frame) return frame;
@@ -37,7 +36,7 @@ std::shared_ptr<RecordedFrame> FrameAt(IndexedRecording& recording, py::ssize_t 
 std::shared_ptr<RecordedFrame> NextOf(RecordingPass& pass) {
   std::shared_ptr<RecordedFrame> frame;
   {
-    const py::gil_scoped_release released;
+    const OutsideInterpreter outside;
     frame = pass.Next();
   }
   if (!frame) throw py::stop_iteration();
@@ -50,6 +49,7 @@ void AddRecordingClass(pybind11::module_& module) {
   py::class_<RecordingPass>(module, "_RecordingPass", "One pass over a recording.")
       .def("__iter__", [](py::object self) { return self; })
       .def("__next__", &NextOf);
+  RefuseUnmade<RecordingPass>();
   py::class_<IndexedRecording>(
       module, "Recording",
       R"(Frames of a sequence, of cloud files or of a capture, in order of time: open() makes it.
@@ -61,7 +61,7 @@ Several threads may read frames at once; the interpreter's lock is released mean
 Raises InputError for a file that cannot be read or is damaged.)")
       .def("__iter__",
            [](const IndexedRecording& self) {
-             const py::gil_scoped_release released;
+             const OutsideInterpreter outside;
              return std::make_unique<RecordingPass>(self.source());
            })
       .def("__len__", &LengthOf)
@@ -93,10 +93,14 @@ Raises InputError for a file that cannot be read or is damaged.)")
       .def("__repr__", [](const IndexedRecording& self) {
         return "Recording(" + Quoted(self.source().string()) + ", " + self.info().kind + ")";
       });
+  RefuseUnmade<IndexedRecording>();
   module.def(
       "open",
-      [](const std::filesystem::path& path) { return std::make_unique<IndexedRecording>(path); },
-      py::arg("path"), ReleasesGil(),
+      [](const std::filesystem::path& path) {
+        const OutsideInterpreter outside;
+        return std::make_unique<IndexedRecording>(path);
+      },
+      py::arg("path"),
       R"(Opens a sequence directory, a .pcd or .ply file, a directory of such files, KITTI's folders
 or a .pcap or .pcapng capture (docs/recordings.md).
 

@@ -9,6 +9,7 @@
 
 #include "generator/python/bindings.h"
 #include "generator/python/held_simulation.h"
+#include "generator/python/interpreter.h"
 #include "generator/python/rail_lines.h"
 
 namespace railcast {
@@ -16,20 +17,24 @@ namespace {
 
 namespace py = pybind11;
 
-// Whether Ctrl-C was pressed. Only Python's main thread learns that, as for all of its own waiting.
-bool IsInterrupted() {
-  const py::gil_scoped_acquire acquired;
-  return PyErr_CheckSignals() != 0;
-}
-
 // Does long work without the interpreter's lock.
 template <typename Work>
 auto WithoutGil(const Work& work) {
   try {
-    const py::gil_scoped_release released;
+    const OutsideInterpreter outside;
     return work();
   } catch (const Interrupted&) {
     throw py::error_already_set();  // The KeyboardInterrupt, or what the signal's handler raised.
+  }
+}
+
+std::filesystem::path PathOf(const py::object& scenario) {
+  try {
+    return scenario.cast<std::filesystem::path>();
+  } catch (const py::cast_error&) {
+    const py::object type = scenario.get_type().attr("__name__");
+    throw py::type_error("scenario: must be a path, a dict or JSON text (got " +
+                         type.cast<std::string>() + ")");
   }
 }
 
@@ -41,7 +46,7 @@ ScenarioSpec ReadScenarioOf(const py::object& scenario, const std::filesystem::p
     text = scenario.cast<std::string>();
     if (!text.starts_with('{')) return WithoutGil([&] { return ReadScenario(text); });
   } else {
-    const auto path = scenario.cast<std::filesystem::path>();
+    const std::filesystem::path path = PathOf(scenario);
     return WithoutGil([&] { return ReadScenario(path); });
   }
   return WithoutGil([&] { return ReadScenarioText(text, file); });
@@ -76,6 +81,7 @@ in the sensor's axes in m: float64, (n, 3).)")
       .def_property_readonly(
           "right", [](const RailLines& self) { return LineArray(self.right_m); },
           "The same of the right rail: float64, (n, 3).");
+  RefuseUnmade<RailLines>();
 }
 
 void ApplyCommand(HeldSimulation& self,
@@ -128,7 +134,7 @@ leaves its track in that frame.)")
           py::arg("ahead_m") = 200.0,
           R"(The rails of all tracks about the vehicle at a frame's stamp; its own way is first.
 
-behind_m, ahead_m: how far from the vehicle's origin, along the chainage.)")
+behind_m, ahead_m: how far from the vehicle's origin, along the chainage; >= 0.)")
       .def("apply", &ApplyCommand, py::arg("command"), py::arg("frame"), py::arg("sensor") = 0,
            R"(Applies a command of docs/commands.md, which holds for frames stamped at the stamp of
 that frame or later, of all sensors.
@@ -177,6 +183,7 @@ void AddSimulatorClass(pybind11::module_& module) {
 A frame depends on the scenario, its index and the commands alone, never on frames
 before or on the number of threads, and equals that of `railcast-generate sequence` bit for bit.
 Frames in ascending order are fastest.)");
+  RefuseUnmade<HeldSimulation>();
   AddWork(simulator);
   AddProperties(simulator);
 }

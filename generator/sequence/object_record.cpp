@@ -63,6 +63,8 @@ void AppendObject(const ObjectInFrame& object,
   AppendBox("output", object.output_from_box, size, line);
   line.append(",\"velocity_mps\":").append(List(object.velocity_world_mps));
   line.append(",\"points\":").append(std::to_string(object.points));
+  line.append(",\"points_time_ns\":");
+  line.append(object.points > 0 ? std::to_string(object.points_time_ns) : "null");
   line.append(",\"firings_visible\":").append(std::to_string(object.firings_visible));
   line.append(",\"firings_alone\":").append(std::to_string(object.firings_alone));
   Json occlusion;  // Default-constructed, it is written as null.

@@ -13,7 +13,14 @@ namespace {
 struct Seen {
   std::uint32_t points{};
   std::uint32_t firings{};
+  std::uint64_t points_time_ns{};  // Sum over the points.
 };
+
+// Rounded; 0 without points.
+std::uint32_t MeanTime_ns(const Seen& seen) {
+  if (seen.points == 0) return 0;
+  return static_cast<std::uint32_t>((seen.points_time_ns + seen.points / 2) / seen.points);
+}
 
 // Counts by instance. A firing counts once for an object, however many of its returns come from it.
 std::unordered_map<std::uint32_t, Seen> CountInstances(const Frame& frame) {
@@ -30,7 +37,9 @@ std::unordered_map<std::uint32_t, Seen> CountInstances(const Frame& frame) {
       }
       Seen& entry = seen[instance];
       entry.firings += is_new ? 1U : 0U;
-      entry.points += HasPoint(frame.outcome[slot]) ? 1U : 0U;
+      if (!HasPoint(frame.outcome[slot])) continue;
+      ++entry.points;
+      entry.points_time_ns += frame.time_ns[slot];
     }
   }
   return seen;
@@ -127,6 +136,7 @@ std::vector<ObjectInFrame> ObjectSurvey::Describe(const Frame& frame,
     entry.firings_alone = firings_alone[i];
     if (const auto found = seen.find(object.instance); found != seen.end()) {
       entry.points = found->second.points;
+      entry.points_time_ns = MeanTime_ns(found->second);
       entry.firings_visible = found->second.firings;
     }
     for (const ObjectContact& contact : contacts) {

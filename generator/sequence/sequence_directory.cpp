@@ -14,6 +14,7 @@
 #include "core/base/units.h"
 #include "core/io/camera_files.h"
 #include "core/io/content_hash.h"
+#include "core/io/kitti.h"
 #include "core/io/recording/sequence_summary.h"
 #include "core/io/sequence_files.h"
 #include "core/io/write_file.h"
@@ -35,10 +36,9 @@ bool HasBytes(const fs::path& file, std::string_view bytes) {
 }
 
 std::set<std::uint32_t> MovingInstances(const std::vector<ObjectInFrame>& objects) {
-  constexpr double kRounding_mps = 1e-6;
   std::set<std::uint32_t> moving;
   for (const ObjectInFrame& object : objects) {
-    if (object.velocity_world_mps.norm() > kRounding_mps) moving.insert(object.instance);
+    if (IsMoving(object.velocity_world_mps)) moving.insert(object.instance);
   }
   return moving;
 }

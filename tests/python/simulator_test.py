@@ -1,7 +1,9 @@
 """railcast.Simulator makes the frames that railcast-generate writes."""
 
+import copy
 import gc
 import json
+import math
 import pathlib
 import signal
 import subprocess
@@ -26,6 +28,22 @@ try:
         sim.scan(frame % 600)
 except KeyboardInterrupt:
     print("interrupted at", sim.scan(0).index, flush=True)
+"""
+
+ABANDONED = """
+import atexit, threading, time
+atexit.register(lambda: print("last" if sim.scan(0).index == 0 else "wrong"))  # Called after railcast's own.
+import railcast
+sim = railcast.Simulator({scenario!r})
+started = threading.Event()
+def work():
+    started.set()
+    for frame in range(10**9):
+        sim.scan(frame % 600)
+for _ in range(2):
+    threading.Thread(target=work, daemon=True).start()
+started.wait()
+time.sleep({seconds})
 """
 
 
@@ -141,6 +159,71 @@ class Errors(unittest.TestCase):
             with self.assertRaises(railcast.InputError) as raised:
                 simulator.scan(*arguments)
             self.assertEqual(str(raised.exception), line)
+
+
+class Misuse(unittest.TestCase):
+
+    def test_a_scenario_of_a_wrong_type_is_a_type_error(self):
+        for wrong, name in ((5, "int"), (None, "NoneType"), ([], "list"), (object(), "object")):
+            with self.assertRaises(TypeError) as raised:
+                railcast.Simulator(wrong)
+            self.assertEqual(str(raised.exception), f"scenario: must be a path, a dict or JSON text (got {name})")
+
+    def test_an_object_that_was_never_made_is_a_type_error(self):
+        message = "self: must be an object that railcast made (got one that __new__ alone made)"
+        for owner, use in ((railcast.Frame, lambda it: it["x"]), (railcast.Frame, lambda it: it.points()),
+                           (railcast.Frame, repr), (railcast.Object, lambda it: it.size_m),
+                           (railcast.Recording, len), (railcast.Recording, iter), (railcast.Rails, lambda it: it.left),
+                           (railcast.Simulator, lambda it: it.scan(0)), (railcast.Simulator, lambda it: it.labels)):
+            with self.assertRaises(TypeError, msg=owner) as raised:
+                use(owner.__new__(owner))
+            self.assertEqual(str(raised.exception), message)
+            with self.assertRaises(TypeError):
+                copy.copy(owner.__new__(owner))
+
+    def test_lengths_of_rails_are_numbers(self):
+        simulator = railcast.Simulator(ROOT / "scenarios" / "minimal.json")
+        for name, wrong, shown in (("ahead_m", math.nan, "nan"), ("behind_m", math.inf, "inf"), ("ahead_m", -1, "-1")):
+            with self.assertRaises(railcast.InputError) as raised:
+                simulator.rails(0, **{name: wrong})
+            self.assertEqual(str(raised.exception), f"{name}: must be finite and >= 0 (got {shown})")
+
+    def test_python_ends_while_other_threads_are_at_work(self):
+        for begun in (0.0, 0.2, 0.6):  # In the building of the scene, and in its frames.
+            program = ABANDONED.format(scenario=str(SCENARIO), seconds=begun)
+            ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+            self.assertEqual((ended.returncode, ended.stdout, ended.stderr), (0, "last\n", ""))
+
+
+class Compensated(unittest.TestCase):
+
+    def test_points_of_a_simulated_frame_lie_in_its_boxes(self):
+        simulator = railcast.Simulator(SCENARIO)
+        frame = simulator.scan(30, objects=True)
+        instance = frame["instance"][frame.has_point & (frame["outcome"] == railcast.OUTCOMES["returned"])]
+        self.assertEqual(len(instance), frame.num_points)  # No mirror images in this frame.
+        points = frame.points(compensate="all")
+        for thing in frame.objects:
+            if thing.points == 0:
+                self.assertIsNone(thing.points_time_ns)
+                continue
+            self.assertAlmostEqual(thing.points_time_ns,
+                                   frame["time_ns"][frame.has_point][instance == thing.instance].mean(), delta=1)
+            pose = frame.sensor_from_box(thing)
+            np.testing.assert_array_equal(pose, thing.sensor_from_box)
+            offset = (points[instance == thing.instance] - pose[:3, 3]) @ pose[:3, :3]
+            # Five standard deviations of the range noise, 2 cm.
+            self.assertLessEqual(np.abs(offset).max(axis=0).tolist(), (thing.size_m / 2 + 0.1).tolist())
+
+    def test_points_in_other_axes_are_not_compensated(self):
+        scenario = json.loads(SCENARIO.read_text("utf-8"))
+        for output in ({"frame": "vehicle"}, {"handedness": "left"}):
+            frame = railcast.Simulator({**scenario, "output": output}, file=SCENARIO).scan(0)
+            with self.assertRaises(railcast.InputError) as raised:
+                frame.points(compensate="sensor")
+            self.assertEqual(str(raised.exception), 'compensate: must be "none" for points that the scenario\'s output '
+                                                    'puts into other axes than the sensor\'s (got "sensor")')
+            self.assertEqual(len(frame.points()), frame.num_points)
 
 
 class Rails(unittest.TestCase):

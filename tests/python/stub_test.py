@@ -41,9 +41,9 @@ class Stub(unittest.TestCase):
                 self.assertEqual(members, own_names(getattr(_railcast, name)), name)
 
     def test_parameters_are_those_of_the_functions(self):
-        for owner, name in (("Simulator", "scan"), ("Simulator", "apply")):
-            method, = (item for item in self.classes[owner].body if item.name == name)
-            signature = getattr(_railcast.Simulator, name).__doc__.split("\n")[0]
+        for owner, name in (("Simulator", "scan"), ("Simulator", "apply"), ("Frame", "points"), ("Frame", "sensor_from_box")):
+            method, = (item for item in self.classes[owner].body if getattr(item, "name", "") == name)
+            signature = getattr(getattr(_railcast, owner), name).__doc__.split("\n")[0]
             arguments = [argument.arg for argument in (*method.args.args, *method.args.kwonlyargs)]
             for argument in arguments:
                 self.assertRegex(signature, rf"\b{argument}: ")

@@ -7,28 +7,21 @@
 #include <cmath>
 #include <utility>
 
-#include "core/io/scan_motion.h"
+#include "core/io/recorded_motion.h"
 
 namespace railcast {
 namespace {
 
-/// Returns whether points can be moved to where they would have been measured at the stamp.
-bool KnowsMotion(const RecordedFrame& recorded) {
-  return recorded.has_pose && recorded.Has("time_ns") && recorded.frame.duration_ns > 0;
-}
-
-void UndoMotion(const Frame& frame, ShownFrame& shown) {
+void UndoMotion(const RecordedFrame& recorded, ShownFrame& shown) {
   constexpr std::size_t kGrain = 4096;
-  const ScanMotion motion(frame);
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, shown.num_points(), kGrain),
-      [&](const tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i) {
-          Eigen::Map<Eigen::Vector3f> point_m(&shown.positions_m[3 * i]);
-          point_m =
-              motion.AtStamp(point_m.cast<double>(), frame.time_ns[shown.slots[i]]).cast<float>();
-        }
-      });
+  const RecordedMotion motion(recorded, Compensation::kAll);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, shown.num_points(), kGrain),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                        Eigen::Map<Eigen::Vector3f>(&shown.positions_m[3 * i]) =
+                            motion.PointOf(shown.slots[i]);
+                      }
+                    });
 }
 
 }  // namespace
@@ -47,7 +40,7 @@ ShownFrame MakeShownFrame(RecordedFrame recorded) {
                              {frame.x[slot], frame.y[slot], frame.z[slot]});
     shown.slots.push_back(static_cast<std::uint32_t>(slot));
   }
-  if (KnowsMotion(recorded)) UndoMotion(frame, shown);
+  if (KnowsMotion(recorded)) UndoMotion(recorded, shown);
   shown.recorded = std::make_shared<const RecordedFrame>(std::move(recorded));
   return shown;
 }

@@ -12,8 +12,8 @@ namespace railcast {
 /// A frame and its points as they are shown.
 struct ShownFrame {
   std::shared_ptr<const RecordedFrame> recorded;
-  /// x, y, z of each point in turn, in the sensor's axes at the stamp: the motion within the scan
-  /// is undone where pose and times are known.
+  /// x, y, z of each point in turn, in the sensor's axes at the stamp: the motion of the sensor and
+  /// of objects within the scan is undone where pose and times are known.
   std::vector<float> positions_m;
   std::vector<std::uint32_t> slots;  ///< Slot of each point in `recorded`.
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/io/recorded_motion.h"
 #include "viewer/overlays/strokes.h"
 
 namespace railcast {
@@ -41,7 +42,9 @@ void AddNose(const RecordedObject& object, Rgb rgb, Overlay& drawing) {
 
 Overlay DrawObjectBoxes(const RecordedFrame& recorded, const LabelTable& labels) {
   Overlay drawing;
-  for (const RecordedObject& object : recorded.objects) {
+  const RecordedMotion motion(recorded, Compensation::kAll);
+  for (RecordedObject object : recorded.objects) {
+    object.sensor_from_box = motion.BoxOf(object);
     if (object.sensor_from_box.translation().norm() > kMostBoxRange_m) continue;
     const Label* label = labels.Find(object.label);
     const Rgb rgb = label != nullptr ? label->rgb : kWhite;

@@ -52,7 +52,8 @@ struct Surroundings {
 /// Boxes whose centre is farther than this from the sensor are left out.
 inline constexpr double kMostBoxRange_m = 400.0;
 
-/// Draws the boxes of a frame's objects, in the order in which it lists them: twelve edges, a nose
+/// Draws the boxes of a frame's objects where their points are shown (RecordedMotion::BoxOf), in
+/// the order in which the frame lists them: twelve edges, a nose
 /// of two more segments before the front face to show the heading, and the name at the middle of
 /// the top. They have the colour of the object's label, or white where `labels` does not have it.
 [[nodiscard]] Overlay DrawObjectBoxes(const RecordedFrame& recorded, const LabelTable& labels);

@@ -62,6 +62,9 @@ struct railcast_pose {
 };
 typedef struct railcast_pose railcast_pose;
 
+/// The largest number of threads of a simulation.
+#define RAILCAST_MAX_THREADS 1024
+
 /// What a simulation is made of.
 struct railcast_config {
   /// The scenario as JSON text (docs/scenario.md), UTF-8.
@@ -71,7 +74,8 @@ struct railcast_config {
   const char* file;
   /// Name of the sensor; may be null if the scenario has only one.
   const char* sensor;
-  /// Threads that simulate; 0 = all cores. With 1, everything runs in the calling thread.
+  /// Threads that simulate, at most RAILCAST_MAX_THREADS; 0 = all cores. With 1, everything runs in
+  /// the calling thread.
   int num_threads;
 };
 typedef struct railcast_config railcast_config;

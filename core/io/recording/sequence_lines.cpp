@@ -33,6 +33,10 @@ RecordedObject ObjectOf(const StrictJson& json, const std::string& place) {
                         .points = json.at("points"),
                         .firings_visible = json.at("firings_visible"),
                         .firings_alone = json.at("firings_alone")};
+  // Older programs did not write it.
+  if (const auto time = json.find("points_time_ns"); time != json.end() && !time->is_null()) {
+    object.points_time_ns = time->get<std::uint32_t>();
+  }
   const StrictJson& box = json.at("sensor");
   object.size_m = VectorOf(box.at("size_m"));
   object.sensor_from_box = PoseOf(box.at("center_m"), box.at("quaternion_xyzw"), place);

@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
 #include "core/base/text.h"
+#include "core/io/kitti.h"
 #include "core/io/kitti_names.h"
 #include "core/io/recording/cloud_frame.h"
 #include "core/io/recording/recorded_json.h"
@@ -55,10 +56,22 @@ void RecomputeRanges(Frame& frame) {
   }
 }
 
-RecordedFrame ReadFrame(const SequenceContext& context, const FrameLines& lines) {
-  const FrameLine line = ReadNextFrameLine(lines);
+/// Takes what the frame's lines say: stamp, poses and objects.
+void TakeRecords(const FrameLine& line, const FrameLines& lines, RecordedFrame& recorded) {
   const PlacedLine& pose = lines.records.at(0);
   const PlacedLine& objects = lines.records.at(1);
+  Frame& frame = recorded.frame;
+  frame.stamp_ns = line.stamp_ns;
+  frame.duration_ns = line.duration_ns;
+  frame.world_from_sensor = ReadPoseLine(pose.text, line.stamp_ns, pose.place);
+  frame.world_from_sensor_end = line.world_from_sensor_end;
+  recorded.has_pose = true;
+  recorded.objects = ReadObjectsLine(objects.text, line.frame, objects.place);
+  CheckRecords(line, lines);
+}
+
+RecordedFrame ReadFrame(const SequenceContext& context, const FrameLines& lines) {
+  const FrameLine line = ReadNextFrameLine(lines);
   RecordedFrame recorded;
   bool has_ranges = true;
   if (context.has_clouds) {
@@ -72,13 +85,7 @@ RecordedFrame ReadFrame(const SequenceContext& context, const FrameLines& lines)
   }
   Frame& frame = recorded.frame;
   frame.index = line.frame;
-  frame.stamp_ns = line.stamp_ns;
-  frame.duration_ns = line.duration_ns;
-  frame.world_from_sensor = ReadPoseLine(pose.text, line.stamp_ns, pose.place);
-  frame.world_from_sensor_end = line.world_from_sensor_end;
-  recorded.has_pose = true;
-  recorded.objects = ReadObjectsLine(objects.text, line.frame, objects.place);
-  CheckRecords(line, lines);
+  TakeRecords(line, lines, recorded);
   if (context.is_in_sensor_axes()) return recorded;
   UndoOutputAxes(context.output, context.vehicle_from_sensor, context.pattern, recorded);
   if (!has_ranges) RecomputeRanges(frame);
@@ -98,22 +105,42 @@ std::vector<std::string> ReadMaterialNames(const std::filesystem::path& file) {
   return ReadRecordedJson<StrictJson>(ReadFileWhole(file), ShownPath(file), read);
 }
 
+/// What all frames of a sequence in KITTI's format share.
+struct KittiContext {
+  std::filesystem::path directory;
+  LabelTable labels;  ///< railcast's own, which objects.jsonl names.
+  LabelTable kitti;   ///< SemanticKITTI's, which the clouds have.
+
+  /// The name of the class that the object's points have: of the moving one if it moves.
+  [[nodiscard]] std::string ClassOf(const RecordedObject& object) const {
+    const Label* const label = labels.Find(object.label);
+    if (label == nullptr) return object.label;
+    const std::uint16_t standing = label->semantic_kitti;
+    const Label* const kitti_class =
+        kitti.Find(IsMoving(object.velocity_world_mps) ? MovingSemanticKitti(standing) : standing);
+    return kitti_class == nullptr ? object.label : kitti_class->name;
+  }
+};
+
 /// @param place Index among the directory's frames, which numbers KITTI's files.
-RecordedFrame ReadKittiFrame(const std::filesystem::path& directory,
+RecordedFrame ReadKittiFrame(const KittiContext& context,
                              const FrameLines& lines,
                              std::uint32_t place) {
+  const std::filesystem::path& directory = context.directory;
   FrameLine line = ReadNextFrameLine(lines);
   std::erase_if(line.files, [](const KnownFile& file) { return IsCameraFile(file.name); });
   if (line.files.size() != 2 || !line.files[0].name.ends_with(".bin") ||
       !line.files[1].name.ends_with(".label")) {
     throw InputError(lines.frame.place + ": files: must name a .bin and a .label file");
   }
-  CheckRecords(line, lines);
   const std::string file = ShownPath(directory / line.files[0].name);
   std::string points = ReadKnownFile(directory, line.files[0], kFramesFile);
   const std::string labels = ReadKnownFile(directory, line.files[1], kFramesFile);
   RecordedFrame recorded = MakeCloudFrame(ParseKittiTable(file, std::move(points), labels), file);
   recorded.frame.index = place;
+  TakeRecords(line, lines, recorded);
+  for (RecordedObject& object : recorded.objects) object.label = context.ClassOf(object);
+  recorded.axes = PointAxes::kSensorAtStamp;
   return recorded;
 }
 
@@ -188,11 +215,14 @@ class KittiRecording : public Recording {
     info_.num_frames = lines_.num_frames();
     info_.has_kitti_labels = true;
     const std::filesystem::path names = summary.directory / kKittiLabelsFile;
-    // Older programs wrote none.
-    if (exists(names)) {
-      info_.labels = ParseSemanticKittiNames(ReadFileWhole(names), ShownPath(names));
-    }
+    info_.labels = exists(names)
+                       ? ParseSemanticKittiNames(ReadFileWhole(names), ShownPath(names))
+                       : SemanticKittiLabels(ReadLabelTable(summary.directory / kLabelsFile));
     info_.origin = OriginOf(summary);
+    context_ = std::make_shared<const KittiContext>(
+        KittiContext{.directory = summary.directory,
+                     .labels = ReadLabelTable(summary.directory / kLabelsFile),
+                     .kitti = info_.labels});
   }
 
   [[nodiscard]] const RecordingInfo& info() const override { return info_; }
@@ -200,14 +230,15 @@ class KittiRecording : public Recording {
   [[nodiscard]] std::optional<FrameReader> Next() override {
     auto lines = lines_.Next();
     if (!lines) return std::nullopt;
-    return [directory = info_.source, lines = std::move(*lines), place = next_++] {
-      return WithinMemory([&] { return ReadingFrameText(directory, lines); },
-                          [&] { return ReadKittiFrame(directory, lines, place); });
+    return [context = context_, lines = std::move(*lines), place = next_++] {
+      return WithinMemory([&] { return ReadingFrameText(context->directory, lines); },
+                          [&] { return ReadKittiFrame(*context, lines, place); });
     };
   }
 
  private:
   RecordingInfo info_;
+  std::shared_ptr<const KittiContext> context_;
   FrameLineReader lines_;
   std::uint32_t next_{};
 };

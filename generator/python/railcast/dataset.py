@@ -22,9 +22,9 @@ Sample = dict[str, Any]
 KEPT_OPEN = 64
 
 
-def box_of(thing: Object) -> list[float]:
+def box_of(frame: Frame, thing: Object, compensate: str) -> list[float]:
     """Centre x, y, z, length, width, height in m and yaw in rad, in the sensor's axes."""
-    pose = thing.sensor_from_box
+    pose = frame.sensor_from_box(thing, compensate=compensate)
     return [*pose[:3, 3], *thing.size_m, math.atan2(pose[1, 0], pose[0, 0])]
 
 
@@ -59,15 +59,17 @@ class Dataset:
     itself is not needed. Each process opens the recordings that it reads, so that workers may be
     forked or spawned. A sample is a dict:
 
-        points      float32, (n, len(fields)): the values of the slots that have a point
+        points      float32, (n, len(fields)): the values of the slots that have a point; x, y and z
+                    are where they were at the stamp, see `compensate`
         labels      int64, (n,): their values of the field `label`
         boxes       float32, (k, 7): centre x, y, z, length, width, height in m and yaw in rad of the
-                    objects with points, in the sensor's axes
+                    objects with points, in the sensor's axes; they hold these points
         box_labels  int64, (k,): their labels; the names are in Dataset.labels
         source      index of the recording
         frame       index of the frame in its run
 
-    `labels` is absent where a recording has none.
+    `labels` is absent where a recording has none. Samples differ in their numbers of points and
+    boxes: docs/python.md shows how torch's DataLoader makes batches of them.
     """
 
     def __init__(self,
@@ -75,17 +77,28 @@ class Dataset:
                  split: str | None = None,
                  sensor: str | None = None,
                  fields: Sequence[str] = ("x", "y", "z", "intensity"),
+                 compensate: str = "all",
                  transform: Callable[[Sample], Any] | None = None) -> None:
         """sources: data sets of `railcast-generate dataset`, or what railcast.open() reads, captures excepted.
 
         split: the part of data sets, such as "train"; None = all of it.
         sensor: the name of the sensor where data sets have several; None = the frames of all.
         fields: the columns of `points`.
+        compensate: the motion during a scan that is undone in x, y and z. Boxes go with it.
+            "all": that of the sensor and of the objects. Points and boxes are of one instant, the stamp.
+            "sensor": the sensor's alone, as a vehicle can that knows its own motion. The points of a
+                moving object are spread over its way while it was scanned; its box is where it was at
+                their mean time.
+            "none": nothing. Points are as they were measured; boxes are where the objects were at the
+                mean time of their points, in the axes that the sensor had at that time.
+            KITTI's clouds have the sensor's motion undone and no times: for them it is always "sensor".
+            Other fields are as measured in any case, also range_m.
         transform: called with each sample; what it returns takes its place.
         """
         found = [run for source in sources for run in recordings_of(os.fspath(source), split, sensor)]
         self.paths = [path for path, _ in found]
         self.fields = tuple(fields)
+        self.compensate = compensate
         self.transform = transform
         self._ends = list(itertools.accumulate(num_frames for _, num_frames in found))
         self._process = os.getpid()
@@ -127,13 +140,14 @@ class Dataset:
 
     def _sample(self, frame: Frame, labels: dict[str, int]) -> Sample:
         has_point = frame.has_point
+        xyz = dict(zip("xyz", frame.points(compensate=self.compensate).T))
         points = np.empty((np.count_nonzero(has_point), len(self.fields)), np.float32)
         for column, field in enumerate(self.fields):
-            points[:, column] = frame[field][has_point]
+            points[:, column] = xyz[field] if field in xyz else frame[field][has_point]
         seen = [thing for thing in frame.objects if thing.points > 0]
         sample: Sample = {
             "points": points,
-            "boxes": np.array([box_of(thing) for thing in seen], np.float32).reshape(-1, 7),
+            "boxes": np.array([box_of(frame, thing, self.compensate) for thing in seen], np.float32).reshape(-1, 7),
             "box_labels": np.array([labels[thing.label] for thing in seen], np.int64),
             "frame": frame.index,
         }

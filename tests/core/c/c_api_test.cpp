@@ -90,8 +90,11 @@ TEST(CApi, RefusesNullAndWrongArguments) {
   EXPECT_EQ(refusal(railcast_create(&config, nullptr)), "sim: must not be null");
   config.json_text = nullptr;
   EXPECT_EQ(refusal(railcast_create(&config, &made)), "config.json_text: must not be null");
-  config = minimal.Config(-1);
-  EXPECT_EQ(refusal(railcast_create(&config, &made)), "config.num_threads: must be >= 0 (got -1)");
+  for (const int wrong : {-1, 1025, 2'000'000'000}) {
+    config = minimal.Config(wrong);
+    EXPECT_EQ(refusal(railcast_create(&config, &made)),
+              "config.num_threads: must be >= 0 and <= 1024 (got " + std::to_string(wrong) + ")");
+  }
   EXPECT_EQ(made, nullptr);
   EXPECT_EQ(refusal(railcast_step(nullptr, 0)), "sim: must not be null");
 

@@ -98,6 +98,16 @@ TEST(ObjectSurvey, CountsAFiringWithTwoEchoesFromOneObjectOnce) {
   EXPECT_EQ(objects[0].points, 4U);
 }
 
+TEST(ObjectSurvey, GivesTheMeanTimeOfThePointsAlone) {
+  Frame frame = FrameWithFiveFiringsOnInstanceThree();
+  // Slot 1 has no point, and slots 5 to 7 are not on the object.
+  frame.time_ns = {10, 4000, 20, 30, 41, 7000, 7000, 7000};
+  EXPECT_EQ(Survey(frame)[0].points_time_ns, 25U);  // 25.25
+  frame.time_ns.back() = 0;
+  frame.outcome[4] = Outcome::kClutter;
+  EXPECT_EQ(Survey(frame)[0].points_time_ns, 20U);
+}
+
 TEST(ObjectSurvey, CountsNoMirrorImages) {
   Frame frame = FrameWithFiveFiringsOnInstanceThree();
   frame.outcome[0] = Outcome::kClutter;

@@ -65,6 +65,31 @@ TEST(ShownFrame, PutsPointsWhereTheyWereAtTheStamp) {
   EXPECT_GT(furthest_m, 3.0);
 }
 
+TEST(ShownFrame, PutsPointsOfMovingObjectsWhereTheirBoxesAre) {
+  RecordedFrame recorded = MovingFrame();
+  const std::vector<float> standing_m = MakeShownFrame(recorded).positions_m;
+  recorded.frame.instance.assign(recorded.frame.num_slots(), 5);
+  recorded.objects = {{.name = "wagon",
+                       .type = "open_wagon",
+                       .label = "wagon",
+                       .instance = 5,
+                       .velocity_world_mps = Vector3(-20.0, 10.0, 0.0)}};
+  const ShownFrame shown = MakeShownFrame(recorded);
+  const Frame& frame = shown.frame();
+  for (std::size_t i = 0; i < shown.num_points(); ++i) {
+    const std::uint32_t slot = shown.slots[i];
+    const double time_s =
+        frame.outcome[slot] == Outcome::kClutter ? 0.0 : 1e-9 * frame.time_ns[slot];
+    const Vector3 way_m =
+        frame.world_from_sensor.linear().transpose() * Vector3(-20.0 * time_s, 10.0 * time_s, 0.0);
+    const Vector3 moved_m =
+        Eigen::Map<const Eigen::Vector3f>(&standing_m[3 * i]).cast<double>() -
+        Eigen::Map<const Eigen::Vector3f>(&shown.positions_m[3 * i]).cast<double>();
+    // Rounding of float32 at 300 m.
+    ASSERT_LT((moved_m - way_m).norm(), 1e-4) << i;
+  }
+}
+
 TEST(ShownFrame, LeavesPointsWhereTheyAreIfTheMotionIsNotKnown) {
   RecordedFrame without_times = MovingFrame();
   without_times.fields.erase("time_ns");

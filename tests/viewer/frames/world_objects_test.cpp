@@ -39,5 +39,22 @@ TEST(WorldObjects, AreWhereTheirPointsAreSeen) {
   }
 }
 
+TEST(WorldObjects, HaveTheirVelocities) {
+  const TemporaryDirectory directory;
+  const MadeSequence made =
+      MakeSequence(directory.path() / "run",
+                   {.object = R"({"name": "wagon", "type": "open_wagon", "s_m": 300, )"
+                              R"("motion": {"profile": [{"time_s": 0, "speed_mps": 30}]}})",
+                    .num_frames = 1});
+  const auto world = MakeWorld(made.scenario);
+  const Frame& frame = made.frames.at(0);
+  const auto objects = ObjectsAt(*world, LabelTable(made.scenario.labels), frame);
+  ASSERT_EQ(objects.size(), 1U);
+  // The chord of its 3 m in a curve of 500 m radius is shorter by 3^3 / 24 / 500^2 m.
+  EXPECT_NEAR(objects[0].velocity_world_mps.norm(), 30.0, 1e-3);
+  const Vector3 forward = (frame.world_from_sensor * objects[0].sensor_from_box).linear().col(0);
+  EXPECT_GT(objects[0].velocity_world_mps.normalized().dot(forward), 0.999);
+}
+
 }  // namespace
 }  // namespace railcast

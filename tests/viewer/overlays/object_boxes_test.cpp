@@ -49,6 +49,19 @@ TEST(ObjectBoxes, HaveTheirCornersWhereSizeAndPoseSay) {
   }
 }
 
+TEST(ObjectBoxes, OfKittiAreWhereTheirPointsWereSeen) {
+  RecordedFrame recorded;
+  recorded.axes = PointAxes::kSensorAtStamp;
+  recorded.has_pose = true;
+  recorded.frame.world_from_sensor =
+      MakeTransform(RotationFromYawPitchRoll(0.5 * std::numbers::pi, 0.0, 0.0), Vector3(9, 9, 9));
+  RecordedObject wagon = Wagon({50.0, 2.0, 1.0}, 0.0);
+  wagon.velocity_world_mps = Vector3(0.0, 30.0, 0.0);  // Ahead, as the sensor looks north.
+  wagon.points_time_ns = 50'000'000;
+  recorded.objects = {wagon};
+  EXPECT_TRUE(HasEnd(DrawObjectBoxes(recorded, LabelTable({})), {58.5F, 3.5F, 3.0F}));
+}
+
 TEST(ObjectBoxes, HaveFourEdgesAlongEachAxis) {
   const Overlay drawing = DrawOne(Wagon({50.0, 2.0, 1.0}, 0.0));
   for (const auto& [axis, length_m] :

@@ -28,6 +28,9 @@ struct RecordedObject {
   Transform sensor_from_box = Transform::Identity();
   Vector3 velocity_world_mps = Vector3::Zero();  ///< Velocity of the box's centre.
   std::uint32_t points{};
+  /// Mean time of those points since the stamp; nothing without points, and in frames of older
+  /// programs.
+  std::optional<std::uint32_t> points_time_ns{};
   std::uint32_t firings_visible{};
   std::uint32_t firings_alone{};
 };
@@ -36,6 +39,13 @@ struct RecordedObject {
 struct ForeignField {
   std::string name;           ///< Name in the file, without CloudCompare's prefix `scalar_`.
   std::vector<float> values;  ///< One per slot, in the file's unit; NaN where missing.
+};
+
+/// Whose axes the points of a frame are in.
+enum class PointAxes : std::uint8_t {
+  kSensorAtFiring,  ///< The sensor's at the time of each firing, as it measures.
+  kSensorAtStamp,   ///< The sensor's at the stamp: its motion is undone, as in KITTI's format.
+  kOther,           ///< Others, or left-handed ones. No recording has them.
 };
 
 /// One frame of a recording, whether or not railcast made it.
@@ -52,7 +62,8 @@ struct RecordedFrame {
   /// Whether slots correspond to firings, so that a slot without a point is a firing without a
   /// return. If false, the frame has a single row that holds points only.
   bool is_grid{};
-  bool has_pose{};                      ///< Whether world_from_sensor is known.
+  bool has_pose{};  ///< Whether world_from_sensor is known.
+  PointAxes axes = PointAxes::kSensorAtFiring;
   std::vector<RecordedObject> objects;  ///< railcast sequences only.
   /// Fields of the file that have no counterpart in `frame`, in the file's order, at most 64.
   /// Colours are left out.

@@ -78,5 +78,30 @@ TEST(KittiRecording, OfOurOwnRunHasItsNames) {
   EXPECT_EQ(labels.Find(256U)->name, "moving wagon");
 }
 
+TEST(KittiRecording, OfOurOwnRunHasPosesAndObjectsWithTheNamesOfItsLabels) {
+  const TemporaryDirectory directory;
+  for (const double speed_mps : {0.0, 5.0}) {
+    const fs::path run = directory.path() / std::to_string(static_cast<int>(speed_mps));
+    const MadeSequence made = MakeSequence(
+        run, {.format = "kitti", .wagon_velocity_mps = Vector3(speed_mps, 0, 0), .start_frame = 3});
+    const auto recording = OpenRecording(run);
+    const std::vector<RecordedFrame> frames = ReadAll(*recording);
+    ASSERT_EQ(frames.size(), 2U);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const RecordedFrame& recorded = frames[i];
+      EXPECT_EQ(recorded.frame.index, i);
+      EXPECT_EQ(recorded.frame.stamp_ns, made.frames[i].stamp_ns);
+      EXPECT_EQ(recorded.axes, PointAxes::kSensorAtStamp);
+      ASSERT_TRUE(recorded.has_pose);
+      EXPECT_TRUE(
+          recorded.frame.world_from_sensor.isApprox(made.frames[i].world_from_sensor, 1e-12));
+      ASSERT_EQ(recorded.objects.size(), 1U);
+      EXPECT_EQ(recorded.objects[0].label, speed_mps > 0.0 ? "moving wagon" : "wagon");
+      EXPECT_NE(recording->info().labels.Find(recorded.objects[0].label), nullptr);
+      EXPECT_EQ(recorded.objects[0].points_time_ns, 1003U + i);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace railcast

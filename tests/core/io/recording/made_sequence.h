@@ -21,6 +21,7 @@ struct MadeSequenceSpec {
   std::string sensor = "vir2rail";
   std::string return_mode = "strongest";
   std::string object = R"({"name": "wagon", "type": "open_wagon", "s_m": 300})";
+  Vector3 wagon_velocity_mps = Vector3::Zero();
   std::uint32_t start_frame = 0;
   std::uint32_t num_frames = 2;
 };
@@ -72,6 +73,8 @@ inline MadeSequence MakeSequence(const std::filesystem::path& directory,
     wagon.world_from_box = to.frame.world_from_sensor;
     wagon.world_from_box.translate(Vector3(40.0 - 2.0 * index, 1.0, 0.5));
     wagon.points = 7 + index;
+    wagon.points_time_ns = 1000 + index;
+    wagon.velocity_world_mps = made.wagon_velocity_mps;
     wagon.firings_visible = 9;
     wagon.firings_alone = 11;
     to.objects = {wagon};

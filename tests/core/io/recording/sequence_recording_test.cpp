@@ -193,6 +193,7 @@ TEST(SequenceRecording, SaysWhatWasSeenOfEveryObject) {
     EXPECT_EQ(wagon.type, "open_wagon");
     EXPECT_EQ(wagon.label, "wagon");
     EXPECT_EQ(wagon.points, 7 + i);
+    EXPECT_EQ(wagon.points_time_ns, 1000 + i);
     EXPECT_EQ(wagon.firings_visible, 9U);
     EXPECT_EQ(wagon.firings_alone, 11U);
     EXPECT_TRUE(wagon.size_m.isApprox(Vector3(14.0, 3.0, 3.4)));
