@@ -44,6 +44,7 @@ LIBRARY_OWNERS = {
     "Mustache": (r"kainjow/", ("analysis/report",)),
     "spdlog": (r"spdlog/", PROGRAMS),
     "SQLite": (r"sqlite3\.h$", ("generator/dataset",)),
+    "Expat": (r"expat\.h$", ("generator/import",)),
 }
 # The libraries that a public header may require of the programs that include it.
 PUBLIC_LIBRARIES = re.compile(r"Eigen/|[a-z_0-9]+$|std(?:def|int)\.h$")

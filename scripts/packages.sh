@@ -13,6 +13,7 @@ build_packages=(
   libcli11-dev
   libeigen3-dev
   libembree-dev
+  libexpat1-dev
   libgdal-dev
   libgmock-dev
   libgtest-dev

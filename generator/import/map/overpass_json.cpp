@@ -1,7 +1,7 @@
 #include "generator/import/map/overpass_json.h"
 
-#include <charconv>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <unordered_map>
 #include <unordered_set>
@@ -10,14 +10,11 @@
 #include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/io/strict_json.h"
-#include "core/io/write_file.h"
+#include "generator/import/map/map_json.h"
+#include "generator/import/map/map_numbers.h"
 
 namespace railcast {
 namespace {
-
-constexpr std::string_view kAttribution =
-    "(c) OpenStreetMap contributors, ODbL 1.0 (https://www.openstreetmap.org/copyright)";
 
 /// Takes the elements of an answer one by one.
 class OverpassReader {
@@ -41,10 +38,28 @@ class OverpassReader {
                                                 const char* key,
                                                 double most_deg);
 
+  [[nodiscard]] std::optional<Eigen::Vector2d> PlaceOf_deg(const StrictJson& element,
+                                                           const std::string& pointer);
+  /// The node of an id, which has one place wherever it is named.
+  [[nodiscard]] std::optional<std::size_t> NodeOf(std::int64_t id,
+                                                  const Eigen::Vector2d& place_deg,
+                                                  const std::string& pointer);
+  /// A node that stands in the file as an element of its own.
+  [[nodiscard]] std::optional<std::size_t> GivenNode(const StrictJson& id,
+                                                     const std::string& place);
+  /// A node of a way with its geometry (`out geom;`).
+  [[nodiscard]] std::optional<std::size_t> DrawnNode(const StrictJson& element,
+                                                     std::size_t i,
+                                                     const std::string& pointer);
+  [[nodiscard]] std::optional<std::vector<std::size_t>> NodesOf(const StrictJson& element,
+                                                                const std::string& pointer);
+
   ErrorList& errors_;
   RailMap map_;
   std::unordered_map<std::int64_t, std::size_t> nodes_;  ///< By id.
-  std::unordered_set<std::int64_t> ways_;                ///< Ids.
+  /// Of ways with their geometry but without ids, which meet where they share a place.
+  std::map<std::pair<double, double>, std::size_t> places_;
+  std::unordered_set<std::int64_t> ways_;  ///< Ids.
 };
 
 MapTags OverpassTags(const StrictJson& element) {
@@ -58,10 +73,8 @@ MapTags OverpassTags(const StrictJson& element) {
 
 /// The value of the key `ele`; absent if it is anything else than a height in metres.
 std::optional<double> HeightOf_m(std::string_view value) {
-  double height_m = 0.0;
-  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), height_m);
-  if (error != std::errc{} || end != value.data() + value.size()) return std::nullopt;
-  return IsHeight(height_m) ? std::optional(height_m) : std::nullopt;
+  const std::optional<double> height_m = NumberIn(value);
+  return height_m && IsHeight(*height_m) ? height_m : std::nullopt;
 }
 
 std::optional<std::int64_t> OverpassReader::OverpassId(const StrictJson& value,
@@ -92,8 +105,7 @@ std::optional<double> OverpassReader::DegreesOf(const StrictJson& element,
                                                 const std::string& pointer,
                                                 const char* key,
                                                 double most_deg) {
-  const std::string rule =
-      "must be a number of degrees from " + NumberText(-most_deg) + " to " + NumberText(most_deg);
+  const std::string rule = DegreesRule(most_deg);
   if (!element.contains(key) || !element[key].is_number()) {
     errors_.Add(
         {pointer + "/" + key, rule, element.contains(key) ? element[key].type_name() : "none"});
@@ -105,18 +117,104 @@ std::optional<double> OverpassReader::DegreesOf(const StrictJson& element,
   return std::nullopt;
 }
 
+std::optional<Eigen::Vector2d> OverpassReader::PlaceOf_deg(const StrictJson& element,
+                                                           const std::string& pointer) {
+  const auto longitude_deg = DegreesOf(element, pointer, "lon", kMostLongitude_deg);
+  const auto latitude_deg = DegreesOf(element, pointer, "lat", kMostLatitude_deg);
+  if (!longitude_deg || !latitude_deg) return std::nullopt;
+  return Eigen::Vector2d(*longitude_deg, *latitude_deg);
+}
+
+std::optional<std::size_t> OverpassReader::NodeOf(std::int64_t id,
+                                                  const Eigen::Vector2d& place_deg,
+                                                  const std::string& pointer) {
+  const auto [entry, is_new] = nodes_.try_emplace(id, map_.nodes.size());
+  if (is_new) map_.nodes.push_back({.geographic_deg = place_deg, .tags = {}});
+  const Eigen::Vector2d& known_deg = map_.nodes[entry->second].geographic_deg;
+  if (known_deg == place_deg) return entry->second;
+  const auto shown = [](const Eigen::Vector2d& at_deg) {
+    return NumberText(at_deg.x()) + ", " + NumberText(at_deg.y());
+  };
+  errors_.Add({pointer,
+               "must be where node " + std::to_string(id) + " is before, at " + shown(known_deg),
+               shown(place_deg)});
+  return std::nullopt;
+}
+
 void OverpassReader::ReadNode(const StrictJson& element, const std::string& pointer) {
   const auto id = IdOf(element, pointer);
-  const auto longitude_deg = DegreesOf(element, pointer, "lon", 180.0);
-  const auto latitude_deg = DegreesOf(element, pointer, "lat", 90.0);
-  if (!id || !longitude_deg || !latitude_deg) return;
-  if (!nodes_.emplace(*id, map_.nodes.size()).second) return;  // An answer may repeat nodes.
-  MapNode node{.geographic_deg = {*longitude_deg, *latitude_deg}, .tags = OverpassTags(element)};
+  const auto place_deg = PlaceOf_deg(element, pointer);
+  if (!id || !place_deg) return;
+  // An answer may repeat nodes, with their tags or without.
+  const auto index = NodeOf(*id, *place_deg, pointer);
+  MapTags tags = OverpassTags(element);
+  if (!index || tags.empty() || !map_.nodes[*index].tags.empty()) return;
+  MapNode& node = map_.nodes[*index];
+  node.tags = std::move(tags);
   node.height_m = HeightOf_m(TagOf(node.tags, "ele"));
-  if (IsThing(node.tags)) {
-    map_.things.push_back({{node.geographic_deg}, {}, node.tags});
+  if (IsThing(node.tags)) map_.things.push_back({{node.geographic_deg}, {}, node.tags});
+}
+
+std::optional<std::size_t> OverpassReader::GivenNode(const StrictJson& id,
+                                                     const std::string& place) {
+  const auto node_id = OverpassId(id, place, "must be a node id");
+  if (!node_id) return std::nullopt;
+  const auto found = nodes_.find(*node_id);
+  if (found != nodes_.end()) return found->second;
+  errors_.Add(
+      {place, "must be a node of this file (ask Overpass for the nodes, too: >; out;)", id.dump()});
+  return std::nullopt;
+}
+
+std::optional<std::size_t> OverpassReader::DrawnNode(const StrictJson& element,
+                                                     std::size_t i,
+                                                     const std::string& pointer) {
+  const StrictJson& point = element["geometry"][i];
+  const std::string place = pointer + "/geometry/" + std::to_string(i);
+  if (!point.is_object()) {
+    errors_.Add({place, "must be a place (ask Overpass for whole ways: out geom; without a box)",
+                 point.type_name()});
+    return std::nullopt;
   }
-  map_.nodes.push_back(std::move(node));
+  const auto place_deg = PlaceOf_deg(point, place);
+  if (!place_deg) return std::nullopt;
+  if (!element.contains("nodes")) {
+    const auto [entry, is_new] =
+        places_.try_emplace({place_deg->x(), place_deg->y()}, map_.nodes.size());
+    if (is_new) map_.nodes.push_back({.geographic_deg = *place_deg, .tags = {}});
+    return entry->second;
+  }
+  const auto id =
+      OverpassId(element["nodes"][i], pointer + "/nodes/" + std::to_string(i), "must be a node id");
+  return id ? NodeOf(*id, *place_deg, place) : std::nullopt;
+}
+
+std::optional<std::vector<std::size_t>> OverpassReader::NodesOf(const StrictJson& element,
+                                                                const std::string& pointer) {
+  const auto is_list = [&](const char* key) {
+    return element.contains(key) && element[key].is_array();
+  };
+  const bool is_drawn = is_list("geometry");
+  if (!is_list("nodes") && (!is_drawn || element.contains("nodes"))) {
+    errors_.Add({pointer + "/nodes", "must be a list of node ids",
+                 element.contains("nodes") ? element["nodes"].type_name() : "none"});
+    return std::nullopt;
+  }
+  const std::size_t num = element[is_drawn ? "geometry" : "nodes"].size();
+  if (is_drawn && is_list("nodes") && element["nodes"].size() != num) {
+    errors_.Add({pointer + "/geometry", "must have a place for each of the nodes",
+                 std::to_string(num) + " for " + std::to_string(element["nodes"].size())});
+    return std::nullopt;
+  }
+  std::vector<std::size_t> nodes;
+  for (std::size_t i = 0; i < num; ++i) {
+    const auto node = is_drawn
+                          ? DrawnNode(element, i, pointer)
+                          : GivenNode(element["nodes"][i], pointer + "/nodes/" + std::to_string(i));
+    if (!node) return std::nullopt;
+    nodes.push_back(*node);
+  }
+  return nodes;
 }
 
 void OverpassReader::ReadWay(const StrictJson& element, const std::string& pointer) {
@@ -126,28 +224,13 @@ void OverpassReader::ReadWay(const StrictJson& element, const std::string& point
   const bool is_track = IsTrack(TagOf(tags, "railway"));
   if (!is_track && !IsThing(tags)) return;
   if (!ways_.insert(*id).second) return;  // An answer may repeat ways, too.
-  if (!element.contains("nodes") || !element["nodes"].is_array()) {
-    errors_.Add({pointer + "/nodes", "must be a list of node ids",
-                 element.contains("nodes") ? element["nodes"].type_name() : "none"});
-    return;
-  }
+  const auto nodes = NodesOf(element, pointer);
+  if (!nodes) return;
   MapWay way{*id, {}, std::move(tags)};
-  const StrictJson& nodes = element["nodes"];
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const std::string place = pointer + "/nodes/" + std::to_string(i);
-    const auto node_id = OverpassId(nodes[i], place, "must be a node id");
-    if (!node_id) return;
-    const auto found = nodes_.find(*node_id);
-    if (found == nodes_.end()) {
-      errors_.Add({place, "must be a node of this file (ask Overpass for the nodes, too: >; out;)",
-                   nodes[i].dump()});
-      return;
-    }
-    AppendNode(found->second, way);
-  }
+  for (const std::size_t node : *nodes) AppendNode(node, way);
   if (way.nodes.size() < 2) {
-    errors_.Add({pointer + "/nodes", "must have two different nodes or more",
-                 std::to_string(way.nodes.size())});
+    errors_.Add({pointer + (element.contains("nodes") ? "/nodes" : "/geometry"),
+                 "must have two different nodes or more", std::to_string(way.nodes.size())});
     return;
   }
   if (is_track) {
@@ -181,14 +264,8 @@ void OverpassReader::Read(const StrictJson& elements) {
 }  // namespace
 
 RailMap ReadOverpassJson(const std::filesystem::path& file) {
-  const std::string text = ReadFileWhole(file);
+  const StrictJson root = ReadMapJson(file);
   ErrorList errors;
-  StrictJson root;
-  try {
-    root = StrictJson::parse(text);
-  } catch (const StrictJson::exception& error) {
-    throw InputError(ShownPath(file) + ": must be JSON: " + ShownLines(error.what()));
-  }
   if (!root.is_object() || !root.contains("elements") || !root["elements"].is_array()) {
     throw InputError(
         ShownPath(file) + ": /elements: must be a list, as the Overpass API returns it (got " +
@@ -205,7 +282,7 @@ RailMap ReadOverpassJson(const std::filesystem::path& file) {
                      "(got " +
                      std::to_string(root["elements"].size()) + " elements)");
   }
-  map.attribution = kAttribution;
+  map.attribution = kOpenStreetMapAttribution;
   return map;
 }
 

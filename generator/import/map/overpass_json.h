@@ -7,11 +7,11 @@
 namespace railcast {
 
 /// Reads the railway ways of an answer of OpenStreetMap's Overpass API in JSON, with their nodes
-/// (`out body; >; out skel;`; `out geom;` gives no nodes, which is a fault). A way or a node that
-/// appears twice is taken once. Ways that are not tracks
-/// (`railway=platform`, ...) and relations are left out.
+/// (`out body; >; out skel;`) or with their geometry (`out geom;`). A way or a node that appears
+/// twice is taken once. Ways that are not tracks (`railway=platform`, ...) and relations are left
+/// out.
 /// @throws InputError for each fault, with JSON pointers: no elements, coordinates that are no
-///   degrees, a way whose node is missing, no track at all.
+///   degrees, a way whose node is missing, a node in two places, no track at all.
 [[nodiscard]] RailMap ReadOverpassJson(const std::filesystem::path& file);
 
 }  // namespace railcast

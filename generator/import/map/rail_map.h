@@ -29,6 +29,10 @@ using MapTags = std::map<std::string, std::string, std::less<>>;
   return std::ranges::find(kTracks, railway) != kTracks.end();
 }
 
+/// What the licence of OpenStreetMap asks for.
+inline constexpr const char* kOpenStreetMapAttribution =
+    "(c) OpenStreetMap contributors, ODbL 1.0 (https://www.openstreetmap.org/copyright)";
+
 /// What a height of a source must be, and whether it is.
 inline constexpr const char* kHeightRule = "must have heights from -1000 to 10000 m";
 [[nodiscard]] inline bool IsHeight(double height_m) {

@@ -4,7 +4,6 @@
 #include <ogr_spatialref.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -21,6 +20,7 @@
 #include "core/base/text.h"
 #include "core/io/write_file.h"
 #include "generator/import/map/gdal_errors.h"
+#include "generator/import/map/map_numbers.h"
 
 namespace railcast {
 namespace {
@@ -43,15 +43,6 @@ void VisitElements(const CPLXMLNode* node,
 
 std::string Attribute(const CPLXMLNode& element, const char* name) {
   return CPLGetXMLValue(&element, name, "");
-}
-
-std::optional<double> NumberIn(std::string_view text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) {
-    return std::nullopt;
-  }
-  return value;
 }
 
 struct RailMlPoint {
@@ -160,8 +151,8 @@ void RailMlReader::ReadPoint(const CPLXMLNode& intrinsic,
   if (!system->second) return;  // Its fault is known.
   RailMlPoint point{*at, {*x, *y}, {}};
   if (system->second->Transform(1, &point.geographic_deg.x(), &point.geographic_deg.y()) == 0 ||
-      !(std::abs(point.geographic_deg.x()) <= 180.0 &&
-        std::abs(point.geographic_deg.y()) <= 90.0)) {
+      !(std::abs(point.geographic_deg.x()) <= kMostLongitude_deg &&
+        std::abs(point.geographic_deg.y()) <= kMostLatitude_deg)) {
     errors_.Add({place, "must be a place in its coordinate system",
                  NumberText(*x) + ", " + NumberText(*y)});
     return;

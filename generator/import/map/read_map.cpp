@@ -1,12 +1,22 @@
 #include "generator/import/map/read_map.h"
 
+#include <geodesic.h>
+
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 
+#include "core/base/attempt.h"
+#include "core/base/error.h"
 #include "core/base/input_file.h"
+#include "core/base/text.h"
+#include "generator/import/map/geojson_places.h"
 #include "generator/import/map/overpass_json.h"
+#include "generator/import/map/pbf_blobs.h"
 #include "generator/import/map/railml_map.h"
 #include "generator/import/map/vector_map.h"
+#include "generator/import/map/xml_places.h"
 
 namespace railcast {
 namespace {
@@ -18,21 +28,76 @@ std::string BeginningOf(const std::filesystem::path& file) {
   return {bytes.data(), static_cast<std::size_t>(stream.gcount())};
 }
 
+/// What may stand before a text: blanks, and the mark of UTF-8.
+constexpr std::string_view kBlanksAndMark = " \t\r\n\xEF\xBB\xBF";
+
+/// The first character of a text; 0 if there is none.
+char FirstOf(std::string_view begin) {
+  const std::size_t first = begin.find_first_not_of(kBlanksAndMark);
+  return first == std::string_view::npos ? '\0' : begin[first];
+}
+
 /// GeoJSON is JSON, too, and may have a property `elements`, but it begins with what it is.
 bool IsOverpass(std::string_view begin) {
-  const std::size_t first = begin.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-  return first != std::string_view::npos && begin[first] == '{' &&
-         begin.find("\"elements\"") != std::string_view::npos &&
+  return FirstOf(begin) == '{' && begin.find("\"elements\"") != std::string_view::npos &&
          begin.find("\"Feature\"") == std::string_view::npos &&
          begin.find("\"FeatureCollection\"") == std::string_view::npos;
+}
+
+/// Whether a file says in its first lines that it is of OpenStreetMap, as exports do.
+bool NamesOpenStreetMap(std::string begin) {
+  std::ranges::transform(begin, begin.begin(), [](char letter) {
+    return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+  });
+  return begin.find("openstreetmap") != std::string::npos;
+}
+
+/// What GDAL would pass over or take for 0 is refused before it reads the file.
+RailMap ReadWithGdal(const std::filesystem::path& file, const std::string& begin) {
+  if (IsPbf(begin)) CheckPbfBlobs(file);
+  if (FirstOf(begin) == '<') CheckXmlPlaces(file);
+  if (FirstOf(begin) == '{') CheckGeoJsonPlaces(file);
+  RailMap map = ReadVectorMap(file);
+  if (NamesOpenStreetMap(begin)) map.attribution = kOpenStreetMapAttribution;
+  return map;
+}
+
+RailMap ReadAnyMap(const std::filesystem::path& file) {
+  const std::string begin = BeginningOf(file);
+  if (IsOverpass(begin)) return ReadOverpassJson(file);
+  return IsRailMl(begin) ? ReadRailMl(file) : ReadWithGdal(file, begin);
+}
+
+/// The longest straights of railways are mapped with points every few kilometres: what is farther
+/// apart is a slip of the pen.
+constexpr double kFarthestNeighbours_m = 50e3;
+
+void CheckNeighbours(const RailMap& map) {
+  geod_geodesic wgs84{};
+  geod_init(&wgs84, 6378137.0, 1.0 / 298.257223563);
+  ErrorList errors;
+  for (const MapWay& way : map.ways) {
+    for (std::size_t i = 1; i < way.nodes.size(); ++i) {
+      const Eigen::Vector2d& a_deg = map.nodes[way.nodes[i - 1]].geographic_deg;
+      const Eigen::Vector2d& b_deg = map.nodes[way.nodes[i]].geographic_deg;
+      double apart_m = 0.0;
+      geod_inverse(&wgs84, a_deg.y(), a_deg.x(), b_deg.y(), b_deg.x(), &apart_m, nullptr, nullptr);
+      if (apart_m <= kFarthestNeighbours_m) continue;
+      errors.Add({"track from " + NumberText(a_deg.x()) + ", " + NumberText(a_deg.y()) + " to " +
+                      NumberText(b_deg.x()) + ", " + NumberText(b_deg.y()) + " degrees",
+                  "must have points at most 50 km apart",
+                  NumberText(std::round(1e-3 * apart_m)) + " km"});
+    }
+  }
+  errors.ThrowIfAny();
 }
 
 }  // namespace
 
 RailMap ReadMap(const std::filesystem::path& file) {
-  const std::string begin = BeginningOf(file);
-  if (IsOverpass(begin)) return ReadOverpassJson(file);
-  return IsRailMl(begin) ? ReadRailMl(file) : ReadVectorMap(file);
+  RailMap map = ReadAnyMap(file);
+  AtPlace(ShownPath(file) + ": ", [&] { CheckNeighbours(map); });
+  return map;
 }
 
 }  // namespace railcast

@@ -16,6 +16,7 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "generator/import/map/gdal_errors.h"
+#include "generator/import/map/map_numbers.h"
 
 namespace railcast {
 namespace {
@@ -134,6 +135,47 @@ std::vector<Line> LinesIn(GDALDataset& dataset) {
   return lines;
 }
 
+/// What of a file may be a part of a map.
+struct VectorFile {
+  std::vector<Line> lines;
+  bool is_osm{};
+};
+
+/// @param is_in_order Whether OpenStreetMap's nodes are expected in the order of their ids, as most
+///   files have them, and GDAL reads them faster then.
+/// @return Absent if they are not.
+std::optional<VectorFile> ReadFeatures(const std::filesystem::path& file, bool is_in_order) {
+  constexpr std::array<const char*, 6> kDrivers = {"OSM",    "GeoJSON", "GPX",
+                                                   "LIBKML", "KML",     nullptr};
+  constexpr std::array<const char*, 2> kAnyOrder = {"USE_CUSTOM_INDEXING=NO", nullptr};
+  GdalErrors gdal_errors;
+  const std::unique_ptr<GDALDataset> dataset(
+      GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, kDrivers.data(),
+                        is_in_order ? nullptr : kAnyOrder.data()));
+  const std::string reason = gdal_errors.first();
+  if (!dataset) {
+    throw InputError(ShownPath(file) +
+                     ": must be a map: Overpass JSON, .osm, .pbf, GeoJSON, GPX, KML or railML 3" +
+                     (reason.empty() ? "" : " (" + ShownText(reason) + ")"));
+  }
+  gdal_errors.Forget();
+  VectorFile content{LinesIn(*dataset), IsOpenStreetMap(*dataset)};
+  // It names its option where it needs the other way.
+  if (is_in_order && gdal_errors.first().find("OSM_USE_CUSTOM_INDEXING") != std::string::npos) {
+    return std::nullopt;
+  }
+  if (!gdal_errors.first().empty()) {
+    throw InputError(ShownPath(file) + ": must be readable to its end (" +
+                     ShownText(gdal_errors.first()) + ")");
+  }
+  return content;
+}
+
+/// Whether a line has what GDAL and Overpass Turbo write for those of OpenStreetMap.
+bool IsOfOpenStreetMap(const Line& line) {
+  return line.tags.contains("osm_id") || line.tags.contains("@id");
+}
+
 /// Makes one node of points with equal coordinates.
 class NodeIndex {
  public:
@@ -152,7 +194,8 @@ class NodeIndex {
 };
 
 bool IsDegrees(const Eigen::Vector2d& point_deg) {
-  return std::abs(point_deg.x()) <= 180.0 && std::abs(point_deg.y()) <= 90.0;
+  return std::abs(point_deg.x()) <= kMostLongitude_deg &&
+         std::abs(point_deg.y()) <= kMostLatitude_deg;
 }
 
 /// Moves platforms, signals and the like from the lines to the map. Other points are dropped, and
@@ -205,29 +248,18 @@ void AddWay(const Line& line, NodeIndex& nodes, RailMap& map, ErrorList& errors)
 RailMap ReadVectorMap(const std::filesystem::path& file) {
   CheckIsReadable(file);
   GDALAllRegister();
-  GdalErrors gdal_errors;
-  constexpr std::array<const char*, 6> kDrivers = {"OSM",    "GeoJSON", "GPX",
-                                                   "LIBKML", "KML",     nullptr};
-  const std::unique_ptr<GDALDataset> dataset(
-      GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, kDrivers.data()));
-  const std::string reason = gdal_errors.first();
-  if (!dataset) {
-    throw InputError(ShownPath(file) +
-                     ": must be a map: Overpass JSON, .osm, .pbf, GeoJSON, GPX, KML or railML 3" +
-                     (reason.empty() ? "" : " (" + ShownText(reason) + ")"));
-  }
-  gdal_errors.Forget();
-  std::vector<Line> lines = LinesIn(*dataset);
-  if (!gdal_errors.first().empty()) {
-    throw InputError(ShownPath(file) + ": must be readable to its end (" +
-                     ShownText(gdal_errors.first()) + ")");
-  }
+  std::optional<VectorFile> content = ReadFeatures(file, true);
+  if (!content) content = ReadFeatures(file, false);
+  std::vector<Line>& lines = content->lines;
   RailMap map;
-  TakeThings(IsOpenStreetMap(*dataset), lines, map);
+  if (content->is_osm || std::ranges::any_of(lines, IsOfOpenStreetMap)) {
+    map.attribution = kOpenStreetMapAttribution;
+  }
+  TakeThings(content->is_osm, lines, map);
   const std::size_t num_lines = lines.size();
   const bool has_railways = std::ranges::any_of(
       lines, [](const Line& line) { return !TagOf(line.tags, "railway").empty(); });
-  if (has_railways || IsOpenStreetMap(*dataset)) {
+  if (has_railways || content->is_osm) {
     std::erase_if(lines, [](const Line& line) { return !IsTrack(TagOf(line.tags, "railway")); });
   }
   NodeIndex nodes(map);

@@ -167,7 +167,8 @@ TEST(Import, RefusesAFolderThatIsNotEmpty) {
 TEST(Import, NamesTheMapThatIsTooLarge) {
   const TemporaryDirectory directory;
   const fs::path map = directory.path() / "map.geojson";
-  WriteFileWhole(map, R"({"type": "LineString", "coordinates": [[-90, 0], [90, 0]]})");
+  WriteFileWhole(map, R"({"type": "MultiLineString", "coordinates":
+    [[[-90, 0], [-89.9, 0]], [[89.9, 0], [90, 0]]]})");
   const Ended run = Generate("import " + map.string() + " --out " + directory.path().string());
   EXPECT_EQ(run.status, 1);
   EXPECT_THAT(run.said,

@@ -35,8 +35,14 @@ std::string Bytes(int field, const std::string& value) {
   return Varint((static_cast<std::uint64_t>(field) << 3) | 2) + Varint(value.size()) + value;
 }
 
-std::string FileBlock(const std::string& type, const std::string& content) {
-  const std::string blob = Bytes(1, content);
+/// The fields of a blob that hold its data, by how this is compressed.
+constexpr int kRaw = 1;
+constexpr int kLz4 = 6;
+constexpr int kZstd = 7;
+
+std::string FileBlock(const std::string& type, const std::string& content, int compression = kRaw) {
+  const std::string raw_size = compression == kRaw ? "" : Number(2, Varint(content.size()));
+  const std::string blob = raw_size + Bytes(compression, content);
   const std::string header = Bytes(1, type) + Number(3, Varint(blob.size()));
   std::string block(3, '\0');
   return block + static_cast<char>(header.size()) + header + blob;
@@ -51,7 +57,7 @@ std::string Node(std::int64_t id, double longitude_deg, double latitude_deg) {
 }
 
 /// Two nodes and a way with railway=rail, maxspeed=90.
-std::string SmallPbf() {
+std::string SmallPbf(int compression = kRaw) {
   const std::string texts =
       Bytes(1, "") + Bytes(1, "railway") + Bytes(1, "rail") + Bytes(1, "maxspeed") + Bytes(1, "90");
   const std::string way = Number(1, Varint(7)) + Bytes(2, Varint(1) + Varint(3)) +
@@ -59,7 +65,8 @@ std::string SmallPbf() {
   const std::string data = Bytes(1, texts) +
                            Bytes(2, Node(1, 15.60, 48.20) + Node(2, 15.61, 48.21)) +
                            Bytes(2, Bytes(3, way));
-  return FileBlock("OSMHeader", Bytes(4, "OsmSchema-V0.6")) + FileBlock("OSMData", data);
+  return FileBlock("OSMHeader", Bytes(4, "OsmSchema-V0.6")) +
+         FileBlock("OSMData", data, compression);
 }
 
 TEST(OsmPbf, IsReadAsAMap) {
@@ -72,6 +79,39 @@ TEST(OsmPbf, IsReadAsAMap) {
   EXPECT_NEAR(map.nodes[1].geographic_deg.x(), 15.61, 1e-9);
   EXPECT_NEAR(map.nodes[1].geographic_deg.y(), 48.21, 1e-9);
   EXPECT_EQ(TagOf(map.ways[0].tags, "maxspeed"), "90");
+}
+
+TEST(OsmPbf, IsRefusedIfItsBlobsAreCompressedInAWayThatIsNotRead) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path file = directory.path() / "map.osm.pbf";
+  const auto fault = [&](int compression) -> std::string {
+    WriteFileWhole(file, SmallPbf(compression));
+    try {
+      static_cast<void>(ReadMap(file));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  const std::string rule =
+      file.string() + ": blob 2: must be compressed with zlib, or not at all (got ";
+  EXPECT_EQ(fault(kLz4), rule + "lz4)");
+  EXPECT_EQ(fault(kZstd), rule + "zstd)");
+}
+
+TEST(OsmPbf, OfMonacoIsReadWithZlibAndRefusedWithLz4) {
+  const std::filesystem::path file = RAILCAST_SHARED_DATA_DIR "/osm_more/monaco.lz4.osm.pbf";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is absent";
+  EXPECT_THROW(static_cast<void>(ReadMap(file)), InputError);
+  const std::filesystem::path same = RAILCAST_SHARED_DATA_DIR "/osm_more/monaco.osm.pbf";
+  EXPECT_GE(ReadMap(same).ways.size(), 13U);
+}
+
+TEST(OsmPbf, NamesOpenStreetMapAsItsSource) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path file = directory.path() / "map.osm.pbf";
+  WriteFileWhole(file, SmallPbf());
+  EXPECT_THAT(ReadMap(file).attribution, HasSubstr("OpenStreetMap contributors"));
 }
 
 TEST(OsmPbf, IsRefusedIfItIsCutOff) {
